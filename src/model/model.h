@@ -230,6 +230,8 @@ typedef struct pl_model {
   PL_VEC(pl_plot) plots;
   pl_simulate simulate;
   PL_VEC(pl_pending) pending;
+  bool uses_units;                        // set by pl_model_check: some quantity carries a unit, so dimensions are checked
+  bool checked;                           // set by pl_model_check
 } pl_model;
 
 pl_model* pl_model_make(pl_arena* a);
@@ -262,11 +264,23 @@ pleuel_status pl_model_expand(pl_job* job, const pl_model* m, int max_coords, pl
 pleuel_status pl_model_check(pl_job* job, pl_model* m);
 
 // ---------------------------------------------------------------------------------------------- units
-// A unit as written: factor to SI (exact) and dimension.  deg, rpm, min, bar, prefixes: model/units.def.
-typedef struct pl_unit { pl_expr factor; pl_dimension dimension; bool is_angle; } pl_unit;
+// A unit as written.  `factor` is what a number in front of the unit is multiplied by: the exact factor to SI times the
+// SI base units as symbols ("[m]", "[kg]", ...), so that `1 [m] + 2 [s]` is still seen to be wrong after the constructors
+// have sorted it.  pl_model_check puts 1 for these symbols everywhere in the model; pl_model_plain does it for one
+// expression.  `scale` is the plain exact number.  deg, rpm, min, bar, prefixes: model/units.def.
+typedef struct pl_unit { pl_expr factor; pl_dimension dimension; bool is_angle; pl_expr scale; } pl_unit;
+pl_expr pl_model_plain(pl_pool* p, pl_expr e);      // e with every unit symbol replaced by 1
+bool pl_has_unit(const pl_pool* p, pl_expr e);      // some unit symbol occurs in e
 // pl_unit_parse reads "m/s^2", "kN m", "m²/s".  On failure false, with the offending part in *bad (offset, length) and the
 // nearest known unit in *near (may be NULL).
 bool pl_unit_parse(pl_pool* p, const char* text, size_t n, pl_unit* out, size_t* bad_at, size_t* bad_n, const char** near);
+
+// pl_unit_explain answers `pleuel units m/s`: dimension, factor to SI, and what fits; or what is wrong and near names.
+const char* pl_unit_explain(pl_arena* a, pl_pool* p, const char* text, pl_language lang);
+
+// pl_model_dimension gives the dimension of an expression over the symbols of a checked model (velocities, start
+// values and elements of families follow from their coordinate).  false: not known, or the model uses no units.
+bool pl_model_dimension(const pl_model* m, pl_expr e, pl_dimension* out);
 
 // --set NAME=VALUE[unit]: replaces a parameter's value; NAME=EXPR over other parameters stays symbolic.
 pleuel_status pl_model_set(pl_job* job, pl_model* m, const char* name, pl_expr value);
