@@ -1,0 +1,3 @@
+#!/bin/sh
+# Removes what was built.
+cd "$(dirname "$0")/.." && rm -rf build build-test
