@@ -1,0 +1,77 @@
+// report: a solution as something to read.  The worked solution as text for a terminal, and the JSON document.
+//
+// Both are functions of their input alone: same solution, same style, same bytes.
+#ifndef PL_REPORT_H
+#define PL_REPORT_H
+
+#include "derive/derive.h"
+
+// ---------------------------------------------------------------------------------------------- worked solution, text
+typedef struct pl_worked_style {
+  pl_math math;          // PL_MATH_LINE, PL_MATH_2D or PL_MATH_ASCII (then the whole text is ASCII)
+  pl_language lang;
+  bool colour;           // ANSI: results bold, labels dim, notes yellow
+  bool full;             // --steps full: the detail steps too
+  int width;             // cells; formulas and sentences are wrapped to it.  0: nothing is wrapped (output is piped)
+  const char* only;      // letters, comma separated: "b,c"; NULL: all
+} pl_worked_style;
+
+// The look of a terminal of 78 cells, in line notation, without colour.
+pl_worked_style pl_worked_style_default(pl_language lang);
+
+// pl_worked_text writes the worked solution: title, lettered sections, checks, assumptions.  Ends with a newline.
+// `notes` are messages that belong at the end of the text; NULL: none (they are printed elsewhere, on stderr).  Of them
+// only notes are written, not errors, and none that a step of the solution has told already.
+void pl_worked_text(pl_text* out, const pl_solution* s, const pl_diagnostics* notes, const pl_worked_style* style);
+
+// ---------------------------------------------------------------------------------------------- JSON
+// The document of `solve --json` and `check --json`, schema version 1 (docs/json.md).  What is not there is left out of
+// the input (NULL) and becomes an empty list, so that errors have the shape of answers.
+typedef struct pl_json_input {
+  const char* file;                    // as named on the command line
+  const pl_model* model;               // NULL: the text could not be read
+  const pl_solution* solution;         // NULL: nothing was solved
+  const pl_diagnostics* diagnostics;   // all messages; may be NULL
+  pleuel_status status;
+  const char* message;                 // sentence that belongs to status; NULL or "" if none
+  pl_language lang;                    // of the words in steps and notes
+  const char* only;                    // letters; NULL: all
+  const char* simulation;              // a JSON object for the key "simulation"; NULL: no such key
+  int n_timing;                        // 0: "timing_ms" is an empty object, so that same input gives same bytes
+  const char* const* timing_name;      // (n_timing)
+  const double* timing_ms;             // (n_timing)
+} pl_json_input;
+
+// pl_worked_json writes the document and a final newline.  a: memory for scratch; the pool of the model is used for printing.
+void pl_worked_json(pl_text* out, const pl_json_input* in);
+
+// "ok", "model_error", ...: the value of the key "status".
+const char* pl_status_word(pleuel_status s);
+
+// ---------------------------------------------------------------------------------------------- writing JSON
+// A writer on a pl_text: indented by two blanks, keys in the order given.  Numbers are the shortest decimal that reads back
+// to the same double; NaN and infinities become null.  Strings are UTF-8; what is not valid UTF-8 becomes U+FFFD.
+typedef struct pl_json {
+  pl_text* out;
+  int depth;
+  bool empty;            // nothing was written yet at this depth
+  bool after_key;
+  uint64_t flat;         // bit per depth: written on one line
+} pl_json;
+pl_json pl_json_make(pl_text* out);
+void pl_json_object(pl_json* j, const char* key);      // key NULL inside a list and at the top
+void pl_json_list(pl_json* j, const char* key);
+void pl_json_flat(pl_json* j);                         // the object or list just opened stays on one line
+void pl_json_end_object(pl_json* j);
+void pl_json_end_list(pl_json* j);
+void pl_json_string(pl_json* j, const char* key, const char* s);    // NULL writes null
+void pl_json_number(pl_json* j, const char* key, double x);
+void pl_json_int(pl_json* j, const char* key, long n);
+void pl_json_bool(pl_json* j, const char* key, bool b);
+void pl_json_null(pl_json* j, const char* key);
+void pl_json_raw(pl_json* j, const char* key, const char* json);    // a value already written as JSON
+
+// The shortest decimal that reads back to x: "0.1", "-23.544", "1e-300".
+const char* pl_shortest_double(pl_arena* a, double x);
+
+#endif
