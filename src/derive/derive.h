@@ -1,0 +1,129 @@
+// derive: from a checked model to equations and to the worked solution, each step with its reason.
+//
+// pl_derive answers the requests of the model (`ask`, or the standard ones when there is none) as sections of steps and
+// values.  Formulas are forms, ready for notation; values carry the expression too.  Everything displayed is claimed, and
+// each claim is certified against raw differentiation of the model (claims), never against the tower that produced it.
+#ifndef PL_DERIVE_H
+#define PL_DERIVE_H
+
+#include "algebra/algebra.h"
+#include "model/model.h"
+#include "notation/notation.h"
+
+// ---------------------------------------------------------------------------------------------- steps
+typedef enum pl_step_kind {
+  PL_STEP_TEXT,        // a sentence; {1}, {2} ... stand for inserts
+  PL_STEP_EQUATION,    // a displayed formula, maybe numbered, maybe with its number in SI on the right
+  PL_STEP_ROW,         // a row of a table: label, content, number at the right margin ("constraints  g1 = ...   -1")
+  PL_STEP_HEADING,     // a heading inside a section: "Limits"
+  PL_STEP_NOTE         // a remark that belongs here (also among the notes when it has a code)
+} pl_step_kind;
+
+typedef struct pl_step {
+  pl_step_kind kind;
+  const char* words[2];            // TEXT, HEADING, NOTE, ROW label; by language.  {1}.. are inserts
+  int n_inserts;
+  const pl_form* const* inserts;   // (n_inserts)
+  const pl_form* formula;          // EQUATION, ROW content; NULL if none
+  const char* after[2];            // words after the formula: "solves g4", "unstable"; NULL if none
+  int number;                      // (4); 0 unnumbered.  Numbers run through the whole solution
+  int n_refs;
+  int refs[4];                     // numbers of the equations it follows from
+  bool has_value;                  // the right margin shows = value unit
+  double value;
+  const char* unit;                // Unicode; "" for pure numbers
+  const char* margin;              // ROW: right margin text ("6", "-1"); NULL if none
+  bool detail;                     // shown only with --steps full
+} pl_step;
+
+// ---------------------------------------------------------------------------------------------- values
+typedef struct pl_component { const char* along; pl_expr expr; const pl_form* form; double number; } pl_component;
+
+// One answer in the sense of the JSON contract.  Absent parts: NULL, poison, NaN, n = 0.
+typedef struct pl_value {
+  const char* name;                // spelling of expr: "lambda_g1", "x1_ddot", "E", "equilibrium 1", "omega^2"
+  const char* of;                  // constraint, mode, ...
+  const char* on;                  // mass
+  const char* at;                  // "equilibrium 1"
+  const char* branch;              // condition that picks it, as text
+  const pl_form* form;             // as displayed (right-hand side)
+  const pl_form* lhs_form;         // displayed left-hand side, when it is an equation
+  pl_expr expr;                    // right-hand side
+  pl_expr lhs;                     // left-hand side of an equation, or poison
+  int n_components;
+  pl_component* components;
+  double number;                   // SI at the model's parameters; NaN if it depends on the state or on free names
+  const char* unit;                // ASCII, "m/s^2", "rad", "1"
+  const char* display;             // "48.1897 deg", "-23.544 N"; NULL
+  int n_assuming; const char** assuming;    // texts "r < l"
+  const char* stability;           // "stable" "unstable" "marginal"
+  const char* exists_if; const char* stable_if;   // conditions as expr text, or NULL
+  int n_free; const char** free_names;
+  int conserved;                   // -1 not said, 0 no, 1 yes
+  const char* because[2];          // reason, by language
+  int passed;                      // expect: -1 not an expect, 0, 1
+  pl_expr got;                     // expect: what it is instead
+  int order;                       // series: terms up to this power are shown; -1 else
+  int n_where; const char** where_name; pl_expr* where_expr;   // named intermediates in order of use
+} pl_value;
+
+typedef struct pl_section {        // one request
+  const char* letter;              // NULL without letter
+  const char* item;                // the request as written: "solve λ"; the canonical words for standard requests
+  const char* title[2];            // "Degrees of freedom"
+  bool continues;                  // same letter and same title as the section before: no new heading
+  PL_VEC(pl_step) steps;
+  PL_VEC(pl_value) values;
+  bool not_found;                  // a closed form was asked for and not found (exit 5 with --strict)
+} pl_section;
+
+// ---------------------------------------------------------------------------------------------- constraints, dof
+typedef struct pl_constraint_info {
+  const pl_constraint* source;
+  const char* label;               // "g1"
+  const char* text;                // "x1 + x2 = l" as expr text relation
+  bool nonholonomic, one_sided, rheonomic;
+  bool dropped;                    // coordinate = constant or f(t): taken out
+  bool implied;                    // follows from the others
+  int n_implied_by; const char** implied_by;
+} pl_constraint_info;
+
+typedef struct pl_dof { int coordinates, constraints, rank, dof, velocity_dof; } pl_dof;
+
+// ---------------------------------------------------------------------------------------------- checks
+typedef struct pl_check {
+  const char* name[2];             // "Lagrange I against II"
+  bool passed;
+  double worst;                    // largest relative difference, 0 for exact checks
+  int points;                      // points tried
+  int formulas;                    // formulas compared
+  const char* failed_on;           // text of the first formula that failed, or NULL
+} pl_check;
+
+typedef struct pl_solution {
+  const pl_model* model;
+  pl_tower* tower;
+  PL_VEC(pl_section) sections;
+  PL_VEC(pl_constraint_info) constraints;
+  pl_dof dof;
+  PL_VEC(pl_check) checks;
+  PL_VEC(const char*) used;        // assumptions used, as text in the language's notation: "0 < r < l", "m1 > 0"
+  int n_equations;                 // numbered so far
+  bool expect_failed;
+} pl_solution;
+
+typedef struct pl_derive_options {
+  const char* only;                // letters, comma separated; NULL: all
+  double seconds;                  // presentation budget for each quantity; default 0.02
+} pl_derive_options;
+
+// pl_derive works the model out.  The solution lives in the job's arena; the tower inside it is freed with
+// pl_solution_close.  Status: PLEUEL_CONTRADICTION when the constraints contradict each other; PLEUEL_INTERRUPTED keeps the
+// sections that are done.  Diagnostics (notes) go to the job.
+pleuel_status pl_derive(pl_job* job, pl_model* model, const pl_derive_options* options, pl_solution** out);
+void pl_solution_close(pl_solution* s);
+
+// pl_derive_dump prints equations as text: what `pleuel dump --after=derive` shows.
+void pl_derive_dump(pl_text* out, const pl_solution* s);
+
+#endif

@@ -1,0 +1,175 @@
+// derive, inside: the state of one derivation, filled room by room in the order of this file.
+#ifndef PL_DERIVE_IMPL_H
+#define PL_DERIVE_IMPL_H
+
+#include "derive/derive.h"
+
+// ---------------------------------------------------------------------------------------------- coordinates
+typedef struct pl_coordinate {
+  pl_symbol q, v, a;
+  bool carries;        // moves a mass or occurs in a force or constraint; false: only stands in `choose`
+  bool chosen;         // named by `choose`
+  int fixed_by;        // index of the constraint that makes it constant or f(t), -1
+  bool by_contact;     // fixed_by is one-sided: fixed while the contact lasts
+  pl_expr fixed;       // its value then
+  pl_expr map;         // as a function of the generalized coordinates and t; poison while unresolved
+  int solved_by;       // index of the constraint that map solves, -1: of `choose`, -2: generalized itself or fixed
+} pl_coordinate;
+
+typedef struct pl_link {   // a constraint at work
+  const pl_constraint* source;
+  pl_expr g;               // left - right
+  int fixes;               // coordinate that it fixes, -1
+  bool contact;            // one-sided
+  bool velocity;           // contains velocities (linear): nonholonomic
+  bool implied;            // says nothing new
+  pl_expr* gradient;       // dg/dq, of a nonholonomic one dg/dv              (n_q), raw
+  pl_symbol lambda;
+  pl_expr lambda_value;    // solved, on the constraints; poison if not
+  bool lambda_known;
+} pl_link;
+
+typedef struct pl_particle {   // a point mass or the centre of a body
+  const char* label;           // "m1"
+  const char* ascii;
+  pl_expr mass;
+  pl_expr inertia, angle;      // bodies; else poison
+  int n;
+  pl_expr at[3];               // position along the axes
+} pl_particle;
+
+// The orthonormal frame that a position map implies: e_i along dX/dq_i.
+typedef struct pl_frame {
+  int n;
+  int coordinate[3];           // indices of coordinates
+  pl_expr scale[3];            // |dX/dq_i|
+} pl_frame;
+
+// A formula that was displayed and must hold: shown == reference at every point of the motion's domain.
+typedef enum pl_claim_kind { PL_CLAIM_MOTION, PL_CLAIM_ONE_TWO, PL_CLAIM_MAP, PL_CLAIM_ENERGY, PL_CLAIM_INSERTED, PL_CLAIM_OTHER,
+                             PL_N_CLAIMS } pl_claim_kind;
+typedef struct pl_claim {
+  pl_claim_kind kind;
+  pl_expr shown, reference;
+  bool own_domain;             // compare for free symbols, not on the motion
+} pl_claim;
+
+typedef struct pl_analysis {
+  pl_job* job;
+  pl_arena* arena;
+  pl_pool* pool;
+  pl_model* model;
+  pl_tower* tower;
+  pl_solution* solution;
+  pl_section* section;         // the one being written
+  const pl_derive_options* options;
+
+  PL_VEC(pl_coordinate) q;
+  PL_VEC(pl_link) g;
+  PL_VEC(pl_particle) particle;
+  PL_VEC(pl_fact) facts;
+  double* value;               // numbers of parameters, start values; NaN unknown       (by symbol id, see d_values)
+
+  pl_expr T, V, L;             // in all coordinates, raw
+  pl_expr* force;              // generalized forces without potential                     (n_q)
+  bool dissipative;            // some force has no potential or is a Rayleigh function
+  pl_expr* euler;              // d/dt dL/dv - dL/dq - Q, equals sum of lambda dg/dq        (n_q), raw
+
+  PL_VEC(pl_replace) fixed;    // q -> f, v -> f', a -> f'' of the fixed coordinates
+  PL_VEC(pl_replace) contact;  // of the ones fixed by contact
+
+  bool reduced;                // every coordinate has a map
+  PL_VEC(int) gen;             // generalized coordinates
+  PL_VEC(pl_replace) maps;     // q -> map, v -> map', a -> map'' of all that are not generalized
+  pl_expr Tg, Vg, Lg;          // in generalized coordinates
+
+  bool solved;                 // accelerations and multipliers
+  pl_expr* acceleration;       // q'' on the constraints, in q, v or generalized ones      (n_q); poison where not
+
+  int number_lagrange1;        // equation number of the first Lagrange I equation, 0 none
+  PL_VEC(int) lagrange1_numbers;
+  int number_lambda, number_gdd, number_acceleration;
+  PL_VEC(pl_claim) claims;
+  pl_map* told;                // what has been said already (notes, definitions)
+} pl_analysis;
+
+// ---------------------------------------------------------------------------------------------- setup.c
+pleuel_status pl_setup_coordinates(pl_analysis* d);     // coordinates, particles, links, facts, start numbers
+pleuel_status pl_setup_trivial(pl_analysis* d);         // coordinate = constant or f(t); contradictions; implied ones
+int pl_coordinate_index(const pl_analysis* d, pl_symbol q);      // of q, q' or q''; -1
+bool pl_has_coordinates(const pl_analysis* d, pl_expr e);        // coordinates or velocities or accelerations
+pl_expr pl_on_fixed(pl_analysis* d, pl_expr e);         // with the dropped coordinates inserted (not contacts)
+pl_expr pl_on_contact(pl_analysis* d, pl_expr e);       // and with contacts closed
+pl_expr pl_on_maps(pl_analysis* d, pl_expr e);          // and in generalized coordinates, if there are any
+double pl_number(pl_analysis* d, pl_expr e);            // at the parameters; NaN when it depends on more
+
+// energies.c
+pleuel_status pl_energies(pl_analysis* d);              // T, V, L, forces, euler
+// frames.c
+bool pl_frame_find(pl_analysis* d, const pl_particle* k, pl_frame* out);
+const char* pl_unit_vector(pl_analysis* d, int coordinate);      // "e_r"
+// reduce.c
+pleuel_status pl_reduce(pl_analysis* d);                // generalized coordinates and maps
+// kkt.c
+pleuel_status pl_solve_motion(pl_analysis* d);          // accelerations and multipliers
+pl_expr pl_link_acceleration(pl_analysis* d, int link); // twice differentiated constraint, raw
+// claims.c
+void pl_claim_that(pl_analysis* d, pl_claim_kind kind, pl_expr shown, pl_expr reference);
+void pl_claim_free(pl_analysis* d, pl_claim_kind kind, pl_expr shown, pl_expr reference);
+void pl_claims_check(pl_analysis* d);
+
+// ---------------------------------------------------------------------------------------------- writing (steps.c)
+pl_section* pl_section_open(pl_analysis* d, const pl_ask* ask, const char* en, const char* de);
+void pl_heading(pl_analysis* d, const char* en, const char* de);
+// Sentences; {1}.. are inserts.
+pl_step* pl_say(pl_analysis* d, const char* en, const char* de, int n, ...);            // inserts: const pl_form*
+pl_step* pl_show(pl_analysis* d, const pl_form* formula);                              // unnumbered
+pl_step* pl_show_numbered(pl_analysis* d, const pl_form* formula);                     // next number
+pl_step* pl_row(pl_analysis* d, const char* en, const char* de, const pl_form* formula, const char* margin);
+void pl_step_after(pl_step* s, const char* en, const char* de);
+void pl_step_value(pl_analysis* d, pl_step* s, pl_expr e, pl_dimension dim);            // number at the parameters, if there is one
+void pl_step_refs(pl_step* s, int n, ...);
+pl_value* pl_answer(pl_analysis* d, const char* name, pl_expr e, const pl_form* form);  // value of the section, number and unit filled
+pl_dimension pl_dimension_of_expr(pl_analysis* d, pl_expr e, bool* known);
+const char* pl_display(pl_analysis* d, double x, pl_dimension dim, bool angle);
+
+// Short hands for forms
+const pl_form* pl_f(pl_analysis* d, pl_expr e, pl_style style);                         // presented
+const pl_form* pl_fs(pl_analysis* d, pl_symbol s);                                      // a symbol
+const pl_form* pl_fe(pl_analysis* d, pl_expr e);                                        // plain form
+const pl_form* pl_fn(pl_analysis* d, const char* name);                                 // a name: T, Z1
+const pl_form* pl_feq(pl_analysis* d, const pl_form* l, const pl_form* r);              // l = r
+const pl_form* pl_frel(pl_analysis* d, const pl_form* l, const char* op, const pl_form* r);
+const pl_form* pl_flist(pl_analysis* d, const pl_form* const* f, int n);
+const pl_form* pl_fref(pl_analysis* d, int number);                                     // "(4)"
+
+// ---------------------------------------------------------------------------------------------- sections
+// Each answers one kind of request and writes into d->section.
+void pl_answer_dof(pl_analysis* d, const pl_ask* ask);
+void pl_answer_constraints(pl_analysis* d, const pl_ask* ask);
+void pl_answer_lagrange1(pl_analysis* d, const pl_ask* ask);
+void pl_answer_lagrangian(pl_analysis* d, const pl_ask* ask);
+void pl_answer_lagrange2(pl_analysis* d, const pl_ask* ask);
+void pl_answer_hamiltonian(pl_analysis* d, const pl_ask* ask);
+void pl_answer_solve(pl_analysis* d, const pl_ask* ask);
+void pl_answer_conserved(pl_analysis* d, const pl_ask* ask);
+void pl_answer_force(pl_analysis* d, const pl_ask* ask);
+void pl_answer_equilibria(pl_analysis* d, const pl_ask* ask);
+void pl_answer_limit(pl_analysis* d, const pl_ask* ask);
+void pl_answer_series(pl_analysis* d, const pl_ask* ask);
+void pl_answer_value(pl_analysis* d, const pl_ask* ask);
+void pl_answer_expect(pl_analysis* d, const pl_ask* ask);
+void pl_answer_pending(pl_analysis* d, const pl_ask* ask);
+
+// motion along an energy integral (eliminate.c)
+// The velocity of the single generalized coordinate squared, from the conserved energy and the start of `motion`;
+// false when there is none.  start_q, start_v: the start used.
+bool pl_velocity_squared(pl_analysis* d, const pl_motion* motion, pl_expr* v2, pl_expr* start_q, pl_expr* start_v);
+pl_expr pl_conserved_energy(pl_analysis* d);            // E in generalized coordinates if it is conserved, else poison
+// The value of e (in coordinates, velocities, accelerations, multipliers) on the motion, in generalized coordinates.
+pl_expr pl_on_motion(pl_analysis* d, pl_expr e);
+const char* pl_reason_energy(pl_analysis* d, pl_language lang);
+// start note N061
+void pl_note_equilibrium_start(pl_analysis* d);
+
+#endif
