@@ -3,8 +3,19 @@
  * This header is the whole public interface.  It reads from top to bottom as a course: one call that does it all,
  * then the steps, then the options.  Strings are UTF-8.  Everything is SI inside.
  *
+ *     pleuel *ctx = pleuel_open(NULL);
+ *     pleuel_model *model;
+ *     const char *text;
+ *     if (pleuel_load_file(ctx, &model, "ski.pleuel", NULL) == PLEUEL_OK
+ *         && pleuel_solve_text(model, &text, NULL) == PLEUEL_OK) puts(text);
+ *     else puts(pleuel_message(ctx));
+ *     pleuel_close(ctx);
+ *
  * A context (pleuel*) and what was made from it belong to one thread at a time; several contexts may live in several
  * threads.  The library keeps no global state, prints nothing and never ends the process.
+ *
+ * Texts that are handed out belong to the object they came from and live as long as it does: those of a model until
+ * pleuel_model_free, those of a context until pleuel_close.
  */
 #ifndef PLEUEL_H
 #define PLEUEL_H
@@ -41,9 +52,12 @@ typedef enum pleuel_status {
 /* pleuel_status_name returns the identifier of a status as text, "PLEUEL_OK".  Static, never NULL. */
 const char *pleuel_status_name(pleuel_status status);
 
+/* pleuel_version returns the version of the library that is running, "0.1.0".  Static. */
+const char *pleuel_version(void);
+
 /* ------------------------------------------------------------------------------------------------ context */
 
-/* pleuel is a context: memory, last status and message, diagnostics of the last call. */
+/* pleuel is a context: where memory comes from, the last status and its sentence, the wish to stop. */
 typedef struct pleuel pleuel;
 
 /* pleuel_allocator replaces malloc and free.  size in bytes; `take` returns NULL when there is no more. */
@@ -53,12 +67,182 @@ typedef struct pleuel_allocator {
   void *user;
 } pleuel_allocator;
 
-/* pleuel_open makes a context.  alloc may be NULL.  NULL when memory is short.  Close with pleuel_close. */
+/* pleuel_open makes a context.  alloc may be NULL.  NULL when memory is short.  Close with pleuel_close, which frees
+ * the models made from it too. */
 pleuel *pleuel_open(const pleuel_allocator *alloc);
 void pleuel_close(pleuel *ctx);
 
 /* pleuel_message returns the sentence of the last failure, "" if none.  Owned by ctx, valid until the next call. */
 const char *pleuel_message(const pleuel *ctx);
+
+/* pleuel_set_language chooses the language of messages and of solutions whose file names none: "en" or "de". */
+pleuel_status pleuel_set_language(pleuel *ctx, const char *lang);
+
+/* pleuel_set_memory_limit lets calls end with PLEUEL_NO_MEMORY when a model takes more than so many bytes; 0: no limit. */
+void pleuel_set_memory_limit(pleuel *ctx, size_t bytes);
+
+/* pleuel_interrupt asks the call that runs in this context to stop; it ends with PLEUEL_INTERRUPTED and keeps what is
+ * done.  May be called from a signal handler and from other threads.  Holds until pleuel_interrupt_clear. */
+void pleuel_interrupt(pleuel *ctx);
+void pleuel_interrupt_clear(pleuel *ctx);
+
+/* ------------------------------------------------------------------------------------------------ options */
+
+/* Option structures grow with later versions, at their ends.  Make them with PLEUEL_OPTIONS, which sets every member to
+ * its default and notes the size that the caller was compiled with:
+ *     PLEUEL_OPTIONS(pleuel_solve_options, how);  how.lang = "de";
+ * Wherever options are taken, NULL stands for the defaults. */
+#define PLEUEL_OPTIONS(type, name) \
+  type name = {0};                 \
+  name.size = sizeof name
+
+/* ------------------------------------------------------------------------------------------------ models */
+
+/* pleuel_model is a text that was read, and what has been found out about it so far. */
+typedef struct pleuel_model pleuel_model;
+
+/* pleuel_setting replaces the value of a parameter before anything else is done: "m2", "500[g]"; "N", "50". */
+typedef struct pleuel_setting {
+  const char *name;
+  const char *value;
+} pleuel_setting;
+
+typedef struct pleuel_load_options {
+  size_t size;
+  const char *name;                /* file name for messages; default: the path, or "<text>"                    */
+  const pleuel_setting *settings;  /* (n_settings)                                                               */
+  size_t n_settings;
+  /* read returns the text of a file that the model includes, NULL when it cannot be had; path as written, from the name
+   * of the file that includes it.  The text is copied before the next call.  Without it texts may include nothing and
+   * files may include what lies beside them. */
+  const char *(*read)(void *user, const char *path, const char *from);
+  void *read_user;
+} pleuel_load_options;
+
+/* pleuel_load_text reads a model from memory, pleuel_load_file from a file.  *model is set even when the text has
+ * errors (PLEUEL_MODEL_ERROR), so that its diagnostics can be read; it is NULL when there was no text (PLEUEL_FILE,
+ * PLEUEL_NO_MEMORY). */
+pleuel_status pleuel_load_text(pleuel *ctx, pleuel_model **model, const char *text, size_t size,
+                               const pleuel_load_options *options);
+pleuel_status pleuel_load_file(pleuel *ctx, pleuel_model **model, const char *path,
+                               const pleuel_load_options *options);
+void pleuel_model_free(pleuel_model *model);
+
+/* ------------------------------------------------------------------------------------------------ messages */
+
+typedef enum pleuel_severity { PLEUEL_ERROR = 0, PLEUEL_WARNING = 1, PLEUEL_NOTE = 2 } pleuel_severity;
+
+/* pleuel_diagnostic_count returns how many messages there are of this severity, in the order of their places. */
+size_t pleuel_diagnostic_count(const pleuel_model *model, pleuel_severity severity);
+
+typedef struct pleuel_text_options {
+  size_t size;
+  const char *lang;    /* "en", "de"; default: that of the context                                     */
+  int colour;          /* 1: ANSI colours                                                              */
+  int terse;           /* 1: one line a message, file:line:col: CODE: sentence                         */
+} pleuel_text_options;
+
+/* pleuel_diagnostics_text returns all messages of these severities as text, "" if there are none.  severities is a sum
+ * of 1 << severity.  Never NULL unless memory ran out. */
+const char *pleuel_diagnostics_text(pleuel_model *model, unsigned severities, const pleuel_text_options *options);
+
+/* ------------------------------------------------------------------------------------------------ check */
+
+/* pleuel_check looks at names, units, families, counts freedoms and ranks, and looks for a consistent start; it solves
+ * nothing.  *summary, if not NULL, is a line or two in words. */
+pleuel_status pleuel_check(pleuel_model *model, const char **summary, const pleuel_text_options *options);
+/* pleuel_check_json returns the same as a JSON document (docs/json.md); also when the model has errors. */
+pleuel_status pleuel_check_json(pleuel_model *model, const char **json, const pleuel_text_options *options);
+
+/* ------------------------------------------------------------------------------------------------ solve */
+
+typedef enum pleuel_math { PLEUEL_MATH_LINE = 0, PLEUEL_MATH_2D, PLEUEL_MATH_ASCII } pleuel_math;
+
+typedef struct pleuel_solve_options {
+  size_t size;
+  const char *only;    /* letters of the requests, "b,c"; NULL: all                                       */
+  const char *lang;    /* "en", "de"; default: that of the file, then that of the context                 */
+  int full;            /* 1: every step, 0: the steps one would write down                                */
+  pleuel_math math;
+  int width;           /* cells of a line; 0: lines are not wrapped                                       */
+  int colour;          /* 1: ANSI colours                                                                 */
+  int no_simulation;   /* 1: leave out the motion that `simulate` asks for                                */
+  int timing;          /* 1: the JSON document tells how long each stage took                             */
+  double seconds;      /* time for finding a shorter form of each quantity; 0: the default                */
+} pleuel_solve_options;
+
+/* pleuel_solve_text works the model out and returns the worked solution.  Each formula shown was checked against the
+ * model first; PLEUEL_EXPECT_FAILED: a check or an `expect` failed, the text says which. */
+pleuel_status pleuel_solve_text(pleuel_model *model, const char **text, const pleuel_solve_options *options);
+
+/* pleuel_solve_json returns the same as a JSON document, schema version 1 (docs/json.md); also when it fails. */
+pleuel_status pleuel_solve_json(pleuel_model *model, const char **json, const pleuel_solve_options *options);
+
+/* ------------------------------------------------------------------------------------------------ simulate */
+
+/* Where a run stands: for a line of progress. */
+typedef struct pleuel_progress {
+  double t, t_begin, t_end;  /* s                                            */
+  double step;               /* s, the last one                              */
+  double energy_drift;       /* relative; NaN when energy is not conserved   */
+  long steps;
+} pleuel_progress;
+
+typedef struct pleuel_sim_options {
+  size_t size;
+  int has_until, has_tol, has_dt;   /* 1: the member below is given, else the file decides                        */
+  double until;                     /* end, s                                                                     */
+  double tol;                       /* relative local error of a step                                             */
+  double dt;                        /* distance of output times, s; not given: every step                         */
+  int no_times;                     /* 1: rows at events only                                                     */
+  /* columns is called once, then row for each output time, then nothing more.  A result other than 0 stops the run
+   * with PLEUEL_INTERRUPTED.  mode names the contacts: "contact(h)", "free", "" when nothing is one-sided. */
+  int (*columns)(void *user, size_t n, const char *const *names, const char *const *units);
+  int (*row)(void *user, size_t n, const double *values, const char *mode);
+  /* write receives the same as CSV, in pieces. */
+  int (*write)(void *user, const char *bytes, size_t n);
+  void (*progress)(void *user, const pleuel_progress *where);
+  void *user;
+} pleuel_sim_options;
+
+typedef struct pleuel_sim_summary {
+  double t_end;              /* s, reached                                                     */
+  long steps, rejected;
+  double residual_g;         /* largest |g|, relative to the size of its terms                 */
+  double residual_gdot;      /* largest |dg/dt|, likewise                                      */
+  double energy_drift;       /* largest, relative; NaN when energy is not conserved            */
+  size_t n_events, n_rows, n_columns;
+} pleuel_sim_summary;
+
+/* pleuel_simulate computes the motion.  summary may be NULL.  A run that cannot go on ends with PLEUEL_NUMERICAL or
+ * PLEUEL_SINGULAR and the place in pleuel_message; the rows up to there have been handed over. */
+pleuel_status pleuel_simulate(pleuel_model *model, pleuel_sim_summary *summary, const pleuel_sim_options *options);
+
+/* pleuel_simulation_text and _json tell about the last run: events with their states, residuals, drift. */
+const char *pleuel_simulation_text(pleuel_model *model, const pleuel_text_options *options);
+const char *pleuel_simulation_json(pleuel_model *model);
+
+/* ------------------------------------------------------------------------------------------------ more */
+
+typedef enum pleuel_spelling { PLEUEL_SPELL_KEEP = 0, PLEUEL_SPELL_UNICODE, PLEUEL_SPELL_ASCII } pleuel_spelling;
+
+/* pleuel_format returns the text of the model in canonical layout; it changes no meaning. */
+pleuel_status pleuel_format(pleuel_model *model, const char **text, pleuel_spelling spelling);
+
+/* pleuel_dump prints the value at an arrow of the pipeline as text: after "check", "derive" or "record". */
+pleuel_status pleuel_dump(pleuel_model *model, const char **text, const char *after);
+
+/* pleuel_explain returns the page of the manual about a message, "E021"; NULL when there is none.  Markdown. */
+const char *pleuel_explain(pleuel *ctx, const char *code);
+
+/* pleuel_codes lists the messages there are, one a line: code and title. */
+const char *pleuel_codes(pleuel *ctx);
+
+/* pleuel_units explains a unit, "m/s": dimension, factor to SI; PLEUEL_USAGE and near names for what is none. */
+pleuel_status pleuel_units(pleuel *ctx, const char **text, const char *unit);
+
+/* pleuel_example returns name and text of the i-th built-in example, NULL behind the last one.  Static. */
+const char *pleuel_example(size_t i, const char **name);
 
 #ifdef __cplusplus
 }
