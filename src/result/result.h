@@ -1,0 +1,52 @@
+// result: columns with names and units, filled by a sink; CSV.
+#ifndef PL_RESULT_H
+#define PL_RESULT_H
+
+#include "solve/solve.h"
+
+// Columns of a result, in order: t, coordinates, velocities, multipliers, outputs; then the text column `mode` when
+// the setup has one-sided constraints.
+typedef struct pl_result_column { const char *name, *unit; } pl_result_column;
+
+typedef struct pl_result_event {
+  pl_event_kind kind;
+  const char* label;
+  double t;
+  bool at_start;
+  double impulse;
+  const double *before, *after;      // (n_columns)
+  const char *mode_before, *mode_after;
+} pl_result_event;
+
+typedef struct pl_result {
+  pl_arena* arena;
+  int n_columns;
+  const pl_result_column* columns;   // (n_columns), without mode
+  bool has_mode;
+  PL_VEC(double*) rows;              // each (n_columns)
+  PL_VEC(const char*) modes;         // one a row
+  PL_VEC(pl_row_kind) kinds;
+  PL_VEC(pl_result_event) events;
+  bool keep_rows;                    // false: only first and last row and the events are kept
+  bool complete;                     // the run reached its end
+  pleuel_status status;
+  const char* message;
+  pl_stats stats;
+  pl_sink next;                      // rows are passed on to here too (a CSV writer, say); may be all NULL
+} pl_result;
+
+// pl_result_make makes an empty result; pl_result_sink is the sink that fills it.
+pl_result* pl_result_make(pl_arena* a, bool keep_rows);
+pl_sink pl_result_sink(pl_result* r);
+int pl_result_find(const pl_result* r, const char* name);            // column, -1 if absent
+double pl_result_last(const pl_result* r, const char* name);         // NaN if absent
+
+// CSV: header `name [unit]`, comma, LF, shortest decimal that reads back to the same double.  A run that did not reach its end
+// leaves a last line "# incomplete: ...".
+// pl_csv_sink writes rows as they come.  The file stays open; the caller checks ferror and closes it.
+pl_sink pl_csv_sink(pl_arena* a, FILE* file);
+pleuel_status pl_result_write_csv(const pl_result* r, FILE* file);
+// Shortest decimal text of x that reads back to x; "nan", "inf", "-inf".  out has room for 32.
+int pl_double_text(char out[32], double x);
+
+#endif

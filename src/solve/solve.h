@@ -1,0 +1,235 @@
+// solve: the motion.  A setup (patterns, names, start values, contacts, events) becomes a run that steps.
+//
+//     M(q,t) a + h(q,v,t) = (G^T + W) λ,     g(q,t) = 0  (or A(q,t) v + b(q,t) = 0)
+//
+// is integrated as written (index 3) by Taylor series: order k of the series takes one solve with the one
+// factorisation of a step, the constraint entering as G v + dg/dt = 0 at order k+1.  Each step ends with a projection on
+// g = 0 and G v + dg/dt = 0 in the mass metric and a check of the residuals.  M may be singular on coordinates
+// that carry no mass, constraints may be redundant: each step uses a maximal independent subset by priority.
+//
+// Use:  pl_run_make, then pl_run_start, then pl_run_to (or pl_run_step), reading through a sink or pl_run_state.
+// A setup is constant and shared; a run moves and belongs to one thread.  Stepping allocates nothing.
+#ifndef PL_SOLVE_H
+#define PL_SOLVE_H
+
+#include "jet/jet.h"
+
+// ---------------------------------------------------------------------------------------------- setup
+// A coordinate.  Names and units for columns and messages; start values are optional.
+typedef struct pl_coordinate {
+  const char *name, *unit;            // "theta", "rad"; "x[3]", "m".  unit NULL or "": none
+  const char *v_name, *v_unit;        // "theta_dot", "rad/s"
+  bool has_q, has_v;                  // start value given: held
+  double q, v;
+  bool has_guess, has_v_guess;        // only steers the numerics
+  double guess, v_guess;
+  bool hidden;                        // no column
+} pl_coordinate;
+
+// A constraint row.
+typedef struct pl_link {
+  const char* name;                   // "g1", "c[3]": for messages, events and the mode text
+  const char *column, *unit;          // of its multiplier: "lambda_g1", "N"; column NULL: no column (map equations)
+  bool velocity;                      // nonholonomic: only on velocity level
+  int side;                           // 0 two-sided; +1: g >= 0, λ >= 0 in contact; -1: g <= 0, λ <= 0
+  int priority;                       // 0 declared, 1 map equations of `choose`; lower is kept when rows depend on each other
+  int contact;                        // `while`: the one-sided constraint it goes with, or -1.  A map equation that holds only in
+                                      // contact is written so too
+  bool off;                           // starts inactive; an event may attach it
+  double restitution;                 // of impacts on it, 0 inelastic
+} pl_link;
+
+// An output column: sum of the contributions of all observer patterns.
+typedef struct pl_column { const char *name, *unit; } pl_column;
+
+typedef enum pl_deed { PL_DEED_STOP, PL_DEED_RECORD, PL_DEED_RELEASE, PL_DEED_ATTACH, PL_DEED_SET_Q, PL_DEED_SET_V } pl_deed;
+typedef struct pl_event_deed {
+  pl_deed deed;
+  int target;                         // RELEASE, ATTACH: constraint; SET_*: coordinate
+  int value;                          // SET_*: index of the watched quantity that is the new value
+} pl_event_deed;
+
+// `event label: when expr = 0`.  The expression is watched quantity number `watch` (output of a watch pattern).
+typedef struct pl_event_setup {
+  const char* name;
+  int watch;
+  int direction;                      // +1 rising, -1 falling, 0 both
+  int n_deeds;
+  const pl_event_deed* deeds;
+} pl_event_setup;
+
+// `branch cond`: condition number `output` of the branch patterns has this sign.
+typedef struct pl_branch_setup {
+  const char* text;                   // "x2 < x1", for messages
+  int output;                         // left - right
+  int relation;                       // +1: > 0 (or >= 0), -1: < 0, 0: = 0 (an extra equation is not made of it; it is checked)
+} pl_branch_setup;
+
+typedef struct pl_setup {
+  int n_q;
+  const pl_coordinate* coordinates;   // (n_q)
+  int n_c;
+  const pl_link* links;               // (n_c)
+  int n_patterns;
+  const pl_pattern* patterns;         // M, h, G, g: the motion
+  int n_out;
+  const pl_column* out;               // (n_out)
+  int n_observers;
+  const pl_pattern* observers;        // outputs are columns 0 .. n_out-1
+  int kinetic, potential;             // output columns of T and V, or -1; their sum is the energy
+  bool energy_conserved;              // said by the model: then its drift is checked
+  int n_events;
+  const pl_event_setup* events;
+  int n_watched;                      // quantities watched
+  int n_watch_patterns;
+  const pl_pattern* watch;            // outputs are watched quantities
+  int n_branches;
+  const pl_branch_setup* branches;
+  int n_branch_outputs;
+  int n_branch_patterns;
+  const pl_pattern* branch_patterns;
+} pl_setup;
+
+// ---------------------------------------------------------------------------------------------- sink
+typedef enum pl_event_kind {
+  PL_EV_EVENT,      // `event label`
+  PL_EV_RELEASE,    // a contact ended
+  PL_EV_IMPACT,     // a contact was made with a velocity jump
+  PL_EV_CONTACT,    // a contact was made without one
+  PL_EV_SINGULAR,   // the constraints lose rank here
+  PL_EV_STOP        // `event label -> stop`
+} pl_event_kind;
+extern const char* const pl_event_kind_name[];     // "event", "release", "impact", ... as in the JSON contract
+
+typedef enum pl_row_kind { PL_ROW_START, PL_ROW_STEP, PL_ROW_BEFORE, PL_ROW_AFTER, PL_ROW_END } pl_row_kind;
+
+// A row of results; pointers are valid during the call.
+typedef struct pl_row {
+  double t;                           // s
+  const double *q, *v;                // (n_q)
+  const double* a;                    // accelerations (n_q)
+  const double* lambda;               // (n_c), 0 where inactive or left out
+  const bool* unique;                 // false: this multiplier is not determined (redundant set)  (n_c)
+  const double* out;                  // (n_out)
+  const char* mode;                   // "contact(h)", "free", "" without one-sided constraints
+  pl_row_kind kind;
+} pl_row;
+
+typedef struct pl_event_record {
+  pl_event_kind kind;
+  const char* label;                  // name of the event or constraint
+  int index;                          // of the event or constraint in the setup
+  pl_row before, after;               // equal except for impacts, releases and SET
+  double impulse;                     // of an impact, N s along the gradient
+  bool at_start;                      // a contact that never held: wrong sign at the start
+} pl_event_record;
+
+typedef struct pl_stats {
+  long steps, rejections;
+  int order;
+  double h_min, h_max;                // s
+  double max_g;                       // largest |g| relative to the sum of its terms' sizes, after projection
+  double max_gdot;                    // largest |G v + dg/dt| relative to its terms, after projection
+  double max_projection;              // largest relative correction of a projection
+  double energy_0, energy_drift;      // energy at the start; largest |E - E_0| relative to max(|T| + |V|); NaN unknown
+  long n_events;
+  int rank, rank_start;               // independent active constraints
+  double wall_s;                      // the only number here that is not reproducible
+} pl_stats;
+
+// pl_sink: where results go.  Any call may be NULL.  A status other than PLEUEL_OK stops the run and is returned.
+typedef struct pl_sink {
+  void* user;
+  pleuel_status (*begin)(void* user, const pl_setup* setup);
+  pleuel_status (*row)(void* user, const pl_row* row);
+  pleuel_status (*event)(void* user, const pl_event_record* event);
+  pleuel_status (*end)(void* user, pleuel_status how, const char* message, const pl_stats* stats);
+} pl_sink;
+
+// ---------------------------------------------------------------------------------------------- run
+typedef struct pl_run_options {
+  double t_0, t_end;                  // s; t_end may lie before t_0 (backwards)
+  double tol;                         // relative local error; 0: what the arithmetic can do.  Too small is raised, see tol_raised
+  double dt;                          // output grid, s; 0: every step
+  long count;                         // output grid with this many intervals; 0: none
+  double h_max;                       // longest step, s; 0: none
+  long max_steps;                     // 0: none
+  pl_sink sink;
+  void (*progress)(void* user, double t, double t_end, double h, const pl_stats* stats);   // after every step; NULL: none
+  void* progress_user;
+} pl_run_options;
+
+typedef struct pl_run pl_run;
+
+// pl_run_make reserves everything a run needs.  Status PLEUEL_USAGE for a setup whose indices do not fit together,
+// PLEUEL_NO_MEMORY.  Free with pl_run_free (the sparse solver holds memory of its own; the rest goes with the arena).
+pleuel_status pl_run_make(pl_job* job, const pl_setup* setup, const pl_run_options* options, pl_run** out);
+void pl_run_free(pl_run* run);
+
+// ---- consistent start
+typedef struct pl_start_move {        // a number that the constraints moved or chose
+  int coordinate;
+  bool velocity;
+  bool given;                         // it was a given start value (moved by less than 1e-9 of the terms)
+  double from, to;
+} pl_start_move;
+
+typedef enum pl_start_trouble {
+  PL_START_FINE,
+  PL_START_SEVERAL,                   // several solutions fit: candidates lists them
+  PL_START_NONE,                      // none fits the constraints (and branches)
+  PL_START_VIOLATED,                  // given values violate constraint `link`
+  PL_START_SINGULAR                   // the start is a singular position
+} pl_start_trouble;
+
+typedef struct pl_start_report {
+  pl_start_trouble trouble;
+  int n_moves;
+  const pl_start_move* moves;         // in order of coordinate, positions first
+  int n_free;                         // positions that nothing determines: taken from guess or 0
+  const int* free;                    // their coordinates
+  int n_candidates;                   // distinct solutions that fit
+  const double* candidates;           // (n_candidates x n_q), solution after solution
+  int link;                           // VIOLATED: which constraint, else -1
+  bool link_velocity;                 // VIOLATED: on velocity level
+  double residual;                    // VIOLATED: |g| relative to its terms
+  int move_coordinate;                // VIOLATED: the coordinate that would have to move, -1 if no single one does
+  bool move_velocity;
+  double move_to;                     // VIOLATED: to this value
+  int n_sitting;                      // one-sided constraints that closed the start without being given
+  const int* sitting;
+  double largest_move;                // relative, of given values
+} pl_start_report;
+
+// pl_run_start finds consistent positions and velocities at t_0: given values are held, the rest moves from its guess.
+// Status PLEUEL_CONTRADICTION for SEVERAL, NONE and VIOLATED, PLEUEL_SINGULAR, with the sentence in the job.
+pleuel_status pl_run_start(pl_run* run);
+const pl_start_report* pl_run_start_report(const pl_run* run);
+
+// pl_run_start_at starts from these numbers, which must be consistent to 1e-9; they are projected.
+pleuel_status pl_run_start_at(pl_run* run, double t, const double* q, const double* v);
+
+// pl_run_step takes one accepted step, not beyond t_end, with everything that happens in it.
+// Status: PLEUEL_SINGULAR, PLEUEL_NUMERICAL, PLEUEL_INTERRUPTED (job->interrupted), or what the sink returned.
+pleuel_status pl_run_step(pl_run* run);
+// pl_run_to steps to t_end, writing rows; begin and end of the sink are called.  Calls pl_run_start when that was not done.
+pleuel_status pl_run_to_end(pl_run* run);
+
+// Reading.  Arrays belong to the run and change with the next step.
+double pl_run_time(const pl_run* run);
+bool pl_run_done(const pl_run* run);                 // t_end reached, or an event stopped it
+const double* pl_run_q(const pl_run* run);           // (n_q)
+const double* pl_run_v(const pl_run* run);           // (n_q)
+const double* pl_run_a(const pl_run* run);           // (n_q)
+const double* pl_run_lambda(const pl_run* run);      // (n_c)
+const bool* pl_run_unique(const pl_run* run);        // (n_c)
+const pl_stats* pl_run_stats(const pl_run* run);
+double pl_run_tol(const pl_run* run);                // tolerance in use
+bool pl_run_tol_raised(const pl_run* run);           // the one asked for was below what the arithmetic can do
+bool pl_run_is_active(const pl_run* run, int link);
+const char* pl_run_mode(const pl_run* run);
+
+// pl_run_dense evaluates the series of the last step at time t (within it).  Any pointer may be NULL.
+void pl_run_dense(const pl_run* run, double t, double* q, double* v, double* lambda);
+
+#endif
