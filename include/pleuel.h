@@ -194,7 +194,6 @@ typedef struct pleuel_sim_options {
   double until;                     /* end, s                                                                     */
   double tol;                       /* relative local error of a step                                             */
   double dt;                        /* distance of output times, s; not given: every step                         */
-  int no_times;                     /* 1: rows at events only                                                     */
   /* columns is called once, then row for each output time, then nothing more.  A result other than 0 stops the run
    * with PLEUEL_INTERRUPTED.  mode names the contacts: "contact(h)", "free", "" when nothing is one-sided. */
   int (*columns)(void *user, size_t n, const char *const *names, const char *const *units);
@@ -240,6 +239,12 @@ const char *pleuel_codes(pleuel *ctx);
 
 /* pleuel_units explains a unit, "m/s": dimension, factor to SI; PLEUEL_USAGE and near names for what is none. */
 pleuel_status pleuel_units(pleuel *ctx, const char **text, const char *unit);
+
+/* pleuel_quantity reads a number with an optional unit, "0.5", "500[ms]", into SI; PLEUEL_USAGE when it is none. */
+pleuel_status pleuel_quantity(pleuel *ctx, double *value, const char *text);
+
+/* pleuel_template returns a commented model to start from, titled with this name. */
+const char *pleuel_template(pleuel *ctx, const char *name);
 
 /* pleuel_example returns name and text of the i-th built-in example, NULL behind the last one.  Static. */
 const char *pleuel_example(size_t i, const char **name);

@@ -1,0 +1,107 @@
+// pleuel sim FILE: the motion as data.
+#include "cli.h"
+
+#include <string.h>
+
+const cli_flag flags_sim[] = {
+  {"output", 'o', CLI_TEXT, CLI_AT(output), "FILE.csv", "where the rows go; - is stdout"},
+  {"force", 'f', CLI_SWITCH, CLI_AT(force), NULL, "replace a file that is there"},
+  {"until", 0, CLI_TEXT, CLI_AT(until), "TIME", "end of the run: 5, '500[ms]'"},
+  {"dt", 0, CLI_TEXT, CLI_AT(dt), "TIME", "distance of the rows; without it a row for each step"},
+  {"tol", 0, CLI_TEXT, CLI_AT(tol), "NUMBER", "relative local error of a step"},
+  CLI_FLAG_SET,
+  {"events", 0, CLI_SWITCH, CLI_AT(events), NULL, "tell events only, not the accuracy"},
+  CLI_FLAG_JSON,
+  CLI_FLAG_LANG,
+  CLI_FLAG_COLOR,
+  CLI_FLAG_HELP,
+  CLI_FLAG_END,
+};
+
+static int write_rows(void* user, const char* bytes, size_t n) {
+  FILE* to = user;
+  return fwrite(bytes, 1, n, to) == n ? 0 : 1;
+}
+
+// A time or number given as text.
+static int quantity(pleuel* ctx, const char* flag, const char* text, int* has, double* value) {
+  if (!text) return EXIT_DONE;
+  if (pleuel_quantity(ctx, value, text) != PLEUEL_OK) {
+    return cli_error(EXIT_USAGE, "--%s %s: %s", flag, text, pleuel_message(ctx));
+  }
+  *has = 1;
+  return EXIT_DONE;
+}
+
+static int unsupported_output(const char* path) {
+  const char* dot = strrchr(path, '.');
+  if (!dot || strcmp(path, "-") == 0) return EXIT_DONE;
+  if (strcmp(dot, ".h5") == 0 || strcmp(dot, ".npz") == 0) {
+    return cli_error(EXIT_USAGE, "this version writes CSV, not %s: choose a name that ends in .csv", dot);
+  }
+  return EXIT_DONE;
+}
+
+// Runs with the rows going to `rows` (NULL: nowhere), then tells about it.
+static int run(pleuel* ctx, const cli_options* o, pleuel_model* m, pleuel_sim_options* how, FILE* rows, pleuel_status* s) {
+  how->write = rows ? write_rows : NULL;
+  how->user = rows;
+  how->progress = cli_progress;
+  *s = pleuel_simulate(m, NULL, how);
+  cli_progress_clear();
+  return cli_exit_code(*s);
+}
+
+static void tell(pleuel* ctx, const cli_options* o, pleuel_model* m, pleuel_status s, bool stdout_taken) {
+  if (o->json) {
+    const char* json = pleuel_simulation_json(m);
+    if (json) fputs(json, stdout);
+    return;
+  }
+  FILE* to = stdout_taken ? stderr : stdout;
+  PLEUEL_OPTIONS(pleuel_text_options, how);
+  how.colour = cli_colour(o, to);
+  how.lang = o->lang;
+  how.terse = o->events;
+  cli_print_diagnostics(m, o, stderr, 7u);
+  const char* text = pleuel_simulation_text(m, &how);
+  if (text) fputs(text, to);
+  fflush(to);
+  bool said = s == PLEUEL_MODEL_ERROR && pleuel_diagnostic_count(m, PLEUEL_ERROR) > 0;
+  if (s != PLEUEL_OK && !said && *pleuel_message(ctx)) cli_error(0, "%s", pleuel_message(ctx));
+}
+
+int verb_sim(pleuel* ctx, const cli_options* o) {
+  if (o->n_files != 1) return cli_error(EXIT_USAGE, "sim takes one file; - is stdin");
+  bool to_stdout = o->output && strcmp(o->output, "-") == 0;
+  if (to_stdout && o->json) return cli_error(EXIT_USAGE, "rows and JSON cannot both go to stdout");
+
+  PLEUEL_OPTIONS(pleuel_sim_options, how);
+  int code = quantity(ctx, "until", o->until, &how.has_until, &how.until);
+  if (!code) code = quantity(ctx, "dt", o->dt, &how.has_dt, &how.dt);
+  if (!code) code = quantity(ctx, "tol", o->tol, &how.has_tol, &how.tol);
+  if (!code && o->output) code = unsupported_output(o->output);
+  if (code) return code;
+
+  pleuel_model* m = cli_load(ctx, o, o->files[0], &code);
+  if (!m) return code;
+
+  // a file that would be in the way is noticed before the work, not after it
+  cli_file file = {0};
+  bool to_file = o->output && !to_stdout;
+  code = to_file ? cli_file_open(&file, o->output, o->force) : EXIT_DONE;
+  if (code == EXIT_DONE) {
+    pleuel_status s = PLEUEL_OK;
+    code = run(ctx, o, m, &how, to_file ? file.to : to_stdout ? stdout : NULL, &s);
+    bool has_rows = s == PLEUEL_OK || s == PLEUEL_INTERRUPTED || s == PLEUEL_NUMERICAL || s == PLEUEL_SINGULAR || s == PLEUEL_EXPECT_FAILED;
+    if (to_file && has_rows && ftell(file.to) > 0) {
+      int closed = cli_file_close(&file);
+      if (closed) code = closed;
+    } else if (to_file) {
+      cli_file_drop(&file);
+    }
+    tell(ctx, o, m, s, to_stdout);
+  }
+  pleuel_model_free(m);
+  return code;
+}

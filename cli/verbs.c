@@ -1,0 +1,50 @@
+// The table of verbs, and the words that later versions will understand.
+#include "cli.h"
+
+#include <string.h>
+
+const cli_verb cli_verbs[] = {
+  {"solve", "FILE...", "worked solution as text", flags_solve, verb_solve,
+   "FILE may be - for stdin. `pleuel FILE` is the same as `pleuel solve FILE`."},
+  {"check", "FILE...", "names, units, degrees of freedom, rank, start; nothing is solved", flags_check, verb_check,
+   "The messages are the answer here, so they go to stdout."},
+  {"sim", "FILE", "simulate, write the motion", flags_sim, verb_sim,
+   "Without -o only the events and the accuracy are told. -o - writes the CSV to stdout.\n"
+   "Ctrl-C ends the run, keeps what is there and marks the file incomplete; a second one stops at once."},
+  {"fmt", "FILE...", "canonical layout, in place; - formats stdin to stdout", flags_fmt, verb_fmt, NULL},
+  {"new", "NAME", "write a commented model NAME.pleuel to start from", flags_new, verb_new, NULL},
+  {"examples", "[NAME...]", "list the built-in examples, or print one", flags_examples, verb_examples,
+   "`pleuel examples atwood | pleuel -` solves one."},
+  {"explain", "CODE", "what a message means and how to mend it", flags_explain, verb_explain,
+   "Without a code: the list of all messages."},
+  {"units", "UNIT", "dimension and SI factor of a unit", flags_units, verb_units, NULL},
+  {"dump", "FILE", "what the program thinks, at an arrow of its pipeline", flags_dump, verb_dump, NULL},
+  {"completion", "SHELL", "completions for bash, zsh or fish", flags_completion, verb_completion,
+   "For this session:  source <(pleuel completion bash)"},
+  {"help", "[VERB]", "this overview, or the page of a verb", flags_help, verb_help, NULL},
+  {NULL, NULL, NULL, NULL, NULL, NULL},
+};
+
+const cli_verb* cli_verb_find(const char* name) {
+  for (const cli_verb* v = cli_verbs; v->name; v++) {
+    if (strcmp(v->name, name) == 0) return v;
+  }
+  return NULL;
+}
+
+const char* cli_later_verb(const char* name) {
+  static const char* const later[][2] = {
+    {"plot", "pictures of the motion"},
+    {"animate", "moving pictures"},
+    {"sweep", "parameter grids"},
+    {"report", "an HTML report"},
+    {"tex", "LaTeX"},
+    {"export", "export to other programs"},
+    {"studio", "the workbench in the browser"},
+    {"lsp", "the editor server"},
+  };
+  for (size_t i = 0; i < sizeof later / sizeof *later; i++) {
+    if (strcmp(later[i][0], name) == 0) return later[i][1];
+  }
+  return NULL;
+}
