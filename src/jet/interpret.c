@@ -1,0 +1,199 @@
+// The interpreter: recurrences for the coefficients of elementary functions, in two phases.
+// [JorbaZou2005, sec. 2], [Neidinger2010].  For order k >= 1 and normalised coefficients:
+//
+//   c = a b        c_k = S + a_0 b_k + a_k b_0,                S = sum_{1..k-1} a_j b_{k-j}
+//   c = a / b      c_k = (a_k - b_k c_0 - S) / b_0,            S = sum_{1..k-1} b_j c_{k-j}
+//   c = sqrt a     c_k = (a_k - S) / (2 c_0),                  S = sum_{1..k-1} c_j c_{k-j}
+//   c = a^r        c_k = (S + r a_k c_0) / a_0,                S = sum_{1..k-1} (r j - (k-j)) a_j c_{k-j} / k
+//   c = exp a      c_k = S + a_k c_0,                          S = sum_{1..k-1} j a_j c_{k-j} / k
+//   c = ln a       c_k = (a_k - S) / a_0,                      S = sum_{1..k-1} j c_j a_{k-j} / k
+//   c = sin a      c_k = S + a_k w_0,      w = cos a           S = sum_{1..k-1} j a_j w_{k-j} / k
+//   c = tan a      c_k = S + a_k (1 + w_0), w = c^2            likewise; tanh with a minus
+//   c = asin a     c_k = (a_k - S) / w_0,  w = sqrt(1-a^2)     S = sum_{1..k-1} j c_j w_{k-j} / k; acos, atan likewise
+//   c = atan2(a,b) c_k = (S + a_k b_0 - b_k a_0) / w_0, w = a^2 + b^2
+//                  S = sum_{1..k-1} j (a_j b_{k-j} - b_j a_{k-j} - c_j w_{k-j}) / k
+//
+// The first phase puts S where c_k will stand; the second completes it.  At k = 0 S is not used.  Lanes are the inner
+// loop everywhere; sums run upwards in j, so that a compiled kernel can add in the same order.
+#include "jet/jet.h"
+
+#include <math.h>
+
+#define LANES for (int l = 0; l < lanes; l++)
+#define INLINE static inline __attribute__((always_inline))
+
+// ---------------------------------------------------------------------------------------------- first phase
+// s = sum_{j=1..k-1} a_j b_{k-j}
+INLINE void product_sum(double* restrict s, const double* a, const double* b, int k, int lanes) {
+  double sum[8] = {0};
+  for (int j = 1; j < k; j++) LANES sum[l] += a[j * lanes + l] * b[(k - j) * lanes + l];
+  LANES s[l] = sum[l];
+}
+
+// the same for a = b: pairs are added once and doubled
+INLINE void square_sum(double* restrict s, const double* a, int k, int lanes) {
+  double sum[8] = {0};
+  for (int j = 1; 2 * j < k; j++) LANES sum[l] += a[j * lanes + l] * a[(k - j) * lanes + l];
+  LANES sum[l] += sum[l];
+  if (k % 2 == 0) LANES sum[l] += a[k / 2 * lanes + l] * a[k / 2 * lanes + l];
+  LANES s[l] = sum[l];
+}
+
+// s = sum_{j=1..k-1} j a_j b_{k-j} / k
+INLINE void derivative_sum(double* restrict s, const double* a, const double* b, int k, int lanes) {
+  double sum[8] = {0};
+  for (int j = 1; j < k; j++) LANES sum[l] += (double)j * a[j * lanes + l] * b[(k - j) * lanes + l];
+  LANES s[l] = sum[l] / (double)k;
+}
+
+INLINE void power_sum(double* restrict s, const double* a, const double* c, const double* r, int k, int lanes) {
+  double sum[8] = {0};
+  for (int j = 1; j < k; j++) LANES sum[l] += (r[l] * (double)j - (double)(k - j)) * a[j * lanes + l] * c[(k - j) * lanes + l];
+  LANES s[l] = sum[l] / (double)k;
+}
+
+INLINE void angle_sum(double* restrict s, const double* a, const double* b, const double* c, const double* w, int k,
+                      int lanes) {
+  double sum[8] = {0};
+  for (int j = 1; j < k; j++)
+    LANES sum[l] += (double)j * (a[j * lanes + l] * b[(k - j) * lanes + l] - b[j * lanes + l] * a[(k - j) * lanes + l] -
+                                 c[j * lanes + l] * w[(k - j) * lanes + l]);
+  LANES s[l] = sum[l] / (double)k;
+}
+
+INLINE void known_part(pl_jet* jet, int i, int k, int lanes) {
+  const pl_tape_node* node = &jet->tape->nodes[i];
+  double* c = pl_jet_at(jet, i, 0);
+  const double* a = pl_jet_at(jet, node->a, 0);
+  const double* b = node->b >= 0 ? pl_jet_at(jet, node->b, 0) : a;
+  const double* w = node->c >= 0 ? pl_jet_at(jet, node->c, 0) : a;
+  double* s = c + k * lanes;
+  switch (node->op) {
+    case PL_OP_MUL: product_sum(s, a, b, k, lanes); break;
+    case PL_OP_SQR: square_sum(s, a, k, lanes); break;
+    case PL_OP_DIV: product_sum(s, b, c, k, lanes); break;
+    case PL_OP_SQRT: square_sum(s, c, k, lanes); break;
+    case PL_OP_POW: power_sum(s, a, c, b, k, lanes); break;
+    case PL_OP_EXP: derivative_sum(s, a, c, k, lanes); break;
+    case PL_OP_LN: derivative_sum(s, c, a, k, lanes); break;
+    case PL_OP_SIN:
+    case PL_OP_COS:
+    case PL_OP_SINH:
+    case PL_OP_COSH:
+    case PL_OP_TAN:
+    case PL_OP_TANH: derivative_sum(s, a, w, k, lanes); break;
+    case PL_OP_ASIN:
+    case PL_OP_ACOS:
+    case PL_OP_ATAN: derivative_sum(s, c, w, k, lanes); break;
+    case PL_OP_ATAN2: angle_sum(s, a, b, c, w, k, lanes); break;
+    default: break;
+  }
+}
+
+// ---------------------------------------------------------------------------------------------- second phase
+// Order 0: the functions themselves.
+INLINE void value(pl_jet* jet, int i, int lanes) {
+  const pl_tape_node* node = &jet->tape->nodes[i];
+  double* c = pl_jet_at(jet, i, 0);
+  const double* a = node->a >= 0 ? pl_jet_at(jet, node->a, 0) : c;
+  const double* b = node->b >= 0 ? pl_jet_at(jet, node->b, 0) : a;
+  switch (node->op) {
+    case PL_OP_ADD: LANES c[l] = a[l] + b[l]; break;
+    case PL_OP_SUB: LANES c[l] = a[l] - b[l]; break;
+    case PL_OP_NEG: LANES c[l] = -a[l]; break;
+    case PL_OP_SCALE:
+    case PL_OP_MUL: LANES c[l] = a[l] * b[l]; break;
+    case PL_OP_RSCALE:
+    case PL_OP_DIV: LANES c[l] = a[l] / b[l]; break;
+    case PL_OP_ABS: LANES c[l] = fabs(a[l]); break;
+    case PL_OP_SIGN: LANES c[l] = a[l] > 0 ? 1 : a[l] < 0 ? -1 : a[l]; break;   // zero and NaN stay
+    case PL_OP_MIN: LANES c[l] = a[l] <= b[l] ? a[l] : b[l]; break;
+    case PL_OP_MAX: LANES c[l] = a[l] >= b[l] ? a[l] : b[l]; break;
+    case PL_OP_IF: {
+      const double* other = pl_jet_at(jet, node->c, 0);
+      LANES c[l] = a[l] > 0 ? b[l] : other[l];
+      break;
+    }
+    case PL_OP_SQR: LANES c[l] = a[l] * a[l]; break;
+    case PL_OP_SQRT: LANES c[l] = sqrt(a[l]); break;
+    case PL_OP_POW: LANES c[l] = pow(a[l], b[l]); break;
+    case PL_OP_EXP: LANES c[l] = exp(a[l]); break;
+    case PL_OP_LN: LANES c[l] = log(a[l]); break;
+    case PL_OP_SIN: LANES c[l] = sin(a[l]); break;
+    case PL_OP_COS: LANES c[l] = cos(a[l]); break;
+    case PL_OP_SINH: LANES c[l] = sinh(a[l]); break;
+    case PL_OP_COSH: LANES c[l] = cosh(a[l]); break;
+    case PL_OP_TAN: LANES c[l] = tan(a[l]); break;
+    case PL_OP_TANH: LANES c[l] = tanh(a[l]); break;
+    case PL_OP_ASIN: LANES c[l] = asin(a[l]); break;
+    case PL_OP_ACOS: LANES c[l] = acos(a[l]); break;
+    case PL_OP_ATAN: LANES c[l] = atan(a[l]); break;
+    case PL_OP_ATAN2: LANES c[l] = atan2(a[l], b[l]); break;
+    default: break;   // inputs are there
+  }
+}
+
+// Order k >= 1; c holds S for series operations.
+INLINE void coefficient(pl_jet* jet, int i, int k, int lanes) {
+  const pl_tape_node* node = &jet->tape->nodes[i];
+  double* c0 = pl_jet_at(jet, i, 0);
+  double* c = c0 + k * lanes;
+  const double* a0 = node->a >= 0 ? pl_jet_at(jet, node->a, 0) : c0;
+  const double* b0 = node->b >= 0 ? pl_jet_at(jet, node->b, 0) : a0;
+  const double* w0 = node->c >= 0 ? pl_jet_at(jet, node->c, 0) : a0;
+  // constants have order 0 only
+  static const double zero[8] = {0};
+  int n_const = jet->tape->level_end[PL_LEVEL_CONST];
+  const double* a = node->a >= n_const ? a0 + k * lanes : zero;
+  const double* b = node->b >= n_const ? b0 + k * lanes : zero;
+  const double* w = node->c >= n_const ? w0 + k * lanes : zero;
+  switch (node->op) {
+    case PL_OP_ADD: LANES c[l] = a[l] + b[l]; break;
+    case PL_OP_SUB: LANES c[l] = a[l] - b[l]; break;
+    case PL_OP_NEG: LANES c[l] = -a[l]; break;
+    case PL_OP_SCALE: LANES c[l] = a[l] * b0[l]; break;
+    case PL_OP_RSCALE: LANES c[l] = a[l] / b0[l]; break;
+    case PL_OP_ABS: LANES c[l] = a0[l] < 0 ? -a[l] : a[l]; break;
+    case PL_OP_SIGN: LANES c[l] = 0; break;
+    case PL_OP_MIN: LANES c[l] = a0[l] <= b0[l] ? a[l] : b[l]; break;
+    case PL_OP_MAX: LANES c[l] = a0[l] >= b0[l] ? a[l] : b[l]; break;
+    case PL_OP_IF: LANES c[l] = a0[l] > 0 ? b[l] : w[l]; break;
+    case PL_OP_MUL: LANES c[l] += a0[l] * b[l] + a[l] * b0[l]; break;
+    case PL_OP_SQR: LANES c[l] += 2 * a0[l] * a[l]; break;
+    case PL_OP_DIV: LANES c[l] = (a[l] - b[l] * c0[l] - c[l]) / b0[l]; break;
+    case PL_OP_SQRT: LANES c[l] = (a[l] - c[l]) / (2 * c0[l]); break;
+    case PL_OP_POW: LANES c[l] = (c[l] + b0[l] * a[l] * c0[l]) / a0[l]; break;
+    case PL_OP_EXP: LANES c[l] += a[l] * c0[l]; break;
+    case PL_OP_LN: LANES c[l] = (a[l] - c[l]) / a0[l]; break;
+    case PL_OP_SIN:
+    case PL_OP_SINH:
+    case PL_OP_COSH: LANES c[l] += a[l] * w0[l]; break;
+    case PL_OP_COS: LANES c[l] = -(c[l] + a[l] * w0[l]); break;
+    case PL_OP_TAN: LANES c[l] += a[l] * (1 + w0[l]); break;
+    case PL_OP_TANH: LANES c[l] = a[l] * (1 - w0[l]) - c[l]; break;
+    case PL_OP_ASIN:
+    case PL_OP_ATAN: LANES c[l] = (a[l] - c[l]) / w0[l]; break;
+    case PL_OP_ACOS: LANES c[l] = (-a[l] - c[l]) / w0[l]; break;
+    case PL_OP_ATAN2: LANES c[l] = (c[l] + a[l] * b0[l] - b[l] * a0[l]) / w0[l]; break;
+    default: break;
+  }
+}
+
+// ---------------------------------------------------------------------------------------------- sweep
+INLINE void sweep(pl_jet* jet, pl_level level, int k, bool all, int lanes) {
+  const pl_tape_node* nodes = jet->tape->nodes;
+  int from = level == PL_LEVEL_CONST ? 0 : jet->tape->level_end[level - 1], to = jet->tape->level_end[level];
+  if (k == 0) {
+    for (int i = from; i < to; i++) value(jet, i, lanes);
+    return;
+  }
+  int n = all ? jet->n_series[level] : jet->n_series_high[level];
+  for (int i = 0; i < n; i++) known_part(jet, jet->series[level][i], k, lanes);
+  for (int i = from; i < to; i++)
+    if (all || nodes[i].high) coefficient(jet, i, k, lanes);
+}
+
+void pl_jet_interpret(pl_jet* jet, pl_level level, int k, bool all) {
+  if (jet->lanes == 1) sweep(jet, level, k, all, 1);
+  else sweep(jet, level, k, all, 8);
+}

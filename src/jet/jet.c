@@ -1,0 +1,59 @@
+// Room for the series of a tape, and the things that happen once: constants, time.
+#include "jet/jet.h"
+
+static int count_series(const pl_tape* tape, int from, int to, bool high) {
+  int n = 0;
+  for (int i = from; i < to; i++) n += pl_op_series[tape->nodes[i].op] && (!high || tape->nodes[i].high);
+  return n;
+}
+
+// Series nodes of a level, those that the motion needs above order 0 first.
+static void list_series(pl_jet* j, pl_arena* a, int level) {
+  const pl_tape* tape = j->tape;
+  int from = level == 0 ? 0 : tape->level_end[level - 1], to = tape->level_end[level], n = 0;
+  int* list = PL_ARRAY(a, int, count_series(tape, from, to, false) + 1);
+  for (int pass = 0; pass < 2; pass++) {
+    for (int i = from; i < to; i++)
+      if (pl_op_series[tape->nodes[i].op] && tape->nodes[i].high == (pass == 0)) list[n++] = i;
+    if (pass == 0) j->n_series_high[level] = n;
+  }
+  j->series[level] = list;
+  j->n_series[level] = n;
+}
+
+pl_jet* pl_jet_make(pl_arena* a, const pl_tape* tape, int lanes, int orders) {
+  pl_jet* j = PL_NEW(a, pl_jet);
+  j->tape = tape;
+  j->lanes = lanes;
+  j->orders = orders;
+  j->c = PL_ARRAY(a, double, (size_t)lanes * (size_t)orders * (size_t)tape->n_nodes + 1);
+  j->kernel = pl_jet_interpret;
+  for (int level = 0; level < PL_N_LEVELS; level++) list_series(j, a, level);
+  return j;
+}
+
+static void fill(double* x, double value, int lanes) {
+  for (int l = 0; l < lanes; l++) x[l] = value;
+}
+
+void pl_jet_constants(pl_jet* j, const double* index) {
+  const pl_tape* tape = j->tape;
+  for (int i = 0; i < tape->level_end[PL_LEVEL_CONST]; i++) {
+    const pl_tape_node* node = &tape->nodes[i];
+    double* x = pl_jet_at(j, i, 0);
+    if (node->op == PL_OP_CONST) fill(x, node->value, j->lanes);
+    else if (node->op == PL_OP_PARAM) fill(x, tape->param_value[node->slot], j->lanes);
+    else if (node->op == PL_OP_INDEX)
+      for (int l = 0; l < j->lanes; l++) x[l] = index[node->slot * j->lanes + l];
+  }
+  j->kernel(j, PL_LEVEL_CONST, 0, true);
+}
+
+void pl_jet_time(pl_jet* j, double t) {
+  const pl_tape* tape = j->tape;
+  for (int i = tape->level_end[PL_LEVEL_CONST]; i < tape->level_end[PL_LEVEL_PLACE]; i++) {
+    if (tape->nodes[i].op != PL_OP_TIME) continue;
+    fill(pl_jet_at(j, i, 0), t, j->lanes);
+    for (int k = 1; k < j->orders; k++) fill(pl_jet_at(j, i, k), k == 1 ? 1 : 0, j->lanes);
+  }
+}
