@@ -18,11 +18,6 @@ const cli_flag flags_sim[] = {
   CLI_FLAG_END,
 };
 
-static int write_rows(void* user, const char* bytes, size_t n) {
-  FILE* to = user;
-  return fwrite(bytes, 1, n, to) == n ? 0 : 1;
-}
-
 // A time or number given as text.
 static int quantity(pleuel* ctx, const char* flag, const char* text, int* has, double* value) {
   if (!text) return EXIT_DONE;
@@ -40,16 +35,6 @@ static int unsupported_output(const char* path) {
     return cli_error(EXIT_USAGE, "this version writes CSV, not %s: choose a name that ends in .csv", dot);
   }
   return EXIT_DONE;
-}
-
-// Runs with the rows going to `rows` (NULL: nowhere), then tells about it.
-static int run(pleuel* ctx, const cli_options* o, pleuel_model* m, pleuel_sim_options* how, FILE* rows, pleuel_status* s) {
-  how->write = rows ? write_rows : NULL;
-  how->user = rows;
-  how->progress = cli_progress;
-  *s = pleuel_simulate(m, NULL, how);
-  cli_progress_clear();
-  return cli_exit_code(*s);
 }
 
 static void tell(pleuel* ctx, const cli_options* o, pleuel_model* m, pleuel_status s, bool stdout_taken) {
@@ -91,8 +76,11 @@ int verb_sim(pleuel* ctx, const cli_options* o) {
   bool to_file = o->output && !to_stdout;
   code = to_file ? cli_file_open(&file, o->output, o->force) : EXIT_DONE;
   if (code == EXIT_DONE) {
-    pleuel_status s = PLEUEL_OK;
-    code = run(ctx, o, m, &how, to_file ? file.to : to_stdout ? stdout : NULL, &s);
+    how.csv = to_file ? file.to : to_stdout ? stdout : NULL;
+    how.progress = cli_progress;
+    pleuel_status s = pleuel_simulate(m, NULL, &how);
+    cli_progress_clear();
+    code = cli_exit_code(s);
     bool has_rows = s == PLEUEL_OK || s == PLEUEL_INTERRUPTED || s == PLEUEL_NUMERICAL || s == PLEUEL_SINGULAR || s == PLEUEL_EXPECT_FAILED;
     if (to_file && has_rows && ftell(file.to) > 0) {
       int closed = cli_file_close(&file);

@@ -21,6 +21,7 @@
 #define PLEUEL_H
 
 #include <stddef.h>
+#include <stdio.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -198,8 +199,7 @@ typedef struct pleuel_sim_options {
    * with PLEUEL_INTERRUPTED.  mode names the contacts: "contact(h)", "free", "" when nothing is one-sided. */
   int (*columns)(void *user, size_t n, const char *const *names, const char *const *units);
   int (*row)(void *user, size_t n, const double *values, const char *mode);
-  /* write receives the same as CSV, in pieces. */
-  int (*write)(void *user, const char *bytes, size_t n);
+  FILE *csv;                        /* the same rows as CSV; opened and closed by the caller                       */
   void (*progress)(void *user, const pleuel_progress *where);
   void *user;
 } pleuel_sim_options;

@@ -1,0 +1,82 @@
+// api, inside: the context, the model with all that was found out about it, and the steps between.
+#ifndef PL_API_IMPL_H
+#define PL_API_IMPL_H
+
+#include "api/embedded.h"
+#include "derive/derive.h"
+#include "lang/lang.h"
+#include "model/model.h"
+#include "report/report.h"
+#include "result/result.h"
+#include "solve/solve.h"
+
+struct pleuel {
+  pl_arena* arena;                // the context itself and the texts that belong to it
+  const pleuel_allocator* alloc;  // a copy in the arena; NULL: malloc and free
+  char message[512];
+  pl_language lang;
+  size_t limit;                   // bytes a model may take; 0: none
+  volatile int interrupted;
+  pleuel_model* first;            // models that are open
+};
+
+// What the simulation needs, translated from the model (record.c).
+typedef struct pl_recording {
+  pl_setup setup;
+  double t_0, t_end, tol, dt;     // of `simulate`; NaN t_end without it, 0 tol and dt without them
+  long count;
+  pl_flat_coords flat;            // coordinate of each index of the setup
+  int n_declared;                 // constraints before the map equations
+  int n_hidden;                   // chosen coordinates that only stand in maps
+} pl_recording;
+
+enum { PL_STAGE_CHECK, PL_STAGE_DERIVE, PL_STAGE_RECORD, PL_STAGE_RUN, PL_N_STAGES };
+
+struct pleuel_model {
+  pleuel* ctx;
+  pleuel_model *before, *next;    // list of the context
+  pl_arena* arena;
+  pl_job job;
+  pl_diagnostics diagnostics;
+  const char* name;
+  const pl_source* source;
+  const pl_include_reader* reader;
+  const pl_setting* settings;
+  int n_settings;
+  bool broken;                    // memory ran out once: nothing but freeing is left
+
+  // the value at each arrow of the pipeline, and how it was reached
+  pl_model* model;
+  pleuel_status parsed, checked, derived, recorded, run;
+  bool is_checked, is_derived, is_recorded, is_run;
+  pl_solution* solution;
+  const char* solved_only;        // letters it was derived for
+  pl_recording* recording;
+  pl_result* result;
+  pl_start_report start;
+  bool tol_raised;
+  double tol_used;
+  char run_message[512];
+  double stage_ms[PL_N_STAGES];
+};
+
+// ---- pipeline.c: every arrow
+pleuel_status pl_pipeline_parse(pleuel_model* m);
+pleuel_status pl_pipeline_check(pleuel_model* m);
+pleuel_status pl_pipeline_derive(pleuel_model* m, const char* only, double seconds);
+pleuel_status pl_pipeline_record(pleuel_model* m);
+pleuel_status pl_pipeline_start(pleuel_model* m, const pleuel_sim_options* o, pl_run** out);
+pleuel_status pl_pipeline_run(pleuel_model* m, const pleuel_sim_options* o);
+
+// ---- record.c: model -> setup of the simulation
+pleuel_status pl_record(pl_job* job, pl_model* model, pl_recording** out);
+void pl_record_dump(pl_text* out, const pl_model* model, const pl_recording* r);
+
+// ---- motion.c: words and JSON about a run
+void pl_motion_text(pl_text* out, const pleuel_model* m, pl_language lang, bool colour, bool events_only);
+void pl_motion_json(pl_text* out, const pleuel_model* m, int depth);
+
+// ---- summary.c: what `check` says
+void pl_check_summary(pl_text* out, const pleuel_model* m, pl_language lang);
+
+#endif

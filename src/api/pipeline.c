@@ -1,0 +1,175 @@
+// pipeline: every arrow of the program on one page.
+//
+//     text -> lang -> model -> derive -> (a) notation -> report            worked solution, JSON
+//                                     -> (b) tape -> jet -> solve -> result -> report     motion
+//
+// Each step is taken once and remembered in the pleuel_model; asking for a later one takes those before it.
+#include "api/api_impl.h"
+
+#include <math.h>
+#include <string.h>
+
+static void note_time(pleuel_model* m, int stage, double start_s) { m->stage_ms[stage] += 1e3 * (pl_clock() - start_s); }
+
+// text -> model
+pleuel_status pl_pipeline_parse(pleuel_model* m) {
+  m->parsed = pl_lang_parse(&m->job, m->source, m->reader, m->settings, m->n_settings, &m->model);
+  if (m->model && m->model->lang_given) m->job.lang = m->model->lang;
+  pl_diagnostics_sort(&m->diagnostics);
+  return m->parsed;
+}
+
+// model -> checked model
+pleuel_status pl_pipeline_check(pleuel_model* m) {
+  if (m->is_checked) return m->checked;
+  m->is_checked = true;
+  m->checked = m->parsed;
+  if (m->parsed != PLEUEL_OK || !m->model) return m->checked;
+  double start = pl_clock();
+  m->checked = pl_model_check(&m->job, m->model);
+  if (m->checked == PLEUEL_OK && m->diagnostics.n_errors > 0) m->checked = PLEUEL_MODEL_ERROR;
+  pl_diagnostics_sort(&m->diagnostics);
+  note_time(m, PL_STAGE_CHECK, start);
+  return m->checked;
+}
+
+// checked model -> equations and steps
+pleuel_status pl_pipeline_derive(pleuel_model* m, const char* only, double seconds) {
+  PL_TRY(pl_pipeline_check(m));
+  bool same = m->is_derived && (m->solved_only == only || (only && m->solved_only && strcmp(only, m->solved_only) == 0));
+  if (same) return m->derived;
+  double start = pl_clock();
+  pl_solution_close(m->solution);
+  m->solution = NULL;
+  m->solved_only = only ? pl_copy(m->arena, only) : NULL;
+  pl_derive_options how = {.only = m->solved_only, .seconds = seconds};
+  m->is_derived = true;
+  m->derived = pl_derive(&m->job, m->model, &how, &m->solution);
+  pl_diagnostics_sort(&m->diagnostics);
+  note_time(m, PL_STAGE_DERIVE, start);
+  return m->derived;
+}
+
+// checked model -> setup of the motion: patterns, start values, events
+pleuel_status pl_pipeline_record(pleuel_model* m) {
+  PL_TRY(pl_pipeline_check(m));
+  if (m->is_recorded) return m->recorded;
+  double start = pl_clock();
+  m->is_recorded = true;
+  m->recorded = pl_record(&m->job, m->model, &m->recording);
+  note_time(m, PL_STAGE_RECORD, start);
+  return m->recorded;
+}
+
+// ---------------------------------------------------------------------------------------------- motion
+// Hands the rows on to the functions of the caller.
+typedef struct pl_relay {
+  const pleuel_sim_options* options;
+  pleuel_model* model;
+  double* values;      // (n_columns)
+  int n_columns, n_q, n_c, n_out;
+} pl_relay;
+
+static pleuel_status relay_row(void* user, const pl_row* row) {
+  pl_relay* r = user;
+  const pl_setup* s = &r->model->recording->setup;
+  int n = 0;
+  r->values[n++] = row->t;
+  for (int i = 0; i < s->n_q; i++) {
+    if (!s->coordinates[i].hidden) r->values[n++] = row->q[i];
+  }
+  for (int i = 0; i < s->n_q; i++) {
+    if (!s->coordinates[i].hidden) r->values[n++] = row->v[i];
+  }
+  for (int i = 0; i < s->n_c; i++) {
+    if (s->links[i].column) r->values[n++] = row->lambda[i];
+  }
+  for (int i = 0; i < s->n_out; i++) r->values[n++] = row->out[i];
+  return r->options->row(r->options->user, (size_t)n, r->values, row->mode) ? PLEUEL_INTERRUPTED : PLEUEL_OK;
+}
+
+static pleuel_status relay_columns(void* user, const pl_setup* setup) {
+  pl_relay* r = user;
+  const pl_result* result = r->model->result;
+  if (!r->options->columns) return PLEUEL_OK;
+  const char** names = PL_ARRAY(r->model->arena, const char*, result->n_columns);
+  const char** units = PL_ARRAY(r->model->arena, const char*, result->n_columns);
+  for (int i = 0; i < result->n_columns; i++) {
+    names[i] = result->columns[i].name;
+    units[i] = result->columns[i].unit ? result->columns[i].unit : "";
+  }
+  int stop = r->options->columns(r->options->user, (size_t)result->n_columns, names, units);
+  return stop ? PLEUEL_INTERRUPTED : PLEUEL_OK;
+}
+
+typedef struct pl_watcher { const pleuel_sim_options* options; double t_0; } pl_watcher;
+static void watch(void* user, double t, double t_end, double h, const pl_stats* stats) {
+  pl_watcher* w = user;
+  pleuel_progress p = {t, w->t_0, t_end, h, stats->energy_drift, stats->steps};
+  w->options->progress(w->options->user, &p);
+}
+
+// setup -> run with a consistent start.  Without sink: to look at the start only.
+pleuel_status pl_pipeline_start(pleuel_model* m, const pleuel_sim_options* o, pl_run** out) {
+  PL_TRY(pl_pipeline_record(m));
+  const pl_recording* r = m->recording;
+  pl_run_options how = {.t_0 = r->t_0, .t_end = r->t_end, .tol = r->tol, .dt = r->dt, .count = r->count};
+  if (o->has_until) how.t_end = o->until;
+  if (o->has_tol) how.tol = o->tol;
+  if (o->has_dt) how.dt = o->dt, how.count = 0;
+  if (isnan(how.t_end)) how.t_end = how.t_0;
+  if (m->result) {
+    how.sink = pl_result_sink(m->result);
+    if (o->csv) m->result->next = pl_csv_sink(m->arena, o->csv);
+    else if (o->row) {
+      pl_relay* relay = PL_NEW(m->arena, pl_relay);
+      *relay = (pl_relay){.options = o, .model = m, .values = PL_ARRAY(m->arena, double, 1 + 2 * r->setup.n_q + r->setup.n_c + r->setup.n_out)};
+      m->result->next = (pl_sink){.user = relay, .begin = relay_columns, .row = relay_row};
+    }
+  }
+  if (o->progress) {
+    pl_watcher* w = PL_NEW(m->arena, pl_watcher);
+    *w = (pl_watcher){o, how.t_0};
+    how.progress = watch;
+    how.progress_user = w;
+  }
+  PL_TRY(pl_run_make(&m->job, &r->setup, &how, out));
+  pleuel_status s = pl_run_start(*out);
+  m->start = *pl_run_start_report(*out);
+  m->tol_raised = pl_run_tol_raised(*out);
+  m->tol_used = pl_run_tol(*out);
+  return s;
+}
+
+static pleuel_status check_times(pleuel_model* m, const pleuel_sim_options* o) {
+  const pl_recording* r = m->recording;
+  if (!o->has_until && isnan(r->t_end)) {
+    return pl_fail(&m->job, PLEUEL_USAGE, "how long? The file has no `simulate` line; give --until, for example --until 10");
+  }
+  if (o->has_until && !isfinite(o->until)) return pl_fail(&m->job, PLEUEL_USAGE, "the end of the run is no number");
+  if (o->has_tol && !(o->tol > 0 && o->tol < 1)) return pl_fail(&m->job, PLEUEL_USAGE, "tol must lie between 0 and 1");
+  if (o->has_dt && !(o->dt > 0)) return pl_fail(&m->job, PLEUEL_USAGE, "dt must be positive");
+  return PLEUEL_OK;
+}
+
+// setup -> motion
+pleuel_status pl_pipeline_run(pleuel_model* m, const pleuel_sim_options* o) {
+  m->is_run = true;
+  m->result = NULL;
+  m->run_message[0] = '\0';
+  m->run = pl_pipeline_record(m);
+  if (m->run == PLEUEL_OK) m->run = check_times(m, o);
+  if (m->run != PLEUEL_OK) {
+    snprintf(m->run_message, sizeof m->run_message, "%s", m->job.message);
+    return m->run;
+  }
+  double start = pl_clock();
+  m->result = pl_result_make(m->arena, false);
+  pl_run* run = NULL;
+  m->run = pl_pipeline_start(m, o, &run);
+  if (m->run == PLEUEL_OK) m->run = pl_run_to_end(run);
+  if (run) pl_run_free(run);
+  if (m->run != PLEUEL_OK) snprintf(m->run_message, sizeof m->run_message, "%s", m->job.message);
+  note_time(m, PL_STAGE_RUN, start);
+  return m->run;
+}

@@ -1,0 +1,576 @@
+// pleuel: the public functions.  Each enters through a guard, so that memory that runs out becomes a status, does one
+// step of the pipeline, and hands out a text or a status.
+#include "pleuel.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "api/api_impl.h"
+
+const char* pleuel_version(void) { return PLEUEL_VERSION; }
+
+// ---------------------------------------------------------------------------------------------- context
+pleuel* pleuel_open(const pleuel_allocator* alloc) {
+  pl_arena* arena = pl_arena_make(alloc);
+  if (!arena) return NULL;
+  pleuel* volatile ctx = NULL;
+  pl_guard guard;
+  PL_GUARD(arena, guard) {
+    pleuel* c = PL_NEW(arena, pleuel);
+    c->arena = arena;
+    if (alloc) {
+      pleuel_allocator* copy = PL_NEW(arena, pleuel_allocator);
+      *copy = *alloc;
+      c->alloc = copy;
+    }
+    ctx = c;
+  }
+  pl_guard_end(arena, &guard);
+  if (!ctx) pl_arena_free(arena);
+  return ctx;
+}
+
+void pleuel_close(pleuel* ctx) {
+  if (!ctx) return;
+  while (ctx->first) pleuel_model_free(ctx->first);
+  pl_arena_free(ctx->arena);
+}
+
+const char* pleuel_message(const pleuel* ctx) { return ctx ? ctx->message : ""; }
+
+static pl_language language_of(const char* name, pl_language otherwise) {
+  if (!name || !*name) return otherwise;
+  return strncmp(name, "de", 2) == 0 ? PL_GERMAN : PL_ENGLISH;
+}
+
+static pleuel_status fail(pleuel* ctx, pleuel_status s, const char* sentence) {
+  snprintf(ctx->message, sizeof ctx->message, "%s", sentence);
+  return s;
+}
+
+pleuel_status pleuel_set_language(pleuel* ctx, const char* lang) {
+  if (!ctx) return PLEUEL_USAGE;
+  ctx->message[0] = '\0';
+  if (!lang || (strncmp(lang, "en", 2) != 0 && strncmp(lang, "de", 2) != 0)) {
+    return fail(ctx, PLEUEL_USAGE, "languages are en and de");
+  }
+  ctx->lang = language_of(lang, PL_ENGLISH);
+  return PLEUEL_OK;
+}
+
+void pleuel_set_memory_limit(pleuel* ctx, size_t bytes) {
+  if (ctx) ctx->limit = bytes;
+}
+
+void pleuel_interrupt(pleuel* ctx) {
+  if (ctx) ctx->interrupted = 1;
+}
+
+void pleuel_interrupt_clear(pleuel* ctx) {
+  if (ctx) ctx->interrupted = 0;
+}
+
+// ---------------------------------------------------------------------------------------------- guarded calls
+// Options of an older caller are shorter: what it does not know keeps its default.
+static void copy_options(void* to, size_t size, const void* from) {
+  memset(to, 0, size);
+  if (!from) return;
+  size_t given;
+  memcpy(&given, from, sizeof given);
+  memcpy(to, from, given < size ? given : size);
+}
+
+typedef pleuel_status pl_work(pleuel_model* m, void* argument);
+
+// Runs work under a guard.  Status and sentence of the job become those of the context.
+static pleuel_status guarded(pleuel_model* m, pl_work* work, void* argument) {
+  pleuel* ctx = m->ctx;
+  ctx->message[0] = '\0';
+  if (m->broken) return fail(ctx, PLEUEL_NO_MEMORY, "memory ran out earlier; free this model");
+  m->job.message[0] = '\0';
+  m->job.status = PLEUEL_OK;
+  volatile pleuel_status status = PLEUEL_NO_MEMORY;
+  pl_guard guard;
+  PL_GUARD(m->arena, guard) {
+    status = work(m, argument);
+  } else {
+    status = guard.status;
+    m->broken = true;
+  }
+  pl_guard_end(m->arena, &guard);
+  if (m->broken && status == PLEUEL_NO_MEMORY) {
+    fail(ctx, PLEUEL_NO_MEMORY, ctx->limit ? "this takes more memory than the limit allows" : "memory ran out");
+  } else if (m->job.message[0]) {
+    fail(ctx, status, m->job.message);
+  }
+  return status;
+}
+
+// ---------------------------------------------------------------------------------------------- loading
+typedef struct pl_load { const char* text; size_t size; const pleuel_load_options* options; bool is_file; } pl_load;
+
+// Includes of the caller.
+static const pl_source* read_by_caller(void* user, pl_arena* a, const char* path, const pl_source* from) {
+  const pleuel_load_options* o = user;
+  const char* text = o->read(o->read_user, path, from ? from->name : "");
+  return text ? pl_source_make(a, pl_copy(a, path), pl_copy(a, text), strlen(text)) : NULL;
+}
+
+enum { MAX_FILE_BYTES = 64 << 20 };   // a model is kilobytes; this keeps a mistyped name from filling the memory
+
+// The whole of a file, NUL-terminated; NULL with errno set when it cannot be read.
+static char* read_file(pl_arena* a, const char* path, size_t* size) {
+  FILE* f = fopen(path, "rb");
+  if (!f) return NULL;
+  pl_text text = pl_text_make(a);
+  char piece[1 << 14];
+  size_t n;
+  bool fits = true;
+  while (fits && (n = fread(piece, 1, sizeof piece, f)) > 0) {
+    pl_text_add_n(&text, piece, n);
+    fits = text.n <= MAX_FILE_BYTES;
+  }
+  int why = fits ? errno : EFBIG;
+  bool bad = ferror(f) || !fits;
+  fclose(f);
+  errno = why;
+  if (bad) return NULL;
+  *size = text.n;
+  return text.at ? text.at : pl_copy(a, "");
+}
+
+// Includes of a file: what lies beside it.
+static const pl_source* read_beside(void* user, pl_arena* a, const char* path, const pl_source* from) {
+  (void)user;
+  const char* slash = from ? strrchr(from->name, '/') : NULL;
+  const char* full = path[0] == '/' || !slash ? path : pl_format(a, "%.*s/%s", (int)(slash - from->name), from->name, path);
+  size_t size = 0;
+  char* text = read_file(a, full, &size);
+  return text ? pl_source_make(a, pl_copy(a, full), text, size) : NULL;
+}
+
+static pleuel_status load(pleuel_model* m, void* argument) {
+  pl_load* l = argument;
+  const pleuel_load_options* o = l->options;
+  if (l->is_file) {
+    size_t size = 0;
+    char* text = read_file(m->arena, l->text, &size);
+    if (!text) return pl_fail(&m->job, PLEUEL_FILE, "%s: %s", l->text, strerror(errno));
+    l->text = text;
+    l->size = size;
+  } else {
+    l->text = pl_copy_n(m->arena, l->text, l->size);
+  }
+  m->source = pl_source_make(m->arena, m->name, l->text, l->size);
+
+  pl_setting* set = PL_ARRAY(m->arena, pl_setting, o->n_settings);
+  for (size_t i = 0; i < o->n_settings; i++) {
+    set[i] = (pl_setting){pl_copy(m->arena, o->settings[i].name), pl_copy(m->arena, o->settings[i].value)};
+  }
+  m->settings = set;
+  m->n_settings = (int)o->n_settings;
+
+  pl_include_reader* reader = PL_NEW(m->arena, pl_include_reader);
+  if (o->read) {
+    pleuel_load_options* keep = PL_NEW(m->arena, pleuel_load_options);
+    *keep = *o;
+    *reader = (pl_include_reader){read_by_caller, keep};
+  } else if (l->is_file) {
+    *reader = (pl_include_reader){read_beside, NULL};
+  }
+  m->reader = reader->read ? reader : NULL;
+  return pl_pipeline_parse(m);
+}
+
+// Makes an empty model; NULL when memory is short.
+static pleuel_model* model_make(pleuel* ctx, const char* name) {
+  pl_arena* arena = pl_arena_make(ctx->alloc);
+  if (!arena) return NULL;
+  if (ctx->limit) pl_arena_limit(arena, ctx->limit);
+  pleuel_model* volatile made = NULL;
+  pl_guard guard;
+  PL_GUARD(arena, guard) {
+    pleuel_model* m = PL_NEW(arena, pleuel_model);
+    m->ctx = ctx;
+    m->arena = arena;
+    m->diagnostics.arena = arena;
+    m->job = (pl_job){.arena = arena, .diagnostics = &m->diagnostics, .interrupted = &ctx->interrupted, .lang = ctx->lang};
+    m->name = pl_copy(arena, name);
+    made = m;
+  }
+  pl_guard_end(arena, &guard);
+  pleuel_model* m = made;
+  if (!m) {
+    pl_arena_free(arena);
+    return NULL;
+  }
+  m->next = ctx->first;
+  if (m->next) m->next->before = m;
+  ctx->first = m;
+  return m;
+}
+
+static pleuel_status load_model(pleuel* ctx, pleuel_model** model, pl_load* l, const char* name) {
+  pleuel_model* m = model_make(ctx, name);
+  if (!m) return fail(ctx, PLEUEL_NO_MEMORY, "memory ran out");
+  pleuel_status s = guarded(m, load, l);
+  if (s == PLEUEL_FILE || m->broken) {
+    char sentence[sizeof ctx->message];
+    memcpy(sentence, ctx->message, sizeof sentence);
+    pleuel_model_free(m);
+    memcpy(ctx->message, sentence, sizeof sentence);
+    return s;
+  }
+  if (s == PLEUEL_MODEL_ERROR && !ctx->message[0]) fail(ctx, s, "the model has errors");
+  *model = m;
+  return s;
+}
+
+pleuel_status pleuel_load_text(pleuel* ctx, pleuel_model** model, const char* text, size_t size, const pleuel_load_options* options) {
+  if (!ctx || !model) return PLEUEL_USAGE;
+  *model = NULL;
+  ctx->message[0] = '\0';
+  if (!text) return fail(ctx, PLEUEL_USAGE, "there is no text");
+  if (size > MAX_FILE_BYTES) return fail(ctx, PLEUEL_FILE, "the text is too long for a model");
+  pleuel_load_options o;
+  copy_options(&o, sizeof o, options);
+  pl_load l = {text, size, &o, false};
+  return load_model(ctx, model, &l, o.name ? o.name : "<text>");
+}
+
+pleuel_status pleuel_load_file(pleuel* ctx, pleuel_model** model, const char* path, const pleuel_load_options* options) {
+  if (!ctx || !model) return PLEUEL_USAGE;
+  *model = NULL;
+  ctx->message[0] = '\0';
+  if (!path) return fail(ctx, PLEUEL_USAGE, "there is no file name");
+  pleuel_load_options o;
+  copy_options(&o, sizeof o, options);
+  pl_load l = {path, 0, &o, true};
+  return load_model(ctx, model, &l, o.name ? o.name : path);
+}
+
+void pleuel_model_free(pleuel_model* m) {
+  if (!m) return;
+  if (m->solution) pl_solution_close(m->solution);
+  if (m->before) m->before->next = m->next;
+  else m->ctx->first = m->next;
+  if (m->next) m->next->before = m->before;
+  pl_arena_free(m->arena);
+}
+
+// ---------------------------------------------------------------------------------------------- messages
+size_t pleuel_diagnostic_count(const pleuel_model* m, pleuel_severity severity) {
+  size_t n = 0;
+  for (int i = 0; m && i < m->diagnostics.list.n; i++) n += (int)pl_code_severity(m->diagnostics.list.at[i].code) == (int)severity;
+  return n;
+}
+
+typedef struct pl_telling { unsigned severities; pl_print_style style; const char* text; } pl_telling;
+
+static pleuel_status tell(pleuel_model* m, void* argument) {
+  pl_telling* t = argument;
+  pl_text out = pl_text_make(m->arena);
+  for (int i = 0; i < m->diagnostics.list.n; i++) {
+    const pl_diagnostic* d = &m->diagnostics.list.at[i];
+    if (t->severities >> pl_code_severity(d->code) & 1) pl_diagnostic_print(&out, d, t->style);
+  }
+  t->text = pl_text_string(&out);
+  return PLEUEL_OK;
+}
+
+const char* pleuel_diagnostics_text(pleuel_model* m, unsigned severities, const pleuel_text_options* options) {
+  if (!m) return NULL;
+  pleuel_text_options o;
+  copy_options(&o, sizeof o, options);
+  pl_telling t = {severities, {language_of(o.lang, m->ctx->lang), o.colour, o.terse}, NULL};
+  char sentence[sizeof m->ctx->message];
+  memcpy(sentence, m->ctx->message, sizeof sentence);      // telling about a failure must not hide its sentence
+  guarded(m, tell, &t);
+  if (!m->broken) memcpy(m->ctx->message, sentence, sizeof sentence);
+  return t.text;
+}
+
+// ---------------------------------------------------------------------------------------------- check
+typedef struct pl_asking {
+  const pleuel_text_options* text;
+  const pleuel_solve_options* solve;
+  const char* answer;
+  const char* word;
+  pleuel_spelling spelling;
+} pl_asking;
+
+// Looks for the start too, where the model has enough numbers for it.
+static pleuel_status check(pleuel_model* m) {
+  PL_TRY(pl_pipeline_check(m));
+  if (!m->model->simulate.given && m->model->inits.n == 0) return PLEUEL_OK;
+  PLEUEL_OPTIONS(pleuel_sim_options, how);
+  pl_run* run = NULL;
+  m->result = NULL;
+  m->run = pl_pipeline_start(m, &how, &run);
+  if (run) {
+    m->result = pl_result_make(m->arena, false);
+    m->result->stats = *pl_run_stats(run);
+    pl_run_free(run);
+  }
+  // that numbers are missing is no fault of the model; that they contradict each other is
+  if (m->run == PLEUEL_CONTRADICTION || m->run == PLEUEL_SINGULAR || m->run == PLEUEL_INTERRUPTED) return m->run;
+  m->job.message[0] = '\0';
+  return PLEUEL_OK;
+}
+
+static pleuel_status check_text(pleuel_model* m, void* argument) {
+  pl_asking* a = argument;
+  pleuel_status s = check(m);
+  pl_text out = pl_text_make(m->arena);
+  if (s == PLEUEL_OK) pl_check_summary(&out, m, language_of(a->text->lang, m->ctx->lang));
+  a->answer = pl_text_string(&out);
+  return s;
+}
+
+static pleuel_status check_json(pleuel_model* m, void* argument) {
+  pl_asking* a = argument;
+  pleuel_status s = check(m);
+  pl_text out = pl_text_make(m->arena);
+  pl_json_input in = {.file = m->name, .model = m->model, .diagnostics = &m->diagnostics, .status = s,
+                      .message = m->job.message, .lang = language_of(a->text->lang, m->job.lang)};
+  pl_worked_json(&out, &in);
+  a->answer = pl_text_string(&out);
+  return s;
+}
+
+static pleuel_status ask_text(pleuel_model* m, const char** text, const pleuel_text_options* options, pl_work* work) {
+  if (text) *text = NULL;
+  if (!m) return PLEUEL_USAGE;
+  pleuel_text_options o;
+  copy_options(&o, sizeof o, options);
+  pl_asking a = {.text = &o};
+  pleuel_status s = guarded(m, work, &a);
+  if (text) *text = a.answer;
+  return s;
+}
+
+pleuel_status pleuel_check(pleuel_model* m, const char** summary, const pleuel_text_options* options) {
+  return ask_text(m, summary, options, check_text);
+}
+
+pleuel_status pleuel_check_json(pleuel_model* m, const char** json, const pleuel_text_options* options) {
+  return ask_text(m, json, options, check_json);
+}
+
+// ---------------------------------------------------------------------------------------------- solve
+// The language of a solution: what was asked for, else the file's, else the context's.
+static pl_language solution_language(const pleuel_model* m, const char* asked) { return language_of(asked, m->job.lang); }
+
+// Simulation that the file asks for; a big family is left to `sim`.
+enum { MAX_COORDINATES_IN_SOLUTION = 60 };
+
+static void simulate_for_solution(pleuel_model* m, const pleuel_solve_options* o) {
+  m->is_run = false;
+  m->result = NULL;
+  if (o->no_simulation || !m->model->simulate.given) return;
+  if (pl_model_flat_coords(m->model, m->arena).n > MAX_COORDINATES_IN_SOLUTION) return;
+  PLEUEL_OPTIONS(pleuel_sim_options, how);
+  char sentence[sizeof m->job.message];
+  memcpy(sentence, m->job.message, sizeof sentence);
+  pl_pipeline_run(m, &how);
+  memcpy(m->job.message, sentence, sizeof sentence);
+}
+
+static bool any_not_found(const pl_solution* s) {
+  for (int i = 0; i < s->sections.n; i++) {
+    if (s->sections.at[i].not_found) return true;
+  }
+  return false;
+}
+
+static bool all_passed(const pl_solution* s) {
+  for (int i = 0; i < s->checks.n; i++) {
+    if (!s->checks.at[i].passed) return false;
+  }
+  return !s->expect_failed;
+}
+
+// The verdict on a solution: what went wrong first counts.
+static pleuel_status verdict(pleuel_model* m, pleuel_status derived) {
+  if (derived != PLEUEL_OK) return derived;
+  if (m->is_run && m->run != PLEUEL_OK && m->run != PLEUEL_UNSUPPORTED && m->run != PLEUEL_USAGE) {
+    pl_fail(&m->job, m->run, "%s", m->run_message);
+    return m->run;
+  }
+  if (m->solution && !all_passed(m->solution)) {
+    return pl_fail(&m->job, PLEUEL_EXPECT_FAILED, "%s", m->solution->expect_failed ? "an `expect` of the model is false"
+                                                                                   : "a check of the solution failed");
+  }
+  if (m->solution && any_not_found(m->solution)) {
+    return pl_fail(&m->job, PLEUEL_NO_CLOSED_FORM, "a closed form that was asked for was not found");
+  }
+  return PLEUEL_OK;
+}
+
+static pl_math math_of(pleuel_math m) {
+  return m == PLEUEL_MATH_2D ? PL_MATH_2D : m == PLEUEL_MATH_ASCII ? PL_MATH_ASCII : PL_MATH_LINE;
+}
+
+static pleuel_status solve_text(pleuel_model* m, void* argument) {
+  pl_asking* a = argument;
+  const pleuel_solve_options* o = a->solve;
+  pleuel_status s = pl_pipeline_derive(m, o->only, o->seconds);
+  if (!m->solution) return s;
+  simulate_for_solution(m, o);
+  pl_worked_style style = {.math = math_of(o->math), .lang = solution_language(m, o->lang), .colour = o->colour,
+                           .full = o->full, .width = o->width, .only = o->only};
+  pl_text out = pl_text_make(m->arena);
+  pl_worked_text(&out, m->solution, &m->diagnostics, &style);
+  if (m->is_run) {
+    pl_text_add(&out, "\n");
+    pl_motion_text(&out, m, style.lang, style.colour, false);
+  }
+  a->answer = pl_text_string(&out);
+  return verdict(m, s);
+}
+
+static pleuel_status solve_json(pleuel_model* m, void* argument) {
+  pl_asking* a = argument;
+  const pleuel_solve_options* o = a->solve;
+  static const char* const stages[] = {"check", "derive", "record", "simulate"};
+  pleuel_status s = pl_pipeline_derive(m, o->only, o->seconds);
+  if (m->solution) simulate_for_solution(m, o);
+  pl_text simulation = pl_text_make(m->arena);
+  if (m->is_run) pl_motion_json(&simulation, m, 1);
+  s = verdict(m, s);
+  pl_json_input in = {.file = m->name, .model = m->model, .solution = m->solution, .diagnostics = &m->diagnostics,
+                      .status = s, .message = m->job.message, .lang = solution_language(m, o->lang), .only = o->only,
+                      .simulation = m->is_run ? pl_text_string(&simulation) : NULL,
+                      .n_timing = o->timing ? PL_N_STAGES : 0, .timing_name = stages, .timing_ms = m->stage_ms};
+  pl_text out = pl_text_make(m->arena);
+  pl_worked_json(&out, &in);
+  a->answer = pl_text_string(&out);
+  return s;
+}
+
+static pleuel_status ask_solution(pleuel_model* m, const char** text, const pleuel_solve_options* options, pl_work* work) {
+  if (text) *text = NULL;
+  if (!m) return PLEUEL_USAGE;
+  pleuel_solve_options o;
+  copy_options(&o, sizeof o, options);
+  if ((unsigned)o.math > PLEUEL_MATH_ASCII || o.width < 0) return fail(m->ctx, PLEUEL_USAGE, "unknown manner of writing formulas");
+  pl_asking a = {.solve = &o};
+  pleuel_status s = guarded(m, work, &a);
+  if (text) *text = a.answer;
+  return s;
+}
+
+pleuel_status pleuel_solve_text(pleuel_model* m, const char** text, const pleuel_solve_options* options) {
+  return ask_solution(m, text, options, solve_text);
+}
+
+pleuel_status pleuel_solve_json(pleuel_model* m, const char** json, const pleuel_solve_options* options) {
+  return ask_solution(m, json, options, solve_json);
+}
+
+// ---------------------------------------------------------------------------------------------- simulate
+static pleuel_status simulate(pleuel_model* m, void* argument) {
+  const pleuel_sim_options* o = argument;
+  pleuel_status s = pl_pipeline_run(m, o);
+  pl_diagnostics_sort(&m->diagnostics);
+  return s;
+}
+
+pleuel_status pleuel_simulate(pleuel_model* m, pleuel_sim_summary* summary, const pleuel_sim_options* options) {
+  if (summary) *summary = (pleuel_sim_summary){.energy_drift = NAN};
+  if (!m) return PLEUEL_USAGE;
+  pleuel_sim_options o;
+  copy_options(&o, sizeof o, options);
+  pleuel_status s = guarded(m, simulate, &o);
+  const pl_result* r = m->broken ? NULL : m->result;
+  if (summary && r) {
+    *summary = (pleuel_sim_summary){
+      .t_end = r->rows.n ? r->rows.at[r->rows.n - 1][0] : NAN, .steps = r->stats.steps, .rejected = r->stats.rejections,
+      .residual_g = r->stats.max_g, .residual_gdot = r->stats.max_gdot, .energy_drift = r->stats.energy_drift,
+      .n_events = (size_t)r->events.n, .n_columns = (size_t)r->n_columns};
+  }
+  return s;
+}
+
+static pleuel_status simulation_text(pleuel_model* m, void* argument) {
+  pl_asking* a = argument;
+  pl_text out = pl_text_make(m->arena);
+  if (m->is_run) pl_motion_text(&out, m, language_of(a->text->lang, m->ctx->lang), a->text->colour, a->text->terse);
+  a->answer = pl_text_string(&out);
+  return PLEUEL_OK;
+}
+
+static pleuel_status simulation_json(pleuel_model* m, void* argument) {
+  pl_asking* a = argument;
+  pl_text out = pl_text_make(m->arena);
+  pl_motion_json(&out, m, 0);
+  pl_text_add(&out, "\n");
+  a->answer = pl_text_string(&out);
+  return PLEUEL_OK;
+}
+
+// Telling about a run keeps the sentence of the run.
+static const char* tell_run(pleuel_model* m, const pleuel_text_options* options, pl_work* work) {
+  if (!m) return NULL;
+  char sentence[sizeof m->ctx->message];
+  memcpy(sentence, m->ctx->message, sizeof sentence);
+  const char* text = NULL;
+  ask_text(m, &text, options, work);
+  if (!m->broken) memcpy(m->ctx->message, sentence, sizeof sentence);
+  return text;
+}
+
+const char* pleuel_simulation_text(pleuel_model* m, const pleuel_text_options* options) {
+  return tell_run(m, options, simulation_text);
+}
+
+const char* pleuel_simulation_json(pleuel_model* m) { return tell_run(m, NULL, simulation_json); }
+
+// ---------------------------------------------------------------------------------------------- format, dump
+static pleuel_status format(pleuel_model* m, void* argument) {
+  pl_asking* a = argument;
+  if (m->parsed != PLEUEL_OK) return m->parsed;
+  static const pl_spelling spelling[] = {PL_SPELL_KEEP, PL_SPELL_UNICODE, PL_SPELL_ASCII};
+  return pl_lang_format(&m->job, m->source, spelling[a->spelling], &a->answer);
+}
+
+pleuel_status pleuel_format(pleuel_model* m, const char** text, pleuel_spelling spelling) {
+  if (text) *text = NULL;
+  if (!m || (unsigned)spelling > PLEUEL_SPELL_ASCII) return PLEUEL_USAGE;
+  pl_asking a = {.spelling = spelling};
+  pleuel_status s = guarded(m, format, &a);
+  if (text && s == PLEUEL_OK) *text = a.answer;
+  return s;
+}
+
+static pleuel_status dump(pleuel_model* m, void* argument) {
+  pl_asking* a = argument;
+  pl_text out = pl_text_make(m->arena);
+  pleuel_status s;
+  if (strcmp(a->word, "check") == 0) {
+    s = pl_pipeline_check(m);
+    if (m->model) pl_model_dump(&out, m->model);
+  } else if (strcmp(a->word, "derive") == 0) {
+    s = pl_pipeline_derive(m, NULL, 0);
+    if (m->solution) pl_derive_dump(&out, m->solution);
+  } else if (strcmp(a->word, "record") == 0) {
+    s = pl_pipeline_record(m);
+    if (s == PLEUEL_OK) pl_record_dump(&out, m->model, m->recording);
+  } else {
+    return pl_fail(&m->job, PLEUEL_USAGE, "there is no arrow `%s`: check, derive, record", a->word);
+  }
+  a->answer = pl_text_string(&out);
+  return s;
+}
+
+pleuel_status pleuel_dump(pleuel_model* m, const char** text, const char* after) {
+  if (text) *text = NULL;
+  if (!m || !after) return PLEUEL_USAGE;
+  pl_asking a = {.word = after};
+  pleuel_status s = guarded(m, dump, &a);
+  if (text) *text = a.answer;
+  return s;
+}
