@@ -14,6 +14,7 @@ typedef struct pl_worked_style {
   bool full;             // --steps full: the detail steps too
   int width;             // cells; formulas and sentences are wrapped to it.  0: nothing is wrapped (output is piped)
   const char* only;      // letters, comma separated: "b,c"; NULL: all
+  const char* motion;    // text about the simulated motion, whole lines, put before the checks; NULL: none
 } pl_worked_style;
 
 // The look of a terminal of 78 cells, in line notation, without colour.

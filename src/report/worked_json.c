@@ -167,7 +167,8 @@ static const char* pl_doc_step(pl_document* d, const pl_step* s, pl_math math) {
 
 static void pl_doc_one_step(pl_document* d, const pl_step* s) {
   static const char* const kind[] = {"text", "equation", "row", "heading", "note"};
-  bool equation = s->kind == PL_STEP_EQUATION && s->formula && !pl_doc_words(d, s->words);
+  const char* words = pl_doc_words(d, s->words);
+  bool equation = s->kind == PL_STEP_EQUATION && s->formula && (!words || !*words);
   pl_json_object(&d->j, NULL);
   pl_json_string(&d->j, "text", equation ? pl_doc_form(d, s->formula, PL_MATH_LINE) : pl_doc_step(d, s, PL_MATH_LINE));
   pl_json_string(&d->j, "tex", equation ? pl_doc_form(d, s->formula, PL_MATH_TEX) : pl_doc_step(d, s, PL_MATH_TEX));
@@ -368,6 +369,7 @@ void pl_worked_json(pl_text* out, const pl_json_input* in) {
   pl_json_string(&d.j, "system", in->model ? in->model->title : NULL);
   pl_doc_coords(&d);
   pl_doc_parameters(&d);
+  if (s && s->model) d.pool = s->model->pool;    // the derivation may have gone on with an expanded copy
   pl_doc_constraints(&d);
   pl_doc_dof(&d);
   pl_doc_answers(&d);

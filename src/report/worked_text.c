@@ -130,11 +130,19 @@ static void pl_put_used(pl_page* g, const pl_solution* s) {
   pl_page_newline(g);
 }
 
+static void pl_put_motion(pl_page* g, const char* motion) {
+  if (!motion || !*motion) return;
+  pl_page_blank(g);
+  pl_text_add(g->out, pl_page_plain(g, motion));
+  g->blank = false;
+}
+
 void pl_worked_text(pl_text* out, const pl_solution* s, const pl_diagnostics* notes, const pl_worked_style* style) {
   pl_page g = pl_page_make(out, s->model ? s->model->pool : NULL, style);
   pl_put_title(&g, s->model);
   pl_worked_sections(&g, s);
   pl_put_notes(&g, s, notes);
+  pl_put_motion(&g, style->motion);
   if (s->checks.n + s->used.n > 0) pl_page_blank(&g);
   pl_put_checks(&g, s);
   pl_put_used(&g, s);
