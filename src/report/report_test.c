@@ -11,7 +11,6 @@
 
 #include <cmocka.h>
 
-#include "report_impl.h"
 
 typedef struct bench {
   pl_arena* a;
