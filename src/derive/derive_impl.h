@@ -161,6 +161,9 @@ void pl_answer_value(pl_analysis* d, const pl_ask* ask);
 void pl_answer_expect(pl_analysis* d, const pl_ask* ask);
 void pl_answer_pending(pl_analysis* d, const pl_ask* ask);
 
+pl_expr pl_second_kind(pl_analysis* d, int i);          // Lagrange II of generalized coordinate i, raw; vanishes on the motion
+pl_expr pl_start_value(pl_analysis* d, pl_symbol s);    // exact zero or expression if `init` says so, else the symbol x(0)
+
 // motion along an energy integral (eliminate.c)
 // The velocity of the single generalized coordinate squared, from the conserved energy and the start of `motion`;
 // false when there is none.  start_q, start_v: the start used.
@@ -168,8 +171,17 @@ bool pl_velocity_squared(pl_analysis* d, const pl_motion* motion, pl_expr* v2, p
 pl_expr pl_conserved_energy(pl_analysis* d);            // E in generalized coordinates if it is conserved, else poison
 // The value of e (in coordinates, velocities, accelerations, multipliers) on the motion, in generalized coordinates.
 pl_expr pl_on_motion(pl_analysis* d, pl_expr e);
-const char* pl_reason_energy(pl_analysis* d, pl_language lang);
-// start note N061
+pl_expr pl_energy_integral(pl_analysis* d);             // sum v dL/dv - L, conserved or not
+bool pl_energy_conserved(pl_analysis* d);
+bool pl_scleronomic(pl_analysis* d);
+bool pl_affine_constraint(const pl_analysis* d);        // some constraint contains velocities
+pl_expr pl_without_velocity(pl_analysis* d, pl_expr e, pl_expr v2);   // q'^2 inserted
+pl_answer3 pl_starts_in_equilibrium(pl_analysis* d, pl_expr q0, pl_expr v0);
+// Names of results in e (T, V, E, force(label)) replaced by what they stand for; poison where that is unknown.
+pl_expr pl_with_results(pl_analysis* d, pl_expr e);
+const char* pl_text_of(pl_analysis* d, pl_expr e);      // one line, as displayed
+// Notes on the start and on force attribution (notes.c)
 void pl_note_equilibrium_start(pl_analysis* d);
+void pl_note_attribution(pl_analysis* d, int link);
 
 #endif

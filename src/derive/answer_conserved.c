@@ -1,0 +1,76 @@
+// answer_conserved: energy, Jacobi's integral, momenta of cyclic coordinates, each with its reason.
+#include "derive/derive_impl.h"
+
+static void add_reason(pl_value* v, const char* en, const char* de, int conserved) {
+  v->conserved = conserved;
+  v->because[0] = en;
+  v->because[1] = de;
+}
+
+static void energy(pl_analysis* d) {
+  bool scleronomic = pl_scleronomic(d), conserved = pl_energy_conserved(d);
+  pl_expr integral = pl_energy_integral(d);
+  const char *en, *de;
+  if (d->dissipative) {
+    en = "a force without potential acts";
+    de = "es wirkt eine Kraft ohne Potential";
+  } else if (scleronomic) {
+    en = "all forces have a potential, and no constraint contains t";
+    de = "alle Kräfte haben ein Potential, und keine Zwangsbedingung enthält t";
+  } else {
+    en = "a constraint or force contains t, so the constraint does work";
+    de = "eine Zwangsbedingung oder Kraft enthält t, der Zwang leistet also Arbeit";
+  }
+  if (conserved && scleronomic) {
+    const pl_form* form = pl_f(d, integral, PL_S_ENERGY);
+    pl_show(d, pl_feq(d, pl_fn(d, "E"), form));
+    const pl_form* V = pl_f(d, d->reduced ? d->Vg : pl_on_contact(d, d->V), PL_S_ENERGY);
+    pl_say(d, "conserved: all forces have the potential {1}, and no constraint contains t.",
+           "erhalten: alle Kräfte haben das Potential {1}, und keine Zwangsbedingung enthält t.", 1, pl_feq(d, pl_fn(d, "V"), V));
+    add_reason(pl_answer(d, "E", integral, form), en, de, 1);
+    pl_claim_that(d, PL_CLAIM_MOTION, pl_dt(d->pool, pl_form_value(d->pool, form)), pl_int(d->pool, 0));
+    return;
+  }
+  pl_say(d, pl_format(d->arena, "The energy is not conserved: %s.", en), pl_format(d->arena, "Die Energie ist nicht erhalten: %s.", de), 0);
+  add_reason(pl_answer(d, "E", pl_poison(), NULL), en, de, 0);
+  if (!conserved) return;
+  const pl_form* form = pl_f(d, integral, PL_S_ENERGY);
+  pl_show(d, pl_feq(d, pl_fn(d, "H"), form));
+  pl_say(d, "Jacobi's integral is conserved: in these coordinates the Lagrange function does not contain t.",
+         "Das Jacobi-Integral ist erhalten: in diesen Koordinaten enthält die Lagrange-Funktion t nicht.", 0);
+  add_reason(pl_answer(d, "H", integral, form), "the Lagrange function does not contain t", "die Lagrange-Funktion enthält t nicht", 1);
+  pl_claim_that(d, PL_CLAIM_MOTION, pl_dt(d->pool, pl_form_value(d->pool, form)), pl_int(d->pool, 0));
+}
+
+// Is the generalized force along coordinate i zero, so that a cyclic momentum is conserved?
+static bool pushed(pl_analysis* d, int i) {
+  for (int j = 0; j < d->q.n; j++) {
+    if (pl_is_zero_node(d->pool, d->force[j])) continue;
+    const pl_coordinate* c = &d->q.at[j];
+    if (j == i || (!pl_is_poison(c->map) && pl_has_symbol(d->pool, c->map, d->q.at[i].q))) return true;
+  }
+  return false;
+}
+
+static void cyclic(pl_analysis* d, int i) {
+  const pl_coordinate* c = &d->q.at[i];
+  if (pl_alg_is_zero(d->tower, pl_diff(d->pool, d->Lg, c->q)) != PL_YES) return;
+  pl_expr p = pl_alg_normal(d->tower, pl_diff(d->pool, d->Lg, c->v));
+  const char* name = pl_format(d->arena, "p_%s", pl_symbol_get(d->pool, c->q)->ascii);
+  const pl_form* form = pl_f(d, p, PL_S_ENERGY);
+  bool conserved = !pushed(d, i);
+  pl_show(d, pl_feq(d, pl_fn(d, pl_format(d->arena, "p_%s", pl_symbol_get(d->pool, c->q)->name)), form));
+  pl_say(d, conserved ? "conserved: {1} is cyclic, it does not occur in the Lagrange function."
+                      : "{1} is cyclic, but a force without potential acts along it: not conserved.",
+         conserved ? "erhalten: {1} ist zyklisch, kommt also in der Lagrange-Funktion nicht vor."
+                   : "{1} ist zyklisch, aber längs ihrer wirkt eine Kraft ohne Potential: nicht erhalten.",
+         1, pl_fs(d, c->q));
+  add_reason(pl_answer(d, name, p, form), "cyclic coordinate", "zyklische Koordinate", conserved);
+  if (conserved) pl_claim_that(d, PL_CLAIM_MOTION, pl_dt(d->pool, pl_form_value(d->pool, form)), pl_int(d->pool, 0));
+}
+
+void pl_answer_conserved(pl_analysis* d, const pl_ask* ask) {
+  pl_section_open(d, ask, "Conserved", "Erhaltungsgrößen");
+  energy(d);
+  for (int k = 0; d->reduced && k < d->gen.n && !pl_affine_constraint(d); k++) cyclic(d, d->gen.at[k]);
+}

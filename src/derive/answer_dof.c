@@ -1,0 +1,225 @@
+// answer_dof: degrees of freedom, constraints, and what was dropped with its reason.
+#include <string.h>
+
+#include "derive/derive_impl.h"
+
+static const char* label_of(const pl_link* l) { return l->source->name.text; }
+
+static const pl_form* zero_form(pl_analysis* d) { return pl_form_leaf(d->arena, pl_int(d->pool, 0)); }
+
+// "g1 = x1 + x2 - l = 0", "h = r - R ≥ 0"
+static const pl_form* link_form(pl_analysis* d, const pl_link* l) {
+  const char* op = l->source->relation == PL_GE ? "≥" : l->source->relation == PL_LE ? "≤" : "=";
+  const pl_form* body = pl_frel(d, pl_fe(d, l->g), op, zero_form(d));
+  return pl_feq(d, pl_fn(d, label_of(l)), body);
+}
+
+static bool told(pl_analysis* d, const char* what) {
+  const char* key = pl_format(d->arena, "told %s", what);
+  uint64_t hash = pl_hash_bytes(key, strlen(key), 1);
+  if (pl_map_get(d->told, hash)) return true;
+  pl_map_set(d->told, hash, 1);
+  return false;
+}
+
+// Abbreviations of given quantities that occur in e: "l = L - π R".
+static void row_of_lets(pl_analysis* d, pl_expr e) {
+  for (int k = 0; k < d->model->lets.n; k++) {
+    const pl_let* let = &d->model->lets.at[k];
+    if (let->n_args > 0 || !let->symbol.id || !pl_has_symbol(d->pool, e, let->symbol)) continue;
+    if (told(d, pl_symbol_get(d->pool, let->symbol)->ascii)) continue;
+    pl_row(d, "", "", pl_feq(d, pl_fs(d, let->symbol), pl_fe(d, let->value)), NULL);
+  }
+}
+
+static int count_coordinates(const pl_analysis* d) {
+  int n = 0;
+  for (int i = 0; i < d->q.n; i++) n += d->q.at[i].carries;
+  return n;
+}
+
+static void row_of_coordinates(pl_analysis* d) {
+  const pl_form** names = PL_ARRAY(d->arena, const pl_form*, d->q.n);
+  int n = 0;
+  for (int i = 0; i < d->q.n; i++) {
+    if (d->q.at[i].carries) names[n++] = pl_fs(d, d->q.at[i].q);
+  }
+  pl_row(d, "coordinates", "Koordinaten", pl_flist(d, names, n), pl_format(d->arena, "%d", n));
+}
+
+static void rows_of_constraints(pl_analysis* d) {
+  const char *en = "constraints", *de = "Zwangsbedingungen";
+  for (int k = 0; k < d->g.n; k++) {
+    const pl_link* l = &d->g.at[k];
+    pl_step* row = pl_row(d, en, de, link_form(d, l), l->implied ? "0" : "-1");
+    if (l->implied) {
+      pl_step_after(row, "says nothing new", "sagt nichts Neues");
+    } else if (l->fixes >= 0 && !l->contact) {
+      pl_step_after(row, "dropped", "entfällt");
+    } else if (l->contact) {
+      pl_step_after(row, "one-sided", "einseitig");
+    }
+    row_of_lets(d, l->g);
+    en = de = "";
+  }
+}
+
+static bool any(const pl_analysis* d, bool (*is)(const pl_analysis*, const pl_link*)) {
+  for (int k = 0; k < d->g.n; k++) {
+    if (is(d, &d->g.at[k])) return true;
+  }
+  return false;
+}
+
+static bool is_rheonomic(const pl_analysis* d, const pl_link* l) { return pl_has_symbol(d->pool, l->g, pl_time(d->pool)); }
+static bool is_nonholonomic(const pl_analysis* d, const pl_link* l) { return l->velocity; }
+static bool is_contact(const pl_analysis* d, const pl_link* l) { return l->contact; }
+static bool is_implied(const pl_analysis* d, const pl_link* l) { return l->implied; }
+
+static void say_kinds(pl_analysis* d) {
+  if (d->g.n == 0) return;
+  bool depend = any(d, is_implied);
+  const char* independent[2] = {depend ? "not independent of each other" : "independent of each other",
+                                depend ? "nicht unabhängig voneinander" : "unabhängig voneinander"};
+  const char* holonomic[2] = {any(d, is_nonholonomic) ? "not all holonomic" : "all holonomic",
+                              any(d, is_nonholonomic) ? "nicht alle holonom" : "alle holonom"};
+  const char* time[2] = {any(d, is_rheonomic) ? "time-dependent (rheonomic)" : "independent of time (scleronomic)",
+                         any(d, is_rheonomic) ? "zeitabhängig (rheonom)" : "zeitunabhängig (skleronom)"};
+  pl_say(d, pl_format(d->arena, "%s, %s, %s", holonomic[0], time[0], independent[0]),
+         pl_format(d->arena, "%s, %s, %s", holonomic[1], time[1], independent[1]), 0);
+}
+
+void pl_answer_dof(pl_analysis* d, const pl_ask* ask) {
+  pl_section_open(d, ask, "Degrees of freedom", "Freiheitsgrade");
+  row_of_coordinates(d);
+  rows_of_constraints(d);
+  say_kinds(d);
+  const pl_dof* f = &d->solution->dof;
+  int contacts = 0;
+  for (int k = 0; k < d->g.n; k++) contacts += d->g.at[k].contact && !d->g.at[k].implied;
+  pl_step* row = pl_row(d, "degrees of freedom", "Freiheitsgrade", NULL, pl_format(d->arena, "%d", f->dof));
+  if (contacts > 0) pl_step_after(row, "in contact", "im Kontakt");
+  if (contacts > 0) {
+    row = pl_row(d, "", "", NULL, pl_format(d->arena, "%d", f->dof + contacts));
+    pl_step_after(row, "after lift-off", "nach dem Abheben");
+  }
+  pl_answer(d, "dof", pl_int(d->pool, f->dof), NULL);
+}
+
+// ---------------------------------------------------------------------------------------------- constraints
+static void say_contact(pl_analysis* d, const pl_link* l) {
+  bool push = l->source->relation == PL_GE;
+  const pl_form* closed = pl_feq(d, pl_fe(d, l->source->left), pl_fe(d, l->source->right));
+  const pl_form* lambda = pl_frel(d, pl_fs(d, l->lambda), push ? "≥" : "≤", zero_form(d));
+  const pl_form* open = pl_feq(d, pl_fs(d, l->lambda), zero_form(d));
+  pl_show(d, link_form(d, l));
+  pl_say(d, "One-sided: in contact {1} and {2}; after lift-off {3}.",
+         "Einseitig: im Kontakt {1} und {2}; nach dem Abheben {3}.", 3, closed, lambda, open);
+}
+
+static bool dropped(const pl_link* l) { return l->fixes >= 0 && !l->contact; }
+
+// Of the dropped constraints, those with a vanishing (or not) multiplier, or fixed by a function of time.
+typedef enum pl_dropped_kind { PL_DROPPED_IDLE, PL_DROPPED_LOADED, PL_DROPPED_DRIVEN } pl_dropped_kind;
+
+static bool of_kind(pl_analysis* d, const pl_link* l, pl_dropped_kind kind) {
+  if (!dropped(l)) return false;
+  bool driven = pl_has_symbol(d->pool, d->q.at[l->fixes].fixed, pl_time(d->pool));
+  if (driven || kind == PL_DROPPED_DRIVEN) return driven && kind == PL_DROPPED_DRIVEN;
+  bool idle = l->lambda_known && pl_is_zero_node(d->pool, l->lambda_value);
+  return idle == (kind == PL_DROPPED_IDLE);
+}
+
+static int collect_dropped(pl_analysis* d, pl_dropped_kind kind, const pl_form** label, const pl_form** second, const pl_form** lambda) {
+  int n = 0;
+  for (int k = 0; k < d->g.n; k++) {
+    const pl_link* l = &d->g.at[k];
+    if (!of_kind(d, l, kind)) continue;
+    const pl_coordinate* c = &d->q.at[l->fixes];
+    pl_expr a = kind == PL_DROPPED_DRIVEN ? pl_dt(d->pool, pl_dt(d->pool, c->fixed)) : pl_int(d->pool, 0);
+    label[n] = pl_fn(d, label_of(l));
+    second[n] = pl_feq(d, pl_fs(d, c->a), pl_fe(d, a));
+    lambda[n] = pl_feq(d, pl_fs(d, l->lambda), l->lambda_known ? pl_f(d, l->lambda_value, PL_S_QUOTIENT) : pl_fn(d, "?"));
+    n++;
+  }
+  return n;
+}
+
+static void say_dropped(pl_analysis* d) {
+  const pl_form** label = PL_ARRAY(d->arena, const pl_form*, 3 * d->g.n + 1);
+  const pl_form **second = label + d->g.n, **lambda = second + d->g.n;
+  int n = collect_dropped(d, PL_DROPPED_IDLE, label, second, lambda);
+  if (n > 0) {
+    pl_say(d, n == 1 ? "{1} has the form coordinate = constant. Differentiated twice it gives {2}; no force acts along this "
+                       "coordinate, so {3}, and the other coordinates do not depend on it. It is dropped."
+                     : "{1} have the form coordinate = constant. Differentiated twice they give {2}; no force acts along these "
+                       "coordinates, so {3}, and the other coordinates do not depend on them. They are dropped.",
+           n == 1 ? "{1} hat die Form Koordinate = Konstante. Zweimal abgeleitet folgt {2}; längs dieser Koordinate wirkt keine "
+                    "Kraft, also {3}, und die übrigen Koordinaten hängen nicht von ihr ab. Sie entfällt."
+                  : "{1} haben die Form Koordinate = Konstante. Zweimal abgeleitet folgt {2}; längs dieser Koordinaten wirkt keine "
+                    "Kraft, also {3}, und die übrigen Koordinaten hängen nicht von ihnen ab. Sie entfallen.",
+           3, pl_flist(d, label, n), pl_flist(d, second, n), pl_flist(d, lambda, n));
+  }
+  n = collect_dropped(d, PL_DROPPED_LOADED, label, second, lambda);
+  if (n > 0) {
+    pl_say(d, "{1}: coordinate = constant, so {2}. The coordinate is inserted and dropped; the multiplier remains on offer as "
+              "what its equation leaves: {3}.",
+           "{1}: Koordinate = Konstante, also {2}. Die Koordinate wird eingesetzt und entfällt; der Multiplikator bleibt "
+           "verfügbar als Rest ihrer Gleichung: {3}.",
+           3, pl_flist(d, label, n), pl_flist(d, second, n), pl_flist(d, lambda, n));
+  }
+  n = collect_dropped(d, PL_DROPPED_DRIVEN, label, second, lambda);
+  if (n > 0) {
+    pl_say(d, "{1}: coordinate = given function of time (rheonomic), so {2}. It is inserted and dropped; the drive does work. Its "
+              "multiplier is {3}.",
+           "{1}: Koordinate = gegebene Funktion der Zeit (rheonom), also {2}. Sie wird eingesetzt und entfällt; der Antrieb "
+           "leistet Arbeit. Sein Multiplikator ist {3}.",
+           3, pl_flist(d, label, n), pl_flist(d, second, n), pl_flist(d, lambda, n));
+  }
+}
+
+// The theorem itself, as steps that are shown on demand.
+static void theorem(pl_analysis* d) {
+  pl_step* s = pl_say(d,
+    "Why: let {1} with constant a. Lagrange I for this coordinate is {2}, and {3}. So {4}; inserted back, {5}, and with x(0) = a, "
+    "x'(0) = 0 the coordinate stays at a. It may be inserted from the start; λ_1 is the force of the plane (pleuel explain T101).",
+    "Warum: es sei {1} mit konstantem a. Lagrange I für diese Koordinate lautet {2}, und {3}. Also {4}; eingesetzt folgt {5}, und mit "
+    "x(0) = a, x'(0) = 0 bleibt die Koordinate bei a. Sie darf von Anfang an eingesetzt werden; λ_1 ist die Kraft der Ebene "
+    "(pleuel explain T101).",
+    5, pl_fn(d, "g_1 = x - a = 0"), pl_fn(d, "m x'' = F + λ_1 + Σ λ_a ∂g_a/∂x"), pl_fn(d, "x'' = 0"),
+    pl_fn(d, "λ_1 = -F - Σ λ_a ∂g_a/∂x"), pl_fn(d, "m x'' = 0"));
+  s->detail = true;
+}
+
+void pl_answer_constraints(pl_analysis* d, const pl_ask* ask) {
+  bool after_dof = d->section && d->solution->sections.n > 0 && ask->letter && d->section->letter &&
+                   strcmp(ask->letter, d->section->letter) == 0;
+  pl_section_open(d, ask, after_dof ? NULL : "Constraints", after_dof ? NULL : "Zwangsbedingungen");
+  bool some_dropped = false;
+  for (int k = 0; k < d->g.n; k++) {
+    const pl_link* l = &d->g.at[k];
+    some_dropped |= dropped(l);
+    if (l->contact) {
+      say_contact(d, l);
+    } else if (!after_dof) {
+      pl_show(d, link_form(d, l));
+      row_of_lets(d, l->g);
+    }
+    pl_value* v = pl_answer(d, label_of(l), l->g, pl_fe(d, l->g));
+    v->of = label_of(l);
+  }
+  if (!after_dof) say_kinds(d);
+  if (any(d, is_contact)) {
+    const pl_dof* f = &d->solution->dof;
+    int n = count_coordinates(d), contacts = 0;
+    for (int k = 0; k < d->g.n; k++) contacts += d->g.at[k].contact;
+    pl_say(d, pl_format(d->arena, "%d coordinates, %d independent constraints: %d degree%s of freedom in contact, %d after lift-off.", n,
+                        f->rank, f->dof, f->dof == 1 ? "" : "s", f->dof + contacts),
+           pl_format(d->arena, "%d Koordinaten, %d unabhängige Zwangsbedingungen: %d Freiheitsgrad%s im Kontakt, %d nach dem Abheben.", n,
+                     f->rank, f->dof, f->dof == 1 ? "" : "e", f->dof + contacts), 0);
+  }
+  if (some_dropped) {
+    say_dropped(d);
+    theorem(d);
+  }
+}

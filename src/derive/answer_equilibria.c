@@ -1,0 +1,242 @@
+// answer_equilibria: positions of rest of the generalized coordinates, their stability and small oscillations.
+//   f_i(q) = 0 with f the equations of the second kind at rest;  K = df/dq, M = d2T/dv2;  det(K - ω² M) = 0.
+#include <math.h>
+#include <string.h>
+
+#include "derive/derive_impl.h"
+
+enum { max_gen = 6, max_found = 32 };
+
+typedef struct pl_rest {
+  pl_expr q[max_gen];       // values of the generalized coordinates
+  pl_expr condition;        // >= 0 for it to exist, or poison
+} pl_rest;
+
+typedef struct pl_rests {
+  pl_rest at[max_found];
+  int n;
+  bool complete;
+  int free_coordinate;      // a coordinate that no equation contains, -1
+} pl_rests;
+
+// ---------------------------------------------------------------------------------------------- equations at rest
+static pl_expr at_rest(pl_analysis* d, pl_expr e) {
+  pl_replace r[2 * max_gen];
+  for (int k = 0; k < d->gen.n; k++) {
+    const pl_coordinate* c = &d->q.at[d->gen.at[k]];
+    r[2 * k] = (pl_replace){c->v, pl_int(d->pool, 0)};
+    r[2 * k + 1] = (pl_replace){c->a, pl_int(d->pool, 0)};
+  }
+  return pl_alg_normal(d->tower, pl_subst(d->pool, e, r, 2 * d->gen.n));
+}
+
+static pl_expr insert(pl_analysis* d, pl_expr e, const pl_rest* r) {
+  pl_replace s[max_gen];
+  int n = 0;
+  for (int k = 0; k < d->gen.n; k++) {
+    if (!pl_is_poison(r->q[k])) s[n++] = (pl_replace){d->q.at[d->gen.at[k]].q, r->q[k]};
+  }
+  return pl_subst(d->pool, e, s, n);
+}
+
+// Generalized coordinate that is the only unknown one in e: its place, -1 none, -2 several.
+static int only_unknown(const pl_analysis* d, pl_expr e, const pl_rest* r) {
+  int found = -1;
+  for (int k = 0; k < d->gen.n; k++) {
+    if (!pl_is_poison(r->q[k]) || !pl_has_symbol(d->pool, e, d->q.at[d->gen.at[k]].q)) continue;
+    if (found >= 0) return -2;
+    found = k;
+  }
+  return found;
+}
+
+// Solves equation after equation, each for the one coordinate that is left in it; branches multiply.
+static void search(pl_analysis* d, const pl_expr* f, pl_rest r, pl_rests* out) {
+  bool done = true;
+  for (int k = 0; k < d->gen.n; k++) {
+    pl_expr e = pl_alg_normal(d->tower, insert(d, f[k], &r));
+    if (pl_alg_is_zero(d->tower, e) == PL_YES) continue;
+    int j = only_unknown(d, e, &r);
+    if (j == -1) return;   // contradiction on this branch
+    done = false;
+    if (j < 0) continue;
+    pl_root root[8];
+    bool complete = false;
+    int n = pl_alg_roots(d->tower, e, d->q.at[d->gen.at[j]].q, root, 8, &complete);
+    out->complete &= complete;
+    for (int i = 0; i < n; i++) {
+      pl_rest next = r;
+      next.q[j] = root[i].value;
+      if (!pl_is_poison(root[i].condition)) next.condition = root[i].condition;
+      search(d, f, next, out);
+    }
+    return;
+  }
+  if (!done) {
+    out->complete = false;
+  } else if (out->n < max_found) {
+    out->at[out->n++] = r;
+  }
+}
+
+// ---------------------------------------------------------------------------------------------- stability
+typedef struct pl_linearised { int n; pl_expr M[max_gen * max_gen], K[max_gen * max_gen]; } pl_linearised;
+
+static void linearise(pl_analysis* d, const pl_expr* f, const pl_rest* r, pl_linearised* out) {
+  out->n = d->gen.n;
+  for (int i = 0; i < out->n; i++) {
+    pl_expr momentum = pl_diff(d->pool, d->Tg, d->q.at[d->gen.at[i]].v);
+    for (int j = 0; j < out->n; j++) {
+      pl_expr M = pl_diff(d->pool, momentum, d->q.at[d->gen.at[j]].v);
+      out->M[i * out->n + j] = pl_alg_normal(d->tower, insert(d, at_rest(d, M), r));
+      out->K[i * out->n + j] = pl_alg_normal(d->tower, insert(d, pl_diff(d->pool, f[i], d->q.at[d->gen.at[j]].q), r));
+    }
+  }
+}
+
+// Signs of the leading minors of K: all positive is stable; some negative is unstable.
+static const char* stability(pl_analysis* d, const pl_linearised* l, pl_expr* stable_if) {
+  bool all = true;
+  *stable_if = pl_poison();
+  for (int m = 1; m <= l->n; m++) {
+    pl_expr A[max_gen * max_gen];
+    for (int i = 0; i < m; i++) {
+      for (int j = 0; j < m; j++) A[i * m + j] = l->K[i * l->n + j];
+    }
+    pl_expr minor = pl_alg_normal(d->tower, pl_alg_det(d->tower, m, A, 20000));
+    int sign = 0;
+    pl_answer3 known = pl_alg_sign(d->tower, minor, false, &sign);
+    if (known != PL_YES) {
+      *stable_if = minor;
+      all = false;
+    } else if (sign < 0) {
+      return "unstable";
+    } else if (sign == 0) {
+      return "marginal";
+    }
+  }
+  return all ? "stable" : NULL;
+}
+
+static pl_symbol omega_squared(pl_analysis* d) {
+  pl_symbol_info info = {.name = "ω²", .ascii = "omega_squared", .role = PL_R_LOCAL, .class = PL_C_OTHER,
+                         .dimension = pl_dimension_of(0, 0, -2), .dimension_known = true};
+  return pl_symbol_make(d->pool, &info);
+}
+
+static int small_oscillations(pl_analysis* d, const pl_linearised* l, pl_root* root, int max) {
+  pl_symbol w2 = omega_squared(d);
+  pl_expr A[max_gen * max_gen];
+  for (int k = 0; k < l->n * l->n; k++) A[k] = pl_sub(d->pool, l->K[k], pl_mul(d->pool, pl_sym(d->pool, w2), l->M[k]));
+  bool complete;
+  return pl_alg_roots(d->tower, pl_alg_det(d->tower, l->n, A, 20000), w2, root, max, &complete);
+}
+
+// ---------------------------------------------------------------------------------------------- display
+static bool is_angle(pl_analysis* d, int i) {
+  const pl_symbol_info* s = pl_symbol_get(d->pool, d->q.at[i].q);
+  bool plain = !s->dimension_known || pl_dimension_equal(s->dimension, pl_dimension_one());
+  if (!plain) return false;
+  pl_expr c = pl_call(d->pool, PL_COS, pl_sym(d->pool, d->q.at[i].q)), s2 = pl_call(d->pool, PL_SIN, pl_sym(d->pool, d->q.at[i].q));
+  pl_expr mark = pl_int(d->pool, 7);
+  pl_expr probe = pl_add(d->pool, d->Tg, d->Vg);
+  return !pl_same(pl_subst_expr(d->pool, probe, c, mark), probe) || !pl_same(pl_subst_expr(d->pool, probe, s2, mark), probe);
+}
+
+static const pl_form* rest_form(pl_analysis* d, const pl_rest* r) {
+  const pl_form* f[max_gen];
+  int n = 0;
+  for (int k = 0; k < d->gen.n; k++) {
+    int i = d->gen.at[k];
+    if (pl_is_poison(r->q[k])) continue;
+    const pl_form* value = pl_f(d, r->q[k], PL_S_PLAIN);
+    double x = pl_number(d, r->q[k]);
+    if (is_angle(d, i) && !isnan(x) && x != 0) {
+      pl_notation how = {.math = PL_MATH_LINE, .lang = d->job->lang};
+      value = pl_feq(d, value, pl_fn(d, pl_format(d->arena, "%s°", pl_notation_number(d->arena, x * 180 / M_PI, 6, how))));
+    }
+    f[n++] = pl_feq(d, pl_fs(d, d->q.at[i].q), value);
+  }
+  return n == 1 ? f[0] : pl_flist(d, f, n);
+}
+
+static const char* german_stability(const char* s) {
+  return strcmp(s, "stable") == 0 ? "stabil" : strcmp(s, "unstable") == 0 ? "instabil" : "indifferent";
+}
+
+static void show_oscillations(pl_analysis* d, const pl_linearised* l, const char* at) {
+  pl_root root[8];
+  int n = small_oscillations(d, l, root, 8);
+  for (int k = 0; k < n; k++) {
+    const pl_form* form = pl_f(d, root[k].value, PL_S_QUOTIENT);
+    pl_step* s = pl_show_numbered(d, pl_feq(d, pl_fs(d, omega_squared(d)), form));
+    pl_step_after(s, "small oscillations", "kleine Schwingungen");
+    double x = pl_number(d, root[k].value);
+    if (x > 0) {
+      s->has_value = true;
+      s->value = sqrt(x);
+      s->unit = "1/s   (ω)";
+    }
+    pl_value* v = pl_answer(d, "omega^2", root[k].value, form);
+    v->of = pl_format(d->arena, "mode %d", k + 1);
+    v->at = at;
+  }
+}
+
+static void show_rest(pl_analysis* d, const pl_expr* f, const pl_rest* r, int number) {
+  pl_linearised l;
+  linearise(d, f, r, &l);
+  pl_expr stable_if;
+  const char* verdict = stability(d, &l, &stable_if);
+  pl_step* step = pl_show(d, rest_form(d, r));
+  if (verdict) pl_step_after(step, verdict, german_stability(verdict));
+  pl_value v = {.name = pl_format(d->arena, "equilibrium %d", number), .number = (double)NAN, .conserved = -1, .passed = -1, .order = -1,
+                .stability = verdict};
+  v.components = PL_ARRAY(d->arena, pl_component, d->gen.n);
+  const char** free_names = PL_ARRAY(d->arena, const char*, d->gen.n);
+  for (int k = 0; k < d->gen.n; k++) {
+    const char* name = pl_symbol_get(d->pool, d->q.at[d->gen.at[k]].q)->ascii;
+    if (pl_is_poison(r->q[k])) {
+      free_names[v.n_free++] = name;
+      continue;
+    }
+    v.components[v.n_components++] = (pl_component){name, r->q[k], pl_f(d, r->q[k], PL_S_PLAIN), pl_number(d, r->q[k])};
+  }
+  v.free_names = free_names;
+  if (!pl_is_poison(r->condition)) {
+    v.exists_if = pl_format(d->arena, "%s >= 0", pl_expr_text(d->arena, d->pool, r->condition));
+    pl_say(d, "exists if {1}", "besteht, wenn {1}", 1, pl_frel(d, pl_f(d, r->condition, PL_S_PLAIN), "≥", pl_form_leaf(d->arena, pl_int(d->pool, 0))));
+  }
+  if (!verdict) {
+    v.stable_if = pl_format(d->arena, "%s > 0", pl_expr_text(d->arena, d->pool, stable_if));
+    pl_say(d, "stable if {1}", "stabil, wenn {1}", 1, pl_frel(d, pl_f(d, stable_if, PL_S_PLAIN), ">", pl_form_leaf(d->arena, pl_int(d->pool, 0))));
+  }
+  pl_push(d->arena, d->section->values, v);
+  if (!verdict || strcmp(verdict, "stable") == 0) show_oscillations(d, &l, v.name);
+  for (int k = 0; k < d->gen.n; k++) pl_claim_free(d, PL_CLAIM_INSERTED, insert(d, f[k], r), pl_int(d->pool, 0));
+}
+
+void pl_answer_equilibria(pl_analysis* d, const pl_ask* ask) {
+  pl_section_open(d, ask, "Equilibria", "Gleichgewichtslagen");
+  if (!d->reduced || d->gen.n == 0 || d->gen.n > max_gen || ask->where.n > 0) {
+    pl_answer_pending(d, ask);
+    return;
+  }
+  pl_expr f[max_gen];
+  for (int k = 0; k < d->gen.n; k++) f[k] = at_rest(d, pl_second_kind(d, d->gen.at[k]));
+  if (pl_has_symbol(d->pool, pl_add_n(d->pool, f, d->gen.n), pl_time(d->pool))) {
+    pl_say(d, "The equations contain t: there is no position of rest.", "Die Gleichungen enthalten t: es gibt keine Ruhelage.", 0);
+    return;
+  }
+  pl_rests* found = PL_NEW(d->arena, pl_rests);
+  found->complete = true;
+  search(d, f, (pl_rest){0}, found);
+  for (int k = 0; k < found->n; k++) show_rest(d, f, &found->at[k], k + 1);
+  if (found->n == 0 && found->complete) pl_say(d, "There is none.", "Es gibt keine.", 0);
+  if (!found->complete) {
+    pl_say(d, found->n > 0 ? "There may be others: not every equation was solved in closed form."
+                           : "None was found in closed form.",
+           found->n > 0 ? "Es kann weitere geben: nicht jede Gleichung war geschlossen lösbar." : "Geschlossen wurde keine gefunden.", 0);
+    d->section->not_found = found->n == 0;
+  }
+}

@@ -1,0 +1,290 @@
+// answer_force: the force of a constraint on each mass, Z = λ ∇g, along the axes or along the frame of the mass, and along a
+// given motion with the velocity eliminated by the energy.
+#include <math.h>
+#include <string.h>
+
+#include "derive/derive_impl.h"
+
+static int find_link(const pl_analysis* d, const char* label) {
+  for (int k = 0; k < d->g.n; k++) {
+    const pl_name* name = &d->g.at[k].source->name;
+    if (label && (strcmp(name->text, label) == 0 || strcmp(name->ascii, label) == 0)) return k;
+  }
+  return -1;
+}
+
+static int find_particle(const pl_analysis* d, const char* label) {
+  for (int k = 0; k < d->particle.n; k++) {
+    const pl_particle* m = &d->particle.at[k];
+    if (label && (strcmp(m->label, label) == 0 || strcmp(m->ascii, label) == 0)) return k;
+  }
+  return -1;
+}
+
+// ---------------------------------------------------------------------------------------------- components
+typedef struct pl_force {   // of one constraint on one mass
+  int n;
+  const char* along[3];     // "e_x"
+  pl_expr factor[3];        // component = λ factor
+} pl_force;
+
+static bool shared(const pl_analysis* d, int particle, pl_symbol q) {
+  for (int k = 0; k < d->particle.n; k++) {
+    if (k == particle) continue;
+    for (int c = 0; c < d->particle.at[k].n; c++) {
+      if (pl_has_symbol(d->pool, d->particle.at[k].at[c], q)) return true;
+    }
+  }
+  return false;
+}
+
+// Each component of the position is a coordinate of its own: Z along the axes is λ dg/dx.
+static bool along_axes(pl_analysis* d, int link, int particle, pl_force* out) {
+  const pl_particle* m = &d->particle.at[particle];
+  out->n = 0;
+  for (int c = 0; c < m->n; c++) {
+    if (pl_is_constant(d->pool, m->at[c])) continue;
+    if (pl_kind_of(d->pool, m->at[c]) != PL_SYMBOL) return false;
+    int i = pl_coordinate_index(d, pl_symbol_of(d->pool, m->at[c]));
+    if (i < 0 || shared(d, particle, d->q.at[i].q)) return false;
+    pl_expr factor = pl_alg_normal(d->tower, pl_on_fixed(d, d->g.at[link].gradient[i]));
+    if (pl_is_zero_node(d->pool, factor)) continue;
+    out->along[out->n] = pl_format(d->arena, "e_%s", d->model->axes[c].name);
+    out->factor[out->n++] = factor;
+  }
+  return true;
+}
+
+static bool along_frame(pl_analysis* d, int link, int particle, pl_force* out) {
+  pl_frame f;
+  out->n = 0;
+  if (!pl_frame_find(d, &d->particle.at[particle], &f)) return false;
+  for (int j = 0; j < f.n; j++) {
+    int i = f.coordinate[j];
+    if (shared(d, particle, d->q.at[i].q)) return false;
+    pl_expr factor = pl_div(d->pool, d->g.at[link].gradient[i], f.scale[j]);
+    factor = pl_alg_normal(d->tower, pl_on_fixed(d, factor));
+    if (pl_is_zero_node(d->pool, factor)) continue;
+    out->along[out->n] = pl_unit_vector(d, i);
+    out->factor[out->n++] = factor;
+  }
+  return true;
+}
+
+static bool force_on(pl_analysis* d, int link, int particle, pl_force* out) {
+  return along_axes(d, link, particle, out) || along_frame(d, link, particle, out);
+}
+
+static const pl_form* vector_of(pl_analysis* d, const pl_force* f, const pl_expr* component, pl_style style) {
+  const pl_form* part[3];
+  for (int j = 0; j < f->n; j++) part[j] = pl_f(d, component[j], style);
+  return pl_form_vector(d->arena, part, f->along, f->n);
+}
+
+// ---------------------------------------------------------------------------------------------- λ on the way
+// What λ is worth for this request: on the motion, with the velocity eliminated when a motion is named.
+typedef struct pl_lambda_value { pl_expr value; int number; bool eliminated; } pl_lambda_value;
+
+static const pl_form* at_start(pl_analysis* d, const pl_coordinate* c, pl_expr q0, pl_expr v0) {
+  const pl_form* f[2] = {pl_feq(d, pl_fs(d, c->q), pl_fe(d, q0)), pl_feq(d, pl_fs(d, c->v), pl_fe(d, v0))};
+  return pl_flist(d, f, 2);
+}
+
+// The energy equation and q'^2 from it; returns the number of the latter.
+static int show_elimination(pl_analysis* d, pl_expr v2, pl_expr q0, pl_expr v0) {
+  const pl_coordinate* c = &d->q.at[d->gen.at[0]];
+  pl_expr E = pl_energy_integral(d);
+  pl_replace start[2] = {{c->q, q0}, {c->v, v0}};
+  pl_expr E0 = pl_alg_normal(d->tower, pl_subst(d->pool, E, start, 2));
+  pl_say(d, "The energy is conserved; from {1}:", "Die Energie ist erhalten; von {1} aus:", 1, at_start(d, c, q0, v0));
+  pl_show(d, pl_feq(d, pl_f(d, E, PL_S_ENERGY), pl_f(d, E0, PL_S_ENERGY)));
+  const pl_form* square = pl_form_power(d->arena, pl_fs(d, c->v), pl_form_leaf(d->arena, pl_int(d->pool, 2)));
+  const pl_form* form = pl_f(d, v2, PL_S_QUOTIENT);
+  pl_step* step = pl_show_numbered(d, pl_feq(d, square, form));
+  pl_expr back = pl_subst1(d->pool, pl_sub(d->pool, E, E0), c->v, pl_sqrt(d->pool, pl_form_value(d->pool, form)));
+  pl_claim_free(d, PL_CLAIM_INSERTED, back, pl_int(d->pool, 0));
+  pl_value* v = pl_answer(d, pl_format(d->arena, "%s^2", pl_symbol_get(d->pool, c->v)->ascii), v2, form);
+  v->lhs = pl_square(d->pool, pl_sym(d->pool, c->v));
+  return step->number;
+}
+
+static void show_differentiated(pl_analysis* d, int k) {
+  const pl_link* l = &d->g.at[k];
+  const char* g = l->source->name.text;
+  if (l->fixes >= 0) {
+    const pl_coordinate* c = &d->q.at[l->fixes];
+    const pl_form* f[2] = {pl_feq(d, pl_fn(d, pl_format(d->arena, "%s'", g)), pl_feq(d, pl_fs(d, c->v), pl_fe(d, pl_dt(d->pool, c->fixed)))),
+                           pl_feq(d, pl_fn(d, pl_format(d->arena, "%s''", g)), pl_feq(d, pl_fs(d, c->a), pl_fe(d, pl_dt(d->pool, pl_dt(d->pool, c->fixed)))))};
+    pl_show(d, pl_flist(d, f, 2));
+    int row = d->number_lagrange1 > 0 ? d->number_lagrange1 : 0;
+    if (row) pl_say(d, "inserted into the equation of {1}:", "in die Gleichung von {1} eingesetzt:", 1, pl_fs(d, c->q));
+  }
+}
+
+static pl_lambda_value lambda_for(pl_analysis* d, int k, const pl_motion* motion, bool show) {
+  pl_link* l = &d->g.at[k];
+  pl_lambda_value out = {.value = l->lambda_value};
+  bool moves = d->gen.n == 1 && pl_has_symbol(d->pool, l->lambda_value, d->q.at[d->gen.at[0]].v);
+  if (show && (!d->number_lambda || moves)) {
+    show_differentiated(d, k);
+    const pl_form* form = pl_f(d, l->lambda_value, moves ? PL_S_EQUATION : PL_S_QUOTIENT);
+    pl_step* step = pl_show_numbered(d, pl_feq(d, pl_fs(d, l->lambda), form));
+    bool known;
+    pl_step_value(d, step, l->lambda_value, pl_dimension_of_expr(d, l->lambda_value, &known));
+    pl_claim_that(d, PL_CLAIM_MOTION, pl_form_value(d->pool, form), pl_sym(d->pool, l->lambda));
+    out.number = step->number;
+  }
+  pl_expr v2, q0, v0;
+  if (!moves || !motion->given || !pl_velocity_squared(d, motion, &v2, &q0, &v0)) return out;
+  if (show) {
+    int number = show_elimination(d, v2, q0, v0);
+    if (out.number) pl_say(d, "{1} inserted into {2}:", "{1} in {2} eingesetzt:", 2, pl_fref(d, number), pl_fref(d, out.number));
+  }
+  out.value = pl_without_velocity(d, l->lambda_value, v2);
+  out.eliminated = true;
+  pl_claim_free(d, PL_CLAIM_INSERTED, out.value, pl_subst1(d->pool, l->lambda_value, d->q.at[d->gen.at[0]].v, pl_sqrt(d->pool, v2)));
+  return out;
+}
+
+// ---------------------------------------------------------------------------------------------- one mass
+static void answer_components(pl_analysis* d, const char* of, const char* on, const pl_force* f, const pl_expr* value) {
+  pl_value v = {.name = "Z", .of = of, .on = on, .number = (double)NAN, .conserved = -1, .passed = -1, .order = -1};
+  v.n_components = f->n;
+  v.components = PL_ARRAY(d->arena, pl_component, f->n);
+  bool known = true;
+  for (int j = 0; j < f->n; j++) {
+    v.components[j] = (pl_component){f->along[j], value[j], pl_f(d, value[j], PL_S_QUOTIENT), pl_number(d, value[j])};
+    pl_dimension dim = pl_dimension_of_expr(d, value[j], &known);
+    if (known) v.unit = pl_dimension_unit(d->arena, dim, true);
+  }
+  pl_push(d->arena, d->section->values, v);
+}
+
+static const long closed_ops = 60;   // above it the components stay in λ, which has its own line
+
+static void show_on(pl_analysis* d, int k, int particle, const pl_force* f, const pl_lambda_value* lambda, bool only_one) {
+  pl_expr with_name[3], value[3];
+  long ops = 0;
+  for (int j = 0; j < f->n; j++) {
+    with_name[j] = pl_mul(d->pool, pl_sym(d->pool, d->g.at[k].lambda), f->factor[j]);
+    value[j] = pl_alg_normal(d->tower, pl_mul(d->pool, lambda->value, pl_on_maps(d, f->factor[j])));
+    ops += pl_form_ops(pl_f(d, value[j], PL_S_QUOTIENT));
+  }
+  const char* label = d->particle.at[particle].label;
+  const pl_form* Z = pl_fn(d, only_one ? "Z" : pl_format(d->arena, "Z_%s", label));
+  const pl_form* named = vector_of(d, f, with_name, PL_S_PLAIN);
+  const pl_form* closed = ops <= closed_ops ? vector_of(d, f, value, PL_S_QUOTIENT) : NULL;
+  pl_step* step = pl_show_numbered(d, pl_feq(d, Z, closed ? pl_feq(d, named, closed) : named));
+  if (!only_one) pl_step_after(step, pl_format(d->arena, "on %s", label), pl_format(d->arena, "auf %s", label));
+  if (f->n == 1) {
+    bool known;
+    pl_step_value(d, step, value[0], pl_dimension_of_expr(d, value[0], &known));
+  }
+  for (int j = 0; j < f->n && !lambda->eliminated; j++) pl_claim_that(d, PL_CLAIM_MOTION, value[j], with_name[j]);
+  answer_components(d, d->g.at[k].source->name.text, label, f, value);
+}
+
+// ---------------------------------------------------------------------------------------------- remarks
+// Compared with the motion without constraint forces: a constant factor below one is worth a sentence.
+static void compare_with_free_fall(pl_analysis* d, int i) {
+  pl_expr M = pl_diff(d->pool, d->euler[i], d->q.at[i].a);
+  pl_replace* zero = PL_ARRAY(d->arena, pl_replace, d->q.n);
+  for (int j = 0; j < d->q.n; j++) zero[j] = (pl_replace){d->q.at[j].a, pl_int(d->pool, 0)};
+  pl_expr free_fall = pl_neg(d->pool, pl_div(d->pool, pl_subst(d->pool, d->euler[i], zero, d->q.n), M));
+  free_fall = pl_alg_normal(d->tower, pl_on_maps(d, free_fall));
+  if (pl_is_poison(d->acceleration[i]) || pl_is_zero_node(d->pool, free_fall) || pl_has_coordinates(d, free_fall)) return;
+  pl_expr ratio = pl_alg_normal(d->tower, pl_div(d->pool, d->acceleration[i], free_fall));
+  if (pl_is_poison(ratio) || pl_has_coordinates(d, ratio) || pl_is_number(d->pool, ratio)) return;
+  const pl_form* form = pl_f(d, ratio, PL_S_QUOTIENT);
+  if (pl_form_ops(form) > 12) return;
+  pl_say(d, "Compared with free fall, {1}, the motion is slower by the factor {2}.",
+         "Verglichen mit dem freien Fall, {1}, ist die Bewegung um den Faktor {2} langsamer.", 2,
+         pl_feq(d, pl_fs(d, d->q.at[i].a), pl_f(d, free_fall, PL_S_QUOTIENT)), form);
+  pl_claim_that(d, PL_CLAIM_MOTION, pl_mul(d->pool, pl_form_value(d->pool, form), free_fall), pl_sym(d->pool, d->q.at[i].a));
+}
+
+static void say_equilibrium_start(pl_analysis* d, const pl_motion* motion, int k) {
+  pl_expr v2, q0, v0;
+  if (!motion->given || !pl_velocity_squared(d, motion, &v2, &q0, &v0)) return;
+  if (pl_starts_in_equilibrium(d, q0, v0) != PL_YES) return;
+  const pl_coordinate* c = &d->q.at[d->gen.at[0]];
+  pl_motion init = {0};
+  pl_expr from_init = pl_poison();
+  if (pl_velocity_squared(d, &init, &v2, &q0, &v0)) from_init = pl_without_velocity(d, d->g.at[k].lambda_value, v2);
+  const pl_form* there = pl_feq(d, pl_fs(d, c->q), pl_fe(d, motion->from[0].right));
+  pl_step* s = pl_say(d, "{1} at rest is an equilibrium: the exact motion never leaves it. The result is the limit of starts close to it.",
+                      "{1} in Ruhe ist eine Gleichgewichtslage: die exakte Bewegung verlässt sie nie. Das Ergebnis ist der Grenzfall naher Starts.",
+                      1, there);
+  s->kind = PL_STEP_NOTE;
+  if (pl_is_poison(from_init)) return;
+  const pl_form* value = pl_feq(d, pl_fs(d, d->g.at[k].lambda), pl_f(d, from_init, PL_S_QUOTIENT));
+  s = pl_say(d, "From a start as in init: {1}.", "Mit einem Start wie in init: {1}.", 1, value);
+  s->kind = PL_STEP_NOTE;
+}
+
+// ---------------------------------------------------------------------------------------------- sections
+static void not_attributable(pl_analysis* d, int k) {
+  pl_say(d, "{1} acts on coordinates that several masses share; its generalized force is λ times:",
+         "{1} wirkt auf Koordinaten, die mehrere Massen teilen; die verallgemeinerte Kraft ist λ mal:", 1, pl_fn(d, d->g.at[k].source->name.text));
+  for (int i = 0; i < d->q.n; i++) {
+    pl_expr g = pl_alg_normal(d->tower, pl_on_fixed(d, d->g.at[k].gradient[i]));
+    if (pl_is_zero_node(d->pool, g)) continue;
+    pl_step* s = pl_show(d, pl_f(d, g, PL_S_PLAIN));
+    const char* name = pl_symbol_get(d->pool, d->q.at[i].q)->name;
+    pl_step_after(s, pl_format(d->arena, "along %s", name), pl_format(d->arena, "längs %s", name));
+  }
+}
+
+static void answer_lambda(pl_analysis* d, int k, const pl_lambda_value* lambda) {
+  pl_value* v = pl_answer(d, pl_symbol_get(d->pool, d->g.at[k].lambda)->ascii, lambda->value, pl_f(d, lambda->value, PL_S_QUOTIENT));
+  v->of = d->g.at[k].source->name.text;
+}
+
+static void force_of(pl_analysis* d, const pl_ask* ask, int k) {
+  const char* label = d->g.at[k].source->name.text;
+  pl_section_open(d, ask, pl_format(d->arena, "Force of %s", label), pl_format(d->arena, "Zwangskraft von %s", label));
+  if (!d->g.at[k].lambda_known) {
+    pl_say(d, "The multiplier of {1} is not determined in closed form.", "Der Multiplikator von {1} ist nicht geschlossen bestimmt.", 1, pl_fn(d, label));
+    d->section->not_found = true;
+    return;
+  }
+  pl_lambda_value lambda = lambda_for(d, k, &ask->motion, true);
+  int n = 0, first = -1;
+  pl_force* f = PL_ARRAY(d->arena, pl_force, d->particle.n + 1);
+  for (int m = 0; m < d->particle.n; m++) {
+    if (!force_on(d, k, m, &f[m])) f[m].n = 0;
+    if (f[m].n > 0 && n++ == 0) first = m;
+  }
+  for (int m = 0; m < d->particle.n; m++) {
+    if (f[m].n > 0) show_on(d, k, m, &f[m], &lambda, d->particle.n == 1);
+  }
+  if (n == 0) not_attributable(d, k);
+  answer_lambda(d, k, &lambda);
+  if (first >= 0 && d->reduced && d->gen.n == 1) compare_with_free_fall(d, d->gen.at[0]);
+  say_equilibrium_start(d, &ask->motion, k);
+  pl_note_attribution(d, k);
+}
+
+static void force_on_mass(pl_analysis* d, const pl_ask* ask, int m) {
+  const char* label = d->particle.at[m].label;
+  pl_section_open(d, ask, pl_format(d->arena, "Constraint forces on %s", label), pl_format(d->arena, "Zwangskräfte auf %s", label));
+  for (int k = 0; k < d->g.n; k++) {
+    pl_force f;
+    if (d->g.at[k].implied || !force_on(d, k, m, &f) || f.n == 0) continue;
+    if (!d->g.at[k].lambda_known) continue;
+    pl_lambda_value lambda = lambda_for(d, k, &ask->motion, false);
+    pl_say(d, "{1}:", "{1}:", 1, pl_fn(d, d->g.at[k].source->name.text));
+    show_on(d, k, m, &f, &lambda, true);
+  }
+}
+
+void pl_answer_force(pl_analysis* d, const pl_ask* ask) {
+  int k = find_link(d, ask->label), m = find_particle(d, ask->label);
+  if (ask->kind == PL_ASK_FORCE_OF && k >= 0) {
+    force_of(d, ask, k);
+  } else if (m >= 0) {
+    force_on_mass(d, ask, m);
+  } else {
+    pl_answer_pending(d, ask);
+  }
+}

@@ -1,0 +1,274 @@
+// answer_lagrange2: the Lagrange function in generalized coordinates, the equations of the second kind, the Hamilton function.
+#include <string.h>
+
+#include "derive/derive_impl.h"
+
+static const pl_form* zero_form(pl_analysis* d) { return pl_form_leaf(d->arena, pl_int(d->pool, 0)); }
+
+static const pl_form* names_of_generalized(pl_analysis* d) {
+  const pl_form** f = PL_ARRAY(d->arena, const pl_form*, d->gen.n + 1);
+  for (int k = 0; k < d->gen.n; k++) f[k] = pl_fs(d, d->q.at[d->gen.at[k]].q);
+  return pl_flist(d, f, d->gen.n);
+}
+
+static bool without_reduction(pl_analysis* d) {
+  if (d->reduced) return false;
+  pl_say(d, "The constraints were not solved for generalized coordinates. Name them and their map, for example: "
+            "choose φ with x = l cos φ, y = l sin φ.",
+         "Die Zwangsbedingungen wurden nicht nach verallgemeinerten Koordinaten aufgelöst. Man nenne sie mit ihrer Abbildung, etwa: "
+         "choose φ with x = l cos φ, y = l sin φ.", 0);
+  d->section->not_found = true;
+  return true;
+}
+
+// ---------------------------------------------------------------------------------------------- the map
+// Text after a map equation: which constraint it solves, by which branch.
+static void say_what_it_solves(pl_analysis* d, pl_step* step, int i) {
+  int k = d->q.at[i].solved_by;
+  if (k < 0) return;
+  const char* label = d->g.at[k].source->name.text;
+  for (int b = 0; b < d->model->branches.n; b++) {
+    const pl_condition* c = &d->model->branches.at[b];
+    if (!pl_has_symbol(d->pool, c->left, d->q.at[i].q) && !pl_has_symbol(d->pool, c->right, d->q.at[i].q)) continue;
+    static const char* const op[] = {"=", ">=", "<=", ">", "<", "≠"};
+    const char* branch = pl_format(d->arena, "%s %s %s", pl_expr_text(d->arena, d->pool, c->left), op[c->relation],
+                                   pl_expr_text(d->arena, d->pool, c->right));
+    pl_step_after(step, pl_format(d->arena, "solves %s, branch %s", label, branch), pl_format(d->arena, "löst %s, Zweig %s", label, branch));
+    return;
+  }
+  pl_step_after(step, pl_format(d->arena, "solves %s", label), pl_format(d->arena, "löst %s", label));
+}
+
+// Constraints that the map of `choose` satisfies identically.
+static void say_satisfied(pl_analysis* d) {
+  const pl_form** f = PL_ARRAY(d->arena, const pl_form*, d->g.n + 1);
+  int n = 0;
+  for (int k = 0; k < d->g.n; k++) {
+    const pl_link* l = &d->g.at[k];
+    bool by_coordinate = l->fixes >= 0 || l->implied;
+    for (int i = 0; i < d->q.n; i++) by_coordinate |= d->q.at[i].solved_by == k;
+    if (by_coordinate) continue;
+    f[n++] = pl_fn(d, l->source->name.text);
+    pl_claim_free(d, PL_CLAIM_MAP, pl_on_maps(d, l->g), pl_int(d->pool, 0));
+  }
+  if (n == 0) return;
+  pl_say(d, n == 1 ? "With this map {1} holds identically." : "With this map {1} hold identically.",
+         n == 1 ? "Damit ist {1} identisch erfüllt." : "Damit sind {1} identisch erfüllt.", 1, pl_flist(d, f, n));
+}
+
+static void show_maps(pl_analysis* d) {
+  bool chosen = false;
+  for (int i = 0; i < d->q.n; i++) {
+    const pl_coordinate* c = &d->q.at[i];
+    if (c->fixed_by >= 0 || pl_is_poison(c->map)) continue;
+    const pl_form* form = pl_f(d, c->map, PL_S_SOLUTION);
+    pl_step* step = pl_show(d, pl_feq(d, pl_fs(d, c->q), form));
+    say_what_it_solves(d, step, i);
+    chosen |= c->solved_by == -1;
+    if (c->solved_by >= 0) {
+      pl_expr g = pl_subst1(d->pool, pl_on_contact(d, d->g.at[c->solved_by].g), c->q, pl_form_value(d->pool, form));
+      pl_claim_free(d, PL_CLAIM_MAP, pl_on_maps(d, g), pl_int(d->pool, 0));
+    }
+    pl_value* v = pl_answer(d, pl_symbol_get(d->pool, c->q)->ascii, c->map, form);
+    v->lhs = pl_sym(d->pool, c->q);
+    v->lhs_form = pl_fs(d, c->q);
+  }
+  if (chosen) say_satisfied(d);
+}
+
+static void show_velocities(pl_analysis* d) {
+  for (int i = 0; i < d->q.n; i++) {
+    const pl_coordinate* c = &d->q.at[i];
+    if (c->fixed_by >= 0 || pl_is_poison(c->map)) continue;
+    pl_expr v = pl_dt(d->pool, c->map);
+    const pl_form* form = pl_f(d, v, PL_S_PLAIN);
+    pl_show(d, pl_feq(d, pl_fs(d, c->v), form));
+    pl_claim_that(d, PL_CLAIM_ENERGY, pl_form_value(d->pool, form), v);
+    pl_value* value = pl_answer(d, pl_symbol_get(d->pool, c->v)->ascii, v, form);
+    value->lhs = pl_sym(d->pool, c->v);
+    value->lhs_form = pl_fs(d, c->v);
+  }
+}
+
+static void show_energy(pl_analysis* d, const char* name, pl_expr e, pl_expr raw) {
+  const pl_form* form = pl_f(d, e, PL_S_ENERGY);
+  pl_show(d, pl_feq(d, pl_fn(d, name), form));
+  pl_claim_that(d, PL_CLAIM_ENERGY, pl_form_value(d->pool, form), raw);
+  pl_answer(d, name, e, form);
+}
+
+static void show_lagrangian(pl_analysis* d) {
+  pl_expr L = pl_alg_normal(d->tower, d->Lg);
+  const pl_form* form = pl_f(d, L, PL_S_ENERGY);
+  const pl_form* both[2] = {pl_fn(d, "T"), pl_form_neg(d->arena, pl_fn(d, "V"))};
+  pl_show_numbered(d, pl_feq(d, pl_fn(d, "L"), pl_feq(d, pl_form_sum(d->arena, both, 2), form)));
+  pl_claim_that(d, PL_CLAIM_ENERGY, pl_form_value(d->pool, form), d->L);
+  pl_answer(d, "L", L, form);
+}
+
+void pl_answer_lagrangian(pl_analysis* d, const pl_ask* ask) {
+  bool mapped = d->maps.n > 0 && d->reduced;
+  const pl_form* names = names_of_generalized(d);
+  pl_section_open(d, ask, "Lagrange function", "Lagrange-Funktion");
+  if (!d->reduced) {
+    pl_expr T = pl_on_contact(d, d->T), V = pl_on_contact(d, d->V);
+    show_energy(d, "T", T, d->T);
+    show_energy(d, "V", V, d->V);
+    pl_expr L = pl_on_contact(d, d->L);
+    pl_show_numbered(d, pl_feq(d, pl_fn(d, "L"), pl_f(d, L, PL_S_ENERGY)));
+    pl_answer(d, "L", L, pl_f(d, L, PL_S_ENERGY));
+    return;
+  }
+  pl_say(d, d->gen.n == 1 ? "Generalized coordinate: {1}." : "Generalized coordinates: {1}.",
+         d->gen.n == 1 ? "Verallgemeinerte Koordinate: {1}." : "Verallgemeinerte Koordinaten: {1}.", 1, names);
+  if (mapped) {
+    show_maps(d);
+    show_velocities(d);
+  }
+  show_energy(d, "T", d->Tg, d->T);
+  show_energy(d, "V", d->Vg, d->V);
+  show_lagrangian(d);
+}
+
+// ---------------------------------------------------------------------------------------------- second kind
+static pl_expr generalized_force(pl_analysis* d, int i) {
+  pl_expr sum = pl_on_maps(d, d->force[i]);
+  for (int j = 0; j < d->q.n; j++) {
+    const pl_coordinate* c = &d->q.at[j];
+    if (c->fixed_by >= 0 || pl_is_poison(c->map) || pl_is_zero_node(d->pool, d->force[j])) continue;
+    sum = pl_add(d->pool, sum, pl_mul(d->pool, pl_on_maps(d, d->force[j]), pl_diff(d->pool, c->map, d->q.at[i].q)));
+  }
+  return sum;
+}
+
+pl_expr pl_second_kind(pl_analysis* d, int i) {
+  const pl_coordinate* c = &d->q.at[i];
+  pl_expr momentum = pl_dt(d->pool, pl_diff(d->pool, d->Lg, c->v));
+  pl_expr e = pl_sub(d->pool, momentum, pl_diff(d->pool, d->Lg, c->q));
+  return pl_sub(d->pool, e, generalized_force(d, i));
+}
+
+// The constant factor that all terms of an equation share: masses, lengths, numbers.
+static pl_expr common_factor(pl_analysis* d, pl_expr e) {
+  pl_factor f[24];
+  pl_expr unit = pl_int(d->pool, 1), common = pl_int(d->pool, 1);
+  int n = pl_alg_factors(d->tower, e, f, 24, &unit);
+  for (int k = 0; k < n; k++) {
+    if (pl_has_coordinates(d, f[k].base) || pl_has_symbol(d->pool, f[k].base, pl_time(d->pool))) continue;
+    common = pl_mul(d->pool, common, pl_pow_int(d->pool, f[k].base, f[k].power));
+  }
+  return n > 0 ? pl_mul(d->pool, unit, common) : common;
+}
+
+static const long long_mass = 14;   // operators in M(q) above which it gets a name
+
+// One degree of freedom with a long M(q):  M q'' + 1/2 M' q'^2 + V' = 0.
+static bool show_with_named_mass(pl_analysis* d, int i) {
+  const pl_coordinate* c = &d->q.at[i];
+  pl_expr M = pl_alg_normal(d->tower, pl_diff(d->pool, pl_diff(d->pool, d->Tg, c->v), c->v));
+  bool natural = pl_same(pl_alg_normal(d->tower, pl_diff(d->pool, d->Tg, c->v)), pl_alg_normal(d->tower, pl_mul(d->pool, M, pl_sym(d->pool, c->v))));
+  const pl_form* form = pl_f(d, M, PL_S_ENERGY);
+  if (!pl_has_symbol(d->pool, M, c->q) || pl_form_ops(form) < long_mass || d->dissipative || !natural) return false;
+  const pl_form* mass = pl_fn(d, pl_format(d->arena, "M(%s)", pl_symbol_get(d->pool, c->q)->name));
+  const pl_form* M_name = pl_fn(d, "M");
+  pl_say(d, "With {1}", "Mit {1}", 1, pl_feq(d, mass, form));
+  pl_claim_that(d, PL_CLAIM_ENERGY, pl_form_value(d->pool, form), M);
+  const pl_form* q2 = pl_form_power(d->arena, pl_fs(d, c->v), pl_form_leaf(d->arena, pl_int(d->pool, 2)));
+  pl_form* slope = pl_form_make(d->arena, PL_F_DERIVATIVE, 1, &M_name);
+  slope->expr = pl_sym(d->pool, c->q);
+  const pl_form* first[2] = {M_name, pl_fs(d, c->a)};
+  const pl_form* second[3] = {pl_fe(d, pl_ratio(d->pool, 1, 2)), slope, q2};
+  pl_expr dV = pl_alg_normal(d->tower, pl_diff(d->pool, d->Vg, c->q));
+  const pl_form* terms[3] = {pl_form_product(d->arena, first, 2), pl_form_product(d->arena, second, 3), pl_f(d, dV, PL_S_EQUATION)};
+  pl_show_numbered(d, pl_feq(d, pl_form_sum(d->arena, terms, pl_is_zero_node(d->pool, dV) ? 2 : 3), zero_form(d)));
+  return true;
+}
+
+static void show_second_kind(pl_analysis* d, int i) {
+  pl_expr raw = pl_second_kind(d, i);
+  pl_expr e = pl_alg_normal(d->tower, raw);
+  pl_expr factor = common_factor(d, e);
+  pl_expr shown = pl_alg_normal(d->tower, pl_div(d->pool, e, factor));
+  const pl_form* form = pl_f(d, shown, PL_S_EQUATION);
+  pl_show_numbered(d, pl_feq(d, form, zero_form(d)));
+  pl_claim_that(d, PL_CLAIM_ONE_TWO, pl_form_value(d->pool, form), pl_int(d->pool, 0));
+}
+
+static void show_solved(pl_analysis* d, int i) {
+  pl_expr a = d->acceleration[i];
+  if (pl_is_poison(a)) return;
+  const pl_form* form = pl_f(d, a, PL_S_QUOTIENT);
+  pl_claim_that(d, PL_CLAIM_ONE_TWO, pl_form_value(d->pool, form), pl_sym(d->pool, d->q.at[i].a));
+  if (pl_form_ops(form) < 160) pl_show_numbered(d, pl_feq(d, pl_fs(d, d->q.at[i].a), form));
+  pl_answer(d, pl_symbol_get(d->pool, d->q.at[i].a)->ascii, a, form);
+}
+
+// With the energy the motion of one degree of freedom is an integral:  t = ∫ dq sqrt(M / (2 (E - V))).
+static void show_quadrature(pl_analysis* d, int i) {
+  const pl_coordinate* c = &d->q.at[i];
+  pl_expr E = pl_conserved_energy(d);
+  if (pl_is_poison(E) || pl_is_poison(d->acceleration[i])) return;
+  pl_expr M = pl_diff(d->pool, pl_diff(d->pool, d->Tg, c->v), c->v);
+  if (!pl_has_coordinates(d, d->acceleration[i]) || !pl_has_symbol(d->pool, M, c->q)) return;
+  const pl_form* V = pl_f(d, d->Vg, PL_S_ENERGY);
+  const pl_form* difference[2] = {pl_fn(d, "E"), pl_form_neg(d->arena, V)};
+  const pl_form* twice[2] = {pl_form_leaf(d->arena, pl_int(d->pool, 2)), pl_form_sum(d->arena, difference, 2)};
+  const pl_form* root = pl_form_root(d->arena, pl_form_quotient(d->arena, pl_fn(d, "M"), pl_form_product(d->arena, twice, 2)));
+  pl_form* integral = pl_form_make(d->arena, PL_F_INTEGRAL, 1, &root);
+  integral->expr = pl_sym(d->pool, c->q);
+  pl_say(d, "The energy is conserved, so the motion is one integral; no elementary closed form was found:",
+         "Die Energie ist erhalten, die Bewegung also ein Integral; eine elementare geschlossene Form wurde nicht gefunden:", 0);
+  pl_show(d, pl_feq(d, pl_fn(d, "t"), integral));
+}
+
+void pl_answer_lagrange2(pl_analysis* d, const pl_ask* ask) {
+  pl_section_open(d, ask, d->gen.n == 1 ? "Lagrange equation of the second kind" : "Lagrange equations of the second kind",
+                  d->gen.n == 1 ? "Lagrange-Gleichung zweiter Art" : "Lagrange-Gleichungen zweiter Art");
+  if (without_reduction(d)) return;
+  bool named = d->gen.n == 1 && show_with_named_mass(d, d->gen.at[0]);
+  for (int k = 0; k < d->gen.n && !named; k++) show_second_kind(d, d->gen.at[k]);
+  if (d->gen.n > 0 && d->solved) pl_say(d, "Solved for the accelerations:", "Nach den Beschleunigungen aufgelöst:", 0);
+  for (int k = 0; k < d->gen.n; k++) show_solved(d, d->gen.at[k]);
+  if (named) show_quadrature(d, d->gen.at[0]);
+}
+
+// ---------------------------------------------------------------------------------------------- Hamilton function
+static pl_symbol momentum_symbol(pl_analysis* d, int i) {
+  const pl_symbol_info* q = pl_symbol_get(d->pool, d->q.at[i].q);
+  pl_symbol_info info = {.name = pl_format(d->arena, "p_%s", q->name), .ascii = pl_format(d->arena, "p_%s", q->ascii),
+                         .role = PL_R_MOMENTUM, .class = PL_C_VELOCITY};
+  info.dimension = pl_dimension_of_expr(d, pl_diff(d->pool, d->Lg, d->q.at[i].v), &info.dimension_known);
+  return pl_symbol_make(d->pool, &info);
+}
+
+void pl_answer_hamiltonian(pl_analysis* d, const pl_ask* ask) {
+  pl_section_open(d, ask, "Hamilton function", "Hamilton-Funktion");
+  if (without_reduction(d)) return;
+  int n = d->gen.n;
+  pl_expr* A = PL_ARRAY(d->arena, pl_expr, n * n + 1);
+  pl_expr *b = PL_ARRAY(d->arena, pl_expr, n + 1), *v = PL_ARRAY(d->arena, pl_expr, n + 1);
+  pl_replace* rest = PL_ARRAY(d->arena, pl_replace, n + 1);
+  for (int k = 0; k < n; k++) rest[k] = (pl_replace){d->q.at[d->gen.at[k]].v, pl_int(d->pool, 0)};
+  for (int k = 0; k < n; k++) {
+    pl_expr p = pl_diff(d->pool, d->Lg, d->q.at[d->gen.at[k]].v);
+    pl_symbol name = momentum_symbol(d, d->gen.at[k]);
+    pl_show(d, pl_feq(d, pl_fs(d, name), pl_f(d, pl_alg_normal(d->tower, p), PL_S_ENERGY)));
+    for (int j = 0; j < n; j++) A[k * n + j] = pl_diff(d->pool, p, d->q.at[d->gen.at[j]].v);
+    b[k] = pl_sub(d->pool, pl_sym(d->pool, name), pl_subst(d->pool, p, rest, n));
+  }
+  if (n == 0 || pl_alg_solve(d->tower, n, A, b, v, 50000) != PL_YES) {
+    pl_say(d, "The momenta cannot be solved for the velocities: the Lagrange function is singular.",
+           "Die Impulse sind nicht nach den Geschwindigkeiten auflösbar: die Lagrange-Funktion ist singulär.", 0);
+    d->section->not_found = true;
+    return;
+  }
+  pl_expr H = pl_neg(d->pool, d->Lg);
+  for (int k = 0; k < n; k++) {
+    H = pl_add(d->pool, H, pl_mul(d->pool, pl_sym(d->pool, momentum_symbol(d, d->gen.at[k])), pl_sym(d->pool, d->q.at[d->gen.at[k]].v)));
+    rest[k].to = v[k];
+  }
+  H = pl_alg_normal(d->tower, pl_subst(d->pool, H, rest, n));
+  const pl_form* form = pl_f(d, H, PL_S_ENERGY);
+  pl_show_numbered(d, pl_feq(d, pl_fn(d, "H"), form));
+  pl_answer(d, "H", H, form);
+}

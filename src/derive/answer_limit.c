@@ -1,0 +1,190 @@
+// answer_limit: limits and series of results in the parameters.
+#include <math.h>
+#include <string.h>
+
+#include "derive/derive_impl.h"
+
+// What the request speaks of, worked out: on the motion, abbreviations inserted where they contain the variable.
+static pl_expr subject(pl_analysis* d, const pl_ask* ask, pl_expr e) {
+  e = pl_on_motion(d, pl_with_results(d, e));
+  for (int k = d->model->lets.n - 1; k >= 0; k--) {
+    const pl_let* l = &d->model->lets.at[k];
+    if (l->n_args > 0 || !l->symbol.id || !pl_has_symbol(d->pool, e, l->symbol)) continue;
+    bool hangs = pl_has_symbol(d->pool, l->value, ask->variable);
+    if (hangs) e = pl_subst1(d->pool, e, l->symbol, l->value);
+  }
+  return pl_alg_normal(d->tower, e);
+}
+
+static const pl_form* name_of(pl_analysis* d, pl_expr e) {
+  return pl_kind_of(d->pool, e) == PL_SYMBOL ? pl_fs(d, pl_symbol_of(d->pool, e)) : pl_f(d, e, PL_S_PLAIN);
+}
+
+static const char* machine_name(pl_analysis* d, pl_expr e) { return pl_expr_text(d->arena, d->pool, e); }
+
+// ---------------------------------------------------------------------------------------------- limits
+static void show_limit(pl_analysis* d, const pl_form* condition, pl_expr subject_name, pl_expr value, bool equality) {
+  const pl_form* rhs = pl_f(d, value, PL_S_QUOTIENT);
+  const pl_form* result = pl_frel(d, name_of(d, subject_name), equality ? "=" : "->", rhs);
+  pl_say(d, "{1}:  {2}", "{1}:  {2}", 2, condition, result);
+  pl_answer(d, machine_name(d, subject_name), value, rhs);
+}
+
+static void not_found(pl_analysis* d, const pl_form* condition) {
+  pl_say(d, "{1}: no limit was found.", "{1}: kein Grenzwert gefunden.", 1, condition);
+  d->section->not_found = true;
+}
+
+static void limit_equal(pl_analysis* d, const pl_ask* ask, pl_expr name, pl_expr e) {
+  const pl_form* condition = pl_feq(d, pl_fs(d, ask->variable), pl_fe(d, ask->to));
+  pl_expr value = pl_alg_normal(d->tower, pl_subst1(d->pool, e, ask->variable, ask->to));
+  if (pl_is_poison(value)) value = pl_alg_limit(d->tower, e, ask->variable, ask->to);
+  if (pl_is_poison(value)) {
+    not_found(d, condition);
+    return;
+  }
+  show_limit(d, condition, name, value, true);
+}
+
+static void limit_to(pl_analysis* d, const pl_ask* ask, pl_expr name, pl_expr e) {
+  const pl_form* condition = pl_frel(d, pl_fs(d, ask->variable), "->", pl_fe(d, ask->to));
+  pl_expr value = pl_alg_limit(d->tower, e, ask->variable, ask->to);
+  if (pl_is_poison(value)) {
+    not_found(d, condition);
+    return;
+  }
+  show_limit(d, condition, name, value, false);
+}
+
+// The small name ε with  small = ε large.
+static pl_symbol ratio_symbol(pl_analysis* d, pl_expr small, pl_symbol large) {
+  pl_symbol_info info = {.name = "ε", .role = PL_R_SMALL, .class = PL_C_OTHER, .sign = PL_SIGN_POSITIVE,
+                         .dimension = pl_dimension_one(), .dimension_known = true};
+  info.ascii = pl_format(d->arena, "ratio_%s_%s", pl_expr_text(d->arena, d->pool, small), pl_symbol_get(d->pool, large)->ascii);
+  return pl_symbol_make(d->pool, &info);
+}
+
+static const pl_form* power_form(pl_analysis* d, const pl_form* base, int k) {
+  return k == 1 ? base : pl_form_power(d->arena, base, pl_form_leaf(d->arena, pl_int(d->pool, k)));
+}
+
+// c0 + c1 x + c2 x² + O(x³), each coefficient presented by itself.
+static const pl_form* series_form(pl_analysis* d, const pl_expr* c, int lead, int n, const pl_form* x, int order) {
+  const pl_form** term = PL_ARRAY(d->arena, const pl_form*, n + 1);
+  int m = 0;
+  for (int k = 0; k < n; k++) {
+    int power = lead + k;
+    if (pl_is_zero_node(d->pool, c[k]) || power > order) continue;
+    const pl_form* coefficient = pl_f(d, c[k], PL_S_QUOTIENT);
+    bool negative = coefficient->kind == PL_F_NEG;
+    if (negative) coefficient = coefficient->args[0];
+    const pl_form* factor[2] = {coefficient, power ? power_form(d, x, power) : NULL};
+    const pl_form* t = power == 0 ? coefficient : pl_is_one_node(d->pool, pl_form_value(d->pool, coefficient)) ? factor[1]
+                                                                                                              : pl_form_product(d->arena, factor, 2);
+    term[m++] = negative ? pl_form_neg(d->arena, t) : t;
+  }
+  const pl_form* rest = power_form(d, x, order + 1);
+  term[m++] = pl_form_make(d->arena, PL_F_ORDER, 1, &rest);
+  return pl_form_sum(d->arena, term, m);
+}
+
+static pl_expr truncated(pl_analysis* d, const pl_expr* c, int lead, int n, pl_expr x, int order) {
+  pl_expr sum = pl_int(d->pool, 0);
+  for (int k = 0; k < n && lead + k <= order; k++) {
+    sum = pl_add(d->pool, sum, pl_mul(d->pool, c[k], pl_pow_int(d->pool, x, lead + k)));
+  }
+  return sum;
+}
+
+enum { max_order = 12 };
+
+// large >> small: the series in ε = small/large and its leading term.
+static void limit_much_greater(pl_analysis* d, const pl_ask* ask, pl_expr name, pl_expr e) {
+  const pl_form* condition = pl_frel(d, pl_fs(d, ask->variable), "≫", pl_fe(d, ask->to));
+  if (pl_kind_of(d->pool, ask->to) != PL_SYMBOL) {
+    not_found(d, condition);
+    return;
+  }
+  pl_symbol small = pl_symbol_of(d->pool, ask->to), eps = ratio_symbol(d, ask->to, ask->variable);
+  pl_expr inserted = pl_subst1(d->pool, e, small, pl_mul(d->pool, pl_sym(d->pool, eps), pl_sym(d->pool, ask->variable)));
+  pl_expr c[3];
+  int lead = 0;
+  if (!pl_alg_series(d->tower, pl_alg_normal(d->tower, inserted), eps, pl_int(d->pool, 0), 3, &lead, c)) {
+    not_found(d, condition);
+    return;
+  }
+  const pl_form* ratio = pl_form_quotient(d->arena, pl_fe(d, ask->to), pl_fs(d, ask->variable));
+  const pl_form* grouped = pl_form_make(d->arena, PL_F_GROUP, 1, &ratio);
+  const pl_form* form = series_form(d, c, lead, 3, grouped, lead + 1);
+  pl_say(d, "{1}:  {2}", "{1}:  {2}", 2, condition, pl_feq(d, name_of(d, name), form));
+  pl_expr real = pl_div(d->pool, ask->to, pl_sym(d->pool, ask->variable));
+  pl_expr leading = pl_alg_normal(d->tower, truncated(d, c, lead, 1, real, lead));
+  pl_value* v = pl_answer(d, machine_name(d, name), leading, pl_f(d, leading, PL_S_QUOTIENT));
+  v = pl_answer(d, pl_format(d->arena, "%s series", machine_name(d, name)), truncated(d, c, lead, 3, real, lead + 1), form);
+  v->order = lead + 1;
+}
+
+// The quantities a request means: its own expression, or the values of the section with its letter.
+static int subjects(pl_analysis* d, const pl_ask* ask, pl_expr* name, pl_expr* e, int max) {
+  if (!ask->of_letter) {
+    name[0] = ask->value;
+    e[0] = subject(d, ask, ask->value);
+    return 1;
+  }
+  int n = 0;
+  for (int s = 0; s < d->solution->sections.n; s++) {
+    const pl_section* section = &d->solution->sections.at[s];
+    if (!section->letter || strcmp(section->letter, ask->of_letter) != 0 || section == d->section) continue;
+    for (int k = 0; k < section->values.n && n < max; k++) {
+      pl_symbol symbol = pl_symbol_find(d->pool, section->values.at[k].name);
+      if (!symbol.id || pl_is_poison(section->values.at[k].expr)) continue;
+      name[n] = pl_sym(d->pool, symbol);
+      e[n++] = subject(d, ask, section->values.at[k].expr);
+    }
+  }
+  return n;
+}
+
+void pl_answer_limit(pl_analysis* d, const pl_ask* ask) {
+  pl_section_open(d, ask, "Limits", "Grenzfälle");
+  pl_expr name[16], e[16];
+  int n = subjects(d, ask, name, e, 16);
+  for (int k = 0; k < n; k++) {
+    switch (ask->limit) {
+      case PL_LIMIT_EQUAL: limit_equal(d, ask, name[k], e[k]); break;
+      case PL_LIMIT_TO: limit_to(d, ask, name[k], e[k]); break;
+      case PL_LIMIT_MUCH_GREATER: limit_much_greater(d, ask, name[k], e[k]); break;
+    }
+  }
+  if (n == 0) pl_answer_pending(d, ask);
+}
+
+// ---------------------------------------------------------------------------------------------- series
+void pl_answer_series(pl_analysis* d, const pl_ask* ask) {
+  pl_section_open(d, ask, "Limits", "Grenzfälle");
+  pl_expr name[16], e[16];
+  int n = subjects(d, ask, name, e, 16), order = ask->order > 0 ? ask->order : 2;
+  if (order > max_order) order = max_order;
+  for (int k = 0; k < n; k++) {
+    pl_expr about = e[k];
+    const pl_form* condition = pl_frel(d, pl_fs(d, ask->variable), "->", pl_fe(d, ask->to));
+    if (!pl_is_poison(ask->substitution_left)) {
+      about = pl_subst_expr(d->pool, about, ask->substitution_left, ask->substitution_right);
+      condition = pl_feq(d, pl_fe(d, ask->substitution_left), pl_fe(d, ask->substitution_right));
+    }
+    pl_expr c[2 * max_order + 2];
+    int lead = 0;
+    if (!pl_alg_series(d->tower, pl_alg_normal(d->tower, about), ask->variable, ask->to, order + 1, &lead, c)) {
+      not_found(d, condition);
+      continue;
+    }
+    pl_expr x = pl_sub(d->pool, pl_sym(d->pool, ask->variable), ask->to);
+    const pl_form* base = pl_is_zero_node(d->pool, ask->to) ? pl_fs(d, ask->variable) : pl_fe(d, x);
+    if (base->kind == PL_F_SUM) base = pl_form_make(d->arena, PL_F_GROUP, 1, &base);
+    const pl_form* form = series_form(d, c, lead, order + 1, base, order > lead ? order : lead);
+    pl_say(d, "{1}:  {2}", "{1}:  {2}", 2, condition, pl_feq(d, name_of(d, name[k]), form));
+    pl_value* v = pl_answer(d, machine_name(d, name[k]), truncated(d, c, lead, order + 1, x, order > lead ? order : lead), form);
+    v->order = order > lead ? order : lead;
+  }
+  if (n == 0) pl_answer_pending(d, ask);
+}

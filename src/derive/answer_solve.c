@@ -1,0 +1,288 @@
+// answer_solve: multipliers, accelerations and closed motions on request, with the way to them.
+#include <math.h>
+#include <string.h>
+
+#include "derive/derive_impl.h"
+
+static int link_of_lambda(const pl_analysis* d, pl_symbol s) {
+  for (int k = 0; k < d->g.n; k++) {
+    if (d->g.at[k].lambda.id == s.id) return k;
+  }
+  return -1;
+}
+
+// ---------------------------------------------------------------------------------------------- multipliers
+static pl_expr zero_accelerations(pl_analysis* d, pl_expr e) {
+  pl_replace* zero = PL_ARRAY(d->arena, pl_replace, d->q.n);
+  for (int j = 0; j < d->q.n; j++) zero[j] = (pl_replace){d->q.at[j].a, pl_int(d->pool, 0)};
+  return pl_subst(d->pool, e, zero, d->q.n);
+}
+
+// Row i solved for its own acceleration when no other one occurs in it: x'' = (F + sum lambda dg)/m.
+static pl_expr own_acceleration(pl_analysis* d, int i) {
+  pl_expr e = pl_on_contact(d, d->euler[i]);
+  pl_expr own = pl_diff(d->pool, e, d->q.at[i].a);
+  for (int j = 0; j < d->q.n; j++) {
+    if (j != i && !pl_is_zero_node(d->pool, pl_diff(d->pool, e, d->q.at[j].a))) return pl_poison();
+  }
+  pl_expr push = pl_neg(d->pool, zero_accelerations(d, e));
+  for (int k = 0; k < d->g.n; k++) {
+    const pl_link* l = &d->g.at[k];
+    if (l->implied || l->fixes >= 0) continue;
+    push = pl_add(d->pool, push, pl_mul(d->pool, pl_sym(d->pool, l->lambda), pl_on_contact(d, l->gradient[i])));
+  }
+  return pl_div(d->pool, push, own);
+}
+
+// Puts the equations of motion into a differentiated constraint; false when they are coupled.
+static bool insert_rows(pl_analysis* d, pl_expr e, pl_expr* out) {
+  pl_replace* r = PL_ARRAY(d->arena, pl_replace, d->q.n);
+  int n = 0;
+  for (int i = 0; i < d->q.n; i++) {
+    if (!pl_has_symbol(d->pool, e, d->q.at[i].a)) continue;
+    pl_expr a = own_acceleration(d, i);
+    if (pl_is_poison(a)) return false;
+    r[n++] = (pl_replace){d->q.at[i].a, a};
+  }
+  *out = pl_subst(d->pool, e, r, n);
+  return n > 0;
+}
+
+static const pl_form* refs_form(pl_analysis* d) {
+  const pl_form** f = PL_ARRAY(d->arena, const pl_form*, d->lagrange1_numbers.n + 1);
+  for (int i = 0; i < d->lagrange1_numbers.n; i++) f[i] = pl_fref(d, d->lagrange1_numbers.at[i]);
+  return pl_flist(d, f, d->lagrange1_numbers.n);
+}
+
+// Collects e as sum over the multipliers: "2 g + λ (1/m1 + 1/m2)".
+static const pl_form* by_multipliers(pl_analysis* d, pl_expr e) {
+  const pl_form** term = PL_ARRAY(d->arena, const pl_form*, d->g.n + 1);
+  int n = 0;
+  pl_replace* zero = PL_ARRAY(d->arena, pl_replace, d->g.n);
+  for (int k = 0; k < d->g.n; k++) zero[k] = (pl_replace){d->g.at[k].lambda, pl_int(d->pool, 0)};
+  pl_expr rest = pl_alg_normal(d->tower, pl_subst(d->pool, e, zero, d->g.n));
+  if (!pl_is_zero_node(d->pool, rest)) term[n++] = pl_f(d, rest, PL_S_PLAIN);
+  for (int k = 0; k < d->g.n; k++) {
+    pl_expr c = pl_diff(d->pool, e, d->g.at[k].lambda);
+    if (pl_is_zero_node(d->pool, c)) continue;
+    const pl_form* factor[2] = {pl_fs(d, d->g.at[k].lambda), pl_fe(d, c)};
+    term[n++] = pl_form_product(d->arena, factor, 2);
+  }
+  return n == 1 ? term[0] : pl_form_sum(d->arena, term, n);
+}
+
+static void show_twice_differentiated(pl_analysis* d, int k) {
+  const pl_link* l = &d->g.at[k];
+  const pl_form* zero = pl_form_leaf(d->arena, pl_int(d->pool, 0));
+  pl_expr gdd = pl_on_fixed(d, pl_link_acceleration(d, k));
+  pl_say(d, l->velocity ? "The time derivative of {1}:" : "Two time derivatives of {1}:",
+         l->velocity ? "Zeitableitung von {1}:" : "Zweimalige Zeitableitung der Zwangsbedingung {1}:", 1, pl_fn(d, l->source->name.text));
+  if (l->contact && l->fixes >= 0) {
+    const pl_coordinate* c = &d->q.at[l->fixes];
+    const pl_form* both[2] = {pl_feq(d, pl_fs(d, c->v), pl_fe(d, pl_dt(d->pool, c->fixed))),
+                              pl_feq(d, pl_fs(d, c->a), pl_fe(d, pl_dt(d->pool, pl_dt(d->pool, c->fixed))))};
+    d->number_gdd = pl_show_numbered(d, pl_flist(d, both, 2))->number;
+    return;
+  }
+  d->number_gdd = pl_show_numbered(d, pl_feq(d, pl_f(d, pl_alg_normal(d->tower, gdd), PL_S_EQUATION), zero))->number;
+  pl_claim_that(d, PL_CLAIM_MOTION, gdd, pl_int(d->pool, 0));
+  pl_expr inserted;
+  if (d->lagrange1_numbers.n == 0 || !insert_rows(d, pl_on_contact(d, gdd), &inserted)) return;
+  if (pl_op_count(d->pool, inserted) > 60) return;
+  pl_say(d, "{1} inserted into {2}:", "{1} in {2} eingesetzt:", 2, refs_form(d), pl_fref(d, d->number_gdd));
+  pl_show(d, pl_feq(d, by_multipliers(d, inserted), zero));
+  pl_claim_that(d, PL_CLAIM_MOTION, inserted, pl_int(d->pool, 0));
+}
+
+// λ with the state eliminated, displayed with its number.
+static void show_lambda(pl_analysis* d, int k) {
+  pl_link* l = &d->g.at[k];
+  if (!l->lambda_known) {
+    pl_say(d, "{1} is not determined by the equations in closed form.", "{1} ist durch die Gleichungen nicht geschlossen bestimmt.", 1,
+           pl_fs(d, l->lambda));
+    d->section->not_found = true;
+    return;
+  }
+  const pl_form* form = pl_f(d, l->lambda_value, l->contact ? PL_S_EQUATION : PL_S_QUOTIENT);
+  pl_step* step = pl_show_numbered(d, pl_feq(d, pl_fs(d, l->lambda), form));
+  d->number_lambda = step->number;
+  bool known;
+  pl_step_value(d, step, l->lambda_value, pl_dimension_of_expr(d, l->lambda_value, &known));
+  pl_claim_that(d, PL_CLAIM_MOTION, pl_form_value(d->pool, form), pl_sym(d->pool, l->lambda));
+  pl_value* v = pl_answer(d, pl_symbol_get(d->pool, l->lambda)->ascii, l->lambda_value, form);
+  v->of = l->source->name.text;
+}
+
+static void solve_lambda(pl_analysis* d, int k) {
+  if (d->g.at[k].fixes < 0 || d->g.at[k].contact) {
+    show_twice_differentiated(d, k);
+  } else {
+    pl_say(d, "{1} was dropped; its multiplier is what the equation of its coordinate leaves:",
+           "{1} ist entfallen; der Multiplikator ist der Rest der Gleichung ihrer Koordinate:", 1, pl_fn(d, d->g.at[k].source->name.text));
+  }
+  show_lambda(d, k);
+}
+
+// ---------------------------------------------------------------------------------------------- accelerations
+static void show_acceleration(pl_analysis* d, int i) {
+  const pl_form* form = pl_f(d, d->acceleration[i], PL_S_QUOTIENT);
+  pl_step* step = pl_show_numbered(d, pl_feq(d, pl_fs(d, d->q.at[i].a), form));
+  d->number_acceleration = step->number;
+  bool known;
+  pl_step_value(d, step, d->acceleration[i], pl_dimension_of_expr(d, d->acceleration[i], &known));
+  pl_claim_that(d, PL_CLAIM_MOTION, pl_form_value(d->pool, form), pl_sym(d->pool, d->q.at[i].a));
+}
+
+static bool no_acceleration(pl_analysis* d, int i) {
+  if (d->solved && i >= 0 && !pl_is_poison(d->acceleration[i])) return false;
+  pl_say(d, "No closed form was found for it.", "Dafür wurde keine geschlossene Form gefunden.", 0);
+  d->section->not_found = true;
+  return true;
+}
+
+static void say_inserted(pl_analysis* d, int i) {
+  if (d->number_lambda && d->lagrange1_numbers.n > 0) {
+    int row = 0;
+    for (int j = 0; j < i; j++) row += d->q.at[j].carries && d->q.at[j].fixed_by < 0;
+    if (row < d->lagrange1_numbers.n) {
+      pl_say(d, "{1} inserted into {2}:", "{1} in {2} eingesetzt:", 2, pl_fref(d, d->number_lambda),
+             pl_fref(d, d->lagrange1_numbers.at[row]));
+    }
+  }
+}
+
+// ---------------------------------------------------------------------------------------------- closed motions
+// x'' = A + B x + C x' with constant A, B, C: the general solution through x(0), x'(0).   [Arnold 1989, sec. 5]
+typedef struct pl_linear_equation { pl_expr A, B, C; } pl_linear_equation;
+
+static bool is_parameter(pl_analysis* d, pl_expr e) {
+  return !pl_has_coordinates(d, e) && !pl_has_symbol(d->pool, e, pl_time(d->pool));
+}
+
+static bool linear_equation(pl_analysis* d, int i, pl_linear_equation* out) {
+  pl_expr a = d->acceleration[i], cx[2], cv[2];
+  int nx = pl_alg_coefficients(d->tower, a, d->q.at[i].q, cx, 1);
+  if (nx < 0) return false;
+  out->B = nx == 1 ? cx[1] : pl_int(d->pool, 0);
+  int nv = pl_alg_coefficients(d->tower, cx[0], d->q.at[i].v, cv, 1);
+  if (nv < 0) return false;
+  out->C = nv == 1 ? cv[1] : pl_int(d->pool, 0);
+  out->A = cv[0];
+  return is_parameter(d, out->A) && is_parameter(d, out->B) && is_parameter(d, out->C);
+}
+
+static pl_expr uniform(pl_analysis* d, pl_expr A, pl_expr x0, pl_expr v0, pl_expr t) {
+  pl_pool* p = d->pool;
+  pl_expr fall = pl_mul_n(p, (pl_expr[]){pl_ratio(p, 1, 2), A, pl_square(p, t)}, 3);
+  return pl_add_n(p, (pl_expr[]){x0, pl_mul(p, v0, t), fall}, 3);
+}
+
+// x'' = A + C x':  x = x0 - A t/C + (v0 + A/C)(e^{Ct} - 1)/C
+static pl_expr with_friction(pl_analysis* d, const pl_linear_equation* l, pl_expr x0, pl_expr v0, pl_expr t) {
+  pl_pool* p = d->pool;
+  pl_expr terminal = pl_div(p, l->A, l->C);
+  pl_expr grown = pl_sub(p, pl_call(p, PL_EXP, pl_mul(p, l->C, t)), pl_int(p, 1));
+  pl_expr fading = pl_div(p, pl_mul(p, pl_add(p, v0, terminal), grown), l->C);
+  return pl_add_n(p, (pl_expr[]){x0, pl_neg(p, pl_mul(p, terminal, t)), fading}, 3);
+}
+
+// x'' = A + B x + C x', B != 0, around the rest position -A/B; the sign of the discriminant decides.
+static pl_expr oscillation(pl_analysis* d, const pl_linear_equation* l, pl_expr x0, pl_expr v0, pl_expr t) {
+  pl_pool* p = d->pool;
+  pl_expr rest = pl_alg_normal(d->tower, pl_neg(p, pl_div(p, l->A, l->B)));
+  pl_expr half = pl_div(p, l->C, pl_int(p, 2));
+  pl_expr disc = pl_alg_normal(d->tower, pl_add(p, l->B, pl_square(p, half)));
+  int sign;
+  if (pl_alg_sign(d->tower, disc, false, &sign) != PL_YES || sign == 0) return pl_poison();
+  pl_expr w = pl_alg_normal(d->tower, pl_sqrt(p, sign > 0 ? disc : pl_neg(p, disc)));
+  pl_expr wt = pl_mul(p, w, t), u0 = pl_sub(p, x0, rest);
+  pl_expr even = pl_call(p, sign > 0 ? PL_COSH : PL_COS, wt), odd = pl_call(p, sign > 0 ? PL_SINH : PL_SIN, wt);
+  pl_expr slope = pl_div(p, pl_sub(p, v0, pl_mul(p, half, u0)), w);
+  pl_expr swing = pl_add(p, pl_mul(p, u0, even), pl_mul(p, slope, odd));
+  if (!pl_is_zero_node(p, half)) swing = pl_mul(p, pl_call(p, PL_EXP, pl_mul(p, half, t)), swing);
+  return pl_add(p, rest, swing);
+}
+
+static pl_expr closed_motion(pl_analysis* d, int i) {
+  pl_linear_equation l;
+  if (pl_is_poison(d->acceleration[i]) || !linear_equation(d, i, &l)) return pl_poison();
+  pl_expr x0 = pl_start_value(d, d->q.at[i].q), v0 = pl_start_value(d, d->q.at[i].v), t = pl_sym(d->pool, pl_time(d->pool));
+  if (!pl_is_zero_node(d->pool, l.B)) return oscillation(d, &l, x0, v0, t);
+  if (!pl_is_zero_node(d->pool, l.C)) return with_friction(d, &l, x0, v0, t);
+  return uniform(d, l.A, x0, v0, t);
+}
+
+// The solution inserted into the equation, and its start: x(t)'' - x''(x, x') = 0, x(0) = x0.
+static void claim_motion(pl_analysis* d, int i, pl_expr x) {
+  pl_symbol t = pl_time(d->pool);
+  pl_expr v = pl_diff(d->pool, x, t), a = pl_diff(d->pool, v, t);
+  pl_replace r[2] = {{d->q.at[i].q, x}, {d->q.at[i].v, v}};
+  pl_claim_free(d, PL_CLAIM_INSERTED, a, pl_subst(d->pool, d->acceleration[i], r, 2));
+  pl_expr zero = pl_int(d->pool, 0);
+  pl_claim_free(d, PL_CLAIM_INSERTED, pl_subst1(d->pool, x, t, zero), pl_start_value(d, d->q.at[i].q));
+  pl_claim_free(d, PL_CLAIM_INSERTED, pl_subst1(d->pool, v, t, zero), pl_start_value(d, d->q.at[i].v));
+}
+
+static const pl_form* of_time(pl_analysis* d, int i) {
+  return pl_fn(d, pl_format(d->arena, "%s(t)", pl_symbol_get(d->pool, d->q.at[i].q)->name));
+}
+
+// Coordinates that hang on i alone by the map: x2(t) = l - x1(t).
+static void show_followers(pl_analysis* d, int i) {
+  for (int j = 0; j < d->q.n; j++) {
+    const pl_coordinate* c = &d->q.at[j];
+    if (j == i || c->fixed_by >= 0 || pl_is_poison(c->map) || !pl_has_symbol(d->pool, c->map, d->q.at[i].q)) continue;
+    pl_expr shown = pl_subst1(d->pool, c->map, d->q.at[i].q, pl_sym(d->pool, d->q.at[i].q));
+    pl_show(d, pl_feq(d, pl_fs(d, c->q), pl_f(d, shown, PL_S_SOLUTION)));
+  }
+}
+
+static void solve_motion(pl_analysis* d, int i) {
+  if (no_acceleration(d, i)) return;
+  const pl_coordinate* c = &d->q.at[i];
+  if (!pl_is_poison(c->map) && c->solved_by != -2 && d->reduced && d->gen.n == 1 && d->gen.at[0] != i) {
+    solve_motion(d, d->gen.at[0]);   // the map then gives this one
+    return;
+  }
+  say_inserted(d, i);
+  show_acceleration(d, i);
+  pl_expr x = closed_motion(d, i);
+  if (pl_is_poison(x)) {
+    pl_say(d, "No elementary closed form of the motion was found.", "Eine elementare geschlossene Form der Bewegung wurde nicht gefunden.", 0);
+    d->section->not_found = true;
+    return;
+  }
+  bool uniform_motion = !pl_has_coordinates(d, d->acceleration[i]);
+  pl_say(d, uniform_motion ? "Integrated twice:" : "A linear equation with constant coefficients; its solution through the start:",
+         uniform_motion ? "Zweimal integriert:" : "Lineare Gleichung mit konstanten Koeffizienten; die Lösung durch den Start:", 0);
+  const pl_form* form = pl_f(d, x, PL_S_SOLUTION);
+  pl_show_numbered(d, pl_feq(d, of_time(d, i), form));
+  claim_motion(d, i, pl_form_value(d->pool, form));
+  pl_answer(d, pl_symbol_get(d->pool, c->q)->ascii, x, form);
+  show_followers(d, i);
+}
+
+// ---------------------------------------------------------------------------------------------- the section
+void pl_answer_solve(pl_analysis* d, const pl_ask* ask) {
+  bool goes_on = ask->letter && d->solution->sections.n > 0 && d->section->letter && strcmp(d->section->letter, ask->letter) == 0;
+  pl_symbol s = pl_kind_of(d->pool, ask->value) == PL_SYMBOL ? pl_symbol_of(d->pool, ask->value) : (pl_symbol){0};
+  int k = link_of_lambda(d, s), i = pl_coordinate_index(d, s);
+  if (k >= 0) {
+    pl_section_open(d, ask, goes_on ? NULL : "Multiplier", goes_on ? NULL : "Multiplikator");
+    solve_lambda(d, k);
+  } else if (i >= 0 && ask->of_time) {
+    pl_section_open(d, ask, "Motion", "Bewegung");
+    solve_motion(d, i);
+  } else if (i >= 0 && d->q.at[i].a.id == s.id) {
+    pl_section_open(d, ask, "Acceleration", "Beschleunigung");
+    if (no_acceleration(d, i)) return;
+    say_inserted(d, i);
+    show_acceleration(d, i);
+    pl_answer(d, pl_symbol_get(d->pool, s)->ascii, d->acceleration[i], pl_f(d, d->acceleration[i], PL_S_QUOTIENT));
+  } else if (i >= 0) {
+    pl_section_open(d, ask, "Motion", "Bewegung");
+    solve_motion(d, i);
+  } else {
+    pl_answer_pending(d, ask);
+  }
+}

@@ -1,0 +1,198 @@
+// claims: what was displayed is held against the model itself.  Accelerations and multipliers are found numerically at random
+// points of the domain, from d'Alembert's principle with raw derivatives of the position map,
+//   sum_k m_k J_k^T (J_k a + a0_k) = Q + G^T lambda,   d^2 g/dt^2 = 0,
+// so neither the Lagrange function's expansion nor the tower takes part.
+#include <math.h>
+
+#include "derive/derive_impl.h"
+
+static const char* const claim_name[PL_N_CLAIMS][2] = {
+    [PL_CLAIM_MOTION] = {"accelerations and multipliers against d'Alembert", "Beschleunigungen und Multiplikatoren gegen d'Alembert"},
+    [PL_CLAIM_ONE_TWO] = {"Lagrange I against II", "Lagrange I gegen II"},
+    [PL_CLAIM_MAP] = {"constraints vanish identically", "Zwangsbedingungen verschwinden identisch"},
+    [PL_CLAIM_ENERGY] = {"energies against the Cartesian ones", "Energien gegen die kartesischen"},
+    [PL_CLAIM_INSERTED] = {"solutions inserted", "Lösungen eingesetzt"},
+    [PL_CLAIM_OTHER] = {"other formulas", "weitere Formeln"},
+};
+
+static void claim(pl_analysis* d, pl_claim_kind kind, pl_expr shown, pl_expr reference, bool own_domain) {
+  pl_push(d->arena, d->claims, (pl_claim){kind, shown, reference, own_domain});
+}
+
+void pl_claim_that(pl_analysis* d, pl_claim_kind kind, pl_expr shown, pl_expr reference) { claim(d, kind, shown, reference, false); }
+void pl_claim_free(pl_analysis* d, pl_claim_kind kind, pl_expr shown, pl_expr reference) { claim(d, kind, shown, reference, true); }
+
+// ---------------------------------------------------------------------------------------------- d'Alembert
+// Row i:  sum_k m_k dX_k/dq_i . X_k''  +  J dα/dq_i α''  -  Q_i.
+static pl_expr inertia_row(pl_analysis* d, int i) {
+  pl_pool* p = d->pool;
+  pl_expr sum = pl_int(p, 0);
+  for (int k = 0; k < d->particle.n; k++) {
+    const pl_particle* m = &d->particle.at[k];
+    for (int c = 0; c < m->n; c++) {
+      pl_expr push = pl_dt(p, pl_dt(p, m->at[c]));
+      sum = pl_add(p, sum, pl_mul_n(p, (pl_expr[]){m->mass, pl_diff(p, m->at[c], d->q.at[i].q), push}, 3));
+    }
+    if (pl_is_poison(m->angle)) continue;
+    pl_expr turn = pl_dt(p, pl_dt(p, m->angle));
+    sum = pl_add(p, sum, pl_mul_n(p, (pl_expr[]){m->inertia, pl_diff(p, m->angle, d->q.at[i].q), turn}, 3));
+  }
+  return sum;
+}
+
+// What the masses do not account for: potentials, extra kinetic terms, a given Lagrange function, forces.
+static pl_expr force_row(pl_analysis* d, int i) {
+  pl_pool* p = d->pool;
+  pl_expr T = pl_int(p, 0);
+  for (int k = 0; k < d->particle.n; k++) {
+    const pl_particle* m = &d->particle.at[k];
+    for (int c = 0; c < m->n; c++) {
+      T = pl_add(p, T, pl_mul_n(p, (pl_expr[]){pl_ratio(p, 1, 2), m->mass, pl_square(p, pl_dt(p, m->at[c]))}, 3));
+    }
+    if (!pl_is_poison(m->angle)) {
+      T = pl_add(p, T, pl_mul_n(p, (pl_expr[]){pl_ratio(p, 1, 2), m->inertia, pl_square(p, pl_dt(p, m->angle))}, 3));
+    }
+  }
+  pl_expr rest = pl_sub(p, d->L, T);
+  pl_expr euler = pl_sub(p, pl_dt(p, pl_diff(p, rest, d->q.at[i].v)), pl_diff(p, rest, d->q.at[i].q));
+  return pl_sub(p, euler, d->force[i]);
+}
+
+typedef struct pl_system_of_motion {
+  int n, n_definitions;
+  pl_symbol* unknown;
+  pl_expr *row, *A, *b;
+  pl_definition* definition;
+} pl_system_of_motion;
+
+static void define(pl_system_of_motion* s, pl_symbol symbol, pl_expr value) {
+  s->definition[s->n_definitions++] = (pl_definition){symbol, value};
+}
+
+// Coordinates and velocities that follow from others: fixed, closed contacts, mapped.
+static void definitions(pl_analysis* d, pl_system_of_motion* s) {
+  s->definition = PL_ARRAY(d->arena, pl_definition, 2 * d->q.n + d->model->lets.n);
+  for (int k = 0; k < d->model->lets.n; k++) {
+    const pl_let* l = &d->model->lets.at[k];
+    if (l->n_args == 0 && l->symbol.id && !pl_has_coordinates(d, l->value)) define(s, l->symbol, l->value);
+  }
+  for (int i = 0; i < d->q.n; i++) {
+    const pl_coordinate* c = &d->q.at[i];
+    pl_expr value = c->fixed_by >= 0 ? c->fixed : d->reduced ? c->map : pl_poison();
+    if (pl_is_poison(value)) continue;
+    define(s, c->q, value);
+    define(s, c->v, pl_dt(d->pool, value));
+  }
+}
+
+static bool takes_part(const pl_analysis* d, const pl_coordinate* c) { return c->carries || (c->chosen && d->reduced); }
+
+// Unknowns: accelerations of all coordinates and all multipliers.  Rows: d'Alembert for what carries something, constraints
+// twice differentiated, maps twice differentiated for what only stands in `choose`.
+static void rows(pl_analysis* d, pl_system_of_motion* s) {
+  int cap = 2 * d->q.n + d->g.n, n_rows = 0;
+  s->unknown = PL_ARRAY(d->arena, pl_symbol, cap);
+  s->row = PL_ARRAY(d->arena, pl_expr, cap);
+  for (int i = 0; i < d->q.n; i++) {
+    const pl_coordinate* c = &d->q.at[i];
+    if (!takes_part(d, c)) continue;
+    s->unknown[s->n++] = c->a;
+    if (c->chosen && !c->carries) continue;
+    pl_expr row = pl_add(d->pool, inertia_row(d, i), force_row(d, i));
+    for (int k = 0; k < d->g.n; k++) {
+      if (d->g.at[k].implied) continue;
+      pl_expr push = pl_mul(d->pool, pl_sym(d->pool, d->g.at[k].lambda), d->g.at[k].gradient[i]);
+      row = pl_sub(d->pool, row, push);
+    }
+    s->row[n_rows++] = row;
+  }
+  for (int k = 0; k < d->g.n; k++) {
+    if (d->g.at[k].implied) continue;
+    s->unknown[s->n++] = d->g.at[k].lambda;
+    s->row[n_rows++] = pl_link_acceleration(d, k);
+  }
+  // A chosen angle's acceleration: one row of its map for each such angle.
+  for (int i = 0; i < d->q.n && n_rows < s->n; i++) {
+    const pl_coordinate* c = &d->q.at[i];
+    if (pl_is_poison(c->map) || c->solved_by != -1 || !d->reduced) continue;
+    s->row[n_rows++] = pl_sub(d->pool, pl_sym(d->pool, c->a), pl_dt(d->pool, pl_dt(d->pool, c->map)));
+  }
+  if (n_rows != s->n) s->n = 0;
+}
+
+static void split_rows(pl_analysis* d, pl_system_of_motion* s) {
+  pl_replace* zero = PL_ARRAY(d->arena, pl_replace, s->n);
+  for (int j = 0; j < s->n; j++) zero[j] = (pl_replace){s->unknown[j], pl_int(d->pool, 0)};
+  s->A = PL_ARRAY(d->arena, pl_expr, s->n * s->n);
+  s->b = PL_ARRAY(d->arena, pl_expr, s->n);
+  for (int i = 0; i < s->n; i++) {
+    for (int j = 0; j < s->n; j++) s->A[i * s->n + j] = pl_diff(d->pool, s->row[i], s->unknown[j]);
+    s->b[i] = pl_neg(d->pool, pl_subst(d->pool, s->row[i], zero, s->n));
+  }
+}
+
+static pl_certifier* on_the_motion(pl_analysis* d) {
+  pl_system_of_motion s = {0};
+  definitions(d, &s);
+  rows(d, &s);
+  split_rows(d, &s);
+  pl_certifier_setup setup = {.facts = d->facts.at, .n_facts = d->facts.n, .definitions = s.definition,
+                              .n_definitions = s.n_definitions, .n_unknowns = s.n, .unknowns = s.unknown, .A = s.A, .b = s.b};
+  return pl_certifier_make(d->job, d->pool, &setup);
+}
+
+static pl_certifier* on_free_points(pl_analysis* d) {
+  pl_system_of_motion s = {0};
+  s.definition = PL_ARRAY(d->arena, pl_definition, d->model->lets.n);
+  for (int k = 0; k < d->model->lets.n; k++) {
+    const pl_let* l = &d->model->lets.at[k];
+    if (l->n_args == 0 && l->symbol.id && !pl_has_coordinates(d, l->value)) define(&s, l->symbol, l->value);
+  }
+  pl_certifier_setup setup = {.facts = d->facts.at, .n_facts = d->facts.n, .definitions = s.definition,
+                              .n_definitions = s.n_definitions};
+  return pl_certifier_make(d->job, d->pool, &setup);
+}
+
+// ---------------------------------------------------------------------------------------------- verdicts
+static void fail_check(pl_analysis* d, pl_check* check, const pl_claim* c) {
+  check->passed = false;
+  if (!check->failed_on) check->failed_on = pl_expr_text(d->arena, d->pool, c->shown);
+}
+
+static void check_kind(pl_analysis* d, pl_claim_kind kind, pl_certifier* motion, pl_certifier* free_points) {
+  pl_check check = {.name = {claim_name[kind][0], claim_name[kind][1]}, .passed = true};
+  for (int i = 0; i < d->claims.n; i++) {
+    const pl_claim* c = &d->claims.at[i];
+    if (c->kind != kind || pl_is_poison(c->shown) || pl_is_poison(c->reference)) continue;
+    pl_certificate got = pl_certify(c->own_domain ? free_points : motion, c->shown, c->reference);
+    check.formulas++;
+    check.points += got.points_mod + got.points_arb;
+    if (got.worst > check.worst) check.worst = got.worst;
+    if (got.equal != PL_YES) fail_check(d, &check, c);
+  }
+  if (check.formulas > 0) pl_push(d->arena, d->solution->checks, check);
+}
+
+// Both sides of each claim have the same dimension, where all names have one.
+static void check_units(pl_analysis* d) {
+  pl_check check = {.name = {"units", "Einheiten"}, .passed = true};
+  for (int i = 0; i < d->claims.n; i++) {
+    const pl_claim* c = &d->claims.at[i];
+    if (pl_is_poison(c->shown) || pl_is_poison(c->reference) || pl_is_constant(d->pool, c->shown) ||
+        pl_is_constant(d->pool, c->reference)) {
+      continue;
+    }
+    bool known1, known2;
+    pl_dimension a = pl_dimension_of_expr(d, c->shown, &known1), b = pl_dimension_of_expr(d, c->reference, &known2);
+    if (!known1 || !known2) continue;
+    check.formulas++;
+    if (!pl_dimension_equal(a, b)) fail_check(d, &check, c);
+  }
+  if (check.formulas > 0) pl_push(d->arena, d->solution->checks, check);
+}
+
+void pl_claims_check(pl_analysis* d) {
+  check_units(d);
+  pl_certifier *motion = on_the_motion(d), *free_points = on_free_points(d);
+  for (int kind = 0; kind < PL_N_CLAIMS; kind++) check_kind(d, kind, motion, free_points);
+}

@@ -1,0 +1,120 @@
+// energies: T, V and the generalized forces of a model, and the left-hand sides of Lagrange's equations
+//   E_i = d/dt dL/dv_i - dL/dq_i - Q_i  =  sum_c lambda_c dg_c/dq_i.
+#include "derive/derive_impl.h"
+
+static pl_expr squared_speed(pl_analysis* d, const pl_expr* at, int n) {
+  pl_expr sum = pl_int(d->pool, 0);
+  for (int j = 0; j < n; j++) sum = pl_add(d->pool, sum, pl_square(d->pool, pl_dt(d->pool, at[j])));
+  return sum;
+}
+
+static pl_expr half(pl_analysis* d, pl_expr a, pl_expr b) {
+  return pl_mul_n(d->pool, (pl_expr[]){pl_ratio(d->pool, 1, 2), a, b}, 3);
+}
+
+static void add_to(pl_analysis* d, pl_expr* sum, pl_expr term) { *sum = pl_add(d->pool, *sum, term); }
+
+static void masses(pl_analysis* d) {
+  for (int k = 0; k < d->particle.n; k++) {
+    const pl_particle* m = &d->particle.at[k];
+    add_to(d, &d->T, half(d, m->mass, squared_speed(d, m->at, m->n)));
+    if (!pl_is_poison(m->angle)) add_to(d, &d->T, half(d, m->inertia, pl_square(d->pool, pl_dt(d->pool, m->angle))));
+    for (int j = 0; j < d->model->gravities.n; j++) {
+      const pl_gravity* g = &d->model->gravities.at[j];
+      if (g->axis >= m->n) continue;
+      pl_expr weight = pl_mul_n(d->pool, (pl_expr[]){pl_int(d->pool, -g->sign), m->mass, g->g, m->at[g->axis]}, 4);
+      add_to(d, &d->V, weight);
+    }
+  }
+}
+
+// Distance of two points; on one line with a known order there are no bars.
+static pl_expr distance(pl_analysis* d, const pl_point* a, const pl_point* b) {
+  pl_pool* p = d->pool;
+  pl_expr sum = pl_int(p, 0), only = pl_int(p, 0);
+  int n = 0;
+  for (int j = 0; j < a->n; j++) {
+    pl_expr difference = pl_sub(p, a->at[j], b->at[j]);
+    if (pl_is_zero_node(p, difference)) continue;
+    sum = pl_add(p, sum, pl_square(p, difference));
+    only = difference;
+    n++;
+  }
+  if (n != 1) return pl_sqrt(p, sum);
+  int sign;
+  if (pl_alg_sign(d->tower, only, true, &sign) == PL_YES) return sign < 0 ? pl_neg(p, only) : only;
+  return pl_call(p, PL_ABS, only);
+}
+
+static pl_expr squared_distance(pl_analysis* d, const pl_point* a, const pl_point* b) {
+  pl_expr sum = pl_int(d->pool, 0);
+  for (int j = 0; j < a->n; j++) sum = pl_add(d->pool, sum, pl_square(d->pool, pl_sub(d->pool, a->at[j], b->at[j])));
+  return sum;
+}
+
+static void spring(pl_analysis* d, const pl_load* l) {
+  pl_expr square = pl_is_zero_node(d->pool, l->rest) || pl_is_poison(l->rest)
+                       ? squared_distance(d, &l->a, &l->b)
+                       : pl_square(d->pool, pl_sub(d->pool, distance(d, &l->a, &l->b), l->rest));
+  add_to(d, &d->V, half(d, l->value, square));
+}
+
+// A force on a point does the work F . dX.
+static void force(pl_analysis* d, const pl_load* l) {
+  for (int i = 0; i < d->q.n; i++) {
+    for (int j = 0; j < l->a.n; j++) {
+      pl_expr lever = pl_diff(d->pool, l->a.at[j], d->q.at[i].q);
+      add_to(d, &d->force[i], pl_mul(d->pool, l->vector[j], lever));
+    }
+  }
+  d->dissipative = true;
+}
+
+static void torque(pl_analysis* d, const pl_load* l) {
+  for (int i = 0; i < d->q.n; i++) {
+    pl_expr lever = l->coordinate.id ? pl_int(d->pool, l->coordinate.id == d->q.at[i].q.id)
+                                     : pl_diff(d->pool, l->a.at[0], d->q.at[i].q);
+    add_to(d, &d->force[i], pl_mul(d->pool, l->value, lever));
+  }
+  d->dissipative = true;
+}
+
+// Rayleigh's dissipation function R: Q_i = -dR/dv_i.
+static void dissipate(pl_analysis* d, pl_expr R) {
+  for (int i = 0; i < d->q.n; i++) add_to(d, &d->force[i], pl_neg(d->pool, pl_diff(d->pool, R, d->q.at[i].v)));
+  d->dissipative = true;
+}
+
+static void load(pl_analysis* d, const pl_load* l) {
+  switch (l->kind) {
+    case PL_L_FORCE: force(d, l); break;
+    case PL_L_TORQUE: torque(d, l); break;
+    case PL_L_POTENTIAL: add_to(d, &d->V, l->value); break;
+    case PL_L_KINETIC: add_to(d, &d->T, l->value); break;
+    case PL_L_LAGRANGIAN: add_to(d, &d->L, l->value); break;
+    case PL_L_RAYLEIGH: dissipate(d, l->value); break;
+    case PL_L_SPRING: spring(d, l); break;
+    case PL_L_DAMPER: dissipate(d, half(d, l->value, pl_square(d->pool, pl_dt(d->pool, distance(d, &l->a, &l->b))))); break;
+    case PL_L_DRAG: dissipate(d, half(d, l->value, squared_speed(d, l->a.at, l->a.n))); break;
+  }
+}
+
+pleuel_status pl_energies(pl_analysis* d) {
+  pl_pool* p = d->pool;
+  d->T = d->V = d->L = pl_int(p, 0);
+  d->force = PL_ARRAY(d->arena, pl_expr, d->q.n);
+  d->euler = PL_ARRAY(d->arena, pl_expr, d->q.n);
+  for (int i = 0; i < d->q.n; i++) d->force[i] = pl_int(p, 0);
+  masses(d);
+  for (int k = 0; k < d->model->loads.n; k++) load(d, &d->model->loads.at[k]);
+  d->L = pl_add(p, d->L, pl_sub(p, d->T, d->V));
+  for (int i = 0; i < d->q.n; i++) {
+    pl_expr momentum = pl_dt(p, pl_diff(p, d->L, d->q.at[i].v));
+    d->euler[i] = pl_sub(p, pl_sub(p, momentum, pl_diff(p, d->L, d->q.at[i].q)), d->force[i]);
+    if (pl_is_poison(d->euler[i])) {
+      return pl_fail(d->job, PLEUEL_UNSUPPORTED, "the Lagrange equation of %s cannot be formed",
+                     pl_symbol_get(p, d->q.at[i].q)->ascii);
+    }
+  }
+  return PLEUEL_OK;
+}

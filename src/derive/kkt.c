@@ -1,0 +1,146 @@
+// kkt: accelerations and multipliers from the Lagrange equations of the first kind and the constraints, by exact linear
+// algebra.  With generalized coordinates the accelerations of the map are inserted and the unknowns are q'' of the generalized
+// coordinates and the multipliers; without them, all accelerations and the twice-differentiated constraints.
+// The multiplier of a dropped constraint is what is left of the equation of its coordinate (theorem T101).
+#include "derive/derive_impl.h"
+
+// Largest number of terms in a minor before the solver gives up and the structured form is shown instead.
+static const long max_terms = 50000;
+
+pl_expr pl_link_acceleration(pl_analysis* d, int k) {
+  const pl_link* l = &d->g.at[k];
+  pl_expr once = pl_dt(d->pool, l->g);
+  return l->velocity ? once : pl_dt(d->pool, once);
+}
+
+typedef struct pl_linear {
+  int n_unknowns, n_rows;
+  pl_symbol* unknown;    //                       (n_unknowns)
+  pl_expr* row;          // expressions that vanish  (n_rows)
+} pl_linear;
+
+static bool at_work(const pl_link* l) { return l->fixes < 0 && !l->implied; }
+
+// E_i - sum over the working constraints of lambda dg/dq_i.
+static pl_expr equation_of(pl_analysis* d, int i) {
+  pl_expr e = d->euler[i];
+  for (int k = 0; k < d->g.n; k++) {
+    if (!at_work(&d->g.at[k])) continue;
+    pl_expr push = pl_mul(d->pool, pl_sym(d->pool, d->g.at[k].lambda), d->g.at[k].gradient[i]);
+    e = pl_sub(d->pool, e, push);
+  }
+  return pl_on_maps(d, e);
+}
+
+static void add_unknown(pl_linear* s, pl_symbol u) { s->unknown[s->n_unknowns++] = u; }
+
+static pl_linear collect(pl_analysis* d) {
+  pl_linear s = {.unknown = PL_ARRAY(d->arena, pl_symbol, d->q.n + d->g.n),
+                 .row = PL_ARRAY(d->arena, pl_expr, d->q.n + d->g.n)};
+  for (int i = 0; i < d->q.n; i++) {
+    const pl_coordinate* c = &d->q.at[i];
+    if (c->fixed_by >= 0) continue;
+    bool generalized = pl_is_poison(c->map) && (c->carries || (d->reduced && c->chosen));
+    if (generalized) add_unknown(&s, c->a);
+    if (c->carries || (d->reduced && c->chosen)) {
+      pl_expr row = equation_of(d, i);
+      if (c->carries || !pl_is_zero_node(d->pool, row)) s.row[s.n_rows++] = row;
+    }
+  }
+  for (int k = 0; k < d->g.n; k++) {
+    if (!at_work(&d->g.at[k])) continue;
+    add_unknown(&s, d->g.at[k].lambda);
+    if (!d->reduced || d->g.at[k].velocity) s.row[s.n_rows++] = pl_on_maps(d, pl_link_acceleration(d, k));
+  }
+  return s;
+}
+
+// Splits rows linear in the unknowns into matrix and right-hand side.
+static bool split(pl_analysis* d, const pl_linear* s, pl_expr* A, pl_expr* b) {
+  pl_replace* zero = PL_ARRAY(d->arena, pl_replace, s->n_unknowns);
+  for (int j = 0; j < s->n_unknowns; j++) zero[j] = (pl_replace){s->unknown[j], pl_int(d->pool, 0)};
+  for (int i = 0; i < s->n_rows; i++) {
+    for (int j = 0; j < s->n_unknowns; j++) {
+      pl_expr a = pl_diff(d->pool, s->row[i], s->unknown[j]);
+      if (pl_is_poison(a)) return false;
+      A[i * s->n_unknowns + j] = a;
+    }
+    b[i] = pl_neg(d->pool, pl_subst(d->pool, s->row[i], zero, s->n_unknowns));
+  }
+  return true;
+}
+
+static void keep_solution(pl_analysis* d, const pl_linear* s, const pl_expr* x) {
+  for (int j = 0; j < s->n_unknowns; j++) {
+    int i = pl_coordinate_index(d, s->unknown[j]);
+    if (i >= 0) d->acceleration[i] = x[j];
+    for (int k = 0; k < d->g.n; k++) {
+      if (d->g.at[k].lambda.id != s->unknown[j].id) continue;
+      d->g.at[k].lambda_value = x[j];
+      d->g.at[k].lambda_known = true;
+    }
+  }
+}
+
+pl_expr pl_on_motion(pl_analysis* d, pl_expr e) {
+  e = pl_on_maps(d, e);
+  pl_replace* r = PL_ARRAY(d->arena, pl_replace, d->q.n + d->g.n);
+  int n = 0;
+  for (int i = 0; i < d->q.n; i++) {
+    if (!pl_is_poison(d->acceleration[i])) r[n++] = (pl_replace){d->q.at[i].a, d->acceleration[i]};
+  }
+  for (int k = 0; k < d->g.n; k++) {
+    if (d->g.at[k].lambda_known) r[n++] = (pl_replace){d->g.at[k].lambda, d->g.at[k].lambda_value};
+  }
+  return pl_subst(d->pool, e, r, n);
+}
+
+// Accelerations of mapped coordinates follow from the map.
+static void dependent_accelerations(pl_analysis* d) {
+  for (int i = 0; i < d->q.n; i++) {
+    const pl_coordinate* c = &d->q.at[i];
+    if (c->fixed_by >= 0) {
+      d->acceleration[i] = pl_dt(d->pool, pl_dt(d->pool, c->fixed));
+    } else if (!pl_is_poison(c->map)) {
+      d->acceleration[i] = pl_alg_normal(d->tower, pl_on_motion(d, pl_sym(d->pool, c->a)));
+    }
+  }
+}
+
+// Multipliers of the dropped constraints, last fixed first: lambda = (E_i - sum of the others) / (dg/dq_i).
+static void dropped_multipliers(pl_analysis* d) {
+  for (int round = 0; round < d->g.n; round++) {
+    for (int k = d->g.n - 1; k >= 0; k--) {
+      pl_link* l = &d->g.at[k];
+      if (l->fixes < 0 || l->lambda_known) continue;
+      int i = l->fixes;
+      pl_expr rest = d->euler[i];
+      bool ready = true;
+      for (int c = 0; c < d->g.n; c++) {
+        const pl_link* other = &d->g.at[c];
+        if (c == k || other->implied || pl_is_zero_node(d->pool, other->gradient[i])) continue;
+        ready &= other->lambda_known;
+        if (ready) rest = pl_sub(d->pool, rest, pl_mul(d->pool, other->lambda_value, other->gradient[i]));
+      }
+      if (!ready) continue;
+      l->lambda_value = pl_alg_normal(d->tower, pl_on_motion(d, pl_div(d->pool, rest, l->gradient[i])));
+      l->lambda_known = !pl_is_poison(l->lambda_value);
+    }
+  }
+}
+
+pleuel_status pl_solve_motion(pl_analysis* d) {
+  d->acceleration = PL_ARRAY(d->arena, pl_expr, d->q.n);
+  pl_linear s = collect(d);
+  if (s.n_rows != s.n_unknowns) return PLEUEL_OK;   // redundant or under-determined: said by the sections
+  pl_expr* A = PL_ARRAY(d->arena, pl_expr, s.n_rows * s.n_unknowns);
+  pl_expr* b = PL_ARRAY(d->arena, pl_expr, s.n_rows);
+  pl_expr* x = PL_ARRAY(d->arena, pl_expr, s.n_unknowns);
+  if (!split(d, &s, A, b)) return PLEUEL_OK;
+  d->solved = s.n_unknowns == 0 || pl_alg_solve(d->tower, s.n_unknowns, A, b, x, max_terms) == PL_YES;
+  if (!d->solved) return PLEUEL_OK;
+  keep_solution(d, &s, x);
+  dependent_accelerations(d);
+  dropped_multipliers(d);
+  return PLEUEL_OK;
+}

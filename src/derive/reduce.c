@@ -1,0 +1,158 @@
+// reduce: generalized coordinates.  `choose` names them and gives the map; what is left of the constraints is solved for the
+// remaining coordinates, a branch picked by `branch`, by assumptions or by the start.  Without `choose` only constraints linear in
+// a coordinate with constant coefficient are solved: they have one branch and lose nothing.
+#include <math.h>
+
+#include "derive/derive_impl.h"
+
+enum { max_roots = 8 };
+
+static bool open_coordinate(const pl_coordinate* c) {
+  return c->carries && c->fixed_by < 0 && !c->chosen && pl_is_poison(c->map);
+}
+
+static void set_map(pl_analysis* d, int i, pl_expr map, int solved_by) {
+  pl_coordinate* c = &d->q.at[i];
+  c->map = map;
+  c->solved_by = solved_by;
+  pl_expr v = pl_dt(d->pool, map), a = pl_dt(d->pool, v);
+  pl_replace fresh[3] = {{c->q, map}, {c->v, v}, {c->a, a}};
+  for (int k = 0; k < d->maps.n; k++) d->maps.at[k].to = pl_subst(d->pool, d->maps.at[k].to, fresh, 3);
+  for (int j = 0; j < d->q.n; j++) {
+    if (!pl_is_poison(d->q.at[j].map)) d->q.at[j].map = pl_subst(d->pool, d->q.at[j].map, fresh, 3);
+  }
+  for (int k = 0; k < 3; k++) pl_push(d->arena, d->maps, fresh[k]);
+}
+
+static pl_expr mapped(pl_analysis* d, pl_expr e) {
+  return pl_subst(d->pool, pl_on_contact(d, e), d->maps.at, d->maps.n);
+}
+
+// The map of `choose`: old coordinates first to last, each with the ones before it inserted.
+static void chosen_maps(pl_analysis* d) {
+  const pl_choose* choose = &d->model->choose;
+  for (int k = 0; k < choose->n_maps; k++) {
+    if (pl_kind_of(d->pool, choose->maps[k].old) != PL_SYMBOL) continue;
+    int i = pl_coordinate_index(d, pl_symbol_of(d->pool, choose->maps[k].old));
+    if (i >= 0 && d->q.at[i].fixed_by < 0) set_map(d, i, mapped(d, choose->maps[k].map), -1);
+  }
+}
+
+// Does a candidate for coordinate i satisfy the branch conditions?  PL_UNKNOWN: nothing speaks for or against it.
+static pl_answer3 on_branch(pl_analysis* d, int i, pl_expr candidate) {
+  pl_answer3 verdict = PL_UNKNOWN;
+  for (int k = 0; k < d->model->branches.n; k++) {
+    const pl_condition* c = &d->model->branches.at[k];
+    pl_expr e = mapped(d, pl_sub(d->pool, c->left, c->right));
+    if (!pl_has_symbol(d->pool, e, d->q.at[i].q)) continue;
+    e = pl_subst1(d->pool, e, d->q.at[i].q, candidate);
+    bool want_positive = c->relation == PL_GT || c->relation == PL_GE;
+    int sign = 0;
+    if (pl_alg_sign(d->tower, e, true, &sign) != PL_YES || sign == 0) continue;
+    if ((sign > 0) != want_positive) return PL_NO;
+    verdict = PL_YES;
+  }
+  return verdict;
+}
+
+// Compares a candidate with the start value that `init` gives for coordinate i.
+static pl_answer3 fits_start(pl_analysis* d, int i, pl_expr candidate) {
+  pl_replace start[64];
+  int n = 0;
+  for (int j = 0; j < d->q.n && n < 64; j++) {
+    start[n++] = (pl_replace){d->q.at[j].q, pl_sym(d->pool, pl_symbol_start(d->pool, d->q.at[j].q))};
+  }
+  double given = pl_number(d, pl_sym(d->pool, pl_symbol_start(d->pool, d->q.at[i].q)));
+  double found = pl_number(d, pl_subst(d->pool, candidate, start, n));
+  if (isnan(given) || isnan(found)) return PL_UNKNOWN;
+  return fabs(given - found) <= 1e-6 * (fabs(given) + fabs(found)) ? PL_YES : PL_NO;
+}
+
+// One of several solutions of a constraint: the one that a branch or the start confirms, or the only one not refuted.
+static int pick_root(pl_analysis* d, int i, const pl_root* root, int n) {
+  int left = -1, n_left = 0;
+  for (int k = 0; k < n; k++) {
+    pl_answer3 verdict = on_branch(d, i, root[k].value);
+    if (verdict == PL_UNKNOWN) verdict = fits_start(d, i, root[k].value);
+    if (verdict == PL_YES) return k;
+    if (verdict == PL_NO) continue;
+    left = k;
+    n_left++;
+  }
+  return n_left == 1 ? left : -1;
+}
+
+// A constraint linear in coordinate i with constant coefficient.
+static bool solve_linear(pl_analysis* d, pl_expr e, int i, pl_expr* out) {
+  pl_expr c[2];
+  if (pl_alg_coefficients(d->tower, e, d->q.at[i].q, c, 1) != 1) return false;
+  if (pl_has_coordinates(d, c[1]) || pl_has_symbol(d->pool, c[1], pl_time(d->pool))) return false;
+  *out = pl_alg_normal(d->tower, pl_neg(d->pool, pl_div(d->pool, c[0], c[1])));
+  return true;
+}
+
+static bool solve_roots(pl_analysis* d, pl_expr e, int i, pl_expr* out) {
+  pl_root root[max_roots];
+  bool complete = false;
+  int n = pl_alg_roots(d->tower, e, d->q.at[i].q, root, max_roots, &complete);
+  int k = n == 1 && complete ? 0 : pick_root(d, i, root, n);
+  if (k < 0) return false;
+  *out = root[k].value;
+  return true;
+}
+
+static bool solve_link(pl_analysis* d, int k, bool roots) {
+  pl_link* l = &d->g.at[k];
+  if (l->fixes >= 0 || l->implied || l->velocity) return false;
+  pl_expr e = mapped(d, l->g);
+  for (int i = d->q.n - 1; i >= 0; i--) {
+    if (!open_coordinate(&d->q.at[i]) || !pl_has_symbol(d->pool, e, d->q.at[i].q)) continue;
+    pl_expr value;
+    if (roots ? solve_roots(d, e, i, &value) : solve_linear(d, e, i, &value)) {
+      set_map(d, i, value, k);
+      return true;
+    }
+  }
+  return false;
+}
+
+// 0: the map satisfies the constraint identically; 1: something is left; -1: not decided.
+static int left_over(pl_analysis* d, const pl_link* l) {
+  pl_answer3 zero = pl_alg_is_zero(d->tower, mapped(d, l->g));
+  return zero == PL_YES ? 0 : zero == PL_NO ? 1 : -1;
+}
+
+static bool solve_links(pl_analysis* d) {
+  bool roots_allowed = d->model->choose.coords.n > 0;
+  for (int k = 0; k < d->g.n; k++) {
+    pl_link* l = &d->g.at[k];
+    if (l->fixes >= 0 || l->implied) continue;
+    if (l->velocity) return false;
+    if (left_over(d, l) == 0) continue;
+    if (!solve_link(d, k, false) && !(roots_allowed && solve_link(d, k, true))) return false;
+  }
+  return true;
+}
+
+// What is neither fixed nor mapped is generalized.
+static void collect_generalized(pl_analysis* d) {
+  for (int i = 0; i < d->q.n; i++) {
+    pl_coordinate* c = &d->q.at[i];
+    if (c->fixed_by < 0 && pl_is_poison(c->map) && (c->carries || c->chosen)) pl_push(d->arena, d->gen, i);
+  }
+}
+
+pleuel_status pl_reduce(pl_analysis* d) {
+  chosen_maps(d);
+  d->reduced = solve_links(d);
+  if (!d->reduced) {
+    for (int i = 0; i < d->q.n; i++) d->q.at[i].map = pl_poison();
+    d->maps.n = 0;
+    return PLEUEL_OK;
+  }
+  collect_generalized(d);
+  d->Tg = pl_alg_normal(d->tower, pl_on_maps(d, d->T));
+  d->Vg = pl_alg_normal(d->tower, pl_on_maps(d, d->V));
+  d->Lg = pl_on_maps(d, d->L);
+  return PLEUEL_OK;
+}

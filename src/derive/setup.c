@@ -1,0 +1,239 @@
+// setup: what moves, what is heavy, what constrains; then the constraints of the form coordinate = constant or f(t), which
+// are inserted and dropped (theorem T101: their multipliers remain available, see kkt.c).
+#include <math.h>
+#include <string.h>
+
+#include "derive/derive_impl.h"
+
+int pl_coordinate_index(const pl_analysis* d, pl_symbol s) {
+  for (int i = 0; i < d->q.n; i++) {
+    const pl_coordinate* c = &d->q.at[i];
+    if (c->q.id == s.id || c->v.id == s.id || c->a.id == s.id) return i;
+  }
+  return -1;
+}
+
+bool pl_has_coordinates(const pl_analysis* d, pl_expr e) {
+  return pl_has_role(d->pool, e, PL_R_COORD) || pl_has_role(d->pool, e, PL_R_VELOCITY) ||
+         pl_has_role(d->pool, e, PL_R_ACCELERATION);
+}
+
+pl_expr pl_on_fixed(pl_analysis* d, pl_expr e) { return pl_subst(d->pool, e, d->fixed.at, d->fixed.n); }
+
+pl_expr pl_on_contact(pl_analysis* d, pl_expr e) {
+  return pl_subst(d->pool, pl_on_fixed(d, e), d->contact.at, d->contact.n);
+}
+
+pl_expr pl_on_maps(pl_analysis* d, pl_expr e) {
+  e = pl_on_contact(d, e);
+  return d->reduced ? pl_subst(d->pool, e, d->maps.at, d->maps.n) : e;
+}
+
+// Numbers known by symbol id: parameters, abbreviations of parameters, start values.
+static double* known_numbers(pl_analysis* d) {
+  double* value = pl_model_values(d->model, d->arena);
+  int n = pl_symbol_count(d->pool);
+  for (int k = 0; k < d->model->inits.n; k++) {
+    const pl_init* init = &d->model->inits.at[k];
+    if (init->guess || pl_kind_of(d->pool, init->target) != PL_SYMBOL) continue;
+    double x = pl_eval(d->pool, init->value, value);
+    if (isnan(x)) continue;
+    pl_symbol s = pl_symbol_start(d->pool, pl_symbol_of(d->pool, init->target));
+    if ((int)s.id <= n) value[s.id] = x;
+  }
+  return value;
+}
+
+double pl_number(pl_analysis* d, pl_expr e) {
+  if (pl_is_poison(e)) return (double)NAN;
+  pl_mark mark = pl_arena_mark(d->arena);
+  double x = pl_eval(d->pool, e, known_numbers(d));
+  pl_arena_rewind(d->arena, mark);
+  return x;
+}
+
+// ---------------------------------------------------------------------------------------------- what there is
+static void add_coordinates(pl_analysis* d) {
+  for (int k = 0; k < d->model->coords.n; k++) {
+    pl_coordinate c = {.q = d->model->coords.at[k].symbol, .fixed_by = -1, .solved_by = -2};
+    c.v = pl_symbol_dot(d->pool, c.q);
+    c.a = pl_symbol_dot(d->pool, c.v);
+    pl_symbol_start(d->pool, c.q);
+    pl_symbol_start(d->pool, c.v);
+    pl_push(d->arena, d->q, c);
+  }
+  for (int k = 0; k < d->model->choose.coords.n; k++) {
+    int i = pl_coordinate_index(d, d->model->choose.coords.at[k]);
+    if (i >= 0) d->q.at[i].chosen = true;
+  }
+}
+
+static void add_particles(pl_analysis* d) {
+  for (int k = 0; k < d->model->masses.n; k++) {
+    const pl_mass* m = &d->model->masses.at[k];
+    pl_particle p = {.label = m->name.text, .ascii = m->name.ascii, .mass = m->mass, .n = m->point.n};
+    memcpy(p.at, m->point.at, sizeof p.at);
+    pl_push(d->arena, d->particle, p);
+  }
+  for (int k = 0; k < d->model->bodies.n; k++) {
+    const pl_body* b = &d->model->bodies.at[k];
+    pl_particle p = {.label = b->name.text, .ascii = b->name.ascii, .mass = b->mass, .inertia = b->inertia,
+                     .angle = b->angle, .n = b->centre.n};
+    memcpy(p.at, b->centre.at, sizeof p.at);
+    pl_push(d->arena, d->particle, p);
+  }
+}
+
+static void add_links(pl_analysis* d) {
+  for (int k = 0; k < d->model->constraints.n; k++) {
+    const pl_constraint* c = &d->model->constraints.at[k];
+    if (c->off) continue;
+    pl_link l = {.source = c, .g = c->g, .fixes = -1, .contact = c->relation != PL_EQ, .velocity = c->has_velocity,
+                 .lambda = c->lambda};
+    l.gradient = PL_ARRAY(d->arena, pl_expr, d->q.n);
+    for (int i = 0; i < d->q.n; i++) {
+      l.gradient[i] = pl_diff(d->pool, c->g, l.velocity ? d->q.at[i].v : d->q.at[i].q);
+    }
+    pl_push(d->arena, d->g, l);
+  }
+}
+
+static void add_facts(pl_analysis* d) {
+  pl_pool* p = d->pool;
+  for (int k = 0; k < d->model->assumptions.n; k++) {
+    const pl_assumption* a = &d->model->assumptions.at[k];
+    if (a->kind == PL_A_IN) {
+      pl_push(d->arena, d->facts, (pl_fact){pl_sub(p, a->subject, a->lo), false});
+      pl_push(d->arena, d->facts, (pl_fact){pl_sub(p, a->hi, a->subject), false});
+    } else if (a->kind == PL_A_RELATION) {
+      const pl_condition* c = &a->condition;
+      bool less = c->relation == PL_LT || c->relation == PL_LE;
+      if (c->relation == PL_EQ || c->relation == PL_NE) continue;
+      pl_expr difference = less ? pl_sub(p, c->right, c->left) : pl_sub(p, c->left, c->right);
+      pl_push(d->arena, d->facts, (pl_fact){difference, c->relation == PL_LT || c->relation == PL_GT});
+    }
+  }
+}
+
+static bool mentions(const pl_analysis* d, pl_expr e, const pl_coordinate* c) {
+  return !pl_is_poison(e) && (pl_has_symbol(d->pool, e, c->q) || pl_has_symbol(d->pool, e, c->v));
+}
+
+// A coordinate that only stands in `choose` moves nothing by itself.
+static bool carries(const pl_analysis* d, const pl_coordinate* c) {
+  for (int k = 0; k < d->particle.n; k++) {
+    const pl_particle* m = &d->particle.at[k];
+    for (int j = 0; j < m->n; j++) {
+      if (mentions(d, m->at[j], c)) return true;
+    }
+    if (mentions(d, m->angle, c)) return true;
+  }
+  for (int k = 0; k < d->model->loads.n; k++) {
+    const pl_load* l = &d->model->loads.at[k];
+    if (mentions(d, l->value, c) || l->coordinate.id == c->q.id) return true;
+    for (int j = 0; j < 3; j++) {
+      if (mentions(d, l->vector[j], c) || mentions(d, l->a.at[j], c) || mentions(d, l->b.at[j], c)) return true;
+    }
+  }
+  for (int k = 0; k < d->g.n; k++) {
+    if (mentions(d, d->g.at[k].g, c)) return true;
+  }
+  return false;
+}
+
+// Signs that nothing proves are probed at the start.
+static void probe_start(pl_analysis* d) {
+  double* value = known_numbers(d);
+  for (int i = 0; i < d->q.n; i++) {
+    double x = value[pl_symbol_start(d->pool, d->q.at[i].q).id];
+    double v = value[pl_symbol_start(d->pool, d->q.at[i].v).id];
+    value[d->q.at[i].q.id] = x;
+    value[d->q.at[i].v.id] = v;
+  }
+  value[pl_time(d->pool).id] = 0;
+  pl_tower_probe(d->tower, value);
+}
+
+pleuel_status pl_setup_coordinates(pl_analysis* d) {
+  add_coordinates(d);
+  add_particles(d);
+  add_links(d);
+  add_facts(d);
+  for (int i = 0; i < d->q.n; i++) d->q.at[i].carries = carries(d, &d->q.at[i]);
+  d->tower = pl_tower_make(d->job, d->pool, d->facts.at, d->facts.n);
+  d->solution->tower = d->tower;
+  probe_start(d);
+  return PLEUEL_OK;
+}
+
+// ---------------------------------------------------------------------------------------------- coordinate = constant
+// The only coordinate in e, -1 if there is none, -2 if there are several or a velocity.
+static int only_coordinate(const pl_analysis* d, pl_expr e) {
+  int found = -1;
+  for (int i = 0; i < d->q.n; i++) {
+    const pl_coordinate* c = &d->q.at[i];
+    if (pl_has_symbol(d->pool, e, c->v)) return -2;
+    if (!pl_has_symbol(d->pool, e, c->q)) continue;
+    if (found >= 0) return -2;
+    found = i;
+  }
+  return found;
+}
+
+static void fix_coordinate(pl_analysis* d, int i, int link, pl_expr value) {
+  pl_coordinate* c = &d->q.at[i];
+  c->fixed_by = link;
+  c->by_contact = d->g.at[link].contact;
+  c->fixed = value;
+  d->g.at[link].fixes = i;
+  pl_expr v = pl_dt(d->pool, value), a = pl_dt(d->pool, v);
+  pl_replace r[3] = {{c->q, value}, {c->v, v}, {c->a, a}};
+  for (int k = 0; k < 3; k++) {
+    if (c->by_contact) {
+      pl_push(d->arena, d->contact, r[k]);
+    } else {
+      pl_push(d->arena, d->fixed, r[k]);
+    }
+  }
+}
+
+static pleuel_status contradiction(pl_analysis* d, const pl_link* l, pl_expr rest) {
+  const char* text = pl_expr_text(d->arena, d->pool, rest);
+  pl_diagnostic* m = pl_report(d->job->diagnostics, PL_E042, l->source->span,
+    pl_format(d->arena, "constraint %s contradicts the others: it leaves %s = 0", l->source->name.text, text),
+    pl_format(d->arena, "Zwangsbedingung %s widerspricht den anderen: es bleibt %s = 0", l->source->name.text, text));
+  pl_report_fix(m, "take one of the contradicting constraints out", "eine der widersprechenden Zwangsbedingungen streichen", NULL);
+  return pl_fail(d->job, PLEUEL_CONTRADICTION, "constraint %s contradicts the others: it leaves %s = 0", l->source->name.ascii, text);
+}
+
+// What is left of a constraint when the fixed coordinates are in: nothing (implied), a contradiction, or one coordinate.
+static pleuel_status try_link(pl_analysis* d, int k, bool* changed) {
+  pl_link* l = &d->g.at[k];
+  if (l->fixes >= 0 || l->implied || l->velocity) return PLEUEL_OK;
+  pl_expr e = l->contact ? pl_on_contact(d, l->g) : pl_on_fixed(d, l->g);
+  int i = only_coordinate(d, e);
+  if (i == -1) {
+    if (l->contact) return PLEUEL_OK;
+    pl_answer3 zero = pl_alg_is_zero(d->tower, e);
+    if (zero == PL_NO) return contradiction(d, l, e);
+    l->implied = zero == PL_YES;
+    *changed |= l->implied;
+    return PLEUEL_OK;
+  }
+  if (i < 0 || d->q.at[i].fixed_by >= 0) return PLEUEL_OK;
+  pl_expr c[2];
+  if (pl_alg_coefficients(d->tower, e, d->q.at[i].q, c, 1) != 1) return PLEUEL_OK;
+  if (pl_has_coordinates(d, c[1]) || pl_has_symbol(d->pool, c[1], pl_time(d->pool))) return PLEUEL_OK;
+  fix_coordinate(d, i, k, pl_alg_normal(d->tower, pl_neg(d->pool, pl_div(d->pool, c[0], c[1]))));
+  *changed = true;
+  return PLEUEL_OK;
+}
+
+pleuel_status pl_setup_trivial(pl_analysis* d) {
+  bool changed = true;
+  while (changed) {
+    changed = false;
+    for (int k = 0; k < d->g.n; k++) PL_TRY(try_link(d, k, &changed));
+  }
+  return PLEUEL_OK;
+}

@@ -1,0 +1,168 @@
+// steps: writing the worked solution.  Sections, sentences, equations, values; short hands for forms.
+#include <math.h>
+#include <string.h>
+
+#include "derive/derive_impl.h"
+
+// ---------------------------------------------------------------------------------------------- sections
+static bool same_letter(const char* a, const char* b) { return a && b ? strcmp(a, b) == 0 : a == b; }
+
+pl_section* pl_section_open(pl_analysis* d, const pl_ask* ask, const char* en, const char* de) {
+  pl_section s = {.letter = ask->letter, .item = ask->text, .title = {en, de}};
+  if (d->solution->sections.n > 0) {
+    const pl_section* last = &d->solution->sections.at[d->solution->sections.n - 1];
+    bool same_title = !en || (last->title[0] && strcmp(last->title[0], en) == 0);
+    s.continues = s.letter && same_letter(last->letter, s.letter) && same_title;
+  }
+  pl_push(d->arena, d->solution->sections, s);
+  d->section = &d->solution->sections.at[d->solution->sections.n - 1];
+  return d->section;
+}
+
+static pl_step* add_step(pl_analysis* d, pl_step_kind kind) {
+  pl_push(d->arena, d->section->steps, (pl_step){.kind = kind});
+  return &d->section->steps.at[d->section->steps.n - 1];
+}
+
+void pl_heading(pl_analysis* d, const char* en, const char* de) {
+  pl_step* s = add_step(d, PL_STEP_HEADING);
+  s->words[0] = en;
+  s->words[1] = de;
+}
+
+pl_step* pl_say(pl_analysis* d, const char* en, const char* de, int n, ...) {
+  pl_step* s = add_step(d, PL_STEP_TEXT);
+  s->words[0] = en;
+  s->words[1] = de;
+  const pl_form** inserts = PL_ARRAY(d->arena, const pl_form*, n);
+  va_list ap;
+  va_start(ap, n);
+  for (int i = 0; i < n; i++) inserts[i] = va_arg(ap, const pl_form*);
+  va_end(ap);
+  s->n_inserts = n;
+  s->inserts = inserts;
+  return s;
+}
+
+pl_step* pl_show(pl_analysis* d, const pl_form* formula) {
+  pl_step* s = add_step(d, PL_STEP_EQUATION);
+  s->formula = formula;
+  return s;
+}
+
+pl_step* pl_show_numbered(pl_analysis* d, const pl_form* formula) {
+  pl_step* s = pl_show(d, formula);
+  s->number = ++d->solution->n_equations;
+  return s;
+}
+
+pl_step* pl_row(pl_analysis* d, const char* en, const char* de, const pl_form* formula, const char* margin) {
+  pl_step* s = add_step(d, PL_STEP_ROW);
+  s->words[0] = en;
+  s->words[1] = de;
+  s->formula = formula;
+  s->margin = margin;
+  return s;
+}
+
+void pl_step_after(pl_step* s, const char* en, const char* de) {
+  s->after[0] = en;
+  s->after[1] = de;
+}
+
+void pl_step_refs(pl_step* s, int n, ...) {
+  va_list ap;
+  va_start(ap, n);
+  for (int i = 0; i < n; i++) {
+    int number = va_arg(ap, int);
+    if (number > 0 && s->n_refs < 4) s->refs[s->n_refs++] = number;
+  }
+  va_end(ap);
+}
+
+void pl_step_value(pl_analysis* d, pl_step* s, pl_expr e, pl_dimension dim) {
+  double x = pl_number(d, e);
+  if (isnan(x) || pl_is_number(d->pool, e)) return;
+  s->has_value = true;
+  s->value = x;
+  s->unit = pl_dimension_unit(d->arena, dim, false);
+}
+
+// ---------------------------------------------------------------------------------------------- dimensions of formulas
+static pl_dimension dimension_of(pl_analysis* d, pl_expr e, bool* known);
+
+static pl_dimension dimension_of_product(pl_analysis* d, pl_expr e, bool* known) {
+  pl_dimension dim = pl_dimension_one();
+  for (int i = 0; i < pl_n_args(d->pool, e); i++) {
+    dim = pl_dimension_mul(dim, dimension_of(d, pl_arg(d->pool, e, i), known));
+  }
+  return dim;
+}
+
+static pl_dimension dimension_of(pl_analysis* d, pl_expr e, bool* known) {
+  switch (pl_kind_of(d->pool, e)) {
+    case PL_SYMBOL: {
+      const pl_symbol_info* info = pl_symbol_get(d->pool, pl_symbol_of(d->pool, e));
+      if (!info->dimension_known) *known = false;
+      return info->dimension_known ? info->dimension : pl_dimension_one();
+    }
+    case PL_ADD: {   // of the first term that is not a bare number
+      pl_expr term = pl_arg(d->pool, e, 0);
+      for (int i = 0; i < pl_n_args(d->pool, e) && pl_is_constant(d->pool, term); i++) term = pl_arg(d->pool, e, i);
+      return dimension_of(d, term, known);
+    }
+    case PL_MUL: return dimension_of_product(d, e, known);
+    case PL_POW: {
+      long num, den;
+      if (!pl_is_ratio(d->pool, pl_arg(d->pool, e, 1), &num, &den)) return pl_dimension_one();
+      return pl_dimension_pow(dimension_of(d, pl_arg(d->pool, e, 0), known), (int)num, (int)den);
+    }
+    case PL_CALL: {
+      pl_function f = pl_function_of(d->pool, e);
+      bool keeps = f == PL_ABS || f == PL_MIN || f == PL_MAX;
+      return keeps ? dimension_of(d, pl_arg(d->pool, e, 0), known) : pl_dimension_one();
+    }
+    default: return pl_dimension_one();
+  }
+}
+
+pl_dimension pl_dimension_of_expr(pl_analysis* d, pl_expr e, bool* known) {
+  bool all = true;
+  pl_dimension dim = dimension_of(d, e, &all);
+  if (known) *known = all;
+  return dim;
+}
+
+const char* pl_display(pl_analysis* d, double x, pl_dimension dim, bool angle) {
+  if (isnan(x)) return NULL;
+  pl_notation how = {.math = PL_MATH_ASCII, .lang = d->job->lang};
+  if (angle) return pl_format(d->arena, "%s deg", pl_notation_number(d->arena, x * 180 / M_PI, 6, how));
+  const char* unit = pl_dimension_unit(d->arena, dim, true);
+  const char* number = pl_notation_number(d->arena, x, 6, how);
+  return *unit && strcmp(unit, "1") != 0 ? pl_format(d->arena, "%s %s", number, unit) : number;
+}
+
+// ---------------------------------------------------------------------------------------------- values
+pl_value* pl_answer(pl_analysis* d, const char* name, pl_expr e, const pl_form* form) {
+  pl_value v = {.name = name, .expr = e, .form = form, .number = pl_number(d, e), .conserved = -1, .passed = -1, .order = -1};
+  bool known = true;
+  pl_dimension dim = pl_is_poison(e) ? pl_dimension_one() : pl_dimension_of_expr(d, e, &known);
+  if (known) v.unit = pl_dimension_unit(d->arena, dim, true);
+  v.display = pl_display(d, v.number, dim, false);
+  pl_push(d->arena, d->section->values, v);
+  return &d->section->values.at[d->section->values.n - 1];
+}
+
+// ---------------------------------------------------------------------------------------------- forms
+const pl_form* pl_f(pl_analysis* d, pl_expr e, pl_style style) {
+  return pl_present(d->tower, e, style, d->options->seconds);
+}
+const pl_form* pl_fs(pl_analysis* d, pl_symbol s) { return pl_form_leaf(d->arena, pl_sym(d->pool, s)); }
+const pl_form* pl_fe(pl_analysis* d, pl_expr e) { return pl_form_of(d->arena, d->pool, e); }
+const pl_form* pl_fn(pl_analysis* d, const char* name) { return pl_form_name(d->arena, name, pl_poison()); }
+const pl_form* pl_feq(pl_analysis* d, const pl_form* l, const pl_form* r) { return pl_form_relation(d->arena, l, "=", r); }
+const pl_form* pl_frel(pl_analysis* d, const pl_form* l, const char* op, const pl_form* r) {
+  return pl_form_relation(d->arena, l, op, r);
+}
+const pl_form* pl_flist(pl_analysis* d, const pl_form* const* f, int n) { return pl_form_make(d->arena, PL_F_LIST, n, f); }
+const pl_form* pl_fref(pl_analysis* d, int number) { return pl_fn(d, pl_format(d->arena, "(%d)", number)); }

@@ -1,0 +1,264 @@
+// worked: the derivation from end to end, and the requests answered in order.
+#include <string.h>
+
+#include "derive/derive_impl.h"
+
+static const int largest_expansion = 24;   // coordinates up to which a family is written out and derived member by member
+
+// ---------------------------------------------------------------------------------------------- degrees of freedom
+// Constraints that the others imply, by the rank of dg/dq at a generic point.
+static void find_implied(pl_analysis* d) {
+  int n = 0, m = 0;
+  int* column = PL_ARRAY(d->arena, int, d->q.n + 1);
+  int* row = PL_ARRAY(d->arena, int, d->g.n + 1);
+  for (int i = 0; i < d->q.n; i++) {
+    if (d->q.at[i].carries && d->q.at[i].fixed_by < 0) column[n++] = i;
+  }
+  for (int k = 0; k < d->g.n; k++) {
+    if (d->g.at[k].fixes < 0 && !d->g.at[k].implied) row[m++] = k;
+  }
+  if (m == 0 || n == 0) return;
+  pl_expr* A = PL_ARRAY(d->arena, pl_expr, m * n);
+  for (int a = 0; a < m; a++) {
+    for (int b = 0; b < n; b++) A[a * n + b] = pl_on_maps(d, d->g.at[row[a]].gradient[column[b]]);
+  }
+  int* independent = PL_ARRAY(d->arena, int, m);
+  int rank = pl_alg_rank(d->tower, m, n, A, independent);
+  for (int a = 0; a < m; a++) {
+    bool kept = false;
+    for (int r = 0; r < rank; r++) kept |= independent[r] == a;
+    d->g.at[row[a]].implied = !kept;
+  }
+}
+
+static void count_freedom(pl_analysis* d) {
+  pl_dof* f = &d->solution->dof;
+  int velocity = 0;
+  for (int i = 0; i < d->q.n; i++) f->coordinates += d->q.at[i].carries;
+  for (int k = 0; k < d->g.n; k++) {
+    f->constraints++;
+    if (d->g.at[k].implied) continue;
+    if (d->g.at[k].velocity) {
+      velocity++;
+    } else {
+      f->rank++;
+    }
+  }
+  f->dof = f->coordinates - f->rank;
+  f->velocity_dof = f->dof - velocity;
+}
+
+static const char* relation_text(pl_analysis* d, const pl_constraint* c) {
+  const char* op = c->relation == PL_GE ? ">=" : c->relation == PL_LE ? "<=" : "=";
+  return pl_format(d->arena, "%s %s %s", pl_expr_text(d->arena, d->pool, c->left), op, pl_expr_text(d->arena, d->pool, c->right));
+}
+
+// Labels of the constraints that one implied constraint depends on.
+static void implied_by(pl_analysis* d, int k, pl_constraint_info* info) {
+  int n = d->q.n, m = 0;
+  int* row = PL_ARRAY(d->arena, int, d->g.n);
+  pl_expr* A = PL_ARRAY(d->arena, pl_expr, d->g.n * n);
+  int place = -1;
+  for (int a = 0; a < d->g.n; a++) {
+    if (a != k && d->g.at[a].implied) continue;
+    if (a == k) place = m;
+    for (int i = 0; i < n; i++) A[m * n + i] = pl_on_maps(d, d->g.at[a].gradient[i]);
+    row[m++] = a;
+  }
+  pl_expr* c = PL_ARRAY(d->arena, pl_expr, m);
+  if (pl_alg_dependency(d->tower, m, n, A, place, c) != PL_YES) return;
+  info->implied_by = PL_ARRAY(d->arena, const char*, m);
+  for (int a = 0; a < m; a++) {
+    if (a == place || pl_is_poison(c[a]) || pl_is_zero_node(d->pool, c[a])) continue;
+    info->implied_by[info->n_implied_by++] = d->g.at[row[a]].source->name.text;
+  }
+}
+
+static void note_implied(pl_analysis* d, const pl_link* l, const pl_constraint_info* info) {
+  if (l->source->redundant_ok) return;
+  pl_text by = pl_text_make(d->arena);
+  for (int k = 0; k < info->n_implied_by; k++) pl_text_addf(&by, "%s%s", k ? ", " : "", info->implied_by[k]);
+  const char* others = info->n_implied_by > 0 ? pl_text_string(&by) : NULL;
+  const char* label = l->source->name.text;
+  pl_diagnostic* m = pl_report(d->job->diagnostics, PL_N052, l->source->span,
+    pl_format(d->arena, "constraint %s says nothing new", label), pl_format(d->arena, "Zwangsbedingung %s sagt nichts Neues", label));
+  pl_report_reason(m, pl_format(d->arena, "implied by %s", others ? others : "the others"),
+                   pl_format(d->arena, "folgt aus %s", others ? others : "den anderen"));
+  pl_report_fix(m, "fine for the motion, but the forces of these constraints are not unique; add \", redundant ok\" to keep it",
+                "für die Bewegung ohne Folgen, aber die Kräfte dieser Zwangsbedingungen sind nicht eindeutig; mit \", redundant ok\" bleibt sie", NULL);
+}
+
+static void describe_constraints(pl_analysis* d) {
+  for (int k = 0; k < d->g.n; k++) {
+    const pl_link* l = &d->g.at[k];
+    pl_constraint_info info = {.source = l->source, .label = l->source->name.text, .text = relation_text(d, l->source),
+                               .nonholonomic = l->velocity, .one_sided = l->contact,
+                               .rheonomic = pl_has_symbol(d->pool, l->g, pl_time(d->pool)),
+                               .dropped = l->fixes >= 0 && !l->contact, .implied = l->implied};
+    if (l->implied) {
+      implied_by(d, k, &info);
+      note_implied(d, l, &info);
+    }
+    pl_push(d->arena, d->solution->constraints, info);
+  }
+}
+
+// ---------------------------------------------------------------------------------------------- requests
+void pl_answer_pending(pl_analysis* d, const pl_ask* ask) {
+  if (!d->section || d->section->item != ask->text) pl_section_open(d, ask, ask->text, ask->text);
+  pl_say(d, "This version does not compute this request.", "Diese Version berechnet diese Anfrage nicht.", 0);
+  pl_report(d->job->diagnostics, PL_N091, ask->span, pl_format(d->arena, "\"%s\" is understood, but this version does not compute it", ask->text),
+            pl_format(d->arena, "\"%s\" ist verstanden, wird aber von dieser Version nicht berechnet", ask->text));
+  d->section->not_found = true;
+}
+
+static void answer(pl_analysis* d, const pl_ask* ask) {
+  switch (ask->kind) {
+    case PL_ASK_DOF: pl_answer_dof(d, ask); break;
+    case PL_ASK_CONSTRAINTS: pl_answer_constraints(d, ask); break;
+    case PL_ASK_LAGRANGE1:
+    case PL_ASK_NEWTON: pl_answer_lagrange1(d, ask); break;
+    case PL_ASK_LAGRANGE2: pl_answer_lagrange2(d, ask); break;
+    case PL_ASK_LAGRANGIAN: pl_answer_lagrangian(d, ask); break;
+    case PL_ASK_HAMILTONIAN: pl_answer_hamiltonian(d, ask); break;
+    case PL_ASK_SOLVE: pl_answer_solve(d, ask); break;
+    case PL_ASK_VALUE: pl_answer_value(d, ask); break;
+    case PL_ASK_FORCE_OF:
+    case PL_ASK_FORCE_ON: pl_answer_force(d, ask); break;
+    case PL_ASK_CONSERVED: pl_answer_conserved(d, ask); break;
+    case PL_ASK_EQUILIBRIA: pl_answer_equilibria(d, ask); break;
+    case PL_ASK_LIMIT: pl_answer_limit(d, ask); break;
+    case PL_ASK_SERIES: pl_answer_series(d, ask); break;
+    case PL_ASK_EXPECT: pl_answer_expect(d, ask); break;
+    case PL_ASK_MODES:
+    case PL_ASK_THRESHOLD:
+    case PL_ASK_MAX:
+    case PL_ASK_MIN:
+    case PL_ASK_AVERAGE:
+    case PL_ASK_STABILITY: pl_answer_pending(d, ask); break;
+  }
+}
+
+static void standard(pl_analysis* d, pl_ask_kind kind, const char* text) {
+  pl_ask ask = {.kind = kind, .text = text};
+  answer(d, &ask);
+}
+
+// Without `ask`: the standard worked solution.
+static void answer_standard(pl_analysis* d) {
+  standard(d, PL_ASK_DOF, "dof");
+  standard(d, PL_ASK_CONSTRAINTS, "constraints");
+  standard(d, PL_ASK_LAGRANGE1, "lagrange1");
+  for (int k = 0; k < d->g.n; k++) {
+    if (d->g.at[k].implied || (d->g.at[k].fixes >= 0 && !d->g.at[k].contact)) continue;
+    const pl_symbol_info* lambda = pl_symbol_get(d->pool, d->g.at[k].lambda);
+    pl_ask ask = {.kind = PL_ASK_SOLVE, .text = pl_format(d->arena, "solve %s", lambda->name), .value = pl_sym(d->pool, d->g.at[k].lambda)};
+    answer(d, &ask);
+  }
+  if (d->reduced) {
+    standard(d, PL_ASK_LAGRANGIAN, "lagrangian");
+    standard(d, PL_ASK_LAGRANGE2, "lagrange2");
+  }
+  standard(d, PL_ASK_CONSERVED, "conserved");
+  if (d->reduced) standard(d, PL_ASK_EQUILIBRIA, "equilibria");
+}
+
+static bool wanted(const pl_derive_options* o, const pl_ask* ask) {
+  if (!o->only) return true;
+  if (!ask->letter) return false;
+  size_t n = strlen(ask->letter);
+  for (const char* at = o->only; *at;) {
+    const char* end = strchr(at, ',');
+    size_t length = end ? (size_t)(end - at) : strlen(at);
+    if (length == n && strncmp(at, ask->letter, n) == 0) return true;
+    at += length + (end != NULL);
+  }
+  return false;
+}
+
+static pleuel_status answer_all(pl_analysis* d) {
+  if (d->model->asks.n == 0) answer_standard(d);
+  for (int k = 0; k < d->model->asks.n; k++) {
+    if (pl_interrupted(d->job)) return pl_fail(d->job, PLEUEL_INTERRUPTED, "stopped after %d of %d requests", k, d->model->asks.n);
+    if (wanted(d->options, &d->model->asks.at[k])) answer(d, &d->model->asks.at[k]);
+  }
+  return PLEUEL_OK;
+}
+
+// ---------------------------------------------------------------------------------------------- assumptions
+// "m1 > 0", "r < l": a difference a - b is written as b < a.
+static const char* fact_text(pl_analysis* d, const pl_fact* f) {
+  pl_pool* p = d->pool;
+  pl_notation how = {.math = PL_MATH_LINE, .lang = d->job->lang};
+  pl_expr e = f->difference, minus = pl_int(p, 0), plus = pl_int(p, 0);
+  int n = pl_kind_of(p, e) == PL_ADD ? pl_n_args(p, e) : 0;
+  for (int k = 0; k < n; k++) {
+    pl_expr term = pl_arg(p, e, k), opposite = pl_neg(p, term);
+    bool negative = pl_op_count(p, opposite) < pl_op_count(p, term) || (pl_is_number(p, term) && pl_number_sign(p, term) < 0);
+    if (negative) {
+      minus = pl_add(p, minus, opposite);
+    } else {
+      plus = pl_add(p, plus, term);
+    }
+  }
+  bool split = n > 0 && !pl_is_zero_node(p, minus) && !pl_is_zero_node(p, plus);
+  const pl_form* left = pl_fe(d, split ? minus : e);
+  const pl_form* right = split ? pl_fe(d, plus) : pl_form_leaf(d->arena, pl_int(p, 0));
+  const char* op = split ? (f->strict ? "<" : "≤") : (f->strict ? ">" : "≥");
+  return pl_notation_print(d->arena, p, pl_frel(d, left, op, right), how);
+}
+
+static void list_assumptions(pl_analysis* d) {
+  int n = 0;
+  const pl_fact* used = pl_tower_used(d->tower, &n);
+  for (int k = 0; k < n; k++) pl_push(d->arena, d->solution->used, fact_text(d, &used[k]));
+}
+
+// ---------------------------------------------------------------------------------------------- the whole
+static pleuel_status derive(pl_analysis* d) {
+  PL_TRY(pl_setup_coordinates(d));
+  PL_TRY(pl_setup_trivial(d));
+  PL_TRY(pl_energies(d));
+  PL_TRY(pl_reduce(d));
+  find_implied(d);
+  PL_TRY(pl_solve_motion(d));
+  count_freedom(d);
+  describe_constraints(d);
+  pl_note_equilibrium_start(d);
+  pleuel_status status = answer_all(d);
+  pl_claims_check(d);
+  list_assumptions(d);
+  return status;
+}
+
+pleuel_status pl_derive(pl_job* job, pl_model* model, const pl_derive_options* options, pl_solution** out) {
+  pl_model* flat = NULL;
+  PL_TRY(pl_model_expand(job, model, largest_expansion, &flat));
+  pl_analysis* d = PL_NEW(job->arena, pl_analysis);
+  *d = (pl_analysis){.job = job, .arena = job->arena, .pool = flat->pool, .model = flat, .options = options};
+  d->told = pl_map_make(job->arena);
+  d->solution = PL_NEW(job->arena, pl_solution);
+  d->solution->model = flat;
+  *out = d->solution;
+  return derive(d);
+}
+
+void pl_solution_close(pl_solution* s) {
+  if (s && s->tower) pl_tower_free(s->tower);
+  if (s) s->tower = NULL;
+}
+
+void pl_derive_dump(pl_text* out, const pl_solution* s) {
+  const pl_pool* p = s->model->pool;
+  for (int k = 0; k < s->sections.n; k++) {
+    const pl_section* section = &s->sections.at[k];
+    pl_text_addf(out, "[%s] %s\n", section->letter ? section->letter : "-", section->item ? section->item : "");
+    for (int v = 0; v < section->values.n; v++) {
+      const pl_value* value = &section->values.at[v];
+      if (!pl_is_poison(value->expr)) pl_text_addf(out, "  %s = %s\n", value->name, pl_expr_text(out->arena, p, value->expr));
+      for (int c = 0; c < value->n_components; c++) {
+        pl_text_addf(out, "  %s . %s = %s\n", value->name, value->components[c].along, pl_expr_text(out->arena, p, value->components[c].expr));
+      }
+    }
+  }
+}
