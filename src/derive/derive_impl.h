@@ -110,7 +110,7 @@ bool pl_frame_find(pl_analysis* d, const pl_particle* k, pl_frame* out);
 const char* pl_unit_vector(pl_analysis* d, int coordinate);      // "e_r"
 // reduce.c
 pleuel_status pl_reduce(pl_analysis* d);                // generalized coordinates and maps
-// kkt.c
+// solve_motion.c
 pleuel_status pl_solve_motion(pl_analysis* d);          // accelerations and multipliers
 pl_expr pl_link_acceleration(pl_analysis* d, int link); // twice differentiated constraint, raw
 // claims.c

@@ -1,5 +1,5 @@
 // setup: what moves, what is heavy, what constrains; then the constraints of the form coordinate = constant or f(t), which
-// are inserted and dropped (theorem T101: their multipliers remain available, see kkt.c).
+// are inserted and dropped (theorem T101: their multipliers remain available, see solve_motion.c).
 #include <math.h>
 #include <string.h>
 

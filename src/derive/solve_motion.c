@@ -1,4 +1,4 @@
-// kkt: accelerations and multipliers from the Lagrange equations of the first kind and the constraints, by exact linear
+// solve_motion: accelerations and multipliers from the Lagrange equations of the first kind and the constraints, by exact linear
 // algebra.  With generalized coordinates the accelerations of the map are inserted and the unknowns are q'' of the generalized
 // coordinates and the multipliers; without them, all accelerations and the twice-differentiated constraints.
 // The multiplier of a dropped constraint is what is left of the equation of its coordinate (theorem T101).
