@@ -31,10 +31,14 @@ typedef struct pl_coord {
   pl_span span;
 } pl_coord;
 
-typedef struct pl_let {       // abbreviations are inserted while lowering; kept here for printing ("l = L - π R")
-  pl_symbol symbol;           // role PL_R_LOCAL, class LENGTH etc.; not 0 even when hidden by insertion
+// Abbreviations.  One of given quantities only (no coordinate, no velocity, no t, no arguments: l = L - π R) STAYS in
+// expressions as its symbol (role PL_R_PARAM, so that it is a given length like any other; its number is found by
+// pl_model_values, its dimension by the check), and is displayed as a name.  Any other is inserted while lowering.
+typedef struct pl_let {
+  pl_symbol symbol;           // of a kept abbreviation: the symbol in expressions; of an inserted one: role PL_R_LOCAL, for printing
   int n_args;
-  pl_expr value;              // with the lets inside it already inserted
+  bool inserted;              // its value was inserted wherever it was used
+  pl_expr value;              // kept: in terms of params and earlier kept lets; inserted: with the inserted lets in it inserted
   pl_span span;
 } pl_let;
 
