@@ -1,0 +1,128 @@
+// The most readable form of a fraction n/d: the smallest of
+//   the form of n over the forms of the factors of d;
+//   the same with square roots absorbed, (A - B w)^k / w^k = (A/w - B)^k;
+//   the sum of the parts of n by some class of symbols, each cancelled against d on its own.
+#include "present_impl.h"
+
+#include <string.h>
+
+enum { MAX_PARTS = 8, MAX_SPLIT_TERMS = 150 };
+
+const pl_poly* pl_group_poly(pl_search* s, const pl_group* g) {
+  pl_tower* t = s->t;
+  pl_poly* key = pl_poly_new(t);
+  fmpz_mpoly_set_coeff_si_ui(key, 1, g->key, &t->ctx);
+  return pl_poly_mul_free(t, key, g->coefficient);
+}
+
+pl_frac pl_frac_part(pl_search* s, pl_frac f, const pl_poly* part) {
+  if (f.n == 0 && fmpz_is_one(f.unit)) return pl_frac_poly(s->t, part);
+  s->work += 2;
+  return pl_frac_make(s->t, part, pl_frac_den(s->t, f));
+}
+
+// ---------------------------------------------------------------------------------------------- denominators
+// The radicand that this base is: its root generator, or -1.  l² - r² sin²φ beside √(l² - r² sin²φ).
+static int root_of_base(pl_search* s, const pl_poly* base) {
+  pl_tower* t = s->t;
+  for (int g = 0; g < t->gens.n; g++) {
+    const pl_gen* w = &t->gens.at[g];
+    if (w->kind == PL_G_ROOT && w->degree == 2 && pl_poly_equal(t, w->value, base)) return g;
+  }
+  return -1;
+}
+
+static pl_prod denominator(pl_search* s, pl_frac f, int depth, bool as_roots) {
+  pl_prod d = pl_prod_number(s, pl_fmpz_expr(s->t, f.unit));
+  for (int i = 0; i < f.n; i++) {
+    const pl_poly* base = pl_base_poly(s->t, f.den[i].base);
+    int w = as_roots ? root_of_base(s, base) : -1;
+    pl_prod x = w >= 0 ? pl_prod_of_gen(s, w, 2) : pl_present_poly(s, base, depth);
+    d = pl_prod_mul(s, d, pl_prod_pow(s, x, f.den[i].power));
+  }
+  return d;
+}
+
+// ---------------------------------------------------------------------------------------------- roots absorbed
+static int power_of_gen(pl_prod x, int gen) {
+  for (int i = 0; i < x.n; i++)
+    if (x.at[i].gen == gen) return x.at[i].power;
+  return 0;
+}
+
+// (sum)^k with every term divided by w.
+static pl_prod divided_sum(pl_search* s, const pl_piece* piece, int w) {
+  const pl_sum_terms* sum = piece->sum;
+  pl_prod* terms = PL_ARRAY(s->a, pl_prod, sum->n);
+  for (int i = 0; i < sum->n; i++) terms[i] = pl_prod_mul(s, sum->at[i], pl_prod_of_gen(s, w, -1));
+  return pl_prod_pow(s, pl_prod_sum(s, terms, sum->n), piece->power);
+}
+
+static bool sum_contains(const pl_piece* piece, int w) {
+  for (int i = 0; piece->sum && i < piece->sum->n; i++)
+    if (power_of_gen(piece->sum->at[i], w) > 0) return true;
+  return false;
+}
+
+static pl_prod absorb_root(pl_search* s, pl_prod x, int w) {
+  for (int i = 0; i < x.n; i++) {
+    int k = x.at[i].power;
+    if (k < 1 || !sum_contains(&x.at[i], w) || power_of_gen(x, w) > -k) continue;
+    pl_prod inside = divided_sum(s, &x.at[i], w);
+    pl_prod rest = pl_prod_mul(s, x, pl_prod_piece(s, x.at[i], -k));
+    return pl_prod_mul(s, pl_prod_mul(s, rest, pl_prod_of_gen(s, w, k)), inside);
+  }
+  return x;
+}
+
+static pl_prod absorb_roots(pl_search* s, pl_prod x) {
+  for (int w = 0; w < s->t->gens.n; w++)
+    if (s->t->gens.at[w].kind == PL_G_ROOT && power_of_gen(x, w) < 0) x = absorb_root(s, x, w);
+  return x;
+}
+
+// ---------------------------------------------------------------------------------------------- parts
+static bool cancels(pl_frac whole, pl_frac part) {
+  long before = 0, after = 0;
+  for (int i = 0; i < whole.n; i++) before += whole.den[i].power;
+  for (int i = 0; i < part.n; i++) after += part.den[i].power;
+  return after < before;
+}
+
+// The sum of the parts of f by the generators of one class, if at least one of them cancels.
+static bool split(pl_search* s, pl_frac f, pl_key_set set, int depth, pl_prod* out) {
+  bool in[PL_MAX_GENERATORS] = {false};
+  pl_key_mask(s, set, in);
+  pl_group* groups;
+  int n = pl_poly_group(s, f.num, in, &groups);
+  if (n < 2 || n > MAX_PARTS) return false;
+  pl_frac part[MAX_PARTS];
+  bool any = false;
+  for (int i = 0; i < n; i++) {
+    part[i] = pl_frac_part(s, f, pl_group_poly(s, &groups[i]));
+    any |= cancels(f, part[i]);
+  }
+  if (!any) return false;
+  pl_prod terms[MAX_PARTS];
+  for (int i = 0; i < n; i++) terms[i] = pl_present_quotient(s, part[i], depth - 1);
+  *out = pl_prod_sum(s, terms, n);
+  return true;
+}
+
+static pl_prod smaller(pl_prod x, pl_prod y) { return y.cost < x.cost ? y : x; }
+
+pl_prod pl_present_quotient(pl_search* s, pl_frac f, int depth) {
+  pl_prod n = pl_present_poly(s, f.num, depth);
+  pl_prod best = pl_prod_tidy(s, pl_prod_mul(s, n, pl_prod_pow(s, denominator(s, f, depth, false), -1)));
+  if (f.n == 0) return best;
+  pl_prod rooted = pl_prod_mul(s, n, pl_prod_pow(s, denominator(s, f, depth, true), -1));
+  best = smaller(best, rooted);
+  best = smaller(best, absorb_roots(s, rooted));
+  if (depth < 1 || f.num->length > MAX_SPLIT_TERMS || f.num->length < 2) return best;
+  static const pl_key_set sets[] = {PL_KEY_MASS, PL_KEY_MOTION, PL_KEY_GRAVITY, PL_KEY_OTHER, PL_KEY_ROOT};
+  for (size_t i = 0; i < sizeof sets / sizeof *sets && s->work < s->limit; i++) {
+    pl_prod x;
+    if (split(s, f, sets[i], depth, &x)) best = smaller(best, x);
+  }
+  return best;
+}

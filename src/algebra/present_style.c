@@ -1,0 +1,373 @@
+// How each kind of quantity is written: the rules that no cost function finds (K1 to K3).
+//
+//   energies    one term for each monomial of velocities (momenta), squares first, ½ distributed; what does not move is
+//               separated by masses, gravity and other parameters;                                             K1
+//   equations   accelerations, velocities, forces, one term each;                                             K2
+//   quotients   one fraction, but two forces of different kind stay a sum: m g cos ϑ - m R ϑ'²;                 K3
+//   solutions   a sum by powers and functions of time.
+#include "present_impl.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_STYLE_TERMS = 60 };
+
+typedef struct term_list {
+  pl_search* s;
+  int n;
+  pl_prod at[MAX_STYLE_TERMS];
+  bool full;
+} term_list;
+
+static void put(term_list* l, pl_prod x) {
+  if (pl_prod_is_zero(l->s, x)) return;
+  if (l->n == MAX_STYLE_TERMS) l->full = true;
+  else l->at[l->n++] = x;
+}
+
+// ---------------------------------------------------------------------------------------------- what a product is like
+static bool is_plain(pl_prod x) {
+  for (int i = 0; i < x.n; i++)
+    if (x.at[i].sum) return false;
+  return true;
+}
+
+static bool has_root_or_bracket(pl_prod x) {
+  for (int i = 0; i < x.n; i++)
+    if (x.at[i].sum || x.at[i].base->kind == PL_F_ROOT) return true;
+  return false;
+}
+
+// A coefficient that is better written as one term for each mass: some bracket holds roots or further brackets.
+static bool is_overloaded(pl_prod x) {
+  for (int i = 0; i < x.n; i++) {
+    const pl_sum_terms* sum = x.at[i].sum;
+    if (!sum || x.at[i].power != 1) continue;
+    for (int k = 0; k < sum->n; k++)
+      if (has_root_or_bracket(sum->at[k])) return true;
+  }
+  return false;
+}
+
+static int only_sum(pl_prod x) {
+  int found = -1;
+  for (int i = 0; i < x.n; i++) {
+    if (!x.at[i].sum) continue;
+    if (found >= 0 || x.at[i].power != 1) return -1;
+    found = i;
+  }
+  return found;
+}
+
+static bool has_pure_number(const pl_sum_terms* sum) {
+  for (int i = 0; i < sum->n; i++)
+    if (sum->at[i].n == 0) return true;
+  return false;
+}
+
+static pl_prod times_rest(pl_search* s, pl_prod x, int i, pl_prod y) {
+  pl_prod rest = pl_prod_mul(s, x, pl_prod_piece(s, x.at[i], -x.at[i].power));
+  return pl_prod_mul(s, rest, y);
+}
+
+// Adds a(b + c) as a b + a c where the bracket is a plain sum of quantities; m g l (1 - cos θ) and (m1 + m2) g stay.
+static void put_distributed(term_list* l, pl_prod x) {
+  pl_search* s = l->s;
+  int i = only_sum(x);
+  bool keep = i < 0 || has_pure_number(x.at[i].sum) || x.at[i].bucket < PL_K_PARAM_SUM || x.at[i].sum->n > 6;
+  if (keep) {
+    put(l, x);
+    return;
+  }
+  for (int k = 0; k < x.at[i].sum->n; k++) put_distributed(l, times_rest(s, x, i, x.at[i].sum->at[k]));
+}
+
+// ---------------------------------------------------------------------------------------------- groups
+static int groups_of(pl_search* s, pl_frac f, const bool* in, pl_frac* out, ulong** keys) {
+  pl_group* groups;
+  int n = pl_poly_group(s, f.num, in, &groups);
+  if (n > MAX_STYLE_TERMS) return 0;
+  for (int i = 0; i < n; i++) {
+    out[i] = pl_frac_part(s, f, pl_group_poly(s, &groups[i]));
+    keys[i] = groups[i].key;
+  }
+  return n;
+}
+
+static bool is_unit_key(pl_search* s, const ulong* key) {
+  for (int g = 0; g < s->t->gens.n; g++)
+    if (key[g]) return false;
+  return true;
+}
+
+static void mask_of(pl_search* s, const pl_key_set* sets, int n, bool* in) {
+  bool one[PL_MAX_GENERATORS];
+  memset(in, 0, PL_MAX_GENERATORS * sizeof *in);
+  for (int k = 0; k < n; k++) {
+    memset(one, 0, sizeof one);
+    pl_key_mask(s, sets[k], one);
+    for (int g = 0; g < s->t->gens.n; g++) in[g] |= one[g];
+  }
+}
+
+// ---------------------------------------------------------------------------------------------- energies and equations
+static void put_by_mass(term_list* l, pl_frac f, int depth) {
+  pl_search* s = l->s;
+  static const pl_key_set by_mass[] = {PL_KEY_MASS};
+  bool in[PL_MAX_GENERATORS];
+  mask_of(s, by_mass, 1, in);
+  pl_frac part[MAX_STYLE_TERMS];
+  ulong* keys[MAX_STYLE_TERMS];
+  int n = groups_of(s, f, in, part, keys);
+  for (int i = 0; i < n; i++) put(l, pl_present_quotient(s, part[i], depth));
+  if (n == 0) put(l, pl_present_quotient(s, f, depth));
+}
+
+// Everything that goes with one monomial of velocities: one term, or one for each mass when that is more than a
+// reader takes in at once.
+static void put_kinetic(term_list* l, pl_frac f, int depth) {
+  pl_prod whole = pl_present_quotient(l->s, f, depth);
+  if (is_overloaded(whole)) put_by_mass(l, f, depth);
+  else put(l, whole);
+}
+
+// Potentials and forces: by gravity and other parameters first, then as plain sums.
+static void put_static(term_list* l, pl_frac f, int depth) {
+  pl_search* s = l->s;
+  static const pl_key_set by_kind[] = {PL_KEY_GRAVITY, PL_KEY_OTHER};
+  bool in[PL_MAX_GENERATORS];
+  mask_of(s, by_kind, 2, in);
+  pl_frac part[MAX_STYLE_TERMS];
+  ulong* keys[MAX_STYLE_TERMS];
+  int n = groups_of(s, f, in, part, keys);
+  if (n == 0) put(l, pl_present_quotient(s, f, depth));
+  for (int i = 0; i < n; i++) put_distributed(l, pl_present_quotient(s, part[i], depth));
+}
+
+static int motion_rank(pl_search* s, const pl_prod* x) {
+  // squares and products of velocities of two coordinates: the squares first, then the products, then what is linear
+  int pieces = 0, total = 0;
+  for (int i = 0; i < x->n; i++) {
+    if (x->at[i].bucket != PL_K_VELOCITY && x->at[i].bucket != PL_K_ACCELERATION) continue;
+    pieces++;
+    total += abs(x->at[i].power);
+  }
+  if (total == 0) return 3;
+  return total >= 2 ? (pieces == 1 ? 0 : 1) : 2;
+}
+
+static pl_symbol moving_symbol(const pl_prod* x) {
+  for (int i = 0; i < x->n; i++)
+    if (x->at[i].bucket == PL_K_VELOCITY || x->at[i].bucket == PL_K_ACCELERATION) return x->at[i].lead;
+  return (pl_symbol){0};
+}
+
+static bool goes_before(pl_search* s, const pl_prod* x, const pl_prod* y) {
+  int rx = motion_rank(s, x), ry = motion_rank(s, y);
+  if (s->style == PL_S_EQUATION) {
+    int mx = pl_prod_motion(s, *x), my = pl_prod_motion(s, *y);
+    if (mx != my) return mx > my;
+  }
+  if (rx != ry) return rx < ry;
+  pl_symbol a = moving_symbol(x), b = moving_symbol(y);
+  if (a.id != b.id && a.id && b.id) return pl_symbol_compare(s->p, a, b) < 0;
+  return pl_terms_compare(s, x, y) < 0;
+}
+
+static void sort_terms(term_list* l) {
+  for (int i = 1; i < l->n; i++) {
+    pl_prod x = l->at[i];
+    int k = i;
+    for (; k > 0 && goes_before(l->s, &x, &l->at[k - 1]); k--) l->at[k] = l->at[k - 1];
+    l->at[k] = x;
+  }
+}
+
+// A sum with a leading minus takes its first positive term to the front, if no term moves past a kinetic one.
+static void avoid_leading_minus(term_list* l) {
+  if (l->n < 2 || !pl_prod_is_negative(l->s, l->at[0])) return;
+  int i = 1;
+  while (i < l->n && pl_prod_is_negative(l->s, l->at[i])) i++;
+  if (i == l->n || motion_rank(l->s, &l->at[i]) != motion_rank(l->s, &l->at[0])) return;
+  pl_prod x = l->at[i];
+  memmove(l->at + 1, l->at, (size_t)i * sizeof *l->at);
+  l->at[0] = x;
+}
+
+// ---------------------------------------------------------------------------------------------- ½
+static pl_expr half(pl_search* s) { return pl_ratio(s->p, 1, 2); }
+
+static bool is_half(pl_search* s, pl_prod x) {
+  pl_expr size = pl_prod_is_negative(s, x) ? pl_neg(s->p, x.unit) : x.unit;
+  return pl_same(size, half(s));
+}
+
+// All terms with ½ begin with the symbol of one mass, and there are several: m1/2 r² φ'² + m2/2 ...
+static bool mass_takes_half(term_list* l) {
+  int n = 0;
+  for (int i = 0; i < l->n; i++) {
+    pl_prod x = l->at[i];
+    if (!is_half(l->s, x)) continue;
+    if (x.n == 0 || x.at[0].bucket != PL_K_MASS || x.at[0].sum || x.at[0].power != 1) return false;
+    n++;
+  }
+  return n > 1;
+}
+
+// A term whose denominator is only a number: 1/2 m v², m1/2 r² φ'², 3/4 m r² ω².
+static const pl_form* term_form(pl_search* s, pl_prod x, bool into_mass) {
+  long num, den;
+  if (pl_prod_has_denominator(x) || x.n == 0 || !pl_is_ratio(s->p, x.unit, &num, &den) || den == 1) return pl_prod_form(s, x);
+  bool minus = num < 0;
+  pl_prod body = x;
+  body.unit = pl_int(s->p, 1);
+  const pl_form* f = pl_prod_form(s, body);
+  const pl_form* first = pl_form_leaf(s->a, pl_int(s->p, labs(num)));
+  const pl_form* bottom = pl_form_leaf(s->a, pl_int(s->p, den));
+  int n = f->kind == PL_F_PRODUCT ? f->n : 1, skip = 0;
+  const pl_form* const* factors = f->kind == PL_F_PRODUCT ? f->args : &f;
+  if (into_mass && is_half(s, x) && n > 1) first = factors[0], skip = 1;
+  const pl_form** all = PL_ARRAY(s->a, const pl_form*, n + 1);
+  all[0] = pl_form_quotient(s->a, first, bottom);
+  for (int i = skip; i < n; i++) all[i + 1 - skip] = factors[i];
+  const pl_form* r = pl_form_product(s->a, all, n + 1 - skip);
+  return minus ? pl_form_neg(s->a, r) : r;
+}
+
+static const pl_form* list_form(term_list* l, bool halves) {
+  pl_search* s = l->s;
+  if (l->n == 0) return pl_form_leaf(s->a, pl_int(s->p, 0));
+  bool into_mass = halves && mass_takes_half(l);
+  const pl_form** f = PL_ARRAY(s->a, const pl_form*, l->n);
+  for (int i = 0; i < l->n; i++) f[i] = halves ? term_form(s, l->at[i], into_mass) : pl_prod_form(s, l->at[i]);
+  return l->n == 1 ? f[0] : pl_form_sum(s->a, f, l->n);
+}
+
+static long list_cost(const term_list* l) {
+  long cost = 0;
+  for (int i = 0; i < l->n; i++) cost += l->at[i].cost + 2;
+  return cost;
+}
+
+static bool moving_denominator(pl_search* s, pl_frac f) {
+  for (int i = 0; i < f.n; i++) {
+    int use[PL_MAX_GENERATORS], n = 0;
+    pl_poly_used(s->t, pl_base_poly(s->t, f.den[i].base), use, &n);
+    for (int k = 0; k < n; k++)
+      if (pl_gen_in_key(s, use[k], PL_KEY_MOTION)) return true;
+  }
+  return false;
+}
+
+static const pl_form* plain(pl_search* s, pl_frac f, int depth, long* cost) {
+  pl_prod x = pl_prod_flip(s, pl_present_quotient(s, f, depth));
+  *cost = x.cost;
+  return pl_prod_form(s, x);
+}
+
+static const pl_form* by_motion(pl_search* s, pl_frac f, int depth, long* cost) {
+  if (moving_denominator(s, f)) return plain(s, f, depth, cost);
+  term_list l = {.s = s};
+  static const pl_key_set motion[] = {PL_KEY_MOTION};
+  bool in[PL_MAX_GENERATORS];
+  mask_of(s, motion, 1, in);
+  pl_frac part[MAX_STYLE_TERMS];
+  ulong* keys[MAX_STYLE_TERMS];
+  int n = groups_of(s, f, in, part, keys);
+  if (n == 0) return plain(s, f, depth, cost);
+  for (int i = 0; i < n; i++) {
+    if (is_unit_key(s, keys[i])) put_static(&l, part[i], depth);
+    else put_kinetic(&l, part[i], depth);
+  }
+  if (l.full) return plain(s, f, depth, cost);
+  sort_terms(&l);
+  avoid_leading_minus(&l);
+  *cost = list_cost(&l);
+  return list_form(&l, s->style == PL_S_ENERGY);
+}
+
+// ---------------------------------------------------------------------------------------------- quotients
+// m (g cos ϑ - R ϑ'²) -> m g cos ϑ - m R ϑ'²: forces of different kind under one short factor, no denominator.
+static bool is_sum_of_forces(pl_search* s, pl_prod x, int* bracket) {
+  int i = only_sum(x);
+  if (i < 0 || pl_prod_has_denominator(x) || x.n > 3 || x.at[i].sum->n > 3) return false;
+  const pl_sum_terms* sum = x.at[i].sum;
+  bool differ = false;
+  for (int k = 0; k < sum->n; k++) {
+    if (!is_plain(sum->at[k]) || sum->at[k].n == 0 || pl_prod_has_denominator(sum->at[k])) return false;
+    differ |= pl_prod_motion(s, sum->at[k]) != pl_prod_motion(s, sum->at[0]);
+  }
+  bool plain_front = true;
+  for (int k = 0; k < x.n; k++)
+    if (k != i && (x.at[k].bucket > PL_K_OTHER || x.at[k].power != 1)) plain_front = false;
+  *bracket = i;
+  return differ && plain_front && x.n > 1;
+}
+
+static const pl_form* quotient(pl_search* s, pl_frac f, int depth, long* cost) {
+  pl_prod x = pl_prod_flip(s, pl_present_quotient(s, f, depth));
+  *cost = x.cost;
+  int i;
+  if (!is_sum_of_forces(s, x, &i)) return pl_prod_form(s, x);
+  int n = x.at[i].sum->n;
+  pl_prod* terms = PL_ARRAY(s->a, pl_prod, n);
+  for (int k = 0; k < n; k++) terms[k] = times_rest(s, x, i, x.at[i].sum->at[k]);
+  pl_terms_sort(s, terms, n);
+  return pl_terms_form(s, terms, n);
+}
+
+// ---------------------------------------------------------------------------------------------- solutions
+static long time_power(pl_search* s, const ulong* key, bool* function) {
+  long power = 0;
+  for (int g = 0; g < s->t->gens.n; g++) {
+    if (!key[g]) continue;
+    if (pl_piece_of_gen(s, g).bucket == PL_K_TIME) power += (long)key[g];
+    else *function = true;
+  }
+  return power;
+}
+
+static const pl_form* by_time(pl_search* s, pl_frac f, int depth, long* cost) {
+  bool in[PL_MAX_GENERATORS] = {false};
+  pl_key_mask(s, PL_KEY_TIME, in);
+  for (int i = 0; i < f.n; i++) {
+    int use[PL_MAX_GENERATORS], n = 0;
+    pl_poly_used(s->t, pl_base_poly(s->t, f.den[i].base), use, &n);
+    for (int k = 0; k < n; k++)
+      if (in[use[k]]) return plain(s, f, depth, cost);
+  }
+  pl_frac part[MAX_STYLE_TERMS];
+  ulong* keys[MAX_STYLE_TERMS];
+  int n = groups_of(s, f, in, part, keys);
+  if (n == 0) return plain(s, f, depth, cost);
+  term_list l = {.s = s};
+  long rank[MAX_STYLE_TERMS];
+  for (int i = 0; i < n; i++) {
+    bool function = false;
+    long power = time_power(s, keys[i], &function);
+    pl_prod x = pl_present_quotient(s, part[i], depth);
+    // ascending powers of t, functions of t behind them; insertion keeps equal ones in place
+    long r = power + (function ? 1000 : 0);
+    int k = l.n;
+    put(&l, x);
+    for (; k > 0 && k < l.n && rank[k - 1] > r; k--) l.at[k] = l.at[k - 1], rank[k] = rank[k - 1];
+    l.at[k] = x, rank[k] = r;
+  }
+  *cost = list_cost(&l);
+  return list_form(&l, false);
+}
+
+const pl_form* pl_present_styled(pl_search* s, pl_frac f, int depth, long* cost) {
+  if (pl_poly_is_zero(s->t, f.num)) {
+    *cost = 0;
+    return pl_form_leaf(s->a, pl_int(s->p, 0));
+  }
+  switch (s->style) {
+    case PL_S_ENERGY:
+    case PL_S_EQUATION: return by_motion(s, f, depth, cost);
+    case PL_S_QUOTIENT: return quotient(s, f, depth, cost);
+    case PL_S_SOLUTION: return by_time(s, f, depth, cost);
+    case PL_S_PLAIN: break;
+  }
+  return plain(s, f, depth, cost);
+}

@@ -1,0 +1,126 @@
+// Sums of products: the order of terms and the brackets made from them.
+//
+// Terms stand in the order accelerations, velocities, rest; then as their factors do (K5).  When the first term would
+// carry a minus, the first positive terms go in front: 3 cos ϑ - 2, x2 - x1, m g cos ϑ - m R ϑ'².
+#include "present_impl.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+int pl_prod_motion(pl_search* s, pl_prod x) {
+  int accelerations = 0, velocities = 0;
+  for (int i = 0; i < x.n; i++) {
+    if (x.at[i].bucket == PL_K_ACCELERATION) accelerations += abs(x.at[i].power);
+    if (x.at[i].bucket == PL_K_VELOCITY) velocities += abs(x.at[i].power);
+  }
+  return accelerations * 100 + velocities;
+}
+
+static int compare_piece(pl_search* s, const pl_piece* x, const pl_piece* y) {
+  if (x->bucket != y->bucket) return x->bucket < y->bucket ? -1 : 1;
+  if (x->lead.id != y->lead.id && x->lead.id && y->lead.id) {
+    int c = pl_symbol_compare(s->p, x->lead, y->lead);
+    if (c) return c;
+  }
+  if (x->order != y->order) return x->order < y->order ? -1 : 1;
+  if (x->power != y->power) return x->power > y->power ? -1 : 1;
+  return 0;
+}
+
+int pl_terms_compare(pl_search* s, const pl_prod* x, const pl_prod* y) {
+  int mx = pl_prod_motion(s, *x), my = pl_prod_motion(s, *y);
+  if (mx != my) return mx > my ? -1 : 1;
+  for (int i = 0; i < x->n && i < y->n; i++) {
+    int c = compare_piece(s, &x->at[i], &y->at[i]);
+    if (c) return c;
+  }
+  return (x->n > y->n) - (x->n < y->n);
+}
+
+// The first run of positive terms to the front, if the sum begins with a minus.
+static void positive_first(pl_search* s, pl_prod* terms, int n) {
+  int begin = 0;
+  while (begin < n && pl_prod_is_negative(s, terms[begin])) begin++;
+  if (begin == 0 || begin == n) return;
+  int end = begin;
+  while (end < n && !pl_prod_is_negative(s, terms[end])) end++;
+  pl_prod* old = PL_ARRAY(s->a, pl_prod, begin);
+  memcpy(old, terms, (size_t)begin * sizeof *old);
+  memmove(terms, terms + begin, (size_t)(end - begin) * sizeof *terms);
+  memcpy(terms + (end - begin), old, (size_t)begin * sizeof *old);
+}
+
+void pl_terms_sort(pl_search* s, pl_prod* terms, int n) {
+  // insertion keeps equal terms in place, and sums on paper are short
+  for (int i = 1; i < n; i++) {
+    pl_prod x = terms[i];
+    int k = i;
+    for (; k > 0 && pl_terms_compare(s, &x, &terms[k - 1]) < 0; k--) terms[k] = terms[k - 1];
+    terms[k] = x;
+  }
+  positive_first(s, terms, n);
+}
+
+const pl_form* pl_terms_form(pl_search* s, const pl_prod* terms, int n) {
+  if (n == 0) return pl_form_leaf(s->a, pl_int(s->p, 0));
+  const pl_form** f = PL_ARRAY(s->a, const pl_form*, n);
+  for (int i = 0; i < n; i++) f[i] = pl_prod_form(s, terms[i]);
+  return n == 1 ? f[0] : pl_form_sum(s->a, f, n);
+}
+
+// ---------------------------------------------------------------------------------------------- brackets
+typedef struct sum_census { bool mass, motion, coord, other_class; unsigned buckets; } sum_census;
+
+static void count_pieces(pl_search* s, pl_prod x, sum_census* c) {
+  for (int i = 0; i < x.n; i++) {
+    const pl_piece* f = &x.at[i];
+    if (f->sum) {
+      for (int k = 0; k < f->sum->n; k++) count_pieces(s, f->sum->at[k], c);
+      continue;
+    }
+    c->mass |= f->bucket == PL_K_MASS;
+    c->motion |= f->bucket == PL_K_VELOCITY || f->bucket == PL_K_ACCELERATION || f->bucket == PL_K_MULTIPLIER;
+    c->coord |= f->bucket >= PL_K_START;
+    c->buckets |= 1u << f->bucket;
+  }
+}
+
+// Where a bracket stands among the factors: (m1 + m2) with the masses, (m1 + m2 sin²θ) before what it multiplies, the rest last.
+static pl_bucket bucket_of_sum(pl_search* s, const pl_prod* terms, int n) {
+  sum_census c = {0};
+  for (int i = 0; i < n; i++) count_pieces(s, terms[i], &c);
+  if (c.motion) return PL_K_SUM;
+  if (c.coord) return c.mass ? PL_K_INERTIA : PL_K_SUM;
+  static const pl_bucket pure[] = {PL_K_NUMBER, PL_K_MASS, PL_K_GRAVITY, PL_K_LENGTH};
+  for (size_t i = 0; i < sizeof pure / sizeof *pure; i++)
+    if ((c.buckets & ~(1u << pure[i])) == 0) return pure[i];
+  return PL_K_PARAM_SUM;
+}
+
+static pl_symbol lead_of(const pl_prod* terms, int n) {
+  for (int i = 0; i < n; i++)
+    for (int k = 0; k < terms[i].n; k++)
+      if (terms[i].at[k].lead.id) return terms[i].at[k].lead;
+  return (pl_symbol){0};
+}
+
+pl_prod pl_prod_sum(pl_search* s, const pl_prod* given, int n) {
+  if (n == 0) return pl_prod_number(s, pl_int(s->p, 0));
+  if (n == 1) return given[0];
+  pl_prod* terms = PL_ARRAY(s->a, pl_prod, n);
+  memcpy(terms, given, (size_t)n * sizeof *terms);
+  int minus = 0;
+  for (int i = 0; i < n; i++) minus += pl_prod_is_negative(s, terms[i]);
+  bool turned = minus == n;
+  for (int i = 0; turned && i < n; i++) terms[i] = pl_prod_neg(s, terms[i]);
+  pl_terms_sort(s, terms, n);
+  pl_sum_terms* sum = PL_NEW(s->a, pl_sum_terms);
+  sum->n = n, sum->at = terms;
+  pl_piece piece = {.gen = -1, .power = 1, .sum = sum, .bucket = bucket_of_sum(s, terms, n), .lead = lead_of(terms, n)};
+  piece.base = pl_terms_form(s, terms, n);
+  for (int i = 0; i < n; i++) piece.cost += terms[i].cost + 2;
+  // a minus between two terms costs nothing, only a leading one does
+  for (int i = 1; i < n; i++) piece.cost -= pl_prod_is_negative(s, terms[i]);
+  pl_prod r = pl_prod_piece(s, piece, 1);
+  return turned ? pl_prod_neg(s, r) : r;
+}
