@@ -1,0 +1,281 @@
+// The start: values given twice, in a circle or from nothing, the span of the simulation, and constraints that the
+// given start values already violate.  What follows from the constraints by solving them is left to the derivation.
+#include "model_impl.h"
+
+#include <math.h>
+
+// ---------------------------------------------------------------------------------------------- given twice
+typedef struct twice_check {
+  pl_job* job;
+  pl_model* m;
+  pl_map* seen;               // (target, time) -> init number + 1
+  int init;
+  bool told;
+} twice_check;
+
+static const char* target_text(twice_check* c, pl_expr target, long index) {
+  static const char* const primes[] = {"", "'", "''"};
+  const pl_symbol_info* info = pl_symbol_get(c->m->pool, pl_symbol_of(c->m->pool, target));
+  if (pl_kind_of(c->m->pool, target) == PL_AT) {
+    return PL_F(c->job, "%s[%ld]%s", info->name, index, primes[pl_dots_of(c->m->pool, target) % 3]);
+  }
+  return PL_F(c->job, "%s%s", info->name, primes[info->dots % 3]);
+}
+
+static bool one_target(void* user, pl_index_values* v) {
+  twice_check* c = user;
+  const pl_init* x = &c->m->inits.at[c->init];
+  uint64_t key = pl_hash_mix(x->time.id + 1, x->target.id);
+  long index = 0;
+  if (pl_kind_of(c->m->pool, x->target) == PL_AT) {
+    if (!pl_index_eval(v, pl_arg(c->m->pool, x->target, 0), &index)) return false;
+    key = pl_hash_mix(pl_hash_mix(x->time.id + 1, pl_symbol_of(c->m->pool, x->target).id), (uint64_t)index * 4 + (uint64_t)pl_dots_of(c->m->pool, x->target));
+  }
+  key |= 1;
+  uint64_t first = pl_map_get(c->seen, key);
+  if (!first) {
+    pl_map_set(c->seen, key, (uint64_t)c->init + 1);
+    return true;
+  }
+  const char* text = target_text(c, x->target, index);
+  pl_diagnostic* d = pl_tell(c->job, PL_E044, x->span, PL_F(c->job, "the start value of %s is given twice", text),
+                             PL_F(c->job, "der Startwert von %s ist zweimal angegeben", text));
+  pl_span other = c->m->inits.at[first - 1].span;
+  if (other.source && other.begin != x->span.begin) {
+    pl_report_label(c->job->diagnostics, d, other, c->job->lang == PL_GERMAN ? "zuerst hier" : "first here");
+  }
+  pl_report_fix(d, "keep one of them", "einen davon behalten", NULL);
+  return false;
+}
+
+static void check_twice(pl_job* job, pl_model* m) {
+  twice_check c = {.job = job, .m = m, .seen = pl_map_make(job->arena)};
+  pl_index_values v = pl_index_values_make(m, job->arena);
+  long budget = PL_MAX_INSTANCES;
+  for (c.init = 0; c.init < m->inits.n; c.init++) {
+    const pl_init* x = &m->inits.at[c.init];
+    if (x->guess || pl_is_poison(x->target)) continue;
+    if (x->block) pl_block_walk(x->block, &v, one_target, &c, &budget, NULL);
+    else one_target(&c, &v);
+  }
+}
+
+// ---------------------------------------------------------------------------------------------- what a value may hold
+static void check_init_value(pl_job* job, pl_model* m, const pl_init* x) {
+  if (pl_is_poison(x->value)) {
+    if (job->diagnostics->n_errors) return;
+    pl_diagnostic* d = pl_tell(job, PL_E040, x->span, "this start value has no value", "dieser Startwert hat keinen Wert");
+    pl_report_reason(d, "a division by zero?", "eine Division durch null?");
+    return;
+  }
+  bool force = pl_has_role(m->pool, x->value, PL_R_MULTIPLIER);
+  if (!force && pl_max_dots(m->pool, x->value, job->arena) < 2) return;
+  pl_diagnostic* d = pl_tell(job, PL_E046, x->span,
+                             force ? "a start value cannot contain a multiplier" : "a start value cannot contain an acceleration",
+                             force ? "ein Startwert kann keinen Multiplikator enthalten" : "ein Startwert kann keine Beschleunigung enthalten");
+  pl_report_reason(d, "these follow from the start", "die folgen erst aus dem Start");
+  pl_report_fix(d, "use given quantities and other start values", "gegebene Größen und andere Startwerte verwenden", NULL);
+}
+
+static void check_target(pl_job* job, pl_model* m, const pl_init* x) {
+  if (pl_is_poison(x->target)) return;
+  pl_kind kind = pl_kind_of(m->pool, x->target);
+  int dots = pl_max_dots(m->pool, x->target, job->arena);
+  bool good = (kind == PL_SYMBOL || kind == PL_AT) && pl_has_coordinate(m->pool, x->target, job->arena) && dots < 2;
+  if (good) return;
+  pl_diagnostic* d = pl_tell(job, PL_E030, x->span, "only coordinates and velocities have start values", "nur Koordinaten und Geschwindigkeiten haben Startwerte");
+  pl_report_fix(d, "init x = 1, x' = 0", "init x = 1, x' = 0", NULL);
+}
+
+// Start values may use others, in any order, but not in a circle.
+static int init_of(const pl_model* m, pl_symbol s) {
+  for (int i = 0; i < m->inits.n; i++) {
+    const pl_init* x = &m->inits.at[i];
+    if (!x->guess && !pl_is_poison(x->target) && pl_kind_of(m->pool, x->target) == PL_SYMBOL && pl_symbol_of(m->pool, x->target).id == s.id) return i;
+  }
+  return -1;
+}
+
+static bool returns_to(const pl_model* m, pl_arena* a, int from, int wanted, char* visited) {
+  pl_expr value = m->inits.at[from].value;
+  if (pl_is_poison(value)) return false;
+  int n = pl_symbols_in(m->pool, value, NULL, 0);
+  pl_symbol* s = PL_ARRAY(a, pl_symbol, n + 1);
+  pl_symbols_in(m->pool, value, s, n);
+  for (int i = 0; i < n; i++) {
+    int next = init_of(m, s[i]);
+    if (next < 0) continue;
+    if (next == wanted) return true;
+    if (visited[next]) continue;
+    visited[next] = 1;
+    if (returns_to(m, a, next, wanted, visited)) return true;
+  }
+  return false;
+}
+
+static void check_init_circles(pl_job* job, pl_model* m) {
+  for (int i = 0; i < m->inits.n; i++) {
+    if (m->inits.at[i].guess || m->inits.at[i].block) continue;
+    if (pl_is_poison(m->inits.at[i].value) || !pl_has_coordinate(m->pool, m->inits.at[i].value, job->arena)) continue;
+    if (!returns_to(m, job->arena, i, i, PL_ARRAY(job->arena, char, m->inits.n + 1))) continue;
+    pl_diagnostic* d = pl_tell(job, PL_E045, m->inits.at[i].span, "these start values lead back to each other", "diese Startwerte führen aufeinander zurück");
+    pl_report_fix(d, "give one of them as a number", "einen davon als Zahl angeben", NULL);
+    return;
+  }
+}
+
+// ---------------------------------------------------------------------------------------------- simulate
+static void check_span_of_simulation(pl_job* job, pl_model* m, const double* value) {
+  const pl_simulate* s = &m->simulate;
+  if (!s->given) return;
+  double from = pl_is_poison(s->from) ? 0 : pl_eval(m->pool, s->from, value);
+  double to = pl_is_poison(s->to) ? (double)NAN : pl_eval(m->pool, s->to, value);
+  double step = pl_is_poison(s->step) ? 1 : pl_eval(m->pool, s->step, value);
+  double tol = pl_is_poison(s->tol) ? 1e-9 : pl_eval(m->pool, s->tol, value);
+  if (to <= from) {
+    pl_diagnostic* d = pl_tell(job, PL_E047, s->span, PL_F(job, "the simulation ends at %.6g s, not after its start at %.6g s", to, from),
+                               PL_F(job, "die Simulation endet bei %.6g s, nicht nach ihrem Anfang bei %.6g s", to, from));
+    pl_report_fix(d, "simulate 0..10 [s]", "simulate 0..10 [s]", NULL);
+  }
+  if (step <= 0) {
+    pl_diagnostic* d = pl_tell(job, PL_E047, s->span, "the step of the output has to be positive", "die Schrittweite der Ausgabe muss positiv sein");
+    pl_report_fix(d, "simulate 0..10 step 0.01 [s]", "simulate 0..10 step 0.01 [s]", NULL);
+  }
+  if (tol <= 0 || tol >= 1) {
+    pl_diagnostic* d = pl_tell(job, PL_E047, s->span, "the tolerance has to lie between 0 and 1", "die Toleranz muss zwischen 0 und 1 liegen");
+    pl_report_fix(d, "tol 1e-9", "tol 1e-9", NULL);
+  }
+}
+
+typedef struct number_check {
+  pl_model* m;
+  pl_arena* arena;
+  char* needed;               // by symbol id
+} number_check;
+
+static void see_symbols(void* user, const pl_slot* slot) {
+  number_check* c = user;
+  if (pl_is_poison(*slot->at)) return;
+  switch (slot->kind) {
+    case PL_SLOT_LET: case PL_SLOT_ASSUMPTION: case PL_SLOT_ASK: case PL_SLOT_PARAM: return;
+    default: break;
+  }
+  int n = pl_symbols_in(c->m->pool, *slot->at, NULL, 0);
+  pl_symbol* s = PL_ARRAY(c->arena, pl_symbol, n + 1);
+  pl_symbols_in(c->m->pool, *slot->at, s, n);
+  for (int i = 0; i < n; i++) c->needed[s[i].id] = 1;
+}
+
+// A simulation computes with numbers: every parameter that it meets needs one.
+static void check_numbers_given(pl_job* job, pl_model* m) {
+  if (!m->simulate.given) return;
+  number_check c = {m, job->arena, PL_ARRAY(job->arena, char, pl_symbol_count(m->pool) + 1)};
+  pl_model_each_slot(m, see_symbols, &c);
+  // values of needed parameters need theirs
+  for (bool more = true; more;) {
+    more = false;
+    for (int i = 0; i < m->params.n; i++) {
+      const pl_param* p = &m->params.at[i];
+      if (c.needed[p->symbol.id] != 1 || pl_is_poison(p->value)) continue;
+      c.needed[p->symbol.id] = 2;
+      pl_slot slot = {(pl_expr*)(uintptr_t)&p->value, PL_SLOT_MASS, NULL, p->span};
+      see_symbols(&c, &slot);
+      c.needed[p->symbol.id] = 2;
+      more = true;
+    }
+  }
+  for (int i = 0; i < m->params.n; i++) {
+    const pl_param* p = &m->params.at[i];
+    if (!c.needed[p->symbol.id] || !pl_is_poison(p->value)) continue;
+    const pl_symbol_info* info = pl_symbol_get(m->pool, p->symbol);
+    pl_diagnostic* d = pl_tell(job, PL_E048, p->span, PL_F(job, "%s has no number, but simulate computes with it", info->name),
+                               PL_F(job, "%s hat keinen Zahlenwert, aber simulate rechnet damit", info->name));
+    const char* unit = info->dimension_known ? pl_dimension_unit(job->arena, info->dimension, true) : "1";
+    bool pure = unit[0] == '1' && unit[1] == 0;
+    const char* fix = pure ? PL_F(job, "param %s = 1", info->name) : PL_F(job, "param %s = 1 [%s]", info->name, unit);
+    pl_report_fix(d, fix, fix, NULL);
+  }
+}
+
+// ---------------------------------------------------------------------------------------------- violated at the start
+// Start values by symbol id, as far as they follow by insertion alone.
+static double* start_values(pl_job* job, pl_model* m) {
+  double* value = pl_model_values(m, job->arena);
+  double t = m->simulate.given && !pl_is_poison(m->simulate.from) ? pl_eval(m->pool, m->simulate.from, value) : 0;
+  value[pl_time(m->pool).id] = t;
+  for (int pass = 0; pass <= m->inits.n + m->choose.n_maps; pass++) {
+    bool more = false;
+    for (int i = 0; i < m->inits.n; i++) {
+      const pl_init* x = &m->inits.at[i];
+      if (x->guess || x->block || !pl_is_poison(x->time) || pl_is_poison(x->target) || pl_is_poison(x->value)) continue;
+      if (pl_kind_of(m->pool, x->target) != PL_SYMBOL) continue;
+      uint32_t id = pl_symbol_of(m->pool, x->target).id;
+      if (!isnan(value[id])) continue;
+      value[id] = pl_eval(m->pool, x->value, value);
+      more |= !isnan(value[id]);
+    }
+    for (int i = 0; i < m->choose.n_maps; i++) {
+      pl_expr old = m->choose.maps[i].old;
+      if (pl_is_poison(old) || pl_kind_of(m->pool, old) != PL_SYMBOL || pl_is_poison(m->choose.maps[i].map)) continue;
+      uint32_t id = pl_symbol_of(m->pool, old).id;
+      if (!isnan(value[id])) continue;
+      value[id] = pl_eval(m->pool, m->choose.maps[i].map, value);
+      more |= !isnan(value[id]);
+    }
+    if (!more) break;
+  }
+  return value;
+}
+
+// Sum of the absolute terms of g: the size that a residual is measured against.
+static double size_of_terms(const pl_pool* p, pl_expr g, const double* value) {
+  if (pl_kind_of(p, g) != PL_ADD) return fabs(pl_eval(p, g, value));
+  double size = 0;
+  for (int i = 0; i < pl_n_args(p, g); i++) size += fabs(pl_eval(p, pl_arg(p, g, i), value));
+  return size;
+}
+
+static const double start_tolerance = 1e-9;   // of the terms; what is smaller is projected away (language.md, Start values)
+
+// The last start value that the constraint speaks of.
+static const pl_init* init_in(const pl_model* m, pl_expr g) {
+  for (int i = m->inits.n - 1; i >= 0; i--) {
+    const pl_init* x = &m->inits.at[i];
+    if (x->guess || pl_is_poison(x->target) || pl_kind_of(m->pool, x->target) != PL_SYMBOL) continue;
+    if (pl_has_symbol(m->pool, g, pl_symbol_of(m->pool, x->target))) return x;
+  }
+  return NULL;
+}
+
+static void check_start_of(pl_job* job, pl_model* m, const pl_constraint* c, const double* value) {
+  if (c->off || c->block || pl_is_poison(c->g) || c->while_label) return;
+  double g = pl_eval(m->pool, c->g, value);
+  double size = size_of_terms(m->pool, c->g, value);
+  if (isnan(g) || isnan(size)) return;
+  bool violated = c->relation == PL_EQ ? fabs(g) > start_tolerance * size
+                : c->relation == PL_GE ? g < -start_tolerance * size : g > start_tolerance * size;
+  if (!violated) return;
+  const pl_init* x = init_in(m, c->g);
+  const char* name = c->name.text ? c->name.text : "?";
+  pl_diagnostic* d = pl_tell(job, PL_E041, x && x->span.source ? x->span : c->span, PL_F(job, "the start violates %s", name), PL_F(job, "der Start verletzt %s", name));
+  double left = pl_eval(m->pool, c->left, value), right = pl_eval(m->pool, c->right, value);
+  static const char* const signs[] = {"=", ">=", "<=", ">", "<", "!="};
+  pl_report_reason(d, PL_F(job, "%s asks for %.6g %s %.6g", name, left, signs[c->relation], right),
+                   PL_F(job, "%s verlangt %.6g %s %.6g", name, left, signs[c->relation], right));
+  if (x && x->span.source && c->span.source) pl_report_label(job->diagnostics, d, c->span, name);
+  pl_report_fix(d, "leave one of the start values out, and it follows from the constraints", "einen der Startwerte weglassen, dann folgt er aus den Zwangsbedingungen", NULL);
+}
+
+void pl_check_start(pl_job* job, pl_model* m) {
+  for (int i = 0; i < m->inits.n; i++) {
+    check_target(job, m, &m->inits.at[i]);
+    check_init_value(job, m, &m->inits.at[i]);
+  }
+  if (job->diagnostics->n_errors == 0) check_twice(job, m);
+  check_init_circles(job, m);
+  check_span_of_simulation(job, m, pl_model_values(m, job->arena));
+  check_numbers_given(job, m);
+  if (job->diagnostics->n_errors) return;
+  const double* value = start_values(job, m);
+  for (int i = 0; i < m->constraints.n; i++) check_start_of(job, m, &m->constraints.at[i], value);
+}

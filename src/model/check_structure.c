@@ -1,0 +1,414 @@
+// Names, labels, components, and what kind of quantity may stand where.
+#include "model_impl.h"
+
+#include <string.h>
+
+// ---------------------------------------------------------------------------------------------- theta
+static bool contains(const char* s, const char* part) { return s && strstr(s, part) != NULL; }
+
+// θ and ϑ print alike in ASCII: a model uses one of them.
+static void check_theta(pl_job* job, pl_model* m) {
+  pl_span at[2] = {{0}, {0}};
+  const char* name[2] = {NULL, NULL};
+  for (int pass = 0; pass < 2; pass++) {
+    const char* letter = pass ? "ϑ" : "θ";
+    for (int i = 0; i < m->params.n && !name[pass]; i++) {
+      const char* s = pl_symbol_get(m->pool, m->params.at[i].symbol)->name;
+      if (contains(s, letter)) name[pass] = s, at[pass] = m->params.at[i].span;
+    }
+    for (int i = 0; i < m->coords.n && !name[pass]; i++) {
+      const char* s = pl_symbol_get(m->pool, m->coords.at[i].symbol)->name;
+      if (contains(s, letter)) name[pass] = s, at[pass] = m->coords.at[i].span;
+    }
+    for (int i = 0; i < m->lets.n && !name[pass]; i++) {
+      const char* s = m->lets.at[i].symbol.id ? pl_symbol_get(m->pool, m->lets.at[i].symbol)->name : NULL;
+      if (contains(s, letter)) name[pass] = s, at[pass] = m->lets.at[i].span;
+    }
+  }
+  if (!name[0] || !name[1]) return;
+  pl_diagnostic* d = pl_tell(job, PL_E059, at[1], PL_F(job, "%s and %s: θ and ϑ in one model cannot be told apart in ASCII", name[0], name[1]),
+                             PL_F(job, "%s und %s: θ und ϑ in einem Modell sind in ASCII nicht zu unterscheiden", name[0], name[1]));
+  pl_report_label(job->diagnostics, d, at[0], name[0]);
+  pl_report_fix(d, "write θ everywhere, or choose another letter", "überall θ schreiben oder einen anderen Buchstaben wählen", NULL);
+}
+
+// ---------------------------------------------------------------------------------------------- labels
+// Places, constraints and loads, and events each have their own names: `force on A` and `force of A` differ.
+typedef struct label_check {
+  pl_job* job;
+  pl_model* m;
+  pl_map* seen;               // (name, index) -> position in used + 1
+  PL_VEC(pl_span) used;
+  pl_index_values v;
+  long budget;
+  const pl_name* name;
+  pl_span span;
+  bool told;
+} label_check;
+
+static void tell_label(label_check* c, const char* shown, pl_span first, bool no_index) {
+  c->told = true;
+  pl_span at = c->span, found;
+  if (pl_span_find_name(c->span, c->name->ascii ? c->name->ascii : c->name->text, &found)) at = found;
+  pl_diagnostic* d = pl_tell(c->job, PL_E034, at, PL_F(c->job, "the label %s is used twice", shown),
+                             PL_F(c->job, "die Marke %s ist zweimal vergeben", shown));
+  if (no_index) {
+    pl_report_fix(d, PL_F(c->job, "inside `for` give each its own: %s[i]", c->name->text),
+                  PL_F(c->job, "in `for` jeder ihre eigene geben: %s[i]", c->name->text), NULL);
+    return;
+  }
+  if (first.source) pl_report_label(c->job->diagnostics, d, first, c->job->lang == PL_GERMAN ? "zuerst hier" : "first here");
+  pl_report_fix(d, "choose another label", "eine andere Marke wählen", NULL);
+}
+
+static bool one_label(void* user, pl_index_values* v) {
+  label_check* c = user;
+  long index = 0;
+  bool has_index = !pl_is_poison(c->name->index);
+  if (has_index && !pl_index_eval(v, c->name->index, &index)) return false;
+  uint64_t key = pl_hash_bytes(c->name->text, strlen(c->name->text), has_index ? 7 : 3);
+  key = pl_hash_mix(key, (uint64_t)index) | 1;
+  uint64_t first = pl_map_get(c->seen, key);
+  if (!first) {
+    pl_map_set(c->seen, key, (uint64_t)c->used.n);     // number of the statement, from 1
+    return true;
+  }
+  const char* shown = has_index ? PL_F(c->job, "%s[%ld]", c->name->text, index) : c->name->text;
+  bool same = (int)first == c->used.n;
+  tell_label(c, shown, same ? (pl_span){0} : c->used.at[first - 1], same && !has_index);
+  return false;
+}
+
+static void check_label(label_check* c, const pl_name* name, const pl_block* b, pl_span span) {
+  if (!name->text || name->generated) return;
+  c->name = name;
+  c->span = span;
+  pl_push(c->job->arena, c->used, span);
+  if (!b) {
+    one_label(c, &c->v);
+    return;
+  }
+  pl_block_walk(b, &c->v, one_label, c, &c->budget, NULL);
+}
+
+static label_check label_space(pl_job* job, pl_model* m) {
+  return (label_check){.job = job, .m = m, .seen = pl_map_make(job->arena), .v = pl_index_values_make(m, job->arena),
+                       .budget = PL_MAX_INSTANCES};
+}
+
+static void check_labels(pl_job* job, pl_model* m) {
+  label_check places = label_space(job, m);
+  for (int i = 0; i < m->masses.n; i++) check_label(&places, &m->masses.at[i].name, m->masses.at[i].block, m->masses.at[i].span);
+  for (int i = 0; i < m->bodies.n; i++) check_label(&places, &m->bodies.at[i].name, m->bodies.at[i].block, m->bodies.at[i].span);
+  for (int i = 0; i < m->points.n; i++) check_label(&places, &m->points.at[i].name, m->points.at[i].block, m->points.at[i].span);
+  label_check acts = label_space(job, m);
+  for (int i = 0; i < m->constraints.n; i++) {
+    check_label(&acts, &m->constraints.at[i].name, m->constraints.at[i].block, m->constraints.at[i].span);
+  }
+  for (int i = 0; i < m->loads.n; i++) check_label(&acts, &m->loads.at[i].name, m->loads.at[i].block, m->loads.at[i].span);
+  label_check events = label_space(job, m);
+  for (int i = 0; i < m->events.n; i++) check_label(&events, &m->events.at[i].name, NULL, m->events.at[i].span);
+}
+
+void pl_check_names(pl_job* job, pl_model* m) {
+  check_theta(job, m);
+  check_labels(job, m);
+}
+
+// ---------------------------------------------------------------------------------------------- components
+static const char* axes_text(pl_job* job, const pl_model* m) {
+  pl_text t = pl_text_make(job->arena);
+  for (int i = 0; i < m->n_axes; i++) pl_text_addf(&t, "%s%s", i ? ", " : "", m->axes[i].name ? m->axes[i].name : "?");
+  return pl_text_string(&t);
+}
+
+static void check_components(pl_job* job, const pl_model* m, int n, pl_span span, const char* en, const char* de) {
+  if (n == m->n_axes || n == 0) return;
+  pl_diagnostic* d = pl_tell(job, PL_E035, span, PL_F(job, "%s has %d component%s, but there are %d axes", en, n, n == 1 ? "" : "s", m->n_axes),
+                             PL_F(job, "%s hat %d Komponente%s, aber es gibt %d Achsen", de, n, n == 1 ? "" : "n", m->n_axes));
+  pl_report_reason(d, PL_F(job, "axes: %s", axes_text(job, m)), PL_F(job, "Achsen: %s", axes_text(job, m)));
+  pl_report_fix(d, n < m->n_axes ? "write 0 for what is missing, or name the axes in use: axes x right, y up"
+                                 : "leave components out, or name all axes: axes x right, y up, z out",
+                n < m->n_axes ? "0 für die fehlenden schreiben, oder die benutzten Achsen nennen: axes x right, y up"
+                              : "Komponenten weglassen, oder alle Achsen nennen: axes x right, y up, z out", NULL);
+}
+
+static void check_all_components(pl_job* job, pl_model* m) {
+  for (int i = 0; i < m->masses.n; i++) check_components(job, m, m->masses.at[i].point.n, m->masses.at[i].span, "this point", "dieser Punkt");
+  for (int i = 0; i < m->bodies.n; i++) check_components(job, m, m->bodies.at[i].centre.n, m->bodies.at[i].span, "this centre", "dieser Mittelpunkt");
+  for (int i = 0; i < m->points.n; i++) check_components(job, m, m->points.at[i].point.n, m->points.at[i].span, "this point", "dieser Punkt");
+  for (int i = 0; i < m->loads.n; i++) {
+    const pl_load* x = &m->loads.at[i];
+    bool at_points = x->kind == PL_L_FORCE || x->kind == PL_L_SPRING || x->kind == PL_L_DAMPER || x->kind == PL_L_DRAG;
+    if (!at_points) continue;
+    check_components(job, m, x->a.n, x->span, "the point of attack", "der Angriffspunkt");
+    if (x->kind == PL_L_SPRING || x->kind == PL_L_DAMPER) check_components(job, m, x->b.n, x->span, "the other end", "das andere Ende");
+    int n = 0;
+    for (int k = 0; k < 3; k++) n += x->kind == PL_L_FORCE && !pl_is_poison(x->vector[k]);
+    check_components(job, m, n, x->span, "this force", "diese Kraft");
+  }
+}
+
+static void check_gravity(pl_job* job, pl_model* m) {
+  for (int i = 0; i < m->gravities.n; i++) {
+    const pl_gravity* g = &m->gravities.at[i];
+    if (g->axis < 0 || g->axis >= m->n_axes) {
+      pl_diagnostic* d = pl_tell(job, PL_E029, g->span, "gravity acts along an axis that does not exist",
+                                 "die Schwerkraft wirkt längs einer Achse, die es nicht gibt");
+      pl_report_reason(d, PL_F(job, "axes: %s", axes_text(job, m)), PL_F(job, "Achsen: %s", axes_text(job, m)));
+      const char* last = m->n_axes ? m->axes[m->n_axes - 1].name : "y";
+      pl_report_fix(d, PL_F(job, "gravity g along -%s", last), PL_F(job, "gravity g along -%s", last), NULL);
+    }
+    if (pl_has_coordinate(m->pool, g->g, job->arena)) {
+      pl_diagnostic* d = pl_tell(job, PL_E057, g->span, "gravity cannot depend on the motion", "die Schwerkraft kann nicht von der Bewegung abhängen");
+      pl_report_fix(d, "write it as a potential: potential -G M m/r", "als Potential schreiben: potential -G M m/r", NULL);
+    }
+    if (i == 1) {
+      pl_diagnostic* d = pl_tell(job, PL_N066, g->span, "gravity is given more than once: both act", "die Schwerkraft ist mehrmals angegeben: beide wirken");
+      if (m->gravities.at[0].span.source) pl_report_label(job->diagnostics, d, m->gravities.at[0].span, job->lang == PL_GERMAN ? "zuerst hier" : "first here");
+    }
+  }
+}
+
+// ---------------------------------------------------------------------------------------------- what may stand where
+// Values that have to be there and are poison come from a division by zero, unless the text had errors before.
+static void check_value(pl_job* job, pl_expr e, pl_span span, const char* en, const char* de) {
+  if (!pl_is_poison(e) || job->diagnostics->n_errors) return;
+  pl_diagnostic* d = pl_tell(job, PL_E040, span, PL_F(job, "%s has no value", en), PL_F(job, "%s hat keinen Wert", de));
+  pl_report_reason(d, "a division by zero?", "eine Division durch null?");
+  pl_report_fix(d, "look for a denominator that is zero", "nach einem Nenner suchen, der null ist", NULL);
+}
+
+static const char* kind_name(int dots, bool german) {
+  if (german) return dots == 2 ? "eine Beschleunigung" : "eine Geschwindigkeit";
+  return dots == 2 ? "an acceleration" : "a velocity";
+}
+
+// At most `allowed` derivatives: 0 position, 1 velocity.
+static void check_order(pl_job* job, pl_model* m, pl_expr e, int allowed, pl_span span, const char* en, const char* de) {
+  int dots = pl_max_dots(m->pool, e, job->arena);
+  if (dots <= allowed) return;
+  pl_diagnostic* d = pl_tell(job, PL_E057, span, PL_F(job, "%s cannot contain %s", en, kind_name(dots, false)),
+                             PL_F(job, "%s kann nicht %s enthalten", de, kind_name(dots, true)));
+  pl_report_fix(d, allowed ? "write it with positions and velocities" : "write it with positions only",
+                allowed ? "mit Lagen und Geschwindigkeiten schreiben" : "nur mit Lagen schreiben", NULL);
+}
+
+static void check_no_multiplier(pl_job* job, pl_model* m, pl_expr e, pl_span span, const char* en, const char* de) {
+  if (pl_is_poison(e) || !pl_has_role(m->pool, e, PL_R_MULTIPLIER)) return;
+  pl_diagnostic* d = pl_tell(job, PL_E057, span, PL_F(job, "%s cannot contain a multiplier", en),
+                             PL_F(job, "%s kann keinen Multiplikator enthalten", de));
+  pl_report_fix(d, "multipliers may stand in `force`, `event`, `ask` and `plot`", "Multiplikatoren dürfen in `force`, `event`, `ask` und `plot` stehen", NULL);
+}
+
+static void check_point(pl_job* job, pl_model* m, const pl_point* p, pl_span span) {
+  for (int k = 0; k < p->n && k < 3; k++) {
+    check_value(job, p->at[k], span, "a component of this point", "eine Komponente dieses Punktes");
+    check_order(job, m, p->at[k], 0, span, "a point", "ein Punkt");
+    check_no_multiplier(job, m, p->at[k], span, "a point", "ein Punkt");
+  }
+}
+
+static void check_mass_expression(pl_job* job, pl_model* m, pl_expr e, pl_span span) {
+  check_value(job, e, span, "this mass", "diese Masse");
+  if (pl_is_poison(e)) return;
+  bool time = pl_has_symbol(m->pool, e, pl_time(m->pool));
+  if (!time && !pl_has_coordinate(m->pool, e, job->arena) && !pl_has_role(m->pool, e, PL_R_MULTIPLIER)) return;
+  pl_diagnostic* d = pl_tell(job, PL_E056, span, PL_F(job, "a mass has to be constant, but this one depends on %s", time ? "time" : "the motion"),
+                             PL_F(job, "eine Masse muss konstant sein, diese hängt von der %s ab", time ? "Zeit" : "Bewegung"));
+  pl_report_fix(d, "write the kinetic energy yourself: kinetic 1/2 M(x) x'^2", "die kinetische Energie selbst schreiben: kinetic 1/2 M(x) x'^2", NULL);
+}
+
+static void check_masses(pl_job* job, pl_model* m) {
+  for (int i = 0; i < m->masses.n; i++) {
+    check_mass_expression(job, m, m->masses.at[i].mass, m->masses.at[i].span);
+    check_point(job, m, &m->masses.at[i].point, m->masses.at[i].span);
+  }
+  for (int i = 0; i < m->bodies.n; i++) {
+    const pl_body* b = &m->bodies.at[i];
+    check_mass_expression(job, m, b->mass, b->span);
+    check_mass_expression(job, m, b->inertia, b->span);
+    check_point(job, m, &b->centre, b->span);
+    check_value(job, b->angle, b->span, "this angle", "dieser Winkel");
+    check_order(job, m, b->angle, 0, b->span, "the angle of a body", "der Winkel eines Körpers");
+    if (m->n_axes != 2) {
+      pl_diagnostic* d = pl_tell(job, PL_E035, b->span, PL_F(job, "a body with one angle lives in a plane, but there are %d axes", m->n_axes),
+                                 PL_F(job, "ein Körper mit einem Winkel lebt in der Ebene, aber es gibt %d Achsen", m->n_axes));
+      pl_report_fix(d, "axes x right, y up", "axes x right, y up", NULL);
+    }
+  }
+  for (int i = 0; i < m->points.n; i++) check_point(job, m, &m->points.at[i].point, m->points.at[i].span);
+}
+
+static bool same_point(const pl_point* a, const pl_point* b) {
+  if (a->n != b->n || a->n == 0) return false;
+  for (int k = 0; k < a->n && k < 3; k++) {
+    if (!pl_same(a->at[k], b->at[k])) return false;
+  }
+  return true;
+}
+
+static void check_load(pl_job* job, pl_model* m, const pl_load* x) {
+  check_point(job, m, &x->a, x->span);
+  check_point(job, m, &x->b, x->span);
+  bool between = x->kind == PL_L_SPRING || x->kind == PL_L_DAMPER;
+  if (between && same_point(&x->a, &x->b)) {
+    pl_diagnostic* d = pl_tell(job, PL_E064, x->span, "both ends are the same point", "beide Enden sind derselbe Punkt");
+    pl_report_fix(d, "name two different points", "zwei verschiedene Punkte nennen", NULL);
+  }
+  if (x->kind == PL_L_FORCE) {
+    for (int k = 0; k < x->a.n && k < 3; k++) check_order(job, m, x->vector[k], 1, x->span, "a force", "eine Kraft");
+    return;
+  }
+  check_value(job, x->value, x->span, "this expression", "dieser Ausdruck");
+  switch (x->kind) {
+    case PL_L_POTENTIAL: check_order(job, m, x->value, 1, x->span, "a potential", "ein Potential"); break;
+    case PL_L_KINETIC: check_order(job, m, x->value, 1, x->span, "a kinetic energy", "eine kinetische Energie"); break;
+    case PL_L_LAGRANGIAN: check_order(job, m, x->value, 1, x->span, "a Lagrangian", "eine Lagrangefunktion"); break;
+    case PL_L_RAYLEIGH: check_order(job, m, x->value, 1, x->span, "a dissipation function", "eine Dissipationsfunktion"); break;
+    case PL_L_TORQUE: check_order(job, m, x->value, 1, x->span, "a torque", "ein Moment"); return;   // may hold multipliers
+    default: check_order(job, m, x->value, 0, x->span, "a coefficient", "ein Koeffizient"); break;
+  }
+  check_no_multiplier(job, m, x->value, x->span, "this expression", "dieser Ausdruck");
+}
+
+// `lagrangian` says it all: masses and potentials beside it would be counted or forgotten.
+static void check_lagrangian(pl_job* job, pl_model* m) {
+  const pl_load* lagrangian = NULL;
+  for (int i = 0; i < m->loads.n && !lagrangian; i++) {
+    if (m->loads.at[i].kind == PL_L_LAGRANGIAN) lagrangian = &m->loads.at[i];
+  }
+  if (!lagrangian) return;
+  pl_span other = {0};
+  bool any = m->masses.n || m->bodies.n || m->gravities.n;
+  if (m->masses.n) other = m->masses.at[0].span;
+  else if (m->bodies.n) other = m->bodies.at[0].span;
+  else if (m->gravities.n) other = m->gravities.at[0].span;
+  for (int i = 0; i < m->loads.n && !any; i++) {
+    pl_load_kind k = m->loads.at[i].kind;
+    if (k == PL_L_POTENTIAL || k == PL_L_KINETIC || k == PL_L_SPRING) any = true, other = m->loads.at[i].span;
+  }
+  if (!any) return;
+  pl_diagnostic* d = pl_tell(job, PL_E054, lagrangian->span, "lagrangian stands instead of masses, gravity and potentials",
+                             "lagrangian steht anstelle von Massen, Schwerkraft und Potentialen");
+  if (other.source) pl_report_label(job->diagnostics, d, other, job->lang == PL_GERMAN ? "das auch?" : "this too?");
+  pl_report_fix(d, "write kinetic and potential instead of lagrangian, or remove the others",
+                "kinetic und potential statt lagrangian schreiben, oder die anderen entfernen", NULL);
+}
+
+static void check_two_gravity_users(pl_job* job, pl_model* m) {
+  if (!m->gravities.n || m->masses.n || m->bodies.n) return;
+  for (int i = 0; i < m->loads.n; i++) {
+    if (m->loads.at[i].kind == PL_L_LAGRANGIAN) return;      // told there
+  }
+  if (m->pending.n) return;                                  // the mass may be in a statement this version does not know
+  pl_diagnostic* d = pl_tell(job, PL_N064, m->gravities.at[0].span, "gravity has no effect: there is no mass", "die Schwerkraft wirkt auf nichts: es gibt keine Masse");
+  pl_report_fix(d, "add a mass, or write its potential: potential m g y", "eine Masse angeben, oder ihr Potential: potential m g y", NULL);
+}
+
+static void check_moving(pl_job* job, pl_model* m) {
+  if (m->coords.n || job->diagnostics->n_errors) return;
+  bool physics = m->masses.n || m->bodies.n || m->loads.n || m->constraints.n || m->simulate.given || m->asks.n;
+  pl_span at = m->masses.n ? m->masses.at[0].span : m->constraints.n ? m->constraints.at[0].span
+             : m->simulate.given ? m->simulate.span : m->asks.n ? m->asks.at[0].span : (pl_span){0};
+  pl_diagnostic* d = pl_tell(job, PL_E053, at, physics ? "nothing moves: the model has no coordinate" : "the model is empty",
+                             physics ? "nichts bewegt sich: das Modell hat keine Koordinate" : "das Modell ist leer");
+  pl_report_fix(d, "coord x, y", "coord x, y", NULL);
+}
+
+// ---------------------------------------------------------------------------------------------- constraints
+// Linear in every velocity: second derivatives by velocities vanish.  Judged by form after multiplying out; what
+// cannot be told by form is tried at random points modulo a large prime.
+static bool vanishes(pl_job* job, pl_model* m, pl_expr e) {
+  if (pl_is_zero_node(m->pool, e)) return true;
+  if (pl_is_poison(e)) return false;
+  for (uint64_t seed = 1; seed <= 12; seed++) {
+    bool ok = true;
+    pl_mod_point* at = pl_mod_point_make(job->arena, m->pool, seed * 7919);
+    uint64_t x = pl_eval_mod(at, e, &ok);
+    if (ok) return x == 0;
+  }
+  return false;
+}
+
+static bool is_linear_in_velocities(pl_job* job, pl_model* m, pl_expr g) {
+  int n = pl_symbols_in(m->pool, g, NULL, 0);
+  pl_symbol* all = PL_ARRAY(job->arena, pl_symbol, n + 1);
+  pl_symbols_in(m->pool, g, all, n);
+  int n_v = 0;
+  for (int i = 0; i < n; i++) {
+    if (pl_symbol_get(m->pool, all[i])->role == PL_R_VELOCITY) all[n_v++] = all[i];
+  }
+  for (int i = 0; i < n_v; i++) {
+    pl_expr slope = pl_diff(m->pool, g, all[i]);
+    for (int k = 0; k < n_v; k++) {
+      if (!vanishes(job, m, pl_diff(m->pool, slope, all[k]))) return false;
+    }
+  }
+  return true;
+}
+
+static void check_velocity_constraint(pl_job* job, pl_model* m, pl_constraint* c) {
+  int dots = pl_max_dots(m->pool, c->g, job->arena);
+  c->has_velocity = dots >= 1;
+  const char* name = c->name.text ? c->name.text : "?";
+  if (dots == 2) {
+    pl_diagnostic* d = pl_tell(job, PL_E057, c->span, PL_F(job, "constraint %s cannot contain an acceleration", name),
+                               PL_F(job, "Zwangsbedingung %s kann keine Beschleunigung enthalten", name));
+    pl_report_fix(d, "write it for positions or velocities", "für Lagen oder Geschwindigkeiten schreiben", NULL);
+  } else if (dots == 1 && !is_linear_in_velocities(job, m, c->g)) {
+    pl_diagnostic* d = pl_tell(job, PL_E039, c->span, PL_F(job, "constraint %s is not linear in the velocities", name),
+                               PL_F(job, "Zwangsbedingung %s ist nicht linear in den Geschwindigkeiten", name));
+    pl_report_reason(d, "such a constraint has no agreed law for its force", "für die Zwangskraft gibt es dann kein anerkanntes Gesetz");
+    pl_report_fix(d, "write it linear, as in x' = R φ'", "linear schreiben, wie in x' = R φ'", NULL);
+  } else if (dots == 1) {
+    pl_diagnostic* d = pl_tell(job, PL_N092, c->span, PL_F(job, "constraint %s contains velocities: this version does not solve it", name),
+                               PL_F(job, "Zwangsbedingung %s enthält Geschwindigkeiten: diese Version löst sie nicht", name));
+    pl_report_fix(d, "if it can be integrated, write the integral: x = R φ", "wenn sie integrierbar ist, das Integral schreiben: x = R φ", NULL);
+  }
+}
+
+// Always true, or never: a constraint that does not speak of the motion.
+static void check_constraint(pl_job* job, pl_model* m, pl_constraint* c) {
+  const char* name = c->name.text ? c->name.text : "?";
+  check_value(job, c->g, c->span, "this constraint", "diese Zwangsbedingung");
+  if (pl_is_poison(c->g)) return;
+  check_no_multiplier(job, m, c->g, c->span, "a constraint", "eine Zwangsbedingung");
+  check_velocity_constraint(job, m, c);
+  if (pl_is_zero_node(m->pool, c->g)) {
+    pl_diagnostic* d = pl_tell(job, PL_N053, c->span, PL_F(job, "constraint %s is always true: both sides are the same", name),
+                               PL_F(job, "Zwangsbedingung %s gilt immer: beide Seiten sind gleich", name));
+    pl_report_fix(d, "remove it", "entfernen", NULL);
+    return;
+  }
+  if (pl_has_coordinate(m->pool, c->g, job->arena) || pl_has_role(m->pool, c->g, PL_R_MULTIPLIER)) return;
+  pl_diagnostic* d = pl_tell(job, PL_E051, c->span, PL_F(job, "constraint %s speaks of no coordinate", name),
+                             PL_F(job, "Zwangsbedingung %s enthält keine Koordinate", name));
+  pl_report_reason(d, "so it says nothing about the motion", "also sagt sie nichts über die Bewegung");
+  pl_report_fix(d, "a relation between given quantities is written with let or assume", "eine Beziehung zwischen gegebenen Größen schreibt man mit let oder assume", NULL);
+}
+
+static const pl_constraint* contact(const pl_model* m, const char* label) { return pl_model_constraint(m, label); }
+
+static void check_while(pl_job* job, pl_model* m, const pl_constraint* c) {
+  if (!c->while_label) return;
+  const pl_constraint* other = contact(m, c->while_label);
+  if (!other || (other->relation != PL_EQ && other != c)) return;    // a missing label is told where names are read
+  pl_diagnostic* d = pl_tell(job, PL_E063, c->span, PL_F(job, "`while %s` needs a contact, but %s cannot end", c->while_label, c->while_label),
+                             PL_F(job, "`while %s` braucht einen Kontakt, aber %s kann nicht enden", c->while_label, c->while_label));
+  pl_report_fix(d, "name a one-sided constraint (>= or <=)", "eine einseitige Zwangsbedingung (>= oder <=) nennen", NULL);
+}
+
+void pl_check_structure(pl_job* job, pl_model* m) {
+  check_moving(job, m);
+  check_all_components(job, m);
+  check_gravity(job, m);
+  check_masses(job, m);
+  for (int i = 0; i < m->loads.n; i++) check_load(job, m, &m->loads.at[i]);
+  check_lagrangian(job, m);
+  check_two_gravity_users(job, m);
+  for (int i = 0; i < m->constraints.n; i++) {
+    check_constraint(job, m, &m->constraints.at[i]);
+    check_while(job, m, &m->constraints.at[i]);
+  }
+}

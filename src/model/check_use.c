@@ -1,0 +1,125 @@
+// Names that nothing uses, coordinates without mass, masses that stand still: mostly slips of the pen, told as notes.
+#include "model_impl.h"
+
+typedef struct use_table {
+  pl_model* m;
+  pl_arena* arena;
+  unsigned* uses;             // by symbol id: a bit for each kind of slot
+  pl_slot_kind kind;
+  const pl_param* self;       // a parameter's own value does not count as its use
+} use_table;
+
+enum { BIT_INERTIA = 1 << 30, BIT_CHOSEN = 1 << 29 };
+
+static void use_symbol(use_table* t, pl_symbol s, unsigned bit) {
+  if (!s.id) return;
+  const pl_symbol_info* info = pl_symbol_get(t->m->pool, s);
+  t->uses[s.id] |= bit;
+  if (info->base.id) t->uses[info->base.id] |= bit;
+}
+
+static void use_expr(use_table* t, pl_expr e, unsigned bit, pl_map* visited) {
+  if (pl_is_poison(e) || pl_map_get(visited, e.id)) return;
+  pl_map_set(visited, e.id, 1);
+  pl_kind kind = pl_kind_of(t->m->pool, e);
+  if (kind == PL_SYMBOL || kind == PL_AT) use_symbol(t, pl_symbol_of(t->m->pool, e), bit);
+  for (int i = 0; i < pl_n_args(t->m->pool, e); i++) use_expr(t, pl_arg(t->m->pool, e, i), bit, visited);
+}
+
+static void see_slot(void* user, const pl_slot* slot) {
+  use_table* t = user;
+  use_expr(t, *slot->at, 1u << slot->kind, pl_map_make(t->arena));
+}
+
+static void use_inertia(use_table* t, pl_expr e) { use_expr(t, e, BIT_INERTIA, pl_map_make(t->arena)); }
+
+static void see_inertia(use_table* t) {
+  const pl_model* m = t->m;
+  for (int i = 0; i < m->masses.n; i++) {
+    for (int k = 0; k < m->masses.at[i].point.n && k < 3; k++) use_inertia(t, m->masses.at[i].point.at[k]);
+  }
+  for (int i = 0; i < m->bodies.n; i++) {
+    use_inertia(t, m->bodies.at[i].angle);
+    for (int k = 0; k < m->bodies.at[i].centre.n && k < 3; k++) use_inertia(t, m->bodies.at[i].centre.at[k]);
+  }
+  for (int i = 0; i < m->loads.n; i++) {
+    pl_load_kind k = m->loads.at[i].kind;
+    if (k == PL_L_KINETIC || k == PL_L_LAGRANGIAN) use_inertia(t, m->loads.at[i].value);
+    use_symbol(t, m->loads.at[i].coordinate, 1u << PL_SLOT_LOAD);
+  }
+  for (int i = 0; i < m->choose.coords.n; i++) use_symbol(t, m->choose.coords.at[i], BIT_CHOSEN);
+  for (int i = 0; i < m->choose.n_maps; i++) {
+    use_expr(t, m->choose.maps[i].old, BIT_CHOSEN, pl_map_make(t->arena));
+    use_expr(t, m->choose.maps[i].map, BIT_CHOSEN, pl_map_make(t->arena));
+  }
+  for (int i = 0; i < m->asks.n; i++) {
+    use_symbol(t, m->asks.at[i].variable, 1u << PL_SLOT_ASK);
+    for (int k = 0; k < m->asks.at[i].frame.n; k++) use_symbol(t, m->asks.at[i].frame.at[k], 1u << PL_SLOT_ASK);
+  }
+}
+
+static const unsigned in_physics = 1u << PL_SLOT_POINT | 1u << PL_SLOT_MASS | 1u << PL_SLOT_LOAD | 1u << PL_SLOT_CONSTRAINT |
+                                   1u << PL_SLOT_CHOOSE | BIT_CHOSEN | BIT_INERTIA;
+
+// The name in its declaration, for `coord x, y, z` has one span.
+static pl_span name_place(const pl_model* m, pl_symbol s, pl_span span) {
+  pl_span at;
+  return pl_span_find_name(span, pl_symbol_get(m->pool, s)->ascii, &at) ? at : span;
+}
+
+static void check_coordinates(pl_job* job, use_table* t) {
+  const pl_model* m = t->m;
+  bool dynamic = m->masses.n || m->bodies.n;
+  for (int i = 0; i < m->loads.n; i++) dynamic |= m->loads.at[i].kind == PL_L_KINETIC || m->loads.at[i].kind == PL_L_LAGRANGIAN;
+  for (int i = 0; i < m->coords.n; i++) {
+    pl_symbol q = m->coords.at[i].symbol;
+    const char* name = pl_symbol_get(m->pool, q)->name;
+    pl_span at = name_place(m, q, m->coords.at[i].span);
+    if (!(t->uses[q.id] & in_physics)) {
+      pl_diagnostic* d = pl_tell(job, PL_N062, at, PL_F(job, "%s is declared, but no mass, force or constraint speaks of it", name),
+                                 PL_F(job, "%s ist vereinbart, aber keine Masse, Kraft oder Zwangsbedingung spricht davon", name));
+      pl_report_fix(d, PL_F(job, "remove %s, or use it", name), PL_F(job, "%s entfernen oder benutzen", name), NULL);
+    } else if (dynamic && !(t->uses[q.id] & (BIT_INERTIA | BIT_CHOSEN))) {
+      pl_diagnostic* d = pl_tell(job, PL_N067, at, PL_F(job, "%s carries no mass: its motion has to follow from the constraints", name),
+                                 PL_F(job, "%s trägt keine Masse: seine Bewegung muss aus den Zwangsbedingungen folgen", name));
+      pl_report_fix(d, "let a mass or body depend on it, or leave it as it is", "eine Masse oder einen Körper davon abhängen lassen, oder so lassen", NULL);
+    }
+  }
+}
+
+static void check_params(pl_job* job, use_table* t) {
+  for (int i = 0; i < t->m->params.n; i++) {
+    const pl_param* p = &t->m->params.at[i];
+    if (t->uses[p->symbol.id]) continue;
+    const char* name = pl_symbol_get(t->m->pool, p->symbol)->name;
+    pl_diagnostic* d = pl_tell(job, PL_N063, name_place(t->m, p->symbol, p->span), PL_F(job, "%s is given, but nothing uses it", name),
+                               PL_F(job, "%s ist gegeben, aber nichts benutzt es", name));
+    pl_report_fix(d, PL_F(job, "remove %s, or look for a slip of the pen", name), PL_F(job, "%s entfernen, oder nach einem Schreibfehler suchen", name), NULL);
+  }
+}
+
+static void check_still_masses(pl_job* job, const pl_model* m) {
+  for (int i = 0; i < m->masses.n; i++) {
+    const pl_mass* x = &m->masses.at[i];
+    bool still = x->point.n > 0;
+    for (int k = 0; k < x->point.n && k < 3; k++) {
+      pl_expr e = x->point.at[k];
+      if (pl_is_poison(e) || pl_has_coordinate(m->pool, e, job->arena) || pl_has_symbol(m->pool, e, pl_time(m->pool))) still = false;
+    }
+    if (!still) continue;
+    pl_diagnostic* d = pl_tell(job, PL_N065, x->span, "this mass does not move: its point contains no coordinate",
+                               "diese Masse bewegt sich nicht: ihr Punkt enthält keine Koordinate");
+    pl_report_fix(d, "a fixed point is written: point A at (x, y)", "ein fester Punkt wird so geschrieben: point A at (x, y)", NULL);
+  }
+}
+
+// Statements that this version does not know may use what seems unused here; so may errors.
+void pl_check_use(pl_job* job, pl_model* m) {
+  if (m->pending.n || job->diagnostics->n_errors) return;
+  use_table t = {.m = m, .arena = job->arena, .uses = PL_ARRAY(job->arena, unsigned, pl_symbol_count(m->pool) + 1)};
+  pl_model_each_slot(m, see_slot, &t);
+  see_inertia(&t);
+  check_coordinates(job, &t);
+  check_params(job, &t);
+  check_still_masses(job, m);
+}

@@ -1,0 +1,233 @@
+// The model as a container: making it, finding things in it, its coordinates one by one, its numbers.
+#include "model_impl.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+pl_model* pl_model_make(pl_arena* a) {
+  pl_model* m = PL_NEW(a, pl_model);
+  m->pool = pl_pool_make(a);
+  pl_time(m->pool);
+  return m;
+}
+
+// ---------------------------------------------------------------------------------------------- lookups
+const pl_param* pl_model_param(const pl_model* m, pl_symbol s) {
+  for (int i = 0; i < m->params.n; i++) {
+    if (m->params.at[i].symbol.id == s.id && s.id) return &m->params.at[i];
+  }
+  return NULL;
+}
+
+// "c[3]" is the member 3 of the family c: splits it.  false: no index.
+static bool split_label(const char* label, size_t* stem, long* index) {
+  const char* open = strchr(label, '[');
+  if (!open) return false;
+  char* end;
+  *index = strtol(open + 1, &end, 10);
+  *stem = (size_t)(open - label);
+  return end > open + 1 && end[0] == ']' && end[1] == 0;
+}
+
+// How well a name answers to a label: 2 itself, 1 the family that it may belong to, 0 not at all.
+static int answers(const pl_model* m, const pl_name* name, const char* label) {
+  if (!name->text || !label) return 0;
+  bool has_index = !pl_is_poison(name->index);
+  if (strcmp(name->text, label) == 0 || (name->ascii && strcmp(name->ascii, label) == 0)) return 2;
+  size_t stem;
+  long index, own;
+  if (!has_index || !split_label(label, &stem, &index)) return 0;
+  if (strlen(name->text) != stem || strncmp(name->text, label, stem) != 0) return 0;
+  if (pl_is_int(m->pool, name->index, &own)) return own == index ? 2 : 0;
+  return 1;
+}
+
+const pl_constraint* pl_model_constraint(const pl_model* m, const char* label) {
+  const pl_constraint* found = NULL;
+  for (int i = 0; i < m->constraints.n; i++) {
+    int k = answers(m, &m->constraints.at[i].name, label);
+    if (k == 2) return &m->constraints.at[i];
+    if (k == 1) found = &m->constraints.at[i];
+  }
+  return found;
+}
+
+const pl_mass* pl_model_mass(const pl_model* m, const char* label) {
+  const pl_mass* found = NULL;
+  for (int i = 0; i < m->masses.n; i++) {
+    int k = answers(m, &m->masses.at[i].name, label);
+    if (k == 2) return &m->masses.at[i];
+    if (k == 1) found = &m->masses.at[i];
+  }
+  return found;
+}
+
+// ---------------------------------------------------------------------------------------------- names of results
+static const char* result_text(pl_arena* a, pl_result_kind kind, const char* label) {
+  switch (kind) {
+    case PL_RES_T: return "T";
+    case PL_RES_V: return "V";
+    case PL_RES_L: return "L";
+    case PL_RES_E: return "E";
+    case PL_RES_H: return "H";
+    case PL_RES_FORCE: return pl_format(a, "force(%s)", label ? label : "");
+    case PL_RES_FORCE_NORM: return pl_format(a, "norm(force(%s))", label ? label : "");
+    case PL_RES_NORMAL: return pl_format(a, "normal(%s)", label ? label : "");
+  }
+  return "?";
+}
+
+// The ASCII name cannot be that of a declared quantity: a parameter T and the kinetic energy T live side by side.
+pl_symbol pl_model_result_symbol(pl_model* m, pl_result_kind kind, const char* label) {
+  pl_arena* a = pl_pool_arena(m->pool);
+  const char* text = result_text(a, kind, label);
+  for (int i = 0; i < m->result_names.n; i++) {
+    const pl_result_name* r = &m->result_names.at[i];
+    if (r->kind == kind && (r->label == label || (r->label && label && strcmp(r->label, label) == 0))) return r->symbol;
+  }
+  const char* ascii = pl_symbol_find(m->pool, text).id ? pl_format(a, "%s_result", text) : text;
+  pl_symbol_info info = {.name = text, .ascii = ascii, .role = PL_R_LOCAL, .class = PL_C_OTHER, .dimension = pl_dimension_one()};
+  pl_symbol s = pl_symbol_make(m->pool, &info);
+  pl_push(a, m->result_names, (pl_result_name){s, kind, label ? pl_copy(a, label) : NULL});
+  return s;
+}
+
+const pl_result_name* pl_model_result_name(const pl_model* m, pl_symbol s) {
+  for (int i = 0; i < m->result_names.n; i++) {
+    if (m->result_names.at[i].symbol.id == s.id && s.id) return &m->result_names.at[i];
+  }
+  return NULL;
+}
+
+// ---------------------------------------------------------------------------------------------- numbers
+// Parameters and kept abbreviations may be given through others, in any order: each is evaluated after those it needs.  A
+// circle has no value.
+typedef struct value_pass {
+  const pl_model* m;
+  pl_arena* arena;
+  double* value;
+  pl_expr* given;             // what is written behind the name, by symbol id; poison: nothing
+  char* state;                // by symbol id: 0 new, 1 on the way, 2 done
+} value_pass;
+
+static void evaluate_name(value_pass* v, pl_symbol first) {
+  PL_VEC(pl_symbol) stack = {0};
+  pl_push(v->arena, stack, first);
+  while (stack.n) {
+    pl_symbol s = stack.at[stack.n - 1];
+    pl_expr given = v->given[s.id];
+    if (v->state[s.id] == 2 || pl_is_poison(given)) {
+      v->state[s.id] = 2;
+      stack.n--;
+      continue;
+    }
+    if (v->state[s.id] == 1) {          // what it needs is done, or part of a circle
+      v->value[s.id] = pl_eval(v->m->pool, given, v->value);
+      v->state[s.id] = 2;
+      stack.n--;
+      continue;
+    }
+    v->state[s.id] = 1;
+    int n = pl_symbols_in(v->m->pool, given, NULL, 0);
+    pl_symbol* needs = PL_ARRAY(v->arena, pl_symbol, n + 1);
+    pl_symbols_in(v->m->pool, given, needs, n);
+    for (int i = 0; i < n; i++) {
+      if (!pl_is_poison(v->given[needs[i].id]) && v->state[needs[i].id] == 0) pl_push(v->arena, stack, needs[i]);
+    }
+  }
+}
+
+// The first declaration counts; a second one is an error of the text.
+static void give(value_pass* v, pl_symbol s, pl_expr value) {
+  if (s.id && pl_is_poison(v->given[s.id])) v->given[s.id] = value;
+}
+
+double* pl_model_values(const pl_model* m, pl_arena* a) {
+  int n = pl_symbol_count(m->pool) + 1;
+  value_pass v = {m, a, PL_ARRAY(a, double, n), PL_ARRAY(a, pl_expr, n), PL_ARRAY(a, char, n)};
+  for (int i = 0; i < n; i++) v.value[i] = NAN;
+  for (int i = 1; i < n; i++) {
+    if (pl_is_unit_symbol(m->pool, (pl_symbol){(uint32_t)i})) v.value[i] = 1;
+  }
+  for (int i = 0; i < m->params.n; i++) give(&v, m->params.at[i].symbol, m->params.at[i].value);
+  for (int i = 0; i < m->lets.n; i++) {
+    const pl_let* l = &m->lets.at[i];
+    if (l->n_args == 0 && !l->inserted) give(&v, l->symbol, l->value);
+  }
+  for (int i = 1; i < n; i++) {
+    if (!pl_is_poison(v.given[i])) evaluate_name(&v, (pl_symbol){(uint32_t)i});
+  }
+  return v.value;
+}
+
+// ---------------------------------------------------------------------------------------------- coordinates
+pl_flat_coords pl_model_flat_coords(const pl_model* m, pl_arena* a) {
+  PL_VEC(pl_expr) all = {0};
+  pl_index_values v = pl_index_values_make(m, a);
+  for (int i = 0; i < m->coords.n; i++) {
+    const pl_coord* c = &m->coords.at[i];
+    if (pl_is_poison(c->lo)) {
+      pl_push(a, all, pl_sym(m->pool, c->symbol));
+      continue;
+    }
+    long lo, hi;
+    if (!pl_index_eval(&v, c->lo, &lo) || !pl_index_eval(&v, c->hi, &hi)) continue;
+    if (hi >= lo && hi - lo >= PL_MAX_INSTANCES) continue;
+    for (long k = lo; k <= hi; k++) pl_push(a, all, pl_at(m->pool, c->symbol, 0, pl_int(m->pool, k)));
+  }
+  return (pl_flat_coords){all.at, all.n};
+}
+
+// ---------------------------------------------------------------------------------------------- --set
+static bool is_start_target(const pl_model* m, pl_expr target, pl_symbol s) {
+  return pl_kind_of(m->pool, target) == PL_SYMBOL && pl_symbol_of(m->pool, target).id == s.id;
+}
+
+static pleuel_status set_param(pl_job* job, pl_model* m, pl_param* p, pl_expr value) {
+  const pl_symbol_info* info = pl_symbol_get(m->pool, p->symbol);
+  if (pl_has_symbol(m->pool, value, p->symbol)) {
+    return pl_fail(job, PLEUEL_USAGE, "%s cannot be set to an expression of itself", info->name);
+  }
+  pl_dimension x;
+  bool with_unit = pl_has_unit(m->pool, value);
+  if (with_unit && info->dimension_known && pl_known_dimension(m, value, &x) && !pl_dimension_equal(x, info->dimension)) {
+    return pl_fail(job, PLEUEL_USAGE, "%s is %s, but the value set is %s", info->name,
+                   pl_dimension_words(job->arena, info->dimension, job->lang), pl_dimension_words(job->arena, x, job->lang));
+  }
+  p->value = m->checked ? pl_model_plain(m->pool, value) : value;
+  return PLEUEL_OK;
+}
+
+// Sign follows the number (classify.c), family sizes are looked at again.
+static pleuel_status settle_after_set(pl_job* job, pl_model* m) {
+  if (!m->checked) return PLEUEL_OK;
+  int before = job->diagnostics ? job->diagnostics->n_errors : 0;
+  pl_classify_symbols(m);
+  pl_check_families(job, m);
+  pl_check_numbers(job, m);
+  return job->diagnostics && job->diagnostics->n_errors > before ? PLEUEL_MODEL_ERROR : PLEUEL_OK;
+}
+
+pleuel_status pl_model_set(pl_job* job, pl_model* m, const char* name, pl_expr value) {
+  if (pl_is_poison(value)) return pl_fail(job, PLEUEL_USAGE, "the value for %s cannot be computed", name);
+  for (int i = 0; i < m->params.n; i++) {
+    const pl_symbol_info* info = pl_symbol_get(m->pool, m->params.at[i].symbol);
+    if (strcmp(info->ascii, name) != 0 && strcmp(info->name, name) != 0) continue;
+    PL_TRY(set_param(job, m, &m->params.at[i], value));
+    return settle_after_set(job, m);
+  }
+  // a start value: x1=..., x1_dot=...
+  pl_symbol s = pl_symbol_find(m->pool, name);
+  pl_role role = s.id ? pl_symbol_get(m->pool, s)->role : PL_R_PARAM;
+  if (role != PL_R_COORD && role != PL_R_VELOCITY) return pl_fail(job, PLEUEL_USAGE, "no parameter is named %s", name);
+  pl_expr plain = m->checked ? pl_model_plain(m->pool, value) : value;
+  for (int i = 0; i < m->inits.n; i++) {
+    if (!m->inits.at[i].guess && is_start_target(m, m->inits.at[i].target, s)) {
+      m->inits.at[i].value = plain;
+      return PLEUEL_OK;
+    }
+  }
+  pl_push(pl_pool_arena(m->pool), m->inits, (pl_init){.target = pl_sym(m->pool, s), .value = plain});
+  return PLEUEL_OK;
+}

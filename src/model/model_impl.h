@@ -1,0 +1,89 @@
+// What the files of model share among themselves.
+#ifndef PL_MODEL_IMPL_H
+#define PL_MODEL_IMPL_H
+
+#include "model/model.h"
+
+// ---------------------------------------------------------------------------------------------- fraction.c
+typedef struct pl_fraction { int64_t num, den; } pl_fraction;                 // lowest terms, den > 0; den 0: overflow
+typedef struct pl_exponents { pl_fraction e[PL_N_BASE_UNITS]; } pl_exponents;  // of m kg s A K mol cd
+bool pl_fraction_valid(pl_fraction a);
+pl_fraction pl_fraction_make(int64_t num, int64_t den);
+pl_fraction pl_fraction_add(pl_fraction a, pl_fraction b);
+pl_fraction pl_fraction_mul(pl_fraction a, pl_fraction b);
+pl_fraction pl_fraction_neg(pl_fraction a);
+pl_fraction pl_fraction_div(pl_fraction a, pl_fraction b);
+pl_exponents pl_exponents_zero(void);
+pl_exponents pl_exponents_add(pl_exponents a, pl_fraction f, pl_exponents b);  // a + f b
+bool pl_exponents_are_zero(pl_exponents a);
+pl_exponents pl_exponents_of(pl_dimension d);
+bool pl_exponents_get_dimension(pl_exponents a, pl_dimension* out);            // false: too large for pl_dimension
+
+// ---------------------------------------------------------------------------------------------- units.c
+// The nearest unit to a word: a known spelling, or one within two typing errors.  NULL if nothing is near.
+const char* pl_unit_near(pl_arena* a, const char* word, size_t n);
+bool pl_is_unit_symbol(const pl_pool* p, pl_symbol s);
+
+// ---------------------------------------------------------------------------------------------- traverse.c
+// Every expression of a model, with the kind of place it stands in.
+typedef enum pl_slot_kind {
+  PL_SLOT_PARAM, PL_SLOT_LET, PL_SLOT_BOUND, PL_SLOT_ASSUMPTION, PL_SLOT_POINT, PL_SLOT_MASS, PL_SLOT_LOAD, PL_SLOT_GRAVITY,
+  PL_SLOT_CONSTRAINT, PL_SLOT_CHOOSE, PL_SLOT_BRANCH, PL_SLOT_INIT, PL_SLOT_EVENT, PL_SLOT_ASK, PL_SLOT_OUTPUT,
+  PL_SLOT_PLOT, PL_SLOT_SIMULATE, PL_SLOT_LABEL_INDEX
+} pl_slot_kind;
+typedef struct pl_slot {
+  pl_expr* at;                // never NULL; the expression may be poison ("none")
+  pl_slot_kind kind;
+  const pl_block* block;      // the family it stands in, or NULL
+  pl_span span;
+} pl_slot;
+typedef void pl_slot_visit(void* user, const pl_slot* slot);
+int pl_max_dots(const pl_pool* p, pl_expr e, pl_arena* scratch);           // 1: velocities occur, 2: accelerations
+bool pl_has_coordinate(const pl_pool* p, pl_expr e, pl_arena* scratch);     // a coordinate or its derivatives occur
+void pl_model_each_slot(pl_model* m, pl_slot_visit* visit, void* user);
+
+// ---------------------------------------------------------------------------------------------- words.c
+// Looks for a name in the text of a span, in any of its spellings (θ, theta; m1, m_1, m₁).  false: not there.
+bool pl_span_find_name(pl_span where, const char* ascii, pl_span* out);
+// How often the name occurs in the whole text.
+int pl_source_count_name(const pl_source* s, const char* ascii);
+// The two sides of the first relation sign in a span, without label and blanks around.
+bool pl_span_split_relation(pl_span where, pl_span* left, pl_span* right);
+// The span without blanks and comment at both ends, as text in one line, at most max characters.
+const char* pl_span_text(pl_arena* a, pl_span s, int max);
+
+// ---------------------------------------------------------------------------------------------- families.c
+// An expression over indices and parameters as an integer.  false: not an integer, not a number, or too large.
+typedef struct pl_index_values {
+  const pl_model* model;
+  double* value;              // by symbol id, parameters filled in                       (pl_symbol_count + 1)
+} pl_index_values;
+pl_index_values pl_index_values_make(const pl_model* m, pl_arena* a);
+bool pl_index_eval(const pl_index_values* v, pl_expr e, long* out);
+// Calls visit for every instance of a block, outer index slowest, with the indices set in v.  Stops when visit says so.
+typedef bool pl_instance_visit(void* user, pl_index_values* v);
+typedef enum pl_walk_result { PL_WALK_DONE, PL_WALK_STOPPED, PL_WALK_BAD_BOUND, PL_WALK_ZERO_STEP, PL_WALK_TOO_MANY } pl_walk_result;
+pl_walk_result pl_block_walk(const pl_block* b, pl_index_values* v, pl_instance_visit* visit, void* user, long* budget,
+                             const pl_block** culprit);
+enum { PL_MAX_INSTANCES = 20000000 };   // more than this is refused: indices alone would take a gigabyte
+void pl_check_families(pl_job* job, pl_model* m);
+
+// ---------------------------------------------------------------------------------------------- dimensions
+void pl_check_dimensions(pl_job* job, pl_model* m);
+void pl_classify_symbols(pl_model* m);
+void pl_strip_units(pl_model* m);
+bool pl_known_dimension(const pl_model* m, pl_expr e, pl_dimension* out);   // also before the check is over
+
+// ---------------------------------------------------------------------------------------------- check
+void pl_check_names(pl_job* job, pl_model* m);
+void pl_check_structure(pl_job* job, pl_model* m);
+void pl_check_numbers(pl_job* job, pl_model* m);
+void pl_check_start(pl_job* job, pl_model* m);
+void pl_check_requests(pl_job* job, pl_model* m);
+void pl_check_use(pl_job* job, pl_model* m);
+
+// Reports with sentences formatted in both languages.
+pl_diagnostic* pl_tell(pl_job* job, pl_code code, pl_span span, const char* en, const char* de);
+#define PL_F(job, ...) pl_format((job)->arena, __VA_ARGS__)
+
+#endif
