@@ -54,7 +54,7 @@ struct pleuel_model {
   pl_recording* recording;
   pl_result* result;
   pl_start_report start;
-  bool tol_raised;
+  bool tol_raised, start_reported;
   double tol_used;
   char run_message[512];
   double stage_ms[PL_N_STAGES];
@@ -72,9 +72,12 @@ pleuel_status pl_pipeline_run(pleuel_model* m, const pleuel_sim_options* o);
 pleuel_status pl_record(pl_job* job, pl_model* model, pl_recording** out);
 void pl_record_dump(pl_text* out, const pl_model* model, const pl_recording* r);
 
+// ---- start.c: a start that does not fit, as messages
+void pl_start_report_trouble(pleuel_model* m);
+
 // ---- motion.c: words and JSON about a run
-void pl_motion_text(pl_text* out, const pleuel_model* m, pl_language lang, bool colour, bool events_only);
-void pl_motion_json(pl_text* out, const pleuel_model* m, int depth);
+void pl_motion_text(pl_text* out, const pleuel_model* m, pl_language lang, bool ascii, bool events_only);
+void pl_motion_json(pl_text* out, const pleuel_model* m);
 
 // ---- summary.c: what `check` says
 void pl_check_summary(pl_text* out, const pleuel_model* m, pl_language lang);

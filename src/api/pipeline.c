@@ -138,6 +138,7 @@ pleuel_status pl_pipeline_start(pleuel_model* m, const pleuel_sim_options* o, pl
   m->start = *pl_run_start_report(*out);
   m->tol_raised = pl_run_tol_raised(*out);
   m->tol_used = pl_run_tol(*out);
+  if (s == PLEUEL_CONTRADICTION) pl_start_report_trouble(m);
   return s;
 }
 

@@ -110,7 +110,7 @@ static pleuel_status guarded(pleuel_model* m, pl_work* work, void* argument) {
 }
 
 // ---------------------------------------------------------------------------------------------- loading
-typedef struct pl_load { const char* text; size_t size; const pleuel_load_options* options; bool is_file; } pl_load;
+typedef struct pl_reading { const char* text; size_t size; const pleuel_load_options* options; bool is_file; } pl_reading;
 
 // Includes of the caller.
 static const pl_source* read_by_caller(void* user, pl_arena* a, const char* path, const pl_source* from) {
@@ -153,7 +153,7 @@ static const pl_source* read_beside(void* user, pl_arena* a, const char* path, c
 }
 
 static pleuel_status load(pleuel_model* m, void* argument) {
-  pl_load* l = argument;
+  pl_reading* l = argument;
   const pleuel_load_options* o = l->options;
   if (l->is_file) {
     size_t size = 0;
@@ -213,7 +213,7 @@ static pleuel_model* model_make(pleuel* ctx, const char* name) {
   return m;
 }
 
-static pleuel_status load_model(pleuel* ctx, pleuel_model** model, pl_load* l, const char* name) {
+static pleuel_status load_model(pleuel* ctx, pleuel_model** model, pl_reading* l, const char* name) {
   pleuel_model* m = model_make(ctx, name);
   if (!m) return fail(ctx, PLEUEL_NO_MEMORY, "memory ran out");
   pleuel_status s = guarded(m, load, l);
@@ -237,7 +237,7 @@ pleuel_status pleuel_load_text(pleuel* ctx, pleuel_model** model, const char* te
   if (size > MAX_FILE_BYTES) return fail(ctx, PLEUEL_FILE, "the text is too long for a model");
   pleuel_load_options o;
   copy_options(&o, sizeof o, options);
-  pl_load l = {text, size, &o, false};
+  pl_reading l = {text, size, &o, false};
   return load_model(ctx, model, &l, o.name ? o.name : "<text>");
 }
 
@@ -248,7 +248,7 @@ pleuel_status pleuel_load_file(pleuel* ctx, pleuel_model** model, const char* pa
   if (!path) return fail(ctx, PLEUEL_USAGE, "there is no file name");
   pleuel_load_options o;
   copy_options(&o, sizeof o, options);
-  pl_load l = {path, 0, &o, true};
+  pl_reading l = {path, 0, &o, true};
   return load_model(ctx, model, &l, o.name ? o.name : path);
 }
 
@@ -317,6 +317,7 @@ static pleuel_status check(pleuel_model* m) {
   }
   // that numbers are missing is no fault of the model; that they contradict each other is
   if (m->run == PLEUEL_CONTRADICTION || m->run == PLEUEL_SINGULAR || m->run == PLEUEL_INTERRUPTED) return m->run;
+  snprintf(m->run_message, sizeof m->run_message, "%s", m->job.message);
   m->job.message[0] = '\0';
   return PLEUEL_OK;
 }
@@ -422,14 +423,23 @@ static pleuel_status solve_text(pleuel_model* m, void* argument) {
   simulate_for_solution(m, o);
   pl_worked_style style = {.math = math_of(o->math), .lang = solution_language(m, o->lang), .colour = o->colour,
                            .full = o->full, .width = o->width, .only = o->only};
+  pl_text motion = pl_text_make(m->arena);
+  if (m->is_run) pl_motion_text(&motion, m, style.lang, style.math == PL_MATH_ASCII, false);
+  if (m->is_run) style.motion = pl_text_string(&motion);
   pl_text out = pl_text_make(m->arena);
   pl_worked_text(&out, m->solution, &m->diagnostics, &style);
-  if (m->is_run) {
-    pl_text_add(&out, "\n");
-    pl_motion_text(&out, m, style.lang, style.colour, false);
-  }
   a->answer = pl_text_string(&out);
   return verdict(m, s);
+}
+
+// The lines of a JSON value one level further in.
+static const char* indented(pl_arena* a, const char* json) {
+  pl_text out = pl_text_make(a);
+  for (const char* c = json; *c; c++) {
+    pl_text_add_n(&out, c, 1);
+    if (*c == '\n') pl_text_pad(&out, 2);
+  }
+  return pl_text_string(&out);
 }
 
 static pleuel_status solve_json(pleuel_model* m, void* argument) {
@@ -439,11 +449,11 @@ static pleuel_status solve_json(pleuel_model* m, void* argument) {
   pleuel_status s = pl_pipeline_derive(m, o->only, o->seconds);
   if (m->solution) simulate_for_solution(m, o);
   pl_text simulation = pl_text_make(m->arena);
-  if (m->is_run) pl_motion_json(&simulation, m, 1);
+  if (m->is_run) pl_motion_json(&simulation, m);
   s = verdict(m, s);
   pl_json_input in = {.file = m->name, .model = m->model, .solution = m->solution, .diagnostics = &m->diagnostics,
                       .status = s, .message = m->job.message, .lang = solution_language(m, o->lang), .only = o->only,
-                      .simulation = m->is_run ? pl_text_string(&simulation) : NULL,
+                      .simulation = m->is_run ? indented(m->arena, pl_text_string(&simulation)) : NULL,
                       .n_timing = o->timing ? PL_N_STAGES : 0, .timing_name = stages, .timing_ms = m->stage_ms};
   pl_text out = pl_text_make(m->arena);
   pl_worked_json(&out, &in);
@@ -498,7 +508,7 @@ pleuel_status pleuel_simulate(pleuel_model* m, pleuel_sim_summary* summary, cons
 static pleuel_status simulation_text(pleuel_model* m, void* argument) {
   pl_asking* a = argument;
   pl_text out = pl_text_make(m->arena);
-  if (m->is_run) pl_motion_text(&out, m, language_of(a->text->lang, m->ctx->lang), a->text->colour, a->text->terse);
+  if (m->is_run) pl_motion_text(&out, m, language_of(a->text->lang, m->ctx->lang), false, a->text->terse);
   a->answer = pl_text_string(&out);
   return PLEUEL_OK;
 }
@@ -506,7 +516,7 @@ static pleuel_status simulation_text(pleuel_model* m, void* argument) {
 static pleuel_status simulation_json(pleuel_model* m, void* argument) {
   pl_asking* a = argument;
   pl_text out = pl_text_make(m->arena);
-  pl_motion_json(&out, m, 0);
+  pl_motion_json(&out, m);
   pl_text_add(&out, "\n");
   a->answer = pl_text_string(&out);
   return PLEUEL_OK;

@@ -25,6 +25,9 @@ pl_worked_style pl_worked_style_default(pl_language lang);
 // only notes are written, not errors, and none that a step of the solution has told already.
 void pl_worked_text(pl_text* out, const pl_solution* s, const pl_diagnostics* notes, const pl_worked_style* style);
 
+// Text in pure ASCII: Greek by name, umlauts by two letters.
+const char* pl_plain_ascii(pl_arena* a, const char* s);
+
 // ---------------------------------------------------------------------------------------------- JSON
 // The document of `solve --json` and `check --json`, schema version 1 (docs/json.md).  What is not there is left out of
 // the input (NULL) and becomes an empty list, so that errors have the shape of answers.

@@ -1,0 +1,350 @@
+// The public interface as a program that embeds the library meets it: through pleuel.h only.
+#include <math.h>
+#include <setjmp.h>
+#include <stdbool.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "pleuel.h"
+
+static const char pendulum[] =
+  "system \"Pendulum\"\n"
+  "param m = 1 [kg], l = 1/2 [m], g = 9.81 [m/s^2]\n"
+  "coord x, y\n"
+  "axes x right, y up\n"
+  "mass m at (x, y)\n"
+  "gravity g along -y\n"
+  "constraint rod: x^2 + y^2 = l^2\n"
+  "init x = 0.3 [m], x' = 0\n"
+  "branch y < 0\n"
+  "ask dof, lagrange1\n"
+  "simulate 0..1 [s]\n";
+
+static pleuel_model* load(pleuel* ctx, const char* text, pleuel_status expected) {
+  pleuel_model* m = NULL;
+  assert_int_equal(pleuel_load_text(ctx, &m, text, strlen(text), NULL), expected);
+  return m;
+}
+
+static void a_model_is_loaded_checked_and_solved(void** state) {
+  (void)state;
+  pleuel* ctx = pleuel_open(NULL);
+  pleuel_model* m = load(ctx, pendulum, PLEUEL_OK);
+  const char* text = NULL;
+  assert_int_equal(pleuel_check(m, &text, NULL), PLEUEL_OK);
+  assert_non_null(strstr(text, "1 degree of freedom"));
+  assert_int_equal(pleuel_solve_text(m, &text, NULL), PLEUEL_OK);
+  assert_non_null(strstr(text, "Pendulum"));
+  assert_int_equal(pleuel_solve_json(m, &text, NULL), PLEUEL_OK);
+  assert_non_null(strstr(text, "\"status\": \"ok\""));
+  assert_string_equal(pleuel_message(ctx), "");
+  pleuel_close(ctx);
+}
+
+static void errors_of_a_text_are_diagnostics(void** state) {
+  (void)state;
+  pleuel* ctx = pleuel_open(NULL);
+  pleuel_model* m = load(ctx, "coord x\nmass m at (y)\n", PLEUEL_MODEL_ERROR);
+  assert_non_null(m);
+  assert_true(pleuel_diagnostic_count(m, PLEUEL_ERROR) >= 1);
+  PLEUEL_OPTIONS(pleuel_text_options, how);
+  how.terse = 1;
+  const char* text = pleuel_diagnostics_text(m, 1u << PLEUEL_ERROR, &how);
+  assert_non_null(strstr(text, "<text>:2:"));
+  assert_int_equal(pleuel_solve_text(m, &text, NULL), PLEUEL_MODEL_ERROR);
+  pleuel_close(ctx);
+}
+
+static void a_missing_file_is_a_status_with_a_sentence(void** state) {
+  (void)state;
+  pleuel* ctx = pleuel_open(NULL);
+  pleuel_model* m = NULL;
+  assert_int_equal(pleuel_load_file(ctx, &m, "/nowhere/at all.pleuel", NULL), PLEUEL_FILE);
+  assert_null(m);
+  assert_non_null(strstr(pleuel_message(ctx), "/nowhere/at all.pleuel"));
+  pleuel_close(ctx);
+}
+
+static void arguments_without_sense_are_refused(void** state) {
+  (void)state;
+  pleuel* ctx = pleuel_open(NULL);
+  pleuel_model* m = NULL;
+  const char* text;
+  assert_int_equal(pleuel_load_text(NULL, &m, "", 0, NULL), PLEUEL_USAGE);
+  assert_int_equal(pleuel_load_text(ctx, &m, NULL, 0, NULL), PLEUEL_USAGE);
+  assert_int_equal(pleuel_check(NULL, &text, NULL), PLEUEL_USAGE);
+  assert_int_equal(pleuel_set_language(ctx, "fr"), PLEUEL_USAGE);
+  m = load(ctx, pendulum, PLEUEL_OK);
+  assert_int_equal(pleuel_dump(m, &text, "lunch"), PLEUEL_USAGE);
+  PLEUEL_OPTIONS(pleuel_sim_options, how);
+  how.has_tol = 1;
+  how.tol = -1;
+  assert_int_equal(pleuel_simulate(m, NULL, &how), PLEUEL_USAGE);
+  pleuel_model_free(NULL);
+  pleuel_close(ctx);
+  pleuel_close(NULL);
+}
+
+static void settings_replace_parameters(void** state) {
+  (void)state;
+  pleuel* ctx = pleuel_open(NULL);
+  PLEUEL_OPTIONS(pleuel_load_options, how);
+  pleuel_setting set[] = {{"l", "100[cm]"}};
+  how.settings = set;
+  how.n_settings = 1;
+  pleuel_model* m = NULL;
+  assert_int_equal(pleuel_load_text(ctx, &m, pendulum, strlen(pendulum), &how), PLEUEL_OK);
+  const char* text;
+  assert_int_equal(pleuel_dump(m, &text, "record"), PLEUEL_OK);
+  assert_int_equal(pleuel_check(m, &text, NULL), PLEUEL_OK);
+  assert_non_null(strstr(text, "y = -0.953939"));       // -sqrt(1 - 0.09)
+  pleuel_close(ctx);
+}
+
+// ---------------------------------------------------------------------------------------------- includes
+typedef struct reading { int calls; const char* text; } reading;
+static const char* read_include(void* user, const char* path, const char* from) {
+  (void)from;
+  reading* r = user;
+  r->calls++;
+  return strcmp(path, "masses.pleuel") == 0 ? r->text : NULL;
+}
+
+static void includes_come_from_the_caller(void** state) {
+  (void)state;
+  pleuel* ctx = pleuel_open(NULL);
+  reading r = {0, "param m = 2 [kg]\n"};
+  PLEUEL_OPTIONS(pleuel_load_options, how);
+  how.read = read_include;
+  how.read_user = &r;
+  const char* text = "include \"masses.pleuel\"\ncoord x\nmass m at (x)\n";
+  pleuel_model* m = NULL;
+  assert_int_equal(pleuel_load_text(ctx, &m, text, strlen(text), &how), PLEUEL_OK);
+  assert_int_equal(r.calls, 1);
+  const char* without = "include \"masses.pleuel\"\ncoord x\nmass 1 at (x)\n";
+  assert_int_equal(pleuel_load_text(ctx, &m, without, strlen(without), NULL), PLEUEL_MODEL_ERROR);
+  pleuel_close(ctx);
+}
+
+// ---------------------------------------------------------------------------------------------- simulation
+typedef struct rows { size_t n_columns; long n; double first, last, energy; int stop_after; } rows;
+
+static int take_columns(void* user, size_t n, const char* const* names, const char* const* units) {
+  rows* r = user;
+  r->n_columns = n;
+  assert_string_equal(names[0], "t");
+  assert_string_equal(units[0], "s");
+  assert_string_equal(names[1], "x");
+  assert_string_equal(names[n - 1], "E");
+  return 0;
+}
+
+static int take_row(void* user, size_t n, const double* values, const char* mode) {
+  rows* r = user;
+  assert_true(n == r->n_columns);
+  assert_non_null(mode);
+  if (r->n++ == 0) {
+    r->first = values[0];
+    r->energy = values[n - 1];
+  }
+  r->last = values[0];
+  assert_true(fabs(values[n - 1] - r->energy) < 1e-13);
+  return r->stop_after && r->n >= r->stop_after;
+}
+
+static void rows_reach_the_caller(void** state) {
+  (void)state;
+  pleuel* ctx = pleuel_open(NULL);
+  pleuel_model* m = load(ctx, pendulum, PLEUEL_OK);
+  rows r = {0};
+  PLEUEL_OPTIONS(pleuel_sim_options, how);
+  how.has_dt = 1;
+  how.dt = 0.125;
+  how.columns = take_columns;
+  how.row = take_row;
+  how.user = &r;
+  pleuel_sim_summary s;
+  assert_int_equal(pleuel_simulate(m, &s, &how), PLEUEL_OK);
+  assert_true(r.n == 9 && r.first == 0 && r.last == 1 && s.t_end == 1);
+  assert_true(s.residual_g < 1e-14 && s.energy_drift < 1e-13);
+  assert_non_null(strstr(pleuel_simulation_json(m), "\"t_end\": 1"));
+  assert_non_null(strstr(pleuel_simulation_text(m, NULL), "simulated"));
+  pleuel_close(ctx);
+}
+
+static void a_row_may_stop_the_run(void** state) {
+  (void)state;
+  pleuel* ctx = pleuel_open(NULL);
+  pleuel_model* m = load(ctx, pendulum, PLEUEL_OK);
+  rows r = {.stop_after = 3};
+  PLEUEL_OPTIONS(pleuel_sim_options, how);
+  how.has_dt = 1;
+  how.dt = 0.125;
+  how.row = take_row;
+  how.columns = take_columns;
+  how.user = &r;
+  assert_int_equal(pleuel_simulate(m, NULL, &how), PLEUEL_INTERRUPTED);
+  assert_true(r.n == 3);
+  pleuel_close(ctx);
+}
+
+static void the_same_run_gives_the_same_bytes(void** state) {
+  (void)state;
+  char* text[2] = {NULL, NULL};
+  size_t size[2] = {0, 0};
+  for (int i = 0; i < 2; i++) {
+    pleuel* ctx = pleuel_open(NULL);
+    pleuel_model* m = load(ctx, pendulum, PLEUEL_OK);
+    FILE* f = open_memstream(&text[i], &size[i]);
+    PLEUEL_OPTIONS(pleuel_sim_options, how);
+    how.csv = f;
+    assert_int_equal(pleuel_simulate(m, NULL, &how), PLEUEL_OK);
+    fclose(f);
+    pleuel_close(ctx);
+  }
+  assert_true(size[0] == size[1] && memcmp(text[0], text[1], size[0]) == 0);
+  assert_int_equal(strncmp(text[0], "t [s],x [m],y [m],", 18), 0);
+  free(text[0]);
+  free(text[1]);
+}
+
+static void an_interrupted_context_stops_and_can_go_on(void** state) {
+  (void)state;
+  pleuel* ctx = pleuel_open(NULL);
+  pleuel_model* m = load(ctx, pendulum, PLEUEL_OK);
+  pleuel_interrupt(ctx);
+  assert_int_equal(pleuel_simulate(m, NULL, NULL), PLEUEL_INTERRUPTED);
+  pleuel_interrupt_clear(ctx);
+  assert_int_equal(pleuel_simulate(m, NULL, NULL), PLEUEL_OK);
+  pleuel_close(ctx);
+}
+
+// ---------------------------------------------------------------------------------------------- memory
+// An allocator that fails at the n-th call and counts what is out.
+typedef struct hostile { long calls, fail_at, out; } hostile;
+static void* hostile_take(void* user, size_t size) {
+  hostile* h = user;
+  if (++h->calls >= h->fail_at) return NULL;
+  h->out++;
+  return malloc(size);
+}
+static void hostile_give(void* user, void* block) {
+  hostile* h = user;
+  if (block) h->out--;
+  free(block);
+}
+
+static void memory_that_runs_out_is_a_status(void** state) {
+  (void)state;
+  bool done = false;
+  for (long n = 1; !done && n < 400; n++) {
+    hostile h = {.fail_at = n};
+    pleuel_allocator alloc = {hostile_take, hostile_give, &h};
+    pleuel* ctx = pleuel_open(&alloc);
+    if (ctx) {
+      pleuel_model* m = NULL;
+      const char* text = NULL;
+      pleuel_status s = pleuel_load_text(ctx, &m, pendulum, strlen(pendulum), NULL);
+      if (s == PLEUEL_OK) s = pleuel_simulate(m, NULL, NULL);
+      if (s == PLEUEL_OK) s = pleuel_solve_json(m, &text, NULL);
+      done = s == PLEUEL_OK;
+      if (!done) {
+        assert_int_equal(s, PLEUEL_NO_MEMORY);
+        assert_true(*pleuel_message(ctx) != '\0');
+      }
+      pleuel_close(ctx);
+    }
+    assert_int_equal(h.out, 0);
+  }
+  assert_true(done);
+}
+
+static void a_memory_limit_is_kept(void** state) {
+  (void)state;
+  pleuel* ctx = pleuel_open(NULL);
+  pleuel_set_memory_limit(ctx, 300000);
+  static const char many[] = "param N = 100000\ncoord x[1..N]\nfor i in 1..N {\n  mass 1 at (x[i])\n  init x[i] = i\n}\nsimulate 0..1\n";
+  pleuel_model* m = NULL;
+  pleuel_status s = pleuel_load_text(ctx, &m, many, strlen(many), NULL);
+  if (s == PLEUEL_OK) s = pleuel_simulate(m, NULL, NULL);
+  assert_int_equal(s, PLEUEL_NO_MEMORY);
+  pleuel_close(ctx);
+}
+
+// ---------------------------------------------------------------------------------------------- without a model
+static void quantities_carry_units(void** state) {
+  (void)state;
+  pleuel* ctx = pleuel_open(NULL);
+  double x = 0;
+  assert_int_equal(pleuel_quantity(ctx, &x, "500[ms]"), PLEUEL_OK);
+  assert_true(x == 0.5);
+  assert_int_equal(pleuel_quantity(ctx, &x, "-2.5e-1 [m]"), PLEUEL_OK);
+  assert_true(x == -0.25);
+  assert_int_equal(pleuel_quantity(ctx, &x, "1e-3"), PLEUEL_OK);
+  assert_true(x == 1e-3);
+  static const char* const wrong[] = {"", "-", "soon", "5 s", "5[", "5[]x", "5[furlong]", "nan", "[s]", "1e999999999"};
+  for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+    x = 7;
+    if (pleuel_quantity(ctx, &x, wrong[i]) != PLEUEL_USAGE) fail_msg("`%s` was read as %g", wrong[i], x);
+    assert_true(*pleuel_message(ctx) != '\0');
+  }
+  pleuel_close(ctx);
+}
+
+static void every_example_is_built_in_and_checks(void** state) {
+  (void)state;
+  pleuel* ctx = pleuel_open(NULL);
+  const char *name = NULL, *text;
+  size_t n = 0;
+  for (; (text = pleuel_example(n, &name)) != NULL; n++) {
+    pleuel_model* m = NULL;
+    const char* summary = NULL;
+    pleuel_status s = pleuel_load_text(ctx, &m, text, strlen(text), NULL);
+    if (s == PLEUEL_OK) s = pleuel_check(m, &summary, NULL);
+    if (s != PLEUEL_OK) fail_msg("%s: %s %s", name, pleuel_message(ctx), pleuel_diagnostics_text(m, 7, NULL));
+    pleuel_model_free(m);
+  }
+  assert_true(n >= 8);
+  pleuel_close(ctx);
+}
+
+static void contexts_do_not_know_of_each_other(void** state) {
+  (void)state;
+  pleuel *a = pleuel_open(NULL), *b = pleuel_open(NULL);
+  pleuel_model *m = load(a, pendulum, PLEUEL_OK), *n = load(b, pendulum, PLEUEL_OK);
+  const char *x, *y;
+  assert_int_equal(pleuel_solve_json(m, &x, NULL), PLEUEL_OK);
+  pleuel_model* other = load(b, "coord z\nmass 1 at (z)\n", PLEUEL_OK);
+  assert_non_null(other);
+  assert_int_equal(pleuel_solve_json(n, &y, NULL), PLEUEL_OK);
+  assert_string_equal(x, y);
+  pleuel_close(a);
+  pleuel_close(b);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(a_model_is_loaded_checked_and_solved),
+    cmocka_unit_test(errors_of_a_text_are_diagnostics),
+    cmocka_unit_test(a_missing_file_is_a_status_with_a_sentence),
+    cmocka_unit_test(arguments_without_sense_are_refused),
+    cmocka_unit_test(settings_replace_parameters),
+    cmocka_unit_test(includes_come_from_the_caller),
+    cmocka_unit_test(rows_reach_the_caller),
+    cmocka_unit_test(a_row_may_stop_the_run),
+    cmocka_unit_test(the_same_run_gives_the_same_bytes),
+    cmocka_unit_test(an_interrupted_context_stops_and_can_go_on),
+    cmocka_unit_test(memory_that_runs_out_is_a_status),
+    cmocka_unit_test(a_memory_limit_is_kept),
+    cmocka_unit_test(quantities_carry_units),
+    cmocka_unit_test(every_example_is_built_in_and_checks),
+    cmocka_unit_test(contexts_do_not_know_of_each_other),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,201 @@
+// What a run has to say for itself: events with their states, how far it came, how exact it stayed.  In words and as JSON.
+#include <math.h>
+#include <string.h>
+
+#include "api/api_impl.h"
+
+// ---------------------------------------------------------------------------------------------- words
+typedef struct pl_teller {
+  pl_text* out;
+  const pleuel_model* m;
+  pl_arena* arena;
+  pl_language lang;
+  bool ascii;
+  pl_notation notation;
+} pl_teller;
+
+static const char* say(const pl_teller* t, const char* en, const char* de) {
+  const char* words = t->lang == PL_GERMAN ? de : en;
+  return t->ascii ? pl_plain_ascii(t->arena, words) : words;
+}
+
+static const char* number(const pl_teller* t, double x, int digits) { return pl_notation_number(t->arena, x, digits, t->notation); }
+
+// The name of a coordinate as it is displayed: ϑ, x[3].
+static const char* coordinate_name(const pl_teller* t, int i) {
+  const pl_recording* r = t->m->recording;
+  const pl_pool* p = t->m->model->pool;
+  if (t->ascii || pl_kind_of(p, r->flat.at[i]) != PL_SYMBOL) return r->setup.coordinates[i].name;
+  return pl_symbol_get(p, pl_symbol_of(p, r->flat.at[i]))->name;
+}
+
+enum { MOST_COORDINATES = 8, DIGITS = 6 };    // of a state shown on one line
+
+// r = 20 m, ϑ = 48.1975°
+static void add_state(pl_teller* t, const double* row) {
+  const pl_setup* s = &t->m->recording->setup;
+  int shown = 0, column = 1;
+  for (int i = 0; i < s->n_q && shown < MOST_COORDINATES; i++) {
+    const pl_coordinate* q = &s->coordinates[i];
+    if (q->hidden) continue;
+    bool angle = q->unit && strcmp(q->unit, "rad") == 0;
+    double x = angle ? row[column] * (180 / M_PI) : row[column];
+    const char* unit = angle ? (t->ascii ? " deg" : "°") : q->unit && *q->unit ? pl_format(t->arena, " %s", q->unit) : "";
+    pl_text_addf(t->out, "%s%s = %s%s", shown ? ", " : "   ", coordinate_name(t, i), number(t, x, DIGITS), unit);
+    column++;
+    shown++;
+  }
+}
+
+static const char* event_words(const pl_teller* t, const pl_result_event* e) {
+  const char* label = e->label ? e->label : "";
+  switch (e->kind) {
+    case PL_EV_RELEASE:
+      if (e->at_start) return pl_format(t->arena, say(t, "%s lets go at once: its force would have to pull", "%s löst sich sofort: die Kraft müsste ziehen"), label);
+      return pl_format(t->arena, say(t, "%s lets go", "%s löst sich"), label);
+    case PL_EV_IMPACT: return pl_format(t->arena, say(t, "impact on %s", "Stoß auf %s"), label);
+    case PL_EV_CONTACT: return pl_format(t->arena, say(t, "contact with %s", "Kontakt mit %s"), label);
+    case PL_EV_SINGULAR: return say(t, "singular position", "singuläre Lage");
+    case PL_EV_STOP: return pl_format(t->arena, say(t, "%s: stop", "%s: Ende"), label);
+    case PL_EV_EVENT: break;
+  }
+  return label;
+}
+
+enum { MOST_EVENTS = 40 };    // in words; JSON has all
+
+static void tell_events(pl_teller* t) {
+  const pl_result* r = t->m->result;
+  const char* unit = t->m->model->uses_units ? " s" : "";
+  for (int i = 0; i < r->events.n && i < MOST_EVENTS; i++) {
+    const pl_result_event* e = &r->events.at[i];
+    const char* when = pl_format(t->arena, "t = %s%s", number(t, e->t, DIGITS), unit);
+    const char* what = event_words(t, e);
+    pl_text_addf(t->out, "     %s", when);
+    pl_text_pad(t->out, 16 - pl_utf8_width(when));
+    pl_text_addf(t->out, "  %s", what);
+    if (e->after) add_state(t, e->after);
+    pl_text_add(t->out, "\n");
+  }
+  if (r->events.n > MOST_EVENTS) {
+    pl_text_addf(t->out, say(t, "     and %d more events\n", "     und %d weitere Ereignisse\n"), r->events.n - MOST_EVENTS);
+  }
+}
+
+static void tell_accuracy(pl_teller* t) {
+  const pl_result* r = t->m->result;
+  const pl_stats* s = &r->stats;
+  pl_text_addf(t->out, say(t, "     %ld steps of order %d", "     %ld Schritte der Ordnung %d"), s->steps, s->order);
+  if (t->m->recording->setup.n_c > 0) pl_text_addf(t->out, say(t, ", constraints kept to %s", ", Zwangsbedingungen auf %s erfüllt"), number(t, s->max_g, 2));
+  if (t->m->recording->setup.energy_conserved && !isnan(s->energy_drift)) {
+    pl_text_addf(t->out, say(t, ", energy to %s", ", Energie auf %s"), number(t, s->energy_drift, 2));
+  }
+  pl_text_add(t->out, "\n");
+  if (t->m->tol_raised) {
+    pl_text_addf(t->out, say(t, "     the tolerance was raised to %s, which is what the arithmetic can do\n",
+                             "     die Toleranz wurde auf %s erhöht, mehr gibt die Rechengenauigkeit nicht her\n"), number(t, t->m->tol_used, 2));
+  }
+  if (t->m->start.largest_move > 0) {
+    pl_text_addf(t->out, say(t, "     given start values were moved by %s (relative) to meet the constraints\n",
+                             "     gegebene Startwerte wurden um %s (relativ) verschoben, damit die Zwangsbedingungen gelten\n"),
+                 number(t, t->m->start.largest_move, 2));
+  }
+}
+
+void pl_motion_text(pl_text* out, const pleuel_model* m, pl_language lang, bool ascii, bool events_only) {
+  pl_teller t = {out, m, m->arena, lang, ascii, {ascii ? PL_MATH_ASCII : PL_MATH_LINE, lang}};
+  const pl_result* r = m->result;
+  if (!r) {
+    if (m->run_message[0]) pl_text_addf(out, say(&t, "  not simulated: %s\n", "  nicht simuliert: %s\n"), m->run_message);
+    return;
+  }
+  const char* unit = m->model->uses_units ? " s" : "";
+  bool started = r->rows.n > 0;
+  double end = started ? r->rows.at[r->rows.n - 1][0] : m->recording->t_0;
+  if (started) {
+    pl_text_addf(out, say(&t, "  simulated from t = %s to %s%s\n", "  simuliert von t = %s bis %s%s\n"), number(&t, m->recording->t_0, DIGITS),
+                 number(&t, end, DIGITS), unit);
+    tell_events(&t);
+    if (!events_only) tell_accuracy(&t);
+  }
+  if (m->run != PLEUEL_OK && m->run_message[0]) {
+    pl_text_addf(out, started ? say(&t, "     stopped there: %s\n", "     dort beendet: %s\n") : say(&t, "  not simulated: %s\n", "  nicht simuliert: %s\n"),
+                 m->run_message);
+  }
+}
+
+// ---------------------------------------------------------------------------------------------- JSON
+static void json_columns(pl_json* j, const char* key, const pl_result* r, const double* row, int from, int to) {
+  pl_json_object(j, key);
+  pl_json_flat(j);
+  for (int i = from; i < to; i++) pl_json_number(j, r->columns[i].name, row[i]);
+  pl_json_end_object(j);
+}
+
+static int count_shown(const pl_setup* s) {
+  int n = 0;
+  for (int i = 0; i < s->n_q; i++) n += !s->coordinates[i].hidden;
+  return n;
+}
+
+static void json_event(pl_json* j, const pleuel_model* m, const pl_result_event* e) {
+  const pl_result* r = m->result;
+  int state = 1 + 2 * count_shown(&m->recording->setup);
+  bool of_constraint = e->kind == PL_EV_RELEASE || e->kind == PL_EV_IMPACT || e->kind == PL_EV_CONTACT;
+  pl_json_object(j, NULL);
+  pl_json_string(j, "label", e->label);
+  pl_json_string(j, "kind", pl_event_kind_name[e->kind]);
+  pl_json_string(j, "of", of_constraint ? e->label : NULL);
+  pl_json_number(j, "t", e->t);
+  if (e->at_start) pl_json_bool(j, "at_start", true);
+  const double* row = e->after ? e->after : e->before;
+  if (row) {
+    json_columns(j, "state", r, row, 1, state);
+    json_columns(j, "values", r, row, state, r->n_columns);
+  }
+  if (e->kind == PL_EV_IMPACT) {
+    pl_json_number(j, "impulse", e->impulse);
+    if (e->before) json_columns(j, "before", r, e->before, 1, state);
+    if (e->after) json_columns(j, "after", r, e->after, 1, state);
+  }
+  pl_json_end_object(j);
+}
+
+void pl_motion_json(pl_text* out, const pleuel_model* m) {
+  const pl_result* r = m->result;
+  const pl_stats none = {.max_g = NAN, .max_gdot = NAN, .energy_drift = NAN};
+  const pl_stats* s = r ? &r->stats : &none;
+  pl_json j = pl_json_make(out);
+  pl_json_object(&j, NULL);
+  pl_json_int(&j, "pleuel", 1);
+  pl_json_string(&j, "file", m->name);
+  pl_json_number(&j, "t_end", r && r->rows.n ? r->rows.at[r->rows.n - 1][0] : NAN);
+  pl_json_int(&j, "steps", s->steps);
+  pl_json_string(&j, "status", pl_status_word(m->is_run ? m->run : m->checked));
+  if (m->run_message[0]) pl_json_string(&j, "message", m->run_message);
+  pl_json_string(&j, "method", "taylor");
+  pl_json_int(&j, "order", s->order);
+  pl_json_number(&j, "residual_g", s->max_g);
+  pl_json_number(&j, "residual_gdot", s->max_gdot);
+  pl_json_number(&j, "energy_drift", m->recording && m->recording->setup.energy_conserved ? s->energy_drift : NAN);
+  pl_json_list(&j, "events");
+  for (int i = 0; r && i < r->events.n; i++) json_event(&j, m, &r->events.at[i]);
+  pl_json_end_list(&j);
+  pl_json_list(&j, "notes");
+  for (int i = 0; i < m->diagnostics.list.n; i++) {
+    const pl_diagnostic* d = &m->diagnostics.list.at[i];
+    pl_place at = d->span.source ? pl_span_place(d->span) : (pl_place){0, 0};
+    static const char* const severity[] = {"error", "warning", "note"};
+    pl_json_object(&j, NULL);
+    pl_json_flat(&j);
+    pl_json_string(&j, "code", pl_code_name(d->code));
+    pl_json_string(&j, "severity", severity[pl_code_severity(d->code)]);
+    pl_json_int(&j, "line", at.line);
+    pl_json_int(&j, "col", at.column);
+    pl_json_string(&j, "text", d->sentence[m->job.lang]);
+    pl_json_string(&j, "fix", d->fix[m->job.lang]);
+    pl_json_end_object(&j);
+  }
+  pl_json_end_list(&j);
+  pl_json_end_object(&j);
+}

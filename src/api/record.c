@@ -1,0 +1,716 @@
+// record: from a checked model to the setup of a simulation.
+//
+// What stands outside of families is one pattern with one instance; each `for` block is one pattern with an instance
+// for each value of its index.  Map equations of `choose` become constraints of lower priority, so the motion is
+// integrated in all declared coordinates as written, and nothing here depends on what the derivation found.
+#include <math.h>
+#include <string.h>
+
+#include "api/record_impl.h"
+
+// ---------------------------------------------------------------------------------------------- numbers
+double pl_record_number(pl_recorder* r, pl_expr e) { return pl_is_poison(e) ? NAN : pl_eval(r->pool, e, r->value); }
+
+static bool index_number(pl_recorder* r, pl_expr e, long* out) {
+  double x = pl_record_number(r, e);
+  if (!(fabs(x) < 1e9) || fabs(x - nearbyint(x)) > 1e-6) return false;
+  *out = lround(x);
+  return true;
+}
+
+static void set_indices(pl_recorder* r, const pl_instances* in, int instance) {
+  for (int d = 0; d < in->depth; d++) r->value[in->symbol[d].id] = (double)in->index[instance * in->depth + d];
+}
+
+// ---------------------------------------------------------------------------------------------- sums written out
+enum { MAX_SUM_TERMS = 20000 };   // beyond this a sum belongs into a family
+
+static pl_expr write_out(pl_recorder* r, pl_expr sum) {
+  pl_pool* p = r->pool;
+  long lo, hi;
+  if (!index_number(r, pl_arg(p, sum, 1), &lo) || !index_number(r, pl_arg(p, sum, 2), &hi)) return pl_poison();
+  if (hi - lo >= MAX_SUM_TERMS) return pl_poison();
+  int n = hi >= lo ? (int)(hi - lo + 1) : 0;
+  pl_expr* term = PL_ARRAY(r->arena, pl_expr, n + 1);
+  pl_expr body = pl_record_plain(r, pl_arg(p, sum, 3));
+  for (int k = 0; k < n; k++) term[k] = pl_subst1(p, body, pl_symbol_of(p, sum), pl_int(p, lo + k));
+  return pl_add_n(p, term, n);
+}
+
+// The first sum inside e, poison if there is none.
+static pl_expr find_sum(pl_recorder* r, pl_map* seen, pl_expr e) {
+  if (pl_is_poison(e) || pl_map_get(seen, e.id)) return pl_poison();
+  pl_map_set(seen, e.id, 1);
+  if (pl_kind_of(r->pool, e) == PL_SUM) return e;
+  for (int i = 0; i < pl_n_args(r->pool, e); i++) {
+    pl_expr found = find_sum(r, seen, pl_arg(r->pool, e, i));
+    if (!pl_is_poison(found)) return found;
+  }
+  return pl_poison();
+}
+
+pl_expr pl_record_plain(pl_recorder* r, pl_expr e) {
+  for (;;) {
+    pl_expr sum = find_sum(r, pl_map_make(r->arena), e);
+    if (pl_is_poison(sum)) return e;
+    pl_expr written = write_out(r, sum);
+    if (pl_is_poison(written)) return written;
+    e = pl_subst_expr(r->pool, e, sum, written);
+  }
+}
+
+// ---------------------------------------------------------------------------------------------- coordinates of a group
+static void collect(pl_recorder* r, pl_group* g, pl_expr e) {
+  pl_pool* p = r->pool;
+  if (pl_is_poison(e) || pl_map_get(g->seen, e.id)) return;
+  pl_map_set(g->seen, e.id, 1);
+  pl_kind kind = pl_kind_of(p, e);
+  pl_expr atom = pl_poison();
+  if (kind == PL_SYMBOL) {
+    const pl_symbol_info* info = pl_symbol_get(p, pl_symbol_of(p, e));
+    if (info->role == PL_R_TIME) r->explicit_time = true;
+    if (info->role == PL_R_COORD) atom = e;
+    if (info->role == PL_R_VELOCITY || info->role == PL_R_ACCELERATION) atom = pl_sym(p, info->base);
+    while (!pl_is_poison(atom) && pl_symbol_get(p, pl_symbol_of(p, atom))->role != PL_R_COORD) {
+      atom = pl_sym(p, pl_symbol_get(p, pl_symbol_of(p, atom))->base);
+    }
+  } else if (kind == PL_AT) {
+    if (pl_symbol_get(p, pl_symbol_of(p, e))->role == PL_R_ARRAY) atom = pl_at(p, pl_symbol_of(p, e), 0, pl_arg(p, e, 0));
+  } else {
+    for (int i = 0; i < pl_n_args(p, e); i++) collect(r, g, pl_arg(p, e, i));
+  }
+  if (pl_is_poison(atom) || pl_map_get(g->atom_at, atom.id)) return;
+  pl_push(r->arena, g->atoms, atom);
+  pl_map_set(g->atom_at, atom.id, (uint64_t)g->atoms.n);
+}
+
+void pl_group_atoms(pl_recorder* r, pl_group* g, pl_expr e) { collect(r, g, e); }
+
+// Global index of an atom in an instance; -1 when there is no such coordinate.
+static int global_of(pl_recorder* r, pl_expr atom) {
+  pl_expr element = atom;
+  if (pl_kind_of(r->pool, atom) == PL_AT) {
+    long k;
+    if (!index_number(r, pl_arg(r->pool, atom, 0), &k)) return -1;
+    element = pl_at(r->pool, pl_symbol_of(r->pool, atom), 0, pl_int(r->pool, k));
+  }
+  return (int)pl_map_get(r->flat_at, element.id) - 1;
+}
+
+static pleuel_status no_such(pl_recorder* r, pl_expr atom) {
+  return pl_fail(r->job, PLEUEL_USAGE, "there is no coordinate %s", pl_expr_text(r->arena, r->pool, atom));
+}
+
+// ---------------------------------------------------------------------------------------------- groups
+static pl_group* group_make(pl_recorder* r, const pl_block* block) {
+  pl_group* g = PL_NEW(r->arena, pl_group);
+  g->block = block;
+  g->atom_at = pl_map_make(r->arena);
+  g->seen = pl_map_make(r->arena);
+  g->T = g->V = g->L = pl_int(r->pool, 0);
+  g->instances.n = 1;
+  pl_push(r->arena, r->groups, g);
+  return g;
+}
+
+static pleuel_status group_for(pl_recorder* r, const pl_block* block, pl_group** out) {
+  for (int i = 0; i < r->groups.n; i++) {
+    *out = r->groups.at[i];
+    if ((*out)->block == block) return PLEUEL_OK;
+  }
+  *out = group_make(r, block);
+  return pl_model_instances(r->job, r->model, block, &(*out)->instances);
+}
+
+static pleuel_status make_groups(pl_recorder* r) {
+  const pl_model* m = r->model;
+  pl_group* g;
+  group_make(r, NULL);
+  for (int i = 0; i < m->masses.n; i++) PL_TRY(group_for(r, m->masses.at[i].block, &g));
+  for (int i = 0; i < m->bodies.n; i++) PL_TRY(group_for(r, m->bodies.at[i].block, &g));
+  for (int i = 0; i < m->loads.n; i++) PL_TRY(group_for(r, m->loads.at[i].block, &g));
+  r->first_link = PL_ARRAY(r->arena, int, m->constraints.n + 1);
+  for (int i = 0; i < m->constraints.n; i++) {
+    PL_TRY(group_for(r, m->constraints.at[i].block, &g));
+    pl_push(r->arena, g->constraints, i);
+    r->first_link[i] = r->n_links;
+    r->n_links += g->instances.n;
+  }
+  r->out->n_declared = r->n_links;
+  r->n_links += m->choose.n_maps;
+
+  pl_group_energies(r);
+  for (int i = 0; i < r->groups.n; i++) {
+    g = r->groups.at[i];
+    g->T = pl_record_plain(r, g->T);
+    g->V = pl_record_plain(r, g->V);
+    g->L = pl_record_plain(r, g->L);
+    if (pl_is_poison(g->T) || pl_is_poison(g->V) || pl_is_poison(g->L)) {
+      return pl_fail(r->job, PLEUEL_UNSUPPORTED, "the energies cannot be written down (a sum without bounds, or a division by zero)");
+    }
+    collect(r, g, g->T);
+    collect(r, g, g->V);
+    collect(r, g, g->L);
+    for (int k = 0; k < g->constraints.n; k++) collect(r, g, m->constraints.at[g->constraints.at[k]].g);
+    if (i == 0) {
+      for (int k = 0; k < m->choose.n_maps; k++) {
+        collect(r, g, m->choose.maps[k].old);
+        collect(r, g, m->choose.maps[k].map);
+      }
+    }
+    pl_group_forces(r, g);
+  }
+  return PLEUEL_OK;
+}
+
+// ---------------------------------------------------------------------------------------------- patterns
+// Slots of a pattern: atoms of its coordinates, multipliers of its constraints.
+static void slots_of(pl_recorder* r, pl_group* g, const pl_expr* lambda, int n_c, pl_tape_slots* out) {
+  *out = (pl_tape_slots){.n_q = g->atoms.n, .q = g->atoms.at, .n_c = n_c, .lambda = lambda,
+                         .n_index = g->instances.depth, .index = g->instances.symbol, .value_of_symbol = r->value};
+}
+
+// Fills the global coordinates and the index values of each instance.
+static pleuel_status place_instances(pl_recorder* r, pl_group* g, pl_pattern_source* s) {
+  int* q = PL_ARRAY(r->arena, int, (size_t)s->n * (size_t)g->atoms.n + 1);
+  double* index = PL_ARRAY(r->arena, double, (size_t)s->n * (size_t)g->instances.depth + 1);
+  for (int i = 0; i < s->n; i++) {
+    set_indices(r, &g->instances, i);
+    for (int k = 0; k < g->atoms.n; k++) {
+      int at = global_of(r, g->atoms.at[k]);
+      if (at < 0) return no_such(r, g->atoms.at[k]);
+      q[i * g->atoms.n + k] = at;
+    }
+    for (int d = 0; d < g->instances.depth; d++) index[i * g->instances.depth + d] = (double)g->instances.index[i * g->instances.depth + d];
+  }
+  for (int d = 0; d < g->instances.depth; d++) r->value[g->instances.symbol[d].id] = NAN;
+  s->q = q;
+  s->index = index;
+  return PLEUEL_OK;
+}
+
+// A parameter without number is the usual reason why a simulation cannot start: say which.
+static pleuel_status check_values(pl_recorder* r, const pl_expr* e, int n) {
+  for (int i = 0; i < n; i++) {
+    if (pl_is_poison(e[i])) continue;
+    int n_symbols = pl_symbols_in(r->pool, e[i], NULL, 0);
+    pl_symbol* s = PL_ARRAY(r->arena, pl_symbol, n_symbols + 1);
+    pl_symbols_in(r->pool, e[i], s, n_symbols);
+    for (int k = 0; k < n_symbols; k++) {
+      const pl_symbol_info* info = pl_symbol_get(r->pool, s[k]);
+      if (info->role == PL_R_PARAM && isnan(r->value[s[k].id])) {
+        return pl_fail(r->job, PLEUEL_USAGE, "%s has no number. Give one in the file (param %s = ...) or with --set %s=...",
+                       info->name, info->name, info->ascii);
+      }
+    }
+  }
+  return PLEUEL_OK;
+}
+
+static pl_expr map_equation(pl_recorder* r, int k) {
+  return pl_sub(r->pool, r->model->choose.maps[k].old, r->model->choose.maps[k].map);
+}
+
+static pleuel_status record_group(pl_recorder* r, pl_group* g, pl_pattern* out) {
+  const pl_model* m = r->model;
+  int n_maps = g->block ? 0 : m->choose.n_maps;
+  int n_c = g->constraints.n + n_maps;
+  pl_expr* constraint = PL_ARRAY(r->arena, pl_expr, n_c + 1);
+  pl_expr* lambda = PL_ARRAY(r->arena, pl_expr, n_c + 1);
+  bool* velocity = PL_ARRAY(r->arena, bool, n_c + 1);
+  int* c = PL_ARRAY(r->arena, int, (size_t)g->instances.n * (size_t)n_c + 1);
+  for (int k = 0; k < n_c; k++) {
+    bool is_map = k >= g->constraints.n;
+    const pl_constraint* source = is_map ? NULL : &m->constraints.at[g->constraints.at[k]];
+    constraint[k] = is_map ? map_equation(r, k - g->constraints.n) : pl_record_plain(r, source->g);
+    velocity[k] = !is_map && source->has_velocity;
+    lambda[k] = is_map || !source->lambda.id ? pl_poison() : pl_sym(r->pool, source->lambda);
+    int first = is_map ? r->out->n_declared + k - g->constraints.n : r->first_link[g->constraints.at[k]];
+    for (int i = 0; i < g->instances.n; i++) c[i * n_c + k] = is_map ? first : first + i;
+    if (pl_is_poison(constraint[k])) return pl_fail(r->job, PLEUEL_UNSUPPORTED, "a constraint has no value everywhere");
+  }
+  pl_expr L = pl_add(r->pool, g->L, pl_sub(r->pool, g->T, g->V));
+  PL_TRY(check_values(r, &L, 1));
+  PL_TRY(check_values(r, g->force, g->atoms.n));
+  PL_TRY(check_values(r, constraint, n_c));
+  pl_pattern_source s = {.lagrangian = L, .force = g->force, .constraint = constraint, .velocity = velocity,
+                         .n = g->instances.n, .c = c};
+  slots_of(r, g, lambda, n_c, &s.slots);
+  PL_TRY(place_instances(r, g, &s));
+  return pl_pattern_record(r->job, r->pool, &s, out);
+}
+
+static pleuel_status record_patterns(pl_recorder* r) {
+  pl_pattern* p = PL_ARRAY(r->arena, pl_pattern, r->groups.n);
+  int n = 0;
+  for (int i = 0; i < r->groups.n; i++) {
+    if (r->groups.at[i]->instances.n > 0) PL_TRY(record_group(r, r->groups.at[i], &p[n++]));
+  }
+  r->out->setup.patterns = p;
+  r->out->setup.n_patterns = n;
+  return PLEUEL_OK;
+}
+
+// ---------------------------------------------------------------------------------------------- names, units
+// Angles have no unit of their own in the dimensions; a coordinate without dimension is shown in rad.
+static const char* unit_of(pl_recorder* r, pl_symbol s, const char* plain) {
+  const pl_symbol_info* info = pl_symbol_get(r->pool, s);
+  if (!r->model->uses_units || !info->dimension_known) return "";
+  return pl_dimension_equal(info->dimension, pl_dimension_one()) ? plain : pl_dimension_unit(r->arena, info->dimension, true);
+}
+
+static void name_coordinate(pl_recorder* r, pl_expr atom, pl_coordinate* out) {
+  pl_symbol s = pl_symbol_of(r->pool, atom);
+  pl_symbol dot = pl_symbol_dot(r->pool, s);
+  bool element = pl_kind_of(r->pool, atom) == PL_AT;
+  const char* ascii = pl_symbol_get(r->pool, s)->ascii;
+  const char* index = element ? pl_format(r->arena, "[%s]", pl_expr_text(r->arena, r->pool, pl_arg(r->pool, atom, 0))) : "";
+  out->name = pl_format(r->arena, "%s%s", ascii, index);
+  out->v_name = pl_format(r->arena, "%s_dot%s", ascii, index);
+  out->unit = unit_of(r, s, "rad");
+  pl_dimension d;
+  bool angle = *out->unit && strcmp(out->unit, "rad") == 0;
+  bool known = r->model->uses_units && pl_model_dimension(r->model, pl_sym(r->pool, dot), &d);
+  out->v_unit = angle ? "rad/s" : known ? pl_dimension_unit(r->arena, d, true) : "";
+}
+
+static int link_of_label(pl_recorder* r, const char* label) {
+  const pl_constraint* c = label ? pl_model_constraint(r->model, label) : NULL;
+  return c ? r->first_link[c - r->model->constraints.at] : -1;
+}
+
+static void name_links(pl_recorder* r, int i, pl_link* link) {
+  const pl_constraint* c = &r->model->constraints.at[i];
+  pl_group* g;
+  if (group_for(r, c->block, &g) != PLEUEL_OK) return;
+  const char* own = c->multiplier ? pl_plain_ascii(r->arena, c->multiplier) : NULL;
+  for (int k = 0; k < g->instances.n; k++) {
+    pl_link* out = &link[r->first_link[i] + k];
+    set_indices(r, &g->instances, k);
+    long index;
+    bool indexed = !pl_is_poison(c->name.index) && index_number(r, c->name.index, &index);
+    const char* suffix = indexed ? pl_format(r->arena, "[%ld]", index) : "";
+    if (!indexed && c->block) suffix = pl_format(r->arena, "[%d]", k + 1);
+    out->name = pl_format(r->arena, "%s%s", c->name.ascii ? c->name.ascii : c->name.text, suffix);
+    out->column = own ? pl_format(r->arena, "%s%s", own, suffix) : pl_format(r->arena, "lambda_%s", out->name);
+    out->unit = c->lambda.id ? unit_of(r, c->lambda, "") : "";
+    out->velocity = c->has_velocity;
+    out->side = c->relation == PL_GE || c->relation == PL_GT ? 1 : c->relation == PL_LE || c->relation == PL_LT ? -1 : 0;
+    out->contact = link_of_label(r, c->while_label);
+    out->off = c->off;
+  }
+}
+
+// The one-sided constraint that a map equation takes for granted: the map, inserted, makes it an identity.
+static int contact_of_map(pl_recorder* r, int k) {
+  const pl_model* m = r->model;
+  for (int i = 0; i < m->constraints.n; i++) {
+    const pl_constraint* c = &m->constraints.at[i];
+    if (c->relation == PL_EQ || c->block) continue;
+    pl_expr inserted = c->g;
+    bool uses = false;
+    for (int j = 0; j < m->choose.n_maps; j++) {
+      pl_expr next = pl_subst_expr(r->pool, inserted, m->choose.maps[j].old, m->choose.maps[j].map);
+      if (j == k) uses = !pl_same(next, inserted);
+      inserted = next;
+    }
+    if (!uses) continue;
+    bool vanishes = true;
+    for (uint64_t seed = 1; vanishes && seed <= 3; seed++) {
+      bool ok;
+      uint64_t residue = pl_eval_mod(pl_mod_point_make(r->arena, r->pool, seed), inserted, &ok);
+      vanishes = ok && residue == 0;
+    }
+    if (vanishes) return r->first_link[i];
+  }
+  return -1;
+}
+
+static void make_links(pl_recorder* r) {
+  pl_link* link = PL_ARRAY(r->arena, pl_link, r->n_links + 1);
+  for (int i = 0; i < r->model->constraints.n; i++) name_links(r, i, link);
+  for (int k = 0; k < r->model->choose.n_maps; k++) {
+    pl_link* out = &link[r->out->n_declared + k];
+    out->name = pl_format(r->arena, "choose %s", pl_expr_text(r->arena, r->pool, r->model->choose.maps[k].old));
+    out->priority = 1;
+    out->contact = contact_of_map(r, k);
+  }
+  r->out->setup.links = link;
+  r->out->setup.n_c = r->n_links;
+}
+
+// ---------------------------------------------------------------------------------------------- start values
+typedef struct pl_start_value { int at; bool velocity, guess; pl_expr value; } pl_start_value;
+
+// The value with elements of families replaced by their start values where they are known.
+static pl_expr with_elements(pl_recorder* r, pl_expr e, const pl_coordinate* q) {
+  pl_group* g = PL_NEW(r->arena, pl_group);
+  g->atom_at = pl_map_make(r->arena);
+  g->seen = pl_map_make(r->arena);
+  bool time = r->explicit_time;
+  collect(r, g, e);
+  r->explicit_time = time;
+  for (int i = 0; i < g->atoms.n; i++) {
+    if (pl_kind_of(r->pool, g->atoms.at[i]) != PL_AT) continue;
+    int at = global_of(r, g->atoms.at[i]);
+    if (at < 0 || !q[at].has_q) return pl_poison();
+    char text[32];
+    pl_double_text(text, q[at].q);
+    pl_expr number = text[0] == '-' ? pl_neg(r->pool, pl_number_from_text(r->pool, text + 1, strlen(text) - 1))
+                                    : pl_number_from_text(r->pool, text, strlen(text));
+    e = pl_subst_expr(r->pool, e, g->atoms.at[i], number);
+  }
+  return e;
+}
+
+// Takes over one start value if everything that it depends on is known.
+static bool take_start(pl_recorder* r, const pl_start_value* s, pl_coordinate* q) {
+  double x = pl_record_number(r, with_elements(r, s->value, q));
+  if (!isfinite(x)) return false;
+  pl_coordinate* c = &q[s->at];
+  if (s->guess && s->velocity) c->has_v_guess = true, c->v_guess = x;
+  else if (s->guess) c->has_guess = true, c->guess = x;
+  else if (s->velocity) c->has_v = true, c->v = x;
+  else c->has_q = true, c->q = x;
+  pl_expr atom = r->out->flat.at[s->at];
+  if (!s->guess && pl_kind_of(r->pool, atom) == PL_SYMBOL) {
+    pl_symbol name = s->velocity ? pl_symbol_dot(r->pool, pl_symbol_of(r->pool, atom)) : pl_symbol_of(r->pool, atom);
+    if ((int)name.id < r->n_value) r->value[name.id] = x;
+  }
+  return true;
+}
+
+static pleuel_status target_of(pl_recorder* r, pl_expr target, pl_start_value* out) {
+  pl_pool* p = r->pool;
+  pl_expr atom = target;
+  if (pl_kind_of(p, target) == PL_AT) {
+    out->velocity = pl_dots_of(p, target) == 1;
+    atom = pl_at(p, pl_symbol_of(p, target), 0, pl_arg(p, target, 0));
+  } else if (pl_kind_of(p, target) == PL_SYMBOL) {
+    const pl_symbol_info* info = pl_symbol_get(p, pl_symbol_of(p, target));
+    out->velocity = info->role == PL_R_VELOCITY;
+    if (out->velocity) atom = pl_sym(p, info->base);
+  }
+  out->at = global_of(r, atom);
+  return out->at < 0 ? no_such(r, atom) : PLEUEL_OK;
+}
+
+static pleuel_status make_starts(pl_recorder* r, pl_coordinate* q) {
+  const pl_model* m = r->model;
+  // values of elements are looked up while the indices of their block are set, so one by one in order of declaration;
+  // what depends on a later one waits for the next round
+  PL_VEC(pl_start_value) waiting = {0};
+  for (int i = 0; i < m->inits.n; i++) {
+    const pl_init* init = &m->inits.at[i];
+    double at = pl_record_number(r, init->time);
+    if (!isnan(at) && at != r->out->t_0) {
+      return pl_fail(r->job, PLEUEL_UNSUPPORTED, "start values at t = %g s, but the simulation begins at t = %g s", at, r->out->t_0);
+    }
+    pl_group* g;
+    PL_TRY(group_for(r, init->block, &g));
+    for (int k = 0; k < g->instances.n; k++) {
+      set_indices(r, &g->instances, k);
+      pl_start_value s = {.guess = init->guess, .value = init->value};
+      PL_TRY(check_values(r, &init->value, 1));
+      PL_TRY(target_of(r, init->target, &s));
+      if (take_start(r, &s, q)) continue;
+      for (int d = 0; d < g->instances.depth; d++) {
+        s.value = pl_subst1(r->pool, s.value, g->instances.symbol[d], pl_int(r->pool, g->instances.index[k * g->instances.depth + d]));
+      }
+      pl_push(r->arena, waiting, s);
+    }
+  }
+  for (bool moved = true; moved && waiting.n > 0;) {
+    moved = false;
+    for (int i = 0; i < waiting.n; i++) {
+      if (!take_start(r, &waiting.at[i], q)) continue;
+      waiting.at[i--] = waiting.at[--waiting.n];
+      moved = true;
+    }
+  }
+  if (waiting.n == 0) return PLEUEL_OK;
+  return pl_fail(r->job, PLEUEL_UNSUPPORTED, "the start value of %s, %s, is no number", q[waiting.at[0].at].name,
+                 pl_expr_text(r->arena, r->pool, waiting.at[0].value));
+}
+
+static pleuel_status make_coordinates(pl_recorder* r) {
+  pl_coordinate* q = PL_ARRAY(r->arena, pl_coordinate, r->out->flat.n + 1);
+  for (int i = 0; i < r->out->flat.n; i++) name_coordinate(r, r->out->flat.at[i], &q[i]);
+  PL_TRY(make_starts(r, q));
+  r->out->setup.coordinates = q;
+  r->out->setup.n_q = r->out->flat.n;
+  return PLEUEL_OK;
+}
+
+// ---------------------------------------------------------------------------------------------- observers
+// Energy as it is conserved: sum of v dL/dv - L, which is T + V for ordinary potentials.
+static pl_expr without_velocity_part(pl_recorder* r, pl_group* g, pl_expr V) {
+  pl_pool* p = r->pool;
+  pl_expr sum = V;
+  for (int i = 0; i < g->atoms.n; i++) {
+    pl_expr v = pl_dt(p, g->atoms.at[i]);
+    pl_expr slope = pl_kind_of(p, v) == PL_SYMBOL ? pl_diff(p, V, pl_symbol_of(p, v)) : pl_diff_at(p, V, v);
+    sum = pl_sub(p, sum, pl_mul(p, v, slope));
+  }
+  return sum;
+}
+
+static pleuel_status observe(pl_recorder* r, pl_group* g, const pl_expr* out, const int* column, int n, const pl_expr* lambda,
+                             const int* links, int n_c, pl_pattern* pattern) {
+  int* where = PL_ARRAY(r->arena, int, (size_t)g->instances.n * (size_t)n + 1);
+  int* c = PL_ARRAY(r->arena, int, (size_t)g->instances.n * (size_t)n_c + 1);
+  for (int i = 0; i < g->instances.n; i++) {
+    for (int k = 0; k < n; k++) where[i * n + k] = column[k];
+    for (int k = 0; k < n_c; k++) c[i * n_c + k] = links[k];
+  }
+  PL_TRY(check_values(r, out, n));
+  pl_pattern_source s = {.n_outputs = n, .output = out, .n = g->instances.n, .out = where, .c = c};
+  slots_of(r, g, lambda, n_c, &s.slots);
+  PL_TRY(place_instances(r, g, &s));
+  return pl_pattern_record(r->job, r->pool, &s, pattern);
+}
+
+// Expressions outside of families, with multipliers: their own slots, since they may speak of any coordinate.
+typedef struct pl_watching {
+  pl_group* group;
+  PL_VEC(pl_expr) output;
+  PL_VEC(int) column;
+  PL_VEC(pl_expr) lambda;
+  PL_VEC(int) links;
+} pl_watching;
+
+static pl_watching* watching_make(pl_recorder* r) {
+  pl_watching* w = PL_NEW(r->arena, pl_watching);
+  w->group = PL_NEW(r->arena, pl_group);
+  w->group->atom_at = pl_map_make(r->arena);
+  w->group->seen = pl_map_make(r->arena);
+  w->group->instances.n = 1;
+  const pl_model* m = r->model;
+  for (int i = 0; i < m->constraints.n; i++) {
+    if (m->constraints.at[i].block || !m->constraints.at[i].lambda.id) continue;
+    pl_push(r->arena, w->lambda, pl_sym(r->pool, m->constraints.at[i].lambda));
+    pl_push(r->arena, w->links, r->first_link[i]);
+  }
+  return w;
+}
+
+// Energies of the whole system as one expression: only without families.
+static pl_expr energy_of(pl_recorder* r, pl_result_kind kind) {
+  if (r->groups.n > 1) return pl_poison();
+  pl_group* g = r->groups.at[0];
+  pl_pool* p = r->pool;
+  switch (kind) {
+    case PL_RES_T: return g->T;
+    case PL_RES_V: return g->V;
+    case PL_RES_L: return pl_add(p, g->L, pl_sub(p, g->T, g->V));
+    case PL_RES_E: return pl_add(p, g->T, without_velocity_part(r, g, pl_sub(p, g->V, g->L)));
+    default: return pl_poison();
+  }
+}
+
+// What a result name stands for: T, λ-dependent sizes of forces; poison when this version has no number for it.
+static pl_expr result_value(pl_recorder* r, const pl_result_name* name) {
+  if (name->kind != PL_RES_FORCE_NORM && name->kind != PL_RES_NORMAL) return energy_of(r, name->kind);
+  const pl_constraint* c = pl_model_constraint(r->model, name->label);
+  if (!c || c->block || !c->lambda.id) return pl_poison();
+  pl_expr length = pl_force_length(r, c);
+  return pl_mul(r->pool, pl_call(r->pool, PL_ABS, pl_sym(r->pool, c->lambda)), length);
+}
+
+static pl_expr with_results(pl_recorder* r, pl_expr e) {
+  for (int i = 0; i < r->model->result_names.n; i++) {
+    const pl_result_name* name = &r->model->result_names.at[i];
+    if (pl_has_symbol(r->pool, e, name->symbol)) e = pl_subst1(r->pool, e, name->symbol, result_value(r, name));
+  }
+  return e;
+}
+
+// Adds an expression; its place among the outputs in *at.  PLEUEL_UNSUPPORTED when it has no number.
+static pleuel_status watch(pl_recorder* r, pl_watching* w, pl_expr e, int column, const char* what) {
+  pl_expr plain = pl_record_plain(r, with_results(r, e));
+  if (pl_is_poison(plain) || pl_has_role(r->pool, plain, PL_R_START) || pl_has_role(r->pool, plain, PL_R_CONSTANT) ||
+      pl_has_role(r->pool, plain, PL_R_LOCAL)) {
+    return pl_fail(r->job, PLEUEL_UNSUPPORTED, "%s: this version cannot compute it along the motion", what);
+  }
+  collect(r, w->group, plain);
+  pl_push(r->arena, w->output, plain);
+  pl_push(r->arena, w->column, column);
+  return PLEUEL_OK;
+}
+
+static pleuel_status watching_record(pl_recorder* r, pl_watching* w, const pl_pattern** patterns, int* n) {
+  *n = 0;
+  if (w->output.n == 0) return PLEUEL_OK;
+  pl_pattern* p = PL_NEW(r->arena, pl_pattern);
+  PL_TRY(observe(r, w->group, w->output.at, w->column.at, w->output.n, w->lambda.at, w->links.at, w->lambda.n, p));
+  *patterns = p;
+  *n = 1;
+  return PLEUEL_OK;
+}
+
+static pleuel_status make_observers(pl_recorder* r) {
+  const pl_model* m = r->model;
+  pl_setup* s = &r->out->setup;
+  const char* joule = m->uses_units ? "J" : "";
+  PL_VEC(pl_column) columns = {0};
+  pl_pattern* pattern = PL_ARRAY(r->arena, pl_pattern, r->groups.n + 1);
+  s->kinetic = 0;
+  s->potential = 1;
+  pl_push(r->arena, columns, (pl_column){"T", joule});
+  pl_push(r->arena, columns, (pl_column){"V", joule});
+  pl_push(r->arena, columns, (pl_column){"E", joule});
+  for (int i = 0; i < r->groups.n; i++) {
+    pl_group* g = r->groups.at[i];
+    if (g->instances.n == 0) continue;
+    pl_expr V = without_velocity_part(r, g, pl_sub(r->pool, g->V, g->L));
+    pl_expr* out = PL_ARRAY(r->arena, pl_expr, 3);
+    out[0] = g->T;
+    out[1] = V;
+    out[2] = pl_add(r->pool, g->T, V);
+    static const int column[3] = {0, 1, 2};
+    PL_TRY(observe(r, g, out, column, 3, NULL, NULL, 0, &pattern[s->n_observers++]));
+  }
+
+  pl_watching* w = watching_make(r);
+  for (int i = 0; i < m->outputs.n; i++) {
+    PL_TRY(watch(r, w, m->outputs.at[i].value, columns.n, pl_format(r->arena, "output %s", m->outputs.at[i].name)));
+    pl_dimension d;
+    bool known = m->uses_units && pl_model_dimension(m, m->outputs.at[i].value, &d) && !pl_dimension_equal(d, pl_dimension_one());
+    pl_push(r->arena, columns, (pl_column){pl_plain_ascii(r->arena, m->outputs.at[i].name), known ? pl_dimension_unit(r->arena, d, true) : ""});
+  }
+  const pl_pattern* more;
+  int n;
+  PL_TRY(watching_record(r, w, &more, &n));
+  if (n) pattern[s->n_observers++] = *more;
+  s->observers = pattern;
+  s->out = columns.at;
+  s->n_out = columns.n;
+  s->energy_conserved = !r->dissipative && !r->explicit_time;
+  return PLEUEL_OK;
+}
+
+// ---------------------------------------------------------------------------------------------- events, branches
+static pleuel_status make_deed(pl_recorder* r, pl_watching* w, const pl_action* a, pl_event_deed* out) {
+  *out = (pl_event_deed){.target = -1};
+  pl_start_value target = {0};
+  switch (a->kind) {
+    case PL_DO_STOP: out->deed = PL_DEED_STOP; return PLEUEL_OK;
+    case PL_DO_RECORD: out->deed = PL_DEED_RECORD; return PLEUEL_OK;
+    case PL_DO_RELEASE: case PL_DO_ATTACH:
+      out->deed = a->kind == PL_DO_RELEASE ? PL_DEED_RELEASE : PL_DEED_ATTACH;
+      out->target = link_of_label(r, a->label);
+      return out->target < 0 ? pl_fail(r->job, PLEUEL_USAGE, "there is no constraint %s", a->label) : PLEUEL_OK;
+    case PL_DO_SET:
+      PL_TRY(target_of(r, a->target, &target));
+      out->deed = target.velocity ? PL_DEED_SET_V : PL_DEED_SET_Q;
+      out->target = target.at;
+      out->value = w->output.n;
+      return watch(r, w, a->value, w->output.n, "the new value of an event");
+  }
+  return PLEUEL_OK;
+}
+
+static pleuel_status make_events(pl_recorder* r) {
+  const pl_model* m = r->model;
+  pl_setup* s = &r->out->setup;
+  pl_event_setup* events = PL_ARRAY(r->arena, pl_event_setup, m->events.n + 1);
+  pl_watching* w = watching_make(r);
+  for (int i = 0; i < m->events.n; i++) {
+    const pl_event* e = &m->events.at[i];
+    pl_event_deed* deeds = PL_ARRAY(r->arena, pl_event_deed, e->actions.n + 1);
+    const char* name = e->name.ascii ? e->name.ascii : e->name.text;
+    events[i] = (pl_event_setup){name, w->output.n, e->direction, e->actions.n, deeds};
+    PL_TRY(watch(r, w, e->value, w->output.n, pl_format(r->arena, "event %s", name)));
+    for (int k = 0; k < e->actions.n; k++) PL_TRY(make_deed(r, w, &e->actions.at[k], &deeds[k]));
+  }
+  s->events = events;
+  s->n_events = m->events.n;
+  s->n_watched = w->output.n;
+  return watching_record(r, w, &s->watch, &s->n_watch_patterns);
+}
+
+static const char* relation_text(pl_relation relation) {
+  static const char* const text[] = {[PL_EQ] = "=", [PL_GE] = ">=", [PL_LE] = "<=", [PL_GT] = ">", [PL_LT] = "<", [PL_NE] = "!="};
+  return text[relation];
+}
+
+static pleuel_status make_branches(pl_recorder* r) {
+  const pl_model* m = r->model;
+  pl_setup* s = &r->out->setup;
+  pl_branch_setup* branches = PL_ARRAY(r->arena, pl_branch_setup, m->branches.n + 1);
+  pl_watching* w = watching_make(r);
+  for (int i = 0; i < m->branches.n; i++) {
+    const pl_condition* c = &m->branches.at[i];
+    const char* text = pl_format(r->arena, "%s %s %s", pl_expr_text(r->arena, r->pool, c->left), relation_text(c->relation),
+                                 pl_expr_text(r->arena, r->pool, c->right));
+    int relation = c->relation == PL_GT || c->relation == PL_GE ? 1 : c->relation == PL_LT || c->relation == PL_LE ? -1 : 0;
+    branches[i] = (pl_branch_setup){text, i, relation};
+    PL_TRY(watch(r, w, pl_sub(r->pool, c->left, c->right), i, text));
+  }
+  s->branches = branches;
+  s->n_branches = m->branches.n;
+  s->n_branch_outputs = m->branches.n;
+  return watching_record(r, w, &s->branch_patterns, &s->n_branch_patterns);
+}
+
+// ---------------------------------------------------------------------------------------------- all
+static void read_times(pl_recorder* r) {
+  const pl_simulate* s = &r->model->simulate;
+  pl_recording* out = r->out;
+  double from = pl_record_number(r, s->from), step = pl_record_number(r, s->step), tol = pl_record_number(r, s->tol);
+  out->t_0 = s->given && isfinite(from) ? from : 0;
+  out->t_end = s->given ? pl_record_number(r, s->to) : NAN;
+  out->dt = s->given && step > 0 ? step : 0;
+  out->tol = s->given && tol > 0 ? tol : 0;
+  out->count = s->given ? s->count : 0;
+}
+
+pleuel_status pl_record(pl_job* job, pl_model* model, pl_recording** out) {
+  pl_arena* a = job->arena;
+  pl_recorder r = {.job = job, .arena = a, .model = model, .pool = model->pool, .out = PL_NEW(a, pl_recording)};
+  r.out->flat = pl_model_flat_coords(model, a);
+  r.flat_at = pl_map_make(a);
+  for (int i = 0; i < r.out->flat.n; i++) {
+    pl_map_set(r.flat_at, r.out->flat.at[i].id, (uint64_t)i + 1);
+    pl_symbol_dot(r.pool, pl_symbol_dot(r.pool, pl_symbol_of(r.pool, r.out->flat.at[i])));   // so that the values below have room
+  }
+  r.value = pl_model_values(model, a);
+  r.n_value = pl_symbol_count(r.pool) + 1;
+  read_times(&r);
+
+  PL_TRY(make_groups(&r));
+  PL_TRY(record_patterns(&r));
+  PL_TRY(make_coordinates(&r));
+  make_links(&r);
+  PL_TRY(make_observers(&r));
+  PL_TRY(make_events(&r));
+  PL_TRY(make_branches(&r));
+  r.out->n_hidden = model->choose.n_maps > 0 ? model->choose.coords.n : 0;
+  *out = r.out;
+  return PLEUEL_OK;
+}
+
+void pl_record_dump(pl_text* out, const pl_model* model, const pl_recording* r) {
+  const pl_setup* s = &r->setup;
+  pl_text_addf(out, "coordinates %d, constraints %d (%d of them maps), patterns %d\n", s->n_q, s->n_c, s->n_c - r->n_declared, s->n_patterns);
+  for (int i = 0; i < s->n_q; i++) {
+    const pl_coordinate* q = &s->coordinates[i];
+    pl_text_addf(out, "  q%-3d %s", i, q->name);
+    if (q->unit && *q->unit) pl_text_addf(out, " [%s]", q->unit);
+    if (q->has_q) pl_text_addf(out, "  start %.17g", q->q);
+    if (q->has_v) pl_text_addf(out, "  velocity %.17g", q->v);
+    if (q->has_guess) pl_text_addf(out, "  guess %.17g", q->guess);
+    pl_text_add(out, "\n");
+  }
+  for (int i = 0; i < s->n_c; i++) {
+    const pl_link* c = &s->links[i];
+    pl_text_addf(out, "  g%-3d %s%s", i, c->name, c->side > 0 ? "  >= 0" : c->side < 0 ? "  <= 0" : "");
+    if (c->priority) pl_text_add(out, "  (map)");
+    if (c->contact >= 0) pl_text_addf(out, "  while %s", s->links[c->contact].name);
+    pl_text_add(out, "\n");
+  }
+  for (int i = 0; i < s->n_patterns; i++) {
+    pl_text_addf(out, "pattern %d: %d instances, %d slots, %d constraints\n", i + 1, s->patterns[i].n, s->patterns[i].n_q, s->patterns[i].n_c);
+    pl_tape_dump(out, model->pool, s->patterns[i].tape);
+  }
+}

@@ -1,0 +1,206 @@
+// Energies and forces of a model, group by group, as the simulation needs them: kinetic energy of masses and bodies,
+// potentials of gravity and springs, generalized forces Q_i = F . dX/dq_i and Q_i = -dR/dv_i.
+#include "api/record_impl.h"
+
+static pl_expr squared_speed(pl_pool* p, const pl_point* at) {
+  pl_expr sum = pl_int(p, 0);
+  for (int j = 0; j < at->n; j++) sum = pl_add(p, sum, pl_square(p, pl_dt(p, at->at[j])));
+  return sum;
+}
+
+static pl_expr half(pl_pool* p, pl_expr a, pl_expr b) { return pl_mul_n(p, (pl_expr[]){pl_ratio(p, 1, 2), a, b}, 3); }
+
+static pl_group* group_of(pl_recorder* r, const pl_block* block) {
+  for (int i = 0; i < r->groups.n; i++) {
+    if (r->groups.at[i]->block == block) return r->groups.at[i];
+  }
+  return r->groups.at[0];
+}
+
+static void add_mass(pl_recorder* r, pl_group* g, pl_expr mass, const pl_point* at) {
+  pl_pool* p = r->pool;
+  g->T = pl_add(p, g->T, half(p, mass, squared_speed(p, at)));
+  for (int j = 0; j < r->model->gravities.n; j++) {
+    const pl_gravity* field = &r->model->gravities.at[j];
+    if (field->axis >= at->n) continue;
+    pl_expr V = pl_mul_n(p, (pl_expr[]){pl_int(p, -field->sign), mass, field->g, at->at[field->axis]}, 4);
+    g->V = pl_add(p, g->V, V);
+  }
+}
+
+// Distance of two points; on one line it is |difference|.
+static pl_expr distance(pl_recorder* r, const pl_point* a, const pl_point* b) {
+  pl_pool* p = r->pool;
+  pl_expr sum = pl_int(p, 0), only = pl_int(p, 0);
+  int n = 0;
+  for (int j = 0; j < a->n; j++) {
+    pl_expr d = pl_sub(p, a->at[j], b->at[j]);
+    if (pl_is_zero_node(p, d)) continue;
+    sum = pl_add(p, sum, pl_square(p, d));
+    only = d;
+    n++;
+  }
+  return n == 1 ? pl_call(p, PL_ABS, only) : pl_sqrt(p, sum);
+}
+
+static void add_spring(pl_recorder* r, pl_group* g, const pl_load* l) {
+  pl_pool* p = r->pool;
+  bool relaxed_at_zero = pl_is_poison(l->rest) || pl_is_zero_node(p, l->rest);
+  pl_expr square = pl_int(p, 0);
+  if (relaxed_at_zero) {
+    for (int j = 0; j < l->a.n; j++) square = pl_add(p, square, pl_square(p, pl_sub(p, l->a.at[j], l->b.at[j])));
+  } else {
+    square = pl_square(p, pl_sub(p, distance(r, &l->a, &l->b), l->rest));
+  }
+  g->V = pl_add(p, g->V, half(p, l->value, square));
+}
+
+void pl_group_energies(pl_recorder* r) {
+  const pl_model* m = r->model;
+  for (int i = 0; i < m->masses.n; i++) add_mass(r, group_of(r, m->masses.at[i].block), m->masses.at[i].mass, &m->masses.at[i].point);
+  for (int i = 0; i < m->bodies.n; i++) {
+    const pl_body* b = &m->bodies.at[i];
+    pl_group* g = group_of(r, b->block);
+    add_mass(r, g, b->mass, &b->centre);
+    g->T = pl_add(r->pool, g->T, half(r->pool, b->inertia, pl_square(r->pool, pl_dt(r->pool, b->angle))));
+  }
+  for (int i = 0; i < m->loads.n; i++) {
+    const pl_load* l = &m->loads.at[i];
+    pl_group* g = group_of(r, l->block);
+    switch (l->kind) {
+      case PL_L_POTENTIAL: g->V = pl_add(r->pool, g->V, l->value); break;
+      case PL_L_KINETIC: g->T = pl_add(r->pool, g->T, l->value); break;
+      case PL_L_LAGRANGIAN: g->L = pl_add(r->pool, g->L, l->value); break;
+      case PL_L_SPRING: add_spring(r, g, l); break;
+      case PL_L_FORCE: case PL_L_TORQUE: case PL_L_RAYLEIGH: case PL_L_DAMPER: case PL_L_DRAG: r->dissipative = true; break;
+    }
+  }
+}
+
+// ---------------------------------------------------------------------------------------------- forces
+static pl_expr by_atom(pl_pool* p, pl_expr e, pl_expr atom) {
+  return pl_kind_of(p, atom) == PL_SYMBOL ? pl_diff(p, e, pl_symbol_of(p, atom)) : pl_diff_at(p, e, atom);
+}
+
+static void add_force(pl_recorder* r, pl_group* g, int i, pl_expr Q) {
+  g->force[i] = pl_is_poison(g->force[i]) ? Q : pl_add(r->pool, g->force[i], Q);
+}
+
+// Rayleigh's dissipation function R: Q_i = -dR/dv_i.
+static void dissipate(pl_recorder* r, pl_group* g, pl_expr R) {
+  for (int i = 0; i < g->atoms.n; i++) {
+    pl_expr Q = pl_neg(r->pool, by_atom(r->pool, R, pl_dt(r->pool, g->atoms.at[i])));
+    if (!pl_is_zero_node(r->pool, Q)) add_force(r, g, i, Q);
+  }
+}
+
+static void work(pl_recorder* r, pl_group* g, const pl_expr* force, const pl_expr* at, int n) {
+  for (int i = 0; i < g->atoms.n; i++) {
+    for (int j = 0; j < n; j++) {
+      pl_expr Q = pl_mul(r->pool, force[j], by_atom(r->pool, at[j], g->atoms.at[i]));
+      if (!pl_is_zero_node(r->pool, Q)) add_force(r, g, i, Q);
+    }
+  }
+}
+
+static void add_load(pl_recorder* r, pl_group* g, const pl_load* l) {
+  pl_pool* p = r->pool;
+  switch (l->kind) {
+    case PL_L_FORCE: work(r, g, l->vector, l->a.at, l->a.n); break;
+    case PL_L_TORQUE: {
+      pl_expr angle = l->coordinate.id ? pl_sym(p, l->coordinate) : l->a.at[0];
+      work(r, g, &l->value, &angle, 1);
+      break;
+    }
+    case PL_L_RAYLEIGH: dissipate(r, g, l->value); break;
+    case PL_L_DAMPER: dissipate(r, g, half(p, l->value, pl_square(p, pl_dt(p, distance(r, &l->a, &l->b))))); break;
+    case PL_L_DRAG: dissipate(r, g, half(p, l->value, squared_speed(p, &l->a))); break;
+    case PL_L_POTENTIAL: case PL_L_KINETIC: case PL_L_LAGRANGIAN: case PL_L_SPRING: break;
+  }
+}
+
+void pl_group_forces(pl_recorder* r, pl_group* g) {
+  // the coordinates that loads speak of
+  for (int i = 0; i < r->model->loads.n; i++) {
+    const pl_load* l = &r->model->loads.at[i];
+    if (group_of(r, l->block) != g) continue;
+    pl_group_atoms(r, g, l->value);
+    if (l->coordinate.id) pl_group_atoms(r, g, pl_sym(r->pool, l->coordinate));
+    for (int j = 0; j < 3; j++) pl_group_atoms(r, g, l->vector[j]);
+    for (int j = 0; j < l->a.n; j++) pl_group_atoms(r, g, l->a.at[j]);
+    for (int j = 0; j < l->b.n; j++) pl_group_atoms(r, g, l->b.at[j]);
+  }
+  g->force = PL_ARRAY(r->arena, pl_expr, g->atoms.n);
+  for (int i = 0; i < r->model->loads.n; i++) {
+    if (group_of(r, r->model->loads.at[i].block) == g) add_load(r, g, &r->model->loads.at[i]);
+  }
+}
+
+// ---------------------------------------------------------------------------------------------- size of a constraint force
+// The coordinates that a point depends on and in which the constraint moves it: gradients and metric J^T J, at most 3.
+typedef struct pl_lever { int n; pl_expr gradient[3]; pl_expr metric[3][3]; } pl_lever;
+
+static bool lever_of(pl_recorder* r, const pl_constraint* c, const pl_point* at, pl_lever* out) {
+  pl_pool* p = r->pool;
+  pl_expr q[3];
+  bool acts = false;
+  out->n = 0;
+  for (int i = 0; i < r->out->flat.n; i++) {
+    bool moves = false;
+    for (int j = 0; j < at->n; j++) moves |= !pl_is_zero_node(p, by_atom(p, at->at[j], r->out->flat.at[i]));
+    if (!moves) continue;
+    if (out->n == 3) return false;
+    q[out->n] = r->out->flat.at[i];
+    out->gradient[out->n] = by_atom(p, c->g, q[out->n]);
+    acts |= !pl_is_zero_node(p, out->gradient[out->n]);
+    out->n++;
+  }
+  for (int a = 0; a < out->n; a++) {
+    for (int b = 0; b < out->n; b++) {
+      pl_expr sum = pl_int(p, 0);
+      for (int j = 0; j < at->n; j++) sum = pl_add(p, sum, pl_mul(p, by_atom(p, at->at[j], q[a]), by_atom(p, at->at[j], q[b])));
+      out->metric[a][b] = sum;
+    }
+  }
+  return acts;
+}
+
+static pl_expr minor_of(pl_pool* p, const pl_lever* l, int a, int b) {
+  int rows[2], cols[2], n = 0, k = 0;
+  for (int i = 0; i < l->n; i++) {
+    if (i != a) rows[n++] = i;
+    if (i != b) cols[k++] = i;
+  }
+  if (l->n == 1) return pl_int(p, 1);
+  if (l->n == 2) return l->metric[rows[0]][cols[0]];
+  return pl_sub(p, pl_mul(p, l->metric[rows[0]][cols[0]], l->metric[rows[1]][cols[1]]),
+                pl_mul(p, l->metric[rows[0]][cols[1]], l->metric[rows[1]][cols[0]]));
+}
+
+// |Z|² = grad g^T (J^T J)^-1 grad g: the shortest force in space that does the same work on the coordinates of the point.
+static pl_expr squared_length(pl_pool* p, const pl_lever* l) {
+  pl_expr det = pl_int(p, 0), sum = pl_int(p, 0);
+  for (int b = 0; b < l->n; b++) {
+    pl_expr term = pl_mul(p, l->metric[0][b], minor_of(p, l, 0, b));
+    det = b % 2 ? pl_sub(p, det, term) : pl_add(p, det, term);
+  }
+  for (int a = 0; a < l->n; a++) {
+    for (int b = 0; b < l->n; b++) {
+      pl_expr term = pl_mul_n(p, (pl_expr[]){l->gradient[a], minor_of(p, l, a, b), l->gradient[b]}, 3);
+      sum = (a + b) % 2 ? pl_sub(p, sum, term) : pl_add(p, sum, term);
+    }
+  }
+  return pl_div(p, sum, det);
+}
+
+pl_expr pl_force_length(pl_recorder* r, const pl_constraint* c) {
+  const pl_model* m = r->model;
+  pl_lever l;
+  for (int i = 0; i < m->masses.n; i++) {
+    if (!m->masses.at[i].block && lever_of(r, c, &m->masses.at[i].point, &l)) return pl_sqrt(r->pool, squared_length(r->pool, &l));
+  }
+  for (int i = 0; i < m->bodies.n; i++) {
+    if (!m->bodies.at[i].block && lever_of(r, c, &m->bodies.at[i].centre, &l)) return pl_sqrt(r->pool, squared_length(r->pool, &l));
+  }
+  return pl_poison();
+}

@@ -1,0 +1,45 @@
+// record, inside: the translation of a checked model into the setup of a simulation.
+#ifndef PL_RECORD_IMPL_H
+#define PL_RECORD_IMPL_H
+
+#include "api/api_impl.h"
+
+// Everything that stands in one `for` block, or outside of all: one pattern.
+typedef struct pl_group {
+  const pl_block* block;      // NULL: outside
+  pl_instances instances;     // of the block; one without indices for the outside
+  PL_VEC(int) constraints;    // of the model
+  PL_VEC(pl_expr) atoms;      // coordinates that occur, as written: symbols and elements such as x[i-1]
+  pl_map* atom_at;            // id of an atom -> place + 1
+  pl_map* seen;               // ids of nodes looked at
+  pl_expr T, V, L;            // L: what `lagrangian` lines add
+  pl_expr* force;             // generalized forces without potential        (atoms), made when the atoms are known
+} pl_group;
+
+typedef struct pl_recorder {
+  pl_job* job;
+  pl_arena* arena;
+  pl_model* model;
+  pl_pool* pool;
+  pl_recording* out;
+  double* value;              // by symbol id: parameters, then start values of scalars
+  int n_value;
+  pl_map* flat_at;            // id of a coordinate atom with a number as index -> global index + 1
+  PL_VEC(pl_group*) groups;   // the outside first
+  int* first_link;            // global index of the first row of each constraint of the model
+  int n_links;                // with the map equations
+  bool dissipative, explicit_time;
+} pl_recorder;
+
+// record_forces.c: energies and generalized forces of the groups.
+void pl_group_energies(pl_recorder* r);
+void pl_group_forces(pl_recorder* r, pl_group* g);
+// |Z| of a constraint per unit of its multiplier: the length of its force on the first mass it acts on.
+pl_expr pl_force_length(pl_recorder* r, const pl_constraint* c);
+
+// record.c
+pl_expr pl_record_plain(pl_recorder* r, pl_expr e);           // sums over indices written out
+void pl_group_atoms(pl_recorder* r, pl_group* g, pl_expr e);  // adds the coordinates of e
+double pl_record_number(pl_recorder* r, pl_expr e);           // NaN when it is none
+
+#endif
