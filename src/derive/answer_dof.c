@@ -3,12 +3,12 @@
 
 #include "derive/derive_impl.h"
 
-static const char* label_of(const pl_link* l) { return l->source->name.text; }
+static const char* label_of(const pl_bond* l) { return l->source->name.text; }
 
 static const pl_form* zero_form(pl_analysis* d) { return pl_form_leaf(d->arena, pl_int(d->pool, 0)); }
 
 // "g1 = x1 + x2 - l = 0", "h = r - R ≥ 0"
-static const pl_form* link_form(pl_analysis* d, const pl_link* l) {
+static const pl_form* link_form(pl_analysis* d, const pl_bond* l) {
   const char* op = l->source->relation == PL_GE ? "≥" : l->source->relation == PL_LE ? "≤" : "=";
   const pl_form* body = pl_frel(d, pl_fe(d, l->g), op, zero_form(d));
   return pl_feq(d, pl_fn(d, label_of(l)), body);
@@ -26,7 +26,7 @@ static bool told(pl_analysis* d, const char* what) {
 static void row_of_lets(pl_analysis* d, pl_expr e) {
   for (int k = 0; k < d->model->lets.n; k++) {
     const pl_let* let = &d->model->lets.at[k];
-    if (let->n_args > 0 || !let->symbol.id || !pl_has_symbol(d->pool, e, let->symbol)) continue;
+    if (let->inserted || !pl_has_symbol(d->pool, e, let->symbol)) continue;
     if (told(d, pl_symbol_get(d->pool, let->symbol)->ascii)) continue;
     pl_row(d, "", "", pl_feq(d, pl_fs(d, let->symbol), pl_fe(d, let->value)), NULL);
   }
@@ -50,7 +50,7 @@ static void row_of_coordinates(pl_analysis* d) {
 static void rows_of_constraints(pl_analysis* d) {
   const char *en = "constraints", *de = "Zwangsbedingungen";
   for (int k = 0; k < d->g.n; k++) {
-    const pl_link* l = &d->g.at[k];
+    const pl_bond* l = &d->g.at[k];
     pl_step* row = pl_row(d, en, de, link_form(d, l), l->implied ? "0" : "-1");
     if (l->implied) {
       pl_step_after(row, "says nothing new", "sagt nichts Neues");
@@ -64,17 +64,17 @@ static void rows_of_constraints(pl_analysis* d) {
   }
 }
 
-static bool any(const pl_analysis* d, bool (*is)(const pl_analysis*, const pl_link*)) {
+static bool any(const pl_analysis* d, bool (*is)(const pl_analysis*, const pl_bond*)) {
   for (int k = 0; k < d->g.n; k++) {
     if (is(d, &d->g.at[k])) return true;
   }
   return false;
 }
 
-static bool is_rheonomic(const pl_analysis* d, const pl_link* l) { return pl_has_symbol(d->pool, l->g, pl_time(d->pool)); }
-static bool is_nonholonomic(const pl_analysis* d, const pl_link* l) { return l->velocity; }
-static bool is_contact(const pl_analysis* d, const pl_link* l) { return l->contact; }
-static bool is_implied(const pl_analysis* d, const pl_link* l) { return l->implied; }
+static bool is_rheonomic(const pl_analysis* d, const pl_bond* l) { return pl_has_symbol(d->pool, l->g, pl_time(d->pool)); }
+static bool is_nonholonomic(const pl_analysis* d, const pl_bond* l) { return l->velocity; }
+static bool is_contact(const pl_analysis* d, const pl_bond* l) { return l->contact; }
+static bool is_implied(const pl_analysis* d, const pl_bond* l) { return l->implied; }
 
 static void say_kinds(pl_analysis* d) {
   if (d->g.n == 0) return;
@@ -107,7 +107,7 @@ void pl_answer_dof(pl_analysis* d, const pl_ask* ask) {
 }
 
 // ---------------------------------------------------------------------------------------------- constraints
-static void say_contact(pl_analysis* d, const pl_link* l) {
+static void say_contact(pl_analysis* d, const pl_bond* l) {
   bool push = l->source->relation == PL_GE;
   const pl_form* closed = pl_feq(d, pl_fe(d, l->source->left), pl_fe(d, l->source->right));
   const pl_form* lambda = pl_frel(d, pl_fs(d, l->lambda), push ? "≥" : "≤", zero_form(d));
@@ -117,12 +117,12 @@ static void say_contact(pl_analysis* d, const pl_link* l) {
          "Einseitig: im Kontakt {1} und {2}; nach dem Abheben {3}.", 3, closed, lambda, open);
 }
 
-static bool dropped(const pl_link* l) { return l->fixes >= 0 && !l->contact; }
+static bool dropped(const pl_bond* l) { return l->fixes >= 0 && !l->contact; }
 
 // Of the dropped constraints, those with a vanishing (or not) multiplier, or fixed by a function of time.
 typedef enum pl_dropped_kind { PL_DROPPED_IDLE, PL_DROPPED_LOADED, PL_DROPPED_DRIVEN } pl_dropped_kind;
 
-static bool of_kind(pl_analysis* d, const pl_link* l, pl_dropped_kind kind) {
+static bool of_kind(pl_analysis* d, const pl_bond* l, pl_dropped_kind kind) {
   if (!dropped(l)) return false;
   bool driven = pl_has_symbol(d->pool, d->q.at[l->fixes].fixed, pl_time(d->pool));
   if (driven || kind == PL_DROPPED_DRIVEN) return driven && kind == PL_DROPPED_DRIVEN;
@@ -133,9 +133,9 @@ static bool of_kind(pl_analysis* d, const pl_link* l, pl_dropped_kind kind) {
 static int collect_dropped(pl_analysis* d, pl_dropped_kind kind, const pl_form** label, const pl_form** second, const pl_form** lambda) {
   int n = 0;
   for (int k = 0; k < d->g.n; k++) {
-    const pl_link* l = &d->g.at[k];
+    const pl_bond* l = &d->g.at[k];
     if (!of_kind(d, l, kind)) continue;
-    const pl_coordinate* c = &d->q.at[l->fixes];
+    const pl_variable* c = &d->q.at[l->fixes];
     pl_expr a = kind == PL_DROPPED_DRIVEN ? pl_dt(d->pool, pl_dt(d->pool, c->fixed)) : pl_int(d->pool, 0);
     label[n] = pl_fn(d, label_of(l));
     second[n] = pl_feq(d, pl_fs(d, c->a), pl_fe(d, a));
@@ -197,7 +197,7 @@ void pl_answer_constraints(pl_analysis* d, const pl_ask* ask) {
   pl_section_open(d, ask, after_dof ? NULL : "Constraints", after_dof ? NULL : "Zwangsbedingungen");
   bool some_dropped = false;
   for (int k = 0; k < d->g.n; k++) {
-    const pl_link* l = &d->g.at[k];
+    const pl_bond* l = &d->g.at[k];
     some_dropped |= dropped(l);
     if (l->contact) {
       say_contact(d, l);

@@ -23,7 +23,7 @@ typedef struct pl_rests {
 static pl_expr at_rest(pl_analysis* d, pl_expr e) {
   pl_replace r[2 * max_gen];
   for (int k = 0; k < d->gen.n; k++) {
-    const pl_coordinate* c = &d->q.at[d->gen.at[k]];
+    const pl_variable* c = &d->q.at[d->gen.at[k]];
     r[2 * k] = (pl_replace){c->v, pl_int(d->pool, 0)};
     r[2 * k + 1] = (pl_replace){c->a, pl_int(d->pool, 0)};
   }

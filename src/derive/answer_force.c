@@ -45,7 +45,7 @@ static bool along_axes(pl_analysis* d, int link, int particle, pl_force* out) {
   for (int c = 0; c < m->n; c++) {
     if (pl_is_constant(d->pool, m->at[c])) continue;
     if (pl_kind_of(d->pool, m->at[c]) != PL_SYMBOL) return false;
-    int i = pl_coordinate_index(d, pl_symbol_of(d->pool, m->at[c]));
+    int i = pl_variable_index(d, pl_symbol_of(d->pool, m->at[c]));
     if (i < 0 || shared(d, particle, d->q.at[i].q)) return false;
     pl_expr factor = pl_alg_normal(d->tower, pl_on_fixed(d, d->g.at[link].gradient[i]));
     if (pl_is_zero_node(d->pool, factor)) continue;
@@ -85,14 +85,14 @@ static const pl_form* vector_of(pl_analysis* d, const pl_force* f, const pl_expr
 // What λ is worth for this request: on the motion, with the velocity eliminated when a motion is named.
 typedef struct pl_lambda_value { pl_expr value; int number; bool eliminated; } pl_lambda_value;
 
-static const pl_form* at_start(pl_analysis* d, const pl_coordinate* c, pl_expr q0, pl_expr v0) {
+static const pl_form* at_start(pl_analysis* d, const pl_variable* c, pl_expr q0, pl_expr v0) {
   const pl_form* f[2] = {pl_feq(d, pl_fs(d, c->q), pl_fe(d, q0)), pl_feq(d, pl_fs(d, c->v), pl_fe(d, v0))};
   return pl_flist(d, f, 2);
 }
 
 // The energy equation and q'^2 from it; returns the number of the latter.
 static int show_elimination(pl_analysis* d, pl_expr v2, pl_expr q0, pl_expr v0) {
-  const pl_coordinate* c = &d->q.at[d->gen.at[0]];
+  const pl_variable* c = &d->q.at[d->gen.at[0]];
   pl_expr E = pl_energy_integral(d);
   pl_replace start[2] = {{c->q, q0}, {c->v, v0}};
   pl_expr E0 = pl_alg_normal(d->tower, pl_subst(d->pool, E, start, 2));
@@ -109,10 +109,10 @@ static int show_elimination(pl_analysis* d, pl_expr v2, pl_expr q0, pl_expr v0) 
 }
 
 static void show_differentiated(pl_analysis* d, int k) {
-  const pl_link* l = &d->g.at[k];
+  const pl_bond* l = &d->g.at[k];
   const char* g = l->source->name.text;
   if (l->fixes >= 0) {
-    const pl_coordinate* c = &d->q.at[l->fixes];
+    const pl_variable* c = &d->q.at[l->fixes];
     const pl_form* f[2] = {pl_feq(d, pl_fn(d, pl_format(d->arena, "%s'", g)), pl_feq(d, pl_fs(d, c->v), pl_fe(d, pl_dt(d->pool, c->fixed)))),
                            pl_feq(d, pl_fn(d, pl_format(d->arena, "%s''", g)), pl_feq(d, pl_fs(d, c->a), pl_fe(d, pl_dt(d->pool, pl_dt(d->pool, c->fixed)))))};
     pl_show(d, pl_flist(d, f, 2));
@@ -122,7 +122,7 @@ static void show_differentiated(pl_analysis* d, int k) {
 }
 
 static pl_lambda_value lambda_for(pl_analysis* d, int k, const pl_motion* motion, bool show) {
-  pl_link* l = &d->g.at[k];
+  pl_bond* l = &d->g.at[k];
   pl_lambda_value out = {.value = l->lambda_value};
   bool moves = d->gen.n == 1 && pl_has_symbol(d->pool, l->lambda_value, d->q.at[d->gen.at[0]].v);
   if (show && (!d->number_lambda || moves)) {
@@ -207,7 +207,7 @@ static void say_equilibrium_start(pl_analysis* d, const pl_motion* motion, int k
   pl_expr v2, q0, v0;
   if (!motion->given || !pl_velocity_squared(d, motion, &v2, &q0, &v0)) return;
   if (pl_starts_in_equilibrium(d, q0, v0) != PL_YES) return;
-  const pl_coordinate* c = &d->q.at[d->gen.at[0]];
+  const pl_variable* c = &d->q.at[d->gen.at[0]];
   pl_motion init = {0};
   pl_expr from_init = pl_poison();
   if (pl_velocity_squared(d, &init, &v2, &q0, &v0)) from_init = pl_without_velocity(d, d->g.at[k].lambda_value, v2);

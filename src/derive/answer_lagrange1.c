@@ -23,7 +23,7 @@ static pl_sides sides_of(pl_analysis* d, int i, pl_expr scale, bool insert) {
   return s;
 }
 
-static const pl_form* push_form(pl_analysis* d, const pl_link* l, pl_expr gradient) {
+static const pl_form* push_form(pl_analysis* d, const pl_bond* l, pl_expr gradient) {
   const pl_form* lambda = pl_fs(d, l->lambda);
   if (pl_is_one_node(d->pool, gradient)) return lambda;
   long n;
@@ -48,7 +48,7 @@ static const pl_form* right_side(pl_analysis* d, int i, const pl_sides* s, pl_ex
   int n = 0;
   if (!pl_is_zero_node(d->pool, s->force)) flatten(pl_f(d, s->force, PL_S_EQUATION), term, &n, max_sum);
   for (int k = 0; k < d->g.n; k++) {
-    const pl_link* l = &d->g.at[k];
+    const pl_bond* l = &d->g.at[k];
     if (l->implied || (insert && l->fixes >= 0 && !l->contact && l->fixes != i)) continue;
     pl_expr gradient = pl_div(d->pool, insert ? pl_on_fixed(d, l->gradient[i]) : l->gradient[i], scale);
     gradient = pl_alg_normal(d->tower, gradient);
@@ -142,7 +142,7 @@ static void show_kinematics(pl_analysis* d, const pl_particle* k, const pl_frame
   in_frame(d, k, f, vector, component);
   if (d->model->gravities.n > 0) show_vector(d, "F_g", f, component);
   for (int c = 0; c < d->g.n; c++) {
-    const pl_link* l = &d->g.at[c];
+    const pl_bond* l = &d->g.at[c];
     bool acts = false;
     for (int j = 0; j < f->n; j++) {
       pl_expr push = pl_div(d->pool, pl_mul(d->pool, pl_sym(d->pool, l->lambda), l->gradient[f->coordinate[j]]), f->scale[j]);
@@ -155,7 +155,7 @@ static void show_kinematics(pl_analysis* d, const pl_particle* k, const pl_frame
 
 // ---------------------------------------------------------------------------------------------- the section
 static const char* title_of(pl_analysis* d, pl_language lang) {
-  const pl_link* only = NULL;
+  const pl_bond* only = NULL;
   int n = 0;
   for (int k = 0; k < d->g.n; k++) {
     if (d->g.at[k].fixes >= 0 && !d->g.at[k].contact) continue;
@@ -179,7 +179,7 @@ static void lagrange1_in_frame(pl_analysis* d, const pl_particle* k, const pl_fr
 static void lagrange1_in_coordinates(pl_analysis* d, const pl_ask* ask) {
   bool insert = d->fixed.n > 0;
   for (int i = 0; i < d->q.n; i++) {
-    const pl_coordinate* c = &d->q.at[i];
+    const pl_variable* c = &d->q.at[i];
     bool named = ask->frame.n == 0;
     for (int j = 0; j < ask->frame.n; j++) named |= ask->frame.at[j].id == c->q.id;
     if (!c->carries || !named) continue;
@@ -191,7 +191,7 @@ static void lagrange1_in_coordinates(pl_analysis* d, const pl_ask* ask) {
 static void answer_accelerations(pl_analysis* d) {
   if (!d->solved) return;
   for (int i = 0; i < d->q.n; i++) {
-    const pl_coordinate* c = &d->q.at[i];
+    const pl_variable* c = &d->q.at[i];
     if (!c->carries || (c->fixed_by >= 0 && !c->by_contact) || pl_is_poison(d->acceleration[i])) continue;
     pl_answer(d, pl_symbol_get(d->pool, c->a)->ascii, d->acceleration[i], pl_f(d, d->acceleration[i], PL_S_QUOTIENT));
   }

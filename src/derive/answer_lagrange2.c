@@ -44,7 +44,7 @@ static void say_satisfied(pl_analysis* d) {
   const pl_form** f = PL_ARRAY(d->arena, const pl_form*, d->g.n + 1);
   int n = 0;
   for (int k = 0; k < d->g.n; k++) {
-    const pl_link* l = &d->g.at[k];
+    const pl_bond* l = &d->g.at[k];
     bool by_coordinate = l->fixes >= 0 || l->implied;
     for (int i = 0; i < d->q.n; i++) by_coordinate |= d->q.at[i].solved_by == k;
     if (by_coordinate) continue;
@@ -59,7 +59,7 @@ static void say_satisfied(pl_analysis* d) {
 static void show_maps(pl_analysis* d) {
   bool chosen = false;
   for (int i = 0; i < d->q.n; i++) {
-    const pl_coordinate* c = &d->q.at[i];
+    const pl_variable* c = &d->q.at[i];
     if (c->fixed_by >= 0 || pl_is_poison(c->map)) continue;
     const pl_form* form = pl_f(d, c->map, PL_S_SOLUTION);
     pl_step* step = pl_show(d, pl_feq(d, pl_fs(d, c->q), form));
@@ -78,7 +78,7 @@ static void show_maps(pl_analysis* d) {
 
 static void show_velocities(pl_analysis* d) {
   for (int i = 0; i < d->q.n; i++) {
-    const pl_coordinate* c = &d->q.at[i];
+    const pl_variable* c = &d->q.at[i];
     if (c->fixed_by >= 0 || pl_is_poison(c->map)) continue;
     pl_expr v = pl_dt(d->pool, c->map);
     const pl_form* form = pl_f(d, v, PL_S_PLAIN);
@@ -134,7 +134,7 @@ void pl_answer_lagrangian(pl_analysis* d, const pl_ask* ask) {
 static pl_expr generalized_force(pl_analysis* d, int i) {
   pl_expr sum = pl_on_maps(d, d->force[i]);
   for (int j = 0; j < d->q.n; j++) {
-    const pl_coordinate* c = &d->q.at[j];
+    const pl_variable* c = &d->q.at[j];
     if (c->fixed_by >= 0 || pl_is_poison(c->map) || pl_is_zero_node(d->pool, d->force[j])) continue;
     sum = pl_add(d->pool, sum, pl_mul(d->pool, pl_on_maps(d, d->force[j]), pl_diff(d->pool, c->map, d->q.at[i].q)));
   }
@@ -142,7 +142,7 @@ static pl_expr generalized_force(pl_analysis* d, int i) {
 }
 
 pl_expr pl_second_kind(pl_analysis* d, int i) {
-  const pl_coordinate* c = &d->q.at[i];
+  const pl_variable* c = &d->q.at[i];
   pl_expr momentum = pl_dt(d->pool, pl_diff(d->pool, d->Lg, c->v));
   pl_expr e = pl_sub(d->pool, momentum, pl_diff(d->pool, d->Lg, c->q));
   return pl_sub(d->pool, e, generalized_force(d, i));
@@ -164,7 +164,7 @@ static const long long_mass = 14;   // operators in M(q) above which it gets a n
 
 // One degree of freedom with a long M(q):  M q'' + 1/2 M' q'^2 + V' = 0.
 static bool show_with_named_mass(pl_analysis* d, int i) {
-  const pl_coordinate* c = &d->q.at[i];
+  const pl_variable* c = &d->q.at[i];
   pl_expr M = pl_alg_normal(d->tower, pl_diff(d->pool, pl_diff(d->pool, d->Tg, c->v), c->v));
   bool natural = pl_same(pl_alg_normal(d->tower, pl_diff(d->pool, d->Tg, c->v)), pl_alg_normal(d->tower, pl_mul(d->pool, M, pl_sym(d->pool, c->v))));
   const pl_form* form = pl_f(d, M, PL_S_ENERGY);
@@ -205,7 +205,7 @@ static void show_solved(pl_analysis* d, int i) {
 
 // With the energy the motion of one degree of freedom is an integral:  t = ∫ dq sqrt(M / (2 (E - V))).
 static void show_quadrature(pl_analysis* d, int i) {
-  const pl_coordinate* c = &d->q.at[i];
+  const pl_variable* c = &d->q.at[i];
   pl_expr E = pl_conserved_energy(d);
   if (pl_is_poison(E) || pl_is_poison(d->acceleration[i])) return;
   pl_expr M = pl_diff(d->pool, pl_diff(d->pool, d->Tg, c->v), c->v);

@@ -9,7 +9,7 @@ static pl_expr subject(pl_analysis* d, const pl_ask* ask, pl_expr e) {
   e = pl_on_motion(d, pl_with_results(d, e));
   for (int k = d->model->lets.n - 1; k >= 0; k--) {
     const pl_let* l = &d->model->lets.at[k];
-    if (l->n_args > 0 || !l->symbol.id || !pl_has_symbol(d->pool, e, l->symbol)) continue;
+    if (l->inserted || !pl_has_symbol(d->pool, e, l->symbol)) continue;
     bool hangs = pl_has_symbol(d->pool, l->value, ask->variable);
     if (hangs) e = pl_subst1(d->pool, e, l->symbol, l->value);
   }

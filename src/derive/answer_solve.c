@@ -27,7 +27,7 @@ static pl_expr own_acceleration(pl_analysis* d, int i) {
   }
   pl_expr push = pl_neg(d->pool, zero_accelerations(d, e));
   for (int k = 0; k < d->g.n; k++) {
-    const pl_link* l = &d->g.at[k];
+    const pl_bond* l = &d->g.at[k];
     if (l->implied || l->fixes >= 0) continue;
     push = pl_add(d->pool, push, pl_mul(d->pool, pl_sym(d->pool, l->lambda), pl_on_contact(d, l->gradient[i])));
   }
@@ -72,13 +72,13 @@ static const pl_form* by_multipliers(pl_analysis* d, pl_expr e) {
 }
 
 static void show_twice_differentiated(pl_analysis* d, int k) {
-  const pl_link* l = &d->g.at[k];
+  const pl_bond* l = &d->g.at[k];
   const pl_form* zero = pl_form_leaf(d->arena, pl_int(d->pool, 0));
-  pl_expr gdd = pl_on_fixed(d, pl_link_acceleration(d, k));
+  pl_expr gdd = pl_on_fixed(d, pl_bond_acceleration(d, k));
   pl_say(d, l->velocity ? "The time derivative of {1}:" : "Two time derivatives of {1}:",
          l->velocity ? "Zeitableitung von {1}:" : "Zweimalige Zeitableitung der Zwangsbedingung {1}:", 1, pl_fn(d, l->source->name.text));
   if (l->contact && l->fixes >= 0) {
-    const pl_coordinate* c = &d->q.at[l->fixes];
+    const pl_variable* c = &d->q.at[l->fixes];
     const pl_form* both[2] = {pl_feq(d, pl_fs(d, c->v), pl_fe(d, pl_dt(d->pool, c->fixed))),
                               pl_feq(d, pl_fs(d, c->a), pl_fe(d, pl_dt(d->pool, pl_dt(d->pool, c->fixed))))};
     d->number_gdd = pl_show_numbered(d, pl_flist(d, both, 2))->number;
@@ -96,7 +96,7 @@ static void show_twice_differentiated(pl_analysis* d, int k) {
 
 // λ with the state eliminated, displayed with its number.
 static void show_lambda(pl_analysis* d, int k) {
-  pl_link* l = &d->g.at[k];
+  pl_bond* l = &d->g.at[k];
   if (!l->lambda_known) {
     pl_say(d, "{1} is not determined by the equations in closed form.", "{1} ist durch die Gleichungen nicht geschlossen bestimmt.", 1,
            pl_fs(d, l->lambda));
@@ -230,7 +230,7 @@ static const pl_form* of_time(pl_analysis* d, int i) {
 // Coordinates that hang on i alone by the map: x2(t) = l - x1(t).
 static void show_followers(pl_analysis* d, int i) {
   for (int j = 0; j < d->q.n; j++) {
-    const pl_coordinate* c = &d->q.at[j];
+    const pl_variable* c = &d->q.at[j];
     if (j == i || c->fixed_by >= 0 || pl_is_poison(c->map) || !pl_has_symbol(d->pool, c->map, d->q.at[i].q)) continue;
     pl_expr shown = pl_subst1(d->pool, c->map, d->q.at[i].q, pl_sym(d->pool, d->q.at[i].q));
     pl_show(d, pl_feq(d, pl_fs(d, c->q), pl_f(d, shown, PL_S_SOLUTION)));
@@ -239,7 +239,7 @@ static void show_followers(pl_analysis* d, int i) {
 
 static void solve_motion(pl_analysis* d, int i) {
   if (no_acceleration(d, i)) return;
-  const pl_coordinate* c = &d->q.at[i];
+  const pl_variable* c = &d->q.at[i];
   if (!pl_is_poison(c->map) && c->solved_by != -2 && d->reduced && d->gen.n == 1 && d->gen.at[0] != i) {
     solve_motion(d, d->gen.at[0]);   // the map then gives this one
     return;
@@ -266,7 +266,7 @@ static void solve_motion(pl_analysis* d, int i) {
 void pl_answer_solve(pl_analysis* d, const pl_ask* ask) {
   bool goes_on = ask->letter && d->solution->sections.n > 0 && d->section->letter && strcmp(d->section->letter, ask->letter) == 0;
   pl_symbol s = pl_kind_of(d->pool, ask->value) == PL_SYMBOL ? pl_symbol_of(d->pool, ask->value) : (pl_symbol){0};
-  int k = link_of_lambda(d, s), i = pl_coordinate_index(d, s);
+  int k = link_of_lambda(d, s), i = pl_variable_index(d, s);
   if (k >= 0) {
     pl_section_open(d, ask, goes_on ? NULL : "Multiplier", goes_on ? NULL : "Multiplikator");
     solve_lambda(d, k);

@@ -17,7 +17,7 @@ static pl_expr result_value(pl_analysis* d, const pl_result_name* r) {
     case PL_RES_NORMAL: break;
   }
   for (int k = 0; k < d->g.n; k++) {   // size of a constraint force: |λ| |∇g| where it acts on one mass
-    const pl_link* l = &d->g.at[k];
+    const pl_bond* l = &d->g.at[k];
     if (!r->label || strcmp(l->source->name.text, r->label) != 0) continue;
     pl_expr sum = pl_int(d->pool, 0);
     for (int i = 0; i < d->q.n; i++) sum = pl_add(d->pool, sum, pl_square(d->pool, l->gradient[i]));

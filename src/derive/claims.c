@@ -74,10 +74,10 @@ static void definitions(pl_analysis* d, pl_system_of_motion* s) {
   s->definition = PL_ARRAY(d->arena, pl_definition, 2 * d->q.n + d->model->lets.n);
   for (int k = 0; k < d->model->lets.n; k++) {
     const pl_let* l = &d->model->lets.at[k];
-    if (l->n_args == 0 && l->symbol.id && !pl_has_coordinates(d, l->value)) define(s, l->symbol, l->value);
+    if (l->n_args == 0 && !l->inserted) define(s, l->symbol, l->value);
   }
   for (int i = 0; i < d->q.n; i++) {
-    const pl_coordinate* c = &d->q.at[i];
+    const pl_variable* c = &d->q.at[i];
     pl_expr value = c->fixed_by >= 0 ? c->fixed : d->reduced ? c->map : pl_poison();
     if (pl_is_poison(value)) continue;
     define(s, c->q, value);
@@ -85,7 +85,7 @@ static void definitions(pl_analysis* d, pl_system_of_motion* s) {
   }
 }
 
-static bool takes_part(const pl_analysis* d, const pl_coordinate* c) { return c->carries || (c->chosen && d->reduced); }
+static bool takes_part(const pl_analysis* d, const pl_variable* c) { return c->carries || (c->chosen && d->reduced); }
 
 // Unknowns: accelerations of all coordinates and all multipliers.  Rows: d'Alembert for what carries something, constraints
 // twice differentiated, maps twice differentiated for what only stands in `choose`.
@@ -94,7 +94,7 @@ static void rows(pl_analysis* d, pl_system_of_motion* s) {
   s->unknown = PL_ARRAY(d->arena, pl_symbol, cap);
   s->row = PL_ARRAY(d->arena, pl_expr, cap);
   for (int i = 0; i < d->q.n; i++) {
-    const pl_coordinate* c = &d->q.at[i];
+    const pl_variable* c = &d->q.at[i];
     if (!takes_part(d, c)) continue;
     s->unknown[s->n++] = c->a;
     if (c->chosen && !c->carries) continue;
@@ -109,11 +109,11 @@ static void rows(pl_analysis* d, pl_system_of_motion* s) {
   for (int k = 0; k < d->g.n; k++) {
     if (d->g.at[k].implied) continue;
     s->unknown[s->n++] = d->g.at[k].lambda;
-    s->row[n_rows++] = pl_link_acceleration(d, k);
+    s->row[n_rows++] = pl_bond_acceleration(d, k);
   }
   // A chosen angle's acceleration: one row of its map for each such angle.
   for (int i = 0; i < d->q.n && n_rows < s->n; i++) {
-    const pl_coordinate* c = &d->q.at[i];
+    const pl_variable* c = &d->q.at[i];
     if (pl_is_poison(c->map) || c->solved_by != -1 || !d->reduced) continue;
     s->row[n_rows++] = pl_sub(d->pool, pl_sym(d->pool, c->a), pl_dt(d->pool, pl_dt(d->pool, c->map)));
   }
@@ -146,7 +146,7 @@ static pl_certifier* on_free_points(pl_analysis* d) {
   s.definition = PL_ARRAY(d->arena, pl_definition, d->model->lets.n);
   for (int k = 0; k < d->model->lets.n; k++) {
     const pl_let* l = &d->model->lets.at[k];
-    if (l->n_args == 0 && l->symbol.id && !pl_has_coordinates(d, l->value)) define(&s, l->symbol, l->value);
+    if (l->n_args == 0 && !l->inserted) define(&s, l->symbol, l->value);
   }
   pl_certifier_setup setup = {.facts = d->facts.at, .n_facts = d->facts.n, .definitions = s.definition,
                               .n_definitions = s.n_definitions};

@@ -5,7 +5,7 @@
 #include "derive/derive.h"
 
 // ---------------------------------------------------------------------------------------------- coordinates
-typedef struct pl_coordinate {
+typedef struct pl_variable {
   pl_symbol q, v, a;
   bool carries;        // moves a mass or occurs in a force or constraint; false: only stands in `choose`
   bool chosen;         // named by `choose`
@@ -14,9 +14,9 @@ typedef struct pl_coordinate {
   pl_expr fixed;       // its value then
   pl_expr map;         // as a function of the generalized coordinates and t; poison while unresolved
   int solved_by;       // index of the constraint that map solves, -1: of `choose`, -2: generalized itself or fixed
-} pl_coordinate;
+} pl_variable;
 
-typedef struct pl_link {   // a constraint at work
+typedef struct pl_bond {   // a constraint at work
   const pl_constraint* source;
   pl_expr g;               // left - right
   int fixes;               // coordinate that it fixes, -1
@@ -27,7 +27,7 @@ typedef struct pl_link {   // a constraint at work
   pl_symbol lambda;
   pl_expr lambda_value;    // solved, on the constraints; poison if not
   bool lambda_known;
-} pl_link;
+} pl_bond;
 
 typedef struct pl_particle {   // a point mass or the centre of a body
   const char* label;           // "m1"
@@ -64,8 +64,8 @@ typedef struct pl_analysis {
   pl_section* section;         // the one being written
   const pl_derive_options* options;
 
-  PL_VEC(pl_coordinate) q;
-  PL_VEC(pl_link) g;
+  PL_VEC(pl_variable) q;
+  PL_VEC(pl_bond) g;
   PL_VEC(pl_particle) particle;
   PL_VEC(pl_fact) facts;
   double* value;               // numbers of parameters, start values; NaN unknown       (by symbol id, see d_values)
@@ -96,7 +96,7 @@ typedef struct pl_analysis {
 // ---------------------------------------------------------------------------------------------- setup.c
 pleuel_status pl_setup_coordinates(pl_analysis* d);     // coordinates, particles, links, facts, start numbers
 pleuel_status pl_setup_trivial(pl_analysis* d);         // coordinate = constant or f(t); contradictions; implied ones
-int pl_coordinate_index(const pl_analysis* d, pl_symbol q);      // of q, q' or q''; -1
+int pl_variable_index(const pl_analysis* d, pl_symbol q);      // of q, q' or q''; -1
 bool pl_has_coordinates(const pl_analysis* d, pl_expr e);        // coordinates or velocities or accelerations
 pl_expr pl_on_fixed(pl_analysis* d, pl_expr e);         // with the dropped coordinates inserted (not contacts)
 pl_expr pl_on_contact(pl_analysis* d, pl_expr e);       // and with contacts closed
@@ -112,7 +112,7 @@ const char* pl_unit_vector(pl_analysis* d, int coordinate);      // "e_r"
 pleuel_status pl_reduce(pl_analysis* d);                // generalized coordinates and maps
 // solve_motion.c
 pleuel_status pl_solve_motion(pl_analysis* d);          // accelerations and multipliers
-pl_expr pl_link_acceleration(pl_analysis* d, int link); // twice differentiated constraint, raw
+pl_expr pl_bond_acceleration(pl_analysis* d, int link); // twice differentiated constraint, raw
 // claims.c
 void pl_claim_that(pl_analysis* d, pl_claim_kind kind, pl_expr shown, pl_expr reference);
 void pl_claim_free(pl_analysis* d, pl_claim_kind kind, pl_expr shown, pl_expr reference);

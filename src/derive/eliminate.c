@@ -65,7 +65,7 @@ static pl_expr from_value(pl_analysis* d, const pl_motion* motion, pl_symbol s) 
   return pl_poison();
 }
 
-static void start_of(pl_analysis* d, const pl_motion* motion, const pl_coordinate* c, pl_expr* q0, pl_expr* v0) {
+static void start_of(pl_analysis* d, const pl_motion* motion, const pl_variable* c, pl_expr* q0, pl_expr* v0) {
   *q0 = *v0 = pl_poison();
   if (motion->given) {
     *q0 = from_value(d, motion, c->q);
@@ -79,7 +79,7 @@ bool pl_velocity_squared(pl_analysis* d, const pl_motion* motion, pl_expr* v2, p
   if (!d->reduced || d->gen.n != 1) return false;
   pl_expr E = pl_conserved_energy(d);
   if (pl_is_poison(E)) return false;
-  const pl_coordinate* c = &d->q.at[d->gen.at[0]];
+  const pl_variable* c = &d->q.at[d->gen.at[0]];
   pl_expr coefficient[3];
   if (pl_alg_coefficients(d->tower, E, c->v, coefficient, 2) != 2) return false;
   if (!pl_is_zero_node(d->pool, coefficient[1])) return false;

@@ -18,7 +18,7 @@ void pl_note_equilibrium_start(pl_analysis* d) {
   pl_replace start[32];
   pl_span span = {0};
   for (int k = 0; k < d->gen.n; k++) {
-    const pl_coordinate* c = &d->q.at[d->gen.at[k]];
+    const pl_variable* c = &d->q.at[d->gen.at[k]];
     const pl_init *q = init_of(d, c->q), *v = init_of(d, c->v);
     if (!q || (v && !pl_is_zero_node(d->pool, v->value))) return;
     start[2 * k] = (pl_replace){c->q, q->value};
@@ -43,7 +43,7 @@ void pl_note_equilibrium_start(pl_analysis* d) {
 static int coordinate_at(const pl_analysis* d, int m, int c) {
   const pl_particle* k = &d->particle.at[m];
   if (c >= k->n || pl_kind_of(d->pool, k->at[c]) != PL_SYMBOL) return -1;
-  return pl_coordinate_index(d, pl_symbol_of(d->pool, k->at[c]));
+  return pl_variable_index(d, pl_symbol_of(d->pool, k->at[c]));
 }
 
 static bool uses(const pl_analysis* d, int link, int i) {
@@ -75,7 +75,7 @@ static bool left_out(pl_analysis* d, int link, int* present, int* missing, int* 
 void pl_note_attribution(pl_analysis* d, int link) {
   int present, missing, mass;
   if (!left_out(d, link, &present, &missing, &mass)) return;
-  const pl_link *l = &d->g.at[link], *guide = &d->g.at[d->q.at[missing].fixed_by];
+  const pl_bond *l = &d->g.at[link], *guide = &d->g.at[d->q.at[missing].fixed_by];
   const pl_symbol_info *z1 = pl_symbol_get(d->pool, d->q.at[present].q), *z2 = pl_symbol_get(d->pool, d->q.at[missing].q);
   pl_expr difference = pl_sub(d->pool, pl_sym(d->pool, d->q.at[present].q), pl_sym(d->pool, d->q.at[missing].q));
   pl_expr full = pl_subst1(d->pool, l->source->left, d->q.at[present].q, difference);

@@ -7,12 +7,12 @@
 
 enum { max_roots = 8 };
 
-static bool open_coordinate(const pl_coordinate* c) {
+static bool open_coordinate(const pl_variable* c) {
   return c->carries && c->fixed_by < 0 && !c->chosen && pl_is_poison(c->map);
 }
 
 static void set_map(pl_analysis* d, int i, pl_expr map, int solved_by) {
-  pl_coordinate* c = &d->q.at[i];
+  pl_variable* c = &d->q.at[i];
   c->map = map;
   c->solved_by = solved_by;
   pl_expr v = pl_dt(d->pool, map), a = pl_dt(d->pool, v);
@@ -33,7 +33,7 @@ static void chosen_maps(pl_analysis* d) {
   const pl_choose* choose = &d->model->choose;
   for (int k = 0; k < choose->n_maps; k++) {
     if (pl_kind_of(d->pool, choose->maps[k].old) != PL_SYMBOL) continue;
-    int i = pl_coordinate_index(d, pl_symbol_of(d->pool, choose->maps[k].old));
+    int i = pl_variable_index(d, pl_symbol_of(d->pool, choose->maps[k].old));
     if (i >= 0 && d->q.at[i].fixed_by < 0) set_map(d, i, mapped(d, choose->maps[k].map), -1);
   }
 }
@@ -102,7 +102,7 @@ static bool solve_roots(pl_analysis* d, pl_expr e, int i, pl_expr* out) {
 }
 
 static bool solve_link(pl_analysis* d, int k, bool roots) {
-  pl_link* l = &d->g.at[k];
+  pl_bond* l = &d->g.at[k];
   if (l->fixes >= 0 || l->implied || l->velocity) return false;
   pl_expr e = mapped(d, l->g);
   for (int i = d->q.n - 1; i >= 0; i--) {
@@ -117,7 +117,7 @@ static bool solve_link(pl_analysis* d, int k, bool roots) {
 }
 
 // 0: the map satisfies the constraint identically; 1: something is left; -1: not decided.
-static int left_over(pl_analysis* d, const pl_link* l) {
+static int left_over(pl_analysis* d, const pl_bond* l) {
   pl_answer3 zero = pl_alg_is_zero(d->tower, mapped(d, l->g));
   return zero == PL_YES ? 0 : zero == PL_NO ? 1 : -1;
 }
@@ -125,7 +125,7 @@ static int left_over(pl_analysis* d, const pl_link* l) {
 static bool solve_links(pl_analysis* d) {
   bool roots_allowed = d->model->choose.coords.n > 0;
   for (int k = 0; k < d->g.n; k++) {
-    pl_link* l = &d->g.at[k];
+    pl_bond* l = &d->g.at[k];
     if (l->fixes >= 0 || l->implied) continue;
     if (l->velocity) return false;
     if (left_over(d, l) == 0) continue;
@@ -137,7 +137,7 @@ static bool solve_links(pl_analysis* d) {
 // What is neither fixed nor mapped is generalized.
 static void collect_generalized(pl_analysis* d) {
   for (int i = 0; i < d->q.n; i++) {
-    pl_coordinate* c = &d->q.at[i];
+    pl_variable* c = &d->q.at[i];
     if (c->fixed_by < 0 && pl_is_poison(c->map) && (c->carries || c->chosen)) pl_push(d->arena, d->gen, i);
   }
 }

@@ -5,9 +5,9 @@
 
 #include "derive/derive_impl.h"
 
-int pl_coordinate_index(const pl_analysis* d, pl_symbol s) {
+int pl_variable_index(const pl_analysis* d, pl_symbol s) {
   for (int i = 0; i < d->q.n; i++) {
-    const pl_coordinate* c = &d->q.at[i];
+    const pl_variable* c = &d->q.at[i];
     if (c->q.id == s.id || c->v.id == s.id || c->a.id == s.id) return i;
   }
   return -1;
@@ -55,7 +55,7 @@ double pl_number(pl_analysis* d, pl_expr e) {
 // ---------------------------------------------------------------------------------------------- what there is
 static void add_coordinates(pl_analysis* d) {
   for (int k = 0; k < d->model->coords.n; k++) {
-    pl_coordinate c = {.q = d->model->coords.at[k].symbol, .fixed_by = -1, .solved_by = -2};
+    pl_variable c = {.q = d->model->coords.at[k].symbol, .fixed_by = -1, .solved_by = -2};
     c.v = pl_symbol_dot(d->pool, c.q);
     c.a = pl_symbol_dot(d->pool, c.v);
     pl_symbol_start(d->pool, c.q);
@@ -63,7 +63,7 @@ static void add_coordinates(pl_analysis* d) {
     pl_push(d->arena, d->q, c);
   }
   for (int k = 0; k < d->model->choose.coords.n; k++) {
-    int i = pl_coordinate_index(d, d->model->choose.coords.at[k]);
+    int i = pl_variable_index(d, d->model->choose.coords.at[k]);
     if (i >= 0) d->q.at[i].chosen = true;
   }
 }
@@ -88,7 +88,7 @@ static void add_links(pl_analysis* d) {
   for (int k = 0; k < d->model->constraints.n; k++) {
     const pl_constraint* c = &d->model->constraints.at[k];
     if (c->off) continue;
-    pl_link l = {.source = c, .g = c->g, .fixes = -1, .contact = c->relation != PL_EQ, .velocity = c->has_velocity,
+    pl_bond l = {.source = c, .g = c->g, .fixes = -1, .contact = c->relation != PL_EQ, .velocity = c->has_velocity,
                  .lambda = c->lambda};
     l.gradient = PL_ARRAY(d->arena, pl_expr, d->q.n);
     for (int i = 0; i < d->q.n; i++) {
@@ -115,12 +115,12 @@ static void add_facts(pl_analysis* d) {
   }
 }
 
-static bool mentions(const pl_analysis* d, pl_expr e, const pl_coordinate* c) {
+static bool mentions(const pl_analysis* d, pl_expr e, const pl_variable* c) {
   return !pl_is_poison(e) && (pl_has_symbol(d->pool, e, c->q) || pl_has_symbol(d->pool, e, c->v));
 }
 
 // A coordinate that only stands in `choose` moves nothing by itself.
-static bool carries(const pl_analysis* d, const pl_coordinate* c) {
+static bool carries(const pl_analysis* d, const pl_variable* c) {
   for (int k = 0; k < d->particle.n; k++) {
     const pl_particle* m = &d->particle.at[k];
     for (int j = 0; j < m->n; j++) {
@@ -171,7 +171,7 @@ pleuel_status pl_setup_coordinates(pl_analysis* d) {
 static int only_coordinate(const pl_analysis* d, pl_expr e) {
   int found = -1;
   for (int i = 0; i < d->q.n; i++) {
-    const pl_coordinate* c = &d->q.at[i];
+    const pl_variable* c = &d->q.at[i];
     if (pl_has_symbol(d->pool, e, c->v)) return -2;
     if (!pl_has_symbol(d->pool, e, c->q)) continue;
     if (found >= 0) return -2;
@@ -181,7 +181,7 @@ static int only_coordinate(const pl_analysis* d, pl_expr e) {
 }
 
 static void fix_coordinate(pl_analysis* d, int i, int link, pl_expr value) {
-  pl_coordinate* c = &d->q.at[i];
+  pl_variable* c = &d->q.at[i];
   c->fixed_by = link;
   c->by_contact = d->g.at[link].contact;
   c->fixed = value;
@@ -197,7 +197,7 @@ static void fix_coordinate(pl_analysis* d, int i, int link, pl_expr value) {
   }
 }
 
-static pleuel_status contradiction(pl_analysis* d, const pl_link* l, pl_expr rest) {
+static pleuel_status contradiction(pl_analysis* d, const pl_bond* l, pl_expr rest) {
   const char* text = pl_expr_text(d->arena, d->pool, rest);
   pl_diagnostic* m = pl_report(d->job->diagnostics, PL_E042, l->source->span,
     pl_format(d->arena, "constraint %s contradicts the others: it leaves %s = 0", l->source->name.text, text),
@@ -208,7 +208,7 @@ static pleuel_status contradiction(pl_analysis* d, const pl_link* l, pl_expr res
 
 // What is left of a constraint when the fixed coordinates are in: nothing (implied), a contradiction, or one coordinate.
 static pleuel_status try_link(pl_analysis* d, int k, bool* changed) {
-  pl_link* l = &d->g.at[k];
+  pl_bond* l = &d->g.at[k];
   if (l->fixes >= 0 || l->implied || l->velocity) return PLEUEL_OK;
   pl_expr e = l->contact ? pl_on_contact(d, l->g) : pl_on_fixed(d, l->g);
   int i = only_coordinate(d, e);

@@ -7,8 +7,8 @@
 // Largest number of terms in a minor before the solver gives up and the structured form is shown instead.
 static const long max_terms = 50000;
 
-pl_expr pl_link_acceleration(pl_analysis* d, int k) {
-  const pl_link* l = &d->g.at[k];
+pl_expr pl_bond_acceleration(pl_analysis* d, int k) {
+  const pl_bond* l = &d->g.at[k];
   pl_expr once = pl_dt(d->pool, l->g);
   return l->velocity ? once : pl_dt(d->pool, once);
 }
@@ -19,7 +19,7 @@ typedef struct pl_linear {
   pl_expr* row;          // expressions that vanish  (n_rows)
 } pl_linear;
 
-static bool at_work(const pl_link* l) { return l->fixes < 0 && !l->implied; }
+static bool at_work(const pl_bond* l) { return l->fixes < 0 && !l->implied; }
 
 // E_i - sum over the working constraints of lambda dg/dq_i.
 static pl_expr equation_of(pl_analysis* d, int i) {
@@ -38,7 +38,7 @@ static pl_linear collect(pl_analysis* d) {
   pl_linear s = {.unknown = PL_ARRAY(d->arena, pl_symbol, d->q.n + d->g.n),
                  .row = PL_ARRAY(d->arena, pl_expr, d->q.n + d->g.n)};
   for (int i = 0; i < d->q.n; i++) {
-    const pl_coordinate* c = &d->q.at[i];
+    const pl_variable* c = &d->q.at[i];
     if (c->fixed_by >= 0) continue;
     bool generalized = pl_is_poison(c->map) && (c->carries || (d->reduced && c->chosen));
     if (generalized) add_unknown(&s, c->a);
@@ -50,7 +50,7 @@ static pl_linear collect(pl_analysis* d) {
   for (int k = 0; k < d->g.n; k++) {
     if (!at_work(&d->g.at[k])) continue;
     add_unknown(&s, d->g.at[k].lambda);
-    if (!d->reduced || d->g.at[k].velocity) s.row[s.n_rows++] = pl_on_maps(d, pl_link_acceleration(d, k));
+    if (!d->reduced || d->g.at[k].velocity) s.row[s.n_rows++] = pl_on_maps(d, pl_bond_acceleration(d, k));
   }
   return s;
 }
@@ -72,7 +72,7 @@ static bool split(pl_analysis* d, const pl_linear* s, pl_expr* A, pl_expr* b) {
 
 static void keep_solution(pl_analysis* d, const pl_linear* s, const pl_expr* x) {
   for (int j = 0; j < s->n_unknowns; j++) {
-    int i = pl_coordinate_index(d, s->unknown[j]);
+    int i = pl_variable_index(d, s->unknown[j]);
     if (i >= 0) d->acceleration[i] = x[j];
     for (int k = 0; k < d->g.n; k++) {
       if (d->g.at[k].lambda.id != s->unknown[j].id) continue;
@@ -98,7 +98,7 @@ pl_expr pl_on_motion(pl_analysis* d, pl_expr e) {
 // Accelerations of mapped coordinates follow from the map.
 static void dependent_accelerations(pl_analysis* d) {
   for (int i = 0; i < d->q.n; i++) {
-    const pl_coordinate* c = &d->q.at[i];
+    const pl_variable* c = &d->q.at[i];
     if (c->fixed_by >= 0) {
       d->acceleration[i] = pl_dt(d->pool, pl_dt(d->pool, c->fixed));
     } else if (!pl_is_poison(c->map)) {
@@ -111,13 +111,13 @@ static void dependent_accelerations(pl_analysis* d) {
 static void dropped_multipliers(pl_analysis* d) {
   for (int round = 0; round < d->g.n; round++) {
     for (int k = d->g.n - 1; k >= 0; k--) {
-      pl_link* l = &d->g.at[k];
+      pl_bond* l = &d->g.at[k];
       if (l->fixes < 0 || l->lambda_known) continue;
       int i = l->fixes;
       pl_expr rest = d->euler[i];
       bool ready = true;
       for (int c = 0; c < d->g.n; c++) {
-        const pl_link* other = &d->g.at[c];
+        const pl_bond* other = &d->g.at[c];
         if (c == k || other->implied || pl_is_zero_node(d->pool, other->gradient[i])) continue;
         ready &= other->lambda_known;
         if (ready) rest = pl_sub(d->pool, rest, pl_mul(d->pool, other->lambda_value, other->gradient[i]));

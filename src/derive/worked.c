@@ -74,7 +74,7 @@ static void implied_by(pl_analysis* d, int k, pl_constraint_info* info) {
   }
 }
 
-static void note_implied(pl_analysis* d, const pl_link* l, const pl_constraint_info* info) {
+static void note_implied(pl_analysis* d, const pl_bond* l, const pl_constraint_info* info) {
   if (l->source->redundant_ok) return;
   pl_text by = pl_text_make(d->arena);
   for (int k = 0; k < info->n_implied_by; k++) pl_text_addf(&by, "%s%s", k ? ", " : "", info->implied_by[k]);
@@ -90,7 +90,7 @@ static void note_implied(pl_analysis* d, const pl_link* l, const pl_constraint_i
 
 static void describe_constraints(pl_analysis* d) {
   for (int k = 0; k < d->g.n; k++) {
-    const pl_link* l = &d->g.at[k];
+    const pl_bond* l = &d->g.at[k];
     pl_constraint_info info = {.source = l->source, .label = l->source->name.text, .text = relation_text(d, l->source),
                                .nonholonomic = l->velocity, .one_sided = l->contact,
                                .rheonomic = pl_has_symbol(d->pool, l->g, pl_time(d->pool)),
