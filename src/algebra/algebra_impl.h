@@ -81,6 +81,7 @@ typedef struct pl_gen {
 typedef struct pl_base {
   const pl_poly* poly;
   bool composite;           // too large to be factored
+  int gen;                  // the generator it consists of, or -1
   pl_expr expr;             // as an expression, 0 until asked
 } pl_base;
 
@@ -100,6 +101,8 @@ typedef struct pl_factored {
   int n;
   const pl_power* at;
 } pl_factored;
+
+typedef struct pl_factoring { const pl_poly* poly; pl_factored factors; } pl_factoring;   // remembered
 
 typedef struct pl_points pl_points;          // sample points with Arb values, alg_points.c
 typedef struct pl_entry pl_entry;            // a running service, tower.c
@@ -129,7 +132,7 @@ struct pl_tower {
   PL_VEC(pl_base) bases;
   pl_map* base_of;                 // hash of polynomial -> base + 1, collisions at hash + k
   pl_map* factored_of;             // hash of polynomial -> index in factorings + 1
-  PL_VEC(struct { const pl_poly* poly; pl_factored factors; }) factorings;
+  PL_VEC(pl_factoring) factorings;
   PL_VEC(pl_lattice) angles;       // survive a restart
   PL_VEC(pl_lattice) exponents;
   pl_map* angle_of;                // atom id -> index + 1
@@ -146,6 +149,7 @@ struct pl_tower {
 
   pl_entry* entry;                 // innermost running service of this tower
   pl_points* points;               // for signs and zero tests
+  pl_points* fine_points;          // the same at a higher precision, made when needed
   bool facts_busy;                 // facts are being used: no facts inside facts
   int depth;                       // of the conversion
 };
@@ -225,6 +229,7 @@ pl_frac pl_frac_ratio(pl_tower* t, const fmpz* num, const fmpz* den);   // den !
 pl_frac pl_frac_poly(pl_tower* t, const pl_poly* num);
 pl_frac pl_frac_gen(pl_tower* t, int gen);
 pl_frac pl_frac_make(pl_tower* t, const pl_poly* num, const pl_poly* den);   // reduces, cancels; den != 0
+pl_frac pl_frac_over(pl_tower* t, const pl_poly* num, pl_frac like);         // num over the denominator of `like`
 pl_frac pl_frac_add(pl_tower* t, pl_frac a, pl_frac b);
 pl_frac pl_frac_sub(pl_tower* t, pl_frac a, pl_frac b);
 pl_frac pl_frac_neg(pl_tower* t, pl_frac a);

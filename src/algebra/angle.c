@@ -1,0 +1,282 @@
+// Angles and exponents as lattices.  An argument is split into rational multiples of atoms (monomials over a common
+// denominator); each atom has one base, atom/den, and sin, cos or exp of the base are generators.  When a multiple comes
+// that the base is too coarse for (θ/2 after θ), the base is refined and the tower starts again, so that θ/2 and 2θ share it.
+//
+// Angles that are inverse functions have no base: cos(acos u) = u, sin(acos u) = sqrt(1 - u^2).
+#include "algebra/algebra_impl.h"
+
+#include <stdlib.h>
+
+enum { PL_MAX_ANGLE_TERMS = 8, PL_MAX_EXPONENT_DEN = 720 };
+
+// One term q * atom of an argument; q = num/den in lowest terms.
+typedef struct pl_angle_term { long num, den; pl_expr atom; } pl_angle_term;
+typedef struct pl_angle { int n; pl_angle_term at[PL_MAX_ANGLE_TERMS]; } pl_angle;
+
+// ---------------------------------------------------------------------------------------------- splitting
+// Monomial i of the numerator, over the factors of the denominator but without its integer coefficient.
+static pl_expr atom_of(pl_tower* t, pl_frac a, slong i) {
+  ulong exponent[PL_MAX_GENERATORS];
+  fmpz_mpoly_get_term_exp_ui(exponent, a.num, i, &t->ctx);
+  pl_poly* monomial = pl_poly_new(t);
+  fmpz_mpoly_set_coeff_si_ui(monomial, 1, exponent, &t->ctx);
+  pl_frac f = a;
+  fmpz* one = pl_int_new(t);
+  fmpz_one(one);
+  f.num = monomial;
+  f.unit = one;
+  return pl_frac_expr(t, f);
+}
+
+// The coefficient when it is a small rational; larger ones stay inside the atom, with their sign outside.
+static pl_angle_term term_of(pl_tower* t, pl_frac a, slong i, long max_num, long max_den) {
+  fmpz* g = pl_int_new(t);
+  fmpz* num = pl_int_new(t);
+  fmpz* den = pl_int_new(t);
+  fmpz_gcd(g, &a.num->coeffs[i], a.unit);
+  fmpz_divexact(num, &a.num->coeffs[i], g);
+  fmpz_divexact(den, a.unit, g);
+  pl_angle_term term = {.num = fmpz_sgn(num), .den = 1, .atom = atom_of(t, a, i)};
+  if (fmpz_cmpabs(num, den) <= 0 || fmpz_cmp_si(den, max_den) <= 0) {
+    if (fmpz_cmp_si(den, max_den) <= 0 && fmpz_fits_si(num) && labs(fmpz_get_si(num)) <= max_num) {
+      term.num = fmpz_get_si(num);
+      term.den = fmpz_get_si(den);
+      return term;
+    }
+  }
+  fmpz_abs(num, num);
+  term.atom = pl_mul(t->pool, pl_fmpq_expr(t, num, den), term.atom);
+  return term;
+}
+
+// false when there are too many terms: then the argument is one atom.
+static void split(pl_tower* t, pl_expr argument, long max_num, long max_den, pl_angle* out) {
+  pl_frac a = pl_convert(t, argument);
+  out->n = 0;
+  if (a.num->length > PL_MAX_ANGLE_TERMS) {
+    int sign = pl_poly_leading_sign(t, a.num);
+    out->at[out->n++] = (pl_angle_term){sign, 1, pl_frac_expr(t, sign < 0 ? pl_frac_neg(t, a) : a)};
+    return;
+  }
+  for (slong i = 0; i < a.num->length; i++) out->at[out->n++] = term_of(t, a, i, max_num, max_den);
+}
+
+// ---------------------------------------------------------------------------------------------- lattices
+static long gcd_long(long a, long b) {
+  while (b) {
+    long r = a % b;
+    a = b;
+    b = r;
+  }
+  return a < 0 ? -a : a;
+}
+
+static pl_lattice* angle_lattice(pl_tower* t, pl_expr atom) {
+  uint64_t known = pl_map_get(t->angle_of, atom.id);
+  if (!known) {
+    pl_lattice l = {.atom = atom, .den = 1, .gen = -1};
+    pl_push(t->arena, t->angles, l);
+    known = (uint64_t)t->angles.n;
+    pl_map_set(t->angle_of, atom.id, known);
+  }
+  return &t->angles.at[known - 1];
+}
+
+static pl_lattice* exponent_lattice(pl_tower* t, pl_expr atom) {
+  uint64_t known = pl_map_get(t->exponent_of, atom.id);
+  if (!known) {
+    pl_lattice l = {.atom = atom, .den = 1, .gen = -1};
+    pl_push(t->arena, t->exponents, l);
+    known = (uint64_t)t->exponents.n;
+    pl_map_set(t->exponent_of, atom.id, known);
+  }
+  return &t->exponents.at[known - 1];
+}
+
+// Makes the base fine enough for a multiple with this denominator; false when it would become too fine.
+static bool refine(pl_tower* t, pl_lattice* l, long den, long max_den) {
+  long finer = l->den / gcd_long(l->den, den) * den;
+  if (finer == l->den) return true;
+  if (finer > max_den) return false;
+  l->den = finer;
+  if (l->gen >= 0) pl_tower_restart(t);
+  return true;
+}
+
+// ---------------------------------------------------------------------------------------------- pairs
+static int make_pair(pl_tower* t, pl_expr base, bool hyperbolic) {
+  pl_gen first = {.kind = hyperbolic ? PL_G_SINH : PL_G_COS, .partner = t->gens.n + 1, .class = PL_C_FUNCTION};
+  pl_gen second = {.kind = hyperbolic ? PL_G_COSH : PL_G_SIN, .partner = t->gens.n, .class = PL_C_FUNCTION, .degree = 2};
+  first.expr = pl_call(t->pool, hyperbolic ? PL_SINH : PL_COS, base);
+  second.expr = pl_call(t->pool, hyperbolic ? PL_COSH : PL_SIN, base);
+  if (hyperbolic) second.sign = 1;
+  if (t->gens.n + 2 > t->capacity) {
+    // both or none: let the first one ask for a larger context
+    while (t->gens.n < t->capacity) pl_tower_generator(t, &first);
+  }
+  int gen = pl_tower_generator(t, &first);
+  const pl_poly* one = pl_poly_int(t, 1);
+  const pl_poly* square = pl_poly_gen_power(t, gen, 2);
+  second.value = pl_poly_keep(t, hyperbolic ? pl_poly_add(t, one, square) : pl_poly_sub(t, one, square));
+  pl_tower_generator(t, &second);
+  return gen;
+}
+
+static pl_sincos product(pl_tower* t, pl_sincos a, pl_sincos b, bool hyperbolic) {
+  pl_frac ss = pl_frac_mul(t, a.s, b.s);
+  pl_frac cc = pl_frac_mul(t, a.c, b.c);
+  pl_sincos r;
+  r.s = pl_frac_add(t, pl_frac_mul(t, a.s, b.c), pl_frac_mul(t, a.c, b.s));
+  r.c = hyperbolic ? pl_frac_add(t, cc, ss) : pl_frac_sub(t, cc, ss);
+  return r;
+}
+
+// Pair of n times the angle, by repeated doubling.
+static pl_sincos multiple(pl_tower* t, pl_sincos a, long n, bool hyperbolic) {
+  if (n < 0) {
+    a.s = pl_frac_neg(t, a.s);
+    n = -n;
+  }
+  pl_sincos r = {pl_frac_int(t, 0), pl_frac_int(t, 1)};
+  for (; n > 0; n >>= 1) {
+    if (n & 1) r = product(t, r, a, hyperbolic);
+    if (n > 1) a = product(t, a, a, hyperbolic);
+  }
+  return r;
+}
+
+// ---------------------------------------------------------------------------------------------- angles
+// cos and sin of an inverse function of u.
+static bool inverse_pair(pl_tower* t, pl_expr atom, pl_sincos* out) {
+  if (pl_kind_of(t->pool, atom) != PL_CALL) return false;
+  pl_function f = pl_function_of(t->pool, atom);
+  if (f != PL_ASIN && f != PL_ACOS && f != PL_ATAN && f != PL_ATAN2) return false;
+  pl_frac u = pl_convert(t, pl_arg(t->pool, atom, 0));
+  pl_frac x = f == PL_ATAN2 ? pl_convert(t, pl_arg(t->pool, atom, 1)) : pl_frac_int(t, 1);
+  pl_frac u2 = pl_frac_mul(t, u, u);
+  if (f == PL_ATAN || f == PL_ATAN2) {
+    pl_frac r = pl_frac_inv(t, pl_frac_sqrt(t, pl_frac_add(t, pl_frac_mul(t, x, x), u2)));
+    *out = (pl_sincos){pl_frac_mul(t, u, r), pl_frac_mul(t, x, r)};
+    return true;
+  }
+  pl_frac other = pl_frac_sqrt(t, pl_frac_sub(t, x, u2));
+  *out = f == PL_ASIN ? (pl_sincos){u, other} : (pl_sincos){other, u};
+  return true;
+}
+
+static pl_sincos pair_of_base(pl_tower* t, pl_lattice* l) {
+  if (l->gen < 0) {
+    pl_expr base = pl_div(t->pool, l->atom, pl_int(t->pool, l->den));
+    pl_expr atom = l->atom;
+    int gen = make_pair(t, base, false);
+    angle_lattice(t, atom)->gen = gen;
+    l = angle_lattice(t, atom);
+  }
+  return (pl_sincos){pl_frac_gen(t, l->gen + 1), pl_frac_gen(t, l->gen)};
+}
+
+// Multiples of π that have a value in square roots; false for the others.
+static bool special_pair(pl_tower* t, pl_angle_term a, pl_sincos* out) {
+  if (pl_kind_of(t->pool, a.atom) != PL_PI) return false;
+  if (a.den == 12) {
+    // a/12 = a/3 - a/4
+    pl_sincos third, quarter;
+    if (!special_pair(t, (pl_angle_term){a.num, 3, a.atom}, &third)) return false;
+    if (!special_pair(t, (pl_angle_term){-a.num, 4, a.atom}, &quarter)) return false;
+    *out = product(t, third, quarter, false);
+    return true;
+  }
+  if (a.den != 1 && a.den != 2 && a.den != 3 && a.den != 4 && a.den != 6) return false;
+  pl_expr angle = pl_mul(t->pool, pl_ratio(t->pool, a.num, a.den), a.atom);
+  pl_expr s = pl_call(t->pool, PL_SIN, angle), c = pl_call(t->pool, PL_COS, angle);
+  if (!pl_is_constant(t->pool, s) || pl_kind_of(t->pool, s) == PL_CALL || pl_kind_of(t->pool, c) == PL_CALL) return false;
+  *out = (pl_sincos){pl_convert(t, s), pl_convert(t, c)};
+  return true;
+}
+
+static pl_sincos pair_of_term(pl_tower* t, pl_angle_term a) {
+  pl_sincos r;
+  if (special_pair(t, a, &r)) return r;
+  if (a.den == 1 && inverse_pair(t, a.atom, &r)) return multiple(t, r, a.num, false);
+  pl_lattice* l = angle_lattice(t, a.atom);
+  long n = 0;
+  if (refine(t, l, a.den, PL_MAX_MULTIPLE)) n = a.num * (l->den / a.den);
+  if (n == 0 || labs(n) > PL_MAX_MULTIPLE) {
+    // too fine for the common base: an atom of its own
+    long sign = a.num < 0 ? -1 : 1;
+    l = angle_lattice(t, pl_mul(t->pool, pl_ratio(t->pool, labs(a.num), a.den), a.atom));
+    n = sign * l->den;
+  }
+  return multiple(t, pair_of_base(t, l), n, false);
+}
+
+pl_sincos pl_convert_sincos(pl_tower* t, pl_expr argument) {
+  pl_angle angle;
+  split(t, argument, PL_MAX_MULTIPLE, PL_MAX_MULTIPLE, &angle);
+  pl_sincos r = {pl_frac_int(t, 0), pl_frac_int(t, 1)};
+  for (int i = 0; i < angle.n; i++) r = product(t, r, pair_of_term(t, angle.at[i]), false);
+  return r;
+}
+
+// ---------------------------------------------------------------------------------------------- exponents
+static pl_sincos hyperbolic_pair(pl_tower* t, pl_lattice* l) {
+  if (l->gen < 0) {
+    pl_expr atom = l->atom;
+    int gen = make_pair(t, pl_div(t->pool, atom, pl_int(t->pool, l->den)), true);
+    l = exponent_lattice(t, atom);
+    l->gen = gen;
+  }
+  return (pl_sincos){pl_frac_gen(t, l->gen), pl_frac_gen(t, l->gen + 1)};
+}
+
+pl_sincos pl_convert_sinhcosh(pl_tower* t, pl_expr argument) {
+  pl_angle angle;
+  split(t, argument, PL_MAX_MULTIPLE, PL_MAX_MULTIPLE, &angle);
+  pl_sincos r = {pl_frac_int(t, 0), pl_frac_int(t, 1)};
+  for (int i = 0; i < angle.n; i++) {
+    pl_lattice* l = exponent_lattice(t, angle.at[i].atom);
+    bool changed = !l->hyperbolic && l->gen >= 0;
+    l->hyperbolic = true;
+    if (changed) pl_tower_restart(t);
+    if (!refine(t, l, angle.at[i].den, PL_MAX_EXPONENT_DEN)) pl_tower_give_up(t);
+    long n = angle.at[i].num * (l->den / angle.at[i].den);
+    if (labs(n) > PL_MAX_MULTIPLE) pl_tower_give_up(t);
+    r = product(t, r, multiple(t, hyperbolic_pair(t, l), n, true), true);
+  }
+  return r;
+}
+
+// exp(q ln u) = u^q for integers and halves.
+static bool power_of_logarithm(pl_tower* t, pl_angle_term a, pl_frac* out) {
+  if (a.den > 2 || pl_kind_of(t->pool, a.atom) != PL_CALL || pl_function_of(t->pool, a.atom) != PL_LN) return false;
+  pl_frac u = pl_convert(t, pl_arg(t->pool, a.atom, 0));
+  *out = pl_frac_pow(t, a.den == 2 ? pl_frac_sqrt(t, u) : u, a.num);
+  return true;
+}
+
+static pl_frac exp_of_term(pl_tower* t, pl_angle_term a) {
+  pl_frac r;
+  if (power_of_logarithm(t, a, &r)) return r;
+  pl_lattice* l = exponent_lattice(t, a.atom);
+  if (!refine(t, l, a.den, PL_MAX_EXPONENT_DEN)) pl_tower_give_up(t);
+  long n = a.num * (l->den / a.den);
+  if (l->hyperbolic) {
+    pl_sincos pair = multiple(t, hyperbolic_pair(t, l), n, true);
+    return pl_frac_add(t, pair.c, pair.s);
+  }
+  if (l->gen < 0) {
+    pl_gen g = {.kind = PL_G_EXP, .partner = -1, .class = PL_C_FUNCTION, .sign = 1};
+    g.expr = pl_call(t->pool, PL_EXP, pl_div(t->pool, l->atom, pl_int(t->pool, l->den)));
+    int gen = pl_tower_generator(t, &g);
+    l->gen = gen;
+  }
+  return pl_frac_pow(t, pl_frac_gen(t, l->gen), n);
+}
+
+pl_frac pl_convert_exp(pl_tower* t, pl_expr argument) {
+  pl_angle exponent;
+  split(t, argument, PL_MAX_DEGREE, PL_MAX_EXPONENT_DEN, &exponent);
+  pl_frac r = pl_frac_int(t, 1);
+  for (int i = 0; i < exponent.n; i++) r = pl_frac_mul(t, r, exp_of_term(t, exponent.at[i]));
+  return r;
+}

@@ -1,0 +1,92 @@
+// Ball arithmetic for one node of the DAG; see arb_eval.h.
+#include "algebra/arb_eval.h"
+
+static void number_node(arb_t out, const pl_pool* p, pl_expr e, pl_arena* scratch, long precision) {
+  long num = 0, den = 1;
+  if (pl_is_ratio(p, e, &num, &den)) {
+    arb_set_si(out, num);
+    arb_div_si(out, out, den, precision);
+    return;
+  }
+  fmpq_t q;
+  fmpq_init(q);
+  fmpz_set_str(fmpq_numref(q), pl_number_num_text(scratch, p, e), 10);
+  fmpz_set_str(fmpq_denref(q), pl_number_den_text(scratch, p, e), 10);
+  arb_set_fmpq(out, q, precision);
+  fmpq_clear(q);
+}
+
+static void rational_power(arb_t out, arb_srcptr base, long num, long den, long precision) {
+  if (den == 2) {
+    arb_sqrt(out, base, precision);
+  } else if (den != 1) {
+    arb_root_ui(out, base, (ulong)den, precision);
+  } else {
+    arb_set(out, base);
+  }
+  bool invert = num < 0;
+  arb_pow_ui(out, out, (ulong)(invert ? -num : num), precision);
+  if (invert) arb_inv(out, out, precision);
+}
+
+static void power_node(arb_t out, const pl_pool* p, pl_expr e, const arb_srcptr* args, long precision) {
+  long num = 0, den = 1;
+  if (pl_is_ratio(p, pl_arg(p, e, 1), &num, &den)) {
+    rational_power(out, args[0], num, den, precision);
+  } else {
+    arb_pow(out, args[0], args[1], precision);
+  }
+}
+
+// Near the ends of its domain a ball may become indeterminate; then the point is not used.
+static void call_node(arb_t out, pl_function f, const arb_srcptr* a, long precision) {
+  switch (f) {
+    case PL_SIN: arb_sin(out, a[0], precision); break;
+    case PL_COS: arb_cos(out, a[0], precision); break;
+    case PL_TAN: arb_tan(out, a[0], precision); break;
+    case PL_ASIN: arb_asin(out, a[0], precision); break;
+    case PL_ACOS: arb_acos(out, a[0], precision); break;
+    case PL_ATAN: arb_atan(out, a[0], precision); break;
+    case PL_ATAN2: arb_atan2(out, a[0], a[1], precision); break;
+    case PL_SINH: arb_sinh(out, a[0], precision); break;
+    case PL_COSH: arb_cosh(out, a[0], precision); break;
+    case PL_TANH: arb_tanh(out, a[0], precision); break;
+    case PL_EXP: arb_exp(out, a[0], precision); break;
+    case PL_LN: arb_log(out, a[0], precision); break;
+    case PL_ABS: arb_abs(out, a[0]); break;
+    case PL_SIGN: arb_sgn(out, a[0]); break;
+    case PL_MIN: arb_min(out, a[0], a[1], precision); break;
+    case PL_MAX: arb_max(out, a[0], a[1], precision); break;
+    default: arb_indeterminate(out);
+  }
+}
+
+static void choice_node(arb_t out, const arb_srcptr* args) {
+  if (arb_is_positive(args[0])) {
+    arb_set(out, args[1]);
+  } else if (arb_is_nonpositive(args[0])) {
+    arb_set(out, args[2]);
+  } else {
+    arb_indeterminate(out);
+  }
+}
+
+void pl_arb_node(arb_t out, const pl_pool* p, pl_expr e, const arb_srcptr* args, pl_arena* scratch, long precision) {
+  int n = pl_n_args(p, e);
+  switch (pl_kind_of(p, e)) {
+    case PL_NUMBER: number_node(out, p, e, scratch, precision); break;
+    case PL_PI: arb_const_pi(out, precision); break;
+    case PL_ADD:
+      arb_set(out, args[0]);
+      for (int i = 1; i < n; i++) arb_add(out, out, args[i], precision);
+      break;
+    case PL_MUL:
+      arb_set(out, args[0]);
+      for (int i = 1; i < n; i++) arb_mul(out, out, args[i], precision);
+      break;
+    case PL_POW: power_node(out, p, e, args, precision); break;
+    case PL_CALL: call_node(out, pl_function_of(p, e), args, precision); break;
+    case PL_IF: choice_node(out, args); break;
+    default: arb_indeterminate(out);
+  }
+}

@@ -1,0 +1,302 @@
+// Linear systems by Cramer's rule with memoised minors in the quotient ring: no division until the end, so the relations
+// s^2 = 1 - c^2 may be used at every product.  Rows are cleared of denominators and contents first, sparse rows are
+// expanded first; every minor of the lower rows is computed once.  One cancellation at the end.
+// Bareiss needs exact division, which the quotient ring does not have; elimination in the field collects spurious factors.
+//
+// Rank and dependencies look at the normal forms modulo a prime at random points: fast, and right at a generic point.
+#include "algebra/algebra_impl.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { PL_MAX_ORDER = 40, PL_MAX_MINORS = 60000, PL_RANK_POINTS = 4, PL_RANK_TRIES = 24, PL_MAX_RANK = 512 };
+
+typedef struct pl_minors {
+  pl_tower* t;
+  int n, columns;                    // n rows, n or n + 1 columns
+  const pl_poly** M;                 // (n x columns), rows in order of expansion
+  pl_map* of_mask;                   // set of columns -> index in memo + 1
+  PL_VEC(const pl_poly*) memo;
+  long max_terms;
+  int sign;                          // of the permutation of rows
+  pl_frac scale;                     // det of the given rows = scale * det M
+} pl_minors;
+
+// ---------------------------------------------------------------------------------------------- preparing the rows
+static void clear_row(pl_minors* m, const pl_frac* row, const pl_poly** out) {
+  pl_tower* t = m->t;
+  // common denominator of the row
+  pl_frac common = pl_frac_int(t, 1);
+  for (int j = 0; j < m->columns; j++) {
+    pl_frac lacks = pl_frac_mul(t, row[j], common);
+    lacks.num = pl_poly_int(t, 1);
+    common = pl_frac_mul(t, common, pl_frac_inv(t, lacks));
+  }
+  const pl_poly* content = pl_poly_int(t, 0);
+  for (int j = 0; j < m->columns; j++) {
+    pl_frac cleared = pl_frac_mul(t, row[j], common);
+    out[j] = cleared.n ? NULL : cleared.num;
+    if (!out[j] || !fmpz_is_one(cleared.unit)) pl_tower_give_up(t);
+    content = pl_poly_gcd(t, content, out[j]);
+  }
+  if (pl_poly_is_zero(t, content)) return;
+  for (int j = 0; j < m->columns; j++) {
+    if (!pl_poly_is_zero(t, out[j]) && !pl_poly_divides(t, &out[j], out[j], content)) pl_tower_give_up(t);
+  }
+  m->scale = pl_frac_mul(t, m->scale, pl_frac_div(t, pl_frac_poly(t, content), common));
+}
+
+typedef struct pl_row_order { int row, filled; } pl_row_order;
+
+static int compare_rows(const void* a, const void* b) {
+  const pl_row_order *x = a, *y = b;
+  if (x->filled != y->filled) return x->filled < y->filled ? -1 : 1;
+  return x->row - y->row;
+}
+
+static void prepare(pl_minors* m, const pl_frac* entries) {
+  pl_tower* t = m->t;
+  pl_row_order* order = PL_ARRAY(t->arena, pl_row_order, m->n);
+  for (int i = 0; i < m->n; i++) {
+    order[i].row = i;
+    for (int j = 0; j < m->columns; j++) order[i].filled += !pl_frac_is_zero(t, entries[i * m->columns + j]);
+  }
+  qsort(order, (size_t)m->n, sizeof *order, compare_rows);
+  m->sign = 1;
+  for (int i = 0; i < m->n; i++) {
+    for (int k = i + 1; k < m->n; k++) {
+      if (order[k].row < order[i].row) m->sign = -m->sign;
+    }
+  }
+  m->M = PL_ARRAY(t->arena, const pl_poly*, m->n * m->columns);
+  m->scale = pl_frac_int(t, 1);
+  for (int i = 0; i < m->n; i++) clear_row(m, entries + order[i].row * m->columns, m->M + i * m->columns);
+}
+
+// ---------------------------------------------------------------------------------------------- minors
+static const pl_poly* known_minor(const pl_minors* m, uint64_t mask) {
+  uint64_t k = pl_map_get(m->of_mask, mask);
+  return k ? m->memo.at[k - 1] : NULL;
+}
+
+// Determinant of the last rows, from `row` on, in the columns of mask.
+static const pl_poly* minor_of(pl_minors* m, int row, uint64_t mask) {
+  pl_tower* t = m->t;
+  if (row == m->n) return pl_poly_int(t, 1);
+  const pl_poly* known = known_minor(m, mask);
+  if (known) return known;
+  if (m->memo.n > PL_MAX_MINORS) pl_tower_give_up(t);
+  pl_tower_check(t);
+  const pl_poly* below[PL_MAX_ORDER + 1] = {NULL};
+  for (int j = 0; j < m->columns; j++) {
+    bool needed = (mask >> j & 1) && !pl_poly_is_zero(t, m->M[row * m->columns + j]);
+    if (needed) below[j] = minor_of(m, row + 1, mask & ~(UINT64_C(1) << j));
+  }
+  pl_poly* sum = pl_poly_new(t);
+  pl_tower_mark mark = pl_tower_mark_now(t);
+  bool minus = false;
+  for (int j = 0; j < m->columns; j++) {
+    if (!(mask >> j & 1)) continue;
+    if (below[j] && !pl_poly_is_zero(t, below[j])) {
+      const pl_poly* term = pl_poly_mul(t, m->M[row * m->columns + j], below[j]);
+      fmpz_mpoly_set(sum, minus ? pl_poly_sub(t, sum, term) : pl_poly_add(t, sum, term), &t->ctx);
+    }
+    minus = !minus;
+  }
+  pl_tower_rewind(t, mark);
+  if (m->max_terms > 0 && sum->length > m->max_terms) pl_tower_give_up(t);
+  pl_push(t->arena, m->memo, sum);
+  pl_map_set(m->of_mask, mask, (uint64_t)m->memo.n);
+  return sum;
+}
+
+static pl_minors minors_begin(pl_tower* t, int n, int columns, const pl_frac* entries, long max_terms) {
+  pl_minors m = {.t = t, .n = n, .columns = columns, .max_terms = max_terms, .of_mask = pl_map_make(t->arena)};
+  prepare(&m, entries);
+  return m;
+}
+
+// A determinant that is not zero algebraically may still be zero when roots or formal functions depend on each other.
+static pl_answer3 vanishes(pl_tower* t, const pl_poly* D) {
+  if (pl_poly_is_zero(t, D)) return PL_YES;
+  for (int g = 0; g < t->gens.n; g++) {
+    pl_gen_kind k = t->gens.at[g].kind;
+    bool risky = k == PL_G_ROOT || k == PL_G_ABS || k == PL_G_FORMAL;
+    if (risky && pl_poly_degree(t, D, g) > 0) return pl_alg_is_zero(t, pl_poly_expr(t, D));
+  }
+  return PL_NO;
+}
+
+// ---------------------------------------------------------------------------------------------- solve
+typedef struct pl_solve_job {
+  int n;
+  const pl_expr *A, *b;
+  pl_expr* x;
+  long max_terms;
+  pl_answer3 answer;
+} pl_solve_job;
+
+static void solve_body(pl_tower* t, void* data) {
+  pl_solve_job* j = data;
+  int n = j->n;
+  pl_frac* entries = PL_ARRAY(t->arena, pl_frac, n * (n + 1));
+  for (int i = 0; i < n; i++) {
+    for (int k = 0; k < n; k++) entries[i * (n + 1) + k] = pl_convert(t, j->A[i * n + k]);
+    entries[i * (n + 1) + n] = pl_convert(t, j->b[i]);
+  }
+  pl_minors m = minors_begin(t, n, n + 1, entries, j->max_terms);
+  uint64_t all = (UINT64_C(1) << (n + 1)) - 1;
+  const pl_poly* D = minor_of(&m, 0, all & ~(UINT64_C(1) << n));
+  pl_answer3 zero = vanishes(t, D);
+  j->answer = zero == PL_YES ? PL_NO : PL_UNKNOWN;
+  if (zero != PL_NO) return;
+  for (int k = 0; k < n; k++) {
+    const pl_poly* N = minor_of(&m, 0, all & ~(UINT64_C(1) << k));
+    // the right-hand side moves from the last column to column k
+    if ((n - 1 - k) % 2) N = pl_poly_neg(t, N);
+    j->x[k] = pl_frac_expr(t, pl_frac_make(t, N, D));
+  }
+  j->answer = PL_YES;
+}
+
+static bool any_poison(const pl_expr* e, int n) {
+  for (int i = 0; i < n; i++) {
+    if (pl_is_poison(e[i])) return true;
+  }
+  return false;
+}
+
+pl_answer3 pl_alg_solve(pl_tower* t, int n, const pl_expr* A, const pl_expr* b, pl_expr* x, long max_terms) {
+  if (n == 0) return PL_YES;
+  if (n < 0 || n > PL_MAX_ORDER || any_poison(A, n * n) || any_poison(b, n)) return PL_UNKNOWN;
+  pl_expr* out = PL_ARRAY(t->arena, pl_expr, n);
+  pl_solve_job j = {.n = n, .A = A, .b = b, .x = out, .max_terms = max_terms, .answer = PL_UNKNOWN};
+  if (!pl_tower_run(t, solve_body, &j)) return PL_UNKNOWN;
+  if (j.answer == PL_YES) memcpy(x, out, (size_t)n * sizeof *x);
+  return j.answer;
+}
+
+// ---------------------------------------------------------------------------------------------- determinant
+typedef struct pl_det_job { int n; const pl_expr* A; long max_terms; pl_expr det; } pl_det_job;
+
+static void det_body(pl_tower* t, void* data) {
+  pl_det_job* j = data;
+  int n = j->n;
+  pl_frac* entries = PL_ARRAY(t->arena, pl_frac, n * n);
+  for (int i = 0; i < n * n; i++) entries[i] = pl_convert(t, j->A[i]);
+  pl_minors m = minors_begin(t, n, n, entries, j->max_terms);
+  const pl_poly* D = minor_of(&m, 0, (UINT64_C(1) << n) - 1);
+  pl_frac det = pl_frac_mul(t, pl_frac_poly(t, D), m.scale);
+  j->det = pl_frac_expr(t, m.sign < 0 ? pl_frac_neg(t, det) : det);
+}
+
+pl_expr pl_alg_det(pl_tower* t, int n, const pl_expr* A, long max_terms) {
+  if (n == 0) return pl_int(t->pool, 1);
+  if (n < 0 || n > PL_MAX_ORDER || any_poison(A, n * n)) return pl_poison();
+  pl_det_job j = {.n = n, .A = A, .max_terms = max_terms, .det = pl_poison()};
+  return pl_tower_run(t, det_body, &j) ? j.det : pl_poison();
+}
+
+// ---------------------------------------------------------------------------------------------- rank
+static bool residues(pl_tower* t, int m, int n, const pl_expr* A, uint64_t seed, uint64_t* out) {
+  pl_mod_point* point = pl_mod_point_make(t->arena, t->pool, seed);
+  for (int i = 0; i < m * n; i++) {
+    bool ok = true;
+    out[i] = pl_eval_mod(point, A[i], &ok);
+    if (!ok) return false;
+  }
+  return true;
+}
+
+static uint64_t minus_mod(uint64_t a) {
+  return a ? PL_MOD_P - a : 0;
+}
+
+// Greedy from the first row on: a row is taken when it is independent of those taken before.  R (m x n) is destroyed.
+static int independent_rows(uint64_t* R, int m, int n, int* rows) {
+  int rank = 0;
+  int pivot[PL_MAX_RANK];
+  for (int i = 0; i < m && rank < n && rank < PL_MAX_RANK; i++) {
+    uint64_t* r = R + (size_t)i * (size_t)n;
+    for (int k = 0; k < rank; k++) {
+      uint64_t f = r[pivot[k]];
+      if (!f) continue;
+      const uint64_t* base = R + (size_t)rows[k] * (size_t)n;
+      for (int j = 0; j < n; j++) r[j] = pl_mod_add(r[j], minus_mod(pl_mod_mul(f, base[j])));
+    }
+    int p = 0;
+    while (p < n && r[p] == 0) p++;
+    if (p == n) continue;
+    uint64_t inverse = pl_mod_inv(r[p]);
+    for (int j = 0; j < n; j++) r[j] = pl_mod_mul(r[j], inverse);
+    pivot[rank] = p;
+    rows[rank++] = i;
+  }
+  return rank;
+}
+
+int pl_alg_rank(pl_tower* t, int m, int n, const pl_expr* A, int* rows) {
+  if (m <= 0 || n <= 0) return 0;
+  pl_expr* normal = PL_ARRAY(t->arena, pl_expr, m * n);
+  uint64_t* R = PL_ARRAY(t->arena, uint64_t, m * n);
+  int* here = PL_ARRAY(t->arena, int, m);
+  for (int i = 0; i < m * n; i++) normal[i] = pl_alg_normal(t, A[i]);
+  int best = -1;
+  for (int k = 0, used = 0; k < PL_RANK_TRIES && used < PL_RANK_POINTS; k++) {
+    if (!residues(t, m, n, normal, 1000 + (uint64_t)k, R)) continue;
+    used++;
+    int rank = independent_rows(R, m, n, here);
+    if (rank <= best) continue;
+    best = rank;
+    if (rows) memcpy(rows, here, (size_t)rank * sizeof *rows);
+  }
+  return best < 0 ? 0 : best;
+}
+
+// ---------------------------------------------------------------------------------------------- dependencies
+// Checks sum_i c_i A_ij = A_kj in every column.
+static pl_answer3 verify_dependency(pl_tower* t, int m, int n, const pl_expr* A, int k, const pl_expr* c) {
+  pl_answer3 answer = PL_YES;
+  for (int j = 0; j < n; j++) {
+    pl_expr sum = pl_neg(t->pool, A[k * n + j]);
+    for (int i = 0; i < m; i++) {
+      if (i != k) sum = pl_add(t->pool, sum, pl_mul(t->pool, c[i], A[i * n + j]));
+    }
+    pl_answer3 zero = pl_alg_is_zero(t, sum);
+    if (zero == PL_NO) return PL_NO;
+    if (zero == PL_UNKNOWN) answer = PL_UNKNOWN;
+  }
+  return answer;
+}
+
+pl_answer3 pl_alg_dependency(pl_tower* t, int m, int n, const pl_expr* A, int k, pl_expr* c) {
+  if (m <= 0 || n <= 0 || k < 0 || k >= m) return PL_UNKNOWN;
+  for (int i = 0; i < m; i++) c[i] = pl_int(t->pool, 0);
+  // the other rows, then a set of columns in which those that are independent stay so
+  pl_expr* others = PL_ARRAY(t->arena, pl_expr, m * n);
+  pl_expr* transposed = PL_ARRAY(t->arena, pl_expr, m * n);
+  int* row_of = PL_ARRAY(t->arena, int, m);
+  int* rows = PL_ARRAY(t->arena, int, m);
+  int* columns = PL_ARRAY(t->arena, int, n);
+  int n_others = 0;
+  for (int i = 0; i < m; i++) {
+    if (i == k) continue;
+    memcpy(others + n_others * n, A + i * n, (size_t)n * sizeof *A);
+    row_of[n_others++] = i;
+  }
+  int r = n_others ? pl_alg_rank(t, n_others, n, others, rows) : 0;
+  for (int i = 0; i < r; i++) {
+    for (int j = 0; j < n; j++) transposed[j * r + i] = others[rows[i] * n + j];
+  }
+  if (r > 0 && pl_alg_rank(t, n, r, transposed, columns) != r) return PL_UNKNOWN;
+  pl_expr* S = PL_ARRAY(t->arena, pl_expr, r * r + 1);
+  pl_expr* b = PL_ARRAY(t->arena, pl_expr, r + 1);
+  pl_expr* x = PL_ARRAY(t->arena, pl_expr, r + 1);
+  for (int j = 0; j < r; j++) {
+    for (int i = 0; i < r; i++) S[j * r + i] = transposed[columns[j] * r + i];
+    b[j] = A[k * n + columns[j]];
+  }
+  if (r > 0 && pl_alg_solve(t, r, S, b, x, PL_MAX_TERMS) != PL_YES) return PL_UNKNOWN;
+  for (int i = 0; i < r; i++) c[row_of[rows[i]]] = x[i];
+  return verify_dependency(t, m, n, A, k, c);
+}
