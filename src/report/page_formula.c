@@ -6,7 +6,7 @@
 #include <string.h>
 
 enum { PL_LEFT_SIDE = 14 };    // cells: a left side up to this width is kept clear by the lines that follow
-static const double pl_depth_price = 0.35;   // what a level of brackets costs against a line filled to the end
+static const double pl_depth_price = 0.6;    // what a level of brackets costs against a line filled to the end
 
 // ---------------------------------------------------------------------------------------------- one line
 typedef struct pl_break {
@@ -204,12 +204,19 @@ static pl_lines pl_break_drawing(pl_page* g, const pl_form* f, int width) {
 }
 
 // ---------------------------------------------------------------------------------------------- both
-pl_lines pl_page_formula(pl_page* g, const pl_form* f, int width) {
-  if (!f || !g->pool) return pl_split_lines(g, "", 0);
+static pl_lines pl_formula_in(pl_page* g, const pl_form* f, int width) {
   if (g->how.math == PL_MATH_2D) {
     pl_lines whole = pl_draw(g, f);
     return whole.width <= width ? whole : pl_break_drawing(g, f, width);
   }
   const char* s = pl_page_plain(g, pl_notation_print(g->arena, g->pool, f, g->how));
   return pl_utf8_width(s) <= width ? pl_split_lines(g, s, 0) : pl_break_line(g, s, width);
+}
+
+// Only the base line has to leave room at the margin; when it does not, all lines are set narrower.
+pl_lines pl_page_formula(pl_page* g, const pl_form* f, int width, int right) {
+  if (!f || !g->pool) return pl_split_lines(g, "", 0);
+  pl_lines lines = pl_formula_in(g, f, width);
+  bool fits = right == 0 || width - pl_utf8_width(lines.at[lines.base]) >= right + 2;
+  return fits || width <= right + 3 ? lines : pl_formula_in(g, f, width - right - 2);
 }

@@ -63,7 +63,8 @@ const char* pl_plain_ascii(pl_arena* a, const char* s) {
       pl_text_add(&out, raised ? one + 1 : one);
     } else if (c < 0x80) {
       // names of signs such as "grad " bring their own blank
-      if (!(space && c == ' ')) pl_text_add_n(&out, s, 1);
+      char one = (char)c;
+      if (!(space && c == ' ')) pl_text_add_n(&out, &one, 1);
     } else if (dot) pl_text_add(&out, c == 0x0307 ? "'" : "''");
     else pl_text_add(&out, plain ? plain : "?");
     raised = digit != 0;

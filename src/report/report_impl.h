@@ -40,7 +40,8 @@ const char* pl_page_fill(pl_page* g, const char* words, int n, const pl_form* co
 
 // ---- page_formula.c
 // A formula in at most `width` cells where that is possible: broken at relations, then at + and -, with hanging indent.
-pl_lines pl_page_formula(pl_page* g, const pl_form* f, int width);
+// `right` cells are kept free at the end of its base line, for what stands at the margin.
+pl_lines pl_page_formula(pl_page* g, const pl_form* f, int width, int right);
 
 // ---- plain_ascii.c
 // Sentences in pure ASCII: Greek letters by name, ä as ae, ² as ^2, dashes and arrows as - and ->.

@@ -42,11 +42,10 @@ static bool pl_is_result(const pl_stretch* b, const pl_form* f) {
   return false;
 }
 
-// Room for a formula that begins at `column`, with `right` cells kept for what stands at the margin.
-static int pl_room(const pl_page* g, int column, int right) {
+// Room for a formula that begins at `column`.
+static int pl_room(const pl_page* g, int column) {
   if (g->wrap == INT_MAX) return INT_MAX;
-  int room = g->margin - column - (right ? right + 2 : 0);
-  return room > 1 ? room : 1;
+  return g->margin - column > 1 ? g->margin - column : 1;
 }
 
 // The rest of a line: blanks up to the margin, then `right`.
@@ -113,7 +112,7 @@ static void pl_put_equations(pl_page* g, const pl_stretch* b, const pl_step* con
   int after_column = 0;
   bool tall = false;
   for (int i = 0; i < n; i++) {
-    f[i] = pl_page_formula(g, s[i]->formula, pl_room(g, PL_COLUMN_STEP, pl_utf8_width(pl_number_text_of(g, s[i]))));
+    f[i] = pl_page_formula(g, s[i]->formula, pl_room(g, PL_COLUMN_STEP), pl_utf8_width(pl_number_text_of(g, s[i])));
     int end = PL_COLUMN_STEP + f[i].width + PL_GAP;
     bool fits = end + pl_utf8_width(pl_page_words(g, s[i]->after)) <= g->margin;
     if (pl_has_after(g, s[i]) && fits && end > after_column) after_column = end;
@@ -151,7 +150,7 @@ static void pl_put_row(pl_page* g, const pl_stretch* b, const pl_step* s, int la
   const char* after = pl_page_words(g, s->after);
   int column = PL_COLUMN_STEP + (s->formula ? label_width : 0);
   if (PL_COLUMN_STEP + pl_utf8_width(label) > column) column = PL_COLUMN_STEP + pl_utf8_width(label) + (s->formula ? 1 : 0);
-  pl_lines f = pl_page_formula(g, s->formula, pl_room(g, column, pl_utf8_width(right)));
+  pl_lines f = pl_page_formula(g, s->formula, pl_room(g, column), pl_utf8_width(right));
   pl_ink ink = pl_is_result(b, s->formula) ? PL_INK_BOLD : PL_INK_PLAIN;
   bool beside = g->wrap == INT_MAX || column + f.width + PL_GAP + pl_utf8_width(after) <= g->wrap;
   for (int i = 0; i < f.n; i++) {
