@@ -21,6 +21,8 @@ void pl_ldlt_solve(const double* A, const int* p, double* b, int n);
 // jpvt (n): column order; tau (min(m,n)); norm (2 n) work.  Returns the rank: diagonals above rel * the largest.
 int pl_qr_factor(double* A, int* jpvt, double* tau, double* norm, int m, int n, double rel);
 void pl_qr_apply_qt(const double* A, const double* tau, double* b, int m, int k);   // b := Q^T b with k reflectors
+// Least squares with a QR of rank k: b (m) becomes Q^T b with the solution in its first k entries, in order of jpvt.
+void pl_qr_least_squares(const double* A, const double* tau, double* b, int m, int k);
 
 // Maximal independent subset of the rows of A (m x n, row-major here: row r at A + r * n; overwritten).  Rows are scaled
 // to length 1, then taken by priority (lower first) and, within one priority, by what is left of them after

@@ -66,6 +66,15 @@ void pl_qr_apply_qt(const double* A, const double* tau, double* b, int m, int k)
   for (int j = 0; j < k; j++) reflect(A + (size_t)j * m, tau[j], b, j, m);
 }
 
+void pl_qr_least_squares(const double* A, const double* tau, double* b, int m, int k) {
+  pl_qr_apply_qt(A, tau, b, m, k);
+  for (int j = k - 1; j >= 0; j--) {
+    const double* col = A + (size_t)j * m;
+    b[j] /= col[j];
+    for (int i = 0; i < j; i++) b[i] -= col[i] * b[j];
+  }
+}
+
 // ---------------------------------------------------------------------------------------------- independent rows
 static double row_length(const double* a, int n) {
   double most = 0, s = 0;

@@ -7,7 +7,7 @@
 // g = 0 and G v + dg/dt = 0 in the mass metric and a check of the residuals.  M may be singular on coordinates
 // that carry no mass, constraints may be redundant: each step uses a maximal independent subset by priority.
 //
-// Use:  pl_run_make, then pl_run_start, then pl_run_to (or pl_run_step), reading through a sink or pl_run_state.
+// Use:  pl_run_make, then pl_run_start, then pl_run_to_end (or pl_run_step), reading through a sink or pl_run_state.
 // A setup is constant and shared; a run moves and belongs to one thread.  Stepping allocates nothing.
 #ifndef PL_SOLVE_H
 #define PL_SOLVE_H
@@ -134,6 +134,7 @@ typedef struct pl_stats {
   double energy_0, energy_drift;      // energy at the start; largest |E - E_0| relative to max(|T| + |V|); NaN unknown
   long n_events;
   int rank, rank_start;               // independent active constraints
+  double t_singular;                  // where the run met a singular position; NaN: nowhere
   double wall_s;                      // the only number here that is not reproducible
 } pl_stats;
 
@@ -212,7 +213,8 @@ pleuel_status pl_run_start_at(pl_run* run, double t, const double* q, const doub
 // pl_run_step takes one accepted step, not beyond t_end, with everything that happens in it.
 // Status: PLEUEL_SINGULAR, PLEUEL_NUMERICAL, PLEUEL_INTERRUPTED (job->interrupted), or what the sink returned.
 pleuel_status pl_run_step(pl_run* run);
-// pl_run_to steps to t_end, writing rows; begin and end of the sink are called.  Calls pl_run_start when that was not done.
+// pl_run_to_end steps to t_end, writing rows; end of the sink is called, and begin if it was not.  Calls pl_run_start when
+// that was not done.
 pleuel_status pl_run_to_end(pl_run* run);
 
 // Reading.  Arrays belong to the run and change with the next step.

@@ -1,0 +1,263 @@
+// From the jets of the batches to the linear system: values of the matrix, constraint values, right-hand sides.
+//
+// Order k of the equations of motion and of the constraint on velocity level, with q_{k+1} = v_k / (k+1) known:
+//
+//   M_0 a_k - (G_0^T + W_0) λ_k = -h_k - sum_{j>=1} M_j a_{k-j} + sum_{j>=1} (G_j^T + W_j) λ_{k-j}
+//   G_0 a_k                     = -(k+1) [ sum_{j>=1} G_j v_{k+1-j} + (dg/dt)_{k+1} ]
+#include "solve/solve_impl.h"
+
+#include <math.h>
+
+#define LANES(b) for (int l = 0; l < (b)->n; l++)
+
+static int node_of(const pl_batch* b, int root) { return b->pattern->tape->roots[root]; }
+static bool is_constant(const pl_batch* b, int node) { return node < b->pattern->tape->level_end[PL_LEVEL_CONST]; }
+static const double* coefficient(const pl_batch* b, int node, int k) { return pl_jet_at(b->jet, node, k); }
+
+// ---------------------------------------------------------------------------------------------- matrix
+static void add_mass(pl_run* run, const pl_batch* b) {
+  double* K = run->kkt.value;
+  for (int e = 0; e < b->pattern->n_mass; e++) {
+    const pl_pattern_entry* m = &b->pattern->mass[e];
+    const double* x = coefficient(b, node_of(b, m->root), 0);
+    LANES(b) {
+      K[b->at_mass[e * b->lanes + l]] += x[l];
+      if (m->row != m->col) K[b->at_mass_t[e * b->lanes + l]] += x[l];
+    }
+  }
+}
+
+static void add_gradients(pl_run* run, const pl_batch* b) {
+  double* K = run->kkt.value;
+  for (int e = 0; e < b->pattern->n_G; e++) {
+    const pl_pattern_entry* g = &b->pattern->G[e];
+    const double* x = coefficient(b, node_of(b, g->root), 0);
+    LANES(b) {
+      if (!run->taken[b->c[g->row * b->lanes + l]]) continue;
+      K[b->at_G[e * b->lanes + l]] += x[l];
+      K[b->at_Gt[e * b->lanes + l]] += x[l];
+    }
+  }
+}
+
+static void add_force_directions(pl_run* run, const pl_batch* b) {
+  for (int e = 0; e < b->pattern->n_W; e++) {
+    const pl_pattern_entry* w = &b->pattern->W[e];
+    const double* x = coefficient(b, node_of(b, w->root), 0);
+    LANES(b) if (run->taken[b->c[w->col * b->lanes + l]]) run->kkt.value[b->at_W[e * b->lanes + l]] += x[l];
+  }
+}
+
+void pl_assemble_matrix(pl_run* run, bool with_W) {
+  pl_kkt* k = &run->kkt;
+  for (int i = 0; i < k->n_values; i++) k->value[i] = 0;
+  for (int i = 0; i < run->motion.n; i++) {
+    add_mass(run, &run->motion.at[i]);
+    add_gradients(run, &run->motion.at[i]);
+    if (with_W) add_force_directions(run, &run->motion.at[i]);
+  }
+  for (int i = 0; i < run->n_q; i++)
+    if (run->place_n[i] == 0) k->value[k->diagonal[i]] = 1;   // nothing determines it: it rests
+  for (int c = 0; c < run->n_c; c++)
+    if (!run->taken[c]) k->value[k->diagonal[run->n_q + c]] = 1;
+}
+
+void pl_assemble_rows(pl_run* run) {
+  int m = 0;
+  for (int c = 0; c < run->n_c; c++) {
+    run->row_of[c] = -1;
+    if (!run->active[c]) continue;
+    run->priority[m] = run->setup->links[c].priority;
+    run->row_of[c] = m++;
+  }
+  for (size_t i = 0; i < (size_t)m * (size_t)run->n_q; i++) run->rows[i] = 0;
+  for (int i = 0; i < run->motion.n; i++) {
+    const pl_batch* b = &run->motion.at[i];
+    for (int e = 0; e < b->pattern->n_G; e++) {
+      const pl_pattern_entry* g = &b->pattern->G[e];
+      const double* x = coefficient(b, node_of(b, g->root), 0);
+      LANES(b) {
+        int row = run->row_of[b->c[g->row * b->lanes + l]];
+        if (row >= 0) run->rows[(size_t)row * (size_t)run->n_q + (size_t)b->q[g->col * b->lanes + l]] += x[l];
+      }
+    }
+  }
+}
+
+void pl_assemble_row_sizes(pl_run* run) {
+  for (int c = 0; c < run->n_c; c++) run->row_most[c] = 0;
+  for (int i = 0; i < run->motion.n; i++) {
+    const pl_batch* b = &run->motion.at[i];
+    for (int e = 0; e < b->pattern->n_G; e++) {
+      const pl_pattern_entry* g = &b->pattern->G[e];
+      const double* x = coefficient(b, node_of(b, g->root), 0);
+      LANES(b) {
+        double* most = &run->row_most[b->c[g->row * b->lanes + l]];
+        if (fabs(x[l]) > *most) *most = fabs(x[l]);
+      }
+    }
+  }
+}
+
+// ---------------------------------------------------------------------------------------------- constraints
+static void clear(double* x, int n) {
+  for (int i = 0; i < n; i++) x[i] = 0;
+}
+
+// Where g is a single term, or nearly zero throughout, its size comes from the gradient and the size of coordinates.
+static void floor_sizes(const pl_run* run, double* size) {
+  static const double part = 1e-3;   // of |dg/dq| |q|: below it the terms themselves say nothing about rounding
+  for (int i = 0; i < run->motion.n; i++) {
+    const pl_batch* b = &run->motion.at[i];
+    for (int e = 0; e < b->pattern->n_G; e++) {
+      const pl_pattern_entry* g = &b->pattern->G[e];
+      const double* x = coefficient(b, node_of(b, g->root), 0);
+      LANES(b) {
+        int c = b->c[g->row * b->lanes + l];
+        double s = part * fabs(x[l]) * run->q_size;
+        if (s > size[c]) size[c] = s;
+      }
+    }
+  }
+}
+
+void pl_assemble_g(pl_run* run, int k, double* g, double* size) {
+  clear(g, run->n_c);
+  if (size) clear(size, run->n_c);
+  for (int i = 0; i < run->motion.n; i++) {
+    const pl_batch* b = &run->motion.at[i];
+    for (int e = 0; e < b->pattern->n_g; e++) {
+      const pl_pattern_entry* p = &b->pattern->g[e];
+      int node = node_of(b, p->root);
+      LANES(b) {
+        int c = b->c[p->row * b->lanes + l];
+        if (k == 0 || !is_constant(b, node)) g[c] += coefficient(b, node, k)[l];
+        if (size && p->col >= 0) size[c] += coefficient(b, node_of(b, p->col), 0)[l];
+      }
+    }
+  }
+  if (size) floor_sizes(run, size);
+}
+
+void pl_assemble_gdot(pl_run* run, double* r, double* size) {
+  clear(r, run->n_c);
+  clear(size, run->n_c);
+  for (int i = 0; i < run->motion.n; i++) {
+    const pl_batch* b = &run->motion.at[i];
+    for (int e = 0; e < b->pattern->n_G; e++) {
+      const pl_pattern_entry* g = &b->pattern->G[e];
+      const double* x = coefficient(b, node_of(b, g->root), 0);
+      const double* v = b->v + (size_t)g->col * (size_t)b->orders * (size_t)b->lanes;
+      LANES(b) {
+        int c = b->c[g->row * b->lanes + l];
+        r[c] += x[l] * v[l];
+        size[c] += fabs(x[l]) * fmax(fabs(v[l]), 1e-3 * run->v_size);
+      }
+    }
+    for (int e = 0; e < b->pattern->n_gt; e++) {
+      const pl_pattern_entry* g = &b->pattern->gt[e];
+      const double* x = coefficient(b, node_of(b, g->root), 0);
+      LANES(b) {
+        int c = b->c[g->row * b->lanes + l];
+        r[c] += x[l];
+        size[c] += fabs(x[l]);
+      }
+    }
+  }
+}
+
+// ---------------------------------------------------------------------------------------------- right-hand side
+// s = sum_{j=1..k} x_j y_{k-j} in every lane; x from the jet, y a series of a slot.
+static inline __attribute__((always_inline)) void tail_lanes(double* s, const double* x, const double* y, int k, int lanes) {
+  for (int l = 0; l < lanes; l++) s[l] = 0;
+  for (int j = 1; j <= k; j++)
+    for (int l = 0; l < lanes; l++) s[l] += x[j * lanes + l] * y[(k - j) * lanes + l];
+}
+
+static void tail(double* s, const double* x, const double* y, int k, int lanes) {
+  if (lanes == 1) tail_lanes(s, x, y, k, 1);
+  else tail_lanes(s, x, y, k, PL_FAMILY_LANES);
+}
+
+static const double* slot_series(const pl_batch* b, const double* series, int slot) {
+  return series + (size_t)slot * (size_t)b->orders * (size_t)b->lanes;
+}
+
+static void subtract_h(pl_run* run, const pl_batch* b, int k, double* rhs) {
+  for (int e = 0; e < b->pattern->n_h; e++) {
+    const pl_pattern_entry* h = &b->pattern->h[e];
+    int node = node_of(b, h->root);
+    if (k > 0 && is_constant(b, node)) continue;
+    const double* x = coefficient(b, node, k);
+    LANES(b) {
+      rhs[b->q[h->row * b->lanes + l]] -= x[l];
+      if (k == 0 && fabs(x[l]) > run->force_size) run->force_size = fabs(x[l]);
+    }
+  }
+}
+
+static void subtract_mass_tail(const pl_batch* b, int k, double* rhs) {
+  double s[PL_FAMILY_LANES];
+  for (int e = 0; e < b->pattern->n_mass; e++) {
+    const pl_pattern_entry* m = &b->pattern->mass[e];
+    int node = node_of(b, m->root);
+    if (is_constant(b, node)) continue;
+    const double* x = coefficient(b, node, 0);
+    tail(s, x, slot_series(b, b->a, m->col), k, b->lanes);
+    LANES(b) rhs[b->q[m->row * b->lanes + l]] -= s[l];
+    if (m->row == m->col) continue;
+    tail(s, x, slot_series(b, b->a, m->row), k, b->lanes);
+    LANES(b) rhs[b->q[m->col * b->lanes + l]] -= s[l];
+  }
+}
+
+static void add_force_tail(const pl_run* run, const pl_batch* b, int k, double* rhs) {
+  double s[PL_FAMILY_LANES];
+  for (int e = 0; e < b->pattern->n_G; e++) {
+    const pl_pattern_entry* g = &b->pattern->G[e];
+    int node = node_of(b, g->root);
+    if (is_constant(b, node)) continue;
+    tail(s, coefficient(b, node, 0), slot_series(b, b->lambda, g->row), k, b->lanes);
+    LANES(b) if (run->taken[b->c[g->row * b->lanes + l]]) rhs[b->q[g->col * b->lanes + l]] += s[l];
+  }
+  for (int e = 0; e < b->pattern->n_W; e++) {
+    const pl_pattern_entry* w = &b->pattern->W[e];
+    int node = node_of(b, w->root);
+    if (is_constant(b, node)) continue;
+    tail(s, coefficient(b, node, 0), slot_series(b, b->lambda, w->col), k, b->lanes);
+    LANES(b) if (run->taken[b->c[w->col * b->lanes + l]]) rhs[b->q[w->row * b->lanes + l]] += s[l];
+  }
+}
+
+static void subtract_constraint_tail(const pl_run* run, const pl_batch* b, int k, double* rhs) {
+  double s[PL_FAMILY_LANES];
+  for (int e = 0; e < b->pattern->n_G; e++) {
+    const pl_pattern_entry* g = &b->pattern->G[e];
+    int node = node_of(b, g->root);
+    if (is_constant(b, node)) continue;
+    tail(s, coefficient(b, node, 0), slot_series(b, b->v, g->col), k + 1, b->lanes);
+    LANES(b) rhs[run->n_q + b->c[g->row * b->lanes + l]] -= (k + 1) * s[l];
+  }
+  for (int e = 0; e < b->pattern->n_gt; e++) {
+    const pl_pattern_entry* g = &b->pattern->gt[e];
+    int node = node_of(b, g->root);
+    if (is_constant(b, node)) continue;
+    const double* x = coefficient(b, node, k + 1);
+    LANES(b) rhs[run->n_q + b->c[g->row * b->lanes + l]] -= (k + 1) * x[l];
+  }
+}
+
+void pl_assemble_rhs(pl_run* run, int k, double* rhs) {
+  clear(rhs, run->n_q + run->n_c);
+  for (int i = 0; i < run->motion.n; i++) {
+    const pl_batch* b = &run->motion.at[i];
+    subtract_h(run, b, k, rhs);
+    if (k > 0) subtract_mass_tail(b, k, rhs);
+    if (k > 0) add_force_tail(run, b, k, rhs);
+    subtract_constraint_tail(run, b, k, rhs);
+  }
+  for (int i = 0; i < run->n_q; i++)
+    if (run->place_n[i] == 0) rhs[i] = 0;
+  for (int c = 0; c < run->n_c; c++)
+    if (!run->taken[c]) rhs[run->n_q + c] = 0;
+}

@@ -1,0 +1,182 @@
+// The linear system of a point: structure, factor, solve.  Dense LU with pivoting for small systems, KLU above.
+//
+// The dense matrix is balanced symmetrically by powers of two before it is factored (Ruiz 2001), so that the pivots tell how
+// singular it is whatever the units are.
+#include "solve/solve_impl.h"
+
+#include <math.h>
+
+// ---------------------------------------------------------------------------------------------- structure
+typedef struct pl_places { int* row; int* next; int* head; int n; } pl_places;   // linked lists, one a column
+
+// A mark for the structure is only added here; unique and sorted later.
+static void mark(pl_places* p, int row, int col) {
+  p->row[p->n] = row;
+  p->next[p->n] = p->head[col];
+  p->head[col] = p->n++;
+}
+
+static void mark_batch(pl_places* p, const pl_run* run, const pl_batch* b) {
+  const pl_pattern* t = b->pattern;
+  for (int l = 0; l < b->n; l++) {
+    for (int e = 0; e < t->n_mass; e++) {
+      int i = b->q[t->mass[e].row * b->lanes + l], j = b->q[t->mass[e].col * b->lanes + l];
+      mark(p, i, j);
+      mark(p, j, i);
+    }
+    for (int e = 0; e < t->n_G; e++) {
+      int c = run->n_q + b->c[t->G[e].row * b->lanes + l], j = b->q[t->G[e].col * b->lanes + l];
+      mark(p, c, j);
+      mark(p, j, c);
+    }
+    for (int e = 0; e < t->n_W; e++)
+      mark(p, b->q[t->W[e].row * b->lanes + l], run->n_q + b->c[t->W[e].col * b->lanes + l]);
+  }
+}
+
+static int count_marks(const pl_run* run) {
+  long n = run->kkt.n;
+  for (int i = 0; i < run->motion.n; i++) {
+    const pl_pattern* t = run->motion.at[i].pattern;
+    n += (long)run->motion.at[i].n * (2L * t->n_mass + 2L * t->n_G + t->n_W);
+  }
+  return n > INT32_MAX - 8 ? -1 : (int)n;
+}
+
+// Insertion from the back: the lists come almost sorted.
+static int insert_sorted(int* list, int n, int row) {
+  int i = n;
+  while (i > 0 && list[i - 1] > row) i--;
+  if (i > 0 && list[i - 1] == row) return n;
+  for (int k = n; k > i; k--) list[k] = list[k - 1];
+  list[i] = row;
+  return n + 1;
+}
+
+static pleuel_status sparse_structure(pl_run* run) {
+  pl_arena* a = run->job->arena;
+  pl_kkt* k = &run->kkt;
+  int most = count_marks(run);
+  if (most < 0) return pl_fail(run->job, PLEUEL_NO_MEMORY, "the linear system has too many entries");
+  pl_places p = {PL_ARRAY(a, int, most + 1), PL_ARRAY(a, int, most + 1), PL_ARRAY(a, int, k->n + 1), 0};
+  for (int j = 0; j < k->n; j++) p.head[j] = -1;
+  for (int j = 0; j < k->n; j++) mark(&p, j, j);
+  for (int i = 0; i < run->motion.n; i++) mark_batch(&p, run, &run->motion.at[i]);
+  k->start = PL_ARRAY(a, int, k->n + 1);
+  k->row = PL_ARRAY(a, int, most + 1);
+  for (int j = 0; j < k->n; j++) {
+    int n = 0;
+    for (int e = p.head[j]; e >= 0; e = p.next[e]) n = insert_sorted(k->row + k->start[j], n, p.row[e]);
+    k->start[j + 1] = k->start[j] + n;
+  }
+  k->n_values = k->start[k->n];
+  return PLEUEL_OK;
+}
+
+static int place(const pl_kkt* k, int row, int col) {
+  if (k->dense) return row + col * k->n;
+  int lo = k->start[col], hi = k->start[col + 1] - 1;
+  while (lo < hi) {
+    int mid = (lo + hi) / 2;
+    if (k->row[mid] < row) lo = mid + 1;
+    else hi = mid;
+  }
+  return lo;
+}
+
+static void place_batch(pl_run* run, pl_batch* b) {
+  pl_arena* a = run->job->arena;
+  const pl_pattern* t = b->pattern;
+  b->at_mass = PL_ARRAY(a, int, t->n_mass * b->lanes + 1);
+  b->at_mass_t = PL_ARRAY(a, int, t->n_mass * b->lanes + 1);
+  b->at_G = PL_ARRAY(a, int, t->n_G * b->lanes + 1);
+  b->at_Gt = PL_ARRAY(a, int, t->n_G * b->lanes + 1);
+  b->at_W = PL_ARRAY(a, int, t->n_W * b->lanes + 1);
+  for (int l = 0; l < b->n; l++) {
+    for (int e = 0; e < t->n_mass; e++) {
+      int i = b->q[t->mass[e].row * b->lanes + l], j = b->q[t->mass[e].col * b->lanes + l];
+      b->at_mass[e * b->lanes + l] = place(&run->kkt, i, j);
+      b->at_mass_t[e * b->lanes + l] = place(&run->kkt, j, i);
+    }
+    for (int e = 0; e < t->n_G; e++) {
+      int c = run->n_q + b->c[t->G[e].row * b->lanes + l], j = b->q[t->G[e].col * b->lanes + l];
+      b->at_G[e * b->lanes + l] = place(&run->kkt, c, j);
+      b->at_Gt[e * b->lanes + l] = place(&run->kkt, j, c);
+    }
+    for (int e = 0; e < t->n_W; e++)
+      b->at_W[e * b->lanes + l] =
+          place(&run->kkt, b->q[t->W[e].row * b->lanes + l], run->n_q + b->c[t->W[e].col * b->lanes + l]);
+  }
+}
+
+pleuel_status pl_kkt_make(pl_run* run) {
+  pl_arena* a = run->job->arena;
+  pl_kkt* k = &run->kkt;
+  k->n = run->n_q + run->n_c;
+  k->dense = k->n <= PL_DENSE_UP_TO;
+  if (k->dense) k->n_values = k->n * k->n;
+  else PL_TRY(sparse_structure(run));
+  k->value = PL_ARRAY(a, double, k->n_values + 1);
+  k->work = PL_ARRAY(a, double, k->n + 1);
+  k->diagonal = PL_ARRAY(a, int, k->n + 1);
+  for (int i = 0; i < k->n; i++) k->diagonal[i] = place(k, i, i);
+  for (int i = 0; i < run->motion.n; i++) place_batch(run, &run->motion.at[i]);
+  if (k->dense) {
+    k->lu = PL_ARRAY(a, double, k->n_values + 1);
+    k->scale = PL_ARRAY(a, double, k->n + 1);
+    k->balance = PL_ARRAY(a, double, k->n + 1);
+    k->pivot = PL_ARRAY(a, int, k->n + 1);
+    return PLEUEL_OK;
+  }
+  k->sparse = pl_sparse_make(a, k->n, k->start, k->row);
+  if (k->sparse == NULL) return pl_fail(run->job, PLEUEL_SINGULAR, "the equations of motion do not determine every acceleration");
+  return PLEUEL_OK;
+}
+
+void pl_kkt_free(pl_kkt* k) { pl_sparse_free(k->sparse); }
+
+// ---------------------------------------------------------------------------------------------- factor
+static double power_of_two(double x) {   // near 1/sqrt x
+  int e;
+  if (!(x > 0) || !isfinite(x)) return 1;
+  frexp(x, &e);
+  return ldexp(1.0, -e / 2);
+}
+
+static void balance(pl_kkt* k) {
+  int n = k->n;
+  for (int i = 0; i < n; i++) k->balance[i] = 1;
+  for (int i = 0; i < n * n; i++) k->lu[i] = k->value[i];
+  for (int round = 0; round < 3; round++) {
+    for (int i = 0; i < n; i++) k->work[i] = 0;
+    for (int j = 0; j < n; j++)
+      for (int i = 0; i < n; i++) k->work[i] = fmax(k->work[i], fabs(k->lu[i + j * n]));
+    for (int i = 0; i < n; i++) k->work[i] = power_of_two(k->work[i]);
+    for (int i = 0; i < n; i++) k->balance[i] *= k->work[i];
+    for (int j = 0; j < n; j++)
+      for (int i = 0; i < n; i++) k->lu[i + j * n] *= k->work[i] * k->work[j];
+  }
+}
+
+// Below this ratio of pivots nothing is left of the digits of a double.
+static const double least_ratio = 1e-15;
+
+bool pl_kkt_factor(pl_kkt* k) {
+  if (k->dense) {
+    balance(k);
+    k->ratio = pl_lu_factor(k->lu, k->pivot, k->scale, k->n);
+  } else {
+    k->ratio = pl_sparse_factor(k->sparse, k->value) ? pl_sparse_rcond(k->sparse) : 0;
+  }
+  return k->ratio > least_ratio;
+}
+
+void pl_kkt_solve(pl_kkt* k, double* b) {
+  if (!k->dense) {
+    pl_sparse_solve(k->sparse, b);
+    return;
+  }
+  for (int i = 0; i < k->n; i++) b[i] *= k->balance[i];
+  pl_lu_solve(k->lu, k->pivot, k->scale, b, k->work, k->n);
+  for (int i = 0; i < k->n; i++) b[i] *= k->balance[i];
+}

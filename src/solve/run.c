@@ -1,0 +1,272 @@
+// A run takes steps: series, roots on the step, projection, check, rows.
+#include "solve/solve_impl.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+// What a step may be off by before it is tried again at half the length, in units of the tolerance.
+static const double allowed_move = 1e4;       // correction by the projection, relative
+static const double allowed_floor = 1e-11;    // and what rounding may do to it close to a singular position
+static const double allowed_residual = 1e-12; // |g| and |G v + dg/dt| after it, relative to their terms
+// A pivot of the constraints that has faded to this part of its largest value announces a singular position.
+static const double faded = 1e-6;
+
+// ---------------------------------------------------------------------------------------------- singular positions
+// The place: where the smallest pivot, continued linearly, is zero.
+pleuel_status pl_run_singular(pl_run* run) {
+  double t = run->t, slope = (run->smallest - run->smallest_before) / (run->t - run->t_before);
+  if (isfinite(slope) && slope != 0 && run->t != run->t_before) {
+    double reach = -run->smallest / slope;
+    if (fabs(reach) < fabs(run->t - run->t_before)) t += reach;
+  }
+  char where[320];
+  size_t n = 0;
+  where[0] = '\0';
+  for (int i = 0; i < run->n_q && n < sizeof where - 64; i++) {
+    int w = snprintf(where + n, sizeof where - n, "%s%s = %.6g", i ? ", " : "", run->setup->coordinates[i].name, run->q[i]);
+    if (w < 0 || (size_t)w >= sizeof where - n) break;
+    n += (size_t)w;
+  }
+  run->stats.t_singular = t;
+  pl_rows_before(run);
+  if (run->started) PL_TRY(pl_rows_event(run, PL_EV_SINGULAR, -1, 0, false));
+  return pl_fail(run->job, PLEUEL_SINGULAR,
+                 "singular position at t = %.9g s (%s): the constraints lose rank and do not tell how the motion goes on", t,
+                 where);
+}
+
+static bool is_singular(pl_run* run) {
+  if (run->rank_mode >= 0 && run->rank < run->rank_mode) return true;
+  return run->best > 0 && run->smallest < faded * run->best && run->smallest < run->smallest_before;
+}
+
+// ---------------------------------------------------------------------------------------------- one attempt
+static bool acceptable(const pl_run* run, const pl_projection* p) {
+  double move = fmax(allowed_move * run->tol, allowed_floor), left = fmax(10 * run->tol, allowed_residual);
+  return p->ok && p->move_q <= move && p->move_v <= move && p->g_after <= left && p->r_after <= left;
+}
+
+static void note(pl_run* run, const pl_projection* p, double h) {
+  pl_stats* s = &run->stats;
+  s->steps++;
+  s->max_g = fmax(s->max_g, p->g_after);
+  s->max_gdot = fmax(s->max_gdot, p->r_after);
+  s->max_projection = fmax(s->max_projection, fmax(p->move_q, p->move_v));
+  if (h != 0) {
+    s->h_min = s->h_min == 0 ? fabs(h) : fmin(s->h_min, fabs(h));
+    s->h_max = fmax(s->h_max, fabs(h));
+  }
+}
+
+static double left_over(const pl_run* run) { return run->options.t_end - run->t - run->t_low; }
+
+static double choose_step(const pl_run* run) {
+  double h = pl_series_step(run), left = left_over(run);
+  if (run->options.h_max > 0) h = fmin(h, run->options.h_max);
+  else h = fmin(h, run->h_plain);
+  // not a last step that is almost nothing
+  if (h >= fabs(left)) h = fabs(left);
+  else if (h > 0.5 * fabs(left)) h = 0.5 * fabs(left);
+  return copysign(h, left);
+}
+
+// t + h with the rounding error carried along.
+static void advance_time(pl_run* run, double h, bool to_end) {
+  double add = h + run->t_low, t = run->t + add;
+  run->t_low = add - (t - run->t);
+  run->t = t;
+  if (to_end) run->t = run->options.t_end, run->t_low = 0;
+}
+
+static pleuel_status too_small(pl_run* run, double h) {
+  if (run->best > 0 && run->smallest < 1e-2 * run->best) return pl_run_singular(run);
+  return pl_fail(run->job, PLEUEL_NUMERICAL,
+                 "no step is short enough at t = %.9g s (%.3g s tried): the motion leaves the domain of a function, "
+                 "or a force or the constraints jump there", run->t, h);
+}
+
+// The longest step up to h whose end passes the check; the state there is in trial_q, trial_v.
+static pleuel_status try_steps(pl_run* run, double* h, double* root, pl_projection* p) {
+  for (;;) {
+    *root = run->n_watch > 0 ? pl_watch_first(run, *h) : -1;
+    double reach = *root >= 0 ? *root * *h : *h;
+    if (*root == 0) return PLEUEL_OK;
+    pl_series_at(run, reach, run->trial_q, run->trial_v);
+    *p = pl_project(run, run->t + run->t_low + reach, run->trial_q, run->trial_v);
+    if (acceptable(run, p)) {
+      *h = reach;
+      return PLEUEL_OK;
+    }
+    run->stats.rejections++;
+    *h = 0.5 * reach;
+    if (!(fabs(*h) > run->h_least)) return too_small(run, *h);
+  }
+}
+
+// ---------------------------------------------------------------------------------------------- a step
+static void swap_series(double** a, double** b) {
+  double* x = *a;
+  *a = *b;
+  *b = x;
+}
+
+static void accept(pl_run* run, double h, bool to_end) {
+  swap_series(&run->Q, &run->Q_last);
+  swap_series(&run->V, &run->V_last);
+  swap_series(&run->A, &run->A_last);
+  swap_series(&run->L, &run->L_last);
+  run->t_last = run->t_series;
+  run->smallest_before = run->smallest_here;
+  run->t_before = run->t;
+  run->h_last = h;
+  advance_time(run, h, to_end);
+  memcpy(run->q, run->trial_q, (size_t)run->n_q * sizeof(double));
+  memcpy(run->v, run->trial_v, (size_t)run->n_q * sizeof(double));
+}
+
+static pleuel_status check_energy(pl_run* run) {
+  double limit = fmax(1e-8, 1e5 * run->tol);
+  if (!run->setup->energy_conserved || !(run->stats.energy_drift > limit)) return PLEUEL_OK;
+  return pl_fail(run->job, PLEUEL_NUMERICAL, "the energy has drifted by %.2g of its size at t = %.9g s: the result cannot be trusted",
+                 run->stats.energy_drift, run->t);
+}
+
+static pleuel_status arrive_at_point(pl_run* run) {
+  if (!pl_point_enter(run)) return pl_run_singular(run);
+  pl_assemble_row_sizes(run);
+  if (is_singular(run)) return pl_run_singular(run);
+  if (run->rank > run->rank_mode) run->rank_mode = run->rank;
+  if (run->rank != run->n_active) pl_independent_unique(run);
+  run->smallest_here = run->smallest;
+  pl_rows_energy(run, false);
+  return check_energy(run);
+}
+
+static pleuel_status step(pl_run* run) {
+  pl_series_expand(run);
+  pl_watch_series(run);
+  double h = choose_step(run), wanted = h, root;
+  if (!(fabs(h) > run->h_least) && fabs(h) < fabs(left_over(run))) return too_small(run, h);
+  pl_projection p = {0};
+  PL_TRY(try_steps(run, &h, &root, &p));
+  if (root == 0) return pl_modes_handle(run);
+  bool to_end = h == wanted && root < 0 && fabs(wanted) == fabs(left_over(run));
+  PL_TRY(pl_rows_grid(run, run->t, run->t + h));
+  if (run->n_watch > 0) pl_watch_passed(run, h);
+  note(run, &p, h);
+  accept(run, h, to_end);
+  PL_TRY(arrive_at_point(run));
+  if (root > 0) return pl_modes_handle(run);
+  return pl_run_done(run) ? PLEUEL_OK : pl_rows_point(run, PL_ROW_STEP);
+}
+
+static pleuel_status limits(pl_run* run) {
+  if (run->job->interrupted && pl_interrupted(run->job)) return pl_fail(run->job, PLEUEL_INTERRUPTED, "interrupted at t = %.9g s", run->t);
+  if (run->options.max_steps > 0 && run->stats.steps >= run->options.max_steps)
+    return pl_fail(run->job, PLEUEL_NUMERICAL, "%ld steps were not enough: t = %.9g s", run->options.max_steps, run->t);
+  return PLEUEL_OK;
+}
+
+pleuel_status pl_run_step(pl_run* run) {
+  if (!run->started) PL_TRY(pl_run_start(run));
+  PL_TRY(pl_rows_begin(run));
+  if (pl_run_done(run)) return PLEUEL_OK;
+  PL_TRY(limits(run));
+  PL_TRY(step(run));
+  run->stats.rank = run->rank;
+  if (run->options.progress)
+    run->options.progress(run->options.progress_user, run->t, run->options.t_end, run->h_last, &run->stats);
+  return PLEUEL_OK;
+}
+
+static pleuel_status steps_to_end(pl_run* run) {
+  if (!run->started) PL_TRY(pl_run_start(run));
+  PL_TRY(pl_rows_begin(run));
+  while (!pl_run_done(run)) PL_TRY(pl_run_step(run));
+  return PLEUEL_OK;
+}
+
+pleuel_status pl_run_to_end(pl_run* run) {
+  double begin = pl_clock();
+  const pl_sink* s = &run->options.sink;
+  pleuel_status how = steps_to_end(run);
+  if (run->begun && !run->ended) {
+    // the last row is written whatever happened, unless it stands there already
+    pleuel_status last = run->ready ? pl_rows_point(run, PL_ROW_END) : PLEUEL_OK;
+    if (how == PLEUEL_OK) how = last;
+    run->ended = true;
+  }
+  run->stats.wall_s += pl_clock() - begin;
+  if (run->opened && s->end) {
+    pleuel_status end = s->end(s->user, how, how == PLEUEL_OK ? "" : run->job->message, &run->stats);
+    if (how == PLEUEL_OK) how = end;
+  }
+  return how;
+}
+
+// ---------------------------------------------------------------------------------------------- starting from numbers
+pleuel_status pl_run_begin_at(pl_run* run, double t) {
+  run->t = t;
+  run->t_low = 0;
+  run->q_size = pl_norm(run->q, run->n_q);
+  run->v_size = pl_norm(run->v, run->n_q);
+  run->stats.energy_drift = NAN;
+  run->factored = false;
+  PL_TRY(pl_modes_enter(run));
+  run->stats.rank_start = run->stats.rank = run->rank;
+  run->smallest_here = run->smallest;
+  run->started = true;
+  PL_TRY(pl_rows_open(run));
+  PL_TRY(pl_modes_check(run, true));
+  pl_rows_energy(run, true);
+  return PLEUEL_OK;
+}
+
+// One-sided constraints are in contact where they are met.
+static void decide_contacts(pl_run* run, double t) {
+  run->q_size = pl_norm(run->q, run->n_q);
+  pl_point_evaluate(run, t, run->q, run->v);
+  pl_assemble_g(run, 0, run->g, run->g_size);
+  for (int c = 0; c < run->n_c; c++) {
+    const pl_link* link = &run->setup->links[c];
+    if (link->side != 0 && !link->velocity) run->on[c] = !run->detached[c] && fabs(run->g[c]) <= 1e-9 * run->g_size[c];
+  }
+}
+
+pleuel_status pl_run_start_at(pl_run* run, double t, const double* q, const double* v) {
+  for (int i = 0; i < run->n_q; i++) {
+    run->q[i] = q[i];
+    run->v[i] = v[i];
+    if (!isfinite(q[i]) || !isfinite(v[i]))
+      return pl_fail(run->job, PLEUEL_USAGE, "the start value of %s is not a number", run->setup->coordinates[i].name);
+  }
+  pl_watch_forget(run);
+  decide_contacts(run, t);
+  return pl_run_begin_at(run, t);
+}
+
+// ---------------------------------------------------------------------------------------------- reading
+double pl_run_time(const pl_run* run) { return run->t; }
+bool pl_run_done(const pl_run* run) { return run->stopped || (run->started && left_over(run) == 0); }
+const double* pl_run_q(const pl_run* run) { return run->q; }
+const double* pl_run_v(const pl_run* run) { return run->v; }
+const double* pl_run_a(const pl_run* run) { return run->A; }
+const double* pl_run_lambda(const pl_run* run) { return run->L; }
+const bool* pl_run_unique(const pl_run* run) { return run->unique; }
+const pl_stats* pl_run_stats(const pl_run* run) { return &run->stats; }
+double pl_run_tol(const pl_run* run) { return run->tol; }
+bool pl_run_tol_raised(const pl_run* run) { return run->tol_raised; }
+bool pl_run_is_active(const pl_run* run, int link) { return run->active[link]; }
+
+void pl_run_dense(const pl_run* run, double t, double* q, double* v, double* lambda) {
+  double dt = t - run->t_last;
+  if (q) pl_horner(run->Q_last, run->n_q, run->order + 1, dt, q);
+  if (v) pl_horner(run->V_last, run->n_q, run->order, dt, v);
+  if (lambda) pl_horner(run->L_last, run->n_c, run->order - 1, dt, lambda);
+}
+
+const char* pl_run_mode(const pl_run* run) {
+  pl_mode_text(run, run->mode);
+  return run->mode;
+}

@@ -1,0 +1,140 @@
+// The series of the motion at a point, order by order, and the step that it allows.
+//
+// Index-3 Taylor series: with q_{k+1} = v_k / (k+1), nodes of q and t are known to order k+1, nodes of v to order k, and one
+// solve with the factor of the point gives a_k and λ_k; then v_{k+1} = a_k / (k+1).  Order and step after Jorba and
+// Zou, Exp. Math. 14 (2005) 99, with separate norms for positions and velocities, which have different units.
+#include "solve/solve_impl.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+double pl_norm(const double* x, int n) {
+  double most = 0;
+  for (int i = 0; i < n; i++) {
+    double y = fabs(x[i]);
+    if (!(y <= most)) most = y;    // NaN comes through
+  }
+  return most;
+}
+
+// ---------------------------------------------------------------------------------------------- the point
+void pl_point_evaluate(pl_run* run, double t, const double* q, const double* v) {
+  pl_batches* m = &run->motion;
+  pl_batches_time(m, t);
+  pl_batches_load_q(m, q, 0);
+  pl_batches_load_v(m, v, 0);
+  pl_batches_sweep(m, PL_LEVEL_PLACE, 0, true);
+  pl_batches_sweep(m, PL_LEVEL_SPEED, 0, true);
+}
+
+bool pl_point_factor(pl_run* run, bool with_W) {
+  pl_assemble_matrix(run, with_W);
+  return pl_kkt_factor(&run->kkt);
+}
+
+static void take_accelerations(pl_run* run, int k) {
+  double* a = run->A + (size_t)k * (size_t)run->n_q;
+  double* lambda = run->L + (size_t)k * (size_t)run->n_c;
+  double* v_next = run->V + (size_t)(k + 1) * (size_t)run->n_q;
+  for (int i = 0; i < run->n_q; i++) {
+    a[i] = run->rhs[i];
+    v_next[i] = a[i] / (k + 1);
+  }
+  for (int c = 0; c < run->n_c; c++) lambda[c] = run->taken[c] ? -run->rhs[run->n_q + c] : 0;
+}
+
+static void solve_order(pl_run* run, int k) {
+  pl_batches* m = &run->motion;
+  int n = run->n_q;
+  double* q_next = run->Q + (size_t)(k + 1) * (size_t)n;
+  const double* v = run->V + (size_t)k * (size_t)n;
+  for (int i = 0; i < n; i++) q_next[i] = v[i] / (k + 1);
+  pl_batches_load_q(m, q_next, k + 1);
+  // all: where a landing is watched, g itself is needed to all orders
+  bool all = run->watch_landings;
+  pl_batches_sweep(m, PL_LEVEL_PLACE, k + 1, all);
+  if (k > 0) pl_batches_sweep(m, PL_LEVEL_SPEED, k, false);
+  pl_assemble_rhs(run, k, run->rhs);
+  pl_kkt_solve(&run->kkt, run->rhs);
+  take_accelerations(run, k);
+  pl_batches_load_a(m, run->A + (size_t)k * (size_t)n, k);
+  pl_batches_load_lambda(m, run->L + (size_t)k * (size_t)run->n_c, k);
+  pl_batches_load_v(m, run->V + (size_t)(k + 1) * (size_t)n, k + 1);
+}
+
+bool pl_point_enter(pl_run* run) {
+  int n = run->n_q;
+  memcpy(run->Q, run->q, (size_t)n * sizeof *run->q);
+  memcpy(run->V, run->v, (size_t)n * sizeof *run->v);
+  run->t_series = run->t;
+  if (run->factored) {
+    // the projection left nodes of q and t and the factor; only v has changed since
+    pl_batches_load_v(&run->motion, run->v, 0);
+    pl_batches_sweep(&run->motion, PL_LEVEL_SPEED, 0, true);
+  } else {
+    pl_point_evaluate(run, run->t, run->q, run->v);
+    pl_independent_choose(run);
+    if (!pl_point_factor(run, true)) return false;
+  }
+  run->factored = false;
+  solve_order(run, 0);
+  run->ready = isfinite(pl_norm(run->A, n)) && isfinite(pl_norm(run->L, run->n_c));
+  return run->ready;
+}
+
+void pl_series_expand(pl_run* run) {
+  for (int k = 1; k < run->order; k++) solve_order(run, k);
+  // one more coefficient of q comes for nothing
+  const double* v = run->V + (size_t)run->order * (size_t)run->n_q;
+  double* q = run->Q + (size_t)(run->order + 1) * (size_t)run->n_q;
+  for (int i = 0; i < run->n_q; i++) q[i] = v[i] / (run->order + 1);
+}
+
+// ---------------------------------------------------------------------------------------------- step
+// Radius of a block from coefficient k: (|x| / |x_k|)^(1/k).  The size |x| is that of the block at the point, or what
+// an early coefficient and the radius say when it is near zero there.
+static double block_size(const double* X, int n, int last) {
+  double size = pl_norm(X, n), top = pl_norm(X + (size_t)last * (size_t)n, n);
+  if (top == 0) return size > 0 ? size : 1;
+  for (int k = 1; k <= 3 && k < last; k++) {
+    double x = pl_norm(X + (size_t)k * (size_t)n, n);
+    double radius = pow(x / top, 1.0 / (last - k));
+    size = fmax(size, x * pow(radius, k));
+  }
+  return size;
+}
+
+static double block_radius(const double* X, int n, int last) {
+  double size = block_size(X, n, last), least = INFINITY;
+  for (int k = last - 1; k <= last; k++) {
+    double top = pl_norm(X + (size_t)k * (size_t)n, n);
+    if (top > 0) least = fmin(least, pow(size / top, 1.0 / k));
+    if (isnan(top)) return 0;
+  }
+  return least;
+}
+
+double pl_series_step(const pl_run* run) {
+  int p = run->order;
+  double q = block_radius(run->Q, run->n_q, p + 1), v = block_radius(run->V, run->n_q, p);
+  // e^-2 of the radius makes p equal steps of e^-2p = tol; the rest is their safety factor, eq. (3-8) there
+  return fmin(q, v) * exp(-2 - 0.7 / (p - 1));
+}
+
+// ---------------------------------------------------------------------------------------------- evaluation
+void pl_horner(const double* X, int n, int last, double dt, double* x) {
+  for (int i = 0; i < n; i++) x[i] = X[(size_t)last * (size_t)n + (size_t)i];
+  for (int k = last - 1; k >= 0; k--)
+    for (int i = 0; i < n; i++) x[i] = x[i] * dt + X[(size_t)k * (size_t)n + (size_t)i];
+}
+
+void pl_series_at(const pl_run* run, double dt, double* q, double* v) {
+  pl_horner(run->Q, run->n_q, run->order + 1, dt, q);
+  pl_horner(run->V, run->n_q, run->order, dt, v);
+}
+
+void pl_series_lambda_at(const pl_run* run, double dt, double* a, double* lambda) {
+  pl_horner(run->A, run->n_q, run->order - 1, dt, a);
+  pl_horner(run->L, run->n_c, run->order - 1, dt, lambda);
+}

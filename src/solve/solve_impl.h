@@ -1,0 +1,215 @@
+// Inside of a run: batches of instances with their jets, the linear system of a step, the series, contacts, events.
+#ifndef PL_SOLVE_IMPL_H
+#define PL_SOLVE_IMPL_H
+
+#include "linalg/linalg.h"
+#include "solve/solve.h"
+
+enum {
+  PL_FAMILY_LANES = 8,     // instances computed side by side
+  PL_DENSE_UP_TO = 60,     // unknowns: dense below, KLU above
+  PL_RANK_UP_TO = 400      // constraint rows whose independence is examined at every point; above: at the start
+};
+
+// Up to `lanes` instances of one pattern.  Unused lanes repeat the last instance and are not scattered.
+typedef struct pl_batch {
+  const pl_pattern* pattern;
+  pl_jet* jet;
+  int lanes, n;
+  int *q, *c, *out;        // global index of slot s in lane l: q[s * lanes + l]
+  double *v, *a, *lambda;  // series of each slot, lane fastest: v[(s * orders + k) * lanes + l]
+  int orders;              // room for coefficients 0 .. orders-1 of v, a, λ
+  int *at_mass, *at_mass_t, *at_G, *at_Gt, *at_W;   // places in the values of the linear system, per entry and lane
+} pl_batch;
+
+typedef struct pl_batches { pl_batch* at; int n; } pl_batches;
+
+// The linear system of a point: [M G^T + W; G 0] [a; -λ] = r.  Rows of constraints not used hold 1 on the diagonal.
+typedef struct pl_kkt {
+  int n;                   // n_q + n_c
+  bool dense;
+  int n_values;
+  double* value;           // dense: (n x n) column-major; sparse: along the structure
+  int *start, *row;        // structure
+  int* diagonal;           // place of each diagonal entry  (n)
+  double *lu, *scale, *balance, *work;   // dense factor
+  int* pivot;
+  pl_sparse* sparse;
+  double ratio;            // of the pivots, a measure of how singular it is
+} pl_kkt;
+
+// Something that is watched for a root on a step: a release, a landing or an event.
+typedef enum pl_watch_kind { PL_WATCH_RELEASE, PL_WATCH_LANDING, PL_WATCH_EVENT } pl_watch_kind;
+typedef struct pl_watch {
+  pl_watch_kind kind;
+  int index;               // constraint or event
+  int direction;           // +1 rising, -1 falling, 0 both
+  int fresh;               // so many leading coefficients are zero by construction: it has just happened
+  int side;                // sign on which it is known to be; 0 unknown
+} pl_watch;
+
+struct pl_run {
+  pl_job* job;
+  const pl_setup* setup;
+  pl_run_options options;
+  int n_q, n_c, order;     // v has coefficients 0 .. order
+  double tol;
+  bool tol_raised;
+
+  pl_batches motion, observers, watched, branches;
+  pl_kkt kkt;
+  bool has_W;              // some force depends on a multiplier
+  bool mass_of_speed;      // M depends on velocities
+  bool watch_landings;     // some one-sided constraint is free
+  bool factored;           // the factor and the nodes of q, t belong to run->t, q (left by a projection)
+  int* place_n;            // structure of coordinates: 1 if the coordinate has an entry in M  (n_q)
+
+  // the point
+  double t, t_low;         // time and its rounding error
+  double *q, *v;           // (n_q)
+  bool ready;              // a_0, λ_0 and the factor belong to the point
+  double *g, *g_size;      // constraint values, size of their terms     (n_c)
+  double *r, *r_size;      // G v + dg/dt and its terms                  (n_c)
+  double* rhs;             // (n_q + n_c)
+  double force_size;       // largest |h_i| met, for the rounding error of λ
+  double* row_most;        // largest entry of each row of G       (n_c)
+
+  // the series at the point
+  double *Q, *V, *A, *L;   // coefficient k: Q + k n_q, L + k n_c
+  double t_series;         // where it starts
+  double *Q_last, *V_last, *A_last, *L_last;   // the series of the step that was taken last
+  double t_last, h_last;   // where that starts, and its length
+
+  // dense series of what is watched
+  double *G_series;        // g of each constraint: coefficient k at k n_c
+  double *W_series;        // watched quantities: coefficient k at k n_watched
+
+  // active set and rank
+  bool *on;                // switched on: in contact, for a one-sided one    (n_c)
+  bool *detached;          // off by declaration or by an event: does not come back by itself    (n_c)
+  bool *active;            // on, and its contact too                    (n_c)
+  bool *taken;             // in the independent subset                  (n_c)
+  bool *unique;            // multiplier determined                      (n_c)
+  int n_active, rank, rank_mode;
+  double *rows, *rank_work, *column;   // for independence: rows (n_c x n_q), largest scaled entry of each column so far (n_q)
+  int *priority, *row_of;
+  bool* row_taken;
+  double smallest, best;   // smallest pivot of the independent rows; largest such so far
+  double smallest_here, smallest_before, t_before;   // at the point, at the one before, its time
+  double *dep, *dep_tau, *dep_norm;    // dependence of rows left out
+  int* dep_jpvt;
+
+  // step control
+  double q_size, v_size;   // largest norms met
+  double h_plain, h_least; // s: longest without a grid, shortest
+  double *trial_q, *trial_v;
+  double *save_q, *save_v, *save_a, *save_l;   // the point before a mode change
+  bool* save_unique;
+  double* impulse;         // (n_c)
+  double *jump_v;          // (n_q)
+
+  // watching
+  pl_watch* watch;
+  int n_watch;
+  double *poly, *root_work;
+  bool* hit;               // (n_watch)
+  double* root;            // (n_watch)
+
+  // rows
+  double *out_now, *out_before, *row_q, *row_v, *row_a, *row_l;
+  double* energy_out;
+  char *mode, *mode_before;
+  size_t mode_size;
+  double t_grid;           // next grid time is t_0 + grid_n * grid_dt
+  long grid_n, grid_count;
+  double grid_dt;
+  bool opened, begun, ended, started, stopped;
+  double last_row_t;       // of a row that was not one before an event; NaN
+  int mode_changes;        // in a row without progress
+  double mode_change_t;
+
+  double* W_coef;          // values of watched quantities at a point   (n_watched)
+  double* branch_value;    // (n_branch_outputs)
+  pl_start_report start;
+  pl_stats stats;
+  double energy_size, energy_base;
+  double wall_begin;
+};
+
+// ---- batches.c: instances in lanes
+pleuel_status pl_batches_make(pl_job* job, pl_batches* b, const pl_pattern* patterns, int n, int orders, int n_q, int n_c,
+                              int n_out);
+void pl_batches_time(pl_batches* b, double t);
+void pl_batches_load_q(pl_batches* b, const double* q, int k);
+void pl_batches_load_v(pl_batches* b, const double* v, int k);
+void pl_batches_load_a(pl_batches* b, const double* a, int k);
+void pl_batches_load_lambda(pl_batches* b, const double* lambda, int k);
+void pl_batches_sweep(pl_batches* b, pl_level level, int k, bool all);
+void pl_batches_outputs(const pl_batches* b, double* out, int n_out, int k);   // sums of contributions
+
+// ---- assemble.c: from jets to the linear system
+void pl_assemble_matrix(pl_run* run, bool with_W);
+void pl_assemble_rows(pl_run* run);                 // active rows of G into run->rows, run->row_of
+void pl_assemble_row_sizes(pl_run* run);            // run->row_most
+void pl_assemble_g(pl_run* run, int k, double* g, double* size);   // size NULL: values only
+void pl_assemble_gdot(pl_run* run, double* r, double* size);      // G v + dg/dt at order 0
+void pl_assemble_rhs(pl_run* run, int k, double* rhs);
+
+// ---- kkt.c
+pleuel_status pl_kkt_make(pl_run* run);
+bool pl_kkt_factor(pl_kkt* k);
+void pl_kkt_solve(pl_kkt* k, double* b);
+void pl_kkt_free(pl_kkt* k);
+
+// ---- independent.c: which constraints are used, what is determined
+void pl_independent_choose(pl_run* run);
+void pl_independent_unique(pl_run* run);
+void pl_active_update(pl_run* run);                 // active from on; orphans rest
+
+// ---- series.c
+void pl_point_evaluate(pl_run* run, double t, const double* q, const double* v);   // levels PLACE and SPEED at order 0
+bool pl_point_factor(pl_run* run, bool with_W);     // choose, assemble, factor
+bool pl_point_enter(pl_run* run);                   // all of order 0 at run->t, q, v
+void pl_series_expand(pl_run* run);
+double pl_series_step(const pl_run* run);           // Jorba and Zou
+void pl_horner(const double* X, int n, int last, double dt, double* x);   // sum of X_k dt^k
+void pl_series_at(const pl_run* run, double dt, double* q, double* v);
+void pl_series_lambda_at(const pl_run* run, double dt, double* a, double* lambda);
+
+// ---- project.c
+typedef struct pl_projection { double g_before, g_after, r_before, r_after, move_q, move_v; bool ok; } pl_projection;
+pl_projection pl_project(pl_run* run, double t, double* q, double* v);
+void pl_impulse(pl_run* run, double* v, double factor, double* impulse);   // velocities onto G v + dg/dt = 0; (n_c)
+double pl_norm(const double* x, int n);
+
+// ---- watch.c
+void pl_watch_make(pl_run* run);
+void pl_watch_series(pl_run* run);                  // after pl_series_expand
+double pl_watch_first(pl_run* run, double h);       // earliest root in (0, h], hit[] says who; -1 none
+void pl_watch_forget(pl_run* run);                  // all sides unknown: after a start or a jump
+void pl_watch_passed(pl_run* run, double h);        // the step h was taken: sides at its end
+pl_watch* pl_watch_of(pl_run* run, pl_watch_kind kind, int index);
+double pl_watch_force_noise(const pl_run* run, int c);   // rounding error of λ_c
+
+// ---- modes.c
+pleuel_status pl_modes_enter(pl_run* run);                  // the point in the mode that on[] says
+pleuel_status pl_modes_check(pl_run* run, bool at_start);   // contacts that pull are released
+pleuel_status pl_modes_handle(pl_run* run);                 // what hit[] says, at the point
+void pl_mode_text(const pl_run* run, char* out);
+
+// ---- run.c
+pleuel_status pl_run_singular(pl_run* run);         // fails with the place
+pleuel_status pl_run_begin_at(pl_run* run, double t);   // from run->q, v
+
+// ---- rows.c
+pleuel_status pl_rows_open(pl_run* run);            // begin of the sink
+pleuel_status pl_rows_begin(pl_run* run);
+pleuel_status pl_rows_point(pl_run* run, pl_row_kind kind);              // the point itself
+pleuel_status pl_rows_grid(pl_run* run, double t_from, double t_to);     // grid times in (t_from, t_to)
+pl_row pl_row_now(pl_run* run, pl_row_kind kind, double* out, char* mode);
+void pl_observe(pl_run* run, double t, const double* q, const double* v, const double* a, const double* lambda, double* out);
+void pl_rows_before(pl_run* run);                                        // remembers the point before a mode change
+pleuel_status pl_rows_event(pl_run* run, pl_event_kind kind, int index, double impulse, bool at_start);
+void pl_rows_energy(pl_run* run, bool anew);                             // energy at the point, drift
+
+#endif

@@ -1,0 +1,30 @@
+// Inside of the consistent start: a search over guesses, one solve with given values held.
+#ifndef PL_START_IMPL_H
+#define PL_START_IMPL_H
+
+#include "solve/solve_impl.h"
+
+typedef struct pl_start {
+  pl_run* run;
+  double *q, *v;           // the numbers worked on                    (n_q)
+  bool *held_q, *held_v;   // given                                     (n_q)
+  double* try_q;           // for the line search                       (n_q)
+  double* solutions;       // distinct ones, one after the other        (room x n_q)
+  bool* solution_on;       // contacts of each                          (room x n_c)
+  int n_solutions;
+  bool* sits;              // one-sided, closed without being given     (n_c)
+  int worst_link;          // of the last solve that failed
+  double worst;            // its relative residual
+  int below;               // one-sided constraint that given values put on the wrong side, -1
+} pl_start;
+
+enum { PL_START_ROOM = 16 };
+
+// ---- start_solve.c
+bool pl_start_positions(pl_start* s, const bool* held);       // Gauss-Newton from s->q; true: met to 1e-9
+bool pl_start_velocities(pl_start* s, const bool* held);      // least norm in the mass metric
+int pl_start_rank(pl_start* s, const bool* held);             // independent active rows in what is not held
+double pl_start_residual(pl_start* s, const double* q, int* worst);
+double pl_start_speed_residual(pl_start* s, const double* v, int* worst);
+
+#endif

@@ -1,0 +1,159 @@
+// Watching for roots on a step: releases (λ of a contact), landings (g of a free one-sided constraint), events.
+//
+// Each is a polynomial on the step.  What has just happened is zero at the start of the step by construction: those
+// leading coefficients are dropped and the polynomial divided by its power of t, so that the same root is
+// not found again.  A sign that differs at the start of a step from that at the end of the one before is a root that
+// fell between them.
+#include "solve/solve_impl.h"
+
+#include <math.h>
+
+static double sign(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
+
+void pl_watch_make(pl_run* run) {
+  const pl_setup* s = run->setup;
+  run->watch = PL_ARRAY(run->job->arena, pl_watch, 2 * (size_t)s->n_c + (size_t)s->n_events + 1);
+  for (int c = 0; c < s->n_c; c++) {
+    if (s->links[c].side == 0) continue;
+    run->watch[run->n_watch++] = (pl_watch){.kind = PL_WATCH_RELEASE, .index = c, .direction = -1};
+    run->watch[run->n_watch++] = (pl_watch){.kind = PL_WATCH_LANDING, .index = c, .direction = -1};
+  }
+  for (int e = 0; e < s->n_events; e++)
+    run->watch[run->n_watch++] = (pl_watch){.kind = PL_WATCH_EVENT, .index = e, .direction = s->events[e].direction};
+  run->hit = PL_ARRAY(run->job->arena, bool, run->n_watch + 1);
+  run->root = PL_ARRAY(run->job->arena, double, run->n_watch + 1);
+}
+
+pl_watch* pl_watch_of(pl_run* run, pl_watch_kind kind, int index) {
+  for (int i = 0; i < run->n_watch; i++)
+    if (run->watch[i].kind == kind && run->watch[i].index == index) return &run->watch[i];
+  return NULL;
+}
+
+void pl_watch_forget(pl_run* run) {
+  for (int i = 0; i < run->n_watch; i++) {
+    run->watch[i].side = 0;
+    run->watch[i].fresh = 0;
+  }
+}
+
+// ---------------------------------------------------------------------------------------------- series
+static void series_of_events(pl_run* run) {
+  pl_batches* b = &run->watched;
+  pl_batches_time(b, run->t_series);
+  for (int k = 0; k < run->order; k++) {
+    pl_batches_load_q(b, run->Q + (size_t)k * (size_t)run->n_q, k);
+    pl_batches_load_v(b, run->V + (size_t)k * (size_t)run->n_q, k);
+    pl_batches_load_a(b, run->A + (size_t)k * (size_t)run->n_q, k);
+    pl_batches_load_lambda(b, run->L + (size_t)k * (size_t)run->n_c, k);
+    for (int level = PL_LEVEL_PLACE; level < PL_N_LEVELS; level++) pl_batches_sweep(b, (pl_level)level, k, true);
+    pl_batches_outputs(b, run->W_series + (size_t)k * (size_t)run->setup->n_watched, run->setup->n_watched, k);
+  }
+}
+
+void pl_watch_series(pl_run* run) {
+  if (run->watch_landings)
+    for (int k = 0; k <= run->order; k++)
+      pl_assemble_g(run, k, run->G_series + (size_t)k * (size_t)run->n_c, k == 0 ? run->g_size : NULL);
+  if (run->setup->n_events > 0) series_of_events(run);
+}
+
+// ---------------------------------------------------------------------------------------------- one item
+static bool is_watched(const pl_run* run, const pl_watch* w) {
+  if (w->kind == PL_WATCH_EVENT) return true;
+  const pl_link* link = &run->setup->links[w->index];
+  if (w->kind == PL_WATCH_RELEASE) return run->active[w->index];
+  return !run->on[w->index] && !run->detached[w->index] && !link->velocity && (link->contact < 0 || run->on[link->contact]);
+}
+
+double pl_watch_force_noise(const pl_run* run, int c) {
+  static const double rounding = 1e-13;   // of the forces that λ balances
+  return run->row_most[c] > 0 ? rounding * run->force_size / run->row_most[c] : 0;
+}
+
+static double noise_of(const pl_run* run, const pl_watch* w) {
+  if (w->kind == PL_WATCH_LANDING) return 1e-14 * run->g_size[w->index];
+  if (w->kind == PL_WATCH_RELEASE) return pl_watch_force_noise(run, w->index);
+  return 0;
+}
+
+// Coefficients in units of the step; returns how many.
+static int polynomial(const pl_run* run, const pl_watch* w, double h, double* c) {
+  const double* X;
+  size_t stride;
+  double factor = 1, power = 1;
+  int n = run->order;
+  if (w->kind == PL_WATCH_EVENT) {
+    X = run->W_series + run->setup->events[w->index].watch;
+    stride = (size_t)run->setup->n_watched;
+  } else {
+    X = (w->kind == PL_WATCH_RELEASE ? run->L : run->G_series) + w->index;
+    stride = (size_t)run->n_c;
+    factor = run->setup->links[w->index].side;
+    if (w->kind == PL_WATCH_LANDING) n = run->order + 1;
+  }
+  for (int k = 0; k < n; k++, power *= h) c[k] = factor * power * X[(size_t)k * stride];
+  return n;
+}
+
+static double size_of(const double* c, int n) {
+  double s = 0;
+  for (int k = 0; k < n; k++) s += fabs(c[k]);
+  return s;
+}
+
+// The sign just after the start, of what is left when the first m coefficients are zero.
+static double first_sign(const double* c, int n, double noise) {
+  for (int k = 0; k < n; k++)
+    if (fabs(c[k]) > noise) return sign(c[k]);
+  return 0;
+}
+
+static bool direction_allows(const pl_watch* w, double h, double from) {
+  double d = w->direction * sign(h);
+  return d == 0 || (d > 0) == (from < 0);
+}
+
+// Earliest root of one item, in units of the step; -1 none.
+static double find_root(pl_run* run, pl_watch* w, double h) {
+  double* c = run->poly;
+  int n = polynomial(run, w, h, c), m = w->fresh;
+  double size = size_of(c, n), noise = fmax(noise_of(run, w), 1e-15 * size);
+  if (m == 0 && w->side == 0) {
+    // nothing known: at the start, or after a jump
+    if (fabs(c[0]) <= fmax(noise, 1e-12 * size)) m = w->fresh = 1;
+    else w->side = (int)sign(c[0]);
+  }
+  if (m == 0 && c[0] != 0 && sign(c[0]) == -w->side) return direction_allows(w, h, w->side) ? 0 : -1;
+  if (m > 0 && w->kind != PL_WATCH_EVENT) {
+    // a contact that pulls at once, or a free one that sinks at once
+    while (m < n && m < 3 && fabs(c[m]) <= noise) m++;
+    if (first_sign(c + m, n - m, noise) < 0) return 0;
+  }
+  if (m >= n || size_of(c + m, n - m) <= noise) return -1;
+  return pl_first_root(c + m, n - 1 - m, w->direction * (int)sign(h), run->root_work);
+}
+
+double pl_watch_first(pl_run* run, double h) {
+  static const double together = 1e-12;   // of the step: roots closer than this happen at once
+  double first = -1;
+  for (int i = 0; i < run->n_watch; i++) {
+    run->root[i] = is_watched(run, &run->watch[i]) ? find_root(run, &run->watch[i], h) : -1;
+    if (run->root[i] >= 0 && (first < 0 || run->root[i] < first)) first = run->root[i];
+  }
+  for (int i = 0; i < run->n_watch; i++) run->hit[i] = run->root[i] >= 0 && run->root[i] <= first + together;
+  return first < 0 ? -1 : first;
+}
+
+// ---------------------------------------------------------------------------------------------- afterwards
+void pl_watch_passed(pl_run* run, double h) {
+  for (int i = 0; i < run->n_watch; i++) {
+    pl_watch* w = &run->watch[i];
+    if (!is_watched(run, w)) continue;
+    int n = polynomial(run, w, h, run->poly);
+    double x = 0;
+    for (int k = n - 1; k >= 0; k--) x += run->poly[k];
+    if (h != 0) w->fresh = 0;
+    if (fabs(x) > fmax(noise_of(run, w), 4e-16 * size_of(run->poly, n))) w->side = (int)sign(x);
+  }
+}
