@@ -267,26 +267,17 @@ static const pl_poly* take_common_factor(series* w) {
   return common;
 }
 
-// Is x a bracket that may be opened inside a sum?
-static bool is_bare_sum(pl_search* s, pl_prod x) {
-  return x.n == 1 && x.at[0].sum && x.at[0].power == 1 && x.at[0].sum->n <= 8 && pl_is_one_node(s->p, x.unit);
-}
-
 static pl_prod written(series* w, int depth) {
   pl_search* s = w->s;
   if (w->n == 0) return pl_prod_number(s, pl_int(s->p, 0));
   const pl_poly* common = take_common_factor(w);
-  pl_prod* terms = PL_ARRAY(s->a, pl_prod, 8 * w->n);
+  pl_prod* terms = PL_ARRAY(s->a, pl_prod, PL_OPENED_TERMS * w->n);
   int n = 0;
   for (int i = 0; i < w->n; i++) {
     pl_prod x = pl_present_poly(s, w->at[i].coefficient, depth - 1);
     bool constant = is_constant(&w->at[i].key);
     if (!constant) x = pl_prod_mul(s, x, pl_prod_piece(s, wave_piece(w, &w->at[i].key), w->at[i].key.power));
-    if (constant && w->n > 1 && is_bare_sum(s, x)) {
-      for (int k = 0; k < x.at[0].sum->n; k++) terms[n++] = x.at[0].sum->at[k];
-    } else {
-      terms[n++] = x;
-    }
+    pl_terms_put(s, x, terms, &n);
   }
   pl_prod sum = pl_prod_mul(s, pl_present_poly(s, common, depth), pl_prod_sum(s, terms, n));
   return pl_prod_scale(s, sum, pl_ratio(s->p, 1, 1L << w->halvings));

@@ -77,8 +77,13 @@ pl_prod pl_prod_tidy(pl_search* s, pl_prod x);
 long pl_number_cost(pl_search* s, pl_expr number);
 
 // ---------------------------------------------------------------------------------------------- present_sum.c
-// A sum of products as one product: a single piece, or the term itself if there is only one.
+// A sum of products as one product: a single piece, or the term itself if there is only one.  The first term by K5 is made
+// positive, the sign goes in front.
 pl_prod pl_prod_sum(pl_search* s, const pl_prod* terms, int n);
+pl_prod pl_prod_bracket(pl_search* s, const pl_prod* terms, int n);         // the same with all signs as they are
+// Appends x to the terms of a sum; a bare bracket is opened, up to PL_OPENED_TERMS terms.
+enum { PL_OPENED_TERMS = 8 };
+void pl_terms_put(pl_search* s, pl_prod x, pl_prod* terms, int* n);
 const pl_form* pl_terms_form(pl_search* s, const pl_prod* terms, int n);     // in the order given
 void pl_terms_sort(pl_search* s, pl_prod* terms, int n);
 int pl_terms_compare(pl_search* s, const pl_prod* x, const pl_prod* y);

@@ -86,30 +86,16 @@ static pl_prod expanded(pl_search* s, const pl_poly* f) {
   return pl_prod_sum(s, terms, (int)f->length);
 }
 
-// A bare bracket without a key is opened: its terms join the sum around it.
-static void add_term(pl_search* s, pl_prod x, pl_prod* terms, int* n) {
-  bool bare = x.n == 1 && x.at[0].sum && x.at[0].power == 1 && x.at[0].sum->n <= 8;
-  bool one = pl_is_one_node(s->p, x.unit), minus_one = pl_is_one_node(s->p, pl_neg(s->p, x.unit));
-  if (!bare || (!one && !minus_one)) {
-    terms[(*n)++] = x;
-    return;
-  }
-  for (int i = 0; i < x.at[0].sum->n; i++) {
-    pl_prod y = x.at[0].sum->at[i];
-    terms[(*n)++] = one ? y : pl_prod_neg(s, y);
-  }
-}
-
 // The sum of f collected by the generators in[]; false when that changes nothing.
 static bool collected(pl_search* s, const pl_poly* f, const bool* in, int depth, pl_prod* out) {
   pl_group* groups;
   int n = pl_poly_group(s, f, in, &groups), n_terms = 0;
   if (n <= 1 || n == f->length) return false;
-  pl_prod* terms = PL_ARRAY(s->a, pl_prod, 8 * n);
+  pl_prod* terms = PL_ARRAY(s->a, pl_prod, PL_OPENED_TERMS * n);
   pl_expr one = pl_int(s->p, 1);
   for (int i = 0; i < n; i++) {
     pl_prod coefficient = pl_present_poly(s, groups[i].coefficient, depth - 1);
-    add_term(s, pl_prod_mul(s, pl_prod_of_exponents(s, one, groups[i].key), coefficient), terms, &n_terms);
+    pl_terms_put(s, pl_prod_mul(s, pl_prod_of_exponents(s, one, groups[i].key), coefficient), terms, &n_terms);
   }
   *out = pl_prod_sum(s, terms, n_terms);
   return true;

@@ -291,11 +291,15 @@ static bool has_both_signs(pl_search* s, const pl_sum_terms* sum) {
   return minus > 0 && minus < sum->n;
 }
 
+// 1 - r cos φ/√(...) reads as a correction to 1 and is left as it is.
+static bool begins_with_one(pl_search* s, const pl_sum_terms* sum) {
+  return sum->at[0].n == 0 && pl_is_one_node(s->p, sum->at[0].unit);
+}
+
 static pl_prod negated_sum(pl_search* s, const pl_sum_terms* sum) {
   pl_prod* terms = PL_ARRAY(s->a, pl_prod, sum->n);
   for (int i = 0; i < sum->n; i++) terms[i] = pl_prod_neg(s, sum->at[i]);
-  pl_terms_sort(s, terms, sum->n);
-  return pl_prod_sum(s, terms, sum->n);
+  return pl_prod_bracket(s, terms, sum->n);
 }
 
 static pl_prod without_piece(pl_search* s, pl_prod x, int i) {
@@ -310,7 +314,8 @@ static pl_prod without_piece(pl_search* s, pl_prod x, int i) {
 pl_prod pl_prod_flip(pl_search* s, pl_prod x) {
   if (!pl_prod_is_negative(s, x)) return x;
   for (int i = 0; i < x.n; i++) {
-    if (!x.at[i].sum || x.at[i].power % 2 == 0 || x.at[i].power < 0 || !has_both_signs(s, x.at[i].sum)) continue;
+    if (!x.at[i].sum || x.at[i].power % 2 == 0 || x.at[i].power < 0) continue;
+    if (!has_both_signs(s, x.at[i].sum) || begins_with_one(s, x.at[i].sum)) continue;
     pl_prod flipped = pl_prod_pow(s, negated_sum(s, x.at[i].sum), x.at[i].power);
     return pl_prod_mul(s, pl_prod_neg(s, without_piece(s, x, i)), flipped);
   }
@@ -390,6 +395,18 @@ static pl_prod divide_under_root(pl_search* s, pl_prod x) {
   return x;
 }
 
+// g l/√(g l) -> √(g l), where that is shorter.
+static pl_prod raise_roots(pl_search* s, pl_prod x) {
+  for (int i = 0; i < x.n; i++) {
+    int w = x.at[i].gen;
+    if (w < 0 || x.at[i].power >= 0 || s->t->gens.at[w].kind != PL_G_ROOT || s->t->gens.at[w].degree != 2) continue;
+    pl_prod radicand = pl_present_poly(s, s->t->gens.at[w].value, 1);
+    pl_prod y = pl_prod_mul(s, pl_prod_mul(s, x, pl_prod_pow(s, radicand, -1)), pl_prod_of_gen(s, w, 2));
+    if (y.cost < x.cost) return raise_roots(s, y);
+  }
+  return x;
+}
+
 pl_prod pl_prod_tidy(pl_search* s, pl_prod x) {
-  return merge_roots(s, divide_under_root(s, merge_tangent(s, x)));
+  return merge_roots(s, divide_under_root(s, raise_roots(s, merge_tangent(s, x))));
 }

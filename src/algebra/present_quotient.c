@@ -33,12 +33,13 @@ static int root_of_base(pl_search* s, const pl_poly* base) {
 }
 
 static pl_prod denominator(pl_search* s, pl_frac f, int depth, bool as_roots) {
-  pl_prod d = pl_prod_number(s, pl_fmpz_expr(s->t, f.unit));
-  for (int i = 0; i < f.n; i++) {
-    const pl_poly* base = pl_base_poly(s->t, f.den[i].base);
+  pl_factored den = pl_factored_merge_pairs(s->t, (pl_factored){.unit = f.unit, .n = f.n, .at = f.den});
+  pl_prod d = pl_prod_number(s, pl_fmpz_expr(s->t, den.unit));
+  for (int i = 0; i < den.n; i++) {
+    const pl_poly* base = pl_base_poly(s->t, den.at[i].base);
     int w = as_roots ? root_of_base(s, base) : -1;
     pl_prod x = w >= 0 ? pl_prod_of_gen(s, w, 2) : pl_present_poly(s, base, depth);
-    d = pl_prod_mul(s, d, pl_prod_pow(s, x, f.den[i].power));
+    d = pl_prod_mul(s, d, pl_prod_pow(s, x, den.at[i].power));
   }
   return d;
 }
@@ -103,9 +104,10 @@ static bool split(pl_search* s, pl_frac f, pl_key_set set, int depth, pl_prod* o
     any |= cancels(f, part[i]);
   }
   if (!any) return false;
-  pl_prod terms[MAX_PARTS];
-  for (int i = 0; i < n; i++) terms[i] = pl_present_quotient(s, part[i], depth - 1);
-  *out = pl_prod_sum(s, terms, n);
+  pl_prod terms[MAX_PARTS * PL_OPENED_TERMS];
+  int n_terms = 0;
+  for (int i = 0; i < n; i++) pl_terms_put(s, pl_present_quotient(s, part[i], depth - 1), terms, &n_terms);
+  *out = pl_prod_sum(s, terms, n_terms);
   return true;
 }
 

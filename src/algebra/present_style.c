@@ -79,7 +79,7 @@ static void put_distributed(term_list* l, pl_prod x) {
     put(l, x);
     return;
   }
-  for (int k = 0; k < x.at[i].sum->n; k++) put_distributed(l, times_rest(s, x, i, x.at[i].sum->at[k]));
+  for (int k = 0; k < x.at[i].sum->n; k++) put(l, times_rest(s, x, i, x.at[i].sum->at[k]));
 }
 
 // ---------------------------------------------------------------------------------------------- groups
@@ -156,10 +156,15 @@ static int motion_rank(pl_search* s, const pl_prod* x) {
   return total >= 2 ? (pieces == 1 ? 0 : 1) : 2;
 }
 
-static pl_symbol moving_symbol(const pl_prod* x) {
-  for (int i = 0; i < x->n; i++)
-    if (x->at[i].bucket == PL_K_VELOCITY || x->at[i].bucket == PL_K_ACCELERATION) return x->at[i].lead;
-  return (pl_symbol){0};
+// The coordinate that moves in a term: terms stand in the order in which the model declares its coordinates.
+static uint32_t moving_coordinate(pl_search* s, const pl_prod* x) {
+  for (int i = 0; i < x->n; i++) {
+    if (x->at[i].bucket != PL_K_VELOCITY && x->at[i].bucket != PL_K_ACCELERATION) continue;
+    if (!x->at[i].lead.id) return 0;
+    const pl_symbol_info* info = pl_symbol_get(s->p, x->at[i].lead);
+    return info->base.id ? info->base.id : x->at[i].lead.id;
+  }
+  return 0;
 }
 
 static bool goes_before(pl_search* s, const pl_prod* x, const pl_prod* y) {
@@ -169,8 +174,8 @@ static bool goes_before(pl_search* s, const pl_prod* x, const pl_prod* y) {
     if (mx != my) return mx > my;
   }
   if (rx != ry) return rx < ry;
-  pl_symbol a = moving_symbol(x), b = moving_symbol(y);
-  if (a.id != b.id && a.id && b.id) return pl_symbol_compare(s->p, a, b) < 0;
+  uint32_t a = moving_coordinate(s, x), b = moving_coordinate(s, y);
+  if (a != b && a && b) return a < b;
   return pl_terms_compare(s, x, y) < 0;
 }
 

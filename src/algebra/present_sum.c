@@ -30,7 +30,17 @@ static int compare_piece(pl_search* s, const pl_piece* x, const pl_piece* y) {
 int pl_terms_compare(pl_search* s, const pl_prod* x, const pl_prod* y) {
   int mx = pl_prod_motion(s, *x), my = pl_prod_motion(s, *y);
   if (mx != my) return mx > my ? -1 : 1;
-  for (int i = 0; i < x->n && i < y->n; i++) {
+  // what stands above the line decides
+  int i = 0, k = 0;
+  for (;; i++, k++) {
+    while (i < x->n && x->at[i].power < 0) i++;
+    while (k < y->n && y->at[k].power < 0) k++;
+    if (i >= x->n || k >= y->n) break;
+    int c = compare_piece(s, &x->at[i], &y->at[k]);
+    if (c) return c;
+  }
+  if ((i < x->n) != (k < y->n)) return i < x->n ? 1 : -1;
+  for (i = 0; i < x->n && i < y->n; i++) {
     int c = compare_piece(s, &x->at[i], &y->at[i]);
     if (c) return c;
   }
@@ -104,15 +114,9 @@ static pl_symbol lead_of(const pl_prod* terms, int n) {
   return (pl_symbol){0};
 }
 
-pl_prod pl_prod_sum(pl_search* s, const pl_prod* given, int n) {
-  if (n == 0) return pl_prod_number(s, pl_int(s->p, 0));
-  if (n == 1) return given[0];
+pl_prod pl_prod_bracket(pl_search* s, const pl_prod* given, int n) {
   pl_prod* terms = PL_ARRAY(s->a, pl_prod, n);
   memcpy(terms, given, (size_t)n * sizeof *terms);
-  int minus = 0;
-  for (int i = 0; i < n; i++) minus += pl_prod_is_negative(s, terms[i]);
-  bool turned = minus == n;
-  for (int i = 0; turned && i < n; i++) terms[i] = pl_prod_neg(s, terms[i]);
   pl_terms_sort(s, terms, n);
   pl_sum_terms* sum = PL_NEW(s->a, pl_sum_terms);
   sum->n = n, sum->at = terms;
@@ -121,6 +125,35 @@ pl_prod pl_prod_sum(pl_search* s, const pl_prod* given, int n) {
   for (int i = 0; i < n; i++) piece.cost += terms[i].cost + 2;
   // a minus between two terms costs nothing, only a leading one does
   for (int i = 1; i < n; i++) piece.cost -= pl_prod_is_negative(s, terms[i]);
-  pl_prod r = pl_prod_piece(s, piece, 1);
-  return turned ? pl_prod_neg(s, r) : r;
+  return pl_prod_piece(s, piece, 1);
+}
+
+// The term that comes first by K5, before any minus is avoided.
+static int leading_term(pl_search* s, const pl_prod* terms, int n) {
+  int first = 0;
+  for (int i = 1; i < n; i++)
+    if (pl_terms_compare(s, &terms[i], &terms[first]) < 0) first = i;
+  return first;
+}
+
+pl_prod pl_prod_sum(pl_search* s, const pl_prod* given, int n) {
+  if (n == 0) return pl_prod_number(s, pl_int(s->p, 0));
+  if (n == 1) return given[0];
+  if (!pl_prod_is_negative(s, given[leading_term(s, given, n)])) return pl_prod_bracket(s, given, n);
+  pl_prod* terms = PL_ARRAY(s->a, pl_prod, n);
+  for (int i = 0; i < n; i++) terms[i] = pl_prod_neg(s, given[i]);
+  return pl_prod_neg(s, pl_prod_bracket(s, terms, n));
+}
+
+void pl_terms_put(pl_search* s, pl_prod x, pl_prod* terms, int* n) {
+  bool bare = x.n == 1 && x.at[0].sum && x.at[0].power == 1 && x.at[0].sum->n <= PL_OPENED_TERMS;
+  bool one = pl_is_one_node(s->p, x.unit), minus_one = pl_is_one_node(s->p, pl_neg(s->p, x.unit));
+  if (!bare || (!one && !minus_one)) {
+    terms[(*n)++] = x;
+    return;
+  }
+  for (int i = 0; i < x.at[0].sum->n; i++) {
+    pl_prod y = x.at[0].sum->at[i];
+    terms[(*n)++] = one ? y : pl_prod_neg(s, y);
+  }
 }

@@ -124,7 +124,7 @@ static picture draw_indexed(pl_arena* a, const pl_box* b) {
 }
 
 // ---------------------------------------------------------------------------------------------- brackets
-static picture column(pl_arena* a, picture like, const char* const sign[5]) {
+static picture column(pl_arena* a, picture like, const char* const sign[4]) {
   // sign: alone, top, middle, bottom
   if (like.height == 1) return text(a, sign[0]);
   picture p = blank(a, 1, like.height, like.base);

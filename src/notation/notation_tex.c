@@ -88,7 +88,7 @@ static void write_op(pl_text* out, const pl_box* b) {
   const char* s = b->text;
   for (size_t i = 0; i < sizeof table / sizeof *table; i++)
     if (strcmp(table[i][0], s) == 0) s = table[i][1];
-  bool command = s[0] == '\\';
+  bool command = s[0] == '\\' && s[strlen(s) - 1] != '}' && s[1] != '%';
   if (b->role == PL_OP_INFIX) pl_text_addf(out, " %s ", s);
   else if (b->role == PL_OP_COMMA) pl_text_addf(out, "%s ", s);
   else pl_text_addf(out, "%s%s", s, command ? " " : "");
@@ -105,7 +105,9 @@ static bool needs_space(const pl_box* left, const pl_box* right) {
 
 static void write_product(pl_text* out, const pl_box* b) {
   for (int i = 0; i < b->n; i++) {
-    if (i > 0) pl_text_add(out, needs_space(b->at[i - 1], b->at[i]) ? "\\, " : " ");
+    bool spaced = out->n > 0 && out->at[out->n - 1] == ' ';
+    if (i > 0 && needs_space(b->at[i - 1], b->at[i])) pl_text_add(out, "\\, ");
+    else if (i > 0 && !spaced) pl_text_add(out, " ");
     write_box(out, b->at[i]);
   }
 }
