@@ -10,7 +10,7 @@ static const pl_form* zero_form(pl_analysis* d) { return pl_form_leaf(d->arena, 
 // "g1 = x1 + x2 - l = 0", "h = r - R ≥ 0"
 static const pl_form* link_form(pl_analysis* d, const pl_bond* l) {
   const char* op = l->source->relation == PL_GE ? "≥" : l->source->relation == PL_LE ? "≤" : "=";
-  const pl_form* body = pl_frel(d, pl_fe(d, l->g), op, zero_form(d));
+  const pl_form* body = pl_frel(d, pl_difference_form(d, l->source->left, l->source->right), op, zero_form(d));
   return pl_feq(d, pl_fn(d, label_of(l)), body);
 }
 
@@ -205,7 +205,7 @@ void pl_answer_constraints(pl_analysis* d, const pl_ask* ask) {
       pl_show(d, link_form(d, l));
       row_of_lets(d, l->g);
     }
-    pl_value* v = pl_answer(d, label_of(l), l->g, pl_fe(d, l->g));
+    pl_value* v = pl_answer(d, label_of(l), l->g, pl_difference_form(d, l->source->left, l->source->right));
     v->of = label_of(l);
   }
   if (!after_dof) say_kinds(d);
@@ -213,10 +213,10 @@ void pl_answer_constraints(pl_analysis* d, const pl_ask* ask) {
     const pl_dof* f = &d->solution->dof;
     int n = count_coordinates(d), contacts = 0;
     for (int k = 0; k < d->g.n; k++) contacts += d->g.at[k].contact;
-    pl_say(d, pl_format(d->arena, "%d coordinates, %d independent constraints: %d degree%s of freedom in contact, %d after lift-off.", n,
-                        f->rank, f->dof, f->dof == 1 ? "" : "s", f->dof + contacts),
-           pl_format(d->arena, "%d Koordinaten, %d unabhängige Zwangsbedingungen: %d Freiheitsgrad%s im Kontakt, %d nach dem Abheben.", n,
-                     f->rank, f->dof, f->dof == 1 ? "" : "e", f->dof + contacts), 0);
+    pl_say(d, pl_format(d->arena, "%d coordinates, %d independent constraint%s: %d degree%s of freedom in contact, %d after lift-off.", n,
+                        f->rank, f->rank == 1 ? "" : "s", f->dof, f->dof == 1 ? "" : "s", f->dof + contacts),
+           pl_format(d->arena, "%d Koordinaten, %d unabhängige Zwangsbedingung%s: %d Freiheitsgrad%s im Kontakt, %d nach dem Abheben.", n,
+                     f->rank, f->rank == 1 ? "" : "en", f->dof, f->dof == 1 ? "" : "e", f->dof + contacts), 0);
   }
   if (some_dropped) {
     say_dropped(d);

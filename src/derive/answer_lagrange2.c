@@ -157,6 +157,7 @@ static pl_expr common_factor(pl_analysis* d, pl_expr e) {
     if (pl_has_coordinates(d, f[k].base) || pl_has_symbol(d->pool, f[k].base, pl_time(d->pool))) continue;
     common = pl_mul(d->pool, common, pl_pow_int(d->pool, f[k].base, f[k].power));
   }
+  if (pl_is_number(d->pool, unit) && pl_number_sign(d->pool, unit) < 0) unit = pl_neg(d->pool, unit);
   return n > 0 ? pl_mul(d->pool, unit, common) : common;
 }
 
@@ -166,7 +167,8 @@ static const long long_mass = 14;   // operators in M(q) above which it gets a n
 static bool show_with_named_mass(pl_analysis* d, int i) {
   const pl_variable* c = &d->q.at[i];
   pl_expr M = pl_alg_normal(d->tower, pl_diff(d->pool, pl_diff(d->pool, d->Tg, c->v), c->v));
-  bool natural = pl_same(pl_alg_normal(d->tower, pl_diff(d->pool, d->Tg, c->v)), pl_alg_normal(d->tower, pl_mul(d->pool, M, pl_sym(d->pool, c->v))));
+  pl_expr momentum = pl_diff(d->pool, d->Tg, c->v);
+  bool natural = pl_alg_equal(d->tower, momentum, pl_mul(d->pool, M, pl_sym(d->pool, c->v))) == PL_YES;
   const pl_form* form = pl_f(d, M, PL_S_ENERGY);
   if (!pl_has_symbol(d->pool, M, c->q) || pl_form_ops(form) < long_mass || d->dissipative || !natural) return false;
   const pl_form* mass = pl_fn(d, pl_format(d->arena, "M(%s)", pl_symbol_get(d->pool, c->q)->name));
@@ -194,12 +196,14 @@ static void show_second_kind(pl_analysis* d, int i) {
   pl_claim_that(d, PL_CLAIM_ONE_TWO, pl_form_value(d->pool, form), pl_int(d->pool, 0));
 }
 
+static const long longest_shown = 60;   // operators up to which a solved acceleration is displayed; all are in the values
+
 static void show_solved(pl_analysis* d, int i) {
   pl_expr a = d->acceleration[i];
   if (pl_is_poison(a)) return;
   const pl_form* form = pl_f(d, a, PL_S_QUOTIENT);
   pl_claim_that(d, PL_CLAIM_ONE_TWO, pl_form_value(d->pool, form), pl_sym(d->pool, d->q.at[i].a));
-  if (pl_form_ops(form) < 160) pl_show_numbered(d, pl_feq(d, pl_fs(d, d->q.at[i].a), form));
+  if (pl_form_ops(form) <= longest_shown) pl_show_numbered(d, pl_feq(d, pl_fs(d, d->q.at[i].a), form));
   pl_answer(d, pl_symbol_get(d->pool, d->q.at[i].a)->ascii, a, form);
 }
 
@@ -227,8 +231,7 @@ void pl_answer_lagrange2(pl_analysis* d, const pl_ask* ask) {
   if (without_reduction(d)) return;
   bool named = d->gen.n == 1 && show_with_named_mass(d, d->gen.at[0]);
   for (int k = 0; k < d->gen.n && !named; k++) show_second_kind(d, d->gen.at[k]);
-  if (d->gen.n > 0 && d->solved) pl_say(d, "Solved for the accelerations:", "Nach den Beschleunigungen aufgelöst:", 0);
-  for (int k = 0; k < d->gen.n; k++) show_solved(d, d->gen.at[k]);
+  for (int k = 0; k < d->gen.n && d->solved; k++) show_solved(d, d->gen.at[k]);
   if (named) show_quadrature(d, d->gen.at[0]);
 }
 

@@ -171,6 +171,9 @@ static bool linear_equation(pl_analysis* d, int i, pl_linear_equation* out) {
   return is_parameter(d, out->A) && is_parameter(d, out->B) && is_parameter(d, out->C);
 }
 
+// The general solution keeps x(0) and x'(0) as names, whatever `init` says.
+static pl_expr start_of(pl_analysis* d, pl_symbol s) { return pl_sym(d->pool, pl_symbol_start(d->pool, s)); }
+
 static pl_expr uniform(pl_analysis* d, pl_expr A, pl_expr x0, pl_expr v0, pl_expr t) {
   pl_pool* p = d->pool;
   pl_expr fall = pl_mul_n(p, (pl_expr[]){pl_ratio(p, 1, 2), A, pl_square(p, t)}, 3);
@@ -206,7 +209,7 @@ static pl_expr oscillation(pl_analysis* d, const pl_linear_equation* l, pl_expr 
 static pl_expr closed_motion(pl_analysis* d, int i) {
   pl_linear_equation l;
   if (pl_is_poison(d->acceleration[i]) || !linear_equation(d, i, &l)) return pl_poison();
-  pl_expr x0 = pl_start_value(d, d->q.at[i].q), v0 = pl_start_value(d, d->q.at[i].v), t = pl_sym(d->pool, pl_time(d->pool));
+  pl_expr x0 = start_of(d, d->q.at[i].q), v0 = start_of(d, d->q.at[i].v), t = pl_sym(d->pool, pl_time(d->pool));
   if (!pl_is_zero_node(d->pool, l.B)) return oscillation(d, &l, x0, v0, t);
   if (!pl_is_zero_node(d->pool, l.C)) return with_friction(d, &l, x0, v0, t);
   return uniform(d, l.A, x0, v0, t);
@@ -219,8 +222,8 @@ static void claim_motion(pl_analysis* d, int i, pl_expr x) {
   pl_replace r[2] = {{d->q.at[i].q, x}, {d->q.at[i].v, v}};
   pl_claim_free(d, PL_CLAIM_INSERTED, a, pl_subst(d->pool, d->acceleration[i], r, 2));
   pl_expr zero = pl_int(d->pool, 0);
-  pl_claim_free(d, PL_CLAIM_INSERTED, pl_subst1(d->pool, x, t, zero), pl_start_value(d, d->q.at[i].q));
-  pl_claim_free(d, PL_CLAIM_INSERTED, pl_subst1(d->pool, v, t, zero), pl_start_value(d, d->q.at[i].v));
+  pl_claim_free(d, PL_CLAIM_INSERTED, pl_subst1(d->pool, x, t, zero), start_of(d, d->q.at[i].q));
+  pl_claim_free(d, PL_CLAIM_INSERTED, pl_subst1(d->pool, v, t, zero), start_of(d, d->q.at[i].v));
 }
 
 static const pl_form* of_time(pl_analysis* d, int i) {

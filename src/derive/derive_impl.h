@@ -141,6 +141,7 @@ const pl_form* pl_fn(pl_analysis* d, const char* name);                         
 const pl_form* pl_feq(pl_analysis* d, const pl_form* l, const pl_form* r);              // l = r
 const pl_form* pl_frel(pl_analysis* d, const pl_form* l, const char* op, const pl_form* r);
 const pl_form* pl_flist(pl_analysis* d, const pl_form* const* f, int n);
+const pl_form* pl_difference_form(pl_analysis* d, pl_expr left, pl_expr right);          // left - right in the order written
 const pl_form* pl_fref(pl_analysis* d, int number);                                     // "(4)"
 
 // ---------------------------------------------------------------------------------------------- sections

@@ -15,10 +15,24 @@ static pl_expr dot_columns(pl_analysis* d, const pl_particle* k, int i, int j) {
   return sum;
 }
 
+// |r| -> r with the assumption r >= 0 on record, factor by factor.
+static pl_expr without_bars(pl_analysis* d, pl_expr e) {
+  if (pl_kind_of(d->pool, e) == PL_CALL && pl_function_of(d->pool, e) == PL_ABS) {
+    pl_expr inside = pl_arg(d->pool, e, 0);
+    pl_tower_use(d->tower, (pl_fact){inside, false});
+    return inside;
+  }
+  if (pl_kind_of(d->pool, e) != PL_MUL) return e;
+  pl_expr product = pl_int(d->pool, 1);
+  for (int j = 0; j < pl_n_args(d->pool, e); j++) product = pl_mul(d->pool, product, without_bars(d, pl_arg(d->pool, e, j)));
+  return product;
+}
+
 // |dX/dq_i|, with the sign of a radius taken positive (sin θ of spherical coordinates too: recorded as assumption).
 static pl_expr scale_of(pl_analysis* d, const pl_particle* k, int i) {
   pl_expr square = pl_alg_normal(d->tower, dot_columns(d, k, i, i));
-  return pl_alg_normal(d->tower, pl_sqrt(d->pool, square));
+  pl_expr scale = pl_alg_normal(d->tower, pl_sqrt(d->pool, square));
+  return without_bars(d, scale);
 }
 
 bool pl_frame_find(pl_analysis* d, const pl_particle* k, pl_frame* out) {

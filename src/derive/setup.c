@@ -115,6 +115,16 @@ static void add_facts(pl_analysis* d) {
   }
 }
 
+// In contact or above it, a one-sided constraint is a fact too: r >= R.
+static void add_contact_facts(pl_analysis* d) {
+  for (int k = 0; k < d->g.n; k++) {
+    const pl_bond* l = &d->g.at[k];
+    if (!l->contact || l->velocity) continue;
+    bool ge = l->source->relation == PL_GE;
+    pl_push(d->arena, d->facts, (pl_fact){ge ? l->g : pl_neg(d->pool, l->g), false});
+  }
+}
+
 static bool mentions(const pl_analysis* d, pl_expr e, const pl_variable* c) {
   return !pl_is_poison(e) && (pl_has_symbol(d->pool, e, c->q) || pl_has_symbol(d->pool, e, c->v));
 }
@@ -159,6 +169,7 @@ pleuel_status pl_setup_coordinates(pl_analysis* d) {
   add_particles(d);
   add_links(d);
   add_facts(d);
+  add_contact_facts(d);
   for (int i = 0; i < d->q.n; i++) d->q.at[i].carries = carries(d, &d->q.at[i]);
   d->tower = pl_tower_make(d->job, d->pool, d->facts.at, d->facts.n);
   d->solution->tower = d->tower;

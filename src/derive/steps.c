@@ -166,3 +166,24 @@ const pl_form* pl_frel(pl_analysis* d, const pl_form* l, const char* op, const p
 }
 const pl_form* pl_flist(pl_analysis* d, const pl_form* const* f, int n) { return pl_form_make(d->arena, PL_F_LIST, n, f); }
 const pl_form* pl_fref(pl_analysis* d, int number) { return pl_fn(d, pl_format(d->arena, "(%d)", number)); }
+
+// Terms of a plain form, each with the sign it has in left - right.
+static void add_terms(pl_analysis* d, pl_expr e, bool minus, const pl_form** out, int* n) {
+  const pl_form* f = pl_fe(d, e);
+  const pl_form* const* term = f->kind == PL_F_SUM ? f->args : &f;
+  int count = f->kind == PL_F_SUM ? f->n : 1;
+  for (int k = 0; k < count; k++) {
+    bool negative = term[k]->kind == PL_F_NEG;
+    const pl_form* size = negative ? term[k]->args[0] : term[k];
+    out[(*n)++] = negative != minus ? pl_form_neg(d->arena, size) : size;
+  }
+}
+
+const pl_form* pl_difference_form(pl_analysis* d, pl_expr left, pl_expr right) {
+  if (pl_is_zero_node(d->pool, right)) return pl_fe(d, left);
+  int cap = pl_n_args(d->pool, left) + pl_n_args(d->pool, right) + 2, n = 0;
+  const pl_form** term = PL_ARRAY(d->arena, const pl_form*, cap);
+  add_terms(d, left, false, term, &n);
+  add_terms(d, right, true, term, &n);
+  return pl_form_sum(d->arena, term, n);
+}
