@@ -7,6 +7,14 @@ static void add_reason(pl_value* v, const char* en, const char* de, int conserve
   v->because[1] = de;
 }
 
+// T and V written one after the other.
+static const pl_form* energy_sum(pl_analysis* d, pl_expr integral) {
+  pl_expr T = d->reduced ? d->Tg : pl_on_contact(d, d->T), V = d->reduced ? d->Vg : pl_on_contact(d, d->V);
+  if (pl_alg_equal(d->tower, pl_add(d->pool, T, V), integral) != PL_YES) return pl_f(d, integral, PL_S_ENERGY);
+  const pl_form* part[2] = {pl_f(d, T, PL_S_ENERGY), pl_energy_form(d, pl_on_maps(d, d->V), V)};
+  return pl_joined_sum(d, part, 2);
+}
+
 static void energy(pl_analysis* d) {
   bool scleronomic = pl_scleronomic(d), conserved = pl_energy_conserved(d);
   pl_expr integral = pl_energy_integral(d);
@@ -22,9 +30,9 @@ static void energy(pl_analysis* d) {
     de = "eine Zwangsbedingung oder Kraft enthält t, der Zwang leistet also Arbeit";
   }
   if (conserved && scleronomic) {
-    const pl_form* form = pl_f(d, integral, PL_S_ENERGY);
+    const pl_form* form = energy_sum(d, integral);
     pl_show(d, pl_feq(d, pl_fn(d, "E"), form));
-    const pl_form* V = pl_f(d, d->reduced ? d->Vg : pl_on_contact(d, d->V), PL_S_ENERGY);
+    const pl_form* V = pl_energy_form(d, pl_on_maps(d, d->V), d->reduced ? d->Vg : pl_on_contact(d, d->V));
     pl_say(d, "conserved: all forces have the potential {1}, and no constraint contains t.",
            "erhalten: alle Kräfte haben das Potential {1}, und keine Zwangsbedingung enthält t.", 1, pl_feq(d, pl_fn(d, "V"), V));
     add_reason(pl_answer(d, "E", integral, form), en, de, 1);

@@ -91,7 +91,7 @@ static void show_velocities(pl_analysis* d) {
 }
 
 static void show_energy(pl_analysis* d, const char* name, pl_expr e, pl_expr raw) {
-  const pl_form* form = pl_f(d, e, PL_S_ENERGY);
+  const pl_form* form = pl_energy_form(d, pl_on_maps(d, raw), e);
   pl_show(d, pl_feq(d, pl_fn(d, name), form));
   pl_claim_that(d, PL_CLAIM_ENERGY, pl_form_value(d->pool, form), raw);
   pl_answer(d, name, e, form);

@@ -103,7 +103,7 @@ static void show_lambda(pl_analysis* d, int k) {
     d->section->not_found = true;
     return;
   }
-  const pl_form* form = pl_f(d, l->lambda_value, l->contact ? PL_S_EQUATION : PL_S_QUOTIENT);
+  const pl_form* form = pl_positive_first(d, pl_f(d, l->lambda_value, l->contact ? PL_S_EQUATION : PL_S_QUOTIENT));
   pl_step* step = pl_show_numbered(d, pl_feq(d, pl_fs(d, l->lambda), form));
   d->number_lambda = step->number;
   bool known;

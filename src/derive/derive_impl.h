@@ -142,6 +142,9 @@ const pl_form* pl_feq(pl_analysis* d, const pl_form* l, const pl_form* r);      
 const pl_form* pl_frel(pl_analysis* d, const pl_form* l, const char* op, const pl_form* r);
 const pl_form* pl_flist(pl_analysis* d, const pl_form* const* f, int n);
 const pl_form* pl_difference_form(pl_analysis* d, pl_expr left, pl_expr right);          // left - right in the order written
+const pl_form* pl_positive_first(pl_analysis* d, const pl_form* f);                      // a sum that begins without a minus, if it can
+const pl_form* pl_energy_form(pl_analysis* d, pl_expr raw, pl_expr normal);
+const pl_form* pl_joined_sum(pl_analysis* d, const pl_form* const* part, int n);          // one flat sum of sums
 const pl_form* pl_fref(pl_analysis* d, int number);                                     // "(4)"
 
 // ---------------------------------------------------------------------------------------------- sections

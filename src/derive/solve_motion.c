@@ -129,6 +129,17 @@ static void dropped_multipliers(pl_analysis* d) {
   }
 }
 
+// What is divided by must not vanish: proving its sign puts the assumptions on record ("used: m1 > 0, m2 > 0").
+static void record_denominators(pl_analysis* d) {
+  for (int k = 0; k < d->g.n; k++) {
+    pl_expr num, den;
+    int sign;
+    if (!d->g.at[k].lambda_known) continue;
+    pl_alg_fraction(d->tower, d->g.at[k].lambda_value, &num, &den);
+    if (!pl_is_poison(den) && !pl_is_number(d->pool, den)) pl_alg_sign(d->tower, den, false, &sign);
+  }
+}
+
 pleuel_status pl_solve_motion(pl_analysis* d) {
   d->acceleration = PL_ARRAY(d->arena, pl_expr, d->q.n);
   pl_linear s = collect(d);
@@ -142,5 +153,6 @@ pleuel_status pl_solve_motion(pl_analysis* d) {
   keep_solution(d, &s, x);
   dependent_accelerations(d);
   dropped_multipliers(d);
+  record_denominators(d);
   return PLEUEL_OK;
 }

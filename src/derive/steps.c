@@ -187,3 +187,39 @@ const pl_form* pl_difference_form(pl_analysis* d, pl_expr left, pl_expr right) {
   add_terms(d, right, true, term, &n);
   return pl_form_sum(d->arena, term, n);
 }
+
+const pl_form* pl_positive_first(pl_analysis* d, const pl_form* f) {
+  if (f->kind != PL_F_SUM || f->args[0]->kind != PL_F_NEG) return f;
+  const pl_form** term = PL_ARRAY(d->arena, const pl_form*, f->n);
+  int n = 0;
+  for (int k = 0; k < f->n; k++) {
+    if (f->args[k]->kind != PL_F_NEG) term[n++] = f->args[k];
+  }
+  if (n == 0) return f;
+  for (int k = 0; k < f->n; k++) {
+    if (f->args[k]->kind == PL_F_NEG) term[n++] = f->args[k];
+  }
+  return pl_form_sum(d->arena, term, n);
+}
+
+// An energy as it came from the model when that is no longer than what presentation finds: -m1 g x1 - m2 g (l - x1).
+const pl_form* pl_energy_form(pl_analysis* d, pl_expr raw, pl_expr normal) {
+  const pl_form *plain = pl_fe(d, raw), *found = pl_f(d, normal, PL_S_ENERGY);
+  return pl_form_ops(plain) <= pl_form_ops(found) ? plain : found;
+}
+
+const pl_form* pl_joined_sum(pl_analysis* d, const pl_form* const* part, int n) {
+  int cap = 0, m = 0;
+  for (int k = 0; k < n; k++) cap += part[k]->kind == PL_F_SUM ? part[k]->n : 1;
+  const pl_form** term = PL_ARRAY(d->arena, const pl_form*, cap + 1);
+  for (int k = 0; k < n; k++) {
+    if (part[k]->kind != PL_F_SUM) {
+      bool zero = part[k]->kind == PL_F_EXPR && pl_is_zero_node(d->pool, part[k]->expr);
+      if (!zero) term[m++] = part[k];
+      continue;
+    }
+    for (int j = 0; j < part[k]->n; j++) term[m++] = part[k]->args[j];
+  }
+  if (m == 0) return pl_form_leaf(d->arena, pl_int(d->pool, 0));
+  return m == 1 ? term[0] : pl_form_sum(d->arena, term, m);
+}
