@@ -151,6 +151,10 @@ struct pl_tower {
   pl_points* points;               // for signs and zero tests
   pl_points* fine_points;          // the same at a higher precision, made when needed
   bool facts_busy;                 // facts are being used: no facts inside facts
+  bool tangled;                    // bases were refined or roots combined: the next service starts from an empty tower,
+                                   // so that its result does not depend on what was asked before
+  bool silent;                     // proofs are not recorded: nothing that is shown rests on them
+  const pl_poly* radicand;         // under the root that is being taken: >= 0, as roots are real
   int depth;                       // of the conversion
 };
 

@@ -99,6 +99,7 @@ static bool refine(pl_tower* t, pl_lattice* l, long den, long max_den) {
   if (finer == l->den) return true;
   if (finer > max_den) return false;
   l->den = finer;
+  t->tangled = true;
   if (l->gen >= 0) pl_tower_restart(t);
   return true;
 }
@@ -237,6 +238,7 @@ pl_sincos pl_convert_sinhcosh(pl_tower* t, pl_expr argument) {
     pl_lattice* l = exponent_lattice(t, angle.at[i].atom);
     bool changed = !l->hyperbolic && l->gen >= 0;
     l->hyperbolic = true;
+    t->tangled = true;
     if (changed) pl_tower_restart(t);
     if (!refine(t, l, angle.at[i].den, PL_MAX_EXPONENT_DEN)) pl_tower_give_up(t);
     long n = angle.at[i].num * (l->den / angle.at[i].den);

@@ -306,7 +306,20 @@ static pl_frac sqrt_by_older_roots(pl_tower* t, pl_factored P, const pl_row* row
     split_add(t, &s, f, 1);
     roots = pl_frac_mul(t, roots, pl_frac_gen(t, row->roots.at[i]));
   }
-  return pl_frac_div(t, sqrt_of_split(t, s), roots);   // all powers are even now
+  t->radicand = pl_factored_expand(t, P);
+  t->tangled = true;
+  pl_frac h = sqrt_of_split(t, s);   // all powers are even now
+  t->radicand = NULL;
+  return pl_frac_div(t, h, roots);
+}
+
+// > 0 where the radicand is proven so, else >= 0; a negative number has no real root.
+static int sign_of_root(pl_tower* t, const pl_poly* P) {
+  bool was = t->silent;
+  t->silent = true;
+  int sign = pl_poly_sign(t, P, false, false);
+  t->silent = was;
+  return sign == 1 ? 1 : sign == PL_SIGN_OPEN ? 2 : 0;
 }
 
 static pl_frac sqrt_of_poly(pl_tower* t, const pl_poly* P) {
@@ -320,7 +333,7 @@ static pl_frac sqrt_of_poly(pl_tower* t, const pl_poly* P) {
   int gen = pl_tower_find(t, e);
   if (gen < 0) {
     pl_gen g = {.kind = PL_G_ROOT, .expr = e, .partner = -1, .class = PL_C_FUNCTION, .sign = 2, .degree = 2};
-    if (pl_poly_is_number(t, P)) g.sign = fmpz_sgn(f.unit) > 0 ? 1 : 0;
+    g.sign = sign_of_root(t, P);
     g.value = pl_poly_keep(t, P);
     gen = pl_tower_generator(t, &g);
   }

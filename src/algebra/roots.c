@@ -205,35 +205,38 @@ static void roots_of_linear_pair(pl_roots* r, pl_expr A, pl_expr B, pl_expr C, p
 // f0 + f1 sin u with f0, f1 polynomials in cos u, f1 not zero, and not a polynomial in sin u either.
 static void roots_of_pair(pl_roots* r, pl_expr e, pl_expr cosine, pl_expr sine, pl_expr slope, pl_expr offset) {
   pl_pool* p = r->p;
-  pl_expr a[3] = {pl_int(p, 0), pl_int(p, 0), pl_int(p, 0)}, b[2] = {pl_int(p, 0), pl_int(p, 0)};
+  pl_expr none = pl_int(p, 0), a[3] = {none, none, none}, b[3] = {none, none, none};
   pl_expr by_sine[PL_MAX_ROOT_DEGREE + 1];
   int d = pl_alg_coefficients_atom(r->t, e, sine, by_sine, PL_MAX_ROOT_DEGREE);
   if (d < 0) {
     r->complete = false;
     return;
   }
-  // the view by sines: sum_k (g_k + h_k cos) sin^k
-  bool linear = d <= 1;
+  // the view by sines: sum_k (a_k + b_k cos) sin^k
+  bool known = d <= 2;
   for (int k = 0; k <= d && k < 3; k++) {
     pl_expr g[2] = {pl_int(p, 0), pl_int(p, 0)};
-    int dg = pl_alg_coefficients_atom(r->t, by_sine[k], cosine, g, 1);
-    if (dg < 0) linear = false;
-    if (k < 2) b[k] = dg >= 1 ? g[1] : pl_int(p, 0);
+    if (pl_alg_coefficients_atom(r->t, by_sine[k], cosine, g, 1) < 0) known = false;
     a[k] = g[0];
+    b[k] = g[1];
   }
-  if (linear && pl_is_zero_node(p, b[1])) {
+  bool zero[6];
+  for (int k = 0; k < 3; k++) {
+    zero[k] = pl_is_zero_node(p, a[k]);
+    zero[3 + k] = pl_is_zero_node(p, b[k]);
+  }
+  if (known && zero[2] && zero[4] && zero[5]) {
     roots_of_linear_pair(r, b[0], a[1], a[0], slope, offset);
-    return;
-  }
-  // a0 + a2 sin^2 + b1 sin cos = (a0 + a2/2) - a2/2 cos 2u + b1/2 sin 2u
-  if (d == 2 && pl_is_zero_node(p, a[1]) && pl_is_zero_node(p, b[0])) {
+  } else if (known && zero[1] && zero[3] && zero[5]) {
+    // a0 + a2 sin^2 + b1 sin cos = (a0 + a2/2) - a2/2 cos 2u + b1/2 sin 2u; with 2u also 2u + 2π
     pl_expr half = pl_ratio(p, 1, 2), two = pl_int(p, 2);
     pl_expr A = normal(r, pl_neg(p, pl_mul(p, half, a[2]))), B = normal(r, pl_mul(p, half, b[1]));
-    roots_of_linear_pair(r, A, B, normal(r, pl_sub(p, a[0], A)), pl_mul(p, two, slope), pl_mul(p, two, offset));
-    r->complete = false;   // u and u + π both; one of them is written
-    return;
+    pl_expr C = normal(r, pl_sub(p, a[0], A)), slope2 = pl_mul(p, two, slope), offset2 = pl_mul(p, two, offset);
+    roots_of_linear_pair(r, A, B, C, slope2, offset2);
+    roots_of_linear_pair(r, A, B, C, slope2, pl_sub(p, offset2, pl_mul(p, two, pl_pi(p))));
+  } else {
+    r->complete = false;
   }
-  r->complete = false;
 }
 
 static void roots_of_angle(pl_roots* r, pl_expr e, pl_expr cosine, pl_expr sine) {

@@ -264,7 +264,8 @@ static pl_series* variable(pl_expansion* s) {
   }
   pl_series* r = constant(s, s->at);
   if (r->n > 1) r->c[1] = pl_int(s->p, 1);
-  if (pl_is_zero_node(s->p, r->c[0])) {
+  r->zero = false;
+  if (r->n > 0 && pl_is_zero_node(s->p, r->c[0])) {
     r->lead = 1;
     for (int k = 0; k + 1 < r->n; k++) r->c[k] = r->c[k + 1];
     r->c[r->n - 1] = pl_int(s->p, 0);   // exact: the next coefficient is zero too

@@ -187,9 +187,10 @@ static int sign_as_fact(pl_tower* t, const pl_poly* a, const pl_poly* const* D, 
     *fact = i;
     return fmpz_sgn(f.unit) * fmpz_sgn(d.unit) * (t->facts.at[i].strict ? 1 : 2);
   }
-  for (int g = 0; g < t->gens.n; g++) {
-    if (t->gens.at[g].kind != PL_G_ROOT || t->gens.at[g].degree != 2) continue;
-    pl_factored d = pl_poly_factor(t, t->gens.at[g].value);
+  for (int g = -1; g < t->gens.n; g++) {
+    if (g < 0 && !t->radicand) continue;
+    if (g >= 0 && (t->gens.at[g].kind != PL_G_ROOT || t->gens.at[g].degree != 2)) continue;
+    pl_factored d = pl_poly_factor(t, g < 0 ? t->radicand : t->gens.at[g].value);
     if (d.n != 1 || f.n != 1 || d.at[0].base != f.at[0].base || d.at[0].power % 2 == 0) continue;
     return 2 * fmpz_sgn(f.unit) * fmpz_sgn(d.unit);
   }
@@ -209,23 +210,26 @@ static int prove(pl_tower* t, const pl_poly* a) {
   int fact = -1;
   if (!sign) sign = sign_as_fact(t, a, D, n_D, &fact);
   if (fact >= 0) {
-    pl_tower_use(t, t->facts.at[fact]);
+    if (!t->silent) pl_tower_use(t, t->facts.at[fact]);
     return sign;
   }
   if (!sign) sign = definite_in_corners(&p, a, D, n_D);
   if (!sign) sign = definite_in_corners(&p, pl_poly_shortest_view(t, a), D, n_D);
-  if (!sign) return 0;
+  if (!sign || t->silent) return sign;
   record_symbols(t, a);
   for (int i = 0; i < p.n_facts; i++) pl_tower_use(t, t->facts.at[p.facts[i]]);
   return sign;
 }
 
+static void sample_points(pl_tower* t) {
+  if (t->points) return;
+  pl_certifier_setup s = {.facts = t->facts.at, .n_facts = t->facts.n};
+  t->points = pl_points_make(t->job, t->pool, &s, PL_SIGN_POINTS, 256, 1);
+}
+
 // (v)
 static int sampled(pl_tower* t, pl_expr e) {
-  if (!t->points) {
-    pl_certifier_setup s = {.facts = t->facts.at, .n_facts = t->facts.n};
-    t->points = pl_points_make(t->job, t->pool, &s, PL_SIGN_POINTS, 256, 1);
-  }
+  sample_points(t);
   int plus = 0, minus = 0;
   double largest = 0;
   for (int i = 0; i < PL_SIGN_POINTS; i++) largest = fmax(largest, fabs(pl_points_double(t->points, i, e)));
@@ -247,8 +251,18 @@ static int probed(pl_tower* t, pl_expr e) {
   return v > 0 ? 1 : v < 0 ? -1 : 0;
 }
 
+// A number: one ball decides, and that is a proof.
+static int sign_of_constant(pl_tower* t, pl_expr e) {
+  arb_srcptr v;
+  if (!pl_is_constant(t->pool, e)) return 0;
+  sample_points(t);
+  if (!pl_points_value(t->points, 0, e, &v) || arb_contains_zero(v)) return 0;
+  return arb_is_positive(v) ? 1 : -1;
+}
+
 static int base_sign_now(pl_tower* t, int base, bool guess) {
   int sign = prove(t, pl_base_poly(t, base));
+  if (!sign) sign = sign_of_constant(t, pl_base_expr(t, base));
   if (sign || !guess) return sign;
   pl_expr e = pl_base_expr(t, base);
   sign = sampled(t, e);
@@ -270,6 +284,7 @@ int pl_poly_sign(pl_tower* t, const pl_poly* a, bool or_zero, bool guess) {
   if (pl_poly_is_number(t, a)) return fmpz_sgn(&a->coeffs[0]);
   // as a whole first: a sum of positive terms needs no factors
   int whole = prove(t, a);
+  if (!whole) whole = sign_of_constant(t, pl_poly_expr(t, a));
   if (whole == 1 || whole == -1) return whole;
   if (or_zero && whole) return whole / 2;
   pl_factored f = pl_factored_merge_pairs(t, pl_poly_factor(t, a));

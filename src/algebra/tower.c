@@ -19,7 +19,7 @@ struct pl_entry {
   pl_tower* tower;
   pl_tower_mark mark;
   int depth;
-  bool facts_busy;
+  bool facts_busy, silent;
 };
 
 // The innermost service of this thread: FLINT's abort hook has no argument, so it has to be found without one.
@@ -39,6 +39,7 @@ static void enter(pl_tower* t, pl_entry* e) {
   e->mark = pl_tower_mark_now(t);
   e->depth = t->depth;
   e->facts_busy = t->facts_busy;
+  e->silent = t->silent;
   t->entry = e;
   innermost = e;
 }
@@ -54,6 +55,8 @@ static void leave(pl_tower* t, pl_entry* e, int why) {
   pl_tower_rewind(t, e->mark);
   t->depth = e->depth;
   t->facts_busy = e->facts_busy;
+  t->radicand = NULL;
+  t->silent = e->silent;
   t->entry = e->outer;
   innermost = e->outer_any;
 }
@@ -70,7 +73,19 @@ static bool run_once(pl_tower* t, void (*body)(pl_tower*, void*), void* data, in
 
 static void empty_tower(pl_tower* t, int capacity);
 
+// Bases as coarse as they were before anything was asked.
+static void untangle(pl_tower* t) {
+  for (int i = 0; i < t->angles.n; i++) t->angles.at[i].den = 1;
+  for (int i = 0; i < t->exponents.n; i++) {
+    t->exponents.at[i].den = 1;
+    t->exponents.at[i].hyperbolic = false;
+  }
+  t->tangled = false;
+  empty_tower(t, t->capacity);
+}
+
 static bool run_outermost(pl_tower* t, void (*body)(pl_tower*, void*), void* data) {
+  if (t->tangled) untangle(t);
   for (int tries = 0; tries < PL_MAX_RESTARTS; tries++) {
     int why = 0;
     if (run_once(t, body, data, &why)) return true;
