@@ -66,6 +66,10 @@ static const pl_dim_form* form_of_side(pl_dim_pass* d, pl_expr e) {
   return pl_dim_unknown(&d->system, var);
 }
 
+static const pl_dim_form* anything(pl_dim_pass* d) {
+  return pl_dim_unknown(&d->system, pl_dim_var_add(&d->system, PL_DIM_SYMBOL));
+}
+
 static void clash(pl_dim_pass* d, pl_dim_clash kind, pl_expr a, const pl_dim_form* fa, pl_expr b, const pl_dim_form* fb) {
   pl_dim_report(d, &(pl_dim_conflict){.kind = kind, .a = a, .b = b, .form_a = fa, .form_b = fb, .code = PL_E021});
 }
@@ -94,13 +98,16 @@ static const pl_dim_form* form_of_sum(pl_dim_pass* d, pl_expr e) {
   }
   if (pl_is_poison(first)) return pure(d);
   const pl_dim_form* f = form_of(d, first);
+  bool broken = false;
   for (int i = 0; i < n; i++) {
     pl_expr term = pl_arg(d->pool, e, i);
     if (pl_same(term, first)) continue;
     const pl_dim_form* g = form_of_side(d, term);
-    if (g && !pl_dim_unify(&d->system, f, g, d->where)) clash(d, PL_CLASH_SUM, first, f, term, g);
+    if (!g || pl_dim_unify(&d->system, f, g, d->where)) continue;
+    if (!broken) clash(d, PL_CLASH_SUM, first, f, term, g);
+    broken = true;
   }
-  return f;
+  return broken ? anything(d) : f;      // a sum that does not fit in itself fits everything: one mistake, one message
 }
 
 static const pl_dim_form* form_of_product(pl_dim_pass* d, pl_expr e) {
@@ -131,6 +138,7 @@ static const pl_dim_form* form_of_power(pl_dim_pass* d, pl_expr e) {
   if (pl_is_constant(d->pool, base)) return pure(d);
   pl_fraction f;
   const pl_dim_form* b = form_of(d, base);
+  if (pl_is_number(d->pool, exponent) && !exponent_value(d, exponent, &f)) return anything(d);   // beyond any physics
   if (exponent_value(d, exponent, &f)) return pl_dim_combine(&d->system, pure(d), f, b);
   need(d, base, pure(d), PL_E032, "what is raised to a power that is not a number has to be a pure number",
        "was mit einem Exponenten ohne Zahlenwert potenziert wird, ist eine reine Zahl");
@@ -175,7 +183,7 @@ static const pl_dim_form* compute_form(pl_dim_pass* d, pl_expr e) {
     case PL_CALL: return form_of_call(d, e);
     case PL_IF: return form_of_choice(d, e);
     case PL_SUM: return form_of(d, pl_arg(d->pool, e, pl_n_args(d->pool, e) - 1));
-    case PL_UNKNOWN_FUNCTION: return pl_dim_unknown(&d->system, pl_dim_var_add(&d->system, PL_DIM_SYMBOL));
+    case PL_UNKNOWN_FUNCTION: return anything(d);
     default: return pure(d);
   }
 }

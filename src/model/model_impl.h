@@ -4,7 +4,7 @@
 
 #include "model/model.h"
 
-// ---------------------------------------------------------------------------------------------- fraction.c
+// ---------------------------------------------------------------------------------------------- exponents.c
 typedef struct pl_fraction { int64_t num, den; } pl_fraction;                 // lowest terms, den > 0; den 0: overflow
 typedef struct pl_exponents { pl_fraction e[PL_N_BASE_UNITS]; } pl_exponents;  // of m kg s A K mol cd
 bool pl_fraction_valid(pl_fraction a);

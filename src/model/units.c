@@ -37,11 +37,11 @@ static const struct unit_word { const char* word; const char* unit; } unit_words
 };
 enum { N_UNIT_WORDS = sizeof unit_words / sizeof unit_words[0] };
 
-// SI prefixes; the micro sign comes as U+00B5, as Greek mu, and as u.
+// SI prefixes up to yotta: the four newer ones would turn slips of the pen (qm, Rm) into units.  The micro sign comes as U+00B5, as Greek mu, and as u.
 static const struct unit_prefix { const char* name; int power; } unit_prefixes[] = {
-  {"da", 1}, {"µ", -6}, {"μ", -6}, {"u", -6}, {"Q", 30},  {"R", 27},  {"Y", 24},  {"Z", 21},  {"E", 18},
+  {"da", 1}, {"µ", -6}, {"μ", -6}, {"u", -6}, {"Y", 24},  {"Z", 21},  {"E", 18},
   {"P", 15}, {"T", 12}, {"G", 9},  {"M", 6},  {"k", 3},   {"h", 2},   {"d", -1},  {"c", -2},  {"m", -3},
-  {"n", -9}, {"p", -12}, {"f", -15}, {"a", -18}, {"z", -21}, {"y", -24}, {"r", -27}, {"q", -30},
+  {"n", -9}, {"p", -12}, {"f", -15}, {"a", -18}, {"z", -21}, {"y", -24},
 };
 enum { N_UNIT_PREFIXES = sizeof unit_prefixes / sizeof unit_prefixes[0] };
 
@@ -470,9 +470,6 @@ static bool same_but_case(const char* a, size_t n, const char* b) {
 
 // Prefix and symbol in the wrong case: "KHZ", "Mm" is fine as it is, "kw".
 static const char* near_by_case(pl_arena* a, const char* word, size_t n) {
-  for (int i = 0; i < N_UNIT_ROWS; i++) {
-    if (same_but_case(word, n, unit_rows[i].name)) return unit_rows[i].name;
-  }
   static const char* const common[] = {"k", "m", "M", "c", "G"};
   for (size_t j = 0; j < sizeof common / sizeof common[0]; j++) {
     for (int i = 0; i < N_UNIT_ROWS && n > 1; i++) {
@@ -480,6 +477,9 @@ static const char* near_by_case(pl_arena* a, const char* word, size_t n) {
         return pl_format(a, "%s%s", common[j], unit_rows[i].name);
       }
     }
+  }
+  for (int i = 0; i < N_UNIT_ROWS; i++) {
+    if (same_but_case(word, n, unit_rows[i].name)) return unit_rows[i].name;
   }
   return NULL;
 }
@@ -567,7 +567,7 @@ const char* pl_unit_explain(pl_arena* a, pl_pool* p, const char* text, pl_langua
     if (near) pl_text_addf(&t, german ? "  gemeint?   %.*s%s%s\n" : "  meant?     %.*s%s%s\n", (int)at, text, near, text + at + n);
     return pl_text_string(&t);
   }
-  pl_text_addf(&t, "%s", text);
+  pl_text_add(&t, text);
   const char* words = symbol_words(a, text);
   if (words) pl_text_addf(&t, "  (%s)", words);
   pl_text_add(&t, "\n");
