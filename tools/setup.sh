@@ -62,22 +62,21 @@ look() {
   need build libflint-dev   'exact algebra'                                  library -lflint stdio.h flint/fmpz_mpoly.h
   need build libflint-arb-dev 'numbers with proven error bounds'             arb
   need build libsuitesparse-dev 'sparse linear systems (KLU)'                library -lklu klu.h
-  need build libjansson-dev 'JSON'                                           library -ljansson jansson.h
   need test  libcmocka-dev  'unit tests'                                     library -lcmocka stdarg.h stddef.h setjmp.h stdint.h cmocka.h
   need test  g++            'tries the public header in C++'                 program c++ g++
   need test  clang          'second opinion on warnings'                     "$(dirname "$0")/find-clang.sh"
   need test  "libclang-rt-$(clang_version)-dev" 'random input for the parser (libFuzzer)' fuzzer
 }
 
-# Packages that this release of Debian does not know are left out: FLINT 3 brings Arb along.
+# Missing packages that this release of Debian has; Debian 13 has no libflint-arb-dev, because FLINT 3 brings Arb along.
 known() {
   for p in $missing; do
-    case $p in
-      libflint-arb-dev) apt-cache show libflint-arb-dev >/dev/null 2>&1 && printf ' %s' "$p" ;;
-      libclang-rt--dev) ;;
-      *) printf ' %s' "$p" ;;
-    esac
+    LC_ALL=C apt-cache policy "$p" 2>/dev/null | grep -q 'Candidate: [^(]' && printf ' %s' "$p"
   done
+}
+tell() {
+  echo "To build pleuel${set_name#build}, these packages are missing:" | sed 's/pleueltest/and test pleuel/' >&2
+  for p in $(known); do printf '%s' "$reasons" | grep -F "  $p:" >&2; done
 }
 
 as_root() {
@@ -92,32 +91,41 @@ may_be_root() {
 
 look
 [ -n "$missing" ] || exit 0
-
-echo "To build pleuel${set_name#build}, these packages are missing:" | sed 's/pleueltest/and test pleuel/' >&2
-printf '%s' "$reasons" >&2
 if ! command -v apt-get >/dev/null 2>&1; then
+  echo "To build pleuel, these are missing (names of Debian packages):" >&2
+  printf '%s' "$reasons" >&2
   echo "This is no Debian-like system: please install the same things with its own package manager." >&2
   exit 1
 fi
+
+# A fresh machine has no package lists yet.
+if [ -z "$(known)" ]; then
+  if may_be_root; then
+    echo "Fetching the package lists ..." >&2
+    as_root apt-get update -q >"$work/update.log" 2>&1 || tail -n 3 "$work/update.log" >&2
+  else
+    echo "Please run, as root:  apt-get update && apt-get install --no-install-recommends$missing" >&2
+    exit 1
+  fi
+fi
+if [ -z "$(known)" ]; then
+  echo "Missing, and the package lists could not be fetched:$missing" >&2
+  exit 1
+fi
+tell
 if ! may_be_root; then
-  # shellcheck disable=SC2046
   echo "Please run, as root:  apt-get install --no-install-recommends$(known)" >&2
   exit 1
 fi
 
-# A fresh machine has no package lists yet, an old one has stale ones: fetch them when the first try fails.
 install_known() {
   packages=$(known)
   [ -n "$packages" ] || return 1
   # shellcheck disable=SC2086
   as_root apt-get install -y -q --no-install-recommends $packages >"$work/apt.log" 2>&1
 }
-if [ -z "$(apt-cache search --names-only '^libgmp-dev$' 2>/dev/null)" ]; then
-  echo "Fetching the package lists ..." >&2
-  as_root apt-get update -q >"$work/update.log" 2>&1 || tail -n 3 "$work/update.log" >&2
-fi
 echo "Installing:$(known)" >&2
-if ! install_known; then
+if ! install_known; then      # lists may be stale: once more with new ones
   as_root apt-get update -q >"$work/update.log" 2>&1
   install_known || tail -n 5 "$work/apt.log" >&2
 fi
