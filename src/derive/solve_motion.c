@@ -129,6 +129,24 @@ static void dropped_multipliers(pl_analysis* d) {
   }
 }
 
+static bool solve_system(pl_analysis* d, pl_linear* s, pl_expr* x) {
+  pl_expr* A = PL_ARRAY(d->arena, pl_expr, s->n_rows * s->n_unknowns + 1);
+  pl_expr* b = PL_ARRAY(d->arena, pl_expr, s->n_rows + 1);
+  if (s->n_rows != s->n_unknowns || !split(d, s, A, b)) return false;
+  return s->n_unknowns == 0 || pl_alg_solve(d->tower, s->n_unknowns, A, b, x, max_terms) == PL_YES;
+}
+
+// Where forces act on the chosen coordinates themselves, or the first-kind system is too large: the equations of the second
+// kind give the accelerations; multipliers of non-trivial constraints then stay open.
+static pl_linear collect_second_kind(pl_analysis* d) {
+  pl_linear s = {.unknown = PL_ARRAY(d->arena, pl_symbol, d->gen.n + 1), .row = PL_ARRAY(d->arena, pl_expr, d->gen.n + 1)};
+  for (int k = 0; k < d->gen.n; k++) {
+    add_unknown(&s, d->q.at[d->gen.at[k]].a);
+    s.row[s.n_rows++] = pl_second_kind(d, d->gen.at[k]);
+  }
+  return s;
+}
+
 // What is divided by must not vanish: proving its sign puts the assumptions on record ("used: m1 > 0, m2 > 0").
 static void record_denominators(pl_analysis* d) {
   for (int k = 0; k < d->g.n; k++) {
@@ -142,14 +160,14 @@ static void record_denominators(pl_analysis* d) {
 
 pleuel_status pl_solve_motion(pl_analysis* d) {
   d->acceleration = PL_ARRAY(d->arena, pl_expr, d->q.n);
+  pl_expr* x = PL_ARRAY(d->arena, pl_expr, d->q.n + d->g.n + 1);
   pl_linear s = collect(d);
-  if (s.n_rows != s.n_unknowns) return PLEUEL_OK;   // redundant or under-determined: said by the sections
-  pl_expr* A = PL_ARRAY(d->arena, pl_expr, s.n_rows * s.n_unknowns);
-  pl_expr* b = PL_ARRAY(d->arena, pl_expr, s.n_rows);
-  pl_expr* x = PL_ARRAY(d->arena, pl_expr, s.n_unknowns);
-  if (!split(d, &s, A, b)) return PLEUEL_OK;
-  d->solved = s.n_unknowns == 0 || pl_alg_solve(d->tower, s.n_unknowns, A, b, x, max_terms) == PL_YES;
-  if (!d->solved) return PLEUEL_OK;
+  d->solved = solve_system(d, &s, x);
+  if (!d->solved && d->reduced) {
+    s = collect_second_kind(d);
+    d->solved = solve_system(d, &s, x);
+  }
+  if (!d->solved) return PLEUEL_OK;   // said by the sections that need it
   keep_solution(d, &s, x);
   dependent_accelerations(d);
   dropped_multipliers(d);
