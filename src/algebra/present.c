@@ -92,6 +92,8 @@ const pl_form* pl_present(pl_tower* t, pl_expr e, pl_style style, double seconds
   pl_pool* p = t->pool;
   present_job j = {.e = e, .style = style, .limit = (long)((seconds > 0 ? seconds : 0) * work_per_second)};
   if (pl_is_poison(e) || pl_is_number(p, e)) return pl_form_of(t->arena, p, e);
-  if (pl_tower_run(t, search_forms, &j) && j.out && is_right(t, j.out, e)) return j.out;
+  // a search that gave up at some depth has left the form of the depth before
+  pl_tower_run(t, search_forms, &j);
+  if (j.out && is_right(t, j.out, e)) return j.out;
   return pl_form_of(t->arena, p, e);
 }

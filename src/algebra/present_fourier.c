@@ -291,11 +291,12 @@ bool pl_present_fourier(pl_search* s, const pl_poly* f, int depth, pl_prod* best
   if (w.halvings < 2) return false;
   s->work += 1 + f->length / 2;
   if (!add_all(&w, f)) return false;
+  const series waves = w;    // writing takes the common factor out
   *best = written(&w, depth);
   for (int to_sine = 0; to_sine < 2; to_sine++) {
-    series halved = w;
-    if (!halve_angles(&halved, to_sine)) continue;
-    pl_prod x = written(&halved, depth);
+    w = waves;
+    if (!halve_angles(&w, to_sine)) continue;
+    pl_prod x = written(&w, depth);
     if (x.cost < best->cost) *best = x;
   }
   return true;

@@ -11,6 +11,7 @@
 
 enum {
   MAX_VIEWS = 8,            // of one polynomial: three pairs in both views
+  MAX_LEFT_EXPANDED = 4,    // products that may be shorter multiplied out
   MAX_COLLECT_TERMS = 150,  // beyond it a sum is factored and collected once by what moves
   MAX_EXPANDED_TERMS = 3000 // beyond it no form is sought at all
 };
@@ -173,11 +174,21 @@ static int views(pl_search* s, const pl_poly* f, const pl_poly** out) {
 // One view: its factors, or the sums of it when it has none.
 static void present_view(pl_search* s, const pl_poly* f, int depth, pl_prod* best, bool* have) {
   if (f->length > MAX_EXPANDED_TERMS) return;
+  if (f->length == 0) {
+    // the relations, which are not applied everywhere on the way, make it vanish in this view
+    keep_best(best, pl_prod_number(s, pl_int(s->p, 0)), have);
+    return;
+  }
   pl_factored factors = factor(s, f);
-  if (!is_trivial(factors)) keep_best(best, factors_product(s, factors, depth), have);
-  else if (pl_fmpz_expr(s->t, factors.unit).id == pl_int(s->p, 1).id) sums(s, f, depth, best, have);
-  else keep_best(best, pl_prod_scale(s, pl_present_poly(s, pl_base_poly(s->t, factors.at[0].base), depth),
-                                     pl_fmpz_expr(s->t, factors.unit)), have);
+  if (!is_trivial(factors)) {
+    keep_best(best, factors_product(s, factors, depth), have);
+    if (f->length <= MAX_LEFT_EXPANDED) keep_best(best, expanded(s, f), have);    // l² - x² beside (l + x) (l - x)
+  } else if (pl_fmpz_expr(s->t, factors.unit).id == pl_int(s->p, 1).id) {
+    sums(s, f, depth, best, have);
+  } else {
+    pl_prod x = pl_present_poly(s, pl_base_poly(s->t, factors.at[0].base), depth);
+    keep_best(best, pl_prod_scale(s, x, pl_fmpz_expr(s->t, factors.unit)), have);
+  }
 }
 
 // ---------------------------------------------------------------------------------------------- radicands

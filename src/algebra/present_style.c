@@ -131,17 +131,39 @@ static void put_kinetic(term_list* l, pl_frac f, int depth) {
   else put(l, whole);
 }
 
-// Potentials and forces: by gravity and other parameters first, then as plain sums.
-static void put_static(term_list* l, pl_frac f, int depth) {
+static void put_parts(term_list* l, pl_frac f, const pl_key_set* sets, int n_sets, bool distribute, int depth) {
   pl_search* s = l->s;
-  static const pl_key_set by_kind[] = {PL_KEY_GRAVITY, PL_KEY_OTHER};
   bool in[PL_MAX_GENERATORS];
-  mask_of(s, by_kind, 2, in);
+  mask_of(s, sets, n_sets, in);
   pl_frac part[MAX_STYLE_TERMS];
   ulong* keys[MAX_STYLE_TERMS];
   int n = groups_of(s, f, in, part, keys);
-  if (n == 0) put(l, pl_present_quotient(s, f, depth));
-  for (int i = 0; i < n; i++) put_distributed(l, pl_present_quotient(s, part[i], depth));
+  if (n == 0) l->full = true;
+  for (int i = 0; i < n; i++) {
+    pl_prod x = pl_present_quotient(s, part[i], depth);
+    if (distribute) put_distributed(l, x);
+    else put(l, x);
+  }
+}
+
+static long list_cost(const term_list* l) {
+  long cost = 0;
+  for (int i = 0; i < l->n; i++) cost += l->at[i].cost + 2;
+  return cost;
+}
+
+// Potentials and forces: by gravity and other parameters as plain sums, (m1 + m2) g l1 cos α + ..., or by masses too,
+// m1 g x + m2 g (l - x), whichever is shorter.
+static void put_static(term_list* l, pl_frac f, int depth) {
+  static const pl_key_set sets[] = {PL_KEY_MASS, PL_KEY_GRAVITY, PL_KEY_OTHER};
+  term_list* by_mass = PL_NEW(l->s->a, term_list);
+  term_list* by_kind = PL_NEW(l->s->a, term_list);
+  by_mass->s = by_kind->s = l->s;
+  put_parts(by_mass, f, sets, 3, false, depth);
+  put_parts(by_kind, f, sets + 1, 2, true, depth);
+  const term_list* best = by_kind->full || (!by_mass->full && list_cost(by_mass) <= list_cost(by_kind)) ? by_mass : by_kind;
+  if (best->full) put(l, pl_present_quotient(l->s, f, depth));
+  else for (int i = 0; i < best->n; i++) put(l, best->at[i]);
 }
 
 static int motion_rank(pl_search* s, const pl_prod* x) {
@@ -246,12 +268,6 @@ static const pl_form* list_form(term_list* l, bool halves) {
   const pl_form** f = PL_ARRAY(s->a, const pl_form*, l->n);
   for (int i = 0; i < l->n; i++) f[i] = halves ? term_form(s, l->at[i], into_mass) : pl_prod_form(s, l->at[i]);
   return l->n == 1 ? f[0] : pl_form_sum(s->a, f, l->n);
-}
-
-static long list_cost(const term_list* l) {
-  long cost = 0;
-  for (int i = 0; i < l->n; i++) cost += l->at[i].cost + 2;
-  return cost;
 }
 
 static bool moving_denominator(pl_search* s, pl_frac f) {

@@ -312,7 +312,7 @@ static void elastic_pendulum(void** state) {
   const pl_form* x = presented(f, "rho*th'^2 + g*cos(th) + k*(l0 - rho)/m", PL_S_QUOTIENT);
   assert_string_equal(text_of(f, x), "rho th'^2 + g cos(th) + k (l0 - rho)/m");
   PRESENTS(PL_S_ENERGY, "m/2*(rho'^2 + rho^2*th'^2) - k/2*(rho - l0)^2 + m*g*rho*cos(th)",
-           "1/2 m rho^2 th'^2 + 1/2 m rho'^2 + m g rho cos(th) - 1/2 k (l0 - rho)^2");
+           "1/2 m rho'^2 + 1/2 m rho^2 th'^2 + m g rho cos(th) - 1/2 k (l0 - rho)^2");
 }
 
 static void triple_pendulum_determinant(void** state) {
