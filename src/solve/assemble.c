@@ -104,18 +104,19 @@ static void clear(double* x, int n) {
   for (int i = 0; i < n; i++) x[i] = 0;
 }
 
-// Where g is a single term, or nearly zero throughout, its size comes from the gradient and the size of coordinates.
-static void floor_sizes(const pl_run* run, double* size) {
-  static const double part = 1e-3;   // of |dg/dq| |q|: below it the terms themselves say nothing about rounding
+// Adds what rounding of the coordinates themselves does to g, |dg/dq| |q|, which the terms need not show (r cos φ after many
+// turns); and a floor where everything is nearly zero.
+static void add_coordinate_sizes(const pl_run* run, double* size) {
+  static const double part = 1e-6;   // of |dg/dq| times the largest coordinate
   for (int i = 0; i < run->motion.n; i++) {
     const pl_batch* b = &run->motion.at[i];
     for (int e = 0; e < b->pattern->n_G; e++) {
       const pl_pattern_entry* g = &b->pattern->G[e];
       const double* x = coefficient(b, node_of(b, g->root), 0);
+      int q_node = b->pattern->tape->q_node[g->col];
       LANES(b) {
-        int c = b->c[g->row * b->lanes + l];
-        double s = part * fabs(x[l]) * run->q_size;
-        if (s > size[c]) size[c] = s;
+        double q = q_node >= 0 ? fabs(coefficient(b, q_node, 0)[l]) : 0;
+        size[b->c[g->row * b->lanes + l]] += fabs(x[l]) * fmax(q, part * run->q_size);
       }
     }
   }
@@ -136,7 +137,10 @@ void pl_assemble_g(pl_run* run, int k, double* g, double* size) {
       }
     }
   }
-  if (size) floor_sizes(run, size);
+  if (size == NULL) return;
+  for (int c = 0; c < run->n_c; c++) run->argument[c] = size[c];
+  add_coordinate_sizes(run, size);
+  for (int c = 0; c < run->n_c; c++) run->argument[c] = run->argument[c] > 0 ? size[c] / run->argument[c] : 1;
 }
 
 void pl_assemble_gdot(pl_run* run, double* r, double* size) {
@@ -151,7 +155,7 @@ void pl_assemble_gdot(pl_run* run, double* r, double* size) {
       LANES(b) {
         int c = b->c[g->row * b->lanes + l];
         r[c] += x[l] * v[l];
-        size[c] += fabs(x[l]) * fmax(fabs(v[l]), 1e-3 * run->v_size);
+        size[c] += fabs(x[l]) * fmax(fabs(v[l]), 1e-6 * run->v_size);
       }
     }
     for (int e = 0; e < b->pattern->n_gt; e++) {
@@ -164,6 +168,8 @@ void pl_assemble_gdot(pl_run* run, double* r, double* size) {
       }
     }
   }
+  // the gradient feels the rounding of coordinates as much as g itself does
+  for (int c = 0; c < run->n_c; c++) size[c] *= fmax(run->argument[c], 1);
 }
 
 // ---------------------------------------------------------------------------------------------- right-hand side

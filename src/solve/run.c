@@ -13,27 +13,31 @@ static const double allowed_residual = 1e-12; // |g| and |G v + dg/dt| after it,
 static const double faded = 1e-6;
 
 // ---------------------------------------------------------------------------------------------- singular positions
-// The place: where the smallest pivot, continued linearly, is zero.
+// How far ahead the smallest pivot, continued linearly, is zero; 0 when that says nothing.
+static double reach_of_singular(const pl_run* run) {
+  double step = run->t - run->t_before, slope = (run->smallest_here - run->smallest_before) / step;
+  if (!isfinite(slope) || run->smallest_before == 0) return 0;
+  double reach = -run->smallest_here / slope;
+  return isfinite(reach) && fabs(reach) < 10 * fabs(step) && reach * step > 0 ? reach : 0;
+}
+
 pleuel_status pl_run_singular(pl_run* run) {
-  double t = run->t, slope = (run->smallest - run->smallest_before) / (run->t - run->t_before);
-  if (isfinite(slope) && slope != 0 && run->t != run->t_before) {
-    double reach = -run->smallest / slope;
-    if (fabs(reach) < fabs(run->t - run->t_before)) t += reach;
-  }
+  double reach = reach_of_singular(run);
   char where[320];
   size_t n = 0;
   where[0] = '\0';
   for (int i = 0; i < run->n_q && n < sizeof where - 64; i++) {
-    int w = snprintf(where + n, sizeof where - n, "%s%s = %.6g", i ? ", " : "", run->setup->coordinates[i].name, run->q[i]);
+    int w = snprintf(where + n, sizeof where - n, "%s%s = %.4g", i ? ", " : "", run->setup->coordinates[i].name,
+                     run->q[i] + reach * run->v[i]);
     if (w < 0 || (size_t)w >= sizeof where - n) break;
     n += (size_t)w;
   }
-  run->stats.t_singular = t;
+  run->stats.t_singular = run->t + reach;
   pl_rows_before(run);
   if (run->started) PL_TRY(pl_rows_event(run, PL_EV_SINGULAR, -1, 0, false));
   return pl_fail(run->job, PLEUEL_SINGULAR,
-                 "singular position at t = %.9g s (%s): the constraints lose rank and do not tell how the motion goes on", t,
-                 where);
+                 "singular position at t = %.9g s (%s): the constraints lose rank and do not tell how the motion goes on",
+                 run->stats.t_singular, where);
 }
 
 static bool is_singular(pl_run* run) {
@@ -80,7 +84,7 @@ static void advance_time(pl_run* run, double h, bool to_end) {
 }
 
 static pleuel_status too_small(pl_run* run, double h) {
-  if (run->best > 0 && run->smallest < 1e-2 * run->best) return pl_run_singular(run);
+  if (run->best > 0 && run->smallest_here < 1e-2 * run->best) return pl_run_singular(run);
   return pl_fail(run->job, PLEUEL_NUMERICAL,
                  "no step is short enough at t = %.9g s (%.3g s tried): the motion leaves the domain of a function, "
                  "or a force or the constraints jump there", run->t, h);
@@ -135,10 +139,10 @@ static pleuel_status check_energy(pl_run* run) {
 static pleuel_status arrive_at_point(pl_run* run) {
   if (!pl_point_enter(run)) return pl_run_singular(run);
   pl_assemble_row_sizes(run);
+  run->smallest_here = run->smallest;
   if (is_singular(run)) return pl_run_singular(run);
   if (run->rank > run->rank_mode) run->rank_mode = run->rank;
   if (run->rank != run->n_active) pl_independent_unique(run);
-  run->smallest_here = run->smallest;
   pl_rows_energy(run, false);
   return check_energy(run);
 }

@@ -69,6 +69,7 @@ struct pl_run {
   double *q, *v;           // (n_q)
   bool ready;              // a_0, λ_0 and the factor belong to the point
   double *g, *g_size;      // constraint values, size of their terms     (n_c)
+  double* argument;        // how much larger g_size is than the terms   (n_c)
   double *r, *r_size;      // G v + dg/dt and its terms                  (n_c)
   double* rhs;             // (n_q + n_c)
   double force_size;       // largest |h_i| met, for the rounding error of λ

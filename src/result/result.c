@@ -1,0 +1,171 @@
+// Results kept in memory: a sink that copies rows and events into columns.
+#include "result/result_impl.h"
+
+#include <math.h>
+#include <string.h>
+
+// ---------------------------------------------------------------------------------------------- columns
+static int count_columns(const pl_setup* s) {
+  int n = 1;
+  for (int i = 0; i < s->n_q; i++) n += s->coordinates[i].hidden ? 0 : 2;
+  for (int c = 0; c < s->n_c; c++) n += s->links[c].column != NULL;
+  return n + s->n_out;
+}
+
+static void name_columns(const pl_setup* s, pl_result_column* column) {
+  int n = 0;
+  column[n++] = (pl_result_column){"t", "s"};
+  for (int i = 0; i < s->n_q; i++)
+    if (!s->coordinates[i].hidden) column[n++] = (pl_result_column){s->coordinates[i].name, s->coordinates[i].unit};
+  for (int i = 0; i < s->n_q; i++)
+    if (!s->coordinates[i].hidden) column[n++] = (pl_result_column){s->coordinates[i].v_name, s->coordinates[i].v_unit};
+  for (int c = 0; c < s->n_c; c++)
+    if (s->links[c].column) column[n++] = (pl_result_column){s->links[c].column, s->links[c].unit};
+  for (int i = 0; i < s->n_out; i++) column[n++] = (pl_result_column){s->out[i].name, s->out[i].unit};
+}
+
+// ORDER COLUMNS: as name_columns.
+void pl_result_flatten(const pl_setup* s, const pl_row* row, double* x) {
+  int n = 0;
+  x[n++] = row->t;
+  for (int i = 0; i < s->n_q; i++)
+    if (!s->coordinates[i].hidden) x[n++] = row->q[i];
+  for (int i = 0; i < s->n_q; i++)
+    if (!s->coordinates[i].hidden) x[n++] = row->v[i];
+  for (int c = 0; c < s->n_c; c++)
+    if (s->links[c].column) x[n++] = row->unique[c] ? row->lambda[c] : (double)NAN;   // no number where none is determined
+  for (int i = 0; i < s->n_out; i++) x[n++] = row->out[i];
+}
+
+static bool has_mode(const pl_setup* s) {
+  for (int c = 0; c < s->n_c; c++)
+    if (s->links[c].side != 0) return true;
+  return false;
+}
+
+void pl_result_columns(pl_arena* a, const pl_setup* s, const pl_result_column** columns, int* n, bool* mode) {
+  pl_result_column* column = PL_ARRAY(a, pl_result_column, count_columns(s) + 1);
+  name_columns(s, column);
+  *columns = column;
+  *n = count_columns(s);
+  *mode = has_mode(s);
+}
+
+// ---------------------------------------------------------------------------------------------- sink
+typedef struct filling {
+  pl_result* result;
+  const pl_setup* setup;
+  const char* last_mode;     // repeated texts are kept once
+  double* spare;             // a row to reuse when rows are not kept
+} filling;
+
+static const char* keep_text(filling* f, const char* mode) {
+  if (f->last_mode == NULL || strcmp(f->last_mode, mode) != 0) f->last_mode = pl_copy(f->result->arena, mode);
+  return f->last_mode;
+}
+
+static double* keep_row(filling* f, const pl_row* row) {
+  double* x = PL_ARRAY(f->result->arena, double, f->result->n_columns);
+  pl_result_flatten(f->setup, row, x);
+  return x;
+}
+
+// Memory that runs out while a run steps must not unwind through the run: it stops the run with a status.
+static pleuel_status guarded(filling* f, void (*work)(filling* f, const void* what), const void* what) {
+  pl_guard guard;
+  PL_GUARD(f->result->arena, guard) {
+    work(f, what);
+    guard.status = PLEUEL_OK;
+  }
+  pl_guard_end(f->result->arena, &guard);
+  return guard.status;
+}
+
+static void add_columns(filling* f, const void* setup) {
+  pl_result* r = f->result;
+  pl_result_columns(r->arena, setup, &r->columns, &r->n_columns, &r->has_mode);
+}
+
+static pleuel_status on_begin(void* user, const pl_setup* setup) {
+  filling* f = user;
+  pl_result* r = f->result;
+  f->setup = setup;
+  PL_TRY(guarded(f, add_columns, setup));
+  return r->next.begin ? r->next.begin(r->next.user, setup) : PLEUEL_OK;
+}
+
+static void add_row(filling* f, const void* what) {
+  const pl_row* row = what;
+  pl_result* r = f->result;
+  if (!r->keep_rows && r->rows.n == 2) {
+    pl_result_flatten(f->setup, row, r->rows.at[1]);
+    r->modes.at[1] = keep_text(f, row->mode);
+    r->kinds.at[1] = row->kind;
+    return;
+  }
+  pl_push(r->arena, r->rows, keep_row(f, row));
+  pl_push(r->arena, r->modes, keep_text(f, row->mode));
+  pl_push(r->arena, r->kinds, row->kind);
+}
+
+static pleuel_status on_row(void* user, const pl_row* row) {
+  filling* f = user;
+  PL_TRY(guarded(f, add_row, row));
+  return f->result->next.row ? f->result->next.row(f->result->next.user, row) : PLEUEL_OK;
+}
+
+static void add_event(filling* f, const void* what) {
+  const pl_event_record* e = what;
+  pl_result* r = f->result;
+  pl_result_event event = {.kind = e->kind, .t = e->after.t, .at_start = e->at_start, .impulse = e->impulse};
+  event.label = e->label ? pl_copy(r->arena, e->label) : NULL;
+  event.before = keep_row(f, &e->before);
+  event.after = keep_row(f, &e->after);
+  event.mode_before = pl_copy(r->arena, e->before.mode);
+  event.mode_after = pl_copy(r->arena, e->after.mode);
+  pl_push(r->arena, r->events, event);
+}
+
+static pleuel_status on_event(void* user, const pl_event_record* e) {
+  filling* f = user;
+  PL_TRY(guarded(f, add_event, e));
+  return f->result->next.event ? f->result->next.event(f->result->next.user, e) : PLEUEL_OK;
+}
+
+static void keep_message(filling* f, const void* message) { f->result->message = pl_copy(f->result->arena, message); }
+
+static pleuel_status on_end(void* user, pleuel_status how, const char* message, const pl_stats* stats) {
+  filling* f = user;
+  pl_result* r = f->result;
+  r->complete = how == PLEUEL_OK;
+  r->status = how;
+  r->message = "";
+  r->stats = *stats;
+  PL_TRY(guarded(f, keep_message, message));
+  return r->next.end ? r->next.end(r->next.user, how, message, stats) : PLEUEL_OK;
+}
+
+// ---------------------------------------------------------------------------------------------- the object
+pl_result* pl_result_make(pl_arena* a, bool keep_rows) {
+  pl_result* r = PL_NEW(a, pl_result);
+  r->arena = a;
+  r->keep_rows = keep_rows;
+  return r;
+}
+
+pl_sink pl_result_sink(pl_result* r) {
+  filling* f = PL_NEW(r->arena, filling);
+  f->result = r;
+  return (pl_sink){.user = f, .begin = on_begin, .row = on_row, .event = on_event, .end = on_end};
+}
+
+int pl_result_find(const pl_result* r, const char* name) {
+  for (int i = 0; i < r->n_columns; i++)
+    if (r->columns[i].name && strcmp(r->columns[i].name, name) == 0) return i;
+  return -1;
+}
+
+double pl_result_last(const pl_result* r, const char* name) {
+  int column = pl_result_find(r, name);
+  return column < 0 || r->rows.n == 0 ? (double)NAN : r->rows.at[r->rows.n - 1][column];
+}

@@ -1,0 +1,10 @@
+// Inside of result: from rows to columns, shared by what keeps and what writes them.
+#ifndef PL_RESULT_IMPL_H
+#define PL_RESULT_IMPL_H
+
+#include "result/result.h"
+
+void pl_result_columns(pl_arena* a, const pl_setup* s, const pl_result_column** columns, int* n, bool* mode);
+void pl_result_flatten(const pl_setup* s, const pl_row* row, double* x);
+
+#endif
