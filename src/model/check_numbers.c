@@ -54,6 +54,7 @@ static void check_positive(pl_job* job, pl_index_values* v, pl_expr e, const pl_
   pl_model* m = (pl_model*)(uintptr_t)v->model;
   if (pl_is_poison(e)) return;
   sign_check c = {m, e, zero_allowed, 0};
+  if (!pl_has_role(m->pool, e, PL_R_INDEX)) b = NULL;       // the same for every member
   long budget = 100000;           // a family of masses is looked at up to here
   bool ok = b ? pl_block_walk(b, v, is_positive, &c, &budget, NULL) != PL_WALK_STOPPED : is_positive(&c, v);
   for (const pl_block* x = b; x; x = x->outer) v->value[x->index.id] = NAN;

@@ -5,58 +5,33 @@
 #include <math.h>
 
 // ---------------------------------------------------------------------------------------------- given twice
-typedef struct twice_check {
-  pl_job* job;
-  pl_model* m;
-  pl_map* seen;               // (target, time) -> init number + 1
-  int init;
-  bool told;
-} twice_check;
-
-static const char* target_text(twice_check* c, pl_expr target, long index) {
+static const char* target_text(pl_job* job, const pl_model* m, pl_expr target, long index) {
   static const char* const primes[] = {"", "'", "''"};
-  const pl_symbol_info* info = pl_symbol_get(c->m->pool, pl_symbol_of(c->m->pool, target));
-  if (pl_kind_of(c->m->pool, target) == PL_AT) {
-    return PL_F(c->job, "%s[%ld]%s", info->name, index, primes[pl_dots_of(c->m->pool, target) % 3]);
-  }
-  return PL_F(c->job, "%s%s", info->name, primes[info->dots % 3]);
-}
-
-static bool one_target(void* user, pl_index_values* v) {
-  twice_check* c = user;
-  const pl_init* x = &c->m->inits.at[c->init];
-  uint64_t key = pl_hash_mix(x->time.id + 1, x->target.id);
-  long index = 0;
-  if (pl_kind_of(c->m->pool, x->target) == PL_AT) {
-    if (!pl_index_eval(v, pl_arg(c->m->pool, x->target, 0), &index)) return false;
-    key = pl_hash_mix(pl_hash_mix(x->time.id + 1, pl_symbol_of(c->m->pool, x->target).id), (uint64_t)index * 4 + (uint64_t)pl_dots_of(c->m->pool, x->target));
-  }
-  key |= 1;
-  uint64_t first = pl_map_get(c->seen, key);
-  if (!first) {
-    pl_map_set(c->seen, key, (uint64_t)c->init + 1);
-    return true;
-  }
-  const char* text = target_text(c, x->target, index);
-  pl_diagnostic* d = pl_tell(c->job, PL_E044, x->span, PL_F(c->job, "the start value of %s is given twice", text),
-                             PL_F(c->job, "der Startwert von %s ist zweimal angegeben", text));
-  pl_span other = c->m->inits.at[first - 1].span;
-  if (other.source && other.begin != x->span.begin) {
-    pl_report_label(c->job->diagnostics, d, other, c->job->lang == PL_GERMAN ? "zuerst hier" : "first here");
-  }
-  pl_report_fix(d, "keep one of them", "einen davon behalten", NULL);
-  return false;
+  const pl_symbol_info* info = pl_symbol_get(m->pool, pl_symbol_of(m->pool, target));
+  if (pl_kind_of(m->pool, target) == PL_AT) return PL_F(job, "%s[%ld]%s", info->name, index, primes[pl_dots_of(m->pool, target) % 3]);
+  return PL_F(job, "%s%s", info->name, primes[info->dots % 3]);
 }
 
 static void check_twice(pl_job* job, pl_model* m) {
-  twice_check c = {.job = job, .m = m, .seen = pl_map_make(job->arena)};
-  pl_index_values v = pl_index_values_make(m, job->arena);
-  long budget = PL_MAX_INSTANCES;
-  for (c.init = 0; c.init < m->inits.n; c.init++) {
-    const pl_init* x = &m->inits.at[c.init];
+  pl_index_sets given = pl_index_sets_make(m, job->arena);
+  for (int i = 0; i < m->inits.n; i++) {
+    const pl_init* x = &m->inits.at[i];
     if (x->guess || pl_is_poison(x->target)) continue;
-    if (x->block) pl_block_walk(x->block, &v, one_target, &c, &budget, NULL);
-    else one_target(&c, &v);
+    pl_kind kind = pl_kind_of(m->pool, x->target);
+    if (kind != PL_SYMBOL && kind != PL_AT) continue;
+    bool element = kind == PL_AT;
+    uint64_t key = pl_hash_mix(x->time.id + 1, pl_symbol_of(m->pool, x->target).id);
+    if (element) key = pl_hash_mix(key, 5 + (uint64_t)pl_dots_of(m->pool, x->target));
+    long index;
+    pl_expr at = element ? pl_arg(m->pool, x->target, 0) : pl_poison();
+    int first = pl_index_sets_add(&given, key, at, x->block, i, &index);
+    if (first < 0) continue;
+    const char* text = target_text(job, m, x->target, index);
+    pl_diagnostic* d = pl_tell(job, PL_E044, x->span, PL_F(job, "the start value of %s is given twice", text),
+                               PL_F(job, "der Startwert von %s ist zweimal angegeben", text));
+    pl_span other = m->inits.at[first].span;
+    if (other.source && other.begin != x->span.begin) pl_report_label(job->diagnostics, d, other, job->lang == PL_GERMAN ? "zuerst hier" : "first here");
+    pl_report_fix(d, "keep one of them", "einen davon behalten", NULL);
   }
 }
 

@@ -36,64 +36,39 @@ static void check_theta(pl_job* job, pl_model* m) {
 // Places, constraints and loads, and events each have their own names: `force on A` and `force of A` differ.
 typedef struct label_check {
   pl_job* job;
-  pl_model* m;
-  pl_map* seen;               // (name, index) -> position in used + 1
-  PL_VEC(pl_span) used;
-  pl_index_values v;
-  long budget;
-  const pl_name* name;
-  pl_span span;
-  bool told;
+  pl_index_sets given;
+  PL_VEC(pl_span) used;       // by owner
 } label_check;
 
-static void tell_label(label_check* c, const char* shown, pl_span first, bool no_index) {
-  c->told = true;
-  pl_span at = c->span, found;
-  if (pl_span_find_name(c->span, c->name->ascii ? c->name->ascii : c->name->text, &found)) at = found;
+static void tell_label(label_check* c, const pl_name* name, const char* shown, pl_span span, int first) {
+  pl_span at = span, found;
+  if (pl_span_find_name(span, name->ascii ? name->ascii : name->text, &found)) at = found;
   pl_diagnostic* d = pl_tell(c->job, PL_E034, at, PL_F(c->job, "the label %s is used twice", shown),
                              PL_F(c->job, "die Marke %s ist zweimal vergeben", shown));
-  if (no_index) {
-    pl_report_fix(d, PL_F(c->job, "inside `for` give each its own: %s[i]", c->name->text),
-                  PL_F(c->job, "in `for` jeder ihre eigene geben: %s[i]", c->name->text), NULL);
+  if (first == c->used.n - 1 && pl_is_poison(name->index)) {
+    pl_report_fix(d, PL_F(c->job, "inside `for` give each its own: %s[i]", name->text),
+                  PL_F(c->job, "in `for` jeder ihre eigene geben: %s[i]", name->text), NULL);
     return;
   }
-  if (first.source) pl_report_label(c->job->diagnostics, d, first, c->job->lang == PL_GERMAN ? "zuerst hier" : "first here");
-  pl_report_fix(d, "choose another label", "eine andere Marke wählen", NULL);
-}
-
-static bool one_label(void* user, pl_index_values* v) {
-  label_check* c = user;
-  long index = 0;
-  bool has_index = !pl_is_poison(c->name->index);
-  if (has_index && !pl_index_eval(v, c->name->index, &index)) return false;
-  uint64_t key = pl_hash_bytes(c->name->text, strlen(c->name->text), has_index ? 7 : 3);
-  key = pl_hash_mix(key, (uint64_t)index) | 1;
-  uint64_t first = pl_map_get(c->seen, key);
-  if (!first) {
-    pl_map_set(c->seen, key, (uint64_t)c->used.n);     // number of the statement, from 1
-    return true;
+  if (first < c->used.n - 1 && c->used.at[first].source) {
+    pl_report_label(c->job->diagnostics, d, c->used.at[first], c->job->lang == PL_GERMAN ? "zuerst hier" : "first here");
   }
-  const char* shown = has_index ? PL_F(c->job, "%s[%ld]", c->name->text, index) : c->name->text;
-  bool same = (int)first == c->used.n;
-  tell_label(c, shown, same ? (pl_span){0} : c->used.at[first - 1], same && !has_index);
-  return false;
+  pl_report_fix(d, "choose another label", "eine andere Marke wählen", NULL);
 }
 
 static void check_label(label_check* c, const pl_name* name, const pl_block* b, pl_span span) {
   if (!name->text || name->generated) return;
-  c->name = name;
-  c->span = span;
   pl_push(c->job->arena, c->used, span);
-  if (!b) {
-    one_label(c, &c->v);
-    return;
-  }
-  pl_block_walk(b, &c->v, one_label, c, &c->budget, NULL);
+  bool has_index = !pl_is_poison(name->index);
+  uint64_t key = pl_hash_bytes(name->text, strlen(name->text), has_index ? 7 : 3);
+  long index;
+  int first = pl_index_sets_add(&c->given, key, name->index, b, c->used.n - 1, &index);
+  if (first < 0) return;
+  tell_label(c, name, has_index ? PL_F(c->job, "%s[%ld]", name->text, index) : name->text, span, first);
 }
 
 static label_check label_space(pl_job* job, pl_model* m) {
-  return (label_check){.job = job, .m = m, .seen = pl_map_make(job->arena), .v = pl_index_values_make(m, job->arena),
-                       .budget = PL_MAX_INSTANCES};
+  return (label_check){.job = job, .given = pl_index_sets_make(m, job->arena)};
 }
 
 static void check_labels(pl_job* job, pl_model* m) {

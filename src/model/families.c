@@ -5,6 +5,7 @@
 #include "model_impl.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 enum { MAX_BLOCK_DEPTH = 16 };
 
@@ -48,6 +49,10 @@ static pl_walk_result walk_level(block_walk* w, int level) {
   if (!pl_is_poison(b->step) && !pl_index_eval(w->v, b->step, &step)) return PL_WALK_BAD_BOUND;
   if (step == 0) return PL_WALK_ZERO_STEP;
   long last = step > 0 ? (hi < lo ? -1 : (hi - lo) / step) : (hi > lo ? -1 : (lo - hi) / -step);
+  if (!w->visit && level == w->depth - 1) {       // only counted
+    *w->budget = last < *w->budget ? *w->budget - last - 1 : -1;
+    return *w->budget < 0 ? PL_WALK_TOO_MANY : PL_WALK_DONE;
+  }
   bool jump = w->ends_only && level == w->depth - 1 && last > 1;
   for (long k = 0; k <= last; k += jump ? last : 1) {
     w->v->value[b->index.id] = (double)(lo + k * step);
@@ -107,6 +112,103 @@ pleuel_status pl_model_instances(pl_job* job, const pl_model* m, const pl_block*
   return PLEUEL_OK;
 }
 
+// ---------------------------------------------------------------------------------------------- sets of indices
+// Which member of a family was given where.  `for i in 1..N` with index i or i + k is kept as one run of numbers, so
+// a million members cost as much as one; other patterns are walked.
+enum { MAX_WALKED = 200000 };     // members of a pattern that is no run; beyond it only the runs are compared
+
+struct pl_index_run { uint64_t key; long lo, hi; int owner; };
+
+pl_index_sets pl_index_sets_make(const pl_model* m, pl_arena* a) {
+  return (pl_index_sets){.arena = a, .values = pl_index_values_make(m, a), .walked = pl_map_make(a)};
+}
+
+static uint64_t walked_key(uint64_t key, long k) { return pl_hash_mix(key, (uint64_t)k) | 1; }
+
+// Is the index in one loop i, i + k or -i + k with a step that leaves no gaps?
+static bool is_run(const pl_index_sets* s, pl_expr index, const pl_block* b) {
+  long slope, step = 1;
+  if (!b || b->outer) return false;
+  const pl_model* m = s->values.model;
+  pl_expr d = pl_diff(m->pool, index, b->index);
+  if (pl_is_poison(d) || pl_has_symbol(m->pool, d, b->index) || !pl_index_eval(&s->values, d, &slope)) return false;
+  if (!pl_is_poison(b->step) && !pl_index_eval(&s->values, b->step, &step)) return false;
+  return labs(slope) == 1 && labs(step) == 1;
+}
+
+typedef struct set_walk {
+  pl_index_sets* sets;
+  uint64_t key;
+  pl_expr index;
+  int owner;
+  bool record;                // false: only the hull of a run
+  long lo, hi, n;
+  int clash;                  // owner of the first that is met again, -1
+  long clash_index;
+} set_walk;
+
+static int find_member(const pl_index_sets* s, uint64_t key, long k) {
+  uint64_t known = pl_map_get(s->walked, walked_key(key, k));
+  if (known) return (int)known - 1;
+  for (int i = 0; i < s->runs.n; i++) {
+    const struct pl_index_run* r = &s->runs.at[i];
+    if (r->key == key && k >= r->lo && k <= r->hi) return r->owner;
+  }
+  return -1;
+}
+
+static bool one_member(void* user, pl_index_values* v) {
+  set_walk* w = user;
+  long k = 0;
+  if (!pl_is_poison(w->index) && !pl_index_eval(v, w->index, &k)) return false;
+  if (w->n == 0 || k < w->lo) w->lo = k;
+  if (w->n == 0 || k > w->hi) w->hi = k;
+  w->n++;
+  if (!w->record) return true;
+  int first = find_member(w->sets, w->key, k);
+  if (first >= 0) {
+    w->clash = first;
+    w->clash_index = k;
+    return false;
+  }
+  pl_map_set(w->sets->walked, walked_key(w->key, k), (uint64_t)w->owner + 1);
+  return true;
+}
+
+static void add_run(set_walk* w) {
+  pl_index_sets* s = w->sets;
+  for (int i = 0; i < s->runs.n && w->clash < 0; i++) {
+    const struct pl_index_run* r = &s->runs.at[i];
+    if (r->key != w->key || r->hi < w->lo || r->lo > w->hi) continue;
+    w->clash = r->owner;
+    w->clash_index = r->lo > w->lo ? r->lo : w->lo;
+  }
+  for (long k = w->lo; k <= w->hi && w->hi - w->lo < MAX_WALKED && pl_map_count(s->walked) && w->clash < 0; k++) {
+    uint64_t known = pl_map_get(s->walked, walked_key(w->key, k));
+    if (known) w->clash = (int)known - 1, w->clash_index = k;
+  }
+  if (w->clash < 0) pl_push(s->arena, s->runs, (struct pl_index_run){w->key, w->lo, w->hi, w->owner});
+}
+
+int pl_index_sets_add(pl_index_sets* s, uint64_t key, pl_expr index, const pl_block* b, int owner, long* clash_index) {
+  set_walk w = {.sets = s, .key = key, .index = index, .owner = owner, .clash = -1, .record = true};
+  if (!b) {
+    w.record = false;
+    if (one_member(&w, &s->values)) add_run(&w);
+  } else if (!pl_is_poison(index) && is_run(s, index, b)) {
+    w.record = false;
+    long budget = 4;
+    walk_blocks(b, &s->values, one_member, &w, &budget, true, NULL);
+    if (w.n) add_run(&w);
+  } else {
+    long budget = MAX_WALKED;
+    walk_blocks(b, &s->values, one_member, &w, &budget, false, NULL);
+  }
+  for (const pl_block* x = b; x; x = x->outer) s->values.value[x->index.id] = NAN;
+  *clash_index = w.clash_index;
+  return w.clash;
+}
+
 // ---------------------------------------------------------------------------------------------- messages
 typedef struct range_check {
   pl_job* job;
@@ -121,6 +223,7 @@ typedef struct range_check {
   pl_span span;
   long lo, hi;                // what the coordinate has
   long bad;                   // the index that does not exist
+  pl_span told;               // the last statement with a message: its other elements are the same mistake
   bool no_integer;
 } range_check;
 
@@ -201,6 +304,8 @@ static void suggest_bound(range_check* c, pl_diagnostic* d) {
 }
 
 static void tell_out_of_range(range_check* c) {
+  if (c->span.source && c->told.source == c->span.source && c->told.begin == c->span.begin) return;
+  c->told = c->span;
   const char* name = pl_symbol_get(c->m->pool, c->coord->symbol)->name;
   pl_span at = c->span, found;
   if (pl_span_find_name(c->span, pl_symbol_get(c->m->pool, c->coord->symbol)->ascii, &found)) at = found;
@@ -293,14 +398,12 @@ static void check_slot(void* user, const pl_slot* slot) {
 }
 
 // ---------------------------------------------------------------------------------------------- bounds
-static bool count_only(void* user, pl_index_values* v) { return true; }
-
 static void check_blocks(range_check* c) {
   for (int i = 0; i < c->m->blocks.n; i++) {
     const pl_block* b = c->m->blocks.at[i];
     const pl_block* culprit = b;
     long budget = PL_MAX_INSTANCES;
-    pl_walk_result r = pl_block_walk(b, &c->v, count_only, NULL, &budget, &culprit);
+    pl_walk_result r = pl_block_walk(b, &c->v, NULL, NULL, &budget, &culprit);
     if (culprit == b || r == PL_WALK_TOO_MANY) tell_walk(c, r, b);   // an outer block tells its own mistakes
     for (const pl_block* x = b; x; x = x->outer) c->v.value[x->index.id] = NAN;
   }
@@ -317,12 +420,21 @@ static void check_coordinate_bounds(range_check* c) {
   }
 }
 
-void pl_check_families(pl_job* job, pl_model* m) {
-  range_check c = {.job = job, .m = m, .v = pl_index_values_make(m, job->arena), .seen = pl_map_make(job->arena),
-                   .budget = PL_MAX_INSTANCES};
+static range_check range_check_make(pl_job* job, pl_model* m) {
+  return (range_check){.job = job, .m = m, .v = pl_index_values_make(m, job->arena), .seen = pl_map_make(job->arena),
+                       .budget = PL_MAX_INSTANCES};
+}
+
+// Sizes first: everything else relies on them.
+bool pl_check_sizes(pl_job* job, pl_model* m) {
+  range_check c = range_check_make(job, m);
   int before = job->diagnostics->n_errors;
   check_blocks(&c);
   check_coordinate_bounds(&c);
-  if (job->diagnostics->n_errors > before) return;
+  return job->diagnostics->n_errors == before;
+}
+
+void pl_check_families(pl_job* job, pl_model* m) {
+  range_check c = range_check_make(job, m);
   pl_model_each_slot(m, check_slot, &c);
 }

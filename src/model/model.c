@@ -204,7 +204,7 @@ static pleuel_status settle_after_set(pl_job* job, pl_model* m) {
   if (!m->checked) return PLEUEL_OK;
   int before = job->diagnostics ? job->diagnostics->n_errors : 0;
   pl_classify_symbols(m);
-  pl_check_families(job, m);
+  if (pl_check_sizes(job, m)) pl_check_families(job, m);
   pl_check_numbers(job, m);
   return job->diagnostics && job->diagnostics->n_errors > before ? PLEUEL_MODEL_ERROR : PLEUEL_OK;
 }

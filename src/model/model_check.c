@@ -23,14 +23,15 @@ static void default_axes(pl_model* m) {
 
 pleuel_status pl_model_check(pl_job* job, pl_model* m) {
   default_axes(m);
-  pl_check_names(job, m);
+  bool sized = pl_check_sizes(job, m);
+  if (sized) pl_check_names(job, m);
   pl_check_dimensions(job, m);
   pl_strip_units(m);
   pl_classify_symbols(m);
   pl_check_structure(job, m);
-  pl_check_families(job, m);
+  if (sized) pl_check_families(job, m);
   pl_check_numbers(job, m);
-  pl_check_start(job, m);
+  if (sized) pl_check_start(job, m);
   pl_check_requests(job, m);
   pl_check_use(job, m);
   m->checked = true;

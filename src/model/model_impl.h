@@ -66,7 +66,19 @@ typedef enum pl_walk_result { PL_WALK_DONE, PL_WALK_STOPPED, PL_WALK_BAD_BOUND, 
 pl_walk_result pl_block_walk(const pl_block* b, pl_index_values* v, pl_instance_visit* visit, void* user, long* budget,
                              const pl_block** culprit);
 enum { PL_MAX_INSTANCES = 20000000 };   // more than this is refused: indices alone would take a gigabyte
+// visit NULL: the instances are only counted off the budget.
+bool pl_check_sizes(pl_job* job, pl_model* m);      // false: some family has no size; it has been told
 void pl_check_families(pl_job* job, pl_model* m);
+// Which members of a family were given: key names the family, owner who gives it.  pl_index_sets_add returns the owner
+// that gave one of them before, -1 if none did; index poison: the family is one thing without index.
+typedef struct pl_index_sets {
+  pl_arena* arena;
+  pl_index_values values;
+  pl_map* walked;
+  PL_VEC(struct pl_index_run) runs;
+} pl_index_sets;
+pl_index_sets pl_index_sets_make(const pl_model* m, pl_arena* a);
+int pl_index_sets_add(pl_index_sets* s, uint64_t key, pl_expr index, const pl_block* b, int owner, long* clash_index);
 
 // ---------------------------------------------------------------------------------------------- dimensions
 void pl_check_dimensions(pl_job* job, pl_model* m);
