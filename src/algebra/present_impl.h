@@ -93,6 +93,9 @@ int pl_prod_motion(pl_search* s, pl_prod x);
 // ---------------------------------------------------------------------------------------------- present_poly.c
 pl_prod pl_present_poly(pl_search* s, const pl_poly* f, int depth);
 
+// f = w * rest, seen when a square in f is written with w² = P: l √P - x² - y² = √P (l - √P) for P = x² + y².
+bool pl_poly_root_divides(pl_search* s, const pl_poly* f, int w, const pl_poly** rest);
+
 // Which generators form the key of a collection.
 typedef enum pl_key_set {
   PL_KEY_MOTION,      // velocities, accelerations, momenta, multipliers

@@ -231,6 +231,22 @@ static void reraise(pl_search* s, const pl_poly* f, int depth, pl_prod* best, bo
   }
 }
 
+bool pl_poly_root_divides(pl_search* s, const pl_poly* f, int w, const pl_poly** rest) {
+  pl_tower* t = s->t;
+  const pl_gen* g = &t->gens.at[w];
+  if (g->kind != PL_G_ROOT || g->degree != 2 || g->value->length > 12) return false;
+  const pl_poly* radicands[MAX_VIEWS];
+  int n = views(s, g->value, radicands);
+  for (int k = 0; k < n; k++) {
+    for (slong i = 0; i < radicands[k]->length; i++) {
+      const pl_poly* raised = reraised(s, f, w, radicands[k], i);
+      s->work++;
+      if (raised && pl_poly_divides(t, rest, raised, pl_poly_gen(t, w))) return true;
+    }
+  }
+  return false;
+}
+
 // ---------------------------------------------------------------------------------------------- memory
 static pl_found* recall(pl_search* s, const pl_poly* f, int depth, uint64_t* key) {
   *key = pl_hash_mix(pl_poly_hash(s->t, f), (uint64_t)depth) | 1;

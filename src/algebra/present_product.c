@@ -27,7 +27,8 @@ static long cost_of(pl_search* s, pl_prod x) {
     const pl_piece* f = &x.at[i];
     cost += f->cost;
     bool alone = factors == 1 && f->power == 1;
-    if (f->sum && !alone) cost += COST_BRACKET;
+    // (m1 + m2) is read as one mass
+    if (f->sum && !alone && f->bucket >= PL_K_PARAM_SUM) cost += COST_BRACKET;
     if (abs(f->power) > 1) cost += COST_POWER;
   }
   return cost + (factors > 1 ? (factors - 1) * COST_FACTOR : 0);

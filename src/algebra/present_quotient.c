@@ -82,6 +82,19 @@ static pl_prod absorb_roots(pl_search* s, pl_prod x) {
   return x;
 }
 
+// The numerator with a factor w taken out for a radicand w² that is in the denominator.
+static bool cancel_root(pl_search* s, pl_frac f, pl_prod den, int depth, pl_prod* out) {
+  for (int i = 0; i < f.n; i++) {
+    int w = root_of_base(s, pl_base_poly(s->t, f.den[i].base));
+    const pl_poly* rest;
+    if (w < 0 || !pl_poly_root_divides(s, f.num, w, &rest)) continue;
+    pl_prod n = pl_prod_mul(s, pl_present_poly(s, rest, depth), pl_prod_of_gen(s, w, 1));
+    *out = absorb_roots(s, pl_prod_mul(s, n, den));
+    return true;
+  }
+  return false;
+}
+
 // ---------------------------------------------------------------------------------------------- parts
 static bool cancels(pl_frac whole, pl_frac part) {
   long before = 0, after = 0;
@@ -117,8 +130,10 @@ pl_prod pl_present_quotient(pl_search* s, pl_frac f, int depth) {
   pl_prod n = pl_present_poly(s, f.num, depth);
   pl_prod best = pl_prod_tidy(s, pl_prod_mul(s, n, pl_prod_pow(s, denominator(s, f, depth, false), -1)));
   if (f.n == 0) return best;
-  pl_prod rooted = pl_prod_mul(s, n, pl_prod_pow(s, denominator(s, f, depth, true), -1));
+  pl_prod root_den = pl_prod_pow(s, denominator(s, f, depth, true), -1);
+  pl_prod rooted = pl_prod_mul(s, n, root_den), cancelled;
   best = smaller(best, rooted);
+  if (cancel_root(s, f, root_den, depth, &cancelled)) best = smaller(best, cancelled);
   best = smaller(best, absorb_roots(s, rooted));
   if (depth < 1 || f.num->length > MAX_SPLIT_TERMS || f.num->length < 2) return best;
   static const pl_key_set sets[] = {PL_KEY_MASS, PL_KEY_MOTION, PL_KEY_GRAVITY, PL_KEY_OTHER, PL_KEY_ROOT};

@@ -152,6 +152,19 @@ static long list_cost(const term_list* l) {
   return cost;
 }
 
+// (m1 - m2) g x: a difference of masses is no natural factor of an energy.
+static bool has_mass_difference(const term_list* l) {
+  for (int i = 0; i < l->n; i++) {
+    for (int k = 0; k < l->at[i].n; k++) {
+      const pl_piece* f = &l->at[i].at[k];
+      if (!f->sum || f->bucket != PL_K_MASS) continue;
+      for (int j = 0; j < f->sum->n; j++)
+        if (pl_prod_is_negative(l->s, f->sum->at[j])) return true;
+    }
+  }
+  return false;
+}
+
 // Potentials and forces: by gravity and other parameters as plain sums, (m1 + m2) g l1 cos α + ..., or by masses too,
 // m1 g x + m2 g (l - x), whichever is shorter.
 static void put_static(term_list* l, pl_frac f, int depth) {
@@ -161,7 +174,9 @@ static void put_static(term_list* l, pl_frac f, int depth) {
   by_mass->s = by_kind->s = l->s;
   put_parts(by_mass, f, sets, 3, false, depth);
   put_parts(by_kind, f, sets + 1, 2, true, depth);
-  const term_list* best = by_kind->full || (!by_mass->full && list_cost(by_mass) <= list_cost(by_kind)) ? by_mass : by_kind;
+  bool heaps = l->s->style == PL_S_ENERGY && has_mass_difference(by_kind);
+  bool shorter = heaps || list_cost(by_mass) <= list_cost(by_kind);
+  const term_list* best = by_kind->full || (!by_mass->full && shorter) ? by_mass : by_kind;
   if (best->full) put(l, pl_present_quotient(l->s, f, depth));
   else for (int i = 0; i < best->n; i++) put(l, best->at[i]);
 }
@@ -280,10 +295,21 @@ static bool moving_denominator(pl_search* s, pl_frac f) {
   return false;
 }
 
+// A product that is the whole formula: -(a + b) becomes -a - b.
+static const pl_form* whole_form(pl_search* s, pl_prod x) {
+  bool bare = x.n == 1 && x.at[0].sum && x.at[0].power == 1 && pl_is_one_node(s->p, pl_neg(s->p, x.unit));
+  if (!bare) return pl_prod_form(s, x);
+  const pl_sum_terms* sum = x.at[0].sum;
+  pl_prod* terms = PL_ARRAY(s->a, pl_prod, sum->n);
+  for (int i = 0; i < sum->n; i++) terms[i] = pl_prod_neg(s, sum->at[i]);
+  pl_terms_sort(s, terms, sum->n);
+  return pl_terms_form(s, terms, sum->n);
+}
+
 static const pl_form* plain(pl_search* s, pl_frac f, int depth, long* cost) {
   pl_prod x = pl_prod_flip(s, pl_present_quotient(s, f, depth));
   *cost = x.cost;
-  return pl_prod_form(s, x);
+  return whole_form(s, x);
 }
 
 static const pl_form* by_motion(pl_search* s, pl_frac f, int depth, long* cost) {
@@ -329,7 +355,7 @@ static const pl_form* quotient(pl_search* s, pl_frac f, int depth, long* cost) {
   pl_prod x = pl_prod_flip(s, pl_present_quotient(s, f, depth));
   *cost = x.cost;
   int i;
-  if (!is_sum_of_forces(s, x, &i)) return pl_prod_form(s, x);
+  if (!is_sum_of_forces(s, x, &i)) return whole_form(s, x);
   int n = x.at[i].sum->n;
   pl_prod* terms = PL_ARRAY(s->a, pl_prod, n);
   for (int k = 0; k < n; k++) terms[k] = times_rest(s, x, i, x.at[i].sum->at[k]);

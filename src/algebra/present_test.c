@@ -349,6 +349,73 @@ static void equations_are_ordered_by_derivatives(void** state) {
            "m2 l1 l2 a'' cos(a - b) + m2 l2^2 b'' - m2 l1 l2 a'^2 sin(a - b) + m2 g l2 sin(b)");
 }
 
+// ---------------------------------------------------------------------------------------------- whole systems
+// Accelerations of a Lagrange function by the second kind, solved and presented; the sum of their operations.
+static long operations(fixture* f, const char* lagrangian, const char* const* coords, int n, double seconds) {
+  pl_pool* p = f->p;
+  pl_expr L = formula(f, lagrangian), A[16], b[4], x[4];
+  assert_in_range(n, 1, 4);
+  pl_symbol q[4], v[4], a[4];
+  for (int i = 0; i < n; i++) {
+    q[i] = symbol_of(f, coords[i]);
+    v[i] = pl_symbol_dot(p, q[i]);
+    a[i] = pl_symbol_dot(p, v[i]);
+  }
+  for (int i = 0; i < n; i++) {
+    pl_expr e = pl_sub(p, pl_dt(p, pl_diff(p, L, v[i])), pl_diff(p, L, q[i]));
+    for (int k = 0; k < n; k++) A[i * n + k] = pl_diff(p, e, a[k]);
+    for (int k = 0; k < n; k++) e = pl_subst1(p, e, a[k], pl_int(p, 0));
+    b[i] = pl_neg(p, e);
+  }
+  assert_int_equal(pl_alg_solve(f->t, n, A, b, x, 20000), PL_YES);
+  long ops = 0;
+  for (int i = 0; i < n; i++) {
+    const pl_form* form = pl_present(f->t, x[i], PL_S_QUOTIENT, seconds);
+    assert_int_equal(pl_alg_equal(f->t, pl_form_value(p, form), x[i]), PL_YES);
+    ops += pl_form_ops(form);
+    if (getenv("PRESENT_SHOW")) printf("%s'' = %s\n", coords[i], text_of(f, form));
+  }
+  return ops;
+}
+
+#define OPERATIONS(limit, seconds, L, ...)                                                         \
+  do {                                                                                             \
+    const char* const coords_[] = {__VA_ARGS__};                                                   \
+    long ops_ = operations(f, L, coords_, (int)(sizeof coords_ / sizeof *coords_), seconds);       \
+    if (ops_ > (limit)) fail_msg("%ld operations instead of %d", ops_, limit);                     \
+  } while (0)
+
+static void accelerations_are_short(void** state) {
+  fixture* f = *state;
+  OPERATIONS(10, 0.02, "m/2*R^2*(th'^2 + w^2*sin(th)^2) + m*g*R*cos(th)", "th");
+  OPERATIONS(36, 0.02, "(m1 + m2)/2*x'^2 + m2/2*l^2*th'^2 + m2*l*x'*th'*cos(th) + m2*g*l*cos(th)", "x", "th");
+  OPERATIONS(19, 0.02, "m/2*(rho'^2 + rho^2*th'^2) + m*g*rho*cos(th) - k/2*(rho - l0)^2", "rho", "th");
+  OPERATIONS(17, 0.02, "m/2*l^2*(th'^2 + sin(th)^2*phi'^2) + m*g*l*cos(th)", "th", "phi");
+  OPERATIONS(34, 0.02, "m/2*(x'^2 + y'^2) - m*g*y - k/2*(sqrt(x^2 + y^2) - l0)^2", "x", "y");
+}
+
+static void double_pendulum_accelerations_are_short(void** state) {
+  fixture* f = *state;
+  OPERATIONS(75, 0.02, "(m1 + m2)/2*l1^2*a'^2 + m2/2*l2^2*b'^2 + m2*l1*l2*a'*b'*cos(a - b) + (m1 + m2)*g*l1*cos(a) + m2*g*l2*cos(b)",
+             "a", "b");
+  OPERATIONS(68, 1, "(m1 + m2)/2*l1^2*a'^2 + m2/2*l2^2*b'^2 + m2*l1*l2*a'*b'*cos(a - b) + (m1 + m2)*g*l1*cos(a) + m2*g*l2*cos(b)",
+             "a", "b");
+}
+
+static void crank_acceleration_is_short(void** state) {
+  fixture* f = *state;
+  const char* L = pl_format(f->a, "1/2*m1*r^2*phi'^2 + 1/2*m2*%s^2 - m1*g*r*sin(phi)", slider);
+  OPERATIONS(102, 1, L, "phi");
+}
+
+static void triple_pendulum_accelerations_are_short(void** state) {
+  fixture* f = *state;
+  const char* L = "(m1 + m2 + m3)/2*l1^2*a1'^2 + (m2 + m3)/2*l2^2*a2'^2 + m3/2*l3^2*a3'^2 + (m2 + m3)*l1*l2*a1'*a2'*cos(a1 - a2)"
+                  " + m3*l1*l3*a1'*a3'*cos(a1 - a3) + m3*l2*l3*a2'*a3'*cos(a2 - a3)"
+                  " + (m1 + m2 + m3)*g*l1*cos(a1) + (m2 + m3)*g*l2*cos(a2) + m3*g*l3*cos(a3)";
+  OPERATIONS(280, 0.5, L, "a1", "a2", "a3");
+}
+
 // The same value, whatever comes in: sums and products of random shape.
 static pl_expr random_expression(fixture* f, pl_random* r, int depth) {
   static const char* const atoms[] = {"m1", "m2", "g", "l", "r", "sin(a)", "cos(a)", "sin(b)", "cos(b)", "x", "x'", "2", "sqrt(l^2 - x^2)"};
@@ -410,6 +477,10 @@ int main(void) {
     T(roots_come_together),
     T(zero_and_numbers),
     T(equations_are_ordered_by_derivatives),
+    T(accelerations_are_short),
+    T(double_pendulum_accelerations_are_short),
+    T(crank_acceleration_is_short),
+    T(triple_pendulum_accelerations_are_short),
     T(every_form_has_the_value_of_its_expression),
     T(the_same_input_gives_the_same_bytes),
   };
