@@ -347,3 +347,9 @@ double pl_points_double(pl_points* s, int point, pl_expr e) {
   if (arb_rel_accuracy_bits(v) < 20 && !arb_is_zero(v)) return 0;   // nothing but rounding
   return arf_get_d(arb_midref(v), ARF_RND_NEAR);
 }
+
+pl_points* pl_tower_points(pl_tower* t) {
+  pl_certifier_setup s = {.facts = t->facts.at, .n_facts = t->facts.n};
+  if (!t->points) t->points = pl_points_make(t->job, t->pool, &s, PL_POINT_COUNT, PL_POINT_BITS, 1);
+  return t->points;
+}

@@ -284,5 +284,8 @@ int pl_points_count(const pl_points* s);
 bool pl_points_value(pl_points* s, int point, pl_expr e, arb_srcptr* value);
 // Value of e as a double, NaN where it is not usable.
 double pl_points_double(pl_points* s, int point, pl_expr e);
+// The tower's own points, under its facts, made when needed; at PL_POINT_BITS.
+enum { PL_POINT_BITS = 256, PL_POINT_COUNT = 50 };
+pl_points* pl_tower_points(pl_tower* t);
 
 #endif

@@ -91,6 +91,23 @@ static void lower_roots(pl_build* b) {
   }
 }
 
+// P/w = w.
+static void raise_roots(pl_build* b) {
+  pl_tower* t = b->t;
+  for (int i = 0; i < b->den.n; i++) {
+    int gen = t->bases.at[b->den.at[i].base].gen;
+    if (gen < 0 || t->gens.at[gen].degree != 2 || b->den.at[i].power != 1) continue;
+    const pl_poly* q = NULL;
+    const pl_poly* value = t->gens.at[gen].value;
+    fmpz* content = pl_int_new(t);
+    pl_poly_content(t, content, value);
+    if (!pl_poly_divides(t, &q, b->num, pl_poly_scale_down(t, value, content))) continue;
+    b->num = pl_poly_mul(t, q, pl_poly_gen(t, gen));
+    fmpz_mul(b->unit, b->unit, content);
+    b->den.at[i].power = 0;
+  }
+}
+
 static void cancel_bases(pl_build* b) {
   pl_tower* t = b->t;
   for (int i = 0; i < b->den.n; i++) {
@@ -129,6 +146,7 @@ static pl_frac built(pl_build* b) {
   if (b->den.n) {
     lower_powers(b);
     cancel_bases(b);
+    raise_roots(b);
     lower_roots(b);
     cancel_bases(b);
   }

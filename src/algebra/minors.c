@@ -2,14 +2,12 @@
 // s^2 = 1 - c^2 may be used at every product.  Rows are cleared of denominators and contents first, sparse rows are
 // expanded first; every minor of the lower rows is computed once.  One cancellation at the end.
 // Bareiss needs exact division, which the quotient ring does not have; elimination in the field collects spurious factors.
-//
-// Rank and dependencies look at the normal forms modulo a prime at random points: fast, and right at a generic point.
 #include "algebra/algebra_impl.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-enum { PL_MAX_ORDER = 40, PL_MAX_MINORS = 60000, PL_RANK_POINTS = 4, PL_RANK_TRIES = 24, PL_MAX_RANK = 512 };
+enum { PL_MAX_ORDER = 40, PL_MAX_MINORS = 60000 };
 
 typedef struct pl_minors {
   pl_tower* t;
@@ -195,108 +193,4 @@ pl_expr pl_alg_det(pl_tower* t, int n, const pl_expr* A, long max_terms) {
   if (n < 0 || n > PL_MAX_ORDER || any_poison(A, n * n)) return pl_poison();
   pl_det_job j = {.n = n, .A = A, .max_terms = max_terms, .det = pl_poison()};
   return pl_tower_run(t, det_body, &j) ? j.det : pl_poison();
-}
-
-// ---------------------------------------------------------------------------------------------- rank
-static bool residues(pl_tower* t, int m, int n, const pl_expr* A, uint64_t seed, uint64_t* out) {
-  pl_mod_point* point = pl_mod_point_make(t->arena, t->pool, seed);
-  for (int i = 0; i < m * n; i++) {
-    bool ok = true;
-    out[i] = pl_eval_mod(point, A[i], &ok);
-    if (!ok) return false;
-  }
-  return true;
-}
-
-static uint64_t minus_mod(uint64_t a) {
-  return a ? PL_MOD_P - a : 0;
-}
-
-// Greedy from the first row on: a row is taken when it is independent of those taken before.  R (m x n) is destroyed.
-static int independent_rows(uint64_t* R, int m, int n, int* rows) {
-  int rank = 0;
-  int pivot[PL_MAX_RANK];
-  for (int i = 0; i < m && rank < n && rank < PL_MAX_RANK; i++) {
-    uint64_t* r = R + (size_t)i * (size_t)n;
-    for (int k = 0; k < rank; k++) {
-      uint64_t f = r[pivot[k]];
-      if (!f) continue;
-      const uint64_t* base = R + (size_t)rows[k] * (size_t)n;
-      for (int j = 0; j < n; j++) r[j] = pl_mod_add(r[j], minus_mod(pl_mod_mul(f, base[j])));
-    }
-    int p = 0;
-    while (p < n && r[p] == 0) p++;
-    if (p == n) continue;
-    uint64_t inverse = pl_mod_inv(r[p]);
-    for (int j = 0; j < n; j++) r[j] = pl_mod_mul(r[j], inverse);
-    pivot[rank] = p;
-    rows[rank++] = i;
-  }
-  return rank;
-}
-
-int pl_alg_rank(pl_tower* t, int m, int n, const pl_expr* A, int* rows) {
-  if (m <= 0 || n <= 0) return 0;
-  pl_expr* normal = PL_ARRAY(t->arena, pl_expr, m * n);
-  uint64_t* R = PL_ARRAY(t->arena, uint64_t, m * n);
-  int* here = PL_ARRAY(t->arena, int, m);
-  for (int i = 0; i < m * n; i++) normal[i] = pl_alg_normal(t, A[i]);
-  int best = -1;
-  for (int k = 0, used = 0; k < PL_RANK_TRIES && used < PL_RANK_POINTS; k++) {
-    if (!residues(t, m, n, normal, 1000 + (uint64_t)k, R)) continue;
-    used++;
-    int rank = independent_rows(R, m, n, here);
-    if (rank <= best) continue;
-    best = rank;
-    if (rows) memcpy(rows, here, (size_t)rank * sizeof *rows);
-  }
-  return best < 0 ? 0 : best;
-}
-
-// ---------------------------------------------------------------------------------------------- dependencies
-// Checks sum_i c_i A_ij = A_kj in every column.
-static pl_answer3 verify_dependency(pl_tower* t, int m, int n, const pl_expr* A, int k, const pl_expr* c) {
-  pl_answer3 answer = PL_YES;
-  for (int j = 0; j < n; j++) {
-    pl_expr sum = pl_neg(t->pool, A[k * n + j]);
-    for (int i = 0; i < m; i++) {
-      if (i != k) sum = pl_add(t->pool, sum, pl_mul(t->pool, c[i], A[i * n + j]));
-    }
-    pl_answer3 zero = pl_alg_is_zero(t, sum);
-    if (zero == PL_NO) return PL_NO;
-    if (zero == PL_UNKNOWN) answer = PL_UNKNOWN;
-  }
-  return answer;
-}
-
-pl_answer3 pl_alg_dependency(pl_tower* t, int m, int n, const pl_expr* A, int k, pl_expr* c) {
-  if (m <= 0 || n <= 0 || k < 0 || k >= m) return PL_UNKNOWN;
-  for (int i = 0; i < m; i++) c[i] = pl_int(t->pool, 0);
-  // the other rows, then a set of columns in which those that are independent stay so
-  pl_expr* others = PL_ARRAY(t->arena, pl_expr, m * n);
-  pl_expr* transposed = PL_ARRAY(t->arena, pl_expr, m * n);
-  int* row_of = PL_ARRAY(t->arena, int, m);
-  int* rows = PL_ARRAY(t->arena, int, m);
-  int* columns = PL_ARRAY(t->arena, int, n);
-  int n_others = 0;
-  for (int i = 0; i < m; i++) {
-    if (i == k) continue;
-    memcpy(others + n_others * n, A + i * n, (size_t)n * sizeof *A);
-    row_of[n_others++] = i;
-  }
-  int r = n_others ? pl_alg_rank(t, n_others, n, others, rows) : 0;
-  for (int i = 0; i < r; i++) {
-    for (int j = 0; j < n; j++) transposed[j * r + i] = others[rows[i] * n + j];
-  }
-  if (r > 0 && pl_alg_rank(t, n, r, transposed, columns) != r) return PL_UNKNOWN;
-  pl_expr* S = PL_ARRAY(t->arena, pl_expr, r * r + 1);
-  pl_expr* b = PL_ARRAY(t->arena, pl_expr, r + 1);
-  pl_expr* x = PL_ARRAY(t->arena, pl_expr, r + 1);
-  for (int j = 0; j < r; j++) {
-    for (int i = 0; i < r; i++) S[j * r + i] = transposed[columns[j] * r + i];
-    b[j] = A[k * n + columns[j]];
-  }
-  if (r > 0 && pl_alg_solve(t, r, S, b, x, PL_MAX_TERMS) != PL_YES) return PL_UNKNOWN;
-  for (int i = 0; i < r; i++) c[row_of[rows[i]]] = x[i];
-  return verify_dependency(t, m, n, A, k, c);
 }

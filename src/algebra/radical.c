@@ -323,6 +323,10 @@ static int sign_of_root(pl_tower* t, const pl_poly* P) {
 }
 
 static pl_frac sqrt_of_poly(pl_tower* t, const pl_poly* P) {
+  for (int g = 0; g < t->gens.n; g++) {
+    bool same = t->gens.at[g].kind == PL_G_ROOT && t->gens.at[g].degree == 2 && pl_poly_equal(t, t->gens.at[g].value, P);
+    if (same) return pl_frac_gen(t, g);
+  }
   pl_factored f = pl_poly_factor(t, P);
   if (has_square(f)) return pl_frac_sqrt(t, pl_frac_poly(t, P));   // reduction has made one appear
   pl_frac r;

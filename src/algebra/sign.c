@@ -10,7 +10,7 @@
 
 #include <math.h>
 
-enum { PL_MAX_CORNER_GENS = 4, PL_MAX_FACT_DEPTH = 3, PL_MAX_FACTS = 16, PL_SIGN_POINTS = 50, PL_MAX_SIGN_TERMS = 400 };
+enum { PL_MAX_CORNER_GENS = 4, PL_MAX_FACT_DEPTH = 3, PL_MAX_FACTS = 16, PL_MAX_SIGN_TERMS = 400 };
 static const double sample_floor = 1e-9;    // of the largest sample: smaller values do not count as having a sign
 
 // ---------------------------------------------------------------------------------------------- evidence
@@ -221,24 +221,18 @@ static int prove(pl_tower* t, const pl_poly* a) {
   return sign;
 }
 
-static void sample_points(pl_tower* t) {
-  if (t->points) return;
-  pl_certifier_setup s = {.facts = t->facts.at, .n_facts = t->facts.n};
-  t->points = pl_points_make(t->job, t->pool, &s, PL_SIGN_POINTS, 256, 1);
-}
-
 // (v)
 static int sampled(pl_tower* t, pl_expr e) {
-  sample_points(t);
   int plus = 0, minus = 0;
   double largest = 0;
-  for (int i = 0; i < PL_SIGN_POINTS; i++) largest = fmax(largest, fabs(pl_points_double(t->points, i, e)));
-  for (int i = 0; i < PL_SIGN_POINTS; i++) {
-    double v = pl_points_double(t->points, i, e);
+  pl_points* points = pl_tower_points(t);
+  for (int i = 0; i < PL_POINT_COUNT; i++) largest = fmax(largest, fabs(pl_points_double(points, i, e)));
+  for (int i = 0; i < PL_POINT_COUNT; i++) {
+    double v = pl_points_double(points, i, e);
     plus += v > sample_floor * largest;
     minus += v < -sample_floor * largest;
   }
-  if (plus + minus >= PL_SIGN_POINTS / 5 && (plus == 0 || minus == 0)) return plus ? 1 : -1;
+  if (plus + minus >= PL_POINT_COUNT / 5 && (plus == 0 || minus == 0)) return plus ? 1 : -1;
   return 0;
 }
 
@@ -255,8 +249,7 @@ static int probed(pl_tower* t, pl_expr e) {
 static int sign_of_constant(pl_tower* t, pl_expr e) {
   arb_srcptr v;
   if (!pl_is_constant(t->pool, e)) return 0;
-  sample_points(t);
-  if (!pl_points_value(t->points, 0, e, &v) || arb_contains_zero(v)) return 0;
+  if (!pl_points_value(pl_tower_points(t), 0, e, &v) || arb_contains_zero(v)) return 0;
   return arb_is_positive(v) ? 1 : -1;
 }
 

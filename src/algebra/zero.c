@@ -2,7 +2,7 @@
 // zero at a sample point, or when nothing but independent symbols is involved.  Otherwise: unknown, never a guess.
 #include "algebra/algebra_impl.h"
 
-enum { PL_ZERO_POINTS = 12, PL_ZERO_BITS = 256, PL_ZERO_MORE_BITS = 1000, PL_ZERO_SIGN_POINTS = 50 };
+enum { PL_ZERO_POINTS = 12, PL_ZERO_MORE_BITS = 1000 };
 
 typedef struct pl_zero_job { pl_expr e; bool zero, only_symbols; } pl_zero_job;
 
@@ -27,10 +27,9 @@ static bool separated(pl_points* s, pl_expr e) {
 
 static void points_body(pl_tower* t, void* data) {
   pl_zero_job* j = data;
-  pl_certifier_setup s = {.facts = t->facts.at, .n_facts = t->facts.n};
-  if (!t->points) t->points = pl_points_make(t->job, t->pool, &s, PL_ZERO_SIGN_POINTS, PL_ZERO_BITS, 1);
-  j->zero = !separated(t->points, j->e);
+  j->zero = !separated(pl_tower_points(t), j->e);
   if (!j->zero) return;
+  pl_certifier_setup s = {.facts = t->facts.at, .n_facts = t->facts.n};
   if (!t->fine_points) t->fine_points = pl_points_make(t->job, t->pool, &s, PL_ZERO_POINTS, PL_ZERO_MORE_BITS, 1);
   j->zero = !separated(t->fine_points, j->e);
 }
