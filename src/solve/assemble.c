@@ -105,17 +105,16 @@ static void clear(double* x, int n) {
 }
 
 // Adds what rounding of the coordinates themselves does to g, |dg/dq| |q|, which the terms need not show (r cos φ after many
-// turns); and a floor where everything is nearly zero.
+// turns).  |q| is the largest that the coordinate has been, with a floor where it never moved.
 static void add_coordinate_sizes(const pl_run* run, double* size) {
-  static const double part = 1e-6;   // of |dg/dq| times the largest coordinate
+  static const double part = 1e-6;   // of the largest coordinate of all
   for (int i = 0; i < run->motion.n; i++) {
     const pl_batch* b = &run->motion.at[i];
     for (int e = 0; e < b->pattern->n_G; e++) {
       const pl_pattern_entry* g = &b->pattern->G[e];
       const double* x = coefficient(b, node_of(b, g->root), 0);
-      int q_node = b->pattern->tape->q_node[g->col];
       LANES(b) {
-        double q = q_node >= 0 ? fabs(coefficient(b, q_node, 0)[l]) : 0;
+        double q = run->q_most[b->q[g->col * b->lanes + l]];
         size[b->c[g->row * b->lanes + l]] += fabs(x[l]) * fmax(q, part * run->q_size);
       }
     }
@@ -155,7 +154,7 @@ void pl_assemble_gdot(pl_run* run, double* r, double* size) {
       LANES(b) {
         int c = b->c[g->row * b->lanes + l];
         r[c] += x[l] * v[l];
-        size[c] += fabs(x[l]) * fmax(fabs(v[l]), 1e-6 * run->v_size);
+        size[c] += fabs(x[l]) * fmax(run->v_most[b->q[g->col * b->lanes + l]], 1e-6 * run->v_size);
       }
     }
     for (int e = 0; e < b->pattern->n_gt; e++) {

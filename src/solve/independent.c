@@ -8,6 +8,8 @@
 
 static const double dependent_below = 1e-9;   // of a row of length 1: what is left of a row that says nothing new
 
+static bool too_many_to_examine(const pl_run* run) { return run->n_active > PL_RANK_UP_TO; }
+
 // ---------------------------------------------------------------------------------------------- active set
 static bool touches(const pl_run* run, const pl_batch* b, const pl_pattern_entry* e, int l) {
   return run->active[b->c[e->row * b->lanes + l]];
@@ -40,6 +42,7 @@ void pl_active_update(pl_run* run) {
     run->n_active += run->active[c];
   }
   find_orphans(run);
+  run->by_pivots = too_many_to_examine(run) || (double)run->n_active * run->n_active * run->n_q > PL_RANK_WORK;
   run->rank_mode = -1;      // a new mode: rank and yardstick start anew
   run->best = 0;
   run->smallest_before = 0;
@@ -59,13 +62,11 @@ static void scale_columns(pl_run* run, int m) {
       if (run->column[j] > 0) run->rows[(size_t)r * (size_t)n + (size_t)j] /= run->column[j];
 }
 
-static bool too_many_to_examine(const pl_run* run) { return run->n_active > PL_RANK_UP_TO; }
-
 void pl_independent_choose(pl_run* run) {
+  if (run->by_pivots && run->rank_mode >= 0) return;   // chosen when the mode began
   if (too_many_to_examine(run)) {
     for (int c = 0; c < run->n_c; c++) run->taken[c] = run->active[c];
     run->rank = run->n_active;
-    run->smallest = 1;
     return;
   }
   pl_assemble_rows(run);

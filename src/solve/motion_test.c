@@ -126,6 +126,318 @@ static void a_crank_with_equal_lengths_is_reported_singular(void** state) {
   t_close(b);
 }
 
+// ---------------------------------------------------------------------------------------------- double pendulum
+// Reference: angles, accelerations by hand, Gragg's midpoint rule with Bulirsch-Stoer extrapolation in __float128.  It
+// shares nothing with the solver: other coordinates, other formulas, other method, other arithmetic.
+typedef __float128 quad;
+
+static quad quad_sin(quad x);
+static quad quad_cos(quad x) {
+  quad h = quad_sin(x / 2);
+  return 1 - 2 * h * h;
+}
+
+// Taylor after halving; |x| stays below 4 here.
+static quad quad_sin(quad x) {
+  if (x > 0.3Q || x < -0.3Q) {
+    // sin 3a = 3 sin a - 4 sin^3 a
+    quad s = quad_sin(x / 3);
+    return s * (3 - 4 * s * s);
+  }
+  quad term = x, sum = x;
+  for (int k = 1; k < 20; k++) {
+    term *= -x * x / (quad)((2 * k) * (2 * k + 1));
+    sum += term;
+  }
+  return sum;
+}
+
+// y = (a, b, a', b'); masses, lengths and g are 1
+static void double_rhs(const quad* y, quad* f) {
+  quad s = quad_sin(y[0] - y[1]), c = quad_cos(y[0] - y[1]), wa = y[2] * y[2], wb = y[3] * y[3];
+  quad ra = -s * wb - 2 * quad_sin(y[0]), rb = s * wa - quad_sin(y[1]), det = 2 - c * c;
+  f[0] = y[2];
+  f[1] = y[3];
+  f[2] = (ra - c * rb) / det;
+  f[3] = (2 * rb - c * ra) / det;
+}
+
+static void midpoint(const quad* y, quad H, int n, quad* out) {
+  quad h = H / n, a[4], b[4], f[4];
+  double_rhs(y, f);
+  for (int i = 0; i < 4; i++) a[i] = y[i], b[i] = y[i] + h * f[i];
+  for (int k = 1; k < n; k++) {
+    double_rhs(b, f);
+    for (int i = 0; i < 4; i++) {
+      quad next = a[i] + 2 * h * f[i];
+      a[i] = b[i];
+      b[i] = next;
+    }
+  }
+  double_rhs(b, f);
+  for (int i = 0; i < 4; i++) out[i] = (a[i] + b[i] + h * f[i]) / 2;
+}
+
+enum { COLUMNS = 9 };
+static void double_pendulum_reference(quad* y, double T, int steps) {
+  for (int s = 0; s < steps; s++) {
+    quad table[COLUMNS][4], H = (quad)T / steps;
+    for (int j = 0; j < COLUMNS; j++) {
+      midpoint(y, H, 2 * (j + 1), table[j]);
+      for (int k = j - 1; k >= 0; k--) {
+        quad ratio = (quad)(j + 1) / (k + 1);
+        for (int i = 0; i < 4; i++) table[k][i] = table[k + 1][i] + (table[k + 1][i] - table[k][i]) / (ratio * ratio - 1);
+      }
+    }
+    for (int i = 0; i < 4; i++) y[i] = table[0][i];
+  }
+}
+
+static void a_double_pendulum_agrees_with_an_independent_reference(void** state) {
+  (void)state;
+  double T = 10;
+  quad y[4] = {1.2Q, 0.7Q, 0, 0}, coarse[4] = {1.2Q, 0.7Q, 0, 0};
+  double_pendulum_reference(y, T, 400);
+  double_pendulum_reference(coarse, T, 300);
+  for (int i = 0; i < 4; i++) assert_true((double)(y[i] - coarse[i]) < 1e-15 && (double)(y[i] - coarse[i]) > -1e-15);
+  t_bench* b = t_open();
+  pl_expr x1 = t_coord(b, "x1"), y1 = t_coord(b, "y1"), x2 = t_coord(b, "x2"), y2 = t_coord(b, "y2");
+  pl_expr T_ = half(b, pl_add_n(P, (pl_expr[]){sq(b, b->v[0]), sq(b, b->v[1]), sq(b, b->v[2]), sq(b, b->v[3])}, 4));
+  pl_expr V = pl_neg(P, pl_add(P, y1, y2));
+  t_constraint(b, "a", pl_sub(P, pl_add(P, sq(b, x1), sq(b, y1)), pl_int(P, 1)));
+  t_constraint(b, "b", pl_sub(P, pl_add(P, sq(b, pl_sub(P, x2, x1)), sq(b, pl_sub(P, y2, y1))), pl_int(P, 1)));
+  t_start(b, 0, sin(1.2), 0);
+  t_start(b, 1, cos(1.2), 0);
+  t_start(b, 2, sin(1.2) + sin(0.7), 0);
+  t_start(b, 3, cos(1.2) + cos(0.7), 0);
+  assert_int_equal(t_make(b, t_energy(b, T_, V), T, 0), PLEUEL_OK);
+  assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
+  double expect[4] = {(double)quad_sin(y[0]), (double)quad_cos(y[0]), (double)(quad_sin(y[0]) + quad_sin(y[1])),
+                      (double)(quad_cos(y[0]) + quad_cos(y[1]))};
+  for (int i = 0; i < 4; i++) {
+    printf("double pendulum: %.17g off by %.2e\n", b->last[i], b->last[i] - expect[i]);
+    assert_true(fabs(b->last[i] - expect[i]) < 1e-12);
+  }
+  t_close(b);
+}
+
+// ---------------------------------------------------------------------------------------------- Kepler
+static void an_ellipse_closes_after_ten_turns(void** state) {
+  (void)state;
+  t_bench* b = t_open();
+  pl_expr x = t_coord(b, "x"), y = t_coord(b, "y");
+  pl_expr T = half(b, pl_add(P, sq(b, b->v[0]), sq(b, b->v[1])));
+  pl_expr V = pl_neg(P, pl_pow(P, pl_add(P, sq(b, x), sq(b, y)), pl_ratio(P, -1, 2)));
+  double e = 0.6, pi = 3.14159265358979323846;
+  t_start(b, 0, 1 - e, 0);
+  t_start(b, 1, 0, sqrt((1 + e) / (1 - e)));
+  assert_int_equal(t_make(b, t_energy(b, T, V), 20 * pi, 0), PLEUEL_OK);
+  assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
+  printf("kepler: %.2e %.2e steps %ld drift %.2e\n", b->last[0] - (1 - e), b->last[1], pl_run_stats(b->run)->steps,
+         pl_run_stats(b->run)->energy_drift);
+  assert_true(fabs(b->last[0] - (1 - e)) < 1e-11 && fabs(b->last[1]) < 1e-11 && pl_run_stats(b->run)->energy_drift < 1e-13);
+  t_close(b);
+}
+
+// ---------------------------------------------------------------------------------------------- redundancy
+static void a_redundant_constraint_changes_nothing_but_its_multiplier(void** state) {
+  (void)state;
+  double last[2][2];
+  for (int twice = 0; twice < 2; twice++) {
+    t_bench* b = t_open();
+    pl_expr x = t_coord(b, "x"), y = t_coord(b, "y");
+    pl_expr T = half(b, pl_add(P, sq(b, b->v[0]), sq(b, b->v[1])));
+    pl_expr g = pl_sub(P, pl_add(P, sq(b, x), sq(b, y)), pl_int(P, 1));
+    t_constraint(b, "rod", g);
+    if (twice) t_constraint(b, "again", mul(b, pl_call(P, PL_EXP, x), g));
+    t_start(b, 0, 0.6, 0);
+    t_start(b, 1, -0.8, 0);
+    assert_int_equal(t_make(b, t_energy(b, T, y), 10, 0), PLEUEL_OK);
+    pleuel_status how = pl_run_to_end(b->run);
+    printf("redundant %d: %s %s rank %d g %.1e\n", twice, pleuel_status_name(how), b->job.message, pl_run_stats(b->run)->rank,
+           pl_run_stats(b->run)->max_g);
+    assert_int_equal(how, PLEUEL_OK);
+    assert_int_equal(pl_run_stats(b->run)->rank, 1);
+    for (int i = 0; i < 2; i++) last[twice][i] = b->last[i];
+    assert_true(pl_run_unique(b->run)[0] == !twice);
+    if (twice) assert_false(pl_run_unique(b->run)[1]);
+    t_close(b);
+  }
+  assert_true(fabs(last[0][0] - last[1][0]) < 1e-12 && fabs(last[0][1] - last[1][1]) < 1e-12);
+}
+
+// ---------------------------------------------------------------------------------------------- nonholonomic
+// A skate on an incline, x' sin φ = y' cos φ, turning with constant speed: the cycloid of Caratheodory.
+static void a_skate_on_a_slope_moves_on_a_cycloid(void** state) {
+  (void)state;
+  t_bench* b = t_open();
+  pl_expr x = t_coord(b, "x"), y = t_coord(b, "y"), phi = t_coord(b, "phi");
+  pl_expr T = half(b, pl_add_n(P, (pl_expr[]){sq(b, b->v[0]), sq(b, b->v[1]), sq(b, b->v[2])}, 3));
+  (void)y;
+  int c = t_constraint(b, "skate", pl_sub(P, mul(b, b->v[0], pl_call(P, PL_SIN, phi)), mul(b, b->v[1], pl_call(P, PL_COS, phi))));
+  b->velocity[c] = b->link[c].velocity = true;
+  for (int i = 0; i < 3; i++) t_start(b, i, 0, i == 2 ? 2 : 0);
+  // force 1 along x; with ω = 2 and rest at the origin: speed u = sin(ω t)/ω, x = (1 - cos 2ωt)/(4 ω²), y = (2ωt - sin 2ωt)/(4 ω²)
+  assert_int_equal(t_make(b, pl_add(P, T, x), 3, 0), PLEUEL_OK);
+  assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
+  double w = 2, t = 3;
+  printf("skate: %.2e %.2e gdot %.1e\n", b->last[0] - (1 - cos(2 * w * t)) / (4 * w * w),
+         b->last[1] - (2 * w * t - sin(2 * w * t)) / (4 * w * w), pl_run_stats(b->run)->max_gdot);
+  assert_true(fabs(b->last[0] - (1 - cos(2 * w * t)) / (4 * w * w)) < 1e-14);
+  assert_true(fabs(b->last[1] - (2 * w * t - sin(2 * w * t)) / (4 * w * w)) < 1e-13);
+  t_close(b);
+}
+
+// ---------------------------------------------------------------------------------------------- friction through λ
+static void friction_proportional_to_a_multiplier_slows_a_block(void** state) {
+  (void)state;
+  t_bench* b = t_open();
+  pl_expr x = t_coord(b, "x"), y = t_coord(b, "y"), m = t_param(b, "m", 3), g = t_param(b, "g", 9.81);
+  pl_expr T = half(b, mul(b, m, pl_add(P, sq(b, b->v[0]), sq(b, b->v[1]))));
+  (void)x;
+  t_constraint(b, "table", y);
+  b->force[0] = pl_neg(P, mul(b, pl_ratio(P, 1, 5), b->lambda[0]));   // μ = 1/5, moving to the right
+  t_start(b, 0, 0, 4);
+  t_start(b, 1, 0, 0);
+  assert_int_equal(t_make(b, pl_sub(P, T, mul(b, m, mul(b, g, y))), 1.5, 0), PLEUEL_OK);
+  assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
+  assert_true(fabs(pl_run_lambda(b->run)[0] - 3 * 9.81) < 1e-13);
+  assert_true(fabs(b->last[16] - (4 - 9.81 / 5 * 1.5)) < 1e-14);
+  t_close(b);
+}
+
+// ---------------------------------------------------------------------------------------------- rheonomic
+static void a_bead_on_a_turning_rod_flies_out_exponentially(void** state) {
+  (void)state;
+  t_bench* b = t_open();
+  pl_expr x = t_coord(b, "x"), y = t_coord(b, "y"), w = t_param(b, "w", 1.5), t = pl_sym(P, pl_time(P));
+  pl_expr T = half(b, pl_add(P, sq(b, b->v[0]), sq(b, b->v[1])));
+  pl_expr angle = mul(b, w, t);
+  t_constraint(b, "rod", pl_sub(P, mul(b, x, pl_call(P, PL_SIN, angle)), mul(b, y, pl_call(P, PL_COS, angle))));
+  b->coordinate[0].has_q = b->coordinate[1].has_q = true;
+  b->coordinate[0].q = 1;
+  b->coordinate[0].has_v = true;
+  assert_int_equal(t_make(b, T, 2, 0), PLEUEL_OK);
+  assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
+  double r = hypot(b->last[0], b->last[1]);
+  printf("bead: %.2e\n", r - cosh(3.0));
+  assert_true(fabs(r - cosh(3.0)) < 1e-13);
+  t_close(b);
+}
+
+// ---------------------------------------------------------------------------------------------- how a run behaves
+static void stepping_allocates_nothing(void** state) {
+  (void)state;
+  t_bench* b = pendulum(1, 50);
+  t_event(b, "never", b->q[0], 0, PL_DEED_RECORD, 0);
+  assert_int_equal(pl_run_step(b->run), PLEUEL_OK);
+  unsigned long before = pl_arena_count(b->arena);
+  for (int i = 0; i < 40; i++) assert_int_equal(pl_run_step(b->run), PLEUEL_OK);
+  assert_true(pl_arena_count(b->arena) == before);
+  t_close(b);
+}
+
+static void the_same_run_gives_the_same_bits(void** state) {
+  (void)state;
+  double last[2][2];
+  for (int i = 0; i < 2; i++) {
+    t_bench* b = pendulum(1.3, 20);
+    assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
+    memcpy(last[i], b->last, sizeof last[i]);
+    t_close(b);
+  }
+  assert_memory_equal(last[0], last[1], sizeof last[0]);
+}
+
+static void a_run_goes_backwards_to_where_it_began(void** state) {
+  (void)state;
+  t_bench* b = pendulum(1.3, 7);
+  assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
+  double q[2] = {b->last[0], b->last[1]}, v[2] = {b->last[16], b->last[17]};
+  pl_run_free(b->run);
+  b->options.t_0 = 7;
+  b->options.t_end = 0;
+  assert_int_equal(pl_run_make(&b->job, &b->setup, &b->options, &b->run), PLEUEL_OK);
+  assert_int_equal(pl_run_start_at(b->run, 7, q, v), PLEUEL_OK);
+  assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
+  assert_true(b->last[63] == 0 && fabs(b->last[0] - sin(1.3)) < 1e-13);
+  t_close(b);
+}
+
+static void a_grid_of_rows_ends_exactly_at_the_end(void** state) {
+  (void)state;
+  t_bench* b = pendulum(1.3, 1);
+  pl_run_free(b->run);
+  b->options.dt = 0.03;
+  assert_int_equal(pl_run_make(&b->job, &b->setup, &b->options, &b->run), PLEUEL_OK);
+  assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
+  assert_int_equal(b->rows, 35);   // 0, 0.03, ..., 0.99 and 1
+  assert_true(b->last[63] == 1);
+  pl_run_free(b->run);
+  b->rows = 0;
+  b->options.dt = 0;
+  b->options.count = 10;
+  assert_int_equal(pl_run_make(&b->job, &b->setup, &b->options, &b->run), PLEUEL_OK);
+  assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
+  assert_int_equal(b->rows, 11);
+  t_close(b);
+}
+
+static void dense_output_joins_the_steps(void** state) {
+  (void)state;
+  t_bench* b = pendulum(1.3, 5);
+  double q[2], v[2], lambda[1];
+  assert_int_equal(pl_run_step(b->run), PLEUEL_OK);
+  for (int i = 0; i < 20; i++) {
+    assert_int_equal(pl_run_step(b->run), PLEUEL_OK);
+    pl_run_dense(b->run, pl_run_time(b->run), q, v, lambda);
+    assert_true(fabs(q[0] - pl_run_q(b->run)[0]) < 1e-15 && fabs(v[1] - pl_run_v(b->run)[1]) < 4e-15);
+    assert_true(fabs(lambda[0] - pl_run_lambda(b->run)[0]) < 1e-12);
+  }
+  t_close(b);
+}
+
+static void an_interrupted_run_says_so_and_keeps_its_rows(void** state) {
+  (void)state;
+  t_bench* b = pendulum(1.3, 50);
+  volatile int stop = 0;
+  b->job.interrupted = &stop;
+  for (int i = 0; i < 5; i++) assert_int_equal(pl_run_step(b->run), PLEUEL_OK);
+  stop = 1;
+  assert_int_equal(pl_run_to_end(b->run), PLEUEL_INTERRUPTED);
+  assert_true(b->rows == 6 && b->last[63] > 0);
+  t_close(b);
+}
+
+static void a_looser_tolerance_takes_a_lower_order(void** state) {
+  (void)state;
+  t_bench* b = pendulum(1.5, pendulum_period(1.5));
+  pl_run_free(b->run);
+  b->options.tol = 1e-6;
+  assert_int_equal(pl_run_make(&b->job, &b->setup, &b->options, &b->run), PLEUEL_OK);
+  assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
+  assert_int_equal(pl_run_stats(b->run)->order, 8);
+  assert_true(fabs(b->last[0] - sin(1.5)) < 1e-4);
+  pl_run_free(b->run);
+  b->options.tol = 1e-18;
+  assert_int_equal(pl_run_make(&b->job, &b->setup, &b->options, &b->run), PLEUEL_OK);
+  assert_true(pl_run_tol_raised(b->run));
+  t_close(b);
+}
+
+static void a_motion_that_leaves_the_domain_stops_with_a_sentence(void** state) {
+  (void)state;
+  // falling along a potential sqrt(x) towards x = 0
+  t_bench* b = t_open();
+  pl_expr x = t_coord(b, "x");
+  t_start(b, 0, 1, 0);
+  assert_int_equal(t_make(b, pl_sub(P, half(b, sq(b, b->v[0])), pl_sqrt(P, x)), 10, 0), PLEUEL_OK);
+  assert_int_equal(pl_run_to_end(b->run), PLEUEL_NUMERICAL);
+  printf("domain: %s\n", b->job.message);
+  assert_true(strstr(b->job.message, "t = ") != NULL);
+  t_close(b);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_pendulum_returns_after_its_period),
@@ -133,6 +445,20 @@ int main(void) {
       cmocka_unit_test(atwood_equals_the_closed_form_to_rounding),
       cmocka_unit_test(a_crank_turns_a_thousand_times),
       cmocka_unit_test(a_crank_with_equal_lengths_is_reported_singular),
+      cmocka_unit_test(a_double_pendulum_agrees_with_an_independent_reference),
+      cmocka_unit_test(an_ellipse_closes_after_ten_turns),
+      cmocka_unit_test(a_redundant_constraint_changes_nothing_but_its_multiplier),
+      cmocka_unit_test(a_skate_on_a_slope_moves_on_a_cycloid),
+      cmocka_unit_test(friction_proportional_to_a_multiplier_slows_a_block),
+      cmocka_unit_test(a_bead_on_a_turning_rod_flies_out_exponentially),
+      cmocka_unit_test(stepping_allocates_nothing),
+      cmocka_unit_test(the_same_run_gives_the_same_bits),
+      cmocka_unit_test(a_run_goes_backwards_to_where_it_began),
+      cmocka_unit_test(a_grid_of_rows_ends_exactly_at_the_end),
+      cmocka_unit_test(dense_output_joins_the_steps),
+      cmocka_unit_test(an_interrupted_run_says_so_and_keeps_its_rows),
+      cmocka_unit_test(a_looser_tolerance_takes_a_lower_order),
+      cmocka_unit_test(a_motion_that_leaves_the_domain_stops_with_a_sentence),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -33,11 +33,6 @@ static void solve_correction(pl_run* run, const double* residual, bool positions
   pl_kkt_solve(&run->kkt, run->rhs);
 }
 
-static void sizes(pl_run* run, const double* q, const double* v) {
-  run->q_size = fmax(run->q_size, pl_norm(q, run->n_q));
-  run->v_size = fmax(run->v_size, pl_norm(v, run->n_q));
-}
-
 // Newton until the residual is rounding or no longer falls.  The last factor belongs to the corrected point.
 static bool project_positions(pl_run* run, double t, double* q, const double* v, pl_projection* p) {
   double before = INFINITY;
@@ -79,7 +74,7 @@ static bool project_velocities(pl_run* run, double* v, pl_projection* p) {
 
 pl_projection pl_project(pl_run* run, double t, double* q, double* v) {
   pl_projection p = {0};
-  sizes(run, q, v);
+  pl_sizes_note(run, q, v);
   p.ok = project_positions(run, t, q, v, &p) && project_velocities(run, v, &p);
   run->factored = p.ok && !run->has_W && !run->mass_of_speed;
   return p;

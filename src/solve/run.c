@@ -13,12 +13,20 @@ static const double allowed_residual = 1e-12; // |g| and |G v + dg/dt| after it,
 static const double faded = 1e-6;
 
 // ---------------------------------------------------------------------------------------------- singular positions
-// How far ahead the smallest pivot, continued linearly, is zero; 0 when that says nothing.
+// How far ahead the smallest pivot, continued linearly from where it was twice as large, is zero; 0 when that says nothing.
 static double reach_of_singular(const pl_run* run) {
-  double step = run->t - run->t_before, slope = (run->smallest_here - run->smallest_before) / step;
-  if (!isfinite(slope) || run->smallest_before == 0) return 0;
+  double way = run->t - run->fade[0].t, slope = (run->smallest_here - run->fade[0].smallest) / way;
+  if (!isfinite(slope) || run->fade[0].smallest == 0) return 0;
   double reach = -run->smallest_here / slope;
-  return isfinite(reach) && fabs(reach) < 10 * fabs(step) && reach * step > 0 ? reach : 0;
+  return isfinite(reach) && reach * way > 0 && fabs(reach) < 4 * fabs(way) ? reach : 0;
+}
+
+// Keeps two earlier points, each with at most half the pivot of the one before.
+static void watch_fading(pl_run* run) {
+  if (run->smallest_here <= 0.5 * run->fade[1].smallest) run->fade[0] = run->fade[1];
+  else if (run->smallest_here < run->fade[1].smallest) return;
+  else run->fade[0] = (pl_fade){0, 0};
+  run->fade[1] = (pl_fade){run->t, run->smallest_here};
 }
 
 pleuel_status pl_run_singular(pl_run* run) {
@@ -42,7 +50,7 @@ pleuel_status pl_run_singular(pl_run* run) {
 
 static bool is_singular(pl_run* run) {
   if (run->rank_mode >= 0 && run->rank < run->rank_mode) return true;
-  return run->best > 0 && run->smallest < faded * run->best && run->smallest < run->smallest_before;
+  return run->best > 0 && run->smallest_here < faded * run->best && run->smallest_here < run->smallest_before;
 }
 
 // ---------------------------------------------------------------------------------------------- one attempt
@@ -103,6 +111,7 @@ static pleuel_status try_steps(pl_run* run, double* h, double* root, pl_projecti
       return PLEUEL_OK;
     }
     run->stats.rejections++;
+    pl_sizes_forget(run);
     *h = 0.5 * reach;
     if (!(fabs(*h) > run->h_least)) return too_small(run, *h);
   }
@@ -127,6 +136,7 @@ static void accept(pl_run* run, double h, bool to_end) {
   advance_time(run, h, to_end);
   memcpy(run->q, run->trial_q, (size_t)run->n_q * sizeof(double));
   memcpy(run->v, run->trial_v, (size_t)run->n_q * sizeof(double));
+  pl_sizes_keep(run);
 }
 
 static pleuel_status check_energy(pl_run* run) {
@@ -140,6 +150,7 @@ static pleuel_status arrive_at_point(pl_run* run) {
   if (!pl_point_enter(run)) return pl_run_singular(run);
   pl_assemble_row_sizes(run);
   run->smallest_here = run->smallest;
+  watch_fading(run);
   if (is_singular(run)) return pl_run_singular(run);
   if (run->rank > run->rank_mode) run->rank_mode = run->rank;
   if (run->rank != run->n_active) pl_independent_unique(run);
@@ -210,11 +221,17 @@ pleuel_status pl_run_to_end(pl_run* run) {
 }
 
 // ---------------------------------------------------------------------------------------------- starting from numbers
+static void set_sizes(pl_run* run) {
+  run->q_size = run->v_size = 0;
+  for (int i = 0; i < run->n_q; i++) run->q_most[i] = run->v_most[i] = 0;
+  pl_sizes_note(run, run->q, run->v);
+  pl_sizes_keep(run);
+}
+
 pleuel_status pl_run_begin_at(pl_run* run, double t) {
   run->t = t;
   run->t_low = 0;
-  run->q_size = pl_norm(run->q, run->n_q);
-  run->v_size = pl_norm(run->v, run->n_q);
+  set_sizes(run);
   run->stats.energy_drift = NAN;
   run->factored = false;
   PL_TRY(pl_modes_enter(run));
@@ -229,7 +246,7 @@ pleuel_status pl_run_begin_at(pl_run* run, double t) {
 
 // One-sided constraints are in contact where they are met.
 static void decide_contacts(pl_run* run, double t) {
-  run->q_size = pl_norm(run->q, run->n_q);
+  set_sizes(run);
   pl_point_evaluate(run, t, run->q, run->v);
   pl_assemble_g(run, 0, run->g, run->g_size);
   for (int c = 0; c < run->n_c; c++) {

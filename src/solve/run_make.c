@@ -94,7 +94,8 @@ static void reserve_state(pl_run* run) {
   pl_arena* a = run->job->arena;
   size_t q = (size_t)run->n_q, c = (size_t)run->n_c, orders = (size_t)run->order + 2;
   double** of_q[] = {&run->q, &run->v, &run->trial_q, &run->trial_v, &run->save_q, &run->save_v, &run->save_a, &run->row_q,
-                     &run->row_v, &run->row_a, &run->jump_v, &run->column};
+                     &run->row_v, &run->row_a, &run->jump_v, &run->column, &run->q_most, &run->v_most,
+                     &run->q_kept, &run->v_kept};
   double** of_c[] = {&run->g, &run->g_size, &run->r, &run->r_size, &run->save_l, &run->row_l, &run->impulse, &run->row_most, &run->argument,
                      &run->rank_work};
   bool** flags[] = {&run->on, &run->detached, &run->active, &run->taken, &run->unique, &run->save_unique, &run->row_taken};

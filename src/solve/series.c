@@ -18,6 +18,27 @@ double pl_norm(const double* x, int n) {
   return most;
 }
 
+void pl_sizes_note(pl_run* run, const double* q, const double* v) {
+  for (int i = 0; i < run->n_q; i++) {
+    run->q_most[i] = fmax(run->q_most[i], fabs(q[i]));
+    run->v_most[i] = fmax(run->v_most[i], fabs(v[i]));
+    run->q_size = fmax(run->q_size, run->q_most[i]);
+    run->v_size = fmax(run->v_size, run->v_most[i]);
+  }
+}
+
+void pl_sizes_keep(pl_run* run) {
+  memcpy(run->q_kept, run->q_most, (size_t)run->n_q * sizeof(double));
+  memcpy(run->v_kept, run->v_most, (size_t)run->n_q * sizeof(double));
+}
+
+void pl_sizes_forget(pl_run* run) {
+  memcpy(run->q_most, run->q_kept, (size_t)run->n_q * sizeof(double));
+  memcpy(run->v_most, run->v_kept, (size_t)run->n_q * sizeof(double));
+  run->q_size = pl_norm(run->q_most, run->n_q);
+  run->v_size = pl_norm(run->v_most, run->n_q);
+}
+
 // ---------------------------------------------------------------------------------------------- the point
 void pl_point_evaluate(pl_run* run, double t, const double* q, const double* v) {
   pl_batches* m = &run->motion;
@@ -30,7 +51,12 @@ void pl_point_evaluate(pl_run* run, double t, const double* q, const double* v) 
 
 bool pl_point_factor(pl_run* run, bool with_W) {
   pl_assemble_matrix(run, with_W);
-  return pl_kkt_factor(&run->kkt);
+  bool regular = pl_kkt_factor(&run->kkt);
+  if (run->by_pivots) {
+    run->smallest = run->kkt.ratio;
+    run->best = fmax(run->best, run->smallest);
+  }
+  return regular;
 }
 
 static void take_accelerations(pl_run* run, int k) {

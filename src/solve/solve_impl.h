@@ -8,7 +8,8 @@
 enum {
   PL_FAMILY_LANES = 8,     // instances computed side by side
   PL_DENSE_UP_TO = 60,     // unknowns: dense below, KLU above
-  PL_RANK_UP_TO = 400      // constraint rows whose independence is examined at every point; above: at the start
+  PL_RANK_UP_TO = 400,     // constraint rows whose independence is examined at all; above they must be independent
+  PL_RANK_WORK = 200000    // rows^2 columns up to which that is done at every point; above: once a mode
 };
 
 // Up to `lanes` instances of one pattern.  Unused lanes repeat the last instance and are not scattered.
@@ -47,6 +48,8 @@ typedef struct pl_watch {
   int fresh;               // so many leading coefficients are zero by construction: it has just happened
   int side;                // sign on which it is known to be; 0 unknown
 } pl_watch;
+
+typedef struct pl_fade { double t, smallest; } pl_fade;   // how small the smallest pivot was, and when
 
 struct pl_run {
   pl_job* job;
@@ -92,16 +95,20 @@ struct pl_run {
   bool *taken;             // in the independent subset                  (n_c)
   bool *unique;            // multiplier determined                      (n_c)
   int n_active, rank, rank_mode;
+  bool by_pivots;          // too large for a look at every point: the subset is chosen once a mode, pivots are watched
   double *rows, *rank_work, *column;   // for independence: rows (n_c x n_q), largest scaled entry of each column so far (n_q)
   int *priority, *row_of;
   bool* row_taken;
   double smallest, best;   // smallest pivot of the independent rows; largest such so far
   double smallest_here, smallest_before, t_before;   // at the point, at the one before, its time
+  pl_fade fade[2];
   double *dep, *dep_tau, *dep_norm;    // dependence of rows left out
   int* dep_jpvt;
 
   // step control
   double q_size, v_size;   // largest norms met
+  double *q_most, *v_most; // largest size of each coordinate and velocity met   (n_q)
+  double *q_kept, *v_kept; // the same at the point, without the trial
   double h_plain, h_least; // s: longest without a grid, shortest
   double *trial_q, *trial_v;
   double *save_q, *save_v, *save_a, *save_l;   // the point before a mode change
@@ -163,7 +170,10 @@ void pl_kkt_solve(pl_kkt* k, double* b);
 void pl_kkt_free(pl_kkt* k);
 
 // ---- independent.c: which constraints are used, what is determined
-void pl_independent_choose(pl_run* run);
+void pl_independent_choose(pl_run* run);             // at every point; once a mode for large systems
+void pl_sizes_note(pl_run* run, const double* q, const double* v);   // q_size, q_most and so on
+void pl_sizes_keep(pl_run* run);                    // what was noted counts
+void pl_sizes_forget(pl_run* run);                  // back to what was kept: a step was rejected
 void pl_independent_unique(pl_run* run);
 void pl_active_update(pl_run* run);                 // active from on; orphans rest
 

@@ -236,13 +236,26 @@ static void search(pl_start* s) {
 }
 
 // ---------------------------------------------------------------------------------------------- what went wrong
+// In large systems only coordinates of the violated constraint itself are tried.
+static bool worth_trying(const pl_run* run, int coordinate, int link) {
+  if (run->kkt.dense) return true;
+  for (int i = 0; i < run->motion.n; i++) {
+    const pl_batch* b = &run->motion.at[i];
+    for (int e = 0; e < b->pattern->n_G; e++)
+      for (int l = 0; l < b->n; l++)
+        if (b->c[b->pattern->G[e].row * b->lanes + l] == link && b->q[b->pattern->G[e].col * b->lanes + l] == coordinate)
+          return true;
+  }
+  return false;
+}
+
 // The given value that, left free, lets the constraints be met; the one that moves least.
 static void suggest_position(pl_start* s) {
   pl_run* run = s->run;
   pl_start_report* report = &run->start;
   double least = INFINITY;
   for (int i = 0; i < run->n_q; i++) {
-    if (!run->setup->coordinates[i].has_q) continue;
+    if (!run->setup->coordinates[i].has_q || !worth_trying(run, i, report->link)) continue;
     s->held_q[i] = false;
     set_guess(s, 0);
     if (solve_positions(s)) {
@@ -262,7 +275,7 @@ static void suggest_velocity(pl_start* s) {
   pl_start_report* report = &run->start;
   double least = INFINITY;
   for (int i = 0; i < run->n_q; i++) {
-    if (!run->setup->coordinates[i].has_v) continue;
+    if (!run->setup->coordinates[i].has_v || !worth_trying(run, i, report->link)) continue;
     s->held_v[i] = false;
     for (int j = 0; j < run->n_q; j++) s->v[j] = run->setup->coordinates[j].has_v ? run->setup->coordinates[j].v : 0;
     if (pl_start_velocities(s, s->held_v)) {
@@ -306,7 +319,9 @@ static pleuel_status no_solution(pl_start* s) {
   int link = s->below >= 0 ? s->below : s->worst_link;
   if (!solved && link >= 0) {
     bool any_given = count_free(s) < run->n_q;
-    if (any_given) return violated(s, link, s->below >= 0 ? fabs(side_value(s, link)) : s->worst, false);
+    // in units of the terms as they are written
+    double residual = s->below >= 0 ? fabs(side_value(s, link)) : s->worst;
+    if (any_given) return violated(s, link, residual * fmax(run->argument[link], 1), false);
   }
   run->start.trouble = PL_START_NONE;
   run->start.link = link;

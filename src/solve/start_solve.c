@@ -26,9 +26,12 @@ static double largest(const pl_run* run, const double* g, const double* size, bo
   return most;
 }
 
+// row_v is zero throughout the start.
 double pl_start_residual(pl_start* s, const double* q, int* worst) {
   pl_run* run = s->run;
-  run->q_size = pl_norm(q, run->n_q);
+  run->q_size = 0;
+  for (int i = 0; i < run->n_q; i++) run->q_most[i] = 0;
+  pl_sizes_note(run, q, run->row_v);
   pl_point_evaluate(run, run->options.t_0, q, s->v);
   pl_assemble_g(run, 0, run->g, run->g_size);
   return largest(run, run->g, run->g_size, true, worst);
@@ -36,7 +39,9 @@ double pl_start_residual(pl_start* s, const double* q, int* worst) {
 
 double pl_start_speed_residual(pl_start* s, const double* v, int* worst) {
   pl_run* run = s->run;
-  run->v_size = pl_norm(v, run->n_q);
+  run->v_size = 0;
+  for (int i = 0; i < run->n_q; i++) run->v_most[i] = 0;
+  pl_sizes_note(run, run->row_v, v);
   pl_batches_load_v(&run->motion, v, 0);
   pl_assemble_gdot(run, run->r, run->r_size);
   return largest(run, run->r, run->r_size, false, worst);
