@@ -163,6 +163,7 @@ void pl_answer_limit(pl_analysis* d, const pl_ask* ask);
 void pl_answer_series(pl_analysis* d, const pl_ask* ask);
 void pl_answer_value(pl_analysis* d, const pl_ask* ask);
 void pl_answer_expect(pl_analysis* d, const pl_ask* ask);
+pleuel_status pl_derive_families(pl_analysis* d);       // by pattern, with index i (answer_family.c)
 void pl_answer_pending(pl_analysis* d, const pl_ask* ask);
 
 pl_expr pl_second_kind(pl_analysis* d, int i);          // Lagrange II of generalized coordinate i, raw; vanishes on the motion

@@ -233,14 +233,21 @@ static pleuel_status derive(pl_analysis* d) {
 
 pleuel_status pl_derive(pl_job* job, pl_model* model, const pl_derive_options* options, pl_solution** out) {
   pl_model* flat = NULL;
-  PL_TRY(pl_model_expand(job, model, largest_expansion, &flat));
+  pleuel_status status = pl_model_expand(job, model, largest_expansion, &flat);
+  bool families = status == PLEUEL_UNSUPPORTED;   // too large to be written out: by pattern
+  if (families) {
+    flat = model;
+    job->status = PLEUEL_OK;
+    job->message[0] = 0;
+  }
+  if (!families && status != PLEUEL_OK) return status;
   pl_analysis* d = PL_NEW(job->arena, pl_analysis);
   *d = (pl_analysis){.job = job, .arena = job->arena, .pool = flat->pool, .model = flat, .options = options};
   d->told = pl_map_make(job->arena);
   d->solution = PL_NEW(job->arena, pl_solution);
   d->solution->model = flat;
   *out = d->solution;
-  return derive(d);
+  return families ? pl_derive_families(d) : derive(d);
 }
 
 void pl_solution_close(pl_solution* s) {
