@@ -57,7 +57,7 @@ static void check_positive(pl_job* job, pl_index_values* v, pl_expr e, const pl_
   if (!pl_has_role(m->pool, e, PL_R_INDEX)) b = NULL;       // the same for every member
   long budget = 100000;           // a family of masses is looked at up to here
   bool ok = b ? pl_block_walk(b, v, is_positive, &c, &budget, NULL) != PL_WALK_STOPPED : is_positive(&c, v);
-  for (const pl_block* x = b; x; x = x->outer) v->value[x->index.id] = NAN;
+  for (const pl_block* x = b; x; x = x->outer) v->value[x->index.id] = PL_NAN;
   if (ok) return;
   pl_diagnostic* d = pl_tell(job, PL_E036, span, PL_F(job, "%s is %.6g, it has to be positive", en, c.bad),
                              PL_F(job, "%s ist %.6g, muss aber positiv sein", de, c.bad));
@@ -135,8 +135,8 @@ static void check_assumptions(pl_job* job, pl_model* m, const double* value) {
     if (pl_is_poison(a->subject)) continue;
     double x = pl_eval(m->pool, a->subject, value);
     bool whole = a->kind != PL_A_INTEGER || isnan(x) || x == floor(x);
-    double lo = pl_is_poison(a->lo) ? -(double)INFINITY : pl_eval(m->pool, a->lo, value);
-    double hi = pl_is_poison(a->hi) ? (double)INFINITY : pl_eval(m->pool, a->hi, value);
+    double lo = pl_is_poison(a->lo) ? -PL_INF : pl_eval(m->pool, a->lo, value);
+    double hi = pl_is_poison(a->hi) ? PL_INF : pl_eval(m->pool, a->hi, value);
     if (whole && !(x < lo) && !(x > hi)) continue;
     tell_assumption(job, m, a, a->subject, PL_F(job, "%s = %.6g", pl_expr_text(job->arena, m->pool, a->subject), x));
   }

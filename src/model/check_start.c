@@ -104,7 +104,7 @@ static void check_span_of_simulation(pl_job* job, pl_model* m, const double* val
   const pl_simulate* s = &m->simulate;
   if (!s->given) return;
   double from = pl_is_poison(s->from) ? 0 : pl_eval(m->pool, s->from, value);
-  double to = pl_is_poison(s->to) ? (double)NAN : pl_eval(m->pool, s->to, value);
+  double to = pl_is_poison(s->to) ? PL_NAN : pl_eval(m->pool, s->to, value);
   double step = pl_is_poison(s->step) ? 1 : pl_eval(m->pool, s->step, value);
   double tol = pl_is_poison(s->tol) ? 1e-9 : pl_eval(m->pool, s->tol, value);
   if (to <= from) {

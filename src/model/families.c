@@ -59,7 +59,7 @@ static pl_walk_result walk_level(block_walk* w, int level) {
     pl_walk_result r = walk_level(w, level + 1);
     if (r != PL_WALK_DONE) return r;
   }
-  w->v->value[b->index.id] = NAN;
+  w->v->value[b->index.id] = PL_NAN;
   return PL_WALK_DONE;
 }
 
@@ -204,7 +204,7 @@ int pl_index_sets_add(pl_index_sets* s, uint64_t key, pl_expr index, const pl_bl
     long budget = MAX_WALKED;
     walk_blocks(b, &s->values, one_member, &w, &budget, false, NULL);
   }
-  for (const pl_block* x = b; x; x = x->outer) s->values.value[x->index.id] = NAN;
+  for (const pl_block* x = b; x; x = x->outer) s->values.value[x->index.id] = PL_NAN;
   *clash_index = w.clash_index;
   return w.clash;
 }
@@ -370,7 +370,7 @@ static void check_element(range_check* c, pl_expr element, const pl_block* b) {
     ok = inside(c, &c->v);
   }
   if (!ok) tell_out_of_range(c);
-  for (const pl_block* x = b; x; x = x->outer) c->v.value[x->index.id] = NAN;
+  for (const pl_block* x = b; x; x = x->outer) c->v.value[x->index.id] = PL_NAN;
 }
 
 // Looks for elements in an expression.  A sum over an index is one more loop inside the block.
@@ -405,7 +405,7 @@ static void check_blocks(range_check* c) {
     long budget = PL_MAX_INSTANCES;
     pl_walk_result r = pl_block_walk(b, &c->v, NULL, NULL, &budget, &culprit);
     if (culprit == b || r == PL_WALK_TOO_MANY) tell_walk(c, r, b);   // an outer block tells its own mistakes
-    for (const pl_block* x = b; x; x = x->outer) c->v.value[x->index.id] = NAN;
+    for (const pl_block* x = b; x; x = x->outer) c->v.value[x->index.id] = PL_NAN;
   }
 }
 

@@ -146,7 +146,7 @@ static void give(value_pass* v, pl_symbol s, pl_expr value) {
 double* pl_model_values(const pl_model* m, pl_arena* a) {
   int n = pl_symbol_count(m->pool) + 1;
   value_pass v = {m, a, PL_ARRAY(a, double, n), PL_ARRAY(a, pl_expr, n), PL_ARRAY(a, char, n)};
-  for (int i = 0; i < n; i++) v.value[i] = NAN;
+  for (int i = 0; i < n; i++) v.value[i] = PL_NAN;
   for (int i = 1; i < n; i++) {
     if (pl_is_unit_symbol(m->pool, (pl_symbol){(uint32_t)i})) v.value[i] = 1;
   }

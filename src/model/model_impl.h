@@ -4,6 +4,9 @@
 
 #include "model/model.h"
 
+#define PL_NAN __builtin_nan("")     // the macros of math.h are float, and warn
+#define PL_INF __builtin_inf()
+
 // ---------------------------------------------------------------------------------------------- exponents.c
 typedef struct pl_fraction { int64_t num, den; } pl_fraction;                 // lowest terms, den > 0; den 0: overflow
 typedef struct pl_exponents { pl_fraction e[PL_N_BASE_UNITS]; } pl_exponents;  // of m kg s A K mol cd

@@ -202,7 +202,7 @@ static pl_walk_result expand_each(expansion* x, int i, const pl_block* b, pl_ins
   one_item o = {x, i, 0};
   long budget = PL_MAX_INSTANCES;
   pl_walk_result r = pl_block_walk(b, &x->values, visit, &o, &budget, NULL);
-  for (const pl_block* k = b; k; k = k->outer) x->values.value[k->index.id] = NAN;
+  for (const pl_block* k = b; k; k = k->outer) x->values.value[k->index.id] = PL_NAN;
   return r;
 }
 
