@@ -360,6 +360,23 @@ static pl_box* build_leaf(pl_builder* b, pl_expr e) {
   }
 }
 
+// 981/100 is the number 9.81, any other quotient is a quotient.
+static bool is_decimal(pl_builder* b, const pl_form* num, const pl_form* den) {
+  if (num->kind != PL_F_EXPR || den->kind != PL_F_EXPR) return false;
+  if (!pl_is_int(b->pool, num->expr, NULL) || !pl_is_int(b->pool, den->expr, NULL)) return false;
+  if (pl_number_sign(b->pool, den->expr) <= 0) return false;
+  bool negative;
+  const char *above, *below;
+  pl_number_parts(b->arena, b->pool, pl_div(b->pool, num->expr, den->expr), b->how, &negative, &above, &below);
+  return below == NULL && strpbrk(above, ".,") != NULL;
+}
+
+static pl_box* build_quotient(pl_builder* b, const pl_form* f) {
+  const pl_form *num = f->args[0], *den = f->args[1];
+  if (is_decimal(b, num, den)) return build_number(b, pl_div(b->pool, num->expr, den->expr));
+  return quotient(b, pl_build(b, num), pl_build(b, den));
+}
+
 // ---------------------------------------------------------------------------------------------- statements
 static pl_box* infix(pl_builder* b, pl_box* l, const char* op, pl_box* r) {
   pl_box* row = pl_box_make(b->arena, PL_B_ROW, PL_LEVEL_LOOSE, 3);
@@ -452,7 +469,7 @@ static pl_box* build_kind(pl_builder* b, const pl_form* f) {
     case PL_F_SUM: return build_sum(b, f);
     case PL_F_NEG: return minus_box(b, pl_build(b, f->args[0]));
     case PL_F_PRODUCT: return build_product(b, f);
-    case PL_F_QUOTIENT: return quotient(b, pl_build(b, f->args[0]), pl_build(b, f->args[1]));
+    case PL_F_QUOTIENT: return build_quotient(b, f);
     case PL_F_POWER: return build_power(b, f);
     case PL_F_ROOT: return build_root(b, f);
     case PL_F_CALL: return build_call(b, f, NULL);
