@@ -169,7 +169,7 @@ void pl_motion_json(pl_text* out, const pleuel_model* m) {
   pl_json_object(&j, NULL);
   pl_json_int(&j, "pleuel", 1);
   pl_json_string(&j, "file", m->name);
-  pl_json_number(&j, "t_end", r && r->rows.n ? r->rows.at[r->rows.n - 1][0] : NAN);
+  pl_json_number(&j, "t_end", r && r->rows.n ? r->rows.at[r->rows.n - 1][0] : (double)NAN);
   pl_json_int(&j, "steps", s->steps);
   pl_json_string(&j, "status", pl_status_word(m->is_run ? m->run : m->checked));
   if (m->run_message[0]) pl_json_string(&j, "message", m->run_message);
@@ -177,7 +177,7 @@ void pl_motion_json(pl_text* out, const pleuel_model* m) {
   pl_json_int(&j, "order", s->order);
   pl_json_number(&j, "residual_g", s->max_g);
   pl_json_number(&j, "residual_gdot", s->max_gdot);
-  pl_json_number(&j, "energy_drift", m->recording && m->recording->setup.energy_conserved ? s->energy_drift : NAN);
+  pl_json_number(&j, "energy_drift", m->recording && m->recording->setup.energy_conserved ? s->energy_drift : (double)NAN);
   pl_json_list(&j, "events");
   for (int i = 0; r && i < r->events.n; i++) json_event(&j, m, &r->events.at[i]);
   pl_json_end_list(&j);

@@ -498,7 +498,7 @@ pleuel_status pleuel_simulate(pleuel_model* m, pleuel_sim_summary* summary, cons
   const pl_result* r = m->broken ? NULL : m->result;
   if (summary && r) {
     *summary = (pleuel_sim_summary){
-      .t_end = r->rows.n ? r->rows.at[r->rows.n - 1][0] : NAN, .steps = r->stats.steps, .rejected = r->stats.rejections,
+      .t_end = r->rows.n ? r->rows.at[r->rows.n - 1][0] : (double)NAN, .steps = r->stats.steps, .rejected = r->stats.rejections,
       .residual_g = r->stats.max_g, .residual_gdot = r->stats.max_gdot, .energy_drift = r->stats.energy_drift,
       .n_events = (size_t)r->events.n, .n_columns = (size_t)r->n_columns};
   }

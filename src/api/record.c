@@ -9,7 +9,7 @@
 #include "api/record_impl.h"
 
 // ---------------------------------------------------------------------------------------------- numbers
-double pl_record_number(pl_recorder* r, pl_expr e) { return pl_is_poison(e) ? NAN : pl_eval(r->pool, e, r->value); }
+double pl_record_number(pl_recorder* r, pl_expr e) { return pl_is_poison(e) ? (double)NAN : pl_eval(r->pool, e, r->value); }
 
 static bool index_number(pl_recorder* r, pl_expr e, long* out) {
   double x = pl_record_number(r, e);
@@ -470,6 +470,8 @@ static pleuel_status observe(pl_recorder* r, pl_group* g, const pl_expr* out, co
   return pl_pattern_record(r->job, r->pool, &s, pattern);
 }
 
+static pleuel_status make_branches(pl_recorder* r);
+
 // Expressions outside of families, with multipliers: their own slots, since they may speak of any coordinate.
 typedef struct pl_watching {
   pl_group* group;
@@ -485,13 +487,48 @@ static pl_watching* watching_make(pl_recorder* r) {
   w->group->atom_at = pl_map_make(r->arena);
   w->group->seen = pl_map_make(r->arena);
   w->group->instances.n = 1;
-  const pl_model* m = r->model;
-  for (int i = 0; i < m->constraints.n; i++) {
-    if (m->constraints.at[i].block || !m->constraints.at[i].lambda.id) continue;
-    pl_push(r->arena, w->lambda, pl_sym(r->pool, m->constraints.at[i].lambda));
-    pl_push(r->arena, w->links, r->first_link[i]);
-  }
   return w;
+}
+
+// The row of a multiplier: λ_g1 as a symbol, λ_c[3] as an element; -1 if there is none.
+static int link_of_multiplier(pl_recorder* r, pl_expr atom) {
+  pl_symbol lambda = pl_symbol_of(r->pool, atom);
+  long index = 0;
+  bool element = pl_kind_of(r->pool, atom) == PL_AT;
+  if (element && !index_number(r, pl_arg(r->pool, atom, 0), &index)) return -1;
+  for (int i = 0; i < r->model->constraints.n; i++) {
+    const pl_constraint* c = &r->model->constraints.at[i];
+    if (c->lambda.id != lambda.id) continue;
+    if (!element) return c->block ? -1 : r->first_link[i];
+    const char* name = pl_format(r->arena, "%s[%ld]", c->name.ascii ? c->name.ascii : c->name.text, index);
+    int last = i + 1 < r->model->constraints.n ? r->first_link[i + 1] : r->out->n_declared;
+    for (int k = r->first_link[i]; k < last; k++) {
+      if (strcmp(r->out->setup.links[k].name, name) == 0) return k;
+    }
+  }
+  return -1;
+}
+
+// Adds the multipliers of e to the slots.  false: one of them belongs to no constraint.
+static bool collect_multipliers(pl_recorder* r, pl_watching* w, pl_map* seen, pl_expr e) {
+  if (pl_is_poison(e) || pl_map_get(seen, e.id)) return true;
+  pl_map_set(seen, e.id, 1);
+  pl_kind kind = pl_kind_of(r->pool, e);
+  bool named = kind == PL_SYMBOL || kind == PL_AT;
+  if (named && pl_symbol_get(r->pool, pl_symbol_of(r->pool, e))->role == PL_R_MULTIPLIER) {
+    for (int i = 0; i < w->lambda.n; i++) {
+      if (pl_same(w->lambda.at[i], e)) return true;
+    }
+    int link = link_of_multiplier(r, e);
+    if (link < 0) return false;
+    pl_push(r->arena, w->lambda, e);
+    pl_push(r->arena, w->links, link);
+    return true;
+  }
+  for (int i = 0; i < pl_n_args(r->pool, e); i++) {
+    if (!collect_multipliers(r, w, seen, pl_arg(r->pool, e, i))) return false;
+  }
+  return true;
 }
 
 // Energies of the whole system as one expression: only without families.
@@ -525,13 +562,63 @@ static pl_expr with_results(pl_recorder* r, pl_expr e) {
   return e;
 }
 
-// Adds an expression; its place among the outputs in *at.  PLEUEL_UNSUPPORTED when it has no number.
+// Start values such as x(0) and E(0) in what is watched: found by looking for the start once, without anything watched.
+static pleuel_status settle_start_values(pl_recorder* r) {
+  if (r->start_settled) return PLEUEL_OK;
+  r->start_settled = true;
+  pl_setup bare = r->out->setup;
+  bare.n_out = bare.n_observers = bare.n_events = bare.n_watched = bare.n_watch_patterns = 0;
+  bare.kinetic = bare.potential = -1;
+  bare.energy_conserved = false;
+  PL_TRY(make_branches(r));
+  bare.branches = r->out->setup.branches;
+  bare.n_branches = r->out->setup.n_branches;
+  bare.n_branch_outputs = r->out->setup.n_branch_outputs;
+  bare.branch_patterns = r->out->setup.branch_patterns;
+  bare.n_branch_patterns = r->out->setup.n_branch_patterns;
+  pl_run_options how = {.t_0 = r->out->t_0, .t_end = r->out->t_0};
+  pl_run* run = NULL;
+  PL_TRY(pl_run_make(r->job, &bare, &how, &run));
+  pleuel_status s = pl_run_start(run);
+  const double *q = pl_run_q(run), *v = pl_run_v(run);
+  int n_symbols = pl_symbol_count(r->pool);
+  double* value = PL_ARRAY(r->arena, double, n_symbols + 4 * r->out->flat.n + 4);
+  memcpy(value, r->value, (size_t)r->n_value * sizeof *value);
+  for (int i = 0; s == PLEUEL_OK && i < r->out->flat.n; i++) {
+    pl_expr atom = r->out->flat.at[i];
+    if (pl_kind_of(r->pool, atom) != PL_SYMBOL) continue;
+    pl_symbol x = pl_symbol_of(r->pool, atom), x_dot = pl_symbol_dot(r->pool, x);
+    value[x.id] = q[i];
+    value[x_dot.id] = v[i];
+    value[pl_symbol_start(r->pool, x).id] = q[i];
+    value[pl_symbol_start(r->pool, x_dot).id] = v[i];
+  }
+  value[pl_time(r->pool).id] = r->out->t_0;
+  for (int i = 0; s == PLEUEL_OK && i < r->model->result_names.n; i++) {
+    const pl_result_name* name = &r->model->result_names.at[i];
+    pl_symbol start = pl_symbol_find(r->pool, pl_format(r->arena, "%s_0", pl_symbol_get(r->pool, name->symbol)->name));
+    pl_expr energy = start.id ? energy_of(r, name->kind) : pl_poison();
+    if (!pl_is_poison(energy) && (int)start.id <= n_symbols) value[start.id] = pl_eval(r->pool, energy, value);
+  }
+  pl_run_free(run);
+  value[pl_time(r->pool).id] = NAN;
+  for (int i = 0; i < r->out->flat.n; i++) {      // coordinates move on: only their start values stay
+    if (pl_kind_of(r->pool, r->out->flat.at[i]) != PL_SYMBOL) continue;
+    pl_symbol x = pl_symbol_of(r->pool, r->out->flat.at[i]);
+    value[x.id] = value[pl_symbol_dot(r->pool, x).id] = NAN;
+  }
+  r->value = value;
+  r->n_value = pl_symbol_count(r->pool) + 1;
+  return s;
+}
+
+// Adds an expression; its place among the outputs is the next.  PLEUEL_UNSUPPORTED when it has no number.
 static pleuel_status watch(pl_recorder* r, pl_watching* w, pl_expr e, int column, const char* what) {
   pl_expr plain = pl_record_plain(r, with_results(r, e));
-  if (pl_is_poison(plain) || pl_has_role(r->pool, plain, PL_R_START) || pl_has_role(r->pool, plain, PL_R_CONSTANT) ||
-      pl_has_role(r->pool, plain, PL_R_LOCAL)) {
-    return pl_fail(r->job, PLEUEL_UNSUPPORTED, "%s: this version cannot compute it along the motion", what);
-  }
+  bool known = !pl_is_poison(plain) && !pl_has_role(r->pool, plain, PL_R_LOCAL) && !pl_has_role(r->pool, plain, PL_R_MOMENTUM);
+  if (known && (pl_has_role(r->pool, plain, PL_R_START) || pl_has_role(r->pool, plain, PL_R_CONSTANT))) PL_TRY(settle_start_values(r));
+  if (known) known = collect_multipliers(r, w, pl_map_make(r->arena), plain);
+  if (!known) return pl_fail(r->job, PLEUEL_UNSUPPORTED, "%s: this version cannot compute it along the motion", what);
   collect(r, w->group, plain);
   pl_push(r->arena, w->output, plain);
   pl_push(r->arena, w->column, column);
@@ -645,6 +732,9 @@ static pleuel_status make_branches(pl_recorder* r) {
                                  pl_expr_text(r->arena, r->pool, c->right));
     int relation = c->relation == PL_GT || c->relation == PL_GE ? 1 : c->relation == PL_LT || c->relation == PL_LE ? -1 : 0;
     branches[i] = (pl_branch_setup){text, i, relation};
+    if (pl_has_role(r->pool, c->left, PL_R_START) || pl_has_role(r->pool, c->right, PL_R_START)) {
+      return pl_fail(r->job, PLEUEL_UNSUPPORTED, "branch %s speaks of the start that it is to choose", text);
+    }
     PL_TRY(watch(r, w, pl_sub(r->pool, c->left, c->right), i, text));
   }
   s->branches = branches;
@@ -659,7 +749,7 @@ static void read_times(pl_recorder* r) {
   pl_recording* out = r->out;
   double from = pl_record_number(r, s->from), step = pl_record_number(r, s->step), tol = pl_record_number(r, s->tol);
   out->t_0 = s->given && isfinite(from) ? from : 0;
-  out->t_end = s->given ? pl_record_number(r, s->to) : NAN;
+  out->t_end = s->given ? pl_record_number(r, s->to) : (double)NAN;
   out->dt = s->given && step > 0 ? step : 0;
   out->tol = s->given && tol > 0 ? tol : 0;
   out->count = s->given ? s->count : 0;

@@ -29,6 +29,7 @@ typedef struct pl_recorder {
   int* first_link;            // global index of the first row of each constraint of the model
   int n_links;                // with the map equations
   bool dissipative, explicit_time;
+  bool start_settled;         // values of x(0), E(0) are there
 } pl_recorder;
 
 // record_forces.c: energies and generalized forces of the groups.
