@@ -72,7 +72,7 @@ pleuel_status pl_pipeline_run(pleuel_model* m, const pleuel_sim_options* o);
 pleuel_status pl_record(pl_job* job, pl_model* model, pl_recording** out);
 void pl_record_dump(pl_text* out, const pl_model* model, const pl_recording* r);
 
-// ---- start.c: a start that does not fit, as messages
+// ---- start_messages.c: a start that does not fit, as messages
 void pl_start_report_trouble(pleuel_model* m);
 
 // ---- motion.c: words and JSON about a run
