@@ -93,10 +93,11 @@ void pl_lu_solve(const double* LU, const int* p, const double* scale, double* b,
 // ---------------------------------------------------------------------------------------------- LDL^T
 #define AT(i, j) A[(size_t)(i) + (size_t)(j) * (size_t)n]
 
-// Swaps rows and columns r < s of the trailing symmetric matrix from k on, and the rows of L left of it.
-static void swap_symmetric(double* A, int n, int r, int s) {
+// Swaps rows and columns r < s of the trailing symmetric matrix from k on.  L to the left of it stays: the solve swaps as it
+// goes.
+static void swap_symmetric(double* A, int n, int k, int r, int s) {
   if (r == s) return;
-  for (int j = 0; j < r; j++) {
+  for (int j = k; j < r; j++) {
     double x = AT(r, j);
     AT(r, j) = AT(s, j);
     AT(s, j) = x;
@@ -174,7 +175,7 @@ double pl_ldlt_factor(double* A, int* p, int n) {
   for (int k = 0; k < n;) {
     int row, size = choose_pivot(A, n, k, &row);
     double d;
-    swap_symmetric(A, n, k + size - 1, row);
+    swap_symmetric(A, n, k, k + size - 1, row);
     if (size == 1) {
       d = fabs(AT(k, k));
       if (!(d > 0) || !(d <= DBL_MAX)) return 0;

@@ -177,7 +177,7 @@ void pl_sizes_forget(pl_run* run);                  // back to what was kept: a 
 void pl_independent_unique(pl_run* run);
 void pl_active_update(pl_run* run);                 // active from on; orphans rest
 
-// ---- series.c
+// ---- motion_series.c
 void pl_point_evaluate(pl_run* run, double t, const double* q, const double* v);   // levels PLACE and SPEED at order 0
 bool pl_point_factor(pl_run* run, bool with_W);     // choose, assemble, factor
 bool pl_point_enter(pl_run* run);                   // all of order 0 at run->t, q, v
