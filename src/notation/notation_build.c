@@ -144,6 +144,30 @@ static pl_box* factor_box(pl_builder* b, pl_box* x, int i, int n) {
   return x;
 }
 
+static bool is_plain_name(const pl_box* x) {
+  if (x->kind == PL_B_POWER) x = x->at[0];
+  if (x->kind == PL_B_ROW && x->level == PL_LEVEL_ATOM) x = x->at[0];    // x1(0)
+  return (x->kind == PL_B_NAME || x->kind == PL_B_INDEXED) && x->dots == 0 && !x->free_name;
+}
+
+static bool is_bare(const pl_box* x, pl_box_kind kind, int argument) {
+  return x->kind == kind && x->at[argument]->kind != PL_B_FENCE && x->level == PL_LEVEL_ATOM;
+}
+
+// What a blank after `cos φ` or `√2` would be misread as: cos φ l is cos(φ) l, √2 l is √2·l.
+static bool needs_dot(pl_builder* b, pl_box** before, const pl_box* x) {
+  if (is_bare(*before, PL_B_APPLY, 1) && is_plain_name(x)) {
+    pl_box* clear = pl_box_make(b->arena, PL_B_APPLY, PL_LEVEL_ATOM, 2);
+    *clear = **before;
+    clear->at = PL_ARRAY(b->arena, pl_box*, 2);
+    clear->at[0] = (*before)->at[0];
+    clear->at[1] = pl_box_fence(b->arena, (*before)->at[1], "(");
+    *before = clear;
+  }
+  bool root = b->how.math == PL_MATH_LINE && is_bare(*before, PL_B_ROOT, 0);
+  return x->starts_digit || (root && x->kind != PL_B_APPLY);
+}
+
 static pl_box* build_product(pl_builder* b, const pl_form* f) {
   form_list factors = {0};
   flatten(b, f, &factors);
@@ -152,8 +176,7 @@ static pl_box* build_product(pl_builder* b, const pl_form* f) {
   PL_VEC(pl_box*) parts = {0};
   for (int i = 0; i < factors.n; i++) {
     pl_box* x = factor_box(b, pl_build(b, factors.at[i]), i, factors.n);
-    // two numbers side by side need a sign between them
-    if (i > 0 && x->starts_digit) pl_push(b->arena, parts, pl_box_op(b->arena, "·", PL_OP_TIGHT));
+    if (i > 0 && needs_dot(b, &parts.at[parts.n - 1], x)) pl_push(b->arena, parts, pl_box_op(b->arena, "·", PL_OP_TIGHT));
     pl_push(b->arena, parts, x);
   }
   pl_box* r = pl_box_make(b->arena, PL_B_PRODUCT, PL_LEVEL_PRODUCT, parts.n);

@@ -39,6 +39,7 @@ struct pl_box {
   bool starts_digit;   // its first sign is a digit, so a blank before it would glue it to what stands there
   bool open_slash;     // ends in a division by something that is no plain number: nothing may be multiplied to its right
   bool has_sum;        // a sum is visible inside
+  bool free_name;      // no symbol of the model: e_r, M
   bool tall;           // higher than a line when set in two dimensions
   int dots;
   int n;

@@ -50,7 +50,8 @@ static int tear_down(void** state) {
 }
 
 // ---------------------------------------------------------------------------------------------- the reader
-typedef struct reader { fixture* f; const char *s, *why; } reader;
+// bare: what was read last is a function with a name (1) or a number (2) as its argument, without brackets.
+typedef struct reader { fixture* f; const char *s, *why; int bare; } reader;
 static pl_expr read_sum(reader* r);
 static pl_expr read_factor(reader* r);
 
@@ -115,12 +116,15 @@ static pl_expr read_application(reader* r, int function) {
   if (power < 1) return refuse(r, "sin^-1 is refused");
   blank(r);
   pl_expr argument;
+  int bare = 0;
   if (take(r, "(")) {
     argument = read_sum(r);
     if (!take(r, ")")) return refuse(r, "bracket after function");
   } else {
+    bare = isdigit((unsigned char)*r->s) ? 2 : 1;
     argument = read_factor(r);
   }
+  r->bare = bare;
   pl_expr value = function < 0 ? pl_sqrt(p, argument) : pl_call(p, (pl_function)function, argument);
   return pl_pow_int(p, value, power);
 }
@@ -144,8 +148,10 @@ static pl_expr symbol_named(reader* r, const char* name) {
 static pl_expr read_primary(reader* r) {
   pl_pool* p = r->f->p;
   const char* begin = r->s;
+  r->bare = 0;
   if (take(r, "(")) {
     pl_expr x = read_sum(r);
+    r->bare = 0;
     return take(r, ")") ? x : refuse(r, "bracket is not closed");
   }
   if (isdigit((unsigned char)*r->s)) {
@@ -171,8 +177,25 @@ static pl_expr read_factor(reader* r) {
   return pl_pow(p, x, read_factor(r));
 }
 
+static bool function_follows(reader* r) {
+  reader ahead = *r;
+  if (strncmp(r->s, "√", strlen("√")) == 0) return true;
+  const char* name = is_letter(r->s) ? take_name(&ahead) : "";
+  return strcmp(name, "sqrt") == 0 || function_named(name) >= 0;
+}
+
 static bool factor_follows(reader* r) {
   return *r->s == '(' || isdigit((unsigned char)*r->s) || is_letter(r->s) || strncmp(r->s, "√", strlen("√")) == 0;
+}
+
+// After `cos φ` no bare name or number may follow, after `√2` nothing but a function.
+static bool misleading(reader* r) {
+  if (!r->bare || function_follows(r)) return false;
+  reader ahead = *r;
+  if (isdigit((unsigned char)*ahead.s) || r->bare == 2) return true;
+  if (!is_letter(ahead.s)) return false;
+  take_name(&ahead);
+  return *ahead.s != '\'';
 }
 
 static pl_expr read_term(reader* r) {
@@ -193,6 +216,7 @@ static pl_expr read_term(reader* r) {
       x = pl_div(p, x, minus ? pl_neg(p, y) : y);
     } else if (factor_follows(r)) {
       if (divided) return refuse(r, "a blank product after a division");
+      if (misleading(r)) return refuse(r, "this could belong to the argument of the function");
       x = pl_mul(p, x, read_factor(r));
     } else {
       return x;
@@ -276,7 +300,7 @@ static bool same_value(fixture* f, pl_expr x, pl_expr y) {
 static void read_back(fixture* f, uint64_t seed, const pl_form* form, pl_math math) {
   pl_expr value = pl_form_value(f->p, form);
   const char* text = pl_notation_print(f->a, f->p, form, (pl_notation){math, PL_ENGLISH});
-  reader r = {f, text, NULL};
+  reader r = {.f = f, .s = text};
   pl_expr got = read_sum(&r);
   blank(&r);
   if (r.why || *r.s) fail_msg("seed %llu: %s: %s", (unsigned long long)seed, text, r.why ? r.why : "text left over");

@@ -201,7 +201,7 @@ pl_box* pl_box_free_name(pl_arena* a, const char* text, pl_notation how) {
     pl_text ascii = pl_text_make(a);
     if (how.math == PL_MATH_ASCII) pl_write_ascii(&ascii, text);
     pl_box* b = pl_box_text(a, PL_B_NAME, how.math == PL_MATH_ASCII ? pl_text_string(&ascii) : text);
-    b->sub = NULL;
+    b->free_name = true;
     return b;
   }
   PL_VEC(pl_box*) parts = {0};

@@ -230,7 +230,11 @@ static void functions_take_brackets_when_more_than_a_name_follows(void** state) 
   TEX(FN(PL_ABS, L(x1)), "\\lvert x_{1}\\rvert ");
   TEX(FN(PL_EXP, NEG(L(t))), "e^{-t}");
   TEX(FN(PL_COS, SUM(L(phi), NEG(L(theta)))), "\\cos(\\varphi - \\vartheta)");
-  TEX(PROD(FN(PL_SIN, L(phi)), L(r)), "\\sin \\varphi\\, r");
+  LINE(PROD(FN(PL_SIN, L(phi)), L(r)), "sin(φ) r");
+  LINE(PROD(FN(PL_SIN, L(phi)), L(phid)), "sin φ φ'");
+  TEX(PROD(FN(PL_SIN, L(phi)), L(phid)), "\\sin \\varphi\\, \\dot{\\varphi}");
+  LINE(PROD(ROOT(N(2)), L(r)), "√2·r");
+  LINE(PROD(L(r), ROOT(N(2))), "r √2");
 }
 
 static void roots_are_drawn(void** state) {
