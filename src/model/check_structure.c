@@ -292,55 +292,38 @@ static void check_moving(pl_job* job, pl_model* m) {
 }
 
 // ---------------------------------------------------------------------------------------------- constraints
-// Linear in every velocity: second derivatives by velocities vanish.  Judged by form after multiplying out; what
-// cannot be told by form is tried at random points modulo a large prime.
-static bool vanishes(pl_job* job, pl_model* m, pl_expr e) {
-  if (pl_is_zero_node(m->pool, e)) return true;
-  if (pl_is_poison(e)) return false;
-  for (uint64_t seed = 1; seed <= 12; seed++) {
-    bool ok = true;
-    pl_mod_point* at = pl_mod_point_make(job->arena, m->pool, seed * 7919);
-    uint64_t x = pl_eval_mod(at, e, &ok);
-    if (ok) return x == 0;
-  }
-  return false;
-}
-
-static bool is_linear_in_velocities(pl_job* job, pl_model* m, pl_expr g) {
-  int n = pl_symbols_in(m->pool, g, NULL, 0);
-  pl_symbol* all = PL_ARRAY(job->arena, pl_symbol, n + 1);
-  pl_symbols_in(m->pool, g, all, n);
-  int n_v = 0;
-  for (int i = 0; i < n; i++) {
-    if (pl_symbol_get(m->pool, all[i])->role == PL_R_VELOCITY) all[n_v++] = all[i];
-  }
-  for (int i = 0; i < n_v; i++) {
-    pl_expr slope = pl_diff(m->pool, g, all[i]);
-    for (int k = 0; k < n_v; k++) {
-      if (!vanishes(job, m, pl_diff(m->pool, slope, all[k]))) return false;
-    }
-  }
-  return true;
-}
-
 static void check_velocity_constraint(pl_job* job, pl_model* m, pl_constraint* c) {
-  int dots = pl_max_dots(m->pool, c->g, job->arena);
-  c->has_velocity = dots >= 1;
   const char* name = c->name.text ? c->name.text : "?";
-  if (dots == 2) {
-    pl_diagnostic* d = pl_tell(job, PL_E057, c->span, PL_F(job, "constraint %s cannot contain an acceleration", name),
-                               PL_F(job, "Zwangsbedingung %s kann keine Beschleunigung enthalten", name));
-    pl_report_fix(d, "write it for positions or velocities", "für Lagen oder Geschwindigkeiten schreiben", NULL);
-  } else if (dots == 1 && !is_linear_in_velocities(job, m, c->g)) {
-    pl_diagnostic* d = pl_tell(job, PL_E039, c->span, PL_F(job, "constraint %s is not linear in the velocities", name),
-                               PL_F(job, "Zwangsbedingung %s ist nicht linear in den Geschwindigkeiten", name));
-    pl_report_reason(d, "such a constraint has no agreed law for its force", "für die Zwangskraft gibt es dann kein anerkanntes Gesetz");
-    pl_report_fix(d, "write it linear, as in x' = R φ'", "linear schreiben, wie in x' = R φ'", NULL);
-  } else if (dots == 1) {
-    pl_diagnostic* d = pl_tell(job, PL_N092, c->span, PL_F(job, "constraint %s contains velocities: this version does not solve it", name),
-                               PL_F(job, "Zwangsbedingung %s enthält Geschwindigkeiten: diese Version löst sie nicht", name));
-    pl_report_fix(d, "if it can be integrated, write the integral: x = R φ", "wenn sie integrierbar ist, das Integral schreiben: x = R φ", NULL);
+  const char* text = NULL;
+  pl_diagnostic* d;
+  switch (pl_velocity_kind_of(job, m, c->g, &text)) {
+    case PL_NO_VELOCITY: return;
+    case PL_ACCELERATION:
+      d = pl_tell(job, PL_E057, c->span, PL_F(job, "constraint %s cannot contain an acceleration", name),
+                  PL_F(job, "Zwangsbedingung %s kann keine Beschleunigung enthalten", name));
+      pl_report_fix(d, "write it for positions or velocities", "für Lagen oder Geschwindigkeiten schreiben", NULL);
+      return;
+    case PL_NOT_LINEAR:
+      d = pl_tell(job, PL_E039, c->span, PL_F(job, "constraint %s is not linear in the velocities", name),
+                  PL_F(job, "Zwangsbedingung %s ist nicht linear in den Geschwindigkeiten", name));
+      pl_report_reason(d, "such a constraint has no agreed law for its force", "für die Zwangskraft gibt es dann kein anerkanntes Gesetz");
+      pl_report_fix(d, "write it linear, as in x' = R φ'", "linear schreiben, wie in x' = R φ'", NULL);
+      return;
+    case PL_INTEGRABLE:
+      d = pl_tell(job, PL_N092, c->span, PL_F(job, "constraint %s can be integrated: it restricts positions too, up to a constant of the start", name),
+                  PL_F(job, "Zwangsbedingung %s ist integrierbar: sie schränkt auch die Lagen ein, bis auf eine Konstante des Starts", name));
+      if (text) pl_report_fix(d, PL_F(job, "as a constraint of positions: %s = constant", text), PL_F(job, "als Bedingung an die Lagen: %s = Konstante", text), NULL);
+      break;
+    case PL_NONHOLONOMIC:
+      d = pl_tell(job, PL_N092, c->span, PL_F(job, "constraint %s cannot be integrated: it is nonholonomic and restricts velocities only", name),
+                  PL_F(job, "Zwangsbedingung %s ist nicht integrierbar: sie ist nichtholonom und schränkt nur die Geschwindigkeiten ein", name));
+      break;
   }
+  c->has_velocity = true;
+  if (c->relation == PL_EQ) return;
+  d = pl_tell(job, PL_E057, c->span, PL_F(job, "constraint %s is one-sided and cannot contain velocities", name),
+              PL_F(job, "Zwangsbedingung %s ist einseitig und kann keine Geschwindigkeiten enthalten", name));
+  pl_report_fix(d, "write it for positions, or with =", "für Lagen schreiben, oder mit =", NULL);
 }
 
 // Always true, or never: a constraint that does not speak of the motion.

@@ -318,8 +318,9 @@ static bool fix_of_name(pl_dim_pass* d, const suggestion* best, pl_diagnostic* m
   bool found = pl_span_find_name(d->where, pl_symbol_get(d->pool, best->wrong)->ascii, &at);
   if (found) *culprit = at;
   const char* wrong = pl_symbol_get(d->pool, best->wrong)->name;
-  pl_report_fix(m, pl_format(d->job->arena, "did you mean %s %s instead of %s?", best->name, line_and_unit(d, best, false), wrong),
-                pl_format(d->job->arena, "ist %s %s gemeint statt %s?", best->name, line_and_unit(d, best, true), wrong),
+  const char* instead[2] = {found ? "" : pl_format(d->job->arena, " instead of %s", wrong), found ? "" : pl_format(d->job->arena, " statt %s", wrong)};
+  pl_report_fix(m, pl_format(d->job->arena, "did you mean %s %s%s?", best->name, line_and_unit(d, best, false), instead[0]),
+                pl_format(d->job->arena, "ist %s %s gemeint%s?", best->name, line_and_unit(d, best, true), instead[1]),
                 found ? best->name : NULL);
   return true;
 }

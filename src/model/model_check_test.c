@@ -185,11 +185,56 @@ PL_TEST(a_constraint_with_an_acceleration_is_refused) {
   tells(&a, PL_E057);
 }
 
-PL_TEST(a_constraint_linear_in_velocities_is_not_solved_yet) {
+// x' = 2 y' + 3: the integral is named.
+PL_TEST(a_constraint_that_can_be_integrated_is_told_so) {
   plane a = plane_make(NULL);
-  constraint(a.k, named("c"), pl_mul(a.p, a.y, dot(a.k, a.x)), PL_EQ, pl_mul(a.p, a.g, dot(a.k, a.y)), NULL, NULL);
-  check_tells(a.k, PL_N092);
+  pl_expr right = pl_add(a.p, pl_mul(a.p, pl_int(a.p, 2), dot(a.k, a.y)), pl_int(a.p, 3));
+  constraint(a.k, named("c"), dot(a.k, a.x), PL_EQ, right, NULL, NULL);
+  const pl_diagnostic* d = check_tells(a.k, PL_N092);
+  assert_non_null(strstr(d->sentence[0], "can be integrated"));
+  assert_non_null(strstr(d->fix[0], "2*y"));
+  assert_non_null(strstr(d->fix[0], "3*t"));
   assert_true(a.k->m->constraints.at[0].has_velocity);
+  kit_free(a.k);
+}
+
+// y x' = 2 x y' has the integrating factor 1/(x y).
+PL_TEST(an_integrating_factor_is_seen) {
+  plane a = plane_make(NULL);
+  pl_expr right = pl_mul_n(a.p, (pl_expr[]){pl_int(a.p, 2), a.x, dot(a.k, a.y)}, 3);
+  constraint(a.k, named("c"), pl_mul(a.p, a.y, dot(a.k, a.x)), PL_EQ, right, NULL, NULL);
+  const pl_diagnostic* d = check_tells(a.k, PL_N092);
+  assert_non_null(strstr(d->sentence[0], "can be integrated"));
+  kit_free(a.k);
+}
+
+// The knife edge x' sin φ = y' cos φ: φ has no velocity in it, and yet it is a variable.
+PL_TEST(the_knife_edge_is_nonholonomic) {
+  plane a = plane_make(NULL);
+  pl_expr phi = coord(a.k, "phi", NULL, NULL);
+  load(a.k, PL_L_KINETIC, pl_square(a.p, dot(a.k, phi)), NULL);
+  constraint(a.k, named("c"), pl_mul(a.p, dot(a.k, a.x), pl_call(a.p, PL_SIN, phi)), PL_EQ,
+             pl_mul(a.p, dot(a.k, a.y), pl_call(a.p, PL_COS, phi)), NULL, NULL);
+  const pl_diagnostic* d = check_tells(a.k, PL_N092);
+  assert_non_null(strstr(d->sentence[0], "nonholonomic"));
+  kit_free(a.k);
+}
+
+// x' = t y' is not integrable: time is a variable like the others.
+PL_TEST(time_in_a_coefficient_counts) {
+  plane a = plane_make(NULL);
+  pl_expr t = pl_sym(a.p, pl_time(a.p));
+  constraint(a.k, named("c"), dot(a.k, a.x), PL_EQ, pl_mul(a.p, t, dot(a.k, a.y)), NULL, NULL);
+  const pl_diagnostic* d = check_tells(a.k, PL_N092);
+  assert_non_null(strstr(d->sentence[0], "nonholonomic"));
+  kit_free(a.k);
+}
+
+PL_TEST(a_one_sided_constraint_of_velocities_is_refused) {
+  plane a = plane_make(NULL);
+  constraint(a.k, named("c"), dot(a.k, a.x), PL_GE, number(&a, "1"), NULL, NULL);
+  pl_model_check(&a.k->job, a.k->m);
+  assert_int_equal(told(a.k, PL_E057, NULL), 1);
   kit_free(a.k);
 }
 
@@ -559,7 +604,9 @@ int main(void) {
     cmocka_unit_test(a_potential_cannot_contain_a_multiplier), cmocka_unit_test(a_lagrangian_beside_masses_is_refused),
     cmocka_unit_test(gravity_cannot_depend_on_the_motion), cmocka_unit_test(a_division_by_zero_is_told),
     cmocka_unit_test(a_constraint_without_coordinate_is_refused), cmocka_unit_test(a_constraint_that_is_always_true_is_noted),
-    cmocka_unit_test(a_constraint_with_an_acceleration_is_refused), cmocka_unit_test(a_constraint_linear_in_velocities_is_not_solved_yet),
+    cmocka_unit_test(a_constraint_with_an_acceleration_is_refused), cmocka_unit_test(a_constraint_that_can_be_integrated_is_told_so),
+    cmocka_unit_test(an_integrating_factor_is_seen), cmocka_unit_test(the_knife_edge_is_nonholonomic),
+    cmocka_unit_test(time_in_a_coefficient_counts), cmocka_unit_test(a_one_sided_constraint_of_velocities_is_refused),
     cmocka_unit_test(a_constraint_not_linear_in_velocities_is_refused), cmocka_unit_test(hidden_linearity_is_seen),
     cmocka_unit_test(while_needs_a_contact), cmocka_unit_test(parameters_in_a_circle_are_found),
     cmocka_unit_test(parameters_through_others_have_values), cmocka_unit_test(an_assumption_against_the_numbers_is_found),

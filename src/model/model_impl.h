@@ -89,6 +89,11 @@ void pl_classify_symbols(pl_model* m);
 void pl_strip_units(pl_model* m);
 bool pl_known_dimension(const pl_model* m, pl_expr e, pl_dimension* out);   // also before the check is over
 
+// ---------------------------------------------------------------------------------------------- velocities.c
+typedef enum pl_velocity_kind { PL_NO_VELOCITY, PL_ACCELERATION, PL_NOT_LINEAR, PL_INTEGRABLE, PL_NONHOLONOMIC } pl_velocity_kind;
+// What velocities do in a constraint g = 0.  *integral: text of G with dG/dt = g, where it can be written down, else NULL.
+pl_velocity_kind pl_velocity_kind_of(pl_job* job, const pl_model* m, pl_expr g, const char** integral);
+
 // ---------------------------------------------------------------------------------------------- check
 void pl_check_names(pl_job* job, pl_model* m);
 void pl_check_structure(pl_job* job, pl_model* m);
