@@ -56,7 +56,7 @@ pl_diagnostic* pl_complain(pl_job* job, pl_code code, pl_span span, const char* 
 // pl_suggest adds the fix; replacement may be NULL.
 void pl_suggest(pl_job* job, pl_diagnostic* m, const char* replacement, const char* en, const char* de, ...);
 void pl_because(pl_job* job, pl_diagnostic* m, const char* en, const char* de, ...);
-const char* pl_span_text(pl_arena* a, pl_span s);     // the source under a span, blanks collapsed
+const char* pl_source_text(pl_arena* a, pl_span s);     // the source under a span, blanks collapsed
 
 // ---------------------------------------------------------------------------------------------- parser
 enum { PL_MAX_DEPTH = 200 };           // of brackets and of the tree

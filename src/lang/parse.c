@@ -34,7 +34,7 @@ pl_ast* pl_ast_make(pl_parse* p, pl_ast_kind kind, pl_bytes at) {
   n->end = at.end;
   n->source = p->source;
   n->depth = 1;
-  if (kind == PL_AST_WORD) n->text = pl_span_text(p->arena, pl_ast_span(n));
+  if (kind == PL_AST_WORD) n->text = pl_source_text(p->arena, pl_ast_span(n));
   return n;
 }
 
@@ -46,7 +46,7 @@ pl_ast* pl_ast_of_token(pl_parse* p, int kind, const pl_token* t) {
   for (size_t i = 0; i < sizeof leaves / sizeof leaves[0]; i++) {
     if (leaves[i].token == kind) n->kind = leaves[i].kind;
   }
-  if (n->kind != PL_AST_WORD) n->text = t->text ? t->text : t->key;
+  if (n->kind != PL_AST_WORD || t->text) n->text = t->text ? t->text : t->key;
   n->token = kind;
   n->tight = t->tight;
   n->key = t->key, n->shown = t->shown, n->raw = t->raw;
@@ -361,7 +361,7 @@ static void unknown_statement(feeder* f, int i) {
     pl_diagnostic* m = pl_complain(p->job, PL_E001, span, "a statement begins with a word", "eine Anweisung beginnt mit einem Wort");
     pl_suggest(p->job, m, NULL, "begin with param, coord, mass, constraint, ...", "beginne mit param, coord, mass, constraint, ...");
   } else if (!p->said) {
-    const char* word = pl_span_text(p->arena, span);
+    const char* word = pl_source_text(p->arena, span);
     pl_diagnostic* m = pl_complain(p->job, PL_E004, span, "%s is not a statement", "%s ist keine Anweisung", word);
     const char* near = pl_word_near_statement(t->key);
     bool equation = false;

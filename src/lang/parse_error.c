@@ -44,7 +44,7 @@ void pl_because(pl_job* job, pl_diagnostic* m, const char* en, const char* de, .
   va_end(ap);
 }
 
-const char* pl_span_text(pl_arena* a, pl_span s) {
+const char* pl_source_text(pl_arena* a, pl_span s) {
   pl_text out = pl_text_make(a);
   if (s.source == NULL) return "";
   bool blank = false, comment = false;
@@ -191,8 +191,8 @@ static bool missing_equals(pl_parse* p, const int* expected, int n) {
   bool value = t->kind == TOK_NUMBER || t->kind == TOK_NAME || t->kind == TOK_PI || t->kind == '-';
   if (!value || !has(expected, n, '=') || has(expected, n, '/')) return false;
   const pl_token* before = token_near(p, p->at, -1);
-  const char* left = pl_span_text(p->arena, (pl_span){p->source, before->begin, before->end});
-  const char* right = pl_span_text(p->arena, (pl_span){p->source, t->begin, t->end});
+  const char* left = pl_source_text(p->arena, (pl_span){p->source, before->begin, before->end});
+  const char* right = pl_source_text(p->arena, (pl_span){p->source, t->begin, t->end});
   pl_diagnostic* m = pl_complain(p->job, PL_E001, (pl_span){p->source, before->begin, t->end}, "an = is missing after %s", "hinter %s fehlt ein =", left);
   if (t->kind == TOK_NAME && !has(expected, n, TOK_NAME)) {
     pl_suggest(p->job, m, NULL, "write %1$s = %2$s ...  or, for two names,  %1$s, %2$s", "schreibe %1$s = %2$s ...  oder, bei zwei Namen,  %1$s, %2$s", left, right);
@@ -205,8 +205,8 @@ static bool missing_equals(pl_parse* p, const int* expected, int n) {
 static bool missing_comma(pl_parse* p, const int* expected, int n) {
   const pl_token *t = &p->tokens->list.at[p->at], *before = token_near(p, p->at, -1);
   if (t->kind != TOK_NAME || before->kind != TOK_NAME || !has(expected, n, ',') || has(expected, n, '/')) return false;
-  const char* left = pl_span_text(p->arena, (pl_span){p->source, before->begin, before->end});
-  const char* right = pl_span_text(p->arena, (pl_span){p->source, t->begin, t->end});
+  const char* left = pl_source_text(p->arena, (pl_span){p->source, before->begin, before->end});
+  const char* right = pl_source_text(p->arena, (pl_span){p->source, t->begin, t->end});
   pl_diagnostic* m = pl_complain(p->job, PL_E001, (pl_span){p->source, before->begin, t->end}, "a comma is missing between %s and %s",
                                  "zwischen %s und %s fehlt ein Komma", left, right);
   pl_suggest(p->job, m, pl_format(p->arena, "%s, %s", left, right), "write %s, %s", "schreibe %s, %s", left, right);
@@ -220,7 +220,7 @@ void pl_parse_complain(pl_parse* p, const int* expected, int n) {
   if (missing_equals(p, expected, n)) return;
   const pl_token* t = &p->tokens->list.at[p->at];
   pl_span span = {p->source, t->begin, t->end};
-  const char* text = pl_span_text(p->arena, span);
+  const char* text = pl_source_text(p->arena, span);
   pl_diagnostic* m = pl_complain(p->job, PL_E001, span, "%s does not fit here", "%s passt hier nicht", text);
   const char* en = list_expected(p->arena, expected, n, false);
   if (en) pl_because(p->job, m, "expected: %1$s%2$.0s", "erwartet: %1$.0s%2$s", en, list_expected(p->arena, expected, n, true));

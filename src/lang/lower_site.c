@@ -1,0 +1,328 @@
+// Places: axes, points, and the labels of masses, bodies and points.
+#include "lang/lower_impl.h"
+
+#include <string.h>
+
+#include "grammar.h"
+
+// ---------------------------------------------------------------------------------------------- axes
+int pl_axis_find(const pl_lower* l, const char* key) {
+  for (int i = 0; i < l->m->n_axes; i++) {
+    if (strcmp(l->m->axes[i].ascii, key) == 0) return i;
+  }
+  return -1;
+}
+
+// How many components a point has, as far as the text shows.
+int pl_ast_components(const pl_ast* point) {
+  const pl_ast* one = pl_ast_single(point);
+  if (one && one->kind == PL_AST_GROUP) return one->kids.n;
+  if (point->kind == PL_AST_PRODUCT && point->kids.n == 2 && point->kids.at[0]->kind == PL_AST_NAME) {
+    return strcmp(point->kids.at[0]->key, "spherical") == 0 ? 3 : strcmp(point->kids.at[0]->key, "polar") == 0 ? 2 : 0;
+  }
+  return 0;
+}
+
+static int most_components(const pl_ast* node) {
+  int most = 0;
+  for (int i = 0; i < node->kids.n; i++) {
+    const pl_ast* s = node->kids.at[i];
+    if (s == NULL || s->kind != PL_AST_STATEMENT) continue;
+    int n = 0;
+    if (s->token == TOK_FOR) n = most_components(pl_ast_kid(s, 2));
+    if (s->token == TOK_MASS) n = pl_ast_components(pl_ast_kid(s, 2));
+    if (s->token == TOK_POINT) n = pl_ast_components(pl_ast_kid(s, 1));
+    if (s->token == TOK_BODY) n = pl_ast_components(pl_ast_kid(s, 3));
+    if (n > most) most = n;
+  }
+  return most;
+}
+
+// Without `axes`: as many as the points have components, x right, y up, z out.
+void pl_axes_settle(pl_lower* l, const pl_ast* file) {
+  static const pl_axis usual[3] = {{"x", "x", "right", false}, {"y", "y", "up", false}, {"z", "z", "out", false}};
+  if (l->m->n_axes) return;
+  int n = most_components(file);
+  l->m->n_axes = n > 3 ? 3 : n;
+  for (int i = 0; i < l->m->n_axes; i++) l->m->axes[i] = usual[i];
+}
+
+// ---------------------------------------------------------------------------------------------- labels
+// The name in an expression that is nothing but a label, such as A or P[i-1]; NULL otherwise.
+const pl_ast* pl_ast_label(const pl_ast* node, const pl_ast** index) {
+  const pl_ast* one = pl_ast_single(node);
+  *index = NULL;
+  if (one && one->kind == PL_AST_NUMBER) return NULL;
+  if (one && one->kind == PL_AST_LABEL) {
+    *index = pl_ast_kid(one, 1);
+    return pl_ast_kid(one, 0);
+  }
+  if (one && one->kind == PL_AST_INDEXED) {
+    *index = pl_ast_kid(one, 1);
+    one = pl_ast_kid(one, 0);
+  }
+  return one && one->kind == PL_AST_NAME && one->number == 0 ? one : NULL;
+}
+
+// The text of a label: "g1", "c[3]", "c[i]".
+const char* pl_label_text(pl_lower* l, const pl_ast* name, const pl_ast* index) {
+  if (index == NULL) return name->shown;
+  pl_expr i = pl_lower_scalar(l, index);
+  if (pl_is_poison(i)) return NULL;
+  // a parameter such as N has its number when the file is read
+  double* values = pl_model_values(l->m, l->arena);
+  double v = pl_eval(l->pool, i, values);
+  if (v > -1e15 && v < 1e15 && v == (double)(long)v) return pl_format(l->arena, "%s[%ld]", name->shown, (long)v);
+  return pl_format(l->arena, "%s[%s]", name->shown, pl_expr_text(l->arena, l->pool, i));
+}
+
+const char* pl_constraint_label(pl_lower* l, const pl_ast* label) {
+  const pl_ast *name = pl_ast_kid(label, 0), *index = pl_ast_kid(label, 1);
+  const pl_rule* r = pl_scope_rule(l, name->key);
+  if (r == NULL) {
+    const char** known = PL_ARRAY(l->arena, const char*, l->rules.n + 1);
+    int n = 0;
+    for (int i = 0; i < l->rules.n; i++) {
+      bool twice = n > 0 && strcmp(known[n - 1], l->rules.at[i].shown) == 0;
+      if (!l->rules.at[i].generated && !twice) known[n++] = l->rules.at[i].shown;
+    }
+    pl_scope_unknown_label(l, name, "constraint", "Zwangsbedingung", known, n);
+    return NULL;
+  }
+  if (r->family && index == NULL) {
+    pl_diagnostic* m = pl_lower_complain(l, PL_E025, pl_ast_span(label), "%s is a family of constraints, so it needs an index", "%s ist eine Familie von Zwangsbedingungen und braucht einen Index", r->shown);
+    pl_suggest(l->job, m, pl_format(l->arena, "%s[1]", r->shown), "write %s[1]", "schreibe %s[1]", r->shown);
+    return NULL;
+  }
+  if (!r->family && index) {
+    pl_lower_complain(l, PL_E025, pl_ast_span(label), "%s is not a family, so it takes no index", "%s ist keine Familie und hat keinen Index", r->shown);
+    return NULL;
+  }
+  return pl_label_text(l, name, index);
+}
+
+// ---------------------------------------------------------------------------------------------- declaring
+pl_site* pl_site_find(const pl_lower* l, const char* key) {
+  for (int i = 0; i < l->places.n; i++) {
+    if (l->places.at[i]->key == key) return l->places.at[i];
+  }
+  return NULL;
+}
+
+// A mass without label bears the name of its mass: m1; a second m1 becomes m1_2.
+static void generate_label(pl_lower* l, pl_site* p, const pl_ast* mass) {
+  const pl_ast* one = pl_ast_single(mass);
+  bool simple = one && one->kind == PL_AST_NAME && one->number == 0;
+  const char* key = simple ? one->key : pl_intern(l->names, pl_format(l->arena, "mass%d", l->places.n + 1));
+  const char* shown = simple ? one->shown : key;
+  p->generated = true;
+  p->key = key;
+  p->shown = shown;
+  for (int k = 2; pl_site_find(l, p->key); k++) {
+    p->key = pl_intern(l->names, pl_format(l->arena, "%s_%d", key, k));
+    p->shown = pl_format(l->arena, "%s_%d", shown, k);
+  }
+}
+
+void pl_site_declare(pl_lower* l, const pl_ast* s) {
+  const pl_ast* label = pl_ast_kid(s, 0);
+  pl_site* p = PL_NEW(l->arena, pl_site);
+  p->kind = s->token == TOK_MASS ? PL_SITE_MASS : s->token == TOK_BODY ? PL_SITE_BODY : PL_SITE_POINT;
+  p->statement = s;
+  p->block = l->block;
+  p->n_locals = l->locals.n;
+  p->locals = PL_ARRAY(l->arena, pl_local, l->locals.n + 1);
+  if (l->locals.n) memcpy(p->locals, l->locals.at, (size_t)l->locals.n * sizeof(pl_local));
+  if (label) {
+    p->key = pl_ast_kid(label, 0)->key;
+    p->shown = pl_ast_kid(label, 0)->shown;
+    p->index_node = pl_ast_kid(label, 1);
+  } else {
+    generate_label(l, p, pl_ast_kid(s, 1));
+  }
+  if (s->broken) p->state = 3;
+  pl_push(l->arena, l->places, p);
+}
+
+// ---------------------------------------------------------------------------------------------- points
+bool pl_lower_point(pl_lower* l, const pl_ast* node, pl_point* out) {
+  pl_quantity q = pl_lower_quantity(l, node);
+  out->span = pl_ast_span(node);
+  if (pl_quantity_is_bad(&q)) return false;
+  const pl_ast* one = pl_ast_single(node);
+  if (q.n == 0 && !(one && one->kind == PL_AST_GROUP)) {
+    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node), "a point is needed here, this is a number", "hier ist ein Punkt nötig, das ist eine Zahl");
+    pl_suggest(l->job, m, NULL, "write (x, y)", "schreibe (x, y)");
+    return false;
+  }
+  out->n = q.n ? q.n : 1;
+  memcpy(out->at, q.at, sizeof out->at);
+  return true;
+}
+
+// A point fixed in a planar body: centre + turn(angle) (a, b).
+static bool point_on_body(pl_lower* l, pl_site* p, const pl_ast* on) {
+  pl_site* body = NULL;
+  pl_point centre, local;
+  if (!pl_lower_where(l, on, &centre, &body) || !pl_lower_point(l, pl_ast_kid(p->statement, 1), &local)) return false;
+  if (body == NULL || body->kind != PL_SITE_BODY) {
+    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(on), "a point can be fixed on a body only", "ein Punkt kann nur an einem Körper fest sein");
+    pl_suggest(l->job, m, NULL, "write  point P at (x, y)  for a point in space", "schreibe  point P at (x, y)  für einen Punkt im Raum");
+    return false;
+  }
+  if (pl_is_poison(body->angle)) {
+    pl_lower_pending(l, PL_E091, "point on a body in space", pl_ast_span(p->statement), "points on bodies in space are not computed by this version",
+                     "Punkte an Körpern im Raum berechnet diese Version nicht");
+    return false;
+  }
+  if (local.n != 2 || centre.n != 2) {
+    pl_lower_complain(l, PL_E017, local.span, "a point on a planar body has two components", "ein Punkt an einem ebenen Körper hat zwei Komponenten");
+    return false;
+  }
+  pl_pool* q = l->pool;
+  pl_expr c = pl_call(q, PL_COS, body->angle), s = pl_call(q, PL_SIN, body->angle);
+  p->point.n = 2;
+  p->point.at[0] = pl_add(q, centre.at[0], pl_sub(q, pl_mul(q, local.at[0], c), pl_mul(q, local.at[1], s)));
+  p->point.at[1] = pl_add(q, centre.at[1], pl_add(q, pl_mul(q, local.at[0], s), pl_mul(q, local.at[1], c)));
+  p->point.span = pl_ast_span(pl_ast_kid(p->statement, 1));
+  return true;
+}
+
+static bool lower_place(pl_lower* l, pl_site* p) {
+  const pl_ast* s = p->statement;
+  if (p->index_node) p->index = pl_lower_scalar(l, p->index_node);
+  if (p->index_node && pl_is_poison(p->index)) return false;
+  if (p->kind == PL_SITE_MASS) return pl_lower_point(l, pl_ast_kid(s, 2), &p->point);
+  if (p->kind == PL_SITE_BODY) {
+    bool fine = pl_lower_point(l, pl_ast_kid(s, 3), &p->point);
+    const pl_ast* angle = pl_ast_kid(s, 4);
+    p->angle = angle ? pl_lower_scalar(l, angle) : pl_poison();
+    return fine && (angle == NULL || !pl_is_poison(p->angle));
+  }
+  const pl_ast* on = pl_ast_kid(s, 2);
+  return on ? point_on_body(l, p, on) : pl_lower_point(l, pl_ast_kid(s, 1), &p->point);
+}
+
+bool pl_site_finish(pl_lower* l, pl_site* p) {
+  if (p->state == 2) return true;
+  if (p->state == 3) {
+    l->wrong++;
+    return false;
+  }
+  enum { MAX_DEPTH = 300 };
+  if (p->state == 1 || l->call_depth > MAX_DEPTH) {
+    pl_lower_complain(l, PL_E018, pl_ast_span(pl_ast_kid(p->statement, 0) ? pl_ast_kid(p->statement, 0) : p->statement),
+                      "the place of %s leads back to itself", "der Ort von %s führt auf sich selbst zurück", p->shown);
+    p->state = 3;
+    return false;
+  }
+  p->state = 1;
+  pl_local* locals = l->locals.at;
+  int n = l->locals.n, cap = l->locals.cap;
+  pl_block* block = l->block;
+  bool results = l->results;
+  l->locals.at = p->locals, l->locals.n = p->n_locals, l->locals.cap = p->n_locals;
+  l->block = p->block;
+  l->results = false;
+  l->call_depth++;
+  bool fine = lower_place(l, p);
+  l->call_depth--;
+  l->locals.at = locals, l->locals.n = n, l->locals.cap = cap;
+  l->block = block;
+  l->results = results;
+  p->state = fine && p->state != 3 ? 2 : 3;
+  return p->state == 2;
+}
+
+// ---------------------------------------------------------------------------------------------- references
+static pl_point substitute(pl_lower* l, const pl_point* at, pl_symbol from, pl_expr to) {
+  pl_point out = *at;
+  for (int i = 0; i < at->n; i++) out.at[i] = pl_subst1(l->pool, at->at[i], from, to);
+  return out;
+}
+
+// Member `index` of the family that p declares: P[i] or P[i + 1] with i the index of its block.
+static bool member(pl_lower* l, const pl_site* p, pl_expr index, pl_point* out, pl_expr* angle) {
+  if (p->block == NULL) {
+    *out = p->point, *angle = p->angle;
+    return pl_same(p->index, index);
+  }
+  pl_symbol i = p->block->index;
+  pl_expr shift = pl_sub(l->pool, p->index, pl_sym(l->pool, i));
+  if (pl_has_symbol(l->pool, shift, i)) return false;
+  pl_expr value = pl_sub(l->pool, index, shift);
+  *out = substitute(l, &p->point, i, value);
+  *angle = pl_is_poison(p->angle) ? p->angle : pl_subst1(l->pool, p->angle, i, value);
+  return true;
+}
+
+static bool family_point(pl_lower* l, const pl_ast* name, pl_expr index, pl_point* out, pl_site** place) {
+  bool found = false;
+  for (int pass = 0; pass < 2 && !found; pass++) {          // a member of its own comes before the family
+    for (int k = 0; k < l->places.n && !found; k++) {
+      pl_site* p = l->places.at[k];
+      if (p->key != name->key || (p->block == NULL) != (pass == 0)) continue;
+      if (!pl_site_finish(l, p)) return false;
+      if (pl_is_poison(p->index)) continue;
+      pl_site* copy = PL_NEW(l->arena, pl_site);
+      *copy = *p;
+      if (!member(l, p, index, out, &copy->angle)) continue;
+      if (place) *place = copy;
+      found = true;
+    }
+  }
+  return found;
+}
+
+static void unknown_place(pl_lower* l, const pl_ast* name) {
+  const char** known = PL_ARRAY(l->arena, const char*, l->places.n + 1);
+  int n = 0;
+  for (int i = 0; i < l->places.n; i++) {
+    if (n == 0 || strcmp(known[n - 1], l->places.at[i]->shown) != 0) known[n++] = l->places.at[i]->shown;
+  }
+  pl_scope_unknown_label(l, name, "mass, body or point", "Masse, Körper oder Punkt", known, n);
+}
+
+bool pl_lower_label_point(pl_lower* l, const pl_ast* name, const pl_ast* index, pl_point* out, pl_site** place) {
+  pl_site* p = pl_site_find(l, name->key);
+  if (p == NULL) {
+    unknown_place(l, name);
+    return false;
+  }
+  bool family = p->index_node != NULL || !pl_is_poison(p->index);
+  if (family != (index != NULL)) {
+    pl_diagnostic* m = pl_lower_complain(l, PL_E025, pl_ast_span(name), family ? "%s is a family, so it needs an index" : "%s is not a family, so it takes no index",
+                                         family ? "%s ist eine Familie und braucht einen Index" : "%s ist keine Familie und hat keinen Index", p->shown);
+    if (family) pl_suggest(l->job, m, pl_format(l->arena, "%s[1]", p->shown), "write %s[1]", "schreibe %s[1]", p->shown);
+    return false;
+  }
+  if (!family) {
+    if (!pl_site_finish(l, p)) return false;
+    *out = p->point;
+    if (place) *place = p;
+    return true;
+  }
+  pl_expr i = pl_lower_scalar(l, index);
+  if (pl_is_poison(i)) return false;
+  int wrong = l->wrong;
+  if (family_point(l, name, i, out, place)) return true;
+  if (l->wrong == wrong) {
+    pl_lower_complain(l, PL_E025, pl_span_join(pl_ast_span(name), pl_ast_span(index)), "this member of %s cannot be told from the text", "dieses Glied von %s lässt sich aus dem Text nicht bestimmen", p->shown);
+  }
+  return false;
+}
+
+// Where something acts: a label, or a point.
+bool pl_lower_where(pl_lower* l, const pl_ast* node, pl_point* out, pl_site** place) {
+  if (place) *place = NULL;
+  const pl_ast* index;
+  const pl_ast* name = pl_ast_label(node, &index);
+  if (name == NULL) return pl_lower_point(l, node, out);
+  if (pl_site_find(l, name->key) == NULL) {
+    pl_entity* e = pl_scope_find(l, name->key);
+    if (e && e->kind == PL_ENTITY_LET) return pl_lower_point(l, node, out);   // an abbreviation of a point
+  }
+  if (!pl_lower_label_point(l, name, index, out, place)) return false;
+  out->span = pl_ast_span(node);
+  return true;
+}
