@@ -39,7 +39,6 @@ struct pl_points {
   PL_VEC(pl_expr) program;
   pl_map* definition_of;    // symbol id -> definition + 1
   pl_map* unknown_of;       // symbol id -> unknown + 1
-  arb_t scratch;
 };
 
 // ---------------------------------------------------------------------------------------------- drawing
@@ -162,7 +161,6 @@ pl_points* pl_points_make(pl_job* job, pl_pool* p, const pl_certifier_setup* set
   pl_arena* a = pl_pool_arena(p);
   pl_points* s = PL_NEW(a, pl_points);
   *s = (pl_points){.job = job, .pool = p, .arena = a, .setup = *setup, .precision = precision, .seed = seed, .n = n_points};
-  arb_init(s->scratch);
   s->slot_of = pl_map_make(a);
   s->definition_of = pl_map_make(a);
   s->unknown_of = pl_map_make(a);
@@ -184,7 +182,6 @@ void pl_points_free(pl_points* s) {
     q->chunks.n = 0;
     q->unknown = NULL;
   }
-  arb_clear(s->scratch);
   s->n = 0;
 }
 

@@ -27,6 +27,8 @@
 
 #include <flint/flint.h>
 #include <flint/fmpz.h>
+#include <flint/fmpz_factor.h>
+#include <flint/fmpz_vec.h>
 #include <flint/fmpq.h>
 #include <flint/fmpz_mpoly.h>
 #include <flint/fmpz_mpoly_factor.h>
@@ -46,6 +48,7 @@ enum {
   PL_MAX_FACTOR_DEGREE = 80,    // total degree, likewise
   PL_MAX_GCD_TERMS = 20000,     // sum of the terms of both; beyond it gcd = 1 (the fraction is right, only not reduced)
   PL_MAX_DEGREE = 4000,         // in one variable: Horner's rule for s^2 = 1 - c^2 is linear in it
+  PL_MAX_INTEGER_BITS = 96,     // integers up to this size are split into primes
   PL_MAX_POWER = 64,            // integer exponent of a sum
   PL_MAX_MULTIPLE = 24,         // cos(nθ) is written in powers of cos θ up to this n
   PL_MAX_DEPTH = 2000           // nesting of an expression that is converted by recursion
@@ -147,6 +150,11 @@ struct pl_tower {
   PL_VEC(fmpz*) kept_ints;
   fmpz_mpoly_ctx_struct* small[PL_MAX_GENERATORS + 1];   // compact contexts, by number of variables
 
+  fmpz_mpoly_factor_struct flint_factors;             // of the last factoring, while it is being read
+  const fmpz_mpoly_ctx_struct* flint_factors_context;  // NULL: none
+  fmpz_factor_struct flint_integer_factors;
+  bool has_flint_integer_factors;
+
   pl_entry* entry;                 // innermost running service of this tower
   pl_points* points;               // for signs and zero tests
   pl_points* fine_points;          // the same at a higher precision, made when needed
@@ -224,6 +232,11 @@ int pl_base_find(pl_tower* t, const pl_poly* primitive, bool composite);   // si
 const pl_poly* pl_base_poly(const pl_tower* t, int base);
 pl_expr pl_base_expr(pl_tower* t, int base);
 const pl_poly* pl_factored_expand(pl_tower* t, pl_factored f);     // reduced
+// Primes of |c| with their powers; an integer of more than PL_MAX_INTEGER_BITS bits counts as one prime.
+typedef struct pl_prime { fmpz* p; long power; } pl_prime;
+typedef struct pl_primes { pl_prime* at; int n, cap; } pl_primes;
+pl_primes pl_int_primes(pl_tower* t, const fmpz* c);
+void pl_factor_free(pl_tower* t);                                  // what FLINT holds for the last factoring
 // (1 - c)^k (1 + c)^k -> s^2k, likewise C, S.  Bases stay bases: sin is one.
 pl_factored pl_factored_merge_pairs(pl_tower* t, pl_factored f);
 

@@ -112,28 +112,68 @@ static bool irreducible_at_sight(pl_tower* t, const pl_poly* f) {
   return false;
 }
 
+// FLINT's list of factors stands in the tower: what is collected from it may unwind.
+static void drop_flint_factors(pl_tower* t) {
+  if (t->flint_factors_context) fmpz_mpoly_factor_clear(&t->flint_factors, t->flint_factors_context);
+  t->flint_factors_context = NULL;
+}
+
+void pl_factor_free(pl_tower* t) {
+  drop_flint_factors(t);
+  if (t->has_flint_integer_factors) fmpz_factor_clear(&t->flint_integer_factors);
+  t->has_flint_integer_factors = false;
+}
+
+static bool factor_with_flint(pl_tower* t, const pl_poly* f, const int* use, int n) {
+  drop_flint_factors(t);
+  const fmpz_mpoly_ctx_struct* small = pl_poly_small_context(t, n);
+  fmpz_mpoly_factor_init(&t->flint_factors, small);
+  t->flint_factors_context = small;
+  fmpz_mpoly_t packed;
+  fmpz_mpoly_init(packed, small);
+  pl_poly_pack(t, packed, small, f, use, n);
+  bool found = fmpz_mpoly_factor(&t->flint_factors, packed, small);
+  fmpz_mpoly_clear(packed, small);
+  return found;
+}
+
 static void collect_factors_of(pl_collect* c, const pl_poly* f) {
   pl_tower* t = c->t;
   int use[PL_MAX_GENERATORS], n = 0;
   pl_poly_used(t, f, use, &n);
-  const fmpz_mpoly_ctx_struct* small = pl_poly_small_context(t, n);
-  fmpz_mpoly_t packed;
-  fmpz_mpoly_factor_t factors;
-  fmpz_mpoly_init(packed, small);
-  fmpz_mpoly_factor_init(factors, small);
-  pl_poly_pack(t, packed, small, f, use, n);
-  if (fmpz_mpoly_factor(factors, packed, small)) {
-    fmpz_mul(c->unit, c->unit, factors->constant);
-    for (slong i = 0; i < factors->num; i++) {
-      pl_poly* one = pl_poly_new(t);
-      pl_poly_unpack(t, one, &factors->poly[i], small, use, n);
-      collect_poly(c, one, (int)fmpz_get_si(&factors->exp[i]), false);
-    }
-  } else {
+  if (!factor_with_flint(t, f, use, n)) {
     collect_poly(c, f, 1, true);
+    return;
   }
-  fmpz_mpoly_factor_clear(factors, small);
-  fmpz_mpoly_clear(packed, small);
+  fmpz_mul(c->unit, c->unit, t->flint_factors.constant);
+  for (slong i = 0; i < t->flint_factors.num; i++) {
+    pl_poly* one = pl_poly_new(t);
+    pl_poly_unpack(t, one, &t->flint_factors.poly[i], t->flint_factors_context, use, n);
+    collect_poly(c, one, (int)fmpz_get_si(&t->flint_factors.exp[i]), false);
+  }
+  drop_flint_factors(t);
+}
+
+// ---------------------------------------------------------------------------------------------- integers
+pl_primes pl_int_primes(pl_tower* t, const fmpz* c) {
+  pl_primes list = {0};
+  if (fmpz_is_zero(c) || fmpz_is_pm1(c)) return list;
+  if (fmpz_bits(c) > PL_MAX_INTEGER_BITS) {
+    pl_prime whole = {pl_int_new(t), 1};
+    fmpz_abs(whole.p, c);
+    pl_push(t->arena, list, whole);
+    return list;
+  }
+  if (t->has_flint_integer_factors) fmpz_factor_clear(&t->flint_integer_factors);
+  fmpz_factor_init(&t->flint_integer_factors);
+  t->has_flint_integer_factors = true;
+  fmpz_factor(&t->flint_integer_factors, c);
+  for (slong i = 0; i < t->flint_integer_factors.num; i++) {
+    pl_prime one = {pl_int_new(t), (long)t->flint_integer_factors.exp[i]};
+    fmpz_set(one.p, t->flint_integer_factors.p + i);
+    pl_push(t->arena, list, one);
+  }
+  return list;
 }
 
 static int compare_power(const void* a, const void* b) {

@@ -148,16 +148,16 @@ const pl_poly** pl_poly_coefficients(pl_tower* t, const pl_poly* a, int gen, int
   long d = pl_poly_degree(t, a, gen);
   if (d > PL_MAX_DEGREE) pl_tower_give_up(t);
   const pl_poly** c = PL_ARRAY(t->arena, const pl_poly*, d + 1);
-  pl_poly* zero = pl_poly_new(t);
-  for (long i = 0; i <= d; i++) c[i] = zero;
+  pl_poly** out = PL_ARRAY(t->arena, pl_poly*, d + 1);
+  for (long i = 0; i <= d; i++) c[i] = out[i] = pl_poly_new(t);
+  // from here on nothing allocates in the arena, so nothing of FLINT's is left behind when memory runs out
   fmpz_mpoly_univar_t u;
   fmpz_mpoly_univar_init(u, &t->ctx);
   fmpz_mpoly_to_univar(u, a, gen, &t->ctx);
   slong n = fmpz_mpoly_univar_length(u, &t->ctx);
   for (slong i = 0; i < n; i++) {
-    pl_poly* f = pl_poly_new(t);
-    fmpz_mpoly_univar_swap_term_coeff(f, u, i, &t->ctx);
-    c[fmpz_mpoly_univar_get_term_exp_si(u, i, &t->ctx)] = f;
+    slong k = fmpz_mpoly_univar_get_term_exp_si(u, i, &t->ctx);
+    fmpz_mpoly_univar_swap_term_coeff(out[k], u, i, &t->ctx);
   }
   fmpz_mpoly_univar_clear(u, &t->ctx);
   *degree = (int)d;
@@ -273,13 +273,13 @@ bool pl_poly_divides(pl_tower* t, const pl_poly** q, const pl_poly* a, const pl_
 
 static const pl_poly* gcd_small(pl_tower* t, const pl_poly* a, const pl_poly* b, const int* use, int n) {
   const fmpz_mpoly_ctx_struct* small = pl_poly_small_context(t, n);
+  pl_poly* f = pl_poly_new(t);
   fmpz_mpoly_t x, y, g;
   fmpz_mpoly_init(x, small);
   fmpz_mpoly_init(y, small);
   fmpz_mpoly_init(g, small);
   pl_poly_pack(t, x, small, a, use, n);
   pl_poly_pack(t, y, small, b, use, n);
-  pl_poly* f = pl_poly_new(t);
   if (fmpz_mpoly_gcd(g, x, y, small)) {
     pl_poly_unpack(t, f, g, small, use, n);
   } else {

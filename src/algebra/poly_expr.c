@@ -2,14 +2,13 @@
 // (m1 + m2 sin^2, not m1 + m2 - m2 cos^2), a denominator as its factors, with (1 - c)(1 + c) as s^2.
 #include "algebra/algebra_impl.h"
 
+#include <string.h>
+
 pl_expr pl_fmpz_expr(pl_tower* t, const fmpz* c) {
   if (fmpz_fits_si(c)) return pl_int(t->pool, fmpz_get_si(c));
-  char* text = fmpz_get_str(NULL, 10, c);
-  char* copy = pl_copy(t->arena, text);
-  flint_free(text);
-  size_t n = 0;
-  while (copy[n]) n++;
-  return pl_number_from_text(t->pool, copy, n);
+  char* text = PL_ARRAY(t->arena, char, fmpz_sizeinbase(c, 10) + 2);
+  fmpz_get_str(text, 10, c);
+  return pl_number_from_text(t->pool, text, strlen(text));
 }
 
 pl_expr pl_fmpq_expr(pl_tower* t, const fmpz* num, const fmpz* den) {

@@ -10,7 +10,6 @@
 #include <stdlib.h>
 
 enum { PL_MAX_ABS_TERMS = 60 };        // |u| gets the relation a^2 = u^2 up to this length of u
-enum { PL_MAX_INTEGER_BITS = 96 };      // integers up to this size are split into primes
 
 // ---------------------------------------------------------------------------------------------- absolute values
 static pl_frac abs_generator(pl_tower* t, int base) {
@@ -95,18 +94,10 @@ static void keys_flip(pl_tower* t, pl_keys* k, int64_t key) {
 
 static void keys_flip_integer(pl_tower* t, pl_keys* k, const fmpz* c) {
   if (fmpz_sgn(c) < 0) keys_flip(t, k, -1);
-  if (fmpz_is_pm1(c)) return;
-  if (fmpz_bits(c) > PL_MAX_INTEGER_BITS) {
-    keys_flip(t, k, 2 * (int64_t)(fmpz_fdiv_ui(c, 1000000007u)) + 1);
-    return;
+  pl_primes f = pl_int_primes(t, c);
+  for (int i = 0; i < f.n; i++) {
+    if (f.at[i].power % 2) keys_flip(t, k, 2 * (int64_t)fmpz_fdiv_ui(f.at[i].p, 2305843009213693951u) + 1);
   }
-  fmpz_factor_t f;
-  fmpz_factor_init(f);
-  fmpz_factor(f, c);
-  for (slong i = 0; i < f->num; i++) {
-    if (f->exp[i] % 2) keys_flip(t, k, 2 * (int64_t)fmpz_fdiv_ui(f->p + i, 2305843009213693951u) + 1);
-  }
-  fmpz_factor_clear(f);
 }
 
 static pl_keys keys_of(pl_tower* t, pl_factored f) {
@@ -163,7 +154,7 @@ static bool dependent_roots(pl_tower* t, pl_factored P, pl_row* out) {
 
 // ---------------------------------------------------------------------------------------------- square roots
 // c = square^2 * free, free squarefree and with the sign of c.
-static void integer_square_part(fmpz* square, fmpz* free, const fmpz* c) {
+static void integer_square_part(pl_tower* t, fmpz* square, fmpz* free, const fmpz* c) {
   fmpz_one(square);
   fmpz_set(free, c);
   if (fmpz_sgn(c) > 0 && fmpz_is_square(c)) {
@@ -171,18 +162,12 @@ static void integer_square_part(fmpz* square, fmpz* free, const fmpz* c) {
     fmpz_one(free);
     return;
   }
-  if (fmpz_is_zero(c) || fmpz_bits(c) > PL_MAX_INTEGER_BITS) return;
-  fmpz_factor_t f;
-  fmpz_factor_init(f);
-  fmpz_factor(f, c);
-  fmpz_t power;
-  fmpz_init(power);
-  for (slong i = 0; i < f->num; i++) {
-    fmpz_pow_ui(power, f->p + i, f->exp[i] / 2);
+  pl_primes f = pl_int_primes(t, c);
+  fmpz* power = pl_int_new(t);
+  for (int i = 0; i < f.n; i++) {
+    fmpz_pow_ui(power, f.at[i].p, (ulong)f.at[i].power / 2);
     fmpz_mul(square, square, power);
   }
-  fmpz_clear(power);
-  fmpz_factor_clear(f);
   fmpz_divexact(free, free, square);
   fmpz_divexact(free, free, square);
 }
@@ -197,7 +182,7 @@ static pl_frac sqrt_of_split(pl_tower* t, pl_split s) {
   fmpz_mul(free, s.num, s.den);
   fmpz* whole = pl_int_new(t);
   fmpz_set(whole, free);
-  integer_square_part(square, free, whole);
+  integer_square_part(t, square, free, whole);
   pl_frac outside = pl_frac_ratio(t, square, s.den);
   const pl_poly* rest = pl_poly_fmpz(t, free);
   for (int i = 0; i < s.at.n; i++) {
@@ -354,15 +339,11 @@ static pl_frac ln_formal(pl_tower* t, pl_expr argument) {
 static pl_frac ln_integer(pl_tower* t, const fmpz* c) {
   pl_frac sum = pl_frac_int(t, 0);
   if (fmpz_is_one(c)) return sum;
-  if (fmpz_bits(c) > PL_MAX_INTEGER_BITS) return ln_formal(t, pl_fmpz_expr(t, c));
-  fmpz_factor_t f;
-  fmpz_factor_init(f);
-  fmpz_factor(f, c);
-  for (slong i = 0; i < f->num; i++) {
-    pl_frac term = ln_formal(t, pl_fmpz_expr(t, f->p + i));
-    sum = pl_frac_add(t, sum, pl_frac_mul(t, pl_frac_int(t, (long)f->exp[i]), term));
+  pl_primes f = pl_int_primes(t, c);
+  for (int i = 0; i < f.n; i++) {
+    pl_frac term = ln_formal(t, pl_fmpz_expr(t, f.at[i].p));
+    sum = pl_frac_add(t, sum, pl_frac_mul(t, pl_frac_int(t, f.at[i].power), term));
   }
-  fmpz_factor_clear(f);
   return sum;
 }
 

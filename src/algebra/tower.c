@@ -51,7 +51,11 @@ static void forget_since(pl_tower* t, pl_tower_mark m) {
 }
 
 static void leave(pl_tower* t, pl_entry* e, int why) {
-  if (why == PL_J_FLINT) forget_since(t, e->mark);
+  if (why == PL_J_FLINT) {
+    forget_since(t, e->mark);
+    t->flint_factors_context = NULL;
+    t->has_flint_integer_factors = false;
+  }
   pl_tower_rewind(t, e->mark);
   t->depth = e->depth;
   t->facts_busy = e->facts_busy;
@@ -153,7 +157,10 @@ void pl_tower_rewind(pl_tower* t, pl_tower_mark m) {
 }
 
 pl_poly* pl_poly_new(pl_tower* t) {
-  if (t->polys_used == t->poly_chunks.n * PL_CHUNK) pl_push(t->arena, t->poly_chunks, PL_ARRAY(t->arena, pl_poly, PL_CHUNK));
+  if (t->polys_used == t->poly_chunks.n * PL_CHUNK) {
+    pl_poly* chunk = PL_ARRAY(t->arena, pl_poly, PL_CHUNK);   // first, since it may unwind
+    pl_push(t->arena, t->poly_chunks, chunk);
+  }
   pl_poly* f = &t->poly_chunks.at[t->polys_used / PL_CHUNK][t->polys_used % PL_CHUNK];
   if (t->polys_used++ == t->polys_made) {
     fmpz_mpoly_init(f, &t->ctx);
@@ -163,7 +170,10 @@ pl_poly* pl_poly_new(pl_tower* t) {
 }
 
 fmpz* pl_int_new(pl_tower* t) {
-  if (t->ints_used == t->int_chunks.n * PL_CHUNK) pl_push(t->arena, t->int_chunks, PL_ARRAY(t->arena, fmpz, PL_CHUNK));
+  if (t->ints_used == t->int_chunks.n * PL_CHUNK) {
+    fmpz* chunk = PL_ARRAY(t->arena, fmpz, PL_CHUNK);
+    pl_push(t->arena, t->int_chunks, chunk);
+  }
   int i = t->ints_used++;
   return &t->int_chunks.at[i / PL_CHUNK][i % PL_CHUNK];   // zeroed memory is the integer 0
 }
@@ -226,6 +236,7 @@ pl_tower* pl_tower_make(pl_job* job, pl_pool* p, const pl_fact* facts, int n_fac
 
 void pl_tower_free(pl_tower* t) {
   if (!t) return;
+  pl_factor_free(t);
   clear_polys(t);
   for (int i = 0; i < t->int_chunks.n * PL_CHUNK; i++) fmpz_clear(&t->int_chunks.at[i / PL_CHUNK][i % PL_CHUNK]);
   t->int_chunks.n = 0;
