@@ -216,21 +216,29 @@ static void show_rest(pl_analysis* d, const pl_expr* f, const pl_rest* r, int nu
   for (int k = 0; k < d->gen.n; k++) pl_claim_free(d, PL_CLAIM_INSERTED, insert(d, f[k], r), pl_int(d->pool, 0));
 }
 
+static bool at_rest_equations(pl_analysis* d, pl_expr* f) {
+  for (int k = 0; k < d->gen.n; k++) f[k] = at_rest(d, pl_second_kind(d, d->gen.at[k]));
+  if (!pl_has_symbol(d->pool, pl_add_n(d->pool, f, d->gen.n), pl_time(d->pool))) return true;
+  pl_say(d, "The equations contain t: there is no position of rest.", "Die Gleichungen enthalten t: es gibt keine Ruhelage.", 0);
+  return false;
+}
+
+static pl_rests* find_rests(pl_analysis* d, const pl_expr* f) {
+  pl_rests* found = PL_NEW(d->arena, pl_rests);
+  found->complete = true;
+  search(d, f, (pl_rest){0}, found);
+  return found;
+}
+
 void pl_answer_equilibria(pl_analysis* d, const pl_ask* ask) {
   pl_section_open(d, ask, "Equilibria", "Gleichgewichtslagen");
+  pl_expr f[max_gen];
   if (!d->reduced || d->gen.n == 0 || d->gen.n > max_gen || ask->where.n > 0) {
     pl_answer_pending(d, ask);
     return;
   }
-  pl_expr f[max_gen];
-  for (int k = 0; k < d->gen.n; k++) f[k] = at_rest(d, pl_second_kind(d, d->gen.at[k]));
-  if (pl_has_symbol(d->pool, pl_add_n(d->pool, f, d->gen.n), pl_time(d->pool))) {
-    pl_say(d, "The equations contain t: there is no position of rest.", "Die Gleichungen enthalten t: es gibt keine Ruhelage.", 0);
-    return;
-  }
-  pl_rests* found = PL_NEW(d->arena, pl_rests);
-  found->complete = true;
-  search(d, f, (pl_rest){0}, found);
+  if (!at_rest_equations(d, f)) return;
+  pl_rests* found = find_rests(d, f);
   for (int k = 0; k < found->n; k++) show_rest(d, f, &found->at[k], k + 1);
   if (found->n == 0 && found->complete) pl_say(d, "There is none.", "Es gibt keine.", 0);
   if (!found->complete) {
@@ -239,4 +247,100 @@ void pl_answer_equilibria(pl_analysis* d, const pl_ask* ask) {
            found->n > 0 ? "Es kann weitere geben: nicht jede Gleichung war geschlossen lösbar." : "Geschlossen wurde keine gefunden.", 0);
     d->section->not_found = found->n == 0;
   }
+}
+
+// ---------------------------------------------------------------------------------------------- modes
+// The amplitudes of a mode: cofactors of a row of K - ω² M that do not all vanish, the first non-zero one scaled to 1.
+static bool amplitudes(pl_analysis* d, const pl_linearised* l, pl_expr w2, pl_expr* u) {
+  int n = l->n;
+  for (int row = 0; row < n; row++) {
+    int first = -1;
+    for (int j = 0; j < n; j++) {
+      pl_expr A[max_gen * max_gen];
+      int m = 0;
+      for (int a = 0; a < n; a++) {
+        for (int b = 0; b < n; b++) {
+          if (a != row && b != j) A[m++] = pl_sub(d->pool, l->K[a * n + b], pl_mul(d->pool, w2, l->M[a * n + b]));
+        }
+      }
+      pl_expr minor = n == 1 ? pl_int(d->pool, 1) : pl_alg_normal(d->tower, pl_alg_det(d->tower, n - 1, A, 20000));
+      u[j] = (row + j) % 2 ? pl_neg(d->pool, minor) : minor;
+      if (first < 0 && pl_alg_is_zero(d->tower, minor) == PL_NO) first = j;
+    }
+    if (first < 0) continue;
+    pl_expr scale = u[first];
+    for (int j = 0; j < n; j++) u[j] = pl_alg_normal(d->tower, pl_div(d->pool, u[j], scale));
+    return true;
+  }
+  return false;
+}
+
+static void show_mode(pl_analysis* d, const pl_linearised* l, pl_expr w2, int number, const char* at) {
+  const pl_form* form = pl_f(d, w2, PL_S_QUOTIENT);
+  pl_step* step = pl_show_numbered(d, pl_feq(d, pl_fs(d, omega_squared(d)), form));
+  pl_step_after(step, pl_format(d->arena, "mode %d", number), pl_format(d->arena, "Mode %d", number));
+  pl_value v = {.name = "omega^2", .of = pl_format(d->arena, "mode %d", number), .at = at, .form = form, .expr = w2,
+                .number = pl_number(d, w2), .unit = "1/s^2", .conserved = -1, .passed = -1, .order = -1};
+  pl_expr u[max_gen];
+  if (amplitudes(d, l, w2, u)) {
+    const pl_form* ratio[max_gen];
+    v.components = PL_ARRAY(d->arena, pl_component, l->n);
+    for (int j = 0; j < l->n; j++) {
+      const pl_symbol_info* q = pl_symbol_get(d->pool, d->q.at[d->gen.at[j]].q);
+      ratio[j] = pl_f(d, u[j], PL_S_QUOTIENT);
+      v.components[v.n_components++] = (pl_component){q->ascii, u[j], ratio[j], pl_number(d, u[j])};
+    }
+    if (l->n > 1) {
+      const pl_form* names[max_gen];
+      for (int j = 0; j < l->n; j++) names[j] = pl_fs(d, d->q.at[d->gen.at[j]].q);
+      pl_say(d, "amplitudes {1} as {2}", "Amplituden {1} wie {2}", 2, pl_flist(d, names, l->n), pl_flist(d, ratio, l->n));
+    }
+  }
+  pl_push(d->arena, d->section->values, v);
+}
+
+static void show_modes(pl_analysis* d, const pl_expr* f, const pl_rest* r, int number) {
+  pl_linearised l;
+  linearise(d, f, r, &l);
+  const char* at = pl_format(d->arena, "equilibrium %d", number);
+  pl_say(d, "At {1}:", "Bei {1}:", 1, rest_form(d, r));
+  pl_root root[max_gen];
+  int n = small_oscillations(d, &l, root, max_gen);
+  for (int k = 0; k < n; k++) show_mode(d, &l, root[k].value, k + 1, at);
+  if (n < l.n) {
+    pl_say(d, "Not every root of the characteristic equation was found in closed form.",
+           "Nicht jede Wurzel der charakteristischen Gleichung war geschlossen zu finden.", 0);
+    d->section->not_found = n == 0;
+  }
+}
+
+// The position named by `at (u = 0, v = 0)`; what is not named is free to fit an equilibrium.
+static bool named_position(pl_analysis* d, const pl_ask* ask, const pl_rest* r) {
+  for (int k = 0; k < d->gen.n; k++) {
+    for (int c = 0; c < ask->where.n; c++) {
+      if (!pl_same(ask->where.at[c].left, pl_sym(d->pool, d->q.at[d->gen.at[k]].q))) continue;
+      if (pl_is_poison(r->q[k]) || pl_alg_equal(d->tower, r->q[k], ask->where.at[c].right) != PL_YES) return false;
+    }
+  }
+  return true;
+}
+
+void pl_answer_modes(pl_analysis* d, const pl_ask* ask) {
+  pl_section_open(d, ask, "Modes", "Eigenschwingungen");
+  pl_expr f[max_gen];
+  if (!d->reduced || d->gen.n == 0 || d->gen.n > max_gen) {
+    pl_answer_pending(d, ask);
+    return;
+  }
+  if (!at_rest_equations(d, f)) return;
+  pl_rests* found = find_rests(d, f);
+  int shown = 0;
+  for (int k = 0; k < found->n; k++) {
+    if (!named_position(d, ask, &found->at[k])) continue;
+    show_modes(d, f, &found->at[k], k + 1);
+    shown++;
+  }
+  if (shown > 0) return;
+  pl_say(d, "No equilibrium to oscillate about was found there.", "Dort wurde keine Gleichgewichtslage gefunden.", 0);
+  d->section->not_found = true;
 }

@@ -159,6 +159,7 @@ void pl_answer_solve(pl_analysis* d, const pl_ask* ask);
 void pl_answer_conserved(pl_analysis* d, const pl_ask* ask);
 void pl_answer_force(pl_analysis* d, const pl_ask* ask);
 void pl_answer_equilibria(pl_analysis* d, const pl_ask* ask);
+void pl_answer_modes(pl_analysis* d, const pl_ask* ask);
 void pl_answer_limit(pl_analysis* d, const pl_ask* ask);
 void pl_answer_series(pl_analysis* d, const pl_ask* ask);
 void pl_answer_value(pl_analysis* d, const pl_ask* ask);

@@ -127,10 +127,10 @@ static void answer(pl_analysis* d, const pl_ask* ask) {
     case PL_ASK_FORCE_ON: pl_answer_force(d, ask); break;
     case PL_ASK_CONSERVED: pl_answer_conserved(d, ask); break;
     case PL_ASK_EQUILIBRIA: pl_answer_equilibria(d, ask); break;
+    case PL_ASK_MODES: pl_answer_modes(d, ask); break;
     case PL_ASK_LIMIT: pl_answer_limit(d, ask); break;
     case PL_ASK_SERIES: pl_answer_series(d, ask); break;
     case PL_ASK_EXPECT: pl_answer_expect(d, ask); break;
-    case PL_ASK_MODES:
     case PL_ASK_THRESHOLD:
     case PL_ASK_MAX:
     case PL_ASK_MIN:
