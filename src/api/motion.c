@@ -66,6 +66,11 @@ enum { MOST_EVENTS = 40 };    // in words; JSON has all
 
 static void tell_events(pl_teller* t) {
   const pl_result* r = t->m->result;
+  int widest = 0;
+  for (int i = 0; i < r->events.n && i < MOST_EVENTS; i++) {
+    int width = pl_utf8_width(event_words(t, &r->events.at[i]));
+    if (width > widest) widest = width;
+  }
   const char* unit = t->m->model->uses_units ? " s" : "";
   for (int i = 0; i < r->events.n && i < MOST_EVENTS; i++) {
     const pl_result_event* e = &r->events.at[i];
@@ -74,6 +79,7 @@ static void tell_events(pl_teller* t) {
     pl_text_addf(t->out, "     %s", when);
     pl_text_pad(t->out, 16 - pl_utf8_width(when));
     pl_text_addf(t->out, "  %s", what);
+    if (e->after) pl_text_pad(t->out, widest - pl_utf8_width(what));
     if (e->after) add_state(t, e->after);
     pl_text_add(t->out, "\n");
   }

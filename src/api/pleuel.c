@@ -275,7 +275,9 @@ static pleuel_status tell(pleuel_model* m, void* argument) {
   pl_text out = pl_text_make(m->arena);
   for (int i = 0; i < m->diagnostics.list.n; i++) {
     const pl_diagnostic* d = &m->diagnostics.list.at[i];
-    if (t->severities >> pl_code_severity(d->code) & 1) pl_diagnostic_print(&out, d, t->style);
+    if (!(t->severities >> pl_code_severity(d->code) & 1)) continue;
+    if (out.n > 0 && !t->style.terse) pl_text_add(&out, "\n");
+    pl_diagnostic_print(&out, d, t->style);
   }
   t->text = pl_text_string(&out);
   return PLEUEL_OK;
