@@ -54,7 +54,10 @@ static int give_up(recorder* r, pleuel_status s, const char* fmt, const char* wh
 }
 
 // ---------------------------------------------------------------------------------------------- emitting
-static pl_level level_of(const recorder* r, int node) { return node < 0 ? PL_LEVEL_CONST : r->nodes.at[node].level; }
+// After a failure there may be no node at all.
+static pl_level level_of(const recorder* r, int node) {
+  return node < 0 || node >= r->nodes.n ? PL_LEVEL_CONST : (pl_level)r->nodes.at[node].level;
+}
 
 static int append(recorder* r, pl_tape_node node) {
   if (r->nodes.n >= MAX_NODES - 2) return give_up(r, PLEUEL_UNSUPPORTED, "the program has too many operations%s", "");
