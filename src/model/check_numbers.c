@@ -4,7 +4,16 @@
 #include <math.h>
 
 // ---------------------------------------------------------------------------------------------- circles
-// The parameters that the value of p needs, and so on: does p come back?
+static pl_expr value_given(const pl_model* m, pl_symbol s) {
+  const pl_param* p = pl_model_param(m, s);
+  if (p) return p->value;
+  for (int i = 0; i < m->lets.n; i++) {
+    if (m->lets.at[i].symbol.id == s.id && !m->lets.at[i].inserted && !m->lets.at[i].n_args) return m->lets.at[i].value;
+  }
+  return pl_poison();
+}
+
+// The names that the value of p needs, and so on: does p come back?
 static bool leads_to(const pl_model* m, pl_arena* a, pl_expr from, pl_symbol wanted, pl_map* visited) {
   if (pl_is_poison(from)) return false;
   int n = pl_symbols_in(m->pool, from, NULL, 0);
@@ -14,8 +23,7 @@ static bool leads_to(const pl_model* m, pl_arena* a, pl_expr from, pl_symbol wan
     if (s[i].id == wanted.id) return true;
     if (pl_map_get(visited, s[i].id)) continue;
     pl_map_set(visited, s[i].id, 1);
-    const pl_param* p = pl_model_param(m, s[i]);
-    if (p && leads_to(m, a, p->value, wanted, visited)) return true;
+    if (leads_to(m, a, value_given(m, s[i]), wanted, visited)) return true;
   }
   return false;
 }

@@ -138,7 +138,18 @@ static void see_symbols(void* user, const pl_slot* slot) {
   int n = pl_symbols_in(c->m->pool, *slot->at, NULL, 0);
   pl_symbol* s = PL_ARRAY(c->arena, pl_symbol, n + 1);
   pl_symbols_in(c->m->pool, *slot->at, s, n);
-  for (int i = 0; i < n; i++) c->needed[s[i].id] = 1;
+  for (int i = 0; i < n; i++) {
+    if (c->needed[s[i].id] == 0) c->needed[s[i].id] = 1;
+  }
+}
+
+// What the value of a needed name needs; true when something new was looked at.
+static bool need_value(number_check* c, pl_symbol s, pl_expr value) {
+  if (!s.id || c->needed[s.id] != 1 || pl_is_poison(value)) return false;
+  pl_slot slot = {&value, PL_SLOT_MASS, NULL, {0}};
+  see_symbols(c, &slot);
+  c->needed[s.id] = 2;
+  return true;
 }
 
 // A simulation computes with numbers: every parameter that it meets needs one.
@@ -146,18 +157,11 @@ static void check_numbers_given(pl_job* job, pl_model* m) {
   if (!m->simulate.given) return;
   number_check c = {m, job->arena, PL_ARRAY(job->arena, char, pl_symbol_count(m->pool) + 1)};
   pl_model_each_slot(m, see_symbols, &c);
-  // values of needed parameters need theirs
+  // values of needed parameters and abbreviations need theirs
   for (bool more = true; more;) {
     more = false;
-    for (int i = 0; i < m->params.n; i++) {
-      const pl_param* p = &m->params.at[i];
-      if (c.needed[p->symbol.id] != 1 || pl_is_poison(p->value)) continue;
-      c.needed[p->symbol.id] = 2;
-      pl_slot slot = {(pl_expr*)(uintptr_t)&p->value, PL_SLOT_MASS, NULL, p->span};
-      see_symbols(&c, &slot);
-      c.needed[p->symbol.id] = 2;
-      more = true;
-    }
+    for (int i = 0; i < m->params.n; i++) more |= need_value(&c, m->params.at[i].symbol, m->params.at[i].value);
+    for (int i = 0; i < m->lets.n; i++) more |= need_value(&c, m->lets.at[i].symbol, m->lets.at[i].value);
   }
   for (int i = 0; i < m->params.n; i++) {
     const pl_param* p = &m->params.at[i];

@@ -71,6 +71,13 @@ static void set_default_signs(pl_model* m) {
     if (assumed_sign(m, s, &sign)) info->sign = sign;
     else info->sign = given && !(x > 0) ? PL_SIGN_ANY : PL_SIGN_POSITIVE;
   }
+  // a kept abbreviation is a given quantity, but a difference of positive ones may be negative: only its number tells
+  for (int i = 0; i < m->lets.n; i++) {
+    pl_symbol s = m->lets.at[i].symbol;
+    if (m->lets.at[i].inserted || m->lets.at[i].n_args || !s.id) continue;
+    pl_sign_known sign;
+    pl_symbol_get(m->pool, s)->sign = assumed_sign(m, s, &sign) ? sign : value[s.id] > 0 ? PL_SIGN_POSITIVE : PL_SIGN_ANY;
+  }
   for (int i = 0; i < m->coords.n; i++) {
     pl_sign_known sign;
     if (assumed_sign(m, m->coords.at[i].symbol, &sign)) pl_symbol_get(m->pool, m->coords.at[i].symbol)->sign = sign;

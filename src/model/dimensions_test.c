@@ -33,7 +33,7 @@ static atwood atwood_names(const char* text) {
   a.L = param(k, "L", "4", "m", "param L");
   a.R = param(k, "R", "0.1", "m", "param L");
   pl_expr pi_r = pl_mul(k->m->pool, pl_pi(k->m->pool), a.R);
-  a.l = let_be(k, "l", pl_sub(k->m->pool, a.L, pi_r), "let   l = L - π R");
+  a.l = let_stay(k, "l", pl_sub(k->m->pool, a.L, pi_r), "let   l = L - π R");
   a.x1 = coord(k, "x1", NULL, "coord x1");
   a.y1 = coord(k, "y1", NULL, "coord x1");
   a.x2 = coord(k, "x2", NULL, "coord x1");
@@ -87,6 +87,8 @@ PL_TEST(atwood_classes_and_signs) {
   assert_int_equal(pl_symbol_get(p, pl_symbol_of(p, a.L))->class, PL_C_LENGTH);
   assert_int_equal(pl_symbol_get(p, pl_symbol_of(p, a.m1))->sign, PL_SIGN_POSITIVE);
   assert_int_equal(pl_symbol_get(p, pl_symbol_of(p, a.R))->sign, PL_SIGN_POSITIVE);
+  assert_int_equal(pl_symbol_get(p, pl_symbol_of(p, a.l))->sign, PL_SIGN_POSITIVE);      // its number is
+  assert_int_equal(pl_symbol_get(p, pl_symbol_of(p, a.l))->class, PL_C_LENGTH);
   kit_free(a.k);
 }
 
@@ -150,6 +152,20 @@ PL_TEST(ski_one_sided_contact_in_polar_coordinates) {
   has_unit(k, r, "m");
   has_unit(k, theta, "1");
   has_unit(k, pl_sym(p, lambda), "N");
+  kit_free(k);
+}
+
+// A mistake inside an abbreviation is told there, once, wherever it is used.
+PL_TEST(an_abbreviation_is_checked_where_it_stands) {
+  kit* k = kit_make("let d = l + m\npotential\n");
+  pl_pool* p = k->m->pool;
+  pl_expr m = param(k, "m", "1", "kg", NULL), l = param(k, "l", "1", "m", NULL), x = coord(k, "x", "m", NULL);
+  pl_expr d = let_be(k, "d", pl_add(p, l, m), "let d = l + m");
+  mass(k, "A", m, (pl_point){.n = 1, .at = {x}}, NULL);
+  load(k, PL_L_POTENTIAL, pl_mul(p, num(k, "1", "N"), d), "potential");
+  constraint(k, named("c"), x, PL_EQ, d, NULL, NULL);
+  const pl_diagnostic* told_once = check_tells(k, PL_E021);
+  assert_int_equal(pl_span_place(told_once->span).line, 1);
   kit_free(k);
 }
 
@@ -426,7 +442,7 @@ int main(void) {
     cmocka_unit_test(atwood_gives_every_name_its_unit), cmocka_unit_test(units_leave_the_model_after_the_check),
     cmocka_unit_test(atwood_classes_and_signs), cmocka_unit_test(a_length_cannot_equal_an_acceleration),
     cmocka_unit_test(crank_squares_and_angles_fit), cmocka_unit_test(ski_one_sided_contact_in_polar_coordinates),
-    cmocka_unit_test(without_units_nothing_is_checked), cmocka_unit_test(classes_follow_from_use_without_units),
+    cmocka_unit_test(an_abbreviation_is_checked_where_it_stands), cmocka_unit_test(without_units_nothing_is_checked), cmocka_unit_test(classes_follow_from_use_without_units),
     cmocka_unit_test(an_angle_alone_does_not_switch_the_checks_on), cmocka_unit_test(a_mass_statement_wants_a_mass),
     cmocka_unit_test(a_point_wants_lengths), cmocka_unit_test(a_sine_wants_a_pure_number),
     cmocka_unit_test(an_exponent_is_a_pure_number), cmocka_unit_test(terms_of_a_sum_have_one_unit),

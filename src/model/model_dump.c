@@ -59,7 +59,7 @@ static void dump_names(const dumper* d) {
     if (!m->lets.at[i].symbol.id) continue;
     pl_text_addf(d->out, "let %s = %s", pl_symbol_get(m->pool, m->lets.at[i].symbol)->ascii, text(d, m->lets.at[i].value));
     unit(d, m->lets.at[i].symbol);
-    pl_text_add(d->out, "\n");
+    pl_text_add(d->out, m->lets.at[i].inserted ? "  inserted\n" : "\n");
   }
   for (int i = 0; i < m->coords.n; i++) {
     const pl_coord* c = &m->coords.at[i];

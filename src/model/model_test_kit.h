@@ -86,8 +86,15 @@ static inline pl_symbol family(kit* k, const char* name, pl_expr lo, pl_expr hi,
 
 static inline pl_expr let_be(kit* k, const char* name, pl_expr value, const char* place) {
   pl_symbol s = name_symbol(k, name, name, PL_R_LOCAL, NULL);
-  pl_push(k->arena, k->m->lets, (pl_let){.symbol = s, .value = value, .span = at(k, place)});
+  pl_push(k->arena, k->m->lets, (pl_let){.symbol = s, .value = value, .inserted = true, .span = at(k, place)});
   return value;
+}
+
+// An abbreviation of given quantities that stays as a name.
+static inline pl_expr let_stay(kit* k, const char* name, pl_expr value, const char* place) {
+  pl_symbol s = name_symbol(k, name, name, PL_R_PARAM, NULL);
+  pl_push(k->arena, k->m->lets, (pl_let){.symbol = s, .value = value, .span = at(k, place)});
+  return pl_sym(k->m->pool, s);
 }
 
 static inline pl_block* loop(kit* k, const char* index, pl_expr lo, pl_expr hi, pl_block* outer, const char* place) {
