@@ -19,6 +19,16 @@ pleuel_status pl_pipeline_parse(pleuel_model* m) {
   return m->parsed;
 }
 
+// Errors that say: the text is fine, but what it says cannot all be true.
+static bool only_contradictions(const pl_diagnostics* d) {
+  for (int i = 0; i < d->list.n; i++) {
+    pl_code c = d->list.at[i].code;
+    bool contradiction = c == PL_E041 || c == PL_E042 || c == PL_E043;
+    if (pl_code_severity(c) == PL_ERROR && !contradiction) return false;
+  }
+  return d->n_errors > 0;
+}
+
 // model -> checked model
 pleuel_status pl_pipeline_check(pleuel_model* m) {
   if (m->is_checked) return m->checked;
@@ -28,6 +38,7 @@ pleuel_status pl_pipeline_check(pleuel_model* m) {
   double start = pl_clock();
   m->checked = pl_model_check(&m->job, m->model);
   if (m->checked == PLEUEL_OK && m->diagnostics.n_errors > 0) m->checked = PLEUEL_MODEL_ERROR;
+  if (m->checked == PLEUEL_MODEL_ERROR && only_contradictions(&m->diagnostics)) m->checked = PLEUEL_CONTRADICTION;
   pl_diagnostics_sort(&m->diagnostics);
   note_time(m, PL_STAGE_CHECK, start);
   return m->checked;
