@@ -28,7 +28,7 @@ static bench* bench_open(void) {
   b->pool = pl_pool_make(arena);
   b->diagnostics.arena = arena;
   b->job = (pl_job){.arena = arena, .diagnostics = &b->diagnostics};
-  for (int i = 0; i < 64; i++) b->value[i] = NAN;
+  for (int i = 0; i < 64; i++) b->value[i] = (double)NAN;
   const char* name[] = {"x", "y", "a"};
   pl_expr* at[] = {&b->x, &b->y, &b->a};
   for (int i = 0; i < 3; i++) {

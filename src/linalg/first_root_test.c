@@ -92,7 +92,7 @@ static void random_polynomials_give_their_least_root(void** state) {
 
 static void what_is_no_polynomial_has_no_root(void** state) {
   (void)state;
-  double zero[3] = {0}, constant[] = {5}, nan[] = {1, NAN, 2};
+  double zero[3] = {0}, constant[] = {5}, nan[] = {1, (double)NAN, 2};
   assert_true(pl_first_root(zero, 2, 0, work) == -1);
   assert_true(pl_first_root(constant, 0, 0, work) == -1);
   assert_true(pl_first_root(nan, 2, 0, work) == -1);

@@ -71,7 +71,7 @@ static void ldlt_solves_random_symmetric_indefinite_systems(void** state) {
 
 static void singular_and_broken_matrices_are_told(void** state) {
   (void)state;
-  double zero_row[] = {1, 0, 2, 0}, equal[] = {1, 1, 2, 2}, nan[] = {1, 0, NAN, 1}, scale[2];
+  double zero_row[] = {1, 0, 2, 0}, equal[] = {1, 1, 2, 2}, nan[] = {1, 0, (double)NAN, 1}, scale[2];
   int p[2];
   assert_true(pl_lu_factor(zero_row, p, scale, 2) == 0);
   assert_true(pl_lu_factor(equal, p, scale, 2) == 0);
@@ -162,7 +162,7 @@ static void sparse_lu_solves_and_refactors(void** state) {
   }
   for (int k = 0; k < at; k++) value[k] = 0;
   assert_false(pl_sparse_factor(s, value));
-  value[0] = NAN;
+  value[0] = (double)NAN;
   assert_false(pl_sparse_factor(s, value));
   pl_sparse_free(s);
   pl_arena_free(a);

@@ -12,9 +12,9 @@ static void numbers_are_short_and_read_back(void** state) {
   assert_string_equal(text, "0.1");
   pl_double_text(text, -2.5e-300);
   assert_string_equal(text, "-2.5e-300");
-  pl_double_text(text, NAN);
+  pl_double_text(text, (double)NAN);
   assert_string_equal(text, "nan");
-  pl_double_text(text, -INFINITY);
+  pl_double_text(text, -(double)INFINITY);
   assert_string_equal(text, "-inf");
   pl_double_text(text, -0.0);
   assert_string_equal(text, "0");

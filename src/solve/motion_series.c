@@ -132,7 +132,7 @@ static double block_size(const double* X, int n, int last) {
 }
 
 static double block_radius(const double* X, int n, int last) {
-  double size = block_size(X, n, last), least = INFINITY;
+  double size = block_size(X, n, last), least = (double)INFINITY;
   for (int k = last - 1; k <= last; k++) {
     double top = pl_norm(X + (size_t)k * (size_t)n, n);
     if (top > 0) least = fmin(least, pow(size / top, 1.0 / k));

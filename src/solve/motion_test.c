@@ -22,7 +22,7 @@ static t_bench* pendulum(double angle, double t_end) {
 
 // Period 4 K(sin(angle/2)) by the arithmetic-geometric mean.
 static double pendulum_period(double angle) {
-  long double a = 1, c = cosl(angle / 2);
+  long double a = 1, c = cosl((long double)angle / 2);
   for (int i = 0; i < 8; i++) {
     long double mean = (a + c) / 2;
     c = sqrtl(a * c);

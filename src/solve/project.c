@@ -35,7 +35,7 @@ static void solve_correction(pl_run* run, const double* residual, bool positions
 
 // Newton until the residual is rounding or no longer falls.  The last factor belongs to the corrected point.
 static bool project_positions(pl_run* run, double t, double* q, const double* v, pl_projection* p) {
-  double before = INFINITY;
+  double before = (double)INFINITY;
   for (int round = 0; round < MAX_NEWTON; round++) {
     pl_point_evaluate(run, t, q, v);
     pl_assemble_g(run, 0, run->g, run->g_size);

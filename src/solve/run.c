@@ -232,7 +232,7 @@ pleuel_status pl_run_begin_at(pl_run* run, double t) {
   run->t = t;
   run->t_low = 0;
   set_sizes(run);
-  run->stats.energy_drift = NAN;
+  run->stats.energy_drift = (double)NAN;
   run->factored = false;
   PL_TRY(pl_modes_enter(run));
   run->stats.rank_start = run->stats.rank = run->rank;

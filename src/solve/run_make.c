@@ -85,8 +85,8 @@ static void set_options(pl_run* run, const pl_run_options* o) {
   // every step is a row: then a motion that one step could follow to its end still shows its shape
   run->h_plain = run->grid_dt == 0 ? length / 50 : (double)INFINITY;
   run->h_least = fmax(1e-13 * length, 4 * DBL_EPSILON * fmax(fabs(o->t_0), fabs(o->t_end)));
-  run->stats.energy_drift = run->stats.energy_0 = run->stats.t_singular = NAN;
-  run->last_row_t = NAN;
+  run->stats.energy_drift = run->stats.energy_0 = run->stats.t_singular = (double)NAN;
+  run->last_row_t = (double)NAN;
 }
 
 // ---------------------------------------------------------------------------------------------- workspace

@@ -51,7 +51,7 @@ static inline t_bench* t_open(void) {
   b->diagnostics.arena = a;
   b->job = (pl_job){.arena = a, .diagnostics = &b->diagnostics};
   for (int i = 0; i < T_MAX; i++) b->identity[i] = i;
-  for (int i = 0; i < 4096; i++) b->value[i] = NAN;
+  for (int i = 0; i < 4096; i++) b->value[i] = (double)NAN;
   b->setup.kinetic = b->setup.potential = -1;
   return b;
 }

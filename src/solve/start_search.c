@@ -253,7 +253,7 @@ static bool worth_trying(const pl_run* run, int coordinate, int link) {
 static void suggest_position(pl_start* s) {
   pl_run* run = s->run;
   pl_start_report* report = &run->start;
-  double least = INFINITY;
+  double least = (double)INFINITY;
   for (int i = 0; i < run->n_q; i++) {
     if (!run->setup->coordinates[i].has_q || !worth_trying(run, i, report->link)) continue;
     s->held_q[i] = false;
@@ -273,7 +273,7 @@ static void suggest_position(pl_start* s) {
 static void suggest_velocity(pl_start* s) {
   pl_run* run = s->run;
   pl_start_report* report = &run->start;
-  double least = INFINITY;
+  double least = (double)INFINITY;
   for (int i = 0; i < run->n_q; i++) {
     if (!run->setup->coordinates[i].has_v || !worth_trying(run, i, report->link)) continue;
     s->held_v[i] = false;

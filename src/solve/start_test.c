@@ -202,7 +202,7 @@ static void a_folded_crank_with_equal_lengths_is_a_singular_start(void** state) 
 static void values_that_are_no_numbers_are_refused(void** state) {
   (void)state;
   t_bench* b = pendulum();
-  t_start(b, 0, NAN, 0);
+  t_start(b, 0, (double)NAN, 0);
   assert_int_equal(make_and_start(b, plain_energy(b)), PLEUEL_USAGE);
   t_close(b);
 }

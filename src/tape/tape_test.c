@@ -26,7 +26,7 @@ static bench* bench_open(void) {
   b->pool = pl_pool_make(arena);
   b->diagnostics.arena = arena;
   b->job = (pl_job){.arena = arena, .diagnostics = &b->diagnostics};
-  for (int i = 0; i < 64; i++) b->value[i] = NAN;
+  for (int i = 0; i < 64; i++) b->value[i] = (double)NAN;
   const char* name[] = {"x", "y", "m", "k", "lambda"};
   const pl_role role[] = {PL_R_COORD, PL_R_COORD, PL_R_PARAM, PL_R_PARAM, PL_R_MULTIPLIER};
   pl_expr* at[] = {&b->x, &b->y, &b->m, &b->k, &b->lambda};
