@@ -124,6 +124,19 @@ pl_prod pl_prod_scale(pl_search* s, pl_prod x, pl_expr number) {
 
 pl_prod pl_prod_neg(pl_search* s, pl_prod x) { return pl_prod_scale(s, x, pl_int(s->p, -1)); }
 
+// A function with its argument in its own best form.
+static const pl_form* call_form(pl_search* s, pl_expr e) {
+  if (pl_kind_of(s->p, e) != PL_CALL) return pl_form_of(s->a, s->p, e);
+  int n = pl_n_args(s->p, e);
+  const pl_form* args[2];
+  for (int i = 0; i < n; i++) {
+    pl_expr x = pl_arg(s->p, e, i);
+    if (pl_kind_of(s->p, x) == PL_SYMBOL || pl_is_constant(s->p, x)) args[i] = pl_form_of(s->a, s->p, x);
+    else args[i] = pl_prod_form(s, pl_prod_flip(s, pl_present_quotient(s, pl_convert(s->t, x), 1)));
+  }
+  return pl_form_call(s->a, pl_function_of(s->p, e), args, n);
+}
+
 // ---------------------------------------------------------------------------------------------- generators
 static pl_bucket bucket_of_symbol(pl_search* s, pl_symbol x) {
   const pl_symbol_info* i = pl_symbol_get(s->p, x);
@@ -195,7 +208,7 @@ static pl_piece make_gen_piece(pl_search* s, int gen) {
       else piece.bucket = PL_K_NUMBER;
       return piece;
     default:
-      piece.base = pl_form_of(s->a, s->p, g->expr);
+      piece.base = call_form(s, g->expr);
       piece.cost = form_cost(s, piece.base);
       if (pl_kind_of(s->p, g->expr) == PL_CALL) piece.order = (int)pl_function_of(s->p, g->expr);
       if (pl_kind_of(s->p, g->expr) == PL_PI) piece.bucket = PL_K_NUMBER;
@@ -259,20 +272,29 @@ static pl_expr exponents_together(pl_search* s, pl_prod x) {
   return sum;
 }
 
+static pl_expr denominator_of(pl_search* s, pl_expr number) {
+  const char* text = pl_number_den_text(s->a, s->p, number);
+  return pl_number_from_text(s->p, text, strlen(text));
+}
+
 const pl_form* pl_prod_form(pl_search* s, pl_prod x) {
   pl_pool* p = s->p;
   bool minus = pl_number_sign(p, x.unit) < 0;
   pl_expr unit = minus ? pl_neg(p, x.unit) : x.unit;
-  pl_expr num = pl_number_from_text(p, pl_number_num_text(s->a, p, unit), strlen(pl_number_num_text(s->a, p, unit)));
-  pl_expr den = pl_number_from_text(p, pl_number_den_text(s->a, p, unit), strlen(pl_number_den_text(s->a, p, unit)));
+  pl_expr den = denominator_of(s, unit), num = pl_mul(p, unit, den);
   forms above = {0}, below = {0};
-  if (!pl_is_one_node(p, num)) pl_push(s->a, above, pl_form_leaf(s->a, num));
-  if (!pl_is_one_node(p, den)) pl_push(s->a, below, pl_form_leaf(s->a, den));
+  if (x.n > 0 && !pl_is_one_node(p, num) && !pl_is_one_node(p, den) && !pl_prod_has_denominator(x)) {
+    // 2/3 sin α, while x/2 stays
+    pl_push(s->a, above, pl_form_quotient(s->a, pl_form_leaf(s->a, num), pl_form_leaf(s->a, den)));
+  } else {
+    if (!pl_is_one_node(p, num)) pl_push(s->a, above, pl_form_leaf(s->a, num));
+    if (!pl_is_one_node(p, den)) pl_push(s->a, below, pl_form_leaf(s->a, den));
+  }
   bool exp_done = false;
   for (int i = 0; i < x.n; i++) {
     const pl_piece* f = &x.at[i];
     if (is_exp(s, f)) {
-      if (!exp_done) pl_push(s->a, above, pl_form_of(s->a, p, pl_call(p, PL_EXP, exponents_together(s, x))));
+      if (!exp_done) pl_push(s->a, above, call_form(s, pl_call(p, PL_EXP, exponents_together(s, x))));
       exp_done = true;
     } else if (f->power > 0) {
       pl_push(s->a, above, piece_form(s, f, f->power));
@@ -385,6 +407,10 @@ static pl_prod divide_under_root(pl_search* s, pl_prod x) {
       const pl_poly* rest;
       if (!pl_poly_divides(t, &rest, t->gens.at[w].value, pl_poly_gen(t, b))) continue;
       pl_prod inside = pl_prod_mul(s, pl_present_poly(s, rest, 1), pl_prod_of_gen(s, b, -1));
+      // a number below the line goes along: √(6 g/l)/2 -> √(3 g/(2 l))
+      pl_expr under = denominator_of(s, x.unit);
+      x = pl_prod_scale(s, x, under);
+      inside = pl_prod_scale(s, inside, pl_pow_int(s->p, under, -2));
       pl_piece root = x.at[i];
       root.base = pl_form_root(s->a, pl_prod_form(s, inside));
       root.cost = COST_FUNCTION + COST_BRACKET + inside.cost;

@@ -25,6 +25,14 @@ static void put(term_list* l, pl_prod x) {
   else l->at[l->n++] = x;
 }
 
+// The same with a bare bracket opened.
+static void put_opened(term_list* l, pl_prod x) {
+  pl_prod terms[PL_OPENED_TERMS];
+  int n = 0;
+  pl_terms_put(l->s, x, terms, &n);
+  for (int i = 0; i < n; i++) put(l, terms[i]);
+}
+
 // ---------------------------------------------------------------------------------------------- what a product is like
 static bool is_plain(pl_prod x) {
   for (int i = 0; i < x.n; i++)
@@ -83,13 +91,16 @@ static void put_distributed(term_list* l, pl_prod x) {
 }
 
 // ---------------------------------------------------------------------------------------------- groups
-static int groups_of(pl_search* s, pl_frac f, const bool* in, pl_frac* out, ulong** keys) {
+typedef struct style_group { pl_frac part; const ulong* key; } style_group;
+
+// f by its monomials in the generators in[]: the part that goes with each, with the monomial or without.  0 if there are too many.
+static int groups_of(pl_search* s, pl_frac f, const bool* in, bool with_key, style_group* out) {
   pl_group* groups;
   int n = pl_poly_group(s, f.num, in, &groups);
   if (n > MAX_STYLE_TERMS) return 0;
   for (int i = 0; i < n; i++) {
-    out[i] = pl_frac_part(s, f, pl_group_poly(s, &groups[i]));
-    keys[i] = groups[i].key;
+    out[i].part = pl_frac_part(s, f, with_key ? pl_group_poly(s, &groups[i]) : groups[i].coefficient);
+    out[i].key = groups[i].key;
   }
   return n;
 }
@@ -111,23 +122,24 @@ static void mask_of(pl_search* s, const pl_key_set* sets, int n, bool* in) {
 }
 
 // ---------------------------------------------------------------------------------------------- energies and equations
-static void put_by_mass(term_list* l, pl_frac f, int depth) {
+static void put_by_mass(term_list* l, pl_frac f, pl_prod key, int depth) {
   pl_search* s = l->s;
   static const pl_key_set by_mass[] = {PL_KEY_MASS};
   bool in[PL_MAX_GENERATORS];
   mask_of(s, by_mass, 1, in);
-  pl_frac part[MAX_STYLE_TERMS];
-  ulong* keys[MAX_STYLE_TERMS];
-  int n = groups_of(s, f, in, part, keys);
-  for (int i = 0; i < n; i++) put(l, pl_present_quotient(s, part[i], depth));
-  if (n == 0) put(l, pl_present_quotient(s, f, depth));
+  style_group group[MAX_STYLE_TERMS];
+  int n = groups_of(s, f, in, true, group);
+  for (int i = 0; i < n; i++) put(l, pl_prod_mul(s, key, pl_present_quotient(s, group[i].part, depth)));
+  if (n == 0) put(l, pl_prod_mul(s, key, pl_present_quotient(s, f, depth)));
 }
 
 // Everything that goes with one monomial of velocities: one term, or one for each mass when that is more than a
 // reader takes in at once.
-static void put_kinetic(term_list* l, pl_frac f, int depth) {
-  pl_prod whole = pl_present_quotient(l->s, f, depth);
-  if (is_overloaded(whole)) put_by_mass(l, f, depth);
+static void put_kinetic(term_list* l, pl_frac f, const ulong* key, int depth) {
+  pl_search* s = l->s;
+  pl_prod monomial = pl_prod_of_exponents(s, pl_int(s->p, 1), key);
+  pl_prod whole = pl_prod_mul(s, monomial, pl_present_quotient(s, f, depth));
+  if (is_overloaded(whole)) put_by_mass(l, f, monomial, depth);
   else put(l, whole);
 }
 
@@ -135,14 +147,13 @@ static void put_parts(term_list* l, pl_frac f, const pl_key_set* sets, int n_set
   pl_search* s = l->s;
   bool in[PL_MAX_GENERATORS];
   mask_of(s, sets, n_sets, in);
-  pl_frac part[MAX_STYLE_TERMS];
-  ulong* keys[MAX_STYLE_TERMS];
-  int n = groups_of(s, f, in, part, keys);
+  style_group group[MAX_STYLE_TERMS];
+  int n = groups_of(s, f, in, true, group);
   if (n == 0) l->full = true;
   for (int i = 0; i < n; i++) {
-    pl_prod x = pl_present_quotient(s, part[i], depth);
+    pl_prod x = pl_present_quotient(s, group[i].part, depth);
     if (distribute) put_distributed(l, x);
-    else put(l, x);
+    else put_opened(l, x);
   }
 }
 
@@ -303,6 +314,8 @@ static const pl_form* whole_form(pl_search* s, pl_prod x) {
   pl_prod* terms = PL_ARRAY(s->a, pl_prod, sum->n);
   for (int i = 0; i < sum->n; i++) terms[i] = pl_prod_neg(s, sum->at[i]);
   pl_terms_sort(s, terms, sum->n);
+  // -m g (2 - 3 cos ϑ) - m v²/R -> m g (3 cos ϑ - 2) - m v²/R
+  if (pl_prod_is_negative(s, terms[0])) terms[0] = pl_prod_flip(s, terms[0]);
   return pl_terms_form(s, terms, sum->n);
 }
 
@@ -318,13 +331,12 @@ static const pl_form* by_motion(pl_search* s, pl_frac f, int depth, long* cost) 
   static const pl_key_set motion[] = {PL_KEY_MOTION};
   bool in[PL_MAX_GENERATORS];
   mask_of(s, motion, 1, in);
-  pl_frac part[MAX_STYLE_TERMS];
-  ulong* keys[MAX_STYLE_TERMS];
-  int n = groups_of(s, f, in, part, keys);
+  style_group group[MAX_STYLE_TERMS];
+  int n = groups_of(s, f, in, false, group);
   if (n == 0) return plain(s, f, depth, cost);
   for (int i = 0; i < n; i++) {
-    if (is_unit_key(s, keys[i])) put_static(&l, part[i], depth);
-    else put_kinetic(&l, part[i], depth);
+    if (is_unit_key(s, group[i].key)) put_static(&l, group[i].part, depth);
+    else put_kinetic(&l, group[i].part, group[i].key, depth);
   }
   if (l.full) return plain(s, f, depth, cost);
   sort_terms(&l);
@@ -364,14 +376,16 @@ static const pl_form* quotient(pl_search* s, pl_frac f, int depth, long* cost) {
 }
 
 // ---------------------------------------------------------------------------------------------- solutions
-static long time_power(pl_search* s, const ulong* key, bool* function) {
+enum { LAST_RANK = 40 };
+
+static long time_rank(pl_search* s, const ulong* key) {
   long power = 0;
   for (int g = 0; g < s->t->gens.n; g++) {
     if (!key[g]) continue;
-    if (pl_piece_of_gen(s, g).bucket == PL_K_TIME) power += (long)key[g];
-    else *function = true;
+    if (pl_piece_of_gen(s, g).bucket != PL_K_TIME) return LAST_RANK;
+    power += (long)key[g];
   }
-  return power;
+  return power < LAST_RANK ? power : LAST_RANK;
 }
 
 static const pl_form* by_time(pl_search* s, pl_frac f, int depth, long* cost) {
@@ -383,22 +397,14 @@ static const pl_form* by_time(pl_search* s, pl_frac f, int depth, long* cost) {
     for (int k = 0; k < n; k++)
       if (in[use[k]]) return plain(s, f, depth, cost);
   }
-  pl_frac part[MAX_STYLE_TERMS];
-  ulong* keys[MAX_STYLE_TERMS];
-  int n = groups_of(s, f, in, part, keys);
+  style_group group[MAX_STYLE_TERMS];
+  int n = groups_of(s, f, in, true, group);
   if (n == 0) return plain(s, f, depth, cost);
   term_list l = {.s = s};
-  long rank[MAX_STYLE_TERMS];
-  for (int i = 0; i < n; i++) {
-    bool function = false;
-    long power = time_power(s, keys[i], &function);
-    pl_prod x = pl_present_quotient(s, part[i], depth);
-    // ascending powers of t, functions of t behind them; insertion keeps equal ones in place
-    long r = power + (function ? 1000 : 0);
-    int k = l.n;
-    put(&l, x);
-    for (; k > 0 && k < l.n && rank[k - 1] > r; k--) l.at[k] = l.at[k - 1], rank[k] = rank[k - 1];
-    l.at[k] = x, rank[k] = r;
+  // ascending powers of t, functions of t behind them
+  for (long rank = 0; rank <= LAST_RANK; rank++) {
+    for (int i = 0; i < n; i++)
+      if (time_rank(s, group[i].key) == rank) put_opened(&l, pl_present_quotient(s, group[i].part, depth));
   }
   *cost = list_cost(&l);
   return list_form(&l, false);
