@@ -117,16 +117,19 @@ static bool relation_fails(double left, pl_relation r, double right) {
   return false;
 }
 
-static void tell_assumption(pl_job* job, pl_model* m, const pl_assumption* a, pl_expr e, const char* numbers) {
+static void tell_assumption(pl_job* job, pl_model* m, const pl_assumption* a, pl_expr e, const double* value) {
   pl_diagnostic* d = pl_tell(job, PL_E060, a->span, "the given numbers contradict this assumption", "die gegebenen Zahlen widersprechen dieser Annahme");
-  pl_report_reason(d, numbers, numbers);
   int n = pl_symbols_in(m->pool, e, NULL, 0);
   pl_symbol* s = PL_ARRAY(job->arena, pl_symbol, n + 1);
   pl_symbols_in(m->pool, e, s, n);
+  pl_text numbers = pl_text_make(job->arena);
   for (int i = 0; i < n; i++) {
     const pl_param* p = pl_model_param(m, s[i]);
-    if (p && p->span.source) pl_report_label(job->diagnostics, d, p->span, pl_symbol_get(m->pool, s[i])->name);
+    const char* text = PL_F(job, "%s = %.6g", pl_symbol_get(m->pool, s[i])->name, value[s[i].id]);
+    if (p && p->span.source) pl_report_label(job->diagnostics, d, p->span, text);
+    pl_text_addf(&numbers, "%s%s", i ? ", " : "", text);
   }
+  pl_report_reason(d, pl_text_string(&numbers), pl_text_string(&numbers));
   pl_report_fix(d, "change the numbers or the assumption", "die Zahlen oder die Annahme ändern", NULL);
 }
 
@@ -137,7 +140,7 @@ static void check_assumptions(pl_job* job, pl_model* m, const double* value) {
       if (pl_is_poison(a->condition.left) || pl_is_poison(a->condition.right)) continue;
       double l = pl_eval(m->pool, a->condition.left, value), r = pl_eval(m->pool, a->condition.right, value);
       if (!relation_fails(l, a->condition.relation, r)) continue;
-      tell_assumption(job, m, a, pl_sub(m->pool, a->condition.left, a->condition.right), PL_F(job, "%.6g, %.6g", l, r));
+      tell_assumption(job, m, a, pl_sub(m->pool, a->condition.left, a->condition.right), value);
       continue;
     }
     if (pl_is_poison(a->subject)) continue;
@@ -146,7 +149,7 @@ static void check_assumptions(pl_job* job, pl_model* m, const double* value) {
     double lo = pl_is_poison(a->lo) ? -PL_INF : pl_eval(m->pool, a->lo, value);
     double hi = pl_is_poison(a->hi) ? PL_INF : pl_eval(m->pool, a->hi, value);
     if (whole && !(x < lo) && !(x > hi)) continue;
-    tell_assumption(job, m, a, a->subject, PL_F(job, "%s = %.6g", pl_expr_text(job->arena, m->pool, a->subject), x));
+    tell_assumption(job, m, a, a->subject, value);
   }
 }
 

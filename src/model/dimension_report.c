@@ -259,13 +259,8 @@ static void find_places(pl_dim_pass* d, const pl_dim_conflict* c, pl_span* at_a,
   if (at_b->source && at_a->begin == at_b->begin) *at_b = (pl_span){0};
 }
 
-static const char* where_declared(pl_dim_pass* d, pl_expr e) {
-  pl_symbol s[MAX_SYMBOLS];
-  return symbols_of(d, e, s) ? pl_symbol_get(d->pool, root_of(d, s[0]))->name : NULL;
-}
-
 // The second place outside the statement, when the text of the statement does not show it: where the name is declared.
-static void label_declarations(pl_dim_pass* d, pl_diagnostic* m, pl_expr e) {
+static bool label_declarations(pl_dim_pass* d, pl_diagnostic* m, pl_expr e) {
   pl_symbol s[MAX_SYMBOLS];
   int n = symbols_of(d, e, s);
   for (int i = 0; i < n && i < 2; i++) {
@@ -275,41 +270,77 @@ static void label_declarations(pl_dim_pass* d, pl_diagnostic* m, pl_expr e) {
     if (!pl_dim_known(&d->system, pl_dim_unknown(&d->system, (int)(v - d->system.vars.at)), &x)) continue;
     const char* name = pl_symbol_get(d->pool, root_of(d, s[i]))->name;
     pl_report_label(d->job->diagnostics, m, v->span, pl_format(d->job->arena, "%s: %s", name, pl_dimension_unit(d->job->arena, x, false)));
-    return;
+    return true;
   }
+  return false;
 }
 
 // ---------------------------------------------------------------------------------------------- fixes
-static void fix_of_value(pl_dim_pass* d, const pl_dim_conflict* c, pl_diagnostic* m) {
-  // a number with a unit against something whose unit is known: name the unit it should have
-  pl_dimension x;
-  pl_symbol s[MAX_SYMBOLS];
-  bool a_is_number = symbols_of(d, c->a, s) == 0;
-  const pl_dim_form* wanted = a_is_number ? c->form_b : c->form_a;
-  pl_expr other = a_is_number ? c->b : c->a;
-  if (!pl_dim_known(&d->system, wanted, &x)) return;
-  const char* unit = pl_dimension_unit(d->job->arena, x, false);
-  if (c->kind == PL_CLASH_NEED) {
-    const char* name = where_declared(d, c->a);
-    if (pl_dimension_equal(x, pl_dimension_one())) {
-      pl_report_fix(m, pl_format(d->job->arena, "divide %s by a quantity of the same unit, so that a pure number is left", name_of(d, c->a)),
-                    pl_format(d->job->arena, "%s durch eine Größe derselben Einheit teilen, damit eine reine Zahl bleibt", name_of(d, c->a)), NULL);
-    } else {
-      pl_report_fix(m, pl_format(d->job->arena, "give %s in %s", name ? name : "it", unit),
-                    pl_format(d->job->arena, "%s in %s angeben", name ? name : "den Wert", unit), NULL);
-    }
+// A parameter of the same dimension, to divide by: sin(x/l).
+static const char* divisor_for(pl_dim_pass* d, pl_expr e, pl_dimension is) {
+  const pl_model* m = d->model;
+  for (int i = 0; i < m->params.n; i++) {
+    pl_dimension x;
+    pl_symbol s = m->params.at[i].symbol;
+    if (pl_has_symbol(d->pool, e, s) || !pl_map_get(d->var_of, s.id)) continue;
+    if (!pl_dim_known(&d->system, pl_dim_unknown(&d->system, pl_dim_symbol_var(d, s)), &x)) continue;
+    if (pl_dimension_equal(x, is)) return pl_symbol_get(d->pool, s)->name;
+  }
+  return NULL;
+}
+
+static void fix_pure_number(pl_dim_pass* d, const pl_dim_conflict* c, pl_diagnostic* m) {
+  pl_arena* a = d->job->arena;
+  pl_dimension is;
+  const char* name = name_of(d, c->a);
+  const char* divisor = pl_dim_known(&d->system, c->form_a, &is) ? divisor_for(d, c->a, is) : NULL;
+  const char* example = pl_kind_of(d->pool, c->a) == PL_SYMBOL ? "%s/%s" : "(%s)/%s";
+  if (divisor) {
+    const char* quotient = pl_format(a, example, name, divisor);
+    pl_report_fix(m, pl_format(a, "divide by a quantity of the same unit, for example %s", quotient),
+                  pl_format(a, "durch eine Größe derselben Einheit teilen, zum Beispiel %s", quotient), NULL);
+  } else {
+    pl_report_fix(m, pl_format(a, "divide %s by a quantity of the same unit, so that a pure number is left", name),
+                  pl_format(a, "%s durch eine Größe derselben Einheit teilen, damit eine reine Zahl bleibt", name), NULL);
+  }
+}
+
+// A statement that wants another kind of quantity.
+static void fix_need(pl_dim_pass* d, const pl_dim_conflict* c, pl_diagnostic* m) {
+  pl_dimension wanted;
+  if (!pl_dim_known(&d->system, c->form_b, &wanted)) return;
+  if (pl_dimension_equal(wanted, pl_dimension_one())) {
+    fix_pure_number(d, c, m);
     return;
   }
-  if (a_is_number || symbols_of(d, c->b, s) == 0) {
-    pl_report_fix(m, pl_format(d->job->arena, "%s is in %s: give the number in that unit", name_of(d, other), unit),
-                  pl_format(d->job->arena, "%s hat die Einheit %s: die Zahl in dieser Einheit angeben", name_of(d, other), unit), NULL);
+  const char* unit = pl_dimension_unit(d->job->arena, wanted, false);
+  const char* name = name_of(d, c->a);
+  pl_report_fix(m, pl_format(d->job->arena, "%s has to be in %s", name, unit), pl_format(d->job->arena, "%s muss die Einheit %s haben", name, unit), NULL);
+}
+
+static void fix_of_value(pl_dim_pass* d, const pl_dim_conflict* c, pl_diagnostic* m) {
+  if (c->kind == PL_CLASH_NEED) {
+    fix_need(d, c, m);
+    return;
+  }
+  // a number with a unit against something whose unit is known: name the unit it should have
+  pl_arena* a = d->job->arena;
+  pl_dimension x;
+  pl_symbol s[MAX_SYMBOLS];
+  bool a_is_number = symbols_of(d, c->a, s) == 0, b_is_number = symbols_of(d, c->b, s) == 0;
+  if (a_is_number || b_is_number) {
+    if (!pl_dim_known(&d->system, a_is_number ? c->form_b : c->form_a, &x)) return;
+    const char* unit = pl_dimension_unit(a, x, false);
+    const char* name = name_of(d, a_is_number ? c->b : c->a);
+    pl_report_fix(m, pl_format(a, "%s is in %s: give the number in that unit", name, unit),
+                  pl_format(a, "%s hat die Einheit %s: die Zahl in dieser Einheit angeben", name, unit), NULL);
     return;
   }
   const pl_dim_form* gap = pl_dim_combine(&d->system, c->form_a, (pl_fraction){-1, 1}, c->form_b);
   if (!pl_dim_known(&d->system, gap, &x)) return;
-  unit = pl_dimension_unit(d->job->arena, x, false);
-  pl_report_fix(m, pl_format(d->job->arena, "a factor in %s is missing on one side, or one of the units is wrong", unit),
-                pl_format(d->job->arena, "es fehlt ein Faktor in %s, oder eine der Einheiten ist falsch", unit), NULL);
+  const char* unit = pl_dimension_unit(a, x, false);
+  pl_report_fix(m, pl_format(a, "a factor in %s is missing on one side, or one of the units is wrong", unit),
+                pl_format(a, "es fehlt ein Faktor in %s, oder eine der Einheiten ist falsch", unit), NULL);
 }
 
 static bool fix_of_name(pl_dim_pass* d, const suggestion* best, pl_diagnostic* m, pl_span* culprit) {
@@ -356,8 +387,12 @@ void pl_dim_report(pl_dim_pass* d, const pl_dim_conflict* c) {
   pl_span other = second ? at_a : at_b;
   if (other.source && other.begin != m->span.begin) {
     pl_report_label(d->job->diagnostics, m, other, second ? text_a[lang] : text_b[lang]);
-  } else if (!other.source) {
-    label_declarations(d, m, c->kind == PL_CLASH_NEED ? c->a : c->b);
+  } else if (!other.source && label_declarations(d, m, c->kind == PL_CLASH_NEED ? c->a : c->b)) {
+    pl_dimension x;       // the line of the declaration is shown: no need to name it
+    if (c->kind == PL_CLASH_NEED && pl_dim_known(&d->system, c->form_a, &x)) {
+      const char* unit = pl_dimension_unit(d->job->arena, x, false);
+      pl_report_reason(m, unit, unit);
+    }
   }
   if (!named) fix_of_value(d, c, m);
 }

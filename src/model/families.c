@@ -241,6 +241,8 @@ static const char* unknown_in(range_check* c, pl_expr e) {
 }
 
 static void tell_bad_bound(range_check* c, pl_expr e, pl_span span) {
+  if (pl_map_get(c->seen, e.id + 1)) return;            // one wrong number, one message
+  pl_map_set(c->seen, e.id + 1, 1);
   const char* unknown = unknown_in(c, e);
   const char* text = pl_is_poison(e) ? "?" : expr_words(c, e);
   pl_diagnostic* d;
