@@ -285,6 +285,8 @@ pl_frac pl_formal(pl_tower* t, pl_expr e);                    // e as a generato
 enum { PL_SIGN_OPEN = 9 };
 int pl_poly_sign(pl_tower* t, const pl_poly* a, bool or_zero, bool guess);
 int pl_base_sign(pl_tower* t, int base, bool or_zero, bool guess);
+// Bounds over all angles: low <= c a <= high for a positive number c, low and high without sines.                trig_bounds.c
+bool pl_poly_trig_bounds(pl_tower* t, const pl_poly* a, const pl_poly** low, const pl_poly** high);
 
 // ---------------------------------------------------------------------------------------------- sample points, alg_points.c
 // Points of a domain: free symbols drawn by name and point number (so that the values do not depend on history) such that the

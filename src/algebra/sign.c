@@ -2,7 +2,7 @@
 //   (i)   every term has a known sign, and all are the same
 //   (ii)  factor by factor
 //   (iii) the facts substituted away: r < l becomes l = r + δ, δ > 0, and then (i); sines and cosines run to the corners
-//         of -1..1, since a polynomial that is linear in each of them is smallest in a corner
+//         of -1..1, since a polynomial that is linear in each of them is smallest in a corner; bounds by Fourier sums
 //   (iv)  the polynomial is one of the facts, or a radicand (w = sqrt(P) is real)
 //   (v)   fifty sample points of the domain agree, or the probe (the start values) decides: an assumption, recorded.
 // What a proof has used is recorded too.
@@ -163,6 +163,24 @@ static int definite_in_corners(pl_proof* p, const pl_poly* a, const pl_poly* con
   return strict ? sign : 2 * sign;
 }
 
+// The bounds over all angles have a sign.
+static int definite_by_bounds(pl_proof* p, const pl_poly* a, const pl_poly* const* D, int n_D) {
+  const pl_poly *low = NULL, *high = NULL;
+  if (!pl_poly_trig_bounds(p->t, a, &low, &high)) return 0;
+  pl_proof lower = {.t = p->t}, upper = {.t = p->t};
+  if (pl_poly_is_zero(p->t, low)) return 2;
+  if (pl_poly_is_zero(p->t, high)) return -2;
+  int sign = definite_with_facts(&lower, low, D, n_D, 0);
+  if (sign > 0) {
+    *p = lower;
+    return sign;
+  }
+  sign = definite_with_facts(&upper, high, D, n_D, 0);
+  if (sign >= 0) return 0;
+  *p = upper;
+  return sign;
+}
+
 // ---------------------------------------------------------------------------------------------- whole proofs
 static void record_symbols(pl_tower* t, const pl_poly* a) {
   long degree[PL_MAX_GENERATORS];
@@ -215,6 +233,7 @@ static int prove(pl_tower* t, const pl_poly* a) {
   }
   if (!sign) sign = definite_in_corners(&p, a, D, n_D);
   if (!sign) sign = definite_in_corners(&p, pl_poly_shortest_view(t, a), D, n_D);
+  if (!sign) sign = definite_by_bounds(&p, a, D, n_D);
   if (!sign || t->silent) return sign;
   record_symbols(t, a);
   for (int i = 0; i < p.n_facts; i++) pl_tower_use(t, t->facts.at[p.facts[i]]);

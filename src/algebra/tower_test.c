@@ -143,10 +143,22 @@ PL_TEST(signs_are_proven_from_facts) {
   assert_int_equal(sign_of(w, "l - r*cos(x)"), 1);
   assert_int_equal(sign_of(w, "m1 + m2*sin(x)^2"), 1);
   assert_int_equal(sign_of(w, "x^2 + 1"), 1);
+  assert_int_equal(sign_of(w, "m1 + m2*sin(x - y)^2"), 1);
+  assert_int_equal(sign_of(w, "-m1*l^2 - m2*r^2*cos(x - y)^2"), -1);
+  assert_int_equal(sign_of(w, "l^2 - r^2*sin(x - y)^2"), 1);
   assert_int_equal(sign_of(w, "x - x"), 0);
   assert_int_equal(sign_of(w, "sqrt(2) - 3/2"), -1);
   assert_int_equal(sign_of(w, "x"), 7);
   assert_int_equal(sign_of(w, "m1 - m2"), 7);
+  pl_world_free(w);
+}
+
+PL_TEST(a_proof_over_all_angles_assumes_nothing) {
+  pl_world* w = pl_world_make(NULL);
+  assert_int_equal(sign_of(w, "m1 + m2*sin(x - y)^2"), 1);
+  int n = 0;
+  const pl_fact* used = pl_tower_used(w->tower, &n);
+  for (int i = 0; i < n; i++) assert_int_equal(pl_kind_of(w->pool, used[i].difference), PL_SYMBOL);
   pl_world_free(w);
 }
 
@@ -230,6 +242,7 @@ int main(void) {
     cmocka_unit_test(the_root_of_a_square_is_never_taken_silently),
     cmocka_unit_test(a_start_value_decides_a_sign_and_is_recorded),
     cmocka_unit_test(signs_are_proven_from_facts),
+    cmocka_unit_test(a_proof_over_all_angles_assumes_nothing),
     cmocka_unit_test(factors_of_a_fraction),
     cmocka_unit_test(coefficients_in_a_symbol),
     cmocka_unit_test(coefficients_in_an_atom),
