@@ -66,6 +66,7 @@ typedef struct pl_parse {
   pl_arena* arena;
   const pl_source* source;
   const pl_tokens* tokens;
+  int* kinds;                // what each token was pushed as; 0: not pushed          (tokens)
   int at;                    // the token being pushed
   int statement_first;       // first token of the statement
   bool said;                 // something was reported about this statement

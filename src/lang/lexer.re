@@ -314,8 +314,14 @@ static const char* lex_one(lexer* x, const char* YYCURSOR) {
     "\""              { return lex_quote(x, YYCURSOR); }
     "["               {
                         const pl_token* t = previous(x);
-                        bool index = t && t->end == offset(x, x->token) && (t->kind == TOK_NAME || t->kind == TOK_PRIMES);
-                        if (!index) return lex_unit(x, YYCURSOR);
+                        bool touches = t && t->end == offset(x, x->token);
+                        if (touches && t->kind == TOK_PRIMES) {
+                          pl_diagnostic* m = pl_complain(x->job, PL_E025, span_to(x, YYCURSOR), "the prime comes after the index", "der Strich kommt hinter den Index");
+                          pl_suggest(x->job, m, NULL, "write x[i]'", "schreibe x[i]'");
+                          emit(x, PL_TOKEN_WRONG, YYCURSOR);
+                        } else if (!touches || t->kind != TOK_NAME) {
+                          return lex_unit(x, YYCURSOR);
+                        }
                         emit(x, '[', YYCURSOR);
                         return YYCURSOR;
                       }

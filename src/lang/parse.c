@@ -140,6 +140,7 @@ static void push(feeder* f, int kind, int i) {
   pl_parse* p = f->p;
   const pl_token* t = token_at(p, i);
   p->at = i;
+  p->kinds[i] = kind;
   f->last = kind;
   pl_ast* value = pl_ast_of_token(p, kind, t);
   pl_bytes at = {t->begin, t->end};
@@ -513,6 +514,7 @@ static void run(pl_parse* p, pl_job* job, pl_names* names, const pl_source* sour
   pl_tokens* tokens = PL_NEW(job->arena, pl_tokens);
   pl_lex(job, names, source, tokens);
   p->tokens = tokens;
+  p->kinds = PL_ARRAY(job->arena, int, tokens->list.n);
   // the parser's stacks are its own memory: let them go when memory runs out here
   pl_yypstate* state = pl_yypstate_new();
   if (state == NULL) pl_unwind(job->arena, PLEUEL_NO_MEMORY);
