@@ -43,7 +43,7 @@ static bool along_axes(pl_analysis* d, int link, int particle, pl_force* out) {
   const pl_particle* m = &d->particle.at[particle];
   out->n = 0;
   for (int c = 0; c < m->n; c++) {
-    if (pl_is_constant(d->pool, m->at[c])) continue;
+    if (!pl_has_coordinates(d, m->at[c])) continue;   // stays, or is moved as given
     if (pl_kind_of(d->pool, m->at[c]) != PL_SYMBOL) return false;
     int i = pl_variable_index(d, pl_symbol_of(d->pool, m->at[c]));
     if (i < 0 || shared(d, particle, d->q.at[i].q)) return false;

@@ -240,20 +240,17 @@ static void show_followers(pl_analysis* d, int i) {
   }
 }
 
-static void solve_motion(pl_analysis* d, int i) {
-  if (no_acceleration(d, i)) return;
+// x_i(t) of the generalized coordinate or of one whose equation stands alone; poison if none was found.
+static pl_expr solve_own_motion(pl_analysis* d, int i) {
+  if (no_acceleration(d, i)) return pl_poison();
   const pl_variable* c = &d->q.at[i];
-  if (!pl_is_poison(c->map) && c->solved_by != -2 && d->reduced && d->gen.n == 1 && d->gen.at[0] != i) {
-    solve_motion(d, d->gen.at[0]);   // the map then gives this one
-    return;
-  }
   say_inserted(d, i);
   show_acceleration(d, i);
   pl_expr x = closed_motion(d, i);
   if (pl_is_poison(x)) {
     pl_say(d, "No elementary closed form of the motion was found.", "Eine elementare geschlossene Form der Bewegung wurde nicht gefunden.", 0);
     d->section->not_found = true;
-    return;
+    return x;
   }
   bool uniform_motion = !pl_has_coordinates(d, d->acceleration[i]);
   pl_say(d, uniform_motion ? "Integrated twice:" : "A linear equation with constant coefficients; its solution through the start:",
@@ -263,6 +260,26 @@ static void solve_motion(pl_analysis* d, int i) {
   claim_motion(d, i, pl_form_value(d->pool, form));
   pl_answer(d, pl_symbol_get(d->pool, c->q)->ascii, x, form);
   show_followers(d, i);
+  return x;
+}
+
+// A coordinate that hangs on the generalized one: first that one's motion, then the map.
+static void solve_by_map(pl_analysis* d, int i) {
+  int leader = d->gen.at[0];
+  pl_expr x = solve_own_motion(d, leader);
+  if (pl_is_poison(x)) return;
+  x = pl_alg_normal(d->tower, pl_subst1(d->pool, d->q.at[i].map, d->q.at[leader].q, x));
+  const pl_form* form = pl_f(d, x, PL_S_SOLUTION);
+  pl_show_numbered(d, pl_feq(d, of_time(d, i), form));
+  pl_answer(d, pl_symbol_get(d->pool, d->q.at[i].q)->ascii, x, form);
+}
+
+static void solve_motion(pl_analysis* d, int i) {
+  const pl_variable* c = &d->q.at[i];
+  bool hangs = !pl_is_poison(c->map) && c->solved_by != -2 && d->reduced && d->gen.n == 1 && d->gen.at[0] != i;
+  bool alone = d->solved && !pl_is_poison(d->acceleration[i]) && !pl_has_coordinates(d, d->acceleration[i]);
+  if (hangs && !alone) solve_by_map(d, i);
+  else solve_own_motion(d, i);
 }
 
 // ---------------------------------------------------------------------------------------------- the section
