@@ -184,8 +184,20 @@ static pleuel_status happen(pl_run* run, int e) {
 }
 
 // ---------------------------------------------------------------------------------------------- all of them
+// Whether the motion is another one afterwards: then the row is written twice, before and after.
+static bool changes_motion(const pl_run* run) {
+  for (int i = 0; i < run->n_watch; i++) {
+    if (!run->hit[i]) continue;
+    if (run->watch[i].kind != PL_WATCH_EVENT) return true;
+    const pl_event_setup* e = &run->setup->events[run->watch[i].index];
+    for (int d = 0; d < e->n_deeds; d++)
+      if (e->deeds[d].deed != PL_DEED_STOP && e->deeds[d].deed != PL_DEED_RECORD) return true;
+  }
+  return false;
+}
+
 pleuel_status pl_modes_handle(pl_run* run) {
-  PL_TRY(pl_rows_point(run, PL_ROW_BEFORE));
+  if (changes_motion(run)) PL_TRY(pl_rows_point(run, PL_ROW_BEFORE));
   for (int i = 0; i < run->n_watch; i++) {
     if (!run->hit[i]) continue;
     const pl_watch w = run->watch[i];

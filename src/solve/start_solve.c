@@ -48,14 +48,31 @@ double pl_start_speed_residual(pl_start* s, const double* v, int* worst) {
 }
 
 // ---------------------------------------------------------------------------------------------- rank
+// Too many rows to compare: all are taken that have something left to move.
+static int take_all_that_move(pl_run* run, const bool* held, bool positions) {
+  int n = 0;
+  for (int c = 0; c < run->n_c; c++) run->taken[c] = false;
+  for (int i = 0; i < run->motion.n; i++) {
+    const pl_batch* b = &run->motion.at[i];
+    for (int e = 0; e < b->pattern->n_G; e++) {
+      const pl_pattern_entry* g = &b->pattern->G[e];
+      const double* x = pl_jet_at(b->jet, b->pattern->tape->roots[g->root], 0);
+      for (int l = 0; l < b->n; l++) {
+        int c = b->c[g->row * b->lanes + l];
+        if (x[l] == 0 || held[b->q[g->col * b->lanes + l]] || !run->active[c]) continue;
+        if (!positions || !run->setup->links[c].velocity) run->taken[c] = true;
+      }
+    }
+  }
+  for (int c = 0; c < run->n_c; c++) n += run->taken[c];
+  return n;
+}
+
 // Rows of G without the columns of what is held.  Positions: velocity constraints say nothing.
 static int choose(pl_start* s, const bool* held, bool positions) {
   pl_run* run = s->run;
   int n = run->n_q;
-  if (run->n_active > PL_RANK_UP_TO) {
-    for (int c = 0; c < run->n_c; c++) run->taken[c] = run->active[c];
-    return run->n_active;
-  }
+  if (run->n_active > PL_RANK_UP_TO) return take_all_that_move(run, held, positions);
   pl_assemble_rows(run);
   for (int c = 0; c < run->n_c; c++) {
     if (run->row_of[c] < 0) continue;
