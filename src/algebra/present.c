@@ -10,8 +10,11 @@
 
 enum { MAX_SEARCH_DEPTH = 3, POINTS = 4, MAX_BAD_POINTS = 24, SMALL_TERMS = 150, LARGE_TERMS = 3000 };
 
-// Steps of work in a second: a step is the factoring of a polynomial of a few terms, about 20 µs.
-static const double work_per_second = 50000;
+// Steps of work in a second: a step is a small part of factoring a polynomial of a few terms, about 5 µs.
+static const double work_per_second = 200000;
+
+// What the first form may cost in any case, 3 ms: small formulas are searched to the end with that.
+static const long work_of_first_form = 600;
 
 typedef struct present_job {
   pl_expr e;
@@ -31,7 +34,7 @@ static void search_forms(pl_tower* t, void* data) {
   s.wave_at = pl_map_make(s.a);
   long best = 0;
   for (int depth = 0; depth <= deepest; depth++) {
-    // the first form is never cut short
+    // the plainest form is never cut short
     s.limit = depth == 0 ? 1000000 : j->limit;
     if (depth > 0 && s.work >= s.limit) break;
     long cost;
@@ -90,7 +93,8 @@ static bool is_right(pl_tower* t, const pl_form* f, pl_expr e) {
 
 const pl_form* pl_present(pl_tower* t, pl_expr e, pl_style style, double seconds) {
   pl_pool* p = t->pool;
-  present_job j = {.e = e, .style = style, .limit = (long)((seconds > 0 ? seconds : 0) * work_per_second)};
+  present_job j = {.e = e, .style = style, .limit = work_of_first_form};
+  if (seconds > 0) j.limit += (long)(seconds * work_per_second);
   if (pl_is_poison(e) || pl_is_number(p, e)) return pl_form_of(t->arena, p, e);
   // a search that gave up at some depth has left the form of the depth before
   pl_tower_run(t, search_forms, &j);

@@ -298,9 +298,10 @@ static pl_box* apply(pl_builder* b, pl_box* head, pl_box* argument) {
   return r;
 }
 
-// cos φ, but cos(2 φ), cos(φ'), exp(x).
+// cos φ, cos ϑ(0), but cos(2 φ), cos(φ'), exp(x).
 static bool may_stand_bare(pl_function f, const pl_box* x) {
   if (f == PL_EXP || f == PL_ABS || f == PL_SIGN) return false;
+  if (x->kind == PL_B_ROW && x->level == PL_LEVEL_ATOM) x = x->at[0];    // cos ϑ(0)
   return x->kind == PL_B_NAME && x->dots == 0;
 }
 

@@ -223,6 +223,7 @@ static void functions_take_brackets_when_more_than_a_name_follows(void** state) 
   LINE(FN(PL_COS, SUM(L(phi), NEG(L(theta)))), "cos(φ - ϑ)");
   LINE(FN(PL_COS, PROD(N(2), L(phi))), "cos(2 φ)");
   LINE(FN(PL_COS, L(phid)), "cos(φ')");
+  LINE(FN(PL_COS, L(start)), "cos x1(0)");
   LINE(FN(PL_ACOS, QUOT(N(2), N(3))), "acos(2/3)");
   LINE(FN(PL_EXP, L(t)), "exp(t)");
   LINE(FN(PL_ATAN2, L(l), L(r)), "atan2(l, r)");
