@@ -38,9 +38,25 @@ static int most_components(const pl_ast* node) {
   return most;
 }
 
+// A point is (x, y, z) in whatever order `axes` names them: "axes x right, z up, y out" says where they point.  Axes of
+// other names are in the order of the line.
+static void axes_in_order(pl_model* m) {
+  for (int i = 0; i < m->n_axes; i++) {
+    if (strlen(m->axes[i].ascii) != 1 || !strchr("xyz", m->axes[i].ascii[0])) return;
+  }
+  for (int i = 1; i < m->n_axes; i++) {
+    for (int k = i; k > 0 && m->axes[k].ascii[0] < m->axes[k - 1].ascii[0]; k--) {
+      pl_axis other = m->axes[k];
+      m->axes[k] = m->axes[k - 1];
+      m->axes[k - 1] = other;
+    }
+  }
+}
+
 // Without `axes`: as many as the points have components, x right, y up, z out.
 void pl_axes_settle(pl_lower* l, const pl_ast* file) {
   static const pl_axis usual[3] = {{"x", "x", "right", false}, {"y", "y", "up", false}, {"z", "z", "out", false}};
+  axes_in_order(l->m);
   if (l->m->n_axes) return;
   int n = most_components(file);
   l->m->n_axes = n > 3 ? 3 : n;
