@@ -76,6 +76,7 @@ static int compare_bases(const pl_pool* p, pl_expr a, pl_expr b, pair* left) {
   if (c != 0) return c;
   if (x->dots != y->dots) return x->dots < y->dots ? -1 : 1;
   if (x->function != y->function) return x->function < y->function ? -1 : 1;
+  if (x->height != y->height) return x->height < y->height ? -1 : 1;   // the simpler first; spares deep descents
   return first_difference(x->u.args, (int)x->n, y->u.args, (int)y->n, left);
 }
 

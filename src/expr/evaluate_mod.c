@@ -14,7 +14,7 @@
 
 #include <string.h>
 
-enum { MAX_LINEAR = 64, MAX_DEPTH = 64, MAX_SUM = 10000, ANGLE_BITS = 20 };
+enum { MAX_LINEAR = 64, MAX_DEPTH = 64, MAX_STEPS = 20000, MAX_SUM = 10000, ANGLE_BITS = 20, PAGE = 256 };
 
 // Denominators of exponents divide this.
 static const int64_t exponent_unit = 256 * 27 * 125 * 7;
@@ -35,8 +35,8 @@ struct pl_mod_point {
   const pl_pool* p;
   uint64_t seed;
   uint32_t epoch;
-  memo* memo;              // by node id                   (n_memo)
-  uint32_t n_memo;
+  memo** pages;            // by node id, made when touched (n_pages x PAGE)
+  uint32_t n_pages;
   symbol_value* symbols;   // by symbol id                 (n_symbols)
   uint32_t n_symbols;
 };
@@ -55,6 +55,7 @@ typedef struct pass {
   uint64_t* value;   // by position
   bool* good;
   bool ok;           // of the node at hand
+  int steps;         // taken to split its argument
 } pass;
 
 // ---------------------------------------------------------------------------------------------- point
@@ -209,7 +210,7 @@ static void linear_power(pass* v, linear* to, pl_expr base, long n, int depth) {
 static void linear_of(pass* v, linear* to, pl_expr e, int depth) {
   const pl_pool* p = v->m->p;
   to->n = 0;
-  if (depth > MAX_DEPTH) v->ok = false;
+  if (depth > MAX_DEPTH || v->steps++ > MAX_STEPS) v->ok = false;
   if (!v->ok) return;
   long n, d;
   switch (pl_kind_of(p, e)) {
@@ -417,17 +418,40 @@ static uint64_t call_value(pass* v, pl_expr e) {
 // ---------------------------------------------------------------------------------------------- node by node
 static uint64_t run_body(pl_mod_point* m, pl_expr body, const binding* b, bool* ok);
 
+static bool is_bound(const pass* v, pl_symbol s) {
+  for (const binding* b = v->bound; b != NULL; b = b->outer) {
+    if (b->index.id == s.id) return true;
+  }
+  return false;
+}
+
+// A bound of a sum as a whole number: a number, or an expression of outer indices that have values.
+static bool whole_bound(const pass* v, pl_expr e, uint64_t value, long* out) {
+  const pl_pool* p = v->m->p;
+  if (pl_is_int(p, e, out)) return true;
+  pl_symbol names[8];
+  int n = pl_symbols_in(p, e, names, 8);
+  if (n == 0 || n > 8) return false;
+  for (int i = 0; i < n; i++) {
+    if (!is_bound(v, names[i])) return false;
+  }
+  const uint64_t small = 1ull << 40;
+  if (value >= small && value <= PL_MOD_P - small) return false;
+  *out = value < small ? (long)value : -(long)(PL_MOD_P - value);
+  return true;
+}
+
 // With whole numbers as bounds term by term; else the body at one random index, times a factor that stands for the range.
 static uint64_t pattern_value(pass* v, pl_expr e) {
   const pl_pool* p = v->m->p;
   pl_symbol index = pl_symbol_of(p, e);
   uint64_t from = arg(v, e, 1), to = arg(v, e, 2);
   long lo, hi;
-  if (!pl_is_int(p, pl_arg(p, e, 1), &lo) || !pl_is_int(p, pl_arg(p, e, 2), &hi)) {
+  if (!whole_bound(v, pl_arg(p, e, 1), from, &lo) || !whole_bound(v, pl_arg(p, e, 2), to, &hi)) {
     uint64_t range = pl_hash_mix(pl_hash_mix(from, to), symbol_residue(v->m, index));
     return pl_mod_mul(arg(v, e, 3), residue(v->m, OF_PATTERN, range));
   }
-  if (hi - lo > MAX_SUM) v->ok = false;
+  if ((__int128)hi - lo > MAX_SUM) v->ok = false;
   uint64_t sum = 0;
   for (long k = lo; k <= hi && v->ok; k++) {
     binding b = {index, k < 0 ? pl_mod_sub(0, (uint64_t)-k % PL_MOD_P) : (uint64_t)k % PL_MOD_P, v->bound};
@@ -482,14 +506,16 @@ static uint64_t node_value(pass* v, pl_expr e) {
 
 // ---------------------------------------------------------------------------------------------- passes
 static memo* memo_at(pl_mod_point* m, pl_expr e) {
-  if (e.id >= m->n_memo) {
-    uint32_t n = m->p->n_nodes + m->p->n_nodes / 2 + 64;
-    memo* wider = PL_ARRAY(m->arena, memo, n);
-    if (m->n_memo > 0) memcpy(wider, m->memo, m->n_memo * sizeof *wider);
-    m->memo = wider;
-    m->n_memo = n;
+  uint32_t page = e.id / PAGE;
+  if (page >= m->n_pages) {
+    uint32_t n = m->p->n_nodes / PAGE * 2 + 16;
+    memo** wider = PL_ARRAY(m->arena, memo*, n);
+    if (m->n_pages > 0) memcpy(wider, m->pages, m->n_pages * sizeof *wider);
+    m->pages = wider;
+    m->n_pages = n;
   }
-  return &m->memo[e.id];
+  if (m->pages[page] == NULL) m->pages[page] = PL_ARRAY(m->arena, memo, PAGE);
+  return &m->pages[page][e.id % PAGE];
 }
 
 // Values that do not depend on a bound index are remembered in the point.
@@ -502,6 +528,7 @@ static void run_node(pass* v, int i) {
     return;
   }
   v->ok = true;
+  v->steps = 0;
   uint64_t x = node_value(v, e);
   v->value[i] = v->ok ? x : 0;
   v->good[i] = v->ok;

@@ -24,6 +24,7 @@ typedef struct pl_node {
   uint8_t dots;       // of a PL_AT
   uint32_t n;         // arguments
   uint32_t symbol;    // of PL_SYMBOL, PL_AT, PL_SUM
+  uint32_t height;    // 0 without arguments, else one more than the highest of them
   union {
     const pl_expr* args;       // (n), every id lower than the node's own
     const pl_number* number;   // of a PL_NUMBER

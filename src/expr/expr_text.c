@@ -3,8 +3,6 @@
 //   -2*g*m1*m2/(m1 + m2)      sqrt(l^2 - r^2*sin(phi)^2)      3*cos(theta) - 2
 #include "expr/expr_impl.h"
 
-#include <limits.h>
-
 enum { MAX_DEPTH = 4000 };                        // of brackets in brackets
 static const long max_operators = 20l << 20;      // a text of some hundred megabytes
 
@@ -202,28 +200,10 @@ static void write_in(writer* w, pl_expr e, binding outer) {
   if (brackets) add(w, ")");
 }
 
-// Depth of the DAG.
-static int depth_of(const pl_pool* p, pl_expr e) {
-  pl_walk w;
-  pl_walk_begin(&w, p, &e, 1);
-  int* depth = pl_scratch_take(p, (size_t)w.nodes.n * sizeof *depth);
-  for (int i = 0; i < w.nodes.n; i++) {
-    depth[i] = 0;
-    for (int k = 0, n = pl_n_args(p, w.nodes.at[i]); k < n; k++) {
-      int d = depth[pl_walk_position(&w, pl_arg(p, w.nodes.at[i], k))] + 1;
-      if (d > depth[i]) depth[i] = d;
-    }
-  }
-  int result = depth[w.nodes.n - 1];
-  pl_scratch_give(p, depth, (size_t)w.nodes.n * sizeof *depth);
-  pl_walk_end(&w);
-  return result;
-}
-
 const char* pl_expr_text(pl_arena* a, const pl_pool* p, pl_expr e) {
   long n = pl_op_count(p, e);
   if (n > max_operators) return pl_format(a, "<an expression of %ld operators>", n);
-  if (depth_of(p, e) > MAX_DEPTH) return pl_copy(a, "<an expression of very many nested brackets>");
+  if (pl_node_at(p, e)->height > MAX_DEPTH) return pl_copy(a, "<an expression of very many nested brackets>");
   writer w = {pl_text_make(a), p};
   write(&w, e);
   return pl_text_string(&w.text);

@@ -10,22 +10,22 @@ static bool is_call(const pl_pool* p, pl_expr e, pl_function f) {
 
 // ---------------------------------------------------------------------------------------------- parity
 // One of x and -x is the one to write: a number by its sign, a product by its coefficient and the brackets in it, a sum by
-// its first term that is no number.
-static bool looks_negative(const pl_pool* p, pl_expr e) {
+// its first term that is no number.  Brackets in brackets count down to the given depth.
+static bool negative_to_depth(const pl_pool* p, pl_expr e, int depth) {
   pl_kind k = pl_kind_of(p, e);
   if (k == PL_NUMBER) return pl_number_sign(p, e) < 0;
-  if (k == PL_ADD) {
-    pl_expr first = pl_arg(p, e, pl_is_number(p, pl_arg(p, e, 0)) ? 1 : 0);
-    return looks_negative(p, first);
-  }
+  if (depth == 0) return false;
+  if (k == PL_ADD) return negative_to_depth(p, pl_arg(p, e, pl_is_number(p, pl_arg(p, e, 0)) ? 1 : 0), depth - 1);
   if (k != PL_MUL) return false;
   bool negative = false;
   for (int i = 0, n = pl_n_args(p, e); i < n; i++) {
     pl_expr x = pl_arg(p, e, i);
-    if ((pl_is_number(p, x) || pl_kind_of(p, x) == PL_ADD) && looks_negative(p, x)) negative = !negative;
+    if ((pl_is_number(p, x) || pl_kind_of(p, x) == PL_ADD) && negative_to_depth(p, x, depth - 1)) negative = !negative;
   }
   return negative;
 }
+
+static bool looks_negative(const pl_pool* p, pl_expr e) { return negative_to_depth(p, e, 6); }
 
 static pl_expr opposite_sum(pl_pool* p, pl_expr e) {
   pl_exprs terms = {0};
@@ -132,7 +132,7 @@ static pl_expr sine_or_cosine(pl_pool* p, pl_function f, pl_expr e) {
     if (rest.id != p->zero.id && k >= 0 && k % 6 == 0) return shifted_sine(p, rest, sine ? k / 6 : k / 6 + 1);
   }
   if (!looks_negative(p, e)) return raw_call(p, f, e);
-  pl_expr turned = pl_call(p, f, opposite(p, e));
+  pl_expr turned = raw_call(p, f, opposite(p, e));
   return sine ? pl_neg(p, turned) : turned;
 }
 
@@ -147,7 +147,7 @@ static pl_expr tangent(pl_pool* p, pl_expr e) {
   }
   if (rest.id != p->zero.id && c.id != p->zero.id && k >= 0 && k % 12 == 0) return pl_call(p, PL_TAN, rest);
   if (!looks_negative(p, e)) return raw_call(p, PL_TAN, e);
-  return pl_neg(p, pl_call(p, PL_TAN, opposite(p, e)));
+  return pl_neg(p, raw_call(p, PL_TAN, opposite(p, e)));
 }
 
 // ---------------------------------------------------------------------------------------------- inverse functions
@@ -239,13 +239,13 @@ static bool never_negative(const pl_pool* p, pl_expr e) {
   }
 }
 
-// Splits e into factors of known sign and the rest: e = sign * known * rest, known >= 0.
-static int take_known_sign(pl_pool* p, pl_expr e, pl_expr* known, pl_expr* rest) {
+// Splits |e| into what is known not to be negative, and the rest.
+static void split_size(pl_pool* p, pl_expr e, pl_expr* known, pl_expr* rest) {
   pl_exprs sure = {0}, open = {0};
-  int sign = 1, n = pl_kind_of(p, e) == PL_MUL ? pl_n_args(p, e) : 1;
-  for (int i = 0; i < n; i++) {
-    pl_expr x = pl_kind_of(p, e) == PL_MUL ? pl_arg(p, e, i) : e;
-    if (pl_number_sign(p, x) < 0) sign = -sign, x = pl_neg(p, x);
+  bool product = pl_kind_of(p, e) == PL_MUL;
+  for (int i = 0, n = product ? pl_n_args(p, e) : 1; i < n; i++) {
+    pl_expr x = product ? pl_arg(p, e, i) : e;
+    if (pl_number_sign(p, x) < 0) x = pl_neg(p, x);
     if (never_negative(p, x)) pl_temp_push(p, sure, x);
     else pl_temp_push(p, open, x);
   }
@@ -253,12 +253,11 @@ static int take_known_sign(pl_pool* p, pl_expr e, pl_expr* known, pl_expr* rest)
   *rest = pl_mul_n(p, open.at, open.n);
   pl_temp_free(p, sure);
   pl_temp_free(p, open);
-  return sign;
 }
 
 static pl_expr absolute(pl_pool* p, pl_expr e) {
   pl_expr known, rest;
-  take_known_sign(p, e, &known, &rest);
+  split_size(p, e, &known, &rest);
   if (rest.id == p->one.id) return known;
   if (looks_negative(p, rest)) rest = opposite(p, rest);
   return pl_mul(p, known, raw_call(p, PL_ABS, rest));
@@ -266,12 +265,13 @@ static pl_expr absolute(pl_pool* p, pl_expr e) {
 
 static pl_expr signum(pl_pool* p, pl_expr e) {
   if (pl_is_number(p, e)) return pl_int(p, pl_number_sign(p, e));
-  if (e.id == p->pi.id || is_call(p, e, PL_EXP) || pl_kind_of(p, e) == PL_INFINITY) return p->one;
+  if (pl_kind_of(p, e) == PL_INFINITY) return p->one;
   pl_term t = pl_term_of(p, e);
   int sign = pl_number_sign(p, t.coefficient);
   pl_expr rest = pl_div(p, e, t.coefficient);
+  if (rest.id == p->pi.id || is_call(p, rest, PL_EXP)) return pl_int(p, sign);
   if (pl_kind_of(p, rest) == PL_ADD && looks_negative(p, rest)) rest = opposite(p, rest), sign = -sign;
-  pl_expr s = t.coefficient.id == p->one.id && rest.id == e.id ? raw_call(p, PL_SIGN, rest) : signum(p, rest);
+  pl_expr s = raw_call(p, PL_SIGN, rest);
   return sign < 0 ? pl_neg(p, s) : s;
 }
 

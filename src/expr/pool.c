@@ -122,6 +122,15 @@ static pl_expr add_node(pl_pool* p, pl_node node) {
   return (pl_expr){id};
 }
 
+static uint32_t height_over(const pl_pool* p, const pl_expr* args, int n) {
+  uint32_t height = 0;
+  for (int i = 0; i < n; i++) {
+    uint32_t h = pl_node_at(p, args[i])->height + 1;
+    if (h > height) height = h;
+  }
+  return height;
+}
+
 pl_expr pl_node_make(pl_pool* p, pl_kind kind, int function, int dots, uint32_t symbol, const pl_expr* args, int n) {
   uint64_t hash = hash_node(kind, function, dots, symbol, args, n);
   for (uint32_t i = (uint32_t)hash & (p->table_cap - 1); p->table[i] != 0; i = (i + 1) & (p->table_cap - 1)) {
@@ -130,7 +139,7 @@ pl_expr pl_node_make(pl_pool* p, pl_kind kind, int function, int dots, uint32_t 
   }
   reserve_node(p);
   pl_node node = {.hash = hash, .kind = (uint8_t)kind, .function = (uint8_t)function, .dots = (uint8_t)dots,
-                  .n = (uint32_t)n, .symbol = symbol};
+                  .n = (uint32_t)n, .symbol = symbol, .height = height_over(p, args, n)};
   if (n > 0) node.u.args = reserve_args(p, args, n);
   return add_node(p, node);
 }
