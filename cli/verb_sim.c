@@ -1,6 +1,7 @@
 // pleuel sim FILE: the motion as data.
 #include "cli.h"
 
+#include <math.h>
 #include <string.h>
 
 const cli_flag flags_sim[] = {
@@ -37,7 +38,8 @@ static int unsupported_output(const char* path) {
   return EXIT_DONE;
 }
 
-static void tell(pleuel* ctx, const cli_options* o, pleuel_model* m, pleuel_status s, bool stdout_taken) {
+// A run that did not start has nothing to tell but why.
+static void tell(pleuel* ctx, const cli_options* o, pleuel_model* m, pleuel_status s, bool started, bool stdout_taken) {
   if (o->json) {
     const char* json = pleuel_simulation_json(m);
     if (json) fputs(json, stdout);
@@ -49,10 +51,10 @@ static void tell(pleuel* ctx, const cli_options* o, pleuel_model* m, pleuel_stat
   how.lang = o->lang;
   how.terse = o->events;
   cli_print_diagnostics(m, o, stderr, 7u);
-  const char* text = pleuel_simulation_text(m, &how);
+  const char* text = started ? pleuel_simulation_text(m, &how) : NULL;
   if (text) fputs(text, to);
   fflush(to);
-  bool said = s == PLEUEL_MODEL_ERROR && pleuel_diagnostic_count(m, PLEUEL_ERROR) > 0;
+  bool said = started || pleuel_diagnostic_count(m, PLEUEL_ERROR) > 0;
   if (s != PLEUEL_OK && !said && *pleuel_message(ctx)) cli_error(0, "%s", pleuel_message(ctx));
 }
 
@@ -78,17 +80,18 @@ int verb_sim(pleuel* ctx, const cli_options* o) {
   if (code == EXIT_DONE) {
     how.csv = to_file ? file.to : to_stdout ? stdout : NULL;
     how.progress = cli_progress;
-    pleuel_status s = pleuel_simulate(m, NULL, &how);
+    pleuel_sim_summary summary;
+    pleuel_status s = pleuel_simulate(m, &summary, &how);
     cli_progress_clear();
     code = cli_exit_code(s);
-    bool has_rows = s == PLEUEL_OK || s == PLEUEL_INTERRUPTED || s == PLEUEL_NUMERICAL || s == PLEUEL_SINGULAR || s == PLEUEL_EXPECT_FAILED;
-    if (to_file && has_rows && ftell(file.to) > 0) {
+    bool started = !isnan(summary.t_end);
+    if (to_file && started) {
       int closed = cli_file_close(&file);
       if (closed) code = closed;
     } else if (to_file) {
       cli_file_drop(&file);
     }
-    tell(ctx, o, m, s, to_stdout);
+    tell(ctx, o, m, s, started, to_stdout);
   }
   pleuel_model_free(m);
   return code;

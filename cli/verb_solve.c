@@ -45,7 +45,7 @@ static int solve_file(pleuel* ctx, const cli_options* o, const char* file) {
   if (!o->json) {
     fflush(stdout);
     cli_print_diagnostics(m, o, stderr, 1u << PLEUEL_ERROR | 1u << PLEUEL_WARNING);
-    bool said = s == PLEUEL_MODEL_ERROR && pleuel_diagnostic_count(m, PLEUEL_ERROR) > 0;
+    bool said = pleuel_diagnostic_count(m, PLEUEL_ERROR) > 0;
     if (s != PLEUEL_OK && !said && *pleuel_message(ctx)) cli_error(0, "%s", pleuel_message(ctx));
   }
   pleuel_model_free(m);
