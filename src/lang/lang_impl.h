@@ -59,7 +59,7 @@ void pl_because(pl_job* job, pl_diagnostic* m, const char* en, const char* de, .
 const char* pl_source_text(pl_arena* a, pl_span s);     // the source under a span, blanks collapsed
 
 // ---------------------------------------------------------------------------------------------- parser
-enum { PL_MAX_DEPTH = 200 };           // of brackets and of the tree
+enum { PL_MAX_DEPTH = 200, PL_MAX_BLOCKS = 16 };   // of brackets and of `for` inside each other
 
 typedef struct pl_parse {
   pl_job* job;

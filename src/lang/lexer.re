@@ -17,6 +17,7 @@ typedef struct lexer {
   const char* token;         // start of the token being read
   uint32_t last_end;         // end of the token before
   bool line_start;
+  uint32_t wrong_before;     // character complained about last on this line, so that |x| costs one message
 } lexer;
 
 static uint32_t offset(const lexer* x, const char* s) { return (uint32_t)(s - x->start); }
@@ -194,6 +195,11 @@ static int kind_of_sign(const char* meant) {
 }
 
 static const char* lex_wrong(lexer* x, const char* cursor, uint32_t c) {
+  if (c == x->wrong_before) {
+    emit(x, PL_TOKEN_WRONG, cursor);
+    return cursor;
+  }
+  x->wrong_before = c;
   const char* what[2];
   const char* meant = pl_look_alike(c, what);
   const char* shown = piece(x, x->token, cursor);
@@ -282,7 +288,7 @@ static const char* lex_one(lexer* x, const char* YYCURSOR) {
     blank  = [ \t\u00a0\u2000-\u200a\u202f\u205f\u3000];
 
     blank+            { return YYCURSOR; }
-    "\r"* "\n"        { emit(x, TOK_EOL, YYCURSOR); return YYCURSOR; }
+    "\r"* "\n"        { emit(x, TOK_EOL, YYCURSOR); x->wrong_before = 0; return YYCURSOR; }
     "\r"              { return YYCURSOR; }
     "\x00"            {
                         if (YYCURSOR > x->end) return NULL;

@@ -298,12 +298,25 @@ static void set_start(pl_lower* l, const pl_setting_node* s) {
 }
 
 // ---------------------------------------------------------------------------------------------- the passes
+// Declarations inside blocks are refused, but what they name is known, so that it is not missed.
+static void declare_inside(pl_lower* l, const pl_ast* s) {
+  if (s->token != TOK_FOR) {
+    pl_lower_declare(l, s);
+    return;
+  }
+  const pl_ast* lines = pl_ast_kid(s, 2);
+  for (int i = 0; i < lines->kids.n; i++) {
+    int token = lines->kids.at[i]->kind == PL_AST_STATEMENT ? lines->kids.at[i]->token : 0;
+    if (token == TOK_FOR || token == TOK_PARAM || token == TOK_COORD || token == TOK_LET) declare_inside(l, lines->kids.at[i]);
+  }
+}
+
 static void lower_all(pl_lower* l, pl_ast** s, int n) {
   walk w = {.blocks = pl_map_make(l->arena), .first = true};
   pl_ast file = {.kind = PL_AST_FILE};
   file.kids.at = s, file.kids.n = n;
   // headers and names
-  for (int i = 0; i < n; i++) pl_lower_declare(l, s[i]);
+  for (int i = 0; i < n; i++) declare_inside(l, s[i]);
   set_names(l);
   pl_axes_settle(l, &file);
   // parameters first: they size families; then coordinates, then what is abbreviated

@@ -33,7 +33,7 @@ static pl_quantity wrong_count(pl_lower* l, const call* c, const char* usage) {
       return pl_quantity_bad();
     }
   }
-  pl_diagnostic* m = pl_lower_complain(l, PL_E017, span_of(c), "%s has %d arguments here", "%s hat hier %d Argumente", c->name->shown, c->n);
+  pl_diagnostic* m = pl_lower_complain(l, PL_E017, span_of(c), "wrong number of arguments for %s: %d", "falsche Zahl von Argumenten für %s: %d", c->name->shown, c->n);
   pl_suggest(l->job, m, NULL, "write %s", "schreibe %s", usage);
   return pl_quantity_bad();
 }

@@ -98,7 +98,7 @@ pl_entity* pl_scope_declare(pl_lower* l, pl_entity_kind kind, const pl_ast* name
 void pl_scope_add(pl_lower* l, pl_entity* e);
 const pl_local* pl_scope_local(const pl_lower* l, const char* key);
 bool pl_scope_known(pl_lower* l, const pl_ast* name);          // would pl_lower_name find something?
-void pl_scope_unknown(pl_lower* l, const pl_ast* name);        // E011 with the nearest name
+pl_diagnostic* pl_scope_unknown(pl_lower* l, const pl_ast* name);   // E011 with the nearest name
 void pl_scope_unknown_label(pl_lower* l, const pl_ast* label, const char* en, const char* de, const char* const* known, int n);
 bool pl_scope_lost(const pl_lower* l, const char* key);
 pl_symbol pl_scope_symbol(pl_lower* l, const pl_ast* name, pl_role role);   // makes one

@@ -57,8 +57,10 @@ static bool refuse_exponent(product* p, const pl_ast* f) {
   pl_diagnostic* m = pl_lower_complain(p->l, PL_E015, pl_ast_span(f), "%s can mean the inverse function or one over it", "%s kann die Umkehrfunktion oder den Kehrwert bedeuten",
                                        pl_source_text(p->l->arena, pl_ast_span(f)));
   const char* inverse = inverse_of(name->key);
-  if (inverse) pl_suggest(p->l->job, m, inverse, "write %s  or  1/%s", "schreibe %s  oder  1/%s", inverse, name->shown);
-  else pl_suggest(p->l->job, m, NULL, "write 1/%s", "schreibe 1/%s", name->shown);
+  int next = p->at + 1;
+  const char* argument = factor(p, next) && blank_before(p, next) ? text_between(p, next, next) : "x";
+  if (inverse) pl_suggest(p->l->job, m, inverse, "write %1$s %3$s  or  1/%2$s %3$s", "schreibe %1$s %3$s  oder  1/%2$s %3$s", inverse, name->shown, argument);
+  else pl_suggest(p->l->job, m, NULL, "write 1/%s %s", "schreibe 1/%s %s", name->shown, argument);
   return true;
 }
 
@@ -232,7 +234,13 @@ static bool unit_without_brackets(product* p, int i) {
   const pl_ast* f = factor(p, i);
   const pl_ast* base = pl_ast_base(f);
   if (base->kind != PL_AST_NAME || !blank_before(p, i) || i == 0 || !is_plain_number(factor(p, i - 1))) return false;
-  if (pl_scope_known(p->l, base) || pl_scope_lost(p->l, base->key)) return false;
+  // m in 9.81 m/s^2 may be a mass; s is not a name, and the whole reads as a unit
+  bool unknown = false;
+  for (int k = i; k < p->node->kids.n; k++) {
+    const pl_ast* b = pl_ast_base(factor(p, k));
+    unknown |= b->kind == PL_AST_NAME && !pl_scope_known(p->l, b) && !pl_scope_lost(p->l, b->key);
+  }
+  if (!unknown) return false;
   for (int last = p->node->kids.n - 1; last >= i; last--) {
     pl_span span = span_between(p, i, last);
     const char* text = pl_source_text(p->l->arena, span);
@@ -240,6 +248,12 @@ static bool unit_without_brackets(product* p, int i) {
     size_t bad_at, bad_n;
     const char* near;
     if (!pl_unit_parse(p->l->pool, text, strlen(text), &unit, &bad_at, &bad_n, &near)) continue;
+    bool has_unknown = false;
+    for (int k = i; k <= last; k++) {
+      const pl_ast* b = pl_ast_base(factor(p, k));
+      has_unknown |= b->kind == PL_AST_NAME && !pl_scope_known(p->l, b);
+    }
+    if (!has_unknown) continue;
     pl_diagnostic* m = pl_lower_complain(p->l, PL_E024, span, "%s looks like a unit without brackets", "%s sieht nach einer Einheit ohne Klammern aus", text);
     pl_suggest(p->l->job, m, pl_format(p->l->arena, "[%s]", text), "write %s [%s]", "schreibe %s [%s]", text_between(p, i - 1, i - 1), text);
     p->at = last + 1;
@@ -252,10 +266,12 @@ static bool numbers_side_by_side(product* p, int i) {
   if (!blank_before(p, i) || i == 0) return false;
   const pl_ast *a = pl_ast_base(factor(p, i - 1)), *b = pl_ast_base(factor(p, i));
   if (a->kind != PL_AST_NUMBER || b->kind != PL_AST_NUMBER || factor(p, i - 1)->kind == PL_AST_UNIT) return false;
-  pl_span span = span_between(p, i - 1, i);
+  pl_span span = pl_span_join(pl_ast_span(a), pl_ast_span(b));
   pl_diagnostic* m = pl_lower_complain(p->l, PL_E001, span, "two numbers side by side", "zwei Zahlen nebeneinander");
-  const char *left = text_between(p, i - 1, i - 1), *right = text_between(p, i, i);
-  pl_suggest(p->l->job, m, pl_format(p->l->arena, "%s*%s", left, right), "write %s*%s", "schreibe %s*%s", left, right);
+  // 1 000 is a thousand with a blank
+  bool thousand = strlen(b->text) == 3 && strlen(a->text) <= 3 && !strpbrk(a->text, ".e") && !strpbrk(b->text, ".e");
+  const char* fixed = pl_format(p->l->arena, thousand ? "%s%s" : "%s*%s", a->text, b->text);
+  pl_suggest(p->l->job, m, fixed, "write %s", "schreibe %s", fixed);
   return true;
 }
 

@@ -204,6 +204,8 @@ typedef struct guess { const char *key, *shown; int distance, gap; } guess;
 static void try_guess(guess* best, const char* wanted, const char* key, const char* shown) {
   int cap = strlen(wanted) <= 3 ? 1 : 2;
   int d = pl_edit_distance(wanted, key, cap);
+  bool case_only = strlen(wanted) == 1 && strlen(key) == 1 && ((wanted[0] ^ key[0]) & ~0x20) == 0;   // L for l
+  if (case_only) d = 0;
   if (d > cap || (d >= (int)strlen(wanted) && strlen(wanted) < 2)) return;
   int gap = digit_gap(wanted, key);
   if (best->key && (d > best->distance || (d == best->distance && gap >= best->gap))) return;
@@ -222,29 +224,26 @@ static const char* all_coordinates(pl_lower* l, int most) {
   return n > 0 && n <= most ? pl_text_string(&out) : NULL;
 }
 
-void pl_scope_unknown(pl_lower* l, const pl_ast* name) {
+pl_diagnostic* pl_scope_unknown(pl_lower* l, const pl_ast* name) {
   if (pl_scope_lost(l, name->key) || strcmp(name->key, "?") == 0) {
     l->wrong++;
-    return;
+    return PL_NEW(l->arena, pl_diagnostic);
   }
   pl_diagnostic* m = pl_lower_complain(l, PL_E011, pl_ast_span(name), "%s is not declared", "%s ist nicht vereinbart", name->shown);
   guess best = {0};
   for (int i = 0; i < l->entities.n; i++) try_guess(&best, name->key, l->entities.at[i]->key, l->entities.at[i]->shown);
   for (int i = 0; i < l->locals.n; i++) try_guess(&best, name->key, l->locals.at[i].key, l->locals.at[i].key);
+  for (int i = 0; i < l->lost.n; i++) try_guess(&best, name->key, l->lost.at[i], l->lost.at[i]);
   for (int i = 0; l->results && i < N_RESULT_WORDS; i++) try_guess(&best, name->key, result_words[i], result_words[i]);
   if (strlen(name->key) > 2) {
     for (int i = 0; i < PL_N_FUNCTIONS; i++) try_guess(&best, name->key, pl_function_name[i], pl_function_name[i]);
   }
-  if (best.key == NULL) {
-    pl_suggest(l->job, m, NULL, "declare it:  param %s = ...", "vereinbaren:  param %s = ...", name->shown);
-    return;
-  }
   const char* coordinates = all_coordinates(l, 8);
-  if (coordinates == NULL) {
-    pl_suggest(l->job, m, best.shown, "did you mean %s?", "war %s gemeint?", best.shown);
-    return;
-  }
-  pl_suggest(l->job, m, best.shown, "did you mean %s?        (coordinates: %s)", "war %s gemeint?        (Koordinaten: %s)", best.shown, coordinates);
+  if (best.key == NULL && coordinates == NULL) pl_suggest(l->job, m, NULL, "declare it:  param %s = ...", "vereinbaren:  param %s = ...", name->shown);
+  else if (best.key == NULL) pl_suggest(l->job, m, NULL, "declare it:  param %s = ...        (coordinates: %s)", "vereinbaren:  param %s = ...        (Koordinaten: %s)", name->shown, coordinates);
+  else if (coordinates == NULL) pl_suggest(l->job, m, best.shown, "did you mean %s?", "war %s gemeint?", best.shown);
+  else pl_suggest(l->job, m, best.shown, "did you mean %s?        (coordinates: %s)", "war %s gemeint?        (Koordinaten: %s)", best.shown, coordinates);
+  return m;
 }
 
 void pl_scope_unknown_label(pl_lower* l, const pl_ast* label, const char* en, const char* de, const char* const* known, int n) {
@@ -342,7 +341,9 @@ static pl_quantity no_family(pl_lower* l, const pl_ast* name, const pl_ast* plac
   size_t bad_at, bad_n;
   const char* near;
   const char* text = pl_source_text(l->arena, pl_ast_span(index));
-  if (pl_unit_parse(l->pool, text, strlen(text), &unit, &bad_at, &bad_n, &near)) {
+  const pl_ast* one = pl_ast_single(index);
+  bool is_index = !index || index->kind == PL_AST_SUM || (one && (one->kind == PL_AST_NUMBER || (one->kind == PL_AST_NAME && pl_scope_local(l, one->key))));
+  if (!is_index && pl_unit_parse(l->pool, text, strlen(text), &unit, &bad_at, &bad_n, &near)) {
     pl_diagnostic* m = pl_lower_complain(l, PL_E023, pl_ast_span(place), "a unit belongs to a number or a declaration", "eine Einheit gehört zu einer Zahl oder Vereinbarung");
     pl_suggest(l->job, m, name->shown, "remove [%s]", "[%s] entfernen", text);
     return pl_quantity_bad();
@@ -475,8 +476,8 @@ pl_quantity pl_lower_name(pl_lower* l, const pl_ast* name, const pl_ast* index, 
   if (strcmp(name->key, "lambda") == 0 && !pl_scope_lost(l, name->key)) return several_multipliers(l, name);
   if (l->infinity && (strcmp(name->key, "inf") == 0 || strcmp(name->key, "infinity") == 0)) return pl_quantity_of(pl_infinity(l->pool));
   if (!l->results && result_kind(name->key, &kind) && !pl_scope_lost(l, name->key)) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E011, pl_ast_span(name), "%s is not declared", "%s ist nicht vereinbart", name->shown);
-    pl_because(l->job, m, "the result of that name can stand in ask, plot and event only", "das Ergebnis dieses Namens kann nur in ask, plot und event stehen");
+    pl_diagnostic* m = pl_scope_unknown(l, name);
+    pl_because(l->job, m, "as a result it can stand in ask, plot and event only", "als Ergebnis kann es nur in ask, plot und event stehen");
     return pl_quantity_bad();
   }
   pl_scope_unknown(l, name);

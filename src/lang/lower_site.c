@@ -58,7 +58,8 @@ void pl_axes_settle(pl_lower* l, const pl_ast* file) {
   static const pl_axis usual[3] = {{"x", "x", "right", false}, {"y", "y", "up", false}, {"z", "z", "out", false}};
   axes_in_order(l->m);
   if (l->m->n_axes) return;
-  int n = most_components(file);
+  // where a broken line may have told, no axis is missed
+  int n = l->lost.n ? 3 : most_components(file);
   l->m->n_axes = n > 3 ? 3 : n;
   for (int i = 0; i < l->m->n_axes; i++) l->m->axes[i] = usual[i];
 }
@@ -336,7 +337,7 @@ bool pl_lower_where(pl_lower* l, const pl_ast* node, pl_point* out, pl_site** pl
   if (name == NULL) return pl_lower_point(l, node, out);
   if (pl_site_find(l, name->key) == NULL) {
     pl_entity* e = pl_scope_find(l, name->key);
-    if (e && e->kind == PL_ENTITY_LET) return pl_lower_point(l, node, out);   // an abbreviation of a point
+    if (e) return pl_lower_point(l, node, out);   // an abbreviation of a point, or a number: that is said
   }
   if (!pl_lower_label_point(l, name, index, out, place)) return false;
   out->span = pl_ast_span(node);

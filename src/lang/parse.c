@@ -113,6 +113,7 @@ typedef struct feeder {
   pl_yypstate* state;
   int open[PL_MAX_DEPTH];    // tokens of open brackets
   int n_open;
+  int brace[PL_MAX_BLOCKS + 1];   // tokens of open braces
   int braces;
   int statement;             // keyword of the statement, 0 before it
   int last;                  // kind pushed last
@@ -242,8 +243,8 @@ static void keep_lost_names(feeder* f, int end) {
 }
 
 static void end_statement(feeder* f, int i) {
-  if (f->p->said) keep_lost_names(f, i);
   push(f, TOK_EOL, i);
+  if (f->p->said) keep_lost_names(f, i);
   f->p->said = false;
   f->p->statement_first = -1;
   f->statement = f->n_open = f->item = f->chain = 0;
@@ -310,11 +311,10 @@ static void close_bracket(feeder* f, int i) {
 
 static void open_brace(feeder* f, int i) {
   pl_parse* p = f->p;
-  enum { MAX_BLOCKS = 16 };
-  if (f->braces >= MAX_BLOCKS && !p->said) {
+  if (f->braces >= PL_MAX_BLOCKS && !p->said) {
     const pl_token* t = token_at(p, i);
     pl_complain(p->job, PL_E006, (pl_span){p->source, t->begin, t->end}, "more than %d blocks inside each other",
-                "mehr als %d Blöcke ineinander", MAX_BLOCKS);
+                "mehr als %d Blöcke ineinander", PL_MAX_BLOCKS);
     p->said = true;
   }
   if (f->statement == TOK_FOR && !p->said && f->n_open == 0) push(f, '{', i);
@@ -327,7 +327,7 @@ static void open_brace(feeder* f, int i) {
     p->lost_braces++;
     f->skip = true;
   } else {
-    f->braces++;
+    f->brace[f->braces++] = i;
   }
   end_statement(f, i);
 }
@@ -474,8 +474,8 @@ static int feed(feeder* f, int i) {
 static void complain_open_block(feeder* f) {
   pl_parse* p = f->p;
   int at = p->tokens->list.n - 1;
-  const pl_token* t = token_at(p, at);
   if (f->braces && !p->said) {
+    const pl_token* t = token_at(p, f->brace[f->braces - 1]);
     pl_diagnostic* m = pl_complain(p->job, PL_E008, (pl_span){p->source, t->begin, t->end}, "a block of for is not closed",
                                    "ein Block von for wird nicht geschlossen");
     pl_suggest(p->job, m, NULL, "add }", "} ergänzen");

@@ -183,6 +183,7 @@ static bool line_ends_early(pl_parse* p, const int* expected, int n) {
   m = pl_complain(p->job, PL_E001, span, "the line ends too early", "die Zeile endet zu früh");
   const char* en = list_expected(p->arena, expected, n, false);
   if (en) pl_because(p->job, m, "expected: %1$s%2$.0s", "erwartet: %1$.0s%2$s", en, list_expected(p->arena, expected, n, true));
+  if (en && pl_word_reserved(en)) pl_suggest(p->job, m, NULL, "add  %s ...", "%s ...  ergänzen", en);
   return true;
 }
 
