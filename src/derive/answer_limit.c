@@ -23,10 +23,26 @@ static const pl_form* name_of(pl_analysis* d, pl_expr e) {
 static const char* machine_name(pl_analysis* d, pl_expr e) { return pl_expr_text(d->arena, d->pool, e); }
 
 // ---------------------------------------------------------------------------------------------- limits
+// A row of the table of limits: the condition, then what becomes of the quantity.
+static pl_step* show_case(pl_analysis* d, const pl_form* condition, const pl_form* result) {
+  pl_step* row = pl_row(d, "{1}", "{1}", result, NULL);
+  const pl_form** insert = PL_ARRAY(d->arena, const pl_form*, 1);
+  insert[0] = condition;
+  row->n_inserts = 1;
+  row->inserts = insert;
+  return row;
+}
+
+static bool is_acceleration(pl_analysis* d, pl_expr e) {
+  return pl_kind_of(d->pool, e) == PL_SYMBOL && pl_symbol_get(d->pool, pl_symbol_of(d->pool, e))->role == PL_R_ACCELERATION;
+}
+
 static void show_limit(pl_analysis* d, const pl_form* condition, pl_expr subject_name, pl_expr value, bool equality) {
   const pl_form* rhs = pl_f(d, value, PL_S_QUOTIENT);
-  const pl_form* result = pl_frel(d, name_of(d, subject_name), equality ? "=" : "->", rhs);
-  pl_say(d, "{1}:  {2}", "{1}:  {2}", 2, condition, result);
+  pl_step* row = show_case(d, condition, pl_frel(d, name_of(d, subject_name), equality ? "=" : "->", rhs));
+  if (is_acceleration(d, subject_name) && pl_is_zero_node(d->pool, value)) {
+    pl_step_after(row, "equilibrium, or uniform motion", "Gleichgewicht oder gleichförmige Bewegung");
+  }
   pl_answer(d, machine_name(d, subject_name), value, rhs);
 }
 
@@ -116,7 +132,7 @@ static void limit_much_greater(pl_analysis* d, const pl_ask* ask, pl_expr name, 
   const pl_form* ratio = pl_form_quotient(d->arena, pl_fe(d, ask->to), pl_fs(d, ask->variable));
   const pl_form* grouped = pl_form_make(d->arena, PL_F_GROUP, 1, &ratio);
   const pl_form* form = series_form(d, c, lead, 3, grouped, lead + 1);
-  pl_say(d, "{1}:  {2}", "{1}:  {2}", 2, condition, pl_feq(d, name_of(d, name), form));
+  show_case(d, condition, pl_feq(d, name_of(d, name), form));
   pl_expr real = pl_div(d->pool, ask->to, pl_sym(d->pool, ask->variable));
   pl_expr leading = pl_alg_normal(d->tower, truncated(d, c, lead, 1, real, lead));
   pl_value* v = pl_answer(d, machine_name(d, name), leading, pl_f(d, leading, PL_S_QUOTIENT));
@@ -182,7 +198,7 @@ void pl_answer_series(pl_analysis* d, const pl_ask* ask) {
     const pl_form* base = pl_is_zero_node(d->pool, ask->to) ? pl_fs(d, ask->variable) : pl_fe(d, x);
     if (base->kind == PL_F_SUM) base = pl_form_make(d->arena, PL_F_GROUP, 1, &base);
     const pl_form* form = series_form(d, c, lead, order + 1, base, order > lead ? order : lead);
-    pl_say(d, "{1}:  {2}", "{1}:  {2}", 2, condition, pl_feq(d, name_of(d, name[k]), form));
+    show_case(d, condition, pl_feq(d, name_of(d, name[k]), form));
     pl_value* v = pl_answer(d, machine_name(d, name[k]), truncated(d, c, lead, order + 1, x, order > lead ? order : lead), form);
     v->order = order > lead ? order : lead;
   }

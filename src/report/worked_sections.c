@@ -62,7 +62,9 @@ static const char* pl_step_value(pl_page* g, const pl_step* s) {
   double x = s->unit && strcmp(s->unit, "rad") == 0 ? s->value * 180 / acos(-1) : s->value;
   const char* number = pl_notation_number(g->arena, x, PL_DIGITS, g->how);
   bool bare = !s->unit || !*s->unit || strcmp(s->unit, "1") == 0;
-  return pl_page_plain(g, pl_format(g->arena, "= %s%s%s", number, bare || angle ? "" : " ", bare ? "" : angle ? "°" : s->unit));
+  const char* unit = bare ? "" : angle ? "°" : pl_format(g->arena, " %s", s->unit);
+  const char* name = s->value_name ? pl_format(g->arena, "%s ", s->value_name) : "";
+  return pl_page_plain(g, pl_format(g->arena, "%s= %s%s", name, number, unit));
 }
 
 // ---------------------------------------------------------------------------------------------- equations
@@ -110,17 +112,16 @@ static void pl_put_lead(pl_page* g, const pl_step* s) {
 static void pl_put_equations(pl_page* g, const pl_stretch* b, const pl_step* const* s, int n) {
   pl_lines* f = PL_ARRAY(g->arena, pl_lines, n);
   int after_column = 0;
-  bool tall = false;
+  bool drawn = g->how.math == PL_MATH_2D;
   for (int i = 0; i < n; i++) {
     f[i] = pl_page_formula(g, s[i]->formula, pl_room(g, PL_COLUMN_STEP), pl_utf8_width(pl_number_text_of(g, s[i])));
     int end = PL_COLUMN_STEP + f[i].width + PL_GAP;
     bool fits = end + pl_utf8_width(pl_page_words(g, s[i]->after)) <= g->margin;
     if (pl_has_after(g, s[i]) && fits && end > after_column) after_column = end;
-    tall = tall || (g->how.math == PL_MATH_2D && f[i].n > 1);
   }
   for (int i = 0; i < n; i++) {
     int end = PL_COLUMN_STEP + f[i].width + PL_GAP;
-    if (tall && i > 0) pl_page_blank(g);
+    if (drawn && i > 0 && (f[i].n > 1 || f[i - 1].n > 1)) pl_page_blank(g);
     pl_put_lead(g, s[i]);
     int common = after_column + pl_utf8_width(pl_page_words(g, s[i]->after)) <= g->margin ? after_column : end;
     pl_put_equation(g, b, s[i], f[i], common > end ? common : end);
@@ -128,20 +129,20 @@ static void pl_put_equations(pl_page* g, const pl_stretch* b, const pl_step* con
 }
 
 // ---------------------------------------------------------------------------------------------- tables
-static int pl_label_width(pl_page* g, const pl_step* const* s, int n) {
-  int width = 0;
-  for (int i = 0; i < n && s[i]->kind != PL_STEP_HEADING; i++) {
-    int w = s[i]->kind == PL_STEP_ROW && s[i]->formula ? pl_utf8_width(pl_page_words(g, s[i]->words)) : 0;
-    if (w > width) width = w;
-  }
-  return width == 0 ? 0 : width + PL_GAP < PL_LABEL_WIDTH ? PL_LABEL_WIDTH : width + PL_GAP;
-}
-
 static const char* pl_row_label(pl_page* g, const pl_step* s) {
   const char* words = pl_page_fill(g, pl_page_words(g, s->words), s->n_inserts, s->inserts);
   char* label = pl_copy(g->arena, words);
   for (char* c = label; *c; c++) if (*c == '\x01') *c = ' ';
   return label;
+}
+
+static int pl_label_width(pl_page* g, const pl_step* const* s, int n) {
+  int width = 0;
+  for (int i = 0; i < n && s[i]->kind != PL_STEP_HEADING; i++) {
+    int w = s[i]->kind == PL_STEP_ROW && s[i]->formula ? pl_utf8_width(pl_row_label(g, s[i])) : 0;
+    if (w > width) width = w;
+  }
+  return width == 0 ? 0 : width + PL_GAP < PL_LABEL_WIDTH ? PL_LABEL_WIDTH : width + PL_GAP;
 }
 
 static void pl_put_row(pl_page* g, const pl_stretch* b, const pl_step* s, int label_width) {
@@ -175,7 +176,34 @@ static void pl_put_row(pl_page* g, const pl_stretch* b, const pl_step* s, int la
 }
 
 // ---------------------------------------------------------------------------------------------- sentences
+// In two dimensions a tall formula that ends a sentence is drawn below it.
+static const pl_form* pl_tall_ending(pl_page* g, const pl_step* s, const char* words) {
+  size_t n = strlen(words);
+  if (g->how.math != PL_MATH_2D || n < 3 || s->n_inserts == 0) return NULL;
+  const char* last = pl_format(g->arena, "{%d}", s->n_inserts);
+  if (strcmp(words + n - 3, last) != 0) return NULL;
+  const pl_form* f = s->inserts[s->n_inserts - 1];
+  return f && pl_page_formula(g, f, INT_MAX, 0).n > 1 ? f : NULL;
+}
+
+static void pl_put_ending_below(pl_page* g, const pl_step* s, const char* words, const pl_form* f) {
+  const char* before = pl_copy_n(g->arena, words, strlen(words) - 3);
+  pl_page_sentence(g, PL_COLUMN_STEP, PL_COLUMN_STEP, PL_INK_PLAIN, pl_page_fill(g, before, s->n_inserts, s->inserts));
+  pl_lines lines = pl_page_formula(g, f, pl_room(g, PL_COLUMN_STEP), 0);
+  for (int i = 0; i < lines.n; i++) {
+    pl_text_pad(g->out, PL_COLUMN_STEP);
+    pl_page_ink(g, PL_INK_PLAIN, lines.at[i]);
+    pl_page_newline(g);
+  }
+  pl_page_blank(g);
+}
+
 static void pl_put_text(pl_page* g, const pl_step* s) {
+  const pl_form* tall = pl_tall_ending(g, s, pl_page_words(g, s->words));
+  if (tall) {
+    pl_put_ending_below(g, s, pl_page_words(g, s->words), tall);
+    return;
+  }
   const char* words = pl_page_fill(g, pl_page_words(g, s->words), s->n_inserts, s->inserts);
   pl_page_sentence(g, PL_COLUMN_STEP, PL_COLUMN_STEP, PL_INK_PLAIN, words);
 }
