@@ -11,8 +11,19 @@ static void add_reason(pl_value* v, const char* en, const char* de, int conserve
 static const pl_form* energy_sum(pl_analysis* d, pl_expr integral) {
   pl_expr T = d->reduced ? d->Tg : pl_on_contact(d, d->T), V = d->reduced ? d->Vg : pl_on_contact(d, d->V);
   if (pl_alg_equal(d->tower, pl_add(d->pool, T, V), integral) != PL_YES) return pl_f(d, integral, PL_S_ENERGY);
-  const pl_form* part[2] = {pl_f(d, T, PL_S_ENERGY), pl_energy_form(d, pl_on_maps(d, d->V), V)};
+  const pl_form* part[2] = {pl_f(d, T, PL_S_ENERGY), pl_potential_form(d, pl_on_maps(d, d->V), V)};
   return pl_joined_sum(d, part, 2);
+}
+
+// dE/dt vanishes on the motion; while the constraints are not solved, up to the power of the constraint forces, sum λ dg/dt.
+static void claim_constant(pl_analysis* d, const pl_form* form) {
+  pl_expr power = pl_int(d->pool, 0);
+  for (int k = 0; !d->reduced && k < d->g.n; k++) {
+    if (d->g.at[k].implied || d->g.at[k].fixes >= 0) continue;
+    pl_expr rate = d->g.at[k].velocity ? d->g.at[k].g : pl_dt(d->pool, d->g.at[k].g);
+    power = pl_add(d->pool, power, pl_mul(d->pool, pl_sym(d->pool, d->g.at[k].lambda), rate));
+  }
+  pl_claim_that(d, PL_CLAIM_MOTION, pl_dt(d->pool, pl_form_value(d->pool, form)), power);
 }
 
 static void energy(pl_analysis* d) {
@@ -32,11 +43,16 @@ static void energy(pl_analysis* d) {
   if (conserved && scleronomic) {
     const pl_form* form = energy_sum(d, integral);
     pl_show(d, pl_feq(d, pl_fn(d, "E"), form));
-    const pl_form* V = pl_energy_form(d, pl_on_maps(d, d->V), d->reduced ? d->Vg : pl_on_contact(d, d->V));
-    pl_say(d, "conserved: all forces have the potential {1}, and no constraint contains t.",
-           "erhalten: alle Kräfte haben das Potential {1}, und keine Zwangsbedingung enthält t.", 1, pl_feq(d, pl_fn(d, "V"), V));
+    const pl_form* V = pl_potential_form(d, pl_on_maps(d, d->V), d->reduced ? d->Vg : pl_on_contact(d, d->V));
+    if (pl_is_zero_node(d->pool, d->V)) {
+      pl_say(d, "conserved: the Lagrange function does not contain t, and neither does any constraint.",
+             "erhalten: weder die Lagrange-Funktion noch eine Zwangsbedingung enthält t.", 0);
+    } else {
+      pl_say(d, "conserved: all forces have the potential {1}, and no constraint contains t.",
+             "erhalten: alle Kräfte haben das Potential {1}, und keine Zwangsbedingung enthält t.", 1, pl_feq(d, pl_fn(d, "V"), V));
+    }
     add_reason(pl_answer(d, "E", integral, form), en, de, 1);
-    pl_claim_that(d, PL_CLAIM_MOTION, pl_dt(d->pool, pl_form_value(d->pool, form)), pl_int(d->pool, 0));
+    claim_constant(d, form);
     return;
   }
   pl_say(d, pl_format(d->arena, "The energy is not conserved: %s.", en), pl_format(d->arena, "Die Energie ist nicht erhalten: %s.", de), 0);
@@ -47,7 +63,7 @@ static void energy(pl_analysis* d) {
   pl_say(d, "Jacobi's integral is conserved: in these coordinates the Lagrange function does not contain t.",
          "Das Jacobi-Integral ist erhalten: in diesen Koordinaten enthält die Lagrange-Funktion t nicht.", 0);
   add_reason(pl_answer(d, "H", integral, form), "the Lagrange function does not contain t", "die Lagrange-Funktion enthält t nicht", 1);
-  pl_claim_that(d, PL_CLAIM_MOTION, pl_dt(d->pool, pl_form_value(d->pool, form)), pl_int(d->pool, 0));
+  claim_constant(d, form);
 }
 
 // Is the generalized force along coordinate i zero, so that a cyclic momentum is conserved?

@@ -50,31 +50,95 @@ static int only_unknown(const pl_analysis* d, pl_expr e, const pl_rest* r) {
   return found;
 }
 
+// Equations linear in the coordinates that are left: one position.
+static bool solve_linear(pl_analysis* d, const pl_expr* f, pl_rest* r) {
+  int unknown[max_gen], n = 0, rows = 0;
+  pl_expr A[max_gen * max_gen], b[max_gen], x[max_gen];
+  for (int k = 0; k < d->gen.n; k++) {
+    if (pl_is_poison(r->q[k])) unknown[n++] = k;
+  }
+  pl_replace zero[max_gen];
+  for (int j = 0; j < n; j++) zero[j] = (pl_replace){d->q.at[d->gen.at[unknown[j]]].q, pl_int(d->pool, 0)};
+  for (int k = 0; k < d->gen.n; k++) {
+    pl_expr e = pl_alg_normal(d->tower, insert(d, f[k], r));
+    if (pl_is_zero_node(d->pool, e)) continue;
+    if (rows == n) return false;
+    for (int j = 0; j < n; j++) {
+      A[rows * n + j] = pl_alg_normal(d->tower, pl_diff(d->pool, e, d->q.at[d->gen.at[unknown[j]]].q));
+      if (pl_has_coordinates(d, A[rows * n + j])) return false;
+    }
+    b[rows++] = pl_neg(d->pool, pl_subst(d->pool, e, zero, n));
+  }
+  if (rows != n || n == 0 || pl_alg_solve(d->tower, n, A, b, x, 20000) != PL_YES) return false;
+  for (int j = 0; j < n; j++) r->q[unknown[j]] = pl_alg_normal(d->tower, x[j]);
+  return true;
+}
+
+static void search(pl_analysis* d, const pl_expr* f, pl_rest r, pl_rests* out);
+
+// One coordinate of a branch solved from e, and the search goes on from each root.
+static void branch(pl_analysis* d, const pl_expr* f, const pl_rest* r, pl_expr e, int j, pl_rests* out) {
+  pl_root root[8];
+  bool complete = false;
+  int n = pl_alg_roots(d->tower, e, d->q.at[d->gen.at[j]].q, root, 8, &complete);
+  out->complete &= complete;
+  for (int i = 0; i < n; i++) {
+    pl_rest next = *r;
+    next.q[j] = root[i].value;
+    if (!pl_is_poison(root[i].condition)) next.condition = root[i].condition;
+    search(d, f, next, out);
+  }
+}
+
+// An equation in several coordinates that falls into factors: each factor in a single one is a branch.
+static bool branch_factors(pl_analysis* d, const pl_expr* f, const pl_rest* r, pl_expr e, pl_rests* out) {
+  pl_factor factor[12];
+  pl_expr unit;
+  int n = pl_alg_factors(d->tower, e, factor, 12, &unit), single = 0;
+  for (int k = 0; k < n; k++) {
+    if (factor[k].power > 0 && only_unknown(d, factor[k].base, r) >= 0) single++;
+  }
+  if (n < 2 || single == 0) return false;
+  for (int k = 0; k < n; k++) {
+    if (factor[k].power < 0) continue;
+    int j = only_unknown(d, factor[k].base, r);
+    if (j >= 0) branch(d, f, r, factor[k].base, j, out);
+    if (j == -2) out->complete = false;
+  }
+  return true;
+}
+
+// Where the mass matrix is singular the coordinates fail (r = 0 of polar ones): no position of rest.
+static bool regular(pl_analysis* d, const pl_rest* r) {
+  pl_expr M[max_gen * max_gen];
+  int n = d->gen.n;
+  for (int i = 0; i < n; i++) {
+    pl_expr momentum = pl_diff(d->pool, d->Tg, d->q.at[d->gen.at[i]].v);
+    for (int j = 0; j < n; j++) M[i * n + j] = insert(d, at_rest(d, pl_diff(d->pool, momentum, d->q.at[d->gen.at[j]].v)), r);
+  }
+  return pl_is_zero_node(d->pool, d->Tg) || pl_alg_is_zero(d->tower, pl_alg_det(d->tower, n, M, 20000)) != PL_YES;
+}
+
 // Solves equation after equation, each for the one coordinate that is left in it; branches multiply.
 static void search(pl_analysis* d, const pl_expr* f, pl_rest r, pl_rests* out) {
   bool done = true;
+  pl_expr several = pl_poison();
   for (int k = 0; k < d->gen.n; k++) {
     pl_expr e = pl_alg_normal(d->tower, insert(d, f[k], &r));
     if (pl_alg_is_zero(d->tower, e) == PL_YES) continue;
     int j = only_unknown(d, e, &r);
     if (j == -1) return;   // contradiction on this branch
     done = false;
-    if (j < 0) continue;
-    pl_root root[8];
-    bool complete = false;
-    int n = pl_alg_roots(d->tower, e, d->q.at[d->gen.at[j]].q, root, 8, &complete);
-    out->complete &= complete;
-    for (int i = 0; i < n; i++) {
-      pl_rest next = r;
-      next.q[j] = root[i].value;
-      if (!pl_is_poison(root[i].condition)) next.condition = root[i].condition;
-      search(d, f, next, out);
+    if (j < 0) {
+      several = e;
+      continue;
     }
+    branch(d, f, &r, e, j, out);
     return;
   }
-  if (!done) {
-    out->complete = false;
-  } else if (out->n < max_found) {
+  if (!done && !solve_linear(d, f, &r)) {
+    if (pl_is_poison(several) || !branch_factors(d, f, &r, several, out)) out->complete = false;
+  } else if (out->n < max_found && regular(d, &r)) {
     out->at[out->n++] = r;
   }
 }
@@ -94,14 +158,19 @@ static void linearise(pl_analysis* d, const pl_expr* f, const pl_rest* r, pl_lin
   }
 }
 
-// Signs of the leading minors of K: all positive is stable; some negative is unstable.
-static const char* stability(pl_analysis* d, const pl_linearised* l, pl_expr* stable_if) {
+// Signs of the leading minors of K: all positive is stable; some negative is unstable.  Free coordinates, which no force
+// depends on, drift at will and are left out.
+static const char* stability(pl_analysis* d, const pl_linearised* l, const pl_rest* r, pl_expr* stable_if) {
   bool all = true;
   *stable_if = pl_poison();
-  for (int m = 1; m <= l->n; m++) {
+  int held[max_gen], n = 0;
+  for (int k = 0; k < l->n; k++) {
+    if (!pl_is_poison(r->q[k])) held[n++] = k;
+  }
+  for (int m = 1; m <= n; m++) {
     pl_expr A[max_gen * max_gen];
     for (int i = 0; i < m; i++) {
-      for (int j = 0; j < m; j++) A[i * m + j] = l->K[i * l->n + j];
+      for (int j = 0; j < m; j++) A[i * m + j] = l->K[held[i] * l->n + held[j]];
     }
     pl_expr minor = pl_alg_normal(d->tower, pl_alg_det(d->tower, m, A, 20000));
     int sign = 0;
@@ -119,7 +188,8 @@ static const char* stability(pl_analysis* d, const pl_linearised* l, pl_expr* st
 }
 
 static pl_symbol omega_squared(pl_analysis* d) {
-  pl_symbol_info info = {.name = "ω²", .ascii = "omega_squared", .role = PL_R_LOCAL, .class = PL_C_OTHER,
+  bool taken = pl_symbol_find(d->pool, "omega").id != 0;   // the model has an ω of its own
+  pl_symbol_info info = {.name = taken ? "Ω²" : "ω²", .ascii = "omega_squared", .role = PL_R_LOCAL, .class = PL_C_OTHER,
                          .dimension = pl_dimension_of(0, 0, -2), .dimension_known = true};
   return pl_symbol_make(d->pool, &info);
 }
@@ -175,7 +245,8 @@ static void show_oscillations(pl_analysis* d, const pl_linearised* l, const char
     if (x > 0) {
       s->has_value = true;
       s->value = sqrt(x);
-      s->unit = "1/s   (ω)";
+      s->unit = "1/s";
+      s->value_name = "ω";
     }
     pl_value* v = pl_answer(d, "omega^2", root[k].value, form);
     v->of = pl_format(d->arena, "mode %d", k + 1);
@@ -187,7 +258,7 @@ static void show_rest(pl_analysis* d, const pl_expr* f, const pl_rest* r, int nu
   pl_linearised l;
   linearise(d, f, r, &l);
   pl_expr stable_if;
-  const char* verdict = stability(d, &l, &stable_if);
+  const char* verdict = stability(d, &l, r, &stable_if);
   pl_step* step = pl_show(d, rest_form(d, r));
   if (verdict) pl_step_after(step, verdict, german_stability(verdict));
   pl_value v = {.name = pl_format(d->arena, "equilibrium %d", number), .number = (double)NAN, .conserved = -1, .passed = -1, .order = -1,

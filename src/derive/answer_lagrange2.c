@@ -91,7 +91,7 @@ static void show_velocities(pl_analysis* d) {
 }
 
 static void show_energy(pl_analysis* d, const char* name, pl_expr e, pl_expr raw) {
-  const pl_form* form = pl_energy_form(d, pl_on_maps(d, raw), e);
+  const pl_form* form = strcmp(name, "V") == 0 ? pl_potential_form(d, pl_on_maps(d, raw), e) : pl_f(d, e, PL_S_ENERGY);
   pl_show(d, pl_feq(d, pl_fn(d, name), form));
   pl_claim_that(d, PL_CLAIM_ENERGY, pl_form_value(d->pool, form), raw);
   pl_answer(d, name, e, form);
@@ -186,12 +186,46 @@ static bool show_with_named_mass(pl_analysis* d, int i) {
   return true;
 }
 
+static pl_expr with_zero(pl_analysis* d, pl_expr e, bool velocities) {
+  pl_replace* zero = PL_ARRAY(d->arena, pl_replace, d->gen.n + 1);
+  for (int k = 0; k < d->gen.n; k++) {
+    const pl_variable* c = &d->q.at[d->gen.at[k]];
+    zero[k] = (pl_replace){velocities ? c->v : c->a, pl_int(d->pool, 0)};
+  }
+  return pl_alg_normal(d->tower, pl_subst(d->pool, e, zero, d->gen.n));
+}
+
+static const pl_form* times(pl_analysis* d, const pl_form* c, pl_symbol a) {
+  bool negative = c->kind == PL_F_NEG;
+  if (negative) c = c->args[0];
+  const pl_form* factor[2] = {c, pl_fs(d, a)};
+  bool one = c->kind == PL_F_EXPR && pl_is_one_node(d->pool, c->expr);
+  const pl_form* product = one ? factor[1] : pl_form_product(d->arena, factor, 2);
+  return negative ? pl_form_neg(d->arena, product) : product;
+}
+
+// Rule K2: terms in q'', then in q', then forces, each group presented by itself.
+static const pl_form* by_order(pl_analysis* d, pl_expr e) {
+  const pl_form** part = PL_ARRAY(d->arena, const pl_form*, d->gen.n + 2);
+  int n = 0;
+  for (int k = 0; k < d->gen.n; k++) {
+    pl_symbol a = d->q.at[d->gen.at[k]].a;
+    pl_expr c = pl_alg_normal(d->tower, pl_diff(d->pool, e, a));
+    if (!pl_is_zero_node(d->pool, c)) part[n++] = times(d, pl_f(d, c, PL_S_QUOTIENT), a);
+  }
+  pl_expr rest = with_zero(d, e, false), force = with_zero(d, rest, true);
+  pl_expr moving = pl_alg_normal(d->tower, pl_sub(d->pool, rest, force));
+  if (!pl_is_zero_node(d->pool, moving)) part[n++] = pl_positive_first(d, pl_f(d, moving, PL_S_EQUATION));
+  if (!pl_is_zero_node(d->pool, force)) part[n++] = pl_positive_first(d, pl_f(d, force, PL_S_EQUATION));
+  return pl_joined_sum(d, part, n);
+}
+
 static void show_second_kind(pl_analysis* d, int i) {
   pl_expr raw = pl_second_kind(d, i);
   pl_expr e = pl_alg_normal(d->tower, raw);
   pl_expr factor = common_factor(d, e);
   pl_expr shown = pl_alg_normal(d->tower, pl_div(d->pool, e, factor));
-  const pl_form* form = pl_f(d, shown, PL_S_EQUATION);
+  const pl_form* form = by_order(d, shown);
   pl_show_numbered(d, pl_feq(d, form, zero_form(d)));
   pl_claim_that(d, PL_CLAIM_ONE_TWO, pl_form_value(d->pool, form), pl_int(d->pool, 0));
 }

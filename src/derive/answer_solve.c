@@ -195,8 +195,8 @@ static pl_expr oscillation(pl_analysis* d, const pl_linear_equation* l, pl_expr 
   pl_expr rest = pl_alg_normal(d->tower, pl_neg(p, pl_div(p, l->A, l->B)));
   pl_expr half = pl_div(p, l->C, pl_int(p, 2));
   pl_expr disc = pl_alg_normal(d->tower, pl_add(p, l->B, pl_square(p, half)));
-  int sign;
-  if (pl_alg_sign(d->tower, disc, false, &sign) != PL_YES || sign == 0) return pl_poison();
+  int sign = pl_sign_at_numbers(d, disc);
+  if (sign == 0) return pl_poison();
   pl_expr w = pl_alg_normal(d->tower, pl_sqrt(p, sign > 0 ? disc : pl_neg(p, disc)));
   pl_expr wt = pl_mul(p, w, t), u0 = pl_sub(p, x0, rest);
   pl_expr even = pl_call(p, sign > 0 ? PL_COSH : PL_COS, wt), odd = pl_call(p, sign > 0 ? PL_SINH : PL_SIN, wt);

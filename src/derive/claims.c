@@ -87,6 +87,31 @@ static void definitions(pl_analysis* d, pl_system_of_motion* s) {
 
 static bool takes_part(const pl_analysis* d, const pl_variable* c) { return c->carries || (c->chosen && d->reduced); }
 
+// Accelerations of the chosen coordinates: as many independent rows of the map as there are such coordinates.
+static int map_rows(pl_analysis* d, pl_system_of_motion* s, int n_rows) {
+  if (!d->reduced) return n_rows;
+  int m = 0, n = 0;
+  int* of = PL_ARRAY(d->arena, int, d->q.n);
+  int* chosen = PL_ARRAY(d->arena, int, d->q.n);
+  for (int i = 0; i < d->q.n; i++) {
+    const pl_variable* c = &d->q.at[i];
+    if (!pl_is_poison(c->map) && c->solved_by == -1) of[m++] = i;
+    if (c->chosen && !c->carries) chosen[n++] = i;
+  }
+  if (m == 0 || n == 0) return n_rows;
+  pl_expr* J = PL_ARRAY(d->arena, pl_expr, m * n);
+  for (int a = 0; a < m; a++) {
+    for (int b = 0; b < n; b++) J[a * n + b] = pl_diff(d->pool, d->q.at[of[a]].map, d->q.at[chosen[b]].q);
+  }
+  int* independent = PL_ARRAY(d->arena, int, m);
+  int rank = pl_alg_rank(d->tower, m, n, J, independent);
+  for (int k = 0; k < rank && n_rows < s->n; k++) {
+    const pl_variable* c = &d->q.at[of[independent[k]]];
+    s->row[n_rows++] = pl_sub(d->pool, pl_sym(d->pool, c->a), pl_dt(d->pool, pl_dt(d->pool, c->map)));
+  }
+  return n_rows;
+}
+
 // Unknowns: accelerations of all coordinates and all multipliers.  Rows: d'Alembert for what carries something, constraints
 // twice differentiated, maps twice differentiated for what only stands in `choose`.
 static void rows(pl_analysis* d, pl_system_of_motion* s) {
@@ -111,12 +136,7 @@ static void rows(pl_analysis* d, pl_system_of_motion* s) {
     s->unknown[s->n++] = d->g.at[k].lambda;
     s->row[n_rows++] = pl_bond_acceleration(d, k);
   }
-  // A chosen angle's acceleration: one row of its map for each such angle.
-  for (int i = 0; i < d->q.n && n_rows < s->n; i++) {
-    const pl_variable* c = &d->q.at[i];
-    if (pl_is_poison(c->map) || c->solved_by != -1 || !d->reduced) continue;
-    s->row[n_rows++] = pl_sub(d->pool, pl_sym(d->pool, c->a), pl_dt(d->pool, pl_dt(d->pool, c->map)));
-  }
+  n_rows = map_rows(d, s, n_rows);
   if (n_rows != s->n) s->n = 0;
 }
 

@@ -31,6 +31,7 @@ typedef struct pl_step {
   int refs[4];                     // numbers of the equations it follows from
   bool has_value;                  // the right margin shows = value unit
   double value;
+  const char* value_name;          // what the value is when it is not the left-hand side: "ω"; NULL
   const char* unit;                // Unicode; "" for pure numbers
   const char* margin;              // ROW: right margin text ("6", "-1"); NULL if none
   bool detail;                     // shown only with --steps full

@@ -101,6 +101,7 @@ bool pl_has_coordinates(const pl_analysis* d, pl_expr e);        // coordinates 
 pl_expr pl_on_fixed(pl_analysis* d, pl_expr e);         // with the dropped coordinates inserted (not contacts)
 pl_expr pl_on_contact(pl_analysis* d, pl_expr e);       // and with contacts closed
 pl_expr pl_on_maps(pl_analysis* d, pl_expr e);          // and in generalized coordinates, if there are any
+int pl_sign_at_numbers(pl_analysis* d, pl_expr e);      // proven, or that of the given numbers with the assumption on record; 0 open
 double pl_number(pl_analysis* d, pl_expr e);            // at the parameters; NaN when it depends on more
 
 // energies.c
@@ -143,7 +144,7 @@ const pl_form* pl_frel(pl_analysis* d, const pl_form* l, const char* op, const p
 const pl_form* pl_flist(pl_analysis* d, const pl_form* const* f, int n);
 const pl_form* pl_difference_form(pl_analysis* d, pl_expr left, pl_expr right);          // left - right in the order written
 const pl_form* pl_positive_first(pl_analysis* d, const pl_form* f);                      // a sum that begins without a minus, if it can
-const pl_form* pl_energy_form(pl_analysis* d, pl_expr raw, pl_expr normal);
+const pl_form* pl_potential_form(pl_analysis* d, pl_expr raw, pl_expr normal);
 const pl_form* pl_joined_sum(pl_analysis* d, const pl_form* const* part, int n);          // one flat sum of sums
 const pl_form* pl_fref(pl_analysis* d, int number);                                     // "(4)"
 

@@ -28,6 +28,16 @@ static void masses(pl_analysis* d) {
   }
 }
 
+// sqrt(r² sin² + r² cos²) of a polar map is r, with the assumption r >= 0 on record.
+static pl_expr plain_distance(pl_analysis* d, pl_expr e) {
+  pl_expr normal = pl_alg_normal(d->tower, e);
+  if (pl_kind_of(d->pool, normal) != PL_CALL || pl_function_of(d->pool, normal) != PL_ABS) return e;
+  pl_expr inside = pl_arg(d->pool, normal, 0);
+  if (pl_kind_of(d->pool, inside) != PL_SYMBOL || pl_kind_of(d->pool, e) == PL_CALL) return e;
+  pl_tower_use(d->tower, (pl_fact){inside, false});
+  return inside;
+}
+
 // Distance of two points; on one line with a known order there are no bars.
 static pl_expr distance(pl_analysis* d, const pl_point* a, const pl_point* b) {
   pl_pool* p = d->pool;
@@ -40,7 +50,7 @@ static pl_expr distance(pl_analysis* d, const pl_point* a, const pl_point* b) {
     only = difference;
     n++;
   }
-  if (n != 1) return pl_sqrt(p, sum);
+  if (n != 1) return plain_distance(d, pl_sqrt(p, sum));
   int sign;
   if (pl_alg_sign(d->tower, only, true, &sign) == PL_YES) return sign < 0 ? pl_neg(p, only) : only;
   return pl_call(p, PL_ABS, only);

@@ -52,6 +52,15 @@ double pl_number(pl_analysis* d, pl_expr e) {
   return x;
 }
 
+int pl_sign_at_numbers(pl_analysis* d, pl_expr e) {
+  int sign = 0;
+  if (pl_alg_sign(d->tower, e, false, &sign) == PL_YES) return sign;
+  double x = pl_number(d, e);
+  if (isnan(x) || x == 0) return 0;
+  pl_tower_use(d->tower, (pl_fact){x > 0 ? e : pl_neg(d->pool, e), true});
+  return x > 0 ? 1 : -1;
+}
+
 // ---------------------------------------------------------------------------------------------- what there is
 static void add_coordinates(pl_analysis* d) {
   for (int k = 0; k < d->model->coords.n; k++) {

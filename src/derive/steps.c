@@ -202,10 +202,10 @@ const pl_form* pl_positive_first(pl_analysis* d, const pl_form* f) {
   return pl_form_sum(d->arena, term, n);
 }
 
-// An energy as it came from the model when that is no longer than what presentation finds: -m1 g x1 - m2 g (l - x1).
-const pl_form* pl_energy_form(pl_analysis* d, pl_expr raw, pl_expr normal) {
+// A potential as it came from the model when that is shorter than what presentation finds: -m1 g x1 - m2 g (l - x1).
+const pl_form* pl_potential_form(pl_analysis* d, pl_expr raw, pl_expr normal) {
   const pl_form *plain = pl_fe(d, raw), *found = pl_f(d, normal, PL_S_ENERGY);
-  return pl_form_ops(plain) <= pl_form_ops(found) ? plain : found;
+  return pl_form_ops(plain) < pl_form_ops(found) ? plain : found;
 }
 
 const pl_form* pl_joined_sum(pl_analysis* d, const pl_form* const* part, int n) {

@@ -190,7 +190,7 @@ static pleuel_status answer_all(pl_analysis* d) {
 static const char* fact_text(pl_analysis* d, const pl_fact* f) {
   pl_pool* p = d->pool;
   pl_notation how = {.math = PL_MATH_LINE, .lang = d->job->lang};
-  pl_expr e = f->difference, minus = pl_int(p, 0), plus = pl_int(p, 0);
+  pl_expr e = pl_expand(p, f->difference, 64), minus = pl_int(p, 0), plus = pl_int(p, 0);
   int n = pl_kind_of(p, e) == PL_ADD ? pl_n_args(p, e) : 0;
   for (int k = 0; k < n; k++) {
     pl_expr term = pl_arg(p, e, k), opposite = pl_neg(p, term);
