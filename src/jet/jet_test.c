@@ -67,7 +67,7 @@ static void series_of(bench* b, pl_expr e, const double* x, const double* y, dou
 static void check_series(const char* what, const double* got, const double* expect, int n) {
   for (int k = 0; k < n; k++) {
     double size = fmax(fabs(expect[k]), 1e-3);
-    if (!(fabs(got[k] - expect[k]) <= 4e-15 * (k + 4) * size)) print_message("%s, order %d: %.17g, expected %.17g\n", what, k, got[k], expect[k]);
+    if (!(fabs(got[k] - expect[k]) <= 4e-15 * (k + 4) * size)) print_message("# %s, order %d: %.17g, expected %.17g\n", what, k, got[k], expect[k]);
     assert_true(fabs(got[k] - expect[k]) <= 4e-15 * (k + 4) * size);
   }
 }
@@ -131,7 +131,7 @@ static void check_identity(bench* b, const char* what, pl_expr left, pl_expr rig
     double size = 0;
     for (int k = 0; k < ORDERS; k++) size = fmax(size, fabs(l[k]));
     for (int k = 0; k < ORDERS; k++) {
-      if (!(fabs(l[k] - rr[k]) <= 1e-11 * size + 1e-13)) print_message("%s, seed %llu, order %d: %.17g and %.17g\n", what, (unsigned long long)seed, k, l[k], rr[k]);
+      if (!(fabs(l[k] - rr[k]) <= 1e-11 * size + 1e-13)) print_message("# %s, seed %llu, order %d: %.17g and %.17g\n", what, (unsigned long long)seed, k, l[k], rr[k]);
       assert_true(fabs(l[k] - rr[k]) <= 1e-11 * size + 1e-13);
     }
   }
@@ -182,7 +182,7 @@ static void the_sum_of_a_series_is_the_value_along_the_path(void** state) {
     b->value[pl_symbol_of(p, b->x).id] = xs;
     b->value[pl_symbol_of(p, b->y).id] = ys;
     double direct = pl_eval(p, e, b->value);
-    if (!(fabs(sum - direct) < 1e-15)) print_message("seed %llu: %.17g and %.17g\n", (unsigned long long)seed, sum, direct);
+    if (!(fabs(sum - direct) < 1e-15)) print_message("# seed %llu: %.17g and %.17g\n", (unsigned long long)seed, sum, direct);
     assert_true(fabs(sum - direct) < 1e-15);
   }
   pl_arena_free(b->arena);

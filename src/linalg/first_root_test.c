@@ -85,7 +85,7 @@ static void random_polynomials_give_their_least_root(void** state) {
       if (r[i] != least) nearest = fmin(nearest, fabs(r[i] - least));
     // close roots lose digits as the polynomial itself does
     double limit = 1e-12 / pow(fmin(nearest, 1), 3);
-    if (!(fabs(found - expect) <= limit)) print_message("seed %llu: %.17g, expected %.17g\n", (unsigned long long)seed, found, expect);
+    if (!(fabs(found - expect) <= limit)) print_message("# seed %llu: %.17g, expected %.17g\n", (unsigned long long)seed, found, expect);
     assert_true(fabs(found - expect) <= limit);
   }
 }

@@ -29,7 +29,7 @@ static double residual(const double* A, const double* x, const double* b, int n)
 }
 
 static void check(uint64_t seed, int n, double found, double limit) {
-  if (!(found <= limit)) print_message("seed %llu, n = %d: %g above %g\n", (unsigned long long)seed, n, found, limit);
+  if (!(found <= limit)) print_message("# seed %llu, n = %d: %g above %g\n", (unsigned long long)seed, n, found, limit);
   assert_true(found <= limit);
 }
 

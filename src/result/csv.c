@@ -19,13 +19,15 @@ static int plain_point(char* out, const char* text) {
 }
 
 int pl_double_text(char out[32], double x) {
-  char text[40];
+  char text[40], shorter[40];
   if (isnan(x)) return (int)strlen(strcpy(out, "nan"));
   if (isinf(x)) return (int)strlen(strcpy(out, x > 0 ? "inf" : "-inf"));
   if (x == 0) return (int)strlen(strcpy(out, "0"));
-  for (int digits = 15; digits <= 17; digits++) {
-    snprintf(text, sizeof text, "%.*g", digits, x);
-    if (strtod(text, NULL) == x) break;
+  snprintf(text, sizeof text, "%.17g", x);
+  for (int digits = 16; digits >= 15; digits--) {
+    snprintf(shorter, sizeof shorter, "%.*g", digits, x);
+    if (strtod(shorter, NULL) != x) break;
+    strcpy(text, shorter);
   }
   return plain_point(out, text);
 }

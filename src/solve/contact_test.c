@@ -46,7 +46,7 @@ static void a_ski_jumper_takes_off_at_two_thirds(void** state) {
     assert_int_equal(pl_run_make(&b->job, &b->setup, &b->options, &b->run), PLEUEL_OK);
     last_release.releases = 0;
     pleuel_status how = pl_run_to_end(b->run);
-    printf("ski: %s %s release %.15f off %.2e t %.6f lambda %.2e; end t %.6f x %.4f events %ld drift %.1e steps %ld\n",
+    printf("# ski: %s %s release %.15f off %.2e t %.6f lambda %.2e; end t %.6f x %.4f events %ld drift %.1e steps %ld\n",
            pleuel_status_name(how), b->job.message, last_release.theta,
            last_release.theta - acos(2.0 / 3 * cos(start[i])), last_release.t, last_release.lambda, pl_run_time(b->run),
            b->last[0] * sin(b->last[1]), b->events, pl_run_stats(b->run)->energy_drift, pl_run_stats(b->run)->steps);
@@ -79,7 +79,7 @@ static void a_ball_lands_and_stays(void** state) {
   (void)state;
   t_bench* b = ball(5, 0, 0, 3);
   assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
-  printf("landing at %.16g, y %.3e vy %.3e lambda %g events %ld\n", b->event_t[0], b->last[1], b->last[17],
+  printf("# landing at %.16g, y %.3e vy %.3e lambda %g events %ld\n", b->event_t[0], b->last[1], b->last[17],
          pl_run_lambda(b->run)[0], b->events);
   assert_int_equal(b->events, 1);
   assert_int_equal(b->event_kind[0], PL_EV_IMPACT);
@@ -93,7 +93,7 @@ static void a_ball_bounces_in_a_geometric_sequence_and_comes_to_rest(void** stat
   (void)state;
   t_bench* b = ball(5, 0, 0.5, 6);
   pleuel_status how = pl_run_to_end(b->run);
-  printf("bounces: %s %s events %ld at %.15g %.15g %.15g last %.12g\n", pleuel_status_name(how), b->job.message, b->events, b->event_t[0],
+  printf("# bounces: %s %s events %ld at %.15g %.15g %.15g last %.12g\n", pleuel_status_name(how), b->job.message, b->events, b->event_t[0],
          b->event_t[1], b->event_t[2], b->event_t[b->events - 1]);
   assert_int_equal(how, PLEUEL_OK);
   assert_true(fabs(b->event_t[0] - 1) < 1e-14 && fabs(b->event_t[1] - 2) < 1e-13 && fabs(b->event_t[2] - 2.5) < 1e-13);
@@ -107,7 +107,7 @@ static void a_ball_thrown_up_from_the_table_leaves_it(void** state) {
   (void)state;
   t_bench* b = ball(0, 5, 0, 2);
   pleuel_status how = pl_run_to_end(b->run);
-  printf("thrown: %s %s %ld %.15g kind %d\n", pleuel_status_name(how), b->job.message, b->events, b->event_t[0], b->event_kind[0]);
+  printf("# thrown: %s %s %ld %.15g kind %d\n", pleuel_status_name(how), b->job.message, b->events, b->event_t[0], b->event_kind[0]);
   assert_int_equal(how, PLEUEL_OK);
   assert_int_equal(b->events, 1);
   assert_int_equal(b->event_kind[0], PL_EV_IMPACT);
@@ -128,7 +128,7 @@ static void a_contact_that_would_pull_releases_at_the_start(void** state) {
   t_start(b, 1, 0.2, 0);
   assert_int_equal(t_make(b, pl_sub(P, T, V), 0.1, 0), PLEUEL_OK);
   pleuel_status how = pl_run_to_end(b->run);
-  printf("pull: %s %s events %ld r %.6f\n", pleuel_status_name(how), b->job.message, b->events, b->last[0]);
+  printf("# pull: %s %s events %ld r %.6f\n", pleuel_status_name(how), b->job.message, b->events, b->last[0]);
   assert_int_equal(how, PLEUEL_OK);
   assert_int_equal(b->events, 1);
   assert_int_equal(b->event_kind[0], PL_EV_RELEASE);
@@ -155,7 +155,7 @@ static void a_loop_too_slow_leaves_the_wall_and_comes_back(void** state) {
   b->setup.energy_conserved = false;   // landings take energy
   pleuel_status how = pl_run_to_end(b->run);
   // v^2 = 3.61 - 2 (1 + y), leaves where v^2 = y: y = 1.61 / 3
-  printf("loop: %s %s events %ld kinds %d %d t %.9f %.9f\n", pleuel_status_name(how), b->job.message, b->events, b->event_kind[0],
+  printf("# loop: %s %s events %ld kinds %d %d t %.9f %.9f\n", pleuel_status_name(how), b->job.message, b->events, b->event_kind[0],
          b->event_kind[1], b->event_t[0], b->event_t[1]);
   assert_int_equal(how, PLEUEL_OK);
   assert_true(b->events >= 2);
@@ -188,7 +188,7 @@ static void events_count_crossings_but_not_the_start(void** state) {
     // x'' = -sin t falls through zero at 0 (the start, not counted), 2 pi, 4 pi
     else assert_true(fabs(t - 2 * pi * ++accels) < 1e-13);
   }
-  printf("events: %ld %ld %ld\n", ups, turns, accels);
+  printf("# events: %ld %ld %ld\n", ups, turns, accels);
   assert_true(ups == 2 && turns == 4 && accels == 2);
   t_close(b);
 }

@@ -87,7 +87,7 @@ static void a_chain_of_two_hundred_rods_keeps_its_energy(void** state) {
   t_bench* b = chain_make(200, 0.05);
   pleuel_status how = pl_run_to_end(b->run);
   const pl_stats* s = pl_run_stats(b->run);
-  printf("chain 200: %s %s steps %ld rejected %ld drift %.2e g %.2e gdot %.2e wall %.2f rank %d\n", pleuel_status_name(how),
+  printf("# chain 200: %s %s steps %ld rejected %ld drift %.2e g %.2e gdot %.2e wall %.2f rank %d\n", pleuel_status_name(how),
          b->job.message, s->steps, s->rejections, s->energy_drift, s->max_g, s->max_gdot, s->wall_s, s->rank);
   assert_int_equal(how, PLEUEL_OK);
   assert_true(s->energy_drift < 1e-13 && s->max_g < 1e-14);
@@ -117,7 +117,7 @@ static void a_family_moves_like_its_members_written_out(void** state) {
   assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
   double most = 0;
   for (int i = 0; i < 2 * N; i++) most = fmax(most, fabs(pl_run_q(b->run)[i] - pl_run_q(family->run)[i]));
-  printf("family against members: %.2e, steps %ld and %ld\n", most, pl_run_stats(b->run)->steps, pl_run_stats(family->run)->steps);
+  printf("# family against members: %.2e, steps %ld and %ld\n", most, pl_run_stats(b->run)->steps, pl_run_stats(family->run)->steps);
   assert_true(most < 1e-12);
   t_close(b);
   t_close(family);

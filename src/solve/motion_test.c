@@ -35,7 +35,7 @@ static void a_pendulum_returns_after_its_period(void** state) {
   (void)state;
   t_bench* b = pendulum(1.5, pendulum_period(1.5));
   assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
-  printf("pendulum: dx %.2e dy %.2e steps %ld rejected %ld g %.2e gdot %.2e drift %.2e order %d\n", b->last[0] - sin(1.5),
+  printf("# pendulum: dx %.2e dy %.2e steps %ld rejected %ld g %.2e gdot %.2e drift %.2e order %d\n", b->last[0] - sin(1.5),
          b->last[1] - cos(1.5), pl_run_stats(b->run)->steps, pl_run_stats(b->run)->rejections, pl_run_stats(b->run)->max_g,
          pl_run_stats(b->run)->max_gdot, pl_run_stats(b->run)->energy_drift, pl_run_stats(b->run)->order);
   assert_true(fabs(b->last[0] - sin(1.5)) < 1e-13 && fabs(b->last[1] - cos(1.5)) < 1e-13);
@@ -48,7 +48,7 @@ static void a_pendulum_keeps_its_energy_over_a_hundred_periods(void** state) {
   t_bench* b = pendulum(2, 100 * pendulum_period(2));
   assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
   const pl_stats* s = pl_run_stats(b->run);
-  printf("100 periods: drift %.2e g %.2e steps %ld wall %.3f\n", s->energy_drift, s->max_g, s->steps, s->wall_s);
+  printf("# 100 periods: drift %.2e g %.2e steps %ld wall %.3f\n", s->energy_drift, s->max_g, s->steps, s->wall_s);
   assert_true(s->energy_drift < 1e-13 && s->max_g < 1e-15 && s->max_gdot < 1e-14);
   t_close(b);
 }
@@ -68,7 +68,7 @@ static void atwood_equals_the_closed_form_to_rounding(void** state) {
   assert_int_equal(t_make(b, L, 1.2, 0), PLEUEL_OK);
   assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
   double a = (3 - 2) * 9.81 / 5;
-  printf("atwood: %.2e %.2e lambda %.2e steps %ld\n", b->last[0] - (1 + a * 1.44 / 2), b->last[16] - a * 1.2,
+  printf("# atwood: %.2e %.2e lambda %.2e steps %ld\n", b->last[0] - (1 + a * 1.44 / 2), b->last[16] - a * 1.2,
          pl_run_lambda(b->run)[0] + 2 * 3 * 2 * 9.81 / 5, pl_run_stats(b->run)->steps);
   assert_true(fabs(b->last[0] - (1 + a * 1.44 / 2)) < 1e-15 * 4 && fabs(b->last[16] - a * 1.2) < 4e-15);
   assert_true(fabs(pl_run_lambda(b->run)[0] + 2 * 3 * 2 * 9.81 / 5) < 1e-14 * 25);
@@ -105,7 +105,7 @@ static void a_crank_turns_a_thousand_times(void** state) {
   t_bench* b = crank(0.1, 0.3, 62.83185307179586, 0.3, 120);
   pleuel_status how = pl_run_to_end(b->run);
   const pl_stats* s = pl_run_stats(b->run);
-  printf("crank: %s %s phi %.3f g %.2e gdot %.2e drift %.2e steps %ld rejected %ld wall %.3f\n", pleuel_status_name(how),
+  printf("# crank: %s %s phi %.3f g %.2e gdot %.2e drift %.2e steps %ld rejected %ld wall %.3f\n", pleuel_status_name(how),
          b->job.message, b->last[3] / 6.283185307179586, s->max_g, s->max_gdot, s->energy_drift, s->steps, s->rejections, s->wall_s);
   assert_int_equal(how, PLEUEL_OK);
   assert_true(b->last[3] / 6.283185307179586 > 1000);
@@ -117,7 +117,7 @@ static void a_crank_with_equal_lengths_is_reported_singular(void** state) {
   (void)state;
   t_bench* b = crank(0.1, 0.1, 30, 0.3, 1);
   pleuel_status how = pl_run_to_end(b->run);
-  printf("singular crank: %s %s\n  phi %.9f t %.9f steps %ld rejected %ld\n", pleuel_status_name(how), b->job.message, b->last[3],
+  printf("# singular crank: %s %s\n# phi %.9f t %.9f steps %ld rejected %ld\n", pleuel_status_name(how), b->job.message, b->last[3],
          pl_run_stats(b->run)->t_singular, pl_run_stats(b->run)->steps, pl_run_stats(b->run)->rejections);
   assert_int_equal(how, PLEUEL_SINGULAR);
   assert_true(fabs(b->last[3] - 1.5707963267948966) < 1e-3);
@@ -215,7 +215,7 @@ static void a_double_pendulum_agrees_with_an_independent_reference(void** state)
   double expect[4] = {(double)quad_sin(y[0]), (double)quad_cos(y[0]), (double)(quad_sin(y[0]) + quad_sin(y[1])),
                       (double)(quad_cos(y[0]) + quad_cos(y[1]))};
   for (int i = 0; i < 4; i++) {
-    printf("double pendulum: %.17g off by %.2e\n", b->last[i], b->last[i] - expect[i]);
+    printf("# double pendulum: %.17g off by %.2e\n", b->last[i], b->last[i] - expect[i]);
     assert_true(fabs(b->last[i] - expect[i]) < 1e-12);
   }
   t_close(b);
@@ -233,7 +233,7 @@ static void an_ellipse_closes_after_ten_turns(void** state) {
   t_start(b, 1, 0, sqrt((1 + e) / (1 - e)));
   assert_int_equal(t_make(b, t_energy(b, T, V), 20 * pi, 0), PLEUEL_OK);
   assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
-  printf("kepler: %.2e %.2e steps %ld drift %.2e\n", b->last[0] - (1 - e), b->last[1], pl_run_stats(b->run)->steps,
+  printf("# kepler: %.2e %.2e steps %ld drift %.2e\n", b->last[0] - (1 - e), b->last[1], pl_run_stats(b->run)->steps,
          pl_run_stats(b->run)->energy_drift);
   assert_true(fabs(b->last[0] - (1 - e)) < 1e-11 && fabs(b->last[1]) < 1e-11 && pl_run_stats(b->run)->energy_drift < 1e-13);
   t_close(b);
@@ -254,7 +254,7 @@ static void a_redundant_constraint_changes_nothing_but_its_multiplier(void** sta
     t_start(b, 1, -0.8, 0);
     assert_int_equal(t_make(b, t_energy(b, T, y), 10, 0), PLEUEL_OK);
     pleuel_status how = pl_run_to_end(b->run);
-    printf("redundant %d: %s %s rank %d g %.1e\n", twice, pleuel_status_name(how), b->job.message, pl_run_stats(b->run)->rank,
+    printf("# redundant %d: %s %s rank %d g %.1e\n", twice, pleuel_status_name(how), b->job.message, pl_run_stats(b->run)->rank,
            pl_run_stats(b->run)->max_g);
     assert_int_equal(how, PLEUEL_OK);
     assert_int_equal(pl_run_stats(b->run)->rank, 1);
@@ -281,7 +281,7 @@ static void a_skate_on_a_slope_moves_on_a_cycloid(void** state) {
   assert_int_equal(t_make(b, pl_add(P, T, x), 3, 0), PLEUEL_OK);
   assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
   double w = 2, t = 3;
-  printf("skate: %.2e %.2e gdot %.1e\n", b->last[0] - (1 - cos(2 * w * t)) / (4 * w * w),
+  printf("# skate: %.2e %.2e gdot %.1e\n", b->last[0] - (1 - cos(2 * w * t)) / (4 * w * w),
          b->last[1] - (2 * w * t - sin(2 * w * t)) / (4 * w * w), pl_run_stats(b->run)->max_gdot);
   assert_true(fabs(b->last[0] - (1 - cos(2 * w * t)) / (4 * w * w)) < 1e-14);
   assert_true(fabs(b->last[1] - (2 * w * t - sin(2 * w * t)) / (4 * w * w)) < 1e-13);
@@ -320,7 +320,7 @@ static void a_bead_on_a_turning_rod_flies_out_exponentially(void** state) {
   assert_int_equal(t_make(b, T, 2, 0), PLEUEL_OK);
   assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
   double r = hypot(b->last[0], b->last[1]);
-  printf("bead: %.2e\n", r - cosh(3.0));
+  printf("# bead: %.2e\n", r - cosh(3.0));
   assert_true(fabs(r - cosh(3.0)) < 1e-13);
   t_close(b);
 }
@@ -409,6 +409,23 @@ static void an_interrupted_run_says_so_and_keeps_its_rows(void** state) {
   t_close(b);
 }
 
+static pleuel_status third_row_is_enough(void* user, const pl_row* row) {
+  (void)row;
+  return ++*(int*)user == 3 ? PLEUEL_INTERRUPTED : PLEUEL_OK;
+}
+
+static void a_sink_that_refuses_gets_no_more_rows(void** state) {
+  (void)state;
+  t_bench* b = pendulum(1.3, 50);
+  int rows = 0;
+  pl_run_free(b->run);
+  b->options.sink = (pl_sink){.user = &rows, .row = third_row_is_enough};
+  assert_int_equal(pl_run_make(&b->job, &b->setup, &b->options, &b->run), PLEUEL_OK);
+  assert_int_equal(pl_run_to_end(b->run), PLEUEL_INTERRUPTED);
+  assert_int_equal(rows, 3);
+  t_close(b);
+}
+
 static void a_looser_tolerance_takes_a_lower_order(void** state) {
   (void)state;
   t_bench* b = pendulum(1.5, pendulum_period(1.5));
@@ -433,7 +450,7 @@ static void a_motion_that_leaves_the_domain_stops_with_a_sentence(void** state) 
   t_start(b, 0, 1, 0);
   assert_int_equal(t_make(b, pl_sub(P, half(b, sq(b, b->v[0])), pl_sqrt(P, x)), 10, 0), PLEUEL_OK);
   assert_int_equal(pl_run_to_end(b->run), PLEUEL_NUMERICAL);
-  printf("domain: %s\n", b->job.message);
+  printf("# domain: %s\n", b->job.message);
   assert_true(strstr(b->job.message, "t = ") != NULL);
   t_close(b);
 }
@@ -457,6 +474,7 @@ int main(void) {
       cmocka_unit_test(a_grid_of_rows_ends_exactly_at_the_end),
       cmocka_unit_test(dense_output_joins_the_steps),
       cmocka_unit_test(an_interrupted_run_says_so_and_keeps_its_rows),
+      cmocka_unit_test(a_sink_that_refuses_gets_no_more_rows),
       cmocka_unit_test(a_looser_tolerance_takes_a_lower_order),
       cmocka_unit_test(a_motion_that_leaves_the_domain_stops_with_a_sentence),
   };

@@ -50,7 +50,9 @@ pl_row pl_row_now(pl_run* run, pl_row_kind kind, double* out, char* mode) {
 static pleuel_status send(pl_run* run, const pl_row* row) {
   const pl_sink* s = &run->options.sink;
   run->last_row_t = row->kind == PL_ROW_BEFORE ? (double)NAN : row->t;
-  return s->row ? s->row(s->user, row) : PLEUEL_OK;
+  pleuel_status how = s->row ? s->row(s->user, row) : PLEUEL_OK;
+  run->refused |= how != PLEUEL_OK;
+  return how;
 }
 
 pleuel_status pl_rows_open(pl_run* run) {
@@ -131,7 +133,9 @@ pleuel_status pl_rows_event(pl_run* run, pl_event_kind kind, int index, double i
   e.before = (pl_row){.t = run->t, .q = run->save_q, .v = run->save_v, .a = run->save_a, .lambda = run->save_l,
                       .unique = run->save_unique, .out = run->out_before, .mode = run->mode_before, .kind = PL_ROW_BEFORE};
   e.after = pl_row_now(run, PL_ROW_AFTER, run->out_now, run->mode);
-  return s->event(s->user, &e);
+  pleuel_status how = s->event(s->user, &e);
+  run->refused |= how != PLEUEL_OK;
+  return how;
 }
 
 // ---------------------------------------------------------------------------------------------- energy

@@ -208,7 +208,7 @@ pleuel_status pl_run_to_end(pl_run* run) {
   pleuel_status how = steps_to_end(run);
   if (run->begun && !run->ended) {
     // the last row is written whatever happened, unless it stands there already
-    pleuel_status last = run->ready ? pl_rows_point(run, PL_ROW_END) : PLEUEL_OK;
+    pleuel_status last = run->ready && !run->refused ? pl_rows_point(run, PL_ROW_END) : PLEUEL_OK;
     if (how == PLEUEL_OK) how = last;
     run->ended = true;
   }

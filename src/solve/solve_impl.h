@@ -132,6 +132,7 @@ struct pl_run {
   long grid_n, grid_count;
   double grid_dt;
   bool opened, begun, ended, started, stopped;
+  bool refused;            // the sink wants no more rows
   double last_row_t;       // of a row that was not one before an event; NaN
   int mode_changes;        // in a row without progress
   double mode_change_t;

@@ -32,7 +32,7 @@ static void left_of(t_bench* b) {
 static pleuel_status make_and_start(t_bench* b, pl_expr L) {
   assert_int_equal(t_make(b, L, 1, 0), PLEUEL_OK);
   pleuel_status how = pl_run_start(b->run);
-  printf("  %s: %s\n", pleuel_status_name(how), b->job.message);
+  printf("# %s: %s\n", pleuel_status_name(how), b->job.message);
   return how;
 }
 

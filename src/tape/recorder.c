@@ -456,7 +456,6 @@ pleuel_status pl_tape_record(pl_job* job, pl_pool* pool, const pl_tape_slots* sl
   for (int i = 0; i < n; i++) {
     node[i] = record(&r, roots[i]);
     if (r.status != PLEUEL_OK) return r.status;
-    if (pl_interrupted(job)) return pl_fail(job, PLEUEL_INTERRUPTED, "interrupted while recording");
   }
   *out = finish(&r, node, high, n);
   return PLEUEL_OK;
