@@ -260,9 +260,15 @@ static void show_rest(pl_analysis* d, const pl_expr* f, const pl_rest* r, int nu
   pl_expr stable_if;
   const char* verdict = stability(d, &l, r, &stable_if);
   pl_step* step = pl_show(d, rest_form(d, r));
+  double at_numbers = verdict ? (double)NAN : pl_number(d, stable_if);
+  const char* here = verdict ? verdict : at_numbers > 0 ? "stable" : at_numbers < 0 ? "unstable" : NULL;
   if (verdict) pl_step_after(step, verdict, german_stability(verdict));
+  if (!verdict && here) {
+    pl_step_after(step, pl_format(d->arena, "%s for the given numbers", here),
+                  pl_format(d->arena, "%s bei den gegebenen Zahlen", german_stability(here)));
+  }
   pl_value v = {.name = pl_format(d->arena, "equilibrium %d", number), .number = (double)NAN, .conserved = -1, .passed = -1, .order = -1,
-                .stability = verdict};
+                .stability = here};
   v.components = PL_ARRAY(d->arena, pl_component, d->gen.n);
   const char** free_names = PL_ARRAY(d->arena, const char*, d->gen.n);
   for (int k = 0; k < d->gen.n; k++) {
@@ -283,7 +289,7 @@ static void show_rest(pl_analysis* d, const pl_expr* f, const pl_rest* r, int nu
     pl_say(d, "stable if {1}", "stabil, wenn {1}", 1, pl_frel(d, pl_f(d, stable_if, PL_S_PLAIN), ">", pl_form_leaf(d->arena, pl_int(d->pool, 0))));
   }
   pl_push(d->arena, d->section->values, v);
-  if (!verdict || strcmp(verdict, "stable") == 0) show_oscillations(d, &l, v.name);
+  if (!here || strcmp(here, "stable") == 0) show_oscillations(d, &l, v.name);
   for (int k = 0; k < d->gen.n; k++) pl_claim_free(d, PL_CLAIM_INSERTED, insert(d, f[k], r), pl_int(d->pool, 0));
 }
 
