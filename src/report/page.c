@@ -97,8 +97,8 @@ static const char* pl_page_inline(pl_page* g, const pl_form* f) {
 static void pl_page_add_insert(pl_page* g, pl_text* out, const pl_form* f) {
   const char* s = pl_page_inline(g, f);
   bool whole = pl_utf8_width(s) <= g->margin / 2;   // longer ones may break like words
-  for (; *s; s++) {
-    char c = whole && *s == ' ' ? '\x01' : *s;
+  for (char before = 0; *s; before = *s++) {
+    char c = whole && *s == ' ' && before != ',' ? '\x01' : *s;
     pl_text_add_n(out, &c, 1);
   }
 }

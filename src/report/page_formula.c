@@ -1,19 +1,22 @@
-// Formulas that are wider than the page.  In line notation a string is broken before a relation, a + or a -, the outermost
-// ones first, and goes on with hanging indent behind the first relation.  In two dimensions the form itself is taken
+// Formulas that are wider than the page.  In line notation a string is broken before a relation, a + or a -, if need be
+// before a / or a bracket, the outermost ones first, and goes on with hanging indent behind the first relation.  In two dimensions the form itself is taken
 // apart at the same places, the parts are drawn and set side by side on a common base line.
 #include "report_impl.h"
 
 #include <string.h>
 
 enum { PL_LEFT_SIDE = 14 };    // cells: a left side up to this width is kept clear by the lines that follow
-static const double pl_depth_price = 0.6;    // what a level of brackets costs against a line filled to the end
+// What a break costs against a line filled to the end: a level of brackets, a fraction or a product torn apart.
+static const double pl_depth_price = 0.6, pl_slash_price = 0.2, pl_factor_price = 0.45;
 
 // ---------------------------------------------------------------------------------------------- one line
 typedef struct pl_break {
   size_t at;          // byte where the next line would begin
   int cells;          // width of what comes before it
   int depth;          // brackets around it
+  double price;       // of breaking here
   bool relation;
+  bool torn;          // a product or fraction goes on
 } pl_break;
 
 static const char* const pl_relations[] = {"= ", "≥ ", "≤ ", ">= ", "<= ", "-> ", "→ ", "< ", "> ", "≈ ", "≠ ", NULL};
@@ -29,6 +32,15 @@ static bool pl_is_sign_at(const char* s) { return pl_starts(s, "+ ") || pl_start
 
 typedef PL_VEC(pl_break) pl_breaks;
 
+// Relations, signs and commas cost nothing; -1: no place for a break.
+static double pl_price_at(const char* s, size_t i) {
+  if (pl_is_relation_at(s + i) || pl_is_sign_at(s + i) || (i >= 2 && s[i - 2] == ',')) return 0;
+  if (pl_starts(s + i, "/ ")) return pl_slash_price;
+  bool factor = s[i] == '(' || pl_starts(s + i, "√(") || pl_starts(s + i, "sqrt(");
+  bool after_operator = i >= 2 && strchr("+-=/<>", s[i - 2]);
+  return factor && !after_operator ? pl_factor_price : -1;
+}
+
 // All places where the string may be broken, in order.
 static pl_breaks pl_find_breaks(pl_arena* a, const char* s) {
   pl_breaks list = {0};
@@ -37,9 +49,10 @@ static pl_breaks pl_find_breaks(pl_arena* a, const char* s) {
     if (s[i] == '(' || s[i] == '[') depth++;
     if ((s[i] == ')' || s[i] == ']') && depth > 0) depth--;
     if (i == 0 || s[i - 1] != ' ') continue;
-    bool relation = pl_is_relation_at(s + i), after_comma = i >= 2 && s[i - 2] == ',';
-    if (!relation && !after_comma && !pl_is_sign_at(s + i)) continue;
-    pl_break b = {i, pl_utf8_width_n(s, i), depth, relation};
+    double price = pl_price_at(s, i);
+    if (price < 0) continue;
+    int around = s[i] == '(' ? depth - 1 : depth;
+    pl_break b = {i, pl_utf8_width_n(s, i), around, price + pl_depth_price * around, pl_is_relation_at(s + i), price > 0};
     pl_push(a, list, b);
   }
   return list;
@@ -64,7 +77,7 @@ static int pl_best_break(const pl_breaks* b, size_t from, int from_cells, int to
     if (k->at <= from) continue;
     int cells = k->cells - from_cells;
     if (cells > room && best >= 0) break;
-    double score = (double)cells / room - pl_depth_price * k->depth;
+    double score = (double)cells / room - k->price;
     if (k->relation && i != first_relation) score += 1;       // a chain a = b = c: one link a line
     if (i == first_relation && cells <= PL_LEFT_SIDE) score -= 1;
     if (score >= best_score) best = i, best_score = score;
@@ -101,7 +114,7 @@ static pl_lines pl_break_line(pl_page* g, const char* s, int width) {
     pl_add_line(g, &out, pl_slice(g, s, from, to, indent));
     if (k < 0) break;
     const pl_break* b = &breaks.at[k];
-    indent = hang + (b->relation ? 0 : 2) + 2 * b->depth;
+    indent = hang + (b->relation ? 0 : b->torn ? 4 : 2) + 2 * b->depth;
     from = b->at;
     cells = b->cells;
   }

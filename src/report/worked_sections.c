@@ -176,14 +176,18 @@ static void pl_put_row(pl_page* g, const pl_stretch* b, const pl_step* s, int la
 }
 
 // ---------------------------------------------------------------------------------------------- sentences
-// In two dimensions a tall formula that ends a sentence is drawn below it.
-static const pl_form* pl_tall_ending(pl_page* g, const pl_step* s, const char* words) {
+// A formula that ends a sentence goes on lines of its own when it is tall, or too wide to stand beside the words.
+static const pl_form* pl_long_ending(pl_page* g, const pl_step* s, const char* words) {
   size_t n = strlen(words);
-  if (g->how.math != PL_MATH_2D || n < 3 || s->n_inserts == 0) return NULL;
+  if (n < 3 || s->n_inserts == 0 || s->n_inserts > 9) return NULL;
   const char* last = pl_format(g->arena, "{%d}", s->n_inserts);
   if (strcmp(words + n - 3, last) != 0) return NULL;
   const pl_form* f = s->inserts[s->n_inserts - 1];
-  return f && pl_page_formula(g, f, INT_MAX, 0).n > 1 ? f : NULL;
+  if (!f) return NULL;
+  pl_lines lines = pl_page_formula(g, f, INT_MAX, 0);
+  bool wide = g->wrap != INT_MAX && lines.width > g->margin / 2 &&
+              pl_utf8_width(pl_page_fill(g, words, s->n_inserts, s->inserts)) > g->wrap - PL_COLUMN_STEP;
+  return wide || lines.n > 1 ? f : NULL;
 }
 
 static void pl_put_ending_below(pl_page* g, const pl_step* s, const char* words, const pl_form* f) {
@@ -195,13 +199,13 @@ static void pl_put_ending_below(pl_page* g, const pl_step* s, const char* words,
     pl_page_ink(g, PL_INK_PLAIN, lines.at[i]);
     pl_page_newline(g);
   }
-  pl_page_blank(g);
+  if (g->how.math == PL_MATH_2D) pl_page_blank(g);
 }
 
 static void pl_put_text(pl_page* g, const pl_step* s) {
-  const pl_form* tall = pl_tall_ending(g, s, pl_page_words(g, s->words));
-  if (tall) {
-    pl_put_ending_below(g, s, pl_page_words(g, s->words), tall);
+  const pl_form* ending = pl_long_ending(g, s, pl_page_words(g, s->words));
+  if (ending) {
+    pl_put_ending_below(g, s, pl_page_words(g, s->words), ending);
     return;
   }
   const char* words = pl_page_fill(g, pl_page_words(g, s->words), s->n_inserts, s->inserts);
