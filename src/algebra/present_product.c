@@ -184,7 +184,7 @@ static bool moves(pl_search* s, pl_expr e) {
 // w = √P with P in its own best form.
 static void root_piece(pl_search* s, int gen, pl_piece* piece) {
   const pl_gen* g = &s->t->gens.at[gen];
-  pl_prod inside = pl_present_poly(s, g->value, 1);
+  pl_prod inside = pl_prod_flip(s, pl_present_poly(s, g->value, 1));
   const pl_form* f = pl_prod_form(s, inside);
   piece->base = g->degree == 2
                   ? pl_form_root(s->a, f)
@@ -216,11 +216,22 @@ static pl_piece make_gen_piece(pl_search* s, int gen) {
   }
 }
 
+static pl_piece plain_piece(pl_search* s, int gen) {
+  const pl_gen* g = &s->t->gens.at[gen];
+  pl_piece piece = {.power = 1, .gen = gen, .lead = first_symbol(s, g->expr), .bucket = PL_K_FUNCTION};
+  piece.base = pl_form_of(s->a, s->p, g->expr);
+  piece.cost = form_cost(s, piece.base);
+  return piece;
+}
+
 pl_piece pl_piece_of_gen(pl_search* s, int gen) {
   if (!s->gen_known[gen]) {
+    // While the argument of a function is presented, the search asks for all generators, this one too: it then stands
+    // in its plain form.
+    s->gen_piece[gen] = plain_piece(s, gen);
+    s->gen_known[gen] = true;
     pl_piece made = make_gen_piece(s, gen);
     s->gen_piece[gen] = made;
-    s->gen_known[gen] = true;
   }
   return s->gen_piece[gen];
 }
