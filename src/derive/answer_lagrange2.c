@@ -181,8 +181,13 @@ static bool show_with_named_mass(pl_analysis* d, int i) {
   const pl_form* first[2] = {M_name, pl_fs(d, c->a)};
   const pl_form* second[3] = {pl_fe(d, pl_ratio(d->pool, 1, 2)), slope, q2};
   pl_expr dV = pl_alg_normal(d->tower, pl_diff(d->pool, d->Vg, c->q));
-  const pl_form* terms[3] = {pl_form_product(d->arena, first, 2), pl_form_product(d->arena, second, 3), pl_f(d, dV, PL_S_EQUATION)};
-  pl_show_numbered(d, pl_feq(d, pl_form_sum(d->arena, terms, pl_is_zero_node(d->pool, dV) ? 2 : 3), zero_form(d)));
+  const pl_form* force = pl_f(d, dV, PL_S_EQUATION);
+  int n_force = pl_is_zero_node(d->pool, dV) ? 0 : force->kind == PL_F_SUM ? force->n : 1;
+  const pl_form** terms = PL_ARRAY(d->arena, const pl_form*, 2 + n_force);
+  terms[0] = pl_form_product(d->arena, first, 2);
+  terms[1] = pl_form_product(d->arena, second, 3);
+  for (int k = 0; k < n_force; k++) terms[2 + k] = force->kind == PL_F_SUM ? force->args[k] : force;
+  pl_show_numbered(d, pl_feq(d, pl_form_sum(d->arena, terms, 2 + n_force), zero_form(d)));
   return true;
 }
 
