@@ -11,8 +11,7 @@ typedef struct pl_motif {
   const pl_block* block;      // NULL: one instance
   pl_expr L;                  // T - V of one member; poison for a constraint
   pl_expr g;                  // of one member; poison for a part of L
-  pl_symbol lambda;
-  const char* label;
+  pl_expr lambda;             // its multiplier, an element of a family for c[1] and c[i]
 } pl_motif;
 
 // It contributes through the element array[k + shift] (or array[shift] without block) for i in lo..hi.
@@ -47,6 +46,10 @@ static void mass_motif(pl_family_pass* f, const pl_mass* m) {
   pl_push(f->d->arena, f->motifs, (pl_motif){.block = m->block, .L = L});
 }
 
+static pl_expr multiplier(pl_analysis* d, const pl_constraint* c) {
+  return pl_is_poison(c->name.index) ? pl_sym(d->pool, c->lambda) : pl_at(d->pool, c->lambda, 0, c->name.index);
+}
+
 static bool collect_motifs(pl_family_pass* f) {
   pl_model* m = f->d->model;
   for (int k = 0; k < m->masses.n; k++) mass_motif(f, &m->masses.at[k]);
@@ -59,7 +62,7 @@ static bool collect_motifs(pl_family_pass* f) {
   for (int k = 0; k < m->constraints.n; k++) {
     const pl_constraint* c = &m->constraints.at[k];
     if (c->off || c->has_velocity) return false;
-    pl_push(f->d->arena, f->motifs, (pl_motif){.block = c->block, .g = c->g, .lambda = c->lambda, .label = c->name.text});
+    pl_push(f->d->arena, f->motifs, (pl_motif){.block = c->block, .g = c->g, .lambda = multiplier(f->d, c)});
   }
   for (int k = 0; k < f->motifs.n; k++) {
     if (f->motifs.at[k].block && f->motifs.at[k].block->outer) return false;   // nested ranges
@@ -171,8 +174,7 @@ static pl_expr euler_part(pl_family_pass* f, const pl_contribution* c, pl_expr i
 
 static pl_expr push_part(pl_family_pass* f, const pl_contribution* c, pl_expr i) {
   pl_pool* p = f->d->pool;
-  pl_expr lambda = c->motif->block ? pl_at(p, c->motif->lambda, 0, pl_sym(p, c->motif->block->index)) : pl_sym(p, c->motif->lambda);
-  return shifted(f, c, pl_mul(p, lambda, pl_diff_at(p, c->motif->g, c->element)), i);
+  return shifted(f, c, pl_mul(p, c->motif->lambda, pl_diff_at(p, c->motif->g, c->element)), i);
 }
 
 static pl_expr rest_of(pl_analysis* d, pl_expr e) {   // without accelerations

@@ -75,9 +75,16 @@ static bool force_on(pl_analysis* d, int link, int particle, pl_force* out) {
   return along_axes(d, link, particle, out) || along_frame(d, link, particle, out);
 }
 
+// A product that ends in a fraction reads wrongly in front of a unit vector.
+static const pl_form* bracketed(pl_analysis* d, const pl_form* f) {
+  bool fraction = f->kind == PL_F_QUOTIENT;
+  for (int k = 0; f->kind == PL_F_PRODUCT && k < f->n; k++) fraction |= f->args[k]->kind == PL_F_QUOTIENT;
+  return fraction && f->kind == PL_F_PRODUCT ? pl_form_make(d->arena, PL_F_GROUP, 1, &f) : f;
+}
+
 static const pl_form* vector_of(pl_analysis* d, const pl_force* f, const pl_expr* component, pl_style style) {
   const pl_form* part[3];
-  for (int j = 0; j < f->n; j++) part[j] = pl_f(d, component[j], style);
+  for (int j = 0; j < f->n; j++) part[j] = bracketed(d, pl_f(d, component[j], style));
   return pl_form_vector(d->arena, part, f->along, f->n);
 }
 

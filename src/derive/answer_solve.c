@@ -94,6 +94,8 @@ static void show_twice_differentiated(pl_analysis* d, int k) {
   pl_claim_that(d, PL_CLAIM_MOTION, inserted, pl_int(d->pool, 0));
 }
 
+static const long longest_lambda = 150;   // operations up to which a multiplier is written out in the text
+
 // λ with the state eliminated, displayed with its number.
 static void show_lambda(pl_analysis* d, int k) {
   pl_bond* l = &d->g.at[k];
@@ -104,10 +106,17 @@ static void show_lambda(pl_analysis* d, int k) {
     return;
   }
   const pl_form* form = pl_positive_first(d, pl_f(d, l->lambda_value, l->contact ? PL_S_EQUATION : PL_S_QUOTIENT));
-  pl_step* step = pl_show_numbered(d, pl_feq(d, pl_fs(d, l->lambda), form));
-  d->number_lambda = step->number;
-  bool known;
-  pl_step_value(d, step, l->lambda_value, pl_dimension_of_expr(d, l->lambda_value, &known));
+  if (pl_form_ops(form) > longest_lambda) {
+    pl_say(d, pl_format(d->arena, "The linear equations for the multipliers and accelerations are solved; {1} takes %ld operations to write "
+                                  "and stands in the JSON answer.", pl_form_ops(form)),
+           pl_format(d->arena, "Die linearen Gleichungen für Multiplikatoren und Beschleunigungen sind gelöst; {1} hat ausgeschrieben %ld "
+                               "Rechenzeichen und steht in der JSON-Antwort.", pl_form_ops(form)), 1, pl_fs(d, l->lambda));
+  } else {
+    pl_step* step = pl_show_numbered(d, pl_feq(d, pl_fs(d, l->lambda), form));
+    d->number_lambda = step->number;
+    bool known;
+    pl_step_value(d, step, l->lambda_value, pl_dimension_of_expr(d, l->lambda_value, &known));
+  }
   pl_claim_that(d, PL_CLAIM_MOTION, pl_form_value(d->pool, form), pl_sym(d->pool, l->lambda));
   pl_value* v = pl_answer(d, pl_symbol_get(d->pool, l->lambda)->ascii, l->lambda_value, form);
   v->of = l->source->name.text;

@@ -68,7 +68,8 @@ typedef struct pl_analysis {
   PL_VEC(pl_bond) g;
   PL_VEC(pl_particle) particle;
   PL_VEC(pl_fact) facts;
-  double* value;               // numbers of parameters, start values; NaN unknown       (by symbol id, see d_values)
+  double* value;               // numbers of parameters, start values; NaN unknown       (by symbol id)
+  int n_value;                 // symbols it was made for
 
   pl_expr T, V, L;             // in all coordinates, raw
   pl_expr* force;              // generalized forces without potential                     (n_q)

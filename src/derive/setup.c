@@ -46,10 +46,11 @@ static double* known_numbers(pl_analysis* d) {
 
 double pl_number(pl_analysis* d, pl_expr e) {
   if (pl_is_poison(e)) return (double)NAN;
-  pl_mark mark = pl_arena_mark(d->arena);
-  double x = pl_eval(d->pool, e, known_numbers(d));
-  pl_arena_rewind(d->arena, mark);
-  return x;
+  if (d->n_value != pl_symbol_count(d->pool)) {   // names were made since
+    d->value = known_numbers(d);
+    d->n_value = pl_symbol_count(d->pool);
+  }
+  return pl_eval(d->pool, e, d->value);
 }
 
 int pl_sign_at_numbers(pl_analysis* d, pl_expr e) {
