@@ -1,9 +1,9 @@
 #!/bin/sh
-# Installs into a folder and builds a program against what was installed, through pkg-config.  Usage: check_install.sh FOLDER
+# Installs into a folder and builds a program against what was installed, through pkg-config.
 set -eu
 cd "$(dirname "$0")/.."
-folder=$1
-rm -rf "$folder"
+folder=$(mktemp -d)      # not inside of this checkout: pkg-config cannot do with blanks in a path
+trap 'rm -rf "$folder"' EXIT
 meson install -C build-test/gcc --no-rebuild --destdir "$folder" >/dev/null
 prefix=$(find "$folder" -path '*/bin/pleuel' -type f | head -n 1)
 prefix=${prefix%/bin/pleuel}

@@ -3,7 +3,8 @@
 //     text -> lang -> model -> derive -> (a) notation -> report            worked solution, JSON
 //                                     -> (b) tape -> jet -> solve -> result -> report     motion
 //
-// Each step is taken once and remembered in the pleuel_model; asking for a later one takes those before it.
+// Each step is taken once and remembered in the pleuel_model; asking for a later one takes those before it.  A step that
+// was interrupted is taken anew.
 #include "api/api_impl.h"
 
 #include <math.h>
@@ -54,8 +55,8 @@ pleuel_status pl_pipeline_derive(pleuel_model* m, const char* only, double secon
   m->solution = NULL;
   m->solved_only = only ? pl_copy(m->arena, only) : NULL;
   pl_derive_options how = {.only = m->solved_only, .seconds = seconds};
-  m->is_derived = true;
   m->derived = pl_derive(&m->job, m->model, &how, &m->solution);
+  m->is_derived = m->derived != PLEUEL_INTERRUPTED;
   pl_diagnostics_sort(&m->diagnostics);
   note_time(m, PL_STAGE_DERIVE, start);
   return m->derived;
@@ -66,8 +67,8 @@ pleuel_status pl_pipeline_record(pleuel_model* m) {
   PL_TRY(pl_pipeline_check(m));
   if (m->is_recorded) return m->recorded;
   double start = pl_clock();
-  m->is_recorded = true;
   m->recorded = pl_record(&m->job, m->model, &m->recording);
+  m->is_recorded = m->recorded != PLEUEL_INTERRUPTED;
   note_time(m, PL_STAGE_RECORD, start);
   return m->recorded;
 }
@@ -78,7 +79,7 @@ typedef struct pl_relay {
   const pleuel_sim_options* options;
   pleuel_model* model;
   double* values;      // (n_columns)
-  int n_columns, n_q, n_c, n_out;
+  bool stopped;        // the caller wants no more
 } pl_relay;
 
 static pleuel_status relay_row(void* user, const pl_row* row) {
@@ -96,7 +97,8 @@ static pleuel_status relay_row(void* user, const pl_row* row) {
     if (s->links[i].column) r->values[n++] = row->lambda[i];
   }
   for (int i = 0; i < s->n_out; i++) r->values[n++] = row->out[i];
-  return r->options->row(r->options->user, (size_t)n, r->values, row->mode) ? PLEUEL_INTERRUPTED : PLEUEL_OK;
+  if (!r->stopped) r->stopped = r->options->row(r->options->user, (size_t)n, r->values, row->mode) != 0;
+  return r->stopped ? PLEUEL_INTERRUPTED : PLEUEL_OK;
 }
 
 static pleuel_status relay_columns(void* user, const pl_setup* setup) {

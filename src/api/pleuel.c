@@ -492,7 +492,7 @@ static pleuel_status simulate(pleuel_model* m, void* argument) {
 }
 
 pleuel_status pleuel_simulate(pleuel_model* m, pleuel_sim_summary* summary, const pleuel_sim_options* options) {
-  if (summary) *summary = (pleuel_sim_summary){.energy_drift = NAN};
+  if (summary) *summary = (pleuel_sim_summary){.t_end = NAN, .energy_drift = NAN};
   if (!m) return PLEUEL_USAGE;
   pleuel_sim_options o;
   copy_options(&o, sizeof o, options);
