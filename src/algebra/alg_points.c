@@ -6,12 +6,13 @@
 //
 // All points share one straight-line program: the distinct nodes of all expressions asked so far, arguments first.  Each
 // point keeps the balls it has computed, so that a formula that shares nodes with earlier ones costs only its new ones.
+// Kept balls are frozen: read-only copies whose mantissas stand in the arena, so that there is nothing to free.
 #include "algebra/arb_eval.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { PL_MAX_REDRAWS = 400, PL_MAX_NODES = 400000, PL_CHUNK_SLOTS = 256 };
+enum { PL_MAX_REDRAWS = 400, PL_MAX_NODES = 400000, PL_CHUNK_SLOTS = 64, PL_LIMBS = 4096 };
 static const double draw_low = 0.3, draw_high = 3.0;    // sizes that are neither tiny nor huge: no cancellation by scale
 static const double grid = 1073741824.0;                // 2^30
 
@@ -20,9 +21,9 @@ typedef struct pl_point {
   int n_values;
   uint32_t* draws;          // how often the symbol was drawn              (n_values)
   bool usable;
-  PL_VEC(arb_ptr) chunks;   // balls by slot
+  PL_VEC(arb_ptr) chunks;   // frozen balls by slot
   int n_done;               // slots computed
-  arb_ptr unknown;          // solution of the linear system               (n_unknowns), NULL until needed
+  arb_ptr unknown;          // frozen solution of the linear system        (n_unknowns), NULL until needed
   bool solved;
 } pl_point;
 
@@ -39,6 +40,8 @@ struct pl_points {
   PL_VEC(pl_expr) program;
   pl_map* definition_of;    // symbol id -> definition + 1
   pl_map* unknown_of;       // symbol id -> unknown + 1
+  mp_limb_t* limbs;         // room for frozen mantissas
+  size_t n_limbs;           // free ones
 };
 
 // ---------------------------------------------------------------------------------------------- drawing
@@ -173,18 +176,6 @@ pl_points* pl_points_make(pl_job* job, pl_pool* p, const pl_certifier_setup* set
   return s;
 }
 
-void pl_points_free(pl_points* s) {
-  if (!s) return;
-  for (int i = 0; i < s->n; i++) {
-    pl_point* q = &s->at[i];
-    for (int k = 0; k < q->chunks.n; k++) _arb_vec_clear(q->chunks.at[k], PL_CHUNK_SLOTS);
-    if (q->unknown) _arb_vec_clear(q->unknown, s->setup.n_unknowns);
-    q->chunks.n = 0;
-    q->unknown = NULL;
-  }
-  s->n = 0;
-}
-
 int pl_points_count(const pl_points* s) {
   return s->n;
 }
@@ -192,6 +183,31 @@ int pl_points_count(const pl_points* s) {
 // ---------------------------------------------------------------------------------------------- the program
 static arb_ptr ball(const pl_point* q, int slot) {
   return &q->chunks.at[slot / PL_CHUNK_SLOTS][slot % PL_CHUNK_SLOTS];
+}
+
+// Room for one more mantissa, so that freezing allocates nothing while a ball of Arb's own is alive.
+static void reserve_limbs(pl_points* s, size_t n) {
+  size_t needed = n * ((size_t)s->precision / FLINT_BITS + 2);
+  if (s->n_limbs >= needed) return;
+  s->n_limbs = needed > PL_LIMBS ? needed : PL_LIMBS;
+  s->limbs = PL_ARRAY(s->arena, mp_limb_t, s->n_limbs);
+}
+
+// to becomes a read-only copy of from.  Huge exponents, which have memory of their own, count as no value.
+static void freeze(pl_points* s, arb_ptr to, arb_srcptr from) {
+  const arf_struct* mid = arb_midref(from);
+  bool large = COEFF_IS_MPZ(*ARF_EXPREF(mid)) || COEFF_IS_MPZ(MAG_EXP(arb_radref(from)));
+  if (large || !arb_is_finite(from) || (ARF_HAS_PTR(mid) && (size_t)ARF_SIZE(mid) > s->n_limbs)) {
+    arb_indeterminate(to);
+    return;
+  }
+  *to = *from;
+  if (!ARF_HAS_PTR(mid)) return;
+  size_t n = (size_t)ARF_SIZE(mid);
+  memcpy(s->limbs, ARF_PTR_D(mid), n * sizeof *s->limbs);
+  ARF_PTR_D(arb_midref(to)) = s->limbs;
+  s->limbs += n;
+  s->n_limbs -= n;
 }
 
 static int slot_of(const pl_points* s, pl_expr e) {
@@ -261,20 +277,25 @@ static bool solve_balls(arb_ptr M, int n, long precision) {
 
 static void solve_unknowns(pl_points* s, pl_point* q) {
   int n = s->setup.n_unknowns;
-  arb_ptr M = _arb_vec_init(n * (n + 1));
+  q->unknown = PL_ARRAY(s->arena, arb_struct, n);
+  reserve_limbs(s, (size_t)n);
+  arb_ptr M = _arb_vec_init((slong)n * (n + 1));
   bool ok = true;
   for (int i = 0; i < n; i++) {
     for (int j = 0; j < n; j++) arb_set(&M[i * (n + 1) + j], ball(q, slot_of(s, s->setup.A[i * n + j])));
     arb_set(&M[i * (n + 1) + n], ball(q, slot_of(s, s->setup.b[i])));
   }
   for (int i = 0; i < n * (n + 1); i++) ok = ok && arb_is_finite(&M[i]);
-  q->unknown = _arb_vec_init(n);
   q->solved = ok && solve_balls(M, n, s->precision);
-  for (int i = 0; i < n && q->solved; i++) arb_set(&q->unknown[i], &M[i * (n + 1) + n]);
-  _arb_vec_clear(M, n * (n + 1));
+  for (int i = 0; i < n && q->solved; i++) freeze(s, &q->unknown[i], &M[i * (n + 1) + n]);
+  _arb_vec_clear(M, (slong)n * (n + 1));
 }
 
 // ---------------------------------------------------------------------------------------------- running the program
+static void prepare_symbol(pl_points* s, pl_point* q, pl_symbol x) {
+  if (!q->unknown && pl_map_get(s->unknown_of, x.id)) solve_unknowns(s, q);
+}
+
 static void symbol_ball(pl_points* s, pl_point* q, arb_ptr out, pl_symbol x) {
   uint64_t d = pl_map_get(s->definition_of, x.id);
   if (d) {
@@ -286,7 +307,6 @@ static void symbol_ball(pl_points* s, pl_point* q, arb_ptr out, pl_symbol x) {
     arb_set_d(out, q->value[x.id]);
     return;
   }
-  if (!q->unknown) solve_unknowns(s, q);
   if (q->solved) {
     arb_set(out, &q->unknown[u - 1]);
   } else {
@@ -295,37 +315,46 @@ static void symbol_ball(pl_points* s, pl_point* q, arb_ptr out, pl_symbol x) {
 }
 
 // Elements of families are free, drawn by their text.
-static void element_ball(pl_points* s, int point, arb_ptr out, pl_expr e) {
+static double element_value(pl_points* s, int point, pl_expr e) {
   const char* text = pl_expr_text(s->arena, s->pool, e);
   pl_random r = {pl_hash_mix(pl_hash_bytes(text, strlen(text), s->seed), (uint64_t)point + 1)};
-  arb_set_d(out, on_grid(pl_random_between(&r, -draw_high, draw_high)));
+  return on_grid(pl_random_between(&r, -draw_high, draw_high));
 }
 
 static void run_slot(pl_points* s, int point, int slot) {
   pl_point* q = &s->at[point];
   pl_expr e = s->program.at[slot];
-  arb_ptr out = ball(q, slot);
   pl_kind k = pl_kind_of(s->pool, e);
+  int n = k == PL_SUM || k == PL_AT || k == PL_UNKNOWN_FUNCTION ? 0 : pl_n_args(s->pool, e);
+  arb_srcptr few[16];
+  arb_srcptr* args = n <= 16 ? few : PL_ARRAY(s->arena, arb_srcptr, n);
+  for (int i = 0; i < n; i++) args[i] = ball(q, slot_of(s, pl_arg(s->pool, e, i)));
+  if (k == PL_SYMBOL) prepare_symbol(s, q, pl_symbol_of(s->pool, e));
+  double element = k == PL_AT ? element_value(s, point, e) : 0;
+  reserve_limbs(s, 1);
+  arb_t out;
+  arb_init(out);
   if (k == PL_SYMBOL) {
     symbol_ball(s, q, out, pl_symbol_of(s->pool, e));
   } else if (k == PL_AT) {
-    element_ball(s, point, out, e);
+    arb_set_d(out, element);
   } else if (k == PL_SUM || k == PL_UNKNOWN_FUNCTION) {
     arb_indeterminate(out);
   } else {
-    int n = pl_n_args(s->pool, e);
-    arb_srcptr few[16];
-    arb_srcptr* args = n <= 16 ? few : PL_ARRAY(s->arena, arb_srcptr, n);
-    for (int i = 0; i < n; i++) args[i] = ball(q, slot_of(s, pl_arg(s->pool, e, i)));
     pl_arb_node(out, s->pool, e, args, s->arena, s->precision);
   }
+  freeze(s, ball(q, slot), out);
+  arb_clear(out);
 }
 
 static void run_to(pl_points* s, int point, int slot) {
   pl_point* q = &s->at[point];
   fill(s, point);
   for (; q->n_done <= slot; q->n_done++) {
-    if (q->n_done == q->chunks.n * PL_CHUNK_SLOTS) pl_push(s->arena, q->chunks, _arb_vec_init(PL_CHUNK_SLOTS));
+    if (q->n_done == q->chunks.n * PL_CHUNK_SLOTS) {
+      arb_ptr chunk = PL_ARRAY(s->arena, arb_struct, PL_CHUNK_SLOTS);   // zeroed memory is the ball 0
+      pl_push(s->arena, q->chunks, chunk);
+    }
     run_slot(s, point, q->n_done);
   }
 }

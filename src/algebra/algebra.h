@@ -106,7 +106,6 @@ typedef struct pl_certificate {
 } pl_certificate;
 // pl_certify compares shown and reference at 20 points mod p and 50 points in Arb (256 bit, more when needed), without the tower.
 pl_certificate pl_certify(pl_certifier* c, pl_expr shown, pl_expr reference);
-// Frees the balls that Arb took.  Expressions stay.  c may be NULL.
-void pl_certifier_free(pl_certifier* c);
+// A certifier lives in the arena of the pool; there is nothing to free.
 
 #endif

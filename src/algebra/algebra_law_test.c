@@ -60,7 +60,6 @@ PL_TEST(the_normal_form_has_the_value_of_the_input) {
     assert_true(changed.equal != PL_YES);
   }
   assert_true(decided > PL_ROUNDS * 9 / 10);
-  pl_certifier_free(c);
   pl_world_free(w);
 }
 

@@ -8,10 +8,12 @@ static void number_node(arb_t out, const pl_pool* p, pl_expr e, pl_arena* scratc
     arb_div_si(out, out, den, precision);
     return;
   }
+  const char* upper = pl_number_num_text(scratch, p, e);
+  const char* lower = pl_number_den_text(scratch, p, e);
   fmpq_t q;
   fmpq_init(q);
-  fmpz_set_str(fmpq_numref(q), pl_number_num_text(scratch, p, e), 10);
-  fmpz_set_str(fmpq_denref(q), pl_number_den_text(scratch, p, e), 10);
+  fmpz_set_str(fmpq_numref(q), upper, 10);
+  fmpz_set_str(fmpq_denref(q), lower, 10);
   arb_set_fmpq(out, q, precision);
   fmpq_clear(q);
 }

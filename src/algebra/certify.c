@@ -110,13 +110,6 @@ pl_certifier* pl_certifier_make(pl_job* job, pl_pool* p, const pl_certifier_setu
   return c;
 }
 
-void pl_certifier_free(pl_certifier* c) {
-  if (!c) return;
-  pl_points_free(c->points);
-  pl_points_free(c->fine);
-  c->points = c->fine = NULL;
-}
-
 // ---------------------------------------------------------------------------------------------- comparing
 typedef struct pl_mod_count { int equal, different; } pl_mod_count;
 

@@ -245,9 +245,6 @@ void pl_tower_free(pl_tower* t) {
     t->small[i] = NULL;
   }
   fmpz_mpoly_ctx_clear(&t->ctx);
-  pl_points_free(t->points);
-  pl_points_free(t->fine_points);
-  t->points = t->fine_points = NULL;
 }
 
 // ---------------------------------------------------------------------------------------------- assumptions
