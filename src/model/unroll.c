@@ -13,10 +13,11 @@ typedef struct expansion {
   pl_index_values values;     // indices of the instance at work are set in here
   pl_map* element;            // (family, index) -> scalar symbol id
   pl_map* memo;               // expression id -> rewritten id, for the instance at work
-  bool too_long;              // a sum has too many terms
+  bool too_long;              // a sum has too many terms, or the families too many members
+  long budget;                // statements that may still be written
 } expansion;
 
-enum { MAX_SUM_TERMS = 100000 };
+enum { MAX_SUM_TERMS = 100000, MAX_STATEMENTS = 200000 };   // written out, more would be read by nobody
 
 // ---------------------------------------------------------------------------------------------- elements
 // x[3] -> x3 (ascii x_3), λ_c[3] -> λ_c3 (ascii lambda_c_3)
@@ -200,8 +201,8 @@ static bool expand_init(void* user, pl_index_values* v) {
 // Every instance of item i of a list, or the item itself when it stands in no family.
 static pl_walk_result expand_each(expansion* x, int i, const pl_block* b, pl_instance_visit* visit) {
   one_item o = {x, i, 0};
-  long budget = PL_MAX_INSTANCES;
-  pl_walk_result r = pl_block_walk(b, &x->values, visit, &o, &budget, NULL);
+  pl_walk_result r = pl_block_walk(b, &x->values, visit, &o, &x->budget, NULL);
+  x->too_long |= r == PL_WALK_TOO_MANY;
   for (const pl_block* k = b; k; k = k->outer) x->values.value[k->index.id] = PL_NAN;
   return r;
 }
@@ -301,7 +302,8 @@ pleuel_status pl_model_expand(pl_job* job, const pl_model* m, int max_coords, pl
   pl_arena* a = pl_pool_arena(m->pool);
   pl_model* to = PL_NEW(a, pl_model);
   *to = *m;
-  expansion x = {.job = job, .arena = a, .from = (pl_model*)(uintptr_t)m, .to = to, .element = pl_map_make(a), .memo = pl_map_make(a)};
+  expansion x = {.job = job, .arena = a, .from = (pl_model*)(uintptr_t)m, .to = to, .element = pl_map_make(a), .memo = pl_map_make(a),
+                 .budget = MAX_STATEMENTS};
   x.values = pl_index_values_make(m, a);
   *out = NULL;
   long n = count_coordinates(&x);
@@ -320,7 +322,7 @@ pleuel_status pl_model_expand(pl_job* job, const pl_model* m, int max_coords, pl
   pl_model_each_slot(to, rewrite_slot, &x);
   expand_coordinates(&x);
   bool ok = expand_statements(&x);
-  if (x.too_long) return pl_fail(job, PLEUEL_UNSUPPORTED, "a sum has too many terms to be written out");
+  if (x.too_long) return pl_fail(job, PLEUEL_UNSUPPORTED, "a family or sum has too many members to be written out");
   if (!ok) return pl_fail(job, PLEUEL_MODEL_ERROR, "the bounds of a family are not whole numbers");
   *out = to;
   return PLEUEL_OK;
