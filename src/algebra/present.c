@@ -8,7 +8,7 @@
 
 #include <math.h>
 
-enum { MAX_SEARCH_DEPTH = 3, POINTS = 4, MAX_BAD_POINTS = 24, SMALL_TERMS = 150, LARGE_TERMS = 3000 };
+enum { MAX_SEARCH_DEPTH = 3, POINTS = 4, MAX_BAD_POINTS = 24, DOMAIN_POINTS = 12, SMALL_TERMS = 150, LARGE_TERMS = 3000 };
 
 // Steps of work in a second: a step is a small part of factoring a polynomial of a few terms, about 5 µs.
 static const double work_per_second = 200000;
@@ -68,17 +68,15 @@ static pl_answer3 agrees_mod_p(pl_tower* t, pl_expr a, pl_expr b) {
 
 // Values at points of the domain, in balls.
 static bool agrees_in_domain(pl_tower* t, pl_expr a, pl_expr b) {
-  pl_certifier_setup setup = {.facts = t->facts.at, .n_facts = t->facts.n};
-  pl_points* points = pl_points_make(t->job, t->pool, &setup, 12, 128, 20260u);
+  pl_points* points = pl_tower_points(t);
   int good = 0;
   bool same = true;
-  for (int i = 0; same && i < pl_points_count(points); i++) {
+  for (int i = 0; same && good < DOMAIN_POINTS && i < pl_points_count(points); i++) {
     double x = pl_points_double(points, i, a), y = pl_points_double(points, i, b);
     if (!isfinite(x) || !isfinite(y)) continue;
     same = fabs(x - y) <= 1e-9 * (fabs(x) + fabs(y)) + 1e-300;
     good++;
   }
-  pl_points_free(points);
   return same && good >= 3;
 }
 

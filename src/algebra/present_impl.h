@@ -70,6 +70,10 @@ pl_piece pl_piece_of_gen(pl_search* s, int gen);
 pl_prod pl_prod_of_gen(pl_search* s, int gen, int power);
 pl_prod pl_prod_of_exponents(pl_search* s, pl_expr unit, const ulong* exponent);
 const pl_form* pl_prod_form(pl_search* s, pl_prod x);
+// The same with a numeric fraction in front, 2/3 sin α, 1/2 m g cos α, rather than below, x²/2.  A product wants it when the
+// numerator is not 1 or a function ends it: cos α/2 would be read in two ways.
+const pl_form* pl_prod_form_with(pl_search* s, pl_prod x, bool fraction_first);
+bool pl_prod_wants_fraction_first(pl_search* s, pl_prod x);
 // The product with a leading minus moved into a bracket where that removes it: -(m2 - m1) g -> (m1 - m2) g.
 pl_prod pl_prod_flip(pl_search* s, pl_prod x);
 // cos²/..., √A √B -> √(A B), sin/cos -> tan: what can be merged once numerator and denominator are known.

@@ -288,34 +288,50 @@ static pl_expr denominator_of(pl_search* s, pl_expr number) {
   return pl_number_from_text(s->p, text, strlen(text));
 }
 
-const pl_form* pl_prod_form(pl_search* s, pl_prod x) {
+bool pl_prod_wants_fraction_first(pl_search* s, pl_prod x) {
+  pl_expr den = denominator_of(s, x.unit);
+  if (x.n == 0 || pl_is_one_node(s->p, den) || pl_prod_has_denominator(x)) return false;
+  pl_expr num = pl_mul(s->p, x.unit, den);
+  bool plain = pl_is_one_node(s->p, num) || pl_is_one_node(s->p, pl_neg(s->p, num));
+  return !plain || x.at[x.n - 1].base->kind == PL_F_CALL;
+}
+
+// The factors above and below the line, without the number.
+static void split_pieces(pl_search* s, pl_prod x, forms* above, forms* below) {
+  bool exp_done = false;
+  for (int i = 0; i < x.n; i++) {
+    const pl_piece* f = &x.at[i];
+    if (is_exp(s, f)) {
+      if (!exp_done) pl_push(s->a, *above, call_form(s, pl_call(s->p, PL_EXP, exponents_together(s, x))));
+      exp_done = true;
+    } else if (f->power > 0) {
+      pl_push(s->a, *above, piece_form(s, f, f->power));
+    } else {
+      pl_push(s->a, *below, piece_form(s, f, -f->power));
+    }
+  }
+}
+
+const pl_form* pl_prod_form_with(pl_search* s, pl_prod x, bool fraction_first) {
   pl_pool* p = s->p;
   bool minus = pl_number_sign(p, x.unit) < 0;
   pl_expr unit = minus ? pl_neg(p, x.unit) : x.unit;
   pl_expr den = denominator_of(s, unit), num = pl_mul(p, unit, den);
   forms above = {0}, below = {0};
-  if (x.n > 0 && !pl_is_one_node(p, num) && !pl_is_one_node(p, den) && !pl_prod_has_denominator(x)) {
-    // 2/3 sin α, while x/2 stays
+  if (fraction_first && x.n > 0 && !pl_is_one_node(p, den) && !pl_prod_has_denominator(x)) {
     pl_push(s->a, above, pl_form_quotient(s->a, pl_form_leaf(s->a, num), pl_form_leaf(s->a, den)));
   } else {
     if (!pl_is_one_node(p, num)) pl_push(s->a, above, pl_form_leaf(s->a, num));
     if (!pl_is_one_node(p, den)) pl_push(s->a, below, pl_form_leaf(s->a, den));
   }
-  bool exp_done = false;
-  for (int i = 0; i < x.n; i++) {
-    const pl_piece* f = &x.at[i];
-    if (is_exp(s, f)) {
-      if (!exp_done) pl_push(s->a, above, call_form(s, pl_call(p, PL_EXP, exponents_together(s, x))));
-      exp_done = true;
-    } else if (f->power > 0) {
-      pl_push(s->a, above, piece_form(s, f, f->power));
-    } else {
-      pl_push(s->a, below, piece_form(s, f, -f->power));
-    }
-  }
+  split_pieces(s, x, &above, &below);
   const pl_form* r = product_of(s, &above);
   if (below.n) r = pl_form_quotient(s->a, r, product_of(s, &below));
   return minus ? pl_form_neg(s->a, r) : r;
+}
+
+const pl_form* pl_prod_form(pl_search* s, pl_prod x) {
+  return pl_prod_form_with(s, x, pl_prod_wants_fraction_first(s, x));
 }
 
 // ---------------------------------------------------------------------------------------------- tidying

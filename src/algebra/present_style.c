@@ -255,44 +255,41 @@ static bool is_half(pl_search* s, pl_prod x) {
   return pl_same(size, half(s));
 }
 
-// All terms with ½ begin with the symbol of one mass, and there are several: m1/2 r² φ'² + m2/2 ...
+// All terms with ½ begin with the symbol of one mass, and not all with the same: m1/2 r² φ'² + m2/2 ...
 static bool mass_takes_half(term_list* l) {
-  int n = 0;
+  const pl_form* first = NULL;
+  bool several = false;
   for (int i = 0; i < l->n; i++) {
     pl_prod x = l->at[i];
     if (!is_half(l->s, x)) continue;
     if (x.n == 0 || x.at[0].bucket != PL_K_MASS || x.at[0].sum || x.at[0].power != 1) return false;
-    n++;
+    if (first && x.at[0].base != first) several = true;
+    first = x.at[0].base;
   }
-  return n > 1;
+  return several;
 }
 
-// A term whose denominator is only a number: 1/2 m v², m1/2 r² φ'², 3/4 m r² ω².
-static const pl_form* term_form(pl_search* s, pl_prod x, bool into_mass) {
-  long num, den;
-  if (pl_prod_has_denominator(x) || x.n == 0 || !pl_is_ratio(s->p, x.unit, &num, &den) || den == 1) return pl_prod_form(s, x);
-  bool minus = num < 0;
-  pl_prod body = x;
-  body.unit = pl_int(s->p, 1);
-  const pl_form* f = pl_prod_form(s, body);
-  const pl_form* first = pl_form_leaf(s->a, pl_int(s->p, labs(num)));
-  const pl_form* bottom = pl_form_leaf(s->a, pl_int(s->p, den));
-  int n = f->kind == PL_F_PRODUCT ? f->n : 1, skip = 0;
-  const pl_form* const* factors = f->kind == PL_F_PRODUCT ? f->args : &f;
-  if (into_mass && is_half(s, x) && n > 1) first = factors[0], skip = 1;
-  const pl_form** all = PL_ARRAY(s->a, const pl_form*, n + 1);
-  all[0] = pl_form_quotient(s->a, first, bottom);
-  for (int i = skip; i < n; i++) all[i + 1 - skip] = factors[i];
-  const pl_form* r = pl_form_product(s->a, all, n + 1 - skip);
+// m1/2 r² φ'²: the ½ under the first factor.
+static const pl_form* halved_first_factor(pl_search* s, pl_prod x) {
+  bool minus = pl_prod_is_negative(s, x);
+  x.unit = pl_int(s->p, 1);
+  const pl_form* f = pl_prod_form(s, x);
+  if (f->kind != PL_F_PRODUCT) return NULL;
+  const pl_form** all = PL_ARRAY(s->a, const pl_form*, f->n);
+  memcpy(all, f->args, (size_t)f->n * sizeof *all);
+  all[0] = pl_form_quotient(s->a, f->args[0], pl_form_leaf(s->a, pl_int(s->p, 2)));
+  const pl_form* r = pl_form_product(s->a, all, f->n);
   return minus ? pl_form_neg(s->a, r) : r;
 }
 
-static const pl_form* list_form(term_list* l, bool halves) {
+static const pl_form* energy_form(term_list* l) {
   pl_search* s = l->s;
-  if (l->n == 0) return pl_form_leaf(s->a, pl_int(s->p, 0));
-  bool into_mass = halves && mass_takes_half(l);
+  bool into_mass = mass_takes_half(l);
   const pl_form** f = PL_ARRAY(s->a, const pl_form*, l->n);
-  for (int i = 0; i < l->n; i++) f[i] = halves ? term_form(s, l->at[i], into_mass) : pl_prod_form(s, l->at[i]);
+  for (int i = 0; i < l->n; i++) {
+    f[i] = into_mass && is_half(s, l->at[i]) && !pl_prod_has_denominator(l->at[i]) ? halved_first_factor(s, l->at[i]) : NULL;
+    if (!f[i]) f[i] = pl_prod_form_with(s, l->at[i], true);
+  }
   return l->n == 1 ? f[0] : pl_form_sum(s->a, f, l->n);
 }
 
@@ -342,7 +339,7 @@ static const pl_form* by_motion(pl_search* s, pl_frac f, int depth, long* cost) 
   sort_terms(&l);
   avoid_leading_minus(&l);
   *cost = list_cost(&l);
-  return list_form(&l, s->style == PL_S_ENERGY);
+  return s->style == PL_S_ENERGY ? energy_form(&l) : pl_terms_form(s, l.at, l.n);
 }
 
 // ---------------------------------------------------------------------------------------------- quotients
@@ -407,7 +404,7 @@ static const pl_form* by_time(pl_search* s, pl_frac f, int depth, long* cost) {
       if (time_rank(s, group[i].key) == rank) put_opened(&l, pl_present_quotient(s, group[i].part, depth));
   }
   *cost = list_cost(&l);
-  return list_form(&l, false);
+  return pl_terms_form(s, l.at, l.n);
 }
 
 const pl_form* pl_present_styled(pl_search* s, pl_frac f, int depth, long* cost) {

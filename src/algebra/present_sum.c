@@ -73,8 +73,11 @@ void pl_terms_sort(pl_search* s, pl_prod* terms, int n) {
 
 const pl_form* pl_terms_form(pl_search* s, const pl_prod* terms, int n) {
   if (n == 0) return pl_form_leaf(s->a, pl_int(s->p, 0));
+  // the terms of one sum agree on where their fractions stand
+  bool first = false;
+  for (int i = 0; i < n; i++) first |= pl_prod_wants_fraction_first(s, terms[i]);
   const pl_form** f = PL_ARRAY(s->a, const pl_form*, n);
-  for (int i = 0; i < n; i++) f[i] = pl_prod_form(s, terms[i]);
+  for (int i = 0; i < n; i++) f[i] = pl_prod_form_with(s, terms[i], first);
   return n == 1 ? f[0] : pl_form_sum(s->a, f, n);
 }
 

@@ -259,6 +259,7 @@ static void skier_forces(void** state) {
 static void skier_energy(void** state) {
   fixture* f = *state;
   PRESENTS(PL_S_ENERGY, "m*R*(R*th'^2 - 2*g*cos(th))/2", "1/2 m R^2 th'^2 - m g R cos(th)");
+  PRESENTS(PL_S_ENERGY, "m*R^2*(th'^2 - w^2*sin(th)^2)/2", "1/2 m R^2 th'^2 - 1/2 m R^2 w^2 sin(th)^2");
 }
 
 // ---------------------------------------------------------------------------------------------- double pendulum
@@ -328,6 +329,14 @@ static void multiples_of_angles(void** state) {
   PRESENTS(PL_S_PLAIN, "cos(th)^2 - 1", "-sin(th)^2");
   PRESENTS(PL_S_PLAIN, "(1 - cos(th)^2)*l", "l sin(th)^2");
   PRESENTS(PL_S_PLAIN, "g*sin(th)/cos(th)", "g tan(th)");
+}
+
+static void fractions_stand_where_they_are_read_once(void** state) {
+  fixture* f = *state;
+  PRESENTS(PL_S_QUOTIENT, "2*sin(th)/3", "2/3 sin(th)");
+  PRESENTS(PL_S_QUOTIENT, "m*g*cos(th)/2", "1/2 m g cos(th)");
+  PRESENTS(PL_S_QUOTIENT, "m*x^2/2", "m x^2/2");
+  PRESENTS(PL_S_EQUATION, "m*l^2/12*th'' + m*g*l/2*cos(th)", "1/12 m l^2 th'' + 1/2 m g l cos(th)");
 }
 
 static void roots_come_together(void** state) {
@@ -474,6 +483,7 @@ int main(void) {
     T(elastic_pendulum),
     T(triple_pendulum_determinant),
     T(multiples_of_angles),
+    T(fractions_stand_where_they_are_read_once),
     T(roots_come_together),
     T(zero_and_numbers),
     T(equations_are_ordered_by_derivatives),

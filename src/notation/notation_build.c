@@ -144,26 +144,28 @@ static pl_box* factor_box(pl_builder* b, pl_box* x, int i, int n) {
   return x;
 }
 
+static bool is_bare(const pl_box* x, pl_box_kind kind, int argument) {
+  return x->kind == kind && x->at[argument]->kind != PL_B_FENCE && x->level == PL_LEVEL_ATOM;
+}
+
+static pl_box* with_clear_argument(pl_builder* b, pl_box* application) {
+  pl_box* clear = pl_box_make(b->arena, PL_B_APPLY, PL_LEVEL_ATOM, 2);
+  *clear = *application;
+  clear->at = PL_ARRAY(b->arena, pl_box*, 2);
+  clear->at[0] = application->at[0];
+  clear->at[1] = pl_box_fence(b->arena, application->at[1], "(");
+  return clear;
+}
+
 static bool is_plain_name(const pl_box* x) {
   if (x->kind == PL_B_POWER) x = x->at[0];
   if (x->kind == PL_B_ROW && x->level == PL_LEVEL_ATOM) x = x->at[0];    // x1(0)
   return (x->kind == PL_B_NAME || x->kind == PL_B_INDEXED) && x->dots == 0 && !x->free_name;
 }
 
-static bool is_bare(const pl_box* x, pl_box_kind kind, int argument) {
-  return x->kind == kind && x->at[argument]->kind != PL_B_FENCE && x->level == PL_LEVEL_ATOM;
-}
-
 // What a blank after `cos φ` or `√2` would be misread as: cos φ l is cos(φ) l, √2 l is √2·l.
 static bool needs_dot(pl_builder* b, pl_box** before, const pl_box* x) {
-  if (is_bare(*before, PL_B_APPLY, 1) && is_plain_name(x)) {
-    pl_box* clear = pl_box_make(b->arena, PL_B_APPLY, PL_LEVEL_ATOM, 2);
-    *clear = **before;
-    clear->at = PL_ARRAY(b->arena, pl_box*, 2);
-    clear->at[0] = (*before)->at[0];
-    clear->at[1] = pl_box_fence(b->arena, (*before)->at[1], "(");
-    *before = clear;
-  }
+  if (is_bare(*before, PL_B_APPLY, 1) && is_plain_name(x)) *before = with_clear_argument(b, *before);
   bool root = b->how.math == PL_MATH_LINE && is_bare(*before, PL_B_ROOT, 0);
   return x->starts_digit || (root && x->kind != PL_B_APPLY);
 }
@@ -204,10 +206,25 @@ static bool wide_slash(const pl_box* num, const pl_box* den) {
   return !(short_num && short_den);
 }
 
+// cos α/2 could be cos(α/2): the argument of what stands right before a slash gets its brackets.
+static pl_box* clear_before_slash(pl_builder* b, pl_box* num, const pl_box* den) {
+  if (den->kind != PL_B_NUMBER && den->kind != PL_B_NAME) return num;
+  if (is_bare(num, PL_B_APPLY, 1)) return with_clear_argument(b, num);
+  if (num->kind != PL_B_PRODUCT || !is_bare(num->at[num->n - 1], PL_B_APPLY, 1)) return num;
+  pl_box* r = pl_box_make(b->arena, PL_B_PRODUCT, num->level, num->n);
+  pl_box** at = r->at;
+  *r = *num;
+  r->at = at;
+  memcpy(at, num->at, (size_t)num->n * sizeof *at);
+  at[num->n - 1] = with_clear_argument(b, num->at[num->n - 1]);
+  return r;
+}
+
 static pl_box* slash(pl_builder* b, pl_box* num, pl_box* den) {
   bool again = num->level == PL_LEVEL_PRODUCT && num->open_slash;    // (a/b)/c, (m g/l)/c
   num = again ? bracketed(b, num) : at_least(b, num, PL_LEVEL_PRODUCT);
   den = at_least(b, den, PL_LEVEL_POWER);
+  num = clear_before_slash(b, num, den);
   pl_box* r = pl_box_make(b->arena, PL_B_ROW, PL_LEVEL_PRODUCT, 3);
   r->at[0] = num, r->at[2] = den;
   r->at[1] = pl_box_op(b->arena, "/", wide_slash(num, den) ? PL_OP_INFIX : PL_OP_TIGHT);

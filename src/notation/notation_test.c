@@ -162,6 +162,10 @@ static void a_product_after_a_division_needs_brackets(void** state) {
   LINE(PROD(L(m1), QUOT(N(1), N(2))), "m1 (1/2)");
   LINE(PROD(L(m1), QUOT(L(r), L(l))), "m1 r/l");
   LINE(PROD(N(2), QUOT(L(g), L(R)), SUM(N(1), NEG(FN(PL_COS, L(theta))))), "2 (g/R) (1 - cos ϑ)");
+  LINE(QUOT(FN(PL_COS, L(phi)), N(2)), "cos(φ)/2");
+  LINE(QUOT(PROD(L(g), FN(PL_COS, L(phi))), L(R)), "g cos(φ)/R");
+  LINE(QUOT(FN(PL_COS, L(phi)), FN(PL_SIN, L(phi))), "cos φ/sin φ");
+  TEX(QUOT(FN(PL_COS, L(phi)), N(2)), "\\frac{\\cos \\varphi}{2}");
   LINE(QUOT(QUOT(L(g), L(R)), L(l)), "(g/R)/l");
   LINE(QUOT(L(g), QUOT(L(R), L(l))), "g/(R/l)");
   LINE(QUOT(L(g), PROD(L(R), L(l))), "g/(R l)");
