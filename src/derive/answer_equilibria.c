@@ -113,10 +113,10 @@ static bool regular(pl_analysis* d, const pl_rest* r) {
   pl_expr M[max_gen * max_gen];
   int n = d->gen.n;
   for (int i = 0; i < n; i++) {
-    pl_expr momentum = pl_diff(d->pool, d->Tg, d->q.at[d->gen.at[i]].v);
+    pl_expr momentum = pl_diff(d->pool, d->Lg, d->q.at[d->gen.at[i]].v);
     for (int j = 0; j < n; j++) M[i * n + j] = insert(d, at_rest(d, pl_diff(d->pool, momentum, d->q.at[d->gen.at[j]].v)), r);
   }
-  return pl_is_zero_node(d->pool, d->Tg) || pl_alg_is_zero(d->tower, pl_alg_det(d->tower, n, M, 20000)) != PL_YES;
+  return pl_alg_is_zero(d->tower, pl_alg_det(d->tower, n, M, 20000)) != PL_YES;
 }
 
 // Solves equation after equation, each for the one coordinate that is left in it; branches multiply.
@@ -149,7 +149,7 @@ typedef struct pl_linearised { int n; pl_expr M[max_gen * max_gen], K[max_gen * 
 static void linearise(pl_analysis* d, const pl_expr* f, const pl_rest* r, pl_linearised* out) {
   out->n = d->gen.n;
   for (int i = 0; i < out->n; i++) {
-    pl_expr momentum = pl_diff(d->pool, d->Tg, d->q.at[d->gen.at[i]].v);
+    pl_expr momentum = pl_diff(d->pool, d->Lg, d->q.at[d->gen.at[i]].v);
     for (int j = 0; j < out->n; j++) {
       pl_expr M = pl_diff(d->pool, momentum, d->q.at[d->gen.at[j]].v);
       out->M[i * out->n + j] = pl_alg_normal(d->tower, insert(d, at_rest(d, M), r));

@@ -77,9 +77,9 @@ static bool force_on(pl_analysis* d, int link, int particle, pl_force* out) {
 
 // A product that ends in a fraction reads wrongly in front of a unit vector.
 static const pl_form* bracketed(pl_analysis* d, const pl_form* f) {
-  bool fraction = f->kind == PL_F_QUOTIENT;
+  bool fraction = f->kind == PL_F_QUOTIENT && pl_form_ops(f->args[1]) == 0;
   for (int k = 0; f->kind == PL_F_PRODUCT && k < f->n; k++) fraction |= f->args[k]->kind == PL_F_QUOTIENT;
-  return fraction && f->kind == PL_F_PRODUCT ? pl_form_make(d->arena, PL_F_GROUP, 1, &f) : f;
+  return fraction ? pl_form_make(d->arena, PL_F_GROUP, 1, &f) : f;
 }
 
 static const pl_form* vector_of(pl_analysis* d, const pl_force* f, const pl_expr* component, pl_style style) {

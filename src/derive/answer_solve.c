@@ -217,19 +217,29 @@ static pl_expr oscillation(pl_analysis* d, const pl_linear_equation* l, pl_expr 
 
 static pl_expr closed_motion(pl_analysis* d, int i) {
   pl_linear_equation l;
-  if (pl_is_poison(d->acceleration[i]) || !linear_equation(d, i, &l)) return pl_poison();
+  if (pl_is_poison(d->acceleration[i])) return pl_poison();
+  if (!linear_equation(d, i, &l)) return pl_linear_motion(d, i);
   pl_expr x0 = start_of(d, d->q.at[i].q), v0 = start_of(d, d->q.at[i].v), t = pl_sym(d->pool, pl_time(d->pool));
   if (!pl_is_zero_node(d->pool, l.B)) return oscillation(d, &l, x0, v0, t);
   if (!pl_is_zero_node(d->pool, l.C)) return with_friction(d, &l, x0, v0, t);
   return uniform(d, l.A, x0, v0, t);
 }
 
-// The solution inserted into the equation, and its start: x(t)'' - x''(x, x') = 0, x(0) = x0.
+// The solution inserted into the equation, together with those of the coordinates it hangs on, and its start:
+// x(t)'' - x''(x, x') = 0, x(0) = x0.
 static void claim_motion(pl_analysis* d, int i, pl_expr x) {
   pl_symbol t = pl_time(d->pool);
-  pl_expr v = pl_diff(d->pool, x, t), a = pl_diff(d->pool, v, t);
-  pl_replace r[2] = {{d->q.at[i].q, x}, {d->q.at[i].v, v}};
-  pl_claim_free(d, PL_CLAIM_INSERTED, a, pl_subst(d->pool, d->acceleration[i], r, 2));
+  pl_expr v = pl_diff(d->pool, x, t), a = pl_diff(d->pool, v, t), rest = d->acceleration[i];
+  pl_replace* r = PL_ARRAY(d->arena, pl_replace, 2 * d->q.n);
+  int n = 0;
+  for (int j = 0; j < d->q.n; j++) {
+    const pl_variable* c = &d->q.at[j];
+    if (j != i && !pl_has_symbol(d->pool, rest, c->q) && !pl_has_symbol(d->pool, rest, c->v)) continue;
+    pl_expr other = j == i ? x : pl_linear_motion(d, j);
+    r[n++] = (pl_replace){c->q, other};
+    r[n++] = (pl_replace){c->v, pl_diff(d->pool, other, t)};
+  }
+  pl_claim_free(d, PL_CLAIM_INSERTED, a, pl_subst(d->pool, rest, r, n));
   pl_expr zero = pl_int(d->pool, 0);
   pl_claim_free(d, PL_CLAIM_INSERTED, pl_subst1(d->pool, x, t, zero), start_of(d, d->q.at[i].q));
   pl_claim_free(d, PL_CLAIM_INSERTED, pl_subst1(d->pool, v, t, zero), start_of(d, d->q.at[i].v));
@@ -262,8 +272,9 @@ static pl_expr solve_own_motion(pl_analysis* d, int i) {
     return x;
   }
   bool uniform_motion = !pl_has_coordinates(d, d->acceleration[i]);
-  pl_say(d, uniform_motion ? "Integrated twice:" : "A linear equation with constant coefficients; its solution through the start:",
-         uniform_motion ? "Zweimal integriert:" : "Lineare Gleichung mit konstanten Koeffizienten; die Lösung durch den Start:", 0);
+  bool alone = d->gen.n == 1;
+  pl_say(d, uniform_motion ? "Integrated twice:" : !alone ? "Linear equations with constant coefficients; their solution through the start:" : "A linear equation with constant coefficients; its solution through the start:",
+         uniform_motion ? "Zweimal integriert:" : !alone ? "Lineare Gleichungen mit konstanten Koeffizienten; die Lösung durch den Start:" : "Lineare Gleichung mit konstanten Koeffizienten; die Lösung durch den Start:", 0);
   const pl_form* form = pl_f(d, x, PL_S_SOLUTION);
   pl_show_numbered(d, pl_feq(d, of_time(d, i), form));
   claim_motion(d, i, pl_form_value(d->pool, form));

@@ -172,6 +172,8 @@ void pl_answer_pending(pl_analysis* d, const pl_ask* ask);
 pl_expr pl_second_kind(pl_analysis* d, int i);          // Lagrange II of generalized coordinate i, raw; vanishes on the motion
 pl_expr pl_start_value(pl_analysis* d, pl_symbol s);    // exact zero or expression if `init` says so, else the symbol x(0)
 
+pl_expr pl_linear_motion(pl_analysis* d, int i);        // coordinate i of a linear system as a function of t; poison if it is none
+
 // motion along an energy integral (eliminate.c)
 // The velocity of the single generalized coordinate squared, from the conserved energy and the start of `motion`;
 // false when there is none.  start_q, start_v: the start used.

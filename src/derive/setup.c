@@ -44,13 +44,32 @@ static double* known_numbers(pl_analysis* d) {
   return value;
 }
 
+// Parameters are exact numbers: where inserting them leaves a rational, its double is the nearest one, 1.962 and not
+// 1.9619999999999997.  Otherwise x stands.
+static double exact_number(pl_analysis* d, pl_expr e, double x) {
+  enum { small = 200 };
+  if (pl_op_count(d->pool, e) > small) return x;
+  const pl_model* m = d->model;
+  for (int k = m->lets.n - 1; k >= 0; k--) {
+    if (!m->lets.at[k].inserted && m->lets.at[k].n_args == 0) e = pl_subst1(d->pool, e, m->lets.at[k].symbol, m->lets.at[k].value);
+  }
+  pl_replace* r = PL_ARRAY(d->arena, pl_replace, m->params.n + 1);
+  int n = 0;
+  for (int k = 0; k < m->params.n; k++) {
+    if (!pl_is_poison(m->params.at[k].value)) r[n++] = (pl_replace){m->params.at[k].symbol, m->params.at[k].value};
+  }
+  e = pl_subst(d->pool, e, r, n);
+  return !pl_is_poison(e) && pl_is_number(d->pool, e) ? pl_number_double(d->pool, e) : x;
+}
+
 double pl_number(pl_analysis* d, pl_expr e) {
   if (pl_is_poison(e)) return (double)NAN;
   if (d->n_value != pl_symbol_count(d->pool)) {   // names were made since
     d->value = known_numbers(d);
     d->n_value = pl_symbol_count(d->pool);
   }
-  return pl_eval(d->pool, e, d->value);
+  double x = pl_eval(d->pool, e, d->value);
+  return isnan(x) ? x : exact_number(d, e, x);
 }
 
 int pl_sign_at_numbers(pl_analysis* d, pl_expr e) {
