@@ -152,10 +152,11 @@ static const char* pl_doc_fill(pl_document* d, const char* words, const pl_step*
   return pl_text_string(&out);
 }
 
-// Words, formula, words after it and margin, as far as they are there, with two blanks between them.
+// Words, formula, margin and words after it, as far as they are there, with two blanks between them.
 static const char* pl_doc_step(pl_document* d, const pl_step* s, pl_math math) {
-  const char* part[] = {pl_doc_fill(d, pl_doc_words(d, s->words), s, math), pl_doc_form(d, s->formula, math),
-                        pl_doc_words(d, s->after), s->margin};
+  const char* formula = pl_doc_form(d, s->formula, math);
+  if (formula && math == PL_MATH_TEX) formula = pl_format(d->arena, "$%s$", formula);
+  const char* part[] = {pl_doc_fill(d, pl_doc_words(d, s->words), s, math), formula, s->margin, pl_doc_words(d, s->after)};
   pl_text out = pl_text_make(d->arena);
   for (int i = 0; i < 4; i++) {
     if (!part[i] || !*part[i]) continue;
@@ -200,9 +201,35 @@ static void pl_doc_components(pl_document* d, const pl_value* v) {
   pl_json_end_list(&d->j);
 }
 
+// Abbreviations of the model that occur in the formulas of a value, in order of use.
+static bool pl_doc_has(pl_document* d, const pl_value* v, pl_symbol s) {
+  bool has = pl_has_symbol(d->pool, v->expr, s) || pl_has_symbol(d->pool, v->lhs, s) || pl_has_symbol(d->pool, v->got, s);
+  for (int i = 0; i < v->n_components; i++) has = has || pl_has_symbol(d->pool, v->components[i].expr, s);
+  for (int i = 0; i < v->n_where; i++) has = has || pl_has_symbol(d->pool, v->where_expr[i], s);
+  return has;
+}
+
+// Marks the lets that a value needs; a let may speak of those before it.  Returns how many.
+static int pl_doc_lets(pl_document* d, const pl_model* m, const pl_value* v, bool* needed) {
+  int n = 0;
+  for (int k = m->lets.n - 1; k >= 0; k--) {
+    const pl_let* l = &m->lets.at[k];
+    if (l->inserted || l->n_args > 0 || l->symbol.id == 0) continue;
+    needed[k] = pl_doc_has(d, v, l->symbol);
+    for (int i = k + 1; i < m->lets.n; i++) needed[k] = needed[k] || (needed[i] && pl_has_symbol(d->pool, m->lets.at[i].value, l->symbol));
+    n += needed[k];
+  }
+  return n;
+}
+
 static void pl_doc_where(pl_document* d, const pl_value* v) {
-  if (v->n_where == 0) return;
+  const pl_model* m = d->in->solution->model;
+  bool* needed = PL_ARRAY(d->arena, bool, m->lets.n + 1);
+  if (pl_doc_lets(d, m, v, needed) + v->n_where == 0) return;
   pl_json_object(&d->j, "where");
+  for (int k = 0; k < m->lets.n; k++) {
+    if (needed[k]) pl_json_string(&d->j, pl_symbol_get(d->pool, m->lets.at[k].symbol)->ascii, pl_doc_expr(d, m->lets.at[k].value));
+  }
   for (int i = 0; i < v->n_where; i++) pl_json_string(&d->j, v->where_name[i], pl_doc_expr(d, v->where_expr[i]));
   pl_json_end_object(&d->j);
 }

@@ -127,6 +127,14 @@ def number(value, expected, what, rel=1e-9):
     need(got is not None and close(got, expected, rel), f"{what}: number {got!r}, expected {expected!r}")
 
 
+def bind(value, names):
+    """The names with the abbreviations that the value itself explains."""
+    names = dict(names)
+    for name, expr in value.get("where", {}).items():
+        names[name] = Formula(expr).value(names)
+    return names
+
+
 def component(value, along):
     for c in value.get("components", []):
         if c["along"] == along:
@@ -204,5 +212,5 @@ def program_of(argv):
     return os.path.abspath(argv[1])
 
 
-__all__ = ["Answer", "Failure", "Formula", "Points", "Tests", "checks_pass", "close", "component", "example", "kkt", "math",
+__all__ = ["Answer", "Failure", "Formula", "Points", "Tests", "bind", "checks_pass", "close", "component", "example", "kkt", "math",
            "need", "number", "positive", "program_of", "run", "solve_linear"]
