@@ -62,6 +62,30 @@ static void scale_columns(pl_run* run, int m) {
       if (run->column[j] > 0) run->rows[(size_t)r * (size_t)n + (size_t)j] /= run->column[j];
 }
 
+static double row_length(const double* row, int n) {
+  double most = 0, sum = 0;
+  for (int j = 0; j < n; j++) most = fmax(most, fabs(row[j]));
+  for (int j = 0; j < n && most > 0; j++) sum += (row[j] / most) * (row[j] / most);
+  return most * sqrt(sum);
+}
+
+// Each row against the longest that it has been: a gradient may vanish all by itself.
+static void measure_rows(pl_run* run) {
+  for (int c = 0; c < run->n_c; c++) {
+    if (run->row_of[c] < 0) continue;
+    double length = row_length(run->rows + (size_t)run->row_of[c] * (size_t)run->n_q, run->n_q);
+    run->row_long[c] = fmax(run->row_long[c], length);
+    run->row_part[c] = run->row_long[c] > 0 ? length / run->row_long[c] : 1;
+  }
+}
+
+static double faintest_taken(const pl_run* run) {
+  double least = 1;
+  for (int c = 0; c < run->n_c; c++)
+    if (run->taken[c]) least = fmin(least, run->row_part[c]);
+  return least;
+}
+
 void pl_independent_choose(pl_run* run) {
   if (run->by_pivots && run->rank_mode >= 0) return;   // chosen when the mode began
   if (too_many_to_examine(run)) {
@@ -71,9 +95,11 @@ void pl_independent_choose(pl_run* run) {
   }
   pl_assemble_rows(run);
   scale_columns(run, run->n_active);
+  measure_rows(run);
   run->rank = pl_independent_rows(run->rows, run->priority, run->row_taken, run->rank_work, run->n_active, run->n_q,
                                   dependent_below, &run->smallest);
   for (int c = 0; c < run->n_c; c++) run->taken[c] = run->row_of[c] >= 0 && run->row_taken[run->row_of[c]];
+  run->smallest *= faintest_taken(run);
   if (run->smallest > run->best) run->best = run->smallest;
 }
 

@@ -53,7 +53,7 @@ bool pl_point_factor(pl_run* run, bool with_W) {
   pl_assemble_matrix(run, with_W);
   bool regular = pl_kkt_factor(&run->kkt);
   if (run->by_pivots) {
-    run->smallest = run->kkt.ratio;
+    run->smallest = sqrt(run->kkt.ratio);   // pivots of the whole system fade with the square of those of the rows
     run->best = fmax(run->best, run->smallest);
   }
   return regular;
@@ -156,11 +156,11 @@ void pl_horner(const double* X, int n, int last, double dt, double* x) {
 }
 
 void pl_series_at(const pl_run* run, double dt, double* q, double* v) {
-  pl_horner(run->Q, run->n_q, run->order + 1, dt, q);
-  pl_horner(run->V, run->n_q, run->order, dt, v);
+  pl_horner(run->Q, run->n_q, run->use + 1, dt, q);
+  pl_horner(run->V, run->n_q, run->use, dt, v);
 }
 
 void pl_series_lambda_at(const pl_run* run, double dt, double* a, double* lambda) {
-  pl_horner(run->A, run->n_q, run->order - 1, dt, a);
-  pl_horner(run->L, run->n_c, run->order - 1, dt, lambda);
+  pl_horner(run->A, run->n_q, run->use - 1, dt, a);
+  pl_horner(run->L, run->n_c, run->use - 1, dt, lambda);
 }

@@ -9,49 +9,6 @@
 static const double allowed_move = 1e4;       // correction by the projection, relative
 static const double allowed_floor = 1e-11;    // and what rounding may do to it close to a singular position
 static const double allowed_residual = 1e-12; // |g| and |G v + dg/dt| after it, relative to their terms
-// A pivot of the constraints that has faded to this part of its largest value announces a singular position.
-static const double faded = 1e-6;
-
-// ---------------------------------------------------------------------------------------------- singular positions
-// How far ahead the smallest pivot, continued linearly from where it was twice as large, is zero; 0 when that says nothing.
-static double reach_of_singular(const pl_run* run) {
-  double way = run->t - run->fade[0].t, slope = (run->smallest_here - run->fade[0].smallest) / way;
-  if (!isfinite(slope) || run->fade[0].smallest == 0) return 0;
-  double reach = -run->smallest_here / slope;
-  return isfinite(reach) && reach * way > 0 && fabs(reach) < 4 * fabs(way) ? reach : 0;
-}
-
-// Keeps two earlier points, each with at most half the pivot of the one before.
-static void watch_fading(pl_run* run) {
-  if (run->smallest_here <= 0.5 * run->fade[1].smallest) run->fade[0] = run->fade[1];
-  else if (run->smallest_here < run->fade[1].smallest) return;
-  else run->fade[0] = (pl_fade){0, 0};
-  run->fade[1] = (pl_fade){run->t, run->smallest_here};
-}
-
-pleuel_status pl_run_singular(pl_run* run) {
-  double reach = reach_of_singular(run);
-  char where[320];
-  size_t n = 0;
-  where[0] = '\0';
-  for (int i = 0; i < run->n_q && n < sizeof where - 64; i++) {
-    int w = snprintf(where + n, sizeof where - n, "%s%s = %.4g", i ? ", " : "", run->setup->coordinates[i].name,
-                     run->q[i] + reach * run->v[i]);
-    if (w < 0 || (size_t)w >= sizeof where - n) break;
-    n += (size_t)w;
-  }
-  run->stats.t_singular = run->t + reach;
-  pl_rows_before(run);
-  if (run->started) PL_TRY(pl_rows_event(run, PL_EV_SINGULAR, -1, 0, false));
-  return pl_fail(run->job, PLEUEL_SINGULAR,
-                 "singular position at t = %.9g s (%s): the constraints lose rank and do not tell how the motion goes on",
-                 run->stats.t_singular, where);
-}
-
-static bool is_singular(pl_run* run) {
-  if (run->rank_mode >= 0 && run->rank < run->rank_mode) return true;
-  return run->best > 0 && run->smallest_here < faded * run->best && run->smallest_here < run->smallest_before;
-}
 
 // ---------------------------------------------------------------------------------------------- one attempt
 static bool acceptable(const pl_run* run, const pl_projection* p) {
@@ -133,6 +90,7 @@ static void accept(pl_run* run, double h, bool to_end) {
   run->smallest_before = run->smallest_here;
   run->t_before = run->t;
   run->h_last = h;
+  run->use_last = run->use;
   advance_time(run, h, to_end);
   memcpy(run->q, run->trial_q, (size_t)run->n_q * sizeof(double));
   memcpy(run->v, run->trial_v, (size_t)run->n_q * sizeof(double));
@@ -149,9 +107,8 @@ static pleuel_status check_energy(pl_run* run) {
 static pleuel_status arrive_at_point(pl_run* run) {
   if (!pl_point_enter(run)) return pl_run_singular(run);
   pl_assemble_row_sizes(run);
-  run->smallest_here = run->smallest;
-  watch_fading(run);
-  if (is_singular(run)) return pl_run_singular(run);
+  pl_singular_watch(run);
+  if (pl_is_singular(run)) return pl_run_singular(run);
   if (run->rank > run->rank_mode) run->rank_mode = run->rank;
   if (run->rank != run->n_active) pl_independent_unique(run);
   pl_rows_energy(run, false);
@@ -159,12 +116,18 @@ static pleuel_status arrive_at_point(pl_run* run) {
 }
 
 static pleuel_status step(pl_run* run) {
+  run->use = run->order;
   pl_series_expand(run);
   pl_watch_series(run);
-  double h = choose_step(run), wanted = h, root;
-  if (!(fabs(h) > run->h_least) && fabs(h) < fabs(left_over(run))) return too_small(run, h);
+  double h = choose_step(run), wanted = h, root = -1;
   pl_projection p = {0};
-  PL_TRY(try_steps(run, &h, &root, &p));
+  if (pl_singular_leap(run, left_over(run), &h, &p)) {
+    PL_TRY(pl_singular_record(run));
+  } else {
+    h = wanted;
+    if (!(fabs(h) > run->h_least) && fabs(h) < fabs(left_over(run))) return too_small(run, h);
+    PL_TRY(try_steps(run, &h, &root, &p));
+  }
   if (root == 0) return pl_modes_handle(run);
   bool to_end = h == wanted && root < 0 && fabs(wanted) == fabs(left_over(run));
   PL_TRY(pl_rows_grid(run, run->t, run->t + h));
@@ -282,9 +245,9 @@ bool pl_run_is_active(const pl_run* run, int link) { return run->active[link]; }
 
 void pl_run_dense(const pl_run* run, double t, double* q, double* v, double* lambda) {
   double dt = t - run->t_last;
-  if (q) pl_horner(run->Q_last, run->n_q, run->order + 1, dt, q);
-  if (v) pl_horner(run->V_last, run->n_q, run->order, dt, v);
-  if (lambda) pl_horner(run->L_last, run->n_c, run->order - 1, dt, lambda);
+  if (q) pl_horner(run->Q_last, run->n_q, run->use_last + 1, dt, q);
+  if (v) pl_horner(run->V_last, run->n_q, run->use_last, dt, v);
+  if (lambda) pl_horner(run->L_last, run->n_c, run->use_last - 1, dt, lambda);
 }
 
 const char* pl_run_mode(const pl_run* run) {

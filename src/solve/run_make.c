@@ -78,7 +78,7 @@ static void set_options(pl_run* run, const pl_run_options* o) {
   run->tol_raised = o->tol > 0 && o->tol < least_tol;
   run->tol = o->tol < least_tol ? least_tol : o->tol;
   run->order = order_for(run->tol);
-  run->stats.order = run->order;
+  run->stats.order = run->use = run->use_last = run->order;
   run->grid_count = o->count;
   run->grid_dt = o->count > 0 ? (o->t_end - o->t_0) / (double)o->count : copysign(o->dt, o->t_end - o->t_0);
   if (o->dt == 0 && o->count == 0) run->grid_dt = 0;
@@ -96,7 +96,7 @@ static void reserve_state(pl_run* run) {
   double** of_q[] = {&run->q, &run->v, &run->trial_q, &run->trial_v, &run->save_q, &run->save_v, &run->save_a, &run->row_q,
                      &run->row_v, &run->row_a, &run->jump_v, &run->column, &run->q_most, &run->v_most,
                      &run->q_kept, &run->v_kept};
-  double** of_c[] = {&run->g, &run->g_size, &run->r, &run->r_size, &run->save_l, &run->row_l, &run->impulse, &run->row_most, &run->argument,
+  double** of_c[] = {&run->g, &run->g_size, &run->r, &run->r_size, &run->save_l, &run->row_l, &run->impulse, &run->row_most, &run->argument, &run->row_long, &run->row_part,
                      &run->rank_work};
   bool** flags[] = {&run->on, &run->detached, &run->active, &run->taken, &run->unique, &run->save_unique, &run->row_taken};
   for (size_t i = 0; i < sizeof of_q / sizeof *of_q; i++) *of_q[i] = PL_ARRAY(a, double, q + 1);

@@ -56,6 +56,7 @@ struct pl_run {
   const pl_setup* setup;
   pl_run_options options;
   int n_q, n_c, order;     // v has coefficients 0 .. order
+  int use, use_last;       // of which the step at work, the step before, uses so many: fewer in a leap
   double tol;
   bool tol_raised;
 
@@ -97,11 +98,14 @@ struct pl_run {
   int n_active, rank, rank_mode;
   bool by_pivots;          // too large for a look at every point: the subset is chosen once a mode, pivots are watched
   double *rows, *rank_work, *column;   // for independence: rows (n_c x n_q), largest scaled entry of each column so far (n_q)
+  double *row_long, *row_part;         // longest that a row has been, part of it that it is now   (n_c)
   int *priority, *row_of;
   bool* row_taken;
   double smallest, best;   // smallest pivot of the independent rows; largest such so far
   double smallest_here, smallest_before, t_before;   // at the point, at the one before, its time
   pl_fade fade[2];
+  double reach;            // from the point to the singular position that a leap passes
+  double h_regular;        // step that the series allowed last where the pivots were large
   double *dep, *dep_tau, *dep_norm;    // dependence of rows left out
   int* dep_jpvt;
 
@@ -210,8 +214,14 @@ pleuel_status pl_modes_handle(pl_run* run);                 // what hit[] says, 
 void pl_mode_text(const pl_run* run, char* out);
 
 // ---- run.c
-pleuel_status pl_run_singular(pl_run* run);         // fails with the place
 pleuel_status pl_run_begin_at(pl_run* run, double t);   // from run->q, v
+
+// ---- singular.c
+void pl_singular_watch(pl_run* run);                // at every point
+bool pl_is_singular(const pl_run* run);
+pleuel_status pl_run_singular(pl_run* run);         // fails with the place
+bool pl_singular_leap(pl_run* run, double left, double* length, pl_projection* p);
+pleuel_status pl_singular_record(pl_run* run);
 
 // ---- rows.c
 pleuel_status pl_rows_open(pl_run* run);            // begin of the sink

@@ -82,7 +82,7 @@ static int polynomial(const pl_run* run, const pl_watch* w, double h, double* c)
   const double* X;
   size_t stride;
   double factor = 1, power = 1;
-  int n = run->order;
+  int n = run->use;
   if (w->kind == PL_WATCH_EVENT) {
     X = run->W_series + run->setup->events[w->index].watch;
     stride = (size_t)run->setup->n_watched;
@@ -90,7 +90,7 @@ static int polynomial(const pl_run* run, const pl_watch* w, double h, double* c)
     X = (w->kind == PL_WATCH_RELEASE ? run->L : run->G_series) + w->index;
     stride = (size_t)run->n_c;
     factor = run->setup->links[w->index].side;
-    if (w->kind == PL_WATCH_LANDING) n = run->order + 1;
+    if (w->kind == PL_WATCH_LANDING) n = run->use + 1;
   }
   for (int k = 0; k < n; k++, power *= h) c[k] = factor * power * X[(size_t)k * stride];
   return n;

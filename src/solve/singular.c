@@ -1,0 +1,170 @@
+// Singular positions: where the constraints lose rank for a moment.
+//
+// The smallest pivot of the independent rows fades linearly in time towards such a place.  The motion itself is smooth there
+// as a rule, but its coefficients are not computable: near the place order k carries rounding errors of size ε / d^k, d being the
+// distance.  So the last steps before it are replaced by one leap to the mirror point behind it, with a series cut at an
+// order low enough for its errors and high enough for the distance.  Velocities are continuous by construction.  The leap
+// counts only if the constraints at the far side are met almost without correction, if two orders agree and if the energy,
+// where it is conserved, is the same; it is recorded as an event.  Otherwise the run stops and says where.
+#include "solve/solve_impl.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+static const double faded = 1e-6;          // part of its largest value at which the smallest pivot counts as zero
+static const double near = 0.1;            // part of it from which a leap is considered
+enum { LEAP_LEAST = 3, LEAP_MOST = 10 };   // orders of a leap: 2^order rounding errors, and few enough
+
+// ---------------------------------------------------------------------------------------------- where
+// How far ahead the smallest pivot, continued linearly from where it was twice as large, is zero; 0 when that says nothing.
+static double reach_of_singular(const pl_run* run) {
+  double way = run->t - run->fade[0].t, slope = (run->smallest_here - run->fade[0].smallest) / way;
+  if (!isfinite(slope) || run->fade[0].smallest == 0) return 0;
+  double reach = -run->smallest_here / slope;
+  return isfinite(reach) && reach * way > 0 && fabs(reach) < 4 * fabs(way) ? reach : 0;
+}
+
+// Keeps two earlier points, each with at most 0.7 of the pivot of the one before.
+void pl_singular_watch(pl_run* run) {
+  run->smallest_here = run->smallest;
+  if (run->smallest_here >= 0.3 * run->best) run->h_regular = pl_series_step(run);
+  if (run->smallest_here <= 0.7 * run->fade[1].smallest) run->fade[0] = run->fade[1];
+  else if (run->smallest_here < run->fade[1].smallest) return;
+  else run->fade[0] = (pl_fade){0, 0};
+  run->fade[1] = (pl_fade){run->t, run->smallest_here};
+}
+
+bool pl_is_singular(const pl_run* run) {
+  if (run->rank_mode >= 0 && run->rank < run->rank_mode) return true;
+  return run->best > 0 && run->smallest_here < faded * run->best && run->smallest_here < run->smallest_before;
+}
+
+// ---------------------------------------------------------------------------------------------- stopping there
+static void place_in_words(const pl_run* run, double reach, char* where, size_t size) {
+  size_t n = 0;
+  where[0] = '\0';
+  for (int i = 0; i < run->n_q && n < size - 64; i++) {
+    if (run->setup->coordinates[i].hidden) continue;
+    int w = snprintf(where + n, size - n, "%s%s = %.4g", n ? ", " : "", run->setup->coordinates[i].name, run->q[i] + reach * run->v[i]);
+    if (w < 0 || (size_t)w >= size - n) break;
+    n += (size_t)w;
+  }
+}
+
+// A coordinate that neither a mass nor a constraint in force accelerates; -1 none.
+static int without_inertia(const pl_run* run) {
+  const pl_kkt* k = &run->kkt;
+  for (int i = 0; i < run->n_q; i++)
+    if (run->place_n[i] != 0 && k->value[k->diagonal[i]] == 0) return i;
+  return -1;
+}
+
+pleuel_status pl_run_singular(pl_run* run) {
+  int idle = without_inertia(run);
+  if (run->rank == run->n_active && idle >= 0 && run->smallest_here >= faded * run->best)
+    return pl_fail(run->job, PLEUEL_SINGULAR, "nothing determines the acceleration of %s: it carries no mass, and no constraint moves it",
+                   run->setup->coordinates[idle].name);
+  double reach = reach_of_singular(run);
+  char where[320];
+  place_in_words(run, reach, where, sizeof where);
+  run->stats.t_singular = run->t + reach;
+  pl_rows_before(run);
+  if (run->started) PL_TRY(pl_rows_event(run, PL_EV_SINGULAR, -1, 0, false));
+  return pl_fail(run->job, PLEUEL_SINGULAR,
+                 "singular position at t = %.9g s (%s): the constraints lose rank and do not tell how the motion goes on",
+                 run->stats.t_singular, where);
+}
+
+// ---------------------------------------------------------------------------------------------- leaping over it
+// The order at which what is cut off over this length is rounding; 0 when that takes too many orders.
+static int order_of_leap(const pl_run* run, double length) {
+  double radius = run->h_regular * exp(2), ratio = fabs(length) / radius;
+  if (!(ratio > 0 && ratio < 0.1)) return 0;
+  int order = (int)ceil(log(1e-17) / log(ratio));
+  if (order < LEAP_LEAST) order = LEAP_LEAST;
+  return order <= LEAP_MOST && order < run->order ? order : 0;
+}
+
+static bool same(const double* a, const double* b, int n, double limit) {
+  for (int i = 0; i < n; i++)
+    if (!(fabs(a[i] - b[i]) <= limit)) return false;
+  return true;
+}
+
+// The state at the far side, from two orders.
+static bool orders_agree(pl_run* run, double length, int order) {
+  run->use = order - 1;
+  pl_series_at(run, length, run->row_q, run->row_v);
+  run->use = order;
+  pl_series_at(run, length, run->trial_q, run->trial_v);
+  return same(run->row_q, run->trial_q, run->n_q, 1e-10 * run->q_size) && same(run->row_v, run->trial_v, run->n_q, 1e-8 * run->v_size);
+}
+
+// The smallest pivot on the way, from the series alone.
+static double pivot_at(pl_run* run, double dt) {
+  pl_series_at(run, dt, run->row_q, run->row_v);
+  pl_point_evaluate(run, run->t + run->t_low + dt, run->row_q, run->row_v);
+  pl_independent_choose(run);
+  return run->smallest;
+}
+
+// The pivot is linear on both sides of the place: closer and closer chords around it.
+static double refine_place(pl_run* run, double reach) {
+  double half = reach, middle = reach, best = run->best;
+  for (int i = 0; i < 4 && !run->by_pivots; i++, half *= 0.05) {
+    double before = pivot_at(run, middle - half), after = pivot_at(run, middle + half);
+    double next = middle + half * (before - after) / (before + after);
+    if (!isfinite(next)) break;
+    middle = next;
+  }
+  run->best = best;
+  return middle;
+}
+
+static bool energy_agrees(pl_run* run) {
+  const pl_setup* s = run->setup;
+  if (!s->energy_conserved || s->kinetic < 0 || s->potential < 0) return true;
+  pl_observe(run, run->t, run->trial_q, run->trial_v, run->A, run->L, run->energy_out);
+  double E = run->energy_out[s->kinetic] + run->energy_out[s->potential];
+  return fabs(E - run->energy_base) <= run->stats.energy_drift * run->energy_size + 1e-11 * run->energy_size;
+}
+
+// Whether the step is replaced by a leap of *length; the state behind it is then in trial_q, trial_v, projected.
+bool pl_singular_leap(pl_run* run, double left, double* length, pl_projection* p) {
+  if (!(run->smallest_here < near * run->best) || !(run->h_regular > 0)) return false;
+  double reach = reach_of_singular(run);
+  *length = 2 * reach;
+  int order = order_of_leap(run, *length);
+  if (reach == 0 || order == 0 || fabs(*length) > 0.9 * fabs(left)) return false;
+  if (run->n_watch > 0 && pl_watch_first(run, *length) >= 0) return false;
+  bool fine = orders_agree(run, *length, order);
+  if (fine) {
+    run->reach = refine_place(run, reach);
+    *p = pl_project(run, run->t + run->t_low + *length, run->trial_q, run->trial_v);
+    fine = p->ok && p->move_q <= 1e-10 && p->move_v <= 1e-8 && p->g_after <= 1e-12 && p->r_after <= 1e-12 && energy_agrees(run);
+  }
+  if (fine) return true;
+  pl_sizes_forget(run);
+  run->use = run->order;
+  return false;
+}
+
+// The event: the state at the place, from the series in use.
+pleuel_status pl_singular_record(pl_run* run) {
+  double reach = run->reach;
+  const pl_sink* s = &run->options.sink;
+  run->stats.t_singular = run->t + reach;
+  run->stats.n_events++;
+  if (s->event == NULL) return PLEUEL_OK;
+  pl_series_at(run, reach, run->row_q, run->row_v);
+  pl_series_lambda_at(run, reach, run->row_a, run->row_l);
+  pl_observe(run, run->stats.t_singular, run->row_q, run->row_v, run->row_a, run->row_l, run->out_now);
+  pl_mode_text(run, run->mode);
+  pl_event_record e = {.kind = PL_EV_SINGULAR, .index = -1};
+  e.before = e.after = (pl_row){.t = run->stats.t_singular, .q = run->row_q, .v = run->row_v, .a = run->row_a, .lambda = run->row_l,
+                                .unique = run->unique, .out = run->out_now, .mode = run->mode, .kind = PL_ROW_AFTER};
+  pleuel_status how = s->event(s->user, &e);
+  run->refused |= how != PLEUEL_OK;
+  return how;
+}
