@@ -33,9 +33,12 @@ static void energy(pl_analysis* d) {
   if (d->dissipative) {
     en = "a force without potential acts";
     de = "es wirkt eine Kraft ohne Potential";
-  } else if (scleronomic) {
+  } else if (scleronomic && conserved) {
     en = "all forces have a potential, and no constraint contains t";
     de = "alle Kräfte haben ein Potential, und keine Zwangsbedingung enthält t";
+  } else if (scleronomic) {
+    en = "a constraint that is not homogeneous in the velocities does work";
+    de = "eine in den Geschwindigkeiten nicht homogene Zwangsbedingung leistet Arbeit";
   } else {
     en = "a constraint or force contains t, so the constraint does work";
     de = "eine Zwangsbedingung oder Kraft enthält t, der Zwang leistet also Arbeit";
@@ -96,5 +99,5 @@ static void cyclic(pl_analysis* d, int i) {
 void pl_answer_conserved(pl_analysis* d, const pl_ask* ask) {
   pl_section_open(d, ask, "Conserved", "Erhaltungsgrößen");
   energy(d);
-  for (int k = 0; d->reduced && k < d->gen.n && !pl_affine_constraint(d); k++) cyclic(d, d->gen.at[k]);
+  for (int k = 0; d->reduced && k < d->gen.n && !pl_nonholonomic(d); k++) cyclic(d, d->gen.at[k]);
 }

@@ -89,6 +89,15 @@ static void say_kinds(pl_analysis* d) {
          pl_format(d->arena, "%s, %s, %s", holonomic[1], time[1], independent[1]), 0);
 }
 
+static void say_hidden(pl_analysis* d) {
+  for (int k = 0; k < d->hidden.n; k++) {
+    const pl_variable* c = &d->q.at[d->hidden.at[k]];
+    pl_say(d, "{1} carries no inertia: its own equation contains no acceleration and is a hidden constraint, {2}. Its start value is not free.",
+           "{1} trägt keine Trägheit: die eigene Gleichung enthält keine Beschleunigung und ist eine verborgene Zwangsbedingung, {2}. Ihr "
+           "Startwert ist nicht frei.", 2, pl_fs(d, c->q), pl_feq(d, pl_fs(d, c->q), pl_f(d, c->map, PL_S_SOLUTION)));
+  }
+}
+
 void pl_answer_dof(pl_analysis* d, const pl_ask* ask) {
   pl_section_open(d, ask, "Degrees of freedom", "Freiheitsgrade");
   row_of_coordinates(d);
@@ -103,6 +112,12 @@ void pl_answer_dof(pl_analysis* d, const pl_ask* ask) {
     row = pl_row(d, "", "", NULL, pl_format(d->arena, "%d", f->dof + contacts));
     pl_step_after(row, "after lift-off", "nach dem Abheben");
   }
+  if (f->velocity_dof != f->dof) {
+    pl_step_after(row, "of position", "der Lage");
+    row = pl_row(d, "", "", NULL, pl_format(d->arena, "%d", f->velocity_dof));
+    pl_step_after(row, "of velocity", "der Geschwindigkeit");
+  }
+  say_hidden(d);
   pl_answer(d, "dof", pl_int(d->pool, f->dof), NULL);
 }
 

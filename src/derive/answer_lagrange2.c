@@ -271,6 +271,11 @@ void pl_answer_lagrange2(pl_analysis* d, const pl_ask* ask) {
   bool named = d->gen.n == 1 && show_with_named_mass(d, d->gen.at[0]);
   for (int k = 0; k < d->gen.n && !named; k++) show_second_kind(d, d->gen.at[k]);
   for (int k = 0; k < d->gen.n && d->solved; k++) show_solved(d, d->gen.at[k]);
+  if (d->gen.n > 0 && !d->solved) {
+    pl_say(d, "The accelerations are not determined by these equations: the mass matrix is singular.",
+           "Die Beschleunigungen sind durch diese Gleichungen nicht bestimmt: die Massenmatrix ist singulär.", 0);
+    d->section->not_found = true;
+  }
   if (named) show_quadrature(d, d->gen.at[0]);
 }
 

@@ -107,6 +107,7 @@ typedef struct pl_solution {
   PL_VEC(pl_section) sections;
   PL_VEC(pl_constraint_info) constraints;
   pl_dof dof;
+  PL_VEC(pl_expr) hidden;          // constraints found behind a singular mass matrix: each vanishes; counted in dof
   PL_VEC(pl_check) checks;
   PL_VEC(const char*) used;        // assumptions used, as text in the language's notation: "0 < r < l", "m1 > 0"
   int n_equations;                 // numbered so far

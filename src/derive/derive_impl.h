@@ -13,7 +13,8 @@ typedef struct pl_variable {
   bool by_contact;     // fixed_by is one-sided: fixed while the contact lasts
   pl_expr fixed;       // its value then
   pl_expr map;         // as a function of the generalized coordinates and t; poison while unresolved
-  int solved_by;       // index of the constraint that map solves, -1: of `choose`, -2: generalized itself or fixed
+  int solved_by;       // index of the constraint that map solves, -1: of `choose`, -2: generalized itself or fixed, -3: its own
+                       // equation, which contains no acceleration
 } pl_variable;
 
 typedef struct pl_bond {   // a constraint at work
@@ -79,6 +80,7 @@ typedef struct pl_analysis {
   PL_VEC(pl_replace) fixed;    // q -> f, v -> f', a -> f'' of the fixed coordinates
   PL_VEC(pl_replace) contact;  // of the ones fixed by contact
 
+  PL_VEC(int) hidden;          // coordinates without inertia whose own equation gives them: constraints behind a singular mass matrix
   bool reduced;                // every coordinate has a map
   PL_VEC(int) gen;             // generalized coordinates
   PL_VEC(pl_replace) maps;     // q -> map, v -> map', a -> map'' of all that are not generalized
@@ -184,7 +186,7 @@ pl_expr pl_on_motion(pl_analysis* d, pl_expr e);
 pl_expr pl_energy_integral(pl_analysis* d);             // sum v dL/dv - L, conserved or not
 bool pl_energy_conserved(pl_analysis* d);
 bool pl_scleronomic(pl_analysis* d);
-bool pl_affine_constraint(const pl_analysis* d);        // some constraint contains velocities
+bool pl_nonholonomic(const pl_analysis* d);             // some constraint contains velocities
 pl_expr pl_without_velocity(pl_analysis* d, pl_expr e, pl_expr v2);   // q'^2 inserted
 pl_answer3 pl_starts_in_equilibrium(pl_analysis* d, pl_expr q0, pl_expr v0);
 // Names of results in e (T, V, E, force(label)) replaced by what they stand for; poison where that is unknown.

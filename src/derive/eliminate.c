@@ -16,9 +16,19 @@ bool pl_scleronomic(pl_analysis* d) {
   return true;
 }
 
-bool pl_affine_constraint(const pl_analysis* d) {
+bool pl_nonholonomic(const pl_analysis* d) {
   for (int k = 0; k < d->g.n; k++) {
     if (d->g.at[k].velocity) return true;
+  }
+  return false;
+}
+
+// A constraint linear in the velocities does no work when it is homogeneous: A(q) v = 0.
+static bool works(pl_analysis* d) {
+  pl_replace* zero = PL_ARRAY(d->arena, pl_replace, d->q.n + 1);
+  for (int i = 0; i < d->q.n; i++) zero[i] = (pl_replace){d->q.at[i].v, pl_int(d->pool, 0)};
+  for (int k = 0; k < d->g.n; k++) {
+    if (d->g.at[k].velocity && pl_alg_is_zero(d->tower, pl_subst(d->pool, d->g.at[k].g, zero, d->q.n)) != PL_YES) return true;
   }
   return false;
 }
@@ -35,7 +45,7 @@ pl_expr pl_energy_integral(pl_analysis* d) {
 }
 
 bool pl_energy_conserved(pl_analysis* d) {
-  if (d->dissipative || pl_affine_constraint(d)) return false;
+  if (d->dissipative || works(d)) return false;
   if (!d->reduced) return pl_scleronomic(d);
   return !pl_has_symbol(d->pool, pl_energy_integral(d), pl_time(d->pool));
 }

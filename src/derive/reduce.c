@@ -101,12 +101,20 @@ static bool solve_roots(pl_analysis* d, pl_expr e, int i, pl_expr* out) {
   return true;
 }
 
-static bool solve_link(pl_analysis* d, int k, bool roots) {
-  pl_bond* l = &d->g.at[k];
-  if (l->fixes >= 0 || l->implied || l->velocity) return false;
-  pl_expr e = mapped(d, l->g);
+// A coordinate that `init` speaks of is meant to stay.
+static bool has_start(const pl_analysis* d, const pl_variable* c) {
+  for (int k = 0; k < d->model->inits.n; k++) {
+    pl_expr target = d->model->inits.at[k].target;
+    if (pl_same(target, pl_sym(d->pool, c->q)) || pl_same(target, pl_sym(d->pool, c->v))) return true;
+  }
+  return false;
+}
+
+static bool solve_link_for(pl_analysis* d, int k, bool roots, bool started) {
+  pl_expr e = mapped(d, d->g.at[k].g);
   for (int i = d->q.n - 1; i >= 0; i--) {
     if (!open_coordinate(&d->q.at[i]) || !pl_has_symbol(d->pool, e, d->q.at[i].q)) continue;
+    if (has_start(d, &d->q.at[i]) != started) continue;
     pl_expr value;
     if (roots ? solve_roots(d, e, i, &value) : solve_linear(d, e, i, &value)) {
       set_map(d, i, value, k);
@@ -114,6 +122,12 @@ static bool solve_link(pl_analysis* d, int k, bool roots) {
     }
   }
   return false;
+}
+
+static bool solve_link(pl_analysis* d, int k, bool roots) {
+  const pl_bond* l = &d->g.at[k];
+  if (l->fixes >= 0 || l->implied || l->velocity) return false;
+  return solve_link_for(d, k, roots, false) || solve_link_for(d, k, roots, true);
 }
 
 // 0: the map satisfies the constraint identically; 1: something is left; -1: not decided.
@@ -142,6 +156,24 @@ static void collect_generalized(pl_analysis* d) {
   }
 }
 
+// A generalized coordinate whose equation of the second kind contains neither accelerations nor velocities: a hidden constraint.
+// Where it is linear in the coordinate, the coordinate is solved for and is no freedom of its own.
+static bool find_hidden(pl_analysis* d) {
+  for (int k = 0; k < d->gen.n; k++) {
+    int i = d->gen.at[k];
+    pl_expr e = pl_alg_normal(d->tower, pl_second_kind(d, i)), value;
+    bool moving = pl_has_role(d->pool, e, PL_R_ACCELERATION) || pl_has_role(d->pool, e, PL_R_VELOCITY);
+    if (moving || !pl_has_symbol(d->pool, e, d->q.at[i].q) || !solve_linear(d, e, i, &value)) continue;
+    set_map(d, i, value, -3);
+    pl_push(d->arena, d->hidden, i);
+    d->gen.n = 0;
+    collect_generalized(d);
+    d->Lg = pl_on_maps(d, d->L);
+    return true;
+  }
+  return false;
+}
+
 pleuel_status pl_reduce(pl_analysis* d) {
   chosen_maps(d);
   d->reduced = solve_links(d);
@@ -151,8 +183,10 @@ pleuel_status pl_reduce(pl_analysis* d) {
     return PLEUEL_OK;
   }
   collect_generalized(d);
+  d->Lg = pl_on_maps(d, d->L);
+  while (find_hidden(d)) {
+  }
   d->Tg = pl_alg_normal(d->tower, pl_on_maps(d, d->T));
   d->Vg = pl_alg_normal(d->tower, pl_on_maps(d, d->V));
-  d->Lg = pl_on_maps(d, d->L);
   return PLEUEL_OK;
 }

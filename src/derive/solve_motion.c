@@ -42,7 +42,7 @@ static pl_linear collect(pl_analysis* d) {
     if (c->fixed_by >= 0) continue;
     bool generalized = pl_is_poison(c->map) && (c->carries || (d->reduced && c->chosen));
     if (generalized) add_unknown(&s, c->a);
-    if (c->carries || (d->reduced && c->chosen)) {
+    if (c->solved_by != -3 && (c->carries || (d->reduced && c->chosen))) {
       pl_expr row = equation_of(d, i);
       if (c->carries || !pl_is_zero_node(d->pool, row)) s.row[s.n_rows++] = row;
     }

@@ -44,7 +44,11 @@ static void count_freedom(pl_analysis* d) {
       f->rank++;
     }
   }
-  f->dof = f->coordinates - f->rank;
+  for (int k = 0; k < d->hidden.n; k++) {
+    const pl_variable* c = &d->q.at[d->hidden.at[k]];
+    pl_push(d->arena, d->solution->hidden, pl_sub(d->pool, pl_sym(d->pool, c->q), c->map));
+  }
+  f->dof = f->coordinates - f->rank - d->hidden.n;
   f->velocity_dof = f->dof - velocity;
 }
 
