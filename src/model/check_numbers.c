@@ -70,7 +70,7 @@ static void check_positive(pl_job* job, pl_index_values* v, pl_expr e, const pl_
   pl_diagnostic* d = pl_tell(job, PL_E036, span, PL_F(job, "%s is %.6g, it has to be positive", en, c.bad),
                              PL_F(job, "%s ist %.6g, muss aber positiv sein", de, c.bad));
   if (!pl_is_number(m->pool, e)) {
-    const char* text = pl_expr_text(job->arena, m->pool, e);
+    const char* text = pl_expr_words(job->arena, m->pool, e);
     pl_report_reason(d, PL_F(job, "%s = %.6g", text, c.bad), PL_F(job, "%s = %.6g", text, c.bad));
   }
   pl_report_fix(d, fix_en, fix_de, NULL);

@@ -49,7 +49,7 @@ static void check_map(pl_job* job, pl_model* m, int i) {
   pl_kind kind = pl_kind_of(m->pool, old);
   bool coordinate = (kind == PL_SYMBOL && pl_symbol_get(m->pool, pl_symbol_of(m->pool, old))->role == PL_R_COORD) ||
                     (kind == PL_AT && pl_dots_of(m->pool, old) == 0);
-  const char* text = pl_expr_text(job->arena, m->pool, old);
+  const char* text = pl_expr_words(job->arena, m->pool, old);
   if (!coordinate) {
     pl_diagnostic* d = pl_tell(job, PL_E058, at, PL_F(job, "%s is not a coordinate: `with` gives the old coordinates", text),
                                PL_F(job, "%s ist keine Koordinate: `with` gibt die alten Koordinaten an", text));
@@ -138,8 +138,8 @@ static void check_action(pl_job* job, pl_model* m, const pl_event* e, const pl_a
   pl_role role = atom ? pl_symbol_get(m->pool, pl_symbol_of(m->pool, a->target))->role : PL_R_TIME;
   bool good = atom && (role == PL_R_COORD || role == PL_R_VELOCITY || role == PL_R_PARAM || (role == PL_R_ARRAY && pl_dots_of(m->pool, a->target) < 2));
   if (good) return;
-  pl_diagnostic* d = pl_tell(job, PL_E063, at, PL_F(job, "%s cannot be set by an event", pl_expr_text(job->arena, m->pool, a->target)),
-                             PL_F(job, "%s kann durch ein Ereignis nicht gesetzt werden", pl_expr_text(job->arena, m->pool, a->target)));
+  pl_diagnostic* d = pl_tell(job, PL_E063, at, PL_F(job, "%s cannot be set by an event", pl_expr_words(job->arena, m->pool, a->target)),
+                             PL_F(job, "%s kann durch ein Ereignis nicht gesetzt werden", pl_expr_words(job->arena, m->pool, a->target)));
   pl_report_fix(d, "an event sets coordinates, velocities and parameters", "ein Ereignis setzt Koordinaten, Geschwindigkeiten und Parameter", NULL);
 }
 

@@ -53,6 +53,7 @@ typedef struct pl_dim_pass {
   int energy;                 // var of the energy: what T, V and every potential have in common
   int time;                   // var of t
   pl_span where;              // the statement at work
+  pl_span focus;              // the part of it at work, when it has a place of its own; else no source
   bool silent;                // only classify: report nothing
 } pl_dim_pass;
 

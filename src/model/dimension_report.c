@@ -187,17 +187,7 @@ static const char* words(pl_dim_pass* d, const pl_dim_form* f, pl_language lang)
 }
 
 static const char* text_of(pl_dim_pass* d, pl_expr e) {
-  return pl_expr_text(d->job->arena, d->pool, pl_model_plain(d->pool, e));
-}
-
-// A short name for an expression in a sentence: the symbol as written, or its text.
-static const char* name_of(pl_dim_pass* d, pl_expr e) {
-  if (pl_kind_of(d->pool, e) == PL_SYMBOL) {
-    const pl_symbol_info* info = pl_symbol_get(d->pool, pl_symbol_of(d->pool, e));
-    static const char* const primes[] = {"", "'", "''"};
-    return pl_format(d->job->arena, "%s%s", info->name, info->dots >= 0 && info->dots < 3 ? primes[info->dots] : "");
-  }
-  return text_of(d, e);
+  return pl_expr_words(d->job->arena, d->pool, pl_model_plain(d->pool, e));
 }
 
 static void both_sentences(pl_dim_pass* d, const pl_dim_conflict* c, const char** en, const char** de) {
@@ -208,11 +198,11 @@ static void both_sentences(pl_dim_pass* d, const pl_dim_conflict* c, const char*
   const char* b_de = words(d, c->form_b, PL_GERMAN);
   if (c->kind == PL_CLASH_NEED) {
     if (a_en) {
-      *en = pl_format(a, "%s, but %s is %s", c->what[0], name_of(d, c->a), a_en);
-      *de = pl_format(a, "%s, aber %s ist %s", c->what[1], name_of(d, c->a), a_de);
+      *en = pl_format(a, "%s, but %s is %s", c->what[0], text_of(d, c->a), a_en);
+      *de = pl_format(a, "%s, aber %s ist %s", c->what[1], text_of(d, c->a), a_de);
     } else {
-      *en = pl_format(a, "%s, and %s cannot be that", c->what[0], name_of(d, c->a));
-      *de = pl_format(a, "%s, und %s kann das nicht sein", c->what[1], name_of(d, c->a));
+      *en = pl_format(a, "%s, and %s cannot be that", c->what[0], text_of(d, c->a));
+      *de = pl_format(a, "%s, und %s kann das nicht sein", c->what[1], text_of(d, c->a));
     }
     return;
   }
@@ -224,7 +214,12 @@ static void both_sentences(pl_dim_pass* d, const pl_dim_conflict* c, const char*
   }
   pl_dimension ratio;
   const pl_dim_form* gap = pl_dim_combine(&d->system, c->form_a, (pl_fraction){-1, 1}, c->form_b);
-  const char* unit = pl_dim_known(&d->system, gap, &ratio) ? pl_dimension_unit(a, ratio, false) : "?";
+  if (!pl_dim_known(&d->system, gap, &ratio)) {
+    *en = sum ? "the units of these terms do not fit" : "the units of these sides do not fit";
+    *de = sum ? "die Einheiten dieser Terme passen nicht zusammen" : "die Einheiten dieser Seiten passen nicht zusammen";
+    return;
+  }
+  const char* unit = pl_dimension_unit(a, ratio, false);
   *en = pl_format(a, sum ? "these terms cannot be added: their units differ by %s" : "these sides cannot be equal: their units differ by %s", unit);
   *de = pl_format(a, sum ? "diese Terme lassen sich nicht addieren: ihre Einheiten unterscheiden sich um %s"
                          : "diese Seiten können nicht gleich sein: ihre Einheiten unterscheiden sich um %s", unit);
@@ -254,8 +249,10 @@ static void find_places(pl_dim_pass* d, const pl_dim_conflict* c, pl_span* at_a,
     return;
   }
   pl_span a, b;
-  if (find_part(d, d->where, c->a, &a)) *at_a = a;
-  if (c->kind != PL_CLASH_NEED && find_part(d, d->where, c->b, &b)) *at_b = b;
+  pl_span in = d->focus.source ? d->focus : d->where;
+  if (find_part(d, in, c->a, &a)) *at_a = a;
+  else if (d->focus.source) *at_a = in;
+  if (c->kind != PL_CLASH_NEED && find_part(d, in, c->b, &b)) *at_b = b;
   if (at_b->source && at_a->begin == at_b->begin) *at_b = (pl_span){0};
 }
 
@@ -292,7 +289,7 @@ static const char* divisor_for(pl_dim_pass* d, pl_expr e, pl_dimension is) {
 static void fix_pure_number(pl_dim_pass* d, const pl_dim_conflict* c, pl_diagnostic* m) {
   pl_arena* a = d->job->arena;
   pl_dimension is;
-  const char* name = name_of(d, c->a);
+  const char* name = text_of(d, c->a);
   const char* divisor = pl_dim_known(&d->system, c->form_a, &is) ? divisor_for(d, c->a, is) : NULL;
   const char* example = pl_kind_of(d->pool, c->a) == PL_SYMBOL ? "%s/%s" : "(%s)/%s";
   if (divisor) {
@@ -314,8 +311,10 @@ static void fix_need(pl_dim_pass* d, const pl_dim_conflict* c, pl_diagnostic* m)
     return;
   }
   const char* unit = pl_dimension_unit(d->job->arena, wanted, false);
-  const char* name = name_of(d, c->a);
-  pl_report_fix(m, pl_format(d->job->arena, "%s has to be in %s", name, unit), pl_format(d->job->arena, "%s muss die Einheit %s haben", name, unit), NULL);
+  bool short_name = pl_kind_of(d->pool, c->a) == PL_SYMBOL || pl_is_number(d->pool, pl_model_plain(d->pool, c->a));
+  const char* name = short_name ? text_of(d, c->a) : NULL;
+  pl_report_fix(m, pl_format(d->job->arena, "%s has to be in %s", name ? name : "this", unit),
+                pl_format(d->job->arena, "%s muss die Einheit %s haben", name ? name : "das", unit), NULL);
 }
 
 static void fix_of_value(pl_dim_pass* d, const pl_dim_conflict* c, pl_diagnostic* m) {
@@ -331,7 +330,7 @@ static void fix_of_value(pl_dim_pass* d, const pl_dim_conflict* c, pl_diagnostic
   if (a_is_number || b_is_number) {
     if (!pl_dim_known(&d->system, a_is_number ? c->form_b : c->form_a, &x)) return;
     const char* unit = pl_dimension_unit(a, x, false);
-    const char* name = name_of(d, a_is_number ? c->b : c->a);
+    const char* name = text_of(d, a_is_number ? c->b : c->a);
     pl_report_fix(m, pl_format(a, "%s is in %s: give the number in that unit", name, unit),
                   pl_format(a, "%s hat die Einheit %s: die Zahl in dieser Einheit angeben", name, unit), NULL);
     return;
@@ -346,7 +345,7 @@ static void fix_of_value(pl_dim_pass* d, const pl_dim_conflict* c, pl_diagnostic
 static bool fix_of_name(pl_dim_pass* d, const suggestion* best, pl_diagnostic* m, pl_span* culprit) {
   if (best->score == INT_MAX) return false;
   pl_span at;
-  bool found = pl_span_find_name(d->where, pl_symbol_get(d->pool, best->wrong)->ascii, &at);
+  bool found = pl_span_find_name(d->focus.source ? d->focus : d->where, pl_symbol_get(d->pool, best->wrong)->ascii, &at);
   if (found) *culprit = at;
   const char* wrong = pl_symbol_get(d->pool, best->wrong)->name;
   const char* instead[2] = {found ? "" : pl_format(d->job->arena, " instead of %s", wrong), found ? "" : pl_format(d->job->arena, " statt %s", wrong)};

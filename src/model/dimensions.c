@@ -254,9 +254,11 @@ static void walk_declarations(pl_dim_pass* d) {
 
 // ---------------------------------------------------------------------------------------------- physics
 static void walk_point(pl_dim_pass* d, const pl_point* p) {
+  d->focus = p->span;
   for (int k = 0; k < p->n && k < 3; k++) {
     need(d, p->at[k], mechanical(d, 1, 0, 0), PL_E033, "a component of a point is a length", "eine Komponente eines Punktes ist eine Länge");
   }
+  d->focus = (pl_span){0};
 }
 
 static void joule(pl_dim_pass* d) { pl_dim_unify(&d->system, energy(d), mechanical(d, 2, 1, -2), d->where); }

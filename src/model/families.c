@@ -227,7 +227,7 @@ typedef struct range_check {
   bool no_integer;
 } range_check;
 
-static const char* expr_words(range_check* c, pl_expr e) { return pl_expr_text(c->job->arena, c->m->pool, e); }
+static const char* expr_words(range_check* c, pl_expr e) { return pl_expr_words(c->job->arena, c->m->pool, e); }
 
 // What keeps a bound from being a whole number: the first parameter without number, if there is one.
 static const char* unknown_in(range_check* c, pl_expr e) {

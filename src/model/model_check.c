@@ -3,8 +3,14 @@
 
 #include <string.h>
 
+#include "notation/notation.h"
+
 pl_diagnostic* pl_tell(pl_job* job, pl_code code, pl_span span, const char* en, const char* de) {
   return pl_report(job->diagnostics, code, span, en, de);
+}
+
+const char* pl_expr_words(pl_arena* a, pl_pool* p, pl_expr e) {
+  return pl_notation_print(a, p, pl_form_of(a, p, e), (pl_notation){PL_MATH_LINE, PL_ENGLISH});
 }
 
 // Without `axes`: as many as the points have components, x right, y up, z out.
@@ -21,6 +27,33 @@ static void default_axes(pl_model* m) {
   m->n_axes = n;
 }
 
+// ---------------------------------------------------------------------------------------------- echoes
+// A statement of the wrong kind often has the wrong unit too; then the unit is not told.
+static bool is_about_units(pl_code c) { return c == PL_E021 || c == PL_E031 || c == PL_E032 || c == PL_E033; }
+static bool is_about_kind(pl_code c) { return c == PL_E051 || c == PL_E056 || c == PL_E057 || c == PL_E039; }
+
+static bool is_echo(const pl_diagnostics* all, const pl_diagnostic* d) {
+  if (!is_about_units(d->code) || !d->span.source) return false;
+  for (int i = 0; i < all->list.n; i++) {
+    const pl_diagnostic* other = &all->list.at[i];
+    if (!is_about_kind(other->code) || other->span.source != d->span.source) continue;
+    if (other->span.begin <= d->span.begin && d->span.end <= other->span.end) return true;
+  }
+  return false;
+}
+
+static void drop_echoes(pl_diagnostics* all) {
+  int kept = 0;
+  char* echo = PL_ARRAY(all->arena, char, all->list.n + 1);
+  for (int i = 0; i < all->list.n; i++) echo[i] = is_echo(all, &all->list.at[i]);
+  for (int i = 0; i < all->list.n; i++) {
+    if (echo[i]) all->n_errors--;
+    else all->list.at[kept++] = all->list.at[i];
+  }
+  all->list.n = kept;
+}
+
+// ---------------------------------------------------------------------------------------------- the check
 pleuel_status pl_model_check(pl_job* job, pl_model* m) {
   default_axes(m);
   bool sized = pl_check_sizes(job, m);
@@ -35,6 +68,7 @@ pleuel_status pl_model_check(pl_job* job, pl_model* m) {
   pl_check_requests(job, m);
   pl_check_use(job, m);
   m->checked = true;
+  drop_echoes(job->diagnostics);
   pl_diagnostics_sort(job->diagnostics);
   return job->diagnostics->n_errors ? PLEUEL_MODEL_ERROR : PLEUEL_OK;
 }

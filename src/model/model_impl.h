@@ -102,6 +102,8 @@ void pl_check_start(pl_job* job, pl_model* m);
 void pl_check_requests(pl_job* job, pl_model* m);
 void pl_check_use(pl_job* job, pl_model* m);
 
+// An expression as a reader writes it, in one line: "x' sin φ".
+const char* pl_expr_words(pl_arena* a, pl_pool* p, pl_expr e);
 // Reports with sentences formatted in both languages.
 pl_diagnostic* pl_tell(pl_job* job, pl_code code, pl_span span, const char* en, const char* de);
 #define PL_F(job, ...) pl_format((job)->arena, __VA_ARGS__)

@@ -113,7 +113,7 @@ static const char* integral_text(pl_job* job, const pl_model* m, const pfaffian*
     if (pl_has_coordinate(m->pool, w->a[j], job->arena) || pl_has_symbol(m->pool, w->a[j], pl_time(m->pool))) return NULL;
     sum = pl_add(m->pool, sum, pl_mul(m->pool, w->a[j], w->q[j]));
   }
-  return pl_expr_text(job->arena, m->pool, sum);
+  return pl_expr_words(job->arena, m->pool, sum);
 }
 
 pl_velocity_kind pl_velocity_kind_of(pl_job* job, const pl_model* m, pl_expr g, const char** integral) {

@@ -149,7 +149,8 @@ static const char* right_end(const char* s, const char* end) {
     if (*at == ')' || *at == ']') depth--;
     if (depth == 0 && *at == ',') break;
     if (depth == 0 && is_blank(*at)) {
-      static const char* const words[] = {"with ", "while ", "redundant ", "off", "->", "rising", "falling"};
+      static const char* const words[] = {"with ",   "while ",  "redundant ", "off",    "->",      "rising", "falling",
+                                          "of ",     "where ",  "from ",      "and ",   "at rest", "order ", "for "};
       const char* next = at;
       while (next < end && is_blank(*next)) next++;
       for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
