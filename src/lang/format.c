@@ -87,7 +87,9 @@ static const char* name_text(formatter* f, const pl_token* t, int next) {
   const char* source = source_of(f, t);
   if (f->spelling == PL_SPELL_KEEP) return source;
   bool root = strcmp(source, "√") == 0;
-  const char* name = f->spelling == PL_SPELL_ASCII ? (is_ascii(source) ? source : t->key) : root ? source : t->shown;
+  // underscores stay: x_0 may be a start value
+  const char* name = f->spelling == PL_SPELL_ASCII ? (is_ascii(source) ? source : t->key) : root ? source
+                     : is_ascii(source) ? pl_spell_unicode(f->arena, source) : t->shown;
   if (t->number == 0) return name;
   if (next == '[') {
     f->dots_to_write = t->number;

@@ -35,8 +35,8 @@ typedef struct pl_spelled {
 } pl_spelled;
 // pl_spell reads the spelling of a name.  false: a code point in it has no place in a name; *bad is its offset.
 bool pl_spell(pl_arena* a, pl_names* names, const char* s, size_t n, pl_spelled* out, size_t* bad);
-// How a name is written in one spelling: θ1 or theta1.
-const char* pl_spell_unicode(pl_arena* a, const char* key);
+// An ASCII name with Greek letters for their words: θ1 for theta1.
+const char* pl_spell_unicode(pl_arena* a, const char* name);
 
 // What a code point was probably meant to be: ASCII replacement and what it is called, or NULL.
 const char* pl_look_alike(uint32_t code_point, const char* what[2]);

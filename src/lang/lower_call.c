@@ -239,12 +239,12 @@ static pl_quantity call_if(pl_lower* l, const call* c) {
   bool fine = pl_lower_relation(l, arg(c, 0), &test, 0);
   pl_expr a = pl_lower_scalar(l, arg(c, 1)), b = pl_lower_scalar(l, arg(c, 2));
   if (!fine || pl_is_poison(a) || pl_is_poison(b)) return pl_quantity_bad();
-  pl_expr difference = pl_sub(l->pool, test.left, test.right);
+  pl_expr difference = pl_sub(l->pool, test.left, test.right), opposite = pl_sub(l->pool, test.right, test.left);
   switch (test.relation) {
     case PL_GT: return checked(l, c, pl_if(l->pool, difference, a, b));
-    case PL_LT: return checked(l, c, pl_if(l->pool, pl_neg(l->pool, difference), a, b));
+    case PL_LT: return checked(l, c, pl_if(l->pool, opposite, a, b));
     case PL_LE: return checked(l, c, pl_if(l->pool, difference, b, a));
-    case PL_GE: return checked(l, c, pl_if(l->pool, pl_neg(l->pool, difference), b, a));
+    case PL_GE: return checked(l, c, pl_if(l->pool, opposite, b, a));
     default: break;
   }
   pl_diagnostic* m = pl_lower_complain(l, PL_E017, test.span, "if compares with > or <", "if vergleicht mit > oder <");
@@ -272,7 +272,18 @@ static pl_quantity call_result(pl_lower* l, const call* c, pl_result_kind kind) 
 }
 
 // ---------------------------------------------------------------------------------------------- functions of let
+// A function of a finished model: its body is an expression over the symbols of its arguments.
+static pl_quantity call_finished(pl_lower* l, const call* c, pl_entity* e) {
+  if (c->n != e->n_args) return wrong_count(l, c, pl_format(l->arena, "%s with %d", e->shown, e->n_args));
+  pl_replace* r = PL_ARRAY(l->arena, pl_replace, c->n + 1);
+  pl_expr* x = PL_ARRAY(l->arena, pl_expr, c->n + 1);
+  if (!scalar_args(l, c, x)) return pl_quantity_bad();
+  for (int i = 0; i < c->n; i++) r[i] = (pl_replace){e->arguments[i], x[i]};
+  return checked(l, c, pl_subst(l->pool, e->value, r, c->n));
+}
+
 static pl_quantity call_own(pl_lower* l, const call* c, pl_entity* e) {
+  if (e->definition == NULL) return call_finished(l, c, e);
   const pl_ast* parameters = pl_ast_kid(e->definition, 1);
   if (c->n != parameters->kids.n) return wrong_count(l, c, pl_source_text(l->arena, pl_span_join(e->span, pl_ast_span(parameters))));
   enum { MOST_ARGS = 16, MAX_DEPTH = 100 };

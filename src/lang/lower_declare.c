@@ -140,6 +140,11 @@ static const pl_ast* unit_of_value(const pl_ast* value) {
   return value && value->kind == PL_AST_UNIT ? value : NULL;
 }
 
+static bool has_own_unit(const pl_ast* value) {
+  const pl_ast* one = pl_ast_single(value);
+  return unit_of_value(value) || (one && one->kind == PL_AST_DEGREE);
+}
+
 static const pl_ast* unit_of_definition(pl_lower* l, const pl_ast* d) {
   if (pl_ast_kid(d, 3)) return pl_ast_kid(d, 3);
   const pl_ast* name = pl_ast_kid(d, 0);
@@ -184,7 +189,7 @@ static void lower_param(pl_lower* l, const pl_ast* d, bool broken) {
     v = pl_lower_scalar(l, e->override);
     // a bare number is in the unit of the file: --set l=300 for l [mm]
     pl_unit own;
-    bool bare = !pl_is_poison(v) && pl_is_constant(l->pool, v) && !pl_has_unit(l->pool, v) && !unit_of_value(e->override);
+    bool bare = !pl_is_poison(v) && pl_is_constant(l->pool, v) && !pl_has_unit(l->pool, v) && !has_own_unit(e->override);
     if (bare && unit_node && pl_lower_unit(l, unit_node, &own)) v = pl_mul(l->pool, v, own.factor);
   } else if (value) {
     v = value_with_unit(l, d, value, &unit, declared && unit_fine);

@@ -89,8 +89,12 @@ static pl_quantity lower_sum(pl_lower* l, const pl_ast* node) {
   }
   if (bad) return pl_quantity_bad();
   if (scalar) {
-    for (int i = 0; i < node->kids.n; i++) terms[i] = node->ops.at[i] == '-' ? pl_neg(l->pool, all[i].at[0]) : all[i].at[0];
-    return pl_quantity_of(pl_add_n(l->pool, terms, node->kids.n));
+    pl_expr minus_one = pl_int(l->pool, -1);
+    for (int i = 0; i < node->kids.n; i++) {
+      // a product with -1: -(a + b) stays as written
+      terms[i] = node->ops.at[i] == '-' ? pl_mul(l->pool, minus_one, all[i].at[0]) : all[i].at[0];
+    }
+    return pl_quantity_of(node->kids.n == 1 ? terms[0] : pl_add_n(l->pool, terms, node->kids.n));
   }
   pl_quantity sum = all[0];
   if (node->ops.at[0] == '-') sum = pl_lower_times(l, sum, pl_quantity_of(pl_int(l->pool, -1)), false, node);

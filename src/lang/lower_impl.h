@@ -25,6 +25,8 @@ typedef struct pl_entity {
   pl_expr value;               // let: inserted value, or its symbol
   pl_expr at[3];               // let of a vector
   int n;                       // its components, 0: a scalar
+  int n_args;                  // function of a finished model: its arguments
+  const pl_symbol* arguments;
   pl_span span;
 } pl_entity;
 

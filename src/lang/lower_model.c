@@ -11,10 +11,32 @@ static void add_entity(pl_lower* l, pl_symbol s, pl_entity_kind kind) {
   if (pl_scope_find(l, e->key) == NULL) pl_scope_add(l, e);
 }
 
+// The arguments of `let f(u, v)` are the symbols u_of_f, v_of_f, made in this order (lower_declare.c).
+static void add_function(pl_lower* l, const pl_let* let) {
+  const char* ending = pl_format(l->arena, "_of_%s", pl_symbol_get(l->pool, let->symbol)->ascii);
+  pl_symbol* arguments = PL_ARRAY(l->arena, pl_symbol, let->n_args);
+  int n = 0;
+  for (int i = 1; i <= pl_symbol_count(l->pool) && n < let->n_args; i++) {
+    const char* ascii = pl_symbol_get(l->pool, (pl_symbol){(uint32_t)i})->ascii;
+    size_t length = strlen(ascii), tail = strlen(ending);
+    if (length > tail && strcmp(ascii + length - tail, ending) == 0) arguments[n++] = (pl_symbol){(uint32_t)i};
+  }
+  if (n < let->n_args) return;
+  add_entity(l, let->symbol, PL_ENTITY_FUNCTION);
+  pl_entity* e = pl_scope_find(l, pl_intern(l->names, pl_symbol_get(l->pool, let->symbol)->ascii));
+  e->value = let->value;
+  e->n_args = n;
+  e->arguments = arguments;
+}
+
 static void add_lets(pl_lower* l) {
   for (int i = 0; i < l->m->lets.n; i++) {
     const pl_let* let = &l->m->lets.at[i];
-    if (let->n_args || let->symbol.id == 0) continue;
+    if (let->symbol.id == 0) continue;
+    if (let->n_args) {
+      add_function(l, let);
+      continue;
+    }
     add_entity(l, let->symbol, PL_ENTITY_LET);
     pl_entity* e = pl_scope_find(l, pl_intern(l->names, pl_symbol_get(l->pool, let->symbol)->ascii));
     if (e == NULL || e->symbol.id != let->symbol.id) continue;

@@ -24,12 +24,15 @@ static pl_name name_of_label(pl_lower* l, const pl_ast* label, const char* other
 
 // ---------------------------------------------------------------------------------------------- masses, bodies, points
 // `mass A m1 at` lacks its colon: the first factor is no name, the rest would do.
-static bool missing_colon(pl_lower* l, const pl_ast* s, const pl_ast* mass) {
-  if (pl_ast_kid(s, 0) || mass->kind != PL_AST_PRODUCT || mass->kids.n < 2) return false;
-  const pl_ast* first = mass->kids.at[0];
+static bool missing_colon(pl_lower* l, const pl_ast* s, const pl_ast* value) {
+  while (value->kind == PL_AST_SUM && value->ops.at[0] != '-') value = value->kids.at[0];
+  if (pl_ast_kid(s, 0) || value->kind != PL_AST_PRODUCT || value->kids.n < 2 || value->ops.at[1] != ' ') return false;
+  const pl_ast* first = value->kids.at[0];
   if (first->kind != PL_AST_NAME || pl_scope_known(l, first) || pl_scope_lost(l, first->key)) return false;
   pl_diagnostic* m = pl_lower_complain(l, PL_E001, pl_ast_span(first), "a colon is missing after the label %s", "hinter der Marke %s fehlt ein Doppelpunkt", first->shown);
   pl_suggest(l->job, m, pl_format(l->arena, "%s:", first->shown), "write %s:", "schreibe %s:", first->shown);
+  pl_push(l->arena, l->lost, first->key);
+  pl_push(l->arena, l->lost, pl_intern(l->names, pl_format(l->arena, "lambda_%s", first->key)));
   return true;
 }
 
@@ -216,6 +219,7 @@ static void lower_constraint(pl_lower* l, const pl_ast* s) {
   c.name = name_of_label(l, label, pl_format(l->arena, "%d", number));
   lower_options(l, pl_ast_kid(s, 2), &c);
   pl_condition r;
+  if (missing_colon(l, s, relation->kids.at[0])) return;
   if (!check_relation(l, relation) || !pl_lower_relation(l, relation, &r, 0)) return;
   const pl_rule* rule = pl_scope_rule(l, label ? pl_ast_kid(label, 0)->key : pl_intern(l->names, c.name.ascii));
   c.left = r.left, c.right = r.right, c.relation = r.relation;

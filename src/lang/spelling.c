@@ -118,7 +118,7 @@ static uint32_t take_marks(const char* s, size_t n, size_t* at, uint32_t letter,
 }
 
 // Words such as theta become letters on display: a run of ASCII letters between digits, underscores or ends.
-static const char* shown_of(pl_arena* a, const char* s) {
+const char* pl_spell_unicode(pl_arena* a, const char* s) {
   pl_text out = pl_text_make(a);
   for (size_t i = 0; s[i];) {
     size_t n = 0;
@@ -137,18 +137,6 @@ static const char* shown_of(pl_arena* a, const char* s) {
       pl_text_add_n(&out, s + i, 1);
       i++;
     }
-  }
-  return pl_text_string(&out);
-}
-
-const char* pl_spell_unicode(pl_arena* a, const char* key) {
-  // the underscore that parts a Greek letter from its neighbour in a key goes again
-  const char* s = shown_of(a, key);
-  pl_text out = pl_text_make(a);
-  for (size_t i = 0; s[i]; i++) {
-    bool after_greek = i > 0 && ((unsigned char)s[i - 1] & 0x80), before_greek = ((unsigned char)s[i + 1] & 0x80) != 0;
-    if (s[i] == '_' && (before_greek || (after_greek && s[i + 1])) && i > 0) continue;
-    pl_text_add_n(&out, s + i, 1);
   }
   return pl_text_string(&out);
 }
@@ -193,7 +181,7 @@ bool pl_spell(pl_arena* a, pl_names* names, const char* s, size_t n, pl_spelled*
   }
   out->key = pl_intern(names, pl_text_string(&key));
   out->raw = pl_intern(names, pl_text_string(&raw));
-  out->shown = pl_intern(names, shown_of(a, pl_text_string(&shown)));
+  out->shown = pl_intern(names, pl_spell_unicode(a, pl_text_string(&shown)));
   return true;
 }
 
