@@ -67,7 +67,11 @@ pleuel_model* cli_load(pleuel* ctx, const cli_options* o, const char* file, int*
     s = pleuel_load_file(ctx, &m, file, &how);
   }
   *code = cli_exit_code(s);
-  if (s != PLEUEL_OK && !m) cli_error(*code, "%s", pleuel_message(ctx));
+  if (s != PLEUEL_OK && !m) {
+    const char* document = o->json ? pleuel_failure_json(ctx, cli_display_name(file), s) : NULL;
+    cli_error(*code, "%s", pleuel_message(ctx));
+    if (document) fputs(document, stdout);
+  }
   return m;
 }
 

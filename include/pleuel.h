@@ -129,6 +129,10 @@ pleuel_status pleuel_load_file(pleuel *ctx, pleuel_model **model, const char *pa
                                const pleuel_load_options *options);
 void pleuel_model_free(pleuel_model *model);
 
+/* pleuel_failure_json returns the JSON document (docs/json.md) of a file that gave no model at all: status and the
+ * sentence of pleuel_message.  NULL when memory ran out. */
+const char *pleuel_failure_json(pleuel *ctx, const char *file, pleuel_status status);
+
 /* ------------------------------------------------------------------------------------------------ messages */
 
 typedef enum pleuel_severity { PLEUEL_ERROR = 0, PLEUEL_WARNING = 1, PLEUEL_NOTE = 2 } pleuel_severity;

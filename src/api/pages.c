@@ -50,6 +50,29 @@ static const char* codes(pleuel* ctx, const char* unused) {
 
 const char* pleuel_codes(pleuel* ctx) { return guarded_page(ctx, codes, NULL); }
 
+// ---------------------------------------------------------------------------------------------- no model at all
+typedef struct pl_no_model { const char* file; char message[512]; pleuel_status status; } pl_no_model;
+
+static const char* failure_json(pleuel* ctx, const pl_no_model* f) {
+  pl_text out = pl_text_make(ctx->arena);
+  pl_json_input in = {.file = f->file, .status = f->status, .message = pl_copy(ctx->arena, f->message), .lang = ctx->lang};
+  pl_worked_json(&out, &in);
+  return pl_text_string(&out);
+}
+
+const char* pleuel_failure_json(pleuel* ctx, const char* file, pleuel_status status) {
+  if (!ctx) return NULL;
+  pl_no_model f = {.file = file, .status = status};
+  memcpy(f.message, ctx->message, sizeof f.message);
+  const char* volatile text = NULL;
+  pl_guard guard;
+  PL_GUARD(ctx->arena, guard) {
+    text = failure_json(ctx, &f);
+  }
+  pl_guard_end(ctx->arena, &guard);
+  return text;
+}
+
 // ---------------------------------------------------------------------------------------------- units, quantities
 static const char* units(pleuel* ctx, const char* unit) {
   pl_pool* pool = pl_pool_make(ctx->arena);
