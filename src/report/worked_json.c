@@ -131,13 +131,13 @@ static void pl_doc_dof(pl_document* d) {
   pl_json_int(&d->j, "rank", s->dof.rank);
   pl_json_int(&d->j, "dof", s->dof.dof);
   pl_json_int(&d->j, "velocity_dof", s->dof.velocity_dof);
-  pl_json_array(&d->j, "hidden");
+  pl_json_list(&d->j, "hidden");
   for (int k = 0; k < s->hidden.n; k++) {
     pl_json_object(&d->j, NULL);
     pl_json_string(&d->j, "expr", pl_expr_text(d->arena, s->model->pool, s->hidden.at[k]));
     pl_json_end_object(&d->j);
   }
-  pl_json_end_array(&d->j);
+  pl_json_end_list(&d->j);
   pl_json_end_object(&d->j);
 }
 
