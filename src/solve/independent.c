@@ -86,13 +86,7 @@ static double faintest_taken(const pl_run* run) {
   return least;
 }
 
-void pl_independent_choose(pl_run* run) {
-  if (run->by_pivots && run->rank_mode >= 0) return;   // chosen when the mode began
-  if (too_many_to_examine(run)) {
-    for (int c = 0; c < run->n_c; c++) run->taken[c] = run->active[c];
-    run->rank = run->n_active;
-    return;
-  }
+static void examine(pl_run* run) {
   pl_assemble_rows(run);
   scale_columns(run, run->n_active);
   measure_rows(run);
@@ -100,7 +94,30 @@ void pl_independent_choose(pl_run* run) {
                                   dependent_below, &run->smallest);
   for (int c = 0; c < run->n_c; c++) run->taken[c] = run->row_of[c] >= 0 && run->row_taken[run->row_of[c]];
   run->smallest *= faintest_taken(run);
+}
+
+void pl_independent_choose(pl_run* run) {
+  if (run->by_pivots && run->rank_mode >= 0) return;   // chosen when the mode began
+  if (too_many_to_examine(run)) {
+    for (int c = 0; c < run->n_c; c++) run->taken[c] = run->active[c];
+    run->rank = run->n_active;
+    return;
+  }
+  examine(run);
   if (run->smallest > run->best) run->best = run->smallest;
+}
+
+bool pl_independent_pivot(pl_run* run, double* smallest) {
+  if (too_many_to_examine(run)) return false;
+  int rank = run->rank;
+  double here = run->smallest;
+  for (int c = 0; c < run->n_c; c++) run->taken_kept[c] = run->taken[c];
+  examine(run);
+  *smallest = run->rank < rank ? 0 : run->smallest;
+  run->rank = rank;
+  run->smallest = here;
+  for (int c = 0; c < run->n_c; c++) run->taken[c] = run->taken_kept[c];
+  return true;
 }
 
 // ---------------------------------------------------------------------------------------------- uniqueness

@@ -98,7 +98,8 @@ static void reserve_state(pl_run* run) {
                      &run->q_kept, &run->v_kept};
   double** of_c[] = {&run->g, &run->g_size, &run->r, &run->r_size, &run->save_l, &run->row_l, &run->impulse, &run->row_most, &run->argument, &run->row_long, &run->row_part,
                      &run->rank_work};
-  bool** flags[] = {&run->on, &run->detached, &run->active, &run->taken, &run->unique, &run->save_unique, &run->row_taken};
+  bool** flags[] = {&run->on, &run->detached, &run->active, &run->taken, &run->unique, &run->save_unique, &run->row_taken,
+                    &run->taken_kept};
   for (size_t i = 0; i < sizeof of_q / sizeof *of_q; i++) *of_q[i] = PL_ARRAY(a, double, q + 1);
   for (size_t i = 0; i < sizeof of_c / sizeof *of_c; i++) *of_c[i] = PL_ARRAY(a, double, c + 1);
   for (size_t i = 0; i < sizeof flags / sizeof *flags; i++) *flags[i] = PL_ARRAY(a, bool, c + 1);

@@ -101,25 +101,29 @@ static bool orders_agree(pl_run* run, double length, int order) {
   return same(run->row_q, run->trial_q, run->n_q, 1e-10 * run->q_size) && same(run->row_v, run->trial_v, run->n_q, 1e-8 * run->v_size);
 }
 
-// The smallest pivot on the way, from the series alone.
+// The smallest pivot on the way, from the series alone; NaN when it is too much work.
 static double pivot_at(pl_run* run, double dt) {
+  double smallest;
   pl_series_at(run, dt, run->row_q, run->row_v);
   pl_point_evaluate(run, run->t + run->t_low + dt, run->row_q, run->row_v);
-  pl_independent_choose(run);
-  return run->smallest;
+  return pl_independent_pivot(run, &smallest) ? smallest : (double)NAN;
 }
 
-// The pivot is linear on both sides of the place: closer and closer chords around it.
-static double refine_place(pl_run* run, double reach) {
-  double half = reach, middle = reach, best = run->best;
-  for (int i = 0; i < 4 && !run->by_pivots; i++, half *= 0.05) {
-    double before = pivot_at(run, middle - half), after = pivot_at(run, middle + half);
-    double next = middle + half * (before - after) / (before + after);
+// The place from a guess: the pivot is linear on both sides of it.  First from its slope on this side, then by closer and closer
+// chords around it.  0: it is not where it was thought to be.
+static double find_place(pl_run* run, double guess) {
+  double here = pivot_at(run, 0), there = pivot_at(run, 0.3 * guess);
+  if (isnan(here)) return guess;
+  double place = 0.3 * guess * here / (here - there);
+  if (!(here > there) || !(fabs(place) < 4 * fabs(guess))) return 0;
+  double half = 0.2 * place;
+  for (int i = 0; i < 4; i++, half *= 0.05) {
+    double before = pivot_at(run, place - half), after = pivot_at(run, place + half);
+    double next = place + half * (before - after) / (before + after);
     if (!isfinite(next)) break;
-    middle = next;
+    place = next;
   }
-  run->best = best;
-  return middle;
+  return place;
 }
 
 static bool energy_agrees(pl_run* run) {
@@ -130,24 +134,28 @@ static bool energy_agrees(pl_run* run) {
   return fabs(E - run->energy_base) <= run->stats.energy_drift * run->energy_size + 1e-11 * run->energy_size;
 }
 
+static bool leap_fails(pl_run* run) {
+  pl_sizes_forget(run);
+  run->use = run->order;
+  return false;
+}
+
 // Whether the step is replaced by a leap of *length; the state behind it is then in trial_q, trial_v, projected.
 bool pl_singular_leap(pl_run* run, double left, double* length, pl_projection* p) {
   if (!(run->smallest_here < near * run->best) || !(run->h_regular > 0)) return false;
   double reach = reach_of_singular(run);
-  *length = 2 * reach;
+  run->use = order_of_leap(run, 2 * reach);
+  if (reach == 0 || run->use == 0) return leap_fails(run);
+  run->reach = find_place(run, reach);
+  *length = 2 * run->reach;
   int order = order_of_leap(run, *length);
-  if (reach == 0 || order == 0 || fabs(*length) > 0.9 * fabs(left)) return false;
-  if (run->n_watch > 0 && pl_watch_first(run, *length) >= 0) return false;
-  bool fine = orders_agree(run, *length, order);
+  if (run->reach == 0 || order == 0 || fabs(*length) > 0.9 * fabs(left)) return leap_fails(run);
+  bool fine = orders_agree(run, *length, order) && (run->n_watch == 0 || pl_watch_first(run, *length) < 0);
   if (fine) {
-    run->reach = refine_place(run, reach);
     *p = pl_project(run, run->t + run->t_low + *length, run->trial_q, run->trial_v);
     fine = p->ok && p->move_q <= 1e-10 && p->move_v <= 1e-8 && p->g_after <= 1e-12 && p->r_after <= 1e-12 && energy_agrees(run);
   }
-  if (fine) return true;
-  pl_sizes_forget(run);
-  run->use = run->order;
-  return false;
+  return fine || leap_fails(run);
 }
 
 // The event: the state at the place, from the series in use.

@@ -100,7 +100,7 @@ struct pl_run {
   double *rows, *rank_work, *column;   // for independence: rows (n_c x n_q), largest scaled entry of each column so far (n_q)
   double *row_long, *row_part;         // longest that a row has been, part of it that it is now   (n_c)
   int *priority, *row_of;
-  bool* row_taken;
+  bool *row_taken, *taken_kept;
   double smallest, best;   // smallest pivot of the independent rows; largest such so far
   double smallest_here, smallest_before, t_before;   // at the point, at the one before, its time
   pl_fade fade[2];
@@ -176,6 +176,8 @@ void pl_kkt_free(pl_kkt* k);
 
 // ---- independent.c: which constraints are used, what is determined
 void pl_independent_choose(pl_run* run);             // at every point; once a mode for large systems
+// The smallest pivot at what was evaluated last, 0 where a row is lost, without choosing anything; false: too many rows.
+bool pl_independent_pivot(pl_run* run, double* smallest);
 void pl_sizes_note(pl_run* run, const double* q, const double* v);   // q_size, q_most and so on
 void pl_sizes_keep(pl_run* run);                    // what was noted counts
 void pl_sizes_forget(pl_run* run);                  // back to what was kept: a step was rejected
