@@ -78,6 +78,7 @@ bool pl_prod_wants_fraction_first(pl_search* s, pl_prod x);
 pl_prod pl_prod_flip(pl_search* s, pl_prod x);
 // cos²/..., √A √B -> √(A B), sin/cos -> tan: what can be merged once numerator and denominator are known.
 pl_prod pl_prod_tidy(pl_search* s, pl_prod x);
+int pl_piece_compare(pl_search* s, const pl_piece* x, const pl_piece* y);      // K5, powers aside
 long pl_number_cost(pl_search* s, pl_expr number);
 
 // ---------------------------------------------------------------------------------------------- present_sum.c

@@ -55,20 +55,30 @@ static long form_cost(pl_search* s, const pl_form* f) {
 }
 
 // ---------------------------------------------------------------------------------------------- order
-static int compare_pieces(pl_search* s, const pl_piece* x, const pl_piece* y) {
-  if (x->bucket != y->bucket) return x->bucket < y->bucket ? -1 : 1;
-  if (x->lead.id != y->lead.id) {
-    if (!x->lead.id || !y->lead.id) return x->lead.id ? -1 : 1;
-    int c = pl_symbol_compare(s->p, x->lead, y->lead);
-    if (c) return c;
+// Coordinates and their derivatives stand in the order in which the model declares them, all else by name.
+static int compare_leads(pl_search* s, const pl_piece* x, const pl_piece* y) {
+  if (x->lead.id == y->lead.id) return 0;
+  if (!x->lead.id || !y->lead.id) return x->lead.id ? -1 : 1;
+  if (x->bucket == PL_K_COORD || x->bucket == PL_K_VELOCITY || x->bucket == PL_K_ACCELERATION) {
+    pl_symbol a = pl_symbol_get(s->p, x->lead)->base, b = pl_symbol_get(s->p, y->lead)->base;
+    uint32_t i = a.id ? a.id : x->lead.id, k = b.id ? b.id : y->lead.id;
+    if (i != k) return i < k ? -1 : 1;
   }
-  if (x->order != y->order) return x->order < y->order ? -1 : 1;
-  return 0;
+  return pl_symbol_compare(s->p, x->lead, y->lead);
+}
+
+int pl_piece_compare(pl_search* s, const pl_piece* x, const pl_piece* y) {
+  if (x->bucket != y->bucket) return x->bucket < y->bucket ? -1 : 1;
+  int c = compare_leads(s, x, y);
+  if (c) return c;
+  // a bracket stands behind a symbol of its kind
+  if (!x->sum != !y->sum) return x->sum ? 1 : -1;
+  return (x->order > y->order) - (x->order < y->order);
 }
 
 static void insert_sorted(pl_search* s, pl_piece* at, int n, pl_piece x) {
   int i = n;
-  for (; i > 0 && compare_pieces(s, &x, &at[i - 1]) < 0; i--) at[i] = at[i - 1];
+  for (; i > 0 && pl_piece_compare(s, &x, &at[i - 1]) < 0; i--) at[i] = at[i - 1];
   at[i] = x;
 }
 

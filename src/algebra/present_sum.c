@@ -17,14 +17,8 @@ int pl_prod_motion(pl_search* s, pl_prod x) {
 }
 
 static int compare_piece(pl_search* s, const pl_piece* x, const pl_piece* y) {
-  if (x->bucket != y->bucket) return x->bucket < y->bucket ? -1 : 1;
-  if (x->lead.id != y->lead.id && x->lead.id && y->lead.id) {
-    int c = pl_symbol_compare(s->p, x->lead, y->lead);
-    if (c) return c;
-  }
-  if (x->order != y->order) return x->order < y->order ? -1 : 1;
-  if (x->power != y->power) return x->power > y->power ? -1 : 1;
-  return 0;
+  int c = pl_piece_compare(s, x, y);
+  return c ? c : (x->power < y->power) - (x->power > y->power);
 }
 
 int pl_terms_compare(pl_search* s, const pl_prod* x, const pl_prod* y) {
@@ -82,7 +76,7 @@ const pl_form* pl_terms_form(pl_search* s, const pl_prod* terms, int n) {
 }
 
 // ---------------------------------------------------------------------------------------------- brackets
-typedef struct sum_census { bool mass, motion, coord, other_class; unsigned buckets; } sum_census;
+typedef struct sum_census { bool mass, motion, coord, function; unsigned buckets; } sum_census;
 
 static void count_pieces(pl_search* s, pl_prod x, sum_census* c) {
   for (int i = 0; i < x.n; i++) {
@@ -94,16 +88,19 @@ static void count_pieces(pl_search* s, pl_prod x, sum_census* c) {
     c->mass |= f->bucket == PL_K_MASS;
     c->motion |= f->bucket == PL_K_VELOCITY || f->bucket == PL_K_ACCELERATION || f->bucket == PL_K_MULTIPLIER;
     c->coord |= f->bucket >= PL_K_START;
+    c->function |= f->bucket == PL_K_FUNCTION || f->bucket == PL_K_ROOT;
     c->buckets |= 1u << f->bucket;
   }
 }
 
-// Where a bracket stands among the factors: (m1 + m2) with the masses, (m1 + m2 sin²θ) before what it multiplies, the rest last.
+// Where a bracket stands among the factors: (m1 + m2) with the masses, (m1 + m2 sin²θ) before what it multiplies, (l0 + x) with the
+// coordinates, the rest last.
 static pl_bucket bucket_of_sum(pl_search* s, const pl_prod* terms, int n) {
   sum_census c = {0};
   for (int i = 0; i < n; i++) count_pieces(s, terms[i], &c);
   if (c.motion) return PL_K_SUM;
-  if (c.coord) return c.mass ? PL_K_INERTIA : PL_K_SUM;
+  if (c.coord && c.mass) return PL_K_INERTIA;
+  if (c.coord) return c.function ? PL_K_SUM : PL_K_COORD;
   static const pl_bucket pure[] = {PL_K_NUMBER, PL_K_MASS, PL_K_GRAVITY, PL_K_LENGTH};
   for (size_t i = 0; i < sizeof pure / sizeof *pure; i++)
     if ((c.buckets & ~(1u << pure[i])) == 0) return pure[i];

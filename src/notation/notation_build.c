@@ -65,14 +65,30 @@ static pl_box* row2(pl_builder* b, pl_level level, pl_box* x, pl_box* y) {
   return inherit(r);
 }
 
+// Forms that need at least one argument and have none are cut short as unreadable.
+static bool is_hollow(const pl_form* f) {
+  static const int needed[] = {
+    [PL_F_NEG] = 1, [PL_F_QUOTIENT] = 2, [PL_F_POWER] = 2, [PL_F_ROOT] = 1, [PL_F_GROUP] = 1, [PL_F_PLUSMINUS] = 1,
+    [PL_F_RELATION] = 2, [PL_F_DERIVATIVE] = 1, [PL_F_INTEGRAL] = 1, [PL_F_ORDER] = 1, [PL_F_TEXT] = 0,
+  };
+  return (size_t)f->kind >= sizeof needed / sizeof *needed || f->n < needed[f->kind];
+}
+
 // ---------------------------------------------------------------------------------------------- minus signs
+static const pl_form* without_minus_below(pl_builder* b, const pl_form* f, bool* negative, int depth);
+
 // The form without its leading minus; *negative is flipped when there was one.
 static const pl_form* without_minus(pl_builder* b, const pl_form* f, bool* negative) {
+  return without_minus_below(b, f, negative, 0);
+}
+
+static const pl_form* without_minus_below(pl_builder* b, const pl_form* f, bool* negative, int depth) {
   pl_arena* a = b->arena;
+  if (is_hollow(f) || depth > MAX_DEPTH) return f;
   switch (f->kind) {
     case PL_F_NEG:
       *negative = !*negative;
-      return without_minus(b, f->args[0], negative);
+      return without_minus_below(b, f->args[0], negative, depth + 1);
     case PL_F_EXPR:
       if (!pl_is_number(b->pool, f->expr) || pl_number_sign(b->pool, f->expr) >= 0) return f;
       *negative = !*negative;
@@ -81,7 +97,7 @@ static const pl_form* without_minus(pl_builder* b, const pl_form* f, bool* negat
     case PL_F_QUOTIENT: {
       if (f->n < 1) return f;
       bool minus = false;
-      const pl_form* first = without_minus(b, f->args[0], &minus);
+      const pl_form* first = without_minus_below(b, f->args[0], &minus, depth + 1);
       if (!minus) return f;
       *negative = !*negative;
       if (f->kind == PL_F_QUOTIENT) return pl_form_quotient(a, first, f->args[1]);
@@ -127,9 +143,9 @@ static pl_box* build_sum(pl_builder* b, const pl_form* f) {
 typedef PL_VEC(const pl_form*) form_list;
 
 // Products inside products are written as one.
-static void flatten(pl_builder* b, const pl_form* f, form_list* out) {
+static void flatten(pl_builder* b, const pl_form* f, form_list* out, int depth) {
   for (int i = 0; i < f->n; i++) {
-    if (f->args[i]->kind == PL_F_PRODUCT) flatten(b, f->args[i], out);
+    if (f->args[i]->kind == PL_F_PRODUCT && depth < MAX_DEPTH) flatten(b, f->args[i], out, depth + 1);
     else pl_push(b->arena, *out, f->args[i]);
   }
 }
@@ -172,7 +188,7 @@ static bool needs_dot(pl_builder* b, pl_box** before, const pl_box* x) {
 
 static pl_box* build_product(pl_builder* b, const pl_form* f) {
   form_list factors = {0};
-  flatten(b, f, &factors);
+  flatten(b, f, &factors, 0);
   if (factors.n == 0) return pl_box_text(b->arena, PL_B_NUMBER, "1");
   if (factors.n == 1) return pl_build(b, factors.at[0]);
   PL_VEC(pl_box*) parts = {0};
@@ -526,15 +542,6 @@ static pl_box* build_kind(pl_builder* b, const pl_form* f) {
     case PL_F_TEXT: return build_words(b, f);
   }
   return pl_box_text(b->arena, PL_B_PROSE, "?");
-}
-
-// Forms that need at least one argument and have none are cut short as unreadable.
-static bool is_hollow(const pl_form* f) {
-  static const int needed[] = {
-    [PL_F_NEG] = 1, [PL_F_QUOTIENT] = 2, [PL_F_POWER] = 2, [PL_F_ROOT] = 1, [PL_F_GROUP] = 1, [PL_F_PLUSMINUS] = 1,
-    [PL_F_RELATION] = 2, [PL_F_DERIVATIVE] = 1, [PL_F_INTEGRAL] = 1, [PL_F_ORDER] = 1, [PL_F_TEXT] = 0,
-  };
-  return (size_t)f->kind >= sizeof needed / sizeof *needed || f->n < needed[f->kind];
 }
 
 pl_box* pl_build(pl_builder* b, const pl_form* f) {

@@ -397,6 +397,13 @@ static void hollow_and_deep_forms_do_not_crash(void** state) {
   const pl_form* deep = L(l);
   for (int i = 0; i < 5000; i++) deep = FN(PL_SIN, deep);
   for (int math = PL_MATH_LINE; math <= PL_MATH_MATHML; math++) assert_non_null(print(f, deep, (pl_math)math));
+  const pl_form *minus = L(l), *product = L(l), *quotient = L(l);
+  for (int i = 0; i < 100000; i++) minus = NEG(minus), product = PROD(product, L(r)), quotient = QUOT(quotient, L(r));
+  for (int math = PL_MATH_LINE; math <= PL_MATH_MATHML; math++) {
+    assert_non_null(print(f, minus, (pl_math)math));
+    assert_non_null(print(f, product, (pl_math)math));
+    assert_non_null(print(f, quotient, (pl_math)math));
+  }
   LINE(leaf(f, pl_poison()), "undefined");
 }
 
