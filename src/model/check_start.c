@@ -216,33 +216,110 @@ static double size_of_terms(const pl_pool* p, pl_expr g, const double* value) {
 
 static const double start_tolerance = 1e-9;   // of the terms; what is smaller is projected away (language.md, Start values)
 
-// The last start value that the constraint speaks of.
-static const pl_init* init_in(const pl_model* m, pl_expr g) {
+// ---------------------------------------------------------------------------------------------- what would fit
+enum { MAX_ROOTS = 8, MAX_NEWTON_STEPS = 60 };
+
+// Newton from x; false when it does not settle on a simple root of g.
+static bool newton(const pl_model* m, pl_expr g, pl_expr slope, double* value, uint32_t id, double* x) {
+  for (int i = 0; i < MAX_NEWTON_STEPS; i++) {
+    value[id] = *x;
+    double f = pl_eval(m->pool, g, value), d = pl_eval(m->pool, slope, value);
+    if (!isfinite(f) || !isfinite(d) || d == 0) return false;
+    double step = f / d;
+    *x -= step;
+    if (fabs(step) <= 1e-14 * fabs(*x) + 1e-300) {
+      value[id] = *x;
+      return fabs(pl_eval(m->pool, g, value)) <= 1e-3 * start_tolerance * size_of_terms(m->pool, g, value);
+    }
+  }
+  return false;
+}
+
+static bool branch_allows(const pl_model* m, const double* value) {
+  for (int i = 0; i < m->branches.n; i++) {
+    const pl_condition* c = &m->branches.at[i];
+    if (pl_is_poison(c->left) || pl_is_poison(c->right)) continue;
+    double d = pl_eval(m->pool, c->left, value) - pl_eval(m->pool, c->right, value);
+    if ((d < 0 && (c->relation == PL_GT || c->relation == PL_GE)) || (d > 0 && (c->relation == PL_LT || c->relation == PL_LE))) return false;
+  }
+  return true;
+}
+
+// Values of one coordinate, all others as given, that satisfy g = 0 and the branches.  Starts: around the given value.
+static int fitting_values(const pl_model* m, pl_expr g, pl_symbol q, double* value, double roots[MAX_ROOTS]) {
+  double given = value[q.id];
+  pl_expr slope = pl_diff(m->pool, g, q);
+  if (pl_is_poison(slope) || isnan(given)) return 0;
+  static const double factor[] = {1, -1, 0.5, -0.5, 2, -2}, shift[] = {0, 1, -1, 0.1, -0.1, 10, -10};
+  int n = 0;
+  for (int i = 0; i < 13 && n < MAX_ROOTS; i++) {
+    double x = i < 6 ? given * factor[i] : given + shift[i - 6];
+    if (!newton(m, g, slope, value, q.id, &x) || !branch_allows(m, value)) continue;
+    bool known = false;
+    for (int k = 0; k < n; k++) known |= fabs(roots[k] - x) <= 1e-9 * (fabs(x) + fabs(roots[k]));
+    if (!known) roots[n++] = x;
+  }
+  value[q.id] = given;
+  return n;
+}
+
+static const char* value_text(pl_job* job, const pl_model* m, pl_symbol q, const double* roots, int n) {
+  const pl_symbol_info* info = pl_symbol_get(m->pool, q);
+  pl_dimension d;
+  const char* unit = "";
+  bool pure = !pl_model_dimension(m, pl_sym(m->pool, q), &d) || pl_dimension_equal(d, pl_dimension_one());
+  if (!pure) unit = PL_F(job, " %s", pl_dimension_unit(job->arena, d, false));
+  pl_text t = pl_text_make(job->arena);
+  pl_text_addf(&t, "%s%s = ", info->name, info->dots ? "'" : "");
+  for (int i = 0; i < n; i++) pl_text_addf(&t, "%s%.6g%s", i == 0 ? "" : job->lang == PL_GERMAN ? " oder " : " or ", roots[i], unit);
+  return pl_text_string(&t);
+}
+
+// The start value to blame: the last one that the constraint speaks of and that has a value that would fit.
+static const pl_init* blame(pl_job* job, const pl_model* m, pl_expr g, double* value, const char** fit) {
+  const pl_init* last = NULL;
+  *fit = NULL;
   for (int i = m->inits.n - 1; i >= 0; i--) {
     const pl_init* x = &m->inits.at[i];
     if (x->guess || pl_is_poison(x->target) || pl_kind_of(m->pool, x->target) != PL_SYMBOL) continue;
-    if (pl_has_symbol(m->pool, g, pl_symbol_of(m->pool, x->target))) return x;
+    pl_symbol q = pl_symbol_of(m->pool, x->target);
+    if (!pl_has_symbol(m->pool, g, q)) continue;
+    if (!last) last = x;
+    double roots[MAX_ROOTS];
+    int n = fitting_values(m, g, q, value, roots);
+    if (n == 0 || n > 4) continue;
+    *fit = value_text(job, m, q, roots, n);
+    return x;
   }
-  return NULL;
+  return last;
 }
 
-static void check_start_of(pl_job* job, pl_model* m, const pl_constraint* c, const double* value) {
+static void tell_violated(pl_job* job, pl_model* m, const pl_constraint* c, double* value) {
+  const char* name = c->name.text ? c->name.text : "?";
+  const char* fit;
+  const pl_init* x = blame(job, m, c->g, value, &fit);
+  pl_diagnostic* d = pl_tell(job, PL_E041, x && x->span.source ? x->span : c->span, PL_F(job, "the start violates %s", name), PL_F(job, "der Start verletzt %s", name));
+  double left = pl_eval(m->pool, c->left, value), right = pl_eval(m->pool, c->right, value);
+  static const char* const signs[] = {"=", ">=", "<=", ">", "<", "!="};
+  const char* claim = PL_F(job, "%.6g %s %.6g", left, signs[c->relation], right);
+  if (x && x->span.source && c->span.source) pl_report_label(job->diagnostics, d, c->span, PL_F(job, job->lang == PL_GERMAN ? "das hieße %s" : "this would be %s", claim));
+  else pl_report_reason(d, PL_F(job, "this would be %s", claim), PL_F(job, "das hieße %s", claim));
+  if (fit) {
+    pl_report_fix(d, PL_F(job, "%s would fit. Change it, or remove it from init and let it follow", fit),
+                  PL_F(job, "%s würde passen. Ändern, oder aus init entfernen und folgen lassen", fit), NULL);
+  } else {
+    pl_report_fix(d, "leave one of the start values out, and it follows from the constraints", "einen der Startwerte weglassen, dann folgt er aus den Zwangsbedingungen", NULL);
+  }
+}
+
+static void check_start_of(pl_job* job, pl_model* m, const pl_constraint* c, double* value) {
   if (c->off || c->block || pl_is_poison(c->g) || c->while_label) return;
   double g = pl_eval(m->pool, c->g, value);
   double size = size_of_terms(m->pool, c->g, value);
   if (isnan(g) || isnan(size)) return;
   bool violated = c->relation == PL_EQ ? fabs(g) > start_tolerance * size
                 : c->relation == PL_GE ? g < -start_tolerance * size : g > start_tolerance * size;
-  if (!violated) return;
-  const pl_init* x = init_in(m, c->g);
-  const char* name = c->name.text ? c->name.text : "?";
-  pl_diagnostic* d = pl_tell(job, PL_E041, x && x->span.source ? x->span : c->span, PL_F(job, "the start violates %s", name), PL_F(job, "der Start verletzt %s", name));
-  double left = pl_eval(m->pool, c->left, value), right = pl_eval(m->pool, c->right, value);
-  static const char* const signs[] = {"=", ">=", "<=", ">", "<", "!="};
-  pl_report_reason(d, PL_F(job, "%s asks for %.6g %s %.6g", name, left, signs[c->relation], right),
-                   PL_F(job, "%s verlangt %.6g %s %.6g", name, left, signs[c->relation], right));
-  if (x && x->span.source && c->span.source) pl_report_label(job->diagnostics, d, c->span, name);
-  pl_report_fix(d, "leave one of the start values out, and it follows from the constraints", "einen der Startwerte weglassen, dann folgt er aus den Zwangsbedingungen", NULL);
+  if (violated) tell_violated(job, m, c, value);
 }
 
 void pl_check_start(pl_job* job, pl_model* m) {
@@ -255,6 +332,6 @@ void pl_check_start(pl_job* job, pl_model* m) {
   check_span_of_simulation(job, m, pl_model_values(m, job->arena));
   check_numbers_given(job, m);
   if (job->diagnostics->n_errors) return;
-  const double* value = start_values(job, m);
+  double* value = start_values(job, m);
   for (int i = 0; i < m->constraints.n; i++) check_start_of(job, m, &m->constraints.at[i], value);
 }

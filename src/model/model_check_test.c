@@ -362,6 +362,18 @@ PL_TEST(a_start_against_a_constraint_is_found) {
   tells(&a, PL_E041);
 }
 
+// The other values kept, x = ± √0.75 would fit; the branch leaves one of them.
+PL_TEST(a_start_that_would_fit_is_named) {
+  plane a = plane_make(NULL);
+  constraint(a.k, named("c"), pl_add(a.p, pl_square(a.p, a.x), pl_square(a.p, a.y)), PL_EQ, number(&a, "1"), NULL, NULL);
+  pl_push(a.k->arena, a.k->m->branches, (pl_condition){a.x, pl_int(a.p, 0), PL_LT, {0}});
+  init(a.k, a.y, number(&a, "0.5"), NULL);
+  init(a.k, a.x, number(&a, "2"), NULL);
+  const pl_diagnostic* d = check_tells(a.k, PL_E041);
+  assert_string_equal(d->fix[0], "x = -0.866025 would fit. Change it, or remove it from init and let it follow");
+  kit_free(a.k);
+}
+
 PL_TEST(a_start_on_the_wrong_side_is_found) {
   plane a = plane_make(NULL);
   constraint(a.k, named("h"), a.y, PL_GE, number(&a, "1"), NULL, NULL);
@@ -624,7 +636,7 @@ int main(void) {
     cmocka_unit_test(a_start_value_given_twice_is_found), cmocka_unit_test(position_and_velocity_are_two_start_values),
     cmocka_unit_test(start_values_in_a_circle_are_found), cmocka_unit_test(a_start_value_with_a_multiplier_is_refused),
     cmocka_unit_test(a_parameter_has_no_start_value), cmocka_unit_test(a_start_against_a_constraint_is_found),
-    cmocka_unit_test(a_start_on_the_wrong_side_is_found), cmocka_unit_test(a_start_on_the_right_side_is_fine),
+    cmocka_unit_test(a_start_that_would_fit_is_named), cmocka_unit_test(a_start_on_the_wrong_side_is_found), cmocka_unit_test(a_start_on_the_right_side_is_fine),
     cmocka_unit_test(a_start_through_other_values_is_followed), cmocka_unit_test(a_simulation_that_ends_before_it_starts_is_found),
     cmocka_unit_test(a_simulation_needs_numbers), cmocka_unit_test(without_a_simulation_letters_are_enough),
     cmocka_unit_test(a_map_that_leads_back_is_found), cmocka_unit_test(a_map_of_a_parameter_is_found),
