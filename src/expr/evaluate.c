@@ -93,7 +93,7 @@ static double node_value(const evaluation* v, const pl_walk* w, const double* va
   switch (kind) {
     case PL_NUMBER: return pl_number_double(p, e);
     case PL_PI: return M_PI;
-    case PL_INFINITY: return INFINITY;
+    case PL_INFINITY: return (double)INFINITY;
     case PL_SYMBOL: return symbol_value(v, pl_symbol_of(p, e));
     case PL_ADD: case PL_MUL: return fold(kind, w, value, e);
     case PL_POW: return power_value(p, pl_arg(p, e, 1), a[0], a[1]);

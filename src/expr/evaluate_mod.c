@@ -1,9 +1,9 @@
-// Values modulo P = 2^61 - 1 at a random point: what is identically zero gives 0, anything else almost never does.
+// Values modulo the prime P = PL_MOD_P at a random point: what is identically zero gives 0, anything else almost never does.
 //
 // A symbol is a random residue (a square if it is known to be positive).  An angle is split into rational multiples of
 // monomials, as 3/2 of "ω t"; each monomial stands for a random rotation, the multiples follow by addition of angles.
 // The same is done for exponents.  A monomial is known by its residue, so ω (t - t0) and ω t - ω t0 are one angle.
-//   π           half turn, quarter turn, ...; thirds of it do not exist modulo P: ok = false
+//   π           as an angle in parts 2^k 3^m 5^n (k <= 7, m and n <= 2), so down to tenths of a degree; else ok = false
 //   asin u ...  the rotation with that sine
 //   ln          sums over factors; else random, by the residue of the argument; so are the inverse functions as values
 //   abs, sign   by "is a square", which is multiplicative (modular.c)
@@ -14,10 +14,10 @@
 
 #include <string.h>
 
-enum { MAX_LINEAR = 64, MAX_DEPTH = 64, MAX_STEPS = 20000, MAX_SUM = 10000, ANGLE_BITS = 20, PAGE = 256 };
+enum { MAX_LINEAR = 64, MAX_DEPTH = 64, MAX_STEPS = 20000, MAX_SUM = 10000, PAGE = 256 };
 
-// Denominators of exponents divide this.
-static const int64_t exponent_unit = 256 * 27 * 125 * 7;
+// A random unit of angle or exponent is taken so many times that it can be divided by 2, 3 and 5 this often.
+enum { DIVISIONS_BY_2 = 20, DIVISIONS_BY_3 = 5, DIVISIONS_BY_5 = 6 };
 
 typedef struct memo {
   uint64_t value;
@@ -71,7 +71,7 @@ static uint64_t residue(const pl_mod_point* m, uint64_t kind, uint64_t key) {
   return h ? h : 1;
 }
 
-enum { OF_SYMBOL = 1, OF_ANGLE, OF_EXPONENT, OF_CALL, OF_ELEMENT, OF_POWER, OF_PATTERN, OF_PI };
+enum { OF_SYMBOL = 1, OF_ANGLE, OF_EXPONENT, OF_CALL, OF_ELEMENT, OF_PATTERN, OF_PI };
 
 static void widen_symbols(pl_mod_point* m, uint32_t id) {
   if (id < m->n_symbols) return;
@@ -82,8 +82,8 @@ static void widen_symbols(pl_mod_point* m, uint32_t id) {
   m->n_symbols = n;
 }
 
-// Square, cube, fifth and seventh powers have the roots that formulas ask for.
-static uint64_t positive_residue(uint64_t x) { return pl_mod_pow(x, 2ull * 9 * 25 * 7); }
+// Squares have square roots; cubic and fifth roots every residue has, as P - 1 is not divisible by 3 or 5.
+static uint64_t positive_residue(uint64_t x) { return pl_mod_mul(x, x); }
 
 static uint64_t random_symbol(const pl_mod_point* m, const pl_symbol_info* info) {
   uint64_t x = residue(m, OF_SYMBOL, pl_hash_bytes(info->ascii, strlen(info->ascii), 0));
@@ -232,14 +232,6 @@ static void linear_of(pass* v, linear* to, pl_expr e, int depth) {
 }
 
 // ---------------------------------------------------------------------------------------------- angles
-// π/2^k by halving; the cosines are squares, as those of real angles below 90 degrees are positive.
-static pl_rotation rotation_of_pi(const part* x, bool* ok) {
-  int64_t odd = x->den;
-  while (odd % 2 == 0) odd /= 2;
-  if (odd != 1) *ok = false;
-  return pl_rotation_ratio((pl_rotation){PL_MOD_P - 1, 0}, x->num, x->den / odd, ok);
-}
-
 // The rotation of asin(u), acos(u), atan(u), atan2(y, x); false for other atoms.
 static bool rotation_of_inverse(pass* v, pl_expr atom, pl_rotation* out) {
   const pl_pool* p = v->m->p;
@@ -259,22 +251,33 @@ static bool rotation_of_inverse(pass* v, pl_expr atom, pl_rotation* out) {
   return true;
 }
 
+// Divides *den by q as often as it goes, at most n times; the divisions that are left over, as a factor.
+static uint64_t left_over(int64_t* den, int64_t q, int n) {
+  uint64_t factor = 1;
+  for (int i = 0; i < n; i++) {
+    if (*den % q == 0) *den /= q;
+    else factor *= (uint64_t)q;
+  }
+  return factor;
+}
+
+// num/den = multiple/all divisions * num/rest: how many random units go into the fraction, and what is still to be divided.
+static uint64_t units_for(int64_t den, int64_t* rest) {
+  uint64_t n = left_over(&den, 2, DIVISIONS_BY_2) * left_over(&den, 3, DIVISIONS_BY_3) * left_over(&den, 5, DIVISIONS_BY_5);
+  *rest = den;
+  return n;
+}
+
 static pl_rotation rotation_of_part(pass* v, const part* x) {
   pl_rotation r;
-  if (x->n_atoms == 1 && x->atom.id == v->m->p->pi.id) return rotation_of_pi(x, &v->ok);
+  if (x->n_atoms == 1 && x->atom.id == v->m->p->pi.id) return pl_rotation_of_pi(x->num, x->den, &v->ok);
   if (x->n_atoms == 1 && rotation_of_inverse(v, x->atom, &r)) return pl_rotation_ratio(r, x->num, x->den, &v->ok);
-
-  // 2^20 times a random unit, so that the angle can be halved twenty times; odd parts always can be taken
-  r = pl_rotation_from_tangent(residue(v->m, OF_ANGLE, x->key));
-  int bits = ANGLE_BITS;
-  int64_t odd = x->den;
-  for (; odd % 2 == 0 && bits > 0; bits--) odd /= 2;
-  if (odd % 2 == 0) {
-    v->ok = false;
-    return r;
-  }
-  for (int i = 0; i < bits; i++) r = pl_rotation_mul(r, r);
-  return pl_rotation_ratio(r, x->num, odd, &v->ok);
+  int64_t rest;
+  uint64_t n = units_for(x->den, &rest);
+  if (rest % 2 == 0) v->ok = false;
+  if (!v->ok) return pl_rotation_none();
+  r = pl_rotation_pow(pl_rotation_from_tangent(residue(v->m, OF_ANGLE, x->key)), n);
+  return pl_rotation_ratio(r, x->num, rest, &v->ok);
 }
 
 static pl_rotation rotation_of(pass* v, pl_expr angle) {
@@ -288,12 +291,14 @@ static pl_rotation rotation_of(pass* v, pl_expr angle) {
 }
 
 // ---------------------------------------------------------------------------------------------- exponents
-// unit^(num/den), the unit a random residue with all roots that exponent_unit allows
+// unit^(num/den), for a unit that is a random residue
 static uint64_t unit_power(pass* v, uint64_t unit, const part* x) {
-  if (exponent_unit % x->den != 0) v->ok = false;
+  int64_t rest;
+  uint64_t n = units_for(x->den, &rest);
+  if (rest % 2 == 0) v->ok = false;
   if (!v->ok) return 0;
-  uint64_t root = pl_mod_pow_ratio(unit, x->num, 1, &v->ok);
-  return pl_mod_pow(root, (uint64_t)(exponent_unit / x->den));
+  // twice as many, so that the result is a square, as powers are positive
+  return pl_mod_pow_ratio(pl_mod_pow(unit, 2 * n), x->num, rest, &v->ok);
 }
 
 // base^exponent for a symbolic exponent; e^exponent when base is 0 (which has no powers)

@@ -68,6 +68,16 @@ PL_TEST(identities_at_fixed_angles_vanish) {
   pl_expr root = OVER(pl_sqrt(p, pl_add(p, pl_int(p, 2), pl_sqrt(p, pl_int(p, 2)))), 2);
   assert_true(kit_equal(p, COS(OVER(pi, 8)), root, 2));
   assert_true(kit_equal(p, SIN(TIMES(3, OVER(pi, 8))), COS(OVER(pi, 8)), 3));
+  // whole degrees, thirds and fifths of a turn
+  pl_expr degree = OVER(pi, 180), s20 = SIN(TIMES(20, degree));
+  assert_true(kit_equal(p, pl_sub(p, TIMES(3, s20), TIMES(4, pl_pow_int(p, s20, 3))), SIN(TIMES(60, degree)), 4));
+  assert_true(kit_equal(p, COS(OVER(pi, 5)), OVER(pl_add(p, pl_int(p, 1), pl_sqrt(p, pl_int(p, 5))), 4), 5));
+  assert_true(kit_equal(p, pl_call(p, PL_TAN, OVER(pi, 12)), pl_sub(p, pl_int(p, 2), pl_sqrt(p, pl_int(p, 3))), 6));
+  pl_expr x = kit_coordinate(p, "x"), third = OVER(pi, 3);
+  pl_expr phases = pl_add_n(p, (pl_expr[]){COS(x), COS(pl_add(p, x, TIMES(2, third))), COS(pl_sub(p, x, TIMES(2, third)))}, 3);
+  assert_true(kit_vanishes(p, phases, 7, 3));
+  pl_expr nested = pl_sqrt(p, pl_add(p, pl_int(p, 5), TIMES(2, pl_sqrt(p, pl_int(p, 6)))));
+  assert_true(kit_equal(p, nested, pl_add(p, pl_sqrt(p, pl_int(p, 2)), pl_sqrt(p, pl_int(p, 3))), 8));
 }
 
 PL_TEST(identities_of_inverse_functions_vanish) {
@@ -100,6 +110,8 @@ PL_TEST(roots_choose_one_branch) {
   assert_true(kit_equal(p, pl_sqrt(p, SQ(x)), pl_call(p, PL_ABS, x), 3));
   assert_true(kit_equal(p, pl_mul(p, pl_call(p, PL_SIGN, x), pl_call(p, PL_ABS, x)), x, 4));
   assert_true(kit_equal(p, pl_pow(p, pl_mul(p, pl_pow_int(p, m, 3), SQ(m)), pl_ratio(p, 1, 5)), m, 5));
+  pl_expr l = kit_parameter(p, "l", PL_C_LENGTH);
+  assert_true(kit_equal(p, pl_mul(p, pl_sqrt(p, pl_int(p, 3)), pl_sqrt(p, l)), pl_sqrt(p, TIMES(3, l)), 7));
   pl_expr one = pl_call2(p, PL_MAX, x, y), other = pl_call2(p, PL_MIN, x, y);
   assert_true(kit_equal(p, pl_add(p, one, other), pl_add(p, x, y), 6));
 }

@@ -160,9 +160,10 @@ pl_expr pl_expand(pl_pool* p, pl_expr e, int max_terms);
 // Values by symbol id; NaN where unknown.  Result NaN outside the domain.
 double pl_eval(const pl_pool* p, pl_expr e, const double* value_of_symbol);
 
-// Modulo P = 2^61 - 1.  sin and cos through t = tan(x/2) with one residue per angle base, square roots by
-// Tonelli-Shanks.  ok = false when the point is bad (division by zero, no root): take another.
-#define PL_MOD_P 2305843009213693951ull
+// Modulo P, a prime just below 2^61.  sin and cos through t = tan(x/2) with one residue per angle base; of the two square
+// roots always the one that is a square itself, so sqrt(a) sqrt(b) = sqrt(a b).  ok = false when the point is bad
+// (division by zero, no root): take another.  Why this prime: modular.c; what a value tells: evaluate_mod.c.
+#define PL_MOD_P 2305833743229868799ull   // 2^61 - 9265983825153
 typedef struct pl_mod_point pl_mod_point;
 pl_mod_point* pl_mod_point_make(pl_arena* a, const pl_pool* p, uint64_t seed);   // random residues for all symbols
 uint64_t pl_eval_mod(pl_mod_point* m, pl_expr e, bool* ok);

@@ -1,8 +1,14 @@
-// Arithmetic modulo P = 2^61 - 1, roots, and the rotations (c, s) with c^2 + s^2 = 1.
+// Arithmetic modulo P = 2^61 - 9265983825153, roots, and the rotations (c, s) with c^2 + s^2 = 1.
 //
-// P = 3 mod 4, so -1 has no root.  Exactly one of the two roots of a square is a square itself; that one is taken.  So
-// sqrt(a) sqrt(b) = sqrt(a b), and "is a square" behaves like "is positive" in products: sign(a b) = sign(a) sign(b).
-// The rotations form a cyclic group of order P + 1 = 2^61, in which every odd division can be carried out.
+// The prime is chosen so that residues behave like real numbers where formulas need it:
+//   P = 7 mod 8: -1 has no root.  Exactly one of the two roots of a square is a square itself; that one is taken.  So
+//     sqrt(a) sqrt(b) = sqrt(a b), and "is a square" behaves like "is positive" in products: sign(a b) = sign(a) sign(b).
+//   P = -1 mod 57600 = 2^8 3^2 5^2: the rotations form a cyclic group of order P + 1, so it has the angles π/n for all n
+//     that divide 28800, tenths of a degree among them; and 2, 3 and 5 are squares.
+//   The primes up to 31 are squares, and so are the positive ones among the numbers a + b sqrt(d) with d = 2, 3, 5 and
+//     |a| <= 6, |b| <= 3, or d = 6, 7, 10 and |a| <= 5, |b| <= 2, and 1 + sqrt(2) + sqrt(3).  So nested roots such as
+//     sqrt(3 + 2 sqrt(2)) = 1 + sqrt(2) come out right.
+// It is the largest prime below 2^61 of this kind; modular_test.c looks at every point.
 #include "expr/modular.h"
 
 static const uint64_t prime = PL_MOD_P;
@@ -14,9 +20,13 @@ uint64_t pl_mod_add(uint64_t a, uint64_t b) {
 
 uint64_t pl_mod_sub(uint64_t a, uint64_t b) { return a >= b ? a - b : a + prime - b; }
 
+// Barrett: the quotient is estimated by a product and is at most 2 too small.
 uint64_t pl_mod_mul(uint64_t a, uint64_t b) {
+  const uint64_t reciprocal = (uint64_t)(((unsigned __int128)1 << 123) / PL_MOD_P);
   unsigned __int128 x = (unsigned __int128)a * b;
-  uint64_t r = ((uint64_t)x & prime) + (uint64_t)(x >> 61);
+  uint64_t q = (uint64_t)((unsigned __int128)(uint64_t)(x >> 60) * reciprocal >> 63);
+  uint64_t r = (uint64_t)x - q * prime;
+  if (r >= prime) r -= prime;
   return r >= prime ? r - prime : r;
 }
 
@@ -113,12 +123,61 @@ pl_rotation pl_rotation_half(pl_rotation a, bool* ok) {
   return (pl_rotation){c, pl_mod_mul(a.s, pl_mod_inv(pl_mod_add(c, c)))};
 }
 
+// num/den times an angle.  An odd den is divided by in the subgroup whose
+// order is prime to it, where the quotient is unique; an angle outside has no quotient here.
+static pl_rotation odd_ratio(pl_rotation a, int64_t num, int64_t den, bool* ok) {
+  uint64_t m = PL_MOD_P + 1;
+  for (uint64_t g; (g = gcd64(m, (uint64_t)den)) > 1;) m /= g;
+  pl_rotation whole = pl_rotation_pow(a, m);
+  if (den != 1 && (whole.c != 1 || whole.s != 0)) *ok = false;
+  uint64_t n = exponent_modulo(num, m);
+  if (den != 1) n = (uint64_t)((unsigned __int128)n * inverse_modulo((uint64_t)den % m, m) % m);
+  return pl_rotation_pow(a, n);
+}
+
 pl_rotation pl_rotation_ratio(pl_rotation a, int64_t num, int64_t den, bool* ok) {
   while (den % 2 == 0) {
     a = pl_rotation_half(a, ok);
     den /= 2;
   }
-  const uint64_t order = 1ull << 61;
-  uint64_t odd = den == 1 ? 1 : inverse_modulo((uint64_t)den, order);
-  return pl_rotation_pow(a, (exponent_modulo(num, order) * odd) & (order - 1));
+  return odd_ratio(a, num, den, ok);
+}
+
+// ---------------------------------------------------------------------------------------------- parts of a full turn
+// A rotation whose order is exactly q^2, for q = 3 and 5.
+static pl_rotation rotation_of_order_square(uint64_t q) {
+  for (uint64_t t = 2;; t++) {
+    pl_rotation r = pl_rotation_pow(pl_rotation_from_tangent(t), (PL_MOD_P + 1) / (q * q));
+    if (pl_rotation_pow(r, q).c != 1) return r;
+  }
+}
+
+// 1/q^2 of a turn.  Which of the rotations of that order it is, is settled by a q-th of a turn, whose sine and cosine
+// are roots: c = -1/2, s = sqrt(3)/2 for a third; c = (sqrt(5) - 1)/4, s positive for a fifth.
+static pl_rotation part_of_turn(uint64_t q, bool* ok) {
+  pl_rotation r = rotation_of_order_square(q), a = r;
+  uint64_t c = q == 3 ? pl_mod_half(prime - 1) : pl_mod_half(pl_mod_half(pl_mod_sub(pl_mod_sqrt(5, ok), 1)));
+  for (uint64_t k = 1; k < q; k++, a = pl_rotation_mul(a, r)) {
+    pl_rotation qth = pl_rotation_pow(a, q);
+    if (qth.c == c && pl_mod_sign(qth.s) > 0) return a;
+  }
+  *ok = false;
+  return r;
+}
+
+// num/den of a half turn.  With den = 2^k n9 n25:  num/(2 den) = A/2^(k+1) + B/9 + C/25 of a turn.
+pl_rotation pl_rotation_of_pi(int64_t num, int64_t den, bool* ok) {
+  int bits = 0;
+  for (; den % 2 == 0; bits++) den /= 2;
+  if (bits > 7 || 225 % den != 0) *ok = false;
+  if (!*ok) return pl_rotation_none();
+
+  // the whole as a fraction of the denominator 2^(k+1) 225
+  uint64_t two = 2ull << bits, n = exponent_modulo(num, two * (uint64_t)den) * (uint64_t)(225 / den) % (two * 225);
+  pl_rotation small = {PL_MOD_P - 1, 0};   // a half turn, halved k times: 1/2^(k+1) of a turn
+  for (int i = 0; i < bits; i++) small = pl_rotation_half(small, ok);
+  pl_rotation r = pl_rotation_pow(small, n % two * inverse_modulo(225 % two, two) % two);
+  if (n % 9 != 0) r = pl_rotation_mul(r, pl_rotation_pow(part_of_turn(3, ok), n % 9 * inverse_modulo(two * 25 % 9, 9) % 9));
+  if (n % 25 != 0) r = pl_rotation_mul(r, pl_rotation_pow(part_of_turn(5, ok), n % 25 * inverse_modulo(two * 9 % 25, 25) % 25));
+  return r;
 }

@@ -1,4 +1,4 @@
-// Residues modulo 2^61 - 1 and rotations over them; for the files of expr only.
+// Residues modulo PL_MOD_P and rotations over them; for the files of expr only.
 #ifndef PL_EXPR_MODULAR_H
 #define PL_EXPR_MODULAR_H
 
@@ -22,5 +22,6 @@ pl_rotation pl_rotation_pow(pl_rotation a, uint64_t n);
 pl_rotation pl_rotation_from_tangent(uint64_t t);   // t = tan(x/2)
 pl_rotation pl_rotation_half(pl_rotation a, bool* ok);
 pl_rotation pl_rotation_ratio(pl_rotation a, int64_t num, int64_t den, bool* ok);   // num/den times the angle
+pl_rotation pl_rotation_of_pi(int64_t num, int64_t den, bool* ok);                   // num/den times π
 
 #endif

@@ -424,7 +424,7 @@ static double large_double(const large* u) {
 }
 
 double pl_number_double(const pl_pool* p, pl_expr e) {
-  if (!pl_is_number(p, e)) return NAN;
+  if (!pl_is_number(p, e)) return (double)NAN;
   const pl_number* x = pl_number_of(p, e);
   const uint64_t exact = 1ull << 53;
   if (x->limbs == NULL && magnitude(x->num) <= exact && (uint64_t)x->den <= exact) return (double)x->num / (double)x->den;
