@@ -78,13 +78,19 @@ static bool is_implied(const pl_analysis* d, const pl_bond* l) { return l->impli
 
 static void say_kinds(pl_analysis* d) {
   if (d->g.n == 0) return;
+  const char* time[2] = {any(d, is_rheonomic) ? "time-dependent (rheonomic)" : "independent of time (scleronomic)",
+                         any(d, is_rheonomic) ? "zeitabhängig (rheonom)" : "zeitunabhängig (skleronom)"};
+  if (d->g.n == 1) {
+    bool integrable = !any(d, is_nonholonomic);
+    pl_say(d, pl_format(d->arena, "%s, %s", integrable ? "holonomic" : "nonholonomic", time[0]),
+           pl_format(d->arena, "%s, %s", integrable ? "holonom" : "nichtholonom", time[1]), 0);
+    return;
+  }
   bool depend = any(d, is_implied);
   const char* independent[2] = {depend ? "not independent of each other" : "independent of each other",
                                 depend ? "nicht unabhängig voneinander" : "unabhängig voneinander"};
   const char* holonomic[2] = {any(d, is_nonholonomic) ? "not all holonomic" : "all holonomic",
                               any(d, is_nonholonomic) ? "nicht alle holonom" : "alle holonom"};
-  const char* time[2] = {any(d, is_rheonomic) ? "time-dependent (rheonomic)" : "independent of time (scleronomic)",
-                         any(d, is_rheonomic) ? "zeitabhängig (rheonom)" : "zeitunabhängig (skleronom)"};
   pl_say(d, pl_format(d->arena, "%s, %s, %s", holonomic[0], time[0], independent[0]),
          pl_format(d->arena, "%s, %s, %s", holonomic[1], time[1], independent[1]), 0);
 }
@@ -177,10 +183,14 @@ static void say_dropped(pl_analysis* d) {
   }
   n = collect_dropped(d, PL_DROPPED_LOADED, label, second, lambda);
   if (n > 0) {
-    pl_say(d, "{1}: coordinate = constant, so {2}. The coordinate is inserted and dropped; the multiplier remains on offer as "
-              "what its equation leaves: {3}.",
-           "{1}: Koordinate = Konstante, also {2}. Die Koordinate wird eingesetzt und entfällt; der Multiplikator bleibt "
-           "verfügbar als Rest ihrer Gleichung: {3}.",
+    pl_say(d, n == 1 ? "{1}: coordinate = constant, so {2}. The coordinate is inserted and dropped; its own equation still gives the "
+                       "multiplier: {3}."
+                     : "{1}: coordinate = constant, so {2}. The coordinates are inserted and dropped; their own equations still give "
+                       "the multipliers: {3}.",
+           n == 1 ? "{1}: Koordinate = Konstante, also {2}. Die Koordinate wird eingesetzt und entfällt; ihre eigene Gleichung gibt "
+                    "weiterhin den Multiplikator: {3}."
+                  : "{1}: Koordinate = Konstante, also {2}. Die Koordinaten werden eingesetzt und entfallen; ihre eigenen Gleichungen "
+                    "geben weiterhin die Multiplikatoren: {3}.",
            3, pl_flist(d, label, n), pl_flist(d, second, n), pl_flist(d, lambda, n));
   }
   n = collect_dropped(d, PL_DROPPED_DRIVEN, label, second, lambda);

@@ -48,10 +48,17 @@ static bool insert_rows(pl_analysis* d, pl_expr e, pl_expr* out) {
   return n > 0;
 }
 
+// "(1)", "(1) and (2)", "(1), (2) and (4)"
 static const pl_form* refs_form(pl_analysis* d) {
-  const pl_form** f = PL_ARRAY(d->arena, const pl_form*, d->lagrange1_numbers.n + 1);
-  for (int i = 0; i < d->lagrange1_numbers.n; i++) f[i] = pl_fref(d, d->lagrange1_numbers.at[i]);
-  return pl_flist(d, f, d->lagrange1_numbers.n);
+  pl_text words[2] = {pl_text_make(d->arena), pl_text_make(d->arena)};
+  static const char* const last[2] = {" and ", " und "};
+  int n = d->lagrange1_numbers.n;
+  for (int i = 0; i < n; i++) {
+    for (int lang = 0; lang < 2; lang++) {
+      pl_text_addf(&words[lang], "%s(%d)", i == 0 ? "" : i == n - 1 ? last[lang] : ", ", d->lagrange1_numbers.at[i]);
+    }
+  }
+  return pl_form_words(d->arena, pl_text_string(&words[0]), pl_text_string(&words[1]));
 }
 
 // Collects e as sum over the multipliers: "2 g + λ (1/m1 + 1/m2)".

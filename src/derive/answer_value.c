@@ -132,7 +132,7 @@ static void value_where(pl_analysis* d, const pl_ask* ask) {
   int n = pl_alg_roots(d->tower, e, d->q.at[i].q, root, 8, &complete);
   int k = first_met(d, &ask->motion, root, n);
   const pl_form* zero = pl_form_leaf(d->arena, pl_int(d->pool, 0));
-  pl_say(d, "{1} where {2}:", "{1}, wo {2}:", 2, pl_fe(d, ask->value), pl_feq(d, pl_fe(d, c->left), pl_fe(d, c->right)));
+  pl_say(d, "Condition {1}:", "Bedingung {1}:", 1, pl_feq(d, pl_fe(d, c->left), pl_fe(d, c->right)));
   pl_show(d, pl_feq(d, pl_f(d, e, PL_S_QUOTIENT), zero));
   if (k < 0) {
     pl_say(d, complete ? "This never happens on the motion." : "No solution in closed form was found.",

@@ -212,10 +212,22 @@ static const char* fact_text(pl_analysis* d, const pl_fact* f) {
   return pl_notation_print(d->arena, p, pl_frel(d, left, op, right), how);
 }
 
+// A one-sided constraint of the model is no assumption of ours.
+static bool is_contact(pl_analysis* d, const pl_fact* f) {
+  for (int k = 0; k < d->g.n; k++) {
+    const pl_bond* l = &d->g.at[k];
+    bool same = pl_same(f->difference, l->g) || pl_same(f->difference, pl_neg(d->pool, l->g));
+    if (l->contact && !f->strict && same) return true;
+  }
+  return false;
+}
+
 static void list_assumptions(pl_analysis* d) {
   int n = 0;
   const pl_fact* used = pl_tower_used(d->tower, &n);
-  for (int k = 0; k < n; k++) pl_push(d->arena, d->solution->used, fact_text(d, &used[k]));
+  for (int k = 0; k < n; k++) {
+    if (!is_contact(d, &used[k])) pl_push(d->arena, d->solution->used, fact_text(d, &used[k]));
+  }
 }
 
 // ---------------------------------------------------------------------------------------------- the whole
