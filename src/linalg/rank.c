@@ -77,9 +77,13 @@ void pl_qr_least_squares(const double* A, const double* tau, double* b, int m, i
 
 // ---------------------------------------------------------------------------------------------- independent rows
 static double row_length(const double* a, int n) {
-  double most = 0, s = 0;
-  for (int j = 0; j < n; j++) most = fmax(most, fabs(a[j]));
-  if (most == 0 || !(most <= DBL_MAX)) return 0;
+  double s = 0, most = 0;
+  for (int j = 0; j < n; j++) s += a[j] * a[j];
+  if (s > 1e-290 && s < 1e290) return sqrt(s);
+  // squares leave the range: with a scale
+  for (int j = 0; j < n; j++) most = fabs(a[j]) > most ? fabs(a[j]) : most;
+  if (most == 0 || !(most <= DBL_MAX) || isnan(s)) return 0;
+  s = 0;
   for (int j = 0; j < n; j++) s += (a[j] / most) * (a[j] / most);
   return most * sqrt(s);
 }
@@ -131,7 +135,11 @@ int pl_independent_rows(double* A, const int* priority, bool* taken, double* wor
       for (int j = 0; j < n; j++) unit[j] /= length;
       for (int s = 0; s < m; s++) {
         if (taken[s] || work[s] == 0) continue;
+        double before = work[s];
         take_out(A + (size_t)s * n, unit, n);
+        work[s] = row_length(A + (size_t)s * n, n);
+        if (work[s] > 0.5 * before) continue;
+        // much was taken out: what rounding left of it goes too (twice is enough, Parlett 1980)
         take_out(A + (size_t)s * n, unit, n);
         work[s] = row_length(A + (size_t)s * n, n);
       }

@@ -54,8 +54,9 @@ static void scale_columns(pl_run* run, int m) {
   for (int r = 0; r < m; r++) {
     double* row = run->rows + (size_t)r * (size_t)n;
     double most = 0;
-    for (int j = 0; j < n; j++) most = fmax(most, fabs(row[j]));
-    for (int j = 0; j < n && most > 0; j++) run->column[j] = fmax(run->column[j], fabs(row[j]) / most);
+    for (int j = 0; j < n; j++) most = fabs(row[j]) > most ? fabs(row[j]) : most;
+    for (int j = 0; j < n && most > 0; j++)
+      if (fabs(row[j]) > most * run->column[j]) run->column[j] = fabs(row[j]) / most;
   }
   for (int r = 0; r < m; r++)
     for (int j = 0; j < n; j++)
@@ -64,7 +65,7 @@ static void scale_columns(pl_run* run, int m) {
 
 static double row_length(const double* row, int n) {
   double most = 0, sum = 0;
-  for (int j = 0; j < n; j++) most = fmax(most, fabs(row[j]));
+  for (int j = 0; j < n; j++) most = fabs(row[j]) > most ? fabs(row[j]) : most;
   for (int j = 0; j < n && most > 0; j++) sum += (row[j] / most) * (row[j] / most);
   return most * sqrt(sum);
 }
