@@ -346,6 +346,13 @@ static const char* lex_one(lexer* x, const char* YYCURSOR) {
     "=<"              { lex_instead(x, YYCURSOR, TOK_LE, "<="); return YYCURSOR; }
     "<>"              { lex_instead(x, YYCURSOR, TOK_NE, "!="); return YYCURSOR; }
     "**"              { lex_instead(x, YYCURSOR, '^', "^"); return YYCURSOR; }
+    "\ufffd"          {
+                        pl_diagnostic* m = pl_complain(x->job, PL_E009, span_to(x, YYCURSOR), "a character was lost when the file was converted",
+                                                       "ein Zeichen ging beim Umwandeln der Datei verloren");
+                        pl_suggest(x->job, m, NULL, "type it again", "neu eingeben");
+                        emit(x, PL_TOKEN_WRONG, YYCURSOR);
+                        return YYCURSOR;
+                      }
     "\\" [a-zA-Z]+    { lex_command(x, YYCURSOR); return YYCURSOR; }
     [^]               {
                         uint32_t c = 0;
