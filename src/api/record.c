@@ -298,6 +298,7 @@ static void name_links(pl_recorder* r, int i, pl_link* link) {
     out->side = c->relation == PL_GE || c->relation == PL_GT ? 1 : c->relation == PL_LE || c->relation == PL_LT ? -1 : 0;
     out->contact = link_of_label(r, c->while_label);
     out->off = c->off;
+    out->minus = r->model->lambda_minus;
   }
 }
 
@@ -612,9 +613,18 @@ static pleuel_status settle_start_values(pl_recorder* r) {
   return s;
 }
 
+// `convention lambda-minus`: the λ of the text is the negative of the solver's, whose forces are λ ∇g.
+static pl_expr minus_multipliers(pl_recorder* r, pl_expr e) {
+  for (int i = 0; i < r->model->constraints.n; i++) {
+    pl_symbol s = r->model->constraints.at[i].lambda;
+    if (s.id && !r->model->constraints.at[i].block && pl_has_symbol(r->pool, e, s)) e = pl_subst1(r->pool, e, s, pl_neg(r->pool, pl_sym(r->pool, s)));
+  }
+  return e;
+}
+
 // Adds an expression; its place among the outputs is the next.  PLEUEL_UNSUPPORTED when it has no number.
 static pleuel_status watch(pl_recorder* r, pl_watching* w, pl_expr e, int column, const char* what) {
-  pl_expr plain = pl_record_plain(r, with_results(r, e));
+  pl_expr plain = pl_record_plain(r, with_results(r, r->model->lambda_minus ? minus_multipliers(r, e) : e));
   bool known = !pl_is_poison(plain) && !pl_has_role(r->pool, plain, PL_R_LOCAL) && !pl_has_role(r->pool, plain, PL_R_MOMENTUM);
   if (known && (pl_has_role(r->pool, plain, PL_R_START) || pl_has_role(r->pool, plain, PL_R_CONSTANT))) PL_TRY(settle_start_values(r));
   if (known) known = collect_multipliers(r, w, pl_map_make(r->arena), plain);

@@ -129,7 +129,7 @@ void pl_answer_dof(pl_analysis* d, const pl_ask* ask) {
 
 // ---------------------------------------------------------------------------------------------- constraints
 static void say_contact(pl_analysis* d, const pl_bond* l) {
-  bool push = l->source->relation == PL_GE;
+  bool push = (l->source->relation == PL_GE) != d->model->lambda_minus;
   const pl_form* closed = pl_feq(d, pl_fe(d, l->source->left), pl_fe(d, l->source->right));
   const pl_form* lambda = pl_frel(d, pl_fs(d, l->lambda), push ? "≥" : "≤", zero_form(d));
   const pl_form* open = pl_feq(d, pl_fs(d, l->lambda), zero_form(d));

@@ -174,7 +174,8 @@ static pl_expr euler_part(pl_family_pass* f, const pl_contribution* c, pl_expr i
 
 static pl_expr push_part(pl_family_pass* f, const pl_contribution* c, pl_expr i) {
   pl_pool* p = f->d->pool;
-  return shifted(f, c, pl_mul(p, c->motif->lambda, pl_diff_at(p, c->motif->g, c->element)), i);
+  pl_expr slope = pl_diff_at(p, c->motif->g, c->element);
+  return shifted(f, c, pl_mul(p, c->motif->lambda, f->d->model->lambda_minus ? pl_neg(p, slope) : slope), i);
 }
 
 static pl_expr rest_of(pl_analysis* d, pl_expr e) {   // without accelerations
@@ -242,7 +243,9 @@ static bool equations_of(pl_family_pass* f, const pl_coord* c) {
 
 // ---------------------------------------------------------------------------------------------- sections
 static void lagrange1(pl_analysis* d, const pl_ask* ask) {
-  pl_section_open(d, ask, "Lagrange equations of the first kind, with Z = Σ λ ∇g", "Lagrange-Gleichungen erster Art mit Z = Σ λ ∇g");
+  bool minus = d->model->lambda_minus;
+  pl_section_open(d, ask, minus ? "Lagrange equations of the first kind, with Z = -Σ λ ∇g" : "Lagrange equations of the first kind, with Z = Σ λ ∇g",
+                  minus ? "Lagrange-Gleichungen erster Art mit Z = -Σ λ ∇g" : "Lagrange-Gleichungen erster Art mit Z = Σ λ ∇g");
   pl_family_pass f = {.d = d};
   pl_symbol_info info = {.name = "i", .ascii = "i", .role = PL_R_INDEX};
   f.i = pl_symbol_find(d->pool, "i");

@@ -163,8 +163,26 @@ static void plain_value(pl_analysis* d, const pl_ask* ask) {
   pl_answer(d, pl_expr_text(d->arena, d->pool, ask->value), e, form);
 }
 
+// The request as a German title: the words between its formulas, "ϑ bei λ = 0 mit Start ϑ = 0 in Ruhe".
+static const char* german_title(pl_analysis* d, const char* request) {
+  static const char* const word[][2] = {{" where ", " bei "}, {" from ", " mit Start "}, {" and ", " und "}, {" at rest", " in Ruhe"}};
+  pl_text out = pl_text_make(d->arena);
+  while (*request) {
+    size_t n = 0;
+    for (size_t k = 0; k < sizeof word / sizeof *word && n == 0; k++) {
+      if (strncmp(request, word[k][0], strlen(word[k][0])) != 0) continue;
+      pl_text_add(&out, word[k][1]);
+      n = strlen(word[k][0]) - (word[k][0][strlen(word[k][0]) - 1] == ' ');   // the blank may begin the next word
+      if (n < strlen(word[k][0])) out.at[--out.n] = '\0';
+    }
+    if (n == 0) pl_text_add_n(&out, request, n = 1);
+    request += n;
+  }
+  return pl_text_string(&out);
+}
+
 void pl_answer_value(pl_analysis* d, const pl_ask* ask) {
-  pl_section_open(d, ask, ask->text, ask->text);
+  pl_section_open(d, ask, ask->text, german_title(d, ask->text));
   if (ask->where.n > 0) {
     value_where(d, ask);
   } else {

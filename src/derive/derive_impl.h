@@ -24,7 +24,7 @@ typedef struct pl_bond {   // a constraint at work
   bool contact;            // one-sided
   bool velocity;           // contains velocities (linear): nonholonomic
   bool implied;            // says nothing new
-  pl_expr* gradient;       // dg/dq, of a nonholonomic one dg/dv              (n_q), raw
+  pl_expr* gradient;       // dg/dq, of a nonholonomic one dg/dv; negative by `convention lambda-minus`   (n_q), raw
   pl_symbol lambda;
   pl_expr lambda_value;    // solved, on the constraints; poison if not
   bool lambda_known;

@@ -121,7 +121,8 @@ static void add_links(pl_analysis* d) {
                  .lambda = c->lambda};
     l.gradient = PL_ARRAY(d->arena, pl_expr, d->q.n);
     for (int i = 0; i < d->q.n; i++) {
-      l.gradient[i] = pl_diff(d->pool, c->g, l.velocity ? d->q.at[i].v : d->q.at[i].q);
+      pl_expr slope = pl_diff(d->pool, c->g, l.velocity ? d->q.at[i].v : d->q.at[i].q);
+      l.gradient[i] = d->model->lambda_minus ? pl_neg(d->pool, slope) : slope;   // Z = -λ ∇g by `convention lambda-minus`
     }
     pl_push(d->arena, d->g, l);
   }

@@ -33,7 +33,10 @@ void pl_result_flatten(const pl_setup* s, const pl_row* row, double* x) {
   for (int i = 0; i < s->n_q; i++)
     if (!s->coordinates[i].hidden) x[n++] = row->v[i];
   for (int c = 0; c < s->n_c; c++)
-    if (s->links[c].column) x[n++] = row->unique[c] ? row->lambda[c] : (double)NAN;   // no number where none is determined
+    if (s->links[c].column)
+      x[n++] = !row->unique[c]     ? (double)NAN
+               : s->links[c].minus ? -row->lambda[c]
+                                   : row->lambda[c];  // no number where none is determined
   for (int i = 0; i < s->n_out; i++) x[n++] = row->out[i];
 }
 
@@ -55,8 +58,8 @@ void pl_result_columns(pl_arena* a, const pl_setup* s, const pl_result_column** 
 typedef struct filling {
   pl_result* result;
   const pl_setup* setup;
-  const char* last_mode;     // repeated texts are kept once
-  double* spare;             // a row to reuse when rows are not kept
+  const char* last_mode;  // repeated texts are kept once
+  double* spare;          // a row to reuse when rows are not kept
 } filling;
 
 static const char* keep_text(filling* f, const char* mode) {

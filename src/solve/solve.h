@@ -3,8 +3,8 @@
 //     M(q,t) a + h(q,v,t) = (G^T + W) λ,     g(q,t) = 0  (or A(q,t) v + b(q,t) = 0)
 //
 // is integrated as written (index 3) by Taylor series: order k of the series takes one solve with the one
-// factorisation of a step, the constraint entering as G v + dg/dt = 0 at order k+1.  Each step ends with a projection on
-// g = 0 and G v + dg/dt = 0 in the mass metric and a check of the residuals.  M may be singular on coordinates
+// factorisation of a step, the constraint entering as G v + dg/dt = 0 at order k+1.  Each step ends with a projection
+// on g = 0 and G v + dg/dt = 0 in the mass metric and a check of the residuals.  M may be singular on coordinates
 // that carry no mass, constraints may be redundant: each step uses a maximal independent subset by priority.
 //
 // Use:  pl_run_make, then pl_run_start, then pl_run_to_end (or pl_run_step), reading through a sink or pl_run_state.
@@ -32,17 +32,25 @@ typedef struct pl_link {
   const char *column, *unit;          // of its multiplier: "lambda_g1", "N"; column NULL: no column (map equations)
   bool velocity;                      // nonholonomic: only on velocity level
   int side;                           // 0 two-sided; +1: g >= 0, λ >= 0 in contact; -1: g <= 0, λ <= 0
-  int priority;                       // 0 declared, 1 map equations of `choose`; lower is kept when rows depend on each other
-  int contact;                        // `while`: the one-sided constraint it goes with, or -1.  A map equation that holds only in
-                                      // contact is written so too
+  int priority;                       // 0 declared, 1 map equations of `choose`; of dependent rows the lower is kept
+  int contact;                        // `while`: the one-sided constraint it goes with, or -1.  A map equation that holds
+                                      // only in contact is written so too
   bool off;                           // starts inactive; an event may attach it
+  bool minus;                         // its column shows -λ: the sign convention of the model
   double restitution;                 // of impacts on it, 0 inelastic
 } pl_link;
 
 // An output column: sum of the contributions of all observer patterns.
 typedef struct pl_column { const char *name, *unit; } pl_column;
 
-typedef enum pl_deed { PL_DEED_STOP, PL_DEED_RECORD, PL_DEED_RELEASE, PL_DEED_ATTACH, PL_DEED_SET_Q, PL_DEED_SET_V } pl_deed;
+typedef enum pl_deed {
+  PL_DEED_STOP,
+  PL_DEED_RECORD,
+  PL_DEED_RELEASE,
+  PL_DEED_ATTACH,
+  PL_DEED_SET_Q,
+  PL_DEED_SET_V
+} pl_deed;
 typedef struct pl_event_deed {
   pl_deed deed;
   int target;                         // RELEASE, ATTACH: constraint; SET_*: coordinate
@@ -62,7 +70,7 @@ typedef struct pl_event_setup {
 typedef struct pl_branch_setup {
   const char* text;                   // "x2 < x1", for messages
   int output;                         // left - right
-  int relation;                       // +1: > 0 (or >= 0), -1: < 0, 0: = 0 (an extra equation is not made of it; it is checked)
+  int relation;                       // +1: > 0 (or >= 0), -1: < 0, 0: = 0 (checked, not made an equation)
 } pl_branch_setup;
 
 typedef struct pl_setup {
@@ -150,13 +158,13 @@ typedef struct pl_sink {
 // ---------------------------------------------------------------------------------------------- run
 typedef struct pl_run_options {
   double t_0, t_end;                  // s; t_end may lie before t_0 (backwards)
-  double tol;                         // relative local error; 0: what the arithmetic can do.  Too small is raised, see tol_raised
+  double tol;                         // relative local error; 0: what the arithmetic can do, which is the least
   double dt;                          // output grid, s; 0: every step
   long count;                         // output grid with this many intervals; 0: none
   double h_max;                       // longest step, s; 0: none
   long max_steps;                     // 0: none
   pl_sink sink;
-  void (*progress)(void* user, double t, double t_end, double h, const pl_stats* stats);   // after every step; NULL: none
+  void (*progress)(void* user, double t, double t_end, double h, const pl_stats* stats);   // after every step; or NULL
   void* progress_user;
 } pl_run_options;
 
@@ -213,8 +221,8 @@ pleuel_status pl_run_start_at(pl_run* run, double t, const double* q, const doub
 // pl_run_step takes one accepted step, not beyond t_end, with everything that happens in it.
 // Status: PLEUEL_SINGULAR, PLEUEL_NUMERICAL, PLEUEL_INTERRUPTED (job->interrupted), or what the sink returned.
 pleuel_status pl_run_step(pl_run* run);
-// pl_run_to_end steps to t_end, writing rows; end of the sink is called, and begin if it was not.  Calls pl_run_start when
-// that was not done.
+// pl_run_to_end steps to t_end, writing rows; end of the sink is called, and begin if it was not.  Calls pl_run_start
+// when that was not done.
 pleuel_status pl_run_to_end(pl_run* run);
 
 // Reading.  Arrays belong to the run and change with the next step.

@@ -251,5 +251,66 @@ def _(program):
     need(said, "nothing is said about the equilibrium at the top")
 
 
+# ------------------------------------------------------------------------------------------------ beyond the sheet
+@test("crank: small oscillations about the lower equilibrium, omega² = m1 g/((m1 + m2) r)")
+def _(program):
+    a, points = run(program, example("crank.pleuel")), Points(crank_state)
+    v = a.value("omega^2", item="equilibria")
+    # at φ = -90° the slider moves with r φ', so the inertia is (m1 + m2) r², and V'' = m1 g r
+    points.same(v["expr"], lambda p: p["m1"] * p["g"] / ((p["m1"] + p["m2"]) * p["r"]), "omega²")
+    number(v, 9.81 / (3 * 0.1), "omega²")
+
+
+@test("crank: numbers that make r = l contradict the assumption r < l, and that is said")
+def _(program):
+    a = run(program, example("crank.pleuel"), "--set", "l=0.1")
+    need(a.exit_code in (3, 4) and [n for n in a.document["notes"] if n["severity"] == "error"], f"exit {a.exit_code}")
+
+
+@test("crank with r = l: the dead centres that the motion passes are recorded as singular")
+def _(program):
+    a = run(program, "crank_equal.pleuel")
+    events = a.document["simulation"]["events"]
+    # the slider stands at the centre; at φ = -90° the gradients (0, 2 z1, 0) of both constraints are parallel
+    need([e for e in events if e["kind"] == "singular"], f"events: {[e['kind'] for e in events]}")
+
+
+@test("crank: two seconds of motion keep constraints and energy")
+def _(program):
+    s = run(program, example("crank.pleuel")).document["simulation"]
+    need(s["status"] == "ok" and close(s["t_end"], 2.0), f"{s['status']} at {s['t_end']}")
+    need(abs(s["residual_g"]) < 1e-14 and abs(s["energy_drift"]) < 1e-12, f"g {s['residual_g']}, energy {s['energy_drift']}")
+
+
+def simpson(f, a, b, n=4000):
+    h = (b - a) / n
+    return h / 3 * (f(a) + f(b) + sum((4 if k % 2 else 2) * f(a + k * h) for k in range(1, n)))
+
+
+@test("skier from 1 degree: lift-off at acos(2/3 cos 1°), its time, and the landing of the free flight")
+def _(program):
+    a = run(program, example("ski.pleuel"))
+    g, R, start = 9.81, 20.0, math.radians(1)
+    top = math.acos(2 / 3 * math.cos(start))
+
+    # t = ∫ dϑ/ϑ' with ϑ'² = 2 (g/R)(cos ϑ0 - cos ϑ); ϑ = ϑ0 + u² takes the root out of the start
+    def integrand(u):
+        if u == 0:
+            return 2 / math.sqrt(2 * g / R * math.sin(start))
+        return 2 * u / math.sqrt(2 * g / R * 2 * math.sin((2 * start + u * u) / 2) * math.sin(u * u / 2))
+    t_off = simpson(integrand, 0.0, math.sqrt(top - start))
+    w = math.sqrt(2 * g / R * (math.cos(start) - math.cos(top)))
+    x, z, vx, vz = R * math.sin(top), R * math.cos(top), R * w * math.cos(top), -R * w * math.sin(top)
+    t_fall = (vz + math.sqrt(vz * vz + 2 * g * z)) / g
+    events = {e["label"]: e for e in a.document["simulation"]["events"]}
+    need(set(events) == {"h", "ground"}, f"events: {set(events)}")
+    off, down = events["h"], events["ground"]
+    need(off["kind"] == "release" and close(off["state"]["theta"], top, 1e-11), f"lift-off: {off}")
+    need(close(off["t"], t_off, 1e-9), f"lift-off at {off['t']!r} s, expected {t_off!r}")
+    need(close(down["t"], t_off + t_fall, 1e-9), f"landing at {down['t']!r} s, expected {t_off + t_fall!r}")
+    landing = down["state"]["r"] * math.sin(down["state"]["theta"])
+    need(close(landing, x + vx * t_fall, 1e-9), f"landing at x = {landing!r}, expected {x + vx * t_fall!r}")
+
+
 if __name__ == "__main__":
     sys.exit(test.main(program_of(sys.argv)))

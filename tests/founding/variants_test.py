@@ -108,6 +108,21 @@ def _(program):
     checks_pass(a)
 
 
+@test("convention lambda-minus: λ changes its sign, forces and motion do not")
+def _(program):
+    a = run(program, "atwood_minus.pleuel")
+    points = Points(lambda rng: some(rng, "m1", "m2", "g", "l", "x1_0", "x1_dot_0", "t"))
+
+    def tension(p):
+        return 2 * p["g"] * p["m1"] * p["m2"] / (p["m1"] + p["m2"])
+    points.same(a.value("lambda_g1", key="c")["expr"], tension, "lambda")
+    number(a.value("lambda_g1", key="c"), 23.544, "lambda")
+    points.same(component(a.value(key="e", item="force of g1", on="m1"), "e_x"), lambda p: -tension(p), "Z on m1")
+    points.same(a.value("x1", key="d")["expr"], lambda p: p["x1_0"] + p["x1_dot_0"] * p["t"] +
+                (p["m1"] - p["m2"]) / (p["m1"] + p["m2"]) * p["g"] * p["t"] ** 2 / 2, "x1(t)", scale=lambda p: p["g"])
+    checks_pass(a)
+
+
 # ------------------------------------------------------------------------------------------------ skier
 def dome_state(rng):
     p = some(rng, "mu", "a", "g") | {"v0": rng.uniform(0, 0.5), "beta": rng.uniform(0, 0.7)}
