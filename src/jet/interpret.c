@@ -48,7 +48,8 @@ INLINE void derivative_sum(double* restrict s, const double* a, const double* b,
 
 INLINE void power_sum(double* restrict s, const double* a, const double* c, const double* r, int k, int lanes) {
   double sum[8] = {0};
-  for (int j = 1; j < k; j++) LANES sum[l] += (r[l] * (double)j - (double)(k - j)) * a[j * lanes + l] * c[(k - j) * lanes + l];
+  for (int j = 1; j < k; j++)
+    LANES sum[l] += (r[l] * (double)j - (double)(k - j)) * a[j * lanes + l] * c[(k - j) * lanes + l];
   LANES s[l] = sum[l] / (double)k;
 }
 

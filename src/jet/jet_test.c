@@ -32,7 +32,8 @@ static bench* bench_open(void) {
   const char* name[] = {"x", "y", "a"};
   pl_expr* at[] = {&b->x, &b->y, &b->a};
   for (int i = 0; i < 3; i++) {
-    pl_symbol_info info = {.name = name[i], .ascii = name[i], .role = i < 2 ? PL_R_COORD : PL_R_PARAM, .dimension = pl_dimension_one()};
+    pl_symbol_info info = {
+        .name = name[i], .ascii = name[i], .role = i < 2 ? PL_R_COORD : PL_R_PARAM, .dimension = pl_dimension_one()};
     *at[i] = pl_sym(b->pool, pl_symbol_make(b->pool, &info));
   }
   b->value[pl_symbol_of(b->pool, b->a).id] = 0.7;
@@ -67,7 +68,8 @@ static void series_of(bench* b, pl_expr e, const double* x, const double* y, dou
 static void check_series(const char* what, const double* got, const double* expect, int n) {
   for (int k = 0; k < n; k++) {
     double size = fmax(fabs(expect[k]), 1e-3);
-    if (!(fabs(got[k] - expect[k]) <= 4e-15 * (k + 4) * size)) print_message("# %s, order %d: %.17g, expected %.17g\n", what, k, got[k], expect[k]);
+    if (!(fabs(got[k] - expect[k]) <= 4e-15 * (k + 4) * size))
+      print_message("# %s, order %d: %.17g, expected %.17g\n", what, k, got[k], expect[k]);
     assert_true(fabs(got[k] - expect[k]) <= 4e-15 * (k + 4) * size);
   }
 }
@@ -131,7 +133,8 @@ static void check_identity(bench* b, const char* what, pl_expr left, pl_expr rig
     double size = 0;
     for (int k = 0; k < ORDERS; k++) size = fmax(size, fabs(l[k]));
     for (int k = 0; k < ORDERS; k++) {
-      if (!(fabs(l[k] - rr[k]) <= 1e-11 * size + 1e-13)) print_message("# %s, seed %llu, order %d: %.17g and %.17g\n", what, (unsigned long long)seed, k, l[k], rr[k]);
+      if (!(fabs(l[k] - rr[k]) <= 1e-11 * size + 1e-13))
+        print_message("# %s, seed %llu, order %d: %.17g and %.17g\n", what, (unsigned long long)seed, k, l[k], rr[k]);
       assert_true(fabs(l[k] - rr[k]) <= 1e-11 * size + 1e-13);
     }
   }
@@ -143,7 +146,10 @@ static void series_obey_identities_along_random_paths(void** state) {
   pl_pool* p = b->pool;
   pl_expr x = b->x, y = b->y, one = pl_int(p, 1);
   pl_expr r2 = pl_add(p, pl_square(p, x), pl_square(p, y));
-  check_identity(b, "sin^2 + cos^2", pl_add(p, pl_square(p, pl_call(p, PL_SIN, pl_mul(p, x, y))), pl_square(p, pl_call(p, PL_COS, pl_mul(p, x, y)))), one, 1, 2);
+  check_identity(
+      b, "sin^2 + cos^2",
+      pl_add(p, pl_square(p, pl_call(p, PL_SIN, pl_mul(p, x, y))), pl_square(p, pl_call(p, PL_COS, pl_mul(p, x, y)))),
+      one, 1, 2);
   check_identity(b, "tan", pl_call(p, PL_TAN, x), pl_div(p, pl_call(p, PL_SIN, x), pl_call(p, PL_COS, x)), 0.7, 0);
   check_identity(b, "tanh", pl_call(p, PL_TANH, x), pl_div(p, pl_call(p, PL_SINH, x), pl_call(p, PL_COSH, x)), 0.7, 0);
   check_identity(b, "asin", pl_call(p, PL_SIN, pl_call(p, PL_ASIN, x)), x, 0.2, 0);
@@ -151,16 +157,23 @@ static void series_obey_identities_along_random_paths(void** state) {
   check_identity(b, "atan", pl_call(p, PL_TAN, pl_call(p, PL_ATAN, x)), x, 0.4, 0);
   check_identity(b, "atan2", pl_call(p, PL_TAN, pl_call2(p, PL_ATAN2, y, x)), pl_div(p, y, x), 2, 1);
   check_identity(b, "exp ln", pl_call(p, PL_EXP, pl_call(p, PL_LN, r2)), r2, 2, 1);
-  check_identity(b, "sqrt", pl_square(p, pl_add(p, one, pl_sqrt(p, r2))), pl_add(p, pl_add(p, one, r2), pl_mul(p, pl_int(p, 2), pl_sqrt(p, r2))), 2, 1);
+  check_identity(b, "sqrt", pl_square(p, pl_add(p, one, pl_sqrt(p, r2))),
+                 pl_add(p, pl_add(p, one, r2), pl_mul(p, pl_int(p, 2), pl_sqrt(p, r2))), 2, 1);
   check_identity(b, "powers", pl_pow(p, r2, pl_ratio(p, -3, 2)), pl_div(p, one, pl_mul(p, r2, pl_sqrt(p, r2))), 2, 1);
-  check_identity(b, "power of parameter", pl_pow(p, x, b->a), pl_call(p, PL_EXP, pl_mul(p, b->a, pl_call(p, PL_LN, x))), 2, 1);
+  check_identity(b, "power of parameter", pl_pow(p, x, b->a), pl_call(p, PL_EXP, pl_mul(p, b->a, pl_call(p, PL_LN, x))),
+                 2, 1);
   check_identity(b, "power of variable", pl_pow(p, x, y), pl_call(p, PL_EXP, pl_mul(p, y, pl_call(p, PL_LN, x))), 2, 1);
-  check_identity(b, "product", pl_expand(p, pl_mul(p, pl_add(p, x, y), pl_sub(p, x, y)), 10), pl_sub(p, pl_square(p, x), pl_square(p, y)), 2, 1);
-  check_identity(b, "seventh power", pl_pow_int(p, pl_add(p, x, y), 7), pl_mul(p, pl_pow_int(p, pl_add(p, x, y), 3), pl_square(p, pl_square(p, pl_add(p, x, y)))), 0.2, 0.3);
+  check_identity(b, "product", pl_expand(p, pl_mul(p, pl_add(p, x, y), pl_sub(p, x, y)), 10),
+                 pl_sub(p, pl_square(p, x), pl_square(p, y)), 2, 1);
+  check_identity(b, "seventh power", pl_pow_int(p, pl_add(p, x, y), 7),
+                 pl_mul(p, pl_pow_int(p, pl_add(p, x, y), 3), pl_square(p, pl_square(p, pl_add(p, x, y)))), 0.2, 0.3);
   check_identity(b, "abs", pl_call(p, PL_ABS, x), pl_neg(p, x), -2, 0);
   check_identity(b, "min, max", pl_add(p, pl_call2(p, PL_MIN, x, y), pl_call2(p, PL_MAX, x, y)), pl_add(p, x, y), 2, 1);
   check_identity(b, "if", pl_if(p, pl_sub(p, x, y), pl_square(p, x), y), pl_square(p, x), 2, 1);
-  check_identity(b, "time", pl_square(p, pl_add(p, b->t, x)), pl_add_n(p, (pl_expr[]){pl_square(p, b->t), pl_square(p, x), pl_mul(p, pl_int(p, 2), pl_mul(p, b->t, x))}, 3), 2, 1);
+  check_identity(
+      b, "time", pl_square(p, pl_add(p, b->t, x)),
+      pl_add_n(p, (pl_expr[]){pl_square(p, b->t), pl_square(p, x), pl_mul(p, pl_int(p, 2), pl_mul(p, b->t, x))}, 3), 2,
+      1);
   pl_arena_free(b->arena);
 }
 
@@ -170,7 +183,8 @@ static void the_sum_of_a_series_is_the_value_along_the_path(void** state) {
   (void)state;
   bench* b = bench_open();
   pl_pool* p = b->pool;
-  pl_expr e = pl_div(p, pl_call(p, PL_SIN, pl_mul(p, b->a, b->x)), pl_add(p, pl_sqrt(p, pl_add(p, pl_int(p, 2), pl_square(p, b->y))), pl_call(p, PL_EXP, b->x)));
+  pl_expr e = pl_div(p, pl_call(p, PL_SIN, pl_mul(p, b->a, b->x)),
+                     pl_add(p, pl_sqrt(p, pl_add(p, pl_int(p, 2), pl_square(p, b->y))), pl_call(p, PL_EXP, b->x)));
   for (uint64_t seed = 1; seed <= 20; seed++) {
     pl_random r = {seed};
     double x[ORDERS], y[ORDERS], s[ORDERS], h = 0.02;
@@ -182,7 +196,8 @@ static void the_sum_of_a_series_is_the_value_along_the_path(void** state) {
     b->value[pl_symbol_of(p, b->x).id] = xs;
     b->value[pl_symbol_of(p, b->y).id] = ys;
     double direct = pl_eval(p, e, b->value);
-    if (!(fabs(sum - direct) < 1e-15)) print_message("# seed %llu: %.17g and %.17g\n", (unsigned long long)seed, sum, direct);
+    if (!(fabs(sum - direct) < 1e-15))
+      print_message("# seed %llu: %.17g and %.17g\n", (unsigned long long)seed, sum, direct);
     assert_true(fabs(sum - direct) < 1e-15);
   }
   pl_arena_free(b->arena);

@@ -12,7 +12,7 @@ static double row_scale(const double* A, int i, int n) {
   double most = 0;
   for (int j = 0; j < n; j++) {
     double x = fabs(A[i + (size_t)j * n]);
-    if (!(x <= DBL_MAX)) return 0;      // NaN or infinite
+    if (!(x <= DBL_MAX)) return 0;  // NaN or infinite
     if (x > most) most = x;
   }
   if (most == 0) return 0;
@@ -93,8 +93,8 @@ void pl_lu_solve(const double* LU, const int* p, const double* scale, double* b,
 // ---------------------------------------------------------------------------------------------- LDL^T
 #define AT(i, j) A[(size_t)(i) + (size_t)(j) * (size_t)n]
 
-// Swaps rows and columns r < s of the trailing symmetric matrix from k on.  L to the left of it stays: the solve swaps as it
-// goes.
+// Swaps rows and columns r < s of the trailing symmetric matrix from k on.  L to the left of it stays: the solve swaps
+// as it goes.
 static void swap_symmetric(double* A, int n, int k, int r, int s) {
   if (r == s) return;
   for (int j = k; j < r; j++) {
@@ -138,7 +138,7 @@ static double largest_in_row(const double* A, int n, int k, int r) {
 
 // Which pivot Bunch and Kaufman take at k: size 1 or 2, and the row that comes to its place.
 static int choose_pivot(const double* A, int n, int k, int* row) {
-  static const double alpha = 0.6403882032022076;   // (1 + sqrt 17)/8 bounds the growth
+  static const double alpha = 0.6403882032022076;  // (1 + sqrt 17)/8 bounds the growth
   int r;
   double lambda = largest_below(A, n, k, &r), d = fabs(AT(k, k));
   *row = k;
@@ -164,7 +164,7 @@ static double eliminate_two(double* A, int n, int k) {
     double x = AT(j, k), y = AT(j, k + 1);
     double l = (c * x - b * y) / det, m = (a * y - b * x) / det;
     for (int i = j; i < n; i++) AT(i, j) -= AT(i, k) * l + AT(i, k + 1) * m;
-    AT(j, k) = l;                     // row j of L; columns left of j are no longer read as A
+    AT(j, k) = l;  // row j of L; columns left of j are no longer read as A
     AT(j, k + 1) = m;
   }
   return det;

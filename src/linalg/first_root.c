@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { DEEPEST = 60 };   // cuts: the interval is then a rounding error wide
+enum { DEEPEST = 60 };  // cuts: the interval is then a rounding error wide
 
 // b_j = sum_{i<=j} C(j,i)/C(n,i) c_i, built row by row: scaled coefficients c_i / C(n,i), then n rounds of sums.
 static void to_bernstein(const double* c, int n, double* b) {
@@ -107,7 +107,7 @@ double pl_first_root(const double* c, int n, int direction, double* work) {
   // a stack of intervals, the leftmost on top; each level holds one waiting right half
   double lo[DEEPEST + 2], hi[DEEPEST + 2];
   int depth[DEEPEST + 2], top = 0;
-  double* at = work;                       // coefficients of stack entry k at at + k (n+1)
+  double* at = work;  // coefficients of stack entry k at at + k (n+1)
   size_t width = (size_t)n + 1;
   to_bernstein(c, n, at);
   lo[0] = 0;
@@ -135,7 +135,7 @@ double pl_first_root(const double* c, int n, int direction, double* work) {
       continue;
     }
     double x = cut_fraction(&s, lo[top], hi[top]), mid = lo[top] + x * (hi[top] - lo[top]);
-    cut(b, b + width, n, x);               // the left part goes on top
+    cut(b, b + width, n, x);  // the left part goes on top
     lo[top + 1] = lo[top];
     hi[top + 1] = mid;
     lo[top] = mid;

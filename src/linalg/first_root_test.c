@@ -48,7 +48,7 @@ static void a_root_at_the_start_does_not_count_and_one_at_the_end_does(void** st
 
 static void direction_chooses_the_crossing(void** state) {
   (void)state;
-  double r[] = {0.25, 0.5, 0.75};   // negative before 0.25, rises there, falls at 0.5
+  double r[] = {0.25, 0.5, 0.75};  // negative before 0.25, rises there, falls at 0.5
   assert_true(fabs(first(r, 3, 1) - 0.25) < 1e-15);
   assert_true(fabs(first(r, 3, -1) - 0.5) < 1e-15);
 }
@@ -85,7 +85,8 @@ static void random_polynomials_give_their_least_root(void** state) {
       if (r[i] != least) nearest = fmin(nearest, fabs(r[i] - least));
     // close roots lose digits as the polynomial itself does
     double limit = 1e-12 / pow(fmin(nearest, 1), 3);
-    if (!(fabs(found - expect) <= limit)) print_message("# seed %llu: %.17g, expected %.17g\n", (unsigned long long)seed, found, expect);
+    if (!(fabs(found - expect) <= limit))
+      print_message("# seed %llu: %.17g, expected %.17g\n", (unsigned long long)seed, found, expect);
     assert_true(fabs(found - expect) <= limit);
   }
 }

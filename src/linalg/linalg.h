@@ -24,9 +24,10 @@ void pl_qr_apply_qt(const double* A, const double* tau, double* b, int m, int k)
 // Least squares with a QR of rank k: b (m) becomes Q^T b with the solution in its first k entries, in order of jpvt.
 void pl_qr_least_squares(const double* A, const double* tau, double* b, int m, int k);
 
-// Maximal independent subset of the rows of A (m x n, row-major here: row r at A + r * n; overwritten).  Rows are scaled
-// to length 1, then taken by priority (lower first) and, within one priority, by what is left of them after
-// projection on those taken (modified Gram-Schmidt, twice).  taken[r] is set; a row is left out when less than rel of it is left.
+// Maximal independent subset of the rows of A (m x n, row-major here: row r at A + r * n; overwritten).  Rows are
+// scaled to length 1, then taken by priority (lower first) and, within one priority, by what is left of them after
+// projection on those taken (modified Gram-Schmidt, twice).  taken[r] is set; a row is left out when less than rel of
+// it is left.
 // *smallest: the smallest remainder among rows taken (1 if none).  Returns the number taken.  work (m).
 int pl_independent_rows(double* A, const int* priority, bool* taken, double* work, int m, int n, double rel,
                         double* smallest);
@@ -47,8 +48,8 @@ double pl_sparse_rcond(pl_sparse* s);                // cheap estimate of the pi
 // ---------------------------------------------------------------------------------------------- roots
 // Earliest root in (0, 1] of a polynomial c_0 + c_1 x + ... + c_n x^n; work has room for PL_ROOT_WORK(n).
 // direction: +1 only crossings from below, -1 from above, 0 both (a touching root counts only for 0).
-// Isolation by Bernstein coefficients and Descartes' rule (Collins and Akritas 1976, Lane and Riesenfeld 1981), then Newton
-// with bisection.  Returns -1 when there is none.
+// Isolation by Bernstein coefficients and Descartes' rule (Collins and Akritas 1976, Lane and Riesenfeld 1981), then
+// Newton with bisection.  Returns -1 when there is none.
 #define PL_ROOT_WORK(n) (64 * ((size_t)(n) + 1))
 double pl_first_root(const double* c, int n, int direction, double* work);
 

@@ -125,7 +125,8 @@ int pl_independent_rows(double* A, const int* priority, bool* taken, double* wor
     work[r] = length > 0 ? 1 : 0;
     for (int j = 0; j < n && length > 0; j++) a[j] /= length;
   }
-  for (int level = next_priority(priority, m, INT32_MIN); level != INT32_MAX; level = next_priority(priority, m, level)) {
+  for (int level = next_priority(priority, m, INT32_MIN); level != INT32_MAX;
+       level = next_priority(priority, m, level)) {
     for (int r; (r = most_left(A, priority, taken, work, m, level, rel)) >= 0;) {
       double* unit = A + (size_t)r * n;
       taken[r] = true;

@@ -13,11 +13,11 @@
 
 struct pl_sparse {
   int n;
-  int *start, *row;      // KLU takes them without const
+  int *start, *row;  // KLU takes them without const
   klu_common common;
   klu_symbolic* symbolic;
   klu_numeric* numeric;
-  double* value;         // KLU takes it without const  (start[n])
+  double* value;  // KLU takes it without const  (start[n])
 };
 
 // Pivots kept from an earlier factorisation are good while the growth stays above this.
@@ -33,7 +33,7 @@ pl_sparse* pl_sparse_make(pl_arena* a, int n, const int* start, const int* row) 
   for (int j = 0; j <= n; j++) s->start[j] = start[j];
   for (int k = 0; k < n_entries; k++) s->row[k] = row[k];
   klu_defaults(&s->common);
-  s->common.scale = 2;                 // rows by their largest entry
+  s->common.scale = 2;  // rows by their largest entry
   s->symbolic = klu_analyze(n, s->start, s->row, &s->common);
   if (s->symbolic == NULL) return NULL;
   if (s->symbolic->structural_rank >= 0 && s->symbolic->structural_rank < n) {
@@ -67,9 +67,7 @@ bool pl_sparse_factor(pl_sparse* s, const double* value) {
   return s->numeric != NULL && s->common.status == KLU_OK;
 }
 
-void pl_sparse_solve(pl_sparse* s, double* b) {
-  klu_solve(s->symbolic, s->numeric, s->n, 1, b, &s->common);
-}
+void pl_sparse_solve(pl_sparse* s, double* b) { klu_solve(s->symbolic, s->numeric, s->n, 1, b, &s->common); }
 
 double pl_sparse_rcond(pl_sparse* s) {
   if (!s->numeric || !klu_rcond(s->symbolic, s->numeric, &s->common)) return 0;

@@ -41,8 +41,8 @@ pl_sink pl_result_sink(pl_result* r);
 int pl_result_find(const pl_result* r, const char* name);            // column, -1 if absent
 double pl_result_last(const pl_result* r, const char* name);         // NaN if absent
 
-// CSV: header `name [unit]`, comma, LF, shortest decimal that reads back to the same double.  A run that did not reach its end
-// leaves a last line "# incomplete: ...".
+// CSV: header `name [unit]`, comma, LF, shortest decimal that reads back to the same double; nan where a multiplier is
+// not determined.  A run that did not reach its end leaves a last line "# incomplete: ...".
 // pl_csv_sink writes rows as they come.  The file stays open; the caller checks ferror and closes it.
 pl_sink pl_csv_sink(pl_arena* a, FILE* file);
 pleuel_status pl_result_write_csv(const pl_result* r, FILE* file);

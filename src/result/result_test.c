@@ -37,7 +37,8 @@ static t_bench* bead(void) {
   b->link[c].side = 1;
   b->link[c].column = "lambda";
   b->link[c].unit = "N";
-  pl_expr T = pl_mul(b->pool, pl_ratio(b->pool, 1, 2), pl_add(b->pool, pl_square(b->pool, b->v[0]), pl_square(b->pool, b->v[1])));
+  pl_expr T = pl_mul(b->pool, pl_ratio(b->pool, 1, 2),
+                     pl_add(b->pool, pl_square(b->pool, b->v[0]), pl_square(b->pool, b->v[1])));
   t_start(b, 0, 0, 2);
   t_start(b, 1, 0, 0);
   t_output(b, "twice", pl_mul(b->pool, pl_int(b->pool, 2), x));
@@ -93,7 +94,10 @@ static void csv_has_header_rows_and_quotes_where_needed(void** state) {
   slurp(one, streamed, sizeof streamed);
   slurp(two, written, sizeof written);
   assert_string_equal(streamed, written);
-  assert_int_equal(strncmp(streamed, "t [s],x [m],y,x_dot [m/s],y_dot,lambda [N],twice,mode\n0,0,0,2,0,10,0,\"contact(table, oak)\"\n", 80), 0);
+  assert_int_equal(
+      strncmp(streamed,
+              "t [s],x [m],y,x_dot [m/s],y_dot,lambda [N],twice,mode\n0,0,0,2,0,10,0,\"contact(table, oak)\"\n", 80),
+      0);
   assert_null(strstr(streamed, "incomplete"));
   fclose(one);
   fclose(two);

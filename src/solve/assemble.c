@@ -44,7 +44,8 @@ static void add_force_directions(pl_run* run, const pl_batch* b) {
   for (int e = 0; e < b->pattern->n_W; e++) {
     const pl_pattern_entry* w = &b->pattern->W[e];
     const double* x = coefficient(b, node_of(b, w->root), 0);
-    LANES(b) if (run->taken[b->c[w->col * b->lanes + l]]) run->kkt.value[b->at_W[e * b->lanes + l]] += x[l];
+    LANES(b)
+      if (run->taken[b->c[w->col * b->lanes + l]]) run->kkt.value[b->at_W[e * b->lanes + l]] += x[l];
   }
 }
 
@@ -57,7 +58,7 @@ void pl_assemble_matrix(pl_run* run, bool with_W) {
     if (with_W) add_force_directions(run, &run->motion.at[i]);
   }
   for (int i = 0; i < run->n_q; i++)
-    if (run->place_n[i] == 0) k->value[k->diagonal[i]] = 1;   // nothing determines it: it rests
+    if (run->place_n[i] == 0) k->value[k->diagonal[i]] = 1;  // nothing determines it: it rests
   for (int c = 0; c < run->n_c; c++)
     if (!run->taken[c]) k->value[k->diagonal[run->n_q + c]] = 1;
 }
@@ -104,10 +105,10 @@ static void clear(double* x, int n) {
   for (int i = 0; i < n; i++) x[i] = 0;
 }
 
-// Adds what rounding of the coordinates themselves does to g, |dg/dq| |q|, which the terms need not show (r cos φ after many
-// turns).  |q| is the largest that the coordinate has been, with a floor where it never moved.
+// Adds what rounding of the coordinates themselves does to g, |dg/dq| |q|, which the terms need not show (r cos φ after
+// many turns).  |q| is the largest that the coordinate has been, with a floor where it never moved.
 static void add_coordinate_sizes(const pl_run* run, double* size) {
-  static const double part = 1e-6;   // of the largest coordinate of all
+  static const double part = 1e-6;  // of the largest coordinate of all
   for (int i = 0; i < run->motion.n; i++) {
     const pl_batch* b = &run->motion.at[i];
     for (int e = 0; e < b->pattern->n_G; e++) {
@@ -173,7 +174,8 @@ void pl_assemble_gdot(pl_run* run, double* r, double* size) {
 
 // ---------------------------------------------------------------------------------------------- right-hand side
 // s = sum_{j=1..k} x_j y_{k-j} in every lane; x from the jet, y a series of a slot.
-static inline __attribute__((always_inline)) void tail_lanes(double* s, const double* x, const double* y, int k, int lanes) {
+static inline __attribute__((always_inline)) void tail_lanes(double* s, const double* x, const double* y, int k,
+                                                             int lanes) {
   for (int l = 0; l < lanes; l++) s[l] = 0;
   for (int j = 1; j <= k; j++)
     for (int l = 0; l < lanes; l++) s[l] += x[j * lanes + l] * y[(k - j) * lanes + l];
@@ -223,14 +225,16 @@ static void add_force_tail(const pl_run* run, const pl_batch* b, int k, double* 
     int node = node_of(b, g->root);
     if (is_constant(b, node)) continue;
     tail(s, coefficient(b, node, 0), slot_series(b, b->lambda, g->row), k, b->lanes);
-    LANES(b) if (run->taken[b->c[g->row * b->lanes + l]]) rhs[b->q[g->col * b->lanes + l]] += s[l];
+    LANES(b)
+      if (run->taken[b->c[g->row * b->lanes + l]]) rhs[b->q[g->col * b->lanes + l]] += s[l];
   }
   for (int e = 0; e < b->pattern->n_W; e++) {
     const pl_pattern_entry* w = &b->pattern->W[e];
     int node = node_of(b, w->root);
     if (is_constant(b, node)) continue;
     tail(s, coefficient(b, node, 0), slot_series(b, b->lambda, w->col), k, b->lanes);
-    LANES(b) if (run->taken[b->c[w->col * b->lanes + l]]) rhs[b->q[w->row * b->lanes + l]] += s[l];
+    LANES(b)
+      if (run->taken[b->c[w->col * b->lanes + l]]) rhs[b->q[w->row * b->lanes + l]] += s[l];
   }
 }
 

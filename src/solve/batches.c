@@ -1,12 +1,13 @@
-// Instances of patterns, side by side in lanes.  A batch carries the series of its own slots, so that the terminal products
-// (M a, G^T λ, G v) run lane by lane without looking at global arrays.
+// Instances of patterns, side by side in lanes.  A batch carries the series of its own slots, so that the terminal
+// products (M a, G^T λ, G v) run lane by lane without looking at global arrays.
 #include "solve/solve_impl.h"
 
 // Copies indices of instances first .. first+n-1 into lanes; unused lanes repeat the last one.
 static int* spread(pl_arena* a, const int* index, int slots, int first, int n, int lanes) {
   int* to = PL_ARRAY(a, int, (size_t)slots * (size_t)lanes + 1);
   for (int s = 0; s < slots; s++)
-    for (int l = 0; l < lanes; l++) to[s * lanes + l] = index[(size_t)(first + (l < n ? l : n - 1)) * (size_t)slots + (size_t)s];
+    for (int l = 0; l < lanes; l++)
+      to[s * lanes + l] = index[(size_t)(first + (l < n ? l : n - 1)) * (size_t)slots + (size_t)s];
   return to;
 }
 
@@ -41,19 +42,22 @@ static bool in_range(const int* index, size_t n, int limit) {
 static pleuel_status check(pl_job* job, const pl_pattern* p, int n_q, int n_c, int n_out) {
   if (p->n < 0 || p->tape == NULL) return pl_fail(job, PLEUEL_USAGE, "a pattern has no instances or no program");
   size_t n = (size_t)p->n;
-  if (!in_range(p->q, n * (size_t)p->n_q, n_q)) return pl_fail(job, PLEUEL_USAGE, "a pattern names a coordinate that does not exist");
-  if (!in_range(p->c, n * (size_t)p->n_c, n_c)) return pl_fail(job, PLEUEL_USAGE, "a pattern names a constraint that does not exist");
+  if (!in_range(p->q, n * (size_t)p->n_q, n_q))
+    return pl_fail(job, PLEUEL_USAGE, "a pattern names a coordinate that does not exist");
+  if (!in_range(p->c, n * (size_t)p->n_c, n_c))
+    return pl_fail(job, PLEUEL_USAGE, "a pattern names a constraint that does not exist");
   if (!in_range(p->out, n * (size_t)p->n_outputs, n_out))
     return pl_fail(job, PLEUEL_USAGE, "a pattern names an output that does not exist");
-  if (p->n_index > 0 && p->n > 0 && p->index == NULL) return pl_fail(job, PLEUEL_USAGE, "a pattern lacks the values of its indices");
+  if (p->n_index > 0 && p->n > 0 && p->index == NULL)
+    return pl_fail(job, PLEUEL_USAGE, "a pattern lacks the values of its indices");
   return PLEUEL_OK;
 }
 
 static int lanes_for(int n) { return n > 1 ? PL_FAMILY_LANES : 1; }
 static int batches_for(int n) { return (n + lanes_for(n) - 1) / lanes_for(n); }
 
-pleuel_status pl_batches_make(pl_job* job, pl_batches* b, const pl_pattern* patterns, int n, int orders, int n_q, int n_c,
-                              int n_out) {
+pleuel_status pl_batches_make(pl_job* job, pl_batches* b, const pl_pattern* patterns, int n, int orders, int n_q,
+                              int n_c, int n_out) {
   int count = 0;
   for (int i = 0; i < n; i++) {
     PL_TRY(check(job, &patterns[i], n_q, n_c, n_out));
@@ -115,7 +119,8 @@ void pl_batches_load_lambda(pl_batches* bs, const double* lambda, int k) {
   for (int i = 0; i < bs->n; i++) {
     const pl_batch* b = &bs->at[i];
     for (int s = 0; s < b->pattern->n_c; s++) {
-      gather(b->lambda + ((size_t)s * (size_t)b->orders + (size_t)k) * (size_t)b->lanes, lambda, b->c + s * b->lanes, b->lanes);
+      gather(b->lambda + ((size_t)s * (size_t)b->orders + (size_t)k) * (size_t)b->lanes, lambda, b->c + s * b->lanes,
+             b->lanes);
       into_jet(b, b->pattern->tape->lambda_node[s], k, lambda, b->c + s * b->lanes);
     }
   }

@@ -25,7 +25,10 @@ static t_bench* ski(double angle, double t_end) {
   return b;
 }
 
-typedef struct seen { double theta, t, lambda; int releases; } seen;
+typedef struct seen {
+  double theta, t, lambda;
+  int releases;
+} seen;
 static seen last_release;
 static pleuel_status see(void* user, const pl_event_record* e) {
   if (e->kind == PL_EV_RELEASE) {
@@ -46,10 +49,11 @@ static void a_ski_jumper_takes_off_at_two_thirds(void** state) {
     assert_int_equal(pl_run_make(&b->job, &b->setup, &b->options, &b->run), PLEUEL_OK);
     last_release.releases = 0;
     pleuel_status how = pl_run_to_end(b->run);
-    printf("# ski: %s %s release %.15f off %.2e t %.6f lambda %.2e; end t %.6f x %.4f events %ld drift %.1e steps %ld\n",
-           pleuel_status_name(how), b->job.message, last_release.theta,
-           last_release.theta - acos(2.0 / 3 * cos(start[i])), last_release.t, last_release.lambda, pl_run_time(b->run),
-           b->last[0] * sin(b->last[1]), b->events, pl_run_stats(b->run)->energy_drift, pl_run_stats(b->run)->steps);
+    printf(
+        "# ski: %s %s release %.15f off %.2e t %.6f lambda %.2e; end t %.6f x %.4f events %ld drift %.1e steps %ld\n",
+        pleuel_status_name(how), b->job.message, last_release.theta, last_release.theta - acos(2.0 / 3 * cos(start[i])),
+        last_release.t, last_release.lambda, pl_run_time(b->run), b->last[0] * sin(b->last[1]), b->events,
+        pl_run_stats(b->run)->energy_drift, pl_run_stats(b->run)->steps);
     assert_int_equal(how, PLEUEL_OK);
     assert_int_equal(last_release.releases, 1);
     assert_true(fabs(last_release.theta - acos(2.0 / 3 * cos(start[i]))) < 1e-12);
@@ -93,8 +97,8 @@ static void a_ball_bounces_in_a_geometric_sequence_and_comes_to_rest(void** stat
   (void)state;
   t_bench* b = ball(5, 0, 0.5, 6);
   pleuel_status how = pl_run_to_end(b->run);
-  printf("# bounces: %s %s events %ld at %.15g %.15g %.15g last %.12g\n", pleuel_status_name(how), b->job.message, b->events, b->event_t[0],
-         b->event_t[1], b->event_t[2], b->event_t[b->events - 1]);
+  printf("# bounces: %s %s events %ld at %.15g %.15g %.15g last %.12g\n", pleuel_status_name(how), b->job.message,
+         b->events, b->event_t[0], b->event_t[1], b->event_t[2], b->event_t[b->events - 1]);
   assert_int_equal(how, PLEUEL_OK);
   assert_true(fabs(b->event_t[0] - 1) < 1e-14 && fabs(b->event_t[1] - 2) < 1e-13 && fabs(b->event_t[2] - 2.5) < 1e-13);
   // 1 + 2 (1/2 + 1/4 + ...) = 3
@@ -107,7 +111,8 @@ static void a_ball_thrown_up_from_the_table_leaves_it(void** state) {
   (void)state;
   t_bench* b = ball(0, 5, 0, 2);
   pleuel_status how = pl_run_to_end(b->run);
-  printf("# thrown: %s %s %ld %.15g kind %d\n", pleuel_status_name(how), b->job.message, b->events, b->event_t[0], b->event_kind[0]);
+  printf("# thrown: %s %s %ld %.15g kind %d\n", pleuel_status_name(how), b->job.message, b->events, b->event_t[0],
+         b->event_kind[0]);
   assert_int_equal(how, PLEUEL_OK);
   assert_int_equal(b->events, 1);
   assert_int_equal(b->event_kind[0], PL_EV_IMPACT);
@@ -119,7 +124,8 @@ static void a_contact_that_would_pull_releases_at_the_start(void** state) {
   (void)state;
   // r <= R from inside, at rest at the top: gravity pulls away from the wall at once
   t_bench* b = t_open();
-  pl_expr r = t_coord(b, "r"), theta = t_coord(b, "theta"), m = t_param(b, "m", 1), g = t_param(b, "g", 10), R = t_param(b, "R", 1);
+  pl_expr r = t_coord(b, "r"), theta = t_coord(b, "theta"), m = t_param(b, "m", 1), g = t_param(b, "g", 10),
+          R = t_param(b, "R", 1);
   pl_expr T = half(b, mul(b, m, pl_add(P, sq(b, b->v[0]), mul(b, sq(b, r), sq(b, b->v[1])))));
   pl_expr V = mul(b, m, mul(b, g, mul(b, r, pl_call(P, PL_COS, theta))));
   int h = t_constraint(b, "wall", pl_sub(P, r, R));
@@ -152,11 +158,11 @@ static void a_loop_too_slow_leaves_the_wall_and_comes_back(void** state) {
   t_start(b, 0, 0, 1.9);
   t_start(b, 1, -1, 0);
   assert_int_equal(t_make(b, t_energy(b, T, V), 20, 0), PLEUEL_OK);
-  b->setup.energy_conserved = false;   // landings take energy
+  b->setup.energy_conserved = false;  // landings take energy
   pleuel_status how = pl_run_to_end(b->run);
   // v^2 = 3.61 - 2 (1 + y), leaves where v^2 = y: y = 1.61 / 3
-  printf("# loop: %s %s events %ld kinds %d %d t %.9f %.9f\n", pleuel_status_name(how), b->job.message, b->events, b->event_kind[0],
-         b->event_kind[1], b->event_t[0], b->event_t[1]);
+  printf("# loop: %s %s events %ld kinds %d %d t %.9f %.9f\n", pleuel_status_name(how), b->job.message, b->events,
+         b->event_kind[0], b->event_kind[1], b->event_t[0], b->event_t[1]);
   assert_int_equal(how, PLEUEL_OK);
   assert_true(b->events >= 2);
   assert_int_equal(b->event_kind[0], PL_EV_RELEASE);
@@ -173,7 +179,7 @@ static void events_count_crossings_but_not_the_start(void** state) {
   t_bench* b = t_open();
   pl_expr x = t_coord(b, "x");
   pl_expr L = pl_sub(P, half(b, sq(b, b->v[0])), half(b, sq(b, x)));
-  t_start(b, 0, 0, 1);   // x = sin t
+  t_start(b, 0, 0, 1);  // x = sin t
   t_event(b, "up", x, 1, PL_DEED_RECORD, 0);
   t_event(b, "turn", b->v[0], 0, PL_DEED_RECORD, 0);
   t_event(b, "accel", pl_dt(P, b->v[0]), -1, PL_DEED_RECORD, 0);

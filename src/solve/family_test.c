@@ -3,9 +3,12 @@
 
 #define P b->pool
 
-// Chain of n rods: masses i = 1..n at (x[i], y[i]), rod i between i-1 and i, the first fixed at the origin.  Two patterns: the
-// first rod, and the others as a family with one tape.
-typedef struct chain { t_bench* b; int n; } chain;
+// Chain of n rods: masses i = 1..n at (x[i], y[i]), rod i between i-1 and i, the first fixed at the origin.  Two
+// patterns: the first rod, and the others as a family with one tape.
+typedef struct chain {
+  t_bench* b;
+  int n;
+} chain;
 
 static pl_pattern_source source_of(t_bench* b, const pl_expr* q, int n_q, const pl_expr* lambda) {
   return (pl_pattern_source){.slots = {.n_q = n_q, .q = q, .n_c = 1, .lambda = lambda, .value_of_symbol = b->value}};
@@ -20,10 +23,12 @@ static t_bench* chain_make(int n, double t_end) {
   pl_expr v0 = pl_dt(P, q[0]), v1 = pl_dt(P, q[1]);
   pl_expr T = pl_mul(P, pl_ratio(P, 1, 2), pl_mul(P, m, pl_add(P, pl_square(P, v0), pl_square(P, v1))));
   pl_expr V = pl_mul(P, m, pl_mul(P, g, q[1])), L = pl_sub(P, T, V);
-  pl_expr rod = pl_sub(P, pl_add(P, pl_square(P, pl_sub(P, q[0], q[2])), pl_square(P, pl_sub(P, q[1], q[3]))), pl_square(P, l));
+  pl_expr rod =
+      pl_sub(P, pl_add(P, pl_square(P, pl_sub(P, q[0], q[2])), pl_square(P, pl_sub(P, q[1], q[3]))), pl_square(P, l));
   pl_expr first = pl_sub(P, pl_add(P, pl_square(P, q[0]), pl_square(P, q[1])), pl_square(P, l));
   b->lambda[0] = pl_sym(P, t_symbol(b, "lambda", PL_R_MULTIPLIER));
-  int *iq = PL_ARRAY(b->arena, int, 4 * (size_t)n), *ic = PL_ARRAY(b->arena, int, n), *out = PL_ARRAY(b->arena, int, 2 * (size_t)n);
+  int *iq = PL_ARRAY(b->arena, int, 4 * (size_t)n), *ic = PL_ARRAY(b->arena, int, n),
+      *out = PL_ARRAY(b->arena, int, 2 * (size_t)n);
   double* index = PL_ARRAY(b->arena, double, n);
   for (int k = 1; k < n; k++) {
     int* at = iq + 4 * (k - 1);
@@ -56,7 +61,11 @@ static t_bench* chain_make(int n, double t_end) {
   assert_int_equal(pl_pattern_record(&b->job, b->pool, &f, &b->pattern[1]), PLEUEL_OK);
   // energies: all masses as instances of one observer
   pl_pattern_source o = {.slots = {.n_q = 2, .q = q, .n_index = 1, .index = &i_symbol, .value_of_symbol = b->value},
-                         .n_outputs = 2, .output = energy, .n = n, .q = PL_ARRAY(b->arena, int, 2 * (size_t)n), .out = out};
+                         .n_outputs = 2,
+                         .output = energy,
+                         .n = n,
+                         .q = PL_ARRAY(b->arena, int, 2 * (size_t)n),
+                         .out = out};
   int* oq = PL_ARRAY(b->arena, int, 2 * (size_t)n);
   double* oi = PL_ARRAY(b->arena, double, n);
   for (int k = 0; k < n; k++) oq[2 * k] = 2 * k, oq[2 * k + 1] = 2 * k + 1, oi[k] = k + 1;
@@ -65,18 +74,34 @@ static t_bench* chain_make(int n, double t_end) {
   assert_int_equal(pl_pattern_record(&b->job, b->pool, &o, &b->observer), PLEUEL_OK);
   double a = 1;
   for (int k = 0; k < n; k++) {
-    b->coordinate[2 * k] = (pl_coordinate){.name = pl_format(b->arena, "x[%d]", k + 1), .v_name = "v", .has_q = true, .has_v = true,
+    b->coordinate[2 * k] = (pl_coordinate){.name = pl_format(b->arena, "x[%d]", k + 1),
+                                           .v_name = "v",
+                                           .has_q = true,
+                                           .has_v = true,
                                            .q = (k + 1) * sin(a) / n};
-    b->coordinate[2 * k + 1] = (pl_coordinate){.name = pl_format(b->arena, "y[%d]", k + 1), .v_name = "v", .has_q = true,
-                                               .has_v = true, .q = -(k + 1) * cos(a) / n};
+    b->coordinate[2 * k + 1] = (pl_coordinate){.name = pl_format(b->arena, "y[%d]", k + 1),
+                                               .v_name = "v",
+                                               .has_q = true,
+                                               .has_v = true,
+                                               .q = -(k + 1) * cos(a) / n};
     b->link[k] = (pl_link){.name = pl_format(b->arena, "c[%d]", k + 1), .contact = -1};
   }
   b->column[0] = (pl_column){"T", "J"};
   b->column[1] = (pl_column){"V", "J"};
   b->n_q = 2 * n;
-  b->setup = (pl_setup){.n_q = 2 * n, .coordinates = b->coordinate, .n_c = n, .links = b->link, .n_patterns = n > 1 ? 2 : 1,
-                        .patterns = b->pattern, .n_out = 2, .out = b->column, .n_observers = 1, .observers = &b->observer,
-                        .kinetic = 0, .potential = 1, .energy_conserved = true};
+  b->setup = (pl_setup){.n_q = 2 * n,
+                        .coordinates = b->coordinate,
+                        .n_c = n,
+                        .links = b->link,
+                        .n_patterns = n > 1 ? 2 : 1,
+                        .patterns = b->pattern,
+                        .n_out = 2,
+                        .out = b->column,
+                        .n_observers = 1,
+                        .observers = &b->observer,
+                        .kinetic = 0,
+                        .potential = 1,
+                        .energy_conserved = true};
   b->options = (pl_run_options){.t_end = t_end, .sink = {.user = b, .row = t_on_row}};
   assert_int_equal(pl_run_make(&b->job, &b->setup, &b->options, &b->run), PLEUEL_OK);
   return b;
@@ -87,8 +112,9 @@ static void a_chain_of_two_hundred_rods_keeps_its_energy(void** state) {
   t_bench* b = chain_make(200, 0.05);
   pleuel_status how = pl_run_to_end(b->run);
   const pl_stats* s = pl_run_stats(b->run);
-  printf("# chain 200: %s %s steps %ld rejected %ld drift %.2e g %.2e gdot %.2e wall %.2f rank %d\n", pleuel_status_name(how),
-         b->job.message, s->steps, s->rejections, s->energy_drift, s->max_g, s->max_gdot, s->wall_s, s->rank);
+  printf("# chain 200: %s %s steps %ld rejected %ld drift %.2e g %.2e gdot %.2e wall %.2f rank %d\n",
+         pleuel_status_name(how), b->job.message, s->steps, s->rejections, s->energy_drift, s->max_g, s->max_gdot,
+         s->wall_s, s->rank);
   assert_int_equal(how, PLEUEL_OK);
   assert_true(s->energy_drift < 1e-13 && s->max_g < 1e-14);
   t_close(b);
@@ -106,10 +132,13 @@ static void a_family_moves_like_its_members_written_out(void** state) {
     x[k] = t_coord(b, pl_format(b->arena, "x%d", k));
     y[k] = t_coord(b, pl_format(b->arena, "y%d", k));
     pl_expr m = pl_ratio(P, 1, N);
-    T = pl_add(P, T, pl_mul(P, pl_mul(P, pl_ratio(P, 1, 2), m), pl_add(P, pl_square(P, b->v[2 * k]), pl_square(P, b->v[2 * k + 1]))));
+    T = pl_add(P, T,
+               pl_mul(P, pl_mul(P, pl_ratio(P, 1, 2), m),
+                      pl_add(P, pl_square(P, b->v[2 * k]), pl_square(P, b->v[2 * k + 1]))));
     V = pl_add(P, V, pl_mul(P, m, y[k]));
     pl_expr dx = k ? pl_sub(P, x[k], x[k - 1]) : x[k], dy = k ? pl_sub(P, y[k], y[k - 1]) : y[k];
-    t_constraint(b, pl_format(b->arena, "c%d", k), pl_sub(P, pl_add(P, pl_square(P, dx), pl_square(P, dy)), pl_ratio(P, 1, N * N)));
+    t_constraint(b, pl_format(b->arena, "c%d", k),
+                 pl_sub(P, pl_add(P, pl_square(P, dx), pl_square(P, dy)), pl_ratio(P, 1, N * N)));
     t_start(b, 2 * k, (k + 1) * sin(1) / N, 0);
     t_start(b, 2 * k + 1, -(k + 1) * cos(1) / N, 0);
   }
@@ -117,7 +146,8 @@ static void a_family_moves_like_its_members_written_out(void** state) {
   assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
   double most = 0;
   for (int i = 0; i < 2 * N; i++) most = fmax(most, fabs(pl_run_q(b->run)[i] - pl_run_q(family->run)[i]));
-  printf("# family against members: %.2e, steps %ld and %ld\n", most, pl_run_stats(b->run)->steps, pl_run_stats(family->run)->steps);
+  printf("# family against members: %.2e, steps %ld and %ld\n", most, pl_run_stats(b->run)->steps,
+         pl_run_stats(family->run)->steps);
   assert_true(most < 1e-12);
   t_close(b);
   t_close(family);

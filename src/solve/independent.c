@@ -1,12 +1,12 @@
 // Which constraints are in force, which of them are independent, and which multipliers that determines.
 //
-// Rows are compared after scaling each column with the largest entry it has had in the run: a fixed yardstick, so that a
-// column that fades away (a singular position) is seen to fade.
+// Rows are compared after scaling each column with the largest entry it has had in the run: a fixed yardstick, so that
+// a column that fades away (a singular position) is seen to fade.
 #include "solve/solve_impl.h"
 
 #include <math.h>
 
-static const double dependent_below = 1e-9;   // of a row of length 1: what is left of a row that says nothing new
+static const double dependent_below = 1e-9;  // of a row of length 1: what is left of a row that says nothing new
 
 static bool too_many_to_examine(const pl_run* run) { return run->n_active > PL_RANK_UP_TO; }
 
@@ -43,7 +43,7 @@ void pl_active_update(pl_run* run) {
   }
   find_orphans(run);
   run->by_pivots = too_many_to_examine(run) || (double)run->n_active * run->n_active * run->n_q > PL_RANK_WORK;
-  run->rank_mode = -1;      // a new mode: rank and yardstick start anew
+  run->rank_mode = -1;  // a new mode: rank and yardstick start anew
   run->best = 0;
   run->smallest_before = 0;
 }
@@ -98,7 +98,7 @@ static void examine(pl_run* run) {
 }
 
 void pl_independent_choose(pl_run* run) {
-  if (run->by_pivots && run->rank_mode >= 0) return;   // chosen when the mode began
+  if (run->by_pivots && run->rank_mode >= 0) return;  // chosen when the mode began
   if (too_many_to_examine(run)) {
     for (int c = 0; c < run->n_c; c++) run->taken[c] = run->active[c];
     run->rank = run->n_active;
@@ -149,7 +149,8 @@ void pl_independent_unique(pl_run* run) {
   for (int c = 0; c < run->n_c; c++)
     if (run->taken[c] && run->setup->links[c].priority == 0) taken_row[n_taken++] = run->row_of[c];
   for (int i = 0; i < n_taken; i++)
-    for (int j = 0; j < n; j++) run->dep[(size_t)i * (size_t)n + (size_t)j] = run->rows[(size_t)taken_row[i] * (size_t)n + (size_t)j];
+    for (int j = 0; j < n; j++)
+      run->dep[(size_t)i * (size_t)n + (size_t)j] = run->rows[(size_t)taken_row[i] * (size_t)n + (size_t)j];
   pl_qr_factor(run->dep, run->dep_jpvt, run->dep_tau, run->dep_norm, n, n_taken, 0);
   for (int c = 0; c < run->n_c; c++) {
     if (!run->active[c] || run->taken[c]) continue;

@@ -1,13 +1,18 @@
 // The linear system of a point: structure, factor, solve.  Dense LU with pivoting for small systems, KLU above.
 //
-// The dense matrix is balanced symmetrically by powers of two before it is factored (Ruiz 2001), so that the pivots tell how
-// singular it is whatever the units are.
+// The dense matrix is balanced symmetrically by powers of two before it is factored (Ruiz 2001), so that the pivots
+// tell how singular it is whatever the units are.
 #include "solve/solve_impl.h"
 
 #include <math.h>
 
 // ---------------------------------------------------------------------------------------------- structure
-typedef struct pl_places { int* row; int* next; int* head; int n; } pl_places;   // linked lists, one a column
+typedef struct pl_places {
+  int* row;
+  int* next;
+  int* head;
+  int n;
+} pl_places;  // linked lists, one a column
 
 // A mark for the structure is only added here; unique and sorted later.
 static void mark(pl_places* p, int row, int col) {
@@ -129,14 +134,15 @@ pleuel_status pl_kkt_make(pl_run* run) {
     return PLEUEL_OK;
   }
   k->sparse = pl_sparse_make(a, k->n, k->start, k->row);
-  if (k->sparse == NULL) return pl_fail(run->job, PLEUEL_SINGULAR, "the equations of motion do not determine every acceleration");
+  if (k->sparse == NULL)
+    return pl_fail(run->job, PLEUEL_SINGULAR, "the equations of motion do not determine every acceleration");
   return PLEUEL_OK;
 }
 
 void pl_kkt_free(pl_kkt* k) { pl_sparse_free(k->sparse); }
 
 // ---------------------------------------------------------------------------------------------- factor
-static double power_of_two(double x) {   // near 1/sqrt x
+static double power_of_two(double x) {  // near 1/sqrt x
   int e;
   if (!(x > 0) || !isfinite(x)) return 1;
   frexp(x, &e);

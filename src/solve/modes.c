@@ -1,15 +1,15 @@
 // The mode automaton: contacts end where λ would pull, begin where a free body arrives; events do their deeds.
 //
 // A release leaves velocities alone.  An arrival is an impact in the mass metric: the velocity jump that makes the
-// velocity along the new constraint zero (or reverses it times the restitution), with impulses only along constraints in
-// force; a one-sided one whose impulse would pull takes no part and lets go.
+// velocity along the new constraint zero (or reverses it times the restitution), with impulses only along constraints
+// in force; a one-sided one whose impulse would pull takes no part and lets go.
 #include "solve/solve_impl.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-enum { MAX_CHANGES = 100 };   // of mode at one time
+enum { MAX_CHANGES = 100 };  // of mode at one time
 
 // ---------------------------------------------------------------------------------------------- entering a mode
 static bool pulls(const pl_run* run, int c) {
@@ -56,7 +56,8 @@ static void hold(pl_run* run, int c) {
 }
 
 // ---------------------------------------------------------------------------------------------- contacts that pull
-// Releases the first one that pulls, again and again.  g and its first derivative are zero there; the second need not be.
+// Releases the first one that pulls, again and again.  g and its first derivative are zero there; the second need not
+// be.
 pleuel_status pl_modes_check(pl_run* run, bool at_start) {
   for (;;) {
     int c = 0;
@@ -133,8 +134,8 @@ static pleuel_status attach(pl_run* run, int c) {
   // a one-sided one that is open waits for its landing
   if (link->side != 0 && link->side * run->g[c] > 1e-9 * run->g_size[c]) return PLEUEL_OK;
   if (!link->velocity && fabs(run->g[c]) > 1e-9 * run->g_size[c])
-    return pl_fail(run->job, PLEUEL_CONTRADICTION, "%s cannot be attached at t = %.9g s: it is off by %.3g", link->name, run->t,
-                   run->g[c]);
+    return pl_fail(run->job, PLEUEL_CONTRADICTION, "%s cannot be attached at t = %.9g s: it is off by %.3g", link->name,
+                   run->t, run->g[c]);
   return arrive(run, c);
 }
 

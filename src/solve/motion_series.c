@@ -1,8 +1,8 @@
 // The series of the motion at a point, order by order, and the step that it allows.
 //
-// Index-3 Taylor series: with q_{k+1} = v_k / (k+1), nodes of q and t are known to order k+1, nodes of v to order k, and one
-// solve with the factor of the point gives a_k and λ_k; then v_{k+1} = a_k / (k+1).  Order and step after Jorba and
-// Zou, Exp. Math. 14 (2005) 99, with separate norms for positions and velocities, which have different units.
+// Index-3 Taylor series: with q_{k+1} = v_k / (k+1), nodes of q and t are known to order k+1, nodes of v to order k,
+// and one solve with the factor of the point gives a_k and λ_k; then v_{k+1} = a_k / (k+1).  Order and step after Jorba
+// and Zou, Exp. Math. 14 (2005) 99, with separate norms for positions and velocities, which have different units.
 #include "solve/solve_impl.h"
 
 #include <float.h>
@@ -13,7 +13,7 @@ double pl_norm(const double* x, int n) {
   double most = 0;
   for (int i = 0; i < n; i++) {
     double y = fabs(x[i]);
-    if (!(y <= most)) most = y;    // NaN comes through
+    if (!(y <= most)) most = y;  // NaN comes through
   }
   return most;
 }
@@ -53,7 +53,7 @@ bool pl_point_factor(pl_run* run, bool with_W) {
   pl_assemble_matrix(run, with_W);
   bool regular = pl_kkt_factor(&run->kkt);
   if (run->by_pivots) {
-    run->smallest = sqrt(run->kkt.ratio);   // pivots of the whole system fade with the square of those of the rows
+    run->smallest = sqrt(run->kkt.ratio);  // pivots of the whole system fade with the square of those of the rows
     run->best = fmax(run->best, run->smallest);
   }
   return regular;

@@ -10,7 +10,8 @@ static pl_expr half(t_bench* b, pl_expr x) { return pl_mul(P, pl_ratio(P, 1, 2),
 // Mass 1 at (x, y), y down, x^2 + y^2 = 1, g = 1.
 static t_bench* pendulum(double angle, double t_end) {
   t_bench* b = t_open();
-  pl_expr x = t_coord(b, "x"), y = t_coord(b, "y"), m = t_param(b, "m", 1), g = t_param(b, "g", 1), l = t_param(b, "l", 1);
+  pl_expr x = t_coord(b, "x"), y = t_coord(b, "y"), m = t_param(b, "m", 1), g = t_param(b, "g", 1),
+          l = t_param(b, "l", 1);
   pl_expr T = half(b, mul(b, m, pl_add(P, sq(b, b->v[0]), sq(b, b->v[1])))), V = pl_neg(P, mul(b, m, mul(b, g, y)));
   pl_expr L = t_energy(b, T, V);
   t_constraint(b, "rod", pl_sub(P, pl_add(P, sq(b, x), sq(b, y)), sq(b, l)));
@@ -35,9 +36,10 @@ static void a_pendulum_returns_after_its_period(void** state) {
   (void)state;
   t_bench* b = pendulum(1.5, pendulum_period(1.5));
   assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
-  printf("# pendulum: dx %.2e dy %.2e steps %ld rejected %ld g %.2e gdot %.2e drift %.2e order %d\n", b->last[0] - sin(1.5),
-         b->last[1] - cos(1.5), pl_run_stats(b->run)->steps, pl_run_stats(b->run)->rejections, pl_run_stats(b->run)->max_g,
-         pl_run_stats(b->run)->max_gdot, pl_run_stats(b->run)->energy_drift, pl_run_stats(b->run)->order);
+  printf("# pendulum: dx %.2e dy %.2e steps %ld rejected %ld g %.2e gdot %.2e drift %.2e order %d\n",
+         b->last[0] - sin(1.5), b->last[1] - cos(1.5), pl_run_stats(b->run)->steps, pl_run_stats(b->run)->rejections,
+         pl_run_stats(b->run)->max_g, pl_run_stats(b->run)->max_gdot, pl_run_stats(b->run)->energy_drift,
+         pl_run_stats(b->run)->order);
   assert_true(fabs(b->last[0] - sin(1.5)) < 1e-13 && fabs(b->last[1] - cos(1.5)) < 1e-13);
   assert_true(b->last[63] == pendulum_period(1.5));
   t_close(b);
@@ -105,16 +107,17 @@ static void a_crank_turns_a_thousand_times(void** state) {
   t_bench* b = crank(0.1, 0.3, 62.83185307179586, 0.3, 120, 1);
   pleuel_status how = pl_run_to_end(b->run);
   const pl_stats* s = pl_run_stats(b->run);
-  printf("# crank: %s %s phi %.3f g %.2e gdot %.2e drift %.2e steps %ld rejected %ld wall %.3f\n", pleuel_status_name(how),
-         b->job.message, b->last[3] / 6.283185307179586, s->max_g, s->max_gdot, s->energy_drift, s->steps, s->rejections, s->wall_s);
+  printf("# crank: %s %s phi %.3f g %.2e gdot %.2e drift %.2e steps %ld rejected %ld wall %.3f\n",
+         pleuel_status_name(how), b->job.message, b->last[3] / 6.283185307179586, s->max_g, s->max_gdot,
+         s->energy_drift, s->steps, s->rejections, s->wall_s);
   assert_int_equal(how, PLEUEL_OK);
   assert_true(b->last[3] / 6.283185307179586 > 1000);
   assert_true(s->max_g < 1e-14 && s->energy_drift < 1e-12);
   t_close(b);
 }
 
-// With equal lengths the constraints lose rank whenever the crank stands upright: the slider could stay in the middle.  Its
-// velocity says that it does not, x2 = 2 r cos φ, and the energy tells φ'.
+// With equal lengths the constraints lose rank whenever the crank stands upright: the slider could stay in the middle.
+// Its velocity says that it does not, x2 = 2 r cos φ, and the energy tells φ'.
 static double place[64], place_t[64];
 static int n_places;
 static pleuel_status see_place(void* user, const pl_event_record* e) {
@@ -137,9 +140,11 @@ static void a_crank_with_equal_lengths_passes_its_singular_positions(void** stat
   // T = r² φ'² (m1/2 + 2 m2 sin² φ) with m1 = 2, m2 = 1
   double E = r * r * 900 * (1 + 2 * sin(0.3) * sin(0.3)) + 2 * 9.81 * r * sin(0.3);
   double speed = sqrt((E - 2 * 9.81 * r * s) / (r * r * (1 + 2 * s * s)));
-  printf("# equal crank: %s %s, %d places, first φ = π/2 %+.1e, half turns %.3f, x2 off %.1e, speed off %.1e, drift %.1e\n",
-         pleuel_status_name(how), b->job.message, n_places, place[0] - 1.5707963267948966, turns, b->last[2] - 2 * r * cos(phi),
-         b->last[19] - speed, pl_run_stats(b->run)->energy_drift);
+  printf(
+      "# equal crank: %s %s, %d places, first φ = π/2 %+.1e, half turns %.3f, x2 off %.1e, speed off %.1e, drift "
+      "%.1e\n",
+      pleuel_status_name(how), b->job.message, n_places, place[0] - 1.5707963267948966, turns,
+      b->last[2] - 2 * r * cos(phi), b->last[19] - speed, pl_run_stats(b->run)->energy_drift);
   assert_int_equal(how, PLEUEL_OK);
   assert_true(n_places >= 5);
   for (int i = 0; i < n_places; i++) {
@@ -232,7 +237,8 @@ static void double_pendulum_reference(quad* y, double T, int steps) {
       midpoint(y, H, 2 * (j + 1), table[j]);
       for (int k = j - 1; k >= 0; k--) {
         quad ratio = (quad)(j + 1) / (k + 1);
-        for (int i = 0; i < 4; i++) table[k][i] = table[k + 1][i] + (table[k + 1][i] - table[k][i]) / (ratio * ratio - 1);
+        for (int i = 0; i < 4; i++)
+          table[k][i] = table[k + 1][i] + (table[k + 1][i] - table[k][i]) / (ratio * ratio - 1);
       }
     }
     for (int i = 0; i < 4; i++) y[i] = table[0][i];
@@ -281,7 +287,8 @@ static void an_ellipse_closes_after_ten_turns(void** state) {
   assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
   printf("# kepler: %.2e %.2e steps %ld drift %.2e\n", b->last[0] - (1 - e), b->last[1], pl_run_stats(b->run)->steps,
          pl_run_stats(b->run)->energy_drift);
-  assert_true(fabs(b->last[0] - (1 - e)) < 1e-11 && fabs(b->last[1]) < 1e-11 && pl_run_stats(b->run)->energy_drift < 1e-13);
+  assert_true(fabs(b->last[0] - (1 - e)) < 1e-11 && fabs(b->last[1]) < 1e-11 &&
+              pl_run_stats(b->run)->energy_drift < 1e-13);
   t_close(b);
 }
 
@@ -300,8 +307,8 @@ static void a_redundant_constraint_changes_nothing_but_its_multiplier(void** sta
     t_start(b, 1, -0.8, 0);
     assert_int_equal(t_make(b, t_energy(b, T, y), 10, 0), PLEUEL_OK);
     pleuel_status how = pl_run_to_end(b->run);
-    printf("# redundant %d: %s %s rank %d g %.1e\n", twice, pleuel_status_name(how), b->job.message, pl_run_stats(b->run)->rank,
-           pl_run_stats(b->run)->max_g);
+    printf("# redundant %d: %s %s rank %d g %.1e\n", twice, pleuel_status_name(how), b->job.message,
+           pl_run_stats(b->run)->rank, pl_run_stats(b->run)->max_g);
     assert_int_equal(how, PLEUEL_OK);
     assert_int_equal(pl_run_stats(b->run)->rank, 1);
     for (int i = 0; i < 2; i++) last[twice][i] = b->last[i];
@@ -320,10 +327,12 @@ static void a_skate_on_a_slope_moves_on_a_cycloid(void** state) {
   pl_expr x = t_coord(b, "x"), y = t_coord(b, "y"), phi = t_coord(b, "phi");
   pl_expr T = half(b, pl_add_n(P, (pl_expr[]){sq(b, b->v[0]), sq(b, b->v[1]), sq(b, b->v[2])}, 3));
   (void)y;
-  int c = t_constraint(b, "skate", pl_sub(P, mul(b, b->v[0], pl_call(P, PL_SIN, phi)), mul(b, b->v[1], pl_call(P, PL_COS, phi))));
+  int c = t_constraint(b, "skate",
+                       pl_sub(P, mul(b, b->v[0], pl_call(P, PL_SIN, phi)), mul(b, b->v[1], pl_call(P, PL_COS, phi))));
   b->velocity[c] = b->link[c].velocity = true;
   for (int i = 0; i < 3; i++) t_start(b, i, 0, i == 2 ? 2 : 0);
-  // force 1 along x; with ω = 2 and rest at the origin: speed u = sin(ω t)/ω, x = (1 - cos 2ωt)/(4 ω²), y = (2ωt - sin 2ωt)/(4 ω²)
+  // force 1 along x; with ω = 2 and rest at the origin: speed u = sin(ω t)/ω, x = (1 - cos 2ωt)/(4 ω²), y = (2ωt - sin
+  // 2ωt)/(4 ω²)
   assert_int_equal(t_make(b, pl_add(P, T, x), 3, 0), PLEUEL_OK);
   assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
   double w = 2, t = 3;
@@ -342,7 +351,7 @@ static void friction_proportional_to_a_multiplier_slows_a_block(void** state) {
   pl_expr T = half(b, mul(b, m, pl_add(P, sq(b, b->v[0]), sq(b, b->v[1]))));
   (void)x;
   t_constraint(b, "table", y);
-  b->force[0] = pl_neg(P, mul(b, pl_ratio(P, 1, 5), b->lambda[0]));   // μ = 1/5, moving to the right
+  b->force[0] = pl_neg(P, mul(b, pl_ratio(P, 1, 5), b->lambda[0]));  // μ = 1/5, moving to the right
   t_start(b, 0, 0, 4);
   t_start(b, 1, 0, 0);
   assert_int_equal(t_make(b, pl_sub(P, T, mul(b, m, mul(b, g, y))), 1.5, 0), PLEUEL_OK);
@@ -417,7 +426,7 @@ static void a_grid_of_rows_ends_exactly_at_the_end(void** state) {
   b->options.dt = 0.03;
   assert_int_equal(pl_run_make(&b->job, &b->setup, &b->options, &b->run), PLEUEL_OK);
   assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
-  assert_int_equal(b->rows, 35);   // 0, 0.03, ..., 0.99 and 1
+  assert_int_equal(b->rows, 35);  // 0, 0.03, ..., 0.99 and 1
   assert_true(b->last[63] == 1);
   pl_run_free(b->run);
   b->rows = 0;

@@ -10,7 +10,7 @@
 enum { MAX_NEWTON = 8 };
 
 static void find_largest(double x, double* most) {
-  if (!(x <= *most)) *most = x;   // NaN comes through
+  if (!(x <= *most)) *most = x;  // NaN comes through
 }
 
 // Largest |g| relative to its terms, over active rows.

@@ -33,7 +33,7 @@ void pl_mode_text(const pl_run* run, char* out) {
   for (int c = 0; c < run->n_c; c++) {
     if (run->setup->links[c].side == 0 || !run->active[c]) continue;
     int written = snprintf(out + n, run->mode_size - n, "%scontact(%s)", n ? " " : "", run->setup->links[c].name);
-    if (written < 0 || (size_t)written >= run->mode_size - n) break;   // mode_size holds all names: cannot happen
+    if (written < 0 || (size_t)written >= run->mode_size - n) break;  // mode_size holds all names: cannot happen
     n += (size_t)written;
   }
   if (n == 0) snprintf(out, run->mode_size, "free");
@@ -43,8 +43,15 @@ void pl_mode_text(const pl_run* run, char* out) {
 pl_row pl_row_now(pl_run* run, pl_row_kind kind, double* out, char* mode) {
   pl_observe(run, run->t, run->q, run->v, run->A, run->L, out);
   pl_mode_text(run, mode);
-  return (pl_row){.t = run->t, .q = run->q, .v = run->v, .a = run->A, .lambda = run->L, .unique = run->unique, .out = out,
-                  .mode = mode, .kind = kind};
+  return (pl_row){.t = run->t,
+                  .q = run->q,
+                  .v = run->v,
+                  .a = run->A,
+                  .lambda = run->L,
+                  .unique = run->unique,
+                  .out = out,
+                  .mode = mode,
+                  .kind = kind};
 }
 
 static pleuel_status send(pl_run* run, const pl_row* row) {
@@ -86,7 +93,8 @@ static bool point_is_due(pl_run* run, pl_row_kind kind) {
 pleuel_status pl_rows_point(pl_run* run, pl_row_kind kind) {
   if (!point_is_due(run, kind) || (kind == PL_ROW_END && run->last_row_t == run->t)) return PLEUEL_OK;
   double direction = run->options.t_end < run->options.t_0 ? -1 : 1;
-  while (run->grid_dt != 0 && kind != PL_ROW_BEFORE && direction * (grid_time(run, run->grid_n) - run->t) <= grid_slack(run) &&
+  while (run->grid_dt != 0 && kind != PL_ROW_BEFORE &&
+         direction * (grid_time(run, run->grid_n) - run->t) <= grid_slack(run) &&
          (run->grid_count == 0 || run->grid_n <= run->grid_count))
     run->grid_n++;
   pl_row row = pl_row_now(run, kind, run->out_now, run->mode);
@@ -105,8 +113,15 @@ pleuel_status pl_rows_grid(pl_run* run, double t_from, double t_to) {
     pl_series_lambda_at(run, t - run->t_series, run->row_a, run->row_l);
     pl_observe(run, t, run->row_q, run->row_v, run->row_a, run->row_l, run->out_now);
     pl_mode_text(run, run->mode);
-    pl_row row = {.t = t, .q = run->row_q, .v = run->row_v, .a = run->row_a, .lambda = run->row_l, .unique = run->unique,
-                  .out = run->out_now, .mode = run->mode, .kind = PL_ROW_STEP};
+    pl_row row = {.t = t,
+                  .q = run->row_q,
+                  .v = run->row_v,
+                  .a = run->row_a,
+                  .lambda = run->row_l,
+                  .unique = run->unique,
+                  .out = run->out_now,
+                  .mode = run->mode,
+                  .kind = PL_ROW_STEP};
     PL_TRY(send(run, &row));
   }
 }
@@ -130,8 +145,15 @@ pleuel_status pl_rows_event(pl_run* run, pl_event_kind kind, int index, double i
   if (!s->event) return PLEUEL_OK;
   pl_event_record e = {.kind = kind, .index = index, .impulse = impulse, .at_start = at_start};
   if (index >= 0) e.label = of_event ? run->setup->events[index].name : run->setup->links[index].name;
-  e.before = (pl_row){.t = run->t, .q = run->save_q, .v = run->save_v, .a = run->save_a, .lambda = run->save_l,
-                      .unique = run->save_unique, .out = run->out_before, .mode = run->mode_before, .kind = PL_ROW_BEFORE};
+  e.before = (pl_row){.t = run->t,
+                      .q = run->save_q,
+                      .v = run->save_v,
+                      .a = run->save_a,
+                      .lambda = run->save_l,
+                      .unique = run->save_unique,
+                      .out = run->out_before,
+                      .mode = run->mode_before,
+                      .kind = PL_ROW_BEFORE};
   e.after = pl_row_now(run, PL_ROW_AFTER, run->out_now, run->mode);
   pleuel_status how = s->event(s->user, &e);
   run->refused |= how != PLEUEL_OK;

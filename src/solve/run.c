@@ -6,9 +6,9 @@
 #include <string.h>
 
 // What a step may be off by before it is tried again at half the length, in units of the tolerance.
-static const double allowed_move = 1e4;       // correction by the projection, relative
-static const double allowed_floor = 1e-11;    // and what rounding may do to it close to a singular position
-static const double allowed_residual = 1e-12; // |g| and |G v + dg/dt| after it, relative to their terms
+static const double allowed_move = 1e4;        // correction by the projection, relative
+static const double allowed_floor = 1e-11;     // and what rounding may do to it close to a singular position
+static const double allowed_residual = 1e-12;  // |g| and |G v + dg/dt| after it, relative to their terms
 
 // ---------------------------------------------------------------------------------------------- one attempt
 static bool acceptable(const pl_run* run, const pl_projection* p) {
@@ -52,7 +52,8 @@ static pleuel_status too_small(pl_run* run, double h) {
   if (run->best > 0 && run->smallest_here < 1e-2 * run->best) return pl_run_singular(run);
   return pl_fail(run->job, PLEUEL_NUMERICAL,
                  "no step is short enough at t = %.9g s (%.3g s tried): the motion leaves the domain of a function, "
-                 "or a force or the constraints jump there", run->t, h);
+                 "or a force or the constraints jump there",
+                 run->t, h);
 }
 
 // The longest step up to h whose end passes the check; the state there is in trial_q, trial_v.
@@ -100,7 +101,8 @@ static void accept(pl_run* run, double h, bool to_end) {
 static pleuel_status check_energy(pl_run* run) {
   double limit = fmax(1e-8, 1e5 * run->tol);
   if (!run->setup->energy_conserved || !(run->stats.energy_drift > limit)) return PLEUEL_OK;
-  return pl_fail(run->job, PLEUEL_NUMERICAL, "the energy has drifted by %.2g of its size at t = %.9g s: the result cannot be trusted",
+  return pl_fail(run->job, PLEUEL_NUMERICAL,
+                 "the energy has drifted by %.2g of its size at t = %.9g s: the result cannot be trusted",
                  run->stats.energy_drift, run->t);
 }
 
@@ -140,7 +142,8 @@ static pleuel_status step(pl_run* run) {
 }
 
 static pleuel_status limits(pl_run* run) {
-  if (run->job->interrupted && pl_interrupted(run->job)) return pl_fail(run->job, PLEUEL_INTERRUPTED, "interrupted at t = %.9g s", run->t);
+  if (run->job->interrupted && pl_interrupted(run->job))
+    return pl_fail(run->job, PLEUEL_INTERRUPTED, "interrupted at t = %.9g s", run->t);
   if (run->options.max_steps > 0 && run->stats.steps >= run->options.max_steps)
     return pl_fail(run->job, PLEUEL_NUMERICAL, "%ld steps were not enough: t = %.9g s", run->options.max_steps, run->t);
   return PLEUEL_OK;

@@ -18,7 +18,8 @@ static pleuel_status check_links(pl_job* job, const pl_setup* s) {
     if (l->side < -1 || l->side > 1) return pl_fail(job, PLEUEL_USAGE, "%s: side is -1, 0 or 1", l->name);
     if (l->contact >= s->n_c || l->contact == c || (l->contact >= 0 && s->links[l->contact].side == 0))
       return pl_fail(job, PLEUEL_USAGE, "%s goes with a contact that is none", l->name);
-    if (!(l->restitution >= 0 && l->restitution <= 1)) return pl_fail(job, PLEUEL_USAGE, "%s: restitution is between 0 and 1", l->name);
+    if (!(l->restitution >= 0 && l->restitution <= 1))
+      return pl_fail(job, PLEUEL_USAGE, "%s: restitution is between 0 and 1", l->name);
   }
   return PLEUEL_OK;
 }
@@ -50,7 +51,8 @@ static pleuel_status check_events(pl_job* job, const pl_setup* s) {
 
 static pleuel_status check_setup(pl_job* job, const pl_setup* s) {
   if (s->n_q <= 0 || s->n_c < 0) return pl_fail(job, PLEUEL_USAGE, "a run needs coordinates");
-  if (s->kinetic >= s->n_out || s->potential >= s->n_out) return pl_fail(job, PLEUEL_USAGE, "no output column for the energy");
+  if (s->kinetic >= s->n_out || s->potential >= s->n_out)
+    return pl_fail(job, PLEUEL_USAGE, "no output column for the energy");
   for (int i = 0; i < s->n_q; i++)
     if (s->coordinates[i].name == NULL) return pl_fail(job, PLEUEL_USAGE, "coordinate %d has no name", i);
   PL_TRY(check_links(job, s));
@@ -93,20 +95,20 @@ static void set_options(pl_run* run, const pl_run_options* o) {
 static void reserve_state(pl_run* run) {
   pl_arena* a = run->job->arena;
   size_t q = (size_t)run->n_q, c = (size_t)run->n_c, orders = (size_t)run->order + 2;
-  double** of_q[] = {&run->q, &run->v, &run->trial_q, &run->trial_v, &run->save_q, &run->save_v, &run->save_a, &run->row_q,
-                     &run->row_v, &run->row_a, &run->jump_v, &run->column, &run->q_most, &run->v_most,
-                     &run->q_kept, &run->v_kept};
-  double** of_c[] = {&run->g, &run->g_size, &run->r, &run->r_size, &run->save_l, &run->row_l, &run->impulse, &run->row_most, &run->argument, &run->row_long, &run->row_part,
-                     &run->rank_work};
-  bool** flags[] = {&run->on, &run->detached, &run->active, &run->taken, &run->unique, &run->save_unique, &run->row_taken,
-                    &run->taken_kept};
+  double** of_q[] = {&run->q,      &run->v,      &run->trial_q, &run->trial_v, &run->save_q, &run->save_v,
+                     &run->save_a, &run->row_q,  &run->row_v,   &run->row_a,   &run->jump_v, &run->column,
+                     &run->q_most, &run->v_most, &run->q_kept,  &run->v_kept};
+  double** of_c[] = {&run->g,       &run->g_size,   &run->r,        &run->r_size,   &run->save_l,   &run->row_l,
+                     &run->impulse, &run->row_most, &run->argument, &run->row_long, &run->row_part, &run->rank_work};
+  bool** flags[] = {&run->on,     &run->detached,    &run->active,    &run->taken,
+                    &run->unique, &run->save_unique, &run->row_taken, &run->taken_kept};
   for (size_t i = 0; i < sizeof of_q / sizeof *of_q; i++) *of_q[i] = PL_ARRAY(a, double, q + 1);
   for (size_t i = 0; i < sizeof of_c / sizeof *of_c; i++) *of_c[i] = PL_ARRAY(a, double, c + 1);
   for (size_t i = 0; i < sizeof flags / sizeof *flags; i++) *flags[i] = PL_ARRAY(a, bool, c + 1);
   double** series_q[] = {&run->Q, &run->V, &run->A, &run->Q_last, &run->V_last, &run->A_last};
   double** series_c[] = {&run->L, &run->L_last, &run->G_series};
-  for (size_t i = 0; i < sizeof series_q / sizeof *series_q; i++) *series_q[i] = PL_ARRAY(a, double, q * orders + 1);
-  for (size_t i = 0; i < sizeof series_c / sizeof *series_c; i++) *series_c[i] = PL_ARRAY(a, double, c * orders + 1);
+  for (size_t i = 0; i < sizeof series_q / sizeof *series_q; i++) *series_q[i] = PL_ARRAY(a, double, q* orders + 1);
+  for (size_t i = 0; i < sizeof series_c / sizeof *series_c; i++) *series_c[i] = PL_ARRAY(a, double, c* orders + 1);
   run->rhs = PL_ARRAY(a, double, q + c + 1);
   run->place_n = PL_ARRAY(a, int, q + 1);
 }
@@ -117,8 +119,8 @@ static void reserve_ranks(pl_run* run) {
   run->priority = PL_ARRAY(a, int, c + 1);
   run->row_of = PL_ARRAY(a, int, c + 1);
   if (c > PL_RANK_UP_TO) return;
-  run->rows = PL_ARRAY(a, double, q * c + 1);
-  run->dep = PL_ARRAY(a, double, q * c + 1);
+  run->rows = PL_ARRAY(a, double, q* c + 1);
+  run->dep = PL_ARRAY(a, double, q* c + 1);
   run->dep_tau = PL_ARRAY(a, double, c + 1);
   run->dep_norm = PL_ARRAY(a, double, 2 * c + q + 1);
   run->dep_jpvt = PL_ARRAY(a, int, 2 * c + 1);
@@ -130,7 +132,7 @@ static void reserve_rows(pl_run* run) {
   size_t orders = (size_t)run->order + 2;
   double** of_out[] = {&run->out_now, &run->out_before, &run->energy_out};
   for (size_t i = 0; i < sizeof of_out / sizeof *of_out; i++) *of_out[i] = PL_ARRAY(a, double, s->n_out + 1);
-  run->W_series = PL_ARRAY(a, double, (size_t)s->n_watched * orders + 1);
+  run->W_series = PL_ARRAY(a, double, (size_t)s->n_watched* orders + 1);
   run->W_coef = PL_ARRAY(a, double, s->n_watched + 1);
   run->branch_value = PL_ARRAY(a, double, s->n_branch_outputs + 1);
   run->poly = PL_ARRAY(a, double, orders + 1);
@@ -146,8 +148,10 @@ static pleuel_status reserve_batches(pl_run* run) {
   int n_q = s->n_q, n_c = s->n_c;
   PL_TRY(pl_batches_make(run->job, &run->motion, s->patterns, s->n_patterns, run->order + 2, n_q, n_c, INT32_MAX));
   PL_TRY(pl_batches_make(run->job, &run->observers, s->observers, s->n_observers, 1, n_q, n_c, s->n_out));
-  PL_TRY(pl_batches_make(run->job, &run->watched, s->watch, s->n_watch_patterns, run->order + 2, n_q, n_c, s->n_watched));
-  return pl_batches_make(run->job, &run->branches, s->branch_patterns, s->n_branch_patterns, 1, n_q, n_c, s->n_branch_outputs);
+  PL_TRY(
+      pl_batches_make(run->job, &run->watched, s->watch, s->n_watch_patterns, run->order + 2, n_q, n_c, s->n_watched));
+  return pl_batches_make(run->job, &run->branches, s->branch_patterns, s->n_branch_patterns, 1, n_q, n_c,
+                         s->n_branch_outputs);
 }
 
 // ---------------------------------------------------------------------------------------------- what the patterns hold

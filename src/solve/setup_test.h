@@ -62,8 +62,9 @@ static inline void t_close(t_bench* b) {
 }
 
 static inline pl_symbol t_symbol(t_bench* b, const char* name, pl_role role) {
-  return pl_symbol_make(b->pool, &(pl_symbol_info){.name = name, .ascii = name, .role = role, .class = PL_C_OTHER,
-                                                  .dimension = pl_dimension_one()});
+  return pl_symbol_make(
+      b->pool, &(pl_symbol_info){
+                   .name = name, .ascii = name, .role = role, .class = PL_C_OTHER, .dimension = pl_dimension_one()});
 }
 
 static inline pl_expr t_param(t_bench* b, const char* name, double value) {
@@ -84,7 +85,8 @@ static inline int t_constraint(t_bench* b, const char* name, pl_expr g) {
   int c = b->n_c++;
   b->g[c] = g;
   b->lambda[c] = pl_sym(b->pool, t_symbol(b, pl_format(b->arena, "lambda_%s", name), PL_R_MULTIPLIER));
-  b->link[c] = (pl_link){.name = pl_copy(b->arena, name), .column = pl_format(b->arena, "lambda_%s", name), .contact = -1};
+  b->link[c] =
+      (pl_link){.name = pl_copy(b->arena, name), .column = pl_format(b->arena, "lambda_%s", name), .contact = -1};
   return c;
 }
 
@@ -131,8 +133,14 @@ static inline pleuel_status t_on_event(void* user, const pl_event_record* e) {
 }
 
 static inline void t_record_list(t_bench* b, const pl_expr* e, int n, pl_pattern* out) {
-  pl_pattern_source s = {.slots = {.n_q = b->n_q, .q = b->q, .n_c = b->n_c, .lambda = b->lambda, .value_of_symbol = b->value},
-                         .n_outputs = n, .output = e, .n = 1, .q = b->identity, .c = b->identity, .out = b->identity};
+  pl_pattern_source s = {
+      .slots = {.n_q = b->n_q, .q = b->q, .n_c = b->n_c, .lambda = b->lambda, .value_of_symbol = b->value},
+      .n_outputs = n,
+      .output = e,
+      .n = 1,
+      .q = b->identity,
+      .c = b->identity,
+      .out = b->identity};
   assert_int_equal(pl_pattern_record(&b->job, b->pool, &s, out), PLEUEL_OK);
 }
 
@@ -140,7 +148,13 @@ static inline void t_record_list(t_bench* b, const pl_expr* e, int n, pl_pattern
 static inline pleuel_status t_make(t_bench* b, pl_expr L, double t_end, double tol) {
   pl_pattern_source s = {
       .slots = {.n_q = b->n_q, .q = b->q, .n_c = b->n_c, .lambda = b->lambda, .value_of_symbol = b->value},
-      .lagrangian = L, .force = b->force, .constraint = b->g, .velocity = b->velocity, .n = 1, .q = b->identity, .c = b->identity};
+      .lagrangian = L,
+      .force = b->force,
+      .constraint = b->g,
+      .velocity = b->velocity,
+      .n = 1,
+      .q = b->identity,
+      .c = b->identity};
   pleuel_status status = pl_pattern_record(&b->job, b->pool, &s, &b->pattern[0]);
   if (status != PLEUEL_OK) return status;
   t_record_list(b, b->out, b->n_out, &b->observer);
@@ -148,12 +162,29 @@ static inline pleuel_status t_make(t_bench* b, pl_expr L, double t_end, double t
   t_record_list(b, b->branch, b->n_branch, &b->branches);
   int kinetic = b->setup.kinetic, potential = b->setup.potential;
   bool conserved = b->setup.energy_conserved;
-  b->setup = (pl_setup){.n_q = b->n_q, .coordinates = b->coordinate, .n_c = b->n_c, .links = b->link, .n_patterns = 1,
-                        .patterns = b->pattern, .n_out = b->n_out, .out = b->column, .n_observers = 1, .observers = &b->observer,
-                        .kinetic = kinetic, .potential = potential, .energy_conserved = conserved, .n_events = b->n_events,
-                        .events = b->event, .n_watched = b->n_watch, .n_watch_patterns = 1, .watch = &b->watcher,
-                        .n_branches = b->n_branch, .branches = b->branch_setup, .n_branch_outputs = b->n_branch,
-                        .n_branch_patterns = 1, .branch_patterns = &b->branches};
+  b->setup = (pl_setup){.n_q = b->n_q,
+                        .coordinates = b->coordinate,
+                        .n_c = b->n_c,
+                        .links = b->link,
+                        .n_patterns = 1,
+                        .patterns = b->pattern,
+                        .n_out = b->n_out,
+                        .out = b->column,
+                        .n_observers = 1,
+                        .observers = &b->observer,
+                        .kinetic = kinetic,
+                        .potential = potential,
+                        .energy_conserved = conserved,
+                        .n_events = b->n_events,
+                        .events = b->event,
+                        .n_watched = b->n_watch,
+                        .n_watch_patterns = 1,
+                        .watch = &b->watcher,
+                        .n_branches = b->n_branch,
+                        .branches = b->branch_setup,
+                        .n_branch_outputs = b->n_branch,
+                        .n_branch_patterns = 1,
+                        .branch_patterns = &b->branches};
   b->options.t_end = t_end;
   b->options.tol = tol;
   b->options.sink = (pl_sink){.user = b, .row = t_on_row, .event = t_on_event};

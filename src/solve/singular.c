@@ -1,26 +1,28 @@
 // Singular positions: where the constraints lose rank for a moment.
 //
-// The smallest pivot of the independent rows fades linearly in time towards such a place.  The motion itself is smooth there
-// as a rule, but its coefficients are not computable: near the place order k carries rounding errors of size ε / d^k, d being the
-// distance.  So the last steps before it are replaced by one leap to the mirror point behind it, with a series cut at an
-// order low enough for its errors and high enough for the distance.  Velocities are continuous by construction.  The leap
-// counts only if the constraints at the far side are met almost without correction, if two orders agree and if the energy,
-// where it is conserved, is the same; it is recorded as an event.  Otherwise the run stops and says where.
+// The smallest pivot of the independent rows fades linearly in time towards such a place.  The motion itself is smooth
+// there as a rule, but its coefficients are not computable: near the place order k carries rounding errors of size ε /
+// d^k, d being the distance.  So the last steps before it are replaced by one leap to the mirror point behind it, with
+// a series cut at an order low enough for its errors and high enough for the distance.  Velocities are continuous by
+// construction.  The leap counts only if the constraints at the far side are met almost without correction, if two
+// orders agree and if the energy, where it is conserved, is the same; it is recorded as an event.  Otherwise the run
+// stops and says where.
 #include "solve/solve_impl.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-static const double faded = 1e-6;          // part of its largest value at which the smallest pivot counts as zero
-static const double near = 0.1;            // part of it from which a leap is considered
-// Correction that a leap may need, relative.  Rounding is magnified across the branches, where the constraints are weak, and
-// the projection removes it; another branch is as far away as the motion is large.
+static const double faded = 1e-6;  // part of its largest value at which the smallest pivot counts as zero
+static const double near = 0.1;    // part of it from which a leap is considered
+// Correction that a leap may need, relative.  Rounding is magnified across the branches, where the constraints are
+// weak, and the projection removes it; another branch is as far away as the motion is large.
 static const double off_branch = 1e-8;
-enum { LEAP_LEAST = 3, LEAP_MOST = 10 };   // orders of a leap: 2^order rounding errors, and few enough
+enum { LEAP_LEAST = 3, LEAP_MOST = 10 };  // orders of a leap: 2^order rounding errors, and few enough
 
 // ---------------------------------------------------------------------------------------------- where
-// How far ahead the smallest pivot, continued linearly from where it was twice as large, is zero; 0 when that says nothing.
+// How far ahead the smallest pivot, continued linearly from where it was twice as large, is zero; 0 when that says
+// nothing.
 static double reach_of_singular(const pl_run* run) {
   double way = run->t - run->fade[0].t, slope = (run->smallest_here - run->fade[0].smallest) / way;
   if (!isfinite(slope) || run->fade[0].smallest == 0) return 0;
@@ -49,7 +51,8 @@ static void place_in_words(const pl_run* run, double reach, char* where, size_t 
   where[0] = '\0';
   for (int i = 0; i < run->n_q && n < size - 64; i++) {
     if (run->setup->coordinates[i].hidden) continue;
-    int w = snprintf(where + n, size - n, "%s%s = %.4g", n ? ", " : "", run->setup->coordinates[i].name, run->q[i] + reach * run->v[i]);
+    int w = snprintf(where + n, size - n, "%s%s = %.4g", n ? ", " : "", run->setup->coordinates[i].name,
+                     run->q[i] + reach * run->v[i]);
     if (w < 0 || (size_t)w >= size - n) break;
     n += (size_t)w;
   }
@@ -66,7 +69,8 @@ static int without_inertia(const pl_run* run) {
 pleuel_status pl_run_singular(pl_run* run) {
   int idle = without_inertia(run);
   if (run->rank == run->n_active && idle >= 0 && run->smallest_here >= faded * run->best)
-    return pl_fail(run->job, PLEUEL_SINGULAR, "nothing determines the acceleration of %s: it carries no mass, and no constraint moves it",
+    return pl_fail(run->job, PLEUEL_SINGULAR,
+                   "nothing determines the acceleration of %s: it carries no mass, and no constraint moves it",
                    run->setup->coordinates[idle].name);
   double reach = reach_of_singular(run);
   char where[320];
@@ -74,9 +78,10 @@ pleuel_status pl_run_singular(pl_run* run) {
   run->stats.t_singular = run->t + reach;
   pl_rows_before(run);
   if (run->started) PL_TRY(pl_rows_event(run, PL_EV_SINGULAR, -1, 0, false));
-  return pl_fail(run->job, PLEUEL_SINGULAR,
-                 "singular position at t = %.9g s (%s): the constraints lose rank and do not tell how the motion goes on",
-                 run->stats.t_singular, where);
+  return pl_fail(
+      run->job, PLEUEL_SINGULAR,
+      "singular position at t = %.9g s (%s): the constraints lose rank and do not tell how the motion goes on",
+      run->stats.t_singular, where);
 }
 
 // ---------------------------------------------------------------------------------------------- leaping over it
@@ -113,8 +118,8 @@ static double pivot_at(pl_run* run, double dt) {
   return pl_independent_pivot(run, &smallest) ? smallest : (double)NAN;
 }
 
-// The place from a guess: the pivot is linear on both sides of it.  First from its slope on this side, then by closer and closer
-// chords around it.  0: it is not where it was thought to be.
+// The place from a guess: the pivot is linear on both sides of it.  First from its slope on this side, then by closer
+// and closer chords around it.  0: it is not where it was thought to be.
 static double find_place(pl_run* run, double guess) {
   double here = pivot_at(run, 0), there = pivot_at(run, 0.3 * guess);
   if (isnan(here)) return guess;
@@ -157,8 +162,8 @@ bool pl_singular_leap(pl_run* run, double left, double* length, pl_projection* p
   bool fine = orders_agree(run, *length, order) && (run->n_watch == 0 || pl_watch_first(run, *length) < 0);
   if (fine) {
     *p = pl_project(run, run->t + run->t_low + *length, run->trial_q, run->trial_v);
-    fine = p->ok && p->move_q <= off_branch && p->move_v <= 100 * off_branch && p->g_after <= 1e-12 && p->r_after <= 1e-12 &&
-           energy_agrees(run);
+    fine = p->ok && p->move_q <= off_branch && p->move_v <= 100 * off_branch && p->g_after <= 1e-12 &&
+           p->r_after <= 1e-12 && energy_agrees(run);
   }
   return fine || leap_fails(run);
 }
@@ -175,8 +180,15 @@ pleuel_status pl_singular_record(pl_run* run) {
   pl_observe(run, run->stats.t_singular, run->row_q, run->row_v, run->row_a, run->row_l, run->out_now);
   pl_mode_text(run, run->mode);
   pl_event_record e = {.kind = PL_EV_SINGULAR, .index = -1};
-  e.before = e.after = (pl_row){.t = run->stats.t_singular, .q = run->row_q, .v = run->row_v, .a = run->row_a, .lambda = run->row_l,
-                                .unique = run->unique, .out = run->out_now, .mode = run->mode, .kind = PL_ROW_AFTER};
+  e.before = e.after = (pl_row){.t = run->stats.t_singular,
+                                .q = run->row_q,
+                                .v = run->row_v,
+                                .a = run->row_a,
+                                .lambda = run->row_l,
+                                .unique = run->unique,
+                                .out = run->out_now,
+                                .mode = run->mode,
+                                .kind = PL_ROW_AFTER};
   pleuel_status how = s->event(s->user, &e);
   run->refused |= how != PLEUEL_OK;
   return how;

@@ -97,7 +97,8 @@ struct pl_run {
   bool *unique;            // multiplier determined                      (n_c)
   int n_active, rank, rank_mode;
   bool by_pivots;          // too large for a look at every point: the subset is chosen once a mode, pivots are watched
-  double *rows, *rank_work, *column;   // for independence: rows (n_c x n_q), largest scaled entry of each column so far (n_q)
+  double *rows, *rank_work;            // for independence: rows (n_c x n_q)
+  double *column;                      // largest scaled entry of each column so far (n_q)
   double *row_long, *row_part;         // longest that a row has been, part of it that it is now   (n_c)
   int *priority, *row_of;
   bool *row_taken, *taken_kept;
@@ -150,8 +151,8 @@ struct pl_run {
 };
 
 // ---- batches.c: instances in lanes
-pleuel_status pl_batches_make(pl_job* job, pl_batches* b, const pl_pattern* patterns, int n, int orders, int n_q, int n_c,
-                              int n_out);
+pleuel_status pl_batches_make(pl_job* job, pl_batches* b, const pl_pattern* patterns, int n, int orders, int n_q,
+                              int n_c, int n_out);
 void pl_batches_time(pl_batches* b, double t);
 void pl_batches_load_q(pl_batches* b, const double* q, int k);
 void pl_batches_load_v(pl_batches* b, const double* v, int k);
@@ -176,7 +177,7 @@ void pl_kkt_free(pl_kkt* k);
 
 // ---- independent.c: which constraints are used, what is determined
 void pl_independent_choose(pl_run* run);             // at every point; once a mode for large systems
-// The smallest pivot at what was evaluated last, 0 where a row is lost, without choosing anything; false: too many rows.
+// The smallest pivot at what was evaluated last, 0 where a row is lost, without choosing anything; false: too many.
 bool pl_independent_pivot(pl_run* run, double* smallest);
 void pl_sizes_note(pl_run* run, const double* q, const double* v);   // q_size, q_most and so on
 void pl_sizes_keep(pl_run* run);                    // what was noted counts
@@ -231,7 +232,8 @@ pleuel_status pl_rows_begin(pl_run* run);
 pleuel_status pl_rows_point(pl_run* run, pl_row_kind kind);              // the point itself
 pleuel_status pl_rows_grid(pl_run* run, double t_from, double t_to);     // grid times in (t_from, t_to)
 pl_row pl_row_now(pl_run* run, pl_row_kind kind, double* out, char* mode);
-void pl_observe(pl_run* run, double t, const double* q, const double* v, const double* a, const double* lambda, double* out);
+void pl_observe(pl_run* run, double t, const double* q, const double* v, const double* a, const double* lambda,
+                double* out);
 void pl_rows_before(pl_run* run);                                        // remembers the point before a mode change
 pleuel_status pl_rows_event(pl_run* run, pl_event_kind kind, int index, double impulse, bool at_start);
 void pl_rows_energy(pl_run* run, bool anew);                             // energy at the point, drift

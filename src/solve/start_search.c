@@ -5,15 +5,15 @@
 // fits: it is the start.  Several: they are listed.  None: a given value is looked for that, left free,
 // would let the constraints be met.  Velocities: linear, of least kinetic energy where they are free.
 //
-// A one-sided constraint whose side the other values determine is in contact when it is met and free otherwise; one that
-// they do not determine closes the start: the body sits on it.
+// A one-sided constraint whose side the other values determine is in contact when it is met and free otherwise; one
+// that they do not determine closes the start: the body sits on it.
 #include "solve/start_impl.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-enum { GUESSES = 72, GUESSES_LARGE = 6 };   // guesses tried; for systems that are solved sparse
+enum { GUESSES = 72, GUESSES_LARGE = 6 };  // guesses tried; for systems that are solved sparse
 
 static const double met = 1e-9;
 static const double pi = 3.14159265358979323846;
@@ -28,8 +28,8 @@ static pl_start make(pl_run* run) {
   s.try_q = PL_ARRAY(a, double, q + 1);
   s.held_q = PL_ARRAY(a, bool, q + 1);
   s.held_v = PL_ARRAY(a, bool, q + 1);
-  s.solutions = PL_ARRAY(a, double, q * PL_START_ROOM + 1);
-  s.solution_on = PL_ARRAY(a, bool, c * PL_START_ROOM + 1);
+  s.solutions = PL_ARRAY(a, double, q* PL_START_ROOM + 1);
+  s.solution_on = PL_ARRAY(a, bool, c* PL_START_ROOM + 1);
   s.sits = PL_ARRAY(a, bool, c + 1);
   for (int i = 0; i < run->n_q; i++) {
     s.held_q[i] = run->setup->coordinates[i].has_q;
@@ -243,7 +243,8 @@ static bool worth_trying(const pl_run* run, int coordinate, int link) {
     const pl_batch* b = &run->motion.at[i];
     for (int e = 0; e < b->pattern->n_G; e++)
       for (int l = 0; l < b->n; l++)
-        if (b->c[b->pattern->G[e].row * b->lanes + l] == link && b->q[b->pattern->G[e].col * b->lanes + l] == coordinate)
+        if (b->c[b->pattern->G[e].row * b->lanes + l] == link &&
+            b->q[b->pattern->G[e].col * b->lanes + l] == coordinate)
           return true;
   }
   return false;
@@ -306,8 +307,8 @@ static pleuel_status violated(pl_start* s, int link, double residual, bool veloc
   if (report->move_coordinate < 0)
     return pl_fail(run->job, PLEUEL_CONTRADICTION, "%s %s by %.3g of its terms", what, name, residual);
   const pl_coordinate* c = &run->setup->coordinates[report->move_coordinate];
-  return pl_fail(run->job, PLEUEL_CONTRADICTION, "%s %s by %.3g of its terms; with %s = %.10g it would be met", what, name, residual,
-                 report->move_velocity && c->v_name ? c->v_name : c->name, report->move_to);
+  return pl_fail(run->job, PLEUEL_CONTRADICTION, "%s %s by %.3g of its terms; with %s = %.10g it would be met", what,
+                 name, residual, report->move_velocity && c->v_name ? c->v_name : c->name, report->move_to);
 }
 
 static pleuel_status no_solution(pl_start* s) {
@@ -325,7 +326,8 @@ static pleuel_status no_solution(pl_start* s) {
   }
   run->start.trouble = PL_START_NONE;
   run->start.link = link;
-  if (solved) return pl_fail(run->job, PLEUEL_CONTRADICTION, "no solution of the constraints fits the branch conditions");
+  if (solved)
+    return pl_fail(run->job, PLEUEL_CONTRADICTION, "no solution of the constraints fits the branch conditions");
   return pl_fail(run->job, PLEUEL_CONTRADICTION, "no positions were found that meet the constraints%s%s",
                  link >= 0 ? ", in particular " : "", link >= 0 ? run->setup->links[link].name : "");
 }
@@ -339,7 +341,10 @@ static pleuel_status several_solutions(pl_start* s) {
   for (int k = 0; k < s->n_solutions && n < sizeof text - 1; k++) {
     for (int i = 0, shown = 0; i < run->n_q && n < sizeof text - 1; i++) {
       if (s->held_q[i]) continue;
-      int w = snprintf(text + n, sizeof text - n, "%s%s = %.6g", shown++ ? ", " : k ? "; or " : "",
+      int w = snprintf(text + n, sizeof text - n, "%s%s = %.6g",
+                       shown++ ? ", "
+                       : k     ? "; or "
+                               : "",
                        run->setup->coordinates[i].name, s->solutions[(size_t)k * (size_t)run->n_q + (size_t)i]);
       if (w < 0) break;
       n += (size_t)w;
@@ -395,7 +400,8 @@ static pleuel_status find_velocities(pl_start* s) {
   set_velocities(s);
   pl_start_velocities(s, s->held_v);
   if (s->worst_link < 0)
-    return pl_fail(run->job, PLEUEL_SINGULAR, "the start velocities cannot be found: the constraints or the masses are singular there");
+    return pl_fail(run->job, PLEUEL_SINGULAR,
+                   "the start velocities cannot be found: the constraints or the masses are singular there");
   return violated(s, s->worst_link, s->worst, true);
 }
 
@@ -412,7 +418,8 @@ static bool is_singular_start(pl_start* s) {
   pl_start_residual(s, s->q, &worst);
   int rank = pl_start_rank(s, none), rank_near = rank;
   for (int attempt = 0; attempt < 3 && rank_near == rank; attempt++) {
-    for (int i = 0; i < run->n_q; i++) s->q[i] = home[i] + 1e-3 * fmax(run->q_size, 1e-300) * pl_random_between(&r, -1, 1);
+    for (int i = 0; i < run->n_q; i++)
+      s->q[i] = home[i] + 1e-3 * fmax(run->q_size, 1e-300) * pl_random_between(&r, -1, 1);
     if (pl_start_positions(s, none)) rank_near = pl_start_rank(s, none);
   }
   memcpy(s->q, home, (size_t)run->n_q * sizeof(double));
@@ -433,7 +440,8 @@ static void list_moves(pl_start* s) {
       double from = pass == 0 ? plain_guess(c) : c->has_v ? c->v : c->has_v_guess ? c->v_guess : 0;
       // rounding is no move
       if (fabs(x[i] - from) <= 1e-14 * size) continue;
-      moves[report->n_moves++] = (pl_start_move){.coordinate = i, .velocity = pass == 1, .given = given, .from = from, .to = x[i]};
+      moves[report->n_moves++] =
+          (pl_start_move){.coordinate = i, .velocity = pass == 1, .given = given, .from = from, .to = x[i]};
       if (given) report->largest_move = fmax(report->largest_move, fabs(x[i] - from) / size);
     }
   }
@@ -451,8 +459,8 @@ static void list_sitting(pl_start* s) {
 static pleuel_status check_given(pl_run* run) {
   for (int i = 0; i < run->n_q; i++) {
     const pl_coordinate* c = &run->setup->coordinates[i];
-    bool fine = (!c->has_q || isfinite(c->q)) && (!c->has_v || isfinite(c->v)) && (!c->has_guess || isfinite(c->guess)) &&
-                (!c->has_v_guess || isfinite(c->v_guess));
+    bool fine = (!c->has_q || isfinite(c->q)) && (!c->has_v || isfinite(c->v)) &&
+                (!c->has_guess || isfinite(c->guess)) && (!c->has_v_guess || isfinite(c->v_guess));
     if (!fine) return pl_fail(run->job, PLEUEL_USAGE, "the start value of %s is not a number", c->name);
   }
   return PLEUEL_OK;

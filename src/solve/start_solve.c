@@ -1,7 +1,7 @@
 // Solving the constraints with given values held.
 //
-// Positions: damped Gauss-Newton, each correction of least length.  Velocities: linear, of least kinetic energy.  Both use the
-// linear system of the run with the rows and columns of held coordinates replaced by 1.
+// Positions: damped Gauss-Newton, each correction of least length.  Velocities: linear, of least kinetic energy.  Both
+// use the linear system of the run with the rows and columns of held coordinates replaced by 1.
 #include "solve/start_impl.h"
 
 #include <float.h>
@@ -9,7 +9,7 @@
 
 enum { MAX_ROUNDS = 60 };
 
-static const double met = 1e-9;       // relative residual that counts as met; the projection does the rest
+static const double met = 1e-9;  // relative residual that counts as met; the projection does the rest
 static const double done = 4 * DBL_EPSILON;
 
 // ---------------------------------------------------------------------------------------------- residuals
@@ -88,7 +88,8 @@ static int choose(pl_start* s, const bool* held, bool positions) {
     for (int j = 0; j < n && most_free < 1e-13 * most; j++) row[j] = 0;
   }
   double smallest;
-  int rank = pl_independent_rows(run->rows, run->priority, run->row_taken, run->rank_work, run->n_active, n, 1e-9, &smallest);
+  int rank =
+      pl_independent_rows(run->rows, run->priority, run->row_taken, run->rank_work, run->n_active, n, 1e-9, &smallest);
   for (int c = 0; c < run->n_c; c++) run->taken[c] = run->row_of[c] >= 0 && run->row_taken[run->row_of[c]];
   return rank;
 }
@@ -138,7 +139,7 @@ static double merit(const pl_run* run, const double* g, const double* size) {
 // Halves the correction in run->rhs until it helps; false when it never does.
 static bool line_search(pl_start* s, double* residual, int* worst) {
   pl_run* run = s->run;
-  double* size = run->row_l;       // free here
+  double* size = run->row_l;  // free here
   double before;
   for (int c = 0; c < run->n_c; c++) size[c] = run->g_size[c];
   before = merit(run, run->g, size);

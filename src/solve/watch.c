@@ -63,11 +63,12 @@ static bool is_watched(const pl_run* run, const pl_watch* w) {
   if (w->kind == PL_WATCH_EVENT) return true;
   const pl_link* link = &run->setup->links[w->index];
   if (w->kind == PL_WATCH_RELEASE) return run->active[w->index];
-  return !run->on[w->index] && !run->detached[w->index] && !link->velocity && (link->contact < 0 || run->on[link->contact]);
+  return !run->on[w->index] && !run->detached[w->index] && !link->velocity &&
+         (link->contact < 0 || run->on[link->contact]);
 }
 
 double pl_watch_force_noise(const pl_run* run, int c) {
-  static const double rounding = 1e-13;   // of the forces that λ balances
+  static const double rounding = 1e-13;  // of the forces that λ balances
   return run->row_most[c] > 0 ? rounding * run->force_size / run->row_most[c] : 0;
 }
 
@@ -135,7 +136,7 @@ static double find_root(pl_run* run, pl_watch* w, double h) {
 }
 
 double pl_watch_first(pl_run* run, double h) {
-  static const double together = 1e-12;   // of the step: roots closer than this happen at once
+  static const double together = 1e-12;  // of the step: roots closer than this happen at once
   double first = -1;
   for (int i = 0; i < run->n_watch; i++) {
     run->root[i] = is_watched(run, &run->watch[i]) ? find_root(run, &run->watch[i], h) : -1;

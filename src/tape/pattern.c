@@ -5,7 +5,7 @@ typedef struct builder {
   pl_job* job;
   pl_pool* pool;
   const pl_pattern_source* source;
-  const pl_expr* v;                  // velocity atoms  (n_q)
+  const pl_expr* v;  // velocity atoms  (n_q)
   PL_VEC(pl_expr) roots;
   PL_VEC(bool) high;
   PL_VEC(pl_pattern_entry) mass, h, G, W, gt, g, outputs;
@@ -21,11 +21,11 @@ static int add_root(builder* b, pl_expr e, bool high) {
   return b->roots.n - 1;
 }
 
-#define ADD_ENTRY(b, list, row_, col_, e, high)                                                                      \
-  do {                                                                                                                \
-    pl_expr entry_ = (e);                                                                                             \
-    if (!pl_is_zero_node((b)->pool, entry_))                                                                          \
-      pl_push((b)->job->arena, (b)->list, (pl_pattern_entry){(row_), (col_), add_root((b), entry_, (high))});         \
+#define ADD_ENTRY(b, list, row_, col_, e, high)                                                               \
+  do {                                                                                                        \
+    pl_expr entry_ = (e);                                                                                     \
+    if (!pl_is_zero_node((b)->pool, entry_))                                                                  \
+      pl_push((b)->job->arena, (b)->list, (pl_pattern_entry){(row_), (col_), add_root((b), entry_, (high))}); \
   } while (0)
 
 // ---------------------------------------------------------------------------------------------- dynamics
@@ -119,7 +119,8 @@ static pleuel_status check_levels(pl_job* job, const pl_pattern* out) {
     return pl_fail(job, PLEUEL_UNSUPPORTED, "a force contains accelerations, or multipliers of another pattern");
   if (!levels_allow(out->tape, out->W, out->n_W, PL_LEVEL_SPEED))
     return pl_fail(job, PLEUEL_UNSUPPORTED, "a force is not linear in a multiplier");
-  if (!levels_allow(out->tape, out->G, out->n_G, PL_LEVEL_PLACE) || !levels_allow(out->tape, out->gt, out->n_gt, PL_LEVEL_PLACE))
+  if (!levels_allow(out->tape, out->G, out->n_G, PL_LEVEL_PLACE) ||
+      !levels_allow(out->tape, out->gt, out->n_gt, PL_LEVEL_PLACE))
     return pl_fail(job, PLEUEL_UNSUPPORTED, "a constraint is not linear in the velocities");
   if (!levels_allow(out->tape, out->g, out->n_g, PL_LEVEL_PLACE))
     return pl_fail(job, PLEUEL_UNSUPPORTED, "a constraint contains velocities but is not declared so");

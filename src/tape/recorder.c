@@ -28,10 +28,10 @@ const bool pl_op_series[PL_N_OPS] = {
 };
 
 enum {
-  MAX_NODES = 1 << 24,    // keys of the table of subexpressions hold two node numbers
-  MAX_DEPTH = 4000,       // nesting of an expression; beyond it the C stack would be at risk
-  MAX_SUM = 1000000,      // terms of a sum over an index
-  MAX_POWER = 64          // integer powers up to this become multiplications
+  MAX_NODES = 1 << 24,  // keys of the table of subexpressions hold two node numbers
+  MAX_DEPTH = 4000,     // nesting of an expression; beyond it the C stack would be at risk
+  MAX_SUM = 1000000,    // terms of a sum over an index
+  MAX_POWER = 64        // integer powers up to this become multiplications
 };
 
 typedef struct recorder {
@@ -43,14 +43,14 @@ typedef struct recorder {
   PL_VEC(pl_symbol) params;
   pl_map *by_expr, *by_op, *by_value, *atoms, *by_param;
   int depth;
-  pleuel_status status;   // of the first failure
+  pleuel_status status;  // of the first failure
 } recorder;
 
 static int record(recorder* r, pl_expr e);
 
 static int give_up(recorder* r, pleuel_status s, const char* fmt, const char* what) {
   if (r->status == PLEUEL_OK) r->status = pl_fail(r->job, s, fmt, what);
-  return 0;   // any node will do: nobody looks at it
+  return 0;  // any node will do: nobody looks at it
 }
 
 // ---------------------------------------------------------------------------------------------- emitting
@@ -68,10 +68,11 @@ static int append(recorder* r, pl_tape_node node) {
 static int number(recorder* r, double x) {
   uint64_t bits;
   memcpy(&bits, &x, sizeof bits);
-  uint64_t key = bits + 1;             // 0.0 is not "absent"
+  uint64_t key = bits + 1;  // 0.0 is not "absent"
   uint64_t known = pl_map_get(r->by_value, key);
   if (known) return (int)(known - 1);
-  int node = append(r, (pl_tape_node){.op = PL_OP_CONST, .level = PL_LEVEL_CONST, .a = -1, .b = -1, .c = -1, .value = x});
+  int node =
+      append(r, (pl_tape_node){.op = PL_OP_CONST, .level = PL_LEVEL_CONST, .a = -1, .b = -1, .c = -1, .value = x});
   pl_map_set(r->by_value, key, (uint64_t)node + 1);
   return node;
 }
@@ -80,7 +81,8 @@ static int input(recorder* r, pl_op op, pl_level level, int slot) {
   uint64_t key = (uint64_t)(op + 1) << 56 | (uint64_t)(slot + 1);
   uint64_t known = pl_map_get(r->by_op, key);
   if (known) return (int)(known - 1);
-  int node = append(r, (pl_tape_node){.op = (uint8_t)op, .level = (uint8_t)level, .a = -1, .b = -1, .c = -1, .slot = slot});
+  int node =
+      append(r, (pl_tape_node){.op = (uint8_t)op, .level = (uint8_t)level, .a = -1, .b = -1, .c = -1, .slot = slot});
   pl_map_set(r->by_op, key, (uint64_t)node + 1);
   return node;
 }
@@ -141,7 +143,7 @@ static int with_own_square(recorder* r, pl_op op, int a) {
 }
 
 // ---------------------------------------------------------------------------------------------- powers
-static int power_int(recorder* r, int base, long n) {   // n >= 1
+static int power_int(recorder* r, int base, long n) {  // n >= 1
   int result = -1;
   while (n > 0) {
     if (n & 1) result = result < 0 ? base : times(r, result, base);
@@ -173,7 +175,9 @@ static int power(recorder* r, pl_expr base, pl_expr exponent) {
 }
 
 // ---------------------------------------------------------------------------------------------- products, sums
-typedef struct product { int constant, above, below, constant_below; } product;   // -1: empty
+typedef struct product {
+  int constant, above, below, constant_below;
+} product;  // -1: empty
 
 static void gather(recorder* r, int* into, int node) { *into = *into < 0 ? node : times(r, *into, node); }
 
@@ -334,7 +338,9 @@ static int record_new(recorder* r, pl_expr e) {
 }
 
 static int record_atom(recorder* r, uint64_t atom) {
-  static const pl_level level[] = {[PL_OP_Q] = PL_LEVEL_PLACE, [PL_OP_V] = PL_LEVEL_SPEED, [PL_OP_A] = PL_LEVEL_FORCE,
+  static const pl_level level[] = {[PL_OP_Q] = PL_LEVEL_PLACE,
+                                   [PL_OP_V] = PL_LEVEL_SPEED,
+                                   [PL_OP_A] = PL_LEVEL_FORCE,
                                    [PL_OP_LAMBDA] = PL_LEVEL_FORCE};
   pl_op op = (pl_op)(atom >> 32);
   return input(r, op, level[op], (int)(atom & 0xffffffffu));

@@ -86,7 +86,7 @@ void pl_tape_dump(pl_text* out, const pl_pool* pool, const pl_tape* tape);
 typedef struct pl_pattern_source {
   pl_tape_slots slots;
   pl_expr lagrangian;             // L(q, v, t), quadratic in v
-  const pl_expr* force;           // further generalised force Q_i(q, v, t, λ) on slot i, affine in λ   (n_q), poison: none
+  const pl_expr* force;           // further generalised force Q_i(q, v, t, λ) on slot i, affine in λ (n_q); poison: none
   const pl_expr* constraint;      // local constraint, n_c of them: g(q, t), or f(q, v, t) affine in v when velocity[c]
   const bool* velocity;           // nonholonomic: holds on velocity level only               (n_c), NULL: none
   int n_outputs;
@@ -105,8 +105,8 @@ typedef struct pl_pattern {
   const pl_tape* tape;
   int n_mass;   const pl_pattern_entry* mass;      // M, upper triangle: row <= col (coordinate slots)
   int n_h;      const pl_pattern_entry* h;         // h of slot row; col unused
-  int n_G;      const pl_pattern_entry* G;         // dg/dq: row constraint slot, col coordinate slot; df/dv if nonholonomic
-  int n_W;      const pl_pattern_entry* W;         // dQ/dλ: row coordinate slot, col constraint slot, added to G^T; usually none
+  int n_G;      const pl_pattern_entry* G;         // dg/dq: row constraint slot, col coordinate slot; or df/dv
+  int n_W;      const pl_pattern_entry* W;         // dQ/dλ: row coordinate slot, col constraint slot; usually none
   int n_gt;     const pl_pattern_entry* gt;        // dg/dt of constraint slot row; f at v = 0 if nonholonomic
   int n_g;      const pl_pattern_entry* g;         // g of constraint slot row; col is the root of the sum of |terms|
   int n_out;    const pl_pattern_entry* outputs;   // output slot row

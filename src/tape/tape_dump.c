@@ -25,7 +25,8 @@ static void dump_node(pl_text* out, const pl_pool* pool, const pl_tape* tape, in
 }
 
 void pl_tape_dump(pl_text* out, const pl_pool* pool, const pl_tape* tape) {
-  static const char* const title[PL_N_LEVELS] = {"constants", "of q, t", "of q, v, t", "of accelerations or multipliers"};
+  static const char* const title[PL_N_LEVELS] = {"constants", "of q, t", "of q, v, t",
+                                                 "of accelerations or multipliers"};
   for (int level = 0, i = 0; level < PL_N_LEVELS; level++) {
     if (i < tape->level_end[level]) pl_text_addf(out, "%s\n", title[level]);
     for (; i < tape->level_end[level]; i++) dump_node(out, pool, tape, i);

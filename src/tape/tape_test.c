@@ -35,7 +35,7 @@ static bench* bench_open(void) {
     *at[i] = pl_sym(b->pool, pl_symbol_make(b->pool, &info));
   }
   b->value[pl_symbol_of(b->pool, b->m).id] = 2;
-  return b;   // k has no value
+  return b;  // k has no value
 }
 
 static pleuel_status record(bench* b, const pl_expr* e, int n, pl_tape** tape) {
@@ -119,7 +119,8 @@ static void sums_over_an_index_are_written_out(void** state) {
   (void)state;
   bench* b = bench_open();
   pl_pool* p = b->pool;
-  pl_symbol i = pl_symbol_make(p, &(pl_symbol_info){.name = "i", .ascii = "i", .role = PL_R_INDEX, .dimension = pl_dimension_one()});
+  pl_symbol i = pl_symbol_make(
+      p, &(pl_symbol_info){.name = "i", .ascii = "i", .role = PL_R_INDEX, .dimension = pl_dimension_one()});
   pl_expr e = pl_sum_over(p, i, pl_int(p, 1), pl_int(p, 3), pl_mul(p, pl_sym(p, i), b->x));
   pl_tape* tape;
   assert_int_equal(record(b, &e, 1, &tape), PLEUEL_OK);
@@ -129,15 +130,23 @@ static void sums_over_an_index_are_written_out(void** state) {
 }
 
 // ---------------------------------------------------------------------------------------------- patterns
-static pleuel_status record_pattern(bench* b, pl_expr L, pl_expr force, pl_expr constraint, bool velocity, pl_pattern* out) {
+static pleuel_status record_pattern(bench* b, pl_expr L, pl_expr force, pl_expr constraint, bool velocity,
+                                    pl_pattern* out) {
   pl_expr* q = PL_ARRAY(b->arena, pl_expr, 2);
   q[0] = b->x;
   q[1] = b->y;
   pl_expr* Q = PL_ARRAY(b->arena, pl_expr, 2);
   Q[0] = force;
   static const int zero[] = {0, 1};
-  pl_pattern_source s = {.slots = {.n_q = 2, .q = q, .n_c = constraint.id ? 1 : 0, .lambda = &b->lambda, .value_of_symbol = b->value},
-                         .lagrangian = L, .force = Q, .constraint = &constraint, .velocity = &velocity, .n = 1, .q = zero, .c = zero};
+  pl_pattern_source s = {
+      .slots = {.n_q = 2, .q = q, .n_c = constraint.id ? 1 : 0, .lambda = &b->lambda, .value_of_symbol = b->value},
+      .lagrangian = L,
+      .force = Q,
+      .constraint = &constraint,
+      .velocity = &velocity,
+      .n = 1,
+      .q = zero,
+      .c = zero};
   return pl_pattern_record(&b->job, b->pool, &s, out);
 }
 
@@ -149,7 +158,8 @@ static void a_pattern_has_the_entries_that_are_not_zero(void** state) {
   pl_expr g = pl_sub(p, pl_square(p, b->x), pl_int(p, 4));
   pl_pattern pattern;
   assert_int_equal(record_pattern(b, pl_sub(p, T, b->y), pl_neg(p, b->x), g, false, &pattern), PLEUEL_OK);
-  assert_true(pattern.n_mass == 2 && pattern.n_h == 2 && pattern.n_G == 1 && pattern.n_gt == 0 && pattern.n_g == 1 && pattern.n_W == 0);
+  assert_true(pattern.n_mass == 2 && pattern.n_h == 2 && pattern.n_G == 1 && pattern.n_gt == 0 && pattern.n_g == 1 &&
+              pattern.n_W == 0);
   pl_arena_free(b->arena);
 }
 
@@ -160,7 +170,8 @@ static void what_cannot_be_moved_is_refused(void** state) {
   pl_expr v = pl_dt(p, b->x), T = pl_square(p, v);
   pl_pattern pattern;
   // not linear in the velocity, a force that squares its multiplier, a velocity in a constraint of positions
-  assert_int_equal(record_pattern(b, T, pl_poison(), pl_sub(p, pl_square(p, v), b->y), true, &pattern), PLEUEL_UNSUPPORTED);
+  assert_int_equal(record_pattern(b, T, pl_poison(), pl_sub(p, pl_square(p, v), b->y), true, &pattern),
+                   PLEUEL_UNSUPPORTED);
   assert_int_equal(record_pattern(b, T, pl_square(p, b->lambda), b->x, false, &pattern), PLEUEL_UNSUPPORTED);
   assert_int_equal(record_pattern(b, T, pl_poison(), pl_mul(p, v, b->y), false, &pattern), PLEUEL_UNSUPPORTED);
   assert_int_equal(record_pattern(b, T, pl_dt(p, v), b->x, false, &pattern), PLEUEL_UNSUPPORTED);
