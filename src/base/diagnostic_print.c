@@ -54,6 +54,10 @@ static mark mark_of(pl_span s, const char* text) {
   return (mark){at.line, at.column, width > 0 ? width : 1, text};
 }
 
+static bool is_before(const mark* x, const mark* y) {
+  return x->line != y->line ? x->line < y->line : x->column < y->column;
+}
+
 // The marks that lie in the source of the message, in order of line and column.  Marks elsewhere are returned by the
 // labels themselves (see print_foreign_labels).
 static int collect_marks(mark* marks, const pl_diagnostic* m, pl_language lang) {
@@ -63,9 +67,7 @@ static int collect_marks(mark* marks, const pl_diagnostic* m, pl_language lang) 
     if (m->labels.at[i].span.source != m->span.source) continue;
     mark x = mark_of(m->labels.at[i].span, m->labels.at[i].text);
     int k = n++;
-    for (; k > 0 && (marks[k - 1].line > x.line || (marks[k - 1].line == x.line && marks[k - 1].column > x.column)); k--) {
-      marks[k] = marks[k - 1];
-    }
+    for (; k > 0 && is_before(&x, &marks[k - 1]); k--) marks[k] = marks[k - 1];
     marks[k] = x;
   }
   return n;
@@ -177,6 +179,11 @@ static void print_fix(const printer* pr, const char* fix) {
 }
 
 // ---------------------------------------------------------------------------------------------- heads
+static const char* sentence_of(const printer* pr, const pl_diagnostic* m) {
+  const char* sentence = in_language(m->sentence, pr->style.lang);
+  return sentence ? sentence : pl_code_title(m->code, pr->style.lang);
+}
+
 static void print_head(const printer* pr, const pl_diagnostic* m) {
   colour(pr, bold);
   if (m->span.source != NULL) {
@@ -185,8 +192,7 @@ static void print_head(const printer* pr, const pl_diagnostic* m) {
   colour_of_severity(pr);
   pl_text_add(pr->out, pl_code_name(m->code));
   colour(pr, plain);
-  const char* sentence = in_language(m->sentence, pr->style.lang);
-  pl_text_addf(pr->out, "  %s\n", sentence ? sentence : pl_code_title(m->code, pr->style.lang));
+  pl_text_addf(pr->out, "  %s\n", sentence_of(pr, m));
 }
 
 static void print_terse(const printer* pr, const pl_diagnostic* m) {
@@ -194,8 +200,7 @@ static void print_terse(const printer* pr, const pl_diagnostic* m) {
     pl_place at = pl_span_place(m->span);
     pl_text_addf(pr->out, "%s:%d:%d: ", m->span.source->name, at.line, at.column);
   }
-  const char* sentence = in_language(m->sentence, pr->style.lang);
-  pl_text_addf(pr->out, "%s: %s\n", pl_code_name(m->code), sentence ? sentence : pl_code_title(m->code, pr->style.lang));
+  pl_text_addf(pr->out, "%s: %s\n", pl_code_name(m->code), sentence_of(pr, m));
 }
 
 void pl_diagnostic_print(pl_text* out, const pl_diagnostic* m, pl_print_style style) {

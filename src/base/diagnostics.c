@@ -1,5 +1,6 @@
-// Diagnostics: what is wrong with a model.  Collected by the passes, put in order, and printed in the form of the manual:
-// sentence, the user's own line, a caret range with the reason beside it, one suggestion.  language.md, "Messages".
+// Diagnostics: what is wrong with a model.  Collected by the passes, put in order, and printed in the form of the
+// manual: sentence, the user's own line, a caret range with the reason beside it, one suggestion.  language.md,
+// "Messages".
 #include "base/base.h"
 
 #include <string.h>

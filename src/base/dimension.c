@@ -75,7 +75,8 @@ bool pl_dimension_equal(pl_dimension a, pl_dimension b) {
 }
 
 // ---------------------------------------------------------------------------------------------- what they are called
-// Exponents of m kg s A, unit (UTF-8 and ASCII) where a name fits better than base units, words (NULL: "a quantity in").
+// Exponents of m kg s A, unit (UTF-8 and ASCII) where a name fits better than base units, words (NULL: "a quantity
+// in").
 typedef struct named {
   int8_t m, kg, s, A;
   const char *unit, *ascii;

@@ -1,5 +1,5 @@
-// Random numbers for laws and sample points: splitmix64 [Steele, Lea, Flood 2014].  The same seed gives the same numbers
-// everywhere.
+// Random numbers for laws and sample points: splitmix64 [Steele, Lea, Flood 2014].  The same seed gives the same
+// numbers everywhere.
 #include "base/base.h"
 
 uint64_t pl_random_bits(pl_random* r) {

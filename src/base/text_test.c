@@ -27,7 +27,8 @@ PL_TEST(every_code_point_survives_utf8) {
 }
 
 PL_TEST(malformed_utf8_is_refused) {
-  const char* bad[] = {"\x80", "\xc0\x80", "\xe0\x80\x80", "\xed\xa0\x80", "\xf4\x90\x80\x80", "\xff", "\xc3(", "\xf0\x9f\x98"};
+  const char* bad[] = {"\x80", "\xc0\x80", "\xe0\x80\x80", "\xed\xa0\x80", "\xf4\x90\x80\x80",
+                       "\xff", "\xc3(", "\xf0\x9f\x98"};
   for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
     uint32_t c;
     assert_int_equal(pl_utf8_decode(bad[i], bad[i] + strlen(bad[i]), &c), 0);

@@ -5,8 +5,8 @@ static pl_symbol name_of(pl_pool* p, pl_expr e) { return pl_symbol_of(p, e); }
 
 PL_TEST(every_function_has_its_derivative) {
   pl_expr x = kit_coordinate(p, "x");
-  const char* wanted[] = {"cos(x)", "-sin(x)", "1/cos(x)^2", "1/sqrt(-x^2 + 1)", "-1/sqrt(-x^2 + 1)", "1/(x^2 + 1)", NULL,
-                          "cosh(x)", "sinh(x)", "1/cosh(x)^2", "exp(x)", "1/x", "sign(x)", "0"};
+  const char* wanted[] = {"cos(x)", "-sin(x)", "1/cos(x)^2", "1/sqrt(-x^2 + 1)", "-1/sqrt(-x^2 + 1)",
+                          "1/(x^2 + 1)", NULL, "cosh(x)", "sinh(x)", "1/cosh(x)^2", "exp(x)", "1/x", "sign(x)", "0"};
   for (int f = 0; f <= PL_SIGN; f++) {
     if (pl_function_arity[f] == 1) assert_text(pl_diff(p, pl_call(p, (pl_function)f, x), name_of(p, x)), wanted[f]);
   }
@@ -43,7 +43,7 @@ PL_TEST(what_has_no_known_rate_is_poison_in_time) {
 }
 
 PL_TEST(elements_of_families_are_atoms) {
-  pl_expr x = kit_symbol(p, "x", PL_R_ARRAY, PL_C_COORD, PL_SIGN_ANY), i = kit_symbol(p, "i", PL_R_INDEX, PL_C_OTHER, PL_SIGN_ANY);
+  pl_expr x = kit_family(p, "x"), i = kit_index(p, "i");
   pl_expr here = pl_at(p, name_of(p, x), 0, i), before = pl_at(p, name_of(p, x), 0, pl_sub(p, i, pl_int(p, 1)));
   pl_expr d = pl_square(p, pl_sub(p, here, before));
   assert_true(kit_equal(p, pl_diff_at(p, d, here), pl_mul(p, pl_int(p, 2), pl_sub(p, here, before)), 1));
@@ -55,7 +55,7 @@ PL_TEST(elements_of_families_are_atoms) {
 }
 
 PL_TEST(a_sum_over_an_index_keeps_its_pattern) {
-  pl_expr x = kit_symbol(p, "x", PL_R_ARRAY, PL_C_COORD, PL_SIGN_ANY), i = kit_symbol(p, "i", PL_R_INDEX, PL_C_OTHER, PL_SIGN_ANY);
+  pl_expr x = kit_family(p, "x"), i = kit_index(p, "i");
   pl_expr n = kit_parameter(p, "N", PL_C_OTHER), m = kit_parameter(p, "m", PL_C_MASS);
   pl_expr body = pl_mul(p, m, pl_square(p, pl_at(p, name_of(p, x), 0, i)));
   pl_expr s = pl_sum_over(p, name_of(p, i), pl_int(p, 1), n, body);
@@ -66,12 +66,13 @@ PL_TEST(a_sum_over_an_index_keeps_its_pattern) {
 }
 
 PL_TEST(a_bound_index_is_not_replaced_and_catches_nothing) {
-  pl_expr i = kit_symbol(p, "i", PL_R_INDEX, PL_C_OTHER, PL_SIGN_ANY), n = kit_parameter(p, "N", PL_C_OTHER), x = kit_coordinate(p, "x");
+  pl_expr i = kit_index(p, "i"), n = kit_parameter(p, "N", PL_C_OTHER), x = kit_coordinate(p, "x");
   pl_expr s = pl_sum_over(p, name_of(p, i), pl_int(p, 1), n, pl_mul(p, i, x));
   assert_true(pl_same(pl_subst1(p, s, name_of(p, i), pl_int(p, 7)), s));
   assert_text(pl_subst1(p, s, name_of(p, n), pl_int(p, 3)), "sum(i in 1..3, i*x)");
   assert_true(pl_is_poison(pl_subst1(p, s, name_of(p, x), i)));
-  assert_true(pl_eval(p, pl_subst(p, s, (pl_replace[]){{name_of(p, n), pl_int(p, 4)}, {name_of(p, x), pl_int(p, 3)}}, 2), NULL) == 30);
+  pl_replace numbers[] = {{name_of(p, n), pl_int(p, 4)}, {name_of(p, x), pl_int(p, 3)}};
+  assert_true(pl_eval(p, pl_subst(p, s, numbers, 2), NULL) == 30);
 }
 
 PL_TEST(substitution_is_simultaneous) {

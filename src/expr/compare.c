@@ -137,9 +137,7 @@ int pl_compare_factors(const pl_pool* p, const pl_expr* a, int n_a, const pl_exp
 }
 
 // ---------------------------------------------------------------------------------------------- sorting
-typedef bool (*less_fn)(const void* a, const void* b, const void* user);
-
-static void merge_halves(char* to, const char* a, int n_a, const char* b, int n_b, size_t size, less_fn less,
+static void merge_halves(char* to, const char* a, int n_a, const char* b, int n_b, size_t size, pl_less less,
                          const void* user) {
   while (n_a > 0 || n_b > 0) {
     bool right = n_a == 0 || (n_b > 0 && less(b, a, user));
@@ -151,7 +149,7 @@ static void merge_halves(char* to, const char* a, int n_a, const char* b, int n_
 }
 
 // Merge sort; a range that is in order already costs one comparison per merge.
-static void sort_range(char* at, char* spare, int n, size_t size, less_fn less, const void* user) {
+static void sort_range(char* at, char* spare, int n, size_t size, pl_less less, const void* user) {
   if (n < 2) return;
   int half = n / 2;
   char* middle = at + (size_t)half * size;
@@ -162,8 +160,7 @@ static void sort_range(char* at, char* spare, int n, size_t size, less_fn less, 
   memcpy(at, spare, (size_t)n * size);
 }
 
-void pl_sort(const pl_pool* p, void* at, int n, size_t size, bool (*less)(const void* a, const void* b, const void* user),
-             const void* user) {
+void pl_sort(const pl_pool* p, void* at, int n, size_t size, pl_less less, const void* user) {
   if (n < 2) return;
   void* spare = pl_scratch_take(p, (size_t)n * size);
   sort_range(at, spare, n, size, less, user);

@@ -1,4 +1,5 @@
-// Values modulo the prime P = PL_MOD_P at a random point: what is identically zero gives 0, anything else almost never does.
+// Values modulo the prime P = PL_MOD_P at a random point: what is identically zero gives 0, anything else almost never
+// does.
 //
 // A symbol is a random residue (a square if it is known to be positive).  An angle is split into rational multiples of
 // monomials, as 3/2 of "ω t"; each monomial stands for a random rotation, the multiples follow by addition of angles.
@@ -261,9 +262,11 @@ static uint64_t left_over(int64_t* den, int64_t q, int n) {
   return factor;
 }
 
-// num/den = multiple/all divisions * num/rest: how many random units go into the fraction, and what is still to be divided.
+// How many random units 1/den of the whole is, and by what it must still be divided.
 static uint64_t units_for(int64_t den, int64_t* rest) {
-  uint64_t n = left_over(&den, 2, DIVISIONS_BY_2) * left_over(&den, 3, DIVISIONS_BY_3) * left_over(&den, 5, DIVISIONS_BY_5);
+  uint64_t n = left_over(&den, 2, DIVISIONS_BY_2);
+  n *= left_over(&den, 3, DIVISIONS_BY_3);
+  n *= left_over(&den, 5, DIVISIONS_BY_5);
   *rest = den;
   return n;
 }
@@ -337,18 +340,21 @@ static uint64_t power_value(pass* v, pl_expr e) {
 // ---------------------------------------------------------------------------------------------- logarithms
 static uint64_t log_of(pass* v, pl_expr e, int depth);
 
+static uint64_t log_of_atom(const pass* v, uint64_t x) { return residue(v->m, OF_CALL + 16 * PL_LN, x); }
+
 // ln of a positive number, as a sum over the primes that are found
 static uint64_t log_of_number(pass* v, pl_expr e) {
   const pl_pool* p = v->m->p;
   long part_of[2];
   uint64_t sum = 0;
-  if (!pl_is_ratio(p, e, &part_of[0], &part_of[1]) || part_of[0] <= 0) return residue(v->m, OF_CALL + 16 * PL_LN, at(v, e));
+  bool small = pl_is_ratio(p, e, &part_of[0], &part_of[1]) && part_of[0] > 0;
+  if (!small) return log_of_atom(v, at(v, e));
   for (int k = 0; k < 2; k++) {
     long n = part_of[k];
     for (long d = 2; n > 1; d++) {
       if (d > 1000 || d * d > n) d = n;
       for (; n % d == 0; n /= d) {
-        uint64_t x = residue(v->m, OF_CALL + 16 * PL_LN, (uint64_t)d);
+        uint64_t x = log_of_atom(v, (uint64_t)d);
         sum = k == 0 ? pl_mod_add(sum, x) : pl_mod_sub(sum, x);
       }
     }
@@ -358,7 +364,7 @@ static uint64_t log_of_number(pass* v, pl_expr e) {
 
 static uint64_t log_of_product(pass* v, pl_expr e, int depth) {
   const pl_pool* p = v->m->p;
-  if (pl_number_sign(p, pl_arg(p, e, 0)) < 0) return residue(v->m, OF_CALL + 16 * PL_LN, at(v, e));
+  if (pl_number_sign(p, pl_arg(p, e, 0)) < 0) return log_of_atom(v, at(v, e));
   uint64_t sum = 0;
   for (int i = 0, n = pl_n_args(p, e); i < n; i++) sum = pl_mod_add(sum, log_of(v, pl_arg(p, e, i), depth + 1));
   return sum;
@@ -372,7 +378,7 @@ static uint64_t log_of(pass* v, pl_expr e, int depth) {
   if (kind == PL_MUL) return log_of_product(v, e, depth);
   if (kind == PL_POW) return pl_mod_mul(arg(v, e, 1), log_of(v, pl_arg(p, e, 0), depth + 1));
   if (kind == PL_CALL && pl_function_of(p, e) == PL_EXP) return arg(v, e, 0);
-  return residue(v->m, OF_CALL + 16 * PL_LN, at(v, e));
+  return log_of_atom(v, at(v, e));
 }
 
 // ---------------------------------------------------------------------------------------------- calls
@@ -446,7 +452,8 @@ static bool whole_bound(const pass* v, pl_expr e, uint64_t value, long* out) {
   return true;
 }
 
-// With whole numbers as bounds term by term; else the body at one random index, times a factor that stands for the range.
+// With whole numbers as bounds term by term; else the body at one random index, times a factor that stands for the
+// range.
 static uint64_t pattern_value(pass* v, pl_expr e) {
   const pl_pool* p = v->m->p;
   pl_symbol index = pl_symbol_of(p, e);

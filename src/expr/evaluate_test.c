@@ -32,7 +32,7 @@ PL_TEST(cases_look_at_the_sign_only) {
 }
 
 PL_TEST(sums_run_over_their_bounds) {
-  pl_expr i = kit_symbol(p, "i", PL_R_INDEX, PL_C_OTHER, PL_SIGN_ANY), k = kit_symbol(p, "k", PL_R_INDEX, PL_C_OTHER, PL_SIGN_ANY);
+  pl_expr i = kit_index(p, "i"), k = kit_index(p, "k");
   pl_expr n = kit_parameter(p, "N", PL_C_OTHER);
   pl_expr inner = pl_sum_over(p, pl_symbol_of(p, k), pl_int(p, 1), i, pl_mul(p, i, k));
   pl_expr outer = pl_sum_over(p, pl_symbol_of(p, i), pl_int(p, 1), n, inner);
@@ -44,7 +44,8 @@ PL_TEST(sums_run_over_their_bounds) {
 
 // Each of these is zero for every x, y; the constructors do not see it.
 PL_TEST(identities_of_angles_vanish) {
-  pl_expr x = kit_coordinate(p, "x"), y = kit_coordinate(p, "y"), w = kit_parameter(p, "w", PL_C_OTHER), t = pl_sym(p, pl_time(p));
+  pl_expr x = kit_coordinate(p, "x"), y = kit_coordinate(p, "y");
+  pl_expr w = kit_parameter(p, "w", PL_C_OTHER), t = pl_sym(p, pl_time(p));
   assert_true(kit_equal(p, pl_add(p, SQ(SIN(x)), SQ(COS(x))), pl_int(p, 1), 1));
   assert_true(kit_equal(p, SIN(TIMES(2, x)), pl_mul(p, TIMES(2, SIN(x)), COS(x)), 2));
   pl_expr third = OVER(x, 3);
@@ -73,8 +74,8 @@ PL_TEST(identities_at_fixed_angles_vanish) {
   assert_true(kit_equal(p, pl_sub(p, TIMES(3, s20), TIMES(4, pl_pow_int(p, s20, 3))), SIN(TIMES(60, degree)), 4));
   assert_true(kit_equal(p, COS(OVER(pi, 5)), OVER(pl_add(p, pl_int(p, 1), pl_sqrt(p, pl_int(p, 5))), 4), 5));
   assert_true(kit_equal(p, pl_call(p, PL_TAN, OVER(pi, 12)), pl_sub(p, pl_int(p, 2), pl_sqrt(p, pl_int(p, 3))), 6));
-  pl_expr x = kit_coordinate(p, "x"), third = OVER(pi, 3);
-  pl_expr phases = pl_add_n(p, (pl_expr[]){COS(x), COS(pl_add(p, x, TIMES(2, third))), COS(pl_sub(p, x, TIMES(2, third)))}, 3);
+  pl_expr x = kit_coordinate(p, "x"), third = OVER(TIMES(2, pi), 3);
+  pl_expr phases = pl_add_n(p, (pl_expr[]){COS(x), COS(pl_add(p, x, third)), COS(pl_sub(p, x, third))}, 3);
   assert_true(kit_vanishes(p, phases, 7, 3));
   pl_expr nested = pl_sqrt(p, pl_add(p, pl_int(p, 5), TIMES(2, pl_sqrt(p, pl_int(p, 6)))));
   assert_true(kit_equal(p, nested, pl_add(p, pl_sqrt(p, pl_int(p, 2)), pl_sqrt(p, pl_int(p, 3))), 8));

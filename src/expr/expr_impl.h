@@ -96,8 +96,8 @@ int pl_compare(const pl_pool* p, pl_expr a, pl_expr b);
 int pl_compare_factors(const pl_pool* p, const pl_expr* a, int n_a, const pl_expr* b, int n_b);
 int pl_natural_compare(const char* a, const char* b);   // m2 before m10
 // Stable sort; less tells whether a comes strictly before b.
-void pl_sort(const pl_pool* p, void* at, int n, size_t size, bool (*less)(const void* a, const void* b, const void* user),
-             const void* user);
+typedef bool (*pl_less)(const void* a, const void* b, const void* user);
+void pl_sort(const pl_pool* p, void* at, int n, size_t size, pl_less less, const void* user);
 
 // A term as coefficient times factors: 3 x^2 y is 3, {x^2, y}.  one holds the factor when there is only one.
 typedef struct pl_term {
@@ -116,7 +116,8 @@ static inline pl_expr pl_exponent_of(const pl_pool* p, pl_expr e) {
 }
 
 // ---------------------------------------------------------------------------------------------- arithmetic of numbers
-// All take PL_NUMBER nodes.  Poison when a result is too large (PL_NUMBER_LIMBS), which callers keep symbolic if they can.
+// All take PL_NUMBER nodes or poison.  Poison when a result is too large (PL_NUMBER_LIMBS); callers keep it symbolic if
+// they can.
 enum { PL_NUMBER_LIMBS = 1 << 14, PL_POWER_BITS = 1 << 16 };
 const pl_number* pl_number_of(const pl_pool* p, pl_expr e);
 pl_expr pl_number_add(pl_pool* p, pl_expr a, pl_expr b);

@@ -1,7 +1,7 @@
 // Large and deep expressions: no stack, no quadratic passes, and answers within the patience of a reader.
 #include "expr/expr_test_kit.h"
 
-static const double patience_s = 5;   // generous: the passes take some hundredths on a slow machine, sanitizers included
+static const double patience_s = 5;   // generous: the passes take tenths, on a busy machine and with sanitizers too
 
 static pl_expr* make_row(pl_pool* p, pl_arena* a, int n) {
   pl_expr* x = PL_ARRAY(a, pl_expr, n);

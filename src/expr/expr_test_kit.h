@@ -40,6 +40,12 @@ static inline pl_expr kit_coordinate(pl_pool* p, const char* name) {
 static inline pl_expr kit_parameter(pl_pool* p, const char* name, pl_class class) {
   return kit_symbol(p, name, PL_R_PARAM, class, PL_SIGN_POSITIVE);
 }
+static inline pl_expr kit_index(pl_pool* p, const char* name) {
+  return kit_symbol(p, name, PL_R_INDEX, PL_C_OTHER, PL_SIGN_ANY);
+}
+static inline pl_expr kit_family(pl_pool* p, const char* name) {
+  return kit_symbol(p, name, PL_R_ARRAY, PL_C_COORD, PL_SIGN_ANY);
+}
 
 #define assert_text(e, wanted) assert_string_equal(pl_expr_text(a, p, (e)), (wanted))
 

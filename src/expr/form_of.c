@@ -1,6 +1,6 @@
-// The plain form of an expression, in the order of style rule K5: number, masses, g, lengths, other parameters, functions,
-// coordinates, velocities, accelerations; names in natural order.  -1, 1/2 and negative powers become minus signs and
-// fractions.  No algebra is done, so the value of the form is the expression again.
+// The plain form of an expression, in the order of style rule K5: number, masses, g, lengths, other parameters,
+// functions, coordinates, velocities, accelerations; names in natural order.  -1, 1/2 and negative powers become minus
+// signs and fractions.  No algebra is done, so the value of the form is the expression again.
 #include "expr/expr_impl.h"
 
 // What is known of a node when its users are formed.

@@ -11,7 +11,8 @@ static void show_all(pl_text* t, pl_pool* p, const pl_form* f, const char* betwe
   }
 }
 
-static void show_between(pl_text* t, pl_pool* p, const pl_form* f, const char* open, const char* between, const char* shut) {
+static void show_between(pl_text* t, pl_pool* p, const pl_form* f, const char* open, const char* between,
+                         const char* shut) {
   pl_text_add(t, open);
   show_all(t, p, f, between);
   pl_text_add(t, shut);
@@ -78,7 +79,8 @@ PL_TEST(a_positive_term_goes_first) {
   assert_form(p, pl_sub(p, w.v, w.m), "(x_dot - m)");
   assert_form(p, pl_add(p, pl_neg(p, w.v), pl_neg(p, w.m)), "(-m - x_dot)");
   pl_expr s = pl_square(p, pl_call(p, PL_SIN, w.phi));
-  assert_form(p, pl_sqrt(p, pl_sub(p, pl_square(p, w.l), pl_mul(p, pl_square(p, w.r), s))), "root[(l^2 - r^2 sinphi^2)]");
+  pl_expr under = pl_sub(p, pl_square(p, w.l), pl_mul(p, pl_square(p, w.r), s));
+  assert_form(p, pl_sqrt(p, under), "root[(l^2 - r^2 sinphi^2)]");
 }
 
 PL_TEST(negative_powers_stand_below_the_line) {

@@ -9,8 +9,8 @@ static bool is_call(const pl_pool* p, pl_expr e, pl_function f) {
 }
 
 // ---------------------------------------------------------------------------------------------- parity
-// One of x and -x is the one to write: a number by its sign, a product by its coefficient and the brackets in it, a sum by
-// its first term that is no number.  Brackets in brackets count down to the given depth.
+// One of x and -x is the one to write: a number by its sign, a product by its coefficient and the brackets in it, a sum
+// by its first term that is no number.  Brackets in brackets count down to the given depth.
 static bool negative_to_depth(const pl_pool* p, pl_expr e, int depth) {
   pl_kind k = pl_kind_of(p, e);
   if (k == PL_NUMBER) return pl_number_sign(p, e) < 0;
@@ -116,11 +116,16 @@ static pl_expr shifted_sine(pl_pool* p, pl_expr e, int quarters) {
 // sqrt(1 - u^2): sin(acos u) and cos(asin u), both where acos and asin have values.
 static pl_expr other_leg(pl_pool* p, pl_expr u) { return pl_sqrt(p, pl_sub(p, p->one, pl_square(p, u))); }
 
+// f(e) when the sign of e needs no more thought.
+static pl_expr plain_trigonometric(pl_pool* p, pl_function f, pl_expr e) {
+  pl_function inverse = f == PL_SIN ? PL_ASIN : f == PL_COS ? PL_ACOS : PL_ATAN;
+  if (is_call(p, e, inverse)) return pl_arg(p, e, 0);
+  if (f != PL_TAN && (is_call(p, e, PL_ASIN) || is_call(p, e, PL_ACOS))) return other_leg(p, pl_arg(p, e, 0));
+  return raw_call(p, f, e);
+}
+
 static pl_expr sine_or_cosine(pl_pool* p, pl_function f, pl_expr e) {
   bool sine = f == PL_SIN;
-  if (is_call(p, e, PL_ASIN)) return sine ? pl_arg(p, e, 0) : other_leg(p, pl_arg(p, e, 0));
-  if (is_call(p, e, PL_ACOS)) return sine ? other_leg(p, pl_arg(p, e, 0)) : pl_arg(p, e, 0);
-
   pl_expr c, rest;
   split_angle(p, e, &c, &rest);
   if (c.id != p->zero.id || rest.id == p->zero.id) {
@@ -131,13 +136,12 @@ static pl_expr sine_or_cosine(pl_pool* p, pl_function f, pl_expr e) {
     }
     if (rest.id != p->zero.id && k >= 0 && k % 6 == 0) return shifted_sine(p, rest, sine ? k / 6 : k / 6 + 1);
   }
-  if (!looks_negative(p, e)) return raw_call(p, f, e);
-  pl_expr turned = raw_call(p, f, opposite(p, e));
+  if (!looks_negative(p, e)) return plain_trigonometric(p, f, e);
+  pl_expr turned = plain_trigonometric(p, f, opposite(p, e));
   return sine ? pl_neg(p, turned) : turned;
 }
 
 static pl_expr tangent(pl_pool* p, pl_expr e) {
-  if (is_call(p, e, PL_ATAN)) return pl_arg(p, e, 0);
   pl_expr c, rest;
   split_angle(p, e, &c, &rest);
   int k = steps_of_15_degrees(p, c);
@@ -146,8 +150,8 @@ static pl_expr tangent(pl_pool* p, pl_expr e) {
     if (s.id != 0 && t.id != 0) return pl_div(p, s, t);   // poison at 90°
   }
   if (rest.id != p->zero.id && c.id != p->zero.id && k >= 0 && k % 12 == 0) return pl_call(p, PL_TAN, rest);
-  if (!looks_negative(p, e)) return raw_call(p, PL_TAN, e);
-  return pl_neg(p, raw_call(p, PL_TAN, opposite(p, e)));
+  if (!looks_negative(p, e)) return plain_trigonometric(p, PL_TAN, e);
+  return pl_neg(p, plain_trigonometric(p, PL_TAN, opposite(p, e)));
 }
 
 // ---------------------------------------------------------------------------------------------- inverse functions
@@ -221,7 +225,8 @@ static pl_expr logarithm(pl_pool* p, pl_expr e) {
 }
 
 // ---------------------------------------------------------------------------------------------- size and sign
-// What cannot be negative whatever the symbols are: even powers, roots, exp, abs, positive numbers, and products of these.
+// What cannot be negative whatever the symbols are: even powers, roots, exp, abs, positive numbers, and products of
+// these.
 static bool never_negative(const pl_pool* p, pl_expr e) {
   long n;
   switch (pl_kind_of(p, e)) {

@@ -2,9 +2,10 @@
 //
 // The prime is chosen so that residues behave like real numbers where formulas need it:
 //   P = 7 mod 8: -1 has no root.  Exactly one of the two roots of a square is a square itself; that one is taken.  So
-//     sqrt(a) sqrt(b) = sqrt(a b), and "is a square" behaves like "is positive" in products: sign(a b) = sign(a) sign(b).
-//   P = -1 mod 57600 = 2^8 3^2 5^2: the rotations form a cyclic group of order P + 1, so it has the angles π/n for all n
-//     that divide 28800, tenths of a degree among them; and 2, 3 and 5 are squares.
+//     sqrt(a) sqrt(b) = sqrt(a b), and "is a square" behaves like "is positive" in products:
+//     sign(a b) = sign(a) sign(b).
+//   P = -1 mod 57600 = 2^8 3^2 5^2: the rotations form a cyclic group of order P + 1, so it has the angles π/n for all
+//     n that divide 28800, tenths of a degree among them; and 2, 3 and 5 are squares.
 //   The primes up to 31 are squares, and so are the positive ones among the numbers a + b sqrt(d) with d = 2, 3, 5 and
 //     |a| <= 6, |b| <= 3, or d = 6, 7, 10 and |a| <= 5, |b| <= 2, and 1 + sqrt(2) + sqrt(3).  So nested roots such as
 //     sqrt(3 + 2 sqrt(2)) = 1 + sqrt(2) come out right.
@@ -177,7 +178,9 @@ pl_rotation pl_rotation_of_pi(int64_t num, int64_t den, bool* ok) {
   pl_rotation small = {PL_MOD_P - 1, 0};   // a half turn, halved k times: 1/2^(k+1) of a turn
   for (int i = 0; i < bits; i++) small = pl_rotation_half(small, ok);
   pl_rotation r = pl_rotation_pow(small, n % two * inverse_modulo(225 % two, two) % two);
-  if (n % 9 != 0) r = pl_rotation_mul(r, pl_rotation_pow(part_of_turn(3, ok), n % 9 * inverse_modulo(two * 25 % 9, 9) % 9));
-  if (n % 25 != 0) r = pl_rotation_mul(r, pl_rotation_pow(part_of_turn(5, ok), n % 25 * inverse_modulo(two * 9 % 25, 25) % 25));
+  uint64_t ninths = n % 9 * inverse_modulo(two * 25 % 9, 9) % 9;
+  uint64_t parts_of_25 = n % 25 * inverse_modulo(two * 9 % 25, 25) % 25;
+  if (ninths != 0) r = pl_rotation_mul(r, pl_rotation_pow(part_of_turn(3, ok), ninths));
+  if (parts_of_25 != 0) r = pl_rotation_mul(r, pl_rotation_pow(part_of_turn(5, ok), parts_of_25));
   return r;
 }

@@ -1,4 +1,5 @@
-// The prime modulo which identities are checked has the properties that modular.c relies on; arithmetic, roots, rotations.
+// The prime modulo which identities are checked has the properties that modular.c relies on; arithmetic, roots,
+// rotations.
 #include "expr/modular.h"
 
 #include "expr/expr_test_kit.h"
@@ -46,7 +47,8 @@ static void arithmetic_agrees_with_wide_division(void** state) {
   pl_random r = {17};
   uint64_t edges[] = {0, 1, 2, PL_MOD_P - 1, PL_MOD_P - 2, PL_MOD_P / 2, (1ull << 60) - 1, 1ull << 60};
   for (int i = 0; i < 20000; i++) {
-    uint64_t a = i < 64 ? edges[i % 8] : pl_random_bits(&r) % PL_MOD_P, b = i < 64 ? edges[i / 8] : pl_random_bits(&r) % PL_MOD_P;
+    uint64_t a = i < 64 ? edges[i % 8] : pl_random_bits(&r) % PL_MOD_P;
+    uint64_t b = i < 64 ? edges[i / 8] : pl_random_bits(&r) % PL_MOD_P;
     assert_true(pl_mod_mul(a, b) == (uint64_t)((unsigned __int128)a * b % PL_MOD_P));
     assert_true(pl_mod_add(a, b) == (uint64_t)(((unsigned __int128)a + b) % PL_MOD_P));
     assert_true(pl_mod_add(pl_mod_sub(a, b), b) == a);

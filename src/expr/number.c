@@ -427,7 +427,9 @@ double pl_number_double(const pl_pool* p, pl_expr e) {
   if (!pl_is_number(p, e)) return (double)NAN;
   const pl_number* x = pl_number_of(p, e);
   const uint64_t exact = 1ull << 53;
-  if (x->limbs == NULL && magnitude(x->num) <= exact && (uint64_t)x->den <= exact) return (double)x->num / (double)x->den;
+  if (x->limbs == NULL && magnitude(x->num) <= exact && (uint64_t)x->den <= exact) {
+    return (double)x->num / (double)x->den;
+  }
   large u;
   borrow(&u, x);
   return large_double(&u);

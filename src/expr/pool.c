@@ -70,7 +70,8 @@ static uint64_t hash_node(pl_kind kind, int function, int dots, uint32_t symbol,
   return h;
 }
 
-static bool same_node(const pl_node* x, pl_kind kind, int function, int dots, uint32_t symbol, const pl_expr* args, int n) {
+static bool same_node(const pl_node* x, pl_kind kind, int function, int dots, uint32_t symbol, const pl_expr* args,
+                      int n) {
   return x->kind == kind && x->function == function && x->dots == dots && x->symbol == symbol && x->n == (uint32_t)n &&
          (n == 0 || memcmp(x->u.args, args, (size_t)n * sizeof *args) == 0);
 }

@@ -27,7 +27,9 @@ static void product_put_number(product* f, pl_expr x) {
   if (f->number.id == 0) f->poison = true, f->number = f->p->one;
 }
 
-static bool is_exp(const pl_pool* p, pl_expr e) { return pl_kind_of(p, e) == PL_CALL && pl_function_of(p, e) == PL_EXP; }
+static bool is_exp(const pl_pool* p, pl_expr e) {
+  return pl_kind_of(p, e) == PL_CALL && pl_function_of(p, e) == PL_EXP;
+}
 
 static void product_put(product* f, pl_expr e) {
   pl_pool* p = f->p;
