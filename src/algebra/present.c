@@ -10,10 +10,10 @@
 
 enum { MAX_SEARCH_DEPTH = 3, POINTS = 4, MAX_BAD_POINTS = 24, DOMAIN_POINTS = 12, SMALL_TERMS = 150, LARGE_TERMS = 3000 };
 
-// Steps of work in a second: a step is a small part of factoring a polynomial of a few terms, about 5 µs.
-static const double work_per_second = 200000;
+// Steps of work in a second: a step is a small part of factoring a polynomial of a few terms, 5 to 20 µs.
+static const double work_per_second = 100000;
 
-// What the first form may cost in any case, 3 ms: small formulas are searched to the end with that.
+// What the first form may cost in any case, a few milliseconds: small formulas are searched to the end with that.
 static const long work_of_first_form = 600;
 
 typedef struct present_job {
