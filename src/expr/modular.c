@@ -7,8 +7,10 @@
 //   P = -1 mod 57600 = 2^8 3^2 5^2: the rotations form a cyclic group of order P + 1, so it has the angles π/n for all
 //     n that divide 28800, tenths of a degree among them; and 2, 3 and 5 are squares.
 //   The primes up to 31 are squares, and so are the positive ones among the numbers a + b sqrt(d) with d = 2, 3, 5 and
-//     |a| <= 6, |b| <= 3, or d = 6, 7, 10 and |a| <= 5, |b| <= 2, and 1 + sqrt(2) + sqrt(3).  So nested roots such as
-//     sqrt(3 + 2 sqrt(2)) = 1 + sqrt(2) come out right.
+//     |a| <= 6, |b| <= 3, or d = 6, 7, 10 and |a| <= 5, |b| <= 2; so are sqrt(2) + sqrt(3), sqrt(2) + sqrt(5),
+//     sqrt(3) + sqrt(5) and 1 + sqrt(2) + sqrt(3).  So nested roots such as sqrt(3 + 2 sqrt(2)) = 1 + sqrt(2) come out
+//     right.
+//   3, 5, 7, 11 and 13 do not divide P - 1, so every residue has exactly one root of each of these orders.
 // It is the largest prime below 2^61 of this kind; modular_test.c looks at every point.
 #include "expr/modular.h"
 
