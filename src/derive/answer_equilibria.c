@@ -246,7 +246,7 @@ static void show_oscillations(pl_analysis* d, const pl_linearised* l, const char
       s->has_value = true;
       s->value = sqrt(x);
       s->unit = "1/s";
-      s->value_name = "ω";
+      s->value_name = strncmp(pl_symbol_get(d->pool, omega_squared(d))->name, "Ω", 2) == 0 ? "Ω" : "ω";
     }
     pl_value* v = pl_answer(d, "omega^2", root[k].value, form);
     v->of = pl_format(d->arena, "mode %d", k + 1);

@@ -79,7 +79,8 @@ static void pl_put_equation(pl_page* g, const pl_stretch* b, const pl_step* s, p
   const char* after = pl_page_words(g, s->after);
   const char* number = pl_number_text_of(g, s);
   int reserve = *number ? pl_utf8_width(number) + 2 : 0;
-  bool beside = *after && after_column + pl_utf8_width(after) + reserve <= g->margin;
+  bool fits = after_column + pl_utf8_width(after) + reserve <= g->margin;
+  bool beside = *after && (fits || g->wrap == INT_MAX);
   pl_ink ink = s->has_value || pl_is_result(b, s->formula) ? PL_INK_BOLD : PL_INK_PLAIN;
   for (int i = 0; i < f.n; i++) {
     pl_text_pad(g->out, PL_COLUMN_STEP);
