@@ -17,6 +17,7 @@ typedef struct lexer {
   const char* token;         // start of the token being read
   uint32_t last_end;         // end of the token before
   bool line_start;
+  bool said_encoding;        // a file in another encoding is one mistake
   uint32_t wrong_before;     // character complained about last on this line, so that |x| costs one message
 } lexer;
 
@@ -44,6 +45,29 @@ static bool previous_is_operand(const lexer* x, bool tight) {
   const pl_token* t = previous(x);
   if (t == NULL || (tight && t->end != offset(x, x->token))) return false;
   return t->kind == TOK_NAME || t->kind == TOK_PRIMES || t->kind == ')' || t->kind == ']';
+}
+
+// ---------------------------------------------------------------------------------------------- encoding
+static void complain_encoding(lexer* x, const char* at, const char* end) {
+  if (x->said_encoding) return;
+  x->said_encoding = true;
+  pl_span span = {x->source, offset(x, at), offset(x, end)};
+  if (*at == 0) {
+    pl_diagnostic* m = pl_complain(x->job, PL_E009, span, "a NUL byte in the text", "ein NUL-Byte im Text");
+    pl_suggest(x->job, m, "", "remove it", "entfernen");
+    return;
+  }
+  pl_diagnostic* m = pl_complain(x->job, PL_E009, span, "byte 0x%02X is not UTF-8", "Byte 0x%02X ist kein UTF-8", (unsigned char)*at);
+  pl_suggest(x->job, m, NULL, "save the file as UTF-8", "die Datei als UTF-8 speichern");
+}
+
+// Comments, texts and units are taken as they are, as long as they are text.
+static void check_encoding(lexer* x, const char* s, const char* end) {
+  for (uint32_t c; s < end;) {
+    int n = *s ? pl_utf8_decode(s, end, &c) : 0;
+    if (n == 0) complain_encoding(x, s, s + 1);
+    s += n ? n : 1;
+  }
 }
 
 // ---------------------------------------------------------------------------------------------- single tokens
@@ -147,6 +171,7 @@ static const char* lex_unit(lexer* x, const char* cursor) {
     emit(x, TOK_UNIT, close)->text = piece(x, cursor, close);
     return close;
   }
+  check_encoding(x, cursor, close);
   emit(x, TOK_UNIT, close + 1)->text = piece(x, cursor, close);
   return close + 1;
 }
@@ -163,6 +188,7 @@ static const char* lex_quote(lexer* x, const char* cursor) {
   }
   const char* close = cursor;
   while (close < x->end && *close != '"' && *close != '\n' && *close != '\r') close++;
+  check_encoding(x, cursor, close);
   if (close < x->end && *close == '"') {
     emit(x, TOK_TEXT, close + 1)->text = piece(x, cursor, close);
     return close + 1;
@@ -236,9 +262,7 @@ static const char* lex_invalid(lexer* x, const char* cursor) {
   // one message for a run of bytes
   uint32_t c;
   while (cursor < x->end && (unsigned char)*cursor >= 0x80 && pl_utf8_decode(cursor, x->end, &c) == 0) cursor++;
-  pl_diagnostic* m = pl_complain(x->job, PL_E009, span_to(x, cursor), "byte 0x%02X is not UTF-8", "Byte 0x%02X ist kein UTF-8",
-                                 (unsigned char)*x->token);
-  pl_suggest(x->job, m, NULL, "save the file as UTF-8", "die Datei als UTF-8 speichern");
+  complain_encoding(x, x->token, cursor);
   emit(x, PL_TOKEN_WRONG, cursor);
   return cursor;
 }
@@ -261,6 +285,7 @@ static const char* lex_comment(lexer* x, const char* cursor, bool printed) {
   const char* stop = line_end(x, cursor);
   const char* last = stop;
   while (last > cursor && (last[-1] == '\r' || last[-1] == ' ' || last[-1] == '\t')) last--;
+  check_encoding(x, x->token, last);
   emit(x, printed ? PL_TOKEN_PRINTED : PL_TOKEN_COMMENT, last)->text = piece(x, cursor, last);
   return stop;
 }
@@ -292,7 +317,7 @@ static const char* lex_one(lexer* x, const char* YYCURSOR) {
     "\r"              { return YYCURSOR; }
     "\x00"            {
                         if (YYCURSOR > x->end) return NULL;
-                        pl_complain(x->job, PL_E009, span_to(x, YYCURSOR), "a NUL byte in the text", "ein NUL-Byte im Text");
+                        complain_encoding(x, x->token, YYCURSOR);
                         emit(x, PL_TOKEN_WRONG, YYCURSOR);
                         return YYCURSOR;
                       }
@@ -300,6 +325,7 @@ static const char* lex_one(lexer* x, const char* YYCURSOR) {
     "#"               { return lex_comment(x, YYCURSOR, false); }
     "//"              {
                         const char* stop = line_end(x, YYCURSOR);
+                        check_encoding(x, YYCURSOR, stop);
                         pl_diagnostic* m = pl_complain(x->job, PL_E002, span_to(x, YYCURSOR), "// does not start a comment", "// beginnt keinen Kommentar");
                         pl_suggest(x->job, m, "#", "write #", "schreibe #");
                         emit(x, PL_TOKEN_WRONG, stop);
