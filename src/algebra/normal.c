@@ -19,6 +19,7 @@ static void normal_body(pl_tower* t, void* data) {
   j->out = pl_frac_expr(t, f);
   j->num = pl_frac_expr(t, upper);
   j->den = pl_div(t->pool, pl_int(t->pool, 1), pl_frac_expr(t, lower));
+  if (pl_is_poison(j->out) || pl_is_poison(j->num) || pl_is_poison(j->den)) pl_tower_give_up(t);
 }
 
 pl_expr pl_alg_normal(pl_tower* t, pl_expr e) {

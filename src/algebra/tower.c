@@ -280,6 +280,7 @@ int pl_tower_find(const pl_tower* t, pl_expr e) {
 }
 
 int pl_tower_generator(pl_tower* t, const pl_gen* g) {
+  if (pl_is_poison(g->expr)) pl_tower_give_up(t);   // the root of a negative number
   if (t->gens.n == t->capacity) {
     if (t->capacity + 8 > PL_MAX_GENERATORS) pl_tower_give_up(t);
     // the polynomials that exist belong to the old context, so everything starts again in a larger one

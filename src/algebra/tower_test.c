@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "algebra/algebra_impl.h"
+
 #define NORMAL(w, in, out) assert_string_equal(pl_text_normal(w, in), out)
 
 PL_TEST(fractions_are_reduced) {
@@ -214,6 +216,13 @@ PL_TEST(hopeless_cases_come_back_unchanged) {
   pl_world_free(w);
 }
 
+PL_TEST(the_root_of_a_negative_number_is_left_alone) {
+  pl_world* w = pl_world_make(NULL);
+  NORMAL(w, "tan(asin(3)) + x", "x + tan(asin(3))");
+  assert_true(pl_alg_is_zero(w->tower, pl_text_expr(w, "sqrt(1 - (m1 + 2)/(m1 + 1))")) != PL_YES);
+  pl_world_free(w);
+}
+
 PL_TEST(many_generators_make_the_tower_grow) {
   pl_world* w = pl_world_make(NULL);
   pl_expr sum = pl_int(w->pool, 0), squares = sum;
@@ -225,6 +234,35 @@ PL_TEST(many_generators_make_the_tower_grow) {
   }
   assert_string_equal(pl_text_of(w, pl_alg_normal(w->tower, squares)), "50");
   assert_true(pl_same(pl_alg_normal(w->tower, sum), sum));
+  pl_world_free(w);
+}
+
+// FLINT aborts on a division by zero; the hook unwinds to the service.
+static void divide_by_zero(pl_tower* t, void* data) {
+  fmpz* a = pl_int_new(t);
+  fmpz* b = pl_int_new(t);
+  fmpz_one(a);
+  fmpz_fdiv_q(a, a, b);
+  *(bool*)data = true;
+}
+
+PL_TEST(flint_s_abort_comes_back_as_no) {
+  pl_world* w = pl_world_make(NULL);
+  bool reached = false;
+  assert_false(pl_tower_run(w->tower, divide_by_zero, &reached));
+  assert_false(reached);
+  NORMAL(w, "(x^2 - 1)/(x + 1)", "x - 1");
+  pl_world_free(w);
+}
+
+PL_TEST(an_interrupted_job_is_left_at_once) {
+  pl_world* w = pl_world_make(NULL);
+  volatile int interrupted = 1;
+  w->job.interrupted = &interrupted;
+  pl_expr e = pl_text_expr(w, "(x^2 - 1)/(x + 1)");
+  assert_true(pl_same(pl_alg_normal(w->tower, e), e));
+  interrupted = 0;
+  assert_string_equal(pl_text_of(w, pl_alg_normal(w->tower, e)), "x - 1");
   pl_world_free(w);
 }
 
@@ -247,6 +285,9 @@ int main(void) {
     cmocka_unit_test(coefficients_in_a_symbol),
     cmocka_unit_test(coefficients_in_an_atom),
     cmocka_unit_test(hopeless_cases_come_back_unchanged),
+    cmocka_unit_test(the_root_of_a_negative_number_is_left_alone),
+    cmocka_unit_test(flint_s_abort_comes_back_as_no),
+    cmocka_unit_test(an_interrupted_job_is_left_at_once),
     cmocka_unit_test(many_generators_make_the_tower_grow),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
