@@ -284,6 +284,50 @@ static void bounds_hold_against_size(void** state) {
   pl_arena_free(t.arena);
 }
 
+// An allocator that has no more after so many calls.
+static void* take_some(void* user, size_t size) {
+  long* left = user;
+  return (*left)-- > 0 ? malloc(size) : NULL;
+}
+static void give_back(void* user, void* block) {
+  (void)user;
+  free(block);
+}
+
+static void memory_may_run_out_anywhere(void** state) {
+  (void)state;
+  pl_text text = pl_text_make(bench_make()->arena);
+  pl_text_add(&text, PENDULUM);
+  for (int i = 0; i < 3000; i++) pl_text_addf(&text, "let a%d = sin(x + %d) + y^%d, wrong %d\n", i, i, i % 7 + 2, i);
+  const char* s = pl_text_string(&text);
+  int unwound = 0;
+  bool done = false;
+  for (long n = 1; !done && n < 200; n++) {
+    long left = n;
+    pleuel_allocator alloc = {take_some, give_back, &left};
+    pl_arena* a = pl_arena_make(&alloc);
+    if (a == NULL) continue;
+    pl_guard guard;
+    PL_GUARD(a, guard) {
+      pl_diagnostics* d = PL_NEW(a, pl_diagnostics);
+      d->arena = a;
+      pl_job* job = PL_NEW(a, pl_job);
+      *job = (pl_job){.arena = a, .diagnostics = d};
+      pl_model* m;
+      pl_lang_parse(job, pl_source_make(a, "t", s, strlen(s)), NULL, NULL, 0, &m);
+      done = true;
+    } else {
+      assert_int_equal(guard.status, PLEUEL_NO_MEMORY);
+      unwound++;
+    }
+    pl_guard_end(a, &guard);
+    pl_arena_free(a);
+  }
+  assert_true(done);
+  assert_true(unwound > 0);
+  pl_arena_free(text.arena);
+}
+
 static void examples_are_read_without_a_word(void** state) {
   (void)state;
   static const char* const names[] = {"atwood", "crank", "ski", "chain", "ladder", "caraxis"};
@@ -319,6 +363,7 @@ int main(void) {
     cmocka_unit_test(lines_go_on_after_operators_and_in_brackets),
     cmocka_unit_test(one_mistake_one_message),
     cmocka_unit_test(bounds_hold_against_size),
+    cmocka_unit_test(memory_may_run_out_anywhere),
     cmocka_unit_test(examples_are_read_without_a_word),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
