@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_ANGLES = 4, MAX_ORDER = 8, MAX_WAVES = 40, MAX_WAVE_TERMS = 80 };
+enum { MAX_ANGLES = 4, MAX_ORDER = 8, MAX_WAVES = 40, MAX_WAVE_TERMS = 80, MAX_HALVED = 8 };
 
 typedef struct wave_key {
   int k[MAX_ANGLES];         // multiples of the angle bases
@@ -164,13 +164,13 @@ static bool is_even(const wave_key* key) {
   return !zero && !key->sine && key->power == 1;
 }
 
-// cos 2K -> 1 - 2 sin²K, or 2 cos²K - 1.  false when there is no such wave.
-static bool halve_angles(series* w, bool to_sine) {
+// cos 2K -> 1 - 2 sin²K, or 2 cos²K - 1, in the wave `only` or in all when it is -1.  false when there is no such wave.
+static bool halve_angles(series* w, bool to_sine, int only) {
   pl_tower* t = w->s->t;
   bool any = false;
   int n = w->n;
   for (int i = 0; i < n; i++) {
-    if (!is_even(&w->at[i].key)) continue;
+    if (!is_even(&w->at[i].key) || (only >= 0 && i != only)) continue;
     any = true;
     const pl_poly* f = w->at[i].coefficient;
     wave_key key = {.sine = to_sine, .power = 2}, constant = {.power = 1};
@@ -293,11 +293,15 @@ bool pl_present_fourier(pl_search* s, const pl_poly* f, int depth, pl_prod* best
   if (!add_all(&w, f)) return false;
   const series waves = w;    // writing takes the common factor out
   *best = written(&w, depth);
-  for (int to_sine = 0; to_sine < 2; to_sine++) {
-    w = waves;
-    if (!halve_angles(&w, to_sine)) continue;
-    pl_prod x = written(&w, depth);
-    if (x.cost < best->cost) *best = x;
+  // all double angles at once, or, with work to spare, one of them
+  int last = depth > 0 && waves.n <= MAX_HALVED ? waves.n : 0;
+  for (int only = -1; only < last; only++) {
+    for (int to_sine = 0; to_sine < 2 && s->work < s->limit; to_sine++) {
+      w = waves;
+      if (!halve_angles(&w, to_sine, only)) continue;
+      pl_prod x = written(&w, depth);
+      if (x.cost < best->cost) *best = x;
+    }
   }
   return true;
 }

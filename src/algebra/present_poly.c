@@ -129,8 +129,57 @@ static void sums_by_symbol(pl_search* s, const pl_poly* f, int depth, pl_prod* b
   }
 }
 
+// Generators that meet in a term belong together, and so do sin and cos of an angle: marks the component of each by its
+// smallest member.
+static void find_components(pl_search* s, const pl_poly* f, int* component) {
+  pl_tower* t = s->t;
+  for (int g = 0; g < t->gens.n; g++) {
+    int partner = t->gens.at[g].partner;
+    component[g] = partner >= 0 && partner < g ? partner : g;
+  }
+  ulong exponent[PL_MAX_GENERATORS];
+  for (slong i = 0; i < f->length; i++) {
+    fmpz_mpoly_get_term_exp_ui(exponent, f, i, &t->ctx);
+    int first = -1;
+    for (int g = 0; g < t->gens.n; g++) {
+      if (!exponent[g]) continue;
+      if (first < 0) first = component[g];
+      int a = component[g] < first ? component[g] : first, b = component[g] < first ? first : component[g];
+      for (int k = 0; a != b && k < t->gens.n; k++)
+        if (component[k] == b) component[k] = a;
+      first = a;
+    }
+  }
+}
+
+// The sum of the parts of f that share no generator: x1² - 2 x1 x2 + x2² + y1² - ... = (x1 - x2)² + (y1 - y2)².
+static bool sum_of_components(pl_search* s, const pl_poly* f, int depth, pl_prod* out) {
+  pl_tower* t = s->t;
+  int component[PL_MAX_GENERATORS], n = 0;
+  find_components(s, f, component);
+  pl_poly* part[PL_MAX_GENERATORS + 1] = {NULL};
+  ulong exponent[PL_MAX_GENERATORS];
+  for (slong i = 0; i < f->length; i++) {
+    fmpz_mpoly_get_term_exp_ui(exponent, f, i, &t->ctx);
+    int c = PL_MAX_GENERATORS;    // the constant
+    for (int g = 0; g < t->gens.n; g++)
+      if (exponent[g]) c = component[g];
+    if (!part[c]) part[c] = pl_poly_new(t), n++;
+    fmpz_mpoly_push_term_fmpz_ui(part[c], &f->coeffs[i], exponent, &t->ctx);
+  }
+  if (n < 2 || n == f->length) return false;
+  pl_prod* terms = PL_ARRAY(s->a, pl_prod, PL_OPENED_TERMS * n);
+  int n_terms = 0;
+  for (int c = 0; c <= PL_MAX_GENERATORS; c++)
+    if (part[c]) pl_terms_put(s, pl_present_poly(s, part[c], depth), terms, &n_terms);
+  *out = pl_prod_sum(s, terms, n_terms);
+  return true;
+}
+
 static void sums(pl_search* s, const pl_poly* f, int depth, pl_prod* best, bool* have) {
   if (f->length <= MAX_EXPANDED_TERMS) keep_best(best, expanded(s, f), have);
+  pl_prod parts;
+  if (f->length <= MAX_COLLECT_TERMS && sum_of_components(s, f, depth, &parts)) keep_best(best, parts, have);
   if (f->length < 3 || depth < 1) return;
   sums_by_class(s, f, depth, best, have);
   if (depth >= 2) sums_by_symbol(s, f, depth - 1, best, have);

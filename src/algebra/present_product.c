@@ -432,29 +432,38 @@ static pl_prod merge_roots(pl_search* s, pl_prod x) {
   return pl_prod_mul(s, x, pl_prod_piece(s, root, power));
 }
 
-// √(g l)/l -> √(g/l) for a positive symbol l that divides what stands under the root.
+static pl_prod with_root(pl_search* s, pl_prod x, int i, pl_prod inside) {
+  pl_piece root = x.at[i];
+  root.base = pl_form_root(s->a, pl_prod_form(s, inside));
+  root.cost = COST_FUNCTION + COST_BRACKET + inside.cost;
+  root.gen = -1;
+  return pl_prod_mul(s, without_piece(s, x, i), pl_prod_piece(s, root, 1));
+}
+
+// √(g l)/l -> √(g/l) and l/√(g l) -> √(l/g), for positive symbols on the other side of the line that divide what stands under the root.
 static pl_prod divide_under_root(pl_search* s, pl_prod x) {
   pl_tower* t = s->t;
   for (int i = 0; i < x.n; i++) {
-    int w = x.at[i].gen;
-    if (w < 0 || t->gens.at[w].kind != PL_G_ROOT || t->gens.at[w].degree != 2 || x.at[i].power != 1) continue;
+    int w = x.at[i].gen, side = x.at[i].power;
+    if (w < 0 || t->gens.at[w].kind != PL_G_ROOT || t->gens.at[w].degree != 2 || abs(side) != 1) continue;
+    const pl_poly* rest = t->gens.at[w].value;
+    pl_prod taken = pl_prod_number(s, pl_int(s->p, 1));
     for (int k = 0; k < x.n; k++) {
       int b = x.at[k].gen;
-      if (b < 0 || x.at[k].power != -1 || t->gens.at[b].kind != PL_G_SYMBOL || t->gens.at[b].sign != 1) continue;
-      const pl_poly* rest;
-      if (!pl_poly_divides(t, &rest, t->gens.at[w].value, pl_poly_gen(t, b))) continue;
-      pl_prod inside = pl_prod_mul(s, pl_present_poly(s, rest, 1), pl_prod_of_gen(s, b, -1));
+      if (b < 0 || x.at[k].power * side >= 0 || t->gens.at[b].kind != PL_G_SYMBOL || t->gens.at[b].sign != 1) continue;
+      if (pl_poly_divides(t, &rest, rest, pl_poly_gen(t, b))) taken = pl_prod_mul(s, taken, pl_prod_of_gen(s, b, 1));
+    }
+    if (taken.n == 0) continue;
+    pl_prod inside = pl_prod_mul(s, pl_present_poly(s, rest, 1), pl_prod_pow(s, taken, -1));
+    if (side > 0) {
       // a number below the line goes along: √(6 g/l)/2 -> √(3 g/(2 l))
       pl_expr under = denominator_of(s, x.unit);
       x = pl_prod_scale(s, x, under);
       inside = pl_prod_scale(s, inside, pl_pow_int(s->p, under, -2));
-      pl_piece root = x.at[i];
-      root.base = pl_form_root(s->a, pl_prod_form(s, inside));
-      root.cost = COST_FUNCTION + COST_BRACKET + inside.cost;
-      root.gen = -1;
-      pl_prod without = without_piece(s, without_piece(s, x, i > k ? i : k), i > k ? k : i);
-      return pl_prod_mul(s, without, pl_prod_piece(s, root, 1));
     }
+    // the symbols leave the side they stood on
+    pl_prod y = with_root(s, x, i, pl_prod_pow(s, inside, side));
+    return pl_prod_mul(s, y, pl_prod_pow(s, taken, side));
   }
   return x;
 }

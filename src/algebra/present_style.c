@@ -322,18 +322,78 @@ static const pl_form* plain(pl_search* s, pl_frac f, int depth, long* cost) {
   return whole_form(s, x);
 }
 
-static const pl_form* by_motion(pl_search* s, pl_frac f, int depth, long* cost) {
-  if (moving_denominator(s, f)) return plain(s, f, depth, cost);
-  term_list l = {.s = s};
+// The terms of f whose highest derivative is `order`: 2 accelerations, 1 velocities and momenta, 0 the rest.
+static const pl_poly* terms_of_order(pl_search* s, const pl_poly* f, int order) {
+  pl_tower* t = s->t;
+  pl_poly* part = pl_poly_new(t);
+  ulong exponent[PL_MAX_GENERATORS];
+  for (slong i = 0; i < f->length; i++) {
+    fmpz_mpoly_get_term_exp_ui(exponent, f, i, &t->ctx);
+    int highest = 0;
+    for (int g = 0; g < t->gens.n; g++) {
+      if (!exponent[g]) continue;
+      pl_bucket b = pl_piece_of_gen(s, g).bucket;
+      int here = b == PL_K_ACCELERATION ? 2 : b == PL_K_VELOCITY || b == PL_K_MULTIPLIER ? 1 : 0;
+      if (here > highest) highest = here;
+    }
+    if (highest == order) fmpz_mpoly_push_term_fmpz_ui(part, &f->coeffs[i], exponent, &t->ctx);
+  }
+  return part;
+}
+
+// (x1 - x2) (x1'' - x2''), (x1' - x2')²
+static bool is_product_of_sums(pl_prod x) {
+  int sums = 0;
+  for (int i = 0; i < x.n; i++)
+    if (x.at[i].sum && x.at[i].power > 0) sums += x.at[i].power;
+  return sums >= 2;
+}
+
+// A part of an equation written in products of brackets, as constraints of distances differentiated twice are:
+// 2 (x1 - x2) (x1'' - x2'') + 2 (y1 - y2) (y1'' - y2''), when all of it can be.
+static bool put_products(term_list* l, pl_frac part, int depth) {
+  pl_search* s = l->s;
+  pl_prod x = pl_present_quotient(s, part, depth);
+  int i = only_sum(x);
+  if (i < 0 || is_product_of_sums(x)) {
+    if (!is_product_of_sums(x)) return false;
+    put(l, x);
+    return true;
+  }
+  const pl_sum_terms* sum = x.at[i].sum;
+  for (int k = 0; k < sum->n; k++)
+    if (!is_product_of_sums(sum->at[k])) return false;
+  for (int k = 0; k < sum->n; k++) put(l, times_rest(s, x, i, sum->at[k]));
+  return true;
+}
+
+// f by monomials of accelerations and velocities, one term each.
+static void put_by_motion(term_list* l, pl_frac f, int depth) {
+  pl_search* s = l->s;
   static const pl_key_set motion[] = {PL_KEY_MOTION};
   bool in[PL_MAX_GENERATORS];
   mask_of(s, motion, 1, in);
   style_group group[MAX_STYLE_TERMS];
   int n = groups_of(s, f, in, false, group);
-  if (n == 0) return plain(s, f, depth, cost);
+  if (n == 0) l->full = true;
   for (int i = 0; i < n; i++) {
-    if (is_unit_key(s, group[i].key)) put_static(&l, group[i].part, depth);
-    else put_kinetic(&l, group[i].part, group[i].key, depth);
+    if (is_unit_key(s, group[i].key)) put_static(l, group[i].part, depth);
+    else put_kinetic(l, group[i].part, group[i].key, depth);
+  }
+}
+
+static const pl_form* by_motion(pl_search* s, pl_frac f, int depth, long* cost) {
+  if (moving_denominator(s, f)) return plain(s, f, depth, cost);
+  term_list l = {.s = s};
+  if (s->style == PL_S_ENERGY) {
+    put_by_motion(&l, f, depth);
+  } else {
+    for (int order = 2; order >= 0; order--) {
+      const pl_poly* terms = terms_of_order(s, f.num, order);
+      if (terms->length == 0) continue;
+      pl_frac part = pl_frac_part(s, f, terms);
+      if (order == 0 || !put_products(&l, part, depth)) put_by_motion(&l, part, depth);
+    }
   }
   if (l.full) return plain(s, f, depth, cost);
   sort_terms(&l);
@@ -385,6 +445,17 @@ static long time_rank(pl_search* s, const ulong* key) {
   return power < LAST_RANK ? power : LAST_RANK;
 }
 
+// Of the constant terms x(0) comes first.
+static void start_first(term_list* l) {
+  for (int i = 1; i < l->n; i++) {
+    pl_prod x = l->at[i];
+    if (x.n != 1 || x.at[0].bucket != PL_K_START || pl_prod_is_negative(l->s, x)) continue;
+    memmove(l->at + 1, l->at, (size_t)i * sizeof *l->at);
+    l->at[0] = x;
+    return;
+  }
+}
+
 static const pl_form* by_time(pl_search* s, pl_frac f, int depth, long* cost) {
   bool in[PL_MAX_GENERATORS] = {false};
   pl_key_mask(s, PL_KEY_TIME, in);
@@ -402,6 +473,7 @@ static const pl_form* by_time(pl_search* s, pl_frac f, int depth, long* cost) {
   for (long rank = 0; rank <= LAST_RANK; rank++) {
     for (int i = 0; i < n; i++)
       if (time_rank(s, group[i].key) == rank) put_opened(&l, pl_present_quotient(s, group[i].part, depth));
+    if (rank == 0) start_first(&l);
   }
   *cost = list_cost(&l);
   return pl_terms_form(s, l.at, l.n);

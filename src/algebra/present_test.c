@@ -345,6 +345,20 @@ static void roots_come_together(void** state) {
   PRESENTS(PL_S_QUOTIENT, "sqrt(l)*sqrt(g)*th", "sqrt(g l) th");
 }
 
+static void distances_are_seen(void** state) {
+  fixture* f = *state;
+  PRESENTS(PL_S_QUOTIENT, "m*((x1' - x2')^2 + (y' - z')^2)/(2*(x1 - x2)^2 + 2*(y - z)^2)",
+           "m ((x1' - x2')^2 + (y' - z')^2)/(2 ((x1 - x2)^2 + (y - z)^2))");
+  PRESENTS(PL_S_EQUATION, "2*(x1 - x2)*(x1'' - x2'') + 2*(y - z)*(y'' - z'') + 2*(x1' - x2')^2 + 2*(y' - z')^2",
+           "2 (x1 - x2) (x1'' - x2'') + 2 (y - z) (y'' - z'') + 2 (x1' - x2')^2 + 2 (y' - z')^2");
+}
+
+static void symbols_go_under_the_root(void** state) {
+  fixture* f = *state;
+  PRESENTS(PL_S_QUOTIENT, "sqrt(l*(m*g + 2*l*k)/m)*x/l", "sqrt((m g + 2 l k)/(m l)) x");
+  PRESENTS(PL_S_QUOTIENT, "2*p*l/sqrt(g*l)", "2 sqrt(l/g) p");
+}
+
 static void zero_and_numbers(void** state) {
   fixture* f = *state;
   PRESENTS(PL_S_PLAIN, "sin(a)^2 + cos(a)^2 - 1", "0");
@@ -485,6 +499,8 @@ int main(void) {
     T(multiples_of_angles),
     T(fractions_stand_where_they_are_read_once),
     T(roots_come_together),
+    T(distances_are_seen),
+    T(symbols_go_under_the_root),
     T(zero_and_numbers),
     T(equations_are_ordered_by_derivatives),
     T(accelerations_are_short),
