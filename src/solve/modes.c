@@ -28,8 +28,7 @@ pleuel_status pl_modes_enter(pl_run* run) {
   pl_active_update(run);
   look_for_landings(run);
   pl_projection p = pl_project(run, run->t, run->q, run->v);
-  if (!p.ok) return pl_fail(run->job, PLEUEL_SINGULAR, "the constraints cannot be met at t = %.9g s", run->t);
-  if (!pl_point_enter(run)) return pl_run_singular(run);
+  if (!p.ok || !pl_point_enter(run)) return pl_run_undetermined(run);
   pl_assemble_row_sizes(run);
   pl_independent_unique(run);
   run->rank_mode = run->rank;
@@ -87,6 +86,16 @@ static bool rebound_counts(const pl_run* run, int c, double speed) {
   return run->setup->links[c].restitution > 0 && speed > 1e-7 * run->v_size;
 }
 
+// Contacts that the impact opened.
+static pleuel_status tell_releases(pl_run* run) {
+  for (int c = 0; c < run->n_c; c++) {
+    if (!run->let_go[c]) continue;
+    run->let_go[c] = false;
+    PL_TRY(pl_rows_event(run, PL_EV_RELEASE, c, 0, false));
+  }
+  return PLEUEL_OK;
+}
+
 static pleuel_status arrive(pl_run* run, int c) {
   memcpy(run->jump_v, run->v, (size_t)run->n_q * sizeof(double));
   pl_rows_before(run);
@@ -96,11 +105,12 @@ static pleuel_status arrive(pl_run* run, int c) {
     memcpy(run->v, run->jump_v, (size_t)run->n_q * sizeof(double));
     pl_point_evaluate(run, run->t, run->q, run->v);
     pl_independent_choose(run);
-    if (!pl_point_factor(run, false)) return pl_run_singular(run);
+    if (!pl_point_factor(run, false)) return pl_run_undetermined(run);
     pl_impulse(run, run->v, 1, run->impulse);
     int other = pulled_by(run, c);
     if (other < 0) break;
     let_go(run, other, 1);
+    run->let_go[other] = true;
   }
   double move = 0, approach = fabs(run->r[c]), size = run->r_size[c], e = run->setup->links[c].restitution;
   for (int i = 0; i < run->n_q; i++) move = fmax(move, fabs(run->v[i] - run->jump_v[i]));
@@ -114,7 +124,8 @@ static pleuel_status arrive(pl_run* run, int c) {
   }
   run->factored = false;
   PL_TRY(pl_modes_enter(run));
-  return pl_rows_event(run, impact ? PL_EV_IMPACT : PL_EV_CONTACT, c, impulse, false);
+  PL_TRY(pl_rows_event(run, impact ? PL_EV_IMPACT : PL_EV_CONTACT, c, impulse, false));
+  return tell_releases(run);
 }
 
 static pleuel_status leave(pl_run* run, int c) {

@@ -380,6 +380,39 @@ static void a_bead_on_a_turning_rod_flies_out_exponentially(void** state) {
   t_close(b);
 }
 
+// ---------------------------------------------------------------------------------------------- kinks
+// A spring that is four times as stiff on one side: half periods π and π/2.
+static void a_step_ends_where_a_force_changes_its_branch(void** state) {
+  (void)state;
+  t_bench* b = t_open();
+  pl_expr x = t_coord(b, "x");
+  pl_expr V = pl_if(P, x, half(b, sq(b, x)), mul(b, pl_int(P, 2), sq(b, x)));
+  t_start(b, 0, 1, 0);
+  assert_int_equal(t_make(b, t_energy(b, half(b, sq(b, b->v[0])), V), 15 * 3.14159265358979323846, 0), PLEUEL_OK);
+  assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
+  printf("# kinks: x off %.1e, v %.1e, drift %.1e\n", b->last[0] - 1, b->last[16], pl_run_stats(b->run)->energy_drift);
+  assert_true(fabs(b->last[0] - 1) < 1e-13 && fabs(b->last[16]) < 1e-11);
+  t_close(b);
+}
+
+// Dry friction 1/10 on a spring: each half swing from a to -(a - 1/5); it sticks when |x| <= 1/10.
+static void dry_friction_swings_until_it_sticks(void** state) {
+  (void)state;
+  t_bench* b = t_open();
+  pl_expr x = t_coord(b, "x");
+  b->force[0] = pl_mul(P, pl_ratio(P, -1, 10), pl_call(P, PL_SIGN, b->v[0]));
+  t_start(b, 0, 1, 0);
+  t_event(b, "turn", b->v[0], 0, PL_DEED_RECORD, 0);
+  assert_int_equal(t_make(b, pl_sub(P, half(b, sq(b, b->v[0])), half(b, sq(b, x))), 30, 0), PLEUEL_OK);
+  pleuel_status how = pl_run_to_end(b->run);
+  printf("# friction: %s %s, %.9f at %.9f\n", pleuel_status_name(how), b->job.message, b->last[0], b->last[63]);
+  assert_int_equal(how, PLEUEL_NUMERICAL);
+  assert_non_null(strstr(b->job.message, "sticking"));
+  // 1, -0.8, 0.6, -0.4, 0.2, 0 after five half swings
+  assert_true(fabs(b->last[0]) < 1e-9 && fabs(b->last[63] - 5 * 3.14159265358979323846) < 1e-6);
+  t_close(b);
+}
+
 // ---------------------------------------------------------------------------------------------- how a run behaves
 static void stepping_allocates_nothing(void** state) {
   (void)state;
@@ -497,6 +530,26 @@ static void a_looser_tolerance_takes_a_lower_order(void** state) {
   t_close(b);
 }
 
+static void what_lacks_mass_or_numbers_is_named(void** state) {
+  (void)state;
+  t_bench* b = t_open();
+  t_coord(b, "x");
+  pl_expr y = t_coord(b, "y");
+  t_start(b, 0, 1, 0);
+  t_start(b, 1, 0, 0);
+  assert_int_equal(t_make(b, pl_sub(P, half(b, sq(b, b->v[0])), sq(b, y)), 1, 0), PLEUEL_OK);
+  assert_int_equal(pl_run_to_end(b->run), PLEUEL_SINGULAR);
+  assert_non_null(strstr(b->job.message, "acceleration of y"));
+  t_close(b);
+  b = t_open();
+  pl_expr x = t_coord(b, "x");
+  t_start(b, 0, -1, 0);
+  assert_int_equal(t_make(b, pl_sub(P, half(b, sq(b, b->v[0])), pl_sqrt(P, x)), 1, 0), PLEUEL_OK);
+  assert_int_equal(pl_run_to_end(b->run), PLEUEL_NUMERICAL);
+  assert_non_null(strstr(b->job.message, "no number at t = 0 s (x = -1)"));
+  t_close(b);
+}
+
 static void a_motion_that_leaves_the_domain_stops_with_a_sentence(void** state) {
   (void)state;
   // falling along a potential sqrt(x) towards x = 0
@@ -524,6 +577,8 @@ int main(void) {
       cmocka_unit_test(a_skate_on_a_slope_moves_on_a_cycloid),
       cmocka_unit_test(friction_proportional_to_a_multiplier_slows_a_block),
       cmocka_unit_test(a_bead_on_a_turning_rod_flies_out_exponentially),
+      cmocka_unit_test(a_step_ends_where_a_force_changes_its_branch),
+      cmocka_unit_test(dry_friction_swings_until_it_sticks),
       cmocka_unit_test(stepping_allocates_nothing),
       cmocka_unit_test(the_same_run_gives_the_same_bits),
       cmocka_unit_test(a_run_goes_backwards_to_where_it_began),
@@ -532,6 +587,7 @@ int main(void) {
       cmocka_unit_test(an_interrupted_run_says_so_and_keeps_its_rows),
       cmocka_unit_test(a_sink_that_refuses_gets_no_more_rows),
       cmocka_unit_test(a_looser_tolerance_takes_a_lower_order),
+      cmocka_unit_test(what_lacks_mass_or_numbers_is_named),
       cmocka_unit_test(a_motion_that_leaves_the_domain_stops_with_a_sentence),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -60,8 +60,10 @@ static pleuel_status too_small(pl_run* run, double h) {
 static pleuel_status try_steps(pl_run* run, double* h, double* root, pl_projection* p) {
   for (;;) {
     *root = run->n_watch > 0 ? pl_watch_first(run, *h) : -1;
-    double reach = *root >= 0 ? *root * *h : *h;
     if (*root == 0) return PLEUEL_OK;
+    double kink = run->n_kinks > 0 ? pl_kinks_first(run, *h) : -1;
+    if (kink >= 0 && (*root < 0 || kink < *root)) *root = -1, *h *= fmin(kink, 1);
+    double reach = *root >= 0 ? *root * *h : *h;
     pl_series_at(run, reach, run->trial_q, run->trial_v);
     *p = pl_project(run, run->t + run->t_low + reach, run->trial_q, run->trial_v);
     if (acceptable(run, p)) {
@@ -107,7 +109,7 @@ static pleuel_status check_energy(pl_run* run) {
 }
 
 static pleuel_status arrive_at_point(pl_run* run) {
-  if (!pl_point_enter(run)) return pl_run_singular(run);
+  if (!pl_point_enter(run)) return pl_run_undetermined(run);
   pl_assemble_row_sizes(run);
   pl_singular_watch(run);
   if (pl_is_singular(run)) return pl_run_singular(run);
@@ -117,10 +119,21 @@ static pleuel_status arrive_at_point(pl_run* run) {
   return check_energy(run);
 }
 
+// Steps that get nowhere, one after the other: kinks that the motion does not leave, as dry friction at rest.
+static pleuel_status count_tiny(pl_run* run, double h) {
+  enum { MOST = 200 };
+  run->tiny = fabs(h) <= 100 * run->h_least ? run->tiny + 1 : 0;
+  if (run->tiny <= MOST) return PLEUEL_OK;
+  if (run->n_kinks == 0) return too_small(run, h);
+  return pl_fail(run->job, PLEUEL_NUMERICAL,
+                 "the motion stays where a force changes its branch, at t = %.9g s: sticking is not computed", run->t);
+}
+
 static pleuel_status step(pl_run* run) {
   run->use = run->order;
   pl_series_expand(run);
   pl_watch_series(run);
+  if (run->n_kinks > 0) pl_kinks_series(run);
   double h = choose_step(run), wanted = h, root = -1;
   pl_projection p = {0};
   if (pl_singular_leap(run, left_over(run), &h, &p)) {
@@ -135,6 +148,7 @@ static pleuel_status step(pl_run* run) {
   PL_TRY(pl_rows_grid(run, run->t, run->t + h));
   if (run->n_watch > 0) pl_watch_passed(run, h);
   note(run, &p, h);
+  PL_TRY(count_tiny(run, h));
   accept(run, h, to_end);
   PL_TRY(arrive_at_point(run));
   if (root > 0) return pl_modes_handle(run);

@@ -100,8 +100,8 @@ static void reserve_state(pl_run* run) {
                      &run->q_most, &run->v_most, &run->q_kept,  &run->v_kept};
   double** of_c[] = {&run->g,       &run->g_size,   &run->r,        &run->r_size,   &run->save_l,   &run->row_l,
                      &run->impulse, &run->row_most, &run->argument, &run->row_long, &run->row_part, &run->rank_work};
-  bool** flags[] = {&run->on,     &run->detached,    &run->active,    &run->taken,
-                    &run->unique, &run->save_unique, &run->row_taken, &run->taken_kept};
+  bool** flags[] = {&run->on,          &run->detached,  &run->active, &run->taken,     &run->unique,
+                    &run->save_unique, &run->row_taken, &run->let_go, &run->taken_kept};
   for (size_t i = 0; i < sizeof of_q / sizeof *of_q; i++) *of_q[i] = PL_ARRAY(a, double, q + 1);
   for (size_t i = 0; i < sizeof of_c / sizeof *of_c; i++) *of_c[i] = PL_ARRAY(a, double, c + 1);
   for (size_t i = 0; i < sizeof flags / sizeof *flags; i++) *flags[i] = PL_ARRAY(a, bool, c + 1);
@@ -195,6 +195,7 @@ pleuel_status pl_run_make(pl_job* job, const pl_setup* setup, const pl_run_optio
   PL_TRY(check_rows(run));
   PL_TRY(pl_kkt_make(run));
   pl_watch_make(run);
+  pl_kinks_make(run);
   first_mode(run);
   *out = run;
   return PLEUEL_OK;

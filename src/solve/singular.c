@@ -66,12 +66,37 @@ static int without_inertia(const pl_run* run) {
   return -1;
 }
 
-pleuel_status pl_run_singular(pl_run* run) {
+static bool all_finite(const double* x, int n) {
+  for (int i = 0; i < n; i++)
+    if (!isfinite(x[i])) return false;
+  return true;
+}
+
+// Whether masses, gradients and forces have numbers at what was evaluated last.
+static bool has_numbers(pl_run* run) {
+  if (!all_finite(run->kkt.value, run->kkt.n_values)) return false;
+  pl_batches_sweep(&run->motion, PL_LEVEL_PLACE, 1, true);
+  pl_assemble_rhs(run, 0, run->rhs);
+  return all_finite(run->rhs, run->n_q);
+}
+
+pleuel_status pl_run_undetermined(pl_run* run) {
+  char where[320];
+  place_in_words(run, 0, where, sizeof where);
+  if (!has_numbers(run))
+    return pl_fail(
+        run->job, PLEUEL_NUMERICAL,
+        "forces, masses or constraints have no number at t = %.9g s (%s): a root, a logarithm or a quotient there",
+        run->t, where);
   int idle = without_inertia(run);
-  if (run->rank == run->n_active && idle >= 0 && run->smallest_here >= faded * run->best)
+  if (run->rank == run->n_active && idle >= 0)
     return pl_fail(run->job, PLEUEL_SINGULAR,
                    "nothing determines the acceleration of %s: it carries no mass, and no constraint moves it",
                    run->setup->coordinates[idle].name);
+  return pl_run_singular(run);
+}
+
+pleuel_status pl_run_singular(pl_run* run) {
   double reach = reach_of_singular(run);
   char where[320];
   place_in_words(run, reach, where, sizeof where);

@@ -51,6 +51,12 @@ typedef struct pl_watch {
 
 typedef struct pl_fade { double t, smallest; } pl_fade;   // how small the smallest pivot was, and when
 
+// A place in a program that has branches: node a (or a - b) changes sign at the kink.
+typedef struct pl_kink {
+  const pl_batch* batch;
+  int a, b, lane;
+} pl_kink;
+
 struct pl_run {
   pl_job* job;
   const pl_setup* setup;
@@ -119,6 +125,7 @@ struct pl_run {
   double *save_q, *save_v, *save_a, *save_l;   // the point before a mode change
   bool* save_unique;
   double* impulse;         // (n_c)
+  bool* let_go;            // by the impact at work                      (n_c)
   double *jump_v;          // (n_q)
 
   // watching
@@ -127,6 +134,11 @@ struct pl_run {
   double *poly, *root_work;
   bool* hit;               // (n_watch)
   double* root;            // (n_watch)
+
+  pl_kink* kinks;
+  int n_kinks;
+  double* K_series;        // of what changes sign: coefficient k of kink i at i order + k
+  int tiny;                // steps in a row that were almost nothing
 
   // rows
   double *out_now, *out_before, *row_q, *row_v, *row_a, *row_l;
@@ -210,6 +222,11 @@ void pl_watch_passed(pl_run* run, double h);        // the step h was taken: sid
 pl_watch* pl_watch_of(pl_run* run, pl_watch_kind kind, int index);
 double pl_watch_force_noise(const pl_run* run, int c);   // rounding error of λ_c
 
+// ---- kinks.c
+void pl_kinks_make(pl_run* run);
+void pl_kinks_series(pl_run* run);                  // after pl_series_expand
+double pl_kinks_first(pl_run* run, double h);       // just behind the first kink, in units of h; -1 none on the step
+
 // ---- modes.c
 pleuel_status pl_modes_enter(pl_run* run);                  // the point in the mode that on[] says
 pleuel_status pl_modes_check(pl_run* run, bool at_start);   // contacts that pull are released
@@ -223,6 +240,7 @@ pleuel_status pl_run_begin_at(pl_run* run, double t);   // from run->q, v
 void pl_singular_watch(pl_run* run);                // at every point
 bool pl_is_singular(const pl_run* run);
 pleuel_status pl_run_singular(pl_run* run);         // fails with the place
+pleuel_status pl_run_undetermined(pl_run* run);     // fails with the reason why there are no accelerations
 bool pl_singular_leap(pl_run* run, double left, double* length, pl_projection* p);
 pleuel_status pl_singular_record(pl_run* run);
 
