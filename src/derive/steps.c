@@ -147,6 +147,11 @@ pl_value* pl_answer(pl_analysis* d, const char* name, pl_expr e, const pl_form* 
   pl_value v = {.name = name, .expr = e, .form = form, .number = pl_number(d, e), .conserved = -1, .passed = -1, .order = -1};
   bool known = true;
   pl_dimension dim = pl_is_poison(e) ? pl_dimension_one() : pl_dimension_of_expr(d, e, &known);
+  pl_symbol symbol = pl_symbol_find(d->pool, name);   // x1'' = 0 has the unit of x1''
+  if (symbol.id && !pl_is_poison(e) && pl_is_number(d->pool, e)) {
+    dim = pl_symbol_get(d->pool, symbol)->dimension;
+    known = pl_symbol_get(d->pool, symbol)->dimension_known;
+  }
   if (known) v.unit = pl_dimension_unit(d->arena, dim, true);
   v.display = pl_display(d, v.number, dim, false);
   pl_push(d->arena, d->section->values, v);

@@ -111,7 +111,11 @@ const char* pl_shortest_double(pl_arena* a, double x) {
   if (x == 0) return "0";
   for (int digits = 1; digits <= 17; digits++) {
     snprintf(text, sizeof text, "%.*g", digits, x);
-    if (strtod(text, NULL) == x) break;
+    if (strtod(text, NULL) != x) continue;
+    // 20, not 2e+01: sizes that people read come without an exponent
+    int exponent = (int)floor(log10(fabs(x)));
+    if (exponent >= digits && exponent < 16) snprintf(text, sizeof text, "%.*g", exponent + 1, x);
+    break;
   }
   // a program around us may have set a locale whose decimal sign is not the point
   for (char* c = text; *c; c++) if (!strchr("0123456789+-e", *c)) *c = '.';

@@ -398,6 +398,11 @@ static void numbers_are_the_shortest_that_read_back(void** state) {
   assert_string_equal(pl_shortest_double(a, -23.544), "-23.544");
   assert_string_equal(pl_shortest_double(a, acos(2.0 / 3)), "0.8410686705679303");
   assert_string_equal(pl_shortest_double(a, -0.0), "0");
+  assert_string_equal(pl_shortest_double(a, 20), "20");
+  assert_string_equal(pl_shortest_double(a, -1000), "-1000");
+  assert_string_equal(pl_shortest_double(a, 1e15), "1000000000000000");
+  assert_string_equal(pl_shortest_double(a, 1e22), "1e+22");
+  assert_string_equal(pl_shortest_double(a, 0.00001), "1e-05");
   pl_random r = {11};
   for (int i = 0; i < 2000; i++) {
     union { uint64_t bits; double x; } u = {.bits = pl_random_bits(&r)};

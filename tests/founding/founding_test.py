@@ -34,6 +34,14 @@ def atwood_acceleration(p):
     return (p["m1"] - p["m2"]) / (p["m1"] + p["m2"]) * p["g"]
 
 
+@test("Atwood (1)-(8): why a constant coordinate may be dropped, told with --steps full")
+def _(program):
+    steps = [s for i in run(program, example("atwood.pleuel")).items("b") for s in i["steps"] if s.get("detail")]
+    told = " ".join(s["text"] for s in steps)
+    for formula in ("m x'' = F + λ_1 + Σ λ_a ∂g_a/∂x", "x'' = 0", "λ_1 = -F - Σ λ_a ∂g_a/∂x", "m x'' = 0"):
+        need(formula in told, f"{formula} is not told: {told!r}")
+
+
 @test("Atwood (9), (10): 6 coordinates, 5 constraints, 1 degree of freedom; g2 to g5 are dropped")
 def _(program):
     a = run(program, example("atwood.pleuel"))
