@@ -48,6 +48,7 @@ typedef struct pl_dim_pass {
   pl_arena* arena;
   pl_dim_system system;
   pl_map* form_of;            // expression id -> const pl_dim_form*
+  pl_map* constant;           // expression id -> whether it contains no name (pl_is_constant_known)
   pl_map* var_of;             // symbol id -> var + 1
   const double* values;       // of parameters, for exponents that are parameters
   int energy;                 // var of the energy: what T, V and every potential have in common

@@ -186,8 +186,11 @@ static const char* words(pl_dim_pass* d, const pl_dim_form* f, pl_language lang)
   return pl_dim_known(&d->system, f, &x) ? pl_dimension_words(d->job->arena, x, lang) : NULL;
 }
 
+// As a reader writes it: 0.001 rather than 1/1000.
 static const char* text_of(pl_dim_pass* d, pl_expr e) {
-  return pl_expr_words(d->job->arena, d->pool, pl_model_plain(d->pool, e));
+  pl_expr plain = pl_model_plain(d->pool, e);
+  if (pl_is_number(d->pool, plain)) return pl_format(d->job->arena, "%.9g", pl_number_double(d->pool, plain));
+  return pl_expr_words(d->job->arena, d->pool, plain);
 }
 
 static void both_sentences(pl_dim_pass* d, const pl_dim_conflict* c, const char** en, const char** de) {
@@ -273,6 +276,32 @@ static bool label_declarations(pl_dim_pass* d, pl_diagnostic* m, pl_expr e) {
 }
 
 // ---------------------------------------------------------------------------------------------- fixes
+// The number in front of a product, 1 if there is none.
+static pl_expr number_before(pl_dim_pass* d, pl_expr e) {
+  if (pl_kind_of(d->pool, e) == PL_MUL) {
+    for (int i = 0; i < pl_n_args(d->pool, e); i++) {
+      if (pl_is_number(d->pool, pl_arg(d->pool, e, i))) return pl_arg(d->pool, e, i);
+    }
+  }
+  return pl_int(d->pool, 1);
+}
+
+// Numbers in front are pure, but the 3 of sin(3 t) may have been meant as 3 [1/s].  Halves and doubles are not meant so.
+static bool fix_of_number_before(pl_dim_pass* d, pl_expr e, const pl_dim_form* is, const pl_dim_form* wanted, pl_diagnostic* m) {
+  pl_pool* p = d->pool;
+  pl_expr number = number_before(d, e), twice = pl_mul(p, pl_int(p, 2), number);
+  long k;
+  pl_dimension gap;
+  bool simple = (pl_is_int(p, number, &k) && labs(k) <= 2) || (pl_is_int(p, twice, &k) && labs(k) <= 1);
+  if (simple || !pl_dim_known(&d->system, pl_dim_combine(&d->system, wanted, (pl_fraction){-1, 1}, is), &gap)) return false;
+  if (pl_dimension_equal(gap, pl_dimension_one())) return false;
+  const char* unit = pl_dimension_unit(d->job->arena, gap, false);
+  const char* text = text_of(d, number);
+  pl_report_fix(m, pl_format(d->job->arena, "if the number has a unit, write it: %s [%s]", text, unit),
+                pl_format(d->job->arena, "wenn die Zahl eine Einheit hat, sie dazuschreiben: %s [%s]", text, unit), NULL);
+  return true;
+}
+
 // A parameter of the same dimension, to divide by: sin(x/l).
 static const char* divisor_for(pl_dim_pass* d, pl_expr e, pl_dimension is) {
   const pl_model* m = d->model;
@@ -393,7 +422,10 @@ void pl_dim_report(pl_dim_pass* d, const pl_dim_conflict* c) {
       pl_report_reason(m, unit, unit);
     }
   }
-  if (!named) fix_of_value(d, c, m);
+  if (named) return;
+  if (fix_of_number_before(d, c->a, c->form_a, c->form_b, m)) return;
+  if (c->kind != PL_CLASH_NEED && fix_of_number_before(d, c->b, c->form_b, c->form_a, m)) return;
+  fix_of_value(d, c, m);
 }
 
 // ---------------------------------------------------------------------------------------------- bare numbers

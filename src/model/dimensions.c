@@ -59,7 +59,7 @@ static const pl_dim_form* form_of_symbol(pl_dim_pass* d, pl_symbol s, int dots) 
 // What stands alone, as a term or a side: 0 fits everything (NULL), another bare number is free until something fixes it.
 static const pl_dim_form* form_of_side(pl_dim_pass* d, pl_expr e) {
   if (pl_is_poison(e) || pl_is_zero_node(d->pool, e) || pl_kind_of(d->pool, e) == PL_INFINITY) return NULL;
-  if (!pl_is_constant(d->pool, e)) return form_of(d, e);
+  if (!pl_is_constant_known(d->pool, d->constant, e)) return form_of(d, e);
   int var = pl_dim_var_add(&d->system, PL_DIM_NUMBER);
   d->system.vars.at[var].number = e;
   d->system.vars.at[var].span = d->where;
@@ -94,7 +94,7 @@ static const pl_dim_form* form_of_sum(pl_dim_pass* d, pl_expr e) {
   // the first term that is no bare number sets what the others have to be
   pl_expr first = pl_poison();
   for (int i = 0; i < n && pl_is_poison(first); i++) {
-    if (!pl_is_constant(d->pool, pl_arg(d->pool, e, i))) first = pl_arg(d->pool, e, i);
+    if (!pl_is_constant_known(d->pool, d->constant, pl_arg(d->pool, e, i))) first = pl_arg(d->pool, e, i);
   }
   if (pl_is_poison(first)) return pure(d);
   const pl_dim_form* f = form_of(d, first);
@@ -135,7 +135,7 @@ static const pl_dim_form* form_of_power(pl_dim_pass* d, pl_expr e) {
   if (!pl_is_number(d->pool, exponent)) {
     need(d, exponent, pure(d), PL_E032, "an exponent is a pure number", "ein Exponent ist eine reine Zahl");
   }
-  if (pl_is_constant(d->pool, base)) return pure(d);
+  if (pl_is_constant_known(d->pool, d->constant, base)) return pure(d);
   pl_fraction f;
   const pl_dim_form* b = form_of(d, base);
   if (pl_is_number(d->pool, exponent) && !exponent_value(d, exponent, &f)) return anything(d);   // beyond any physics
@@ -156,7 +156,7 @@ static const pl_dim_form* form_of_call(pl_dim_pass* d, pl_expr e) {
     case PL_MAX: {
       pl_expr b = pl_arg(d->pool, e, 1);
       equate(d, PL_CLASH_RELATION, a, b);
-      return form_of(d, pl_is_constant(d->pool, a) ? b : a);
+      return form_of(d, pl_is_constant_known(d->pool, d->constant, a) ? b : a);
     }
     default: break;
   }
@@ -170,7 +170,7 @@ static const pl_dim_form* form_of_choice(pl_dim_pass* d, pl_expr e) {
   form_of(d, pl_arg(d->pool, e, 0));
   pl_expr then = pl_arg(d->pool, e, 1), otherwise = pl_arg(d->pool, e, 2);
   equate(d, PL_CLASH_RELATION, then, otherwise);
-  return form_of(d, pl_is_constant(d->pool, then) ? otherwise : then);
+  return form_of(d, pl_is_constant_known(d->pool, d->constant, then) ? otherwise : then);
 }
 
 static const pl_dim_form* compute_form(pl_dim_pass* d, pl_expr e) {
@@ -190,7 +190,7 @@ static const pl_dim_form* compute_form(pl_dim_pass* d, pl_expr e) {
 
 // Each expression is looked at once, where it is met first: a mistake inside a `let` is told at the `let`.
 static const pl_dim_form* form_of(pl_dim_pass* d, pl_expr e) {
-  if (pl_is_poison(e) || pl_is_constant(d->pool, e)) return pure(d);
+  if (pl_is_poison(e) || pl_is_constant_known(d->pool, d->constant, e)) return pure(d);
   uint64_t known = pl_map_get(d->form_of, e.id);
   if (known) return (const pl_dim_form*)(uintptr_t)known;
   const pl_dim_form* f = compute_form(d, e);
@@ -241,7 +241,7 @@ static void walk_declarations(pl_dim_pass* d) {
   for (int i = 0; i < m->params.n; i++) {
     const pl_param* p = &m->params.at[i];
     d->where = p->span;
-    if (!pl_is_poison(p->value) && !pl_is_constant(d->pool, p->value)) {
+    if (!pl_is_poison(p->value) && !pl_is_constant_known(d->pool, d->constant, p->value)) {
       equate(d, PL_CLASH_RELATION, pl_sym(d->pool, p->symbol), p->value);
     }
   }
@@ -348,7 +348,7 @@ static void walk_constraints(pl_dim_pass* d) {
     equate(d, PL_CLASH_RELATION, c->left, c->right);
     if (!c->lambda.id) continue;
     // λ ∂g/∂q is a generalised force: [λ] = energy / [g], and for velocity constraints λ ∂g/∂q' gives energy / ([g] s)
-    pl_expr side = pl_is_constant(d->pool, c->left) ? c->right : c->left;
+    pl_expr side = pl_is_constant_known(d->pool, d->constant, c->left) ? c->right : c->left;
     const pl_dim_form* g = form_of_side(d, side);
     if (!g) continue;
     const pl_dim_form* lambda = times(d, energy(d), -1, g);
@@ -524,6 +524,7 @@ void pl_check_dimensions(pl_job* job, pl_model* m) {
   d.system.arena = d.arena;
   d.form_of = pl_map_make(d.arena);
   d.var_of = pl_map_make(d.arena);
+  d.constant = pl_map_make(d.arena);
   make_derivatives(m);
   d.values = pl_model_values(m, d.arena);
   look_for_units(&d);

@@ -1,4 +1,6 @@
 // Dimension inference on models built by calls: what is found, what is told, and what is left alone.
+#include <stdlib.h>
+
 #include "model/model_test_kit.h"
 
 // ---------------------------------------------------------------------------------------------- the founding models
@@ -23,10 +25,8 @@ typedef struct atwood {
   pl_symbol lambda;
 } atwood;
 
-// with_masses false: only names and start, for tests that go on by themselves
-static atwood atwood_names(const char* text) {
-  atwood a = {.k = kit_make(text)};
-  kit* k = a.k;
+static atwood atwood_names(kit* k) {
+  atwood a = {.k = k};
   a.m1 = param(k, "m1", "3", "kg", "param m1");
   a.m2 = param(k, "m2", "2", "kg", "param m1");
   a.g = param(k, "g", "9.81", "m/s^2", "param m1");
@@ -41,9 +41,8 @@ static atwood atwood_names(const char* text) {
   return a;
 }
 
-static atwood atwood_make(const char* text, bool wrong) {
-  atwood a = atwood_names(text);
-  kit* k = a.k;
+static atwood atwood_fill(kit* k, bool wrong) {
+  atwood a = atwood_names(k);
   mass(k, "m1", a.m1, point2(a.x1, a.y1), "mass    m1");
   mass(k, "m2", a.m2, point2(a.x2, a.y2), "mass    m2");
   gravity(k, a.g, 0, 1, "gravity g along x");
@@ -55,6 +54,8 @@ static atwood atwood_make(const char* text, bool wrong) {
   init(k, dot(k, a.x1), num(k, "0", NULL), "x1' = 0");
   return a;
 }
+
+static atwood atwood_make(const char* text, bool wrong) { return atwood_fill(kit_make(text), wrong); }
 
 PL_TEST(atwood_gives_every_name_its_unit) {
   atwood a = atwood_make(atwood_text, false);
@@ -248,6 +249,17 @@ PL_TEST(a_sine_wants_a_pure_number) {
   kit_free(k);
 }
 
+PL_TEST(a_number_that_may_have_a_unit_is_suspected) {
+  pl_expr m, x;
+  kit* k = particle(NULL, &m, &x);
+  pl_expr t = pl_sym(k->m->pool, pl_time(k->m->pool));
+  pl_expr wave = pl_call(k->m->pool, PL_SIN, pl_mul(k->m->pool, pl_int(k->m->pool, 3), t));
+  constraint(k, named("c"), x, PL_EQ, pl_mul(k->m->pool, num(k, "1", "m"), wave), NULL, NULL);
+  const pl_diagnostic* d = check_tells(k, PL_E031);
+  assert_non_null(strstr(d->fix[0], "3 [1/s]"));
+  kit_free(k);
+}
+
 PL_TEST(an_exponent_is_a_pure_number) {
   pl_expr m, x;
   kit* k = particle(NULL, &m, &x);
@@ -437,6 +449,46 @@ PL_TEST(huge_exponents_are_left_alone) {
   kit_free(k);
 }
 
+// ---------------------------------------------------------------------------------------------- memory
+// The n-th allocation fails, for every n: the check unwinds to the guard and nothing is lost.
+typedef struct short_memory { long left, blocks; } short_memory;
+
+static void* take(void* user, size_t size) {
+  short_memory* s = user;
+  if (s->left-- <= 0) return NULL;
+  s->blocks++;
+  return malloc(size);
+}
+
+static void give(void* user, void* block) {
+  short_memory* s = user;
+  if (block) s->blocks--;
+  free(block);
+}
+
+PL_TEST(short_memory_ends_cleanly) {
+  volatile bool complete = false;
+  for (volatile long n = 0; !complete && n < 1000; n++) {
+    short_memory s = {n, 0};
+    pleuel_allocator alloc = {take, give, &s};
+    pl_arena* arena = pl_arena_make(&alloc);
+    if (!arena) continue;
+    pl_guard guard;
+    PL_GUARD(arena, guard) {
+      kit* k = kit_in(arena, atwood_text);
+      atwood_fill(k, true);
+      assert_int_equal(pl_model_check(&k->job, k->m), PLEUEL_MODEL_ERROR);
+      complete = true;
+    } else {
+      assert_int_equal(guard.status, PLEUEL_NO_MEMORY);
+    }
+    pl_guard_end(arena, &guard);
+    pl_arena_free(arena);
+    assert_int_equal(s.blocks, 0);
+  }
+  assert_true(complete);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(atwood_gives_every_name_its_unit), cmocka_unit_test(units_leave_the_model_after_the_check),
@@ -445,7 +497,7 @@ int main(void) {
     cmocka_unit_test(an_abbreviation_is_checked_where_it_stands), cmocka_unit_test(without_units_nothing_is_checked), cmocka_unit_test(classes_follow_from_use_without_units),
     cmocka_unit_test(an_angle_alone_does_not_switch_the_checks_on), cmocka_unit_test(a_mass_statement_wants_a_mass),
     cmocka_unit_test(a_point_wants_lengths), cmocka_unit_test(a_sine_wants_a_pure_number),
-    cmocka_unit_test(an_exponent_is_a_pure_number), cmocka_unit_test(terms_of_a_sum_have_one_unit),
+    cmocka_unit_test(a_number_that_may_have_a_unit_is_suspected), cmocka_unit_test(an_exponent_is_a_pure_number), cmocka_unit_test(terms_of_a_sum_have_one_unit),
     cmocka_unit_test(gravity_is_an_acceleration), cmocka_unit_test(a_start_value_in_the_wrong_unit),
     cmocka_unit_test(a_unit_that_contradicts_its_value), cmocka_unit_test(a_simulation_runs_over_time),
     cmocka_unit_test(one_mistake_is_told_once), cmocka_unit_test(two_mistakes_are_told_both),
@@ -453,7 +505,7 @@ int main(void) {
     cmocka_unit_test(bare_numbers_take_the_fitting_unit_with_a_note), cmocka_unit_test(zero_needs_no_unit),
     cmocka_unit_test(a_spring_and_a_damper_have_units), cmocka_unit_test(a_lagrangian_per_mass_is_fine),
     cmocka_unit_test(a_multiplier_of_a_velocity_constraint), cmocka_unit_test(result_names_have_units),
-    cmocka_unit_test(huge_exponents_are_left_alone),
+    cmocka_unit_test(huge_exponents_are_left_alone), cmocka_unit_test(short_memory_ends_cleanly),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

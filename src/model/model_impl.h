@@ -41,6 +41,7 @@ typedef struct pl_slot {
   pl_span span;
 } pl_slot;
 typedef void pl_slot_visit(void* user, const pl_slot* slot);
+bool pl_is_constant_known(const pl_pool* p, pl_map* known, pl_expr e);
 int pl_max_dots(const pl_pool* p, pl_expr e, pl_arena* scratch);           // 1: velocities occur, 2: accelerations
 bool pl_has_coordinate(const pl_pool* p, pl_expr e, pl_arena* scratch);     // a coordinate or its derivatives occur
 void pl_model_each_slot(pl_model* m, pl_slot_visit* visit, void* user);

@@ -23,8 +23,7 @@ typedef struct kit {
   pl_source* source;
 } kit;
 
-static inline kit* kit_make(const char* text) {
-  pl_arena* a = pl_arena_make(NULL);
+static inline kit* kit_in(pl_arena* a, const char* text) {
   kit* k = PL_NEW(a, kit);
   k->arena = a;
   k->diagnostics.arena = a;
@@ -34,6 +33,8 @@ static inline kit* kit_make(const char* text) {
   if (text) k->m->source = k->source = pl_source_make(a, "test.pleuel", text, strlen(text));
   return k;
 }
+
+static inline kit* kit_make(const char* text) { return kit_in(pl_arena_make(NULL), text); }
 
 static inline void kit_free(kit* k) { pl_arena_free(k->arena); }
 

@@ -152,6 +152,21 @@ static void strip_slot(void* user, const pl_slot* slot) {
 void pl_strip_units(pl_model* m) { pl_model_each_slot(m, strip_slot, m->pool); }
 
 // ---------------------------------------------------------------------------------------------- what occurs
+// pl_is_constant for a pass that asks at every node: remembers the answers.
+bool pl_is_constant_known(const pl_pool* p, pl_map* known, pl_expr e) {
+  switch (pl_kind_of(p, e)) {
+    case PL_NUMBER: case PL_PI: case PL_INFINITY: case PL_POISON: return true;
+    case PL_SYMBOL: case PL_AT: case PL_SUM: case PL_UNKNOWN_FUNCTION: return false;
+    default: break;
+  }
+  uint64_t answer = pl_map_get(known, e.id);
+  if (answer) return answer == 2;
+  bool constant = true;
+  for (int i = 0; i < pl_n_args(p, e) && constant; i++) constant = pl_is_constant_known(p, known, pl_arg(p, e, i));
+  pl_map_set(known, e.id, constant ? 2 : 1);
+  return constant;
+}
+
 static int max_dots(const pl_pool* p, pl_expr e, pl_map* visited) {
   if (pl_is_poison(e) || pl_map_get(visited, e.id)) return 0;
   pl_map_set(visited, e.id, 1);

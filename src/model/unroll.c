@@ -12,6 +12,7 @@ typedef struct expansion {
   pl_model* to;
   pl_index_values values;     // indices of the instance at work are set in here
   pl_map* element;            // (family, index) -> scalar symbol id
+  pl_map* constant;           // for pl_is_constant_known
   pl_map* memo;               // expression id -> rewritten id, for the instance at work
   bool too_long;              // a sum has too many terms, or the families too many members
   long budget;                // statements that may still be written
@@ -101,7 +102,7 @@ static bool is_index_at_work(const expansion* x, pl_symbol s) {
 
 static pl_expr rewrite(expansion* x, pl_expr e) {
   pl_pool* p = x->from->pool;
-  if (pl_is_poison(e) || pl_is_constant(p, e)) return e;
+  if (pl_is_poison(e) || pl_is_constant_known(p, x->constant, e)) return e;
   uint64_t known = pl_map_get(x->memo, e.id);
   if (known) return (pl_expr){(uint32_t)known};
   pl_expr out = e;
@@ -302,7 +303,7 @@ pleuel_status pl_model_expand(pl_job* job, const pl_model* m, int max_coords, pl
   pl_arena* a = pl_pool_arena(m->pool);
   pl_model* to = PL_NEW(a, pl_model);
   *to = *m;
-  expansion x = {.job = job, .arena = a, .from = (pl_model*)(uintptr_t)m, .to = to, .element = pl_map_make(a), .memo = pl_map_make(a),
+  expansion x = {.job = job, .arena = a, .from = (pl_model*)(uintptr_t)m, .to = to, .element = pl_map_make(a), .constant = pl_map_make(a), .memo = pl_map_make(a),
                  .budget = MAX_STATEMENTS};
   x.values = pl_index_values_make(m, a);
   *out = NULL;
