@@ -85,9 +85,12 @@ typedef struct pl_lower {
   bool results;                // T, V, λ, force(...) may stand here
   bool infinity;               // ∞ may stand here
   int n_rules_declared, n_rules_lowered;
+  int n_guesses;               // names looked for in vain so far
   bool log_said;
   int call_depth;
 } pl_lower;
+
+enum { PL_MAX_GUESSES = 100 };
 
 // ---------------------------------------------------------------------------------------------- complaints
 // Like pl_complain, but counts, and is silent while l->mute.  The result may be written to, also when silent.

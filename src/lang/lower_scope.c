@@ -215,7 +215,7 @@ static void try_guess(guess* best, const char* wanted, const char* key, const ch
 static const char* all_coordinates(pl_lower* l, int most) {
   pl_text out = pl_text_make(l->arena);
   int n = 0;
-  for (int i = 0; i < l->entities.n; i++) {
+  for (int i = 0; i < l->entities.n && n <= most; i++) {
     const pl_entity* e = l->entities.at[i];
     if (e->kind != PL_ENTITY_COORD && e->kind != PL_ENTITY_FAMILY) continue;
     if (n++) pl_text_add(&out, " ");
@@ -231,9 +231,10 @@ pl_diagnostic* pl_scope_unknown(pl_lower* l, const pl_ast* name) {
   }
   pl_diagnostic* m = pl_lower_complain(l, PL_E011, pl_ast_span(name), "%s is not declared", "%s ist nicht vereinbart", name->shown);
   guess best = {0};
-  for (int i = 0; i < l->entities.n; i++) try_guess(&best, name->key, l->entities.at[i]->key, l->entities.at[i]->shown);
+  bool look = l->n_guesses++ < PL_MAX_GUESSES && !l->mute;     // a file full of unknown names needs no guess for each
+  for (int i = 0; look && i < l->entities.n; i++) try_guess(&best, name->key, l->entities.at[i]->key, l->entities.at[i]->shown);
   for (int i = 0; i < l->locals.n; i++) try_guess(&best, name->key, l->locals.at[i].key, l->locals.at[i].key);
-  for (int i = 0; i < l->lost.n; i++) try_guess(&best, name->key, l->lost.at[i], l->lost.at[i]);
+  for (int i = 0; look && i < l->lost.n; i++) try_guess(&best, name->key, l->lost.at[i], l->lost.at[i]);
   for (int i = 0; l->results && i < N_RESULT_WORDS; i++) try_guess(&best, name->key, result_words[i], result_words[i]);
   if (strlen(name->key) > 2) {
     for (int i = 0; i < PL_N_FUNCTIONS; i++) try_guess(&best, name->key, pl_function_name[i], pl_function_name[i]);
@@ -255,6 +256,7 @@ void pl_scope_unknown_label(pl_lower* l, const pl_ast* label, const char* en, co
                                        en, de, label->shown);
   guess best = {0};
   pl_text all = pl_text_make(l->arena);
+  if (l->n_guesses++ >= PL_MAX_GUESSES) n = 0;
   for (int i = 0; i < n; i++) {
     try_guess(&best, label->key, known[i], known[i]);
     pl_text_addf(&all, "%s%s", i ? " " : "", known[i]);
