@@ -27,7 +27,6 @@ typedef struct pl_recording {
   long count;
   pl_flat_coords flat;            // coordinate of each index of the setup
   int n_declared;                 // constraints before the map equations
-  int n_hidden;                   // chosen coordinates that only stand in maps
 } pl_recording;
 
 enum { PL_STAGE_CHECK, PL_STAGE_DERIVE, PL_STAGE_RECORD, PL_STAGE_RUN, PL_N_STAGES };
@@ -51,6 +50,7 @@ struct pleuel_model {
   bool is_checked, is_derived, is_recorded, is_run;
   pl_solution* solution;
   const char* solved_only;        // letters it was derived for
+  bool structure;                 // derived as far as freedoms and notes
   pl_recording* recording;
   pl_result* result;
   pl_start_report start;
@@ -64,6 +64,7 @@ struct pleuel_model {
 pleuel_status pl_pipeline_parse(pleuel_model* m);
 pleuel_status pl_pipeline_check(pleuel_model* m);
 pleuel_status pl_pipeline_derive(pleuel_model* m, const char* only, double seconds);
+pleuel_status pl_pipeline_structure(pleuel_model* m);     // freedoms, ranks and notes only
 pleuel_status pl_pipeline_record(pleuel_model* m);
 pleuel_status pl_pipeline_start(pleuel_model* m, const pleuel_sim_options* o, pl_run** out);
 pleuel_status pl_pipeline_run(pleuel_model* m, const pleuel_sim_options* o);

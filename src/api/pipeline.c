@@ -46,20 +46,30 @@ pleuel_status pl_pipeline_check(pleuel_model* m) {
 }
 
 // checked model -> equations and steps
-pleuel_status pl_pipeline_derive(pleuel_model* m, const char* only, double seconds) {
-  PL_TRY(pl_pipeline_check(m));
-  bool same = m->is_derived && (m->solved_only == only || (only && m->solved_only && strcmp(only, m->solved_only) == 0));
-  if (same) return m->derived;
+static pleuel_status derive(pleuel_model* m, const char* only, double seconds, bool structure) {
   double start = pl_clock();
   pl_solution_close(m->solution);
   m->solution = NULL;
   m->solved_only = only ? pl_copy(m->arena, only) : NULL;
-  pl_derive_options how = {.only = m->solved_only, .seconds = seconds};
+  m->structure = structure;
+  pl_derive_options how = {.only = m->solved_only, .seconds = seconds, .structure = structure};
   m->derived = pl_derive(&m->job, m->model, &how, &m->solution);
   m->is_derived = m->derived != PLEUEL_INTERRUPTED;
   pl_diagnostics_sort(&m->diagnostics);
   note_time(m, PL_STAGE_DERIVE, start);
   return m->derived;
+}
+
+pleuel_status pl_pipeline_derive(pleuel_model* m, const char* only, double seconds) {
+  PL_TRY(pl_pipeline_check(m));
+  bool same = m->solved_only == only || (only && m->solved_only && strcmp(only, m->solved_only) == 0);
+  if (m->is_derived && !m->structure && same) return m->derived;
+  return derive(m, only, seconds, false);
+}
+
+pleuel_status pl_pipeline_structure(pleuel_model* m) {
+  PL_TRY(pl_pipeline_check(m));
+  return m->is_derived ? m->derived : derive(m, NULL, 0, true);
 }
 
 // checked model -> setup of the motion: patterns, start values, events

@@ -306,7 +306,7 @@ typedef struct pl_asking {
 
 // Looks for the start too, where the model has enough numbers for it.
 static pleuel_status check(pleuel_model* m) {
-  PL_TRY(pl_pipeline_check(m));
+  PL_TRY(pl_pipeline_structure(m));
   if (!m->model->simulate.given && m->model->inits.n == 0) return PLEUEL_OK;
   PLEUEL_OPTIONS(pleuel_sim_options, how);
   pl_run* run = NULL;
@@ -337,7 +337,7 @@ static pleuel_status check_json(pleuel_model* m, void* argument) {
   pl_asking* a = argument;
   pleuel_status s = check(m);
   pl_text out = pl_text_make(m->arena);
-  pl_json_input in = {.file = m->name, .model = m->model, .diagnostics = &m->diagnostics, .status = s,
+  pl_json_input in = {.file = m->name, .model = m->model, .solution = m->solution, .diagnostics = &m->diagnostics, .status = s,
                       .message = m->job.message, .lang = language_of(a->text->lang, m->job.lang)};
   pl_worked_json(&out, &in);
   a->answer = pl_text_string(&out);

@@ -785,7 +785,6 @@ pleuel_status pl_record(pl_job* job, pl_model* model, pl_recording** out) {
   PL_TRY(make_observers(&r));
   PL_TRY(make_events(&r));
   PL_TRY(make_branches(&r));
-  r.out->n_hidden = model->choose.n_maps > 0 ? model->choose.coords.n : 0;
   *out = r.out;
   return PLEUEL_OK;
 }

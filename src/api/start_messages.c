@@ -48,7 +48,8 @@ static void report_violated(pleuel_model* m) {
                 pl_format(m->arena, "%s = %.6g%s%s würde passen. Ändern, oder aus init entfernen und folgen lassen", name, r->move_to, blank, unit), NULL);
 }
 
-// A condition that tells two candidates apart: coordinate against another one that lies between, or against a number.
+// A condition that tells two candidates apart: the coordinate against one of the same letter that lies between (x2 < x1), or
+// against a number.
 static void report_several(pleuel_model* m) {
   const pl_start_report* r = &m->start;
   const pl_setup* s = &m->recording->setup;
@@ -61,8 +62,8 @@ static void report_several(pleuel_model* m) {
   double lo = fmin(a[differs], b[differs]), hi = fmax(a[differs], b[differs]);
   const char* between = NULL;
   for (int i = 0; i < s->n_q && !between; i++) {
-    bool same_kind = s->coordinates[i].unit && s->coordinates[differs].unit && strcmp(s->coordinates[i].unit, s->coordinates[differs].unit) == 0;
-    if (i != differs && same_kind && a[i] == b[i] && lo < a[i] && a[i] < hi) between = s->coordinates[i].name;
+    bool same_letter = s->coordinates[i].name[0] == s->coordinates[differs].name[0];
+    if (i != differs && same_letter && a[i] == b[i] && lo < a[i] && a[i] < hi) between = s->coordinates[i].name;
   }
   if (!between) between = lo < 0 && hi > 0 ? "0" : pl_format(m->arena, "%.4g", 0.5 * (lo + hi));
   const char* name = s->coordinates[differs].name;

@@ -6,15 +6,16 @@
 static const char* plural(int n, const char* one, const char* many) { return n == 1 ? one : many; }
 
 static void tell_freedoms(pl_text* out, const pleuel_model* m, pl_language lang) {
-  const pl_setup* s = &m->recording->setup;
-  int n_q = s->n_q - m->recording->n_hidden, n_c = m->recording->n_declared;
-  pl_text_addf(out, lang == PL_GERMAN ? "%d %s, %d %s" : "%d %s, %d %s", n_q,
-               lang == PL_GERMAN ? plural(n_q, "Koordinate", "Koordinaten") : plural(n_q, "coordinate", "coordinates"), n_c,
-               lang == PL_GERMAN ? plural(n_c, "Zwangsbedingung", "Zwangsbedingungen") : plural(n_c, "constraint", "constraints"));
-  if (!m->result) return;
-  int dof = s->n_q - m->result->stats.rank_start;
-  pl_text_addf(out, lang == PL_GERMAN ? ", %d %s beim Start" : ", %d %s at the start", dof,
-               lang == PL_GERMAN ? plural(dof, "Freiheitsgrad", "Freiheitsgrade") : plural(dof, "degree of freedom", "degrees of freedom"));
+  const pl_dof* f = &m->solution->dof;
+  bool de = lang == PL_GERMAN;
+  pl_text_addf(out, "%d %s, %d %s", f->coordinates,
+               de ? plural(f->coordinates, "Koordinate", "Koordinaten") : plural(f->coordinates, "coordinate", "coordinates"), f->constraints,
+               de ? plural(f->constraints, "Zwangsbedingung", "Zwangsbedingungen") : plural(f->constraints, "constraint", "constraints"));
+  int hidden = m->solution->hidden.n;
+  if (f->rank < f->constraints) pl_text_addf(out, de ? ", davon %d unabhängig" : ", %d of them independent", f->rank);
+  if (hidden > 0) pl_text_addf(out, de ? ", %d verborgen" : ", %d hidden", hidden);
+  pl_text_addf(out, ", %d %s", f->dof, de ? plural(f->dof, "Freiheitsgrad", "Freiheitsgrade") : plural(f->dof, "degree of freedom", "degrees of freedom"));
+  if (f->velocity_dof != f->dof) pl_text_addf(out, de ? " (%d der Geschwindigkeit)" : " (%d of the velocity)", f->velocity_dof);
 }
 
 // Positions and velocities that the constraints settled.
@@ -33,16 +34,15 @@ static void tell_start(pl_text* out, const pleuel_model* m, pl_language lang) {
 }
 
 void pl_check_summary(pl_text* out, const pleuel_model* m, pl_language lang) {
+  bool de = lang == PL_GERMAN;
   pl_text_addf(out, "%s: ", m->name);
-  if (!m->recording) {
-    pl_text_add(out, lang == PL_GERMAN ? "keine Fehler im Text\n" : "no errors in the text\n");
-    return;
+  if (m->solution) tell_freedoms(out, m, lang);
+  else pl_text_add(out, de ? "keine Fehler im Text" : "no errors in the text");
+  if (m->result) {
+    pl_text_add(out, de ? "; der Start ist widerspruchsfrei\n" : "; the start is consistent\n");
+    tell_start(out, m, lang);
+  } else {
+    pl_text_add(out, "\n");
+    if (m->run_message[0]) pl_text_addf(out, de ? "der Start wurde nicht geprüft: %s\n" : "the start was not looked at: %s\n", m->run_message);
   }
-  tell_freedoms(out, m, lang);
-  if (!m->result) {
-    pl_text_addf(out, lang == PL_GERMAN ? "\nDer Start wurde nicht geprüft: %s\n" : "\nthe start was not looked at: %s\n", m->run_message);
-    return;
-  }
-  pl_text_add(out, lang == PL_GERMAN ? "; der Start ist widerspruchsfrei\n" : "; the start is consistent\n");
-  tell_start(out, m, lang);
 }

@@ -4,13 +4,14 @@
 Usage: wrong_test.py PLEUEL [--accept]      --accept rewrites the expectations; read the diff before committing it.
 An expectation holds the lines without the file name: line:col: CODE: sentence.
 """
+import os
 import pathlib
 import subprocess
 import sys
 
 from tap import check, done
 
-program = sys.argv[1]
+program = os.path.abspath(sys.argv[1])
 folder = pathlib.Path(__file__).resolve().parent.parent / "wrong"
 accept = "--accept" in sys.argv
 
