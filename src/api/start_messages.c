@@ -67,7 +67,8 @@ static void report_several(pleuel_model* m) {
   }
   if (!between) between = lo < 0 && hi > 0 ? "0" : pl_format(m->arena, "%.4g", 0.5 * (lo + hi));
   const char* name = s->coordinates[differs].name;
-  pl_diagnostic* d = pl_report(&m->diagnostics, PL_E043, (pl_span){0},
+  pl_span where = m->model->inits.n > 0 ? m->model->inits.at[0].span : (pl_span){0};
+  pl_diagnostic* d = pl_report(&m->diagnostics, PL_E043, where,
     pl_format(m->arena, "%d solutions of the constraints fit the start; choose one", r->n_candidates),
     pl_format(m->arena, "%d Lösungen der Zwangsbedingungen passen zum Start; eine ist zu wählen", r->n_candidates));
   pl_report_fix(d, pl_format(m->arena, "add  branch %s < %s   or   branch %s > %s", name, between, name, between),
