@@ -1,10 +1,11 @@
 // Sample points of a domain, and the values of expressions there as balls.
 //
 // A symbol's value is drawn from its name and the number of the point, so that it does not depend on what was asked
-// before.  Values are multiples of 2^-30, exact as doubles and as balls.  When a fact fails at a point, one of the symbols in
-// it is drawn anew, until all facts hold (in the manner of WalkSAT: a random symbol of the first violated fact).
+// before.  Values are multiples of 2^-30, exact as doubles and as balls.  When a fact fails at a point, one of the
+// symbols in it is drawn anew, until all facts hold (in the manner of WalkSAT: a random symbol of the first violated
+// fact).
 //
-// All points share one straight-line program: the distinct nodes of all expressions asked so far, arguments first.  Each
+// All points share one straight-line program: the distinct nodes of all expressions asked so far, arguments first. Each
 // point keeps the balls it has computed, so that a formula that shares nodes with earlier ones costs only its new ones.
 // Kept balls are frozen: read-only copies whose mantissas stand in the arena, so that there is nothing to free.
 #include "algebra/arb_eval.h"
@@ -13,17 +14,17 @@
 #include <string.h>
 
 enum { PL_MAX_REDRAWS = 400, PL_MAX_NODES = 400000, PL_CHUNK_SLOTS = 64, PL_LIMBS = 4096 };
-static const double draw_low = 0.3, draw_high = 3.0;    // sizes that are neither tiny nor huge: no cancellation by scale
-static const double grid = 1073741824.0;                // 2^30
+static const double draw_low = 0.3, draw_high = 3.0;  // sizes that are neither tiny nor huge: no cancellation by scale
+static const double grid = 1073741824.0;              // 2^30
 
 typedef struct pl_point {
-  double* value;            // by symbol id, NaN where not drawn yet      (n_values)
+  double* value;  // by symbol id, NaN where not drawn yet      (n_values)
   int n_values;
-  uint32_t* draws;          // how often the symbol was drawn              (n_values)
+  uint32_t* draws;  // how often the symbol was drawn              (n_values)
   bool usable;
-  PL_VEC(arb_ptr) chunks;   // frozen balls by slot
-  int n_done;               // slots computed
-  arb_ptr unknown;          // frozen solution of the linear system        (n_unknowns), NULL until needed
+  PL_VEC(arb_ptr) chunks;  // frozen balls by slot
+  int n_done;              // slots computed
+  arb_ptr unknown;         // frozen solution of the linear system        (n_unknowns), NULL until needed
   bool solved;
 } pl_point;
 
@@ -36,18 +37,16 @@ struct pl_points {
   uint64_t seed;
   int n;
   pl_point* at;
-  pl_map* slot_of;          // expression id -> slot + 1
+  pl_map* slot_of;  // expression id -> slot + 1
   PL_VEC(pl_expr) program;
-  pl_map* definition_of;    // symbol id -> definition + 1
-  pl_map* unknown_of;       // symbol id -> unknown + 1
-  mp_limb_t* limbs;         // room for frozen mantissas
-  size_t n_limbs;           // free ones
+  pl_map* definition_of;  // symbol id -> definition + 1
+  pl_map* unknown_of;     // symbol id -> unknown + 1
+  mp_limb_t* limbs;       // room for frozen mantissas
+  size_t n_limbs;         // free ones
 };
 
 // ---------------------------------------------------------------------------------------------- drawing
-static double on_grid(double x) {
-  return nearbyint(x * grid) / grid;
-}
+static double on_grid(double x) { return nearbyint(x * grid) / grid; }
 
 static double draw(const pl_points* s, int point, pl_symbol x, uint32_t attempt) {
   const pl_symbol_info* info = pl_symbol_get(s->pool, x);
@@ -160,10 +159,12 @@ static void draw_point(pl_points* s, int point) {
   }
 }
 
-pl_points* pl_points_make(pl_job* job, pl_pool* p, const pl_certifier_setup* setup, int n_points, long precision, uint64_t seed) {
+pl_points* pl_points_make(pl_job* job, pl_pool* p, const pl_certifier_setup* setup, int n_points, long precision,
+                          uint64_t seed) {
   pl_arena* a = pl_pool_arena(p);
   pl_points* s = PL_NEW(a, pl_points);
-  *s = (pl_points){.job = job, .pool = p, .arena = a, .setup = *setup, .precision = precision, .seed = seed, .n = n_points};
+  *s = (pl_points){
+      .job = job, .pool = p, .arena = a, .setup = *setup, .precision = precision, .seed = seed, .n = n_points};
   s->slot_of = pl_map_make(a);
   s->definition_of = pl_map_make(a);
   s->unknown_of = pl_map_make(a);
@@ -176,14 +177,10 @@ pl_points* pl_points_make(pl_job* job, pl_pool* p, const pl_certifier_setup* set
   return s;
 }
 
-int pl_points_count(const pl_points* s) {
-  return s->n;
-}
+int pl_points_count(const pl_points* s) { return s->n; }
 
 // ---------------------------------------------------------------------------------------------- the program
-static arb_ptr ball(const pl_point* q, int slot) {
-  return &q->chunks.at[slot / PL_CHUNK_SLOTS][slot % PL_CHUNK_SLOTS];
-}
+static arb_ptr ball(const pl_point* q, int slot) { return &q->chunks.at[slot / PL_CHUNK_SLOTS][slot % PL_CHUNK_SLOTS]; }
 
 // Room for one more mantissa, so that freezing allocates nothing while a ball of Arb's own is alive.
 static void reserve_limbs(pl_points* s, size_t n) {
@@ -210,9 +207,7 @@ static void freeze(pl_points* s, arb_ptr to, arb_srcptr from) {
   s->n_limbs -= n;
 }
 
-static int slot_of(const pl_points* s, pl_expr e) {
-  return (int)pl_map_get(s->slot_of, e.id) - 1;
-}
+static int slot_of(const pl_points* s, pl_expr e) { return (int)pl_map_get(s->slot_of, e.id) - 1; }
 
 static bool add_to_program(pl_points* s, pl_expr e, int depth);
 
@@ -352,7 +347,7 @@ static void run_to(pl_points* s, int point, int slot) {
   fill(s, point);
   for (; q->n_done <= slot; q->n_done++) {
     if (q->n_done == q->chunks.n * PL_CHUNK_SLOTS) {
-      arb_ptr chunk = PL_ARRAY(s->arena, arb_struct, PL_CHUNK_SLOTS);   // zeroed memory is the ball 0
+      arb_ptr chunk = PL_ARRAY(s->arena, arb_struct, PL_CHUNK_SLOTS);  // zeroed memory is the ball 0
       pl_push(s->arena, q->chunks, chunk);
     }
     run_slot(s, point, q->n_done);
@@ -370,7 +365,7 @@ bool pl_points_value(pl_points* s, int point, pl_expr e, arb_srcptr* value) {
 double pl_points_double(pl_points* s, int point, pl_expr e) {
   arb_srcptr v;
   if (!pl_points_value(s, point, e, &v)) return (double)NAN;
-  if (arb_rel_accuracy_bits(v) < 20 && !arb_is_zero(v)) return 0;   // nothing but rounding
+  if (arb_rel_accuracy_bits(v) < 20 && !arb_is_zero(v)) return 0;  // nothing but rounding
   return arf_get_d(arb_midref(v), ARF_RND_NEAR);
 }
 

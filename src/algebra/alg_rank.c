@@ -1,6 +1,6 @@
-// Rank and dependencies of rows.  The rank is taken of the normal forms modulo a prime at random points: fast, and right at
-// a generic point.  Where there are no values modulo the prime, in ball arithmetic at sample points.  A dependency is
-// solved for exactly and verified in every column.
+// Rank and dependencies of rows.  The rank is taken of the normal forms modulo a prime at random points: fast, and
+// right at a generic point.  Where there are no values modulo the prime, in ball arithmetic at sample points.  A
+// dependency is solved for exactly and verified in every column.
 #include "algebra/algebra_impl.h"
 
 #include <string.h>
@@ -18,9 +18,7 @@ static bool residues(pl_tower* t, int m, int n, const pl_expr* A, uint64_t seed,
   return true;
 }
 
-static uint64_t minus_mod(uint64_t a) {
-  return a ? PL_MOD_P - a : 0;
-}
+static uint64_t minus_mod(uint64_t a) { return a ? PL_MOD_P - a : 0; }
 
 // Greedy from the first row on: a row is taken when it is independent of those taken before.  R (m x n) is destroyed.
 static int independent_rows(uint64_t* R, int m, int n, int* rows) {
@@ -81,7 +79,11 @@ static int independent_ball_rows(arb_ptr R, int m, int n, int* rows, long bits) 
   return rank;
 }
 
-typedef struct pl_rank_job { int m, n; const pl_expr* A; int rank, *rows; } pl_rank_job;
+typedef struct pl_rank_job {
+  int m, n;
+  const pl_expr* A;
+  int rank, *rows;
+} pl_rank_job;
 
 static void ball_rank_body(pl_tower* t, void* data) {
   pl_rank_job* j = data;

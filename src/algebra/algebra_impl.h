@@ -1,13 +1,13 @@
 // algebra_impl.h: what the rooms of the algebra share: the tower, its generators, polynomials, factors, fractions.
 //
-// Polynomials live in one FLINT context of t->capacity variables; variable i is generator i.  When a conversion needs more
-// generators, a finer angle base, or another basis of exponents, the tower is emptied, enlarged, and the outermost service starts
-// again (pl_tower_restart).  So polynomials, fractions and generator numbers never outlive the service that made them;
-// expressions do.
+// Polynomials live in one FLINT context of t->capacity variables; variable i is generator i.  When a conversion needs
+// more generators, a finer angle base, or another basis of exponents, the tower is emptied, enlarged, and the outermost
+// service starts again (pl_tower_restart).  So polynomials, fractions and generator numbers never outlive the service
+// that made them; expressions do.
 //
 // A service is a body run by pl_tower_run.  Inside it polynomials are taken from a stack and given back all at once
-// at its end (no clear anywhere), and whoever cannot go on calls pl_tower_give_up, which unwinds to the innermost service.
-// FLINT's own abort takes the same road.  A body hands its results over as expressions, numbers and flags.
+// at its end (no clear anywhere), and whoever cannot go on calls pl_tower_give_up, which unwinds to the innermost
+// service. FLINT's own abort takes the same road.  A body hands its results over as expressions, numbers and flags.
 //
 //   static void body(pl_tower* t, void* data) {
 //     struct job* j = data;
@@ -41,58 +41,60 @@
 // ---------------------------------------------------------------------------------------------- limits
 // Each keeps a single call into FLINT below about a second, since none of them can be interrupted.
 enum {
-  PL_MAX_GENERATORS = 192,      // contexts grow in steps of 8 up to here
-  PL_MAX_PRODUCT = 4000000,     // terms of a times terms of b: a heap product of this size takes about half a second
-  PL_MAX_TERMS = 200000,        // terms of a result
-  PL_MAX_FACTOR_TERMS = 1200,   // beyond it a polynomial is kept as one composite factor
-  PL_MAX_FACTOR_DEGREE = 80,    // total degree, likewise
-  PL_MAX_GCD_TERMS = 20000,     // sum of the terms of both; beyond it gcd = 1 (the fraction is right, only not reduced)
-  PL_MAX_DEGREE = 4000,         // in one variable: Horner's rule for s^2 = 1 - c^2 is linear in it
-  PL_MAX_INTEGER_BITS = 96,     // integers up to this size are split into primes
-  PL_MAX_POWER = 64,            // integer exponent of a sum
-  PL_MAX_MULTIPLE = 24,         // cos(nθ) is written in powers of cos θ up to this n
-  PL_MAX_DEPTH = 2000           // nesting of an expression that is converted by recursion
+  PL_MAX_GENERATORS = 192,     // contexts grow in steps of 8 up to here
+  PL_MAX_PRODUCT = 4000000,    // terms of a times terms of b: a heap product of this size takes about half a second
+  PL_MAX_TERMS = 200000,       // terms of a result
+  PL_MAX_FACTOR_TERMS = 1200,  // beyond it a polynomial is kept as one composite factor
+  PL_MAX_FACTOR_DEGREE = 80,   // total degree, likewise
+  PL_MAX_GCD_TERMS = 20000,    // sum of the terms of both; beyond it gcd = 1 (the fraction is right, only not reduced)
+  PL_MAX_DEGREE = 4000,        // in one variable: Horner's rule for s^2 = 1 - c^2 is linear in it
+  PL_MAX_INTEGER_BITS = 96,    // integers up to this size are split into primes
+  PL_MAX_POWER = 64,           // integer exponent of a sum
+  PL_MAX_MULTIPLE = 24,        // cos(nθ) is written in powers of cos θ up to this n
+  PL_MAX_DEPTH = 2000          // nesting of an expression that is converted by recursion
 };
 
 // ---------------------------------------------------------------------------------------------- types
 typedef fmpz_mpoly_struct pl_poly;
 
 typedef enum pl_gen_kind {
-  PL_G_SYMBOL,   // a symbol or an element of a family
-  PL_G_COS,      // cos of an angle base
-  PL_G_SIN,      // sin of it: s^2 = 1 - c^2
+  PL_G_SYMBOL,  // a symbol or an element of a family
+  PL_G_COS,     // cos of an angle base
+  PL_G_SIN,     // sin of it: s^2 = 1 - c^2
   PL_G_SINH,
-  PL_G_COSH,     // C^2 = 1 + S^2
-  PL_G_EXP,      // exp of a base of exponents
-  PL_G_ROOT,     // w >= 0 with w^degree = P, degree 2 nearly always
-  PL_G_ABS,      // |u| where the sign of u may change: a^2 = u^2
-  PL_G_FORMAL    // ln, asin, acos, atan, atan2, if, sums over an index, x^a, π: no relation
+  PL_G_COSH,   // C^2 = 1 + S^2
+  PL_G_EXP,    // exp of a base of exponents
+  PL_G_ROOT,   // w >= 0 with w^degree = P, degree 2 nearly always
+  PL_G_ABS,    // |u| where the sign of u may change: a^2 = u^2
+  PL_G_FORMAL  // ln, asin, acos, atan, atan2, if, sums over an index, x^a, π: no relation
 } pl_gen_kind;
 
 typedef struct pl_gen {
   pl_gen_kind kind;
-  pl_expr expr;             // what it stands for: θ, cos(θ/2), sqrt(P)
-  pl_symbol symbol;         // of a PL_G_SYMBOL that is a plain symbol
-  int partner;              // sin <-> cos, sinh <-> cosh; -1
-  int degree;               // the relation is gen^degree = value; 0: none
-  const pl_poly* value;     // reduced, in older generators
-  pl_class class;           // for the order K5
-  int sign;                 // 1: > 0 known, 2: >= 0 known, -1: < 0, -2: <= 0, 0: open
+  pl_expr expr;          // what it stands for: θ, cos(θ/2), sqrt(P)
+  pl_symbol symbol;      // of a PL_G_SYMBOL that is a plain symbol
+  int partner;           // sin <-> cos, sinh <-> cosh; -1
+  int degree;            // the relation is gen^degree = value; 0: none
+  const pl_poly* value;  // reduced, in older generators
+  pl_class class;        // for the order K5
+  int sign;              // 1: > 0 known, 2: >= 0 known, -1: < 0, -2: <= 0, 0: open
 } pl_gen;
 
 // A factor that occurs: primitive polynomial, its leading coefficient by K5 positive.  Irreducible unless `composite`.
 typedef struct pl_base {
   const pl_poly* poly;
-  bool composite;           // too large to be factored
-  int gen;                  // the generator it consists of, or -1
-  pl_expr expr;             // as an expression, 0 until asked
+  bool composite;  // too large to be factored
+  int gen;         // the generator it consists of, or -1
+  pl_expr expr;    // as an expression, 0 until asked
 } pl_base;
 
-typedef struct pl_power { int base, power; } pl_power;
+typedef struct pl_power {
+  int base, power;
+} pl_power;
 
 // n / (unit * prod base^power), powers > 0, bases ascending; unit > 0 and coprime to the content of num.
 typedef struct pl_frac {
-  const pl_poly* num;       // reduced modulo the relations
+  const pl_poly* num;  // reduced modulo the relations
   const fmpz* unit;
   int n;
   const pl_power* den;
@@ -100,45 +102,53 @@ typedef struct pl_frac {
 
 // A factored polynomial: unit * prod base^power.
 typedef struct pl_factored {
-  const fmpz* unit;         // with sign
+  const fmpz* unit;  // with sign
   int n;
   const pl_power* at;
 } pl_factored;
 
-typedef struct pl_factoring { const pl_poly* poly; pl_factored factors; } pl_factoring;   // remembered
+typedef struct pl_factoring {
+  const pl_poly* poly;
+  pl_factored factors;
+} pl_factoring;  // remembered
 
-typedef struct pl_points pl_points;          // sample points with Arb values, alg_points.c
-typedef struct pl_entry pl_entry;            // a running service, tower.c
+typedef struct pl_points pl_points;  // sample points with Arb values, alg_points.c
+typedef struct pl_entry pl_entry;    // a running service, tower.c
 
 // An angle base or a base of exponents, kept when the tower restarts: the atom occurs as (integer/den) * atom.
-typedef struct pl_lattice { pl_expr atom; long den; bool hyperbolic; int gen; } pl_lattice;
+typedef struct pl_lattice {
+  pl_expr atom;
+  long den;
+  bool hyperbolic;
+  int gen;
+} pl_lattice;
 
 struct pl_tower {
   pl_job* job;
   pl_pool* pool;
-  pl_arena* arena;                 // of the pool: lives as long as the expressions
+  pl_arena* arena;  // of the pool: lives as long as the expressions
   PL_VEC(pl_fact) facts;
   PL_VEC(pl_fact) used;
-  const double* probe;             // by symbol id, n_probe + 1 entries, or NULL
+  const double* probe;  // by symbol id, n_probe + 1 entries, or NULL
   int n_probe;
 
   fmpz_mpoly_ctx_struct ctx;
   int capacity;
   PL_VEC(pl_gen) gens;
-  pl_map* gen_of;                  // expression id -> generator + 1
-  int rank[PL_MAX_GENERATORS];     // position of a generator in the order K5, valid while n_ranked == gens.n
+  pl_map* gen_of;               // expression id -> generator + 1
+  int rank[PL_MAX_GENERATORS];  // position of a generator in the order K5, valid while n_ranked == gens.n
   int by_rank[PL_MAX_GENERATORS];
   int n_ranked;
 
-  pl_map* converted;               // expression id -> index in fractions + 1
+  pl_map* converted;  // expression id -> index in fractions + 1
   PL_VEC(pl_frac) fractions;
   PL_VEC(pl_base) bases;
-  pl_map* base_of;                 // hash of polynomial -> base + 1, collisions at hash + k
-  pl_map* factored_of;             // hash of polynomial -> index in factorings + 1
+  pl_map* base_of;      // hash of polynomial -> base + 1, collisions at hash + k
+  pl_map* factored_of;  // hash of polynomial -> index in factorings + 1
   PL_VEC(pl_factoring) factorings;
-  PL_VEC(pl_lattice) angles;       // survive a restart
+  PL_VEC(pl_lattice) angles;  // survive a restart
   PL_VEC(pl_lattice) exponents;
-  pl_map* angle_of;                // atom id -> index + 1
+  pl_map* angle_of;  // atom id -> index + 1
   pl_map* exponent_of;
 
   // what FLINT has to free: two stacks of polynomials and integers, and those that are kept
@@ -148,41 +158,43 @@ struct pl_tower {
   int ints_used;
   PL_VEC(pl_poly*) kept_polys;
   PL_VEC(fmpz*) kept_ints;
-  fmpz_mpoly_ctx_struct* small[PL_MAX_GENERATORS + 1];   // compact contexts, by number of variables
+  fmpz_mpoly_ctx_struct* small[PL_MAX_GENERATORS + 1];  // compact contexts, by number of variables
 
-  fmpz_mpoly_factor_struct flint_factors;             // of the last factoring, while it is being read
+  fmpz_mpoly_factor_struct flint_factors;              // of the last factoring, while it is being read
   const fmpz_mpoly_ctx_struct* flint_factors_context;  // NULL: none
   fmpz_factor_struct flint_integer_factors;
   bool has_flint_integer_factors;
 
-  pl_entry* entry;                 // innermost running service of this tower
-  pl_points* points;               // for signs and zero tests
-  pl_points* fine_points;          // the same at a higher precision, made when needed
-  bool facts_busy;                 // facts are being used: no facts inside facts
-  bool tangled;                    // bases were refined or roots combined: the next service starts from an empty tower,
-                                   // so that its result does not depend on what was asked before
-  bool silent;                     // proofs are not recorded: nothing that is shown rests on them
-  const pl_poly* radicand;         // under the root that is being taken: >= 0, as roots are real
-  int depth;                       // of the conversion
+  pl_entry* entry;          // innermost running service of this tower
+  pl_points* points;        // for signs and zero tests
+  pl_points* fine_points;   // the same at a higher precision, made when needed
+  bool facts_busy;          // facts are being used: no facts inside facts
+  bool tangled;             // bases were refined or roots combined: the next service starts from an empty tower,
+                            // so that its result does not depend on what was asked before
+  bool silent;              // proofs are not recorded: nothing that is shown rests on them
+  const pl_poly* radicand;  // under the root that is being taken: >= 0, as roots are real
+  int depth;                // of the conversion
 };
 
 // ---------------------------------------------------------------------------------------------- services, tower.c
 bool pl_tower_run(pl_tower* t, void (*body)(pl_tower* t, void* data), void* data);
-_Noreturn void pl_tower_give_up(pl_tower* t);           // to the innermost service: "not found"
-_Noreturn void pl_tower_restart(pl_tower* t);           // empty the tower, start the outermost service again
-typedef struct pl_tower_mark { int polys, ints; } pl_tower_mark;
+_Noreturn void pl_tower_give_up(pl_tower* t);  // to the innermost service: "not found"
+_Noreturn void pl_tower_restart(pl_tower* t);  // empty the tower, start the outermost service again
+typedef struct pl_tower_mark {
+  int polys, ints;
+} pl_tower_mark;
 pl_tower_mark pl_tower_mark_now(const pl_tower* t);
-void pl_tower_rewind(pl_tower* t, pl_tower_mark m);     // gives back the polynomials and integers taken since
-void pl_tower_check(pl_tower* t);                        // gives up when the job was interrupted
-int pl_tower_generator(pl_tower* t, const pl_gen* g);    // appends; restarts with a larger context when full
-int pl_tower_find(const pl_tower* t, pl_expr e);         // generator that stands for e, or -1
-void pl_tower_order(pl_tower* t);                        // brings rank and by_rank up to date
-bool pl_gen_contains(const pl_tower* t, int gen, pl_symbol x);   // x occurs in what the generator stands for
+void pl_tower_rewind(pl_tower* t, pl_tower_mark m);             // gives back the polynomials and integers taken since
+void pl_tower_check(pl_tower* t);                               // gives up when the job was interrupted
+int pl_tower_generator(pl_tower* t, const pl_gen* g);           // appends; restarts with a larger context when full
+int pl_tower_find(const pl_tower* t, pl_expr e);                // generator that stands for e, or -1
+void pl_tower_order(pl_tower* t);                               // brings rank and by_rank up to date
+bool pl_gen_contains(const pl_tower* t, int gen, pl_symbol x);  // x occurs in what the generator stands for
 
 // ---------------------------------------------------------------------------------------------- polynomials, poly.c
-pl_poly* pl_poly_new(pl_tower* t);                       // zero
-fmpz* pl_int_new(pl_tower* t);                           // zero
-const pl_poly* pl_poly_keep(pl_tower* t, const pl_poly* f);   // a copy that lives as long as the tower is not emptied
+pl_poly* pl_poly_new(pl_tower* t);                           // zero
+fmpz* pl_int_new(pl_tower* t);                               // zero
+const pl_poly* pl_poly_keep(pl_tower* t, const pl_poly* f);  // a copy that lives as long as the tower is not emptied
 const fmpz* pl_int_keep(pl_tower* t, const fmpz* c);
 const pl_poly* pl_poly_int(pl_tower* t, long c);
 const pl_poly* pl_poly_fmpz(pl_tower* t, const fmpz* c);
@@ -203,11 +215,11 @@ bool pl_poly_equal(const pl_tower* t, const pl_poly* a, const pl_poly* b);
 long pl_poly_terms(const pl_poly* a);
 uint64_t pl_poly_hash(pl_tower* t, const pl_poly* a);
 long pl_poly_degree(const pl_tower* t, const pl_poly* a, int gen);
-void pl_poly_degrees(const pl_tower* t, const pl_poly* a, long* degree);           // (capacity)
-void pl_poly_content(pl_tower* t, fmpz* c, const pl_poly* a);                      // >= 0
+void pl_poly_degrees(const pl_tower* t, const pl_poly* a, long* degree);  // (capacity)
+void pl_poly_content(pl_tower* t, fmpz* c, const pl_poly* a);             // >= 0
 // gen^degree -> value throughout a, once.
 const pl_poly* pl_poly_eliminate(pl_tower* t, const pl_poly* a, int gen, int degree, const pl_poly* value);
-const pl_poly* pl_poly_reduce(pl_tower* t, const pl_poly* a);                      // modulo all relations
+const pl_poly* pl_poly_reduce(pl_tower* t, const pl_poly* a);  // modulo all relations
 // The other view of a pair: c^2 -> 1 - s^2 (or S^2 -> C^2 - 1).  gen is the cos (sinh).
 const pl_poly* pl_poly_view(pl_tower* t, const pl_poly* a, int gen);
 // The view with the fewest terms, pair after pair in the order K5.
@@ -222,77 +234,88 @@ bool pl_poly_square_root(pl_tower* t, const pl_poly** root, const pl_poly* a);
 int pl_poly_leading_sign(pl_tower* t, const pl_poly* a);
 // Compact contexts: the polynomial in the generators that it uses, *n of them, listed in use[].
 const fmpz_mpoly_ctx_struct* pl_poly_small_context(pl_tower* t, int n);
-void pl_poly_used(const pl_tower* t, const pl_poly* a, int* use, int* n);          // adds to use[0 .. n-1], ascending
-void pl_poly_pack(pl_tower* t, fmpz_mpoly_struct* out, const fmpz_mpoly_ctx_struct* small, const pl_poly* a, const int* use, int n);
-void pl_poly_unpack(pl_tower* t, pl_poly* out, const fmpz_mpoly_struct* a, const fmpz_mpoly_ctx_struct* small, const int* use, int n);
+void pl_poly_used(const pl_tower* t, const pl_poly* a, int* use, int* n);  // adds to use[0 .. n-1], ascending
+void pl_poly_pack(pl_tower* t, fmpz_mpoly_struct* out, const fmpz_mpoly_ctx_struct* small, const pl_poly* a,
+                  const int* use, int n);
+void pl_poly_unpack(pl_tower* t, pl_poly* out, const fmpz_mpoly_struct* a, const fmpz_mpoly_ctx_struct* small,
+                    const int* use, int n);
 
 // ---------------------------------------------------------------------------------------------- factors, factor.c
-pl_factored pl_poly_factor(pl_tower* t, const pl_poly* a);         // a != 0; remembered
-int pl_base_find(pl_tower* t, const pl_poly* primitive, bool composite);   // sign must be normalised
+pl_factored pl_poly_factor(pl_tower* t, const pl_poly* a);                // a != 0; remembered
+int pl_base_find(pl_tower* t, const pl_poly* primitive, bool composite);  // sign must be normalised
 const pl_poly* pl_base_poly(const pl_tower* t, int base);
 pl_expr pl_base_expr(pl_tower* t, int base);
-const pl_poly* pl_factored_expand(pl_tower* t, pl_factored f);     // reduced
+const pl_poly* pl_factored_expand(pl_tower* t, pl_factored f);  // reduced
 // Primes of |c| with their powers; an integer of more than PL_MAX_INTEGER_BITS bits counts as one prime.
-typedef struct pl_prime { fmpz* p; long power; } pl_prime;
-typedef struct pl_primes { pl_prime* at; int n, cap; } pl_primes;
+typedef struct pl_prime {
+  fmpz* p;
+  long power;
+} pl_prime;
+typedef struct pl_primes {
+  pl_prime* at;
+  int n, cap;
+} pl_primes;
 pl_primes pl_int_primes(pl_tower* t, const fmpz* c);
-void pl_factor_free(pl_tower* t);                                  // what FLINT holds for the last factoring
+void pl_factor_free(pl_tower* t);  // what FLINT holds for the last factoring
 // (1 - c)^k (1 + c)^k -> s^2k, likewise C, S.  Bases stay bases: sin is one.
 pl_factored pl_factored_merge_pairs(pl_tower* t, pl_factored f);
 
 // ---------------------------------------------------------------------------------------------- fractions, fraction.c
 pl_frac pl_frac_int(pl_tower* t, long c);
-pl_frac pl_frac_ratio(pl_tower* t, const fmpz* num, const fmpz* den);   // den != 0
+pl_frac pl_frac_ratio(pl_tower* t, const fmpz* num, const fmpz* den);  // den != 0
 pl_frac pl_frac_poly(pl_tower* t, const pl_poly* num);
 pl_frac pl_frac_gen(pl_tower* t, int gen);
-pl_frac pl_frac_make(pl_tower* t, const pl_poly* num, const pl_poly* den);   // reduces, cancels; den != 0
-pl_frac pl_frac_over(pl_tower* t, const pl_poly* num, pl_frac like);         // num over the denominator of `like`
+pl_frac pl_frac_make(pl_tower* t, const pl_poly* num, const pl_poly* den);  // reduces, cancels; den != 0
+pl_frac pl_frac_over(pl_tower* t, const pl_poly* num, pl_frac like);        // num over the denominator of `like`
 pl_frac pl_frac_add(pl_tower* t, pl_frac a, pl_frac b);
 pl_frac pl_frac_sub(pl_tower* t, pl_frac a, pl_frac b);
 pl_frac pl_frac_neg(pl_tower* t, pl_frac a);
 pl_frac pl_frac_mul(pl_tower* t, pl_frac a, pl_frac b);
-pl_frac pl_frac_div(pl_tower* t, pl_frac a, pl_frac b);                 // gives up on division by zero
+pl_frac pl_frac_div(pl_tower* t, pl_frac a, pl_frac b);  // gives up on division by zero
 pl_frac pl_frac_inv(pl_tower* t, pl_frac a);
 pl_frac pl_frac_pow(pl_tower* t, pl_frac a, long n);
 bool pl_frac_is_zero(const pl_tower* t, pl_frac a);
-bool pl_frac_is_number(const pl_tower* t, pl_frac a, fmpq_t value);     // value may be NULL
-const pl_poly* pl_frac_den(pl_tower* t, pl_frac a);                     // unit and factors multiplied out
+bool pl_frac_is_number(const pl_tower* t, pl_frac a, fmpq_t value);  // value may be NULL
+const pl_poly* pl_frac_den(pl_tower* t, pl_frac a);                  // unit and factors multiplied out
 pl_frac pl_frac_keep(pl_tower* t, pl_frac a);
 
 // ---------------------------------------------------------------------------------------------- conversions
-pl_frac pl_convert(pl_tower* t, pl_expr e);                   // remembered; gives up on poison and infinity       convert.c
-pl_expr pl_frac_expr(pl_tower* t, pl_frac a);                 // num in its shortest view over factored den        poly_expr.c
-pl_expr pl_poly_expr(pl_tower* t, const pl_poly* a);          // expanded, shortest view
-pl_expr pl_poly_expr_as_is(pl_tower* t, const pl_poly* a);    // expanded, view unchanged
+pl_frac pl_convert(pl_tower* t, pl_expr e);           // remembered; gives up on poison and infinity       convert.c
+pl_expr pl_frac_expr(pl_tower* t, pl_frac a);         // num in its shortest view over factored den        poly_expr.c
+pl_expr pl_poly_expr(pl_tower* t, const pl_poly* a);  // expanded, shortest view
+pl_expr pl_poly_expr_as_is(pl_tower* t, const pl_poly* a);  // expanded, view unchanged
 pl_expr pl_fmpz_expr(pl_tower* t, const fmpz* c);
 pl_expr pl_fmpq_expr(pl_tower* t, const fmpz* num, const fmpz* den);
 
-// Angles and exponents: sum of rational multiples of atoms.                                                      angle.c
-typedef struct pl_sincos { pl_frac s, c; } pl_sincos;
+// Angles and exponents: sum of rational multiples of atoms. angle.c
+typedef struct pl_sincos {
+  pl_frac s, c;
+} pl_sincos;
 pl_sincos pl_convert_sincos(pl_tower* t, pl_expr argument);
 pl_sincos pl_convert_sinhcosh(pl_tower* t, pl_expr argument);
 pl_frac pl_convert_exp(pl_tower* t, pl_expr argument);
 
-// Roots and what depends on signs.                                                                             radical.c
+// Roots and what depends on signs. radical.c
 pl_frac pl_frac_sqrt(pl_tower* t, pl_frac a);
 pl_frac pl_frac_abs(pl_tower* t, pl_frac a);
 pl_frac pl_frac_ln(pl_tower* t, pl_frac a);
-pl_frac pl_formal(pl_tower* t, pl_expr e);                    // e as a generator without relation                 convert.c
+pl_frac pl_formal(pl_tower* t, pl_expr e);  // e as a generator without relation                 convert.c
 
 // ---------------------------------------------------------------------------------------------- signs, sign.c
-// Sign of a polynomial: 1, -1, 0 (identically zero), or PL_SIGN_OPEN.  With `guess`, samples of the domain and the probe
-// may decide, and the assumption is recorded.  or_zero accepts >= 0 and <= 0.
+// Sign of a polynomial: 1, -1, 0 (identically zero), or PL_SIGN_OPEN.  With `guess`, samples of the domain and the
+// probe may decide, and the assumption is recorded.  or_zero accepts >= 0 and <= 0.
 enum { PL_SIGN_OPEN = 9 };
 int pl_poly_sign(pl_tower* t, const pl_poly* a, bool or_zero, bool guess);
 int pl_base_sign(pl_tower* t, int base, bool or_zero, bool guess);
-// Bounds over all angles: low <= c a <= high for a positive number c, low and high without sines.                trig_bounds.c
+// Bounds over all angles: low <= c a <= high for a positive number c, low and high without sines. trig_bounds.c
 bool pl_poly_trig_bounds(pl_tower* t, const pl_poly* a, const pl_poly** low, const pl_poly** high);
 
-// ---------------------------------------------------------------------------------------------- sample points, alg_points.c
-// Points of a domain: free symbols drawn by name and point number (so that the values do not depend on history) such that the
-// facts hold, definitions in order, unknowns by a numeric solve.  Expressions are evaluated by a growing straight-line
-// program, whose values are kept for each point.
-pl_points* pl_points_make(pl_job* job, pl_pool* p, const pl_certifier_setup* s, int n_points, long precision, uint64_t seed);
+// ---------------------------------------------------------------------------------------------- sample points,
+// alg_points.c Points of a domain: free symbols drawn by name and point number (so that the values do not depend on
+// history) such that the facts hold, definitions in order, unknowns by a numeric solve.  Expressions are evaluated by a
+// growing straight-line program, whose values are kept for each point.
+pl_points* pl_points_make(pl_job* job, pl_pool* p, const pl_certifier_setup* s, int n_points, long precision,
+                          uint64_t seed);
 int pl_points_count(const pl_points* s);
 // Ball of e at a point; false where it is not finite or the point is unusable.  Valid until the next call.
 bool pl_points_value(pl_points* s, int point, pl_expr e, arb_srcptr* value);

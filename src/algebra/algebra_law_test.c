@@ -7,7 +7,8 @@ static const uint64_t seed = 20240611;
 static void assert_zero_expr(pl_world* w, pl_expr e, int round, const char* law) {
   pl_answer3 zero = pl_alg_is_zero(w->tower, e);
   if (zero != PL_YES) {
-    fail_msg("%s fails (answer %d), seed %llu round %d: %s", law, zero, (unsigned long long)seed, round, pl_text_of(w, e));
+    fail_msg("%s fails (answer %d), seed %llu round %d: %s", law, zero, (unsigned long long)seed, round,
+             pl_text_of(w, e));
   }
 }
 
@@ -38,7 +39,8 @@ PL_TEST(the_normal_form_of_a_normal_form_is_itself) {
     pl_expr e = pl_random_expr(w, &r, 3);
     pl_expr once = pl_alg_normal(w->tower, e), twice = pl_alg_normal(w->tower, once);
     if (!pl_same(once, twice)) {
-      fail_msg("seed %llu round %d: %s becomes %s", (unsigned long long)seed + 1, i, pl_text_of(w, once), pl_text_of(w, twice));
+      fail_msg("seed %llu round %d: %s becomes %s", (unsigned long long)seed + 1, i, pl_text_of(w, once),
+               pl_text_of(w, twice));
     }
   }
   pl_world_free(w);
@@ -103,7 +105,6 @@ PL_TEST(what_is_solved_satisfies_the_system) {
     assert_int_equal(answer == PL_NO, pl_alg_is_zero(w->tower, det) == PL_YES);
     int rank = pl_alg_rank(w->tower, N, N, A, NULL);
     if ((answer == PL_YES) != (rank == N)) {
-
       fail_msg("seed %llu round %d: answer %d, rank %d", (unsigned long long)seed + 5, i, answer, rank);
     }
     for (int k = 0; k < N && answer == PL_YES; k++) {
@@ -117,12 +118,12 @@ PL_TEST(what_is_solved_satisfies_the_system) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(sums_and_products_obey_the_axioms),
-    cmocka_unit_test(the_normal_form_of_a_normal_form_is_itself),
-    cmocka_unit_test(the_normal_form_has_the_value_of_the_input),
-    cmocka_unit_test(factors_multiply_to_the_whole),
-    cmocka_unit_test(the_derivative_commutes_with_the_normal_form),
-    cmocka_unit_test(what_is_solved_satisfies_the_system),
+      cmocka_unit_test(sums_and_products_obey_the_axioms),
+      cmocka_unit_test(the_normal_form_of_a_normal_form_is_itself),
+      cmocka_unit_test(the_normal_form_has_the_value_of_the_input),
+      cmocka_unit_test(factors_multiply_to_the_whole),
+      cmocka_unit_test(the_derivative_commutes_with_the_normal_form),
+      cmocka_unit_test(what_is_solved_satisfies_the_system),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

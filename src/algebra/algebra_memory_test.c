@@ -1,10 +1,13 @@
-// The hostile allocator: the n-th allocation fails, for every n.  The work unwinds to the guard with PLEUEL_NO_MEMORY, the
-// tower can be freed, and nothing is left (looked for by the leak checker of the sanitizer build).
+// The hostile allocator: the n-th allocation fails, for every n.  The work unwinds to the guard with PLEUEL_NO_MEMORY,
+// the tower can be freed, and nothing is left (looked for by the leak checker of the sanitizer build).
 #include "algebra/algebra_test_text.h"
 
 #include <stdlib.h>
 
-typedef struct pl_hostile { long left; long live; } pl_hostile;
+typedef struct pl_hostile {
+  long left;
+  long live;
+} pl_hostile;
 
 static void* take(void* user, size_t size) {
   pl_hostile* h = user;
@@ -20,7 +23,9 @@ static void give(void* user, void* block) {
 }
 
 // What is alive when memory runs out, so that it can be freed.
-typedef struct pl_alive { pl_tower* tower; } pl_alive;
+typedef struct pl_alive {
+  pl_tower* tower;
+} pl_alive;
 
 static void work(pl_arena* a, pl_job* job, pl_pool* p, volatile pl_alive* alive) {
   alive->tower = pl_tower_make(job, p, NULL, 0);
@@ -53,7 +58,8 @@ static bool attempt(long n, size_t padding) {
     if (padding) pl_alloc(a, padding);
     work(a, &job, pl_pool_make(a), &alive);
     done = true;
-  } else {
+  }
+  else {
     assert_int_equal(guard.status, PLEUEL_NO_MEMORY);
   }
   pl_guard_end(a, &guard);

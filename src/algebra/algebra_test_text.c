@@ -4,7 +4,10 @@
 #include <ctype.h>
 #include <stdlib.h>
 
-typedef struct pl_reader { pl_world* w; const char* at; } pl_reader;
+typedef struct pl_reader {
+  pl_world* w;
+  const char* at;
+} pl_reader;
 
 pl_symbol pl_text_symbol(pl_world* w, const char* name) {
   pl_symbol s = pl_symbol_find(w->pool, name);
@@ -34,7 +37,8 @@ static pl_expr read_call(pl_reader* r, const char* name) {
   if (strcmp(name, "sqrt") == 0) return pl_sqrt(r->w->pool, a);
   for (int f = 0; f < PL_N_FUNCTIONS; f++) {
     if (strcmp(name, pl_function_name[f]) != 0) continue;
-    return pl_function_arity[f] == 2 ? pl_call2(r->w->pool, (pl_function)f, a, b) : pl_call(r->w->pool, (pl_function)f, a);
+    return pl_function_arity[f] == 2 ? pl_call2(r->w->pool, (pl_function)f, a, b)
+                                     : pl_call(r->w->pool, (pl_function)f, a);
   }
   fail_msg("no function %s", name);
   return pl_poison();

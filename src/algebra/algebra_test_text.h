@@ -1,6 +1,6 @@
-// For the tests of this folder: a world (arena, pool, tower) and expressions written as text, "sqrt(l^2 - r^2*sin(x)^2)".
-// Names that begin with one of x y z u v a b t p are coordinates without a sign; all others are positive parameters:
-// m... masses, g gravity, the rest lengths.
+// For the tests of this folder: a world (arena, pool, tower) and expressions written as text, "sqrt(l^2 -
+// r^2*sin(x)^2)". Names that begin with one of x y z u v a b t p are coordinates without a sign; all others are
+// positive parameters: m... masses, g gravity, the rest lengths.
 #ifndef PL_ALGEBRA_TEST_TEXT_H
 #define PL_ALGEBRA_TEST_TEXT_H
 
@@ -29,7 +29,7 @@ void pl_world_free(pl_world* w);
 pl_expr pl_text_expr(pl_world* w, const char* text);
 pl_symbol pl_text_symbol(pl_world* w, const char* name);
 const char* pl_text_of(pl_world* w, pl_expr e);
-const char* pl_text_normal(pl_world* w, const char* text);      // text of the normal form
+const char* pl_text_normal(pl_world* w, const char* text);  // text of the normal form
 void pl_assert_zero(pl_world* w, const char* text);
 void pl_assert_not_zero(pl_world* w, const char* text);
 

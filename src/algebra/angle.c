@@ -1,6 +1,7 @@
 // Angles and exponents as lattices.  An argument is split into rational multiples of atoms (monomials over a common
-// denominator); each atom has one base, atom/den, and sin, cos or exp of the base are generators.  When a multiple comes
-// that the base is too coarse for (θ/2 after θ), the base is refined and the tower starts again, so that θ/2 and 2θ share it.
+// denominator); each atom has one base, atom/den, and sin, cos or exp of the base are generators.  When a multiple
+// comes that the base is too coarse for (θ/2 after θ), the base is refined and the tower starts again, so that θ/2 and
+// 2θ share it.
 //
 // Angles that are inverse functions have no base: cos(acos u) = u, sin(acos u) = sqrt(1 - u^2).
 #include "algebra/algebra_impl.h"
@@ -10,8 +11,14 @@
 enum { PL_MAX_ANGLE_TERMS = 8, PL_MAX_EXPONENT_DEN = 720 };
 
 // One term q * atom of an argument; q = num/den in lowest terms.
-typedef struct pl_angle_term { long num, den; pl_expr atom; } pl_angle_term;
-typedef struct pl_angle { int n; pl_angle_term at[PL_MAX_ANGLE_TERMS]; } pl_angle;
+typedef struct pl_angle_term {
+  long num, den;
+  pl_expr atom;
+} pl_angle_term;
+typedef struct pl_angle {
+  int n;
+  pl_angle_term at[PL_MAX_ANGLE_TERMS];
+} pl_angle;
 
 // ---------------------------------------------------------------------------------------------- splitting
 // Monomial i of the numerator, over the factors of the denominator but without its integer coefficient.
@@ -29,7 +36,7 @@ static pl_expr atom_of(pl_tower* t, pl_frac a, slong i) {
 }
 
 // The coefficient when it is a small rational; larger ones stay inside the atom, with their sign outside.
-static pl_angle_term term_of(pl_tower* t, pl_frac a, slong i, long max_num, long max_den) {
+static pl_angle_term term_of(pl_tower* t, pl_frac a, slong i, long max_num, long max_den, bool numbers_are_atoms) {
   fmpz* g = pl_int_new(t);
   fmpz* num = pl_int_new(t);
   fmpz* den = pl_int_new(t);
@@ -37,20 +44,22 @@ static pl_angle_term term_of(pl_tower* t, pl_frac a, slong i, long max_num, long
   fmpz_divexact(num, &a.num->coeffs[i], g);
   fmpz_divexact(den, a.unit, g);
   pl_angle_term term = {.num = fmpz_sgn(num), .den = 1, .atom = atom_of(t, a, i)};
-  if (fmpz_cmpabs(num, den) <= 0 || fmpz_cmp_si(den, max_den) <= 0) {
-    if (fmpz_cmp_si(den, max_den) <= 0 && fmpz_fits_si(num) && labs(fmpz_get_si(num)) <= max_num) {
-      term.num = fmpz_get_si(num);
-      term.den = fmpz_get_si(den);
-      return term;
-    }
+  bool small = fmpz_cmp_si(den, max_den) <= 0 && fmpz_fits_si(num) && labs(fmpz_get_si(num)) <= max_num;
+  // sin 7 is not written in powers of sin 1: a number is an atom as it is
+  if (small && !(numbers_are_atoms && pl_is_number(t->pool, term.atom))) {
+    term.num = fmpz_get_si(num);
+    term.den = fmpz_get_si(den);
+    return term;
   }
+  term.num = fmpz_sgn(num);
   fmpz_abs(num, num);
   term.atom = pl_mul(t->pool, pl_fmpq_expr(t, num, den), term.atom);
   return term;
 }
 
-// false when there are too many terms: then the argument is one atom.
-static void split(pl_tower* t, pl_expr argument, long max_num, long max_den, pl_angle* out) {
+// An argument of too many terms is one atom.
+static void split(pl_tower* t, pl_expr argument, bool exponent, pl_angle* out) {
+  long max_num = exponent ? PL_MAX_DEGREE : PL_MAX_MULTIPLE, max_den = exponent ? PL_MAX_EXPONENT_DEN : PL_MAX_MULTIPLE;
   pl_frac a = pl_convert(t, argument);
   out->n = 0;
   if (a.num->length > PL_MAX_ANGLE_TERMS) {
@@ -58,7 +67,7 @@ static void split(pl_tower* t, pl_expr argument, long max_num, long max_den, pl_
     out->at[out->n++] = (pl_angle_term){sign, 1, pl_frac_expr(t, sign < 0 ? pl_frac_neg(t, a) : a)};
     return;
   }
-  for (slong i = 0; i < a.num->length; i++) out->at[out->n++] = term_of(t, a, i, max_num, max_den);
+  for (slong i = 0; i < a.num->length; i++) out->at[out->n++] = term_of(t, a, i, max_num, max_den, !exponent);
 }
 
 // ---------------------------------------------------------------------------------------------- lattices
@@ -107,7 +116,8 @@ static bool refine(pl_tower* t, pl_lattice* l, long den, long max_den) {
 // ---------------------------------------------------------------------------------------------- pairs
 static int make_pair(pl_tower* t, pl_expr base, bool hyperbolic) {
   pl_gen first = {.kind = hyperbolic ? PL_G_SINH : PL_G_COS, .partner = t->gens.n + 1, .class = PL_C_FUNCTION};
-  pl_gen second = {.kind = hyperbolic ? PL_G_COSH : PL_G_SIN, .partner = t->gens.n, .class = PL_C_FUNCTION, .degree = 2};
+  pl_gen second = {
+      .kind = hyperbolic ? PL_G_COSH : PL_G_SIN, .partner = t->gens.n, .class = PL_C_FUNCTION, .degree = 2};
   first.expr = pl_call(t->pool, hyperbolic ? PL_SINH : PL_COS, base);
   second.expr = pl_call(t->pool, hyperbolic ? PL_COSH : PL_SIN, base);
   if (hyperbolic) second.sign = 1;
@@ -190,7 +200,8 @@ static bool special_pair(pl_tower* t, pl_angle_term a, pl_sincos* out) {
   if (a.den != 1 && a.den != 2 && a.den != 3 && a.den != 4 && a.den != 6) return false;
   pl_expr angle = pl_mul(t->pool, pl_ratio(t->pool, a.num, a.den), a.atom);
   pl_expr s = pl_call(t->pool, PL_SIN, angle), c = pl_call(t->pool, PL_COS, angle);
-  if (!pl_is_constant(t->pool, s) || pl_kind_of(t->pool, s) == PL_CALL || pl_kind_of(t->pool, c) == PL_CALL) return false;
+  if (!pl_is_constant(t->pool, s) || pl_kind_of(t->pool, s) == PL_CALL || pl_kind_of(t->pool, c) == PL_CALL)
+    return false;
   *out = (pl_sincos){pl_convert(t, s), pl_convert(t, c)};
   return true;
 }
@@ -213,7 +224,7 @@ static pl_sincos pair_of_term(pl_tower* t, pl_angle_term a) {
 
 pl_sincos pl_convert_sincos(pl_tower* t, pl_expr argument) {
   pl_angle angle;
-  split(t, argument, PL_MAX_MULTIPLE, PL_MAX_MULTIPLE, &angle);
+  split(t, argument, false, &angle);
   pl_sincos r = {pl_frac_int(t, 0), pl_frac_int(t, 1)};
   for (int i = 0; i < angle.n; i++) r = product(t, r, pair_of_term(t, angle.at[i]), false);
   return r;
@@ -232,7 +243,7 @@ static pl_sincos hyperbolic_pair(pl_tower* t, pl_lattice* l) {
 
 pl_sincos pl_convert_sinhcosh(pl_tower* t, pl_expr argument) {
   pl_angle angle;
-  split(t, argument, PL_MAX_MULTIPLE, PL_MAX_MULTIPLE, &angle);
+  split(t, argument, false, &angle);
   pl_sincos r = {pl_frac_int(t, 0), pl_frac_int(t, 1)};
   for (int i = 0; i < angle.n; i++) {
     pl_lattice* l = exponent_lattice(t, angle.at[i].atom);
@@ -277,7 +288,7 @@ static pl_frac exp_of_term(pl_tower* t, pl_angle_term a) {
 
 pl_frac pl_convert_exp(pl_tower* t, pl_expr argument) {
   pl_angle exponent;
-  split(t, argument, PL_MAX_DEGREE, PL_MAX_EXPONENT_DEN, &exponent);
+  split(t, argument, true, &exponent);
   pl_frac r = pl_frac_int(t, 1);
   for (int i = 0; i < exponent.n; i++) r = pl_frac_mul(t, r, exp_of_term(t, exponent.at[i]));
   return r;

@@ -1,5 +1,6 @@
-// One node of an expression in ball arithmetic: out from the balls of its arguments.  Used by the straight-line program of
-// the sample points.  What has no value (poison, sums over an open index, outside the domain) becomes an indeterminate ball.
+// One node of an expression in ball arithmetic: out from the balls of its arguments.  Used by the straight-line program
+// of the sample points.  What has no value (poison, sums over an open index, outside the domain) becomes an
+// indeterminate ball.
 #ifndef PL_ARB_EVAL_H
 #define PL_ARB_EVAL_H
 

@@ -1,17 +1,25 @@
-// Certificates: is what is shown the same as what was derived?  Decided without the tower, by evaluation at sample points:
-// 20 modulo p = 2^61 - 1 and 50 in ball arithmetic, 256 bits and more when that does not decide.
+// Certificates: is what is shown the same as what was derived?  Decided without the tower, by evaluation at sample
+// points: 20 modulo p = 2^61 - 1 and 50 in ball arithmetic, 256 bits and more when that does not decide.
 //
-// The points, the values of definitions and unknowns there and all nodes evaluated so far are kept, so that many formulas
-// over the same quantities cost little more than one.  Modulo p the sign of a root is a free choice: an identity that holds
-// there holds on all branches.  One that fails there but holds at all 50 points depends on a sign; the points decide.
+// The points, the values of definitions and unknowns there and all nodes evaluated so far are kept, so that many
+// formulas over the same quantities cost little more than one.  Modulo p the sign of a root is a free choice: an
+// identity that holds there holds on all branches.  One that fails there but holds at all 50 points depends on a sign;
+// the points decide.
 #include "algebra/algebra_impl.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { PL_CERTIFY_MOD = 20, PL_CERTIFY_MOD_TRIES = 60, PL_CERTIFY_ARB = 50, PL_CERTIFY_FEWEST = 10,
-       PL_CERTIFY_BITS = 256, PL_CERTIFY_MORE_BITS = 1024 };
-static const double fine_enough = 1e-30;     // a difference that contains 0 proves nothing when its radius is larger than this
+enum {
+  PL_CERTIFY_MOD = 20,
+  PL_CERTIFY_MOD_TRIES = 60,
+  PL_CERTIFY_ARB = 50,
+  PL_CERTIFY_FEWEST = 10,
+  PL_CERTIFY_BITS = 256,
+  PL_CERTIFY_MORE_BITS = 1024
+};
+static const double fine_enough =
+    1e-30;  // a difference that contains 0 proves nothing when its radius is larger than this
 
 struct pl_certifier {
   pl_job* job;
@@ -19,15 +27,13 @@ struct pl_certifier {
   pl_arena* arena;
   pl_certifier_setup setup;
   pl_points* points;
-  pl_points* fine;                                 // at more bits, made when needed
+  pl_points* fine;  // at more bits, made when needed
   pl_mod_point* mod[PL_CERTIFY_MOD];
   int n_mod;
 };
 
 // ---------------------------------------------------------------------------------------------- points modulo p
-static uint64_t minus_mod(uint64_t a) {
-  return a ? PL_MOD_P - a : 0;
-}
+static uint64_t minus_mod(uint64_t a) { return a ? PL_MOD_P - a : 0; }
 
 // Gauss-Jordan on M (n x (n + 1)).
 static bool solve_mod(uint64_t* M, int n) {
@@ -111,7 +117,9 @@ pl_certifier* pl_certifier_make(pl_job* job, pl_pool* p, const pl_certifier_setu
 }
 
 // ---------------------------------------------------------------------------------------------- comparing
-typedef struct pl_mod_count { int equal, different; } pl_mod_count;
+typedef struct pl_mod_count {
+  int equal, different;
+} pl_mod_count;
 
 static pl_mod_count compare_mod(pl_certifier* c, pl_expr shown, pl_expr reference) {
   pl_mod_count count = {0};

@@ -37,7 +37,8 @@ PL_TEST(the_points_decide_about_branches) {
 
 PL_TEST(the_points_lie_in_the_domain) {
   pl_world* w = pl_world_make(NULL);
-  pl_fact facts[] = {{pl_text_expr(w, "l - r"), true}, {pl_text_expr(w, "d - l"), true}, {pl_text_expr(w, "2*r - d"), true}};
+  pl_fact facts[] = {
+      {pl_text_expr(w, "l - r"), true}, {pl_text_expr(w, "d - l"), true}, {pl_text_expr(w, "2*r - d"), true}};
   pl_certifier_setup s = {.facts = facts, .n_facts = 3};
   pl_certifier* c = pl_certifier_make(&w->job, w->pool, &s);
   pl_certificate r = pl_certify(c, pl_text_expr(w, "abs(l - r) + abs(2*r - d)"), pl_text_expr(w, "l + r - d"));
@@ -56,7 +57,8 @@ PL_TEST(definitions_and_unknowns_take_their_values) {
   pl_expr M[9], rhs[3];
   for (int i = 0; i < 9; i++) M[i] = pl_text_expr(w, A[i]);
   for (int i = 0; i < 3; i++) rhs[i] = pl_text_expr(w, b[i]);
-  pl_certifier_setup s = {.definitions = &d, .n_definitions = 1, .n_unknowns = 3, .unknowns = unknowns, .A = M, .b = rhs};
+  pl_certifier_setup s = {
+      .definitions = &d, .n_definitions = 1, .n_unknowns = 3, .unknowns = unknowns, .A = M, .b = rhs};
   pl_certifier* c = pl_certifier_make(&w->job, w->pool, &s);
   pl_certificate r = pl_certify(c, pl_text_expr(w, "-2*g*m1*m2/(m1 + m2)"), pl_text_expr(w, "p"));
   assert_int_equal(r.equal, PL_YES);
@@ -82,24 +84,26 @@ PL_TEST(sixty_formulas_cost_milliseconds) {
   pl_certifier* c = pl_certifier_make(&w->job, w->pool, &s);
   double start = pl_clock();
   for (int i = 0; i < 60; i++) {
-    pl_expr shown = pl_text_expr(w, pl_format(w->arena, "(%d*m1*sqrt(l^2 - r^2*sin(x)^2) + r*cos(x))^2/(m1 + m2*sin(x)^2)", i));
-    pl_expr same = pl_text_expr(w, pl_format(w->arena, "(r*cos(x) + %d*m1*sqrt(l^2 - r^2*sin(x)^2))^2/(m1 + m2 - m2*cos(x)^2)", i));
+    pl_expr shown =
+        pl_text_expr(w, pl_format(w->arena, "(%d*m1*sqrt(l^2 - r^2*sin(x)^2) + r*cos(x))^2/(m1 + m2*sin(x)^2)", i));
+    pl_expr same = pl_text_expr(
+        w, pl_format(w->arena, "(r*cos(x) + %d*m1*sqrt(l^2 - r^2*sin(x)^2))^2/(m1 + m2 - m2*cos(x)^2)", i));
     assert_int_equal(pl_certify(c, shown, same).equal, PL_YES);
   }
   double seconds = pl_clock() - start;
-  assert_true(seconds < 2.0);   // a few ten ms; the bound allows for sanitizers on a busy machine
+  assert_true(seconds < 2.0);  // a few ten ms; the bound allows for sanitizers on a busy machine
   pl_world_free(w);
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(equal_expressions_are_certified_at_all_points),
-    cmocka_unit_test(a_wrong_sign_is_separated),
-    cmocka_unit_test(the_points_decide_about_branches),
-    cmocka_unit_test(the_points_lie_in_the_domain),
-    cmocka_unit_test(definitions_and_unknowns_take_their_values),
-    cmocka_unit_test(an_impossible_domain_is_unknown),
-    cmocka_unit_test(sixty_formulas_cost_milliseconds),
+      cmocka_unit_test(equal_expressions_are_certified_at_all_points),
+      cmocka_unit_test(a_wrong_sign_is_separated),
+      cmocka_unit_test(the_points_decide_about_branches),
+      cmocka_unit_test(the_points_lie_in_the_domain),
+      cmocka_unit_test(definitions_and_unknowns_take_their_values),
+      cmocka_unit_test(an_impossible_domain_is_unknown),
+      cmocka_unit_test(sixty_formulas_cost_milliseconds),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

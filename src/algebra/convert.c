@@ -1,8 +1,8 @@
 // From expressions into the tower.  Every node is converted once and remembered; arguments of functions are
 // brought to normal form first, so that sin(2(a - b)) and sin(2a - 2b) meet.
 //
-// What has no algebra here (sums over an index, x^a, functions of two arguments) becomes a formal generator: two of them are
-// equal when their normalised arguments are.  That can miss a relation, never invent one.
+// What has no algebra here (sums over an index, x^a, functions of two arguments) becomes a formal generator: two of
+// them are equal when their normalised arguments are.  That can miss a relation, never invent one.
 #include "algebra/algebra_impl.h"
 
 static pl_frac convert_node(pl_tower* t, pl_expr e);
@@ -19,9 +19,7 @@ pl_frac pl_convert(pl_tower* t, pl_expr e) {
   return f;
 }
 
-static pl_expr normal(pl_tower* t, pl_expr e) {
-  return pl_frac_expr(t, pl_convert(t, e));
-}
+static pl_expr normal(pl_tower* t, pl_expr e) { return pl_frac_expr(t, pl_convert(t, e)); }
 
 // ---------------------------------------------------------------------------------------------- leaves
 static pl_frac convert_number(pl_tower* t, pl_expr e) {

@@ -1,5 +1,5 @@
-// Factoring: every polynomial that is factored is remembered, every irreducible factor is entered once in the table of bases.
-// Denominators are products of bases, so that the common denominator of a sum needs no gcd.
+// Factoring: every polynomial that is factored is remembered, every irreducible factor is entered once in the table of
+// bases. Denominators are products of bases, so that the common denominator of a sum needs no gcd.
 //
 // FLINT's factoring is fast on the few variables that a factor really has and slow in a wide context, so it is
 // done in a compact one.  Monomial and integer contents are split off before.
@@ -24,9 +24,7 @@ int pl_base_find(pl_tower* t, const pl_poly* f, bool composite) {
   return t->bases.n - 1;
 }
 
-const pl_poly* pl_base_poly(const pl_tower* t, int base) {
-  return t->bases.at[base].poly;
-}
+const pl_poly* pl_base_poly(const pl_tower* t, int base) { return t->bases.at[base].poly; }
 
 pl_expr pl_base_expr(pl_tower* t, int base) {
   if (t->bases.at[base].expr.id == 0) {

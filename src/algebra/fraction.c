@@ -60,7 +60,7 @@ static void lower_powers(pl_build* b) {
     fmpz_pow_ui(unit, f.unit, (ulong)times);
     fmpz_mul(b->unit, b->unit, unit);
     build_factored(b, f, times);
-    i = -1;   // the list has changed, and P may hold an older root
+    i = -1;  // the list has changed, and P may hold an older root
   }
 }
 
@@ -85,7 +85,7 @@ static void lower_roots(pl_build* b) {
     if (f.n == 0 || !den_holds(b, f)) continue;
     const pl_poly* q = NULL;
     if (!pl_poly_divides(t, &q, b->num, pl_poly_gen(t, g))) continue;
-    b->num = pl_poly_scale(t, q, f.unit);   // w/(P/unit) = unit/w
+    b->num = pl_poly_scale(t, q, f.unit);  // w/(P/unit) = unit/w
     build_factored(b, f, -1);
     build_power(b, pl_base_find(t, pl_poly_gen(t, g), false), 1);
   }
@@ -167,9 +167,7 @@ pl_frac pl_frac_poly(pl_tower* t, const pl_poly* num) {
   return (pl_frac){.num = num, .unit = unit};
 }
 
-pl_frac pl_frac_int(pl_tower* t, long c) {
-  return pl_frac_poly(t, pl_poly_int(t, c));
-}
+pl_frac pl_frac_int(pl_tower* t, long c) { return pl_frac_poly(t, pl_poly_int(t, c)); }
 
 pl_frac pl_frac_ratio(pl_tower* t, const fmpz* num, const fmpz* den) {
   if (fmpz_is_zero(den)) pl_tower_give_up(t);
@@ -178,9 +176,7 @@ pl_frac pl_frac_ratio(pl_tower* t, const fmpz* num, const fmpz* den) {
   return built(&b);
 }
 
-pl_frac pl_frac_gen(pl_tower* t, int gen) {
-  return pl_frac_poly(t, pl_poly_gen(t, gen));
-}
+pl_frac pl_frac_gen(pl_tower* t, int gen) { return pl_frac_poly(t, pl_poly_gen(t, gen)); }
 
 pl_frac pl_frac_make(pl_tower* t, const pl_poly* num, const pl_poly* den) {
   den = pl_poly_reduce(t, den);
@@ -205,9 +201,7 @@ pl_frac pl_frac_keep(pl_tower* t, pl_frac a) {
 }
 
 // ---------------------------------------------------------------------------------------------- questions
-bool pl_frac_is_zero(const pl_tower* t, pl_frac a) {
-  return pl_poly_is_zero(t, a.num);
-}
+bool pl_frac_is_zero(const pl_tower* t, pl_frac a) { return pl_poly_is_zero(t, a.num); }
 
 bool pl_frac_is_number(const pl_tower* t, pl_frac a, fmpq_t value) {
   if (a.n > 0 || !pl_poly_is_number(t, a.num)) return false;
@@ -274,9 +268,7 @@ pl_frac pl_frac_add(pl_tower* t, pl_frac a, pl_frac b) {
   return built(&s);
 }
 
-pl_frac pl_frac_sub(pl_tower* t, pl_frac a, pl_frac b) {
-  return pl_frac_add(t, a, pl_frac_neg(t, b));
-}
+pl_frac pl_frac_sub(pl_tower* t, pl_frac a, pl_frac b) { return pl_frac_add(t, a, pl_frac_neg(t, b)); }
 
 pl_frac pl_frac_mul(pl_tower* t, pl_frac a, pl_frac b) {
   if (pl_frac_is_zero(t, a)) return a;
@@ -308,9 +300,7 @@ pl_frac pl_frac_inv(pl_tower* t, pl_frac a) {
   return built(&q);
 }
 
-pl_frac pl_frac_div(pl_tower* t, pl_frac a, pl_frac b) {
-  return pl_frac_mul(t, a, pl_frac_inv(t, b));
-}
+pl_frac pl_frac_div(pl_tower* t, pl_frac a, pl_frac b) { return pl_frac_mul(t, a, pl_frac_inv(t, b)); }
 
 pl_frac pl_frac_pow(pl_tower* t, pl_frac a, long n) {
   if (n < 0) return pl_frac_pow(t, pl_frac_inv(t, a), -n);

@@ -5,14 +5,18 @@
 enum { PL_MAX_WAVES = 256, PL_MAX_INTEGRAL_DEGREE = 40 };
 
 // coefficient * x^power * exp(exponent) * cos or sin (angle);  angle and exponent linear in x.
-typedef struct pl_wave { pl_expr coefficient, exponent, angle; int power; bool sine; } pl_wave;
+typedef struct pl_wave {
+  pl_expr coefficient, exponent, angle;
+  int power;
+  bool sine;
+} pl_wave;
 
 typedef struct pl_integral_job {
   pl_expr e;
   pl_symbol x;
   pl_wave at[PL_MAX_WAVES];
   int n;
-  pl_expr reciprocal;     // when e is coefficient / linear^degree instead: the linear function
+  pl_expr reciprocal;  // when e is coefficient / linear^degree instead: the linear function
   pl_expr coefficient;
   int degree;
   bool found;
@@ -124,9 +128,7 @@ static void reciprocal_body(pl_tower* t, void* data) {
 }
 
 // ---------------------------------------------------------------------------------------------- integrating
-static pl_expr trig(pl_pool* p, pl_expr angle, bool sine) {
-  return pl_call(p, sine ? PL_SIN : PL_COS, angle);
-}
+static pl_expr trig(pl_pool* p, pl_expr angle, bool sine) { return pl_call(p, sine ? PL_SIN : PL_COS, angle); }
 
 // a = slope of a linear function of x; false if it is not linear.
 static bool slope_of(pl_tower* t, pl_expr e, pl_symbol x, pl_expr* slope) {
@@ -136,13 +138,15 @@ static bool slope_of(pl_tower* t, pl_expr e, pl_symbol x, pl_expr* slope) {
   return d >= 0;
 }
 
-// ∫ x^k F' = x^k F - k ∫ x^(k-1) F,  with F = e^u (α cos φ + a sin φ)/(α² + a²) for F' = e^u cos φ, and likewise for sin.
+// ∫ x^k F' = x^k F - k ∫ x^(k-1) F,  with F = e^u (α cos φ + a sin φ)/(α² + a²) for F' = e^u cos φ, and likewise for
+// sin.
 static pl_expr integrate_wave(pl_tower* t, pl_wave w, pl_expr alpha, pl_expr a, pl_symbol x) {
   pl_pool* p = t->pool;
   pl_expr X = pl_sym(p, x);
   bool flat = pl_is_zero_node(p, alpha) && pl_is_zero_node(p, a);
   if (flat) {
-    pl_expr constant = pl_mul_n(p, (pl_expr[]){w.coefficient, pl_call(p, PL_EXP, w.exponent), trig(p, w.angle, w.sine)}, 3);
+    pl_expr constant =
+        pl_mul_n(p, (pl_expr[]){w.coefficient, pl_call(p, PL_EXP, w.exponent), trig(p, w.angle, w.sine)}, 3);
     return pl_div(p, pl_mul(p, constant, pl_pow_int(p, X, w.power + 1)), pl_int(p, w.power + 1));
   }
   pl_expr size = pl_add(p, pl_square(p, alpha), pl_square(p, a));
@@ -151,7 +155,8 @@ static pl_expr integrate_wave(pl_tower* t, pl_wave w, pl_expr alpha, pl_expr a, 
   other.coefficient = pl_div(p, pl_mul(p, w.coefficient, w.sine ? pl_neg(p, a) : a), size);
   other.sine = !w.sine;
   pl_expr envelope = pl_mul(p, pl_pow_int(p, X, w.power), pl_call(p, PL_EXP, w.exponent));
-  pl_expr F = pl_add(p, pl_mul(p, same.coefficient, trig(p, w.angle, same.sine)), pl_mul(p, other.coefficient, trig(p, w.angle, other.sine)));
+  pl_expr F = pl_add(p, pl_mul(p, same.coefficient, trig(p, w.angle, same.sine)),
+                     pl_mul(p, other.coefficient, trig(p, w.angle, other.sine)));
   pl_expr result = pl_mul(p, envelope, F);
   if (w.power == 0) return result;
   pl_expr factor = pl_int(p, -w.power);

@@ -1,7 +1,7 @@
-// Linear systems by Cramer's rule with memoised minors in the quotient ring: no division until the end, so the relations
-// s^2 = 1 - c^2 may be used at every product.  Rows are cleared of denominators and contents first, sparse rows are
-// expanded first; every minor of the lower rows is computed once.  One cancellation at the end.
-// Bareiss needs exact division, which the quotient ring does not have; elimination in the field collects spurious factors.
+// Linear systems by Cramer's rule with memoised minors in the quotient ring: no division until the end, so the
+// relations s^2 = 1 - c^2 may be used at every product.  Rows are cleared of denominators and contents first, sparse
+// rows are expanded first; every minor of the lower rows is computed once.  One cancellation at the end. Bareiss needs
+// exact division, which the quotient ring does not have; elimination in the field collects spurious factors.
 #include "algebra/algebra_impl.h"
 
 #include <stdlib.h>
@@ -11,13 +11,13 @@ enum { PL_MAX_ORDER = 40, PL_MAX_MINORS = 60000 };
 
 typedef struct pl_minors {
   pl_tower* t;
-  int n, columns;                    // n rows, n or n + 1 columns
-  const pl_poly** M;                 // (n x columns), rows in order of expansion
-  pl_map* of_mask;                   // set of columns -> index in memo + 1
+  int n, columns;     // n rows, n or n + 1 columns
+  const pl_poly** M;  // (n x columns), rows in order of expansion
+  pl_map* of_mask;    // set of columns -> index in memo + 1
   PL_VEC(const pl_poly*) memo;
   long max_terms;
-  int sign;                          // of the permutation of rows
-  pl_frac scale;                     // det of the given rows = scale * det M
+  int sign;       // of the permutation of rows
+  pl_frac scale;  // det of the given rows = scale * det M
 } pl_minors;
 
 // ---------------------------------------------------------------------------------------------- preparing the rows
@@ -44,7 +44,9 @@ static void clear_row(pl_minors* m, const pl_frac* row, const pl_poly** out) {
   m->scale = pl_frac_mul(t, m->scale, pl_frac_div(t, pl_frac_poly(t, content), common));
 }
 
-typedef struct pl_row_order { int row, filled; } pl_row_order;
+typedef struct pl_row_order {
+  int row, filled;
+} pl_row_order;
 
 static int compare_rows(const void* a, const void* b) {
   const pl_row_order *x = a, *y = b;
@@ -175,7 +177,12 @@ pl_answer3 pl_alg_solve(pl_tower* t, int n, const pl_expr* A, const pl_expr* b, 
 }
 
 // ---------------------------------------------------------------------------------------------- determinant
-typedef struct pl_det_job { int n; const pl_expr* A; long max_terms; pl_expr det; } pl_det_job;
+typedef struct pl_det_job {
+  int n;
+  const pl_expr* A;
+  long max_terms;
+  pl_expr det;
+} pl_det_job;
 
 static void det_body(pl_tower* t, void* data) {
   pl_det_job* j = data;

@@ -3,7 +3,10 @@
 
 enum { MAX_N = 12 };
 
-typedef struct pl_system { int n; pl_expr A[MAX_N * MAX_N], b[MAX_N], x[MAX_N]; } pl_system;
+typedef struct pl_system {
+  int n;
+  pl_expr A[MAX_N * MAX_N], b[MAX_N], x[MAX_N];
+} pl_system;
 
 static pl_system read_system(pl_world* w, int n, const char* const* A, const char* const* b) {
   pl_system s = {.n = n};
@@ -48,8 +51,12 @@ PL_TEST(the_double_pendulum_is_solved) {
 
 PL_TEST(a_system_with_roots_is_solved) {
   pl_world* w = pl_world_make("l - r");
-  static const char* const A[] = {"m1", "0", "0", "-2*x", "0", "m2", "0", "-2*y", "0", "0", "1/l", "sqrt(l^2 - r^2*sin(a)^2)",
-                                  "2*x", "2*y", "sqrt(l^2 - r^2*sin(a)^2)", "0"};
+  static const char* const A[] = {"m1",   "0",    "0",
+                                  "-2*x", "0",    "m2",
+                                  "0",    "-2*y", "0",
+                                  "0",    "1/l",  "sqrt(l^2 - r^2*sin(a)^2)",
+                                  "2*x",  "2*y",  "sqrt(l^2 - r^2*sin(a)^2)",
+                                  "0"};
   static const char* const b[] = {"x", "g*m2", "u", "v"};
   pl_system s = read_system(w, 4, A, b);
   assert_int_equal(pl_alg_solve(w->tower, 4, s.A, s.b, s.x, 1000), PL_YES);
@@ -140,14 +147,14 @@ PL_TEST(too_large_is_said_not_suffered) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(atwood_comes_out_as_in_the_textbook),
-    cmocka_unit_test(the_double_pendulum_is_solved),
-    cmocka_unit_test(a_system_with_roots_is_solved),
-    cmocka_unit_test(a_singular_system_is_recognised),
-    cmocka_unit_test(the_rank_prefers_the_first_rows),
-    cmocka_unit_test(a_dependency_is_found_and_verified),
-    cmocka_unit_test(the_tridiagonal_system_of_a_chain_stays_small),
-    cmocka_unit_test(too_large_is_said_not_suffered),
+      cmocka_unit_test(atwood_comes_out_as_in_the_textbook),
+      cmocka_unit_test(the_double_pendulum_is_solved),
+      cmocka_unit_test(a_system_with_roots_is_solved),
+      cmocka_unit_test(a_singular_system_is_recognised),
+      cmocka_unit_test(the_rank_prefers_the_first_rows),
+      cmocka_unit_test(a_dependency_is_found_and_verified),
+      cmocka_unit_test(the_tridiagonal_system_of_a_chain_stays_small),
+      cmocka_unit_test(too_large_is_said_not_suffered),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

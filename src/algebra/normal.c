@@ -5,7 +5,9 @@
 #include <string.h>
 
 // ---------------------------------------------------------------------------------------------- one fraction
-typedef struct pl_normal_job { pl_expr e, out, num, den; } pl_normal_job;
+typedef struct pl_normal_job {
+  pl_expr e, out, num, den;
+} pl_normal_job;
 
 static void normal_body(pl_tower* t, void* data) {
   pl_normal_job* j = data;
@@ -67,7 +69,11 @@ static void factors_body(pl_tower* t, void* data) {
   j->unit = pl_fmpq_expr(t, num.unit, den.unit);
 }
 
-typedef struct pl_sort_key { long size; const char* text; pl_factor factor; } pl_sort_key;
+typedef struct pl_sort_key {
+  long size;
+  const char* text;
+  pl_factor factor;
+} pl_sort_key;
 
 static int compare_keys(const void* a, const void* b) {
   const pl_sort_key *x = a, *y = b;
@@ -152,7 +158,8 @@ static void atom_body(pl_tower* t, void* data) {
   }
   if (gen < 0) return;
   const pl_poly* num = f.num;
-  if (t->gens.at[gen].kind == PL_G_SIN || t->gens.at[gen].kind == PL_G_COSH) num = pl_poly_view(t, num, t->gens.at[gen].partner);
+  if (t->gens.at[gen].kind == PL_G_SIN || t->gens.at[gen].kind == PL_G_COSH)
+    num = pl_poly_view(t, num, t->gens.at[gen].partner);
   for (int i = 0; i < f.n; i++) {
     if (pl_poly_degree(t, pl_base_poly(t, f.den[i].base), gen) > 0) return;
   }

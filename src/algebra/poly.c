@@ -1,8 +1,8 @@
-// Polynomials of the tower: arithmetic in the quotient ring, views of the trigonometric pairs, greatest common divisors in
-// compact contexts.  Needs a running service (the results stand on its stack).
+// Polynomials of the tower: arithmetic in the quotient ring, views of the trigonometric pairs, greatest common divisors
+// in compact contexts.  Needs a running service (the results stand on its stack).
 //
-// Reduced means: degree in s below 2 for every sine, in w below 2 for every square root.  The relations are taken newest
-// first, since the value of a root may contain older generators but never newer ones.
+// Reduced means: degree in s below 2 for every sine, in w below 2 for every square root.  The relations are taken
+// newest first, since the value of a root may contain older generators but never newer ones.
 #include "algebra/algebra_impl.h"
 
 #include <string.h>
@@ -93,25 +93,15 @@ const pl_poly* pl_poly_pow(pl_tower* t, const pl_poly* a, long n) {
   return f;
 }
 
-bool pl_poly_is_zero(const pl_tower* t, const pl_poly* a) {
-  return fmpz_mpoly_is_zero(a, &t->ctx);
-}
+bool pl_poly_is_zero(const pl_tower* t, const pl_poly* a) { return fmpz_mpoly_is_zero(a, &t->ctx); }
 
-bool pl_poly_is_one(const pl_tower* t, const pl_poly* a) {
-  return fmpz_mpoly_is_one(a, &t->ctx);
-}
+bool pl_poly_is_one(const pl_tower* t, const pl_poly* a) { return fmpz_mpoly_is_one(a, &t->ctx); }
 
-bool pl_poly_is_number(const pl_tower* t, const pl_poly* a) {
-  return fmpz_mpoly_is_fmpz(a, &t->ctx);
-}
+bool pl_poly_is_number(const pl_tower* t, const pl_poly* a) { return fmpz_mpoly_is_fmpz(a, &t->ctx); }
 
-bool pl_poly_equal(const pl_tower* t, const pl_poly* a, const pl_poly* b) {
-  return fmpz_mpoly_equal(a, b, &t->ctx);
-}
+bool pl_poly_equal(const pl_tower* t, const pl_poly* a, const pl_poly* b) { return fmpz_mpoly_equal(a, b, &t->ctx); }
 
-long pl_poly_terms(const pl_poly* a) {
-  return a->length;
-}
+long pl_poly_terms(const pl_poly* a) { return a->length; }
 
 uint64_t pl_poly_hash(pl_tower* t, const pl_poly* a) {
   uint64_t h = 0x9e3779b97f4a7c15u;
@@ -139,9 +129,7 @@ long pl_poly_degree(const pl_tower* t, const pl_poly* a, int gen) {
   return a->length == 0 ? 0 : fmpz_mpoly_degree_si(a, gen, &t->ctx);
 }
 
-void pl_poly_content(pl_tower* t, fmpz* c, const pl_poly* a) {
-  _fmpz_vec_content(c, a->coeffs, a->length);
-}
+void pl_poly_content(pl_tower* t, fmpz* c, const pl_poly* a) { _fmpz_vec_content(c, a->coeffs, a->length); }
 
 // ---------------------------------------------------------------------------------------------- relations
 const pl_poly** pl_poly_coefficients(pl_tower* t, const pl_poly* a, int gen, int* degree) {
@@ -217,7 +205,7 @@ const pl_poly* pl_poly_shortest_view(pl_tower* t, const pl_poly* a) {
 
 // ---------------------------------------------------------------------------------------------- compact contexts
 const fmpz_mpoly_ctx_struct* pl_poly_small_context(pl_tower* t, int n) {
-  if (n == 0) n = 1;   // a number; FLINT wants a variable
+  if (n == 0) n = 1;  // a number; FLINT wants a variable
   if (!t->small[n]) {
     fmpz_mpoly_ctx_struct* ctx = PL_NEW(t->arena, fmpz_mpoly_ctx_struct);
     fmpz_mpoly_ctx_init(ctx, n, ORD_LEX);
@@ -236,17 +224,19 @@ void pl_poly_used(const pl_tower* t, const pl_poly* a, int* use, int* n) {
   }
 }
 
-void pl_poly_pack(pl_tower* t, fmpz_mpoly_struct* out, const fmpz_mpoly_ctx_struct* small, const pl_poly* a, const int* use, int n) {
+void pl_poly_pack(pl_tower* t, fmpz_mpoly_struct* out, const fmpz_mpoly_ctx_struct* small, const pl_poly* a,
+                  const int* use, int n) {
   ulong wide[PL_MAX_GENERATORS], narrow[PL_MAX_GENERATORS] = {0};
   fmpz_mpoly_zero(out, small);
   for (slong i = 0; i < a->length; i++) {
     fmpz_mpoly_get_term_exp_ui(wide, a, i, &t->ctx);
     for (int k = 0; k < n; k++) narrow[k] = wide[use[k]];
-    fmpz_mpoly_push_term_fmpz_ui(out, &a->coeffs[i], narrow, small);   // the order stays, since use[] ascends
+    fmpz_mpoly_push_term_fmpz_ui(out, &a->coeffs[i], narrow, small);  // the order stays, since use[] ascends
   }
 }
 
-void pl_poly_unpack(pl_tower* t, pl_poly* out, const fmpz_mpoly_struct* a, const fmpz_mpoly_ctx_struct* small, const int* use, int n) {
+void pl_poly_unpack(pl_tower* t, pl_poly* out, const fmpz_mpoly_struct* a, const fmpz_mpoly_ctx_struct* small,
+                    const int* use, int n) {
   ulong wide[PL_MAX_GENERATORS] = {0}, narrow[PL_MAX_GENERATORS];
   fmpz_mpoly_zero(out, &t->ctx);
   for (slong i = 0; i < a->length; i++) {

@@ -1,15 +1,15 @@
 // Square roots, absolute values and logarithms: where the tower meets signs.
 //
 // sqrt(F) is taken factor by factor.  Even powers come out, with their sign proven or assumed and recorded.  What is
-// left, P, becomes a generator w with w^2 = P only if it is independent of the roots that exist (Kummer): over the factor base
-// (primes, irreducible polynomials, the sign) the exponent vectors mod 2 must be independent.  If they are not, P times some
-// of the older radicands is a square h^2 and sqrt(P) = |h| / (w_1 ... w_k).  Nested roots are taken apart where
-// A^2 - B^2 C is a square.  There is never a generator with w^2 = x^2.
+// left, P, becomes a generator w with w^2 = P only if it is independent of the roots that exist (Kummer): over the
+// factor base (primes, irreducible polynomials, the sign) the exponent vectors mod 2 must be independent.  If they are
+// not, P times some of the older radicands is a square h^2 and sqrt(P) = |h| / (w_1 ... w_k).  Nested roots are taken
+// apart where A^2 - B^2 C is a square.  There is never a generator with w^2 = x^2.
 #include "algebra/algebra_impl.h"
 
 #include <stdlib.h>
 
-enum { PL_MAX_ABS_TERMS = 60 };        // |u| gets the relation a^2 = u^2 up to this length of u
+enum { PL_MAX_ABS_TERMS = 60 };  // |u| gets the relation a^2 = u^2 up to this length of u
 
 // ---------------------------------------------------------------------------------------------- absolute values
 static pl_frac abs_generator(pl_tower* t, int base) {
@@ -40,8 +40,8 @@ static pl_frac abs_power(pl_tower* t, int base, int power, bool guess) {
 
 // num / den as powers of bases of either sign, and a rational unit.
 typedef struct pl_split {
-  fmpz* num;      // with sign
-  fmpz* den;      // > 0
+  fmpz* num;  // with sign
+  fmpz* den;  // > 0
   PL_VEC(pl_power) at;
 } pl_split;
 
@@ -76,7 +76,9 @@ pl_frac pl_frac_abs(pl_tower* t, pl_frac a) {
 
 // ---------------------------------------------------------------------------------------------- the factor base mod 2
 // A set of keys: 2 base for a polynomial, odd numbers for primes (2 p + 1) and the sign (-1).  Sorted, descending.
-typedef struct pl_keys { PL_VEC(int64_t) at; } pl_keys;
+typedef struct pl_keys {
+  PL_VEC(int64_t) at;
+} pl_keys;
 
 static void keys_flip(pl_tower* t, pl_keys* k, int64_t key) {
   int i = 0;
@@ -109,7 +111,10 @@ static pl_keys keys_of(pl_tower* t, pl_factored f) {
   return k;
 }
 
-typedef struct pl_row { pl_keys keys; PL_VEC(int) roots; } pl_row;   // a combination of the radicands roots[]
+typedef struct pl_row {
+  pl_keys keys;
+  PL_VEC(int) roots;
+} pl_row;  // a combination of the radicands roots[]
 
 static void row_add(pl_tower* t, pl_row* to, const pl_row* from) {
   for (int i = 0; i < from->keys.at.n; i++) keys_flip(t, &to->keys, from->keys.at.at[i]);
@@ -188,7 +193,7 @@ static pl_frac sqrt_of_split(pl_tower* t, pl_split s) {
   for (int i = 0; i < s.at.n; i++) {
     int power = s.at.at[i].power;
     int odd = power % 2 != 0;
-    int half = (power - odd) / 2;   // rounds down: power - odd is even
+    int half = (power - odd) / 2;  // rounds down: power - odd is even
     if (half) outside = pl_frac_mul(t, outside, abs_power(t, s.at.at[i].base, half, true));
     if (odd) rest = pl_poly_mul(t, rest, pl_base_poly(t, s.at.at[i].base));
   }
@@ -261,7 +266,8 @@ static bool denest(pl_tower* t, const pl_poly* P, pl_frac* out) {
     int degree = 0;
     const pl_poly** c = pl_poly_coefficients(t, P, g, &degree);
     const pl_poly *A = c[0], *B = c[1];
-    const pl_poly* norm = pl_poly_sub(t, pl_poly_mul(t, A, A), pl_poly_mul(t, pl_poly_mul(t, B, B), t->gens.at[g].value));
+    const pl_poly* norm =
+        pl_poly_sub(t, pl_poly_mul(t, A, A), pl_poly_mul(t, pl_poly_mul(t, B, B), t->gens.at[g].value));
     pl_frac h;
     if (!square_of(t, pl_poly_reduce(t, norm), &h)) continue;
     int sign = pl_poly_sign(t, B, true, true);
@@ -293,7 +299,7 @@ static pl_frac sqrt_by_older_roots(pl_tower* t, pl_factored P, const pl_row* row
   }
   t->radicand = pl_factored_expand(t, P);
   t->tangled = true;
-  pl_frac h = sqrt_of_split(t, s);   // all powers are even now
+  pl_frac h = sqrt_of_split(t, s);  // all powers are even now
   t->radicand = NULL;
   return pl_frac_div(t, h, roots);
 }
@@ -309,11 +315,12 @@ static int sign_of_root(pl_tower* t, const pl_poly* P) {
 
 static pl_frac sqrt_of_poly(pl_tower* t, const pl_poly* P) {
   for (int g = 0; g < t->gens.n; g++) {
-    bool same = t->gens.at[g].kind == PL_G_ROOT && t->gens.at[g].degree == 2 && pl_poly_equal(t, t->gens.at[g].value, P);
+    bool same =
+        t->gens.at[g].kind == PL_G_ROOT && t->gens.at[g].degree == 2 && pl_poly_equal(t, t->gens.at[g].value, P);
     if (same) return pl_frac_gen(t, g);
   }
   pl_factored f = pl_poly_factor(t, P);
-  if (has_square(f)) return pl_frac_sqrt(t, pl_frac_poly(t, P));   // reduction has made one appear
+  if (has_square(f)) return pl_frac_sqrt(t, pl_frac_poly(t, P));  // reduction has made one appear
   pl_frac r;
   if (sqrt_in_other_view(t, P, &r) || denest(t, P, &r)) return r;
   pl_row row;

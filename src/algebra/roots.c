@@ -11,7 +11,10 @@
 
 enum { PL_MAX_ROOT_DEGREE = 12, PL_MAX_ROOTS = 64, PL_MAX_ROOT_DEPTH = 4, PL_MAX_OCCURRENCES = 8 };
 
-typedef struct pl_occurrence { pl_gen_kind kind; pl_expr expr; } pl_occurrence;
+typedef struct pl_occurrence {
+  pl_gen_kind kind;
+  pl_expr expr;
+} pl_occurrence;
 
 typedef struct pl_roots {
   pl_tower* t;
@@ -26,11 +29,12 @@ typedef struct pl_roots {
 static void solve_equation(pl_roots* r, pl_expr e);
 
 // ---------------------------------------------------------------------------------------------- small helpers
-static pl_expr normal(pl_roots* r, pl_expr e) {
-  return pl_alg_normal(r->t, e);
-}
+static pl_expr normal(pl_roots* r, pl_expr e) { return pl_alg_normal(r->t, e); }
 
-typedef struct pl_proof_job { pl_expr e; int sign; } pl_proof_job;
+typedef struct pl_proof_job {
+  pl_expr e;
+  int sign;
+} pl_proof_job;
 
 static void proof_body(pl_tower* t, void* data) {
   pl_proof_job* j = data;
@@ -74,9 +78,13 @@ static void add_root(pl_roots* r, pl_expr value, pl_expr condition) {
   r->at[r->n++] = (pl_root){value, condition};
 }
 
-// ---------------------------------------------------------------------------------------------- polynomials in an unknown
-// Roots of sum c_k y^k, as values of y.
-typedef struct pl_values { pl_expr value[PL_MAX_ROOT_DEGREE], condition[PL_MAX_ROOT_DEGREE]; int n; bool complete; } pl_values;
+// ---------------------------------------------------------------------------------------------- polynomials in an
+// unknown Roots of sum c_k y^k, as values of y.
+typedef struct pl_values {
+  pl_expr value[PL_MAX_ROOT_DEGREE], condition[PL_MAX_ROOT_DEGREE];
+  int n;
+  bool complete;
+} pl_values;
 
 static void add_value(pl_values* v, pl_expr value, pl_expr condition) {
   if (v->n == PL_MAX_ROOT_DEGREE || pl_is_poison(value)) {
@@ -109,7 +117,7 @@ static void pure_power(pl_roots* r, const pl_expr* c, int n, pl_values* v) {
     int sign = proven(r, q);
     if (sign < 0) add_value(v, pl_neg(p, pl_pow(p, normal(r, pl_neg(p, q)), exponent)), pl_poison());
     else add_value(v, pl_pow(p, q, exponent), sign > 0 ? pl_poison() : q);
-    if (sign == 0) v->complete = false;   // the branch of a negative q is not written
+    if (sign == 0) v->complete = false;  // the branch of a negative q is not written
     return;
   }
   add_value(v, pl_pow(p, q, exponent), q);
@@ -131,7 +139,7 @@ static void even_powers(pl_roots* r, const pl_expr* c, pl_values* v) {
 static pl_values polynomial_roots(pl_roots* r, const pl_expr* c, int degree) {
   pl_pool* p = r->p;
   pl_values v = {.complete = true};
-  bool middle = false;      // a coefficient between the first and the last
+  bool middle = false;  // a coefficient between the first and the last
   for (int k = 1; k < degree; k++) middle |= !pl_is_zero_node(p, c[k]);
   bool biquadratic = degree == 4 && pl_is_zero_node(p, c[1]) && pl_is_zero_node(p, c[3]);
   if (degree == 1) {

@@ -40,7 +40,7 @@ PL_TEST(the_slider_of_a_crank_has_two_places) {
   assert_int_equal(pl_alg_roots(w->tower, e, x, r, 4, &complete), 2);
   assert_true(complete);
   for (int i = 0; i < 2; i++) {
-    assert_true(pl_is_poison(r[i].condition));   // l > r proves that both are real
+    assert_true(pl_is_poison(r[i].condition));  // l > r proves that both are real
     assert_int_equal(pl_alg_is_zero(w->tower, pl_subst1(w->pool, e, x, r[i].value)), PL_YES);
   }
   pl_world_free(w);
@@ -49,7 +49,7 @@ PL_TEST(the_slider_of_a_crank_has_two_places) {
 PL_TEST(the_skier_leaves_at_two_thirds) {
   pl_world* w = pl_world_make(NULL);
   ROOTS(w, "x", "m*g*(3*cos(x) - 2)", "acos(2/3); -acos(2/3)");
-  ROOTS(w, "x", "3*cos(x) - 4", "");   // no angle has this cosine
+  ROOTS(w, "x", "3*cos(x) - 4", "");  // no angle has this cosine
   const char* text = roots(w, "x", "m*g*(3*cos(x) - 2) - m*z^2/r");
   assert_non_null(strstr(text, "acos((2*g*r + z^2)/(3*g*r)) if "));
   pl_world_free(w);
@@ -67,9 +67,18 @@ PL_TEST(angles_are_found_in_both_branches) {
 
 PL_TEST(every_root_satisfies_its_equation) {
   static const char* const texts[] = {
-    "m1*cos(x) + g*sin(x) - l", "sin(2*x) - sin(x)", "cos(2*x) + cos(x)", "g*sin(x) - r*z^2*sin(x)*cos(x)",
-    "2*sin(x)^2 - 3*sin(x) + 1", "exp(2*x) - 3*exp(x) + 2", "sqrt(x + l) - x", "sqrt(l^2 - x^2) - r", "ln(x) - 2",
-    "x^6 - 1", "abs(x) - l", "m1*x^2 + g*x - l",
+      "m1*cos(x) + g*sin(x) - l",
+      "sin(2*x) - sin(x)",
+      "cos(2*x) + cos(x)",
+      "g*sin(x) - r*z^2*sin(x)*cos(x)",
+      "2*sin(x)^2 - 3*sin(x) + 1",
+      "exp(2*x) - 3*exp(x) + 2",
+      "sqrt(x + l) - x",
+      "sqrt(l^2 - x^2) - r",
+      "ln(x) - 2",
+      "x^6 - 1",
+      "abs(x) - l",
+      "m1*x^2 + g*x - l",
   };
   for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
     pl_world* w = pl_world_make(NULL);
@@ -89,7 +98,7 @@ PL_TEST(every_root_satisfies_its_equation) {
 
 PL_TEST(false_roots_of_the_square_are_dropped) {
   pl_world* w = pl_world_make(NULL);
-  ROOTS(w, "x", "sqrt(x + 2) - x", "2");       // x = -1 solves the square only
+  ROOTS(w, "x", "sqrt(x + 2) - x", "2");  // x = -1 solves the square only
   ROOTS(w, "x", "sqrt(x + 2) + x", "-1");
   ROOTS(w, "x", "exp(2*x) - m", "ln(m)/2");
   pl_world_free(w);
@@ -97,12 +106,12 @@ PL_TEST(false_roots_of_the_square_are_dropped) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(polynomials_are_solved),
-    cmocka_unit_test(the_slider_of_a_crank_has_two_places),
-    cmocka_unit_test(the_skier_leaves_at_two_thirds),
-    cmocka_unit_test(angles_are_found_in_both_branches),
-    cmocka_unit_test(every_root_satisfies_its_equation),
-    cmocka_unit_test(false_roots_of_the_square_are_dropped),
+      cmocka_unit_test(polynomials_are_solved),
+      cmocka_unit_test(the_slider_of_a_crank_has_two_places),
+      cmocka_unit_test(the_skier_leaves_at_two_thirds),
+      cmocka_unit_test(angles_are_found_in_both_branches),
+      cmocka_unit_test(every_root_satisfies_its_equation),
+      cmocka_unit_test(false_roots_of_the_square_are_dropped),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

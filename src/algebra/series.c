@@ -1,6 +1,6 @@
-// Power series and limits.  Every node of the expression gets a truncated Laurent series in u = x - at (u = 1/x at infinity)
-// with coefficients in normal form; leading coefficients are tested for zero, so poles and cancellations are seen.
-// Powers of any rational exponent by Miller's recurrence, elementary functions by their differential equations.
+// Power series and limits.  Every node of the expression gets a truncated Laurent series in u = x - at (u = 1/x at
+// infinity) with coefficients in normal form; leading coefficients are tested for zero, so poles and cancellations are
+// seen. Powers of any rational exponent by Miller's recurrence, elementary functions by their differential equations.
 #include "algebra/algebra_impl.h"
 
 #include <string.h>
@@ -8,7 +8,11 @@
 enum { PL_MAX_SERIES = 40, PL_SERIES_TRIES = 4 };
 
 // sum_{k < n} c[k] u^(lead + k) + O(u^(lead + n)); c[0] is not zero, unless the series is zero to its order.
-typedef struct pl_series { int lead, n; bool zero; pl_expr c[PL_MAX_SERIES]; } pl_series;   // zero: to all orders
+typedef struct pl_series {
+  int lead, n;
+  bool zero;
+  pl_expr c[PL_MAX_SERIES];
+} pl_series;  // zero: to all orders
 
 typedef struct pl_expansion {
   pl_tower* t;
@@ -16,9 +20,9 @@ typedef struct pl_expansion {
   pl_symbol x;
   pl_expr at;
   bool infinite, from_above;
-  int n;                         // terms to work with
+  int n;  // terms to work with
   bool failed;
-  pl_map* known;                 // expression id -> index + 1
+  pl_map* known;  // expression id -> index + 1
   PL_VEC(pl_series*) memo;
 } pl_expansion;
 
@@ -153,14 +157,16 @@ static pl_series* integrate(pl_expansion* s, pl_expr start, const pl_series* a, 
   if (r->n > 0) r->c[0] = normal(s, start);
   for (int k = 1; k < r->n; k++) {
     pl_expr sum = pl_int(s->p, 0);
-    for (int j = 1; j <= k; j++) sum = pl_add(s->p, sum, pl_mul_n(s->p, (pl_expr[]){pl_int(s->p, j), a->c[j], ga.c[k - j]}, 3));
+    for (int j = 1; j <= k; j++)
+      sum = pl_add(s->p, sum, pl_mul_n(s->p, (pl_expr[]){pl_int(s->p, j), a->c[j], ga.c[k - j]}, 3));
     r->c[k] = normal(s, pl_div(s->p, sum, pl_int(s->p, k)));
   }
   return strip(s, r);
 }
 
 // Two functions with f' = a' g, g' = sign a' f: sin and cos (sign -1), sinh and cosh (sign 1).
-static void pair(pl_expansion* s, pl_function f0, pl_function g0, int sign, const pl_series* a, pl_series** f, pl_series** g) {
+static void pair(pl_expansion* s, pl_function f0, pl_function g0, int sign, const pl_series* a, pl_series** f,
+                 pl_series** g) {
   pl_pool* p = s->p;
   *f = fresh(s, 0, a->n);
   *g = fresh(s, 0, a->n);
@@ -238,11 +244,13 @@ static pl_series* call_series(pl_expansion* s, pl_expr e) {
   switch (f) {
     case PL_SIN: pair(s, PL_SIN, PL_COS, -1, &a, &sine, &cosine); return strip(s, sine);
     case PL_COS: pair(s, PL_SIN, PL_COS, -1, &a, &sine, &cosine); return strip(s, cosine);
-    case PL_TAN: pair(s, PL_SIN, PL_COS, -1, &a, &sine, &cosine);
+    case PL_TAN:
+      pair(s, PL_SIN, PL_COS, -1, &a, &sine, &cosine);
       return mul(s, strip(s, sine), power(s, strip(s, cosine), -1, 1));
     case PL_SINH: pair(s, PL_SINH, PL_COSH, 1, &a, &sine, &cosine); return strip(s, sine);
     case PL_COSH: pair(s, PL_SINH, PL_COSH, 1, &a, &sine, &cosine); return strip(s, cosine);
-    case PL_TANH: pair(s, PL_SINH, PL_COSH, 1, &a, &sine, &cosine);
+    case PL_TANH:
+      pair(s, PL_SINH, PL_COSH, 1, &a, &sine, &cosine);
       return mul(s, strip(s, sine), power(s, strip(s, cosine), -1, 1));
     case PL_EXP: return exp_series(s, &a);
     case PL_LN:
@@ -268,7 +276,7 @@ static pl_series* variable(pl_expansion* s) {
   if (r->n > 0 && pl_is_zero_node(s->p, r->c[0])) {
     r->lead = 1;
     for (int k = 0; k + 1 < r->n; k++) r->c[k] = r->c[k + 1];
-    r->c[r->n - 1] = pl_int(s->p, 0);   // exact: the next coefficient is zero too
+    r->c[r->n - 1] = pl_int(s->p, 0);  // exact: the next coefficient is zero too
   }
   return r;
 }

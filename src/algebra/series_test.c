@@ -79,8 +79,9 @@ PL_TEST(limits_are_leading_terms) {
 
 PL_TEST(antiderivatives_differentiate_back) {
   static const char* const texts[] = {
-    "m1*x^2 + 3", "x*sin(l*x)", "exp(-m1*x)*cos(l*x)", "sin(x)^2", "1/(m1*x + l)", "cos(l*x + r)", "x*exp(-x/l)",
-    "x^3*exp(x)*sin(x)", "cos(x)^3*sin(x)^2", "g", "1/(x + l)^3", "x^2*cos(x)*cos(2*x)", "exp(x)/(m1 + m2)",
+      "m1*x^2 + 3",   "x*sin(l*x)",          "exp(-m1*x)*cos(l*x)", "sin(x)^2",          "1/(m1*x + l)",
+      "cos(l*x + r)", "x*exp(-x/l)",         "x^3*exp(x)*sin(x)",   "cos(x)^3*sin(x)^2", "g",
+      "1/(x + l)^3",  "x^2*cos(x)*cos(2*x)", "exp(x)/(m1 + m2)",
   };
   pl_world* w = pl_world_make(NULL);
   pl_symbol x = pl_text_symbol(w, "x");
@@ -120,13 +121,13 @@ PL_TEST(a_series_agrees_with_the_function_to_its_order) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(atwood_in_powers_of_the_mass_ratio),
-    cmocka_unit_test(elementary_functions_have_their_series),
-    cmocka_unit_test(poles_and_cancellations_are_seen),
-    cmocka_unit_test(roots_are_expanded),
-    cmocka_unit_test(limits_are_leading_terms),
-    cmocka_unit_test(antiderivatives_differentiate_back),
-    cmocka_unit_test(a_series_agrees_with_the_function_to_its_order),
+      cmocka_unit_test(atwood_in_powers_of_the_mass_ratio),
+      cmocka_unit_test(elementary_functions_have_their_series),
+      cmocka_unit_test(poles_and_cancellations_are_seen),
+      cmocka_unit_test(roots_are_expanded),
+      cmocka_unit_test(limits_are_leading_terms),
+      cmocka_unit_test(antiderivatives_differentiate_back),
+      cmocka_unit_test(a_series_agrees_with_the_function_to_its_order),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

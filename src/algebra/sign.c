@@ -1,7 +1,8 @@
 // Signs of polynomials under the assumptions, in the order of trust:
 //   (i)   every term has a known sign, and all are the same
 //   (ii)  factor by factor
-//   (iii) the facts substituted away: r < l becomes l = r + δ, δ > 0, and then (i); sines and cosines run to the corners
+//   (iii) the facts substituted away: r < l becomes l = r + δ, δ > 0, and then (i); sines and cosines run to the
+//   corners
 //         of -1..1, since a polynomial that is linear in each of them is smallest in a corner; bounds by Fourier sums
 //   (iv)  the polynomial is one of the facts, or a radicand (w = sqrt(P) is real)
 //   (v)   fifty sample points of the domain agree, or the probe (the start values) decides: an assumption, recorded.
@@ -11,19 +12,18 @@
 #include <math.h>
 
 enum { PL_MAX_CORNER_GENS = 4, PL_MAX_FACT_DEPTH = 3, PL_MAX_FACTS = 16, PL_MAX_SIGN_TERMS = 400 };
-static const double sample_floor = 1e-9;    // of the largest sample: smaller values do not count as having a sign
+static const double sample_floor = 1e-9;  // of the largest sample: smaller values do not count as having a sign
 
 // ---------------------------------------------------------------------------------------------- evidence
-// What a proof may use beyond the signs of the generators: numbers in the place of sines, and δ in the place of a symbol.
+// What a proof may use beyond the signs of the generators: numbers in the place of sines, and δ in the place of a
+// symbol.
 typedef struct pl_proof {
   pl_tower* t;
-  bool positive[PL_MAX_GENERATORS];    // generator stands for a positive difference now
+  bool positive[PL_MAX_GENERATORS];  // generator stands for a positive difference now
   int n_facts, facts[PL_MAX_FACT_DEPTH];
 } pl_proof;
 
-static int generator_sign(const pl_proof* p, int g) {
-  return p->positive[g] ? 1 : p->t->gens.at[g].sign;
-}
+static int generator_sign(const pl_proof* p, int g) { return p->positive[g] ? 1 : p->t->gens.at[g].sign; }
 
 // (i): sign of one term, 2 for >= 0, -2 for <= 0, 0 when open.
 static int term_sign(const pl_proof* p, const pl_poly* a, slong i) {
@@ -57,7 +57,7 @@ static int definite(const pl_proof* p, const pl_poly* a) {
 // ---------------------------------------------------------------------------------------------- facts
 static const pl_poly* fact_poly(pl_tower* t, int i) {
   pl_frac f = pl_convert(t, t->facts.at[i].difference);
-  return pl_poly_mul(t, f.num, pl_frac_den(t, f));   // the same sign without a denominator
+  return pl_poly_mul(t, f.num, pl_frac_den(t, f));  // the same sign without a denominator
 }
 
 // D = c y + rest with a number c > 0: then y = (δ - rest)/c, and c^k p(y) has the sign of p.  δ is written as y.
@@ -117,7 +117,8 @@ static const pl_poly* at_corner(pl_tower* t, const pl_poly* a, int g, bool even,
     for (int k = 2; k <= degree && value; k += 2) sum = pl_poly_add(t, sum, c[k]);
     return sum;
   }
-  for (int k = 1; k <= degree; k++) sum = value > 0 || k % 2 == 0 ? pl_poly_add(t, sum, c[k]) : pl_poly_sub(t, sum, c[k]);
+  for (int k = 1; k <= degree; k++)
+    sum = value > 0 || k % 2 == 0 ? pl_poly_add(t, sum, c[k]) : pl_poly_sub(t, sum, c[k]);
   return sum;
 }
 
@@ -312,7 +313,11 @@ int pl_poly_sign(pl_tower* t, const pl_poly* a, bool or_zero, bool guess) {
 }
 
 // ---------------------------------------------------------------------------------------------- the service
-typedef struct pl_sign_job { pl_expr e; bool or_zero; int sign; } pl_sign_job;
+typedef struct pl_sign_job {
+  pl_expr e;
+  bool or_zero;
+  int sign;
+} pl_sign_job;
 
 static void sign_body(pl_tower* t, void* data) {
   pl_sign_job* j = data;
@@ -325,7 +330,7 @@ static void sign_body(pl_tower* t, void* data) {
   int sign = num;
   for (int i = 0; i < f.n; i++) {
     if (f.den[i].power % 2 == 0) continue;
-    int s = pl_base_sign(t, f.den[i].base, true, true);   // not zero, since it divides
+    int s = pl_base_sign(t, f.den[i].base, true, true);  // not zero, since it divides
     if (s == PL_SIGN_OPEN) sign = PL_SIGN_OPEN;
     if (sign != PL_SIGN_OPEN) sign *= s;
   }

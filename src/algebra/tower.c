@@ -1,9 +1,9 @@
-// The tower itself: making and freeing it, running a service so that neither FLINT nor a hopeless case can take the program
-// along, starting over with a larger context, and the list of generators with their order of writing.
+// The tower itself: making and freeing it, running a service so that neither FLINT nor a hopeless case can take the
+// program along, starting over with a larger context, and the list of generators with their order of writing.
 //
 // FLINT reports trouble by calling an abort function that must not return.  Ours jumps to the innermost service of this
-// thread; what FLINT held at that moment is lost (a leak, not a crash).  A body that gives up of its own will takes the same
-// jump, and then nothing is lost, because all polynomials stand on the tower's stack.
+// thread; what FLINT held at that moment is lost (a leak, not a crash).  A body that gives up of its own will takes the
+// same jump, and then nothing is lost, because all polynomials stand on the tower's stack.
 #include "algebra/algebra_impl.h"
 
 #include <stdlib.h>
@@ -14,8 +14,8 @@ enum { PL_CHUNK = 256, PL_MAX_RESTARTS = 60, PL_FIRST_CAPACITY = 16, PL_BIG_POLY
 
 struct pl_entry {
   jmp_buf at;
-  pl_entry* outer;          // of the same tower
-  pl_entry* outer_any;      // of the same thread
+  pl_entry* outer;      // of the same tower
+  pl_entry* outer_any;  // of the same thread
   pl_tower* tower;
   pl_tower_mark mark;
   int depth;
@@ -46,7 +46,8 @@ static void enter(pl_tower* t, pl_entry* e) {
 
 // What FLINT was working on when it aborted may be half made: forget it rather than free it.
 static void forget_since(pl_tower* t, pl_tower_mark m) {
-  for (int i = m.polys; i < t->polys_used; i++) fmpz_mpoly_init(&t->poly_chunks.at[i / PL_CHUNK][i % PL_CHUNK], &t->ctx);
+  for (int i = m.polys; i < t->polys_used; i++)
+    fmpz_mpoly_init(&t->poly_chunks.at[i / PL_CHUNK][i % PL_CHUNK], &t->ctx);
   for (int i = m.ints; i < t->ints_used; i++) fmpz_init(&t->int_chunks.at[i / PL_CHUNK][i % PL_CHUNK]);
 }
 
@@ -122,9 +123,7 @@ bool pl_tower_run(pl_tower* t, void (*body)(pl_tower* t, void* data), void* data
   pl_unwind(t->arena, guard.status);
 }
 
-_Noreturn void pl_tower_give_up(pl_tower* t) {
-  longjmp(t->entry->at, PL_J_GIVE_UP);
-}
+_Noreturn void pl_tower_give_up(pl_tower* t) { longjmp(t->entry->at, PL_J_GIVE_UP); }
 
 _Noreturn void pl_tower_restart(pl_tower* t) {
   pl_entry* e = t->entry;
@@ -137,9 +136,7 @@ void pl_tower_check(pl_tower* t) {
 }
 
 // ---------------------------------------------------------------------------------------------- what FLINT must free
-pl_tower_mark pl_tower_mark_now(const pl_tower* t) {
-  return (pl_tower_mark){t->polys_used, t->ints_used};
-}
+pl_tower_mark pl_tower_mark_now(const pl_tower* t) { return (pl_tower_mark){t->polys_used, t->ints_used}; }
 
 void pl_tower_rewind(pl_tower* t, pl_tower_mark m) {
   for (int i = m.polys; i < t->polys_used; i++) {
@@ -158,7 +155,7 @@ void pl_tower_rewind(pl_tower* t, pl_tower_mark m) {
 
 pl_poly* pl_poly_new(pl_tower* t) {
   if (t->polys_used == t->poly_chunks.n * PL_CHUNK) {
-    pl_poly* chunk = PL_ARRAY(t->arena, pl_poly, PL_CHUNK);   // first, since it may unwind
+    pl_poly* chunk = PL_ARRAY(t->arena, pl_poly, PL_CHUNK);  // first, since it may unwind
     pl_push(t->arena, t->poly_chunks, chunk);
   }
   pl_poly* f = &t->poly_chunks.at[t->polys_used / PL_CHUNK][t->polys_used % PL_CHUNK];
@@ -175,7 +172,7 @@ fmpz* pl_int_new(pl_tower* t) {
     pl_push(t->arena, t->int_chunks, chunk);
   }
   int i = t->ints_used++;
-  return &t->int_chunks.at[i / PL_CHUNK][i % PL_CHUNK];   // zeroed memory is the integer 0
+  return &t->int_chunks.at[i / PL_CHUNK][i % PL_CHUNK];  // zeroed memory is the integer 0
 }
 
 const pl_poly* pl_poly_keep(pl_tower* t, const pl_poly* f) {
@@ -275,12 +272,10 @@ void pl_tower_use(pl_tower* t, pl_fact fact) {
 }
 
 // ---------------------------------------------------------------------------------------------- generators
-int pl_tower_find(const pl_tower* t, pl_expr e) {
-  return (int)pl_map_get(t->gen_of, e.id) - 1;
-}
+int pl_tower_find(const pl_tower* t, pl_expr e) { return (int)pl_map_get(t->gen_of, e.id) - 1; }
 
 int pl_tower_generator(pl_tower* t, const pl_gen* g) {
-  if (pl_is_poison(g->expr)) pl_tower_give_up(t);   // the root of a negative number
+  if (pl_is_poison(g->expr)) pl_tower_give_up(t);  // the root of a negative number
   if (t->gens.n == t->capacity) {
     if (t->capacity + 8 > PL_MAX_GENERATORS) pl_tower_give_up(t);
     // the polynomials that exist belong to the old context, so everything starts again in a larger one

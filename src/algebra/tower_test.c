@@ -1,4 +1,5 @@
-// The tower: normal forms, the identities that a naive tower misses, signs and recorded assumptions, factors, coefficients.
+// The tower: normal forms, the identities that a naive tower misses, signs and recorded assumptions, factors,
+// coefficients.
 #include "algebra/algebra_test_text.h"
 
 #include <math.h>
@@ -112,7 +113,7 @@ PL_TEST(the_root_of_a_square_is_never_taken_silently) {
   NORMAL(w, "sqrt(l^2)", "l");
   int n = 0;
   pl_tower_used(w->tower, &n);
-  assert_int_equal(n, 1);   // l > 0
+  assert_int_equal(n, 1);  // l > 0
   pl_world_free(w);
 }
 
@@ -120,7 +121,7 @@ PL_TEST(a_start_value_decides_a_sign_and_is_recorded) {
   pl_world* w = pl_world_make(NULL);
   pl_expr e = pl_text_expr(w, "sqrt(r^2 - r^2*cos(x)^2)");
   double value[64];
-  for (int i = 0; i < 64; i++) value[i] = NAN;
+  for (int i = 0; i < 64; i++) value[i] = (double)NAN;
   value[pl_text_symbol(w, "x").id] = 0.5;
   pl_tower_probe(w->tower, value);
   assert_string_equal(pl_text_of(w, pl_alg_normal(w->tower, e)), "r*sin(x)");
@@ -197,9 +198,11 @@ PL_TEST(coefficients_in_a_symbol) {
 PL_TEST(coefficients_in_an_atom) {
   pl_world* w = pl_world_make(NULL);
   pl_expr c[4];
-  assert_int_equal(pl_alg_coefficients_atom(w->tower, pl_text_expr(w, "3*g*cos(x) - 2*g"), pl_text_expr(w, "cos(x)"), c, 3), 1);
+  assert_int_equal(
+      pl_alg_coefficients_atom(w->tower, pl_text_expr(w, "3*g*cos(x) - 2*g"), pl_text_expr(w, "cos(x)"), c, 3), 1);
   assert_string_equal(pl_text_of(w, c[1]), "3*g");
-  assert_int_equal(pl_alg_coefficients_atom(w->tower, pl_text_expr(w, "1 - cos(x)^2"), pl_text_expr(w, "sin(x)"), c, 3), 2);
+  assert_int_equal(pl_alg_coefficients_atom(w->tower, pl_text_expr(w, "1 - cos(x)^2"), pl_text_expr(w, "sin(x)"), c, 3),
+                   2);
   assert_string_equal(pl_text_of(w, c[2]), "1");
   pl_world_free(w);
 }
@@ -268,27 +271,27 @@ PL_TEST(an_interrupted_job_is_left_at_once) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(fractions_are_reduced),
-    cmocka_unit_test(sines_and_cosines_meet),
-    cmocka_unit_test(special_angles_have_values),
-    cmocka_unit_test(roots_depend_on_each_other),
-    cmocka_unit_test(exponentials_form_a_lattice),
-    cmocka_unit_test(logarithms_and_inverse_functions),
-    cmocka_unit_test(the_normal_form_does_not_depend_on_history),
-    cmocka_unit_test(denominators_begin_with_a_positive_mass),
-    cmocka_unit_test(roots_keep_the_shortest_radicand),
-    cmocka_unit_test(the_root_of_a_square_is_never_taken_silently),
-    cmocka_unit_test(a_start_value_decides_a_sign_and_is_recorded),
-    cmocka_unit_test(signs_are_proven_from_facts),
-    cmocka_unit_test(a_proof_over_all_angles_assumes_nothing),
-    cmocka_unit_test(factors_of_a_fraction),
-    cmocka_unit_test(coefficients_in_a_symbol),
-    cmocka_unit_test(coefficients_in_an_atom),
-    cmocka_unit_test(hopeless_cases_come_back_unchanged),
-    cmocka_unit_test(the_root_of_a_negative_number_is_left_alone),
-    cmocka_unit_test(flint_s_abort_comes_back_as_no),
-    cmocka_unit_test(an_interrupted_job_is_left_at_once),
-    cmocka_unit_test(many_generators_make_the_tower_grow),
+      cmocka_unit_test(fractions_are_reduced),
+      cmocka_unit_test(sines_and_cosines_meet),
+      cmocka_unit_test(special_angles_have_values),
+      cmocka_unit_test(roots_depend_on_each_other),
+      cmocka_unit_test(exponentials_form_a_lattice),
+      cmocka_unit_test(logarithms_and_inverse_functions),
+      cmocka_unit_test(the_normal_form_does_not_depend_on_history),
+      cmocka_unit_test(denominators_begin_with_a_positive_mass),
+      cmocka_unit_test(roots_keep_the_shortest_radicand),
+      cmocka_unit_test(the_root_of_a_square_is_never_taken_silently),
+      cmocka_unit_test(a_start_value_decides_a_sign_and_is_recorded),
+      cmocka_unit_test(signs_are_proven_from_facts),
+      cmocka_unit_test(a_proof_over_all_angles_assumes_nothing),
+      cmocka_unit_test(factors_of_a_fraction),
+      cmocka_unit_test(coefficients_in_a_symbol),
+      cmocka_unit_test(coefficients_in_an_atom),
+      cmocka_unit_test(hopeless_cases_come_back_unchanged),
+      cmocka_unit_test(the_root_of_a_negative_number_is_left_alone),
+      cmocka_unit_test(flint_s_abort_comes_back_as_no),
+      cmocka_unit_test(an_interrupted_job_is_left_at_once),
+      cmocka_unit_test(many_generators_make_the_tower_grow),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

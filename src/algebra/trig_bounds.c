@@ -2,21 +2,30 @@
 // polynomial; as a Fourier sum  a_0 + sum_k a_k e^(ikθ)  it lies between a_0 - sum |a_k| and a_0 + sum |a_k|.
 // So m1 + m2 sin^2(a - b), expanded into sines and cosines of a and b, is seen to be at least m1.
 //
-// Coefficients are exact integers over a common power of 2 (each sine and cosine halves); whatever would not fit gives up.
+// Coefficients are exact integers over a common power of 2 (each sine and cosine halves); whatever would not fit gives
+// up.
 #include "algebra/algebra_impl.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { PL_MAX_WAVE_PAIRS = 7, PL_MAX_WAVE_TERMS = 1024, PL_MAX_WAVE_DEGREE = 12, PL_MAX_WAVE_BITS = 36,
-       PL_MAX_BOUND_TERMS = 400 };   // 36 bits, 12 for the degree and 9 for the sum of the terms fit into 62
+enum {
+  PL_MAX_WAVE_PAIRS = 7,
+  PL_MAX_WAVE_TERMS = 1024,
+  PL_MAX_WAVE_DEGREE = 12,
+  PL_MAX_WAVE_BITS = 36,
+  PL_MAX_BOUND_TERMS = 400
+};  // 36 bits, 12 for the degree and 9 for the sum of the terms fit into 62
 
-typedef struct pl_harmonic { int k[PL_MAX_WAVE_PAIRS]; long re, im; } pl_harmonic;
+typedef struct pl_harmonic {
+  int k[PL_MAX_WAVE_PAIRS];
+  long re, im;
+} pl_harmonic;
 
 typedef struct pl_fourier {
-  int pair[PL_MAX_WAVE_PAIRS], n_pairs;     // the cosines
-  int degree;                               // everything is over 2^degree
+  int pair[PL_MAX_WAVE_PAIRS], n_pairs;  // the cosines
+  int degree;                            // everything is over 2^degree
   int n;
   pl_harmonic at[PL_MAX_WAVE_TERMS];
 } pl_fourier;

@@ -1,10 +1,13 @@
-// Is it zero?  Algebra answers yes (its zero is sound); no is answered only when ball arithmetic separates the value from
-// zero at a sample point, or when nothing but independent symbols is involved.  Otherwise: unknown, never a guess.
+// Is it zero?  Algebra answers yes (its zero is sound); no is answered only when ball arithmetic separates the value
+// from zero at a sample point, or when nothing but independent symbols is involved.  Otherwise: unknown, never a guess.
 #include "algebra/algebra_impl.h"
 
 enum { PL_ZERO_POINTS = 12, PL_ZERO_MORE_BITS = 1000 };
 
-typedef struct pl_zero_job { pl_expr e; bool zero, only_symbols; } pl_zero_job;
+typedef struct pl_zero_job {
+  pl_expr e;
+  bool zero, only_symbols;
+} pl_zero_job;
 
 static void zero_body(pl_tower* t, void* data) {
   pl_zero_job* j = data;
