@@ -116,7 +116,7 @@ typedef struct pl_solution {
 
 typedef struct pl_derive_options {
   const char* only;                // letters, comma separated; NULL: all
-  double seconds;                  // presentation budget for each quantity; default 0.02
+  double seconds;                  // presentation budget for each quantity; 0: 0.02
   bool structure;                  // constraints, freedoms and notes only: no sections, nothing to certify
 } pl_derive_options;
 

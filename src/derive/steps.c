@@ -159,8 +159,10 @@ pl_value* pl_answer(pl_analysis* d, const char* name, pl_expr e, const pl_form* 
 }
 
 // ---------------------------------------------------------------------------------------------- forms
+static const double presentation_s = 0.02;   // for each quantity, unless the caller says otherwise; counted in work, see pl_present
+
 const pl_form* pl_f(pl_analysis* d, pl_expr e, pl_style style) {
-  return pl_present(d->tower, e, style, d->options->seconds);
+  return pl_present(d->tower, e, style, d->options->seconds > 0 ? d->options->seconds : presentation_s);
 }
 const pl_form* pl_fs(pl_analysis* d, pl_symbol s) { return pl_form_leaf(d->arena, pl_sym(d->pool, s)); }
 const pl_form* pl_fe(pl_analysis* d, pl_expr e) { return pl_form_of(d->arena, d->pool, e); }
