@@ -41,6 +41,8 @@ int pl_word_reserved(const char* s) { return find(reserved, LENGTH(reserved), s)
 const char* pl_word_of_statement(int token) { return text_of(statements, LENGTH(statements), token); }
 const char* pl_word_of_item(int token) { return text_of(items, LENGTH(items), token); }
 
+const char* pl_word_of_request(int i) { return i < LENGTH(items) ? items[i].text : NULL; }
+
 bool pl_word_function(const char* s) {
   static const char* const more[] = {"sqrt", "log", "norm", "dot", "cross", "diff", "dt", "sum", "if", "pos", "vel", "polar",
                                      "normal", "euler", "quaternion"};

@@ -48,6 +48,7 @@ int pl_word_reserved(const char* s);         // small words only
 bool pl_word_function(const char* s);        // sin, norm, sum, ...
 const char* pl_word_of_statement(int token);
 const char* pl_word_of_item(int token);
+const char* pl_word_of_request(int i);       // the i-th word that begins a request, NULL after the last
 const char* pl_word_near_statement(const char* s);   // the nearest statement keyword, or NULL
 
 // ---------------------------------------------------------------------------------------------- complaints

@@ -202,7 +202,7 @@ static int digit_gap(const char* a, const char* b) {
 typedef struct guess { const char *key, *shown; int distance, gap; } guess;
 
 static void try_guess(guess* best, const char* wanted, const char* key, const char* shown) {
-  int cap = strlen(wanted) <= 3 ? 1 : 2;
+  int cap = strlen(wanted) <= 3 ? 1 : strlen(wanted) < 9 ? 2 : 3;
   int d = pl_edit_distance(wanted, key, cap);
   bool case_only = strlen(wanted) == 1 && strlen(key) == 1 && ((wanted[0] ^ key[0]) & ~0x20) == 0;   // L for l
   if (case_only) d = 0;
@@ -238,6 +238,7 @@ pl_diagnostic* pl_scope_unknown(pl_lower* l, const pl_ast* name) {
   for (int i = 0; l->results && i < N_RESULT_WORDS; i++) try_guess(&best, name->key, result_words[i], result_words[i]);
   if (strlen(name->key) > 2) {
     for (int i = 0; i < PL_N_FUNCTIONS; i++) try_guess(&best, name->key, pl_function_name[i], pl_function_name[i]);
+    for (int i = 0; l->results && pl_word_of_request(i); i++) try_guess(&best, name->key, pl_word_of_request(i), pl_word_of_request(i));
   }
   const char* coordinates = all_coordinates(l, 8);
   if (best.key == NULL && coordinates == NULL) pl_suggest(l->job, m, NULL, "declare it:  param %s = ...", "vereinbaren:  param %s = ...", name->shown);
