@@ -57,8 +57,8 @@ static bool is_positive(void* user, pl_index_values* v) {
   return false;
 }
 
-static void check_positive(pl_job* job, pl_index_values* v, pl_expr e, const pl_block* b, bool zero_allowed, pl_span span,
-                           const char* en, const char* de, const char* fix_en, const char* fix_de) {
+static void check_positive(pl_job* job, pl_index_values* v, pl_expr e, const pl_block* b, bool zero_allowed,
+                           pl_span span, const char* en, const char* de, const char* fix_en, const char* fix_de) {
   pl_model* m = (pl_model*)(uintptr_t)v->model;
   if (pl_is_poison(e)) return;
   sign_check c = {m, e, zero_allowed, 0};
@@ -78,14 +78,17 @@ static void check_positive(pl_job* job, pl_index_values* v, pl_expr e, const pl_
 
 static void check_signs(pl_job* job, pl_model* m, pl_index_values* v) {
   for (int i = 0; i < m->masses.n; i++) {
-    check_positive(job, v, m->masses.at[i].mass, m->masses.at[i].block, false, m->masses.at[i].span, "this mass", "diese Masse",
-                   "a point without mass is written: point A at (x, y)", "ein Punkt ohne Masse wird so geschrieben: point A at (x, y)");
+    check_positive(job, v, m->masses.at[i].mass, m->masses.at[i].block, false, m->masses.at[i].span, "this mass",
+                   "diese Masse", "a point without mass is written: point A at (x, y)",
+                   "ein Punkt ohne Masse wird so geschrieben: point A at (x, y)");
   }
   for (int i = 0; i < m->bodies.n; i++) {
     const pl_body* b = &m->bodies.at[i];
-    check_positive(job, v, b->mass, b->block, false, b->span, "this mass", "diese Masse", "give a positive number", "eine positive Zahl angeben");
+    check_positive(job, v, b->mass, b->block, false, b->span, "this mass", "diese Masse", "give a positive number",
+                   "eine positive Zahl angeben");
     check_positive(job, v, b->inertia, b->block, false, b->span, "this moment of inertia", "dieses Trägheitsmoment",
-                   "a point mass is written: mass m at (x, y)", "eine Punktmasse wird so geschrieben: mass m at (x, y)");
+                   "a point mass is written: mass m at (x, y)",
+                   "eine Punktmasse wird so geschrieben: mass m at (x, y)");
   }
   for (int i = 0; i < m->loads.n; i++) {
     const pl_load* x = &m->loads.at[i];
@@ -93,11 +96,13 @@ static void check_signs(pl_job* job, pl_model* m, pl_index_values* v) {
       check_positive(job, v, x->value, x->block, true, x->span, "this stiffness", "diese Federsteifigkeit",
                      "a negative stiffness is written as a potential: potential -1/2 k x^2",
                      "eine negative Steifigkeit schreibt man als Potential: potential -1/2 k x^2");
-      check_positive(job, v, x->rest, x->block, true, x->span, "this rest length", "diese Ruhelänge", "rest 0", "rest 0");
+      check_positive(job, v, x->rest, x->block, true, x->span, "this rest length", "diese Ruhelänge", "rest 0",
+                     "rest 0");
     }
     if (x->kind == PL_L_DAMPER || x->kind == PL_L_DRAG) {
       check_positive(job, v, x->value, x->block, true, x->span, "this damping coefficient", "diese Dämpfungskonstante",
-                     "a force along the motion is written with force", "eine Kraft in Bewegungsrichtung schreibt man mit force");
+                     "a force along the motion is written with force",
+                     "eine Kraft in Bewegungsrichtung schreibt man mit force");
     }
   }
 }
@@ -118,7 +123,8 @@ static bool relation_fails(double left, pl_relation r, double right) {
 }
 
 static void tell_assumption(pl_job* job, pl_model* m, const pl_assumption* a, pl_expr e, const double* value) {
-  pl_diagnostic* d = pl_tell(job, PL_E060, a->span, "the given numbers contradict this assumption", "die gegebenen Zahlen widersprechen dieser Annahme");
+  pl_diagnostic* d = pl_tell(job, PL_E060, a->span, "the given numbers contradict this assumption",
+                             "die gegebenen Zahlen widersprechen dieser Annahme");
   int n = pl_symbols_in(m->pool, e, NULL, 0);
   pl_symbol* s = PL_ARRAY(job->arena, pl_symbol, n + 1);
   pl_symbols_in(m->pool, e, s, n);

@@ -8,7 +8,8 @@
 static const char* target_text(pl_job* job, const pl_model* m, pl_expr target, long index) {
   static const char* const primes[] = {"", "'", "''"};
   const pl_symbol_info* info = pl_symbol_get(m->pool, pl_symbol_of(m->pool, target));
-  if (pl_kind_of(m->pool, target) == PL_AT) return PL_F(job, "%s[%ld]%s", info->name, index, primes[pl_dots_of(m->pool, target) % 3]);
+  if (pl_kind_of(m->pool, target) == PL_AT)
+    return PL_F(job, "%s[%ld]%s", info->name, index, primes[pl_dots_of(m->pool, target) % 3]);
   return PL_F(job, "%s%s", info->name, primes[info->dots % 3]);
 }
 
@@ -30,7 +31,8 @@ static void check_twice(pl_job* job, pl_model* m) {
     pl_diagnostic* d = pl_tell(job, PL_E044, x->span, PL_F(job, "the start value of %s is given twice", text),
                                PL_F(job, "der Startwert von %s ist zweimal angegeben", text));
     pl_span other = m->inits.at[first].span;
-    if (other.source && other.begin != x->span.begin) pl_report_label(job->diagnostics, d, other, job->lang == PL_GERMAN ? "zuerst hier" : "first here");
+    if (other.source && other.begin != x->span.begin)
+      pl_report_label(job->diagnostics, d, other, job->lang == PL_GERMAN ? "zuerst hier" : "first here");
     pl_report_fix(d, "keep one of them", "einen davon behalten", NULL);
   }
 }
@@ -39,17 +41,21 @@ static void check_twice(pl_job* job, pl_model* m) {
 static void check_init_value(pl_job* job, pl_model* m, const pl_init* x) {
   if (pl_is_poison(x->value)) {
     if (job->diagnostics->n_errors) return;
-    pl_diagnostic* d = pl_tell(job, PL_E040, x->span, "this start value has no value", "dieser Startwert hat keinen Wert");
+    pl_diagnostic* d =
+        pl_tell(job, PL_E040, x->span, "this start value has no value", "dieser Startwert hat keinen Wert");
     pl_report_reason(d, "a division by zero?", "eine Division durch null?");
     return;
   }
   bool force = pl_has_role(m->pool, x->value, PL_R_MULTIPLIER);
   if (!force && pl_max_dots(m->pool, x->value, job->arena) < 2) return;
-  pl_diagnostic* d = pl_tell(job, PL_E046, x->span,
-                             force ? "a start value cannot contain a multiplier" : "a start value cannot contain an acceleration",
-                             force ? "ein Startwert kann keinen Multiplikator enthalten" : "ein Startwert kann keine Beschleunigung enthalten");
+  pl_diagnostic* d =
+      pl_tell(job, PL_E046, x->span,
+              force ? "a start value cannot contain a multiplier" : "a start value cannot contain an acceleration",
+              force ? "ein Startwert kann keinen Multiplikator enthalten"
+                    : "ein Startwert kann keine Beschleunigung enthalten");
   pl_report_reason(d, "these follow from the start", "die folgen erst aus dem Start");
-  pl_report_fix(d, "use given quantities and other start values", "gegebene Größen und andere Startwerte verwenden", NULL);
+  pl_report_fix(d, "use given quantities and other start values", "gegebene Größen und andere Startwerte verwenden",
+                NULL);
 }
 
 static void check_target(pl_job* job, pl_model* m, const pl_init* x) {
@@ -58,7 +64,8 @@ static void check_target(pl_job* job, pl_model* m, const pl_init* x) {
   int dots = pl_max_dots(m->pool, x->target, job->arena);
   bool good = (kind == PL_SYMBOL || kind == PL_AT) && pl_has_coordinate(m->pool, x->target, job->arena) && dots < 2;
   if (good) return;
-  pl_diagnostic* d = pl_tell(job, PL_E030, x->span, "only coordinates and velocities have start values", "nur Koordinaten und Geschwindigkeiten haben Startwerte");
+  pl_diagnostic* d = pl_tell(job, PL_E030, x->span, "only coordinates and velocities have start values",
+                             "nur Koordinaten und Geschwindigkeiten haben Startwerte");
   pl_report_fix(d, "init x = 1, x' = 0", "init x = 1, x' = 0", NULL);
 }
 
@@ -66,7 +73,9 @@ static void check_target(pl_job* job, pl_model* m, const pl_init* x) {
 static int init_of(const pl_model* m, pl_symbol s) {
   for (int i = 0; i < m->inits.n; i++) {
     const pl_init* x = &m->inits.at[i];
-    if (!x->guess && !pl_is_poison(x->target) && pl_kind_of(m->pool, x->target) == PL_SYMBOL && pl_symbol_of(m->pool, x->target).id == s.id) return i;
+    if (!x->guess && !pl_is_poison(x->target) && pl_kind_of(m->pool, x->target) == PL_SYMBOL &&
+        pl_symbol_of(m->pool, x->target).id == s.id)
+      return i;
   }
   return -1;
 }
@@ -93,7 +102,8 @@ static void check_init_circles(pl_job* job, pl_model* m) {
     if (m->inits.at[i].guess || m->inits.at[i].block) continue;
     if (pl_is_poison(m->inits.at[i].value) || !pl_has_coordinate(m->pool, m->inits.at[i].value, job->arena)) continue;
     if (!returns_to(m, job->arena, i, i, PL_ARRAY(job->arena, char, m->inits.n + 1))) continue;
-    pl_diagnostic* d = pl_tell(job, PL_E045, m->inits.at[i].span, "these start values lead back to each other", "diese Startwerte führen aufeinander zurück");
+    pl_diagnostic* d = pl_tell(job, PL_E045, m->inits.at[i].span, "these start values lead back to each other",
+                               "diese Startwerte führen aufeinander zurück");
     pl_report_fix(d, "give one of them as a number", "einen davon als Zahl angeben", NULL);
     return;
   }
@@ -108,16 +118,19 @@ static void check_span_of_simulation(pl_job* job, pl_model* m, const double* val
   double step = pl_is_poison(s->step) ? 1 : pl_eval(m->pool, s->step, value);
   double tol = pl_is_poison(s->tol) ? 1e-9 : pl_eval(m->pool, s->tol, value);
   if (to <= from) {
-    pl_diagnostic* d = pl_tell(job, PL_E047, s->span, PL_F(job, "the simulation ends at %.6g s, not after its start at %.6g s", to, from),
-                               PL_F(job, "die Simulation endet bei %.6g s, nicht nach ihrem Anfang bei %.6g s", to, from));
+    pl_diagnostic* d = pl_tell(
+        job, PL_E047, s->span, PL_F(job, "the simulation ends at %.6g s, not after its start at %.6g s", to, from),
+        PL_F(job, "die Simulation endet bei %.6g s, nicht nach ihrem Anfang bei %.6g s", to, from));
     pl_report_fix(d, "simulate 0..10 [s]", "simulate 0..10 [s]", NULL);
   }
   if (step <= 0) {
-    pl_diagnostic* d = pl_tell(job, PL_E047, s->span, "the step of the output has to be positive", "die Schrittweite der Ausgabe muss positiv sein");
+    pl_diagnostic* d = pl_tell(job, PL_E047, s->span, "the step of the output has to be positive",
+                               "die Schrittweite der Ausgabe muss positiv sein");
     pl_report_fix(d, "simulate 0..10 step 0.01 [s]", "simulate 0..10 step 0.01 [s]", NULL);
   }
   if (tol <= 0 || tol >= 1) {
-    pl_diagnostic* d = pl_tell(job, PL_E047, s->span, "the tolerance has to lie between 0 and 1", "die Toleranz muss zwischen 0 und 1 liegen");
+    pl_diagnostic* d = pl_tell(job, PL_E047, s->span, "the tolerance has to lie between 0 and 1",
+                               "die Toleranz muss zwischen 0 und 1 liegen");
     pl_report_fix(d, "tol 1e-9", "tol 1e-9", NULL);
   }
 }
@@ -167,8 +180,9 @@ static void check_numbers_given(pl_job* job, pl_model* m) {
     const pl_param* p = &m->params.at[i];
     if (!c.needed[p->symbol.id] || !pl_is_poison(p->value)) continue;
     const pl_symbol_info* info = pl_symbol_get(m->pool, p->symbol);
-    pl_diagnostic* d = pl_tell(job, PL_E048, p->span, PL_F(job, "%s has no number, but simulate computes with it", info->name),
-                               PL_F(job, "%s hat keinen Zahlenwert, aber simulate rechnet damit", info->name));
+    pl_diagnostic* d =
+        pl_tell(job, PL_E048, p->span, PL_F(job, "%s has no number, but simulate computes with it", info->name),
+                PL_F(job, "%s hat keinen Zahlenwert, aber simulate rechnet damit", info->name));
     const char* unit = info->dimension_known ? pl_dimension_unit(job->arena, info->dimension, true) : "1";
     bool pure = unit[0] == '1' && unit[1] == 0;
     const char* fix = pure ? PL_F(job, "param %s = 1", info->name) : PL_F(job, "param %s = 1 [%s]", info->name, unit);
@@ -214,7 +228,8 @@ static double size_of_terms(const pl_pool* p, pl_expr g, const double* value) {
   return size;
 }
 
-static const double start_tolerance = 1e-9;   // of the terms; what is smaller is projected away (language.md, Start values)
+static const double start_tolerance =
+    1e-9;  // of the terms; what is smaller is projected away (language.md, Start values)
 
 // ---------------------------------------------------------------------------------------------- what would fit
 enum { MAX_ROOTS = 8, MAX_NEWTON_STEPS = 60 };
@@ -240,7 +255,9 @@ static bool branch_allows(const pl_model* m, const double* value) {
     const pl_condition* c = &m->branches.at[i];
     if (pl_is_poison(c->left) || pl_is_poison(c->right)) continue;
     double d = pl_eval(m->pool, c->left, value) - pl_eval(m->pool, c->right, value);
-    if ((d < 0 && (c->relation == PL_GT || c->relation == PL_GE)) || (d > 0 && (c->relation == PL_LT || c->relation == PL_LE))) return false;
+    if ((d < 0 && (c->relation == PL_GT || c->relation == PL_GE)) ||
+        (d > 0 && (c->relation == PL_LT || c->relation == PL_LE)))
+      return false;
   }
   return true;
 }
@@ -271,7 +288,8 @@ static const char* value_text(pl_job* job, const pl_model* m, pl_symbol q, const
   if (!pure) unit = PL_F(job, " %s", pl_dimension_unit(job->arena, d, false));
   pl_text t = pl_text_make(job->arena);
   pl_text_addf(&t, "%s%s = ", info->name, info->dots ? "'" : "");
-  for (int i = 0; i < n; i++) pl_text_addf(&t, "%s%.6g%s", i == 0 ? "" : job->lang == PL_GERMAN ? " oder " : " or ", roots[i], unit);
+  for (int i = 0; i < n; i++)
+    pl_text_addf(&t, "%s%.6g%s", i == 0 ? "" : job->lang == PL_GERMAN ? " oder " : " or ", roots[i], unit);
   return pl_text_string(&t);
 }
 
@@ -298,17 +316,21 @@ static void tell_violated(pl_job* job, pl_model* m, const pl_constraint* c, doub
   const char* name = c->name.text ? c->name.text : "?";
   const char* fit;
   const pl_init* x = blame(job, m, c->g, value, &fit);
-  pl_diagnostic* d = pl_tell(job, PL_E041, x && x->span.source ? x->span : c->span, PL_F(job, "the start violates %s", name), PL_F(job, "der Start verletzt %s", name));
+  pl_diagnostic* d = pl_tell(job, PL_E041, x && x->span.source ? x->span : c->span,
+                             PL_F(job, "the start violates %s", name), PL_F(job, "der Start verletzt %s", name));
   double left = pl_eval(m->pool, c->left, value), right = pl_eval(m->pool, c->right, value);
   static const char* const signs[] = {"=", ">=", "<=", ">", "<", "!="};
   const char* claim = PL_F(job, "%.6g %s %.6g", left, signs[c->relation], right);
-  if (x && x->span.source && c->span.source) pl_report_label(job->diagnostics, d, c->span, PL_F(job, job->lang == PL_GERMAN ? "das hieße %s" : "this would be %s", claim));
+  if (x && x->span.source && c->span.source)
+    pl_report_label(job->diagnostics, d, c->span,
+                    PL_F(job, job->lang == PL_GERMAN ? "das hieße %s" : "this would be %s", claim));
   else pl_report_reason(d, PL_F(job, "this would be %s", claim), PL_F(job, "das hieße %s", claim));
   if (fit) {
     pl_report_fix(d, PL_F(job, "%s would fit. Change it, or remove it from init and let it follow", fit),
                   PL_F(job, "%s würde passen. Ändern, oder aus init entfernen und folgen lassen", fit), NULL);
   } else {
-    pl_report_fix(d, "leave one of the start values out, and it follows from the constraints", "einen der Startwerte weglassen, dann folgt er aus den Zwangsbedingungen", NULL);
+    pl_report_fix(d, "leave one of the start values out, and it follows from the constraints",
+                  "einen der Startwerte weglassen, dann folgt er aus den Zwangsbedingungen", NULL);
   }
 }
 

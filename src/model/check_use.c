@@ -58,8 +58,8 @@ static void see_inertia(use_table* t) {
   }
 }
 
-static const unsigned in_physics = 1u << PL_SLOT_POINT | 1u << PL_SLOT_MASS | 1u << PL_SLOT_LOAD | 1u << PL_SLOT_CONSTRAINT |
-                                   1u << PL_SLOT_CHOOSE | BIT_CHOSEN | BIT_INERTIA;
+static const unsigned in_physics = 1u << PL_SLOT_POINT | 1u << PL_SLOT_MASS | 1u << PL_SLOT_LOAD |
+                                   1u << PL_SLOT_CONSTRAINT | 1u << PL_SLOT_CHOOSE | BIT_CHOSEN | BIT_INERTIA;
 
 // The name in its declaration, for `coord x, y, z` has one span.
 static pl_span name_place(const pl_model* m, pl_symbol s, pl_span span) {
@@ -70,19 +70,23 @@ static pl_span name_place(const pl_model* m, pl_symbol s, pl_span span) {
 static void check_coordinates(pl_job* job, use_table* t) {
   const pl_model* m = t->m;
   bool dynamic = m->masses.n || m->bodies.n;
-  for (int i = 0; i < m->loads.n; i++) dynamic |= m->loads.at[i].kind == PL_L_KINETIC || m->loads.at[i].kind == PL_L_LAGRANGIAN;
+  for (int i = 0; i < m->loads.n; i++)
+    dynamic |= m->loads.at[i].kind == PL_L_KINETIC || m->loads.at[i].kind == PL_L_LAGRANGIAN;
   for (int i = 0; i < m->coords.n; i++) {
     pl_symbol q = m->coords.at[i].symbol;
     const char* name = pl_symbol_get(m->pool, q)->name;
     pl_span at = name_place(m, q, m->coords.at[i].span);
     if (!(t->uses[q.id] & in_physics)) {
-      pl_diagnostic* d = pl_tell(job, PL_N062, at, PL_F(job, "%s is declared, but no mass, force or constraint speaks of it", name),
-                                 PL_F(job, "%s ist vereinbart, aber keine Masse, Kraft oder Zwangsbedingung spricht davon", name));
+      pl_diagnostic* d =
+          pl_tell(job, PL_N062, at, PL_F(job, "%s is declared, but no mass, force or constraint speaks of it", name),
+                  PL_F(job, "%s ist vereinbart, aber keine Masse, Kraft oder Zwangsbedingung spricht davon", name));
       pl_report_fix(d, PL_F(job, "remove %s, or use it", name), PL_F(job, "%s entfernen oder benutzen", name), NULL);
     } else if (dynamic && !(t->uses[q.id] & (BIT_INERTIA | BIT_CHOSEN))) {
-      pl_diagnostic* d = pl_tell(job, PL_N067, at, PL_F(job, "%s carries no mass: its motion has to follow from the constraints", name),
-                                 PL_F(job, "%s trägt keine Masse: seine Bewegung muss aus den Zwangsbedingungen folgen", name));
-      pl_report_fix(d, "let a mass or body depend on it, or leave it as it is", "eine Masse oder einen Körper davon abhängen lassen, oder so lassen", NULL);
+      pl_diagnostic* d = pl_tell(
+          job, PL_N067, at, PL_F(job, "%s carries no mass: its motion has to follow from the constraints", name),
+          PL_F(job, "%s trägt keine Masse: seine Bewegung muss aus den Zwangsbedingungen folgen", name));
+      pl_report_fix(d, "let a mass or body depend on it, or leave it as it is",
+                    "eine Masse oder einen Körper davon abhängen lassen, oder so lassen", NULL);
     }
   }
 }
@@ -92,9 +96,11 @@ static void check_params(pl_job* job, use_table* t) {
     const pl_param* p = &t->m->params.at[i];
     if (t->uses[p->symbol.id]) continue;
     const char* name = pl_symbol_get(t->m->pool, p->symbol)->name;
-    pl_diagnostic* d = pl_tell(job, PL_N063, name_place(t->m, p->symbol, p->span), PL_F(job, "%s is given, but nothing uses it", name),
-                               PL_F(job, "%s ist gegeben, aber nichts benutzt es", name));
-    pl_report_fix(d, PL_F(job, "remove %s, or look for a slip of the pen", name), PL_F(job, "%s entfernen, oder nach einem Schreibfehler suchen", name), NULL);
+    pl_diagnostic* d =
+        pl_tell(job, PL_N063, name_place(t->m, p->symbol, p->span), PL_F(job, "%s is given, but nothing uses it", name),
+                PL_F(job, "%s ist gegeben, aber nichts benutzt es", name));
+    pl_report_fix(d, PL_F(job, "remove %s, or look for a slip of the pen", name),
+                  PL_F(job, "%s entfernen, oder nach einem Schreibfehler suchen", name), NULL);
   }
 }
 
@@ -104,12 +110,14 @@ static void check_still_masses(pl_job* job, const pl_model* m) {
     bool still = x->point.n > 0;
     for (int k = 0; k < x->point.n && k < 3; k++) {
       pl_expr e = x->point.at[k];
-      if (pl_is_poison(e) || pl_has_coordinate(m->pool, e, job->arena) || pl_has_symbol(m->pool, e, pl_time(m->pool))) still = false;
+      if (pl_is_poison(e) || pl_has_coordinate(m->pool, e, job->arena) || pl_has_symbol(m->pool, e, pl_time(m->pool)))
+        still = false;
     }
     if (!still) continue;
     pl_diagnostic* d = pl_tell(job, PL_N065, x->span, "this mass does not move: its point contains no coordinate",
                                "diese Masse bewegt sich nicht: ihr Punkt enthält keine Koordinate");
-    pl_report_fix(d, "a fixed point is written: point A at (x, y)", "ein fester Punkt wird so geschrieben: point A at (x, y)", NULL);
+    pl_report_fix(d, "a fixed point is written: point A at (x, y)",
+                  "ein fester Punkt wird so geschrieben: point A at (x, y)", NULL);
   }
 }
 

@@ -76,7 +76,9 @@ static void set_default_signs(pl_model* m) {
     pl_symbol s = m->lets.at[i].symbol;
     if (m->lets.at[i].inserted || m->lets.at[i].n_args || !s.id) continue;
     pl_sign_known sign;
-    pl_symbol_get(m->pool, s)->sign = assumed_sign(m, s, &sign) ? sign : value[s.id] > 0 ? PL_SIGN_POSITIVE : PL_SIGN_ANY;
+    pl_symbol_get(m->pool, s)->sign = assumed_sign(m, s, &sign) ? sign
+                                      : value[s.id] > 0         ? PL_SIGN_POSITIVE
+                                                                : PL_SIGN_ANY;
   }
   for (int i = 0; i < m->coords.n; i++) {
     pl_sign_known sign;

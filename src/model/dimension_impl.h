@@ -34,7 +34,8 @@ typedef struct pl_dim_system {
 int pl_dim_var_add(pl_dim_system* s, pl_dim_var_kind kind);
 const pl_dim_form* pl_dim_fixed(pl_dim_system* s, pl_exponents d);
 const pl_dim_form* pl_dim_unknown(pl_dim_system* s, int var);
-const pl_dim_form* pl_dim_combine(pl_dim_system* s, const pl_dim_form* a, pl_fraction f, const pl_dim_form* b);  // a B^f
+const pl_dim_form* pl_dim_combine(pl_dim_system* s, const pl_dim_form* a, pl_fraction f,
+                                  const pl_dim_form* b);  // a B^f
 const pl_dim_form* pl_dim_resolve(pl_dim_system* s, const pl_dim_form* a);
 // Makes a and b equal.  false: they cannot be.
 bool pl_dim_unify(pl_dim_system* s, const pl_dim_form* a, const pl_dim_form* b, pl_span reason);

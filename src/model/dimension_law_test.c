@@ -18,7 +18,9 @@ typedef struct world {
 
 static int pick(world* w, int n) { return (int)(pl_random_bits(&w->r) % (uint64_t)n); }
 
-static pl_dimension random_dimension(world* w) { return pl_dimension_of(pick(w, 5) - 2, pick(w, 3) - 1, pick(w, 5) - 2); }
+static pl_dimension random_dimension(world* w) {
+  return pl_dimension_of(pick(w, 5) - 2, pick(w, 3) - 1, pick(w, 5) - 2);
+}
 
 static world world_make(uint64_t round, bool hidden) {
   static const char* const names[] = {"a", "b", "c", "d", "f", "h", "p", "q", "r", "s"};
@@ -132,7 +134,8 @@ PL_TEST(what_does_not_fit_is_always_reported) {
     if (usable) {
       tried++;
       pl_expr sum = pl_add(w.p, left, right);
-      if (pick(&w, 2)) sum = pl_mul(w.p, leaf(&w, pl_dimension_one()), pl_sqrt(w.p, pl_square(w.p, pl_add(w.p, sum, left))));
+      if (pick(&w, 2))
+        sum = pl_mul(w.p, leaf(&w, pl_dimension_one()), pl_sqrt(w.p, pl_square(w.p, pl_add(w.p, sum, left))));
       claim(&w, sum, leaf(&w, d));
       pl_check_dimensions(&w.k->job, w.k->m);
       if (!complaints(&w)) show_claims(&w, round);
@@ -165,8 +168,10 @@ PL_TEST(a_wrong_relation_through_hidden_names_is_reported) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(what_fits_is_never_reported), cmocka_unit_test(what_is_inferred_is_what_was_meant),
-    cmocka_unit_test(what_does_not_fit_is_always_reported), cmocka_unit_test(a_wrong_relation_through_hidden_names_is_reported),
+      cmocka_unit_test(what_fits_is_never_reported),
+      cmocka_unit_test(what_is_inferred_is_what_was_meant),
+      cmocka_unit_test(what_does_not_fit_is_always_reported),
+      cmocka_unit_test(a_wrong_relation_through_hidden_names_is_reported),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -28,7 +28,8 @@ static int symbols_of(pl_dim_pass* d, pl_expr e, pl_symbol* out) {
   if (n > MAX_SYMBOLS) n = MAX_SYMBOLS;
   int kept = 0;
   for (int i = 0; i < n; i++) {
-    if (!pl_is_unit_symbol(d->pool, found[i]) && pl_symbol_get(d->pool, found[i])->role != PL_R_INDEX) out[kept++] = found[i];
+    if (!pl_is_unit_symbol(d->pool, found[i]) && pl_symbol_get(d->pool, found[i])->role != PL_R_INDEX)
+      out[kept++] = found[i];
   }
   return kept;
 }
@@ -134,7 +135,8 @@ static pl_fraction power_of(pl_dim_pass* d, pl_expr e, pl_symbol s) {
   return (pl_fraction){0, 1};
 }
 
-static void consider(pl_dim_pass* d, suggestion* best, pl_symbol wrong, pl_symbol candidate, pl_dimension wanted, pl_span span) {
+static void consider(pl_dim_pass* d, suggestion* best, pl_symbol wrong, pl_symbol candidate, pl_dimension wanted,
+                     pl_span span) {
   if (!candidate.id || candidate.id == wrong.id) return;
   const pl_symbol_info* info = pl_symbol_get(d->pool, candidate);
   const pl_symbol_info* bad = pl_symbol_get(d->pool, wrong);
@@ -152,7 +154,8 @@ static void consider(pl_dim_pass* d, suggestion* best, pl_symbol wrong, pl_symbo
 }
 
 // Every name that would mend the conflict if it stood in place of a factor of e.
-static void suggest_for_side(pl_dim_pass* d, suggestion* best, pl_expr e, const pl_dim_form* is, const pl_dim_form* wanted) {
+static void suggest_for_side(pl_dim_pass* d, suggestion* best, pl_expr e, const pl_dim_form* is,
+                             const pl_dim_form* wanted) {
   const pl_model* m = d->model;
   pl_symbol s[MAX_SYMBOLS];
   int n = symbols_of(d, e, s);
@@ -163,7 +166,8 @@ static void suggest_for_side(pl_dim_pass* d, suggestion* best, pl_expr e, const 
     const pl_dim_form* gap = pl_dim_combine(&d->system, wanted, (pl_fraction){-1, 1}, is);
     const pl_dim_form* own = pl_dim_unknown(&d->system, pl_dim_symbol_var(d, s[i]));
     pl_dimension x;
-    if (!pl_dim_known(&d->system, pl_dim_combine(&d->system, own, pl_fraction_div((pl_fraction){1, 1}, p), gap), &x)) continue;
+    if (!pl_dim_known(&d->system, pl_dim_combine(&d->system, own, pl_fraction_div((pl_fraction){1, 1}, p), gap), &x))
+      continue;
     for (int k = 0; k < m->params.n; k++) consider(d, best, s[i], m->params.at[k].symbol, x, m->params.at[k].span);
     for (int k = 0; k < m->lets.n; k++) {
       if (m->lets.at[k].n_args == 0) consider(d, best, s[i], m->lets.at[k].symbol, x, m->lets.at[k].span);
@@ -219,11 +223,15 @@ static void both_sentences(pl_dim_pass* d, const pl_dim_conflict* c, const char*
   const pl_dim_form* gap = pl_dim_combine(&d->system, c->form_a, (pl_fraction){-1, 1}, c->form_b);
   if (!pl_dim_known(&d->system, gap, &ratio)) {
     *en = sum ? "the units of these terms do not fit" : "the units of these sides do not fit";
-    *de = sum ? "die Einheiten dieser Terme passen nicht zusammen" : "die Einheiten dieser Seiten passen nicht zusammen";
+    *de =
+        sum ? "die Einheiten dieser Terme passen nicht zusammen" : "die Einheiten dieser Seiten passen nicht zusammen";
     return;
   }
   const char* unit = pl_dimension_unit(a, ratio, false);
-  *en = pl_format(a, sum ? "these terms cannot be added: their units differ by %s" : "these sides cannot be equal: their units differ by %s", unit);
+  *en = pl_format(a,
+                  sum ? "these terms cannot be added: their units differ by %s"
+                      : "these sides cannot be equal: their units differ by %s",
+                  unit);
   *de = pl_format(a, sum ? "diese Terme lassen sich nicht addieren: ihre Einheiten unterscheiden sich um %s"
                          : "diese Seiten können nicht gleich sein: ihre Einheiten unterscheiden sich um %s", unit);
 }
@@ -269,7 +277,8 @@ static bool label_declarations(pl_dim_pass* d, pl_diagnostic* m, pl_expr e) {
     if (!v || !v->span.source || v->span.begin == d->where.begin) continue;
     if (!pl_dim_known(&d->system, pl_dim_unknown(&d->system, (int)(v - d->system.vars.at)), &x)) continue;
     const char* name = pl_symbol_get(d->pool, root_of(d, s[i]))->name;
-    pl_report_label(d->job->diagnostics, m, v->span, pl_format(d->job->arena, "%s: %s", name, pl_dimension_unit(d->job->arena, x, false)));
+    pl_report_label(d->job->diagnostics, m, v->span,
+                    pl_format(d->job->arena, "%s: %s", name, pl_dimension_unit(d->job->arena, x, false)));
     return true;
   }
   return false;
@@ -286,19 +295,22 @@ static pl_expr number_before(pl_dim_pass* d, pl_expr e) {
   return pl_int(d->pool, 1);
 }
 
-// Numbers in front are pure, but the 3 of sin(3 t) may have been meant as 3 [1/s].  Halves and doubles are not meant so.
-static bool fix_of_number_before(pl_dim_pass* d, pl_expr e, const pl_dim_form* is, const pl_dim_form* wanted, pl_diagnostic* m) {
+// Numbers in front are pure, but the 3 of sin(3 t) may have been meant as 3 [1/s].  Halves and doubles are not.
+static bool fix_of_number_before(pl_dim_pass* d, pl_expr e, const pl_dim_form* is, const pl_dim_form* wanted,
+                                 pl_diagnostic* m) {
   pl_pool* p = d->pool;
   pl_expr number = number_before(d, e), twice = pl_mul(p, pl_int(p, 2), number);
   long k;
   pl_dimension gap;
   bool simple = (pl_is_int(p, number, &k) && labs(k) <= 2) || (pl_is_int(p, twice, &k) && labs(k) <= 1);
-  if (simple || !pl_dim_known(&d->system, pl_dim_combine(&d->system, wanted, (pl_fraction){-1, 1}, is), &gap)) return false;
+  if (simple || !pl_dim_known(&d->system, pl_dim_combine(&d->system, wanted, (pl_fraction){-1, 1}, is), &gap))
+    return false;
   if (pl_dimension_equal(gap, pl_dimension_one())) return false;
   const char* unit = pl_dimension_unit(d->job->arena, gap, false);
   const char* text = text_of(d, number);
   pl_report_fix(m, pl_format(d->job->arena, "if the number has a unit, write it: %s [%s]", text, unit),
-                pl_format(d->job->arena, "wenn die Zahl eine Einheit hat, sie dazuschreiben: %s [%s]", text, unit), NULL);
+                pl_format(d->job->arena, "wenn die Zahl eine Einheit hat, sie dazuschreiben: %s [%s]", text, unit),
+                NULL);
   return true;
 }
 
@@ -327,7 +339,8 @@ static void fix_pure_number(pl_dim_pass* d, const pl_dim_conflict* c, pl_diagnos
                   pl_format(a, "durch eine Größe derselben Einheit teilen, zum Beispiel %s", quotient), NULL);
   } else {
     pl_report_fix(m, pl_format(a, "divide %s by a quantity of the same unit, so that a pure number is left", name),
-                  pl_format(a, "%s durch eine Größe derselben Einheit teilen, damit eine reine Zahl bleibt", name), NULL);
+                  pl_format(a, "%s durch eine Größe derselben Einheit teilen, damit eine reine Zahl bleibt", name),
+                  NULL);
   }
 }
 
@@ -374,13 +387,16 @@ static void fix_of_value(pl_dim_pass* d, const pl_dim_conflict* c, pl_diagnostic
 static bool fix_of_name(pl_dim_pass* d, const suggestion* best, pl_diagnostic* m, pl_span* culprit) {
   if (best->score == INT_MAX) return false;
   pl_span at;
-  bool found = pl_span_find_name(d->focus.source ? d->focus : d->where, pl_symbol_get(d->pool, best->wrong)->ascii, &at);
+  bool found =
+      pl_span_find_name(d->focus.source ? d->focus : d->where, pl_symbol_get(d->pool, best->wrong)->ascii, &at);
   if (found) *culprit = at;
   const char* wrong = pl_symbol_get(d->pool, best->wrong)->name;
-  const char* instead[2] = {found ? "" : pl_format(d->job->arena, " instead of %s", wrong), found ? "" : pl_format(d->job->arena, " statt %s", wrong)};
-  pl_report_fix(m, pl_format(d->job->arena, "did you mean %s %s%s?", best->name, line_and_unit(d, best, false), instead[0]),
-                pl_format(d->job->arena, "ist %s %s gemeint%s?", best->name, line_and_unit(d, best, true), instead[1]),
-                found ? best->name : NULL);
+  const char* instead[2] = {found ? "" : pl_format(d->job->arena, " instead of %s", wrong),
+                            found ? "" : pl_format(d->job->arena, " statt %s", wrong)};
+  pl_report_fix(
+      m, pl_format(d->job->arena, "did you mean %s %s%s?", best->name, line_and_unit(d, best, false), instead[0]),
+      pl_format(d->job->arena, "ist %s %s gemeint%s?", best->name, line_and_unit(d, best, true), instead[1]),
+      found ? best->name : NULL);
   return true;
 }
 
@@ -452,7 +468,9 @@ void pl_dim_report_bare_numbers(pl_dim_pass* d) {
   const char* unit;
   for (int i = 0; i < m->params.n; i++) {
     const pl_param* p = &m->params.at[i];
-    if (p->has_unit || pl_is_poison(p->value) || pl_is_zero_node(d->pool, p->value) || !pl_is_constant(d->pool, p->value)) continue;
+    if (p->has_unit || pl_is_poison(p->value) || pl_is_zero_node(d->pool, p->value) ||
+        !pl_is_constant(d->pool, p->value))
+      continue;
     const pl_dim_var* v = var_of(d, p->symbol);
     if (v && v->tainted) continue;
     if (!unit_of_form(d, pl_dim_unknown(&d->system, pl_dim_symbol_var(d, p->symbol)), &unit)) continue;

@@ -3,7 +3,7 @@
 // elimination finds all that follows: x² = a y² gives [a] = [x]² / [y]² whatever [x] and [y] turn out to be.
 //
 // Each unknown is free or solved.  A solved one has a row: fixed exponents plus multiples of unknowns that were free
-// when the row was made.  Resolving puts rows in until only free unknowns are left.  [WandOKeefe1991] do the same for types.
+// when the row was made.  Resolving puts rows in until only free unknowns are left.  [WandOKeefe1991]
 #include "dimension_impl.h"
 
 #include <string.h>

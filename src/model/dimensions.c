@@ -56,7 +56,7 @@ static const pl_dim_form* form_of_symbol(pl_dim_pass* d, pl_symbol s, int dots) 
   return dots ? times(d, f, -dots, duration(d)) : f;
 }
 
-// What stands alone, as a term or a side: 0 fits everything (NULL), another bare number is free until something fixes it.
+// What stands alone, as a term or a side: 0 fits everything (NULL), another bare number is free.
 static const pl_dim_form* form_of_side(pl_dim_pass* d, pl_expr e) {
   if (pl_is_poison(e) || pl_is_zero_node(d->pool, e) || pl_kind_of(d->pool, e) == PL_INFINITY) return NULL;
   if (!pl_is_constant_known(d->pool, d->constant, e)) return form_of(d, e);
@@ -70,7 +70,8 @@ static const pl_dim_form* anything(pl_dim_pass* d) {
   return pl_dim_unknown(&d->system, pl_dim_var_add(&d->system, PL_DIM_SYMBOL));
 }
 
-static void clash(pl_dim_pass* d, pl_dim_clash kind, pl_expr a, const pl_dim_form* fa, pl_expr b, const pl_dim_form* fb) {
+static void clash(pl_dim_pass* d, pl_dim_clash kind, pl_expr a, const pl_dim_form* fa, pl_expr b,
+                  const pl_dim_form* fb) {
   pl_dim_report(d, &(pl_dim_conflict){.kind = kind, .a = a, .b = b, .form_a = fa, .form_b = fb, .code = PL_E021});
 }
 
@@ -235,7 +236,8 @@ static void walk_declarations(pl_dim_pass* d) {
     read_unit_text(d, &m->params.at[i]);
     declare(d, m->params.at[i].symbol, m->params.at[i].has_unit, m->params.at[i].span);
   }
-  for (int i = 0; i < m->coords.n; i++) declare(d, m->coords.at[i].symbol, m->coords.at[i].has_unit, m->coords.at[i].span);
+  for (int i = 0; i < m->coords.n; i++)
+    declare(d, m->coords.at[i].symbol, m->coords.at[i].has_unit, m->coords.at[i].span);
   for (int i = 0; i < m->lets.n; i++) declare(d, m->lets.at[i].symbol, false, m->lets.at[i].span);
 
   for (int i = 0; i < m->params.n; i++) {
@@ -256,7 +258,8 @@ static void walk_declarations(pl_dim_pass* d) {
 static void walk_point(pl_dim_pass* d, const pl_point* p) {
   d->focus = p->span;
   for (int k = 0; k < p->n && k < 3; k++) {
-    need(d, p->at[k], mechanical(d, 1, 0, 0), PL_E033, "a component of a point is a length", "eine Komponente eines Punktes ist eine Länge");
+    need(d, p->at[k], mechanical(d, 1, 0, 0), PL_E033, "a component of a point is a length",
+         "eine Komponente eines Punktes ist eine Länge");
   }
   d->focus = (pl_span){0};
 }
@@ -269,16 +272,20 @@ static void walk_masses(pl_dim_pass* d) {
     const pl_mass* x = &m->masses.at[i];
     d->where = x->span;
     joule(d);
-    need(d, x->mass, mechanical(d, 0, 1, 0), PL_E033, "what stands after `mass` is a mass", "nach `mass` steht eine Masse");
+    need(d, x->mass, mechanical(d, 0, 1, 0), PL_E033, "what stands after `mass` is a mass",
+         "nach `mass` steht eine Masse");
     walk_point(d, &x->point);
   }
   for (int i = 0; i < m->bodies.n; i++) {
     const pl_body* x = &m->bodies.at[i];
     d->where = x->span;
     joule(d);
-    need(d, x->mass, mechanical(d, 0, 1, 0), PL_E033, "what stands after `mass` is a mass", "nach `mass` steht eine Masse");
-    need(d, x->inertia, mechanical(d, 2, 1, 0), PL_E033, "a moment of inertia is in kg m²", "ein Trägheitsmoment hat die Einheit kg m²");
-    need(d, x->angle, pure(d), PL_E033, "the angle of a body is a pure number", "der Winkel eines Körpers ist eine reine Zahl");
+    need(d, x->mass, mechanical(d, 0, 1, 0), PL_E033, "what stands after `mass` is a mass",
+         "nach `mass` steht eine Masse");
+    need(d, x->inertia, mechanical(d, 2, 1, 0), PL_E033, "a moment of inertia is in kg m²",
+         "ein Trägheitsmoment hat die Einheit kg m²");
+    need(d, x->angle, pure(d), PL_E033, "the angle of a body is a pure number",
+         "der Winkel eines Körpers ist eine reine Zahl");
     walk_point(d, &x->centre);
   }
   for (int i = 0; i < m->points.n; i++) {
@@ -287,7 +294,8 @@ static void walk_masses(pl_dim_pass* d) {
   }
   for (int i = 0; i < m->gravities.n; i++) {
     d->where = m->gravities.at[i].span;
-    need(d, m->gravities.at[i].g, mechanical(d, 1, 0, -2), PL_E033, "gravity is an acceleration", "`gravity` ist eine Beschleunigung");
+    need(d, m->gravities.at[i].g, mechanical(d, 1, 0, -2), PL_E033, "gravity is an acceleration",
+         "`gravity` ist eine Beschleunigung");
   }
 }
 
@@ -301,14 +309,16 @@ static void walk_load(pl_dim_pass* d, const pl_load* x) {
     case PL_L_FORCE:
       joule(d);
       for (int k = 0; k < x->a.n && k < 3; k++) {
-        need(d, x->vector[k], energy_over(d, 1, 0), PL_E033, "a component of a force is in N", "eine Komponente einer Kraft hat die Einheit N");
+        need(d, x->vector[k], energy_over(d, 1, 0), PL_E033, "a component of a force is in N",
+             "eine Komponente einer Kraft hat die Einheit N");
       }
       walk_point(d, &x->a);
       return;
     case PL_L_TORQUE: {
       const pl_dim_form* wanted = energy(d);
       if (x->coordinate.id) wanted = times(d, wanted, -1, form_of_symbol(d, x->coordinate, 0));
-      need(d, x->value, wanted, PL_E033, "torque times its coordinate is an energy", "Moment mal Koordinate ist eine Energie");
+      need(d, x->value, wanted, PL_E033, "torque times its coordinate is an energy",
+           "Moment mal Koordinate ist eine Energie");
       return;
     }
     case PL_L_POTENTIAL:
@@ -317,17 +327,20 @@ static void walk_load(pl_dim_pass* d, const pl_load* x) {
       need(d, x->value, energy(d), PL_E033, "this is an energy", "das ist eine Energie");
       return;
     case PL_L_RAYLEIGH:
-      need(d, x->value, energy_over(d, 0, 1), PL_E033, "a dissipation function is a power", "eine Dissipationsfunktion ist eine Leistung");
+      need(d, x->value, energy_over(d, 0, 1), PL_E033, "a dissipation function is a power",
+           "eine Dissipationsfunktion ist eine Leistung");
       return;
     case PL_L_SPRING:
       joule(d);
-      need(d, x->value, energy_over(d, 2, 0), PL_E033, "the stiffness of a spring is in N/m", "eine Federsteifigkeit hat die Einheit N/m");
+      need(d, x->value, energy_over(d, 2, 0), PL_E033, "the stiffness of a spring is in N/m",
+           "eine Federsteifigkeit hat die Einheit N/m");
       need(d, x->rest, mechanical(d, 1, 0, 0), PL_E033, "a rest length is a length", "eine Ruhelänge ist eine Länge");
       break;
     case PL_L_DAMPER:
     case PL_L_DRAG:
       joule(d);
-      need(d, x->value, energy_over(d, 2, -1), PL_E033, "a damping coefficient is in N s/m", "eine Dämpfungskonstante hat die Einheit N s/m");
+      need(d, x->value, energy_over(d, 2, -1), PL_E033, "a damping coefficient is in N s/m",
+           "eine Dämpfungskonstante hat die Einheit N s/m");
       break;
   }
   walk_point(d, &x->a);
@@ -380,7 +393,8 @@ static void walk_simulate(pl_dim_pass* d) {
   }
   for (int i = 0; i < m->inits.n; i++) {
     d->where = m->inits.at[i].span;
-    need(d, m->inits.at[i].time, duration(d), PL_E033, "what stands after `init at` is a time", "nach `init at` steht eine Zeit");
+    need(d, m->inits.at[i].time, duration(d), PL_E033, "what stands after `init at` is a time",
+         "nach `init at` steht eine Zeit");
   }
 }
 
@@ -543,7 +557,8 @@ static bool known_symbol(const pl_model* m, pl_symbol s, int dots, pl_dimension*
     *out = pl_dimension_of(0, 0, 1);
   } else if (info->role == PL_R_INDEX) {
     *out = pl_dimension_one();
-  } else if (info->base.id && (info->role == PL_R_VELOCITY || info->role == PL_R_ACCELERATION || info->role == PL_R_START)) {
+  } else if (info->base.id &&
+             (info->role == PL_R_VELOCITY || info->role == PL_R_ACCELERATION || info->role == PL_R_START)) {
     return known_symbol(m, info->base, dots + info->dots, out);
   } else {
     return false;

@@ -74,7 +74,8 @@ PL_TEST(atwood_gives_every_name_its_unit) {
 PL_TEST(units_leave_the_model_after_the_check) {
   atwood a = atwood_make(atwood_text, false);
   check_is_clean(a.k);
-  assert_true(pl_same(pl_model_param(a.k->m, pl_symbol_of(a.k->m->pool, a.g))->value, pl_ratio(a.k->m->pool, 981, 100)));
+  assert_true(
+      pl_same(pl_model_param(a.k->m, pl_symbol_of(a.k->m->pool, a.g))->value, pl_ratio(a.k->m->pool, 981, 100)));
   assert_true(pl_is_one_node(a.k->m->pool, a.k->m->inits.at[0].value));
   kit_free(a.k);
 }
@@ -120,13 +121,17 @@ PL_TEST(a_length_cannot_equal_an_acceleration) {
 PL_TEST(crank_squares_and_angles_fit) {
   kit* k = kit_make(NULL);
   pl_pool* p = k->m->pool;
-  pl_expr m1 = param(k, "m1", "1", "kg", NULL), r = param(k, "r", "0.1", "m", NULL), l = param(k, "l", "0.3", "m", NULL);
-  pl_expr x1 = coord(k, "x1", NULL, NULL), z1 = coord(k, "z1", NULL, NULL), x2 = coord(k, "x2", NULL, NULL), phi = coord(k, "phi", NULL, NULL);
+  pl_expr m1 = param(k, "m1", "1", "kg", NULL), r = param(k, "r", "0.1", "m", NULL),
+          l = param(k, "l", "0.3", "m", NULL);
+  pl_expr x1 = coord(k, "x1", NULL, NULL), z1 = coord(k, "z1", NULL, NULL), x2 = coord(k, "x2", NULL, NULL),
+          phi = coord(k, "phi", NULL, NULL);
   mass(k, "m1", m1, point2(x1, z1), NULL);
   mass(k, "m2", m1, point2(x2, pl_int(p, 0)), NULL);
   constraint(k, named("g4"), pl_add(p, pl_square(p, x1), pl_square(p, z1)), PL_EQ, pl_square(p, r), NULL, NULL);
-  pl_symbol g5 = constraint(k, named("g5"), pl_add(p, pl_square(p, z1), pl_square(p, pl_sub(p, x2, x1))), PL_EQ, pl_square(p, l), NULL, NULL);
-  struct pl_map_equation maps[2] = {{x1, pl_mul(p, r, pl_call(p, PL_COS, phi)), {0}}, {z1, pl_mul(p, r, pl_call(p, PL_SIN, phi)), {0}}};
+  pl_symbol g5 = constraint(k, named("g5"), pl_add(p, pl_square(p, z1), pl_square(p, pl_sub(p, x2, x1))), PL_EQ,
+                            pl_square(p, l), NULL, NULL);
+  struct pl_map_equation maps[2] = {{x1, pl_mul(p, r, pl_call(p, PL_COS, phi)), {0}},
+                                    {z1, pl_mul(p, r, pl_call(p, PL_SIN, phi)), {0}}};
   k->m->choose.maps = maps;
   k->m->choose.n_maps = 2;
   pl_push(k->arena, k->m->choose.coords, pl_symbol_of(p, phi));
@@ -143,7 +148,8 @@ PL_TEST(crank_squares_and_angles_fit) {
 PL_TEST(ski_one_sided_contact_in_polar_coordinates) {
   kit* k = kit_make(NULL);
   pl_pool* p = k->m->pool;
-  pl_expr m = param(k, "m", "75", "kg", NULL), R = param(k, "R", "20", "m", NULL), g = param(k, "g", "9.81", "m/s^2", NULL);
+  pl_expr m = param(k, "m", "75", "kg", NULL), R = param(k, "R", "20", "m", NULL),
+          g = param(k, "g", "9.81", "m/s^2", NULL);
   pl_expr r = coord(k, "r", NULL, NULL), theta = coord(k, "theta", NULL, NULL);
   mass(k, NULL, m, point2(pl_mul(p, r, pl_call(p, PL_SIN, theta)), pl_mul(p, r, pl_call(p, PL_COS, theta))), NULL);
   gravity(k, g, 1, -1, NULL);
@@ -190,11 +196,13 @@ PL_TEST(without_units_nothing_is_checked) {
 PL_TEST(classes_follow_from_use_without_units) {
   kit* k = kit_make(NULL);
   pl_pool* p = k->m->pool;
-  pl_expr M = param(k, "M", "1", NULL, NULL), L = param(k, "L", "1", NULL, NULL), G = param(k, "G", "1", NULL, NULL), w = param(k, "w", "2", NULL, NULL);
+  pl_expr M = param(k, "M", "1", NULL, NULL), L = param(k, "L", "1", NULL, NULL), G = param(k, "G", "1", NULL, NULL),
+          w = param(k, "w", "2", NULL, NULL);
   pl_expr x = coord(k, "x", NULL, NULL);
   mass(k, "A", M, (pl_point){.n = 1, .at = {x}}, NULL);
   gravity(k, G, 0, 1, NULL);
-  constraint(k, named("c"), x, PL_EQ, pl_mul(p, L, pl_call(p, PL_SIN, pl_mul(p, w, pl_sym(p, pl_time(p))))), NULL, NULL);
+  constraint(k, named("c"), x, PL_EQ, pl_mul(p, L, pl_call(p, PL_SIN, pl_mul(p, w, pl_sym(p, pl_time(p))))), NULL,
+             NULL);
   check_is_clean(k);
   assert_int_equal(pl_symbol_get(p, pl_symbol_of(p, M))->class, PL_C_MASS);
   assert_int_equal(pl_symbol_get(p, pl_symbol_of(p, G))->class, PL_C_GRAVITY);
@@ -389,7 +397,8 @@ PL_TEST(zero_needs_no_unit) {
 PL_TEST(a_spring_and_a_damper_have_units) {
   pl_expr m, x;
   kit* k = particle(NULL, &m, &x);
-  pl_expr c = param(k, "c", NULL, NULL, NULL), s = param(k, "s", NULL, NULL, NULL), l0 = param(k, "l0", NULL, NULL, NULL);
+  pl_expr c = param(k, "c", NULL, NULL, NULL), s = param(k, "s", NULL, NULL, NULL),
+          l0 = param(k, "l0", NULL, NULL, NULL);
   pl_point a = {.n = 1, .at = {x}}, b = {.n = 1, .at = {pl_int(k->m->pool, 0)}};
   pl_push(k->arena, k->m->loads, (pl_load){.kind = PL_L_SPRING, .value = s, .rest = l0, .a = a, .b = b});
   pl_push(k->arena, k->m->loads, (pl_load){.kind = PL_L_DAMPER, .value = c, .a = a, .b = b});
@@ -491,21 +500,38 @@ PL_TEST(short_memory_ends_cleanly) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(atwood_gives_every_name_its_unit), cmocka_unit_test(units_leave_the_model_after_the_check),
-    cmocka_unit_test(atwood_classes_and_signs), cmocka_unit_test(a_length_cannot_equal_an_acceleration),
-    cmocka_unit_test(crank_squares_and_angles_fit), cmocka_unit_test(ski_one_sided_contact_in_polar_coordinates),
-    cmocka_unit_test(an_abbreviation_is_checked_where_it_stands), cmocka_unit_test(without_units_nothing_is_checked), cmocka_unit_test(classes_follow_from_use_without_units),
-    cmocka_unit_test(an_angle_alone_does_not_switch_the_checks_on), cmocka_unit_test(a_mass_statement_wants_a_mass),
-    cmocka_unit_test(a_point_wants_lengths), cmocka_unit_test(a_sine_wants_a_pure_number),
-    cmocka_unit_test(a_number_that_may_have_a_unit_is_suspected), cmocka_unit_test(an_exponent_is_a_pure_number), cmocka_unit_test(terms_of_a_sum_have_one_unit),
-    cmocka_unit_test(gravity_is_an_acceleration), cmocka_unit_test(a_start_value_in_the_wrong_unit),
-    cmocka_unit_test(a_unit_that_contradicts_its_value), cmocka_unit_test(a_simulation_runs_over_time),
-    cmocka_unit_test(one_mistake_is_told_once), cmocka_unit_test(two_mistakes_are_told_both),
-    cmocka_unit_test(squares_and_roots_are_solved), cmocka_unit_test(a_parameter_of_a_potential_gets_its_unit),
-    cmocka_unit_test(bare_numbers_take_the_fitting_unit_with_a_note), cmocka_unit_test(zero_needs_no_unit),
-    cmocka_unit_test(a_spring_and_a_damper_have_units), cmocka_unit_test(a_lagrangian_per_mass_is_fine),
-    cmocka_unit_test(a_multiplier_of_a_velocity_constraint), cmocka_unit_test(result_names_have_units),
-    cmocka_unit_test(huge_exponents_are_left_alone), cmocka_unit_test(short_memory_ends_cleanly),
+      cmocka_unit_test(atwood_gives_every_name_its_unit),
+      cmocka_unit_test(units_leave_the_model_after_the_check),
+      cmocka_unit_test(atwood_classes_and_signs),
+      cmocka_unit_test(a_length_cannot_equal_an_acceleration),
+      cmocka_unit_test(crank_squares_and_angles_fit),
+      cmocka_unit_test(ski_one_sided_contact_in_polar_coordinates),
+      cmocka_unit_test(an_abbreviation_is_checked_where_it_stands),
+      cmocka_unit_test(without_units_nothing_is_checked),
+      cmocka_unit_test(classes_follow_from_use_without_units),
+      cmocka_unit_test(an_angle_alone_does_not_switch_the_checks_on),
+      cmocka_unit_test(a_mass_statement_wants_a_mass),
+      cmocka_unit_test(a_point_wants_lengths),
+      cmocka_unit_test(a_sine_wants_a_pure_number),
+      cmocka_unit_test(a_number_that_may_have_a_unit_is_suspected),
+      cmocka_unit_test(an_exponent_is_a_pure_number),
+      cmocka_unit_test(terms_of_a_sum_have_one_unit),
+      cmocka_unit_test(gravity_is_an_acceleration),
+      cmocka_unit_test(a_start_value_in_the_wrong_unit),
+      cmocka_unit_test(a_unit_that_contradicts_its_value),
+      cmocka_unit_test(a_simulation_runs_over_time),
+      cmocka_unit_test(one_mistake_is_told_once),
+      cmocka_unit_test(two_mistakes_are_told_both),
+      cmocka_unit_test(squares_and_roots_are_solved),
+      cmocka_unit_test(a_parameter_of_a_potential_gets_its_unit),
+      cmocka_unit_test(bare_numbers_take_the_fitting_unit_with_a_note),
+      cmocka_unit_test(zero_needs_no_unit),
+      cmocka_unit_test(a_spring_and_a_damper_have_units),
+      cmocka_unit_test(a_lagrangian_per_mass_is_fine),
+      cmocka_unit_test(a_multiplier_of_a_velocity_constraint),
+      cmocka_unit_test(result_names_have_units),
+      cmocka_unit_test(huge_exponents_are_left_alone),
+      cmocka_unit_test(short_memory_ends_cleanly),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

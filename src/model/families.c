@@ -1,7 +1,7 @@
 // Families: the instances of `for` blocks, and whether every element that a pattern speaks of exists.
 //
-// Bounds may use parameters with numbers and outer indices.  A pattern with N instances is not written out: an index that
-// is linear in the innermost loop takes its extreme values at the two ends, so only these are looked at.
+// Bounds may use parameters with numbers and outer indices.  A pattern with N instances is not written out: an index
+// that is linear in the innermost loop takes its extreme values at the two ends, so only these are looked at.
 #include "model_impl.h"
 
 #include <math.h>
@@ -63,8 +63,8 @@ static pl_walk_result walk_level(block_walk* w, int level) {
   return PL_WALK_DONE;
 }
 
-static pl_walk_result walk_blocks(const pl_block* b, pl_index_values* v, pl_instance_visit* visit, void* user, long* budget,
-                                  bool ends_only, const pl_block** culprit) {
+static pl_walk_result walk_blocks(const pl_block* b, pl_index_values* v, pl_instance_visit* visit, void* user,
+                                  long* budget, bool ends_only, const pl_block** culprit) {
   block_walk w = {.v = v, .visit = visit, .user = user, .budget = budget, .ends_only = ends_only};
   for (const pl_block* x = b; x; x = x->outer) {
     if (w.depth == MAX_BLOCK_DEPTH) return PL_WALK_TOO_MANY;
@@ -105,7 +105,8 @@ pleuel_status pl_model_instances(pl_job* job, const pl_model* m, const pl_block*
   collector c = {.arena = job->arena, .shape = out};
   long budget = PL_MAX_INSTANCES;
   pl_walk_result r = pl_block_walk(b, &v, collect, &c, &budget, NULL);
-  if (r == PL_WALK_TOO_MANY) return pl_fail(job, PLEUEL_MODEL_ERROR, "a family has more than %d members", (int)PL_MAX_INSTANCES);
+  if (r == PL_WALK_TOO_MANY)
+    return pl_fail(job, PLEUEL_MODEL_ERROR, "a family has more than %d members", (int)PL_MAX_INSTANCES);
   if (r != PL_WALK_DONE) return pl_fail(job, PLEUEL_MODEL_ERROR, "the bounds of a family are not whole numbers");
   out->index = c.index.at;
   out->n = out->depth ? c.index.n / out->depth : 1;
@@ -247,7 +248,8 @@ static void tell_bad_bound(range_check* c, pl_expr e, pl_span span) {
   const char* text = pl_is_poison(e) ? "?" : expr_words(c, e);
   pl_diagnostic* d;
   if (unknown) {
-    d = pl_tell(c->job, PL_E038, span, PL_F(c->job, "%s has no number, so the size of the family is not known", unknown),
+    d = pl_tell(c->job, PL_E038, span,
+                PL_F(c->job, "%s has no number, so the size of the family is not known", unknown),
                 PL_F(c->job, "%s hat keinen Zahlenwert, also ist die Größe der Familie unbekannt", unknown));
     const char* write = PL_F(c->job, "param %s = 10", unknown);
     pl_report_fix(d, write, write, NULL);
@@ -259,8 +261,9 @@ static void tell_bad_bound(range_check* c, pl_expr e, pl_span span) {
 }
 
 static void tell_too_many(pl_job* job, pl_span span) {
-  pl_diagnostic* d = pl_tell(job, PL_E026, span, PL_F(job, "this family has more than %d members", (int)PL_MAX_INSTANCES),
-                             PL_F(job, "diese Familie hat mehr als %d Mitglieder", (int)PL_MAX_INSTANCES));
+  pl_diagnostic* d =
+      pl_tell(job, PL_E026, span, PL_F(job, "this family has more than %d members", (int)PL_MAX_INSTANCES),
+              PL_F(job, "diese Familie hat mehr als %d Mitglieder", (int)PL_MAX_INSTANCES));
   pl_report_fix(d, "make the bounds smaller", "die Grenzen verkleinern", NULL);
 }
 
@@ -281,7 +284,8 @@ static const char* instance_text(range_check* c, const char* joint) {
   if (!c->block) return "";
   pl_text t = pl_text_make(c->job->arena);
   for (const pl_block* b = c->block; b; b = b->outer) {
-    pl_text_addf(&t, "%s%s = %ld", t.n ? ", " : joint, pl_symbol_get(c->m->pool, b->index)->name, (long)c->v.value[b->index.id]);
+    pl_text_addf(&t, "%s%s = %ld", t.n ? ", " : joint, pl_symbol_get(c->m->pool, b->index)->name,
+                 (long)c->v.value[b->index.id]);
   }
   return pl_text_string(&t);
 }
@@ -293,9 +297,11 @@ static void suggest_bound(range_check* c, pl_diagnostic* d) {
   pl_expr index = pl_arg(c->m->pool, c->element, 0);
   const char* i = b ? pl_symbol_get(c->m->pool, b->index)->name : "";
   pl_expr difference = b ? pl_sub(c->m->pool, index, pl_sym(c->m->pool, b->index)) : pl_poison();
-  if (b && pl_is_int(c->m->pool, difference, &shift) && pl_index_eval(&c->v, b->lo, &lo) && pl_index_eval(&c->v, b->hi, &hi)) {
+  if (b && pl_is_int(c->m->pool, difference, &shift) && pl_index_eval(&c->v, b->lo, &lo) &&
+      pl_index_eval(&c->v, b->hi, &hi)) {
     const char* low = c->bad < c->lo ? PL_F(c->job, "%ld", c->lo - shift) : expr_words(c, b->lo);
-    const char* high = c->bad > c->hi ? expr_words(c, pl_sub(c->m->pool, c->coord->hi, difference)) : expr_words(c, b->hi);
+    const char* high =
+        c->bad > c->hi ? expr_words(c, pl_sub(c->m->pool, c->coord->hi, difference)) : expr_words(c, b->hi);
     const char* fix = PL_F(c->job, "for %s in %s..%s", i, low, high);
     pl_report_fix(d, fix, fix, NULL);
     return;
@@ -318,7 +324,8 @@ static void tell_out_of_range(range_check* c) {
     d = pl_tell(c->job, PL_E038, at, PL_F(c->job, "the index %s is no whole number%s", text, instance_text(c, " at ")),
                 PL_F(c->job, "der Index %s ist keine ganze Zahl%s", text, instance_text(c, " bei ")));
     const char* unknown = unknown_in(c, index);
-    if (unknown) pl_report_reason(d, PL_F(c->job, "%s has no number", unknown), PL_F(c->job, "%s hat keinen Zahlenwert", unknown));
+    if (unknown)
+      pl_report_reason(d, PL_F(c->job, "%s has no number", unknown), PL_F(c->job, "%s hat keinen Zahlenwert", unknown));
     pl_report_fix(d, "an index is built from whole numbers, loop indices and parameters with a number",
                   "ein Index besteht aus ganzen Zahlen, Laufindizes und Parametern mit Zahlenwert", NULL);
     return;
@@ -362,12 +369,14 @@ static void check_element(range_check* c, pl_expr element, const pl_block* b) {
   uint64_t key = pl_hash_mix(element.id, (uint64_t)(uintptr_t)b) | 1;
   if (pl_map_get(c->seen, key)) return;
   pl_map_set(c->seen, key, 1);
-  if (!pl_index_eval(&c->v, c->coord->lo, &c->lo) || !pl_index_eval(&c->v, c->coord->hi, &c->hi)) return;   // told elsewhere
+  if (!pl_index_eval(&c->v, c->coord->lo, &c->lo) || !pl_index_eval(&c->v, c->coord->hi, &c->hi))
+    return;  // told elsewhere
   c->element = element;
   c->block = b;
   bool ok;
   if (b) {
-    ok = walk_blocks(b, &c->v, inside, c, &c->budget, is_linear(c, pl_arg(c->m->pool, element, 0), b), NULL) != PL_WALK_STOPPED;
+    ok = walk_blocks(b, &c->v, inside, c, &c->budget, is_linear(c, pl_arg(c->m->pool, element, 0), b), NULL) !=
+         PL_WALK_STOPPED;
   } else {
     ok = inside(c, &c->v);
   }
@@ -384,7 +393,12 @@ static void check_expression(range_check* c, pl_expr e, const pl_block* b, pl_ma
   if (kind == PL_SUM) {
     pl_block* sum = PL_NEW(c->job->arena, pl_block);
     int n = pl_n_args(c->m->pool, e);
-    *sum = (pl_block){(pl_block*)(uintptr_t)b, pl_symbol_of(c->m->pool, e), pl_arg(c->m->pool, e, n - 3), pl_arg(c->m->pool, e, n - 2), pl_poison(), c->span};
+    *sum = (pl_block){(pl_block*)(uintptr_t)b,
+                      pl_symbol_of(c->m->pool, e),
+                      pl_arg(c->m->pool, e, n - 3),
+                      pl_arg(c->m->pool, e, n - 2),
+                      pl_poison(),
+                      c->span};
     check_expression(c, pl_arg(c->m->pool, e, n - 1), sum, pl_map_make(c->job->arena));
     return;
   }

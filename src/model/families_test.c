@@ -43,11 +43,21 @@ static chain chain_make(const char* size, long first) {
   c.all = loop(k, "i", one, c.N, NULL, "for i in 1..N");
   c.rest = loop(k, "i", pl_int(p, first), c.N, NULL, "for i in 2..N");
   c.i = pl_sym(p, c.all->index);
-  pl_push(k->arena, k->m->masses, (pl_mass){.name = indexed("P", c.i), .mass = c.m, .point = point2(element(&c, c.x, c.i), element(&c, c.y, c.i)), .block = c.all, .span = at(k, "mass P")});
-  constraint(k, indexed("c", one), pl_add(p, pl_square(p, element(&c, c.x, one)), pl_square(p, element(&c, c.y, one))), PL_EQ, pl_square(p, c.d), NULL, "constraint c[1]");
-  constraint(k, indexed("c", first == 2 ? c.i : pl_add(p, c.i, pl_int(p, 100))), link_length(&c, c.i, pl_sub(p, c.i, one)), PL_EQ, pl_square(p, c.d), c.rest, "constraint c[i]: (x[i] - x[i-1])^2");
+  pl_push(k->arena, k->m->masses,
+          (pl_mass){.name = indexed("P", c.i),
+                    .mass = c.m,
+                    .point = point2(element(&c, c.x, c.i), element(&c, c.y, c.i)),
+                    .block = c.all,
+                    .span = at(k, "mass P")});
+  constraint(k, indexed("c", one), pl_add(p, pl_square(p, element(&c, c.x, one)), pl_square(p, element(&c, c.y, one))),
+             PL_EQ, pl_square(p, c.d), NULL, "constraint c[1]");
+  constraint(k, indexed("c", first == 2 ? c.i : pl_add(p, c.i, pl_int(p, 100))),
+             link_length(&c, c.i, pl_sub(p, c.i, one)), PL_EQ, pl_square(p, c.d), c.rest,
+             "constraint c[i]: (x[i] - x[i-1])^2");
   gravity(k, g, 1, -1, NULL);
-  pl_push(k->arena, k->m->inits, (pl_init){.target = element(&c, c.x, c.i), .value = pl_mul(p, c.i, c.d), .block = c.all, .span = at(k, "init x")});
+  pl_push(k->arena, k->m->inits,
+          (pl_init){
+              .target = element(&c, c.x, c.i), .value = pl_mul(p, c.i, c.d), .block = c.all, .span = at(k, "init x")});
   return c;
 }
 
@@ -76,7 +86,10 @@ PL_TEST(an_element_before_the_first_is_found) {
 PL_TEST(an_element_after_the_last_is_found) {
   chain c = chain_make("5", 2);
   pl_pool* p = c.k->m->pool;
-  pl_push(c.k->arena, c.k->m->loads, (pl_load){.kind = PL_L_POTENTIAL, .value = pl_mul(p, num(c.k, "1", "N"), element(&c, c.x, pl_add(p, c.i, pl_int(p, 1)))), .block = c.all});
+  pl_push(c.k->arena, c.k->m->loads,
+          (pl_load){.kind = PL_L_POTENTIAL,
+                    .value = pl_mul(p, num(c.k, "1", "N"), element(&c, c.x, pl_add(p, c.i, pl_int(p, 1)))),
+                    .block = c.all});
   const pl_diagnostic* d = check_tells(c.k, PL_E037);
   assert_string_equal(d->sentence[0], "x[6] does not exist, at i = 5");
   assert_string_equal(d->fix[0], "for i in 1..N - 1");
@@ -103,7 +116,8 @@ PL_TEST(half_an_index_is_found_between_the_ends) {
   chain c = chain_make("5", 2);
   pl_pool* p = c.k->m->pool;
   pl_expr half = pl_div(p, pl_add(p, c.i, pl_int(p, 1)), pl_int(p, 2));      // whole at i = 1, 3, 5 only
-  pl_push(c.k->arena, c.k->m->inits, (pl_init){.target = pl_at(p, c.y, 0, half), .value = pl_int(p, 0), .block = c.all});
+  pl_push(c.k->arena, c.k->m->inits,
+          (pl_init){.target = pl_at(p, c.y, 0, half), .value = pl_int(p, 0), .block = c.all});
   const pl_diagnostic* d = check_tells(c.k, PL_E038);
   assert_non_null(strstr(d->sentence[0], "i = 2"));
   kit_free(c.k);
@@ -224,7 +238,8 @@ PL_TEST(a_small_chain_is_written_out) {
   for (int i = 0; i < flat->constraints.n; i++) {
     assert_false(pl_has_role(p, flat->constraints.at[i].g, PL_R_ARRAY));
     assert_false(pl_has_role(p, flat->constraints.at[i].g, PL_R_INDEX));
-    for (int j = 0; j < i; j++) assert_int_not_equal(flat->constraints.at[i].lambda.id, flat->constraints.at[j].lambda.id);
+    for (int j = 0; j < i; j++)
+      assert_int_not_equal(flat->constraints.at[i].lambda.id, flat->constraints.at[j].lambda.id);
   }
   assert_non_null(pl_model_constraint(flat, "c[2]"));
   // the pattern itself is untouched
@@ -274,7 +289,11 @@ PL_TEST(a_negative_index_is_a_legal_name) {
   pl_pool* p = k->m->pool;
   pl_symbol x = family(k, "x", pl_int(p, -1), pl_int(p, 1), NULL, NULL);
   pl_block* b = loop(k, "i", pl_int(p, -1), pl_int(p, 1), NULL, NULL);
-  pl_push(k->arena, k->m->masses, (pl_mass){.name = indexed("P", pl_sym(p, b->index)), .mass = pl_int(p, 1), .point = {.n = 1, .at = {pl_at(p, x, 0, pl_sym(p, b->index))}}, .block = b});
+  pl_push(k->arena, k->m->masses,
+          (pl_mass){.name = indexed("P", pl_sym(p, b->index)),
+                    .mass = pl_int(p, 1),
+                    .point = {.n = 1, .at = {pl_at(p, x, 0, pl_sym(p, b->index))}},
+                    .block = b});
   check_is_clean(k);
   pl_model* flat = NULL;
   assert_int_equal(pl_model_expand(&k->job, k->m, 20, &flat), PLEUEL_OK);
@@ -297,17 +316,28 @@ PL_TEST(setting_the_size_resizes) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a_chain_is_checked_as_a_pattern), cmocka_unit_test(an_element_before_the_first_is_found),
-    cmocka_unit_test(an_element_after_the_last_is_found), cmocka_unit_test(an_index_outside_a_family_is_found),
-    cmocka_unit_test(an_index_that_is_no_whole_number_is_found), cmocka_unit_test(half_an_index_is_found_between_the_ends),
-    cmocka_unit_test(a_size_without_number_is_told), cmocka_unit_test(a_fractional_size_is_told),
-    cmocka_unit_test(a_family_beyond_memory_is_refused), cmocka_unit_test(an_empty_range_is_fine),
-    cmocka_unit_test(nested_loops_use_the_outer_index), cmocka_unit_test(a_step_counts_by_itself),
-    cmocka_unit_test(a_label_of_a_family_used_twice_is_found), cmocka_unit_test(a_label_without_index_in_a_loop_is_found),
-    cmocka_unit_test(coordinates_come_one_by_one), cmocka_unit_test(members_are_found_by_label),
-    cmocka_unit_test(a_small_chain_is_written_out), cmocka_unit_test(a_large_family_is_not_written_out),
-    cmocka_unit_test(a_sum_over_a_family_is_checked_and_written_out), cmocka_unit_test(a_sum_beyond_the_family_is_found),
-    cmocka_unit_test(a_negative_index_is_a_legal_name), cmocka_unit_test(setting_the_size_resizes),
+      cmocka_unit_test(a_chain_is_checked_as_a_pattern),
+      cmocka_unit_test(an_element_before_the_first_is_found),
+      cmocka_unit_test(an_element_after_the_last_is_found),
+      cmocka_unit_test(an_index_outside_a_family_is_found),
+      cmocka_unit_test(an_index_that_is_no_whole_number_is_found),
+      cmocka_unit_test(half_an_index_is_found_between_the_ends),
+      cmocka_unit_test(a_size_without_number_is_told),
+      cmocka_unit_test(a_fractional_size_is_told),
+      cmocka_unit_test(a_family_beyond_memory_is_refused),
+      cmocka_unit_test(an_empty_range_is_fine),
+      cmocka_unit_test(nested_loops_use_the_outer_index),
+      cmocka_unit_test(a_step_counts_by_itself),
+      cmocka_unit_test(a_label_of_a_family_used_twice_is_found),
+      cmocka_unit_test(a_label_without_index_in_a_loop_is_found),
+      cmocka_unit_test(coordinates_come_one_by_one),
+      cmocka_unit_test(members_are_found_by_label),
+      cmocka_unit_test(a_small_chain_is_written_out),
+      cmocka_unit_test(a_large_family_is_not_written_out),
+      cmocka_unit_test(a_sum_over_a_family_is_checked_and_written_out),
+      cmocka_unit_test(a_sum_beyond_the_family_is_found),
+      cmocka_unit_test(a_negative_index_is_a_legal_name),
+      cmocka_unit_test(setting_the_size_resizes),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

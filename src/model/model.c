@@ -87,7 +87,8 @@ pl_symbol pl_model_result_symbol(pl_model* m, pl_result_kind kind, const char* l
     if (r->kind == kind && (r->label == label || (r->label && label && strcmp(r->label, label) == 0))) return r->symbol;
   }
   const char* ascii = pl_symbol_find(m->pool, text).id ? pl_format(a, "%s_result", text) : text;
-  pl_symbol_info info = {.name = text, .ascii = ascii, .role = PL_R_LOCAL, .class = PL_C_OTHER, .dimension = pl_dimension_one()};
+  pl_symbol_info info = {
+      .name = text, .ascii = ascii, .role = PL_R_LOCAL, .class = PL_C_OTHER, .dimension = pl_dimension_one()};
   pl_symbol s = pl_symbol_make(m->pool, &info);
   pl_push(a, m->result_names, (pl_result_name){s, kind, label ? pl_copy(a, label) : NULL});
   return s;
@@ -101,8 +102,8 @@ const pl_result_name* pl_model_result_name(const pl_model* m, pl_symbol s) {
 }
 
 // ---------------------------------------------------------------------------------------------- numbers
-// Parameters and kept abbreviations may be given through others, in any order: each is evaluated after those it needs.  A
-// circle has no value.
+// Parameters and kept abbreviations may be given through others, in any order: each is evaluated after those
+// it needs.  A circle has no value.
 typedef struct value_pass {
   const pl_model* m;
   pl_arena* arena;
@@ -191,9 +192,11 @@ static pleuel_status set_param(pl_job* job, pl_model* m, pl_param* p, pl_expr va
   }
   pl_dimension x;
   bool with_unit = pl_has_unit(m->pool, value);
-  if (with_unit && info->dimension_known && pl_known_dimension(m, value, &x) && !pl_dimension_equal(x, info->dimension)) {
+  if (with_unit && info->dimension_known && pl_known_dimension(m, value, &x) &&
+      !pl_dimension_equal(x, info->dimension)) {
     return pl_fail(job, PLEUEL_USAGE, "%s is %s, but the value set is %s", info->name,
-                   pl_dimension_words(job->arena, info->dimension, job->lang), pl_dimension_words(job->arena, x, job->lang));
+                   pl_dimension_words(job->arena, info->dimension, job->lang),
+                   pl_dimension_words(job->arena, x, job->lang));
   }
   p->value = m->checked ? pl_model_plain(m->pool, value) : value;
   return PLEUEL_OK;

@@ -41,7 +41,8 @@ PL_TEST(a_plain_particle_is_fine) {
 // ---------------------------------------------------------------------------------------------- names
 PL_TEST(two_thetas_are_refused) {
   plane a = plane_make(NULL);
-  pl_symbol s = name_symbol(a.k, "θ", "theta", PL_R_COORD, NULL), t = name_symbol(a.k, "ϑ2", "theta2", PL_R_COORD, NULL);
+  pl_symbol s = name_symbol(a.k, "θ", "theta", PL_R_COORD, NULL),
+            t = name_symbol(a.k, "ϑ2", "theta2", PL_R_COORD, NULL);
   pl_push(a.k->arena, a.k->m->coords, (pl_coord){.symbol = s});
   pl_push(a.k->arena, a.k->m->coords, (pl_coord){.symbol = t});
   tells(&a, PL_E059);
@@ -78,7 +79,8 @@ PL_TEST(points_of_different_length_are_found_without_axes) {
 
 PL_TEST(a_force_needs_a_component_for_each_axis) {
   plane a = plane_make(NULL);
-  pl_push(a.k->arena, a.k->m->loads, (pl_load){.kind = PL_L_FORCE, .name = named("F"), .vector = {number(&a, "1")}, .a = point2(a.x, a.y)});
+  pl_push(a.k->arena, a.k->m->loads,
+          (pl_load){.kind = PL_L_FORCE, .name = named("F"), .vector = {number(&a, "1")}, .a = point2(a.x, a.y)});
   tells(&a, PL_E035);
 }
 
@@ -91,7 +93,8 @@ PL_TEST(gravity_along_an_unknown_axis_is_found) {
 PL_TEST(a_body_lives_in_a_plane) {
   plane a = plane_make(NULL);
   a.k->m->masses.n = 0;
-  pl_push(a.k->arena, a.k->m->bodies, (pl_body){.name = named("B"), .mass = a.m, .inertia = a.m, .angle = a.x, .centre = point3(a.x, a.y, a.x)});
+  pl_push(a.k->arena, a.k->m->bodies,
+          (pl_body){.name = named("B"), .mass = a.m, .inertia = a.m, .angle = a.x, .centre = point3(a.x, a.y, a.x)});
   tells(&a, PL_E035);
 }
 
@@ -116,15 +119,25 @@ PL_TEST(a_mass_of_zero_is_refused) {
 
 PL_TEST(a_negative_stiffness_is_refused) {
   plane a = plane_make(NULL);
-  pl_push(a.k->arena, a.k->m->loads, (pl_load){.kind = PL_L_SPRING, .name = named("s"), .value = number(&a, "-1"), .rest = number(&a, "0"),
-                                               .a = point2(a.x, a.y), .b = point2(pl_int(a.p, 0), pl_int(a.p, 0))});
+  pl_push(a.k->arena, a.k->m->loads,
+          (pl_load){.kind = PL_L_SPRING,
+                    .name = named("s"),
+                    .value = number(&a, "-1"),
+                    .rest = number(&a, "0"),
+                    .a = point2(a.x, a.y),
+                    .b = point2(pl_int(a.p, 0), pl_int(a.p, 0))});
   tells(&a, PL_E036);
 }
 
 PL_TEST(a_spring_between_a_point_and_itself_is_found) {
   plane a = plane_make(NULL);
-  pl_push(a.k->arena, a.k->m->loads, (pl_load){.kind = PL_L_SPRING, .name = named("s"), .value = number(&a, "1"), .rest = number(&a, "0"),
-                                               .a = point2(a.x, a.y), .b = point2(a.x, a.y)});
+  pl_push(a.k->arena, a.k->m->loads,
+          (pl_load){.kind = PL_L_SPRING,
+                    .name = named("s"),
+                    .value = number(&a, "1"),
+                    .rest = number(&a, "0"),
+                    .a = point2(a.x, a.y),
+                    .b = point2(a.x, a.y)});
   tells(&a, PL_E064);
 }
 
@@ -304,8 +317,10 @@ PL_TEST(an_integer_that_is_none_is_found) {
 
 PL_TEST(signs_follow_numbers_and_assumptions) {
   plane a = plane_make(NULL);
-  pl_expr b = param(a.k, "b", "-3", NULL, NULL), c = param(a.k, "c", NULL, NULL, NULL), d = param(a.k, "d", NULL, NULL, NULL), e = param(a.k, "e", "0", NULL, NULL);
-  pl_push(a.k->arena, a.k->m->assumptions, (pl_assumption){.kind = PL_A_RELATION, .condition = {d, pl_int(a.p, 0), PL_LT, {0}}});
+  pl_expr b = param(a.k, "b", "-3", NULL, NULL), c = param(a.k, "c", NULL, NULL, NULL),
+          d = param(a.k, "d", NULL, NULL, NULL), e = param(a.k, "e", "0", NULL, NULL);
+  pl_push(a.k->arena, a.k->m->assumptions,
+          (pl_assumption){.kind = PL_A_RELATION, .condition = {d, pl_int(a.p, 0), PL_LT, {0}}});
   load(a.k, PL_L_POTENTIAL, pl_mul(a.p, a.x, pl_add_n(a.p, (pl_expr[]){b, c, d, e}, 4)), NULL);
   check_is_clean(a.k);
   assert_int_equal(pl_symbol_get(a.p, pl_symbol_of(a.p, a.m))->sign, PL_SIGN_POSITIVE);
@@ -356,7 +371,8 @@ PL_TEST(a_parameter_has_no_start_value) {
 
 PL_TEST(a_start_against_a_constraint_is_found) {
   plane a = plane_make(NULL);
-  constraint(a.k, named("c"), pl_add(a.p, pl_square(a.p, a.x), pl_square(a.p, a.y)), PL_EQ, number(&a, "1"), NULL, NULL);
+  constraint(a.k, named("c"), pl_add(a.p, pl_square(a.p, a.x), pl_square(a.p, a.y)), PL_EQ, number(&a, "1"), NULL,
+             NULL);
   init(a.k, a.x, number(&a, "1"), NULL);
   init(a.k, a.y, number(&a, "0.5"), NULL);
   tells(&a, PL_E041);
@@ -365,7 +381,8 @@ PL_TEST(a_start_against_a_constraint_is_found) {
 // The other values kept, x = ± √0.75 would fit; the branch leaves one of them.
 PL_TEST(a_start_that_would_fit_is_named) {
   plane a = plane_make(NULL);
-  constraint(a.k, named("c"), pl_add(a.p, pl_square(a.p, a.x), pl_square(a.p, a.y)), PL_EQ, number(&a, "1"), NULL, NULL);
+  constraint(a.k, named("c"), pl_add(a.p, pl_square(a.p, a.x), pl_square(a.p, a.y)), PL_EQ, number(&a, "1"), NULL,
+             NULL);
   pl_push(a.k->arena, a.k->m->branches, (pl_condition){a.x, pl_int(a.p, 0), PL_LT, {0}});
   init(a.k, a.y, number(&a, "0.5"), NULL);
   init(a.k, a.x, number(&a, "2"), NULL);
@@ -384,7 +401,8 @@ PL_TEST(a_start_on_the_wrong_side_is_found) {
 PL_TEST(a_start_on_the_right_side_is_fine) {
   plane a = plane_make(NULL);
   constraint(a.k, named("h"), a.y, PL_GE, number(&a, "1"), NULL, NULL);
-  constraint(a.k, named("c"), pl_add(a.p, pl_square(a.p, a.x), pl_square(a.p, a.y)), PL_EQ, number(&a, "25"), NULL, NULL);
+  constraint(a.k, named("c"), pl_add(a.p, pl_square(a.p, a.x), pl_square(a.p, a.y)), PL_EQ, number(&a, "25"), NULL,
+             NULL);
   init(a.k, a.y, number(&a, "4"), NULL);
   init(a.k, a.x, number(&a, "3"), NULL);
   check_is_clean(a.k);
@@ -422,7 +440,7 @@ PL_TEST(without_a_simulation_letters_are_enough) {
   kit_free(a.k);
 }
 
-// ---------------------------------------------------------------------------------------------- choose, events, requests
+// ------------------------------------------------------------------------------------ choose, events, requests
 static void choose(plane* a, pl_expr q, struct pl_map_equation* maps, int n) {
   pl_push(a->k->arena, a->k->m->choose.coords, pl_symbol_of(a->p, q));
   a->k->m->choose.maps = maps;
@@ -484,7 +502,8 @@ PL_TEST(an_event_that_never_changes_is_found) {
 
 PL_TEST(an_event_on_energy_or_time_is_fine) {
   plane a = plane_make(NULL);
-  event(&a, pl_sub(a.p, pl_sym(a.p, pl_model_result_symbol(a.k->m, PL_RES_E, NULL)), a.m), (pl_action){.kind = PL_DO_STOP});
+  event(&a, pl_sub(a.p, pl_sym(a.p, pl_model_result_symbol(a.k->m, PL_RES_E, NULL)), a.m),
+        (pl_action){.kind = PL_DO_STOP});
   event(&a, pl_sub(a.p, pl_sym(a.p, pl_time(a.p)), a.m), (pl_action){.kind = PL_DO_STOP});
   a.k->m->events.at[1].name = named("f");
   check_is_clean(a.k);
@@ -553,7 +572,8 @@ PL_TEST(a_mass_that_stands_still_is_noted) {
 PL_TEST(gravity_without_mass_is_noted) {
   plane a = plane_make(NULL);
   a.k->m->masses.n = 0;
-  load(a.k, PL_L_KINETIC, pl_mul(a.p, a.m, pl_add(a.p, pl_square(a.p, dot(a.k, a.x)), pl_square(a.p, dot(a.k, a.y)))), NULL);
+  load(a.k, PL_L_KINETIC, pl_mul(a.p, a.m, pl_add(a.p, pl_square(a.p, dot(a.k, a.x)), pl_square(a.p, dot(a.k, a.y)))),
+       NULL);
   tells(&a, PL_N064);
 }
 
@@ -596,7 +616,8 @@ PL_TEST(a_file_without_masses_is_legal) {
 // ---------------------------------------------------------------------------------------------- dump
 PL_TEST(a_dump_shows_every_statement) {
   plane a = plane_make(NULL);
-  constraint(a.k, named("rod"), pl_add(a.p, pl_square(a.p, a.x), pl_square(a.p, a.y)), PL_EQ, number(&a, "25"), NULL, NULL);
+  constraint(a.k, named("rod"), pl_add(a.p, pl_square(a.p, a.x), pl_square(a.p, a.y)), PL_EQ, number(&a, "25"), NULL,
+             NULL);
   init(a.k, a.x, number(&a, "3"), NULL);
   event(&a, a.y, (pl_action){.kind = PL_DO_STOP});
   check_is_clean(a.k);
@@ -615,41 +636,78 @@ PL_TEST(a_dump_shows_every_statement) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a_plain_particle_is_fine), cmocka_unit_test(two_thetas_are_refused),
-    cmocka_unit_test(a_label_used_twice_is_found), cmocka_unit_test(a_mass_and_a_constraint_may_share_a_label),
-    cmocka_unit_test(a_point_with_too_many_components_is_found), cmocka_unit_test(points_of_different_length_are_found_without_axes),
-    cmocka_unit_test(a_force_needs_a_component_for_each_axis), cmocka_unit_test(gravity_along_an_unknown_axis_is_found),
-    cmocka_unit_test(a_body_lives_in_a_plane), cmocka_unit_test(a_mass_that_depends_on_time_is_refused),
-    cmocka_unit_test(a_mass_that_depends_on_the_motion_is_refused), cmocka_unit_test(a_mass_of_zero_is_refused),
-    cmocka_unit_test(a_negative_stiffness_is_refused), cmocka_unit_test(a_spring_between_a_point_and_itself_is_found),
-    cmocka_unit_test(a_potential_cannot_contain_an_acceleration), cmocka_unit_test(a_potential_may_contain_a_velocity),
-    cmocka_unit_test(a_potential_cannot_contain_a_multiplier), cmocka_unit_test(a_lagrangian_beside_masses_is_refused),
-    cmocka_unit_test(gravity_cannot_depend_on_the_motion), cmocka_unit_test(a_division_by_zero_is_told),
-    cmocka_unit_test(a_constraint_without_coordinate_is_refused), cmocka_unit_test(one_statement_is_not_blamed_twice), cmocka_unit_test(a_constraint_that_is_always_true_is_noted),
-    cmocka_unit_test(a_constraint_with_an_acceleration_is_refused), cmocka_unit_test(a_constraint_that_can_be_integrated_is_told_so),
-    cmocka_unit_test(an_integrating_factor_is_seen), cmocka_unit_test(the_knife_edge_is_nonholonomic),
-    cmocka_unit_test(time_in_a_coefficient_counts), cmocka_unit_test(a_one_sided_constraint_of_velocities_is_refused),
-    cmocka_unit_test(a_constraint_not_linear_in_velocities_is_refused), cmocka_unit_test(hidden_linearity_is_seen),
-    cmocka_unit_test(while_needs_a_contact), cmocka_unit_test(parameters_in_a_circle_are_found),
-    cmocka_unit_test(parameters_through_others_have_values), cmocka_unit_test(an_assumption_against_the_numbers_is_found),
-    cmocka_unit_test(an_integer_that_is_none_is_found), cmocka_unit_test(signs_follow_numbers_and_assumptions),
-    cmocka_unit_test(a_start_value_given_twice_is_found), cmocka_unit_test(position_and_velocity_are_two_start_values),
-    cmocka_unit_test(start_values_in_a_circle_are_found), cmocka_unit_test(a_start_value_with_a_multiplier_is_refused),
-    cmocka_unit_test(a_parameter_has_no_start_value), cmocka_unit_test(a_start_against_a_constraint_is_found),
-    cmocka_unit_test(a_start_that_would_fit_is_named), cmocka_unit_test(a_start_on_the_wrong_side_is_found), cmocka_unit_test(a_start_on_the_right_side_is_fine),
-    cmocka_unit_test(a_start_through_other_values_is_followed), cmocka_unit_test(a_simulation_that_ends_before_it_starts_is_found),
-    cmocka_unit_test(a_simulation_needs_numbers), cmocka_unit_test(without_a_simulation_letters_are_enough),
-    cmocka_unit_test(a_map_that_leads_back_is_found), cmocka_unit_test(a_map_of_a_parameter_is_found),
-    cmocka_unit_test(two_maps_of_one_coordinate_are_found), cmocka_unit_test(a_chosen_coordinate_without_map_is_found),
-    cmocka_unit_test(a_map_through_another_old_coordinate_is_fine), cmocka_unit_test(an_event_that_never_changes_is_found),
-    cmocka_unit_test(an_event_on_energy_or_time_is_fine), cmocka_unit_test(an_acceleration_cannot_be_set),
-    cmocka_unit_test(what_always_holds_cannot_be_attached), cmocka_unit_test(a_parameter_cannot_be_solved_for),
-    cmocka_unit_test(a_frame_is_made_of_coordinates), cmocka_unit_test(an_unused_coordinate_is_noted),
-    cmocka_unit_test(an_unused_parameter_is_noted), cmocka_unit_test(a_parameter_used_in_a_plot_is_used),
-    cmocka_unit_test(a_mass_that_stands_still_is_noted), cmocka_unit_test(gravity_without_mass_is_noted),
-    cmocka_unit_test(gravity_twice_is_noted), cmocka_unit_test(a_coordinate_without_mass_is_noted),
-    cmocka_unit_test(a_model_without_coordinates_is_refused), cmocka_unit_test(an_empty_model_is_refused),
-    cmocka_unit_test(a_file_without_masses_is_legal), cmocka_unit_test(a_dump_shows_every_statement),
+      cmocka_unit_test(a_plain_particle_is_fine),
+      cmocka_unit_test(two_thetas_are_refused),
+      cmocka_unit_test(a_label_used_twice_is_found),
+      cmocka_unit_test(a_mass_and_a_constraint_may_share_a_label),
+      cmocka_unit_test(a_point_with_too_many_components_is_found),
+      cmocka_unit_test(points_of_different_length_are_found_without_axes),
+      cmocka_unit_test(a_force_needs_a_component_for_each_axis),
+      cmocka_unit_test(gravity_along_an_unknown_axis_is_found),
+      cmocka_unit_test(a_body_lives_in_a_plane),
+      cmocka_unit_test(a_mass_that_depends_on_time_is_refused),
+      cmocka_unit_test(a_mass_that_depends_on_the_motion_is_refused),
+      cmocka_unit_test(a_mass_of_zero_is_refused),
+      cmocka_unit_test(a_negative_stiffness_is_refused),
+      cmocka_unit_test(a_spring_between_a_point_and_itself_is_found),
+      cmocka_unit_test(a_potential_cannot_contain_an_acceleration),
+      cmocka_unit_test(a_potential_may_contain_a_velocity),
+      cmocka_unit_test(a_potential_cannot_contain_a_multiplier),
+      cmocka_unit_test(a_lagrangian_beside_masses_is_refused),
+      cmocka_unit_test(gravity_cannot_depend_on_the_motion),
+      cmocka_unit_test(a_division_by_zero_is_told),
+      cmocka_unit_test(a_constraint_without_coordinate_is_refused),
+      cmocka_unit_test(one_statement_is_not_blamed_twice),
+      cmocka_unit_test(a_constraint_that_is_always_true_is_noted),
+      cmocka_unit_test(a_constraint_with_an_acceleration_is_refused),
+      cmocka_unit_test(a_constraint_that_can_be_integrated_is_told_so),
+      cmocka_unit_test(an_integrating_factor_is_seen),
+      cmocka_unit_test(the_knife_edge_is_nonholonomic),
+      cmocka_unit_test(time_in_a_coefficient_counts),
+      cmocka_unit_test(a_one_sided_constraint_of_velocities_is_refused),
+      cmocka_unit_test(a_constraint_not_linear_in_velocities_is_refused),
+      cmocka_unit_test(hidden_linearity_is_seen),
+      cmocka_unit_test(while_needs_a_contact),
+      cmocka_unit_test(parameters_in_a_circle_are_found),
+      cmocka_unit_test(parameters_through_others_have_values),
+      cmocka_unit_test(an_assumption_against_the_numbers_is_found),
+      cmocka_unit_test(an_integer_that_is_none_is_found),
+      cmocka_unit_test(signs_follow_numbers_and_assumptions),
+      cmocka_unit_test(a_start_value_given_twice_is_found),
+      cmocka_unit_test(position_and_velocity_are_two_start_values),
+      cmocka_unit_test(start_values_in_a_circle_are_found),
+      cmocka_unit_test(a_start_value_with_a_multiplier_is_refused),
+      cmocka_unit_test(a_parameter_has_no_start_value),
+      cmocka_unit_test(a_start_against_a_constraint_is_found),
+      cmocka_unit_test(a_start_that_would_fit_is_named),
+      cmocka_unit_test(a_start_on_the_wrong_side_is_found),
+      cmocka_unit_test(a_start_on_the_right_side_is_fine),
+      cmocka_unit_test(a_start_through_other_values_is_followed),
+      cmocka_unit_test(a_simulation_that_ends_before_it_starts_is_found),
+      cmocka_unit_test(a_simulation_needs_numbers),
+      cmocka_unit_test(without_a_simulation_letters_are_enough),
+      cmocka_unit_test(a_map_that_leads_back_is_found),
+      cmocka_unit_test(a_map_of_a_parameter_is_found),
+      cmocka_unit_test(two_maps_of_one_coordinate_are_found),
+      cmocka_unit_test(a_chosen_coordinate_without_map_is_found),
+      cmocka_unit_test(a_map_through_another_old_coordinate_is_fine),
+      cmocka_unit_test(an_event_that_never_changes_is_found),
+      cmocka_unit_test(an_event_on_energy_or_time_is_fine),
+      cmocka_unit_test(an_acceleration_cannot_be_set),
+      cmocka_unit_test(what_always_holds_cannot_be_attached),
+      cmocka_unit_test(a_parameter_cannot_be_solved_for),
+      cmocka_unit_test(a_frame_is_made_of_coordinates),
+      cmocka_unit_test(an_unused_coordinate_is_noted),
+      cmocka_unit_test(an_unused_parameter_is_noted),
+      cmocka_unit_test(a_parameter_used_in_a_plot_is_used),
+      cmocka_unit_test(a_mass_that_stands_still_is_noted),
+      cmocka_unit_test(gravity_without_mass_is_noted),
+      cmocka_unit_test(gravity_twice_is_noted),
+      cmocka_unit_test(a_coordinate_without_mass_is_noted),
+      cmocka_unit_test(a_model_without_coordinates_is_refused),
+      cmocka_unit_test(an_empty_model_is_refused),
+      cmocka_unit_test(a_file_without_masses_is_legal),
+      cmocka_unit_test(a_dump_shows_every_statement),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -14,7 +14,8 @@ static const char* text(const dumper* d, pl_expr e) {
 
 static const char* const relation_signs[] = {"=", ">=", "<=", ">", "<", "!="};
 static const char* const sign_words[] = {"", "  > 0", "  >= 0", "  < 0", "  <= 0", "  != 0"};
-static const char* const class_words[] = {"number", "mass", "gravity", "length", "other", "time", "function", "coord", "velocity", "acceleration", "multiplier"};
+static const char* const class_words[] = {"number",   "mass",  "gravity",  "length",       "other",     "time",
+                                          "function", "coord", "velocity", "acceleration", "multiplier"};
 
 static void unit(const dumper* d, pl_symbol s) {
   const pl_symbol_info* info = pl_symbol_get(d->m->pool, s);
@@ -30,7 +31,8 @@ static void label(const dumper* d, const pl_name* n) {
 
 static void block(const dumper* d, const pl_block* b) {
   for (; b; b = b->outer) {
-    pl_text_addf(d->out, "  for %s in %s..%s", pl_symbol_get(d->m->pool, b->index)->ascii, text(d, b->lo), text(d, b->hi));
+    pl_text_addf(d->out, "  for %s in %s..%s", pl_symbol_get(d->m->pool, b->index)->ascii, text(d, b->lo),
+                 text(d, b->hi));
     if (!pl_is_poison(b->step)) pl_text_addf(d->out, " step %s", text(d, b->step));
   }
 }
@@ -57,7 +59,8 @@ static void dump_names(const dumper* d) {
   }
   for (int i = 0; i < m->lets.n; i++) {
     if (!m->lets.at[i].symbol.id) continue;
-    pl_text_addf(d->out, "let %s = %s", pl_symbol_get(m->pool, m->lets.at[i].symbol)->ascii, text(d, m->lets.at[i].value));
+    pl_text_addf(d->out, "let %s = %s", pl_symbol_get(m->pool, m->lets.at[i].symbol)->ascii,
+                 text(d, m->lets.at[i].value));
     unit(d, m->lets.at[i].symbol);
     pl_text_add(d->out, m->lets.at[i].inserted ? "  inserted\n" : "\n");
   }
@@ -69,7 +72,8 @@ static void dump_names(const dumper* d) {
     pl_text_add(d->out, "\n");
   }
   for (int i = 0; i < m->n_axes; i++) {
-    pl_text_addf(d->out, "%s%s%s%s", i ? ", " : "axes ", m->axes[i].name, m->axes[i].direction ? " " : "", m->axes[i].direction ? m->axes[i].direction : "");
+    pl_text_addf(d->out, "%s%s%s%s", i ? ", " : "axes ", m->axes[i].name, m->axes[i].direction ? " " : "",
+                 m->axes[i].direction ? m->axes[i].direction : "");
   }
   if (m->n_axes) pl_text_add(d->out, "\n");
 }
@@ -82,7 +86,8 @@ static void dump_assumptions(const dumper* d) {
   for (int i = 0; i < d->m->assumptions.n; i++) {
     const pl_assumption* a = &d->m->assumptions.at[i];
     if (a->kind == PL_A_RELATION) condition(d, "assume", &a->condition);
-    else if (a->kind == PL_A_IN) pl_text_addf(d->out, "assume %s in %s..%s\n", text(d, a->subject), text(d, a->lo), text(d, a->hi));
+    else if (a->kind == PL_A_IN)
+      pl_text_addf(d->out, "assume %s in %s..%s\n", text(d, a->subject), text(d, a->lo), text(d, a->hi));
     else pl_text_addf(d->out, "assume %s integer\n", text(d, a->subject));
   }
 }
@@ -121,7 +126,8 @@ static void dump_masses(const dumper* d) {
 }
 
 static void dump_load(const dumper* d, const pl_load* x) {
-  static const char* const words[] = {"force", "torque", "potential", "kinetic", "lagrangian", "rayleigh", "spring", "damper", "drag"};
+  static const char* const words[] = {"force",    "torque", "potential", "kinetic", "lagrangian",
+                                      "rayleigh", "spring", "damper",    "drag"};
   pl_text_addf(d->out, "%s ", words[x->kind]);
   label(d, &x->name);
   pl_text_add(d->out, ": ");
@@ -164,7 +170,8 @@ static void dump_constraints(const dumper* d) {
     pl_text_addf(d->out, "%s%s", i ? ", " : "choose ", pl_symbol_get(m->pool, m->choose.coords.at[i])->ascii);
   }
   for (int i = 0; i < m->choose.n_maps; i++) {
-    pl_text_addf(d->out, "%s%s = %s", i ? ", " : " with ", text(d, m->choose.maps[i].old), text(d, m->choose.maps[i].map));
+    pl_text_addf(d->out, "%s%s = %s", i ? ", " : " with ", text(d, m->choose.maps[i].old),
+                 text(d, m->choose.maps[i].map));
   }
   if (m->choose.coords.n) pl_text_add(d->out, "\n");
   for (int i = 0; i < m->branches.n; i++) condition(d, "branch", &m->branches.at[i]);
@@ -184,7 +191,10 @@ static void dump_start(const dumper* d) {
     const pl_event* e = &m->events.at[i];
     pl_text_add(d->out, "event ");
     label(d, &e->name);
-    pl_text_addf(d->out, ": when %s = 0%s ->", text(d, e->value), e->direction > 0 ? " rising" : e->direction < 0 ? " falling" : "");
+    pl_text_addf(d->out, ": when %s = 0%s ->", text(d, e->value),
+                 e->direction > 0   ? " rising"
+                 : e->direction < 0 ? " falling"
+                                    : "");
     for (int k = 0; k < e->actions.n; k++) {
       const pl_action* a = &e->actions.at[k];
       pl_text_addf(d->out, "%s ", k ? "," : "");
@@ -199,9 +209,11 @@ static void dump_requests(const dumper* d) {
   const pl_model* m = d->m;
   for (int i = 0; i < m->asks.n; i++) {
     const pl_ask* a = &m->asks.at[i];
-    pl_text_addf(d->out, "ask %s%s%s\n", a->letter ? a->letter : "", a->letter ? ": " : "", a->text ? a->text : text(d, a->value));
+    pl_text_addf(d->out, "ask %s%s%s\n", a->letter ? a->letter : "", a->letter ? ": " : "",
+                 a->text ? a->text : text(d, a->value));
   }
-  for (int i = 0; i < m->outputs.n; i++) pl_text_addf(d->out, "output %s = %s\n", m->outputs.at[i].name, text(d, m->outputs.at[i].value));
+  for (int i = 0; i < m->outputs.n; i++)
+    pl_text_addf(d->out, "output %s = %s\n", m->outputs.at[i].name, text(d, m->outputs.at[i].value));
   const pl_simulate* s = &m->simulate;
   if (s->given) {
     pl_text_addf(d->out, "simulate %s..%s", text(d, s->from), text(d, s->to));
@@ -212,7 +224,8 @@ static void dump_requests(const dumper* d) {
   }
   for (int i = 0; i < m->plots.n; i++) {
     pl_text_add(d->out, "plot ");
-    for (int k = 0; k < m->plots.at[i].y.n; k++) pl_text_addf(d->out, "%s%s", k ? ", " : "", text(d, m->plots.at[i].y.at[k]));
+    for (int k = 0; k < m->plots.at[i].y.n; k++)
+      pl_text_addf(d->out, "%s%s", k ? ", " : "", text(d, m->plots.at[i].y.at[k]));
     pl_text_addf(d->out, " vs %s\n", text(d, m->plots.at[i].x));
   }
   for (int i = 0; i < m->pending.n; i++) pl_text_addf(d->out, "not computed: %s\n", m->pending.at[i].what);

@@ -30,9 +30,24 @@ bool pl_is_unit_symbol(const pl_pool* p, pl_symbol s);
 // ---------------------------------------------------------------------------------------------- traverse.c
 // Every expression of a model, with the kind of place it stands in.
 typedef enum pl_slot_kind {
-  PL_SLOT_PARAM, PL_SLOT_LET, PL_SLOT_BOUND, PL_SLOT_ASSUMPTION, PL_SLOT_POINT, PL_SLOT_MASS, PL_SLOT_LOAD, PL_SLOT_GRAVITY,
-  PL_SLOT_CONSTRAINT, PL_SLOT_CHOOSE, PL_SLOT_BRANCH, PL_SLOT_INIT, PL_SLOT_EVENT, PL_SLOT_ASK, PL_SLOT_OUTPUT,
-  PL_SLOT_PLOT, PL_SLOT_SIMULATE, PL_SLOT_LABEL_INDEX
+  PL_SLOT_PARAM,
+  PL_SLOT_LET,
+  PL_SLOT_BOUND,
+  PL_SLOT_ASSUMPTION,
+  PL_SLOT_POINT,
+  PL_SLOT_MASS,
+  PL_SLOT_LOAD,
+  PL_SLOT_GRAVITY,
+  PL_SLOT_CONSTRAINT,
+  PL_SLOT_CHOOSE,
+  PL_SLOT_BRANCH,
+  PL_SLOT_INIT,
+  PL_SLOT_EVENT,
+  PL_SLOT_ASK,
+  PL_SLOT_OUTPUT,
+  PL_SLOT_PLOT,
+  PL_SLOT_SIMULATE,
+  PL_SLOT_LABEL_INDEX
 } pl_slot_kind;
 typedef struct pl_slot {
   pl_expr* at;                // never NULL; the expression may be poison ("none")
@@ -66,7 +81,13 @@ pl_index_values pl_index_values_make(const pl_model* m, pl_arena* a);
 bool pl_index_eval(const pl_index_values* v, pl_expr e, long* out);
 // Calls visit for every instance of a block, outer index slowest, with the indices set in v.  Stops when visit says so.
 typedef bool pl_instance_visit(void* user, pl_index_values* v);
-typedef enum pl_walk_result { PL_WALK_DONE, PL_WALK_STOPPED, PL_WALK_BAD_BOUND, PL_WALK_ZERO_STEP, PL_WALK_TOO_MANY } pl_walk_result;
+typedef enum pl_walk_result {
+  PL_WALK_DONE,
+  PL_WALK_STOPPED,
+  PL_WALK_BAD_BOUND,
+  PL_WALK_ZERO_STEP,
+  PL_WALK_TOO_MANY
+} pl_walk_result;
 pl_walk_result pl_block_walk(const pl_block* b, pl_index_values* v, pl_instance_visit* visit, void* user, long* budget,
                              const pl_block** culprit);
 enum { PL_MAX_INSTANCES = 20000000 };   // more than this is refused: indices alone would take a gigabyte
@@ -91,8 +112,14 @@ void pl_strip_units(pl_model* m);
 bool pl_known_dimension(const pl_model* m, pl_expr e, pl_dimension* out);   // also before the check is over
 
 // ---------------------------------------------------------------------------------------------- velocities.c
-typedef enum pl_velocity_kind { PL_NO_VELOCITY, PL_ACCELERATION, PL_NOT_LINEAR, PL_INTEGRABLE, PL_NONHOLONOMIC } pl_velocity_kind;
-// What velocities do in a constraint g = 0.  *integral: text of G with dG/dt = g, where it can be written down, else NULL.
+typedef enum pl_velocity_kind {
+  PL_NO_VELOCITY,
+  PL_ACCELERATION,
+  PL_NOT_LINEAR,
+  PL_INTEGRABLE,
+  PL_NONHOLONOMIC
+} pl_velocity_kind;
+// What velocities do in a constraint g = 0.  *integral: text of G with dG/dt = g where it can be written down, or NULL.
 pl_velocity_kind pl_velocity_kind_of(pl_job* job, const pl_model* m, pl_expr g, const char** integral);
 
 // ---------------------------------------------------------------------------------------------- check

@@ -60,7 +60,10 @@ static inline pl_expr num(kit* k, const char* decimal, const char* unit) {
 }
 
 static inline pl_symbol name_symbol(kit* k, const char* name, const char* ascii, pl_role role, const char* unit) {
-  pl_symbol_info info = {.name = name, .ascii = ascii, .role = role, .class = role == PL_R_COORD ? PL_C_COORD : PL_C_OTHER,
+  pl_symbol_info info = {.name = name,
+                         .ascii = ascii,
+                         .role = role,
+                         .class = role == PL_R_COORD ? PL_C_COORD : PL_C_OTHER,
                          .dimension = pl_dimension_one()};
   if (unit) info.dimension = unit_of(k, unit).dimension, info.dimension_known = true;
   return pl_symbol_make(k->m->pool, &info);
@@ -68,7 +71,11 @@ static inline pl_symbol name_symbol(kit* k, const char* name, const char* ascii,
 
 static inline pl_expr param(kit* k, const char* name, const char* value, const char* unit, const char* place) {
   pl_symbol s = name_symbol(k, name, name, PL_R_PARAM, unit);
-  pl_param p = {.symbol = s, .value = value ? num(k, value, unit) : pl_poison(), .has_unit = unit != NULL, .unit_text = unit, .span = at(k, place)};
+  pl_param p = {.symbol = s,
+                .value = value ? num(k, value, unit) : pl_poison(),
+                .has_unit = unit != NULL,
+                .unit_text = unit,
+                .span = at(k, place)};
   pl_push(k->arena, k->m->params, p);
   return pl_sym(k->m->pool, s);
 }
@@ -81,7 +88,8 @@ static inline pl_expr coord(kit* k, const char* name, const char* unit, const ch
 
 static inline pl_symbol family(kit* k, const char* name, pl_expr lo, pl_expr hi, const char* unit, const char* place) {
   pl_symbol s = name_symbol(k, name, name, PL_R_ARRAY, unit);
-  pl_push(k->arena, k->m->coords, (pl_coord){.symbol = s, .lo = lo, .hi = hi, .has_unit = unit != NULL, .span = at(k, place)});
+  pl_push(k->arena, k->m->coords,
+          (pl_coord){.symbol = s, .lo = lo, .hi = hi, .has_unit = unit != NULL, .span = at(k, place)});
   return s;
 }
 
@@ -116,11 +124,19 @@ static inline void mass(kit* k, const char* label, pl_expr m, pl_point p, const 
   pl_push(k->arena, k->m->masses, (pl_mass){.name = n, .mass = m, .point = p, .span = at(k, place)});
 }
 
-static inline pl_symbol constraint(kit* k, pl_name n, pl_expr left, pl_relation rel, pl_expr right, pl_block* b, const char* place) {
+static inline pl_symbol constraint(kit* k, pl_name n, pl_expr left, pl_relation rel, pl_expr right, pl_block* b,
+                                   const char* place) {
   const char* ascii = pl_format(k->arena, "lambda_%s", n.text);
   pl_symbol lambda = name_symbol(k, ascii, ascii, PL_R_MULTIPLIER, NULL);
-  pl_push(k->arena, k->m->constraints, (pl_constraint){.name = n, .left = left, .right = right, .g = pl_sub(k->m->pool, left, right),
-                                                       .relation = rel, .lambda = lambda, .block = b, .span = at(k, place)});
+  pl_push(k->arena, k->m->constraints,
+          (pl_constraint){.name = n,
+                          .left = left,
+                          .right = right,
+                          .g = pl_sub(k->m->pool, left, right),
+                          .relation = rel,
+                          .lambda = lambda,
+                          .block = b,
+                          .span = at(k, place)});
   return lambda;
 }
 
@@ -133,10 +149,13 @@ static inline void init(kit* k, pl_expr target, pl_expr value, const char* place
 }
 
 static inline void load(kit* k, pl_load_kind kind, pl_expr value, const char* place) {
-  pl_push(k->arena, k->m->loads, (pl_load){.kind = kind, .name = {"1", "1", pl_poison(), true}, .value = value, .span = at(k, place)});
+  pl_push(k->arena, k->m->loads,
+          (pl_load){.kind = kind, .name = {"1", "1", pl_poison(), true}, .value = value, .span = at(k, place)});
 }
 
-static inline pl_expr dot(kit* k, pl_expr x) { return pl_sym(k->m->pool, pl_symbol_dot(k->m->pool, pl_symbol_of(k->m->pool, x))); }
+static inline pl_expr dot(kit* k, pl_expr x) {
+  return pl_sym(k->m->pool, pl_symbol_dot(k->m->pool, pl_symbol_of(k->m->pool, x)));
+}
 
 // How often a code was reported; the first message of it in *first.
 static inline int told(kit* k, pl_code code, const pl_diagnostic** first) {

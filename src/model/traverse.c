@@ -67,7 +67,8 @@ static void physics(const slot_walk* w, pl_model* m) {
     label(w, &x->name, x->block, x->span);
     point(w, &x->point, x->block, x->span);
   }
-  for (int i = 0; i < m->gravities.n; i++) one(w, &m->gravities.at[i].g, PL_SLOT_GRAVITY, NULL, m->gravities.at[i].span);
+  for (int i = 0; i < m->gravities.n; i++)
+    one(w, &m->gravities.at[i].g, PL_SLOT_GRAVITY, NULL, m->gravities.at[i].span);
   for (int i = 0; i < m->loads.n; i++) {
     pl_load* x = &m->loads.at[i];
     label(w, &x->name, x->block, x->span);

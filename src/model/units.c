@@ -37,7 +37,8 @@ static const struct unit_word { const char* word; const char* unit; } unit_words
 };
 enum { N_UNIT_WORDS = sizeof unit_words / sizeof unit_words[0] };
 
-// SI prefixes up to yotta: the four newer ones would turn slips of the pen (qm, Rm) into units.  The micro sign comes as U+00B5, as Greek mu, and as u.
+// SI prefixes up to yotta: the four newer ones would turn slips of the pen (qm, Rm) into units.  The micro sign
+// comes as U+00B5, as Greek mu, and as u.
 static const struct unit_prefix { const char* name; int power; } unit_prefixes[] = {
   {"da", 1}, {"µ", -6}, {"μ", -6}, {"u", -6}, {"Y", 24},  {"Z", 21},  {"E", 18},
   {"P", 15}, {"T", 12}, {"G", 9},  {"M", 6},  {"k", 3},   {"h", 2},   {"d", -1},  {"c", -2},  {"m", -3},
@@ -298,7 +299,8 @@ static unit_value read_symbol(unit_reader* r) {
     const char* digits = r->at;
     while (r->at < r->end && is_digit(*r->at)) r->at++;
     if (r->at > digits) {
-      refuse(r, from, (size_t)(r->at - from), pl_format(pl_pool_arena(r->pool), "%.*s^%.*s", (int)n, from, (int)(r->at - digits), digits));
+      refuse(r, from, (size_t)(r->at - from),
+             pl_format(pl_pool_arena(r->pool), "%.*s^%.*s", (int)n, from, (int)(r->at - digits), digits));
     }
     return v;
   }
@@ -473,7 +475,8 @@ static const char* near_by_case(pl_arena* a, const char* word, size_t n) {
   static const char* const common[] = {"k", "m", "M", "c", "G"};
   for (size_t j = 0; j < sizeof common / sizeof common[0]; j++) {
     for (int i = 0; i < N_UNIT_ROWS && n > 1; i++) {
-      if (unit_rows[i].prefixed && same_but_case(word, 1, common[j]) && same_but_case(word + 1, n - 1, unit_rows[i].name)) {
+      if (unit_rows[i].prefixed && same_but_case(word, 1, common[j]) &&
+          same_but_case(word + 1, n - 1, unit_rows[i].name)) {
         return pl_format(a, "%s%s", common[j], unit_rows[i].name);
       }
     }
@@ -508,14 +511,16 @@ const char* pl_unit_near(pl_arena* a, const char* word, size_t n) {
 }
 
 // ---------------------------------------------------------------------------------------------- entry
-bool pl_unit_parse(pl_pool* p, const char* text, size_t n, pl_unit* out, size_t* bad_at, size_t* bad_n, const char** near) {
+bool pl_unit_parse(pl_pool* p, const char* text, size_t n, pl_unit* out, size_t* bad_at, size_t* bad_n,
+                   const char** near) {
   unit_reader r = {.pool = p, .begin = text, .at = text, .end = text + n};
   unit_value v = read_unit(&r);
   skip_blanks(&r);
   if (!r.bad && r.at < r.end) refuse(&r, r.at, (size_t)(r.end - r.at), NULL);
 
   pl_unit unit = {pl_poison(), pl_dimension_one(), v.angle, v.scale};
-  if (!r.bad && (!pl_exponents_get_dimension(v.dimension, &unit.dimension) || pl_is_poison(v.scale))) refuse(&r, text, n, NULL);
+  if (!r.bad && (!pl_exponents_get_dimension(v.dimension, &unit.dimension) || pl_is_poison(v.scale)))
+    refuse(&r, text, n, NULL);
   if (r.bad) {
     if (bad_at) *bad_at = (size_t)(r.bad - text);
     if (bad_n) *bad_n = r.bad_n;
@@ -562,9 +567,12 @@ const char* pl_unit_explain(pl_arena* a, pl_pool* p, const char* text, pl_langua
   const char* near = NULL;
   if (!pl_unit_parse(p, text, strlen(text), &unit, &at, &n, &near)) {
     pl_text_addf(&t, german ? "%s  ist keine Einheit" : "%s  is not a unit", text);
-    if (n && n < strlen(text)) pl_text_addf(&t, german ? ": \"%.*s\" ist unbekannt" : ": \"%.*s\" is not known", (int)n, text + at);
+    if (n && n < strlen(text))
+      pl_text_addf(&t, german ? ": \"%.*s\" ist unbekannt" : ": \"%.*s\" is not known", (int)n, text + at);
     pl_text_add(&t, "\n");
-    if (near) pl_text_addf(&t, german ? "  gemeint?   %.*s%s%s\n" : "  meant?     %.*s%s%s\n", (int)at, text, near, text + at + n);
+    if (near)
+      pl_text_addf(&t, german ? "  gemeint?   %.*s%s%s\n" : "  meant?     %.*s%s%s\n", (int)at, text, near,
+                   text + at + n);
     return pl_text_string(&t);
   }
   pl_text_add(&t, text);
@@ -572,8 +580,8 @@ const char* pl_unit_explain(pl_arena* a, pl_pool* p, const char* text, pl_langua
   if (words) pl_text_addf(&t, "  (%s)", words);
   pl_text_add(&t, "\n");
   pl_text_addf(&t, german ? "  ist        %s\n" : "  is         %s\n", pl_dimension_words(a, unit.dimension, lang));
-  pl_text_addf(&t, german ? "  in SI      1 %s = %s %s\n" : "  in SI      1 %s = %s %s\n", text, pl_expr_text(a, p, unit.scale),
-               pl_dimension_unit(a, unit.dimension, false));
+  pl_text_addf(&t, german ? "  in SI      1 %s = %s %s\n" : "  in SI      1 %s = %s %s\n", text,
+               pl_expr_text(a, p, unit.scale), pl_dimension_unit(a, unit.dimension, false));
   if (!pl_is_number(p, unit.scale)) {
     double* none = PL_ARRAY(a, double, pl_symbol_count(p) + 1);
     pl_text_addf(&t, german ? "  also       %.17g\n" : "  that is    %.17g\n", pl_eval(p, unit.scale, none));

@@ -181,14 +181,16 @@ PL_TEST(every_word_leads_to_a_unit) {
     unit_of(k, words[i][1]);
     pl_unit u;
     assert_string_equal(pl_unit_near(k->arena, words[i][0], strlen(words[i][0])), words[i][1]);
-    if (strchr(words[i][0], '/') == NULL) assert_false(pl_unit_parse(k->m->pool, words[i][0], strlen(words[i][0]), &u, NULL, NULL, NULL));
+    if (strchr(words[i][0], '/') == NULL)
+      assert_false(pl_unit_parse(k->m->pool, words[i][0], strlen(words[i][0]), &u, NULL, NULL, NULL));
   }
   kit_free(k);
 }
 
 // Random text never crashes, and what is refused is shown inside the text.
 PL_TEST(random_text_is_read_or_refused) {
-  static const char* const parts[] = {"m", "kg", "s", "/", "*", " ", "^", "2", "-1", "(", ")", "²", "·", "deg", "k", "0.5", "°", "x", "\xc3", "1/2", "⁻¹", "."};
+  static const char* const parts[] = {"m", "kg", "s",   "/", "*",   " ", "^", "2",    "-1",  "(",  ")",
+                                      "²", "·",  "deg", "k", "0.5", "°", "x", "\xc3", "1/2", "⁻¹", "."};
   const uint64_t seed = 20261121;
   pl_random r = {seed};
   for (int round = 0; round < 3000; round++) {

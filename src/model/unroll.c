@@ -58,7 +58,8 @@ static pl_expr rewrite_sum(expansion* x, pl_expr e) {
   pl_expr body = pl_arg(p, e, n - 1);
   pl_symbol index = pl_symbol_of(p, e);
   long lo, hi;
-  if (!pl_index_eval(&x->values, pl_arg(p, e, n - 3), &lo) || !pl_index_eval(&x->values, pl_arg(p, e, n - 2), &hi)) return e;
+  if (!pl_index_eval(&x->values, pl_arg(p, e, n - 3), &lo) || !pl_index_eval(&x->values, pl_arg(p, e, n - 2), &hi))
+    return e;
   if (hi - lo >= MAX_SUM_TERMS) {
     x->too_long = true;
     return pl_poison();
@@ -90,7 +91,8 @@ static pl_expr rewrite_args(expansion* x, pl_expr e) {
     case PL_ADD: return pl_add_n(p, args, n);
     case PL_MUL: return pl_mul_n(p, args, n);
     case PL_POW: return pl_pow(p, args[0], args[1]);
-    case PL_CALL: return n == 2 ? pl_call2(p, pl_function_of(p, e), args[0], args[1]) : pl_call(p, pl_function_of(p, e), args[0]);
+    case PL_CALL:
+      return n == 2 ? pl_call2(p, pl_function_of(p, e), args[0], args[1]) : pl_call(p, pl_function_of(p, e), args[0]);
     case PL_IF: return pl_if(p, args[0], args[1], args[2]);
     default: return e;
   }
@@ -294,7 +296,8 @@ static long count_coordinates(const expansion* x) {
     const pl_coord* c = &x->from->coords.at[i];
     long lo, hi;
     if (pl_is_poison(c->lo)) n++;
-    else if (pl_index_eval(&x->values, c->lo, &lo) && pl_index_eval(&x->values, c->hi, &hi) && hi >= lo) n += hi - lo + 1;
+    else if (pl_index_eval(&x->values, c->lo, &lo) && pl_index_eval(&x->values, c->hi, &hi) && hi >= lo)
+      n += hi - lo + 1;
   }
   return n;
 }
@@ -303,12 +306,19 @@ pleuel_status pl_model_expand(pl_job* job, const pl_model* m, int max_coords, pl
   pl_arena* a = pl_pool_arena(m->pool);
   pl_model* to = PL_NEW(a, pl_model);
   *to = *m;
-  expansion x = {.job = job, .arena = a, .from = (pl_model*)(uintptr_t)m, .to = to, .element = pl_map_make(a), .constant = pl_map_make(a), .memo = pl_map_make(a),
+  expansion x = {.job = job,
+                 .arena = a,
+                 .from = (pl_model*)(uintptr_t)m,
+                 .to = to,
+                 .element = pl_map_make(a),
+                 .constant = pl_map_make(a),
+                 .memo = pl_map_make(a),
                  .budget = MAX_STATEMENTS};
   x.values = pl_index_values_make(m, a);
   *out = NULL;
   long n = count_coordinates(&x);
-  if (n > max_coords) return pl_fail(job, PLEUEL_UNSUPPORTED, "%ld coordinates are too many to write out (limit %d)", n, max_coords);
+  if (n > max_coords)
+    return pl_fail(job, PLEUEL_UNSUPPORTED, "%ld coordinates are too many to write out (limit %d)", n, max_coords);
 
   own_lists(a, to);
   PL_EMPTY_VEC(to->coords);

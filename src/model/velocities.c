@@ -6,7 +6,9 @@
 // with time as one of the variables.  Zeros are recognised by form, else at random points modulo a large prime.
 #include "model_impl.h"
 
-enum { MAX_VARIABLES = 24 };       // triples grow with the third power; longer forms are not tested and count as nonholonomic
+enum {
+  MAX_VARIABLES = 24
+};  // triples grow with the third power; longer forms are not tested and count as nonholonomic
 
 // ---------------------------------------------------------------------------------------------- zero
 enum { N_ZERO_TRIALS = 12 };       // points that are tried until one can be evaluated
@@ -93,12 +95,14 @@ static bool frobenius(pl_job* job, const pl_model* m, const pfaffian* w) {
   int n = w->n_variables;
   pl_expr(*curl)[MAX_VARIABLES] = pl_alloc(job->arena, sizeof(pl_expr[MAX_VARIABLES][MAX_VARIABLES]));
   for (int i = 0; i < n; i++) {
-    for (int j = 0; j < n; j++) curl[i][j] = pl_sub(p, derivative(m, w->a[j], w->q[i]), derivative(m, w->a[i], w->q[j]));
+    for (int j = 0; j < n; j++)
+      curl[i][j] = pl_sub(p, derivative(m, w->a[j], w->q[i]), derivative(m, w->a[i], w->q[j]));
   }
   for (int i = 0; i < n; i++) {
     for (int j = i + 1; j < n; j++) {
       for (int k = j + 1; k < n; k++) {
-        pl_expr sum = pl_add(p, pl_mul(p, w->a[i], curl[j][k]), pl_add(p, pl_mul(p, w->a[j], curl[k][i]), pl_mul(p, w->a[k], curl[i][j])));
+        pl_expr sum = pl_add(p, pl_mul(p, w->a[i], curl[j][k]),
+                             pl_add(p, pl_mul(p, w->a[j], curl[k][i]), pl_mul(p, w->a[k], curl[i][j])));
         if (!vanishes(job, m, sum)) return false;
       }
     }
@@ -110,7 +114,8 @@ static bool frobenius(pl_job* job, const pl_model* m, const pfaffian* w) {
 static const char* integral_text(pl_job* job, const pl_model* m, const pfaffian* w) {
   pl_expr sum = pl_int(m->pool, 0);
   for (int j = 0; j <= w->n; j++) {
-    if (pl_has_coordinate(m->pool, w->a[j], job->arena) || pl_has_symbol(m->pool, w->a[j], pl_time(m->pool))) return NULL;
+    if (pl_has_coordinate(m->pool, w->a[j], job->arena) || pl_has_symbol(m->pool, w->a[j], pl_time(m->pool)))
+      return NULL;
     sum = pl_add(m->pool, sum, pl_mul(m->pool, w->a[j], w->q[j]));
   }
   return pl_expr_words(job->arena, m->pool, sum);

@@ -177,7 +177,8 @@ bool pl_span_split_relation(pl_span where, pl_span* left, pl_span* right) {
     size_t n = relation_sign(at, end);
     if (!n) continue;
     // a statement word before the left side is no part of it
-    static const char* const words[] = {"constraint ", "init ", "guess ", "branch ", "assume ", "let ", "when ", "param "};
+    static const char* const words[] = {"constraint ", "init ", "guess ", "branch ",
+                                        "assume ",     "let ",  "when ",  "param "};
     while (from < at && is_blank(*from)) from++;
     for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
       size_t k = strlen(words[i]);
