@@ -225,7 +225,7 @@ typedef struct range_check {
   long lo, hi;                // what the coordinate has
   long bad;                   // the index that does not exist
   pl_span told;               // the last statement with a message: its other elements are the same mistake
-  bool no_integer;
+  bool no_integer, too_many;
 } range_check;
 
 static const char* expr_words(range_check* c, pl_expr e) { return pl_expr_words(c->job->arena, c->m->pool, e); }
@@ -260,7 +260,11 @@ static void tell_bad_bound(range_check* c, pl_expr e, pl_span span) {
   pl_report_fix(d, "bounds of a family are whole numbers", "Grenzen einer Familie sind ganze Zahlen", NULL);
 }
 
-static void tell_too_many(pl_job* job, pl_span span) {
+// Coordinates and loops of one size are one mistake.
+static void tell_too_many(range_check* c, pl_span span) {
+  pl_job* job = c->job;
+  if (c->too_many) return;
+  c->too_many = true;
   pl_diagnostic* d =
       pl_tell(job, PL_E026, span, PL_F(job, "this family has more than %d members", (int)PL_MAX_INSTANCES),
               PL_F(job, "diese Familie hat mehr als %d Mitglieder", (int)PL_MAX_INSTANCES));
@@ -268,7 +272,7 @@ static void tell_too_many(pl_job* job, pl_span span) {
 }
 
 static void tell_walk(range_check* c, pl_walk_result r, const pl_block* b) {
-  if (r == PL_WALK_TOO_MANY) tell_too_many(c->job, b->span);
+  if (r == PL_WALK_TOO_MANY) tell_too_many(c, b->span);
   if (r == PL_WALK_ZERO_STEP) {
     pl_diagnostic* d = pl_tell(c->job, PL_E038, b->span, "a step of 0 never ends", "eine Schrittweite von 0 endet nie");
     pl_report_fix(d, "step 1", "step 1", NULL);
@@ -432,7 +436,7 @@ static void check_coordinate_bounds(range_check* c) {
     if (pl_is_poison(q->lo)) continue;
     if (!pl_index_eval(&c->v, q->lo, &lo)) tell_bad_bound(c, q->lo, q->span);
     else if (!pl_index_eval(&c->v, q->hi, &hi)) tell_bad_bound(c, q->hi, q->span);
-    else if (hi - lo >= PL_MAX_INSTANCES) tell_too_many(c->job, q->span);
+    else if (hi - lo >= PL_MAX_INSTANCES) tell_too_many(c, q->span);
   }
 }
 
@@ -445,8 +449,8 @@ static range_check range_check_make(pl_job* job, pl_model* m) {
 bool pl_check_sizes(pl_job* job, pl_model* m) {
   range_check c = range_check_make(job, m);
   int before = job->diagnostics->n_errors;
-  check_blocks(&c);
   check_coordinate_bounds(&c);
+  check_blocks(&c);
   return job->diagnostics->n_errors == before;
 }
 
