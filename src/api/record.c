@@ -645,11 +645,49 @@ static pleuel_status watching_record(pl_recorder* r, pl_watching* w, const pl_pa
   return PLEUEL_OK;
 }
 
+// The force of a constraint on a mass whose position is given by coordinates of its own, along one axis: λ dg/dx.  Poison where
+// there is none, or where it is λ itself.
+static pl_expr force_along(pl_recorder* r, const pl_constraint* c, const pl_mass* m, int axis) {
+  pl_pool* p = r->pool;
+  if (c->block || m->block || !c->lambda.id || pl_kind_of(p, m->point.at[axis]) != PL_SYMBOL) return pl_poison();
+  pl_symbol x = pl_symbol_of(p, m->point.at[axis]);
+  if (pl_symbol_get(p, x)->role != PL_R_COORD) return pl_poison();
+  for (int i = 0; i < r->model->masses.n; i++) {
+    const pl_mass* other = &r->model->masses.at[i];
+    for (int j = 0; other != m && j < other->point.n; j++) {
+      if (pl_has_symbol(p, other->point.at[j], x)) return pl_poison();
+    }
+  }
+  pl_expr slope = pl_diff(p, c->g, c->has_velocity ? pl_symbol_dot(p, x) : x);
+  long n;
+  if (pl_is_zero_node(p, slope) || (pl_is_int(p, slope, &n) && (n == 1 || n == -1))) return pl_poison();
+  pl_expr force = pl_mul(p, pl_sym(p, c->lambda), slope);
+  return r->model->lambda_minus ? pl_neg(p, force) : force;
+}
+
+typedef PL_VEC(pl_column) pl_columns;
+
+static pleuel_status watch_forces(pl_recorder* r, pl_watching* w, pl_columns* columns) {
+  const pl_model* m = r->model;
+  for (int i = 0; i < m->constraints.n; i++) {
+    for (int k = 0; k < m->masses.n; k++) {
+      for (int axis = 0; axis < m->masses.at[k].point.n; axis++) {
+        pl_expr force = force_along(r, &m->constraints.at[i], &m->masses.at[k], axis);
+        if (pl_is_poison(force)) continue;
+        const char* name = pl_format(r->arena, "force_%s_%s_%s", m->constraints.at[i].name.ascii, m->masses.at[k].name.ascii, m->axes[axis].ascii);
+        PL_TRY(watch(r, w, force, columns->n, name));
+        pl_push(r->arena, *columns, (pl_column){name, m->uses_units ? "N" : ""});
+      }
+    }
+  }
+  return PLEUEL_OK;
+}
+
 static pleuel_status make_observers(pl_recorder* r) {
   const pl_model* m = r->model;
   pl_setup* s = &r->out->setup;
   const char* joule = m->uses_units ? "J" : "";
-  PL_VEC(pl_column) columns = {0};
+  pl_columns columns = {0};
   pl_pattern* pattern = PL_ARRAY(r->arena, pl_pattern, r->groups.n + 1);
   s->kinetic = 0;
   s->potential = 1;
@@ -669,6 +707,7 @@ static pleuel_status make_observers(pl_recorder* r) {
   }
 
   pl_watching* w = watching_make(r);
+  PL_TRY(watch_forces(r, w, &columns));
   for (int i = 0; i < m->outputs.n; i++) {
     PL_TRY(watch(r, w, m->outputs.at[i].value, columns.n, pl_format(r->arena, "output %s", m->outputs.at[i].name)));
     pl_dimension d;
