@@ -1,5 +1,6 @@
 """What the founding tests share: running pleuel, finding answers in its JSON, comparing at random points, TAP output."""
 
+import functools
 import json
 import math
 import os
@@ -71,6 +72,7 @@ class Answer:
         return [n for n in self.document["notes"] if n["code"] == code]
 
 
+@functools.lru_cache(maxsize=None)
 def run(program, model, *flags):
     path = model if os.path.isabs(model) else os.path.join(HERE, model)
     done = subprocess.run([program, "solve", "--json", *flags, path], capture_output=True, timeout=120)
