@@ -1,5 +1,6 @@
-// Formatter: the canonical layout of a model text.  It works on the tokens, so comments and blank lines stay and nothing
-// changes its meaning: where a blank means a product it stays a blank, a bracket that touches its name goes on touching.
+// Formatter: the canonical layout of a model text.  It works on the tokens, so comments and blank lines stay and
+// nothing changes its meaning: where a blank means a product it stays a blank, a bracket that touches its name goes on
+// touching.
 #include "lang/lang_impl.h"
 
 #include <string.h>
@@ -8,7 +9,7 @@
 
 typedef struct line {
   const char* code;
-  const char* comment;       // with its mark, or NULL
+  const char* comment;  // with its mark, or NULL
   bool blank;
 } line;
 
@@ -17,13 +18,13 @@ typedef struct formatter {
   const pl_parse* p;
   pl_spelling spelling;
   PL_VEC(line) lines;
-  pl_text code;              // of the line being built
+  pl_text code;  // of the line being built
   const char* comment;
-  int depth;                 // of blocks
-  int last;                  // kind written last, 0 at the start of a statement
-  bool last_unary;           // it was a sign
+  int depth;        // of blocks
+  int last;         // kind written last, 0 at the start of a statement
+  bool last_unary;  // it was a sign
   bool in_statement, continued;
-  int dots_to_write;         // primes that wait for the end of an index
+  int dots_to_write;  // primes that wait for the end of an index
   int brackets;
 } formatter;
 
@@ -56,9 +57,11 @@ static bool is_ascii(const char* s) {
 }
 
 static const char* ascii_unit(formatter* f, const char* unit) {
-  static const struct { const char *from, *to; } words[] = {
-    {"²", "^2"}, {"³", "^3"}, {"⁴", "^4"}, {"⁻¹", "^-1"}, {"⁻²", "^-2"}, {"⁻³", "^-3"}, {"·", "*"}, {"⋅", "*"}, {"°", "deg"},
-    {"µ", "u"}, {"μ", "u"}, {"Ω", "Ohm"}, {"Ω", "Ohm"},
+  static const struct {
+    const char *from, *to;
+  } words[] = {
+      {"²", "^2"}, {"³", "^3"},  {"⁴", "^4"}, {"⁻¹", "^-1"}, {"⁻²", "^-2"}, {"⁻³", "^-3"}, {"·", "*"},
+      {"⋅", "*"},  {"°", "deg"}, {"µ", "u"},  {"μ", "u"},    {"Ω", "Ohm"},  {"Ω", "Ohm"},
   };
   pl_text out = pl_text_make(f->arena);
   for (const char* s = unit; *s;) {
@@ -88,8 +91,10 @@ static const char* name_text(formatter* f, const pl_token* t, int next) {
   if (f->spelling == PL_SPELL_KEEP) return source;
   bool root = strcmp(source, "√") == 0;
   // underscores stay: x_0 may be a start value
-  const char* name = f->spelling == PL_SPELL_ASCII ? (is_ascii(source) ? source : t->key) : root ? source
-                     : is_ascii(source) ? pl_spell_unicode(f->arena, source) : t->shown;
+  const char* name = f->spelling == PL_SPELL_ASCII ? (is_ascii(source) ? source : t->key)
+                     : root                        ? source
+                     : is_ascii(source)            ? pl_spell_unicode(f->arena, source)
+                                                   : t->shown;
   if (t->number == 0) return name;
   if (next == '[') {
     f->dots_to_write = t->number;
@@ -99,9 +104,12 @@ static const char* name_text(formatter* f, const pl_token* t, int next) {
 }
 
 static const char* sign_text(formatter* f, const pl_token* t) {
-  static const struct { int kind; const char* ascii; } signs[] = {
-    {'*', "*"}, {'-', "-"}, {TOK_GE, ">="}, {TOK_LE, "<="}, {TOK_NE, "!="}, {TOK_ARROW, "->"}, {TOK_MUCH, ">>"}, {TOK_INFINITY, "inf"},
-    {TOK_DEGREE, " [deg]"},
+  static const struct {
+    int kind;
+    const char* ascii;
+  } signs[] = {
+      {'*', "*"},        {'-', "-"},       {TOK_GE, ">="},        {TOK_LE, "<="},         {TOK_NE, "!="},
+      {TOK_ARROW, "->"}, {TOK_MUCH, ">>"}, {TOK_INFINITY, "inf"}, {TOK_DEGREE, " [deg]"},
   };
   if (f->spelling != PL_SPELL_ASCII) return source_of(f, t);
   for (size_t i = 0; i < sizeof signs / sizeof signs[0]; i++) {
@@ -126,12 +134,13 @@ static const char* token_text(formatter* f, const pl_token* t, int next) {
 
 // ---------------------------------------------------------------------------------------------- blanks
 static bool is_operand_end(int kind) {
-  return kind == TOK_NAME || kind == TOK_NUMBER || kind == TOK_PI || kind == TOK_INFINITY || kind == TOK_PRIMES || kind == TOK_SUPER ||
-         kind == TOK_UNIT || kind == TOK_DEGREE || kind == ')' || kind == ']' || kind == TOK_TEXT;
+  return kind == TOK_NAME || kind == TOK_NUMBER || kind == TOK_PI || kind == TOK_INFINITY || kind == TOK_PRIMES ||
+         kind == TOK_SUPER || kind == TOK_UNIT || kind == TOK_DEGREE || kind == ')' || kind == ']' || kind == TOK_TEXT;
 }
 
 static bool is_relation(int kind) {
-  return kind == '=' || kind == '<' || kind == '>' || kind == TOK_GE || kind == TOK_LE || kind == TOK_NE || kind == TOK_ARROW || kind == TOK_MUCH;
+  return kind == '=' || kind == '<' || kind == '>' || kind == TOK_GE || kind == TOK_LE || kind == TOK_NE ||
+         kind == TOK_ARROW || kind == TOK_MUCH;
 }
 
 static bool is_keyword(int kind) { return kind >= TOK_PLEUEL; }
@@ -141,16 +150,26 @@ static bool blank_before(const formatter* f, int kind, const pl_token* t, bool w
   int last = f->last;
   if (last == 0) return false;
   switch (kind) {
-    case ')': case ']': case ',': case TOK_SEPARATOR: case ':': case TOK_DEGREE: case TOK_PRIMES: case TOK_SUPER: case TOK_RANGE: case '^': case '/':
-    case '*':
-      return false;
-    case TOK_UNIT: case '{': return true;
+    case ')':
+    case ']':
+    case ',':
+    case TOK_SEPARATOR:
+    case ':':
+    case TOK_DEGREE:
+    case TOK_PRIMES:
+    case TOK_SUPER:
+    case TOK_RANGE:
+    case '^':
+    case '/':
+    case '*': return false;
+    case TOK_UNIT:
+    case '{': return true;
     default: break;
   }
   if (last == ',' || last == TOK_SEPARATOR || last == ':') return true;
   if (last == '(' || last == '[' || last == TOK_RANGE || last == '^' || last == '/' || last == '*') return false;
   if (kind == '[' || f->last_unary) return false;
-  if (f->brackets && (kind == '+' || kind == '-' || last == '+' || last == '-')) return false;   // x[i-1]
+  if (f->brackets && (kind == '+' || kind == '-' || last == '+' || last == '-')) return false;  // x[i-1]
   if (is_relation(kind) || is_relation(last) || kind == '+' || kind == '-' || last == '+' || last == '-') return true;
   if (is_keyword(kind) || is_keyword(last)) return true;
   return word_pair || !t->tight;
@@ -164,7 +183,8 @@ static bool word_end(const pl_text* code) {
 
 // Two words that would grow together when spelled out: πR is pi R.
 static bool grows_together(const formatter* f, int kind, const char* text) {
-  bool word = (text[0] >= 'a' && text[0] <= 'z') || (text[0] >= 'A' && text[0] <= 'Z') || (text[0] >= '0' && text[0] <= '9');
+  bool word =
+      (text[0] >= 'a' && text[0] <= 'z') || (text[0] >= 'A' && text[0] <= 'Z') || (text[0] >= '0' && text[0] <= '9');
   if (!word || !word_end(&f->code)) return false;
   return f->last != TOK_NUMBER || kind == TOK_NUMBER;
 }
@@ -183,7 +203,8 @@ static void write_token(formatter* f, int i) {
   const char* text = token_text(f, t, next_kind(f, i));
   bool at_start = f->code.n == 0;
   indent(f);
-  if (!at_start && blank_before(f, kind, t, grows_together(f, kind, text)) && text[0] != ' ') pl_text_add(&f->code, " ");
+  if (!at_start && blank_before(f, kind, t, grows_together(f, kind, text)) && text[0] != ' ')
+    pl_text_add(&f->code, " ");
   pl_text_add(&f->code, text);
   if (kind == '[') f->brackets++;
   if (kind == ']' && f->brackets) f->brackets--;
@@ -199,7 +220,8 @@ static void write_token(formatter* f, int i) {
 static void write_comment(formatter* f, const pl_token* t) {
   const char* mark = t->kind == PL_TOKEN_PRINTED ? "#:" : "#";
   const char* text = t->text;
-  bool spaced = text[0] == 0 || text[0] == ' ' || text[0] == '\t' || text[0] == '#' || text[0] == '!' || text[0] == '-' || text[0] == '=';
+  bool spaced = text[0] == 0 || text[0] == ' ' || text[0] == '\t' || text[0] == '#' || text[0] == '!' ||
+                text[0] == '-' || text[0] == '=';
   const char* comment = pl_format(f->arena, "%s%s%s", mark, spaced ? "" : " ", text);
   if (f->code.n) {
     f->comment = comment;

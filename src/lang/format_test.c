@@ -22,8 +22,10 @@ static void becomes(const char* text, pl_spelling spelling, const char* want) {
 static void layout_is_canonical(void** state) {
   (void)state;
   becomes("param   m=1[kg] ,l = 2\ncoord x,y", PL_SPELL_KEEP, "param m = 1 [kg], l = 2\ncoord x, y\n");
-  becomes("\n\n#a\n\n\n\ncoord x # b\nparam long = 1  #c\n\n", PL_SPELL_KEEP, "# a\n\ncoord x         # b\nparam long = 1  # c\n");
-  becomes("for i in 1 .. N {mass P[ i ]:m at (x[ i - 1 ],-a)}\n", PL_SPELL_KEEP, "for i in 1..N {\n    mass P[i]: m at (x[i-1], -a)\n}\n");
+  becomes("\n\n#a\n\n\n\ncoord x # b\nparam long = 1  #c\n\n", PL_SPELL_KEEP,
+          "# a\n\ncoord x         # b\nparam long = 1  # c\n");
+  becomes("for i in 1 .. N {mass P[ i ]:m at (x[ i - 1 ],-a)}\n", PL_SPELL_KEEP,
+          "for i in 1..N {\n    mass P[i]: m at (x[i-1], -a)\n}\n");
   becomes("let a = ( 1\n+ 2 ) * 3 # c\n", PL_SPELL_KEEP, "let a = (1\n    + 2)*3  # c\n");
   becomes("potential  m g( x+l )-1 / 2 k x ^ 2\n", PL_SPELL_KEEP, "potential m g(x + l) - 1/2 k x^2\n");
   becomes("ask b :dof ,limit m->0 of x''\n", PL_SPELL_KEEP, "ask b: dof, limit m -> 0 of x''\n");
@@ -69,7 +71,7 @@ static void check_file(const char* path) {
   bench* b = bench_make();
   for (int spelling = 0; spelling < 3 && strlen(text) == n; spelling++) {
     const char* once = formatted(b, text, (pl_spelling)spelling);
-    if (once == NULL) break;                      // a file with syntax errors is left alone
+    if (once == NULL) break;  // a file with syntax errors is left alone
     const char* twice = formatted(b, once, (pl_spelling)spelling);
     if (!twice || strcmp(once, twice) != 0) print_message("%s, spelling %d\n", path, spelling);
     assert_non_null(twice);
@@ -135,14 +137,18 @@ static void what_is_printed_parses_back(void** state) {
   uint64_t seed = seed_of_this_run();
   print_message("PL_SEED=%llu\n", (unsigned long long)seed);
   pl_random r = {seed};
-  bench* b = bench_text("param m1, g, θ0, δ_m\ncoord x, θ, q[1..9]\nfor i in 1..9 {\n  mass P[i]: m1 at (q[i], 0)\n}\nconstraint c: x = 0\n");
+  bench* b = bench_text(
+      "param m1, g, θ0, δ_m\ncoord x, θ, q[1..9]\nfor i in 1..9 {\n  mass P[i]: m1 at (q[i], 0)\n}\nconstraint c: x = "
+      "0\n");
   assert_int_equal(b->status, PLEUEL_OK);
   pl_pool* p = b->m->pool;
-  static const char* const names[] = {"m1", "g", "θ0", "δ_m", "x", "θ'", "x''", "q[2]", "q[i-1]'", "λ_c", "t", "π", "x(0)", "θ'(0)"};
+  static const char* const names[] = {"m1",   "g",       "θ0",  "δ_m", "x", "θ'",   "x''",
+                                      "q[2]", "q[i-1]'", "λ_c", "t",   "π", "x(0)", "θ'(0)"};
   enum { N = sizeof names / sizeof names[0] };
   pl_expr leaves[N];
   for (int i = 0; i < N; i++) {
-    if (pl_lang_expression(&b->job, b->m, names[i], &leaves[i]) != PLEUEL_OK) print_message("%s: %s\n", names[i], bench_said(b));
+    if (pl_lang_expression(&b->job, b->m, names[i], &leaves[i]) != PLEUEL_OK)
+      print_message("%s: %s\n", names[i], bench_said(b));
     assert_false(pl_is_poison(leaves[i]));
   }
   for (int k = 0; k < 400; k++) {
@@ -151,7 +157,8 @@ static void what_is_printed_parses_back(void** state) {
     const char* text = pl_expr_text(b->arena, p, e);
     pleuel_status s = pl_lang_expression(&b->job, b->m, text, &back);
     if (s != PLEUEL_OK || !pl_same(e, back)) {
-      print_message("%s\n  read as %s\n  %s\n", text, s == PLEUEL_OK ? pl_expr_text(b->arena, p, back) : "nothing", bench_said(b));
+      print_message("%s\n  read as %s\n  %s\n", text, s == PLEUEL_OK ? pl_expr_text(b->arena, p, back) : "nothing",
+                    bench_said(b));
     }
     assert_int_equal(s, PLEUEL_OK);
     assert_true(pl_same(e, back));
@@ -171,10 +178,10 @@ static void what_is_printed_parses_back(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(layout_is_canonical),
-    cmocka_unit_test(spellings_can_be_chosen),
-    cmocka_unit_test(formatting_twice_is_formatting_once_and_keeps_the_meaning),
-    cmocka_unit_test(what_is_printed_parses_back),
+      cmocka_unit_test(layout_is_canonical),
+      cmocka_unit_test(spellings_can_be_chosen),
+      cmocka_unit_test(formatting_twice_is_formatting_once_and_keeps_the_meaning),
+      cmocka_unit_test(what_is_printed_parses_back),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

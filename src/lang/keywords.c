@@ -6,7 +6,10 @@
 #include "expr/expr.h"
 #include "grammar.h"
 
-typedef struct word { int token; const char* text; } word;
+typedef struct word {
+  int token;
+  const char* text;
+} word;
 static const word statements[] = {
 #define PL_STATEMENT(token, text) {TOK_##token, text},
 #include "lang/keywords.def"
@@ -44,8 +47,8 @@ const char* pl_word_of_item(int token) { return text_of(items, LENGTH(items), to
 const char* pl_word_of_request(int i) { return i < LENGTH(items) ? items[i].text : NULL; }
 
 bool pl_word_function(const char* s) {
-  static const char* const more[] = {"sqrt", "log", "norm", "dot", "cross", "diff", "dt", "sum", "if", "pos", "vel", "polar",
-                                     "normal", "euler", "quaternion"};
+  static const char* const more[] = {"sqrt", "log", "norm", "dot",   "cross",  "diff",  "dt",        "sum",
+                                     "if",   "pos", "vel",  "polar", "normal", "euler", "quaternion"};
   for (int i = 0; i < PL_N_FUNCTIONS; i++) {
     if (strcmp(pl_function_name[i], s) == 0) return true;
   }

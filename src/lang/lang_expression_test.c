@@ -2,14 +2,14 @@
 #include "lang_testing.h"
 
 static const char* const model =
-  "param m = 1, m1 = 2, m2 = 3, g = 9.81, l = 2, R = 3, a = 4, b = 5, ω = 2, Öl = 1\n"
-  "let f(u) = u^2, half = l/2\n"
-  "coord x, y, θ, φ, r, q[1..4]\n"
-  "axes x right, y up\n"
-  "mass A: m at (x + a, y)\n"
-  "for i in 1..4 {\n  mass P[i]: m at (q[i], i)\n}\n"
-  "constraint g1: x = l with λ\n"
-  "constraint c: y = 0\n";
+    "param m = 1, m1 = 2, m2 = 3, g = 9.81, l = 2, R = 3, a = 4, b = 5, ω = 2, Öl = 1\n"
+    "let f(u) = u^2, half = l/2\n"
+    "coord x, y, θ, φ, r, q[1..4]\n"
+    "axes x right, y up\n"
+    "mass A: m at (x + a, y)\n"
+    "for i in 1..4 {\n  mass P[i]: m at (q[i], i)\n}\n"
+    "constraint g1: x = l with λ\n"
+    "constraint c: y = 0\n";
 
 // Reads one expression in the names of the model and compares with an expression written out in full.
 static void means(const char* text, const char* full) {
@@ -137,8 +137,8 @@ static void spellings_of_one_name(void** state) {
   means("m_1", "m1");
   means("m₁", "m1");
   means("theta", "θ");
-  means("ẋ", "x'");                    // one code point
-  means("x\xcc\x87", "x'");            // x and a combining dot
+  means("ẋ", "x'");          // one code point
+  means("x\xcc\x87", "x'");  // x and a combining dot
   means("θ\xcc\x87", "theta'");
   means("ẍ", "x''");
   means("x\xcc\x88", "x''");
@@ -151,7 +151,7 @@ static void spellings_of_one_name(void** state) {
   means("q[2]'", "q_dot[2]");
   means("omega", "ω");
   means("Oel", "Öl");
-  means("O\xcc\x88l", "Öl");           // O and a diaeresis are the umlaut, not a derivative
+  means("O\xcc\x88l", "Öl");  // O and a diaeresis are the umlaut, not a derivative
   means("lambda", "λ");
   means("λ_g1", "λ");
   means("λg1", "lambda_g1");
@@ -218,17 +218,17 @@ static void decimal_comma_in_a_list_of_start_values(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a_blank_is_a_product),
-    cmocka_unit_test(numbers_divide_first),
-    cmocka_unit_test(two_readings_are_refused),
-    cmocka_unit_test(functions_take_one_factor),
-    cmocka_unit_test(arguments_that_are_unclear_are_refused),
-    cmocka_unit_test(brackets_after_names_follow_the_declaration),
-    cmocka_unit_test(spellings_of_one_name),
-    cmocka_unit_test(powers_and_primes_bind_tightest),
-    cmocka_unit_test(forms_and_calculus),
-    cmocka_unit_test(numbers_are_exact),
-    cmocka_unit_test(decimal_comma_in_a_list_of_start_values),
+      cmocka_unit_test(a_blank_is_a_product),
+      cmocka_unit_test(numbers_divide_first),
+      cmocka_unit_test(two_readings_are_refused),
+      cmocka_unit_test(functions_take_one_factor),
+      cmocka_unit_test(arguments_that_are_unclear_are_refused),
+      cmocka_unit_test(brackets_after_names_follow_the_declaration),
+      cmocka_unit_test(spellings_of_one_name),
+      cmocka_unit_test(powers_and_primes_bind_tightest),
+      cmocka_unit_test(forms_and_calculus),
+      cmocka_unit_test(numbers_are_exact),
+      cmocka_unit_test(decimal_comma_in_a_list_of_start_values),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,15 +12,15 @@ enum { PL_TOKEN_COMMENT = -2, PL_TOKEN_PRINTED = -3 /* #: */, PL_TOKEN_WRONG = -
 typedef struct pl_token {
   int kind;
   uint32_t begin, end;
-  bool tight;                // nothing between it and the token before
-  bool first;                // first of its line
-  const char* text;          // numbers, strings, units, comments: without their marks
-  const char *key, *shown, *raw;   // names, see pl_ast
-  int number;                // dots of a name, count of primes, value of a superscript
+  bool tight;                     // nothing between it and the token before
+  bool first;                     // first of its line
+  const char* text;               // numbers, strings, units, comments: without their marks
+  const char *key, *shown, *raw;  // names, see pl_ast
+  int number;                     // dots of a name, count of primes, value of a superscript
 } pl_token;
 
 typedef struct pl_tokens {
-  PL_VEC(pl_token) list;     // the last one is the end of the file, kind 0
+  PL_VEC(pl_token) list;  // the last one is the end of the file, kind 0
   const pl_source* source;
 } pl_tokens;
 
@@ -30,8 +30,8 @@ void pl_lex(pl_job* job, pl_names* names, const pl_source* source, pl_tokens* ou
 // ---------------------------------------------------------------------------------------------- names
 typedef struct pl_spelled {
   const char *key, *shown, *raw;
-  int dots;                  // dots over letters: ẋ is x with 1
-  bool theta, vartheta;      // which of the two spellings of theta occurs
+  int dots;              // dots over letters: ẋ is x with 1
+  bool theta, vartheta;  // which of the two spellings of theta occurs
 } pl_spelled;
 // pl_spell reads the spelling of a name.  false: a code point in it has no place in a name; *bad is its offset.
 bool pl_spell(pl_arena* a, pl_names* names, const char* s, size_t n, pl_spelled* out, size_t* bad);
@@ -42,14 +42,14 @@ const char* pl_spell_unicode(pl_arena* a, const char* name);
 const char* pl_look_alike(uint32_t code_point, const char* what[2]);
 
 // ---------------------------------------------------------------------------------------------- words
-int pl_word_statement(const char* s);        // token of a statement keyword, 0 if it is none
+int pl_word_statement(const char* s);  // token of a statement keyword, 0 if it is none
 int pl_word_item(const char* s);
-int pl_word_reserved(const char* s);         // small words only
-bool pl_word_function(const char* s);        // sin, norm, sum, ...
+int pl_word_reserved(const char* s);   // small words only
+bool pl_word_function(const char* s);  // sin, norm, sum, ...
 const char* pl_word_of_statement(int token);
 const char* pl_word_of_item(int token);
-const char* pl_word_of_request(int i);       // the i-th word that begins a request, NULL after the last
-const char* pl_word_near_statement(const char* s);   // the nearest statement keyword, or NULL
+const char* pl_word_of_request(int i);              // the i-th word that begins a request, NULL after the last
+const char* pl_word_near_statement(const char* s);  // the nearest statement keyword, or NULL
 
 // ---------------------------------------------------------------------------------------------- complaints
 // pl_complain reports in both languages; both formats take the same arguments in the same order.
@@ -57,10 +57,10 @@ pl_diagnostic* pl_complain(pl_job* job, pl_code code, pl_span span, const char* 
 // pl_suggest adds the fix; replacement may be NULL.
 void pl_suggest(pl_job* job, pl_diagnostic* m, const char* replacement, const char* en, const char* de, ...);
 void pl_because(pl_job* job, pl_diagnostic* m, const char* en, const char* de, ...);
-const char* pl_source_text(pl_arena* a, pl_span s);     // the source under a span, blanks collapsed
+const char* pl_source_text(pl_arena* a, pl_span s);  // the source under a span, blanks collapsed
 
 // ---------------------------------------------------------------------------------------------- parser
-enum { PL_MAX_DEPTH = 200, PL_MAX_BLOCKS = 16 };   // of brackets and of `for` inside each other
+enum { PL_MAX_DEPTH = 200, PL_MAX_BLOCKS = 16 };  // of brackets and of `for` inside each other
 
 typedef struct pl_parse {
   pl_job* job;
@@ -72,7 +72,7 @@ typedef struct pl_parse {
   int statement_first;       // first token of the statement
   bool said;                 // something was reported about this statement
   int lost_braces;           // { swallowed by a broken statement
-  pl_ast* root;             // PL_AST_FILE, or the expression
+  pl_ast* root;              // PL_AST_FILE, or the expression
   PL_VEC(const char*) lost;  // names that broken declarations would have declared
 } pl_parse;
 
@@ -81,10 +81,12 @@ void pl_parse_text(pl_parse* p, pl_job* job, pl_names* names, const pl_source* s
 pl_ast* pl_parse_expression(pl_parse* p, pl_job* job, pl_names* names, const pl_source* source);
 
 // For the grammar: nodes.
-typedef struct pl_bytes { uint32_t begin, end; } pl_bytes;
+typedef struct pl_bytes {
+  uint32_t begin, end;
+} pl_bytes;
 pl_ast* pl_ast_make(pl_parse* p, pl_ast_kind kind, pl_bytes at);
 pl_ast* pl_ast_of_token(pl_parse* p, int kind, const pl_token* t);
-pl_ast* pl_ast_with(pl_parse* p, pl_ast_kind kind, pl_bytes at, int n, ...);      // n children, NULL allowed
+pl_ast* pl_ast_with(pl_parse* p, pl_ast_kind kind, pl_bytes at, int n, ...);  // n children, NULL allowed
 pl_ast* pl_ast_append(pl_parse* p, pl_ast* list, char op, pl_ast* kid, pl_bytes at);
 pl_ast* pl_ast_statement(pl_parse* p, int token, pl_bytes at, int n, ...);
 pl_ast* pl_ast_item(pl_parse* p, int token, pl_bytes at, int n, ...);

@@ -25,24 +25,28 @@ static void is(bench* b, pl_expr e, const char* text) {
   assert_true(pl_same(e, want));
 }
 
-#define PENDULUM "param m = 1 [kg], l = 2 [m], g = 9.81 [m/s^2]\ncoord x, y\naxes x right, y up\nmass A: m at (x, y)\n" \
-                 "gravity g along -y\nconstraint rod: x^2 + y^2 = l^2\n"
+#define PENDULUM                                                                                         \
+  "param m = 1 [kg], l = 2 [m], g = 9.81 [m/s^2]\ncoord x, y\naxes x right, y up\nmass A: m at (x, y)\n" \
+  "gravity g along -y\nconstraint rod: x^2 + y^2 = l^2\n"
 
 static void lines_may_come_in_any_order(void** state) {
   (void)state;
-  bench* b = good("constraint rod: x^2 + y^2 = k^2\nlet k = 2 h, h = l/2\nmass A: m at (x, y)\nspring 1 between A and B\npoint B at (k, 0)\n"
-                  "coord x, y\nparam m = 1, l = 2\n");
+  bench* b = good(
+      "constraint rod: x^2 + y^2 = k^2\nlet k = 2 h, h = l/2\nmass A: m at (x, y)\nspring 1 between A and B\npoint B "
+      "at (k, 0)\n"
+      "coord x, y\nparam m = 1, l = 2\n");
   assert_int_equal(b->m->constraints.n, 1);
   is(b, b->m->constraints.at[0].g, "x^2 + y^2 - k^2");
   assert_int_equal(b->m->lets.n, 2);
   assert_false(b->m->lets.at[0].inserted);
-  assert_string_equal(pl_symbol_get(b->m->pool, b->m->lets.at[0].symbol)->name, "h");   // what is needed first
+  assert_string_equal(pl_symbol_get(b->m->pool, b->m->lets.at[0].symbol)->name, "h");  // what is needed first
   bench_free(b);
 }
 
 static void abbreviations_of_what_moves_are_inserted(void** state) {
   (void)state;
-  bench* b = good("param a = 1\ncoord x, y\nmass 1 at (x, y)\nlet s = x + a, f(u) = u s, v = dt(s)\npotential f(2) + v^2\n");
+  bench* b =
+      good("param a = 1\ncoord x, y\nmass 1 at (x, y)\nlet s = x + a, f(u) = u s, v = dt(s)\npotential f(2) + v^2\n");
   is(b, b->m->loads.at[0].value, "2*(a + x) + x'^2");
   bench_free(b);
 }
@@ -64,8 +68,10 @@ static void numbers_carry_units_and_angles(void** state) {
 
 static void families_stay_patterns(void** state) {
   (void)state;
-  bench* b = good("param N = 5, d = 1\ncoord x[0..N], y[0..N]\nfor i in 1..N {\n  mass P[i]: 1 at (x[i], y[i])\n"
-                  "  for j in 0..i-1 step 2 {\n    constraint c[i]: x[i] = x[j]\n  }\n  spring 2 between P[i] and P[i-1]\n}\nmass P[0]: 3 at (x[0], 1)\n");
+  bench* b = good(
+      "param N = 5, d = 1\ncoord x[0..N], y[0..N]\nfor i in 1..N {\n  mass P[i]: 1 at (x[i], y[i])\n"
+      "  for j in 0..i-1 step 2 {\n    constraint c[i]: x[i] = x[j]\n  }\n  spring 2 between P[i] and P[i-1]\n}\nmass "
+      "P[0]: 3 at (x[0], 1)\n");
   assert_int_equal(b->m->masses.n, 2);
   assert_int_equal(b->m->blocks.n, 2);
   assert_ptr_equal(b->m->masses.at[0].block, b->m->blocks.at[0]);
@@ -79,7 +85,9 @@ static void families_stay_patterns(void** state) {
 
 static void points_on_bodies_turn_with_them(void** state) {
   (void)state;
-  bench* b = good("param m = 1, J = 2\ncoord x, y, α\nbody k: mass m, inertia J at (x, y) angle α\npoint P on k at (3, 0)\ntorque 2 on k\nforce (1, 0) on P\n");
+  bench* b = good(
+      "param m = 1, J = 2\ncoord x, y, α\nbody k: mass m, inertia J at (x, y) angle α\npoint P on k at (3, 0)\ntorque "
+      "2 on k\nforce (1, 0) on P\n");
   is(b, b->m->points.at[0].point.at[1], "y + 3 sin α");
   assert_string_equal(pl_symbol_get(b->m->pool, b->m->loads.at[0].coordinate)->ascii, "alpha");
   bench_free(b);
@@ -105,8 +113,10 @@ static void rods_have_the_kinetic_energy_of_a_rod(void** state) {
 
 static void constraints_and_multipliers(void** state) {
   (void)state;
-  bench* b = good("coord x, y\nmass 1 at (x, y)\nconstraint a: x = y  with μ, redundant ok\nconstraint y >= 0\nconstraint c: x' = 0 while a, off\n"
-                  "constraint d: x <= 1\nplot μ, λ_2, λ_c, lambda_d vs t\n");
+  bench* b = good(
+      "coord x, y\nmass 1 at (x, y)\nconstraint a: x = y  with μ, redundant ok\nconstraint y >= 0\nconstraint c: x' = "
+      "0 while a, off\n"
+      "constraint d: x <= 1\nplot μ, λ_2, λ_c, lambda_d vs t\n");
   assert_int_equal(b->m->constraints.n, 4);
   const pl_constraint* c = b->m->constraints.at;
   assert_string_equal(c[0].multiplier, "μ");
@@ -125,23 +135,27 @@ static void constraints_and_multipliers(void** state) {
 
 static void requests_of_every_kind(void** state) {
   (void)state;
-  bench* b = good(PENDULUM
-    "ask a: dof, constraints, lagrange1 in (x, y), lagrange2, lagrangian, hamiltonian, newton\n"
-    "ask b: solve λ, solve x(t), solve x'', E, force(rod), x where λ = 0 and y' = 0 from x = 0 and y = l at rest\n"
-    "ask c: force of rod from x = 0 at rest, force on A in (x, y), conserved, equilibria, equilibria of rod for x' = 2\n"
-    "ask d: modes, modes at x = 0, modes at (x = 0, y = -l) holding x, y\n"
-    "ask limit m -> 0 of b, limit l = m of x'', limit l >> m of λ, limit g -> ∞ of x\n"
-    "ask series m = l + δm, δm -> 0 order 3 of x'', series m -> 0 of d\n"
-    "ask threshold m of rod, threshold m of stable, threshold m of x = 2, max x, min y from x = 0 at rest, max(x, y)\n"
-    "ask average over t, stability of x = 0 over 2 [s], expect x'' = -g where y = 0, expect x = δm\n"
-    "ask simulate 0..2 [s] tol 1e-9, plot x, y vs t, dof, animate weight, force of rod, conserved\n");
+  bench* b = good(
+      PENDULUM
+      "ask a: dof, constraints, lagrange1 in (x, y), lagrange2, lagrangian, hamiltonian, newton\n"
+      "ask b: solve λ, solve x(t), solve x'', E, force(rod), x where λ = 0 and y' = 0 from x = 0 and y = l at rest\n"
+      "ask c: force of rod from x = 0 at rest, force on A in (x, y), conserved, equilibria, equilibria of rod for x' = "
+      "2\n"
+      "ask d: modes, modes at x = 0, modes at (x = 0, y = -l) holding x, y\n"
+      "ask limit m -> 0 of b, limit l = m of x'', limit l >> m of λ, limit g -> ∞ of x\n"
+      "ask series m = l + δm, δm -> 0 order 3 of x'', series m -> 0 of d\n"
+      "ask threshold m of rod, threshold m of stable, threshold m of x = 2, max x, min y from x = 0 at rest, max(x, "
+      "y)\n"
+      "ask average over t, stability of x = 0 over 2 [s], expect x'' = -g where y = 0, expect x = δm\n"
+      "ask simulate 0..2 [s] tol 1e-9, plot x, y vs t, dof, animate weight, force of rod, conserved\n");
   static const pl_ask_kind kinds[] = {
-    PL_ASK_DOF, PL_ASK_CONSTRAINTS, PL_ASK_LAGRANGE1, PL_ASK_LAGRANGE2, PL_ASK_LAGRANGIAN, PL_ASK_HAMILTONIAN, PL_ASK_NEWTON,
-    PL_ASK_SOLVE, PL_ASK_SOLVE, PL_ASK_SOLVE, PL_ASK_VALUE, PL_ASK_VALUE, PL_ASK_VALUE,
-    PL_ASK_FORCE_OF, PL_ASK_FORCE_ON, PL_ASK_CONSERVED, PL_ASK_EQUILIBRIA, PL_ASK_EQUILIBRIA,
-    PL_ASK_MODES, PL_ASK_MODES, PL_ASK_MODES, PL_ASK_LIMIT, PL_ASK_LIMIT, PL_ASK_LIMIT, PL_ASK_LIMIT, PL_ASK_SERIES, PL_ASK_SERIES,
-    PL_ASK_THRESHOLD, PL_ASK_THRESHOLD, PL_ASK_THRESHOLD, PL_ASK_MAX, PL_ASK_MIN, PL_ASK_VALUE,
-    PL_ASK_AVERAGE, PL_ASK_STABILITY, PL_ASK_EXPECT, PL_ASK_EXPECT, PL_ASK_DOF, PL_ASK_CONSERVED};
+      PL_ASK_DOF,    PL_ASK_CONSTRAINTS, PL_ASK_LAGRANGE1, PL_ASK_LAGRANGE2, PL_ASK_LAGRANGIAN, PL_ASK_HAMILTONIAN,
+      PL_ASK_NEWTON, PL_ASK_SOLVE,       PL_ASK_SOLVE,     PL_ASK_SOLVE,     PL_ASK_VALUE,      PL_ASK_VALUE,
+      PL_ASK_VALUE,  PL_ASK_FORCE_OF,    PL_ASK_FORCE_ON,  PL_ASK_CONSERVED, PL_ASK_EQUILIBRIA, PL_ASK_EQUILIBRIA,
+      PL_ASK_MODES,  PL_ASK_MODES,       PL_ASK_MODES,     PL_ASK_LIMIT,     PL_ASK_LIMIT,      PL_ASK_LIMIT,
+      PL_ASK_LIMIT,  PL_ASK_SERIES,      PL_ASK_SERIES,    PL_ASK_THRESHOLD, PL_ASK_THRESHOLD,  PL_ASK_THRESHOLD,
+      PL_ASK_MAX,    PL_ASK_MIN,         PL_ASK_VALUE,     PL_ASK_AVERAGE,   PL_ASK_STABILITY,  PL_ASK_EXPECT,
+      PL_ASK_EXPECT, PL_ASK_DOF,         PL_ASK_CONSERVED};
   int n = sizeof kinds / sizeof kinds[0];
   assert_int_equal(b->m->asks.n, n);
   const pl_ask* a = b->m->asks.at;
@@ -181,8 +195,9 @@ static void a_declared_name_hides_a_result(void** state) {
 
 static void words_are_keywords_by_place_only(void** state) {
   (void)state;
-  bench* b = good("param force = 1, mass = 2, dof = 3, limit = 4, angle = 5, stop = 6, integer = 7\ncoord x\nmass mass at (x)\n"
-                  "potential force x + dof limit\nask force, dof\nevent e: when x = stop -> stop\n");
+  bench* b = good(
+      "param force = 1, mass = 2, dof = 3, limit = 4, angle = 5, stop = 6, integer = 7\ncoord x\nmass mass at (x)\n"
+      "potential force x + dof limit\nask force, dof\nevent e: when x = stop -> stop\n");
   assert_int_equal(b->m->asks.at[0].kind, PL_ASK_VALUE);
   assert_int_equal(b->m->asks.at[1].kind, PL_ASK_DOF);
   assert_int_equal(b->m->events.at[0].actions.at[0].kind, PL_DO_STOP);
@@ -191,8 +206,10 @@ static void words_are_keywords_by_place_only(void** state) {
 
 static void settings_replace_values_before_anything_else(void** state) {
   (void)state;
-  const char* text = "param N = 3, m = 2 [kg], d = 300 [mm], α = 10 [deg]\nlet w = 2 m\ncoord x[1..N], y\nmass m at (y)\ninit y = 1\n";
-  const pl_setting set[] = {{"N", "5"}, {"m", "500[g]"}, {"d", "200"}, {"y", "7"}, {"y'", "3"}, {"w", "3 m"}, {"alpha", "20°"}};
+  const char* text =
+      "param N = 3, m = 2 [kg], d = 300 [mm], α = 10 [deg]\nlet w = 2 m\ncoord x[1..N], y\nmass m at (y)\ninit y = 1\n";
+  const pl_setting set[] = {{"N", "5"},  {"m", "500[g]"}, {"d", "200"},    {"y", "7"},
+                            {"y'", "3"}, {"w", "3 m"},    {"alpha", "20°"}};
   bench* b = bench_with(text, strlen(text), set, 7);
   assert_string_equal(bench_said(b), "");
   double* v = pl_model_values(b->m, b->arena);
@@ -211,7 +228,10 @@ static void settings_replace_values_before_anything_else(void** state) {
   bench_free(b);
 }
 
-typedef struct shelf { const char* path; const char* text; } shelf;
+typedef struct shelf {
+  const char* path;
+  const char* text;
+} shelf;
 static const pl_source* from_shelf(void* user, pl_arena* a, const char* path, const pl_source* from) {
   (void)from;
   for (const shelf* s = user; s->path; s++) {
@@ -222,18 +242,20 @@ static const pl_source* from_shelf(void* user, pl_arena* a, const char* path, co
 
 static void included_files_count_as_part_of_the_text(void** state) {
   (void)state;
-  shelf files[] = {{"a", "param m = 1\ninclude \"b\"\n"}, {"b", "coord x\n"}, {"loop", "include \"loop\"\n"}, {NULL, NULL}};
+  shelf files[] = {
+      {"a", "param m = 1\ninclude \"b\"\n"}, {"b", "coord x\n"}, {"loop", "include \"loop\"\n"}, {NULL, NULL}};
   pl_include_reader reader = {from_shelf, files};
   bench* b = bench_make();
   const char* text = "include \"a\"\nmass m at (x)\n";
-  assert_int_equal(pl_lang_parse(&b->job, pl_source_make(b->arena, "t", text, strlen(text)), &reader, NULL, 0, &b->m), PLEUEL_OK);
+  assert_int_equal(pl_lang_parse(&b->job, pl_source_make(b->arena, "t", text, strlen(text)), &reader, NULL, 0, &b->m),
+                   PLEUEL_OK);
   assert_int_equal(b->m->coords.n, 1);
   text = "include \"loop\"\n";
-  assert_int_equal(pl_lang_parse(&b->job, pl_source_make(b->arena, "t", text, strlen(text)), &reader, NULL, 0, &b->m), PLEUEL_MODEL_ERROR);
+  assert_int_equal(pl_lang_parse(&b->job, pl_source_make(b->arena, "t", text, strlen(text)), &reader, NULL, 0, &b->m),
+                   PLEUEL_MODEL_ERROR);
   assert_string_equal(bench_said(b), "E010 1:9");
   bench_free(b);
 }
-
 
 static void line_ends_of_other_systems(void** state) {
   (void)state;
@@ -316,7 +338,8 @@ static void memory_may_run_out_anywhere(void** state) {
       pl_model* m;
       pl_lang_parse(job, pl_source_make(a, "t", s, strlen(s)), NULL, NULL, 0, &m);
       done = true;
-    } else {
+    }
+    else {
       assert_int_equal(guard.status, PLEUEL_NO_MEMORY);
       unwound++;
     }
@@ -347,24 +370,24 @@ static void examples_are_read_without_a_word(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(lines_may_come_in_any_order),
-    cmocka_unit_test(abbreviations_of_what_moves_are_inserted),
-    cmocka_unit_test(numbers_carry_units_and_angles),
-    cmocka_unit_test(families_stay_patterns),
-    cmocka_unit_test(points_on_bodies_turn_with_them),
-    cmocka_unit_test(rods_have_the_kinetic_energy_of_a_rod),
-    cmocka_unit_test(constraints_and_multipliers),
-    cmocka_unit_test(requests_of_every_kind),
-    cmocka_unit_test(a_declared_name_hides_a_result),
-    cmocka_unit_test(words_are_keywords_by_place_only),
-    cmocka_unit_test(settings_replace_values_before_anything_else),
-    cmocka_unit_test(included_files_count_as_part_of_the_text),
-    cmocka_unit_test(line_ends_of_other_systems),
-    cmocka_unit_test(lines_go_on_after_operators_and_in_brackets),
-    cmocka_unit_test(one_mistake_one_message),
-    cmocka_unit_test(bounds_hold_against_size),
-    cmocka_unit_test(memory_may_run_out_anywhere),
-    cmocka_unit_test(examples_are_read_without_a_word),
+      cmocka_unit_test(lines_may_come_in_any_order),
+      cmocka_unit_test(abbreviations_of_what_moves_are_inserted),
+      cmocka_unit_test(numbers_carry_units_and_angles),
+      cmocka_unit_test(families_stay_patterns),
+      cmocka_unit_test(points_on_bodies_turn_with_them),
+      cmocka_unit_test(rods_have_the_kinetic_energy_of_a_rod),
+      cmocka_unit_test(constraints_and_multipliers),
+      cmocka_unit_test(requests_of_every_kind),
+      cmocka_unit_test(a_declared_name_hides_a_result),
+      cmocka_unit_test(words_are_keywords_by_place_only),
+      cmocka_unit_test(settings_replace_values_before_anything_else),
+      cmocka_unit_test(included_files_count_as_part_of_the_text),
+      cmocka_unit_test(line_ends_of_other_systems),
+      cmocka_unit_test(lines_go_on_after_operators_and_in_brackets),
+      cmocka_unit_test(one_mistake_one_message),
+      cmocka_unit_test(bounds_hold_against_size),
+      cmocka_unit_test(memory_may_run_out_anywhere),
+      cmocka_unit_test(examples_are_read_without_a_word),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -26,7 +26,7 @@ typedef struct reading {
   pl_names* names;
   const pl_include_reader* reader;
   pl_lower* l;
-  PL_VEC(const char*) open;      // names of the files being read, against circles
+  PL_VEC(const char*) open;  // names of the files being read, against circles
   PL_VEC(pl_ast*) statements;
   bool theta, vartheta;
   pl_span theta_at, vartheta_at;
@@ -66,20 +66,24 @@ static void look_for_theta(reading* r, const pl_tokens* tokens) {
 
 static void complain_theta(reading* r) {
   if (!r->theta || !r->vartheta) return;
-  pl_diagnostic* m = pl_complain(r->job, PL_E059, r->vartheta_at, "θ and ϑ are two letters, and both are theta in ASCII", "θ und ϑ sind zwei Buchstaben, in ASCII beide theta");
+  pl_diagnostic* m =
+      pl_complain(r->job, PL_E059, r->vartheta_at, "θ and ϑ are two letters, and both are theta in ASCII",
+                  "θ und ϑ sind zwei Buchstaben, in ASCII beide theta");
   pl_report_label(r->job->diagnostics, m, r->theta_at, "θ");
   pl_suggest(r->job, m, NULL, "use one of them throughout", "durchgehend einen davon verwenden");
 }
 
 static void cannot_include(reading* r, const pl_ast* s, const char* en, const char* de) {
   pl_diagnostic* m = pl_complain(r->job, PL_E010, pl_ast_span(pl_ast_kid(s, 0)), en, de, pl_ast_kid(s, 0)->text);
-  pl_suggest(r->job, m, NULL, "check the path, which counts from the including file", "den Pfad prüfen; er zählt ab der einbindenden Datei");
+  pl_suggest(r->job, m, NULL, "check the path, which counts from the including file",
+             "den Pfad prüfen; er zählt ab der einbindenden Datei");
 }
 
 static void include(reading* r, const pl_ast* s, const pl_source* from) {
   enum { MAX_OPEN = 16 };
   const pl_source* file = NULL;
-  if (r->reader && r->reader->read) file = r->reader->read(r->reader->user, r->job->arena, pl_ast_kid(s, 0)->text, from);
+  if (r->reader && r->reader->read)
+    file = r->reader->read(r->reader->user, r->job->arena, pl_ast_kid(s, 0)->text, from);
   if (file == NULL) {
     cannot_include(r, s, "%s cannot be read", "%s ist nicht lesbar");
     return;
@@ -127,15 +131,21 @@ static void declare_rule(pl_lower* l, const pl_ast* s) {
     bool twice = false;
     for (int i = 0; i < l->rules.n; i++) twice |= l->rules.at[i].with == with->key && &l->rules.at[i] != same;
     if (taken || twice) {
-      pl_diagnostic* m = pl_lower_complain(l, PL_E012, pl_ast_span(with), "%s is declared twice", "%s ist zweimal vereinbart", with->shown);
-      if (taken && !l->mute) pl_report_label(l->job->diagnostics, m, taken->span, l->job->lang == PL_GERMAN ? "zuerst hier" : "first here");
-      pl_suggest(l->job, m, NULL, "choose another name, such as %s1", "einen anderen Namen wählen, etwa %s1", with->shown);
+      pl_diagnostic* m = pl_lower_complain(l, PL_E012, pl_ast_span(with), "%s is declared twice",
+                                           "%s ist zweimal vereinbart", with->shown);
+      if (taken && !l->mute)
+        pl_report_label(l->job->diagnostics, m, taken->span, l->job->lang == PL_GERMAN ? "zuerst hier" : "first here");
+      pl_suggest(l->job, m, NULL, "choose another name, such as %s1", "einen anderen Namen wählen, etwa %s1",
+                 with->shown);
       with = NULL;
     }
   }
   if (with) r.with = with->key, r.with_shown = with->shown;
-  pl_symbol_info info = {.name = with ? with->shown : pl_format(l->arena, "λ_%s", r.shown), .ascii = pl_format(l->arena, "lambda_%s", r.key),
-                         .role = PL_R_MULTIPLIER, .class = PL_C_MULTIPLIER, .dimension = pl_dimension_one()};
+  pl_symbol_info info = {.name = with ? with->shown : pl_format(l->arena, "λ_%s", r.shown),
+                         .ascii = pl_format(l->arena, "lambda_%s", r.key),
+                         .role = PL_R_MULTIPLIER,
+                         .class = PL_C_MULTIPLIER,
+                         .dimension = pl_dimension_one()};
   r.lambda = same ? same->lambda : pl_symbol_make(l->pool, &info);
   if (!same) pl_push(l->arena, l->rules, r);
   else same->family |= r.family;
@@ -148,9 +158,11 @@ static pl_block* make_block(pl_lower* l, const pl_ast* s) {
   b->span = pl_span_join(pl_ast_span(name), pl_ast_span(range));
   pl_entity* e = pl_scope_find(l, name->key);
   if (e || pl_scope_local(l, name->key) || strcmp(name->key, "t") == 0) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E012, pl_ast_span(name), "%s is declared twice", "%s ist zweimal vereinbart", name->shown);
+    pl_diagnostic* m = pl_lower_complain(l, PL_E012, pl_ast_span(name), "%s is declared twice",
+                                         "%s ist zweimal vereinbart", name->shown);
     pl_because(l->job, m, "an index needs a name of its own", "ein Index braucht einen eigenen Namen");
-    if (e && !l->mute) pl_report_label(l->job->diagnostics, m, e->span, l->job->lang == PL_GERMAN ? "zuerst hier" : "first here");
+    if (e && !l->mute)
+      pl_report_label(l->job->diagnostics, m, e->span, l->job->lang == PL_GERMAN ? "zuerst hier" : "first here");
     pl_suggest(l->job, m, NULL, "choose another index", "einen anderen Index wählen");
   }
   pl_symbol old = pl_symbol_find(l->pool, name->key);
@@ -160,7 +172,9 @@ static pl_block* make_block(pl_lower* l, const pl_ast* s) {
   b->hi = pl_lower_scalar(l, pl_ast_kid(range, 1));
   b->step = pl_ast_kid(range, 2) ? pl_lower_scalar(l, pl_ast_kid(range, 2)) : pl_poison();
   if (pl_ast_kid(range, 3)) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(pl_ast_kid(range, 3)), "an index runs in steps, not by a count", "ein Index läuft in Schritten, nicht nach einer Anzahl");
+    pl_diagnostic* m =
+        pl_lower_complain(l, PL_E017, pl_ast_span(pl_ast_kid(range, 3)), "an index runs in steps, not by a count",
+                          "ein Index läuft in Schritten, nicht nach einer Anzahl");
     pl_suggest(l->job, m, NULL, "write  for i in 1..N", "schreibe  for i in 1..N");
   }
   pl_push(l->arena, l->m->blocks, b);
@@ -169,12 +183,25 @@ static pl_block* make_block(pl_lower* l, const pl_ast* s) {
 
 static bool may_stand_in_block(int token) {
   switch (token) {
-    case TOK_MASS: case TOK_BODY: case TOK_POINT: case TOK_ROD: case TOK_FORCE: case TOK_TORQUE: case TOK_POTENTIAL: case TOK_KINETIC:
-    case TOK_RAYLEIGH: case TOK_SPRING: case TOK_DAMPER: case TOK_DRAG: case TOK_CONSTRAINT: case TOK_INIT: case TOK_GUESS:
-    case TOK_FRICTION: case TOK_RESTITUTION: case TOK_FOR:
-      return true;
-    default:
-      return false;
+    case TOK_MASS:
+    case TOK_BODY:
+    case TOK_POINT:
+    case TOK_ROD:
+    case TOK_FORCE:
+    case TOK_TORQUE:
+    case TOK_POTENTIAL:
+    case TOK_KINETIC:
+    case TOK_RAYLEIGH:
+    case TOK_SPRING:
+    case TOK_DAMPER:
+    case TOK_DRAG:
+    case TOK_CONSTRAINT:
+    case TOK_INIT:
+    case TOK_GUESS:
+    case TOK_FRICTION:
+    case TOK_RESTITUTION:
+    case TOK_FOR: return true;
+    default: return false;
   }
 }
 
@@ -183,7 +210,7 @@ typedef void visit_statement(pl_lower* l, const pl_ast* s);
 
 typedef struct walk {
   visit_statement* visit;
-  pl_map* blocks;               // node of for -> pl_block
+  pl_map* blocks;  // node of for -> pl_block
   bool first;
 } walk;
 
@@ -204,7 +231,8 @@ static void walk_block(pl_lower* l, walk* w, const pl_ast* s) {
       walk_statement(l, w, inner);
     } else if (w->first && !inner->broken) {
       const char* word = pl_word_of_statement(inner->token);
-      pl_diagnostic* m = pl_lower_complain(l, PL_E027, pl_ast_span(inner), "%s does not belong inside for", "%s gehört nicht in for", word ? word : "this");
+      pl_diagnostic* m = pl_lower_complain(l, PL_E027, pl_ast_span(inner), "%s does not belong inside for",
+                                           "%s gehört nicht in for", word ? word : "this");
       pl_suggest(l->job, m, NULL, "move the line out of the block", "die Zeile aus dem Block herausnehmen");
     }
   }
@@ -237,19 +265,31 @@ static void visit_values(pl_lower* l, const pl_ast* s) {
 // ---------------------------------------------------------------------------------------------- requests in order
 static void lower_rest(pl_lower* l, walk* w, const pl_ast* s) {
   switch (s->token) {
-    case TOK_PARAM: case TOK_COORD: case TOK_LET: case TOK_PLEUEL: case TOK_SYSTEM: case TOK_LANG: case TOK_AXES: case TOK_CONVENTION:
-      break;                                    // done
-    case TOK_ASSUME: case TOK_INPUT: case TOK_OUTPUT: pl_lower_statement(l, s); break;
+    case TOK_PARAM:
+    case TOK_COORD:
+    case TOK_LET:
+    case TOK_PLEUEL:
+    case TOK_SYSTEM:
+    case TOK_LANG:
+    case TOK_AXES:
+    case TOK_CONVENTION: break;  // done
+    case TOK_ASSUME:
+    case TOK_INPUT:
+    case TOK_OUTPUT: pl_lower_statement(l, s); break;
     case TOK_ASK: pl_lower_ask(l, s); break;
     case TOK_EVENT: pl_lower_event(l, s); break;
-    case TOK_SIMULATE: case TOK_PLOT: case TOK_ANIMATE: case TOK_SWEEP: case TOK_POINCARE: pl_lower_display(l, s); break;
+    case TOK_SIMULATE:
+    case TOK_PLOT:
+    case TOK_ANIMATE:
+    case TOK_SWEEP:
+    case TOK_POINCARE: pl_lower_display(l, s); break;
     default: walk_statement(l, w, s);
   }
 }
 
 static bool in_second_round(int token) {
-  return token == TOK_ASK || token == TOK_EVENT || token == TOK_PLOT || token == TOK_ANIMATE || token == TOK_SWEEP || token == TOK_POINCARE ||
-         token == TOK_OUTPUT || token == TOK_SIMULATE;
+  return token == TOK_ASK || token == TOK_EVENT || token == TOK_PLOT || token == TOK_ANIMATE || token == TOK_SWEEP ||
+         token == TOK_POINCARE || token == TOK_OUTPUT || token == TOK_SIMULATE;
 }
 
 // ---------------------------------------------------------------------------------------------- --set
@@ -262,7 +302,8 @@ static const pl_ast* parse_piece(pl_lower* l, const char* title, const char* tex
 static void parse_settings(pl_lower* l, const pl_setting* set, int n) {
   for (int i = 0; i < n; i++) {
     const char* title = pl_format(l->arena, "--set %s", set[i].name);
-    pl_setting_node node = {.name = pl_ast_single(parse_piece(l, title, set[i].name)), .value = parse_piece(l, title, set[i].value)};
+    pl_setting_node node = {.name = pl_ast_single(parse_piece(l, title, set[i].name)),
+                            .value = parse_piece(l, title, set[i].value)};
     if (node.name && node.value) pl_push(l->arena, l->settings, node);
   }
 }
@@ -284,7 +325,8 @@ static void set_start(pl_lower* l, const pl_setting_node* s) {
   bool symbol = pl_kind_of(l->pool, target) == PL_SYMBOL;
   pl_role role = symbol ? pl_symbol_get(l->pool, pl_symbol_of(l->pool, target))->role : PL_R_PARAM;
   if (role != PL_R_COORD && role != PL_R_VELOCITY) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E030, pl_ast_span(s->name), "only parameters, abbreviations and start values can be set",
+    pl_diagnostic* m = pl_lower_complain(l, PL_E030, pl_ast_span(s->name),
+                                         "only parameters, abbreviations and start values can be set",
                                          "nur Parameter, Abkürzungen und Startwerte lassen sich setzen");
     pl_suggest(l->job, m, NULL, "write --set m=2 or --set x=1", "schreibe --set m=2 oder --set x=1");
     return;
@@ -307,7 +349,8 @@ static void declare_inside(pl_lower* l, const pl_ast* s) {
   const pl_ast* lines = pl_ast_kid(s, 2);
   for (int i = 0; i < lines->kids.n; i++) {
     int token = lines->kids.at[i]->kind == PL_AST_STATEMENT ? lines->kids.at[i]->token : 0;
-    if (token == TOK_FOR || token == TOK_PARAM || token == TOK_COORD || token == TOK_LET) declare_inside(l, lines->kids.at[i]);
+    if (token == TOK_FOR || token == TOK_PARAM || token == TOK_COORD || token == TOK_LET)
+      declare_inside(l, lines->kids.at[i]);
   }
 }
 
@@ -348,8 +391,8 @@ static void lower_all(pl_lower* l, pl_ast** s, int n) {
 }
 
 // ---------------------------------------------------------------------------------------------- public
-pleuel_status pl_lang_parse(pl_job* job, const pl_source* source, const pl_include_reader* reader, const pl_setting* set, int n_set,
-                            pl_model** out) {
+pleuel_status pl_lang_parse(pl_job* job, const pl_source* source, const pl_include_reader* reader,
+                            const pl_setting* set, int n_set, pl_model** out) {
   int before = job->diagnostics->n_errors;
   pl_model* m = pl_model_make(job->arena);
   *out = m;

@@ -1,4 +1,5 @@
-// Calls: elementary functions, the special forms (norm, diff, sum, if, ...), results of constraints, functions of `let`.
+// Calls: elementary functions, the special forms (norm, diff, sum, if, ...), results of constraints, functions of
+// `let`.
 #include "lang/lower_impl.h"
 
 #include <string.h>
@@ -7,7 +8,7 @@
 
 typedef struct call {
   const pl_ast* name;
-  const pl_ast* group;       // its arguments
+  const pl_ast* group;  // its arguments
   int n;
 } call;
 
@@ -18,7 +19,9 @@ bool pl_lower_is_function(const pl_lower* l, const char* key) {
   return pl_word_function(key) || strcmp(key, "force") == 0 || strcmp(key, "spherical") == 0;
 }
 
-static pl_span span_of(const call* c) { return c->group ? pl_span_join(pl_ast_span(c->name), pl_ast_span(c->group)) : pl_ast_span(c->name); }
+static pl_span span_of(const call* c) {
+  return c->group ? pl_span_join(pl_ast_span(c->name), pl_ast_span(c->group)) : pl_ast_span(c->name);
+}
 static const pl_ast* arg(const call* c, int i) { return c->group->kids.at[i]; }
 
 static pl_quantity wrong_count(pl_lower* l, const call* c, const char* usage) {
@@ -28,12 +31,15 @@ static pl_quantity wrong_count(pl_lower* l, const call* c, const char* usage) {
     bool comma = a && b && a->kind == PL_AST_NUMBER && b->kind == PL_AST_NUMBER && a->end + 1 == b->begin;
     if (comma) {
       const char* fixed = pl_format(l->arena, "%s.%s", a->text, b->text);
-      pl_diagnostic* m = pl_lower_complain(l, PL_E003, pl_span_join(pl_ast_span(a), pl_ast_span(b)), "decimal comma", "Dezimalkomma");
-      pl_suggest(l->job, m, fixed, "write %s        (Dezimalpunkt statt Komma)", "schreibe %s        (Dezimalpunkt statt Komma)", fixed);
+      pl_diagnostic* m =
+          pl_lower_complain(l, PL_E003, pl_span_join(pl_ast_span(a), pl_ast_span(b)), "decimal comma", "Dezimalkomma");
+      pl_suggest(l->job, m, fixed, "write %s        (Dezimalpunkt statt Komma)",
+                 "schreibe %s        (Dezimalpunkt statt Komma)", fixed);
       return pl_quantity_bad();
     }
   }
-  pl_diagnostic* m = pl_lower_complain(l, PL_E017, span_of(c), "wrong number of arguments for %s: %d", "falsche Zahl von Argumenten für %s: %d", c->name->shown, c->n);
+  pl_diagnostic* m = pl_lower_complain(l, PL_E017, span_of(c), "wrong number of arguments for %s: %d",
+                                       "falsche Zahl von Argumenten für %s: %d", c->name->shown, c->n);
   pl_suggest(l->job, m, NULL, "write %s", "schreibe %s", usage);
   return pl_quantity_bad();
 }
@@ -69,7 +75,8 @@ static pl_expr apply_elementary(pl_lower* l, const char* key, pl_expr x) {
 static void hint_log(pl_lower* l, const pl_ast* name) {
   if (strcmp(name->key, "log") != 0 || l->log_said) return;
   l->log_said = true;
-  pl_diagnostic* m = pl_lower_complain(l, PL_N072, pl_ast_span(name), "log is the natural logarithm", "log ist der natürliche Logarithmus");
+  pl_diagnostic* m = pl_lower_complain(l, PL_N072, pl_ast_span(name), "log is the natural logarithm",
+                                       "log ist der natürliche Logarithmus");
   pl_suggest(l->job, m, "ln", "write ln to say so", "schreibe ln, um das zu sagen");
 }
 
@@ -96,7 +103,8 @@ static bool vector_args(pl_lower* l, const call* c, pl_quantity* v) {
     v[i] = pl_lower_quantity(l, arg(c, i));
     if (!v[i].force_of && pl_quantity_is_bad(&v[i])) fine = false;
     else if (v[i].n == 0 && !v[i].force_of) {
-      pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(arg(c, i)), "%s takes vectors, this is a number", "%s nimmt Vektoren, das ist eine Zahl", c->name->shown);
+      pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(arg(c, i)), "%s takes vectors, this is a number",
+                                           "%s nimmt Vektoren, das ist eine Zahl", c->name->shown);
       pl_suggest(l->job, m, NULL, "write a vector as (a, b) or pos(A)", "einen Vektor schreibt man (a, b) oder pos(A)");
       fine = false;
     }
@@ -121,11 +129,13 @@ static pl_quantity call_norm(pl_lower* l, const call* c) {
 static bool two_vectors(pl_lower* l, const call* c, pl_quantity* v) {
   if (!vector_args(l, c, v)) return false;
   if (v[0].force_of || v[1].force_of) {
-    pl_lower_complain(l, PL_E017, span_of(c), "of a force only its size can be used here: norm(force(...))", "von einer Kraft lässt sich hier nur die Größe verwenden: norm(force(...))");
+    pl_lower_complain(l, PL_E017, span_of(c), "of a force only its size can be used here: norm(force(...))",
+                      "von einer Kraft lässt sich hier nur die Größe verwenden: norm(force(...))");
     return false;
   }
   if (v[0].n == v[1].n) return true;
-  pl_lower_complain(l, PL_E017, span_of(c), "the vectors have %d and %d components", "die Vektoren haben %d und %d Komponenten", v[0].n, v[1].n);
+  pl_lower_complain(l, PL_E017, span_of(c), "the vectors have %d and %d components",
+                    "die Vektoren haben %d und %d Komponenten", v[0].n, v[1].n);
   return false;
 }
 
@@ -152,7 +162,9 @@ static pl_quantity call_polar(pl_lower* l, const call* c) {
   pl_expr x[2];
   if (c->n != 2) return wrong_count(l, c, "polar(r, φ)");
   if (!scalar_args(l, c, x)) return pl_quantity_bad();
-  return (pl_quantity){.n = 2, .at = {pl_mul(l->pool, x[0], pl_call(l->pool, PL_COS, x[1])), pl_mul(l->pool, x[0], pl_call(l->pool, PL_SIN, x[1]))}};
+  return (pl_quantity){.n = 2,
+                       .at = {pl_mul(l->pool, x[0], pl_call(l->pool, PL_COS, x[1])),
+                              pl_mul(l->pool, x[0], pl_call(l->pool, PL_SIN, x[1]))}};
 }
 
 // spherical(r, θ, φ) with θ from the third axis
@@ -162,8 +174,10 @@ static pl_quantity call_spherical(pl_lower* l, const call* c) {
   if (c->n != 3) return wrong_count(l, c, "spherical(r, θ, φ)");
   if (!scalar_args(l, c, x)) return pl_quantity_bad();
   pl_expr in_plane = pl_mul(p, x[0], pl_call(p, PL_SIN, x[1]));
-  return (pl_quantity){.n = 3, .at = {pl_mul(p, in_plane, pl_call(p, PL_COS, x[2])), pl_mul(p, in_plane, pl_call(p, PL_SIN, x[2])),
-                                      pl_mul(p, x[0], pl_call(p, PL_COS, x[1]))}};
+  return (pl_quantity){
+      .n = 3,
+      .at = {pl_mul(p, in_plane, pl_call(p, PL_COS, x[2])), pl_mul(p, in_plane, pl_call(p, PL_SIN, x[2])),
+             pl_mul(p, x[0], pl_call(p, PL_COS, x[1]))}};
 }
 
 static pl_quantity call_place(pl_lower* l, const call* c, bool velocity) {
@@ -172,7 +186,8 @@ static pl_quantity call_place(pl_lower* l, const call* c, bool velocity) {
   const pl_ast* label = pl_ast_label(arg(c, 0), &index);
   pl_point at;
   if (label == NULL) {
-    pl_lower_complain(l, PL_E017, pl_ast_span(arg(c, 0)), "%s takes the label of a mass, body or point", "%s nimmt die Marke einer Masse, eines Körpers oder Punktes", c->name->shown);
+    pl_lower_complain(l, PL_E017, pl_ast_span(arg(c, 0)), "%s takes the label of a mass, body or point",
+                      "%s nimmt die Marke einer Masse, eines Körpers oder Punktes", c->name->shown);
     return pl_quantity_bad();
   }
   if (!pl_lower_label_point(l, label, index, &at, NULL)) return pl_quantity_bad();
@@ -190,8 +205,10 @@ static pl_quantity call_diff(pl_lower* l, const call* c) {
   if (pl_quantity_is_bad(&f) || pl_is_poison(x)) return pl_quantity_bad();
   pl_kind kind = pl_kind_of(l->pool, x);
   if (kind != PL_SYMBOL && kind != PL_AT) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(arg(c, 1)), "diff derives by a name", "diff leitet nach einem Namen ab");
-    pl_suggest(l->job, m, NULL, "write diff(f, x), or dt(f) for the time derivative", "schreibe diff(f, x) oder dt(f) für die Zeitableitung");
+    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(arg(c, 1)), "diff derives by a name",
+                                         "diff leitet nach einem Namen ab");
+    pl_suggest(l->job, m, NULL, "write diff(f, x), or dt(f) for the time derivative",
+               "schreibe diff(f, x) oder dt(f) für die Zeitableitung");
     return pl_quantity_bad();
   }
   for (int i = 0; i < (f.n ? f.n : 1); i++) {
@@ -208,7 +225,8 @@ static pl_quantity call_dt(pl_lower* l, const call* c) {
     bool fixed = pl_has_role(l->pool, f.at[i], PL_R_MULTIPLIER) || pl_has_role(l->pool, f.at[i], PL_R_ACCELERATION);
     if (!fixed) f.at[i] = pl_dt(l->pool, f.at[i]);
     if (!fixed && !pl_is_poison(f.at[i])) continue;
-    pl_lower_complain(l, PL_E017, span_of(c), "accelerations and multipliers cannot be derived by time here", "Beschleunigungen und Multiplikatoren lassen sich hier nicht nach der Zeit ableiten");
+    pl_lower_complain(l, PL_E017, span_of(c), "accelerations and multipliers cannot be derived by time here",
+                      "Beschleunigungen und Multiplikatoren lassen sich hier nicht nach der Zeit ableiten");
     return pl_quantity_bad();
   }
   return f;
@@ -220,7 +238,11 @@ static pl_quantity call_sum(pl_lower* l, const call* c) {
   if (!shape || !index || index->kind != PL_AST_NAME || index->number) return wrong_count(l, c, "sum(i in 1..N, x[i])");
   const pl_ast* range = arg(c, 0)->kids.at[1];
   pl_expr lo = pl_lower_scalar(l, range->kids.at[0]), hi = pl_lower_scalar(l, range->kids.at[1]);
-  pl_symbol_info info = {.name = index->shown, .ascii = index->key, .role = PL_R_INDEX, .class = PL_C_OTHER, .dimension = pl_dimension_one()};
+  pl_symbol_info info = {.name = index->shown,
+                         .ascii = index->key,
+                         .role = PL_R_INDEX,
+                         .class = PL_C_OTHER,
+                         .dimension = pl_dimension_one()};
   pl_symbol i = pl_symbol_find(l->pool, index->key);
   if (i.id == 0 || pl_symbol_get(l->pool, i)->role != PL_R_INDEX) {
     if (i.id) info.ascii = pl_format(l->arena, "%s_index", index->key);
@@ -234,7 +256,8 @@ static pl_quantity call_sum(pl_lower* l, const call* c) {
 }
 
 static pl_quantity call_if(pl_lower* l, const call* c) {
-  if (c->n != 3 || arg(c, 0)->kind != PL_AST_RELATION || arg(c, 0)->kids.n != 2) return wrong_count(l, c, "if(x > 0, a, b)");
+  if (c->n != 3 || arg(c, 0)->kind != PL_AST_RELATION || arg(c, 0)->kids.n != 2)
+    return wrong_count(l, c, "if(x > 0, a, b)");
   pl_condition test;
   bool fine = pl_lower_relation(l, arg(c, 0), &test, 0);
   pl_expr a = pl_lower_scalar(l, arg(c, 1)), b = pl_lower_scalar(l, arg(c, 2));
@@ -255,7 +278,8 @@ static pl_quantity call_if(pl_lower* l, const call* c) {
 // ---------------------------------------------------------------------------------------------- results
 static pl_quantity call_result(pl_lower* l, const call* c, pl_result_kind kind) {
   if (!l->results) {
-    pl_lower_complain(l, PL_E057, span_of(c), "%s is a result: it can stand in ask, plot, event and output", "%s ist ein Ergebnis: es kann in ask, plot, event und output stehen", c->name->shown);
+    pl_lower_complain(l, PL_E057, span_of(c), "%s is a result: it can stand in ask, plot, event and output",
+                      "%s ist ein Ergebnis: es kann in ask, plot, event und output stehen", c->name->shown);
     return pl_quantity_bad();
   }
   const pl_ast* index = NULL;
@@ -285,11 +309,13 @@ static pl_quantity call_finished(pl_lower* l, const call* c, pl_entity* e) {
 static pl_quantity call_own(pl_lower* l, const call* c, pl_entity* e) {
   if (e->definition == NULL) return call_finished(l, c, e);
   const pl_ast* parameters = pl_ast_kid(e->definition, 1);
-  if (c->n != parameters->kids.n) return wrong_count(l, c, pl_source_text(l->arena, pl_span_join(e->span, pl_ast_span(parameters))));
+  if (c->n != parameters->kids.n)
+    return wrong_count(l, c, pl_source_text(l->arena, pl_span_join(e->span, pl_ast_span(parameters))));
   enum { MOST_ARGS = 16, MAX_DEPTH = 100 };
   if (c->n > MOST_ARGS) return wrong_count(l, c, pl_format(l->arena, "%s with fewer arguments", e->shown));
   if (e->state == 1 || l->call_depth > MAX_DEPTH) {
-    if (!e->broken) pl_lower_complain(l, PL_E018, e->span, "%s leads back to itself", "%s führt auf sich selbst zurück", e->shown);
+    if (!e->broken)
+      pl_lower_complain(l, PL_E018, e->span, "%s leads back to itself", "%s führt auf sich selbst zurück", e->shown);
     e->broken = true;
     l->wrong++;
     return pl_quantity_bad();
@@ -330,7 +356,8 @@ static pl_quantity call_own(pl_lower* l, const call* c, pl_entity* e) {
 pl_quantity pl_lower_call(pl_lower* l, const pl_ast* name, const pl_ast* group) {
   call c = {name, group, group ? group->kids.n : 0};
   if (group == NULL) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E015, pl_ast_span(name), "%s needs an argument", "%s braucht ein Argument", name->shown);
+    pl_diagnostic* m = pl_lower_complain(l, PL_E015, pl_ast_span(name), "%s needs an argument",
+                                         "%s braucht ein Argument", name->shown);
     pl_suggest(l->job, m, NULL, "write %s(...)", "schreibe %s(...)", name->shown);
     return pl_quantity_bad();
   }
@@ -342,9 +369,12 @@ pl_quantity pl_lower_call(pl_lower* l, const pl_ast* name, const pl_ast* group) 
   }
   int f = elementary(name->key);
   if (f >= 0) return call_of_several(l, &c, (pl_function)f);
-  static const struct { const char* key; pl_quantity (*go)(pl_lower*, const call*); } forms[] = {
-    {"norm", call_norm}, {"dot", call_dot}, {"cross", call_cross}, {"diff", call_diff}, {"dt", call_dt}, {"sum", call_sum},
-    {"if", call_if}, {"polar", call_polar}, {"spherical", call_spherical},
+  static const struct {
+    const char* key;
+    pl_quantity (*go)(pl_lower*, const call*);
+  } forms[] = {
+      {"norm", call_norm}, {"dot", call_dot}, {"cross", call_cross}, {"diff", call_diff},           {"dt", call_dt},
+      {"sum", call_sum},   {"if", call_if},   {"polar", call_polar}, {"spherical", call_spherical},
   };
   for (size_t i = 0; i < sizeof forms / sizeof forms[0]; i++) {
     if (strcmp(forms[i].key, name->key) == 0) return forms[i].go(l, &c);
@@ -353,7 +383,8 @@ pl_quantity pl_lower_call(pl_lower* l, const pl_ast* name, const pl_ast* group) 
   if (strcmp(name->key, "vel") == 0) return call_place(l, &c, true);
   if (strcmp(name->key, "force") == 0) return call_result(l, &c, PL_RES_FORCE);
   if (strcmp(name->key, "normal") == 0) return call_result(l, &c, PL_RES_NORMAL);
-  pl_lower_complain(l, PL_E017, span_of(&c), "%s belongs to a body in space", "%s gehört zu einem Körper im Raum", name->shown);
+  pl_lower_complain(l, PL_E017, span_of(&c), "%s belongs to a body in space", "%s gehört zu einem Körper im Raum",
+                    name->shown);
   return pl_quantity_bad();
 }
 
@@ -362,16 +393,19 @@ pl_quantity pl_lower_apply(pl_lower* l, const pl_ast* name, pl_quantity x, const
   if (pl_quantity_is_bad(&x)) return x;
   hint_log(l, name);
   if (!is_elementary_of_one(name->key) || pl_scope_find(l, name->key)) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E015, pl_ast_span(name), "%s needs brackets", "%s braucht Klammern", name->shown);
+    pl_diagnostic* m =
+        pl_lower_complain(l, PL_E015, pl_ast_span(name), "%s needs brackets", "%s braucht Klammern", name->shown);
     pl_suggest(l->job, m, NULL, "write %s(...)", "schreibe %s(...)", name->shown);
     return pl_quantity_bad();
   }
   if (x.n) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(where), "%s takes a number, this is a vector", "%s nimmt eine Zahl, das ist ein Vektor", name->shown);
+    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(where), "%s takes a number, this is a vector",
+                                         "%s nimmt eine Zahl, das ist ein Vektor", name->shown);
     if (strcmp(name->key, "abs") == 0) pl_suggest(l->job, m, NULL, "write norm(...)", "schreibe norm(...)");
     return pl_quantity_bad();
   }
   pl_expr value = apply_elementary(l, name->key, x.at[0]);
-  if (pl_is_poison(value)) pl_lower_complain(l, PL_E040, pl_ast_span(where), "this has no value", "das hat keinen Wert");
+  if (pl_is_poison(value))
+    pl_lower_complain(l, PL_E040, pl_ast_span(where), "this has no value", "das hat keinen Wert");
   return pl_quantity_of(value);
 }

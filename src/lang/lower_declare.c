@@ -9,7 +9,8 @@
 static void lower_version(pl_lower* l, const pl_ast* s) {
   const pl_ast* number = pl_ast_kid(s, 0);
   if (strcmp(number->text, "1") == 0) return;
-  pl_diagnostic* m = pl_lower_complain(l, PL_E001, pl_ast_span(number), "there is no language version %s", "es gibt keine Sprachversion %s", number->text);
+  pl_diagnostic* m = pl_lower_complain(l, PL_E001, pl_ast_span(number), "there is no language version %s",
+                                       "es gibt keine Sprachversion %s", number->text);
   pl_suggest(l->job, m, "1", "write  pleuel 1", "schreibe  pleuel 1");
 }
 
@@ -20,7 +21,8 @@ static void lower_language(pl_lower* l, const pl_ast* s) {
   if (strcmp(text, "de") == 0) l->m->lang = PL_GERMAN;
   else if (strcmp(text, "en") == 0) l->m->lang = PL_ENGLISH;
   else {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E001, pl_ast_span(word), "there is no language %s", "die Sprache %s gibt es nicht", text);
+    pl_diagnostic* m = pl_lower_complain(l, PL_E001, pl_ast_span(word), "there is no language %s",
+                                         "die Sprache %s gibt es nicht", text);
     pl_suggest(l->job, m, "en", "write  lang en  or  lang de", "schreibe  lang en  oder  lang de");
   }
 }
@@ -29,7 +31,8 @@ static void lower_axes(pl_lower* l, const pl_ast* s) {
   static const char* const directions[] = {"right", "left", "up", "down", "out"};
   const pl_ast* list = pl_ast_kid(s, 0);
   if (l->m->n_axes) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E028, pl_ast_span(s), "the axes are given twice", "die Achsen sind zweimal angegeben");
+    pl_diagnostic* m =
+        pl_lower_complain(l, PL_E028, pl_ast_span(s), "the axes are given twice", "die Achsen sind zweimal angegeben");
     pl_suggest(l->job, m, NULL, "remove one of the lines", "eine der Zeilen entfernen");
     return;
   }
@@ -44,11 +47,14 @@ static void lower_axes(pl_lower* l, const pl_ast* s) {
       if (strcmp(directions[k], way->key) == 0) direction = directions[k];
     }
     if (way && !direction) {
-      pl_diagnostic* m = pl_lower_complain(l, PL_E029, pl_ast_span(way), "%s is not a direction", "%s ist keine Richtung", way->shown);
-      pl_suggest(l->job, m, NULL, "directions are right, left, up, down, out", "Richtungen sind right, left, up, down, out");
+      pl_diagnostic* m =
+          pl_lower_complain(l, PL_E029, pl_ast_span(way), "%s is not a direction", "%s ist keine Richtung", way->shown);
+      pl_suggest(l->job, m, NULL, "directions are right, left, up, down, out",
+                 "Richtungen sind right, left, up, down, out");
     }
     if (pl_axis_find(l, name->key) >= 0) {
-      pl_lower_complain(l, PL_E028, pl_ast_span(name), "axis %s is given twice", "die Achse %s ist zweimal angegeben", name->shown);
+      pl_lower_complain(l, PL_E028, pl_ast_span(name), "axis %s is given twice", "die Achse %s ist zweimal angegeben",
+                        name->shown);
       continue;
     }
     l->m->axes[l->m->n_axes++] = (pl_axis){name->shown, name->key, direction, true};
@@ -62,7 +68,8 @@ static void lower_convention(pl_lower* l, const pl_ast* s) {
     const char* word = pl_source_text(l->arena, span);
     if (strcmp(word, "lambda-minus") == 0 || strcmp(word, "λ-minus") == 0) l->m->lambda_minus = true;
     else if (strncmp(word, "lambda", 6) == 0 && strcmp(word, "lambda-plus") != 0) {
-      pl_diagnostic* m = pl_lower_complain(l, PL_E001, span, "there is no convention %s", "die Konvention %s gibt es nicht", word);
+      pl_diagnostic* m =
+          pl_lower_complain(l, PL_E001, span, "there is no convention %s", "die Konvention %s gibt es nicht", word);
       pl_suggest(l->job, m, "lambda-minus", "write lambda-minus", "schreibe lambda-minus");
     }
     // other words are labels for the reader
@@ -74,7 +81,8 @@ static void lower_header(pl_lower* l, const pl_ast* s) {
     case TOK_PLEUEL: lower_version(l, s); break;
     case TOK_SYSTEM:
       if (l->m->title) {
-        pl_diagnostic* m = pl_lower_complain(l, PL_E028, pl_ast_span(s), "the system has a title already", "das System hat schon einen Titel");
+        pl_diagnostic* m = pl_lower_complain(l, PL_E028, pl_ast_span(s), "the system has a title already",
+                                             "das System hat schon einen Titel");
         pl_suggest(l->job, m, NULL, "remove one of the lines", "eine der Zeilen entfernen");
       } else l->m->title = pl_ast_kid(s, 0)->text;
       break;
@@ -101,8 +109,10 @@ static bool only_coordinates_are_families(pl_lower* l, const pl_ast* definition)
   const pl_ast* range = declared_range(definition);
   if (range == NULL) return false;
   const pl_ast* name = declared_name(definition);
-  pl_diagnostic* m = pl_lower_complain(l, PL_E025, pl_ast_span(pl_ast_kid(definition, 0)), "only coordinates can be families", "nur Koordinaten können Familien sein");
-  pl_suggest(l->job, m, NULL, "write a function:  let %s(i) = ...", "schreibe eine Funktion:  let %s(i) = ...", name->shown);
+  pl_diagnostic* m = pl_lower_complain(l, PL_E025, pl_ast_span(pl_ast_kid(definition, 0)),
+                                       "only coordinates can be families", "nur Koordinaten können Familien sein");
+  pl_suggest(l->job, m, NULL, "write a function:  let %s(i) = ...", "schreibe eine Funktion:  let %s(i) = ...",
+             name->shown);
   return true;
 }
 
@@ -116,9 +126,11 @@ static void declare_names(pl_lower* l, const pl_ast* s) {
       pl_push(l->arena, l->lost, name->key);
       continue;
     }
-    pl_entity_kind kind = s->token == TOK_PARAM ? PL_ENTITY_PARAM : s->token == TOK_INPUT ? PL_ENTITY_INPUT
-                          : s->token == TOK_LET ? (pl_ast_kid(d, 1) ? PL_ENTITY_FUNCTION : PL_ENTITY_LET)
-                          : family ? PL_ENTITY_FAMILY : PL_ENTITY_COORD;
+    pl_entity_kind kind = s->token == TOK_PARAM   ? PL_ENTITY_PARAM
+                          : s->token == TOK_INPUT ? PL_ENTITY_INPUT
+                          : s->token == TOK_LET   ? (pl_ast_kid(d, 1) ? PL_ENTITY_FUNCTION : PL_ENTITY_LET)
+                          : family                ? PL_ENTITY_FAMILY
+                                                  : PL_ENTITY_COORD;
     pl_symbol symbol = {0};
     bool new_name = pl_scope_find(l, name->key) == NULL;
     if (s->token != TOK_LET && new_name) {
@@ -169,8 +181,10 @@ static pl_expr value_with_unit(pl_lower* l, const pl_ast* d, const pl_ast* value
   pl_expr e = pl_lower_scalar(l, value);
   if (pl_is_poison(e) || !declared || pl_has_unit(l->pool, e)) return e;
   if (pl_is_constant(l->pool, e)) return pl_mul(l->pool, e, unit->factor);
-  pl_diagnostic* m = pl_lower_complain(l, PL_E023, pl_ast_span(pl_ast_kid(d, 3)), "a unit belongs to a number", "eine Einheit gehört zu einer Zahl");
-  pl_suggest(l->job, m, NULL, "remove it; the unit follows from the formula", "entfernen; die Einheit folgt aus der Formel");
+  pl_diagnostic* m = pl_lower_complain(l, PL_E023, pl_ast_span(pl_ast_kid(d, 3)), "a unit belongs to a number",
+                                       "eine Einheit gehört zu einer Zahl");
+  pl_suggest(l->job, m, NULL, "remove it; the unit follows from the formula",
+             "entfernen; die Einheit folgt aus der Formel");
   return e;
 }
 
@@ -189,7 +203,8 @@ static void lower_param(pl_lower* l, const pl_ast* d, bool broken) {
     v = pl_lower_scalar(l, e->override);
     // a bare number is in the unit of the file: --set l=300 for l [mm]
     pl_unit own;
-    bool bare = !pl_is_poison(v) && pl_is_constant(l->pool, v) && !pl_has_unit(l->pool, v) && !has_own_unit(e->override);
+    bool bare =
+        !pl_is_poison(v) && pl_is_constant(l->pool, v) && !pl_has_unit(l->pool, v) && !has_own_unit(e->override);
     if (bare && unit_node && pl_lower_unit(l, unit_node, &own)) v = pl_mul(l->pool, v, own.factor);
   } else if (value) {
     v = value_with_unit(l, d, value, &unit, declared && unit_fine);
@@ -197,7 +212,11 @@ static void lower_param(pl_lower* l, const pl_ast* d, bool broken) {
   if (l->wrong > wrong || broken) e->broken = true;
   if (unit_fine) give_dimension(l, e->symbol, &unit);
   bool has_unit = unit_node != NULL || (!pl_is_poison(v) && pl_has_unit(l->pool, v));
-  pl_param p = {.symbol = e->symbol, .value = v, .has_unit = has_unit, .unit_text = unit_node ? unit_node->text : NULL, .span = pl_ast_span(d)};
+  pl_param p = {.symbol = e->symbol,
+                .value = v,
+                .has_unit = has_unit,
+                .unit_text = unit_node ? unit_node->text : NULL,
+                .span = pl_ast_span(d)};
   pl_push(l->arena, l->m->params, p);
 }
 
@@ -237,11 +256,15 @@ static void lower_let(pl_lower* l, const pl_ast* d) {
   for (int i = 0; i < arguments->kids.n; i++) {
     const pl_ast* a = pl_ast_single(arguments->kids.at[i]);
     if (a == NULL || a->kind != PL_AST_NAME || a->number) {
-      pl_lower_complain(l, PL_E017, pl_ast_span(arguments->kids.at[i]), "an argument of a function is a name", "ein Argument einer Funktion ist ein Name");
+      pl_lower_complain(l, PL_E017, pl_ast_span(arguments->kids.at[i]), "an argument of a function is a name",
+                        "ein Argument einer Funktion ist ein Name");
       continue;
     }
-    pl_symbol_info info = {.name = a->shown, .ascii = pl_format(l->arena, "%s_of_%s", a->key, name->key), .role = PL_R_LOCAL,
-                           .class = PL_C_OTHER, .dimension = pl_dimension_one()};
+    pl_symbol_info info = {.name = a->shown,
+                           .ascii = pl_format(l->arena, "%s_of_%s", a->key, name->key),
+                           .role = PL_R_LOCAL,
+                           .class = PL_C_OTHER,
+                           .dimension = pl_dimension_one()};
     pl_push(l->arena, l->locals, (pl_local){.key = a->key, .symbol = pl_symbol_make(l->pool, &info)});
   }
   bool results = l->results;
@@ -255,7 +278,12 @@ static void lower_let(pl_lower* l, const pl_ast* d) {
   l->locals.n = n;
   if (l->wrong > wrong) e->broken = true;
   e->symbol = pl_scope_symbol(l, name, PL_R_LOCAL);
-  pl_push(l->arena, l->m->lets, (pl_let){.symbol = e->symbol, .n_args = arguments->kids.n, .inserted = true, .value = value.at[0], .span = pl_ast_span(d)});
+  pl_push(l->arena, l->m->lets,
+          (pl_let){.symbol = e->symbol,
+                   .n_args = arguments->kids.n,
+                   .inserted = true,
+                   .value = value.at[0],
+                   .span = pl_ast_span(d)});
 }
 
 // ---------------------------------------------------------------------------------------------- assumptions
@@ -288,7 +316,8 @@ static void lower_output(pl_lower* l, const pl_ast* s) {
   l->results = results;
   for (int i = 0; i < l->m->outputs.n; i++) {
     if (strcmp(l->m->outputs.at[i].name, name->key) != 0) continue;
-    pl_diagnostic* m = pl_lower_complain(l, PL_E028, pl_ast_span(name), "output %s is given twice", "der Ausgang %s ist zweimal angegeben", name->shown);
+    pl_diagnostic* m = pl_lower_complain(l, PL_E028, pl_ast_span(name), "output %s is given twice",
+                                         "der Ausgang %s ist zweimal angegeben", name->shown);
     pl_suggest(l->job, m, NULL, "choose another name", "einen anderen Namen wählen");
     return;
   }
@@ -299,7 +328,10 @@ static void lower_output(pl_lower* l, const pl_ast* s) {
 void pl_lower_declare(pl_lower* l, const pl_ast* s) {
   l->mute += s->broken;
   switch (s->token) {
-    case TOK_PARAM: case TOK_COORD: case TOK_LET: case TOK_INPUT: declare_names(l, s); break;
+    case TOK_PARAM:
+    case TOK_COORD:
+    case TOK_LET:
+    case TOK_INPUT: declare_names(l, s); break;
     default: lower_header(l, s);
   }
   l->mute -= s->broken;
@@ -322,11 +354,13 @@ void pl_lower_statement(pl_lower* l, const pl_ast* s) {
     case TOK_ASSUME: each(l, s, lower_assume_one); break;
     case TOK_OUTPUT: lower_output(l, s); break;
     case TOK_INPUT:
-      pl_lower_pending(l, PL_N091, "input", pl_ast_span(s), "inputs are for export; here they count as given quantities without a value",
+      pl_lower_pending(l, PL_N091, "input", pl_ast_span(s),
+                       "inputs are for export; here they count as given quantities without a value",
                        "Eingänge sind für den Export; hier gelten sie als gegebene Größen ohne Wert");
       for (int i = 0; i < list->kids.n; i++) {
         pl_entity* e = pl_scope_find(l, declared_name(list->kids.at[i])->key);
-        if (e && e->definition == list->kids.at[i]) pl_push(l->arena, l->m->params, (pl_param){.symbol = e->symbol, .span = e->span});
+        if (e && e->definition == list->kids.at[i])
+          pl_push(l->arena, l->m->params, (pl_param){.symbol = e->symbol, .span = e->span});
       }
       break;
     default: break;

@@ -26,7 +26,9 @@ const pl_ast* pl_ast_single(const pl_ast* node) {
 }
 
 const pl_ast* pl_ast_base(const pl_ast* n) {
-  while (n && (n->kind == PL_AST_POWER || n->kind == PL_AST_PRIME || n->kind == PL_AST_UNIT || n->kind == PL_AST_DEGREE)) n = pl_ast_kid(n, 0);
+  while (n &&
+         (n->kind == PL_AST_POWER || n->kind == PL_AST_PRIME || n->kind == PL_AST_UNIT || n->kind == PL_AST_DEGREE))
+    n = pl_ast_kid(n, 0);
   return n;
 }
 
@@ -44,7 +46,8 @@ static pl_quantity mixed(pl_lower* l, const pl_ast* where, const char* en, const
 pl_quantity pl_lower_add(pl_lower* l, pl_quantity a, pl_quantity b, bool minus, const pl_ast* where) {
   if (pl_quantity_is_bad(&a) || pl_quantity_is_bad(&b)) return pl_quantity_bad();
   if (a.n != b.n) {
-    return mixed(l, where, "a vector and a number cannot be added", "ein Vektor und eine Zahl lassen sich nicht addieren");
+    return mixed(l, where, "a vector and a number cannot be added",
+                 "ein Vektor und eine Zahl lassen sich nicht addieren");
   }
   pl_quantity sum = {.n = a.n};
   for (int i = 0; i < (a.n ? a.n : 1); i++) {
@@ -55,9 +58,11 @@ pl_quantity pl_lower_add(pl_lower* l, pl_quantity a, pl_quantity b, bool minus, 
 
 pl_quantity pl_lower_times(pl_lower* l, pl_quantity a, pl_quantity b, bool divide, const pl_ast* where) {
   if (pl_quantity_is_bad(&a) || pl_quantity_is_bad(&b)) return pl_quantity_bad();
-  if (b.n && divide) return mixed(l, where, "nothing can be divided by a vector", "durch einen Vektor lässt sich nicht teilen");
+  if (b.n && divide)
+    return mixed(l, where, "nothing can be divided by a vector", "durch einen Vektor lässt sich nicht teilen");
   if (a.n && b.n) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(where), "a product of two vectors", "ein Produkt zweier Vektoren");
+    pl_diagnostic* m =
+        pl_lower_complain(l, PL_E017, pl_ast_span(where), "a product of two vectors", "ein Produkt zweier Vektoren");
     pl_suggest(l->job, m, NULL, "write dot(a, b) or cross(a, b)", "schreibe dot(a, b) oder cross(a, b)");
     return pl_quantity_bad();
   }
@@ -116,7 +121,9 @@ bool pl_lower_unit(pl_lower* l, const pl_ast* node, pl_unit* out) {
   pl_diagnostic* m = bad_n ? pl_lower_complain(l, PL_E022, span, "%s is not a unit", "%s ist keine Einheit", shown)
                            : pl_lower_complain(l, PL_E022, span, "a unit is missing", "hier fehlt eine Einheit");
   if (near) pl_suggest(l->job, m, near, "did you mean %s?", "war %s gemeint?", near);
-  else pl_suggest(l->job, m, NULL, "units are written as in [m/s^2], [kN m], [rad/s]", "Einheiten schreibt man wie [m/s^2], [kN m], [rad/s]");
+  else
+    pl_suggest(l->job, m, NULL, "units are written as in [m/s^2], [kN m], [rad/s]",
+               "Einheiten schreibt man wie [m/s^2], [kN m], [rad/s]");
   return false;
 }
 
@@ -125,16 +132,19 @@ static pl_quantity lower_with_unit(pl_lower* l, const pl_ast* node, pl_quantity 
   if (!pl_lower_unit(l, node, &unit) || pl_quantity_is_bad(&q)) return pl_quantity_bad();
   bool number = q.n == 0 && pl_is_constant(l->pool, q.at[0]);
   if (number) return pl_quantity_of(pl_mul(l->pool, q.at[0], unit.factor));
-  pl_diagnostic* m = pl_lower_complain(l, PL_E023, pl_ast_span(node), "a unit belongs to a number or a declaration", "eine Einheit gehört zu einer Zahl oder Vereinbarung");
+  pl_diagnostic* m = pl_lower_complain(l, PL_E023, pl_ast_span(node), "a unit belongs to a number or a declaration",
+                                       "eine Einheit gehört zu einer Zahl oder Vereinbarung");
   const char* text = pl_source_text(l->arena, pl_ast_span(pl_ast_kid(node, 0)));
-  pl_suggest(l->job, m, text, "write %s; its unit follows from its names", "schreibe %s; die Einheit folgt aus den Namen", text);
+  pl_suggest(l->job, m, text, "write %s; its unit follows from its names",
+             "schreibe %s; die Einheit folgt aus den Namen", text);
   return pl_quantity_bad();
 }
 
 static pl_quantity lower_degree(pl_lower* l, const pl_ast* node, pl_quantity q) {
   if (pl_quantity_is_bad(&q)) return q;
   if (q.n || !pl_is_constant(l->pool, q.at[0]) || pl_has_unit(l->pool, q.at[0])) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E023, pl_ast_span(node), "° belongs to a number", "° gehört zu einer Zahl");
+    pl_diagnostic* m =
+        pl_lower_complain(l, PL_E023, pl_ast_span(node), "° belongs to a number", "° gehört zu einer Zahl");
     pl_because(l->job, m, "angles are in radians", "Winkel sind im Bogenmaß");
     const char* text = pl_source_text(l->arena, pl_ast_span(pl_ast_kid(node, 0)));
     pl_suggest(l->job, m, text, "write %s", "schreibe %s", text);
@@ -153,7 +163,8 @@ static pl_quantity lower_power(pl_lower* l, const pl_ast* node, pl_quantity base
   pl_expr exponent = pl_lower_scalar(l, e);
   if (pl_quantity_is_bad(&base) || pl_is_poison(exponent)) return pl_quantity_bad();
   if (base.n) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node), "a power of a vector", "eine Potenz eines Vektors");
+    pl_diagnostic* m =
+        pl_lower_complain(l, PL_E017, pl_ast_span(node), "a power of a vector", "eine Potenz eines Vektors");
     pl_suggest(l->job, m, NULL, "write dot(a, a) or norm(a)^2", "schreibe dot(a, a) oder norm(a)^2");
     return pl_quantity_bad();
   }
@@ -162,7 +173,8 @@ static pl_quantity lower_power(pl_lower* l, const pl_ast* node, pl_quantity base
   long n = 0;
   bool whole = pl_is_int(l->pool, exponent, &n);
   if (pl_is_constant(l->pool, base.at[0]) && pl_is_number(l->pool, exponent) && (whole ? labs(n) : 0) > MOST) {
-    pl_lower_complain(l, PL_E007, pl_ast_span(node), "this number has too many digits", "diese Zahl hat zu viele Stellen");
+    pl_lower_complain(l, PL_E007, pl_ast_span(node), "this number has too many digits",
+                      "diese Zahl hat zu viele Stellen");
     return pl_quantity_bad();
   }
   pl_expr value = pl_pow(l->pool, base.at[0], exponent);
@@ -178,14 +190,16 @@ static pl_quantity lower_prime(pl_lower* l, const pl_ast* node) {
   int dots = node->number;
   while (inner->kind == PL_AST_PRIME) dots += inner->number, inner = pl_ast_kid(inner, 0);
   if (inner->kind == PL_AST_NAME && pl_lower_is_function(l, inner->key)) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E015, pl_ast_span(node), "a prime is a time derivative, not that of a function",
-                                         "ein Strich ist eine Zeitableitung, nicht die einer Funktion");
+    pl_diagnostic* m =
+        pl_lower_complain(l, PL_E015, pl_ast_span(node), "a prime is a time derivative, not that of a function",
+                          "ein Strich ist eine Zeitableitung, nicht die einer Funktion");
     pl_suggest(l->job, m, NULL, "write diff(%s(x), x)", "schreibe diff(%s(x), x)", inner->shown);
     return pl_quantity_bad();
   }
   if (inner->kind == PL_AST_NAME) return pl_lower_name(l, inner, NULL, dots, node);
   if (inner->kind == PL_AST_INDEXED) return pl_lower_name(l, pl_ast_kid(inner, 0), pl_ast_kid(inner, 1), dots, node);
-  pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node), "a prime belongs to a name", "ein Strich gehört zu einem Namen");
+  pl_diagnostic* m =
+      pl_lower_complain(l, PL_E017, pl_ast_span(node), "a prime belongs to a name", "ein Strich gehört zu einem Namen");
   const char* text = pl_source_text(l->arena, pl_ast_span(inner));
   pl_suggest(l->job, m, pl_format(l->arena, "dt%s", text), "write dt%s", "schreibe dt%s", text);
   return pl_quantity_bad();
@@ -196,13 +210,16 @@ static pl_quantity lower_group(pl_lower* l, const pl_ast* node) {
   for (int i = 0; i < n; i++) {
     pl_ast_kind k = node->kids.at[i]->kind;
     if (k != PL_AST_RELATION && k != PL_AST_IN) continue;
-    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node->kids.at[i]), "a condition cannot be a value", "eine Bedingung ist kein Wert");
-    pl_suggest(l->job, m, NULL, "write if(condition, a, b) to choose between values", "schreibe if(Bedingung, a, b), um zwischen Werten zu wählen");
+    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node->kids.at[i]), "a condition cannot be a value",
+                                         "eine Bedingung ist kein Wert");
+    pl_suggest(l->job, m, NULL, "write if(condition, a, b) to choose between values",
+               "schreibe if(Bedingung, a, b), um zwischen Werten zu wählen");
     return pl_quantity_bad();
   }
   if (n == 1) return pl_lower_quantity(l, node->kids.at[0]);
   if (n > 3) {
-    pl_lower_complain(l, PL_E017, pl_ast_span(node), "a vector has at most three components", "ein Vektor hat höchstens drei Komponenten");
+    pl_lower_complain(l, PL_E017, pl_ast_span(node), "a vector has at most three components",
+                      "ein Vektor hat höchstens drei Komponenten");
     return pl_quantity_bad();
   }
   pl_quantity v = {.n = n};
@@ -223,7 +240,8 @@ pl_quantity pl_lower_factor(pl_lower* l, const pl_ast* node, const pl_ast* base,
     case PL_AST_DEGREE: return lower_degree(l, node, pl_lower_factor(l, pl_ast_kid(node, 0), base, base_value));
     case PL_AST_PRIME:
       if (base && pl_ast_base(node) == base) {
-        pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node), "a prime belongs to a name", "ein Strich gehört zu einem Namen");
+        pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node), "a prime belongs to a name",
+                                             "ein Strich gehört zu einem Namen");
         pl_suggest(l->job, m, NULL, "write dt(...)", "schreibe dt(...)");
         return pl_quantity_bad();
       }
@@ -238,7 +256,8 @@ pl_quantity pl_lower_quantity(pl_lower* l, const pl_ast* node) {
     case PL_AST_PI: return pl_quantity_of(pl_pi(l->pool));
     case PL_AST_INFINITY:
       if (l->infinity) return pl_quantity_of(pl_infinity(l->pool));
-      pl_lower_complain(l, PL_E017, pl_ast_span(node), "∞ can only be the target of a limit", "∞ kann nur Ziel eines Grenzwerts sein");
+      pl_lower_complain(l, PL_E017, pl_ast_span(node), "∞ can only be the target of a limit",
+                        "∞ kann nur Ziel eines Grenzwerts sein");
       return pl_quantity_bad();
     case PL_AST_NAME:
       if (pl_lower_is_function(l, node->key)) return pl_lower_call(l, node, NULL);
@@ -247,14 +266,18 @@ pl_quantity pl_lower_quantity(pl_lower* l, const pl_ast* node) {
     case PL_AST_GROUP: return lower_group(l, node);
     case PL_AST_PRODUCT: return pl_lower_product(l, node);
     case PL_AST_SUM: return lower_sum(l, node);
-    case PL_AST_NEG: return pl_lower_times(l, pl_lower_quantity(l, pl_ast_kid(node, 0)), pl_quantity_of(pl_int(l->pool, -1)), false, node);
-    case PL_AST_POWER: case PL_AST_UNIT: case PL_AST_DEGREE: case PL_AST_PRIME: return pl_lower_factor(l, node, NULL, NULL);
-    case PL_AST_RELATION: case PL_AST_IN:
+    case PL_AST_NEG:
+      return pl_lower_times(l, pl_lower_quantity(l, pl_ast_kid(node, 0)), pl_quantity_of(pl_int(l->pool, -1)), false,
+                            node);
+    case PL_AST_POWER:
+    case PL_AST_UNIT:
+    case PL_AST_DEGREE:
+    case PL_AST_PRIME: return pl_lower_factor(l, node, NULL, NULL);
+    case PL_AST_RELATION:
+    case PL_AST_IN:
       pl_lower_complain(l, PL_E017, pl_ast_span(node), "a condition cannot be a value", "eine Bedingung ist kein Wert");
       return pl_quantity_bad();
-    default:
-      l->wrong++;
-      return pl_quantity_bad();
+    default: l->wrong++; return pl_quantity_bad();
   }
 }
 
@@ -262,7 +285,8 @@ pl_expr pl_lower_scalar(pl_lower* l, const pl_ast* node) {
   int wrong = l->wrong;
   pl_quantity q = pl_lower_quantity(l, node);
   if (q.n) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node), "a number is needed here, not a vector", "hier ist eine Zahl nötig, kein Vektor");
+    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node), "a number is needed here, not a vector",
+                                         "hier ist eine Zahl nötig, kein Vektor");
     pl_suggest(l->job, m, NULL, "take a component, x(A), or norm(...)", "eine Komponente nehmen, x(A), oder norm(...)");
     return pl_poison();
   }
@@ -290,8 +314,10 @@ bool pl_lower_relation(pl_lower* l, const pl_ast* node, pl_condition* out, int a
   pl_quantity a = pl_lower_quantity(l, left), b = pl_lower_quantity(l, right);
   if (pl_quantity_is_bad(&a) || pl_quantity_is_bad(&b)) return false;
   if (a.n || b.n) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node), "vectors cannot be compared", "Vektoren lassen sich nicht vergleichen");
-    pl_suggest(l->job, m, NULL, "write one relation for each component", "für jede Komponente eine Beziehung schreiben");
+    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node), "vectors cannot be compared",
+                                         "Vektoren lassen sich nicht vergleichen");
+    pl_suggest(l->job, m, NULL, "write one relation for each component",
+               "für jede Komponente eine Beziehung schreiben");
     return false;
   }
   pl_span span = at == 0 && node->kids.n == 2 ? pl_ast_span(node) : pl_span_join(pl_ast_span(left), pl_ast_span(right));

@@ -9,47 +9,59 @@
 
 // What a name stands for.
 typedef enum pl_entity_kind {
-  PL_ENTITY_PARAM, PL_ENTITY_INPUT, PL_ENTITY_COORD, PL_ENTITY_FAMILY, PL_ENTITY_LET, PL_ENTITY_FUNCTION,
-  PL_ENTITY_INDEX, PL_ENTITY_SMALL
+  PL_ENTITY_PARAM,
+  PL_ENTITY_INPUT,
+  PL_ENTITY_COORD,
+  PL_ENTITY_FAMILY,
+  PL_ENTITY_LET,
+  PL_ENTITY_FUNCTION,
+  PL_ENTITY_INDEX,
+  PL_ENTITY_SMALL
 } pl_entity_kind;
 
 typedef struct pl_entity {
   pl_entity_kind kind;
-  const char *key, *shown;     // interned
-  pl_symbol symbol;            // 0 for functions and inserted abbreviations until they are lowered
-  const pl_ast* definition;    // let: PL_AST_DEFINITION
-  const pl_ast* override;      // --set: the value instead
-  int state;                   // let: 0 not lowered, 1 being lowered, 2 done
-  bool inserted;               // let
-  int broken;                  // its statement has an error: its uses say nothing
-  pl_expr value;               // let: inserted value, or its symbol
-  pl_expr at[3];               // let of a vector
-  int n;                       // its components, 0: a scalar
-  int n_args;                  // function of a finished model: its arguments
+  const char *key, *shown;   // interned
+  pl_symbol symbol;          // 0 for functions and inserted abbreviations until they are lowered
+  const pl_ast* definition;  // let: PL_AST_DEFINITION
+  const pl_ast* override;    // --set: the value instead
+  int state;                 // let: 0 not lowered, 1 being lowered, 2 done
+  bool inserted;             // let
+  int broken;                // its statement has an error: its uses say nothing
+  pl_expr value;             // let: inserted value, or its symbol
+  pl_expr at[3];             // let of a vector
+  int n;                     // its components, 0: a scalar
+  int n_args;                // function of a finished model: its arguments
   const pl_symbol* arguments;
   pl_span span;
 } pl_entity;
 
 // A name that holds for a while only: index of a block or sum, argument of a function.
-typedef struct pl_local { const char* key; pl_symbol symbol; pl_expr value; pl_expr at[3]; int n; } pl_local;
+typedef struct pl_local {
+  const char* key;
+  pl_symbol symbol;
+  pl_expr value;
+  pl_expr at[3];
+  int n;
+} pl_local;
 
 typedef enum pl_site_kind { PL_SITE_MASS, PL_SITE_BODY, PL_SITE_POINT } pl_site_kind;
 typedef struct pl_site {
   pl_site_kind kind;
   const char *key, *shown;
   bool generated;
-  const pl_ast* statement;     // NULL when it comes from a finished model
-  const pl_ast* index_node;    // of the label, or NULL
+  const pl_ast* statement;   // NULL when it comes from a finished model
+  const pl_ast* index_node;  // of the label, or NULL
   pl_block* block;
-  int n_locals;                // locals that hold where it stands
+  int n_locals;  // locals that hold where it stands
   pl_local* locals;
   int state;
   pl_expr index;
   pl_point point;
-  pl_expr angle;               // bodies
+  pl_expr angle;  // bodies
 } pl_site;
 
-typedef struct pl_rule {       // a constraint, before it is lowered
+typedef struct pl_rule {  // a constraint, before it is lowered
   const char *key, *shown;
   bool generated, family;
   const char *with, *with_shown;
@@ -58,12 +70,15 @@ typedef struct pl_rule {       // a constraint, before it is lowered
 
 // A value: a number, a vector of 2 or 3, or the force of a constraint (a vector that is known later).
 typedef struct pl_quantity {
-  int n;                       // 0: scalar in at[0]
+  int n;  // 0: scalar in at[0]
   pl_expr at[3];
   const char* force_of;
 } pl_quantity;
 
-typedef struct pl_setting_node { const pl_ast *name, *value; bool done; } pl_setting_node;   // --set
+typedef struct pl_setting_node {
+  const pl_ast *name, *value;
+  bool done;
+} pl_setting_node;  // --set
 
 typedef struct pl_lower {
   pl_job* job;
@@ -72,20 +87,20 @@ typedef struct pl_lower {
   pl_model* m;
   pl_names* names;
   PL_VEC(pl_entity*) entities;
-  pl_map* by_key;              // interned key -> entity + 1
+  pl_map* by_key;  // interned key -> entity + 1
   PL_VEC(pl_local) locals;
   PL_VEC(pl_site*) places;
   PL_VEC(pl_rule) rules;
-  PL_VEC(const char*) lost;    // names that broken lines would have declared
-  PL_VEC(const char*) letters; // of the requests so far
+  PL_VEC(const char*) lost;     // names that broken lines would have declared
+  PL_VEC(const char*) letters;  // of the requests so far
   PL_VEC(pl_setting_node) settings;
   pl_block* block;
-  int mute;                    // > 0: count errors, report nothing
-  int wrong;                   // errors so far, reported or not
-  bool results;                // T, V, λ, force(...) may stand here
-  bool infinity;               // ∞ may stand here
+  int mute;       // > 0: count errors, report nothing
+  int wrong;      // errors so far, reported or not
+  bool results;   // T, V, λ, force(...) may stand here
+  bool infinity;  // ∞ may stand here
   int n_rules_declared, n_rules_lowered;
-  int n_guesses;               // names looked for in vain so far
+  int n_guesses;  // names looked for in vain so far
   bool log_said;
   int call_depth;
 } pl_lower;
@@ -102,11 +117,12 @@ pl_entity* pl_scope_find(const pl_lower* l, const char* key);
 pl_entity* pl_scope_declare(pl_lower* l, pl_entity_kind kind, const pl_ast* name, pl_symbol symbol);
 void pl_scope_add(pl_lower* l, pl_entity* e);
 const pl_local* pl_scope_local(const pl_lower* l, const char* key);
-bool pl_scope_known(pl_lower* l, const pl_ast* name);          // would pl_lower_name find something?
-pl_diagnostic* pl_scope_unknown(pl_lower* l, const pl_ast* name);   // E011 with the nearest name
-void pl_scope_unknown_label(pl_lower* l, const pl_ast* label, const char* en, const char* de, const char* const* known, int n);
+bool pl_scope_known(pl_lower* l, const pl_ast* name);              // would pl_lower_name find something?
+pl_diagnostic* pl_scope_unknown(pl_lower* l, const pl_ast* name);  // E011 with the nearest name
+void pl_scope_unknown_label(pl_lower* l, const pl_ast* label, const char* en, const char* de, const char* const* known,
+                            int n);
 bool pl_scope_lost(const pl_lower* l, const char* key);
-pl_symbol pl_scope_symbol(pl_lower* l, const pl_ast* name, pl_role role);   // makes one
+pl_symbol pl_scope_symbol(pl_lower* l, const pl_ast* name, pl_role role);  // makes one
 pl_symbol pl_scope_dotted(pl_lower* l, pl_symbol s, int dots);
 void pl_scope_finish_let(pl_lower* l, pl_entity* e);
 pl_rule* pl_scope_rule(pl_lower* l, const char* key);
@@ -116,17 +132,17 @@ pl_quantity pl_quantity_of(pl_expr e);
 pl_quantity pl_quantity_bad(void);
 bool pl_quantity_is_bad(const pl_quantity* q);
 pl_quantity pl_lower_quantity(pl_lower* l, const pl_ast* node);
-pl_expr pl_lower_scalar(pl_lower* l, const pl_ast* node);      // a vector is an error; poison has been reported
+pl_expr pl_lower_scalar(pl_lower* l, const pl_ast* node);  // a vector is an error; poison has been reported
 pl_quantity pl_lower_product(pl_lower* l, const pl_ast* node);
 pl_quantity pl_lower_factor(pl_lower* l, const pl_ast* node, const pl_ast* base, const pl_quantity* base_value);
 pl_quantity pl_lower_name(pl_lower* l, const pl_ast* name, const pl_ast* index, int dots, const pl_ast* place);
 pl_quantity pl_lower_add(pl_lower* l, pl_quantity a, pl_quantity b, bool minus, const pl_ast* where);
 pl_quantity pl_lower_times(pl_lower* l, pl_quantity a, pl_quantity b, bool divide, const pl_ast* where);
-bool pl_lower_relation(pl_lower* l, const pl_ast* node, pl_condition* out, int at);    // pair `at` of a chain
+bool pl_lower_relation(pl_lower* l, const pl_ast* node, pl_condition* out, int at);  // pair `at` of a chain
 pl_relation pl_relation_of(char op);
 bool pl_lower_unit(pl_lower* l, const pl_ast* node, pl_unit* out);
-const pl_ast* pl_ast_single(const pl_ast* node);               // the one factor of an expression, or NULL
-const pl_ast* pl_ast_base(const pl_ast* factor);               // below powers, primes, units
+const pl_ast* pl_ast_single(const pl_ast* node);  // the one factor of an expression, or NULL
+const pl_ast* pl_ast_base(const pl_ast* factor);  // below powers, primes, units
 bool pl_ast_is_name(const pl_ast* node, const char* key);
 
 // Functions: built in, special, and those of `let f(x)`.
@@ -135,29 +151,29 @@ pl_quantity pl_lower_call(pl_lower* l, const pl_ast* function, const pl_ast* gro
 pl_quantity pl_lower_apply(pl_lower* l, const pl_ast* function, pl_quantity argument, const pl_ast* where);
 
 // ---------------------------------------------------------------------------------------------- places
-int pl_axis_find(const pl_lower* l, const char* key);          // -1
+int pl_axis_find(const pl_lower* l, const char* key);  // -1
 pl_site* pl_site_find(const pl_lower* l, const char* key);
 bool pl_site_finish(pl_lower* l, pl_site* p);
 bool pl_lower_point(pl_lower* l, const pl_ast* node, pl_point* out);
 bool pl_lower_where(pl_lower* l, const pl_ast* node, pl_point* out, pl_site** place);
 bool pl_lower_label_point(pl_lower* l, const pl_ast* name, const pl_ast* index, pl_point* out, pl_site** place);
-const pl_ast* pl_ast_label(const pl_ast* node, const pl_ast** index);      // name of a label, NULL if node is none
-const char* pl_label_text(pl_lower* l, const pl_ast* name, const pl_ast* index);   // "c[3]"
-const char* pl_constraint_label(pl_lower* l, const pl_ast* label);         // checked; NULL if unknown
+const pl_ast* pl_ast_label(const pl_ast* node, const pl_ast** index);  // name of a label, NULL if node is none
+const char* pl_label_text(pl_lower* l, const pl_ast* name, const pl_ast* index);  // "c[3]"
+const char* pl_constraint_label(pl_lower* l, const pl_ast* label);                // checked; NULL if unknown
 void pl_site_declare(pl_lower* l, const pl_ast* statement);
 void pl_axes_settle(pl_lower* l, const pl_ast* file);
 int pl_ast_components(const pl_ast* point);
 
 // ---------------------------------------------------------------------------------------------- statements
-void pl_lower_declare(pl_lower* l, const pl_ast* statement);   // first pass: names
-void pl_lower_statement(pl_lower* l, const pl_ast* statement); // second pass
+void pl_lower_declare(pl_lower* l, const pl_ast* statement);    // first pass: names
+void pl_lower_statement(pl_lower* l, const pl_ast* statement);  // second pass
 void pl_lower_physics(pl_lower* l, const pl_ast* statement);
 void pl_lower_start(pl_lower* l, const pl_ast* statement);
 void pl_lower_ask(pl_lower* l, const pl_ast* statement);
-void pl_lower_display(pl_lower* l, const pl_ast* node);        // simulate, plot, animate, sweep, poincare
+void pl_lower_display(pl_lower* l, const pl_ast* node);  // simulate, plot, animate, sweep, poincare
 void pl_lower_event(pl_lower* l, const pl_ast* statement);
 
 pl_lower* pl_lower_make(pl_job* job, pl_model* m, pl_names* names);
-void pl_lower_from_model(pl_lower* l);                         // scope of a finished model
+void pl_lower_from_model(pl_lower* l);  // scope of a finished model
 
 #endif

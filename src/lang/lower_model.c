@@ -3,11 +3,15 @@
 
 #include <string.h>
 
-
 static void add_entity(pl_lower* l, pl_symbol s, pl_entity_kind kind) {
   const pl_symbol_info* info = pl_symbol_get(l->pool, s);
   pl_entity* e = PL_NEW(l->arena, pl_entity);
-  *e = (pl_entity){.kind = kind, .key = pl_intern(l->names, info->ascii), .shown = info->name, .symbol = s, .state = 2, .value = pl_sym(l->pool, s)};
+  *e = (pl_entity){.kind = kind,
+                   .key = pl_intern(l->names, info->ascii),
+                   .shown = info->name,
+                   .symbol = s,
+                   .state = 2,
+                   .value = pl_sym(l->pool, s)};
   if (pl_scope_find(l, e->key) == NULL) pl_scope_add(l, e);
 }
 
@@ -46,27 +50,43 @@ static void add_lets(pl_lower* l) {
   }
 }
 
-static void add_place(pl_lower* l, pl_site_kind kind, const pl_name* name, const pl_point* at, pl_expr angle, pl_block* block) {
+static void add_place(pl_lower* l, pl_site_kind kind, const pl_name* name, const pl_point* at, pl_expr angle,
+                      pl_block* block) {
   pl_site* p = PL_NEW(l->arena, pl_site);
-  *p = (pl_site){.kind = kind, .key = pl_intern(l->names, name->ascii), .shown = name->text, .state = 2, .index = name->index, .point = *at, .angle = angle, .block = block};
+  *p = (pl_site){.kind = kind,
+                 .key = pl_intern(l->names, name->ascii),
+                 .shown = name->text,
+                 .state = 2,
+                 .index = name->index,
+                 .point = *at,
+                 .angle = angle,
+                 .block = block};
   pl_push(l->arena, l->places, p);
 }
 
 static void add_places(pl_lower* l) {
   const pl_model* m = l->m;
-  for (int i = 0; i < m->masses.n; i++) add_place(l, PL_SITE_MASS, &m->masses.at[i].name, &m->masses.at[i].point, pl_poison(), m->masses.at[i].block);
-  for (int i = 0; i < m->bodies.n; i++) add_place(l, PL_SITE_BODY, &m->bodies.at[i].name, &m->bodies.at[i].centre, m->bodies.at[i].angle, m->bodies.at[i].block);
-  for (int i = 0; i < m->points.n; i++) add_place(l, PL_SITE_POINT, &m->points.at[i].name, &m->points.at[i].point, pl_poison(), m->points.at[i].block);
+  for (int i = 0; i < m->masses.n; i++)
+    add_place(l, PL_SITE_MASS, &m->masses.at[i].name, &m->masses.at[i].point, pl_poison(), m->masses.at[i].block);
+  for (int i = 0; i < m->bodies.n; i++)
+    add_place(l, PL_SITE_BODY, &m->bodies.at[i].name, &m->bodies.at[i].centre, m->bodies.at[i].angle,
+              m->bodies.at[i].block);
+  for (int i = 0; i < m->points.n; i++)
+    add_place(l, PL_SITE_POINT, &m->points.at[i].name, &m->points.at[i].point, pl_poison(), m->points.at[i].block);
 }
 
 static void add_rules(pl_lower* l) {
   for (int i = 0; i < l->m->constraints.n; i++) {
     const pl_constraint* c = &l->m->constraints.at[i];
-    pl_rule r = {.key = pl_intern(l->names, c->name.ascii), .shown = c->name.text, .generated = c->name.generated, .lambda = c->lambda,
+    pl_rule r = {.key = pl_intern(l->names, c->name.ascii),
+                 .shown = c->name.text,
+                 .generated = c->name.generated,
+                 .lambda = c->lambda,
                  .family = c->block || !pl_is_poison(c->name.index)};
     pl_spelled s;
     size_t bad;
-    if (c->multiplier && pl_spell(l->arena, l->names, c->multiplier, strlen(c->multiplier), &s, &bad)) r.with = s.key, r.with_shown = c->multiplier;
+    if (c->multiplier && pl_spell(l->arena, l->names, c->multiplier, strlen(c->multiplier), &s, &bad))
+      r.with = s.key, r.with_shown = c->multiplier;
     if (pl_scope_rule(l, r.key) == NULL) pl_push(l->arena, l->rules, r);
   }
 }

@@ -29,7 +29,8 @@ static bool missing_colon(pl_lower* l, const pl_ast* s, const pl_ast* value) {
   if (pl_ast_kid(s, 0) || value->kind != PL_AST_PRODUCT || value->kids.n < 2 || value->ops.at[1] != ' ') return false;
   const pl_ast* first = value->kids.at[0];
   if (first->kind != PL_AST_NAME || pl_scope_known(l, first) || pl_scope_lost(l, first->key)) return false;
-  pl_diagnostic* m = pl_lower_complain(l, PL_E001, pl_ast_span(first), "a colon is missing after the label %s", "hinter der Marke %s fehlt ein Doppelpunkt", first->shown);
+  pl_diagnostic* m = pl_lower_complain(l, PL_E001, pl_ast_span(first), "a colon is missing after the label %s",
+                                       "hinter der Marke %s fehlt ein Doppelpunkt", first->shown);
   pl_suggest(l->job, m, pl_format(l->arena, "%s:", first->shown), "write %s:", "schreibe %s:", first->shown);
   pl_push(l->arena, l->lost, first->key);
   pl_push(l->arena, l->lost, pl_intern(l->names, pl_format(l->arena, "lambda_%s", first->key)));
@@ -49,10 +50,14 @@ static void lower_body(pl_lower* l, const pl_ast* s) {
   pl_site* p = place_of(l, s);
   if (p == NULL) return;
   if (pl_ast_kid(s, 5)) {
-    pl_lower_pending(l, PL_E091, "body in space", pl_ast_span(s), "bodies in space are not computed by this version", "Körper im Raum berechnet diese Version nicht");
+    pl_lower_pending(l, PL_E091, "body in space", pl_ast_span(s), "bodies in space are not computed by this version",
+                     "Körper im Raum berechnet diese Version nicht");
     return;
   }
-  pl_body b = {.mass = pl_lower_scalar(l, pl_ast_kid(s, 1)), .inertia = pl_lower_scalar(l, pl_ast_kid(s, 2)), .block = l->block, .span = pl_ast_span(s)};
+  pl_body b = {.mass = pl_lower_scalar(l, pl_ast_kid(s, 1)),
+               .inertia = pl_lower_scalar(l, pl_ast_kid(s, 2)),
+               .block = l->block,
+               .span = pl_ast_span(s)};
   if (!pl_site_finish(l, p) || pl_is_poison(b.mass) || pl_is_poison(b.inertia)) return;
   b.name = name_of_place(p);
   b.centre = p->point;
@@ -62,7 +67,8 @@ static void lower_body(pl_lower* l, const pl_ast* s) {
 
 static void lower_point_statement(pl_lower* l, const pl_ast* s) {
   pl_site* p = place_of(l, s);
-  if (p && pl_site_finish(l, p)) pl_push(l->arena, l->m->points, (pl_place_def){name_of_place(p), p->point, l->block, pl_ast_span(s)});
+  if (p && pl_site_finish(l, p))
+    pl_push(l->arena, l->m->points, (pl_place_def){name_of_place(p), p->point, l->block, pl_ast_span(s)});
 }
 
 // A uniform rod of mass M between A and B moves like M/6 at A, M/6 at B and 2 M/3 in the middle:
@@ -74,7 +80,8 @@ static void lower_rod(pl_lower* l, const pl_ast* s) {
   pl_name name = name_of_label(l, pl_ast_kid(s, 0), pl_format(l->arena, "rod%d", l->m->masses.n + 1));
   if (!fine_a || !fine_b || pl_is_poison(mass)) return;
   if (a.n != b.n) {
-    pl_lower_complain(l, PL_E017, pl_ast_span(s), "the ends have %d and %d components", "die Enden haben %d und %d Komponenten", a.n, b.n);
+    pl_lower_complain(l, PL_E017, pl_ast_span(s), "the ends have %d and %d components",
+                      "die Enden haben %d und %d Komponenten", a.n, b.n);
     return;
   }
   pl_point middle = a;
@@ -98,8 +105,11 @@ static void lower_gravity(pl_lower* l, const pl_ast* s) {
   if (i < 0) {
     pl_text all = pl_text_make(l->arena);
     for (int k = 0; k < l->m->n_axes; k++) pl_text_addf(&all, "%s%s", k ? ", " : "", l->m->axes[k].name);
-    pl_diagnostic* m = pl_lower_complain(l, PL_E029, pl_ast_span(axis), "there is no axis %s", "es gibt keine Achse %s", axis->shown);
-    if (l->m->n_axes) pl_suggest(l->job, m, NULL, "the axes are %s; others are declared by  axes x right, z up", "die Achsen sind %s; andere vereinbart  axes x right, z up", pl_text_string(&all));
+    pl_diagnostic* m =
+        pl_lower_complain(l, PL_E029, pl_ast_span(axis), "there is no axis %s", "es gibt keine Achse %s", axis->shown);
+    if (l->m->n_axes)
+      pl_suggest(l->job, m, NULL, "the axes are %s; others are declared by  axes x right, z up",
+                 "die Achsen sind %s; andere vereinbart  axes x right, z up", pl_text_string(&all));
     else pl_suggest(l->job, m, NULL, "declare  axes x right, %s up", "vereinbaren:  axes x right, %s up", axis->shown);
     return;
   }
@@ -108,7 +118,8 @@ static void lower_gravity(pl_lower* l, const pl_ast* s) {
 
 // ---------------------------------------------------------------------------------------------- loads
 static void push_load(pl_lower* l, pl_load load, const pl_ast* s, const char* kind) {
-  load.name = name_of_label(l, s->kids.n > 1 ? pl_ast_kid(s, 0) : NULL, pl_format(l->arena, "%s%d", kind, l->m->loads.n + 1));
+  load.name =
+      name_of_label(l, s->kids.n > 1 ? pl_ast_kid(s, 0) : NULL, pl_format(l->arena, "%s%d", kind, l->m->loads.n + 1));
   load.block = l->block;
   load.span = pl_ast_span(s);
   pl_push(l->arena, l->m->loads, load);
@@ -121,9 +132,16 @@ static void lower_force(pl_lower* l, const pl_ast* s) {
   if (pl_quantity_is_bad(&v) || !fine) return;
   int n = v.n ? v.n : 1;
   if (n != load.a.n) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(pl_ast_kid(s, 1)), "the force has %d components, its point has %d", "die Kraft hat %d Komponenten, ihr Angriffspunkt %d", n, load.a.n);
-    pl_suggest(l->job, m, NULL, load.a.n == 2 ? "write (Fx, Fy)" : load.a.n == 3 ? "write (Fx, Fy, Fz)" : "write one component",
-               load.a.n == 2 ? "schreibe (Fx, Fy)" : load.a.n == 3 ? "schreibe (Fx, Fy, Fz)" : "schreibe eine Komponente");
+    pl_diagnostic* m =
+        pl_lower_complain(l, PL_E017, pl_ast_span(pl_ast_kid(s, 1)), "the force has %d components, its point has %d",
+                          "die Kraft hat %d Komponenten, ihr Angriffspunkt %d", n, load.a.n);
+    pl_suggest(l->job, m, NULL,
+               load.a.n == 2   ? "write (Fx, Fy)"
+               : load.a.n == 3 ? "write (Fx, Fy, Fz)"
+                               : "write one component",
+               load.a.n == 2   ? "schreibe (Fx, Fy)"
+               : load.a.n == 3 ? "schreibe (Fx, Fy, Fz)"
+                               : "schreibe eine Komponente");
     return;
   }
   memcpy(load.vector, v.at, sizeof load.vector);
@@ -139,7 +157,8 @@ static bool torque_target(pl_lower* l, const pl_ast* on, pl_symbol* out) {
     pl_site* p;
     if (!pl_lower_label_point(l, name, index, &at, &p)) return false;
     if (p->kind != PL_SITE_BODY) {
-      pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(on), "a torque acts on a body or a coordinate", "ein Moment wirkt auf einen Körper oder eine Koordinate");
+      pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(on), "a torque acts on a body or a coordinate",
+                                           "ein Moment wirkt auf einen Körper oder eine Koordinate");
       pl_suggest(l->job, m, NULL, "write  force (Fx, Fy) on %s", "schreibe  force (Fx, Fy) on %s", p->shown);
       return false;
     }
@@ -152,16 +171,20 @@ static bool torque_target(pl_lower* l, const pl_ast* on, pl_symbol* out) {
   *out = symbol ? pl_symbol_of(l->pool, angle) : (pl_symbol){0};
   if (symbol && pl_symbol_get(l->pool, *out)->role == PL_R_COORD) return true;
   if (!symbol && (pl_kind_of(l->pool, angle) == PL_AT || pl_has_role(l->pool, angle, PL_R_COORD))) {
-    pl_lower_pending(l, PL_E091, "torque", pl_ast_span(on), "a torque on anything but a coordinate is not computed by this version", "ein Moment auf etwas anderes als eine Koordinate berechnet diese Version nicht");
+    pl_lower_pending(l, PL_E091, "torque", pl_ast_span(on),
+                     "a torque on anything but a coordinate is not computed by this version",
+                     "ein Moment auf etwas anderes als eine Koordinate berechnet diese Version nicht");
     return false;
   }
-  pl_lower_complain(l, PL_E017, pl_ast_span(on), "a torque acts on a body or a coordinate", "ein Moment wirkt auf einen Körper oder eine Koordinate");
+  pl_lower_complain(l, PL_E017, pl_ast_span(on), "a torque acts on a body or a coordinate",
+                    "ein Moment wirkt auf einen Körper oder eine Koordinate");
   return false;
 }
 
 static void lower_torque(pl_lower* l, const pl_ast* s) {
   pl_load load = {.kind = PL_L_TORQUE, .value = pl_lower_scalar(l, pl_ast_kid(s, 1))};
-  if (torque_target(l, pl_ast_kid(s, 2), &load.coordinate) && !pl_is_poison(load.value)) push_load(l, load, s, "torque");
+  if (torque_target(l, pl_ast_kid(s, 2), &load.coordinate) && !pl_is_poison(load.value))
+    push_load(l, load, s, "torque");
 }
 
 static void lower_function(pl_lower* l, const pl_ast* s, pl_load_kind kind, const char* word) {
@@ -171,7 +194,9 @@ static void lower_function(pl_lower* l, const pl_ast* s, pl_load_kind kind, cons
 
 static void lower_spring(pl_lower* l, const pl_ast* s) {
   const pl_ast* rest = pl_ast_kid(s, 2);
-  pl_load load = {.kind = PL_L_SPRING, .value = pl_lower_scalar(l, pl_ast_kid(s, 1)), .rest = rest ? pl_lower_scalar(l, rest) : pl_int(l->pool, 0)};
+  pl_load load = {.kind = PL_L_SPRING,
+                  .value = pl_lower_scalar(l, pl_ast_kid(s, 1)),
+                  .rest = rest ? pl_lower_scalar(l, rest) : pl_int(l->pool, 0)};
   bool a = pl_lower_where(l, pl_ast_kid(s, 3), &load.a, NULL), b = pl_lower_where(l, pl_ast_kid(s, 4), &load.b, NULL);
   if (a && b && !pl_is_poison(load.value) && !pl_is_poison(load.rest)) push_load(l, load, s, "spring");
 }
@@ -190,14 +215,17 @@ static void lower_drag(pl_lower* l, const pl_ast* s) {
 // ---------------------------------------------------------------------------------------------- constraints
 static bool check_relation(pl_lower* l, const pl_ast* r) {
   if (r->kids.n > 2) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(r), "a constraint has one relation sign", "eine Zwangsbedingung hat ein Beziehungszeichen");
+    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(r), "a constraint has one relation sign",
+                                         "eine Zwangsbedingung hat ein Beziehungszeichen");
     pl_suggest(l->job, m, NULL, "write one constraint for each", "für jede eine eigene Zwangsbedingung schreiben");
     return false;
   }
   char op = r->ops.at[1];
   if (op == '=' || op == 'g' || op == 'l') return true;
-  pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(r), "a constraint is written with =, >= or <=", "eine Zwangsbedingung schreibt man mit =, >= oder <=");
-  if (op != '!') pl_suggest(l->job, m, NULL, op == '>' ? "write >=" : "write <=", op == '>' ? "schreibe >=" : "schreibe <=");
+  pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(r), "a constraint is written with =, >= or <=",
+                                       "eine Zwangsbedingung schreibt man mit =, >= oder <=");
+  if (op != '!')
+    pl_suggest(l->job, m, NULL, op == '>' ? "write >=" : "write <=", op == '>' ? "schreibe >=" : "schreibe <=");
   return false;
 }
 
@@ -234,14 +262,16 @@ static bool plain_coordinate(pl_lower* l, const pl_ast* node, pl_expr* out, int 
   *out = pl_lower_scalar(l, node);
   if (pl_is_poison(*out)) return false;
   pl_kind kind = pl_kind_of(l->pool, *out);
-  if (kind == PL_AT && pl_symbol_get(l->pool, pl_symbol_of(l->pool, *out))->role == PL_R_ARRAY) return pl_dots_of(l->pool, *out) <= most_dots;
+  if (kind == PL_AT && pl_symbol_get(l->pool, pl_symbol_of(l->pool, *out))->role == PL_R_ARRAY)
+    return pl_dots_of(l->pool, *out) <= most_dots;
   if (kind == PL_SYMBOL) {
     pl_role role = pl_symbol_get(l->pool, pl_symbol_of(l->pool, *out))->role;
     if (role == PL_R_COORD || (role == PL_R_VELOCITY && most_dots >= 1)) return true;
   }
   const char* text = pl_source_text(l->arena, pl_ast_span(node));
-  pl_diagnostic* m = pl_lower_complain(l, PL_E030, pl_ast_span(node), most_dots ? "%s is not a coordinate or velocity" : "%s is not a coordinate",
-                                       most_dots ? "%s ist keine Koordinate oder Geschwindigkeit" : "%s ist keine Koordinate", text);
+  pl_diagnostic* m = pl_lower_complain(
+      l, PL_E030, pl_ast_span(node), most_dots ? "%s is not a coordinate or velocity" : "%s is not a coordinate",
+      most_dots ? "%s ist keine Koordinate oder Geschwindigkeit" : "%s ist keine Koordinate", text);
   if (kind == PL_SYMBOL && pl_symbol_get(l->pool, pl_symbol_of(l->pool, *out))->role == PL_R_START) {
     const pl_ast* first = node->kind == PL_AST_PRODUCT ? node->kids.at[0] : node;
     const char* name = pl_source_text(l->arena, pl_ast_span(first));
@@ -254,7 +284,8 @@ static bool plain_coordinate(pl_lower* l, const pl_ast* node, pl_expr* out, int 
 
 static bool equation(pl_lower* l, const pl_ast* r) {
   if (r->kids.n == 2 && r->ops.at[1] == '=') return true;
-  pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(r), "an equation with one = is needed here", "hier ist eine Gleichung mit einem = nötig");
+  pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(r), "an equation with one = is needed here",
+                                       "hier ist eine Gleichung mit einem = nötig");
   pl_suggest(l->job, m, NULL, "write  name = value", "schreibe  Name = Wert");
   return false;
 }
@@ -267,7 +298,10 @@ static void lower_choose(pl_lower* l, const pl_ast* s) {
     pl_expr q;
     if (!plain_coordinate(l, names->kids.at[i], &q, 0)) continue;
     if (pl_kind_of(l->pool, q) == PL_SYMBOL) pl_push(l->arena, c->coords, pl_symbol_of(l->pool, q));
-    else pl_lower_pending(l, PL_N091, "choose", pl_ast_span(names->kids.at[i]), "members of families are not chosen by this version", "Glieder von Familien wählt diese Version nicht");
+    else
+      pl_lower_pending(l, PL_N091, "choose", pl_ast_span(names->kids.at[i]),
+                       "members of families are not chosen by this version",
+                       "Glieder von Familien wählt diese Version nicht");
   }
   int n = maps ? maps->kids.n : 0;
   struct pl_map_equation* all = PL_ARRAY(l->arena, struct pl_map_equation, c->n_maps + n + 1);
@@ -318,7 +352,8 @@ static void later(pl_lower* l, const pl_ast* s) {
   const pl_ast* index;
   const pl_ast* name = pl_ast_label(pl_ast_kid(s, s->kids.n - 1), &index);
   if (name == NULL) {
-    pl_lower_complain(l, PL_E017, pl_ast_span(pl_ast_kid(s, s->kids.n - 1)), "the label of a constraint is needed here", "hier ist die Marke einer Zwangsbedingung nötig");
+    pl_lower_complain(l, PL_E017, pl_ast_span(pl_ast_kid(s, s->kids.n - 1)), "the label of a constraint is needed here",
+                      "hier ist die Marke einer Zwangsbedingung nötig");
     return;
   }
   if (!pl_scope_rule(l, name->key) && !pl_site_find(l, name->key)) {
@@ -326,9 +361,11 @@ static void later(pl_lower* l, const pl_ast* s) {
     return;
   }
   if (s->token == TOK_FRICTION) {
-    pl_lower_pending(l, PL_E091, "friction", span, "friction is not computed by this version", "Reibung berechnet diese Version nicht");
+    pl_lower_pending(l, PL_E091, "friction", span, "friction is not computed by this version",
+                     "Reibung berechnet diese Version nicht");
   } else {
-    pl_lower_pending(l, PL_N091, "restitution", span, "this version computes impacts without rebound", "diese Version rechnet Stöße ohne Rückprall");
+    pl_lower_pending(l, PL_N091, "restitution", span, "this version computes impacts without rebound",
+                     "diese Version rechnet Stöße ohne Rückprall");
   }
 }
 
@@ -354,7 +391,8 @@ void pl_lower_physics(pl_lower* l, const pl_ast* s) {
     case TOK_CONSTRAINT: lower_constraint(l, s); break;
     case TOK_CHOOSE: lower_choose(l, s); break;
     case TOK_BRANCH: lower_branch(l, s); break;
-    case TOK_FRICTION: case TOK_RESTITUTION: later(l, s); break;
+    case TOK_FRICTION:
+    case TOK_RESTITUTION: later(l, s); break;
     default: break;
   }
   l->results = results;

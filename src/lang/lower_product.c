@@ -1,9 +1,9 @@
 // Products: what a blank means.
 //
-// A product is a list of factors.  A function takes the bracket after it, or exactly one factor.  A bracket that touches a
-// coordinate is its value at a time, one that touches an axis is the component of a body, one that touches anything else
-// is a factor.  After a division by anything but a plain number a blank could go on above or below the fraction line: that
-// is refused, with both readings.  language.md, rules 4 and 5.
+// A product is a list of factors.  A function takes the bracket after it, or exactly one factor.  A bracket that
+// touches a coordinate is its value at a time, one that touches an axis is the component of a body, one that touches
+// anything else is a factor.  After a division by anything but a plain number a blank could go on above or below the
+// fraction line: that is refused, with both readings.  language.md, rules 4 and 5.
 #include "lang/lower_impl.h"
 
 #include <stdlib.h>
@@ -14,8 +14,8 @@
 typedef struct product {
   pl_lower* l;
   const pl_ast* node;
-  int at;                    // factor being read
-  int run_start, run_end;    // factors of the run read last
+  int at;                  // factor being read
+  int run_start, run_end;  // factors of the run read last
 } product;
 
 static const pl_ast* factor(const product* p, int i) { return i < p->node->kids.n ? p->node->kids.at[i] : NULL; }
@@ -40,7 +40,8 @@ static bool is_function_factor(const product* p, int i) {
 }
 
 static const char* inverse_of(const char* key) {
-  static const char* const pairs[][2] = {{"sin", "asin"}, {"cos", "acos"}, {"tan", "atan"}, {"exp", "ln"}, {"ln", "exp"}, {"log", "exp"}};
+  static const char* const pairs[][2] = {{"sin", "asin"}, {"cos", "acos"}, {"tan", "atan"},
+                                         {"exp", "ln"},   {"ln", "exp"},   {"log", "exp"}};
   for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
     if (strcmp(pairs[i][0], key) == 0) return pairs[i][1];
   }
@@ -54,20 +55,25 @@ static bool refuse_exponent(product* p, const pl_ast* f) {
   const pl_ast* name = pl_ast_kid(f, 0);
   bool minus = e->kind == PL_AST_NEG || (e->kind == PL_AST_NUMBER && e->text[0] == '-');
   if (!minus) return false;
-  pl_diagnostic* m = pl_lower_complain(p->l, PL_E015, pl_ast_span(f), "%s can mean the inverse function or one over it", "%s kann die Umkehrfunktion oder den Kehrwert bedeuten",
+  pl_diagnostic* m = pl_lower_complain(p->l, PL_E015, pl_ast_span(f), "%s can mean the inverse function or one over it",
+                                       "%s kann die Umkehrfunktion oder den Kehrwert bedeuten",
                                        pl_source_text(p->l->arena, pl_ast_span(f)));
   const char* inverse = inverse_of(name->key);
   int next = p->at + 1;
   const char* argument = factor(p, next) && blank_before(p, next) ? text_between(p, next, next) : "x";
-  if (inverse) pl_suggest(p->l->job, m, inverse, "write %1$s %3$s  or  1/%2$s %3$s", "schreibe %1$s %3$s  oder  1/%2$s %3$s", inverse, name->shown, argument);
+  if (inverse)
+    pl_suggest(p->l->job, m, inverse, "write %1$s %3$s  or  1/%2$s %3$s", "schreibe %1$s %3$s  oder  1/%2$s %3$s",
+               inverse, name->shown, argument);
   else pl_suggest(p->l->job, m, NULL, "write 1/%s %s", "schreibe 1/%s %s", name->shown, argument);
   return true;
 }
 
 static void needs_brackets(product* p, int from, int to, const char* name, const char* argument, const char* rest) {
   const char* whole = text_between(p, from, to);
-  const char* fixed = pl_format(p->l->arena, "%s(%s)", name, rest ? pl_format(p->l->arena, "%s %s", argument, rest) : argument);
-  pl_diagnostic* m = pl_lower_complain(p->l, PL_E015, span_between(p, from, to), "%s needs brackets", "%s braucht Klammern", whole);
+  const char* fixed =
+      pl_format(p->l->arena, "%s(%s)", name, rest ? pl_format(p->l->arena, "%s %s", argument, rest) : argument);
+  pl_diagnostic* m =
+      pl_lower_complain(p->l, PL_E015, span_between(p, from, to), "%s needs brackets", "%s braucht Klammern", whole);
   pl_because(p->l->job, m, "without them a function takes one factor", "ohne sie nimmt eine Funktion einen Faktor");
   pl_suggest(p->l->job, m, fixed, "write %s", "schreibe %s", fixed);
 }
@@ -81,7 +87,8 @@ static pl_quantity raise(product* p, const pl_ast* f, pl_quantity q) {
 
 static bool starts_operand(const pl_ast* n) {
   const pl_ast* base = pl_ast_base(n);
-  return base && (base->kind == PL_AST_NAME || base->kind == PL_AST_NUMBER || base->kind == PL_AST_PI || base->kind == PL_AST_INDEXED);
+  return base && (base->kind == PL_AST_NAME || base->kind == PL_AST_NUMBER || base->kind == PL_AST_PI ||
+                  base->kind == PL_AST_INDEXED);
 }
 
 // After `sin θ`: a blank and t, or a number, is meant for the argument more likely than not.
@@ -92,17 +99,20 @@ static bool check_after_argument(product* p, int from, const pl_ast* name, int a
   bool number_first = pl_ast_base(factor(p, argument))->kind == PL_AST_NUMBER;
   bool time = base->kind == PL_AST_NAME && strcmp(base->key, "t") == 0 && !pl_scope_find(p->l, base->key);
   if ((number_first && (starts_operand(next) || base->kind == PL_AST_GROUP)) || time || base->kind == PL_AST_NUMBER) {
-    needs_brackets(p, from, argument + 1, name->shown, text_between(p, argument, argument), text_between(p, argument + 1, argument + 1));
+    needs_brackets(p, from, argument + 1, name->shown, text_between(p, argument, argument),
+                   text_between(p, argument + 1, argument + 1));
     p->at = argument + 2;
     return false;
   }
   bool moving = next->kind == PL_AST_PRIME || (base->kind == PL_AST_NAME && base->number > 0);
   if (base->kind == PL_AST_NAME && !moving && next->kind == PL_AST_NAME) {
     const char* run = text_between(p, from, argument);
-    pl_diagnostic* m = pl_lower_complain(p->l, PL_W071, span_between(p, from, argument + 1), "%1$s is read as (%2$s) %3$s", "%1$s wird als (%2$s) %3$s gelesen",
-                                         text_between(p, from, argument + 1), run, next->shown);
-    pl_suggest(p->l->job, m, NULL, "write %2$s %1$s, or %3$s(%4$s %2$s) if that is meant", "schreibe %2$s %1$s, oder %3$s(%4$s %2$s), falls das gemeint ist", run, next->shown,
-               name->shown, text_between(p, argument, argument));
+    pl_diagnostic* m =
+        pl_lower_complain(p->l, PL_W071, span_between(p, from, argument + 1), "%1$s is read as (%2$s) %3$s",
+                          "%1$s wird als (%2$s) %3$s gelesen", text_between(p, from, argument + 1), run, next->shown);
+    pl_suggest(p->l->job, m, NULL, "write %2$s %1$s, or %3$s(%4$s %2$s) if that is meant",
+               "schreibe %2$s %1$s, oder %3$s(%4$s %2$s), falls das gemeint ist", run, next->shown, name->shown,
+               text_between(p, argument, argument));
   }
   return true;
 }
@@ -140,7 +150,8 @@ static pl_quantity read_function(product* p) {
   return pl_quantity_is_bad(&value) ? value : raise(p, f, value);
 }
 
-// ---------------------------------------------------------------------------------------------- brackets that touch a name
+// ---------------------------------------------------------------------------------------------- brackets that touch a
+// name
 static bool is_zero_number(const pl_ast* node) {
   const pl_ast* one = pl_ast_single(node);
   return one && one->kind == PL_AST_NUMBER && strtod(one->text, NULL) == 0;
@@ -157,13 +168,18 @@ static pl_quantity start_of(product* p, const pl_ast* place, pl_quantity q, cons
   if (role == PL_R_LOCAL && pl_model_result_name(l->m, s)) {
     // E(0): a constant of the motion
     const char* name = pl_symbol_get(l->pool, s)->name;
-    pl_symbol_info info = {.name = pl_format(l->arena, "%s(0)", name), .ascii = pl_format(l->arena, "%s_0", name), .role = PL_R_CONSTANT,
-                           .class = PL_C_OTHER, .dimension = pl_dimension_one()};
+    pl_symbol_info info = {.name = pl_format(l->arena, "%s(0)", name),
+                           .ascii = pl_format(l->arena, "%s_0", name),
+                           .role = PL_R_CONSTANT,
+                           .class = PL_C_OTHER,
+                           .dimension = pl_dimension_one()};
     return pl_quantity_of(pl_sym(l->pool, pl_symbol_make(l->pool, &info)));
   }
   const char* text = pl_source_text(l->arena, pl_ast_span(place));
-  pl_diagnostic* m = pl_lower_complain(l, PL_E016, span, "the start value of %s cannot be named", "der Startwert von %s lässt sich nicht benennen", text);
-  pl_because(l->job, m, "only coordinates, velocities and energies have one", "nur Koordinaten, Geschwindigkeiten und Energien haben einen");
+  pl_diagnostic* m = pl_lower_complain(l, PL_E016, span, "the start value of %s cannot be named",
+                                       "der Startwert von %s lässt sich nicht benennen", text);
+  pl_because(l->job, m, "only coordinates, velocities and energies have one",
+             "nur Koordinaten, Geschwindigkeiten und Energien haben einen");
   return pl_quantity_bad();
 }
 
@@ -195,7 +211,8 @@ static pl_quantity component(product* p, const pl_ast* f, const pl_ast* group) {
   if (!pl_lower_label_point(p->l, label, index, &at, NULL)) return pl_quantity_bad();
   int axis = pl_axis_find(p->l, f->key);
   if (axis < at.n) return pl_quantity_of(at.at[axis]);
-  pl_lower_complain(p->l, PL_E029, pl_ast_span(f), "%s has no %s component", "%s hat keine %s-Komponente", label->shown, f->shown);
+  pl_lower_complain(p->l, PL_E029, pl_ast_span(f), "%s has no %s component", "%s hat keine %s-Komponente", label->shown,
+                    f->shown);
   return pl_quantity_bad();
 }
 
@@ -211,9 +228,11 @@ static pl_quantity coordinate_bracket(product* p, const pl_ast* f, const pl_ast*
     const char* name = pl_source_text(l->arena, pl_ast_span(f));
     const char* inner = pl_source_text(l->arena, pl_ast_span(group));
     pl_span span = pl_span_join(pl_ast_span(f), pl_ast_span(group));
-    pl_diagnostic* m = pl_lower_complain(l, PL_E016, span, "a bracket that touches a coordinate is its value at a time: %1$s(0) or %1$s(t)",
-                                         "eine Klammer direkt hinter einer Koordinate ist ihr Wert zu einer Zeit: %1$s(0) oder %1$s(t)", name);
-    pl_suggest(l->job, m, pl_format(l->arena, "%s %s", name, inner), "write %s %s  for the product", "schreibe %s %s  für das Produkt", name, inner);
+    pl_diagnostic* m = pl_lower_complain(
+        l, PL_E016, span, "a bracket that touches a coordinate is its value at a time: %1$s(0) or %1$s(t)",
+        "eine Klammer direkt hinter einer Koordinate ist ihr Wert zu einer Zeit: %1$s(0) oder %1$s(t)", name);
+    pl_suggest(l->job, m, pl_format(l->arena, "%s %s", name, inner), "write %s %s  for the product",
+               "schreibe %s %s  für das Produkt", name, inner);
     return pl_quantity_bad();
   }
   return next == group ? q : pl_lower_factor(l, next, group, &q);
@@ -226,7 +245,8 @@ static bool is_plain_number(const pl_ast* n) {
 }
 
 static bool is_number_with_unit(const pl_ast* n) {
-  return (n->kind == PL_AST_UNIT || n->kind == PL_AST_DEGREE) && pl_ast_kid(n, 0) && pl_ast_kid(n, 0)->kind == PL_AST_NUMBER;
+  return (n->kind == PL_AST_UNIT || n->kind == PL_AST_DEGREE) && pl_ast_kid(n, 0) &&
+         pl_ast_kid(n, 0)->kind == PL_AST_NUMBER;
 }
 
 // `3 kg` where kg is not a name: the unit lacks its brackets.
@@ -254,8 +274,10 @@ static bool unit_without_brackets(product* p, int i) {
       has_unknown |= b->kind == PL_AST_NAME && !pl_scope_known(p->l, b);
     }
     if (!has_unknown) continue;
-    pl_diagnostic* m = pl_lower_complain(p->l, PL_E024, span, "%s looks like a unit without brackets", "%s sieht nach einer Einheit ohne Klammern aus", text);
-    pl_suggest(p->l->job, m, pl_format(p->l->arena, "[%s]", text), "write %s [%s]", "schreibe %s [%s]", text_between(p, i - 1, i - 1), text);
+    pl_diagnostic* m = pl_lower_complain(p->l, PL_E024, span, "%s looks like a unit without brackets",
+                                         "%s sieht nach einer Einheit ohne Klammern aus", text);
+    pl_suggest(p->l->job, m, pl_format(p->l->arena, "[%s]", text), "write %s [%s]", "schreibe %s [%s]",
+               text_between(p, i - 1, i - 1), text);
     p->at = last + 1;
     return true;
   }
@@ -315,8 +337,10 @@ static void two_readings(product* p, int numerator, int divisor) {
   const char* all = text_between(p, numerator, last);
   const char* first = pl_format(p->l->arena, "(%s/%s) %s", above, below, rest);
   pl_span span = span_between(p, numerator, last);
-  pl_diagnostic* m = pl_lower_complain(p->l, PL_E014, span, "%s can be read in two ways", "%s lässt sich auf zwei Arten lesen", all);
-  pl_suggest(p->l->job, m, first, "write %1$s  or  %2$s/(%3$s %4$s)", "schreibe %1$s  oder  %2$s/(%3$s %4$s)", first, above, below, rest);
+  pl_diagnostic* m =
+      pl_lower_complain(p->l, PL_E014, span, "%s can be read in two ways", "%s lässt sich auf zwei Arten lesen", all);
+  pl_suggest(p->l->job, m, first, "write %1$s  or  %2$s/(%3$s %4$s)", "schreibe %1$s  oder  %2$s/(%3$s %4$s)", first,
+             above, below, rest);
   p->at = p->node->kids.n;
 }
 
@@ -332,9 +356,10 @@ static bool unit_of_fraction(product* p, int numerator, int divisor, pl_quantity
     const char* unit = d->kind == PL_AST_DEGREE ? "°" : pl_format(l->arena, " [%s]", d->text);
     const char* above = text_between(p, numerator, divisor - 1);
     pl_span span = span_between(p, numerator, divisor);
-    pl_diagnostic* m = pl_lower_complain(l, PL_E014, span, "%s can be read in two ways", "%s lässt sich auf zwei Arten lesen", pl_source_text(l->arena, span));
-    pl_suggest(l->job, m, NULL, "write %1$s/(%2$s%3$s)  or  give %1$s its unit where it is declared", "schreibe %1$s/(%2$s%3$s)  oder  gib %1$s die Einheit in der Vereinbarung",
-               above, number, unit);
+    pl_diagnostic* m = pl_lower_complain(l, PL_E014, span, "%s can be read in two ways",
+                                         "%s lässt sich auf zwei Arten lesen", pl_source_text(l->arena, span));
+    pl_suggest(l->job, m, NULL, "write %1$s/(%2$s%3$s)  or  give %1$s its unit where it is declared",
+               "schreibe %1$s/(%2$s%3$s)  oder  gib %1$s die Einheit in der Vereinbarung", above, number, unit);
     *q = pl_quantity_bad();
     return true;
   }

@@ -6,22 +6,23 @@
 #include "grammar.h"
 
 // ---------------------------------------------------------------------------------------------- pieces
-#define PUSH_CONDITIONS(l, list, into)                                              \
-  do {                                                                              \
-    for (int i_ = 0; (list) && i_ < (list)->kids.n; i_++) {                         \
-      pl_condition c_;                                                              \
-      if ((list)->kids.at[i_]->kind == PL_AST_RELATION) {                           \
-        for (int k_ = 0; k_ + 1 < (list)->kids.at[i_]->kids.n; k_++) {              \
+#define PUSH_CONDITIONS(l, list, into)                                                               \
+  do {                                                                                               \
+    for (int i_ = 0; (list) && i_ < (list)->kids.n; i_++) {                                          \
+      pl_condition c_;                                                                               \
+      if ((list)->kids.at[i_]->kind == PL_AST_RELATION) {                                            \
+        for (int k_ = 0; k_ + 1 < (list)->kids.at[i_]->kids.n; k_++) {                               \
           if (pl_lower_relation((l), (list)->kids.at[i_], &c_, k_)) pl_push((l)->arena, (into), c_); \
-        }                                                                           \
-      } else {                                                                      \
-        not_a_condition((l), (list)->kids.at[i_]);                                  \
-      }                                                                             \
-    }                                                                               \
+        }                                                                                            \
+      } else {                                                                                       \
+        not_a_condition((l), (list)->kids.at[i_]);                                                   \
+      }                                                                                              \
+    }                                                                                                \
   } while (0)
 
 static void not_a_condition(pl_lower* l, const pl_ast* node) {
-  pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node), "an equation is needed here", "hier ist eine Gleichung nötig");
+  pl_diagnostic* m =
+      pl_lower_complain(l, PL_E017, pl_ast_span(node), "an equation is needed here", "hier ist eine Gleichung nötig");
   pl_suggest(l->job, m, NULL, "write  name = value", "schreibe  Name = Wert");
 }
 
@@ -45,16 +46,19 @@ static void lower_frame(pl_lower* l, const pl_ast* group, pl_ask* a) {
       pl_push(l->arena, a->frame, pl_symbol_of(l->pool, e));
       continue;
     }
-    pl_diagnostic* m = pl_lower_complain(l, PL_E030, pl_ast_span(group->kids.at[i]), "%s is not a coordinate", "%s ist keine Koordinate",
-                                         pl_source_text(l->arena, pl_ast_span(group->kids.at[i])));
-    pl_suggest(l->job, m, NULL, "write the coordinates, as in  in (r, φ)", "die Koordinaten schreiben, wie in  in (r, φ)");
+    pl_diagnostic* m =
+        pl_lower_complain(l, PL_E030, pl_ast_span(group->kids.at[i]), "%s is not a coordinate",
+                          "%s ist keine Koordinate", pl_source_text(l->arena, pl_ast_span(group->kids.at[i])));
+    pl_suggest(l->job, m, NULL, "write the coordinates, as in  in (r, φ)",
+               "die Koordinaten schreiben, wie in  in (r, φ)");
   }
 }
 
 // The name that moves in a limit or series; a new name becomes a small quantity.
 static pl_symbol lower_variable(pl_lower* l, const pl_ast* node, bool may_be_new) {
   const pl_ast* one = pl_ast_single(node);
-  if (one && one->kind == PL_AST_NAME && one->number == 0 && may_be_new && !pl_scope_known(l, one) && !pl_scope_lost(l, one->key)) {
+  if (one && one->kind == PL_AST_NAME && one->number == 0 && may_be_new && !pl_scope_known(l, one) &&
+      !pl_scope_lost(l, one->key)) {
     pl_symbol s = pl_scope_symbol(l, one, PL_R_SMALL);
     pl_scope_declare(l, PL_ENTITY_SMALL, one, s);
     return s;
@@ -62,7 +66,8 @@ static pl_symbol lower_variable(pl_lower* l, const pl_ast* node, bool may_be_new
   pl_expr e = pl_lower_scalar(l, node);
   if (pl_is_poison(e)) return (pl_symbol){0};
   if (pl_kind_of(l->pool, e) == PL_SYMBOL) return pl_symbol_of(l->pool, e);
-  pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node), "a name is needed here", "hier ist ein Name nötig");
+  pl_diagnostic* m =
+      pl_lower_complain(l, PL_E017, pl_ast_span(node), "a name is needed here", "hier ist ein Name nötig");
   pl_suggest(l->job, m, NULL, "write a parameter or coordinate", "einen Parameter oder eine Koordinate schreiben");
   return (pl_symbol){0};
 }
@@ -80,7 +85,8 @@ static void lower_of(pl_lower* l, const pl_ast* node, pl_ask* a) {
   a->value = pl_lower_scalar(l, node);
 }
 
-// ---------------------------------------------------------------------------------------------- limits, series, thresholds
+// ---------------------------------------------------------------------------------------------- limits, series,
+// thresholds
 static void lower_limit(pl_lower* l, const pl_ast* i, pl_ask* a) {
   a->kind = PL_ASK_LIMIT;
   a->limit = i->number == '=' ? PL_LIMIT_EQUAL : i->number == TOK_MUCH ? PL_LIMIT_MUCH_GREATER : PL_LIMIT_TO;
@@ -105,7 +111,8 @@ static void lower_series(pl_lower* l, const pl_ast* i, pl_ask* a) {
   const pl_ast* order = pl_ast_kid(i, 4);
   long n = 0;
   if (order && (!pl_is_int(l->pool, pl_lower_scalar(l, order), &n) || n < 1 || n > 50)) {
-    pl_lower_complain(l, PL_E017, pl_ast_span(order), "the order of a series is a number from 1 to 50", "die Ordnung einer Reihe ist eine Zahl von 1 bis 50");
+    pl_lower_complain(l, PL_E017, pl_ast_span(order), "the order of a series is a number from 1 to 50",
+                      "die Ordnung einer Reihe ist eine Zahl von 1 bis 50");
     n = 0;
   }
   a->order = (int)n;
@@ -132,7 +139,8 @@ static void lower_threshold(pl_lower* l, const pl_ast* i, pl_ask* a) {
 static void lower_solve(pl_lower* l, const pl_ast* i, pl_ask* a) {
   const pl_ast* what = pl_ast_kid(i, 0);
   a->kind = PL_ASK_SOLVE;
-  if (what->kind == PL_AST_PRODUCT && what->kids.n == 2 && what->kids.at[1]->kind == PL_AST_GROUP && what->kids.at[1]->tight) {
+  if (what->kind == PL_AST_PRODUCT && what->kids.n == 2 && what->kids.at[1]->kind == PL_AST_GROUP &&
+      what->kids.at[1]->tight) {
     const pl_ast* group = what->kids.at[1];
     a->of_time = group->kids.n == 1 && pl_ast_is_name(group->kids.at[0], "t");
   }
@@ -140,8 +148,10 @@ static void lower_solve(pl_lower* l, const pl_ast* i, pl_ask* a) {
   if (pl_is_poison(a->value)) return;
   pl_kind kind = pl_kind_of(l->pool, a->value);
   if (kind == PL_SYMBOL || kind == PL_AT) return;
-  pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(what), "solve takes one name", "solve nimmt einen Namen");
-  pl_suggest(l->job, m, NULL, "write  solve λ,  solve x''  or  solve x(t)", "schreibe  solve λ,  solve x''  oder  solve x(t)");
+  pl_diagnostic* m =
+      pl_lower_complain(l, PL_E017, pl_ast_span(what), "solve takes one name", "solve nimmt einen Namen");
+  pl_suggest(l->job, m, NULL, "write  solve λ,  solve x''  or  solve x(t)",
+             "schreibe  solve λ,  solve x''  oder  solve x(t)");
 }
 
 static void lower_value(pl_lower* l, const pl_ast* i, pl_ask* a) {
@@ -149,7 +159,8 @@ static void lower_value(pl_lower* l, const pl_ast* i, pl_ask* a) {
   const pl_ast* what = pl_ast_kid(i, 0);
   pl_quantity q = pl_lower_quantity(l, what);
   if (q.n) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(what), "a number is needed here, not a vector", "hier ist eine Zahl nötig, kein Vektor");
+    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(what), "a number is needed here, not a vector",
+                                         "hier ist eine Zahl nötig, kein Vektor");
     pl_suggest(l->job, m, NULL, "ask for one component, as in x(A)", "nach einer Komponente fragen, wie in x(A)");
   }
   a->value = q.at[0];
@@ -167,7 +178,13 @@ static void lower_extreme(pl_lower* l, const pl_ast* i, pl_ask* a) {
     size_t bad;
     const char* word = i->token == TOK_MAXIMUM ? "max" : "min";
     pl_spell(l->arena, l->names, word, 3, &s, &bad);
-    pl_ast name = {.kind = PL_AST_NAME, .source = i->source, .begin = i->begin, .end = i->begin + 3, .key = s.key, .shown = s.shown, .raw = s.raw};
+    pl_ast name = {.kind = PL_AST_NAME,
+                   .source = i->source,
+                   .begin = i->begin,
+                   .end = i->begin + 3,
+                   .key = s.key,
+                   .shown = s.shown,
+                   .raw = s.raw};
     a->kind = PL_ASK_VALUE;
     a->value = pl_lower_call(l, &name, group).at[0];
     return;
@@ -190,7 +207,9 @@ static void lower_modes(pl_lower* l, const pl_ast* i, pl_ask* a) {
     pl_expr e = pl_lower_scalar(l, holding->kids.at[k]);
     if (pl_is_poison(e)) continue;
     if (pl_kind_of(l->pool, e) == PL_SYMBOL) pl_push(l->arena, a->frame, pl_symbol_of(l->pool, e));
-    else pl_lower_complain(l, PL_E017, pl_ast_span(holding->kids.at[k]), "a name is needed here", "hier ist ein Name nötig");
+    else
+      pl_lower_complain(l, PL_E017, pl_ast_span(holding->kids.at[k]), "a name is needed here",
+                        "hier ist ein Name nötig");
   }
 }
 
@@ -217,7 +236,8 @@ static void lower_force_item(pl_lower* l, const pl_ast* i, pl_ask* a) {
   } else {
     pl_point at;
     pl_site* place;
-    if (pl_lower_label_point(l, name, pl_ast_kid(label, 1), &at, &place)) a->label = pl_label_text(l, name, pl_ast_kid(label, 1));
+    if (pl_lower_label_point(l, name, pl_ast_kid(label, 1), &at, &place))
+      a->label = pl_label_text(l, name, pl_ast_kid(label, 1));
   }
   lower_frame(l, pl_ast_kid(i, 1), a);
   lower_motion(l, pl_ast_kid(i, 2), &a->motion);
@@ -239,7 +259,8 @@ static void lower_stability(pl_lower* l, const pl_ast* i, pl_ask* a) {
 
 // ---------------------------------------------------------------------------------------------- items
 static bool is_display(int token) {
-  return token == TOK_SIMULATE || token == TOK_PLOT || token == TOK_ANIMATE || token == TOK_SWEEP || token == TOK_POINCARE;
+  return token == TOK_SIMULATE || token == TOK_PLOT || token == TOK_ANIMATE || token == TOK_SWEEP ||
+         token == TOK_POINCARE;
 }
 
 static void lower_item(pl_lower* l, const pl_ast* i, const char* letter) {
@@ -253,11 +274,26 @@ static void lower_item(pl_lower* l, const pl_ast* i, const char* letter) {
     case TOK_DOF: a.kind = PL_ASK_DOF; break;
     case TOK_CONSTRAINTS: a.kind = PL_ASK_CONSTRAINTS; break;
     case TOK_CONSERVED: a.kind = PL_ASK_CONSERVED; break;
-    case TOK_LAGRANGE1: a.kind = PL_ASK_LAGRANGE1; lower_frame(l, pl_ast_kid(i, 0), &a); break;
-    case TOK_LAGRANGE2: a.kind = PL_ASK_LAGRANGE2; lower_frame(l, pl_ast_kid(i, 0), &a); break;
-    case TOK_LAGRANGIAN: a.kind = PL_ASK_LAGRANGIAN; lower_frame(l, pl_ast_kid(i, 0), &a); break;
-    case TOK_HAMILTONIAN: a.kind = PL_ASK_HAMILTONIAN; lower_frame(l, pl_ast_kid(i, 0), &a); break;
-    case TOK_NEWTON: a.kind = PL_ASK_NEWTON; lower_frame(l, pl_ast_kid(i, 0), &a); break;
+    case TOK_LAGRANGE1:
+      a.kind = PL_ASK_LAGRANGE1;
+      lower_frame(l, pl_ast_kid(i, 0), &a);
+      break;
+    case TOK_LAGRANGE2:
+      a.kind = PL_ASK_LAGRANGE2;
+      lower_frame(l, pl_ast_kid(i, 0), &a);
+      break;
+    case TOK_LAGRANGIAN:
+      a.kind = PL_ASK_LAGRANGIAN;
+      lower_frame(l, pl_ast_kid(i, 0), &a);
+      break;
+    case TOK_HAMILTONIAN:
+      a.kind = PL_ASK_HAMILTONIAN;
+      lower_frame(l, pl_ast_kid(i, 0), &a);
+      break;
+    case TOK_NEWTON:
+      a.kind = PL_ASK_NEWTON;
+      lower_frame(l, pl_ast_kid(i, 0), &a);
+      break;
     case TOK_SOLVE: lower_solve(l, i, &a); break;
     case TOK_NAME: lower_value(l, i, &a); break;
     case TOK_FORCE: lower_force_item(l, i, &a); break;
@@ -266,8 +302,12 @@ static void lower_item(pl_lower* l, const pl_ast* i, const char* letter) {
     case TOK_LIMIT: lower_limit(l, i, &a); break;
     case TOK_SERIES: lower_series(l, i, &a); break;
     case TOK_THRESHOLD: lower_threshold(l, i, &a); break;
-    case TOK_MAXIMUM: case TOK_MINIMUM: lower_extreme(l, i, &a); break;
-    case TOK_AVERAGE: a.kind = PL_ASK_AVERAGE; a.value = pl_lower_scalar(l, pl_ast_kid(i, 0)); break;
+    case TOK_MAXIMUM:
+    case TOK_MINIMUM: lower_extreme(l, i, &a); break;
+    case TOK_AVERAGE:
+      a.kind = PL_ASK_AVERAGE;
+      a.value = pl_lower_scalar(l, pl_ast_kid(i, 0));
+      break;
     case TOK_STABILITY: lower_stability(l, i, &a); break;
     case TOK_EXPECT: lower_expect(l, i, &a); break;
     default: return;
@@ -287,8 +327,14 @@ void pl_lower_ask(pl_lower* l, const pl_ast* s) {
 
 // ---------------------------------------------------------------------------------------------- events
 static void lower_action(pl_lower* l, const pl_ast* node, pl_event* e) {
-  static const struct { const char* word; pl_action_kind kind; } kinds[] = {
-    {"stop", PL_DO_STOP}, {"record", PL_DO_RECORD}, {"release", PL_DO_RELEASE}, {"attach", PL_DO_ATTACH}, {"set", PL_DO_SET}};
+  static const struct {
+    const char* word;
+    pl_action_kind kind;
+  } kinds[] = {{"stop", PL_DO_STOP},
+               {"record", PL_DO_RECORD},
+               {"release", PL_DO_RELEASE},
+               {"attach", PL_DO_ATTACH},
+               {"set", PL_DO_SET}};
   pl_action a = {.span = pl_ast_span(node)};
   int wrong = l->wrong;
   for (int k = 0; k < 5; k++) {
@@ -305,16 +351,20 @@ static void lower_action(pl_lower* l, const pl_ast* node, pl_event* e) {
 void pl_lower_event(pl_lower* l, const pl_ast* s) {
   l->mute += s->broken;
   l->results = true;
-  const pl_ast *label = pl_ast_kid(s, 0), *when = pl_ast_kid(s, 1), *way = pl_ast_kid(s, 2), *actions = pl_ast_kid(s, 3);
+  const pl_ast *label = pl_ast_kid(s, 0), *when = pl_ast_kid(s, 1), *way = pl_ast_kid(s, 2),
+               *actions = pl_ast_kid(s, 3);
   pl_event e = {.span = pl_ast_span(s)};
   const pl_ast* name = pl_ast_kid(label, 0);
   e.name = (pl_name){.text = name->shown, .ascii = name->key};
-  if (pl_ast_kid(label, 1)) pl_lower_complain(l, PL_E025, pl_ast_span(label), "events are not families", "Ereignisse sind keine Familien");
+  if (pl_ast_kid(label, 1))
+    pl_lower_complain(l, PL_E025, pl_ast_span(label), "events are not families", "Ereignisse sind keine Familien");
   pl_condition c;
   bool fine = false;
   if (when->kids.n != 2 || when->ops.at[1] != '=') {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(when), "an event happens when an equation holds", "ein Ereignis tritt ein, wenn eine Gleichung gilt");
-    pl_suggest(l->job, m, NULL, "write = ; add rising or falling for a direction", "schreibe = ; rising oder falling gibt die Richtung an");
+    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(when), "an event happens when an equation holds",
+                                         "ein Ereignis tritt ein, wenn eine Gleichung gilt");
+    pl_suggest(l->job, m, NULL, "write = ; add rising or falling for a direction",
+               "schreibe = ; rising oder falling gibt die Richtung an");
   } else {
     fine = pl_lower_relation(l, when, &c, 0);
   }
@@ -349,7 +399,8 @@ static void lower_range(pl_lower* l, const pl_ast* range, pl_expr* lo, pl_expr* 
   bool spread = unit_node && bare && pl_lower_unit(l, unit_node, &unit);
   for (int i = 0; i < 3; i++) {
     *values[i] = parts[i] ? pl_lower_scalar(l, parts[i]) : pl_poison();
-    bool number = parts[i] && !pl_is_poison(*values[i]) && pl_is_constant(l->pool, *values[i]) && !pl_has_unit(l->pool, *values[i]);
+    bool number = parts[i] && !pl_is_poison(*values[i]) && pl_is_constant(l->pool, *values[i]) &&
+                  !pl_has_unit(l->pool, *values[i]);
     const pl_ast* own = NULL;
     int none = 0;
     if (parts[i]) unit_nodes(parts[i], &own, &none);
@@ -359,7 +410,8 @@ static void lower_range(pl_lower* l, const pl_ast* range, pl_expr* lo, pl_expr* 
   if (count == NULL) return;
   *count = 0;
   if (number && (!pl_is_int(l->pool, pl_lower_scalar(l, number), count) || *count < 1)) {
-    pl_lower_complain(l, PL_E017, pl_ast_span(number), "a count is a whole number above 0", "eine Anzahl ist eine ganze Zahl über 0");
+    pl_lower_complain(l, PL_E017, pl_ast_span(number), "a count is a whole number above 0",
+                      "eine Anzahl ist eine ganze Zahl über 0");
     *count = 0;
   }
 }
@@ -367,8 +419,10 @@ static void lower_range(pl_lower* l, const pl_ast* range, pl_expr* lo, pl_expr* 
 static void lower_simulate(pl_lower* l, const pl_ast* s) {
   pl_simulate* m = &l->m->simulate;
   if (m->given) {
-    pl_diagnostic* d = pl_lower_complain(l, PL_E028, pl_ast_span(s), "simulate is given twice", "simulate ist zweimal angegeben");
-    if (!l->mute) pl_report_label(l->job->diagnostics, d, m->span, l->job->lang == PL_GERMAN ? "zuerst hier" : "first here");
+    pl_diagnostic* d =
+        pl_lower_complain(l, PL_E028, pl_ast_span(s), "simulate is given twice", "simulate ist zweimal angegeben");
+    if (!l->mute)
+      pl_report_label(l->job->diagnostics, d, m->span, l->job->lang == PL_GERMAN ? "zuerst hier" : "first here");
     pl_suggest(l->job, d, NULL, "keep one of them", "eine davon behalten");
     return;
   }
@@ -403,8 +457,10 @@ static void check_things(pl_lower* l, const pl_ast* s) {
     bool found = false;
     for (size_t k = 0; k < sizeof known / sizeof known[0]; k++) found |= strcmp(known[k], thing->text) == 0;
     if (!found) {
-      pl_diagnostic* m = pl_lower_complain(l, PL_E001, pl_ast_span(thing), "%s cannot be animated", "%s lässt sich nicht animieren", thing->text);
-      pl_suggest(l->job, m, NULL, "write  force of LABEL, weight, trail of LABEL, count N", "schreibe  force of MARKE, weight, trail of MARKE, count N");
+      pl_diagnostic* m = pl_lower_complain(l, PL_E001, pl_ast_span(thing), "%s cannot be animated",
+                                           "%s lässt sich nicht animieren", thing->text);
+      pl_suggest(l->job, m, NULL, "write  force of LABEL, weight, trail of LABEL, count N",
+                 "schreibe  force of MARKE, weight, trail of MARKE, count N");
     } else if (strcmp(thing->text, "count") == 0) {
       pl_lower_scalar(l, of);
     } else if (of && strcmp(thing->text, "force") == 0) {
@@ -425,7 +481,8 @@ static void lower_sweep(pl_lower* l, const pl_ast* s) {
     lower_range(l, pl_ast_kid(sweeps->kids.at[i], 1), &lo, &hi, &step, &count);
   }
   for (int i = 0; of && i < of->kids.n; i++) pl_lower_quantity(l, of->kids.at[i]);
-  pl_lower_pending(l, PL_N091, "sweep", pl_ast_span(s), "sweeps are not computed by this version", "Parameterläufe (sweep) berechnet diese Version nicht");
+  pl_lower_pending(l, PL_N091, "sweep", pl_ast_span(s), "sweeps are not computed by this version",
+                   "Parameterläufe (sweep) berechnet diese Version nicht");
 }
 
 static void lower_poincare(pl_lower* l, const pl_ast* s) {
@@ -433,7 +490,8 @@ static void lower_poincare(pl_lower* l, const pl_ast* s) {
   pl_condition c;
   pl_lower_relation(l, pl_ast_kid(s, 0), &c, 0);
   for (int i = 0; i < of->kids.n; i++) pl_lower_quantity(l, of->kids.at[i]);
-  pl_lower_pending(l, PL_N091, "poincare", pl_ast_span(s), "Poincaré sections are not computed by this version", "Poincaré-Schnitte berechnet diese Version nicht");
+  pl_lower_pending(l, PL_N091, "poincare", pl_ast_span(s), "Poincaré sections are not computed by this version",
+                   "Poincaré-Schnitte berechnet diese Version nicht");
 }
 
 void pl_lower_display(pl_lower* l, const pl_ast* s) {

@@ -59,7 +59,8 @@ pl_symbol pl_scope_symbol(pl_lower* l, const pl_ast* name, pl_role role) {
   // a coordinate's or a result's derived name may have taken the spelling already
   const char* ascii = name->key;
   for (int k = 2; pl_symbol_find(l->pool, ascii).id; k++) ascii = pl_format(l->arena, "%s_%d", name->key, k);
-  pl_symbol_info info = {.name = name->shown, .ascii = ascii, .role = role, .class = PL_C_OTHER, .dimension = pl_dimension_one()};
+  pl_symbol_info info = {
+      .name = name->shown, .ascii = ascii, .role = role, .class = PL_C_OTHER, .dimension = pl_dimension_one()};
   if (role == PL_R_COORD) info.class = PL_C_COORD;
   if (role == PL_R_ARRAY) info.class = PL_C_COORD;
   if (role == PL_R_MULTIPLIER) info.class = PL_C_MULTIPLIER;
@@ -93,20 +94,32 @@ pl_entity* pl_scope_declare(pl_lower* l, pl_entity_kind kind, const pl_ast* name
   bool refused = refuse_reserved(l, name);
   pl_entity* old = pl_scope_find(l, name->key);
   if (!refused && name->number > 0) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E013, pl_ast_span(name), "a derivative cannot be declared", "eine Ableitung lässt sich nicht vereinbaren");
-    pl_suggest(l->job, m, name->shown, "declare %s; its derivatives follow", "%s vereinbaren; die Ableitungen folgen daraus", name->shown);
+    pl_diagnostic* m = pl_lower_complain(l, PL_E013, pl_ast_span(name), "a derivative cannot be declared",
+                                         "eine Ableitung lässt sich nicht vereinbaren");
+    pl_suggest(l->job, m, name->shown, "declare %s; its derivatives follow",
+               "%s vereinbaren; die Ableitungen folgen daraus", name->shown);
   } else if (!refused && old) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E012, pl_ast_span(name), "%1$s is declared twice%2$.0s", "%1$s ist zweimal vereinbart%2$.0s", name->shown, "");
+    pl_diagnostic* m = pl_lower_complain(l, PL_E012, pl_ast_span(name), "%1$s is declared twice%2$.0s",
+                                         "%1$s ist zweimal vereinbart%2$.0s", name->shown, "");
     if (!l->mute) {
       pl_place at = pl_span_place(old->span);
-      pl_report_label(l->job->diagnostics, m, old->span, pl_format(l->arena, l->job->lang == PL_GERMAN ? "zuerst hier (Zeile %d)" : "first here (line %d)", at.line));
+      pl_report_label(
+          l->job->diagnostics, m, old->span,
+          pl_format(l->arena, l->job->lang == PL_GERMAN ? "zuerst hier (Zeile %d)" : "first here (line %d)", at.line));
     }
-    pl_because(l->job, m, "already %1$s%2$.0s", "schon %1$.0s%2$s", what_it_is(old->kind, false), what_it_is(old->kind, true));
-    pl_suggest(l->job, m, NULL, "remove one of them, or choose another name", "eine davon entfernen oder einen anderen Namen wählen");
+    pl_because(l->job, m, "already %1$s%2$.0s", "schon %1$.0s%2$s", what_it_is(old->kind, false),
+               what_it_is(old->kind, true));
+    pl_suggest(l->job, m, NULL, "remove one of them, or choose another name",
+               "eine davon entfernen oder einen anderen Namen wählen");
     refused = true;
   }
   pl_entity* e = PL_NEW(l->arena, pl_entity);
-  *e = (pl_entity){.kind = kind, .key = name->key, .shown = name->shown, .symbol = symbol, .span = pl_ast_span(name), .broken = l->mute > 0};
+  *e = (pl_entity){.kind = kind,
+                   .key = name->key,
+                   .shown = name->shown,
+                   .symbol = symbol,
+                   .span = pl_ast_span(name),
+                   .broken = l->mute > 0};
   if (old == NULL) pl_scope_add(l, e);
   return e;
 }
@@ -137,7 +150,8 @@ static bool only_given(pl_lower* l, pl_expr e) {
 }
 
 static void circle(pl_lower* l, pl_entity* e) {
-  pl_diagnostic* m = pl_lower_complain(l, PL_E018, e->span, "%s leads back to itself", "%s führt auf sich selbst zurück", e->shown);
+  pl_diagnostic* m =
+      pl_lower_complain(l, PL_E018, e->span, "%s leads back to itself", "%s führt auf sich selbst zurück", e->shown);
   pl_suggest(l->job, m, NULL, "write its right side without %s", "die rechte Seite ohne %s schreiben", e->shown);
   e->broken = true;
 }
@@ -150,7 +164,8 @@ void pl_scope_finish_let(pl_lower* l, pl_entity* e) {
   }
   enum { MAX_DEPTH = 300 };
   if (l->call_depth > MAX_DEPTH) {
-    pl_lower_complain(l, PL_E006, e->span, "abbreviations are nested too deeply", "Abkürzungen sind zu tief verschachtelt");
+    pl_lower_complain(l, PL_E006, e->span, "abbreviations are nested too deeply",
+                      "Abkürzungen sind zu tief verschachtelt");
     e->broken = true;
     e->state = 2;
     return;
@@ -181,12 +196,15 @@ void pl_scope_finish_let(pl_lower* l, pl_entity* e) {
   e->inserted = e->broken || q.n > 0 || !only_given(l, e->value);
   const pl_ast* name = pl_ast_kid(e->definition, 0);
   e->symbol = pl_scope_symbol(l, name, e->inserted ? PL_R_LOCAL : PL_R_PARAM);
-  pl_push(l->arena, l->m->lets, (pl_let){.symbol = e->symbol, .inserted = e->inserted, .value = e->value, .span = pl_ast_span(e->definition)});
+  pl_push(
+      l->arena, l->m->lets,
+      (pl_let){.symbol = e->symbol, .inserted = e->inserted, .value = e->value, .span = pl_ast_span(e->definition)});
   if (!e->inserted) e->value = pl_sym(l->pool, e->symbol);
 }
 
 // ---------------------------------------------------------------------------------------------- did you mean
-static const char* const result_words[] = {"T", "V", "L", "E", "H", "lagrangian", "kinetic", "potential", "energy", "hamiltonian"};
+static const char* const result_words[] = {"T",          "V",       "L",         "E",      "H",
+                                           "lagrangian", "kinetic", "potential", "energy", "hamiltonian"};
 enum { N_RESULT_WORDS = sizeof result_words / sizeof result_words[0] };
 
 // Where two names differ in one digit, the nearer digit is the better guess.
@@ -199,12 +217,15 @@ static int digit_gap(const char* a, const char* b) {
   return 0;
 }
 
-typedef struct guess { const char *key, *shown; int distance, gap; } guess;
+typedef struct guess {
+  const char *key, *shown;
+  int distance, gap;
+} guess;
 
 static void try_guess(guess* best, const char* wanted, const char* key, const char* shown) {
   int cap = strlen(wanted) <= 3 ? 1 : strlen(wanted) < 9 ? 2 : 3;
   int d = pl_edit_distance(wanted, key, cap);
-  bool case_only = strlen(wanted) == 1 && strlen(key) == 1 && ((wanted[0] ^ key[0]) & ~0x20) == 0;   // L for l
+  bool case_only = strlen(wanted) == 1 && strlen(key) == 1 && ((wanted[0] ^ key[0]) & ~0x20) == 0;  // L for l
   if (case_only) d = 0;
   if (d > cap || (d >= (int)strlen(wanted) && strlen(wanted) < 2)) return;
   int gap = digit_gap(wanted, key);
@@ -229,32 +250,41 @@ pl_diagnostic* pl_scope_unknown(pl_lower* l, const pl_ast* name) {
     l->wrong++;
     return PL_NEW(l->arena, pl_diagnostic);
   }
-  pl_diagnostic* m = pl_lower_complain(l, PL_E011, pl_ast_span(name), "%s is not declared", "%s ist nicht vereinbart", name->shown);
+  pl_diagnostic* m =
+      pl_lower_complain(l, PL_E011, pl_ast_span(name), "%s is not declared", "%s ist nicht vereinbart", name->shown);
   guess best = {0};
-  bool look = l->n_guesses++ < PL_MAX_GUESSES && !l->mute;     // a file full of unknown names needs no guess for each
-  for (int i = 0; look && i < l->entities.n; i++) try_guess(&best, name->key, l->entities.at[i]->key, l->entities.at[i]->shown);
+  bool look = l->n_guesses++ < PL_MAX_GUESSES && !l->mute;  // a file full of unknown names needs no guess for each
+  for (int i = 0; look && i < l->entities.n; i++)
+    try_guess(&best, name->key, l->entities.at[i]->key, l->entities.at[i]->shown);
   for (int i = 0; i < l->locals.n; i++) try_guess(&best, name->key, l->locals.at[i].key, l->locals.at[i].key);
   for (int i = 0; look && i < l->lost.n; i++) try_guess(&best, name->key, l->lost.at[i], l->lost.at[i]);
   for (int i = 0; l->results && i < N_RESULT_WORDS; i++) try_guess(&best, name->key, result_words[i], result_words[i]);
   if (strlen(name->key) > 2) {
     for (int i = 0; i < PL_N_FUNCTIONS; i++) try_guess(&best, name->key, pl_function_name[i], pl_function_name[i]);
-    for (int i = 0; l->results && pl_word_of_request(i); i++) try_guess(&best, name->key, pl_word_of_request(i), pl_word_of_request(i));
+    for (int i = 0; l->results && pl_word_of_request(i); i++)
+      try_guess(&best, name->key, pl_word_of_request(i), pl_word_of_request(i));
   }
   const char* coordinates = all_coordinates(l, 8);
-  if (best.key == NULL && coordinates == NULL) pl_suggest(l->job, m, NULL, "declare it:  param %s = ...", "vereinbaren:  param %s = ...", name->shown);
-  else if (best.key == NULL) pl_suggest(l->job, m, NULL, "declare it:  param %s = ...        (coordinates: %s)", "vereinbaren:  param %s = ...        (Koordinaten: %s)", name->shown, coordinates);
+  if (best.key == NULL && coordinates == NULL)
+    pl_suggest(l->job, m, NULL, "declare it:  param %s = ...", "vereinbaren:  param %s = ...", name->shown);
+  else if (best.key == NULL)
+    pl_suggest(l->job, m, NULL, "declare it:  param %s = ...        (coordinates: %s)",
+               "vereinbaren:  param %s = ...        (Koordinaten: %s)", name->shown, coordinates);
   else if (coordinates == NULL) pl_suggest(l->job, m, best.shown, "did you mean %s?", "war %s gemeint?", best.shown);
-  else pl_suggest(l->job, m, best.shown, "did you mean %s?        (coordinates: %s)", "war %s gemeint?        (Koordinaten: %s)", best.shown, coordinates);
+  else
+    pl_suggest(l->job, m, best.shown, "did you mean %s?        (coordinates: %s)",
+               "war %s gemeint?        (Koordinaten: %s)", best.shown, coordinates);
   return m;
 }
 
-void pl_scope_unknown_label(pl_lower* l, const pl_ast* label, const char* en, const char* de, const char* const* known, int n) {
+void pl_scope_unknown_label(pl_lower* l, const pl_ast* label, const char* en, const char* de, const char* const* known,
+                            int n) {
   if (pl_scope_lost(l, label->key)) {
     l->wrong++;
     return;
   }
-  pl_diagnostic* m = pl_lower_complain(l, PL_E019, pl_ast_span(label), "%1$s %3$s is not declared%2$.0s", "%2$s %3$s ist nicht vereinbart%1$.0s",
-                                       en, de, label->shown);
+  pl_diagnostic* m = pl_lower_complain(l, PL_E019, pl_ast_span(label), "%1$s %3$s is not declared%2$.0s",
+                                       "%2$s %3$s ist nicht vereinbart%1$.0s", en, de, label->shown);
   guess best = {0};
   pl_text all = pl_text_make(l->arena);
   if (l->n_guesses++ >= PL_MAX_GUESSES) n = 0;
@@ -264,11 +294,14 @@ void pl_scope_unknown_label(pl_lower* l, const pl_ast* label, const char* en, co
   }
   if (best.key) pl_suggest(l->job, m, best.shown, "did you mean %s?", "war %s gemeint?", best.shown);
   else if (n && n <= 10) pl_suggest(l->job, m, NULL, "there are: %s", "es gibt: %s", pl_text_string(&all));
-  else pl_suggest(l->job, m, NULL, "give the label in its own line first", "die Marke zuerst in einer eigenen Zeile vergeben");
+  else
+    pl_suggest(l->job, m, NULL, "give the label in its own line first",
+               "die Marke zuerst in einer eigenen Zeile vergeben");
 }
 
 // ---------------------------------------------------------------------------------------------- names
-static pl_quantity name_of_entity(pl_lower* l, pl_entity* e, const pl_ast* name, const pl_ast* index, int dots, const pl_ast* place);
+static pl_quantity name_of_entity(pl_lower* l, pl_entity* e, const pl_ast* name, const pl_ast* index, int dots,
+                                  const pl_ast* place);
 
 // x1_dot, x1_ddot, x1_0, x1_dot_0: the ASCII spellings of derivatives and start values.
 static bool find_alias(pl_lower* l, const pl_ast* name, pl_entity** e, int* dots, bool* start) {
@@ -290,7 +323,8 @@ static bool find_alias(pl_lower* l, const pl_ast* name, pl_entity** e, int* dots
 }
 
 static bool result_kind(const char* key, pl_result_kind* kind) {
-  static const pl_result_kind kinds[] = {PL_RES_T, PL_RES_V, PL_RES_L, PL_RES_E, PL_RES_H, PL_RES_L, PL_RES_T, PL_RES_V, PL_RES_E, PL_RES_H};
+  static const pl_result_kind kinds[] = {PL_RES_T, PL_RES_V, PL_RES_L, PL_RES_E, PL_RES_H,
+                                         PL_RES_L, PL_RES_T, PL_RES_V, PL_RES_E, PL_RES_H};
   for (int i = 0; i < N_RESULT_WORDS; i++) {
     if (strcmp(result_words[i], key) != 0) continue;
     *kind = kinds[i];
@@ -326,13 +360,15 @@ bool pl_scope_known(pl_lower* l, const pl_ast* name) {
   bool start;
   pl_result_kind kind;
   if (pl_scope_local(l, name->key) || pl_scope_find(l, name->key) || strcmp(name->key, "t") == 0) return true;
-  if (pl_word_function(name->key) || find_alias(l, name, &e, &dots, &start) || find_multiplier(l, name->key)) return true;
+  if (pl_word_function(name->key) || find_alias(l, name, &e, &dots, &start) || find_multiplier(l, name->key))
+    return true;
   return (l->results && result_kind(name->key, &kind)) || is_momentum(l, name->key, &e);
 }
 
 static pl_expr lower_index(pl_lower* l, const pl_ast* index) {
   if (index->kind == PL_AST_RANGE) {
-    pl_lower_complain(l, PL_E025, pl_ast_span(index), "one index is needed here, not a range", "hier ist ein Index nötig, kein Bereich");
+    pl_lower_complain(l, PL_E025, pl_ast_span(index), "one index is needed here, not a range",
+                      "hier ist ein Index nötig, kein Bereich");
     return pl_poison();
   }
   return pl_lower_scalar(l, index);
@@ -345,32 +381,39 @@ static pl_quantity no_family(pl_lower* l, const pl_ast* name, const pl_ast* plac
   const char* near;
   const char* text = pl_source_text(l->arena, pl_ast_span(index));
   const pl_ast* one = pl_ast_single(index);
-  bool is_index = !index || index->kind == PL_AST_SUM || (one && (one->kind == PL_AST_NUMBER || (one->kind == PL_AST_NAME && pl_scope_local(l, one->key))));
+  bool is_index = !index || index->kind == PL_AST_SUM ||
+                  (one && (one->kind == PL_AST_NUMBER || (one->kind == PL_AST_NAME && pl_scope_local(l, one->key))));
   if (!is_index && pl_unit_parse(l->pool, text, strlen(text), &unit, &bad_at, &bad_n, &near)) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E023, pl_ast_span(place), "a unit belongs to a number or a declaration", "eine Einheit gehört zu einer Zahl oder Vereinbarung");
+    pl_diagnostic* m = pl_lower_complain(l, PL_E023, pl_ast_span(place), "a unit belongs to a number or a declaration",
+                                         "eine Einheit gehört zu einer Zahl oder Vereinbarung");
     pl_suggest(l->job, m, name->shown, "remove [%s]", "[%s] entfernen", text);
     return pl_quantity_bad();
   }
-  pl_diagnostic* m = pl_lower_complain(l, PL_E025, pl_ast_span(place), "%s is not a family, so it takes no index", "%s ist keine Familie und hat keinen Index", name->shown);
+  pl_diagnostic* m = pl_lower_complain(l, PL_E025, pl_ast_span(place), "%s is not a family, so it takes no index",
+                                       "%s ist keine Familie und hat keinen Index", name->shown);
   pl_suggest(l->job, m, NULL, "declare  coord %s[1..N]", "vereinbaren:  coord %s[1..N]", name->shown);
   return pl_quantity_bad();
 }
 
 static pl_quantity no_derivative(pl_lower* l, const pl_ast* place, const char* shown) {
-  pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(place), "%s does not move, so it has no derivative", "%s bewegt sich nicht und hat keine Ableitung", shown);
+  pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(place), "%s does not move, so it has no derivative",
+                                       "%s bewegt sich nicht und hat keine Ableitung", shown);
   pl_suggest(l->job, m, NULL, "declare  coord %s  if it moves", "coord %s  vereinbaren, falls es sich bewegt", shown);
   return pl_quantity_bad();
 }
 
-static pl_quantity name_of_entity(pl_lower* l, pl_entity* e, const pl_ast* name, const pl_ast* index, int dots, const pl_ast* place) {
+static pl_quantity name_of_entity(pl_lower* l, pl_entity* e, const pl_ast* name, const pl_ast* index, int dots,
+                                  const pl_ast* place) {
   if (e->broken && e->kind != PL_ENTITY_COORD && e->kind != PL_ENTITY_PARAM && e->kind != PL_ENTITY_FAMILY) {
     l->wrong++;
     return pl_quantity_bad();
   }
   if (e->kind == PL_ENTITY_FAMILY) {
     if (index == NULL) {
-      pl_diagnostic* m = pl_lower_complain(l, PL_E025, pl_ast_span(place), "%s is a family, so it needs an index", "%s ist eine Familie und braucht einen Index", e->shown);
-      pl_suggest(l->job, m, pl_format(l->arena, "%s[1]", e->shown), "write %s[1] or, inside for, %s[i]", "schreibe %s[1] oder, in for, %s[i]", e->shown, e->shown);
+      pl_diagnostic* m = pl_lower_complain(l, PL_E025, pl_ast_span(place), "%s is a family, so it needs an index",
+                                           "%s ist eine Familie und braucht einen Index", e->shown);
+      pl_suggest(l->job, m, pl_format(l->arena, "%s[1]", e->shown), "write %s[1] or, inside for, %s[i]",
+                 "schreibe %s[1] oder, in for, %s[i]", e->shown, e->shown);
       return pl_quantity_bad();
     }
     pl_expr i = lower_index(l, index);
@@ -378,8 +421,7 @@ static pl_quantity name_of_entity(pl_lower* l, pl_entity* e, const pl_ast* name,
   }
   if (index) return no_family(l, name, place, index);
   switch (e->kind) {
-    case PL_ENTITY_COORD:
-      return pl_quantity_of(pl_sym(l->pool, pl_scope_dotted(l, e->symbol, dots)));
+    case PL_ENTITY_COORD: return pl_quantity_of(pl_sym(l->pool, pl_scope_dotted(l, e->symbol, dots)));
     case PL_ENTITY_LET: {
       pl_scope_finish_let(l, e);
       if (e->broken) {
@@ -396,7 +438,8 @@ static pl_quantity name_of_entity(pl_lower* l, pl_entity* e, const pl_ast* name,
       return q;
     }
     case PL_ENTITY_FUNCTION: {
-      pl_diagnostic* m = pl_lower_complain(l, PL_E015, pl_ast_span(place), "%s needs an argument", "%s braucht ein Argument", e->shown);
+      pl_diagnostic* m = pl_lower_complain(l, PL_E015, pl_ast_span(place), "%s needs an argument",
+                                           "%s braucht ein Argument", e->shown);
       pl_suggest(l->job, m, NULL, "write %s(...)", "schreibe %s(...)", e->shown);
       return pl_quantity_bad();
     }
@@ -406,19 +449,23 @@ static pl_quantity name_of_entity(pl_lower* l, pl_entity* e, const pl_ast* name,
   }
 }
 
-static pl_quantity name_of_multiplier(pl_lower* l, const pl_rule* r, const pl_ast* index, int dots, const pl_ast* place) {
+static pl_quantity name_of_multiplier(pl_lower* l, const pl_rule* r, const pl_ast* index, int dots,
+                                      const pl_ast* place) {
   if (dots) {
-    pl_lower_complain(l, PL_E017, pl_ast_span(place), "multipliers have no derivative here", "Multiplikatoren haben hier keine Ableitung");
+    pl_lower_complain(l, PL_E017, pl_ast_span(place), "multipliers have no derivative here",
+                      "Multiplikatoren haben hier keine Ableitung");
     return pl_quantity_bad();
   }
   if (r->family && index == NULL) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E025, pl_ast_span(place), "%s is a family of constraints, so its multiplier needs an index",
-                                         "%s ist eine Familie von Zwangsbedingungen, ihr Multiplikator braucht einen Index", r->shown);
+    pl_diagnostic* m = pl_lower_complain(
+        l, PL_E025, pl_ast_span(place), "%s is a family of constraints, so its multiplier needs an index",
+        "%s ist eine Familie von Zwangsbedingungen, ihr Multiplikator braucht einen Index", r->shown);
     pl_suggest(l->job, m, pl_format(l->arena, "λ_%s[1]", r->shown), "write λ_%s[1]", "schreibe λ_%s[1]", r->shown);
     return pl_quantity_bad();
   }
   if (!r->family && index) {
-    pl_lower_complain(l, PL_E025, pl_ast_span(place), "%s is not a family, so it takes no index", "%s ist keine Familie und hat keinen Index", r->shown);
+    pl_lower_complain(l, PL_E025, pl_ast_span(place), "%s is not a family, so it takes no index",
+                      "%s ist keine Familie und hat keinen Index", r->shown);
     return pl_quantity_bad();
   }
   if (index == NULL) return pl_quantity_of(pl_sym(l->pool, r->lambda));
@@ -427,24 +474,33 @@ static pl_quantity name_of_multiplier(pl_lower* l, const pl_rule* r, const pl_as
 }
 
 static pl_quantity name_of_momentum(pl_lower* l, const pl_ast* name, const pl_entity* coordinate) {
-  pl_symbol_info info = {.name = pl_format(l->arena, "p_%s", coordinate->shown), .ascii = name->key, .role = PL_R_MOMENTUM,
-                         .class = PL_C_OTHER, .dimension = pl_dimension_one(), .base = coordinate->symbol};
+  pl_symbol_info info = {.name = pl_format(l->arena, "p_%s", coordinate->shown),
+                         .ascii = name->key,
+                         .role = PL_R_MOMENTUM,
+                         .class = PL_C_OTHER,
+                         .dimension = pl_dimension_one(),
+                         .base = coordinate->symbol};
   return pl_quantity_of(pl_sym(l->pool, pl_symbol_make(l->pool, &info)));
 }
 
 static pl_quantity several_multipliers(pl_lower* l, const pl_ast* name) {
   pl_text all = pl_text_make(l->arena);
   for (int i = 0; i < l->rules.n && i < 6; i++) pl_text_addf(&all, "%sλ_%s", i ? ", " : "", l->rules.at[i].shown);
-  pl_diagnostic* m = pl_lower_complain(l, PL_E011, pl_ast_span(name), l->rules.n ? "there are several multipliers" : "λ is not declared: there is no constraint",
-                                       l->rules.n ? "es gibt mehrere Multiplikatoren" : "λ ist nicht vereinbart: es gibt keine Zwangsbedingung");
-  if (l->rules.n) pl_suggest(l->job, m, NULL, "write %1$s, or name one in its constraint: with λ", "schreibe %1$s, oder benenne einen in seiner Zwangsbedingung: with λ", pl_text_string(&all));
+  pl_diagnostic* m = pl_lower_complain(
+      l, PL_E011, pl_ast_span(name),
+      l->rules.n ? "there are several multipliers" : "λ is not declared: there is no constraint",
+      l->rules.n ? "es gibt mehrere Multiplikatoren" : "λ ist nicht vereinbart: es gibt keine Zwangsbedingung");
+  if (l->rules.n)
+    pl_suggest(l->job, m, NULL, "write %1$s, or name one in its constraint: with λ",
+               "schreibe %1$s, oder benenne einen in seiner Zwangsbedingung: with λ", pl_text_string(&all));
   return pl_quantity_bad();
 }
 
 pl_quantity pl_lower_name(pl_lower* l, const pl_ast* name, const pl_ast* index, int dots, const pl_ast* place) {
   dots += name->number;
   if (dots > 2) {
-    pl_lower_complain(l, PL_E017, pl_ast_span(place), "only first and second derivatives can be written", "nur erste und zweite Ableitungen lassen sich schreiben");
+    pl_lower_complain(l, PL_E017, pl_ast_span(place), "only first and second derivatives can be written",
+                      "nur erste und zweite Ableitungen lassen sich schreiben");
     return pl_quantity_bad();
   }
   const pl_local* local = pl_scope_local(l, name->key);
@@ -468,7 +524,8 @@ pl_quantity pl_lower_name(pl_lower* l, const pl_ast* name, const pl_ast* index, 
       return pl_quantity_of(pl_sym(l->pool, pl_symbol_start(l->pool, pl_scope_dotted(l, e->symbol, more))));
     }
   }
-  if (strcmp(name->key, "t") == 0 && !index) return dots ? no_derivative(l, place, "t") : pl_quantity_of(pl_sym(l->pool, pl_time(l->pool)));
+  if (strcmp(name->key, "t") == 0 && !index)
+    return dots ? no_derivative(l, place, "t") : pl_quantity_of(pl_sym(l->pool, pl_time(l->pool)));
   pl_rule* rule = find_multiplier(l, name->key);
   if (rule) return name_of_multiplier(l, rule, index, dots, place);
   pl_result_kind kind;
@@ -477,10 +534,12 @@ pl_quantity pl_lower_name(pl_lower* l, const pl_ast* name, const pl_ast* index, 
   }
   if (!index && dots == 0 && is_momentum(l, name->key, &e)) return name_of_momentum(l, name, e);
   if (strcmp(name->key, "lambda") == 0 && !pl_scope_lost(l, name->key)) return several_multipliers(l, name);
-  if (l->infinity && (strcmp(name->key, "inf") == 0 || strcmp(name->key, "infinity") == 0)) return pl_quantity_of(pl_infinity(l->pool));
+  if (l->infinity && (strcmp(name->key, "inf") == 0 || strcmp(name->key, "infinity") == 0))
+    return pl_quantity_of(pl_infinity(l->pool));
   if (!l->results && result_kind(name->key, &kind) && !pl_scope_lost(l, name->key)) {
     pl_diagnostic* m = pl_scope_unknown(l, name);
-    pl_because(l->job, m, "as a result it can stand in ask, plot and event only", "als Ergebnis kann es nur in ask, plot und event stehen");
+    pl_because(l->job, m, "as a result it can stand in ask, plot and event only",
+               "als Ergebnis kann es nur in ask, plot und event stehen");
     return pl_quantity_bad();
   }
   pl_scope_unknown(l, name);

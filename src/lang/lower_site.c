@@ -107,12 +107,15 @@ const char* pl_constraint_label(pl_lower* l, const pl_ast* label) {
     return NULL;
   }
   if (r->family && index == NULL) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E025, pl_ast_span(label), "%s is a family of constraints, so it needs an index", "%s ist eine Familie von Zwangsbedingungen und braucht einen Index", r->shown);
+    pl_diagnostic* m =
+        pl_lower_complain(l, PL_E025, pl_ast_span(label), "%s is a family of constraints, so it needs an index",
+                          "%s ist eine Familie von Zwangsbedingungen und braucht einen Index", r->shown);
     pl_suggest(l->job, m, pl_format(l->arena, "%s[1]", r->shown), "write %s[1]", "schreibe %s[1]", r->shown);
     return NULL;
   }
   if (!r->family && index) {
-    pl_lower_complain(l, PL_E025, pl_ast_span(label), "%s is not a family, so it takes no index", "%s ist keine Familie und hat keinen Index", r->shown);
+    pl_lower_complain(l, PL_E025, pl_ast_span(label), "%s is not a family, so it takes no index",
+                      "%s ist keine Familie und hat keinen Index", r->shown);
     return NULL;
   }
   return pl_label_text(l, name, index);
@@ -168,7 +171,8 @@ bool pl_lower_point(pl_lower* l, const pl_ast* node, pl_point* out) {
   if (pl_quantity_is_bad(&q)) return false;
   const pl_ast* one = pl_ast_single(node);
   if (q.n == 0 && !(one && one->kind == PL_AST_GROUP)) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node), "a point is needed here, this is a number", "hier ist ein Punkt nötig, das ist eine Zahl");
+    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node), "a point is needed here, this is a number",
+                                         "hier ist ein Punkt nötig, das ist eine Zahl");
     pl_suggest(l->job, m, NULL, "write (x, y)", "schreibe (x, y)");
     return false;
   }
@@ -183,17 +187,21 @@ static bool point_on_body(pl_lower* l, pl_site* p, const pl_ast* on) {
   pl_point centre, local;
   if (!pl_lower_where(l, on, &centre, &body) || !pl_lower_point(l, pl_ast_kid(p->statement, 1), &local)) return false;
   if (body == NULL || body->kind != PL_SITE_BODY) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(on), "a point can be fixed on a body only", "ein Punkt kann nur an einem Körper fest sein");
-    pl_suggest(l->job, m, NULL, "write  point P at (x, y)  for a point in space", "schreibe  point P at (x, y)  für einen Punkt im Raum");
+    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(on), "a point can be fixed on a body only",
+                                         "ein Punkt kann nur an einem Körper fest sein");
+    pl_suggest(l->job, m, NULL, "write  point P at (x, y)  for a point in space",
+               "schreibe  point P at (x, y)  für einen Punkt im Raum");
     return false;
   }
   if (pl_is_poison(body->angle)) {
-    pl_lower_pending(l, PL_E091, "point on a body in space", pl_ast_span(p->statement), "points on bodies in space are not computed by this version",
+    pl_lower_pending(l, PL_E091, "point on a body in space", pl_ast_span(p->statement),
+                     "points on bodies in space are not computed by this version",
                      "Punkte an Körpern im Raum berechnet diese Version nicht");
     return false;
   }
   if (local.n != 2 || centre.n != 2) {
-    pl_lower_complain(l, PL_E017, local.span, "a point on a planar body has two components", "ein Punkt an einem ebenen Körper hat zwei Komponenten");
+    pl_lower_complain(l, PL_E017, local.span, "a point on a planar body has two components",
+                      "ein Punkt an einem ebenen Körper hat zwei Komponenten");
     return false;
   }
   pl_pool* q = l->pool;
@@ -275,7 +283,7 @@ static bool member(pl_lower* l, const pl_site* p, pl_expr index, pl_point* out, 
 
 static bool family_point(pl_lower* l, const pl_ast* name, pl_expr index, pl_point* out, pl_site** place) {
   bool found = false;
-  for (int pass = 0; pass < 2 && !found; pass++) {          // a member of its own comes before the family
+  for (int pass = 0; pass < 2 && !found; pass++) {  // a member of its own comes before the family
     for (int k = 0; k < l->places.n && !found; k++) {
       pl_site* p = l->places.at[k];
       if (p->key != name->key || (p->block == NULL) != (pass == 0)) continue;
@@ -308,9 +316,12 @@ bool pl_lower_label_point(pl_lower* l, const pl_ast* name, const pl_ast* index, 
   }
   bool family = p->index_node != NULL || !pl_is_poison(p->index);
   if (family != (index != NULL)) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E025, pl_ast_span(name), family ? "%s is a family, so it needs an index" : "%s is not a family, so it takes no index",
-                                         family ? "%s ist eine Familie und braucht einen Index" : "%s ist keine Familie und hat keinen Index", p->shown);
-    if (family) pl_suggest(l->job, m, pl_format(l->arena, "%s[1]", p->shown), "write %s[1]", "schreibe %s[1]", p->shown);
+    pl_diagnostic* m = pl_lower_complain(
+        l, PL_E025, pl_ast_span(name),
+        family ? "%s is a family, so it needs an index" : "%s is not a family, so it takes no index",
+        family ? "%s ist eine Familie und braucht einen Index" : "%s ist keine Familie und hat keinen Index", p->shown);
+    if (family)
+      pl_suggest(l->job, m, pl_format(l->arena, "%s[1]", p->shown), "write %s[1]", "schreibe %s[1]", p->shown);
     return false;
   }
   if (!family) {
@@ -324,7 +335,9 @@ bool pl_lower_label_point(pl_lower* l, const pl_ast* name, const pl_ast* index, 
   int wrong = l->wrong;
   if (family_point(l, name, i, out, place)) return true;
   if (l->wrong == wrong) {
-    pl_lower_complain(l, PL_E025, pl_span_join(pl_ast_span(name), pl_ast_span(index)), "this member of %s cannot be told from the text", "dieses Glied von %s lässt sich aus dem Text nicht bestimmen", p->shown);
+    pl_lower_complain(l, PL_E025, pl_span_join(pl_ast_span(name), pl_ast_span(index)),
+                      "this member of %s cannot be told from the text",
+                      "dieses Glied von %s lässt sich aus dem Text nicht bestimmen", p->shown);
   }
   return false;
 }
@@ -337,7 +350,7 @@ bool pl_lower_where(pl_lower* l, const pl_ast* node, pl_point* out, pl_site** pl
   if (name == NULL) return pl_lower_point(l, node, out);
   if (pl_site_find(l, name->key) == NULL) {
     pl_entity* e = pl_scope_find(l, name->key);
-    if (e) return pl_lower_point(l, node, out);   // an abbreviation of a point, or a number: that is said
+    if (e) return pl_lower_point(l, node, out);  // an abbreviation of a point, or a number: that is said
   }
   if (!pl_lower_label_point(l, name, index, out, place)) return false;
   out->span = pl_ast_span(node);

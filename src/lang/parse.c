@@ -1,8 +1,9 @@
 // Parser: feeds the tokens of a file to the grammar, one at a time.
 //
-// Here is decided what depends on the place: where a statement ends (a line goes on while a bracket is open or it ends with
-// an operator or comma), which words are keywords, and what happens after an error: one message for each statement, and
-// the names that a broken declaration would have declared are kept, so that they are not missed later on.
+// Here is decided what depends on the place: where a statement ends (a line goes on while a bracket is open or it ends
+// with an operator or comma), which words are keywords, and what happens after an error: one message for each
+// statement, and the names that a broken declaration would have declared are kept, so that they are not missed later
+// on.
 #include "lang/lang_impl.h"
 
 #include <stdarg.h>
@@ -39,8 +40,12 @@ pl_ast* pl_ast_make(pl_parse* p, pl_ast_kind kind, pl_bytes at) {
 }
 
 pl_ast* pl_ast_of_token(pl_parse* p, int kind, const pl_token* t) {
-  static const struct { int token; pl_ast_kind kind; } leaves[] = {
-    {TOK_NUMBER, PL_AST_NUMBER}, {TOK_NAME, PL_AST_NAME}, {TOK_PI, PL_AST_PI}, {TOK_INFINITY, PL_AST_INFINITY}, {TOK_TEXT, PL_AST_TEXT},
+  static const struct {
+    int token;
+    pl_ast_kind kind;
+  } leaves[] = {
+      {TOK_NUMBER, PL_AST_NUMBER},     {TOK_NAME, PL_AST_NAME}, {TOK_PI, PL_AST_PI},
+      {TOK_INFINITY, PL_AST_INFINITY}, {TOK_TEXT, PL_AST_TEXT},
   };
   pl_ast* n = pl_ast_make(p, PL_AST_WORD, (pl_bytes){t->begin, t->end});
   for (size_t i = 0; i < sizeof leaves / sizeof leaves[0]; i++) {
@@ -111,17 +116,17 @@ pl_ast* pl_ast_option(pl_parse* p, const char* word, pl_bytes at, pl_ast* value,
 typedef struct feeder {
   pl_parse* p;
   pl_yypstate* state;
-  int open[PL_MAX_DEPTH];    // tokens of open brackets
+  int open[PL_MAX_DEPTH];  // tokens of open brackets
   int n_open;
-  int brace[PL_MAX_BLOCKS + 1];   // tokens of open braces
+  int brace[PL_MAX_BLOCKS + 1];  // tokens of open braces
   int braces;
-  int statement;             // keyword of the statement, 0 before it
-  int last;                  // kind pushed last
-  int item;                  // request being read
-  int chain;                 // ^ and signs in a row
-  bool item_start;           // a request, a thing or an action may begin
-  bool arrow;                // of an event
-  bool skip;                 // nothing more of this statement
+  int statement;    // keyword of the statement, 0 before it
+  int last;         // kind pushed last
+  int item;         // request being read
+  int chain;        // ^ and signs in a row
+  bool item_start;  // a request, a thing or an action may begin
+  bool arrow;       // of an event
+  bool skip;        // nothing more of this statement
 } feeder;
 
 static const pl_token* token_at(const pl_parse* p, int i) {
@@ -197,12 +202,9 @@ static int word_of_statement(feeder* f, const pl_token* t, int i) {
       if (f->item == TOK_SWEEP && f->last == TOK_OF && is_word(t, "equilibria")) return TOK_EQUILIBRIA;
       if (!f->item_start) return 0;
       return f->item == TOK_ANIMATE && f->last == ',' && is_word(t, "force") ? TOK_FORCE : item_word(f->p, i);
-    case TOK_ANIMATE:
-      return f->item_start && is_word(t, "force") && followed_by_of(f->p, i) ? TOK_FORCE : 0;
-    case TOK_SWEEP:
-      return f->last == TOK_OF && is_word(t, "equilibria") ? TOK_EQUILIBRIA : 0;
-    default:
-      return 0;
+    case TOK_ANIMATE: return f->item_start && is_word(t, "force") && followed_by_of(f->p, i) ? TOK_FORCE : 0;
+    case TOK_SWEEP: return f->last == TOK_OF && is_word(t, "equilibria") ? TOK_EQUILIBRIA : 0;
+    default: return 0;
   }
 }
 
@@ -212,24 +214,38 @@ static bool looks_like_statement(const pl_parse* p, int i) {
   if (t->kind != TOK_NAME || !t->first || t->number || pl_word_statement(t->key) == 0) return false;
   const pl_token* next = token_at(p, i + 1);
   if (next->tight) return false;
-  return next->kind == TOK_NAME || next->kind == TOK_NUMBER || next->kind == TOK_TEXT || next->kind == '(' || next->kind == TOK_PI;
+  return next->kind == TOK_NAME || next->kind == TOK_NUMBER || next->kind == TOK_TEXT || next->kind == '(' ||
+         next->kind == TOK_PI;
 }
 
 static bool goes_on_after(int kind) {
   switch (kind) {
-    case '+': case '-': case '*': case '/': case '^': case ',': case '=': case '<': case '>':
-    case TOK_GE: case TOK_LE: case TOK_NE: case TOK_ARROW: case TOK_MUCH: case TOK_RANGE: case TOK_SEPARATOR: case TOK_AND:
-      return true;
-    default:
-      return false;
+    case '+':
+    case '-':
+    case '*':
+    case '/':
+    case '^':
+    case ',':
+    case '=':
+    case '<':
+    case '>':
+    case TOK_GE:
+    case TOK_LE:
+    case TOK_NE:
+    case TOK_ARROW:
+    case TOK_MUCH:
+    case TOK_RANGE:
+    case TOK_SEPARATOR:
+    case TOK_AND: return true;
+    default: return false;
   }
 }
 
 // ---------------------------------------------------------------------------------------------- ends of statements
 static void keep_lost_names(feeder* f, int end) {
   pl_parse* p = f->p;
-  bool all = f->statement == TOK_PARAM || f->statement == TOK_COORD || f->statement == TOK_LET || f->statement == TOK_INPUT ||
-             f->statement == TOK_OUTPUT || f->statement == TOK_FOR || f->statement == 0;
+  bool all = f->statement == TOK_PARAM || f->statement == TOK_COORD || f->statement == TOK_LET ||
+             f->statement == TOK_INPUT || f->statement == TOK_OUTPUT || f->statement == TOK_FOR || f->statement == 0;
   bool first = true;
   for (int i = p->statement_first; i < end; i++) {
     const pl_token* t = token_at(p, i);
@@ -255,8 +271,8 @@ static void complain_unclosed(feeder* f) {
   pl_parse* p = f->p;
   const pl_token* t = token_at(p, f->open[f->n_open - 1]);
   if (!p->said) {
-    pl_diagnostic* m = pl_complain(p->job, PL_E008, (pl_span){p->source, t->begin, t->end}, "this bracket is not closed",
-                                   "diese Klammer wird nicht geschlossen");
+    pl_diagnostic* m = pl_complain(p->job, PL_E008, (pl_span){p->source, t->begin, t->end},
+                                   "this bracket is not closed", "diese Klammer wird nicht geschlossen");
     pl_suggest(p->job, m, NULL, "add %s", "%s ergänzen", t->kind == '(' ? ")" : "]");
   }
   p->said = true;
@@ -298,7 +314,8 @@ static void close_bracket(feeder* f, int i) {
     return;
   }
   if (!p->said) {
-    pl_diagnostic* m = pl_complain(p->job, PL_E008, (pl_span){p->source, t->begin, t->end}, "nothing was opened that this bracket could close",
+    pl_diagnostic* m = pl_complain(p->job, PL_E008, (pl_span){p->source, t->begin, t->end},
+                                   "nothing was opened that this bracket could close",
                                    "nichts wurde geöffnet, das diese Klammer schließen könnte");
     pl_suggest(p->job, m, "", "remove it", "entfernen");
     if (f->n_open) {
@@ -321,7 +338,8 @@ static void open_brace(feeder* f, int i) {
   if (f->statement != TOK_FOR || p->said || f->n_open) {
     if (!p->said) {
       const pl_token* t = token_at(p, i);
-      pl_complain(p->job, PL_E001, (pl_span){p->source, t->begin, t->end}, "{ belongs to for only", "{ gehört nur zu for");
+      pl_complain(p->job, PL_E001, (pl_span){p->source, t->begin, t->end}, "{ belongs to for only",
+                  "{ gehört nur zu for");
       p->said = true;
     }
     p->lost_braces++;
@@ -342,7 +360,8 @@ static void close_brace(feeder* f, int i) {
   }
   if (f->braces == 0) {
     const pl_token* t = token_at(p, i);
-    pl_diagnostic* m = pl_complain(p->job, PL_E008, (pl_span){p->source, t->begin, t->end}, "nothing was opened that this brace could close",
+    pl_diagnostic* m = pl_complain(p->job, PL_E008, (pl_span){p->source, t->begin, t->end},
+                                   "nothing was opened that this brace could close",
                                    "nichts wurde geöffnet, das diese Klammer schließen könnte");
     pl_suggest(p->job, m, "", "remove it", "entfernen");
     return;
@@ -359,19 +378,26 @@ static void unknown_statement(feeder* f, int i) {
   const pl_token* t = token_at(p, i);
   pl_span span = {p->source, t->begin, t->end};
   if (!p->said && t->kind != TOK_NAME) {
-    pl_diagnostic* m = pl_complain(p->job, PL_E001, span, "a statement begins with a word", "eine Anweisung beginnt mit einem Wort");
-    pl_suggest(p->job, m, NULL, "begin with param, coord, mass, constraint, ...", "beginne mit param, coord, mass, constraint, ...");
+    pl_diagnostic* m =
+        pl_complain(p->job, PL_E001, span, "a statement begins with a word", "eine Anweisung beginnt mit einem Wort");
+    pl_suggest(p->job, m, NULL, "begin with param, coord, mass, constraint, ...",
+               "beginne mit param, coord, mass, constraint, ...");
   } else if (!p->said) {
     const char* word = pl_source_text(p->arena, span);
     pl_diagnostic* m = pl_complain(p->job, PL_E004, span, "%s is not a statement", "%s ist keine Anweisung", word);
     const char* near = pl_word_near_statement(t->key);
     bool equation = false;
-    for (int k = i; token_at(p, k)->kind != TOK_EOL && token_at(p, k)->kind != 0; k++) equation |= token_at(p, k)->kind == '=';
+    for (int k = i; token_at(p, k)->kind != TOK_EOL && token_at(p, k)->kind != 0; k++)
+      equation |= token_at(p, k)->kind == '=';
     if (near) pl_suggest(p->job, m, near, "did you mean %s?", "war %s gemeint?", near);
-    else if (token_at(p, i + 1)->kind == '=') pl_suggest(p->job, m, NULL, "write  param %1$s = ...  or  let %1$s = ...", "schreibe  param %1$s = ...  oder  let %1$s = ...", word);
-    else if (equation) pl_suggest(p->job, m, NULL, "write  constraint %s ... = ...", "schreibe  constraint %s ... = ...", word);
-    else pl_suggest(p->job, m, NULL, "statements are param, coord, let, mass, force, constraint, init, ask, ...",
-                    "Anweisungen sind param, coord, let, mass, force, constraint, init, ask, ...");
+    else if (token_at(p, i + 1)->kind == '=')
+      pl_suggest(p->job, m, NULL, "write  param %1$s = ...  or  let %1$s = ...",
+                 "schreibe  param %1$s = ...  oder  let %1$s = ...", word);
+    else if (equation)
+      pl_suggest(p->job, m, NULL, "write  constraint %s ... = ...", "schreibe  constraint %s ... = ...", word);
+    else
+      pl_suggest(p->job, m, NULL, "statements are param, coord, let, mass, force, constraint, init, ask, ...",
+                 "Anweisungen sind param, coord, let, mass, force, constraint, init, ask, ...");
   }
   p->said = f->skip = true;
 }
@@ -417,7 +443,8 @@ static bool chain_too_long(feeder* f, int i) {
   const pl_token* t = token_at(f->p, i);
   bool sign = t->kind == '-' && (goes_on_after(f->last) || f->last == '(');
   if (t->kind == '^' || sign) f->chain++;
-  else if (t->kind == '+' || t->kind == '-' || t->kind == '*' || t->kind == '/' || t->kind == ',' || t->kind == '=') f->chain = 0;
+  else if (t->kind == '+' || t->kind == '-' || t->kind == '*' || t->kind == '/' || t->kind == ',' || t->kind == '=')
+    f->chain = 0;
   if (f->chain <= MAX_CHAIN) return false;
   if (!f->p->said) {
     pl_complain(f->p->job, PL_E006, (pl_span){f->p->source, t->begin, t->end}, "more than %d powers or signs in a row",
@@ -451,18 +478,15 @@ static int feed(feeder* f, int i) {
   }
   if (f->skip || chain_too_long(f, i)) return i;
   switch (t->kind) {
-    case TOK_NAME:
-      return feed_word(f, i);
-    case '(': case '[':
+    case TOK_NAME: return feed_word(f, i);
+    case '(':
+    case '[':
       f->item_start = false;
       open_bracket(f, i);
       return i;
-    case ')': case ']':
-      close_bracket(f, i);
-      return i;
-    case ',':
-      feed_comma(f, i);
-      return i;
+    case ')':
+    case ']': close_bracket(f, i); return i;
+    case ',': feed_comma(f, i); return i;
     default:
       f->arrow |= t->kind == TOK_ARROW;
       f->item_start = t->kind == ':' || (t->kind == TOK_ARROW && f->statement == TOK_EVENT);
@@ -476,8 +500,8 @@ static void complain_open_block(feeder* f) {
   int at = p->tokens->list.n - 1;
   if (f->braces && !p->said) {
     const pl_token* t = token_at(p, f->brace[f->braces - 1]);
-    pl_diagnostic* m = pl_complain(p->job, PL_E008, (pl_span){p->source, t->begin, t->end}, "a block of for is not closed",
-                                   "ein Block von for wird nicht geschlossen");
+    pl_diagnostic* m = pl_complain(p->job, PL_E008, (pl_span){p->source, t->begin, t->end},
+                                   "a block of for is not closed", "ein Block von for wird nicht geschlossen");
     pl_suggest(p->job, m, NULL, "add }", "} ergänzen");
   }
   // close what is open, so that the rest of the file counts
@@ -525,7 +549,8 @@ static void run(pl_parse* p, pl_job* job, pl_names* names, const pl_source* sour
     f->p = p;
     f->state = state;
     feed_all(f, start);
-  } else {
+  }
+  else {
     status = guard.status;
   }
   pl_guard_end(job->arena, &guard);

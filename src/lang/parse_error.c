@@ -64,23 +64,46 @@ const char* pl_source_text(pl_arena* a, pl_span s) {
 }
 
 // ---------------------------------------------------------------------------------------------- words for tokens
-typedef struct named { int token; const char *en, *de; } named;
+typedef struct named {
+  int token;
+  const char *en, *de;
+} named;
 static const named plain[] = {
-  {TOK_TEXT, "a text in quotation marks", "ein Text in Anführungszeichen"}, {TOK_UNIT, "a unit in [ ]", "eine Einheit in [ ]"},
-  {TOK_EOL, "the end of the line", "das Zeilenende"}, {TOK_ARROW, "->", "->"}, {TOK_RANGE, "..", ".."},
-  {TOK_MUCH, ">>", ">>"}, {'=', "=", "="}, {':', ":", ":"}, {',', ",", ","}, {'(', "(", "("}, {')', ")", ")"},
-  {'[', "[", "["}, {']', "]", "]"}, {'{', "{", "{"}, {'}', "}", "}"},
-  {TOK_WORD_MASS, "mass", "mass"}, {TOK_WORD_INERTIA, "inertia", "inertia"}, {TOK_WORD_ANGLE, "angle", "angle"},
-  {TOK_WORD_AXES, "axes", "axes"}, {TOK_WORD_STATIC, "static", "static"}, {TOK_WORD_SURFACE, "surface", "surface"},
-  {TOK_WORD_INTEGER, "integer", "integer"}, {TOK_WORD_STOP, "stop", "stop"}, {TOK_WORD_RECORD, "record", "record"},
-  {TOK_WORD_RELEASE, "release", "release"}, {TOK_WORD_ATTACH, "attach", "attach"}, {TOK_REDUNDANT, "redundant ok", "redundant ok"},
+    {TOK_TEXT, "a text in quotation marks", "ein Text in Anführungszeichen"},
+    {TOK_UNIT, "a unit in [ ]", "eine Einheit in [ ]"},
+    {TOK_EOL, "the end of the line", "das Zeilenende"},
+    {TOK_ARROW, "->", "->"},
+    {TOK_RANGE, "..", ".."},
+    {TOK_MUCH, ">>", ">>"},
+    {'=', "=", "="},
+    {':', ":", ":"},
+    {',', ",", ","},
+    {'(', "(", "("},
+    {')', ")", ")"},
+    {'[', "[", "["},
+    {']', "]", "]"},
+    {'{', "{", "{"},
+    {'}', "}", "}"},
+    {TOK_WORD_MASS, "mass", "mass"},
+    {TOK_WORD_INERTIA, "inertia", "inertia"},
+    {TOK_WORD_ANGLE, "angle", "angle"},
+    {TOK_WORD_AXES, "axes", "axes"},
+    {TOK_WORD_STATIC, "static", "static"},
+    {TOK_WORD_SURFACE, "surface", "surface"},
+    {TOK_WORD_INTEGER, "integer", "integer"},
+    {TOK_WORD_STOP, "stop", "stop"},
+    {TOK_WORD_RECORD, "record", "record"},
+    {TOK_WORD_RELEASE, "release", "release"},
+    {TOK_WORD_ATTACH, "attach", "attach"},
+    {TOK_REDUNDANT, "redundant ok", "redundant ok"},
 };
 
 static const char* word_for(int token, bool german) {
   for (size_t i = 0; i < sizeof plain / sizeof plain[0]; i++) {
     if (plain[i].token == token) return german ? plain[i].de : plain[i].en;
   }
-#define PL_RESERVED(t, text) if (token == TOK_##t) return text;
+#define PL_RESERVED(t, text) \
+  if (token == TOK_##t) return text;
 #include "lang/keywords.def"
   return pl_word_of_item(token);
 }
@@ -104,7 +127,8 @@ static const char* list_expected(pl_arena* a, const int* expected, int n, bool g
   else if (has(expected, n, TOK_NUMBER) && !operators) words[n_words++] = german ? "eine Zahl" : "a number";
   for (int i = 0; i < n && n_words < 60; i++) {
     int t = expected[i];
-    bool part_of_expression = (expression || operators) && (t == '(' || t == '-' || t == '+' || t == '[' || t == TOK_UNIT || t == TOK_EOL);
+    bool part_of_expression =
+        (expression || operators) && (t == '(' || t == '-' || t == '+' || t == '[' || t == TOK_UNIT || t == TOK_EOL);
     bool is_operator = operators && (t == ',' || t == ')' || t == ':');
     if (part_of_expression || (is_operator && n_words > 3)) continue;
     const char* w = word_for(t, german);
@@ -151,9 +175,10 @@ static bool decimal_comma(pl_parse* p) {
   const pl_token *whole = &p->tokens->list.at[i - 1], *part = &p->tokens->list.at[i + 1];
   const char* fixed = pl_format(p->arena, "%s.%s", whole->text, part->text);
   const pl_token* after = &p->tokens->list.at[i + 2 < p->tokens->list.n ? i + 2 : i + 1];
-  pl_diagnostic* m = pl_complain(p->job, PL_E003, (pl_span){p->source, whole->begin, part->end}, "decimal comma", "Dezimalkomma");
-  pl_suggest(p->job, m, fixed, "write %s%s        (Dezimalpunkt statt Komma)", "schreibe %s%s        (Dezimalpunkt statt Komma)", fixed,
-             after->kind == TOK_DEGREE ? "°" : "");
+  pl_diagnostic* m =
+      pl_complain(p->job, PL_E003, (pl_span){p->source, whole->begin, part->end}, "decimal comma", "Dezimalkomma");
+  pl_suggest(p->job, m, fixed, "write %s%s        (Dezimalpunkt statt Komma)",
+             "schreibe %s%s        (Dezimalpunkt statt Komma)", fixed, after->kind == TOK_DEGREE ? "°" : "");
   return true;
 }
 
@@ -162,7 +187,8 @@ static bool reserved_name(pl_parse* p, const int* expected, int n) {
   if (t->kind != TOK_NAME || t->number || !pl_word_reserved(t->key) || !has(expected, n, TOK_NAME)) return false;
   const pl_token* next = token_near(p, p->at, 1);
   if (has(expected, n, '/') && next->kind == TOK_NAME) return false;
-  pl_diagnostic* m = pl_complain(p->job, PL_E013, (pl_span){p->source, t->begin, t->end}, "%s is a reserved word", "%s ist ein reserviertes Wort", t->key);
+  pl_diagnostic* m = pl_complain(p->job, PL_E013, (pl_span){p->source, t->begin, t->end}, "%s is a reserved word",
+                                 "%s ist ein reserviertes Wort", t->key);
   pl_suggest(p->job, m, NULL, "choose another name, such as %s1", "einen anderen Namen wählen, etwa %s1", t->key);
   return true;
 }
@@ -182,7 +208,9 @@ static bool line_ends_early(pl_parse* p, const int* expected, int n) {
   if (before->kind == TOK_NAME && strcmp(before->key, "for") == 0) span.begin = before->begin;
   m = pl_complain(p->job, PL_E001, span, "the line ends too early", "die Zeile endet zu früh");
   const char* en = list_expected(p->arena, expected, n, false);
-  if (en) pl_because(p->job, m, "expected: %1$s%2$.0s", "erwartet: %1$.0s%2$s", en, list_expected(p->arena, expected, n, true));
+  if (en)
+    pl_because(p->job, m, "expected: %1$s%2$.0s", "erwartet: %1$.0s%2$s", en,
+               list_expected(p->arena, expected, n, true));
   if (en && pl_word_reserved(en)) pl_suggest(p->job, m, NULL, "add  %s ...", "%s ...  ergänzen", en);
   return true;
 }
@@ -194,11 +222,14 @@ static bool missing_equals(pl_parse* p, const int* expected, int n) {
   const pl_token* before = token_near(p, p->at, -1);
   const char* left = pl_source_text(p->arena, (pl_span){p->source, before->begin, before->end});
   const char* right = pl_source_text(p->arena, (pl_span){p->source, t->begin, t->end});
-  pl_diagnostic* m = pl_complain(p->job, PL_E001, (pl_span){p->source, before->begin, t->end}, "an = is missing after %s", "hinter %s fehlt ein =", left);
+  pl_diagnostic* m = pl_complain(p->job, PL_E001, (pl_span){p->source, before->begin, t->end},
+                                 "an = is missing after %s", "hinter %s fehlt ein =", left);
   if (t->kind == TOK_NAME && !has(expected, n, TOK_NAME)) {
-    pl_suggest(p->job, m, NULL, "write %1$s = %2$s ...  or, for two names,  %1$s, %2$s", "schreibe %1$s = %2$s ...  oder, bei zwei Namen,  %1$s, %2$s", left, right);
+    pl_suggest(p->job, m, NULL, "write %1$s = %2$s ...  or, for two names,  %1$s, %2$s",
+               "schreibe %1$s = %2$s ...  oder, bei zwei Namen,  %1$s, %2$s", left, right);
   } else {
-    pl_suggest(p->job, m, pl_format(p->arena, "%s = %s", left, right), "write %s = %s", "schreibe %s = %s", left, right);
+    pl_suggest(p->job, m, pl_format(p->arena, "%s = %s", left, right), "write %s = %s", "schreibe %s = %s", left,
+               right);
   }
   return true;
 }
@@ -208,8 +239,9 @@ static bool missing_comma(pl_parse* p, const int* expected, int n) {
   if (t->kind != TOK_NAME || before->kind != TOK_NAME || !has(expected, n, ',') || has(expected, n, '/')) return false;
   const char* left = pl_source_text(p->arena, (pl_span){p->source, before->begin, before->end});
   const char* right = pl_source_text(p->arena, (pl_span){p->source, t->begin, t->end});
-  pl_diagnostic* m = pl_complain(p->job, PL_E001, (pl_span){p->source, before->begin, t->end}, "a comma is missing between %s and %s",
-                                 "zwischen %s und %s fehlt ein Komma", left, right);
+  pl_diagnostic* m =
+      pl_complain(p->job, PL_E001, (pl_span){p->source, before->begin, t->end}, "a comma is missing between %s and %s",
+                  "zwischen %s und %s fehlt ein Komma", left, right);
   pl_suggest(p->job, m, pl_format(p->arena, "%s, %s", left, right), "write %s, %s", "schreibe %s, %s", left, right);
   return true;
 }
@@ -217,12 +249,16 @@ static bool missing_comma(pl_parse* p, const int* expected, int n) {
 void pl_parse_complain(pl_parse* p, const int* expected, int n) {
   if (p->said) return;
   p->said = true;
-  if (decimal_comma(p) || reserved_name(p, expected, n) || line_ends_early(p, expected, n) || missing_comma(p, expected, n)) return;
+  if (decimal_comma(p) || reserved_name(p, expected, n) || line_ends_early(p, expected, n) ||
+      missing_comma(p, expected, n))
+    return;
   if (missing_equals(p, expected, n)) return;
   const pl_token* t = &p->tokens->list.at[p->at];
   pl_span span = {p->source, t->begin, t->end};
   const char* text = pl_source_text(p->arena, span);
   pl_diagnostic* m = pl_complain(p->job, PL_E001, span, "%s does not fit here", "%s passt hier nicht", text);
   const char* en = list_expected(p->arena, expected, n, false);
-  if (en) pl_because(p->job, m, "expected: %1$s%2$.0s", "erwartet: %1$.0s%2$s", en, list_expected(p->arena, expected, n, true));
+  if (en)
+    pl_because(p->job, m, "expected: %1$s%2$.0s", "erwartet: %1$.0s%2$s", en,
+               list_expected(p->arena, expected, n, true));
 }

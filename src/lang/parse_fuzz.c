@@ -25,7 +25,8 @@ static void work(pl_job* job, const char* text, size_t size) {
   // what the formatter accepts it accepts again, unchanged
   const char *once = NULL, *twice = NULL;
   if (pl_lang_format(job, source, PL_SPELL_KEEP, &once) != PLEUEL_OK) return;
-  require(pl_lang_format(job, pl_source_make(job->arena, "fuzz", once, strlen(once)), PL_SPELL_KEEP, &twice) == PLEUEL_OK);
+  require(pl_lang_format(job, pl_source_make(job->arena, "fuzz", once, strlen(once)), PL_SPELL_KEEP, &twice) ==
+          PLEUEL_OK);
   require(strcmp(once, twice) == 0);
 }
 
@@ -41,7 +42,8 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     job->arena = a;
     job->diagnostics = diagnostics;
     work(job, pl_copy_n(a, (const char*)data, size), size);
-  } else {
+  }
+  else {
     require(guard.status == PLEUEL_NO_MEMORY);
   }
   pl_guard_end(a, &guard);

@@ -1,23 +1,60 @@
 // Spelling of names.  `m1`, `m_1`, `m₁` are one name, `theta` is `θ`, `ẋ` is `x` with one dot whichever way the dot was
 // typed.  The key of a name is its ASCII spelling: Greek letters as words, subscripts as digits, no underscore before a
-// digit, one underscore where a Greek letter touches another letter.  So a key can be typed, and reads back as the name.
+// digit, one underscore where a Greek letter touches another letter.  So a key can be typed, and reads back as the
+// name.
 #include "lang/lang_impl.h"
 
 #include <string.h>
 
 // ---------------------------------------------------------------------------------------------- tables
-typedef struct greek { uint32_t letter; const char* word; } greek;
+typedef struct greek {
+  uint32_t letter;
+  const char* word;
+} greek;
 static const greek greek_letters[] = {
-  // the first spelling of a word is the one that display uses
-  {0x3b1, "alpha"}, {0x3b2, "beta"}, {0x3b3, "gamma"}, {0x3b4, "delta"}, {0x3b5, "epsilon"}, {0x3b6, "zeta"},
-  {0x3b7, "eta"}, {0x3b8, "theta"}, {0x3b9, "iota"}, {0x3ba, "kappa"}, {0x3bb, "lambda"}, {0x3bc, "mu"},
-  {0x3bd, "nu"}, {0x3be, "xi"}, {0x3c1, "rho"}, {0x3c3, "sigma"}, {0x3c4, "tau"}, {0x3c5, "upsilon"},
-  {0x3c6, "phi"}, {0x3c7, "chi"}, {0x3c8, "psi"}, {0x3c9, "omega"}, {0x393, "Gamma"}, {0x394, "Delta"},
-  {0x398, "Theta"}, {0x39b, "Lambda"}, {0x39e, "Xi"}, {0x3a0, "Pi"}, {0x3a3, "Sigma"}, {0x3a6, "Phi"},
-  {0x3a8, "Psi"}, {0x3a9, "Omega"},
-  // other spellings of the same words
-  {0x3d1, "theta"}, {0x3d5, "phi"}, {0x3f5, "epsilon"}, {0x3f1, "rho"}, {0x3c2, "sigma"}, {0x3f0, "kappa"},
-  {0xb5, "mu"}, {0x2126, "Omega"}, {0x2206, "Delta"},
+    // the first spelling of a word is the one that display uses
+    {0x3b1, "alpha"},
+    {0x3b2, "beta"},
+    {0x3b3, "gamma"},
+    {0x3b4, "delta"},
+    {0x3b5, "epsilon"},
+    {0x3b6, "zeta"},
+    {0x3b7, "eta"},
+    {0x3b8, "theta"},
+    {0x3b9, "iota"},
+    {0x3ba, "kappa"},
+    {0x3bb, "lambda"},
+    {0x3bc, "mu"},
+    {0x3bd, "nu"},
+    {0x3be, "xi"},
+    {0x3c1, "rho"},
+    {0x3c3, "sigma"},
+    {0x3c4, "tau"},
+    {0x3c5, "upsilon"},
+    {0x3c6, "phi"},
+    {0x3c7, "chi"},
+    {0x3c8, "psi"},
+    {0x3c9, "omega"},
+    {0x393, "Gamma"},
+    {0x394, "Delta"},
+    {0x398, "Theta"},
+    {0x39b, "Lambda"},
+    {0x39e, "Xi"},
+    {0x3a0, "Pi"},
+    {0x3a3, "Sigma"},
+    {0x3a6, "Phi"},
+    {0x3a8, "Psi"},
+    {0x3a9, "Omega"},
+    // other spellings of the same words
+    {0x3d1, "theta"},
+    {0x3d5, "phi"},
+    {0x3f5, "epsilon"},
+    {0x3f1, "rho"},
+    {0x3c2, "sigma"},
+    {0x3f0, "kappa"},
+    {0xb5, "mu"},
+    {0x2126, "Omega"},
+    {0x2206, "Delta"},
 };
 enum { N_GREEK = sizeof greek_letters / sizeof greek_letters[0] };
 
@@ -36,29 +73,36 @@ static uint32_t greek_letter(const char* s, size_t n) {
 }
 
 // Letters that carry their dots with them, and the letter without.
-typedef struct dotted { uint32_t whole; char base; int dots; } dotted;
+typedef struct dotted {
+  uint32_t whole;
+  char base;
+  int dots;
+} dotted;
 static const dotted dotted_letters[] = {
-  {0x10a, 'C', 1}, {0x10b, 'c', 1}, {0x116, 'E', 1}, {0x117, 'e', 1}, {0x120, 'G', 1}, {0x121, 'g', 1},
-  {0x130, 'I', 1}, {0x17b, 'Z', 1}, {0x17c, 'z', 1}, {0x226, 'A', 1}, {0x227, 'a', 1}, {0x22e, 'O', 1},
-  {0x22f, 'o', 1}, {0x1e02, 'B', 1}, {0x1e03, 'b', 1}, {0x1e0a, 'D', 1}, {0x1e0b, 'd', 1}, {0x1e1e, 'F', 1},
-  {0x1e1f, 'f', 1}, {0x1e22, 'H', 1}, {0x1e23, 'h', 1}, {0x1e40, 'M', 1}, {0x1e41, 'm', 1}, {0x1e44, 'N', 1},
-  {0x1e45, 'n', 1}, {0x1e56, 'P', 1}, {0x1e57, 'p', 1}, {0x1e58, 'R', 1}, {0x1e59, 'r', 1}, {0x1e60, 'S', 1},
-  {0x1e61, 's', 1}, {0x1e6a, 'T', 1}, {0x1e6b, 't', 1}, {0x1e86, 'W', 1}, {0x1e87, 'w', 1}, {0x1e8a, 'X', 1},
-  {0x1e8b, 'x', 1}, {0x1e8e, 'Y', 1}, {0x1e8f, 'y', 1},
-  {0xcb, 'E', 2}, {0xeb, 'e', 2}, {0xcf, 'I', 2}, {0xef, 'i', 2}, {0xff, 'y', 2}, {0x178, 'Y', 2},
-  {0x1e26, 'H', 2}, {0x1e27, 'h', 2}, {0x1e84, 'W', 2}, {0x1e85, 'w', 2}, {0x1e8c, 'X', 2}, {0x1e8d, 'x', 2},
-  {0x1e97, 't', 2},
+    {0x10a, 'C', 1},  {0x10b, 'c', 1},  {0x116, 'E', 1},  {0x117, 'e', 1},  {0x120, 'G', 1},  {0x121, 'g', 1},
+    {0x130, 'I', 1},  {0x17b, 'Z', 1},  {0x17c, 'z', 1},  {0x226, 'A', 1},  {0x227, 'a', 1},  {0x22e, 'O', 1},
+    {0x22f, 'o', 1},  {0x1e02, 'B', 1}, {0x1e03, 'b', 1}, {0x1e0a, 'D', 1}, {0x1e0b, 'd', 1}, {0x1e1e, 'F', 1},
+    {0x1e1f, 'f', 1}, {0x1e22, 'H', 1}, {0x1e23, 'h', 1}, {0x1e40, 'M', 1}, {0x1e41, 'm', 1}, {0x1e44, 'N', 1},
+    {0x1e45, 'n', 1}, {0x1e56, 'P', 1}, {0x1e57, 'p', 1}, {0x1e58, 'R', 1}, {0x1e59, 'r', 1}, {0x1e60, 'S', 1},
+    {0x1e61, 's', 1}, {0x1e6a, 'T', 1}, {0x1e6b, 't', 1}, {0x1e86, 'W', 1}, {0x1e87, 'w', 1}, {0x1e8a, 'X', 1},
+    {0x1e8b, 'x', 1}, {0x1e8e, 'Y', 1}, {0x1e8f, 'y', 1}, {0xcb, 'E', 2},   {0xeb, 'e', 2},   {0xcf, 'I', 2},
+    {0xef, 'i', 2},   {0xff, 'y', 2},   {0x178, 'Y', 2},  {0x1e26, 'H', 2}, {0x1e27, 'h', 2}, {0x1e84, 'W', 2},
+    {0x1e85, 'w', 2}, {0x1e8c, 'X', 2}, {0x1e8d, 'x', 2}, {0x1e97, 't', 2},
 };
 enum { N_DOTTED = sizeof dotted_letters / sizeof dotted_letters[0] };
 
 // Umlauts are letters, not second derivatives.
-typedef struct latin { uint32_t letter; const char* ascii; uint32_t base; } latin;
+typedef struct latin {
+  uint32_t letter;
+  const char* ascii;
+  uint32_t base;
+} latin;
 static const latin latin_letters[] = {
-  {0xe4, "ae", 'a'}, {0xf6, "oe", 'o'}, {0xfc, "ue", 'u'}, {0xc4, "Ae", 'A'}, {0xd6, "Oe", 'O'}, {0xdc, "Ue", 'U'},
-  {0xdf, "ss", 0}, {0xe9, "e", 0}, {0xe8, "e", 0}, {0xea, "e", 0}, {0xe0, "a", 0}, {0xe1, "a", 0}, {0xe2, "a", 0},
-  {0xe5, "aa", 0}, {0xc5, "Aa", 0}, {0xe6, "ae", 0}, {0xf8, "oe", 0}, {0xd8, "Oe", 0}, {0xe7, "c", 0}, {0xf1, "n", 0},
-  {0xf3, "o", 0}, {0xf4, "o", 0}, {0xed, "i", 0}, {0xee, "i", 0}, {0xfa, "u", 0}, {0xfb, "u", 0}, {0x127, "hbar", 0},
-  {0x2113, "ell", 0},
+    {0xe4, "ae", 'a'}, {0xf6, "oe", 'o'}, {0xfc, "ue", 'u'},  {0xc4, "Ae", 'A'},  {0xd6, "Oe", 'O'}, {0xdc, "Ue", 'U'},
+    {0xdf, "ss", 0},   {0xe9, "e", 0},    {0xe8, "e", 0},     {0xea, "e", 0},     {0xe0, "a", 0},    {0xe1, "a", 0},
+    {0xe2, "a", 0},    {0xe5, "aa", 0},   {0xc5, "Aa", 0},    {0xe6, "ae", 0},    {0xf8, "oe", 0},   {0xd8, "Oe", 0},
+    {0xe7, "c", 0},    {0xf1, "n", 0},    {0xf3, "o", 0},     {0xf4, "o", 0},     {0xed, "i", 0},    {0xee, "i", 0},
+    {0xfa, "u", 0},    {0xfb, "u", 0},    {0x127, "hbar", 0}, {0x2113, "ell", 0},
 };
 enum { N_LATIN = sizeof latin_letters / sizeof latin_letters[0] };
 
@@ -74,7 +118,11 @@ static bool is_ascii_letter(uint32_t c) { return (c >= 'a' && c <= 'z') || (c >=
 static bool is_digit(uint32_t c) { return c >= '0' && c <= '9'; }
 
 // A letter of the name, with what it becomes in the key and on display.
-typedef struct glyph { const char* ascii; char shown[5]; bool is_greek, is_letter; } glyph;
+typedef struct glyph {
+  const char* ascii;
+  char shown[5];
+  bool is_greek, is_letter;
+} glyph;
 
 static bool read_glyph(pl_arena* a, uint32_t c, glyph* g) {
   *g = (glyph){0};
@@ -88,7 +136,8 @@ static bool read_glyph(pl_arena* a, uint32_t c, glyph* g) {
   if ((g->ascii = greek_word(c)) != NULL) {
     g->is_greek = true;
     // look-alikes from other blocks are shown as the letter they stand for; ϑ, ϕ, ϵ stay as written
-    if (c == 0xb5 || c == 0x2126 || c == 0x2206) g->shown[pl_utf8_encode(g->shown, greek_letter(g->ascii, strlen(g->ascii)))] = 0;
+    if (c == 0xb5 || c == 0x2126 || c == 0x2206)
+      g->shown[pl_utf8_encode(g->shown, greek_letter(g->ascii, strlen(g->ascii)))] = 0;
     return true;
   }
   const latin* l = latin_letter(c);
@@ -186,46 +235,70 @@ bool pl_spell(pl_arena* a, pl_names* names, const char* s, size_t n, pl_spelled*
 }
 
 // ---------------------------------------------------------------------------------------------- look-alikes
-typedef struct look { uint32_t code; const char *meant, *en, *de; } look;
+typedef struct look {
+  uint32_t code;
+  const char *meant, *en, *de;
+} look;
 static const look looks[] = {
-  {0x2013, "-", "an en dash", "ein Halbgeviertstrich"}, {0x2014, "-", "an em dash", "ein Gedankenstrich"},
-  {0x2010, "-", "a hyphen", "ein Bindestrich"}, {0x2011, "-", "a hyphen", "ein Bindestrich"},
-  {0xad, "", "an invisible hyphen", "ein unsichtbarer Trennstrich"}, {0x200b, "", "an invisible blank", "ein unsichtbares Leerzeichen"},
-  {0x200c, "", "an invisible character", "ein unsichtbares Zeichen"}, {0x200d, "", "an invisible character", "ein unsichtbares Zeichen"},
-  {0xfeff, "", "an invisible byte order mark", "eine unsichtbare Bytefolgemarke"},
-  {0x2060, "", "an invisible character", "ein unsichtbares Zeichen"},
-  {0x2019, "'", "a typographic quotation mark", "ein typografisches Anführungszeichen"},
-  {0x2018, "'", "a typographic quotation mark", "ein typografisches Anführungszeichen"},
-  {0xb4, "'", "an acute accent", "ein Akzent"}, {'`', "'", "a grave accent", "ein Akzent"},
-  {0x201c, "\"", "a typographic quotation mark", "ein typografisches Anführungszeichen"},
-  {0x201d, "\"", "a typographic quotation mark", "ein typografisches Anführungszeichen"},
-  {0x201e, "\"", "a typographic quotation mark", "ein typografisches Anführungszeichen"},
-  {0xf7, "/", "a division sign", "ein Divisionszeichen"}, {0x2215, "/", "a division slash", "ein Bruchstrich"},
-  {0x2044, "/", "a fraction slash", "ein Bruchstrich"}, {0x2026, "..", "an ellipsis", "ein Auslassungszeichen"},
-  {0x2217, "*", "an asterisk operator", "ein Sternoperator"}, {0xba, "°", "an ordinal sign", "ein Ordnungszeichen"},
-  {0x2da, "°", "a ring", "ein Ring"}, {0x2202, NULL, "a partial derivative; diff(f, x) derives", "eine partielle Ableitung; diff(f, x) leitet ab"},
-  {0x222b, NULL, "an integral sign", "ein Integralzeichen"}, {0x3bf, "o", "a Greek omicron", "ein griechisches Omikron"},
-  {0x391, "A", "a Greek Alpha", "ein griechisches Alpha"}, {0x392, "B", "a Greek Beta", "ein griechisches Beta"},
-  {0x395, "E", "a Greek Epsilon", "ein griechisches Epsilon"}, {0x396, "Z", "a Greek Zeta", "ein griechisches Zeta"},
-  {0x397, "H", "a Greek Eta", "ein griechisches Eta"}, {0x399, "I", "a Greek Iota", "ein griechisches Iota"},
-  {0x39a, "K", "a Greek Kappa", "ein griechisches Kappa"}, {0x39c, "M", "a Greek Mu", "ein griechisches My"},
-  {0x39d, "N", "a Greek Nu", "ein griechisches Ny"}, {0x39f, "O", "a Greek Omicron", "ein griechisches Omikron"},
-  {0x3a1, "P", "a Greek Rho", "ein griechisches Rho"}, {0x3a4, "T", "a Greek Tau", "ein griechisches Tau"},
-  {0x3a5, "Y", "a Greek Upsilon", "ein griechisches Ypsilon"}, {0x3a7, "X", "a Greek Chi", "ein griechisches Chi"},
-  {0x212a, "K", "a Kelvin sign", "ein Kelvinzeichen"}, {0x212b, "A", "an Angstrom sign", "ein Ångström-Zeichen"},
+    {0x2013, "-", "an en dash", "ein Halbgeviertstrich"},
+    {0x2014, "-", "an em dash", "ein Gedankenstrich"},
+    {0x2010, "-", "a hyphen", "ein Bindestrich"},
+    {0x2011, "-", "a hyphen", "ein Bindestrich"},
+    {0xad, "", "an invisible hyphen", "ein unsichtbarer Trennstrich"},
+    {0x200b, "", "an invisible blank", "ein unsichtbares Leerzeichen"},
+    {0x200c, "", "an invisible character", "ein unsichtbares Zeichen"},
+    {0x200d, "", "an invisible character", "ein unsichtbares Zeichen"},
+    {0xfeff, "", "an invisible byte order mark", "eine unsichtbare Bytefolgemarke"},
+    {0x2060, "", "an invisible character", "ein unsichtbares Zeichen"},
+    {0x2019, "'", "a typographic quotation mark", "ein typografisches Anführungszeichen"},
+    {0x2018, "'", "a typographic quotation mark", "ein typografisches Anführungszeichen"},
+    {0xb4, "'", "an acute accent", "ein Akzent"},
+    {'`', "'", "a grave accent", "ein Akzent"},
+    {0x201c, "\"", "a typographic quotation mark", "ein typografisches Anführungszeichen"},
+    {0x201d, "\"", "a typographic quotation mark", "ein typografisches Anführungszeichen"},
+    {0x201e, "\"", "a typographic quotation mark", "ein typografisches Anführungszeichen"},
+    {0xf7, "/", "a division sign", "ein Divisionszeichen"},
+    {0x2215, "/", "a division slash", "ein Bruchstrich"},
+    {0x2044, "/", "a fraction slash", "ein Bruchstrich"},
+    {0x2026, "..", "an ellipsis", "ein Auslassungszeichen"},
+    {0x2217, "*", "an asterisk operator", "ein Sternoperator"},
+    {0xba, "°", "an ordinal sign", "ein Ordnungszeichen"},
+    {0x2da, "°", "a ring", "ein Ring"},
+    {0x2202, NULL, "a partial derivative; diff(f, x) derives", "eine partielle Ableitung; diff(f, x) leitet ab"},
+    {0x222b, NULL, "an integral sign", "ein Integralzeichen"},
+    {0x3bf, "o", "a Greek omicron", "ein griechisches Omikron"},
+    {0x391, "A", "a Greek Alpha", "ein griechisches Alpha"},
+    {0x392, "B", "a Greek Beta", "ein griechisches Beta"},
+    {0x395, "E", "a Greek Epsilon", "ein griechisches Epsilon"},
+    {0x396, "Z", "a Greek Zeta", "ein griechisches Zeta"},
+    {0x397, "H", "a Greek Eta", "ein griechisches Eta"},
+    {0x399, "I", "a Greek Iota", "ein griechisches Iota"},
+    {0x39a, "K", "a Greek Kappa", "ein griechisches Kappa"},
+    {0x39c, "M", "a Greek Mu", "ein griechisches My"},
+    {0x39d, "N", "a Greek Nu", "ein griechisches Ny"},
+    {0x39f, "O", "a Greek Omicron", "ein griechisches Omikron"},
+    {0x3a1, "P", "a Greek Rho", "ein griechisches Rho"},
+    {0x3a4, "T", "a Greek Tau", "ein griechisches Tau"},
+    {0x3a5, "Y", "a Greek Upsilon", "ein griechisches Ypsilon"},
+    {0x3a7, "X", "a Greek Chi", "ein griechisches Chi"},
+    {0x212a, "K", "a Kelvin sign", "ein Kelvinzeichen"},
+    {0x212b, "A", "an Angstrom sign", "ein Ångström-Zeichen"},
 };
 enum { N_LOOKS = sizeof looks / sizeof looks[0] };
 
 // Cyrillic letters that look Latin, in the order of their code points from 0x410 and 0x430.
-static const struct { uint32_t code; char meant; } cyrillic[] = {
-  {0x410, 'A'}, {0x412, 'B'}, {0x415, 'E'}, {0x41a, 'K'}, {0x41c, 'M'}, {0x41d, 'H'}, {0x41e, 'O'}, {0x420, 'P'},
-  {0x421, 'C'}, {0x422, 'T'}, {0x425, 'X'}, {0x430, 'a'}, {0x435, 'e'}, {0x43e, 'o'}, {0x440, 'p'}, {0x441, 'c'},
-  {0x443, 'y'}, {0x445, 'x'}, {0x456, 'i'}, {0x458, 'j'}, {0x455, 's'},
+static const struct {
+  uint32_t code;
+  char meant;
+} cyrillic[] = {
+    {0x410, 'A'}, {0x412, 'B'}, {0x415, 'E'}, {0x41a, 'K'}, {0x41c, 'M'}, {0x41d, 'H'}, {0x41e, 'O'},
+    {0x420, 'P'}, {0x421, 'C'}, {0x422, 'T'}, {0x425, 'X'}, {0x430, 'a'}, {0x435, 'e'}, {0x43e, 'o'},
+    {0x440, 'p'}, {0x441, 'c'}, {0x443, 'y'}, {0x445, 'x'}, {0x456, 'i'}, {0x458, 'j'}, {0x455, 's'},
 };
 
 const char* pl_look_alike(uint32_t c, const char* what[2]) {
-  static const char* const ascii[] = {" ", "!", "\"", "#", "$", "%", "&", "'", "(", ")", "*", "+", ",", "-", ".", "/", "0", "1", "2",
-    "3", "4", "5", "6", "7", "8", "9", ":", ";", "<", "=", ">"};
+  static const char* const ascii[] = {" ", "!", "\"", "#", "$", "%", "&", "'", "(", ")", "*", "+", ",", "-", ".", "/",
+                                      "0", "1", "2",  "3", "4", "5", "6", "7", "8", "9", ":", ";", "<", "=", ">"};
   for (int i = 0; i < N_LOOKS; i++) {
     if (looks[i].code != c) continue;
     what[0] = looks[i].en, what[1] = looks[i].de;
@@ -233,8 +306,9 @@ const char* pl_look_alike(uint32_t c, const char* what[2]) {
   }
   for (size_t i = 0; i < sizeof cyrillic / sizeof cyrillic[0]; i++) {
     if (cyrillic[i].code != c) continue;
-    static const char letters[] = "A\0B\0C\0D\0E\0F\0G\0H\0I\0J\0K\0L\0M\0N\0O\0P\0Q\0R\0S\0T\0U\0V\0W\0X\0Y\0Z\0"
-                                  "a\0b\0c\0d\0e\0f\0g\0h\0i\0j\0k\0l\0m\0n\0o\0p\0q\0r\0s\0t\0u\0v\0w\0x\0y\0z";
+    static const char letters[] =
+        "A\0B\0C\0D\0E\0F\0G\0H\0I\0J\0K\0L\0M\0N\0O\0P\0Q\0R\0S\0T\0U\0V\0W\0X\0Y\0Z\0"
+        "a\0b\0c\0d\0e\0f\0g\0h\0i\0j\0k\0l\0m\0n\0o\0p\0q\0r\0s\0t\0u\0v\0w\0x\0y\0z";
     char m = cyrillic[i].meant;
     what[0] = "a Cyrillic letter", what[1] = "ein kyrillischer Buchstabe";
     return letters + 2 * (m >= 'a' ? m - 'a' + 26 : m - 'A');
