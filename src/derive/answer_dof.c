@@ -151,6 +151,19 @@ static bool of_kind(pl_analysis* d, const pl_bond* l, pl_dropped_kind kind) {
   return idle == (kind == PL_DROPPED_IDLE);
 }
 
+static const long longest_inline = 30;   // operations of a multiplier inside a sentence
+
+// The multiplier of a dropped constraint; where its closed form is long, in terms of the other multipliers.
+static const pl_form* multiplier_form(pl_analysis* d, int k) {
+  const pl_bond* l = &d->g.at[k];
+  if (!l->lambda_known) return pl_fn(d, "?");
+  const pl_form* form = pl_f(d, l->lambda_value, PL_S_QUOTIENT);
+  if (pl_form_ops(form) <= longest_inline) return form;
+  int i;
+  pl_expr row = pl_multiplier_by_row(d, k, &i);
+  return pl_is_poison(row) ? form : pl_positive_first(d, pl_f(d, row, PL_S_QUOTIENT));
+}
+
 static int collect_dropped(pl_analysis* d, pl_dropped_kind kind, const pl_form** label, const pl_form** second, const pl_form** lambda) {
   int n = 0;
   for (int k = 0; k < d->g.n; k++) {
@@ -160,7 +173,7 @@ static int collect_dropped(pl_analysis* d, pl_dropped_kind kind, const pl_form**
     pl_expr a = kind == PL_DROPPED_DRIVEN ? pl_dt(d->pool, pl_dt(d->pool, c->fixed)) : pl_int(d->pool, 0);
     label[n] = pl_fn(d, label_of(l));
     second[n] = pl_feq(d, pl_fs(d, c->a), pl_fe(d, a));
-    lambda[n] = pl_feq(d, pl_fs(d, l->lambda), l->lambda_known ? pl_f(d, l->lambda_value, PL_S_QUOTIENT) : pl_fn(d, "?"));
+    lambda[n] = pl_feq(d, pl_fs(d, l->lambda), multiplier_form(d, k));
     n++;
   }
   return n;

@@ -128,36 +128,6 @@ static void show_differentiated(pl_analysis* d, int k) {
   }
 }
 
-// With q and q' of the map, but the accelerations left as names.
-static pl_expr on_positions(pl_analysis* d, pl_expr e) {
-  pl_replace* r = PL_ARRAY(d->arena, pl_replace, d->maps.n + 1);
-  int n = 0;
-  for (int k = 0; k < d->maps.n; k++) {
-    if (pl_symbol_get(d->pool, d->maps.at[k].from)->role != PL_R_ACCELERATION) r[n++] = d->maps.at[k];
-  }
-  return pl_subst(d->pool, pl_on_contact(d, e), r, n);
-}
-
-// The equation of a coordinate on which constraint k acts alone, solved for λ: short where the closed form is long.
-static pl_expr lambda_by_row(pl_analysis* d, int k, int* coordinate) {
-  pl_expr best = pl_poison();
-  for (int i = 0; i < d->q.n; i++) {
-    if (!d->q.at[i].carries || d->q.at[i].fixed_by >= 0 || pl_is_zero_node(d->pool, d->g.at[k].gradient[i])) continue;
-    bool alone = true;
-    for (int c = 0; c < d->g.n; c++) {
-      if (c != k && !d->g.at[c].implied) alone &= pl_is_zero_node(d->pool, pl_on_fixed(d, d->g.at[c].gradient[i]));
-    }
-    if (!alone) continue;
-    pl_expr e = on_positions(d, pl_div(d->pool, d->euler[i], d->g.at[k].gradient[i]));
-    e = pl_alg_normal(d->tower, e);
-    if (pl_is_poison(e)) continue;
-    if (!pl_is_poison(best) && pl_op_count(d->pool, e) >= pl_op_count(d->pool, best)) continue;
-    best = e;
-    *coordinate = i;
-  }
-  return best;
-}
-
 static const long closed_ops = 60;   // above it a multiplier is shown by its row, components in λ; values keep the closed form
 
 static pl_step* show_lambda_for(pl_analysis* d, int k, bool moves) {
@@ -165,12 +135,11 @@ static pl_step* show_lambda_for(pl_analysis* d, int k, bool moves) {
   const pl_form* form = pl_f(d, l->lambda_value, moves ? PL_S_EQUATION : PL_S_QUOTIENT);
   int i = -1;
   if (pl_form_ops(form) > closed_ops) {
-    pl_expr row = lambda_by_row(d, k, &i);
+    pl_expr row = pl_multiplier_by_row(d, k, &i);
     if (!pl_is_poison(row)) form = pl_f(d, row, PL_S_QUOTIENT);
   }
   form = pl_positive_first(d, form);
-  if (i >= 0) pl_say(d, "From the equation of {1}, on which {2} acts alone:", "Aus der Gleichung von {1}, auf die nur {2} wirkt:", 2,
-                     pl_fs(d, d->q.at[i].q), pl_fn(d, l->source->name.text));
+  if (i >= 0) pl_say(d, "From the equation of {1}:", "Aus der Gleichung von {1}:", 1, pl_fs(d, d->q.at[i].q));
   pl_step* step = pl_show_numbered(d, pl_feq(d, pl_fs(d, l->lambda), form));
   pl_claim_that(d, PL_CLAIM_MOTION, pl_form_value(d->pool, form), pl_sym(d->pool, l->lambda));
   pl_claim_that(d, PL_CLAIM_MOTION, l->lambda_value, pl_sym(d->pool, l->lambda));

@@ -104,6 +104,18 @@ static void show_twice_differentiated(pl_analysis* d, int k) {
 static const long longest_lambda = 150;   // operations up to which a multiplier is written out in the text
 
 // λ with the state eliminated, displayed with its number.
+// Where the closed form is too long to read: one equation of motion, solved for it.
+static void show_row(pl_analysis* d, int k) {
+  int i;
+  pl_expr row = pl_multiplier_by_row(d, k, &i);
+  if (pl_is_poison(row)) return;
+  const pl_form* form = pl_positive_first(d, pl_f(d, row, PL_S_QUOTIENT));
+  if (pl_form_ops(form) > longest_lambda) return;
+  pl_say(d, "From the equation of {1}:", "Aus der Gleichung von {1}:", 1, pl_fs(d, d->q.at[i].q));
+  d->number_lambda = pl_show_numbered(d, pl_feq(d, pl_fs(d, d->g.at[k].lambda), form))->number;
+  pl_claim_that(d, PL_CLAIM_MOTION, pl_form_value(d->pool, form), pl_sym(d->pool, d->g.at[k].lambda));
+}
+
 static void show_lambda(pl_analysis* d, int k) {
   pl_bond* l = &d->g.at[k];
   if (!l->lambda_known) {
@@ -114,6 +126,7 @@ static void show_lambda(pl_analysis* d, int k) {
   }
   const pl_form* form = pl_positive_first(d, pl_f(d, l->lambda_value, l->contact ? PL_S_EQUATION : PL_S_QUOTIENT));
   if (pl_form_ops(form) > longest_lambda) {
+    show_row(d, k);
     pl_say(d, pl_format(d->arena, "The linear equations for the multipliers and accelerations are solved; {1} takes %ld operations to write "
                                   "and stands in the JSON answer.", pl_form_ops(form)),
            pl_format(d->arena, "Die linearen Gleichungen für Multiplikatoren und Beschleunigungen sind gelöst; {1} hat ausgeschrieben %ld "
@@ -256,13 +269,23 @@ static const pl_form* of_time(pl_analysis* d, int i) {
   return pl_fn(d, pl_format(d->arena, "%s(t)", pl_symbol_get(d->pool, d->q.at[i].q)->name));
 }
 
+// The name x1(t) where it stands inside a formula.
+static pl_symbol function_of_time(pl_analysis* d, int i) {
+  pl_symbol_info info = *pl_symbol_get(d->pool, d->q.at[i].q);
+  info.name = pl_format(d->arena, "%s(t)", info.name);
+  info.ascii = pl_format(d->arena, "%s(t)", info.ascii);
+  info.role = PL_R_LOCAL;
+  info.base = info.up = (pl_symbol){0};
+  return pl_symbol_make(d->pool, &info);
+}
+
 // Coordinates that hang on i alone by the map: x2(t) = l - x1(t).
 static void show_followers(pl_analysis* d, int i) {
   for (int j = 0; j < d->q.n; j++) {
     const pl_variable* c = &d->q.at[j];
     if (j == i || c->fixed_by >= 0 || pl_is_poison(c->map) || !pl_has_symbol(d->pool, c->map, d->q.at[i].q)) continue;
-    pl_expr shown = pl_subst1(d->pool, c->map, d->q.at[i].q, pl_sym(d->pool, d->q.at[i].q));
-    pl_show(d, pl_feq(d, pl_fs(d, c->q), pl_f(d, shown, PL_S_SOLUTION)));
+    pl_expr shown = pl_subst1(d->pool, c->map, d->q.at[i].q, pl_sym(d->pool, function_of_time(d, i)));
+    pl_show(d, pl_feq(d, of_time(d, j), pl_f(d, shown, PL_S_SOLUTION)));
   }
 }
 

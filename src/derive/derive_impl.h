@@ -117,6 +117,9 @@ pleuel_status pl_reduce(pl_analysis* d);                // generalized coordinat
 // solve_motion.c
 pleuel_status pl_solve_motion(pl_analysis* d);          // accelerations and multipliers
 pl_expr pl_bond_acceleration(pl_analysis* d, int link); // twice differentiated constraint, raw
+// The equation of one coordinate solved for multiplier k, accelerations and other multipliers left as names: short where the closed
+// form is long.  The row with the fewest other multipliers is taken; its coordinate in *coordinate.  Poison if there is none.
+pl_expr pl_multiplier_by_row(pl_analysis* d, int link, int* coordinate);
 // claims.c
 void pl_claim_that(pl_analysis* d, pl_claim_kind kind, pl_expr shown, pl_expr reference);
 void pl_claim_free(pl_analysis* d, pl_claim_kind kind, pl_expr shown, pl_expr reference);

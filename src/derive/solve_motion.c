@@ -129,6 +129,48 @@ static void dropped_multipliers(pl_analysis* d) {
   }
 }
 
+// ---------------------------------------------------------------------------------------------- one row for one multiplier
+// With q and q' of the map, but the accelerations left as names.
+static pl_expr on_positions(pl_analysis* d, pl_expr e) {
+  pl_replace* r = PL_ARRAY(d->arena, pl_replace, d->maps.n + 1);
+  int n = 0;
+  for (int k = 0; d->reduced && k < d->maps.n; k++) {
+    if (pl_symbol_get(d->pool, d->maps.at[k].from)->role != PL_R_ACCELERATION) r[n++] = d->maps.at[k];
+  }
+  return pl_subst(d->pool, pl_on_contact(d, e), r, n);
+}
+
+static pl_expr row_of(pl_analysis* d, int k, int i, int* n_others) {
+  pl_expr e = d->euler[i];
+  *n_others = 0;
+  for (int c = 0; c < d->g.n; c++) {
+    const pl_bond* other = &d->g.at[c];
+    if (c == k || other->implied || pl_is_zero_node(d->pool, pl_on_fixed(d, other->gradient[i]))) continue;
+    e = pl_sub(d->pool, e, pl_mul(d->pool, pl_sym(d->pool, other->lambda), other->gradient[i]));
+    (*n_others)++;
+  }
+  return pl_alg_normal(d->tower, on_positions(d, pl_div(d->pool, e, d->g.at[k].gradient[i])));
+}
+
+pl_expr pl_multiplier_by_row(pl_analysis* d, int k, int* coordinate) {
+  const pl_bond* l = &d->g.at[k];
+  pl_expr best = pl_poison();
+  long best_cost = 0;
+  for (int i = 0; i < d->q.n; i++) {
+    bool own = l->fixes < 0 ? d->q.at[i].fixed_by < 0 : i == l->fixes;
+    if (!d->q.at[i].carries || !own || pl_is_zero_node(d->pool, pl_on_fixed(d, l->gradient[i]))) continue;
+    int n_others;
+    pl_expr e = row_of(d, k, i, &n_others);
+    long cost = pl_is_poison(e) ? 0 : 1000L * n_others + pl_op_count(d->pool, e);
+    if (pl_is_poison(e) || (!pl_is_poison(best) && cost >= best_cost)) continue;
+    best = e;
+    best_cost = cost;
+    *coordinate = i;
+  }
+  return best;
+}
+
+// ---------------------------------------------------------------------------------------------- the system
 static bool solve_system(pl_analysis* d, pl_linear* s, pl_expr* x) {
   pl_expr* A = PL_ARRAY(d->arena, pl_expr, s->n_rows * s->n_unknowns + 1);
   pl_expr* b = PL_ARRAY(d->arena, pl_expr, s->n_rows + 1);
