@@ -136,6 +136,10 @@ static pl_box* name_box(pl_arena* a, pl_box_kind kind, const char* name, int dot
 
 pl_box* pl_box_symbol(pl_arena* a, const pl_pool* p, pl_symbol s, pl_notation how) {
   const pl_symbol_info* i = pl_symbol_get(p, s);
+  bool set_in_parts = how.math != PL_MATH_LINE && how.math != PL_MATH_ASCII;
+  if (set_in_parts && i->role == PL_R_LOCAL && i->dots == 0 && i->name && strchr(i->name, '(')) {
+    return pl_box_free_name(a, i->name, how);   // x1(t): a letter with its argument
+  }
   pl_box* name = name_box(a, PL_B_NAME, stem(p, s, how.math == PL_MATH_ASCII), i->dots, how);
   if (i->role != PL_R_START) return name;
   pl_box* row = pl_box_make(a, PL_B_ROW, PL_LEVEL_ATOM, 2);
