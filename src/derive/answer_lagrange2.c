@@ -131,23 +131,6 @@ void pl_answer_lagrangian(pl_analysis* d, const pl_ask* ask) {
 }
 
 // ---------------------------------------------------------------------------------------------- second kind
-static pl_expr generalized_force(pl_analysis* d, int i) {
-  pl_expr sum = pl_on_maps(d, d->force[i]);
-  for (int j = 0; j < d->q.n; j++) {
-    const pl_variable* c = &d->q.at[j];
-    if (c->fixed_by >= 0 || pl_is_poison(c->map) || pl_is_zero_node(d->pool, d->force[j])) continue;
-    sum = pl_add(d->pool, sum, pl_mul(d->pool, pl_on_maps(d, d->force[j]), pl_diff(d->pool, c->map, d->q.at[i].q)));
-  }
-  return sum;
-}
-
-pl_expr pl_second_kind(pl_analysis* d, int i) {
-  const pl_variable* c = &d->q.at[i];
-  pl_expr momentum = pl_dt(d->pool, pl_diff(d->pool, d->Lg, c->v));
-  pl_expr e = pl_sub(d->pool, momentum, pl_diff(d->pool, d->Lg, c->q));
-  return pl_sub(d->pool, e, generalized_force(d, i));
-}
-
 // The constant factor that all terms of an equation share: masses, lengths, numbers.
 static pl_expr common_factor(pl_analysis* d, pl_expr e) {
   pl_factor f[24];

@@ -4,39 +4,6 @@
 
 #include "derive/derive_impl.h"
 
-// ---------------------------------------------------------------------------------------------- names of results
-static pl_expr result_value(pl_analysis* d, const pl_result_name* r) {
-  switch (r->kind) {
-    case PL_RES_T: return d->T;
-    case PL_RES_V: return d->V;
-    case PL_RES_L: return d->L;
-    case PL_RES_E:
-    case PL_RES_H: return pl_energy_integral(d);
-    case PL_RES_FORCE:
-    case PL_RES_FORCE_NORM:
-    case PL_RES_NORMAL: break;
-  }
-  for (int k = 0; k < d->g.n; k++) {   // size of a constraint force: |λ| |∇g| where it acts on one mass
-    const pl_bond* l = &d->g.at[k];
-    if (!r->label || strcmp(l->source->name.text, r->label) != 0) continue;
-    pl_expr sum = pl_int(d->pool, 0);
-    for (int i = 0; i < d->q.n; i++) sum = pl_add(d->pool, sum, pl_square(d->pool, l->gradient[i]));
-    pl_expr size = pl_mul(d->pool, pl_sqrt(d->pool, sum), pl_sym(d->pool, l->lambda));
-    return r->kind == PL_RES_NORMAL && l->source->relation == PL_LE ? pl_neg(d->pool, size)
-           : r->kind == PL_RES_NORMAL                                ? size
-                                                                     : pl_call(d->pool, PL_ABS, size);
-  }
-  return pl_poison();
-}
-
-pl_expr pl_with_results(pl_analysis* d, pl_expr e) {
-  for (int k = 0; k < d->model->result_names.n; k++) {
-    const pl_result_name* r = &d->model->result_names.at[k];
-    if (pl_has_symbol(d->pool, e, r->symbol)) e = pl_subst1(d->pool, e, r->symbol, result_value(d, r));
-  }
-  return e;
-}
-
 const char* pl_text_of(pl_analysis* d, pl_expr e) {
   pl_notation how = {.math = PL_MATH_LINE, .lang = d->job->lang};
   return pl_notation_print(d->arena, d->pool, pl_f(d, e, PL_S_PLAIN), how);

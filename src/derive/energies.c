@@ -1,5 +1,7 @@
 // energies: T, V and the generalized forces of a model, and the left-hand sides of Lagrange's equations
 //   E_i = d/dt dL/dv_i - dL/dq_i - Q_i  =  sum_c lambda_c dg_c/dq_i.
+#include <string.h>
+
 #include "derive/derive_impl.h"
 
 static pl_expr squared_speed(pl_analysis* d, const pl_expr* at, int n) {
@@ -127,4 +129,56 @@ pleuel_status pl_energies(pl_analysis* d) {
     }
   }
   return PLEUEL_OK;
+}
+
+// ---------------------------------------------------------------------------------------------- second kind
+// Q of generalized coordinate i: sum of Q_j dq_j/dq_i over the map.
+static pl_expr generalized_force(pl_analysis* d, int i) {
+  pl_expr sum = pl_on_maps(d, d->force[i]);
+  for (int j = 0; j < d->q.n; j++) {
+    const pl_variable* c = &d->q.at[j];
+    if (c->fixed_by >= 0 || pl_is_poison(c->map) || pl_is_zero_node(d->pool, d->force[j])) continue;
+    sum = pl_add(d->pool, sum, pl_mul(d->pool, pl_on_maps(d, d->force[j]), pl_diff(d->pool, c->map, d->q.at[i].q)));
+  }
+  return sum;
+}
+
+pl_expr pl_second_kind(pl_analysis* d, int i) {
+  const pl_variable* c = &d->q.at[i];
+  pl_expr momentum = pl_dt(d->pool, pl_diff(d->pool, d->Lg, c->v));
+  pl_expr e = pl_sub(d->pool, momentum, pl_diff(d->pool, d->Lg, c->q));
+  return pl_sub(d->pool, e, generalized_force(d, i));
+}
+
+// ---------------------------------------------------------------------------------------------- names of results
+static pl_expr result_value(pl_analysis* d, const pl_result_name* r) {
+  switch (r->kind) {
+    case PL_RES_T: return d->T;
+    case PL_RES_V: return d->V;
+    case PL_RES_L: return d->L;
+    case PL_RES_E:
+    case PL_RES_H: return pl_energy_integral(d);
+    case PL_RES_FORCE:
+    case PL_RES_FORCE_NORM:
+    case PL_RES_NORMAL: break;
+  }
+  for (int k = 0; k < d->g.n; k++) {   // size of a constraint force: |λ| |∇g| where it acts on one mass
+    const pl_bond* l = &d->g.at[k];
+    if (!r->label || strcmp(l->source->name.text, r->label) != 0) continue;
+    pl_expr sum = pl_int(d->pool, 0);
+    for (int i = 0; i < d->q.n; i++) sum = pl_add(d->pool, sum, pl_square(d->pool, l->gradient[i]));
+    pl_expr size = pl_mul(d->pool, pl_sqrt(d->pool, sum), pl_sym(d->pool, l->lambda));
+    return r->kind == PL_RES_NORMAL && l->source->relation == PL_LE ? pl_neg(d->pool, size)
+           : r->kind == PL_RES_NORMAL                                ? size
+                                                                     : pl_call(d->pool, PL_ABS, size);
+  }
+  return pl_poison();
+}
+
+pl_expr pl_with_results(pl_analysis* d, pl_expr e) {
+  for (int k = 0; k < d->model->result_names.n; k++) {
+    const pl_result_name* r = &d->model->result_names.at[k];
+    if (pl_has_symbol(d->pool, e, r->symbol)) e = pl_subst1(d->pool, e, r->symbol, result_value(d, r));
+  }
+  return e;
 }

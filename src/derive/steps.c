@@ -230,3 +230,12 @@ const pl_form* pl_joined_sum(pl_analysis* d, const pl_form* const* part, int n) 
   if (m == 0) return pl_form_leaf(d->arena, pl_int(d->pool, 0));
   return m == 1 ? term[0] : pl_form_sum(d->arena, term, m);
 }
+
+// ---------------------------------------------------------------------------------------------- what is not computed
+void pl_answer_pending(pl_analysis* d, const pl_ask* ask) {
+  if (!d->section || d->section->item != ask->text) pl_section_open(d, ask, ask->text, ask->text);
+  pl_say(d, "This version does not compute this request.", "Diese Version berechnet diese Anfrage nicht.", 0);
+  pl_report(d->job->diagnostics, PL_N091, ask->span, pl_format(d->arena, "\"%s\" is understood, but this version does not compute it", ask->text),
+            pl_format(d->arena, "\"%s\" ist verstanden, wird aber von dieser Version nicht berechnet", ask->text));
+  d->section->not_found = true;
+}

@@ -108,14 +108,6 @@ static void describe_constraints(pl_analysis* d) {
 }
 
 // ---------------------------------------------------------------------------------------------- requests
-void pl_answer_pending(pl_analysis* d, const pl_ask* ask) {
-  if (!d->section || d->section->item != ask->text) pl_section_open(d, ask, ask->text, ask->text);
-  pl_say(d, "This version does not compute this request.", "Diese Version berechnet diese Anfrage nicht.", 0);
-  pl_report(d->job->diagnostics, PL_N091, ask->span, pl_format(d->arena, "\"%s\" is understood, but this version does not compute it", ask->text),
-            pl_format(d->arena, "\"%s\" ist verstanden, wird aber von dieser Version nicht berechnet", ask->text));
-  d->section->not_found = true;
-}
-
 static void answer(pl_analysis* d, const pl_ask* ask) {
   switch (ask->kind) {
     case PL_ASK_DOF: pl_answer_dof(d, ask); break;
