@@ -43,4 +43,17 @@ pl_expr pl_record_plain(pl_recorder* r, pl_expr e);           // sums over indic
 void pl_group_atoms(pl_recorder* r, pl_group* g, pl_expr e);  // adds the coordinates of e
 double pl_record_number(pl_recorder* r, pl_expr e);           // NaN when it is none
 
+typedef struct pl_start_value { int at; bool velocity, guess; pl_expr value; } pl_start_value;
+bool pl_record_index(pl_recorder* r, pl_expr e, long* out);                       // a whole number
+pleuel_status pl_record_check(pl_recorder* r, const pl_expr* e, int n);           // every parameter in them has a number
+void pl_record_slots(pl_recorder* r, pl_group* g, const pl_expr* lambda, int n_c, pl_tape_slots* out);
+pleuel_status pl_record_place(pl_recorder* r, pl_group* g, pl_pattern_source* s); // slots of each instance
+int pl_record_link(pl_recorder* r, const char* label);                            // row of a constraint, -1
+pleuel_status pl_record_target(pl_recorder* r, pl_expr target, pl_start_value* out);
+
+// record_observe.c: energies, forces and outputs; events; branches.
+pleuel_status pl_record_observers(pl_recorder* r);
+pleuel_status pl_record_events(pl_recorder* r);
+pleuel_status pl_record_branches(pl_recorder* r);
+
 #endif

@@ -1,0 +1,353 @@
+// record, second half: what is looked at along the motion.  Energies, forces on masses, outputs, events and branches become
+// observer and watch patterns with slots of their own, since they may speak of any coordinate and multiplier.
+#include <math.h>
+#include <string.h>
+
+#include "api/record_impl.h"
+
+// ---------------------------------------------------------------------------------------------- observers
+// Energy as it is conserved: sum of v dL/dv - L, which is T + V for ordinary potentials.
+static pl_expr without_velocity_part(pl_recorder* r, pl_group* g, pl_expr V) {
+  pl_pool* p = r->pool;
+  pl_expr sum = V;
+  for (int i = 0; i < g->atoms.n; i++) {
+    pl_expr v = pl_dt(p, g->atoms.at[i]);
+    pl_expr slope = pl_kind_of(p, v) == PL_SYMBOL ? pl_diff(p, V, pl_symbol_of(p, v)) : pl_diff_at(p, V, v);
+    sum = pl_sub(p, sum, pl_mul(p, v, slope));
+  }
+  return sum;
+}
+
+static pleuel_status observe(pl_recorder* r, pl_group* g, const pl_expr* out, const int* column, int n, const pl_expr* lambda,
+                             const int* links, int n_c, pl_pattern* pattern) {
+  int* where = PL_ARRAY(r->arena, int, (size_t)g->instances.n * (size_t)n + 1);
+  int* c = PL_ARRAY(r->arena, int, (size_t)g->instances.n * (size_t)n_c + 1);
+  for (int i = 0; i < g->instances.n; i++) {
+    for (int k = 0; k < n; k++) where[i * n + k] = column[k];
+    for (int k = 0; k < n_c; k++) c[i * n_c + k] = links[k];
+  }
+  PL_TRY(pl_record_check(r, out, n));
+  pl_pattern_source s = {.n_outputs = n, .output = out, .n = g->instances.n, .out = where, .c = c};
+  pl_record_slots(r, g, lambda, n_c, &s.slots);
+  PL_TRY(pl_record_place(r, g, &s));
+  return pl_pattern_record(r->job, r->pool, &s, pattern);
+}
+
+// Expressions outside of families, with multipliers: their own slots, since they may speak of any coordinate.
+typedef struct pl_watching {
+  pl_group* group;
+  PL_VEC(pl_expr) output;
+  PL_VEC(int) column;
+  PL_VEC(pl_expr) lambda;
+  PL_VEC(int) links;
+} pl_watching;
+
+static pl_watching* watching_make(pl_recorder* r) {
+  pl_watching* w = PL_NEW(r->arena, pl_watching);
+  w->group = PL_NEW(r->arena, pl_group);
+  w->group->atom_at = pl_map_make(r->arena);
+  w->group->seen = pl_map_make(r->arena);
+  w->group->instances.n = 1;
+  return w;
+}
+
+// The row of a multiplier: λ_g1 as a symbol, λ_c[3] as an element; -1 if there is none.
+static int link_of_multiplier(pl_recorder* r, pl_expr atom) {
+  pl_symbol lambda = pl_symbol_of(r->pool, atom);
+  long index = 0;
+  bool element = pl_kind_of(r->pool, atom) == PL_AT;
+  if (element && !pl_record_index(r, pl_arg(r->pool, atom, 0), &index)) return -1;
+  for (int i = 0; i < r->model->constraints.n; i++) {
+    const pl_constraint* c = &r->model->constraints.at[i];
+    if (c->lambda.id != lambda.id) continue;
+    if (!element) return c->block ? -1 : r->first_link[i];
+    const char* name = pl_format(r->arena, "%s[%ld]", c->name.ascii ? c->name.ascii : c->name.text, index);
+    int last = i + 1 < r->model->constraints.n ? r->first_link[i + 1] : r->out->n_declared;
+    for (int k = r->first_link[i]; k < last; k++) {
+      if (strcmp(r->out->setup.links[k].name, name) == 0) return k;
+    }
+  }
+  return -1;
+}
+
+// Adds the multipliers of e to the slots.  false: one of them belongs to no constraint.
+static bool collect_multipliers(pl_recorder* r, pl_watching* w, pl_map* seen, pl_expr e) {
+  if (pl_is_poison(e) || pl_map_get(seen, e.id)) return true;
+  pl_map_set(seen, e.id, 1);
+  pl_kind kind = pl_kind_of(r->pool, e);
+  bool named = kind == PL_SYMBOL || kind == PL_AT;
+  if (named && pl_symbol_get(r->pool, pl_symbol_of(r->pool, e))->role == PL_R_MULTIPLIER) {
+    for (int i = 0; i < w->lambda.n; i++) {
+      if (pl_same(w->lambda.at[i], e)) return true;
+    }
+    int link = link_of_multiplier(r, e);
+    if (link < 0) return false;
+    pl_push(r->arena, w->lambda, e);
+    pl_push(r->arena, w->links, link);
+    return true;
+  }
+  for (int i = 0; i < pl_n_args(r->pool, e); i++) {
+    if (!collect_multipliers(r, w, seen, pl_arg(r->pool, e, i))) return false;
+  }
+  return true;
+}
+
+// Energies of the whole system as one expression: only without families.
+static pl_expr energy_of(pl_recorder* r, pl_result_kind kind) {
+  if (r->groups.n > 1) return pl_poison();
+  pl_group* g = r->groups.at[0];
+  pl_pool* p = r->pool;
+  switch (kind) {
+    case PL_RES_T: return g->T;
+    case PL_RES_V: return g->V;
+    case PL_RES_L: return pl_add(p, g->L, pl_sub(p, g->T, g->V));
+    case PL_RES_E: return pl_add(p, g->T, without_velocity_part(r, g, pl_sub(p, g->V, g->L)));
+    default: return pl_poison();
+  }
+}
+
+// What a result name stands for: T, λ-dependent sizes of forces; poison when this version has no number for it.
+static pl_expr result_value(pl_recorder* r, const pl_result_name* name) {
+  if (name->kind != PL_RES_FORCE_NORM && name->kind != PL_RES_NORMAL) return energy_of(r, name->kind);
+  const pl_constraint* c = pl_model_constraint(r->model, name->label);
+  if (!c || c->block || !c->lambda.id) return pl_poison();
+  pl_expr length = pl_force_length(r, c);
+  return pl_mul(r->pool, pl_call(r->pool, PL_ABS, pl_sym(r->pool, c->lambda)), length);
+}
+
+static pl_expr with_results(pl_recorder* r, pl_expr e) {
+  for (int i = 0; i < r->model->result_names.n; i++) {
+    const pl_result_name* name = &r->model->result_names.at[i];
+    if (pl_has_symbol(r->pool, e, name->symbol)) e = pl_subst1(r->pool, e, name->symbol, result_value(r, name));
+  }
+  return e;
+}
+
+// Start values such as x(0) and E(0) in what is watched: found by looking for the start once, without anything watched.
+static pleuel_status settle_start_values(pl_recorder* r) {
+  if (r->start_settled) return PLEUEL_OK;
+  r->start_settled = true;
+  pl_setup bare = r->out->setup;
+  bare.n_out = bare.n_observers = bare.n_events = bare.n_watched = bare.n_watch_patterns = 0;
+  bare.kinetic = bare.potential = -1;
+  bare.energy_conserved = false;
+  PL_TRY(pl_record_branches(r));
+  bare.branches = r->out->setup.branches;
+  bare.n_branches = r->out->setup.n_branches;
+  bare.n_branch_outputs = r->out->setup.n_branch_outputs;
+  bare.branch_patterns = r->out->setup.branch_patterns;
+  bare.n_branch_patterns = r->out->setup.n_branch_patterns;
+  pl_run_options how = {.t_0 = r->out->t_0, .t_end = r->out->t_0};
+  pl_run* run = NULL;
+  PL_TRY(pl_run_make(r->job, &bare, &how, &run));
+  pleuel_status s = pl_run_start(run);
+  const double *q = pl_run_q(run), *v = pl_run_v(run);
+  int n_symbols = pl_symbol_count(r->pool);
+  double* value = PL_ARRAY(r->arena, double, n_symbols + 4 * r->out->flat.n + 4);
+  memcpy(value, r->value, (size_t)r->n_value * sizeof *value);
+  for (int i = 0; s == PLEUEL_OK && i < r->out->flat.n; i++) {
+    pl_expr atom = r->out->flat.at[i];
+    if (pl_kind_of(r->pool, atom) != PL_SYMBOL) continue;
+    pl_symbol x = pl_symbol_of(r->pool, atom), x_dot = pl_symbol_dot(r->pool, x);
+    value[x.id] = q[i];
+    value[x_dot.id] = v[i];
+    value[pl_symbol_start(r->pool, x).id] = q[i];
+    value[pl_symbol_start(r->pool, x_dot).id] = v[i];
+  }
+  value[pl_time(r->pool).id] = r->out->t_0;
+  for (int i = 0; s == PLEUEL_OK && i < r->model->result_names.n; i++) {
+    const pl_result_name* name = &r->model->result_names.at[i];
+    pl_symbol start = pl_symbol_find(r->pool, pl_format(r->arena, "%s_0", pl_symbol_get(r->pool, name->symbol)->name));
+    pl_expr energy = start.id ? energy_of(r, name->kind) : pl_poison();
+    if (!pl_is_poison(energy) && (int)start.id <= n_symbols) value[start.id] = pl_eval(r->pool, energy, value);
+  }
+  pl_run_free(run);
+  value[pl_time(r->pool).id] = NAN;
+  for (int i = 0; i < r->out->flat.n; i++) {      // coordinates move on: only their start values stay
+    if (pl_kind_of(r->pool, r->out->flat.at[i]) != PL_SYMBOL) continue;
+    pl_symbol x = pl_symbol_of(r->pool, r->out->flat.at[i]);
+    value[x.id] = value[pl_symbol_dot(r->pool, x).id] = NAN;
+  }
+  r->value = value;
+  r->n_value = pl_symbol_count(r->pool) + 1;
+  return s;
+}
+
+// `convention lambda-minus`: the λ of the text is the negative of the solver's, whose forces are λ ∇g.
+static pl_expr minus_multipliers(pl_recorder* r, pl_expr e) {
+  for (int i = 0; i < r->model->constraints.n; i++) {
+    pl_symbol s = r->model->constraints.at[i].lambda;
+    if (s.id && !r->model->constraints.at[i].block && pl_has_symbol(r->pool, e, s)) e = pl_subst1(r->pool, e, s, pl_neg(r->pool, pl_sym(r->pool, s)));
+  }
+  return e;
+}
+
+// Adds an expression; its place among the outputs is the next.  PLEUEL_UNSUPPORTED when it has no number.
+static pleuel_status watch(pl_recorder* r, pl_watching* w, pl_expr e, int column, const char* what) {
+  pl_expr plain = pl_record_plain(r, with_results(r, r->model->lambda_minus ? minus_multipliers(r, e) : e));
+  bool known = !pl_is_poison(plain) && !pl_has_role(r->pool, plain, PL_R_LOCAL) && !pl_has_role(r->pool, plain, PL_R_MOMENTUM);
+  if (known && (pl_has_role(r->pool, plain, PL_R_START) || pl_has_role(r->pool, plain, PL_R_CONSTANT))) PL_TRY(settle_start_values(r));
+  if (known) known = collect_multipliers(r, w, pl_map_make(r->arena), plain);
+  if (!known) return pl_fail(r->job, PLEUEL_UNSUPPORTED, "%s: this version cannot compute it along the motion", what);
+  pl_group_atoms(r, w->group, plain);
+  pl_push(r->arena, w->output, plain);
+  pl_push(r->arena, w->column, column);
+  return PLEUEL_OK;
+}
+
+static pleuel_status watching_record(pl_recorder* r, pl_watching* w, const pl_pattern** patterns, int* n) {
+  *n = 0;
+  if (w->output.n == 0) return PLEUEL_OK;
+  pl_pattern* p = PL_NEW(r->arena, pl_pattern);
+  PL_TRY(observe(r, w->group, w->output.at, w->column.at, w->output.n, w->lambda.at, w->links.at, w->lambda.n, p));
+  *patterns = p;
+  *n = 1;
+  return PLEUEL_OK;
+}
+
+// The force of a constraint on a mass whose position is given by coordinates of its own, along one axis: λ dg/dx.  Poison where
+// there is none, or where it is λ itself.
+static pl_expr force_along(pl_recorder* r, const pl_constraint* c, const pl_mass* m, int axis) {
+  pl_pool* p = r->pool;
+  if (c->block || m->block || !c->lambda.id || pl_kind_of(p, m->point.at[axis]) != PL_SYMBOL) return pl_poison();
+  pl_symbol x = pl_symbol_of(p, m->point.at[axis]);
+  if (pl_symbol_get(p, x)->role != PL_R_COORD) return pl_poison();
+  for (int i = 0; i < r->model->masses.n; i++) {
+    const pl_mass* other = &r->model->masses.at[i];
+    for (int j = 0; other != m && j < other->point.n; j++) {
+      if (pl_has_symbol(p, other->point.at[j], x)) return pl_poison();
+    }
+  }
+  pl_expr slope = pl_diff(p, c->g, c->has_velocity ? pl_symbol_dot(p, x) : x);
+  long n;
+  if (pl_is_zero_node(p, slope) || (pl_is_int(p, slope, &n) && (n == 1 || n == -1))) return pl_poison();
+  pl_expr force = pl_mul(p, pl_sym(p, c->lambda), slope);
+  return r->model->lambda_minus ? pl_neg(p, force) : force;
+}
+
+typedef PL_VEC(pl_column) pl_columns;
+
+static pleuel_status watch_forces(pl_recorder* r, pl_watching* w, pl_columns* columns) {
+  const pl_model* m = r->model;
+  for (int i = 0; i < m->constraints.n; i++) {
+    for (int k = 0; k < m->masses.n; k++) {
+      for (int axis = 0; axis < m->masses.at[k].point.n; axis++) {
+        pl_expr force = force_along(r, &m->constraints.at[i], &m->masses.at[k], axis);
+        if (pl_is_poison(force)) continue;
+        const char* name = pl_format(r->arena, "force_%s_%s_%s", m->constraints.at[i].name.ascii, m->masses.at[k].name.ascii, m->axes[axis].ascii);
+        PL_TRY(watch(r, w, force, columns->n, name));
+        pl_push(r->arena, *columns, (pl_column){name, m->uses_units ? "N" : ""});
+      }
+    }
+  }
+  return PLEUEL_OK;
+}
+
+pleuel_status pl_record_observers(pl_recorder* r) {
+  const pl_model* m = r->model;
+  pl_setup* s = &r->out->setup;
+  const char* joule = m->uses_units ? "J" : "";
+  pl_columns columns = {0};
+  pl_pattern* pattern = PL_ARRAY(r->arena, pl_pattern, r->groups.n + 1);
+  s->kinetic = 0;
+  s->potential = 1;
+  pl_push(r->arena, columns, (pl_column){"T", joule});
+  pl_push(r->arena, columns, (pl_column){"V", joule});
+  pl_push(r->arena, columns, (pl_column){"E", joule});
+  for (int i = 0; i < r->groups.n; i++) {
+    pl_group* g = r->groups.at[i];
+    if (g->instances.n == 0) continue;
+    pl_expr V = without_velocity_part(r, g, pl_sub(r->pool, g->V, g->L));
+    pl_expr* out = PL_ARRAY(r->arena, pl_expr, 3);
+    out[0] = g->T;
+    out[1] = V;
+    out[2] = pl_add(r->pool, g->T, V);
+    static const int column[3] = {0, 1, 2};
+    PL_TRY(observe(r, g, out, column, 3, NULL, NULL, 0, &pattern[s->n_observers++]));
+  }
+
+  pl_watching* w = watching_make(r);
+  PL_TRY(watch_forces(r, w, &columns));
+  for (int i = 0; i < m->outputs.n; i++) {
+    PL_TRY(watch(r, w, m->outputs.at[i].value, columns.n, pl_format(r->arena, "output %s", m->outputs.at[i].name)));
+    pl_dimension d;
+    bool known = m->uses_units && pl_model_dimension(m, m->outputs.at[i].value, &d) && !pl_dimension_equal(d, pl_dimension_one());
+    pl_push(r->arena, columns, (pl_column){pl_plain_ascii(r->arena, m->outputs.at[i].name), known ? pl_dimension_unit(r->arena, d, true) : ""});
+  }
+  const pl_pattern* more;
+  int n;
+  PL_TRY(watching_record(r, w, &more, &n));
+  if (n) pattern[s->n_observers++] = *more;
+  s->observers = pattern;
+  s->out = columns.at;
+  s->n_out = columns.n;
+  s->energy_conserved = !r->dissipative && !r->explicit_time;
+  return PLEUEL_OK;
+}
+
+// ---------------------------------------------------------------------------------------------- events, branches
+static pleuel_status make_deed(pl_recorder* r, pl_watching* w, const pl_action* a, pl_event_deed* out) {
+  *out = (pl_event_deed){.target = -1};
+  pl_start_value target = {0};
+  switch (a->kind) {
+    case PL_DO_STOP: out->deed = PL_DEED_STOP; return PLEUEL_OK;
+    case PL_DO_RECORD: out->deed = PL_DEED_RECORD; return PLEUEL_OK;
+    case PL_DO_RELEASE: case PL_DO_ATTACH:
+      out->deed = a->kind == PL_DO_RELEASE ? PL_DEED_RELEASE : PL_DEED_ATTACH;
+      out->target = pl_record_link(r, a->label);
+      return out->target < 0 ? pl_fail(r->job, PLEUEL_USAGE, "there is no constraint %s", a->label) : PLEUEL_OK;
+    case PL_DO_SET:
+      PL_TRY(pl_record_target(r, a->target, &target));
+      out->deed = target.velocity ? PL_DEED_SET_V : PL_DEED_SET_Q;
+      out->target = target.at;
+      out->value = w->output.n;
+      return watch(r, w, a->value, w->output.n, "the new value of an event");
+  }
+  return PLEUEL_OK;
+}
+
+pleuel_status pl_record_events(pl_recorder* r) {
+  const pl_model* m = r->model;
+  pl_setup* s = &r->out->setup;
+  pl_event_setup* events = PL_ARRAY(r->arena, pl_event_setup, m->events.n + 1);
+  pl_watching* w = watching_make(r);
+  for (int i = 0; i < m->events.n; i++) {
+    const pl_event* e = &m->events.at[i];
+    pl_event_deed* deeds = PL_ARRAY(r->arena, pl_event_deed, e->actions.n + 1);
+    const char* name = e->name.ascii ? e->name.ascii : e->name.text;
+    events[i] = (pl_event_setup){name, w->output.n, e->direction, e->actions.n, deeds};
+    PL_TRY(watch(r, w, e->value, w->output.n, pl_format(r->arena, "event %s", name)));
+    for (int k = 0; k < e->actions.n; k++) PL_TRY(make_deed(r, w, &e->actions.at[k], &deeds[k]));
+  }
+  s->events = events;
+  s->n_events = m->events.n;
+  s->n_watched = w->output.n;
+  return watching_record(r, w, &s->watch, &s->n_watch_patterns);
+}
+
+static const char* relation_text(pl_relation relation) {
+  static const char* const text[] = {[PL_EQ] = "=", [PL_GE] = ">=", [PL_LE] = "<=", [PL_GT] = ">", [PL_LT] = "<", [PL_NE] = "!="};
+  return text[relation];
+}
+
+pleuel_status pl_record_branches(pl_recorder* r) {
+  const pl_model* m = r->model;
+  pl_setup* s = &r->out->setup;
+  pl_branch_setup* branches = PL_ARRAY(r->arena, pl_branch_setup, m->branches.n + 1);
+  pl_watching* w = watching_make(r);
+  for (int i = 0; i < m->branches.n; i++) {
+    const pl_condition* c = &m->branches.at[i];
+    const char* text = pl_format(r->arena, "%s %s %s", pl_expr_text(r->arena, r->pool, c->left), relation_text(c->relation),
+                                 pl_expr_text(r->arena, r->pool, c->right));
+    int relation = c->relation == PL_GT || c->relation == PL_GE ? 1 : c->relation == PL_LT || c->relation == PL_LE ? -1 : 0;
+    branches[i] = (pl_branch_setup){text, i, relation};
+    if (pl_has_role(r->pool, c->left, PL_R_START) || pl_has_role(r->pool, c->right, PL_R_START)) {
+      return pl_fail(r->job, PLEUEL_UNSUPPORTED, "branch %s speaks of the start that it is to choose", text);
+    }
+    PL_TRY(watch(r, w, pl_sub(r->pool, c->left, c->right), i, text));
+  }
+  s->branches = branches;
+  s->n_branches = m->branches.n;
+  s->n_branch_outputs = m->branches.n;
+  return watching_record(r, w, &s->branch_patterns, &s->n_branch_patterns);
+}
