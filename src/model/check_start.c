@@ -334,10 +334,23 @@ static void tell_violated(pl_job* job, pl_model* m, const pl_constraint* c, doub
   }
 }
 
+// What rounding of the start values themselves can do to g: sum of |dg/dq| |q|.  cos 90° is not exactly 0.
+static double size_of_start(const pl_model* m, pl_expr g, const double* value) {
+  double sum = 0;
+  for (int i = 0; i < m->inits.n; i++) {
+    const pl_init* x = &m->inits.at[i];
+    if (x->guess || pl_is_poison(x->target) || pl_kind_of(m->pool, x->target) != PL_SYMBOL) continue;
+    pl_symbol q = pl_symbol_of(m->pool, x->target);
+    double slope = pl_eval(m->pool, pl_diff(m->pool, g, q), value);
+    if (!isnan(slope) && !isnan(value[q.id])) sum += fabs(slope * value[q.id]);
+  }
+  return sum;
+}
+
 static void check_start_of(pl_job* job, pl_model* m, const pl_constraint* c, double* value) {
   if (c->off || c->block || pl_is_poison(c->g) || c->while_label) return;
   double g = pl_eval(m->pool, c->g, value);
-  double size = size_of_terms(m->pool, c->g, value);
+  double size = size_of_terms(m->pool, c->g, value) + size_of_start(m, c->g, value);
   if (isnan(g) || isnan(size)) return;
   bool violated = c->relation == PL_EQ ? fabs(g) > start_tolerance * size
                 : c->relation == PL_GE ? g < -start_tolerance * size : g > start_tolerance * size;
