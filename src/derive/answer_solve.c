@@ -72,7 +72,9 @@ static const pl_form* by_multipliers(pl_analysis* d, pl_expr e) {
   for (int k = 0; k < d->g.n; k++) {
     pl_expr c = pl_diff(d->pool, e, d->g.at[k].lambda);
     if (pl_is_zero_node(d->pool, c)) continue;
-    const pl_form* factor[2] = {pl_fs(d, d->g.at[k].lambda), pl_fe(d, c)};
+    pl_expr normal = pl_alg_normal(d->tower, c);
+    bool shorter = pl_op_count(d->pool, normal) < pl_op_count(d->pool, c);
+    const pl_form* factor[2] = {pl_fs(d, d->g.at[k].lambda), shorter ? pl_f(d, normal, PL_S_QUOTIENT) : pl_fe(d, c)};
     term[n++] = pl_form_product(d->arena, factor, 2);
   }
   return n == 1 ? term[0] : pl_form_sum(d->arena, term, n);
