@@ -198,8 +198,24 @@ static void answer_accelerations(pl_analysis* d) {
   }
 }
 
+// A force on a coordinate that is only a name for the place of masses: how it divides among them is open up to constraint forces.
+static bool not_in_these_coordinates(pl_analysis* d) {
+  int i = pl_loaded_by_name(d);
+  if (i < 0) return false;
+  pl_say(d, "A force or potential acts on {1}, which only names the place of the masses. How it divides among their coordinates is not "
+            "determined, constraint forces may be added; the equations of the second kind need no such choice.",
+         "Auf {1} wirkt eine Kraft oder ein Potential, {1} benennt aber nur den Ort der Massen. Wie sie sich auf deren Koordinaten verteilt, ist "
+         "bis auf Zwangskräfte offen; die Gleichungen zweiter Art brauchen diese Wahl nicht.", 1, pl_fs(d, d->q.at[i].q));
+  d->section->not_found = true;
+  return true;
+}
+
 void pl_answer_lagrange1(pl_analysis* d, const pl_ask* ask) {
   pl_section_open(d, ask, title_of(d, PL_ENGLISH), title_of(d, PL_GERMAN));
+  if (not_in_these_coordinates(d)) {
+    answer_accelerations(d);
+    return;
+  }
   pl_frame frame;
   const pl_particle* k = ask->frame.n > 0 ? particle_of_frame(d, ask, &frame) : NULL;
   bool own = k && frame.n > 0;

@@ -85,44 +85,88 @@ static void definitions(pl_analysis* d, pl_system_of_motion* s) {
   }
 }
 
+static bool contains_motion(pl_analysis* d, pl_expr e) {
+  return pl_has_role(d->pool, e, PL_R_VELOCITY) || pl_has_role(d->pool, e, PL_R_ACCELERATION);
+}
+
+// The facts of the model, and the signs of coordinates that were assumed on the way (r >= 0 of a distance): formulas hold there.
+static void domain(pl_analysis* d, pl_certifier_setup* setup) {
+  int n_used = 0, n = d->facts.n;
+  const pl_fact* used = pl_tower_used(d->tower, &n_used);
+  pl_fact* fact = PL_ARRAY(d->arena, pl_fact, n + n_used + 1);
+  for (int k = 0; k < n; k++) fact[k] = d->facts.at[k];
+  for (int k = 0; k < n_used; k++) {
+    if (pl_has_coordinates(d, used[k].difference) && !contains_motion(d, used[k].difference)) fact[n++] = used[k];
+  }
+  setup->facts = fact;
+  setup->n_facts = n;
+}
+
 static bool takes_part(const pl_analysis* d, const pl_variable* c) { return c->carries || (c->chosen && d->reduced); }
 
-// Accelerations of the chosen coordinates: as many independent rows of the map as there are such coordinates.
-static int map_rows(pl_analysis* d, pl_system_of_motion* s, int n_rows) {
-  if (!d->reduced) return n_rows;
+// Rows of the map that determine the chosen coordinates: which coordinates they are of, in `of`.
+static int independent_maps(pl_analysis* d, int* of) {
   int m = 0, n = 0;
-  int* of = PL_ARRAY(d->arena, int, d->q.n);
+  int* mapped = PL_ARRAY(d->arena, int, d->q.n);
   int* chosen = PL_ARRAY(d->arena, int, d->q.n);
-  for (int i = 0; i < d->q.n; i++) {
+  for (int i = 0; d->reduced && i < d->q.n; i++) {
     const pl_variable* c = &d->q.at[i];
-    if (!pl_is_poison(c->map) && c->solved_by == -1) of[m++] = i;
+    if (!pl_is_poison(c->map) && c->solved_by == -1) mapped[m++] = i;
     if (c->chosen && !c->carries) chosen[n++] = i;
   }
-  if (m == 0 || n == 0) return n_rows;
+  if (m == 0 || n == 0) return 0;
   pl_expr* J = PL_ARRAY(d->arena, pl_expr, m * n);
   for (int a = 0; a < m; a++) {
-    for (int b = 0; b < n; b++) J[a * n + b] = pl_diff(d->pool, d->q.at[of[a]].map, d->q.at[chosen[b]].q);
+    for (int b = 0; b < n; b++) J[a * n + b] = pl_diff(d->pool, d->q.at[mapped[a]].map, d->q.at[chosen[b]].q);
   }
   int* independent = PL_ARRAY(d->arena, int, m);
   int rank = pl_alg_rank(d->tower, m, n, J, independent);
-  for (int k = 0; k < rank && n_rows < s->n; k++) {
-    const pl_variable* c = &d->q.at[of[independent[k]]];
-    s->row[n_rows++] = pl_sub(d->pool, pl_sym(d->pool, c->a), pl_dt(d->pool, pl_dt(d->pool, c->map)));
+  for (int k = 0; k < rank; k++) of[k] = mapped[independent[k]];
+  return rank;
+}
+
+// A force on a chosen coordinate reaches the masses through the map: x = X(φ) is then a constraint like the others, with
+// multipliers of its own.  Adds them as unknowns, after the coordinates' rows.
+typedef struct pl_coupling {
+  int n;
+  int* of;                // coordinates whose map it is
+  pl_symbol* multiplier;  // NULL: nothing acts on chosen coordinates, none are needed
+} pl_coupling;
+
+static pl_coupling couple(pl_analysis* d) {
+  pl_coupling c = {.of = PL_ARRAY(d->arena, int, d->q.n + 1)};
+  c.n = independent_maps(d, c.of);
+  if (pl_loaded_by_name(d) < 0) return c;
+  c.multiplier = PL_ARRAY(d->arena, pl_symbol, c.n + 1);
+  for (int k = 0; k < c.n; k++) {
+    const char* name = pl_format(d->arena, "map_%d", k);
+    c.multiplier[k] = pl_symbol_make(d->pool, &(pl_symbol_info){.name = name, .ascii = name, .role = PL_R_LOCAL, .class = PL_C_OTHER});
   }
-  return n_rows;
+  return c;
+}
+
+// What the map exerts on coordinate i.
+static pl_expr coupling_push(pl_analysis* d, const pl_coupling* c, int i) {
+  pl_expr sum = pl_int(d->pool, 0);
+  for (int k = 0; c->multiplier && k < c->n; k++) {
+    pl_expr gap = pl_sub(d->pool, pl_sym(d->pool, d->q.at[c->of[k]].q), d->q.at[c->of[k]].map);
+    sum = pl_add(d->pool, sum, pl_mul(d->pool, pl_sym(d->pool, c->multiplier[k]), pl_diff(d->pool, gap, d->q.at[i].q)));
+  }
+  return sum;
 }
 
 // Unknowns: accelerations of all coordinates and all multipliers.  Rows: d'Alembert for what carries something, constraints
 // twice differentiated, maps twice differentiated for what only stands in `choose`.
 static void rows(pl_analysis* d, pl_system_of_motion* s) {
-  int cap = 2 * d->q.n + d->g.n, n_rows = 0;
+  int cap = 3 * d->q.n + d->g.n, n_rows = 0;
+  pl_coupling coupling = couple(d);
   s->unknown = PL_ARRAY(d->arena, pl_symbol, cap);
   s->row = PL_ARRAY(d->arena, pl_expr, cap);
   for (int i = 0; i < d->q.n; i++) {
     const pl_variable* c = &d->q.at[i];
     if (!takes_part(d, c)) continue;
     s->unknown[s->n++] = c->a;
-    if (c->chosen && !c->carries) continue;
+    if (c->chosen && !c->carries && !coupling.multiplier) continue;
     if (c->solved_by == -3) {   // a hidden constraint gives it
       s->row[n_rows++] = pl_sub(d->pool, pl_sym(d->pool, c->a), pl_dt(d->pool, pl_dt(d->pool, c->map)));
       continue;
@@ -133,14 +177,18 @@ static void rows(pl_analysis* d, pl_system_of_motion* s) {
       pl_expr push = pl_mul(d->pool, pl_sym(d->pool, d->g.at[k].lambda), d->g.at[k].gradient[i]);
       row = pl_sub(d->pool, row, push);
     }
-    s->row[n_rows++] = row;
+    s->row[n_rows++] = pl_sub(d->pool, row, coupling_push(d, &coupling, i));
   }
+  for (int k = 0; coupling.multiplier && k < coupling.n; k++) s->unknown[s->n++] = coupling.multiplier[k];
   for (int k = 0; k < d->g.n; k++) {
     if (d->g.at[k].implied) continue;
     s->unknown[s->n++] = d->g.at[k].lambda;
     s->row[n_rows++] = pl_bond_acceleration(d, k);
   }
-  n_rows = map_rows(d, s, n_rows);
+  for (int k = 0; k < coupling.n; k++) {
+    const pl_variable* c = &d->q.at[coupling.of[k]];
+    s->row[n_rows++] = pl_sub(d->pool, pl_sym(d->pool, c->a), pl_dt(d->pool, pl_dt(d->pool, c->map)));
+  }
   if (n_rows != s->n) s->n = 0;
 }
 
@@ -161,8 +209,9 @@ static pl_certifier* on_the_motion(pl_analysis* d) {
   rows(d, &s);
   if (!d->solved) s.n = 0;
   split_rows(d, &s);
-  pl_certifier_setup setup = {.facts = d->facts.at, .n_facts = d->facts.n, .definitions = s.definition,
+  pl_certifier_setup setup = {.definitions = s.definition,
                               .n_definitions = s.n_definitions, .n_unknowns = s.n, .unknowns = s.unknown, .A = s.A, .b = s.b};
+  domain(d, &setup);
   return pl_certifier_make(d->job, d->pool, &setup);
 }
 
@@ -173,8 +222,8 @@ static pl_certifier* on_free_points(pl_analysis* d) {
     const pl_let* l = &d->model->lets.at[k];
     if (l->n_args == 0 && !l->inserted) define(&s, l->symbol, l->value);
   }
-  pl_certifier_setup setup = {.facts = d->facts.at, .n_facts = d->facts.n, .definitions = s.definition,
-                              .n_definitions = s.n_definitions};
+  pl_certifier_setup setup = {.definitions = s.definition, .n_definitions = s.n_definitions};
+  domain(d, &setup);
   return pl_certifier_make(d->job, d->pool, &setup);
 }
 

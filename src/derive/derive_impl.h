@@ -116,6 +116,7 @@ const char* pl_unit_vector(pl_analysis* d, int coordinate);      // "e_r"
 pleuel_status pl_reduce(pl_analysis* d);                // generalized coordinates and maps
 // solve_motion.c
 pleuel_status pl_solve_motion(pl_analysis* d);          // accelerations and multipliers
+int pl_loaded_by_name(const pl_analysis* d);            // a coordinate of `choose` alone on which a force or potential acts; -1
 pl_expr pl_bond_acceleration(pl_analysis* d, int link); // twice differentiated constraint, raw
 // The equation of one coordinate solved for multiplier k, accelerations and other multipliers left as names: short where the closed
 // form is long.  The row with the fewest other multipliers is taken; its coordinate in *coordinate.  Poison if there is none.

@@ -159,7 +159,16 @@ static bool mentions(const pl_analysis* d, pl_expr e, const pl_variable* c) {
   return !pl_is_poison(e) && (pl_has_symbol(d->pool, e, c->q) || pl_has_symbol(d->pool, e, c->v));
 }
 
-// A coordinate that only stands in `choose` moves nothing by itself.
+// A name for the place of masses: `choose φ with x = l sin φ`.
+static bool stands_in_map(const pl_analysis* d, const pl_variable* c) {
+  const pl_choose* choose = &d->model->choose;
+  for (int k = 0; c->chosen && k < choose->n_maps; k++) {
+    if (mentions(d, choose->maps[k].map, c)) return true;
+  }
+  return false;
+}
+
+// A coordinate that only stands in `choose` moves nothing by itself, even when a torque or a potential acts on it.
 static bool carries(const pl_analysis* d, const pl_variable* c) {
   for (int k = 0; k < d->particle.n; k++) {
     const pl_particle* m = &d->particle.at[k];
@@ -168,7 +177,7 @@ static bool carries(const pl_analysis* d, const pl_variable* c) {
     }
     if (mentions(d, m->angle, c)) return true;
   }
-  for (int k = 0; k < d->model->loads.n; k++) {
+  for (int k = 0; k < d->model->loads.n && !stands_in_map(d, c); k++) {
     const pl_load* l = &d->model->loads.at[k];
     if (mentions(d, l->value, c) || l->coordinate.id == c->q.id) return true;
     for (int j = 0; j < 3; j++) {

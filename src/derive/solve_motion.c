@@ -13,6 +13,14 @@ pl_expr pl_bond_acceleration(pl_analysis* d, int k) {
   return l->velocity ? once : pl_dt(d->pool, once);
 }
 
+int pl_loaded_by_name(const pl_analysis* d) {
+  for (int i = 0; i < d->q.n; i++) {
+    const pl_variable* c = &d->q.at[i];
+    if (c->chosen && !c->carries && !pl_is_zero_node(d->pool, d->euler[i])) return i;
+  }
+  return -1;
+}
+
 typedef struct pl_linear {
   int n_unknowns, n_rows;
   pl_symbol* unknown;    //                       (n_unknowns)
