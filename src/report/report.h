@@ -52,6 +52,19 @@ void pl_worked_json(pl_text* out, const pl_json_input* in);
 // "ok", "model_error", ...: the value of the key "status".
 const char* pl_status_word(pleuel_status s);
 
+// ---------------------------------------------------------------------------------------------- export
+// The formulas of a solution in the language of another program.
+typedef enum pl_export_target { PL_EXPORT_SYMPY, PL_EXPORT_MATHEMATICA, PL_EXPORT_MAXIMA, PL_EXPORT_JULIA, PL_EXPORT_JSON } pl_export_target;   // ORDER EXPORTS
+bool pl_export_target_find(const char* word, pl_export_target* target);    // "sympy"; false: there is none of this name
+
+typedef struct pl_export_input {
+  pl_export_target target;
+  const char* file;                    // as named on the command line
+  const pl_solution* solution;
+  const char* only;                    // letters; NULL: all
+} pl_export_input;
+void pl_export(pl_text* out, const pl_export_input* in);
+
 // ---------------------------------------------------------------------------------------------- writing JSON
 // A writer on a pl_text: indented by two blanks, keys in the order given.  Numbers are the shortest decimal that reads back
 // to the same double; NaN and infinities become null.  Strings are UTF-8; what is not valid UTF-8 becomes U+FFFD.
