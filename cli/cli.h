@@ -21,7 +21,7 @@ enum { CLI_MAX_FILES = 256, CLI_MAX_SETTINGS = 64 };
 
 // Every flag of every verb has a member here; a verb's table says which of them it takes.
 typedef struct cli_options {
-  const char *only, *steps, *lang, *math, *output, *until, *tol, *dt, *after, *color, *from;
+  const char *only, *steps, *lang, *math, *output, *until, *tol, *dt, *after, *color, *from, *to;
   bool json, terse, strict, force, events, verbose, check, unicode, ascii, timing, no_simulation, list, help;
   const char* files[CLI_MAX_FILES];
   int n_files;
@@ -111,10 +111,11 @@ int verb_new(pleuel* ctx, const cli_options* o);
 int verb_examples(pleuel* ctx, const cli_options* o);
 int verb_explain(pleuel* ctx, const cli_options* o);
 int verb_units(pleuel* ctx, const cli_options* o);
+int verb_export(pleuel* ctx, const cli_options* o);
 int verb_dump(pleuel* ctx, const cli_options* o);
 int verb_completion(pleuel* ctx, const cli_options* o);
 int verb_help(pleuel* ctx, const cli_options* o);
 extern const cli_flag flags_solve[], flags_check[], flags_sim[], flags_fmt[], flags_new[], flags_examples[], flags_explain[],
-    flags_units[], flags_dump[], flags_completion[], flags_help[];
+    flags_units[], flags_export[], flags_dump[], flags_completion[], flags_help[];
 
 #endif

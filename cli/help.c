@@ -11,7 +11,7 @@ void cli_print_overview(FILE* to) {
     "  pleuel check FILE              names, units, degrees of freedom, start\n"
     "  pleuel sim FILE -o out.csv     simulate, write the motion\n"
     "\n"
-    "  more: fmt new examples explain units dump completion\n"
+    "  more: fmt new examples explain units export dump completion\n"
     "\n"
     "  Start with:  pleuel new pendulum          a commented model to change\n"
     "               pleuel pendulum.pleuel       its worked solution\n"

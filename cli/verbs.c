@@ -18,6 +18,8 @@ const cli_verb cli_verbs[] = {
   {"explain", "CODE", "what a message means and how to mend it", flags_explain, verb_explain,
    "Without a code: the list of all messages."},
   {"units", "UNIT", "dimension and SI factor of a unit", flags_units, verb_units, NULL},
+  {"export", "FILE", "the formulas for SymPy, Mathematica, Maxima or Julia, or as JSON", flags_export, verb_export,
+   "Each formula has a key: letter, name, and of, on, at, along what. C is not among the targets of this version."},
   {"dump", "FILE", "what the program thinks, at an arrow of its pipeline", flags_dump, verb_dump, NULL},
   {"completion", "SHELL", "completions for bash, zsh or fish", flags_completion, verb_completion,
    "For this session:  source <(pleuel completion bash)"},
@@ -39,7 +41,6 @@ const char* cli_later_verb(const char* name) {
     {"sweep", "parameter grids"},
     {"report", "an HTML report"},
     {"tex", "LaTeX"},
-    {"export", "export to other programs"},
     {"studio", "the workbench in the browser"},
     {"lsp", "the editor server"},
   };

@@ -483,6 +483,36 @@ pleuel_status pleuel_solve_json(pleuel_model* m, const char** json, const pleuel
   return ask_solution(m, json, options, solve_json);
 }
 
+static pleuel_status export(pleuel_model* m, void* argument) {
+  pl_asking* a = argument;
+  pl_export_input in = {.file = m->name, .only = a->solve->only};
+  if (!pl_export_target_find(a->word, &in.target)) {
+    return pl_fail(&m->job, PLEUEL_USAGE, "there is no export to `%s`: sympy, mathematica, maxima, julia, json", a->word);
+  }
+  pleuel_status s = pl_pipeline_derive(m, a->solve->only, a->solve->seconds);
+  if (!m->solution || s != PLEUEL_OK) return s;
+  in.solution = m->solution;
+  pl_text out = pl_text_make(m->arena);
+  pl_export(&out, &in);
+  a->answer = pl_text_string(&out);
+  bool is_run = m->is_run;
+  m->is_run = false;                             // a motion of before has no say in this
+  s = verdict(m, s);
+  m->is_run = is_run;
+  return s;
+}
+
+pleuel_status pleuel_export(pleuel_model* m, const char** text, const char* target, const pleuel_solve_options* options) {
+  if (text) *text = NULL;
+  if (!m || !target) return PLEUEL_USAGE;
+  pleuel_solve_options o;
+  copy_options(&o, sizeof o, options);
+  pl_asking a = {.solve = &o, .word = target};
+  pleuel_status s = guarded(m, export, &a);
+  if (text) *text = a.answer;
+  return s;
+}
+
 // ---------------------------------------------------------------------------------------------- simulate
 static pleuel_status simulate(pleuel_model* m, void* argument) {
   const pleuel_sim_options* o = argument;

@@ -62,7 +62,7 @@ for verb in ["solve", "check", "sim", "fmt", "new", "examples", "explain", "unit
     r = run(verb, "-h")
     check(f"{verb} -h fits on a screen", r.code == 0 and 3 <= r.out.count("\n") <= 24 and not r.err, r)
     check(f"help {verb} says the same", run("help", verb).out == r.out, r)
-for verb in ["plot", "animate", "sweep", "report", "tex", "export", "studio", "lsp"]:
+for verb in ["plot", "animate", "sweep", "report", "tex", "studio", "lsp"]:
     r = run(verb, ski)
     check(f"{verb} is honest about not being there", r.code == 2 and not r.out and "this version" in r.err, r)
 
