@@ -234,6 +234,7 @@ void pl_answer_constraints(pl_analysis* d, const pl_ask* ask) {
                    strcmp(ask->letter, d->section->letter) == 0;
   pl_section_open(d, ask, after_dof ? NULL : "Constraints", after_dof ? NULL : "Zwangsbedingungen");
   bool some_dropped = false;
+  if (d->g.n == 0) pl_say(d, "There are none.", "Es gibt keine.", 0);
   for (int k = 0; k < d->g.n; k++) {
     const pl_bond* l = &d->g.at[k];
     some_dropped |= dropped(l);
@@ -242,6 +243,11 @@ void pl_answer_constraints(pl_analysis* d, const pl_ask* ask) {
     } else if (!after_dof) {
       pl_show(d, link_form(d, l));
       row_of_lets(d, l->g);
+    }
+    if (l->integrated) {
+      pl_say(d, "{1} is given for velocities and can be integrated: {2}. It restricts positions and is treated as holonomic.",
+             "{1} ist für Geschwindigkeiten gegeben und lässt sich integrieren: {2}. Sie schränkt die Lage ein und gilt als holonom.", 2,
+             pl_fn(d, label_of(l)), pl_feq(d, pl_fe(d, l->g), zero_form(d)));
     }
     pl_value* v = pl_answer(d, label_of(l), l->g, pl_difference_form(d, l->source->left, l->source->right));
     v->of = label_of(l);

@@ -261,9 +261,28 @@ static void answer_lambda(pl_analysis* d, int k, const pl_lambda_value* lambda) 
   v->of = d->g.at[k].source->name.text;
 }
 
+// A redundant constraint carries a part of the force that nothing determines.
+static void say_shared(pl_analysis* d, int k) {
+  for (int c = 0; c < d->solution->constraints.n; c++) {
+    const pl_constraint_info* info = &d->solution->constraints.at[c];
+    for (int j = 0; j < info->n_implied_by; j++) {
+      if (strcmp(info->implied_by[j], d->g.at[k].source->name.text) != 0) continue;
+      pl_say(d, "This is the force of {1} if {2}, which says nothing new, carries nothing; only the sum of both is determined.",
+             "Das ist die Kraft von {1}, wenn {2}, das nichts Neues sagt, nichts trägt; bestimmt ist nur die Summe beider.", 2,
+             pl_fn(d, info->implied_by[j]), pl_fn(d, info->label));
+    }
+  }
+}
+
 static void force_of(pl_analysis* d, const pl_ask* ask, int k) {
   const char* label = d->g.at[k].source->name.text;
   pl_section_open(d, ask, pl_format(d->arena, "Force of %s", label), pl_format(d->arena, "Zwangskraft von %s", label));
+  if (d->g.at[k].implied) {
+    pl_say(d, "{1} says nothing new beside the other constraints: its force is not determined, only the sum with theirs is.",
+           "{1} sagt neben den anderen Zwangsbedingungen nichts Neues: ihre Kraft ist nicht bestimmt, nur die Summe mit deren Kräften.", 1,
+           pl_fn(d, label));
+    return;
+  }
   if (!d->g.at[k].lambda_known) {
     pl_say(d, "The multiplier of {1} is not determined in closed form.", "Der Multiplikator von {1} ist nicht geschlossen bestimmt.", 1, pl_fn(d, label));
     d->section->not_found = true;
@@ -284,18 +303,30 @@ static void force_of(pl_analysis* d, const pl_ask* ask, int k) {
   if (first >= 0 && d->reduced && d->gen.n == 1) compare_with_free_fall(d, d->gen.at[0]);
   say_equilibrium_start(d, &ask->motion, k);
   pl_note_attribution(d, k);
+  say_shared(d, k);
 }
 
 static void force_on_mass(pl_analysis* d, const pl_ask* ask, int m) {
   const char* label = d->particle.at[m].label;
   pl_section_open(d, ask, pl_format(d->arena, "Constraint forces on %s", label), pl_format(d->arena, "Zwangskräfte auf %s", label));
+  int shown = 0;
   for (int k = 0; k < d->g.n; k++) {
     pl_force f;
     if (d->g.at[k].implied || !force_on(d, k, m, &f) || f.n == 0) continue;
-    if (!d->g.at[k].lambda_known) continue;
+    shown++;
+    if (!d->g.at[k].lambda_known) {
+      pl_say(d, "The multiplier of {1} is not determined in closed form.", "Der Multiplikator von {1} ist nicht geschlossen bestimmt.", 1,
+             pl_fn(d, d->g.at[k].source->name.text));
+      d->section->not_found = true;
+      continue;
+    }
     pl_lambda_value lambda = lambda_for(d, k, &ask->motion, false);
     pl_say(d, "{1}:", "{1}:", 1, pl_fn(d, d->g.at[k].source->name.text));
     show_on(d, k, m, &f, &lambda, true);
+  }
+  if (shown == 0) {
+    pl_say(d, "No constraint of the model acts on {1} alone; what holds it follows from its coordinates.",
+           "Keine Zwangsbedingung des Modells wirkt auf {1} allein; was es hält, folgt aus seinen Koordinaten.", 1, pl_fn(d, label));
   }
 }
 

@@ -210,6 +210,17 @@ static bool not_in_these_coordinates(pl_analysis* d) {
   return true;
 }
 
+// No mass stands in the coordinates that are named.
+static void say_not_along(pl_analysis* d, const pl_ask* ask) {
+  const pl_form** name = PL_ARRAY(d->arena, const pl_form*, ask->frame.n + 1);
+  for (int j = 0; j < ask->frame.n; j++) name[j] = pl_fs(d, ask->frame.at[j]);
+  pl_say(d, "The masses do not stand in {1}: ask for the equations without \"in\", for those of the second kind, or write the places of the "
+            "masses in {1}.",
+         "Die Massen stehen nicht in {1}: ohne „in“ fragen, nach den Gleichungen zweiter Art, oder die Orte der Massen in {1} schreiben.", 1,
+         pl_flist(d, name, ask->frame.n));
+  d->section->not_found = true;
+}
+
 void pl_answer_lagrange1(pl_analysis* d, const pl_ask* ask) {
   pl_section_open(d, ask, title_of(d, PL_ENGLISH), title_of(d, PL_GERMAN));
   if (not_in_these_coordinates(d)) {
@@ -224,7 +235,9 @@ void pl_answer_lagrange1(pl_analysis* d, const pl_ask* ask) {
   if (own) {
     lagrange1_in_frame(d, k, &frame);
   } else {
+    int before = d->lagrange1_numbers.n;
     lagrange1_in_coordinates(d, ask);
+    if (ask->frame.n > 0 && d->lagrange1_numbers.n == before) say_not_along(d, ask);
   }
   answer_accelerations(d);
 }

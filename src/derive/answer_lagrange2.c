@@ -97,11 +97,20 @@ static void show_energy(pl_analysis* d, const char* name, pl_expr e, pl_expr raw
   pl_answer(d, name, e, form);
 }
 
+// A Lagrange function of the text has no T and V of its own.
+static bool given(const pl_analysis* d) {
+  for (int k = 0; k < d->model->loads.n; k++) {
+    if (d->model->loads.at[k].kind == PL_L_LAGRANGIAN) return true;
+  }
+  return false;
+}
+
 static void show_lagrangian(pl_analysis* d) {
   pl_expr L = pl_alg_normal(d->tower, d->Lg);
   const pl_form* form = pl_f(d, L, PL_S_ENERGY);
   const pl_form* both[2] = {pl_fn(d, "T"), pl_form_neg(d->arena, pl_fn(d, "V"))};
-  pl_show_numbered(d, pl_feq(d, pl_fn(d, "L"), pl_feq(d, pl_form_sum(d->arena, both, 2), form)));
+  const pl_form* right = given(d) ? form : pl_feq(d, pl_form_sum(d->arena, both, 2), form);
+  pl_show_numbered(d, pl_feq(d, pl_fn(d, "L"), right));
   pl_claim_that(d, PL_CLAIM_ENERGY, pl_form_value(d->pool, form), d->L);
   pl_answer(d, "L", L, form);
 }
@@ -125,8 +134,10 @@ void pl_answer_lagrangian(pl_analysis* d, const pl_ask* ask) {
     show_maps(d);
     show_velocities(d);
   }
-  show_energy(d, "T", d->Tg, d->T);
-  show_energy(d, "V", d->Vg, d->V);
+  if (!given(d)) {
+    show_energy(d, "T", d->Tg, d->T);
+    show_energy(d, "V", d->Vg, d->V);
+  }
   show_lagrangian(d);
 }
 

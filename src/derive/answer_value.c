@@ -114,6 +114,26 @@ static void value_where(pl_analysis* d, const pl_ask* ask) {
   say_independent(d, value);
 }
 
+static bool unsolved(pl_analysis* d, pl_expr e) {
+  return pl_has_role(d->pool, e, PL_R_ACCELERATION) || pl_has_role(d->pool, e, PL_R_MULTIPLIER);
+}
+
+// Nothing was found for the quantity: it is what it was, or hangs on accelerations and multipliers that are not solved.
+static bool stays_open(pl_analysis* d, pl_expr asked, pl_expr e) {
+  if (unsolved(d, e)) {
+    pl_say(d, "{1} hangs on accelerations or multipliers for which no closed form was found.",
+           "{1} hängt an Beschleunigungen oder Multiplikatoren, für die keine geschlossene Form gefunden wurde.", 1, pl_fe(d, asked));
+  } else if (pl_same(asked, e) && pl_kind_of(d->pool, e) == PL_SYMBOL && pl_has_coordinates(d, e)) {
+    pl_say(d, "{1} belongs to the state; the constraints give no closed form for it. Its motion: \"solve {1}(t)\" for a coordinate.",
+           "{1} gehört zum Zustand; die Zwangsbedingungen geben keine geschlossene Form. Die Bewegung einer Koordinate: „solve {1}(t)“.", 1,
+           pl_fe(d, asked));
+  } else {
+    return false;
+  }
+  d->section->not_found = true;
+  return true;
+}
+
 static void plain_value(pl_analysis* d, const pl_ask* ask) {
   bool eliminated = false;
   pl_expr e = ask->motion.given ? along(d, &ask->motion, ask->value, &eliminated)
@@ -122,6 +142,7 @@ static void plain_value(pl_analysis* d, const pl_ask* ask) {
     pl_answer_pending(d, ask);
     return;
   }
+  if (stays_open(d, ask->value, e)) return;
   const pl_form* form = pl_f(d, e, PL_S_QUOTIENT);
   pl_step* step = pl_show_numbered(d, pl_feq(d, pl_fe(d, ask->value), form));
   bool known;
@@ -167,6 +188,7 @@ void pl_answer_expect(pl_analysis* d, const pl_ask* ask) {
     right = pl_subst_expr(d->pool, right, ask->where.at[k].left, ask->where.at[k].right);
   }
   pl_answer3 equal = pl_alg_equal(d->tower, left, right);
+  if (equal == PL_NO && (unsolved(d, left) || unsolved(d, right))) equal = PL_UNKNOWN;
   const pl_form* claim = pl_feq(d, pl_fe(d, c->left), pl_fe(d, c->right));
   left = pl_alg_normal(d->tower, left);
   pl_value* v = pl_answer(d, "expect", equal == PL_YES ? right : left, NULL);

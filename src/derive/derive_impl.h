@@ -24,6 +24,7 @@ typedef struct pl_bond {   // a constraint at work
   bool contact;            // one-sided
   bool velocity;           // contains velocities (linear): nonholonomic
   bool implied;            // says nothing new
+  bool integrated;         // given for velocities; g is its integral
   pl_expr* gradient;       // dg/dq, of a nonholonomic one dg/dv; negative by `convention lambda-minus`   (n_q), raw
   pl_symbol lambda;
   pl_expr lambda_value;    // solved, on the constraints; poison if not
@@ -99,6 +100,7 @@ typedef struct pl_analysis {
 // ---------------------------------------------------------------------------------------------- setup.c
 pleuel_status pl_setup_coordinates(pl_analysis* d);     // coordinates, particles, links, facts, start numbers
 pleuel_status pl_setup_trivial(pl_analysis* d);         // coordinate = constant or f(t); contradictions; implied ones
+pleuel_status pl_contradiction(pl_analysis* d, const pl_bond* l, pl_expr rest);   // reports E042
 int pl_variable_index(const pl_analysis* d, pl_symbol q);      // of q, q' or q''; -1
 bool pl_has_coordinates(const pl_analysis* d, pl_expr e);        // coordinates or velocities or accelerations
 pl_expr pl_on_fixed(pl_analysis* d, pl_expr e);         // with the dropped coordinates inserted (not contacts)

@@ -113,6 +113,30 @@ static void add_particles(pl_analysis* d) {
   }
 }
 
+// Where coordinate q starts: 0 if that is what init says, else the symbol q(0).
+static pl_expr start_place(pl_analysis* d, pl_symbol q) {
+  for (int k = 0; k < d->model->inits.n; k++) {
+    const pl_init* init = &d->model->inits.at[k];
+    if (!init->guess && pl_same(init->target, pl_sym(d->pool, q)) && pl_is_zero_node(d->pool, init->value)) return init->value;
+  }
+  return pl_start_value(d, q);
+}
+
+// Linear in the velocities with constant coefficients, s' - R φ' = 0: the integral s - R φ with the constant of the start, which
+// restricts positions.  Poison for all others.
+static pl_expr integrated(pl_analysis* d, const pl_constraint* c) {
+  pl_expr sum = pl_int(d->pool, 0), rest = c->g;
+  for (int i = 0; i < d->q.n; i++) {
+    pl_expr slope = pl_diff(d->pool, c->g, d->q.at[i].v), q = pl_sym(d->pool, d->q.at[i].q);
+    if (pl_has_coordinates(d, slope) || pl_has_symbol(d->pool, slope, pl_time(d->pool))) return pl_poison();
+    pl_expr way = pl_sub(d->pool, q, start_place(d, d->q.at[i].q));
+    sum = pl_add(d->pool, sum, pl_mul(d->pool, slope, way));
+    rest = pl_subst1(d->pool, rest, d->q.at[i].v, pl_int(d->pool, 0));
+  }
+  if (pl_has_coordinates(d, rest) || pl_has_symbol(d->pool, rest, pl_time(d->pool))) return pl_poison();
+  return pl_add(d->pool, sum, pl_mul(d->pool, rest, pl_sym(d->pool, pl_time(d->pool))));
+}
+
 static void add_links(pl_analysis* d) {
   for (int k = 0; k < d->model->constraints.n; k++) {
     const pl_constraint* c = &d->model->constraints.at[k];
@@ -123,6 +147,12 @@ static void add_links(pl_analysis* d) {
     for (int i = 0; i < d->q.n; i++) {
       pl_expr slope = pl_diff(d->pool, c->g, l.velocity ? d->q.at[i].v : d->q.at[i].q);
       l.gradient[i] = d->model->lambda_minus ? pl_neg(d->pool, slope) : slope;   // Z = -λ ∇g by `convention lambda-minus`
+    }
+    pl_expr whole = l.velocity && !l.contact ? integrated(d, c) : pl_poison();
+    if (!pl_is_poison(whole)) {
+      l.g = whole;
+      l.velocity = false;
+      l.integrated = true;
     }
     pl_push(d->arena, d->g, l);
   }
@@ -247,13 +277,19 @@ static void fix_coordinate(pl_analysis* d, int i, int link, pl_expr value) {
   }
 }
 
-static pleuel_status contradiction(pl_analysis* d, const pl_bond* l, pl_expr rest) {
+pleuel_status pl_contradiction(pl_analysis* d, const pl_bond* l, pl_expr rest) {
   const char* text = pl_expr_text(d->arena, d->pool, rest);
   pl_diagnostic* m = pl_report(d->job->diagnostics, PL_E042, l->source->span,
     pl_format(d->arena, "constraint %s contradicts the others: it leaves %s = 0", l->source->name.text, text),
     pl_format(d->arena, "Zwangsbedingung %s widerspricht den anderen: es bleibt %s = 0", l->source->name.text, text));
   pl_report_fix(m, "take one of the contradicting constraints out", "eine der widersprechenden Zwangsbedingungen streichen", NULL);
   return pl_fail(d->job, PLEUEL_CONTRADICTION, "constraint %s contradicts the others: it leaves %s = 0", l->source->name.ascii, text);
+}
+
+// y² + 3 l² has one sign for all y: no position satisfies it.
+static bool never_zero(pl_analysis* d, pl_expr e) {
+  int sign = 0;
+  return pl_alg_sign(d->tower, e, false, &sign) == PL_YES && sign != 0;
 }
 
 // What is left of a constraint when the fixed coordinates are in: nothing (implied), a contradiction, or one coordinate.
@@ -265,12 +301,13 @@ static pleuel_status try_link(pl_analysis* d, int k, bool* changed) {
   if (i == -1) {
     if (l->contact) return PLEUEL_OK;
     pl_answer3 zero = pl_alg_is_zero(d->tower, e);
-    if (zero == PL_NO) return contradiction(d, l, e);
+    if (zero == PL_NO) return pl_contradiction(d, l, e);
     l->implied = zero == PL_YES;
     *changed |= l->implied;
     return PLEUEL_OK;
   }
   if (i < 0 || d->q.at[i].fixed_by >= 0) return PLEUEL_OK;
+  if (!l->contact && never_zero(d, e)) return pl_contradiction(d, l, e);
   pl_expr c[2];
   if (pl_alg_coefficients(d->tower, e, d->q.at[i].q, c, 1) != 1) return PLEUEL_OK;
   if (pl_has_coordinates(d, c[1]) || pl_has_symbol(d->pool, c[1], pl_time(d->pool))) return PLEUEL_OK;

@@ -57,25 +57,84 @@ static const char* relation_text(pl_analysis* d, const pl_constraint* c) {
   return pl_format(d->arena, "%s %s %s", pl_expr_text(d->arena, d->pool, c->left), op, pl_expr_text(d->arena, d->pool, c->right));
 }
 
-// Labels of the constraints that one implied constraint depends on.
-static void implied_by(pl_analysis* d, int k, pl_constraint_info* info) {
-  int n = d->q.n, m = 0;
-  int* row = PL_ARRAY(d->arena, int, d->g.n);
+// ∇g_k as a combination of the gradients of the independent constraints: coefficients c of the bonds in `row`, k at `place`.
+static pl_answer3 dependency(pl_analysis* d, int k, int* row, pl_expr* c, int* m, int* place) {
+  int n = d->q.n;
   pl_expr* A = PL_ARRAY(d->arena, pl_expr, d->g.n * n);
-  int place = -1;
+  *m = 0;
   for (int a = 0; a < d->g.n; a++) {
     if (a != k && d->g.at[a].implied) continue;
-    if (a == k) place = m;
-    for (int i = 0; i < n; i++) A[m * n + i] = pl_on_maps(d, d->g.at[a].gradient[i]);
-    row[m++] = a;
+    if (a == k) *place = *m;
+    for (int i = 0; i < n; i++) A[*m * n + i] = pl_on_maps(d, d->g.at[a].gradient[i]);
+    row[(*m)++] = a;
   }
-  pl_expr* c = PL_ARRAY(d->arena, pl_expr, m);
-  if (pl_alg_dependency(d->tower, m, n, A, place, c) != PL_YES) return;
+  return pl_alg_dependency(d->tower, *m, n, A, *place, c);
+}
+
+// Labels of the constraints that one implied constraint depends on.
+static void implied_by(pl_analysis* d, int k, pl_constraint_info* info) {
+  int m = 0, place = -1;
+  int* row = PL_ARRAY(d->arena, int, d->g.n);
+  pl_expr* c = PL_ARRAY(d->arena, pl_expr, d->g.n);
+  if (dependency(d, k, row, c, &m, &place) != PL_YES) return;
   info->implied_by = PL_ARRAY(d->arena, const char*, m);
   for (int a = 0; a < m; a++) {
     if (a == place || pl_is_poison(c[a]) || pl_is_zero_node(d->pool, c[a])) continue;
     info->implied_by[info->n_implied_by++] = d->g.at[row[a]].source->name.text;
   }
+}
+
+// ---------------------------------------------------------------------------------------------- contradictions
+// Every root of one constraint inserted into another leaves something: they have no position in common.
+static bool no_common_root(pl_analysis* d, pl_expr given, pl_expr e) {
+  for (int i = 0; i < d->q.n; i++) {
+    if (!pl_has_symbol(d->pool, given, d->q.at[i].q)) continue;
+    pl_root root[8];
+    bool complete = false, all = true;
+    int n = pl_alg_roots(d->tower, given, d->q.at[i].q, root, 8, &complete);
+    for (int r = 0; r < n; r++) all &= pl_alg_is_zero(d->tower, pl_subst1(d->pool, e, d->q.at[i].q, root[r].value)) == PL_NO;
+    if (n > 0 && complete) return all;
+  }
+  return false;
+}
+
+// A constraint whose gradient depends on those of the others holds where they hold, or nowhere.  With ∇g = sum c_a ∇g_a and
+// constant c_a the difference g - sum c_a g_a is a constant.
+static pleuel_status no_contradiction(pl_analysis* d, int k) {
+  const pl_bond* l = &d->g.at[k];
+  if (d->reduced) {
+    pl_expr left = pl_on_maps(d, l->g);
+    return pl_alg_is_zero(d->tower, left) == PL_NO ? pl_contradiction(d, l, pl_alg_normal(d->tower, left)) : PLEUEL_OK;
+  }
+  int m = 0, place = -1, others = 0, other = -1;
+  int* row = PL_ARRAY(d->arena, int, d->g.n);
+  pl_expr* c = PL_ARRAY(d->arena, pl_expr, d->g.n);
+  if (dependency(d, k, row, c, &m, &place) != PL_YES) return PLEUEL_OK;
+  bool constant = true;
+  pl_expr rest = l->g;
+  for (int a = 0; a < m; a++) {
+    if (a == place || pl_is_poison(c[a]) || pl_is_zero_node(d->pool, c[a])) continue;
+    constant &= !pl_has_coordinates(d, c[a]) && !d->g.at[row[a]].velocity;
+    rest = pl_sub(d->pool, rest, pl_mul(d->pool, c[a], d->g.at[row[a]].g));
+    other = row[a];
+    others++;
+  }
+  if (others == 0) return PLEUEL_OK;
+  if (constant) {
+    rest = pl_alg_normal(d->tower, pl_on_fixed(d, rest));
+    bool left = !pl_has_coordinates(d, rest) && pl_alg_is_zero(d->tower, rest) == PL_NO;
+    return left ? pl_contradiction(d, l, rest) : PLEUEL_OK;
+  }
+  pl_expr e = pl_on_fixed(d, l->g);
+  return others == 1 && no_common_root(d, pl_on_fixed(d, d->g.at[other].g), e) ? pl_contradiction(d, l, e) : PLEUEL_OK;
+}
+
+static pleuel_status find_contradictions(pl_analysis* d) {
+  for (int k = 0; k < d->g.n; k++) {
+    const pl_bond* l = &d->g.at[k];
+    if (l->implied && !l->velocity && !l->contact) PL_TRY(no_contradiction(d, k));
+  }
+  return PLEUEL_OK;
 }
 
 static void note_implied(pl_analysis* d, const pl_bond* l, const pl_constraint_info* info) {
@@ -229,6 +288,7 @@ static pleuel_status derive(pl_analysis* d) {
   PL_TRY(pl_energies(d));
   PL_TRY(pl_reduce(d));
   find_implied(d);
+  PL_TRY(find_contradictions(d));
   PL_TRY(pl_solve_motion(d));
   count_freedom(d);
   describe_constraints(d);
