@@ -9,10 +9,18 @@ cd "$(dirname "$0")/.."
 rm -rf "$folder/tmp/bare checkout"
 git clone -q . "$folder/tmp/bare checkout"
 cp /etc/resolv.conf "$folder/etc/resolv.conf" 2>/dev/null || true
-mountpoint -q "$folder/proc" || mount -t proc proc "$folder/proc"
-mountpoint -q "$folder/dev" || mount --bind /dev "$folder/dev"
-trap 'umount "$folder/proc" "$folder/dev"' EXIT
-inside() { "$@" chroot "$folder" sh -c 'cd "/tmp/bare checkout" && git config --global --add safe.directory "*" 2>/dev/null; make demo && make test'; }
+mounted=
+attach() { # POINT ARGUMENTS-OF-MOUNT...
+  point=$folder/$1
+  shift
+  mountpoint -q "$point" && return
+  mount "$@" "$point"
+  mounted="$mounted $point"
+}
+attach proc -t proc proc
+attach dev --bind /dev
+trap '[ -z "$mounted" ] || umount $mounted' EXIT
+inside() { "$@" chroot "$folder" sh -c 'cd "/tmp/bare checkout" && make demo && make test'; }
 echo "== $suite, with network"
 inside env LC_ALL=C.UTF-8
 echo "== $suite, without network"
