@@ -273,11 +273,24 @@ static bool is_contact(pl_analysis* d, const pl_fact* f) {
   return false;
 }
 
+// Signs of single names first, in the order of their declaration; then relations between several.
+static uint64_t fact_order(const pl_analysis* d, const pl_fact* f) {
+  pl_symbol first = {0};
+  int n = pl_symbols_in(d->pool, f->difference, &first, 1);
+  return ((uint64_t)n << 32) + first.id;
+}
+
 static void list_assumptions(pl_analysis* d) {
   int n = 0;
   const pl_fact* used = pl_tower_used(d->tower, &n);
+  const pl_fact** sorted = PL_ARRAY(d->arena, const pl_fact*, n + 1);
+  for (int k = 0; k < n; k++) {   // by insertion: few, and equal ones keep their order
+    int at = k;
+    for (; at > 0 && fact_order(d, sorted[at - 1]) > fact_order(d, &used[k]); at--) sorted[at] = sorted[at - 1];
+    sorted[at] = &used[k];
+  }
   for (int k = 0; k < n; k++) {
-    if (!is_contact(d, &used[k])) pl_push(d->arena, d->solution->used, fact_text(d, &used[k]));
+    if (!is_contact(d, sorted[k])) pl_push(d->arena, d->solution->used, fact_text(d, sorted[k]));
   }
 }
 
