@@ -374,7 +374,14 @@ static void simulate_for_solution(pleuel_model* m, const pleuel_solve_options* o
   m->is_run = false;
   m->result = NULL;
   if (o->no_simulation || !m->model->simulate.given) return;
-  if (pl_model_flat_coords(m->model, m->arena).n > MAX_COORDINATES_IN_SOLUTION) return;
+  int n = pl_model_flat_coords(m->model, m->arena).n;
+  if (n > MAX_COORDINATES_IN_SOLUTION) {
+    m->is_run = true;
+    m->run = PLEUEL_UNSUPPORTED;
+    snprintf(m->run_message, sizeof m->run_message, m->job.lang == PL_GERMAN ? "%d Koordinaten sind eine Sache für pleuel sim"
+                                                                             : "%d coordinates are a matter for pleuel sim", n);
+    return;
+  }
   PLEUEL_OPTIONS(pleuel_sim_options, how);
   char sentence[sizeof m->job.message];
   memcpy(sentence, m->job.message, sizeof sentence);

@@ -145,6 +145,16 @@ check("an expect that is wrong has exit code 1", r.code == 1, r)
 r = run("-", text="coord x\nmass 1 at (x)\nconstraint a: x = 1\nconstraint b: x = 2\n")
 check("constraints that contradict each other have exit code 4", r.code == 4, r)
 
+quartic = "param a\ncoord x\nmass a at (x)\npotential 1/2 a x^4\nask solve x(t)\n"
+r = run("-", text=quartic)
+check("a closed form that is not found is a note", r.code == 0 and "No elementary closed form" in r.out, r)
+check("and an error with --strict", run("solve", "--strict", "-", text=quartic).code == 5)
+r = run("solve", str(examples / "chain.pleuel"))
+check("a big family is left to sim, and that is said", r.code == 0 and "pleuel sim" in r.out, r)
+r = run("check", program)
+check("a program is no model", r.code == 3 and r.out.count("\n") < 200, r.out[:300])
+check("neither is nothing", run("solve", "-", text="").code == 3)
+
 # ------------------------------------------------------------------------------------------------ sim
 r = run("sim", ski)
 check("sim alone tells the events", r.code == 0 and "lets go" in r.out and "ground" in r.out, r)
