@@ -1,6 +1,16 @@
 #!/bin/sh
-# Times the program on the examples, as whole processes: best of several runs, in milliseconds.
+# Times the program: on the examples, and beside SymPy, Maxima and SciPy where they are installed (docs/benchmarks.md).
+# Builds in build-bench, optimised and without assertions.
 set -eu
 cd "$(dirname "$0")/.."
-tools/build.sh --quiet
-bench/bench.py build/pleuel
+tools/setup.sh build
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+[ -f build-bench/build.ninja ] ||
+  meson setup build-bench --buildtype=release -Db_ndebug=true -Dtests=false >"$log" 2>&1 || { cat "$log" >&2; exit 1; }
+ninja -C build-bench pleuel >"$log" 2>&1 || { cat "$log" >&2; exit 1; }
+bench/bench.py build-bench/pleuel
+echo
+bench/derivation_peers.py build-bench/pleuel
+echo
+bench/motion_peers.py build-bench/pleuel
