@@ -268,16 +268,22 @@ size_t pleuel_diagnostic_count(const pleuel_model* m, pleuel_severity severity) 
   return n;
 }
 
+enum { MOST_MESSAGES = 50 };     // of one kind of text; a file that is no model has thousands
+
 typedef struct pl_telling { unsigned severities; pl_print_style style; const char* text; } pl_telling;
 
 static pleuel_status tell(pleuel_model* m, void* argument) {
   pl_telling* t = argument;
   pl_text out = pl_text_make(m->arena);
+  int n = 0;
   for (int i = 0; i < m->diagnostics.list.n; i++) {
     const pl_diagnostic* d = &m->diagnostics.list.at[i];
-    if (!(t->severities >> pl_code_severity(d->code) & 1)) continue;
+    if (!(t->severities >> pl_code_severity(d->code) & 1) || ++n > MOST_MESSAGES) continue;
     if (out.n > 0 && !t->style.terse) pl_text_add(&out, "\n");
     pl_diagnostic_print(&out, d, t->style);
+  }
+  if (n > MOST_MESSAGES) {
+    pl_text_addf(&out, t->style.lang == PL_GERMAN ? "und %d weitere Meldungen\n" : "and %d more messages\n", n - MOST_MESSAGES);
   }
   t->text = pl_text_string(&out);
   return PLEUEL_OK;

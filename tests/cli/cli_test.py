@@ -11,7 +11,7 @@ import sys
 import tempfile
 import time
 
-from tap import check, done
+from tap import check, done, skip
 
 program = os.path.abspath(sys.argv[1])
 root = pathlib.Path(__file__).resolve().parent.parent.parent
@@ -152,7 +152,7 @@ check("and an error with --strict", run("solve", "--strict", "-", text=quartic).
 r = run("solve", str(examples / "chain.pleuel"))
 check("a big family is left to sim, and that is said", r.code == 0 and "pleuel sim" in r.out, r)
 r = run("check", program)
-check("a program is no model", r.code == 3 and r.out.count("\n") < 200, r.out[:300])
+check("a program is no model, and not every byte of it is told", r.code == 3 and r.out.count("\n") < 400 and " more messages" in r.out, r.out[:300])
 check("neither is nothing", run("solve", "-", text="").code == 3)
 
 # ------------------------------------------------------------------------------------------------ sim
@@ -206,20 +206,24 @@ except subprocess.TimeoutExpired:
     check("Ctrl-C keeps the rows, marks the file and exits with 130", False, "did not stop")
 
 # progress: a line on a terminal, nothing else
-pid, fd = pty.fork()
-if pid == 0:
-    os.execve(program, [program, "sim", long_run, "--until", "100000"], {**clean, "TERM": "xterm"})
-seen = b""
-end = time.time() + 3
-while time.time() < end and b"eta" not in seen:
-    try:
-        seen += os.read(fd, 4096)
-    except OSError:
-        break
-os.kill(pid, signal.SIGINT)
-os.waitpid(pid, 0)
-os.close(fd)
-check("a terminal sees progress after half a second", b"sim " in seen and b"% " in seen and b"eta" in seen, seen[-200:])
+try:
+    pid, fd = pty.fork()
+except OSError as e:
+    skip("a terminal sees progress after half a second", f"no terminal can be opened here ({e})")
+else:
+    if pid == 0:
+        os.execve(program, [program, "sim", long_run, "--until", "100000"], {**clean, "TERM": "xterm"})
+    seen = b""
+    end = time.time() + 5
+    while time.time() < end and b"eta" not in seen:
+        try:
+            seen += os.read(fd, 4096)
+        except OSError:
+            break
+    os.kill(pid, signal.SIGINT)
+    os.waitpid(pid, 0)
+    os.close(fd)
+    check("a terminal sees progress after half a second", b"sim " in seen and b"% " in seen and b"eta" in seen, seen[-200:])
 
 # ------------------------------------------------------------------------------------------------ fmt, new, examples
 r = run("new", "first steps")
