@@ -38,8 +38,8 @@ const pl_dialect pl_dialects[] = {
 #undef PL_EXPORT
    .reserved = " pleuel_parameters pleuel_abbreviations pleuel_values and do else elseif false for from if in inf ind infinity"
                " lambda minf next not or product return step sum then thru true und unless values while functions labels props"
-               " float numer simp infix domain float2bf radexpand ratfac ratprint gradefs macros rules aliases arrays dependencies"
-               " linel fpprec go block catch throw error errors at diff integrate limit ",
+               " float numer simp infix domain float2bf radexpand ratfac ratprint gradefs macros rules aliases arrays"
+               " dependencies linel fpprec go block catch throw error errors at diff integrate limit ",
    .comment = {"/* ", " */"}},
   {.word = "julia", .power = "^", .pi = "pi", .infinity = "Inf", .root = "sqrt($1)", .condition = "($1 > 0 ? $2 : $3)",
    .sum = "sum($4 for $1 in Int($2):Int($3); init = 0)", .rational = "($1//$2)", .rational_is_atom = true, .whole = "$1",
@@ -232,8 +232,8 @@ static int dots_of(const exporter* x, pl_symbol s) {
 // ---------------------------------------------------------------------------------------------- parts of a document
 static void add_header(exporter* x, const char* use_it) {
   const char* title = x->model->title ? x->model->title : x->in->file;
-  add_line_comment(x, pl_format(x->arena, "%s: the formulas of %s, exported by pleuel " PLEUEL_VERSION ".  All in SI units.", title,
-                                x->in->file));
+  add_line_comment(x, pl_format(x->arena, "%s: the formulas of %s, exported by pleuel " PLEUEL_VERSION ".  All in SI units.",
+                                title, x->in->file));
   add_line_comment(x, use_it);
   for (int i = 1, n = pl_symbol_count(x->pool); i <= n; i++) {
     pl_symbol s = {(uint32_t)i};
@@ -336,7 +336,8 @@ static void add_mathematica(exporter* x) {
 }
 
 static void add_maxima(exporter* x) {
-  add_header(x, "subst(pleuel_parameters, assoc(\"KEY\", pleuel_values)) inserts the numbers; before, if there are any, the abbreviations.");
+  add_header(x, "subst(pleuel_parameters, assoc(\"KEY\", pleuel_values)) inserts the numbers;"
+                " before, if there are any, the abbreviations.");
   add(x, "pleuel_parameters: [");
   add_parameters(x, " = ");
   add(x, "]$\npleuel_abbreviations: [");

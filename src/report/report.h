@@ -54,7 +54,9 @@ const char* pl_status_word(pleuel_status s);
 
 // ---------------------------------------------------------------------------------------------- export
 // The formulas of a solution in the language of another program.
-typedef enum pl_export_target { PL_EXPORT_SYMPY, PL_EXPORT_MATHEMATICA, PL_EXPORT_MAXIMA, PL_EXPORT_JULIA, PL_EXPORT_JSON } pl_export_target;   // ORDER EXPORTS
+typedef enum pl_export_target {                                           // ORDER EXPORTS
+  PL_EXPORT_SYMPY, PL_EXPORT_MATHEMATICA, PL_EXPORT_MAXIMA, PL_EXPORT_JULIA, PL_EXPORT_JSON
+} pl_export_target;
 bool pl_export_target_find(const char* word, pl_export_target* target);    // "sympy"; false: there is none of this name
 
 typedef struct pl_export_input {
