@@ -75,6 +75,20 @@ static bool force_on(pl_analysis* d, int link, int particle, pl_force* out) {
   return along_axes(d, link, particle, out) || along_frame(d, link, particle, out);
 }
 
+pl_expr pl_force_scale(pl_analysis* d, int link) {
+  pl_expr square = pl_poison();
+  for (int m = 0; m < d->particle.n; m++) {
+    pl_force f;
+    if (!force_on(d, link, m, &f)) return pl_poison();
+    if (f.n == 0) continue;
+    pl_expr sum = pl_int(d->pool, 0);
+    for (int j = 0; j < f.n; j++) sum = pl_add(d->pool, sum, pl_square(d->pool, f.factor[j]));
+    if (!pl_is_poison(square) && pl_alg_equal(d->tower, square, sum) != PL_YES) return pl_poison();
+    square = sum;
+  }
+  return pl_is_poison(square) ? square : pl_sqrt(d->pool, square);
+}
+
 // A product that ends in a fraction reads wrongly in front of a unit vector.
 static const pl_form* bracketed(pl_analysis* d, const pl_form* f) {
   bool fraction = f->kind == PL_F_QUOTIENT && pl_form_ops(f->args[1]) == 0;

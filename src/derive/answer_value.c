@@ -179,6 +179,34 @@ void pl_answer_value(pl_analysis* d, const pl_ask* ask) {
 }
 
 // ---------------------------------------------------------------------------------------------- expect
+enum { max_inserted = 3 };   // constraints that are solved and inserted for an `expect` without generalized coordinates
+
+// Is e zero wherever the constraints from k on hold?  Each is solved for one coordinate, all its roots are inserted, and their
+// derivatives for its velocity.
+static pl_answer3 zero_on_constraints(pl_analysis* d, pl_expr e, int k, int depth) {
+  pl_answer3 zero = pl_alg_is_zero(d->tower, e);
+  while (k < d->g.n && (d->g.at[k].implied || d->g.at[k].velocity || d->g.at[k].fixes >= 0)) k++;
+  if (zero == PL_YES || k == d->g.n) return zero;
+  if (depth == max_inserted) return PL_UNKNOWN;
+  pl_expr g = pl_on_contact(d, d->g.at[k].g);
+  for (int i = d->q.n - 1; i >= 0; i--) {
+    const pl_variable* c = &d->q.at[i];
+    if (!pl_has_symbol(d->pool, g, c->q)) continue;
+    pl_root root[8];
+    bool complete = false;
+    int n = pl_alg_roots(d->tower, g, c->q, root, 8, &complete);
+    if (n == 0 || !complete) continue;
+    pl_answer3 all = PL_YES;
+    for (int r = 0; r < n && all != PL_NO; r++) {
+      pl_replace inserted[2] = {{c->q, root[r].value}, {c->v, pl_dt(d->pool, root[r].value)}};
+      pl_answer3 one = zero_on_constraints(d, pl_subst(d->pool, e, inserted, 2), k + 1, depth + 1);
+      if (one != PL_YES) all = one;
+    }
+    return all;
+  }
+  return PL_UNKNOWN;
+}
+
 void pl_answer_expect(pl_analysis* d, const pl_ask* ask) {
   pl_section_open(d, ask, "Expected", "Erwartet");
   const pl_condition* c = &ask->where.at[0];
@@ -188,6 +216,7 @@ void pl_answer_expect(pl_analysis* d, const pl_ask* ask) {
     right = pl_subst_expr(d->pool, right, ask->where.at[k].left, ask->where.at[k].right);
   }
   pl_answer3 equal = pl_alg_equal(d->tower, left, right);
+  if (equal != PL_YES && !d->reduced) equal = zero_on_constraints(d, pl_sub(d->pool, left, right), 0, 0);
   if (equal == PL_NO && (unsolved(d, left) || unsolved(d, right))) equal = PL_UNKNOWN;
   const pl_form* claim = pl_feq(d, pl_fe(d, c->left), pl_fe(d, c->right));
   left = pl_alg_normal(d->tower, left);

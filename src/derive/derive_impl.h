@@ -118,6 +118,7 @@ const char* pl_unit_vector(pl_analysis* d, int coordinate);      // "e_r"
 pleuel_status pl_reduce(pl_analysis* d);                // generalized coordinates and maps
 // solve_motion.c
 pleuel_status pl_solve_motion(pl_analysis* d);          // accelerations and multipliers
+pl_expr pl_force_scale(pl_analysis* d, int link);       // |Z| = scale |λ| on each mass it acts on; poison when they differ (answer_force.c)
 int pl_loaded_by_name(const pl_analysis* d);            // a coordinate of `choose` alone on which a force or potential acts; -1
 pl_expr pl_bond_acceleration(pl_analysis* d, int link); // twice differentiated constraint, raw
 // The equation of one coordinate solved for multiplier k, accelerations and other multipliers left as names: short where the closed

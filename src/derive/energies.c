@@ -170,19 +170,23 @@ static pl_expr result_value(pl_analysis* d, const pl_result_name* r) {
     case PL_RES_V: return d->V;
     case PL_RES_L: return d->L;
     case PL_RES_E:
+      if (!pl_scleronomic(d) && pl_is_zero_node(d->pool, pl_sub(d->pool, d->L, pl_sub(d->pool, d->T, d->V)))) {
+        return pl_add(d->pool, d->T, d->V);   // the integral is Jacobi's then
+      }
+      return pl_energy_integral(d);
     case PL_RES_H: return pl_energy_integral(d);
     case PL_RES_FORCE:
     case PL_RES_FORCE_NORM:
     case PL_RES_NORMAL: break;
   }
-  for (int k = 0; k < d->g.n; k++) {   // size of a constraint force: |λ| |∇g| where it acts on one mass
+  for (int k = 0; k < d->g.n; k++) {
     const pl_bond* l = &d->g.at[k];
     if (!r->label || strcmp(l->source->name.text, r->label) != 0) continue;
-    pl_expr sum = pl_int(d->pool, 0);
-    for (int i = 0; i < d->q.n; i++) sum = pl_add(d->pool, sum, pl_square(d->pool, l->gradient[i]));
-    pl_expr size = pl_mul(d->pool, pl_sqrt(d->pool, sum), pl_sym(d->pool, l->lambda));
+    pl_expr scale = pl_force_scale(d, k);
+    if (pl_is_poison(scale)) return scale;
+    pl_expr size = pl_mul(d->pool, scale, pl_sym(d->pool, l->lambda));
     return r->kind == PL_RES_NORMAL && l->source->relation == PL_LE ? pl_neg(d->pool, size)
-           : r->kind == PL_RES_NORMAL                                ? size
+           : r->kind == PL_RES_NORMAL && l->source->relation == PL_GE ? size
                                                                      : pl_call(d->pool, PL_ABS, size);
   }
   return pl_poison();

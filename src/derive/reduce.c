@@ -137,7 +137,8 @@ static int left_over(pl_analysis* d, const pl_bond* l) {
 }
 
 static bool solve_links(pl_analysis* d) {
-  bool roots_allowed = d->model->choose.coords.n > 0;
+  bool kinematic = d->particle.n == 0 && d->model->loads.n == 0;
+  bool roots_allowed = d->model->choose.coords.n > 0 || kinematic;
   for (int k = 0; k < d->g.n; k++) {
     pl_bond* l = &d->g.at[k];
     if (l->fixes >= 0 || l->implied) continue;

@@ -203,6 +203,7 @@ static void standard(pl_analysis* d, pl_ask_kind kind, const char* text) {
 static void answer_standard(pl_analysis* d) {
   standard(d, PL_ASK_DOF, "dof");
   standard(d, PL_ASK_CONSTRAINTS, "constraints");
+  if (d->particle.n == 0 && d->model->loads.n == 0) return;   // nothing heavy, no force: kinematics
   standard(d, PL_ASK_LAGRANGE1, "lagrange1");
   for (int k = 0; k < d->g.n; k++) {
     if (d->g.at[k].implied || (d->g.at[k].fixes >= 0 && !d->g.at[k].contact)) continue;
