@@ -40,6 +40,17 @@ static void power_node(arb_t out, const pl_pool* p, pl_expr e, const arb_srcptr*
   }
 }
 
+// The one that is decided, else both: the ball is kept as it is, not widened to its end points.
+static void choose(arb_t out, arb_srcptr a, arb_srcptr b, bool is_a, bool is_b, long precision) {
+  if (is_a) {
+    arb_set(out, a);
+  } else if (is_b) {
+    arb_set(out, b);
+  } else {
+    arb_union(out, a, b, precision);
+  }
+}
+
 // Near the ends of its domain a ball may become indeterminate; then the point is not used.
 static void call_node(arb_t out, pl_function f, const arb_srcptr* a, long precision) {
   switch (f) {
@@ -57,8 +68,8 @@ static void call_node(arb_t out, pl_function f, const arb_srcptr* a, long precis
     case PL_LN: arb_log(out, a[0], precision); break;
     case PL_ABS: arb_abs(out, a[0]); break;
     case PL_SIGN: arb_sgn(out, a[0]); break;
-    case PL_MIN: arb_min(out, a[0], a[1], precision); break;
-    case PL_MAX: arb_max(out, a[0], a[1], precision); break;
+    case PL_MIN: choose(out, a[0], a[1], arb_lt(a[0], a[1]), arb_lt(a[1], a[0]), precision); break;
+    case PL_MAX: choose(out, a[0], a[1], arb_gt(a[0], a[1]), arb_gt(a[1], a[0]), precision); break;
     default: arb_indeterminate(out);
   }
 }

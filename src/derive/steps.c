@@ -122,6 +122,10 @@ static pl_dimension dimension_of(pl_analysis* d, pl_expr e, bool* known) {
       bool keeps = f == PL_ABS || f == PL_MIN || f == PL_MAX;
       return keeps ? dimension_of(d, pl_arg(d->pool, e, 0), known) : pl_dimension_one();
     }
+    case PL_IF: {   // of the branch that is not a bare number
+      pl_expr then = pl_arg(d->pool, e, 1);
+      return dimension_of(d, pl_is_constant(d->pool, then) ? pl_arg(d->pool, e, 2) : then, known);
+    }
     default: return pl_dimension_one();
   }
 }
