@@ -16,6 +16,7 @@ typedef struct pl_minors {
   pl_map* of_mask;    // set of columns -> index in memo + 1
   PL_VEC(const pl_poly*) memo;
   long max_terms;
+  long work;  // products of terms formed so far, over all minors
   int sign;       // of the permutation of rows
   pl_frac scale;  // det of the given rows = scale * det M
 } pl_minors;
@@ -80,6 +81,9 @@ static const pl_poly* known_minor(const pl_minors* m, uint64_t mask) {
 }
 
 // Determinant of the last rows, from `row` on, in the columns of mask.
+// Many minors below the cap may together still take minutes: so much work is allowed for each term of the cap.
+static const long work_per_term = 100;
+
 static const pl_poly* minor_of(pl_minors* m, int row, uint64_t mask) {
   pl_tower* t = m->t;
   if (row == m->n) return pl_poly_int(t, 1);
@@ -98,6 +102,8 @@ static const pl_poly* minor_of(pl_minors* m, int row, uint64_t mask) {
   for (int j = 0; j < m->columns; j++) {
     if (!(mask >> j & 1)) continue;
     if (below[j] && !pl_poly_is_zero(t, below[j])) {
+      m->work += m->M[row * m->columns + j]->length * below[j]->length;
+      if (m->max_terms > 0 && m->work > work_per_term * m->max_terms) pl_tower_give_up(t);
       const pl_poly* term = pl_poly_mul(t, m->M[row * m->columns + j], below[j]);
       fmpz_mpoly_set(sum, minus ? pl_poly_sub(t, sum, term) : pl_poly_add(t, sum, term), &t->ctx);
     }
