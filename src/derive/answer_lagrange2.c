@@ -282,6 +282,8 @@ static pl_symbol momentum_symbol(pl_analysis* d, int i) {
   return pl_symbol_make(d->pool, &info);
 }
 
+enum { most_momenta = 4 };   // up to which H(q, p) is written out in full
+
 void pl_answer_hamiltonian(pl_analysis* d, const pl_ask* ask) {
   pl_section_open(d, ask, "Hamilton function", "Hamilton-Funktion");
   if (without_reduction(d)) return;
@@ -297,9 +299,13 @@ void pl_answer_hamiltonian(pl_analysis* d, const pl_ask* ask) {
     for (int j = 0; j < n; j++) A[k * n + j] = pl_diff(d->pool, p, d->q.at[d->gen.at[j]].v);
     b[k] = pl_sub(d->pool, pl_sym(d->pool, name), pl_subst(d->pool, p, rest, n));
   }
-  if (n == 0 || pl_alg_solve(d->tower, n, A, b, v, 50000) != PL_YES) {
-    pl_say(d, "The momenta cannot be solved for the velocities: the Lagrange function is singular.",
-           "Die Impulse sind nicht nach den Geschwindigkeiten auflösbar: die Lagrange-Funktion ist singulär.", 0);
+  pl_answer3 solved = n == 0 ? PL_NO : n > most_momenta ? PL_UNKNOWN : pl_alg_solve(d->tower, n, A, b, v, 50000);
+  if (solved != PL_YES) {
+    bool singular = solved == PL_NO;
+    pl_say(d, singular ? "The momenta cannot be solved for the velocities: the Lagrange function is singular."
+                       : "H(q, p) takes the inverse of the mass matrix, which is too long to be written out here; the momenta are given.",
+           singular ? "Die Impulse sind nicht nach den Geschwindigkeiten auflösbar: die Lagrange-Funktion ist singulär."
+                    : "H(q, p) braucht das Inverse der Massenmatrix, das hier zu lang zum Ausschreiben ist; die Impulse sind angegeben.", 0);
     d->section->not_found = true;
     return;
   }
