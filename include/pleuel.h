@@ -73,6 +73,10 @@ typedef struct pleuel_allocator {
 pleuel *pleuel_open(const pleuel_allocator *alloc);
 void pleuel_close(pleuel *ctx);
 
+/* pleuel_thread_end gives back what the calling thread keeps for exact numbers.  Call it in threads that you end, when
+ * their contexts are closed; a program with one thread need not. */
+void pleuel_thread_end(void);
+
 /* pleuel_message returns the sentence of the last failure, "" if none.  Owned by ctx, valid until the next call. */
 const char *pleuel_message(const pleuel *ctx);
 

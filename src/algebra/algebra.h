@@ -23,6 +23,8 @@ pl_tower* pl_tower_make(pl_job* job, pl_pool* p, const pl_fact* facts, int n_fac
 void pl_tower_probe(pl_tower* t, const double* value_of_symbol);
 // Frees FLINT's memory.  Expressions stay.
 void pl_tower_free(pl_tower* t);
+// Frees what FLINT keeps for the calling thread.  Only when no tower of this thread is alive.
+void pl_algebra_thread_end(void);
 
 // The assumptions that were used so far, as differences known to be > 0 or >= 0; n in *n.  "used: m1 > 0, r < l".
 const pl_fact* pl_tower_used(const pl_tower* t, int* n);

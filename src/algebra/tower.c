@@ -231,6 +231,8 @@ pl_tower* pl_tower_make(pl_job* job, pl_pool* p, const pl_fact* facts, int n_fac
   return t;
 }
 
+void pl_algebra_thread_end(void) { flint_cleanup(); }
+
 void pl_tower_free(pl_tower* t) {
   if (!t) return;
   pl_factor_free(t);

@@ -1,5 +1,6 @@
 // The public interface as a program that embeds the library meets it: through pleuel.h only.
 #include <math.h>
+#include <pthread.h>
 #include <setjmp.h>
 #include <stdbool.h>
 #include <stdarg.h>
@@ -330,6 +331,41 @@ static void contexts_do_not_know_of_each_other(void** state) {
   pleuel_close(b);
 }
 
+// ---------------------------------------------------------------------------------------------- threads
+enum { N_THREADS = 4 };
+typedef struct job { const char* text; char* answer; } job;
+
+static void* solve_in_thread(void* argument) {
+  job* j = argument;
+  pleuel* ctx = pleuel_open(NULL);
+  pleuel_model* m = NULL;
+  const char* json = NULL;
+  if (pleuel_load_text(ctx, &m, j->text, strlen(j->text), NULL) == PLEUEL_OK) pleuel_solve_json(m, &json, NULL);
+  j->answer = strdup(json ? json : "");
+  pleuel_close(ctx);
+  pleuel_thread_end();
+  return NULL;
+}
+
+static void threads_with_their_own_contexts_agree(void** state) {
+  (void)state;
+  const char* name = NULL;
+  for (size_t i = 0; i < 3; i++) {
+    job jobs[N_THREADS];
+    pthread_t thread[N_THREADS];
+    for (int k = 0; k < N_THREADS; k++) {
+      jobs[k] = (job){pleuel_example(i, &name), NULL};
+      assert_int_equal(pthread_create(&thread[k], NULL, solve_in_thread, &jobs[k]), 0);
+    }
+    for (int k = 0; k < N_THREADS; k++) pthread_join(thread[k], NULL);
+    for (int k = 0; k < N_THREADS; k++) {
+      assert_string_equal(jobs[k].answer, jobs[0].answer);
+      assert_true(strlen(jobs[k].answer) > 1000);
+    }
+    for (int k = 0; k < N_THREADS; k++) free(jobs[k].answer);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_model_is_loaded_checked_and_solved),
@@ -347,6 +383,7 @@ int main(void) {
     cmocka_unit_test(quantities_carry_units),
     cmocka_unit_test(every_example_is_built_in_and_checks),
     cmocka_unit_test(contexts_do_not_know_of_each_other),
+    cmocka_unit_test(threads_with_their_own_contexts_agree),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -39,6 +39,8 @@ void pleuel_close(pleuel* ctx) {
   pl_arena_free(ctx->arena);
 }
 
+void pleuel_thread_end(void) { pl_algebra_thread_end(); }
+
 const char* pleuel_message(const pleuel* ctx) { return ctx ? ctx->message : ""; }
 
 static pl_language language_of(const char* name, pl_language otherwise) {
