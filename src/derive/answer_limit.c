@@ -166,6 +166,7 @@ void pl_answer_limit(pl_analysis* d, const pl_ask* ask) {
   pl_expr name[16], e[16];
   int n = subjects(d, ask, name, e, 16);
   for (int k = 0; k < n; k++) {
+    if (pl_say_unsolved(d, name[k], e[k])) continue;
     switch (ask->limit) {
       case PL_LIMIT_EQUAL: limit_equal(d, ask, name[k], e[k]); break;
       case PL_LIMIT_TO: limit_to(d, ask, name[k], e[k]); break;
@@ -182,6 +183,7 @@ void pl_answer_series(pl_analysis* d, const pl_ask* ask) {
   int n = subjects(d, ask, name, e, 16), order = ask->order > 0 ? ask->order : 2;
   if (order > max_order) order = max_order;
   for (int k = 0; k < n; k++) {
+    if (pl_say_unsolved(d, name[k], e[k])) continue;
     pl_expr about = e[k];
     const pl_form* condition = pl_frel(d, pl_fs(d, ask->variable), "->", pl_fe(d, ask->to));
     if (!pl_is_poison(ask->substitution_left)) {

@@ -118,12 +118,18 @@ static bool unsolved(pl_analysis* d, pl_expr e) {
   return pl_has_role(d->pool, e, PL_R_ACCELERATION) || pl_has_role(d->pool, e, PL_R_MULTIPLIER);
 }
 
+bool pl_say_unsolved(pl_analysis* d, pl_expr asked, pl_expr e) {
+  if (!unsolved(d, e)) return false;
+  pl_say(d, "{1} hangs on accelerations or multipliers for which no closed form was found.",
+         "{1} hängt an Beschleunigungen oder Multiplikatoren, für die keine geschlossene Form gefunden wurde.", 1, pl_fe(d, asked));
+  d->section->not_found = true;
+  return true;
+}
+
 // Nothing was found for the quantity: it is what it was, or hangs on accelerations and multipliers that are not solved.
 static bool stays_open(pl_analysis* d, pl_expr asked, pl_expr e) {
-  if (unsolved(d, e)) {
-    pl_say(d, "{1} hangs on accelerations or multipliers for which no closed form was found.",
-           "{1} hängt an Beschleunigungen oder Multiplikatoren, für die keine geschlossene Form gefunden wurde.", 1, pl_fe(d, asked));
-  } else if (pl_same(asked, e) && pl_kind_of(d->pool, e) == PL_SYMBOL && pl_has_coordinates(d, e)) {
+  if (pl_say_unsolved(d, asked, e)) return true;
+  if (pl_same(asked, e) && pl_kind_of(d->pool, e) == PL_SYMBOL && pl_has_coordinates(d, e)) {
     pl_say(d, "{1} belongs to the state; the constraints give no closed form for it. Its motion: \"solve {1}(t)\" for a coordinate.",
            "{1} gehört zum Zustand; die Zwangsbedingungen geben keine geschlossene Form. Die Bewegung einer Koordinate: „solve {1}(t)“.", 1,
            pl_fe(d, asked));

@@ -119,6 +119,7 @@ pleuel_status pl_reduce(pl_analysis* d);                // generalized coordinat
 // solve_motion.c
 pleuel_status pl_solve_motion(pl_analysis* d);          // accelerations and multipliers
 pl_expr pl_force_scale(pl_analysis* d, int link);       // |Z| = scale |λ| on each mass it acts on; poison when they differ (answer_force.c)
+bool pl_say_unsolved(pl_analysis* d, pl_expr asked, pl_expr e);   // e still contains accelerations or multipliers: said (answer_value.c)
 int pl_loaded_by_name(const pl_analysis* d);            // a coordinate of `choose` alone on which a force or potential acts; -1
 pl_expr pl_bond_acceleration(pl_analysis* d, int link); // twice differentiated constraint, raw
 // The equation of one coordinate solved for multiplier k, accelerations and other multipliers left as names: short where the closed
