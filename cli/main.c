@@ -15,7 +15,7 @@ static bool is_file_argument(const char* word) {
 static int unknown_verb(const char* word) {
   const char* later = cli_later_verb(word);
   if (later) {
-    return cli_error(EXIT_USAGE, "this version cannot do `%s` (%s) yet. It has: solve check sim fmt; see pleuel help.", word,
+    return cli_error(EXIT_USAGE, "this version cannot do `%s` (%s) yet. See  pleuel help", word,
                      later);
   }
   const char* words[32];
