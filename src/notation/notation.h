@@ -26,6 +26,9 @@ const char* pl_notation_print_2d(pl_arena* a, pl_pool* p, const pl_form* f, pl_n
 // Names: θ, x1, x1'', λ as they are displayed.
 const char* pl_notation_symbol(pl_arena* a, const pl_pool* p, pl_symbol s, pl_notation how);
 
+// pl_notation_words writes a sentence as LaTeX text; nothing in it can act as a command.
+void pl_notation_words(pl_text* out, const char* words);
+
 // A number for display with `digits` significant digits, decimal comma in German, no trailing zeros: "-23.544", "1.962", "3.2e-7".
 const char* pl_notation_number(pl_arena* a, double x, int digits, pl_notation how);
 

@@ -441,8 +441,16 @@ static pl_box* infix(pl_builder* b, pl_box* l, const char* op, pl_box* r) {
   return inherit(row);
 }
 
+static bool says_vector(const pl_form* f) {
+  if (f->kind == PL_F_VECTOR) return true;
+  return f->kind == PL_F_RELATION && f->n == 2 && (says_vector(f->args[0]) || says_vector(f->args[1]));
+}
+
+// A name that is said to be a vector gets its arrow: Z = λ e_r.
 static pl_box* build_relation(pl_builder* b, const pl_form* f) {
-  return infix(b, pl_build(b, f->args[0]), f->text ? f->text : "=", pl_build(b, f->args[1]));
+  pl_box *left = pl_build(b, f->args[0]), *right = pl_build(b, f->args[1]);
+  if (f->args[0]->kind == PL_F_NAME && left->kind == PL_B_NAME && says_vector(f->args[1])) left->arrow = true;
+  return infix(b, left, f->text ? f->text : "=", right);
 }
 
 static pl_box* build_plusminus(pl_builder* b, const pl_form* f) {

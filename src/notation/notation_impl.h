@@ -41,6 +41,7 @@ struct pl_box {
   bool has_sum;        // a sum is visible inside
   bool free_name;      // no symbol of the model: e_r, M
   bool tall;           // higher than a line when set in two dimensions
+  bool arrow;          // names a vector: an arrow over the letter in LaTeX and MathML
   int dots;
   int n;
   pl_box** at;         // (n)

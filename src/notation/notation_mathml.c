@@ -40,7 +40,9 @@ static void write_index(pl_text* out, const char* s) {
 static void write_name(pl_text* out, const pl_box* b) {
   bool indexed = b->kind == PL_B_INDEXED;
   if (b->sub || indexed) pl_text_add(out, "<msub>");
+  if (b->arrow) pl_text_add(out, "<mover accent=\"true\" class=\"acc vec\">");
   write_stem(out, b->text, b->dots);
+  if (b->arrow) pl_text_add(out, "<mo stretchy=\"false\">→</mo></mover>");
   if (!b->sub && !indexed) return;
   if (indexed) pl_text_add(out, "<mrow>");
   if (b->sub) write_index(out, b->sub);

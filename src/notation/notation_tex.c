@@ -16,6 +16,10 @@ static void write_letters(pl_text* out, const char* s) {
     if (tex) {
       pl_text_add(out, tex);
       if (s + n < end) pl_text_add(out, " ");
+    } else if (code == 0xB2 || code == 0xB3) {
+      pl_text_addf(out, "^{%c}", code == 0xB2 ? '2' : '3');
+    } else if (code == 0xB0) {
+      pl_text_add(out, "^{\\circ}");
     } else if (code < 128 && code && strchr("#$%&_{}", (int)code)) {
       pl_text_addf(out, "\\%c", (char)code);
     } else if (code == '\\' || code == '^' || code == '~') {
@@ -55,8 +59,16 @@ static void write_stem(pl_text* out, const char* s, int dots) {
   if (dots > 0) pl_text_add(out, "}");
 }
 
+// "g1": one letter and its number, an index of its own inside the index.
+static bool is_numbered_letter(const char* s) {
+  size_t digits = strspn(s + 1, "0123456789");
+  return is_word(s) && digits > 0 && strlen(s) == 1 + digits && !strchr("0123456789", s[0]);
+}
+
 static void write_index(pl_text* out, const char* s) {
-  if (is_word(s) && strspn(s, "0123456789") != strlen(s)) {
+  if (is_numbered_letter(s)) {
+    pl_text_addf(out, "%c_{%s}", s[0], s + 1);
+  } else if (is_word(s) && strspn(s, "0123456789") != strlen(s)) {
     const char* greek = greek_word(s);
     if (greek) pl_text_add(out, greek);
     else pl_text_add(out, "\\mathrm{"), write_letters(out, s), pl_text_add(out, "}");
@@ -70,7 +82,9 @@ static void write_name(pl_text* out, const pl_box* b) {
     pl_text_add(out, "\\infty");
     return;
   }
+  if (b->arrow) pl_text_add(out, "\\vec{");
   write_stem(out, b->text, b->dots);
+  if (b->arrow) pl_text_add(out, "}");
   if (!b->sub && b->kind != PL_B_INDEXED) return;
   pl_text_add(out, "_{");
   if (b->sub) write_index(out, b->sub);
