@@ -12,6 +12,10 @@ double pl_lu_factor(double* A, int* p, double* scale, int n);
 // Solves A x = b in place.  work (n).
 void pl_lu_solve(const double* LU, const int* p, const double* scale, double* b, double* work, int n);
 
+// The same for a complex matrix, re and im alternating: entry (i, j) at A[2 (i + j n)], b (2 n).
+double pl_zlu_factor(double* A, int* p, double* scale, int n);
+void pl_zlu_solve(const double* LU, const int* p, const double* scale, double* b, int n);
+
 // Symmetric indefinite A = P L D L^T P^T after Bunch and Kaufman 1977; the lower triangle is used and overwritten.
 // p (n): pivot rows; negative marks 2 x 2 blocks.  Returns the smallest |pivot| over the largest, 0 if singular.
 double pl_ldlt_factor(double* A, int* p, int n);
@@ -46,11 +50,24 @@ void pl_sparse_solve(pl_sparse* s, double* b);       // in place
 double pl_sparse_rcond(pl_sparse* s);                // cheap estimate of the pivot ratio
 
 // ---------------------------------------------------------------------------------------------- roots
-// Earliest root in (0, 1] of a polynomial c_0 + c_1 x + ... + c_n x^n; work has room for PL_ROOT_WORK(n).
-// direction: +1 only crossings from below, -1 from above, 0 both (a touching root counts only for 0).
-// Isolation by Bernstein coefficients and Descartes' rule (Collins and Akritas 1976, Lane and Riesenfeld 1981), then
-// Newton with bisection.  Returns -1 when there is none.
-#define PL_ROOT_WORK(n) (64 * ((size_t)(n) + 1))
+// Every root in [0, 1] of c_0 + c_1 x + ... + c_n x^n, in order.  The value at x is taken to be known to
+// max(noise sum |c_k| x^k, floor): what stays below that counts as zero, so a double root that rounding has lifted or
+// split is one root, which touches.
+//
+// A root where the sign before is that after only touches.  A sign 0 is not known: the root lies at an end.  At most
+// room roots are given, the first ones; returns how many.  work: PL_ROOT_WORK(n).
+typedef struct pl_root {
+  double x;
+  int before, after;       // signs on both sides
+} pl_root;
+#define PL_ROOT_WORK(n) (4 * ((size_t)(n) + 2))
+int pl_roots(const double* c, int n, double noise, double floor, pl_root* out, int room, double* work);
+// What rounding of the coefficients and of the evaluation itself leaves open, as noise: half an ulp for each
+// coefficient, Horner's bound 2 n ulps (Higham 2002, 5.3) and as much again for the change of basis.
+double pl_root_noise(int n);
+
+// Earliest root in (0, 1].  direction: +1 only crossings from below, -1 from above, 0 both and touching ones.
+// Returns -1 when there is none.
 double pl_first_root(const double* c, int n, int direction, double* work);
 
 #endif
