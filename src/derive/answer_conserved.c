@@ -70,7 +70,7 @@ static void energy(pl_analysis* d) {
 }
 
 // Is the generalized force along coordinate i zero, so that a cyclic momentum is conserved?
-static bool pushed(pl_analysis* d, int i) {
+bool pl_pushed(pl_analysis* d, int i) {
   for (int j = 0; j < d->q.n; j++) {
     if (pl_is_zero_node(d->pool, d->force[j])) continue;
     const pl_variable* c = &d->q.at[j];
@@ -85,7 +85,7 @@ static void cyclic(pl_analysis* d, int i) {
   pl_expr p = pl_alg_normal(d->tower, pl_diff(d->pool, d->Lg, c->v));
   const char* name = pl_format(d->arena, "p_%s", pl_symbol_get(d->pool, c->q)->ascii);
   const pl_form* form = pl_f(d, p, PL_S_ENERGY);
-  bool conserved = !pushed(d, i);
+  bool conserved = !pl_pushed(d, i);
   pl_show(d, pl_feq(d, pl_fn(d, pl_format(d->arena, "p_%s", pl_symbol_get(d->pool, c->q)->name)), form));
   pl_say(d, conserved ? "conserved: {1} is cyclic, it does not occur in the Lagrange function."
                       : "{1} is cyclic, but a force without potential acts along it: not conserved.",

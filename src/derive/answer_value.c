@@ -9,109 +9,14 @@ const char* pl_text_of(pl_analysis* d, pl_expr e) {
   return pl_notation_print(d->arena, d->pool, pl_f(d, e, PL_S_PLAIN), how);
 }
 
-// ---------------------------------------------------------------------------------------------- where
-// The condition as a function of the generalized coordinate alone, velocities eliminated by the energy.
-static pl_expr along(pl_analysis* d, const pl_motion* motion, pl_expr e, bool* eliminated) {
+// e on the motion; where a motion is meant, its velocities inserted.
+pl_expr pl_value_on(pl_analysis* d, const pl_motion* motion, pl_expr e, bool* eliminated) {
   e = pl_alg_normal(d->tower, pl_on_motion(d, pl_with_results(d, e)));
   *eliminated = false;
-  if (d->gen.n != 1 || !pl_has_symbol(d->pool, e, d->q.at[d->gen.at[0]].v)) return e;
-  pl_expr v2, q0, v0;
-  if (!pl_velocity_squared(d, motion, &v2, &q0, &v0)) return e;
+  pl_line line;
+  if (!pl_has_role(d->pool, e, PL_R_VELOCITY) || !pl_line_of(d, motion, &line)) return e;
   *eliminated = true;
-  return pl_without_velocity(d, e, v2);
-}
-
-// Of several solutions the one that the motion meets first: nearest to the start on the side the motion goes to; without a
-// direction (rest in an equilibrium) the nearest positive step.
-static int first_met(pl_analysis* d, const pl_motion* motion, const pl_root* root, int n) {
-  pl_expr v2, q0, v0;
-  double start = 0, direction = 1;
-  if (pl_velocity_squared(d, motion, &v2, &q0, &v0)) {
-    int i = d->gen.at[0];
-    double at = pl_number(d, q0), v = pl_number(d, v0);
-    pl_replace here[2] = {{d->q.at[i].q, q0}, {d->q.at[i].v, v0}};
-    double a = pl_number(d, pl_subst(d->pool, d->acceleration[i], here, 2));
-    if (!isnan(at)) start = at;
-    if (!isnan(v) && v != 0) {
-      direction = v;
-    } else if (!isnan(a) && a != 0) {
-      direction = a;
-    }
-  }
-  int best = -1;
-  double nearest = (double)INFINITY;
-  for (int k = 0; k < n; k++) {
-    double x = pl_number(d, root[k].value);
-    double step = (x - start) * (direction > 0 ? 1 : -1);
-    if (isnan(x) || step <= 0 || step >= nearest) continue;
-    best = k;
-    nearest = step;
-  }
-  return best >= 0 ? best : n > 0 ? 0 : -1;
-}
-
-static bool is_an_angle(pl_analysis* d, pl_expr e) {
-  if (pl_kind_of(d->pool, e) != PL_CALL) return false;
-  pl_function f = pl_function_of(d->pool, e);
-  return f == PL_ACOS || f == PL_ASIN || f == PL_ATAN || f == PL_ATAN2;
-}
-
-static void show_root(pl_analysis* d, pl_expr name, pl_expr value) {
-  const pl_form* form = pl_f(d, value, PL_S_PLAIN);
-  if (is_an_angle(d, value)) {
-    const pl_form* angle = pl_fe(d, name);
-    const pl_form* inverse = pl_form_call(d->arena, pl_function_of(d->pool, value) == PL_ASIN ? PL_SIN : PL_COS, &angle, 1);
-    pl_function f = pl_function_of(d->pool, value);
-    if (f == PL_ACOS || f == PL_ASIN) pl_show_numbered(d, pl_feq(d, inverse, pl_f(d, pl_arg(d->pool, value, 0), PL_S_QUOTIENT)));
-  }
-  pl_step* step = pl_show(d, pl_feq(d, pl_fe(d, name), form));
-  double x = pl_number(d, value);
-  pl_value* v = pl_answer(d, pl_expr_text(d->arena, d->pool, name), value, form);
-  if (isnan(x)) return;
-  step->has_value = !pl_is_number(d->pool, value);
-  step->value = is_an_angle(d, value) ? x * 180 / M_PI : x;
-  step->unit = is_an_angle(d, value) ? "°" : "";
-  if (is_an_angle(d, value)) {
-    v->unit = "rad";
-    v->display = pl_display(d, x, pl_dimension_one(), true);
-  }
-}
-
-static void say_independent(pl_analysis* d, pl_expr value) {
-  if (!pl_is_constant(d->pool, value) || d->model->params.n == 0) return;
-  const pl_form** f = PL_ARRAY(d->arena, const pl_form*, d->model->params.n);
-  for (int k = 0; k < d->model->params.n; k++) f[k] = pl_fs(d, d->model->params.at[k].symbol);
-  pl_say(d, "independent of {1}", "unabhängig von {1}", 1, pl_flist(d, f, d->model->params.n));
-}
-
-static void value_where(pl_analysis* d, const pl_ask* ask) {
-  const pl_condition* c = &ask->where.at[0];
-  bool eliminated;
-  pl_expr e = along(d, &ask->motion, pl_sub(d->pool, c->left, c->right), &eliminated);
-  int i = d->gen.n == 1 ? d->gen.at[0] : -1;
-  if (i < 0 || pl_has_symbol(d->pool, e, d->q.at[i].v)) {
-    pl_say(d, "The condition could not be reduced to one coordinate.", "Die Bedingung war nicht auf eine Koordinate zurückzuführen.", 0);
-    d->section->not_found = true;
-    return;
-  }
-  pl_root root[8];
-  bool complete;
-  int n = pl_alg_roots(d->tower, e, d->q.at[i].q, root, 8, &complete);
-  int k = first_met(d, &ask->motion, root, n);
-  const pl_form* zero = pl_form_leaf(d->arena, pl_int(d->pool, 0));
-  pl_say(d, "Condition {1}:", "Bedingung {1}:", 1, pl_feq(d, pl_fe(d, c->left), pl_fe(d, c->right)));
-  pl_show(d, pl_feq(d, pl_f(d, e, PL_S_QUOTIENT), zero));
-  if (k < 0) {
-    pl_say(d, complete ? "This never happens on the motion." : "No solution in closed form was found.",
-           complete ? "Das tritt auf der Bewegung nicht ein." : "Eine geschlossene Lösung wurde nicht gefunden.", 0);
-    d->section->not_found = !complete;
-    return;
-  }
-  pl_claim_free(d, PL_CLAIM_INSERTED, pl_subst1(d->pool, e, d->q.at[i].q, root[k].value), pl_int(d->pool, 0));
-  pl_expr asked = along(d, &ask->motion, ask->value, &eliminated);
-  pl_expr value = pl_alg_normal(d->tower, pl_subst1(d->pool, asked, d->q.at[i].q, root[k].value));
-  show_root(d, ask->value, value);
-  say_independent(d, value);
+  return pl_along_line(d, &line, e);
 }
 
 static bool unsolved(pl_analysis* d, pl_expr e) {
@@ -142,7 +47,7 @@ static bool stays_open(pl_analysis* d, pl_expr asked, pl_expr e) {
 
 static void plain_value(pl_analysis* d, const pl_ask* ask) {
   bool eliminated = false;
-  pl_expr e = ask->motion.given ? along(d, &ask->motion, ask->value, &eliminated)
+  pl_expr e = ask->motion.given ? pl_value_on(d, &ask->motion, ask->value, &eliminated)
                                 : pl_alg_normal(d->tower, pl_on_motion(d, pl_with_results(d, ask->value)));
   if (pl_is_poison(e)) {
     pl_answer_pending(d, ask);
@@ -178,7 +83,7 @@ static const char* german_title(pl_analysis* d, const char* request) {
 void pl_answer_value(pl_analysis* d, const pl_ask* ask) {
   pl_section_open(d, ask, ask->text, german_title(d, ask->text));
   if (ask->where.n > 0) {
-    value_where(d, ask);
+    pl_answer_where(d, ask);
   } else {
     plain_value(d, ask);
   }

@@ -89,14 +89,14 @@ static bool contains_motion(pl_analysis* d, pl_expr e) {
   return pl_has_role(d->pool, e, PL_R_VELOCITY) || pl_has_role(d->pool, e, PL_R_ACCELERATION);
 }
 
-// The facts of the model, and the signs of coordinates that were assumed on the way (r >= 0 of a distance): formulas hold there.
+// The facts of the model, and the signs that were assumed on the way (r >= 0 of a distance, cos α >= 0): formulas hold there.
 static void domain(pl_analysis* d, pl_certifier_setup* setup) {
   int n_used = 0, n = d->facts.n;
   const pl_fact* used = pl_tower_used(d->tower, &n_used);
   pl_fact* fact = PL_ARRAY(d->arena, pl_fact, n + n_used + 1);
   for (int k = 0; k < n; k++) fact[k] = d->facts.at[k];
   for (int k = 0; k < n_used; k++) {
-    if (pl_has_coordinates(d, used[k].difference) && !contains_motion(d, used[k].difference)) fact[n++] = used[k];
+    if (!contains_motion(d, used[k].difference)) fact[n++] = used[k];
   }
   setup->facts = fact;
   setup->n_facts = n;

@@ -176,6 +176,8 @@ void pl_answer_limit(pl_analysis* d, const pl_ask* ask);
 void pl_answer_series(pl_analysis* d, const pl_ask* ask);
 void pl_answer_value(pl_analysis* d, const pl_ask* ask);
 void pl_answer_expect(pl_analysis* d, const pl_ask* ask);
+void pl_answer_where(pl_analysis* d, const pl_ask* ask);                             // a quantity where conditions hold (answer_where.c)
+pl_expr pl_value_on(pl_analysis* d, const pl_motion* motion, pl_expr e, bool* eliminated);  // with the velocities that the motion gives
 pleuel_status pl_derive_families(pl_analysis* d);       // by pattern, with index i (answer_family.c)
 void pl_answer_pending(pl_analysis* d, const pl_ask* ask);
 
@@ -188,6 +190,24 @@ pl_expr pl_linear_motion(pl_analysis* d, int i);        // coordinate i of a lin
 // The velocity of the single generalized coordinate squared, from the conserved energy and the start of `motion`;
 // false when there is none.  start_q, start_v: the start used.
 bool pl_velocity_squared(pl_analysis* d, const pl_motion* motion, pl_expr* v2, pl_expr* start_q, pl_expr* start_v);
+// A motion reduced to one coordinate by every integral that is known: the velocities of cyclic coordinates follow from their momenta,
+// the last velocity from the energy.
+enum { pl_max_line = 8 };
+typedef struct pl_line {
+  int i;                            // the coordinate that is left
+  pl_expr v2;                       // its velocity squared, in terms of it alone
+  pl_expr q0, v0;                   // its start
+  int n;                            // cyclic velocities, each in terms of q_i and v_i
+  int cyclic[pl_max_line];
+  pl_replace velocity[pl_max_line];
+  pl_expr momentum[pl_max_line];    // the momentum, and its value at the start
+  pl_expr momentum0[pl_max_line];
+  int direction;                    // of the motion after the start: +1, -1
+} pl_line;
+void pl_motion_start(pl_analysis* d, const pl_motion* motion, const pl_variable* c, pl_expr* q0, pl_expr* v0);   // eliminate.c
+bool pl_line_of(pl_analysis* d, const pl_motion* motion, pl_line* out);
+pl_expr pl_along_line(pl_analysis* d, const pl_line* l, pl_expr e);   // velocities inserted
+bool pl_pushed(pl_analysis* d, int i);                  // a force without potential acts along coordinate i (answer_conserved.c)
 pl_expr pl_conserved_energy(pl_analysis* d);            // E in generalized coordinates if it is conserved, else poison
 // The value of e (in coordinates, velocities, accelerations, multipliers) on the motion, in generalized coordinates.
 pl_expr pl_on_motion(pl_analysis* d, pl_expr e);

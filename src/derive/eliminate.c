@@ -75,7 +75,7 @@ static pl_expr from_value(pl_analysis* d, const pl_motion* motion, pl_symbol s) 
   return pl_poison();
 }
 
-static void start_of(pl_analysis* d, const pl_motion* motion, const pl_variable* c, pl_expr* q0, pl_expr* v0) {
+void pl_motion_start(pl_analysis* d, const pl_motion* motion, const pl_variable* c, pl_expr* q0, pl_expr* v0) {
   *q0 = *v0 = pl_poison();
   if (motion->given) {
     *q0 = from_value(d, motion, c->q);
@@ -93,7 +93,7 @@ bool pl_velocity_squared(pl_analysis* d, const pl_motion* motion, pl_expr* v2, p
   pl_expr coefficient[3];
   if (pl_alg_coefficients(d->tower, E, c->v, coefficient, 2) != 2) return false;
   if (!pl_is_zero_node(d->pool, coefficient[1])) return false;
-  start_of(d, motion, c, start_q, start_v);
+  pl_motion_start(d, motion, c, start_q, start_v);
   pl_replace start[2] = {{c->q, *start_q}, {c->v, *start_v}};
   pl_expr left = pl_sub(d->pool, pl_subst(d->pool, E, start, 2), coefficient[0]);
   *v2 = pl_alg_normal(d->tower, pl_div(d->pool, left, coefficient[2]));
