@@ -1,5 +1,5 @@
 // Certificates: is what is shown the same as what was derived?  Decided without the tower, by evaluation at sample
-// points: 20 modulo p = 2^61 - 1 and 50 in ball arithmetic, 256 bits and more when that does not decide.
+// points: 20 modulo p = 2^61 - 9265983825153 and 50 in ball arithmetic, 256 bits and more when that does not decide.
 //
 // The points, the values of definitions and unknowns there and all nodes evaluated so far are kept, so that many
 // formulas over the same quantities cost little more than one.  Modulo p the sign of a root is a free choice: an
@@ -28,6 +28,9 @@ struct pl_certifier {
   pl_certifier_setup setup;
   pl_points* points;
   pl_points* fine;  // at more bits, made when needed
+  pl_points* inside;  // where logarithms, roots and inverse functions have values; made when the others meet that too rarely
+  PL_VEC(pl_fact) within;  // the conditions for it, after the facts of the setup
+  pl_map* visited;         // nodes whose conditions are among them
   pl_mod_point* mod[PL_CERTIFY_MOD];
   int n_mod;
 };
@@ -169,26 +172,96 @@ static bool point_is_usable(pl_points* s, int i, pl_expr shown, pl_expr referenc
   return pl_points_value(s, i, shown, &v) && pl_points_value(s, i, reference, &v);
 }
 
+// ---------------------------------------------------------------------------------------------- domains of functions
+static void must_hold(pl_certifier* c, pl_expr difference, bool strict) {
+  if (pl_is_constant(c->pool, difference) || pl_has_role(c->pool, difference, PL_R_ACCELERATION) ||
+      pl_has_role(c->pool, difference, PL_R_MULTIPLIER)) {
+    return;
+  }
+  pl_push(c->arena, c->within, (pl_fact){difference, strict});
+}
+
+// What must hold for e to have a real value, from the functions in it.
+static void collect_domain(pl_certifier* c, pl_expr e, int depth) {
+  pl_kind k = pl_kind_of(c->pool, e);
+  if (depth > PL_MAX_DEPTH || pl_map_get(c->visited, e.id)) return;
+  pl_map_set(c->visited, e.id, 1);
+  if (k == PL_SUM || k == PL_AT || k == PL_UNKNOWN_FUNCTION) return;
+  for (int i = 0; i < pl_n_args(c->pool, e); i++) collect_domain(c, pl_arg(c->pool, e, i), depth + 1);
+  if (k == PL_POW) {
+    long num = 0, den = 1;
+    bool whole = pl_is_ratio(c->pool, pl_arg(c->pool, e, 1), &num, &den) && den == 1;
+    if (!whole) must_hold(c, pl_arg(c->pool, e, 0), true);
+  }
+  if (k != PL_CALL) return;
+  pl_function f = pl_function_of(c->pool, e);
+  pl_expr a = pl_arg(c->pool, e, 0), one = pl_int(c->pool, 1);
+  if (f == PL_LN) must_hold(c, a, true);
+  if (f != PL_ASIN && f != PL_ACOS) return;
+  must_hold(c, pl_sub(c->pool, one, a), false);
+  must_hold(c, pl_add(c->pool, one, a), false);
+}
+
+static void add_domain(pl_certifier* c, pl_expr shown, pl_expr reference) {
+  if (!c->visited) {
+    c->visited = pl_map_make(c->arena);
+    for (int i = 0; i < c->setup.n_facts; i++) pl_push(c->arena, c->within, c->setup.facts[i]);
+    for (int i = 0; i < c->setup.n_definitions; i++) collect_domain(c, c->setup.definitions[i].value, 0);
+  }
+  int before = c->within.n;
+  collect_domain(c, shown, 0);
+  collect_domain(c, reference, 0);
+  if (c->inside && c->within.n == before) return;
+  pl_certifier_setup s = c->setup;
+  s.facts = c->within.at;
+  s.n_facts = c->within.n;
+  c->inside = pl_points_make(c->job, c->pool, &s, PL_CERTIFY_ARB, PL_CERTIFY_MORE_BITS, 3);
+}
+
+// ---------------------------------------------------------------------------------------------- verdicts
+// One point more; false when it shows a difference.
+static bool count_point(pl_certificate* r, pl_answer3 here, double relative) {
+  if (here == PL_UNKNOWN) return true;
+  r->points_arb++;
+  r->worst = fmax(r->worst, relative);
+  return here != PL_NO;
+}
+
+// At the points of the certifier.  Finite but too wide: more bits; not finite: outside the domain, the next point.
+static bool equal_anywhere(pl_certifier* c, pl_certificate* r, pl_expr shown, pl_expr reference) {
+  for (int i = 0; i < PL_CERTIFY_ARB; i++) {
+    double relative = 0;
+    pl_answer3 here = compare_at(c->points, i, shown, reference, PL_CERTIFY_BITS, &relative);
+    if (here == PL_UNKNOWN && point_is_usable(c->points, i, shown, reference)) {
+      here = compare_at(fine_points(c), i, shown, reference, PL_CERTIFY_MORE_BITS, &relative);
+    }
+    if (!count_point(r, here, relative)) return false;
+  }
+  return true;
+}
+
+// At points that are drawn for the functions of these two.
+static bool equal_inside(pl_certifier* c, pl_certificate* r, pl_expr shown, pl_expr reference) {
+  add_domain(c, shown, reference);
+  for (int i = 0; i < PL_CERTIFY_ARB; i++) {
+    double relative = 0;
+    pl_answer3 here = compare_at(c->inside, i, shown, reference, PL_CERTIFY_MORE_BITS, &relative);
+    if (!count_point(r, here, relative)) return false;
+  }
+  return true;
+}
+
 pl_certificate pl_certify(pl_certifier* c, pl_expr shown, pl_expr reference) {
   pl_certificate r = {.equal = PL_UNKNOWN};
   if (pl_is_poison(shown) || pl_is_poison(reference)) return r;
   pl_mod_count mod = compare_mod(c, shown, reference);
   r.points_mod = mod.equal;
-  for (int i = 0; i < PL_CERTIFY_ARB; i++) {
-    double relative = 0;
-    pl_answer3 here = compare_at(c->points, i, shown, reference, PL_CERTIFY_BITS, &relative);
-    // finite but too wide: more bits; not finite: outside the domain, the next point
-    if (here == PL_UNKNOWN && point_is_usable(c->points, i, shown, reference)) {
-      here = compare_at(fine_points(c), i, shown, reference, PL_CERTIFY_MORE_BITS, &relative);
-    }
-    if (here == PL_UNKNOWN) continue;
-    r.points_arb++;
-    r.worst = fmax(r.worst, relative);
-    if (here == PL_NO) {
-      r.equal = PL_NO;
-      return r;
-    }
+  bool equal = equal_anywhere(c, &r, shown, reference);
+  if (equal && r.points_arb < PL_CERTIFY_FEWEST) equal = equal_inside(c, &r, shown, reference);
+  if (!equal) {
+    r.equal = PL_NO;
+  } else if (r.points_arb >= PL_CERTIFY_FEWEST) {
+    r.equal = PL_YES;
   }
-  if (r.points_arb >= PL_CERTIFY_FEWEST) r.equal = PL_YES;
   return r;
 }

@@ -77,6 +77,19 @@ PL_TEST(an_impossible_domain_is_unknown) {
   pl_world_free(w);
 }
 
+// One sign in eight is right for all three; the points are looked for where the functions have values.
+PL_TEST(points_are_found_where_functions_have_values) {
+  pl_world* w = pl_world_make(NULL);
+  pl_certifier_setup s = {0};
+  pl_certifier* c = pl_certifier_make(&w->job, w->pool, &s);
+  const char* sum = "asin(x)/2 + ln(y)^(1/3) + acos(z/4)*sqrt(r)";
+  pl_certificate same = pl_certify(c, pl_text_expr(w, "(asin(x) + 2*ln(y)^(1/3))/2 + acos(z/4)*sqrt(r)"), pl_text_expr(w, sum));
+  assert_int_equal(same.equal, PL_YES);
+  assert_true(same.points_arb >= 40);
+  assert_int_equal(pl_certify(c, pl_text_expr(w, sum), pl_text_expr(w, "asin(x)/2 + ln(y)^(1/3)")).equal, PL_NO);
+  pl_world_free(w);
+}
+
 PL_TEST(sixty_formulas_cost_milliseconds) {
   pl_world* w = pl_world_make("l - r");
   pl_fact fact = {pl_text_expr(w, "l - r"), true};
@@ -103,6 +116,7 @@ int main(void) {
       cmocka_unit_test(the_points_lie_in_the_domain),
       cmocka_unit_test(definitions_and_unknowns_take_their_values),
       cmocka_unit_test(an_impossible_domain_is_unknown),
+      cmocka_unit_test(points_are_found_where_functions_have_values),
       cmocka_unit_test(sixty_formulas_cost_milliseconds),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
