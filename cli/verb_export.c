@@ -1,8 +1,6 @@
 // pleuel export FILE --to TARGET: the formulas of the worked solution for another program.
 #include "cli.h"
 
-#include <string.h>
-
 const cli_flag flags_export[] = {
   {"to", 0, CLI_CHOICE, CLI_AT(to), "sympy|mathematica|maxima|julia|json", "for which program"},
   {"only", 0, CLI_TEXT, CLI_AT(only), "LETTERS", "only these requests: b,c"},
@@ -16,18 +14,6 @@ const cli_flag flags_export[] = {
   CLI_FLAG_END,
 };
 
-static int write_out(const cli_options* o, const char* text) {
-  if (!o->output || strcmp(o->output, "-") == 0) {
-    fputs(text, stdout);
-    return EXIT_DONE;
-  }
-  cli_file f;
-  int code = cli_file_open(&f, o->output, o->force);
-  if (code != EXIT_DONE) return code;
-  fputs(text, f.to);
-  return cli_file_close(&f);
-}
-
 int verb_export(pleuel* ctx, const cli_options* o) {
   if (o->n_files != 1) return cli_error(EXIT_USAGE, "export takes one file:  pleuel export FILE --to sympy");
   if (!o->to) return cli_error(EXIT_USAGE, "for which program?  --to sympy, mathematica, maxima, julia or json");
@@ -39,13 +25,5 @@ int verb_export(pleuel* ctx, const cli_options* o) {
   how.only = o->only;
   const char* text = NULL;
   pleuel_status s = pleuel_export(m, &text, o->to, &how);
-  char why[512];
-  snprintf(why, sizeof why, "%s", pleuel_message(ctx));
-  int written = text ? write_out(o, text) : EXIT_DONE;
-  cli_print_diagnostics(m, o, stderr, 1u << PLEUEL_ERROR | 1u << PLEUEL_WARNING);
-  if (s != PLEUEL_OK && *why && pleuel_diagnostic_count(m, PLEUEL_ERROR) == 0) cli_error(0, "%s", why);
-  pleuel_model_free(m);
-  if (written != EXIT_DONE) return written;
-  if (s == PLEUEL_NO_CLOSED_FORM && !o->strict) return EXIT_DONE;
-  return cli_exit_code(s);
+  return cli_finish_text(ctx, m, o, s, text);
 }

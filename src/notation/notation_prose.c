@@ -14,6 +14,7 @@ static const struct { uint32_t code; const char* tex; } signs[] = {
   {0x2033, "$''$"}, {0x2070, "$^{0}$"}, {0x207B, "$^{-}$"}, {0x2192, "$\\to$"}, {0x2202, "$\\partial$"},
   {0x2207, "$\\nabla$"}, {0x2212, "$-$"}, {0x221A, "$\\surd$"}, {0x221E, "$\\infty$"}, {0x222B, "$\\int$"},
   {0x2248, "$\\approx$"}, {0x2260, "$\\ne$"}, {0x2264, "$\\le$"}, {0x2265, "$\\ge$"}, {0x2211, "$\\sum$"},
+  {0x226A, "$\\ll$"}, {0x226B, "$\\gg$"},
 };
 
 static const char* sign_of(uint32_t code) {

@@ -1,0 +1,111 @@
+// Words for LaTeX: sentences with formulas in them, labels, numbers with units.
+#include "tex_impl.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { PL_TEX_DIGITS = 6 };      // significant digits of numbers beside formulas
+
+const char* pl_tex_plain(pl_tex_page* g, const char* s) {
+  pl_text out = pl_text_make(g->arena);
+  pl_notation_words(&out, s ? s : "");
+  return pl_text_string(&out);
+}
+
+const char* pl_tex_label_of(const pl_tex_page* g, int number) {
+  for (int i = 0; i < g->labels.n; i++) {
+    if (g->labels.at[i].number == number) return g->labels.at[i].label;
+  }
+  return NULL;
+}
+
+// "(4)" as a formula speaks of an equation.
+static const char* reference(pl_tex_page* g, const char* math) {
+  size_t n = strlen(math);
+  if (n < 3 || math[0] != '(' || math[n - 1] != ')' || strspn(math + 1, "0123456789") != n - 2) return NULL;
+  const char* label = pl_tex_label_of(g, atoi(math + 1));
+  return label ? pl_format(g->arena, "\\eqref{%s}", label) : NULL;
+}
+
+// A long formula inside a sentence may break after its commas.
+static void add_inline(pl_tex_page* g, pl_text* out, const pl_form* f) {
+  const char* math = pl_tex_math(g, f);
+  const char* label = reference(g, math);
+  if (label) {
+    pl_text_add(out, label);
+    return;
+  }
+  if (!*math) return;
+  int depth = 0;
+  pl_text_add(out, "$");
+  for (const char* c = math; *c; c++) {
+    depth += (*c == '{') - (*c == '}');
+    pl_text_add_n(out, c, 1);
+    if (*c == ',' && depth == 0 && c[1] == ' ') pl_text_add(out, "\\allowbreak ");
+  }
+  pl_text_add(out, "$");
+}
+
+const char* pl_tex_fill(pl_tex_page* g, const char* words, int n, const pl_form* const* inserts) {
+  pl_text out = pl_text_make(g->arena);
+  const char* from = words ? words : "";
+  for (const char* s = from;; s++) {
+    int digits = *s == '{' ? (int)strspn(s + 1, "0123456789") : 0;
+    bool insert = digits > 0 && digits < 4 && s[1 + digits] == '}';
+    if (*s && !insert) continue;
+    pl_notation_words(&out, pl_copy_n(g->arena, from, (size_t)(s - from)));
+    if (!*s) break;
+    int k = atoi(s + 1);
+    if (k >= 1 && k <= n && inserts[k - 1]) add_inline(g, &out, inserts[k - 1]);
+    s += digits + 1;
+    from = s + 1;
+  }
+  return pl_text_string(&out);
+}
+
+const char* pl_tex_slug(pl_arena* a, const char* s, const char* otherwise) {
+  const char* ascii = pl_plain_ascii(a, s ? s : "");
+  pl_text out = pl_text_make(a);
+  bool gap = false;
+  for (const char* c = ascii; *c && out.n < 40; c++) {
+    if (!isalnum((unsigned char)*c)) {
+      gap = out.n > 0;
+      continue;
+    }
+    char low = (char)tolower((unsigned char)*c);
+    if (gap) pl_text_add(&out, "-");
+    pl_text_add_n(&out, &low, 1);
+    gap = false;
+  }
+  const char* slug = pl_text_string(&out);
+  return *slug ? slug : otherwise;
+}
+
+// A unit as it is displayed, "m/s²", upright.
+static const char* unit_tex(pl_tex_page* g, const char* unit) {
+  static const char* const table[][2] = {{"²", "^{2}"}, {"³", "^{3}"}, {"⁴", "^{4}"}, {"·", "\\cdot "}, {"µ", "\\mu "}, {"μ", "\\mu "}, {"Ω", "\\Omega "}, {"%", "\\%"}};
+  pl_text out = pl_text_make(g->arena);
+  while (*unit) {
+    size_t k = 0, n = sizeof table / sizeof *table;
+    while (k < n && strncmp(unit, table[k][0], strlen(table[k][0])) != 0) k++;
+    if (k < n) pl_text_add(&out, table[k][1]);
+    else pl_text_add_n(&out, unit, 1);
+    unit += k < n ? strlen(table[k][0]) : 1;
+  }
+  return pl_text_string(&out);
+}
+
+const char* pl_tex_value(pl_tex_page* g, double x, const char* unit) {
+  bool radians = unit && strcmp(unit, "rad") == 0, degrees = radians || (unit && strcmp(unit, "°") == 0);
+  bool bare = !unit || !*unit || strcmp(unit, "1") == 0;
+  const char* digits = pl_notation_number(g->arena, radians ? x * 180 / acos(-1) : x, PL_TEX_DIGITS, g->how);
+  pl_text out = pl_text_make(g->arena);
+  for (const char* c = digits; *c && *c != 'e'; c++) pl_text_add(&out, *c == ',' ? "{,}" : (const char[]){*c, 0});
+  const char* power = strchr(digits, 'e');
+  if (power) pl_text_addf(&out, "\\cdot 10^{%d}", atoi(power + 1));
+  if (degrees) pl_text_add(&out, "^{\\circ}");
+  else if (!bare) pl_text_addf(&out, "\\,\\mathrm{%s}", unit_tex(g, unit));
+  return pl_text_string(&out);
+}
