@@ -275,28 +275,10 @@ static void answer_lambda(pl_analysis* d, int k, const pl_lambda_value* lambda) 
   v->of = d->g.at[k].source->name.text;
 }
 
-// A redundant constraint carries a part of the force that nothing determines.
-static void say_shared(pl_analysis* d, int k) {
-  for (int c = 0; c < d->solution->constraints.n; c++) {
-    const pl_constraint_info* info = &d->solution->constraints.at[c];
-    for (int j = 0; j < info->n_implied_by; j++) {
-      if (strcmp(info->implied_by[j], d->g.at[k].source->name.text) != 0) continue;
-      pl_say(d, "This is the force of {1} if {2}, which says nothing new, carries nothing; only the sum of both is determined.",
-             "Das ist die Kraft von {1}, wenn {2}, das nichts Neues sagt, nichts trägt; bestimmt ist nur die Summe beider.", 2,
-             pl_fn(d, info->implied_by[j]), pl_fn(d, info->label));
-    }
-  }
-}
-
 static void force_of(pl_analysis* d, const pl_ask* ask, int k) {
   const char* label = d->g.at[k].source->name.text;
   pl_section_open(d, ask, pl_format(d->arena, "Force of %s", label), pl_format(d->arena, "Zwangskraft von %s", label));
-  if (d->g.at[k].implied) {
-    pl_say(d, "{1} says nothing new beside the other constraints: its force is not determined, only the sum with theirs is.",
-           "{1} sagt neben den anderen Zwangsbedingungen nichts Neues: ihre Kraft ist nicht bestimmt, nur die Summe mit deren Kräften.", 1,
-           pl_fn(d, label));
-    return;
-  }
+  if (pl_say_shared(d, k)) return;
   if (!d->g.at[k].lambda_known) {
     pl_say(d, "The multiplier of {1} is not determined in closed form.", "Der Multiplikator von {1} ist nicht geschlossen bestimmt.", 1, pl_fn(d, label));
     d->section->not_found = true;
@@ -317,7 +299,40 @@ static void force_of(pl_analysis* d, const pl_ask* ask, int k) {
   if (first >= 0 && d->reduced && d->gen.n == 1) compare_with_free_fall(d, d->gen.at[0]);
   say_equilibrium_start(d, &ask->motion, k);
   pl_note_attribution(d, k);
-  say_shared(d, k);
+}
+
+// Constraints that depend on each other: on a mass their forces together may be determined where each alone is not.
+static int together_on(pl_analysis* d, int m) {
+  pl_force sum = {0};
+  pl_expr value[3];
+  const pl_form** name = PL_ARRAY(d->arena, const pl_form*, d->g.n + 1);
+  int n = 0;
+  for (int k = 0; k < d->g.n; k++) {
+    pl_force f;
+    if (!d->g.at[k].shared || !d->g.at[k].lambda_known || !force_on(d, k, m, &f) || f.n == 0) continue;
+    name[n++] = pl_fn(d, d->g.at[k].source->name.text);
+    for (int j = 0; j < f.n; j++) {
+      int at = 0;
+      while (at < sum.n && strcmp(sum.along[at], f.along[j]) != 0) at++;
+      if (at == 3) return 0;   // along the frames of different coordinates
+      if (at == sum.n) {
+        sum.along[sum.n++] = f.along[j];
+        value[at] = pl_int(d->pool, 0);
+      }
+      value[at] = pl_add(d->pool, value[at], pl_mul(d->pool, d->g.at[k].lambda_value, pl_on_maps(d, f.factor[j])));
+    }
+  }
+  if (n == 0) return 0;
+  for (int j = 0; j < sum.n; j++) {
+    value[j] = pl_alg_normal(d->tower, value[j]);
+    if (!pl_not_determined(d, value[j])) continue;
+    pl_say(d, "The forces of {1} on it are not determined.", "Die Kräfte von {1} darauf sind nicht bestimmt.", 1, pl_flist(d, name, n));
+    return n;
+  }
+  pl_say(d, "{1} together (each alone is not determined):", "{1} zusammen (einzeln nicht bestimmt):", 1, pl_flist(d, name, n));
+  pl_show_numbered(d, pl_feq(d, pl_fn(d, "Z"), vector_of(d, &sum, value, PL_S_QUOTIENT)));
+  answer_components(d, NULL, d->particle.at[m].label, &sum, value);
+  return n;
 }
 
 static void force_on_mass(pl_analysis* d, const pl_ask* ask, int m) {
@@ -326,7 +341,7 @@ static void force_on_mass(pl_analysis* d, const pl_ask* ask, int m) {
   int shown = 0;
   for (int k = 0; k < d->g.n; k++) {
     pl_force f;
-    if (d->g.at[k].implied || !force_on(d, k, m, &f) || f.n == 0) continue;
+    if (d->g.at[k].implied || d->g.at[k].shared || !force_on(d, k, m, &f) || f.n == 0) continue;
     shown++;
     if (!d->g.at[k].lambda_known) {
       pl_say(d, "The multiplier of {1} is not determined in closed form.", "Der Multiplikator von {1} ist nicht geschlossen bestimmt.", 1,
@@ -338,6 +353,7 @@ static void force_on_mass(pl_analysis* d, const pl_ask* ask, int m) {
     pl_say(d, "{1}:", "{1}:", 1, pl_fn(d, d->g.at[k].source->name.text));
     show_on(d, k, m, &f, &lambda, true);
   }
+  shown += together_on(d, m);
   if (shown == 0) {
     pl_say(d, "No constraint of the model acts on {1} alone; what holds it follows from its coordinates.",
            "Keine Zwangsbedingung des Modells wirkt auf {1} allein; was es hält, folgt aus seinen Koordinaten.", 1, pl_fn(d, label));

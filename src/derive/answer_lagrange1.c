@@ -49,7 +49,7 @@ static const pl_form* right_side(pl_analysis* d, int i, const pl_sides* s, pl_ex
   if (!pl_is_zero_node(d->pool, s->force)) flatten(pl_f(d, s->force, PL_S_EQUATION), term, &n, max_sum);
   for (int k = 0; k < d->g.n; k++) {
     const pl_bond* l = &d->g.at[k];
-    if (l->implied || (insert && l->fixes >= 0 && !l->contact && l->fixes != i)) continue;
+    if ((l->implied && !l->shared) || (insert && l->fixes >= 0 && !l->contact && l->fixes != i)) continue;
     pl_expr gradient = pl_div(d->pool, insert ? pl_on_fixed(d, l->gradient[i]) : l->gradient[i], scale);
     gradient = pl_alg_normal(d->tower, gradient);
     if (!pl_is_zero_node(d->pool, gradient)) flatten(push_form(d, l, gradient), term, &n, max_sum + d->g.n);
@@ -61,7 +61,7 @@ static const pl_form* right_side(pl_analysis* d, int i, const pl_sides* s, pl_ex
 static pl_expr push_of(pl_analysis* d, int i) {
   pl_expr sum = pl_int(d->pool, 0);
   for (int k = 0; k < d->g.n; k++) {
-    if (d->g.at[k].implied) continue;
+    if (d->g.at[k].implied && !d->g.at[k].shared) continue;
     sum = pl_add(d->pool, sum, pl_mul(d->pool, pl_sym(d->pool, d->g.at[k].lambda), d->g.at[k].gradient[i]));
   }
   return sum;
@@ -149,7 +149,7 @@ static void show_kinematics(pl_analysis* d, const pl_particle* k, const pl_frame
       component[j] = pl_alg_normal(d->tower, push);
       acts |= !pl_is_zero_node(d->pool, component[j]);
     }
-    if (acts && !l->implied) show_vector(d, pl_format(d->arena, "Z_%s", l->source->name.text), f, component);
+    if (acts && (!l->implied || l->shared)) show_vector(d, pl_format(d->arena, "Z_%s", l->source->name.text), f, component);
   }
 }
 

@@ -28,7 +28,7 @@ static pl_expr own_acceleration(pl_analysis* d, int i) {
   pl_expr push = pl_neg(d->pool, zero_accelerations(d, e));
   for (int k = 0; k < d->g.n; k++) {
     const pl_bond* l = &d->g.at[k];
-    if (l->implied || l->fixes >= 0) continue;
+    if ((l->implied && !l->shared) || l->fixes >= 0) continue;
     push = pl_add(d->pool, push, pl_mul(d->pool, pl_sym(d->pool, l->lambda), pl_on_contact(d, l->gradient[i])));
   }
   return pl_div(d->pool, push, own);
@@ -155,6 +155,7 @@ static void solve_lambda(pl_analysis* d, int k) {
 }
 
 // ---------------------------------------------------------------------------------------------- accelerations
+  if (pl_say_shared(d, k)) return;
 static void show_acceleration(pl_analysis* d, int i) {
   const pl_form* form = pl_f(d, d->acceleration[i], PL_S_QUOTIENT);
   pl_step* step = pl_show_numbered(d, pl_feq(d, pl_fs(d, d->q.at[i].a), form));

@@ -25,6 +25,12 @@ static bool unsolved(pl_analysis* d, pl_expr e) {
 
 bool pl_say_unsolved(pl_analysis* d, pl_expr asked, pl_expr e) {
   if (!unsolved(d, e)) return false;
+  if (pl_not_determined(d, e)) {
+    pl_say(d, "{1} is not determined: constraints depend on each other, and only sums of their forces follow from the motion.",
+           "{1} ist nicht bestimmt: Zwangsbedingungen hängen voneinander ab, und nur Summen ihrer Kräfte folgen aus der Bewegung.", 1,
+           pl_fe(d, asked));
+    return true;
+  }
   pl_say(d, "{1} hangs on accelerations or multipliers for which no closed form was found.",
          "{1} hängt an Beschleunigungen oder Multiplikatoren, für die keine geschlossene Form gefunden wurde.", 1, pl_fe(d, asked));
   d->section->not_found = true;
@@ -138,6 +144,12 @@ void pl_answer_expect(pl_analysis* d, const pl_ask* ask) {
     return;
   }
   v->got = left;
+  if (pl_not_determined(d, pl_alg_normal(d->tower, pl_sub(d->pool, left, right)))) {
+    pl_say(d, "{1}: no, this is not determined; only sums of the forces of constraints that depend on each other are.",
+           "{1}: nein, das ist nicht bestimmt; nur Summen der Kräfte voneinander abhängiger Zwangsbedingungen sind es.", 1, claim);
+    d->solution->expect_failed = true;
+    return;
+  }
   const pl_form* got = pl_feq(d, pl_fe(d, c->left), pl_f(d, left, PL_S_QUOTIENT));
   pl_say(d, equal == PL_NO ? "{1}: no, {2}" : "{1}: not decided; {2}", equal == PL_NO ? "{1}: nein, {2}" : "{1}: nicht entschieden; {2}", 2,
          claim, got);

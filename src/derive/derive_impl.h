@@ -25,6 +25,7 @@ typedef struct pl_bond {   // a constraint at work
   bool velocity;           // contains velocities (linear): nonholonomic
   bool implied;            // says nothing new
   bool integrated;         // given for velocities; g is its integral
+  bool shared;             // depends on others: its force is not determined (redundant.c)
   pl_expr* gradient;       // dg/dq, of a nonholonomic one dg/dv; negative by `convention lambda-minus`   (n_q), raw
   pl_symbol lambda;
   pl_expr lambda_value;    // solved, on the constraints; poison if not
@@ -73,6 +74,7 @@ typedef struct pl_analysis {
   double* value;               // numbers of parameters, start values; NaN unknown       (by symbol id)
   int n_value;                 // symbols it was made for
 
+  PL_VEC(pl_dependence) dependences;
   pl_expr T, V, L;             // in all coordinates, raw
   pl_expr* force;              // generalized forces without potential                     (n_q)
   bool dissipative;            // some force has no potential or is a Rayleigh function
@@ -132,6 +134,20 @@ void pl_claims_check(pl_analysis* d);
 
 // ---------------------------------------------------------------------------------------------- writing (steps.c)
 pl_section* pl_section_open(pl_analysis* d, const pl_ask* ask, const char* en, const char* de);
+// redundant.c
+void pl_depend(pl_analysis* d, int implied, int m, const int* row, const pl_expr* c, int place);
+void pl_share_forces(pl_analysis* d);
+bool pl_not_determined(pl_analysis* d, pl_expr e);      // e contains a multiplier that nothing determines
+bool pl_say_shared(pl_analysis* d, int link);           // false when the force of link is determined
+// structured.c: what is too long to be written out, in named intermediates.  NULL when there is no such system.
+pl_structure* pl_structure_of_multipliers(pl_analysis* d);
+pl_structure* pl_structure_of_accelerations(pl_analysis* d);
+// structured_text.c.  A multiplier or acceleration shown over the names, the system before it once, and answered; false when there
+// is no structure that contains it.  closed: its closed form, or poison when none was found.
+bool pl_show_structured(pl_analysis* d, pl_symbol u, pl_expr closed);
+// The same without display: only the value.
+bool pl_answer_structured(pl_analysis* d, pl_symbol u);
+int pl_structure_definitions(pl_analysis* d, pl_definition* out, int max);   // names in order, for the points of the motion
 void pl_heading(pl_analysis* d, const char* en, const char* de);
 // Sentences; {1}.. are inserts.
 pl_step* pl_say(pl_analysis* d, const char* en, const char* de, int n, ...);            // inserts: const pl_form*

@@ -175,6 +175,8 @@ static pl_expr result_value(pl_analysis* d, const pl_result_name* r) {
       }
       return pl_energy_integral(d);
     case PL_RES_H: return pl_energy_integral(d);
+    case PL_RES_DT: return pl_dt(d->pool, pl_on_maps(d, pl_with_results(d, r->of)));
+    case PL_RES_DIFF: return pl_diff(d->pool, pl_on_maps(d, pl_with_results(d, r->of)), r->by);
     case PL_RES_FORCE:
     case PL_RES_FORCE_NORM:
     case PL_RES_NORMAL: break;

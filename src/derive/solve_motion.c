@@ -153,7 +153,7 @@ static pl_expr row_of(pl_analysis* d, int k, int i, int* n_others) {
   *n_others = 0;
   for (int c = 0; c < d->g.n; c++) {
     const pl_bond* other = &d->g.at[c];
-    if (c == k || other->implied || pl_is_zero_node(d->pool, pl_on_fixed(d, other->gradient[i]))) continue;
+    if (c == k || (other->implied && !other->shared) || pl_is_zero_node(d->pool, pl_on_fixed(d, other->gradient[i]))) continue;
     e = pl_sub(d->pool, e, pl_mul(d->pool, pl_sym(d->pool, other->lambda), other->gradient[i]));
     (*n_others)++;
   }

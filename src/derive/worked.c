@@ -77,6 +77,7 @@ static void implied_by(pl_analysis* d, int k, pl_constraint_info* info) {
   int* row = PL_ARRAY(d->arena, int, d->g.n);
   pl_expr* c = PL_ARRAY(d->arena, pl_expr, d->g.n);
   if (dependency(d, k, row, c, &m, &place) != PL_YES) return;
+  pl_depend(d, k, m, row, c, place);
   info->implied_by = PL_ARRAY(d->arena, const char*, m);
   for (int a = 0; a < m; a++) {
     if (a == place || pl_is_poison(c[a]) || pl_is_zero_node(d->pool, c[a])) continue;
@@ -306,6 +307,7 @@ static pleuel_status derive(pl_analysis* d) {
   PL_TRY(pl_solve_motion(d));
   count_freedom(d);
   describe_constraints(d);
+  pl_share_forces(d);
   pl_note_equilibrium_start(d);
   if (d->options && d->options->structure) return PLEUEL_OK;
   pleuel_status status = answer_all(d);

@@ -198,6 +198,14 @@ static pl_quantity call_place(pl_lower* l, const call* c, bool velocity) {
 }
 
 // ---------------------------------------------------------------------------------------------- calculus
+// Names of results (T, E, force(label)) are derived when they are known.
+static bool has_results(const pl_lower* l, pl_expr e) {
+  for (int i = 0; i < l->m->result_names.n; i++) {
+    if (pl_has_symbol(l->pool, e, l->m->result_names.at[i].symbol)) return true;
+  }
+  return false;
+}
+
 static pl_quantity call_diff(pl_lower* l, const call* c) {
   if (c->n != 2) return wrong_count(l, c, "diff(f, x)");
   pl_quantity f = pl_lower_quantity(l, arg(c, 0));
@@ -212,6 +220,10 @@ static pl_quantity call_diff(pl_lower* l, const call* c) {
     return pl_quantity_bad();
   }
   for (int i = 0; i < (f.n ? f.n : 1); i++) {
+    if (kind == PL_SYMBOL && has_results(l, f.at[i])) {
+      f.at[i] = pl_sym(l->pool, pl_model_result_derivative(l->m, PL_RES_DIFF, f.at[i], pl_symbol_of(l->pool, x)));
+      continue;
+    }
     f.at[i] = kind == PL_SYMBOL ? pl_diff(l->pool, f.at[i], pl_symbol_of(l->pool, x)) : pl_diff_at(l->pool, f.at[i], x);
   }
   return f;
@@ -222,6 +234,10 @@ static pl_quantity call_dt(pl_lower* l, const call* c) {
   pl_quantity f = pl_lower_quantity(l, arg(c, 0));
   if (pl_quantity_is_bad(&f)) return f;
   for (int i = 0; i < (f.n ? f.n : 1); i++) {
+    if (has_results(l, f.at[i])) {
+      f.at[i] = pl_sym(l->pool, pl_model_result_derivative(l->m, PL_RES_DT, f.at[i], (pl_symbol){0}));
+      continue;
+    }
     bool fixed = pl_has_role(l->pool, f.at[i], PL_R_MULTIPLIER) || pl_has_role(l->pool, f.at[i], PL_R_ACCELERATION);
     if (!fixed) f.at[i] = pl_dt(l->pool, f.at[i]);
     if (!fixed && !pl_is_poison(f.at[i])) continue;

@@ -402,6 +402,12 @@ static void walk_results(pl_dim_pass* d) {
   const pl_model* m = d->model;
   for (int i = 0; i < m->result_names.n; i++) {
     const pl_result_name* r = &m->result_names.at[i];
+    if (r->kind == PL_RES_DT || r->kind == PL_RES_DIFF) {
+      const pl_dim_form* over = r->kind == PL_RES_DT ? duration(d) : form_of_symbol(d, r->by, 0);
+      const pl_dim_form* f = form_of_side(d, r->of);
+      if (f) pl_dim_unify(&d->system, pl_dim_unknown(&d->system, pl_dim_symbol_var(d, r->symbol)), times(d, f, -1, over), (pl_span){0});
+      continue;
+    }
     bool force = r->kind == PL_RES_FORCE || r->kind == PL_RES_FORCE_NORM || r->kind == PL_RES_NORMAL;
     pl_dim_unify(&d->system, pl_dim_unknown(&d->system, pl_dim_symbol_var(d, r->symbol)),
                  force ? energy_over(d, 1, 0) : energy(d), (pl_span){0});

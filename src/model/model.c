@@ -90,12 +90,28 @@ pl_symbol pl_model_result_symbol(pl_model* m, pl_result_kind kind, const char* l
   pl_symbol_info info = {
       .name = text, .ascii = ascii, .role = PL_R_LOCAL, .class = PL_C_OTHER, .dimension = pl_dimension_one()};
   pl_symbol s = pl_symbol_make(m->pool, &info);
-  pl_push(a, m->result_names, (pl_result_name){s, kind, label ? pl_copy(a, label) : NULL});
+  pl_push(a, m->result_names, (pl_result_name){.symbol = s, .kind = kind, .label = label ? pl_copy(a, label) : NULL});
+  return s;
+}
+
+pl_symbol pl_model_result_derivative(pl_model* m, pl_result_kind kind, pl_expr of, pl_symbol by) {
+  pl_arena* a = pl_pool_arena(m->pool);
+  const char* text = pl_expr_text(a, m->pool, of);
+  if (kind == PL_RES_DIFF) text = pl_format(a, "%s, %s", text, pl_symbol_get(m->pool, by)->ascii);
+  pl_symbol s = pl_model_result_symbol(m, kind, text);
+  for (int i = 0; i < m->result_names.n; i++) {
+    pl_result_name* r = &m->result_names.at[i];
+    if (r->symbol.id != s.id) continue;
+    r->of = of;
+    r->by = by;
+  }
   return s;
 }
 
 const pl_result_name* pl_model_result_name(const pl_model* m, pl_symbol s) {
   for (int i = 0; i < m->result_names.n; i++) {
+    case PL_RES_DT: return pl_format(a, "dt(%s)", label ? label : "");
+    case PL_RES_DIFF: return pl_format(a, "diff(%s)", label ? label : "");
     if (m->result_names.at[i].symbol.id == s.id && s.id) return &m->result_names.at[i];
   }
   return NULL;

@@ -162,8 +162,15 @@ typedef struct pl_event {
 // What a request speaks of besides plain expressions of symbols: names of results such as T, V, E, λ, force(label).
 // They stand in expressions as symbols of role PL_R_LOCAL made by pl_model_result_symbol.
 typedef enum pl_result_kind { PL_RES_T, PL_RES_V, PL_RES_L, PL_RES_E, PL_RES_H, PL_RES_FORCE /* force(label), a vector */,
-                              PL_RES_FORCE_NORM /* norm(force(label)) */, PL_RES_NORMAL /* normal(label) */ } pl_result_kind;
-typedef struct pl_result_name { pl_symbol symbol; pl_result_kind kind; const char* label; } pl_result_name;
+                              PL_RES_FORCE_NORM /* norm(force(label)) */, PL_RES_NORMAL /* normal(label) */,
+                              PL_RES_DT /* dt(E) */, PL_RES_DIFF /* diff(T, φ') */ } pl_result_kind;
+typedef struct pl_result_name {
+  pl_symbol symbol;
+  pl_result_kind kind;
+  const char* label;
+  pl_expr of;                 // DT, DIFF: an expression with names of results in it
+  pl_symbol by;               // DIFF
+} pl_result_name;
 
 // Motion that a quantity belongs to: `from ϑ = 0 at rest`.
 typedef struct pl_motion { bool given; pl_condition* from; int n_from; bool at_rest; pl_span span; } pl_motion;
@@ -268,6 +275,7 @@ pleuel_status pl_model_expand(pl_job* job, const pl_model* m, int max_coords, pl
 pleuel_status pl_model_check(pl_job* job, pl_model* m);
 
 // ---------------------------------------------------------------------------------------------- units
+pl_symbol pl_model_result_derivative(pl_model* m, pl_result_kind kind, pl_expr of, pl_symbol by);   // DT, DIFF
 // A unit as written.  `factor` is what a number in front of the unit is multiplied by: the exact factor to SI times the
 // SI base units as symbols ("[m]", "[kg]", ...), so that `1 [m] + 2 [s]` is still seen to be wrong after the constructors
 // have sorted it.  pl_model_check puts 1 for these symbols everywhere in the model; pl_model_plain does it for one
