@@ -93,14 +93,6 @@ static void write_name(pl_text* out, const pl_box* b) {
   pl_text_add(out, "}");
 }
 
-// A decimal comma is no punctuation.
-static void write_number(pl_text* out, const char* s) {
-  for (; *s; s++) {
-    if (*s == ',') pl_text_add(out, "{,}");
-    else pl_text_add_n(out, s, 1);
-  }
-}
-
 static void write_op(pl_text* out, const pl_box* b) {
   static const char* const table[][2] = {
     {"·", "\\cdot"}, {"±", "\\pm"}, {"≥", "\\ge"}, {"≤", "\\le"}, {"≠", "\\ne"}, {"≈", "\\approx"}, {"->", "\\to"},
@@ -195,7 +187,7 @@ static void write_box(pl_text* out, const pl_box* b) {
       write_index(out, b->sub ? b->sub : "");
       pl_text_add(out, "}");
       break;
-    case PL_B_NUMBER: write_number(out, b->text); break;
+    case PL_B_NUMBER: pl_text_add(out, b->text); break;
     case PL_B_WORD: pl_text_add(out, b->tex ? b->tex : b->text); break;
     case PL_B_OP: write_op(out, b); break;
     case PL_B_PROSE: write_prose(out, b->text); break;

@@ -65,7 +65,7 @@ static void put_motion(pl_tex_page* g, const char* motion) {
       pl_text_add(&out, "\\qquad ");
     }
     pl_notation_words(&out, line);
-    pl_text_addf(g->out, "\n%s\n", pl_text_string(&out));
+    pl_text_addf(g->out, s == motion ? "\n\\plheading{%s}\n" : "\n%s\n", pl_text_string(&out));
     s += n + (s[n] == '\n');
   }
 }

@@ -164,32 +164,43 @@ static void put_steps(pl_tex_page* g, const pl_step* const* s, int n) {
   }
 }
 
-static void put_section(pl_tex_page* g, const pl_section* s) {
-  const pl_step** list = PL_ARRAY(g->arena, const pl_step*, s->steps.n + 1);
-  int n = 0;
+// The steps under one heading, from all sections that belong there.
+typedef PL_VEC(const pl_step*) pl_stretch;
+
+static void gather(pl_tex_page* g, pl_stretch* to, const pl_section* s) {
   for (int i = 0; i < s->steps.n; i++) {
-    if (is_shown(g, &s->steps.at[i])) list[n++] = &s->steps.at[i];
+    if (is_shown(g, &s->steps.at[i])) pl_push(g->arena, *to, &s->steps.at[i]);
   }
-  put_steps(g, list, n);
+}
+
+static void flush(pl_tex_page* g, pl_stretch* steps) {
+  put_steps(g, steps->at, steps->n);
+  *steps = (pl_stretch){0};
 }
 
 static bool same(const char* a, const char* b) { return a == b || (a && b && strcmp(a, b) == 0); }
 
-static void put_title(pl_tex_page* g, const pl_section* s, const pl_section* before) {
+// The heading that a section opens, if it opens one.
+static const char* heading_of(pl_tex_page* g, const pl_section* s, const pl_section* before) {
   const char* title = words_of(g, s->title);
   if (!*title) title = s->item ? s->item : "";
   bool joins = before && (s->continues || (s->letter && same(s->letter, before->letter)));
-  if (!joins) pl_text_addf(g->out, "\n\\plsection{%s}{%s}\n", s->letter ? s->letter : "", pl_tex_plain(g, title));
-  else if (!s->continues && !same(s->title[0], before->title[0])) pl_text_addf(g->out, "\n\\plheading{%s}\n", pl_tex_plain(g, title));
+  if (!joins) return pl_format(g->arena, "\n\\plsection{%s}{%s}\n", s->letter ? s->letter : "", pl_tex_plain(g, title));
+  bool other = !s->continues && !same(s->title[0], before->title[0]);
+  return other ? pl_format(g->arena, "\n\\plheading{%s}\n", pl_tex_plain(g, title)) : NULL;
 }
 
 void pl_tex_sections(pl_tex_page* g, const pl_solution* s) {
   const pl_section* before = NULL;
+  pl_stretch steps = {0};
   for (int i = 0; i < s->sections.n; i++) {
     const pl_section* c = &s->sections.at[i];
     if (!is_wanted(g, c)) continue;
-    put_title(g, c, before);
-    put_section(g, c);
+    const char* heading = heading_of(g, c, before);
+    if (heading) flush(g, &steps);
+    if (heading) pl_text_add(g->out, heading);
+    gather(g, &steps, c);
     before = c;
   }
+  flush(g, &steps);
 }

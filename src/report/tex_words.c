@@ -102,8 +102,8 @@ const char* pl_tex_value(pl_tex_page* g, double x, const char* unit) {
   bool bare = !unit || !*unit || strcmp(unit, "1") == 0;
   const char* digits = pl_notation_number(g->arena, radians ? x * 180 / acos(-1) : x, PL_TEX_DIGITS, g->how);
   pl_text out = pl_text_make(g->arena);
-  for (const char* c = digits; *c && *c != 'e'; c++) pl_text_add(&out, *c == ',' ? "{,}" : (const char[]){*c, 0});
   const char* power = strchr(digits, 'e');
+  pl_text_add_n(&out, digits, power ? (size_t)(power - digits) : strlen(digits));
   if (power) pl_text_addf(&out, "\\cdot 10^{%d}", atoi(power + 1));
   if (degrees) pl_text_add(&out, "^{\\circ}");
   else if (!bare) pl_text_addf(&out, "\\,\\mathrm{%s}", unit_tex(g, unit));

@@ -19,7 +19,7 @@ static void pl_put_title(pl_page* g, const pl_model* m) {
 }
 
 // ---------------------------------------------------------------------------------------------- notes
-static bool pl_told_by_step(const pl_solution* s, const char* code) {
+bool pl_worked_told(const pl_solution* s, const char* code) {
   for (int i = 0; i < s->sections.n; i++) {
     for (int k = 0; k < s->sections.at[i].steps.n; k++) {
       const pl_step* step = &s->sections.at[i].steps.at[k];
@@ -36,7 +36,7 @@ static void pl_put_notes(pl_page* g, const pl_solution* s, const pl_diagnostics*
   for (int i = 0; notes && i < notes->list.n; i++) {
     const pl_diagnostic* d = &notes->list.at[i];
     const char* code = pl_code_name(d->code);
-    if (pl_code_severity(d->code) != PL_NOTE || pl_told_by_step(s, code)) continue;
+    if (pl_code_severity(d->code) != PL_NOTE || pl_worked_told(s, code)) continue;
     pl_page_blank(g);
     const char* reason = d->reason[lang] ? d->reason[lang] : "";
     const char* lead = pl_format(g->arena, "%s\x01%s: %s%s%s", note[lang], code, pl_page_words(g, d->sentence), *reason ? ". " : "",

@@ -21,6 +21,10 @@ class Failure(Exception):
     pass
 
 
+class Skip(Exception):
+    """What a test needs is not on this machine."""
+
+
 def need(condition, sentence):
     if not condition:
         raise Failure(sentence)
@@ -197,6 +201,8 @@ class Tests:
             try:
                 f(program)
                 print(f"ok {i} - {sentence}")
+            except Skip as why:
+                print(f"ok {i} - {sentence} # SKIP {why}")
             except Exception as e:  # a failure of any kind is reported, and the next test runs
                 failed += 1
                 print(f"not ok {i} - {sentence}")
