@@ -298,6 +298,8 @@ static void name_links(pl_recorder* r, int i, pl_link* link) {
     out->side = c->relation == PL_GE || c->relation == PL_GT ? 1 : c->relation == PL_LE || c->relation == PL_LT ? -1 : 0;
     out->contact = pl_record_link(r, c->while_label);
     out->off = c->off;
+    const pl_restitution* bounce = pl_model_restitution(r->model, c);
+    out->restitution = bounce ? pl_record_number(r, bounce->value) : 0;
     out->minus = r->model->lambda_minus;
   }
 }

@@ -221,6 +221,7 @@ options : %empty                      { $$ = pl_ast_make(p, PL_AST_LIST, @$); }
 friction : %empty                     { $$ = pl_ast_make(p, PL_AST_LIST, @$); }
   | friction ',' WORD_STATIC expr     { $$ = APPEND($1, 0, pl_ast_option(p, "static", @4, $4, NULL), @$); }
   | friction ',' WORD_SURFACE expr    { $$ = APPEND($1, 0, pl_ast_option(p, "surface", @4, $4, NULL), @$); }
+  | friction ',' AT expr              { $$ = APPEND($1, 0, pl_ast_option(p, "at", @4, $4, NULL), @$); }
   ;
 relations : relation                  { $$ = LIST($1, @$); }
   | relations ',' relation            { $$ = APPEND($1, ',', $3, @$); }

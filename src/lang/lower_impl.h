@@ -168,6 +168,7 @@ int pl_ast_components(const pl_ast* point);
 void pl_lower_declare(pl_lower* l, const pl_ast* statement);    // first pass: names
 void pl_lower_statement(pl_lower* l, const pl_ast* statement);  // second pass
 void pl_lower_physics(pl_lower* l, const pl_ast* statement);
+void pl_lower_contact(pl_lower* l, const pl_ast* statement);    // restitution, friction
 void pl_lower_start(pl_lower* l, const pl_ast* statement);
 void pl_lower_ask(pl_lower* l, const pl_ast* statement);
 void pl_lower_display(pl_lower* l, const pl_ast* node);  // simulate, plot, animate, sweep, poincare

@@ -345,30 +345,6 @@ void pl_lower_start(pl_lower* l, const pl_ast* s) {
 }
 
 // ---------------------------------------------------------------------------------------------- dispatch
-static void later(pl_lower* l, const pl_ast* s) {
-  // what it says is read all the same, so that its mistakes show
-  pl_span span = pl_ast_span(s);
-  pl_lower_quantity(l, pl_ast_kid(s, 0));
-  const pl_ast* index;
-  const pl_ast* name = pl_ast_label(pl_ast_kid(s, s->kids.n - 1), &index);
-  if (name == NULL) {
-    pl_lower_complain(l, PL_E017, pl_ast_span(pl_ast_kid(s, s->kids.n - 1)), "the label of a constraint is needed here",
-                      "hier ist die Marke einer Zwangsbedingung nötig");
-    return;
-  }
-  if (!pl_scope_rule(l, name->key) && !pl_site_find(l, name->key)) {
-    pl_scope_unknown_label(l, name, "constraint", "Zwangsbedingung", NULL, 0);
-    return;
-  }
-  if (s->token == TOK_FRICTION) {
-    pl_lower_pending(l, PL_E091, "friction", span, "friction is not computed by this version",
-                     "Reibung berechnet diese Version nicht");
-  } else {
-    pl_lower_pending(l, PL_N091, "restitution", span, "this version computes impacts without rebound",
-                     "diese Version rechnet Stöße ohne Rückprall");
-  }
-}
-
 void pl_lower_physics(pl_lower* l, const pl_ast* s) {
   l->mute += s->broken;
   bool results = l->results;
@@ -392,7 +368,7 @@ void pl_lower_physics(pl_lower* l, const pl_ast* s) {
     case TOK_CHOOSE: lower_choose(l, s); break;
     case TOK_BRANCH: lower_branch(l, s); break;
     case TOK_FRICTION:
-    case TOK_RESTITUTION: later(l, s); break;
+    case TOK_RESTITUTION: pl_lower_contact(l, s); break;
     default: break;
   }
   l->results = results;

@@ -439,6 +439,26 @@ static void walk_ask(pl_dim_pass* d, const pl_ask* a) {
   if (!pl_is_poison(a->substitution_left)) equate(d, PL_CLASH_RELATION, a->substitution_left, a->substitution_right);
 }
 
+// Coefficients of contacts are numbers, the velocity of a surface is one.
+static void walk_contacts(pl_dim_pass* d) {
+  const pl_model* m = d->model;
+  for (int i = 0; i < m->restitutions.n; i++) {
+    d->where = m->restitutions.at[i].span;
+    need(d, m->restitutions.at[i].value, pure(d), PL_E033, "a coefficient of restitution is a number",
+         "ein Stoßkoeffizient ist eine Zahl");
+  }
+  for (int i = 0; i < m->frictions.n; i++) {
+    const pl_friction* f = &m->frictions.at[i];
+    d->where = f->span;
+    need(d, f->kinetic, pure(d), PL_E033, "a coefficient of friction is a number", "ein Reibungskoeffizient ist eine Zahl");
+    need(d, f->sticking, pure(d), PL_E033, "a coefficient of friction is a number", "ein Reibungskoeffizient ist eine Zahl");
+    for (int k = 0; k < f->surface.n; k++)
+      need(d, f->surface.at[k], mechanical(d, 1, 0, -1), PL_E033, "a surface has a velocity",
+           "eine Fläche hat eine Geschwindigkeit");
+    walk_point(d, &f->at);
+  }
+}
+
 static void walk_rest(pl_dim_pass* d) {
   const pl_model* m = d->model;
   for (int i = 0; i < m->assumptions.n; i++) {
@@ -477,6 +497,7 @@ static void walk_model(pl_dim_pass* d) {
     d->where = d->model->loads.at[i].span;
     walk_load(d, &d->model->loads.at[i]);
   }
+  walk_contacts(d);
   walk_rest(d);
 }
 

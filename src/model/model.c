@@ -53,6 +53,28 @@ const pl_constraint* pl_model_constraint(const pl_model* m, const char* label) {
   return found;
 }
 
+// Whether a label speaks of a constraint: of itself, or of the family it stands in.
+static bool speaks_of(const pl_model* m, const char* label, const pl_constraint* c) {
+  if (answers(m, &c->name, label) == 2) return true;
+  const char* open = label ? strchr(label, '[') : NULL;
+  size_t stem = open ? (size_t)(open - label) : label ? strlen(label) : 0;
+  // "c" and "c[i]" of a block speak of the family c
+  return label && c->block && c->name.text && strlen(c->name.text) == stem && strncmp(c->name.text, label, stem) == 0 &&
+         (!open || answers(m, &c->name, label) == 1 || strspn(open + 1, "0123456789-") == 0);
+}
+
+const pl_restitution* pl_model_restitution(const pl_model* m, const pl_constraint* c) {
+  for (int i = 0; i < m->restitutions.n; i++)
+    if (speaks_of(m, m->restitutions.at[i].label, c)) return &m->restitutions.at[i];
+  return NULL;
+}
+
+const pl_friction* pl_model_friction(const pl_model* m, const pl_constraint* c) {
+  for (int i = 0; i < m->frictions.n; i++)
+    if (speaks_of(m, m->frictions.at[i].label, c)) return &m->frictions.at[i];
+  return NULL;
+}
+
 const pl_mass* pl_model_mass(const pl_model* m, const char* label) {
   const pl_mass* found = NULL;
   for (int i = 0; i < m->masses.n; i++) {

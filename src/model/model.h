@@ -133,6 +133,24 @@ typedef struct pl_constraint {
   pl_span span;
 } pl_constraint;
 
+// `restitution e on label`: Newton's coefficient of impacts on a one-sided constraint.
+typedef struct pl_restitution {
+  pl_expr value;
+  const char* label;          // of the constraint; "c[3]" for one member of a family, "c" for all
+  pl_block* block;
+  pl_span span;
+} pl_restitution;
+
+// `friction μ, static μs, surface v, at P on label`: Coulomb friction, its normal force that of the constraint.
+typedef struct pl_friction {
+  pl_expr kinetic, sticking;  // sticking: coefficient of static friction, poison: the kinetic one
+  pl_point surface;           // velocity of the surface that it rubs against; n = 0: at rest
+  pl_point at;                // where it acts on a body; n = 0: found from the constraint
+  const char* label;
+  pl_block* block;
+  pl_span span;
+} pl_friction;
+
 typedef struct pl_choose {
   PL_VEC(pl_symbol) coords;
   struct pl_map_equation { pl_expr old; pl_expr map; pl_span span; } * maps;   // x1 = r cos φ; old is a coordinate as expression
@@ -231,6 +249,8 @@ typedef struct pl_model {
   PL_VEC(pl_gravity) gravities;
   PL_VEC(pl_load) loads;
   PL_VEC(pl_constraint) constraints;
+  PL_VEC(pl_restitution) restitutions;
+  PL_VEC(pl_friction) frictions;
   pl_choose choose;
   PL_VEC(pl_condition) branches;
   PL_VEC(pl_init) inits;
@@ -250,6 +270,9 @@ pl_model* pl_model_make(pl_arena* a);
 // Lookups; NULL or 0 when absent.
 const pl_param* pl_model_param(const pl_model* m, pl_symbol s);
 const pl_constraint* pl_model_constraint(const pl_model* m, const char* label);
+// The coefficient that a constraint was given, NULL if none.  A label of a family stands for all its members.
+const pl_restitution* pl_model_restitution(const pl_model* m, const pl_constraint* c);
+const pl_friction* pl_model_friction(const pl_model* m, const pl_constraint* c);
 const pl_mass* pl_model_mass(const pl_model* m, const char* label);
 pl_symbol pl_model_result_symbol(pl_model* m, pl_result_kind kind, const char* label);   // made on first use
 const pl_result_name* pl_model_result_name(const pl_model* m, pl_symbol s);

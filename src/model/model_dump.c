@@ -231,6 +231,21 @@ static void dump_requests(const dumper* d) {
   for (int i = 0; i < m->pending.n; i++) pl_text_addf(d->out, "not computed: %s\n", m->pending.at[i].what);
 }
 
+static void dump_contacts(dumper* d) {
+  const pl_model* m = d->m;
+  for (int i = 0; i < m->restitutions.n; i++)
+    pl_text_addf(d->out, "restitution %s on %s\n", text(d, m->restitutions.at[i].value), m->restitutions.at[i].label);
+  for (int i = 0; i < m->frictions.n; i++) {
+    const pl_friction* f = &m->frictions.at[i];
+    pl_text_addf(d->out, "friction %s", text(d, f->kinetic));
+    if (!pl_is_poison(f->sticking)) pl_text_addf(d->out, ", static %s", text(d, f->sticking));
+    for (int k = 0; k < f->surface.n; k++) pl_text_addf(d->out, "%s%s", k ? ", " : ", surface (", text(d, f->surface.at[k]));
+    for (int k = 0; k < f->at.n; k++)
+      pl_text_addf(d->out, "%s%s", k ? ", " : f->surface.n ? "), at (" : ", at (", text(d, f->at.at[k]));
+    pl_text_addf(d->out, "%s on %s\n", f->surface.n || f->at.n ? ")" : "", f->label);
+  }
+}
+
 void pl_model_dump(pl_text* out, const pl_model* m) {
   dumper d = {out, m};
   if (m->title) pl_text_addf(out, "system \"%s\"\n", m->title);
@@ -241,6 +256,7 @@ void pl_model_dump(pl_text* out, const pl_model* m) {
   dump_masses(&d);
   for (int i = 0; i < m->loads.n; i++) dump_load(&d, &m->loads.at[i]);
   dump_constraints(&d);
+  dump_contacts(&d);
   dump_start(&d);
   dump_requests(&d);
 }

@@ -88,6 +88,17 @@ static void constraints(const slot_walk* w, pl_model* m) {
     one(w, &c->right, PL_SLOT_CONSTRAINT, c->block, c->span);
     one(w, &c->g, PL_SLOT_CONSTRAINT, c->block, c->span);
   }
+  for (int i = 0; i < m->restitutions.n; i++) {
+    pl_restitution* x = &m->restitutions.at[i];
+    one(w, &x->value, PL_SLOT_LOAD, x->block, x->span);
+  }
+  for (int i = 0; i < m->frictions.n; i++) {
+    pl_friction* x = &m->frictions.at[i];
+    one(w, &x->kinetic, PL_SLOT_LOAD, x->block, x->span);
+    one(w, &x->sticking, PL_SLOT_LOAD, x->block, x->span);
+    point(w, &x->surface, x->block, x->span);
+    point(w, &x->at, x->block, x->span);
+  }
   for (int i = 0; i < m->choose.n_maps; i++) {
     one(w, &m->choose.maps[i].old, PL_SLOT_CHOOSE, NULL, m->choose.maps[i].span);
     one(w, &m->choose.maps[i].map, PL_SLOT_CHOOSE, NULL, m->choose.maps[i].span);
