@@ -189,11 +189,15 @@ static void lagrange1_in_coordinates(pl_analysis* d, const pl_ask* ask) {
   }
 }
 
+enum { longest_answer = 4000 };   // operations of a normal form; beyond it the value is given over named intermediates
+
 static void answer_accelerations(pl_analysis* d) {
-  if (!d->solved) return;
   for (int i = 0; i < d->q.n; i++) {
     const pl_variable* c = &d->q.at[i];
-    if (!c->carries || (c->fixed_by >= 0 && !c->by_contact) || pl_is_poison(d->acceleration[i])) continue;
+    if (!c->carries || (c->fixed_by >= 0 && !c->by_contact)) continue;
+    bool open = !d->solved || pl_is_poison(d->acceleration[i]);
+    bool structured = open || pl_op_count(d->pool, d->acceleration[i]) > longest_answer;
+    if ((structured && c->fixed_by < 0 && pl_answer_structured(d, c->a)) || open) continue;
     pl_answer(d, pl_symbol_get(d->pool, c->a)->ascii, d->acceleration[i], pl_f(d, d->acceleration[i], PL_S_QUOTIENT));
   }
 }

@@ -128,8 +128,13 @@ void pl_answer_lagrangian(pl_analysis* d, const pl_ask* ask) {
     pl_answer(d, "L", L, pl_f(d, L, PL_S_ENERGY));
     return;
   }
-  pl_say(d, d->gen.n == 1 ? "Generalized coordinate: {1}." : "Generalized coordinates: {1}.",
-         d->gen.n == 1 ? "Verallgemeinerte Koordinate: {1}." : "Verallgemeinerte Koordinaten: {1}.", 1, names);
+  if (d->gen.n == 0) {
+    pl_say(d, "Nothing is left to choose: the constraints prescribe the whole motion.",
+           "Es bleibt nichts frei: Die Zwangsbedingungen schreiben die ganze Bewegung vor.", 0);
+  } else {
+    pl_say(d, d->gen.n == 1 ? "Generalized coordinate: {1}." : "Generalized coordinates: {1}.",
+           d->gen.n == 1 ? "Verallgemeinerte Koordinate: {1}." : "Verallgemeinerte Koordinaten: {1}.", 1, names);
+  }
   if (mapped) {
     show_maps(d);
     show_velocities(d);
@@ -231,13 +236,22 @@ static void show_second_kind(pl_analysis* d, int i) {
 
 static const long longest_shown = 60;   // operators up to which a solved acceleration is displayed; all are in the values
 
+static const long longest_searched = 1500;   // operators of a normal form up to which a shorter form is looked for
+static const long longest_answer = 150;      // operators up to which the answer is the closed form
+
+// Solved accelerations: in closed form, or over named intermediates.
 static void show_solved(pl_analysis* d, int i) {
-  pl_expr a = d->acceleration[i];
-  if (pl_is_poison(a)) return;
+  pl_expr a = d->solved ? d->acceleration[i] : pl_poison();
+  pl_symbol name = d->q.at[i].a;
+  bool several = d->gen.n > 1;
+  if (pl_is_poison(a) || (several && pl_op_count(d->pool, a) > longest_searched)) {
+    if (pl_show_structured(d, name, a) || pl_is_poison(a)) return;
+  }
   const pl_form* form = pl_f(d, a, PL_S_QUOTIENT);
-  pl_claim_that(d, PL_CLAIM_ONE_TWO, pl_form_value(d->pool, form), pl_sym(d->pool, d->q.at[i].a));
-  if (pl_form_ops(form) <= longest_shown) pl_show_numbered(d, pl_feq(d, pl_fs(d, d->q.at[i].a), form));
-  pl_answer(d, pl_symbol_get(d->pool, d->q.at[i].a)->ascii, a, form);
+  if (several && pl_form_ops(form) > longest_answer && pl_show_structured(d, name, a)) return;
+  pl_claim_that(d, PL_CLAIM_ONE_TWO, pl_form_value(d->pool, form), pl_sym(d->pool, name));
+  if (pl_form_ops(form) <= longest_shown) pl_show_numbered(d, pl_feq(d, pl_fs(d, name), form));
+  pl_answer(d, pl_symbol_get(d->pool, name)->ascii, a, form);
 }
 
 // With the energy the motion of one degree of freedom is an integral:  t = ∫ dq sqrt(M / (2 (E - V))).
@@ -264,8 +278,8 @@ void pl_answer_lagrange2(pl_analysis* d, const pl_ask* ask) {
   if (without_reduction(d)) return;
   bool named = d->gen.n == 1 && show_with_named_mass(d, d->gen.at[0]);
   for (int k = 0; k < d->gen.n && !named; k++) show_second_kind(d, d->gen.at[k]);
-  for (int k = 0; k < d->gen.n && d->solved; k++) show_solved(d, d->gen.at[k]);
-  if (d->gen.n > 0 && !d->solved) {
+  for (int k = 0; k < d->gen.n; k++) show_solved(d, d->gen.at[k]);
+  if (d->gen.n > 0 && !d->solved && !pl_structure_of_accelerations(d)) {
     pl_say(d, "The accelerations are not determined by these equations: the mass matrix is singular.",
            "Die Beschleunigungen sind durch diese Gleichungen nicht bestimmt: die Massenmatrix ist singulär.", 0);
     d->section->not_found = true;

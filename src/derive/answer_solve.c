@@ -103,7 +103,8 @@ static void show_twice_differentiated(pl_analysis* d, int k) {
   pl_claim_that(d, PL_CLAIM_MOTION, inserted, pl_int(d->pool, 0));
 }
 
-static const long longest_lambda = 150;   // operations up to which a multiplier is written out in the text
+static const long longest_lambda = 150;     // operations up to which a multiplier is written out in the text
+static const long longest_searched = 4000;  // of the normal form, up to which a shorter one is looked for
 
 // λ with the state eliminated, displayed with its number.
 // Where the closed form is too long to read: one equation of motion, solved for it.
@@ -120,13 +121,22 @@ static void show_row(pl_analysis* d, int k) {
 
 static void show_lambda(pl_analysis* d, int k) {
   pl_bond* l = &d->g.at[k];
-  if (!l->lambda_known) {
+  bool solved = l->lambda_known, long_at_sight = solved && pl_op_count(d->pool, l->lambda_value) > longest_searched;
+  if ((!solved || long_at_sight) && pl_show_structured(d, l->lambda, solved ? l->lambda_value : pl_poison())) {
+    d->section->values.at[d->section->values.n - 1].of = l->source->name.text;
+    return;
+  }
+  if (!solved) {
     pl_say(d, "{1} is not determined by the equations in closed form.", "{1} ist durch die Gleichungen nicht geschlossen bestimmt.", 1,
            pl_fs(d, l->lambda));
     d->section->not_found = true;
     return;
   }
   const pl_form* form = pl_positive_first(d, pl_f(d, l->lambda_value, l->contact ? PL_S_EQUATION : PL_S_QUOTIENT));
+  if (pl_form_ops(form) > longest_lambda && pl_show_structured(d, l->lambda, l->lambda_value)) {
+    d->section->values.at[d->section->values.n - 1].of = l->source->name.text;
+    return;
+  }
   if (pl_form_ops(form) > longest_lambda) {
     show_row(d, k);
     pl_say(d, pl_format(d->arena, "The linear equations for the multipliers and accelerations are solved; {1} takes %ld operations to write "
@@ -145,6 +155,11 @@ static void show_lambda(pl_analysis* d, int k) {
 }
 
 static void solve_lambda(pl_analysis* d, int k) {
+  if (pl_say_shared(d, k)) return;
+  if (pl_structure_is_told(d) && d->g.at[k].fixes < 0) {
+    show_lambda(d, k);
+    return;
+  }
   if (d->g.at[k].fixes < 0 || d->g.at[k].contact) {
     show_twice_differentiated(d, k);
   } else {
@@ -155,7 +170,6 @@ static void solve_lambda(pl_analysis* d, int k) {
 }
 
 // ---------------------------------------------------------------------------------------------- accelerations
-  if (pl_say_shared(d, k)) return;
 static void show_acceleration(pl_analysis* d, int i) {
   const pl_form* form = pl_f(d, d->acceleration[i], PL_S_QUOTIENT);
   pl_step* step = pl_show_numbered(d, pl_feq(d, pl_fs(d, d->q.at[i].a), form));
@@ -170,6 +184,14 @@ static bool no_acceleration(pl_analysis* d, int i) {
   pl_say(d, "No closed form was found for it.", "Dafür wurde keine geschlossene Form gefunden.", 0);
   d->section->not_found = true;
   return true;
+}
+
+// Too long to be written out: over named intermediates.
+static bool long_acceleration(pl_analysis* d, int i) {
+  pl_expr a = d->acceleration[i];
+  bool known = d->solved && !pl_is_poison(a);
+  if (known && pl_op_count(d->pool, a) <= longest_searched && pl_form_ops(pl_f(d, a, PL_S_QUOTIENT)) <= longest_lambda) return false;
+  return pl_show_structured(d, d->q.at[i].a, known ? a : pl_poison());
 }
 
 static void say_inserted(pl_analysis* d, int i) {
@@ -348,6 +370,7 @@ void pl_answer_solve(pl_analysis* d, const pl_ask* ask) {
     solve_motion(d, i);
   } else if (i >= 0 && d->q.at[i].a.id == s.id) {
     pl_section_open(d, ask, "Acceleration", "Beschleunigung");
+    if (long_acceleration(d, i)) return;
     if (no_acceleration(d, i)) return;
     say_inserted(d, i);
     show_acceleration(d, i);

@@ -71,7 +71,7 @@ static void define(pl_system_of_motion* s, pl_symbol symbol, pl_expr value) {
 
 // Coordinates and velocities that follow from others: fixed, closed contacts, mapped.
 static void definitions(pl_analysis* d, pl_system_of_motion* s) {
-  s->definition = PL_ARRAY(d->arena, pl_definition, 2 * d->q.n + d->model->lets.n);
+  s->definition = PL_ARRAY(d->arena, pl_definition, 2 * d->q.n + d->model->lets.n + pl_structure_definitions(d, NULL, 0));
   for (int k = 0; k < d->model->lets.n; k++) {
     const pl_let* l = &d->model->lets.at[k];
     if (l->n_args == 0 && !l->inserted) define(s, l->symbol, l->value);
@@ -83,7 +83,12 @@ static void definitions(pl_analysis* d, pl_system_of_motion* s) {
     define(s, c->q, value);
     define(s, c->v, pl_dt(d->pool, value));
   }
+  // named intermediates
+  s->n_definitions += pl_structure_definitions(d, s->definition + s->n_definitions, pl_structure_definitions(d, NULL, 0));
 }
+
+// The motion is unique: solved in closed form, or by a system with named entries whose pivots do not vanish.
+static bool is_determined(const pl_analysis* d) { return d->solved || d->of_multipliers || d->of_accelerations; }
 
 static bool contains_motion(pl_analysis* d, pl_expr e) {
   return pl_has_role(d->pool, e, PL_R_VELOCITY) || pl_has_role(d->pool, e, PL_R_ACCELERATION);
@@ -207,7 +212,7 @@ static pl_certifier* on_the_motion(pl_analysis* d) {
   pl_system_of_motion s = {0};
   definitions(d, &s);
   rows(d, &s);
-  if (!d->solved) s.n = 0;
+  if (!is_determined(d)) s.n = 0;
   split_rows(d, &s);
   pl_certifier_setup setup = {.definitions = s.definition,
                               .n_definitions = s.n_definitions, .n_unknowns = s.n, .unknowns = s.unknown, .A = s.A, .b = s.b};
@@ -244,7 +249,7 @@ static void check_kind(pl_analysis* d, pl_claim_kind kind, pl_certifier* motion,
   for (int i = 0; i < d->claims.n; i++) {
     const pl_claim* c = &d->claims.at[i];
     if (c->kind != kind || pl_is_poison(c->shown) || pl_is_poison(c->reference)) continue;
-    if (!d->solved && !c->own_domain && needs_motion(d, c)) continue;
+    if (!is_determined(d) && !c->own_domain && needs_motion(d, c)) continue;
     pl_certificate got = pl_certify(c->own_domain ? free_points : motion, c->shown, c->reference);
     check.formulas++;
     check.points += got.points_mod + got.points_arb;

@@ -41,6 +41,9 @@ typedef struct pl_particle {   // a point mass or the centre of a body
   pl_expr at[3];               // position along the axes
 } pl_particle;
 
+// ∇g_implied = sum over all constraints of c ∇g.
+typedef struct pl_dependence { int implied; pl_expr* c; } pl_dependence;   // c: (n_g)
+
 // The orthonormal frame that a position map implies: e_i along dX/dq_i.
 typedef struct pl_frame {
   int n;
@@ -57,6 +60,8 @@ typedef struct pl_claim {
   bool own_domain;             // compare for free symbols, not on the motion
 } pl_claim;
 
+typedef struct pl_structure pl_structure;   // a linear system with named entries, structured_impl.h
+
 typedef struct pl_analysis {
   pl_job* job;
   pl_arena* arena;
@@ -69,12 +74,12 @@ typedef struct pl_analysis {
 
   PL_VEC(pl_variable) q;
   PL_VEC(pl_bond) g;
+  PL_VEC(pl_dependence) dependences;
   PL_VEC(pl_particle) particle;
   PL_VEC(pl_fact) facts;
   double* value;               // numbers of parameters, start values; NaN unknown       (by symbol id)
   int n_value;                 // symbols it was made for
 
-  PL_VEC(pl_dependence) dependences;
   pl_expr T, V, L;             // in all coordinates, raw
   pl_expr* force;              // generalized forces without potential                     (n_q)
   bool dissipative;            // some force has no potential or is a Rayleigh function
@@ -97,6 +102,8 @@ typedef struct pl_analysis {
   int number_lambda, number_gdd, number_acceleration;
   PL_VEC(pl_claim) claims;
   pl_map* told;                // what has been said already (notes, definitions)
+  bool multipliers_tried, accelerations_tried;
+  pl_structure *of_multipliers, *of_accelerations;   // made when a closed form is too long; NULL if not found
 } pl_analysis;
 
 // ---------------------------------------------------------------------------------------------- setup.c
@@ -127,13 +134,6 @@ pl_expr pl_bond_acceleration(pl_analysis* d, int link); // twice differentiated 
 // The equation of one coordinate solved for multiplier k, accelerations and other multipliers left as names: short where the closed
 // form is long.  The row with the fewest other multipliers is taken; its coordinate in *coordinate.  Poison if there is none.
 pl_expr pl_multiplier_by_row(pl_analysis* d, int link, int* coordinate);
-// claims.c
-void pl_claim_that(pl_analysis* d, pl_claim_kind kind, pl_expr shown, pl_expr reference);
-void pl_claim_free(pl_analysis* d, pl_claim_kind kind, pl_expr shown, pl_expr reference);
-void pl_claims_check(pl_analysis* d);
-
-// ---------------------------------------------------------------------------------------------- writing (steps.c)
-pl_section* pl_section_open(pl_analysis* d, const pl_ask* ask, const char* en, const char* de);
 // redundant.c
 void pl_depend(pl_analysis* d, int implied, int m, const int* row, const pl_expr* c, int place);
 void pl_share_forces(pl_analysis* d);
@@ -147,7 +147,15 @@ pl_structure* pl_structure_of_accelerations(pl_analysis* d);
 bool pl_show_structured(pl_analysis* d, pl_symbol u, pl_expr closed);
 // The same without display: only the value.
 bool pl_answer_structured(pl_analysis* d, pl_symbol u);
+bool pl_structure_is_told(const pl_analysis* d);        // the system of the multipliers was displayed
 int pl_structure_definitions(pl_analysis* d, pl_definition* out, int max);   // names in order, for the points of the motion
+// claims.c
+void pl_claim_that(pl_analysis* d, pl_claim_kind kind, pl_expr shown, pl_expr reference);
+void pl_claim_free(pl_analysis* d, pl_claim_kind kind, pl_expr shown, pl_expr reference);
+void pl_claims_check(pl_analysis* d);
+
+// ---------------------------------------------------------------------------------------------- writing (steps.c)
+pl_section* pl_section_open(pl_analysis* d, const pl_ask* ask, const char* en, const char* de);
 void pl_heading(pl_analysis* d, const char* en, const char* de);
 // Sentences; {1}.. are inserts.
 pl_step* pl_say(pl_analysis* d, const char* en, const char* de, int n, ...);            // inserts: const pl_form*

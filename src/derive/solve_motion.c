@@ -5,7 +5,7 @@
 #include "derive/derive_impl.h"
 
 // Largest number of terms in a minor before the solver gives up and the structured form is shown instead.
-static const long max_terms = 50000;
+static const long max_terms = 3000;
 
 pl_expr pl_bond_acceleration(pl_analysis* d, int k) {
   const pl_bond* l = &d->g.at[k];
@@ -197,6 +197,9 @@ static pl_linear collect_second_kind(pl_analysis* d) {
   return s;
 }
 
+// A longer one is the determinant of a definite matrix, G M^-1 G^T or M: its sign says nothing that a reader would assume.
+static const long longest_denominator = 60;
+
 // What is divided by must not vanish: proving its sign puts the assumptions on record ("used: m1 > 0, m2 > 0").
 static void record_denominators(pl_analysis* d) {
   for (int k = 0; k < d->g.n; k++) {
@@ -204,7 +207,7 @@ static void record_denominators(pl_analysis* d) {
     int sign;
     if (!d->g.at[k].lambda_known) continue;
     pl_alg_fraction(d->tower, d->g.at[k].lambda_value, &num, &den);
-    if (!pl_is_poison(den) && !pl_is_number(d->pool, den)) pl_alg_sign(d->tower, den, false, &sign);
+    if (!pl_is_poison(den) && !pl_is_number(d->pool, den) && pl_op_count(d->pool, den) <= longest_denominator) pl_alg_sign(d->tower, den, false, &sign);
   }
 }
 
