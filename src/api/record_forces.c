@@ -2,14 +2,6 @@
 // potentials of gravity and springs, generalized forces Q_i = F . dX/dq_i and Q_i = -dR/dv_i.
 #include "api/record_impl.h"
 
-static pl_expr squared_speed(pl_pool* p, const pl_point* at) {
-  pl_expr sum = pl_int(p, 0);
-  for (int j = 0; j < at->n; j++) sum = pl_add(p, sum, pl_square(p, pl_dt(p, at->at[j])));
-  return sum;
-}
-
-static pl_expr half(pl_pool* p, pl_expr a, pl_expr b) { return pl_mul_n(p, (pl_expr[]){pl_ratio(p, 1, 2), a, b}, 3); }
-
 static pl_group* group_of(pl_recorder* r, const pl_block* block) {
   for (int i = 0; i < r->groups.n; i++) {
     if (r->groups.at[i]->block == block) return r->groups.at[i];
@@ -18,41 +10,23 @@ static pl_group* group_of(pl_recorder* r, const pl_block* block) {
 }
 
 static void add_mass(pl_recorder* r, pl_group* g, pl_expr mass, const pl_point* at) {
-  pl_pool* p = r->pool;
-  g->T = pl_add(p, g->T, half(p, mass, squared_speed(p, at)));
-  for (int j = 0; j < r->model->gravities.n; j++) {
-    const pl_gravity* field = &r->model->gravities.at[j];
-    if (field->axis >= at->n) continue;
-    pl_expr V = pl_mul_n(p, (pl_expr[]){pl_int(p, -field->sign), mass, field->g, at->at[field->axis]}, 4);
-    g->V = pl_add(p, g->V, V);
-  }
+  g->T = pl_add(r->pool, g->T, pl_mass_kinetic(r->pool, mass, at->at, at->n));
+  g->V = pl_add(r->pool, g->V, pl_mass_weight(r->model, mass, at->at, at->n));
 }
 
 // Distance of two points; on one line it is |difference|.
 static pl_expr distance(pl_recorder* r, const pl_point* a, const pl_point* b) {
-  pl_pool* p = r->pool;
-  pl_expr sum = pl_int(p, 0), only = pl_int(p, 0);
-  int n = 0;
-  for (int j = 0; j < a->n; j++) {
-    pl_expr d = pl_sub(p, a->at[j], b->at[j]);
-    if (pl_is_zero_node(p, d)) continue;
-    sum = pl_add(p, sum, pl_square(p, d));
-    only = d;
-    n++;
-  }
-  return n == 1 ? pl_call(p, PL_ABS, only) : pl_sqrt(p, sum);
+  pl_expr squared, only;
+  return pl_points_apart(r->pool, a, b, &squared, &only) == 1 ? pl_call(r->pool, PL_ABS, only) : pl_sqrt(r->pool, squared);
 }
 
-static void add_spring(pl_recorder* r, pl_group* g, const pl_load* l) {
-  pl_pool* p = r->pool;
-  bool relaxed_at_zero = pl_is_poison(l->rest) || pl_is_zero_node(p, l->rest);
-  pl_expr square = pl_int(p, 0);
-  if (relaxed_at_zero) {
-    for (int j = 0; j < l->a.n; j++) square = pl_add(p, square, pl_square(p, pl_sub(p, l->a.at[j], l->b.at[j])));
+static void add_potential(pl_recorder* r, pl_group* g, const pl_load* l) {
+  pl_expr V = pl_load_potential(r->pool, l);
+  if (pl_is_poison(V)) {
+    r->dissipative = true;
   } else {
-    square = pl_square(p, pl_sub(p, distance(r, &l->a, &l->b), l->rest));
+    g->V = pl_add(r->pool, g->V, V);
   }
-  g->V = pl_add(p, g->V, half(p, l->value, square));
 }
 
 void pl_group_energies(pl_recorder* r) {
@@ -62,17 +36,17 @@ void pl_group_energies(pl_recorder* r) {
     const pl_body* b = &m->bodies.at[i];
     pl_group* g = group_of(r, b->block);
     add_mass(r, g, b->mass, &b->centre);
-    g->T = pl_add(r->pool, g->T, half(r->pool, b->inertia, pl_square(r->pool, pl_dt(r->pool, b->angle))));
+    g->T = pl_add(r->pool, g->T, pl_body_kinetic(r->pool, b->inertia, b->angle));
   }
   for (int i = 0; i < m->loads.n; i++) {
     const pl_load* l = &m->loads.at[i];
     pl_group* g = group_of(r, l->block);
     switch (l->kind) {
-      case PL_L_POTENTIAL: g->V = pl_add(r->pool, g->V, l->value); break;
+      case PL_L_POTENTIAL: case PL_L_FORCE: case PL_L_TORQUE: add_potential(r, g, l); break;
       case PL_L_KINETIC: g->T = pl_add(r->pool, g->T, l->value); break;
       case PL_L_LAGRANGIAN: g->L = pl_add(r->pool, g->L, l->value); break;
-      case PL_L_SPRING: add_spring(r, g, l); break;
-      case PL_L_FORCE: case PL_L_TORQUE: case PL_L_RAYLEIGH: case PL_L_DAMPER: case PL_L_DRAG: r->dissipative = true; break;
+      case PL_L_SPRING: g->V = pl_add(r->pool, g->V, pl_spring_energy(r->pool, l, distance(r, &l->a, &l->b))); break;
+      case PL_L_RAYLEIGH: case PL_L_DAMPER: case PL_L_DRAG: r->dissipative = true; break;
     }
   }
 }
@@ -105,6 +79,7 @@ static void work(pl_recorder* r, pl_group* g, const pl_expr* force, const pl_exp
 
 static void add_load(pl_recorder* r, pl_group* g, const pl_load* l) {
   pl_pool* p = r->pool;
+  if (!pl_is_poison(pl_load_potential(p, l))) return;   // among the potentials
   switch (l->kind) {
     case PL_L_FORCE: work(r, g, l->vector, l->a.at, l->a.n); break;
     case PL_L_TORQUE: {
@@ -112,9 +87,9 @@ static void add_load(pl_recorder* r, pl_group* g, const pl_load* l) {
       work(r, g, &l->value, &angle, 1);
       break;
     }
-    case PL_L_RAYLEIGH: dissipate(r, g, l->value); break;
-    case PL_L_DAMPER: dissipate(r, g, half(p, l->value, pl_square(p, pl_dt(p, distance(r, &l->a, &l->b))))); break;
-    case PL_L_DRAG: dissipate(r, g, half(p, l->value, squared_speed(p, &l->a))); break;
+    case PL_L_RAYLEIGH: case PL_L_DAMPER: case PL_L_DRAG:
+      dissipate(r, g, pl_load_dissipation(p, l, l->kind == PL_L_DAMPER ? distance(r, &l->a, &l->b) : pl_poison()));
+      break;
     case PL_L_POTENTIAL: case PL_L_KINETIC: case PL_L_LAGRANGIAN: case PL_L_SPRING: break;
   }
 }

@@ -4,29 +4,14 @@
 
 #include "derive/derive_impl.h"
 
-static pl_expr squared_speed(pl_analysis* d, const pl_expr* at, int n) {
-  pl_expr sum = pl_int(d->pool, 0);
-  for (int j = 0; j < n; j++) sum = pl_add(d->pool, sum, pl_square(d->pool, pl_dt(d->pool, at[j])));
-  return sum;
-}
-
-static pl_expr half(pl_analysis* d, pl_expr a, pl_expr b) {
-  return pl_mul_n(d->pool, (pl_expr[]){pl_ratio(d->pool, 1, 2), a, b}, 3);
-}
-
 static void add_to(pl_analysis* d, pl_expr* sum, pl_expr term) { *sum = pl_add(d->pool, *sum, term); }
 
 static void masses(pl_analysis* d) {
   for (int k = 0; k < d->particle.n; k++) {
     const pl_particle* m = &d->particle.at[k];
-    add_to(d, &d->T, half(d, m->mass, squared_speed(d, m->at, m->n)));
-    if (!pl_is_poison(m->angle)) add_to(d, &d->T, half(d, m->inertia, pl_square(d->pool, pl_dt(d->pool, m->angle))));
-    for (int j = 0; j < d->model->gravities.n; j++) {
-      const pl_gravity* g = &d->model->gravities.at[j];
-      if (g->axis >= m->n) continue;
-      pl_expr weight = pl_mul_n(d->pool, (pl_expr[]){pl_int(d->pool, -g->sign), m->mass, g->g, m->at[g->axis]}, 4);
-      add_to(d, &d->V, weight);
-    }
+    add_to(d, &d->T, pl_mass_kinetic(d->pool, m->mass, m->at, m->n));
+    if (!pl_is_poison(m->angle)) add_to(d, &d->T, pl_body_kinetic(d->pool, m->inertia, m->angle));
+    add_to(d, &d->V, pl_mass_weight(d->model, m->mass, m->at, m->n));
   }
 }
 
@@ -42,46 +27,17 @@ static pl_expr plain_distance(pl_analysis* d, pl_expr e) {
 
 // Distance of two points; on one line with a known order there are no bars.
 static pl_expr distance(pl_analysis* d, const pl_point* a, const pl_point* b) {
-  pl_pool* p = d->pool;
-  pl_expr sum = pl_int(p, 0), only = pl_int(p, 0);
-  int n = 0;
-  for (int j = 0; j < a->n; j++) {
-    pl_expr difference = pl_sub(p, a->at[j], b->at[j]);
-    if (pl_is_zero_node(p, difference)) continue;
-    sum = pl_add(p, sum, pl_square(p, difference));
-    only = difference;
-    n++;
-  }
-  if (n != 1) return plain_distance(d, pl_sqrt(p, sum));
+  pl_expr squared, only;
+  if (pl_points_apart(d->pool, a, b, &squared, &only) != 1) return plain_distance(d, pl_sqrt(d->pool, squared));
   int sign;
-  if (pl_alg_sign(d->tower, only, true, &sign) == PL_YES) return sign < 0 ? pl_neg(p, only) : only;
-  return pl_call(p, PL_ABS, only);
+  if (pl_alg_sign(d->tower, only, true, &sign) == PL_YES) return sign < 0 ? pl_neg(d->pool, only) : only;
+  return pl_call(d->pool, PL_ABS, only);
 }
 
-static pl_expr squared_distance(pl_analysis* d, const pl_point* a, const pl_point* b) {
-  pl_expr sum = pl_int(d->pool, 0);
-  for (int j = 0; j < a->n; j++) sum = pl_add(d->pool, sum, pl_square(d->pool, pl_sub(d->pool, a->at[j], b->at[j])));
-  return sum;
-}
+static bool has_rest(const pl_analysis* d, const pl_load* l) { return !pl_is_poison(l->rest) && !pl_is_zero_node(d->pool, l->rest); }
 
 static void spring(pl_analysis* d, const pl_load* l) {
-  pl_expr square = pl_is_zero_node(d->pool, l->rest) || pl_is_poison(l->rest)
-                       ? squared_distance(d, &l->a, &l->b)
-                       : pl_square(d->pool, pl_sub(d->pool, distance(d, &l->a, &l->b), l->rest));
-  add_to(d, &d->V, half(d, l->value, square));
-}
-
-// How fast two points part, squared: on one line no absolute value is needed.
-static pl_expr squared_rate(pl_analysis* d, const pl_point* a, const pl_point* b) {
-  pl_expr only = pl_poison();
-  int n = 0;
-  for (int j = 0; j < a->n; j++) {
-    pl_expr difference = pl_sub(d->pool, a->at[j], b->at[j]);
-    if (pl_is_zero_node(d->pool, difference)) continue;
-    only = difference;
-    n++;
-  }
-  return pl_square(d->pool, pl_dt(d->pool, n == 1 ? only : distance(d, a, b)));
+  add_to(d, &d->V, pl_spring_energy(d->pool, l, has_rest(d, l) ? distance(d, &l->a, &l->b) : pl_poison()));
 }
 
 // A force on a point does the work F . dX.
@@ -110,17 +66,36 @@ static void dissipate(pl_analysis* d, pl_expr R) {
   d->dissipative = true;
 }
 
+// A force that is the same everywhere has a potential.
+static bool uniform(pl_analysis* d, const pl_load* l) {
+  pl_expr V = pl_load_potential(d->pool, l);
+  if (pl_is_poison(V)) return false;
+  add_to(d, &d->V, V);
+  return true;
+}
+
+// On one line the rate needs no absolute value, and no sign is assumed for it.
+static void damper(pl_analysis* d, const pl_load* l) {
+  pl_expr squared, only;
+  bool line = pl_points_apart(d->pool, &l->a, &l->b, &squared, &only) == 1;
+  dissipate(d, pl_load_dissipation(d->pool, l, line ? pl_poison() : distance(d, &l->a, &l->b)));
+}
+
 static void load(pl_analysis* d, const pl_load* l) {
   switch (l->kind) {
-    case PL_L_FORCE: force(d, l); break;
-    case PL_L_TORQUE: torque(d, l); break;
+    case PL_L_FORCE:
+      if (!uniform(d, l)) force(d, l);
+      break;
+    case PL_L_TORQUE:
+      if (!uniform(d, l)) torque(d, l);
+      break;
     case PL_L_POTENTIAL: add_to(d, &d->V, l->value); break;
     case PL_L_KINETIC: add_to(d, &d->T, l->value); break;
     case PL_L_LAGRANGIAN: add_to(d, &d->L, l->value); break;
-    case PL_L_RAYLEIGH: dissipate(d, l->value); break;
     case PL_L_SPRING: spring(d, l); break;
-    case PL_L_DAMPER: dissipate(d, half(d, l->value, squared_rate(d, &l->a, &l->b))); break;
-    case PL_L_DRAG: dissipate(d, half(d, l->value, squared_speed(d, l->a.at, l->a.n))); break;
+    case PL_L_RAYLEIGH:
+    case PL_L_DRAG: dissipate(d, pl_load_dissipation(d->pool, l, pl_poison())); break;
+    case PL_L_DAMPER: damper(d, l); break;
   }
 }
 

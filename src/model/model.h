@@ -317,6 +317,18 @@ const char* pl_unit_explain(pl_arena* a, pl_pool* p, const char* text, pl_langua
 // values and elements of families follow from their coordinate).  false: not known, or the model uses no units.
 bool pl_model_dimension(const pl_model* m, pl_expr e, pl_dimension* out);
 
+// ---------------------------------------------------------------------------------------------- physics of loads (loads.c)
+pl_expr pl_mass_kinetic(pl_pool* p, pl_expr mass, const pl_expr* at, int n);           // m v²/2
+pl_expr pl_body_kinetic(pl_pool* p, pl_expr inertia, pl_expr angle);                   // J α'²/2
+pl_expr pl_mass_weight(const pl_model* m, pl_expr mass, const pl_expr* at, int n);     // potential in all the gravities
+// Along how many axes two points differ; the sum of the squares, and the difference along the last of them.
+int pl_points_apart(pl_pool* p, const pl_point* a, const pl_point* b, pl_expr* squared, pl_expr* only);
+pl_expr pl_spring_energy(pl_pool* p, const pl_load* l, pl_expr length);                // length: distance of its ends
+// Rayleigh's function R of a damper, of drag, or as given: Q = -dR/dv; poison for other loads.
+pl_expr pl_load_dissipation(pl_pool* p, const pl_load* l, pl_expr length);
+// The potential of a load: as given, or of a force or torque that is the same everywhere and always; poison if it is none.
+pl_expr pl_load_potential(pl_pool* p, const pl_load* l);
+
 // --set NAME=VALUE[unit]: replaces a parameter's value; NAME=EXPR over other parameters stays symbolic.
 pleuel_status pl_model_set(pl_job* job, pl_model* m, const char* name, pl_expr value);
 
