@@ -1,0 +1,307 @@
+// What is drawn beside the system itself: axes, angles, trails, and arrows of forces and velocities.
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene/scene_impl.h"
+
+enum { ARC = 17, MOST_TRAILS = 6, MOST_ARROWS = 40 };
+
+// ---------------------------------------------------------------------------------------------- axes
+static void add_axes(pl_stage* s) {
+  int n = s->model->n_axes;
+  double lo[2] = {INFINITY, INFINITY}, hi[2] = {-INFINITY, -INFINITY}, home[3] = {0, 0, 0};
+  for (int i = 0; i < 8; i++) {
+    double x[3], xy[2];
+    for (int j = 0; j < 3; j++) x[j] = i >> j & 1 ? s->hi[j] : s->lo[j];
+    pl_project(&s->view, x, xy);
+    for (int k = 0; k < 2; k++) lo[k] = fmin(lo[k], xy[k]), hi[k] = fmax(hi[k], xy[k]);
+  }
+  double length = 0.22 * s->size;
+  // far from the origin the axes stand beside the motion
+  for (int j = 0; j < 3; j++) {
+    double span = s->hi[j] - s->lo[j];
+    if (s->lo[j] > 0.9 * s->size + 0.5 * span) home[j] = s->lo[j] - 0.1 * s->size;
+    if (s->hi[j] < -0.9 * s->size - 0.5 * span) home[j] = s->hi[j] + 0.1 * s->size;
+  }
+  if (n < 2) home[1] = s->lo[1] - 0.3 * s->size;
+  for (int j = 0; j < n; j++) {
+    if (hypot(s->view.e[j][0], s->view.e[j][1]) < 1e-9) continue;
+    double tip[3] = {home[0], home[1], home[2]};
+    tip[j] += length;
+    pl_part* p = pl_stage_add(s, PL_SHAPE_AXIS, s->model->axes[j].name, "");
+    p->spot[0] = pl_spot_fixed(home);
+    p->spot[1] = pl_spot_fixed(tip);
+  }
+}
+
+// ---------------------------------------------------------------------------------------------- angles
+typedef struct pl_arc { pl_spot spot, pivot; int q; double radius; } pl_arc;
+
+static void place_arc(pl_stage* s, const pl_part* part, double* xyz) {
+  const pl_arc* a = part->data;
+  double* q = &s->value[s->q[a->q].id];
+  double full = *q, turned = remainder(full, 2 * M_PI);
+  for (int i = 0; i < part->n; i++) {
+    double x[3], c[3], d = 0;
+    *q = turned * i / (part->n - 1);
+    pl_stage_spot(s, &a->spot, x);
+    pl_stage_spot(s, &a->pivot, c);
+    for (int j = 0; j < 3; j++) d += (x[j] - c[j]) * (x[j] - c[j]);
+    d = sqrt(d);
+    for (int j = 0; j < 3; j++) xyz[3 * i + j] = d > 0 ? c[j] + (x[j] - c[j]) / d * a->radius : (double)NAN;
+  }
+  *q = full;
+}
+
+// The place of a thing with the maps of `choose` inserted.
+static pl_spot resolved(pl_stage* s, const pl_thing* t) {
+  pl_spot spot = t->spot;
+  for (int round = 0; round < 3; round++) {
+    for (int i = 0; i < s->model->choose.n_maps; i++) {
+      for (int j = 0; j < 3; j++) {
+        if (!pl_is_poison(spot.e[j])) spot.e[j] = pl_subst_expr(s->pool, spot.e[j], s->model->choose.maps[i].old, s->model->choose.maps[i].map);
+      }
+    }
+  }
+  return spot;
+}
+
+static pl_spot half_turn(pl_stage* s, const pl_spot* spot, int q) {
+  pl_spot pivot = *spot;
+  pl_expr opposite = pl_add(s->pool, pl_sym(s->pool, s->q[q]), pl_pi(s->pool));
+  for (int j = 0; j < 3; j++) {
+    if (pl_is_poison(spot->e[j])) continue;
+    pl_expr sum = pl_add(s->pool, spot->e[j], pl_subst1(s->pool, spot->e[j], s->q[q], opposite));
+    pivot.e[j] = pl_mul(s->pool, pl_ratio(s->pool, 1, 2), pl_expand(s->pool, sum, 200));
+  }
+  return pivot;
+}
+
+static void add_angles(pl_stage* s) {
+  for (int k = 0; k < s->n_q && s->n_q <= 24; k++) {
+    if (!s->angle[k] || s->settled[k]) continue;
+    for (int i = 0; i < s->things.n; i++) {
+      pl_spot spot = resolved(s, &s->things.at[i]);
+      bool has = false;
+      for (int j = 0; j < 3; j++) has |= !pl_is_poison(spot.e[j]) && pl_has_symbol(s->pool, spot.e[j], s->q[k]);
+      if (!has || s->things.at[i].kind == PL_THING_BODY) continue;
+      pl_spot pivot = half_turn(s, &spot, k);
+      bool still = true;
+      for (int j = 0; j < 3; j++) still &= pl_is_poison(pivot.e[j]) || !pl_has_symbol(s->pool, pivot.e[j], s->q[k]);
+      double x[3], c[3];
+      pl_stage_spot(s, &spot, x);
+      pl_stage_spot(s, &pivot, c);
+      double d = hypot(hypot(x[0] - c[0], x[1] - c[1]), x[2] - c[2]);
+      if (!still || !(d > 1e-9 * s->size)) continue;
+      pl_arc* arc = PL_NEW(s->arena, pl_arc);
+      *arc = (pl_arc){spot, pivot, k, fmin(0.16 * s->size, 0.5 * d)};
+      pl_part* p = pl_stage_add(s, PL_SHAPE_ANGLE, pl_symbol_get(s->pool, s->q[k])->name, pl_symbol_get(s->pool, s->q[k])->name);
+      p->n = ARC;
+      p->moves = true;
+      p->place = place_arc;
+      p->data = arc;
+      break;
+    }
+  }
+}
+
+// ---------------------------------------------------------------------------------------------- trails
+static void add_trails(pl_stage* s) {
+  int n = 0;
+  if (s->n_frames < 2) return;
+  for (int i = s->things.n - 1; i >= 0 && n < MOST_TRAILS; i--) {
+    const pl_thing* t = &s->things.at[i];
+    if (t->deps.n == 0 || t->kind == PL_THING_POINT) continue;
+    if (s->things.n > 12 && n > 0) return;
+    pl_part* p = pl_stage_add(s, PL_SHAPE_TRAIL, "", t->name);
+    p->spot[0] = t->spot;
+    p->n = s->n_frames;
+    n++;
+  }
+}
+
+// ---------------------------------------------------------------------------------------------- arrows
+typedef enum pl_arrow_kind { PL_ARROW_WEIGHT, PL_ARROW_BOND, PL_ARROW_LOAD, PL_ARROW_VELOCITY } pl_arrow_kind;
+typedef struct pl_arrow {
+  pl_arrow_kind kind;
+  int thing, n;
+  pl_spot spot;
+  const pl_constraint* c;
+  bool minus;                   // λ is shown with the other sign
+  pl_expr e[3];                 // weight, load, velocity: components
+  int q[8];
+  pl_expr slope[8], J[3][8];    // dg/dq, d place/dq
+  double* per_metre;
+} pl_arrow;
+
+// The force of a constraint on a thing: the shortest F with F . dX/dq = λ dg/dq for the coordinates of the thing.
+static bool bond_force(pl_stage* s, const pl_arrow* a, double F[3]) {
+  double A[8 * 3], b[8], lambda = pl_stage_eval(s, pl_sym(s->pool, a->c->lambda));
+  if (a->minus) lambda = -lambda;
+  for (int k = 0; k < a->n; k++) {
+    b[k] = lambda * pl_stage_eval(s, a->slope[k]);
+    for (int j = 0; j < 3; j++) A[3 * k + j] = pl_stage_eval(s, a->J[j][k]);
+    if (!isfinite(b[k])) return false;
+  }
+  return pl_least(A, b, a->n, 3, F);
+}
+
+static bool vector_of(pl_stage* s, const pl_arrow* a, double F[3]) {
+  if (a->kind == PL_ARROW_BOND) return bond_force(s, a, F);
+  for (int j = 0; j < 3; j++) F[j] = pl_is_poison(a->e[j]) ? 0 : pl_stage_eval(s, a->e[j]);
+  return isfinite(F[0] + F[1] + F[2]);
+}
+
+static void place_arrow(pl_stage* s, const pl_part* part, double* xyz) {
+  const pl_arrow* a = part->data;
+  double F[3], x[3];
+  pl_stage_spot(s, &a->spot, x);
+  bool there = vector_of(s, a, F) && *a->per_metre > 0;
+  double size = sqrt(F[0] * F[0] + F[1] * F[1] + F[2] * F[2]);
+  there = there && size > 1e-9 * *a->per_metre * s->size;
+  for (int j = 0; j < 3; j++) {
+    xyz[j] = there ? x[j] : (double)NAN;
+    xyz[3 + j] = there ? x[j] + F[j] / *a->per_metre : (double)NAN;
+  }
+}
+
+static pl_arrow* add_arrow(pl_stage* s, pl_arrow_kind kind, int thing, const char* label, const char* of) {
+  pl_arrow* a = PL_NEW(s->arena, pl_arrow);
+  a->kind = kind;
+  a->thing = thing;
+  if (thing >= 0) a->spot = s->things.at[thing].spot;
+  for (int j = 0; j < 3; j++) a->e[j] = pl_poison();
+  pl_part* p = pl_stage_add(s, kind == PL_ARROW_VELOCITY ? PL_SHAPE_VELOCITY : PL_SHAPE_FORCE, label, of);
+  p->moves = true;
+  p->place = place_arrow;
+  p->data = a;
+  p->hidden = kind == PL_ARROW_VELOCITY;
+  return a;
+}
+
+static void add_weights(pl_stage* s) {
+  for (int g = 0; g < s->model->gravities.n; g++) {
+    const pl_gravity* field = &s->model->gravities.at[g];
+    for (int i = 0; i < s->things.n; i++) {
+      const pl_thing* t = &s->things.at[i];
+      if (pl_is_poison(t->mass)) continue;
+      const char* label = pl_kind_of(s->pool, t->mass) == PL_SYMBOL && pl_kind_of(s->pool, field->g) == PL_SYMBOL
+                              ? pl_format(s->arena, "%s %s", pl_symbol_get(s->pool, pl_symbol_of(s->pool, t->mass))->name,
+                                          pl_symbol_get(s->pool, pl_symbol_of(s->pool, field->g))->name)
+                              : "G";
+      pl_arrow* a = add_arrow(s, PL_ARROW_WEIGHT, i, label, "weight");
+      a->e[field->axis] = pl_mul_n(s->pool, (pl_expr[]){pl_int(s->pool, field->sign), t->mass, field->g}, 3);
+    }
+  }
+}
+
+// A coordinate that several masses share leaves open on which of them a force acts.
+static bool own_coordinates(const pl_stage* s, int thing, const pl_bond* b) {
+  const pl_thing* t = &s->things.at[thing];
+  bool any = false;
+  for (int k = 0; k < t->deps.n; k++) {
+    bool in = false;
+    for (int i = 0; i < b->deps.n; i++) in |= b->deps.at[i] == t->deps.at[k];
+    if (!in) continue;
+    any = true;
+    for (int i = 0; i < s->things.n; i++) {
+      const pl_thing* o = &s->things.at[i];
+      for (int l = 0; i != thing && !pl_is_poison(o->mass) && l < o->deps.n; l++) if (o->deps.at[l] == t->deps.at[k]) return false;
+    }
+  }
+  return any;
+}
+
+static void add_bond_forces(pl_stage* s) {
+  for (int i = 0; i < s->bonds.n; i++) {
+    const pl_bond* b = &s->bonds.at[i];
+    if (!b->c->lambda.id) continue;
+    for (int k = 0; k < s->things.n; k++) {
+      const pl_thing* t = &s->things.at[k];
+      if (pl_is_poison(t->mass) || t->deps.n > 8 || !own_coordinates(s, k, b)) continue;
+      pl_arrow* a = add_arrow(s, PL_ARROW_BOND, k, b->c->multiplier ? b->c->multiplier : b->c->name.text, b->c->name.text);
+      a->c = b->c;
+      a->minus = s->model->lambda_minus;
+      a->n = t->deps.n;
+      for (int l = 0; l < a->n; l++) {
+        a->q[l] = t->deps.at[l];
+        a->slope[l] = pl_diff(s->pool, b->c->g, b->velocity ? s->v[a->q[l]] : s->q[a->q[l]]);
+        for (int j = 0; j < 3; j++) a->J[j][l] = pl_is_poison(t->spot.e[j]) ? pl_int(s->pool, 0) : pl_diff(s->pool, t->spot.e[j], s->q[a->q[l]]);
+      }
+    }
+  }
+}
+
+static void add_load_forces(pl_stage* s) {
+  for (int i = 0; i < s->model->loads.n; i++) {
+    const pl_load* l = &s->model->loads.at[i];
+    if (l->kind != PL_L_FORCE) continue;
+    pl_arrow* a = add_arrow(s, PL_ARROW_LOAD, PL_NO_THING, l->name.generated ? "F" : l->name.text, l->name.text);
+    a->spot = pl_spot_of(s, &l->a);
+    for (int j = 0; j < 3; j++) a->e[j] = l->vector[j];
+  }
+}
+
+static void add_velocities(pl_stage* s) {
+  for (int i = 0; i < s->things.n; i++) {
+    const pl_thing* t = &s->things.at[i];
+    if (t->deps.n == 0 || t->kind == PL_THING_POINT) continue;
+    pl_arrow* a = add_arrow(s, PL_ARROW_VELOCITY, i, "v", t->name);
+    for (int j = 0; j < 3; j++) a->e[j] = pl_is_poison(t->spot.e[j]) ? pl_poison() : pl_dt(s->pool, t->spot.e[j]);
+  }
+}
+
+static int by_size(const void* a, const void* b) {
+  double x = *(const double*)a, y = *(const double*)b;
+  return x < y ? -1 : x > y;
+}
+
+// A quarter of the picture for what is nearly the largest, with a round number for the scale.
+static double scale_of(pl_stage* s, pl_shape_kind kind) {
+  PL_VEC(double) sizes = {0};
+  int stride = s->n_frames > 60 ? s->n_frames / 60 : 1;
+  for (int f = 0; f < s->n_frames; f += stride) {
+    pl_stage_set(s, f);
+    for (int i = 0; i < s->parts.n; i++) {
+      const pl_part* p = &s->parts.at[i];
+      double F[3];
+      if (p->kind != kind || !vector_of(s, p->data, F)) continue;
+      double size = sqrt(F[0] * F[0] + F[1] * F[1] + F[2] * F[2]);
+      if (isfinite(size) && size > 0) pl_push(s->arena, sizes, size);
+    }
+  }
+  if (sizes.n == 0) return 0;
+  qsort(sizes.at, (size_t)sizes.n, sizeof(double), by_size);
+  double wanted = sizes.at[(int)(0.97 * (sizes.n - 1))] / (0.28 * s->size);
+  double power = pow(10, floor(log10(wanted))), digit = wanted / power;
+  return power * (digit <= 1 ? 1 : digit <= 2 ? 2 : digit <= 5 ? 5 : 10);
+}
+
+static double* add_kind(pl_stage* s, pl_shape_kind kind) {
+  double* per_metre = PL_NEW(s->arena, double);
+  *per_metre = scale_of(s, kind);
+  for (int i = 0; i < s->parts.n; i++) {
+    if (s->parts.at[i].kind != kind) continue;
+    pl_arrow* a = (pl_arrow*)(uintptr_t)s->parts.at[i].data;
+    a->per_metre = per_metre;
+  }
+  return per_metre;
+}
+
+void pl_stage_arrows(pl_stage* s) {
+  add_axes(s);
+  pl_stage_set(s, 0);
+  add_angles(s);
+  add_trails(s);
+  if (s->options->forces && s->things.n <= MOST_ARROWS) {
+    add_weights(s);
+    add_bond_forces(s);
+    add_load_forces(s);
+    s->newton_per_metre = *add_kind(s, PL_SHAPE_FORCE);
+  }
+  if (s->options->velocities && s->things.n <= MOST_ARROWS) {
+    add_velocities(s);
+    s->speed_per_metre = *add_kind(s, PL_SHAPE_VELOCITY);
+  }
+}
