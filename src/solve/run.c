@@ -129,20 +129,31 @@ static pleuel_status count_tiny(pl_run* run, double h) {
                  "the motion stays where a force changes its branch, at t = %.9g s: sticking is not computed", run->t);
 }
 
-static pleuel_status step(pl_run* run) {
+// A step of the series: its length, the length wanted, and the root that ended it, -1 none.
+static pleuel_status step_by_series(pl_run* run, double* h, double* wanted, double* root, pl_projection* p) {
   run->use = run->order;
   pl_series_expand(run);
   pl_watch_series(run);
   if (run->n_kinks > 0) pl_kinks_series(run);
-  double h = choose_step(run), wanted = h, root = -1;
+  *h = *wanted = choose_step(run);
+  *root = -1;
+  if (pl_singular_leap(run, left_over(run), h, p)) return pl_singular_record(run);
+  *h = *wanted;
+  if (!(fabs(*h) > run->h_least) && fabs(*h) < fabs(left_over(run))) return too_small(run, *h);
+  return try_steps(run, h, root, p);
+}
+
+static pleuel_status step_implicitly(pl_run* run, double* h, double* wanted, double* root, pl_projection* p) {
+  PL_TRY(pl_radau_step(run, h, root, p));
+  *wanted = *h;
+  if (*root != 0) run->stats.steps_implicit++;
+  return PLEUEL_OK;
+}
+
+static pleuel_status step(pl_run* run) {
+  double h, wanted, root;
   pl_projection p = {0};
-  if (pl_singular_leap(run, left_over(run), &h, &p)) {
-    PL_TRY(pl_singular_record(run));
-  } else {
-    h = wanted;
-    if (!(fabs(h) > run->h_least) && fabs(h) < fabs(left_over(run))) return too_small(run, h);
-    PL_TRY(try_steps(run, &h, &root, &p));
-  }
+  PL_TRY((run->implicit ? step_implicitly : step_by_series)(run, &h, &wanted, &root, &p));
   if (root == 0) return pl_modes_handle(run);
   bool to_end = h == wanted && root < 0 && fabs(wanted) == fabs(left_over(run));
   PL_TRY(pl_rows_grid(run, run->t, run->t + h));

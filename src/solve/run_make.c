@@ -77,8 +77,9 @@ static int order_for(double tol) {
 static void set_options(pl_run* run, const pl_run_options* o) {
   double length = fabs(o->t_end - o->t_0);
   run->options = *o;
-  run->tol_raised = o->tol > 0 && o->tol < least_tol;
   run->tol = o->tol < least_tol ? least_tol : o->tol;
+  if (o->method == PL_METHOD_RADAU) run->tol = pl_radau_tol(o->tol);
+  run->tol_raised = o->tol > 0 && o->tol < run->tol;
   run->order = order_for(run->tol);
   run->stats.order = run->use = run->use_last = run->order;
   run->grid_count = o->count;
@@ -87,7 +88,7 @@ static void set_options(pl_run* run, const pl_run_options* o) {
   // every step is a row: then a motion that one step could follow to its end still shows its shape
   run->h_plain = run->grid_dt == 0 ? length / 50 : (double)INFINITY;
   run->h_least = fmax(1e-13 * length, 4 * DBL_EPSILON * fmax(fabs(o->t_0), fabs(o->t_end)));
-  run->stats.energy_drift = run->stats.energy_0 = run->stats.t_singular = (double)NAN;
+  run->stats.energy_drift = run->stats.energy_0 = run->stats.t_singular = run->stats.t_implicit = (double)NAN;
   run->last_row_t = (double)NAN;
 }
 
@@ -179,6 +180,33 @@ static void first_mode(pl_run* run) {
   }
 }
 
+// The implicit method knows no contacts.
+static bool has_contacts(const pl_setup* s) {
+  bool found = false;
+  for (int c = 0; c < s->n_c; c++) found |= s->links[c].side != 0 || s->links[c].off;
+  for (int e = 0; e < s->n_events; e++)
+    for (int i = 0; i < s->events[e].n_deeds; i++) {
+      pl_deed d = s->events[e].deeds[i].deed;
+      found |= d == PL_DEED_RELEASE || d == PL_DEED_ATTACH;
+    }
+  return found;
+}
+
+static pleuel_status make_implicit(pl_run* run) {
+  pl_method method = run->options.method;
+  if (method == PL_METHOD_TAYLOR) return PLEUEL_OK;
+  if (has_contacts(run->setup)) {
+    if (method == PL_METHOD_AUTO) return PLEUEL_OK;
+    return pl_fail(run->job, PLEUEL_UNSUPPORTED,
+                   "the implicit method does not follow contacts that open and close: use the series");
+  }
+  bool fits = pl_radau_make(run, pl_radau_tol(run->options.tol));
+  run->implicit = fits && method == PL_METHOD_RADAU;
+  if (fits || method == PL_METHOD_AUTO) return PLEUEL_OK;
+  return pl_fail(run->job, PLEUEL_UNSUPPORTED,
+                 "the implicit method takes at most %d coordinates and multipliers: use the series", PL_RADAU_UP_TO);
+}
+
 pleuel_status pl_run_make(pl_job* job, const pl_setup* setup, const pl_run_options* options, pl_run** out) {
   PL_TRY(check_setup(job, setup));
   PL_TRY(check_options(job, options));
@@ -194,6 +222,7 @@ pleuel_status pl_run_make(pl_job* job, const pl_setup* setup, const pl_run_optio
   PL_TRY(reserve_batches(run));
   PL_TRY(check_rows(run));
   PL_TRY(pl_kkt_make(run));
+  PL_TRY(make_implicit(run));
   pl_watch_make(run);
   pl_kinks_make(run);
   first_mode(run);

@@ -143,6 +143,9 @@ typedef struct pl_stats {
   long n_events;
   int rank, rank_start;               // independent active constraints
   double t_singular;                  // where the run met a singular position; NaN: nowhere
+  long steps_implicit;                // of steps, those by the implicit method
+  int order_implicit;                 // its order, 0 where it was not used
+  double t_implicit;                  // when it was first used; NaN: never
   double wall_s;                      // the only number here that is not reproducible
 } pl_stats;
 
@@ -156,6 +159,12 @@ typedef struct pl_sink {
 } pl_sink;
 
 // ---------------------------------------------------------------------------------------------- run
+typedef enum pl_method {
+  PL_METHOD_TAYLOR,   // series
+  PL_METHOD_RADAU,    // implicit, for stiff motions
+  PL_METHOD_AUTO      // series; implicit where that is far cheaper
+} pl_method;
+
 typedef struct pl_run_options {
   double t_0, t_end;                  // s; t_end may lie before t_0 (backwards)
   double tol;                         // relative local error; 0: what the arithmetic can do, which is the least
@@ -163,6 +172,7 @@ typedef struct pl_run_options {
   long count;                         // output grid with this many intervals; 0: none
   double h_max;                       // longest step, s; 0: none
   long max_steps;                     // 0: none
+  pl_method method;                   // PL_METHOD_RADAU: PLEUEL_UNSUPPORTED where a model has contacts or is too large
   pl_sink sink;
   void (*progress)(void* user, double t, double t_end, double h, const pl_stats* stats);   // after every step; or NULL
   void* progress_user;

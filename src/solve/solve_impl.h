@@ -8,6 +8,7 @@
 enum {
   PL_FAMILY_LANES = 8,     // instances computed side by side
   PL_DENSE_UP_TO = 60,     // unknowns: dense below, KLU above
+  PL_RADAU_UP_TO = 400,    // unknowns of the implicit method, whose systems are dense
   PL_RANK_UP_TO = 400,     // constraint rows whose independence is examined at all; above they must be independent
   PL_RANK_WORK = 200000    // rows^2 columns up to which that is done at every point; above: once a mode
 };
@@ -128,6 +129,9 @@ struct pl_run {
   bool* let_go;            // by the impact at work                      (n_c)
   double *jump_v;          // (n_q)
 
+  struct pl_radau* radau;  // the implicit method, NULL without it
+  bool implicit;           // it is at work
+
   // watching
   pl_watch* watch;
   int n_watch;
@@ -232,6 +236,12 @@ pleuel_status pl_modes_enter(pl_run* run);                  // the point in the 
 pleuel_status pl_modes_check(pl_run* run, bool at_start);   // contacts that pull are released
 pleuel_status pl_modes_handle(pl_run* run);                 // what hit[] says, at the point
 void pl_mode_text(const pl_run* run, char* out);
+
+// ---- radau_step.c: the implicit method
+typedef struct pl_radau pl_radau;
+double pl_radau_tol(double asked);                  // the tolerance that it works to
+bool pl_radau_make(pl_run* run, double tol);        // false: too large for it
+pleuel_status pl_radau_step(pl_run* run, double* h, double* root, pl_projection* p);
 
 // ---- run.c
 pleuel_status pl_run_begin_at(pl_run* run, double t);   // from run->q, v
