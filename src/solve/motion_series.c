@@ -96,6 +96,8 @@ bool pl_point_enter(pl_run* run) {
   run->t_series = run->t;
   if (run->factored) {
     // the projection left nodes of q and t and the factor; only v has changed since
+  if (run->at_point && pl_motion_enter(run)) return true;
+  run->at_point = false;
     pl_batches_load_v(&run->motion, run->v, 0);
     pl_batches_sweep(&run->motion, PL_LEVEL_SPEED, 0, true);
   } else {
@@ -110,7 +112,17 @@ bool pl_point_enter(pl_run* run) {
 }
 
 void pl_series_expand(pl_run* run) {
-  for (int k = 1; k < run->order; k++) solve_order(run, k);
+  if (run->at_point) pl_motion_expand(run);
+  else
+    for (int k = 1; k < run->order; k++) solve_order(run, k);
+void pl_point_general(pl_run* run) {
+  if (!run->at_point) return;
+  run->at_point = run->factored = false;
+  pl_point_evaluate(run, run->t, run->q, run->v);
+  pl_independent_choose(run);
+  pl_point_factor(run, true);
+}
+
   // one more coefficient of q comes for nothing
   const double* v = run->V + (size_t)run->order * (size_t)run->n_q;
   double* q = run->Q + (size_t)(run->order + 1) * (size_t)run->n_q;

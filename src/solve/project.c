@@ -74,6 +74,7 @@ static bool project_velocities(pl_run* run, double* v, pl_projection* p) {
 
 pl_projection pl_project(pl_run* run, double t, double* q, double* v) {
   pl_projection p = {0};
+  run->at_point = false;
   pl_sizes_note(run, q, v);
   p.ok = project_positions(run, t, q, v, &p) && project_velocities(run, v, &p);
   run->factored = p.ok && !run->has_W && !run->mass_of_speed;

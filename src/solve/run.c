@@ -65,7 +65,9 @@ static pleuel_status try_steps(pl_run* run, double* h, double* root, pl_projecti
     if (kink >= 0 && (*root < 0 || kink < *root)) *root = -1, *h *= fmin(kink, 1);
     double reach = *root >= 0 ? *root * *h : *h;
     pl_series_at(run, reach, run->trial_q, run->trial_v);
-    *p = pl_project(run, run->t + run->t_low + reach, run->trial_q, run->trial_v);
+    // what follows a root changes the mode: it needs the general way
+    if (*root >= 0 || !pl_motion_project(run, run->t + run->t_low + reach, run->trial_q, run->trial_v, p))
+      *p = pl_project(run, run->t + run->t_low + reach, run->trial_q, run->trial_v);
     if (acceptable(run, p)) {
       *h = reach;
       return PLEUEL_OK;
@@ -110,11 +112,14 @@ static pleuel_status check_energy(pl_run* run) {
 
 static pleuel_status arrive_at_point(pl_run* run) {
   if (!pl_point_enter(run)) return pl_run_undetermined(run);
-  pl_assemble_row_sizes(run);
+  if (!run->at_point) pl_assemble_row_sizes(run);
   pl_singular_watch(run);
   if (pl_is_singular(run)) return pl_run_singular(run);
   if (run->rank > run->rank_mode) run->rank_mode = run->rank;
-  if (run->rank != run->n_active) pl_independent_unique(run);
+  if (run->rank != run->n_active) {
+    if (run->at_point) pl_point_evaluate(run, run->t, run->q, run->v);
+    pl_independent_unique(run);
+  }
   pl_rows_energy(run, false);
   return check_energy(run);
 }
@@ -132,6 +137,7 @@ static pleuel_status count_tiny(pl_run* run, double h) {
 // A step of the series: its length, the length wanted, and the root that ended it, -1 none.
 static pleuel_status step_by_series(pl_run* run, double* h, double* wanted, double* root, pl_projection* p) {
   run->use = run->order;
+  pl_motion_update(run);
   pl_series_expand(run);
   pl_watch_series(run);
   if (run->n_kinks > 0) pl_kinks_series(run);
@@ -144,6 +150,7 @@ static pleuel_status step_by_series(pl_run* run, double* h, double* wanted, doub
 }
 
 static pleuel_status step_implicitly(pl_run* run, double* h, double* wanted, double* root, pl_projection* p) {
+  pl_point_general(run);
   PL_TRY(pl_radau_step(run, h, root, p));
   *wanted = *h;
   if (*root != 0) run->stats.steps_implicit++;
@@ -154,7 +161,10 @@ static pleuel_status step(pl_run* run) {
   double h, wanted, root;
   pl_projection p = {0};
   PL_TRY((run->implicit ? step_implicitly : step_by_series)(run, &h, &wanted, &root, &p));
-  if (root == 0) return pl_modes_handle(run);
+  if (root == 0) {
+    pl_point_general(run);
+    return pl_modes_handle(run);
+  }
   bool to_end = h == wanted && root < 0 && fabs(wanted) == fabs(left_over(run));
   PL_TRY(pl_rows_grid(run, run->t, run->t + h));
   if (run->n_watch > 0) pl_watch_passed(run, h);
@@ -233,6 +243,7 @@ pleuel_status pl_run_begin_at(pl_run* run, double t) {
   PL_TRY(pl_modes_check(run, true));
   pl_rows_energy(run, true);
   return PLEUEL_OK;
+  pl_motion_update(run);
 }
 
 // One-sided constraints are in contact where they are met.

@@ -202,6 +202,7 @@ typedef enum pl_start_trouble {
 } pl_start_trouble;
 
 typedef struct pl_start_report {
+  bool general;                       // without codes (jit.h): every step goes the general way
   pl_start_trouble trouble;
   int n_moves;
   const pl_start_move* moves;         // in order of coordinate, positions first

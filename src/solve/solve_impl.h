@@ -91,6 +91,8 @@ struct pl_run {
   double t_series;         // where it starts
   double *Q_last, *V_last, *A_last, *L_last;   // the series of the step that was taken last
   double t_last, h_last;   // where that starts, and its length
+typedef struct pl_motion pl_motion;   // the motion as codes: motion_impl.h
+
 
   // dense series of what is watched
   double *G_series;        // g of each constraint: coefficient k at k n_c
@@ -108,6 +110,10 @@ struct pl_run {
   double *column;                      // largest scaled entry of each column so far (n_q)
   double *row_long, *row_part;         // longest that a row has been, part of it that it is now   (n_c)
   int *priority, *row_of;
+  // the motion as codes, for the mode at work and those before; NULL: the general way
+  pl_motion *motion_code, *motion_codes;
+  bool at_point;           // their memory belongs to run->t, q, v, or to the end of the step that is tried
+
   bool *row_taken, *taken_kept;
   double smallest, best;   // smallest pivot of the independent rows; largest such so far
   double smallest_here, smallest_before, t_before;   // at the point, at the one before, its time
@@ -212,7 +218,6 @@ void pl_series_at(const pl_run* run, double dt, double* q, double* v);
 void pl_series_lambda_at(const pl_run* run, double dt, double* a, double* lambda);
 
 // ---- project.c
-typedef struct pl_projection { double g_before, g_after, r_before, r_after, move_q, move_v; bool ok; } pl_projection;
 pl_projection pl_project(pl_run* run, double t, double* q, double* v);
 void pl_impulse(pl_run* run, double* v, double factor, double* impulse);   // velocities onto G v + dg/dt = 0; (n_c)
 double pl_norm(const double* x, int n);
@@ -227,6 +232,8 @@ pl_watch* pl_watch_of(pl_run* run, pl_watch_kind kind, int index);
 double pl_watch_force_noise(const pl_run* run, int c);   // rounding error of λ_c
 
 // ---- kinks.c
+typedef struct pl_projection { double g_before, g_after, r_before, r_after, move_q, move_v; bool ok; } pl_projection;
+
 void pl_kinks_make(pl_run* run);
 void pl_kinks_series(pl_run* run);                  // after pl_series_expand
 double pl_kinks_first(pl_run* run, double h);       // just behind the first kink, in units of h; -1 none on the step
@@ -263,7 +270,16 @@ pl_row pl_row_now(pl_run* run, pl_row_kind kind, double* out, char* mode);
 void pl_observe(pl_run* run, double t, const double* q, const double* v, const double* a, const double* lambda,
                 double* out);
 void pl_rows_before(pl_run* run);                                        // remembers the point before a mode change
+// ---- motion_make.c, motion_run.c: the motion as codes
+pl_motion* pl_motion_make(pl_run* run);             // not usable when it does not fit
+void pl_motion_update(pl_run* run);                 // the codes for the constraints that are taken
+bool pl_motion_project(pl_run* run, double t, double* q, double* v, pl_projection* p);   // false: not this way
+bool pl_motion_enter(pl_run* run);
+void pl_motion_expand(pl_run* run);
+
 pleuel_status pl_rows_event(pl_run* run, pl_event_kind kind, int index, double impulse, bool at_start);
 void pl_rows_energy(pl_run* run, bool anew);                             // energy at the point, drift
 
 #endif
+void pl_point_general(pl_run* run);                 // jets and factor as pl_point_factor leaves them, after a step by codes
+pleuel_status pl_stiff_look(pl_run* run);           // whether to use it; stiff_detect.c

@@ -1,0 +1,118 @@
+// jit: kernels as straight-line code.  What a step computes again and again is written once as a code, a list of simple
+// instructions on one block of memory; a code is run by the interpreter here, or compiled by a plugin that is
+// loaded when the work ahead pays for it.  Both give the same bits: every instruction rounds once, sums have one order, and
+// elementary functions are those of the C library on both sides.
+//
+// A register holds one number, or eight (lanes side by side).  All that is kept between codes lies in memory.
+//
+// Sums.  A block of convolutions computes, for each of its sums and over its pairs of streams (A, B), with K = k + shift,
+//
+//     s = sum over pairs of sum_{j=1..K-1} A_j B_{K-j},
+//
+// row j of a stream being `width` numbers at stream + j width.  Order of the additions, from the middle outwards, so
+// that the newest rows come last:  K even: the pairs' A_{K/2} B_{K/2};  then for j = (K-1)/2 down to 1, for each pair,
+// A_j B_{K-j} and A_{K-j} B_j.  Every addition is a fused multiply-add, beginning with 0.  A weighted sum takes j A_j for A_j,
+// the product rounded.
+#ifndef PL_JIT_H
+#define PL_JIT_H
+
+#include "jet/jet.h"
+
+// ---------------------------------------------------------------------------------------------- code
+typedef enum pl_prog_op {
+#define PL_PROG(name, reads, meaning) PL_PROG_##name,
+#include "prog.def"
+#undef PL_PROG
+  PL_N_PROG_OPS
+} pl_prog_op;
+extern const char* const pl_prog_op_name[PL_N_PROG_OPS];
+extern const int pl_prog_op_reads[PL_N_PROG_OPS];
+
+// Functions of the C library.
+#define PL_PROG_FUNCTIONS(F) \
+  F(sin, 1) F(cos, 1) F(tan, 1) F(asin, 1) F(acos, 1) F(atan, 1) F(sinh, 1) F(cosh, 1) F(tanh, 1) F(exp, 1) F(log, 1) \
+  F(pow, 2) F(atan2, 2)
+typedef enum pl_prog_function {
+#define PL_FUNCTION(name, reads) PL_FN_##name,
+  PL_PROG_FUNCTIONS(PL_FUNCTION)
+#undef PL_FUNCTION
+  PL_N_PROG_FUNCTIONS
+} pl_prog_function;
+
+typedef struct pl_prog_line {
+  uint8_t op, fn;
+  int d, a, b, c, e;       // registers: result, operands
+  int at, by;              // memory, or number of a block or product
+  double value;
+} pl_prog_line;
+
+typedef struct pl_prog_pair { int a, b; } pl_prog_pair;              // streams, row 0
+typedef struct pl_prog_sum { int to, first, n; bool weighted; } pl_prog_sum;   // pairs first .. first + n - 1
+typedef struct pl_prog_block { int width, shift, first, n; } pl_prog_block;    // sums first .. first + n - 1
+// y = A x: rows in blocks of 8, column j of A at A + 8 j blocks; sums over j in four parts, j mod 4: (s0+s1)+(s2+s3).
+typedef struct pl_prog_product { int to, matrix, vector, n, blocks; } pl_prog_product;
+
+typedef struct pl_prog {
+  pl_arena* arena;
+  const char* name;        // of the function that a compiler makes of it
+  int width;               // numbers in a register: 1 or 8
+  int n_registers;
+  int spill;               // place in memory of register 0; all registers have one
+  PL_VEC(pl_prog_line) lines;
+  PL_VEC(pl_prog_pair) pairs;
+  PL_VEC(pl_prog_sum) sums;
+  PL_VEC(pl_prog_block) blocks;
+  PL_VEC(pl_prog_product) products;
+  int orders;              // above 0: written out for the orders k = first_order .. orders - 1; the function takes them all
+  int first_order;
+} pl_prog;
+
+// A compiled code, or the interpreter's stand-in: runs orders from <= k < to.
+typedef void pl_prog_run(double* memory, int from, int to);
+
+// ---- prog_make.c: writing.  All return the register of the result.
+pl_prog* pl_prog_make(pl_arena* a, const char* name, int width);
+int pl_prog_load(pl_prog* c, int at, int by);
+int pl_prog_spread(pl_prog* c, int at, int by);
+void pl_prog_store(pl_prog* c, int a, int at, int by);
+int pl_prog_number(pl_prog* c, double x);
+int pl_prog_order(pl_prog* c, int add);
+int pl_prog_op1(pl_prog* c, pl_prog_op op, int a);
+int pl_prog_op2(pl_prog* c, pl_prog_op op, int a, int b);
+int pl_prog_op3(pl_prog* c, pl_prog_op op, int x, int y, int z);
+int pl_prog_if_le(pl_prog* c, int a, int b, int yes, int no);
+int pl_prog_call1(pl_prog* c, pl_prog_function f, int a);
+int pl_prog_call2(pl_prog* c, pl_prog_function f, int a, int b);
+// A block is opened, given sums, each with its pairs, and then stands in the code.
+void pl_prog_block_begin(pl_prog* c, int width, int shift);
+void pl_prog_sum_begin(pl_prog* c, int to, bool weighted);
+void pl_prog_sum_pair(pl_prog* c, int a, int b);
+void pl_prog_product_add(pl_prog* c, int to, int matrix, int vector, int n, int blocks);
+uint64_t pl_prog_hash(const pl_prog* c, uint64_t seed);
+void pl_prog_dump(pl_text* out, const pl_prog* c);
+
+// ---- prog_run.c: the interpreter
+void pl_prog_interpret(const pl_prog* c, double* memory, int from, int to);
+
+// ---- lower.c: the recurrences of the tape's operations as code
+// What a node's convolutions read: A and B as nodes (itself included), A weighted by j.
+typedef struct pl_lower_sum { int a, b; bool weighted; } pl_lower_sum;
+int pl_lower_sums(const pl_tape* tape, int node, pl_lower_sum out[3]);
+// Registers that the lowering of a node at order k needs, given by the caller; -1 for a coefficient that is zero.
+typedef struct pl_lower {
+  pl_prog* code;
+  const pl_tape* tape;
+  void* user;
+  int (*start)(void* user, int node);    // order 0
+  int (*now)(void* user, int node);      // order k; -1: zero
+  int (*sum)(void* user, int node, int i);   // convolution i of the node; -1: zero
+  int (*ratio)(void* user, int node, int part);   // part 0: 1/k rounded, part 1: the rest of it
+  int (*inverse)(void* user, int node);  // what pl_lower_inverse computed at order 0
+} pl_lower;
+int pl_lower_value(const pl_lower* l, int node);          // order 0; -1: an input, which is there
+// The reciprocal that the coefficients of a node are multiplied with, at order 0; -1: none.
+int pl_lower_inverse(const pl_lower* l, int node);
+bool pl_lower_has_inverse(const pl_tape* tape, int node);
+int pl_lower_coefficient(const pl_lower* l, int node);    // order k >= 1; -1: zero
+
+#endif

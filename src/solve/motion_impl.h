@@ -1,0 +1,82 @@
+// The motion as codes (jit.h): what a step computes from a point to the next, for one set of constraints in force, as
+// straight-line code on one block of memory.  For files of this folder.
+//
+// Codes, in the order in which a step uses them:
+//   place     t, q -> nodes of q and t, g, G, dg/dt, M, and the factor of [M G^T; G 0]
+//   correct_q, correct_v    corrections of the projection from g, or from G v + dg/dt, with that factor
+//   speed     G v + dg/dt and its size
+//   inverse   the factor's inverse, when the system is small
+//   start     order 0 of the series: forces, a_0, λ_0
+//   order     order k >= 1
+// The factor is L D L^T without pivoting in an order found once: coordinates first, then constraints.  Where its pivots
+// fade the caller goes the general way (assemble.c, kkt.c), which pivots.
+#ifndef PL_MOTION_IMPL_H
+#define PL_MOTION_IMPL_H
+
+#include "jit/jit.h"
+#include "solve/solve_impl.h"
+
+enum {
+  PL_MOTION_UNKNOWNS = 400,      // largest system
+  PL_MOTION_INVERSE = 24,        // so many unknowns are solved for by a product with the inverse
+  PL_MOTION_NODES = 20000        // of all instances together
+};
+
+typedef enum pl_motion_part {
+  PL_PART_PLACE,
+  PL_PART_CORRECT_Q,
+  PL_PART_SPEED,
+  PL_PART_CORRECT_V,
+  PL_PART_INVERSE,
+  PL_PART_START,
+  PL_PART_ORDER,
+  PL_N_PARTS
+} pl_motion_part;
+
+typedef struct pl_motion_entry { int row, col, first, n, cell; } pl_motion_entry;   // nodes term[first ..]
+
+struct pl_motion {
+  pl_prog* code[PL_N_PARTS];
+  pl_prog_run* compiled[PL_N_PARTS];   // NULL: interpreted
+  bool usable;                   // false: this mode goes the general way
+  bool* taken;                   // which constraints it was made for               (n_c)
+  pl_motion* next;
+  double* m;                     // the memory
+  int size, orders;              // rows of each series: 0 .. orders - 1
+  int n_q, n_c, n;               // n: unknowns
+  int n_mass, n_taken;           // the first have a mass, the last are constraints
+
+  // places in memory
+  int time, ratio, rest;         // t and its derivative; 1/k rounded, and what rounding left
+  int Q, V, A, L;                // series, row by row
+  int q_floor, v_floor;          // sizes of coordinates and velocities                (n_q)
+  int g, g_size, argument;       // constraint values, sizes, as in pl_run            (n_c)
+  int r, r_size;                 // G v + dg/dt                                       (n_c)
+  int h;                         // forces at order 0                                 (n_q)
+  int pivot, pivot_size;         // of the unknowns: pivot, sum of what was subtracted          (n)
+  int move;                      // correction of the coordinates                     (n_q)
+  int vector, result, matrix, identity;   // of the product with the inverse
+
+  // unknowns: coordinates that something determines, then constraints taken
+  int *of_coordinate, *of_constraint;   // unknown, -1 none
+  int* index;                    // coordinate or constraint of each unknown
+  double* size_most;             // largest pivot_size met                              (n)
+  double fade_best;
+};
+
+// ---- motion_factor.c: L D L^T of a sparse symmetric system as code
+typedef struct pl_elimination {
+  int n;
+  int* order;                    // unknown that is eliminated as number i
+  int* cell;                     // place in memory of L[i][j], i > j, in order of elimination; -1 zero: cell[i * n + j]
+  int inverse_d;                 // 1 / D_i
+} pl_elimination;
+// Unknowns: n_mass coordinates with a mass, then the other coordinates up to n_coordinates, then constraints.
+// NULL when no order of elimination is seen from the structure.
+pl_elimination* pl_elimination_make(pl_arena* a, const bool* entry, int n, int n_mass, int n_coordinates, int* memory);
+// entry[i * n + j]: register of the matrix at unknowns i, j (-1 zero), lower or upper half; pivots and sums of what was
+// subtracted go to pivot[i], size[i], registers by unknown.
+void pl_elimination_factor(const pl_elimination* e, pl_prog* c, const int* entry, int* pivot, int* size);
+void pl_elimination_solve(const pl_elimination* e, pl_prog* c, int* x);   // registers by unknown; -1 zero
+
+#endif

@@ -1,0 +1,68 @@
+// What is at hand while the codes of a motion are written (motion_make.c, motion_order.c).
+#ifndef PL_MOTION_MAKE_IMPL_H
+#define PL_MOTION_MAKE_IMPL_H
+
+#include "solve/motion_impl.h"
+
+// One instance of a pattern: nodes base .. base + n_nodes - 1 of the whole.
+typedef struct pl_maker_instance {
+  const pl_batch* batch;
+  const pl_tape* tape;
+  int lane, base;
+} pl_maker_instance;
+
+// A term: entry (row, col) of a matrix or a vector is the sum of nodes.
+typedef struct pl_term { int row, col, node; } pl_term;
+
+typedef PL_VEC(int) pl_places;   // of streams, row 0
+
+// A product that is summed over the orders: one lane of a group of eight.
+typedef struct pl_maker_sum { int node, i, cell; pl_lower_sum reads; } pl_maker_sum;
+
+typedef struct pl_maker_groups pl_maker_groups;
+
+typedef struct pl_maker {
+  pl_run* run;
+  pl_motion* o;
+  pl_arena* a;               // of the run: codes and memory
+  pl_maker_instance* instance;
+  int n_instances;
+  int n_nodes;
+  int* owner;                // instance of each node
+  bool *needed, *high;       // at order 0; above
+  int *cell, *inverse;       // places in memory of order 0 and of the reciprocal; -1
+  int* keep;                 // place in a row of what later orders of speed nodes read; -1
+  int n_keep, keep_at;
+  struct pl_sum_cells { int i[3]; }* sum_cell;   // place of convolution i of a node; -1
+  pl_places *plain, *weighted;   // streams that a node is written to
+  PL_VEC(pl_term) M, G, gt, g, g_terms, h;
+  pl_places *from_a, *from_lambda, *from_v;   // streams of -a_k (row k+1), λ_k (row k+1), v_k (row k)
+  int* row_sum;              // place of the sum of a row's products: by unknown; -1
+  pl_maker_groups* groups;   // of eight sums
+  bool* entry;               // structure of the system
+  pl_elimination* elimination;
+  // the code at work
+  pl_prog* code;
+  pl_lower lower;
+  int instance_now;
+  int *start, *now, *place_now;   // registers of order 0, order at work, order k+1 of nodes of q and t
+  bool with_sums, speed_phase;
+} pl_maker;
+
+static inline const pl_tape_node* pl_maker_node(const pl_maker* k, int node) {
+  const pl_maker_instance* i = &k->instance[k->owner[node]];
+  return &i->tape->nodes[node - i->base];
+}
+
+int pl_maker_take(pl_maker* k, int n);                   // n numbers of memory, aligned to 8
+void pl_maker_begin(pl_maker* k, pl_motion_part part, const char* name, int width);
+void pl_maker_end(pl_maker* k);
+int pl_maker_start(pl_maker* k, int node);               // register of order 0
+int pl_maker_value(pl_maker* k, int node);               // computes order 0
+void pl_maker_level(pl_maker* k, pl_level level);         // order 0 of a whole level
+// ---- motion_order.c
+void pl_maker_streams(pl_maker* k);                      // convolutions: groups, streams, places of sums
+void pl_maker_start_code(pl_maker* k);
+void pl_maker_order_code(pl_maker* k);
+
+#endif

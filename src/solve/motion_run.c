@@ -1,0 +1,162 @@
+// A step with the codes of a motion: projection, order 0, series.
+//
+// The codes serve while their pivots are sound.  A pivot of what has no mass is compared with the largest sum that was ever
+// subtracted there, which tells both a row that becomes dependent and one that fades away; where one has faded
+// to a part of the best that was met, the point is left to the general way, which chooses rows and
+// pivots anew, and which tells singular positions.
+#include <math.h>
+#include <string.h>
+
+#include "solve/motion_impl.h"
+
+static const double sound = 0.02;       // square of the part of its best at which a pivot is no longer trusted
+static const double rounding = 2.3e-16;
+
+static void run_part(pl_motion* o, pl_motion_part part, int from, int to) {
+  if (o->compiled[part]) o->compiled[part](o->m, from, to);
+  else pl_prog_interpret(o->code[part], o->m, from, to);
+}
+
+// ---------------------------------------------------------------------------------------------- choosing
+static bool same_mode(const pl_run* run, const pl_motion* o) {
+  return memcmp(o->taken, run->taken, (size_t)run->n_c * sizeof(bool)) == 0;
+}
+
+void pl_motion_update(pl_run* run) {
+  if (run->at_point || run->options.general || run->n_kinks > 0) return;
+  if (run->motion_code && same_mode(run, run->motion_code)) return;
+  run->motion_code = NULL;
+  for (pl_motion* o = run->motion_codes; o; o = o->next)
+    if (same_mode(run, o)) run->motion_code = o;
+  if (run->motion_code) return;
+  pl_motion* o = pl_motion_make(run);
+  o->next = run->motion_codes;
+  run->motion_code = run->motion_codes = o;
+}
+
+// ---------------------------------------------------------------------------------------------- pivots
+static bool pivots_are_sound(pl_motion* o) {
+  double least = (double)INFINITY;
+  for (int u = o->n_mass; u < o->n; u++) {
+    double size = o->m[o->pivot_size + u], part;
+    if (size > o->size_most[u]) o->size_most[u] = size;
+    part = fabs(o->m[o->pivot + u]) / o->size_most[u];
+    if (!(part >= least)) least = part;
+  }
+  if (!(least > 0)) return o->n == o->n_mass;
+  if (least > o->fade_best) o->fade_best = least;
+  return least > sound * o->fade_best;
+}
+
+// ---------------------------------------------------------------------------------------------- projection
+static double relative(const pl_run* run, const double* g, const double* size, bool positions) {
+  double most = 0;
+  for (int c = 0; c < run->n_c; c++) {
+    if (!run->active[c] || g[c] == 0 || (positions && run->setup->links[c].velocity)) continue;
+    double x = fabs(g[c]) / size[c];
+    if (!(x <= most)) most = x;
+  }
+  return most;
+}
+
+static void note_largest(double x, double* most) {
+  if (!(x <= *most)) *most = x;
+}
+
+static void set_floors(const pl_run* run, pl_motion* o) {
+  for (int i = 0; i < o->n_q; i++) {
+    o->m[o->q_floor + i] = fmax(run->q_most[i], 1e-6 * run->q_size);
+    o->m[o->v_floor + i] = fmax(run->v_most[i], 1e-6 * run->v_size);
+  }
+}
+
+// Adds the correction to x; its size relative to that of x.
+static double correct(pl_motion* o, pl_motion_part part, double* x, double size) {
+  run_part(o, part, 0, 1);
+  const double* move = o->m + o->move;
+  double most = pl_norm(move, o->n_q);
+  for (int i = 0; i < o->n_q; i++) x[i] += move[i];
+  return size > 0 ? most / size : most;
+}
+
+static bool project_positions(pl_run* run, pl_motion* o, pl_projection* p) {
+  enum { MAX_NEWTON = 8 };
+  double before = (double)INFINITY;
+  for (int round = 0; round < MAX_NEWTON; round++) {
+    run_part(o, PL_PART_PLACE, 0, 1);
+    double g = relative(run, o->m + o->g, o->m + o->g_size, true);
+    if (round == 0) p->g_before = g;
+    p->g_after = g;
+    if (!isfinite(g) || !pivots_are_sound(o)) return false;
+    if (g == 0 || (round > 0 && (g <= 2 * rounding || g >= 0.5 * before))) return true;
+    before = g;
+    double move = correct(o, PL_PART_CORRECT_Q, o->m + o->Q, run->q_size);
+    if (!isfinite(move)) return false;
+    note_largest(move, &p->move_q);
+  }
+  return false;
+}
+
+static bool project_velocities(pl_run* run, pl_motion* o, pl_projection* p) {
+  for (int round = 0;; round++) {
+    run_part(o, PL_PART_SPEED, 0, 1);
+    double r = relative(run, o->m + o->r, o->m + o->r_size, false);
+    if (round == 0) p->r_before = r;
+    p->r_after = r;
+    if (!isfinite(r)) return false;
+    if (round > 0 || r == 0) return true;
+    double move = correct(o, PL_PART_CORRECT_V, o->m + o->V, run->v_size);
+    if (!isfinite(move)) return false;
+    note_largest(move, &p->move_v);
+  }
+}
+
+bool pl_motion_project(pl_run* run, double t, double* q, double* v, pl_projection* p) {
+  pl_motion* o = run->motion_code;
+  run->at_point = false;
+  if (o == NULL || !o->usable || run->watch_landings || !same_mode(run, o)) return false;
+  *p = (pl_projection){0};
+  pl_sizes_note(run, q, v);
+  set_floors(run, o);
+  o->m[o->time] = t;
+  memcpy(o->m + o->Q, q, (size_t)o->n_q * sizeof *q);
+  memcpy(o->m + o->V, v, (size_t)o->n_q * sizeof *v);
+  p->ok = project_positions(run, o, p) && project_velocities(run, o, p);
+  if (!p->ok) return false;
+  memcpy(q, o->m + o->Q, (size_t)o->n_q * sizeof *q);
+  memcpy(v, o->m + o->V, (size_t)o->n_q * sizeof *v);
+  run->at_point = true;
+  run->factored = false;
+  return true;
+}
+
+// ---------------------------------------------------------------------------------------------- series
+static void copy_rows(double* to, const double* from, int n, int first, int last) {
+  memcpy(to + (size_t)first * (size_t)n, from + (size_t)first * (size_t)n, (size_t)(last - first + 1) * (size_t)n * sizeof *to);
+}
+
+static void copy_orders(pl_run* run, int first, int last) {
+  const pl_motion* o = run->motion_code;
+  copy_rows(run->Q, o->m + o->Q, o->n_q, first, last + 1);
+  copy_rows(run->V, o->m + o->V, o->n_q, first, last + 1);
+  copy_rows(run->A, o->m + o->A, o->n_q, first, last);
+  copy_rows(run->L, o->m + o->L, o->n_c, first, last);
+}
+
+bool pl_motion_enter(pl_run* run) {
+  pl_motion* o = run->motion_code;
+  if (o->code[PL_PART_INVERSE]) run_part(o, PL_PART_INVERSE, 0, 1);
+  run_part(o, PL_PART_START, 0, 1);
+  copy_orders(run, 0, 0);
+  run->t_series = run->t;
+  double force = pl_norm(o->m + o->h, o->n_q);
+  if (force > run->force_size) run->force_size = force;
+  run->smallest = run->best;  // sound: as good as it has been
+  run->ready = isfinite(pl_norm(run->A, o->n_q)) && isfinite(pl_norm(run->L, o->n_c));
+  return run->ready;
+}
+
+void pl_motion_expand(pl_run* run) {
+  run_part(run->motion_code, PL_PART_ORDER, 1, run->order);
+  copy_orders(run, 1, run->order - 1);
+}
