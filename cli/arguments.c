@@ -8,11 +8,29 @@
 
 enum { MAX_FLAGS = 32, FIRST_LONG = 256 };
 
+// What --lang said; before that the environment speaks.
+static const char* spoken;
+
+void cli_set_language(const char* lang) { spoken = lang; }
+
+static const char* in_language(const char* sentence) {
+  static const char* const list[][2] = {
+#define PL_SENTENCE(english, german) {english, german},
+#include "sentences.def"
+#undef PL_SENTENCE
+  };
+  bool german = strcmp(spoken ? spoken : cli_environment_language(), "de") == 0;
+  for (size_t i = 0; german && i < sizeof list / sizeof *list; i++) {
+    if (strcmp(list[i][0], sentence) == 0) return list[i][1];
+  }
+  return sentence;
+}
+
 int cli_error(int code, const char* fmt, ...) {
   va_list ap;
   va_start(ap, fmt);
   fputs("pleuel: ", stderr);
-  vfprintf(stderr, fmt, ap);
+  vfprintf(stderr, in_language(fmt), ap);
   fputc('\n', stderr);
   va_end(ap);
   return code;

@@ -66,7 +66,9 @@ int cli_parse(const cli_verb* v, cli_options* o, int argc, char** argv);
 // The nearest of n words, NULL when none is near.
 const char* cli_nearest(const char* word, const char* const* words, int n);
 
-int cli_error(int code, const char* fmt, ...) __attribute__((format(printf, 2, 3)));   // message to stderr, returns code
+// cli_error writes a message to stderr, in the language of --lang or of the environment, and returns the code.
+int cli_error(int code, const char* fmt, ...) __attribute__((format(printf, 2, 3)));
+void cli_set_language(const char* lang);           // NULL: that of the environment
 
 // ---------------------------------------------------------------------------------------------- help
 void cli_print_overview(FILE* to);

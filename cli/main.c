@@ -37,6 +37,7 @@ static int run_verb(const cli_verb* v, int argc, char** argv) {
 
   pleuel* ctx = pleuel_open(NULL);
   if (!ctx) return cli_error(EXIT_NUMERICAL, "memory is short");
+  cli_set_language(o.lang);
   pleuel_set_language(ctx, o.lang ? o.lang : cli_environment_language());
   cli_watch_interrupt(ctx);
   code = v->run(ctx, &o);

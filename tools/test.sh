@@ -104,6 +104,7 @@ part "house/header" tools/check_header.sh
 part "house/manual" tools/check_manual.py build-test/gcc/pleuel
 part "house/install" tools/check_install.sh
 part "house/words" tools/check_words.sh
+part "house/sentences" tools/check_sentences.py
 
 stage "done"
 passed=$(grep -c '^passed' "$results")

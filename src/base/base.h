@@ -211,6 +211,8 @@ typedef struct pl_job {
 
 // pl_fail records status and sentence and returns the status:  return pl_fail(job, PLEUEL_SINGULAR, "...", x);
 pleuel_status pl_fail(pl_job* job, pleuel_status s, const char* fmt, ...) __attribute__((format(printf, 3, 4)));
+// pl_in_language gives the sentence of base/sentences.def, or format with %s and the like, in a language; itself when it has none.
+const char* pl_in_language(pl_language lang, const char* sentence);
 bool pl_interrupted(const pl_job* job);
 double pl_clock(void);                      // monotonic seconds
 #define PL_TRY(call)                              \

@@ -1,6 +1,8 @@
 // Status: how a computation ended, and the sentence with numbers that goes with it.
 #include "base/base.h"
 
+#include <string.h>
+
 const char* pleuel_status_name(pleuel_status s) {
   switch (s) {
     case PLEUEL_OK: return "PLEUEL_OK";
@@ -19,10 +21,22 @@ const char* pleuel_status_name(pleuel_status s) {
   return "unknown status";
 }
 
+const char* pl_in_language(pl_language lang, const char* sentence) {
+  static const char* const list[][2] = {
+#define PL_SENTENCE(english, german) {english, german},
+#include "base/sentences.def"
+#undef PL_SENTENCE
+  };
+  for (size_t i = 0; lang == PL_GERMAN && i < sizeof list / sizeof *list; i++) {
+    if (strcmp(list[i][0], sentence) == 0) return list[i][1];
+  }
+  return sentence;
+}
+
 pleuel_status pl_fail(pl_job* job, pleuel_status s, const char* fmt, ...) {
   va_list ap;
   va_start(ap, fmt);
-  vsnprintf(job->message, sizeof job->message, fmt, ap);
+  vsnprintf(job->message, sizeof job->message, pl_in_language(job->lang, fmt), ap);
   va_end(ap);
   job->status = s;
   return s;

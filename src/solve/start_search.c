@@ -303,11 +303,14 @@ static pleuel_status violated(pl_start* s, int link, double residual, bool veloc
   if (velocity) suggest_velocity(s);
   else suggest_position(s);
   const char* name = run->setup->links[link].name;
-  const char* what = velocity ? "start velocities violate" : "start values violate";
   if (report->move_coordinate < 0)
-    return pl_fail(run->job, PLEUEL_CONTRADICTION, "%s %s by %.3g of its terms", what, name, residual);
+    return pl_fail(run->job, PLEUEL_CONTRADICTION,
+                   velocity ? "start velocities violate %s by %.3g of its terms" : "start values violate %s by %.3g of its terms",
+                   name, residual);
   const pl_coordinate* c = &run->setup->coordinates[report->move_coordinate];
-  return pl_fail(run->job, PLEUEL_CONTRADICTION, "%s %s by %.3g of its terms; with %s = %.10g it would be met", what,
+  return pl_fail(run->job, PLEUEL_CONTRADICTION,
+                 velocity ? "start velocities violate %s by %.3g of its terms; with %s = %.10g it would be met"
+                          : "start values violate %s by %.3g of its terms; with %s = %.10g it would be met",
                  name, residual, report->move_velocity && c->v_name ? c->v_name : c->name, report->move_to);
 }
 
@@ -328,8 +331,9 @@ static pleuel_status no_solution(pl_start* s) {
   run->start.link = link;
   if (solved)
     return pl_fail(run->job, PLEUEL_CONTRADICTION, "no solution of the constraints fits the branch conditions");
-  return pl_fail(run->job, PLEUEL_CONTRADICTION, "no positions were found that meet the constraints%s%s",
-                 link >= 0 ? ", in particular " : "", link >= 0 ? run->setup->links[link].name : "");
+  if (link < 0) return pl_fail(run->job, PLEUEL_CONTRADICTION, "no positions were found that meet the constraints");
+  return pl_fail(run->job, PLEUEL_CONTRADICTION, "no positions were found that meet the constraints, in particular %s",
+                 run->setup->links[link].name);
 }
 
 static pleuel_status several_solutions(pl_start* s) {
