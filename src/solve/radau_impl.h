@@ -70,6 +70,10 @@ struct pl_radau {
   int newton, newton_last;
   bool rejected;            // the step before
   long steps_in_row;
+  bool ready;               // coefficients computed
+  long looks, next_look;    // at stiffness
+  double cost_series;       // of the series per time, at the last look
+  int dear;                 // implicit steps in a row that cost more
   double h_dense;           // step up to which the polynomial is as exact as the tolerance
 };
 
@@ -78,6 +82,7 @@ void pl_radau_method_make(pl_radau_method* m, int s);
 
 // ---- radau_system.c
 pl_radau* pl_radau_reserve(pl_run* run, int s);
+void pl_radau_ready(pl_radau* r);                           // computes the coefficients when they are first needed
 void pl_radau_slopes_at(pl_run* run, pl_radau* r, pl_radau_slopes* J, double t, const double* q, const double* v,
                         const double* a, const double* lambda);
 bool pl_radau_factor(pl_radau* r, const pl_run* run, double h);
@@ -86,5 +91,11 @@ void pl_radau_solve_real(pl_radau* r, double* b);
 void pl_radau_correct(pl_radau* r, const pl_run* run);      // one simplified Newton step; F becomes the correction
 bool pl_radau_couple(pl_run* run, pl_radau* r, double h);   // slopes at all stages, the coupled matrix and its factor
 void pl_radau_correct_coupled(pl_radau* r, const pl_run* run);
+
+// ---- radau_step.c
+bool pl_radau_probe(pl_run* run, double h, double least, double* reach);
+
+// ---- stiff_detect.c
+void pl_stiff_review(pl_run* run, double h);
 
 #endif

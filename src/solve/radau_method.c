@@ -101,13 +101,16 @@ static void find_denominator(real* d, int s) {
 // All zeros at once, after Durand and Kerner.
 static void find_zeros(cplx* z, const real* d, int s) {
   for (int i = 0; i < s; i++) z[i] = s * cpowl(0.4L + 0.9L * I, i);
-  for (int round = 0; round < 500; round++) {
+  real most = 1;
+  for (int round = 0; round < 500 && most > 1e-18L; round++) {
+    most = 0;
     for (int i = 0; i < s; i++) {
       cplx p = d[s], q = d[s];
       for (int k = s - 1; k >= 0; k--) p = p * z[i] + d[k];
       for (int j = 0; j < s; j++)
         if (j != i) q *= z[i] - z[j];
       z[i] -= p / q;
+      most = fmaxl(most, cabsl(p / q) / cabsl(z[i]));
     }
   }
 }

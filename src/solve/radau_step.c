@@ -27,8 +27,8 @@ double pl_radau_tol(double asked) { return asked > 0 ? fmax(asked, least_tol) : 
 
 static int stages_for(double tol) { return tol >= 1e-5 ? 3 : tol >= 1e-9 ? 5 : 7; }
 
-bool pl_radau_make(pl_run* run, double tol) {
-  if (run->n_q + run->n_c > PL_RADAU_UP_TO) return false;
+bool pl_radau_make(pl_run* run, double tol, int most) {
+  if (run->n_q + run->n_c > most) return false;
   int s = stages_for(tol);
   pl_radau* r = run->radau = pl_radau_reserve(run, s);
   r->tol = tol;
@@ -155,25 +155,24 @@ static int iterate(pl_run* run, pl_radau* r, double h) {
 }
 
 // ---------------------------------------------------------------------------------------------- error
-// Solves (γ/h M - J) error = f + sum e_i z_i / h with v = speed, M a or force, and the residual of the constraints.
-static double estimate(const pl_run* run, pl_radau* r, double h, const double* speed, const double* force,
-                       const double* constraint) {
+// Solves (γ/h M - J) error = f + sum e_i z_i / h.  The estimate is not filtered a second time, as is usual for steps
+// that begin off the slow motion: that would hide a stiff oscillation which nothing damps.
+static double estimate(const pl_run* run, pl_radau* r, double h) {
   const pl_radau_method* m = &r->method;
   int n = r->n_q;
   double gamma = m->gamma[0][0] / h, *rho = r->error_q, *b = r->rhs;
   for (int e = 0; e < n; e++) {
-    double turn = 0;
-    rho[e] = speed[e];
+    rho[e] = run->v[e];
+    r->error_v[e] = run->A[e];
     for (int i = 0; i < m->s; i++) {
       double way = m->c[i] * run->v[e];  // (Q_i - q) / h, without its rounding
       for (int j = 0; j < m->s; j++) way += m->A[i][j] * stage(r->Z, j, n)[e];
       rho[e] += m->error[i] * way;
-      turn += m->error[i] * stage(r->Z, i, n)[e] / h;
+      r->error_v[e] += m->error[i] * stage(r->Z, i, n)[e] / h;
     }
-    r->error_v[e] = turn;
   }
   for (int e = 0; e < n; e++) {
-    b[e] = force[e];
+    b[e] = 0;
     for (int j = 0; j < n; j++) {
       size_t at = (size_t)e + (size_t)j * (size_t)n;
       b[e] += r->here.M[at] * r->error_v[j] - r->here.K[at] * rho[j] / gamma;
@@ -181,7 +180,7 @@ static double estimate(const pl_run* run, pl_radau* r, double h, const double* s
     if (run->place_n[e] == 0) b[e] = 0;
   }
   for (int c = 0; c < r->n_c; c++) {
-    b[n + c] = constraint ? -constraint[c] : 0;
+    b[n + c] = 0;
     for (int j = 0; j < n; j++) b[n + c] -= r->here.S[(size_t)c + (size_t)j * (size_t)r->n_c] * rho[j] / gamma;
     if (!run->taken[c]) b[n + c] = 0;
   }
@@ -190,46 +189,8 @@ static double estimate(const pl_run* run, pl_radau* r, double h, const double* s
     r->error_v[e] = b[e];
     r->error_q[e] = (b[e] + rho[e]) / gamma;
   }
-  return fmax(scaled(r->error_q, r->sc_q, 0, n), scaled(r->error_v, r->sc_v, 2 * r->rounding / r->tol_stage, n)) / r->tol_stage;
-}
-
-static double first_estimate(const pl_run* run, pl_radau* r, double h) {
-  double* force = r->w[0];
-  for (int e = 0; e < r->n_q; e++) {
-    force[e] = 0;
-    for (int j = 0; j < r->n_q; j++) force[e] += r->here.M[(size_t)e + (size_t)j * (size_t)r->n_q] * run->A[j];
-  }
-  return estimate(run, r, h, run->v, force, NULL);
-}
-
-// Once more with the right-hand side at the state moved by the estimate: a stiff part that is off its place at the
-// start does not count as error.
-static double second_estimate(pl_run* run, pl_radau* r, double h) {
-  int n = r->n_q;
-  size_t q = (size_t)n * sizeof(double), c = (size_t)r->n_c * sizeof(double);
-  double *Q = run->row_q, *V = run->row_v, *A = run->row_a, *L = run->row_l, *force = r->w[0];
-  memcpy(Q, r->Q, q);
-  memcpy(V, r->V, q);
-  memcpy(A, r->A, q);
-  memcpy(L, r->L, c);
-  double t = r->t[0];
-  r->t[0] = run->t + run->t_low;
-  for (int e = 0; e < n; e++) {
-    r->Q[e] = run->q[e] + r->error_q[e];
-    r->V[e] = run->v[e] + r->error_v[e];
-    r->A[e] = 0;
-  }
-  memcpy(r->L, run->L, c);
-  pl_radau_residual(run, r);
-  double* speed = run->trial_v;
-  memcpy(speed, r->V, q);
-  memcpy(r->Q, Q, q);
-  memcpy(r->V, V, q);
-  memcpy(r->A, A, q);
-  memcpy(r->L, L, c);
-  r->t[0] = t;
-  for (int e = 0; e < n; e++) force[e] = -r->F[e];
-  return estimate(run, r, h, speed, force, r->F + n);
+  double least = 2 * r->rounding / r->tol_stage;
+  return fmax(scaled(r->error_q, r->sc_q, 0, n), scaled(r->error_v, r->sc_v, least, n)) / r->tol_stage;
 }
 
 // ---------------------------------------------------------------------------------------------- one attempt
@@ -285,10 +246,25 @@ static pl_radau_try attempt(pl_run* run, pl_radau* r, double h) {
     r->has_last = r->has_last && !r->rejected;
     return give_up(r, h, 0.5);
   }
-  double error = first_estimate(run, r, h);
-  if (!(error < 1) && (r->rejected || r->steps_in_row == 0) && isfinite(error)) error = second_estimate(run, r, h);
+  double error = estimate(run, r, h);
   if (!isfinite(error)) return give_up(r, h, 0.5);
   return (pl_radau_try){error < 1, error, next_length(r, h, error)};
+}
+
+// The length of a step that would hold here, at most h and above least; nothing of the run changes but its jets.
+bool pl_radau_probe(pl_run* run, double h, double least, double* reach) {
+  pl_radau* r = run->radau;
+  pl_radau_ready(r);
+  r->has_jacobian = r->has_last = r->rejected = false;
+  r->steps_in_row = 0;
+  while (fabs(h) > 2 * least) {
+    pl_radau_try a = attempt(run, r, h);
+    *reach = fmin(fabs(a.next), fabs(h));
+    if (a.fine) return true;
+    r->rejected = true;
+    h = copysign(fmin(a.next, 0.5 * fabs(h)), h);
+  }
+  return false;
 }
 
 // ---------------------------------------------------------------------------------------------- back onto the constraints
@@ -512,6 +488,9 @@ static bool rows_are_exact(const pl_run* run, const pl_radau* r, double h, doubl
 pleuel_status pl_radau_step(pl_run* run, double* h, double* root, pl_projection* p) {
   pl_radau* r = run->radau;
   double error, next;
+  pl_radau_ready(r);
+  if (isnan(run->stats.t_implicit)) run->stats.t_implicit = run->t;
+  run->stats.order_implicit = 2 * r->method.s - 1;
   if (r->h == 0) first_length(run, r);
   r->has_jacobian = false;
   see_whether_smooth(run, r);
@@ -548,5 +527,6 @@ pleuel_status pl_radau_step(pl_run* run, double* h, double* root, pl_projection*
   r->rejected = false;
   r->has_last = true;
   r->steps_in_row++;
+  if (run->options.method == PL_METHOD_AUTO && !cut && *root < 0) pl_stiff_review(run, *h);
   return PLEUEL_OK;
 }

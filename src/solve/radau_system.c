@@ -60,7 +60,8 @@ pl_radau* pl_radau_reserve(pl_run* run, int s) {
   pl_arena* a = run->job->arena;
   pl_radau* r = PL_NEW(a, pl_radau);
   size_t q = (size_t)run->n_q, c = (size_t)run->n_c, n = q + c, stages = PL_RADAU_MOST;
-  pl_radau_method_make(&r->method, s);
+  r->method.s = s;
+  r->method.n_pairs = s / 2;
   r->n_q = run->n_q;
   r->n_c = run->n_c;
   r->n = (int)n;
@@ -87,6 +88,12 @@ pl_radau* pl_radau_reserve(pl_run* run, int s) {
     r->w[k] = PL_ARRAY(a, double, 2 * n + 1);
   }
   return r;
+}
+
+void pl_radau_ready(pl_radau* r) {
+  if (r->ready) return;
+  pl_radau_method_make(&r->method, r->method.s);
+  r->ready = true;
 }
 
 // ---------------------------------------------------------------------------------------------- reading the jets

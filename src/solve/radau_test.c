@@ -9,6 +9,8 @@ static pl_expr half(t_bench* b, pl_expr x) { return pl_mul(P, pl_ratio(P, 1, 2),
 
 // A pendulum, mass 1 at (x, y), y down, x² + y² = 1, g = 1, and a second mass on a spring of length 1 below it with
 // stiffness K and damper c along the spring.
+static double kick;   // speed of the second mass along the spring at the start
+
 static t_bench* family(double K, double c, pl_method method, double t_end, double tol) {
   t_bench* b = t_open();
   pl_expr x = t_coord(b, "x"), y = t_coord(b, "y"), u = t_coord(b, "u"), w = t_coord(b, "w");
@@ -29,7 +31,7 @@ static t_bench* family(double K, double c, pl_method method, double t_end, doubl
   t_start(b, 0, 1, 0);
   t_start(b, 1, 0, 0);
   t_start(b, 2, 1, 0);
-  t_start(b, 3, 1, 0);
+  t_start(b, 3, 1, kick);
   b->options.method = method;
   assert_int_equal(t_make(b, pl_sub(P, T, V), t_end, tol), PLEUEL_OK);
   return b;
@@ -247,6 +249,44 @@ static void it_runs_backwards(void** state) {
   t_close(b);
 }
 
+// ---------------------------------------------------------------------------------------------- choice of the method
+static void a_stiff_motion_is_recognised(void** state) {
+  (void)state;
+  for (double K = 1e6; K < 1e11; K *= 1e2) {
+    t_bench* a = family(K, 2 * sqrt(K), PL_METHOD_RADAU, 5, 1e-12);
+    assert_int_equal(pl_run_to_end(a->run), PLEUEL_OK);
+    for (double tol = 1e-6; tol > 1e-12; tol *= 1e-3) {
+      t_bench* b = family(K, 2 * sqrt(K), PL_METHOD_AUTO, 5, tol);
+      assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
+      const pl_stats* s = pl_run_stats(b->run);
+      double off = 0;
+      for (int i = 0; i < 4; i++) off = fmax(off, fabs(pl_run_q(b->run)[i] - pl_run_q(a->run)[i]));
+      printf("# K %.0e, tol %.0e: implicit from t = %.3g, %ld of %ld steps, off %.1e\n", K, tol, s->t_implicit,
+             s->steps_implicit, s->steps, off);
+      assert_true(s->steps_implicit > 10 && s->t_implicit < 1 && s->steps < 500 && off < 1000 * tol);
+      t_close(b);
+    }
+    t_close(a);
+  }
+}
+
+// Without damper the fast oscillation is part of the motion and must not be lost.
+static void an_oscillation_is_not_taken_for_stiffness(void** state) {
+  (void)state;
+  kick = 1e-3;
+  t_bench *a = family(1e6, 0, PL_METHOD_TAYLOR, 2, 0), *b = family(1e6, 0, PL_METHOD_AUTO, 2, 1e-9);
+  kick = 0;
+  assert_int_equal(pl_run_to_end(a->run), PLEUEL_OK);
+  assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
+  double off = 0;
+  for (int i = 0; i < 4; i++) off = fmax(off, fabs(pl_run_v(b->run)[i] - pl_run_v(a->run)[i]));
+  printf("# undamped: %ld implicit of %ld steps, v off %.1e\n", pl_run_stats(b->run)->steps_implicit,
+         pl_run_stats(b->run)->steps, off);
+  assert_true(pl_run_stats(b->run)->steps_implicit == 0 && off < 1e-7);
+  t_close(a);
+  t_close(b);
+}
+
 // ---------------------------------------------------------------------------------------------- limits
 static void contacts_are_left_to_the_series(void** state) {
   (void)state;
@@ -269,6 +309,8 @@ int main(void) {
       cmocka_unit_test(it_agrees_with_the_series_at_every_tolerance),
       cmocka_unit_test(rows_between_and_events_are_as_exact_as_steps),
       cmocka_unit_test(it_runs_backwards),
+      cmocka_unit_test(a_stiff_motion_is_recognised),
+      cmocka_unit_test(an_oscillation_is_not_taken_for_stiffness),
       cmocka_unit_test(contacts_are_left_to_the_series),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
