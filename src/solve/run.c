@@ -160,6 +160,7 @@ static pleuel_status step_implicitly(pl_run* run, double* h, double* wanted, dou
 static pleuel_status step(pl_run* run) {
   double h, wanted, root;
   pl_projection p = {0};
+  if (run->radau && !run->implicit && run->n_kinks == 0) PL_TRY(pl_stiff_look(run));
   PL_TRY((run->implicit ? step_implicitly : step_by_series)(run, &h, &wanted, &root, &p));
   if (root == 0) {
     pl_point_general(run);
@@ -242,8 +243,8 @@ pleuel_status pl_run_begin_at(pl_run* run, double t) {
   PL_TRY(pl_rows_open(run));
   PL_TRY(pl_modes_check(run, true));
   pl_rows_energy(run, true);
-  return PLEUEL_OK;
   pl_motion_update(run);
+  return PLEUEL_OK;
 }
 
 // One-sided constraints are in contact where they are met.

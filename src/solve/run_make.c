@@ -197,14 +197,16 @@ static pleuel_status make_implicit(pl_run* run) {
   if (method == PL_METHOD_TAYLOR) return PLEUEL_OK;
   if (has_contacts(run->setup)) {
     if (method == PL_METHOD_AUTO) return PLEUEL_OK;
-    return pl_fail(run->job, PLEUEL_UNSUPPORTED,
-                   "the implicit method does not follow contacts that open and close: use the series");
+    return pl_fail(run->job, PLEUEL_UNSUPPORTED, "the implicit method does not follow contacts that open and close: use the series");
   }
-  bool fits = pl_radau_make(run, pl_radau_tol(run->options.tol));
-  run->implicit = fits && method == PL_METHOD_RADAU;
+  double tol = run->options.tol;
+  bool chosen = method == PL_METHOD_RADAU;
+  bool fits = pl_radau_make(run, tol > 0 || chosen ? pl_radau_tol(tol) : 1e-12,
+                            chosen ? PL_RADAU_UP_TO : PL_RADAU_AUTO_UP_TO);
+  run->implicit = fits && chosen;
   if (fits || method == PL_METHOD_AUTO) return PLEUEL_OK;
-  return pl_fail(run->job, PLEUEL_UNSUPPORTED,
-                 "the implicit method takes at most %d coordinates and multipliers: use the series", PL_RADAU_UP_TO);
+  return pl_fail(run->job, PLEUEL_UNSUPPORTED, "the implicit method takes at most %d coordinates and multipliers: use the series",
+                 PL_RADAU_UP_TO);
 }
 
 pleuel_status pl_run_make(pl_job* job, const pl_setup* setup, const pl_run_options* options, pl_run** out) {

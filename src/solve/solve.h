@@ -38,7 +38,24 @@ typedef struct pl_link {
   bool off;                           // starts inactive; an event may attach it
   bool minus;                         // its column shows -λ: the sign convention of the model
   double restitution;                 // of impacts on it, 0 inelastic
+  bool rope;                          // one-sided, a distance: it goes slack and taut
+  bool rub;                           // a component of a slip velocity (pl_rub), no constraint of its own
 } pl_link;
+
+// Coulomb friction on a constraint, whose multiplier presses surfaces together.  The slip velocity has one component in
+// the plane and three in space (its part in the tangent plane); each is a link with velocity and rub set.  While the
+// surfaces stick, those rows are constraints; while they slip, their multipliers follow from that of the constraint.
+// Coefficients are outputs of the motion patterns.
+typedef struct pl_rub {
+  const char* name;                   // of the constraint
+  int link;                           // whose multiplier presses
+  int n_rows;                         // 1 or 3
+  int row[3];                         // links of slip
+  int limit;                          // coefficient: |F| <= limit |λ| while it sticks
+  int scale;                          // |F| = scale |λ| while it slips
+  int along[3];                       // in space: scale times the direction of slip
+  int metric[6];                      // in space: |F|² = sum P_ij m_i m_j of the multipliers; xx yy zz xy xz yz
+} pl_rub;
 
 // An output column: sum of the contributions of all observer patterns.
 typedef struct pl_column { const char *name, *unit; } pl_column;
@@ -91,6 +108,9 @@ typedef struct pl_setup {
   int n_watched;                      // quantities watched
   int n_watch_patterns;
   const pl_pattern* watch;            // outputs are watched quantities
+  int n_rubs;
+  const pl_rub* rubs;                 // (n_rubs)
+  int n_coefficients;                 // outputs of the motion patterns
   int n_branches;
   const pl_branch_setup* branches;
   int n_branch_outputs;
@@ -105,7 +125,11 @@ typedef enum pl_event_kind {
   PL_EV_IMPACT,     // a contact was made with a velocity jump
   PL_EV_CONTACT,    // a contact was made without one
   PL_EV_SINGULAR,   // the constraints lose rank here
-  PL_EV_STOP        // `event label -> stop`
+  PL_EV_STOP,       // `event label -> stop`
+  PL_EV_SLACK,      // a rope went slack
+  PL_EV_TAUT,       // a rope went taut, with or without a velocity jump
+  PL_EV_STICK,      // surfaces that slipped stick
+  PL_EV_SLIP        // surfaces that stuck slip, or slip the other way
 } pl_event_kind;
 extern const char* const pl_event_kind_name[];     // "event", "release", "impact", ... as in the JSON contract
 
@@ -130,6 +154,8 @@ typedef struct pl_event_record {
   pl_row before, after;               // equal except for impacts, releases and SET
   double impulse;                     // of an impact, N s along the gradient
   bool at_start;                      // a contact that never held: wrong sign at the start
+  bool jump;                          // velocities jumped: before and after differ
+  long bounces;                       // CONTACT after infinitely many: those that were followed; else 0
 } pl_event_record;
 
 typedef struct pl_stats {
@@ -176,6 +202,7 @@ typedef struct pl_run_options {
   pl_sink sink;
   void (*progress)(void* user, double t, double t_end, double h, const pl_stats* stats);   // after every step; or NULL
   void* progress_user;
+  bool general;                       // without codes (jit.h): every step goes the general way
 } pl_run_options;
 
 typedef struct pl_run pl_run;
@@ -202,7 +229,6 @@ typedef enum pl_start_trouble {
 } pl_start_trouble;
 
 typedef struct pl_start_report {
-  bool general;                       // without codes (jit.h): every step goes the general way
   pl_start_trouble trouble;
   int n_moves;
   const pl_start_move* moves;         // in order of coordinate, positions first

@@ -9,6 +9,7 @@ enum {
   PL_FAMILY_LANES = 8,     // instances computed side by side
   PL_DENSE_UP_TO = 60,     // unknowns: dense below, KLU above
   PL_RADAU_UP_TO = 400,    // unknowns of the implicit method, whose systems are dense
+  PL_RADAU_AUTO_UP_TO = 100,   // the same where it is only kept ready
   PL_RANK_UP_TO = 400,     // constraint rows whose independence is examined at all; above they must be independent
   PL_RANK_WORK = 200000    // rows^2 columns up to which that is done at every point; above: once a mode
 };
@@ -40,11 +41,43 @@ typedef struct pl_kkt {
   double ratio;            // of the pivots, a measure of how singular it is
 } pl_kkt;
 
+// Friction as it is now.
+typedef enum pl_rub_state { PL_RUB_OFF, PL_RUB_STICK, PL_RUB_SLIP } pl_rub_state;
+typedef struct pl_rub_now {
+  pl_rub_state state;
+  int way;                 // plane: sign of the slip velocity
+  int press;               // sign of the multiplier that presses
+  bool given;              // space: slips along d, because there is no slip velocity yet
+  double d[3];
+  double small;            // space: slip below this counts as none
+} pl_rub_now;
+
+// A decision at a moment of change: whether a contact holds, how a friction goes on.
+typedef enum pl_choice {
+  PL_CHOICE_OPEN,
+  PL_CHOICE_CLOSED,
+  PL_CHOICE_STICK,
+  PL_CHOICE_SLIP           // with way and press: PL_CHOICE_SLIP + (way < 0) + 2 (press < 0)
+} pl_choice;
+typedef struct pl_decision {
+  bool of_rub;
+  int index;               // constraint or friction
+  unsigned allowed;        // bits of the choices
+  int choice;
+} pl_decision;
+
 // Something that is watched for a root on a step: a release, a landing or an event.
-typedef enum pl_watch_kind { PL_WATCH_RELEASE, PL_WATCH_LANDING, PL_WATCH_EVENT } pl_watch_kind;
+typedef enum pl_watch_kind {
+  PL_WATCH_RELEASE,
+  PL_WATCH_LANDING,
+  PL_WATCH_STICK,          // the slip velocity of a friction reaches zero
+  PL_WATCH_SLIP,           // the force that holds it reaches its limit
+  PL_WATCH_PRESS,          // the multiplier that presses changes its sign while it slips
+  PL_WATCH_EVENT
+} pl_watch_kind;
 typedef struct pl_watch {
   pl_watch_kind kind;
-  int index;               // constraint or event
+  int index;               // constraint, friction or event
   int direction;           // +1 rising, -1 falling, 0 both
   int fresh;               // so many leading coefficients are zero by construction: it has just happened
   int side;                // sign on which it is known to be; 0 unknown
@@ -57,6 +90,8 @@ typedef struct pl_kink {
   const pl_batch* batch;
   int a, b, lane;
 } pl_kink;
+
+typedef struct pl_motion pl_motion;   // the motion as codes: motion_impl.h
 
 struct pl_run {
   pl_job* job;
@@ -75,6 +110,10 @@ struct pl_run {
   bool factored;           // the factor and the nodes of q, t belong to run->t, q (left by a projection)
   int* place_n;            // structure of coordinates: 1 if the coordinate has an entry in M  (n_q)
 
+  // the motion as codes, for the mode at work and those before; NULL: the general way
+  pl_motion *motion_code, *motion_codes;
+  bool at_point;           // their memory belongs to run->t, q, v, or to the end of the step that is tried
+
   // the point
   double t, t_low;         // time and its rounding error
   double *q, *v;           // (n_q)
@@ -91,8 +130,6 @@ struct pl_run {
   double t_series;         // where it starts
   double *Q_last, *V_last, *A_last, *L_last;   // the series of the step that was taken last
   double t_last, h_last;   // where that starts, and its length
-typedef struct pl_motion pl_motion;   // the motion as codes: motion_impl.h
-
 
   // dense series of what is watched
   double *G_series;        // g of each constraint: coefficient k at k n_c
@@ -110,10 +147,6 @@ typedef struct pl_motion pl_motion;   // the motion as codes: motion_impl.h
   double *column;                      // largest scaled entry of each column so far (n_q)
   double *row_long, *row_part;         // longest that a row has been, part of it that it is now   (n_c)
   int *priority, *row_of;
-  // the motion as codes, for the mode at work and those before; NULL: the general way
-  pl_motion *motion_code, *motion_codes;
-  bool at_point;           // their memory belongs to run->t, q, v, or to the end of the step that is tried
-
   bool *row_taken, *taken_kept;
   double smallest, best;   // smallest pivot of the independent rows; largest such so far
   double smallest_here, smallest_before, t_before;   // at the point, at the one before, its time
@@ -145,6 +178,35 @@ typedef struct pl_motion pl_motion;   // the motion as codes: motion_impl.h
   bool* hit;               // (n_watch)
   double* root;            // (n_watch)
 
+  // contacts and friction
+  pl_rub_now* rub;         // (n_rubs)
+  pl_rub_now* rub_before;  // at the point before a mode change
+  bool* rubs;              // this row of slip gives a force: it slips    (n_c)
+  int* at_rub;             // place of its coupling to the multiplier that presses   (n_c)
+  int n_slipping;
+  bool impulsive;          // the system at work is that of an impact
+  double* C_series;        // coefficients: order k at k n_coefficients
+  double* S_series;        // G v + dg/dt of slip: order k at k n_c
+  double* poly_2;          // for products of series
+  bool* near_by;           // contacts that take part in what happens now    (n_c)
+  bool* rebounds;          // of them those that bounce: what goes with them is not in force   (n_c)
+  bool* on_before;         // (n_c)
+  unsigned* fixed;         // choices that an event leaves to a contact, 0: all   (n_c)
+  unsigned* rub_fixed;     // the same for frictions                          (n_rubs)
+  bool* jumped;            // had an impact                                   (n_c)
+  double *approach;        // velocity along g before an impact               (n_c)
+  double *second, *second_size;   // g'' of constraints, derivative of slip   (n_c)
+  double *hold_q, *hold_v; // the point that decisions are tried at           (n_q)
+  double* first_a;         // accelerations of the first consistent set       (n_q)
+  pl_decision* decision;   // (n_c + n_rubs)
+  int* choice_kept;
+  int n_decisions;
+  double* fastest;         // largest approach that a contact has seen        (n_c)
+  double* bounce_t;        // times of its last three impacts                 (3 n_c)
+  long* bounces;           // how many one after the other                    (n_c)
+  double* settled_t;       // end of its infinitely many bounces, NaN         (n_c)
+  bool drops_bounce;       // some bounce was found too small to follow
+
   pl_kink* kinks;
   int n_kinks;
   double* K_series;        // of what changes sign: coefficient k of kink i at i order + k
@@ -172,6 +234,8 @@ typedef struct pl_motion pl_motion;   // the motion as codes: motion_impl.h
   double wall_begin;
 };
 
+typedef struct pl_projection { double g_before, g_after, r_before, r_after, move_q, move_v; bool ok; } pl_projection;
+
 // ---- batches.c: instances in lanes
 pleuel_status pl_batches_make(pl_job* job, pl_batches* b, const pl_pattern* patterns, int n, int orders, int n_q,
                               int n_c, int n_out);
@@ -190,6 +254,8 @@ void pl_assemble_row_sizes(pl_run* run);            // run->row_most
 void pl_assemble_g(pl_run* run, int k, double* g, double* size);   // size NULL: values only
 void pl_assemble_gdot(pl_run* run, double* r, double* size);      // G v + dg/dt at order 0
 void pl_assemble_rhs(pl_run* run, int k, double* rhs);
+void pl_assemble_speed(pl_run* run, int k, double* speed);       // order k of G v + dg/dt of slip
+void pl_assemble_second(pl_run* run, const double* a, double* second, double* size);   // d/dt (G v + dg/dt), all rows
 
 // ---- kkt.c
 pleuel_status pl_kkt_make(pl_run* run);
@@ -207,10 +273,18 @@ void pl_sizes_forget(pl_run* run);                  // back to what was kept: a 
 void pl_independent_unique(pl_run* run);
 void pl_active_update(pl_run* run);                 // active from on; orphans rest
 
+// ---- motion_make.c, motion_run.c: the motion as codes
+pl_motion* pl_motion_make(pl_run* run);             // not usable when it does not fit
+void pl_motion_update(pl_run* run);                 // the codes for the constraints that are taken
+bool pl_motion_project(pl_run* run, double t, double* q, double* v, pl_projection* p);   // false: not this way
+bool pl_motion_enter(pl_run* run);
+void pl_motion_expand(pl_run* run);
+
 // ---- motion_series.c
 void pl_point_evaluate(pl_run* run, double t, const double* q, const double* v);   // levels PLACE and SPEED at order 0
 bool pl_point_factor(pl_run* run, bool with_W);     // choose, assemble, factor
 bool pl_point_enter(pl_run* run);                   // all of order 0 at run->t, q, v
+void pl_point_general(pl_run* run);                 // jets and factor as pl_point_factor leaves them, after a step by codes
 void pl_series_expand(pl_run* run);
 double pl_series_step(const pl_run* run);           // Jorba and Zou
 void pl_horner(const double* X, int n, int last, double dt, double* x);   // sum of X_k dt^k
@@ -232,11 +306,24 @@ pl_watch* pl_watch_of(pl_run* run, pl_watch_kind kind, int index);
 double pl_watch_force_noise(const pl_run* run, int c);   // rounding error of λ_c
 
 // ---- kinks.c
-typedef struct pl_projection { double g_before, g_after, r_before, r_after, move_q, move_v; bool ok; } pl_projection;
-
 void pl_kinks_make(pl_run* run);
 void pl_kinks_series(pl_run* run);                  // after pl_series_expand
 double pl_kinks_first(pl_run* run, double h);       // just behind the first kink, in units of h; -1 none on the step
+
+// ---- friction.c
+void pl_friction_make(pl_run* run);
+void pl_friction_activate(pl_run* run);             // rows of slip: which are constraints, which forces
+void pl_friction_coefficients(pl_run* run, int k);  // order k, after the sweeps of the motion
+void pl_friction_matrix(pl_run* run);               // the rows of those that slip
+void pl_friction_rhs(pl_run* run, int k, double* rhs);
+double pl_friction_force(const pl_run* run, int r, const double* m);    // |F| from multipliers or impulses
+int pl_friction_slip(const pl_run* run, int r, pl_watch_kind kind, double* c, int n);   // series of what is watched
+double pl_friction_speed(const pl_run* run, int r, const double* rates, double* d);     // |slip|, its direction
+bool pl_friction_is_used(const pl_run* run, int r); // its constraint is in force
+
+// ---- contacts.c: which contacts hold, which surfaces stick
+pleuel_status pl_contacts_impact(pl_run* run, bool* any);   // velocities after an impact, if something arrives
+pleuel_status pl_contacts_settle(pl_run* run);              // the mode whose accelerations and forces fit together
 
 // ---- modes.c
 pleuel_status pl_modes_enter(pl_run* run);                  // the point in the mode that on[] says
@@ -247,8 +334,9 @@ void pl_mode_text(const pl_run* run, char* out);
 // ---- radau_step.c: the implicit method
 typedef struct pl_radau pl_radau;
 double pl_radau_tol(double asked);                  // the tolerance that it works to
-bool pl_radau_make(pl_run* run, double tol);        // false: too large for it
+bool pl_radau_make(pl_run* run, double tol, int most);   // false: more unknowns than that
 pleuel_status pl_radau_step(pl_run* run, double* h, double* root, pl_projection* p);
+pleuel_status pl_stiff_look(pl_run* run);           // whether to use it; stiff_detect.c
 
 // ---- run.c
 pleuel_status pl_run_begin_at(pl_run* run, double t);   // from run->q, v
@@ -270,16 +358,7 @@ pl_row pl_row_now(pl_run* run, pl_row_kind kind, double* out, char* mode);
 void pl_observe(pl_run* run, double t, const double* q, const double* v, const double* a, const double* lambda,
                 double* out);
 void pl_rows_before(pl_run* run);                                        // remembers the point before a mode change
-// ---- motion_make.c, motion_run.c: the motion as codes
-pl_motion* pl_motion_make(pl_run* run);             // not usable when it does not fit
-void pl_motion_update(pl_run* run);                 // the codes for the constraints that are taken
-bool pl_motion_project(pl_run* run, double t, double* q, double* v, pl_projection* p);   // false: not this way
-bool pl_motion_enter(pl_run* run);
-void pl_motion_expand(pl_run* run);
-
 pleuel_status pl_rows_event(pl_run* run, pl_event_kind kind, int index, double impulse, bool at_start);
 void pl_rows_energy(pl_run* run, bool anew);                             // energy at the point, drift
 
 #endif
-void pl_point_general(pl_run* run);                 // jets and factor as pl_point_factor leaves them, after a step by codes
-pleuel_status pl_stiff_look(pl_run* run);           // whether to use it; stiff_detect.c
