@@ -87,6 +87,7 @@ static void add_things(pl_stage* s) {
     bool point = t->kind == PL_THING_POINT;
     pl_part* p = pl_stage_add(s, point ? PL_SHAPE_POINT : PL_SHAPE_MASS, t->label, t->name);
     p->n = 1;
+    p->mass = pl_is_poison(t->mass) ? 0 : pl_stage_eval(s, t->mass);
     p->spot[0] = t->spot;
     p->moves = t->deps.n > 0 || t->timed;
   }
@@ -131,7 +132,7 @@ static int side_of(const pl_stage* s, const pl_part* p, const float* xy) {
   if (!p->normal) return 0;
   int m = p->n / 2;
   double n[2], d[2] = {0, 0};
-  pl_project(&s->view, p->normal, n);
+  pl_view_project(&s->view, p->normal, n);
   for (; m + 1 < p->n && !(hypot(d[0], d[1]) > 0); m++) {
     d[0] = xy[2 * m + 2] - xy[2 * m];
     d[1] = xy[2 * m + 3] - xy[2 * m + 1];
@@ -163,11 +164,14 @@ static pleuel_status make_shapes(pl_stage* s, pl_scene* scene) {
   pl_shape* shape = PL_ARRAY(s->arena, pl_shape, n + 1);
   float** xy = PL_ARRAY(s->arena, float*, n + 1);
   int most = 1;
+  double heaviest = 0;
+  for (int i = 0; i < n; i++) heaviest = fmax(heaviest, s->parts.at[i].mass);
   for (int i = 0; i < n; i++) {
     const pl_part* p = &s->parts.at[i];
     size_t frames = p->moves && p->kind != PL_SHAPE_TRAIL ? (size_t)s->n_frames : 1;
     xy[i] = PL_ARRAY(s->arena, float, 2 * (size_t)p->n * frames);
-    shape[i] = (pl_shape){.kind = p->kind, .label = p->label, .of = p->of, .n = p->n, .moves = frames > 1, .xy = xy[i], .shown = !p->hidden};
+    shape[i] = (pl_shape){.kind = p->kind, .label = p->label, .of = p->of, .n = p->n, .moves = frames > 1, .xy = xy[i], .shown = !p->hidden,
+                          .weight = p->mass > 0 ? (float)(p->mass / heaviest) : 0};
     if (p->n > most) most = p->n;
   }
   double* xyz = PL_ARRAY(s->arena, double, 3 * most);
@@ -179,7 +183,7 @@ static pleuel_status make_shapes(pl_stage* s, pl_scene* scene) {
       if (p->kind == PL_SHAPE_TRAIL) {
         double x[3], at[2];
         pl_stage_spot(s, &p->spot[0], x);
-        pl_project(&s->view, x, at);
+        pl_view_project(&s->view, x, at);
         xy[i][2 * f] = (float)at[0];
         xy[i][2 * f + 1] = (float)at[1];
         continue;
@@ -189,7 +193,7 @@ static pleuel_status make_shapes(pl_stage* s, pl_scene* scene) {
       float* to = xy[i] + (shape[i].moves ? 2 * (size_t)f * (size_t)p->n : 0);
       for (int k = 0; k < p->n; k++) {
         double at[2];
-        pl_project(&s->view, xyz + 3 * k, at);
+        pl_view_project(&s->view, xyz + 3 * k, at);
         to[2 * k] = (float)at[0];
         to[2 * k + 1] = (float)at[1];
       }

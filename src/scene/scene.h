@@ -36,6 +36,7 @@ typedef struct pl_shape {
   bool moves;
   const float* xy;          // (n x 2) when at rest, (n_frames x n x 2) when it moves; NaN: not there in this frame
   bool shown;               // false: prepared, but hidden until the reader asks (velocities; what `draw` hides)
+  float weight;             // MASS, BODY: its mass over the largest one, 0 unknown: for the size of its picture
 } pl_shape;
 
 typedef struct pl_scene_mark { double t; const char* label; int frame; } pl_scene_mark;   // an event

@@ -14,7 +14,7 @@ static void add_axes(pl_stage* s) {
   for (int i = 0; i < 8; i++) {
     double x[3], xy[2];
     for (int j = 0; j < 3; j++) x[j] = i >> j & 1 ? s->hi[j] : s->lo[j];
-    pl_project(&s->view, x, xy);
+    pl_view_project(&s->view, x, xy);
     for (int k = 0; k < 2; k++) lo[k] = fmin(lo[k], xy[k]), hi[k] = fmax(hi[k], xy[k]);
   }
   double length = 0.22 * s->size;

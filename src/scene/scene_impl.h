@@ -43,6 +43,7 @@ struct pl_part {
   pl_shape_kind kind;
   const char *label, *of;
   int n;
+  double mass;                  // kg, 0 unknown
   bool moves, hidden;
   int side;                     // GROUND: sign of the constraint's gradient; settled when projected
   pl_spot spot[2];              // ends
@@ -143,7 +144,7 @@ bool pl_track_normal(pl_stage* s, const pl_track* t, double n[3]);
 
 // ---- scene_view.c
 void pl_stage_view(pl_stage* s);
-void pl_project(const pl_view* v, const double x[3], double xy[2]);
+void pl_view_project(const pl_view* v, const double x[3], double xy[2]);
 
 // ---- scene_arrows.c
 void pl_stage_arrows(pl_stage* s);

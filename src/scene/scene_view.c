@@ -96,7 +96,7 @@ void pl_stage_view(pl_stage* s) {
   }
 }
 
-void pl_project(const pl_view* v, const double x[3], double xy[2]) {
+void pl_view_project(const pl_view* v, const double x[3], double xy[2]) {
   int n = v->n_axes < 2 ? 2 : v->n_axes;
   xy[0] = xy[1] = 0;
   for (int j = 0; j < n; j++) {

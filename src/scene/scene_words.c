@@ -35,7 +35,7 @@ static const char* happening(pl_arena* a, const pl_result_event* e, int lang) {
     case PL_EV_IMPACT: return pl_format(a, lang ? "Stoß auf %s" : "impact on %s", label);
     case PL_EV_CONTACT: return pl_format(a, lang ? "Kontakt mit %s" : "contact with %s", label);
     case PL_EV_SINGULAR: return lang ? "singuläre Lage" : "singular position";
-    case PL_EV_STOP: case PL_EV_EVENT: break;
+    default: break;
   }
   return label;
 }
