@@ -194,7 +194,19 @@ static void answer_components(pl_analysis* d, const char* of, const char* on, co
     pl_dimension dim = pl_dimension_of_expr(d, value[j], &known);
     if (known) v.unit = pl_dimension_unit(d->arena, dim, true);
   }
+  pl_structure_where(d, &v);
   pl_push(d->arena, d->section->values, v);
+}
+
+// A multiplier that is too long to be written out stays a name; the system that determines it is shown.
+static const long longest_written = 4000;   // operations of its normal form
+
+static bool lambda_over_names(pl_analysis* d, int k, pl_lambda_value* out) {
+  const pl_bond* l = &d->g.at[k];
+  if (l->lambda_known && pl_op_count(d->pool, l->lambda_value) <= longest_written) return false;
+  if (!pl_show_structured(d, l->lambda, l->lambda_known ? l->lambda_value : pl_poison())) return false;
+  *out = (pl_lambda_value){.value = pl_sym(d->pool, l->lambda), .number = d->solution->n_equations};
+  return true;
 }
 
 static void show_on(pl_analysis* d, int k, int particle, const pl_force* f, const pl_lambda_value* lambda, bool only_one) {
@@ -208,7 +220,8 @@ static void show_on(pl_analysis* d, int k, int particle, const pl_force* f, cons
   const char* label = d->particle.at[particle].label;
   const pl_form* Z = pl_fn(d, only_one ? "Z" : pl_format(d->arena, "Z_%s", label));
   const pl_form* named = vector_of(d, f, with_name, PL_S_PLAIN);
-  const pl_form* closed = ops <= closed_ops ? vector_of(d, f, value, PL_S_QUOTIENT) : NULL;
+  bool stays = pl_same(lambda->value, pl_sym(d->pool, d->g.at[k].lambda));
+  const pl_form* closed = !stays && ops <= closed_ops ? vector_of(d, f, value, PL_S_QUOTIENT) : NULL;
   pl_step* step = pl_show_numbered(d, pl_feq(d, Z, closed ? pl_feq(d, named, closed) : named));
   if (!only_one) pl_step_after(step, pl_format(d->arena, "on %s", label), pl_format(d->arena, "auf %s", label));
   if (f->n == 1) {
@@ -279,12 +292,14 @@ static void force_of(pl_analysis* d, const pl_ask* ask, int k) {
   const char* label = d->g.at[k].source->name.text;
   pl_section_open(d, ask, pl_format(d->arena, "Force of %s", label), pl_format(d->arena, "Zwangskraft von %s", label));
   if (pl_say_shared(d, k)) return;
-  if (!d->g.at[k].lambda_known) {
+  pl_lambda_value lambda;
+  bool stays = lambda_over_names(d, k, &lambda);
+  if (!stays && !d->g.at[k].lambda_known) {
     pl_say(d, "The multiplier of {1} is not determined in closed form.", "Der Multiplikator von {1} ist nicht geschlossen bestimmt.", 1, pl_fn(d, label));
     d->section->not_found = true;
     return;
   }
-  pl_lambda_value lambda = lambda_for(d, k, &ask->motion, true);
+  if (!stays) lambda = lambda_for(d, k, &ask->motion, true);
   int n = 0, first = -1;
   pl_force* f = PL_ARRAY(d->arena, pl_force, d->particle.n + 1);
   for (int m = 0; m < d->particle.n; m++) {
@@ -295,7 +310,7 @@ static void force_of(pl_analysis* d, const pl_ask* ask, int k) {
     if (f[m].n > 0) show_on(d, k, m, &f[m], &lambda, d->particle.n == 1);
   }
   if (n == 0) not_attributable(d, k);
-  answer_lambda(d, k, &lambda);
+  if (!stays) answer_lambda(d, k, &lambda);
   if (first >= 0 && d->reduced && d->gen.n == 1) compare_with_free_fall(d, d->gen.at[0]);
   say_equilibrium_start(d, &ask->motion, k);
   pl_note_attribution(d, k);
@@ -343,13 +358,15 @@ static void force_on_mass(pl_analysis* d, const pl_ask* ask, int m) {
     pl_force f;
     if (d->g.at[k].implied || d->g.at[k].shared || !force_on(d, k, m, &f) || f.n == 0) continue;
     shown++;
-    if (!d->g.at[k].lambda_known) {
+    pl_lambda_value lambda;
+    bool stays = lambda_over_names(d, k, &lambda);
+    if (!stays && !d->g.at[k].lambda_known) {
       pl_say(d, "The multiplier of {1} is not determined in closed form.", "Der Multiplikator von {1} ist nicht geschlossen bestimmt.", 1,
              pl_fn(d, d->g.at[k].source->name.text));
       d->section->not_found = true;
       continue;
     }
-    pl_lambda_value lambda = lambda_for(d, k, &ask->motion, false);
+    if (!stays) lambda = lambda_for(d, k, &ask->motion, false);
     pl_say(d, "{1}:", "{1}:", 1, pl_fn(d, d->g.at[k].source->name.text));
     show_on(d, k, m, &f, &lambda, true);
   }

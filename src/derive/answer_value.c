@@ -59,6 +59,7 @@ static void plain_value(pl_analysis* d, const pl_ask* ask) {
     pl_answer_pending(d, ask);
     return;
   }
+  if (unsolved(d, e) && !pl_not_determined(d, e) && pl_show_value_structured(d, ask->value, e)) return;
   if (stays_open(d, ask->value, e)) return;
   const pl_form* form = pl_f(d, e, PL_S_QUOTIENT);
   pl_step* step = pl_show_numbered(d, pl_feq(d, pl_fe(d, ask->value), form));
@@ -93,65 +94,4 @@ void pl_answer_value(pl_analysis* d, const pl_ask* ask) {
   } else {
     plain_value(d, ask);
   }
-}
-
-// ---------------------------------------------------------------------------------------------- expect
-enum { max_inserted = 3 };   // constraints that are solved and inserted for an `expect` without generalized coordinates
-
-// Is e zero wherever the constraints from k on hold?  Each is solved for one coordinate, all its roots are inserted, and their
-// derivatives for its velocity.
-static pl_answer3 zero_on_constraints(pl_analysis* d, pl_expr e, int k, int depth) {
-  pl_answer3 zero = pl_alg_is_zero(d->tower, e);
-  while (k < d->g.n && (d->g.at[k].implied || d->g.at[k].velocity || d->g.at[k].fixes >= 0)) k++;
-  if (zero == PL_YES || k == d->g.n) return zero;
-  if (depth == max_inserted) return PL_UNKNOWN;
-  pl_expr g = pl_on_contact(d, d->g.at[k].g);
-  for (int i = d->q.n - 1; i >= 0; i--) {
-    const pl_variable* c = &d->q.at[i];
-    if (!pl_has_symbol(d->pool, g, c->q)) continue;
-    pl_root root[8];
-    bool complete = false;
-    int n = pl_alg_roots(d->tower, g, c->q, root, 8, &complete);
-    if (n == 0 || !complete) continue;
-    pl_answer3 all = PL_YES;
-    for (int r = 0; r < n && all != PL_NO; r++) {
-      pl_replace inserted[2] = {{c->q, root[r].value}, {c->v, pl_dt(d->pool, root[r].value)}};
-      pl_answer3 one = zero_on_constraints(d, pl_subst(d->pool, e, inserted, 2), k + 1, depth + 1);
-      if (one != PL_YES) all = one;
-    }
-    return all;
-  }
-  return PL_UNKNOWN;
-}
-
-void pl_answer_expect(pl_analysis* d, const pl_ask* ask) {
-  pl_section_open(d, ask, "Expected", "Erwartet");
-  const pl_condition* c = &ask->where.at[0];
-  pl_expr left = pl_on_motion(d, pl_with_results(d, c->left)), right = pl_on_motion(d, pl_with_results(d, c->right));
-  for (int k = 1; k < ask->where.n; k++) {
-    left = pl_subst_expr(d->pool, left, ask->where.at[k].left, ask->where.at[k].right);
-    right = pl_subst_expr(d->pool, right, ask->where.at[k].left, ask->where.at[k].right);
-  }
-  pl_answer3 equal = pl_alg_equal(d->tower, left, right);
-  if (equal != PL_YES && !d->reduced) equal = zero_on_constraints(d, pl_sub(d->pool, left, right), 0, 0);
-  if (equal == PL_NO && (unsolved(d, left) || unsolved(d, right))) equal = PL_UNKNOWN;
-  const pl_form* claim = pl_feq(d, pl_fe(d, c->left), pl_fe(d, c->right));
-  left = pl_alg_normal(d->tower, left);
-  pl_value* v = pl_answer(d, "expect", equal == PL_YES ? right : left, NULL);
-  v->passed = equal == PL_YES;
-  if (equal == PL_YES) {
-    pl_say(d, "{1}: yes", "{1}: ja", 1, claim);
-    return;
-  }
-  v->got = left;
-  if (pl_not_determined(d, pl_alg_normal(d->tower, pl_sub(d->pool, left, right)))) {
-    pl_say(d, "{1}: no, this is not determined; only sums of the forces of constraints that depend on each other are.",
-           "{1}: nein, das ist nicht bestimmt; nur Summen der Kräfte voneinander abhängiger Zwangsbedingungen sind es.", 1, claim);
-    d->solution->expect_failed = true;
-    return;
-  }
-  const pl_form* got = pl_feq(d, pl_fe(d, c->left), pl_f(d, left, PL_S_QUOTIENT));
-  pl_say(d, equal == PL_NO ? "{1}: no, {2}" : "{1}: not decided; {2}", equal == PL_NO ? "{1}: nein, {2}" : "{1}: nicht entschieden; {2}", 2,
-         claim, got);
-  d->solution->expect_failed = true;
 }

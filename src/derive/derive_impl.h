@@ -99,8 +99,10 @@ typedef struct pl_analysis {
 
   int number_lagrange1;        // equation number of the first Lagrange I equation, 0 none
   PL_VEC(int) lagrange1_numbers;
-  int number_lambda, number_gdd, number_acceleration;
+  int number_lambda, number_gdd, number_acceleration, number_lagrangian;
+  PL_VEC(int) lagrange2_numbers;
   PL_VEC(pl_claim) claims;
+  PL_VEC(pl_replace) steady;   // velocities that stay during the request: of equilibria for φ' = Ω, of modes holding φ
   pl_map* told;                // what has been said already (notes, definitions)
   bool multipliers_tried, accelerations_tried;
   pl_structure *of_multipliers, *of_accelerations;   // made when a closed form is too long; NULL if not found
@@ -124,6 +126,7 @@ pleuel_status pl_energies(pl_analysis* d);              // T, V, L, forces, eule
 bool pl_frame_find(pl_analysis* d, const pl_particle* k, pl_frame* out);
 const char* pl_unit_vector(pl_analysis* d, int coordinate);      // "e_r"
 // reduce.c
+void pl_collect_generalized(pl_analysis* d);             // what is neither fixed nor mapped
 pleuel_status pl_reduce(pl_analysis* d);                // generalized coordinates and maps
 // solve_motion.c
 pleuel_status pl_solve_motion(pl_analysis* d);          // accelerations and multipliers
@@ -147,6 +150,9 @@ pl_structure* pl_structure_of_accelerations(pl_analysis* d);
 bool pl_show_structured(pl_analysis* d, pl_symbol u, pl_expr closed);
 // The same without display: only the value.
 bool pl_answer_structured(pl_analysis* d, pl_symbol u);
+// e hangs on accelerations and multipliers that have no closed form: shown over the names.
+bool pl_show_value_structured(pl_analysis* d, pl_expr asked, pl_expr e);
+void pl_structure_where(pl_analysis* d, pl_value* v);   // the names that its formulas contain
 bool pl_structure_is_told(const pl_analysis* d);        // the system of the multipliers was displayed
 int pl_structure_definitions(pl_analysis* d, pl_definition* out, int max);   // names in order, for the points of the motion
 // claims.c
@@ -183,6 +189,22 @@ const pl_form* pl_potential_form(pl_analysis* d, pl_expr raw, pl_expr normal);
 const pl_form* pl_joined_sum(pl_analysis* d, const pl_form* const* part, int n);          // one flat sum of sums
 const pl_form* pl_fref(pl_analysis* d, int number);                                     // "(4)"
 
+// ---------------------------------------------------------------------------------------------- details (why.c)
+// Lines in front of the one that they explain, shown with `--steps full`.
+void pl_why_first_kind(pl_analysis* d, int i);
+void pl_why_differentiated(pl_analysis* d, int link);
+void pl_why_multiplier(pl_analysis* d, int link, pl_expr inserted);   // inserted: linear in the multipliers, vanishes on the motion
+void pl_why_frame(pl_analysis* d, const pl_particle* k, const pl_frame* f);
+void pl_why_second_kind(pl_analysis* d, int i);
+void pl_why_energy(pl_analysis* d, pl_expr E);
+void pl_why_cyclic(pl_analysis* d, int i);
+void pl_why_uniform(pl_analysis* d, int i, pl_expr x);
+void pl_why_linear(pl_analysis* d, int i, pl_expr A, pl_expr B, pl_expr C);   // x'' = A + B x + C x'
+void pl_why_transform(pl_analysis* d, int i, pl_expr transform, const pl_root* root, int n);
+void pl_why_linear_motion(pl_analysis* d, int i);                             // linear_motion.c
+void pl_why_oscillations(pl_analysis* d, const pl_expr* M, const pl_expr* K, int n);
+void pl_why_series(pl_analysis* d, pl_expr f, pl_symbol variable, pl_expr to, int lead, const pl_expr* c, int n);
+
 // ---------------------------------------------------------------------------------------------- sections
 // Each answers one kind of request and writes into d->section.
 void pl_answer_dof(pl_analysis* d, const pl_ask* ask);
@@ -196,6 +218,7 @@ void pl_answer_conserved(pl_analysis* d, const pl_ask* ask);
 void pl_answer_force(pl_analysis* d, const pl_ask* ask);
 void pl_answer_equilibria(pl_analysis* d, const pl_ask* ask);
 void pl_answer_modes(pl_analysis* d, const pl_ask* ask);
+void pl_answer_threshold(pl_analysis* d, const pl_ask* ask);
 void pl_answer_limit(pl_analysis* d, const pl_ask* ask);
 void pl_answer_series(pl_analysis* d, const pl_ask* ask);
 void pl_answer_value(pl_analysis* d, const pl_ask* ask);

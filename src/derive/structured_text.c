@@ -218,13 +218,19 @@ static int line_of(const pl_structure* s, pl_symbol u) {
   return -1;
 }
 
+static bool speaks_of(pl_analysis* d, const pl_value* v, pl_symbol s) {
+  bool has = pl_has_symbol(d->pool, v->expr, s);
+  for (int c = 0; c < v->n_components; c++) has |= pl_has_symbol(d->pool, v->components[c].expr, s);
+  return has;
+}
+
 // The names that the value needs, in the order in which they can be computed.
 static void add_where(pl_analysis* d, const pl_structure* s, pl_value* v) {
   bool* needed = PL_ARRAY(d->arena, bool, s->lines.n);
   int n = 0;
   for (int k = s->lines.n - 1; k >= 0; k--) {
     pl_symbol name = s->lines.at[k].name;
-    needed[k] = pl_has_symbol(d->pool, v->expr, name);
+    needed[k] = speaks_of(d, v, name);
     for (int later = k + 1; later < s->lines.n && !needed[k]; later++) {
       needed[k] = needed[later] && pl_has_symbol(d->pool, s->lines.at[later].value, name);
     }
@@ -237,6 +243,12 @@ static void add_where(pl_analysis* d, const pl_structure* s, pl_value* v) {
     v->where_name[v->n_where] = pl_symbol_get(d->pool, s->lines.at[k].name)->ascii;
     v->where_expr[v->n_where++] = s->lines.at[k].value;
   }
+}
+
+void pl_structure_where(pl_analysis* d, pl_value* v) {
+  if (v->n_where > 0) return;
+  if (d->of_multipliers) add_where(d, d->of_multipliers, v);
+  if (v->n_where == 0 && d->of_accelerations) add_where(d, d->of_accelerations, v);
 }
 
 // x'' = (F + sum λ dg/dx)/m when no other acceleration stands in the equation of x.
@@ -294,6 +306,43 @@ bool pl_answer_structured(pl_analysis* d, pl_symbol u) {
   if (!find(d, u, &f)) return false;
   for (int k = 0; k < f.s->n_entries && !f.s->told; k++) claim_entry(d, &f.s->lines.at[k]);
   answer(d, u, &f);
+  return true;
+}
+
+// e with each acceleration that has a row of its own inserted; false when some acceleration or multiplier has no line.
+static bool over_lines(pl_analysis* d, pl_expr* e, pl_found* last) {
+  int n = pl_symbols_in(d->pool, *e, NULL, 0);
+  pl_symbol* s = PL_ARRAY(d->arena, pl_symbol, n + 1);
+  pl_symbols_in(d->pool, *e, s, n);
+  last->s = NULL;
+  for (int k = 0; k < n; k++) {
+    pl_role role = pl_symbol_get(d->pool, s[k])->role;
+    if (role != PL_R_ACCELERATION && role != PL_R_MULTIPLIER) continue;
+    pl_found f;
+    if (!find(d, s[k], &f) || (last->s && last->s != f.s)) return false;
+    if (line_of(f.s, s[k]) < 0) *e = pl_subst1(d->pool, *e, s[k], f.value);
+    *last = f;
+  }
+  return last->s != NULL;
+}
+
+bool pl_show_value_structured(pl_analysis* d, pl_expr asked, pl_expr e) {
+  pl_found f;
+  if (!over_lines(d, &e, &f)) return false;
+  int first = f.s->n_entries + f.s->n_pivots;
+  tell(d, f.s, f.s->u[0], pl_poison());
+  pl_expr value = pl_alg_normal(d->tower, e);
+  for (int k = first; k < f.s->lines.n; k++) {
+    if (pl_has_symbol(d->pool, value, f.s->lines.at[k].name)) show_lines(d, f.s, k, k + 1, false);
+  }
+  const pl_form* form = pl_f(d, value, PL_S_QUOTIENT);
+  if (!pl_same(asked, value)) pl_show_numbered(d, pl_feq(d, pl_fe(d, asked), form));
+  pl_claim_that(d, PL_CLAIM_MOTION, pl_form_value(d->pool, form), pl_with_results(d, asked));
+  pl_value* v = pl_answer(d, pl_expr_text(d->arena, d->pool, asked), value, form);
+  for (int k = first; k < f.s->lines.n && pl_same(asked, value); k++) {   // an unknown itself
+    if (pl_same(asked, pl_sym(d->pool, f.s->lines.at[k].name))) v->expr = f.s->lines.at[k].value, v->form = f.s->lines.at[k].form;
+  }
+  add_where(d, f.s, v);
   return true;
 }
 

@@ -165,19 +165,20 @@ def _(program):
 
 for name in ("chain8", "linkage12"):
 
-    @test(f"{name}: ends in time, says what was not found, claims no value for an acceleration")
+    @test(f"{name}: ends in time, an acceleration is not said to be itself")
     def _(program, name=name):
         answer = case(program, name)
         need(answer.exit_code == 0, f"exit {answer.exit_code}")
-        need(not answer.values("x1_ddot", item="x1''"), "x1'' = x1''")
+        need(all(c["passed"] for c in answer.document["checks"]), "checks")
+        need(all(v["expr"] != "x1_ddot" for v in answer.values("x1_ddot", item="x1''")), "x1'' = x1''")
 
 
 @test("twelve angles: too long is not called singular")
 def _(program):
     answer = case(program, "angles12")
     text = " ".join(s.get("text", "") for i in answer.items() for s in i["steps"])
-    need("singular" not in text and "too long" in text, text[:300])
-    need(not answer.values("q1_ddot"), "q1'' = q1''")
+    need("singular" not in text and "limit of 3000 terms" in text, text[:300])
+    need(all(v["expr"] != "q1_ddot" and v["where"] for v in answer.values("q1_ddot")), "q1'' = q1''")
 
 
 @test("no coordinate free: equilibria are answered, not put off")
