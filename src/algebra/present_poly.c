@@ -43,7 +43,7 @@ static pl_group* find_group(pl_search* s, pl_group* groups, int* n, const ulong*
   for (int i = 0; i < *n; i++)
     if (memcmp(groups[i].key, key, size) == 0) return &groups[i];
   pl_group* g = &groups[(*n)++];
-  g->key = PL_ARRAY(s->a, ulong, PL_MAX_GENERATORS);
+  g->key = PL_ARRAY(s->a, ulong, s->t->capacity);
   memcpy(g->key, key, size);
   g->coefficient = pl_poly_new(s->t);
   return g;

@@ -249,8 +249,9 @@ pl_piece pl_piece_of_gen(pl_search* s, int gen) {
 pl_prod pl_prod_of_gen(pl_search* s, int gen, int power) { return pl_prod_piece(s, pl_piece_of_gen(s, gen), power); }
 
 pl_prod pl_prod_of_exponents(pl_search* s, pl_expr unit, const ulong* exponent) {
-  pl_piece* at = PL_ARRAY(s->a, pl_piece, s->t->gens.n + 1);
-  int n = 0;
+  int n = 0, present = 0;   // few of the generators: a piece for each would fill the memory
+  for (int g = 0; g < s->t->gens.n; g++) present += exponent[g] != 0;
+  pl_piece* at = PL_ARRAY(s->a, pl_piece, present + 1);
   for (int g = 0; g < s->t->gens.n; g++) {
     if (!exponent[g]) continue;
     pl_piece piece = pl_piece_of_gen(s, g);
