@@ -115,4 +115,12 @@ int pl_lower_inverse(const pl_lower* l, int node);
 bool pl_lower_has_inverse(const pl_tape* tape, int node);
 int pl_lower_coefficient(const pl_lower* l, int node);    // order k >= 1; -1: zero
 
+// ---- engine.c: compiled programs.  The compiler is a plugin, which need not be there.
+bool pl_jit_available(const char** why);    // opens it; why: what stands in the way
+typedef struct pl_jit_code pl_jit_code;     // must be freed
+typedef struct pl_jit_story { bool stored; double seconds; } pl_jit_story;   // came from disk; how long it took
+// run[i] is the function of progs[i]; their names must differ.  NULL: pl_jit_available says why.
+pl_jit_code* pl_jit_compile(pl_arena* a, const pl_prog* const* progs, int n, pl_prog_run** run, pl_jit_story* story);
+void pl_jit_free(pl_jit_code* code);
+
 #endif

@@ -38,6 +38,8 @@ typedef struct pl_motion_entry { int row, col, first, n, cell; } pl_motion_entry
 struct pl_motion {
   pl_prog* code[PL_N_PARTS];
   pl_prog_run* compiled[PL_N_PARTS];   // NULL: interpreted
+  pl_jit_code* jit;
+  bool tried;                    // to compile
   bool usable;                   // false: this mode goes the general way
   bool* taken;                   // which constraints it was made for               (n_c)
   pl_motion* next;

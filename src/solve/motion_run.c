@@ -22,16 +22,63 @@ static bool same_mode(const pl_run* run, const pl_motion* o) {
   return memcmp(o->taken, run->taken, (size_t)run->n_c * sizeof(bool)) == 0;
 }
 
-void pl_motion_update(pl_run* run) {
-  if (run->at_point || run->options.general || run->n_kinks > 0) return;
-  if (run->motion_code && same_mode(run, run->motion_code)) return;
-  run->motion_code = NULL;
+static pl_motion* motion_of_mode(pl_run* run) {
   for (pl_motion* o = run->motion_codes; o; o = o->next)
-    if (same_mode(run, o)) run->motion_code = o;
-  if (run->motion_code) return;
+    if (same_mode(run, o)) return o;
   pl_motion* o = pl_motion_make(run);
   o->next = run->motion_codes;
-  run->motion_code = run->motion_codes = o;
+  return run->motion_codes = o;
+}
+
+// ---------------------------------------------------------------------------------------------- compiling
+static void compile(pl_run* run, pl_motion* o) {
+  const pl_prog* progs[PL_N_PARTS];
+  pl_prog_run* found[PL_N_PARTS];
+  int part[PL_N_PARTS], n = 0;
+  pl_jit_story story;
+  o->tried = true;
+  for (int i = 0; i < PL_N_PARTS; i++)
+    if (o->code[i]) progs[n] = o->code[i], part[n++] = i;
+  o->jit = pl_jit_compile(run->job->arena, progs, n, found, &story);
+  run->stats.compile_s += story.seconds;
+  if (o->jit == NULL) return;
+  for (int i = 0; i < n; i++) o->compiled[part[i]] = found[i];
+  run->stats.compiled = true;
+  run->stats.stored |= story.stored;
+}
+
+// Seconds that compiling may take: the compiler is opened, then so much for each line.
+static double price(const pl_motion* o) {
+  double lines = 0;
+  for (int i = 0; i < PL_N_PARTS; i++)
+    if (o->code[i]) lines += o->code[i]->lines.n;
+  return 0.03 + 60e-6 * lines;
+}
+
+// After 8, 16, 32 ... steps the time that is left is estimated from the time so far.  Only when, never what, depends on it.
+static bool compiling_pays(pl_run* run, const pl_motion* o) {
+  long steps = run->stats.steps;
+  if (run->considered == 0) {
+    run->clock_begin = pl_clock();
+    run->t_begin = run->t;
+    run->considered = steps + 8;
+  }
+  if (steps < run->considered) return false;
+  run->considered = 2 * steps;
+  double way = run->t - run->t_begin, left = run->options.t_end - run->t;
+  return (pl_clock() - run->clock_begin) * (left / way) > 2 * price(o);
+}
+
+void pl_motion_update(pl_run* run) {
+  if (run->options.general || run->n_kinks > 0) return;
+  if (!run->at_point && !(run->motion_code && same_mode(run, run->motion_code))) run->motion_code = motion_of_mode(run);
+  pl_motion* o = run->motion_code;
+  if (o == NULL || !o->usable || o->tried || run->options.engine == PL_ENGINE_INTERPRETER) return;
+  if (run->options.engine == PL_ENGINE_COMPILED || compiling_pays(run, o)) compile(run, o);
+}
+
+void pl_motion_free(pl_run* run) {
+  for (pl_motion* o = run->motion_codes; o; o = o->next) pl_jit_free(o->jit);
 }
 
 // ---------------------------------------------------------------------------------------------- pivots

@@ -233,5 +233,7 @@ pleuel_status pl_run_make(pl_job* job, const pl_setup* setup, const pl_run_optio
 }
 
 void pl_run_free(pl_run* run) {
-  if (run) pl_kkt_free(&run->kkt);
+  if (run == NULL) return;
+  pl_kkt_free(&run->kkt);
+  pl_motion_free(run);
 }

@@ -172,7 +172,10 @@ typedef struct pl_stats {
   long steps_implicit;                // of steps, those by the implicit method
   int order_implicit;                 // its order, 0 where it was not used
   double t_implicit;                  // when it was first used; NaN: never
-  double wall_s;                      // the only number here that is not reproducible
+  double wall_s;                      // this and what follows is not reproducible
+  bool compiled, stored;              // steps were compiled; what was compiled before was found on disk
+  double compile_s;
+  long steps_interpreted;             // steps before that, or all
 } pl_stats;
 
 // pl_sink: where results go.  Any call may be NULL.  A status other than PLEUEL_OK stops the run and is returned.
@@ -191,6 +194,13 @@ typedef enum pl_method {
   PL_METHOD_AUTO      // series; implicit where that is far cheaper
 } pl_method;
 
+// How the programs of a step are run.  The results are the same.
+typedef enum pl_engine {
+  PL_ENGINE_AUTO,         // interpreted, compiled as soon as the work that is left pays for it
+  PL_ENGINE_INTERPRETER,
+  PL_ENGINE_COMPILED      // compiled before the first step
+} pl_engine;
+
 typedef struct pl_run_options {
   double t_0, t_end;                  // s; t_end may lie before t_0 (backwards)
   double tol;                         // relative local error; 0: what the arithmetic can do, which is the least
@@ -202,6 +212,7 @@ typedef struct pl_run_options {
   pl_sink sink;
   void (*progress)(void* user, double t, double t_end, double h, const pl_stats* stats);   // after every step; or NULL
   void* progress_user;
+  pl_engine engine;
   bool general;                       // without codes (jit.h): every step goes the general way
 } pl_run_options;
 

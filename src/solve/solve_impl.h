@@ -113,6 +113,8 @@ struct pl_run {
   // the motion as codes, for the mode at work and those before; NULL: the general way
   pl_motion *motion_code, *motion_codes;
   bool at_point;           // their memory belongs to run->t, q, v, or to the end of the step that is tried
+  double clock_begin, t_begin;   // when stepping with these began
+  long considered;         // steps at which compiling was thought of last
 
   // the point
   double t, t_low;         // time and its rounding error
@@ -275,7 +277,8 @@ void pl_active_update(pl_run* run);                 // active from on; orphans r
 
 // ---- motion_make.c, motion_run.c: the motion as codes
 pl_motion* pl_motion_make(pl_run* run);             // not usable when it does not fit
-void pl_motion_update(pl_run* run);                 // the codes for the constraints that are taken
+void pl_motion_update(pl_run* run);                 // the codes for the constraints that are taken, compiled if it pays
+void pl_motion_free(pl_run* run);
 bool pl_motion_project(pl_run* run, double t, double* q, double* v, pl_projection* p);   // false: not this way
 bool pl_motion_enter(pl_run* run);
 void pl_motion_expand(pl_run* run);
