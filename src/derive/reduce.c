@@ -150,7 +150,7 @@ static bool solve_links(pl_analysis* d) {
 }
 
 // What is neither fixed nor mapped is generalized.
-static void collect_generalized(pl_analysis* d) {
+void pl_collect_generalized(pl_analysis* d) {
   for (int i = 0; i < d->q.n; i++) {
     pl_variable* c = &d->q.at[i];
     if (c->fixed_by < 0 && pl_is_poison(c->map) && (c->carries || c->chosen)) pl_push(d->arena, d->gen, i);
@@ -168,7 +168,7 @@ static bool find_hidden(pl_analysis* d) {
     set_map(d, i, value, -3);
     pl_push(d->arena, d->hidden, i);
     d->gen.n = 0;
-    collect_generalized(d);
+    pl_collect_generalized(d);
     d->Lg = pl_on_maps(d, d->L);
     return true;
   }
@@ -183,7 +183,7 @@ pleuel_status pl_reduce(pl_analysis* d) {
     d->maps.n = 0;
     return PLEUEL_OK;
   }
-  collect_generalized(d);
+  pl_collect_generalized(d);
   d->Lg = pl_on_maps(d, d->L);
   while (find_hidden(d)) {
   }

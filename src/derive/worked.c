@@ -187,7 +187,7 @@ static void answer(pl_analysis* d, const pl_ask* ask) {
     case PL_ASK_LIMIT: pl_answer_limit(d, ask); break;
     case PL_ASK_SERIES: pl_answer_series(d, ask); break;
     case PL_ASK_EXPECT: pl_answer_expect(d, ask); break;
-    case PL_ASK_THRESHOLD:
+    case PL_ASK_THRESHOLD: pl_answer_threshold(d, ask); break;
     case PL_ASK_MAX:
     case PL_ASK_MIN:
     case PL_ASK_AVERAGE:

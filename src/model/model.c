@@ -96,6 +96,8 @@ static const char* result_text(pl_arena* a, pl_result_kind kind, const char* lab
     case PL_RES_FORCE: return pl_format(a, "force(%s)", label ? label : "");
     case PL_RES_FORCE_NORM: return pl_format(a, "norm(force(%s))", label ? label : "");
     case PL_RES_NORMAL: return pl_format(a, "normal(%s)", label ? label : "");
+    case PL_RES_DT: return pl_format(a, "dt(%s)", label ? label : "");
+    case PL_RES_DIFF: return pl_format(a, "diff(%s)", label ? label : "");
   }
   return "?";
 }
@@ -132,8 +134,6 @@ pl_symbol pl_model_result_derivative(pl_model* m, pl_result_kind kind, pl_expr o
 
 const pl_result_name* pl_model_result_name(const pl_model* m, pl_symbol s) {
   for (int i = 0; i < m->result_names.n; i++) {
-    case PL_RES_DT: return pl_format(a, "dt(%s)", label ? label : "");
-    case PL_RES_DIFF: return pl_format(a, "diff(%s)", label ? label : "");
     if (m->result_names.at[i].symbol.id == s.id && s.id) return &m->result_names.at[i];
   }
   return NULL;

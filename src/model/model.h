@@ -275,6 +275,7 @@ const pl_restitution* pl_model_restitution(const pl_model* m, const pl_constrain
 const pl_friction* pl_model_friction(const pl_model* m, const pl_constraint* c);
 const pl_mass* pl_model_mass(const pl_model* m, const char* label);
 pl_symbol pl_model_result_symbol(pl_model* m, pl_result_kind kind, const char* label);   // made on first use
+pl_symbol pl_model_result_derivative(pl_model* m, pl_result_kind kind, pl_expr of, pl_symbol by);   // DT, DIFF
 const pl_result_name* pl_model_result_name(const pl_model* m, pl_symbol s);
 
 // The coordinates that have elements, one by one: scalars as declared, families expanded in order of index.
@@ -298,7 +299,6 @@ pleuel_status pl_model_expand(pl_job* job, const pl_model* m, int max_coords, pl
 pleuel_status pl_model_check(pl_job* job, pl_model* m);
 
 // ---------------------------------------------------------------------------------------------- units
-pl_symbol pl_model_result_derivative(pl_model* m, pl_result_kind kind, pl_expr of, pl_symbol by);   // DT, DIFF
 // A unit as written.  `factor` is what a number in front of the unit is multiplied by: the exact factor to SI times the
 // SI base units as symbols ("[m]", "[kg]", ...), so that `1 [m] + 2 [s]` is still seen to be wrong after the constructors
 // have sorted it.  pl_model_check puts 1 for these symbols everywhere in the model; pl_model_plain does it for one

@@ -1,0 +1,204 @@
+// answer_modes: normal modes about positions of rest and about steady motions.
+#include <math.h>
+#include <string.h>
+
+#include "derive/equilibria_impl.h"
+
+// The amplitudes of a mode: cofactors of a row of K - ω² M that do not all vanish, the first non-zero one scaled to 1.
+static bool amplitudes(pl_analysis* d, const pl_linearised* l, pl_expr w2, pl_expr* u) {
+  int n = l->n;
+  for (int row = 0; row < n; row++) {
+    int first = -1;
+    for (int j = 0; j < n; j++) {
+      pl_expr A[pl_max_gen * pl_max_gen];
+      int m = 0;
+      for (int a = 0; a < n; a++) {
+        for (int b = 0; b < n; b++) {
+          if (a != row && b != j) A[m++] = pl_sub(d->pool, l->K[a * n + b], pl_mul(d->pool, w2, l->M[a * n + b]));
+        }
+      }
+      pl_expr minor = n == 1 ? pl_int(d->pool, 1) : pl_alg_normal(d->tower, pl_alg_det(d->tower, n - 1, A, 20000));
+      u[j] = (row + j) % 2 ? pl_neg(d->pool, minor) : minor;
+      if (first < 0 && pl_alg_is_zero(d->tower, minor) == PL_NO) first = j;
+    }
+    if (first < 0) continue;
+    pl_expr scale = u[first];
+    for (int j = 0; j < n; j++) u[j] = pl_alg_normal(d->tower, pl_div(d->pool, u[j], scale));
+    return true;
+  }
+  return false;
+}
+
+static void show_mode(pl_analysis* d, const pl_linearised* l, pl_expr w2, int number, const char* at) {
+  const pl_form* form = pl_f(d, w2, PL_S_QUOTIENT);
+  pl_step* step = pl_show_numbered(d, pl_feq(d, pl_fs(d, pl_omega_squared(d)), form));
+  pl_step_after(step, pl_format(d->arena, "mode %d", number), pl_format(d->arena, "Mode %d", number));
+  pl_value v = {.name = "omega^2", .of = pl_format(d->arena, "mode %d", number), .at = at, .form = form, .expr = w2,
+                .number = pl_number(d, w2), .unit = "1/s^2", .conserved = -1, .passed = -1, .order = -1};
+  pl_expr u[pl_max_gen];
+  if (!l->gyroscopic && amplitudes(d, l, w2, u)) {
+    const pl_form* ratio[pl_max_gen];
+    v.components = PL_ARRAY(d->arena, pl_component, l->n);
+    for (int j = 0; j < l->n; j++) {
+      const pl_symbol_info* q = pl_symbol_get(d->pool, d->q.at[d->gen.at[j]].q);
+      ratio[j] = pl_f(d, u[j], PL_S_QUOTIENT);
+      v.components[v.n_components++] = (pl_component){q->ascii, u[j], ratio[j], pl_number(d, u[j])};
+    }
+    if (l->n > 1) {
+      const pl_form* names[pl_max_gen];
+      for (int j = 0; j < l->n; j++) names[j] = pl_fs(d, d->q.at[d->gen.at[j]].q);
+      pl_say(d, "amplitudes {1} as {2}", "Amplituden {1} wie {2}", 2, pl_flist(d, names, l->n), pl_flist(d, ratio, l->n));
+    }
+  }
+  pl_push(d->arena, d->section->values, v);
+}
+
+// One damped coordinate, M u'' + C u' + K u = 0:  u = e^(-γ t) cos(ω_d t) with γ = C/2M, ω_d² = K/M - γ²; the sign of ω_d² decides
+// between oscillation and creeping.
+static void show_damped(pl_analysis* d, const pl_linearised* l, const char* at) {
+  if (!l->damped || l->n != 1) return;
+  pl_pool* p = d->pool;
+  pl_expr gamma = pl_alg_normal(d->tower, pl_div(p, l->C[0], pl_mul(p, pl_int(p, 2), l->M[0])));
+  pl_expr square = pl_alg_normal(d->tower, pl_sub(p, pl_div(p, l->K[0], l->M[0]), pl_square(p, gamma)));
+  int sign = pl_sign_at_numbers(d, square);
+  const pl_form* form = pl_f(d, gamma, PL_S_QUOTIENT);
+  pl_step_after(pl_show_numbered(d, pl_feq(d, pl_fn(d, "γ"), form)), "decay", "Abklingen");
+  pl_answer(d, "gamma", gamma, form)->at = at;
+  if (sign < 0) {
+    pl_say(d, "Overdamped: no oscillation.", "Überdämpft: keine Schwingung.", 0);
+    return;
+  }
+  pl_expr root = pl_alg_normal(d->tower, pl_sqrt(p, square));
+  form = pl_f(d, root, PL_S_QUOTIENT);
+  pl_step* step = pl_show_numbered(d, pl_feq(d, pl_fn(d, "ω_d"), form));
+  pl_step_after(step, "damped oscillation", "gedämpfte Schwingung");
+  pl_answer(d, "omega_d", root, form)->at = at;
+}
+
+static void show_modes(pl_analysis* d, const pl_expr* f, const pl_rest* r, int number) {
+  pl_linearised l;
+  pl_linearise(d, f, r, &l);
+  const char* at = pl_format(d->arena, "equilibrium %d", number);
+  pl_say(d, "At {1}:", "Bei {1}:", 1, pl_rest_form(d, r));
+  pl_say_velocity_terms(d, &l);
+  pl_root root[pl_max_gen];
+  int n = pl_small_oscillations(d, &l, root, pl_max_gen);
+  if (n > 0 && !l.gyroscopic) pl_why_oscillations(d, l.M, l.K, l.n);
+  for (int k = 0; k < n; k++) show_mode(d, &l, root[k].value, k + 1, at);
+  show_damped(d, &l, at);
+  if (n < l.n) {
+    pl_say(d, "Not every root of the characteristic equation was found in closed form.",
+           "Nicht jede Wurzel der charakteristischen Gleichung war geschlossen zu finden.", 0);
+    d->section->not_found = n == 0;
+  }
+}
+
+// The position named by `at (u = 0, v = 0)`; what is not named is free to fit an equilibrium.
+static bool named_position(pl_analysis* d, const pl_ask* ask, const pl_rest* r) {
+  for (int k = 0; k < d->gen.n; k++) {
+    for (int c = 0; c < ask->where.n; c++) {
+      if (!pl_same(ask->where.at[c].left, pl_sym(d->pool, d->q.at[d->gen.at[k]].q))) continue;
+      if (pl_is_poison(r->q[k]) || pl_alg_equal(d->tower, r->q[k], ask->where.at[c].right) != PL_YES) return false;
+    }
+  }
+  return true;
+}
+
+// ---------------------------------------------------------------------------------------------- steady motions
+// The rate of the held coordinate at which the position stays: the roots of the equations at rest in its velocity.
+static bool steady_rate(pl_analysis* d, const pl_rest* r, int held) {
+  pl_symbol v = d->q.at[held].v;
+  for (int k = 0; k < d->gen.n; k++) {
+    pl_expr e = pl_insert_rest(d, pl_second_kind(d, d->gen.at[k]), r);
+    pl_replace stay[2 * pl_max_gen];
+    int n = 0;
+    for (int j = 0; j < d->gen.n; j++) {
+      const pl_variable* c = &d->q.at[d->gen.at[j]];
+      if (d->gen.at[j] != held) stay[n++] = (pl_replace){c->v, pl_int(d->pool, 0)};
+      stay[n++] = (pl_replace){c->a, pl_int(d->pool, 0)};
+    }
+    e = pl_alg_normal(d->tower, pl_subst(d->pool, e, stay, n));
+    if (pl_vanishes(d, e)) continue;
+    pl_root root[4];
+    bool complete = false;
+    int m = pl_has_symbol(d->pool, e, v) ? pl_alg_roots(d->tower, e, v, root, 4, &complete) : 0, best = 0, sign = 0;
+    if (m == 0) return false;
+    for (int j = 0; j < m; j++) {
+      if (pl_alg_sign(d->tower, root[j].value, false, &sign) == PL_YES && sign > 0) best = j;
+    }
+    pl_push(d->arena, d->steady, (pl_replace){v, root[best].value});
+    return true;
+  }
+  return false;
+}
+
+static bool position_of(pl_analysis* d, const pl_ask* ask, int held, pl_rest* r) {
+  *r = (pl_rest){0};
+  for (int k = 0; k < d->gen.n; k++) {
+    if (d->gen.at[k] == held) continue;
+    for (int c = 0; c < ask->where.n; c++) {
+      if (pl_same(ask->where.at[c].left, pl_sym(d->pool, d->q.at[d->gen.at[k]].q))) r->q[k] = ask->where.at[c].right;
+    }
+    if (pl_is_poison(r->q[k])) return false;
+  }
+  return true;
+}
+
+// `modes at (θ = α) holding φ`: oscillations about the motion with constant θ and φ', the momentum of φ being conserved.
+static void modes_of_steady(pl_analysis* d, const pl_ask* ask) {
+  int held = pl_variable_index(d, ask->frame.at[0]);
+  bool cyclic = held >= 0 && pl_alg_is_zero(d->tower, pl_diff(d->pool, d->Lg, d->q.at[held].q)) == PL_YES;
+  pl_rest r;
+  if (ask->frame.n != 1 || !cyclic || !position_of(d, ask, held, &r) || !steady_rate(d, &r, held)) {
+    pl_say(d, "A steady motion needs one cyclic coordinate after `holding`, values for all others after `at`, and a rate that keeps them.",
+           "Eine stationäre Bewegung braucht eine zyklische Koordinate nach `holding`, Werte aller anderen nach `at` und eine Drehzahl, die sie "
+           "hält.", 0);
+    d->section->not_found = true;
+    return;
+  }
+  pl_expr rate = d->steady.at[0].to, f[pl_max_gen];
+  const pl_form* squared = pl_form_power(d->arena, pl_fs(d, d->q.at[held].v), pl_form_leaf(d->arena, pl_int(d->pool, 2)));
+  pl_expr rate2 = pl_alg_normal(d->tower, pl_square(d->pool, rate));
+  const pl_form* form = pl_f(d, rate2, PL_S_QUOTIENT);
+  pl_say(d, "At {1} the motion is steady for", "Bei {1} ist die Bewegung stationär für", 1, pl_rest_form(d, &r));
+  pl_show_numbered(d, pl_feq(d, squared, form));
+  pl_value* v = pl_answer(d, pl_format(d->arena, "%s^2", pl_symbol_get(d->pool, d->q.at[held].v)->ascii), rate2, form);
+  v->at = "steady motion";
+  for (int k = 0; k < d->gen.n; k++) f[k] = pl_at_rest(d, pl_second_kind(d, d->gen.at[k]));
+  pl_linearised l;
+  pl_linearise(d, f, &r, &l);
+  l.gyroscopic = true;   // the held coordinate is coupled by its velocity
+  pl_root root[pl_max_gen];
+  int n = pl_small_oscillations(d, &l, root, pl_max_gen), shown = 0;
+  for (int k = 0; k < n; k++) {
+    if (!pl_vanishes(d, root[k].value)) show_mode(d, &l, root[k].value, ++shown, "steady motion");
+  }
+  if (shown == 0) {
+    pl_say(d, "The characteristic equation was not solved in closed form.", "Die charakteristische Gleichung war nicht geschlossen lösbar.", 0);
+    d->section->not_found = true;
+  }
+  d->steady.n = 0;
+}
+
+void pl_answer_modes(pl_analysis* d, const pl_ask* ask) {
+  pl_section_open(d, ask, "Modes", "Eigenschwingungen");
+  pl_expr f[pl_max_gen];
+  if (pl_rests_out_of_reach(d)) return;
+  if (ask->frame.n > 0) {
+    modes_of_steady(d, ask);
+    return;
+  }
+  if (!pl_at_rest_equations(d, f)) return;
+  pl_rests* found = pl_find_rests(d, f);
+  int shown = 0, number = 0;
+  for (int k = 0; k < found->n; k++) {
+    if (pl_rest_pulls(d, &found->at[k])) continue;
+    number++;
+    if (!named_position(d, ask, &found->at[k])) continue;
+    show_modes(d, f, &found->at[k], number);
+    shown++;
+  }
+  if (shown > 0) return;
+  pl_say(d, "No equilibrium to oscillate about was found there.", "Dort wurde keine Gleichgewichtslage gefunden.", 0);
+  d->section->not_found = true;
+}
