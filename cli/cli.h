@@ -21,8 +21,8 @@ enum { CLI_MAX_FILES = 256, CLI_MAX_SETTINGS = 64 };
 
 // Every flag of every verb has a member here; a verb's table says which of them it takes.
 typedef struct cli_options {
-  const char *only, *steps, *lang, *math, *output, *until, *tol, *dt, *after, *color, *from, *to, *data, *macros;
-  bool json, terse, strict, force, events, verbose, check, unicode, ascii, timing, no_simulation, no_font, no_animation, list, help, standalone, no_figure;
+  const char *only, *steps, *lang, *math, *output, *until, *tol, *dt, *method, *after, *color, *from, *to, *data, *macros, *size, *style, *show, *fps;
+  bool json, terse, strict, force, events, verbose, check, unicode, ascii, timing, no_simulation, no_font, no_animation, list, help, standalone, no_figure, no_forces, forces;
   const char* files[CLI_MAX_FILES];
   int n_files;
   pleuel_setting settings[CLI_MAX_SETTINGS];
@@ -92,6 +92,7 @@ const char* cli_display_name(const char* file);    // "<stdin>" for -
 void cli_print_diagnostics(pleuel_model* m, const cli_options* o, FILE* to, unsigned severities);
 // The end of a verb that answers with one text: writes it to -o or stdout, tells the messages, frees the model.
 int cli_finish_text(pleuel* ctx, pleuel_model* m, const cli_options* o, pleuel_status s, const char* text);
+int cli_finish_bytes(pleuel* ctx, pleuel_model* m, const cli_options* o, pleuel_status s, const char* bytes, size_t n);
 // Runs a verb's work for each file, with a header line when there are several, and returns the worst code.  Several JSON
 // documents become one: {"pleuel": 1, "documents": [...]}.
 int cli_each_file(pleuel* ctx, const cli_options* o, int (*work)(pleuel*, const cli_options*, const char* file));
@@ -106,6 +107,11 @@ int cli_file_open(cli_file* f, const char* path, bool replace);   // EXIT_DONE, 
 int cli_file_close(cli_file* f);
 void cli_file_drop(cli_file* f);
 
+// ---- shared by plot and animate (verb_plot.c)
+int cli_read_size(const char* text, int* width, int* height);     // "800x600"; EXIT_DONE or EXIT_USAGE
+bool cli_ends_with(const char* name, const char* end);
+int cli_style(const char* name);                                  // PLEUEL_LIGHT, ...
+
 // ---------------------------------------------------------------------------------------------- verbs
 int verb_solve(pleuel* ctx, const cli_options* o);
 int verb_check(pleuel* ctx, const cli_options* o);
@@ -118,10 +124,11 @@ int verb_units(pleuel* ctx, const cli_options* o);
 int verb_export(pleuel* ctx, const cli_options* o);
 int verb_tex(pleuel* ctx, const cli_options* o);
 int verb_report(pleuel* ctx, const cli_options* o);
+int verb_plot(pleuel* ctx, const cli_options* o);
 int verb_dump(pleuel* ctx, const cli_options* o);
 int verb_completion(pleuel* ctx, const cli_options* o);
 int verb_help(pleuel* ctx, const cli_options* o);
 extern const cli_flag flags_solve[], flags_check[], flags_sim[], flags_fmt[], flags_new[], flags_examples[], flags_explain[],
-    flags_units[], flags_export[], flags_tex[], flags_report[], flags_dump[], flags_completion[], flags_help[];
+    flags_units[], flags_export[], flags_tex[], flags_report[], flags_plot[], flags_dump[], flags_completion[], flags_help[];
 
 #endif

@@ -10,6 +10,7 @@ const cli_flag flags_sim[] = {
   {"until", 0, CLI_TEXT, CLI_AT(until), "TIME", "end of the run: 5, '500[ms]'"},
   {"dt", 0, CLI_TEXT, CLI_AT(dt), "TIME", "distance of the rows; without it a row for each step"},
   {"tol", 0, CLI_TEXT, CLI_AT(tol), "NUMBER", "relative local error of a step"},
+  {"method", 0, CLI_TEXT, CLI_AT(method), "NAME", "taylor, radau (implicit) or auto: radau where stiff"},
   CLI_FLAG_SET,
   {"events", 0, CLI_SWITCH, CLI_AT(events), NULL, "tell events only, not the accuracy"},
   CLI_FLAG_JSON,
@@ -80,6 +81,7 @@ int verb_sim(pleuel* ctx, const cli_options* o) {
   if (code == EXIT_DONE) {
     how.csv = to_file ? file.to : to_stdout ? stdout : NULL;
     how.progress = cli_progress;
+    how.method = o->method;
     pleuel_sim_summary summary;
     pleuel_status s = pleuel_simulate(m, &summary, &how);
     cli_progress_clear();

@@ -193,6 +193,39 @@ pleuel_status pleuel_solve_json(pleuel_model *model, const char **json, const pl
 pleuel_status pleuel_export(pleuel_model *model, const char **text, const char *target,
                             const pleuel_solve_options *options);
 
+typedef struct pleuel_tex_options {
+  size_t size;
+  const char *only;    /* letters of the requests; NULL: all                                              */
+  const char *lang;    /* "en", "de"; default: that of the file, then that of the context                 */
+  int full;            /* 1: every step                                                                   */
+  int standalone;      /* 1: a document of its own, 0: a fragment that needs amsmath                      */
+  int plain;           /* 1: \dot, \vec themselves, 0: macros \pldot, \plvec that may be redefined   */
+  int no_figure;       /* 1: without the picture of the system                                            */
+  int no_simulation;   /* 1: leave out the motion that `simulate` asks for                                */
+  double seconds;      /* time for finding a shorter form of each quantity; 0: the default                */
+} pleuel_tex_options;
+
+/* pleuel_tex returns the worked solution in LaTeX, numbered and labelled; the figure needs TikZ and is left out where it
+ * is not loaded.  Status as pleuel_solve_text. */
+pleuel_status pleuel_tex(pleuel_model *model, const char **text, const pleuel_tex_options *options);
+
+typedef enum pleuel_report_data { PLEUEL_DATA_THIN = 0, PLEUEL_DATA_NONE, PLEUEL_DATA_FULL } pleuel_report_data;
+
+typedef struct pleuel_report_options {
+  size_t size;
+  const char *only;          /* letters of the requests; NULL: all                                              */
+  const char *lang;          /* "en", "de"; default: that of the file, then that of the context                 */
+  int no_font;               /* 1: formulas in the fonts of the reader's machine, 40 kB less                    */
+  int no_animation;          /* 1: plots only                                                                   */
+  pleuel_report_data data;   /* what can be saved from the page: what the plots show, nothing, or every row     */
+  const char *command;       /* told in the last lines; NULL: not told                                          */
+  double seconds;            /* time for finding a shorter form of each quantity; 0: the default                */
+} pleuel_report_options;
+
+/* pleuel_report returns one HTML page that needs nothing beside it: result, motion, derivation, checks, model.  What stands in
+ * a model is shown as text, whatever it contains.  Status as pleuel_solve_text; *html is set whenever there is a solution. */
+pleuel_status pleuel_report(pleuel_model *model, const char **html, const pleuel_report_options *options);
+
 /* ------------------------------------------------------------------------------------------------ simulate */
 
 /* Where a run stands: for a line of progress. */
@@ -216,6 +249,8 @@ typedef struct pleuel_sim_options {
   FILE *csv;                        /* the same rows as CSV; opened and closed by the caller                       */
   void (*progress)(void *user, const pleuel_progress *where);
   void *user;
+  const char *method;               /* "taylor": series; "radau": implicit, for stiff motions; "auto" (default): series,
+                                     * implicit where that is far cheaper                                         */
 } pleuel_sim_options;
 
 typedef struct pleuel_sim_summary {
@@ -234,6 +269,29 @@ pleuel_status pleuel_simulate(pleuel_model *model, pleuel_sim_summary *summary, 
 /* pleuel_simulation_text and _json tell about the last run: events with their states, residuals, drift. */
 const char *pleuel_simulation_text(pleuel_model *model, const pleuel_text_options *options);
 const char *pleuel_simulation_json(pleuel_model *model);
+
+/* ------------------------------------------------------------------------------------------------ pictures */
+
+typedef enum pleuel_picture { PLEUEL_SVG = 0, PLEUEL_PNG, PLEUEL_PDF, PLEUEL_GIF } pleuel_picture;
+typedef enum pleuel_style { PLEUEL_LIGHT = 0, PLEUEL_DARK, PLEUEL_FOR_PRINT } pleuel_style;
+typedef enum pleuel_panels { PLEUEL_PANELS_ALL = 0, PLEUEL_PANELS_PLOTS, PLEUEL_PANELS_DRAWING } pleuel_panels;
+
+typedef struct pleuel_plot_options {
+  size_t size;
+  const char *lang;          /* "en", "de"; default: that of the file, then that of the context        */
+  pleuel_picture format;     /* SVG, PNG or PDF; the last two need a build with cairo                   */
+  pleuel_style style;
+  pleuel_panels panels;      /* the drawing of the system and the plots, or one of them                 */
+  int width, height;         /* pixels (PDF: points); 0: what suits the panels                          */
+  int no_forces;             /* 1: no force arrows in the drawing                                       */
+  int has_until;             /* 1: the member below is given, else the file decides                     */
+  double until;              /* end of the motion, s                                                    */
+} pleuel_plot_options;
+
+/* pleuel_plot draws the system and its motion: each `plot` line of the model is a panel, without such lines coordinates,
+ * multipliers and energies are.  *bytes is the file, *n its size; owned by the model.  Status PLEUEL_UNSUPPORTED for a
+ * format that this build cannot write; a motion that ends early is drawn as far as it goes. */
+pleuel_status pleuel_plot(pleuel_model *model, const char **bytes, size_t *n, const pleuel_plot_options *options);
 
 /* ------------------------------------------------------------------------------------------------ more */
 

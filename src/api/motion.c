@@ -54,11 +54,21 @@ static const char* event_words(const pl_teller* t, const pl_result_event* e) {
       if (e->at_start) return pl_format(t->arena, say(t, "%s lets go at once: its force would have to pull", "%s löst sich sofort: die Kraft müsste ziehen"), label);
       return pl_format(t->arena, say(t, "%s lets go", "%s löst sich"), label);
     case PL_EV_IMPACT: return pl_format(t->arena, say(t, "impact on %s", "Stoß auf %s"), label);
-    case PL_EV_CONTACT: return pl_format(t->arena, say(t, "contact with %s", "Kontakt mit %s"), label);
+    case PL_EV_SLACK: return pl_format(t->arena, say(t, "%s goes slack", "%s wird schlaff"), label);
+    case PL_EV_TAUT:
+      if (e->bounces) break;
+      return pl_format(t->arena, e->jump ? say(t, "%s goes taut with a jerk", "%s strafft sich mit einem Ruck") : say(t, "%s goes taut", "%s strafft sich"), label);
+    case PL_EV_STICK: return pl_format(t->arena, say(t, "%s sticks", "%s haftet"), label);
+    case PL_EV_SLIP: return pl_format(t->arena, say(t, "%s slips", "%s gleitet"), label);
+    case PL_EV_CONTACT: if (e->bounces) break;
+      return pl_format(t->arena, say(t, "contact with %s", "Kontakt mit %s"), label);
     case PL_EV_SINGULAR: return say(t, "singular position", "singuläre Lage");
     case PL_EV_STOP: return pl_format(t->arena, say(t, "%s: stop", "%s: Ende"), label);
     case PL_EV_EVENT: break;
   }
+  if (e->bounces)
+    return pl_format(t->arena, say(t, "%s at rest after endless bounces (%ld followed, the rest summed)",
+                                   "%s in Ruhe nach unendlich vielen Stößen (%ld verfolgt, der Rest summiert)"), label, e->bounces);
   return label;
 }
 
@@ -88,10 +98,27 @@ static void tell_events(pl_teller* t) {
   }
 }
 
+// Which method took how many steps.
+static void tell_steps(pl_teller* t, const pl_stats* s) {
+  if (s->steps_implicit < s->steps || s->steps == 0) {
+    pl_text_addf(t->out, say(t, "     %ld steps of order %d", "     %ld Schritte der Ordnung %d"), s->steps - s->steps_implicit, s->order);
+  }
+  if (s->steps_implicit == 0) return;
+  const char* unit = t->m->model->uses_units ? " s" : "";
+  if (s->steps_implicit == s->steps) {
+    pl_text_addf(t->out, say(t, "     %ld implicit steps of order %d (Radau IIA)", "     %ld implizite Schritte der Ordnung %d (Radau IIA)"),
+                 s->steps, s->order_implicit);
+  } else {
+    pl_text_addf(t->out, say(t, "; stiff from t = %s%s, %ld implicit steps of order %d (Radau IIA)",
+                             "; steif ab t = %s%s, %ld implizite Schritte der Ordnung %d (Radau IIA)"),
+                 number(t, s->t_implicit, 3), unit, s->steps_implicit, s->order_implicit);
+  }
+}
+
 static void tell_accuracy(pl_teller* t) {
   const pl_result* r = t->m->result;
   const pl_stats* s = &r->stats;
-  pl_text_addf(t->out, say(t, "     %ld steps of order %d", "     %ld Schritte der Ordnung %d"), s->steps, s->order);
+  tell_steps(t, s);
   if (t->m->recording->setup.n_c > 0) pl_text_addf(t->out, say(t, ", constraints kept to %s", ", Zwangsbedingungen auf %s erfüllt"), number(t, s->max_g, 2));
   if (t->m->recording->setup.energy_conserved && !isnan(s->energy_drift)) {
     pl_text_addf(t->out, say(t, ", energy to %s", ", Energie auf %s"), number(t, s->energy_drift, 2));
@@ -147,7 +174,7 @@ static int count_shown(const pl_setup* s) {
 static void json_event(pl_json* j, const pleuel_model* m, const pl_result_event* e) {
   const pl_result* r = m->result;
   int state = 1 + 2 * count_shown(&m->recording->setup);
-  bool of_constraint = e->kind == PL_EV_RELEASE || e->kind == PL_EV_IMPACT || e->kind == PL_EV_CONTACT;
+  bool of_constraint = e->kind != PL_EV_EVENT && e->kind != PL_EV_STOP && e->kind != PL_EV_SINGULAR;
   pl_json_object(j, NULL);
   pl_json_string(j, "label", e->label);
   pl_json_string(j, "kind", pl_event_kind_name[e->kind]);
@@ -159,8 +186,9 @@ static void json_event(pl_json* j, const pleuel_model* m, const pl_result_event*
     json_columns(j, "state", r, row, 1, state);
     json_columns(j, "values", r, row, state, r->n_columns);
   }
-  if (e->kind == PL_EV_IMPACT) {
-    pl_json_number(j, "impulse", e->impulse);
+  if (e->bounces) pl_json_int(j, "bounces", e->bounces);
+  if (e->kind == PL_EV_IMPACT || e->jump) {
+    if (of_constraint) pl_json_number(j, "impulse", e->impulse);
     if (e->before) json_columns(j, "before", r, e->before, 1, state);
     if (e->after) json_columns(j, "after", r, e->after, 1, state);
   }
@@ -179,8 +207,14 @@ void pl_motion_json(pl_text* out, const pleuel_model* m) {
   pl_json_int(&j, "steps", s->steps);
   pl_json_string(&j, "status", pl_status_word(m->is_run ? m->run : m->checked));
   if (m->run_message[0]) pl_json_string(&j, "message", m->run_message);
-  pl_json_string(&j, "method", "taylor");
-  pl_json_int(&j, "order", s->order);
+  bool implicit = s->steps_implicit > 0, both = implicit && s->steps_implicit < s->steps;
+  pl_json_string(&j, "method", both ? "taylor, radau" : implicit ? "radau" : "taylor");
+  pl_json_int(&j, "order", implicit && !both ? s->order_implicit : s->order);
+  if (both) {
+    pl_json_int(&j, "steps_implicit", s->steps_implicit);
+    pl_json_int(&j, "order_implicit", s->order_implicit);
+    pl_json_number(&j, "t_implicit", s->t_implicit);
+  }
   pl_json_number(&j, "residual_g", s->max_g);
   pl_json_number(&j, "residual_gdot", s->max_gdot);
   pl_json_number(&j, "energy_drift", m->recording && m->recording->setup.energy_conserved ? s->energy_drift : (double)NAN);

@@ -132,11 +132,23 @@ static void watch(void* user, double t, double t_end, double h, const pl_stats* 
   w->options->progress(w->options->user, &p);
 }
 
+static bool method_named(const char* name, pl_method* out) {
+  static const char* const names[] = {[PL_METHOD_TAYLOR] = "taylor", [PL_METHOD_RADAU] = "radau", [PL_METHOD_AUTO] = "auto"};
+  for (int i = 0; i < 3; i++) {
+    if (strcmp(name, names[i]) != 0) continue;
+    if (out) *out = (pl_method)i;
+    return true;
+  }
+  return false;
+}
+
 // setup -> run with a consistent start.  Without sink: to look at the start only.
 pleuel_status pl_pipeline_start(pleuel_model* m, const pleuel_sim_options* o, pl_run** out) {
   PL_TRY(pl_pipeline_record(m));
   const pl_recording* r = m->recording;
   pl_run_options how = {.t_0 = r->t_0, .t_end = r->t_end, .tol = r->tol, .dt = r->dt, .count = r->count};
+  how.method = PL_METHOD_AUTO;
+  if (o->method) method_named(o->method, &how.method);
   if (o->has_until) how.t_end = o->until;
   if (o->has_tol) how.tol = o->tol;
   if (o->has_dt) how.dt = o->dt, how.count = 0;
@@ -172,6 +184,9 @@ static pleuel_status check_times(pleuel_model* m, const pleuel_sim_options* o) {
   }
   if (o->has_until && !isfinite(o->until)) return pl_fail(&m->job, PLEUEL_USAGE, "the end of the run is no number");
   if (o->has_tol && !(o->tol > 0 && o->tol < 1)) return pl_fail(&m->job, PLEUEL_USAGE, "tol must lie between 0 and 1");
+  if (o->method && !method_named(o->method, NULL)) {
+    return pl_fail(&m->job, PLEUEL_USAGE, "there is no method %s: taylor, radau or auto", o->method);
+  }
   if (o->has_dt && !(o->dt > 0)) return pl_fail(&m->job, PLEUEL_USAGE, "dt must be positive");
   return PLEUEL_OK;
 }
