@@ -73,6 +73,7 @@ static void show_equation(pl_analysis* d, int i, pl_expr scale, bool insert) {
       pl_is_zero_node(d->pool, push_of(d, i))) {
     return;
   }
+  if (pl_is_one_node(d->pool, scale)) pl_why_first_kind(d, i);
   const pl_form* left = pl_f(d, s.inertia, PL_S_EQUATION);
   pl_step* step = pl_show_numbered(d, pl_feq(d, left, right_side(d, i, &s, scale, insert)));
   pl_push(d->arena, d->lagrange1_numbers, step->number);
@@ -172,6 +173,7 @@ static const char* title_of(pl_analysis* d, pl_language lang) {
 }
 
 static void lagrange1_in_frame(pl_analysis* d, const pl_particle* k, const pl_frame* f) {
+  pl_why_frame(d, k, f);
   show_kinematics(d, k, f);
   pl_say(d, "Newton's law with Z along the unit vectors:", "Newtons Gesetz mit Z längs der Einheitsvektoren:", 0);
   for (int j = 0; j < f->n; j++) show_equation(d, f->coordinate[j], f->scale[j], false);
@@ -189,16 +191,20 @@ static void lagrange1_in_coordinates(pl_analysis* d, const pl_ask* ask) {
   }
 }
 
-enum { longest_answer = 4000 };   // operations of a normal form; beyond it the value is given over named intermediates
+// Operations of a normal form up to which a shorter one is looked for, and of that; beyond them the value is given over named
+// intermediates.
+static const long longest_searched = 1500, longest_answer = 150;
 
 static void answer_accelerations(pl_analysis* d) {
   for (int i = 0; i < d->q.n; i++) {
     const pl_variable* c = &d->q.at[i];
     if (!c->carries || (c->fixed_by >= 0 && !c->by_contact)) continue;
     bool open = !d->solved || pl_is_poison(d->acceleration[i]);
-    bool structured = open || pl_op_count(d->pool, d->acceleration[i]) > longest_answer;
-    if ((structured && c->fixed_by < 0 && pl_answer_structured(d, c->a)) || open) continue;
-    pl_answer(d, pl_symbol_get(d->pool, c->a)->ascii, d->acceleration[i], pl_f(d, d->acceleration[i], PL_S_QUOTIENT));
+    bool can = c->fixed_by < 0, unread = open || pl_op_count(d->pool, d->acceleration[i]) > longest_searched;
+    if ((unread && can && pl_answer_structured(d, c->a)) || open) continue;
+    const pl_form* form = pl_f(d, d->acceleration[i], PL_S_QUOTIENT);
+    if (!unread && pl_form_ops(form) > longest_answer && can && pl_answer_structured(d, c->a)) continue;
+    pl_answer(d, pl_symbol_get(d->pool, c->a)->ascii, d->acceleration[i], form);
   }
 }
 

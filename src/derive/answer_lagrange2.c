@@ -110,7 +110,7 @@ static void show_lagrangian(pl_analysis* d) {
   const pl_form* form = pl_f(d, L, PL_S_ENERGY);
   const pl_form* both[2] = {pl_fn(d, "T"), pl_form_neg(d->arena, pl_fn(d, "V"))};
   const pl_form* right = given(d) ? form : pl_feq(d, pl_form_sum(d->arena, both, 2), form);
-  pl_show_numbered(d, pl_feq(d, pl_fn(d, "L"), right));
+  d->number_lagrangian = pl_show_numbered(d, pl_feq(d, pl_fn(d, "L"), right))->number;
   pl_claim_that(d, PL_CLAIM_ENERGY, pl_form_value(d->pool, form), d->L);
   pl_answer(d, "L", L, form);
 }
@@ -186,7 +186,10 @@ static bool show_with_named_mass(pl_analysis* d, int i) {
   terms[0] = pl_form_product(d->arena, first, 2);
   terms[1] = pl_form_product(d->arena, second, 3);
   for (int k = 0; k < n_force; k++) terms[2 + k] = force->kind == PL_F_SUM ? force->args[k] : force;
-  pl_show_numbered(d, pl_feq(d, pl_form_sum(d->arena, terms, 2 + n_force), zero_form(d)));
+  pl_why_second_kind(d, i);
+  pl_step* step = pl_show_numbered(d, pl_feq(d, pl_form_sum(d->arena, terms, 2 + n_force), zero_form(d)));
+  pl_step_refs(step, 1, d->number_lagrangian);
+  pl_push(d->arena, d->lagrange2_numbers, step->number);
   return true;
 }
 
@@ -230,7 +233,10 @@ static void show_second_kind(pl_analysis* d, int i) {
   pl_expr factor = common_factor(d, e);
   pl_expr shown = pl_alg_normal(d->tower, pl_div(d->pool, e, factor));
   const pl_form* form = by_order(d, shown);
-  pl_show_numbered(d, pl_feq(d, form, zero_form(d)));
+  pl_why_second_kind(d, i);
+  pl_step* step = pl_show_numbered(d, pl_feq(d, form, zero_form(d)));
+  pl_step_refs(step, 1, d->number_lagrangian);
+  pl_push(d->arena, d->lagrange2_numbers, step->number);
   pl_claim_that(d, PL_CLAIM_ONE_TWO, pl_form_value(d->pool, form), pl_int(d->pool, 0));
 }
 
@@ -250,7 +256,10 @@ static void show_solved(pl_analysis* d, int i) {
   const pl_form* form = pl_f(d, a, PL_S_QUOTIENT);
   if (several && pl_form_ops(form) > longest_answer && pl_show_structured(d, name, a)) return;
   pl_claim_that(d, PL_CLAIM_ONE_TWO, pl_form_value(d->pool, form), pl_sym(d->pool, name));
-  if (pl_form_ops(form) <= longest_shown) pl_show_numbered(d, pl_feq(d, pl_fs(d, name), form));
+  if (pl_form_ops(form) <= longest_shown) {
+    pl_step* step = pl_show_numbered(d, pl_feq(d, pl_fs(d, name), form));
+    for (int k = 0; k < d->lagrange2_numbers.n; k++) pl_step_refs(step, 1, d->lagrange2_numbers.at[k]);
+  }
   pl_answer(d, pl_symbol_get(d->pool, name)->ascii, a, form);
 }
 
@@ -330,6 +339,6 @@ void pl_answer_hamiltonian(pl_analysis* d, const pl_ask* ask) {
   }
   H = pl_alg_normal(d->tower, pl_subst(d->pool, H, rest, n));
   const pl_form* form = pl_f(d, H, PL_S_ENERGY);
-  pl_show_numbered(d, pl_feq(d, pl_fn(d, "H"), form));
+  pl_step_refs(pl_show_numbered(d, pl_feq(d, pl_fn(d, "H"), form)), 1, d->number_lagrangian);
   pl_answer(d, "H", H, form);
 }

@@ -130,6 +130,7 @@ static void limit_much_greater(pl_analysis* d, const pl_ask* ask, pl_expr name, 
     return;
   }
   const pl_form* ratio = pl_form_quotient(d->arena, pl_fe(d, ask->to), pl_fs(d, ask->variable));
+  pl_why_series(d, pl_alg_normal(d->tower, inserted), eps, pl_int(d->pool, 0), lead, c, 3);
   const pl_form* grouped = pl_form_make(d->arena, PL_F_GROUP, 1, &ratio);
   const pl_form* form = series_form(d, c, lead, 3, grouped, lead + 1);
   show_case(d, condition, pl_feq(d, name_of(d, name), form));
@@ -196,6 +197,7 @@ void pl_answer_series(pl_analysis* d, const pl_ask* ask) {
       not_found(d, condition);
       continue;
     }
+    pl_why_series(d, pl_alg_normal(d->tower, about), ask->variable, ask->to, lead, c, order + 1);
     pl_expr x = pl_sub(d->pool, pl_sym(d->pool, ask->variable), ask->to);
     const pl_form* base = pl_is_zero_node(d->pool, ask->to) ? pl_fs(d, ask->variable) : pl_fe(d, x);
     if (base->kind == PL_F_SUM) base = pl_form_make(d->arena, PL_F_GROUP, 1, &base);

@@ -86,6 +86,7 @@ static void show_twice_differentiated(pl_analysis* d, int k) {
   pl_expr gdd = pl_on_fixed(d, pl_bond_acceleration(d, k));
   pl_say(d, l->velocity ? "The time derivative of {1}:" : "Two time derivatives of {1}:",
          l->velocity ? "Zeitableitung von {1}:" : "Zweimalige Zeitableitung der Zwangsbedingung {1}:", 1, pl_fn(d, l->source->name.text));
+  pl_why_differentiated(d, k);
   if (l->contact && l->fixes >= 0) {
     const pl_variable* c = &d->q.at[l->fixes];
     const pl_form* both[2] = {pl_feq(d, pl_fs(d, c->v), pl_fe(d, pl_dt(d->pool, c->fixed))),
@@ -101,10 +102,18 @@ static void show_twice_differentiated(pl_analysis* d, int k) {
   pl_say(d, "{1} inserted into {2}:", "{1} in {2} eingesetzt:", 2, refs_form(d), pl_fref(d, d->number_gdd));
   pl_show(d, pl_feq(d, by_multipliers(d, inserted), zero));
   pl_claim_that(d, PL_CLAIM_MOTION, inserted, pl_int(d->pool, 0));
+  pl_why_multiplier(d, k, inserted);
+}
+
+// A line that follows from the equations of motion and one more: as many as a step can name.
+static void refer_to_equations(pl_analysis* d, pl_step* step, int more) {
+  for (int k = 0; k < d->lagrange1_numbers.n; k++) pl_step_refs(step, 1, d->lagrange1_numbers.at[k]);
+  pl_step_refs(step, 1, more);
 }
 
 static const long longest_lambda = 150;     // operations up to which a multiplier is written out in the text
-static const long longest_searched = 4000;  // of the normal form, up to which a shorter one is looked for
+static const long longest_beside = 40;     // likewise, when another one has been shown over names
+static const long longest_searched = 1500; // of the normal form, up to which a shorter one is looked for
 
 // λ with the state eliminated, displayed with its number.
 // Where the closed form is too long to read: one equation of motion, solved for it.
@@ -133,7 +142,8 @@ static void show_lambda(pl_analysis* d, int k) {
     return;
   }
   const pl_form* form = pl_positive_first(d, pl_f(d, l->lambda_value, l->contact ? PL_S_EQUATION : PL_S_QUOTIENT));
-  if (pl_form_ops(form) > longest_lambda && pl_show_structured(d, l->lambda, l->lambda_value)) {
+  bool beside = pl_structure_is_told(d) && l->fixes < 0;   // the names are there
+  if (pl_form_ops(form) > (beside ? longest_beside : longest_lambda) && pl_show_structured(d, l->lambda, l->lambda_value)) {
     d->section->values.at[d->section->values.n - 1].of = l->source->name.text;
     return;
   }
@@ -146,6 +156,7 @@ static void show_lambda(pl_analysis* d, int k) {
   } else {
     pl_step* step = pl_show_numbered(d, pl_feq(d, pl_fs(d, l->lambda), form));
     d->number_lambda = step->number;
+    refer_to_equations(d, step, d->number_gdd);
     bool known;
     pl_step_value(d, step, l->lambda_value, pl_dimension_of_expr(d, l->lambda_value, &known));
   }
@@ -174,6 +185,7 @@ static void show_acceleration(pl_analysis* d, int i) {
   const pl_form* form = pl_f(d, d->acceleration[i], PL_S_QUOTIENT);
   pl_step* step = pl_show_numbered(d, pl_feq(d, pl_fs(d, d->q.at[i].a), form));
   d->number_acceleration = step->number;
+  refer_to_equations(d, step, d->number_lambda);
   bool known;
   pl_step_value(d, step, d->acceleration[i], pl_dimension_of_expr(d, d->acceleration[i], &known));
   pl_claim_that(d, PL_CLAIM_MOTION, pl_form_value(d->pool, form), pl_sym(d->pool, d->q.at[i].a));
@@ -314,6 +326,17 @@ static void show_followers(pl_analysis* d, int i) {
   }
 }
 
+static void why_integrated(pl_analysis* d, int i, pl_expr x) {
+  pl_linear_equation l;
+  if (!linear_equation(d, i, &l)) {
+    pl_why_linear_motion(d, i);
+  } else if (pl_is_zero_node(d->pool, l.B) && pl_is_zero_node(d->pool, l.C)) {
+    pl_why_uniform(d, i, x);
+  } else {
+    pl_why_linear(d, i, l.A, l.B, l.C);
+  }
+}
+
 // x_i(t) of the generalized coordinate or of one whose equation stands alone; poison if none was found.
 static pl_expr solve_own_motion(pl_analysis* d, int i) {
   if (no_acceleration(d, i)) return pl_poison();
@@ -330,8 +353,9 @@ static pl_expr solve_own_motion(pl_analysis* d, int i) {
   bool alone = d->gen.n == 1;
   pl_say(d, uniform_motion ? "Integrated twice:" : !alone ? "Linear equations with constant coefficients; their solution through the start:" : "A linear equation with constant coefficients; its solution through the start:",
          uniform_motion ? "Zweimal integriert:" : !alone ? "Lineare Gleichungen mit konstanten Koeffizienten; die Lösung durch den Start:" : "Lineare Gleichung mit konstanten Koeffizienten; die Lösung durch den Start:", 0);
+  why_integrated(d, i, x);
   const pl_form* form = pl_f(d, x, PL_S_SOLUTION);
-  pl_show_numbered(d, pl_feq(d, of_time(d, i), form));
+  pl_step_refs(pl_show_numbered(d, pl_feq(d, of_time(d, i), form)), 1, d->number_acceleration);
   claim_motion(d, i, pl_form_value(d->pool, form));
   pl_answer(d, pl_symbol_get(d->pool, c->q)->ascii, x, form);
   show_followers(d, i);

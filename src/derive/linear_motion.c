@@ -135,7 +135,14 @@ static pl_expr back(pl_analysis* d, const pl_transform* q, pl_symbol sigma) {
   return sum;
 }
 
-pl_expr pl_linear_motion(pl_analysis* d, int i) {
+static void explain_transform(pl_analysis* d, int i, pl_expr Q, const pl_transform* q, pl_symbol sigma) {
+  pl_root root[max_degree];
+  bool complete = false;
+  int n = pl_alg_roots(d->tower, q->rest, sigma, root, max_degree, &complete);
+  pl_why_transform(d, i, pl_alg_normal(d->tower, Q), root, n > 0 ? n : 0);
+}
+
+static pl_expr motion(pl_analysis* d, int i, bool explain) {
   int n = d->gen.n, place = -1;
   for (int k = 0; k < n; k++) {
     if (d->gen.at[k] == i) place = k;
@@ -147,5 +154,10 @@ pl_expr pl_linear_motion(pl_analysis* d, int i) {
   if (pl_alg_solve(d->tower, n, A, b, Q, 20000) != PL_YES) return pl_poison();
   pl_transform q;
   if (!split_transform(d, Q[place], s, pl_sym(d->pool, sigma), &q)) return pl_poison();
+  if (explain) explain_transform(d, i, Q[place], &q, sigma);
   return back(d, &q, sigma);
 }
+
+pl_expr pl_linear_motion(pl_analysis* d, int i) { return motion(d, i, false); }
+
+void pl_why_linear_motion(pl_analysis* d, int i) { motion(d, i, true); }
