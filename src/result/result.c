@@ -43,7 +43,7 @@ void pl_result_flatten(const pl_setup* s, const pl_row* row, double* x) {
 static bool has_mode(const pl_setup* s) {
   for (int c = 0; c < s->n_c; c++)
     if (s->links[c].side != 0) return true;
-  return false;
+  return s->n_rubs > 0;
 }
 
 void pl_result_columns(pl_arena* a, const pl_setup* s, const pl_result_column** columns, int* n, bool* mode) {
@@ -120,7 +120,8 @@ static pleuel_status on_row(void* user, const pl_row* row) {
 static void add_event(filling* f, const void* what) {
   const pl_event_record* e = what;
   pl_result* r = f->result;
-  pl_result_event event = {.kind = e->kind, .t = e->after.t, .at_start = e->at_start, .impulse = e->impulse};
+  pl_result_event event = {.kind = e->kind, .t = e->after.t, .at_start = e->at_start, .impulse = e->impulse,
+                           .jump = e->jump, .bounces = e->bounces};
   event.label = e->label ? pl_copy(r->arena, e->label) : NULL;
   event.before = keep_row(f, &e->before);
   event.after = keep_row(f, &e->after);

@@ -14,6 +14,8 @@ typedef struct pl_result_event {
   double t;
   bool at_start;
   double impulse;
+  bool jump;                         // velocities jumped
+  long bounces;                      // contact after so many bounces and the infinitely many that follow; else 0
   const double *before, *after;      // (n_columns)
   const char *mode_before, *mode_after;
 } pl_result_event;

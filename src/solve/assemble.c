@@ -27,15 +27,16 @@ static void add_mass(pl_run* run, const pl_batch* b) {
   }
 }
 
-static void add_gradients(pl_run* run, const pl_batch* b) {
+static void add_gradients(pl_run* run, const pl_batch* b, bool slips) {
   double* K = run->kkt.value;
   for (int e = 0; e < b->pattern->n_G; e++) {
     const pl_pattern_entry* g = &b->pattern->G[e];
     const double* x = coefficient(b, node_of(b, g->root), 0);
     LANES(b) {
-      if (!run->taken[b->c[g->row * b->lanes + l]]) continue;
-      K[b->at_G[e * b->lanes + l]] += x[l];
-      K[b->at_Gt[e * b->lanes + l]] += x[l];
+      int c = b->c[g->row * b->lanes + l];
+      // the row of a constraint; the column of its force, and of friction that slips
+      if (run->taken[c]) K[b->at_G[e * b->lanes + l]] += x[l];
+      if (run->taken[c] || (slips && run->rubs[c])) K[b->at_Gt[e * b->lanes + l]] += x[l];
     }
   }
 }
@@ -51,16 +52,18 @@ static void add_force_directions(pl_run* run, const pl_batch* b) {
 
 void pl_assemble_matrix(pl_run* run, bool with_W) {
   pl_kkt* k = &run->kkt;
+  bool slips = run->n_slipping > 0 && (with_W || run->impulsive);
   for (int i = 0; i < k->n_values; i++) k->value[i] = 0;
   for (int i = 0; i < run->motion.n; i++) {
     add_mass(run, &run->motion.at[i]);
-    add_gradients(run, &run->motion.at[i]);
+    add_gradients(run, &run->motion.at[i], slips);
     if (with_W) add_force_directions(run, &run->motion.at[i]);
   }
   for (int i = 0; i < run->n_q; i++)
     if (run->place_n[i] == 0) k->value[k->diagonal[i]] = 1;  // nothing determines it: it rests
   for (int c = 0; c < run->n_c; c++)
     if (!run->taken[c]) k->value[k->diagonal[run->n_q + c]] = 1;
+  if (slips) pl_friction_matrix(run);
 }
 
 void pl_assemble_rows(pl_run* run) {
@@ -225,8 +228,10 @@ static void add_force_tail(const pl_run* run, const pl_batch* b, int k, double* 
     int node = node_of(b, g->root);
     if (is_constant(b, node)) continue;
     tail(s, coefficient(b, node, 0), slot_series(b, b->lambda, g->row), k, b->lanes);
-    LANES(b)
-      if (run->taken[b->c[g->row * b->lanes + l]]) rhs[b->q[g->col * b->lanes + l]] += s[l];
+    LANES(b) {
+      int c = b->c[g->row * b->lanes + l];
+      if (run->taken[c] || run->rubs[c]) rhs[b->q[g->col * b->lanes + l]] += s[l];
+    }
   }
   for (int e = 0; e < b->pattern->n_W; e++) {
     const pl_pattern_entry* w = &b->pattern->W[e];
@@ -269,4 +274,66 @@ void pl_assemble_rhs(pl_run* run, int k, double* rhs) {
     if (run->place_n[i] == 0) rhs[i] = 0;
   for (int c = 0; c < run->n_c; c++)
     if (!run->taken[c]) rhs[run->n_q + c] = 0;
+  if (run->n_slipping > 0) pl_friction_rhs(run, k, rhs);
+}
+
+void pl_assemble_speed(pl_run* run, int k, double* speed) {
+  double s[PL_FAMILY_LANES];
+  clear(speed, run->n_c);
+  for (int i = 0; i < run->motion.n; i++) {
+    const pl_batch* b = &run->motion.at[i];
+    for (int e = 0; e < b->pattern->n_G; e++) {
+      const pl_pattern_entry* g = &b->pattern->G[e];
+      int node = node_of(b, g->root);
+      if (!run->setup->links[b->c[g->row * b->lanes]].rub) continue;
+      const double *x = coefficient(b, node, 0), *v = slot_series(b, b->v, g->col);
+      if (is_constant(b, node)) LANES(b) s[l] = 0;
+      else tail(s, x, v, k, b->lanes);
+      LANES(b) speed[b->c[g->row * b->lanes + l]] += s[l] + x[l] * v[k * b->lanes + l];
+    }
+    for (int e = 0; e < b->pattern->n_gt; e++) {
+      const pl_pattern_entry* g = &b->pattern->gt[e];
+      int node = node_of(b, g->root);
+      if (!run->setup->links[b->c[g->row * b->lanes]].rub || (k > 0 && is_constant(b, node))) continue;
+      const double* x = coefficient(b, node, k);
+      LANES(b) speed[b->c[g->row * b->lanes + l]] += x[l];
+    }
+  }
+}
+
+// What the largest force met would do to a coordinate: forces that cancel leave the rounding of that.
+static double free_size(const pl_run* run, int i) {
+  double mass = run->kkt.value[run->kkt.diagonal[i]];
+  return mass > 0 && run->place_n[i] != 0 ? run->force_size / mass : 0;
+}
+
+void pl_assemble_second(pl_run* run, const double* a, double* second, double* size) {
+  clear(second, run->n_c);
+  clear(size, run->n_c);
+  for (int i = 0; i < run->motion.n; i++) {
+    const pl_batch* b = &run->motion.at[i];
+    for (int e = 0; e < b->pattern->n_G; e++) {
+      const pl_pattern_entry* g = &b->pattern->G[e];
+      int node = node_of(b, g->root);
+      const double *x = coefficient(b, node, 0), *v = slot_series(b, b->v, g->col);
+      const double* slope = is_constant(b, node) ? NULL : coefficient(b, node, 1);
+      LANES(b) {
+        int c = b->c[g->row * b->lanes + l];
+        double forced = x[l] * a[b->q[g->col * b->lanes + l]], turning = slope ? slope[l] * v[l] : 0;
+        second[c] += forced + turning;
+        size[c] += fabs(forced) + fabs(turning) + fabs(x[l]) * free_size(run, b->q[g->col * b->lanes + l]);
+      }
+    }
+    for (int e = 0; e < b->pattern->n_gt; e++) {
+      const pl_pattern_entry* g = &b->pattern->gt[e];
+      int node = node_of(b, g->root);
+      if (is_constant(b, node)) continue;
+      const double* x = coefficient(b, node, 1);
+      LANES(b) {
+        int c = b->c[g->row * b->lanes + l];
+        second[c] += x[l];
+        size[c] += fabs(x[l]);
+      }
+    }
+  }
 }

@@ -38,9 +38,10 @@ void pl_active_update(pl_run* run) {
   run->n_active = 0;
   for (int c = 0; c < run->n_c; c++) {
     int contact = link[c].contact;
-    run->active[c] = run->on[c] && (contact < 0 || run->on[contact]);
+    run->active[c] = run->on[c] && !link[c].rub && (contact < 0 || (run->on[contact] && !run->rebounds[contact]));
     run->n_active += run->active[c];
   }
+  pl_friction_activate(run);
   find_orphans(run);
   run->by_pivots = too_many_to_examine(run) || (double)run->n_active * run->n_active * run->n_q > PL_RANK_WORK;
   run->rank_mode = -1;  // a new mode: rank and yardstick start anew

@@ -1,8 +1,10 @@
-// The mode automaton: contacts end where λ would pull, begin where a free body arrives; events do their deeds.
+// The mode automaton: contacts end where λ would pull, begin where a free body arrives, bounce; surfaces stick and slip;
+// events do their deeds.
 //
-// A release leaves velocities alone.  An arrival is an impact in the mass metric: the velocity jump that makes the
-// velocity along the new constraint zero (or reverses it times the restitution), with impulses only along constraints
-// in force; a one-sided one whose impulse would pull takes no part and lets go.
+// At a moment of change all that happens together is decided together (contacts.c): first the impact, if something
+// arrives, then the mode of the motion that follows.  Bounces that follow each other ever faster end at the limit of
+// their geometric sum: when one is so small that what it does is below rounding, the rest of them is summed and the
+// contact holds.
 #include "solve/solve_impl.h"
 
 #include <float.h>
@@ -12,11 +14,6 @@
 enum { MAX_CHANGES = 100 };  // of mode at one time
 
 // ---------------------------------------------------------------------------------------------- entering a mode
-static bool pulls(const pl_run* run, int c) {
-  int side = run->setup->links[c].side;
-  return side != 0 && run->active[c] && side * run->L[c] < -pl_watch_force_noise(run, c);
-}
-
 static void look_for_landings(pl_run* run) {
   run->watch_landings = false;
   for (int c = 0; c < run->n_c; c++)
@@ -42,97 +39,228 @@ static pleuel_status count_change(pl_run* run) {
   return pl_fail(run->job, PLEUEL_NUMERICAL, "contacts change without end at t = %.9g s", run->t);
 }
 
-static void let_go(pl_run* run, int c, int fresh) {
-  run->on[c] = false;
+// ---------------------------------------------------------------------------------------------- before and after
+static void remember(pl_run* run) {
+  pl_rows_before(run);
+  memcpy(run->on_before, run->on, (size_t)run->n_c * sizeof(bool));
+  for (int r = 0; r < run->setup->n_rubs; r++) run->rub_before[r] = run->rub[r];
+}
+
+static bool is_contact(const pl_run* run, int c) { return run->setup->links[c].side != 0 && !run->setup->links[c].velocity; }
+
+// Contacts that take part: those that hold, and those that are met.
+static void find_near(pl_run* run) {
+  static const double met = 1e-11;  // of the terms of g: what an event is located to
+  pl_point_evaluate(run, run->t, run->q, run->v);
+  pl_assemble_g(run, 0, run->g, run->g_size);
+  for (int c = 0; c < run->n_c; c++) {
+    const pl_link* link = &run->setup->links[c];
+    bool there = link->contact < 0 || run->on[link->contact];
+    run->near_by[c] = is_contact(run, c) && !run->detached[c] && there &&
+                      (run->on[c] || link->side * run->g[c] <= met * run->g_size[c]);
+    run->met[c] = run->near_by[c];
+  }
+}
+
+// ---------------------------------------------------------------------------------------------- watches
+static void set_landing(pl_run* run, int c, int fresh) {
   pl_watch* w = pl_watch_of(run, PL_WATCH_LANDING, c);
   if (w) w->fresh = fresh, w->side = 1;
 }
 
-static void hold(pl_run* run, int c) {
-  run->on[c] = true;
-  pl_watch* w = pl_watch_of(run, PL_WATCH_RELEASE, c);
+static void forget(pl_run* run, pl_watch_kind kind, int index) {
+  pl_watch* w = pl_watch_of(run, kind, index);
   if (w) w->fresh = 0, w->side = 0;
 }
 
-// ---------------------------------------------------------------------------------------------- contacts that pull
-// Releases the first one that pulls, again and again.  g and its first derivative are zero there; the second need not
-// be.
-pleuel_status pl_modes_check(pl_run* run, bool at_start) {
-  for (;;) {
-    int c = 0;
-    while (c < run->n_c && !pulls(run, c)) c++;
-    if (c == run->n_c) return PLEUEL_OK;
-    PL_TRY(count_change(run));
-    pl_rows_before(run);
-    let_go(run, c, 2);
-    PL_TRY(pl_modes_enter(run));
-    PL_TRY(pl_rows_event(run, PL_EV_RELEASE, c, 0, at_start));
-  }
+// How many derivatives of g are zero where a contact has opened: that many coefficients are no news.
+static int zeros_of(const pl_run* run, int c) {
+  static const double zero = 1e-9;
+  int side = run->setup->links[c].side;
+  if (side * run->r[c] > zero * run->r_size[c]) return 1;
+  return side * run->second[c] > zero * run->second_size[c] ? 2 : 3;
 }
 
-// ---------------------------------------------------------------------------------------------- arrivals
-// Which other contact would have to pull in the impact; -1 none.
-static int pulled_by(const pl_run* run, int arrived) {
-  double most = pl_norm(run->impulse, run->n_c);
+static bool jumps(const pl_run* run) {
+  for (int i = 0; i < run->n_q; i++)
+    if (fabs(run->v[i] - run->save_v[i]) > 1e-12 * run->v_size) return true;
+  return false;
+}
+
+// What is watched after a change: contacts that opened and closed, frictions in another state, values that jumped.
+static void renew_watches(pl_run* run) {
+  pl_assemble_second(run, run->A, run->second, run->second_size);
   for (int c = 0; c < run->n_c; c++) {
-    int side = run->setup->links[c].side;
-    if (c != arrived && side != 0 && run->active[c] && side * run->impulse[c] < -1e-12 * most) return c;
+    if (!is_contact(run, c)) continue;
+    if (!run->on[c] && (run->met[c] || run->on_before[c])) set_landing(run, c, zeros_of(run, c));
+    if (run->on[c] && !run->on_before[c]) forget(run, PL_WATCH_RELEASE, c);
   }
-  return -1;
+  for (int r = 0; r < run->setup->n_rubs; r++) {
+    const pl_rub_now *now = &run->rub[r], *before = &run->rub_before[r];
+    if (now->state == before->state && now->way == before->way && now->press == before->press) continue;
+    for (int k = PL_WATCH_STICK; k <= PL_WATCH_PRESS; k++) forget(run, (pl_watch_kind)k, r);
+  }
+  for (int i = 0; i < run->n_watch && jumps(run); i++)
+    if (run->watch[i].kind == PL_WATCH_EVENT && run->watch[i].fresh == 0) run->watch[i].side = 0;
 }
 
-// The rebound is too short to be followed: the body stays.
-static bool rebound_counts(const pl_run* run, int c, double speed) {
-  return run->setup->links[c].restitution > 0 && speed > 1e-7 * run->v_size;
+// ---------------------------------------------------------------------------------------------- endless bounces
+static const double tiny_bounce = 1e-8;  // of the fastest arrival: its flight is then that part of the first one's
+
+// Time until the last of endless bounces, counted from now; NaN when they do not come to an end here.
+static double rest_of_bounces(const pl_run* run, int c) {
+  const pl_link* link = &run->setup->links[c];
+  double u = link->side * run->r[c], fall = -link->side * run->second[c];
+  if (run->on[c] || !(fall > 0) || !(u > 0) || !(u <= tiny_bounce * run->fastest[c])) return (double)NAN;
+  double flight = 2 * u / fall, ratio = link->restitution;
+  // the ratio of the last flights, which knows of moving walls and of other bodies
+  const double* t = run->bounce_t + 3 * (size_t)c;
+  double last = run->t - t[0], before = t[0] - t[1];
+  if (run->bounces[c] >= 3 && last > 0 && before > 0 && last < before) ratio = flight / last;
+  return ratio > 0 && ratio < 1 ? flight / (1 - ratio) : (double)NAN;
 }
 
-// Contacts that the impact opened.
-static pleuel_status tell_releases(pl_run* run) {
+static void note_bounces(pl_run* run) {
   for (int c = 0; c < run->n_c; c++) {
-    if (!run->let_go[c]) continue;
-    run->let_go[c] = false;
-    PL_TRY(pl_rows_event(run, PL_EV_RELEASE, c, 0, false));
+    if (!is_contact(run, c) || !run->jumped[c]) continue;
+    double* t = run->bounce_t + 3 * (size_t)c;
+    t[2] = t[1];
+    t[1] = t[0];
+    t[0] = run->t;
+    run->bounces[c] = run->on[c] ? 0 : run->bounces[c] + 1;
+    run->fastest[c] = fmax(run->fastest[c], fabs(run->approach[c]));
   }
+}
+
+// Whether some rebound is too small to be followed; its contact then holds, and the impact is computed anew.
+static bool drop_tiny_bounces(pl_run* run) {
+  bool any = false;
+  for (int c = 0; c < run->n_c; c++) {
+    if (!is_contact(run, c) || !run->jumped[c] || run->on[c]) continue;
+    double rest = rest_of_bounces(run, c);
+    if (isnan(rest)) continue;
+    run->settled_t[c] = run->t + rest;
+    any = true;
+  }
+  return any;
+}
+
+// ---------------------------------------------------------------------------------------------- what follows
+static bool any_fixed(pl_run* run) {
+  unsigned any = 0;
+  for (int c = 0; c < run->n_c; c++) any |= run->fixed[c];
+  for (int r = 0; r < run->setup->n_rubs; r++) any |= run->rub_fixed[r];
+  return any != 0;
+}
+
+static void clear_fixed(pl_run* run) {
+  for (int c = 0; c < run->n_c; c++) run->fixed[c] = 0;
+  for (int r = 0; r < run->setup->n_rubs; r++) run->rub_fixed[r] = 0;
+}
+
+static pleuel_status settle(pl_run* run) {
+  pleuel_status how = pl_contacts_settle(run);
+  if (how == PLEUEL_OK || !any_fixed(run)) return how;
+  // what an event seemed to say does not fit: a root that only touched
+  memcpy(run->q, run->hold_q, (size_t)run->n_q * sizeof(double));
+  memcpy(run->v, run->hold_v, (size_t)run->n_q * sizeof(double));
+  clear_fixed(run);
+  run->job->message[0] = '\0';
+  run->job->status = PLEUEL_OK;
+  return pl_contacts_settle(run);
+}
+
+static pleuel_status impact_and_settle(pl_run* run) {
+  bool any;
+  find_near(run);
+  PL_TRY(pl_contacts_impact(run, &any));
+  run->factored = false;
+  PL_TRY(settle(run));
+  pl_assemble_second(run, run->A, run->second, run->second_size);
+  pl_batches_load_v(&run->motion, run->v, 0);
+  pl_assemble_gdot(run, run->r, run->r_size);
   return PLEUEL_OK;
 }
 
-static pleuel_status arrive(pl_run* run, int c) {
+// The motion after this moment, from q and v as they are.
+static pleuel_status follow(pl_run* run) {
   memcpy(run->jump_v, run->v, (size_t)run->n_q * sizeof(double));
-  pl_rows_before(run);
-  hold(run, c);
-  for (int round = 0; round <= run->n_c; round++) {
-    pl_active_update(run);
+  memcpy(run->jump_q, run->q, (size_t)run->n_q * sizeof(double));
+  PL_TRY(impact_and_settle(run));
+  note_bounces(run);
+  if (drop_tiny_bounces(run)) {
     memcpy(run->v, run->jump_v, (size_t)run->n_q * sizeof(double));
-    pl_point_evaluate(run, run->t, run->q, run->v);
-    pl_independent_choose(run);
-    if (!pl_point_factor(run, false)) return pl_run_undetermined(run);
-    pl_impulse(run, run->v, 1, run->impulse);
-    int other = pulled_by(run, c);
-    if (other < 0) break;
-    let_go(run, other, 1);
-    run->let_go[other] = true;
+    memcpy(run->q, run->jump_q, (size_t)run->n_q * sizeof(double));
+    PL_TRY(impact_and_settle(run));
   }
-  double move = 0, approach = fabs(run->r[c]), size = run->r_size[c], e = run->setup->links[c].restitution;
-  for (int i = 0; i < run->n_q; i++) move = fmax(move, fabs(run->v[i] - run->jump_v[i]));
-  bool bounces = rebound_counts(run, c, e * move);
-  bool impact = bounces || approach > 1e-10 * size;
-  double impulse = run->impulse[c];
-  if (bounces) {
-    for (int i = 0; i < run->n_q; i++) run->v[i] += e * (run->v[i] - run->jump_v[i]);
-    impulse *= 1 + e;
-    let_go(run, c, 1);
-  }
-  run->factored = false;
-  PL_TRY(pl_modes_enter(run));
-  PL_TRY(pl_rows_event(run, impact ? PL_EV_IMPACT : PL_EV_CONTACT, c, impulse, false));
-  return tell_releases(run);
+  renew_watches(run);
+  clear_fixed(run);
+  return PLEUEL_OK;
 }
 
-static pleuel_status leave(pl_run* run, int c) {
-  pl_rows_before(run);
-  let_go(run, c, 3);
-  PL_TRY(pl_modes_enter(run));
-  return pl_rows_event(run, PL_EV_RELEASE, c, 0, false);
+// ---------------------------------------------------------------------------------------------- telling
+static pl_event_kind opened(const pl_link* link) { return link->rope ? PL_EV_SLACK : PL_EV_RELEASE; }
+static pl_event_kind closed(const pl_link* link, bool impact) {
+  return link->rope ? PL_EV_TAUT : impact ? PL_EV_IMPACT : PL_EV_CONTACT;
+}
+
+// Contact after endless bounces: told at the limit of their times, with the state there.
+static pleuel_status tell_settled(pl_run* run, int c) {
+  double t = run->settled_t[c], dt = t - run->t;
+  long bounces = run->bounces[c];
+  run->settled_t[c] = (double)NAN;
+  run->bounces[c] = 0;
+  return pl_rows_settled(run, closed(&run->setup->links[c], false), c, dt, bounces);
+}
+
+static pleuel_status tell_contact(pl_run* run, int c, bool grazed, bool at_start) {
+  const pl_link* link = &run->setup->links[c];
+  if (isfinite(run->settled_t[c]) && run->on[c]) return tell_settled(run, c);
+  run->settled_t[c] = (double)NAN;
+  if (run->jumped[c]) return pl_rows_event(run, closed(link, true), c, run->impulse[c], at_start);
+  if (run->on[c] && !run->on_before[c]) return pl_rows_event(run, closed(link, false), c, 0, at_start);
+  if (run->on_before[c] && !run->on[c] && !run->detached[c]) return pl_rows_event(run, opened(link), c, 0, at_start);
+  return grazed ? pl_rows_event(run, closed(link, false), c, 0, at_start) : PLEUEL_OK;
+}
+
+static pleuel_status tell_rub(pl_run* run, int r) {
+  const pl_rub_now *now = &run->rub[r], *before = &run->rub_before[r];
+  int c = run->setup->rubs[r].link;
+  if (before->state == PL_RUB_OFF || now->state == PL_RUB_OFF) return PLEUEL_OK;
+  if (now->state == PL_RUB_STICK)
+    return before->state == PL_RUB_SLIP ? pl_rows_event(run, PL_EV_STICK, c, 0, false) : PLEUEL_OK;
+  bool turned = run->setup->rubs[r].n_rows == 1 && now->way != before->way;
+  if (before->state == PL_RUB_SLIP && !turned) return PLEUEL_OK;
+  return pl_rows_event(run, PL_EV_SLIP, c, 0, false);
+}
+
+static bool is_grazed(const pl_run* run, int c) {
+  for (int i = 0; i < run->n_watch; i++)
+    if (run->hit[i] && run->touch[i] && run->watch[i].kind == PL_WATCH_LANDING && run->watch[i].index == c) return true;
+  return false;
+}
+
+static pleuel_status tell_changes(pl_run* run, bool at_start) {
+  for (int c = 0; c < run->n_c; c++)
+    if (is_contact(run, c)) PL_TRY(tell_contact(run, c, !at_start && is_grazed(run, c), at_start));
+  for (int r = 0; r < run->setup->n_rubs && !at_start; r++) PL_TRY(tell_rub(run, r));
+  return PLEUEL_OK;
+}
+
+// ---------------------------------------------------------------------------------------------- the start
+static void no_hits(pl_run* run) {
+  for (int i = 0; i < run->n_watch; i++) run->hit[i] = run->touch[i] = false;
+}
+
+pleuel_status pl_modes_check(pl_run* run, bool at_start) {
+  bool any = run->setup->n_rubs > 0;
+  for (int c = 0; c < run->n_c; c++) any |= is_contact(run, c);
+  if (!any) return PLEUEL_OK;
+  no_hits(run);
+  clear_fixed(run);
+  remember(run);
+  PL_TRY(follow(run));
+  return tell_changes(run, at_start);
 }
 
 // ---------------------------------------------------------------------------------------------- deeds
@@ -142,12 +270,14 @@ static pleuel_status attach(pl_run* run, int c) {
   pl_point_evaluate(run, run->t, run->q, run->v);
   pl_assemble_g(run, 0, run->g, run->g_size);
   const pl_link* link = &run->setup->links[c];
+  bool met = link->velocity || fabs(run->g[c]) <= 1e-9 * run->g_size[c];
   // a one-sided one that is open waits for its landing
-  if (link->side != 0 && link->side * run->g[c] > 1e-9 * run->g_size[c]) return PLEUEL_OK;
-  if (!link->velocity && fabs(run->g[c]) > 1e-9 * run->g_size[c])
+  if (link->side != 0 && !met && link->side * run->g[c] > 0) return PLEUEL_OK;
+  if (!met)
     return pl_fail(run->job, PLEUEL_CONTRADICTION, "%s cannot be attached at t = %.9g s: it is off by %.3g", link->name,
                    run->t, run->g[c]);
-  return arrive(run, c);
+  run->on[c] = link->side == 0;      // whether a one-sided one holds is decided with the others
+  return PLEUEL_OK;
 }
 
 static double watched_value(pl_run* run, int i) {
@@ -168,7 +298,7 @@ static pleuel_status do_deed(pl_run* run, const pl_event_deed* d) {
     case PL_DEED_RECORD: break;
     case PL_DEED_RELEASE:
       run->detached[d->target] = true;
-      let_go(run, d->target, 0);
+      run->on[d->target] = false;
       break;
     case PL_DEED_ATTACH: return attach(run, d->target);
     case PL_DEED_SET_Q: run->q[d->target] = watched_value(run, d->value); break;
@@ -177,10 +307,10 @@ static pleuel_status do_deed(pl_run* run, const pl_event_deed* d) {
   return PLEUEL_OK;
 }
 
-static pleuel_status happen(pl_run* run, int e) {
+static pleuel_status happen(pl_run* run, int e, bool touches) {
   const pl_event_setup* event = &run->setup->events[e];
   bool stops = false, changes = false;
-  pl_rows_before(run);
+  remember(run);
   for (int i = 0; i < event->n_deeds; i++) {
     PL_TRY(do_deed(run, &event->deeds[i]));
     stops |= event->deeds[i].deed == PL_DEED_STOP;
@@ -188,11 +318,14 @@ static pleuel_status happen(pl_run* run, int e) {
   }
   if (changes) {
     run->factored = false;
-    PL_TRY(pl_modes_enter(run));
     pl_watch_forget(run);
+    PL_TRY(follow(run));
   }
-  pl_watch_of(run, PL_WATCH_EVENT, e)->fresh = 1;
-  return pl_rows_event(run, stops ? PL_EV_STOP : PL_EV_EVENT, e, 0, false);
+  pl_watch* w = pl_watch_of(run, PL_WATCH_EVENT, e);
+  w->fresh = touches ? 2 : 1;
+  if (!touches) w->side = -w->side;
+  PL_TRY(pl_rows_event(run, stops ? PL_EV_STOP : PL_EV_EVENT, e, 0, false));
+  return changes ? tell_changes(run, false) : PLEUEL_OK;
 }
 
 // ---------------------------------------------------------------------------------------------- all of them
@@ -208,20 +341,60 @@ static bool changes_motion(const pl_run* run) {
   return false;
 }
 
-pleuel_status pl_modes_handle(pl_run* run) {
-  if (changes_motion(run)) PL_TRY(pl_rows_point(run, PL_ROW_BEFORE));
-  for (int i = 0; i < run->n_watch; i++) {
-    if (!run->hit[i]) continue;
-    const pl_watch w = run->watch[i];
-    // an earlier one of the same moment may have changed what this one was about
-    if (w.kind == PL_WATCH_RELEASE && !run->active[w.index]) continue;
-    if (w.kind == PL_WATCH_LANDING && run->on[w.index]) continue;
-    PL_TRY(count_change(run));
-    if (w.kind == PL_WATCH_RELEASE) PL_TRY(leave(run, w.index));
-    if (w.kind == PL_WATCH_LANDING) PL_TRY(arrive(run, w.index));
-    if (w.kind == PL_WATCH_EVENT) PL_TRY(happen(run, w.index));
+static unsigned slips(int way, bool other_press, int press) {
+  int bit = (way < 0) + 2 * ((other_press ? -press : press) < 0);
+  return 1u << (PL_CHOICE_SLIP + bit);
+}
+
+// What a hit leaves open.
+static void fix_choices(pl_run* run, int i) {
+  const pl_watch* w = &run->watch[i];
+  const pl_rub_now* now = w->kind >= PL_WATCH_STICK && w->kind <= PL_WATCH_PRESS ? &run->rub[w->index] : NULL;
+  const pl_rub* rub = now ? &run->setup->rubs[w->index] : NULL;
+  switch (w->kind) {
+    case PL_WATCH_RELEASE:
+      if (!run->touch[i]) run->fixed[w->index] = 1u << PL_CHOICE_OPEN;
+      break;
+    case PL_WATCH_LANDING:
+      // it would sink at once
+      if (run->root[i] == 0 && w->fresh > 1) run->fixed[w->index] = 1u << PL_CHOICE_CLOSED;
+      break;
+    case PL_WATCH_STICK:
+      run->rub_fixed[w->index] |= PL_RUB_AT_REST;
+      if (run->root[i] == 0 && w->fresh > 0 && rub->n_rows == 1)
+        run->rub_fixed[w->index] |= 0xffu & ~(slips(now->way, false, 1) | slips(now->way, true, 1));
+      break;
+    case PL_WATCH_SLIP: {
+      // against the force that held it
+      int way = rub->n_rows == 1 && run->L[rub->row[0]] > 0 ? -1 : 1;
+      run->rub_fixed[w->index] |= PL_RUB_AT_REST | slips(way, false, 1) | slips(way, true, 1);
+      break;
+    }
+    case PL_WATCH_PRESS: run->rub_fixed[w->index] |= slips(now->way, true, now->press); break;
+    case PL_WATCH_EVENT: break;
   }
-  PL_TRY(pl_modes_check(run, false));
+}
+
+pleuel_status pl_modes_handle(pl_run* run) {
+  bool changes = changes_motion(run), contacts = false;
+  if (changes) PL_TRY(pl_rows_point(run, PL_ROW_BEFORE));
+  clear_fixed(run);
+  for (int i = 0; i < run->n_watch; i++) {
+    if (!run->hit[i] || run->watch[i].kind == PL_WATCH_EVENT) continue;
+    fix_choices(run, i);
+    contacts = true;
+  }
+  if (contacts) {
+    PL_TRY(count_change(run));
+    remember(run);
+    PL_TRY(follow(run));
+    PL_TRY(tell_changes(run, false));
+  }
+  for (int i = 0; i < run->n_watch; i++) {
+    if (!run->hit[i] || run->watch[i].kind != PL_WATCH_EVENT) continue;
+    PL_TRY(count_change(run));
+    PL_TRY(happen(run, run->watch[i].index, run->touch[i]));
+  }
   pl_rows_energy(run, true);
   return pl_rows_point(run, PL_ROW_AFTER);
 }

@@ -10,7 +10,7 @@ int pl_maker_take(pl_maker* k, int n) {
 // ---------------------------------------------------------------------------------------------- instances
 static bool fits(const pl_run* run) {
   long nodes = 0;
-  if (run->n_q + run->n_c > PL_MOTION_UNKNOWNS || run->has_W || run->mass_of_speed)
+  if (run->n_q + run->n_c > PL_MOTION_UNKNOWNS || run->has_W || run->mass_of_speed || run->setup->n_rubs > 0)
     return false;
   for (int i = 0; i < run->motion.n; i++) {
     const pl_batch* b = &run->motion.at[i];

@@ -50,6 +50,7 @@ void pl_point_evaluate(pl_run* run, double t, const double* q, const double* v) 
 }
 
 bool pl_point_factor(pl_run* run, bool with_W) {
+  if (run->setup->n_rubs > 0) pl_friction_coefficients(run, 0);
   pl_assemble_matrix(run, with_W);
   bool regular = pl_kkt_factor(&run->kkt);
   if (run->by_pivots) {
@@ -67,7 +68,7 @@ static void take_accelerations(pl_run* run, int k) {
     a[i] = run->rhs[i];
     v_next[i] = a[i] / (k + 1);
   }
-  for (int c = 0; c < run->n_c; c++) lambda[c] = run->taken[c] ? -run->rhs[run->n_q + c] : 0;
+  for (int c = 0; c < run->n_c; c++) lambda[c] = run->taken[c] || run->rubs[c] ? -run->rhs[run->n_q + c] : 0;
 }
 
 static void solve_order(pl_run* run, int k) {
@@ -81,6 +82,7 @@ static void solve_order(pl_run* run, int k) {
   bool all = run->watch_landings;
   pl_batches_sweep(m, PL_LEVEL_PLACE, k + 1, all);
   if (k > 0) pl_batches_sweep(m, PL_LEVEL_SPEED, k, false);
+  if (k > 0 && run->setup->n_rubs > 0) pl_friction_coefficients(run, k);
   pl_assemble_rhs(run, k, run->rhs);
   pl_kkt_solve(&run->kkt, run->rhs);
   take_accelerations(run, k);
@@ -94,10 +96,10 @@ bool pl_point_enter(pl_run* run) {
   memcpy(run->Q, run->q, (size_t)n * sizeof *run->q);
   memcpy(run->V, run->v, (size_t)n * sizeof *run->v);
   run->t_series = run->t;
-  if (run->factored) {
-    // the projection left nodes of q and t and the factor; only v has changed since
   if (run->at_point && pl_motion_enter(run)) return true;
   run->at_point = false;
+  if (run->factored) {
+    // the projection left nodes of q and t and the factor; only v has changed since
     pl_batches_load_v(&run->motion, run->v, 0);
     pl_batches_sweep(&run->motion, PL_LEVEL_SPEED, 0, true);
   } else {
@@ -111,10 +113,6 @@ bool pl_point_enter(pl_run* run) {
   return run->ready;
 }
 
-void pl_series_expand(pl_run* run) {
-  if (run->at_point) pl_motion_expand(run);
-  else
-    for (int k = 1; k < run->order; k++) solve_order(run, k);
 void pl_point_general(pl_run* run) {
   if (!run->at_point) return;
   run->at_point = run->factored = false;
@@ -123,6 +121,10 @@ void pl_point_general(pl_run* run) {
   pl_point_factor(run, true);
 }
 
+void pl_series_expand(pl_run* run) {
+  if (run->at_point) pl_motion_expand(run);
+  else
+    for (int k = 1; k < run->order; k++) solve_order(run, k);
   // one more coefficient of q comes for nothing
   const double* v = run->V + (size_t)run->order * (size_t)run->n_q;
   double* q = run->Q + (size_t)(run->order + 1) * (size_t)run->n_q;

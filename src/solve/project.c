@@ -87,5 +87,5 @@ void pl_impulse(pl_run* run, double* v, double factor, double* impulse) {
   pl_assemble_gdot(run, run->r, run->r_size);
   solve_correction(run, run->r, false);
   for (int i = 0; i < run->n_q; i++) v[i] += factor * run->rhs[i];
-  for (int c = 0; c < run->n_c; c++) impulse[c] = run->taken[c] ? -factor * run->rhs[run->n_q + c] : 0;
+  for (int c = 0; c < run->n_c; c++) impulse[c] = run->taken[c] || run->rubs[c] ? -factor * run->rhs[run->n_q + c] : 0;
 }

@@ -4,7 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-const char* const pl_event_kind_name[] = {"event", "release", "impact", "contact", "singular", "stop"};
+const char* const pl_event_kind_name[] = {"event", "release", "impact", "contact", "singular", "stop",
+                                           "slack", "taut",    "stick",  "slip"};
 
 void pl_observe(pl_run* run, double t, const double* q, const double* v, const double* a, const double* lambda,
                 double* out) {
@@ -20,21 +21,29 @@ void pl_observe(pl_run* run, double t, const double* q, const double* v, const d
 }
 
 // ---------------------------------------------------------------------------------------------- mode as text
-static bool has_contacts(const pl_run* run) {
+static bool has_modes(const pl_run* run) {
   for (int c = 0; c < run->n_c; c++)
     if (run->setup->links[c].side != 0) return true;
-  return false;
+  return run->setup->n_rubs > 0;
+}
+
+// Adds "word(name)" at out[n]; mode_size holds all of them.  Returns the new length.
+static size_t add_mode(const pl_run* run, char* out, size_t n, const char* word, const char* name) {
+  int written = snprintf(out + n, run->mode_size - n, "%s%s(%s)", n ? " " : "", word, name);
+  return written < 0 || (size_t)written >= run->mode_size - n ? n : n + (size_t)written;
 }
 
 void pl_mode_text(const pl_run* run, char* out) {
   size_t n = 0;
   out[0] = '\0';
-  if (!has_contacts(run)) return;
+  if (!has_modes(run)) return;
   for (int c = 0; c < run->n_c; c++) {
-    if (run->setup->links[c].side == 0 || !run->active[c]) continue;
-    int written = snprintf(out + n, run->mode_size - n, "%scontact(%s)", n ? " " : "", run->setup->links[c].name);
-    if (written < 0 || (size_t)written >= run->mode_size - n) break;  // mode_size holds all names: cannot happen
-    n += (size_t)written;
+    const pl_link* link = &run->setup->links[c];
+    if (link->side != 0 && run->active[c]) n = add_mode(run, out, n, link->rope ? "taut" : "contact", link->name);
+  }
+  for (int r = 0; r < run->setup->n_rubs; r++) {
+    if (run->rub[r].state == PL_RUB_OFF) continue;
+    n = add_mode(run, out, n, run->rub[r].state == PL_RUB_STICK ? "stick" : "slip", run->setup->rubs[r].name);
   }
   if (n == 0) snprintf(out, run->mode_size, "free");
 }
@@ -144,6 +153,7 @@ pleuel_status pl_rows_event(pl_run* run, pl_event_kind kind, int index, double i
   run->stats.n_events++;
   if (!s->event) return PLEUEL_OK;
   pl_event_record e = {.kind = kind, .index = index, .impulse = impulse, .at_start = at_start};
+  for (int i = 0; i < run->n_q; i++) e.jump |= fabs(run->v[i] - run->save_v[i]) > 1e-12 * run->v_size;
   if (index >= 0) e.label = of_event ? run->setup->events[index].name : run->setup->links[index].name;
   e.before = (pl_row){.t = run->t,
                       .q = run->save_q,
@@ -155,6 +165,31 @@ pleuel_status pl_rows_event(pl_run* run, pl_event_kind kind, int index, double i
                       .mode = run->mode_before,
                       .kind = PL_ROW_BEFORE};
   e.after = pl_row_now(run, PL_ROW_AFTER, run->out_now, run->mode);
+  pleuel_status how = s->event(s->user, &e);
+  run->refused |= how != PLEUEL_OK;
+  return how;
+}
+
+pleuel_status pl_rows_settled(pl_run* run, pl_event_kind kind, int index, double dt, long bounces) {
+  const pl_sink* s = &run->options.sink;
+  run->stats.n_events++;
+  if (!s->event) return PLEUEL_OK;
+  for (int i = 0; i < run->n_q; i++) {
+    run->row_q[i] = run->q[i] + dt * (run->v[i] + 0.5 * dt * run->A[i]);
+    run->row_v[i] = run->v[i] + dt * run->A[i];
+  }
+  pl_observe(run, run->t + dt, run->row_q, run->row_v, run->A, run->L, run->out_now);
+  pl_mode_text(run, run->mode);
+  pl_event_record e = {.kind = kind, .index = index, .label = run->setup->links[index].name, .bounces = bounces};
+  e.before = e.after = (pl_row){.t = run->t + dt,
+                                .q = run->row_q,
+                                .v = run->row_v,
+                                .a = run->A,
+                                .lambda = run->L,
+                                .unique = run->unique,
+                                .out = run->out_now,
+                                .mode = run->mode,
+                                .kind = PL_ROW_AFTER};
   pleuel_status how = s->event(s->user, &e);
   run->refused |= how != PLEUEL_OK;
   return how;

@@ -98,11 +98,13 @@ static void reserve_state(pl_run* run) {
   size_t q = (size_t)run->n_q, c = (size_t)run->n_c, orders = (size_t)run->order + 2;
   double** of_q[] = {&run->q,      &run->v,      &run->trial_q, &run->trial_v, &run->save_q, &run->save_v,
                      &run->save_a, &run->row_q,  &run->row_v,   &run->row_a,   &run->jump_v, &run->column,
+                     &run->jump_q, &run->hold_q, &run->hold_v,  &run->first_a,
                      &run->q_most, &run->v_most, &run->q_kept,  &run->v_kept};
   double** of_c[] = {&run->g,       &run->g_size,   &run->r,        &run->r_size,   &run->save_l,   &run->row_l,
                      &run->impulse, &run->row_most, &run->argument, &run->row_long, &run->row_part, &run->rank_work};
   bool** flags[] = {&run->on,          &run->detached,  &run->active, &run->taken,     &run->unique,
-                    &run->save_unique, &run->row_taken, &run->let_go, &run->taken_kept};
+                    &run->save_unique, &run->row_taken, &run->taken_kept, &run->rubs,   &run->near_by, &run->rebounds,
+                    &run->on_before,   &run->jumped, &run->met};
   for (size_t i = 0; i < sizeof of_q / sizeof *of_q; i++) *of_q[i] = PL_ARRAY(a, double, q + 1);
   for (size_t i = 0; i < sizeof of_c / sizeof *of_c; i++) *of_c[i] = PL_ARRAY(a, double, c + 1);
   for (size_t i = 0; i < sizeof flags / sizeof *flags; i++) *flags[i] = PL_ARRAY(a, bool, c + 1);
@@ -110,6 +112,16 @@ static void reserve_state(pl_run* run) {
   double** series_c[] = {&run->L, &run->L_last, &run->G_series};
   for (size_t i = 0; i < sizeof series_q / sizeof *series_q; i++) *series_q[i] = PL_ARRAY(a, double, q* orders + 1);
   for (size_t i = 0; i < sizeof series_c / sizeof *series_c; i++) *series_c[i] = PL_ARRAY(a, double, c* orders + 1);
+  double** of_contacts[] = {&run->approach, &run->second, &run->second_size, &run->fastest, &run->settled_t};
+  for (size_t i = 0; i < sizeof of_contacts / sizeof *of_contacts; i++) *of_contacts[i] = PL_ARRAY(a, double, c + 1);
+  for (size_t i = 0; i < c; i++) run->settled_t[i] = (double)NAN;
+  size_t decisions = c + (size_t)run->setup->n_rubs + 1;
+  run->decision = PL_ARRAY(a, pl_decision, decisions);
+  run->choice_kept = PL_ARRAY(a, int, decisions);
+  run->fixed = PL_ARRAY(a, unsigned, c + 1);
+  run->bounce_t = PL_ARRAY(a, double, 3 * c + 1);
+  run->bounces = PL_ARRAY(a, long, c + 1);
+  run->at_rub = PL_ARRAY(a, int, c + 1);
   run->rhs = PL_ARRAY(a, double, q + c + 1);
   run->place_n = PL_ARRAY(a, int, q + 1);
 }
@@ -140,6 +152,7 @@ static void reserve_rows(pl_run* run) {
   run->root_work = PL_ARRAY(a, double, PL_ROOT_WORK(orders));
   run->mode_size = sizeof "free";
   for (int c = 0; c < s->n_c; c++) run->mode_size += strlen(s->links[c].name) + sizeof " contact()";
+  for (int r = 0; r < s->n_rubs; r++) run->mode_size += strlen(s->rubs[r].name) + sizeof " stick()";
   run->mode = PL_ARRAY(a, char, run->mode_size);
   run->mode_before = PL_ARRAY(a, char, run->mode_size);
 }
@@ -175,7 +188,7 @@ static pleuel_status check_rows(pl_run* run) {
 
 static void first_mode(pl_run* run) {
   for (int c = 0; c < run->n_c; c++) {
-    run->detached[c] = run->setup->links[c].off;
+    run->detached[c] = run->setup->links[c].off || run->setup->links[c].rub;
     run->on[c] = !run->detached[c];
   }
 }
@@ -225,6 +238,7 @@ pleuel_status pl_run_make(pl_job* job, const pl_setup* setup, const pl_run_optio
   PL_TRY(check_rows(run));
   PL_TRY(pl_kkt_make(run));
   PL_TRY(make_implicit(run));
+  pl_friction_make(run);
   pl_watch_make(run);
   pl_kinks_make(run);
   first_mode(run);

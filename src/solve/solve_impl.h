@@ -59,6 +59,7 @@ typedef enum pl_choice {
   PL_CHOICE_STICK,
   PL_CHOICE_SLIP           // with way and press: PL_CHOICE_SLIP + (way < 0) + 2 (press < 0)
 } pl_choice;
+enum { PL_RUB_AT_REST = 1 << 8 };   // beside the choices left to a friction: there is no slip now
 typedef struct pl_decision {
   bool of_rub;
   int index;               // constraint or friction
@@ -112,9 +113,9 @@ struct pl_run {
 
   // the motion as codes, for the mode at work and those before; NULL: the general way
   pl_motion *motion_code, *motion_codes;
-  bool at_point;           // their memory belongs to run->t, q, v, or to the end of the step that is tried
   double clock_begin, t_begin;   // when stepping with these began
   long considered;         // steps at which compiling was thought of last
+  bool at_point;           // their memory belongs to run->t, q, v, or to the end of the step that is tried
 
   // the point
   double t, t_low;         // time and its rounding error
@@ -167,8 +168,7 @@ struct pl_run {
   double *save_q, *save_v, *save_a, *save_l;   // the point before a mode change
   bool* save_unique;
   double* impulse;         // (n_c)
-  bool* let_go;            // by the impact at work                      (n_c)
-  double *jump_v;          // (n_q)
+  double *jump_v, *jump_q; // (n_q)
 
   struct pl_radau* radau;  // the implicit method, NULL without it
   bool implicit;           // it is at work
@@ -179,6 +179,7 @@ struct pl_run {
   double *poly, *root_work;
   bool* hit;               // (n_watch)
   double* root;            // (n_watch)
+  bool* touch;             // the root only touches    (n_watch)
 
   // contacts and friction
   pl_rub_now* rub;         // (n_rubs)
@@ -191,6 +192,7 @@ struct pl_run {
   double* S_series;        // G v + dg/dt of slip: order k at k n_c
   double* poly_2;          // for products of series
   bool* near_by;           // contacts that take part in what happens now    (n_c)
+  bool* met;               // of them all that are met, also if they open at once                (n_c)
   bool* rebounds;          // of them those that bounce: what goes with them is not in force   (n_c)
   bool* on_before;         // (n_c)
   unsigned* fixed;         // choices that an event leaves to a contact, 0: all   (n_c)
@@ -207,7 +209,6 @@ struct pl_run {
   double* bounce_t;        // times of its last three impacts                 (3 n_c)
   long* bounces;           // how many one after the other                    (n_c)
   double* settled_t;       // end of its infinitely many bounces, NaN         (n_c)
-  bool drops_bounce;       // some bounce was found too small to follow
 
   pl_kink* kinks;
   int n_kinks;
@@ -362,6 +363,8 @@ void pl_observe(pl_run* run, double t, const double* q, const double* v, const d
                 double* out);
 void pl_rows_before(pl_run* run);                                        // remembers the point before a mode change
 pleuel_status pl_rows_event(pl_run* run, pl_event_kind kind, int index, double impulse, bool at_start);
+// A contact after endless bounces, dt after the point.
+pleuel_status pl_rows_settled(pl_run* run, pl_event_kind kind, int index, double dt, long bounces);
 void pl_rows_energy(pl_run* run, bool anew);                             // energy at the point, drift
 
 #endif

@@ -1,9 +1,11 @@
-// Watching for roots on a step: releases (λ of a contact), landings (g of a free one-sided constraint), events.
+// Watching for roots on a step: releases (λ of a contact), landings (g of a free one-sided constraint), slip that comes to
+// rest, sticking that breaks, events.
 //
-// Each is a polynomial on the step.  What has just happened is zero at the start of the step by construction: those
-// leading coefficients are dropped and the polynomial divided by its power of t, so that the same root is
-// not found again.  A sign that differs at the start of a step from that at the end of the one before is a root that
-// fell between them.
+// Each is a polynomial on the step, and all its roots there are isolated, touching ones included.  What has just
+// happened is zero at the start of the step by construction: those leading coefficients are dropped and the polynomial
+// divided by its power of t, so that the same root is not found again; nor does a root count before the value has left
+// the rounding error of that first one.  A sign that differs at the start of a step from that at the end of the one
+// before is a root that fell between them.
 #include "solve/solve_impl.h"
 
 #include <math.h>
@@ -12,16 +14,22 @@ static double sign(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
 
 void pl_watch_make(pl_run* run) {
   const pl_setup* s = run->setup;
-  run->watch = PL_ARRAY(run->job->arena, pl_watch, 2 * (size_t)s->n_c + (size_t)s->n_events + 1);
+  run->watch = PL_ARRAY(run->job->arena, pl_watch, 2 * (size_t)s->n_c + 3 * (size_t)s->n_rubs + (size_t)s->n_events + 1);
   for (int c = 0; c < s->n_c; c++) {
     if (s->links[c].side == 0) continue;
     run->watch[run->n_watch++] = (pl_watch){.kind = PL_WATCH_RELEASE, .index = c, .direction = -1};
     run->watch[run->n_watch++] = (pl_watch){.kind = PL_WATCH_LANDING, .index = c, .direction = -1};
   }
+  for (int r = 0; r < s->n_rubs; r++) {
+    run->watch[run->n_watch++] = (pl_watch){.kind = PL_WATCH_STICK, .index = r, .direction = -1};
+    run->watch[run->n_watch++] = (pl_watch){.kind = PL_WATCH_SLIP, .index = r, .direction = -1};
+    run->watch[run->n_watch++] = (pl_watch){.kind = PL_WATCH_PRESS, .index = r, .direction = -1};
+  }
   for (int e = 0; e < s->n_events; e++)
     run->watch[run->n_watch++] = (pl_watch){.kind = PL_WATCH_EVENT, .index = e, .direction = s->events[e].direction};
   run->hit = PL_ARRAY(run->job->arena, bool, run->n_watch + 1);
   run->root = PL_ARRAY(run->job->arena, double, run->n_watch + 1);
+  run->touch = PL_ARRAY(run->job->arena, bool, run->n_watch + 1);
 }
 
 pl_watch* pl_watch_of(pl_run* run, pl_watch_kind kind, int index) {
@@ -55,12 +63,22 @@ void pl_watch_series(pl_run* run) {
   if (run->watch_landings)
     for (int k = 0; k <= run->order; k++)
       pl_assemble_g(run, k, run->G_series + (size_t)k * (size_t)run->n_c, k == 0 ? run->g_size : NULL);
+  if (run->n_slipping > 0)
+    for (int k = 0; k <= run->order; k++)
+      pl_assemble_speed(run, k, run->S_series + (size_t)k * (size_t)run->n_c);
   if (run->setup->n_events > 0) series_of_events(run);
 }
 
 // ---------------------------------------------------------------------------------------------- one item
+static bool is_of_rub(const pl_watch* w) { return w->kind >= PL_WATCH_STICK && w->kind <= PL_WATCH_PRESS; }
+
 static bool is_watched(const pl_run* run, const pl_watch* w) {
   if (w->kind == PL_WATCH_EVENT) return true;
+  if (is_of_rub(w)) {
+    const pl_link* pressed = &run->setup->links[run->setup->rubs[w->index].link];
+    if (w->kind == PL_WATCH_SLIP) return run->rub[w->index].state == PL_RUB_STICK;
+    return run->rub[w->index].state == PL_RUB_SLIP && (w->kind == PL_WATCH_STICK || pressed->side == 0);
+  }
   const pl_link* link = &run->setup->links[w->index];
   if (w->kind == PL_WATCH_RELEASE) return run->active[w->index];
   return !run->on[w->index] && !run->detached[w->index] && !link->velocity &&
@@ -75,7 +93,12 @@ double pl_watch_force_noise(const pl_run* run, int c) {
 static double noise_of(const pl_run* run, const pl_watch* w) {
   if (w->kind == PL_WATCH_LANDING) return 1e-14 * run->g_size[w->index];
   if (w->kind == PL_WATCH_RELEASE) return pl_watch_force_noise(run, w->index);
-  return 0;
+  if (w->kind == PL_WATCH_EVENT) return 0;
+  const pl_rub* rub = &run->setup->rubs[w->index];
+  double force = pl_watch_force_noise(run, rub->row[0]);
+  if (w->kind == PL_WATCH_PRESS) return pl_watch_force_noise(run, rub->link);
+  if (w->kind == PL_WATCH_SLIP) return force * force;
+  return rub->n_rows == 1 ? 1e-14 * run->r_size[rub->row[0]] : 0;
 }
 
 // Coefficients in units of the step; returns how many.
@@ -84,6 +107,11 @@ static int polynomial(const pl_run* run, const pl_watch* w, double h, double* c)
   size_t stride;
   double factor = 1, power = 1;
   int n = run->use;
+  if (is_of_rub(w)) {
+    n = pl_friction_slip(run, w->index, w->kind, c, run->use + 1);
+    for (int k = 0; k < n; k++, power *= h) c[k] *= power;
+    return n;
+  }
   if (w->kind == PL_WATCH_EVENT) {
     X = run->W_series + run->setup->events[w->index].watch;
     stride = (size_t)run->setup->n_watched;
@@ -110,36 +138,85 @@ static double first_sign(const double* c, int n, double noise) {
   return 0;
 }
 
-static bool direction_allows(const pl_watch* w, double h, double from) {
+// Whether a root with these signs before and behind it counts; 0 behind it: at the end of the step.
+static bool is_wanted(const pl_watch* w, double h, int before, int after, bool at_end) {
   double d = w->direction * sign(h);
-  return d == 0 || (d > 0) == (from < 0);
+  bool touches = before == after;
+  if (w->kind == PL_WATCH_LANDING && touches) return before > 0;      // it grazes
+  if (touches) return w->direction == 0;
+  if (after == 0) return at_end && (d == 0 || d * before < 0);         // else it is seen at the start of the next step
+  return d == 0 || d * after > 0;
+}
+
+static double value_at(const double* c, int n, double x) {
+  double p = 0;
+  for (int k = n - 1; k >= 0; k--) p = p * x + c[k];
+  return p;
+}
+
+// Whether the polynomial has not been away from zero before x.
+static bool is_still_there(const double* c, int n, double x, double zero) {
+  for (int i = 1; i < 8; i++)
+    if (fabs(value_at(c, n, x * i / 8)) > zero) return false;
+  return true;
+}
+
+enum { MOST_ROOTS = 16 };
+
+// The first root that counts, in units of the step; -1 none.  m leading coefficients are zero.
+static double first_that_counts(pl_run* run, const pl_watch* w, double h, const double* c, int n, int m, double noise,
+                                bool* touches) {
+  pl_root root[MOST_ROOTS];
+  double zero = fmax(noise, 1e-14 * size_of(c, n));
+  bool to_end = fabs(h) >= fabs(run->options.t_end - run->t - run->t_low);
+  int found = pl_roots(c + m, n - 1 - m, fmax(pl_root_noise(n - m), 4e-15), m == 0 ? noise : 0, root, MOST_ROOTS, run->root_work);
+  for (int i = 0; i < found; i++) {
+    int before = root[i].before, after = root[i].after;
+    if (before == 0 && after == 0) continue;
+    if (before == 0) {
+      // at the very start: what happened there has been seen, unless it fell between the steps
+      if (m > 0 || w->side == 0) continue;
+      before = w->side;
+    }
+    if (m > 0 && is_still_there(c, n, root[i].x, zero)) continue;
+    if (!is_wanted(w, h, before, after, to_end)) continue;
+    *touches = before == after;
+    return root[i].before == 0 ? 0 : root[i].x;
+  }
+  return -1;
 }
 
 // Earliest root of one item, in units of the step; -1 none.
-static double find_root(pl_run* run, pl_watch* w, double h) {
+static double find_root(pl_run* run, pl_watch* w, double h, bool* touches) {
   double* c = run->poly;
   int n = polynomial(run, w, h, c), m = w->fresh;
   double size = size_of(c, n), noise = fmax(noise_of(run, w), 1e-15 * size);
+  *touches = false;
   if (m == 0 && w->side == 0) {
     // nothing known: at the start, or after a jump
     if (fabs(c[0]) <= fmax(noise, 1e-12 * size)) m = w->fresh = 1;
     else w->side = (int)sign(c[0]);
   }
-  if (m == 0 && c[0] != 0 && sign(c[0]) == -w->side) return direction_allows(w, h, w->side) ? 0 : -1;
+  if (m == 0 && fabs(c[0]) > noise && sign(c[0]) == -w->side)
+    return is_wanted(w, h, w->side, -w->side, true) ? 0 : -1;
   if (m > 0 && w->kind != PL_WATCH_EVENT) {
     // a contact that pulls at once, or a free one that sinks at once
     while (m < n && m < 3 && fabs(c[m]) <= noise) m++;
     if (first_sign(c + m, n - m, noise) < 0) return 0;
   }
+  // a bounce, however small, is known from its own velocity
+  if (w->kind == PL_WATCH_LANDING && w->fresh == 1) noise = 0;
   if (m >= n || size_of(c + m, n - m) <= noise) return -1;
-  return pl_first_root(c + m, n - 1 - m, w->direction * (int)sign(h), run->root_work);
+  for (int k = 0; k < m; k++) c[k] = 0;
+  return first_that_counts(run, w, h, c, n, m, noise, touches);
 }
 
 double pl_watch_first(pl_run* run, double h) {
   static const double together = 1e-12;  // of the step: roots closer than this happen at once
   double first = -1;
   for (int i = 0; i < run->n_watch; i++) {
-    run->root[i] = is_watched(run, &run->watch[i]) ? find_root(run, &run->watch[i], h) : -1;
+    run->touch[i] = false;
+    run->root[i] = is_watched(run, &run->watch[i]) ? find_root(run, &run->watch[i], h, &run->touch[i]) : -1;
     if (run->root[i] >= 0 && (first < 0 || run->root[i] < first)) first = run->root[i];
   }
   for (int i = 0; i < run->n_watch; i++) run->hit[i] = run->root[i] >= 0 && run->root[i] <= first + together;
@@ -156,5 +233,13 @@ void pl_watch_passed(pl_run* run, double h) {
     for (int k = n - 1; k >= 0; k--) x += run->poly[k];
     if (h != 0) w->fresh = 0;
     if (fabs(x) > fmax(noise_of(run, w), 4e-16 * size_of(run->poly, n))) w->side = (int)sign(x);
+  }
+  // slip in space that has become clear of rounding counts as none only far below that again
+  for (int r = 0; r < run->setup->n_rubs; r++) {
+    pl_rub_now* now = &run->rub[r];
+    double d[3], least = 1e-12 * run->v_size;
+    if (run->setup->rubs[r].n_rows == 3 && now->state == PL_RUB_SLIP && now->small != least &&
+        pl_friction_speed(run, r, run->r, d) > 1e3 * least)
+      now->small = least;
   }
 }

@@ -1,0 +1,475 @@
+// Which contacts hold and which surfaces stick, at a moment when that is open: after an impact, at a release, when slip
+// comes to rest.
+//
+// Twice the same question.  For the impact: velocities v+ and impulses with, for each contact near by,
+//
+//     u+ + e u- >= 0,  Λ >= 0,  one of them zero          (Moreau 1988; Newton's e, u velocity along g)
+//
+// and for each friction |Λt| <= μ Λn while the slip ends with zero, or Λt = -μ Λn s+/|s+|.  For the motion that follows:
+// accelerations and forces with g'' >= 0, λ >= 0, one of them zero, and Coulomb's law with the derivative of the slip
+// where there is none yet.  A set of decisions (open or closed, stick or slip) makes both linear; a set is consistent
+// when all signs are right.  It is looked for by exchange: the first decision that is wrong is turned round (Murty 1974;
+// finite without friction, where the matrix is positive).  With friction all sets are tried too, while they are not too
+// many: none that fits, or two that fit with different accelerations, is Painlevé's paradox, and the run says so.
+#include "solve/solve_impl.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { MOST_EXCHANGES = 400, MOST_SETS = 3000, MOST_TURNS = 100 };
+
+static const double wrong_rate = 1e-10;    // of its terms: a rate with the wrong sign
+static const double no_slip = 1e-11;       // of its terms: a slip velocity that counts as none
+static const double over_limit = 1e-10;    // of the limit: a force that sticking cannot give
+
+// ---------------------------------------------------------------------------------------------- the decisions
+static int side_of(const pl_run* run, int c) { return run->setup->links[c].side; }
+
+static int way_of(int choice) { return (choice - PL_CHOICE_SLIP) & 1 ? -1 : 1; }
+static int press_of(int choice) { return (choice - PL_CHOICE_SLIP) & 2 ? -1 : 1; }
+static int slip_choice(int way, int press) { return PL_CHOICE_SLIP + (way < 0) + 2 * (press < 0); }
+static bool is_allowed(const pl_decision* d, int choice) { return d->allowed >> choice & 1; }
+
+static void add(pl_run* run, bool of_rub, int index, unsigned allowed, int choice) {
+  pl_decision d = {of_rub, index, allowed, choice};
+  for (int k = 0; k < 8 && !is_allowed(&d, d.choice); k++) d.choice = (d.choice + 1) % 8;
+  run->decision[run->n_decisions++] = d;
+}
+
+// All that a friction may do: in space the direction is found, not chosen.
+static unsigned choices_of(const pl_run* run, int r, int only_way) {
+  const pl_rub* rub = &run->setup->rubs[r];
+  int side = side_of(run, rub->link);
+  unsigned all = only_way ? 0 : 1u << PL_CHOICE_STICK;
+  for (int press = -1; press <= 1; press += 2) {
+    if (side != 0 && press != side) continue;
+    for (int way = -1; way <= 1; way += 2) {
+      if (rub->n_rows == 3 && way < 0) continue;
+      if (only_way && rub->n_rows == 1 && way != only_way) continue;
+      all |= 1u << slip_choice(way, press);
+    }
+  }
+  return all;
+}
+
+// Puts the decisions into force.
+static void apply(pl_run* run) {
+  for (int i = 0; i < run->n_decisions; i++) {
+    const pl_decision* d = &run->decision[i];
+    if (!d->of_rub) {
+      run->on[d->index] = d->choice == PL_CHOICE_CLOSED;
+      continue;
+    }
+    pl_rub_now* now = &run->rub[d->index];
+    now->state = d->choice == PL_CHOICE_STICK ? PL_RUB_STICK : PL_RUB_SLIP;
+    if (now->state == PL_RUB_SLIP) now->way = way_of(d->choice), now->press = press_of(d->choice);
+  }
+}
+
+// ---------------------------------------------------------------------------------------------- what is wrong with a set
+typedef struct pl_fault { int at, better; } pl_fault;   // decision, and what it should be instead; at -1: nothing
+static const pl_fault no_fault = {-1, 0};
+
+// The forces of a contact or friction, the rates that belong to them, and what counts as zero.
+typedef struct pl_look {
+  const double *force, *rate, *rate_size;
+  double force_zero;             // of impulses; < 0: from the noise of multipliers
+  bool kinetic;                  // the limit of sticking is that of slipping
+} pl_look;
+
+static double force_zero(const pl_run* run, const pl_look* l, int c) {
+  return l->force_zero >= 0 ? l->force_zero : pl_watch_force_noise(run, c);
+}
+
+static bool is_wrong_contact(const pl_run* run, const pl_look* l, const pl_decision* d) {
+  int c = d->index, side = side_of(run, c);
+  if (d->choice == PL_CHOICE_CLOSED) return run->active[c] && side * l->force[c] < -force_zero(run, l, c);
+  return side * l->rate[c] < -wrong_rate * l->rate_size[c];
+}
+
+static int better_for_rub(const pl_run* run, const pl_look* l, const pl_decision* d) {
+  int r = d->index;
+  const pl_rub* rub = &run->setup->rubs[r];
+  const pl_rub_now* now = &run->rub[r];
+  double press = l->force[rub->link], zero = force_zero(run, l, rub->link);
+  if (d->choice == PL_CHOICE_STICK) {
+    double limit = run->C_series[l->kinetic ? rub->scale : rub->limit] * fabs(press);
+    double F = pl_friction_force(run, r, l->force);
+    if (F <= limit * (1 + over_limit) + force_zero(run, l, rub->row[0])) return d->choice;
+    int way = rub->n_rows == 1 && l->force[rub->row[0]] > 0 ? -1 : 1;      // it slips against the force that held it
+    return slip_choice(way, press < 0 ? -1 : 1);
+  }
+  if (now->press * press < -zero) return slip_choice(now->way, -now->press);
+  if (!is_allowed(d, PL_CHOICE_STICK) || rub->n_rows == 3) return d->choice;
+  double rate = now->way * l->rate[rub->row[0]], small = wrong_rate * l->rate_size[rub->row[0]];
+  return rate < -small ? PL_CHOICE_STICK : d->choice;
+}
+
+static pl_fault find_fault(const pl_run* run, const pl_look* l) {
+  for (int i = 0; i < run->n_decisions; i++) {
+    const pl_decision* d = &run->decision[i];
+    if (!d->of_rub && is_wrong_contact(run, l, d))
+      return (pl_fault){i, d->choice == PL_CHOICE_CLOSED ? PL_CHOICE_OPEN : PL_CHOICE_CLOSED};
+    if (!d->of_rub || !pl_friction_is_used(run, d->index)) continue;
+    int better = better_for_rub(run, l, d);
+    if (better != d->choice) return (pl_fault){i, better};
+  }
+  return no_fault;
+}
+
+// ---------------------------------------------------------------------------------------------- accelerations of a set
+// In space slip begins in the direction d that it itself makes: found by repetition.  Returns whether d still changes.
+static bool turn_slips(pl_run* run, const double* rate) {
+  bool turned = false;
+  for (int r = 0; r < run->setup->n_rubs; r++) {
+    pl_rub_now* now = &run->rub[r];
+    if (now->state != PL_RUB_SLIP || !now->given || !pl_friction_is_used(run, r)) continue;
+    double d[3];
+    if (pl_friction_speed(run, r, rate, d) == 0) continue;
+    for (int i = 0; i < 3; i++) turned |= fabs(d[i] - now->d[i]) > 1e-13;
+    memcpy(now->d, d, sizeof d);
+  }
+  return turned;
+}
+
+static void restore_point(pl_run* run) {
+  memcpy(run->q, run->hold_q, (size_t)run->n_q * sizeof(double));
+  memcpy(run->v, run->hold_v, (size_t)run->n_q * sizeof(double));
+  run->factored = false;
+}
+
+static bool try_accelerations(pl_run* run, pl_look* l) {
+  apply(run);
+  for (int turn = 0;; turn++) {
+    restore_point(run);
+    pl_active_update(run);
+    pl_projection p = pl_project(run, run->t, run->q, run->v);
+    if (!p.ok || !pl_point_enter(run)) return false;
+    pl_assemble_row_sizes(run);
+    pl_assemble_second(run, run->A, run->second, run->second_size);
+    if (!turn_slips(run, run->second) || turn >= MOST_TURNS) break;
+  }
+  *l = (pl_look){run->L, run->second, run->second_size, -1, false};
+  return true;
+}
+
+// ---------------------------------------------------------------------------------------------- impulses of a set
+// What the velocity along g is to be after the impact.
+static double rebound(const pl_run* run, int c) {
+  const pl_link* link = &run->setup->links[c];
+  double u = run->approach[c];
+  return run->rebounds[c] && link->side * u < 0 ? -link->restitution * u : 0;
+}
+
+static bool solve_impulses(pl_run* run) {
+  pl_active_update(run);
+  memcpy(run->v, run->hold_v, (size_t)run->n_q * sizeof(double));
+  pl_point_evaluate(run, run->t, run->q, run->v);
+  pl_assemble_g(run, 0, run->g, run->g_size);
+  pl_assemble_gdot(run, run->r, run->r_size);
+  pl_independent_choose(run);
+  run->impulsive = true;
+  bool regular = pl_point_factor(run, false);
+  run->impulsive = false;
+  run->factored = false;
+  if (!regular) return false;
+  for (int i = 0; i < run->n_q; i++) run->rhs[i] = 0;
+  for (int c = 0; c < run->n_c; c++)
+    run->rhs[run->n_q + c] = run->taken[c] ? (side_of(run, c) != 0 ? rebound(run, c) : 0) - run->r[c] : 0;
+  pl_kkt_solve(&run->kkt, run->rhs);
+  if (!isfinite(pl_norm(run->rhs, run->n_q))) return false;
+  for (int i = 0; i < run->n_q; i++) run->v[i] += run->rhs[i];
+  for (int c = 0; c < run->n_c; c++)
+    run->impulse[c] = run->taken[c] || run->rubs[c] ? -run->rhs[run->n_q + c] : 0;
+  pl_batches_load_v(&run->motion, run->v, 0);
+  pl_assemble_gdot(run, run->second, run->second_size);
+  return true;
+}
+
+static bool try_impulses(pl_run* run, pl_look* l) {
+  apply(run);
+  for (int turn = 0;; turn++) {
+    if (!solve_impulses(run)) return false;
+    if (!turn_slips(run, run->second) || turn >= MOST_TURNS) break;
+  }
+  // rates of contacts count from the rebound
+  for (int c = 0; c < run->n_c; c++)
+    if (side_of(run, c) != 0) run->second[c] -= rebound(run, c);
+  *l = (pl_look){run->impulse, run->second, run->second_size, 1e-12 * pl_norm(run->impulse, run->n_c), true};
+  return true;
+}
+
+// ---------------------------------------------------------------------------------------------- looking for a set
+typedef bool pl_trial(pl_run* run, pl_look* l);
+
+static bool has_used_rub(const pl_run* run) {
+  for (int i = 0; i < run->n_decisions; i++)
+    if (run->decision[i].of_rub) return true;
+  return false;
+}
+
+// By exchange.  In rounds of their own decisions may go in circles: then it gives up.
+static bool exchange(pl_run* run, pl_trial* trial) {
+  for (int round = 0; round < MOST_EXCHANGES; round++) {
+    pl_look l;
+    if (!trial(run, &l)) return false;
+    pl_fault f = find_fault(run, &l);
+    if (f.at < 0) return true;
+    pl_decision* d = &run->decision[f.at];
+    if (!is_allowed(d, f.better)) return false;
+    d->choice = f.better;
+  }
+  return false;
+}
+
+static double count_sets(const pl_run* run) {
+  double n = 1;
+  for (int i = 0; i < run->n_decisions; i++) n *= __builtin_popcount(run->decision[i].allowed);
+  return n;
+}
+
+static void first_set(pl_run* run) {
+  for (int i = 0; i < run->n_decisions; i++) run->decision[i].choice = __builtin_ctz(run->decision[i].allowed);
+}
+
+// The next set in order; false: all were there.
+static bool next_set(pl_run* run) {
+  for (int i = 0; i < run->n_decisions; i++) {
+    pl_decision* d = &run->decision[i];
+    for (d->choice++; d->choice < 8; d->choice++)
+      if (is_allowed(d, d->choice)) return true;
+    d->choice = __builtin_ctz(d->allowed);
+  }
+  return false;
+}
+
+// A choice for a friction whose contact is open says nothing: only the first of them counts.
+static bool is_idle(const pl_run* run) {
+  for (int i = 0; i < run->n_decisions; i++) {
+    const pl_decision* d = &run->decision[i];
+    if (d->of_rub && !pl_friction_is_used(run, d->index) && d->choice != __builtin_ctz(d->allowed)) return true;
+  }
+  return false;
+}
+
+static void keep_choices(pl_run* run) {
+  for (int i = 0; i < run->n_decisions; i++) run->choice_kept[i] = run->decision[i].choice;
+}
+
+// More static than kinetic friction leaves a choice of its own, which is made for sticking.
+static bool sticks_harder(const pl_run* run) {
+  for (int i = 0; i < run->n_decisions; i++) {
+    if (!run->decision[i].of_rub) continue;
+    const pl_rub* rub = &run->setup->rubs[run->decision[i].index];
+    if (run->C_series[rub->limit] > run->C_series[rub->scale] * (1 + 1e-12)) return true;
+  }
+  return false;
+}
+
+static bool same_contacts(const pl_run* run) {
+  for (int i = 0; i < run->n_decisions; i++)
+    if (!run->decision[i].of_rub && run->decision[i].choice != run->choice_kept[i]) return false;
+  return true;
+}
+
+static bool same_motion(const pl_run* run, const double* x) {
+  double most = pl_norm(run->first_a, run->n_q);
+  for (int i = 0; i < run->n_q; i++)
+    if (fabs(x[i] - run->first_a[i]) > 1e-6 * most) return false;
+  return true;
+}
+
+// All sets; the first consistent one is kept.  Returns how many different motions fit: 0, 1, or 2 for several.
+static int try_all(pl_run* run, pl_trial* trial, const double* motion) {
+  int found = 0;
+  first_set(run);
+  do {
+    pl_look l;
+    if (!trial(run, &l) || is_idle(run) || find_fault(run, &l).at >= 0) continue;
+    if (found == 0) {
+      found = 1;
+      keep_choices(run);
+      memcpy(run->first_a, motion, (size_t)run->n_q * sizeof(double));
+    } else if (!same_motion(run, motion) && !(sticks_harder(run) && same_contacts(run))) {
+      found = 2;
+    }
+  } while (found < 2 && next_set(run));
+  for (int i = 0; i < run->n_decisions && found > 0; i++) run->decision[i].choice = run->choice_kept[i];
+  pl_look l;
+  if (found == 1 && !trial(run, &l)) return 0;
+  return found;
+}
+
+static pleuel_status paradox(pl_run* run, int found, bool impact) {
+  const char* what = impact ? "impulses" : "forces";
+  if (found == 0)
+    return pl_fail(run->job, PLEUEL_NUMERICAL,
+                   "no %s fit Coulomb's law and the contacts together at t = %.9g s (Painlevé's paradox): rigid bodies with "
+                   "this friction have no motion from here", what, run->t);
+  return pl_fail(run->job, PLEUEL_NUMERICAL,
+                 "several %s fit Coulomb's law and the contacts at t = %.9g s (Painlevé's paradox): rigid bodies with this "
+                 "friction do not tell which motion follows", what, run->t);
+}
+
+// Finds the set.  motion: where a trial leaves accelerations or velocities.
+static pleuel_status decide(pl_run* run, pl_trial* trial, const double* motion, bool impact) {
+  if (has_used_rub(run) && count_sets(run) <= MOST_SETS) {
+    int found = try_all(run, trial, motion);
+    if (found != 1) return paradox(run, found, impact);
+    return PLEUEL_OK;
+  }
+  if (exchange(run, trial)) return PLEUEL_OK;
+  if (has_used_rub(run)) return paradox(run, 0, impact);
+  if (!run->ready && !impact) return pl_run_undetermined(run);
+  return pl_fail(run->job, PLEUEL_NUMERICAL, "the contacts at t = %.9g s do not fit together: no set of them has forces that push",
+                 run->t);
+}
+
+// ---------------------------------------------------------------------------------------------- impacts
+static const double at_rest = 1e-9;      // of the terms of the velocity along g
+
+static bool is_arriving(const pl_run* run, int c) {
+  const pl_link* link = &run->setup->links[c];
+  if (link->side != 0) return run->near_by[c] && link->side * run->approach[c] < -at_rest * run->r_size[c];
+  return run->active[c] && fabs(run->approach[c]) > at_rest * run->r_size[c];
+}
+
+static void list_impact(pl_run* run) {
+  run->n_decisions = 0;
+  for (int c = 0; c < run->n_c; c++)
+    if (run->near_by[c]) add(run, false, c, 1u << PL_CHOICE_OPEN | 1u << PL_CHOICE_CLOSED, PL_CHOICE_CLOSED);
+  for (int r = 0; r < run->setup->n_rubs; r++) {
+    int c = run->setup->rubs[r].link;
+    run->rub[r].given = true;
+    pl_friction_speed(run, r, run->approach, run->rub[r].d);
+    if (run->near_by[c] || run->active[c]) add(run, true, r, choices_of(run, r, 0), PL_CHOICE_STICK);
+  }
+}
+
+// Work of the impulses on the mean velocity: what the impact adds to the kinetic energy.
+static double energy_gain(const pl_run* run) {
+  double gain = 0;
+  for (int c = 0; c < run->n_c; c++) {
+    double after = run->second[c] + (side_of(run, c) != 0 ? rebound(run, c) : 0);
+    gain += 0.5 * run->impulse[c] * (run->approach[c] + after);
+  }
+  return gain;
+}
+
+static pleuel_status check_gain(pl_run* run) {
+  double size = 0, gain = energy_gain(run);
+  for (int c = 0; c < run->n_c; c++) size += fabs(run->impulse[c] * run->approach[c]);
+  if (!(gain > 1e-9 * size)) return PLEUEL_OK;
+  return pl_fail(run->job, PLEUEL_NUMERICAL,
+                 "Newton's impact law with friction would create energy at t = %.9g s (%.3g J): this impact needs more than a "
+                 "coefficient of restitution", run->t, gain);
+}
+
+static bool moving_walls(const pl_run* run) {
+  for (int i = 0; i < run->motion.n; i++)
+    if (run->motion.at[i].pattern->n_gt > 0) return true;
+  return false;
+}
+
+pleuel_status pl_contacts_impact(pl_run* run, bool* any) {
+  *any = false;
+  for (int c = 0; c < run->n_c; c++) run->jumped[c] = false;
+  pl_active_update(run);
+  pl_point_evaluate(run, run->t, run->q, run->v);
+  pl_assemble_g(run, 0, run->g, run->g_size);
+  pl_assemble_gdot(run, run->approach, run->r_size);
+  for (int c = 0; c < run->n_c; c++) run->jumped[c] = is_arriving(run, c), *any |= run->jumped[c];
+  if (!*any) {
+    for (int c = 0; c < run->n_c; c++) {
+      if (!run->near_by[c] || !(side_of(run, c) * run->approach[c] > at_rest * run->r_size[c])) continue;
+      run->near_by[c] = run->on[c] = false;      // it moves away
+    }
+    return PLEUEL_OK;
+  }
+  for (int c = 0; c < run->n_c; c++)
+    run->rebounds[c] = run->jumped[c] && run->near_by[c] && run->setup->links[c].restitution > 0 && !isfinite(run->settled_t[c]);
+  memcpy(run->hold_v, run->v, (size_t)run->n_q * sizeof(double));
+  memcpy(run->hold_q, run->q, (size_t)run->n_q * sizeof(double));
+  list_impact(run);
+  PL_TRY(decide(run, try_impulses, run->v, true));
+  // a friction against a driven surface may add energy, and so may a driven wall
+  if (has_used_rub(run) && !moving_walls(run)) PL_TRY(check_gain(run));
+  for (int c = 0; c < run->n_c; c++) {
+    run->jumped[c] = run->jumped[c] && run->impulse[c] != 0;
+    if (!run->near_by[c]) continue;
+    double u = run->second[c] + rebound(run, c);
+    run->on[c] = !(side_of(run, c) * u > 1e-10 * run->r_size[c]);
+    run->near_by[c] = run->on[c];
+    if (run->on[c] && run->rebounds[c]) run->on[c] = true;
+  }
+  for (int c = 0; c < run->n_c; c++) run->rebounds[c] = false;
+  return PLEUEL_OK;
+}
+
+// ---------------------------------------------------------------------------------------------- the motion that follows
+static void list_motion(pl_run* run) {
+  run->n_decisions = 0;
+  for (int c = 0; c < run->n_c; c++) {
+    unsigned all = 1u << PL_CHOICE_OPEN | 1u << PL_CHOICE_CLOSED;
+    if (run->near_by[c]) add(run, false, c, run->fixed[c] ? run->fixed[c] : all, PL_CHOICE_CLOSED);
+  }
+  for (int r = 0; r < run->setup->n_rubs; r++) {
+    const pl_rub* rub = &run->setup->rubs[r];
+    pl_rub_now* now = &run->rub[r];
+    if (!run->near_by[rub->link] && !run->active[rub->link]) continue;
+    double d[3], speed = pl_friction_speed(run, r, run->r, d);
+    bool slips = speed > no_slip * run->r_size[rub->row[0]];
+    if (rub->n_rows == 3) {
+      double size = 0;
+      for (int i = 0; i < 3; i++) size = fmax(size, run->r_size[rub->row[i]]);
+      slips = speed > fmax(no_slip * size, 2 * now->small);
+    }
+    if (run->rub_fixed[r] & PL_RUB_AT_REST) slips = false;
+    now->given = rub->n_rows == 3 && !slips;
+    unsigned all = choices_of(run, r, slips ? (rub->n_rows == 1 && d[0] < 0 ? -1 : 1) : 0);
+    if (all & run->rub_fixed[r]) all &= run->rub_fixed[r];
+    add(run, true, r, all, PL_CHOICE_STICK);
+  }
+}
+
+// In space slip that begins has no direction yet in the equations: a velocity far below everything else gives it one.
+static pleuel_status nudge(pl_run* run) {
+  static const double speck = 1e-12;     // of the largest velocity
+  bool any = false;
+  for (int r = 0; r < run->setup->n_rubs; r++) {
+    pl_rub_now* now = &run->rub[r];
+    if (now->state != PL_RUB_SLIP || !now->given) continue;
+    any = true;
+  }
+  if (!any) return PLEUEL_OK;
+  // towards where the accelerations lead
+  double a = pl_norm(run->A, run->n_q), v = run->v_size > 0 ? run->v_size : 1;
+  double dt = a > 0 ? speck * v / a : 0;
+  for (int i = 0; i < run->n_q; i++) run->v[i] += dt * run->A[i];
+  pl_point_evaluate(run, run->t, run->q, run->v);
+  pl_assemble_gdot(run, run->r, run->r_size);
+  for (int r = 0; r < run->setup->n_rubs; r++) {
+    pl_rub_now* now = &run->rub[r];
+    if (now->state != PL_RUB_SLIP || !now->given) continue;
+    double d[3];
+    double speed = pl_friction_speed(run, r, run->r, d);
+    now->given = false;
+    if (speed == 0) return pl_fail(run->job, PLEUEL_NUMERICAL, "friction on %s begins to slip at t = %.9g s without a direction",
+                                   run->setup->rubs[r].name, run->t);
+    now->small = 0.1 * speed;
+  }
+  return pl_modes_enter(run);
+}
+
+pleuel_status pl_contacts_settle(pl_run* run) {
+  pl_active_update(run);
+  pl_point_evaluate(run, run->t, run->q, run->v);
+  pl_assemble_g(run, 0, run->g, run->g_size);
+  pl_assemble_gdot(run, run->r, run->r_size);
+  memcpy(run->hold_q, run->q, (size_t)run->n_q * sizeof(double));
+  memcpy(run->hold_v, run->v, (size_t)run->n_q * sizeof(double));
+  list_motion(run);
+  if (run->n_decisions > 0) PL_TRY(decide(run, try_accelerations, run->A, false));
+  PL_TRY(pl_modes_enter(run));
+  return nudge(run);
+}

@@ -1,0 +1,163 @@
+// Coulomb friction inside of the equations of motion.
+//
+// The slip velocity s = A v + b of a friction is a set of rows like those of a nonholonomic constraint, and its force on
+// the coordinates is A^T m.  While the surfaces stick the rows hold as constraints and m is their multiplier.  While they
+// slip m follows from the multiplier λ that presses:
+//
+//     m = -μ ν |λ| s / |s|,      ν: force of the constraint per unit of λ
+//
+// so its row in the linear system reads m - κ λ = 0 with κ = -press μ ν s / |s|, and at order k of the series
+//
+//     m_k - κ_0 λ_k = sum_{j>=1} κ_j λ_{k-j}.
+//
+// The system is then no longer symmetric, and it may be singular or have the wrong sign: Painlevé's configurations,
+// which the choice of the mode (contacts.c) finds.
+#include "solve/solve_impl.h"
+
+#include <math.h>
+#include <string.h>
+
+void pl_friction_make(pl_run* run) {
+  pl_arena* a = run->job->arena;
+  const pl_setup* s = run->setup;
+  size_t c = (size_t)run->n_c, n = (size_t)s->n_rubs, orders = (size_t)run->order + 2;
+  run->rub = PL_ARRAY(a, pl_rub_now, n + 1);
+  run->rub_before = PL_ARRAY(a, pl_rub_now, n + 1);
+  run->rub_fixed = PL_ARRAY(a, unsigned, n + 1);
+  run->C_series = PL_ARRAY(a, double, (size_t)s->n_coefficients * orders + 1);
+  run->S_series = PL_ARRAY(a, double, n > 0 ? c * orders + 1 : 1);
+  run->poly_2 = PL_ARRAY(a, double, 3 * orders + 1);
+  for (int i = 0; i < s->n_rubs; i++) run->rub[i].press = s->links[s->rubs[i].link].side < 0 ? -1 : 1;
+  run->has_W |= s->n_rubs > 0;       // the factor of a projection does not serve the accelerations
+}
+
+bool pl_friction_is_used(const pl_run* run, int r) { return run->active[run->setup->rubs[r].link]; }
+
+void pl_friction_activate(pl_run* run) {
+  run->n_slipping = 0;
+  for (int r = 0; r < run->setup->n_rubs; r++) {
+    const pl_rub* rub = &run->setup->rubs[r];
+    if (!pl_friction_is_used(run, r)) run->rub[r].state = PL_RUB_OFF;
+    for (int i = 0; i < rub->n_rows; i++) {
+      int c = rub->row[i];
+      run->active[c] = run->on[c] = run->rub[r].state == PL_RUB_STICK;
+      run->rubs[c] = run->rub[r].state == PL_RUB_SLIP;
+      run->n_active += run->active[c];
+      run->n_slipping += run->rubs[c];
+    }
+  }
+}
+
+void pl_friction_coefficients(pl_run* run, int k) {
+  int n = run->setup->n_coefficients;
+  pl_batches_outputs(&run->motion, run->C_series + (size_t)k * (size_t)n, n, k);
+}
+
+// ---------------------------------------------------------------------------------------------- in the linear system
+static double kappa(const pl_run* run, int r, int i, int k) {
+  const pl_rub* rub = &run->setup->rubs[r];
+  const pl_rub_now* now = &run->rub[r];
+  const double* C = run->C_series + (size_t)k * (size_t)run->setup->n_coefficients;
+  if (rub->n_rows == 1) return -now->press * now->way * C[rub->scale];
+  return now->given ? -now->press * now->d[i] * C[rub->scale] : -now->press * C[rub->along[i]];
+}
+
+void pl_friction_matrix(pl_run* run) {
+  for (int r = 0; r < run->setup->n_rubs; r++) {
+    const pl_rub* rub = &run->setup->rubs[r];
+    for (int i = 0; i < rub->n_rows && run->rub[r].state == PL_RUB_SLIP; i++)
+      run->kkt.value[run->at_rub[rub->row[i]]] = -kappa(run, r, i, 0);
+  }
+}
+
+void pl_friction_rhs(pl_run* run, int k, double* rhs) {
+  for (int r = 0; r < run->setup->n_rubs; r++) {
+    const pl_rub* rub = &run->setup->rubs[r];
+    for (int i = 0; i < rub->n_rows && run->rub[r].state == PL_RUB_SLIP; i++) {
+      double sum = 0;
+      for (int j = 1; j <= k; j++)
+        sum += kappa(run, r, i, j) * run->L[(size_t)(k - j) * (size_t)run->n_c + (size_t)rub->link];
+      rhs[run->n_q + rub->row[i]] = -sum;  // the unknowns are -λ
+    }
+  }
+}
+
+// ---------------------------------------------------------------------------------------------- sizes
+double pl_friction_force(const pl_run* run, int r, const double* m) {
+  const pl_rub* rub = &run->setup->rubs[r];
+  const double* P = run->C_series;
+  if (rub->n_rows == 1) return fabs(m[rub->row[0]]);
+  double x = m[rub->row[0]], y = m[rub->row[1]], z = m[rub->row[2]];
+  double square = P[rub->metric[0]] * x * x + P[rub->metric[1]] * y * y + P[rub->metric[2]] * z * z +
+                  2 * (P[rub->metric[3]] * x * y + P[rub->metric[4]] * x * z + P[rub->metric[5]] * y * z);
+  return sqrt(fmax(square, 0));
+}
+
+double pl_friction_speed(const pl_run* run, int r, const double* rates, double* d) {
+  const pl_rub* rub = &run->setup->rubs[r];
+  double square = 0, most = 0;
+  for (int i = 0; i < rub->n_rows; i++) most = fmax(most, fabs(rates[rub->row[i]]));
+  if (most == 0) {
+    for (int i = 0; i < rub->n_rows; i++) d[i] = 0;
+    return 0;
+  }
+  for (int i = 0; i < rub->n_rows; i++) square += (rates[rub->row[i]] / most) * (rates[rub->row[i]] / most);
+  double speed = most * sqrt(square);
+  for (int i = 0; i < rub->n_rows; i++) d[i] = rates[rub->row[i]] / speed;
+  return speed;
+}
+
+// ---------------------------------------------------------------------------------------------- series of what is watched
+// c += f a b for series of n coefficients with their strides.
+static void add_product(double* c, double f, const double* a, size_t at_a, const double* b, size_t at_b, int n) {
+  for (int k = 0; k < n; k++) {
+    double sum = 0;
+    for (int j = 0; j <= k; j++) sum += a[(size_t)j * at_a] * b[(size_t)(k - j) * at_b];
+    c[k] += f * sum;
+  }
+}
+
+static void clear(double* c, int n) { memset(c, 0, (size_t)n * sizeof *c); }
+
+// limit² λ² - |F|²
+static void force_left(const pl_run* run, const pl_rub* rub, double* c, int n) {
+  double *u = run->poly_2, *w = u + run->order + 2;
+  size_t n_c = (size_t)run->n_c, n_C = (size_t)run->setup->n_coefficients;
+  clear(u, n);
+  add_product(u, 1, run->C_series + rub->limit, n_C, run->L + rub->link, n_c, n);
+  clear(c, n);
+  add_product(c, 1, u, 1, u, 1, n);
+  if (rub->n_rows == 1) {
+    add_product(c, -1, run->L + rub->row[0], n_c, run->L + rub->row[0], n_c, n);
+    return;
+  }
+  static const int pair[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
+  for (int p = 0; p < 6; p++) {
+    clear(w, n);
+    add_product(w, 1, run->L + rub->row[pair[p][0]], n_c, run->L + rub->row[pair[p][1]], n_c, n);
+    add_product(c, p < 3 ? -1 : -2, run->C_series + rub->metric[p], n_C, w, 1, n);
+  }
+}
+
+int pl_friction_slip(const pl_run* run, int r, pl_watch_kind kind, double* c, int n) {
+  const pl_rub* rub = &run->setup->rubs[r];
+  const pl_rub_now* now = &run->rub[r];
+  size_t n_c = (size_t)run->n_c;
+  if (kind == PL_WATCH_SLIP) {
+    force_left(run, rub, c, n - 1);
+    return n - 1;
+  }
+  if (kind == PL_WATCH_PRESS) {
+    for (int k = 0; k < n - 1; k++) c[k] = now->press * run->L[(size_t)k * n_c + (size_t)rub->link];
+    return n - 1;
+  }
+  if (rub->n_rows == 1) {
+    for (int k = 0; k < n; k++) c[k] = now->way * run->S_series[(size_t)k * n_c + (size_t)rub->row[0]];
+    return n;
+  }
+  clear(c, n);
+  for (int i = 0; i < 3; i++)
+    add_product(c, 1, run->S_series + rub->row[i], n_c, run->S_series + rub->row[i], n_c, n);
+  c[0] -= now->small * now->small;
+  return n;
+}
