@@ -150,22 +150,26 @@ void cli_file_drop(cli_file* f) {
 }
 
 // ---------------------------------------------------------------------------------------------- one text as the answer
-static int write_answer(const cli_options* o, const char* text) {
+static int write_answer(const cli_options* o, const char* bytes, size_t n) {
   if (!o->output || strcmp(o->output, "-") == 0) {
-    fputs(text, stdout);
+    fwrite(bytes, 1, n, stdout);
     return EXIT_DONE;
   }
   cli_file f;
   int code = cli_file_open(&f, o->output, o->force);
   if (code != EXIT_DONE) return code;
-  fputs(text, f.to);
+  fwrite(bytes, 1, n, f.to);
   return cli_file_close(&f);
 }
 
 int cli_finish_text(pleuel* ctx, pleuel_model* m, const cli_options* o, pleuel_status s, const char* text) {
+  return cli_finish_bytes(ctx, m, o, s, text, text ? strlen(text) : 0);
+}
+
+int cli_finish_bytes(pleuel* ctx, pleuel_model* m, const cli_options* o, pleuel_status s, const char* bytes, size_t n) {
   char why[512];
   snprintf(why, sizeof why, "%s", pleuel_message(ctx));
-  int written = text ? write_answer(o, text) : EXIT_DONE;
+  int written = bytes ? write_answer(o, bytes, n) : EXIT_DONE;
   cli_print_diagnostics(m, o, stderr, 1u << PLEUEL_ERROR | 1u << PLEUEL_WARNING);
   if (s != PLEUEL_OK && *why && pleuel_diagnostic_count(m, PLEUEL_ERROR) == 0) cli_error(0, "%s", why);
   pleuel_model_free(m);

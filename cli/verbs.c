@@ -11,6 +11,10 @@ const cli_verb cli_verbs[] = {
   {"sim", "FILE", "simulate, write the motion", flags_sim, verb_sim,
    "Without -o only the events and the accuracy are told. -o - writes the CSV to stdout.\n"
    "Ctrl-C ends the run, keeps what is there and marks the file incomplete; a second one stops at once."},
+  {"report", "FILE", "everything in one HTML page: result, motion, derivation, checks", flags_report, verb_report,
+   "The page needs nothing beside it and loads nothing. Its derivation needs no script."},
+  {"plot", "FILE", "the drawing of the system and plots of its motion", flags_plot, verb_plot,
+   "Each `plot` line of the model is a panel. A model without `simulate` is drawn at its start."},
   {"fmt", "FILE...", "canonical layout, in place; - formats stdin to stdout", flags_fmt, verb_fmt, NULL},
   {"new", "NAME", "write a commented model NAME.pleuel to start from", flags_new, verb_new, NULL},
   {"examples", "[NAME...]", "list the built-in examples, or print one", flags_examples, verb_examples,
@@ -20,6 +24,8 @@ const cli_verb cli_verbs[] = {
   {"units", "UNIT", "dimension and SI factor of a unit", flags_units, verb_units, NULL},
   {"export", "FILE", "the formulas for SymPy, Mathematica, Maxima or Julia, or as JSON", flags_export, verb_export,
    "Each formula has a key: letter, name, and of, on, at, along what. C is not among the targets of this version."},
+  {"tex", "FILE", "worked solution in LaTeX", flags_tex, verb_tex,
+   "A fragment needs amsmath; its figure appears where TikZ is loaded.  --standalone is for pdflatex and lualatex."},
   {"dump", "FILE", "what the program thinks, at an arrow of its pipeline", flags_dump, verb_dump, NULL},
   {"completion", "SHELL", "completions for bash, zsh or fish", flags_completion, verb_completion,
    "For this session:  source <(pleuel completion bash)"},
@@ -36,11 +42,8 @@ const cli_verb* cli_verb_find(const char* name) {
 
 const char* cli_later_verb(const char* name) {
   static const char* const later[][2] = {
-    {"plot", "pictures of the motion"},
     {"animate", "moving pictures"},
     {"sweep", "parameter grids"},
-    {"report", "an HTML report"},
-    {"tex", "LaTeX"},
     {"studio", "the workbench in the browser"},
     {"lsp", "the editor server"},
   };

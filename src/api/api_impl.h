@@ -73,6 +73,26 @@ pleuel_status pl_pipeline_run(pleuel_model* m, const pleuel_sim_options* o);
 pleuel_status pl_record(pl_job* job, pl_model* model, pl_recording** out);
 void pl_record_dump(pl_text* out, const pl_model* model, const pl_recording* r);
 
+// ---- views.c: the motion as it is looked at
+typedef struct pl_views {
+  pl_arena* arena;
+  pl_language lang;
+  pl_result* result;              // with its rows; NULL: there is no motion
+  int n_columns;                  // those of `sim`; the plotted quantities stand behind them
+  bool energy_conserved;
+  double tol;
+  const char* message;            // why the motion ends early or is not there; NULL
+  PL_VEC(pl_html_plot) plots;
+} pl_views;
+// Runs the model for a picture.  A run that stops early keeps its rows.  PLEUEL_OK and no result without `simulate`.
+pleuel_status pl_views_make(pleuel_model* m, pl_language lang, pl_views* out);
+
+// ---- report_page.c: the HTML report
+pleuel_status pl_report_page(pleuel_model* m, pl_language lang, const pleuel_report_options* o, const char** html);
+
+// ---- pictures.c: drawings, plots, animations
+pleuel_status pl_picture_plot(pleuel_model* m, pl_language lang, const pleuel_plot_options* o, const char** bytes, size_t* size);
+
 // ---- start_messages.c: a start that does not fit, as messages
 void pl_start_report_trouble(pleuel_model* m);
 

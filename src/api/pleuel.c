@@ -49,7 +49,7 @@ static pl_language language_of(const char* name, pl_language otherwise) {
 }
 
 static pleuel_status fail(pleuel* ctx, pleuel_status s, const char* sentence) {
-  snprintf(ctx->message, sizeof ctx->message, "%s", sentence);
+  snprintf(ctx->message, sizeof ctx->message, "%s", pl_in_language(ctx->lang, sentence));
   return s;
 }
 
@@ -307,6 +307,7 @@ const char* pleuel_diagnostics_text(pleuel_model* m, unsigned severities, const 
 typedef struct pl_asking {
   const pleuel_text_options* text;
   const pleuel_solve_options* solve;
+  const pleuel_tex_options* tex;
   const char* answer;
   const char* word;
   pleuel_spelling spelling;
@@ -419,8 +420,8 @@ static pleuel_status verdict(pleuel_model* m, pleuel_status derived) {
     return m->run;
   }
   if (m->solution && !all_passed(m->solution)) {
-    return pl_fail(&m->job, PLEUEL_EXPECT_FAILED, "%s", m->solution->expect_failed ? "an `expect` of the model is false"
-                                                                                   : "a check of the solution failed");
+    return pl_fail(&m->job, PLEUEL_EXPECT_FAILED,
+                   m->solution->expect_failed ? "an `expect` of the model is false" : "a check of the solution failed");
   }
   if (m->solution && any_not_found(m->solution)) {
     return pl_fail(&m->job, PLEUEL_NO_CLOSED_FORM, "a closed form that was asked for was not found");
@@ -525,6 +526,81 @@ pleuel_status pleuel_export(pleuel_model* m, const char** text, const char* targ
   pl_asking a = {.solve = &o, .word = target};
   pleuel_status s = guarded(m, export, &a);
   if (text) *text = a.answer;
+  return s;
+}
+
+// ---------------------------------------------------------------------------------------------- LaTeX
+static pleuel_status tex(pleuel_model* m, void* argument) {
+  pl_asking* a = argument;
+  const pleuel_tex_options* o = a->tex;
+  pleuel_status s = pl_pipeline_derive(m, o->only, o->seconds);
+  if (!m->solution) return s;
+  PLEUEL_OPTIONS(pleuel_solve_options, how);
+  how.no_simulation = o->no_simulation;
+  simulate_for_solution(m, &how);
+  pl_tex_style style = {.lang = solution_language(m, o->lang), .standalone = o->standalone, .plain = o->plain,
+                        .full = o->full, .only = o->only, .name = m->name};
+  pl_text motion = pl_text_make(m->arena);
+  if (m->is_run) pl_motion_text(&motion, m, style.lang, false, false);
+  if (m->is_run) style.motion = pl_text_string(&motion);
+  pl_text out = pl_text_make(m->arena);
+  pl_tex(&out, m->solution, &m->diagnostics, &style);
+  a->answer = pl_text_string(&out);
+  return verdict(m, s);
+}
+
+pleuel_status pleuel_tex(pleuel_model* m, const char** text, const pleuel_tex_options* options) {
+  if (text) *text = NULL;
+  if (!m) return PLEUEL_USAGE;
+  pleuel_tex_options o;
+  copy_options(&o, sizeof o, options);
+  pl_asking a = {.tex = &o};
+  pleuel_status s = guarded(m, tex, &a);
+  if (text) *text = a.answer;
+  return s;
+}
+
+// ---------------------------------------------------------------------------------------------- report
+typedef struct pl_reporting { const pleuel_report_options* options; const char* html; } pl_reporting;
+
+static pleuel_status report(pleuel_model* m, void* argument) {
+  pl_reporting* r = argument;
+  pleuel_status s = pl_pipeline_derive(m, r->options->only, r->options->seconds);
+  if (!m->solution) return s;
+  PL_TRY(pl_report_page(m, solution_language(m, r->options->lang), r->options, &r->html));
+  return verdict(m, s);
+}
+
+pleuel_status pleuel_report(pleuel_model* m, const char** html, const pleuel_report_options* options) {
+  if (html) *html = NULL;
+  if (!m) return PLEUEL_USAGE;
+  pleuel_report_options o;
+  copy_options(&o, sizeof o, options);
+  if ((unsigned)o.data > PLEUEL_DATA_FULL) return fail(m->ctx, PLEUEL_USAGE, "data of a report: thin, none or full");
+  pl_reporting r = {&o, NULL};
+  pleuel_status s = guarded(m, report, &r);
+  if (html) *html = r.html;
+  return s;
+}
+
+// ---------------------------------------------------------------------------------------------- pictures
+typedef struct pl_picturing { const pleuel_plot_options* plot; const char* bytes; size_t n; } pl_picturing;
+
+static pleuel_status plot(pleuel_model* m, void* argument) {
+  pl_picturing* p = argument;
+  return pl_picture_plot(m, solution_language(m, p->plot->lang), p->plot, &p->bytes, &p->n);
+}
+
+pleuel_status pleuel_plot(pleuel_model* m, const char** bytes, size_t* n, const pleuel_plot_options* options) {
+  if (bytes) *bytes = NULL;
+  if (n) *n = 0;
+  if (!m || !bytes || !n) return PLEUEL_USAGE;
+  pleuel_plot_options o;
+  copy_options(&o, sizeof o, options);
+  pl_picturing p = {.plot = &o};
+  pleuel_status s = guarded(m, plot, &p);
+  *bytes = p.bytes;
+  *n = p.n;
   return s;
 }
 

@@ -243,6 +243,30 @@ static pleuel_status watch_forces(pl_recorder* r, pl_watching* w, pl_columns* co
   return PLEUEL_OK;
 }
 
+// What is only looked at may have no number: then it has no column, and the run goes on without it.
+static bool can_watch(pl_recorder* r, pl_watching* w, const pl_output* o, int column) {
+  pl_expr plain = pl_record_plain(r, with_results(r, o->value));
+  bool known = !pl_is_poison(plain) && !pl_has_role(r->pool, plain, PL_R_ACCELERATION) && pl_record_check(r, &plain, 1) == PLEUEL_OK;
+  known = known && watch(r, w, o->value, column, o->name) == PLEUEL_OK;
+  if (known) return true;
+  r->job->message[0] = '\0';
+  r->job->status = PLEUEL_OK;
+  return false;
+}
+
+static pleuel_status watch_outputs(pl_recorder* r, pl_watching* w, pl_columns* columns) {
+  const pl_model* m = r->model;
+  for (int i = 0; i < m->outputs.n; i++) {
+    const pl_output* o = &m->outputs.at[i];
+    if (o->optional && !can_watch(r, w, o, columns->n)) continue;
+    if (!o->optional) PL_TRY(watch(r, w, o->value, columns->n, pl_format(r->arena, "output %s", o->name)));
+    pl_dimension d;
+    bool known = m->uses_units && pl_model_dimension(m, o->value, &d) && !pl_dimension_equal(d, pl_dimension_one());
+    pl_push(r->arena, *columns, (pl_column){pl_plain_ascii(r->arena, o->name), known ? pl_dimension_unit(r->arena, d, true) : ""});
+  }
+  return PLEUEL_OK;
+}
+
 pleuel_status pl_record_observers(pl_recorder* r) {
   const pl_model* m = r->model;
   pl_setup* s = &r->out->setup;
@@ -268,12 +292,7 @@ pleuel_status pl_record_observers(pl_recorder* r) {
 
   pl_watching* w = watching_make(r);
   PL_TRY(watch_forces(r, w, &columns));
-  for (int i = 0; i < m->outputs.n; i++) {
-    PL_TRY(watch(r, w, m->outputs.at[i].value, columns.n, pl_format(r->arena, "output %s", m->outputs.at[i].name)));
-    pl_dimension d;
-    bool known = m->uses_units && pl_model_dimension(m, m->outputs.at[i].value, &d) && !pl_dimension_equal(d, pl_dimension_one());
-    pl_push(r->arena, columns, (pl_column){pl_plain_ascii(r->arena, m->outputs.at[i].name), known ? pl_dimension_unit(r->arena, d, true) : ""});
-  }
+  PL_TRY(watch_outputs(r, w, &columns));
   const pl_pattern* more;
   int n;
   PL_TRY(watching_record(r, w, &more, &n));

@@ -321,7 +321,7 @@ static void lower_output(pl_lower* l, const pl_ast* s) {
     pl_suggest(l->job, m, NULL, "choose another name", "einen anderen Namen wählen");
     return;
   }
-  if (!pl_is_poison(value)) pl_push(l->arena, l->m->outputs, (pl_output){name->key, value, pl_ast_span(s)});
+  if (!pl_is_poison(value)) pl_push(l->arena, l->m->outputs, (pl_output){.name = name->key, .value = value, .span = pl_ast_span(s)});
 }
 
 // ---------------------------------------------------------------------------------------------- dispatch

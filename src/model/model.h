@@ -222,7 +222,7 @@ typedef struct pl_ask {
 } pl_ask;
 
 typedef struct pl_plot { PL_VEC(pl_expr) y; pl_expr x; PL_VEC(const char*) y_text; const char* x_text; pl_span span; } pl_plot;
-typedef struct pl_output { const char* name; pl_expr value; pl_span span; } pl_output;
+typedef struct pl_output { const char* name; pl_expr value; pl_span span; bool optional; } pl_output;   // optional: left out when it has no number
 typedef struct pl_simulate { bool given; pl_expr from, to, step, tol; long count; pl_span span; } pl_simulate;
 
 // A statement that was understood but that this version does not compute: reported with its own code, never silently.

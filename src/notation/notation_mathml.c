@@ -70,6 +70,7 @@ static void write_op(pl_text* out, const pl_box* b) {
   else pl_text_add(out, "<mo>");
   write_escaped(out, s);
   pl_text_add(out, "</mo>");
+  if (b->role == PL_OP_COMMA) pl_text_add(out, "<mspace width=\"0.3em\"/>");
 }
 
 static void write_space(pl_text* out, const char* width) { pl_text_addf(out, "<mspace width=\"%s\"/>", width); }
@@ -135,7 +136,7 @@ static void write_sum_over(pl_text* out, const pl_box* b) {
 }
 
 static void write_cases(pl_text* out, const pl_box* b) {
-  pl_text_add(out, "<mrow><mo fence=\"true\" stretchy=\"true\" form=\"prefix\">{</mo><mtable columnalign=\"left\"><mtr><mtd>");
+  pl_text_add(out, "<mrow><mo fence=\"true\" stretchy=\"true\" form=\"prefix\">{</mo><mtable class=\"cases\"><mtr><mtd>");
   write_box(out, b->at[1]);
   pl_text_add(out, "</mtd><mtd>");
   write_box(out, b->at[0]);

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "picture/picture.h"
+#include "picture/picture_impl.h"
 
 // Text of a model as text: markup characters escaped, control characters and broken UTF-8 left out.
 void pl_svg_escape(pl_text* out, const char* text) {
@@ -115,7 +115,6 @@ void pl_svg_strokes(pl_text* out, const pl_drawing* d, const pl_svg_style* style
   for (int i = 0; i < d->strokes.n; i++) add_stroke(out, &d->strokes.at[i]);
 }
 
-void pl_svg_sheet(pl_text* out, const pl_drawing* d, pl_theme theme);
 void pl_svg_sheet(pl_text* out, const pl_drawing* d, pl_theme theme) {
   bool line[PL_N_INKS] = {0}, fill[PL_N_INKS] = {0};
   for (int i = 0; i < d->strokes.n; i++) line[d->strokes.at[i].line] = fill[d->strokes.at[i].fill] = true;

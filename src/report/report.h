@@ -5,6 +5,8 @@
 #define PL_REPORT_H
 
 #include "derive/derive.h"
+#include "scene/scene.h"
+#include "result/result.h"
 
 // ---------------------------------------------------------------------------------------------- worked solution, text
 typedef struct pl_worked_style {
@@ -66,6 +68,60 @@ typedef struct pl_export_input {
   const char* only;                    // letters; NULL: all
 } pl_export_input;
 void pl_export(pl_text* out, const pl_export_input* in);
+
+// ---------------------------------------------------------------------------------------------- HTML
+// One page that holds everything: result, motion, derivation, checks, model.  It loads nothing, runs nothing that stands in a
+// model, and its derivation needs no script.
+typedef enum pl_html_amount { PL_HTML_DATA_THIN, PL_HTML_DATA_NONE, PL_HTML_DATA_FULL } pl_html_amount;
+
+// A curve to plot: a column of the result, or its name and unit when the result has no such column.
+typedef struct pl_html_curve { const char* name; const char* unit; int column; } pl_html_curve;
+typedef struct pl_html_plot {
+  const char* title;                   // NULL: made from the curves
+  const char* x_name;                  // NULL: over time
+  const char* x_unit;
+  int x_column;
+  int n_curves;
+  const pl_html_curve* curves;         // (n_curves)
+} pl_html_plot;
+
+typedef struct pl_html_input {
+  const pl_solution* solution;
+  const pl_diagnostics* notes;         // messages that belong under the derivation; NULL: none
+  pl_language lang;
+  const char* only;                    // letters; NULL: all
+  bool no_font, no_animation;
+  pl_html_amount data;
+  const char* command;                 // as it was typed, for the last lines; NULL: not told
+  const char* const* words;            // words of the model language that begin a statement, ended by NULL
+  const char* const* small_words;      // and those inside one
+  // the motion; result NULL: none
+  const pl_result* result;             // with its rows
+  const struct pl_scene* scene;        // NULL: no picture
+  int n_columns;                       // columns of the result that a file of `sim` has; those behind it serve plots
+  int n_plots;
+  const pl_html_plot* plots;
+  bool energy_conserved;
+  double tol;                          // tolerance of the run
+  const char* run_message;             // why there is no motion, or why it ends early; NULL
+  const char* events;                  // what happened, line by line: see pl_motion_text; NULL
+} pl_html_input;
+void pl_html_report(pl_text* out, const pl_html_input* in);
+
+// ---------------------------------------------------------------------------------------------- LaTeX
+typedef struct pl_tex_style {
+  pl_language lang;
+  bool standalone;                     // a document of its own; otherwise a fragment that needs amsmath
+  bool plain;                          // the accents of LaTeX themselves instead of macros that can be redefined
+  bool full;                           // the detail steps too
+  const char* only;                    // letters; NULL: all
+  const char* name;                    // of the file, for the first line and for labels
+  const char* motion;                  // text about the simulated motion, whole lines; NULL: none
+  const pl_scene* scene;               // drawn with TikZ; NULL: no figure
+} pl_tex_style;
+
+// pl_tex writes the worked solution in LaTeX.  notes as in pl_worked_text.
+void pl_tex(pl_text* out, const pl_solution* s, const pl_diagnostics* notes, const pl_tex_style* style);
 
 // ---------------------------------------------------------------------------------------------- writing JSON
 // A writer on a pl_text: indented by two blanks, keys in the order given.  Numbers are the shortest decimal that reads back

@@ -1,0 +1,214 @@
+// The motion as it is looked at: rows on an even grid that is fine enough for a picture, and beside the columns of `sim`
+// the quantities of the `plot` lines.  Without such lines: coordinates, multipliers, energies.
+#include <math.h>
+#include <string.h>
+
+#include "api/api_impl.h"
+
+enum { FEWEST_ROWS = 600, MOST_ROWS = 20000, MOST_CURVES = 4, MOST_PLOTS = 8 };
+
+// ---------------------------------------------------------------------------------------------- what is plotted
+// A quantity of a plot line becomes an output of the run under this name.
+static const char* hidden_name(pl_arena* a, int plot, int curve) { return pl_format(a, "plot %d %d", plot, curve); }
+
+static void add_outputs(pleuel_model* m) {
+  pl_model* model = m->model;
+  for (int i = 0; i < model->plots.n; i++) {
+    const pl_plot* p = &model->plots.at[i];
+    for (int k = -1; k < p->y.n; k++) {
+      pl_output o = {.name = hidden_name(m->arena, i, k), .value = k < 0 ? p->x : p->y.at[k], .span = p->span, .optional = true};
+      pl_push(m->arena, model->outputs, o);
+    }
+  }
+}
+
+// A name as it is displayed: dots over letters, small indices.
+static const char* shown_name(pl_views* v, pl_pool* p, pl_symbol s) {
+  return pl_notation_symbol(v->arena, p, s, (pl_notation){PL_MATH_2D, PL_ENGLISH});
+}
+
+static const char* column_name(pl_views* v, pl_pool* p, const char* name) {
+  pl_symbol s = pl_symbol_find(p, name);
+  return s.id ? shown_name(v, p, s) : name;
+}
+
+static const char* unicode_unit(pl_arena* a, const char* unit) {
+  if (!unit) return "";
+  pl_text t = pl_text_make(a);
+  for (const char* c = unit; *c; c++) {
+    if (c[0] == '^' && c[1] == '2') pl_text_add(&t, "²"), c++;
+    else if (c[0] == '^' && c[1] == '3') pl_text_add(&t, "³"), c++;
+    else pl_text_add_n(&t, c, 1);
+  }
+  return pl_text_string(&t);
+}
+
+// The unit of a plotted quantity; that of a coordinate or multiplier is the one of its column, so that angles are in rad.
+static const char* unit_of(pl_views* v, pl_pool* p, pl_expr e, int column) {
+  const char* own = v->result->columns[column].unit;
+  if (pl_kind_of(p, e) != PL_SYMBOL) return unicode_unit(v->arena, own);
+  int plain = pl_result_find(v->result, pl_symbol_get(p, pl_symbol_of(p, e))->ascii);
+  return unicode_unit(v->arena, plain >= 0 ? v->result->columns[plain].unit : own);
+}
+
+static const char* curve_name(pl_views* v, pl_pool* p, pl_expr e, const char* text) {
+  return pl_kind_of(p, e) == PL_SYMBOL ? shown_name(v, p, pl_symbol_of(p, e)) : text;
+}
+
+// ---------------------------------------------------------------------------------------------- plots
+static void add_curve(pl_views* v, pl_html_plot* plot, pl_html_curve c) {
+  pl_html_curve* more = PL_ARRAY(v->arena, pl_html_curve, plot->n_curves + 1);
+  for (int i = 0; i < plot->n_curves; i++) more[i] = plot->curves[i];
+  more[plot->n_curves++] = c;
+  plot->curves = more;
+}
+
+static pl_html_plot* new_plot(pl_views* v) {
+  pl_html_plot p = {.x_column = 0};
+  pl_push(v->arena, v->plots, p);
+  return &v->plots.at[v->plots.n - 1];
+}
+
+// The plot that takes another curve of this unit, among those from `first` on.
+static pl_html_plot* plot_for(pl_views* v, int first, const char* unit) {
+  for (int i = first; i < v->plots.n; i++) {
+    pl_html_plot* p = &v->plots.at[i];
+    if (p->n_curves < MOST_CURVES && strcmp(p->curves[0].unit, unit) == 0) return p;
+  }
+  return v->plots.n < MOST_PLOTS ? new_plot(v) : NULL;
+}
+
+static void plot_line(pl_views* v, pleuel_model* m, int i) {
+  const pl_plot* line = &m->model->plots.at[i];
+  pl_pool* p = m->model->pool;
+  bool over_time = pl_kind_of(p, line->x) == PL_SYMBOL && pl_symbol_of(p, line->x).id == pl_time(p).id;
+  int x = over_time ? 0 : pl_result_find(v->result, pl_plain_ascii(v->arena, hidden_name(v->arena, i, -1)));
+  if (x < 0) return;
+  int first = v->plots.n;
+  for (int k = 0; k < line->y.n; k++) {
+    int column = pl_result_find(v->result, pl_plain_ascii(v->arena, hidden_name(v->arena, i, k)));
+    if (column < 0) continue;
+    const char* unit = unit_of(v, p, line->y.at[k], column);
+    pl_html_plot* plot = plot_for(v, first, unit);
+    if (!plot) continue;
+    add_curve(v, plot, (pl_html_curve){curve_name(v, p, line->y.at[k], line->y_text.at[k]), unit, column});
+    if (over_time) continue;
+    plot->x_column = x;
+    plot->x_name = curve_name(v, p, line->x, line->x_text);
+    plot->x_unit = unit_of(v, p, line->x, x);
+  }
+}
+
+// Does a column change enough to be looked at?
+static bool moves(const pl_result* r, int column) {
+  double lo = INFINITY, hi = -INFINITY;
+  for (int i = 0; i < r->rows.n; i++) {
+    double x = r->rows.at[i][column];
+    if (isnan(x)) continue;
+    if (x < lo) lo = x;
+    if (x > hi) hi = x;
+  }
+  double size = fmax(fabs(lo), fabs(hi));
+  return lo < hi && hi - lo > 1e-9 * size && size > 1e-12;
+}
+
+static void plot_columns(pl_views* v, pleuel_model* m, int from, int to) {
+  int first = v->plots.n, n = 0;
+  for (int i = from; i < to; i++) n += moves(v->result, i);
+  int most = 2 * MOST_CURVES, step = n > most ? n / most : 1, k = 0;
+  for (int i = from; i < to; i++) {
+    if (!moves(v->result, i) || k++ % step != 0) continue;
+    const pl_result_column* c = &v->result->columns[i];
+    const char* unit = unicode_unit(v->arena, c->unit);
+    pl_html_plot* plot = plot_for(v, first, unit);
+    if (plot) add_curve(v, plot, (pl_html_curve){column_name(v, m->model->pool, c->name), unit, i});
+  }
+}
+
+static int count_shown(const pl_setup* s) {
+  int n = 0;
+  for (int i = 0; i < s->n_q; i++) n += !s->coordinates[i].hidden;
+  return n;
+}
+
+static int count_multipliers(const pl_setup* s) {
+  int n = 0;
+  for (int i = 0; i < s->n_c; i++) n += s->links[i].column != NULL;
+  return n;
+}
+
+static void plot_energies(pl_views* v) {
+  static const char* const name[] = {"T", "V", "E"};
+  pl_html_plot* plot = NULL;
+  for (int i = 0; i < 3; i++) {
+    int column = pl_result_find(v->result, name[i]);
+    if (column < 0 || (i < 2 && !moves(v->result, column)) || (i == 2 && !plot)) continue;
+    if (!plot) plot = new_plot(v);
+    plot->title = v->lang == PL_GERMAN ? "Energien" : "Energies";
+    add_curve(v, plot, (pl_html_curve){name[i], unicode_unit(v->arena, v->result->columns[column].unit), column});
+  }
+}
+
+static void choose_plots(pl_views* v, pleuel_model* m) {
+  const pl_setup* s = &m->recording->setup;
+  int n_q = count_shown(s), n_c = count_multipliers(s);
+  for (int i = 0; i < m->model->plots.n; i++) plot_line(v, m, i);
+  if (v->plots.n == 0) {
+    plot_columns(v, m, 1, 1 + n_q);
+    plot_columns(v, m, 1 + 2 * n_q, 1 + 2 * n_q + n_c);
+  }
+  plot_energies(v);
+}
+
+// ---------------------------------------------------------------------------------------------- the run
+// The rows that the file asks for, divided further until there are enough for a picture.
+static long grid_of(const pl_recording* r) {
+  double span = fabs(r->t_end - r->t_0);
+  double given = r->count > 0 ? (double)r->count : r->dt > 0 && isfinite(span) ? floor(span / r->dt + 0.5) : 1;
+  if (!(given >= 1) || given > MOST_ROWS) return r->count > 0 || r->dt > 0 ? 0 : FEWEST_ROWS;
+  bool even = r->count > 0 || (r->dt > 0 && fabs(given * r->dt - span) < 1e-9 * span);
+  if (!even && r->dt > 0) return 0;
+  long n = (long)given;
+  return n >= FEWEST_ROWS ? n : n * ((FEWEST_ROWS + n - 1) / n);
+}
+
+static pleuel_status run(pleuel_model* m, pl_views* v) {
+  m->recorded = pl_pipeline_record(m);
+  if (m->recorded != PLEUEL_OK) return m->recorded;
+  if (isnan(m->recording->t_end)) return PLEUEL_USAGE;
+  long count = grid_of(m->recording);
+  if (count > 0) m->recording->count = count, m->recording->dt = 0;
+  PLEUEL_OPTIONS(pleuel_sim_options, how);
+  m->result = pl_result_make(m->arena, true);
+  pl_run* r = NULL;
+  pleuel_status s = pl_pipeline_start(m, &how, &r);
+  if (s == PLEUEL_OK) s = pl_run_to_end(r);
+  if (r) pl_run_free(r);
+  v->result = m->result;
+  return s;
+}
+
+// Nothing of this is remembered as "the run" of the model, which has the columns and rows that the file asks for.
+pleuel_status pl_views_make(pleuel_model* m, pl_language lang, pl_views* v) {
+  *v = (pl_views){.arena = m->arena, .lang = lang};
+  if (!m->model->simulate.given) return PLEUEL_OK;
+  int n_outputs = m->model->outputs.n;
+  add_outputs(m);
+  m->is_recorded = false;
+  m->run = run(m, v);
+  m->is_run = true;
+  if (m->run != PLEUEL_OK) snprintf(m->run_message, sizeof m->run_message, "%s", m->job.message);
+  v->message = m->run == PLEUEL_OK ? NULL : pl_copy(m->arena, m->run_message);
+  v->tol = m->tol_used;
+  if (v->result && v->result->rows.n > 1) {
+    v->n_columns = v->result->n_columns;
+    for (int i = v->n_columns - 1; i >= 0 && strncmp(v->result->columns[i].name, "plot ", 5) == 0; i--) v->n_columns--;
+    v->energy_conserved = m->recording->setup.energy_conserved;
+    choose_plots(v, m);
+  } else {
+    v->result = NULL;
+  }
+  m->model->outputs.n = n_outputs;
+  m->is_recorded = false;
+  return m->run;
+}
