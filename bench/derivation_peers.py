@@ -44,16 +44,14 @@ def run_pleuel(name):
 
 
 def pleuel_results(name, document):
-    """Printed forms; what was dropped as trivially constrained is 0."""
-    printed = {v["name"]: right_side(v) for answers in document["answers"].values() for a in answers for v in a["values"]}
+    """Printed forms; what was dropped as trivially constrained is 0.  Named intermediates come with them, each once."""
+    entries = {v["name"]: v for answers in document["answers"].values() for a in answers for v in a["values"]}
     rename = {f"lambda_{i + 1}": f"lambda_{c['label']}" for i, c in enumerate(document["constraints"])}
-    return [printed.get(rename.get(u, u), "0") for u in unknowns(name)]
-
-
-def right_side(entry):
-    if entry.get("where"):
-        raise RuntimeError("abbreviations in the printed form: they would not be counted")
-    return entry.get("text", "0").split(" = ")[-1]
+    wanted = [rename.get(u, u) for u in unknowns(name)]
+    names = {}
+    for u in wanted:
+        names |= {n: e for n, e in entries.get(u, {}).get("where", {}).items() if n not in wanted}
+    return [entries[u].get("text", "0").split(" = ")[-1] if u in entries else "0" for u in wanted], names, rename
 
 
 def stages_of(command):
@@ -128,11 +126,22 @@ derive()$
 
 # ---- what is told
 
-def measure(name, results):
-    """Operations of the printed results, and their values at the state of the system."""
+def measure(name, results, names=None, rename=None):
+    """Operations of the printed results and of the names in them, and their values at the state of the system."""
     trees = [formula.read(r) for r in results]
-    at = state(name)
-    return sum(map(formula.operations, trees)), [formula.value(t, at) for t in trees]
+    at = dict(state(name))
+    defined = {n: formula.read(e) for n, e in (names or {}).items()}
+    ops = sum(map(formula.operations, trees)) + sum(map(formula.operations, defined.values()))
+    # names and unknowns may speak of those before them: put in what is known until nothing is left
+    shown = [(rename or {}).get(u, u) for u in unknowns(name)]
+    left = defined | dict(zip(shown, trees))
+    while left:
+        known = {n: formula.value(tree, at) for n, tree in left.items() if formula.names(tree) <= at.keys()}
+        if not known:
+            raise RuntimeError(f"{name}: {sorted(left)} are not defined")
+        at |= known
+        left = {n: tree for n, tree in left.items() if n not in known}
+    return ops, [at[u] for u in shown]
 
 
 def difference(name, ours, theirs):
@@ -184,8 +193,8 @@ def main():
     print(f"Maxima {maxima_version()}: linsolve, then factor(trigsimp())" if maxima
           else "Maxima: not installed, left out")
     for name, (title, *_) in SYSTEMS.items():
-        process_ms, derive_ms, results = run_pleuel(name)
-        ops, values = measure(name, results)
+        process_ms, derive_ms, (results, names, rename) = run_pleuel(name)
+        ops, values = measure(name, results, names, rename)
         print(f"  {title} (unknowns: {len(unknowns(name))})")
         print(f"    {'pleuel':20} {process_ms:9.1f} ms process {derive_ms:9.1f} ms derive {'':14} {ops:6d} ops", flush=True)
         if sympy_python:

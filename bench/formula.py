@@ -103,13 +103,24 @@ def operations(tree):
     return 1 + sum(map(operations, tree[1:])) if isinstance(tree, tuple) else 0
 
 
+def symbol(name):
+    """x' is called x_dot, λ_c lambda_c."""
+    primes = len(name) - len(name.rstrip("'"))
+    return name.rstrip("'").replace("λ", "lambda") + ["", "_dot", "_ddot"][primes]
+
+
+def names(tree):
+    if isinstance(tree, str):
+        return {symbol(tree)}
+    return set().union(*map(names, tree[1:])) if isinstance(tree, tuple) else set()
+
+
 def value(tree, at):
     """The value of a formula with the names of `at`; x' is called x_dot there."""
     if isinstance(tree, float):
         return tree
     if isinstance(tree, str):
-        primes = len(tree) - len(tree.rstrip("'"))
-        return at[tree.rstrip("'") + ["", "_dot", "_ddot"][primes]]
+        return at[symbol(tree)]
     operands = [value(operand, at) for operand in tree[1:]]
     if tree[0] in FUNCTIONS:
         return FUNCTIONS[tree[0]](*operands)

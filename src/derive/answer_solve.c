@@ -337,6 +337,29 @@ static void why_integrated(pl_analysis* d, int i, pl_expr x) {
   }
 }
 
+// At rest where the force is not Lipschitz: rest, or a motion that leaves after any time.
+static bool solve_escape(pl_analysis* d, int i) {
+  pl_symbol wait;
+  pl_expr x = d->gen.n == 1 && d->gen.at[0] == i ? pl_escape_motion(d, &wait) : pl_poison();
+  if (pl_is_poison(x)) return false;
+  const pl_form* form = pl_f(d, x, PL_S_PLAIN);
+  const pl_form* zero = pl_form_leaf(d->arena, pl_int(d->pool, 0));
+  pl_say(d, "The motion is not unique: rest is one, and for every {1} so is, from {2} on,",
+         "Die Bewegung ist nicht eindeutig: Ruhe ist eine, und für jedes {1} auch, ab {2},", 2,
+         pl_frel(d, pl_fs(d, wait), "≥", zero), pl_feq(d, pl_fs(d, pl_time(d->pool)), pl_fs(d, wait)));
+  pl_show_numbered(d, pl_feq(d, of_time(d, i), form));
+  pl_symbol t = pl_time(d->pool);
+  pl_expr rest = pl_subst1(d->pool, d->acceleration[i], d->q.at[i].q, x);
+  pl_claim_free(d, PL_CLAIM_INSERTED, pl_square(d->pool, pl_diff(d->pool, pl_diff(d->pool, x, t), t)), pl_square(d->pool, rest));
+  pl_value* v = pl_answer(d, pl_symbol_get(d->pool, d->q.at[i].q)->ascii, x, form);
+  const char** name = PL_ARRAY(d->arena, const char*, 1);
+  name[0] = pl_symbol_get(d->pool, wait)->ascii;
+  v->n_free = 1;
+  v->free_names = name;
+  v->branch = pl_format(d->arena, "t >= %s", name[0]);
+  return true;
+}
+
 // x_i(t) of the generalized coordinate or of one whose equation stands alone; poison if none was found.
 static pl_expr solve_own_motion(pl_analysis* d, int i) {
   if (no_acceleration(d, i)) return pl_poison();
@@ -344,6 +367,7 @@ static pl_expr solve_own_motion(pl_analysis* d, int i) {
   say_inserted(d, i);
   show_acceleration(d, i);
   pl_expr x = closed_motion(d, i);
+  if (pl_is_poison(x) && solve_escape(d, i)) return x;
   if (pl_is_poison(x)) {
     pl_say(d, "No elementary closed form of the motion was found.", "Eine elementare geschlossene Form der Bewegung wurde nicht gefunden.", 0);
     d->section->not_found = true;
@@ -381,12 +405,42 @@ static void solve_motion(pl_analysis* d, int i) {
   else solve_own_motion(d, i);
 }
 
+// λ as a function of time: the closed motions inserted into it.
+static void multiplier_of_time(pl_analysis* d, int k) {
+  const pl_bond* l = &d->g.at[k];
+  pl_expr e = l->lambda_known ? l->lambda_value : pl_poison();
+  pl_symbol t = pl_time(d->pool);
+  pl_replace* r = PL_ARRAY(d->arena, pl_replace, 2 * d->q.n);
+  int n = 0;
+  for (int j = 0; j < d->q.n && !pl_is_poison(e); j++) {
+    const pl_variable* c = &d->q.at[j];
+    if (!pl_has_symbol(d->pool, e, c->q) && !pl_has_symbol(d->pool, e, c->v)) continue;
+    pl_expr x = closed_motion(d, j);
+    if (pl_is_poison(x)) e = x;
+    r[n++] = (pl_replace){c->q, x};
+    r[n++] = (pl_replace){c->v, pl_diff(d->pool, x, t)};
+  }
+  if (pl_is_poison(e)) {
+    pl_say(d, "No elementary closed form of the motion was found.", "Eine elementare geschlossene Form der Bewegung wurde nicht gefunden.", 0);
+    d->section->not_found = true;
+    return;
+  }
+  e = pl_alg_normal(d->tower, pl_subst(d->pool, e, r, n));
+  const pl_symbol_info* s = pl_symbol_get(d->pool, l->lambda);
+  const pl_form* form = pl_f(d, e, PL_S_SOLUTION);
+  pl_show_numbered(d, pl_feq(d, pl_fn(d, pl_format(d->arena, "%s(t)", s->name)), form));
+  pl_answer(d, s->ascii, e, form)->of = l->source->name.text;
+}
+
 // ---------------------------------------------------------------------------------------------- the section
 void pl_answer_solve(pl_analysis* d, const pl_ask* ask) {
   bool goes_on = ask->letter && d->solution->sections.n > 0 && d->section->letter && strcmp(d->section->letter, ask->letter) == 0;
   pl_symbol s = pl_kind_of(d->pool, ask->value) == PL_SYMBOL ? pl_symbol_of(d->pool, ask->value) : (pl_symbol){0};
   int k = link_of_lambda(d, s), i = pl_variable_index(d, s);
-  if (k >= 0) {
+  if (k >= 0 && ask->of_time) {
+    pl_section_open(d, ask, "Multiplier", "Multiplikator");
+    multiplier_of_time(d, k);
+  } else if (k >= 0) {
     pl_section_open(d, ask, goes_on ? NULL : "Multiplier", goes_on ? NULL : "Multiplikator");
     solve_lambda(d, k);
   } else if (i >= 0 && ask->of_time) {
