@@ -499,6 +499,12 @@ const char* pl_unit_near(pl_arena* a, const char* word, size_t n) {
   const char* text = pl_copy_n(a, word, n);
   int best = n > 4 ? 3 : 2;
   const char* near = NULL;
+  // the units of every day before all others: kq is meant to be kg rather than Bq
+  static const char* const common[] = {"kg", "cm", "mm", "km", "ms", "kN", "Nm", "Hz"};
+  for (size_t i = 0; i < sizeof common / sizeof common[0]; i++) {
+    int d = pl_edit_distance(text, common[i], best);
+    if (d < best) best = d, near = common[i];
+  }
   for (int i = 0; i < N_UNIT_ROWS; i++) {
     int d = pl_edit_distance(text, unit_rows[i].name, best);
     if (d < best && strlen(unit_rows[i].name) > 1) best = d, near = unit_rows[i].name;

@@ -168,6 +168,12 @@ PL_TEST(every_row_has_an_inverse) {
   kit_free(k);
 }
 
+PL_TEST(of_units_equally_near_the_one_of_every_day_is_meant) {
+  kit* k = kit_make(NULL);
+  assert_string_equal(pl_unit_near(k->arena, "kq", 2), "kg");
+  kit_free(k);
+}
+
 PL_TEST(every_word_leads_to_a_unit) {
   static const char* const words[][2] = {
 #define PL_UNIT(name, words, factor, pi, m, kg, s, A, K, mol, cd, prefixed)
@@ -238,7 +244,7 @@ int main(void) {
     cmocka_unit_test(angles_are_pure_numbers), cmocka_unit_test(technical_units_are_exact),
     cmocka_unit_test(a_wrong_unit_is_shown_with_the_nearest), cmocka_unit_test(a_product_after_a_division_is_refused),
     cmocka_unit_test(broken_text_is_refused), cmocka_unit_test(deep_brackets_are_refused_without_a_crash),
-    cmocka_unit_test(every_row_has_an_inverse), cmocka_unit_test(every_word_leads_to_a_unit),
+    cmocka_unit_test(every_row_has_an_inverse), cmocka_unit_test(of_units_equally_near_the_one_of_every_day_is_meant), cmocka_unit_test(every_word_leads_to_a_unit),
     cmocka_unit_test(random_text_is_read_or_refused), cmocka_unit_test(a_unit_is_explained),
     cmocka_unit_test(units_vanish_from_an_expression),
   };
