@@ -89,7 +89,7 @@ double pl_text_width(const char* text, double size) {
 }
 
 // Digits at the end of a name of letters are an index: m1 is m₁, x_2 is x₂.
-const char* pl_picture_label(pl_arena* a, const char* name) {
+static const char* with_index(pl_arena* a, const char* name) {
   static const char* const low[10] = {"₀", "₁", "₂", "₃", "₄", "₅", "₆", "₇", "₈", "₉"};
   size_t n = strlen(name), stem = n;
   while (stem > 0 && name[stem - 1] >= '0' && name[stem - 1] <= '9') stem--;
@@ -100,4 +100,10 @@ const char* pl_picture_label(pl_arena* a, const char* name) {
   pl_text_add_n(&t, name, letters);
   for (size_t i = stem; i < n; i++) pl_text_add(&t, low[name[i] - '0']);
   return pl_text_string(&t);
+}
+
+const char* pl_picture_label(pl_arena* a, const char* name) {
+  const char* blank = strchr(name, ' ');
+  if (!blank) return with_index(a, name);
+  return pl_format(a, "%s %s", with_index(a, pl_copy_n(a, name, (size_t)(blank - name))), pl_picture_label(a, blank + 1));
 }

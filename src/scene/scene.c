@@ -64,6 +64,22 @@ static void find_gravity(pl_stage* s) {
   }
 }
 
+// Without `gravity` a potential may pull: its slope at the start, where a place is given by coordinates of its own.
+static void find_pull(pl_stage* s) {
+  pl_expr V = pl_int(s->pool, 0);
+  for (int i = 0; i < s->model->loads.n; i++) {
+    if (s->model->loads.at[i].kind == PL_L_POTENTIAL) V = pl_add(s->pool, V, s->model->loads.at[i].value);
+  }
+  double pull[3] = {0, 0, 0}, size = 0;
+  for (int j = 0; j < 3 && s->things.n > 0; j++) {
+    pl_expr e = s->things.at[0].spot.e[j];
+    if (pl_is_poison(e) || pl_kind_of(s->pool, e) != PL_SYMBOL) continue;
+    pull[j] = -pl_stage_eval(s, pl_diff(s->pool, V, pl_symbol_of(s->pool, e)));
+    size += pull[j] * pull[j];
+  }
+  for (int j = 0; size > 0 && isfinite(size) && j < 3; j++) s->down[j] = pull[j] / sqrt(size);
+}
+
 // Symbols made later (velocities in forces) need room.
 static void find_values(pl_stage* s) {
   double* known = pl_model_values(s->model, s->arena);
@@ -130,12 +146,15 @@ static void place_part(pl_stage* s, const pl_part* p, double* xyz) {
 // Which side of the line, in the picture, is that of the normal: +1 left.
 static int side_of(const pl_stage* s, const pl_part* p, const float* xy) {
   if (!p->normal) return 0;
-  int m = p->n / 2;
-  double n[2], d[2] = {0, 0};
+  double n[2], at[2], d[2] = {0, 0}, nearest = INFINITY;
   pl_view_project(&s->view, p->normal, n);
-  for (; m + 1 < p->n && !(hypot(d[0], d[1]) > 0); m++) {
-    d[0] = xy[2 * m + 2] - xy[2 * m];
-    d[1] = xy[2 * m + 3] - xy[2 * m + 1];
+  pl_view_project(&s->view, p->normal + 3, at);
+  for (int m = 0; m + 1 < p->n; m++) {          // the piece of the line where the normal was taken
+    double away = hypot((double)xy[2 * m] - at[0], (double)xy[2 * m + 1] - at[1]);
+    if (!(away < nearest) || !isfinite(xy[2 * m + 2])) continue;
+    nearest = away;
+    d[0] = (double)(xy[2 * m + 2] - xy[2 * m]);
+    d[1] = (double)(xy[2 * m + 3] - xy[2 * m + 1]);
   }
   double cross = d[0] * n[1] - d[1] * n[0];
   return cross > 0 ? 1 : cross < 0 ? -1 : 0;
@@ -250,6 +269,7 @@ pleuel_status pl_scene_make(pl_job* job, pl_model* model, const pl_result* resul
   find_gravity(s);
   PL_TRY(pl_stage_frames(s));
   pl_stage_set(s, 0);
+  if (s->model->gravities.n == 0) find_pull(s);
   pl_stage_bonds(s);
   pl_stage_view(s);
   add_loads(s);

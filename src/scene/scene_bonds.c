@@ -16,8 +16,10 @@ static bool has_word(const char* text, const char* const* words) {
   size_t n = 0;
   for (; text[n] && n + 1 < sizeof low; n++) low[n] = (char)tolower((unsigned char)text[n]);
   low[n] = 0;
+  // long words may stand anywhere (Pendelstange), short ones begin a name: `ring`, but not in `string`
   for (; *words; words++) {
-    if (strstr(low, *words)) return true;
+    const char* at = strstr(low, *words);
+    if (at && (strlen(*words) > 4 || at == low || !isalpha((unsigned char)at[-1]))) return true;
   }
   return false;
 }
@@ -30,9 +32,9 @@ static pl_hint hint_of(const char* label) {
   static const char* const ground[] = {"floor", "wall", "ground", "plane", "hill", "slope", "bowl", "dome", "surface", "table", "ramp", "piste", "touch", "slide",
                                        "boden", "wand", "ebene", "hang", "tisch", "kuppel", "schale", "rampe", "fläche", "kugel", "sphere", NULL};
   if (!label) return PL_HINT_NONE;
+  if (has_word(label, rope)) return PL_HINT_ROPE;
   if (has_word(label, ground)) return PL_HINT_GROUND;
   if (has_word(label, track)) return PL_HINT_TRACK;
-  if (has_word(label, rope)) return PL_HINT_ROPE;
   if (has_word(label, rod)) return PL_HINT_ROD;
   return PL_HINT_NONE;
 }
@@ -244,12 +246,20 @@ static void rod_of_angle(pl_stage* s, int i) {
   if (candidates == 0 || (candidates > 1 && !matched)) return;
   add_rod(s, PL_SHAPE_ROD, NULL, &chosen, &t->spot);
   t->linked = true;
+  if (matched) return;
   double x[3];
   pl_stage_spot(s, &chosen, x);
   int *deps = NULL, n = 0;
   bool timed = false;
   for (int j = 0; j < 3; j++) pl_collect_coords(s, chosen.e[j], &deps, &n, &timed);
-  if (n == 0 && !timed) add_pivot(s, x);
+  if (n == 0 && !timed) {
+    add_pivot(s, x);
+  } else {
+    pl_part* p = pl_stage_add(s, PL_SHAPE_POINT, "", "");
+    p->n = 1;
+    p->moves = true;
+    p->spot[0] = chosen;
+  }
 }
 
 void pl_stage_rods(pl_stage* s) {
@@ -431,7 +441,7 @@ static pl_shape_fit fit_places(pl_stage* s, const pl_bond* b, const pl_thing* t)
 }
 
 // ---------------------------------------------------------------------------------------------- curves
-typedef struct pl_curve { pl_track* track; double shift; double normal[3]; } pl_curve;
+typedef struct pl_curve { pl_track* track; double shift; double normal[6]; } pl_curve;
 
 static void place_curve(pl_stage* s, const pl_part* part, double* xyz) {
   const pl_curve* c = part->data;
@@ -479,7 +489,15 @@ static void place_shifted(pl_stage* s, const pl_part* part, double* xyz) {
   shift_curve(xyz, part->n, c->normal, c->shift);
 }
 
-static bool draw_curve(pl_stage* s, pl_bond* b, int thing, bool centred, const double* centre) {
+// Does this component of the place change without the coordinates of the bond?
+static bool along_free(const pl_stage* s, const pl_bond* b, const pl_thing* t, int axis) {
+  for (int k = 0; k < b->deps.n; k++) {
+    if (pl_has_symbol(s->pool, t->spot.e[axis], s->q[b->deps.at[k]])) return false;
+  }
+  return true;
+}
+
+static bool draw_curve(pl_stage* s, pl_bond* b, int thing, bool centred, const double* centre, double radius) {
   pl_thing* t = &s->things.at[thing];
   pl_expr eq[8];
   bool timed = t->timed;
@@ -493,7 +511,7 @@ static bool draw_curve(pl_stage* s, pl_bond* b, int thing, bool centred, const d
   int freedom = pl_track_freedom(s, track);
   if (freedom == 2 && s->model->n_axes == 3) {
     for (int j = 0; j < 3; j++) {
-      if (s->hi[j] - s->lo[j] > 1e-6 * s->size || pl_is_poison(t->spot.e[j])) continue;
+      if (s->hi[j] - s->lo[j] > 1e-6 * s->size || pl_is_poison(t->spot.e[j]) || !b || !along_free(s, b, t, j)) continue;
       double x[3];
       pl_stage_spot(s, &t->spot, x);
       track->fixed_axis = j;
@@ -502,15 +520,18 @@ static bool draw_curve(pl_stage* s, pl_bond* b, int thing, bool centred, const d
     freedom = pl_track_freedom(s, track);
   }
   if (freedom != 1) return false;
+  bool one_sided = b && b->c->relation != PL_EQ;
+  track->whole = !one_sided;
   for (int j = 0; centred && j < 3; j++) {
-    track->box_lo[j] = fmin(track->box_lo[j], centre[j]);
-    track->box_hi[j] = fmax(track->box_hi[j], centre[j]);
+    double reach = one_sided ? 0 : 1.05 * radius;
+    track->box_lo[j] = fmin(track->box_lo[j], centre[j] - reach);
+    track->box_hi[j] = fmax(track->box_hi[j], centre[j] + reach);
   }
   double* trial = PL_ARRAY(s->arena, double, 3 * track->n);
   bool closed = false;
   if (pl_track_follow(s, track, trial, &closed) == 0) return false;
-  double normal[3] = {0, 0, 0};
-  bool one_sided = b && b->c->relation != PL_EQ;
+  double normal[3] = {0, 0, 0}, at[3];
+  pl_stage_spot(s, &t->spot, at);
   bool known = b && pl_track_normal(s, track, normal);
   if (known && one_sided) {
     double sign = b->c->relation == PL_GE || b->c->relation == PL_GT ? -1 : 1;
@@ -523,7 +544,7 @@ static bool draw_curve(pl_stage* s, pl_bond* b, int thing, bool centred, const d
   bool ground = one_sided || (b && b->hint == PL_HINT_GROUND) || (heavy && known && !closed && b->hint != PL_HINT_TRACK && fabs(towards) > 0.1);
   pl_part* p = pl_stage_add(s, ground ? PL_SHAPE_GROUND : PL_SHAPE_CURVE, "", b ? b->c->name.text : "");
   pl_curve* curve = PL_NEW(s->arena, pl_curve);
-  *curve = (pl_curve){track, t->radius, {normal[0], normal[1], normal[2]}};
+  *curve = (pl_curve){track, t->radius, {normal[0], normal[1], normal[2], at[0], at[1], at[2]}};
   p->n = track->n;
   p->moves = timed;
   p->place = t->radius > 0 && known ? place_shifted : place_curve;
@@ -556,7 +577,8 @@ static void draw_single(pl_stage* s, pl_bond* b, int thing) {
       return;
     }
   }
-  if (draw_curve(s, b, thing, fit.sphere, fit.centre)) t->linked = true;
+  if (t->curved) return;                // its constraints were taken together
+  if (draw_curve(s, b, thing, fit.sphere, fit.centre, fit.radius)) t->linked = t->curved = true;
 }
 
 // The thing whose own constraint it is: the one with the fewest other coordinates.
@@ -582,9 +604,21 @@ static void draw_relative(pl_stage* s, pl_bond* b) {
   }
   if (best < 0) return;
   int before = s->parts.n;
-  if (draw_curve(s, b, best, false, NULL)) {
+  if (draw_curve(s, b, best, false, NULL, 0)) {
     for (int i = before; i < s->parts.n; i++) s->parts.at[i].moves = true;
   }
+}
+
+// Does the coordinate that it holds lie along gravity?
+static bool holds_up(pl_stage* s, const pl_bond* b) {
+  int thing = owner(s, b);
+  if (thing < 0) return false;
+  double along = 0;
+  for (int j = 0; j < 3; j++) {
+    pl_expr e = s->things.at[thing].spot.e[j];
+    if (!pl_is_poison(e) && pl_has_symbol(s->pool, e, s->q[b->settles])) along += fabs(s->down[j]);
+  }
+  return along > 0;
 }
 
 // ---------------------------------------------------------------------------------------------- all
@@ -594,26 +628,28 @@ void pl_stage_bonds(pl_stage* s) {
   pl_stage_space(s);
   if (!(s->size > 0)) s->size = 1;
   pl_stage_set(s, 0);
+  pl_stage_ropes(s);
   for (int i = 0; i < s->bonds.n; i++) {
     pl_bond* b = &s->bonds.at[i];
-    if (!b->velocity && b->deps.n > 1) b->drawn = pl_stage_rope(s, b) || draw_pair(s, b);
+    if (!b->velocity && !b->drawn && !b->touches && b->deps.n > 1) b->drawn = draw_pair(s, b);
   }
   pl_stage_space(s);
   pl_stage_set(s, 0);
   if (!(s->size > 0)) s->size = 1;
   pl_stage_rods(s);
-  // what is round first, then what is left of it
-  for (int round = 0; round < 2; round++) {
+  // curves first, then what is only held at a coordinate: across gravity first, so that it is seen as the ground
+  for (int round = 0; round < 3; round++) {
     for (int i = 0; i < s->bonds.n; i++) {
       pl_bond* b = &s->bonds.at[i];
-      if (b->drawn || b->velocity || (b->settles >= 0) != (round == 1)) continue;
+      int turn = b->settles < 0 ? 0 : holds_up(s, b) ? 1 : 2;
+      if (b->drawn || b->velocity || b->touches || turn != round) continue;
       int thing = owner(s, b);
       if (thing < 0) {
         draw_relative(s, b);
         b->drawn = true;
         continue;
       }
-      if (round == 1 && s->things.at[thing].linked) continue;
+      if (round >= 1 && s->things.at[thing].linked) continue;
       draw_single(s, b, thing);
       b->drawn = true;
     }

@@ -26,12 +26,13 @@ typedef struct pl_thing {
   pl_spot spot;
   pl_expr mass;                 // poison for points
   const pl_body* body;          // of a body
-  double radius;                // of a round body, 0 otherwise, m
+  double radius, reach;         // of a round body, 0 otherwise, m; of any body
   double sense;                 // of a body: how its angle turns
   PL_VEC(int) deps;             // coordinates that its place depends on
   bool timed;                   // its place depends on time by itself
   bool linked;                  // a rod, rope or surface explains it
   bool roped;                   // hangs on a rope
+  bool curved;                  // the curve of its own constraints is drawn
 } pl_thing;
 
 // What is drawn, before it has points.
@@ -49,7 +50,7 @@ struct pl_part {
   pl_spot spot[2];              // ends
   pl_placing* place;
   const void* data;             // what place needs besides
-  const double* normal;         // GROUND: direction into the material, in space (3)
+  const double* normal;         // GROUND: direction into the material, in space, and where it was found (6)
   bool arrow;                   // a vector of the model's space that is scaled to the picture: spot 0 and vector
   pl_expr vector[3];
 };
@@ -64,6 +65,7 @@ typedef struct pl_bond {
   bool timed;
   bool drawn;
   bool velocity;
+  bool touches;                 // a point of a body touches a plane: drawn with the body
   pl_hint hint;
   int settles;                  // coordinate that it holds at a constant, -1
 } pl_bond;
@@ -106,6 +108,7 @@ void pl_stage_spot(const pl_stage* s, const pl_spot* spot, double x[3]);
 
 // ---- scene_sketch.c: a start that shows the system when the model gives none
 void pl_stage_sketch(pl_stage* s);
+double pl_stage_length(const pl_stage* s);             // typical size of the given lengths, m
 
 // ---- scene_things.c: what has a place
 void pl_stage_things(pl_stage* s);
@@ -118,7 +121,7 @@ void pl_stage_bonds(pl_stage* s);
 void pl_stage_rods(pl_stage* s);                        // distances that the places themselves keep
 
 // ---- scene_ropes.c
-bool pl_stage_rope(pl_stage* s, pl_bond* b);
+void pl_stage_ropes(pl_stage* s);
 
 // ---- scene_trace.c: the curve that constraints leave to a thing
 typedef struct pl_track {
@@ -131,6 +134,7 @@ typedef struct pl_track {
   pl_expr J[3][8];              // d place_j / d q_k
   int fixed_axis;               // this component stays: a slice of a surface; -1
   double fixed_at;
+  bool whole;                   // a closed curve is followed beyond the box until it comes back
   double box_lo[3], box_hi[3];  // where to stop
   int n;                        // points wanted
 } pl_track;

@@ -14,7 +14,7 @@ static bool is_length(const pl_stage* s, pl_symbol x) {
 }
 
 // The geometric mean of the given lengths, 1 if there are none.
-static double typical_length(const pl_stage* s) {
+double pl_stage_length(const pl_stage* s) {
   double sum = 0;
   int n = 0;
   for (int i = 0; i < s->model->params.n; i++) {
@@ -132,7 +132,7 @@ static bool fits_branches(const pl_stage* s) {
 
 void pl_stage_sketch(pl_stage* s) {
   invent_parameters(s);
-  double length = typical_length(s);
+  double length = pl_stage_length(s);
   double t = pl_is_poison(s->model->simulate.from) ? 0 : pl_eval(s->pool, s->model->simulate.from, s->value);
   s->t[0] = isfinite(t) ? t : 0;
   s->value[pl_time(s->pool).id] = s->t[0];

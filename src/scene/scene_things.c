@@ -85,7 +85,7 @@ void pl_stage_space(pl_stage* s) {
     for (int i = 0; i < s->things.n; i++) {
       double x[3];
       pl_stage_spot(s, &s->things.at[i].spot, x);
-      double reach = s->things.at[i].radius;
+      double reach = s->things.at[i].reach;
       for (int j = 0; j < 3; j++) {
         if (!isfinite(x[j])) continue;
         s->lo[j] = fmin(s->lo[j], x[j] - (j < 2 ? reach : 0));
@@ -98,5 +98,9 @@ void pl_stage_space(pl_stage* s) {
     if (!(s->hi[j] >= s->lo[j])) s->lo[j] = s->hi[j] = 0;
     size = fmax(size, s->hi[j] - s->lo[j]);
   }
-  s->size = size;
+  // what hardly moves is seen among the lengths that are given
+  double least = 0, length = pl_stage_length(s);
+  for (int j = 0; j < 3; j++) least = fmax(least, fmax(fabs(s->lo[j]), fabs(s->hi[j])));
+  if (!(least > 0) || least > 3 * length) least = length;
+  s->size = fmax(size, 0.8 * least);
 }

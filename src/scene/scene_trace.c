@@ -24,9 +24,9 @@ pl_track* pl_track_make(pl_stage* s, int thing, const pl_expr* eq, int n_eq, con
   }
   for (int i = 0; i < n_eq; i++) t->eq[i] = eq[i];
   for (int j = 0; j < 3; j++) {
-    double d = s->hi[j] - s->lo[j];
-    t->box_lo[j] = s->lo[j] - 0.12 * d - 1e-9;
-    t->box_hi[j] = s->hi[j] + 0.12 * d + 1e-9;
+    double middle = (s->hi[j] + s->lo[j]) / 2, half = fmax(0.62 * (s->hi[j] - s->lo[j]), 0.3 * s->size);
+    t->box_lo[j] = middle - half;
+    t->box_hi[j] = middle + half;
   }
   t->n = 121;
   return t;
@@ -194,9 +194,10 @@ int pl_track_follow(pl_stage* s, const pl_track* t, double* xyz, bool* closed) {
   place(s, t, x);
   int n = 0;
   if (fine && isfinite(x[0] + x[1] + x[2])) {
-    double h = s->size / 70, far = 1.5;
+    double h = s->size / 70, far = t->whole ? 1.5 : 0;
     *closed = follow(s, t, q0, h, far, &ahead);
     if (!*closed) follow(s, t, q0, -h, far, &behind);
+    if (*closed && !t->whole) *closed = false;
     int m = ahead.n / 3 + behind.n / 3 + 1 + *closed;
     double* all = PL_ARRAY(s->arena, double, 3 * m);
     for (int i = 0; i < behind.n / 3; i++) memcpy(all + 3 * i, behind.at + behind.n - 3 * (i + 1), 3 * sizeof(double));

@@ -24,7 +24,7 @@ static void choose_ways(const pl_stage* s, pl_way way[3], double sign[3]) {
   bool has[3] = {0}, used[3] = {0};
   int n = s->model->n_axes;
   for (int j = 0; j < n; j++) {
-    has[j] = way_of(s->model->axes[j].direction, &way[j], &sign[j]) && !used[way[j]];
+    has[j] = s->model->axes[j].declared && way_of(s->model->axes[j].direction, &way[j], &sign[j]) && !used[way[j]];
     if (has[j]) used[way[j]] = true;
   }
   for (int j = 0; j < n && !used[PL_WAY_UP]; j++) {        // the axis that gravity uses
