@@ -313,9 +313,8 @@ typedef struct pl_asking {
   pleuel_spelling spelling;
 } pl_asking;
 
-// Looks for the start too, where the model has enough numbers for it.
-static pleuel_status check(pleuel_model* m) {
-  PL_TRY(pl_pipeline_structure(m));
+// Looks for the start, where the model has enough numbers for it.
+static pleuel_status look_at_start(pleuel_model* m) {
   if (!m->model->simulate.given && m->model->inits.n == 0) return PLEUEL_OK;
   PLEUEL_OPTIONS(pleuel_sim_options, how);
   pl_run* run = NULL;
@@ -331,6 +330,11 @@ static pleuel_status check(pleuel_model* m) {
   snprintf(m->run_message, sizeof m->run_message, "%s", m->job.message);
   m->job.message[0] = '\0';
   return PLEUEL_OK;
+}
+
+static pleuel_status check(pleuel_model* m) {
+  PL_TRY(pl_pipeline_structure(m));
+  return look_at_start(m);
 }
 
 static pleuel_status check_text(pleuel_model* m, void* argument) {
@@ -433,12 +437,31 @@ static pl_math math_of(pleuel_math m) {
   return m == PLEUEL_MATH_2D ? PL_MATH_2D : m == PLEUEL_MATH_ASCII ? PL_MATH_ASCII : PL_MATH_LINE;
 }
 
+// The solution does not hang on the start values, but a start that contradicts the constraints has to be said.  That several
+// positions fit, or that numbers are missing, matters to the motion alone.
+static pleuel_status contradictory_start(pleuel_model* m) {
+  if (m->is_run || pl_model_flat_coords(m->model, m->arena).n > MAX_COORDINATES_IN_SOLUTION) return PLEUEL_OK;
+  char sentence[sizeof m->job.message];
+  memcpy(sentence, m->job.message, sizeof sentence);
+  bool reported = m->start_reported;
+  m->start_reported = true;   // said below, if at all
+  pleuel_status s = look_at_start(m);
+  m->start_reported = reported;
+  if (s == PLEUEL_CONTRADICTION && m->start.trouble == PL_START_VIOLATED) {
+    pl_start_report_trouble(m);
+    return s;
+  }
+  memcpy(m->job.message, sentence, sizeof sentence);
+  return PLEUEL_OK;
+}
+
 static pleuel_status solve_text(pleuel_model* m, void* argument) {
   pl_asking* a = argument;
   const pleuel_solve_options* o = a->solve;
   pleuel_status s = pl_pipeline_derive(m, o->only, o->seconds);
   if (!m->solution) return s;
   simulate_for_solution(m, o);
+  if (s == PLEUEL_OK) s = contradictory_start(m);
   pl_worked_style style = {.math = math_of(o->math), .lang = solution_language(m, o->lang), .colour = o->colour,
                            .full = o->full, .width = o->width, .only = o->only};
   pl_text motion = pl_text_make(m->arena);
@@ -466,6 +489,7 @@ static pleuel_status solve_json(pleuel_model* m, void* argument) {
   static const char* const stages[] = {"check", "derive", "record", "simulate"};
   pleuel_status s = pl_pipeline_derive(m, o->only, o->seconds);
   if (m->solution) simulate_for_solution(m, o);
+  if (m->solution && s == PLEUEL_OK) s = contradictory_start(m);
   pl_text simulation = pl_text_make(m->arena);
   if (m->is_run) pl_motion_json(&simulation, m);
   s = verdict(m, s);

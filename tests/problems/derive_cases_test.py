@@ -186,5 +186,24 @@ def _(program):
     need(not case(program, "corner").notes("N091"), "N091")
 
 
+@test("a start velocity that violates a constraint is said, and what does not hang on it is still answered")
+def _(program):
+    answer = case(program, "start-velocity")
+    need(answer.exit_code == 4 and answer.document["status"] == "contradiction", f"exit {answer.exit_code}")
+    need(answer.notes("E041"), "no E041")
+    x, y, vx, vy = 0.6, -0.8, 0.8, 0.6
+    value = Formula(answer.value("lambda_rod")["expr"]).value({"m": 1, "g": 9.81, "l": 1, "x": x, "y": y, "x_dot": vx, "y_dot": vy})
+    same(value, (9.81 * y - vx * vx - vy * vy) / 2, "lambda_rod")
+
+
+@test("a uniform force has a potential: the energy is conserved")
+def _(program):
+    E = case(program, "uniform-force").value("E")
+    need(E["conserved"] is True, f"{E}")
+    phi, v = 0.7, 0.4
+    expected = v * v / 2 - 9.81 * math.cos(phi) - 2 * math.sin(phi)
+    same(Formula(E["expr"]).value({"m": 1, "l": 1, "g": 9.81, "F": 2, "phi": phi, "phi_dot": v}), expected, "E")
+
+
 if __name__ == "__main__":
     sys.exit(test.main(program_of(sys.argv)))
