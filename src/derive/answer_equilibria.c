@@ -288,8 +288,18 @@ static void show_rest(pl_analysis* d, const pl_expr* f, const pl_rest* r, int nu
   for (int k = 0; k < d->gen.n; k++) pl_claim_free(d, PL_CLAIM_INSERTED, pl_insert_rest(d, f[k], r), pl_int(d->pool, 0));
 }
 
+// A quantity that is given through others, ω = √(2 g k), is a special case: positions of rest are sought with it inserted.
+static pl_expr with_relations(pl_analysis* d, pl_expr e) {
+  for (int k = 0; k < d->model->params.n; k++) {
+    const pl_param* given = &d->model->params.at[k];
+    if (pl_is_poison(given->value) || pl_is_constant(d->pool, given->value)) continue;
+    e = pl_subst1(d->pool, e, given->symbol, given->value);
+  }
+  return pl_alg_normal(d->tower, e);
+}
+
 bool pl_at_rest_equations(pl_analysis* d, pl_expr* f) {
-  for (int k = 0; k < d->gen.n; k++) f[k] = pl_at_rest(d, pl_second_kind(d, d->gen.at[k]));
+  for (int k = 0; k < d->gen.n; k++) f[k] = with_relations(d, pl_at_rest(d, pl_second_kind(d, d->gen.at[k])));
   if (!pl_has_symbol(d->pool, pl_add_n(d->pool, f, d->gen.n), pl_time(d->pool))) return true;
   pl_say(d, "The equations contain t: there is no position of rest.", "Die Gleichungen enthalten t: es gibt keine Ruhelage.", 0);
   return false;

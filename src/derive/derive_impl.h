@@ -137,6 +137,9 @@ pl_expr pl_bond_acceleration(pl_analysis* d, int link); // twice differentiated 
 // The equation of one coordinate solved for multiplier k, accelerations and other multipliers left as names: short where the closed
 // form is long.  The row with the fewest other multipliers is taken; its coordinate in *coordinate.  Poison if there is none.
 pl_expr pl_multiplier_by_row(pl_analysis* d, int link, int* coordinate);
+// escape.c
+bool pl_escapes(pl_analysis* d);                         // at rest where the force has an unbounded slope: the motion is not unique
+pl_expr pl_escape_motion(pl_analysis* d, pl_symbol* wait);   // a motion that leaves after the time `wait`; poison
 // redundant.c
 void pl_depend(pl_analysis* d, int implied, int m, const int* row, const pl_expr* c, int place);
 void pl_share_forces(pl_analysis* d);

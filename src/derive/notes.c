@@ -12,6 +12,17 @@ static const pl_init* init_of(const pl_analysis* d, pl_symbol s) {
   return NULL;
 }
 
+static void note_escape(pl_analysis* d, pl_span span);
+
+// Given quantities whose number is 0, such as a start angle that stands as a name.
+static pl_expr without_zeros(pl_analysis* d, pl_expr e) {
+  for (int k = 0; k < d->model->params.n; k++) {
+    const pl_param* given = &d->model->params.at[k];
+    if (!pl_is_poison(given->value) && pl_is_zero_node(d->pool, given->value)) e = pl_subst1(d->pool, e, given->symbol, given->value);
+  }
+  return e;
+}
+
 // N061: every generalized coordinate is given, at rest, and no acceleration follows.
 void pl_note_equilibrium_start(pl_analysis* d) {
   if (!d->reduced || !d->solved || d->gen.n == 0 || d->gen.n > 16) return;
@@ -27,7 +38,7 @@ void pl_note_equilibrium_start(pl_analysis* d) {
   }
   for (int k = 0; k < d->gen.n; k++) {
     pl_expr a = pl_subst(d->pool, d->acceleration[d->gen.at[k]], start, 2 * d->gen.n);
-    if (pl_is_poison(a) || pl_alg_is_zero(d->tower, a) != PL_YES) return;
+    if (pl_is_poison(a) || pl_alg_is_zero(d->tower, without_zeros(d, a)) != PL_YES) return;
   }
   const char* name = pl_symbol_get(d->pool, d->q.at[d->gen.at[0]].q)->name;
   pl_diagnostic* m = pl_report(d->job->diagnostics, PL_N061, span,
@@ -36,6 +47,23 @@ void pl_note_equilibrium_start(pl_analysis* d) {
   pl_report_fix(m, pl_format(d->arena, "closed forms are the limit %s(0) → this value; for the simulation start beside it, e.g. init %s = 1°", name, name),
                 pl_format(d->arena, "geschlossene Formen sind der Grenzfall %s(0) → dieser Wert; für die Simulation daneben starten, z. B. init %s = 1°", name, name),
                 NULL);
+  note_escape(d, span);
+}
+
+// N070: at rest where the force has an unbounded slope.
+static void note_escape(pl_analysis* d, pl_span span) {
+  if (!pl_escapes(d)) return;
+  const char* name = pl_symbol_get(d->pool, d->q.at[d->gen.at[0]].q)->name;
+  pl_symbol wait;
+  pl_expr x = pl_escape_motion(d, &wait);
+  const char* way = pl_is_poison(x) ? NULL : pl_format(d->arena, "%s(t) = %s", name, pl_text_of(d, x));
+  pl_diagnostic* m = pl_report(d->job->diagnostics, PL_N070, span,
+    pl_format(d->arena, "the motion from this start is not unique: the force is not Lipschitz there, its slope grows without bound"),
+    pl_format(d->arena, "die Bewegung von diesem Start aus ist nicht eindeutig: die Kraft ist dort nicht Lipschitz-stetig, ihre Steigung wächst unbeschränkt"));
+  if (!way) return;
+  const char* wait_name = pl_symbol_get(d->pool, wait)->name;
+  pl_report_reason(m, pl_format(d->arena, "besides rest, %s from t = %s on is a motion too, for every %s ≥ 0", way, wait_name, wait_name),
+                   pl_format(d->arena, "neben der Ruhe ist auch %s ab t = %s eine Bewegung, für jedes %s ≥ 0", way, wait_name, wait_name));
 }
 
 // ---------------------------------------------------------------------------------------------- attribution

@@ -144,6 +144,10 @@ static void lower_solve(pl_lower* l, const pl_ast* i, pl_ask* a) {
     const pl_ast* group = what->kids.at[1];
     a->of_time = group->kids.n == 1 && pl_ast_is_name(group->kids.at[0], "t");
   }
+  if (a->of_time) {   // λ(t), of a multiplier, is no product
+    a->value = pl_lower_scalar(l, what->kids.at[0]);
+    if (pl_is_poison(a->value) || pl_has_role(l->pool, a->value, PL_R_MULTIPLIER)) return;
+  }
   a->value = pl_lower_scalar(l, what);
   if (pl_is_poison(a->value)) return;
   pl_kind kind = pl_kind_of(l->pool, a->value);
