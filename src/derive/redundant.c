@@ -111,7 +111,8 @@ static bool smallest(pl_analysis* d, const bool* in, pl_replace* out, int* n_out
     implied[n] = k;
     p[n++] = own;
   }
-  pl_expr A[max_free * max_free], b[max_free], x[max_free];
+  if (n == 0) return false;
+  pl_expr A[max_free * max_free] = {{0}}, b[max_free] = {{0}}, x[max_free];
   for (int i = 0; i < n; i++) {
     b[i] = pl_int(d->pool, 0);
     for (int a = 0; a < d->g.n; a++) {
