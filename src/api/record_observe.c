@@ -54,6 +54,8 @@ static pl_watching* watching_make(pl_recorder* r) {
 // The row of a multiplier: λ_g1 as a symbol, λ_c[3] as an element; -1 if there is none.
 static int link_of_multiplier(pl_recorder* r, pl_expr atom) {
   pl_symbol lambda = pl_symbol_of(r->pool, atom);
+  int slip = pl_rub_row(r, lambda);
+  if (slip >= 0) return slip;
   long index = 0;
   bool element = pl_kind_of(r->pool, atom) == PL_AT;
   if (element && !pl_record_index(r, pl_arg(r->pool, atom, 0), &index)) return -1;
@@ -227,6 +229,20 @@ static pl_expr force_along(pl_recorder* r, const pl_constraint* c, const pl_mass
 
 typedef PL_VEC(pl_column) pl_columns;
 
+// Friction in space: the components of its force.
+static pleuel_status watch_friction(pl_recorder* r, pl_watching* w, pl_columns* columns) {
+  for (int i = 0; i < r->rubs.n; i++) {
+    const pl_rub_source* s = r->rubs.at[i];
+    if (s->n_rows != 3 || s->group->block) continue;
+    for (int j = 0; j < 3; j++) {
+      const char* name = pl_format(r->arena, "friction_%s_%s", r->model->constraints.at[s->constraint].name.ascii, r->model->axes[j].ascii);
+      PL_TRY(watch(r, w, pl_rub_force(r, s, j), columns->n, name));
+      pl_push(r->arena, *columns, (pl_column){name, r->model->uses_units ? "N" : ""});
+    }
+  }
+  return PLEUEL_OK;
+}
+
 static pleuel_status watch_forces(pl_recorder* r, pl_watching* w, pl_columns* columns) {
   const pl_model* m = r->model;
   for (int i = 0; i < m->constraints.n; i++) {
@@ -256,6 +272,7 @@ static bool can_watch(pl_recorder* r, pl_watching* w, const pl_output* o, int co
 
 static pleuel_status watch_outputs(pl_recorder* r, pl_watching* w, pl_columns* columns) {
   const pl_model* m = r->model;
+  bool explicit_time = r->explicit_time;     // that something looked at contains t says nothing about the motion
   for (int i = 0; i < m->outputs.n; i++) {
     const pl_output* o = &m->outputs.at[i];
     if (o->optional && !can_watch(r, w, o, columns->n)) continue;
@@ -264,6 +281,7 @@ static pleuel_status watch_outputs(pl_recorder* r, pl_watching* w, pl_columns* c
     bool known = m->uses_units && pl_model_dimension(m, o->value, &d) && !pl_dimension_equal(d, pl_dimension_one());
     pl_push(r->arena, *columns, (pl_column){pl_plain_ascii(r->arena, o->name), known ? pl_dimension_unit(r->arena, d, true) : ""});
   }
+  r->explicit_time = explicit_time;
   return PLEUEL_OK;
 }
 
@@ -292,6 +310,7 @@ pleuel_status pl_record_observers(pl_recorder* r) {
 
   pl_watching* w = watching_make(r);
   PL_TRY(watch_forces(r, w, &columns));
+  PL_TRY(watch_friction(r, w, &columns));
   PL_TRY(watch_outputs(r, w, &columns));
   const pl_pattern* more;
   int n;

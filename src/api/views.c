@@ -5,7 +5,7 @@
 
 #include "api/api_impl.h"
 
-enum { FEWEST_ROWS = 600, MOST_ROWS = 20000, MOST_CURVES = 4, MOST_PLOTS = 8 };
+enum { FEWEST_ROWS = 400, MOST_ROWS = 20000, MOST_CURVES = 4, MOST_PLOTS = 8 };
 
 // ---------------------------------------------------------------------------------------------- what is plotted
 // A quantity of a plot line becomes an output of the run under this name.

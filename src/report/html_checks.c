@@ -69,8 +69,7 @@ static void put_motion_checks(pl_html* h) {
 }
 
 void pl_html_checks(pl_html* h) {
-  pl_html_rawf(h, "<section id=\"checks\"><h2>%s</h2>\n<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"%s\"><table>\n",
-               pl_html_say(h, "Checks", "Proben"), pl_html_say(h, "Checks", "Proben"));
+  pl_html_rawf(h, "<section id=\"checks\"><h2>%s</h2>\n<div class=\"scroll\"><table>\n", pl_html_say(h, "Checks", "Proben"));
   pl_html_rawf(h, "<thead><tr><th scope=\"col\">%s</th><th scope=\"col\">%s</th><th scope=\"col\" class=\"r\">%s</th><th scope=\"col\">%s</th></tr></thead><tbody>\n",
                pl_html_say(h, "What", "Was"), pl_html_say(h, "How", "Wie"), pl_html_say(h, "Largest deviation", "Größte Abweichung"),
                pl_html_say(h, "Verdict", "Urteil"));

@@ -78,20 +78,17 @@ static void put_equation(pl_html* h, const pl_section* c, const pl_step* s) {
     pl_html_sentence(h, words, s->n_inserts, s->inserts);
     pl_html_raw(h, "</p>\n");
   }
-  bool key = s->has_value || is_result(c, s->formula);
+  bool key = s->has_value || (s->number > 0 && is_result(c, s->formula));
   bool wide = s->formula && pl_html_cells(h, s->formula) > PL_HTML_ALONE && (s->has_value || *pl_html_words(h, s->after));
   pl_html_rawf(h, "<div class=\"eq%s%s\"", key ? " key" : "", wide ? " wide" : "");
   if (s->number > 0) pl_html_rawf(h, " id=\"eq-%d\"", s->number);
-  pl_html_raw(h, "><div class=\"m\" tabindex=\"0\" role=\"group\"");
-  if (s->number > 0) pl_html_rawf(h, " aria-label=\"%s %d\"", pl_html_say(h, "equation", "Gleichung"), s->number);
-  else pl_html_rawf(h, " aria-label=\"%s\"", pl_html_say(h, "formula", "Formel"));
-  pl_html_raw(h, ">");
+  pl_html_raw(h, "><div class=\"m\">");
   pl_html_display(h, s->formula);
   pl_html_raw(h, "</div>");
   put_beside(h, s);
   if (s->number > 0) pl_html_rawf(h, "<a class=\"no\" href=\"#eq-%d\">(%d)</a>", s->number, s->number);
   const char* copy = pl_html_say(h, "Copy as LaTeX", "Als LaTeX kopieren");
-  pl_html_rawf(h, "<button type=\"button\" class=\"cp\" aria-label=\"%s\" title=\"%s\">TeX</button></div>\n", copy, copy);
+  pl_html_rawf(h, "<button type=\"button\" class=\"cp\" aria-label=\"%s\">TeX</button></div>\n", copy);
 }
 
 // ---------------------------------------------------------------------------------------------- tables
@@ -122,8 +119,7 @@ static int run_of(const pl_section* c, int i, pl_step_kind kind, bool detail) {
 
 static int put_rows(pl_html* h, const pl_section* c, int i) {
   int n = run_of(c, i, PL_STEP_ROW, c->steps.at[i].detail);
-  pl_html_raw(h, "<div class=\"scroll\" tabindex=\"0\" role=\"group\" ");
-  pl_html_rawf(h, "aria-label=\"%s\"><table class=\"rows\">\n", pl_html_say(h, "table", "Tabelle"));
+  pl_html_raw(h, "<div class=\"scroll\"><table class=\"rows\">\n");
   for (int k = 0; k < n; k++) put_row(h, &c->steps.at[i + k]);
   pl_html_raw(h, "</table></div>\n");
   return n;

@@ -9,7 +9,15 @@ enum {
   PL_HTML_LEFT = 18           // a left side up to this width gets a column of its own
 };
 
-static pl_notation how_mathml(const pl_html* h) { return (pl_notation){PL_MATH_MATHML, h->lang}; }
+// MathML without what browsers take for granted: brackets are fences.
+static const char* mathml(pl_html* h, const pl_form* f) {
+  static const char given[] = "fence=\"true\" ";
+  const char* s = pl_notation_print(h->arena, h->pool, f, (pl_notation){PL_MATH_MATHML, h->lang});
+  pl_text out = pl_text_make(h->arena);
+  for (const char* at; (at = strstr(s, given)); s = at + strlen(given)) pl_text_add_n(&out, s, (size_t)(at - s));
+  pl_text_add(&out, s);
+  return pl_text_string(&out);
+}
 
 int pl_html_cells(pl_html* h, const pl_form* f) {
   int above = 0, below = 0, widest = 0;
@@ -26,7 +34,7 @@ int pl_html_cells(pl_html* h, const pl_form* f) {
 void pl_html_inline(pl_html* h, const pl_form* f) {
   if (!f || !h->pool) return;
   pl_html_raw(h, "<math>");
-  pl_html_raw(h, pl_notation_print(h->arena, h->pool, f, how_mathml(h)));
+  pl_html_raw(h, mathml(h, f));
   pl_html_raw(h, "</math>");
 }
 
@@ -73,7 +81,7 @@ static void take_apart(pl_html* h, pl_html_parts* out, const char* sign, const p
 
 static void put_part(pl_html* h, const pl_html_part_of* p) {
   if (*p->sign) pl_html_rawf(h, "<mo form=\"infix\">%s</mo>", pl_html_escaped(h->arena, p->sign));
-  pl_html_raw(h, pl_notation_print(h->arena, h->pool, p->form, how_mathml(h)));
+  pl_html_raw(h, mathml(h, p->form));
 }
 
 // Rows as long as the room allows; a chain of relations starts a row at each of them.
@@ -113,7 +121,7 @@ void pl_html_display(pl_html* h, const pl_form* f) {
   pl_html_parts parts = {0};
   if (cells > PL_HTML_ROOM) take_apart(h, &parts, "", f, false);
   if (parts.n > 1) cells = put_rows(h, &parts);
-  else pl_html_rawf(h, "<mrow>%s</mrow>", pl_notation_print(h->arena, h->pool, f, how_mathml(h)));
+  else pl_html_rawf(h, "<mrow>%s</mrow>", mathml(h, f));
   h->out = page;
   // a formula that is still too wide is set smaller, as far as the style allows
   if (cells > PL_HTML_ROOM - 30) pl_html_rawf(h, "<math display=\"block\" style=\"--w:%d\">", cells);

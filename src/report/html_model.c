@@ -58,7 +58,7 @@ static void put_source_line(pl_html* h, const char* s, const char* end) {
 static void put_source(pl_html* h) {
   const pl_source* source = h->model ? h->model->source : NULL;
   if (!source) return;
-  pl_html_rawf(h, "<pre class=\"src\" tabindex=\"0\" role=\"group\" aria-label=\"%s\"><code>", pl_html_say(h, "text of the model", "Text des Modells"));
+  pl_html_raw(h, "<pre class=\"src\"><code>");
   const char *s = source->text, *end = source->text + source->size;
   while (end > s && (end[-1] == '\n' || end[-1] == ' ')) end--;
   while (s < end) {
@@ -177,7 +177,7 @@ static void put_parameter(pl_html* h, const double* value, int i) {
 static void put_parameters(pl_html* h) {
   if (!h->model || !h->pool || h->model->params.n == 0) return;
   const double* value = pl_model_values(h->model, h->arena);
-  pl_html_rawf(h, "<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"%s\"><table>", pl_html_say(h, "Parameters", "Parameter"));
+  pl_html_raw(h, "<div class=\"scroll\"><table>");
   pl_html_rawf(h, "<thead><tr><th scope=\"col\">%s</th><th scope=\"col\">%s</th><th scope=\"col\" class=\"r\">%s</th><th scope=\"col\">%s</th></tr></thead><tbody>\n",
                pl_html_say(h, "Symbol", "Symbol"), pl_html_say(h, "Meaning", "Bedeutung"), pl_html_say(h, "Value", "Wert"),
                pl_html_say(h, "Used", "Benutzt"));

@@ -9,7 +9,7 @@
 
 enum {
   PL_HTML_PLOT_W = 500, PL_HTML_PLOT_H = 190, PL_HTML_LEFT = 58, PL_HTML_RIGHT = 14, PL_HTML_TOP = 10, PL_HTML_BOTTOM = 30,
-  PL_HTML_DRAWN = 240,          // points of a curve on paper
+  PL_HTML_DRAWN = 120,          // points of a curve on paper
   PL_HTML_KEPT = 1500,          // rows up to which all are kept
   PL_HTML_EXTREMES = 2400       // points kept for the extremes of all curves together
 };

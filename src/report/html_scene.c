@@ -31,11 +31,11 @@ static bool has_kind(const pl_scene* s, pl_shape_kind kind) {
 
 // Fits the box into the width; a tall one is fitted into the height.
 static pl_frame_of fit(const pl_scene* s) {
-  double w = (double)s->box[2] - (double)s->box[0], h = (double)s->box[3] - (double)s->box[1];
+  double w = (double)(s->box[2] - s->box[0]), h = (double)(s->box[3] - s->box[1]);
   double room_w = PL_HTML_WIDE - 2 * PL_HTML_EDGE, room_h = PL_HTML_HIGHEST - 2 * PL_HTML_EDGE;
   bool scaled = has_kind(s, PL_SHAPE_FORCE) || has_kind(s, PL_SHAPE_VELOCITY);
   pl_frame_of f = {.scaled = scaled};
-  f.scale = fmin(w > 0 ? room_w / w : INFINITY, h > 0 ? room_h / h : INFINITY);
+  f.scale = fmin(w > 0 ? room_w / w : (double)INFINITY, h > 0 ? room_h / h : (double)INFINITY);
   if (!isfinite(f.scale)) f.scale = 100;
   f.height = (int)ceil(h * f.scale) + 2 * PL_HTML_EDGE;
   if (f.height < PL_HTML_LOWEST) f.height = PL_HTML_LOWEST;
@@ -282,26 +282,69 @@ bool pl_html_has_picture(const pl_html* h) {
 bool pl_html_scene_has(const pl_html* h, pl_shape_kind kind) { return has_kind(h->in->scene, kind); }
 
 // ---------------------------------------------------------------------------------------------- numbers
-static const char* packed_points(pl_html* h, const pl_frame_of* f, const float* xy, size_t n) {
-  unsigned char* bytes = PL_ARRAY(h->arena, unsigned char, 4 * n + 1);
+// Points that go the same way are sent once: the end of a rod, the mass there and the tails of its arrows share one track.
+// Of an arc three points are enough.
+typedef struct pl_html_track { const unsigned char* bytes; bool still; } pl_html_track;
+typedef struct pl_html_tracks {
+  PL_VEC(pl_html_track) list;
+  pl_map* by_hash;              // hash -> place + 1
+  size_t size;                  // of one track, bytes
+  int n_moving;
+} pl_html_tracks;
+
+static void put_pixel(unsigned char* to, double pixel, bool there) {
+  double steps = fmin(fmax(floor(pixel * PL_HTML_STEPS + 0.5), -32767), 32767);
+  uint16_t bits = (uint16_t)(int16_t)(there ? steps : -32768);
+  to[0] = (unsigned char)(bits & 255);
+  to[1] = (unsigned char)(bits >> 8);
+}
+
+static int add_track(pl_html* h, pl_html_tracks* all, const pl_html_track* t) {
+  uint64_t key = pl_hash_bytes(t->bytes, all->size, 7) | 1;
+  int at = (int)pl_map_get(all->by_hash, key) - 1;
+  if (at >= 0 && memcmp(all->list.at[at].bytes, t->bytes, all->size) == 0) return at;
+  pl_push(h->arena, all->list, *t);
+  pl_map_set(all->by_hash, key, (uint64_t)all->list.n);
+  all->n_moving += !t->still;
+  return all->list.n - 1;
+}
+
+// The track of one point of a shape.  stride: floats between two frames.
+static int track_of(pl_html* h, pl_html_tracks* all, const pl_frame_of* f, const float* xy, size_t stride) {
+  size_t n = all->size / 4;
+  unsigned char* bytes = PL_ARRAY(h->arena, unsigned char, all->size + 1);
+  bool still = true;
   for (size_t i = 0; i < n; i++) {
-    bool there = isfinite(xy[2 * i]) && isfinite(xy[2 * i + 1]);
-    for (int k = 0; k < 2; k++) {
-      double pixel = !there ? 0 : k == 0 ? px(f, xy[2 * i]) : py(f, xy[2 * i + 1]);
-      double steps = fmin(fmax(floor(pixel * PL_HTML_STEPS + 0.5), -32767), 32767);
-      uint16_t bits = (uint16_t)(int16_t)(there ? steps : -32768);
-      bytes[4 * i + 2 * (size_t)k] = (unsigned char)(bits & 255);
-      bytes[4 * i + 2 * (size_t)k + 1] = (unsigned char)(bits >> 8);
-    }
+    const float* p = xy + i * stride;
+    bool there = isfinite(p[0]) && isfinite(p[1]);
+    put_pixel(bytes + 4 * i, there ? px(f, p[0]) : 0, there);
+    put_pixel(bytes + 4 * i + 2, there ? py(f, p[1]) : 0, there);
+    still = still && memcmp(bytes, bytes + 4 * i, 4) == 0;
   }
-  pl_text t = pl_text_make(h->arena);
-  pl_html_base64(&t, bytes, 4 * n);
-  return pl_text_string(&t);
+  return add_track(h, all, &(pl_html_track){bytes, still});
+}
+
+enum { PL_HTML_MOVING_POINTS = 31 };      // of a curve that moves as a whole
+
+// Which points of a shape are sent.
+static int chosen_points(const pl_shape* p, int* at) {
+  if (p->kind == PL_SHAPE_TRAIL) return at[0] = 0, 1;
+  bool arc = p->kind == PL_SHAPE_ANGLE && p->n > 3;
+  int n = arc ? 3 : p->n > PL_HTML_MOVING_POINTS ? PL_HTML_MOVING_POINTS : p->n;
+  for (int i = 0; i < n; i++) at[i] = n > 1 ? (int)((long)i * (p->n - 1) / (n - 1)) : 0;
+  return n;
+}
+
+static void put_track(pl_html* h, const pl_html_track* t, size_t size, bool first) {
+  pl_html_raw(h, first ? "\"" : ",\n\"");
+  pl_html_base64(h->out, t->bytes, t->still ? 4 : size);
+  pl_html_raw(h, "\"");
 }
 
 void pl_html_scene_data(pl_html* h) {
   const pl_scene* s = h->in->scene;
   pl_frame_of f = fit(s);
+  pl_html_tracks all = {.by_hash = pl_map_make(h->arena), .size = 4 * (size_t)s->n_frames};
   pl_html_rawf(h, "{\"w\":%d,\"h\":%d,\"best\":%d,\"t\":\"", PL_HTML_WIDE, f.height, s->best);
   pl_html_raw(h, pl_html_floats(h, s->t, s->n_frames));
   pl_html_raw(h, "\",\"shapes\":[");
@@ -309,10 +352,16 @@ void pl_html_scene_data(pl_html* h) {
   for (int i = 0; i < s->n_shapes; i++) {
     const pl_shape* p = &s->shapes[i];
     if (!lives(p)) continue;
-    size_t n = (size_t)p->n * (p->moves ? (size_t)s->n_frames : 1);
-    pl_html_rawf(h, "%s{\"i\":%d,\"k\":\"%s\",\"n\":%d,\"x\":\"%s\"}", first ? "" : ",", i, class_of[p->kind], p->n,
-                 packed_points(h, &f, p->xy, n));
+    int at[PL_HTML_MOVING_POINTS], n = chosen_points(p, at);
+    pl_html_rawf(h, "%s{\"i\":%d,\"k\":\"%s\",\"p\":[", first ? "" : ",", i, class_of[p->kind]);
+    for (int k = 0; k < n; k++) {
+      size_t stride = p->kind == PL_SHAPE_TRAIL ? 2 : 2 * (size_t)p->n;
+      pl_html_rawf(h, "%s%d", k ? "," : "", track_of(h, &all, &f, p->xy + 2 * at[k], stride));
+    }
+    pl_html_raw(h, "]}");
     first = false;
   }
+  pl_html_raw(h, "],\n\"tracks\":[");
+  for (int i = 0; i < all.list.n; i++) put_track(h, &all.list.at[i], all.size, i == 0);
   pl_html_raw(h, "]}");
 }

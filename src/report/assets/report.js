@@ -12,6 +12,15 @@ one('#print').onclick = () => print();
 const closed = [];
 addEventListener('beforeprint', () => all('details:not([open])').forEach(d => { closed.push(d); d.open = true; }));
 addEventListener('afterprint', () => { while (closed.length) closed.pop().open = false; });
+// ---- what scrolls sideways can be reached by keys
+const reach = () => all('.eq .m,.scroll,.src,.card .big').forEach(e => {
+  const wide = e.scrollWidth > e.clientWidth + 1;
+  if (wide) { e.tabIndex = 0; e.setAttribute('role', 'group'); e.setAttribute('aria-label', document.documentElement.lang === 'de' ? 'seitlich verschiebbar' : 'scrolls sideways'); }
+  else for (const a of ['tabindex', 'role', 'aria-label']) e.removeAttribute(a);
+});
+reach();
+addEventListener('resize', reach);
+if (document.fonts) document.fonts.ready.then(reach);
 // ---- copying and saving
 const save = (name, text, type) => {
   const a = document.createElement('a');
@@ -108,9 +117,10 @@ const shapes = [], labels = [], marksOf = [];
 let ft = null;
 if (S) {
   ft = floats(S.t);
+  const tracks = S.tracks.map(shorts);
   for (const s of S.shapes) {
-    const g = one(`#anim g[data-i="${s.i}"]`), raw = shorts(s.x);
-    shapes.push({k: s.k, n: s.n, i: s.i, g, e: g.firstElementChild, raw, off: g.dataset.off === '1' && s.k !== 'velocity', now: null});
+    const g = one(`#anim g[data-i="${s.i}"]`);
+    shapes.push({k: s.k, n: s.p.length, p: s.p.map(j => tracks[j]), i: s.i, g, e: g.firstElementChild, off: g.dataset.off === '1' && s.k !== 'velocity', now: null});
   }
   const byIndex = Object.fromEntries(shapes.map(s => [s.i, s]));
   for (const e of all('#anim text[data-l]')) {
@@ -119,33 +129,49 @@ if (S) {
   }
 }
 // Points of a shape between two frames; null where it is not there.
+const trackAt = (r, i, u) => {
+  if (r.length === 2) return r[0] === -32768 ? null : [r[0] / 32, r[1] / 32];
+  const a = 2 * i, b = u > 0 ? a + 2 : a;
+  if (r[a] === -32768) return null;
+  if (r[b] === -32768) return u > .5 ? null : [r[a] / 32, r[a + 1] / 32];
+  return [(r[a] + (r[b] - r[a]) * u) / 32, (r[a + 1] + (r[b + 1] - r[a + 1]) * u) / 32];
+};
 const pointsAt = (s, i, u) => {
-  const n = 2 * s.n, out = new Array(n), a = i * n, b = (i + 1) * n;
-  for (let k = 0; k < n; k++) {
-    const p = s.raw[a + k], q = u > 0 ? s.raw[b + k] : p;
-    if (p === -32768 || q === -32768) return p === -32768 || u > .5 ? null : [...s.raw.slice(a, b)].map(v => v / 32);
-    out[k] = (p + (q - p) * u) / 32;
+  const out = [];
+  for (const r of s.p) {
+    const p = trackAt(r, i, u);
+    if (!p) return null;
+    out.push(p[0], p[1]);
   }
   return out;
 };
+// The circle through three points, from the first to the last.
+const arc = (x1, y1, x2, y2, x3, y3) => {
+  const d = 2 * (x1 * (y2 - y3) + x2 * (y3 - y1) + x3 * (y1 - y2));
+  if (Math.abs(d) < 1) return 'M' + P(x1, y1) + 'L' + P(x3, y3);
+  const a = x1 * x1 + y1 * y1, b = x2 * x2 + y2 * y2, c = x3 * x3 + y3 * y3;
+  const cx = (a * (y2 - y3) + b * (y3 - y1) + c * (y1 - y2)) / d, cy = (a * (x3 - x2) + b * (x1 - x3) + c * (x2 - x1)) / d, r = Math.hypot(x1 - cx, y1 - cy);
+  const sweep = d > 0 ? 1 : 0;
+  return 'M' + P(x1, y1) + `A${f1(r)} ${f1(r)} 0 0 ${sweep} ` + P(x2, y2) + `A${f1(r)} ${f1(r)} 0 0 ${sweep} ` + P(x3, y3);
+};
 const line = (p, closed) => { let d = ''; for (let k = 0; k < p.length; k += 2) d += (k ? 'L' : 'M') + P(p[k], p[k + 1]); return closed ? d + 'Z' : d; };
-const trailTo = (s, i, tip) => {
+const trailTo = (r, i, u) => {
   let d = '', open = false;
+  if (r.length === 2) return d;
   for (let k = 0; k <= i; k++) {
-    const x = s.raw[2 * k], there = x !== -32768;
-    if (there) d += (open ? 'L' : 'M') + P(x / 32, s.raw[2 * k + 1] / 32);
+    const there = r[2 * k] !== -32768;
+    if (there) d += (open ? 'L' : 'M') + P(r[2 * k] / 32, r[2 * k + 1] / 32);
     open = there;
   }
-  return d + (d && tip ? 'L' + P(tip[0], tip[1]) : '');
+  const tip = open && u > 0 ? trackAt(r, i, u) : null;
+  return d + (tip ? 'L' + P(tip[0], tip[1]) : '');
 };
 const hidden = s => s.off || (s.k === 'force' && !isOn('#forces')) || (s.k === 'velocity' && !isOn('#velocity')) || (s.k === 'trail' && !isOn('#trail'));
 const drawShape = (s, i, u) => {
   if (s.k === 'trail') {
     s.g.style.display = hidden(s) ? 'none' : '';
     if (hidden(s)) return;
-    const a = 2 * i, b = 2 * Math.min(i + 1, s.n - 1);
-    const tip = s.raw[a] === -32768 || s.raw[b] === -32768 ? null : [(s.raw[a] + (s.raw[b] - s.raw[a]) * u) / 32, (s.raw[a + 1] + (s.raw[b + 1] - s.raw[a + 1]) * u) / 32];
-    s.e.setAttribute('d', trailTo(s, i, tip));
+    s.e.setAttribute('d', trailTo(s.p[0], i, u));
     return;
   }
   const p = s.now = pointsAt(s, i, u);
@@ -153,7 +179,7 @@ const drawShape = (s, i, u) => {
   s.g.style.display = show ? '' : 'none';
   if (!show) { s.now = null; return; }
   if (s.k === 'mass' || s.k === 'point') { s.e.setAttribute('cx', f1(p[0])); s.e.setAttribute('cy', f1(p[1])); return; }
-  const make = {spring: coil, damper, force: arrow, velocity: arrow, axis: arrow}[s.k];
+  const make = {spring: coil, damper, force: arrow, velocity: arrow, axis: arrow, angle: s.n === 3 ? arc : null}[s.k];
   s.e.setAttribute('d', make ? make(...p) : line(p, s.k === 'body'));
 };
 const around = [[.9, -.7], [.9, .8], [-.9, -.7], [-.9, .8], [0, -1], [0, 1], [1, 0], [-1, 0]];
