@@ -28,8 +28,12 @@ static pleuel_status run_until(pleuel_model* m, pl_language lang, bool has_until
     m->model->simulate.count = 0;
     m->is_recorded = false;
   }
+  bool even = m->model->simulate.given && pl_is_poison(m->model->simulate.step) && m->model->simulate.count == 0;
+  int n = pl_model_flat_coords(m->model, m->arena).n;
+  if (even) m->model->simulate.count = n < 40 ? 2880 : n < 400 ? 960 : 240;
+  m->is_recorded = false;
   pleuel_status s = pl_views_make(m, lang, views);
-  if (has_until) {
+  if (has_until || even) {
     m->model->simulate = before;
     m->is_recorded = false;
   }
@@ -46,6 +50,16 @@ static pleuel_status look(pleuel_model* m, pl_language lang, bool has_until, dou
   pl_scene_options how = {.frames = frames, .forces = true, .velocities = true};
   pleuel_status drawn = pl_scene_make(&m->job, m->model, out->views.result, &how, &out->scene);
   return drawn != PLEUEL_OK ? drawn : s;
+}
+
+pl_scene* pl_picture_scene(pleuel_model* m, pl_language lang) {
+  enum { FRAMES = 60 };
+  pl_showing show = {0};
+  char sentence[sizeof m->job.message];
+  memcpy(sentence, m->job.message, sizeof sentence);
+  look(m, lang, false, 0, FRAMES, &show);
+  memcpy(m->job.message, sentence, sizeof sentence);
+  return show.scene;
 }
 
 // ---------------------------------------------------------------------------------------------- panels
@@ -110,7 +124,7 @@ static void draw_panels(pl_drawing* d, pleuel_model* m, pl_language lang, const 
 
 pleuel_status pl_picture_plot(pleuel_model* m, pl_language lang, const pleuel_plot_options* o, const char** bytes, size_t* size) {
   pl_showing show = {0};
-  pleuel_status s = look(m, lang, o->has_until, o->until, 0, &show);
+  pleuel_status s = look(m, lang, o->has_until, o->until, 720, &show);
   if (!show.scene) return s;
   make_panels(m, lang, &show);
   bool drawing = o->panels != PLEUEL_PANELS_PLOTS && show.scene->n_shapes > 0;

@@ -137,6 +137,24 @@ static void draw_hatches(pl_drawing* d, const float* p, int n, int side) {
   if (xy.n > 0) pl_draw_line(d, PL_INK_GROUND, 1, xy.n / 2, xy.at);
 }
 
+// A path that is long is shown near the present moment only.
+static void draw_trail(pl_drawing* d, const pl_fit* f, const float* xy, int n, int frame) {
+  double most = 4 * (f->rect.w + f->rect.h), length = 0;
+  int from = 0, to = n;
+  for (int i = 1; i < n; i++) length += hypot((double)(xy[2 * i] - xy[2 * i - 2]), (double)(xy[2 * i + 1] - xy[2 * i - 1]));
+  if (length > most) {
+    length = 0;
+    for (to = frame > 0 ? frame + 1 : 1; to < n && length < (frame > 0 ? 0 : most); to++) {
+      length += hypot((double)(xy[2 * to] - xy[2 * to - 2]), (double)(xy[2 * to + 1] - xy[2 * to - 1]));
+    }
+    length = 0;
+    for (from = to - 1; from > 0 && length < most; from--) {
+      length += hypot((double)(xy[2 * from] - xy[2 * from - 2]), (double)(xy[2 * from + 1] - xy[2 * from - 1]));
+    }
+  }
+  pl_draw_line(d, PL_INK_TRAIL, 1.5, to - from, xy + 2 * from);
+}
+
 static void draw_shape(pl_drawing* d, const pl_fit* f, const pl_shape* p, int frame, const pl_scene_style* style) {
   float* xy = pixels(d, f, points_at(p, frame), p->n);
   switch (p->kind) {
@@ -181,7 +199,7 @@ static void draw_shape(pl_drawing* d, const pl_fit* f, const pl_shape* p, int fr
       take_line(d, xy, 2);
       break;
     case PL_SHAPE_TRAIL:
-      if (style->trails) pl_draw_line(d, PL_INK_TRAIL, 1.5, p->n, xy);
+      if (style->trails) draw_trail(d, f, xy, p->n, frame);
       break;
   }
 }

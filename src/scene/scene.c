@@ -261,6 +261,7 @@ pleuel_status pl_scene_make(pl_job* job, pl_model* model, const pl_result* resul
   find_coordinates(s);
   pl_stage_things(s);
   for (int k = 0; k < s->n_q; k++) s->angle[k] = is_angle(s, s->q[k]);
+  bool schematic = s->things.n == 0;
   for (int i = 0; i < s->model->constraints.n; i++) {
     pl_bond b = {.c = &s->model->constraints.at[i], .settles = -1, .velocity = s->model->constraints.at[i].has_velocity};
     pl_push(a, s->bonds, b);
@@ -269,9 +270,10 @@ pleuel_status pl_scene_make(pl_job* job, pl_model* model, const pl_result* resul
   find_gravity(s);
   PL_TRY(pl_stage_frames(s));
   pl_stage_set(s, 0);
+  if (schematic) pl_stage_schematic(s);
+  pl_stage_set(s, 0);
   if (s->model->gravities.n == 0) find_pull(s);
   pl_stage_bonds(s);
-  pl_stage_view(s);
   add_loads(s);
   add_things(s);
   pl_stage_arrows(s);

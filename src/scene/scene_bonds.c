@@ -519,6 +519,7 @@ static bool draw_curve(pl_stage* s, pl_bond* b, int thing, bool centred, const d
     }
     freedom = pl_track_freedom(s, track);
   }
+  if (freedom == 2 && s->model->n_axes == 3 && !s->view.plane && b && !timed) return pl_stage_surface(s, track, b->c->name.text);
   if (freedom != 1) return false;
   bool one_sided = b && b->c->relation != PL_EQ;
   track->whole = !one_sided;
@@ -609,6 +610,15 @@ static void draw_relative(pl_stage* s, pl_bond* b) {
   }
 }
 
+// Is the thing held by a constraint of its own that is more than a fixed coordinate?
+static bool own_rod(pl_stage* s, int thing) {
+  for (int i = 0; i < s->bonds.n; i++) {
+    const pl_bond* b = &s->bonds.at[i];
+    if (b->settles < 0 && !b->velocity && !b->timed && owner(s, b) == thing) return true;
+  }
+  return false;
+}
+
 // Does the coordinate that it holds lie along gravity?
 static bool holds_up(pl_stage* s, const pl_bond* b) {
   int thing = owner(s, b);
@@ -619,6 +629,18 @@ static bool holds_up(pl_stage* s, const pl_bond* b) {
     if (!pl_is_poison(e) && pl_has_symbol(s->pool, e, s->q[b->settles])) along += fabs(s->down[j]);
   }
   return along > 0;
+}
+
+// Which constraints shape the picture most: curves and radii; then what holds a thing up, what holds it anywhere; drives last.
+static int turn_of(pl_stage* s, const pl_bond* b) {
+  if (b->deps.n == 1 && (b->timed || s->angle[b->deps.at[0]])) return 3;
+  if (b->settles < 0) return 0;
+  int thing = owner(s, b);
+  for (int j = 0; thing >= 0 && j < 3; j++) {
+    pl_expr e = s->things.at[thing].spot.e[j];
+    if (!pl_is_poison(e) && pl_has_symbol(s->pool, e, s->q[b->settles]) && pl_kind_of(s->pool, e) != PL_SYMBOL) return 0;
+  }
+  return holds_up(s, b) ? 1 : 2;
 }
 
 // ---------------------------------------------------------------------------------------------- all
@@ -636,12 +658,13 @@ void pl_stage_bonds(pl_stage* s) {
   pl_stage_space(s);
   pl_stage_set(s, 0);
   if (!(s->size > 0)) s->size = 1;
+  pl_stage_view(s);
   pl_stage_rods(s);
   // curves first, then what is only held at a coordinate: across gravity first, so that it is seen as the ground
-  for (int round = 0; round < 3; round++) {
+  for (int round = 0; round < 4; round++) {
     for (int i = 0; i < s->bonds.n; i++) {
       pl_bond* b = &s->bonds.at[i];
-      int turn = b->settles < 0 ? 0 : holds_up(s, b) ? 1 : 2;
+      int turn = turn_of(s, b);
       if (b->drawn || b->velocity || b->touches || turn != round) continue;
       int thing = owner(s, b);
       if (thing < 0) {
@@ -649,7 +672,7 @@ void pl_stage_bonds(pl_stage* s) {
         b->drawn = true;
         continue;
       }
-      if (round >= 1 && s->things.at[thing].linked) continue;
+      if (b->settles >= 0 && round >= 1 && (s->things.at[thing].curved || s->things.at[thing].roped || own_rod(s, thing))) continue;
       draw_single(s, b, thing);
       b->drawn = true;
     }

@@ -146,6 +146,12 @@ int pl_track_freedom(pl_stage* s, const pl_track* t);
 // Direction in space in which eq[0] rises, across the curve, at the present values.
 bool pl_track_normal(pl_stage* s, const pl_track* t, double n[3]);
 
+// ---- scene_surface.c
+bool pl_stage_surface(pl_stage* s, const pl_track* surface, const char* of);
+
+// ---- scene_schematic.c: models in which nothing has a place
+void pl_stage_schematic(pl_stage* s);
+
 // ---- scene_view.c
 void pl_stage_view(pl_stage* s);
 void pl_view_project(const pl_view* v, const double x[3], double xy[2]);

@@ -24,9 +24,11 @@ pl_track* pl_track_make(pl_stage* s, int thing, const pl_expr* eq, int n_eq, con
   }
   for (int i = 0; i < n_eq; i++) t->eq[i] = eq[i];
   for (int j = 0; j < 3; j++) {
-    double middle = (s->hi[j] + s->lo[j]) / 2, half = fmax(0.62 * (s->hi[j] - s->lo[j]), 0.3 * s->size);
+    double middle = (s->hi[j] + s->lo[j]) / 2, half = fmax(0.62 * (s->hi[j] - s->lo[j]), (s->n_frames > 1 ? 0.3 : 0.6) * s->size);
     t->box_lo[j] = middle - half;
     t->box_hi[j] = middle + half;
+    if (t->box_lo[j] > 0 && t->box_lo[j] < s->size) t->box_lo[j] = -0.1 * s->size;      // the origin belongs to it
+    if (t->box_hi[j] < 0 && t->box_hi[j] > -s->size) t->box_hi[j] = 0.1 * s->size;
   }
   t->n = 121;
   return t;
@@ -196,7 +198,11 @@ int pl_track_follow(pl_stage* s, const pl_track* t, double* xyz, bool* closed) {
   if (fine && isfinite(x[0] + x[1] + x[2])) {
     double h = s->size / 70, far = t->whole ? 1.5 : 0;
     *closed = follow(s, t, q0, h, far, &ahead);
-    if (!*closed) follow(s, t, q0, -h, far, &behind);
+    if (!*closed && far > 0) {           // an open curve ends with the neighbourhood
+      ahead.n = 0;
+      follow(s, t, q0, h, 0, &ahead);
+    }
+    if (!*closed) follow(s, t, q0, -h, 0, &behind);
     if (*closed && !t->whole) *closed = false;
     int m = ahead.n / 3 + behind.n / 3 + 1 + *closed;
     double* all = PL_ARRAY(s->arena, double, 3 * m);

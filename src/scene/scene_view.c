@@ -47,13 +47,30 @@ static void choose_ways(const pl_stage* s, pl_way way[3], double sign[3]) {
   }
 }
 
+// Seen at one moment only: may things move along this axis, and does anything depend on it?
+static bool may_vary(const pl_stage* s, int axis) {
+  for (int i = 0; i < s->things.n; i++) {
+    pl_expr e = s->things.at[i].spot.e[axis];
+    if (pl_is_poison(e) || !(pl_has_role(s->pool, e, PL_R_COORD) || pl_has_role(s->pool, e, PL_R_TIME))) continue;
+    if (pl_kind_of(s->pool, e) != PL_SYMBOL) return true;
+    pl_symbol x = pl_symbol_of(s->pool, e);
+    bool used = false;
+    for (int k = 0; k < s->bonds.n; k++) used |= pl_has_symbol(s->pool, s->bonds.at[k].c->g, x);
+    uint64_t q = pl_map_get(s->q_at, x.id);
+    if (used && !(q && s->settled[q - 1])) return true;
+    bool free = s->bonds.n == 0 || s->things.n > 1;
+    if (!used && free && q && !s->settled[q - 1]) return true;
+  }
+  return false;
+}
+
 // The axis along which nothing moves nor differs, if any: it can be left out.
 static int flat_axis(const pl_stage* s, const pl_way way[3]) {
   double most = 0;
   for (int j = 0; j < 3; j++) most = fmax(most, s->hi[j] - s->lo[j]);
   int flat = -1;
   for (int j = 0; j < 3; j++) {
-    if (s->hi[j] - s->lo[j] > 1e-6 * most) continue;
+    if (s->hi[j] - s->lo[j] > 1e-6 * most || (s->n_frames < 2 && may_vary(s, j))) continue;
     if (flat < 0 || way[j] == PL_WAY_OUT || (way[flat] == PL_WAY_UP && way[j] == PL_WAY_RIGHT)) flat = j;
   }
   return flat;
