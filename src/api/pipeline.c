@@ -191,6 +191,25 @@ static pleuel_status check_times(pleuel_model* m, const pleuel_sim_options* o) {
   return PLEUEL_OK;
 }
 
+// An impact on a contact for which no `restitution` is given was taken as inelastic: said once for each, with the request for a law.
+static void tell_inelastic(pleuel_model* m) {
+  int before = m->diagnostics.list.n;
+  for (int i = 0; i < m->result->events.n; i++) {
+    const pl_result_event* e = &m->result->events.at[i];
+    const pl_constraint* c = e->kind == PL_EV_IMPACT && e->label ? pl_model_constraint(m->model, e->label) : NULL;
+    if (!c || pl_model_restitution(m->model, c)) continue;
+    bool told = false;
+    for (int k = before; k < m->diagnostics.list.n; k++) told |= m->diagnostics.list.at[k].span.begin == c->span.begin;
+    if (told) continue;
+    pl_diagnostic* d = pl_report(&m->diagnostics, PL_N068, c->span,
+      pl_format(m->arena, "%s has no restitution: its impact at t = %.6g s was taken as inelastic", e->label, e->t),
+      pl_format(m->arena, "%s hat keinen Stoßkoeffizienten: der Stoß bei t = %.6g s gilt als unelastisch", e->label, e->t));
+    pl_report_fix(d, pl_format(m->arena, "give the law of the impact: restitution 0 on %s", e->label),
+                  pl_format(m->arena, "das Stoßgesetz angeben: restitution 0 on %s", e->label), NULL);
+  }
+  if (m->diagnostics.list.n > before) pl_diagnostics_sort(&m->diagnostics);
+}
+
 // setup -> motion
 pleuel_status pl_pipeline_run(pleuel_model* m, const pleuel_sim_options* o) {
   m->is_run = true;
@@ -208,6 +227,7 @@ pleuel_status pl_pipeline_run(pleuel_model* m, const pleuel_sim_options* o) {
   m->run = pl_pipeline_start(m, o, &run);
   if (m->run == PLEUEL_OK) m->run = pl_run_to_end(run);
   if (run) pl_run_free(run);
+  tell_inelastic(m);
   if (m->run != PLEUEL_OK) snprintf(m->run_message, sizeof m->run_message, "%s", m->job.message);
   note_time(m, PL_STAGE_RUN, start);
   return m->run;
