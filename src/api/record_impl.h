@@ -4,17 +4,45 @@
 
 #include "api/api_impl.h"
 
+// Friction on a constraint, as expressions of its group.
+typedef struct pl_rub_source {
+  int constraint;             // of the model
+  struct pl_group* group;
+  int n_rows, first_row;      // links of slip
+  int n_coefficients, first_coefficient;
+  pl_expr slip[3], limit, scale, along[3], metric[6];
+} pl_rub_source;
+
 // Everything that stands in one `for` block, or outside of all: one pattern.
 typedef struct pl_group {
   const pl_block* block;      // NULL: outside
   pl_instances instances;     // of the block; one without indices for the outside
   PL_VEC(int) constraints;    // of the model
+  PL_VEC(int) rubs;           // of the recorder
   PL_VEC(pl_expr) atoms;      // coordinates that occur, as written: symbols and elements such as x[i-1]
   pl_map* atom_at;            // id of an atom -> place + 1
   pl_map* seen;               // ids of nodes looked at
   pl_expr T, V, L;            // L: what `lagrangian` lines add
   pl_expr* force;             // generalized forces without potential        (atoms), made when the atoms are known
 } pl_group;
+
+// What the motion is varied with: a parameter, or a start value.
+typedef struct pl_direction {
+  const char* name;           // "m2", "x0", "x_dot0"
+  const char* unit;
+  pl_dimension dimension;
+  bool dimension_known;
+  pl_symbol parameter;        // id 0: a start value
+  int at;                     // of this coordinate, -1 a parameter
+  bool velocity;
+} pl_direction;
+
+typedef struct pl_variation {
+  int n;
+  const pl_direction* direction;
+  pl_map* delta;              // id of a coordinate (or family, or multiplier) -> id of the symbol of its variation
+  double *q, *v;              // variations of the start values given: direction d, coordinate i at d n_q + i
+} pl_variation;
 
 typedef struct pl_recorder {
   pl_job* job;
@@ -27,9 +55,11 @@ typedef struct pl_recorder {
   pl_map* flat_at;            // id of a coordinate atom with a number as index -> global index + 1
   PL_VEC(pl_group*) groups;   // the outside first
   int* first_link;            // global index of the first row of each constraint of the model
-  int n_links;                // with the map equations
+  int n_links;                // with the map equations and the rows of slip
+  PL_VEC(pl_rub_source*) rubs;
   bool dissipative, explicit_time;
   bool start_settled;         // values of x(0), E(0) are there
+  pl_variation* variation;    // NULL: the motion alone
 } pl_recorder;
 
 // record_forces.c: energies and generalized forces of the groups.
@@ -50,6 +80,25 @@ void pl_record_slots(pl_recorder* r, pl_group* g, const pl_expr* lambda, int n_c
 pleuel_status pl_record_place(pl_recorder* r, pl_group* g, pl_pattern_source* s); // slots of each instance
 int pl_record_link(pl_recorder* r, const char* label);                            // row of a constraint, -1
 pleuel_status pl_record_target(pl_recorder* r, pl_expr target, pl_start_value* out);
+// e with elements of families replaced by their start values; poison where one is not known.
+pl_expr pl_record_with_elements(pl_recorder* r, pl_expr e, const pl_coordinate* q);
+int pl_record_global(pl_recorder* r, pl_expr atom);                               // of a coordinate atom, -1
+
+// record_variation.c: the motion and its derivatives by parameters and start values.
+pleuel_status pl_variation_begin(pl_recorder* r, const char* list);
+int pl_variation_count(const pl_recorder* r);                                     // patterns for each of the motion
+pleuel_status pl_variation_record(pl_recorder* r, pl_group* g, const pl_pattern_source* s, pl_pattern* out);
+void pl_variation_of_start(pl_recorder* r, const pl_start_value* s);
+pleuel_status pl_variation_setup(pl_recorder* r);
+
+// record_friction.c: rows of slip and their coefficients.
+pleuel_status pl_group_friction(pl_recorder* r, pl_group* g);   // before the forces of the group
+pl_expr pl_rub_coefficient(const pl_rub_source* s, int k);
+void pl_record_rubs(pl_recorder* r, pl_link* link);
+void pl_record_rub_symbols(pl_recorder* r);
+pl_symbol pl_rub_symbol(pl_recorder* r, const pl_rub_source* s, int k);
+int pl_rub_row(pl_recorder* r, pl_symbol lambda);
+pl_expr pl_rub_force(pl_recorder* r, const pl_rub_source* s, int j);
 
 // record_observe.c: energies, forces and outputs; events; branches.
 pleuel_status pl_record_observers(pl_recorder* r);

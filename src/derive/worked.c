@@ -168,7 +168,31 @@ static void describe_constraints(pl_analysis* d) {
 }
 
 // ---------------------------------------------------------------------------------------------- requests
+// What friction leaves as it is.  Everything else would be right without friction only.
+static bool survives_friction(pl_ask_kind kind) {
+  return kind == PL_ASK_DOF || kind == PL_ASK_CONSTRAINTS || kind == PL_ASK_LAGRANGIAN;
+}
+
+static void leave_to_simulation(pl_analysis* d, const pl_ask* ask) {
+  if (!d->section || d->section->item != ask->text) pl_section_open(d, ask, ask->text, ask->text);
+  pl_say(d, "Friction acts here, with a force that jumps between sticking and slipping: no formula is given. The simulation computes the motion.",
+         "Hier wirkt Reibung, deren Kraft zwischen Haften und Gleiten springt: keine Formel. Die Simulation berechnet die Bewegung.", 0);
+  d->section->not_found = true;
+}
+
+static void note_friction(pl_analysis* d) {
+  if (d->model->frictions.n == 0 || d->options->structure) return;
+  pl_diagnostic* m = pl_report(d->job->diagnostics, PL_N091, d->model->frictions.at[0].span,
+                               "friction is computed by the simulation, formulas are not derived with it",
+                               "Reibung berechnet die Simulation, Formeln werden mit ihr nicht hergeleitet");
+  pl_report_fix(m, "without this line the formulas hold for smooth surfaces", "ohne diese Zeile gelten die Formeln für glatte Flächen", NULL);
+}
+
 static void answer(pl_analysis* d, const pl_ask* ask) {
+  if (d->model->frictions.n > 0 && !survives_friction(ask->kind)) {
+    leave_to_simulation(d, ask);
+    return;
+  }
   switch (ask->kind) {
     case PL_ASK_DOF: pl_answer_dof(d, ask); break;
     case PL_ASK_CONSTRAINTS: pl_answer_constraints(d, ask); break;
@@ -234,6 +258,7 @@ static bool wanted(const pl_derive_options* o, const pl_ask* ask) {
 }
 
 static pleuel_status answer_all(pl_analysis* d) {
+  note_friction(d);
   if (d->model->asks.n == 0) answer_standard(d);
   for (int k = 0; k < d->model->asks.n; k++) {
     if (pl_interrupted(d->job)) return pl_fail(d->job, PLEUEL_INTERRUPTED, "stopped after %d of %d requests", k, d->model->asks.n);

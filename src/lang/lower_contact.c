@@ -73,8 +73,6 @@ static void lower_friction(pl_lower* l, const pl_ast* s) {
   }
   f.label = constraint_of(l, pl_ast_kid(s, 2));
   if (fine && f.label) pl_push(l->arena, l->m->frictions, f);
-  pl_lower_pending(l, PL_E091, "friction", f.span, "friction is not computed by this version",
-                   "Reibung berechnet diese Version nicht");
 }
 
 void pl_lower_contact(pl_lower* l, const pl_ast* s) {

@@ -302,7 +302,7 @@ void pl_assemble_speed(pl_run* run, int k, double* speed) {
 }
 
 // What the largest force met would do to a coordinate: forces that cancel leave the rounding of that.
-static double free_size(const pl_run* run, int i) {
+double pl_free_size(const pl_run* run, int i) {
   double mass = run->kkt.value[run->kkt.diagonal[i]];
   return mass > 0 && run->place_n[i] != 0 ? run->force_size / mass : 0;
 }
@@ -321,7 +321,7 @@ void pl_assemble_second(pl_run* run, const double* a, double* second, double* si
         int c = b->c[g->row * b->lanes + l];
         double forced = x[l] * a[b->q[g->col * b->lanes + l]], turning = slope ? slope[l] * v[l] : 0;
         second[c] += forced + turning;
-        size[c] += fabs(forced) + fabs(turning) + fabs(x[l]) * free_size(run, b->q[g->col * b->lanes + l]);
+        size[c] += fabs(forced) + fabs(turning) + fabs(x[l]) * pl_free_size(run, b->q[g->col * b->lanes + l]);
       }
     }
     for (int e = 0; e < b->pattern->n_gt; e++) {

@@ -100,8 +100,12 @@ static int better_for_rub(const pl_run* run, const pl_look* l, const pl_decision
     return slip_choice(way, press < 0 ? -1 : 1);
   }
   if (now->press * press < -zero) return slip_choice(now->way, -now->press);
-  if (!is_allowed(d, PL_CHOICE_STICK) || rub->n_rows == 3) return d->choice;
+  if (!is_allowed(d, PL_CHOICE_STICK)) return d->choice;
   double rate = now->way * l->rate[rub->row[0]], small = wrong_rate * l->rate_size[rub->row[0]];
+  if (rub->n_rows == 3) {
+    rate = small = 0;
+    for (int i = 0; i < 3; i++) rate += now->d[i] * l->rate[rub->row[i]], small += wrong_rate * l->rate_size[rub->row[i]];
+  }
   return rate < -small ? PL_CHOICE_STICK : d->choice;
 }
 
@@ -125,7 +129,8 @@ static bool turn_slips(pl_run* run, const double* rate) {
     pl_rub_now* now = &run->rub[r];
     if (now->state != PL_RUB_SLIP || !now->given || !pl_friction_is_used(run, r)) continue;
     double d[3];
-    if (pl_friction_speed(run, r, rate, d) == 0) continue;
+    // slip that would at once run against itself is none
+    if (pl_friction_speed(run, r, rate, d) == 0 || d[0] * now->d[0] + d[1] * now->d[1] + d[2] * now->d[2] < 0) continue;
     for (int i = 0; i < 3; i++) turned |= fabs(d[i] - now->d[i]) > 1e-13;
     memcpy(now->d, d, sizeof d);
   }
@@ -138,8 +143,17 @@ static void restore_point(pl_run* run) {
   run->factored = false;
 }
 
+// A first guess of the direction of slip in space: along the slip acceleration without friction.
+static void guess_directions(pl_run* run) {
+  for (int r = 0; r < run->setup->n_rubs; r++) {
+    pl_rub_now* now = &run->rub[r];
+    if (now->state == PL_RUB_SLIP && now->given) now->d[0] = now->d[1] = now->d[2] = 0;
+  }
+}
+
 static bool try_accelerations(pl_run* run, pl_look* l) {
   apply(run);
+  guess_directions(run);
   for (int turn = 0;; turn++) {
     restore_point(run);
     pl_active_update(run);
@@ -272,10 +286,12 @@ static bool same_contacts(const pl_run* run) {
   return true;
 }
 
-static bool same_motion(const pl_run* run, const double* x) {
+static bool same_motion(const pl_run* run, const double* x, bool impact) {
   double most = pl_norm(run->first_a, run->n_q);
-  for (int i = 0; i < run->n_q; i++)
-    if (fabs(x[i] - run->first_a[i]) > 1e-6 * most) return false;
+  for (int i = 0; i < run->n_q; i++) {
+    double size = most + (impact ? run->v_size : pl_free_size(run, i));
+    if (fabs(x[i] - run->first_a[i]) > 1e-6 * size) return false;
+  }
   return true;
 }
 
@@ -290,7 +306,7 @@ static int try_all(pl_run* run, pl_trial* trial, const double* motion) {
       found = 1;
       keep_choices(run);
       memcpy(run->first_a, motion, (size_t)run->n_q * sizeof(double));
-    } else if (!same_motion(run, motion) && !(sticks_harder(run) && same_contacts(run))) {
+    } else if (!same_motion(run, motion, motion == run->v) && !(sticks_harder(run) && same_contacts(run))) {
       found = 2;
     }
   } while (found < 2 && next_set(run));

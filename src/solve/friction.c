@@ -53,6 +53,16 @@ void pl_friction_coefficients(pl_run* run, int k) {
   pl_batches_outputs(&run->motion, run->C_series + (size_t)k * (size_t)n, n, k);
 }
 
+// In space a slip that ends at the end of this step has no direction there: it keeps the one it had.
+void pl_friction_keep_directions(pl_run* run) {
+  for (int i = 0; i < run->n_watch; i++) {
+    if (!run->hit[i] || run->watch[i].kind != PL_WATCH_STICK) continue;
+    int r = run->watch[i].index;
+    pl_rub_now* now = &run->rub[r];
+    now->given = run->setup->rubs[r].n_rows == 3 && pl_friction_speed(run, r, run->S_series, now->d) > 0;
+  }
+}
+
 // ---------------------------------------------------------------------------------------------- in the linear system
 static double kappa(const pl_run* run, int r, int i, int k) {
   const pl_rub* rub = &run->setup->rubs[r];

@@ -182,6 +182,17 @@ static pleuel_status impact_and_settle(pl_run* run) {
   return PLEUEL_OK;
 }
 
+// Surfaces that stick may leave nothing but rounding of the velocities: what counts as small is then what the forces
+// would do on a thousandth of the way.
+static void size_velocities(pl_run* run) {
+  if (run->setup->n_rubs == 0) return;
+  for (int i = 0; i < run->n_q; i++) {
+    run->v_most[i] = fmax(run->v_most[i], 1e-3 * sqrt(pl_free_size(run, i) * run->q_size));
+    run->v_size = fmax(run->v_size, run->v_most[i]);
+  }
+  pl_sizes_keep(run);
+}
+
 // The motion after this moment, from q and v as they are.
 static pleuel_status follow(pl_run* run) {
   memcpy(run->jump_v, run->v, (size_t)run->n_q * sizeof(double));
@@ -194,6 +205,7 @@ static pleuel_status follow(pl_run* run) {
     PL_TRY(impact_and_settle(run));
   }
   renew_watches(run);
+  size_velocities(run);
   clear_fixed(run);
   return PLEUEL_OK;
 }
@@ -346,6 +358,16 @@ static unsigned slips(int way, bool other_press, int press) {
   return 1u << (PL_CHOICE_SLIP + bit);
 }
 
+// The square of a slip velocity in space is zero within rounding before the velocity is.
+static bool is_at_rest(pl_run* run, int r) {
+  static const double at_rest = 1e-9;
+  double d[3];
+  if (run->setup->rubs[r].n_rows == 1) return true;
+  pl_batches_load_v(&run->motion, run->v, 0);
+  pl_assemble_gdot(run, run->r, run->r_size);
+  return pl_friction_speed(run, r, run->r, d) <= at_rest * run->v_size;
+}
+
 // What a hit leaves open.
 static void fix_choices(pl_run* run, int i) {
   const pl_watch* w = &run->watch[i];
@@ -360,6 +382,10 @@ static void fix_choices(pl_run* run, int i) {
       if (run->root[i] == 0 && w->fresh > 1) run->fixed[w->index] = 1u << PL_CHOICE_CLOSED;
       break;
     case PL_WATCH_STICK:
+      if (!is_at_rest(run, w->index)) {
+        run->watch[i].fresh = 2;      // it only came near
+        break;
+      }
       run->rub_fixed[w->index] |= PL_RUB_AT_REST;
       if (run->root[i] == 0 && w->fresh > 0 && rub->n_rows == 1)
         run->rub_fixed[w->index] |= 0xffu & ~(slips(now->way, false, 1) | slips(now->way, true, 1));

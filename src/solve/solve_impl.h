@@ -257,6 +257,7 @@ void pl_assemble_row_sizes(pl_run* run);            // run->row_most
 void pl_assemble_g(pl_run* run, int k, double* g, double* size);   // size NULL: values only
 void pl_assemble_gdot(pl_run* run, double* r, double* size);      // G v + dg/dt at order 0
 void pl_assemble_rhs(pl_run* run, int k, double* rhs);
+double pl_free_size(const pl_run* run, int i);      // acceleration of a coordinate by the largest force met
 void pl_assemble_speed(pl_run* run, int k, double* speed);       // order k of G v + dg/dt of slip
 void pl_assemble_second(pl_run* run, const double* a, double* second, double* size);   // d/dt (G v + dg/dt), all rows
 
@@ -316,6 +317,7 @@ double pl_kinks_first(pl_run* run, double h);       // just behind the first kin
 
 // ---- friction.c
 void pl_friction_make(pl_run* run);
+void pl_friction_keep_directions(pl_run* run);      // before the point at a root
 void pl_friction_activate(pl_run* run);             // rows of slip: which are constraints, which forces
 void pl_friction_coefficients(pl_run* run, int k);  // order k, after the sweeps of the motion
 void pl_friction_matrix(pl_run* run);               // the rows of those that slip

@@ -90,7 +90,7 @@ double pl_watch_force_noise(const pl_run* run, int c) {
   return run->row_most[c] > 0 ? rounding * run->force_size / run->row_most[c] : 0;
 }
 
-static double noise_of(const pl_run* run, const pl_watch* w) {
+static double noise_of(const pl_run* run, const pl_watch* w, double h) {
   if (w->kind == PL_WATCH_LANDING) return 1e-14 * run->g_size[w->index];
   if (w->kind == PL_WATCH_RELEASE) return pl_watch_force_noise(run, w->index);
   if (w->kind == PL_WATCH_EVENT) return 0;
@@ -98,7 +98,8 @@ static double noise_of(const pl_run* run, const pl_watch* w) {
   double force = pl_watch_force_noise(run, rub->row[0]);
   if (w->kind == PL_WATCH_PRESS) return pl_watch_force_noise(run, rub->link);
   if (w->kind == PL_WATCH_SLIP) return force * force;
-  return rub->n_rows == 1 ? 1e-14 * run->r_size[rub->row[0]] : 0;
+  // slip: rounding of velocities, and of the forces that change them on the step
+  return rub->n_rows == 1 ? 1e-14 * run->r_size[rub->row[0]] + 1e-12 * fabs(h) * run->second_size[rub->row[0]] : 0;
 }
 
 // Coefficients in units of the step; returns how many.
@@ -138,11 +139,15 @@ static double first_sign(const double* c, int n, double noise) {
   return 0;
 }
 
+// Part of the size of its terms to which the series of n coefficients are known.
+static double known_part(int n) { return fmax(pl_root_noise(n), 4e-15); }
+
 // Whether a root with these signs before and behind it counts; 0 behind it: at the end of the step.
 static bool is_wanted(const pl_watch* w, double h, int before, int after, bool at_end) {
   double d = w->direction * sign(h);
   bool touches = before == after;
-  if (w->kind == PL_WATCH_LANDING && touches) return before > 0;      // it grazes
+  // a landing grazes; slip in space is watched by its square
+  if ((w->kind == PL_WATCH_LANDING || w->kind == PL_WATCH_STICK) && touches) return before > 0;
   if (touches) return w->direction == 0;
   if (after == 0) return at_end && (d == 0 || d * before < 0);         // else it is seen at the start of the next step
   return d == 0 || d * after > 0;
@@ -169,7 +174,7 @@ static double first_that_counts(pl_run* run, const pl_watch* w, double h, const 
   pl_root root[MOST_ROOTS];
   double zero = fmax(noise, 1e-14 * size_of(c, n));
   bool to_end = fabs(h) >= fabs(run->options.t_end - run->t - run->t_low);
-  int found = pl_roots(c + m, n - 1 - m, fmax(pl_root_noise(n - m), 4e-15), m == 0 ? noise : 0, root, MOST_ROOTS, run->root_work);
+  int found = pl_roots(c + m, n - 1 - m, known_part(n - m), m == 0 ? noise : 0, root, MOST_ROOTS, run->root_work);
   for (int i = 0; i < found; i++) {
     int before = root[i].before, after = root[i].after;
     if (before == 0 && after == 0) continue;
@@ -190,7 +195,7 @@ static double first_that_counts(pl_run* run, const pl_watch* w, double h, const 
 static double find_root(pl_run* run, pl_watch* w, double h, bool* touches) {
   double* c = run->poly;
   int n = polynomial(run, w, h, c), m = w->fresh;
-  double size = size_of(c, n), noise = fmax(noise_of(run, w), 1e-15 * size);
+  double size = size_of(c, n), noise = fmax(noise_of(run, w, h), 1e-15 * size);
   *touches = false;
   if (m == 0 && w->side == 0) {
     // nothing known: at the start, or after a jump
@@ -232,7 +237,8 @@ void pl_watch_passed(pl_run* run, double h) {
     double x = 0;
     for (int k = n - 1; k >= 0; k--) x += run->poly[k];
     if (h != 0) w->fresh = 0;
-    if (fabs(x) > fmax(noise_of(run, w), 4e-16 * size_of(run->poly, n))) w->side = (int)sign(x);
+    // what the roots leave open at the end is decided at the start of the next step
+    if (fabs(x) > fmax(noise_of(run, w, h), 2 * known_part(n) * size_of(run->poly, n))) w->side = (int)sign(x);
   }
   // slip in space that has become clear of rounding counts as none only far below that again
   for (int r = 0; r < run->setup->n_rubs; r++) {
