@@ -205,5 +205,55 @@ def _(program):
     same(Formula(E["expr"]).value({"m": 1, "l": 1, "g": 9.81, "F": 2, "phi": phi, "phi_dot": v}), expected, "E")
 
 
+@test("cylinder rolling in a cylinder: θ'' = -2 g sin θ/(3 (R - a)), pressed with 7/3 of the weight at the bottom")
+def _(program):
+    answer = case(program, "cylinder_in_cylinder")
+    checks_pass(answer)
+    p = dict(m=1.3, a=0.2, R=0.9, g=9.0, theta=0.4)
+    same(at(answer.value("theta_ddot")["expr"], **p), -2 * 9.0 * math.sin(0.4) / (3 * 0.7), "theta''")
+    same(at(answer.value("lambda_touch")["expr"], **p), -7 / 3 * 1.3 * 9.0 * math.cos(0.4), "force of touch")
+
+
+@test("particle in a cone: ω² = 3 g cos α sin α/r0 about the circle, whose rate is g/(r0 tan α)")
+def _(program):
+    answer = case(program, "cone")
+    p = dict(m=1.3, g=9.0, r0=0.6, alpha=0.5)
+    same(at(answer.value("omega^2", item="holding")["expr"], **p), 3 * 9.0 * math.cos(0.5) * math.sin(0.5) / 0.6, "omega^2")
+    same(at(answer.value("phi_dot^2", item="holding")["expr"], **p), 9.0 / (0.6 * math.tan(0.5)), "rate")
+    rest = answer.value("equilibrium 1", item="equilibria for")
+    need(rest["stability"] == "unstable", "at a driven rate the circle is unstable")
+
+
+@test("cylinder rolling down a movable wedge, rolling given in velocities")
+def _(program):
+    answer = case(program, "cylinder_on_wedge")
+    checks_pass(answer)
+    p = dict(M=3.0, m=1.3, r=0.1, alpha=0.5, g=9.0)
+    want = -2 * 1.3 * 9.0 * math.sin(0.5) * math.cos(0.5) / (9.0 + 1.3 + 2.6 * math.sin(0.5) ** 2)
+    same(at(answer.value("X_ddot")["expr"], **p), want, "X''")
+
+
+@test("Atwood machine with a heavy pulley: two tensions")
+def _(program):
+    answer = case(program, "heavy_pulley")
+    checks_pass(answer)
+    p = dict(m1=3.0, m2=2.0, J=0.05, R=0.1, g=9.0)
+    a = 1.0 * 9.0 / (5.0 + 5.0)
+    same(at(answer.value("x1_ddot")["expr"], **p), a, "x1''")
+    same(at(answer.value("lambda_left")["expr"], **p), 3.0 * (a - 9.0), "left")
+    same(at(answer.value("lambda_right")["expr"], **p), 2.0 * (-a - 9.0), "right")
+
+
+@test("heavy top: both cyclic momenta, and θ'' from them")
+def _(program):
+    answer = case(program, "heavy_top")
+    checks_pass(answer)
+    p = dict(A=0.02, C=0.03, m=1.0, l=0.1, g=9.0, theta=0.6, phi_dot=2.0, psi_dot=30.0, theta_dot=0.1)
+    spin = 0.03 * (30.0 + 2.0 * math.cos(0.6))
+    want = (0.02 * 4.0 * math.sin(0.6) * math.cos(0.6) - spin * 2.0 * math.sin(0.6) + 0.9 * math.sin(0.6)) / 0.02
+    same(at(answer.value("theta_ddot")["expr"], **p), want, "theta''")
+    same(at(answer.value("p_psi")["expr"], **p), spin, "p_psi")
+
+
 if __name__ == "__main__":
     sys.exit(test.main(program_of(sys.argv)))
