@@ -51,6 +51,11 @@ enum {
   PL_MAX_INTEGER_BITS = 96,    // integers up to this size are split into primes
   PL_MAX_POWER = 64,           // integer exponent of a sum
   PL_MAX_MULTIPLE = 24,        // cos(nθ) is written in powers of cos θ up to this n
+  PL_WORK_OF_SERVICE = 15000000,  // products of terms, about 2 s; counted, not timed: the same input ends in the same way everywhere
+  PL_WORK_OF_ALL = 60000000,      // of all services of a tower, about 8 s; beyond it each has
+  PL_WORK_OF_SMALL = 200000,
+  PL_WORK_OF_PRODUCT = 40,        // of the product and sum of small polynomials, which is overhead
+  PL_WORK_OF_SUM = 15,
   PL_MAX_DEPTH = 2000          // nesting of an expression that is converted by recursion
 };
 
@@ -171,6 +176,7 @@ struct pl_tower {
   bool facts_busy;          // facts are being used: no facts inside facts
   bool tangled;             // bases were refined or roots combined: the next service starts from an empty tower,
                             // so that its result does not depend on what was asked before
+  long work_left, work_done;  // of the running service; of all
   bool silent;              // proofs are not recorded: nothing that is shown rests on them
   const pl_poly* radicand;  // under the root that is being taken: >= 0, as roots are real
   int depth;                // of the conversion
@@ -185,6 +191,7 @@ typedef struct pl_tower_mark {
 } pl_tower_mark;
 pl_tower_mark pl_tower_mark_now(const pl_tower* t);
 void pl_tower_rewind(pl_tower* t, pl_tower_mark m);             // gives back the polynomials and integers taken since
+void pl_tower_charge(pl_tower* t, long work);                   // gives up when the budget of the service is used
 void pl_tower_check(pl_tower* t);                               // gives up when the job was interrupted
 int pl_tower_generator(pl_tower* t, const pl_gen* g);           // appends; restarts with a larger context when full
 int pl_tower_find(const pl_tower* t, pl_expr e);                // generator that stands for e, or -1

@@ -35,6 +35,7 @@ const pl_poly* pl_poly_gen_power(pl_tower* t, int gen, long power) {
 
 const pl_poly* pl_poly_add(pl_tower* t, const pl_poly* a, const pl_poly* b) {
   if (a->length + b->length > PL_MAX_TERMS) pl_tower_give_up(t);
+  pl_tower_charge(t, PL_WORK_OF_SUM + a->length + b->length);
   pl_poly* f = pl_poly_new(t);
   fmpz_mpoly_add(f, a, b, &t->ctx);
   return f;
@@ -72,6 +73,7 @@ const pl_poly* pl_poly_mul_free(pl_tower* t, const pl_poly* a, const pl_poly* b)
   if (pl_poly_is_one(t, b)) return a;
   if (a->length > 0 && b->length > PL_MAX_PRODUCT / a->length) pl_tower_give_up(t);
   if (a->length > 1000 || b->length > 1000) pl_tower_check(t);
+  pl_tower_charge(t, PL_WORK_OF_PRODUCT + a->length * b->length);
   pl_poly* f = pl_poly_new(t);
   fmpz_mpoly_mul(f, a, b, &t->ctx);
   if (f->length > PL_MAX_TERMS) pl_tower_give_up(t);

@@ -104,6 +104,8 @@ static bool run_outermost(pl_tower* t, void (*body)(pl_tower*, void*), void* dat
 bool pl_tower_run(pl_tower* t, void (*body)(pl_tower* t, void* data), void* data) {
   int why = 0;
   if (t->entry) return run_once(t, body, data, &why);
+  // one budget for each service; when all of them together have used theirs, only small ones are done
+  t->work_left = t->work_done > PL_WORK_OF_ALL ? PL_WORK_OF_SMALL : PL_WORK_OF_SERVICE;
   pl_entry* const before = innermost;
   pl_tower_mark const mark = pl_tower_mark_now(t);
   volatile bool done = false;
@@ -129,6 +131,12 @@ _Noreturn void pl_tower_restart(pl_tower* t) {
   pl_entry* e = t->entry;
   while (e->outer) e = e->outer;
   longjmp(e->at, PL_J_RESTART);
+}
+
+void pl_tower_charge(pl_tower* t, long work) {
+  t->work_left -= work;
+  t->work_done += work;
+  if (t->work_left < 0) pl_tower_give_up(t);
 }
 
 void pl_tower_check(pl_tower* t) {

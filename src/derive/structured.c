@@ -294,6 +294,7 @@ static pl_expr on_level(pl_analysis* d, pl_expr e, int* bond) {   // bond and it
 static bool is_taken(pl_analysis* d, const char* letter, int n) {
   for (int j = 1; j <= n; j++) {
     if (pl_symbol_find(d->pool, pl_format(d->arena, "%s_%d", letter, j)).id) return true;
+    if (pl_symbol_find(d->pool, pl_format(d->arena, "%s%d", letter, j)).id) return true;   // how the model's A_1 is spelled
     if (pl_symbol_find(d->pool, pl_format(d->arena, "%s_%d%d", letter, j, j)).id) return true;
   }
   return pl_symbol_find(d->pool, letter).id != 0;
