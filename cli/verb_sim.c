@@ -11,6 +11,7 @@ const cli_flag flags_sim[] = {
   {"dt", 0, CLI_TEXT, CLI_AT(dt), "TIME", "distance of the rows; without it a row for each step"},
   {"tol", 0, CLI_TEXT, CLI_AT(tol), "NUMBER", "relative local error of a step"},
   {"method", 0, CLI_TEXT, CLI_AT(method), "NAME", "taylor, radau (implicit) or auto: radau where stiff"},
+  {"sensitivities", 0, CLI_TEXT, CLI_AT(sensitivities), "NAMES", "derivatives by these too: m2,x0"},
   CLI_FLAG_SET,
   {"events", 0, CLI_SWITCH, CLI_AT(events), NULL, "tell events only, not the accuracy"},
   CLI_FLAG_JSON,
@@ -82,6 +83,7 @@ int verb_sim(pleuel* ctx, const cli_options* o) {
     how.csv = to_file ? file.to : to_stdout ? stdout : NULL;
     how.progress = cli_progress;
     how.method = o->method;
+    how.sensitivities = o->sensitivities;
     pleuel_sim_summary summary;
     pleuel_status s = pleuel_simulate(m, &summary, &how);
     cli_progress_clear();

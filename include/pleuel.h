@@ -251,6 +251,8 @@ typedef struct pleuel_sim_options {
   void *user;
   const char *method;               /* "taylor": series; "radau": implicit, for stiff motions; "auto" (default): series,
                                      * implicit where that is far cheaper                                         */
+  const char *sensitivities;        /* "m2,x0": columns d(x)/d(m2), d(x)/d(x0) and so on, the derivatives of coordinates,
+                                     * velocities and multipliers by parameters and start values                  */
 } pleuel_sim_options;
 
 typedef struct pleuel_sim_summary {

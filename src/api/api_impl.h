@@ -27,6 +27,10 @@ typedef struct pl_recording {
   long count;
   pl_flat_coords flat;            // coordinate of each index of the setup
   int n_declared;                 // constraints before the map equations
+  // with sensitivities: coordinates stand in blocks of flat.n, the motion and its variation by turns
+  int n_directions;
+  const double *varied_q, *varied_v;   // variations of the start values that are given  (n_directions x flat.n)
+  const char* sensitivities;      // as asked for
 } pl_recording;
 
 enum { PL_STAGE_CHECK, PL_STAGE_DERIVE, PL_STAGE_RECORD, PL_STAGE_RUN, PL_N_STAGES };
@@ -70,7 +74,8 @@ pleuel_status pl_pipeline_start(pleuel_model* m, const pleuel_sim_options* o, pl
 pleuel_status pl_pipeline_run(pleuel_model* m, const pleuel_sim_options* o);
 
 // ---- record.c: model -> setup of the simulation
-pleuel_status pl_record(pl_job* job, pl_model* model, pl_recording** out);
+// sensitivities: names of parameters and start values (m2,x0) whose derivatives are columns too; NULL none.
+pleuel_status pl_record(pl_job* job, pl_model* model, const char* sensitivities, pl_recording** out);
 void pl_record_dump(pl_text* out, const pl_model* model, const pl_recording* r);
 
 // ---- views.c: the motion as it is looked at
@@ -92,6 +97,9 @@ pleuel_status pl_report_page(pleuel_model* m, pl_language lang, const pleuel_rep
 
 // ---- pictures.c: drawings, plots, animations
 pleuel_status pl_picture_plot(pleuel_model* m, pl_language lang, const pleuel_plot_options* o, const char** bytes, size_t* size);
+
+// The drawing of a model along its motion, or at its start when it has none; NULL when it cannot be drawn.
+pl_scene* pl_picture_scene(pleuel_model* m, pl_language lang);
 
 // ---- start_messages.c: a start that does not fit, as messages
 void pl_start_report_trouble(pleuel_model* m);

@@ -25,7 +25,7 @@ static const char* number(const pl_teller* t, double x, int digits) { return pl_
 static const char* coordinate_name(const pl_teller* t, int i) {
   const pl_recording* r = t->m->recording;
   const pl_pool* p = t->m->model->pool;
-  if (t->ascii || pl_kind_of(p, r->flat.at[i]) != PL_SYMBOL) return r->setup.coordinates[i].name;
+  if (t->ascii || i >= r->flat.n || pl_kind_of(p, r->flat.at[i]) != PL_SYMBOL) return r->setup.coordinates[i].name;
   return pl_symbol_get(p, pl_symbol_of(p, r->flat.at[i]))->name;
 }
 
@@ -35,7 +35,7 @@ enum { MOST_COORDINATES = 8, DIGITS = 6 };    // of a state shown on one line
 static void add_state(pl_teller* t, const double* row) {
   const pl_setup* s = &t->m->recording->setup;
   int shown = 0, column = 1;
-  for (int i = 0; i < s->n_q && shown < MOST_COORDINATES; i++) {
+  for (int i = 0; i < t->m->recording->flat.n && shown < MOST_COORDINATES; i++) {
     const pl_coordinate* q = &s->coordinates[i];
     if (q->hidden) continue;
     bool angle = q->unit && strcmp(q->unit, "rad") == 0;

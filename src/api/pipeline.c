@@ -77,8 +77,25 @@ pleuel_status pl_pipeline_record(pleuel_model* m) {
   PL_TRY(pl_pipeline_check(m));
   if (m->is_recorded) return m->recorded;
   double start = pl_clock();
-  m->recorded = pl_record(&m->job, m->model, &m->recording);
+  m->recorded = pl_record(&m->job, m->model, NULL, &m->recording);
   m->is_recorded = m->recorded != PLEUEL_INTERRUPTED;
+  note_time(m, PL_STAGE_RECORD, start);
+  return m->recorded;
+}
+
+// The same with derivatives by parameters and start values, if they are asked for: another setup of the same model.
+static pleuel_status record_varied(pleuel_model* m, const char* sensitivities) {
+  const char* known = m->is_recorded && m->recorded == PLEUEL_OK ? m->recording->sensitivities : NULL;
+  bool same = known == sensitivities || (known && sensitivities && strcmp(known, sensitivities) == 0);
+  if (m->is_recorded && m->recorded == PLEUEL_OK && !same) m->is_recorded = false;
+  if (!sensitivities) return pl_pipeline_record(m);
+  PL_TRY(pl_pipeline_check(m));
+  if (m->is_recorded && same) return m->recorded;
+  double start = pl_clock();
+  const char* copy = pl_copy(m->arena, sensitivities);
+  m->recorded = pl_record(&m->job, m->model, copy, &m->recording);
+  if (m->recorded == PLEUEL_OK) m->recording->sensitivities = copy;
+  m->is_recorded = m->recorded == PLEUEL_OK;
   note_time(m, PL_STAGE_RECORD, start);
   return m->recorded;
 }
@@ -132,6 +149,48 @@ static void watch(void* user, double t, double t_end, double h, const pl_stats* 
   w->options->progress(w->options->user, &p);
 }
 
+static pleuel_status start_plain(pleuel_model* m, pl_run* run) {
+  pleuel_status s = pl_run_start(run);
+  m->start = *pl_run_start_report(run);
+  return s;
+}
+
+// Positions and velocities of all blocks: the motion, and what is known of its variation.
+static pleuel_status start_blocks(pleuel_model* m, pl_run* run, double t, const double* q, const double* v) {
+  const pl_recording* r = m->recording;
+  size_t n = (size_t)r->flat.n, all = (size_t)r->setup.n_q;
+  double *q_all = PL_ARRAY(m->arena, double, all), *v_all = PL_ARRAY(m->arena, double, all);
+  bool *held_q = PL_ARRAY(m->arena, bool, all), *held_v = PL_ARRAY(m->arena, bool, all);
+  for (size_t k = 0; k < (size_t)r->n_directions; k++) {
+    for (size_t i = 0; i < n; i++) {
+      size_t of = 2 * k * n + i, delta = of + n;
+      q_all[of] = q[i];
+      v_all[of] = v[i];
+      held_q[of] = held_v[of] = true;
+      q_all[delta] = r->varied_q[k * n + i];
+      v_all[delta] = r->varied_v[k * n + i];
+      held_q[delta] = r->setup.coordinates[delta].has_q;
+      held_v[delta] = r->setup.coordinates[delta].has_v;
+    }
+  }
+  return pl_run_start_partly(run, t, q_all, v_all, held_q, held_v);
+}
+
+// The consistent start is found without variations, which follow from it.
+static pleuel_status start_varied(pleuel_model* m, const pl_run_options* how, pl_run* run) {
+  pl_recording* plain;
+  pl_run* first = NULL;
+  PL_TRY(pl_record(&m->job, m->model, NULL, &plain));
+  pl_run_options quiet = *how;
+  quiet.sink = (pl_sink){0};
+  quiet.progress = NULL;
+  pleuel_status s = pl_run_make(&m->job, &plain->setup, &quiet, &first);
+  if (s == PLEUEL_OK) s = start_plain(m, first);
+  if (s == PLEUEL_OK) s = start_blocks(m, run, pl_run_time(first), pl_run_q(first), pl_run_v(first));
+  pl_run_free(first);
+  return s;
+}
+
 static bool method_named(const char* name, pl_method* out) {
   static const char* const names[] = {[PL_METHOD_TAYLOR] = "taylor", [PL_METHOD_RADAU] = "radau", [PL_METHOD_AUTO] = "auto"};
   for (int i = 0; i < 3; i++) {
@@ -144,7 +203,7 @@ static bool method_named(const char* name, pl_method* out) {
 
 // setup -> run with a consistent start.  Without sink: to look at the start only.
 pleuel_status pl_pipeline_start(pleuel_model* m, const pleuel_sim_options* o, pl_run** out) {
-  PL_TRY(pl_pipeline_record(m));
+  PL_TRY(record_varied(m, o->sensitivities));
   const pl_recording* r = m->recording;
   pl_run_options how = {.t_0 = r->t_0, .t_end = r->t_end, .tol = r->tol, .dt = r->dt, .count = r->count};
   how.method = PL_METHOD_AUTO;
@@ -169,8 +228,7 @@ pleuel_status pl_pipeline_start(pleuel_model* m, const pleuel_sim_options* o, pl
     how.progress_user = w;
   }
   PL_TRY(pl_run_make(&m->job, &r->setup, &how, out));
-  pleuel_status s = pl_run_start(*out);
-  m->start = *pl_run_start_report(*out);
+  pleuel_status s = r->n_directions ? start_varied(m, &how, *out) : start_plain(m, *out);
   m->tol_raised = pl_run_tol_raised(*out);
   m->tol_used = pl_run_tol(*out);
   if (s == PLEUEL_CONTRADICTION) pl_start_report_trouble(m);
@@ -215,7 +273,7 @@ pleuel_status pl_pipeline_run(pleuel_model* m, const pleuel_sim_options* o) {
   m->is_run = true;
   m->result = NULL;
   m->run_message[0] = '\0';
-  m->run = pl_pipeline_record(m);
+  m->run = record_varied(m, o->sensitivities);
   if (m->run == PLEUEL_OK) m->run = check_times(m, o);
   if (m->run != PLEUEL_OK) {
     snprintf(m->run_message, sizeof m->run_message, "%s", m->job.message);

@@ -87,7 +87,7 @@ static void collect(pl_recorder* r, pl_group* g, pl_expr e) {
 void pl_group_atoms(pl_recorder* r, pl_group* g, pl_expr e) { collect(r, g, e); }
 
 // Global index of an atom in an instance; -1 when there is no such coordinate.
-static int global_of(pl_recorder* r, pl_expr atom) {
+int pl_record_global(pl_recorder* r, pl_expr atom) {
   pl_expr element = atom;
   if (pl_kind_of(r->pool, atom) == PL_AT) {
     long k;
@@ -158,7 +158,6 @@ static pleuel_status make_groups(pl_recorder* r) {
         collect(r, g, m->choose.maps[k].map);
       }
     }
-    PL_TRY(pl_group_friction(r, g));
     pl_group_forces(r, g);
   }
   return PLEUEL_OK;
@@ -178,7 +177,7 @@ pleuel_status pl_record_place(pl_recorder* r, pl_group* g, pl_pattern_source* s)
   for (int i = 0; i < s->n; i++) {
     set_indices(r, &g->instances, i);
     for (int k = 0; k < g->atoms.n; k++) {
-      int at = global_of(r, g->atoms.at[k]);
+      int at = pl_record_global(r, g->atoms.at[k]);
       if (at < 0) return no_such(r, g->atoms.at[k]);
       q[i * g->atoms.n + k] = at;
     }
@@ -212,89 +211,42 @@ static pl_expr map_equation(pl_recorder* r, int k) {
   return pl_sub(r->pool, r->model->choose.maps[k].old, r->model->choose.maps[k].map);
 }
 
-// The constraints of a group: declared ones, map equations, then the rows of slip.
-typedef struct pl_rows_of_group {
-  int n, n_declared, n_maps;
-  pl_expr *constraint, *lambda;
-  bool* velocity;
-  int* c;                     // link of each, instance by instance
-} pl_rows_of_group;
-
-static void list_slip(pl_recorder* r, const pl_group* g, pl_rows_of_group* rows, int k) {
-  for (int i = 0; i < g->rubs.n; i++) {
-    const pl_rub_source* s = r->rubs.at[g->rubs.at[i]];
-    for (int j = 0; j < s->n_rows; j++, k++) {
-      rows->constraint[k] = s->slip[j];
-      rows->velocity[k] = true;
-      rows->lambda[k] = pl_poison();
-      for (int in = 0; in < g->instances.n; in++) rows->c[in * rows->n + k] = s->first_row + in * s->n_rows + j;
-    }
-  }
-}
-
-static void list_rows(pl_recorder* r, const pl_group* g, pl_rows_of_group* rows) {
+static pleuel_status record_group(pl_recorder* r, pl_group* g, pl_pattern* out) {
   const pl_model* m = r->model;
-  *rows = (pl_rows_of_group){.n_declared = g->constraints.n, .n_maps = g->block ? 0 : m->choose.n_maps};
-  rows->n = rows->n_declared + rows->n_maps;
-  for (int i = 0; i < g->rubs.n; i++) rows->n += r->rubs.at[g->rubs.at[i]]->n_rows;
-  rows->constraint = PL_ARRAY(r->arena, pl_expr, rows->n + 1);
-  rows->lambda = PL_ARRAY(r->arena, pl_expr, rows->n + 1);
-  rows->velocity = PL_ARRAY(r->arena, bool, rows->n + 1);
-  rows->c = PL_ARRAY(r->arena, int, (size_t)g->instances.n * (size_t)rows->n + 1);
-  for (int k = 0; k < rows->n_declared + rows->n_maps; k++) {
+  int n_maps = g->block ? 0 : m->choose.n_maps;
+  int n_c = g->constraints.n + n_maps;
+  pl_expr* constraint = PL_ARRAY(r->arena, pl_expr, n_c + 1);
+  pl_expr* lambda = PL_ARRAY(r->arena, pl_expr, n_c + 1);
+  bool* velocity = PL_ARRAY(r->arena, bool, n_c + 1);
+  int* c = PL_ARRAY(r->arena, int, (size_t)g->instances.n * (size_t)n_c + 1);
+  for (int k = 0; k < n_c; k++) {
     bool is_map = k >= g->constraints.n;
     const pl_constraint* source = is_map ? NULL : &m->constraints.at[g->constraints.at[k]];
-    rows->constraint[k] = is_map ? map_equation(r, k - g->constraints.n) : pl_record_plain(r, source->g);
-    rows->velocity[k] = !is_map && source->has_velocity;
-    rows->lambda[k] = is_map || !source->lambda.id ? pl_poison() : pl_sym(r->pool, source->lambda);
+    constraint[k] = is_map ? map_equation(r, k - g->constraints.n) : pl_record_plain(r, source->g);
+    velocity[k] = !is_map && source->has_velocity;
+    lambda[k] = is_map || !source->lambda.id ? pl_poison() : pl_sym(r->pool, source->lambda);
     int first = is_map ? r->out->n_declared + k - g->constraints.n : r->first_link[g->constraints.at[k]];
-    for (int i = 0; i < g->instances.n; i++) rows->c[i * rows->n + k] = is_map ? first : first + i;
+    for (int i = 0; i < g->instances.n; i++) c[i * n_c + k] = is_map ? first : first + i;
+    if (pl_is_poison(constraint[k])) return pl_fail(r->job, PLEUEL_UNSUPPORTED, "a constraint has no value everywhere");
   }
-  list_slip(r, g, rows, rows->n_declared + rows->n_maps);
-}
-
-// Coefficients of friction are outputs of the pattern.
-static void list_coefficients(pl_recorder* r, const pl_group* g, pl_pattern_source* s) {
-  int n = 0;
-  for (int i = 0; i < g->rubs.n; i++) n += r->rubs.at[g->rubs.at[i]]->n_coefficients;
-  pl_expr* output = PL_ARRAY(r->arena, pl_expr, n + 1);
-  int* out = PL_ARRAY(r->arena, int, (size_t)g->instances.n * (size_t)n + 1);
-  int k = 0;
-  for (int i = 0; i < g->rubs.n; i++) {
-    const pl_rub_source* rub = r->rubs.at[g->rubs.at[i]];
-    for (int j = 0; j < rub->n_coefficients; j++, k++) {
-      output[k] = pl_record_plain(r, pl_rub_coefficient(rub, j));
-      for (int in = 0; in < g->instances.n; in++) out[in * n + k] = rub->first_coefficient + in * rub->n_coefficients + j;
-    }
-  }
-  s->n_outputs = n;
-  s->output = output;
-  s->out = out;
-}
-
-static pleuel_status record_group(pl_recorder* r, pl_group* g, pl_pattern* out) {
-  pl_rows_of_group rows;
-  list_rows(r, g, &rows);
-  for (int k = 0; k < rows.n; k++)
-    if (pl_is_poison(rows.constraint[k])) return pl_fail(r->job, PLEUEL_UNSUPPORTED, "a constraint has no value everywhere");
   pl_expr L = pl_add(r->pool, g->L, pl_sub(r->pool, g->T, g->V));
   PL_TRY(pl_record_check(r, &L, 1));
   PL_TRY(pl_record_check(r, g->force, g->atoms.n));
-  PL_TRY(pl_record_check(r, rows.constraint, rows.n));
-  pl_pattern_source s = {.lagrangian = L, .force = g->force, .constraint = rows.constraint, .velocity = rows.velocity,
-                         .n = g->instances.n, .c = rows.c};
-  list_coefficients(r, g, &s);
-  PL_TRY(pl_record_check(r, s.output, s.n_outputs));
-  pl_record_slots(r, g, rows.lambda, rows.n, &s.slots);
+  PL_TRY(pl_record_check(r, constraint, n_c));
+  pl_pattern_source s = {.lagrangian = L, .force = g->force, .constraint = constraint, .velocity = velocity,
+                         .n = g->instances.n, .c = c};
+  pl_record_slots(r, g, lambda, n_c, &s.slots);
   PL_TRY(pl_record_place(r, g, &s));
-  return pl_pattern_record(r->job, r->pool, &s, out);
+  return r->variation ? pl_variation_record(r, g, &s, out) : pl_pattern_record(r->job, r->pool, &s, out);
 }
 
 static pleuel_status record_patterns(pl_recorder* r) {
-  pl_pattern* p = PL_ARRAY(r->arena, pl_pattern, r->groups.n);
-  int n = 0;
+  int each = pl_variation_count(r), n = 0;
+  pl_pattern* p = PL_ARRAY(r->arena, pl_pattern, r->groups.n * each);
   for (int i = 0; i < r->groups.n; i++) {
-    if (r->groups.at[i]->instances.n > 0) PL_TRY(record_group(r, r->groups.at[i], &p[n++]));
+    if (r->groups.at[i]->instances.n == 0) continue;
+    PL_TRY(record_group(r, r->groups.at[i], &p[n]));
+    n += each;
   }
   r->out->setup.patterns = p;
   r->out->setup.n_patterns = n;
@@ -331,21 +283,6 @@ int pl_record_link(pl_recorder* r, const char* label) {
 
 static void name_links(pl_recorder* r, int i, pl_link* link) {
   const pl_constraint* c = &r->model->constraints.at[i];
-// Whether the left side of a constraint is a distance or its square: a sum of squares, or the root of one.
-static bool is_distance(pl_recorder* r, const pl_constraint* c) {
-  pl_pool* p = r->pool;
-  pl_expr e = c->left;
-  if (pl_kind_of(p, e) == PL_POW && !pl_is_int(p, pl_arg(p, e, 1), &(long){0})) e = pl_arg(p, e, 0);
-  if (pl_kind_of(p, e) == PL_POW) return pl_is_int(p, pl_arg(p, e, 1), &(long){0});
-  if (pl_kind_of(p, e) != PL_ADD) return false;
-  for (int i = 0; i < pl_n_args(p, e); i++) {
-    long n = 0;
-    pl_expr term = pl_arg(p, e, i);
-    if (pl_kind_of(p, term) != PL_POW || !pl_is_int(p, pl_arg(p, term, 1), &n) || n != 2) return false;
-  }
-  return true;
-}
-
   pl_group* g;
   if (group_for(r, c->block, &g) != PLEUEL_OK) return;
   const char* own = c->multiplier ? pl_plain_ascii(r->arena, c->multiplier) : NULL;
@@ -365,7 +302,6 @@ static bool is_distance(pl_recorder* r, const pl_constraint* c) {
     out->off = c->off;
     const pl_restitution* bounce = pl_model_restitution(r->model, c);
     out->restitution = bounce ? pl_record_number(r, bounce->value) : 0;
-    out->rope = out->side < 0 && is_distance(r, c);
     out->minus = r->model->lambda_minus;
   }
 }
@@ -406,13 +342,12 @@ static void make_links(pl_recorder* r) {
   }
   r->out->setup.links = link;
   r->out->setup.n_c = r->n_links;
-  pl_record_rubs(r, link);
 }
 
 // ---------------------------------------------------------------------------------------------- start values
 
 // The value with elements of families replaced by their start values where they are known.
-static pl_expr with_elements(pl_recorder* r, pl_expr e, const pl_coordinate* q) {
+pl_expr pl_record_with_elements(pl_recorder* r, pl_expr e, const pl_coordinate* q) {
   pl_group* g = PL_NEW(r->arena, pl_group);
   g->atom_at = pl_map_make(r->arena);
   g->seen = pl_map_make(r->arena);
@@ -421,7 +356,7 @@ static pl_expr with_elements(pl_recorder* r, pl_expr e, const pl_coordinate* q) 
   r->explicit_time = time;
   for (int i = 0; i < g->atoms.n; i++) {
     if (pl_kind_of(r->pool, g->atoms.at[i]) != PL_AT) continue;
-    int at = global_of(r, g->atoms.at[i]);
+    int at = pl_record_global(r, g->atoms.at[i]);
     if (at < 0 || !q[at].has_q) return pl_poison();
     char text[32];
     pl_double_text(text, q[at].q);
@@ -434,13 +369,14 @@ static pl_expr with_elements(pl_recorder* r, pl_expr e, const pl_coordinate* q) 
 
 // Takes over one start value if everything that it depends on is known.
 static bool take_start(pl_recorder* r, const pl_start_value* s, pl_coordinate* q) {
-  double x = pl_record_number(r, with_elements(r, s->value, q));
+  double x = pl_record_number(r, pl_record_with_elements(r, s->value, q));
   if (!isfinite(x)) return false;
   pl_coordinate* c = &q[s->at];
   if (s->guess && s->velocity) c->has_v_guess = true, c->v_guess = x;
   else if (s->guess) c->has_guess = true, c->guess = x;
   else if (s->velocity) c->has_v = true, c->v = x;
   else c->has_q = true, c->q = x;
+  if (r->variation && !s->guess) pl_variation_of_start(r, s);
   pl_expr atom = r->out->flat.at[s->at];
   if (!s->guess && pl_kind_of(r->pool, atom) == PL_SYMBOL) {
     pl_symbol name = s->velocity ? pl_symbol_dot(r->pool, pl_symbol_of(r->pool, atom)) : pl_symbol_of(r->pool, atom);
@@ -460,7 +396,7 @@ pleuel_status pl_record_target(pl_recorder* r, pl_expr target, pl_start_value* o
     out->velocity = info->role == PL_R_VELOCITY;
     if (out->velocity) atom = pl_sym(p, info->base);
   }
-  out->at = global_of(r, atom);
+  out->at = pl_record_global(r, atom);
   return out->at < 0 ? no_such(r, atom) : PLEUEL_OK;
 }
 
@@ -505,8 +441,8 @@ static pleuel_status make_starts(pl_recorder* r, pl_coordinate* q) {
 static pleuel_status make_coordinates(pl_recorder* r) {
   pl_coordinate* q = PL_ARRAY(r->arena, pl_coordinate, r->out->flat.n + 1);
   for (int i = 0; i < r->out->flat.n; i++) name_coordinate(r, r->out->flat.at[i], &q[i]);
-  PL_TRY(make_starts(r, q));
   r->out->setup.coordinates = q;
+  PL_TRY(make_starts(r, q));
   r->out->setup.n_q = r->out->flat.n;
   return PLEUEL_OK;
 }
@@ -523,7 +459,7 @@ static void read_times(pl_recorder* r) {
   out->count = s->given ? s->count : 0;
 }
 
-pleuel_status pl_record(pl_job* job, pl_model* model, pl_recording** out) {
+pleuel_status pl_record(pl_job* job, pl_model* model, const char* sensitivities, pl_recording** out) {
   pl_arena* a = job->arena;
   pl_recorder r = {.job = job, .arena = a, .model = model, .pool = model->pool, .out = PL_NEW(a, pl_recording)};
   r.out->flat = pl_model_flat_coords(model, a);
@@ -532,6 +468,7 @@ pleuel_status pl_record(pl_job* job, pl_model* model, pl_recording** out) {
     pl_map_set(r.flat_at, r.out->flat.at[i].id, (uint64_t)i + 1);
     pl_symbol_dot(r.pool, pl_symbol_dot(r.pool, pl_symbol_of(r.pool, r.out->flat.at[i])));   // so that the values below have room
   }
+  if (sensitivities) PL_TRY(pl_variation_begin(&r, sensitivities));
   r.value = pl_model_values(model, a);
   r.n_value = pl_symbol_count(r.pool) + 1;
   read_times(&r);
@@ -543,6 +480,7 @@ pleuel_status pl_record(pl_job* job, pl_model* model, pl_recording** out) {
   PL_TRY(pl_record_observers(&r));
   PL_TRY(pl_record_events(&r));
   PL_TRY(pl_record_branches(&r));
+  if (r.variation) PL_TRY(pl_variation_setup(&r));
   *out = r.out;
   return PLEUEL_OK;
 }

@@ -193,9 +193,9 @@ static void first_mode(pl_run* run) {
   }
 }
 
-// The implicit method knows no contacts.
+// The implicit method knows no contacts and no friction.
 static bool has_contacts(const pl_setup* s) {
-  bool found = false;
+  bool found = s->n_rubs > 0;
   for (int c = 0; c < s->n_c; c++) found |= s->links[c].side != 0 || s->links[c].off;
   for (int e = 0; e < s->n_events; e++)
     for (int i = 0; i < s->events[e].n_deeds; i++) {
@@ -210,7 +210,8 @@ static pleuel_status make_implicit(pl_run* run) {
   if (method == PL_METHOD_TAYLOR) return PLEUEL_OK;
   if (has_contacts(run->setup)) {
     if (method == PL_METHOD_AUTO) return PLEUEL_OK;
-    return pl_fail(run->job, PLEUEL_UNSUPPORTED, "the implicit method does not follow contacts that open and close: use the series");
+    return pl_fail(run->job, PLEUEL_UNSUPPORTED,
+                   "the implicit method follows no contacts that open and close, and no friction: use the series");
   }
   double tol = run->options.tol;
   bool chosen = method == PL_METHOD_RADAU;
@@ -218,8 +219,8 @@ static pleuel_status make_implicit(pl_run* run) {
                             chosen ? PL_RADAU_UP_TO : PL_RADAU_AUTO_UP_TO);
   run->implicit = fits && chosen;
   if (fits || method == PL_METHOD_AUTO) return PLEUEL_OK;
-  return pl_fail(run->job, PLEUEL_UNSUPPORTED, "the implicit method takes at most %d coordinates and multipliers: use the series",
-                 PL_RADAU_UP_TO);
+  return pl_fail(run->job, PLEUEL_UNSUPPORTED,
+                 "the implicit method takes at most %d coordinates and multipliers: use the series", PL_RADAU_UP_TO);
 }
 
 pleuel_status pl_run_make(pl_job* job, const pl_setup* setup, const pl_run_options* options, pl_run** out) {

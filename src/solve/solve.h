@@ -266,6 +266,11 @@ const pl_start_report* pl_run_start_report(const pl_run* run);
 // pl_run_start_at starts from these numbers, which must be consistent to 1e-9; they are projected.
 pleuel_status pl_run_start_at(pl_run* run, double t, const double* q, const double* v);
 
+// pl_run_start_partly starts from numbers of which those held are right; the others, in which the constraints must be
+// linear, move by the least that meets the constraints.
+pleuel_status pl_run_start_partly(pl_run* run, double t, const double* q, const double* v, const bool* held_q,
+                                  const bool* held_v);
+
 // pl_run_step takes one accepted step, not beyond t_end, with everything that happens in it.
 // Status: PLEUEL_SINGULAR, PLEUEL_NUMERICAL, PLEUEL_INTERRUPTED (job->interrupted), or what the sink returned.
 pleuel_status pl_run_step(pl_run* run);
