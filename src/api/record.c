@@ -158,6 +158,7 @@ static pleuel_status make_groups(pl_recorder* r) {
         collect(r, g, m->choose.maps[k].map);
       }
     }
+    PL_TRY(pl_group_friction(r, g));
     pl_group_forces(r, g);
   }
   return PLEUEL_OK;
@@ -211,31 +212,80 @@ static pl_expr map_equation(pl_recorder* r, int k) {
   return pl_sub(r->pool, r->model->choose.maps[k].old, r->model->choose.maps[k].map);
 }
 
-static pleuel_status record_group(pl_recorder* r, pl_group* g, pl_pattern* out) {
+// The constraints of a group: declared ones, map equations, then the rows of slip.
+typedef struct pl_rows_of_group {
+  int n, n_declared, n_maps;
+  pl_expr *constraint, *lambda;
+  bool* velocity;
+  int* c;                     // link of each, instance by instance
+} pl_rows_of_group;
+
+static void list_slip(pl_recorder* r, const pl_group* g, pl_rows_of_group* rows, int k) {
+  for (int i = 0; i < g->rubs.n; i++) {
+    const pl_rub_source* s = r->rubs.at[g->rubs.at[i]];
+    for (int j = 0; j < s->n_rows; j++, k++) {
+      rows->constraint[k] = s->slip[j];
+      rows->velocity[k] = true;
+      rows->lambda[k] = pl_poison();
+      for (int in = 0; in < g->instances.n; in++) rows->c[in * rows->n + k] = s->first_row + in * s->n_rows + j;
+    }
+  }
+}
+
+static void list_rows(pl_recorder* r, const pl_group* g, pl_rows_of_group* rows) {
   const pl_model* m = r->model;
-  int n_maps = g->block ? 0 : m->choose.n_maps;
-  int n_c = g->constraints.n + n_maps;
-  pl_expr* constraint = PL_ARRAY(r->arena, pl_expr, n_c + 1);
-  pl_expr* lambda = PL_ARRAY(r->arena, pl_expr, n_c + 1);
-  bool* velocity = PL_ARRAY(r->arena, bool, n_c + 1);
-  int* c = PL_ARRAY(r->arena, int, (size_t)g->instances.n * (size_t)n_c + 1);
-  for (int k = 0; k < n_c; k++) {
+  *rows = (pl_rows_of_group){.n_declared = g->constraints.n, .n_maps = g->block ? 0 : m->choose.n_maps};
+  rows->n = rows->n_declared + rows->n_maps;
+  for (int i = 0; i < g->rubs.n; i++) rows->n += r->rubs.at[g->rubs.at[i]]->n_rows;
+  rows->constraint = PL_ARRAY(r->arena, pl_expr, rows->n + 1);
+  rows->lambda = PL_ARRAY(r->arena, pl_expr, rows->n + 1);
+  rows->velocity = PL_ARRAY(r->arena, bool, rows->n + 1);
+  rows->c = PL_ARRAY(r->arena, int, (size_t)g->instances.n * (size_t)rows->n + 1);
+  for (int k = 0; k < rows->n_declared + rows->n_maps; k++) {
     bool is_map = k >= g->constraints.n;
     const pl_constraint* source = is_map ? NULL : &m->constraints.at[g->constraints.at[k]];
-    constraint[k] = is_map ? map_equation(r, k - g->constraints.n) : pl_record_plain(r, source->g);
-    velocity[k] = !is_map && source->has_velocity;
-    lambda[k] = is_map || !source->lambda.id ? pl_poison() : pl_sym(r->pool, source->lambda);
+    rows->constraint[k] = is_map ? map_equation(r, k - g->constraints.n) : pl_record_plain(r, source->g);
+    rows->velocity[k] = !is_map && source->has_velocity;
+    rows->lambda[k] = is_map || !source->lambda.id ? pl_poison() : pl_sym(r->pool, source->lambda);
     int first = is_map ? r->out->n_declared + k - g->constraints.n : r->first_link[g->constraints.at[k]];
-    for (int i = 0; i < g->instances.n; i++) c[i * n_c + k] = is_map ? first : first + i;
-    if (pl_is_poison(constraint[k])) return pl_fail(r->job, PLEUEL_UNSUPPORTED, "a constraint has no value everywhere");
+    for (int i = 0; i < g->instances.n; i++) rows->c[i * rows->n + k] = is_map ? first : first + i;
   }
+  list_slip(r, g, rows, rows->n_declared + rows->n_maps);
+}
+
+// Coefficients of friction are outputs of the pattern.
+static void list_coefficients(pl_recorder* r, const pl_group* g, pl_pattern_source* s) {
+  int n = 0;
+  for (int i = 0; i < g->rubs.n; i++) n += r->rubs.at[g->rubs.at[i]]->n_coefficients;
+  pl_expr* output = PL_ARRAY(r->arena, pl_expr, n + 1);
+  int* out = PL_ARRAY(r->arena, int, (size_t)g->instances.n * (size_t)n + 1);
+  int k = 0;
+  for (int i = 0; i < g->rubs.n; i++) {
+    const pl_rub_source* rub = r->rubs.at[g->rubs.at[i]];
+    for (int j = 0; j < rub->n_coefficients; j++, k++) {
+      output[k] = pl_record_plain(r, pl_rub_coefficient(rub, j));
+      for (int in = 0; in < g->instances.n; in++) out[in * n + k] = rub->first_coefficient + in * rub->n_coefficients + j;
+    }
+  }
+  s->n_outputs = n;
+  s->output = output;
+  s->out = out;
+}
+
+static pleuel_status record_group(pl_recorder* r, pl_group* g, pl_pattern* out) {
+  pl_rows_of_group rows;
+  list_rows(r, g, &rows);
+  for (int k = 0; k < rows.n; k++)
+    if (pl_is_poison(rows.constraint[k])) return pl_fail(r->job, PLEUEL_UNSUPPORTED, "a constraint has no value everywhere");
   pl_expr L = pl_add(r->pool, g->L, pl_sub(r->pool, g->T, g->V));
   PL_TRY(pl_record_check(r, &L, 1));
   PL_TRY(pl_record_check(r, g->force, g->atoms.n));
-  PL_TRY(pl_record_check(r, constraint, n_c));
-  pl_pattern_source s = {.lagrangian = L, .force = g->force, .constraint = constraint, .velocity = velocity,
-                         .n = g->instances.n, .c = c};
-  pl_record_slots(r, g, lambda, n_c, &s.slots);
+  PL_TRY(pl_record_check(r, rows.constraint, rows.n));
+  pl_pattern_source s = {.lagrangian = L, .force = g->force, .constraint = rows.constraint, .velocity = rows.velocity,
+                         .n = g->instances.n, .c = rows.c};
+  list_coefficients(r, g, &s);
+  PL_TRY(pl_record_check(r, s.output, s.n_outputs));
+  pl_record_slots(r, g, rows.lambda, rows.n, &s.slots);
   PL_TRY(pl_record_place(r, g, &s));
   return r->variation ? pl_variation_record(r, g, &s, out) : pl_pattern_record(r->job, r->pool, &s, out);
 }
@@ -281,6 +331,21 @@ int pl_record_link(pl_recorder* r, const char* label) {
   return c ? r->first_link[c - r->model->constraints.at] : -1;
 }
 
+// Whether the left side of a constraint is a distance or its square: a sum of squares, or the root of one.
+static bool is_distance(pl_recorder* r, const pl_constraint* c) {
+  pl_pool* p = r->pool;
+  pl_expr e = c->left;
+  if (pl_kind_of(p, e) == PL_POW && !pl_is_int(p, pl_arg(p, e, 1), &(long){0})) e = pl_arg(p, e, 0);
+  if (pl_kind_of(p, e) == PL_POW) return pl_is_int(p, pl_arg(p, e, 1), &(long){0});
+  if (pl_kind_of(p, e) != PL_ADD) return false;
+  for (int i = 0; i < pl_n_args(p, e); i++) {
+    long n = 0;
+    pl_expr term = pl_arg(p, e, i);
+    if (pl_kind_of(p, term) != PL_POW || !pl_is_int(p, pl_arg(p, term, 1), &n) || n != 2) return false;
+  }
+  return true;
+}
+
 static void name_links(pl_recorder* r, int i, pl_link* link) {
   const pl_constraint* c = &r->model->constraints.at[i];
   pl_group* g;
@@ -300,6 +365,7 @@ static void name_links(pl_recorder* r, int i, pl_link* link) {
     out->side = c->relation == PL_GE || c->relation == PL_GT ? 1 : c->relation == PL_LE || c->relation == PL_LT ? -1 : 0;
     out->contact = pl_record_link(r, c->while_label);
     out->off = c->off;
+    out->rope = out->side < 0 && is_distance(r, c);
     const pl_restitution* bounce = pl_model_restitution(r->model, c);
     out->restitution = bounce ? pl_record_number(r, bounce->value) : 0;
     out->minus = r->model->lambda_minus;
@@ -340,6 +406,7 @@ static void make_links(pl_recorder* r) {
     out->priority = 1;
     out->contact = contact_of_map(r, k);
   }
+  pl_record_rubs(r, link);
   r->out->setup.links = link;
   r->out->setup.n_c = r->n_links;
 }
@@ -469,6 +536,7 @@ pleuel_status pl_record(pl_job* job, pl_model* model, const char* sensitivities,
     pl_symbol_dot(r.pool, pl_symbol_dot(r.pool, pl_symbol_of(r.pool, r.out->flat.at[i])));   // so that the values below have room
   }
   if (sensitivities) PL_TRY(pl_variation_begin(&r, sensitivities));
+  pl_record_rub_symbols(&r);
   r.value = pl_model_values(model, a);
   r.n_value = pl_symbol_count(r.pool) + 1;
   read_times(&r);
