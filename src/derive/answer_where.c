@@ -43,7 +43,11 @@ static bool collect(pl_analysis* d, const pl_ask* ask, pl_where* p) {
   if (ask->where.n > max_conditions) return false;
   for (int k = 0; k < ask->where.n; k++) {
     const pl_condition* c = &ask->where.at[k];
-    if (pin_of(d, c, &p->pin[p->n_pins])) {
+    pl_replace pin;
+    bool pinned = pin_of(d, c, &pin);
+    for (int j = 0; j < p->n_pins && pinned; j++) pinned = p->pin[j].from.id != pin.from.id;   // twice: an equation
+    if (pinned) {
+      p->pin[p->n_pins] = pin;
       p->n_pins++;
     } else {
       p->equation[p->n++] = on_motion(d, pl_sub(d->pool, c->left, c->right));

@@ -224,6 +224,13 @@ static pl_quantity call_diff(pl_lower* l, const call* c) {
       f.at[i] = pl_sym(l->pool, pl_model_result_derivative(l->m, PL_RES_DIFF, f.at[i], pl_symbol_of(l->pool, x)));
       continue;
     }
+    bool of_motion = pl_has_role(l->pool, f.at[i], PL_R_MULTIPLIER) || pl_has_role(l->pool, f.at[i], PL_R_ACCELERATION);
+    bool own = kind == PL_SYMBOL && pl_has_symbol(l->pool, f.at[i], pl_symbol_of(l->pool, x));
+    if (of_motion && !own) {
+      pl_lower_complain(l, PL_E017, span_of(c), "accelerations and multipliers hang on the motion and cannot be derived here",
+                        "Beschleunigungen und Multiplikatoren hängen an der Bewegung und lassen sich hier nicht ableiten");
+      return pl_quantity_bad();
+    }
     f.at[i] = kind == PL_SYMBOL ? pl_diff(l->pool, f.at[i], pl_symbol_of(l->pool, x)) : pl_diff_at(l->pool, f.at[i], x);
   }
   return f;
