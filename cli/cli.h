@@ -125,10 +125,11 @@ int verb_export(pleuel* ctx, const cli_options* o);
 int verb_tex(pleuel* ctx, const cli_options* o);
 int verb_report(pleuel* ctx, const cli_options* o);
 int verb_plot(pleuel* ctx, const cli_options* o);
+int verb_animate(pleuel* ctx, const cli_options* o);
 int verb_dump(pleuel* ctx, const cli_options* o);
 int verb_completion(pleuel* ctx, const cli_options* o);
 int verb_help(pleuel* ctx, const cli_options* o);
 extern const cli_flag flags_solve[], flags_check[], flags_sim[], flags_fmt[], flags_new[], flags_examples[], flags_explain[],
-    flags_units[], flags_export[], flags_tex[], flags_report[], flags_plot[], flags_dump[], flags_completion[], flags_help[];
+    flags_units[], flags_export[], flags_tex[], flags_report[], flags_plot[], flags_animate[], flags_dump[], flags_completion[], flags_help[];
 
 #endif

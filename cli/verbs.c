@@ -15,6 +15,8 @@ const cli_verb cli_verbs[] = {
    "The page needs nothing beside it and loads nothing. Its derivation needs no script."},
   {"plot", "FILE", "the drawing of the system and plots of its motion", flags_plot, verb_plot,
    "Each `plot` line of the model is a panel. A model without `simulate` is drawn at its start."},
+  {"animate", "FILE", "the motion as a film: SVG that runs by itself, GIF, MP4", flags_animate, verb_animate,
+   "MP4 is made by the program ffmpeg. What is shown lasts as long as the motion, but between 3 s and 12 s."},
   {"fmt", "FILE...", "canonical layout, in place; - formats stdin to stdout", flags_fmt, verb_fmt, NULL},
   {"new", "NAME", "write a commented model NAME.pleuel to start from", flags_new, verb_new, NULL},
   {"examples", "[NAME...]", "list the built-in examples, or print one", flags_examples, verb_examples,
@@ -42,7 +44,6 @@ const cli_verb* cli_verb_find(const char* name) {
 
 const char* cli_later_verb(const char* name) {
   static const char* const later[][2] = {
-    {"animate", "moving pictures"},
     {"sweep", "parameter grids"},
     {"studio", "the workbench in the browser"},
     {"lsp", "the editor server"},

@@ -295,6 +295,27 @@ typedef struct pleuel_plot_options {
  * format that this build cannot write; a motion that ends early is drawn as far as it goes. */
 pleuel_status pleuel_plot(pleuel_model *model, const char **bytes, size_t *n, const pleuel_plot_options *options);
 
+typedef struct pleuel_animate_options {
+  size_t size;
+  const char *lang;          /* "en", "de"; default: that of the file, then that of the context        */
+  pleuel_picture format;     /* SVG, which runs by itself, or GIF, which needs a build with cairo       */
+  pleuel_style style;
+  int width, height;         /* pixels; 0: 480 x 440                                                    */
+  int forces;                /* 1: with force arrows                                                    */
+  double fps;                /* frames per second; 0: 15                                                */
+  double seconds;            /* how long it lasts; 0: as the motion, but between 3 s and 12 s           */
+  int has_until;             /* 1: the member below is given, else the file decides                     */
+  double until;              /* end of the motion, s                                                    */
+  /* frame, if given, is handed each frame instead: 0x00RRGGBB, row by row from the top; for the makers of films.  A result
+   * other than 0 stops with PLEUEL_INTERRUPTED.  Needs a build with cairo. */
+  int (*frame)(void *user, const unsigned *pixels, int width, int height);
+  void *user;
+} pleuel_animate_options;
+
+/* pleuel_animate shows the motion as a film.  *bytes is the file, *n its size, owned by the model; both stay NULL and 0
+ * when `frame` is given.  Status as pleuel_plot; PLEUEL_USAGE when nothing says how long the motion lasts. */
+pleuel_status pleuel_animate(pleuel_model *model, const char **bytes, size_t *n, const pleuel_animate_options *options);
+
 /* ------------------------------------------------------------------------------------------------ more */
 
 typedef enum pleuel_spelling { PLEUEL_SPELL_KEEP = 0, PLEUEL_SPELL_UNICODE, PLEUEL_SPELL_ASCII } pleuel_spelling;

@@ -97,6 +97,7 @@ pleuel_status pl_report_page(pleuel_model* m, pl_language lang, const pleuel_rep
 
 // ---- pictures.c: drawings, plots, animations
 pleuel_status pl_picture_plot(pleuel_model* m, pl_language lang, const pleuel_plot_options* o, const char** bytes, size_t* size);
+pleuel_status pl_picture_animate(pleuel_model* m, pl_language lang, const pleuel_animate_options* o, const char** bytes, size_t* size);
 
 // The drawing of a model along its motion, or at its start when it has none; NULL when it cannot be drawn.
 pl_scene* pl_picture_scene(pleuel_model* m, pl_language lang);

@@ -53,7 +53,7 @@ static pleuel_status look(pleuel_model* m, pl_language lang, bool has_until, dou
 }
 
 pl_scene* pl_picture_scene(pleuel_model* m, pl_language lang) {
-  enum { FRAMES = 60 };
+  enum { FRAMES = 240 };
   pl_showing show = {0};
   char sentence[sizeof m->job.message];
   memcpy(sentence, m->job.message, sizeof sentence);
@@ -111,15 +111,29 @@ static void make_panels(pleuel_model* m, pl_language lang, pl_showing* show) {
 // ---------------------------------------------------------------------------------------------- the page
 static const double cell_width = 440, cell_height = 320, head = 34;
 
+enum { MOST_BESIDE = 3 };      // plots that stand beside a drawing as high as all of them
+
+static int count_rows(int n_panels, bool drawing) {
+  if (drawing && n_panels > 0 && n_panels <= MOST_BESIDE) return n_panels;
+  return n_panels + drawing > 1 ? (n_panels + drawing + 1) / 2 : 1;
+}
+
 static void draw_panels(pl_drawing* d, pleuel_model* m, pl_language lang, const pl_showing* show, bool drawing, const pl_scene_style* style) {
-  int n = show->n_panels + drawing, columns = n > 1 ? 2 : 1, rows = (n + columns - 1) / columns;
+  int n = show->n_panels + drawing, columns = n > 1 ? 2 : 1, rows = count_rows(show->n_panels, drawing);
+  bool beside = drawing && n > 1 && show->n_panels <= MOST_BESIDE;
   double top = m->model->title ? head : 0, w = d->width / columns, h = (d->height - top) / rows;
   if (m->model->title) pl_draw_text(d, PL_INK_TEXT, 16, PL_ANCHOR_START, 16, 24, m->model->title);
   for (int i = 0; i < n; i++) {
     pl_frame_rect r = {w * (i % columns), top + h * (i / columns), w, h};
+    if (beside) r = (pl_frame_rect){i ? w : 0, i ? top + h * (i - 1) : top, w, i ? h : h * rows};
     if (drawing && i == 0) pl_draw_scene(d, show->scene, show->scene->best, r, style);
     else pl_draw_plot(d, &show->panels[i - drawing], r, lang);
   }
+}
+
+static pleuel_status need_cairo(pleuel_model* m) {
+  if (pl_raster_there()) return PLEUEL_OK;
+  return pl_fail(&m->job, PLEUEL_UNSUPPORTED, "this build has no cairo: it writes SVG, but no PNG, PDF, GIF and MP4");
 }
 
 pleuel_status pl_picture_plot(pleuel_model* m, pl_language lang, const pleuel_plot_options* o, const char** bytes, size_t* size) {
@@ -133,15 +147,121 @@ pleuel_status pl_picture_plot(pleuel_model* m, pl_language lang, const pleuel_pl
   if (n == 0) return pl_fail(&m->job, PLEUEL_UNSUPPORTED, "there is nothing to draw: no motion (`simulate`, or --until) and nothing that has a place");
   double top = m->model->title ? head : 0;
   double width = o->width > 0 ? o->width : n == 1 ? 560 : columns * cell_width;
-  double height = o->height > 0 ? o->height : n == 1 ? 420 + top : cell_height * ((n + 1) / 2) + top;
+  double height = o->height > 0 ? o->height : n == 1 ? 420 + top : (n == 2 ? 1.25 : 1) * cell_height * count_rows(show.n_panels, drawing) + top;
   pl_drawing* d = pl_drawing_make(m->arena, width, height);
   d->title = show.scene->description[lang];
   pl_scene_style style = {.lang = lang, .forces = !o->no_forces, .trails = true, .labels = true};
   draw_panels(d, m, lang, &show, drawing, &style);
-  pl_text out = pl_text_make(m->arena);
-  pl_svg_style svg = {.theme = (pl_theme)o->style};
-  pl_svg_write(&out, d, &svg);
-  *bytes = pl_text_string(&out);
-  *size = out.n;
+  if (o->format == PLEUEL_SVG) {
+    pl_text out = pl_text_make(m->arena);
+    pl_svg_style svg = {.theme = (pl_theme)o->style};
+    pl_svg_write(&out, d, &svg);
+    *bytes = pl_text_string(&out);
+    *size = out.n;
+  } else {
+    PL_TRY(need_cairo(m));
+    if (!pl_raster_file(d, (pl_theme)o->style, o->format == PLEUEL_PDF, bytes, size)) return pl_fail(&m->job, PLEUEL_NO_MEMORY, "the picture could not be drawn");
+  }
+  return s;
+}
+
+// ---------------------------------------------------------------------------------------------- animations
+static const double shortest = 3, longest = 12;      // s, of an animation that nobody gave a length
+enum { MOST_FRAMES = 600, FRAMES_PER_S = 15 };
+
+typedef struct pl_film { int n; double seconds, fps; } pl_film;
+
+// As long as the motion itself, unless that would be over at once or for ever.
+static pl_film film_of(const pl_scene* scene, const pleuel_animate_options* o) {
+  double span = fabs(scene->t[scene->n_frames - 1] - scene->t[0]);
+  pl_film f = {.seconds = o->seconds > 0 ? o->seconds : fmax(shortest, fmin(longest, span)), .fps = o->fps > 0 ? o->fps : FRAMES_PER_S};
+  double n = floor(f.seconds * f.fps + 0.5);
+  f.n = (int)fmax(2, fmin(fmin(MOST_FRAMES, scene->n_frames), n));
+  return f;
+}
+
+// The frame of the scene for a frame of the film.
+static int scene_frame(const pl_scene* scene, const pl_film* f, int i) { return (int)((long)i * (scene->n_frames - 1) / (f->n - 1)); }
+
+static void draw_time(pl_drawing* d, pleuel_model* m, pl_language lang, double t) {
+  char* text = pl_format(m->arena, "t = %.2f%s", t, m->model->uses_units ? " s" : "");
+  for (char* c = text; lang == PL_GERMAN && *c; c++) if (*c == '.') *c = ',';
+  pl_draw_text(d, PL_INK_MUTED, 13, PL_ANCHOR_END, d->width - 14, d->height - 12, text);
+}
+
+static pl_drawing* draw_film(pleuel_model* m, pl_language lang, const pl_showing* show, const pl_film* f, const pleuel_animate_options* o, int* best) {
+  const pl_scene* scene = show->scene;
+  double width = o->width > 0 ? o->width : 480, height = o->height > 0 ? o->height : 440, top = m->model->title ? head : 0;
+  pl_drawing* d = pl_drawing_make(m->arena, width, height);
+  pl_frame_rect r = {0, top, width, height - top - 16};
+  pl_scene_style style = {.lang = lang, .forces = o->forces, .trails = true, .labels = true, .steady = true};
+  d->title = scene->description[lang];
+  if (m->model->title) pl_draw_text(d, PL_INK_TEXT, 16, PL_ANCHOR_START, 16, 24, m->model->title);
+  pl_draw_scene_still(d, scene, r, &style);
+  *best = 0;
+  for (int i = 0; i < f->n; i++) {
+    int from = d->strokes.n, frame = scene_frame(scene, f, i);
+    pl_draw_scene_moving(d, scene, frame, r, &style);
+    draw_time(d, m, lang, scene->t[frame]);
+    for (int k = from; k < d->strokes.n; k++) d->strokes.at[k].from = i, d->strokes.at[k].to = i + 1;
+    if (frame <= scene->best) *best = i;
+  }
+  return d;
+}
+
+// Pixels of each frame to the one who asked for them.
+static pleuel_status hand_frames(pleuel_model* m, const pl_drawing* d, const pl_film* f, const pleuel_animate_options* o) {
+  int w = (int)d->width, h = (int)d->height;
+  uint32_t* pixels = PL_ARRAY(m->arena, uint32_t, (size_t)w * (size_t)h);
+  for (int i = 0; i < f->n; i++) {
+    if (pl_interrupted(&m->job)) return PLEUEL_INTERRUPTED;
+    if (!pl_raster_pixels(d, (pl_theme)o->style, i, pixels)) return pl_fail(&m->job, PLEUEL_NO_MEMORY, "the picture could not be drawn");
+    if (o->frame(o->user, pixels, w, h) != 0) return PLEUEL_INTERRUPTED;
+  }
+  return PLEUEL_OK;
+}
+
+static pleuel_status write_gif(pleuel_model* m, const pl_drawing* d, const pl_film* f, const pleuel_animate_options* o, const char** bytes, size_t* size) {
+  int w = (int)d->width, h = (int)d->height;
+  uint32_t* pixels = PL_ARRAY(m->arena, uint32_t, (size_t)w * (size_t)h);
+  uint32_t* count = PL_ARRAY(m->arena, uint32_t, PL_GIF_BINS);
+  int stride = f->n > 8 ? f->n / 8 : 1;
+  for (int i = 0; i < f->n; i += stride) {
+    if (!pl_raster_pixels(d, (pl_theme)o->style, i, pixels)) return pl_fail(&m->job, PLEUEL_NO_MEMORY, "the picture could not be drawn");
+    pl_gif_count(count, pixels, (size_t)w * (size_t)h);
+  }
+  pl_gif* gif = pl_gif_make(m->arena, w, h, (int)fmax(2, lround(100 * f->seconds / f->n)), count);
+  for (int i = 0; i < f->n; i++) {
+    if (pl_interrupted(&m->job)) return PLEUEL_INTERRUPTED;
+    if (!pl_raster_pixels(d, (pl_theme)o->style, i, pixels)) return pl_fail(&m->job, PLEUEL_NO_MEMORY, "the picture could not be drawn");
+    pl_gif_frame(gif, pixels);
+  }
+  *bytes = pl_gif_end(gif, size);
+  return PLEUEL_OK;
+}
+
+pleuel_status pl_picture_animate(pleuel_model* m, pl_language lang, const pleuel_animate_options* o, const char** bytes, size_t* size) {
+  if (o->frame || o->format == PLEUEL_GIF) PL_TRY(need_cairo(m));
+  PL_TRY(pl_pipeline_check(m));
+  if (!o->has_until && !m->model->simulate.given) {
+    return pl_fail(&m->job, PLEUEL_USAGE, "how long? The file has no `simulate` line; give --until, for example --until 10");
+  }
+  pl_showing show = {0};
+  double seconds = o->seconds > 0 ? o->seconds : longest, fps = o->fps > 0 ? o->fps : FRAMES_PER_S;
+  pleuel_status s = look(m, lang, o->has_until, o->until, (int)fmin(MOST_FRAMES, fmax(2, seconds * fps)), &show);
+  if (!show.scene) return s;
+  if (show.scene->n_shapes == 0) return pl_fail(&m->job, PLEUEL_UNSUPPORTED, "there is nothing to animate: nothing that has a place");
+  if (show.scene->n_frames < 2) return s != PLEUEL_OK ? s : pl_fail(&m->job, PLEUEL_USAGE, "there is nothing to animate: the motion ends where it begins");
+  pl_film film = film_of(show.scene, o);
+  int best;
+  pl_drawing* d = draw_film(m, lang, &show, &film, o, &best);
+  if (o->frame) PL_TRY(hand_frames(m, d, &film, o));
+  else if (o->format == PLEUEL_GIF) PL_TRY(write_gif(m, d, &film, o, bytes, size));
+  else {
+    pl_text out = pl_text_make(m->arena);
+    pl_svg_animate(&out, d, (pl_theme)o->style, film.n, film.seconds, best);
+    *bytes = pl_text_string(&out);
+    *size = out.n;
+  }
   return s;
 }

@@ -559,11 +559,12 @@ static pleuel_status tex(pleuel_model* m, void* argument) {
   const pleuel_tex_options* o = a->tex;
   pleuel_status s = pl_pipeline_derive(m, o->only, o->seconds);
   if (!m->solution) return s;
+  pl_tex_style style = {.lang = solution_language(m, o->lang), .standalone = o->standalone, .plain = o->plain,
+                        .full = o->full, .only = o->only, .name = m->name};
+  if (!o->no_figure) style.scene = pl_picture_scene(m, style.lang);
   PLEUEL_OPTIONS(pleuel_solve_options, how);
   how.no_simulation = o->no_simulation;
   simulate_for_solution(m, &how);
-  pl_tex_style style = {.lang = solution_language(m, o->lang), .standalone = o->standalone, .plain = o->plain,
-                        .full = o->full, .only = o->only, .name = m->name};
   pl_text motion = pl_text_make(m->arena);
   if (m->is_run) pl_motion_text(&motion, m, style.lang, false, false);
   if (m->is_run) style.motion = pl_text_string(&motion);
@@ -608,7 +609,12 @@ pleuel_status pleuel_report(pleuel_model* m, const char** html, const pleuel_rep
 }
 
 // ---------------------------------------------------------------------------------------------- pictures
-typedef struct pl_picturing { const pleuel_plot_options* plot; const char* bytes; size_t n; } pl_picturing;
+enum { LARGEST_PICTURE = 8192 };
+static bool size_fits(int width, int height) {
+  return width >= 0 && height >= 0 && width <= LARGEST_PICTURE && height <= LARGEST_PICTURE && (width == 0 || width >= 64) && (height == 0 || height >= 64);
+}
+
+typedef struct pl_picturing { const pleuel_plot_options* plot; const pleuel_animate_options* animate; const char* bytes; size_t n; } pl_picturing;
 
 static pleuel_status plot(pleuel_model* m, void* argument) {
   pl_picturing* p = argument;
@@ -621,8 +627,33 @@ pleuel_status pleuel_plot(pleuel_model* m, const char** bytes, size_t* n, const 
   if (!m || !bytes || !n) return PLEUEL_USAGE;
   pleuel_plot_options o;
   copy_options(&o, sizeof o, options);
+  if (!size_fits(o.width, o.height) || (unsigned)o.style > PLEUEL_FOR_PRINT || (unsigned)o.format > PLEUEL_PDF || (unsigned)o.panels > PLEUEL_PANELS_DRAWING) {
+    return fail(m->ctx, PLEUEL_USAGE, "a plot is SVG, PNG or PDF, at most 8192 pixels wide and high");
+  }
   pl_picturing p = {.plot = &o};
   pleuel_status s = guarded(m, plot, &p);
+  *bytes = p.bytes;
+  *n = p.n;
+  return s;
+}
+
+static pleuel_status animate(pleuel_model* m, void* argument) {
+  pl_picturing* p = argument;
+  return pl_picture_animate(m, solution_language(m, p->animate->lang), p->animate, &p->bytes, &p->n);
+}
+
+pleuel_status pleuel_animate(pleuel_model* m, const char** bytes, size_t* n, const pleuel_animate_options* options) {
+  if (bytes) *bytes = NULL;
+  if (n) *n = 0;
+  if (!m || !bytes || !n) return PLEUEL_USAGE;
+  pleuel_animate_options o;
+  copy_options(&o, sizeof o, options);
+  if (!size_fits(o.width, o.height) || (unsigned)o.style > PLEUEL_FOR_PRINT || o.fps < 0 || o.fps > 100 || o.seconds < 0 ||
+      (o.format != PLEUEL_SVG && o.format != PLEUEL_GIF)) {
+    return fail(m->ctx, PLEUEL_USAGE, "an animation is SVG or GIF, at most 8192 pixels wide and high, at most 100 frames per second");
+  }
+  pl_picturing p = {.animate = &o};
+  pleuel_status s = guarded(m, animate, &p);
   *bytes = p.bytes;
   *n = p.n;
   return s;

@@ -45,6 +45,7 @@ typedef struct pl_drawing {
   double width, height;     // px
   PL_VEC(pl_stroke) strokes;
   PL_VEC(pl_stroke) taken;  // places of texts and things, for labels that keep clear of them
+  bool steady;              // labels keep their distance instead of looking for a free place
   const char* title;        // description for those who cannot see it, "" if none
 } pl_drawing;
 
@@ -63,6 +64,7 @@ typedef struct pl_frame_rect { double x, y, w, h; } pl_frame_rect;
 typedef struct pl_scene_style {
   pl_language lang;
   bool forces, velocities, trails, labels;
+  bool steady;              // of an animation: labels keep their distance, trails follow what moves
 } pl_scene_style;
 
 // pl_draw_scene draws one frame of a scene into a part of the drawing.
@@ -94,5 +96,20 @@ void pl_svg_write(pl_text* out, const pl_drawing* d, const pl_svg_style* style);
 // The strokes alone, without the svg element around them.
 void pl_svg_strokes(pl_text* out, const pl_drawing* d, const pl_svg_style* style);
 void pl_svg_escape(pl_text* out, const char* text);
+// An animation: strokes with from < to are there in those frames, in rising order of `from`, after those that rest.
+void pl_svg_animate(pl_text* out, const pl_drawing* d, pl_theme theme, int n_frames, double seconds, int best);
+
+// Through cairo.  false: this build has none, or it failed.  Bytes in the arena of the drawing.
+bool pl_raster_there(void);
+bool pl_raster_file(const pl_drawing* d, pl_theme theme, bool pdf, const char** bytes, size_t* n);
+bool pl_raster_pixels(const pl_drawing* d, pl_theme theme, int frame, uint32_t* pixels);   // 0x..RRGGBB, width x height
+
+// GIF: count the colours of all frames, then make, then hand over each frame in turn.
+typedef struct pl_gif pl_gif;
+enum { PL_GIF_BINS = 1 << 15 };
+void pl_gif_count(uint32_t* count, const uint32_t* pixels, size_t n);                       // count (PL_GIF_BINS)
+pl_gif* pl_gif_make(pl_arena* a, int width, int height, int delay, const uint32_t* count);  // delay in 1/100 s
+void pl_gif_frame(pl_gif* g, const uint32_t* pixels);
+const char* pl_gif_end(pl_gif* g, size_t* n);
 
 #endif

@@ -20,5 +20,6 @@ const char* pl_axis_title(pl_arena* arena, const char* name, const char* unit, i
 
 // ---- svg.c
 void pl_svg_sheet(pl_text* out, const pl_drawing* d, pl_theme theme);
+void pl_svg_stroke(pl_text* out, const pl_stroke* s);
 
 #endif

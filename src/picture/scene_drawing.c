@@ -70,6 +70,10 @@ static double overlap(const pl_drawing* d, double x0, double y0, double x1, doub
 static void label_near(pl_drawing* d, const pl_fit* f, pl_ink ink, const char* name, double x, double y, double gap) {
   if (!*name || !isfinite(x + y)) return;
   const char* text = pl_picture_label(d->arena, name);
+  if (d->steady) {
+    pl_draw_text(d, ink, text_size, PL_ANCHOR_START, x + gap, y - 0.5 * gap, text);
+    return;
+  }
   double w = pl_text_width(text, text_size), h = text_size, best = INFINITY, bx = x, by = y;
   static const double way[12][2] = {{1, -1}, {1, 0}, {-1, -1}, {-1, 0}, {1, 1}, {-1, 1}, {0, -1}, {0, 1}, {2, -1}, {-2, -1}, {2, 1}, {-2, 1}};
   for (int k = 0; k < 36; k++) {
@@ -240,14 +244,25 @@ static int layer(const pl_shape* p) {
   return of[p->kind];
 }
 
-enum { PL_STILL = 1, PL_MOVING = 2 };
+enum { PL_STILL = 1, PL_MOVING = 2, TAIL = 40 };
+
+// The last part of a path, up to the present frame.
+static void draw_tail(pl_drawing* d, const pl_fit* f, const pl_shape* p, int frame) {
+  int from = frame > TAIL ? frame - TAIL : 0;
+  if (frame > from) pl_draw_line(d, PL_INK_TRAIL, 1.5, frame + 1 - from, pixels(d, f, p->xy + 2 * from, frame + 1 - from));
+}
 
 static void draw(pl_drawing* d, const pl_scene* scene, int frame, pl_frame_rect where, const pl_scene_style* style, int which) {
   pl_fit f = pl_fit_make(scene, where);
+  d->steady = style->steady && which == PL_MOVING;
+  for (int i = 0; d->steady && style->trails && i < scene->n_shapes; i++) {
+    if (scene->shapes[i].kind == PL_SHAPE_TRAIL) draw_tail(d, &f, &scene->shapes[i], frame);
+  }
   for (int l = 1; l <= 7; l++) {
     for (int i = 0; i < scene->n_shapes; i++) {
       const pl_shape* p = &scene->shapes[i];
       bool wanted = which & (p->moves ? PL_MOVING : PL_STILL);
+      if (p->kind == PL_SHAPE_TRAIL && style->steady) continue;
       if (layer(p) == l && wanted && (p->shown || p->kind == PL_SHAPE_VELOCITY)) draw_shape(d, &f, p, frame, style);
     }
   }

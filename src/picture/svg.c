@@ -69,7 +69,7 @@ static void add_looks(pl_text* out, const pl_stroke* s) {
   if (s->faint > 0) pl_text_addf(out, " opacity=\"%.2g\"", 1 - (double)s->faint);
 }
 
-static void add_stroke(pl_text* out, const pl_stroke* s) {
+void pl_svg_stroke(pl_text* out, const pl_stroke* s) {
   if (s->kind == PL_STROKE_TEXT) {
     static const char* const anchor[] = {"", " text-anchor=\"middle\"", " text-anchor=\"end\""};
     pl_text_addf(out, "<text class=\"plf-%s\"", pl_ink_name[s->fill]);
@@ -112,7 +112,7 @@ static void add_stroke(pl_text* out, const pl_stroke* s) {
 }
 
 void pl_svg_strokes(pl_text* out, const pl_drawing* d, const pl_svg_style* style) {
-  for (int i = 0; i < d->strokes.n; i++) add_stroke(out, &d->strokes.at[i]);
+  for (int i = 0; i < d->strokes.n; i++) pl_svg_stroke(out, &d->strokes.at[i]);
 }
 
 void pl_svg_sheet(pl_text* out, const pl_drawing* d, pl_theme theme) {

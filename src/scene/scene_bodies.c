@@ -209,7 +209,7 @@ static void find_outline(pl_stage* s, int i) {
   o->thick = L > 0 ? 0.02 * L : 0.25 * o->half;
   t->radius = o->radius;
   t->sense = 1;
-  pl_touch touch[MOST_TOUCHES];
+  pl_touch touch[MOST_TOUCHES] = {0};
   int n = 0;
   for (int b = 0; b < s->bonds.n && n < MOST_TOUCHES && !(o->radius > 0); b++) {
     touch[n] = find_touch(s, t, b);
