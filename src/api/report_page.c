@@ -16,7 +16,7 @@ static const char* const small_words[] = {
 
 // Frames enough for the eye between two steps of the run, within what a page can carry.
 static int frames_for(const pl_views* v) {
-  enum { FEWEST = 180, MOST = 480, A_STEP = 4 };
+  enum { FEWEST = 160, MOST = 480, A_STEP = 3 };
   long n = A_STEP * v->result->stats.steps;
   return n < FEWEST ? FEWEST : n > MOST ? MOST : (int)n;
 }
@@ -24,7 +24,7 @@ static int frames_for(const pl_views* v) {
 // A model that cannot be drawn is reported without a picture.
 static pl_scene* scene_of(pleuel_model* m, const pl_views* v) {
   pl_scene* scene = NULL;
-  pl_scene_options how = {.frames = frames_for(v), .forces = true, .velocities = true};
+  pl_scene_options how = {.frames = v->result ? frames_for(v) : 1, .forces = true, .velocities = true};
   return pl_scene_make(&m->job, m->model, v->result, &how, &scene) == PLEUEL_OK ? scene : NULL;
 }
 
@@ -34,7 +34,7 @@ pleuel_status pl_report_page(pleuel_model* m, pl_language lang, const pleuel_rep
   memcpy(sentence, m->job.message, sizeof sentence);
   pl_views_make(m, lang, &views);
 
-  pl_scene* scene = views.result && !o->no_animation ? scene_of(m, &views) : NULL;
+  pl_scene* scene = !o->no_animation ? scene_of(m, &views) : NULL;
 
   memcpy(m->job.message, sentence, sizeof sentence);
 

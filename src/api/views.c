@@ -5,7 +5,7 @@
 
 #include "api/api_impl.h"
 
-enum { FEWEST_ROWS = 400, MOST_ROWS = 20000, MOST_CURVES = 4, MOST_PLOTS = 8 };
+enum { FEWEST_ROWS = 320, A_STEP = 3, MOST_FINER = 2400, MOST_ROWS = 20000, MOST_CURVES = 4, MOST_PLOTS = 8 };
 
 // ---------------------------------------------------------------------------------------------- what is plotted
 // A quantity of a plot line becomes an output of the run under this name.
@@ -69,11 +69,20 @@ static pl_html_plot* new_plot(pl_views* v) {
   return &v->plots.at[v->plots.n - 1];
 }
 
-// The plot that takes another curve of this unit, among those from `first` on.
-static pl_html_plot* plot_for(pl_views* v, int first, const char* unit) {
+static double size_of(const pl_result* r, int column) {
+  double size = 0;
+  for (int i = 0; i < r->rows.n; i++) if (fabs(r->rows.at[i][column]) > size) size = fabs(r->rows.at[i][column]);
+  return size;
+}
+
+// The plot that takes another curve of this unit, among those from `first` on; curves of very different size (0: whatever it
+// is) would hide each other.
+static pl_html_plot* plot_for(pl_views* v, int first, const char* unit, double size) {
   for (int i = first; i < v->plots.n; i++) {
     pl_html_plot* p = &v->plots.at[i];
-    if (p->n_curves < MOST_CURVES && strcmp(p->curves[0].unit, unit) == 0) return p;
+    double there = size > 0 ? size_of(v->result, p->curves[0].column) : 0;
+    bool alike = !(size > 0) || (size < 8 * there && there < 8 * size);
+    if (p->n_curves < MOST_CURVES && alike && strcmp(p->curves[0].unit, unit) == 0) return p;
   }
   return v->plots.n < MOST_PLOTS ? new_plot(v) : NULL;
 }
@@ -89,7 +98,7 @@ static void plot_line(pl_views* v, pleuel_model* m, int i) {
     int column = pl_result_find(v->result, pl_plain_ascii(v->arena, hidden_name(v->arena, i, k)));
     if (column < 0) continue;
     const char* unit = unit_of(v, p, line->y.at[k], column);
-    pl_html_plot* plot = plot_for(v, first, unit);
+    pl_html_plot* plot = plot_for(v, first, unit, 0);
     if (!plot) continue;
     add_curve(v, plot, (pl_html_curve){curve_name(v, p, line->y.at[k], line->y_text.at[k]), unit, column});
     if (over_time) continue;
@@ -120,7 +129,7 @@ static void plot_columns(pl_views* v, pleuel_model* m, int from, int to) {
     if (!moves(v->result, i) || k++ % step != 0) continue;
     const pl_result_column* c = &v->result->columns[i];
     const char* unit = unicode_unit(v->arena, c->unit);
-    pl_html_plot* plot = plot_for(v, first, unit);
+    pl_html_plot* plot = plot_for(v, first, unit, size_of(v->result, i));
     if (plot) add_curve(v, plot, (pl_html_curve){column_name(v, m->model->pool, c->name), unit, i});
   }
 }
@@ -172,11 +181,7 @@ static long grid_of(const pl_recording* r) {
   return n >= FEWEST_ROWS ? n : n * ((FEWEST_ROWS + n - 1) / n);
 }
 
-static pleuel_status run(pleuel_model* m, pl_views* v) {
-  m->recorded = pl_pipeline_record(m);
-  if (m->recorded != PLEUEL_OK) return m->recorded;
-  if (isnan(m->recording->t_end)) return PLEUEL_USAGE;
-  long count = grid_of(m->recording);
+static pleuel_status run_once(pleuel_model* m, pl_views* v, long count) {
   if (count > 0) m->recording->count = count, m->recording->dt = 0;
   PLEUEL_OPTIONS(pleuel_sim_options, how);
   m->result = pl_result_make(m->arena, true);
@@ -186,6 +191,20 @@ static pleuel_status run(pleuel_model* m, pl_views* v) {
   if (r) pl_run_free(r);
   v->result = m->result;
   return s;
+}
+
+// A motion that takes many steps needs more rows than one that takes few, which is known only afterwards.
+static pleuel_status run(pleuel_model* m, pl_views* v) {
+  m->recorded = pl_pipeline_record(m);
+  if (m->recorded != PLEUEL_OK) return m->recorded;
+  if (isnan(m->recording->t_end)) return PLEUEL_USAGE;
+  long count = grid_of(m->recording);
+  pleuel_status s = run_once(m, v, count);
+  long wanted = v->result ? A_STEP * v->result->stats.steps : 0;
+  if (s != PLEUEL_OK || count <= 0 || wanted <= count) return s;
+  if (wanted > MOST_FINER) wanted = MOST_FINER;
+  long times = (wanted + count - 1) / count;
+  return times > 1 ? run_once(m, v, times * count) : s;
 }
 
 // Nothing of this is remembered as "the run" of the model, which has the columns and rows that the file asks for.

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { PL_HTML_CARD_ROOM = 27, PL_HTML_MOST_CARDS = 3 };
+enum { PL_HTML_CARD_ROOM = 23, PL_HTML_MOST_CARDS = 3 };
 
 static void open_card(pl_html* h, const char* class) { pl_html_rawf(h, "<div class=\"card%s\"><h3>", class); }
 
@@ -93,14 +93,23 @@ static void put_result(pl_html* h, const pl_card* card) {
   pl_html_raw(h, "</p></div>\n");
 }
 
+static const char* line_of(pl_html* h, const pl_form* f) {
+  return f ? pl_notation_print(h->arena, h->pool, f, (pl_notation){PL_MATH_LINE, h->lang}) : "";
+}
+
 static void put_results(pl_html* h) {
   int shown = 0;
+  const char* last[PL_HTML_MOST_CARDS];
   for (int i = 0; i < h->s->sections.n && shown < PL_HTML_MOST_CARDS; i++) {
     const pl_section* c = &h->s->sections.at[i];
     pl_card card;
     if (!pl_worked_wanted(h->in->only, c->letter) || is_way(c->item) || !find_card(h, i, &card)) continue;
+    const char* line = line_of(h, card.form);
+    bool again = false;
+    for (int k = 0; k < shown; k++) again |= *line && strcmp(last[k], line) == 0;
+    if (again) continue;
     put_result(h, &card);
-    shown++;
+    last[shown++] = line;
   }
 }
 

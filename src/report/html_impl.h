@@ -42,6 +42,9 @@ bool pl_html_ends_in(const pl_form* whole, const pl_form* part);
 // Words with {1}, {2} ... replaced by formulas, and (4) linked to equation 4.
 void pl_html_sentence(pl_html* h, const char* words, int n, const pl_form* const* inserts);
 
+// What an event is called beside its mark: "h lets go".
+const char* pl_html_event(const pl_html* h, const pl_result_event* e);
+
 // ---- html_scene.c
 bool pl_html_has_picture(const pl_html* h);
 bool pl_html_scene_has(const pl_html* h, pl_shape_kind kind);

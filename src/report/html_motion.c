@@ -6,6 +6,17 @@
 
 bool pl_html_has_motion(const pl_html* h) { return h->in->result && h->in->result->rows.n > 1; }
 
+const char* pl_html_event(const pl_html* h, const pl_result_event* e) {
+  const char* label = e->label ? e->label : "";
+  switch (e->kind) {
+    case PL_EV_RELEASE: return pl_format(h->arena, pl_html_say(h, "%s lets go", "%s löst sich"), label);
+    case PL_EV_IMPACT: return pl_format(h->arena, pl_html_say(h, "impact on %s", "Stoß auf %s"), label);
+    case PL_EV_CONTACT: return pl_format(h->arena, pl_html_say(h, "contact with %s", "Kontakt mit %s"), label);
+    case PL_EV_SINGULAR: return pl_html_say(h, "singular position", "singuläre Lage");
+    default: return *label ? label : pl_html_say(h, "event", "Ereignis");
+  }
+}
+
 // ---------------------------------------------------------------------------------------------- controls
 static void put_switch(pl_html* h, const char* id, const char* words, bool on) {
   pl_html_rawf(h, "<label><input type=\"checkbox\" id=\"%s\"%s> %s</label>\n", id, on ? " checked" : "", words);
@@ -17,8 +28,7 @@ static void put_event_buttons(pl_html* h, double t0, double t1) {
   for (int i = 0; i < r->events.n && i < 20; i++) {
     const pl_result_event* e = &r->events.at[i];
     double part = t1 > t0 ? (e->t - t0) / (t1 - t0) : 0;
-    const char* label = e->label && *e->label ? e->label : pl_html_say(h, "event", "Ereignis");
-    const char* words = pl_format(h->arena, "%s, t = %s", label, pl_html_quantity(h, e->t, h->model->uses_units ? "s" : "", 5));
+    const char* words = pl_format(h->arena, "%s, t = %s", pl_html_event(h, e), pl_html_quantity(h, e->t, h->model->uses_units ? "s" : "", 5));
     pl_html_rawf(h, "<button type=\"button\" data-t=\"%.17g\" style=\"left:calc(8px + (100%% - 16px)*%.5f)\" title=\"", e->t, part);
     pl_html_attribute(h, words);
     pl_html_raw(h, "\" aria-label=\"");
@@ -45,11 +55,20 @@ static void put_controls(pl_html* h, bool picture) {
 
 // ---------------------------------------------------------------------------------------------- section
 static void put_no_motion(pl_html* h) {
-  if (!h->in->run_message || !*h->in->run_message) return;
-  pl_html_rawf(h, "<section id=\"motion\"><h2>%s</h2><p class=\"note\"><b>%s</b> ", pl_html_say(h, "Motion", "Bewegung"),
-               pl_html_say(h, "Not simulated:", "Nicht simuliert:"));
-  pl_html_text(h, h->in->run_message);
-  pl_html_raw(h, "</p></section>\n");
+  bool message = h->in->run_message && *h->in->run_message, picture = pl_html_has_picture(h);
+  if (!message && !picture) return;
+  pl_html_rawf(h, "<section id=\"motion\"><h2>%s</h2>\n", pl_html_say(h, "System", "System"));
+  if (picture) {
+    pl_html_raw(h, "<figure class=\"still\">");
+    pl_html_picture(h);
+    pl_html_raw(h, "</figure>\n");
+  }
+  if (message) {
+    pl_html_rawf(h, "<p class=\"note\"><b>%s</b> ", pl_html_say(h, "Not simulated:", "Nicht simuliert:"));
+    pl_html_text(h, h->in->run_message);
+    pl_html_raw(h, "</p>");
+  }
+  pl_html_raw(h, "</section>\n");
 }
 
 static void put_hint(pl_html* h) {
@@ -86,7 +105,7 @@ static void put_mark_list(pl_html* h) {
   pl_html_raw(h, ",\"marks\":[");
   for (int i = 0; i < r->events.n && i < 200; i++) {
     pl_html_rawf(h, "%s[%.17g,", i ? "," : "", r->events.at[i].t);
-    pl_html_json_string(h, r->events.at[i].label ? r->events.at[i].label : "");
+    pl_html_json_string(h, pl_html_event(h, &r->events.at[i]));
     pl_html_raw(h, "]");
   }
   pl_html_raw(h, "]");

@@ -58,6 +58,7 @@ static void put_top(pl_html* h) {
   pl_html_rawf(h, "<nav aria-label=\"%s\">", pl_html_say(h, "Sections", "Abschnitte"));
   put_link(h, "result", pl_html_say(h, "Result", "Ergebnis"));
   if (pl_html_has_motion(h)) put_link(h, "motion", pl_html_say(h, "Motion", "Bewegung"));
+  else if (pl_html_has_picture(h)) put_link(h, "motion", pl_html_say(h, "System", "System"));
   put_link(h, "derivation", pl_html_say(h, "Derivation", "Herleitung"));
   put_link(h, "checks", pl_html_say(h, "Checks", "Proben"));
   put_link(h, "model", pl_html_say(h, "Model", "Modell"));

@@ -9,8 +9,8 @@
 
 enum {
   PL_HTML_PLOT_W = 500, PL_HTML_PLOT_H = 190, PL_HTML_LEFT = 58, PL_HTML_RIGHT = 14, PL_HTML_TOP = 10, PL_HTML_BOTTOM = 30,
-  PL_HTML_DRAWN = 120,          // points of a curve on paper
-  PL_HTML_KEPT = 1500,          // rows up to which all are kept
+  PL_HTML_DRAWN = 90,          // points of a curve on paper
+  PL_HTML_KEPT = 1600,          // rows up to which all are kept
   PL_HTML_EXTREMES = 2400       // points kept for the extremes of all curves together
 };
 
@@ -139,18 +139,21 @@ static void put_curve(pl_html* h, const pl_html_axes* a, const pl_html_plot* p, 
   pl_html_raw(h, "\"/>\n");
 }
 
+// Names stand left of their mark, or right of it, where there is room; else the mark stands alone.
 static void put_marks(pl_html* h, const pl_html_axes* a) {
   const pl_result* r = h->in->result;
-  double free_from = PL_HTML_LEFT;
+  double free_from = PL_HTML_LEFT, end = PL_HTML_PLOT_W - PL_HTML_RIGHT;
   for (int i = 0; i < r->events.n && i < 40; i++) {
-    const pl_result_event* e = &r->events.at[i];
-    double x = to_x(a, e->t), w = 6.6 * pl_utf8_width(e->label ? e->label : "") + 8;
+    const char* words = pl_html_event(h, &r->events.at[i]);
+    double x = to_x(a, r->events.at[i].t), w = 6.6 * pl_utf8_width(words) + 8;
+    double next = i + 1 < r->events.n ? to_x(a, r->events.at[i + 1].t) : end;
     pl_html_rawf(h, "<line class=\"ev\" x1=\"%.1f\" x2=\"%.1f\" y1=\"%d\" y2=\"%d\"/>", x, x, PL_HTML_TOP - 6, PL_HTML_PLOT_H - PL_HTML_BOTTOM);
-    if (!e->label || x - w < free_from) continue;
-    pl_html_rawf(h, "<text class=\"e evt\" x=\"%.1f\" y=\"%d\">", x - 4, PL_HTML_TOP + 5);
-    pl_html_text(h, e->label);
+    bool left = x - w >= free_from, right = !left && x + w <= next;
+    free_from = right ? x + w : x;
+    if (!left && !right) continue;
+    pl_html_rawf(h, "<text class=\"%s evt\" x=\"%.1f\" y=\"%d\">", left ? "e" : "", left ? x - 4 : x + 4, PL_HTML_TOP + 5);
+    pl_html_text(h, words);
     pl_html_raw(h, "</text>\n");
-    free_from = x;
   }
 }
 

@@ -24,6 +24,11 @@ static bool finite_box(const pl_scene* s) {
   return true;
 }
 
+static bool shows_kind(const pl_scene* s, pl_shape_kind kind) {
+  for (int i = 0; i < s->n_shapes; i++) if (s->shapes[i].kind == kind && s->shapes[i].shown) return true;
+  return false;
+}
+
 static bool has_kind(const pl_scene* s, pl_shape_kind kind) {
   for (int i = 0; i < s->n_shapes; i++) if (s->shapes[i].kind == kind) return true;
   return false;
@@ -48,8 +53,18 @@ static pl_frame_of fit(const pl_scene* s) {
 static double px(const pl_frame_of* f, float x) { return f->x0 + f->scale * (double)x; }
 static double py(const pl_frame_of* f, float y) { return f->y0 - f->scale * (double)y; }
 
-static const float* points(const pl_scene* s, const pl_shape* p) {
-  return p->xy + (p->moves ? (size_t)s->best * (size_t)p->n * 2 : 0);
+// The frame shown first: shortly before the first event, when everything still acts; else a little after the start.
+static int opening(const pl_scene* s) {
+  if (s->n_frames < 2) return 0;
+  double t0 = s->t[0], t1 = s->t[s->n_frames - 1], t = t0 + 0.12 * (t1 - t0);
+  for (int i = s->n_marks - 1; i >= 0; i--) if (s->marks[i].t > t0 + 0.02 * (t1 - t0)) t = t0 + 0.8 * (s->marks[i].t - t0);
+  int best = 0;
+  for (int i = 1; i < s->n_frames; i++) if (fabs(s->t[i] - t) < fabs(s->t[best] - t)) best = i;
+  return best;
+}
+
+static const float* points(const pl_html* h, const pl_shape* p) {
+  return p->xy + (p->moves ? (size_t)opening(h->in->scene) * (size_t)p->n * 2 : 0);
 }
 
 static bool is_there(const float* xy, int n) {
@@ -144,7 +159,7 @@ static bool lives(const pl_shape* p) { return p->moves || p->kind == PL_SHAPE_TR
 
 static void put_shape(pl_html* h, const pl_scene* s, const pl_frame_of* f, int i) {
   const pl_shape* p = &s->shapes[i];
-  const float* xy = points(s, p);
+  const float* xy = points(h, p);
   bool dot = p->kind == PL_SHAPE_MASS || p->kind == PL_SHAPE_POINT;
   const char* weight = p->kind == PL_SHAPE_FORCE && strcmp(p->of, "weight") == 0 ? " weight" : "";
   pl_html_rawf(h, "<g class=\"%s%s\"", class_of[p->kind], weight);
@@ -156,7 +171,7 @@ static void put_shape(pl_html* h, const pl_scene* s, const pl_frame_of* f, int i
   } else if (dot) {
     pl_html_rawf(h, "<circle r=\"%s\"/>", p->kind == PL_SHAPE_MASS ? "7" : "3.5");
   } else {
-    pl_html_rawf(h, "<path d=\"%s\"/>", outline(h, f, p, xy, s->best));
+    pl_html_rawf(h, "<path d=\"%s\"/>", outline(h, f, p, xy, opening(s)));
     if (p->kind == PL_SHAPE_GROUND) pl_html_rawf(h, "<path class=\"hatch\" d=\"%s\"/>", hatching(h, f, p, xy));
   }
   pl_html_raw(h, "</g>\n");
@@ -166,12 +181,27 @@ static void put_shape(pl_html* h, const pl_scene* s, const pl_frame_of* f, int i
 typedef struct pl_html_box { double x, y, w, h; } pl_html_box;
 typedef PL_VEC(pl_html_box) pl_html_boxes;
 
-static bool overlaps(const pl_html_boxes* taken, pl_html_box b) {
-  for (int i = 0; i < taken->n; i++) {
-    const pl_html_box* t = &taken->at[i];
-    if (b.x < t->x + t->w && t->x < b.x + b.w && b.y < t->y + t->h && t->y < b.y + b.h) return true;
+static bool overlap(const pl_html_box* a, const pl_html_box* b) {
+  return a->x < b->x + b->w && b->x < a->x + a->w && a->y < b->y + b->h && b->y < a->y + a->h;
+}
+
+// How bad a place is: on another label, on a mass, on a line.
+static double cost(const pl_html_boxes* taken, const pl_html_boxes* lines, const pl_html_box* b) {
+  double sum = 0;
+  for (int i = 0; i < taken->n; i++) if (overlap(&taken->at[i], b)) sum += 20;
+  for (int i = 0; i < lines->n; i++) if (overlap(&lines->at[i], b)) sum += 1;
+  return sum;
+}
+
+// Small boxes along what is drawn as a line.
+static void add_line_boxes(pl_html* h, const pl_frame_of* f, const pl_shape* p, const float* xy, pl_html_boxes* lines) {
+  if (p->kind == PL_SHAPE_MASS || p->kind == PL_SHAPE_POINT || p->kind == PL_SHAPE_TRAIL || !p->shown) return;
+  for (int i = 1; i < p->n; i++) {
+    if (!is_there(xy + 2 * (i - 1), 2)) continue;
+    double x = px(f, xy[2 * i - 2]), y = py(f, xy[2 * i - 1]), dx = px(f, xy[2 * i]) - x, dy = py(f, xy[2 * i + 1]) - y;
+    int n = (int)(hypot(dx, dy) / 9) + 1;
+    for (int k = 0; k <= n; k++) pl_push(h->arena, *lines, (pl_html_box){x + dx * k / n - 2, y + dy * k / n - 2, 4, 4});
   }
-  return false;
 }
 
 // Where a label is anchored: beyond the tip of arrows and axes, beside everything else.
@@ -184,16 +214,17 @@ static bool anchor(const pl_frame_of* f, const pl_shape* p, const float* xy, dou
   *ux = *uy = 0;
   if (!arrow || !is_there(xy, 1)) return true;
   double dx = *x - px(f, xy[0]), dy = *y - py(f, xy[1]), l = hypot(dx, dy);
-  if (l < 3 && p->kind != PL_SHAPE_AXIS) return false;
+  if (l < 9 && p->kind != PL_SHAPE_AXIS) return false;
   *ux = l > 0 ? dx / l : 0;
   *uy = l > 0 ? dy / l : 0;
   return true;
 }
 
 // Eight places around a point, or those beyond a tip, nearest first.                             ORDER PLACES (report.js)
-static pl_html_box place(const pl_html_boxes* taken, const pl_frame_of* f, double x, double y, double ux, double uy, double w) {
+static pl_html_box place(const pl_html_boxes* taken, const pl_html_boxes* lines, const pl_frame_of* f, double x, double y, double ux, double uy, double w) {
   static const double dir[8][2] = {{0.9, -0.7}, {0.9, 0.8}, {-0.9, -0.7}, {-0.9, 0.8}, {0, -1}, {0, 1}, {1, 0}, {-1, 0}};
   pl_html_box best = {0};
+  double least = INFINITY;
   for (int i = 0; i < 16; i++) {
     double far = i < 8 ? 1 : 1.9;
     bool tip = i == 0 && (ux != 0 || uy != 0);
@@ -203,25 +234,26 @@ static pl_html_box place(const pl_html_boxes* taken, const pl_frame_of* f, doubl
     if (b.x + w > PL_HTML_WIDE - 2) b.x = PL_HTML_WIDE - 2 - w;
     if (b.y < 2) b.y = 2;
     if (b.y + 16 > f->height - 2) b.y = f->height - 18;
-    if (i == 0) best = b;
-    if (!overlaps(taken, b)) return b;
+    double c = cost(taken, lines, &b) + 0.4 * i;
+    if (c < least) best = b, least = c;
   }
   return best;
 }
 
 static void put_labels(pl_html* h, const pl_scene* s, const pl_frame_of* f) {
-  pl_html_boxes taken = {0};
+  pl_html_boxes taken = {0}, lines = {0};
   for (int i = 0; i < s->n_shapes; i++) {
+    add_line_boxes(h, f, &s->shapes[i], points(h, &s->shapes[i]), &lines);
     if (s->shapes[i].kind != PL_SHAPE_MASS) continue;
-    const float* xy = points(s, &s->shapes[i]);
+    const float* xy = points(h, &s->shapes[i]);
     if (is_there(xy, 1)) pl_push(h->arena, taken, (pl_html_box){px(f, xy[0]) - 8, py(f, xy[1]) - 8, 16, 16});
   }
   for (int i = 0; i < s->n_shapes; i++) {
     const pl_shape* p = &s->shapes[i];
     if (!p->label || !*p->label) continue;
     double x, y, ux, uy, w = 8.2 * pl_utf8_width(p->label) + 2;
-    bool there = anchor(f, p, points(s, p), &x, &y, &ux, &uy);
-    pl_html_box b = there ? place(&taken, f, x, y, ux, uy, w) : (pl_html_box){0};
+    bool there = anchor(f, p, points(h, p), &x, &y, &ux, &uy);
+    pl_html_box b = there ? place(&taken, &lines, f, x, y, ux, uy, w) : (pl_html_box){0};
     if (there && p->shown) pl_push(h->arena, taken, b);
     pl_html_rawf(h, "<text class=\"%s%s\" data-l=\"%d\" x=\"%.1f\" y=\"%.1f\"%s>", class_of[p->kind],
                  p->kind == PL_SHAPE_FORCE && strcmp(p->of, "weight") == 0 ? " weight" : "", i, b.x, b.y + 13,
@@ -238,13 +270,14 @@ static double round_down(double x) {
   return (m >= 5 ? 5 : m >= 2 ? 2 : 1) * p;
 }
 
-static double put_scale(pl_html* h, const pl_frame_of* f, double x, const char* class, double unit_per_metre, const char* unit) {
+static double put_scale(pl_html* h, const pl_frame_of* f, double x, const char* class, double unit_per_metre, const char* unit, bool on) {
   double value = round_down(80 / f->scale * unit_per_metre), length = value / unit_per_metre * f->scale, y = f->height - 12;
+  const char* off = on ? "" : " style=\"display:none\"";
   pl_text d = pl_text_make(h->arena);
   add_arrow(&d, x, y, x + length, y);
   const char* words = pl_html_quantity(h, value, unit, 3);
-  pl_html_rawf(h, "<g class=\"%s scale\"><path d=\"%s\"/></g><text class=\"%s scale\" x=\"%.1f\" y=\"%.1f\">", class, pl_text_string(&d),
-               class, x + length + 8, y + 5);
+  pl_html_rawf(h, "<g class=\"%s scale\"%s><path d=\"%s\"/></g><text class=\"%s scale\"%s x=\"%.1f\" y=\"%.1f\">", class, off,
+               pl_text_string(&d), class, off, x + length + 8, y + 5);
   pl_html_text(h, words);
   pl_html_raw(h, "</text>\n");
   return x + length + 30 + 8.2 * pl_utf8_width(words);
@@ -253,8 +286,8 @@ static double put_scale(pl_html* h, const pl_frame_of* f, double x, const char* 
 static void put_scales(pl_html* h, const pl_scene* s, const pl_frame_of* f) {
   bool units = h->model->uses_units;
   double x = 12;
-  if (s->newton_per_metre > 0 && has_kind(s, PL_SHAPE_FORCE)) x = put_scale(h, f, x, "force", s->newton_per_metre, units ? "N" : "");
-  if (s->speed_per_metre > 0 && has_kind(s, PL_SHAPE_VELOCITY)) put_scale(h, f, x, "velocity", s->speed_per_metre, units ? "m/s" : "");
+  if (s->newton_per_metre > 0 && has_kind(s, PL_SHAPE_FORCE)) x = put_scale(h, f, x, "force", s->newton_per_metre, units ? "N" : "", shows_kind(s, PL_SHAPE_FORCE));
+  if (s->speed_per_metre > 0 && has_kind(s, PL_SHAPE_VELOCITY)) put_scale(h, f, x, "velocity", s->speed_per_metre, units ? "m/s" : "", shows_kind(s, PL_SHAPE_VELOCITY));
 }
 
 void pl_html_picture(pl_html* h) {
@@ -324,7 +357,7 @@ static int track_of(pl_html* h, pl_html_tracks* all, const pl_frame_of* f, const
   return add_track(h, all, &(pl_html_track){bytes, still});
 }
 
-enum { PL_HTML_MOVING_POINTS = 31 };      // of a curve that moves as a whole
+enum { PL_HTML_MOVING_POINTS = 33 };      // of a curve that moves as a whole
 
 // Which points of a shape are sent.
 static int chosen_points(const pl_shape* p, int* at) {
@@ -345,7 +378,7 @@ void pl_html_scene_data(pl_html* h) {
   const pl_scene* s = h->in->scene;
   pl_frame_of f = fit(s);
   pl_html_tracks all = {.by_hash = pl_map_make(h->arena), .size = 4 * (size_t)s->n_frames};
-  pl_html_rawf(h, "{\"w\":%d,\"h\":%d,\"best\":%d,\"t\":\"", PL_HTML_WIDE, f.height, s->best);
+  pl_html_rawf(h, "{\"w\":%d,\"h\":%d,\"best\":%d,\"t\":\"", PL_HTML_WIDE, f.height, opening(s));
   pl_html_raw(h, pl_html_floats(h, s->t, s->n_frames));
   pl_html_raw(h, "\",\"shapes\":[");
   bool first = true;

@@ -56,7 +56,7 @@ const X = columns(D.thin), N = D.thin.n, tt = X[0], t0 = tt[0], t1 = tt[N - 1];
 const say = (en, ge) => de ? ge : en;
 const number = (v, n) => {
   if (!isFinite(v)) return '–';
-  let s = v === 0 ? '0' : Math.abs(v) >= 1e6 || Math.abs(v) < 1e-4 ? v.toExponential(n - 2) : String(+v.toPrecision(n));
+  let s = v === 0 ? '0' : Math.abs(v) >= 1e6 || Math.abs(v) < 1e-4 ? String(+v.toPrecision(n)).includes('e') ? String(+v.toPrecision(n)) : (+v.toPrecision(n)).toExponential() : String(+v.toPrecision(n));
   s = s.replace(/e([+-])(\d+)/, (m, a, b) => '·10' + [...(a === '-' ? '-' : '') + b].map(c => c === '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[c]).join(''));
   return (de ? s.replace('.', ',') : s).replace(/^-/, '−');
 };
@@ -154,7 +154,12 @@ const arc = (x1, y1, x2, y2, x3, y3) => {
   const sweep = d > 0 ? 1 : 0;
   return 'M' + P(x1, y1) + `A${f1(r)} ${f1(r)} 0 0 ${sweep} ` + P(x2, y2) + `A${f1(r)} ${f1(r)} 0 0 ${sweep} ` + P(x3, y3);
 };
-const line = (p, closed) => { let d = ''; for (let k = 0; k < p.length; k += 2) d += (k ? 'L' : 'M') + P(p[k], p[k + 1]); return closed ? d + 'Z' : d; };
+const line = (p, closed, round) => { let d = ''; if (round && p.length > 8) return smooth(p); for (let k = 0; k < p.length; k += 2) d += (k ? 'L' : 'M') + P(p[k], p[k + 1]); return closed ? d + 'Z' : d; };
+const smooth = p => {
+  let d = 'M' + P(p[0], p[1]);
+  for (let k = 2; k < p.length - 2; k += 2) d += 'Q' + P(p[k], p[k + 1]) + ' ' + P((p[k] + p[k + 2]) / 2, (p[k + 1] + p[k + 3]) / 2);
+  return d + 'L' + P(p[p.length - 2], p[p.length - 1]);
+};
 const trailTo = (r, i, u) => {
   let d = '', open = false;
   if (r.length === 2) return d;
@@ -180,11 +185,24 @@ const drawShape = (s, i, u) => {
   if (!show) { s.now = null; return; }
   if (s.k === 'mass' || s.k === 'point') { s.e.setAttribute('cx', f1(p[0])); s.e.setAttribute('cy', f1(p[1])); return; }
   const make = {spring: coil, damper, force: arrow, velocity: arrow, axis: arrow, angle: s.n === 3 ? arc : null}[s.k];
-  s.e.setAttribute('d', make ? make(...p) : line(p, s.k === 'body'));
+  s.e.setAttribute('d', make ? make(...p) : line(p, s.k === 'body', s.k === 'curve'));
 };
 const around = [[.9, -.7], [.9, .8], [-.9, -.7], [-.9, .8], [0, -1], [0, 1], [1, 0], [-1, 0]];
+// Small boxes along lines, which labels keep clear of.
+const along = (p, out) => {
+  for (let k = 2; k < p.length; k += 2) {
+    const x = p[k - 2], y = p[k - 1], dx = p[k] - x, dy = p[k + 1] - y, n = Math.floor(Math.hypot(dx, dy) / 9) + 1;
+    for (let j = 0; j <= n; j++) out.push([x + dx * j / n - 2, y + dy * j / n - 2, 4, 4]);
+  }
+};
+const still = [];
+for (const e of all('#anim g:not([data-i]):not(.scale) path:not(.hatch)')) {
+  const n = Math.min(200, Math.floor(e.getTotalLength() / 9));
+  for (let j = 0; j <= n && n; j++) { const q = e.getPointAtLength(j / n * e.getTotalLength()); still.push([q.x - 2, q.y - 2, 4, 4]); }
+}
 const placeLabels = () => {
-  const taken = [];
+  const taken = [], lines = [...still];
+  for (const s of shapes) if (s.now && s.k !== 'mass' && s.k !== 'point') along(s.now, lines);
   for (const s of shapes) if (s.k === 'mass' && s.now) taken.push([s.now[0] - 8, s.now[1] - 8, 16, 16]);
   for (const c of all('#anim g.mass:not([data-i]) circle')) taken.push([c.getAttribute('cx') - 8, c.getAttribute('cy') - 8, 16, 16]);
   for (const l of labels) if (l.fixed) taken.push([l.fixed[0], l.fixed[1], l.width, 16]);
@@ -194,18 +212,19 @@ const placeLabels = () => {
     let k = tip ? 1 : Math.floor(l.s.n / 2), ux = 0, uy = 0;
     if (p && tip) {
       const dx = p[2] - p[0], dy = p[3] - p[1], len = Math.hypot(dx, dy);
-      if (len < 3) k = -1; else { ux = dx / len; uy = dy / len; }
+      if (len < 9) k = -1; else { ux = dx / len; uy = dy / len; }
     }
     l.e.style.display = p && k >= 0 ? '' : 'none';
     if (!p || k < 0) continue;
-    let best = null;
+    let best = null, least = Infinity;
     for (let i = 0; i < 16; i++) {
       const far = i < 8 ? 1 : 1.9, own = i === 0 && (ux || uy), dx = own ? ux : around[i % 8][0] * far, dy = own ? uy : around[i % 8][1] * far;
       const b = [p[2 * k] + dx * (l.width / 2 + 11) - l.width / 2, p[2 * k + 1] + dy * 17 - 8, l.width, 16];
       b[0] = Math.min(Math.max(b[0], 2), S.w - 2 - l.width);
       b[1] = Math.min(Math.max(b[1], 2), S.h - 18);
-      best = best || b;
-      if (!taken.some(o => b[0] < o[0] + o[2] && o[0] < b[0] + b[2] && b[1] < o[1] + o[3] && o[1] < b[1] + b[3])) { best = b; break; }
+      const hits = (list, w) => list.reduce((n, o) => n + (b[0] < o[0] + o[2] && o[0] < b[0] + b[2] && b[1] < o[1] + o[3] && o[1] < b[1] + b[3] ? w : 0), 0);
+      const cost = hits(taken, 20) + hits(lines, 1) + .4 * i;
+      if (cost < least) { best = b; least = cost; }
     }
     taken.push(best);
     l.e.setAttribute('x', f1(best[0]));
@@ -246,7 +265,7 @@ const span = (xs, from, to, room, wide) => {
 };
 const makePlot = svg => {
   const spec = D.plots[svg.dataset.p], timed = spec.x === 0, outs = [...svg.parentElement.querySelectorAll('output')];
-  const M = {l: 58, r: 14, t: 10, b: 30}, id = 'clip' + svg.dataset.p;
+  const M = {l: 46, r: 14, t: 10, b: 30}, id = 'clip' + svg.dataset.p;
   let W, H, xr, yr, drag = null, sel, cur, dots;
   const px = x => M.l + (x - xr[0]) / (xr[1] - xr[0]) * (W - M.l - M.r), py = y => H - M.b - (y - yr[0]) / (yr[1] - yr[0]) * (H - M.t - M.b);
   const inv = p => xr[0] + (p - M.l) / (W - M.l - M.r) * (xr[1] - xr[0]);
@@ -268,14 +287,15 @@ const makePlot = svg => {
   };
   const marks = () => {
     let free = M.l;
-    for (const [t, label] of D.marks) {
-      const x = px(t);
-      if (x < M.l - 1 || x > W - M.r + 1) continue;
+    D.marks.forEach(([t, label], i) => {
+      const x = px(t), w = widthOf(label) + 8;
+      if (x < M.l - 1 || x > W - M.r + 1) return;
+      const next = i + 1 < D.marks.length ? Math.min(px(D.marks[i + 1][0]), W - M.r) : W - M.r;
+      const left = x - w >= free, right = !left && x + w <= next;
       el(svg, 'line', {class: 'ev', x1: x, x2: x, y1: M.t - 6, y2: H - M.b});
-      if (x - widthOf(label) - 8 < free) continue;
-      el(svg, 'text', {class: 'e evt', x: x - 4, y: M.t + 5}, label);
-      free = x;
-    }
+      if (left || right) el(svg, 'text', {class: left ? 'e evt' : 'evt', x: left ? x - 4 : x + 4, y: M.t + 5}, label);
+      free = right ? x + w : x;
+    });
   };
   const curve = (g, c, k) => {
     let d = '', open = false;
@@ -292,6 +312,7 @@ const makePlot = svg => {
     const from = Math.max(0, rowAt(zoom[0])), to = Math.min(N - 1, rowAt(zoom[1]) + 1);
     xr = timed ? zoom : span([X[spec.x]], 0, N - 1, .04, false);
     yr = span(spec.y.map(c => X[c]), timed ? from : 0, timed ? to : N - 1, .06, true);
+    M.l = Math.max(40, ...ticks(yr[0], yr[1], 4).map(v => widthOf(number(v, 6)) + 14));
     svg.replaceChildren();
     svg.setAttribute('viewBox', `0 0 ${W} ${H}`);
     el(el(el(svg, 'defs'), 'clipPath', {id}), 'rect', {x: M.l, y: M.t - 6, width: W - M.l - M.r, height: H - M.t - M.b + 8});
