@@ -111,7 +111,7 @@ static double size_of_correction(const pl_radau* r, double h, double goal) {
   for (int i = 0; i < r->method.s; i++) {
     const double* d = r->F + (size_t)i * (size_t)r->n;
     for (int e = 0; e < r->n_q; e++) {
-      double y = fabs(d[e]) * fmax(1 / fmax(r->sc_v[e], r->rounding / goal), fabs(h) / r->sc_q[e]);
+      double y = fabs(d[e]) * fmax(1 / fmax(r->sc_v[e], 0.05 * r->rounding / goal), fabs(h) / r->sc_q[e]);
       if (!(y <= most)) most = y;
     }
   }
