@@ -5,12 +5,16 @@
 
 // Size of the picture, and of what has a size of its own.  mm
 static const double wide = 90, high = 62, mass = 1.5, pivot = 0.8, tick = 1.6, coil = 1.6;
-enum { PL_TEX_COILS = 8, PL_TEX_POINTS = 120 };
+enum { PL_TEX_COILS = 8, PL_TEX_POINTS = 120, PL_TEX_LABELS = 40 };
+
+typedef struct pl_patch { double x, y, half_width; } pl_patch;    // where a label stands: its middle  mm
 
 typedef struct pl_canvas {
   pl_tex_page* g;
   const pl_scene* scene;
   double scale, x0, y0;     // mm a metre, and the metre that lies at the origin
+  int n_labels;
+  pl_patch labels[PL_TEX_LABELS];
 } pl_canvas;
 
 typedef struct pl_spot { double x, y; bool there; } pl_spot;      // mm
@@ -37,10 +41,33 @@ static void path(const pl_canvas* c, const pl_shape* s, const char* how, const c
   if (open) pl_text_addf(c->g->out, "%s;\n", end);
 }
 
-static void label(const pl_canvas* c, const pl_shape* s, pl_spot p, const char* where) {
-  if (!s->label || !*s->label || !p.there) return;
-  const char* math = pl_tex_math(c->g, pl_form_name(c->g->arena, s->label, pl_poison()));
-  pl_text_addf(c->g->out, "  \\node[%s] at %s {$%s$};\n", where, at(c, p), math);
+// Places around a point, the best first.
+static const struct { const char* anchor; double x, y; } places[] = {
+  {"above right", 1, 1}, {"right", 1, 0}, {"below right", 1, -1}, {"above left", -1, 1}, {"left", -1, 0}, {"below left", -1, -1},
+  {"above", 0, 1}, {"below", 0, -1},
+};
+static const double label_gap = 2.6, line_height = 4.2, letter_width = 1.6;    // mm
+
+static bool is_free(const pl_canvas* c, pl_patch p) {
+  for (int i = 0; i < c->n_labels; i++) {
+    const pl_patch* q = &c->labels[i];
+    if (fabs(p.x - q->x) < p.half_width + q->half_width && fabs(p.y - q->y) < line_height) return false;
+  }
+  return true;
+}
+
+// A label beside a point where no other stands; left out when there is no room at all.
+static void label(pl_canvas* c, const pl_shape* s, pl_spot p) {
+  if (!s->label || !*s->label || !p.there || c->n_labels == PL_TEX_LABELS) return;
+  const pl_form* name = pl_form_name(c->g->arena, s->label, pl_poison());
+  double half = letter_width * (pl_tex_width(c->g, name) + 0.5) / 2;
+  for (size_t k = 0; k < sizeof places / sizeof *places; k++) {
+    pl_patch here = {p.x + places[k].x * (label_gap + half), p.y + places[k].y * label_gap, half};
+    if (!is_free(c, here)) continue;
+    c->labels[c->n_labels++] = here;
+    pl_text_addf(c->g->out, "  \\node[%s] at %s {$%s$};\n", places[k].anchor, at(c, p), pl_tex_math(c->g, name));
+    return;
+  }
 }
 
 // Short strokes on the side where the material is.
@@ -86,23 +113,34 @@ static void damper(const pl_canvas* c, const pl_shape* s) {
 #undef AT
 }
 
-static void arrow(const pl_canvas* c, const pl_shape* s, const char* how) {
+static void arrow(pl_canvas* c, const pl_shape* s, const char* how) {
   pl_spot a = spot(c, s, 0), b = spot(c, s, 1);
   if (!a.there || !b.there || hypot(b.x - a.x, b.y - a.y) < 0.5) return;
   path(c, s, how, "");
-  bool sideways = fabs(b.x - a.x) > fabs(b.y - a.y);
-  label(c, s, b, sideways ? (b.x > a.x ? "right" : "left") : b.y > a.y ? "above" : "below");
+  label(c, s, b);
 }
 
-static void shape(const pl_canvas* c, const pl_shape* s) {
+// The path so far; one that fills the picture tells nothing.
+static void trail(const pl_canvas* c, const pl_shape* s) {
+  pl_shape part = *s;
+  part.n = s->n < c->scene->best + 1 ? s->n : c->scene->best + 1;
+  double length = 0;
+  for (int i = 0; i + 1 < part.n; i++) {
+    pl_spot a = spot(c, s, i), b = spot(c, s, i + 1);
+    if (a.there && b.there) length += hypot(b.x - a.x, b.y - a.y);
+  }
+  if (length < 3 * (wide + high)) path(c, &part, "densely dotted,black!60", "");
+}
+
+static void shape(pl_canvas* c, const pl_shape* s) {
   switch (s->kind) {
     case PL_SHAPE_MASS:
       if (spot(c, s, 0).there) pl_text_addf(c->g->out, "  \\fill %s circle (%.2f);\n", at(c, spot(c, s, 0)), mass);
-      label(c, s, spot(c, s, 0), "above right");
+      label(c, s, spot(c, s, 0));
       break;
     case PL_SHAPE_POINT:
       if (spot(c, s, 0).there) pl_text_addf(c->g->out, "  \\draw[fill=white] %s circle (%.2f);\n", at(c, spot(c, s, 0)), pivot);
-      label(c, s, spot(c, s, 0), "below left");
+      label(c, s, spot(c, s, 0));
       break;
     case PL_SHAPE_BODY: path(c, s, "thick,fill=black!10", " -- cycle"); break;
     case PL_SHAPE_ROD: path(c, s, "very thick", ""); break;
@@ -117,11 +155,11 @@ static void shape(const pl_canvas* c, const pl_shape* s) {
     case PL_SHAPE_AXIS: arrow(c, s, "->,black!60"); break;
     case PL_SHAPE_ANGLE:
       path(c, s, "thin", "");
-      label(c, s, spot(c, s, s->n / 2), "fill=white,inner sep=1pt");
+      label(c, s, spot(c, s, s->n / 2));
       break;
     case PL_SHAPE_FORCE: arrow(c, s, "->,thick,orange!80!black"); break;
     case PL_SHAPE_VELOCITY: arrow(c, s, "->,thick,blue!70!black"); break;
-    case PL_SHAPE_TRAIL: path(c, s, "densely dotted,black!60", ""); break;
+    case PL_SHAPE_TRAIL: trail(c, s); break;
   }
 }
 
@@ -136,7 +174,7 @@ void pl_tex_figure(pl_tex_page* g, const pl_scene* scene) {
   double width = (double)scene->box[2] - x0, height = (double)scene->box[3] - y0;
   if (scene->n_shapes == 0 || !(width > 0 || height > 0)) return;
   double scale = fmin(width > 0 ? wide / width : HUGE_VAL, height > 0 ? high / height : HUGE_VAL);
-  pl_canvas c = {g, scene, scale, x0, y0};
+  pl_canvas c = {.g = g, .scene = scene, .scale = scale, .x0 = x0, .y0 = y0};
   pl_text_add(g->out, "\\ifcsname tikzpicture\\endcsname\n\\begin{center}\n\\begin{tikzpicture}[x=1mm,y=1mm,>=latex,font=\\small]\n");
   for (size_t k = 0; k < sizeof order / sizeof *order; k++) {
     for (int i = 0; i < scene->n_shapes; i++) {

@@ -244,6 +244,15 @@ static void side_lines(pl_tex_page* g, const pl_form* f, double room, const char
   out->last = w < room ? w : room;
 }
 
+// The left side of a chain; beside a vector a name has its arrow.
+static const char* head_of(pl_tex_page* g, const pl_chain* chain) {
+  const char* pair = pl_tex_math(g, pl_form_relation(g->arena, chain->at[0].form, "=", chain->at[1].form));
+  int depth = 0;
+  size_t n = 0;
+  for (; pair[n] && !(depth == 0 && strncmp(pair + n, " = ", 3) == 0); n++) depth += (pair[n] == '{') - (pair[n] == '}');
+  return pl_copy_n(g->arena, pair, n);
+}
+
 pl_tex_lines pl_tex_display(pl_tex_page* g, const pl_form* f) {
   pl_tex_lines out = {0};
   pl_chain chain = {0};
@@ -255,17 +264,9 @@ pl_tex_lines pl_tex_display(pl_tex_page* g, const pl_form* f) {
     return out;
   }
   if (whole <= PL_TEX_LINE) {
-    pl_text line = pl_text_make(g->arena);
-    pl_text_add(&line, pl_tex_math(g, pl_form_relation(g->arena, chain.at[0].form, "=", chain.at[1].form)));
-    // the print of the pair knows what is a vector; its first relation at depth 0 is where the lines are aligned
-    const char* pair = pl_text_string(&line);
-    const char* cut = pair;
-    int depth = 0;
-    while (*cut && !(depth == 0 && strncmp(cut, " = ", 3) == 0)) depth += (*cut == '{') - (*cut == '}'), cut++;
     pl_text all = pl_text_make(g->arena);
-    pl_text_add_n(&all, pair, (size_t)(cut - pair));
-    pl_text_addf(&all, " &%s %s", op_tex(chain.at[1].op), *cut ? cut + 3 : "");
-    for (int i = 2; i < chain.n; i++) pl_text_addf(&all, " %s %s", op_tex(chain.at[i].op), pl_tex_math(g, chain.at[i].form));
+    pl_text_addf(&all, "%s &", head_of(g, &chain));
+    for (int i = 1; i < chain.n; i++) pl_text_addf(&all, "%s%s %s", i > 1 ? " " : "", op_tex(chain.at[i].op), pl_tex_math(g, chain.at[i].form));
     pl_push(g->arena, out.list, pl_text_string(&all));
     out.last = whole, out.left = left, out.right = whole - left;
     return out;
@@ -276,7 +277,7 @@ pl_tex_lines pl_tex_display(pl_tex_page* g, const pl_form* f) {
   double room = own_line ? PL_TEX_LINE - 4 : PL_TEX_LINE - left - relation;
   for (int i = 1; i < chain.n; i++) {
     bool first = i == 1 && !own_line;
-    const char* head = first ? pl_tex_math(g, chain.at[0].form) : own_line ? "&\\quad{}" : "";
+    const char* head = first ? head_of(g, &chain) : own_line ? "&\\quad{}" : "";
     const char* begin = pl_format(g->arena, "%s %s%s ", head, own_line ? "" : "&", op_tex(chain.at[i].op));
     side_lines(g, chain.at[i].form, room, begin, &out);
   }
