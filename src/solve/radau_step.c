@@ -25,7 +25,7 @@ static const double usual_tol = 1e-10;   // where none is asked for
 
 double pl_radau_tol(double asked) { return asked > 0 ? fmax(asked, least_tol) : usual_tol; }
 
-static int stages_for(double tol) { return tol >= 1e-5 ? 3 : tol >= 1e-9 ? 5 : 7; }
+static int stages_for(double tol) { return tol >= 1e-3 ? 3 : tol >= 1e-8 ? 5 : 7; }
 
 bool pl_radau_make(pl_run* run, double tol, int most) {
   if (run->n_q + run->n_c > most) return false;
@@ -33,7 +33,7 @@ bool pl_radau_make(pl_run* run, double tol, int most) {
   pl_radau* r = run->radau = pl_radau_reserve(run, s);
   r->tol = tol;
   r->stay_next = 16;
-  r->tol_stage = 0.1 * pow(tol, (3 * s + 1) / (4.0 * s));
+  r->tol_stage = 0.03 * pow(tol, (3 * s + 1) / (4.0 * s));
   return true;
 }
 
