@@ -8,6 +8,7 @@
 //   inverse   the factor's inverse, when the system is small
 //   start     order 0 of the series: forces, a_0, λ_0
 //   order     order k >= 1
+//   energy    kinetic and potential energy at the point
 // The factor is L D L^T without pivoting in an order found once: coordinates first, then constraints.  Where its pivots
 // fade the caller goes the general way (assemble.c, kkt.c), which pivots.
 #ifndef PL_MOTION_IMPL_H
@@ -30,6 +31,7 @@ typedef enum pl_motion_part {
   PL_PART_INVERSE,
   PL_PART_START,
   PL_PART_ORDER,
+  PL_PART_ENERGY,
   PL_N_PARTS
 } pl_motion_part;
 
@@ -54,6 +56,7 @@ struct pl_motion {
   int q_floor, v_floor;          // sizes of coordinates and velocities                (n_q)
   int g, g_size, argument;       // constraint values, sizes, as in pl_run            (n_c)
   int r, r_size;                 // G v + dg/dt                                       (n_c)
+  int energy;                    // kinetic, potential
   int h;                         // forces at order 0                                 (n_q)
   int pivot, pivot_size;         // of the unknowns: pivot, sum of what was subtracted          (n)
   int move;                      // correction of the coordinates                     (n_q)

@@ -7,7 +7,7 @@ int pl_maker_take(pl_maker* k, int n) {
   return at;
 }
 
-// ---------------------------------------------------------------------------------------------- instances
+// ---------------------------------------------------------------------------------------------- limits
 static bool fits(const pl_run* run) {
   long nodes = 0;
   if (run->n_q + run->n_c > PL_MOTION_UNKNOWNS || run->has_W || run->mass_of_speed || run->setup->n_rubs > 0)
@@ -17,89 +17,6 @@ static bool fits(const pl_run* run) {
     nodes += (long)b->n * b->pattern->tape->n_nodes;
   }
   return nodes <= PL_MOTION_NODES;
-}
-
-static void list_instances(pl_maker* k) {
-  int n = 0;
-  for (int i = 0; i < k->run->motion.n; i++) n += k->run->motion.at[i].n;
-  k->instance = PL_ARRAY(k->a, pl_maker_instance, n + 1);
-  for (int i = 0; i < k->run->motion.n; i++) {
-    const pl_batch* b = &k->run->motion.at[i];
-    for (int l = 0; l < b->n; l++) {
-      k->instance[k->n_instances++] = (pl_maker_instance){b, b->pattern->tape, l, k->n_nodes};
-      k->n_nodes += b->pattern->tape->n_nodes;
-    }
-  }
-}
-
-static void reserve_nodes(pl_maker* k) {
-  size_t n = (size_t)k->n_nodes + 1;
-  k->owner = PL_ARRAY(k->a, int, n);
-  k->needed = PL_ARRAY(k->a, bool, n);
-  k->high = PL_ARRAY(k->a, bool, n);
-  int** ints[] = {&k->cell, &k->inverse, &k->keep, &k->start, &k->now, &k->place_now};
-  for (size_t i = 0; i < sizeof ints / sizeof *ints; i++) {
-    *ints[i] = PL_ARRAY(k->a, int, n);
-    for (size_t j = 0; j < n; j++) (*ints[i])[j] = -1;
-  }
-  k->sum_cell = PL_ARRAY(k->a, struct pl_sum_cells, n);
-  for (size_t j = 0; j < n; j++) k->sum_cell[j] = (struct pl_sum_cells){{-1, -1, -1}};
-  k->plain = PL_ARRAY(k->a, pl_places, n);
-  k->weighted = PL_ARRAY(k->a, pl_places, n);
-  for (int i = 0; i < k->n_instances; i++)
-    for (int j = 0; j < k->instance[i].tape->n_nodes; j++) k->owner[k->instance[i].base + j] = i;
-}
-
-// ---------------------------------------------------------------------------------------------- entries
-static int root(const pl_maker_instance* i, int r) { return i->base + i->tape->roots[r]; }
-
-#define TERM(list, ...) pl_push(k->a, k->list, (pl_term){__VA_ARGS__})
-
-static void list_terms_of(pl_maker* k, const pl_maker_instance* i) {
-  const pl_batch* b = i->batch;
-  const pl_pattern* p = b->pattern;
-  int l = i->lane, lanes = b->lanes;
-#define COORDINATE(slot) b->q[(slot) * lanes + l]
-#define CONSTRAINT(slot) b->c[(slot) * lanes + l]
-  for (int e = 0; e < p->n_mass; e++)
-    TERM(M, COORDINATE(p->mass[e].row), COORDINATE(p->mass[e].col), root(i, p->mass[e].root));
-  for (int e = 0; e < p->n_G; e++) TERM(G, CONSTRAINT(p->G[e].row), COORDINATE(p->G[e].col), root(i, p->G[e].root));
-  for (int e = 0; e < p->n_gt; e++) TERM(gt, CONSTRAINT(p->gt[e].row), 0, root(i, p->gt[e].root));
-  for (int e = 0; e < p->n_h; e++) TERM(h, COORDINATE(p->h[e].row), 0, root(i, p->h[e].root));
-  for (int e = 0; e < p->n_g; e++) {
-    TERM(g, CONSTRAINT(p->g[e].row), 0, root(i, p->g[e].root));
-    if (p->g[e].col >= 0) TERM(g_terms, CONSTRAINT(p->g[e].row), 0, root(i, p->g[e].col));
-  }
-}
-
-static void need(pl_maker* k, bool* set, int node) {
-  PL_VEC(int) stack = {0};
-  pl_push(k->a, stack, node);
-  while (stack.n > 0) {
-    int i = stack.at[--stack.n], base = k->instance[k->owner[i]].base;
-    if (set[i]) continue;
-    set[i] = true;
-    const pl_tape_node* n = pl_maker_node(k, i);
-    if (n->a >= 0) pl_push(k->a, stack, base + n->a);
-    if (n->b >= 0) pl_push(k->a, stack, base + n->b);
-    if (n->c >= 0) pl_push(k->a, stack, base + n->c);
-  }
-}
-
-#define NEED(set, list) \
-  for (int e = 0; e < k->list.n; e++) need(k, k->set, k->list.at[e].node)
-
-static void find_needed(pl_maker* k) {
-  NEED(needed, M);
-  NEED(needed, G);
-  NEED(needed, gt);
-  NEED(needed, h);
-  NEED(needed, g);
-  NEED(needed, g_terms);
-  NEED(high, M);
-  NEED(high, G);
-  NEED(high, gt);
-  NEED(high, h);
 }
 
 // ---------------------------------------------------------------------------------------------- unknowns, memory
@@ -153,6 +70,7 @@ static void lay_out(pl_maker* k) {
   o->V = pl_maker_take(k, rows * n_q);
   o->A = pl_maker_take(k, rows * n_q);
   o->L = pl_maker_take(k, rows * n_c);
+  o->energy = pl_maker_take(k, 2);
   int* of_q[] = {&o->q_floor, &o->v_floor, &o->h, &o->move};
   int* of_c[] = {&o->g, &o->g_size, &o->argument, &o->r, &o->r_size};
   for (size_t i = 0; i < sizeof of_q / sizeof *of_q; i++) *of_q[i] = pl_maker_take(k, n_q);
@@ -169,7 +87,7 @@ static void lay_out(pl_maker* k) {
   }
   int at = o->size;
   for (int i = 0; i < k->n_nodes; i++) {
-    if (k->needed[i]) k->cell[i] = at++;
+    if (k->needed[i] || k->for_energy[i]) k->cell[i] = at++;
     if (k->high[i] && pl_lower_has_inverse(k->instance[k->owner[i]].tape, i - k->instance[k->owner[i]].base)) k->inverse[i] = at++;
   }
   k->elimination = pl_elimination_make(k->a, k->entry, o->n, o->n_mass, o->n - o->n_taken, &at);
@@ -179,12 +97,12 @@ static void lay_out(pl_maker* k) {
 // ---------------------------------------------------------------------------------------------- registers
 static int start_of(void* user, int node) {
   pl_maker* k = user;
-  return pl_maker_start(k, k->instance[k->instance_now].base + node);
+  return pl_maker_start(k, pl_maker_same(k, k->instance_now, node));
 }
 
 static int now_of(void* user, int node) {
   pl_maker* k = user;
-  int global = k->instance[k->instance_now].base + node;
+  int global = pl_maker_same(k, k->instance_now, node);
   if (node < k->instance[k->instance_now].tape->level_end[PL_LEVEL_CONST]) return -1;
   if (!k->speed_phase) return k->place_now[global];
   if (k->now[global] < 0 && k->keep[global] >= 0) k->now[global] = pl_prog_load(k->code, k->keep_at + k->keep[global], k->n_keep);
@@ -193,7 +111,7 @@ static int now_of(void* user, int node) {
 
 static int sum_of(void* user, int node, int i) {
   pl_maker* k = user;
-  int cell = k->sum_cell[k->instance[k->instance_now].base + node].i[i];
+  int cell = k->sum_cell[pl_maker_same(k, k->instance_now, node)].i[i];
   return k->with_sums && cell >= 0 ? pl_prog_load(k->code, cell, 0) : -1;
 }
 
@@ -204,7 +122,7 @@ static int ratio_of(void* user, int node, int part) {
 
 static int inverse_of(void* user, int node) {
   pl_maker* k = user;
-  return pl_prog_load(k->code, k->inverse[k->instance[k->instance_now].base + node], 0);
+  return pl_prog_load(k->code, k->inverse[pl_maker_same(k, k->instance_now, node)], 0);
 }
 
 int pl_maker_start(pl_maker* k, int node) {
@@ -300,10 +218,10 @@ static void factor(pl_maker* k) {
 }
 
 // Nodes of q and t, inputs first.
-static void write_inputs(pl_maker* k, pl_op op, pl_level level) {
+static void write_inputs(pl_maker* k, pl_op op, pl_level level, const bool* set) {
   for (int i = 0; i < k->n_nodes; i++) {
     const pl_tape_node* n = pl_maker_node(k, i);
-    if (!k->needed[i] || n->op != op || n->level != level) continue;
+    if (!set[i] || n->op != op || n->level != level) continue;
     const pl_batch* b = k->instance[k->owner[i]].batch;
     int from = op == PL_OP_TIME ? k->o->time
                                 : (op == PL_OP_Q ? k->o->Q : k->o->V) + b->q[n->slot * b->lanes + k->instance[k->owner[i]].lane];
@@ -312,17 +230,17 @@ static void write_inputs(pl_maker* k, pl_op op, pl_level level) {
   }
 }
 
-void pl_maker_level(pl_maker* k, pl_level level) {
-  write_inputs(k, PL_OP_TIME, level);
-  write_inputs(k, PL_OP_Q, level);
-  write_inputs(k, PL_OP_V, level);
+void pl_maker_level(pl_maker* k, pl_level level, const bool* set) {
+  write_inputs(k, PL_OP_TIME, level, set);
+  write_inputs(k, PL_OP_Q, level, set);
+  write_inputs(k, PL_OP_V, level, set);
   for (int i = 0; i < k->n_nodes; i++)
-    if (k->needed[i] && pl_maker_node(k, i)->level == level) pl_maker_value(k, i);
+    if (set[i] && pl_maker_node(k, i)->level == level) pl_maker_value(k, i);
 }
 
 static void place_code(pl_maker* k) {
   pl_maker_begin(k, PL_PART_PLACE, "place", 1);
-  pl_maker_level(k, PL_LEVEL_PLACE);
+  pl_maker_level(k, PL_LEVEL_PLACE, k->needed);
   constraint_values(k);
   factor(k);
   pl_maker_end(k);
@@ -380,6 +298,23 @@ static void inverse_code(pl_maker* k) {
   pl_maker_end(k);
 }
 
+// Energies at a point where all else is computed.
+static void energy_code(pl_maker* k) {
+  if (k->energy.n == 0) return;
+  for (int i = 0; i < k->n_nodes; i++) {
+    if (k->for_energy[i] && pl_maker_node(k, i)->level == PL_LEVEL_FORCE) return;   // not at every point known
+    k->for_energy[i] &= !k->needed[i];
+  }
+  pl_maker_begin(k, PL_PART_ENERGY, "energy", 1);
+  pl_maker_level(k, PL_LEVEL_PLACE, k->for_energy);
+  pl_maker_level(k, PL_LEVEL_SPEED, k->for_energy);
+  for (int i = 0; i < 2; i++) {
+    SUM_OF_ROW(energy, i);
+    pl_prog_store(k->code, or_zero(k, row_), k->o->energy + i, 0);
+  }
+  pl_maker_end(k);
+}
+
 // ---------------------------------------------------------------------------------------------- all of it
 static void fill_memory(pl_maker* k) {
   pl_motion* o = k->o;
@@ -408,12 +343,10 @@ pl_motion* pl_motion_make(pl_run* run) {
   o->taken = PL_ARRAY(k->a, bool, run->n_c + 1);
   for (int c = 0; c < run->n_c; c++) o->taken[c] = run->taken[c];
   if (!fits(run)) return o;
-  list_instances(k);
-  reserve_nodes(k);
-  for (int i = 0; i < k->n_instances; i++) list_terms_of(k, &k->instance[i]);
+  pl_maker_instances(k);
+  pl_maker_terms(k);
   number_unknowns(k);
   number_constraints(k);
-  find_needed(k);
   find_structure(k);
   lay_out(k);
   if (k->elimination == NULL) return o;
@@ -425,6 +358,7 @@ pl_motion* pl_motion_make(pl_run* run) {
   pl_maker_streams(k);
   pl_maker_start_code(k);
   pl_maker_order_code(k);
+  energy_code(k);
   fill_memory(k);
   o->usable = true;
   return o;

@@ -9,6 +9,7 @@ typedef struct pl_maker_instance {
   const pl_batch* batch;
   const pl_tape* tape;
   int lane, base;
+  bool observes;             // of an observer: only its energies count
 } pl_maker_instance;
 
 // A term: entry (row, col) of a matrix or a vector is the sum of nodes.
@@ -29,13 +30,15 @@ typedef struct pl_maker {
   int n_instances;
   int n_nodes;
   int* owner;                // instance of each node
+  int* same;                 // the first node that is the same quantity: that one stands for all
   bool *needed, *high;       // at order 0; above
+  bool* for_energy;          // at order 0, for the energies
   int *cell, *inverse;       // places in memory of order 0 and of the reciprocal; -1
   int* keep;                 // place in a row of what later orders of speed nodes read; -1
   int n_keep, keep_at;
   struct pl_sum_cells { int i[3]; }* sum_cell;   // place of convolution i of a node; -1
   pl_places *plain, *weighted;   // streams that a node is written to
-  PL_VEC(pl_term) M, G, gt, g, g_terms, h;
+  PL_VEC(pl_term) M, G, gt, g, g_terms, h, energy;
   pl_places *from_a, *from_lambda, *from_v;   // streams of -a_k (row k+1), λ_k (row k+1), v_k (row k)
   int* row_sum;              // place of the sum of a row's products: by unknown; -1
   pl_maker_groups* groups;   // of eight sums
@@ -54,12 +57,18 @@ static inline const pl_tape_node* pl_maker_node(const pl_maker* k, int node) {
   return &i->tape->nodes[node - i->base];
 }
 
+// The node that stands for node i of an instance.
+static inline int pl_maker_same(const pl_maker* k, int instance, int node) { return k->same[k->instance[instance].base + node]; }
+
 int pl_maker_take(pl_maker* k, int n);                   // n numbers of memory, aligned to 8
 void pl_maker_begin(pl_maker* k, pl_motion_part part, const char* name, int width);
 void pl_maker_end(pl_maker* k);
 int pl_maker_start(pl_maker* k, int node);               // register of order 0
 int pl_maker_value(pl_maker* k, int node);               // computes order 0
-void pl_maker_level(pl_maker* k, pl_level level);         // order 0 of a whole level
+void pl_maker_level(pl_maker* k, pl_level level, const bool* set);   // order 0 of the nodes of a level
+// ---- motion_nodes.c
+void pl_maker_instances(pl_maker* k);                    // instances, which nodes are the same
+void pl_maker_terms(pl_maker* k);                        // entries, which nodes are needed
 // ---- motion_order.c
 void pl_maker_streams(pl_maker* k);                      // convolutions: groups, streams, places of sums
 void pl_maker_start_code(pl_maker* k);

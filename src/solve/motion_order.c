@@ -63,7 +63,7 @@ static void list_sums(pl_maker* k, pl_level level, pl_sum_list* out) {
     int n = pl_lower_sums(in->tape, i - in->base, s);
     for (int j = 0; j < n; j++)
       if (!is_constant(k, k->owner[i], s[j].a) && !is_constant(k, k->owner[i], s[j].b))
-        pl_push(k->a, *out, (pl_maker_sum){i, j, -1, {s[j].a + in->base, s[j].b + in->base, s[j].weighted}});
+        pl_push(k->a, *out, (pl_maker_sum){i, j, -1, {pl_maker_same(k, k->owner[i], s[j].a), pl_maker_same(k, k->owner[i], s[j].b), s[j].weighted}});
   }
 }
 
@@ -144,7 +144,7 @@ static void group_rows(pl_maker* k, pl_streams* streams, const pl_row_list* rows
 // ---------------------------------------------------------------------------------------------- what is kept
 static void keep(pl_maker* k, int instance, int node) {
   if (node < 0 || is_constant(k, instance, node)) return;
-  int global = k->instance[instance].base + node;
+  int global = pl_maker_same(k, instance, node);
   if (pl_maker_node(k, global)->level == PL_LEVEL_PLACE && k->keep[global] < 0) k->keep[global] = k->n_keep++;
 }
 
@@ -351,7 +351,7 @@ void pl_maker_start_code(pl_maker* k) {
   pl_maker_begin(k, PL_PART_START, "start", 1);
   inverses(k, PL_LEVEL_PLACE);
   place_nodes(k);
-  pl_maker_level(k, PL_LEVEL_SPEED);
+  pl_maker_level(k, PL_LEVEL_SPEED, k->needed);
   inverses(k, PL_LEVEL_SPEED);
   equations(k, true);
   pl_maker_end(k);

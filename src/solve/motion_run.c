@@ -203,6 +203,15 @@ bool pl_motion_enter(pl_run* run) {
   return run->ready;
 }
 
+bool pl_motion_energy(pl_run* run, double* kinetic, double* potential) {
+  pl_motion* o = run->motion_code;
+  if (!run->at_point || o->code[PL_PART_ENERGY] == NULL) return false;
+  run_part(o, PL_PART_ENERGY, 0, 1);
+  *kinetic = o->m[o->energy];
+  *potential = o->m[o->energy + 1];
+  return true;
+}
+
 void pl_motion_expand(pl_run* run) {
   run_part(run->motion_code, PL_PART_ORDER, 1, run->order);
   copy_orders(run, 1, run->order - 1);

@@ -132,34 +132,41 @@ void pl_series_expand(pl_run* run) {
 }
 
 // ---------------------------------------------------------------------------------------------- step
-// Radius of a block from coefficient k: (|x| / |x_k|)^(1/k).  The size |x| is that of the block at the point, or what
-// an early coefficient and the radius say when it is near zero there.
-static double block_size(const double* X, int n, int last) {
-  double size = pl_norm(X, n), top = pl_norm(X + (size_t)last * (size_t)n, n);
-  if (top == 0) return size > 0 ? size : 1;
-  for (int k = 1; k <= 3 && k < last; k++) {
-    double x = pl_norm(X + (size_t)k * (size_t)n, n);
-    double radius = pow(x / top, 1.0 / (last - k));
-    size = fmax(size, x * pow(radius, k));
-  }
-  return size;
+// Binary logarithm to four digits, which is plenty for a step: exponent, and a cubic for the mantissa.
+static double rough_log2(double x) {
+  uint64_t bits;
+  if (!(x >= DBL_MIN) || x > DBL_MAX) return x > DBL_MAX ? (double)INFINITY : x >= 0 ? -2000 : (double)NAN;
+  memcpy(&bits, &x, sizeof bits);
+  int exponent = (int)(bits >> 52) - 1023;
+  bits = (bits & 0xfffffffffffffu) | 0x3ff0000000000000u;
+  memcpy(&x, &bits, sizeof x);
+  double y = (x - 1) / (x + 1), z = y * y;   // ln x = 2 artanh y
+  return exponent + 2.8853900817779268 * y * (1 + z * (1 / 3.0 + z * (0.2 + z * (1 / 7.0))));
 }
 
+static double log_norm(const double* X, int n, int k) { return rough_log2(pl_norm(X + (size_t)k * (size_t)n, n)); }
+
+// Radius of a block from its last two coefficients: (|x| / |x_k|)^(1/k), as a logarithm.  The size |x| is that of the block
+// at the point, or what an early coefficient and the radius say when it is near zero there.
 static double block_radius(const double* X, int n, int last) {
-  double size = block_size(X, n, last), least = (double)INFINITY;
-  for (int k = last - 1; k <= last; k++) {
-    double top = pl_norm(X + (size_t)k * (size_t)n, n);
-    if (top > 0) least = fmin(least, pow(size / top, 1.0 / k));
-    if (isnan(top)) return 0;
-  }
-  return least;
+  double size = log_norm(X, n, 0), top = log_norm(X, n, last), before = log_norm(X, n, last - 1);
+  if (top > -2000)
+    for (int k = 1; k <= 3 && k < last; k++) {
+      double x = log_norm(X, n, k);
+      size = fmax(size, x + k * (x - top) / (last - k));
+    }
+  else if (size <= -2000) size = 0;
+  double least = (double)INFINITY;
+  if (before > -2000) least = (size - before) / (last - 1);
+  if (top > -2000) least = fmin(least, (size - top) / last);
+  return isnan(top) || isnan(before) ? -(double)INFINITY : least;
 }
 
 double pl_series_step(const pl_run* run) {
   int p = run->order;
   double q = block_radius(run->Q, run->n_q, p + 1), v = block_radius(run->V, run->n_q, p);
   // e^-2 of the radius makes p equal steps of e^-2p = tol; the rest is their safety factor, eq. (3-8) there
-  return fmin(q, v) * exp(-2 - 0.7 / (p - 1));
+  return exp2(fmin(q, v) - 1.4426950408889634 * (2 + 0.7 / (p - 1)));
 }
 
 // ---------------------------------------------------------------------------------------------- evaluation

@@ -199,8 +199,12 @@ pleuel_status pl_rows_settled(pl_run* run, pl_event_kind kind, int index, double
 void pl_rows_energy(pl_run* run, bool anew) {
   const pl_setup* s = run->setup;
   if (s->kinetic < 0 || s->potential < 0) return;
-  pl_observe(run, run->t, run->q, run->v, run->A, run->L, run->energy_out);
-  double T = run->energy_out[s->kinetic], V = run->energy_out[s->potential];
+  double T, V;
+  if (!pl_motion_energy(run, &T, &V)) {
+    pl_observe(run, run->t, run->q, run->v, run->A, run->L, run->energy_out);
+    T = run->energy_out[s->kinetic];
+    V = run->energy_out[s->potential];
+  }
   run->energy_size = fmax(run->energy_size, fabs(T) + fabs(V));
   if (anew) {
     // an impact or a deed has changed it: drift is counted from here

@@ -30,8 +30,8 @@ static void note(pl_run* run, const pl_projection* p, double h) {
 
 static double left_over(const pl_run* run) { return run->options.t_end - run->t - run->t_low; }
 
-static double choose_step(const pl_run* run) {
-  double h = pl_series_step(run), left = left_over(run);
+static double choose_step(pl_run* run) {
+  double h = run->h_series = pl_series_step(run), left = left_over(run);
   if (run->options.h_max > 0) h = fmin(h, run->options.h_max);
   else h = fmin(h, run->h_plain);
   // not a last step that is almost nothing

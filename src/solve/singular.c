@@ -33,7 +33,7 @@ static double reach_of_singular(const pl_run* run) {
 // Keeps two earlier points, each with at most 0.7 of the pivot of the one before.
 void pl_singular_watch(pl_run* run) {
   run->smallest_here = run->smallest;
-  if (run->smallest_here >= 0.3 * run->best) run->h_regular = pl_series_step(run);
+  if (run->smallest_here >= 0.3 * run->best) run->h_regular = run->h_series;
   if (run->smallest_here <= 0.7 * run->fade[1].smallest) run->fade[0] = run->fade[1];
   else if (run->smallest_here < run->fade[1].smallest) return;
   else run->fade[0] = (pl_fade){0, 0};

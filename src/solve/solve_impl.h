@@ -155,6 +155,7 @@ struct pl_run {
   double smallest_here, smallest_before, t_before;   // at the point, at the one before, its time
   pl_fade fade[2];
   double reach;            // from the point to the singular position that a leap passes
+  double h_series;         // step that the series allowed last
   double h_regular;        // step that the series allowed last where the pivots were large
   double *dep, *dep_tau, *dep_norm;    // dependence of rows left out
   int* dep_jpvt;
@@ -284,6 +285,7 @@ void pl_motion_free(pl_run* run);
 bool pl_motion_project(pl_run* run, double t, double* q, double* v, pl_projection* p);   // false: not this way
 bool pl_motion_enter(pl_run* run);
 void pl_motion_expand(pl_run* run);
+bool pl_motion_energy(pl_run* run, double* kinetic, double* potential);   // at the point; false: not this way
 
 // ---- motion_series.c
 void pl_point_evaluate(pl_run* run, double t, const double* q, const double* v);   // levels PLACE and SPEED at order 0
