@@ -10,15 +10,31 @@ work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 
 # need SET PACKAGE WHY CHECK...      the check is a command that succeeds when the thing can be used
-missing= reasons=
+missing= needed= reasons=
 need() {
   in_set=$1 package=$2 why=$3
   shift 3
   [ "$in_set" = build ] || [ "$set_name" = test ] || return 0
   "$@" >/dev/null 2>&1 && return 0
   missing="$missing $package"
+  [ "$optional" = yes ] || needed="$needed $package"
   reasons="$reasons  $package: $why
 "
+}
+
+# wish SET PACKAGE WHY CHECK...      the same for what the build can do without
+optional=no
+wish() {
+  optional=yes
+  need "$@"
+  optional=no
+}
+
+# Ends with 1, or with 0 when nothing is missing but what is optional.
+give_up() {
+  [ -n "$needed" ] && exit 1
+  echo "These are optional: pleuel is built without what they are for." >&2
+  exit 0
 }
 
 # program NAME...    one of them is on the path
@@ -48,7 +64,7 @@ fuzzer() {
 clang_version() { apt-cache depends clang 2>/dev/null | sed -n 's/.*Depends: clang-\([0-9][0-9]*\)$/\1/p' | head -n 1; }
 
 look() {
-  missing= reasons=
+  missing= needed= reasons=
   need build gcc            'compiles the C sources'                         program cc gcc
   need build libc6-dev      'headers of the C library'                       library -lm math.h
   need build meson          'describes the build'                            program meson
@@ -62,6 +78,7 @@ look() {
   need build libflint-dev   'exact algebra'                                  library -lflint stdio.h flint/fmpz_mpoly.h
   need build libflint-arb-dev 'numbers with proven error bounds'             arb
   need build libsuitesparse-dev 'sparse linear systems (KLU)'                library -lklu klu.h
+  wish build libcairo2-dev  'PNG, PDF and GIF pictures (SVG does without)'   library -lcairo cairo/cairo.h cairo/cairo-pdf.h
   need test  libcmocka-dev  'unit tests'                                     library -lcmocka stdarg.h stddef.h setjmp.h stdint.h cmocka.h
   need test  g++            'tries the public header in C++'                 program c++ g++
   need test  clang          'second opinion on warnings'                     "$(dirname "$0")/find-clang.sh"
@@ -95,7 +112,7 @@ if ! command -v apt-get >/dev/null 2>&1; then
   echo "To build pleuel, these are missing (names of Debian packages):" >&2
   printf '%s' "$reasons" >&2
   echo "This is no Debian-like system: please install the same things with its own package manager." >&2
-  exit 1
+  give_up
 fi
 
 # A fresh machine has no package lists yet.
@@ -105,17 +122,17 @@ if [ -z "$(known)" ]; then
     as_root apt-get update -q >"$work/update.log" 2>&1 || tail -n 3 "$work/update.log" >&2
   else
     echo "Please run, as root:  apt-get update && apt-get install --no-install-recommends$missing" >&2
-    exit 1
+    give_up
   fi
 fi
 if [ -z "$(known)" ]; then
   echo "Missing, and the package lists could not be fetched:$missing" >&2
-  exit 1
+  give_up
 fi
 tell
 if ! may_be_root; then
   echo "Please run, as root:  apt-get install --no-install-recommends$(known)" >&2
-  exit 1
+  give_up
 fi
 
 install_known() {
@@ -134,4 +151,4 @@ look
 [ -z "$missing" ] || { install_known; look; }
 [ -n "$missing" ] || exit 0
 echo "Still missing:$missing" >&2
-exit 1
+give_up
