@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { PL_HTML_CARD_ROOM = 23, PL_HTML_MOST_CARDS = 3 };
+enum { PL_HTML_CARD_ROOM = 27, PL_HTML_MOST_CARDS = 3 };
 
 static void open_card(pl_html* h, const char* class) { pl_html_rawf(h, "<div class=\"card%s\"><h3>", class); }
 
@@ -62,9 +62,9 @@ static bool find_card(pl_html* h, int i, pl_card* out) {
     if (s->kind != PL_STEP_EQUATION || !s->formula || s->formula->kind != PL_F_RELATION || (s->number == 0 && !number)) continue;
     const pl_form* f = short_form(h, s->formula);
     bool fits = pl_html_cells(h, f) <= PL_HTML_CARD_ROOM;
-    if ((!fits && !number) || (found && out->number)) continue;
+    if (found && out->number) continue;
     *out = (pl_card){i, s, fits ? f : NULL, number};
-    found = true;
+    found = fits || number;            // a step on the way is no substitute for a result that does not fit
   }
   return found;
 }

@@ -333,7 +333,7 @@ const makePlot = svg => {
       dots[k].style.display = on && isFinite(v) && y > M.t - 8 && y < H - M.b + 4 ? '' : 'none';
       dots[k].setAttribute('cx', isFinite(x) ? x : 0);
       dots[k].setAttribute('cy', isFinite(y) ? y : 0);
-      outs[k].textContent = number(v, 5);
+      outs[k].textContent = number(Math.abs(v) < 1e-10 * Math.max(Math.abs(yr[0]), Math.abs(yr[1])) ? 0 : v, 5);
     });
   };
   const nearest = (mx, my) => {
