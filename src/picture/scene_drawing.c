@@ -5,6 +5,7 @@
 #include "picture/picture_impl.h"
 
 static const double pad = 26, text_size = 13;
+enum { MOST_DISCS = 24 };      // more masses are drawn as dots
 
 // ---------------------------------------------------------------------------------------------- metres to pixels
 pl_fit pl_fit_make(const pl_scene* scene, pl_frame_rect r) {
@@ -16,6 +17,9 @@ pl_fit pl_fit_make(const pl_scene* scene, pl_frame_rect r) {
   f.x0 = r.x + r.w / 2 - f.scale * ((double)scene->box[0] + (double)scene->box[2]) / 2;
   f.y0 = r.y + r.h / 2 + f.scale * ((double)scene->box[1] + (double)scene->box[3]) / 2;
   f.rect = r;
+  int masses = 0;
+  for (int i = 0; i < scene->n_shapes; i++) masses += scene->shapes[i].kind == PL_SHAPE_MASS;
+  f.crowd = masses > MOST_DISCS;
   return f;
 }
 
@@ -164,7 +168,7 @@ static void draw_shape(pl_drawing* d, const pl_fit* f, const pl_shape* p, int fr
   switch (p->kind) {
     case PL_SHAPE_MASS:
       if (!isfinite(xy[0])) return;
-      pl_draw_disc(d, PL_INK_PAPER, PL_INK_MASS, (double)xy[0], (double)xy[1], pl_mass_radius(p));
+      pl_draw_disc(d, f->crowd ? PL_INK_NONE : PL_INK_PAPER, PL_INK_MASS, (double)xy[0], (double)xy[1], f->crowd ? 2.2 : pl_mass_radius(p));
       take(d, (double)xy[0] - 7, (double)xy[1] - 7, (double)xy[0] + 7, (double)xy[1] + 7);
       break;
     case PL_SHAPE_POINT:

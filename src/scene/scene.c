@@ -7,7 +7,7 @@
 
 #include "scene/scene_impl.h"
 
-enum { MOST_COORDINATES = 6000 };    // beyond this there is nothing to be seen
+enum { MOST_COORDINATES = 6000, MOST_NAMED = 24 };    // beyond this there is nothing to be seen, or to be read
 
 // ---------------------------------------------------------------------------------------------- stage
 static bool turns(pl_pool* p, pl_expr e, pl_symbol x, bool inside) {
@@ -101,7 +101,8 @@ static void add_things(pl_stage* s) {
     pl_thing* t = &s->things.at[i];
     if (t->kind == PL_THING_BODY) continue;
     bool point = t->kind == PL_THING_POINT;
-    pl_part* p = pl_stage_add(s, point ? PL_SHAPE_POINT : PL_SHAPE_MASS, t->label, t->name);
+    bool crowd = s->things.n > MOST_NAMED && i > 0 && i + 1 < s->things.n;      // names of the ends must do
+    pl_part* p = pl_stage_add(s, point ? PL_SHAPE_POINT : PL_SHAPE_MASS, crowd ? "" : t->label, t->name);
     p->n = 1;
     p->mass = pl_is_poison(t->mass) ? 0 : pl_stage_eval(s, t->mass);
     p->spot[0] = t->spot;
