@@ -58,11 +58,12 @@ r = run()
 check("pleuel alone prints twelve lines", r.code == 0 and r.out.count("\n") == 12 and not r.err, r)
 check("and does not promise verbs of later versions", not re.search(r"\b(studio|report|animate|sweep|tex|plot|lsp)\b", r.out), r)
 check("--version names the version", re.match(r"pleuel \d+\.\d+\.\d+\n$", run("--version").out), run("--version"))
-for verb in ["solve", "check", "sim", "fmt", "new", "examples", "explain", "units", "dump", "completion", "help"]:
+for verb in ["solve", "check", "sim", "fmt", "new", "examples", "explain", "units", "dump", "completion", "help",
+             "report", "tex", "plot", "animate", "export"]:
     r = run(verb, "-h")
     check(f"{verb} -h fits on a screen", r.code == 0 and 3 <= r.out.count("\n") <= 24 and not r.err, r)
     check(f"help {verb} says the same", run("help", verb).out == r.out, r)
-for verb in ["plot", "animate", "sweep", "report", "tex", "studio", "lsp"]:
+for verb in ["sweep", "studio", "lsp"]:
     r = run(verb, ski)
     check(f"{verb} is honest about not being there", r.code == 2 and not r.out and "this version" in r.err, r)
 
