@@ -101,6 +101,10 @@ typedef struct pl_check {
   const char* failed_on;           // text of the first formula that failed, or NULL
 } pl_check;
 
+// Where the processor time of a derivation went: forming the equations, solving them, writing and searching forms,
+// holding what is shown against the model.
+typedef enum pl_derive_stage { PL_D_EQUATIONS, PL_D_SOLUTION, PL_D_PRESENTATION, PL_D_CERTIFICATES, PL_N_DERIVE_STAGES } pl_derive_stage;
+
 typedef struct pl_solution {
   const pl_model* model;
   pl_tower* tower;
@@ -112,6 +116,8 @@ typedef struct pl_solution {
   PL_VEC(const char*) used;        // assumptions used, as text in the language's notation: "0 < r < l", "m1 > 0"
   int n_equations;                 // numbered so far
   bool expect_failed;
+  double cpu_ms[PL_N_DERIVE_STAGES];
+  double cpu_ms_first;             // until the first acceleration or multiplier stood in a readable form; 0: none
 } pl_solution;
 
 typedef struct pl_derive_options {

@@ -62,6 +62,24 @@ typedef struct pl_claim {
 
 typedef struct pl_structure pl_structure;   // a linear system with named entries, structured_impl.h
 
+// One or two coordinates that follow from others in several ways, the assemblies of a linkage.  They keep their names; every
+// formula holds in all assemblies (loops.c).
+enum { pl_max_ways = 4, pl_max_assemblies = 8 };
+typedef struct pl_loop {
+  int n, coordinate[2], bond[2];             // unknowns, and the constraints that determine them
+  int n_ways;
+  pl_expr value[pl_max_ways][2];             // over names, generalized coordinates, coordinates of loops before it; [1] over [0] too
+  pl_expr rate[2];                           // velocities, the same in all ways
+  PL_VEC(pl_definition) names;               // A, B, C, w of the eliminated equation
+  pl_expr eliminated;                        // that equation: vanishes; contains coordinate[0] alone
+  bool by_angle;                             // it is A cos u + B sin u + C
+  pl_expr real;                              // >= 0 where the ways are real; poison: everywhere
+  pl_expr side;                              // det dg/du without its positive factors; changes its sign from way to way
+  int sign[pl_max_ways];                     // of side; 0 not found
+  bool picked;                               // one of several ways, by a branch or the start
+  bool told;
+} pl_loop;
+
 typedef struct pl_analysis {
   pl_job* job;
   pl_arena* arena;
@@ -105,7 +123,9 @@ typedef struct pl_analysis {
   PL_VEC(pl_replace) steady;   // velocities that stay during the request: of equilibria for φ' = Ω, of modes holding φ
   pl_map* told;                // what has been said already (notes, definitions)
   bool multipliers_tried, accelerations_tried;
+  double began_ms;             // processor time at the beginning
   pl_structure *of_multipliers, *of_accelerations;   // made when a closed form is too long; NULL if not found
+  PL_VEC(pl_loop) loops;       // in the order in which they can be computed
 } pl_analysis;
 
 // ---------------------------------------------------------------------------------------------- setup.c
@@ -128,6 +148,25 @@ const char* pl_unit_vector(pl_analysis* d, int coordinate);      // "e_r"
 // reduce.c
 void pl_collect_generalized(pl_analysis* d);             // what is neither fixed nor mapped
 pleuel_status pl_reduce(pl_analysis* d);                // generalized coordinates and maps
+pl_expr pl_mapped(pl_analysis* d, pl_expr e);            // while maps are made: with those that there are
+bool pl_open_coordinate(const pl_variable* c);          // neither fixed, chosen nor mapped
+// loops.c
+bool pl_solve_loop(pl_analysis* d, int bond);           // with another one for two coordinates, or alone in several ways
+bool pl_in_loop(const pl_analysis* d, int bond);
+int pl_follower(const pl_analysis* d, int coordinate);  // the loop that determines it, -1
+bool pl_has_followers(const pl_analysis* d, pl_expr e); // a coordinate of a loop occurs
+int pl_assemblies(const pl_analysis* d);
+int pl_loop_definitions(pl_analysis* d, int assembly, pl_definition* out);   // names, coordinates, velocities; out NULL: how many
+pl_expr pl_on_assembly(pl_analysis* d, pl_expr e, int assembly);             // positions in generalized coordinates
+pl_expr pl_by_coordinate(pl_analysis* d, pl_expr e, int i);   // de/dq_i of generalized coordinate i, coordinates of loops following
+pl_answer3 pl_holds_on_loops(pl_analysis* d, pl_expr left, pl_expr right);   // in all assemblies, by points
+void pl_claim_loops(pl_analysis* d);
+// loops_text.c
+void pl_show_loop(pl_analysis* d, int loop);
+void pl_show_loop_velocities(pl_analysis* d);
+bool pl_answer_follower(pl_analysis* d, pl_symbol q);   // a position: shown, one value for each assembly
+void pl_answer_positions(pl_analysis* d);               // kinematics without requests
+void pl_spread_assemblies(pl_analysis* d);              // values over followers get their definitions, one value for each assembly
 // solve_motion.c
 pleuel_status pl_solve_motion(pl_analysis* d);          // accelerations and multipliers
 pl_expr pl_force_scale(pl_analysis* d, int link);       // |Z| = scale |λ| on each mass it acts on; poison when they differ (answer_force.c)
@@ -175,6 +214,7 @@ void pl_step_after(pl_step* s, const char* en, const char* de);
 void pl_step_value(pl_analysis* d, pl_step* s, pl_expr e, pl_dimension dim);            // number at the parameters, if there is one
 void pl_step_refs(pl_step* s, int n, ...);
 pl_value* pl_answer(pl_analysis* d, const char* name, pl_expr e, const pl_form* form);  // value of the section, number and unit filled
+double pl_cpu_ms(void);                                 // processor time of this thread
 pl_dimension pl_dimension_of_expr(pl_analysis* d, pl_expr e, bool* known);
 const char* pl_display(pl_analysis* d, double x, pl_dimension dim, bool angle);
 

@@ -1,6 +1,7 @@
 // steps: writing the worked solution.  Sections, sentences, equations, values; short hands for forms.
 #include <math.h>
 #include <string.h>
+#include <time.h>
 
 #include "derive/derive_impl.h"
 
@@ -147,11 +148,24 @@ const char* pl_display(pl_analysis* d, double x, pl_dimension dim, bool angle) {
 }
 
 // ---------------------------------------------------------------------------------------------- values
+double pl_cpu_ms(void) {
+  struct timespec t;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
+}
+
+static void note_first_form(pl_analysis* d, pl_symbol name) {
+  pl_role role = name.id ? pl_symbol_get(d->pool, name)->role : PL_R_LOCAL;
+  if (d->solution->cpu_ms_first > 0 || (role != PL_R_ACCELERATION && role != PL_R_MULTIPLIER)) return;
+  d->solution->cpu_ms_first = pl_cpu_ms() - d->began_ms;
+}
+
 pl_value* pl_answer(pl_analysis* d, const char* name, pl_expr e, const pl_form* form) {
   pl_value v = {.name = name, .expr = e, .form = form, .number = pl_number(d, e), .conserved = -1, .passed = -1, .order = -1};
   bool known = true;
   pl_dimension dim = pl_is_poison(e) ? pl_dimension_one() : pl_dimension_of_expr(d, e, &known);
   pl_symbol symbol = pl_symbol_find(d->pool, name);   // x1'' = 0 has the unit of x1''
+  note_first_form(d, symbol);
   if (symbol.id && !pl_is_poison(e) && pl_is_number(d->pool, e)) {
     dim = pl_symbol_get(d->pool, symbol)->dimension;
     known = pl_symbol_get(d->pool, symbol)->dimension_known;

@@ -322,21 +322,38 @@ static void list_assumptions(pl_analysis* d) {
 }
 
 // ---------------------------------------------------------------------------------------------- the whole
-static pleuel_status derive(pl_analysis* d) {
+// The time since *since goes to the stage.
+static void pass(pl_analysis* d, pl_derive_stage stage, double* since) {
+  double now = pl_cpu_ms();
+  d->solution->cpu_ms[stage] += now - *since;
+  *since = now;
+}
+
+static pleuel_status form_equations(pl_analysis* d) {
   PL_TRY(pl_setup_coordinates(d));
   PL_TRY(pl_setup_trivial(d));
   PL_TRY(pl_energies(d));
   PL_TRY(pl_reduce(d));
   find_implied(d);
-  PL_TRY(find_contradictions(d));
+  return find_contradictions(d);
+}
+
+static pleuel_status derive(pl_analysis* d) {
+  double since = pl_cpu_ms();
+  pleuel_status status = form_equations(d);
+  pass(d, PL_D_EQUATIONS, &since);
+  PL_TRY(status);
   PL_TRY(pl_solve_motion(d));
+  pass(d, PL_D_SOLUTION, &since);
   count_freedom(d);
   describe_constraints(d);
   pl_share_forces(d);
   pl_note_equilibrium_start(d);
   if (d->options && d->options->structure) return PLEUEL_OK;
-  pleuel_status status = answer_all(d);
+  status = answer_all(d);
+  pass(d, PL_D_PRESENTATION, &since);
   pl_claims_check(d);
+  pass(d, PL_D_CERTIFICATES, &since);
   list_assumptions(d);
   return status;
 }
@@ -355,6 +372,7 @@ pleuel_status pl_derive(pl_job* job, pl_model* model, const pl_derive_options* o
   *d = (pl_analysis){.job = job, .arena = job->arena, .pool = flat->pool, .model = flat, .options = options};
   d->told = pl_map_make(job->arena);
   d->solution = PL_NEW(job->arena, pl_solution);
+  d->began_ms = pl_cpu_ms();
   d->solution->model = flat;
   *out = d->solution;
   return families ? pl_derive_families(d) : derive(d);

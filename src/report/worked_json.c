@@ -387,10 +387,19 @@ static void pl_doc_notes(pl_document* d) {
   pl_json_end_list(&d->j);
 }
 
+// Stages of the derivation in processor time, which other work on the machine does not lengthen.
+static void pl_doc_derive_timing(pl_document* d) {
+  static const char* const name[PL_N_DERIVE_STAGES] = {"cpu_equations", "cpu_solution", "cpu_presentation", "cpu_certificates"};
+  const pl_solution* s = d->in->solution;
+  for (int i = 0; s && i < PL_N_DERIVE_STAGES; i++) pl_json_number(&d->j, name[i], s->cpu_ms[i]);
+  if (s && s->cpu_ms_first > 0) pl_json_number(&d->j, "cpu_first_form", s->cpu_ms_first);
+}
+
 static void pl_doc_timing(pl_document* d) {
   pl_json_object(&d->j, "timing_ms");
   pl_json_flat(&d->j);
   for (int i = 0; i < d->in->n_timing; i++) pl_json_number(&d->j, d->in->timing_name[i], d->in->timing_ms[i]);
+  if (d->in->n_timing > 0) pl_doc_derive_timing(d);
   pl_json_end_object(&d->j);
 }
 
