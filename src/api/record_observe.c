@@ -285,6 +285,26 @@ static pleuel_status watch_outputs(pl_recorder* r, pl_watching* w, pl_columns* c
   return PLEUEL_OK;
 }
 
+// A constraint on velocities does no work when it is homogeneous in them: nothing is left at rest.
+static bool constraints_work(pl_recorder* r) {
+  pl_pool* p = r->pool;
+  for (int i = 0; i < r->model->constraints.n; i++) {
+    const pl_constraint* c = &r->model->constraints.at[i];
+    if (!c->has_velocity) continue;
+    pl_watching* w = watching_make(r);
+    pl_group_atoms(r, w->group, c->g);
+    pl_expr rest = c->g;
+    for (int k = 0; k < w->group->atoms.n; k++)
+      rest = pl_subst_expr(p, rest, pl_dt(p, w->group->atoms.at[k]), pl_int(p, 0));
+    for (uint64_t seed = 1; seed <= 3; seed++) {
+      bool ok;
+      uint64_t residue = pl_eval_mod(pl_mod_point_make(r->arena, p, seed), rest, &ok);
+      if (!ok || residue != 0) return true;
+    }
+  }
+  return false;
+}
+
 pleuel_status pl_record_observers(pl_recorder* r) {
   const pl_model* m = r->model;
   pl_setup* s = &r->out->setup;
@@ -319,7 +339,7 @@ pleuel_status pl_record_observers(pl_recorder* r) {
   s->observers = pattern;
   s->out = columns.at;
   s->n_out = columns.n;
-  s->energy_conserved = !r->dissipative && !r->explicit_time;
+  s->energy_conserved = !r->dissipative && !r->explicit_time && !constraints_work(r);
   return PLEUEL_OK;
 }
 
@@ -344,6 +364,14 @@ static pleuel_status make_deed(pl_recorder* r, pl_watching* w, const pl_action* 
   return PLEUEL_OK;
 }
 
+// The size of the terms of a sum: what its rounding error is relative to.  Poison when it is none.
+static pl_expr size_of_terms(pl_recorder* r, pl_expr e) {
+  if (pl_kind_of(r->pool, e) != PL_ADD) return pl_poison();
+  pl_expr size = pl_int(r->pool, 0);
+  for (int i = 0; i < pl_n_args(r->pool, e); i++) size = pl_add(r->pool, size, pl_call(r->pool, PL_ABS, pl_arg(r->pool, e, i)));
+  return size;
+}
+
 pleuel_status pl_record_events(pl_recorder* r) {
   const pl_model* m = r->model;
   pl_setup* s = &r->out->setup;
@@ -353,8 +381,13 @@ pleuel_status pl_record_events(pl_recorder* r) {
     const pl_event* e = &m->events.at[i];
     pl_event_deed* deeds = PL_ARRAY(r->arena, pl_event_deed, e->actions.n + 1);
     const char* name = e->name.ascii ? e->name.ascii : e->name.text;
-    events[i] = (pl_event_setup){name, w->output.n, e->direction, e->actions.n, deeds};
+    events[i] = (pl_event_setup){.name = name, .watch = w->output.n, .direction = e->direction, .n_deeds = e->actions.n, .deeds = deeds};
     PL_TRY(watch(r, w, e->value, w->output.n, pl_format(r->arena, "event %s", name)));
+    pl_expr size = size_of_terms(r, e->value);
+    if (!pl_is_poison(size)) {
+      events[i].size = w->output.n + 1;
+      PL_TRY(watch(r, w, size, w->output.n, pl_format(r->arena, "event %s", name)));
+    }
     for (int k = 0; k < e->actions.n; k++) PL_TRY(make_deed(r, w, &e->actions.at[k], &deeds[k]));
   }
   s->events = events;

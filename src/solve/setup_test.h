@@ -106,7 +106,7 @@ static inline int t_event(t_bench* b, const char* name, pl_expr e, int direction
   int i = b->n_events++;
   b->watch[b->n_watch] = e;
   b->deed[i][0] = (pl_event_deed){deed, target, 0};
-  b->event[i] = (pl_event_setup){name, b->n_watch++, direction, 1, b->deed[i]};
+  b->event[i] = (pl_event_setup){.name = name, .watch = b->n_watch++, .direction = direction, .n_deeds = 1, .deeds = b->deed[i]};
   return i;
 }
 

@@ -81,6 +81,7 @@ typedef struct pl_event_setup {
   int direction;                      // +1 rising, -1 falling, 0 both
   int n_deeds;
   const pl_event_deed* deeds;
+  int size;                           // 1 + the watched quantity that is the size of its terms, 0 none: its rounding error
 } pl_event_setup;
 
 // `branch cond`: condition number `output` of the branch patterns has this sign.
@@ -176,6 +177,7 @@ typedef struct pl_stats {
   bool compiled, stored;              // steps were compiled; what was compiled before was found on disk
   double compile_s;
   long steps_interpreted;             // steps before that, or all
+  const char* why_interpreted;        // what stood in the way of compiling; NULL: nothing, or it was not tried
 } pl_stats;
 
 // pl_sink: where results go.  Any call may be NULL.  A status other than PLEUEL_OK stops the run and is returned.

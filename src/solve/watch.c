@@ -8,6 +8,7 @@
 // before is a root that fell between them.
 #include "solve/solve_impl.h"
 
+#include <float.h>
 #include <math.h>
 
 static double sign(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
@@ -93,7 +94,10 @@ double pl_watch_force_noise(const pl_run* run, int c) {
 static double noise_of(const pl_run* run, const pl_watch* w, double h) {
   if (w->kind == PL_WATCH_LANDING) return 1e-14 * run->g_size[w->index];
   if (w->kind == PL_WATCH_RELEASE) return pl_watch_force_noise(run, w->index);
-  if (w->kind == PL_WATCH_EVENT) return 0;
+  if (w->kind == PL_WATCH_EVENT) {
+    int size = run->setup->events[w->index].size;
+    return size > 0 ? 4 * DBL_EPSILON * fabs(run->W_series[size - 1]) : 0;
+  }
   const pl_rub* rub = &run->setup->rubs[w->index];
   double force = pl_watch_force_noise(run, rub->row[0]);
   if (w->kind == PL_WATCH_PRESS) return pl_watch_force_noise(run, rub->link);
@@ -172,7 +176,8 @@ enum { MOST_ROOTS = 16 };
 static double first_that_counts(pl_run* run, const pl_watch* w, double h, const double* c, int n, int m, double noise,
                                 bool* touches) {
   pl_root root[MOST_ROOTS];
-  double zero = fmax(noise, 1e-14 * size_of(c, n));
+  bool bounced = w->kind == PL_WATCH_LANDING && w->fresh == 1;      // known from its own velocity, however small it is
+  double zero = bounced ? 0 : fmax(noise, 1e-14 * size_of(c, n));
   bool to_end = fabs(h) >= fabs(run->options.t_end - run->t - run->t_low);
   int found = pl_roots(c + m, n - 1 - m, known_part(n - m), m == 0 ? noise : 0, root, MOST_ROOTS, run->root_work);
   for (int i = 0; i < found; i++) {
@@ -209,7 +214,6 @@ static double find_root(pl_run* run, pl_watch* w, double h, bool* touches) {
     while (m < n && m < 3 && fabs(c[m]) <= noise) m++;
     if (first_sign(c + m, n - m, noise) < 0) return 0;
   }
-  // a bounce, however small, is known from its own velocity
   if (w->kind == PL_WATCH_LANDING && w->fresh == 1) noise = 0;
   if (m >= n || size_of(c + m, n - m) <= noise) return -1;
   for (int k = 0; k < m; k++) c[k] = 0;
