@@ -163,6 +163,16 @@ static void draw_trail(pl_drawing* d, const pl_fit* f, const float* xy, int n, i
   pl_draw_line(d, PL_INK_TRAIL, 1.5, to - from, xy + 2 * from);
 }
 
+// An arrow that would leave the panel ends at its border, dashed and without a tip.
+static void draw_vector(pl_drawing* d, const pl_fit* f, pl_ink ink, double width, const float* xy) {
+  double x0 = (double)xy[0], y0 = (double)xy[1], dx = (double)xy[2] - x0, dy = (double)xy[3] - y0, u = 1;
+  double x_end = dx > 0 ? f->rect.x + f->rect.w - 3 : f->rect.x + 3, y_end = dy > 0 ? f->rect.y + f->rect.h - 3 : f->rect.y + 3;
+  if (dx != 0) u = fmin(u, (x_end - x0) / dx);
+  if (dy != 0) u = fmin(u, (y_end - y0) / dy);
+  if (u >= 1) pl_draw_arrow(d, ink, width, x0, y0, x0 + dx, y0 + dy);
+  else if (u > 0) pl_draw_segment(d, ink, width, x0, y0, x0 + u * dx, y0 + u * dy)->dash = 1;
+}
+
 static void draw_shape(pl_drawing* d, const pl_fit* f, const pl_shape* p, int frame, const pl_scene_style* style) {
   float* xy = pixels(d, f, points_at(p, frame), p->n);
   switch (p->kind) {
@@ -198,12 +208,12 @@ static void draw_shape(pl_drawing* d, const pl_fit* f, const pl_shape* p, int fr
     case PL_SHAPE_ANGLE: pl_draw_line(d, PL_INK_ANGLE, 1.3, p->n, xy); take_line(d, xy, p->n); break;
     case PL_SHAPE_FORCE:
       if (!style->forces || !isfinite(xy[0])) return;
-      pl_draw_arrow(d, strcmp(p->of, "weight") == 0 ? PL_INK_WEIGHT : PL_INK_FORCE, 2.2, (double)xy[0], (double)xy[1], (double)xy[2], (double)xy[3]);
+      draw_vector(d, f, strcmp(p->of, "weight") == 0 ? PL_INK_WEIGHT : PL_INK_FORCE, 2.2, xy);
       take_line(d, xy, 2);
       break;
     case PL_SHAPE_VELOCITY:
       if (!style->velocities || !isfinite(xy[0])) return;
-      pl_draw_arrow(d, PL_INK_VELOCITY, 1.8, (double)xy[0], (double)xy[1], (double)xy[2], (double)xy[3]);
+      draw_vector(d, f, PL_INK_VELOCITY, 1.8, xy);
       take_line(d, xy, 2);
       break;
     case PL_SHAPE_TRAIL:

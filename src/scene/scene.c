@@ -162,15 +162,21 @@ static int side_of(const pl_stage* s, const pl_part* p, const float* xy) {
 }
 
 static void find_box(pl_scene* scene) {
-  double lo[2] = {INFINITY, INFINITY}, hi[2] = {-INFINITY, -INFINITY};
-  for (int i = 0; i < scene->n_shapes; i++) {
-    const pl_shape* p = &scene->shapes[i];
-    size_t n = (size_t)p->n * (p->moves ? (size_t)scene->n_frames : 1);
-    for (size_t k = 0; k < 2 * n; k++) {
-      if (!isfinite(p->xy[k])) continue;
-      lo[k % 2] = fmin(lo[k % 2], p->xy[k]);
-      hi[k % 2] = fmax(hi[k % 2], p->xy[k]);
+  double lo[2] = {INFINITY, INFINITY}, hi[2] = {-INFINITY, -INFINITY}, most[2] = {0, 0}, least[2] = {0, 0};
+  for (int pass = 0; pass < 2; pass++) {          // arrows last: a blow must not make the system small
+    for (int i = 0; i < scene->n_shapes; i++) {
+      const pl_shape* p = &scene->shapes[i];
+      bool arrow = p->kind == PL_SHAPE_FORCE || p->kind == PL_SHAPE_VELOCITY;
+      size_t n = (size_t)p->n * (p->moves ? (size_t)scene->n_frames : 1);
+      for (size_t k = 0; arrow == (pass == 1) && p->shown && k < 2 * n; k++) {
+        double x = (double)p->xy[k];
+        if (!isfinite(x) || (arrow && (x < least[k % 2] || x > most[k % 2]))) continue;
+        lo[k % 2] = fmin(lo[k % 2], x);
+        hi[k % 2] = fmax(hi[k % 2], x);
+      }
     }
+    double room = 0.25 * fmax(hi[0] - lo[0], hi[1] - lo[1]);
+    for (int j = 0; j < 2; j++) least[j] = lo[j] - room, most[j] = hi[j] + room;
   }
   for (int j = 0; j < 2; j++) {
     if (!(hi[j] >= lo[j])) lo[j] = hi[j] = 0;

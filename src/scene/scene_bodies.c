@@ -6,7 +6,7 @@
 
 #include "scene/scene_impl.h"
 
-enum { SAMPLES = 4, MOST_TOUCHES = 8 };
+enum { SAMPLES = 4, MOST_TOUCHES = 8, MOST_NAMED = 24 };
 typedef struct pl_outline { int thing; double half, thick, radius; } pl_outline;
 typedef struct pl_touch { int bond; bool found; double n[2], p[2][2]; bool fits[2]; } pl_touch;     // p for each sense
 typedef struct pl_floor { int thing; double p[2], normal[6]; bool wide; double reach; } pl_floor;
@@ -182,7 +182,7 @@ static void add_floor(pl_stage* s, int thing, const pl_touch* touch, int sense, 
 // ---------------------------------------------------------------------------------------------- outlines
 static void add_outline(pl_stage* s, int i, const pl_outline* o) {
   pl_thing* t = &s->things.at[i];
-  pl_part* p = pl_stage_add(s, PL_SHAPE_BODY, t->label, t->name);
+  pl_part* p = pl_stage_add(s, PL_SHAPE_BODY, s->things.n > MOST_NAMED ? "" : t->label, t->name);
   p->n = o->radius > 0 ? 49 : 5;
   p->moves = true;
   p->place = place_body;

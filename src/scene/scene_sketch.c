@@ -130,11 +130,29 @@ static bool fits_branches(const pl_stage* s) {
   return true;
 }
 
+// A drive (A = ω t) is at zero in the beginning, where a crank shows little: a moment later it stands at 0.65.
+static double moment(pl_stage* s) {
+  for (int i = 0; i < s->bonds.n; i++) {
+    const pl_constraint* c = s->bonds.at[i].c;
+    pl_symbol found[8];
+    int n = pl_symbols_in(s->pool, c->g, found, 8), angles = 0;
+    for (int k = 0; k < n && k < 8; k++) {
+      uint64_t q = pl_map_get(s->q_at, found[k].id);
+      angles += q == 0 ? pl_symbol_get(s->pool, found[k])->role == PL_R_VELOCITY ? 2 : 0 : s->angle[q - 1] ? 1 : 2;
+    }
+    if (angles != 1 || n > 8) continue;
+    double rate = fabs(pl_stage_eval(s, pl_diff(s->pool, c->g, pl_time(s->pool))));
+    if (rate > 0 && isfinite(rate)) return 0.65 / rate;
+  }
+  return 0;
+}
+
 void pl_stage_sketch(pl_stage* s) {
   invent_parameters(s);
   double length = pl_stage_length(s);
   double t = pl_is_poison(s->model->simulate.from) ? 0 : pl_eval(s->pool, s->model->simulate.from, s->value);
-  s->t[0] = isfinite(t) ? t : 0;
+  s->value[pl_time(s->pool).id] = 0;
+  s->t[0] = isfinite(t) && s->model->simulate.given ? t : s->model->inits.n > 0 ? 0 : moment(s);
   s->value[pl_time(s->pool).id] = s->t[0];
   bool* held = PL_ARRAY(s->arena, bool, s->n_q + 1);
   for (int try = 0; try < TRIES; try++) {
