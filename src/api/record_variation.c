@@ -5,10 +5,10 @@
 //   L^(q, δ, v, δ') = sum δ_i dL/dq_i + δ'_i dL/dv_i + dL/dp,      g = 0,      G δ + dg/dp = 0,
 //
 // the equation of Lagrange for δ is that of the motion, with the multiplier of the second constraint as its λ; the one
-// for q is its derivative by p, with the multiplier of the first as dλ/dp [Levi2014].  So each pattern of the motion becomes one
-// of twice the coordinates and constraints, for each direction one with a copy of the motion of its own, and the
-// integrator needs no more than it has: its projection on the constraints projects δ as the derivative of the projection.  The
-// mass matrix is [A M; M 0], which is not definite, but as regular as M.  Forces and nonholonomic constraints
+// for q is its derivative by p, with the multiplier of the first as dλ/dp [NunezYepez2001].  So each pattern of the
+// motion becomes one of twice the coordinates and constraints, for each direction one with a copy of the motion of its
+// own, and the integrator needs no more than it has: its projection on the constraints projects δ as the derivative of
+// the projection.  The mass matrix is [A M; M 0], which is not definite, but as regular as M.  Forces and nonholonomic constraints
 // f(q, v, t) = 0 are differentiated likewise: sum f_q δ + f_v δ' + f_p.
 #include <ctype.h>
 #include <math.h>

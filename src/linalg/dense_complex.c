@@ -65,7 +65,10 @@ double pl_zlu_factor(double* A, int* p, double* scale, int n) {
     if (!(d > 0) || !(d <= DBL_MAX)) return 0;
     least = fmin(least, d);
     most = fmax(most, d);
-    for (int j = 0; j < n && r != k; j++) swap(A + 2 * ((size_t)k + (size_t)j * (size_t)n), A + 2 * ((size_t)r + (size_t)j * (size_t)n));
+    for (int j = 0; j < n && r != k; j++) {
+      double* other = A + 2 * (size_t)j * (size_t)n;
+      swap(other + 2 * k, other + 2 * r);
+    }
     double norm = col[2 * k] * col[2 * k] + col[2 * k + 1] * col[2 * k + 1];
     double re = col[2 * k] / norm, im = -col[2 * k + 1] / norm;
     for (int i = k + 1; i < n; i++) {

@@ -4,13 +4,13 @@
 //
 // The constraints are imposed on velocity level at every stage; positions and velocities are then brought back onto
 // g = 0 and G v + dg/dt = 0 with the matrix of the Newton iteration, so that stiff springs come along undeformed, and a
-// projection in the mass metric removes what rounding leaves.  Accelerations and multipliers at the end of a step are those of
-// the point reached.  Newton iteration, error estimate and control of the step after [HairerWanner1996, IV.8] and
-// [HairerWanner1999].  The estimate has order s, the step order 2 s - 1: they compare it with tol^((s+1)/(2s)), which a
-// smooth motion allows.  Stiff parts lose order, so here the exponent is halfway between that and 1.
-// Between the ends of a step the collocation polynomial serves, as coefficients of a series: rows, events and the rest
-// of a run read it like one of Taylor's.  Where it is less exact than the tolerance, steps end on the times of output;
-// events are iterated on the end of a step.
+// projection in the mass metric removes what rounding leaves.  Accelerations and multipliers at the end of a step are
+// those of the point reached.  Newton iteration, error estimate and control of the step after [HairerWanner1996, IV.8]
+// and [HairerWanner1999].  The estimate has order s, the step order 2 s - 1: they compare it with tol^((s+1)/(2s)),
+// which a smooth motion allows.  Stiff parts lose order, so here the exponent is halfway between that and 1. Between
+// the ends of a step the collocation polynomial serves, as coefficients of a series: rows, events and the rest of a run
+// read it like one of Taylor's.  Where it is less exact than the tolerance, steps end on the times of output; events
+// are iterated on the end of a step.
 #include "solve/radau_impl.h"
 
 #include <float.h>
@@ -123,8 +123,8 @@ static int most_rounds(const pl_radau* r) { return 7 + 2 * (r->method.s - 3); }
 // Whether a coupled iteration needs the slopes at the stages where it is now.
 static bool slopes_are_stale(const pl_radau* r, int round) { return round == 1 || (r->theta > 0.05 && round <= 6); }
 
-// Newton iteration: split, with the slopes at the start of the step for all stages; or coupled, with those at the stages.
-// Returns the rounds taken, 0 when it does not converge fast enough.
+// Newton iteration: split, with the slopes at the start of the step for all stages; or coupled, with those at the
+// stages.  Returns the rounds taken, 0 when it does not converge fast enough.
 static int iterate(pl_run* run, pl_radau* r, double h) {
   double goal = fmax(newton_part * r->tol, 20 * DBL_EPSILON), before = 0;
   int most = most_rounds(r);
@@ -196,8 +196,8 @@ static double estimate(const pl_run* run, pl_radau* r, double h) {
 // ---------------------------------------------------------------------------------------------- one attempt
 typedef struct pl_radau_try {
   bool fine;
-  double error;     // in units of the tolerance of the estimate
-  double next;      // length of the next step, or of the next attempt
+  double error;  // in units of the tolerance of the estimate
+  double next;   // length of the next step, or of the next attempt
 } pl_radau_try;
 
 static pl_radau_try give_up(pl_radau* r, double h, double part) {
@@ -267,7 +267,8 @@ bool pl_radau_probe(pl_run* run, double h, double least, double* reach) {
   return false;
 }
 
-// ---------------------------------------------------------------------------------------------- back onto the constraints
+// ---------------------------------------------------------------------------------------------- back onto the
+// constraints
 static double relative(const pl_run* run, const double* g, const double* size, bool positions) {
   double most = 0;
   for (int c = 0; c < run->n_c; c++) {

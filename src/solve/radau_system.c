@@ -1,4 +1,4 @@
-// The linear systems of the implicit method: residuals at the stages, Jacobians by derivatives along directions, factors.
+// The linear systems of the implicit method: residuals at the stages, slopes along directions, factors.
 //
 //   F(q, v, a, λ) = M(q) a + h(q, v, t) - (G^T + W) λ,      C(q, v) = G v + dg/dt
 //
@@ -26,7 +26,7 @@ static void reserve_wide(pl_run* run, pl_radau* r) {
     r->wide[i] = (pl_radau_wide){b, b->jet};
     if (b->lanes > 1) continue;
     const pl_pattern* p = b->pattern;
-    double* index = PL_ARRAY(a, double, (size_t)p->n_index * WIDE + 1);
+    double* index = PL_ARRAY(a, double, (size_t)p->n_index* WIDE + 1);
     r->wide[i].jet = pl_jet_make(a, p->tape, WIDE, 2);
     // the indices of a single instance, the same in all lanes
     for (int k = 0; k < p->tape->level_end[PL_LEVEL_CONST]; k++) {
@@ -117,8 +117,8 @@ static void add_residual(const pl_run* run, const pl_radau_wide* w, int lane, in
   const pl_pattern* p = b->pattern;
   const int *q = b->q + instance, *c = b->c + instance;
 #define VALUE(e) pl_jet_at(w->jet, node_of(b, e), 0)[lane]
-#define Q_OF(slot) q[(slot) * b->lanes]
-#define C_OF(slot) c[(slot) * b->lanes]
+#define Q_OF(slot) q[(slot)*b->lanes]
+#define C_OF(slot) c[(slot)*b->lanes]
   for (const pl_pattern_entry* e = p->mass; e < p->mass + p->n_mass; e++) {
     double x = VALUE(e);
     F[Q_OF(e->row)] += x * a[Q_OF(e->col)];
@@ -224,8 +224,8 @@ typedef struct point {
 } point;
 
 // Derivatives along global coordinate `col` (of position, or of velocity): coefficient 1 in a lane.
-static void add_derivatives(const pl_run* run, const point* at, const pl_radau_wide* w, int lane, int instance,
-                            int col, bool of_speed) {
+static void add_derivatives(const pl_run* run, const point* at, const pl_radau_wide* w, int lane, int instance, int col,
+                            bool of_speed) {
   const pl_batch* b = w->batch;
   const pl_pattern* p = b->pattern;
   const int *q = b->q + instance, *c = b->c + instance;
@@ -264,7 +264,9 @@ static void stand_still(pl_jet* jet) {
 }
 
 // Direction d of a pattern: slot d of the positions, or slot d - n_q of the velocities.
-static int direction_node(const pl_tape* tape, int n_q, int d) { return d < n_q ? tape->q_node[d] : tape->v_node[d - n_q]; }
+static int direction_node(const pl_tape* tape, int n_q, int d) {
+  return d < n_q ? tape->q_node[d] : tape->v_node[d - n_q];
+}
 
 static void slopes_by_directions(const pl_run* run, const point* at, const pl_radau_wide* w) {
   const pl_batch* b = w->batch;
@@ -319,9 +321,7 @@ void pl_radau_slopes_at(pl_run* run, pl_radau* r, pl_radau_slopes* J, double t, 
 
 // ---------------------------------------------------------------------------------------------- factors
 // Rows of what is not used hold 1 on the diagonal.
-static bool rests(const pl_run* run, int i) {
-  return i < run->n_q ? run->place_n[i] == 0 : !run->taken[i - run->n_q];
-}
+static bool rests(const pl_run* run, int i) { return i < run->n_q ? run->place_n[i] == 0 : !run->taken[i - run->n_q]; }
 
 // N = [γ M + D + K/γ, -B; G + S/γ, 0] for γ = re + i im: entry (row, col), re and im.
 static void entry(const pl_radau* r, int row, int col, const double* g, const double* g_inverse, double* z) {

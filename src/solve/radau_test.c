@@ -9,7 +9,7 @@ static pl_expr half(t_bench* b, pl_expr x) { return pl_mul(P, pl_ratio(P, 1, 2),
 
 // A pendulum, mass 1 at (x, y), y down, x² + y² = 1, g = 1, and a second mass on a spring of length 1 below it with
 // stiffness K and damper c along the spring.
-static double kick;   // speed of the second mass along the spring at the start
+static double kick;  // speed of the second mass along the spring at the start
 
 static t_bench* family(double K, double c, pl_method method, double t_end, double tol) {
   t_bench* b = t_open();
@@ -18,7 +18,8 @@ static t_bench* family(double K, double c, pl_method method, double t_end, doubl
   pl_expr dx = pl_sub(P, u, x), dy = pl_sub(P, w, y);
   pl_expr length = pl_sqrt(P, pl_add(P, sq(b, dx), sq(b, dy)));
   pl_expr stretch = pl_sub(P, length, pl_int(P, 1));
-  pl_expr rate = pl_div(P, pl_add(P, mul(b, dx, pl_sub(P, b->v[2], b->v[0])), mul(b, dy, pl_sub(P, b->v[3], b->v[1]))), length);
+  pl_expr du = pl_sub(P, b->v[2], b->v[0]), dw = pl_sub(P, b->v[3], b->v[1]);
+  pl_expr rate = pl_div(P, pl_add(P, mul(b, dx, du), mul(b, dy, dw)), length);
   pl_expr pull = mul(b, d, rate);
   b->force[0] = pl_div(P, mul(b, pull, dx), length);
   b->force[1] = pl_div(P, mul(b, pull, dy), length);
@@ -142,7 +143,7 @@ static void a_fast_part_is_resolved_while_it_lasts(void** state) {
   pl_expr x = t_coord(b, "x"), c = t_param(b, "c", 1e6 + 1), k = t_param(b, "K", 1e6);
   pl_expr L = pl_sub(P, half(b, sq(b, b->v[0])), half(b, mul(b, k, sq(b, x))));
   b->force[0] = pl_neg(P, mul(b, c, b->v[0]));
-  t_start(b, 0, 1, 1e6);   // x = 2 e^-t - e^(-10^6 t), up to the part that v fixes
+  t_start(b, 0, 1, 1e6);  // x = 2 e^-t - e^(-10^6 t), up to the part that v fixes
   b->options.method = PL_METHOD_RADAU;
   assert_int_equal(t_make(b, L, 3, 1e-10), PLEUEL_OK);
   assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
@@ -176,7 +177,10 @@ static void it_agrees_with_the_series_at_every_tolerance(void** state) {
 }
 
 // Rows on a grid and events of one run, to be compared with those of another.
-typedef struct rows { int n; double q[64][4], lambda[64]; } rows;
+typedef struct rows {
+  int n;
+  double q[64][4], lambda[64];
+} rows;
 static rows seen;
 static pleuel_status keep_row(void* user, const pl_row* row) {
   (void)user;
@@ -245,7 +249,7 @@ static void it_runs_backwards(void** state) {
   assert_int_equal(pl_run_make(&b->job, &b->setup, &b->options, &b->run), PLEUEL_OK);
   assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
   printf("# backwards: %.1e\n", back - pl_run_q(b->run)[0]);
-  assert_true(fabs(back - pl_run_q(b->run)[0]) < 1e-11);   // released at rest: the motion is even in time
+  assert_true(fabs(back - pl_run_q(b->run)[0]) < 1e-11);  // released at rest: the motion is even in time
   t_close(b);
 }
 

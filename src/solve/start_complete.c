@@ -7,12 +7,12 @@
 
 #include "solve/solve_impl.h"
 
-static const double dependent = 1e-10;   // of a row: what is left of it when it says nothing new
-static const double met = 1e-9;          // residual of a constraint relative to its terms
+static const double dependent = 1e-10;  // of a row: what is left of it when it says nothing new
+static const double met = 1e-9;         // residual of a constraint relative to its terms
 
 // The least change of what is free that takes the residuals away: rows orthogonalised one by one, targets along.
-static bool least_change(const pl_run* run, const bool* held, const double* residual, const double* size, bool positions,
-                         double* basis, double* change) {
+static bool least_change(const pl_run* run, const bool* held, const double* residual, const double* size,
+                         bool positions, double* basis, double* change) {
   int n = run->n_q, rank = 0;
   for (int i = 0; i < n; i++) change[i] = 0;
   for (int c = 0; c < run->n_c; c++) {
@@ -73,7 +73,7 @@ pleuel_status pl_run_start_partly(pl_run* run, double t, const double* q, const 
   if (run->rows == NULL) return pl_run_start_at(run, t, q, v);
   pl_arena* a = run->job->arena;
   pl_mark mark = pl_arena_mark(a);
-  double *basis = PL_ARRAY(a, double, n * (size_t)(run->n_c + 1)), *change = PL_ARRAY(a, double, n + 1);
+  double *basis = PL_ARRAY(a, double, n*(size_t)(run->n_c + 1)), *change = PL_ARRAY(a, double, n + 1);
   double *q_kept = PL_ARRAY(a, double, n + 1), *v_kept = PL_ARRAY(a, double, n + 1);
   memcpy(run->q, q, n * sizeof(double));
   memcpy(run->v, v, n * sizeof(double));

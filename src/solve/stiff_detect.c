@@ -2,23 +2,23 @@
 //
 // A stiff part that has died out still limits the series: its coefficients of high order are rounding errors times
 // (stiffness)^k, so the step depends neither on the order nor on the tolerance, while the coefficients of low order
-// tell a motion that goes on slowly.  Where these two disagree, now and then, the implicit method is asked what step it would
-// take here at the tolerance of the run; what a step of each costs is counted, not timed, so that the same run takes
-// the same decisions everywhere.  After a change the count goes on, and a motion that turns out not to be stiff any
-// more goes back to the series.
+// tell a motion that goes on slowly.  Where these two disagree, now and then, the implicit method is asked what step
+// it would take here at the tolerance of the run; what a step of each costs is counted, not timed, so that the same
+// run takes the same decisions everywhere.  After a change the count goes on, and a motion that turns out not to be
+// stiff any more goes back to the series.
 #include <math.h>
 
 #include "solve/radau_impl.h"
 
 enum {
-  FIRST_LOOK = 100,     // steps of the series before the first look; then always twice as many
-  FEW_LEFT = 400,       // steps that would be left: too few to bother
-  MANY_LEFT = 20000,    // where no tolerance was asked for, so that the series would be exact to rounding
-  PATIENCE = 10         // implicit steps in a row that cost more, before the series takes over again
+  FIRST_LOOK = 100,   // steps of the series before the first look; then always twice as many
+  FEW_LEFT = 400,     // steps that would be left: too few to bother
+  MANY_LEFT = 20000,  // where no tolerance was asked for, so that the series would be exact to rounding
+  PATIENCE = 10       // implicit steps in a row that cost more, before the series takes over again
 };
-static const double slow_part = 40;      // radius of the low orders over the step: smooth motions have about e^2
-static const double gain = 4;            // expected of a change
-static const double gain_exact = 20;     // the same where no tolerance was asked for
+static const double slow_part = 40;   // radius of the low orders over the step: smooth motions have about e^2
+static const double gain = 4;         // expected of a change
+static const double gain_exact = 20;  // the same where no tolerance was asked for
 
 // ---------------------------------------------------------------------------------------------- cost
 // In units of one operation of a tape: what lies in the tapes, and n^3 of the linear systems at an eighth.
@@ -26,7 +26,8 @@ static double nodes_of(const pl_run* run) {
   double n = 0;
   for (int i = 0; i < run->motion.n; i++) {
     const pl_tape* tape = run->motion.at[i].pattern->tape;
-    n += (tape->level_end[PL_LEVEL_SPEED] - tape->level_end[PL_LEVEL_CONST]) * (run->motion.at[i].lanes > 1 ? 2.0 : 1.0);
+    double wide = run->motion.at[i].lanes > 1 ? 2 : 1;
+    n += (tape->level_end[PL_LEVEL_SPEED] - tape->level_end[PL_LEVEL_CONST]) * wide;
   }
   return n;
 }
@@ -71,7 +72,8 @@ pleuel_status pl_stiff_look(pl_run* run) {
   run->factored = false;
   if (!pl_point_enter(run)) return pl_run_undetermined(run);
   r->cost_series = cost_of_series(run) / h;
-  if (!holds || r->cost_series < (run->options.tol == 0 ? gain_exact : gain) * cost_of_implicit(run) / fabs(reach)) return PLEUEL_OK;
+  double wanted = run->options.tol == 0 ? gain_exact : gain;
+  if (!holds || r->cost_series < wanted * cost_of_implicit(run) / fabs(reach)) return PLEUEL_OK;
   run->implicit = true;
   run->tol = fmax(run->tol, r->tol);
   r->h = fabs(reach);
