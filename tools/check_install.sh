@@ -9,6 +9,7 @@ prefix=$(find "$folder" -path '*/bin/pleuel' -type f | head -n 1)
 prefix=${prefix%/bin/pleuel}
 [ -n "$prefix" ] || { echo "no bin/pleuel was installed"; exit 1; }
 for f in include/pleuel.h share/man/man1/pleuel.1 share/man/man1/pleuel-sim.1 share/man/man5/pleuel.5 \
+         share/man/de/man1/pleuel.1 share/man/de/man1/pleuel-sim.1 share/man/de/man5/pleuel.5 \
          share/bash-completion/completions/pleuel share/zsh/site-functions/_pleuel share/fish/vendor_completions.d/pleuel.fish \
          share/doc/pleuel/examples/ski.pleuel; do
   [ -e "$prefix/$f" ] || [ -e "$prefix/$f.gz" ] || { echo "$f was not installed"; exit 1; }

@@ -9,6 +9,7 @@ In README.md and docs/*.md:
   a fenced block ```console       lines `$ pleuel ...` are run in a folder that holds the examples; what stands below must be what
                                   comes out.  A line `...` stands for any lines.
 In docs/diagnostics/CODE.md: the first ```pleuel block must produce CODE.
+In man/: the pages of both languages name every verb of `pleuel help` and every flag of its page.
 """
 import os
 import pathlib
@@ -113,6 +114,23 @@ def check_pages(folder):
             faults.append(f"{where}:{line}: does not produce {path.stem}, but says:\n{out}{err}")
 
 
+def check_man_pages():
+    _, completion, _ = pleuel(["completion", "bash"], root)
+    verbs = re.findall(r"^        ([a-z]+)\) words='", completion, re.M)
+    if "solve" not in verbs:
+        faults.append("tools/check_manual.py: no verbs found in the completion")
+    for suffix in ("", ".de"):
+        page = {n: (root / f"man/{n}{suffix}.1").read_text(encoding="utf-8").replace("\\-", "-") for n in ("pleuel", "pleuel-sim")}
+        for verb in verbs:
+            text = page["pleuel-sim" if verb == "sim" else "pleuel"]
+            if not re.search(rf"^\.B[IR]* \"?{verb}\b", page["pleuel"], re.M):
+                faults.append(f"man/pleuel{suffix}.1: no verb {verb}")
+            _, help_text, _ = pleuel([verb, "-h"], root)
+            for flag in sorted(set(re.findall(r"--[a-z][a-z-]*", help_text)) - {"--help"}):
+                if flag not in text + page["pleuel"] and flag not in ("--output", "--force"):
+                    faults.append(f"man/pleuel{suffix}.1: {verb} has {flag}")
+
+
 with tempfile.TemporaryDirectory() as folder:
     for example in (root / "examples").glob("*.pleuel"):
         shutil.copy(example, folder)
@@ -129,6 +147,7 @@ with tempfile.TemporaryDirectory() as folder:
             if language == "console":
                 session(where, text, folder)
     check_pages(folder)
+    check_man_pages()
 
 for f in faults:
     print(f)
