@@ -10,6 +10,7 @@ void cli_print_overview(FILE* to) {
     "  pleuel FILE                    worked solution            (same as: pleuel solve FILE)\n"
     "  pleuel check FILE              names, units, degrees of freedom, start\n"
     "  pleuel sim FILE -o out.csv     simulate, write the motion\n"
+    "  pleuel report FILE             everything in one HTML page\n"
     "\n"
     "  more: fmt new examples explain units export dump completion\n"
     "\n"

@@ -80,6 +80,9 @@ look() {
   need build libsuitesparse-dev 'sparse linear systems (KLU)'                library -lklu klu.h
   wish build libcairo2-dev  'PNG, PDF and GIF pictures (SVG does without)'   library -lcairo cairo/cairo.h cairo/cairo-pdf.h
   need test  libcmocka-dev  'unit tests'                                     library -lcmocka stdarg.h stddef.h setjmp.h stdint.h cmocka.h
+  need test  chromium       'shows the HTML reports to the tests'             program chromium chromium-browser
+  need test  nodejs         'drives the browser (playwright-core from npm)'   program node nodejs
+  need test  npm            'fetches playwright-core, axe-core and vnu-jar for the tests' program npm
   need test  g++            'tries the public header in C++'                 program c++ g++
   need test  clang          'second opinion on warnings'                     "$(dirname "$0")/find-clang.sh"
   need test  "libclang-rt-$(clang_version)-dev" 'random input for the parser (libFuzzer)' fuzzer

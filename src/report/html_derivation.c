@@ -99,9 +99,10 @@ static void put_cell(pl_html* h, const char* class, const char* s) {
 }
 
 static void put_row(pl_html* h, const pl_step* s) {
-  pl_html_raw(h, "<tr><th scope=\"row\">");
-  pl_html_sentence(h, pl_html_words(h, s->words), s->n_inserts, s->inserts);
-  pl_html_raw(h, "</th><td>");
+  const char* label = pl_html_words(h, s->words);
+  pl_html_raw(h, *label ? "<tr><th scope=\"row\">" : "<tr><td>");
+  pl_html_sentence(h, label, s->n_inserts, s->inserts);
+  pl_html_raw(h, *label ? "</th><td>" : "</td><td>");
   if (s->formula) pl_html_inline(h, s->formula);
   pl_html_raw(h, "</td>");
   const char* value = s->has_value && isfinite(s->value) ? value_of(h, s) : s->margin ? s->margin : "";
