@@ -21,20 +21,37 @@ const char* pl_tex_label_of(const pl_tex_page* g, int number) {
   return NULL;
 }
 
-// "(4)" as a formula speaks of an equation.
-static const char* reference(pl_tex_page* g, const char* math) {
-  size_t n = strlen(math);
-  if (n < 3 || math[0] != '(' || math[n - 1] != ')' || strspn(math + 1, "0123456789") != n - 2) return NULL;
-  const char* label = pl_tex_label_of(g, atoi(math + 1));
-  return label ? pl_format(g->arena, "\\eqref{%s}", label) : NULL;
+// The number of "(4)" at the begin of s and its length; 0: it is something else.
+static int numbered(const char* s, size_t* length) {
+  size_t digits = *s == '(' ? strspn(s + 1, "0123456789") : 0;
+  *length = digits + 2;
+  return digits > 0 && digits < 6 && s[1 + digits] == ')' ? atoi(s + 1) : 0;
+}
+
+// Words such as "(1) and (2)": what is printed under a label is referred to.
+static void add_references(pl_tex_page* g, pl_text* out, const char* s) {
+  const char* from = s;
+  for (;; s++) {
+    size_t length;
+    int number = numbered(s, &length);
+    const char* label = number > 0 ? pl_tex_label_of(g, number) : NULL;
+    if (*s && !label) continue;
+    pl_notation_words(out, pl_copy_n(g->arena, from, (size_t)(s - from)));
+    if (!*s) return;
+    pl_text_addf(out, "\\eqref{%s}", label);
+    s += length - 1;
+    from = s + 1;
+  }
 }
 
 // A long formula inside a sentence may break after its commas.
 static void add_inline(pl_tex_page* g, pl_text* out, const pl_form* f) {
   const char* math = pl_tex_math(g, f);
-  const char* label = reference(g, math);
-  if (label) {
-    pl_text_add(out, label);
+  size_t length;
+  bool alone = numbered(math, &length) > 0 && !math[length];
+  if (alone || f->kind == PL_F_TEXT) {
+    const char* words = f->kind == PL_F_TEXT ? f->words[g->how.lang] : math;
+    add_references(g, out, words ? words : "");
     return;
   }
   if (!*math) return;
