@@ -8,7 +8,7 @@ log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 [ -f build-bench/build.ninja ] ||
   meson setup build-bench --buildtype=release -Db_ndebug=true -Dtests=false >"$log" 2>&1 || { cat "$log" >&2; exit 1; }
-ninja -C build-bench pleuel >"$log" 2>&1 || { cat "$log" >&2; exit 1; }
+ninja -C build-bench pleuel motion_kernel >"$log" 2>&1 || { cat "$log" >&2; exit 1; }
 bench/bench.py build-bench/pleuel
 echo
 bench/derivation_peers.py build-bench/pleuel
