@@ -69,5 +69,6 @@ int verb_plot(pleuel* ctx, const cli_options* o) {
   const char* bytes = NULL;
   size_t n = 0;
   pleuel_status s = pleuel_plot(m, &bytes, &n, &how);
+  if (s == PLEUEL_OK && *pleuel_message(ctx)) cli_error(0, "%s", pleuel_message(ctx));
   return cli_finish_bytes(ctx, m, o, s, bytes, n);
 }

@@ -99,6 +99,24 @@ check("and has the direction of the start", abs((x1 - x0) / (y1 - y0) - 1.2 / 1.
 atwood = parsed(work / "atwood.svg")
 check("a rope over a pulley: rope, wheel, two masses", len(of_class(atwood, "pl-rope")) == 1 and len(of_class(atwood, "plf-body")) == 1
       and len(of_class(atwood, "plf-mass", "circle")) == 2)
+compound = model("compound.pleuel", """param m = 1 [kg], g = 9.81 [m/s^2], a = 2 [m], b = 1 [m]
+coord u, v, w, p
+axes u down
+mass A: 4 m at (u)
+mass B: 2 m at (v)
+mass C: m at (w)
+gravity g along u
+constraint first: u + p = a
+constraint second: v + w - 2 p = b
+""")
+run("plot", compound, "-o", "compound.svg")
+svg = parsed(work / "compound.svg")
+centres = [float(c.get("cx")) for c in of_class(svg, "plf-mass", "circle")]
+check("a pulley that hangs itself: two ropes, two wheels, masses beside each other", len(of_class(svg, "pl-rope")) == 2 and len(of_class(svg, "plf-body")) == 2
+      and len(centres) == 3 and min(abs(a - b) for a in centres for b in centres if a != b) > 20, centres)
+ladder = parsed(work / "ladder.svg")
+(a, b), = [points(e)[:2] for e in of_class(ladder, "plf-body")]
+check("a body that touches two planes stands between them", len(of_class(ladder, "pl-ground")) == 4 and a[0] != b[0] and a[1] != b[1], (a, b))
 polar = model("polar.pleuel", pendulum.read_text().replace("coord x, y", "coord r, q").replace("at (x, y)", "at (r sin q, -r cos q)")
               .replace("x^2 + y^2 = l^2", "r = l").replace("init x = 1.2 [m], y = -1.6 [m], x' = 0", "init q = 0.6435011087932844, q' = 0"))
 run("plot", polar, "-o", "polar.svg", "--show", "drawing", "--no-forces")
@@ -147,6 +165,8 @@ for row in rows:
         off.append(abs(ya + (yb - ya) * (px(t) - xa) / (xb - xa) - py(v)))
 check("a plotted curve runs where the data say", len(off) > 25 and max(off) < 1, off)
 check("events are named", "h lets go" in texts(svg), texts(svg))
+r = run("plot", root / "examples/chain.pleuel", "--set", "N=4", "--until", "0.1", "-o", "chain.svg")
+check("a quantity without a number is named", r.returncode == 0 and b"norm(force(c[1])) is not plotted" in r.stderr, r.stderr)
 phase = model("phase.pleuel", pendulum.read_text() + "plot y vs x\n")
 run("plot", phase, "-o", "phase.svg", "--show", "plots")
 svg = parsed(work / "phase.svg")
