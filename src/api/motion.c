@@ -35,11 +35,14 @@ enum { MOST_COORDINATES = 8, DIGITS = 6 };    // of a state shown on one line
 static void add_state(pl_teller* t, const double* row) {
   const pl_setup* s = &t->m->recording->setup;
   int shown = 0, column = 1;
+  double most = 0;        // what is rounding beside it is shown as zero
+  for (int i = 0, k = 1; i < t->m->recording->flat.n; i++)
+    if (!s->coordinates[i].hidden) most = fmax(most, fabs(row[k++]));
   for (int i = 0; i < t->m->recording->flat.n && shown < MOST_COORDINATES; i++) {
     const pl_coordinate* q = &s->coordinates[i];
     if (q->hidden) continue;
     bool angle = q->unit && strcmp(q->unit, "rad") == 0;
-    double x = angle ? row[column] * (180 / M_PI) : row[column];
+    double x = fabs(row[column]) < 1e-14 * most ? 0 : angle ? row[column] * (180 / M_PI) : row[column];
     const char* unit = angle ? (t->ascii ? " deg" : "°") : q->unit && *q->unit ? pl_format(t->arena, " %s", q->unit) : "";
     pl_text_addf(t->out, "%s%s = %s%s", shown ? ", " : "   ", coordinate_name(t, i), number(t, x, DIGITS), unit);
     column++;
@@ -133,6 +136,21 @@ static void tell_accuracy(pl_teller* t) {
                              "     gegebene Startwerte wurden um %s (relativ) verschoben, damit die Zwangsbedingungen gelten\n"),
                  number(t, t->m->start.largest_move, 2));
   }
+}
+
+void pl_engine_text(pl_text* out, const pleuel_model* m, pl_language lang) {
+  pl_teller t = {out, m, m->arena, lang, false, {PL_MATH_LINE, lang}};
+  if (!m->result) return;
+  const pl_stats* s = &m->result->stats;
+  if (!s->compiled) {
+    pl_text_addf(out, say(&t, "     %ld steps, interpreted", "     %ld Schritte, interpretiert"), s->steps);
+    if (s->why_interpreted) pl_text_addf(out, ": %s", s->why_interpreted);
+    pl_text_add(out, "\n");
+    return;
+  }
+  pl_text_addf(out, say(&t, "     %ld steps, %ld of them interpreted, the others compiled (%s ms%s)\n",
+                        "     %ld Schritte, davon %ld interpretiert, die anderen kompiliert (%s ms%s)\n"), s->steps, s->steps_interpreted,
+               number(&t, 1e3 * s->compile_s, 2), s->stored ? say(&t, ", from disk", ", von der Platte") : "");
 }
 
 void pl_motion_text(pl_text* out, const pleuel_model* m, pl_language lang, bool ascii, bool events_only) {
