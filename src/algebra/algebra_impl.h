@@ -263,6 +263,9 @@ typedef struct pl_primes {
   int n, cap;
 } pl_primes;
 pl_primes pl_int_primes(pl_tower* t, const fmpz* c);
+// f without integer and monomial content in the generators use[0 .. n-1]: proven to have no factors.  Otherwise, a generator in
+// which it is linear with coefficients that seem to have a common factor, in *linear; -1.  irreducible.c
+bool pl_poly_proven_irreducible(pl_tower* t, const pl_poly* f, const int* use, int n, int* linear);
 void pl_factor_free(pl_tower* t);  // what FLINT holds for the last factoring
 // (1 - c)^k (1 + c)^k -> s^2k, likewise C, S.  Bases stay bases: sin is one.
 pl_factored pl_factored_merge_pairs(pl_tower* t, pl_factored f);

@@ -135,10 +135,32 @@ static bool factor_with_flint(pl_tower* t, const pl_poly* f, const int* use, int
   return found;
 }
 
+// f = a x + b is the common factor of a and b times what is left, which has no factors.  The factor that may have some; NULL
+// if there is none.
+static const pl_poly* split_linear(pl_collect* c, const pl_poly* f, int x) {
+  pl_tower* t = c->t;
+  int degree = 0;
+  const pl_poly** coefficient = pl_poly_coefficients(t, f, x, &degree);
+  const pl_poly* g = pl_poly_gcd(t, coefficient[0], coefficient[1]);
+  const pl_poly* rest = f;
+  if (!pl_poly_is_number(t, g) && !pl_poly_divides(t, &rest, f, g)) pl_tower_give_up(t);
+  collect_poly(c, rest, 1, false);
+  return pl_poly_is_number(t, g) ? NULL : g;
+}
+
 static void collect_factors_of(pl_collect* c, const pl_poly* f) {
   pl_tower* t = c->t;
-  int use[PL_MAX_GENERATORS], n = 0;
+  int use[PL_MAX_GENERATORS], n = 0, linear = -1;
   pl_poly_used(t, f, use, &n);
+  if (pl_poly_proven_irreducible(t, f, use, n, &linear)) {
+    collect_poly(c, f, 1, false);
+    return;
+  }
+  if (linear >= 0) {
+    const pl_poly* g = split_linear(c, f, linear);
+    if (g) collect_factors_of(c, g);
+    return;
+  }
   if (!factor_with_flint(t, f, use, n)) {
     collect_poly(c, f, 1, true);
     return;
