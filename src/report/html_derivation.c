@@ -100,9 +100,10 @@ static void put_cell(pl_html* h, const char* class, const char* s) {
 
 static void put_row(pl_html* h, const pl_step* s) {
   const char* label = pl_html_words(h, s->words);
-  pl_html_raw(h, *label ? "<tr><th scope=\"row\">" : "<tr><td>");
+  bool words = *label && *label != '{';       // a formula alone is no name of a row for a screen reader
+  pl_html_raw(h, words ? "<tr><th scope=\"row\">" : "<tr><td>");
   pl_html_sentence(h, label, s->n_inserts, s->inserts);
-  pl_html_raw(h, *label ? "</th><td>" : "</td><td>");
+  pl_html_raw(h, words ? "</th><td>" : "</td><td>");
   if (s->formula) pl_html_inline(h, s->formula);
   pl_html_raw(h, "</td>");
   const char* value = s->has_value && isfinite(s->value) ? value_of(h, s) : s->margin ? s->margin : "";

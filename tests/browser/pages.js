@@ -118,8 +118,8 @@ async function deep(browser, job) {
     say(job.name + ': the theme switches', dark !== light);
     await none(job.name + ': accessible in the other theme', accessibility(page));
     await page.evaluate(() => { window.copied = null; navigator.clipboard.writeText = s => { window.copied = s; return Promise.resolve(); }; });
-    await page.locator('.eq .cp').first().click({ force: true });
-    const copied = await page.evaluate(() => window.copied), first = await page.locator('#derivation .eq annotation').first().textContent();
+    await page.locator('#derivation > .eq .cp').first().click({ force: true });
+    const copied = await page.evaluate(() => window.copied), first = await page.locator('#derivation > .eq annotation').first().textContent();
     say(job.name + ': an equation is copied as LaTeX', copied && copied === first, copied);
     printed = (await page.pdf({ format: 'A4', printBackground: true, preferCSSPageSize: true })).length;
     await page.emulateMedia({ media: 'print' });
