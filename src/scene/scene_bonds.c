@@ -1,66 +1,24 @@
 // What constraints look like.  A constraint is looked at by its numbers, not by how it is written: it is a rod when its
 // gradient is everywhere parallel to that of a distance, a sphere or plane when the places that it allows lie on one,
 // and else a curve that is traced.  So r = R in polar coordinates and x² + y² = R² give the same picture.
-#include <ctype.h>
 #include <math.h>
 #include <string.h>
 
 #include "scene/scene_impl.h"
 
-enum { SAMPLES = 3, FIT_SAMPLES = 16, MOST_PAIRS = 60 };
+enum { SAMPLES = 3, FIT_SAMPLES = 16 };
 static const double parallel_tol = 1e-5;      // of numerical gradients: central differences leave some 1e-9
 
-// ---------------------------------------------------------------------------------------------- words
-static bool has_word(const char* text, const char* const* words) {
-  char low[64];
-  size_t n = 0;
-  for (; text[n] && n + 1 < sizeof low; n++) low[n] = (char)tolower((unsigned char)text[n]);
-  low[n] = 0;
-  // long words may stand anywhere (Pendelstange), short ones begin a name: `ring`, but not in `string`
-  for (; *words; words++) {
-    const char* at = strstr(low, *words);
-    if (at && (strlen(*words) > 4 || at == low || !isalpha((unsigned char)at[-1]))) return true;
-  }
-  return false;
-}
-
-// What the label says about the thing that constrains: in both languages of the program.
-static pl_hint hint_of(const char* label) {
-  static const char* const rope[] = {"rope", "string", "cord", "thread", "tether", "cable", "seil", "faden", "schnur", "leine", NULL};
-  static const char* const rod[] = {"rod", "bar", "link", "arm", "tie", "axle", "crank", "stab", "stange", "pleuel", "achse", "kurbel", NULL};
-  static const char* const track[] = {"hoop", "ring", "wire", "track", "rail", "guide", "loop", "circle", "draht", "reif", "schiene", "bahn", "kreis", "führung", NULL};
-  static const char* const ground[] = {"floor", "wall", "ground", "plane", "hill", "slope", "bowl", "dome", "surface", "table", "ramp", "piste", "touch", "slide",
-                                       "boden", "wand", "ebene", "hang", "tisch", "kuppel", "schale", "rampe", "fläche", "kugel", "sphere", NULL};
-  if (!label) return PL_HINT_NONE;
-  if (has_word(label, rope)) return PL_HINT_ROPE;
-  if (has_word(label, ground)) return PL_HINT_GROUND;
-  if (has_word(label, track)) return PL_HINT_TRACK;
-  if (has_word(label, rod)) return PL_HINT_ROD;
-  return PL_HINT_NONE;
-}
-
-// A radius called R or a speaks of a round surface, a length l of a rod.
-static bool radius_is_length(const pl_stage* s, const pl_bond* b, double radius) {
-  pl_symbol found[16];
-  int n = pl_symbols_in(s->pool, b->c->g, found, 16);
-  for (int i = 0; i < n && i < 16; i++) {
-    const pl_symbol_info* info = pl_symbol_get(s->pool, found[i]);
-    if (info->role != PL_R_PARAM || !(fabs(fabs(s->value[found[i].id]) - radius) < 1e-6 * radius)) continue;
-    return strchr("lLdsbh", info->name[0]) != NULL || strncmp(info->name, "ℓ", strlen("ℓ")) == 0;
-  }
-  return false;
-}
-
 // ---------------------------------------------------------------------------------------------- trial points
-static void keep(const pl_stage* s, double* kept) {
+void pl_coords_keep(const pl_stage* s, double* kept) {
   for (int k = 0; k < s->n_q; k++) kept[k] = s->value[s->q[k].id];
 }
-static void give_back(pl_stage* s, const double* kept) {
+void pl_coords_back(pl_stage* s, const double* kept) {
   for (int k = 0; k < s->n_q; k++) s->value[s->q[k].id] = kept[k];
 }
 
 // Random coordinates; those held at a constant stay.
-static void shuffle(pl_stage* s, const int* q, int n) {
+void pl_coords_shuffle(pl_stage* s, const int* q, int n) {
   double size = s->size > 0 ? s->size : 1;
   for (int i = 0; i < n; i++) {
     if (s->settled[q[i]]) continue;
@@ -81,7 +39,7 @@ static double derivative(pl_stage* s, double (*f)(pl_stage*, const void*), const
 
 static double value_of(pl_stage* s, const void* what) { return pl_stage_eval(s, *(const pl_expr*)what); }
 
-static double squared_distance(pl_stage* s, const void* what) {
+double pl_squared_distance(pl_stage* s, const void* what) {
   const pl_spot* const* pair = what;
   double a[3], b[3], sum = 0;
   pl_stage_spot(s, pair[0], a);
@@ -91,7 +49,7 @@ static double squared_distance(pl_stage* s, const void* what) {
 }
 
 // ---------------------------------------------------------------------------------------------- bonds
-static bool contains(const int* list, int n, int x) {
+bool pl_list_has(const int* list, int n, int x) {
   for (int i = 0; i < n; i++) {
     if (list[i] == x) return true;
   }
@@ -100,7 +58,7 @@ static bool contains(const int* list, int n, int x) {
 
 static bool within(const pl_stage* s, const pl_bond* b, const pl_thing* t) {
   for (int i = 0; i < b->deps.n; i++) {
-    if (!contains(t->deps.at, t->deps.n, b->deps.at[i]) && !s->settled[b->deps.at[i]]) return false;
+    if (!pl_list_has(t->deps.at, t->deps.n, b->deps.at[i]) && !s->settled[b->deps.at[i]]) return false;
   }
   return b->deps.n > 0;
 }
@@ -112,7 +70,7 @@ static void read_bonds(pl_stage* s) {
     pl_collect_coords(s, b->c->g, &deps, &n, &b->timed);
     b->deps.at = deps;
     b->deps.n = b->deps.cap = n;
-    b->hint = b->c->name.generated ? PL_HINT_NONE : hint_of(b->c->name.text);
+    b->hint = b->c->name.generated ? PL_HINT_NONE : pl_hint_of(b->c->name.text);
     bool holds = n == 1 && !b->timed && !b->velocity && b->c->relation == PL_EQ && !b->c->off;
     if (holds) b->settles = deps[0];
     if (holds) s->settled[deps[0]] = true;
@@ -123,7 +81,7 @@ static void read_bonds(pl_stage* s) {
 static bool keeps_distance(pl_stage* s, const pl_bond* b, const pl_spot* p, const pl_spot* q) {
   const pl_spot* pair[2] = {p, q};
   double* kept = PL_ARRAY(s->arena, double, s->n_q + 1);
-  keep(s, kept);
+  pl_coords_keep(s, kept);
   int *deps = NULL, n = 0;
   bool timed = false, same = true;
   for (int j = 0; j < 3; j++) {
@@ -131,15 +89,15 @@ static bool keeps_distance(pl_stage* s, const pl_bond* b, const pl_spot* p, cons
     if (!q->fixed) pl_collect_coords(s, q->e[j], &deps, &n, &timed);
   }
   for (int i = 0; i < b->deps.n; i++) {
-    if (!contains(deps, n, b->deps.at[i])) same = s->settled[b->deps.at[i]] && same;
+    if (!pl_list_has(deps, n, b->deps.at[i])) same = s->settled[b->deps.at[i]] && same;
   }
   int good = 0;
   for (int try = 0; same && try < 4 * SAMPLES && good < SAMPLES; try++) {
-    shuffle(s, deps, n);
+    pl_coords_shuffle(s, deps, n);
     double gg = 0, dd = 0, gd = 0;
     for (int i = 0; i < n; i++) {
       if (s->settled[deps[i]]) continue;
-      double g = derivative(s, value_of, &b->c->g, deps[i]), d = derivative(s, squared_distance, pair, deps[i]);
+      double g = derivative(s, value_of, &b->c->g, deps[i]), d = derivative(s, pl_squared_distance, pair, deps[i]);
       gg += g * g;
       dd += d * d;
       gd += g * d;
@@ -151,141 +109,8 @@ static bool keeps_distance(pl_stage* s, const pl_bond* b, const pl_spot* p, cons
     same = fabs(gd) > (1 - parallel_tol * parallel_tol * 100) * sqrt(gg * dd);
     good++;
   }
-  give_back(s, kept);
+  pl_coords_back(s, kept);
   return same && good == SAMPLES;
-}
-
-// Is the distance of two spots the same wherever the coordinates are?
-static bool is_rigid(pl_stage* s, const pl_spot* p, const pl_spot* q, const int* deps, int n) {
-  const pl_spot* pair[2] = {p, q};
-  double* kept = PL_ARRAY(s->arena, double, s->n_q + 1);
-  keep(s, kept);
-  double first = squared_distance(s, pair);
-  bool rigid = isfinite(first) && first > 1e-16;
-  for (int try = 0; rigid && try < 2 * SAMPLES; try++) {
-    for (int i = 0; i < n; i++) s->value[s->q[deps[i]].id] += pl_random_between(&s->random, -1, 1) * (s->angle[deps[i]] || !(s->size > 0) ? 1 : s->size);
-    rigid = fabs(squared_distance(s, pair) - first) < 1e-9 * first;
-  }
-  give_back(s, kept);
-  return rigid;
-}
-
-// ---------------------------------------------------------------------------------------------- rods
-static void add_rod(pl_stage* s, pl_shape_kind kind, const pl_bond* b, const pl_spot* from, const pl_spot* to) {
-  pl_part* p = pl_stage_add(s, kind, "", b ? b->c->name.text : "");
-  p->spot[0] = *from;
-  p->spot[1] = *to;
-  p->moves = true;
-}
-
-static void add_pivot(pl_stage* s, const double x[3]) {
-  for (int i = 0; i < s->parts.n; i++) {
-    const pl_part* p = &s->parts.at[i];
-    if (p->kind != PL_SHAPE_POINT || !p->spot[0].fixed) continue;
-    if (hypot(hypot(p->spot[0].at[0] - x[0], p->spot[0].at[1] - x[1]), p->spot[0].at[2] - x[2]) < 1e-9 * fmax(s->size, 1)) return;
-  }
-  for (int i = 0; i < s->things.n; i++) {
-    double at[3];
-    pl_stage_spot(s, &s->things.at[i].spot, at);
-    if (s->things.at[i].deps.n == 0 && hypot(hypot(at[0] - x[0], at[1] - x[1]), at[2] - x[2]) < 1e-9 * fmax(s->size, 1)) return;
-  }
-  pl_part* p = pl_stage_add(s, PL_SHAPE_POINT, "", "");
-  p->n = 1;
-  p->spot[0] = pl_spot_fixed(x);
-}
-
-static bool shares(const pl_thing* a, const pl_thing* b) {
-  for (int i = 0; i < a->deps.n; i++) {
-    if (contains(b->deps.at, b->deps.n, a->deps.at[i])) return true;
-  }
-  return false;
-}
-
-// Half the sum of the places for an angle and for the opposite one: what the place turns about.
-static pl_spot pivot_of(pl_stage* s, const pl_thing* t, int angle) {
-  pl_spot pivot = t->spot;
-  pl_expr opposite = pl_add(s->pool, pl_sym(s->pool, s->q[angle]), pl_pi(s->pool));
-  for (int j = 0; j < 3; j++) {
-    if (pl_is_poison(t->spot.e[j])) continue;
-    pl_expr sum = pl_add(s->pool, t->spot.e[j], pl_subst1(s->pool, t->spot.e[j], s->q[angle], opposite));
-    pivot.e[j] = pl_mul(s->pool, pl_ratio(s->pool, 1, 2), pl_expand(s->pool, sum, 200));
-  }
-  return pivot;
-}
-
-static bool same_place(pl_stage* s, const pl_spot* a, const pl_spot* b, const pl_thing* t) {
-  const pl_spot* pair[2] = {a, b};
-  double* kept = PL_ARRAY(s->arena, double, s->n_q + 1);
-  keep(s, kept);
-  bool same = true;
-  for (int try = 0; same && try < SAMPLES; try++) {
-    shuffle(s, t->deps.at, t->deps.n);
-    same = squared_distance(s, pair) < 1e-16 * fmax(1, s->size * s->size);
-  }
-  give_back(s, kept);
-  return same;
-}
-
-// Places such as (X + l sin θ, -l cos θ) keep a distance by themselves: a rod, drawn from what they turn about.
-static void rod_of_angle(pl_stage* s, int i) {
-  pl_thing* t = &s->things.at[i];
-  pl_spot chosen = {0};
-  int candidates = 0;
-  bool matched = false;
-  for (int k = 0; k < t->deps.n && !matched; k++) {
-    if (!s->angle[t->deps.at[k]]) continue;
-    pl_spot pivot = pivot_of(s, t, t->deps.at[k]);
-    if (!is_rigid(s, &pivot, &t->spot, t->deps.at, t->deps.n)) continue;
-    candidates++;
-    if (candidates == 1) chosen = pivot;
-    for (int j = 0; j < s->things.n && !matched; j++) {
-      matched = j != i && same_place(s, &pivot, &s->things.at[j].spot, t);
-    }
-    if (matched) chosen = pivot;
-  }
-  if (candidates == 0 || (candidates > 1 && !matched)) return;
-  add_rod(s, PL_SHAPE_ROD, NULL, &chosen, &t->spot);
-  t->linked = true;
-  if (matched) return;
-  double x[3];
-  pl_stage_spot(s, &chosen, x);
-  int *deps = NULL, n = 0;
-  bool timed = false;
-  for (int j = 0; j < 3; j++) pl_collect_coords(s, chosen.e[j], &deps, &n, &timed);
-  if (n == 0 && !timed) {
-    add_pivot(s, x);
-  } else {
-    pl_part* p = pl_stage_add(s, PL_SHAPE_POINT, "", "");
-    p->n = 1;
-    p->moves = true;
-    p->spot[0] = chosen;
-  }
-}
-
-void pl_stage_rods(pl_stage* s) {
-  static const double zero[3] = {0, 0, 0};
-  pl_spot origin = pl_spot_fixed(zero);
-  for (int i = 0; i < s->things.n && s->things.n <= MOST_PAIRS; i++) {
-    pl_thing* t = &s->things.at[i];
-    if (t->kind == PL_THING_POINT || t->deps.n == 0) continue;
-    bool found = false;
-    for (int j = 0; j < s->things.n && !found; j++) {
-      pl_thing* o = &s->things.at[j];
-      if (j == i || (j > i && o->kind != PL_THING_POINT) || !(shares(t, o) || o->deps.n == 0)) continue;
-      int* all = PL_ARRAY(s->arena, int, t->deps.n + o->deps.n + 1);
-      memcpy(all, t->deps.at, (size_t)t->deps.n * sizeof(int));
-      memcpy(all + t->deps.n, o->deps.at, (size_t)o->deps.n * sizeof(int));
-      if (!is_rigid(s, &t->spot, &o->spot, all, t->deps.n + o->deps.n)) continue;
-      add_rod(s, PL_SHAPE_ROD, NULL, &o->spot, &t->spot);
-      t->linked = found = true;
-    }
-    if (!found && !t->timed && is_rigid(s, &t->spot, &origin, t->deps.at, t->deps.n)) {
-      add_rod(s, PL_SHAPE_ROD, NULL, &origin, &t->spot);
-      add_pivot(s, zero);
-      t->linked = found = true;
-    }
-    if (!found && !t->timed) rod_of_angle(s, i);
-  }
 }
 
 // ---------------------------------------------------------------------------------------------- between two things
@@ -308,19 +133,19 @@ static bool inside_allowed(const pl_constraint* c, bool rises) { return (c->rela
 static bool rises_with_distance(pl_stage* s, const pl_bond* b, const pl_spot* p, const pl_spot* q) {
   const pl_spot* pair[2] = {p, q};
   double gd = 0;
-  for (int i = 0; i < b->deps.n; i++) gd += derivative(s, value_of, &b->c->g, b->deps.at[i]) * derivative(s, squared_distance, pair, b->deps.at[i]);
+  for (int i = 0; i < b->deps.n; i++) gd += derivative(s, value_of, &b->c->g, b->deps.at[i]) * derivative(s, pl_squared_distance, pair, b->deps.at[i]);
   return gd > 0;
 }
 
 static void draw_distance(pl_stage* s, pl_bond* b, const pl_spot* from, const pl_spot* to) {
   const pl_spot* pair[2] = {from, to};
   if (b->c->relation == PL_EQ) {
-    add_rod(s, b->hint == PL_HINT_ROPE ? PL_SHAPE_ROPE : PL_SHAPE_ROD, b, from, to);
+    pl_add_rod(s, b->hint == PL_HINT_ROPE ? PL_SHAPE_ROPE : PL_SHAPE_ROD, b, from, to);
   } else if (inside_allowed(b->c, rises_with_distance(s, b, from, to))) {
-    add_rod(s, b->hint == PL_HINT_ROD ? PL_SHAPE_ROD : PL_SHAPE_ROPE, b, from, to);
+    pl_add_rod(s, b->hint == PL_HINT_ROD ? PL_SHAPE_ROD : PL_SHAPE_ROPE, b, from, to);
   } else {
     double* radius = PL_NEW(s->arena, double);
-    *radius = sqrt(squared_distance(s, pair));
+    *radius = sqrt(pl_squared_distance(s, pair));
     pl_part* p = pl_stage_add(s, PL_SHAPE_GROUND, "", b->c->name.text);
     p->spot[0] = *from;
     p->n = 73;
@@ -336,7 +161,7 @@ static bool draw_pair(pl_stage* s, pl_bond* b) {
   for (int i = 0; i < s->things.n && n < 8; i++) {
     const pl_thing* t = &s->things.at[i];
     bool touched = false;
-    for (int k = 0; k < t->deps.n && !touched; k++) touched = !s->settled[t->deps.at[k]] && contains(b->deps.at, b->deps.n, t->deps.at[k]);
+    for (int k = 0; k < t->deps.n && !touched; k++) touched = !s->settled[t->deps.at[k]] && pl_list_has(b->deps.at, b->deps.n, t->deps.at[k]);
     if (touched) near[n++] = i;
   }
   for (int i = 0; i < n; i++) {
@@ -390,16 +215,16 @@ static pl_shape_fit fit_places(pl_stage* s, const pl_bond* b, const pl_thing* t)
   pl_shape_fit fit = {0};
   double x[FIT_SAMPLES][3], lo[3], hi[3], A[FIT_SAMPLES * 5], null[8][8], scale = s->size > 0 ? s->size : 1;
   double* kept = PL_ARRAY(s->arena, double, s->n_q + 1);
-  keep(s, kept);
+  pl_coords_keep(s, kept);
   int n = 0;
   for (int try = 0; try < 4 * FIT_SAMPLES && n < FIT_SAMPLES; try++) {
-    shuffle(s, t->deps.at, t->deps.n);
+    pl_coords_shuffle(s, t->deps.at, t->deps.n);
     if (b->settles >= 0) s->value[s->q[b->settles].id] = kept[b->settles];
     if (!onto(s, b)) continue;
     pl_stage_spot(s, &t->spot, x[n]);
     if (isfinite(x[n][0] + x[n][1] + x[n][2])) n++;
   }
-  give_back(s, kept);
+  pl_coords_back(s, kept);
   if (n < FIT_SAMPLES) return fit;
   int axis[3], dims = 0;
   for (int j = 0; j < 3; j++) {
@@ -457,7 +282,7 @@ static int own_equations(pl_stage* s, const pl_thing* t, const pl_bond* first, p
     const pl_bond* b = &s->bonds.at[i];
     if (b == first || b->velocity || b->c->off || b->c->relation != PL_EQ) continue;
     bool own = b->deps.n > 0;
-    for (int k = 0; k < b->deps.n; k++) own = own && contains(t->deps.at, t->deps.n, b->deps.at[k]);
+    for (int k = 0; k < b->deps.n; k++) own = own && pl_list_has(t->deps.at, t->deps.n, b->deps.at[k]);
     if (own) eq[n++] = b->c->g, *timed |= b->timed;
   }
   return n;
@@ -563,17 +388,17 @@ static void draw_single(pl_stage* s, pl_bond* b, int thing) {
     pl_hint hint = b->hint;
     bool both = false;
     if (b->c->relation == PL_EQ) {
-      if (hint == PL_HINT_NONE) both = !radius_is_length(s, b, fit.radius), hint = PL_HINT_ROD;
+      if (hint == PL_HINT_NONE) both = !pl_radius_is_length(s, b, fit.radius), hint = PL_HINT_ROD;
       if (hint == PL_HINT_ROD || hint == PL_HINT_ROPE) {
-        add_rod(s, hint == PL_HINT_ROPE ? PL_SHAPE_ROPE : PL_SHAPE_ROD, b, &centre, &t->spot);
-        add_pivot(s, fit.centre);
+        pl_add_rod(s, hint == PL_HINT_ROPE ? PL_SHAPE_ROPE : PL_SHAPE_ROD, b, &centre, &t->spot);
+        pl_add_pivot(s, fit.centre);
         t->linked = true;
         if (!both) return;
       }
     } else if (inside_allowed(b->c, rises_with_distance(s, b, &centre, &t->spot)) && hint != PL_HINT_TRACK && hint != PL_HINT_GROUND &&
-               (hint != PL_HINT_NONE || radius_is_length(s, b, fit.radius))) {
-      add_rod(s, PL_SHAPE_ROPE, b, &centre, &t->spot);
-      add_pivot(s, fit.centre);
+               (hint != PL_HINT_NONE || pl_radius_is_length(s, b, fit.radius))) {
+      pl_add_rod(s, PL_SHAPE_ROPE, b, &centre, &t->spot);
+      pl_add_pivot(s, fit.centre);
       t->linked = true;
       return;
     }
@@ -589,7 +414,7 @@ static int owner(const pl_stage* s, const pl_bond* b) {
     const pl_thing* t = &s->things.at[i];
     if (t->deps.n == 0 || !within(s, b, t)) continue;
     bool touches = false;
-    for (int k = 0; k < b->deps.n; k++) touches |= contains(t->deps.at, t->deps.n, b->deps.at[k]);
+    for (int k = 0; k < b->deps.n; k++) touches |= pl_list_has(t->deps.at, t->deps.n, b->deps.at[k]);
     if (touches && (best < 0 || t->deps.n < s->things.at[best].deps.n)) best = i;
   }
   return best;
@@ -600,7 +425,7 @@ static void draw_relative(pl_stage* s, pl_bond* b) {
   int best = PL_NO_THING, most = 1;
   for (int i = 0; i < s->things.n; i++) {
     int own = 0;
-    for (int k = 0; k < b->deps.n; k++) own += contains(s->things.at[i].deps.at, s->things.at[i].deps.n, b->deps.at[k]);
+    for (int k = 0; k < b->deps.n; k++) own += pl_list_has(s->things.at[i].deps.at, s->things.at[i].deps.n, b->deps.at[k]);
     if (own > most) best = i, most = own;
   }
   if (best < 0) return;

@@ -118,7 +118,20 @@ void pl_stage_space(pl_stage* s);                       // lo, hi, size
 
 // ---- scene_bonds.c: what constraints look like
 void pl_stage_bonds(pl_stage* s);
+void pl_coords_keep(const pl_stage* s, double* kept);   // (n_q)
+void pl_coords_back(pl_stage* s, const double* kept);
+void pl_coords_shuffle(pl_stage* s, const int* q, int n);      // random values; what is held at a constant stays
+double pl_squared_distance(pl_stage* s, const void* what);     // of two spots: const pl_spot* what[2]
+bool pl_list_has(const int* list, int n, int x);
+
+// ---- scene_hints.c
+pl_hint pl_hint_of(const char* label);
+bool pl_radius_is_length(const pl_stage* s, const pl_bond* b, double radius);
+
+// ---- scene_rods.c
 void pl_stage_rods(pl_stage* s);                        // distances that the places themselves keep
+void pl_add_rod(pl_stage* s, pl_shape_kind kind, const pl_bond* b, const pl_spot* from, const pl_spot* to);
+void pl_add_pivot(pl_stage* s, const double x[3]);
 
 // ---- scene_ropes.c
 void pl_stage_ropes(pl_stage* s);
