@@ -76,14 +76,14 @@ bool pl_pushed(pl_analysis* d, int i) {
   for (int j = 0; j < d->q.n; j++) {
     if (pl_is_zero_node(d->pool, d->force[j])) continue;
     const pl_variable* c = &d->q.at[j];
-    if (j == i || (!pl_is_poison(c->map) && pl_has_symbol(d->pool, c->map, d->q.at[i].q))) return true;
+    if (j == i || (!pl_is_poison(c->map) && !pl_is_zero_node(d->pool, pl_by_coordinate(d, c->map, i)))) return true;
   }
   return false;
 }
 
 static void cyclic(pl_analysis* d, int i) {
   const pl_variable* c = &d->q.at[i];
-  if (pl_alg_is_zero(d->tower, pl_diff(d->pool, d->Lg, c->q)) != PL_YES) return;
+  if (pl_alg_is_zero(d->tower, pl_by_coordinate(d, d->Lg, i)) != PL_YES) return;
   pl_expr p = pl_alg_normal(d->tower, pl_diff(d->pool, d->Lg, c->v));
   const char* name = pl_format(d->arena, "p_%s", pl_symbol_get(d->pool, c->q)->ascii);
   const pl_form* form = pl_f(d, p, PL_S_ENERGY);

@@ -119,6 +119,9 @@ void pl_answer_expect(pl_analysis* d, const pl_ask* ask) {
   }
   pl_answer3 equal = pl_alg_equal(d->tower, left, right);
   if (equal != PL_YES && !d->reduced) equal = zero_on_constraints(d, pl_sub(d->pool, left, right), 0, 0);
+  if (equal != PL_YES && (pl_has_followers(d, left) || pl_has_followers(d, right)) && !unsolved(d, left) && !unsolved(d, right)) {
+    equal = pl_holds_on_loops(d, left, right);
+  }
   if (equal == PL_UNKNOWN) equal = zero_by_turns(d, pl_sub(d->pool, left, right));
   if (equal == PL_NO && (unsolved(d, left) || unsolved(d, right))) equal = PL_UNKNOWN;
   const pl_form* claim = pl_feq(d, pl_fe(d, c->left), pl_fe(d, c->right));

@@ -51,7 +51,10 @@ static bool stays_open(pl_analysis* d, pl_expr asked, pl_expr e) {
   return true;
 }
 
+static bool kinematic(const pl_analysis* d) { return d->particle.n == 0 && d->model->loads.n == 0; }
+
 static void plain_value(pl_analysis* d, const pl_ask* ask) {
+  if (pl_kind_of(d->pool, ask->value) == PL_SYMBOL && pl_answer_follower(d, pl_symbol_of(d->pool, ask->value))) return;
   bool eliminated = false;
   pl_expr e = ask->motion.given ? pl_value_on(d, &ask->motion, ask->value, &eliminated)
                                 : pl_alg_normal(d->tower, pl_on_motion(d, pl_with_results(d, ask->value)));
@@ -60,7 +63,8 @@ static void plain_value(pl_analysis* d, const pl_ask* ask) {
     return;
   }
   if (unsolved(d, e) && !pl_not_determined(d, e) && pl_show_value_structured(d, ask->value, e)) return;
-  if (stays_open(d, ask->value, e)) return;
+  bool given = kinematic(d) && d->reduced && !pl_same(ask->value, e);   // accelerations of generalized coordinates are
+  if (!given && stays_open(d, ask->value, e)) return;
   const pl_form* form = pl_f(d, e, PL_S_QUOTIENT);
   pl_step* step = pl_show_numbered(d, pl_feq(d, pl_fe(d, ask->value), form));
   bool known;

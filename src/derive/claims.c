@@ -70,16 +70,18 @@ static void define(pl_system_of_motion* s, pl_symbol symbol, pl_expr value) {
 }
 
 // Coordinates and velocities that follow from others: fixed, closed contacts, mapped.
-static void definitions(pl_analysis* d, pl_system_of_motion* s) {
-  s->definition = PL_ARRAY(d->arena, pl_definition, 2 * d->q.n + d->model->lets.n + pl_structure_definitions(d, NULL, 0));
+static void definitions(pl_analysis* d, pl_system_of_motion* s, int assembly) {
+  int n_loops = pl_loop_definitions(d, assembly, NULL);
+  s->definition = PL_ARRAY(d->arena, pl_definition, 2 * d->q.n + d->model->lets.n + n_loops + pl_structure_definitions(d, NULL, 0));
   for (int k = 0; k < d->model->lets.n; k++) {
     const pl_let* l = &d->model->lets.at[k];
     if (l->n_args == 0 && !l->inserted) define(s, l->symbol, l->value);
   }
+  s->n_definitions += pl_loop_definitions(d, assembly, s->definition + s->n_definitions);
   for (int i = 0; i < d->q.n; i++) {
     const pl_variable* c = &d->q.at[i];
     pl_expr value = c->fixed_by >= 0 ? c->fixed : d->reduced ? c->map : pl_poison();
-    if (pl_is_poison(value)) continue;
+    if (pl_is_poison(value) || pl_follower(d, i) >= 0) continue;
     define(s, c->q, value);
     define(s, c->v, pl_dt(d->pool, value));
   }
@@ -208,9 +210,9 @@ static void split_rows(pl_analysis* d, pl_system_of_motion* s) {
   }
 }
 
-static pl_certifier* on_the_motion(pl_analysis* d) {
+static pl_certifier* on_the_motion(pl_analysis* d, int assembly) {
   pl_system_of_motion s = {0};
-  definitions(d, &s);
+  definitions(d, &s, assembly);
   rows(d, &s);
   if (!is_determined(d)) s.n = 0;
   split_rows(d, &s);
@@ -244,17 +246,23 @@ static bool needs_motion(const pl_analysis* d, const pl_claim* c) {
          pl_has_role(d->pool, c->shown, PL_R_MULTIPLIER) || pl_has_role(d->pool, c->reference, PL_R_MULTIPLIER);
 }
 
-static void check_kind(pl_analysis* d, pl_claim_kind kind, pl_certifier* motion, pl_certifier* free_points) {
+static void check_at(pl_analysis* d, pl_check* check, const pl_claim* c, pl_certifier* where) {
+  pl_certificate got = pl_certify(where, c->shown, c->reference);
+  check->points += got.points_mod + got.points_arb;
+  if (got.worst > check->worst) check->worst = got.worst;
+  if (got.equal != PL_YES) fail_check(d, check, c);
+}
+
+// motion: one for each assembly.
+static void check_kind(pl_analysis* d, pl_claim_kind kind, pl_certifier** motion, int n_motions, pl_certifier* free_points) {
   pl_check check = {.name = {claim_name[kind][0], claim_name[kind][1]}, .passed = true};
   for (int i = 0; i < d->claims.n; i++) {
     const pl_claim* c = &d->claims.at[i];
     if (c->kind != kind || pl_is_poison(c->shown) || pl_is_poison(c->reference)) continue;
     if (!is_determined(d) && !c->own_domain && needs_motion(d, c)) continue;
-    pl_certificate got = pl_certify(c->own_domain ? free_points : motion, c->shown, c->reference);
     check.formulas++;
-    check.points += got.points_mod + got.points_arb;
-    if (got.worst > check.worst) check.worst = got.worst;
-    if (got.equal != PL_YES) fail_check(d, &check, c);
+    if (c->own_domain) check_at(d, &check, c, free_points);
+    for (int a = 0; a < n_motions && !c->own_domain; a++) check_at(d, &check, c, motion[a]);
   }
   if (check.formulas > 0) pl_push(d->arena, d->solution->checks, check);
 }
@@ -278,7 +286,10 @@ static void check_units(pl_analysis* d) {
 }
 
 void pl_claims_check(pl_analysis* d) {
+  pl_claim_loops(d);
   check_units(d);
-  pl_certifier *motion = on_the_motion(d), *free_points = on_free_points(d);
-  for (int kind = 0; kind < PL_N_CLAIMS; kind++) check_kind(d, kind, motion, free_points);
+  pl_certifier *motion[pl_max_assemblies], *free_points = on_free_points(d);
+  int n = pl_assemblies(d);
+  for (int a = 0; a < n; a++) motion[a] = on_the_motion(d, a);
+  for (int kind = 0; kind < PL_N_CLAIMS; kind++) check_kind(d, kind, motion, n, free_points);
 }

@@ -151,7 +151,7 @@ pleuel_status pl_reduce(pl_analysis* d);                // generalized coordinat
 pl_expr pl_mapped(pl_analysis* d, pl_expr e);            // while maps are made: with those that there are
 bool pl_open_coordinate(const pl_variable* c);          // neither fixed, chosen nor mapped
 // loops.c
-bool pl_solve_loop(pl_analysis* d, int bond);           // with another one for two coordinates, or alone in several ways
+bool pl_solve_loop(pl_analysis* d, int bond, bool pair);   // with another one for two coordinates, or alone in several ways
 bool pl_in_loop(const pl_analysis* d, int bond);
 int pl_follower(const pl_analysis* d, int coordinate);  // the loop that determines it, -1
 bool pl_has_followers(const pl_analysis* d, pl_expr e); // a coordinate of a loop occurs

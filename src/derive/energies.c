@@ -126,7 +126,7 @@ static pl_expr generalized_force(pl_analysis* d, int i) {
   for (int j = 0; j < d->q.n; j++) {
     const pl_variable* c = &d->q.at[j];
     if (c->fixed_by >= 0 || pl_is_poison(c->map) || pl_is_zero_node(d->pool, d->force[j])) continue;
-    sum = pl_add(d->pool, sum, pl_mul(d->pool, pl_on_maps(d, d->force[j]), pl_diff(d->pool, c->map, d->q.at[i].q)));
+    sum = pl_add(d->pool, sum, pl_mul(d->pool, pl_on_maps(d, d->force[j]), pl_by_coordinate(d, c->map, i)));
   }
   return sum;
 }
@@ -134,7 +134,8 @@ static pl_expr generalized_force(pl_analysis* d, int i) {
 pl_expr pl_second_kind(pl_analysis* d, int i) {
   const pl_variable* c = &d->q.at[i];
   pl_expr momentum = pl_dt(d->pool, pl_diff(d->pool, d->Lg, c->v));
-  pl_expr e = pl_sub(d->pool, momentum, pl_diff(d->pool, d->Lg, c->q));
+  if (d->loops.n > 0) momentum = pl_on_maps(d, momentum);   // velocities of the coordinates that follow
+  pl_expr e = pl_sub(d->pool, momentum, pl_by_coordinate(d, d->Lg, i));
   return pl_sub(d->pool, e, generalized_force(d, i));
 }
 

@@ -57,7 +57,7 @@ static bool unbounded_slope(pl_analysis* d, pl_expr q0) {
 
 bool pl_escapes(pl_analysis* d) {
   pl_expr q0, p, C;
-  if (!rest_at(d, &q0)) return false;
+  if (d->loops.n > 0 || !rest_at(d, &q0)) return false;
   return power_law(d, q0, &p, &C) || unbounded_slope(d, q0);
 }
 

@@ -158,6 +158,7 @@ static pl_expr motion(pl_analysis* d, int i, bool explain) {
   return back(d, &q, sigma);
 }
 
-pl_expr pl_linear_motion(pl_analysis* d, int i) { return motion(d, i, false); }
+// Coordinates of closed loops are no linear functions.
+pl_expr pl_linear_motion(pl_analysis* d, int i) { return d->loops.n > 0 ? pl_poison() : motion(d, i, false); }
 
 void pl_why_linear_motion(pl_analysis* d, int i) { motion(d, i, true); }

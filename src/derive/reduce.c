@@ -7,7 +7,7 @@
 
 enum { max_roots = 8 };
 
-static bool open_coordinate(const pl_variable* c) {
+bool pl_open_coordinate(const pl_variable* c) {
   return c->carries && c->fixed_by < 0 && !c->chosen && pl_is_poison(c->map);
 }
 
@@ -24,7 +24,7 @@ static void set_map(pl_analysis* d, int i, pl_expr map, int solved_by) {
   for (int k = 0; k < 3; k++) pl_push(d->arena, d->maps, fresh[k]);
 }
 
-static pl_expr mapped(pl_analysis* d, pl_expr e) {
+pl_expr pl_mapped(pl_analysis* d, pl_expr e) {
   return pl_subst(d->pool, pl_on_contact(d, e), d->maps.at, d->maps.n);
 }
 
@@ -34,7 +34,7 @@ static void chosen_maps(pl_analysis* d) {
   for (int k = 0; k < choose->n_maps; k++) {
     if (pl_kind_of(d->pool, choose->maps[k].old) != PL_SYMBOL) continue;
     int i = pl_variable_index(d, pl_symbol_of(d->pool, choose->maps[k].old));
-    if (i >= 0 && d->q.at[i].fixed_by < 0) set_map(d, i, mapped(d, choose->maps[k].map), -1);
+    if (i >= 0 && d->q.at[i].fixed_by < 0) set_map(d, i, pl_mapped(d, choose->maps[k].map), -1);
   }
 }
 
@@ -43,7 +43,7 @@ static pl_answer3 on_branch(pl_analysis* d, int i, pl_expr candidate) {
   pl_answer3 verdict = PL_UNKNOWN;
   for (int k = 0; k < d->model->branches.n; k++) {
     const pl_condition* c = &d->model->branches.at[k];
-    pl_expr e = mapped(d, pl_sub(d->pool, c->left, c->right));
+    pl_expr e = pl_mapped(d, pl_sub(d->pool, c->left, c->right));
     if (!pl_has_symbol(d->pool, e, d->q.at[i].q)) continue;
     e = pl_subst1(d->pool, e, d->q.at[i].q, candidate);
     bool want_positive = c->relation == PL_GT || c->relation == PL_GE;
@@ -111,9 +111,9 @@ static bool has_start(const pl_analysis* d, const pl_variable* c) {
 }
 
 static bool solve_link_for(pl_analysis* d, int k, bool roots, bool started) {
-  pl_expr e = mapped(d, d->g.at[k].g);
+  pl_expr e = pl_mapped(d, d->g.at[k].g);
   for (int i = d->q.n - 1; i >= 0; i--) {
-    if (!open_coordinate(&d->q.at[i]) || !pl_has_symbol(d->pool, e, d->q.at[i].q)) continue;
+    if (!pl_open_coordinate(&d->q.at[i]) || !pl_has_symbol(d->pool, e, d->q.at[i].q)) continue;
     if (has_start(d, &d->q.at[i]) != started) continue;
     pl_expr value;
     if (roots ? solve_roots(d, e, i, &value) : solve_linear(d, e, i, &value)) {
@@ -132,21 +132,36 @@ static bool solve_link(pl_analysis* d, int k, bool roots) {
 
 // 0: the map satisfies the constraint identically; 1: something is left; -1: not decided.
 static int left_over(pl_analysis* d, const pl_bond* l) {
-  pl_answer3 zero = pl_alg_is_zero(d->tower, mapped(d, l->g));
+  pl_expr g = pl_mapped(d, l->g);
+  pl_answer3 zero = pl_alg_is_zero(d->tower, g);
+  if (zero != PL_YES && pl_has_followers(d, g)) zero = pl_holds_on_loops(d, g, pl_int(d->pool, 0));
   return zero == PL_YES ? 0 : zero == PL_NO ? 1 : -1;
 }
 
+// Alone; with another one for two coordinates; or in several ways.
+static bool solve_somehow(pl_analysis* d, int k, bool roots_allowed) {
+  if (solve_link(d, k, false)) return true;
+  return roots_allowed && (pl_solve_loop(d, k, true) || solve_link(d, k, true) || pl_solve_loop(d, k, false));
+}
+
+// Passes over the constraints, as long as one more is solved.
 static bool solve_links(pl_analysis* d) {
   bool kinematic = d->particle.n == 0 && d->model->loads.n == 0;
-  bool roots_allowed = d->model->choose.coords.n > 0 || kinematic;
-  for (int k = 0; k < d->g.n; k++) {
-    pl_bond* l = &d->g.at[k];
-    if (l->fixes >= 0 || l->implied) continue;
-    if (l->velocity) return false;
-    if (left_over(d, l) == 0) continue;
-    if (!solve_link(d, k, false) && !(roots_allowed && solve_link(d, k, true))) return false;
+  bool roots_allowed = d->model->choose.coords.n > 0 || kinematic, all = false;
+  bool* done = PL_ARRAY(d->arena, bool, d->g.n + 1);
+  for (bool progress = true; progress && !all;) {
+    progress = false;
+    all = true;
+    for (int k = 0; k < d->g.n; k++) {
+      pl_bond* l = &d->g.at[k];
+      if (done[k] || l->fixes >= 0 || l->implied || pl_in_loop(d, k)) continue;
+      if (l->velocity) return false;
+      done[k] = left_over(d, l) == 0 || solve_somehow(d, k, roots_allowed);
+      progress |= done[k];
+      all &= done[k];
+    }
   }
-  return true;
+  return all;
 }
 
 // What is neither fixed nor mapped is generalized.
@@ -180,12 +195,12 @@ pleuel_status pl_reduce(pl_analysis* d) {
   d->reduced = solve_links(d);
   if (!d->reduced) {
     for (int i = 0; i < d->q.n; i++) d->q.at[i].map = pl_poison();
-    d->maps.n = 0;
+    d->maps.n = d->loops.n = 0;
     return PLEUEL_OK;
   }
   pl_collect_generalized(d);
   d->Lg = pl_on_maps(d, d->L);
-  while (find_hidden(d)) {
+  while (d->loops.n == 0 && find_hidden(d)) {
   }
   d->Tg = pl_alg_normal(d->tower, pl_on_maps(d, d->T));
   d->Vg = pl_alg_normal(d->tower, pl_on_maps(d, d->V));

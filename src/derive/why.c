@@ -167,7 +167,7 @@ void pl_why_frame(pl_analysis* d, const pl_particle* k, const pl_frame* f) {
 void pl_why_second_kind(pl_analysis* d, int i) {
   const pl_variable* c = &d->q.at[i];
   const char *x = name_of(d, c->q), *v = velocity_name(d, c);
-  pl_expr p = pl_diff(d->pool, d->Lg, c->v), slope = pl_diff(d->pool, d->Lg, c->q), rate = pl_dt(d->pool, p);
+  pl_expr p = pl_diff(d->pool, d->Lg, c->v), slope = pl_by_coordinate(d, d->Lg, i), rate = pl_on_maps(d, pl_dt(d->pool, p));
   pl_expr rest = tidy(d, pl_sub(d->pool, pl_sub(d->pool, rate, slope), pl_second_kind(d, i)));
   if (pl_op_count(d->pool, tidy(d, p)) > longest_detail) return;
   say(d, "Why: momentum, its time derivative, and the slope of L:", "Warum: Impuls, seine Zeitableitung und die Ableitung von L nach der Koordinate:");

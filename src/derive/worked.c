@@ -105,6 +105,7 @@ static pleuel_status no_contradiction(pl_analysis* d, int k) {
   const pl_bond* l = &d->g.at[k];
   if (d->reduced) {
     pl_expr left = pl_on_maps(d, l->g);
+    if (pl_has_followers(d, left) && pl_holds_on_loops(d, left, pl_int(d->pool, 0)) != PL_NO) return PLEUEL_OK;
     return pl_alg_is_zero(d->tower, left) == PL_NO ? pl_contradiction(d, l, pl_alg_normal(d->tower, left)) : PLEUEL_OK;
   }
   int m = 0, place = -1, others = 0, other = -1;
@@ -188,9 +189,26 @@ static void note_friction(pl_analysis* d) {
   pl_report_fix(m, "without this line the formulas hold for smooth surfaces", "ohne diese Zeile gelten die Formeln für glatte Flächen", NULL);
 }
 
+// What asks for roots or series in the generalized coordinates, on which the coordinates of loops hang without being written out.
+static bool needs_explicit_maps(const pl_ask* ask) {
+  return ask->kind == PL_ASK_EQUILIBRIA || ask->kind == PL_ASK_MODES || ask->kind == PL_ASK_THRESHOLD || ask->kind == PL_ASK_LIMIT ||
+         ask->kind == PL_ASK_SERIES || (ask->kind == PL_ASK_VALUE && ask->where.n > 0);
+}
+
+static void leave_implicit(pl_analysis* d, const pl_ask* ask) {
+  pl_section_open(d, ask, ask->text, ask->text);
+  pl_say(d, "The coordinates of closed loops follow from the generalized ones through roots; no closed form was found for this.",
+         "Die Koordinaten geschlossener Schleifen folgen aus den verallgemeinerten durch Wurzeln; hierfür wurde keine geschlossene Form gefunden.", 0);
+  d->section->not_found = true;
+}
+
 static void answer(pl_analysis* d, const pl_ask* ask) {
   if (d->model->frictions.n > 0 && !survives_friction(ask->kind)) {
     leave_to_simulation(d, ask);
+    return;
+  }
+  if (d->loops.n > 0 && needs_explicit_maps(ask)) {
+    leave_implicit(d, ask);
     return;
   }
   switch (ask->kind) {
@@ -228,7 +246,10 @@ static void standard(pl_analysis* d, pl_ask_kind kind, const char* text) {
 static void answer_standard(pl_analysis* d) {
   standard(d, PL_ASK_DOF, "dof");
   standard(d, PL_ASK_CONSTRAINTS, "constraints");
-  if (d->particle.n == 0 && d->model->loads.n == 0) return;   // nothing heavy, no force: kinematics
+  if (d->particle.n == 0 && d->model->loads.n == 0) {   // nothing heavy, no force: kinematics
+    pl_answer_positions(d);
+    return;
+  }
   standard(d, PL_ASK_LAGRANGE1, "lagrange1");
   for (int k = 0; k < d->g.n; k++) {
     if (d->g.at[k].implied || (d->g.at[k].fixes >= 0 && !d->g.at[k].contact)) continue;
@@ -351,6 +372,7 @@ static pleuel_status derive(pl_analysis* d) {
   pl_note_equilibrium_start(d);
   if (d->options && d->options->structure) return PLEUEL_OK;
   status = answer_all(d);
+  pl_spread_assemblies(d);
   pass(d, PL_D_PRESENTATION, &since);
   pl_claims_check(d);
   pass(d, PL_D_CERTIFICATES, &since);
