@@ -16,7 +16,7 @@ static const char* const small_words[] = {
 
 // Frames enough for the eye between two steps of the run, within what a page can carry.
 static int frames_for(const pl_views* v) {
-  enum { FEWEST = 160, MOST = 480, A_STEP = 3 };
+  enum { FEWEST = 160, MOST = 480, A_STEP = 2 };
   long n = A_STEP * v->result->stats.steps;
   return n < FEWEST ? FEWEST : n > MOST ? MOST : (int)n;
 }

@@ -160,11 +160,9 @@ static void put_parameter(pl_html* h, const double* value, int i) {
   const pl_param* p = &h->model->params.at[i];
   const pl_symbol_info* s = pl_symbol_get(h->pool, p->symbol);
   double x = value[p->symbol.id];
-  pl_html_raw(h, "<tr><th scope=\"row\" aria-label=\"");
-  pl_html_attribute(h, s->name);
-  pl_html_raw(h, "\">");
+  pl_html_raw(h, "<tr><td>");
   pl_html_symbol(h, p->symbol);
-  pl_html_raw(h, "</th><td>");
+  pl_html_raw(h, "</td><td>");
   pl_html_text(h, meaning_of(h, p, i));
   pl_html_raw(h, "</td><td class=\"r\">");
   bool angle = p->unit_text && (strcmp(p->unit_text, "deg") == 0 || strcmp(p->unit_text, "°") == 0);
