@@ -22,6 +22,13 @@ static const double wrong_rate = 1e-10;    // of its terms: a rate with the wron
 static const double no_slip = 1e-11;       // of its terms: a slip velocity that counts as none
 static const double over_limit = 1e-10;    // of the limit: a force that sticking cannot give
 
+// Velocities along g and of slip, and the size of their terms.  That the coordinates themselves are rounded counts for
+// residuals, not for what is small here.
+void pl_contacts_rates(pl_run* run, double* rates) {
+  pl_assemble_gdot(run, rates, run->r_size);
+  for (int c = 0; c < run->n_c; c++) run->r_size[c] /= fmax(run->argument[c], 1);
+}
+
 // ---------------------------------------------------------------------------------------------- the decisions
 static int side_of(const pl_run* run, int c) { return run->setup->links[c].side; }
 
@@ -393,7 +400,7 @@ pleuel_status pl_contacts_impact(pl_run* run, bool* any) {
   pl_active_update(run);
   pl_point_evaluate(run, run->t, run->q, run->v);
   pl_assemble_g(run, 0, run->g, run->g_size);
-  pl_assemble_gdot(run, run->approach, run->r_size);
+  pl_contacts_rates(run, run->approach);
   for (int c = 0; c < run->n_c; c++) run->jumped[c] = is_arriving(run, c), *any |= run->jumped[c];
   if (!*any) {
     for (int c = 0; c < run->n_c; c++) {
@@ -414,9 +421,9 @@ pleuel_status pl_contacts_impact(pl_run* run, bool* any) {
     run->jumped[c] = run->jumped[c] && run->impulse[c] != 0;
     if (!run->near_by[c]) continue;
     double u = run->second[c] + rebound(run, c);
-    run->on[c] = !(side_of(run, c) * u > 1e-10 * run->r_size[c]);
+    bool bounced = run->rebounds[c] && run->jumped[c];
+    run->on[c] = !bounced && !(side_of(run, c) * u > 1e-10 * run->r_size[c]);
     run->near_by[c] = run->on[c];
-    if (run->on[c] && run->rebounds[c]) run->on[c] = true;
   }
   for (int c = 0; c < run->n_c; c++) run->rebounds[c] = false;
   return PLEUEL_OK;
@@ -481,7 +488,7 @@ pleuel_status pl_contacts_settle(pl_run* run) {
   pl_active_update(run);
   pl_point_evaluate(run, run->t, run->q, run->v);
   pl_assemble_g(run, 0, run->g, run->g_size);
-  pl_assemble_gdot(run, run->r, run->r_size);
+  pl_contacts_rates(run, run->r);
   memcpy(run->hold_q, run->q, (size_t)run->n_q * sizeof(double));
   memcpy(run->hold_v, run->v, (size_t)run->n_q * sizeof(double));
   list_motion(run);

@@ -77,8 +77,10 @@ static void forget(pl_run* run, pl_watch_kind kind, int index) {
 static int zeros_of(const pl_run* run, int c) {
   static const double zero = 1e-9;
   int side = run->setup->links[c].side;
-  if (side * run->r[c] > zero * run->r_size[c]) return 1;
-  return side * run->second[c] > zero * run->second_size[c] ? 2 : 3;
+  double u = side * run->r[c], a = side * run->second[c], a_zero = zero * run->second_size[c];
+  // what bounced, however little, or falls back at once has left with a velocity
+  if (run->jumped[c] || u > zero * run->r_size[c] || (u > 0 && a < -a_zero)) return 1;
+  return a > a_zero ? 2 : 3;
 }
 
 static bool jumps(const pl_run* run) {
@@ -178,7 +180,7 @@ static pleuel_status impact_and_settle(pl_run* run) {
   PL_TRY(settle(run));
   pl_assemble_second(run, run->A, run->second, run->second_size);
   pl_batches_load_v(&run->motion, run->v, 0);
-  pl_assemble_gdot(run, run->r, run->r_size);
+  pl_contacts_rates(run, run->r);
   return PLEUEL_OK;
 }
 
@@ -364,7 +366,7 @@ static bool is_at_rest(pl_run* run, int r) {
   double d[3];
   if (run->setup->rubs[r].n_rows == 1) return true;
   pl_batches_load_v(&run->motion, run->v, 0);
-  pl_assemble_gdot(run, run->r, run->r_size);
+  pl_contacts_rates(run, run->r);
   return pl_friction_speed(run, r, run->r, d) <= at_rest * run->v_size;
 }
 

@@ -234,6 +234,7 @@ double pl_watch_first(pl_run* run, double h) {
 
 // ---------------------------------------------------------------------------------------------- afterwards
 void pl_watch_passed(pl_run* run, double h) {
+  run->sunk = -1;
   for (int i = 0; i < run->n_watch; i++) {
     pl_watch* w = &run->watch[i];
     if (!is_watched(run, w)) continue;
@@ -241,6 +242,7 @@ void pl_watch_passed(pl_run* run, double h) {
     double x = 0;
     for (int k = n - 1; k >= 0; k--) x += run->poly[k];
     if (h != 0) w->fresh = 0;
+    if (w->kind == PL_WATCH_LANDING && x < -1e-9 * run->g_size[w->index]) run->sunk = w->index;
     // what the roots leave open at the end is decided at the start of the next step
     if (fabs(x) > fmax(noise_of(run, w, h), 2 * known_part(n) * size_of(run->poly, n))) w->side = (int)sign(x);
   }

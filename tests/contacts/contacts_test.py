@@ -195,6 +195,26 @@ def a_grazing_event_counts_once_and_a_directed_one_does_not(name):
     check(name, r.kinds() == [("event", "top")] and near(r.events[0]["t"], 1, 1e-9), r.told())
 
 
+@case
+def a_vibrating_table_is_never_passed_through(name):
+    r = Run("param g = 9.81\ncoord y\naxes y up\nmass 1 at (y)\ngravity g along -y\nconstraint table: y >= 0.1 sin(10 t)\nrestitution 0.5 on table\n"
+            "init y = 0.5, y' = 0\nsimulate 0..5\n")
+    deepest = min(float(row["y"]) - 0.1 * math.sin(10 * float(row["t"])) for row in r.rows) if r.rows else -1
+    lifts = [e["t"] for e in r.of("release")]
+    # it is let go where the table's acceleration is -g: sin 10 t = 0.981
+    check(name, r.code == 0 and deepest > -1e-13 and len(lifts) > 2 and all(near(math.sin(10 * t), 0.981, 1e-10) for t in lifts),
+          r.told() + f"{deepest} {lifts}")
+
+
+@case
+def balls_on_top_of_each_other_come_to_rest(name):
+    r = Run("param m1 = 3, m2 = 1\ncoord y1, y2\naxes y up\nmass A: m1 at (y1)\nmass B: m2 at (y2)\ngravity 10 along -y\nconstraint floor: y1 >= 0\n"
+            "constraint ab: y2 - y1 >= 0.1\nrestitution 0.8 on floor\nrestitution 0.8 on ab\ninit y1 = 1, y2 = 1.2, y1' = 0, y2' = 0\nsimulate 0..10\n")
+    apart = min(float(row["y2"]) - float(row["y1"]) for row in r.rows) if r.rows else 0
+    check(name, r.code == 0 and apart > 0.1 - 1e-12 and near(r.last("lambda_floor"), 40, 1e-12) and near(r.last("lambda_ab"), 10, 1e-12)
+          and near(r.last("y2"), 0.1, 1e-12), r.told() + str(apart))
+
+
 # ---------------------------------------------------------------------------------------------- ropes, loops
 @case
 def a_rope_goes_slack_and_taut(name):
@@ -267,6 +287,28 @@ def a_block_on_a_belt_sticks_and_slips(name):
     times = [p for p in times if p[0] < 9]
     ok = [e["kind"] for e in r.events] == [kind for _, kind in times] and all(near(e["t"], w_[0], 1e-11) for e, w_ in zip(r.events, times))
     check(name, ok, r.told() + str(times))
+
+
+@case
+def the_lower_of_two_blocks_is_pulled_away(name):
+    text = ("param m1 = 1, m2 = 2, g = 10\ncoord x1, y1, x2, y2\naxes x right, y up\nmass A: m1 at (x1, y1)\nmass B: m2 at (x2, y2)\n"
+            "gravity g along -y\nforce ({F}, 0) on B\nconstraint ab: y1 - y2 >= 1\nconstraint floor: y2 >= 0\nfriction 0.3 on ab\nfriction 0.1 on floor\n"
+            "init x1 = 0, y1 = 1, x2 = 0, y2 = 0, x1' = 0, y1' = 0, x2' = 0, y2' = 0\nsimulate 0..1\n")
+    rest, together, apart = (Run(text.format(F=F)) for F in (2, 9, 20))
+    check(name, rest.last("x2") == 0 and near(together.last("x1"), 1, 1e-12) and near(together.last("x2"), 1, 1e-12)
+          and near(apart.last("x1"), 1.5, 1e-12) and near(apart.last("x2"), (20 - 3 - 3) / 4, 1e-12), rest.told() + together.told() + apart.told())
+
+
+@case
+def a_box_falls_on_its_corners_and_rests(name):
+    r = Run("param m = 1, a = 0.5, b = 0.3, g = 9.81\ncoord x, y, φ\naxes x right, y up\nbody box: mass m, inertia m (a^2 + b^2)/12 at (x, y) angle φ\n"
+            "point p1 on box at (a/2, -b/2)\npoint p2 on box at (-a/2, -b/2)\ngravity g along -y\nconstraint c1: y(p1) >= 0\nconstraint c2: y(p2) >= 0\n"
+            "restitution 0.3 on c1\nrestitution 0.3 on c2\nfriction 0.4 on c1\nfriction 0.4 on c2\n"
+            "init x = 0, y = 1, φ = 0.2, x' = 1, y' = 0, φ' = 0\nsimulate 0..3\n")
+    energy = [float(row["E"]) for row in r.rows]
+    falls = all(b <= a + 1e-12 for a, b in zip(energy, energy[1:]))
+    check(name, r.code == 0 and falls and near(r.last("y"), 0.15, 1e-12) and abs(r.last("phi")) < 1e-12 and r.last("x_dot") == 0
+          and near(r.last("lambda_c1") + r.last("lambda_c2"), 9.81, 1e-12), r.told() + str(falls))
 
 
 @case
