@@ -172,6 +172,7 @@ struct pl_tower {
 
   pl_entry* entry;          // innermost running service of this tower
   pl_points* points;        // for signs and zero tests
+  PL_VEC(pl_mod_point*) mod_points;   // points modulo p at which presented forms are compared, made when needed
   pl_points* fine_points;   // the same at a higher precision, made when needed
   bool facts_busy;          // facts are being used: no facts inside facts
   bool tangled;             // bases were refined or roots combined: the next service starts from an empty tower,
@@ -291,6 +292,7 @@ pl_frac pl_frac_keep(pl_tower* t, pl_frac a);
 
 // ---------------------------------------------------------------------------------------------- conversions
 pl_frac pl_convert(pl_tower* t, pl_expr e);           // remembered; gives up on poison and infinity       convert.c
+void pl_convert_known(pl_tower* t, pl_expr e, pl_frac f);   // e was made from f: it needs no conversion
 pl_expr pl_frac_expr(pl_tower* t, pl_frac a);         // num in its shortest view over factored den        poly_expr.c
 pl_expr pl_poly_expr(pl_tower* t, const pl_poly* a);  // expanded, shortest view
 pl_expr pl_poly_expr_as_is(pl_tower* t, const pl_poly* a);  // expanded, view unchanged

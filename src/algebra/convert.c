@@ -19,6 +19,13 @@ pl_frac pl_convert(pl_tower* t, pl_expr e) {
   return f;
 }
 
+void pl_convert_known(pl_tower* t, pl_expr e, pl_frac f) {
+  if (pl_is_poison(e) || pl_map_get(t->converted, e.id)) return;
+  pl_frac kept = pl_frac_keep(t, f);
+  pl_push(t->arena, t->fractions, kept);
+  pl_map_set(t->converted, e.id, (uint64_t)t->fractions.n);
+}
+
 static pl_expr normal(pl_tower* t, pl_expr e) { return pl_frac_expr(t, pl_convert(t, e)); }
 
 // ---------------------------------------------------------------------------------------------- leaves

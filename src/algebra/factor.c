@@ -269,8 +269,10 @@ pl_factored pl_factored_merge_pairs(pl_tower* t, pl_factored f) {
   pl_collect c = {.t = t, .unit = pl_int_new(t)};
   fmpz_set(c.unit, f.unit);
   for (int i = 0; i < f.n; i++) collect(&c, f.at[i].base, f.at[i].power);
+  int binomials = 0;
+  for (int i = 0; i < c.at.n; i++) binomials += pl_base_poly(t, c.at.at[i].base)->length == 2;
   for (int g = 0; g < t->gens.n; g++) {
-    if (t->gens.at[g].kind != PL_G_COS || c.at.n < 2) continue;
+    if (t->gens.at[g].kind != PL_G_COS || binomials < 2) continue;
     int* minus = power_of_one_plus(&c, g, -1);
     int* plus = power_of_one_plus(&c, g, 1);
     if (!minus || !plus || (*minus > 0) != (*plus > 0)) continue;

@@ -160,7 +160,9 @@ static void solve_body(pl_tower* t, void* data) {
     const pl_poly* N = minor_of(&m, 0, all & ~(UINT64_C(1) << k));
     // the right-hand side moves from the last column to column k
     if ((n - 1 - k) % 2) N = pl_poly_neg(t, N);
-    j->x[k] = pl_frac_expr(t, pl_frac_make(t, N, D));
+    pl_frac x = pl_frac_make(t, N, D);
+    j->x[k] = pl_frac_expr(t, x);
+    pl_convert_known(t, j->x[k], x);
   }
   j->answer = PL_YES;
 }

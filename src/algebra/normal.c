@@ -19,6 +19,7 @@ static void normal_body(pl_tower* t, void* data) {
   lower.den = f.den;
   lower.unit = f.unit;
   j->out = pl_frac_expr(t, f);
+  pl_convert_known(t, j->out, f);
   j->num = pl_frac_expr(t, upper);
   j->den = pl_div(t->pool, pl_int(t->pool, 1), pl_frac_expr(t, lower));
   if (pl_is_poison(j->out) || pl_is_poison(j->num) || pl_is_poison(j->den)) pl_tower_give_up(t);

@@ -53,10 +53,19 @@ static bool has_root(const pl_form* f) {
   return false;
 }
 
+// Points are kept: formulas of one derivation share most of their nodes.
+static pl_mod_point* mod_point(pl_tower* t, int i) {
+  while (t->mod_points.n <= i) {
+    pl_mod_point* m = pl_mod_point_make(t->arena, t->pool, (uint64_t)(t->mod_points.n + 1) * 7919u);
+    pl_push(t->arena, t->mod_points, m);
+  }
+  return t->mod_points.at[i];
+}
+
 static pl_answer3 agrees_mod_p(pl_tower* t, pl_expr a, pl_expr b) {
   int good = 0;
-  for (uint64_t seed = 1; seed <= MAX_BAD_POINTS && good < POINTS; seed++) {
-    pl_mod_point* m = pl_mod_point_make(t->arena, t->pool, seed * 7919u);
+  for (int i = 0; i < MAX_BAD_POINTS && good < POINTS; i++) {
+    pl_mod_point* m = mod_point(t, i);
     bool ok_a = true, ok_b = true;
     uint64_t x = pl_eval_mod(m, a, &ok_a), y = pl_eval_mod(m, b, &ok_b);
     if (!ok_a || !ok_b) continue;

@@ -36,7 +36,9 @@ typedef struct pl_prod {
   long cost;
 } pl_prod;
 
-struct pl_sum_terms { int n; const pl_prod* at; };
+// The form of a sum is made when it is asked for: most sums of a search are never shown.  Until then it is an empty sum, which
+// tells the piece from others.
+struct pl_sum_terms { int n; const pl_prod* at; pl_form* form; };
 
 typedef struct pl_found { const pl_poly* poly; int depth; bool busy; pl_prod prod; } pl_found;
 
@@ -90,6 +92,7 @@ pl_prod pl_prod_bracket(pl_search* s, const pl_prod* terms, int n);         // t
 enum { PL_OPENED_TERMS = 8 };
 void pl_terms_put(pl_search* s, pl_prod x, pl_prod* terms, int* n);
 const pl_form* pl_terms_form(pl_search* s, const pl_prod* terms, int n);     // in the order given
+const pl_form* pl_piece_base(pl_search* s, const pl_piece* piece);           // with the form of a sum filled in
 void pl_terms_sort(pl_search* s, pl_prod* terms, int n);
 int pl_terms_compare(pl_search* s, const pl_prod* x, const pl_prod* y);
 // Derivative order and total power of velocities in a product: what K2 sorts by.

@@ -9,8 +9,13 @@ enum { COST_SYMBOL = 2, COST_POWER = 2, COST_FACTOR = 1, COST_FUNCTION = 2, COST
 
 // ---------------------------------------------------------------------------------------------- cost
 long pl_number_cost(pl_search* s, pl_expr number) {
+  long digits = 0, num = 0, den = 1;
+  if (pl_is_ratio(s->p, number, &num, &den)) {
+    for (num = labs(num); num > 0; num /= 10) digits++;
+    for (; den > 1; den /= 10) digits++;
+    return (digits > 0 ? digits : 1) * COST_DIGIT;
+  }
   const char* text = pl_number_text(s->a, s->p, number);
-  long digits = 0;
   for (; *text; text++) digits += *text >= '0' && *text <= '9';
   return digits * COST_DIGIT;
 }
@@ -271,7 +276,7 @@ static const pl_form* product_of(pl_search* s, forms* f) {
 
 // base^k.  Powers of roots are written with the exponent k/2: (l² - x²)^(3/2).
 static const pl_form* piece_form(pl_search* s, const pl_piece* f, int power) {
-  const pl_form* base = f->base;
+  const pl_form* base = pl_piece_base(s, f);
   pl_expr exponent = pl_int(s->p, power);
   if (base->kind == PL_F_ROOT && power > 1) {
     base = base->args[0];
@@ -295,6 +300,8 @@ static pl_expr exponents_together(pl_search* s, pl_prod x) {
 }
 
 static pl_expr denominator_of(pl_search* s, pl_expr number) {
+  long num = 0, den = 1;
+  if (pl_is_ratio(s->p, number, &num, &den)) return pl_int(s->p, den);
   const char* text = pl_number_den_text(s->a, s->p, number);
   return pl_number_from_text(s->p, text, strlen(text));
 }

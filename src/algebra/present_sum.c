@@ -75,6 +75,13 @@ const pl_form* pl_terms_form(pl_search* s, const pl_prod* terms, int n) {
   return n == 1 ? f[0] : pl_form_sum(s->a, f, n);
 }
 
+const pl_form* pl_piece_base(pl_search* s, const pl_piece* piece) {
+  const pl_sum_terms* sum = piece->sum;
+  if (!sum || sum->form != piece->base || sum->form->n > 0) return piece->base;
+  *sum->form = *pl_terms_form(s, sum->at, sum->n);
+  return sum->form;
+}
+
 // ---------------------------------------------------------------------------------------------- brackets
 typedef struct sum_census { bool mass, motion, coord, function; unsigned buckets; } sum_census;
 
@@ -119,9 +126,9 @@ pl_prod pl_prod_bracket(pl_search* s, const pl_prod* given, int n) {
   memcpy(terms, given, (size_t)n * sizeof *terms);
   pl_terms_sort(s, terms, n);
   pl_sum_terms* sum = PL_NEW(s->a, pl_sum_terms);
-  sum->n = n, sum->at = terms;
+  sum->n = n, sum->at = terms, sum->form = pl_form_make(s->a, PL_F_SUM, 0, NULL);
   pl_piece piece = {.gen = -1, .power = 1, .sum = sum, .bucket = bucket_of_sum(s, terms, n), .lead = lead_of(terms, n)};
-  piece.base = pl_terms_form(s, terms, n);
+  piece.base = sum->form;
   for (int i = 0; i < n; i++) piece.cost += terms[i].cost + 2;
   // a minus between two terms costs nothing, only a leading one does
   for (int i = 1; i < n; i++) piece.cost -= pl_prod_is_negative(s, terms[i]);

@@ -200,13 +200,27 @@ static pl_linear collect_second_kind(pl_analysis* d) {
 // A longer one is the determinant of a definite matrix, G M^-1 G^T or M: its sign says nothing that a reader would assume.
 static const long longest_denominator = 60;
 
+// Of a normal form, which is a product with its denominator in negative powers.
+static pl_expr denominator(pl_analysis* d, pl_expr e) {
+  pl_pool* p = d->pool;
+  if (pl_kind_of(p, e) != PL_MUL && pl_kind_of(p, e) != PL_POW) return pl_int(p, 1);
+  pl_expr den = pl_int(p, 1);
+  int n = pl_kind_of(p, e) == PL_MUL ? pl_n_args(p, e) : 1;
+  for (int k = 0; k < n; k++) {
+    pl_expr factor = pl_kind_of(p, e) == PL_MUL ? pl_arg(p, e, k) : e;
+    if (pl_kind_of(p, factor) != PL_POW) continue;
+    pl_expr exponent = pl_arg(p, factor, 1);
+    if (pl_is_number(p, exponent) && pl_number_sign(p, exponent) < 0) den = pl_div(p, den, factor);
+  }
+  return den;
+}
+
 // What is divided by must not vanish: proving its sign puts the assumptions on record ("used: m1 > 0, m2 > 0").
 static void record_denominators(pl_analysis* d) {
   for (int k = 0; k < d->g.n; k++) {
-    pl_expr num, den;
     int sign;
     if (!d->g.at[k].lambda_known) continue;
-    pl_alg_fraction(d->tower, d->g.at[k].lambda_value, &num, &den);
+    pl_expr den = denominator(d, d->g.at[k].lambda_value);
     if (!pl_is_poison(den) && !pl_is_number(d->pool, den) && pl_op_count(d->pool, den) <= longest_denominator) pl_alg_sign(d->tower, den, false, &sign);
   }
 }

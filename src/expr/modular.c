@@ -129,6 +129,8 @@ pl_rotation pl_rotation_half(pl_rotation a, bool* ok) {
 // num/den times an angle.  An odd den is divided by in the subgroup whose
 // order is prime to it, where the quotient is unique; an angle outside has no quotient here.
 static pl_rotation odd_ratio(pl_rotation a, int64_t num, int64_t den, bool* ok) {
+  // a whole multiple, the usual case, has a short exponent
+  if (den == 1) return pl_rotation_pow(num < 0 ? (pl_rotation){a.c, pl_mod_sub(0, a.s)} : a, num < 0 ? 0 - (uint64_t)num : (uint64_t)num);
   uint64_t m = PL_MOD_P + 1;
   for (uint64_t g; (g = gcd64(m, (uint64_t)den)) > 1;) m /= g;
   pl_rotation whole = pl_rotation_pow(a, m);
