@@ -266,7 +266,10 @@ static bool find_arm(pl_geometry* g, const pl_friction* f, const pl_partner* a, 
   // the constraint keeps a distance from a plane
   pl_expr n[2];
   for (int j = 0; j < 2; j++) n[j] = pl_div(p, out->force[j], out->size);
-  pl_expr down = pl_sub(p, pl_div(p, g->c->g, out->size), dot(p, n, a->at.at, 2));
+  pl_expr down = pl_sub(p, pl_div(p, g->c->g, out->size), dot(p, n, a->at.at, 2)), at_zero = down;
+  // it does not depend on the coordinates, so any of their values will do
+  for (int i = 0; i < g->atoms->atoms.n; i++) at_zero = pl_subst_expr(p, at_zero, g->atoms->atoms.at[i], pl_int(p, 0));
+  if (!isnan(number_at(g, at_zero, 1)) && fabs(number_at(g, at_zero, 1) - number_at(g, down, 1)) < 1e-9) down = at_zero;
   if (!alone || !is_constant_here(g, n[0]) || !is_constant_here(g, n[1]) || !is_constant_here(g, down)) return no_place(g, f);
   for (int j = 0; j < 2; j++) arm[j] = pl_mul(p, down, n[j]);
   return true;
@@ -309,6 +312,13 @@ static bool slide(pl_geometry* g, const pl_friction* f, const pl_partner* a, con
   return true;
 }
 
+// |Z|, which is 1 where it is that for all angles.
+static pl_expr length_of(pl_geometry* g, const pl_touch* t) {
+  pl_expr size = pl_sqrt(g->pool, dot(g->pool, t->force, t->force, t->n));
+  bool unit = vanishes(g, pl_sub(g->pool, size, pl_int(g->pool, 1)), 1e-3);
+  return unit ? pl_int(g->pool, 1) : size;
+}
+
 // The force of a constraint on a body alone; false: it is not that.
 static bool force_on(pl_geometry* g, const pl_partner* a, pl_unknowns* u, pl_touch* out) {
   pl_pool* p = g->pool;
@@ -316,7 +326,7 @@ static bool force_on(pl_geometry* g, const pl_partner* a, pl_unknowns* u, pl_tou
   out->n = a->at.n;
   for (int j = 0; j < 3; j++) out->force[j] = pl_int(p, 0);
   for (int k = 0; k < u->n_components; k++) out->force[u->component[k]] = u->value[k];
-  out->size = pl_sqrt(p, dot(p, out->force, out->force, out->n));
+  out->size = length_of(g, out);
   return true;
 }
 
@@ -354,7 +364,7 @@ static bool take(pl_geometry* g, const pl_friction* f, const pl_partner* a, cons
   out->sense = 1;
   for (int j = 0; j < 3; j++) out->force[j] = pl_int(p, 0);
   for (int k = 0; k < u.n_components; k++) out->force[u.component[k]] = u.value[k];
-  out->size = pl_sqrt(p, dot(p, out->force, out->force, out->n));
+  out->size = length_of(g, out);
   pl_expr arm[3];
   if (u.moment_a >= 0 && !b && f->at.n == 0 && fixed_arm(g, a, u.value[u.moment_a], out, 1, arm)) out->sense = sense_of(g, a, arm);
   return slide(g, f, a, b, &u, out);

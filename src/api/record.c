@@ -365,8 +365,9 @@ static void name_links(pl_recorder* r, int i, pl_link* link) {
     out->side = c->relation == PL_GE || c->relation == PL_GT ? 1 : c->relation == PL_LE || c->relation == PL_LT ? -1 : 0;
     out->contact = pl_record_link(r, c->while_label);
     out->off = c->off;
-    out->rope = out->side < 0 && is_distance(r, c);
     const pl_restitution* bounce = pl_model_restitution(r->model, c);
+    // what bounces or rubs is a surface
+    out->rope = out->side < 0 && !bounce && !pl_model_friction(r->model, c) && is_distance(r, c);
     out->restitution = bounce ? pl_record_number(r, bounce->value) : 0;
     out->minus = r->model->lambda_minus;
   }
