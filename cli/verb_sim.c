@@ -11,6 +11,8 @@ const cli_flag flags_sim[] = {
   {"dt", 0, CLI_TEXT, CLI_AT(dt), "TIME", "distance of the rows; without it a row for each step"},
   {"tol", 0, CLI_TEXT, CLI_AT(tol), "NUMBER", "relative local error of a step"},
   {"method", 0, CLI_TEXT, CLI_AT(method), "NAME", "taylor, radau (implicit) or auto: radau where stiff"},
+  {"engine", 0, CLI_TEXT, CLI_AT(engine), "NAME", "auto, interpreter, compiled: same result"},
+  {"verbose", 'v', CLI_SWITCH, CLI_AT(verbose), NULL, "tell too how the steps were computed"},
   {"sensitivities", 0, CLI_TEXT, CLI_AT(sensitivities), "NAMES", "derivatives by these too: m2,x0"},
   CLI_FLAG_SET,
   {"events", 0, CLI_SWITCH, CLI_AT(events), NULL, "tell events only, not the accuracy"},
@@ -55,6 +57,8 @@ static void tell(pleuel* ctx, const cli_options* o, pleuel_model* m, pleuel_stat
   cli_print_diagnostics(m, o, stderr, 7u);
   const char* text = started ? pleuel_simulation_text(m, &how) : NULL;
   if (text) fputs(text, to);
+  const char* engine = started && o->verbose ? pleuel_simulation_engine(m, &how) : NULL;
+  if (engine) fputs(engine, to);
   fflush(to);
   bool said = started || pleuel_diagnostic_count(m, PLEUEL_ERROR) > 0;
   if (s != PLEUEL_OK && !said && *pleuel_message(ctx)) cli_error(0, "%s", pleuel_message(ctx));
@@ -83,6 +87,7 @@ int verb_sim(pleuel* ctx, const cli_options* o) {
     how.csv = to_file ? file.to : to_stdout ? stdout : NULL;
     how.progress = cli_progress;
     how.method = o->method;
+    how.engine = o->engine;
     how.sensitivities = o->sensitivities;
     pleuel_sim_summary summary;
     pleuel_status s = pleuel_simulate(m, &summary, &how);

@@ -253,6 +253,8 @@ typedef struct pleuel_sim_options {
                                      * implicit where that is far cheaper                                         */
   const char *sensitivities;        /* "m2,x0": columns d(x)/d(m2), d(x)/d(x0) and so on, the derivatives of coordinates,
                                      * velocities and multipliers by parameters and start values                  */
+  const char *engine;               /* "auto" (default), "interpreter", "compiled": how steps are computed.  The results
+                                     * are the same, bit for bit                                                  */
 } pleuel_sim_options;
 
 typedef struct pleuel_sim_summary {
@@ -271,6 +273,10 @@ pleuel_status pleuel_simulate(pleuel_model *model, pleuel_sim_summary *summary, 
 /* pleuel_simulation_text and _json tell about the last run: events with their states, residuals, drift. */
 const char *pleuel_simulation_text(pleuel_model *model, const pleuel_text_options *options);
 const char *pleuel_simulation_json(pleuel_model *model);
+
+/* pleuel_simulation_engine tells how the steps of the last run were computed: interpreted, or compiled from some step on,
+ * and why not.  It may differ from run to run, unlike the motion. */
+const char *pleuel_simulation_engine(pleuel_model *model, const pleuel_text_options *options);
 
 /* ------------------------------------------------------------------------------------------------ pictures */
 

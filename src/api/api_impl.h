@@ -106,6 +106,7 @@ pl_scene* pl_picture_scene(pleuel_model* m, pl_language lang);
 void pl_start_report_trouble(pleuel_model* m);
 
 // ---- motion.c: words and JSON about a run
+void pl_engine_text(pl_text* out, const pleuel_model* m, pl_language lang);    // how the steps were computed
 void pl_motion_text(pl_text* out, const pleuel_model* m, pl_language lang, bool ascii, bool events_only);
 void pl_motion_json(pl_text* out, const pleuel_model* m);
 

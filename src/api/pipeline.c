@@ -201,6 +201,16 @@ static bool method_named(const char* name, pl_method* out) {
   return false;
 }
 
+static bool engine_named(const char* name, pl_engine* out) {
+  static const char* const names[] = {[PL_ENGINE_AUTO] = "auto", [PL_ENGINE_INTERPRETER] = "interpreter", [PL_ENGINE_COMPILED] = "compiled"};
+  for (int i = 0; i < 3; i++) {
+    if (strcmp(name, names[i]) != 0) continue;
+    if (out) *out = (pl_engine)i;
+    return true;
+  }
+  return false;
+}
+
 // setup -> run with a consistent start.  Without sink: to look at the start only.
 pleuel_status pl_pipeline_start(pleuel_model* m, const pleuel_sim_options* o, pl_run** out) {
   PL_TRY(record_varied(m, o->sensitivities));
@@ -208,6 +218,7 @@ pleuel_status pl_pipeline_start(pleuel_model* m, const pleuel_sim_options* o, pl
   pl_run_options how = {.t_0 = r->t_0, .t_end = r->t_end, .tol = r->tol, .dt = r->dt, .count = r->count};
   how.method = PL_METHOD_AUTO;
   if (o->method) method_named(o->method, &how.method);
+  if (o->engine) engine_named(o->engine, &how.engine);
   if (o->has_until) how.t_end = o->until;
   if (o->has_tol) how.tol = o->tol;
   if (o->has_dt) how.dt = o->dt, how.count = 0;
@@ -244,6 +255,9 @@ static pleuel_status check_times(pleuel_model* m, const pleuel_sim_options* o) {
   if (o->has_tol && !(o->tol > 0 && o->tol < 1)) return pl_fail(&m->job, PLEUEL_USAGE, "tol must lie between 0 and 1");
   if (o->method && !method_named(o->method, NULL)) {
     return pl_fail(&m->job, PLEUEL_USAGE, "there is no method %s: taylor, radau or auto", o->method);
+  }
+  if (o->engine && !engine_named(o->engine, NULL)) {
+    return pl_fail(&m->job, PLEUEL_USAGE, "there is no engine %s: auto, interpreter or compiled", o->engine);
   }
   if (o->has_dt && !(o->dt > 0)) return pl_fail(&m->job, PLEUEL_USAGE, "dt must be positive");
   return PLEUEL_OK;

@@ -691,6 +691,14 @@ static pleuel_status simulation_text(pleuel_model* m, void* argument) {
   return PLEUEL_OK;
 }
 
+static pleuel_status simulation_engine(pleuel_model* m, void* argument) {
+  pl_asking* a = argument;
+  pl_text out = pl_text_make(m->arena);
+  if (m->is_run) pl_engine_text(&out, m, language_of(a->text->lang, m->ctx->lang));
+  a->answer = pl_text_string(&out);
+  return PLEUEL_OK;
+}
+
 static pleuel_status simulation_json(pleuel_model* m, void* argument) {
   pl_asking* a = argument;
   pl_text out = pl_text_make(m->arena);
@@ -713,6 +721,10 @@ static const char* tell_run(pleuel_model* m, const pleuel_text_options* options,
 
 const char* pleuel_simulation_text(pleuel_model* m, const pleuel_text_options* options) {
   return tell_run(m, options, simulation_text);
+}
+
+const char* pleuel_simulation_engine(pleuel_model* m, const pleuel_text_options* options) {
+  return tell_run(m, options, simulation_engine);
 }
 
 const char* pleuel_simulation_json(pleuel_model* m) { return tell_run(m, NULL, simulation_json); }

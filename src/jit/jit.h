@@ -63,8 +63,9 @@ typedef struct pl_prog {
   PL_VEC(pl_prog_sum) sums;
   PL_VEC(pl_prog_block) blocks;
   PL_VEC(pl_prog_product) products;
-  int orders;              // above 0: written out for the orders k = first_order .. orders - 1; the function takes them all
-  int first_order;
+  // orders above 0: compiled code is written out for the orders k = first_order .. orders - 1 and runs exactly those.  Then
+  // streams are written with stride 8 only, and memory below spill only.
+  int orders, first_order;
 } pl_prog;
 
 // A compiled code, or the interpreter's stand-in: runs orders from <= k < to.

@@ -27,6 +27,11 @@ typedef struct pl_emit {
   int chunk;
   LLVMValueRef stride[STEPS];      // memory + k by
   int stride_by[STEPS], n_strides;
+  // written out for every order: what is known of each place in memory, in the function at work
+  bool unrolled;
+  int order;
+  LLVMValueRef* known;
+  bool *loaded, *stored;     // places that the program reads by themselves; streams that it writes (row 0)
 } pl_emit;
 
 static LLVMTypeRef type_of(const pl_emit* e, int width) { return width == 8 ? e->vector : e->number; }
@@ -207,6 +212,73 @@ static void product(pl_emit* e, const pl_prog_product* p) {
   }
 }
 
+// ---------------------------------------------------------------------------------------------- written out
+// Below so few operations a program is written out for each order: its coefficients then stay in registers.
+static LLVMValueRef known_load(pl_emit* e, long at) {
+  if (!e->known[at]) e->known[at] = load(e, e->memory, at, 1);
+  return e->known[at];
+}
+
+static void known_store(pl_emit* e, LLVMValueRef x, long at) {
+  store(e, x, e->memory, at, 1);
+  e->known[at] = x;
+}
+
+static void find_used(pl_emit* e) {
+  const pl_prog* p = e->prog;
+  for (int i = 0; i < p->lines.n; i++) {
+    const pl_prog_line* l = &p->lines.at[i];
+    if (l->op == PL_PROG_LOAD && l->by == 0) e->loaded[l->at] = true;
+    if (l->op != PL_PROG_STORE || l->by != 8) continue;
+    for (int row = 0; row < 3 && l->at - 8 * row >= 0; row++) e->stored[l->at - 8 * row] = true;
+  }
+}
+
+// One lane of a sum.  Pairs without streams in this lane add 0 0, which only makes a -0 positive.
+static LLVMValueRef lane_sum(pl_emit* e, const pl_prog_sum* s, int lane, int K) {
+  const pl_prog_pair* pairs = e->prog->pairs.at + s->first;
+  LLVMValueRef x = number(e, 0, 1);
+  bool left_out = false;
+  for (int p = 0; K >= 2 && K % 2 == 0 && p < s->n; p++) {
+    if (!e->stored[pairs[p].a + lane] || !e->stored[pairs[p].b + lane]) left_out = true;
+    else x = fused(e, known_load(e, pairs[p].a + 4L * K + lane), known_load(e, pairs[p].b + 4L * K + lane), x, 1);
+  }
+  for (int j = (K - 1) / 2; j >= 1; j--)
+    for (int p = 0; p < s->n; p++) {
+      long a = pairs[p].a + lane, b = pairs[p].b + lane;
+      if (!e->stored[a] || !e->stored[b]) {
+        left_out = true;
+        continue;
+      }
+      x = fused(e, known_load(e, a + 8L * j), known_load(e, b + 8L * (K - j)), x, 1);
+      x = fused(e, known_load(e, a + 8L * (K - j)), known_load(e, b + 8L * j), x, 1);
+    }
+  return left_out ? LLVMBuildFAdd(e->build, x, number(e, 0, 1), "") : x;
+}
+
+static void unrolled_sums(pl_emit* e, const pl_prog_block* b) {
+  for (int i = b->first; i < b->first + b->n; i++) {
+    const pl_prog_sum* s = &e->prog->sums.at[i];
+    for (int l = 0; l < 8; l++)
+      if (e->loaded[s->to + l]) known_store(e, lane_sum(e, s, l, e->order + b->shift), s->to + l);
+  }
+}
+
+static void unrolled_product(pl_emit* e, const pl_prog_product* p) {
+  enum { FEW = 4 };
+  for (int i = 0; p->n <= FEW && i < p->n; i++) {
+    LLVMValueRef part[4];
+    for (int j = 0; j < 4; j++) part[j] = number(e, 0, 1);
+    for (int j = 0; j < p->n; j++)
+      part[j % 4] = fused(e, known_load(e, p->matrix + j * p->blocks * 8 + i), known_load(e, p->vector + j), part[j % 4], 1);
+    LLVMValueRef low = LLVMBuildFAdd(e->build, part[0], part[1], ""), high = LLVMBuildFAdd(e->build, part[2], part[3], "");
+    known_store(e, LLVMBuildFAdd(e->build, low, high, ""), p->to + i);
+  }
+  if (p->n <= FEW) return;
+  product(e, p);
+  for (int i = 0; i < 8 * p->blocks; i++) e->known[p->to + i] = NULL;
+}
+
 // ---------------------------------------------------------------------------------------------- lines
 static LLVMValueRef read(pl_emit* e, int r) {
   if (!e->value[r]) e->value[r] = load(e, e->memory, e->prog->spill + (long)r * e->prog->width, e->prog->width);
@@ -221,6 +293,14 @@ static LLVMValueRef line(pl_emit* e, const pl_prog_line* l) {
   int width = e->prog->width, operands[] = {l->a, l->b, l->c, l->e};
   LLVMValueRef x[4] = {NULL}, zero = number(e, 0, width);
   for (int i = 0; i < reads_of[l->op]; i++) x[i] = read(e, operands[i]);
+  if (e->unrolled) {
+    long at = l->at + (long)l->by * e->order;
+    if (l->op == PL_PROG_LOAD) return known_load(e, at);
+    if (l->op == PL_PROG_STORE) return known_store(e, x[0], at), NULL;
+    if (l->op == PL_PROG_ORDER) return number(e, (double)(e->order + l->at), 1);
+    if (l->op == PL_PROG_SUMS) return unrolled_sums(e, &e->prog->blocks.at[l->at]), NULL;
+    if (l->op == PL_PROG_PRODUCT) return unrolled_product(e, &e->prog->products.at[l->at]), NULL;
+  }
   switch ((pl_prog_op)l->op) {
     case PL_PROG_LOAD: return load(e, strided(e, l->by), l->at, width);
     case PL_PROG_SPREAD: return spread(e, load(e, strided(e, l->by), l->at, 1), width);
@@ -307,6 +387,38 @@ static LLVMValueRef emit_chunk(pl_emit* e, int chunk) {
   return e->function;
 }
 
+// Orders from .. of an unrolled program until a function is full; returns the next.
+static int emit_orders(pl_emit* e, int from, LLVMValueRef* function) {
+  const pl_prog* p = e->prog;
+  char name[128];
+  snprintf(name, sizeof name, "%s_from_%d", p->name, from);
+  *function = e->function = begin_function(e, name, e->line_type);
+  LLVMSetLinkage(e->function, LLVMInternalLinkage);
+  e->memory = LLVMGetParam(e->function, 0);
+  memset(e->known, 0, ((size_t)p->spill + 1) * sizeof *e->known);
+  int k = from;
+  for (int operations = 0; k < p->orders && (k == from || operations < CHUNK); k++) {
+    e->order = k;
+    memset(e->value, 0, ((size_t)p->n_registers + 1) * sizeof(LLVMValueRef));
+    for (int i = 0; i < p->lines.n; i++) {
+      LLVMValueRef x = line(e, &p->lines.at[i]);
+      if (p->lines.at[i].d >= 0) e->value[p->lines.at[i].d] = x;
+    }
+    operations += p->lines.n + p->pairs.n * 4 * k;
+  }
+  LLVMBuildRetVoid(e->build);
+  return k;
+}
+
+static void emit_unrolled(pl_emit* e, LLVMValueRef* functions) {
+  int n = 0;
+  for (int k = e->prog->first_order; k < e->prog->orders;) k = emit_orders(e, k, &functions[n++]);
+  LLVMValueRef f = begin_function(e, e->prog->name, e->run_type);
+  LLVMValueRef zero = whole(e, 0);
+  for (int i = 0; i < n; i++) LLVMBuildCall2(e->build, e->line_type, functions[i], (LLVMValueRef[]){LLVMGetParam(f, 0), zero}, 2, "");
+  LLVMBuildRetVoid(e->build);
+}
+
 static void emit_loop(pl_emit* e, LLVMValueRef* chunks, int n) {
   LLVMValueRef f = begin_function(e, e->prog->name, e->run_type);
   LLVMBasicBlockRef entry = LLVMGetInsertBlock(e->build);
@@ -338,12 +450,25 @@ void pl_llvm_emit(LLVMContextRef context, LLVMModuleRef module, const pl_prog* p
   e->value = calloc(registers, sizeof *e->value);
   e->first_chunk = calloc(registers, sizeof *e->first_chunk);
   e->last_chunk = calloc(registers, sizeof *e->last_chunk);
-  LLVMValueRef* chunks = calloc((size_t)n + 1, sizeof *chunks);
-  if (e->value && e->first_chunk && e->last_chunk && chunks) {
-    find_chunks(e);
-    for (int i = 0; i < n; i++) chunks[i] = emit_chunk(e, i);
-    emit_loop(e, chunks, n);
+  e->unrolled = prog->orders > 0 && prog->width == 1;
+  size_t places = e->unrolled ? (size_t)prog->spill + 1 : 1;
+  e->known = calloc(places, sizeof *e->known);
+  e->loaded = calloc(places, sizeof *e->loaded);
+  e->stored = calloc(places, sizeof *e->stored);
+  LLVMValueRef* chunks = calloc((size_t)(n > prog->orders ? n : prog->orders) + 1, sizeof *chunks);
+  if (e->value && e->first_chunk && e->last_chunk && chunks && e->known && e->loaded && e->stored) {
+    if (e->unrolled) {
+      find_used(e);
+      emit_unrolled(e, chunks);
+    } else {
+      find_chunks(e);
+      for (int i = 0; i < n; i++) chunks[i] = emit_chunk(e, i);
+      emit_loop(e, chunks, n);
+    }
   }
+  free(e->known);
+  free(e->loaded);
+  free(e->stored);
   free(e->value);
   free(e->first_chunk);
   free(e->last_chunk);

@@ -8,6 +8,8 @@
 //   inverse   the factor's inverse, when the system is small
 //   start     order 0 of the series: forces, a_0, λ_0
 //   order     order k >= 1
+//   norms     of the rows that the length of a step is found from
+//   advance   the series at the end of a step
 //   energy    kinetic and potential energy at the point
 // The factor is L D L^T without pivoting in an order found once: coordinates first, then constraints.  Where its pivots
 // fade the caller goes the general way (assemble.c, kkt.c), which pivots.
@@ -20,6 +22,7 @@
 enum {
   PL_MOTION_UNKNOWNS = 400,      // largest system
   PL_MOTION_INVERSE = 24,        // so many unknowns are solved for by a product with the inverse
+  PL_MOTION_WRITTEN_OUT = 3000,  // operations over all orders up to which these are written out one by one
   PL_MOTION_NODES = 20000        // of all instances together
 };
 
@@ -31,6 +34,8 @@ typedef enum pl_motion_part {
   PL_PART_INVERSE,
   PL_PART_START,
   PL_PART_ORDER,
+  PL_PART_NORMS,
+  PL_PART_ADVANCE,
   PL_PART_ENERGY,
   PL_N_PARTS
 } pl_motion_part;
@@ -56,6 +61,8 @@ struct pl_motion {
   int q_floor, v_floor;          // sizes of coordinates and velocities                (n_q)
   int g, g_size, argument;       // constraint values, sizes, as in pl_run            (n_c)
   int r, r_size;                 // G v + dg/dt                                       (n_c)
+  int norms;                     // pl_block_rows of Q, then of V
+  int length, end_q, end_v;      // of a step; the state there                          (1, n_q, n_q)
   int energy;                    // kinetic, potential
   int h;                         // forces at order 0                                 (n_q)
   int pivot, pivot_size;         // of the unknowns: pivot, sum of what was subtracted          (n)

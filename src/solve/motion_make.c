@@ -71,6 +71,10 @@ static void lay_out(pl_maker* k) {
   o->A = pl_maker_take(k, rows * n_q);
   o->L = pl_maker_take(k, rows * n_c);
   o->energy = pl_maker_take(k, 2);
+  o->norms = pl_maker_take(k, 2 * PL_BLOCK_ROWS);
+  o->length = pl_maker_take(k, 1);
+  o->end_q = pl_maker_take(k, n_q);
+  o->end_v = pl_maker_take(k, n_q);
   int* of_q[] = {&o->q_floor, &o->v_floor, &o->h, &o->move};
   int* of_c[] = {&o->g, &o->g_size, &o->argument, &o->r, &o->r_size};
   for (size_t i = 0; i < sizeof of_q / sizeof *of_q; i++) *of_q[i] = pl_maker_take(k, n_q);
@@ -298,6 +302,41 @@ static void inverse_code(pl_maker* k) {
   pl_maker_end(k);
 }
 
+static int norm_of_row(pl_maker* k, int row) {
+  int most = -1;
+  for (int i = 0; i < k->o->n_q; i++) {
+    int x = pl_prog_op1(k->code, PL_PROG_ABS, pl_prog_load(k->code, row + i, 0));
+    most = most < 0 ? x : pl_prog_if_le(k->code, x, most, most, x);
+  }
+  return most;
+}
+
+static void norms_code(pl_maker* k) {
+  pl_motion* o = k->o;
+  int row[PL_BLOCK_ROWS], of[] = {o->Q, o->V};
+  pl_maker_begin(k, PL_PART_NORMS, "norms", 1);
+  for (int b = 0; b < 2; b++) {
+    pl_block_rows(k->run->order + (b == 0), row);
+    for (int i = 0; i < PL_BLOCK_ROWS; i++)
+      pl_prog_store(k->code, norm_of_row(k, of[b] + row[i] * o->n_q), o->norms + b * PL_BLOCK_ROWS + i, 0);
+  }
+  pl_maker_end(k);
+}
+
+static void advance_code(pl_maker* k) {
+  pl_motion* o = k->o;
+  pl_maker_begin(k, PL_PART_ADVANCE, "advance", 1);
+  int h = pl_prog_load(k->code, o->length, 0), of[] = {o->Q, o->V}, to[] = {o->end_q, o->end_v};
+  for (int b = 0; b < 2; b++)
+    for (int i = 0; i < o->n_q; i++) {
+      int last = k->run->order + (b == 0), x = pl_prog_load(k->code, of[b] + last * o->n_q + i, 0);
+      for (int row = last - 1; row >= 0; row--)
+        x = pl_prog_op3(k->code, PL_PROG_FMA, x, h, pl_prog_load(k->code, of[b] + row * o->n_q + i, 0));
+      pl_prog_store(k->code, x, to[b] + i, 0);
+    }
+  pl_maker_end(k);
+}
+
 // Energies at a point where all else is computed.
 static void energy_code(pl_maker* k) {
   if (k->energy.n == 0) return;
@@ -358,6 +397,8 @@ pl_motion* pl_motion_make(pl_run* run) {
   pl_maker_streams(k);
   pl_maker_start_code(k);
   pl_maker_order_code(k);
+  norms_code(k);
+  advance_code(k);
   energy_code(k);
   fill_memory(k);
   o->usable = true;

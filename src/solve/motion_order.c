@@ -357,6 +357,13 @@ void pl_maker_start_code(pl_maker* k) {
   pl_maker_end(k);
 }
 
+// Small programs are written out for every order.
+static bool is_small(const pl_maker* k) {
+  long operations = 0;
+  for (int order = 1; order < k->run->order; order++) operations += k->code->lines.n + 4L * k->code->pairs.n * order;
+  return operations <= PL_MOTION_WRITTEN_OUT;
+}
+
 void pl_maker_order_code(pl_maker* k) {
   pl_maker_begin(k, PL_PART_ORDER, "order", 1);
   k->with_sums = true;
@@ -364,4 +371,7 @@ void pl_maker_order_code(pl_maker* k) {
   speed_nodes(k);
   equations(k, false);
   pl_maker_end(k);
+  if (!is_small(k)) return;
+  k->code->first_order = 1;
+  k->code->orders = k->run->order;
 }

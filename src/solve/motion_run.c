@@ -41,7 +41,10 @@ static void compile(pl_run* run, pl_motion* o) {
     if (o->code[i]) progs[n] = o->code[i], part[n++] = i;
   o->jit = pl_jit_compile(run->job->arena, progs, n, found, &story);
   run->stats.compile_s += story.seconds;
-  if (o->jit == NULL) return;
+  if (o->jit == NULL) {
+    pl_jit_available(&run->stats.why_interpreted);
+    return;
+  }
   for (int i = 0; i < n; i++) o->compiled[part[i]] = found[i];
   run->stats.compiled = true;
   run->stats.stored |= story.stored;
@@ -76,6 +79,8 @@ void pl_motion_update(pl_run* run) {
   if (o == NULL || !o->usable || o->tried || run->options.engine == PL_ENGINE_INTERPRETER) return;
   if (run->options.engine == PL_ENGINE_COMPILED || compiling_pays(run, o)) compile(run, o);
 }
+
+bool pl_motion_is_compiled(const pl_run* run) { return run->motion_code && run->motion_code->jit; }
 
 void pl_motion_free(pl_run* run) {
   for (pl_motion* o = run->motion_codes; o; o = o->next) pl_jit_free(o->jit);
@@ -203,6 +208,21 @@ bool pl_motion_enter(pl_run* run) {
   return run->ready;
 }
 
+void pl_motion_norms(pl_run* run, const double** q, const double** v) {
+  pl_motion* o = run->motion_code;
+  run_part(o, PL_PART_NORMS, 0, 1);
+  *q = o->m + o->norms;
+  *v = *q + PL_BLOCK_ROWS;
+}
+
+void pl_motion_advance(pl_run* run, double dt, double* q, double* v) {
+  pl_motion* o = run->motion_code;
+  o->m[o->length] = dt;
+  run_part(o, PL_PART_ADVANCE, 0, 1);
+  memcpy(q, o->m + o->end_q, (size_t)o->n_q * sizeof *q);
+  memcpy(v, o->m + o->end_v, (size_t)o->n_q * sizeof *v);
+}
+
 bool pl_motion_energy(pl_run* run, double* kinetic, double* potential) {
   pl_motion* o = run->motion_code;
   if (!run->at_point || o->code[PL_PART_ENERGY] == NULL) return false;
@@ -213,6 +233,10 @@ bool pl_motion_energy(pl_run* run, double* kinetic, double* potential) {
 }
 
 void pl_motion_expand(pl_run* run) {
-  run_part(run->motion_code, PL_PART_ORDER, 1, run->order);
+  pl_motion* o = run->motion_code;
+  run_part(o, PL_PART_ORDER, 1, run->order);
+  // one more coefficient of q comes for nothing
+  for (int i = 0; i < o->n_q; i++)
+    o->m[o->Q + (run->order + 1) * o->n_q + i] = o->m[o->V + run->order * o->n_q + i] / (run->order + 1);
   copy_orders(run, 1, run->order - 1);
 }

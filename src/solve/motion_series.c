@@ -122,6 +122,7 @@ void pl_point_general(pl_run* run) {
 }
 
 void pl_series_expand(pl_run* run) {
+  if (!run->at_point || !pl_motion_is_compiled(run)) run->stats.steps_interpreted++;
   if (run->at_point) pl_motion_expand(run);
   else
     for (int k = 1; k < run->order; k++) solve_order(run, k);
@@ -144,29 +145,45 @@ static double rough_log2(double x) {
   return exponent + 2.8853900817779268 * y * (1 + z * (1 / 3.0 + z * (0.2 + z * (1 / 7.0))));
 }
 
-static double log_norm(const double* X, int n, int k) { return rough_log2(pl_norm(X + (size_t)k * (size_t)n, n)); }
+void pl_block_rows(int last, int row[PL_BLOCK_ROWS]) {
+  for (int i = 0; i < 4; i++) row[i] = i;
+  row[4] = last - 1;
+  row[5] = last;
+}
+
+static void norms_of(const double* X, int n, int last, double* norm) {
+  int row[PL_BLOCK_ROWS];
+  pl_block_rows(last, row);
+  for (int i = 0; i < PL_BLOCK_ROWS; i++) norm[i] = pl_norm(X + (size_t)row[i] * (size_t)n, n);
+}
 
 // Radius of a block from its last two coefficients: (|x| / |x_k|)^(1/k), as a logarithm.  The size |x| is that of the block
 // at the point, or what an early coefficient and the radius say when it is near zero there.
-static double block_radius(const double* X, int n, int last) {
-  double size = log_norm(X, n, 0), top = log_norm(X, n, last), before = log_norm(X, n, last - 1);
+static double block_radius(const double* norm, int last) {
+  double log[PL_BLOCK_ROWS], least = (double)INFINITY;
+  for (int i = 0; i < PL_BLOCK_ROWS; i++) log[i] = rough_log2(norm[i]);
+  double size = log[0], before = log[4], top = log[5];
+  if (isnan(top) || isnan(before)) return -(double)INFINITY;
   if (top > -2000)
-    for (int k = 1; k <= 3 && k < last; k++) {
-      double x = log_norm(X, n, k);
-      size = fmax(size, x + k * (x - top) / (last - k));
-    }
+    for (int k = 1; k <= 3 && k < last; k++) size = fmax(size, log[k] + k * (log[k] - top) / (last - k));
   else if (size <= -2000) size = 0;
-  double least = (double)INFINITY;
   if (before > -2000) least = (size - before) / (last - 1);
   if (top > -2000) least = fmin(least, (size - top) / last);
-  return isnan(top) || isnan(before) ? -(double)INFINITY : least;
+  return least;
 }
 
-double pl_series_step(const pl_run* run) {
+double pl_series_step(pl_run* run) {
   int p = run->order;
-  double q = block_radius(run->Q, run->n_q, p + 1), v = block_radius(run->V, run->n_q, p);
-  // e^-2 of the radius makes p equal steps of e^-2p = tol; the rest is their safety factor, eq. (3-8) there
-  return exp2(fmin(q, v) - 1.4426950408889634 * (2 + 0.7 / (p - 1)));
+  double of_q[PL_BLOCK_ROWS], of_v[PL_BLOCK_ROWS];
+  const double *q = of_q, *v = of_v;
+  if (run->at_point) {
+    pl_motion_norms(run, &q, &v);
+  } else {
+    norms_of(run->Q, run->n_q, p + 1, of_q);
+    norms_of(run->V, run->n_q, p, of_v);
+  }
+  // e^shrink of the radius makes p - 1 factors of tol together; the rest is their safety factor, eq. (3-8) there
+  return exp2(fmin(block_radius(q, p + 1), block_radius(v, p)) - 1.4426950408889634 * (0.7 / (p - 1) - run->shrink));
 }
 
 // ---------------------------------------------------------------------------------------------- evaluation

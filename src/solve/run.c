@@ -64,7 +64,8 @@ static pleuel_status try_steps(pl_run* run, double* h, double* root, pl_projecti
     double kink = run->n_kinks > 0 ? pl_kinks_first(run, *h) : -1;
     if (kink >= 0 && (*root < 0 || kink < *root)) *root = -1, *h *= fmin(kink, 1);
     double reach = *root >= 0 ? *root * *h : *h;
-    pl_series_at(run, reach, run->trial_q, run->trial_v);
+    if (run->at_point && run->use == run->order) pl_motion_advance(run, reach, run->trial_q, run->trial_v);
+    else pl_series_at(run, reach, run->trial_q, run->trial_v);
     // what follows a root changes the mode: it needs the general way
     if (*root >= 0 || !pl_motion_project(run, run->t + run->t_low + reach, run->trial_q, run->trial_v, p))
       *p = pl_project(run, run->t + run->t_low + reach, run->trial_q, run->trial_v);
@@ -73,6 +74,7 @@ static pleuel_status try_steps(pl_run* run, double* h, double* root, pl_projecti
       return PLEUEL_OK;
     }
     run->stats.rejections++;
+    run->at_point = false;   // what the programs keep is the end that was tried
     pl_sizes_forget(run);
     *h = 0.5 * reach;
     if (!(fabs(*h) > run->h_least)) return too_small(run, *h);

@@ -155,6 +155,7 @@ struct pl_run {
   double smallest_here, smallest_before, t_before;   // at the point, at the one before, its time
   pl_fade fade[2];
   double reach;            // from the point to the singular position that a leap passes
+  double shrink;           // a step in units of the radius of the series, its logarithm
   double h_series;         // step that the series allowed last
   double h_regular;        // step that the series allowed last where the pivots were large
   double *dep, *dep_tau, *dep_norm;    // dependence of rows left out
@@ -282,10 +283,13 @@ void pl_active_update(pl_run* run);                 // active from on; orphans r
 // ---- motion_make.c, motion_run.c: the motion as codes
 pl_motion* pl_motion_make(pl_run* run);             // not usable when it does not fit
 void pl_motion_update(pl_run* run);                 // the codes for the constraints that are taken, compiled if it pays
+bool pl_motion_is_compiled(const pl_run* run);
 void pl_motion_free(pl_run* run);
 bool pl_motion_project(pl_run* run, double t, double* q, double* v, pl_projection* p);   // false: not this way
 bool pl_motion_enter(pl_run* run);
 void pl_motion_expand(pl_run* run);
+void pl_motion_norms(pl_run* run, const double** q, const double** v);   // of pl_block_rows
+void pl_motion_advance(pl_run* run, double dt, double* q, double* v);
 bool pl_motion_energy(pl_run* run, double* kinetic, double* potential);   // at the point; false: not this way
 
 // ---- motion_series.c
@@ -294,7 +298,9 @@ bool pl_point_factor(pl_run* run, bool with_W);     // choose, assemble, factor
 bool pl_point_enter(pl_run* run);                   // all of order 0 at run->t, q, v
 void pl_point_general(pl_run* run);                 // jets and factor as pl_point_factor leaves them, after a step by codes
 void pl_series_expand(pl_run* run);
-double pl_series_step(const pl_run* run);           // Jorba and Zou
+double pl_series_step(pl_run* run);                 // Jorba and Zou
+enum { PL_BLOCK_ROWS = 6 };
+void pl_block_rows(int last, int row[PL_BLOCK_ROWS]);   // coefficients whose norms tell the radius: 0, 1, 2, 3, last - 1, last
 void pl_horner(const double* X, int n, int last, double dt, double* x);   // sum of X_k dt^k
 void pl_series_at(const pl_run* run, double dt, double* q, double* v);
 void pl_series_lambda_at(const pl_run* run, double dt, double* a, double* lambda);
