@@ -363,7 +363,7 @@ static void list_impact(pl_run* run) {
     if (run->near_by[c]) add(run, false, c, 1u << PL_CHOICE_OPEN | 1u << PL_CHOICE_CLOSED, PL_CHOICE_CLOSED);
   for (int r = 0; r < run->setup->n_rubs; r++) {
     int c = run->setup->rubs[r].link;
-    run->rub[r].given = true;
+    run->rub[r].given = run->setup->rubs[r].n_rows == 3;
     pl_friction_speed(run, r, run->approach, run->rub[r].d);
     if (run->near_by[c] || run->active[c]) add(run, true, r, choices_of(run, r, 0), PL_CHOICE_STICK);
   }
