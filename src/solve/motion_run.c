@@ -95,7 +95,8 @@ static bool pivots_are_sound(pl_motion* o) {
     part = fabs(o->m[o->pivot + u]) / o->size_most[u];
     if (!(part >= least)) least = part;
   }
-  if (!(least > 0)) return o->n == o->n_mass;
+  if (o->n == o->n_mass) return true;
+  if (!(least > 0)) return false;
   if (least > o->fade_best) o->fade_best = least;
   return least > sound * o->fade_best;
 }

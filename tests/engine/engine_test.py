@@ -50,6 +50,25 @@ with tempfile.TemporaryDirectory() as folder:
     third = sim(models[0], "--engine", "compiled", "-v", PLEUEL_CACHE="on", XDG_CACHE_HOME=folder)
     tap.check("a torn file is not used", third.stdout == first.stdout and "from disk" not in told(third), told(third))
 
+ANGLES = """param m = 1, l = 1, g = 9.81
+coord a, b
+axes x right, y up
+mass m at (l sin a, -l cos a)
+mass m at (l sin a + l sin b, -l cos a - l cos b)
+gravity g along -y
+init a = 1, b = 1/2, a' = 0, b' = 0
+simulate 0..5
+"""
+with tempfile.TemporaryDirectory() as folder:
+    model = pathlib.Path(folder, "angles.pleuel")
+    model.write_text(ANGLES, encoding="utf-8")
+    done = sim(str(model), "--engine", "compiled", "-v")
+    if "compiler plugin" in told(done):
+        tap.skip("a system without constraints is compiled too", told(done).strip())
+    else:
+        words = told(done).split()
+        tap.check("a system without constraints is compiled too", int(words[2]) <= 2 < int(words[0]), told(done))
+
 wrong = sim(models[0], "--engine", "steam")
 tap.check("an unknown engine is a wrong call", wrong.returncode != 0 and "steam" in wrong.stderr, wrong.stderr)
 german = subprocess.run([program, "sim", models[0], "-v", "--lang", "de", "--engine", "interpreter"], capture_output=True, text=True,
