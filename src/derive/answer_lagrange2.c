@@ -74,7 +74,6 @@ static void show_maps(pl_analysis* d) {
     v->lhs_form = pl_fs(d, c->q);
   }
   if (chosen) say_satisfied(d);
-  for (int k = 0; k < d->loops.n; k++) pl_show_loop(d, k);
 }
 
 static void show_velocities(pl_analysis* d) {
@@ -139,7 +138,6 @@ void pl_answer_lagrangian(pl_analysis* d, const pl_ask* ask) {
   if (mapped) {
     show_maps(d);
     show_velocities(d);
-    pl_show_loop_velocities(d);
   }
   if (!given(d)) {
     show_energy(d, "T", d->Tg, d->T);
@@ -171,7 +169,7 @@ static bool show_with_named_mass(pl_analysis* d, int i) {
   pl_expr momentum = pl_diff(d->pool, d->Tg, c->v);
   bool natural = pl_alg_equal(d->tower, momentum, pl_mul(d->pool, M, pl_sym(d->pool, c->v))) == PL_YES;
   const pl_form* form = pl_f(d, M, PL_S_ENERGY);
-  if ((!pl_has_symbol(d->pool, M, c->q) && !pl_has_followers(d, M)) || pl_form_ops(form) < long_mass || d->dissipative || !natural) return false;
+  if (!pl_has_symbol(d->pool, M, c->q) || pl_form_ops(form) < long_mass || d->dissipative || !natural || d->loops.n > 0) return false;
   const pl_form* mass = pl_fn(d, pl_format(d->arena, "M(%s)", pl_symbol_get(d->pool, c->q)->name));
   const pl_form* M_name = pl_fn(d, "M");
   pl_say(d, "With {1}", "Mit {1}", 1, pl_feq(d, mass, form));
@@ -181,7 +179,7 @@ static bool show_with_named_mass(pl_analysis* d, int i) {
   slope->expr = pl_sym(d->pool, c->q);
   const pl_form* first[2] = {M_name, pl_fs(d, c->a)};
   const pl_form* second[3] = {pl_fe(d, pl_ratio(d->pool, 1, 2)), slope, q2};
-  pl_expr dV = pl_alg_normal(d->tower, pl_by_coordinate(d, d->Vg, i));
+  pl_expr dV = pl_alg_normal(d->tower, pl_diff(d->pool, d->Vg, c->q));
   const pl_form* force = pl_f(d, dV, PL_S_EQUATION);
   int n_force = pl_is_zero_node(d->pool, dV) ? 0 : force->kind == PL_F_SUM ? force->n : 1;
   const pl_form** terms = PL_ARRAY(d->arena, const pl_form*, 2 + n_force);

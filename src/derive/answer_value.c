@@ -62,6 +62,10 @@ static void plain_value(pl_analysis* d, const pl_ask* ask) {
     pl_answer_pending(d, ask);
     return;
   }
+  if (pl_has_followers(d, e)) {
+    if (unsolved(d, e) || unsolved(d, ask->value)) pl_tell_loops(d);
+    else e = pl_alg_normal(d->tower, pl_without_slopes(d, e));
+  }
   if (unsolved(d, e) && !pl_not_determined(d, e) && pl_show_value_structured(d, ask->value, e)) return;
   bool given = kinematic(d) && d->reduced && !pl_same(ask->value, e);   // accelerations of generalized coordinates are
   if (!given && stays_open(d, ask->value, e)) return;

@@ -65,11 +65,16 @@ typedef struct pl_structure pl_structure;   // a linear system with named entrie
 // One or two coordinates that follow from others in several ways, the assemblies of a linkage.  They keep their names; every
 // formula holds in all assemblies (loops.c).
 enum { pl_max_ways = 4, pl_max_assemblies = 8 };
+// A velocity coefficient K = du/dq of a loop has a name that moves: K' = sum L q' (+ L_t).
+typedef struct pl_slope { pl_symbol of, name, dot; pl_expr value, rate; } pl_slope;
 typedef struct pl_loop {
   int n, coordinate[2], bond[2];             // unknowns, and the constraints that determine them
   int n_ways;
   pl_expr value[pl_max_ways][2];             // over names, generalized coordinates, coordinates of loops before it; [1] over [0] too
-  pl_expr rate[2];                           // velocities, the same in all ways
+  pl_expr rate[2];                           // velocities, the same in all ways; over the slopes
+  pl_expr written_out[2];                    // the same without them
+  PL_VEC(pl_slope) slopes;                   // K
+  PL_VEC(pl_definition) bends;               // L, over the slopes
   PL_VEC(pl_definition) names;               // A, B, C, w of the eliminated equation
   pl_expr eliminated;                        // that equation: vanishes; contains coordinate[0] alone
   bool by_angle;                             // it is A cos u + B sin u + C
@@ -126,6 +131,7 @@ typedef struct pl_analysis {
   double began_ms;             // processor time at the beginning
   pl_structure *of_multipliers, *of_accelerations;   // made when a closed form is too long; NULL if not found
   PL_VEC(pl_loop) loops;       // in the order in which they can be computed
+  bool loops_told;
 } pl_analysis;
 
 // ---------------------------------------------------------------------------------------------- setup.c
@@ -158,12 +164,15 @@ bool pl_has_followers(const pl_analysis* d, pl_expr e); // a coordinate of a loo
 int pl_assemblies(const pl_analysis* d);
 int pl_loop_definitions(pl_analysis* d, int assembly, pl_definition* out);   // names, coordinates, velocities; out NULL: how many
 pl_expr pl_on_assembly(pl_analysis* d, pl_expr e, int assembly);             // positions in generalized coordinates
-pl_expr pl_by_coordinate(pl_analysis* d, pl_expr e, int i);   // de/dq_i of generalized coordinate i, coordinates of loops following
+pl_expr pl_by_coordinate(pl_analysis* d, pl_expr e, int i);   // de/dq_i of generalized coordinate i, coordinates of loops following; i < 0: de/dt
 pl_answer3 pl_holds_on_loops(pl_analysis* d, pl_expr left, pl_expr right);   // in all assemblies, by points
 void pl_claim_loops(pl_analysis* d);
 // loops_text.c
 void pl_show_loop(pl_analysis* d, int loop);
 void pl_show_loop_velocities(pl_analysis* d);
+void pl_tell_loops(pl_analysis* d);                    // positions and velocities, once
+bool pl_speaks_of_loops(const pl_ask* ask);            // formulas of this request are over the names of loops
+pl_expr pl_without_slopes(pl_analysis* d, pl_expr e);  // coefficients written out
 bool pl_answer_follower(pl_analysis* d, pl_symbol q);   // a position: shown, one value for each assembly
 void pl_answer_positions(pl_analysis* d);               // kinematics without requests
 void pl_spread_assemblies(pl_analysis* d);              // values over followers get their definitions, one value for each assembly

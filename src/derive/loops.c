@@ -39,6 +39,9 @@ bool pl_has_followers(const pl_analysis* d, pl_expr e) {
     for (int j = 0; j < l->n; j++) {
       if (pl_has_symbol(d->pool, e, d->q.at[l->coordinate[j]].q)) return true;
     }
+    for (int j = 0; j < l->slopes.n; j++) {
+      if (pl_has_symbol(d->pool, e, l->slopes.at[j].name)) return true;
+    }
   }
   return false;
 }
@@ -65,8 +68,17 @@ int pl_loop_definitions(pl_analysis* d, int assembly, pl_definition* out) {
     for (int j = 0; j < l->n; j++, n++) {
       if (out) out[n] = (pl_definition){d->q.at[l->coordinate[j]].q, l->value[way_of(d, assembly, k)][j]};
     }
+    for (int j = 0; j < l->slopes.n; j++, n++) {
+      if (out) out[n] = (pl_definition){l->slopes.at[j].name, l->slopes.at[j].value};
+    }
+    for (int j = 0; j < l->bends.n; j++, n++) {
+      if (out) out[n] = l->bends.at[j];
+    }
     for (int j = 0; j < l->n; j++, n++) {
       if (out) out[n] = (pl_definition){d->q.at[l->coordinate[j]].v, l->rate[j]};
+    }
+    for (int j = 0; j < l->slopes.n; j++, n++) {
+      if (out) out[n] = (pl_definition){l->slopes.at[j].dot, l->slopes.at[j].rate};
     }
   }
   return n;
@@ -81,15 +93,21 @@ pl_expr pl_on_assembly(pl_analysis* d, pl_expr e, int assembly) {
   return e;
 }
 
+// de/ds times ds/dq_i, or ds/dt at rest of q for i < 0.
+static pl_expr through(pl_analysis* d, pl_expr e, pl_symbol s, pl_expr rate, int i) {
+  pl_expr slope = pl_diff(d->pool, e, s);
+  if (pl_is_zero_node(d->pool, slope)) return slope;
+  if (i >= 0) return pl_mul(d->pool, slope, pl_diff(d->pool, rate, d->q.at[i].v));
+  for (int k = 0; k < d->q.n; k++) rate = pl_subst1(d->pool, rate, d->q.at[k].v, pl_int(d->pool, 0));
+  return pl_mul(d->pool, slope, rate);
+}
+
 pl_expr pl_by_coordinate(pl_analysis* d, pl_expr e, int i) {
-  pl_expr sum = pl_diff(d->pool, e, d->q.at[i].q);
+  pl_expr sum = pl_diff(d->pool, e, i >= 0 ? d->q.at[i].q : pl_time(d->pool));
   for (int k = 0; k < d->loops.n; k++) {
     const pl_loop* l = &d->loops.at[k];
-    for (int j = 0; j < l->n; j++) {
-      pl_expr slope = pl_diff(d->pool, e, d->q.at[l->coordinate[j]].q);
-      if (pl_is_zero_node(d->pool, slope)) continue;
-      sum = pl_add(d->pool, sum, pl_mul(d->pool, slope, pl_diff(d->pool, l->rate[j], d->q.at[i].v)));
-    }
+    for (int j = 0; j < l->n; j++) sum = pl_add(d->pool, sum, through(d, e, d->q.at[l->coordinate[j]].q, l->rate[j], i));
+    for (int j = 0; j < l->slopes.n; j++) sum = pl_add(d->pool, sum, through(d, e, l->slopes.at[j].name, l->slopes.at[j].rate, i));
   }
   return sum;
 }
@@ -297,17 +315,90 @@ static bool find_rates(pl_analysis* d, pl_loop* l) {
     b[r] = pl_neg(d->pool, pl_subst(d->pool, rate, zero, l->n));
   }
   if (pl_alg_solve(d->tower, l->n, A, b, x, 2000) != PL_YES) return false;
-  for (int j = 0; j < l->n; j++) l->rate[j] = x[j];
+  for (int j = 0; j < l->n; j++) l->rate[j] = l->written_out[j] = x[j];
   return true;
+}
+
+enum { most_leaders = 8 };
+static const long longest_inline = 3;   // operations of a coefficient that needs no name
+
+// Coordinates whose velocities stand in e.
+static int leaders_in(pl_analysis* d, pl_expr e, int* out) {
+  int n = 0;
+  for (int i = 0; i < d->q.n && n < most_leaders; i++) {
+    if (pl_has_symbol(d->pool, e, d->q.at[i].v)) out[n++] = i;
+  }
+  return n;
+}
+
+static pl_symbol coefficient_name(pl_analysis* d, const char* letter, pl_symbol of, const int* by, int n_by, bool moves, pl_expr value) {
+  const pl_symbol_info* q = pl_symbol_get(d->pool, of);
+  const char *name = pl_format(d->arena, "%s_%s", letter, q->name), *ascii = pl_format(d->arena, "%s_%s", letter, q->ascii);
+  for (int k = 0; k < n_by; k++) {
+    const pl_symbol_info* b = pl_symbol_get(d->pool, d->q.at[by[k]].q);
+    name = pl_format(d->arena, "%s,%s", name, b->name);
+    ascii = pl_format(d->arena, "%s_%s", ascii, b->ascii);
+  }
+  while (pl_symbol_find(d->pool, ascii).id) {
+    name = pl_format(d->arena, "%s%s", letter, name);
+    ascii = pl_format(d->arena, "%s%s", letter, ascii);
+  }
+  pl_symbol_info info = {.name = name, .ascii = ascii, .role = moves ? PL_R_COORD : PL_R_LOCAL, .class = PL_C_OTHER};
+  info.dimension = pl_dimension_of_expr(d, value, &info.dimension_known);
+  return pl_symbol_make(d->pool, &info);
+}
+
+// u' = sum K q' + rest, with a name for each K that is not short.
+static void name_slopes(pl_analysis* d, pl_loop* l) {
+  for (int j = 0; j < l->n; j++) {
+    int by[most_leaders], n = leaders_in(d, l->written_out[j], by);
+    pl_expr rest = l->written_out[j], sum = pl_int(d->pool, 0);
+    for (int k = 0; k < n; k++) {
+      pl_symbol v = d->q.at[by[k]].v;
+      pl_expr K = pl_alg_normal(d->tower, pl_diff(d->pool, l->written_out[j], v));
+      rest = pl_subst1(d->pool, rest, v, pl_int(d->pool, 0));
+      if (pl_op_count(d->pool, K) > longest_inline) {
+        pl_slope s = {.of = d->q.at[l->coordinate[j]].q, .value = K, .rate = pl_int(d->pool, 0)};
+        s.name = coefficient_name(d, "K", d->q.at[l->coordinate[j]].q, by + k, n > 1, true, K);
+        s.dot = pl_symbol_dot(d->pool, s.name);
+        pl_push(d->arena, l->slopes, s);
+        K = pl_sym(d->pool, s.name);
+      }
+      sum = pl_add(d->pool, sum, pl_mul(d->pool, K, pl_sym(d->pool, v)));
+    }
+    l->rate[j] = pl_add(d->pool, sum, pl_alg_normal(d->tower, rest));
+  }
+}
+
+// K' = sum L q' + rest: how the coefficients change along the motion.
+static void name_bends(pl_analysis* d, pl_loop* l) {
+  int by[most_leaders], n = 0;
+  for (int j = 0; j < l->n && n == 0; j++) n = leaders_in(d, l->written_out[j], by);
+  for (int j = 0; j < l->slopes.n; j++) {
+    pl_slope* s = &l->slopes.at[j];
+    pl_expr rate = pl_alg_normal(d->tower, pl_by_coordinate(d, s->value, -1));
+    for (int k = 0; k < n; k++) {
+      pl_expr L = pl_alg_normal(d->tower, pl_by_coordinate(d, s->value, by[k]));
+      if (pl_op_count(d->pool, L) > longest_inline) {
+        pl_symbol name = coefficient_name(d, "L", s->of, by + k, n > 1, false, L);
+        pl_push(d->arena, l->bends, (pl_definition){name, L});
+        L = pl_sym(d->pool, name);
+      }
+      rate = pl_add(d->pool, rate, pl_mul(d->pool, L, pl_sym(d->pool, d->q.at[by[k]].v)));
+    }
+    s->rate = rate;
+  }
 }
 
 // Maps of the velocities and accelerations; the coordinates stay.
 static void keep_names(pl_analysis* d, const pl_loop* l) {
-  pl_replace fresh[4];
   int n = 0;
+  pl_replace* fresh = PL_ARRAY(d->arena, pl_replace, 2 * l->n + l->slopes.n);
   for (int j = 0; j < l->n; j++) fresh[n++] = (pl_replace){d->q.at[l->coordinate[j]].v, l->rate[j]};
+  for (int j = 0; j < l->slopes.n; j++) fresh[n++] = (pl_replace){l->slopes.at[j].dot, l->slopes.at[j].rate};
+  int n_first = n;
   for (int j = 0; j < l->n; j++) {
-    pl_expr a = pl_subst(d->pool, pl_subst(d->pool, pl_dt(d->pool, l->rate[j]), d->maps.at, d->maps.n), fresh, l->n);
+    pl_expr a = pl_subst(d->pool, pl_subst(d->pool, pl_dt(d->pool, l->rate[j]), d->maps.at, d->maps.n), fresh, n_first);
     fresh[n++] = (pl_replace){d->q.at[l->coordinate[j]].a, a};
   }
   for (int k = 0; k < d->maps.n; k++) d->maps.at[k].to = pl_subst(d->pool, d->maps.at[k].to, fresh, n);
@@ -356,8 +447,11 @@ static bool add_loop(pl_analysis* d, pl_loop* l, const pl_expr* e, const pl_unkn
   find_side(d, l, e);
   if (l->n_ways > 1) pick_by_branch(d, l);
   if (l->n_ways > 1) pick_by_start(d, l, angle);
-  keep_names(d, l);
+  name_slopes(d, l);
   pl_push(d->arena, d->loops, *l);
+  l = &d->loops.at[d->loops.n - 1];
+  name_bends(d, l);
+  keep_names(d, l);
   return true;
 }
 

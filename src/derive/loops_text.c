@@ -17,7 +17,9 @@ static bool signs_differ(const pl_loop* l) {
 // "sin(β - ψ) > 0"; where signs do not tell the ways apart, the value of the first coordinate.
 static const pl_form* condition(pl_analysis* d, const pl_loop* l, int way) {
   if (!signs_differ(l)) return pl_feq(d, pl_fs(d, d->q.at[l->coordinate[0]].q), pl_fe(d, l->value[way][0]));
-  return pl_frel(d, pl_f(d, l->side, PL_S_PLAIN), l->sign[way] > 0 ? ">" : "<", pl_form_leaf(d->arena, pl_int(d->pool, 0)));
+  const pl_form* side = pl_f(d, l->side, PL_S_PLAIN);
+  bool negative = side->kind == PL_F_NEG;
+  return pl_frel(d, negative ? side->args[0] : side, (l->sign[way] > 0) != negative ? ">" : "<", pl_form_leaf(d->arena, pl_int(d->pool, 0)));
 }
 
 static int digit(const pl_analysis* d, int assembly, int k) {
@@ -75,9 +77,12 @@ static void show_names(pl_analysis* d, const pl_loop* l) {
   for (int k = 0; k < l->names.n; k++) {
     const pl_definition* n = &l->names.at[k];
     bool root = pl_is_sqrt(d->pool, n->value);
-    const pl_form* form = root ? pl_fe(d, n->value) : pl_f(d, n->value, PL_S_PLAIN);
+    pl_expr inside = root ? pl_arg(d->pool, n->value, 0) : pl_poison();
+    bool short_root = root && !pl_has_coordinates(d, inside) && !pl_has_symbol(d->pool, inside, pl_time(d->pool));
+    const pl_form* form = !root ? pl_f(d, n->value, PL_S_PLAIN) : short_root ? pl_fe(d, n->value)
+                                                                             : pl_form_root(d->arena, pl_f(d, inside, PL_S_PLAIN));
     pl_show(d, pl_feq(d, pl_fs(d, n->symbol), form));
-    if (!root) pl_claim_that(d, PL_CLAIM_OTHER, pl_form_value(d->pool, form), pl_sym(d->pool, n->symbol));
+    if (!short_root) pl_claim_that(d, PL_CLAIM_OTHER, pl_form_value(d->pool, form), pl_sym(d->pool, n->symbol));
   }
 }
 
@@ -132,13 +137,31 @@ static void answer_place(pl_analysis* d, int k, int j) {
 
 void pl_show_loop(pl_analysis* d, int k) {
   pl_loop* l = &d->loops.at[k];
-  if (!l->told) {
-    show_equation(d, l);
-    show_names(d, l);
-  }
+  if (l->told) return;
   l->told = true;
+  show_equation(d, l);
+  show_names(d, l);
   show_ways(d, l);
   for (int j = 0; j < l->n; j++) answer_place(d, k, j);
+}
+
+// du/dq and its derivative along q.
+static void show_coefficient(pl_analysis* d, pl_symbol name, pl_expr value) {
+  const pl_form* form = pl_f(d, value, PL_S_QUOTIENT);
+  pl_show(d, pl_feq(d, pl_fs(d, name), form));
+  pl_claim_that(d, PL_CLAIM_OTHER, pl_form_value(d->pool, form), pl_sym(d->pool, name));
+}
+
+static void show_rates(pl_analysis* d, const pl_loop* l) {
+  for (int j = 0; j < l->n; j++) {
+    const pl_variable* c = &d->q.at[l->coordinate[j]];
+    const pl_form* form = pl_f(d, l->rate[j], PL_S_EQUATION);
+    pl_show_numbered(d, pl_feq(d, pl_fs(d, c->v), form));
+    pl_claim_that(d, PL_CLAIM_ENERGY, pl_form_value(d->pool, form), pl_sym(d->pool, c->v));
+    pl_value* v = pl_answer(d, pl_symbol_get(d->pool, c->v)->ascii, l->written_out[j], pl_f(d, l->written_out[j], PL_S_QUOTIENT));
+    v->lhs = pl_sym(d->pool, c->v);
+    v->lhs_form = pl_fs(d, c->v);
+  }
 }
 
 void pl_show_loop_velocities(pl_analysis* d) {
@@ -146,21 +169,70 @@ void pl_show_loop_velocities(pl_analysis* d) {
   pl_say(d, "The constraints differentiated are linear in the velocities:", "Die abgeleiteten Zwangsbedingungen sind linear in den Geschwindigkeiten:", 0);
   for (int k = 0; k < d->loops.n; k++) {
     const pl_loop* l = &d->loops.at[k];
-    for (int j = 0; j < l->n; j++) {
-      const pl_variable* c = &d->q.at[l->coordinate[j]];
-      const pl_form* form = pl_f(d, l->rate[j], PL_S_QUOTIENT);
-      pl_show_numbered(d, pl_feq(d, pl_fs(d, c->v), form));
-      pl_claim_that(d, PL_CLAIM_ENERGY, pl_form_value(d->pool, form), pl_sym(d->pool, c->v));
-      pl_value* v = pl_answer(d, pl_symbol_get(d->pool, c->v)->ascii, l->rate[j], form);
-      v->lhs = pl_sym(d->pool, c->v);
-      v->lhs_form = pl_fs(d, c->v);
+    show_rates(d, l);
+    for (int j = 0; j < l->slopes.n; j++) show_coefficient(d, l->slopes.at[j].name, l->slopes.at[j].value);
+  }
+  bool bends = false;
+  for (int k = 0; k < d->loops.n; k++) bends |= d->loops.at[k].bends.n > 0;
+  if (!bends) return;
+  pl_say(d, "and the coefficients change at the rates", "und die Koeffizienten ändern sich gemäß", 0);
+  for (int k = 0; k < d->loops.n; k++) {
+    const pl_loop* l = &d->loops.at[k];
+    for (int j = 0; j < l->slopes.n; j++) {
+      pl_show(d, pl_feq(d, pl_fs(d, l->slopes.at[j].dot), pl_f(d, l->slopes.at[j].rate, PL_S_EQUATION)));
+      pl_claim_that(d, PL_CLAIM_OTHER, pl_dt(d->pool, l->slopes.at[j].value), pl_sym(d->pool, l->slopes.at[j].dot));
     }
+    for (int j = 0; j < l->bends.n; j++) show_coefficient(d, l->bends.at[j].symbol, l->bends.at[j].value);
   }
 }
 
+void pl_tell_loops(pl_analysis* d) {
+  if (d->loops.n == 0 || d->loops_told) return;
+  d->loops_told = true;
+  for (int k = 0; k < d->loops.n; k++) pl_show_loop(d, k);
+  pl_show_loop_velocities(d);
+}
+
+bool pl_speaks_of_loops(const pl_ask* ask) {
+  switch (ask->kind) {
+    case PL_ASK_LAGRANGIAN:
+    case PL_ASK_LAGRANGE2:
+    case PL_ASK_HAMILTONIAN:
+    case PL_ASK_SOLVE:
+    case PL_ASK_CONSERVED:
+    case PL_ASK_FORCE_OF:
+    case PL_ASK_FORCE_ON: return true;
+    default: return false;
+  }
+}
+
+pl_expr pl_without_slopes(pl_analysis* d, pl_expr e) {
+  for (int k = d->loops.n - 1; k >= 0; k--) {
+    const pl_loop* l = &d->loops.at[k];
+    for (int j = 0; j < l->slopes.n; j++) e = pl_subst1(d->pool, e, l->slopes.at[j].name, l->slopes.at[j].value);
+  }
+  return e;
+}
+
+// A velocity over the coordinates.
+static void answer_velocity(pl_analysis* d, int k, int j) {
+  const pl_loop* l = &d->loops.at[k];
+  const pl_variable* c = &d->q.at[l->coordinate[j]];
+  const pl_form* form = pl_f(d, l->written_out[j], PL_S_QUOTIENT);
+  pl_step* step = pl_show_numbered(d, pl_feq(d, pl_fs(d, c->v), form));
+  bool known;
+  pl_step_value(d, step, l->written_out[j], pl_dimension_of_expr(d, pl_sym(d->pool, c->v), &known));
+  pl_claim_that(d, PL_CLAIM_ENERGY, pl_form_value(d->pool, form), pl_sym(d->pool, c->v));
+  pl_answer(d, pl_symbol_get(d->pool, c->v)->ascii, l->written_out[j], form);
+}
+
 bool pl_answer_follower(pl_analysis* d, pl_symbol q) {
-  int i = pl_variable_index(d, q), k = i >= 0 && d->q.at[i].q.id == q.id ? pl_follower(d, i) : -1;
-  if (k < 0) return false;
+  int i = pl_variable_index(d, q), k = i >= 0 ? pl_follower(d, i) : -1;
+  if (k >= 0 && d->q.at[i].v.id == q.id) {
+    answer_velocity(d, k, d->loops.at[k].coordinate[0] == i ? 0 : 1);
+    return true;
+  }
+  if (k < 0 || d->q.at[i].q.id != q.id) return false;
   pl_loop* l = &d->loops.at[k];
   for (int before = 0; before < k; before++) {   // what its formulas contain
     if (!d->loops.at[before].told) pl_show_loop(d, before);
@@ -192,12 +264,11 @@ void pl_answer_positions(pl_analysis* d) {
   if (!d->reduced || (d->maps.n == 0 && d->loops.n == 0)) return;
   pl_ask ask = {.text = "positions"};
   pl_section_open(d, &ask, "Positions and velocities", "Lagen und Geschwindigkeiten");
-  for (int k = 0; k < d->loops.n; k++) pl_show_loop(d, k);
+  pl_tell_loops(d);
   for (int i = 0; i < d->q.n; i++) {
     const pl_variable* c = &d->q.at[i];
     if (c->fixed_by < 0 && !pl_is_poison(c->map) && pl_follower(d, i) < 0) show_mapped(d, c->q, c->map);
   }
-  pl_show_loop_velocities(d);
   for (int i = 0; i < d->q.n; i++) {
     const pl_variable* c = &d->q.at[i];
     if (c->fixed_by >= 0 || pl_is_poison(c->map) || pl_follower(d, i) >= 0) continue;
@@ -213,32 +284,24 @@ static bool mentions(pl_analysis* d, const pl_value* v, pl_symbol s) {
   return has;
 }
 
-// The coordinates and velocities of loops that a value contains, defined in front of its other names.
+// Adds the definitions of loops that a value contains in front of its other names: last ones first, then turned round.
 static void add_where(pl_analysis* d, pl_value* v, int assembly) {
-  int n = 0, max = v->n_where + 4 * d->loops.n, *needed = PL_ARRAY(d->arena, int, d->q.n);
-  const char** name = PL_ARRAY(d->arena, const char*, max + 1);
-  pl_expr* expr = PL_ARRAY(d->arena, pl_expr, max + 1);
-  for (int i = 0; i < d->q.n; i++) {
-    if (pl_follower(d, i) < 0) continue;
-    needed[i] = mentions(d, v, d->q.at[i].q) ? 1 : 0;
+  int n_all = pl_loop_definitions(d, assembly, NULL), n = 0;
+  pl_definition* all = PL_ARRAY(d->arena, pl_definition, n_all + 1);
+  pl_loop_definitions(d, assembly, all);
+  bool* needed = PL_ARRAY(d->arena, bool, n_all + 1);
+  for (int k = n_all - 1; k >= 0; k--) {
+    needed[k] = mentions(d, v, all[k].symbol);
+    for (int later = k + 1; later < n_all && !needed[k]; later++) needed[k] = needed[later] && pl_has_symbol(d->pool, all[later].value, all[k].symbol);
+    n += needed[k];
   }
-  for (int i = 0; i < d->q.n; i++) {
-    int k = pl_follower(d, i);
-    if (k < 0 || !mentions(d, v, d->q.at[i].v)) continue;
-    const pl_loop* l = &d->loops.at[k];
-    pl_expr rate = l->rate[l->coordinate[0] == i ? 0 : 1];
-    for (int j = 0; j < d->q.n; j++) {
-      if (pl_follower(d, j) >= 0 && pl_has_symbol(d->pool, rate, d->q.at[j].q)) needed[j] = 1;
-    }
-    needed[i] |= 2;
-  }
-  for (int bit = 1; bit <= 2; bit++) {
-    for (int i = 0; i < d->q.n; i++) {
-      if (pl_follower(d, i) < 0 || !(needed[i] & bit)) continue;
-      const pl_loop* l = &d->loops.at[pl_follower(d, i)];
-      name[n] = pl_symbol_get(d->pool, bit == 1 ? d->q.at[i].q : d->q.at[i].v)->ascii;
-      expr[n++] = bit == 1 ? pl_on_assembly(d, pl_sym(d->pool, d->q.at[i].q), assembly) : l->rate[l->coordinate[0] == i ? 0 : 1];
-    }
+  const char** name = PL_ARRAY(d->arena, const char*, n + v->n_where + 1);
+  pl_expr* expr = PL_ARRAY(d->arena, pl_expr, n + v->n_where + 1);
+  n = 0;
+  for (int k = 0; k < n_all; k++) {
+    if (!needed[k]) continue;
+    name[n] = pl_symbol_get(d->pool, all[k].symbol)->ascii;
+    expr[n++] = all[k].value;
   }
   for (int c = 0; c < v->n_where; c++) {
     name[n] = v->where_name[c];
@@ -250,8 +313,11 @@ static void add_where(pl_analysis* d, pl_value* v, int assembly) {
 }
 
 static bool hangs_on_loops(pl_analysis* d, const pl_value* v) {
-  for (int i = 0; i < d->q.n; i++) {
-    if (pl_follower(d, i) >= 0 && (mentions(d, v, d->q.at[i].q) || mentions(d, v, d->q.at[i].v))) return true;
+  int n = pl_loop_definitions(d, 0, NULL);
+  pl_definition* all = PL_ARRAY(d->arena, pl_definition, n + 1);
+  pl_loop_definitions(d, 0, all);
+  for (int k = 0; k < n; k++) {
+    if (mentions(d, v, all[k].symbol)) return true;
   }
   return false;
 }
@@ -261,7 +327,7 @@ static void spread(pl_analysis* d, pl_section* s) {
   int n = s->values.n;
   bool any = false;
   for (int k = 0; k < n; k++) any |= hangs_on_loops(d, &old[k]);
-  if (!any) return;
+  if (!any || (s->item && strcmp(s->item, "constraints") == 0)) return;   // conditions between all coordinates stand as written
   s->values.at = NULL;
   s->values.n = s->values.cap = 0;
   for (int k = 0; k < n; k++) {

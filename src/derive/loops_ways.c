@@ -65,6 +65,10 @@ static void take_squares_out(pl_analysis* d, pl_expr e, pl_expr* outer, pl_expr*
   *rest = e;
   int n = pl_alg_factors(d->tower, e, f, most_factors, &unit);
   if (n <= 0) return;
+  if (pl_is_number(d->pool, unit) && !pl_is_zero_node(d->pool, unit)) {
+    pl_expr number = pl_sqrt(d->pool, pl_number_sign(d->pool, unit) < 0 ? pl_neg(d->pool, unit) : unit);
+    if (pl_is_number(d->pool, number)) *outer = number;
+  }
   for (int k = 0; k < n; k++) {
     int half = f[k].power >= 0 ? f[k].power / 2 : -((1 - f[k].power) / 2);
     *outer = pl_mul(d->pool, *outer, pl_pow_int(d->pool, f[k].base, half));

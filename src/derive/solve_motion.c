@@ -236,6 +236,10 @@ pleuel_status pl_solve_motion(pl_analysis* d) {
   }
   if (!d->solved) return PLEUEL_OK;   // said by the sections that need it
   keep_solution(d, &s, x);
+  if (d->loops.n > 0 && d->gen.n > 0) {   // shorter over the coefficients than by elimination of the multipliers
+    s = collect_second_kind(d);
+    if (solve_system(d, &s, x)) keep_solution(d, &s, x);
+  }
   dependent_accelerations(d);
   dropped_multipliers(d);
   record_denominators(d);

@@ -193,7 +193,7 @@ void pl_why_energy(pl_analysis* d, pl_expr E) {
   if (pl_op_count(d->pool, sum) > longest_detail) return;
   say(d, "Why: dE/dt = Σ q' (d/dt ∂L/∂q' - ∂L/∂q) - ∂L/∂t, and ∂L/∂t = 0. The brackets are Lagrange's equations, which vanish on the motion:",
       "Warum: dE/dt = Σ q' (d/dt ∂L/∂q' - ∂L/∂q) - ∂L/∂t, und ∂L/∂t = 0. Die Klammern sind die Lagrange-Gleichungen, auf der Bewegung null:");
-  show(d, "dE/dt", sum, pl_dt(d->pool, E), false);
+  show(d, "dE/dt", sum, pl_on_maps(d, pl_dt(d->pool, E)), false);
 }
 
 void pl_why_cyclic(pl_analysis* d, int i) {
@@ -202,7 +202,7 @@ void pl_why_cyclic(pl_analysis* d, int i) {
             "Lagrange's equation of {1} is the time derivative of the momentum alone, since",
          "Warum: {1} darf verschoben werden, {1} → {1} + ε, ohne dass L sich ändert; zu jeder solchen Symmetrie gehört eine Erhaltungsgröße "
          "(Noether). Hier ist die Lagrange-Gleichung von {1} allein die Zeitableitung des Impulses, denn", 1, pl_fs(d, c->q))->detail = true;
-  show(d, pl_format(d->arena, "∂L/∂%s", name_of(d, c->q)), pl_int(d->pool, 0), pl_diff(d->pool, d->Lg, c->q), false);
+  show(d, pl_format(d->arena, "∂L/∂%s", name_of(d, c->q)), pl_int(d->pool, 0), pl_by_coordinate(d, d->Lg, i), false);
 }
 
 // ---------------------------------------------------------------------------------------------- integration

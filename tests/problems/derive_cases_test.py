@@ -255,5 +255,161 @@ def _(program):
     same(at(answer.value("p_psi")["expr"], **p), spin, "p_psi")
 
 
+# ------------------------------------------------------------------------------------------------ closed loops
+def with_where(value, names):
+    names = {"pi": math.pi, **names}
+    for name, text in value.get("where", {}).items():
+        names[name] = Formula(text).value(names)
+    return Formula(value["expr"]).value(names)
+
+
+def circles(c1, r1, c2, r2, side):
+    """The point at distances r1 and r2, left (1) or right (-1) of the way from c1 to c2."""
+    dx, dy = c2[0] - c1[0], c2[1] - c1[1]
+    apart = math.hypot(dx, dy)
+    along = (r1 * r1 - r2 * r2 + apart * apart) / (2 * apart)
+    across = side * math.sqrt(r1 * r1 - along * along)
+    return c1[0] + (along * dx - across * dy) / apart, c1[1] + (along * dy + across * dx) / apart
+
+
+def slope(f, x, h=1e-3):
+    """f'(x) to O(h^6)."""
+    return (45 * (f(x + h) - f(x - h)) - 9 * (f(x + 2 * h) - f(x - 2 * h)) + f(x + 3 * h) - f(x - 3 * h)) / (60 * h)
+
+
+LENGTHS = dict(a=1.0, b=3.0, c=2.5, d=3.5)
+
+
+def fourbar(theta, side):
+    p = LENGTHS
+    crank = p["a"] * math.cos(theta), p["a"] * math.sin(theta)
+    x, y = circles(crank, p["b"], (p["d"], 0.0), p["c"], side)
+    return x, y, math.atan2(y - crank[1], x - crank[0]), math.atan2(y, x - p["d"])
+
+
+def both_sides(found, compute, what, tolerance=1e-9):
+    """The values found are those of the two assemblies, each once, and each says which one it is."""
+    need(len(found) == 2 and all(v["branch"] for v in found), f"{what}: {len(found)} values {[v.get('branch') for v in found]}")
+    need(found[0]["branch"] != found[1]["branch"], f"{what}: {found[0]['branch']} twice")
+    for theta in (0.4, 1.7, -2.2, 5.0):
+        got = sorted(compute(v, theta) for v in found)
+        want = sorted(compute(None, theta, side) for side in (1, -1))
+        for g, w in zip(got, want):
+            need(abs(g - w) <= tolerance * max(1.0, abs(w)), f"{what} at {theta}: {got}, not {want}")
+
+
+def turned(x):
+    return math.remainder(x, 2 * math.pi)
+
+
+@test("four-bar linkage in angles: both assemblies, their velocities and accelerations")
+def _(program):
+    answer = case(program, "fourbar_angles")
+    checks_pass(answer)
+    freedoms(answer, 3, 1)
+    w, acc = 1.3, 0.7
+
+    def of(index, order):
+        def compute(v, theta, side=0):
+            if v:
+                x = with_where(v, {**LENGTHS, "theta": theta, "theta_dot": w, "theta_ddot": acc})
+                return turned(x) if order == 0 else x
+            f = lambda t: fourbar(theta + turned(t), side)[index]   # noqa: E731
+            near = lambda t: f(0.0) + turned(f(t) - f(0.0))         # noqa: E731  no jump by 2 pi
+            if order == 0:
+                return f(0.0)
+            first = slope(near, 0.0)
+            return first * w if order == 1 else first * acc + slope(lambda t: slope(near, t), 0.0) * w * w
+        return compute
+
+    for name, index in (("psi", 3), ("beta", 2)):
+        both_sides(answer.values(name, item="ψ" if name == "psi" else "β"), of(index, 0), name)
+        asked = [v for i in answer.items() if i["item"] in ("ψ'", "β'") for v in i["values"] if v["name"] == name + "_dot"]
+        both_sides(asked, of(index, 1), name + "'", 1e-7)
+    both_sides([v for v in answer.values("psi_ddot", item="ψ''")], of(3, 2), "psi''", 1e-5)
+
+
+@test("four-bar linkage of points with masses: both assemblies, energy and θ''")
+def _(program):
+    answer = case(program, "fourbar_points")
+    checks_pass(answer)
+    p = {**LENGTHS, "m1": 1.2, "m2": 2.3, "g": 9.0}
+    w = 1.3
+    for name, index in (("x2", 0), ("y2", 1)):
+        both_sides(answer.values(name, item=name), lambda v, t, s=0: with_where(v, {**p, "theta": t}) if v else fourbar(t, s)[index], name)
+
+    def theta_ddot(v, theta, side=0):
+        if v:
+            return with_where(v, {**p, "theta": theta, "theta_dot": w})
+        M = lambda t: p["m1"] + p["m2"] * sum(slope(lambda u: fourbar(u, side)[k], t) ** 2 for k in (0, 1))   # noqa: E731
+        V = lambda t: 9.0 * (p["m1"] * math.sin(t) + p["m2"] * fourbar(t, side)[1])                          # noqa: E731
+        return -(slope(M, theta) * w * w / 2 + slope(V, theta)) / M(theta)
+
+    both_sides(answer.values("theta_ddot", item="lagrange2"), theta_ddot, "theta''", 1e-5)
+
+
+@test("four-bar linkage with a body: a branch picks one assembly, and it moves as computed with it")
+def _(program):
+    answer = case(program, "fourbar_body")
+    checks_pass(answer)
+    p = {**LENGTHS, "m": 1.7, "J": 0.4, "g": 9.0, "tau": 2.0}
+    w, theta = 1.3, 0.9
+    side = 1 if math.sin(fourbar(theta, 1)[3] - fourbar(theta, 1)[2]) > 0 else -1
+    psi = answer.values("psi", item="ψ")
+    need(len(psi) == 1, f"{len(psi)} assemblies")
+    same(turned(with_where(psi[0], {**p, "theta": theta})), fourbar(theta, side)[3], "psi")
+    beta = lambda t: fourbar(t, side)[2]   # noqa: E731
+    centre = (lambda t: math.cos(t) + 1.5 * math.cos(beta(t)), lambda t: math.sin(t) + 1.5 * math.sin(beta(t)))
+    M = lambda t: p["m"] * sum(slope(f, t) ** 2 for f in centre) + p["J"] * slope(beta, t) ** 2   # noqa: E731
+    push = p["tau"] - p["m"] * 9.0 * slope(centre[1], theta)
+    want = (push - slope(M, theta) * w * w / 2) / M(theta)
+    for v in answer.values("theta_ddot"):
+        got = with_where(v, {**p, "theta": theta, "theta_dot": w})
+        need(abs(got - want) <= 1e-6 * abs(want), f"theta'' = {got}, not {want}")
+    need([v["passed"] for v in answer.values("expect")] == [True], "expect of beta'")
+
+
+@test("offset slider-crank: both sides")
+def _(program):
+    answer = case(program, "offset_crank")
+    checks_pass(answer)
+    p = dict(a=0.8, b=2.2, e=0.3)
+
+    def x(v, theta, side=0):
+        if v:
+            return with_where(v, {**p, "theta": theta, "theta_dot": 1.1})
+        return p["a"] * math.cos(theta) + side * math.sqrt(p["b"] ** 2 - (p["e"] - p["a"] * math.sin(theta)) ** 2)
+
+    both_sides(answer.values("x", item="x"), x, "x")
+    both_sides(answer.values("x_dot"), lambda v, t, s=0: x(v, t) if v else 1.1 * slope(lambda u: x(None, u, s), t), "x'", 1e-8)
+
+
+@test("inverted slider-crank with offset: both ways")
+def _(program):
+    answer = case(program, "inverted_crank")
+    checks_pass(answer)
+    p = dict(a=1.0, d=3.5, e=0.1)
+    way = lambda t, s: s * math.sqrt((math.cos(t) - 3.5) ** 2 + math.sin(t) ** 2 - 0.01)   # noqa: E731
+    both_sides(answer.values("s", item="s"), lambda v, t, s=0: with_where(v, {**p, "theta": t}) if v else way(t, s), "s")
+
+
+@test("two circles, and two circles about driven points")
+def _(program):
+    answer = case(program, "two_circles")
+    checks_pass(answer)
+    p = dict(a=1.0, b=3.0, d=3.5)
+    x, y = circles((0, 0), 3.0, (3.5, 0), 1.0, 1)
+    same(with_where(answer.values("x")[0], p), x, "x")
+    need(sorted(v["branch"] for v in answer.values("y", item="y")) == ["y < 0", "y > 0"], "branches")
+    same(sorted(v["number"] for v in answer.values("y", item="y"))[1], abs(y), "y")
+    answer = case(program, "driven_dyad")
+    checks_pass(answer)
+    p = {**LENGTHS, "omega": 1.0}
+    for name, index in (("x", 0), ("y", 1)):
+        both_sides(answer.values(name), lambda v, t, s=0: with_where(v, {**p, "t": t}) if v else fourbar(t, s)[index], name)
+        both_sides(answer.values(name + "_dot"),
+                   lambda v, t, s=0: with_where(v, {**p, "t": t}) if v else slope(lambda u: fourbar(u, s)[index], t), name + "'", 1e-8)
+
+
 if __name__ == "__main__":
     sys.exit(test.main(program_of(sys.argv)))
