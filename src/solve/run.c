@@ -50,6 +50,10 @@ static void advance_time(pl_run* run, double h, bool to_end) {
 
 static pleuel_status too_small(pl_run* run, double h) {
   if (run->best > 0 && run->smallest_here < 1e-2 * run->best) return pl_run_singular(run);
+  if (run->n_slipping > 0)
+    return pl_fail(run->job, PLEUEL_NUMERICAL,
+                   "no step is short enough at t = %.9g s (%.3g s tried): forces of contact grow without bound while surfaces "
+                   "slip, as on the way into Painlevé's paradox", run->t, h);
   return pl_fail(run->job, PLEUEL_NUMERICAL,
                  "no step is short enough at t = %.9g s (%.3g s tried): the motion leaves the domain of a function, "
                  "or a force or the constraints jump there",

@@ -382,6 +382,27 @@ def a_block_on_a_free_wedge_pushes_it(name):
 
 
 @case
+def a_cart_feels_the_friction_of_its_load(name):
+    r = Run("param m = 1, M = 4, g = 10\ncoord x, y, X\naxes x right, y up\nmass A: m at (x, y)\nmass C: M at (X, 0)\ngravity g along -y\n"
+            "constraint bed: y >= 0\nfriction 0.2, surface (X', 0) on bed\ninit x = 0, x' = 2, y = 0, y' = 0, X = 0, X' = 0\nsimulate 0..2\n")
+    check(name, r.kinds() == [("stick", "bed")] and near(r.events[0]["t"], 0.8, 1e-12) and near(r.last("X_dot"), 0.4, 1e-12)
+          and near(r.last("x"), 1.44, 1e-12), r.told())
+
+
+@case
+def two_rough_discs_exchange_spin(name):
+    r = Run("param m = 1, R = 0.5\ncoord x1, y1, φ1, x2, y2, φ2\naxes x right, y up\nbody A: mass m, inertia m R^2/2 at (x1, y1) angle φ1\n"
+            "body B: mass m, inertia m R^2/2 at (x2, y2) angle φ2\nconstraint c: (x2 - x1)^2 + (y2 - y1)^2 >= 4 R^2\nrestitution 0.5 on c\n"
+            "friction 0.3, at ((x1 + x2)/2, (y1 + y2)/2) on c\ninit x1 = 0, y1 = 0, φ1 = 0, x1' = 1, y1' = 0, φ1' = 20, x2 = 2, y2 = 0, φ2 = 0,"
+            " x2' = 0, y2' = 0, φ2' = 0\nsimulate 0..2\n")
+    # head on: normal impulse 3/4, tangential at most 0.3 of it, which spin 20 R makes it reach; each torque R J over inertia R^2/2
+    J = 0.3 * 0.75
+    check(name, r.code == 0 and near(r.last("x1_dot"), 0.25, 1e-12) and near(r.last("x2_dot"), 0.75, 1e-12)
+          and near(r.last("phi1_dot"), 20 - 2 * J / 0.5, 1e-12) and near(r.last("phi2_dot"), -2 * J / 0.5, 1e-12)
+          and near(r.last("y2_dot"), J, 1e-12) and near(r.last("y1_dot"), -J, 1e-12), r.told() + str(r.rows[-1:]))
+
+
+@case
 def a_leaning_ladder_holds_or_slips(name):
     text = ("param m = 10, l = 4, g = 9.81\ncoord x, y, α\naxes x right, y up\nbody ladder: mass m, inertia m l^2/12 at (x, y) angle α\n"
             "gravity g along -y\nconstraint wall: x - l/2 cos α >= 0\nconstraint floor: y - l/2 sin α >= 0\nfriction {f} on floor\n"
