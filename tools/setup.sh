@@ -56,6 +56,16 @@ library() {
 # Arb is a library of its own before FLINT 3 and part of FLINT since.
 arb() { library '-lflint' stdio.h flint/arb.h || library '-lflint-arb -lflint' arb.h; }
 
+# Any LLVM from 14 to 19 with the headers of its C interface; 0.7 GB, so only for the tests.
+llvm() {
+  for v in 19 18 17 16 15 14; do
+    command -v "llvm-config-$v" >/dev/null 2>&1 || continue
+    library "-I$("llvm-config-$v" --includedir) -L$("llvm-config-$v" --libdir) -lLLVM-$v" llvm-c/LLJIT.h && return 0
+    library "-I$("llvm-config-$v" --includedir) -L$("llvm-config-$v" --libdir) -lLLVM" llvm-c/LLJIT.h && return 0
+  done
+  return 1
+}
+
 # The fuzz run needs the run-time library of a clang.
 fuzzer() {
   echo 'int LLVMFuzzerTestOneInput(const char* p, unsigned long n) { return p && n == 1; }' >"$work/fuzz.c"
@@ -84,6 +94,7 @@ look() {
   need test  nodejs         'drives the browser (playwright-core from npm)'   program node nodejs
   need test  npm            'fetches playwright-core, axe-core and vnu-jar for the tests' program npm
   need test  g++            'tries the public header in C++'                 program c++ g++
+  need test  llvm-dev       'compiles motions: the plugin, which the build leaves out without it' llvm
   need test  clang          'second opinion on warnings'                     "$(dirname "$0")/find-clang.sh"
   need test  "libclang-rt-$(clang_version)-dev" 'random input for the parser (libFuzzer)' fuzzer
 }
