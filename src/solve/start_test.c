@@ -130,6 +130,21 @@ static void a_violated_velocity_is_named(void** state) {
   t_close(b);
 }
 
+// x + t y = 0 at t = 0: its terms are rounding, its derivative x' + y is not.
+static void a_velocity_is_violated_though_the_terms_of_the_constraint_vanish(void** state) {
+  (void)state;
+  t_bench* b = t_open();
+  pl_expr x = t_coord(b, "x"), y = t_coord(b, "y");
+  t_constraint(b, "tie", pl_add(P, x, mul(b, pl_sym(P, pl_time(P)), y)));
+  t_start(b, 0, 1e-19, -0.3);
+  t_start(b, 1, 0.5, 0);
+  pl_expr L = half(b, pl_add(P, sq(b, b->v[0]), sq(b, b->v[1])));
+  assert_int_equal(make_and_start(b, L), PLEUEL_CONTRADICTION);
+  const pl_start_report* r = pl_run_start_report(b->run);
+  assert_true(r->trouble == PL_START_VIOLATED && r->link_velocity && r->link == 0);
+  t_close(b);
+}
+
 static void rounding_in_given_values_is_projected_and_told(void** state) {
   (void)state;
   t_bench* b = pendulum();
@@ -215,6 +230,7 @@ int main(void) {
       cmocka_unit_test(no_assembly_fits_an_impossible_branch),
       cmocka_unit_test(a_violated_constraint_is_named_with_what_would_mend_it),
       cmocka_unit_test(a_violated_velocity_is_named),
+      cmocka_unit_test(a_velocity_is_violated_though_the_terms_of_the_constraint_vanish),
       cmocka_unit_test(rounding_in_given_values_is_projected_and_told),
       cmocka_unit_test(what_nothing_determines_is_listed),
       cmocka_unit_test(a_body_without_height_sits_on_its_table),
