@@ -2,6 +2,7 @@
 """Published and exact motions: each *.pleuel here carries its source and values in lines
 
     #= t TIME   NAME VALUE  NAME VALUE ...   TOLERANCE     the end of `pleuel sim FILE --until TIME`
+    #= t TIME with NAME=NUMBER   NAME VALUE ...   TOLERANCE      the same with `--set NAME=NUMBER`
     #@ LABEL   TIME TIME ...   TOLERANCE                   when the first events of this label happen
     #@ LABEL until TIME   COUNT                            how many of them there are
 
@@ -34,10 +35,11 @@ def without_unit(name):
 
 
 @functools.lru_cache(maxsize=None)
-def simulate(path, until):
+def simulate(path, until, number=None):
     """Last row, the JSON document, what was said; and the line that tells whether the constraints were kept."""
     table = pathlib.Path(scratch.name, "rows.csv")
     command = [program, "sim", str(path), "-f", "-o", str(table), "--json"] + (["--until", until] if until else [])
+    command += ["--set", number] if number else []
     run = subprocess.run(command, capture_output=True, text=True, timeout=100)
     if run.returncode != 0:
         check(f"{path.stem} until {until} runs", False, run.stdout[-2000:] + run.stderr)
@@ -45,20 +47,22 @@ def simulate(path, until):
     with open(table, encoding="utf-8") as file:
         rows = list(csv.reader(file))
     document = json.loads(run.stdout)
-    check(f"{path.stem} until {document['t_end']:g}: constraints kept to {RESIDUAL:g}", document["residual_g"] <= RESIDUAL,
-          f"|g| is {document['residual_g']:g} of its terms")
+    check(f"{path.stem}{f', {number}' if number else ''}, until {document['t_end']:g}: constraints kept to {RESIDUAL:g}",
+          document["residual_g"] <= RESIDUAL, f"|g| is {document['residual_g']:g} of its terms")
     return dict(zip(map(without_unit, rows[0]), rows[-1])), document
 
 
 def end_of_run(path, words):
+    number = words[3] if words[2] == "with" else None
+    words = words[:2] + words[4:] if number else words
     until, tolerance = words[1], float(words[-1])
     pairs = [(words[i], float(words[i + 1])) for i in range(2, len(words) - 1, 2)]
-    row, _ = simulate(path, until)
+    row, _ = simulate(path, until, number)
     if row is None:
         return
     scale = max(abs(v) for _, v in pairs) or 1
     worst = max((abs(float(row.get(n, "nan")) - v) / scale if n in row else float("inf"), n) for n, v in pairs)
-    check(f"{path.stem} at t = {until}: {' '.join(n for n, _ in pairs)} to {tolerance:g}",
+    check(f"{path.stem} at t = {until}{f' with {number}' if number else ''}: {' '.join(n for n, _ in pairs)} to {tolerance:g}",
           worst[0] <= tolerance and float(row["t"]) == float(until),
           f"off by {worst[0]:.2e} at {worst[1]}\n" + "\n".join(f"{n}: want {v!r}, got {row.get(n)}" for n, v in pairs))
 
