@@ -22,8 +22,9 @@ here = pathlib.Path(__file__).resolve().parent
 cases = here.parent / "tests" / "cases"
 LADDER = [10.0 ** -k for k in (4, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16)]
 IMPLICIT = [10.0 ** -k for k in (4, 6, 7, 8, 9, 10, 11, 12)]
+HEYOKA = [1e-4, 1e-6, 1e-9, 1e-12, 1e-15]     # each is compiled anew
 LEVELS = (1e-6, 1e-9, 1e-12)
-PATIENCE_S = 120
+PATIENCE_S = 600
 
 SUNDIALS = ("-lsundials_cvode -lsundials_arkode -lsundials_ida -lsundials_nvecserial -lsundials_sunmatrixdense -lsundials_sunlinsoldense "
             "-lsundials_sunlinsolspgmr -lsundials_sunnonlinsolfixedpoint").split()
@@ -237,7 +238,7 @@ def motion(name, kernel, folder, pythons, left_out):
     curves = {f"pleuel, {'compiled' if e == 'compiled' else 'interpreter'}": pleuel_curve(kernel, cases / f"{model}.pleuel", e, end, exact, n, order)
               for e in ("compiled", "interpreter")}
     if "heyoka" in pythons:
-        curves["heyoka"] = python_curve(pythons["heyoka"], "heyoka", name, end, exact, n, LADDER[:-1], folder)
+        curves["heyoka"] = python_curve(pythons["heyoka"], "heyoka", name, end, exact, n, HEYOKA, folder)
     for peer, (source, method, ladder) in C_PEERS.items():
         flags = (SUNDIALS + KLU if source == "peer_sundials" else ["-lgsl", "-lgslcblas"])
         program = None if source in left_out else compiled(folder, source, name, flags)

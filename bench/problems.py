@@ -126,7 +126,7 @@ def by_hand(name):
 # system, those of chains in pairs
 MOTIONS = {
     "pendulum": ("pendulum", "pendulum", lambda: chain(1), 100, 400),
-    "double": ("double pendulum", "chain2", lambda: chain(2), 20, 400),
+    "double": ("double pendulum", "chain2", lambda: chain(2), 10, 300),
     "caraxis": ("car axis", "caraxis", caraxis, 3, 100),
     "andrews": ("Andrews' squeezer", "andrews", andrews, R(3, 100), 40),
     "chain100": ("chain, N = 100", "chain100", None, 1, 30),
