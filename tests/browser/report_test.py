@@ -145,7 +145,7 @@ def browse(chromium, modules, jobs, folder):
     listing = os.path.join(folder, "jobs.json")
     json.dump({"chromium": chromium, "jobs": jobs, "pictures": os.environ.get("PLEUEL_PICTURES")}, open(listing, "w", encoding="utf-8"))
     env = os.environ | {"NODE_PATH": modules}
-    got = subprocess.run(["node", os.path.join(HERE, "pages.js"), listing], capture_output=True, text=True, timeout=280, env=env)
+    got = subprocess.run(["node", os.path.join(HERE, "pages.js"), listing], capture_output=True, text=True, timeout=840, env=env)
     said = False
     for line in got.stdout.splitlines():
         fact = json.loads(line)
