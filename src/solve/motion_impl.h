@@ -20,10 +20,10 @@
 #include "solve/solve_impl.h"
 
 enum {
-  PL_MOTION_UNKNOWNS = 400,      // largest system
+  PL_MOTION_UNKNOWNS = 100,      // largest system: above, compiling takes longer than most runs
   PL_MOTION_INVERSE = 24,        // so many unknowns are solved for by a product with the inverse
   PL_MOTION_WRITTEN_OUT = 3000,  // operations over all orders up to which these are written out one by one
-  PL_MOTION_NODES = 20000        // of all instances together
+  PL_MOTION_NODES = 6000         // of all instances together
 };
 
 typedef enum pl_motion_part {
