@@ -103,4 +103,5 @@ void pl_answer_conserved(pl_analysis* d, const pl_ask* ask) {
   pl_section_open(d, ask, "Conserved", "Erhaltungsgrößen");
   energy(d);
   for (int k = 0; d->reduced && k < d->gen.n && !pl_nonholonomic(d); k++) cyclic(d, d->gen.at[k]);
+  pl_conserved_momenta(d);
 }

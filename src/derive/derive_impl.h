@@ -185,6 +185,8 @@ pl_expr pl_bond_acceleration(pl_analysis* d, int link); // twice differentiated 
 // The equation of one coordinate solved for multiplier k, accelerations and other multipliers left as names: short where the closed
 // form is long.  The row with the fewest other multipliers is taken; its coordinate in *coordinate.  Poison if there is none.
 pl_expr pl_multiplier_by_row(pl_analysis* d, int link, int* coordinate);
+// momenta.c: of the whole system, beside those of cyclic coordinates
+void pl_conserved_momenta(pl_analysis* d);
 // escape.c
 bool pl_escapes(pl_analysis* d);                         // at rest where the force has an unbounded slope: the motion is not unique
 pl_expr pl_escape_motion(pl_analysis* d, pl_symbol* wait);   // a motion that leaves after the time `wait`; poison

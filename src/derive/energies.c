@@ -51,6 +51,71 @@ static void force(pl_analysis* d, const pl_load* l) {
   d->dissipative = true;
 }
 
+// ---------------------------------------------------------------------------------------------- potentials of forces
+// Q_i as functions of the coordinates alone, with equal mixed derivatives.
+static bool is_curl_free(pl_analysis* d, const pl_expr* Q) {
+  for (int i = 0; i < d->q.n; i++) {
+    if (pl_has_role(d->pool, Q[i], PL_R_VELOCITY) || pl_has_role(d->pool, Q[i], PL_R_MULTIPLIER) || pl_has_symbol(d->pool, Q[i], pl_time(d->pool))) return false;
+  }
+  for (int i = 0; i < d->q.n; i++) {
+    for (int k = 0; k < i; k++) {
+      pl_expr a = pl_diff(d->pool, Q[i], d->q.at[k].q), b = pl_diff(d->pool, Q[k], d->q.at[i].q);
+      if (!pl_same(a, b) && pl_alg_equal(d->tower, a, b) != PL_YES) return false;
+    }
+  }
+  return true;
+}
+
+// Q homogeneous of degree n != -1:  V = -sum q_i Q_i/(n + 1)   (Euler).  Poison if it is not.
+static pl_expr homogeneous_potential(pl_analysis* d, const pl_expr* Q) {
+  pl_pool* p = d->pool;
+  pl_expr degree = pl_poison(), work = pl_int(p, 0);
+  for (int j = 0; j < d->q.n; j++) {
+    if (pl_is_zero_node(p, Q[j])) continue;
+    pl_expr grown = pl_int(p, 0);
+    for (int i = 0; i < d->q.n; i++) grown = pl_add(p, grown, pl_mul(p, pl_sym(p, d->q.at[i].q), pl_diff(p, Q[j], d->q.at[i].q)));
+    pl_expr n = pl_alg_normal(d->tower, pl_div(p, grown, Q[j]));
+    if (pl_is_poison(n) || !pl_is_number(p, n) || (!pl_is_poison(degree) && !pl_same(n, degree))) return pl_poison();
+    degree = n;
+    work = pl_add(p, work, pl_mul(p, pl_sym(p, d->q.at[j].q), Q[j]));
+  }
+  if (pl_is_poison(degree)) return degree;
+  pl_expr next = pl_add(p, degree, pl_int(p, 1));
+  return pl_is_zero_node(p, next) ? pl_poison() : pl_alg_normal(d->tower, pl_neg(p, pl_div(p, work, next)));
+}
+
+// One coordinate after the other:  V = -∫ (Q_i + dV/dq_i) dq_i.
+static pl_expr integrated_potential(pl_analysis* d, const pl_expr* Q) {
+  pl_pool* p = d->pool;
+  pl_expr V = pl_int(p, 0);
+  for (int i = 0; i < d->q.n && !pl_is_poison(V); i++) {
+    pl_expr rest = pl_alg_normal(d->tower, pl_add(p, Q[i], pl_diff(p, V, d->q.at[i].q)));
+    if (!pl_is_zero_node(p, rest)) V = pl_sub(p, V, pl_alg_integral(d->tower, rest, d->q.at[i].q));
+  }
+  return V;
+}
+
+// The potential of the forces `load` adds, found from them; false when there is none.
+static bool find_potential(pl_analysis* d, const pl_expr* before) {
+  pl_pool* p = d->pool;
+  pl_expr* Q = PL_ARRAY(d->arena, pl_expr, d->q.n + 1);
+  bool any = false;
+  for (int i = 0; i < d->q.n; i++) {
+    Q[i] = pl_alg_normal(d->tower, pl_sub(p, d->force[i], before[i]));
+    any |= !pl_is_zero_node(p, Q[i]);
+  }
+  if (!any || !is_curl_free(d, Q)) return false;
+  pl_expr V = homogeneous_potential(d, Q);
+  if (pl_is_poison(V)) V = integrated_potential(d, Q);
+  if (pl_is_poison(V)) return false;
+  for (int i = 0; i < d->q.n; i++) {
+    if (pl_alg_is_zero(d->tower, pl_add(p, Q[i], pl_diff(p, V, d->q.at[i].q))) != PL_YES) return false;
+  }
+  for (int i = 0; i < d->q.n; i++) d->force[i] = before[i];
+  add_to(d, &d->V, pl_alg_normal(d->tower, V));
+  return true;
+}
+
 static void torque(pl_analysis* d, const pl_load* l) {
   for (int i = 0; i < d->q.n; i++) {
     pl_expr lever = l->coordinate.id ? pl_int(d->pool, l->coordinate.id == d->q.at[i].q.id)
@@ -81,13 +146,21 @@ static void damper(pl_analysis* d, const pl_load* l) {
   dissipate(d, pl_load_dissipation(d->pool, l, line ? pl_poison() : distance(d, &l->a, &l->b)));
 }
 
+// A force or torque that depends on the place; it has a potential when the work does not depend on the way.
+static void push(pl_analysis* d, const pl_load* l) {
+  bool dissipative = d->dissipative;
+  pl_expr* before = PL_ARRAY(d->arena, pl_expr, d->q.n + 1);
+  for (int i = 0; i < d->q.n; i++) before[i] = d->force[i];
+  if (l->kind == PL_L_FORCE) force(d, l);
+  else torque(d, l);
+  if (find_potential(d, before)) d->dissipative = dissipative;
+}
+
 static void load(pl_analysis* d, const pl_load* l) {
   switch (l->kind) {
     case PL_L_FORCE:
-      if (!uniform(d, l)) force(d, l);
-      break;
     case PL_L_TORQUE:
-      if (!uniform(d, l)) torque(d, l);
+      if (!uniform(d, l)) push(d, l);
       break;
     case PL_L_POTENTIAL: add_to(d, &d->V, l->value); break;
     case PL_L_KINETIC: add_to(d, &d->T, l->value); break;

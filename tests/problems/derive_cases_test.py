@@ -255,6 +255,32 @@ def _(program):
     same(at(answer.value("p_psi")["expr"], **p), spin, "p_psi")
 
 
+@test("momenta of the whole system in coordinates that are not reduced; about a pivot beside the origin too")
+def _(program):
+    answer = case(program, "dumbbell")
+    checks_pass(answer)
+    p = dict(m=1.2, M=2.3, x1=0.3, y1=-0.4, x2=0.7, y2=1.1, x1_dot=0.2, y1_dot=0.9, x2_dot=-0.5, y2_dot=0.4)
+    for name, want in (("p_x", 1.2 * 0.2 - 2.3 * 0.5), ("p_y", 1.2 * 0.9 + 2.3 * 0.4),
+                       ("L_z", 1.2 * (0.3 * 0.9 + 0.4 * 0.2) + 2.3 * (0.7 * 0.4 + 1.1 * 0.5))):
+        v = answer.value(name, conserved=True)
+        same(at(v["expr"], **p), want, name)
+    answer = case(program, "pivot_aside")
+    need(not answer.values("p_x") and not answer.values("p_y"), "a shift is no symmetry")
+    p = dict(m=1.2, d=0.7, r=0.4, x=0.9, y=0.2, x_dot=0.3, y_dot=-0.6)
+    same(at(answer.value("L_z", conserved=True)["expr"], **p), 1.2 * (0.2 * -0.6 - 0.2 * 0.3), "L_z")
+
+
+@test("forces whose work does not depend on the way have a potential, others none")
+def _(program):
+    answer = case(program, "central_force")
+    checks_pass(answer)
+    p = dict(m=1.0, k=2.0, K=3.0, c=0.5, h=0.2, tau=1.1, D=0.4, x=0.8, y=-0.5, phi=0.3, x_dot=0.2, y_dot=0.1, phi_dot=0.4)
+    r = math.hypot(0.8, 0.5)
+    want = (0.04 + 0.01 + 0.16) / 2 + r * r - 3 / r + 0.5 * 0.8**4 / 4 + 0.2 * 0.8 * 0.5 + 1.1 * math.cos(0.3) + 0.2 * 0.09
+    same(at(answer.value("E", conserved=True)["expr"], **p), want, "E")
+    need(answer.exit_code == 0 and not case(program, "whirling_force").values("E", conserved=True), "a whirling force has a potential")
+
+
 # ------------------------------------------------------------------------------------------------ closed loops
 def with_where(value, names):
     names = {"pi": math.pi, **names}

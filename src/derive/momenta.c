@@ -1,0 +1,202 @@
+// momenta: conserved total momenta and angular momenta.  A motion of the whole system, every mass shifted along an axis or turned
+// about one, displaces the coordinates by η_i.  If neither the Lagrange function nor a constraint changes, and no force without
+// potential works along it,
+//   sum η_i dL/dq_i + η_i' dL/dv_i = 0,   sum η_i dg/dq_i = 0,   sum η_i Q_i = 0,
+// then  I = sum η_i dL/dv_i  is conserved (Noether), whatever the multipliers are.     [Arnold 1989, sec. 20]
+#include <string.h>
+
+#include "derive/derive_impl.h"
+
+typedef struct pl_symmetry {
+  pl_expr* eta;          // (n_q)
+  pl_expr* residual;     // of L, of Q, of each constraint: all vanish       (2 + n_g)
+} pl_symmetry;
+
+// ---------------------------------------------------------------------------------------------- displacements
+// Coordinate i is displaced by e wherever it is component j of a mass; false when two masses disagree.
+static bool displace(pl_analysis* d, pl_symmetry* s, pl_expr coordinate, pl_expr e) {
+  if (pl_kind_of(d->pool, coordinate) != PL_SYMBOL) return true;
+  int i = pl_variable_index(d, pl_symbol_of(d->pool, coordinate));
+  if (i < 0) return true;
+  if (pl_is_poison(s->eta[i])) s->eta[i] = e;
+  return pl_alg_is_zero(d->tower, pl_sub(d->pool, s->eta[i], e)) == PL_YES;
+}
+
+// axis < 0: a turn about axis -1 - axis, (first, second) -> (-second, first).  Angles of bodies turn along in the plane.
+static bool displacement(pl_analysis* d, pl_symmetry* s, int axis) {
+  int first = axis < 0 ? (-axis) % 3 : axis, second = (first + 1) % 3;
+  bool turn = axis < 0;
+  s->eta = PL_ARRAY(d->arena, pl_expr, d->q.n + 1);
+  for (int i = 0; i < d->q.n; i++) s->eta[i] = pl_poison();
+  for (int k = 0; k < d->particle.n; k++) {
+    const pl_particle* m = &d->particle.at[k];
+    for (int c = 0; c < m->n; c++) {
+      pl_expr e = pl_int(d->pool, !turn && c == first);
+      if (turn && c == first && second < m->n) e = pl_neg(d->pool, m->at[second]);
+      if (turn && c == second && first < m->n) e = m->at[first];
+      if (!displace(d, s, m->at[c], e)) return false;
+    }
+    if (!pl_is_poison(m->angle) && !displace(d, s, m->angle, pl_int(d->pool, turn))) return false;
+  }
+  for (int i = 0; i < d->q.n; i++) {
+    if (pl_is_poison(s->eta[i])) s->eta[i] = pl_int(d->pool, 0);
+  }
+  return true;
+}
+
+static void find_residuals(pl_analysis* d, pl_symmetry* s) {
+  pl_pool* p = d->pool;
+  s->residual = PL_ARRAY(d->arena, pl_expr, 2 + d->g.n);
+  for (int k = 0; k < 2 + d->g.n; k++) s->residual[k] = pl_int(p, 0);
+  for (int i = 0; i < d->q.n; i++) {
+    if (pl_is_zero_node(p, s->eta[i])) continue;
+    pl_expr change = pl_mul(p, s->eta[i], pl_diff(p, d->L, d->q.at[i].q));
+    change = pl_add(p, change, pl_mul(p, pl_dt(p, s->eta[i]), pl_diff(p, d->L, d->q.at[i].v)));
+    s->residual[0] = pl_add(p, s->residual[0], change);
+    s->residual[1] = pl_add(p, s->residual[1], pl_mul(p, s->eta[i], d->force[i]));
+    for (int k = 0; k < d->g.n; k++) s->residual[2 + k] = pl_add(p, s->residual[2 + k], pl_mul(p, s->eta[i], d->g.at[k].gradient[i]));
+  }
+  for (int k = 0; k < 2 + d->g.n; k++) s->residual[k] = pl_alg_normal(d->tower, s->residual[k]);
+}
+
+static bool vanishes(pl_analysis* d, const pl_symmetry* s) {
+  for (int k = 0; k < 2 + d->g.n; k++) {
+    if (pl_is_poison(s->residual[k]) || pl_alg_is_zero(d->tower, s->residual[k]) != PL_YES) return false;
+  }
+  return true;
+}
+
+// e with small numbers for the coordinates and velocities, the same ones for each e.
+static pl_expr at_point(pl_analysis* d, pl_expr e, int point) {
+  for (int i = 0; i < d->q.n; i++) {
+    e = pl_subst1(d->pool, e, d->q.at[i].q, pl_ratio(d->pool, 2 + 3 * i + 5 * point, 3 + 2 * point));
+    e = pl_subst1(d->pool, e, d->q.at[i].v, pl_ratio(d->pool, 3 + 2 * i + 7 * point, 5));
+  }
+  return e;
+}
+
+enum { most_rows = 16 };
+
+// A turn about another point: shifts are added until nothing changes.  turn + a shift1 + b shift2 with constant a, b, which follow
+// from the residuals at two points; whether they do it everywhere is proven afterwards.
+static bool move_centre(pl_analysis* d, pl_symmetry* turn, const pl_symmetry* shift1, const pl_symmetry* shift2, pl_expr* a, pl_expr* b) {
+  pl_expr left[2][most_rows], right[most_rows];
+  int n = 0;
+  for (int k = 0; k < 2 + d->g.n; k++) {
+    for (int point = 0; point < 2 && n < most_rows; point++) {
+      left[0][n] = pl_alg_normal(d->tower, at_point(d, shift1->residual[k], point));
+      left[1][n] = pl_alg_normal(d->tower, at_point(d, shift2->residual[k], point));
+      right[n] = pl_alg_normal(d->tower, pl_neg(d->pool, at_point(d, turn->residual[k], point)));
+      n += !pl_is_zero_node(d->pool, left[0][n]) || !pl_is_zero_node(d->pool, left[1][n]);
+    }
+  }
+  bool one = vanishes(d, shift1) || vanishes(d, shift2);
+  int free = vanishes(d, shift1) ? 1 : 0;   // with one shift a symmetry itself, only the other one is looked for
+  pl_expr x[2] = {pl_int(d->pool, 0), pl_int(d->pool, 0)};
+  bool solved = one && n > 0 && pl_alg_solve(d->tower, 1, &left[free][0], &right[0], &x[free], 200) == PL_YES;
+  for (int r = 0; r < n && !one && !solved; r++) {
+    for (int s = r + 1; s < n && !solved; s++) {
+      pl_expr A[4] = {left[0][r], left[1][r], left[0][s], left[1][s]}, y[2] = {right[r], right[s]};
+      solved = pl_alg_solve(d->tower, 2, A, y, x, 200) == PL_YES;
+    }
+  }
+  if (!solved || pl_has_coordinates(d, x[0]) || pl_has_coordinates(d, x[1])) return false;
+  if (pl_has_symbol(d->pool, x[0], pl_time(d->pool)) || pl_has_symbol(d->pool, x[1], pl_time(d->pool))) return false;
+  *a = x[0];
+  *b = x[1];
+  for (int i = 0; i < d->q.n; i++) {
+    pl_expr more = pl_add(d->pool, pl_mul(d->pool, *a, shift1->eta[i]), pl_mul(d->pool, *b, shift2->eta[i]));
+    turn->eta[i] = pl_add(d->pool, turn->eta[i], more);
+  }
+  find_residuals(d, turn);
+  return vanishes(d, turn);
+}
+
+// ---------------------------------------------------------------------------------------------- answers
+static pl_expr integral(pl_analysis* d, const pl_symmetry* s) {
+  pl_expr sum = pl_int(d->pool, 0);
+  for (int i = 0; i < d->q.n; i++) {
+    pl_expr p = pl_diff(d->pool, d->L, d->q.at[i].v);
+    sum = pl_add(d->pool, sum, pl_mul(d->pool, s->eta[i], p));
+  }
+  return pl_alg_normal(d->tower, pl_on_maps(d, sum));
+}
+
+// Said already, as a momentum or up to its sign and a number; or no motion at all.
+static bool is_known(pl_analysis* d, pl_expr I) {
+  if (pl_is_poison(I) || !pl_has_role(d->pool, I, PL_R_VELOCITY)) return true;
+  for (int k = 0; k < d->section->values.n; k++) {
+    const pl_value* v = &d->section->values.at[k];
+    if (v->conserved != 1 || pl_is_poison(v->expr)) continue;
+    pl_expr ratio = pl_alg_normal(d->tower, pl_div(d->pool, I, v->expr));
+    if (!pl_is_poison(ratio) && !pl_has_coordinates(d, ratio)) return true;
+  }
+  return false;
+}
+
+static bool name_is_taken(pl_analysis* d, const char* name) {
+  for (int k = 0; k < d->section->values.n; k++) {
+    if (strcmp(d->section->values.at[k].name, name) == 0) return true;
+  }
+  return false;
+}
+
+static void tell(pl_analysis* d, const pl_symmetry* s, const char* name, const char* en, const char* de, int n, const pl_form* axis, const pl_form* point) {
+  pl_expr I = integral(d, s);
+  if (is_known(d, I)) return;
+  for (int k = 1; name_is_taken(d, name); k++) name = pl_format(d->arena, "I%d", k);
+  const pl_form* form = pl_f(d, I, PL_S_ENERGY);
+  pl_show(d, pl_feq(d, pl_fn(d, name), form));
+  pl_say(d, en, de, n, axis, point);
+  pl_value* v = pl_answer(d, name, I, form);
+  v->conserved = 1;
+  v->because[0] = "symmetry of the whole system (Noether)";
+  v->because[1] = "Symmetrie des ganzen Systems (Noether)";
+  pl_claim_that(d, PL_CLAIM_MOTION, pl_dt(d->pool, pl_form_value(d->pool, form)), pl_int(d->pool, 0));
+}
+
+static void tell_shift(pl_analysis* d, const pl_symmetry* s, int axis) {
+  const char* name = d->model->axes[axis].ascii;
+  tell(d, s, pl_format(d->arena, "p_%s", name),
+       "conserved: nothing changes when all masses are shifted along {1}, and no force without potential works along it.",
+       "erhalten: nichts ändert sich, wenn alle Massen längs {1} verschoben werden, und keine Kraft ohne Potential arbeitet längs dieser Richtung.", 1,
+       pl_fn(d, d->model->axes[axis].name), NULL);
+}
+
+static void tell_turn(pl_analysis* d, const pl_symmetry* s, int about, pl_expr a, pl_expr b) {
+  int first = (about + 1) % 3, second = (about + 2) % 3;
+  const char* axis = about < d->model->n_axes ? d->model->axes[about].name : "z";
+  bool origin = pl_is_zero_node(d->pool, a) && pl_is_zero_node(d->pool, b);
+  // (x, y) -> (-(y - y0), x - x0): the shift along the first axis is y0, along the second -x0
+  const pl_form* place[2] = {pl_feq(d, pl_fn(d, d->model->axes[first].name), pl_f(d, pl_neg(d->pool, b), PL_S_PLAIN)),
+                             pl_feq(d, pl_fn(d, d->model->axes[second].name), pl_f(d, a, PL_S_PLAIN))};
+  tell(d, s, pl_format(d->arena, "L_%s", about < d->model->n_axes ? d->model->axes[about].ascii : "z"),
+       origin ? "conserved: nothing changes when the whole system is turned about the {1} axis, and no force without potential works along it."
+              : "conserved: nothing changes when the whole system is turned about the line along {1} at {2}, and no force without potential works along it.",
+       origin ? "erhalten: nichts ändert sich, wenn das ganze System um die {1}-Achse gedreht wird, und keine Kraft ohne Potential arbeitet dabei."
+              : "erhalten: nichts ändert sich, wenn das ganze System um die Gerade längs {1} bei {2} gedreht wird, und keine Kraft ohne Potential arbeitet dabei.",
+       origin ? 1 : 2, pl_fn(d, axis), pl_flist(d, place, 2));
+}
+
+void pl_conserved_momenta(pl_analysis* d) {
+  pl_symmetry shift[3];
+  bool shifted[3] = {0};
+  int n = d->model->n_axes;
+  if (pl_loaded_by_name(d) >= 0 || d->particle.n == 0) return;
+  for (int c = 0; c < n; c++) {
+    shifted[c] = displacement(d, &shift[c], c);
+    if (!shifted[c]) continue;
+    find_residuals(d, &shift[c]);
+    if (vanishes(d, &shift[c])) tell_shift(d, &shift[c], c);
+  }
+  for (int about = n == 2 ? 2 : 0; about < 3 && n > 1; about++) {
+    int first = (about + 1) % 3, second = (about + 2) % 3;
+    pl_expr a = pl_int(d->pool, 0), b = a;
+    pl_symmetry turn;
+    if (!displacement(d, &turn, -1 - about)) continue;
+    find_residuals(d, &turn);
+    bool done = vanishes(d, &turn);
+    if (!done && shifted[first] && shifted[second]) done = move_centre(d, &turn, &shift[first], &shift[second], &a, &b);
+    if (done) tell_turn(d, &turn, about, a, b);
+  }
+}
