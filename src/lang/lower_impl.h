@@ -59,6 +59,8 @@ typedef struct pl_site {
   pl_expr index;
   pl_point point;
   pl_expr angle;  // bodies
+  bool in_space;  // a body with axes: turn holds them
+  pl_expr turn[9];
 } pl_site;
 
 typedef struct pl_rule {  // a constraint, before it is lowered
@@ -155,6 +157,12 @@ int pl_axis_find(const pl_lower* l, const char* key);  // -1
 pl_site* pl_site_find(const pl_lower* l, const char* key);
 bool pl_site_finish(pl_lower* l, pl_site* p);
 bool pl_lower_point(pl_lower* l, const pl_ast* node, pl_point* out);
+
+// ---- lower_attitude.c: bodies in space
+bool pl_attitude_is_euler(const pl_ast* axes);
+bool pl_attitude_turn(pl_lower* l, const pl_ast* axes, pl_expr turn[9]);
+bool pl_attitude_energy(pl_lower* l, const pl_ast* axes, const pl_expr J[3], pl_expr* out);
+
 bool pl_lower_where(pl_lower* l, const pl_ast* node, pl_point* out, pl_site** place);
 bool pl_lower_label_point(pl_lower* l, const pl_ast* name, const pl_ast* index, pl_point* out, pl_site** place);
 const pl_ast* pl_ast_label(const pl_ast* node, const pl_ast** index);  // name of a label, NULL if node is none

@@ -181,6 +181,25 @@ bool pl_lower_point(pl_lower* l, const pl_ast* node, pl_point* out) {
   return true;
 }
 
+// A point fixed in a body in space: centre + turn (a, b, c).
+static bool point_on_body_in_space(pl_lower* l, pl_site* p, const pl_site* body, const pl_point* centre,
+                                   const pl_point* local) {
+  pl_pool* q = l->pool;
+  if (local->n != 3) {
+    pl_lower_complain(l, PL_E017, local->span, "a point on a body in space has three components",
+                      "ein Punkt an einem Körper im Raum hat drei Komponenten");
+    return false;
+  }
+  p->point.n = 3;
+  for (int i = 0; i < 3; i++) {
+    p->point.at[i] = centre->at[i];
+    for (int j = 0; j < 3; j++)
+      p->point.at[i] = pl_add(q, p->point.at[i], pl_mul(q, body->turn[3 * i + j], local->at[j]));
+  }
+  p->point.span = pl_ast_span(pl_ast_kid(p->statement, 1));
+  return true;
+}
+
 // A point fixed in a planar body: centre + turn(angle) (a, b).
 static bool point_on_body(pl_lower* l, pl_site* p, const pl_ast* on) {
   pl_site* body = NULL;
@@ -193,6 +212,7 @@ static bool point_on_body(pl_lower* l, pl_site* p, const pl_ast* on) {
                "schreibe  point P at (x, y)  für einen Punkt im Raum");
     return false;
   }
+  if (body->in_space) return point_on_body_in_space(l, p, body, &centre, &local);
   if (pl_is_poison(body->angle)) {
     pl_lower_pending(l, PL_E091, "point on a body in space", pl_ast_span(p->statement),
                      "points on bodies in space are not computed by this version",
@@ -222,6 +242,8 @@ static bool lower_place(pl_lower* l, pl_site* p) {
     bool fine = pl_lower_point(l, pl_ast_kid(s, 3), &p->point);
     const pl_ast* angle = pl_ast_kid(s, 4);
     p->angle = angle ? pl_lower_scalar(l, angle) : pl_poison();
+    p->in_space = pl_attitude_is_euler(pl_ast_kid(s, 5));
+    if (p->in_space) fine &= pl_attitude_turn(l, pl_ast_kid(s, 5), p->turn);
     return fine && (angle == NULL || !pl_is_poison(p->angle));
   }
   const pl_ast* on = pl_ast_kid(s, 2);
@@ -267,7 +289,7 @@ static pl_point substitute(pl_lower* l, const pl_point* at, pl_symbol from, pl_e
 }
 
 // Member `index` of the family that p declares: P[i] or P[i + 1] with i the index of its block.
-static bool member(pl_lower* l, const pl_site* p, pl_expr index, pl_point* out, pl_expr* angle) {
+static bool member(pl_lower* l, const pl_site* p, pl_expr index, pl_point* out, pl_expr* angle, pl_expr* turn) {
   if (p->block == NULL) {
     *out = p->point, *angle = p->angle;
     return pl_same(p->index, index);
@@ -278,6 +300,7 @@ static bool member(pl_lower* l, const pl_site* p, pl_expr index, pl_point* out, 
   pl_expr value = pl_sub(l->pool, index, shift);
   *out = substitute(l, &p->point, i, value);
   *angle = pl_is_poison(p->angle) ? p->angle : pl_subst1(l->pool, p->angle, i, value);
+  for (int k = 0; p->in_space && k < 9; k++) turn[k] = pl_subst1(l->pool, p->turn[k], i, value);
   return true;
 }
 
@@ -291,7 +314,7 @@ static bool family_point(pl_lower* l, const pl_ast* name, pl_expr index, pl_poin
       if (pl_is_poison(p->index)) continue;
       pl_site* copy = PL_NEW(l->arena, pl_site);
       *copy = *p;
-      if (!member(l, p, index, out, &copy->angle)) continue;
+      if (!member(l, p, index, out, &copy->angle, copy->turn)) continue;
       if (place) *place = copy;
       found = true;
     }
