@@ -95,7 +95,7 @@ void pl_prog_dump(pl_text* out, const pl_prog* c);
 // ---- prog_run.c: the interpreter
 void pl_prog_interpret(const pl_prog* c, double* memory, int from, int to);
 
-// ---- lower.c: the recurrences of the tape's operations as code
+// ---- recurrences.c: the recurrences of the tape's operations as code
 // What a node's convolutions read: A and B as nodes (itself included), A weighted by j.
 typedef struct pl_lower_sum { int a, b; bool weighted; } pl_lower_sum;
 int pl_lower_sums(const pl_tape* tape, int node, pl_lower_sum out[3]);

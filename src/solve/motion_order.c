@@ -154,7 +154,7 @@ static void list_kept(pl_maker* k) {
     if (!k->high[i] || n->level != PL_LEVEL_SPEED) continue;
     keep(k, k->owner[i], n->a);
     keep(k, k->owner[i], n->b);
-    if (!pl_op_series[n->op]) keep(k, k->owner[i], n->c);
+    if (n->op == PL_OP_IF) keep(k, k->owner[i], n->c);
   }
   for (int e = 0; e < k->h.n; e++) {
     int node = k->h.at[e].node;
