@@ -266,6 +266,35 @@ static pl_expr own_row(pl_analysis* d, int i) {
 
 typedef struct pl_found { pl_structure* s; pl_expr value; const pl_form* form; } pl_found;
 
+static int bond_of(const pl_analysis* d, pl_symbol lambda) {
+  for (int k = 0; k < d->g.n; k++) {
+    if (d->g.at[k].lambda.id == lambda.id) return k;
+  }
+  return -1;
+}
+
+// With generalized coordinates, beside their accelerations: the acceleration of a coordinate that follows from them, by its map; a
+// multiplier, by one equation of the first kind.  It becomes a line over the accelerations.
+static bool find_by_row(pl_analysis* d, pl_symbol u, pl_found* f) {
+  pl_structure* s = d->reduced ? pl_structure_of_accelerations(d) : NULL;
+  int bond = bond_of(d, u), i, line = s ? line_of(s, u) : -1;
+  if (!s) return false;
+  if (line >= 0) {
+    *f = (pl_found){s, s->lines.at[line].value, s->lines.at[line].form};
+    return true;
+  }
+  if (bond >= 0 && pl_loaded_by_name(d) >= 0) return false;   // how such a force divides among the masses is open
+  pl_expr e = bond >= 0 ? pl_multiplier_by_row(d, bond, &i) : pl_sym(d->pool, u);
+  if (pl_is_poison(e)) return false;
+  e = pl_alg_normal(d->tower, pl_on_maps(d, e));
+  if (pl_has_role(d->pool, e, PL_R_MULTIPLIER) || pl_has_symbol(d->pool, e, u)) return false;
+  const pl_form* form = pl_positive_first(d, pl_f(d, e, PL_S_QUOTIENT));
+  pl_expr value = pl_form_value(d->pool, form);
+  pl_push(d->arena, s->lines, (pl_naming){.name = u, .value = value, .exact = value, .raw = e, .form = form, .level = -1});
+  *f = (pl_found){s, value, form};
+  return true;
+}
+
 static bool find(pl_analysis* d, pl_symbol u, pl_found* f) {
   int i = pl_variable_index(d, u);
   bool acceleration = i >= 0 && d->q.at[i].a.id == u.id;
@@ -275,7 +304,8 @@ static bool find(pl_analysis* d, pl_symbol u, pl_found* f) {
     *f = (pl_found){s, s->lines.at[k].value, s->lines.at[k].form};
     return true;
   }
-  if (!s || !acceleration || d->reduced || s->kind != PL_ST_MULTIPLIERS) return false;
+  if (d->reduced) return find_by_row(d, u, f);
+  if (!s || !acceleration || s->kind != PL_ST_MULTIPLIERS) return false;
   pl_expr row = own_row(d, i);
   if (pl_is_poison(row)) return false;
   const pl_form* form = pl_positive_first(d, pl_f(d, pl_alg_normal(d->tower, row), PL_S_QUOTIENT));
