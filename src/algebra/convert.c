@@ -21,6 +21,9 @@ pl_frac pl_convert(pl_tower* t, pl_expr e) {
 
 void pl_convert_known(pl_tower* t, pl_expr e, pl_frac f) {
   if (pl_is_poison(e) || pl_map_get(t->converted, e.id)) return;
+  // with roots the way decides where they stand; a formula must not depend on what was asked before
+  for (int g = 0; g < t->gens.n; g++)
+    if (t->gens.at[g].kind == PL_G_ROOT) return;
   pl_frac kept = pl_frac_keep(t, f);
   pl_push(t->arena, t->fractions, kept);
   pl_map_set(t->converted, e.id, (uint64_t)t->fractions.n);

@@ -397,10 +397,10 @@ static int find_partner(pl_search* s, pl_prod x, int i) {
   return -1;
 }
 
-// sin^n / cos^n -> tan^n; cos alone in the denominator stays.
+// sin^n / cos^n -> tan^n, cos^n / sin^n -> 1/tan^n; cos alone in the denominator stays.
 static pl_prod merge_tangent(pl_search* s, pl_prod x) {
   for (int i = 0; i < x.n; i++) {
-    if (x.at[i].gen < 0 || s->t->gens.at[x.at[i].gen].kind != PL_G_SIN || x.at[i].power < 1) continue;
+    if (x.at[i].gen < 0 || s->t->gens.at[x.at[i].gen].kind != PL_G_SIN) continue;
     int k = find_partner(s, x, i);
     if (k < 0 || x.at[k].power != -x.at[i].power) continue;
     pl_expr angle = pl_arg(s->p, s->t->gens.at[x.at[i].gen].expr, 0);

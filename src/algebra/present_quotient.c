@@ -124,6 +124,89 @@ static bool split(pl_search* s, pl_frac f, pl_key_set set, int depth, pl_prod* o
   return true;
 }
 
+// ---------------------------------------------------------------------------------------------- whole part
+// The generators and numbers that divide the numerator, in *outside, and the one factor that is left; NULL if there are several.
+static const pl_poly* split_content(pl_search* s, const pl_poly* num, pl_prod* outside) {
+  pl_tower* t = s->t;
+  pl_factored f = pl_poly_factor(t, num);
+  const pl_poly* rest = NULL;
+  *outside = pl_prod_number(s, pl_fmpz_expr(t, f.unit));
+  for (int i = 0; i < f.n; i++) {
+    int gen = t->bases.at[f.at[i].base].gen;
+    if (gen >= 0) *outside = pl_prod_mul(s, *outside, pl_prod_of_gen(s, gen, f.at[i].power));
+    else if (rest || f.at[i].power != 1) return NULL;
+    else rest = pl_base_poly(t, f.at[i].base);
+  }
+  return rest;
+}
+
+// Term i of a over the first term of b, if it is an integer times a monomial; NULL.
+static const pl_poly* term_ratio(pl_search* s, const pl_poly* a, slong i, const pl_poly* b) {
+  pl_tower* t = s->t;
+  ulong x[PL_MAX_GENERATORS] = {0}, y[PL_MAX_GENERATORS] = {0};
+  if (!fmpz_divisible(&a->coeffs[i], &b->coeffs[0])) return NULL;
+  fmpz_mpoly_get_term_exp_ui(x, a, i, &t->ctx);
+  fmpz_mpoly_get_term_exp_ui(y, b, 0, &t->ctx);
+  for (int g = 0; g < t->gens.n; g++) {
+    if (x[g] < y[g]) return NULL;
+    x[g] -= y[g];
+  }
+  fmpz* c = pl_int_new(t);
+  fmpz_divexact(c, &a->coeffs[i], &b->coeffs[0]);
+  pl_poly* q = pl_poly_new(t);
+  fmpz_mpoly_push_term_fmpz_ui(q, c, x, &t->ctx);
+  return q;
+}
+
+enum { MAX_DIVIDED_TERMS = 24 };
+
+// (D - 2 B)/D = 1 - 2 B/D: the one-term multiple of the denominator that leaves the least of the numerator stands by itself.
+static bool whole_part(pl_search* s, pl_frac f, int depth, pl_prod* out) {
+  pl_tower* t = s->t;
+  pl_prod outside;
+  const pl_poly* num = split_content(s, f.num, &outside);
+  const pl_poly* den = pl_factored_expand(t, (pl_factored){.unit = pl_poly_int(t, 1)->coeffs, .n = f.n, .at = f.den});
+  if (!num || num->length < 3 || den->length < 3 || num->length > MAX_DIVIDED_TERMS || den->length > MAX_DIVIDED_TERMS) return false;
+  const pl_poly *q = NULL, *rest = num;
+  for (slong i = 0; i < num->length; i++) {
+    const pl_poly* ratio = term_ratio(s, num, i, den);
+    const pl_poly* left = ratio ? pl_poly_sub(t, num, pl_poly_mul(t, ratio, den)) : num;
+    s->work++;
+    if (left->length < rest->length) q = ratio, rest = left;
+  }
+  if (!q || rest->length == 0) return false;
+  pl_prod terms[2] = {pl_present_poly(s, q, 0), pl_present_quotient(s, pl_frac_over(t, rest, f), depth - 1)};
+  terms[0] = pl_prod_scale(s, terms[0], pl_fmpq_expr(t, pl_poly_int(t, 1)->coeffs, f.unit));
+  *out = pl_prod_mul(s, outside, pl_prod_sum(s, terms, 2));
+  return true;
+}
+
+// ---------------------------------------------------------------------------------------------- reciprocals
+// m1 m2 m3/(m1 m2 + m1 m3 + m2 m3) = 1/(1/m1 + 1/m2 + 1/m3), for three terms and more: of two masses one writes the product over the sum.
+static bool reciprocals(pl_search* s, pl_frac f, pl_prod whole, pl_prod* out) {
+  pl_tower* t = s->t;
+  const pl_poly* den = f.n == 1 && f.den[0].power == 1 ? pl_base_poly(t, f.den[0].base) : NULL;
+  if (!den || den->length < 3 || den->length > 6 || f.num->length != 1) return false;
+  pl_prod taken = pl_prod_number(s, pl_int(s->p, 1));
+  for (int i = 0; i < whole.n; i++) {
+    const pl_piece* m = &whole.at[i];
+    if (m->power == 1 && m->gen >= 0 && m->bucket == PL_K_MASS) taken = pl_prod_mul(s, taken, pl_prod_piece(s, *m, 1));
+  }
+  if (taken.n < 2) return false;
+  pl_prod under = pl_prod_pow(s, taken, -1), terms[6];
+  ulong exponent[PL_MAX_GENERATORS];
+  for (slong i = 0; i < den->length; i++) {
+    fmpz_mpoly_get_term_exp_ui(exponent, den, i, &t->ctx);
+    terms[i] = pl_prod_mul(s, pl_prod_of_exponents(s, pl_fmpz_expr(t, &den->coeffs[i]), exponent), under);
+    for (int k = 0; k < terms[i].n; k++)
+      if (terms[i].at[k].power > 0) return false;   // a constant over one mass each
+  }
+  pl_prod above = pl_prod_mul(s, pl_present_poly(s, f.num, 0), under);
+  pl_prod below = pl_prod_scale(s, pl_prod_sum(s, terms, (int)den->length), pl_fmpz_expr(t, f.unit));
+  *out = pl_prod_mul(s, above, pl_prod_pow(s, below, -1));
+  return true;
+}
+
 static pl_prod smaller(pl_prod x, pl_prod y) { return y.cost < x.cost ? y : x; }
 
 pl_prod pl_present_quotient(pl_search* s, pl_frac f, int depth) {
@@ -135,11 +218,15 @@ pl_prod pl_present_quotient(pl_search* s, pl_frac f, int depth) {
   best = smaller(best, rooted);
   if (cancel_root(s, f, root_den, depth, &cancelled)) best = smaller(best, cancelled);
   best = smaller(best, absorb_roots(s, rooted));
+  pl_prod inverted;
+  if (reciprocals(s, f, n, &inverted)) best = smaller(best, inverted);
   if (depth < 1 || f.num->length > MAX_SPLIT_TERMS || f.num->length < 2) return best;
   static const pl_key_set sets[] = {PL_KEY_MASS, PL_KEY_MOTION, PL_KEY_GRAVITY, PL_KEY_OTHER, PL_KEY_ROOT};
   for (size_t i = 0; i < sizeof sets / sizeof *sets && s->work < s->limit; i++) {
     pl_prod x;
     if (split(s, f, sets[i], depth, &x)) best = smaller(best, x);
   }
+  pl_prod divided;
+  if (s->style == PL_S_QUOTIENT && f.num->length >= 3 && s->work < s->limit && whole_part(s, f, depth, &divided)) best = smaller(best, divided);
   return best;
 }
