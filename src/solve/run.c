@@ -175,11 +175,11 @@ static pleuel_status step(pl_run* run) {
   bool to_end = h == wanted && root < 0 && fabs(wanted) == fabs(left_over(run));
   PL_TRY(pl_rows_grid(run, run->t, run->t + h));
   if (run->n_watch > 0) pl_watch_passed(run, h);
-  note(run, &p, h);
-  PL_TRY(count_tiny(run, h));
   if (run->n_watch > 0 && run->sunk >= 0)
     return pl_fail(run->job, PLEUEL_NUMERICAL, "%s was passed through near t = %.9g s without being met: the result cannot be trusted",
                    run->setup->links[run->sunk].name, run->t);
+  note(run, &p, h);
+  PL_TRY(count_tiny(run, h));
   if (root > 0 && run->n_slipping > 0) pl_friction_keep_directions(run);
   accept(run, h, to_end);
   PL_TRY(arrive_at_point(run));

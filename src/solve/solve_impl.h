@@ -182,8 +182,8 @@ struct pl_run {
   bool* hit;               // (n_watch)
   double* root;            // (n_watch)
   bool* touch;             // the root only touches    (n_watch)
-
   int sunk;                // constraint that the step went through, unseen; -1 none
+
   // contacts and friction
   pl_rub_now* rub;         // (n_rubs)
   pl_rub_now* rub_before;  // at the point before a mode change
@@ -337,13 +337,13 @@ double pl_friction_speed(const pl_run* run, int r, const double* rates, double* 
 bool pl_friction_is_used(const pl_run* run, int r); // its constraint is in force
 
 // ---- contacts.c: which contacts hold, which surfaces stick
+void pl_contacts_rates(pl_run* run, double* rates);         // velocities along g and of slip; r_size
 pleuel_status pl_contacts_impact(pl_run* run, bool* any);   // velocities after an impact, if something arrives
 pleuel_status pl_contacts_settle(pl_run* run);              // the mode whose accelerations and forces fit together
 
 // ---- modes.c
 pleuel_status pl_modes_enter(pl_run* run);                  // the point in the mode that on[] says
 pleuel_status pl_modes_check(pl_run* run, bool at_start);   // contacts that pull are released
-void pl_contacts_rates(pl_run* run, double* rates);         // velocities along g and of slip; r_size
 pleuel_status pl_modes_handle(pl_run* run);                 // what hit[] says, at the point
 void pl_mode_text(const pl_run* run, char* out);
 
