@@ -102,7 +102,7 @@ static void put_results(pl_html* h) {
   const char* last[PL_HTML_MOST_CARDS];
   for (int i = 0; i < h->s->sections.n && shown < PL_HTML_MOST_CARDS; i++) {
     const pl_section* c = &h->s->sections.at[i];
-    pl_card card;
+    pl_card card = {0};
     if (!pl_worked_wanted(h->in->only, c->letter) || is_way(c->item) || !find_card(h, i, &card)) continue;
     const char* line = line_of(h, card.form);
     bool again = false;
