@@ -49,7 +49,7 @@ static void pl_yyerror(pl_bytes* at, pl_parse* p, const char* message);
 // statements
 %token PLEUEL SYSTEM LANG AXES CONVENTION INCLUDE PARAM COORD LET ASSUME INPUT OUTPUT MASS BODY POINT ROD GRAVITY FORCE
 %token TORQUE POTENTIAL KINETIC LAGRANGIAN RAYLEIGH SPRING DAMPER DRAG CONSTRAINT FRICTION RESTITUTION CHOOSE BRANCH
-%token INIT GUESS EVENT ASK SIMULATE PLOT ANIMATE SWEEP POINCARE
+%token INIT GUESS EVENT ASK SIMULATE PLOT ANIMATE DRAW SWEEP POINCARE
 // requests
 %token DOF CONSTRAINTS LAGRANGE1 LAGRANGE2 HAMILTONIAN NEWTON SOLVE CONSERVED EQUILIBRIA MODES LIMIT SERIES THRESHOLD
 %token MAXIMUM MINIMUM AVERAGE STABILITY EXPECT
@@ -144,6 +144,8 @@ statement
   | PLOT expressions                  { $$ = STATEMENT(PLOT, @$, 2, $2, NULL); }
   | PLOT expressions VS expr          { $$ = STATEMENT(PLOT, @$, 2, $2, $4); }
   | ANIMATE things                    { $$ = STATEMENT(ANIMATE, @$, 1, $2); }
+  | DRAW NAME things                  { $$ = STATEMENT(DRAW, @$, 4, $2, $3, NULL, NULL); }
+  | DRAW NAME BETWEEN expr AND expr   { $$ = STATEMENT(DRAW, @$, 4, $2, NULL, $4, $6); }
   | SWEEP sweeps OF swept             { $$ = STATEMENT(SWEEP, @$, 2, $2, $4); }
   | POINCARE relation way OF expressions
                                       { $$ = STATEMENT(POINCARE, @$, 3, $2, $3, $5); }

@@ -281,6 +281,7 @@ static void lower_rest(pl_lower* l, walk* w, const pl_ast* s) {
     case TOK_SIMULATE:
     case TOK_PLOT:
     case TOK_ANIMATE:
+    case TOK_DRAW:
     case TOK_SWEEP:
     case TOK_POINCARE: pl_lower_display(l, s); break;
     default: walk_statement(l, w, s);
@@ -288,7 +289,7 @@ static void lower_rest(pl_lower* l, walk* w, const pl_ast* s) {
 }
 
 static bool in_second_round(int token) {
-  return token == TOK_ASK || token == TOK_EVENT || token == TOK_PLOT || token == TOK_ANIMATE || token == TOK_SWEEP ||
+  return token == TOK_ASK || token == TOK_EVENT || token == TOK_PLOT || token == TOK_ANIMATE || token == TOK_DRAW || token == TOK_SWEEP ||
          token == TOK_POINCARE || token == TOK_OUTPUT || token == TOK_SIMULATE;
 }
 

@@ -179,6 +179,7 @@ void pl_lower_physics(pl_lower* l, const pl_ast* statement);
 void pl_lower_contact(pl_lower* l, const pl_ast* statement);    // restitution, friction
 void pl_lower_start(pl_lower* l, const pl_ast* statement);
 void pl_lower_ask(pl_lower* l, const pl_ast* statement);
+void pl_lower_draw(pl_lower* l, const pl_ast* node);     // draw, animate
 void pl_lower_display(pl_lower* l, const pl_ast* node);  // simulate, plot, animate, sweep, poincare
 void pl_lower_event(pl_lower* l, const pl_ast* statement);
 

@@ -452,30 +452,6 @@ static void lower_plot(pl_lower* l, const pl_ast* s) {
   if (l->wrong == wrong) pl_push(l->arena, l->m->plots, plot);
 }
 
-// What to animate is for the report; here the labels are looked up.
-static void check_things(pl_lower* l, const pl_ast* s) {
-  static const char* const known[] = {"weight", "trail", "force", "force on", "count", "velocity", "axes"};
-  const pl_ast* things = pl_ast_kid(s, 0);
-  for (int i = 0; i < things->kids.n; i++) {
-    const pl_ast *thing = things->kids.at[i], *of = pl_ast_kid(thing, 0);
-    bool found = false;
-    for (size_t k = 0; k < sizeof known / sizeof known[0]; k++) found |= strcmp(known[k], thing->text) == 0;
-    if (!found) {
-      pl_diagnostic* m = pl_lower_complain(l, PL_E001, pl_ast_span(thing), "%s cannot be animated",
-                                           "%s lässt sich nicht animieren", thing->text);
-      pl_suggest(l->job, m, NULL, "write  force of LABEL, weight, trail of LABEL, count N",
-                 "schreibe  force of MARKE, weight, trail of MARKE, count N");
-    } else if (strcmp(thing->text, "count") == 0) {
-      pl_lower_scalar(l, of);
-    } else if (of && strcmp(thing->text, "force") == 0) {
-      pl_constraint_label(l, of);
-    } else if (of) {
-      pl_point at;
-      pl_lower_label_point(l, pl_ast_kid(of, 0), pl_ast_kid(of, 1), &at, NULL);
-    }
-  }
-}
-
 static void lower_sweep(pl_lower* l, const pl_ast* s) {
   const pl_ast *sweeps = pl_ast_kid(s, 0), *of = pl_ast_kid(s, 1);
   for (int i = 0; i < sweeps->kids.n; i++) {
@@ -505,7 +481,8 @@ void pl_lower_display(pl_lower* l, const pl_ast* s) {
   switch (s->token) {
     case TOK_SIMULATE: lower_simulate(l, s); break;
     case TOK_PLOT: lower_plot(l, s); break;
-    case TOK_ANIMATE: check_things(l, s); break;
+    case TOK_ANIMATE:
+    case TOK_DRAW: pl_lower_draw(l, s); break;
     case TOK_SWEEP: lower_sweep(l, s); break;
     case TOK_POINCARE: lower_poincare(l, s); break;
     default: break;

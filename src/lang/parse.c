@@ -203,6 +203,7 @@ static int word_of_statement(feeder* f, const pl_token* t, int i) {
       if (!f->item_start) return 0;
       return f->item == TOK_ANIMATE && f->last == ',' && is_word(t, "force") ? TOK_FORCE : item_word(f->p, i);
     case TOK_ANIMATE: return f->item_start && is_word(t, "force") && followed_by_of(f->p, i) ? TOK_FORCE : 0;
+    case TOK_DRAW: return f->last != TOK_DRAW && is_word(t, "force") && followed_by_of(f->p, i) ? TOK_FORCE : 0;
     case TOK_SWEEP: return f->last == TOK_OF && is_word(t, "equilibria") ? TOK_EQUILIBRIA : 0;
     default: return 0;
   }

@@ -222,6 +222,15 @@ typedef struct pl_ask {
 } pl_ask;
 
 typedef struct pl_plot { PL_VEC(pl_expr) y; pl_expr x; PL_VEC(const char*) y_text; const char* x_text; pl_span span; } pl_plot;
+// What the picture shows: `animate` and `draw`.
+typedef enum pl_draw_kind { PL_DRAW_ANIMATE, PL_DRAW_SHOW, PL_DRAW_HIDE, PL_DRAW_LINE } pl_draw_kind;
+typedef struct pl_drawn {
+  pl_draw_kind kind;
+  const char* what;           // "weight", "trail", "force", "axes" ...; "" for a label alone; LINE: "line", "rod", "rope", "spring", "damper"
+  const char* of;             // label, or NULL: all of them
+  pl_point a, b;              // LINE
+  pl_span span;
+} pl_drawn;
 typedef struct pl_output { const char* name; pl_expr value; pl_span span; bool optional; } pl_output;   // optional: left out when it has no number
 typedef struct pl_simulate { bool given; pl_expr from, to, step, tol; long count; pl_span span; } pl_simulate;
 
@@ -258,6 +267,7 @@ typedef struct pl_model {
   PL_VEC(pl_ask) asks;
   PL_VEC(pl_result_name) result_names;
   PL_VEC(pl_output) outputs;
+  PL_VEC(pl_drawn) draws;
   PL_VEC(pl_plot) plots;
   pl_simulate simulate;
   PL_VEC(pl_pending) pending;

@@ -228,6 +228,11 @@ static void dump_requests(const dumper* d) {
       pl_text_addf(d->out, "%s%s", k ? ", " : "", text(d, m->plots.at[i].y.at[k]));
     pl_text_addf(d->out, " vs %s\n", text(d, m->plots.at[i].x));
   }
+  static const char* const draws[] = {"animate", "draw show", "draw hide", "draw"};
+  for (int i = 0; i < m->draws.n; i++) {
+    const pl_drawn* x = &m->draws.at[i];
+    pl_text_addf(d->out, "%s %s%s%s\n", draws[x->kind], x->what, x->of ? " of " : "", x->of ? x->of : "");
+  }
   for (int i = 0; i < m->pending.n; i++) pl_text_addf(d->out, "not computed: %s\n", m->pending.at[i].what);
 }
 

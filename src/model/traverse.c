@@ -135,6 +135,10 @@ static void requests(const slot_walk* w, pl_model* m) {
     one(w, &a->substitution_right, PL_SLOT_ASK, NULL, a->span);
   }
   for (int i = 0; i < m->outputs.n; i++) one(w, &m->outputs.at[i].value, PL_SLOT_OUTPUT, NULL, m->outputs.at[i].span);
+  for (int i = 0; i < m->draws.n; i++) {
+    point(w, &m->draws.at[i].a, NULL, m->draws.at[i].span);
+    point(w, &m->draws.at[i].b, NULL, m->draws.at[i].span);
+  }
   for (int i = 0; i < m->plots.n; i++) {
     pl_plot* p = &m->plots.at[i];
     for (int k = 0; k < p->y.n; k++) one(w, &p->y.at[k], PL_SLOT_PLOT, NULL, p->span);

@@ -284,6 +284,7 @@ static void own_lists(pl_arena* a, pl_model* m) {
   PL_COPY_VEC(a, m->outputs);
   PL_COPY_VEC(a, m->result_names);
   PL_COPY_VEC(a, m->plots);
+  PL_COPY_VEC(a, m->draws);
   for (int i = 0; i < m->plots.n; i++) PL_COPY_VEC(a, m->plots.at[i].y);
   m->choose.maps = copied(a, m->choose.maps, m->choose.n_maps, sizeof *m->choose.maps);
 }

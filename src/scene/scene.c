@@ -284,6 +284,7 @@ pleuel_status pl_scene_make(pl_job* job, pl_model* model, const pl_result* resul
   add_loads(s);
   add_things(s);
   pl_stage_arrows(s);
+  pl_stage_draws(s);
   scene->n_frames = s->n_frames;
   scene->t = s->t;
   scene->newton_per_metre = s->newton_per_metre;

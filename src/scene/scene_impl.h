@@ -116,6 +116,9 @@ void pl_stage_bodies(pl_stage* s);                      // outlines, after the b
 void pl_collect_coords(pl_stage* s, pl_expr e, int** deps, int* n, bool* timed);
 void pl_stage_space(pl_stage* s);                       // lo, hi, size
 
+// ---- scene_draw.c: what the model says about its picture
+void pl_stage_draws(pl_stage* s);
+
 // ---- scene_bonds.c: what constraints look like
 void pl_stage_bonds(pl_stage* s);
 void pl_coords_keep(const pl_stage* s, double* kept);   // (n_q)

@@ -52,6 +52,36 @@ def of_class(svg, name, tag="path"):
     return [e for e in svg.iter(SVG + tag) if name in e.get("class", "").split()]
 
 
+# ---------------------------------------------------------------------------------------------- what the model says about it
+pendulum = """param m = 1, l = 1, g = 9.81
+coord x, y
+axes x right, y up
+mass A: m at (x, y)
+gravity g along -y
+constraint stab: x^2 + y^2 = l^2
+init x = 0.6, y = -0.8, x' = 0
+simulate 0..1
+"""
+
+
+def drawing(name, extra):
+    r = run("plot", model(name + ".pleuel", pendulum + extra), "-o", name + ".svg", "--show", "drawing")
+    return r, parsed(work / (name + ".svg")) if r.returncode == 0 else None
+
+
+r, plain = drawing("plain", "")
+check("the plain drawing has axes and its weight", plain is not None and {"x", "y", "m g"} <= set(texts(plain)), r)
+r, bare = drawing("bare", "draw hide axes, weight\n")
+check("draw hide takes axes and weight out", bare is not None and not {"x", "m g"} & set(texts(bare)), r)
+r, more = drawing("more", "draw spring between (0, -1.5) and A\ndraw rod between (1, 1) and A\n")
+check("draw adds what is not in the model", more is not None and len(list(more.iter(SVG + "path"))) >= len(list(plain.iter(SVG + "path"))) + 1, r)
+r, named = drawing("named", "animate force of stab\n")
+check("animate names the arrows", named is not None and "m g" not in texts(named), r)
+for line, what in [("draw foo between A and A", "cannot be drawn"), ("draw hide nothing", "there is no nothing"), ("draw hide trail of B", "not declared"),
+                   ("draw colour axes", "not understood")]:
+    r = run("check", model("bad.pleuel", pendulum + line + "\n"))
+    check(f"{line}: an error with its place", r.returncode == 3 and what in (r.stdout + r.stderr).decode() and "bad.pleuel:9:" in (r.stdout + r.stderr).decode(), r)
+
 # ---------------------------------------------------------------------------------------------- every model has a picture
 shown = {"atwood": ["m₁", "m₂"], "crank": ["m₁", "φ"], "ski": ["ϑ", "m"], "ladder": ["ladder"], "caraxis": ["A", "B"], "hoop": ["θ"]}
 for name, labels in shown.items():
