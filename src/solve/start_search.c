@@ -420,14 +420,17 @@ static bool is_singular_start(pl_start* s) {
   pl_random r = {20};
   int worst;
   pl_start_residual(s, s->q, &worst);
-  int rank = pl_start_rank(s, none), rank_near = rank;
-  for (int attempt = 0; attempt < 3 && rank_near == rank; attempt++) {
+  int rank = pl_start_rank(s, none), higher = 0, found = 0;
+  for (int attempt = 0; attempt < 3 && higher == found; attempt++) {
     for (int i = 0; i < run->n_q; i++)
       s->q[i] = home[i] + 1e-3 * fmax(run->q_size, 1e-300) * pl_random_between(&r, -1, 1);
-    if (pl_start_positions(s, none)) rank_near = pl_start_rank(s, none);
+    if (!pl_start_positions(s, none)) continue;
+    pl_start_residual(s, s->q, &worst);   // gradients at the point that was found, not at the last but one
+    found++;
+    higher += pl_start_rank(s, none) > rank;
   }
   memcpy(s->q, home, (size_t)run->n_q * sizeof(double));
-  return rank_near > rank;
+  return found > 0 && higher == found;   // at a regular start rounding may let one neighbour look richer, not all
 }
 
 // ---------------------------------------------------------------------------------------------- report
