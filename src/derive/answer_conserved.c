@@ -46,7 +46,7 @@ static void energy(pl_analysis* d) {
   if (conserved && scleronomic) {
     const pl_form* form = energy_sum(d, integral);
     pl_why_energy(d, integral);
-    pl_show(d, pl_feq(d, pl_fn(d, "E"), form));
+    pl_step_refs(pl_show(d, pl_feq(d, pl_fn(d, "E"), form)), 1, d->number_lagrangian);
     const pl_form* V = pl_potential_form(d, pl_on_maps(d, d->V), d->reduced ? d->Vg : pl_on_contact(d, d->V));
     if (pl_is_zero_node(d->pool, d->V)) {
       pl_say(d, "conserved: the Lagrange function does not contain t, and neither does any constraint.",
@@ -64,7 +64,7 @@ static void energy(pl_analysis* d) {
   if (!conserved) return;
   const pl_form* form = pl_f(d, integral, PL_S_ENERGY);
   pl_why_energy(d, integral);
-  pl_show(d, pl_feq(d, pl_fn(d, "H"), form));
+  pl_step_refs(pl_show(d, pl_feq(d, pl_fn(d, "H"), form)), 1, d->number_lagrangian);
   pl_say(d, "Jacobi's integral is conserved: in these coordinates the Lagrange function does not contain t.",
          "Das Jacobi-Integral ist erhalten: in diesen Koordinaten enthält die Lagrange-Funktion t nicht.", 0);
   add_reason(pl_answer(d, "H", integral, form), "the Lagrange function does not contain t", "die Lagrange-Funktion enthält t nicht", 1);
@@ -89,7 +89,8 @@ static void cyclic(pl_analysis* d, int i) {
   const pl_form* form = pl_f(d, p, PL_S_ENERGY);
   bool conserved = !pl_pushed(d, i);
   if (conserved) pl_why_cyclic(d, i);
-  pl_show(d, pl_feq(d, pl_fn(d, pl_format(d->arena, "p_%s", pl_symbol_get(d->pool, c->q)->name)), form));
+  pl_step* step = pl_show(d, pl_feq(d, pl_fn(d, pl_format(d->arena, "p_%s", pl_symbol_get(d->pool, c->q)->name)), form));
+  pl_step_refs(step, 1, d->number_lagrangian);
   pl_say(d, conserved ? "conserved: {1} is cyclic, it does not occur in the Lagrange function."
                       : "{1} is cyclic, but a force without potential acts along it: not conserved.",
          conserved ? "erhalten: {1} ist zyklisch, kommt also in der Lagrange-Funktion nicht vor."

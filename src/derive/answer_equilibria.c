@@ -198,6 +198,7 @@ static void show_oscillations(pl_analysis* d, const pl_linearised* l, const char
   for (int k = 0; k < n; k++) {
     const pl_form* form = pl_f(d, root[k].value, PL_S_QUOTIENT);
     pl_step* s = pl_show_numbered(d, pl_feq(d, pl_fs(d, pl_omega_squared(d)), form));
+    for (int r = 0; r < d->lagrange2_numbers.n; r++) pl_step_refs(s, 1, d->lagrange2_numbers.at[r]);
     bool zero = pl_vanishes(d, root[k].value);
     pl_step_after(s, zero ? "zero mode: it drifts" : "small oscillations", zero ? "Nullmode: Drift" : "kleine Schwingungen");
     double x = pl_number(d, root[k].value);

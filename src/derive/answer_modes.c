@@ -32,6 +32,7 @@ static bool amplitudes(pl_analysis* d, const pl_linearised* l, pl_expr w2, pl_ex
 static void show_mode(pl_analysis* d, const pl_linearised* l, pl_expr w2, int number, const char* at) {
   const pl_form* form = pl_f(d, w2, PL_S_QUOTIENT);
   pl_step* step = pl_show_numbered(d, pl_feq(d, pl_fs(d, pl_omega_squared(d)), form));
+  for (int k = 0; k < d->lagrange2_numbers.n; k++) pl_step_refs(step, 1, d->lagrange2_numbers.at[k]);
   pl_step_after(step, pl_format(d->arena, "mode %d", number), pl_format(d->arena, "Mode %d", number));
   pl_value v = {.name = "omega^2", .of = pl_format(d->arena, "mode %d", number), .at = at, .form = form, .expr = w2,
                 .number = pl_number(d, w2), .unit = "1/s^2", .conserved = -1, .passed = -1, .order = -1};

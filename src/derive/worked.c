@@ -195,11 +195,26 @@ static bool needs_explicit_maps(const pl_ask* ask) {
          ask->kind == PL_ASK_SERIES || (ask->kind == PL_ASK_VALUE && ask->where.n > 0);
 }
 
+// The equations of the second kind at rest, over the names of the loops.
+static void show_rest(pl_analysis* d) {
+  pl_tell_loops(d);
+  pl_say(d, "At rest the constraints hold and", "In Ruhe gelten die Zwangsbedingungen und", 0);
+  for (int k = 0; k < d->gen.n; k++) {
+    pl_expr e = pl_second_kind(d, d->gen.at[k]);
+    for (int j = 0; j < d->gen.n; j++) {
+      const pl_variable* c = &d->q.at[d->gen.at[j]];
+      e = pl_subst1(d->pool, pl_subst1(d->pool, e, c->a, pl_int(d->pool, 0)), c->v, pl_int(d->pool, 0));
+    }
+    pl_show_numbered(d, pl_feq(d, pl_f(d, pl_alg_normal(d->tower, e), PL_S_EQUATION), pl_form_leaf(d->arena, pl_int(d->pool, 0))));
+  }
+}
+
 static void leave_implicit(pl_analysis* d, const pl_ask* ask) {
   pl_section_open(d, ask, ask->text, ask->text);
   pl_say(d, "The coordinates of closed loops follow from the generalized ones through roots; no closed form was found for this.",
          "Die Koordinaten geschlossener Schleifen folgen aus den verallgemeinerten durch Wurzeln; hierfür wurde keine geschlossene Form gefunden.", 0);
   d->section->not_found = true;
+  if (ask->kind == PL_ASK_EQUILIBRIA) show_rest(d);
 }
 
 static void answer(pl_analysis* d, const pl_ask* ask) {
@@ -262,7 +277,7 @@ static void answer_standard(pl_analysis* d) {
     standard(d, PL_ASK_LAGRANGE2, "lagrange2");
   }
   standard(d, PL_ASK_CONSERVED, "conserved");
-  if (d->reduced) standard(d, PL_ASK_EQUILIBRIA, "equilibria");
+  if (d->reduced && d->loops.n == 0) standard(d, PL_ASK_EQUILIBRIA, "equilibria");
 }
 
 static bool wanted(const pl_derive_options* o, const pl_ask* ask) {

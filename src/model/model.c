@@ -103,7 +103,7 @@ static const char* result_text(pl_arena* a, pl_result_kind kind, const char* lab
 }
 
 // The ASCII name cannot be that of a declared quantity: a parameter T and the kinetic energy T live side by side.
-pl_symbol pl_model_result_symbol(pl_model* m, pl_result_kind kind, const char* label) {
+static pl_symbol result_symbol(pl_model* m, pl_result_kind kind, const char* label, const char* shown_label) {
   pl_arena* a = pl_pool_arena(m->pool);
   const char* text = result_text(a, kind, label);
   for (int i = 0; i < m->result_names.n; i++) {
@@ -112,17 +112,24 @@ pl_symbol pl_model_result_symbol(pl_model* m, pl_result_kind kind, const char* l
   }
   const char* ascii = pl_symbol_find(m->pool, text).id ? pl_format(a, "%s_result", text) : text;
   pl_symbol_info info = {
-      .name = text, .ascii = ascii, .role = PL_R_LOCAL, .class = PL_C_OTHER, .dimension = pl_dimension_one()};
+      .name = result_text(a, kind, shown_label), .ascii = ascii, .role = PL_R_LOCAL, .class = PL_C_OTHER, .dimension = pl_dimension_one()};
   pl_symbol s = pl_symbol_make(m->pool, &info);
   pl_push(a, m->result_names, (pl_result_name){.symbol = s, .kind = kind, .label = label ? pl_copy(a, label) : NULL});
   return s;
 }
 
+pl_symbol pl_model_result_symbol(pl_model* m, pl_result_kind kind, const char* label) { return result_symbol(m, kind, label, label); }
+
+// diff(T, φ'), in ASCII diff(T, phi_dot).
 pl_symbol pl_model_result_derivative(pl_model* m, pl_result_kind kind, pl_expr of, pl_symbol by) {
   pl_arena* a = pl_pool_arena(m->pool);
   const char* text = pl_expr_text(a, m->pool, of);
-  if (kind == PL_RES_DIFF) text = pl_format(a, "%s, %s", text, pl_symbol_get(m->pool, by)->ascii);
-  pl_symbol s = pl_model_result_symbol(m, kind, text);
+  const char* shown = pl_kind_of(m->pool, of) == PL_SYMBOL ? pl_symbol_get(m->pool, pl_symbol_of(m->pool, of))->name : text;
+  if (kind == PL_RES_DIFF) {
+    text = pl_format(a, "%s, %s", text, pl_symbol_get(m->pool, by)->ascii);
+    shown = pl_format(a, "%s, %s", shown, pl_symbol_get(m->pool, by)->name);
+  }
+  pl_symbol s = result_symbol(m, kind, text, shown);
   for (int i = 0; i < m->result_names.n; i++) {
     pl_result_name* r = &m->result_names.at[i];
     if (r->symbol.id != s.id) continue;
