@@ -56,6 +56,8 @@ enum {
   PL_WORK_OF_SMALL = 200000,
   PL_WORK_OF_PRODUCT = 40,        // of the product and sum of small polynomials, which is overhead
   PL_WORK_OF_SUM = 15,
+  PL_WORK_OF_WRITTEN_TERM = 15,
+  PL_MAX_WRITTEN_TERMS = 10000,   // a longer polynomial is no normal form for anybody: the expression stays as it was
   PL_MAX_DEPTH = 2000          // nesting of an expression that is converted by recursion
 };
 

@@ -29,6 +29,8 @@ static pl_expr term_expr(pl_tower* t, const pl_poly* a, slong i) {
 
 pl_expr pl_poly_expr_as_is(pl_tower* t, const pl_poly* a) {
   if (a->length == 0) return pl_int(t->pool, 0);
+  if (a->length > PL_MAX_WRITTEN_TERMS) pl_tower_give_up(t);
+  pl_tower_charge(t, PL_WORK_OF_WRITTEN_TERM * a->length);
   pl_expr* terms = PL_ARRAY(t->arena, pl_expr, a->length);
   for (slong i = 0; i < a->length; i++) terms[i] = term_expr(t, a, i);
   return pl_add_n(t->pool, terms, (int)a->length);
