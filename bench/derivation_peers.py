@@ -3,11 +3,12 @@
 
 Usage: bench/derivation_peers.py PLEUEL
 
-pleuel counts twice: the whole process (start, reading, JSON and exit included) and the stage `derive` of its own --timing,
-which contains the search for a readable form and the checks of the results.  The peers' clocks start after start-up and
-import.  What has not ended after SECONDS_PER_STAGE (10) seconds (and 2 for start-up) is given up and said so.
+pleuel counts in processor time: "solved", equations and exact solution, is what the peers' "solved" is; "first" ends with the
+first acceleration or multiplier in a readable form; "all" contains every form and the certificates; then the whole process.  The
+peers' clocks start after start-up and import, and count processor time too.  What has not ended after SECONDS_PER_STAGE (10) seconds (and 2 for start-up) is given up and said so.
 Environment: SYMPY_PYTHON, an interpreter that can import sympy; MAXIMA, the maxima command; SECONDS_PER_STAGE.
 """
+import collections
 import json
 import os
 import pathlib
@@ -16,7 +17,6 @@ import statistics
 import subprocess
 import sys
 import tempfile
-import time
 
 import formula
 from systems import SYSTEMS, state, unknowns
@@ -27,20 +27,25 @@ seconds = float(os.environ.get("SECONDS_PER_STAGE", 10))
 runs = 5
 
 
+Times = collections.namedtuple("Times", "solved first all process")
+
+
 # ---- the three programs; each yields (stage, ms, results in the order of unknowns())
 
 def run_pleuel(name):
     command = [program, "solve", "--json", "--timing", "--no-simulation", str(here / "models" / f"{name}.pleuel")]
-    process_ms, derive_ms = [], []
+    rows = []
     for _ in range(runs):
-        start = time.perf_counter()
-        done = subprocess.run(command, capture_output=True, env=os.environ | {"LC_ALL": "C.UTF-8"})
-        process_ms.append(1e3 * (time.perf_counter() - start))
-        document = json.loads(done.stdout)
+        child = subprocess.Popen(command, stdout=subprocess.PIPE, env=os.environ | {"LC_ALL": "C.UTF-8"})
+        document = json.loads(child.stdout.read())
+        _, _, usage = os.wait4(child.pid, 0)
         if document["status"] != "ok":
             raise RuntimeError(f"{name}: {document['status']}")
-        derive_ms.append(document["timing_ms"]["derive"])
-    return statistics.median(process_ms), statistics.median(derive_ms), pleuel_results(name, document)
+        t = document["timing_ms"]
+        solved = t["cpu_equations"] + t["cpu_solution"]
+        everything = solved + t["cpu_presentation"] + t["cpu_certificates"]
+        rows.append((solved, t.get("cpu_first_form", everything), everything, 1e3 * (usage.ru_utime + usage.ru_stime)))
+    return Times(*(statistics.median(column) for column in zip(*rows))), pleuel_results(name, document)
 
 
 def pleuel_results(name, document):
@@ -111,14 +116,14 @@ accelerations() := block([lagr_, rows_, eqs_],
 readable(results_) := map(lambda([f_], factor(trigsimp(f_))), results_)$
 factor(trigsimp(sin(x_)^2 + cos(x_)^2))$
 derive() := block([start_, n_: 0, solved_ms_: 0, ms_: 0, found_, simple_],
-  start_: elapsed_real_time(),
+  start_: elapsed_run_time(),
   while solved_ms_ < 200 do (
-    found_: accelerations(), n_: n_ + 1, solved_ms_: 1000.0*(elapsed_real_time() - start_)),
+    found_: accelerations(), n_: n_ + 1, solved_ms_: 1000.0*(elapsed_run_time() - start_)),
   solved_ms_: solved_ms_/n_,
   tell("solved", solved_ms_, found_),
-  start_: elapsed_real_time(), n_: 0,
+  start_: elapsed_run_time(), n_: 0,
   while ms_ < 200 do (
-    simple_: readable(found_), n_: n_ + 1, ms_: 1000.0*(elapsed_real_time() - start_)),
+    simple_: readable(found_), n_: n_ + 1, ms_: 1000.0*(elapsed_run_time() - start_)),
   tell("simplified", solved_ms_ + ms_/n_, simple_))$
 derive()$
 """
@@ -154,7 +159,7 @@ def difference(name, ours, theirs):
     return worst
 
 
-def tell_peer(name, peer, found, process_ms, derive_ms, ops, values):
+def tell_peer(name, peer, found, times, ops, values):
     for stage in ("solved", "simplified"):
         label = f"    {peer + ' ' + stage:20}"
         if stage not in found:
@@ -163,8 +168,9 @@ def tell_peer(name, peer, found, process_ms, derive_ms, ops, values):
         ms = found[stage]["ms"]
         their_ops, their_values = measure(name, found[stage]["results"])
         off = difference(name, values, their_values)
-        times = f"{ms:9.1f} ms {ms / process_ms:8.1f} x process {ms / derive_ms:8.1f} x derive"
-        print(f"{label} {times} {their_ops:6d} ops {their_ops / max(ops, 1):6.2f} x"
+        ours = times.solved if stage == "solved" else times.all
+        compared = f"{ms:9.1f} ms {ms / ours:8.1f} x {'solved' if stage == 'solved' else 'all'}"
+        print(f"{label} {compared:32} {their_ops:6d} ops {their_ops / max(ops, 1):6.2f} x"
               + ("" if off < 1e-9 else f"   RESULTS DIFFER: {off:.1e}"))
 
 
@@ -187,20 +193,22 @@ def maxima_version():
 
 
 def main():
-    print(f"Derivation: pleuel (median of {runs}) beside its peers (one run); the peers' start-up and import excluded")
+    print(f"Derivation, processor time: pleuel (median of {runs}) beside its peers (one run); the peers' start-up and import excluded")
     print(f"SymPy {sympy_version}: LagrangesMethod + LUsolve, then simplify" if sympy_python
           else "SymPy: not installed, left out")
     print(f"Maxima {maxima_version()}: linsolve, then factor(trigsimp())" if maxima
           else "Maxima: not installed, left out")
+    print("Giac: not packaged for Debian 12, left out")
     for name, (title, *_) in SYSTEMS.items():
-        process_ms, derive_ms, (results, names, rename) = run_pleuel(name)
+        times, (results, names, rename) = run_pleuel(name)
         ops, values = measure(name, results, names, rename)
         print(f"  {title} (unknowns: {len(unknowns(name))})")
-        print(f"    {'pleuel':20} {process_ms:9.1f} ms process {derive_ms:9.1f} ms derive {'':14} {ops:6d} ops", flush=True)
+        print(f"    {'pleuel':20} " + " ".join(f"{stage} {ms:.2f} ms" for stage, ms in times._asdict().items()) + f" {ops:6d} ops",
+              flush=True)
         if sympy_python:
-            tell_peer(name, "SymPy", run_sympy(name), process_ms, derive_ms, ops, values)
+            tell_peer(name, "SymPy", run_sympy(name), times, ops, values)
         if maxima:
-            tell_peer(name, "Maxima", run_maxima(name), process_ms, derive_ms, ops, values)
+            tell_peer(name, "Maxima", run_maxima(name), times, ops, values)
         sys.stdout.flush()
 
 
