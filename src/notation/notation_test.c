@@ -100,7 +100,7 @@ static void multipliers_keep_their_label(void** state) {
   fixture* f = *state;
   LINE(L(lambda), "λ_g1");
   ASCII(L(lambda), "lambda_g1");
-  TEX(L(lambda), "\\lambda_{\\mathrm{g1}}");
+  TEX(L(lambda), "\\lambda_{g_{1}}");
   MATHML(L(lambda), "<msub><mi>λ</mi><mi>g1</mi></msub>");
 }
 
