@@ -238,7 +238,12 @@ def motion(name, kernel, folder, pythons, left_out):
     curves = {f"pleuel, {'compiled' if e == 'compiled' else 'interpreter'}": pleuel_curve(kernel, cases / f"{model}.pleuel", e, end, exact, n, order)
               for e in ("compiled", "interpreter")}
     if "heyoka" in pythons:
-        curves["heyoka"] = python_curve(pythons["heyoka"], "heyoka", name, end, exact, n, HEYOKA, folder)
+        # unrolled code is faster, but takes minutes to compile for larger systems
+        for peer, label in (("heyoka", "heyoka"), ("heyoka-compact", "heyoka, compact mode")):
+            if n <= 50 or "compact" in peer:
+                curves[label] = python_curve(pythons["heyoka"], peer, name, end, exact, n, HEYOKA, folder)
+            if curves.get(label):
+                break
     for peer, (source, method, ladder) in C_PEERS.items():
         flags = (SUNDIALS + KLU if source == "peer_sundials" else ["-lgsl", "-lgslcblas"])
         program = None if source in left_out else compiled(folder, source, name, flags)

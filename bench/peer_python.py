@@ -1,4 +1,4 @@
-"""heyoka and SciPy on a generated system.  Usage: peer_python.py heyoka|DOP853|Radau SYSTEM END TOLERANCE...
+"""heyoka and SciPy on a generated system.  Usage: peer_python.py heyoka|heyoka-compact|DOP853|Radau SYSTEM END TOLERANCE...
 
 SYSTEM is the name of a motion in problems.py (heyoka) or the shared library of its right side (SciPy: the same compiled code as for the
 C peers, called through ctypes).  Prints for each tolerance: microseconds (process clock, best of repeats), steps, state.
@@ -18,7 +18,7 @@ def repeated(once):
     print("result", 1e6 * best, steps, *(f"{float(x):.17g}" for x in state), flush=True)
 
 
-def with_heyoka(name, end, tolerances):
+def with_heyoka(name, end, tolerances, compact):
     import heyoka
     import motion_lines
     lines, n, start = motion_lines.of(name)
@@ -29,7 +29,7 @@ def with_heyoka(name, end, tolerances):
         known[target] = eval(text, known)
     right = list(y[n:]) + [known[f"z_{i}"] for i in range(n)]
     for tolerance in tolerances:
-        run = heyoka.taylor_adaptive(list(zip(y, right)), start, tol=tolerance, compact_mode=n > 50)
+        run = heyoka.taylor_adaptive(list(zip(y, right)), start, tol=tolerance, compact_mode=compact)
 
         def once():
             run.time, run.state[:] = 0.0, start
@@ -69,4 +69,4 @@ def with_scipy(method, library, end, tolerances):
 if __name__ == "__main__":
     peer, system, end = sys.argv[1], sys.argv[2], float(sys.argv[3])
     tolerances = [float(x) for x in sys.argv[4:]]
-    with_heyoka(system, end, tolerances) if peer == "heyoka" else with_scipy(peer, system, end, tolerances)
+    with_heyoka(system, end, tolerances, "compact" in peer) if peer.startswith("heyoka") else with_scipy(peer, system, end, tolerances)
