@@ -120,14 +120,21 @@ static pl_symbol result_symbol(pl_model* m, pl_result_kind kind, const char* lab
 
 pl_symbol pl_model_result_symbol(pl_model* m, pl_result_kind kind, const char* label) { return result_symbol(m, kind, label, label); }
 
+// A derivative carries the name of what it is derived from; its primes are added.
+static const char* shown_name(const pl_model* m, pl_arena* a, pl_symbol s) {
+  const pl_symbol_info* info = pl_symbol_get(m->pool, s);
+  const char* primes = info->role == PL_R_VELOCITY ? "'" : info->role == PL_R_ACCELERATION ? "''" : "";
+  return pl_format(a, "%s%s", info->name, primes);
+}
+
 // diff(T, φ'), in ASCII diff(T, phi_dot).
 pl_symbol pl_model_result_derivative(pl_model* m, pl_result_kind kind, pl_expr of, pl_symbol by) {
   pl_arena* a = pl_pool_arena(m->pool);
   const char* text = pl_expr_text(a, m->pool, of);
-  const char* shown = pl_kind_of(m->pool, of) == PL_SYMBOL ? pl_symbol_get(m->pool, pl_symbol_of(m->pool, of))->name : text;
+  const char* shown = pl_kind_of(m->pool, of) == PL_SYMBOL ? shown_name(m, a, pl_symbol_of(m->pool, of)) : text;
   if (kind == PL_RES_DIFF) {
     text = pl_format(a, "%s, %s", text, pl_symbol_get(m->pool, by)->ascii);
-    shown = pl_format(a, "%s, %s", shown, pl_symbol_get(m->pool, by)->name);
+    shown = pl_format(a, "%s, %s", shown, shown_name(m, a, by));
   }
   pl_symbol s = result_symbol(m, kind, text, shown);
   for (int i = 0; i < m->result_names.n; i++) {
