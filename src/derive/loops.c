@@ -442,7 +442,9 @@ static bool add_loop(pl_analysis* d, pl_loop* l, const pl_expr* e, const pl_unkn
     l->coordinate[j] = unknown[j].i;
     angle[j] = unknown[j].angle;
   }
-  if (pl_assemblies(d) * l->n_ways > pl_max_assemblies || !find_rates(d, l)) return false;
+  int sign;
+  bool never = !pl_is_poison(l->real) && pl_alg_sign(d->tower, l->real, false, &sign) == PL_YES && sign < 0;
+  if (never || pl_assemblies(d) * l->n_ways > pl_max_assemblies || !find_rates(d, l)) return false;
   if (!pl_is_poison(l->real)) pl_tower_use(d->tower, (pl_fact){l->real, false});
   find_side(d, l, e);
   if (l->n_ways > 1) pick_by_branch(d, l);

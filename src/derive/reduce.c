@@ -15,7 +15,10 @@ static void set_map(pl_analysis* d, int i, pl_expr map, int solved_by) {
   pl_variable* c = &d->q.at[i];
   c->map = map;
   c->solved_by = solved_by;
-  pl_expr v = pl_dt(d->pool, map), a = pl_dt(d->pool, v);
+  pl_expr v = pl_dt(d->pool, map);
+  if (d->loops.n > 0) v = pl_subst(d->pool, v, d->maps.at, d->maps.n);   // over the velocity coefficients
+  pl_expr a = pl_dt(d->pool, v);
+  if (d->loops.n > 0) a = pl_subst(d->pool, a, d->maps.at, d->maps.n);
   pl_replace fresh[3] = {{c->q, map}, {c->v, v}, {c->a, a}};
   for (int k = 0; k < d->maps.n; k++) d->maps.at[k].to = pl_subst(d->pool, d->maps.at[k].to, fresh, 3);
   for (int j = 0; j < d->q.n; j++) {

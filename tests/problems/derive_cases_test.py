@@ -437,5 +437,20 @@ def _(program):
                    lambda v, t, s=0: with_where(v, {**p, "t": t}) if v else slope(lambda u: fourbar(u, s)[index], t), name + "'", 1e-8)
 
 
+@test("a coordinate mapped after a loop moves with it; circles that do not meet are not solved")
+def _(program):
+    answer = case(program, "parallel_point")
+    checks_pass(answer)
+    p = dict(l=1.0, w=1.2, m=1.0, g=9.0, phi=1.3, phi_dot=0.8)
+    point = lambda t: circles((math.cos(t), math.sin(t)), 1.0, (1.2, 0.0), 1.0, 1)   # noqa: E731
+    side = 1 if point(1.3)[1] > circles((math.cos(1.3), math.sin(1.3)), 1.0, (1.2, 0.0), 1.0, -1)[1] else -1
+    y3 = lambda t: math.sin(t) + circles((math.cos(t), math.sin(t)), 1.0, (1.2, 0.0), 1.0, side)[1]   # noqa: E731
+    found = answer.values("y3_dot", item="y3'")
+    need(len(found) == 1, f"{len(found)} assemblies")
+    got = with_where(found[0], p)
+    need(abs(got - 0.8 * slope(y3, 1.3)) < 1e-8, f"y3' = {got}")
+    need(not case(program, "apart").values("y"), "circles that do not meet")
+
+
 if __name__ == "__main__":
     sys.exit(test.main(program_of(sys.argv)))
