@@ -81,6 +81,7 @@ static pl_prod monomial(pl_search* s, const pl_poly* f, slong i) {
 }
 
 static pl_prod expanded(pl_search* s, const pl_poly* f) {
+  if (f->length > MAX_EXPANDED_TERMS) pl_tower_give_up(s->t);
   pl_prod* terms = PL_ARRAY(s->a, pl_prod, f->length + 1);
   for (slong i = 0; i < f->length; i++) terms[i] = monomial(s, f, i);
   s->work += f->length / 4;
@@ -272,7 +273,7 @@ static void reraise(pl_search* s, const pl_poly* f, int depth, pl_prod* best, bo
     for (int k = 0; k < n; k++) {
       for (slong i = 0; i < radicands[k]->length; i++) {
         const pl_poly* raised = reraised(s, f, w, radicands[k], i);
-        if (!raised || raised->length == 0 || pl_poly_equal(t, raised, f)) continue;
+        if (!raised || raised->length == 0 || raised->length > MAX_EXPANDED_TERMS || pl_poly_equal(t, raised, f)) continue;
         pl_factored factors = factor(s, raised);
         if (!is_trivial(factors)) keep_best(best, factors_product(s, factors, depth), have);
       }
