@@ -140,25 +140,25 @@ static const pl_poly* split_content(pl_search* s, const pl_poly* num, pl_prod* o
   return rest;
 }
 
-// Term i of a over the first term of b, if it is an integer times a monomial; NULL.
-static const pl_poly* term_ratio(pl_search* s, const pl_poly* a, slong i, const pl_poly* b) {
+// Term i of a over term j of b, if it is an integer times a monomial; NULL.
+static const pl_poly* term_ratio(pl_search* s, const pl_poly* a, slong i, const pl_poly* b, slong j) {
   pl_tower* t = s->t;
   ulong x[PL_MAX_GENERATORS] = {0}, y[PL_MAX_GENERATORS] = {0};
-  if (!fmpz_divisible(&a->coeffs[i], &b->coeffs[0])) return NULL;
+  if (!fmpz_divisible(&a->coeffs[i], &b->coeffs[j])) return NULL;
   fmpz_mpoly_get_term_exp_ui(x, a, i, &t->ctx);
-  fmpz_mpoly_get_term_exp_ui(y, b, 0, &t->ctx);
+  fmpz_mpoly_get_term_exp_ui(y, b, j, &t->ctx);
   for (int g = 0; g < t->gens.n; g++) {
     if (x[g] < y[g]) return NULL;
     x[g] -= y[g];
   }
   fmpz* c = pl_int_new(t);
-  fmpz_divexact(c, &a->coeffs[i], &b->coeffs[0]);
+  fmpz_divexact(c, &a->coeffs[i], &b->coeffs[j]);
   pl_poly* q = pl_poly_new(t);
   fmpz_mpoly_push_term_fmpz_ui(q, c, x, &t->ctx);
   return q;
 }
 
-enum { MAX_DIVIDED_TERMS = 24 };
+enum { MAX_DIVIDED_TERMS = 12 };
 
 // (D - 2 B)/D = 1 - 2 B/D: the one-term multiple of the denominator that leaves the least of the numerator stands by itself.
 static bool whole_part(pl_search* s, pl_frac f, int depth, pl_prod* out) {
@@ -168,10 +168,10 @@ static bool whole_part(pl_search* s, pl_frac f, int depth, pl_prod* out) {
   const pl_poly* den = pl_factored_expand(t, (pl_factored){.unit = pl_poly_int(t, 1)->coeffs, .n = f.n, .at = f.den});
   if (!num || num->length < 3 || den->length < 3 || num->length > MAX_DIVIDED_TERMS || den->length > MAX_DIVIDED_TERMS) return false;
   const pl_poly *q = NULL, *rest = num;
-  for (slong i = 0; i < num->length; i++) {
-    const pl_poly* ratio = term_ratio(s, num, i, den);
+  for (slong k = 0; k < num->length * den->length; k++) {
+    const pl_poly* ratio = term_ratio(s, num, k / den->length, den, k % den->length);
     const pl_poly* left = ratio ? pl_poly_sub(t, num, pl_poly_mul(t, ratio, den)) : num;
-    s->work++;
+    s->work += ratio != NULL;
     if (left->length < rest->length) q = ratio, rest = left;
   }
   if (!q || rest->length == 0) return false;
@@ -182,7 +182,7 @@ static bool whole_part(pl_search* s, pl_frac f, int depth, pl_prod* out) {
 }
 
 // ---------------------------------------------------------------------------------------------- reciprocals
-// m1 m2 m3/(m1 m2 + m1 m3 + m2 m3) = 1/(1/m1 + 1/m2 + 1/m3), for three terms and more: of two masses one writes the product over the sum.
+// m1 m2 m3/(m1 m2 + m1 m3 + m2 m3) = 1/(1/m1 + 1/m2 + 1/m3), m2 m3/(...) = 1/(m1/m2 + m1/m3 + 1), for three terms and more: of two masses one writes the product over the sum.
 static bool reciprocals(pl_search* s, pl_frac f, pl_prod whole, pl_prod* out) {
   pl_tower* t = s->t;
   const pl_poly* den = f.n == 1 && f.den[0].power == 1 ? pl_base_poly(t, f.den[0].base) : NULL;
@@ -193,13 +193,15 @@ static bool reciprocals(pl_search* s, pl_frac f, pl_prod whole, pl_prod* out) {
     if (m->power == 1 && m->gen >= 0 && m->bucket == PL_K_MASS) taken = pl_prod_mul(s, taken, pl_prod_piece(s, *m, 1));
   }
   if (taken.n < 2) return false;
+  int use[PL_MAX_GENERATORS], n_use = 0;
+  pl_poly_used(t, den, use, &n_use);
+  for (int i = 0; i < n_use; i++)
+    if (pl_piece_of_gen(s, use[i]).bucket != PL_K_MASS) return false;   // cos²α/m is no ratio of masses
   pl_prod under = pl_prod_pow(s, taken, -1), terms[6];
   ulong exponent[PL_MAX_GENERATORS];
   for (slong i = 0; i < den->length; i++) {
     fmpz_mpoly_get_term_exp_ui(exponent, den, i, &t->ctx);
     terms[i] = pl_prod_mul(s, pl_prod_of_exponents(s, pl_fmpz_expr(t, &den->coeffs[i]), exponent), under);
-    for (int k = 0; k < terms[i].n; k++)
-      if (terms[i].at[k].power > 0) return false;   // a constant over one mass each
   }
   pl_prod above = pl_prod_mul(s, pl_present_poly(s, f.num, 0), under);
   pl_prod below = pl_prod_scale(s, pl_prod_sum(s, terms, (int)den->length), pl_fmpz_expr(t, f.unit));
