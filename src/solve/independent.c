@@ -106,7 +106,8 @@ void pl_independent_choose(pl_run* run) {
     return;
   }
   examine(run);
-  if (run->smallest > run->best) run->best = run->smallest;
+  // where later steps look at pivots of the whole system, those are the yardstick, not this measure of rows
+  if (!run->by_pivots && run->smallest > run->best) run->best = run->smallest;
 }
 
 bool pl_independent_pivot(pl_run* run, double* smallest) {
