@@ -309,6 +309,7 @@ static pl_found* recall(pl_search* s, const pl_poly* f, int depth, uint64_t* key
 }
 
 static pl_prod search_poly(pl_search* s, const pl_poly* f, int depth) {
+  pl_tower_charge(s->t, 200 + 20 * f->length);   // thousands of sums inside sums: the form of the depth before stands
   pl_prod best = {0};
   bool have = false;
   const pl_poly* v[MAX_VIEWS];
