@@ -32,6 +32,25 @@ PL_TEST(sums_and_products_obey_the_axioms) {
   pl_world_free(w);
 }
 
+// a b has at least the factors of a and b, however its factoring was found.
+PL_TEST(a_product_is_never_taken_for_irreducible) {
+  static const char* const factor[] = {"m1 + m2", "x^2 + y^2 - l^2", "m1*x + m2*y", "m1^2 - 3*x*y", "x*y + l*m2 + 1",
+                                       "x^3 + m1*y + 2*l", "x^2 + m1", "m1*m2 + m1*l + m2*x", "y^2 - 2*x^2", "l + x^2*y"};
+  int n = (int)(sizeof factor / sizeof *factor);
+  pl_world* w = pl_world_make(NULL);
+  for (int i = 0; i < n; i++) {
+    for (int k = 0; k <= i; k++) {
+      pl_expr product = pl_mul(w->pool, pl_text_expr(w, factor[i]), pl_text_expr(w, factor[k]));
+      pl_factor found[8];
+      pl_expr unit;
+      int m = pl_alg_factors(w->tower, pl_expand(w->pool, product, 64), found, 8, &unit), total = 0;
+      for (int j = 0; j < m; j++) total += found[j].power;
+      if (total != 2) fail_msg("(%s)(%s): %d factors", factor[i], factor[k], total);
+    }
+  }
+  pl_world_free(w);
+}
+
 PL_TEST(the_normal_form_of_a_normal_form_is_itself) {
   pl_world* w = pl_world_make(NULL);
   pl_random r = {seed + 1};
@@ -119,6 +138,7 @@ PL_TEST(what_is_solved_satisfies_the_system) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(sums_and_products_obey_the_axioms),
+      cmocka_unit_test(a_product_is_never_taken_for_irreducible),
       cmocka_unit_test(the_normal_form_of_a_normal_form_is_itself),
       cmocka_unit_test(the_normal_form_has_the_value_of_the_input),
       cmocka_unit_test(factors_multiply_to_the_whole),
