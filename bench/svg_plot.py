@@ -1,7 +1,8 @@
 """Work-precision plots as SVG, without a plotting library: relative error (right to left smaller) against CPU time, both logarithmic."""
 import math
 
-COLOURS = ["#0b5fff", "#00a0c6", "#d1495b", "#8f5bb5", "#2a9d5c", "#e08e0b", "#7a7a7a", "#b35900", "#444444"]
+COLOURS = ["#0b5fff", "#00a0c6", "#d1495b", "#8f5bb5", "#2a9d5c", "#e08e0b", "#7a7a7a", "#b35900", "#444444",
+           "#c2185b", "#5d4037", "#00897b"]
 WIDTH, HEIGHT, LEFT, TOP, RIGHT, BOTTOM = 420, 300, 62, 34, 12, 44
 
 
