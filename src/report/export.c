@@ -67,12 +67,15 @@ bool pl_export_target_find(const char* word, pl_export_target* target) {
 // ---------------------------------------------------------------------------------------------- what is exported
 typedef struct entry {
   const char* key;
-  const char *letter, *part;         // part: "left side", "where M", or NULL
+  const char *letter, *part;         // part: "left side" or NULL
   const pl_value* value;
   const char* along;
   pl_expr expr;
   const char* unit;                  // NULL when not known
 } entry;
+
+// A name that stays in the formulas: an abbreviation of the model, or an intermediate of the solution.
+typedef struct abbreviation { pl_symbol symbol; pl_expr value; } abbreviation;
 
 typedef struct exporter {
   pl_text* out;
@@ -83,9 +86,12 @@ typedef struct exporter {
   const pl_dialect* d;               // NULL for JSON
   pl_export_names names;
   PL_VEC(entry) entries;
+  PL_VEC(abbreviation) named;        // intermediates, in order of use
+  PL_VEC(abbreviation) kept;         // all abbreviations, in order of use
   pl_names* interned;                // keys that are taken
   pl_map* keys;
-  bool* used;                        // symbols that are declared      (pl_symbol_count + 1)
+  bool* used;                        // symbols that are declared      (n_used)
+  int n_used;
   int n_left_out;
 } exporter;
 
@@ -113,7 +119,9 @@ static void use(exporter* x, pl_expr e) {
   int n = pl_symbols_in(x->pool, e, NULL, 0);
   pl_symbol* s = PL_ARRAY(x->arena, pl_symbol, n + 1);
   pl_symbols_in(x->pool, e, s, n);
-  for (int i = 0; i < n; i++) x->used[s[i].id] = true;
+  for (int i = 0; i < n; i++) {
+    if ((int)s[i].id < x->n_used) x->used[s[i].id] = true;
+  }
 }
 
 static void collect(exporter* x, entry e) {
@@ -127,24 +135,42 @@ static void collect(exporter* x, entry e) {
   pl_push(x->arena, x->entries, e);
 }
 
-static void collect_value(exporter* x, const char* letter, const pl_value* v) {
-  entry e = {.letter = letter, .value = v, .unit = v->unit};
-  for (int i = 0; i < v->n_where; i++) {
-    e.part = pl_format(x->arena, "where %s", v->where_name[i]);
-    e.expr = v->where_expr[i];
-    e.unit = NULL;
-    collect(x, e);
+// Intermediates of different values may bear one name: the second gets another.
+static void name_intermediate(exporter* x, pl_symbol symbol, pl_expr value, pl_replace* renamed, int* n) {
+  for (int i = 0; i < x->named.n; i++) {
+    const abbreviation* known = &x->named.at[i];
+    if (known->symbol.id != symbol.id) continue;
+    if (known->value.id == value.id) return;
+    pl_symbol_info info = *pl_symbol_get(x->pool, symbol);
+    for (int k = 2; pl_symbol_find(x->pool, info.ascii).id; k++) {
+      info.ascii = pl_format(x->arena, "%s_%d", pl_symbol_get(x->pool, symbol)->ascii, k);
+      info.name = info.ascii;
+    }
+    info.role = PL_R_LOCAL;
+    renamed[(*n)++] = (pl_replace){symbol, pl_sym(x->pool, pl_symbol_make(x->pool, &info))};
+    symbol = pl_symbol_of(x->pool, renamed[*n - 1].to);
+    break;
   }
-  e = (entry){.letter = letter, .value = v, .unit = v->unit, .expr = v->expr};
+  pl_push(x->arena, x->named, (abbreviation){symbol, value});
+}
+
+static void collect_value(exporter* x, const char* letter, const pl_value* v) {
+  pl_replace* renamed = PL_ARRAY(x->arena, pl_replace, v->n_where + 1);
+  int n = 0;
+  for (int i = 0; i < v->n_where; i++) {
+    pl_expr value = pl_subst(x->pool, v->where_expr[i], renamed, n);
+    name_intermediate(x, pl_symbol_find(x->pool, v->where_name[i]), value, renamed, &n);
+  }
+  entry e = {.letter = letter, .value = v, .unit = v->unit, .expr = pl_subst(x->pool, v->expr, renamed, n)};
   collect(x, e);
   bool plain = pl_kind_of(x->pool, v->lhs) == PL_SYMBOL;       // x1 = ... has x1 as its name
   e.part = "left side";
-  e.expr = plain ? pl_poison() : v->lhs;
+  e.expr = plain ? pl_poison() : pl_subst(x->pool, v->lhs, renamed, n);
   collect(x, e);
   e.part = NULL;
   for (int i = 0; i < v->n_components; i++) {
     e.along = v->components[i].along;
-    e.expr = v->components[i].expr;
+    e.expr = pl_subst(x->pool, v->components[i].expr, renamed, n);
     collect(x, e);
   }
 }
@@ -152,19 +178,34 @@ static void collect_value(exporter* x, const char* letter, const pl_value* v) {
 // Abbreviations of the model that stay in the formulas.
 static bool is_kept(const pl_let* l) { return !l->inserted && l->n_args == 0 && l->symbol.id != 0 && !pl_is_poison(l->value); }
 
+static bool is_used(const exporter* x, pl_symbol s) { return (int)s.id < x->n_used && x->used[s.id]; }
+
 // A let may speak of those before it.
 static void use_lets(exporter* x) {
   for (int k = x->model->lets.n - 1; k >= 0; k--) {
     const pl_let* l = &x->model->lets.at[k];
-    if (is_kept(l) && x->used[l->symbol.id]) use(x, l->value);
+    if (is_kept(l) && is_used(x, l->symbol)) use(x, l->value);
   }
 }
 
-static bool is_let_used(const exporter* x, const pl_let* l) { return is_kept(l) && x->used[l->symbol.id]; }
-
-static bool is_let(const exporter* x, pl_symbol s) {
+// Those of the model come first; intermediates may speak of them.
+static void keep_abbreviations(exporter* x) {
+  for (int k = x->named.n - 1; k >= 0; k--) {
+    if (is_used(x, x->named.at[k].symbol)) use(x, x->named.at[k].value);
+  }
+  use_lets(x);
   for (int k = 0; k < x->model->lets.n; k++) {
-    if (is_kept(&x->model->lets.at[k]) && x->model->lets.at[k].symbol.id == s.id) return true;
+    const pl_let* l = &x->model->lets.at[k];
+    if (is_kept(l) && is_used(x, l->symbol)) pl_push(x->arena, x->kept, (abbreviation){l->symbol, l->value});
+  }
+  for (int k = 0; k < x->named.n; k++) {
+    if (is_used(x, x->named.at[k].symbol)) pl_push(x->arena, x->kept, x->named.at[k]);
+  }
+}
+
+static bool is_abbreviation(const exporter* x, pl_symbol s) {
+  for (int k = 0; k < x->kept.n; k++) {
+    if (x->kept.at[k].symbol.id == s.id) return true;
   }
   return false;
 }
@@ -179,7 +220,7 @@ static void collect_all(exporter* x) {
     for (int k = 0; k < section->values.n; k++) collect_value(x, letter, &section->values.at[k]);
   }
   for (int i = 0; i < x->model->params.n; i++) x->used[x->model->params.at[i].symbol.id] = true;
-  use_lets(x);
+  keep_abbreviations(x);
 }
 
 // ---------------------------------------------------------------------------------------------- pieces of text
@@ -235,7 +276,7 @@ static void add_header(exporter* x, const char* use_it) {
   add_line_comment(x, pl_format(x->arena, "%s: the formulas of %s, exported by pleuel " PLEUEL_VERSION ".  All in SI units.",
                                 title, x->in->file));
   add_line_comment(x, use_it);
-  for (int i = 1, n = pl_symbol_count(x->pool); i <= n; i++) {
+  for (int i = 1, n = pl_symbol_count(x->pool); i <= n && i < x->n_used; i++) {
     pl_symbol s = {(uint32_t)i};
     for (int k = 0; x->used[i] && k < dots_of(x, s); k++) {
       const char* ascii = pl_export_ascii(x->arena, x->pool, s, k);
@@ -261,13 +302,9 @@ static void add_parameters(exporter* x, const char* between) {
 }
 
 static void add_abbreviations(exporter* x, const char* before, const char* between, const char* separator) {
-  bool first = true;
-  for (int k = 0; k < x->model->lets.n; k++) {
-    const pl_let* l = &x->model->lets.at[k];
-    if (!is_let_used(x, l)) continue;
-    pl_text_addf(x->out, "%s%s%s%s", first ? "" : separator, before, name_of(x, l->symbol, 0), between);
-    add_expr(x, l->value);
-    first = false;
+  for (int k = 0; k < x->kept.n; k++) {
+    pl_text_addf(x->out, "%s%s%s%s", k == 0 ? "" : separator, before, name_of(x, x->kept.at[k].symbol, 0), between);
+    add_expr(x, x->kept.at[k].value);
   }
 }
 
@@ -306,7 +343,7 @@ static const char* sympy_assumption(const pl_symbol_info* s) {
 static void add_sympy(exporter* x) {
   add_header(x, "values[\"KEY\"].subs(parameters) inserts the numbers; put the abbreviations in before, if there are any.");
   add(x, "import sympy as sp\n\n");
-  for (int i = 1, n = pl_symbol_count(x->pool); i <= n; i++) {
+  for (int i = 1, n = pl_symbol_count(x->pool); i <= n && i < x->n_used; i++) {
     pl_symbol s = {(uint32_t)i};
     const pl_symbol_info* info = pl_symbol_get(x->pool, s);
     for (int k = 0; x->used[i] && k < dots_of(x, s); k++) {
@@ -354,9 +391,9 @@ static void add_julia(exporter* x) {
   const double* value = pl_model_values(x->model, x->arena);
   add(x, "function pleuel_values(;");
   bool first = true;
-  for (int i = 1, n = pl_symbol_count(x->pool); i <= n; i++) {
+  for (int i = 1, n = pl_symbol_count(x->pool); i <= n && i < x->n_used; i++) {
     pl_symbol s = {(uint32_t)i};
-    if (!x->used[i] || pl_symbol_get(x->pool, s)->role == PL_R_INDEX || is_let(x, s)) continue;
+    if (!x->used[i] || pl_symbol_get(x->pool, s)->role == PL_R_INDEX || is_abbreviation(x, s)) continue;
     for (int k = 0; k < dots_of(x, s); k++) {
       pl_text_addf(x->out, "%s%s = ", first ? " " : ", ", name_of(x, s, k));
       if (isfinite(value[i])) add_decimal(x, value[i]);
@@ -390,11 +427,9 @@ static void add_json_formula(exporter* x, pl_json* j, pl_expr e) {
 
 static void add_json_abbreviations(exporter* x, pl_json* j) {
   pl_json_object(j, "abbreviations");
-  for (int k = 0; k < x->model->lets.n; k++) {
-    const pl_let* l = &x->model->lets.at[k];
-    if (!is_let_used(x, l)) continue;
-    pl_json_object(j, pl_symbol_get(x->pool, l->symbol)->ascii);
-    add_json_formula(x, j, l->value);
+  for (int k = 0; k < x->kept.n; k++) {
+    pl_json_object(j, pl_symbol_get(x->pool, x->kept.at[k].symbol)->ascii);
+    add_json_formula(x, j, x->kept.at[k].value);
     pl_json_end_object(j);
   }
   pl_json_end_object(j);
@@ -435,7 +470,13 @@ void pl_export(pl_text* out, const pl_export_input* in) {
   pl_arena* a = out->arena;
   exporter x = {.out = out, .arena = a, .in = in, .model = in->solution->model, .pool = in->solution->model->pool,
                 .interned = pl_names_make(a), .keys = pl_map_make(a)};
-  x.used = PL_ARRAY(a, bool, pl_symbol_count(x.pool) + 1);
+  int intermediates = 0;       // each may need another name
+  for (int i = 0; i < in->solution->sections.n; i++) {
+    const pl_section* c = &in->solution->sections.at[i];
+    for (int k = 0; k < c->values.n; k++) intermediates += c->values.at[k].n_where;
+  }
+  x.n_used = pl_symbol_count(x.pool) + intermediates + 1;
+  x.used = PL_ARRAY(a, bool, x.n_used);
   collect_all(&x);
   if (in->target != PL_EXPORT_JSON) {
     x.d = &pl_dialects[in->target];
