@@ -30,10 +30,10 @@ static void check_range(pl_job* job, const pl_model* m, const double* value, pl_
 static void check_restitution(pl_job* job, const pl_model* m, int i, const double* value) {
   const pl_restitution* r = &m->restitutions.at[i];
   const pl_constraint* c = meant(m, r->label, true, i);
-  check_range(job, m, value, r->value, 1, r->span, "the coefficient of restitution", "der Stoßkoeffizient");
+  check_range(job, m, value, r->value, 1, r->span, "the coefficient of restitution", "die Stoßzahl");
   if (!c) return;
   if (pl_has_coordinate(m->pool, r->value, job->arena) || pl_has_role(m->pool, r->value, PL_R_TIME)) {
-    pl_tell(job, PL_E057, r->span, "a coefficient of restitution is constant", "ein Stoßkoeffizient ist konstant");
+    pl_tell(job, PL_E057, r->span, "a coefficient of restitution is constant", "eine Stoßzahl ist konstant");
     return;
   }
   if (c->relation != PL_EQ) return;
@@ -76,7 +76,7 @@ static void check_attached(pl_job* job, const pl_model* m, const pl_event* e) {
     if (!c || c->relation == PL_EQ || pl_model_restitution(m, c)) continue;
     pl_diagnostic* d = pl_tell(job, PL_N068, a->span.source ? a->span : e->span,
                                PL_F(job, "%s has no restitution: an impact when it is attached is inelastic", a->label),
-                               PL_F(job, "%s hat keinen Stoßkoeffizienten: ein Stoß beim Anschließen ist unelastisch", a->label));
+                               PL_F(job, "%s hat keine Stoßzahl: ein Stoß beim Anschließen ist unelastisch", a->label));
     pl_report_fix(d, PL_F(job, "restitution 0 on %s", a->label), PL_F(job, "restitution 0 on %s", a->label), NULL);
   }
 }

@@ -445,7 +445,7 @@ static void walk_contacts(pl_dim_pass* d) {
   for (int i = 0; i < m->restitutions.n; i++) {
     d->where = m->restitutions.at[i].span;
     need(d, m->restitutions.at[i].value, pure(d), PL_E033, "a coefficient of restitution is a number",
-         "ein Stoßkoeffizient ist eine Zahl");
+         "eine Stoßzahl ist eine Zahl");
   }
   for (int i = 0; i < m->frictions.n; i++) {
     const pl_friction* f = &m->frictions.at[i];
