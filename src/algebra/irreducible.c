@@ -11,6 +11,8 @@
 // the prime and the values are; bad luck only sends f to FLINT.
 #include "algebra/algebra_impl.h"
 
+#include <flint/nmod_poly.h>
+#include <flint/nmod_poly_factor.h>
 #include <string.h>
 
 enum { MAX_DEGREE = 6, MAX_TRIES = 6, MAX_VARIABLES = 3 };
