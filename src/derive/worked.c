@@ -4,6 +4,7 @@
 #include "derive/derive_impl.h"
 
 static const int largest_expansion = 24;   // coordinates up to which a family is written out and derived member by member
+static const int largest_for_a_member = 80;   // the same when a multiplier, an acceleration or a force of a member is asked for
 
 // ---------------------------------------------------------------------------------------------- degrees of freedom
 // Constraints that the others imply, by the rank of dg/dq at a generic point.
@@ -395,9 +396,19 @@ static pleuel_status derive(pl_analysis* d) {
   return status;
 }
 
+// The pattern of a family has no answer for one of its members.
+static bool asks_for_a_member(const pl_model* m) {
+  for (int i = 0; i < m->asks.n; i++) {
+    pl_ask_kind kind = m->asks.at[i].kind;
+    if (kind == PL_ASK_SOLVE || kind == PL_ASK_FORCE_OF || kind == PL_ASK_FORCE_ON) return true;
+  }
+  return false;
+}
+
 pleuel_status pl_derive(pl_job* job, pl_model* model, const pl_derive_options* options, pl_solution** out) {
   pl_model* flat = NULL;
-  pleuel_status status = pl_model_expand(job, model, largest_expansion, &flat);
+  int most = asks_for_a_member(model) ? largest_for_a_member : largest_expansion;
+  pleuel_status status = pl_model_expand(job, model, most, &flat);
   bool families = status == PLEUEL_UNSUPPORTED;   // too large to be written out: by pattern
   if (families) {
     flat = model;

@@ -5,6 +5,7 @@ The reference is Newton's law with the constraint forces as unknowns, by Gauss e
 structured_test.py PROGRAM
 """
 import math
+import re
 import os
 import sys
 import tempfile
@@ -99,6 +100,37 @@ for n in (4, 10):
         for k, expected in enumerate(tensions(n, at)):
             entry = answer.values(f"lambda_c{k + 1}")[0]
             need(entry["where"] and abs(value_of(entry, at) - expected) < 1e-9 * max(1, abs(expected)), f"lambda_c{k + 1}")
+
+
+FAMILY = """param N = 30, m = 1 [kg], d = 1 [m], g = 9.81 [m/s^2]
+coord x[1..N] [m], y[1..N] [m]
+axes x right, y up
+for i in 1..N {
+  mass P[i]: m at (x[i], y[i])
+}
+constraint c[1]: x[1]^2 + y[1]^2 = d^2
+for i in 2..N {
+  constraint c[i]: (x[i] - x[i-1])^2 + (y[i] - y[i-1])^2 = d^2
+}
+gravity g along -y
+ask solve λ_c[1]
+"""
+
+
+@test("a multiplier of one member of a family of 30 rods, as by hand")
+def _(program):
+    answer = solve(program, FAMILY)
+    passed(answer)
+    _, at = chain(30)
+    x = y = u = v = 0.0
+    for i in range(1, 31):       # the state of the chain, with equal masses and rods
+        a, w = 0.3 + 0.37 * i, 1.1 - 0.4 * i
+        x, y, u, v = x + math.sin(a), y - math.cos(a), u + math.cos(a) * w, v + math.sin(a) * w
+        at |= {f"m{i}": 1.0, f"l{i}": 1.0, f"x{i}": x, f"y{i}": y, f"x{i}_dot": u, f"y{i}_dot": v}
+    entry = answer.values("lambda_c_1")[0]
+    full = at | {"m": 1.0, "d": 1.0} | {re.sub(r"^([xy])(\d+)", r"\1_\2", k): v for k, v in at.items()}
+    expected = tensions(30, at)[0]
+    need(abs(value_of(entry, full) - expected) < 1e-9 * max(1, abs(expected)), f"{value_of(entry, full)} against {expected}")
 
 
 @test("the names of the model are not taken: A_1 is a length of the model")
