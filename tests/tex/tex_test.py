@@ -12,6 +12,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
 sys.path.insert(0, os.path.join(HERE, "..", "founding"))
 from sheet import *  # noqa: E402
+from sheet import Skip  # noqa: E402
 
 test = Tests()
 EXAMPLES = ["atwood", "crank", "ski", "double-pendulum", "ladder"]
