@@ -170,6 +170,24 @@ pleuel_status pl_rows_event(pl_run* run, pl_event_kind kind, int index, double i
   return how;
 }
 
+pleuel_status pl_rows_event_beside(pl_run* run, pl_event_record e, double t, const double* a, const double* lambda) {
+  const pl_sink* s = &run->options.sink;
+  pl_observe(run, t, run->row_q, run->row_v, a, lambda, run->out_now);
+  pl_mode_text(run, run->mode);
+  e.before = e.after = (pl_row){.t = t,
+                                .q = run->row_q,
+                                .v = run->row_v,
+                                .a = a,
+                                .lambda = lambda,
+                                .unique = run->unique,
+                                .out = run->out_now,
+                                .mode = run->mode,
+                                .kind = PL_ROW_AFTER};
+  pleuel_status how = s->event(s->user, &e);
+  run->refused |= how != PLEUEL_OK;
+  return how;
+}
+
 pleuel_status pl_rows_settled(pl_run* run, pl_event_kind kind, int index, double dt, long bounces) {
   const pl_sink* s = &run->options.sink;
   run->stats.n_events++;
@@ -178,21 +196,8 @@ pleuel_status pl_rows_settled(pl_run* run, pl_event_kind kind, int index, double
     run->row_q[i] = run->q[i] + dt * (run->v[i] + 0.5 * dt * run->A[i]);
     run->row_v[i] = run->v[i] + dt * run->A[i];
   }
-  pl_observe(run, run->t + dt, run->row_q, run->row_v, run->A, run->L, run->out_now);
-  pl_mode_text(run, run->mode);
   pl_event_record e = {.kind = kind, .index = index, .label = run->setup->links[index].name, .bounces = bounces};
-  e.before = e.after = (pl_row){.t = run->t + dt,
-                                .q = run->row_q,
-                                .v = run->row_v,
-                                .a = run->A,
-                                .lambda = run->L,
-                                .unique = run->unique,
-                                .out = run->out_now,
-                                .mode = run->mode,
-                                .kind = PL_ROW_AFTER};
-  pleuel_status how = s->event(s->user, &e);
-  run->refused |= how != PLEUEL_OK;
-  return how;
+  return pl_rows_event_beside(run, e, run->t + dt, run->A, run->L);
 }
 
 // ---------------------------------------------------------------------------------------------- energy

@@ -202,19 +202,6 @@ pleuel_status pl_singular_record(pl_run* run) {
   if (s->event == NULL) return PLEUEL_OK;
   pl_series_at(run, reach, run->row_q, run->row_v);
   pl_series_lambda_at(run, reach, run->row_a, run->row_l);
-  pl_observe(run, run->stats.t_singular, run->row_q, run->row_v, run->row_a, run->row_l, run->out_now);
-  pl_mode_text(run, run->mode);
   pl_event_record e = {.kind = PL_EV_SINGULAR, .index = -1};
-  e.before = e.after = (pl_row){.t = run->stats.t_singular,
-                                .q = run->row_q,
-                                .v = run->row_v,
-                                .a = run->row_a,
-                                .lambda = run->row_l,
-                                .unique = run->unique,
-                                .out = run->out_now,
-                                .mode = run->mode,
-                                .kind = PL_ROW_AFTER};
-  pleuel_status how = s->event(s->user, &e);
-  run->refused |= how != PLEUEL_OK;
-  return how;
+  return pl_rows_event_beside(run, e, run->stats.t_singular, run->row_a, run->row_l);
 }

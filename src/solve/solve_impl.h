@@ -375,6 +375,8 @@ void pl_observe(pl_run* run, double t, const double* q, const double* v, const d
                 double* out);
 void pl_rows_before(pl_run* run);                                        // remembers the point before a mode change
 pleuel_status pl_rows_event(pl_run* run, pl_event_kind kind, int index, double impulse, bool at_start);
+// An event whose state, in row_q and row_v, is not that of the point.
+pleuel_status pl_rows_event_beside(pl_run* run, pl_event_record e, double t, const double* a, const double* lambda);
 // A contact after endless bounces, dt after the point.
 pleuel_status pl_rows_settled(pl_run* run, pl_event_kind kind, int index, double dt, long bounces);
 void pl_rows_energy(pl_run* run, bool anew);                             // energy at the point, drift
