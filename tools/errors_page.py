@@ -3,13 +3,13 @@
 right, their answers show it.
 
 usage: errors_page.py PLEUEL [--check]      --check compares with the file and prints the difference"""
-import difflib
 import os
 import re
 import subprocess
 import sys
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+from kept_page import ROOT, keep
+
 FOLDER = os.path.join("tests", "problems", "print")
 ORDER = ["atwood_excess", "parabola", "rod_angle", "ladder", "cone", "cone_momentum", "governor", "crank", "sleigh"]
 HEAD = """# Errors found in print
@@ -37,15 +37,7 @@ def main():
     if sorted(ORDER) != sorted(f[:-7] for f in os.listdir(os.path.join(ROOT, FOLDER)) if f.endswith(".pleuel")):
         raise SystemExit(f"{FOLDER} and ORDER differ")
     text = HEAD + "".join(section(program, name) for name in ORDER)
-    path = os.path.join(ROOT, "docs", "errors-in-print.md")
-    if "--check" not in sys.argv:
-        with open(path, "w", encoding="utf-8") as f:
-            f.write(text)
-        return 0
-    with open(path, encoding="utf-8") as f:
-        stored = f.read()
-    sys.stdout.writelines(difflib.unified_diff(stored.splitlines(True), text.splitlines(True), "docs/errors-in-print.md", "now", n=0))
-    return stored != text
+    return keep("errors-in-print.md", text)
 
 
 if __name__ == "__main__":

@@ -2,11 +2,11 @@
 """Writes docs/problems.md: for each outside problem what pleuel answers beside what its source states.
 
 usage: problems_table.py PLEUEL [--check]      --check compares with the file and prints the difference"""
-import difflib
 import os
 import sys
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+from kept_page import ROOT, keep
+
 sys.path[:0] = [os.path.join(ROOT, "tests", "problems"), os.path.join(ROOT, "tests", "founding")]
 import problems_test as tests  # noqa: E402
 from expected import ENTRIES, NOT_ASKED, At  # noqa: E402
@@ -67,16 +67,7 @@ def page(program):
 
 def main():
     program = os.path.abspath(sys.argv[1])
-    path = os.path.join(ROOT, "docs", "problems.md")
-    text = page(program)
-    if "--check" not in sys.argv:
-        with open(path, "w", encoding="utf-8") as f:
-            f.write(text)
-        return 0
-    with open(path, encoding="utf-8") as f:
-        stored = f.read()
-    sys.stdout.writelines(difflib.unified_diff(stored.splitlines(True), text.splitlines(True), "docs/problems.md", "now", n=0))
-    return stored != text
+    return keep("problems.md", page(program))
 
 
 if __name__ == "__main__":
