@@ -295,10 +295,21 @@ static pl_expr number_before(pl_dim_pass* d, pl_expr e) {
   return pl_int(d->pool, 1);
 }
 
+// "5 [m]": the number has its unit already.
+static bool has_unit(pl_dim_pass* d, pl_expr e) {
+  for (int i = 0; pl_kind_of(d->pool, e) == PL_MUL && i < pl_n_args(d->pool, e); i++) {
+    pl_expr factor = pl_arg(d->pool, e, i);
+    if (pl_kind_of(d->pool, factor) == PL_POW) factor = pl_arg(d->pool, factor, 0);
+    if (pl_kind_of(d->pool, factor) == PL_SYMBOL && pl_is_unit_symbol(d->pool, pl_symbol_of(d->pool, factor))) return true;
+  }
+  return false;
+}
+
 // Numbers in front are pure, but the 3 of sin(3 t) may have been meant as 3 [1/s].  Halves and doubles are not.
 static bool fix_of_number_before(pl_dim_pass* d, pl_expr e, const pl_dim_form* is, const pl_dim_form* wanted,
                                  pl_diagnostic* m) {
   pl_pool* p = d->pool;
+  if (has_unit(d, e)) return false;
   pl_expr number = number_before(d, e), twice = pl_mul(p, pl_int(p, 2), number);
   long k;
   pl_dimension gap;
