@@ -102,16 +102,6 @@ static bool pivots_are_sound(pl_motion* o) {
 }
 
 // ---------------------------------------------------------------------------------------------- projection
-static double relative(const pl_run* run, const double* g, const double* size, bool positions) {
-  double most = 0;
-  for (int c = 0; c < run->n_c; c++) {
-    if (!run->active[c] || g[c] == 0 || (positions && run->setup->links[c].velocity)) continue;
-    double x = fabs(g[c]) / size[c];
-    if (!(x <= most)) most = x;
-  }
-  return most;
-}
-
 static void note_largest(double x, double* most) {
   if (!(x <= *most)) *most = x;
 }
@@ -137,7 +127,7 @@ static bool project_positions(pl_run* run, pl_motion* o, pl_projection* p) {
   double before = (double)INFINITY;
   for (int round = 0; round < MAX_NEWTON; round++) {
     run_part(o, PL_PART_PLACE, 0, 1);
-    double g = relative(run, o->m + o->g, o->m + o->g_size, true);
+    double g = pl_residual(run, o->m + o->g, o->m + o->g_size, true);
     if (round == 0) p->g_before = g;
     p->g_after = g;
     if (!isfinite(g) || !pivots_are_sound(o)) return false;
@@ -153,7 +143,7 @@ static bool project_positions(pl_run* run, pl_motion* o, pl_projection* p) {
 static bool project_velocities(pl_run* run, pl_motion* o, pl_projection* p) {
   for (int round = 0;; round++) {
     run_part(o, PL_PART_SPEED, 0, 1);
-    double r = relative(run, o->m + o->r, o->m + o->r_size, false);
+    double r = pl_residual(run, o->m + o->r, o->m + o->r_size, false);
     if (round == 0) p->r_before = r;
     p->r_after = r;
     if (!isfinite(r)) return false;

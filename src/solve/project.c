@@ -13,13 +13,22 @@ static void find_largest(double x, double* most) {
   if (!(x <= *most)) *most = x;  // NaN comes through
 }
 
-// Largest |g| relative to its terms, over active rows.
-static double relative(const pl_run* run, const double* g, const double* size, bool positions) {
+// The coarsest rounding among the rows that are taken, as a length of coordinates.
+static double coarsest(const pl_run* run, const double* size, bool positions) {
   double most = 0;
   for (int c = 0; c < run->n_c; c++) {
-    if (!run->active[c] || (positions && run->setup->links[c].velocity)) continue;
-    if (g[c] == 0) continue;
-    find_largest(fabs(g[c]) / size[c], &most);
+    if (!run->taken[c] || !(run->row_most[c] > 0) || (positions && run->setup->links[c].velocity)) continue;
+    most = fmax(most, size[c] / run->row_most[c]);
+  }
+  return most;
+}
+
+// A row that was left out is met as exactly as those it follows from, not as exactly as its own terms would allow.
+double pl_residual(const pl_run* run, const double* g, const double* size, bool positions) {
+  double most = 0, rough = run->rank < run->n_active ? coarsest(run, size, positions) : 0;
+  for (int c = 0; c < run->n_c; c++) {
+    if (!run->active[c] || g[c] == 0 || (positions && run->setup->links[c].velocity)) continue;
+    find_largest(fabs(g[c]) / (run->taken[c] ? size[c] : fmax(size[c], rough * run->row_most[c])), &most);
   }
   return most;
 }
@@ -39,7 +48,7 @@ static bool project_positions(pl_run* run, double t, double* q, const double* v,
   for (int round = 0; round < MAX_NEWTON; round++) {
     pl_point_evaluate(run, t, q, v);
     pl_assemble_g(run, 0, run->g, run->g_size);
-    double g = relative(run, run->g, run->g_size, true);
+    double g = pl_residual(run, run->g, run->g_size, true);
     if (round == 0) p->g_before = g;
     p->g_after = g;
     pl_independent_choose(run);
@@ -59,7 +68,7 @@ static bool project_velocities(pl_run* run, double* v, pl_projection* p) {
   for (int round = 0;; round++) {
     pl_batches_load_v(&run->motion, v, 0);
     pl_assemble_gdot(run, run->r, run->r_size);
-    double r = relative(run, run->r, run->r_size, false);
+    double r = pl_residual(run, run->r, run->r_size, false);
     if (round == 0) p->r_before = r;
     p->r_after = r;
     if (!isfinite(r)) return false;

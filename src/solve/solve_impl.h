@@ -308,6 +308,8 @@ void pl_series_lambda_at(const pl_run* run, double dt, double* a, double* lambda
 // ---- project.c
 pl_projection pl_project(pl_run* run, double t, double* q, double* v);
 void pl_impulse(pl_run* run, double* v, double factor, double* impulse);   // velocities onto G v + dg/dt = 0; (n_c)
+// Largest |g| (or |G v + dg/dt|) of the active constraints, relative to the size of their terms.
+double pl_residual(const pl_run* run, const double* g, const double* size, bool positions);
 double pl_norm(const double* x, int n);
 
 // ---- watch.c
