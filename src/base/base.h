@@ -221,6 +221,33 @@ double pl_clock(void);                      // monotonic seconds
     if (pl_try_ != PLEUEL_OK) return pl_try_;     \
   } while (0)
 
+// ---------------------------------------------------------------------------------------------- states
+// pl_keeper writes a state down or reads it back: one function names the numbers in their order and serves both ways.
+// What is read is not trusted: counts are held against what is there, integers against their limits.  The first thing that
+// does not fit is remembered, and from there on nothing is read any more.
+typedef struct pl_keeper {
+  bool reads;
+  pl_arena* arena;                         // of bytes that are written, texts that are read
+  unsigned char* at;                       // bytes, of which `next` are written or read
+  size_t size, next;                       // room; when reading, all that there is
+  const char* wrong;                       // reading: where it did not fit; NULL
+  const char* section;
+} pl_keeper;
+pl_keeper pl_keeper_to_write(pl_arena* a);
+pl_keeper pl_keeper_to_read(pl_arena* a, const void* bytes, size_t n);
+void pl_keep_section(pl_keeper* k, const char* name);       // a mark that must be found again
+void pl_keep_f64(pl_keeper* k, double* x);
+void pl_keep_f64s(pl_keeper* k, double* x, size_t n);       // n is known from elsewhere
+void pl_keep_int(pl_keeper* k, int* x, int least, int most);
+void pl_keep_long(pl_keeper* k, long* x, long least, long most);
+void pl_keep_bool(pl_keeper* k, bool* x);
+void pl_keep_bools(pl_keeper* k, bool* x, size_t n);
+void pl_keep_text(pl_keeper* k, const char** text);         // may be NULL; read ones lie in the arena
+void pl_keep_count(pl_keeper* k, int* n, size_t bytes_each);   // of things that follow, so many bytes each at least
+void pl_keep_bytes(pl_keeper* k, void* x, size_t n);
+void pl_keep_fail(pl_keeper* k);                            // what was read cannot be
+bool pl_keep_is_whole(const pl_keeper* k);                  // reading: all fitted, and nothing is left
+
 // ---------------------------------------------------------------------------------------------- dimensions
 // A physical dimension: rational exponents of the seven base units, in the order m kg s A K mol cd.
 // Angles are dimensionless.
