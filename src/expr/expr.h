@@ -131,6 +131,8 @@ bool pl_is_int(const pl_pool* p, pl_expr e, long* value);  // an integer that fi
 bool pl_is_ratio(const pl_pool* p, pl_expr e, long* num, long* den);
 int pl_number_sign(const pl_pool* p, pl_expr e);           // of a PL_NUMBER
 double pl_number_double(const pl_pool* p, pl_expr e);
+// A number as a sum of three doubles, each the nearest to what those before leave: 159 bits or more.
+void pl_number_doubles(const pl_pool* p, pl_expr e, double out[3]);
 const char* pl_number_text(pl_arena* a, const pl_pool* p, pl_expr e);  // "3", "-3/4", exact
 const char* pl_number_num_text(pl_arena* a, const pl_pool* p, pl_expr e);   // numerator in decimal, with sign
 const char* pl_number_den_text(pl_arena* a, const pl_pool* p, pl_expr e);   // denominator in decimal

@@ -435,6 +435,34 @@ double pl_number_double(const pl_pool* p, pl_expr e) {
   return large_double(&u);
 }
 
+// The rational u minus x, exactly.
+static void large_subtract_double(large* u, double x) {
+  mpq_t of;
+  mpq_init(of);
+  mpq_set_d(of, x);
+  mpz_mul(u->num, u->num, mpq_denref(of));
+  mpz_submul(u->num, mpq_numref(of), u->den);
+  mpz_mul(u->den, u->den, mpq_denref(of));
+  mpq_clear(of);
+}
+
+void pl_number_doubles(const pl_pool* p, pl_expr e, double out[3]) {
+  out[0] = pl_number_double(p, e);
+  out[1] = out[2] = 0;
+  if (!isfinite(out[0])) return;
+  large u, rest;
+  borrow(&u, pl_number_of(p, e));
+  mpz_init_set(rest.num, u.num);
+  mpz_init_set(rest.den, u.den);
+  for (int i = 1; i < 3; i++) {
+    large_subtract_double(&rest, out[i - 1]);
+    if (mpz_sgn(rest.num) == 0) break;
+    out[i] = large_double(&rest);
+  }
+  mpz_clear(rest.num);
+  mpz_clear(rest.den);
+}
+
 // ---------------------------------------------------------------------------------------------- text
 static const char* integer_text(pl_arena* a, const mpz_t z) {
   char* s = pl_alloc(a, mpz_sizeinbase(z, 10) + 2);

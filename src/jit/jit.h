@@ -47,7 +47,11 @@ typedef struct pl_prog_line {
 } pl_prog_line;
 
 typedef struct pl_prog_pair { int a, b; } pl_prog_pair;              // streams, row 0
-typedef struct pl_prog_sum { int to, first, n; bool weighted; } pl_prog_sum;   // pairs first .. first + n - 1
+typedef struct pl_prog_sum {
+  int to, first, n;        // pairs first .. first + n - 1
+  bool weighted;
+  int lanes;               // the first so many hold something; 0: all.  What vector registers compute for nothing
+} pl_prog_sum;
 typedef struct pl_prog_block { int width, shift, first, n; } pl_prog_block;    // sums first .. first + n - 1
 // y = A x: rows in blocks of 8, column j of A at A + 8 j blocks; sums over j in four parts, j mod 4: (s0+s1)+(s2+s3).
 typedef struct pl_prog_product { int to, matrix, vector, n, blocks; } pl_prog_product;
@@ -88,12 +92,37 @@ int pl_prog_call2(pl_prog* c, pl_prog_function f, int a, int b);
 void pl_prog_block_begin(pl_prog* c, int width, int shift);
 void pl_prog_sum_begin(pl_prog* c, int to, bool weighted);
 void pl_prog_sum_pair(pl_prog* c, int a, int b);
+void pl_prog_sum_lanes(pl_prog* c, int lanes);   // of the sum at work
 void pl_prog_product_add(pl_prog* c, int to, int matrix, int vector, int n, int blocks);
 uint64_t pl_prog_hash(const pl_prog* c, uint64_t seed);
 void pl_prog_dump(pl_text* out, const pl_prog* c);
 
 // ---- prog_run.c: the interpreter
 void pl_prog_interpret(const pl_prog* c, double* memory, int from, int to);
+
+// ---- real.c, real_type.c: programs on numbers wider than a double, interpreted.  `memory` then holds numbers of that type, as
+// many as there would be doubles; a multiply-add rounds twice.
+typedef struct pl_parts { double part[3]; } pl_parts;   // a number as a sum, each part the rounding of what is left
+enum { PL_REAL_TEXT = 64 };
+typedef struct pl_real {
+  const char* name;
+  size_t size;
+  int bits;
+  double epsilon;          // distance from 1 to the next number
+  void (*interpret)(const pl_prog* c, void* memory, int from, int to);
+  void (*read)(const void* memory, int at, int n, double* out);   // rounded
+  void (*write)(void* memory, int at, int n, const double* x);
+  pl_parts (*get)(const void* memory, int at);
+  void (*set)(void* memory, int at, pl_parts x);
+  void (*move)(void* memory, int to, int from, int n);
+  void (*add)(void* memory, int to, int from, int n);   // memory[to + i] += memory[from + i]
+  void (*round_to_long)(void* memory, int at, int n);   // to the digits that a long double has
+  void (*ratios)(void* memory, int ratio, int rest, int n);   // 1/i, and what rounding left of it
+  int (*text)(char out[PL_REAL_TEXT], const void* memory, int at, bool negative);   // as short as reads back; its length
+} pl_real;
+// NULL where the processor or the compiler has no such type.
+const pl_real* pl_real_long(void);           // 80 bits, 64 of them digits
+const pl_real* pl_real_quad(void);           // 128 bits, 113 of them digits
 
 // ---- recurrences.c: the recurrences of the tape's operations as code
 // What a node's convolutions read: A and B as nodes (itself included), A weighted by j.

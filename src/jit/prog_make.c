@@ -94,6 +94,8 @@ void pl_prog_sum_begin(pl_prog* c, int to, bool weighted) {
   c->blocks.at[c->blocks.n - 1].n++;
 }
 
+void pl_prog_sum_lanes(pl_prog* c, int lanes) { c->sums.at[c->sums.n - 1].lanes = lanes; }
+
 void pl_prog_sum_pair(pl_prog* c, int a, int b) {
   pl_push(c->arena, c->pairs, (pl_prog_pair){a, b});
   c->sums.at[c->sums.n - 1].n++;

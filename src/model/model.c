@@ -196,6 +196,15 @@ static void give(value_pass* v, pl_symbol s, pl_expr value) {
   if (s.id && pl_is_poison(v->given[s.id])) v->given[s.id] = value;
 }
 
+static void give_all(value_pass* v) {
+  const pl_model* m = v->m;
+  for (int i = 0; i < m->params.n; i++) give(v, m->params.at[i].symbol, m->params.at[i].value);
+  for (int i = 0; i < m->lets.n; i++) {
+    const pl_let* l = &m->lets.at[i];
+    if (l->n_args == 0 && !l->inserted) give(v, l->symbol, l->value);
+  }
+}
+
 double* pl_model_values(const pl_model* m, pl_arena* a) {
   int n = pl_symbol_count(m->pool) + 1;
   value_pass v = {m, a, PL_ARRAY(a, double, n), PL_ARRAY(a, pl_expr, n), PL_ARRAY(a, char, n)};
@@ -203,15 +212,17 @@ double* pl_model_values(const pl_model* m, pl_arena* a) {
   for (int i = 1; i < n; i++) {
     if (pl_is_unit_symbol(m->pool, (pl_symbol){(uint32_t)i})) v.value[i] = 1;
   }
-  for (int i = 0; i < m->params.n; i++) give(&v, m->params.at[i].symbol, m->params.at[i].value);
-  for (int i = 0; i < m->lets.n; i++) {
-    const pl_let* l = &m->lets.at[i];
-    if (l->n_args == 0 && !l->inserted) give(&v, l->symbol, l->value);
-  }
+  give_all(&v);
   for (int i = 1; i < n; i++) {
     if (!pl_is_poison(v.given[i])) evaluate_name(&v, (pl_symbol){(uint32_t)i});
   }
   return v.value;
+}
+
+pl_expr* pl_model_definitions(const pl_model* m, pl_arena* a) {
+  value_pass v = {.m = m, .arena = a, .given = PL_ARRAY(a, pl_expr, pl_symbol_count(m->pool) + 1)};
+  give_all(&v);
+  return v.given;
 }
 
 // ---------------------------------------------------------------------------------------------- coordinates

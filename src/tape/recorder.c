@@ -41,6 +41,7 @@ typedef struct recorder {
   const pl_tape_slots* slots;
   PL_VEC(pl_tape_node) nodes;
   PL_VEC(pl_symbol) params;
+  PL_VEC(pl_expr) constants;  // what a number is exactly, poison where its double is; empty behind the last such number
   pl_map *by_expr, *by_op, *by_value, *atoms, *by_param;
   int depth;
   pleuel_status status;  // of the first failure
@@ -65,15 +66,46 @@ static int append(recorder* r, pl_tape_node node) {
   return r->nodes.n - 1;
 }
 
-static int number(recorder* r, double x) {
+static bool is_number(const pl_tape_node* n, const double x[3]) {
+  return memcmp(&n->value, x, sizeof *x) == 0 && memcmp(n->rest, x + 1, 2 * sizeof *x) == 0;
+}
+
+// A number in parts.
+static int number_in_parts(recorder* r, const double x[3]) {
   uint64_t bits;
-  memcpy(&bits, &x, sizeof bits);
+  memcpy(&bits, x, sizeof bits);
   uint64_t key = bits + 1;  // 0.0 is not "absent"
+  if (x[1] != 0) key = (key ^ pl_hash_bytes(x + 1, 2 * sizeof *x, 1)) | 1;
   uint64_t known = pl_map_get(r->by_value, key);
+  if (known && is_number(&r->nodes.at[known - 1], x)) return (int)(known - 1);
+  int node = append(r, (pl_tape_node){.op = PL_OP_CONST, .level = PL_LEVEL_CONST, .a = -1, .b = -1, .c = -1, .value = x[0], .rest = {x[1], x[2]}});
+  pl_map_set(r->by_value, key, (uint64_t)node + 1);
+  return node;
+}
+
+static int number(recorder* r, double x) { return number_in_parts(r, (const double[3]){x}); }
+
+static int rational(recorder* r, pl_expr e) {
+  double x[3];
+  pl_number_doubles(r->pool, e, x);
+  return number_in_parts(r, x);
+}
+
+static int pi(recorder* r) {
+  return number_in_parts(r, (const double[3]){3.14159265358979323846, 1.2246467991473531772e-16, -2.9947698097183396659e-33});
+}
+
+// A number that a double need not hold: 1/3, π.  Numbers that round to the same double stay apart.
+static int exact_number(recorder* r, pl_expr e, double x) {
+  if (floor(x) == x && fabs(x) < 0x1p53 && pl_is_int(r->pool, e, NULL)) return number(r, x);
+  uint64_t key = UINT64_C(1) << 62 | e.id;
+  uint64_t known = pl_map_get(r->by_op, key);
   if (known) return (int)(known - 1);
   int node =
       append(r, (pl_tape_node){.op = PL_OP_CONST, .level = PL_LEVEL_CONST, .a = -1, .b = -1, .c = -1, .value = x});
-  pl_map_set(r->by_value, key, (uint64_t)node + 1);
+  while (r->constants.n < node) pl_push(r->arena, r->constants, pl_poison());
+  if (r->constants.n == node) pl_push(r->arena, r->constants, e);
+  pl_map_set(r->by_op, key, (uint64_t)node + 1);
   return node;
 }
 
@@ -157,7 +189,7 @@ static int power_int(recorder* r, int base, long n) {  // n >= 1
 static int power_ratio(recorder* r, int base, long num, long den) {
   if (den == 1 && num <= MAX_POWER) return power_int(r, base, num);
   if (den == 2 && num == 1) return emit(r, PL_OP_SQRT, base, -1);
-  return emit(r, PL_OP_POW, base, number(r, (double)num / (double)den));
+  return emit(r, PL_OP_POW, base, rational(r, pl_ratio(r->pool, num, den)));
 }
 
 static int power(recorder* r, pl_expr base, pl_expr exponent) {
@@ -309,6 +341,8 @@ static int parameter(recorder* r, pl_expr e) {
   const double* values = r->slots->value_of_symbol;
   if (values == NULL || isnan(values[s.id]))
     return give_up(r, PLEUEL_USAGE, "%s has no value", pl_symbol_get(r->pool, s)->name);
+  const pl_expr* definition = r->slots->definition;
+  if (definition && !pl_is_poison(definition[s.id])) return record(r, definition[s.id]);
   uint64_t known = pl_map_get(r->by_param, s.id);
   if (!known) {
     pl_push(r->arena, r->params, s);
@@ -321,8 +355,8 @@ static int parameter(recorder* r, pl_expr e) {
 static int record_new(recorder* r, pl_expr e) {
   switch (pl_kind_of(r->pool, e)) {
     case PL_POISON: return give_up(r, PLEUEL_NUMERICAL, "an expression has no value%s", "");
-    case PL_NUMBER: return number(r, pl_number_double(r->pool, e));
-    case PL_PI: return number(r, 3.14159265358979323846);
+    case PL_NUMBER: return rational(r, e);
+    case PL_PI: return pi(r);
     case PL_SYMBOL: return parameter(r, e);
     case PL_AT: return give_up(r, PLEUEL_USAGE, "%s has no place here", pl_expr_text(r->arena, r->pool, e));
     case PL_ADD: return record_sum(r, e);
@@ -423,6 +457,12 @@ static void finish_params(recorder* r, pl_tape* tape) {
   tape->param_symbol = r->params.at;
 }
 
+static void finish_constants(recorder* r, pl_tape* tape, const int* to) {
+  pl_expr* constant = PL_ARRAY(r->arena, pl_expr, tape->n_nodes + 1);
+  for (int i = 0; i < r->constants.n; i++) constant[to[i]] = r->constants.at[i];
+  tape->constant = constant;
+}
+
 static pl_tape* finish(recorder* r, const int* root, const bool* high, int n) {
   pl_tape* tape = PL_NEW(r->arena, pl_tape);
   int n_nodes = r->nodes.n;
@@ -446,6 +486,7 @@ static pl_tape* finish(recorder* r, const int* root, const bool* high, int n) {
   tape->a_node = input_nodes(r, tape, PL_OP_A, tape->n_q);
   tape->lambda_node = input_nodes(r, tape, PL_OP_LAMBDA, tape->n_c);
   finish_params(r, tape);
+  finish_constants(r, tape, to);
   return tape;
 }
 

@@ -46,6 +46,7 @@ typedef struct pl_tape_node {
   int a, b, c;       // operands; c is the partner w of a series operation, or the third operand of IF; -1 none
   int slot;          // of an input
   double value;      // of CONST
+  double rest[2];    // of CONST: what rounding to a double left, as two more doubles
 } pl_tape_node;
 
 // Nodes are sorted by level and topologically within one; partners may come later (only lower orders are read).
@@ -59,6 +60,7 @@ typedef struct pl_tape {
   const int *q_node, *v_node, *a_node, *lambda_node;   // input node of each slot, -1 if the program does not read it
   const double* param_value;      // (n_param)
   const pl_symbol* param_symbol;  // (n_param)
+  const pl_expr* constant;        // of a CONST node: what it is exactly; poison where `value` is exact  (n_nodes)
 } pl_tape;
 
 // What the names in an expression stand for.
@@ -71,6 +73,8 @@ typedef struct pl_tape_slots {
   int n_index;
   const pl_symbol* index;         // index symbols, whose values come with each instance
   const double* value_of_symbol;  // every other symbol is a parameter: its value by symbol id, as in pl_eval
+  const pl_expr* definition;      // by symbol id: what is written down instead of a parameter, so that nothing of it is
+                                  // lost to rounding; poison: nothing.  NULL: parameters are parameters
 } pl_tape_slots;
 
 // pl_tape_record writes n roots as one program with common subexpressions shared.  high[i] tells whether root i is
