@@ -66,47 +66,39 @@ static int append(recorder* r, pl_tape_node node) {
   return r->nodes.n - 1;
 }
 
-static bool is_number(const pl_tape_node* n, const double x[3]) {
-  return memcmp(&n->value, x, sizeof *x) == 0 && memcmp(n->rest, x + 1, 2 * sizeof *x) == 0;
-}
-
-// A number in parts.
-static int number_in_parts(recorder* r, const double x[3]) {
+static int number(recorder* r, double x) {
   uint64_t bits;
-  memcpy(&bits, x, sizeof bits);
+  memcpy(&bits, &x, sizeof bits);
   uint64_t key = bits + 1;  // 0.0 is not "absent"
-  if (x[1] != 0) key = (key ^ pl_hash_bytes(x + 1, 2 * sizeof *x, 1)) | 1;
   uint64_t known = pl_map_get(r->by_value, key);
-  if (known && is_number(&r->nodes.at[known - 1], x)) return (int)(known - 1);
-  int node = append(r, (pl_tape_node){.op = PL_OP_CONST, .level = PL_LEVEL_CONST, .a = -1, .b = -1, .c = -1, .value = x[0], .rest = {x[1], x[2]}});
+  if (known) return (int)(known - 1);
+  int node =
+      append(r, (pl_tape_node){.op = PL_OP_CONST, .level = PL_LEVEL_CONST, .a = -1, .b = -1, .c = -1, .value = x});
   pl_map_set(r->by_value, key, (uint64_t)node + 1);
   return node;
 }
 
-static int number(recorder* r, double x) { return number_in_parts(r, (const double[3]){x}); }
-
-static int rational(recorder* r, pl_expr e) {
-  double x[3];
-  pl_number_doubles(r->pool, e, x);
-  return number_in_parts(r, x);
-}
-
-static int pi(recorder* r) {
-  return number_in_parts(r, (const double[3]){3.14159265358979323846, 1.2246467991473531772e-16, -2.9947698097183396659e-33});
-}
-
-// A number that a double need not hold: 1/3, π.  Numbers that round to the same double stay apart.
-static int exact_number(recorder* r, pl_expr e, double x) {
-  if (floor(x) == x && fabs(x) < 0x1p53 && pl_is_int(r->pool, e, NULL)) return number(r, x);
+// A number that a double need not hold: 1/3, π.  x: in parts.  Numbers that round to the same double stay apart.
+static int exact_number(recorder* r, pl_expr e, const double x[3]) {
+  if (floor(x[0]) == x[0] && fabs(x[0]) < 0x1p53 && pl_is_int(r->pool, e, NULL)) return number(r, x[0]);
   uint64_t key = UINT64_C(1) << 62 | e.id;
   uint64_t known = pl_map_get(r->by_op, key);
   if (known) return (int)(known - 1);
-  int node =
-      append(r, (pl_tape_node){.op = PL_OP_CONST, .level = PL_LEVEL_CONST, .a = -1, .b = -1, .c = -1, .value = x});
+  int node = append(r, (pl_tape_node){.op = PL_OP_CONST, .level = PL_LEVEL_CONST, .a = -1, .b = -1, .c = -1, .value = x[0], .rest = {x[1], x[2]}});
   while (r->constants.n < node) pl_push(r->arena, r->constants, pl_poison());
   if (r->constants.n == node) pl_push(r->arena, r->constants, e);
   pl_map_set(r->by_op, key, (uint64_t)node + 1);
   return node;
+}
+
+static int rational(recorder* r, pl_expr e) {
+  double x[3];
+  pl_number_doubles(r->pool, e, x);
+  return exact_number(r, e, x);
+}
+
+static int pi(recorder* r, pl_expr e) {
+  return exact_number(r, e, (const double[3]){3.14159265358979323846, 1.2246467991473531772e-16, -2.9947698097183396659e-33});
 }
 
 static int input(recorder* r, pl_op op, pl_level level, int slot) {
@@ -356,7 +348,7 @@ static int record_new(recorder* r, pl_expr e) {
   switch (pl_kind_of(r->pool, e)) {
     case PL_POISON: return give_up(r, PLEUEL_NUMERICAL, "an expression has no value%s", "");
     case PL_NUMBER: return rational(r, e);
-    case PL_PI: return pi(r);
+    case PL_PI: return pi(r, e);
     case PL_SYMBOL: return parameter(r, e);
     case PL_AT: return give_up(r, PLEUEL_USAGE, "%s has no place here", pl_expr_text(r->arena, r->pool, e));
     case PL_ADD: return record_sum(r, e);
