@@ -90,7 +90,7 @@ void pl_prog_block_begin(pl_prog* c, int width, int shift) {
 }
 
 void pl_prog_sum_begin(pl_prog* c, int to, bool weighted) {
-  pl_push(c->arena, c->sums, (pl_prog_sum){to, c->pairs.n, 0, weighted});
+  pl_push(c->arena, c->sums, (pl_prog_sum){.to = to, .first = c->pairs.n, .weighted = weighted});
   c->blocks.at[c->blocks.n - 1].n++;
 }
 
