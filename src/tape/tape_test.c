@@ -191,6 +191,28 @@ static void a_tape_can_be_read(void** state) {
   pl_arena_free(b->arena);
 }
 
+// Two decimals that round to the same double are two constants, each with its exact value; whole numbers need none.
+static void numbers_keep_what_they_are_exactly(void** state) {
+  (void)state;
+  bench* b = bench_open();
+  pl_pool* p = b->pool;
+  pl_expr fine = pl_number_from_text(p, "0.1000000000000000000001", 24), tenth = pl_ratio(p, 1, 10);
+  pl_expr terms[] = {pl_mul(p, fine, b->x), pl_mul(p, tenth, b->y), pl_mul(p, pl_int(p, 3), pl_mul(p, b->x, b->y)), pl_pi(p)};
+  pl_expr e = pl_add_n(p, terms, 4);
+  pl_tape* tape;
+  assert_int_equal(record(b, &e, 1, &tape), PLEUEL_OK);
+  int n_exact = 0, n_whole = 0;
+  for (int i = 0; i < tape->n_nodes; i++) {
+    if (tape->nodes[i].op != PL_OP_CONST) continue;
+    pl_expr exact = tape->constant[i];
+    n_exact += exact.id && (pl_same(exact, fine) || pl_same(exact, tenth) || pl_same(exact, pl_pi(p)));
+    n_whole += !exact.id && tape->nodes[i].value == 3;
+  }
+  assert_int_equal(n_exact, 3);
+  assert_int_equal(n_whole, 1);
+  pl_arena_free(b->arena);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(common_subexpressions_are_computed_once),
@@ -202,6 +224,7 @@ int main(void) {
       cmocka_unit_test(a_pattern_has_the_entries_that_are_not_zero),
       cmocka_unit_test(what_cannot_be_moved_is_refused),
       cmocka_unit_test(a_tape_can_be_read),
+      cmocka_unit_test(numbers_keep_what_they_are_exactly),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
