@@ -48,6 +48,13 @@ void pl_sparse_free(pl_sparse* s);
 bool pl_sparse_factor(pl_sparse* s, const double* value);
 void pl_sparse_solve(pl_sparse* s, double* b);       // in place
 double pl_sparse_rcond(pl_sparse* s);                // cheap estimate of the pivot ratio
+double pl_sparse_work(const pl_sparse* s);           // operations of a factorisation, from the analysis
+// The same with complex values, re and im alternating; a pl_sparse is used for one kind only.
+bool pl_zsparse_factor(pl_sparse* s, const double* value);
+void pl_zsparse_solve(pl_sparse* s, double* b);
+double pl_zsparse_rcond(pl_sparse* s);
+// The pivot order that the next factor begins with, written down or read back (base.h).
+void pl_sparse_keep(pl_sparse* s, pl_keeper* k);
 
 // ---------------------------------------------------------------------------------------------- roots
 // Every root in [0, 1] of c_0 + c_1 x + ... + c_n x^n, in order.  The value at x is taken to be known to

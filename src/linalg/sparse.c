@@ -18,6 +18,7 @@ struct pl_sparse {
   klu_symbolic* symbolic;
   klu_numeric* numeric;
   double* value;  // KLU takes it without const  (start[n])
+  double* first;  // those that the pivot order was found from  (start[n])
 };
 
 // Pivots kept from an earlier factorisation are good while the growth stays above this.
@@ -30,6 +31,7 @@ pl_sparse* pl_sparse_make(pl_arena* a, int n, const int* start, const int* row) 
   s->start = PL_ARRAY(a, int, n + 1);
   s->row = PL_ARRAY(a, int, n_entries + 1);
   s->value = PL_ARRAY(a, double, n_entries + 1);
+  s->first = PL_ARRAY(a, double, n_entries + 1);
   for (int j = 0; j <= n; j++) s->start[j] = start[j];
   for (int k = 0; k < n_entries; k++) s->row[k] = row[k];
   klu_defaults(&s->common);
@@ -56,15 +58,30 @@ static bool refactor_serves(pl_sparse* s) {
   return s->common.rgrowth > least_growth;
 }
 
+// A factor with a pivot order of its own, from s->first.
+static bool factor_anew(pl_sparse* s) {
+  if (s->numeric) klu_free_numeric(&s->numeric, &s->common);
+  s->numeric = klu_factor(s->start, s->row, s->first, s->symbolic, &s->common);
+  return s->numeric != NULL && s->common.status == KLU_OK;
+}
+
 bool pl_sparse_factor(pl_sparse* s, const double* value) {
   for (int k = 0; k < s->start[s->n]; k++) {
     if (!(fabs(value[k]) <= DBL_MAX)) return false;
     s->value[k] = value[k];
   }
   if (s->numeric && refactor_serves(s)) return true;
+  for (int k = 0; k < s->start[s->n]; k++) s->first[k] = s->value[k];
+  return factor_anew(s);
+}
+
+void pl_sparse_keep(pl_sparse* s, pl_keeper* k) {
+  bool has = s->numeric != NULL;
+  pl_keep_bool(k, &has);
+  if (has) pl_keep_f64s(k, s->first, (size_t)s->start[s->n]);
+  if (!k->reads || k->wrong) return;
   if (s->numeric) klu_free_numeric(&s->numeric, &s->common);
-  s->numeric = klu_factor(s->start, s->row, s->value, s->symbolic, &s->common);
-  return s->numeric != NULL && s->common.status == KLU_OK;
+  if (has && !factor_anew(s)) pl_keep_fail(k);
 }
 
 void pl_sparse_solve(pl_sparse* s, double* b) { klu_solve(s->symbolic, s->numeric, s->n, 1, b, &s->common); }

@@ -42,6 +42,7 @@ void pl_sizes_forget(pl_run* run) {
 // ---------------------------------------------------------------------------------------------- the point
 void pl_point_evaluate(pl_run* run, double t, const double* q, const double* v) {
   pl_batches* m = &run->motion;
+  run->t_nodes = t;
   pl_batches_time(m, t);
   pl_batches_load_q(m, q, 0);
   pl_batches_load_v(m, v, 0);

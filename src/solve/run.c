@@ -188,7 +188,9 @@ static pleuel_status step(pl_run* run) {
 }
 
 static pleuel_status limits(pl_run* run) {
-  if (run->job->interrupted && pl_interrupted(run->job))
+  bool interrupted = run->job->interrupted && pl_interrupted(run->job);
+  if (run->options.keep) run->options.keep(run->options.keep_user, run, interrupted);
+  if (interrupted)
     return pl_fail(run->job, PLEUEL_INTERRUPTED, "interrupted at t = %.9g s", run->t);
   if (run->options.max_steps > 0 && run->stats.steps >= run->options.max_steps)
     return pl_fail(run->job, PLEUEL_NUMERICAL, "%ld steps were not enough: t = %.9g s", run->options.max_steps, run->t);

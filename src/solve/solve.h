@@ -203,6 +203,7 @@ typedef enum pl_engine {
   PL_ENGINE_COMPILED      // compiled before the first step
 } pl_engine;
 
+struct pl_run;
 typedef struct pl_run_options {
   double t_0, t_end;                  // s; t_end may lie before t_0 (backwards)
   double tol;                         // relative local error; 0: what the arithmetic can do, which is the least
@@ -216,6 +217,8 @@ typedef struct pl_run_options {
   void* progress_user;
   pl_engine engine;
   bool general;                       // without codes (jit.h): every step goes the general way
+  void (*keep)(void* user, struct pl_run* run, bool interrupted);   // between two steps, and when it is interrupted; or NULL:
+  void* keep_user;                                                  // pl_run_keep may be called there
 } pl_run_options;
 
 typedef struct pl_run pl_run;
@@ -279,6 +282,13 @@ pleuel_status pl_run_step(pl_run* run);
 // pl_run_to_end steps to t_end, writing rows; end of the sink is called, and begin if it was not.  Calls pl_run_start
 // when that was not done.
 pleuel_status pl_run_to_end(pl_run* run);
+
+// pl_run_keep writes the state between two steps down, or reads it back: base.h, checkpoint.c.
+void pl_run_keep(pl_run* run, pl_keeper* k);
+// pl_run_load goes on from a state that was kept of a run with the same setup and options but for the sink.  The run was
+// made without one and started; `sink` is that of what follows, whose begin is called.  Status PLEUEL_FILE for bytes that are
+// no such state, or when this machine computes other digits.
+pleuel_status pl_run_load(pl_run* run, pl_keeper* k, const pl_sink* sink);
 
 // Reading.  Arrays belong to the run and change with the next step.
 double pl_run_time(const pl_run* run);

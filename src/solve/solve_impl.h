@@ -119,6 +119,7 @@ struct pl_run {
 
   // the point
   double t, t_low;         // time and its rounding error
+  double t_nodes;          // time of the nodes of q and t: that of the point but for its last bit
   double *q, *v;           // (n_q)
   bool ready;              // a_0, λ_0 and the factor belong to the point
   double *g, *g_size;      // constraint values, size of their terms     (n_c)
