@@ -47,6 +47,7 @@ enum {
   PL_MAX_FACTOR_TERMS = 1200,  // beyond it a polynomial is kept as one composite factor
   PL_MAX_FACTOR_DEGREE = 80,   // total degree, likewise
   PL_MAX_GCD_TERMS = 20000,    // sum of the terms of both; beyond it gcd = 1 (the fraction is right, only not reduced)
+  PL_MAX_CONJUGATE = 20000,    // terms of a dividend times terms of a divisor, for division modulo the relations
   PL_MAX_DEGREE = 4000,        // in one variable: Horner's rule for s^2 = 1 - c^2 is linear in it
   PL_MAX_INTEGER_BITS = 96,    // integers up to this size are split into primes
   PL_MAX_POWER = 64,           // integer exponent of a sum
@@ -238,6 +239,8 @@ const pl_poly* pl_poly_shortest_view(pl_tower* t, const pl_poly* a);
 const pl_poly** pl_poly_coefficients(pl_tower* t, const pl_poly* a, int gen, int* degree);
 // Exact division and greatest common divisor in the free ring; gcd in a compact context.
 bool pl_poly_divides(pl_tower* t, const pl_poly** q, const pl_poly* a, const pl_poly* b);
+// Exact division modulo the relations, divide.c: 1 - c^2 is divisible by s.  Not found beyond a size.
+bool pl_poly_divides_reduced(pl_tower* t, const pl_poly** q, const pl_poly* a, const pl_poly* b);
 const pl_poly* pl_poly_gcd(pl_tower* t, const pl_poly* a, const pl_poly* b);
 bool pl_poly_square_root(pl_tower* t, const pl_poly** root, const pl_poly* a);
 // Sign of the leading coefficient by K5: numbers first, then masses, g, lengths, ...; 0 for the zero polynomial.

@@ -108,12 +108,19 @@ static void raise_roots(pl_build* b) {
   }
 }
 
+// In the free ring, which is quick, or modulo the relations: s^2 may have been rewritten in the product.
+static bool divides(pl_tower* t, const pl_poly** q, const pl_poly* num, int base) {
+  const pl_poly* den = pl_base_poly(t, base);
+  if (pl_poly_divides(t, q, num, den)) return true;
+  return t->bases.at[base].gen < 0 && pl_poly_divides_reduced(t, q, num, den);
+}
+
 static void cancel_bases(pl_build* b) {
   pl_tower* t = b->t;
   for (int i = 0; i < b->den.n; i++) {
     int base = b->den.at[i].base;
     const pl_poly* q = NULL;
-    while (b->den.at[i].power > 0 && pl_poly_divides(t, &q, b->num, pl_base_poly(t, base))) {
+    while (b->den.at[i].power > 0 && divides(t, &q, b->num, base)) {
       b->num = q;
       b->den.at[i].power--;
     }

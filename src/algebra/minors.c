@@ -2,6 +2,9 @@
 // relations s^2 = 1 - c^2 may be used at every product.  Rows are cleared of denominators and contents first, sparse
 // rows are expanded first; every minor of the lower rows is computed once.  One cancellation at the end. Bareiss needs
 // exact division, which the quotient ring does not have; elimination in the field collects spurious factors.
+//
+// Denominators of the right-hand side alone stay out of the determinant, where they would be multiplied out: they become
+// one common denominator beside it.
 #include "algebra/algebra_impl.h"
 
 #include <stdlib.h>
@@ -19,30 +22,50 @@ typedef struct pl_minors {
   long work;  // products of terms formed so far, over all minors
   int sign;       // of the permutation of rows
   pl_frac scale;  // det of the given rows = scale * det M
+  pl_frac* right; // right-hand sides of the rows of M  (n), where there is a last column for them
+  pl_frac below;  // that column of M is below * right
 } pl_minors;
 
 // ---------------------------------------------------------------------------------------------- preparing the rows
-static void clear_row(pl_minors* m, const pl_frac* row, const pl_poly** out) {
+static pl_frac denominator(pl_tower* t, pl_frac f) {
+  return pl_frac_inv(t, pl_frac_over(t, pl_poly_int(t, 1), f));
+}
+
+// Times what it lacks, it is a multiple of the denominator of f.
+static pl_frac common_multiple(pl_tower* t, pl_frac common, pl_frac f) {
+  return pl_frac_mul(t, common, denominator(t, pl_frac_mul(t, f, common)));
+}
+
+static const pl_poly* cleared(pl_tower* t, pl_frac f, pl_frac common) {
+  pl_frac whole = pl_frac_mul(t, f, common);
+  if (whole.n || !fmpz_is_one(whole.unit)) pl_tower_give_up(t);
+  return whole.num;
+}
+
+static void clear_row(pl_minors* m, const pl_frac* row, int i) {
   pl_tower* t = m->t;
-  // common denominator of the row
+  const pl_poly** out = m->M + i * m->columns;
   pl_frac common = pl_frac_int(t, 1);
-  for (int j = 0; j < m->columns; j++) {
-    pl_frac lacks = pl_frac_mul(t, row[j], common);
-    lacks.num = pl_poly_int(t, 1);
-    common = pl_frac_mul(t, common, pl_frac_inv(t, lacks));
-  }
+  for (int j = 0; j < m->n; j++) common = common_multiple(t, common, row[j]);
   const pl_poly* content = pl_poly_int(t, 0);
-  for (int j = 0; j < m->columns; j++) {
-    pl_frac cleared = pl_frac_mul(t, row[j], common);
-    out[j] = cleared.n ? NULL : cleared.num;
-    if (!out[j] || !fmpz_is_one(cleared.unit)) pl_tower_give_up(t);
+  for (int j = 0; j < m->n; j++) {
+    out[j] = cleared(t, row[j], common);
     content = pl_poly_gcd(t, content, out[j]);
   }
-  if (pl_poly_is_zero(t, content)) return;
-  for (int j = 0; j < m->columns; j++) {
+  if (pl_poly_is_zero(t, content)) content = pl_poly_int(t, 1);
+  for (int j = 0; j < m->n; j++) {
     if (!pl_poly_is_zero(t, out[j]) && !pl_poly_divides(t, &out[j], out[j], content)) pl_tower_give_up(t);
   }
-  m->scale = pl_frac_mul(t, m->scale, pl_frac_div(t, pl_frac_poly(t, content), common));
+  pl_frac scale = pl_frac_div(t, pl_frac_poly(t, content), common);
+  m->scale = pl_frac_mul(t, m->scale, scale);
+  if (m->columns > m->n) m->right[i] = pl_frac_div(t, row[m->n], scale);
+}
+
+static void clear_right(pl_minors* m) {
+  pl_tower* t = m->t;
+  m->below = pl_frac_int(t, 1);
+  for (int i = 0; i < m->n; i++) m->below = common_multiple(t, m->below, m->right[i]);
+  for (int i = 0; i < m->n; i++) m->M[i * m->columns + m->n] = cleared(t, m->right[i], m->below);
 }
 
 typedef struct pl_row_order {
@@ -71,7 +94,9 @@ static void prepare(pl_minors* m, const pl_frac* entries) {
   }
   m->M = PL_ARRAY(t->arena, const pl_poly*, m->n * m->columns);
   m->scale = pl_frac_int(t, 1);
-  for (int i = 0; i < m->n; i++) clear_row(m, entries + order[i].row * m->columns, m->M + i * m->columns);
+  m->right = PL_ARRAY(t->arena, pl_frac, m->n);
+  for (int i = 0; i < m->n; i++) clear_row(m, entries + order[i].row * m->columns, i);
+  if (m->columns > m->n) clear_right(m);
 }
 
 // ---------------------------------------------------------------------------------------------- minors
@@ -160,7 +185,7 @@ static void solve_body(pl_tower* t, void* data) {
     const pl_poly* N = minor_of(&m, 0, all & ~(UINT64_C(1) << k));
     // the right-hand side moves from the last column to column k
     if ((n - 1 - k) % 2) N = pl_poly_neg(t, N);
-    pl_frac x = pl_frac_make(t, N, D);
+    pl_frac x = pl_frac_div(t, pl_frac_make(t, N, D), m.below);
     j->x[k] = pl_frac_expr(t, x);
     pl_convert_known(t, j->x[k], x);
   }

@@ -33,6 +33,16 @@ PL_TEST(sines_and_cosines_meet) {
   pl_world_free(w);
 }
 
+PL_TEST(a_factor_hidden_by_a_relation_is_cancelled) {
+  pl_world* w = pl_world_make(NULL);
+  // squares of sines are rewritten, so the products do not show their factors
+  NORMAL(w, "(m1*(r^2 - 2*r*b*sin(x)*sin(y) + b^2)^2 - (r^2 - 2*r*b*sin(x)*sin(y) + b^2)*((r^2 - 2*r*b*sin(x)*sin(y) + b^2) - g))/(r^2 - 2*r*b*sin(x)*sin(y) + b^2)^2", "(-b^2 + b^2*m1 - 2*b*m1*r*sin(x)*sin(y) + 2*b*r*sin(x)*sin(y) + g + m1*r^2 - r^2)/(b^2 - 2*b*r*sin(x)*sin(y) + r^2)");
+  NORMAL(w, "(m1*(sin(x) + sin(y))^2 - (sin(x) + sin(y))*sin(x))/(sin(x) + sin(y))", "m1*sin(x) + m1*sin(y) - sin(x)");
+  NORMAL(w, "(m1*(1 + l*sqrt(y))^2 + l + l^2*sqrt(y))/(1 + l*sqrt(y))", "l + l*m1*sqrt(y) + m1");
+  NORMAL(w, "(1 + l*sin(x))/(1 + l*sin(y))", "(l*sin(x) + 1)/(l*sin(y) + 1)");
+  pl_world_free(w);
+}
+
 PL_TEST(special_angles_have_values) {
   pl_world* w = pl_world_make(NULL);
   pl_assert_zero(w, "sin(pi/12) - (sqrt(6) - sqrt(2))/4");
@@ -273,6 +283,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(fractions_are_reduced),
       cmocka_unit_test(sines_and_cosines_meet),
+      cmocka_unit_test(a_factor_hidden_by_a_relation_is_cancelled),
       cmocka_unit_test(special_angles_have_values),
       cmocka_unit_test(roots_depend_on_each_other),
       cmocka_unit_test(exponentials_form_a_lattice),
