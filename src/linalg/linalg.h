@@ -48,11 +48,16 @@ void pl_sparse_free(pl_sparse* s);
 bool pl_sparse_factor(pl_sparse* s, const double* value);
 void pl_sparse_solve(pl_sparse* s, double* b);       // in place
 double pl_sparse_rcond(pl_sparse* s);                // cheap estimate of the pivot ratio
-double pl_sparse_work(const pl_sparse* s);           // operations of a factorisation, from the analysis
-// The same with complex values, re and im alternating; a pl_sparse is used for one kind only.
-bool pl_zsparse_factor(pl_sparse* s, const double* value);
-void pl_zsparse_solve(pl_sparse* s, double* b);
-double pl_zsparse_rcond(pl_sparse* s);
+
+// The same for a complex matrix, re and im alternating: value (2 start[n]), b (2 n).
+typedef struct pl_zsparse pl_zsparse;
+pl_zsparse* pl_zsparse_make(pl_arena* a, int n, const int* start, const int* row);
+void pl_zsparse_free(pl_zsparse* s);
+bool pl_zsparse_factor(pl_zsparse* s, const double* value);
+void pl_zsparse_solve(pl_zsparse* s, double* b);
+double pl_zsparse_rcond(pl_zsparse* s);
+double pl_zsparse_work(const pl_zsparse* s);         // operations of a real factorisation, as the analysis expects
+void pl_sparse_forget(pl_sparse* s);                 // the next factor finds a pivot order of its own
 // The pivot order that the next factor begins with, written down or read back (base.h).
 void pl_sparse_keep(pl_sparse* s, pl_keeper* k);
 

@@ -90,3 +90,7 @@ double pl_sparse_rcond(pl_sparse* s) {
   if (!s->numeric || !klu_rcond(s->symbolic, s->numeric, &s->common)) return 0;
   return s->common.rcond;
 }
+
+void pl_sparse_forget(pl_sparse* s) {
+  if (s->numeric) klu_free_numeric(&s->numeric, &s->common);
+}

@@ -64,12 +64,24 @@ void pl_friction_keep_directions(pl_run* run) {
 }
 
 // ---------------------------------------------------------------------------------------------- in the linear system
-static double kappa(const pl_run* run, int r, int i, int k) {
+double pl_friction_kappa(const pl_run* run, int r, int i, const double* C) {
   const pl_rub* rub = &run->setup->rubs[r];
   const pl_rub_now* now = &run->rub[r];
-  const double* C = run->C_series + (size_t)k * (size_t)run->setup->n_coefficients;
   if (rub->n_rows == 1) return -now->press * now->way * C[rub->scale];
   return now->given ? -now->press * now->d[i] * C[rub->scale] : -now->press * C[rub->along[i]];
+}
+
+// The derivative of κ by one coefficient.
+double pl_friction_kappa_by(const pl_run* run, int r, int i, int coefficient) {
+  const pl_rub* rub = &run->setup->rubs[r];
+  const pl_rub_now* now = &run->rub[r];
+  bool by_scale = rub->n_rows == 1 || now->given;
+  if (coefficient != (by_scale ? rub->scale : rub->along[i])) return 0;
+  return -now->press * (rub->n_rows == 1 ? now->way : now->given ? now->d[i] : 1);
+}
+
+static double kappa(const pl_run* run, int r, int i, int k) {
+  return pl_friction_kappa(run, r, i, run->C_series + (size_t)k * (size_t)run->setup->n_coefficients);
 }
 
 void pl_friction_matrix(pl_run* run) {

@@ -109,11 +109,14 @@ static void renew_watches(pl_run* run) {
 // ---------------------------------------------------------------------------------------------- endless bounces
 static const double tiny_bounce = 1e-8;  // of the fastest arrival: its flight is then that part of the first one's
 
+// The implicit method knows velocities to its tolerance only.
+static double tiny(const pl_run* run) { return run->implicit ? fmax(tiny_bounce, 10 * run->tol) : tiny_bounce; }
+
 // Time until the last of endless bounces, counted from now; NaN when they do not come to an end here.
 static double rest_of_bounces(const pl_run* run, int c) {
   const pl_link* link = &run->setup->links[c];
   double u = link->side * run->r[c], fall = -link->side * run->second[c];
-  if (run->on[c] || !(fall > 0) || !(u > 0) || !(u <= tiny_bounce * run->fastest[c])) return (double)NAN;
+  if (run->on[c] || !(fall > 0) || !(u > 0) || !(u <= tiny(run) * run->fastest[c])) return (double)NAN;
   double flight = 2 * u / fall, ratio = link->restitution;
   // the ratio of the last flights, which knows of moving walls and of other bodies
   const double* t = run->bounce_t + 3 * (size_t)c;
@@ -195,6 +198,15 @@ static void size_velocities(pl_run* run) {
   pl_sizes_keep(run);
 }
 
+// Whether velocities or forces are others than before, so that a stiff part is set going.
+static bool is_shaken(const pl_run* run) {
+  static const double same = 1e-3;
+  double most = pl_norm(run->A, run->n_q) + pl_norm(run->save_a, run->n_q);
+  for (int i = 0; i < run->n_q; i++)
+    if (fabs(run->A[i] - run->save_a[i]) > same * most) return true;
+  return jumps(run);
+}
+
 // The motion after this moment, from q and v as they are.
 static pleuel_status follow(pl_run* run) {
   memcpy(run->jump_v, run->v, (size_t)run->n_q * sizeof(double));
@@ -209,6 +221,7 @@ static pleuel_status follow(pl_run* run) {
   renew_watches(run);
   size_velocities(run);
   clear_fixed(run);
+  if (run->radau) pl_radau_changed(run, is_shaken(run));
   return PLEUEL_OK;
 }
 

@@ -27,18 +27,26 @@ double pl_radau_tol(double asked) { return asked > 0 ? fmax(asked, least_tol) : 
 
 static int stages_for(double tol) { return tol >= 1e-3 ? 3 : tol >= 1e-8 ? 5 : 7; }
 
-bool pl_radau_make(pl_run* run, double tol, int most) {
-  if (run->n_q + run->n_c > most) return false;
+void pl_radau_make(pl_run* run, double tol) {
   int s = stages_for(tol);
-  pl_radau* r = run->radau = pl_radau_reserve(run, s);
+  pl_radau* r = run->radau = PL_NEW(run->job->arena, pl_radau);
+  r->method.s = s;
+  r->method.n_pairs = s / 2;
   r->tol = tol;
   r->stay_next = 16;
   r->tol_stage = 0.03 * pow(tol, (3 * s + 1) / (4.0 * s));
-  return true;
+}
+
+void pl_radau_changed(pl_run* run, bool jumped) {
+  pl_radau* r = run->radau;
+  r->has_last = r->rejected = false;
+  r->error_last = 0;
+  // a stiff part that was set going needs short steps at first
+  if (jumped) r->h = 0;
 }
 
 // ---------------------------------------------------------------------------------------------- stages
-static double* stage(double* x, int i, int n) { return x + (size_t)i * (size_t)n; }
+static double* stage(double* x, int i, int n) { return pl_radau_stage(x, i, n); }
 
 static void set_stages(const pl_run* run, pl_radau* r, double h) {
   const pl_radau_method* m = &r->method;
@@ -76,7 +84,7 @@ static void predict(pl_run* run, pl_radau* r, double h) {
     pl_horner(run->L_last, r->n_c, degree, dt, L);
     for (int e = 0; e < n; e++) Z[e] -= run->v[e];
     for (int c = 0; c < r->n_c; c++)
-      if (!run->taken[c]) L[c] = 0;
+      if (!pl_radau_has_force(run, c)) L[c] = 0;
   }
 }
 
@@ -171,19 +179,13 @@ static double estimate(const pl_run* run, pl_radau* r, double h) {
       r->error_v[e] += m->error[i] * stage(r->Z, i, n)[e] / h;
     }
   }
-  for (int e = 0; e < n; e++) {
-    b[e] = 0;
-    for (int j = 0; j < n; j++) {
-      size_t at = (size_t)e + (size_t)j * (size_t)n;
-      b[e] += r->here.M[at] * r->error_v[j] - r->here.K[at] * rho[j] / gamma;
-    }
+  memset(b, 0, (size_t)r->n * sizeof *b);
+  pl_radau_multiply(&r->shape, b, 1, r->here.P0, r->error_v, n);
+  pl_radau_multiply(&r->shape, b, -1 / gamma, r->here.P2, rho, n);
+  for (int e = 0; e < n; e++)
     if (run->place_n[e] == 0) b[e] = 0;
-  }
-  for (int c = 0; c < r->n_c; c++) {
-    b[n + c] = 0;
-    for (int j = 0; j < n; j++) b[n + c] -= r->here.S[(size_t)c + (size_t)j * (size_t)r->n_c] * rho[j] / gamma;
-    if (!run->taken[c]) b[n + c] = 0;
-  }
+  for (int c = 0; c < r->n_c; c++)
+    if (!pl_radau_has_force(run, c)) b[n + c] = 0;
   pl_radau_solve_real(r, b);
   for (int e = 0; e < n; e++) {
     r->error_v[e] = b[e];
@@ -254,7 +256,7 @@ static pl_radau_try attempt(pl_run* run, pl_radau* r, double h) {
 // The length of a step that would hold here, at most h and above least; nothing of the run changes but its jets.
 bool pl_radau_probe(pl_run* run, double h, double least, double* reach) {
   pl_radau* r = run->radau;
-  pl_radau_ready(r);
+  if (!pl_radau_ready(run)) return false;
   r->has_jacobian = r->has_last = r->rejected = false;
   r->steps_in_row = 0;
   while (fabs(h) > 2 * least) {
@@ -329,7 +331,7 @@ static void fill_series(const pl_run* run, const pl_radau* r, double h, double* 
 }
 
 // A and L hold those of the point in order 0.
-static void make_series(pl_run* run, pl_radau* r, double h) {
+void pl_radau_series(pl_run* run, pl_radau* r, double h) {
   fill_series(run, r, h, run->Q, run->q, r->Q, r->n_q);
   fill_series(run, r, h, run->V, run->v, r->V, r->n_q);
   fill_series(run, r, h, run->A, run->A, r->A, r->n_q);
@@ -353,7 +355,7 @@ static pleuel_status too_small(pl_run* run, double h) {
 }
 
 // Shorter and shorter until a step of that length holds; its end is in trial_q, trial_v.
-static pleuel_status hold(pl_run* run, pl_radau* r, double* h, double* error, double* next, pl_projection* p) {
+pleuel_status pl_radau_hold(pl_run* run, pl_radau* r, double* h, double* error, double* next, pl_projection* p) {
   for (;;) {
     pl_radau_try a = attempt(run, r, *h);
     if (a.fine) {
@@ -421,64 +423,6 @@ static void see_whether_smooth(pl_run* run, pl_radau* r) {
   r->has_last = dt != 0 && off <= 1e-3 * run->v_size;
 }
 
-// ---------------------------------------------------------------------------------------------- events
-static double watched_at_end(pl_run* run, pl_radau* r, int quantity) {
-  pl_batches* b = &run->watched;
-  int last = r->method.s - 1;
-  pl_batches_time(b, r->t[last]);
-  pl_batches_load_q(b, run->trial_q, 0);
-  pl_batches_load_v(b, run->trial_v, 0);
-  pl_batches_load_a(b, stage(r->A, last, r->n_q), 0);
-  pl_batches_load_lambda(b, stage(r->L, last, r->n_c), 0);
-  for (int level = PL_LEVEL_PLACE; level < PL_N_LEVELS; level++) pl_batches_sweep(b, (pl_level)level, 0, true);
-  pl_batches_outputs(b, run->W_coef, run->setup->n_watched, 0);
-  return run->W_coef[quantity];
-}
-
-// Slope of the polynomial of a watched quantity at the end of the step.
-static double watched_slope(const pl_run* run, int quantity, double h) {
-  double sum = 0;
-  for (int k = run->order - 1; k >= 1; k--)
-    sum = sum * h + k * run->W_series[(size_t)k * (size_t)run->setup->n_watched + (size_t)quantity];
-  return sum;
-}
-
-static int quantity_hit(const pl_run* run) {
-  for (int i = 0; i < run->n_watch; i++)
-    if (run->hit[i] && run->watch[i].kind == PL_WATCH_EVENT) return run->setup->events[run->watch[i].index].watch;
-  return -1;
-}
-
-// Steps of the length at which the quantity is zero at the end, by Newton on the length.
-// *root stays where it is reached; else it is looked for again behind the shorter step that was taken: -1.
-static pleuel_status land_on_root(pl_run* run, pl_radau* r, double* h, double* root, pl_projection* p) {
-  enum { MOST = 6 };
-  int quantity = quantity_hit(run);
-  double error, next, landed = *root;
-  *h *= landed;
-  *root = -1;
-  for (int round = 0; round < MOST; round++) {
-    double length = *h;
-    if (!(fabs(length) > run->h_least)) {
-      *root = 0;
-      return PLEUEL_OK;
-    }
-    PL_TRY(hold(run, r, h, &error, &next, p));
-    make_series(run, r, *h);
-    pl_watch_series(run);
-    if (*h != length) return PLEUEL_OK;
-    double value = watched_at_end(run, r, quantity), change = -value / watched_slope(run, quantity, *h);
-    if (!isfinite(change) || fabs(change) > 0.5 * fabs(*h)) return PLEUEL_OK;
-    if (fabs(change) <= 4 * DBL_EPSILON * fmax(fabs(run->t), fabs(*h)) || (round > 2 && round + 1 == MOST)) {
-      *root = landed;
-      return PLEUEL_OK;
-    }
-    *h += change;
-    pl_sizes_forget(run);
-  }
-  return PLEUEL_OK;
-}
-
 // ---------------------------------------------------------------------------------------------- a step
 // Rows between the ends need a polynomial as exact as the tolerance.
 static bool rows_are_exact(const pl_run* run, const pl_radau* r, double h, double error) {
@@ -489,7 +433,7 @@ static bool rows_are_exact(const pl_run* run, const pl_radau* r, double h, doubl
 pleuel_status pl_radau_step(pl_run* run, double* h, double* root, pl_projection* p) {
   pl_radau* r = run->radau;
   double error, next;
-  pl_radau_ready(r);
+  if (!pl_radau_ready(run)) return pl_fail(run->job, PLEUEL_NO_MEMORY, "the systems of the implicit method do not fit into memory");
   if (isnan(run->stats.t_implicit)) run->stats.t_implicit = run->t;
   run->stats.order_implicit = 2 * r->method.s - 1;
   if (r->h == 0) first_length(run, r);
@@ -499,7 +443,7 @@ pleuel_status pl_radau_step(pl_run* run, double* h, double* root, pl_projection*
   *h = choose_length(run, r);
   double chosen = fabs(*h);
   for (;;) {
-    PL_TRY(hold(run, r, h, &error, &next, p));
+    PL_TRY(pl_radau_hold(run, r, h, &error, &next, p));
     double dense = fabs(*h) * 0.8 * pow(r->tol / fmax(error * r->tol_stage, 1e-6 * r->tol), 1.0 / (r->method.s + 1));
     r->h_dense = dense;
     if (rows_are_exact(run, r, *h, error)) break;
@@ -507,14 +451,14 @@ pleuel_status pl_radau_step(pl_run* run, double* h, double* root, pl_projection*
     *h = copysign(fmax(to_grid(run), fmin(dense, 0.9 * fabs(*h))), *h);
   }
   double full = *h;
-  make_series(run, r, *h);
-  pl_watch_series(run);
+  pl_radau_watch(run, r, *h);
+  pl_radau_series(run, r, *h);
   if (run->n_watch > 0) {
     *root = pl_watch_first(run, *h);
     if (*root == 0) return PLEUEL_OK;
     if (*root > 0) {
       pl_sizes_forget(run);
-      PL_TRY(land_on_root(run, r, h, root, p));
+      PL_TRY(pl_radau_land(run, r, h, root, p));
       if (*root == 0) return PLEUEL_OK;
     }
   }

@@ -291,19 +291,6 @@ static void an_oscillation_is_not_taken_for_stiffness(void** state) {
   t_close(b);
 }
 
-// ---------------------------------------------------------------------------------------------- limits
-static void contacts_are_left_to_the_series(void** state) {
-  (void)state;
-  t_bench* b = t_open();
-  pl_expr y = t_coord(b, "y");
-  int c = t_constraint(b, "ground", y);
-  b->link[c].side = 1;
-  t_start(b, 0, 1, 0);
-  b->options.method = PL_METHOD_RADAU;
-  assert_int_equal(t_make(b, pl_sub(P, half(b, sq(b, b->v[0])), y), 1, 1e-8), PLEUEL_UNSUPPORTED);
-  t_close(b);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_coefficients_meet_the_order_conditions),
@@ -315,7 +302,6 @@ int main(void) {
       cmocka_unit_test(it_runs_backwards),
       cmocka_unit_test(a_stiff_motion_is_recognised),
       cmocka_unit_test(an_oscillation_is_not_taken_for_stiffness),
-      cmocka_unit_test(contacts_are_left_to_the_series),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -215,34 +215,13 @@ static void first_mode(pl_run* run) {
   }
 }
 
-// The implicit method knows no contacts and no friction.
-static bool has_contacts(const pl_setup* s) {
-  bool found = s->n_rubs > 0;
-  for (int c = 0; c < s->n_c; c++) found |= s->links[c].side != 0 || s->links[c].off;
-  for (int e = 0; e < s->n_events; e++)
-    for (int i = 0; i < s->events[e].n_deeds; i++) {
-      pl_deed d = s->events[e].deeds[i].deed;
-      found |= d == PL_DEED_RELEASE || d == PL_DEED_ATTACH;
-    }
-  return found;
-}
-
-static pleuel_status make_implicit(pl_run* run) {
+static void make_implicit(pl_run* run) {
   pl_method method = run->options.method;
-  if (method == PL_METHOD_TAYLOR) return PLEUEL_OK;
-  if (has_contacts(run->setup)) {
-    if (method == PL_METHOD_AUTO) return PLEUEL_OK;
-    return pl_fail(run->job, PLEUEL_UNSUPPORTED,
-                   "the implicit method follows no contacts that open and close, and no friction: use the series");
-  }
   double tol = run->options.tol;
   bool chosen = method == PL_METHOD_RADAU;
-  bool fits = pl_radau_make(run, tol > 0 || chosen ? pl_radau_tol(tol) : 1e-12,
-                            chosen ? PL_RADAU_UP_TO : PL_RADAU_AUTO_UP_TO);
-  run->implicit = fits && chosen;
-  if (fits || method == PL_METHOD_AUTO) return PLEUEL_OK;
-  return pl_fail(run->job, PLEUEL_UNSUPPORTED,
-                 "the implicit method takes at most %d coordinates and multipliers: use the series", PL_RADAU_UP_TO);
+  if (method == PL_METHOD_TAYLOR) return;
+  pl_radau_make(run, tol > 0 || chosen ? pl_radau_tol(tol) : 1e-12);
+  run->implicit = chosen;
 }
 
 pleuel_status pl_run_make(pl_job* job, const pl_setup* setup, const pl_run_options* options, pl_run** out) {
@@ -260,7 +239,7 @@ pleuel_status pl_run_make(pl_job* job, const pl_setup* setup, const pl_run_optio
   PL_TRY(reserve_batches(run));
   PL_TRY(check_rows(run));
   PL_TRY(pl_kkt_make(run));
-  PL_TRY(make_implicit(run));
+  make_implicit(run);
   pl_friction_make(run);
   pl_watch_make(run);
   pl_kinks_make(run);
@@ -272,5 +251,6 @@ pleuel_status pl_run_make(pl_job* job, const pl_setup* setup, const pl_run_optio
 void pl_run_free(pl_run* run) {
   if (run == NULL) return;
   pl_kkt_free(&run->kkt);
+  pl_radau_free(run->radau);
   pl_motion_free(run);
 }

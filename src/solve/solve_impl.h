@@ -8,8 +8,6 @@
 enum {
   PL_FAMILY_LANES = 8,     // instances computed side by side
   PL_DENSE_UP_TO = 60,     // unknowns: dense below, KLU above
-  PL_RADAU_UP_TO = 400,    // unknowns of the implicit method, whose systems are dense
-  PL_RADAU_AUTO_UP_TO = 100,   // the same where it is only kept ready
   PL_RANK_UP_TO = 400,     // constraint rows whose independence is examined at all; above they must be independent
   PL_RANK_WORK = 200000    // rows^2 columns up to which that is done at every point; above: once a mode
 };
@@ -321,6 +319,7 @@ void pl_watch_forget(pl_run* run);                  // all sides unknown: after 
 void pl_watch_passed(pl_run* run, double h);        // the step h was taken: sides at its end
 pl_watch* pl_watch_of(pl_run* run, pl_watch_kind kind, int index);
 double pl_watch_force_noise(const pl_run* run, int c);   // rounding error of λ_c
+double pl_watch_noise(const pl_run* run, const pl_watch* w, double h);   // what of a watched value is rounding
 
 // ---- kinks.c
 void pl_kinks_make(pl_run* run);
@@ -338,6 +337,8 @@ double pl_friction_force(const pl_run* run, int r, const double* m);    // |F| f
 int pl_friction_slip(const pl_run* run, int r, pl_watch_kind kind, double* c, int n);   // series of what is watched
 double pl_friction_speed(const pl_run* run, int r, const double* rates, double* d);     // |slip|, its direction
 bool pl_friction_is_used(const pl_run* run, int r); // its constraint is in force
+double pl_friction_kappa(const pl_run* run, int r, int i, const double* C);   // multiplier of slip by that which presses
+double pl_friction_kappa_by(const pl_run* run, int r, int i, int coefficient);
 
 // ---- contacts.c: which contacts hold, which surfaces stick
 void pl_contacts_rates(pl_run* run, double* rates);         // velocities along g and of slip; r_size
@@ -353,7 +354,10 @@ void pl_mode_text(const pl_run* run, char* out);
 // ---- radau_step.c: the implicit method
 typedef struct pl_radau pl_radau;
 double pl_radau_tol(double asked);                  // the tolerance that it works to
-bool pl_radau_make(pl_run* run, double tol, int most);   // false: more unknowns than that
+void pl_radau_make(pl_run* run, double tol);
+void pl_radau_free(pl_radau* r);
+int pl_radau_polynomial(const pl_run* run, int watch, double* c);   // of what is watched on the step, in units of it
+void pl_radau_changed(pl_run* run, bool jumped);    // the mode is another one; jumped: so are velocities or forces
 pleuel_status pl_radau_step(pl_run* run, double* h, double* root, pl_projection* p);
 pleuel_status pl_stiff_look(pl_run* run);           // whether to use it; stiff_detect.c
 

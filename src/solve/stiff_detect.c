@@ -65,6 +65,7 @@ pleuel_status pl_stiff_look(pl_run* run) {
   pl_radau* r = run->radau;
   if (++r->looks < r->next_look) return PLEUEL_OK;
   r->next_look = r->next_look ? 2 * r->next_look : FIRST_LOOK;
+
   double left = fabs(run->options.t_end - run->t), h = fabs(run->h_last), reach;
   if (r->looks < FIRST_LOOK || !worth_a_look(run, left, h)) return PLEUEL_OK;
   bool holds = pl_radau_probe(run, copysign(fmin(slow_radius(run) / 4, left), run->options.t_end - run->t), h, &reach);

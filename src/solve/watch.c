@@ -91,7 +91,7 @@ double pl_watch_force_noise(const pl_run* run, int c) {
   return run->row_most[c] > 0 ? rounding * run->force_size / run->row_most[c] : 0;
 }
 
-static double noise_of(const pl_run* run, const pl_watch* w, double h) {
+double pl_watch_noise(const pl_run* run, const pl_watch* w, double h) {
   if (w->kind == PL_WATCH_LANDING) return 1e-14 * run->g_size[w->index];
   if (w->kind == PL_WATCH_RELEASE) return pl_watch_force_noise(run, w->index);
   if (w->kind == PL_WATCH_EVENT) {
@@ -112,6 +112,7 @@ static int polynomial(const pl_run* run, const pl_watch* w, double h, double* c)
   size_t stride;
   double factor = 1, power = 1;
   int n = run->use;
+  if (run->implicit) return pl_radau_polynomial(run, (int)(w - run->watch), c);
   if (is_of_rub(w)) {
     n = pl_friction_slip(run, w->index, w->kind, c, run->use + 1);
     for (int k = 0; k < n; k++, power *= h) c[k] *= power;
@@ -200,7 +201,7 @@ static double first_that_counts(pl_run* run, const pl_watch* w, double h, const 
 static double find_root(pl_run* run, pl_watch* w, double h, bool* touches) {
   double* c = run->poly;
   int n = polynomial(run, w, h, c), m = w->fresh;
-  double size = size_of(c, n), noise = fmax(noise_of(run, w, h), 1e-15 * size);
+  double size = size_of(c, n), noise = fmax(pl_watch_noise(run, w, h), 1e-15 * size);
   *touches = false;
   if (m == 0 && w->side == 0) {
     // nothing known: at the start, or after a jump
@@ -241,10 +242,12 @@ void pl_watch_passed(pl_run* run, double h) {
     int n = polynomial(run, w, h, run->poly);
     double x = 0;
     for (int k = n - 1; k >= 0; k--) x += run->poly[k];
-    if (h != 0) w->fresh = 0;
+    // a step of the implicit method may be so short that what has happened is not yet clear of rounding
+    bool clear = !run->implicit || fabs(x) > pl_watch_noise(run, w, h);
+    if (h != 0 && clear) w->fresh = 0;
     if (w->kind == PL_WATCH_LANDING && x < -1e-9 * run->g_size[w->index]) run->sunk = w->index;
     // what the roots leave open at the end is decided at the start of the next step
-    if (fabs(x) > fmax(noise_of(run, w, h), 2 * known_part(n) * size_of(run->poly, n))) w->side = (int)sign(x);
+    if (fabs(x) > fmax(pl_watch_noise(run, w, h), 2 * known_part(n) * size_of(run->poly, n))) w->side = (int)sign(x);
   }
   // slip in space that has become clear of rounding counts as none only far below that again
   for (int r = 0; r < run->setup->n_rubs; r++) {
