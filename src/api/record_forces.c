@@ -29,6 +29,24 @@ static void add_potential(pl_recorder* r, pl_group* g, const pl_load* l) {
   }
 }
 
+static bool has_condition(const pl_model* m, const pl_spatial* b) {
+  for (int i = 0; i < m->constraints.n; i++) {
+    const pl_constraint* c = &m->constraints.at[i];
+    if (c->body == b->name.text && c->block == b->block) return true;
+  }
+  return false;
+}
+
+// The energy of a turning quaternion knows nothing of the rate of |q|, so its matrix of masses is singular along q.  2 J (q·q')²,
+// with J the mean moment, makes it regular, and for a ball a multiple of 1; where |q| = 1 it is zero with all that it adds to the
+// equations, so that neither motion nor multiplier changes.
+static pl_expr steady_length(pl_recorder* r, const pl_spatial* b) {
+  pl_pool* p = r->pool;
+  pl_expr rate = pl_int(p, 0), J = pl_add(p, b->inertia[0], pl_add(p, b->inertia[3], b->inertia[5]));
+  for (int i = 0; i < 4; i++) rate = pl_add(p, rate, pl_mul(p, b->axes[i], pl_dt(p, b->axes[i])));
+  return pl_mul_n(p, (pl_expr[]){pl_ratio(p, 2, 3), J, pl_square(p, rate)}, 3);
+}
+
 void pl_group_energies(pl_recorder* r) {
   const pl_model* m = r->model;
   for (int i = 0; i < m->masses.n; i++) add_mass(r, group_of(r, m->masses.at[i].block), m->masses.at[i].mass, &m->masses.at[i].point);
@@ -38,6 +56,11 @@ void pl_group_energies(pl_recorder* r) {
     add_mass(r, g, b->mass, &b->centre);
     g->T = pl_add(r->pool, g->T, pl_body_kinetic(r->pool, b->inertia, b->angle));
   }
+  for (int i = 0; i < m->spatials.n; i++) {
+    const pl_spatial* b = &m->spatials.at[i];
+    pl_group* g = group_of(r, b->block);
+    if (b->form == PL_AXES_QUATERNION && has_condition(m, b)) g->T = pl_add(r->pool, g->T, steady_length(r, b));
+  }
   for (int i = 0; i < m->loads.n; i++) {
     const pl_load* l = &m->loads.at[i];
     pl_group* g = group_of(r, l->block);
@@ -46,7 +69,7 @@ void pl_group_energies(pl_recorder* r) {
       case PL_L_KINETIC: g->T = pl_add(r->pool, g->T, l->value); break;
       case PL_L_LAGRANGIAN: g->L = pl_add(r->pool, g->L, l->value); break;
       case PL_L_SPRING: g->V = pl_add(r->pool, g->V, pl_spring_energy(r->pool, l, distance(r, &l->a, &l->b))); break;
-      case PL_L_RAYLEIGH: case PL_L_DAMPER: case PL_L_DRAG: r->dissipative = true; break;
+      case PL_L_RAYLEIGH: case PL_L_DAMPER: case PL_L_DRAG: case PL_L_COUPLE: r->dissipative = true; break;
     }
   }
 }
@@ -77,11 +100,23 @@ static void work(pl_recorder* r, pl_group* g, const pl_expr* force, const pl_exp
   }
 }
 
+// A torque works on the angular velocity: Q_i = vector . dω/dv_i.
+static void twist(pl_recorder* r, pl_group* g, const pl_load* l) {
+  for (int i = 0; i < g->atoms.n; i++) {
+    pl_expr v = pl_dt(r->pool, g->atoms.at[i]);
+    for (int j = 0; j < 3; j++) {
+      pl_expr Q = pl_mul(r->pool, l->vector[j], by_atom(r->pool, l->spin[j], v));
+      if (!pl_is_zero_node(r->pool, Q)) add_force(r, g, i, Q);
+    }
+  }
+}
+
 static void add_load(pl_recorder* r, pl_group* g, const pl_load* l) {
   pl_pool* p = r->pool;
   if (!pl_is_poison(pl_load_potential(p, l))) return;   // among the potentials
   switch (l->kind) {
     case PL_L_FORCE: work(r, g, l->vector, l->a.at, l->a.n); break;
+    case PL_L_COUPLE: twist(r, g, l); break;
     case PL_L_TORQUE: {
       pl_expr angle = l->coordinate.id ? pl_sym(p, l->coordinate) : l->a.at[0];
       work(r, g, &l->value, &angle, 1);
@@ -102,6 +137,7 @@ void pl_group_forces(pl_recorder* r, pl_group* g) {
     pl_group_atoms(r, g, l->value);
     if (l->coordinate.id) pl_group_atoms(r, g, pl_sym(r->pool, l->coordinate));
     for (int j = 0; j < 3; j++) pl_group_atoms(r, g, l->vector[j]);
+    for (int j = 0; j < 3; j++) pl_group_atoms(r, g, l->spin[j]);
     for (int j = 0; j < l->a.n; j++) pl_group_atoms(r, g, l->a.at[j]);
     for (int j = 0; j < l->b.n; j++) pl_group_atoms(r, g, l->b.at[j]);
   }

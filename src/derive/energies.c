@@ -125,6 +125,17 @@ static void torque(pl_analysis* d, const pl_load* l) {
   d->dissipative = true;
 }
 
+// A torque on a body in space works on its angular velocity: Q_i = vector . dω/dv_i.
+static void couple(pl_analysis* d, const pl_load* l) {
+  for (int i = 0; i < d->q.n; i++) {
+    for (int k = 0; k < 3; k++) {
+      pl_expr lever = pl_diff(d->pool, l->spin[k], d->q.at[i].v);
+      add_to(d, &d->force[i], pl_mul(d->pool, l->vector[k], lever));
+    }
+  }
+  d->dissipative = true;
+}
+
 // Rayleigh's dissipation function R: Q_i = -dR/dv_i.
 static void dissipate(pl_analysis* d, pl_expr R) {
   for (int i = 0; i < d->q.n; i++) add_to(d, &d->force[i], pl_neg(d->pool, pl_diff(d->pool, R, d->q.at[i].v)));
@@ -152,6 +163,7 @@ static void push(pl_analysis* d, const pl_load* l) {
   pl_expr* before = PL_ARRAY(d->arena, pl_expr, d->q.n + 1);
   for (int i = 0; i < d->q.n; i++) before[i] = d->force[i];
   if (l->kind == PL_L_FORCE) force(d, l);
+  else if (l->kind == PL_L_COUPLE) couple(d, l);
   else torque(d, l);
   if (find_potential(d, before)) d->dissipative = dissipative;
 }
@@ -159,6 +171,7 @@ static void push(pl_analysis* d, const pl_load* l) {
 static void load(pl_analysis* d, const pl_load* l) {
   switch (l->kind) {
     case PL_L_FORCE:
+    case PL_L_COUPLE:
     case PL_L_TORQUE:
       if (!uniform(d, l)) push(d, l);
       break;

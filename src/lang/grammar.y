@@ -97,7 +97,7 @@ statement
   | MASS label ':' expr AT expr       { $$ = STATEMENT(MASS, @$, 3, $2, $4, $6); }
   | BODY label ':' WORD_MASS expr ',' WORD_INERTIA expr AT expr WORD_ANGLE expr
                                       { $$ = STATEMENT(BODY, @$, 5, $2, $5, $8, $10, $12); }
-  | BODY label ':' WORD_MASS expr ',' WORD_INERTIA expr AT expr WORD_AXES expr
+  | BODY label ':' WORD_MASS expr ',' WORD_INERTIA expr AT expr WORD_AXES expressions
                                       { $$ = STATEMENT(BODY, @$, 6, $2, $5, $8, $10, NULL, $12); }
   | POINT label AT expr               { $$ = STATEMENT(POINT, @$, 3, $2, $4, NULL); }
   | POINT label ON expr AT expr       { $$ = STATEMENT(POINT, @$, 3, $2, $6, $4); }

@@ -249,6 +249,7 @@ static void visit_names(pl_lower* l, const pl_ast* s) {
   l->mute += s->broken;
   if (s->token == TOK_MASS || s->token == TOK_BODY || s->token == TOK_POINT) pl_site_declare(l, s);
   if (s->token == TOK_CONSTRAINT) declare_rule(l, s);
+  if (s->token == TOK_BODY) pl_space_declare(l, s);
   l->mute -= s->broken;
 }
 

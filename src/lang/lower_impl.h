@@ -45,6 +45,13 @@ typedef struct pl_local {
   int n;
 } pl_local;
 
+// The attitude of a body in space as it was given, and its turn: component i in space of body axis j at 3 i + j.
+typedef struct pl_attitude {
+  pl_axes_form form;
+  pl_expr at[9];
+  pl_expr turn[9];
+} pl_attitude;
+
 typedef enum pl_site_kind { PL_SITE_MASS, PL_SITE_BODY, PL_SITE_POINT } pl_site_kind;
 typedef struct pl_site {
   pl_site_kind kind;
@@ -58,9 +65,9 @@ typedef struct pl_site {
   int state;
   pl_expr index;
   pl_point point;
-  pl_expr angle;  // bodies
-  bool in_space;  // a body with axes: turn holds them
-  pl_expr turn[9];
+  pl_expr angle;        // bodies
+  bool in_space;        // a body with axes
+  pl_attitude attitude;
 } pl_site;
 
 typedef struct pl_rule {  // a constraint, before it is lowered
@@ -158,10 +165,19 @@ pl_site* pl_site_find(const pl_lower* l, const char* key);
 bool pl_site_finish(pl_lower* l, pl_site* p);
 bool pl_lower_point(pl_lower* l, const pl_ast* node, pl_point* out);
 
-// ---- lower_attitude.c: bodies in space
-bool pl_attitude_is_euler(const pl_ast* axes);
-bool pl_attitude_turn(pl_lower* l, const pl_ast* axes, pl_expr turn[9]);
-bool pl_attitude_energy(pl_lower* l, const pl_ast* axes, const pl_expr J[3], pl_expr* out);
+// ---- lower_attitude.c: the attitude of bodies in space
+pl_axes_form pl_attitude_form(const pl_ast* axes);   // as far as the text shows
+int pl_attitude_count(pl_axes_form form);            // of numbers that give it
+bool pl_attitude_read(pl_lower* l, const pl_ast* axes, pl_attitude* out);
+void pl_attitude_spin(pl_pool* p, const pl_attitude* a, pl_expr w[3]);
+pl_expr pl_attitude_energy(pl_pool* p, const pl_attitude* a, const pl_expr J[6]);
+bool pl_attitude_condition(pl_pool* p, const pl_attitude* a, int k, pl_expr* left, pl_expr* right, const char** name);
+
+// ---- lower_space.c: bodies in space, and torques on them
+void pl_space_declare(pl_lower* l, const pl_ast* body);                   // the names of what holds between their axes
+void pl_space_body(pl_lower* l, const pl_ast* s, pl_site* p, pl_name name);
+bool pl_space_torque(pl_lower* l, const pl_ast* s, pl_load* out);         // false: a complaint was made
+pl_site* pl_space_of(pl_lower* l, const pl_ast* on);                      // the body in space that a label names, or NULL
 
 bool pl_lower_where(pl_lower* l, const pl_ast* node, pl_point* out, pl_site** place);
 bool pl_lower_label_point(pl_lower* l, const pl_ast* name, const pl_ast* index, pl_point* out, pl_site** place);

@@ -46,36 +46,11 @@ static void lower_mass(pl_lower* l, const pl_ast* s) {
   pl_push(l->arena, l->m->masses, (pl_mass){name_of_place(p), mass, p->point, l->block, pl_ast_span(s)});
 }
 
-static void push_load(pl_lower* l, pl_load load, const pl_ast* s, const char* word);
-
-// A mass at the centre, and the energy of the turning about it.
-static void lower_body_in_space(pl_lower* l, const pl_ast* s, pl_site* p) {
-  pl_expr mass = pl_lower_scalar(l, pl_ast_kid(s, 1));
-  pl_point J;
-  bool fine = pl_lower_point(l, pl_ast_kid(s, 2), &J);
-  if (!pl_site_finish(l, p) || !fine || pl_is_poison(mass)) return;
-  if (J.n != 3 || p->point.n != 3) {
-    pl_lower_complain(l, PL_E017, J.n != 3 ? J.span : p->point.span,
-                      "a body in space has three moments of inertia, (J1, J2, J3), and a centre with three components",
-                      "ein Körper im Raum hat drei Trägheitsmomente, (J1, J2, J3), und einen Mittelpunkt mit drei Komponenten");
-    return;
-  }
-  pl_load turning = {.kind = PL_L_KINETIC};
-  if (!pl_attitude_energy(l, pl_ast_kid(s, 5), J.at, &turning.value)) return;
-  pl_push(l->arena, l->m->masses, (pl_mass){name_of_place(p), mass, p->point, l->block, pl_ast_span(s)});
-  push_load(l, turning, s, "kinetic");
-}
-
 static void lower_body(pl_lower* l, const pl_ast* s) {
   pl_site* p = place_of(l, s);
   if (p == NULL) return;
-  if (pl_attitude_is_euler(pl_ast_kid(s, 5))) {
-    lower_body_in_space(l, s, p);
-    return;
-  }
   if (pl_ast_kid(s, 5)) {
-    pl_lower_pending(l, PL_E091, "body in space", pl_ast_span(s), "bodies in space are computed with axes euler(φ, ϑ, ψ) only",
-                     "Körper im Raum werden nur mit axes euler(φ, ϑ, ψ) berechnet");
+    if (pl_site_finish(l, p)) pl_space_body(l, s, p, name_of_place(p));
     return;
   }
   pl_body b = {.mass = pl_lower_scalar(l, pl_ast_kid(s, 1)),
@@ -206,7 +181,12 @@ static bool torque_target(pl_lower* l, const pl_ast* on, pl_symbol* out) {
 }
 
 static void lower_torque(pl_lower* l, const pl_ast* s) {
-  pl_load load = {.kind = PL_L_TORQUE, .value = pl_lower_scalar(l, pl_ast_kid(s, 1))};
+  pl_load load = {.kind = PL_L_TORQUE};
+  if (pl_space_of(l, pl_ast_kid(s, 2))) {
+    if (pl_space_torque(l, s, &load)) push_load(l, load, s, "torque");
+    return;
+  }
+  load.value = pl_lower_scalar(l, pl_ast_kid(s, 1));
   if (torque_target(l, pl_ast_kid(s, 2), &load.coordinate) && !pl_is_poison(load.value))
     push_load(l, load, s, "torque");
 }

@@ -194,7 +194,7 @@ static bool point_on_body_in_space(pl_lower* l, pl_site* p, const pl_site* body,
   for (int i = 0; i < 3; i++) {
     p->point.at[i] = centre->at[i];
     for (int j = 0; j < 3; j++)
-      p->point.at[i] = pl_add(q, p->point.at[i], pl_mul(q, body->turn[3 * i + j], local->at[j]));
+      p->point.at[i] = pl_add(q, p->point.at[i], pl_mul(q, body->attitude.turn[3 * i + j], local->at[j]));
   }
   p->point.span = pl_ast_span(pl_ast_kid(p->statement, 1));
   return true;
@@ -213,12 +213,6 @@ static bool point_on_body(pl_lower* l, pl_site* p, const pl_ast* on) {
     return false;
   }
   if (body->in_space) return point_on_body_in_space(l, p, body, &centre, &local);
-  if (pl_is_poison(body->angle)) {
-    pl_lower_pending(l, PL_E091, "point on a body in space", pl_ast_span(p->statement),
-                     "points on bodies in space are not computed by this version",
-                     "Punkte an Körpern im Raum berechnet diese Version nicht");
-    return false;
-  }
   if (local.n != 2 || centre.n != 2) {
     pl_lower_complain(l, PL_E017, local.span, "a point on a planar body has two components",
                       "ein Punkt an einem ebenen Körper hat zwei Komponenten");
@@ -242,8 +236,8 @@ static bool lower_place(pl_lower* l, pl_site* p) {
     bool fine = pl_lower_point(l, pl_ast_kid(s, 3), &p->point);
     const pl_ast* angle = pl_ast_kid(s, 4);
     p->angle = angle ? pl_lower_scalar(l, angle) : pl_poison();
-    p->in_space = pl_attitude_is_euler(pl_ast_kid(s, 5));
-    if (p->in_space) fine &= pl_attitude_turn(l, pl_ast_kid(s, 5), p->turn);
+    p->in_space = pl_ast_kid(s, 5) != NULL;
+    if (p->in_space) fine &= pl_attitude_read(l, pl_ast_kid(s, 5), &p->attitude);
     return fine && (angle == NULL || !pl_is_poison(p->angle));
   }
   const pl_ast* on = pl_ast_kid(s, 2);
@@ -289,7 +283,7 @@ static pl_point substitute(pl_lower* l, const pl_point* at, pl_symbol from, pl_e
 }
 
 // Member `index` of the family that p declares: P[i] or P[i + 1] with i the index of its block.
-static bool member(pl_lower* l, const pl_site* p, pl_expr index, pl_point* out, pl_expr* angle, pl_expr* turn) {
+static bool member(pl_lower* l, const pl_site* p, pl_expr index, pl_point* out, pl_expr* angle, pl_attitude* attitude) {
   if (p->block == NULL) {
     *out = p->point, *angle = p->angle;
     return pl_same(p->index, index);
@@ -300,7 +294,10 @@ static bool member(pl_lower* l, const pl_site* p, pl_expr index, pl_point* out, 
   pl_expr value = pl_sub(l->pool, index, shift);
   *out = substitute(l, &p->point, i, value);
   *angle = pl_is_poison(p->angle) ? p->angle : pl_subst1(l->pool, p->angle, i, value);
-  for (int k = 0; p->in_space && k < 9; k++) turn[k] = pl_subst1(l->pool, p->turn[k], i, value);
+  for (int k = 0; p->in_space && k < 9; k++) {
+    attitude->turn[k] = pl_subst1(l->pool, p->attitude.turn[k], i, value);
+    attitude->at[k] = pl_subst1(l->pool, p->attitude.at[k], i, value);
+  }
   return true;
 }
 
@@ -314,7 +311,7 @@ static bool family_point(pl_lower* l, const pl_ast* name, pl_expr index, pl_poin
       if (pl_is_poison(p->index)) continue;
       pl_site* copy = PL_NEW(l->arena, pl_site);
       *copy = *p;
-      if (!member(l, p, index, out, &copy->angle, copy->turn)) continue;
+      if (!member(l, p, index, out, &copy->angle, &copy->attitude)) continue;
       if (place) *place = copy;
       found = true;
     }

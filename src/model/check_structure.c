@@ -256,6 +256,13 @@ static void check_load(pl_job* job, pl_model* m, const pl_load* x) {
         pl_tell(job, PL_E064, x->span, "both ends are the same point", "beide Enden sind derselbe Punkt");
     pl_report_fix(d, "name two different points", "zwei verschiedene Punkte nennen", NULL);
   }
+  if (x->kind == PL_L_COUPLE) {
+    for (int k = 0; k < 3; k++) {
+      check_value(job, x->vector[k], x->span, "this torque", "dieses Moment");
+      check_order(job, m, x->vector[k], 1, x->span, "a torque", "ein Moment");
+    }
+    return;
+  }
   if (x->kind == PL_L_FORCE) {
     for (int k = 0; k < x->a.n && k < 3; k++) check_order(job, m, x->vector[k], 1, x->span, "a force", "eine Kraft");
     return;
@@ -268,6 +275,7 @@ static void check_load(pl_job* job, pl_model* m, const pl_load* x) {
     case PL_L_RAYLEIGH:
       check_order(job, m, x->value, 1, x->span, "a dissipation function", "eine Dissipationsfunktion");
       break;
+    case PL_L_COUPLE: return;
     case PL_L_TORQUE:
       check_order(job, m, x->value, 1, x->span, "a torque", "ein Moment");
       return;  // may hold multipliers

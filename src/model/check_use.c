@@ -104,6 +104,14 @@ static void check_params(pl_job* job, use_table* t) {
   }
 }
 
+// The centre of a body in space may rest while it turns.
+static bool turns(const pl_model* m, const pl_mass* x) {
+  for (int i = 0; i < m->spatials.n; i++) {
+    if (m->spatials.at[i].name.text == x->name.text && m->spatials.at[i].block == x->block) return true;
+  }
+  return false;
+}
+
 static void check_still_masses(pl_job* job, const pl_model* m) {
   for (int i = 0; i < m->masses.n; i++) {
     const pl_mass* x = &m->masses.at[i];
@@ -113,7 +121,7 @@ static void check_still_masses(pl_job* job, const pl_model* m) {
       if (pl_is_poison(e) || pl_has_coordinate(m->pool, e, job->arena) || pl_has_symbol(m->pool, e, pl_time(m->pool)))
         still = false;
     }
-    if (!still) continue;
+    if (!still || turns(m, x)) continue;
     pl_diagnostic* d = pl_tell(job, PL_N065, x->span, "this mass does not move: its point contains no coordinate",
                                "diese Masse bewegt sich nicht: ihr Punkt enthält keine Koordinate");
     pl_report_fix(d, "a fixed point is written: point A at (x, y)",

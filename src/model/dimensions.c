@@ -288,6 +288,18 @@ static void walk_masses(pl_dim_pass* d) {
          "der Winkel eines Körpers ist eine reine Zahl");
     walk_point(d, &x->centre);
   }
+  for (int i = 0; i < m->spatials.n; i++) {
+    const pl_spatial* x = &m->spatials.at[i];
+    d->where = x->span;
+    for (int k = 0; k < 6; k++) {
+      need(d, x->inertia[k], mechanical(d, 2, 1, 0), PL_E033, "a moment of inertia is in kg m²",
+           "ein Trägheitsmoment hat die Einheit kg m²");
+    }
+    for (int k = 0; k < 9 && !pl_is_poison(x->axes[k]); k++) {
+      need(d, x->axes[k], pure(d), PL_E033, "what gives the axes of a body is a pure number",
+           "was die Achsen eines Körpers angibt, ist eine reine Zahl");
+    }
+  }
   for (int i = 0; i < m->points.n; i++) {
     d->where = m->points.at[i].span;
     walk_point(d, &m->points.at[i].point);
@@ -313,6 +325,15 @@ static void walk_load(pl_dim_pass* d, const pl_load* x) {
              "eine Komponente einer Kraft hat die Einheit N");
       }
       walk_point(d, &x->a);
+      return;
+    case PL_L_COUPLE:
+      joule(d);
+      for (int k = 0; k < 3; k++) {
+        need(d, x->vector[k], energy(d), PL_E033, "a component of a torque is in N m",
+             "eine Komponente eines Moments hat die Einheit N m");
+        need(d, x->spin[k], times(d, pure(d), -1, duration(d)), PL_E033, "an angular velocity is an angle over time",
+             "eine Winkelgeschwindigkeit ist Winkel durch Zeit");
+      }
       return;
     case PL_L_TORQUE: {
       const pl_dim_form* wanted = energy(d);

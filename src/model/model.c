@@ -272,6 +272,7 @@ static pleuel_status settle_after_set(pl_job* job, pl_model* m) {
   pl_classify_symbols(m);
   if (pl_check_sizes(job, m)) pl_check_families(job, m);
   pl_check_numbers(job, m);
+  pl_check_inertia(job, m);
   return job->diagnostics && job->diagnostics->n_errors > before ? PLEUEL_MODEL_ERROR : PLEUEL_OK;
 }
 

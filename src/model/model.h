@@ -94,6 +94,21 @@ typedef struct pl_body {      // planar: centre, angle, mass, inertia about the 
   pl_span span;
 } pl_body;
 
+// A body in space.  Its mass, the energy of its turning and what holds between its axes stand in the lists of masses, loads and
+// constraints; this is what they were made from.
+typedef enum pl_axes_form { PL_AXES_NONE, PL_AXES_EULER, PL_AXES_QUATERNION, PL_AXES_VECTORS } pl_axes_form;
+typedef struct pl_spatial {
+  pl_name name;
+  pl_expr mass;
+  pl_expr inertia[6];         // along the body axes: xx xy xz yy yz zz
+  pl_axes_form form;
+  pl_expr axes[9];            // three angles, four components of the quaternion, or three vectors
+  pl_expr turn[9];            // component i in space of body axis j at 3 i + j
+  pl_point centre;
+  pl_block* block;
+  pl_span span, inertia_span;
+} pl_spatial;
+
 typedef struct pl_gravity { pl_expr g; int axis; int sign; pl_span span; } pl_gravity;   // acceleration g along sign * axis
 
 typedef enum pl_load_kind {
@@ -105,7 +120,8 @@ typedef enum pl_load_kind {
   PL_L_RAYLEIGH,              // dissipation function
   PL_L_SPRING,                // stiffness, rest length, two points
   PL_L_DAMPER,                // coefficient, two points
-  PL_L_DRAG                   // coefficient, point
+  PL_L_DRAG,                  // coefficient, point
+  PL_L_COUPLE                 // torque vector on a body in space: Q = vector · dω/dv
 } pl_load_kind;
 typedef struct pl_load {
   pl_load_kind kind;
@@ -115,6 +131,7 @@ typedef struct pl_load {
   pl_expr vector[3];          // force
   pl_point a, b;              // points of attack; a alone for force and drag
   pl_symbol coordinate;       // torque on a coordinate
+  pl_expr spin[3];            // couple: the angular velocity ω of its body
   pl_block* block;
   pl_span span;
 } pl_load;
@@ -129,6 +146,7 @@ typedef struct pl_constraint {
   const char* while_label;    // contact it depends on, or NULL
   bool redundant_ok, off;
   bool has_velocity;          // contains velocities
+  const char* body;           // it holds between the axes of this body in space, and is no constraint of its own; or NULL
   pl_block* block;
   pl_span span;
 } pl_constraint;
@@ -254,6 +272,7 @@ typedef struct pl_model {
   PL_VEC(pl_block*) blocks;
   PL_VEC(pl_mass) masses;
   PL_VEC(pl_body) bodies;
+  PL_VEC(pl_spatial) spatials;
   PL_VEC(pl_place_def) points;
   PL_VEC(pl_gravity) gravities;
   PL_VEC(pl_load) loads;

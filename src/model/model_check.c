@@ -64,6 +64,7 @@ pleuel_status pl_model_check(pl_job* job, pl_model* m) {
   pl_check_structure(job, m);
   if (sized) pl_check_families(job, m);
   pl_check_numbers(job, m);
+  pl_check_inertia(job, m);
   pl_check_contacts(job, m);
   if (sized) pl_check_start(job, m);
   pl_check_requests(job, m);

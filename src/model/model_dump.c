@@ -127,12 +127,12 @@ static void dump_masses(const dumper* d) {
 
 static void dump_load(const dumper* d, const pl_load* x) {
   static const char* const words[] = {"force",    "torque", "potential", "kinetic", "lagrangian",
-                                      "rayleigh", "spring", "damper",    "drag"};
+                                      "rayleigh", "spring", "damper",    "drag",   "torque"};
   pl_text_addf(d->out, "%s ", words[x->kind]);
   label(d, &x->name);
   pl_text_add(d->out, ": ");
-  if (x->kind == PL_L_FORCE) {
-    pl_point vector = {x->a.n, {x->vector[0], x->vector[1], x->vector[2]}, {0}};
+  if (x->kind == PL_L_FORCE || x->kind == PL_L_COUPLE) {
+    pl_point vector = {x->kind == PL_L_COUPLE ? 3 : x->a.n, {x->vector[0], x->vector[1], x->vector[2]}, {0}};
     point(d, &vector);
   } else {
     pl_text_add(d->out, text(d, x->value));

@@ -126,6 +126,7 @@ pl_velocity_kind pl_velocity_kind_of(pl_job* job, const pl_model* m, pl_expr g, 
 void pl_check_names(pl_job* job, pl_model* m);
 void pl_check_structure(pl_job* job, pl_model* m);
 void pl_check_numbers(pl_job* job, pl_model* m);
+void pl_check_inertia(pl_job* job, pl_model* m);
 void pl_check_contacts(pl_job* job, pl_model* m);
 void pl_check_start(pl_job* job, pl_model* m);
 void pl_check_requests(pl_job* job, pl_model* m);

@@ -62,6 +62,15 @@ static void physics(const slot_walk* w, pl_model* m) {
     one(w, &x->angle, PL_SLOT_POINT, x->block, x->span);
     point(w, &x->centre, x->block, x->span);
   }
+  for (int i = 0; i < m->spatials.n; i++) {
+    pl_spatial* x = &m->spatials.at[i];
+    label(w, &x->name, x->block, x->span);
+    one(w, &x->mass, PL_SLOT_MASS, x->block, x->span);
+    for (int k = 0; k < 6; k++) one(w, &x->inertia[k], PL_SLOT_MASS, x->block, x->inertia_span);
+    for (int k = 0; k < 9; k++) one(w, &x->axes[k], PL_SLOT_POINT, x->block, x->span);
+    for (int k = 0; k < 9; k++) one(w, &x->turn[k], PL_SLOT_POINT, x->block, x->span);
+    point(w, &x->centre, x->block, x->span);
+  }
   for (int i = 0; i < m->points.n; i++) {
     pl_place_def* x = &m->points.at[i];
     label(w, &x->name, x->block, x->span);
@@ -75,6 +84,7 @@ static void physics(const slot_walk* w, pl_model* m) {
     one(w, &x->value, PL_SLOT_LOAD, x->block, x->span);
     one(w, &x->rest, PL_SLOT_LOAD, x->block, x->span);
     for (int k = 0; k < 3; k++) one(w, &x->vector[k], PL_SLOT_LOAD, x->block, x->span);
+    for (int k = 0; k < 3; k++) one(w, &x->spin[k], PL_SLOT_LOAD, x->block, x->span);
     point(w, &x->a, x->block, x->span);
     point(w, &x->b, x->block, x->span);
   }

@@ -166,6 +166,14 @@ static bool expand_body(void* user, pl_index_values* v) {
   return true;
 }
 
+static bool expand_spatial(void* user, pl_index_values* v) {
+  one_item* o = user;
+  pl_spatial item = o->x->from->spatials.at[o->i];
+  write_label(o->x, &item.name);
+  PL_EXPAND_ITEM(o->x, spatials, item);
+  return true;
+}
+
 static bool expand_place(void* user, pl_index_values* v) {
   one_item* o = user;
   pl_place_def item = o->x->from->points.at[o->i];
@@ -230,6 +238,7 @@ static bool expand_statements(expansion* x) {
   bool ok = true;
   PL_EXPAND_LIST(x, masses, expand_mass);
   PL_EXPAND_LIST(x, bodies, expand_body);
+  PL_EXPAND_LIST(x, spatials, expand_spatial);
   PL_EXPAND_LIST(x, points, expand_place);
   PL_EXPAND_LIST(x, loads, expand_load);
   PL_EXPAND_LIST(x, inits, expand_init);
