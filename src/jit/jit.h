@@ -9,10 +9,12 @@
 //
 //     s = sum over pairs of sum_{j=1..K-1} A_j B_{K-j},
 //
-// row j of a stream being `width` numbers at stream + j width.  Order of the additions, from the middle outwards, so
-// that the newest rows come last:  K even: the pairs' A_{K/2} B_{K/2};  then for j = (K-1)/2 down to 1, for each pair,
-// A_j B_{K-j} and A_{K-j} B_j.  Every addition is a fused multiply-add, beginning with 0.  A weighted sum takes j A_j for A_j,
-// the product rounded.
+// row j of a stream being `width` numbers at stream + j width.  Products are added to parts, which do not wait for each other: two of
+// a sum with one pair, else four.  A_j B_{K-j} of pair p goes to part 2p, A_{K-j} B_j with j < K/2 to part 2p + 1, counted modulo
+// their number, from the middle outwards, so that the newest rows come last:  K even: the pairs' A_{K/2} B_{K/2};  then for j =
+// (K-1)/2 down to 1, for each pair, A_j B_{K-j} and A_{K-j} B_j.  Every addition is a fused multiply-add, beginning with 0; at the end
+// s = t_0 + t_1, or (t_0 + t_1) + (t_2 + t_3).  A weighted sum takes j A_j for A_j, the product rounded.  A scaled sum is multiplied
+// with row K of a stream and corrected with row K of another: fma(s, rest_K, s scale_K).
 #ifndef PL_JIT_H
 #define PL_JIT_H
 
@@ -51,7 +53,10 @@ typedef struct pl_prog_sum {
   int to, first, n;        // pairs first .. first + n - 1
   bool weighted;
   int lanes;               // the first so many hold something; 0: all.  What vector registers compute for nothing
+  int scale, rest;         // streams; -1: not scaled
 } pl_prog_sum;
+enum { PL_PROG_PARTS = 4 };
+static inline int pl_prog_parts(const pl_prog_sum* s) { return s->n == 1 ? 2 : PL_PROG_PARTS; }
 typedef struct pl_prog_block { int width, shift, first, n; } pl_prog_block;    // sums first .. first + n - 1
 // y = A x: rows in blocks of 8, column j of A at A + 8 j blocks; sums over j in four parts, j mod 4: (s0+s1)+(s2+s3).
 typedef struct pl_prog_product { int to, matrix, vector, n, blocks; } pl_prog_product;
@@ -93,6 +98,7 @@ void pl_prog_block_begin(pl_prog* c, int width, int shift);
 void pl_prog_sum_begin(pl_prog* c, int to, bool weighted);
 void pl_prog_sum_pair(pl_prog* c, int a, int b);
 void pl_prog_sum_lanes(pl_prog* c, int lanes);   // of the sum at work
+void pl_prog_sum_scale(pl_prog* c, int scale, int rest);
 void pl_prog_product_add(pl_prog* c, int to, int matrix, int vector, int n, int blocks);
 uint64_t pl_prog_hash(const pl_prog* c, uint64_t seed);
 void pl_prog_dump(pl_text* out, const pl_prog* c);
@@ -137,6 +143,7 @@ typedef struct pl_lower {
   int (*now)(void* user, int node);      // order k; -1: zero
   int (*sum)(void* user, int node, int i);   // convolution i of the node; -1: zero
   int (*ratio)(void* user, int node, int part);   // part 0: 1/k rounded, part 1: the rest of it
+  bool means;                            // weighted sums come divided by k
   int (*inverse)(void* user, int node);  // what pl_lower_inverse computed at order 0
 } pl_lower;
 int pl_lower_value(const pl_lower* l, int node);          // order 0; -1: an input, which is there

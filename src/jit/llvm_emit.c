@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CHUNK = 500, ACCUMULATORS = 8, STEPS = 64 };
+enum { CHUNK = 1500, WRITTEN_CHUNK = 500, ACCUMULATORS = 24, STEPS = 64 };
 
 static const int reads_of[PL_N_PROG_OPS] = {
 #define PL_PROG(name, reads, meaning) reads,
@@ -143,60 +143,118 @@ static LLVMValueRef row(pl_emit* e, LLVMValueRef j, int width) {
   return offset(e, e->memory, LLVMBuildMul(e->build, j, whole(e, width), ""));
 }
 
-// Row K/2 with itself when K is even, else 0.
-static LLVMValueRef middle(pl_emit* e, const pl_prog_sum* s, LLVMValueRef half, LLVMValueRef even, int width) {
-  const pl_prog_pair* pairs = e->prog->pairs.at + s->first;
-  LLVMValueRef acc = number(e, 0, width), at = row(e, half, width);
-  for (int p = 0; p < s->n; p++) acc = add_row(e, s, pairs[p], acc, half, at, at, width);
-  return LLVMBuildSelect(e->build, even, acc, number(e, 0, width), "");
+// The parts of all sums of a loop, one after the other.
+typedef struct pl_sum_parts { LLVMValueRef at[ACCUMULATORS]; } pl_sum_parts;
+
+static int parts_of(const pl_prog_sum* s, int n) {
+  int parts = 0;
+  for (int i = 0; i < n; i++) parts += pl_prog_parts(&s[i]);
+  return parts;
 }
 
-// Several sums in one loop, each with its own accumulator, so that they do not wait for each other.
-static void sums(pl_emit* e, const pl_prog_block* b, int first, int n) {
-  const pl_prog* prog = e->prog;
-  int width = b->width;
-  LLVMTypeRef t = type_of(e, width);
-  LLVMValueRef K = LLVMBuildAdd(e->build, e->k, whole(e, b->shift), "");
-  LLVMValueRef half = LLVMBuildAShr(e->build, K, whole(e, 1), "");
-  LLVMValueRef top = LLVMBuildAShr(e->build, LLVMBuildSub(e->build, K, whole(e, 1), ""), whole(e, 1), "");
-  LLVMValueRef even = LLVMBuildAnd(
-      e->build, LLVMBuildICmp(e->build, LLVMIntEQ, LLVMBuildAnd(e->build, K, whole(e, 1), ""), whole(e, 0), ""),
-      LLVMBuildICmp(e->build, LLVMIntSGE, K, whole(e, 2), ""), "");
-  LLVMValueRef start[ACCUMULATORS], acc[ACCUMULATORS], end[ACCUMULATORS];
-  for (int i = 0; i < n; i++) start[i] = middle(e, &prog->sums.at[first + i], half, even, width);
-  LLVMBasicBlockRef before = LLVMGetInsertBlock(e->build);
-  LLVMBasicBlockRef loop = LLVMAppendBasicBlockInContext(e->context, e->function, "sum");
-  LLVMBasicBlockRef after = LLVMAppendBasicBlockInContext(e->context, e->function, "summed");
-  LLVMBuildCondBr(e->build, LLVMBuildICmp(e->build, LLVMIntSGE, top, whole(e, 1), ""), loop, after);
-  LLVMPositionBuilderAtEnd(e->build, loop);
-  LLVMValueRef j = LLVMBuildPhi(e->build, e->whole, "");
-  for (int i = 0; i < n; i++) acc[i] = LLVMBuildPhi(e->build, t, "");
-  LLVMValueRef other = LLVMBuildSub(e->build, K, j, ""), at_j = row(e, j, width), at_other = row(e, other, width);
-  for (int i = 0; i < n; i++) {
-    const pl_prog_sum* s = &prog->sums.at[first + i];
-    end[i] = acc[i];
-    for (int p = 0; p < s->n; p++) {
-      pl_prog_pair pair = prog->pairs.at[s->first + p];
-      end[i] = add_row(e, s, pair, end[i], j, at_j, at_other, width);
-      end[i] = add_row(e, s, pair, end[i], other, at_other, at_j, width);
+// Row K/2 with itself, when K is even.
+static pl_sum_parts middle(pl_emit* e, const pl_prog_sum* s, int n, LLVMValueRef half, int width) {
+  pl_sum_parts x;
+  LLVMValueRef at = row(e, half, width);
+  for (int i = 0, first = 0; i < n; first += pl_prog_parts(&s[i++])) {
+    int parts = pl_prog_parts(&s[i]);
+    for (int j = 0; j < parts; j++) x.at[first + j] = number(e, 0, width);
+    for (int p = 0; p < s[i].n; p++) {
+      LLVMValueRef* to = &x.at[first + 2 * p % parts];
+      *to = add_row(e, &s[i], e->prog->pairs.at[s[i].first + p], *to, half, at, at, width);
     }
   }
-  LLVMValueRef next = LLVMBuildSub(e->build, j, whole(e, 1), "");
-  LLVMBuildCondBr(e->build, LLVMBuildICmp(e->build, LLVMIntSGE, next, whole(e, 1), ""), loop, after);
-  LLVMAddIncoming(j, (LLVMValueRef[]){top, next}, (LLVMBasicBlockRef[]){before, loop}, 2);
-  for (int i = 0; i < n; i++)
-    LLVMAddIncoming(acc[i], (LLVMValueRef[]){start[i], end[i]}, (LLVMBasicBlockRef[]){before, loop}, 2);
-  LLVMPositionBuilderAtEnd(e->build, after);
-  for (int i = 0; i < n; i++) {
-    LLVMValueRef x = LLVMBuildPhi(e->build, t, "");
-    LLVMAddIncoming(x, (LLVMValueRef[]){start[i], end[i]}, (LLVMBasicBlockRef[]){before, loop}, 2);
-    start[i] = x;
-  }
-  for (int i = 0; i < n; i++) store(e, start[i], e->memory, prog->sums.at[first + i].to, width);
+  return x;
 }
 
+static void both_rows(pl_emit* e, const pl_prog_sum* s, int n, pl_sum_parts* x, LLVMValueRef j, LLVMValueRef other, int width) {
+  LLVMValueRef at_j = row(e, j, width), at_other = row(e, other, width);
+  for (int i = 0, first = 0; i < n; first += pl_prog_parts(&s[i++])) {
+    int parts = pl_prog_parts(&s[i]);
+    for (int p = 0; p < s[i].n; p++) {
+      pl_prog_pair pair = e->prog->pairs.at[s[i].first + p];
+      LLVMValueRef *up = &x->at[first + 2 * p % parts], *down = &x->at[first + (2 * p + 1) % parts];
+      *up = add_row(e, &s[i], pair, *up, j, at_j, at_other, width);
+      *down = add_row(e, &s[i], pair, *down, other, at_other, at_j, width);
+    }
+  }
+}
+
+static LLVMValueRef scaled(pl_emit* e, LLVMValueRef x, LLVMValueRef scale, LLVMValueRef rest, int width) {
+  return fused(e, x, rest, LLVMBuildFMul(e->build, x, scale, ""), width);
+}
+
+static LLVMValueRef total(pl_emit* e, const LLVMValueRef* part, int parts) {
+  LLVMValueRef x = LLVMBuildFAdd(e->build, part[0], part[1], "");
+  return parts == 2 ? x : LLVMBuildFAdd(e->build, x, LLVMBuildFAdd(e->build, part[2], part[3], ""), "");
+}
+
+static void store_sums(pl_emit* e, const pl_prog_sum* s, int n, const pl_sum_parts* x, LLVMValueRef K, int width) {
+  LLVMValueRef at_K = row(e, K, width);
+  for (int i = 0, first = 0; i < n; first += pl_prog_parts(&s[i++])) {
+    LLVMValueRef sum = total(e, x->at + first, pl_prog_parts(&s[i]));
+    if (s[i].scale >= 0) sum = scaled(e, sum, load(e, at_K, s[i].scale, width), load(e, at_K, s[i].rest, width), width);
+    store(e, sum, e->memory, s[i].to, width);
+  }
+}
+
+static pl_sum_parts phis(pl_emit* e, LLVMTypeRef t, int parts) {
+  pl_sum_parts x;
+  for (int i = 0; i < parts; i++) x.at[i] = LLVMBuildPhi(e->build, t, "");
+  return x;
+}
+
+static void incoming(pl_sum_parts* phi, const pl_sum_parts* x, int parts, LLVMBasicBlockRef from) {
+  for (int i = 0; i < parts; i++) LLVMAddIncoming(phi->at[i], (LLVMValueRef[]){x->at[i]}, &from, 1);
+}
+
+static LLVMBasicBlockRef new_block(pl_emit* e, const char* name) {
+  return LLVMAppendBasicBlockInContext(e->context, e->function, name);
+}
+
+// Several sums in one loop over j, each with its own parts.
+static void sums(pl_emit* e, const pl_prog_block* b, const pl_prog_sum* s, int n) {
+  int width = b->width, parts = parts_of(s, n);
+  LLVMTypeRef t = type_of(e, width);
+  LLVMValueRef one = whole(e, 1), K = LLVMBuildAdd(e->build, e->k, whole(e, b->shift), "");
+  LLVMValueRef half = LLVMBuildAShr(e->build, K, one, ""), top = LLVMBuildAShr(e->build, LLVMBuildSub(e->build, K, one, ""), one, "");
+  LLVMValueRef even = LLVMBuildAnd(e->build, LLVMBuildICmp(e->build, LLVMIntNE, half, top, ""), LLVMBuildICmp(e->build, LLVMIntSGE, half, one, ""), "");
+  LLVMBasicBlockRef before = LLVMGetInsertBlock(e->build), inner = new_block(e, "middle"), head = new_block(e, "head");
+  LLVMBasicBlockRef loop = new_block(e, "sum"), after = new_block(e, "summed");
+  pl_sum_parts none, start, now, end;
+  for (int i = 0; i < parts; i++) none.at[i] = number(e, 0, width);
+  LLVMBuildCondBr(e->build, even, inner, head);
+  LLVMPositionBuilderAtEnd(e->build, inner);
+  pl_sum_parts first = middle(e, s, n, half, width);
+  LLVMBuildBr(e->build, head);
+  LLVMPositionBuilderAtEnd(e->build, head);
+  start = phis(e, t, parts);
+  incoming(&start, &none, parts, before);
+  incoming(&start, &first, parts, inner);
+  LLVMBuildCondBr(e->build, LLVMBuildICmp(e->build, LLVMIntSGE, top, one, ""), loop, after);
+  LLVMPositionBuilderAtEnd(e->build, loop);
+  LLVMValueRef j = LLVMBuildPhi(e->build, e->whole, "");
+  now = end = phis(e, t, parts);
+  both_rows(e, s, n, &end, j, LLVMBuildSub(e->build, K, j, ""), width);
+  LLVMValueRef next = LLVMBuildSub(e->build, j, one, "");
+  LLVMBuildCondBr(e->build, LLVMBuildICmp(e->build, LLVMIntSGE, next, one, ""), loop, after);
+  LLVMAddIncoming(j, (LLVMValueRef[]){top, next}, (LLVMBasicBlockRef[]){head, loop}, 2);
+  incoming(&now, &start, parts, head);
+  incoming(&now, &end, parts, loop);
+  LLVMPositionBuilderAtEnd(e->build, after);
+  pl_sum_parts done = phis(e, t, parts);
+  incoming(&done, &start, parts, head);
+  incoming(&done, &end, parts, loop);
+  store_sums(e, s, n, &done, K, width);
+}
+
+// As many sums at a time as there are registers for their parts.
 static void block_of_sums(pl_emit* e, const pl_prog_block* b) {
-  for (int i = 0; i < b->n; i += ACCUMULATORS) sums(e, b, b->first + i, b->n - i < ACCUMULATORS ? b->n - i : ACCUMULATORS);
+  const pl_prog_sum* s = e->prog->sums.at + b->first;
+  for (int i = 0, n; i < b->n; i += n) {
+    for (n = 1; i + n < b->n && parts_of(s + i, n + 1) <= ACCUMULATORS;) n++;
+    sums(e, b, s + i, n);
+  }
 }
 
 static void product(pl_emit* e, const pl_prog_product* p) {
@@ -237,23 +295,25 @@ static void find_used(pl_emit* e) {
 // One lane of a sum.  Pairs without streams in this lane add 0 0, which only makes a -0 positive.
 static LLVMValueRef lane_sum(pl_emit* e, const pl_prog_sum* s, int lane, int K) {
   const pl_prog_pair* pairs = e->prog->pairs.at + s->first;
-  LLVMValueRef x = number(e, 0, 1);
-  bool left_out = false;
-  for (int p = 0; K >= 2 && K % 2 == 0 && p < s->n; p++) {
-    if (!e->stored[pairs[p].a + lane] || !e->stored[pairs[p].b + lane]) left_out = true;
-    else x = fused(e, known_load(e, pairs[p].a + 4L * K + lane), known_load(e, pairs[p].b + 4L * K + lane), x, 1);
-  }
-  for (int j = (K - 1) / 2; j >= 1; j--)
+  LLVMValueRef part[PL_PROG_PARTS];
+  int parts = pl_prog_parts(s);
+  bool left_out[PL_PROG_PARTS] = {false};
+  for (int i = 0; i < parts; i++) part[i] = number(e, 0, 1);
+  for (int j = K / 2; j >= 1; j--)
     for (int p = 0; p < s->n; p++) {
       long a = pairs[p].a + lane, b = pairs[p].b + lane;
+      int up = 2 * p % parts, down = up + 1;
       if (!e->stored[a] || !e->stored[b]) {
-        left_out = true;
+        left_out[up] = left_out[down] = true;
         continue;
       }
-      x = fused(e, known_load(e, a + 8L * j), known_load(e, b + 8L * (K - j)), x, 1);
-      x = fused(e, known_load(e, a + 8L * (K - j)), known_load(e, b + 8L * j), x, 1);
+      part[up] = fused(e, known_load(e, a + 8L * j), known_load(e, b + 8L * (K - j)), part[up], 1);
+      if (2 * j != K) part[down] = fused(e, known_load(e, a + 8L * (K - j)), known_load(e, b + 8L * j), part[down], 1);
     }
-  return left_out ? LLVMBuildFAdd(e->build, x, number(e, 0, 1), "") : x;
+  for (int i = 0; i < parts; i++)
+    if (left_out[i]) part[i] = LLVMBuildFAdd(e->build, part[i], number(e, 0, 1), "");
+  LLVMValueRef x = total(e, part, parts);
+  return s->scale < 0 ? x : scaled(e, x, known_load(e, s->scale + 8L * K + lane), known_load(e, s->rest + 8L * K + lane), 1);
 }
 
 static void unrolled_sums(pl_emit* e, const pl_prog_block* b) {
@@ -397,7 +457,7 @@ static int emit_orders(pl_emit* e, int from, LLVMValueRef* function) {
   e->memory = LLVMGetParam(e->function, 0);
   memset(e->known, 0, ((size_t)p->spill + 1) * sizeof *e->known);
   int k = from;
-  for (int operations = 0; k < p->orders && (k == from || operations < CHUNK); k++) {
+  for (int operations = 0; k < p->orders && (k == from || operations < WRITTEN_CHUNK); k++) {
     e->order = k;
     memset(e->value, 0, ((size_t)p->n_registers + 1) * sizeof(LLVMValueRef));
     for (int i = 0; i < p->lines.n; i++) {

@@ -4,8 +4,8 @@
 
 #include "jit/jit.h"
 
-enum { PL_PLUGIN_VERSION = 2 };          // of this header and of the codes: part of the key of what is kept on disk
-#define PL_PLUGIN_SYMBOL "pl_jit_plugin_2"
+enum { PL_PLUGIN_VERSION = 3 };          // of this header and of the codes: part of the key of what is kept on disk
+#define PL_PLUGIN_SYMBOL "pl_jit_plugin_3"
 
 typedef struct pl_plugin {
   int version;

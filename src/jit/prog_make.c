@@ -90,7 +90,7 @@ void pl_prog_block_begin(pl_prog* c, int width, int shift) {
 }
 
 void pl_prog_sum_begin(pl_prog* c, int to, bool weighted) {
-  pl_push(c->arena, c->sums, (pl_prog_sum){.to = to, .first = c->pairs.n, .weighted = weighted});
+  pl_push(c->arena, c->sums, (pl_prog_sum){.to = to, .first = c->pairs.n, .weighted = weighted, .scale = -1, .rest = -1});
   c->blocks.at[c->blocks.n - 1].n++;
 }
 
@@ -99,6 +99,11 @@ void pl_prog_sum_lanes(pl_prog* c, int lanes) { c->sums.at[c->sums.n - 1].lanes 
 void pl_prog_sum_pair(pl_prog* c, int a, int b) {
   pl_push(c->arena, c->pairs, (pl_prog_pair){a, b});
   c->sums.at[c->sums.n - 1].n++;
+}
+
+void pl_prog_sum_scale(pl_prog* c, int scale, int rest) {
+  c->sums.at[c->sums.n - 1].scale = scale;
+  c->sums.at[c->sums.n - 1].rest = rest;
 }
 
 void pl_prog_product_add(pl_prog* c, int to, int matrix, int vector, int n, int blocks) {
@@ -124,7 +129,8 @@ uint64_t pl_prog_hash(const pl_prog* c, uint64_t seed) {
   HASH_LIST(c->blocks);
   HASH_LIST(c->products);
   for (int i = 0; i < c->sums.n; i++) {
-    int parts[] = {c->sums.at[i].to, c->sums.at[i].first, c->sums.at[i].n, c->sums.at[i].weighted};
+    const pl_prog_sum* s = &c->sums.at[i];
+    int parts[] = {s->to, s->first, s->n, s->weighted, s->scale, s->rest};
     h = pl_hash_bytes(parts, sizeof parts, h);
   }
   return h;

@@ -22,17 +22,26 @@ INLINE void add_row(double* s, const double* a, const double* b, int ja, int jb,
     LANES s[l] = __builtin_fma(a[l], b[l], s[l]);
 }
 
+// Rows i and K - i of a pair, to their two parts.
+INLINE void add_rows(double part[2][8], const double* a, const double* b, int j, int K, bool weighted, int width) {
+  add_row(part[0], a, b, j, K - j, weighted, width);
+  if (2 * j != K) add_row(part[1], a, b, K - j, j, weighted, width);
+}
+
 INLINE void sum(const pl_prog* c, const pl_prog_sum* x, double* m, int K, int width) {
-  double s[8] = {0};
+  double part[PL_PROG_PARTS][8] = {{0}};
   const pl_prog_pair* pairs = c->pairs.at + x->first;
-  if (K >= 2 && K % 2 == 0)
-    for (int p = 0; p < x->n; p++) add_row(s, m + pairs[p].a, m + pairs[p].b, K / 2, K / 2, x->weighted, width);
-  for (int j = (K - 1) / 2; j >= 1; j--)
-    for (int p = 0; p < x->n; p++) {
-      add_row(s, m + pairs[p].a, m + pairs[p].b, j, K - j, x->weighted, width);
-      add_row(s, m + pairs[p].a, m + pairs[p].b, K - j, j, x->weighted, width);
+  for (int j = K / 2; j >= 1; j--)
+    for (int p = 0; p < x->n; p += 2) {
+      add_rows(part, m + pairs[p].a, m + pairs[p].b, j, K, x->weighted, width);
+      if (p + 1 < x->n) add_rows(part + 2, m + pairs[p + 1].a, m + pairs[p + 1].b, j, K, x->weighted, width);
     }
-  LANES m[x->to + l] = s[l];
+  LANES {
+    double s = part[0][l] + part[1][l];
+    if (x->n > 1) s += part[2][l] + part[3][l];
+    if (x->scale >= 0) s = __builtin_fma(s, m[x->rest + K * width + l], s * m[x->scale + K * width + l]);
+    m[x->to + l] = s;
+  }
 }
 
 static void block_sums(const pl_prog* c, const pl_prog_block* b, double* m, int k) {

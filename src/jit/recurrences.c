@@ -148,7 +148,7 @@ static int over_order(const pl_lower* l, int node, int x) {
 }
 
 static int sum(const pl_lower* l, int node, int i) { return l->sum(l->user, node, i); }
-static int mean(const pl_lower* l, int node) { return over_order(l, node, sum(l, node, 0)); }
+static int mean(const pl_lower* l, int node) { return l->means ? sum(l, node, 0) : over_order(l, node, sum(l, node, 0)); }
 
 // a^r:  ((r + 1) S_1 / k - S_2 + r a_k c_0) / a_0,  S_1 = sum j a_j c_{k-j},  S_2 = sum a_j c_{k-j}
 static int power(const pl_lower* l, int node) {
@@ -164,7 +164,8 @@ static int power(const pl_lower* l, int node) {
 static int angle(const pl_lower* l, int node) {
   const pl_tape_node* n = at(l, node);
   int known = sub(l, sub(l, sum(l, node, 0), sum(l, node, 1)), sum(l, node, 2));
-  int x = fma_(l, now(l, n->a), start(l, n->b), over_order(l, node, known));
+  if (!l->means) known = over_order(l, node, known);
+  int x = fma_(l, now(l, n->a), start(l, n->b), known);
   return over(l, fnma(l, now(l, n->b), start(l, n->a), x), node);
 }
 

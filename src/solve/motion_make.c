@@ -138,7 +138,7 @@ int pl_maker_start(pl_maker* k, int node) {
 
 void pl_maker_begin(pl_maker* k, pl_motion_part part, const char* name, int width) {
   k->code = k->o->code[part] = pl_prog_make(k->a, name, width);
-  k->lower = (pl_lower){.code = k->code, .user = k, .start = start_of, .now = now_of, .sum = sum_of, .ratio = ratio_of, .inverse = inverse_of};
+  k->lower = (pl_lower){.code = k->code, .user = k, .start = start_of, .now = now_of, .sum = sum_of, .ratio = ratio_of, .inverse = inverse_of, .means = true};
   for (int i = 0; i < k->n_nodes; i++) k->start[i] = k->now[i] = k->place_now[i] = -1;
   k->with_sums = k->speed_phase = false;
 }
@@ -361,6 +361,13 @@ static void fill_memory(pl_maker* k) {
   for (int i = 1; i < o->orders + 2; i++) {
     o->m[o->ratio + i] = 1.0 / i;
     o->m[o->rest + i] = __builtin_fma(-(double)i, o->m[o->ratio + i], 1.0) / i;
+  }
+  for (int i = 0; i < k->scales.n; i++) {
+    const pl_scale_lane* s = &k->scales.at[i];
+    for (int row = 1; row <= o->orders; row++) {
+      double one = s->rest ? 0 : 1;
+      o->m[s->at + 8 * row] = s->of_order ? o->m[(s->rest ? o->rest : o->ratio) + row] : one;
+    }
   }
   o->m[o->time + 1] = 1;
   int stride = (o->n + 7) / 8 * 8;

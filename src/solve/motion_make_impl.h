@@ -20,6 +20,9 @@ typedef PL_VEC(int) pl_places;   // of streams, row 0
 // A product that is summed over the orders: one lane of a group of eight.
 typedef struct pl_maker_sum { int node, i, cell; pl_lower_sum reads; } pl_maker_sum;
 
+// A lane of a stream of constants: 1 in all rows, or 1/k in row k; or what rounding left of these.
+typedef struct pl_scale_lane { int at; bool of_order, rest; } pl_scale_lane;
+
 typedef struct pl_maker_groups pl_maker_groups;
 
 typedef struct pl_maker {
@@ -40,7 +43,8 @@ typedef struct pl_maker {
   pl_places *plain, *weighted;   // streams that a node is written to
   PL_VEC(pl_term) M, G, gt, g, g_terms, h, energy;
   pl_places *from_a, *from_lambda, *from_v;   // streams of -a_k (row k+1), λ_k (row k+1), v_k (row k)
-  int* row_sum;              // place of the sum of a row's products: by unknown; -1
+  pl_places* row_sums;       // places of the sums of a row's products: by unknown
+  PL_VEC(pl_scale_lane) scales;
   pl_maker_groups* groups;   // of eight sums
   bool* entry;               // structure of the system
   pl_elimination* elimination;

@@ -3,12 +3,15 @@
 // Products of series are summed eight at a time.  Each operand of a sum lies in a stream, a row of eight numbers for each
 // order; a coefficient is written to all the streams that hold it as soon as it is known.  The products of the
 // equations themselves (M a, G^T λ, G v) are put so that all products of one row share a lane and are added there.
+#include <limits.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "solve/motion_make_impl.h"
 
 // ---------------------------------------------------------------------------------------------- streams
-typedef enum pl_lane_kind { EMPTY, NODE, WEIGHTED_NODE, MINUS_A, LAMBDA, V } pl_lane_kind;
+// The last two are no series: row k holds 1/k, and what its rounding left, where index is 1, else 1 and 0.
+typedef enum pl_lane_kind { EMPTY, NODE, WEIGHTED_NODE, MINUS_A, LAMBDA, V, SCALE, REST } pl_lane_kind;
 typedef struct pl_lane { pl_lane_kind kind; int index; } pl_lane;
 typedef struct pl_stream { pl_lane lane[8]; int at; } pl_stream;
 typedef struct pl_streams { PL_VEC(pl_stream) list; } pl_streams;
@@ -21,6 +24,8 @@ static void write_to(pl_maker* k, pl_lane lane, int place) {
     case MINUS_A: pl_push(k->a, k->from_a[lane.index], place); break;
     case LAMBDA: pl_push(k->a, k->from_lambda[lane.index], place); break;
     case V: pl_push(k->a, k->from_v[lane.index], place); break;
+    case SCALE:
+    case REST: pl_push(k->a, k->scales, (pl_scale_lane){place, lane.index != 0, lane.kind == REST}); break;
   }
 }
 
@@ -41,7 +46,7 @@ static int stream_of(pl_maker* k, pl_streams* streams, const pl_lane* lanes) {
 
 // ---------------------------------------------------------------------------------------------- groups
 // A group of eight sums: pairs of streams, where the sums go.
-typedef struct pl_group { int to, first, n; } pl_group;
+typedef struct pl_group { int to, first, n, scale, rest; } pl_group;   // the last two: streams, -1 none
 typedef struct pl_groups {
   PL_VEC(pl_group) list;
   PL_VEC(pl_prog_pair) pairs;
@@ -67,7 +72,63 @@ static void list_sums(pl_maker* k, pl_level level, pl_sum_list* out) {
   }
 }
 
-static void group_sums(pl_maker* k, pl_streams* streams, const pl_sum_list* sums, pl_groups* groups) {
+// Another sum that reads the same series A; -1 none.
+static int same_reader(const pl_sum_list* sums, const bool* done, int first) {
+  const pl_lower_sum* x = &sums->at[first].reads;
+  for (int i = first + 1; i < sums->n; i++)
+    if (!done[i] && sums->at[i].reads.a == x->a && sums->at[i].reads.weighted == x->weighted) return i;
+  return -1;
+}
+
+// Eight pairs of sums, each pair reading the same series A; fewer: none are left.
+static int find_doubles(pl_maker* k, const pl_sum_list* sums, const bool* done, int pair[2][8]) {
+  bool* seen = PL_ARRAY(k->a, bool, sums->n + 1);
+  int n = 0;
+  memcpy(seen, done, (size_t)sums->n * sizeof *seen);
+  for (int i = 0; i < sums->n && n < 8; i++) {
+    int other = seen[i] ? -1 : same_reader(sums, seen, i);
+    if (other < 0) continue;
+    pair[0][n] = i;
+    pair[1][n++] = other;
+    seen[i] = seen[other] = true;
+  }
+  return n;
+}
+
+// Sums that read the same series stand in the same lanes of two groups, which then share a stream, as far as these
+// are full; then come the other weighted ones and the rest.
+static pl_sum_list in_order(pl_maker* k, const pl_sum_list* sums) {
+  pl_sum_list out = {0};
+  bool* done = PL_ARRAY(k->a, bool, sums->n + 1);
+  int pair[2][8];
+  while (find_doubles(k, sums, done, pair) == 8)
+    for (int i = 0; i < 16; i++) {
+      pl_push(k->a, out, sums->at[pair[i / 8][i % 8]]);
+      done[pair[i / 8][i % 8]] = true;
+    }
+  for (int weighted = 1; weighted >= 0; weighted--)
+    for (int i = 0; i < sums->n; i++)
+      if (!done[i] && sums->at[i].reads.weighted == weighted) pl_push(k->a, out, sums->at[i]);
+  return out;
+}
+
+// What the sums of a group are multiplied with: weighted ones with 1/k.
+static void scale_group(pl_maker* k, pl_streams* streams, const pl_maker_sum* sums, int n, pl_group* g) {
+  pl_lane scale[8], rest[8];
+  bool any = false;
+  for (int l = 0; l < 8; l++) {
+    int weighted = l < n && sums[l].reads.weighted;
+    any |= weighted;
+    scale[l] = (pl_lane){SCALE, weighted};
+    rest[l] = (pl_lane){REST, weighted};
+  }
+  if (!any) return;
+  g->scale = stream_of(k, streams, scale);
+  g->rest = stream_of(k, streams, rest);
+}
+
+static void group_sums(pl_maker* k, pl_streams* streams, const pl_sum_list* unordered, pl_groups* groups) {
+  pl_sum_list ordered = in_order(k, unordered), *sums = &ordered;
   for (int first = 0; first < sums->n; first += 8) {
     pl_lane a[8] = {{EMPTY, 0}}, b[8] = {{EMPTY, 0}};
     int to = pl_maker_take(k, 8);
@@ -78,7 +139,9 @@ static void group_sums(pl_maker* k, pl_streams* streams, const pl_sum_list* sums
       k->sum_cell[s->node].i[s->i] = to + l;
     }
     int at_a = stream_of(k, streams, a), at_b = stream_of(k, streams, b);
-    pl_push(k->a, groups->list, (pl_group){to, groups->pairs.n, 1});
+    pl_group g = {to, groups->pairs.n, 1, -1, -1};
+    scale_group(k, streams, sums->at + first, sums->n - first < 8 ? sums->n - first : 8, &g);
+    pl_push(k->a, groups->list, g);
     pl_push(k->a, groups->pairs, (pl_prog_pair){at_a, at_b});
   }
 }
@@ -111,30 +174,61 @@ static void list_rows(pl_maker* k, pl_row_list* rows) {
   }
 }
 
-static int longest_left(const pl_row_list* rows, const bool* done, int n) {
-  int best = -1;
-  for (int u = 0; u < n; u++)
-    if (!done[u] && rows[u].n > 0 && (best < 0 || rows[u].n > rows[best].n)) best = u;
+// Products first .. of a row, which share a lane: at most `most` of them.
+typedef struct pl_share { int unknown, first, n; } pl_share;
+typedef PL_VEC(pl_share) pl_shares;
+
+static int compare_shares(const void* x, const void* y) {
+  const pl_share *a = x, *b = y;
+  if (a->n != b->n) return b->n - a->n;
+  return a->unknown != b->unknown ? a->unknown - b->unknown : a->first - b->first;
+}
+
+// All rows in shares of nearly the same size, longest first.
+static pl_shares share_rows(pl_maker* k, const pl_row_list* rows, int most) {
+  pl_shares out = {0};
+  for (int u = 0; u < k->o->n; u++) {
+    int lanes = (rows[u].n + most - 1) / most;
+    for (int i = 0; i < lanes; i++) {
+      int first = rows[u].n * i / lanes, end = rows[u].n * (i + 1) / lanes;
+      pl_push(k->a, out, (pl_share){u, first, end - first});
+    }
+  }
+  if (out.n > 0) qsort(out.at, (size_t)out.n, sizeof *out.at, compare_shares);
+  return out;
+}
+
+// Pairs of streams that shares take: each group of eight as many as its longest has products.
+static int pairs_of(const pl_shares* s) {
+  int n = 0;
+  for (int i = 0; i < s->n; i += 8) n += s->at[i].n;
+  return n;
+}
+
+// The division into shares that takes the fewest pairs.
+static pl_shares best_shares(pl_maker* k, const pl_row_list* rows) {
+  enum { LONGEST = 16 };
+  pl_shares best = share_rows(k, rows, INT_MAX / 2);
+  for (int most = LONGEST; most >= 1; most--) {
+    pl_shares s = share_rows(k, rows, most);
+    if (pairs_of(&s) < pairs_of(&best)) best = s;
+  }
   return best;
 }
 
 static void group_rows(pl_maker* k, pl_streams* streams, const pl_row_list* rows, pl_groups* groups) {
-  int n = k->o->n;
-  bool* done = PL_ARRAY(k->a, bool, n + 1);
-  for (;;) {
-    int unknown[8], used = 0, to, depth = 0;
-    while (used < 8 && (unknown[used] = longest_left(rows, done, n)) >= 0) done[unknown[used++]] = true;
-    if (used == 0) return;
-    to = pl_maker_take(k, 8);
-    for (int l = 0; l < used; l++) {
-      k->row_sum[unknown[l]] = to + l;
-      if (rows[unknown[l]].n > depth) depth = rows[unknown[l]].n;
-    }
-    pl_push(k->a, groups->list, (pl_group){to, groups->pairs.n, depth});
-    for (int p = 0; p < depth; p++) {
+  pl_shares shares = best_shares(k, rows);
+  for (int first = 0; first < shares.n; first += 8) {
+    const pl_share* s = shares.at + first;
+    int used = shares.n - first < 8 ? shares.n - first : 8, to = pl_maker_take(k, 8);
+    for (int l = 0; l < used; l++) pl_push(k->a, k->row_sums[s[l].unknown], to + l);
+    pl_push(k->a, groups->list, (pl_group){to, groups->pairs.n, s->n, -1, -1});
+    for (int p = 0; p < s->n; p++) {
       pl_lane a[8] = {{EMPTY, 0}}, b[8] = {{EMPTY, 0}};
-      for (int l = 0; l < used; l++)
-        if (p < rows[unknown[l]].n) a[l] = rows[unknown[l]].at[p].a, b[l] = rows[unknown[l]].at[p].b;
+      for (int l = 0; l < used; l++) {
+        const pl_lanes* product = &rows[s[l].unknown].at[s[l].first + p];
+        if (p < s[l].n) a[l] = product->a, b[l] = product->b;
+      }
       int at_a = stream_of(k, streams, a), at_b = stream_of(k, streams, b);
       pl_push(k->a, groups->pairs, (pl_prog_pair){at_a, at_b});
     }
@@ -170,9 +264,8 @@ void pl_maker_streams(pl_maker* k) {
   k->from_a = PL_ARRAY(k->a, pl_places, o->n_q + 1);
   k->from_v = PL_ARRAY(k->a, pl_places, o->n_q + 1);
   k->from_lambda = PL_ARRAY(k->a, pl_places, o->n_c + 1);
-  k->row_sum = PL_ARRAY(k->a, int, o->n + 1);
+  k->row_sums = PL_ARRAY(k->a, pl_places, o->n + 1);
   k->groups = PL_NEW(k->a, pl_maker_groups);
-  for (int u = 0; u < o->n; u++) k->row_sum[u] = -1;
   pl_row_list* rows = PL_ARRAY(k->a, pl_row_list, o->n + 1);
   list_sums(k, PL_LEVEL_PLACE, &place);
   list_sums(k, PL_LEVEL_SPEED, &speed);
@@ -189,6 +282,7 @@ static void add_block(pl_maker* k, const pl_groups* groups, int shift) {
   for (int i = 0; i < groups->list.n; i++) {
     const pl_group* g = &groups->list.at[i];
     pl_prog_sum_begin(k->code, g->to, false);
+    pl_prog_sum_scale(k->code, g->scale, g->rest);
     for (int p = g->first; p < g->first + g->n; p++) pl_prog_sum_pair(k->code, groups->pairs.at[p].a, groups->pairs.at[p].b);
   }
 }
@@ -259,9 +353,13 @@ static void speed_nodes(pl_maker* k) {
 }
 
 // ---------------------------------------------------------------------------------------------- the equations
-static int sum_at(pl_maker* k, int u) { return k->with_sums && k->row_sum[u] >= 0 ? pl_prog_load(k->code, k->row_sum[u], 0) : -1; }
-
 static int plus(pl_maker* k, int a, int b) { return a < 0 ? b : b < 0 ? a : pl_prog_op2(k->code, PL_PROG_ADD, a, b); }
+
+static int sum_at(pl_maker* k, int u) {
+  int s = -1;
+  for (int i = 0; k->with_sums && i < k->row_sums[u].n; i++) s = plus(k, s, pl_prog_load(k->code, k->row_sums[u].at[i], 0));
+  return s;
+}
 
 static int force(pl_maker* k, int i, bool first) {
   int h = -1;
