@@ -61,6 +61,19 @@ void pl_sparse_forget(pl_sparse* s);                 // the next factor finds a 
 // The pivot order that the next factor begins with, written down or read back (base.h).
 void pl_sparse_keep(pl_sparse* s, pl_keeper* k);
 
+// ---------------------------------------------------------------------------------------------- symmetric
+// L D L^T of a symmetric matrix with fixed structure without pivoting, in an order found once that runs in lanes (symmetric.c).
+typedef struct pl_symmetric pl_symmetric;
+// What an unknown is decides when it is eliminated: coordinates with a mass, constraints, what is left.
+enum { PL_UNKNOWN_MASS, PL_UNKNOWN_CONSTRAINT, PL_UNKNOWN_OTHER };
+
+// pl_symmetric_make: as pl_sparse_make; every diagonal place is there, value (i, j) equals value (j, i).  kind (n).  NULL: the structure
+// is not symmetric or fills in too much.
+pl_symmetric* pl_symmetric_make(pl_arena* a, int n, const int* start, const int* row, const unsigned char* kind);
+// Returns the smallest part of a pivot that the subtractions have left; 0: a pivot is zero or no number, no solving.
+double pl_symmetric_factor(pl_symmetric* s, const double* value);
+void pl_symmetric_solve(pl_symmetric* s, double* b);   // in place
+
 // ---------------------------------------------------------------------------------------------- roots
 // Every root in [0, 1] of c_0 + c_1 x + ... + c_n x^n, in order.  The value at x is taken to be known to
 // max(noise sum |c_k| x^k, floor): what stays below that counts as zero, so a double root that rounding has lifted or

@@ -273,7 +273,7 @@ void pl_run_keep(pl_run* run, pl_keeper* k) {
   keep_dimensions(run, k);
   keep_all_codes(run, k);
   pl_keep_section(k, "pivots");
-  if (!run->kkt.dense) pl_sparse_keep(run->kkt.sparse, k);
+  pl_kkt_keep(&run->kkt, k);
   keep_state(run, k);
 }
 
@@ -313,7 +313,7 @@ pleuel_status pl_run_load(pl_run* run, pl_keeper* k, const pl_sink* sink) {
   if (k->wrong) return unreadable(run);
   keep_all_codes(run, k);
   pl_keep_section(k, "pivots");
-  if (!run->kkt.dense) pl_sparse_keep(run->kkt.sparse, k);
+  pl_kkt_keep(&run->kkt, k);
   size_t at = k->next;
   keep_state(run, k);
   if (k->wrong || !makes_sense(run)) return unreadable(run);

@@ -1,4 +1,5 @@
-// The linear system of a point: structure, factor, solve.  Dense LU with pivoting for small systems, KLU above.
+// The linear system of a point: structure, factor, solve.  Dense LU with pivoting for small systems; above, L D L^T in lanes while
+// its pivots are sound, and KLU where they are not or the matrix is not symmetric.
 //
 // The dense matrix is balanced symmetrically by powers of two before it is factored (Ruiz 2001), so that the pivots
 // tell how singular it is whatever the units are.
@@ -57,6 +58,8 @@ static int insert_sorted(int* list, int n, int row) {
   list[i] = row;
   return n + 1;
 }
+
+enum { ANALYSED_AT_ONCE = 20000 };   // unknowns up to which the pivoting factorisation is prepared beforehand
 
 static pleuel_status sparse_structure(pl_run* run) {
   pl_arena* a = run->job->arena;
@@ -118,10 +121,24 @@ static void place_batch(pl_run* run, pl_batch* b) {
   }
 }
 
+// Which unknowns are coordinates with a mass of their own, which constraints.
+static unsigned char* kinds(const pl_run* run) {
+  unsigned char* kind = PL_ARRAY(run->job->arena, unsigned char, run->kkt.n + 1);
+  for (int i = 0; i < run->kkt.n; i++) kind[i] = i < run->n_q ? PL_UNKNOWN_OTHER : PL_UNKNOWN_CONSTRAINT;
+  for (int i = 0; i < run->motion.n; i++) {
+    const pl_batch* b = &run->motion.at[i];
+    for (int e = 0; e < b->pattern->n_mass; e++)
+      for (int l = 0; l < b->n && b->pattern->mass[e].row == b->pattern->mass[e].col; l++)
+        kind[b->q[b->pattern->mass[e].row * b->lanes + l]] = PL_UNKNOWN_MASS;
+  }
+  return kind;
+}
+
 pleuel_status pl_kkt_make(pl_run* run) {
   pl_arena* a = run->job->arena;
   pl_kkt* k = &run->kkt;
   k->n = run->n_q + run->n_c;
+  k->arena = a;
   k->dense = k->n <= PL_DENSE_UP_TO;
   if (k->dense) k->n_values = k->n * k->n;
   else PL_TRY(sparse_structure(run));
@@ -142,10 +159,21 @@ pleuel_status pl_kkt_make(pl_run* run) {
     k->pivot = PL_ARRAY(a, int, k->n + 1);
     return PLEUEL_OK;
   }
-  k->sparse = pl_sparse_make(a, k->n, k->start, k->row);
-  if (k->sparse == NULL)
+  if (!run->has_W && run->setup->n_rubs == 0) k->symmetric = pl_symmetric_make(a, k->n, k->start, k->row, kinds(run));
+  // in the largest systems only where it is needed, because it takes as much memory as all the rest
+  if (k->symmetric == NULL || k->n <= ANALYSED_AT_ONCE) k->sparse = pl_sparse_make(a, k->n, k->start, k->row);
+  if (k->sparse == NULL && (k->symmetric == NULL || k->n <= ANALYSED_AT_ONCE))
     return pl_fail(run->job, PLEUEL_SINGULAR, "the equations of motion do not determine every acceleration");
   return PLEUEL_OK;
+}
+
+void pl_kkt_keep(pl_kkt* k, pl_keeper* keeper) {
+  bool made = k->sparse != NULL;
+  if (k->dense) return;
+  pl_keep_bool(keeper, &made);
+  if (made && k->sparse == NULL) k->sparse = pl_sparse_make(k->arena, k->n, k->start, k->row);
+  if (made && k->sparse == NULL) pl_keep_fail(keeper);
+  else if (made) pl_sparse_keep(k->sparse, keeper);
 }
 
 void pl_kkt_free(pl_kkt* k) { pl_sparse_free(k->sparse); }
@@ -176,19 +204,30 @@ static void balance(pl_kkt* k) {
 // Below this ratio of pivots nothing is left of the digits of a double.
 static const double least_ratio = 1e-15;
 
+// With pivoting.  What it says about the pivots counts where the other factorisation could say nothing.
+static double factor_with_pivoting(pl_kkt* k, double part) {
+  if (k->sparse == NULL) k->sparse = pl_sparse_make(k->arena, k->n, k->start, k->row);
+  k->pivoted = true;
+  if (k->sparse == NULL || !pl_sparse_factor(k->sparse, k->value)) return 0;
+  return part > 0 ? part : pl_sparse_rcond(k->sparse);
+}
+
 bool pl_kkt_factor(pl_kkt* k) {
   if (k->dense) {
     balance(k);
     k->ratio = pl_lu_factor(k->lu, k->pivot, k->scale, k->n);
-  } else {
-    k->ratio = pl_sparse_factor(k->sparse, k->value) ? pl_sparse_rcond(k->sparse) : 0;
+    return k->ratio > least_ratio;
   }
+  k->pivoted = false;
+  k->ratio = k->symmetric ? pl_symmetric_factor(k->symmetric, k->value) : 0;
+  if (!(k->ratio > k->trusted)) k->ratio = factor_with_pivoting(k, k->ratio);
   return k->ratio > least_ratio;
 }
 
 void pl_kkt_solve(pl_kkt* k, double* b) {
   if (!k->dense) {
-    pl_sparse_solve(k->sparse, b);
+    if (k->pivoted) pl_sparse_solve(k->sparse, b);
+    else pl_symmetric_solve(k->symmetric, b);
     return;
   }
   for (int i = 0; i < k->n; i++) b[i] *= k->balance[i];

@@ -50,9 +50,13 @@ void pl_point_evaluate(pl_run* run, double t, const double* q, const double* v) 
   pl_batches_sweep(m, PL_LEVEL_SPEED, 0, true);
 }
 
+// What must be left of a pivot to go on without pivoting: of what was left of it in better places, and at all.
+static const double sound = 0.02, least_trusted = 1e-7;
+
 bool pl_point_factor(pl_run* run, bool with_W) {
   if (run->setup->n_rubs > 0) pl_friction_coefficients(run, 0);
   pl_assemble_matrix(run, with_W);
+  run->kkt.trusted = fmax(least_trusted, run->by_pivots ? sound * run->best * run->best : 0);
   bool regular = pl_kkt_factor(&run->kkt);
   if (run->by_pivots) {
     run->smallest = sqrt(run->kkt.ratio);  // pivots of the whole system fade with the square of those of the rows

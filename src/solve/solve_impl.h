@@ -35,8 +35,12 @@ typedef struct pl_kkt {
   int* diagonal;           // place of each diagonal entry  (n)
   double *lu, *scale, *balance, *work;   // dense factor
   int* pivot;
-  pl_sparse* sparse;
+  pl_sparse* sparse;       // with pivoting
+  pl_symmetric* symmetric; // without; NULL: always with
+  bool pivoted;            // the factor at hand is that with pivoting
+  double trusted;          // part of a pivot that must be left for going without
   double ratio;            // of the pivots, a measure of how singular it is
+  pl_arena* arena;
 } pl_kkt;
 
 // Friction as it is now.
@@ -268,6 +272,7 @@ pleuel_status pl_kkt_make(pl_run* run);
 bool pl_kkt_factor(pl_kkt* k);
 void pl_kkt_solve(pl_kkt* k, double* b);
 void pl_kkt_free(pl_kkt* k);
+void pl_kkt_keep(pl_kkt* k, pl_keeper* keeper);   // what its pivoting remembers; checkpoint.c
 
 // ---- independent.c: which constraints are used, what is determined
 void pl_independent_choose(pl_run* run);             // at every point; once a mode for large systems

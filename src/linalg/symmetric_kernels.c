@@ -1,0 +1,223 @@
+// Numbers of the symmetric solver: factor and solve.  This file is compiled for several kinds of processors (meson.build); every
+// sum has one order and multiplies and adds fused, so that all of them give the same bits.
+#include <math.h>
+#include <string.h>
+
+#include "linalg/symmetric_impl.h"
+
+#ifndef PL_SYMMETRIC
+#define PL_SYMMETRIC pl_symmetric_plain
+#endif
+#define INLINE static inline __attribute__((always_inline))
+#define LANES for (int l = 0; l < lanes; l++)
+#define EIGHT for (int l = 0; l < 8; l++)
+
+// ---------------------------------------------------------------------------------------------- elimination
+// Returns the smallest part of a pivot that elimination has left.
+INLINE double eliminate(pl_symmetric_front* f, int lanes) {
+  double *w = f->w, least[PL_SYMMETRIC_LANES], wrong[PL_SYMMETRIC_LANES];
+  const int* pair = f->pair;
+  LANES least[l] = 1, wrong[l] = 0;
+  for (int i = 0; i < f->m * lanes; i++) f->d[i] = w[i];
+  for (int k = 0; k < f->m; k++) {
+    double *d = w + k * lanes, *inverse = f->inverse + k * lanes;
+    const double* before = f->d + k * lanes;
+    LANES {
+      double size = fabs(before[l]), taken = fabs(before[l] - d[l]);
+      double part = fabs(d[l]) / (size > taken ? size : taken);
+      least[l] = part < least[l] ? part : least[l];
+      inverse[l] = 1 / d[l];
+      wrong[l] += 0 * inverse[l];    // not a number once an inverse is none
+    }
+    double* column = w + (size_t)(f->m + f->column[k]) * (size_t)lanes;
+    int n = f->column[k + 1] - f->column[k];
+    const int* to = pair + n * (n + 1) / 2;
+    pair = to;
+    for (int i = n - 1; i >= 0; i--) {
+      double L[PL_SYMMETRIC_LANES], *c = column + i * lanes;
+      to -= i + 1;
+      LANES L[l] = c[l] * inverse[l];
+      for (int j = 0; j <= i; j++) {
+        double *x = w + (size_t)to[j] * (size_t)lanes, *b = column + j * lanes;
+        LANES x[l] = __builtin_fma(-L[l], b[l], x[l]);
+      }
+      LANES c[l] = L[l];
+    }
+  }
+  double all = least[0];
+  LANES all = least[l] < all ? least[l] : all;
+  for (int l = 0; l < lanes; l++)
+    if (wrong[l] != 0) all = 0;
+  return all;
+}
+
+static double eliminate_front(pl_symmetric_front* f) {
+  switch (f->lanes) {
+    case 8: return eliminate(f, 8);
+    case 16: return eliminate(f, 16);
+    case 32: return eliminate(f, 32);
+    default: return eliminate(f, 1);
+  }
+}
+
+static void fill_rows(pl_symmetric_rows* r, const double* value) {
+  int n = 8 * r->first[r->n_groups];
+  for (int i = 0; i < n; i++) r->value[i] = r->from[i] >= 0 ? value[r->from[i]] : 0;
+}
+
+static void assemble(pl_symmetric* s, const double* value) {
+  double* w = s->memory;
+  const int* to = s->schur_to;
+  memset(w, 0, s->n_memory * sizeof *w);
+  for (int i = 0; i < s->n_ones; i++) w[s->ones[i]] = 1;
+  for (int i = 0; i < s->n_direct; i++) w[s->direct_to[i]] += value[s->direct_from[i]];
+  for (int e = 0; e < s->n_early; e++) {
+    double inverse = s->early_inverse[e] = 1 / value[s->early_from[e]];
+    for (int i = s->schur_start[e]; i < s->schur_start[e + 1]; i++) {
+      double x = value[s->schur_from[i]] * inverse;
+      for (int j = s->schur_start[e]; j <= i; j++, to++) w[*to] = __builtin_fma(-x, value[s->schur_from[j]], w[*to]);
+    }
+  }
+}
+
+static double factor(pl_symmetric* s, const double* value) {
+  assemble(s, value);
+  fill_rows(&s->by_core, value);
+  fill_rows(&s->by_early, value);
+  double part = eliminate_front(&s->main), part_2 = 1;
+  const pl_symmetric_front* f = &s->main;
+  const double* product = f->w + (size_t)(f->m + f->n) * (size_t)f->lanes;
+  for (int i = 0; i < s->n_products; i++)
+    if (s->to_border[i] >= 0) s->border.w[s->to_border[i]] += product[i];
+  if (s->border.m > 0) part_2 = eliminate_front(&s->border);
+  for (int e = 0; e < s->n_early; e++)
+    if (!(fabs(s->early_inverse[e]) <= 1e300)) return 0;
+  return part < part_2 ? part : part_2;
+}
+
+// ---------------------------------------------------------------------------------------------- solve
+// y of the border's rows begins with what stands there.
+INLINE void forward(const pl_symmetric_front* f, int lanes) {
+  const double* L = f->w + (size_t)f->m * (size_t)lanes;
+  double *y = f->y, before[PL_SYMMETRIC_LANES];
+  LANES before[l] = 0;
+  for (int r = 0; r < f->m; r++) {
+    double acc[PL_SYMMETRIC_LANES], *to = y + r * lanes;
+    int i = f->row_start[r], end = f->row_start[r + 1];
+    bool last = end > i && f->row_column[end - 1] == r - 1;   // what has just been computed is still at hand
+    LANES acc[l] = to[l];
+    for (end -= last; i < end; i++) {
+      const double *x = y + (size_t)f->row_column[i] * (size_t)lanes, *c = L + (size_t)f->row_entry[i] * (size_t)lanes;
+      LANES acc[l] = __builtin_fma(-c[l], x[l], acc[l]);
+    }
+    if (last) {
+      const double* c = L + (size_t)f->row_entry[end] * (size_t)lanes;
+      LANES acc[l] = __builtin_fma(-c[l], before[l], acc[l]);
+    }
+    LANES before[l] = to[l] = acc[l];
+  }
+  for (int r = f->m; r < f->m + f->nb; r++) {
+    // two sums, because one waits for itself
+    double even[PL_SYMMETRIC_LANES], odd[PL_SYMMETRIC_LANES], *to = y + r * lanes;
+    LANES even[l] = to[l], odd[l] = 0;
+    int i = f->row_start[r], end = f->row_start[r + 1];
+    for (; i + 1 < end; i += 2) {
+      const double *x = y + (size_t)f->row_column[i] * (size_t)lanes, *c = L + (size_t)f->row_entry[i] * (size_t)lanes;
+      const double *x2 = y + (size_t)f->row_column[i + 1] * (size_t)lanes;
+      const double* c2 = L + (size_t)f->row_entry[i + 1] * (size_t)lanes;
+      LANES even[l] = __builtin_fma(-c[l], x[l], even[l]);
+      LANES odd[l] = __builtin_fma(-c2[l], x2[l], odd[l]);
+    }
+    if (i < end) {
+      const double *x = y + (size_t)f->row_column[i] * (size_t)lanes, *c = L + (size_t)f->row_entry[i] * (size_t)lanes;
+      LANES even[l] = __builtin_fma(-c[l], x[l], even[l]);
+    }
+    LANES to[l] = even[l] + odd[l];
+  }
+}
+
+INLINE void backward(const pl_symmetric_front* f, int lanes) {
+  const double* L = f->w + (size_t)f->m * (size_t)lanes;
+  double *y = f->y, before[PL_SYMMETRIC_LANES];
+  LANES before[l] = 0;
+  for (int k = f->m - 1; k >= 0; k--) {
+    double acc[PL_SYMMETRIC_LANES], *to = y + k * lanes;
+    const double* inverse = f->inverse + k * lanes;
+    int first = f->column[k], i = f->column[k + 1] - 1;
+    bool last = i >= first && f->row[first] == k + 1 && k + 1 < f->m;
+    LANES acc[l] = to[l] * inverse[l];
+    for (first += last; i >= first; i--) {
+      const double *x = y + (size_t)f->row[i] * (size_t)lanes, *c = L + (size_t)i * (size_t)lanes;
+      LANES acc[l] = __builtin_fma(-c[l], x[l], acc[l]);
+    }
+    if (last) {
+      const double* c = L + (size_t)i * (size_t)lanes;
+      LANES acc[l] = __builtin_fma(-c[l], before[l], acc[l]);
+    }
+    LANES before[l] = to[l] = acc[l];
+  }
+}
+
+#define EACH_FRONT(f, what)         \
+  switch ((f)->lanes) {             \
+    case 8: what(f, 8); break;      \
+    case 16: what(f, 16); break;    \
+    case 32: what(f, 32); break;    \
+    default: what(f, 1); break;     \
+  }
+
+static void forward_front(const pl_symmetric_front* f) { EACH_FRONT(f, forward) }
+static void backward_front(const pl_symmetric_front* f) { EACH_FRONT(f, backward) }
+
+// The sums of a group of rows.
+INLINE void rows_times(const pl_symmetric_rows* r, int g, const double* x, double sum[8]) {
+  EIGHT sum[l] = 0;
+  for (int e = r->first[g]; e < r->first[g + 1]; e++) {
+    const double* c = r->value + 8 * (size_t)e;
+    if (r->base[e] >= 0) {
+      const double* from = x + r->base[e];
+      EIGHT sum[l] = __builtin_fma(c[l], from[l], sum[l]);
+    } else {
+      const int* at = r->index + 8 * (size_t)e;
+      double from[8];
+      EIGHT from[l] = x[at[l]];
+      EIGHT sum[l] = __builtin_fma(c[l], from[l], sum[l]);
+    }
+  }
+}
+
+static void solve_fronts(pl_symmetric* s) {
+  const pl_symmetric_front *f = &s->main, *b = &s->border;
+  int lanes = f->lanes;
+  double* y = f->y + (size_t)f->m * (size_t)lanes;
+  for (int i = 0; i < f->nb * lanes; i++) y[i] = 0;
+  forward_front(f);
+  for (int i = 0; i < f->nb * lanes; i++)
+    if (s->slot_border[i] >= 0) b->y[s->slot_border[i]] += y[i];
+  if (b->m > 0) forward_front(b), backward_front(b);
+  for (int i = 0; i < f->nb * lanes; i++) y[i] = s->slot_border[i] >= 0 ? b->y[s->slot_border[i]] : 0;
+  backward_front(f);
+}
+
+static void solve(pl_symmetric* s, double* b) {
+  double sum[8];
+  for (int e = 0; e < s->n_early; e++) s->z[e] = b[s->early[e]] * s->early_inverse[e];
+  for (int i = 0; i < s->n_ones; i++) s->solution[s->ones[i]] = 0;
+  for (int g = 0; g < s->by_core.n_groups; g++) {
+    int n = s->n_core - 8 * g < 8 ? s->n_core - 8 * g : 8;
+    const int *core = s->core + 8 * g, *to = s->of_core + 8 * g;
+    rows_times(&s->by_core, g, s->z, sum);
+    for (int l = 0; l < n; l++) s->solution[to[l]] = b[core[l]] - sum[l];
+  }
+  solve_fronts(s);
+  for (int i = 0; i < s->n_core; i++) b[s->core[i]] = s->x[i] = s->solution[s->of_core[i]];
+  for (int g = 0; g < s->by_early.n_groups; g++) {
+    int n = s->n_early - 8 * g < 8 ? s->n_early - 8 * g : 8;
+    const double *z = s->z + 8 * g, *inverse = s->early_inverse + 8 * g;
+    rows_times(&s->by_early, g, s->x, sum);
+    EIGHT sum[l] = __builtin_fma(-inverse[l], sum[l], z[l]);
+    for (int l = 0; l < n; l++) b[s->early[8 * g + l]] = sum[l];
+  }
+}
+
+const pl_symmetric_kernels PL_SYMMETRIC = {factor, solve};
