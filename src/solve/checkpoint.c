@@ -17,7 +17,7 @@
 //   taken_kept dep dep_tau dep_norm dep_jpvt trial_q trial_v save_q save_v save_a save_l save_unique impulse jump_v jump_q
 //   poly root_work hit root touch sunk rub_before impulsive C_series S_series poly_2 on_before fixed rub_fixed approach second
 //   hold_q hold_v first_a decision choice_kept n_decisions K_series out_now out_before row_q row_v row_a row_l energy_out mode
-//   mode_before t_grid W_coef branch_value reach factored
+//   mode_before t_grid W_coef branch_value reach factored seen shown shown_before
 // not kept of pl_run, of the start, which is found anew: start
 // not kept of pl_stats, a word about this process: why_interpreted
 // not kept of pl_kkt, follows from setup and point: n dense n_values value start row diagonal lu scale balance work pivot ratio
@@ -43,7 +43,7 @@ static void keep_fixed(pl_keeper* k, int x) { pl_keep_int(k, &x, x, x); }
 static void keep_dimensions(pl_run* run, pl_keeper* k) {
   const pl_setup* s = run->setup;
   pl_keep_section(k, "dimensions");
-  int of[] = {run->n_q, run->n_c, run->order, s->n_out, s->n_rubs, s->n_events, s->n_watched, run->n_watch, run->n_kinks,
+  int of[] = {run->n_q, run->n_c, run->order, s->n_out, s->n_rubs, s->n_turns, s->n_events, s->n_watched, run->n_watch, run->n_kinks,
               run->kkt.dense, run->radau != NULL, run->radau ? run->radau->method.s : 0};
   for (size_t i = 0; i < sizeof of / sizeof *of; i++) keep_fixed(k, of[i]);
 }
@@ -128,6 +128,15 @@ static void keep_rows(pl_run* run, pl_keeper* k) {
   for (size_t i = 0; i < sizeof flags / sizeof *flags; i++) pl_keep_bool(k, flags[i]);
 }
 
+static void keep_turns(pl_run* run, pl_keeper* k) {
+  pl_keep_section(k, "turns");
+  for (int i = 0; i < run->setup->n_turns; i++) {
+    pl_keep_f64(k, &run->turn[i].t);
+    pl_keep_f64s(k, run->turn[i].angle, 3);
+    pl_keep_f64s(k, run->turn[i].rate, 2);
+  }
+}
+
 static void keep_stats(pl_run* run, pl_keeper* k) {
   pl_stats* s = &run->stats;
   pl_keep_section(k, "statistics");
@@ -175,6 +184,7 @@ static void keep_state(pl_run* run, pl_keeper* k) {
   keep_mode(run, k);
   keep_contacts(run, k);
   keep_rows(run, k);
+  keep_turns(run, k);
   keep_stats(run, k);
   keep_radau(run, k);
 }

@@ -11,6 +11,7 @@ void pl_observe(pl_run* run, double t, const double* q, const double* v, const d
                 double* out) {
   pl_batches* b = &run->observers;
   if (run->setup->n_out == 0) return;
+  pl_turns_seen(run, t, &q, &v, &a);
   pl_batches_time(b, t);
   pl_batches_load_q(b, q, 0);
   pl_batches_load_v(b, v, 0);
@@ -52,15 +53,17 @@ void pl_mode_text(const pl_run* run, char* out) {
 pl_row pl_row_now(pl_run* run, pl_row_kind kind, double* out, char* mode) {
   pl_observe(run, run->t, run->q, run->v, run->A, run->L, out);
   pl_mode_text(run, mode);
-  return (pl_row){.t = run->t,
-                  .q = run->q,
-                  .v = run->v,
-                  .a = run->A,
-                  .lambda = run->L,
-                  .unique = run->unique,
-                  .out = out,
-                  .mode = mode,
-                  .kind = kind};
+  pl_row row = {.t = run->t,
+                .q = run->q,
+                .v = run->v,
+                .a = run->A,
+                .lambda = run->L,
+                .unique = run->unique,
+                .out = out,
+                .mode = mode,
+                .kind = kind};
+  pl_turns_show(run, &row);
+  return row;
 }
 
 static pleuel_status send(pl_run* run, const pl_row* row) {
@@ -118,6 +121,7 @@ pleuel_status pl_rows_grid(pl_run* run, double t_from, double t_to) {
     if (run->grid_count > 0 && run->grid_n > run->grid_count) return PLEUEL_OK;
     if (direction * (t_to - t) <= grid_slack(run)) return PLEUEL_OK;
     if (direction * (t - t_from) < 0) continue;
+    pl_turns_follow(run, t);
     pl_series_at(run, t - run->t_series, run->row_q, run->row_v);
     pl_series_lambda_at(run, t - run->t_series, run->row_a, run->row_l);
     pl_observe(run, t, run->row_q, run->row_v, run->row_a, run->row_l, run->out_now);
@@ -131,6 +135,7 @@ pleuel_status pl_rows_grid(pl_run* run, double t_from, double t_to) {
                   .out = run->out_now,
                   .mode = run->mode,
                   .kind = PL_ROW_STEP};
+    pl_turns_show(run, &row);
     PL_TRY(send(run, &row));
   }
 }
@@ -164,6 +169,7 @@ pleuel_status pl_rows_event(pl_run* run, pl_event_kind kind, int index, double i
                       .out = run->out_before,
                       .mode = run->mode_before,
                       .kind = PL_ROW_BEFORE};
+  pl_turns_show(run, &e.before);
   e.after = pl_row_now(run, PL_ROW_AFTER, run->out_now, run->mode);
   pleuel_status how = s->event(s->user, &e);
   run->refused |= how != PLEUEL_OK;
@@ -174,15 +180,17 @@ pleuel_status pl_rows_event_beside(pl_run* run, pl_event_record e, double t, con
   const pl_sink* s = &run->options.sink;
   pl_observe(run, t, run->row_q, run->row_v, a, lambda, run->out_now);
   pl_mode_text(run, run->mode);
-  e.before = e.after = (pl_row){.t = t,
-                                .q = run->row_q,
-                                .v = run->row_v,
-                                .a = a,
-                                .lambda = lambda,
-                                .unique = run->unique,
-                                .out = run->out_now,
-                                .mode = run->mode,
-                                .kind = PL_ROW_AFTER};
+  e.after = (pl_row){.t = t,
+                     .q = run->row_q,
+                     .v = run->row_v,
+                     .a = a,
+                     .lambda = lambda,
+                     .unique = run->unique,
+                     .out = run->out_now,
+                     .mode = run->mode,
+                     .kind = PL_ROW_AFTER};
+  pl_turns_show(run, &e.after);
+  e.before = e.after;
   pleuel_status how = s->event(s->user, &e);
   run->refused |= how != PLEUEL_OK;
   return how;

@@ -94,6 +94,13 @@ typedef struct pl_kink {
   int a, b, lane;
 } pl_kink;
 
+// Where the angles of a turn have been followed to.
+typedef struct pl_turn_now {
+  double t;
+  double angle[3];         // φ, ϑ, ψ
+  double rate[2];          // of (φ + ψ)/2 and (φ - ψ)/2, where they were determined last
+} pl_turn_now;
+
 typedef struct pl_motion pl_motion;   // the motion as codes: motion_impl.h
 
 struct pl_run {
@@ -220,6 +227,10 @@ struct pl_run {
   int n_kinks;
   double* K_series;        // of what changes sign: coefficient k of kink i at i order + k
   int tiny;                // steps in a row that were almost nothing
+
+  // bodies declared in Euler angles
+  pl_turn_now* turn;       // (n_turns)
+  double *seen[3], *shown[3], *shown_before[3];   // q, v, a for observers and for rows   (n_q + 3 n_turns)
 
   // rows
   double *out_now, *out_before, *row_q, *row_v, *row_a, *row_l;
@@ -376,6 +387,12 @@ pleuel_status pl_run_singular(pl_run* run);         // fails with the place
 pleuel_status pl_run_undetermined(pl_run* run);     // fails with the reason why there are no accelerations
 bool pl_singular_leap(pl_run* run, double left, double* length, pl_projection* p);
 pleuel_status pl_singular_record(pl_run* run);
+
+// ---- turns.c: angles of bodies that are integrated as quaternions
+void pl_turns_make(pl_run* run);
+void pl_turns_follow(pl_run* run, double t);        // along the series at work
+void pl_turns_seen(pl_run* run, double t, const double** q, const double** v, const double** a);   // as observers need them
+void pl_turns_show(pl_run* run, pl_row* row);       // coordinates as they were declared
 
 // ---- rows.c
 pleuel_status pl_rows_open(pl_run* run);            // begin of the sink
