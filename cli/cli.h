@@ -21,8 +21,8 @@ enum { CLI_MAX_FILES = 256, CLI_MAX_SETTINGS = 64 };
 
 // Every flag of every verb has a member here; a verb's table says which of them it takes.
 typedef struct cli_options {
-  const char *only, *steps, *lang, *math, *output, *until, *tol, *dt, *method, *engine, *sensitivities, *after, *color, *from, *to, *data, *macros, *size, *style, *show, *fps;
-  bool json, terse, strict, force, events, verbose, check, unicode, ascii, timing, no_simulation, no_font, no_animation, list, help, standalone, no_figure, no_forces, forces;
+  const char *only, *steps, *lang, *math, *output, *until, *tol, *dt, *method, *engine, *sensitivities, *checkpoint, *after, *color, *from, *to, *data, *macros, *size, *style, *show, *fps;
+  bool json, terse, strict, force, resume, events, verbose, check, unicode, ascii, timing, no_simulation, no_font, no_animation, list, help, standalone, no_figure, no_forces, forces;
   const char* files[CLI_MAX_FILES];
   int n_files;
   pleuel_setting settings[CLI_MAX_SETTINGS];
@@ -81,6 +81,7 @@ const char* cli_environment_language(void);        // PLEUEL_LANG, else the loca
 void cli_watch_interrupt(pleuel* ctx);             // the first Ctrl-C stops the call, the second the program
 bool cli_was_interrupted(void);
 void cli_remove_on_abort(const char* path);        // removed by the second Ctrl-C; NULL: nothing
+void cli_keep_on_abort(const char* witness);       // but not when this file is there
 void cli_progress(void* user, const pleuel_progress* where);   // one line on stderr, on a terminal, after half a second
 void cli_progress_clear(void);
 
@@ -106,6 +107,16 @@ typedef struct cli_file {
 int cli_file_open(cli_file* f, const char* path, bool replace);   // EXIT_DONE, EXIT_FILE, EXIT_USAGE
 int cli_file_close(cli_file* f);
 void cli_file_drop(cli_file* f);
+
+// ---- the files of sim (sim_files.c): rows, and the state that an interrupted run goes on from
+typedef struct cli_rows {
+  cli_file file;
+  char state[4096];        // name of the state; "": rows go to a device, nothing is kept
+  bool renamed;            // rows that were under their own name stand in FILE.part now
+} cli_rows;
+int cli_rows_open(cli_rows* r, const cli_options* o);
+int cli_rows_close(cli_rows* r, pleuel_status s, bool started);
+void cli_resume_command(char* out, size_t size, const cli_options* o);   // the command line that goes on
 
 // ---- shared by plot and animate (verb_plot.c)
 int cli_read_size(const char* text, int* width, int* height);     // "800x600"; EXIT_DONE or EXIT_USAGE

@@ -42,14 +42,20 @@ static pleuel* volatile watched;
 static volatile sig_atomic_t interrupts;
 
 static const char* volatile unfinished;
+static const char* volatile witness;
 
-void cli_remove_on_abort(const char* path) { unfinished = path; }
+void cli_remove_on_abort(const char* path) {
+  unfinished = path;
+  witness = NULL;
+}
+
+void cli_keep_on_abort(const char* path) { witness = path; }
 
 static void on_interrupt(int signal_number) {
   (void)signal_number;
   if (interrupts++) {
-    const char* path = unfinished;
-    if (path) unlink(path);
+    const char *path = unfinished, *kept = witness;
+    if (path && !(kept && access(kept, F_OK) == 0)) unlink(path);
     _exit(EXIT_INTERRUPTED);
   }
   if (watched) pleuel_interrupt(watched);
@@ -61,6 +67,9 @@ void cli_watch_interrupt(pleuel* ctx) {
   act.sa_handler = on_interrupt;
   sigaction(SIGINT, &act, NULL);
   sigaction(SIGTERM, &act, NULL);
+  // a terminal that goes away, unless nohup has said that it does not matter
+  struct sigaction hang_up;
+  if (sigaction(SIGHUP, NULL, &hang_up) == 0 && hang_up.sa_handler != SIG_IGN) sigaction(SIGHUP, &act, NULL);
   signal(SIGPIPE, SIG_IGN);
 }
 
@@ -80,14 +89,13 @@ void cli_progress(void* user, const pleuel_progress* p) {
   (void)user;
   static const double patience_s = 0.5;      // shorter runs stay silent
   static const double interval_s = 0.1;
-  static double start, last;
-  double t = now();
-  if (start <= 0) start = t;
+  static double start, last, part_before;
+  double t = now(), part = p->t_end > p->t_begin ? (p->t - p->t_begin) / (p->t_end - p->t_begin) : 0;
+  if (start <= 0) start = t, part_before = part;      // a run that goes on does not begin at zero
   if (!isatty(fileno(stderr)) || t - start < patience_s || t - last < interval_s) return;
   last = t;
 
-  double part = p->t_end > p->t_begin ? (p->t - p->t_begin) / (p->t_end - p->t_begin) : 0;
-  double eta = part > 0 ? (t - start) * (1 - part) / part : 0;
+  double eta = part > part_before ? (t - start) * (1 - part) / (part - part_before) : 0;
   fprintf(stderr, "\rsim %3.0f %%  t = %.4g of %.4g s  step %.1e", 100 * part, p->t, p->t_end, p->step);
   if (!isnan(p->energy_drift)) fprintf(stderr, "  energy %.0e", p->energy_drift);
   fprintf(stderr, "  eta %d:%02d \033[K", (int)(eta / 60), (int)eta % 60);

@@ -15,6 +15,8 @@ const cli_flag flags_sim[] = {
   {"verbose", 'v', CLI_SWITCH, CLI_AT(verbose), NULL, "tell too how the steps were computed"},
   {"sensitivities", 0, CLI_TEXT, CLI_AT(sensitivities), "NAMES", "derivatives by these too: m2,x0"},
   CLI_FLAG_SET,
+  {"resume", 0, CLI_SWITCH, CLI_AT(resume), NULL, "go on with a run that was interrupted"},
+  {"checkpoint", 0, CLI_TEXT, CLI_AT(checkpoint), "SECONDS", "how often the state of a run is kept: 10"},
   {"events", 0, CLI_SWITCH, CLI_AT(events), NULL, "tell events only, not the accuracy"},
   CLI_FLAG_JSON,
   CLI_FLAG_LANG,
@@ -30,6 +32,14 @@ static int quantity(pleuel* ctx, const char* flag, const char* text, int* has, d
     return cli_error(EXIT_USAGE, "--%s %s: %s", flag, text, pleuel_message(ctx));
   }
   *has = 1;
+  return EXIT_DONE;
+}
+
+// Seconds between states that are kept; 0: only when the run is interrupted.
+static int interval(pleuel* ctx, const char* text, double* seconds) {
+  if (pleuel_quantity(ctx, seconds, text) != PLEUEL_OK || !(*seconds >= 0) || isinf(*seconds))
+    return cli_error(EXIT_USAGE, "--checkpoint takes seconds, not `%s`", text);
+  if (*seconds == 0) *seconds = -1;
   return EXIT_DONE;
 }
 
@@ -74,17 +84,26 @@ int verb_sim(pleuel* ctx, const cli_options* o) {
   if (!code) code = quantity(ctx, "dt", o->dt, &how.has_dt, &how.dt);
   if (!code) code = quantity(ctx, "tol", o->tol, &how.has_tol, &how.tol);
   if (!code && o->output) code = unsupported_output(o->output);
+  if (!code && o->resume && (!o->output || to_stdout)) code = cli_error(EXIT_USAGE, "--resume needs rows in a file: -o FILE.csv");
+  if (!code && o->checkpoint) code = interval(ctx, o->checkpoint, &how.state_every);
   if (code) return code;
 
   pleuel_model* m = cli_load(ctx, o, o->files[0], &code);
   if (!m) return code;
 
   // a file that would be in the way is noticed before the work, not after it
-  cli_file file = {0};
+  static cli_rows rows;
+  static char command[4096];
   bool to_file = o->output && !to_stdout;
-  code = to_file ? cli_file_open(&file, o->output, o->force) : EXIT_DONE;
+  code = to_file ? cli_rows_open(&rows, o) : EXIT_DONE;
   if (code == EXIT_DONE) {
-    how.csv = to_file ? file.to : to_stdout ? stdout : NULL;
+    how.csv = to_file ? rows.file.to : to_stdout ? stdout : NULL;
+    if (rows.state[0]) {
+      cli_resume_command(command, sizeof command, o);
+      how.state = rows.state;
+      how.resume = o->resume;
+      how.resume_command = command;
+    }
     how.progress = cli_progress;
     how.method = o->method;
     how.engine = o->engine;
@@ -94,12 +113,8 @@ int verb_sim(pleuel* ctx, const cli_options* o) {
     cli_progress_clear();
     code = cli_exit_code(s);
     bool started = !isnan(summary.t_end);
-    if (to_file && started) {
-      int closed = cli_file_close(&file);
-      if (closed) code = closed;
-    } else if (to_file) {
-      cli_file_drop(&file);
-    }
+    int closed = to_file ? cli_rows_close(&rows, s, started) : EXIT_DONE;
+    if (closed) code = closed;
     tell(ctx, o, m, s, started, to_stdout);
   }
   pleuel_model_free(m);

@@ -255,6 +255,15 @@ typedef struct pleuel_sim_options {
                                      * velocities and multipliers by parameters and start values                  */
   const char *engine;               /* "auto" (default), "interpreter", "compiled": how steps are computed.  The results
                                      * are the same, bit for bit                                                  */
+  /* A run that is interrupted can go on bit for bit.  state names the file that it keeps its state in, written now and
+   * then and when it is interrupted; NULL: none.  With resume = 1 the run goes on from there: same model, same options,
+   * same program; else PLEUEL_USAGE and a sentence that names what differs, or PLEUEL_FILE.  csv must then be open for
+   * reading and writing ("r+", "w+") and hold the rows of before; what stands in it behind the state is cut off.  `row` is
+   * called for what follows the state.  The file stays when the run is complete: remove it when its rows are safe. */
+  const char *state;
+  double state_every;                /* s by the clock from state to state; 0: 10; below 0: only when interrupted     */
+  int resume;
+  const char *resume_command;        /* told when the run was interrupted and its state kept; NULL: the file is told */
 } pleuel_sim_options;
 
 typedef struct pleuel_sim_summary {

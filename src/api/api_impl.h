@@ -33,6 +33,10 @@ typedef struct pl_recording {
   const char* sensitivities;      // as asked for
 } pl_recording;
 
+// Whether the state of a run that was interrupted lies in its file.
+typedef enum pl_kept { PL_KEPT_NO, PL_KEPT_YES, PL_KEPT_FAILED } pl_kept;
+typedef struct pl_keeping pl_keeping;
+
 enum { PL_STAGE_CHECK, PL_STAGE_DERIVE, PL_STAGE_RECORD, PL_STAGE_RUN, PL_N_STAGES };
 
 struct pleuel_model {
@@ -47,6 +51,7 @@ struct pleuel_model {
   const pl_setting* settings;
   int n_settings;
   bool broken;                    // memory ran out once: nothing but freeing is left
+  uint64_t text_hash;             // of the text and of all that it includes
 
   // the value at each arrow of the pipeline, and how it was reached
   pl_model* model;
@@ -61,6 +66,11 @@ struct pleuel_model {
   bool tol_raised, start_reported;
   double tol_used;
   char run_message[512];
+  pl_keeping* keeping;            // of the run at work; NULL: its state is not kept
+  pl_kept kept;
+  char kept_why[128];             // PL_KEPT_FAILED
+  const char *state, *resume_command;   // file of the state, and how the run goes on; NULL
+  double resumed_at;              // s; NaN: it began at the beginning
   double stage_ms[PL_N_STAGES];
 };
 
@@ -72,6 +82,12 @@ pleuel_status pl_pipeline_structure(pleuel_model* m);     // freedoms, ranks and
 pleuel_status pl_pipeline_record(pleuel_model* m);
 pleuel_status pl_pipeline_start(pleuel_model* m, const pleuel_sim_options* o, pl_run** out);
 pleuel_status pl_pipeline_run(pleuel_model* m, const pleuel_sim_options* o);
+
+// ---- keeping.c: the state of a run in a file
+pl_keeping* pl_keeping_make(pleuel_model* m, const pleuel_sim_options* o);   // NULL: not wanted
+pleuel_status pl_keeping_open(pl_keeping* k, const pleuel_sim_options* o, const pl_run_options* how);   // reads and checks
+pleuel_status pl_keeping_resume(pl_keeping* k, pl_run* run, const pl_sink* sink);
+void pl_keeping_step(void* user, pl_run* run, bool interrupted);             // pl_run_options.keep
 
 // ---- record.c: model -> setup of the simulation
 // sensitivities: names of parameters and start values (m2,x0) whose derivatives are columns too; NULL none.

@@ -138,10 +138,28 @@ static void tell_accuracy(pl_teller* t) {
   }
 }
 
+// Why it ended early, and how it goes on.
+static void tell_stop(pl_teller* t, bool started) {
+  const pleuel_model* m = t->m;
+  if (m->run == PLEUEL_OK || !m->run_message[0]) return;
+  pl_text_addf(t->out, started ? say(t, "     stopped there: %s\n", "     dort beendet: %s\n") : say(t, "  not simulated: %s\n", "  nicht simuliert: %s\n"),
+               m->run_message);
+  if (m->run != PLEUEL_INTERRUPTED || m->state == NULL) return;
+  if (m->kept == PL_KEPT_FAILED)
+    pl_text_addf(t->out, say(t, "     its state could not be kept in %s: %s\n", "     ihr Zustand ließ sich nicht in %s aufbewahren: %s\n"), m->state, m->kept_why);
+  if (m->kept != PL_KEPT_YES) return;
+  if (m->resume_command) pl_text_addf(t->out, say(t, "     to go on:  %s\n", "     weiter geht es mit:  %s\n"), m->resume_command);
+  else pl_text_addf(t->out, say(t, "     its state is kept in %s\n", "     ihr Zustand ist in %s aufbewahrt\n"), m->state);
+}
+
 void pl_engine_text(pl_text* out, const pleuel_model* m, pl_language lang) {
   pl_teller t = {out, m, m->arena, lang, false, {PL_MATH_LINE, lang}};
   if (!m->result) return;
   const pl_stats* s = &m->result->stats;
+  if (!isnan(m->resumed_at)) {
+    const char* unit = m->model->uses_units ? " s" : "";
+    pl_text_addf(out, say(&t, "     went on from t = %s%s\n", "     fortgesetzt von t = %s%s an\n"), number(&t, m->resumed_at, DIGITS), unit);
+  }
   if (!s->compiled) {
     pl_text_addf(out, say(&t, "     %ld steps, interpreted", "     %ld Schritte, interpretiert"), s->steps);
     if (s->why_interpreted) pl_text_addf(out, ": %s", s->why_interpreted);
@@ -169,10 +187,7 @@ void pl_motion_text(pl_text* out, const pleuel_model* m, pl_language lang, bool 
     tell_events(&t);
     if (!events_only) tell_accuracy(&t);
   }
-  if (m->run != PLEUEL_OK && m->run_message[0]) {
-    pl_text_addf(out, started ? say(&t, "     stopped there: %s\n", "     dort beendet: %s\n") : say(&t, "  not simulated: %s\n", "  nicht simuliert: %s\n"),
-                 m->run_message);
-  }
+  tell_stop(&t, started);
 }
 
 // ---------------------------------------------------------------------------------------------- JSON
@@ -225,6 +240,12 @@ void pl_motion_json(pl_text* out, const pleuel_model* m) {
   pl_json_int(&j, "steps", s->steps);
   pl_json_string(&j, "status", pl_status_word(m->is_run ? m->run : m->checked));
   if (m->run_message[0]) pl_json_string(&j, "message", m->run_message);
+  if (m->is_run && m->run == PLEUEL_INTERRUPTED && m->kept == PL_KEPT_YES) {
+    pl_json_object(&j, "resume");
+    pl_json_string(&j, "state", m->state);
+    pl_json_string(&j, "command", m->resume_command);
+    pl_json_end_object(&j);
+  }
   bool implicit = s->steps_implicit > 0, both = implicit && s->steps_implicit < s->steps;
   pl_json_string(&j, "method", both ? "taylor, radau" : implicit ? "radau" : "taylor");
   pl_json_int(&j, "order", implicit && !both ? s->order_implicit : s->order);

@@ -12,9 +12,19 @@
 
 static void note_time(pleuel_model* m, int stage, double start_s) { m->stage_ms[stage] += 1e3 * (pl_clock() - start_s); }
 
+// Includes as they are read, all of them part of the text.
+static const pl_source* read_hashed(void* user, pl_arena* a, const char* path, const pl_source* from) {
+  pleuel_model* m = user;
+  const pl_source* s = m->reader->read(m->reader->user, a, path, from);
+  if (s) m->text_hash = pl_hash_bytes(s->text, s->size, m->text_hash);
+  return s;
+}
+
 // text -> model
 pleuel_status pl_pipeline_parse(pleuel_model* m) {
-  m->parsed = pl_lang_parse(&m->job, m->source, m->reader, m->settings, m->n_settings, &m->model);
+  pl_include_reader hashed = {read_hashed, m};
+  m->text_hash = pl_hash_bytes(m->source->text, m->source->size, 0);
+  m->parsed = pl_lang_parse(&m->job, m->source, m->reader ? &hashed : NULL, m->settings, m->n_settings, &m->model);
   if (m->model && m->model->lang_given) m->job.lang = m->model->lang;
   pl_diagnostics_sort(&m->diagnostics);
   return m->parsed;
@@ -184,6 +194,7 @@ static pleuel_status start_varied(pleuel_model* m, const pl_run_options* how, pl
   pl_run_options quiet = *how;
   quiet.sink = (pl_sink){0};
   quiet.progress = NULL;
+  quiet.keep = NULL;
   pleuel_status s = pl_run_make(&m->job, &plain->setup, &quiet, &first);
   if (s == PLEUEL_OK) s = start_plain(m, first);
   if (s == PLEUEL_OK) s = start_blocks(m, run, pl_run_time(first), pl_run_q(first), pl_run_v(first));
@@ -225,7 +236,7 @@ pleuel_status pl_pipeline_start(pleuel_model* m, const pleuel_sim_options* o, pl
   if (isnan(how.t_end)) how.t_end = how.t_0;
   if (m->result) {
     how.sink = pl_result_sink(m->result);
-    if (o->csv) m->result->next = pl_csv_sink(m->arena, o->csv);
+    if (o->csv) m->result->next = m->keeping && o->resume ? pl_csv_sink_behind(m->arena, o->csv) : pl_csv_sink(m->arena, o->csv);
     else if (o->row) {
       pl_relay* relay = PL_NEW(m->arena, pl_relay);
       *relay = (pl_relay){.options = o, .model = m, .values = PL_ARRAY(m->arena, double, 1 + 2 * r->setup.n_q + r->setup.n_c + r->setup.n_out)};
@@ -238,8 +249,21 @@ pleuel_status pl_pipeline_start(pleuel_model* m, const pleuel_sim_options* o, pl
     how.progress = watch;
     how.progress_user = w;
   }
+  // a run that goes on starts without a sink: what the start tells has been told
+  pl_sink sink = how.sink;
+  bool resumes = m->keeping && o->resume;
+  if (m->keeping) {
+    PL_TRY(pl_keeping_open(m->keeping, o, &how));
+    how.keep = pl_keeping_step;
+    how.keep_user = m->keeping;
+    if (resumes) how.sink = (pl_sink){0};
+  }
   PL_TRY(pl_run_make(&m->job, &r->setup, &how, out));
   pleuel_status s = r->n_directions ? start_varied(m, &how, *out) : start_plain(m, *out);
+  if (s == PLEUEL_OK && resumes) {
+    s = pl_keeping_resume(m->keeping, *out, &sink);
+    if (s != PLEUEL_OK) m->result->rows.n = m->result->events.n = 0;     // nothing was run
+  }
   m->tol_raised = pl_run_tol_raised(*out);
   m->tol_used = pl_run_tol(*out);
   if (s == PLEUEL_CONTRADICTION) pl_start_report_trouble(m);
@@ -287,6 +311,11 @@ pleuel_status pl_pipeline_run(pleuel_model* m, const pleuel_sim_options* o) {
   m->is_run = true;
   m->result = NULL;
   m->run_message[0] = '\0';
+  m->keeping = NULL;
+  m->kept = PL_KEPT_NO;
+  m->resumed_at = (double)NAN;
+  m->state = o->state ? pl_copy(m->arena, o->state) : NULL;
+  m->resume_command = o->resume_command ? pl_copy(m->arena, o->resume_command) : NULL;
   m->run = record_varied(m, o->sensitivities);
   if (m->run == PLEUEL_OK) m->run = check_times(m, o);
   if (m->run != PLEUEL_OK) {
@@ -295,10 +324,12 @@ pleuel_status pl_pipeline_run(pleuel_model* m, const pleuel_sim_options* o) {
   }
   double start = pl_clock();
   m->result = pl_result_make(m->arena, false);
+  m->keeping = pl_keeping_make(m, o);
   pl_run* run = NULL;
   m->run = pl_pipeline_start(m, o, &run);
   if (m->run == PLEUEL_OK) m->run = pl_run_to_end(run);
   if (run) pl_run_free(run);
+  m->keeping = NULL;
   tell_inelastic(m);
   if (m->run != PLEUEL_OK) snprintf(m->run_message, sizeof m->run_message, "%s", m->job.message);
   note_time(m, PL_STAGE_RUN, start);

@@ -92,11 +92,17 @@ typedef struct csv {
 
 static pleuel_status state_of(const csv* w) { return ferror(w->file) ? PLEUEL_FILE : PLEUEL_OK; }
 
-static pleuel_status csv_begin(void* user, const pl_setup* setup) {
+static pleuel_status csv_begin_behind(void* user, const pl_setup* setup) {
   csv* w = user;
   w->setup = setup;
   pl_result_columns(w->arena, setup, &w->columns, &w->n_columns, &w->has_mode);
   w->x = PL_ARRAY(w->arena, double, w->n_columns + 1);
+  return state_of(w);
+}
+
+static pleuel_status csv_begin(void* user, const pl_setup* setup) {
+  csv* w = user;
+  PL_TRY(csv_begin_behind(user, setup));
   pl_text text = pl_text_make(w->arena);
   write_header(w->file, w->columns, w->n_columns, w->has_mode, &text);
   return state_of(w);
@@ -122,6 +128,12 @@ pl_sink pl_csv_sink(pl_arena* a, FILE* file) {
   w->arena = a;
   w->file = file;
   return (pl_sink){.user = w, .begin = csv_begin, .row = csv_row, .end = csv_end};
+}
+
+pl_sink pl_csv_sink_behind(pl_arena* a, FILE* file) {
+  pl_sink sink = pl_csv_sink(a, file);
+  sink.begin = csv_begin_behind;
+  return sink;
 }
 
 // ---------------------------------------------------------------------------------------------- from memory

@@ -163,6 +163,57 @@ pl_sink pl_result_sink(pl_result* r) {
   return (pl_sink){.user = f, .begin = on_begin, .row = on_row, .event = on_event, .end = on_end};
 }
 
+// ---------------------------------------------------------------------------------------------- interrupted
+static void keep_numbers(pl_result* r, pl_keeper* k, double** x) {
+  if (k->reads) *x = PL_ARRAY(r->arena, double, r->n_columns);
+  pl_keep_f64s(k, *x, (size_t)r->n_columns);
+}
+
+static void keep_event(pl_result* r, pl_keeper* k, pl_result_event* e) {
+  int kind = (int)e->kind;
+  double *before = (double*)(uintptr_t)e->before, *after = (double*)(uintptr_t)e->after;
+  pl_keep_int(k, &kind, PL_EV_EVENT, PL_EV_SLIP);
+  pl_keep_text(k, &e->label);
+  pl_keep_f64(k, &e->t);
+  pl_keep_bool(k, &e->at_start);
+  pl_keep_f64(k, &e->impulse);
+  pl_keep_bool(k, &e->jump);
+  pl_keep_long(k, &e->bounces, 0, INT64_MAX);
+  pl_keep_text(k, &e->mode_before);
+  pl_keep_text(k, &e->mode_after);
+  keep_numbers(r, k, &before);
+  keep_numbers(r, k, &after);
+  e->kind = (pl_event_kind)kind;
+  e->before = before;
+  e->after = after;
+}
+
+void pl_result_keep(pl_result* r, pl_keeper* k) {
+  int columns = r->n_columns, rows = r->rows.n, events = r->events.n;
+  size_t width = (size_t)columns * sizeof(double);
+  pl_keep_section(k, "result");
+  pl_keep_int(k, &columns, columns, columns);
+  pl_keep_count(k, &rows, width);
+  for (int i = 0; i < rows && k->wrong == NULL; i++) {
+    double* x = k->reads ? NULL : r->rows.at[i];
+    const char* mode = k->reads ? NULL : r->modes.at[i];
+    int kind = k->reads ? 0 : (int)r->kinds.at[i];
+    keep_numbers(r, k, &x);
+    pl_keep_text(k, &mode);
+    pl_keep_int(k, &kind, PL_ROW_START, PL_ROW_END);
+    if (!k->reads || k->wrong) continue;
+    pl_push(r->arena, r->rows, x);
+    pl_push(r->arena, r->modes, mode);
+    pl_push(r->arena, r->kinds, (pl_row_kind)kind);
+  }
+  pl_keep_count(k, &events, 2 * width);
+  for (int i = 0; i < events && k->wrong == NULL; i++) {
+    pl_result_event e = k->reads ? (pl_result_event){0} : r->events.at[i];
+    keep_event(r, k, &e);
+    if (k->reads && k->wrong == NULL) pl_push(r->arena, r->events, e);
+  }
+}
+
 int pl_result_find(const pl_result* r, const char* name) {
   for (int i = 0; i < r->n_columns; i++)
     if (r->columns[i].name && strcmp(r->columns[i].name, name) == 0) return i;

@@ -40,6 +40,8 @@ typedef struct pl_result {
 // pl_result_make makes an empty result; pl_result_sink is the sink that fills it.
 pl_result* pl_result_make(pl_arena* a, bool keep_rows);
 pl_sink pl_result_sink(pl_result* r);
+// Rows and events so far, written down or read back (base.h); columns are those of `begin`.
+void pl_result_keep(pl_result* r, pl_keeper* k);
 int pl_result_find(const pl_result* r, const char* name);            // column, -1 if absent
 double pl_result_last(const pl_result* r, const char* name);         // NaN if absent
 
@@ -47,6 +49,8 @@ double pl_result_last(const pl_result* r, const char* name);         // NaN if a
 // not determined.  A run that did not reach its end leaves a last line "# incomplete: ...".
 // pl_csv_sink writes rows as they come.  The file stays open; the caller checks ferror and closes it.
 pl_sink pl_csv_sink(pl_arena* a, FILE* file);
+// The same behind a header and rows that are there already.
+pl_sink pl_csv_sink_behind(pl_arena* a, FILE* file);
 pleuel_status pl_result_write_csv(const pl_result* r, FILE* file);
 // Shortest decimal text of x that reads back to x; "nan", "inf", "-inf".  out has room for 32.
 int pl_double_text(char out[32], double x);
