@@ -29,7 +29,7 @@
 // not kept of pl_radau, follows from setup and options: method n n_q n_c n_C tol tol_stage ready fits shape rub_of
 // not kept of pl_radau, lives within a step: wide here at coupled coupled_scale coupled_rhs coupled_work coupled_pivot real
 //   real_scale work pair pair_scale pivot sparse sparse_pair Z Q V A L t F w error_q error_v rhs sc_q sc_v coefficient part watched
-//   watched_h first_g last_g last_size end_a end_l save_a save_l
+//   watched_h bent first_g last_g last_size end_a end_l save_a save_l
 #include <math.h>
 #include <string.h>
 

@@ -53,6 +53,12 @@ void pl_kinks_series(pl_run* run) {
   }
 }
 
+// What changes sign, at the point that the programs were evaluated at.
+double pl_kinks_value(const pl_run* run, int i) {
+  const pl_kink* kink = &run->kinks[i];
+  return coefficient(kink, kink->a, 0) - coefficient(kink, kink->b, 0);
+}
+
 static double value_at(const double* c, int n, double x) {
   double p = 0;
   for (int k = n - 1; k >= 0; k--) p = p * x + c[k];

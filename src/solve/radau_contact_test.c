@@ -148,6 +148,32 @@ static void a_stiff_contact_is_recognised(void** state) {
   assert_true(b.implicit > 10 && b.steps < a.steps / 3 && off < 1e-6);
 }
 
+// A hard pair on a line that a force -3 |x| drives: the branch changes now and then.
+static t_bench* bent(pl_method method, double tol) {
+  t_bench* b = t_open();
+  pl_expr x = t_coord(b, "x"), u = t_coord(b, "u"), w = t_coord(b, "w"), z = t_coord(b, "z");
+  pl_expr k = t_param(b, "K", 1e7), c = t_param(b, "c", 6e3), stretch = pl_sub(P, u, x);
+  pl_expr pull = mul(b, c, pl_sub(P, b->v[1], b->v[0]));
+  b->force[0] = pl_sub(P, pull, mul(b, pl_int(P, 3), pl_call(P, PL_ABS, pl_sub(P, x, pl_ratio(P, 1, 2)))));
+  b->force[1] = pl_sub(P, pl_neg(P, pull), u);
+  pl_expr T = pl_int(P, 0);
+  for (int i = 0; i < 4; i++) T = pl_add(P, T, half(b, sq(b, b->v[i])));
+  start(b, (double[]){1, 1, 0, 0}, (double[]){0, 0, 1, 1});
+  return finish(b, pl_sub(P, T, pl_add(P, half(b, mul(b, k, sq(b, stretch))), half(b, pl_add(P, sq(b, w), sq(b, z))))), method, 6, tol);
+}
+
+static void forces_that_change_their_branch_keep_the_order(void** state) {
+  (void)state;
+  outcome a = run(bent, PL_METHOD_RADAU, 1e-13);
+  for (double tol = 1e-6; tol > 1e-12; tol *= 1e-2) {
+    outcome b = run(bent, PL_METHOD_RADAU, tol);
+    double off = 0;
+    for (int i = 0; i < 4; i++) off = fmax(off, fmax(fabs(a.q[i] - b.q[i]), fabs(a.v[i] - b.v[i])));
+    printf("# bent, tol %.0e: %ld steps, off %.1e\n", tol, b.steps, off);
+    assert_true(off < 100 * tol && b.steps < 200);
+  }
+}
+
 // y'' = -10 from height 5: bounces at 1, 2, 2.5, ... and rest from 3 on.
 static void a_ball_bounces_as_its_closed_form(void** state) {
   (void)state;
@@ -177,6 +203,7 @@ int main(void) {
       cmocka_unit_test(a_wheel_on_a_hard_spring_lifts_off_and_lands),
       cmocka_unit_test(a_rope_with_a_hard_pair_goes_slack),
       cmocka_unit_test(an_event_cuts_a_rod_and_a_stop_catches),
+      cmocka_unit_test(forces_that_change_their_branch_keep_the_order),
       cmocka_unit_test(a_stiff_contact_is_recognised),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

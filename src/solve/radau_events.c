@@ -94,14 +94,15 @@ static double* values_of(const pl_radau* r, int watch) { return r->watched + (si
 void pl_radau_watch(pl_run* run, pl_radau* r, double h) {
   bool contacts = run->watch_landings || run->setup->n_rubs > 0;
   int s = r->method.s;
-  if (run->n_watch == 0) return;
-  forces_at_end(run, r, h);
+  if (run->n_watch == 0 && run->n_kinks == 0) return;
+  if (run->n_watch > 0) forces_at_end(run, r, h);
   r->watched_h = h;
   for (int i = 0; i <= s; i++) {
     node n = node_at(run, r, h, i);
     watch_quantities(run, &n);
+    if (contacts || run->n_kinks > 0) pl_point_evaluate(run, n.t, n.q, n.v);
+    for (int k = 0; k < run->n_kinks; k++) r->bent[(size_t)k * (PL_RADAU_MOST + 1) + (size_t)i] = pl_kinks_value(run, k);
     if (contacts) {
-      pl_point_evaluate(run, n.t, n.q, n.v);
       // the sizes of the start are what the search for roots reads
       pl_assemble_g(run, 0, i == 0 ? r->first_g : r->last_g, i == 0 ? run->g_size : NULL);
       pl_assemble_gdot(run, run->r, run->r_size);
@@ -110,7 +111,7 @@ void pl_radau_watch(pl_run* run, pl_radau* r, double h) {
     if (i == 0 && run->setup->n_rubs > 0) memcpy(run->S_series, run->r, (size_t)r->n_c * sizeof(double));
     for (int k = 0; k < run->n_watch; k++) values_of(r, k)[i] = value_of(run, &run->watch[k], &n);
   }
-  if (contacts) run->factored = false;
+  if (contacts || run->n_kinks > 0) run->factored = false;
 }
 
 // ---------------------------------------------------------------------------------------------- polynomials
@@ -140,6 +141,36 @@ int pl_radau_polynomial(const pl_run* run, int watch, double* c) {
   c[0] = value[0];
   for (int k = 1; k <= r->method.s; k++) c[k] = through(r, value, k);
   return r->method.s + 1;
+}
+
+// ---------------------------------------------------------------------------------------------- kinks
+// Values at the stages as a series, for pl_kinks_first.
+static void bend(pl_run* run, const pl_radau* r, double h) {
+  size_t order = (size_t)run->order;
+  memset(run->K_series, 0, (size_t)run->n_kinks * order * sizeof(double));
+  for (int i = 0; i < run->n_kinks; i++) {
+    const double* value = r->bent + (size_t)i * (PL_RADAU_MOST + 1);
+    double power = 1;
+    for (int k = 0; k <= r->method.s && k < run->order; k++, power *= h)
+      run->K_series[(size_t)i * order + (size_t)k] = (k == 0 ? value[0] : through(r, value, k)) / power;
+  }
+}
+
+// A force that changes its branch within the step costs the order: a step ends behind the kink.
+pleuel_status pl_radau_stop_at_kinks(pl_run* run, pl_radau* r, double* h, pl_projection* p) {
+  enum { MOST = 8 };
+  double error, next;
+  for (int round = 0; run->n_kinks > 0 && round < MOST; round++) {
+    bend(run, r, *h);
+    double kink = pl_kinks_first(run, *h);
+    if (kink < 0 || kink > 1 - 1e-9 || !(kink * fabs(*h) > run->h_least)) break;
+    *h *= kink;
+    pl_sizes_forget(run);
+    PL_TRY(pl_radau_hold(run, r, h, &error, &next, p));
+    pl_radau_watch(run, r, *h);
+    pl_radau_series(run, r, *h);
+  }
+  return PLEUEL_OK;
 }
 
 // ---------------------------------------------------------------------------------------------- landing on a root

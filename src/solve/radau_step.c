@@ -453,6 +453,7 @@ pleuel_status pl_radau_step(pl_run* run, double* h, double* root, pl_projection*
   double full = *h;
   pl_radau_watch(run, r, *h);
   pl_radau_series(run, r, *h);
+  PL_TRY(pl_radau_stop_at_kinks(run, r, h, p));
   if (run->n_watch > 0) {
     *root = pl_watch_first(run, *h);
     if (*root == 0) return PLEUEL_OK;

@@ -166,7 +166,7 @@ static pleuel_status step_implicitly(pl_run* run, double* h, double* wanted, dou
 static pleuel_status step(pl_run* run) {
   double h, wanted, root;
   pl_projection p = {0};
-  if (run->radau && !run->implicit && run->n_kinks == 0) PL_TRY(pl_stiff_look(run));
+  if (run->radau && !run->implicit) PL_TRY(pl_stiff_look(run));
   PL_TRY((run->implicit ? step_implicitly : step_by_series)(run, &h, &wanted, &root, &p));
   if (root == 0) {
     pl_point_general(run);

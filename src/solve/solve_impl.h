@@ -340,6 +340,7 @@ double pl_watch_noise(const pl_run* run, const pl_watch* w, double h);   // what
 // ---- kinks.c
 void pl_kinks_make(pl_run* run);
 void pl_kinks_series(pl_run* run);                  // after pl_series_expand
+double pl_kinks_value(const pl_run* run, int i);
 double pl_kinks_first(pl_run* run, double h);       // just behind the first kink, in units of h; -1 none on the step
 
 // ---- friction.c

@@ -21,27 +21,48 @@ static const double gain = 4;         // expected of a change
 static const double gain_exact = 20;  // the same where no tolerance was asked for
 
 // ---------------------------------------------------------------------------------------------- cost
-// In units of one operation of a tape: what lies in the tapes, and n^3 of the linear systems at an eighth.
+// In units of one operation of a tape: what lies in the tapes, and n^3 of dense systems at an eighth.  Sparse systems by
+// their entries and by what the analysis of KLU expects; an indirect operation counts as half of one of a tape.
+static double nodes_of_batch(const pl_batch* b) {
+  const pl_tape* tape = b->pattern->tape;
+  return (tape->level_end[PL_LEVEL_SPEED] - tape->level_end[PL_LEVEL_CONST]) * (b->lanes > 1 ? 2.0 : 1.0);
+}
+
 static double nodes_of(const pl_run* run) {
   double n = 0;
-  for (int i = 0; i < run->motion.n; i++) {
-    const pl_tape* tape = run->motion.at[i].pattern->tape;
-    double wide = run->motion.at[i].lanes > 1 ? 2 : 1;
-    n += (tape->level_end[PL_LEVEL_SPEED] - tape->level_end[PL_LEVEL_CONST]) * wide;
-  }
+  for (int i = 0; i < run->motion.n; i++) n += nodes_of_batch(&run->motion.at[i]);
   return n;
 }
 
 static double cost_of_series(const pl_run* run) {
-  double p = run->order, n = run->n_q + run->n_c;
-  return p * nodes_of(run) * (1 + p / 8) + p * n * n / 4 + n * n * n / 8;
+  double p = run->order, n = run->n_q + run->n_c, entries = run->kkt.n_values;
+  double system = run->kkt.dense ? p * n * n / 4 + n * n * n / 8 : (8 * p + 60) * entries;
+  return p * nodes_of(run) * (1 + p / 8) + system;
+}
+
+// Sweeps of a step: four rounds, and the slopes along each direction at the start, or at all stages.  Instances of a
+// family stand in the lanes, else stages and directions do.
+static double cost_of_sweeps(const pl_run* run) {
+  const pl_radau* r = run->radau;
+  double sum = 0, stages = r->method.s, often = r->couples ? stages : 1;
+  for (int i = 0; i < run->motion.n; i++) {
+    const pl_batch* b = &run->motion.at[i];
+    double n_q = b->pattern->n_q;
+    double sweeps = b->lanes > 1 ? 4 * stages / 2 + often * (1 + n_q) : 4 + often * (1 + ceil(n_q / 4.0));
+    sum += 2 * nodes_of_batch(b) * sweeps;
+  }
+  return sum;
+}
+
+static double cost_of_systems(const pl_run* run) {
+  const pl_radau* r = run->radau;
+  double s = r->method.s, n = r->n;
+  if (r->sparse) return (1 + 4 * r->method.n_pairs) * (pl_zsparse_work(r->sparse_pair[0]) / 2 + 40.0 * r->shape.n_values);
+  return (r->couples ? s * s * s : 2 * s) * n * n * n / 8;
 }
 
 static double cost_of_implicit(const pl_run* run) {
-  const pl_radau* r = run->radau;
-  double s = r->method.s, n = r->n, sweeps = 4 + (r->couples ? s : 1) * (1 + ceil(r->n_q / 4.0));
-  double system = r->couples ? s * s * s : 2 * s;
-  return 2 * nodes_of(run) * sweeps + system * n * n * n / 8 + 100 * s;
+  return cost_of_sweeps(run) + cost_of_systems(run) + 100 * run->radau->method.s;
 }
 
 // ---------------------------------------------------------------------------------------------- the look
