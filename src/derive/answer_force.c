@@ -191,7 +191,8 @@ static void answer_components(pl_analysis* d, const char* of, const char* on, co
   v.components = PL_ARRAY(d->arena, pl_component, f->n);
   bool known = true;
   for (int j = 0; j < f->n; j++) {
-    v.components[j] = (pl_component){f->along[j], value[j], pl_f(d, value[j], PL_S_QUOTIENT), pl_number(d, value[j])};
+    const pl_form* form = pl_f(d, value[j], PL_S_QUOTIENT);
+    v.components[j] = (pl_component){f->along[j], pl_as_shown(d, value[j], form), form, pl_number(d, value[j])};
     pl_dimension dim = pl_dimension_of_expr(d, value[j], &known);
     if (known) v.unit = pl_dimension_unit(d->arena, dim, true);
   }

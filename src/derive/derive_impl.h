@@ -225,6 +225,7 @@ void pl_step_after(pl_step* s, const char* en, const char* de);
 void pl_step_value(pl_analysis* d, pl_step* s, pl_expr e, pl_dimension dim);            // number at the parameters, if there is one
 void pl_step_refs(pl_step* s, int n, ...);
 pl_value* pl_answer(pl_analysis* d, const char* name, pl_expr e, const pl_form* form);  // value of the section, number and unit filled
+pl_expr pl_as_shown(pl_analysis* d, pl_expr e, const pl_form* form);   // the shorter of the two, if they are equal
 double pl_cpu_ms(void);                                 // processor time of this thread
 pl_dimension pl_dimension_of_expr(pl_analysis* d, pl_expr e, bool* known);
 const char* pl_display(pl_analysis* d, double x, pl_dimension dim, bool angle);

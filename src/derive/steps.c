@@ -161,8 +161,17 @@ static void note_first_form(pl_analysis* d, pl_symbol name) {
   d->solution->cpu_ms_first = pl_cpu_ms() - d->began_ms;
 }
 
+// Other programs get what people see, where that is shorter: a normal form is multiplied out, which costs digits too.
+pl_expr pl_as_shown(pl_analysis* d, pl_expr e, const pl_form* form) {
+  if (!form || pl_is_poison(e)) return e;
+  pl_expr shown = pl_form_value(d->pool, form);
+  if (pl_is_poison(shown) || pl_op_count(d->pool, shown) >= pl_op_count(d->pool, e)) return e;
+  if (pl_has_role(d->pool, shown, PL_R_LOCAL) && !pl_has_role(d->pool, e, PL_R_LOCAL)) return e;
+  return pl_alg_equal(d->tower, shown, e) == PL_YES ? shown : e;
+}
+
 pl_value* pl_answer(pl_analysis* d, const char* name, pl_expr e, const pl_form* form) {
-  pl_value v = {.name = name, .expr = e, .form = form, .number = pl_number(d, e), .conserved = -1, .passed = -1, .order = -1};
+  pl_value v = {.name = name, .expr = pl_as_shown(d, e, form), .form = form, .number = pl_number(d, e), .conserved = -1, .passed = -1, .order = -1};
   bool known = true;
   pl_dimension dim = pl_is_poison(e) ? pl_dimension_one() : pl_dimension_of_expr(d, e, &known);
   pl_symbol symbol = pl_symbol_find(d->pool, name);   // x1'' = 0 has the unit of x1''
