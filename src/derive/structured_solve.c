@@ -14,6 +14,13 @@ static const long longest_closed = 45;   // operations of one unknown over the n
 static pl_expr named(pl_analysis* d, pl_symbol s) { return s.id ? pl_sym(d->pool, s) : pl_int(d->pool, 0); }
 
 // ---------------------------------------------------------------------------------------------- without recursion
+// Whether the denominator of an unknown is the determinant itself: where the system falls apart it is a part of it.
+static bool needs_determinant(pl_analysis* d, pl_expr x, pl_expr det) {
+  pl_expr num, den;
+  pl_alg_fraction(d->tower, x, &num, &den);
+  return !pl_is_zero_node(d->pool, num) && pl_is_number(d->pool, pl_alg_normal(d->tower, pl_div(d->pool, det, den)));
+}
+
 static bool solve_closed(pl_analysis* d, pl_structure* s) {
   int n = s->n;
   if (n > most_closed) return false;
@@ -29,13 +36,14 @@ static bool solve_closed(pl_analysis* d, pl_structure* s) {
   D.value = D.exact = pl_form_value(d->pool, D.form);
   D.name = pl_structure_name(d, s, s->letter[3], -1, -1, D.value);
   const pl_form* denominator = pl_fs(d, D.name);
-  bool whole = n > 1;   // a determinant of one row needs no name
+  bool whole = false;   // some unknown needs all of the determinant, which then has a name
   for (int k = 0; k < n; k++) {
-    pl_expr top = pl_alg_normal(d->tower, pl_mul(d->pool, x[k], det));
-    const pl_form* numerator = pl_positive_first(d, pl_f(d, top, PL_S_PLAIN));
+    bool over_det = n > 1 && needs_determinant(d, x[k], det);
+    const pl_form* numerator = pl_positive_first(d, pl_f(d, over_det ? pl_alg_normal(d->tower, pl_mul(d->pool, x[k], det)) : x[k],
+                                                         over_det ? PL_S_PLAIN : PL_S_QUOTIENT));
     if (pl_form_ops(numerator) > longest_closed) return false;
-    form[k] = pl_is_zero_node(d->pool, top) ? numerator : whole ? pl_form_quotient(d->arena, numerator, denominator)
-                                                                 : pl_f(d, x[k], PL_S_QUOTIENT);
+    form[k] = over_det ? pl_form_quotient(d->arena, numerator, denominator) : numerator;
+    whole |= over_det;
   }
   if (whole) {
     pl_push(d->arena, s->lines, D);
