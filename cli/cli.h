@@ -21,7 +21,7 @@ enum { CLI_MAX_FILES = 256, CLI_MAX_SETTINGS = 64 };
 
 // Every flag of every verb has a member here; a verb's table says which of them it takes.
 typedef struct cli_options {
-  const char *only, *steps, *lang, *math, *output, *until, *tol, *dt, *method, *engine, *sensitivities, *checkpoint, *after, *color, *from, *to, *data, *macros, *size, *style, *show, *fps;
+  const char *only, *steps, *lang, *math, *output, *until, *tol, *dt, *method, *engine, *precision, *sensitivities, *checkpoint, *after, *color, *from, *to, *data, *macros, *size, *style, *show, *fps;
   bool json, terse, strict, force, resume, events, verbose, check, unicode, ascii, timing, no_simulation, no_font, no_animation, list, help, standalone, no_figure, no_forces, forces;
   const char* files[CLI_MAX_FILES];
   int n_files;

@@ -12,6 +12,7 @@ const cli_flag flags_sim[] = {
   {"tol", 0, CLI_TEXT, CLI_AT(tol), "NUMBER", "relative local error of a step"},
   {"method", 0, CLI_TEXT, CLI_AT(method), "NAME", "taylor, radau (implicit) or auto: radau where stiff"},
   {"engine", 0, CLI_TEXT, CLI_AT(engine), "NAME", "auto, interpreter, compiled: same result"},
+  {"precision", 0, CLI_TEXT, CLI_AT(precision), "NAME", "double, long (80 bits, long runs), quad (128 bits)"},
   {"verbose", 'v', CLI_SWITCH, CLI_AT(verbose), NULL, "tell too how the steps were computed"},
   {"sensitivities", 0, CLI_TEXT, CLI_AT(sensitivities), "NAMES", "derivatives by these too: m2,x0"},
   CLI_FLAG_SET,
@@ -107,6 +108,9 @@ int verb_sim(pleuel* ctx, const cli_options* o) {
     how.progress = cli_progress;
     how.method = o->method;
     how.engine = o->engine;
+    how.precision = o->precision;
+    how.until_as_written = o->until;
+    how.dt_as_written = o->dt;
     how.sensitivities = o->sensitivities;
     pleuel_sim_summary summary;
     pleuel_status s = pleuel_simulate(m, &summary, &how);

@@ -264,6 +264,10 @@ typedef struct pleuel_sim_options {
   double state_every;                /* s by the clock from state to state; 0: 10; below 0: only when interrupted     */
   int resume;
   const char *resume_command;        /* told when the run was interrupted and its state kept; NULL: the file is told */
+  const char *precision;            /* "double" (default); "long": 64 binary digits, rounded once a step, for long runs; "quad":
+                                     * 113 binary digits.  CSV then has all their digits                           */
+  const char *until_as_written, *dt_as_written;   /* with the numbers above: the same as text, "0.1", "500[ms]", so that they are
+                                     * exact in wider numbers too; or NULL                                         */
 } pleuel_sim_options;
 
 typedef struct pleuel_sim_summary {

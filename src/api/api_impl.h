@@ -31,6 +31,7 @@ typedef struct pl_recording {
   int n_directions;
   const double *varied_q, *varied_v;   // variations of the start values that are given  (n_directions x flat.n)
   const char* sensitivities;      // as asked for
+  bool exact;                     // numbers as they are written, not their doubles
 } pl_recording;
 
 // Whether the state of a run that was interrupted lies in its file.
@@ -57,6 +58,7 @@ struct pleuel_model {
   pl_model* model;
   pleuel_status parsed, checked, derived, recorded, run;
   bool is_checked, is_derived, is_recorded, is_run;
+  bool exact;                     // the run that is asked for is on numbers wider than doubles
   pl_solution* solution;
   const char* solved_only;        // letters it was derived for
   bool structure;                 // derived as far as freedoms and notes
@@ -88,10 +90,13 @@ pl_keeping* pl_keeping_make(pleuel_model* m, const pleuel_sim_options* o);   // 
 pleuel_status pl_keeping_open(pl_keeping* k, const pleuel_sim_options* o, const pl_run_options* how);   // reads and checks
 pleuel_status pl_keeping_resume(pl_keeping* k, pl_run* run, const pl_sink* sink);
 void pl_keeping_step(void* user, pl_run* run, bool interrupted);             // pl_run_options.keep
+// ---- pages.c
+const char* pl_quantity_parts(pl_arena* a, const char* text, double part[3]);   // 500[ms] in three doubles; what is wrong, or NULL
 
 // ---- record.c: model -> setup of the simulation
 // sensitivities: names of parameters and start values (m2,x0) whose derivatives are columns too; NULL none.
-pleuel_status pl_record(pl_job* job, pl_model* model, const char* sensitivities, pl_recording** out);
+// exact: for numbers wider than doubles.
+pleuel_status pl_record(pl_job* job, pl_model* model, const char* sensitivities, bool exact, pl_recording** out);
 void pl_record_dump(pl_text* out, const pl_model* model, const pl_recording* r);
 
 // ---- views.c: the motion as it is looked at

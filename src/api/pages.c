@@ -95,15 +95,14 @@ pleuel_status pleuel_units(pleuel* ctx, const char** text, const char* unit) {
   return answer ? PLEUEL_OK : PLEUEL_USAGE;
 }
 
-static const char* number_of(pleuel* ctx, const char* text, double* value) {
-  pl_pool* pool = pl_pool_make(ctx->arena);
+// The number of a quantity such as 500[ms], in SI; what is wrong with it, or NULL.
+static const char* read_quantity(pl_arena* a, pl_pool* pool, const char* text, pl_expr* out) {
   size_t n = strcspn(text, "[");
   const char* unit = text + n;
   while (n > 0 && text[n - 1] == ' ') n--;
   bool minus = n > 0 && text[0] == '-';
   pl_expr number = pl_number_from_text(pool, text + minus, n - minus);
   if (n == minus || pl_is_poison(number)) return "this is no number";
-  double x = pl_number_double(pool, number);
   if (*unit) {
     const char* close = strchr(unit, ']');
     pl_unit parsed;
@@ -111,12 +110,29 @@ static const char* number_of(pleuel* ctx, const char* text, double* value) {
     const char* near = NULL;
     if (!close || close[1]) return "a unit stands in [ ] behind the number";
     if (!pl_unit_parse(pool, unit + 1, (size_t)(close - unit - 1), &parsed, &at, &bad, &near)) {
-      return near ? pl_format(ctx->arena, "unknown unit; did you mean %s?", near) : "unknown unit";
+      return near ? pl_format(a, "unknown unit; did you mean %s?", near) : "unknown unit";
     }
-    x *= pl_eval(pool, parsed.scale, PL_ARRAY(ctx->arena, double, pl_symbol_count(pool) + 1));
+    number = pl_mul(pool, number, parsed.scale);
   }
-  *value = minus ? -x : x;
+  *out = minus ? pl_neg(pool, number) : number;
   return NULL;
+}
+
+static const char* number_of(pleuel* ctx, const char* text, double* value) {
+  pl_pool* pool = pl_pool_make(ctx->arena);
+  pl_expr number;
+  const char* fault = read_quantity(ctx->arena, pool, text, &number);
+  if (fault == NULL) *value = pl_eval(pool, number, PL_ARRAY(ctx->arena, double, pl_symbol_count(pool) + 1));
+  return fault;
+}
+
+const char* pl_quantity_parts(pl_arena* a, const char* text, double part[3]) {
+  pl_pool* pool = pl_pool_make(a);
+  pl_expr number;
+  const char* fault = read_quantity(a, pool, text, &number);
+  if (fault == NULL && !pl_is_number(pool, number)) fault = "this is no rational number";
+  if (fault == NULL) pl_number_doubles(pool, number, part);
+  return fault;
 }
 
 pleuel_status pleuel_quantity(pleuel* ctx, double* value, const char* text) {

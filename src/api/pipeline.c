@@ -87,7 +87,7 @@ pleuel_status pl_pipeline_record(pleuel_model* m) {
   PL_TRY(pl_pipeline_check(m));
   if (m->is_recorded) return m->recorded;
   double start = pl_clock();
-  m->recorded = pl_record(&m->job, m->model, NULL, &m->recording);
+  m->recorded = pl_record(&m->job, m->model, NULL, m->exact, &m->recording);
   m->is_recorded = m->recorded != PLEUEL_INTERRUPTED;
   note_time(m, PL_STAGE_RECORD, start);
   return m->recorded;
@@ -95,6 +95,7 @@ pleuel_status pl_pipeline_record(pleuel_model* m) {
 
 // The same with derivatives by parameters and start values, if they are asked for: another setup of the same model.
 static pleuel_status record_varied(pleuel_model* m, const char* sensitivities) {
+  if (m->is_recorded && m->recorded == PLEUEL_OK && m->recording->exact != m->exact) m->is_recorded = false;
   const char* known = m->is_recorded && m->recorded == PLEUEL_OK ? m->recording->sensitivities : NULL;
   bool same = known == sensitivities || (known && sensitivities && strcmp(known, sensitivities) == 0);
   if (m->is_recorded && m->recorded == PLEUEL_OK && !same) m->is_recorded = false;
@@ -103,7 +104,7 @@ static pleuel_status record_varied(pleuel_model* m, const char* sensitivities) {
   if (m->is_recorded && same) return m->recorded;
   double start = pl_clock();
   const char* copy = pl_copy(m->arena, sensitivities);
-  m->recorded = pl_record(&m->job, m->model, copy, &m->recording);
+  m->recorded = pl_record(&m->job, m->model, copy, false, &m->recording);
   if (m->recorded == PLEUEL_OK) m->recording->sensitivities = copy;
   m->is_recorded = m->recorded == PLEUEL_OK;
   note_time(m, PL_STAGE_RECORD, start);
@@ -190,7 +191,7 @@ static pleuel_status start_blocks(pleuel_model* m, pl_run* run, double t, const 
 static pleuel_status start_varied(pleuel_model* m, const pl_run_options* how, pl_run* run) {
   pl_recording* plain;
   pl_run* first = NULL;
-  PL_TRY(pl_record(&m->job, m->model, NULL, &plain));
+  PL_TRY(pl_record(&m->job, m->model, NULL, false, &plain));
   pl_run_options quiet = *how;
   quiet.sink = (pl_sink){0};
   quiet.progress = NULL;
@@ -222,6 +223,27 @@ static bool engine_named(const char* name, pl_engine* out) {
   return false;
 }
 
+static bool precision_named(const char* name, pl_precision* out) {
+  static const char* const names[] = {[PL_PRECISION_DOUBLE] = "double", [PL_PRECISION_LONG] = "long", [PL_PRECISION_QUAD] = "quad"};
+  for (int i = 0; i < 3; i++) {
+    if (strcmp(name, names[i]) != 0) continue;
+    if (out) *out = (pl_precision)i;
+    return true;
+  }
+  return false;
+}
+
+static bool is_wide(const pleuel_sim_options* o) {
+  pl_precision p = PL_PRECISION_DOUBLE;
+  return o->precision && precision_named(o->precision, &p) && p != PL_PRECISION_DOUBLE;
+}
+
+// A time as it was written, in three doubles; NULL: it was given as a double.
+static const double* exact_time(pleuel_model* m, const char* text) {
+  double* part = PL_ARRAY(m->arena, double, 3);
+  return text && pl_quantity_parts(m->arena, text, part) == NULL ? part : NULL;
+}
+
 // setup -> run with a consistent start.  Without sink: to look at the start only.
 pleuel_status pl_pipeline_start(pleuel_model* m, const pleuel_sim_options* o, pl_run** out) {
   PL_TRY(record_varied(m, o->sensitivities));
@@ -234,6 +256,9 @@ pleuel_status pl_pipeline_start(pleuel_model* m, const pleuel_sim_options* o, pl
   if (o->has_tol) how.tol = o->tol;
   if (o->has_dt) how.dt = o->dt, how.count = 0;
   if (isnan(how.t_end)) how.t_end = how.t_0;
+  if (o->precision) precision_named(o->precision, &how.precision);
+  if (o->has_until && m->exact) how.t_end_exact = exact_time(m, o->until_as_written);
+  if (o->has_dt && m->exact) how.dt_exact = exact_time(m, o->dt_as_written);
   if (m->result) {
     how.sink = pl_result_sink(m->result);
     if (o->csv) m->result->next = m->keeping && o->resume ? pl_csv_sink_behind(m->arena, o->csv) : pl_csv_sink(m->arena, o->csv);
@@ -283,6 +308,12 @@ static pleuel_status check_times(pleuel_model* m, const pleuel_sim_options* o) {
   if (o->engine && !engine_named(o->engine, NULL)) {
     return pl_fail(&m->job, PLEUEL_USAGE, "there is no engine %s: auto, interpreter or compiled", o->engine);
   }
+  if (o->precision && !precision_named(o->precision, NULL)) {
+    return pl_fail(&m->job, PLEUEL_USAGE, "there is no precision %s: double, long or quad", o->precision);
+  }
+  if (is_wide(o) && o->sensitivities) {
+    return pl_fail(&m->job, PLEUEL_UNSUPPORTED, "precision %s: sensitivities are computed in double only", o->precision);
+  }
   if (o->has_dt && !(o->dt > 0)) return pl_fail(&m->job, PLEUEL_USAGE, "dt must be positive");
   return PLEUEL_OK;
 }
@@ -316,6 +347,7 @@ pleuel_status pl_pipeline_run(pleuel_model* m, const pleuel_sim_options* o) {
   m->resumed_at = (double)NAN;
   m->state = o->state ? pl_copy(m->arena, o->state) : NULL;
   m->resume_command = o->resume_command ? pl_copy(m->arena, o->resume_command) : NULL;
+  m->exact = is_wide(o);
   m->run = record_varied(m, o->sensitivities);
   if (m->run == PLEUEL_OK) m->run = check_times(m, o);
   if (m->run != PLEUEL_OK) {

@@ -168,7 +168,8 @@ static pleuel_status make_groups(pl_recorder* r) {
 // Slots of a pattern: atoms of its coordinates, multipliers of its constraints.
 void pl_record_slots(pl_recorder* r, pl_group* g, const pl_expr* lambda, int n_c, pl_tape_slots* out) {
   *out = (pl_tape_slots){.n_q = g->atoms.n, .q = g->atoms.at, .n_c = n_c, .lambda = lambda,
-                         .n_index = g->instances.depth, .index = g->instances.symbol, .value_of_symbol = r->value};
+                         .n_index = g->instances.depth, .index = g->instances.symbol, .value_of_symbol = r->value,
+                         .definition = pl_exact_definitions(r)};
 }
 
 // Fills the global coordinates and the index values of each instance.
@@ -426,6 +427,11 @@ pl_expr pl_record_with_elements(pl_recorder* r, pl_expr e, const pl_coordinate* 
     if (pl_kind_of(r->pool, g->atoms.at[i]) != PL_AT) continue;
     int at = pl_record_global(r, g->atoms.at[i]);
     if (at < 0 || !q[at].has_q) return pl_poison();
+    pl_expr given = pl_exact_element(r, at);
+    if (!pl_is_poison(given)) {
+      e = pl_subst_expr(r->pool, e, g->atoms.at[i], given);
+      continue;
+    }
     char text[32];
     pl_double_text(text, q[at].q);
     pl_expr number = text[0] == '-' ? pl_neg(r->pool, pl_number_from_text(r->pool, text + 1, strlen(text) - 1))
@@ -437,7 +443,8 @@ pl_expr pl_record_with_elements(pl_recorder* r, pl_expr e, const pl_coordinate* 
 
 // Takes over one start value if everything that it depends on is known.
 static bool take_start(pl_recorder* r, const pl_start_value* s, pl_coordinate* q) {
-  double x = pl_record_number(r, pl_record_with_elements(r, s->value, q));
+  pl_expr value = pl_record_with_elements(r, s->value, q);
+  double x = pl_record_number(r, value);
   if (!isfinite(x)) return false;
   pl_coordinate* c = &q[s->at];
   if (s->guess && s->velocity) c->has_v_guess = true, c->v_guess = x;
@@ -450,6 +457,7 @@ static bool take_start(pl_recorder* r, const pl_start_value* s, pl_coordinate* q
     pl_symbol name = s->velocity ? pl_symbol_dot(r->pool, pl_symbol_of(r->pool, atom)) : pl_symbol_of(r->pool, atom);
     if ((int)name.id < r->n_value) r->value[name.id] = x;
   }
+  pl_exact_start(r, s, value);
   return true;
 }
 
@@ -527,9 +535,9 @@ static void read_times(pl_recorder* r) {
   out->count = s->given ? s->count : 0;
 }
 
-pleuel_status pl_record(pl_job* job, pl_model* model, const char* sensitivities, pl_recording** out) {
+pleuel_status pl_record(pl_job* job, pl_model* model, const char* sensitivities, bool exact, pl_recording** out) {
   pl_arena* a = job->arena;
-  pl_recorder r = {.job = job, .arena = a, .model = model, .pool = model->pool, .out = PL_NEW(a, pl_recording)};
+  pl_recorder r = {.exact = exact, .job = job, .arena = a, .model = model, .pool = model->pool, .out = PL_NEW(a, pl_recording)};
   r.out->flat = pl_model_flat_coords(model, a);
   r.flat_at = pl_map_make(a);
   for (int i = 0; i < r.out->flat.n; i++) {
@@ -541,6 +549,7 @@ pleuel_status pl_record(pl_job* job, pl_model* model, const char* sensitivities,
   r.value = pl_model_values(model, a);
   r.n_value = pl_symbol_count(r.pool) + 1;
   read_times(&r);
+  pl_exact_begin(&r);
 
   PL_TRY(make_groups(&r));
   PL_TRY(record_patterns(&r));
@@ -550,6 +559,8 @@ pleuel_status pl_record(pl_job* job, pl_model* model, const char* sensitivities,
   PL_TRY(pl_record_events(&r));
   PL_TRY(pl_record_branches(&r));
   if (r.variation) PL_TRY(pl_variation_setup(&r));
+  PL_TRY(pl_exact_setup_make(&r));
+  r.out->exact = exact;
   *out = r.out;
   return PLEUEL_OK;
 }

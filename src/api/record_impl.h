@@ -60,6 +60,10 @@ typedef struct pl_recorder {
   bool dissipative, explicit_time;
   bool start_settled;         // values of x(0), E(0) are there
   pl_variation* variation;    // NULL: the motion alone
+  bool exact;                 // for numbers wider than doubles
+  pl_expr* definition;        // by symbol id: what is written down for a parameter; poison: its number
+  int n_definitions;
+  pl_expr *start_q, *start_v; // of the coordinates, as given
 } pl_recorder;
 
 // record_forces.c: energies and generalized forces of the groups.
@@ -90,6 +94,13 @@ int pl_variation_count(const pl_recorder* r);                                   
 pleuel_status pl_variation_record(pl_recorder* r, pl_group* g, const pl_pattern_source* s, pl_pattern* out);
 void pl_variation_of_start(pl_recorder* r, const pl_start_value* s);
 pleuel_status pl_variation_setup(pl_recorder* r);
+
+// record_exact.c: what wider numbers need.  Nothing happens where they are not asked for.
+void pl_exact_begin(pl_recorder* r);
+const pl_expr* pl_exact_definitions(pl_recorder* r);           // NULL: none
+pl_expr pl_exact_element(const pl_recorder* r, int at);        // start value of a coordinate, poison where none is known
+void pl_exact_start(pl_recorder* r, const pl_start_value* s, pl_expr value);
+pleuel_status pl_exact_setup_make(pl_recorder* r);
 
 // record_friction.c: rows of slip and their coefficients.
 pleuel_status pl_group_friction(pl_recorder* r, pl_group* g);   // before the forces of the group

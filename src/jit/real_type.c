@@ -70,7 +70,10 @@ static void sum(const pl_prog* c, const pl_prog_sum* x, real* m, int K, int stri
       add_row(s, m + pairs[p].a, m + pairs[p].b, j, K - j, x->weighted, stride, lanes);
       add_row(s, m + pairs[p].a, m + pairs[p].b, K - j, j, x->weighted, stride, lanes);
     }
-  for (int l = 0; l < lanes; l++) m[x->to + l] = s[l];
+  for (int l = 0; l < lanes; l++) {
+    if (x->scale >= 0) s[l] = s[l] * m[x->scale + K * stride + l] + s[l] * m[x->rest + K * stride + l];
+    m[x->to + l] = s[l];
+  }
 }
 
 static void block_sums(const pl_prog* c, const pl_prog_block* b, real* m, int k) {

@@ -42,6 +42,9 @@ typedef enum pl_motion_part {
 
 typedef struct pl_motion_entry { int row, col, first, n, cell; } pl_motion_entry;   // nodes term[first ..]
 
+typedef struct pl_constant_cell { int cell; pl_parts x; } pl_constant_cell;
+typedef struct pl_scale_cell { int cell, from; double x; } pl_scale_cell;   // as the cell `from`; x where that is -1
+
 struct pl_motion {
   pl_prog* code[PL_N_PARTS];
   pl_prog_run* compiled[PL_N_PARTS];   // NULL: interpreted
@@ -74,7 +77,17 @@ struct pl_motion {
   int* index;                    // coordinate or constraint of each unknown
   double* size_most;             // largest pivot_size met                              (n)
   double fade_best;
+
+  // for numbers wider than doubles
+  int inverse_up_to;             // unknowns up to which the inverse is formed
+  PL_VEC(pl_constant_cell) constants;   // what stands in memory from the start and is no double
+  PL_VEC(pl_scale_cell) scales;
 };
+
+// ---- motion_make.c
+bool pl_motion_fits(const pl_run* run);
+// Codes for numbers of this type, which are interpreted; NULL: doubles.
+pl_motion* pl_motion_make_for(pl_run* run, const pl_real* real);
 
 // ---- motion_factor.c: L D L^T of a sparse symmetric system as code
 typedef struct pl_elimination {

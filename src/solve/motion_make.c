@@ -8,7 +8,7 @@ int pl_maker_take(pl_maker* k, int n) {
 }
 
 // ---------------------------------------------------------------------------------------------- limits
-static bool fits(const pl_run* run) {
+bool pl_motion_fits(const pl_run* run) {
   long nodes = 0;
   if (run->n_q + run->n_c > PL_MOTION_UNKNOWNS || run->has_W || run->mass_of_speed || run->setup->n_rubs > 0)
     return false;
@@ -84,7 +84,7 @@ static void lay_out(pl_maker* k) {
   o->pivot = pl_maker_take(k, o->n);
   o->pivot_size = pl_maker_take(k, o->n);
   o->size_most = PL_ARRAY(k->a, double, o->n + 1);
-  if (o->n <= PL_MOTION_INVERSE) {
+  if (o->n <= o->inverse_up_to) {
     o->result = pl_maker_take(k, 8 * blocks);
     o->matrix = pl_maker_take(k, o->n * 8 * blocks);
     o->identity = pl_maker_take(k, o->n * 8 * blocks);
@@ -132,7 +132,7 @@ static int inverse_of(void* user, int node) {
 int pl_maker_start(pl_maker* k, int node) {
   const pl_tape_node* n = pl_maker_node(k, node);
   if (k->start[node] < 0)
-    k->start[node] = n->op == PL_OP_CONST ? pl_prog_number(k->code, n->value) : pl_prog_load(k->code, k->cell[node], 0);
+    k->start[node] = n->op == PL_OP_CONST && !k->real ? pl_prog_number(k->code, n->value) : pl_prog_load(k->code, k->cell[node], 0);
   return k->start[node];
 }
 
@@ -290,7 +290,7 @@ static void speed_code(pl_maker* k) {
 static void inverse_code(pl_maker* k) {
   pl_motion* o = k->o;
   int blocks = (o->n + 7) / 8, stride = 8 * blocks;
-  if (o->n > PL_MOTION_INVERSE) return;
+  if (o->n > o->inverse_up_to) return;
   pl_maker_begin(k, PL_PART_INVERSE, "inverse", 8);
   int* x = PL_ARRAY(k->a, int, o->n + 1);
   for (int b = 0; b < blocks; b++) {
@@ -367,28 +367,33 @@ static void fill_memory(pl_maker* k) {
     for (int row = 1; row <= o->orders; row++) {
       double one = s->rest ? 0 : 1;
       o->m[s->at + 8 * row] = s->of_order ? o->m[(s->rest ? o->rest : o->ratio) + row] : one;
+      if (k->real) pl_push(k->a, o->scales, (pl_scale_cell){s->at + 8 * row, s->of_order ? (s->rest ? o->rest : o->ratio) + row : -1, one});
     }
   }
   o->m[o->time + 1] = 1;
   int stride = (o->n + 7) / 8 * 8;
-  if (o->n <= PL_MOTION_INVERSE)
+  if (o->n <= o->inverse_up_to)
     for (int u = 0; u < o->n; u++) o->m[o->identity + u * stride + u] = 1;
   for (int i = 0; i < k->n_nodes; i++) {
     pl_maker_instance* in = &k->instance[k->owner[i]];
-    if (k->cell[i] >= 0 && i - in->base < in->tape->level_end[PL_LEVEL_CONST])
-      o->m[k->cell[i]] = pl_jet_at(in->batch->jet, i - in->base, 0)[in->lane];
+    if (k->cell[i] < 0 || i - in->base >= in->tape->level_end[PL_LEVEL_CONST]) continue;
+    o->m[k->cell[i]] = pl_jet_at(in->batch->jet, i - in->base, 0)[in->lane];
+    if (k->real) pl_push(k->a, o->constants, (pl_constant_cell){k->cell[i], k->constant[i]});
   }
 }
 
-pl_motion* pl_motion_make(pl_run* run) {
-  pl_maker maker = {.run = run, .a = run->job->arena, .o = PL_NEW(run->job->arena, pl_motion)}, *k = &maker;
+pl_motion* pl_motion_make(pl_run* run) { return pl_motion_make_for(run, NULL); }
+
+pl_motion* pl_motion_make_for(pl_run* run, const pl_real* real) {
+  pl_maker maker = {.run = run, .a = run->job->arena, .real = real, .o = PL_NEW(run->job->arena, pl_motion)}, *k = &maker;
   pl_motion* o = k->o;
+  o->inverse_up_to = real ? 0 : PL_MOTION_INVERSE;
   o->n_q = run->n_q;
   o->n_c = run->n_c;
   o->orders = run->order + 3;
   o->taken = PL_ARRAY(k->a, bool, run->n_c + 1);
   for (int c = 0; c < run->n_c; c++) o->taken[c] = run->taken[c];
-  if (!fits(run)) return o;
+  if (!pl_motion_fits(run)) return o;
   pl_maker_instances(k);
   pl_maker_terms(k);
   number_unknowns(k);

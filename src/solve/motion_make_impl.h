@@ -32,6 +32,8 @@ typedef struct pl_maker {
   pl_maker_instance* instance;
   int n_instances;
   int n_nodes;
+  const pl_real* real;       // the codes are for numbers of this type; NULL: doubles
+  pl_parts* constant;        // of each node of level CONST, then
   int* owner;                // instance of each node
   int* same;                 // the first node that is the same quantity: that one stands for all
   bool *needed, *high;       // at order 0; above

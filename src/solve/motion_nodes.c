@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "solve/motion_make_impl.h"
+#include "solve/wide_impl.h"
 
 // ---------------------------------------------------------------------------------------------- instances
 static int count_instances(const pl_batches* b) {
@@ -49,6 +50,14 @@ static pl_node_key key_of(const pl_maker* k, int node) {
   const pl_maker_instance* i = &k->instance[k->owner[node]];
   const pl_tape_node* n = pl_maker_node(k, node);
   pl_node_key key = {.op = n->op};
+  if (n->level == PL_LEVEL_CONST && k->real) {
+    const double* part = k->constant[node].part;
+    key.op = PL_OP_CONST;
+    memcpy(&key.value, &part[0], sizeof key.value);
+    memcpy(&key.a, &part[1], sizeof key.a);
+    memcpy(&key.b, &part[2], sizeof key.b);
+    return key;
+  }
   if (n->level == PL_LEVEL_CONST) {
     key.op = PL_OP_CONST;
     memcpy(&key.value, &pl_jet_at(i->batch->jet, node - i->base, 0)[i->lane], sizeof key.value);
@@ -78,11 +87,18 @@ static void find_same(pl_maker* k) {
   }
 }
 
+static void find_constants(pl_maker* k) {
+  k->constant = PL_ARRAY(k->a, pl_parts, k->n_nodes + 1);
+  for (int i = 0; i < k->n_instances; i++)
+    pl_wide_constants(k->a, k->real, k->instance[i].batch, k->instance[i].lane, k->constant + k->instance[i].base);
+}
+
 void pl_maker_instances(pl_maker* k) {
   k->instance = PL_ARRAY(k->a, pl_maker_instance, count_instances(&k->run->motion) + count_instances(&k->run->observers) + 1);
   list_instances(k, &k->run->motion, false);
   if (has_energy(k->run)) list_instances(k, &k->run->observers, true);
   reserve_nodes(k);
+  if (k->real) find_constants(k);
   find_same(k);
 }
 

@@ -46,7 +46,7 @@ static int stream_of(pl_maker* k, pl_streams* streams, const pl_lane* lanes) {
 
 // ---------------------------------------------------------------------------------------------- groups
 // A group of eight sums: pairs of streams, where the sums go.
-typedef struct pl_group { int to, first, n, scale, rest; } pl_group;   // the last two: streams, -1 none
+typedef struct pl_group { int to, first, n, scale, rest, lanes; } pl_group;   // scale, rest: streams, -1 none
 typedef struct pl_groups {
   PL_VEC(pl_group) list;
   PL_VEC(pl_prog_pair) pairs;
@@ -139,7 +139,7 @@ static void group_sums(pl_maker* k, pl_streams* streams, const pl_sum_list* unor
       k->sum_cell[s->node].i[s->i] = to + l;
     }
     int at_a = stream_of(k, streams, a), at_b = stream_of(k, streams, b);
-    pl_group g = {to, groups->pairs.n, 1, -1, -1};
+    pl_group g = {to, groups->pairs.n, 1, -1, -1, sums->n - first < 8 ? sums->n - first : 8};
     scale_group(k, streams, sums->at + first, sums->n - first < 8 ? sums->n - first : 8, &g);
     pl_push(k->a, groups->list, g);
     pl_push(k->a, groups->pairs, (pl_prog_pair){at_a, at_b});
@@ -222,7 +222,7 @@ static void group_rows(pl_maker* k, pl_streams* streams, const pl_row_list* rows
     const pl_share* s = shares.at + first;
     int used = shares.n - first < 8 ? shares.n - first : 8, to = pl_maker_take(k, 8);
     for (int l = 0; l < used; l++) pl_push(k->a, k->row_sums[s[l].unknown], to + l);
-    pl_push(k->a, groups->list, (pl_group){to, groups->pairs.n, s->n, -1, -1});
+    pl_push(k->a, groups->list, (pl_group){to, groups->pairs.n, s->n, -1, -1, used});
     for (int p = 0; p < s->n; p++) {
       pl_lane a[8] = {{EMPTY, 0}}, b[8] = {{EMPTY, 0}};
       for (int l = 0; l < used; l++) {
@@ -283,6 +283,7 @@ static void add_block(pl_maker* k, const pl_groups* groups, int shift) {
     const pl_group* g = &groups->list.at[i];
     pl_prog_sum_begin(k->code, g->to, false);
     pl_prog_sum_scale(k->code, g->scale, g->rest);
+    pl_prog_sum_lanes(k->code, g->lanes);
     for (int p = g->first; p < g->first + g->n; p++) pl_prog_sum_pair(k->code, groups->pairs.at[p].a, groups->pairs.at[p].b);
   }
 }
@@ -396,7 +397,7 @@ static int right_of_constraint(pl_maker* k, int u) {
 
 static void solve(pl_maker* k, int* x, bool first) {
   pl_motion* o = k->o;
-  if (first || o->n > PL_MOTION_INVERSE) {
+  if (first || o->n > o->inverse_up_to) {
     pl_elimination_solve(k->elimination, k->code, x);
     return;
   }

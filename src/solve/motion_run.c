@@ -73,7 +73,7 @@ static bool compiling_pays(pl_run* run, const pl_motion* o) {
 }
 
 void pl_motion_update(pl_run* run) {
-  if (run->options.general || run->n_kinks > 0) return;
+  if (run->options.general || run->n_kinks > 0 || run->options.precision != PL_PRECISION_DOUBLE) return;
   if (!run->at_point && !(run->motion_code && same_mode(run, run->motion_code))) run->motion_code = motion_of_mode(run);
   pl_motion* o = run->motion_code;
   if (o == NULL || !o->usable || o->tried || run->options.engine == PL_ENGINE_INTERPRETER) return;

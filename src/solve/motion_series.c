@@ -3,7 +3,7 @@
 // Index-3 Taylor series: with q_{k+1} = v_k / (k+1), nodes of q and t are known to order k+1, nodes of v to order k,
 // and one solve with the factor of the point gives a_k and λ_k; then v_{k+1} = a_k / (k+1).  Order and step after Jorba
 // and Zou, Exp. Math. 14 (2005) 99, with separate norms for positions and velocities, which have different units.
-#include "solve/solve_impl.h"
+#include "solve/wide_impl.h"
 
 #include <float.h>
 #include <math.h>
@@ -101,6 +101,7 @@ bool pl_point_enter(pl_run* run) {
   memcpy(run->Q, run->q, (size_t)n * sizeof *run->q);
   memcpy(run->V, run->v, (size_t)n * sizeof *run->v);
   run->t_series = run->t;
+  if (run->wide) return run->at_point && pl_wide_enter(run);
   if (run->at_point && pl_motion_enter(run)) return true;
   run->at_point = false;
   if (run->factored) {
@@ -127,6 +128,10 @@ void pl_point_general(pl_run* run) {
 }
 
 void pl_series_expand(pl_run* run) {
+  if (run->wide) {
+    pl_wide_expand(run);
+    return;
+  }
   if (!run->at_point || !pl_motion_is_compiled(run)) run->stats.steps_interpreted++;
   if (run->at_point) pl_motion_expand(run);
   else
@@ -181,7 +186,9 @@ double pl_series_step(pl_run* run) {
   int p = run->order;
   double of_q[PL_BLOCK_ROWS], of_v[PL_BLOCK_ROWS];
   const double *q = of_q, *v = of_v;
-  if (run->at_point) {
+  if (run->wide) {
+    pl_wide_norms(run, &q, &v);
+  } else if (run->at_point) {
     pl_motion_norms(run, &q, &v);
   } else {
     norms_of(run->Q, run->n_q, p + 1, of_q);

@@ -1,5 +1,5 @@
 // Rows and events on their way to the sink; observers; energy.
-#include "solve/solve_impl.h"
+#include "solve/wide_impl.h"
 
 #include <math.h>
 #include <string.h>
@@ -51,7 +51,7 @@ void pl_mode_text(const pl_run* run, char* out) {
 
 // ---------------------------------------------------------------------------------------------- rows
 pl_row pl_row_now(pl_run* run, pl_row_kind kind, double* out, char* mode) {
-  pl_observe(run, run->t, run->q, run->v, run->A, run->L, out);
+  if (!run->wide) pl_observe(run, run->t, run->q, run->v, run->A, run->L, out);
   pl_mode_text(run, mode);
   pl_row row = {.t = run->t,
                 .q = run->q,
@@ -63,6 +63,7 @@ pl_row pl_row_now(pl_run* run, pl_row_kind kind, double* out, char* mode) {
                 .mode = mode,
                 .kind = kind};
   pl_turns_show(run, &row);
+  if (run->wide) pl_wide_row(run, &row, out);
   return row;
 }
 
@@ -121,10 +122,12 @@ pleuel_status pl_rows_grid(pl_run* run, double t_from, double t_to) {
     if (run->grid_count > 0 && run->grid_n > run->grid_count) return PLEUEL_OK;
     if (direction * (t_to - t) <= grid_slack(run)) return PLEUEL_OK;
     if (direction * (t - t_from) < 0) continue;
-    pl_turns_follow(run, t);
-    pl_series_at(run, t - run->t_series, run->row_q, run->row_v);
-    pl_series_lambda_at(run, t - run->t_series, run->row_a, run->row_l);
-    pl_observe(run, t, run->row_q, run->row_v, run->row_a, run->row_l, run->out_now);
+    if (!run->wide) {
+      pl_turns_follow(run, t);
+      pl_series_at(run, t - run->t_series, run->row_q, run->row_v);
+      pl_series_lambda_at(run, t - run->t_series, run->row_a, run->row_l);
+      pl_observe(run, t, run->row_q, run->row_v, run->row_a, run->row_l, run->out_now);
+    }
     pl_mode_text(run, run->mode);
     pl_row row = {.t = t,
                   .q = run->row_q,
@@ -136,6 +139,7 @@ pleuel_status pl_rows_grid(pl_run* run, double t_from, double t_to) {
                   .mode = run->mode,
                   .kind = PL_ROW_STEP};
     pl_turns_show(run, &row);
+    if (run->wide) pl_wide_grid_row(run, run->grid_n, &row, run->out_now);
     PL_TRY(send(run, &row));
   }
 }
@@ -213,6 +217,10 @@ void pl_rows_energy(pl_run* run, bool anew) {
   const pl_setup* s = run->setup;
   if (s->kinetic < 0 || s->potential < 0) return;
   double T, V;
+  if (run->wide) {
+    pl_wide_energy(run, anew);
+    return;
+  }
   if (!pl_motion_energy(run, &T, &V)) {
     pl_observe(run, run->t, run->q, run->v, run->A, run->L, run->energy_out);
     T = run->energy_out[s->kinetic];

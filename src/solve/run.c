@@ -1,5 +1,5 @@
 // A run takes steps: series, roots on the step, projection, check, rows.
-#include "solve/solve_impl.h"
+#include "solve/wide_impl.h"
 
 #include <float.h>
 #include <math.h>
@@ -12,7 +12,8 @@ static const double allowed_residual = 1e-12;  // |g| and |G v + dg/dt| after it
 
 // ---------------------------------------------------------------------------------------------- one attempt
 static bool acceptable(const pl_run* run, const pl_projection* p) {
-  double move = fmax(allowed_move * run->tol, allowed_floor), left = fmax(10 * run->tol, allowed_residual);
+  double rounding = run->wide ? run->wide->floor / DBL_EPSILON : 1;
+  double move = fmax(allowed_move * run->tol, rounding * allowed_floor), left = fmax(10 * run->tol, rounding * allowed_residual);
   return p->ok && p->move_q <= move && p->move_v <= move && p->g_after <= left && p->r_after <= left;
 }
 
@@ -68,10 +69,14 @@ static pleuel_status try_steps(pl_run* run, double* h, double* root, pl_projecti
     double kink = run->n_kinks > 0 ? pl_kinks_first(run, *h) : -1;
     if (kink >= 0 && (*root < 0 || kink < *root)) *root = -1, *h *= fmin(kink, 1);
     double reach = *root >= 0 ? *root * *h : *h;
-    if (run->at_point && run->use == run->order) pl_motion_advance(run, reach, run->trial_q, run->trial_v);
+    if (run->wide) {
+      pl_wide_advance(run, reach);
+      if (*root >= 0) pl_wide_refine(run, reach);
+    } else if (run->at_point && run->use == run->order) pl_motion_advance(run, reach, run->trial_q, run->trial_v);
     else pl_series_at(run, reach, run->trial_q, run->trial_v);
+    if (run->wide) pl_wide_project(run, p);
     // what follows a root changes the mode: it needs the general way
-    if (*root >= 0 || !pl_motion_project(run, run->t + run->t_low + reach, run->trial_q, run->trial_v, p))
+    else if (*root >= 0 || !pl_motion_project(run, run->t + run->t_low + reach, run->trial_q, run->trial_v, p))
       *p = pl_project(run, run->t + run->t_low + reach, run->trial_q, run->trial_v);
     if (acceptable(run, p)) {
       *h = reach;
@@ -103,6 +108,7 @@ static void accept(pl_run* run, double h, bool to_end) {
   run->h_last = h;
   run->use_last = run->use;
   advance_time(run, h, to_end);
+  if (run->wide) pl_wide_accept(run, to_end);
   memcpy(run->q, run->trial_q, (size_t)run->n_q * sizeof(double));
   memcpy(run->v, run->trial_v, (size_t)run->n_q * sizeof(double));
   pl_sizes_keep(run);
@@ -149,7 +155,7 @@ static pleuel_status step_by_series(pl_run* run, double* h, double* wanted, doub
   if (run->n_kinks > 0) pl_kinks_series(run);
   *h = *wanted = choose_step(run);
   *root = -1;
-  if (pl_singular_leap(run, left_over(run), h, p)) return pl_singular_record(run);
+  if (!run->wide && pl_singular_leap(run, left_over(run), h, p)) return pl_singular_record(run);
   *h = *wanted;
   if (!(fabs(*h) > run->h_least) && fabs(*h) < fabs(left_over(run))) return too_small(run, *h);
   return try_steps(run, h, root, p);
@@ -169,7 +175,7 @@ static pleuel_status step(pl_run* run) {
   if (run->radau && !run->implicit) PL_TRY(pl_stiff_look(run));
   PL_TRY((run->implicit ? step_implicitly : step_by_series)(run, &h, &wanted, &root, &p));
   if (root == 0) {
-    pl_point_general(run);
+    if (!run->wide) pl_point_general(run);
     return pl_modes_handle(run);
   }
   bool to_end = h == wanted && root < 0 && fabs(wanted) == fabs(left_over(run));
@@ -249,12 +255,14 @@ pleuel_status pl_run_begin_at(pl_run* run, double t) {
   set_sizes(run);
   run->stats.energy_drift = (double)NAN;
   run->factored = false;
+  run->wide = NULL;
   PL_TRY(pl_modes_enter(run));
   run->stats.rank_start = run->stats.rank = run->rank;
   run->smallest_here = run->smallest;
   run->started = true;
   PL_TRY(pl_rows_open(run));
   PL_TRY(pl_modes_check(run, true));
+  if (run->options.precision != PL_PRECISION_DOUBLE) PL_TRY(pl_wide_begin(run, t));
   pl_rows_energy(run, true);
   pl_motion_update(run);
   return PLEUEL_OK;
@@ -279,6 +287,7 @@ pleuel_status pl_run_start_at(pl_run* run, double t, const double* q, const doub
       return pl_fail(run->job, PLEUEL_USAGE, "the start value of %s is not a number", run->setup->coordinates[i].name);
   }
   pl_watch_forget(run);
+  run->start_given = false;
   decide_contacts(run, t);
   return pl_run_begin_at(run, t);
 }

@@ -1,14 +1,16 @@
 // A run's workspace, from the dimensions of its setup.  After this nothing is allocated.
 #include "solve/solve_impl.h"
+#include "solve/wide_impl.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-enum { MIN_ORDER = 6, MAX_ORDER = 24 };
+enum { MIN_ORDER = 6, MAX_ORDER = 24, MAX_WIDE_ORDER = 40 };
 
-// The tolerance below which rounding, not truncation, decides.
-static const double least_tol = 2.3e-16;
+// The tolerance below which rounding, not truncation, decides.  In long, what is cut off is to stay far below the rounding of the
+// state, since it has a direction and that has none.
+static const double least_tol[] = {[PL_PRECISION_DOUBLE] = 2.3e-16, [PL_PRECISION_LONG] = 1e-23, [PL_PRECISION_QUAD] = 1e-34};
 
 // ---------------------------------------------------------------------------------------------- checks
 static pleuel_status check_links(pl_job* job, const pl_setup* s) {
@@ -96,7 +98,18 @@ static int cheapest_order(double tol) {
   return best;
 }
 
+// Numbers that are computed in software: all of the work is that of the orders, and grows with their square.
+static void choose_wide_order(pl_run* run) {
+  int p = (int)ceil(-0.5 * log(run->tol) + 1);
+  run->order = p < MIN_ORDER ? MIN_ORDER : p > MAX_WIDE_ORDER ? MAX_WIDE_ORDER : p;
+  run->shrink = -2;
+}
+
 static void choose_order(pl_run* run) {
+  if (run->options.precision != PL_PRECISION_DOUBLE) {
+    choose_wide_order(run);
+    return;
+  }
   bool small = run->n_q + run->n_c <= PL_DENSE_UP_TO;
   run->order = small ? cheapest_order(run->tol) : plain_order(run->tol);
   run->shrink = run->order == plain_order(run->tol) ? -2 : log(0.1 * run->tol) / (run->order - 1);
@@ -105,7 +118,7 @@ static void choose_order(pl_run* run) {
 static void set_options(pl_run* run, const pl_run_options* o) {
   double length = fabs(o->t_end - o->t_0);
   run->options = *o;
-  run->tol = o->tol < least_tol ? least_tol : o->tol;
+  run->tol = fmax(o->tol, least_tol[o->precision]);
   if (o->method == PL_METHOD_RADAU) run->tol = pl_radau_tol(o->tol);
   run->tol_raised = o->tol > 0 && o->tol < run->tol;
   choose_order(run);
@@ -251,6 +264,7 @@ pleuel_status pl_run_make(pl_job* job, const pl_setup* setup, const pl_run_optio
   pl_watch_make(run);
   pl_kinks_make(run);
   first_mode(run);
+  if (options->precision != PL_PRECISION_DOUBLE) PL_TRY(pl_wide_check(run));
   *out = run;
   return PLEUEL_OK;
 }

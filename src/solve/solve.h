@@ -98,6 +98,13 @@ typedef struct pl_turn_setup {
   int angle[3];                       // coordinates of φ, ϑ, ψ
   int scalar;                         // coordinate of q_0
 } pl_turn_setup;
+// Numbers of a setup as they were written, for runs on numbers wider than doubles: a tape of constants, and which of its roots is
+// which; -1: the double in the setup is exact.
+typedef struct pl_exact_setup {
+  const pl_tape* tape;
+  const int *q, *v;                   // start values that are given  (n_q)
+  int t_0, t_end, dt;
+} pl_exact_setup;
 
 typedef struct pl_setup {
   int n_q;
@@ -127,6 +134,7 @@ typedef struct pl_setup {
   const pl_pattern* branch_patterns;
   int n_turns;
   const pl_turn_setup* turns;         // (n_turns)
+  const pl_exact_setup* exact;        // or NULL
 } pl_setup;
 
 // ---------------------------------------------------------------------------------------------- sink
@@ -146,6 +154,15 @@ extern const char* const pl_event_kind_name[];     // "event", "release", "impac
 
 typedef enum pl_row_kind { PL_ROW_START, PL_ROW_STEP, PL_ROW_BEFORE, PL_ROW_AFTER, PL_ROW_END } pl_row_kind;
 
+// The digits of a row whose numbers are wider than doubles: text writes number i of a part, or its negative, as short as it reads
+// back, and returns the length.
+typedef enum pl_row_part { PL_ROW_T, PL_ROW_Q, PL_ROW_V, PL_ROW_LAMBDA, PL_ROW_OUT } pl_row_part;
+enum { PL_ROW_TEXT = 64 };
+typedef struct pl_row_digits {
+  void* user;
+  int (*text)(void* user, pl_row_part part, int i, bool negative, char out[PL_ROW_TEXT]);
+} pl_row_digits;
+
 // A row of results; pointers are valid during the call.
 typedef struct pl_row {
   double t;                           // s
@@ -156,6 +173,7 @@ typedef struct pl_row {
   const double* out;                  // (n_out)
   const char* mode;                   // "contact(h)", "free", "" without one-sided constraints
   pl_row_kind kind;
+  const pl_row_digits* digits;        // NULL: the doubles are all there is
 } pl_row;
 
 typedef struct pl_event_record {
@@ -214,6 +232,13 @@ typedef enum pl_engine {
 } pl_engine;
 
 struct pl_run;
+// The numbers that a run computes with.
+typedef enum pl_precision {
+  PL_PRECISION_DOUBLE,
+  PL_PRECISION_LONG,      // the state has 64 binary digits, rounded once a step; what is between is more exact
+  PL_PRECISION_QUAD       // 113 binary digits
+} pl_precision;
+
 typedef struct pl_run_options {
   double t_0, t_end;                  // s; t_end may lie before t_0 (backwards)
   double tol;                         // relative local error; 0: what the arithmetic can do, which is the least
@@ -229,6 +254,8 @@ typedef struct pl_run_options {
   bool general;                       // without codes (jit.h): every step goes the general way
   void (*keep)(void* user, struct pl_run* run, bool interrupted);   // between two steps, and when it is interrupted; or NULL:
   void* keep_user;                                                  // pl_run_keep may be called there
+  pl_precision precision;             // PLEUEL_UNSUPPORTED where the model or the machine does not allow it
+  const double *t_end_exact, *dt_exact;   // in three parts, for wider numbers; NULL: as the setup says, or the double
 } pl_run_options;
 
 typedef struct pl_run pl_run;

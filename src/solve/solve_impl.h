@@ -102,6 +102,7 @@ typedef struct pl_turn_now {
 } pl_turn_now;
 
 typedef struct pl_motion pl_motion;   // the motion as codes: motion_impl.h
+typedef struct pl_wide pl_wide;       // the same on wider numbers: wide_impl.h
 
 struct pl_run {
   pl_job* job;
@@ -125,6 +126,9 @@ struct pl_run {
   double clock_begin, t_begin;   // when stepping with these began
   long considered;         // steps at which compiling was thought of last
   bool at_point;           // their memory belongs to run->t, q, v, or to the end of the step that is tried
+
+  pl_wide* wide;           // NULL: doubles
+  bool start_given;        // given start values are as they were written
 
   // the point
   double t, t_low;         // time and its rounding error
@@ -306,6 +310,11 @@ void pl_motion_expand(pl_run* run);
 void pl_motion_norms(pl_run* run, const double** q, const double** v);   // of pl_block_rows
 void pl_motion_advance(pl_run* run, double dt, double* q, double* v);
 bool pl_motion_energy(pl_run* run, double* kinetic, double* potential);   // at the point; false: not this way
+
+// ---- start_complete.c
+// The least change of what is not held that takes the residuals away, for the rows at hand; false: there is none.
+bool pl_least_change(const pl_run* run, const bool* held, const double* residual, const double* size, bool positions, double* basis,
+                     double* change);
 
 // ---- motion_series.c
 void pl_point_evaluate(pl_run* run, double t, const double* q, const double* v);   // levels PLACE and SPEED at order 0

@@ -11,8 +11,8 @@ static const double dependent = 1e-10;  // of a row: what is left of it when it 
 static const double met = 1e-9;         // residual of a constraint relative to its terms
 
 // The least change of what is free that takes the residuals away: rows orthogonalised one by one, targets along.
-static bool least_change(const pl_run* run, const bool* held, const double* residual, const double* size,
-                         bool positions, double* basis, double* change) {
+bool pl_least_change(const pl_run* run, const bool* held, const double* residual, const double* size, bool positions, double* basis,
+                     double* change) {
   int n = run->n_q, rank = 0;
   for (int i = 0; i < n; i++) change[i] = 0;
   for (int c = 0; c < run->n_c; c++) {
@@ -52,7 +52,7 @@ static bool complete_positions(pl_run* run, double t, const bool* held, double* 
   pl_point_evaluate(run, t, run->q, run->v);
   pl_assemble_g(run, 0, run->g, run->g_size);
   pl_assemble_rows(run);
-  if (!least_change(run, held, run->g, run->g_size, true, basis, change)) return false;
+  if (!pl_least_change(run, held, run->g, run->g_size, true, basis, change)) return false;
   for (int i = 0; i < run->n_q; i++) run->q[i] += change[i];
   return true;
 }
@@ -62,7 +62,7 @@ static bool complete_velocities(pl_run* run, double t, const bool* held, double*
   pl_assemble_g(run, 0, run->g, run->g_size);
   pl_assemble_gdot(run, run->r, run->r_size);
   pl_assemble_rows(run);
-  if (!least_change(run, held, run->r, run->r_size, false, basis, change)) return false;
+  if (!pl_least_change(run, held, run->r, run->r_size, false, basis, change)) return false;
   for (int i = 0; i < run->n_q; i++) run->v[i] += change[i];
   return true;
 }

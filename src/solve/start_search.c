@@ -496,6 +496,7 @@ pleuel_status pl_run_start(pl_run* run) {
   memcpy(run->v, s.v, (size_t)run->n_q * sizeof(double));
   pl_watch_forget(run);
   mark_leaving(&s);
+  run->start_given = true;
   PL_TRY(pl_run_begin_at(run, run->options.t_0));
   list_moves(&s);
   list_sitting(&s);

@@ -1,0 +1,74 @@
+// A run on numbers wider than doubles: the codes of the motion (motion_impl.h) on memory of another type, in which the state lives
+// from step to step.  What the run shows and watches is its rounding.  For files of this folder.
+//
+// Three types have a part in it: `state`, to which positions and velocities are rounded at the end of a step; `fine`, in which the
+// point, its projection and the orders below `low` are computed; `coarse`, in which the orders above are.  Terms of order k are about
+// e^(-2k) of the whole, so that those may be less exact.  In quad all are one and there is no coarse part.
+#ifndef PL_WIDE_IMPL_H
+#define PL_WIDE_IMPL_H
+
+#include "solve/motion_impl.h"
+
+// Values of a set of patterns at one point, for rows and events.
+typedef struct pl_sheet {
+  const pl_real* real;
+  pl_prog* code;
+  void* m;
+  int time, Q, V, A, L, out;     // inputs, outputs
+} pl_sheet;
+
+struct pl_wide {
+  const pl_real *state, *fine, *coarse;   // coarse NULL: all orders are fine
+  int low;                       // orders below are fine
+  pl_motion* o;                  // for the constraints that are taken; its own memory is not used
+  void *m, *m_coarse;
+  pl_prog *top, *head, *tail;    // one more coefficient of q; the series at `length`: the fine orders, those above
+  pl_prog *head_forces, *tail_forces;     // accelerations and multipliers
+  pl_prog *clock, *left, *grid;  // time at `length`; `length` to the end; both for the grid time whose number is in `scratch`
+  pl_prog* share;                // distance of rows that are counted
+  pl_prog* drift;                // energy and what it has changed, into `scratch`
+  int t_0, q_0, v_0;             // where the series starts
+  int end_a, end_l;              // of the series at `length`
+  int tail_q, tail_v, tail_a, tail_l;
+  int from, to, step;            // time of row 0, of the end, distance of rows
+  int scratch;                   // n_q + 2 numbers
+  int energy_base;
+  pl_sheet *rows, *watched;
+  pl_row_digits digits;
+  double floor;                  // what rounding of the state leaves of a residual
+  bool held;                     // given start values are exact
+};
+
+// ---- wide_tape.c: tapes in wide numbers
+// Constants of an instance: parts of its nodes of level CONST.
+void pl_wide_constants(pl_arena* a, const pl_real* real, const pl_batch* b, int lane, pl_parts* out);
+// Values of the roots of a tape that has constants only.
+void pl_wide_roots(pl_arena* a, const pl_real* real, const pl_tape* tape, pl_parts* out);
+pl_sheet* pl_sheet_make(pl_run* run, const pl_real* real, const pl_batches* b, int n_out);
+void pl_sheet_run(pl_sheet* s);
+
+// ---- wide_make.c
+pleuel_status pl_wide_check(pl_run* run);           // whether the run can be had; fails with what stands in the way
+pleuel_status pl_wide_make(pl_run* run);            // codes and memory, for the constraints that are taken
+
+// ---- wide_start.c
+pleuel_status pl_wide_begin(pl_run* run, double t); // from the start that was found in doubles
+
+// ---- wide_run.c: as pl_motion_
+void pl_wide_copy(const pl_real* to_type, void* to, int at, const pl_real* from_type, const void* from, int from_at, int n);
+bool pl_wide_enter(pl_run* run);
+void pl_wide_expand(pl_run* run);
+void pl_wide_norms(pl_run* run, const double** q, const double** v);
+void pl_wide_advance(pl_run* run, double dt);       // the state at the end of a step: trial_q, trial_v
+bool pl_wide_project(pl_run* run, pl_projection* p);
+void pl_wide_accept(pl_run* run, bool to_end);      // time
+void pl_wide_sum(pl_run* run);                      // end_q, end_v, end_a, end_l at `length`
+void pl_wide_energy(pl_run* run, bool anew);
+// After pl_wide_advance to the root of an event that was found in doubles: Newton to the digits of the type.
+void pl_wide_refine(pl_run* run, double dt);
+
+// ---- wide_rows.c
+void pl_wide_row(pl_run* run, pl_row* row, double* out);                 // of the point
+void pl_wide_grid_row(pl_run* run, long n, pl_row* row, double* out);    // of grid time n
+
+#endif

@@ -1,0 +1,213 @@
+// What a run on wide numbers needs: whether this model can be had, codes, memory.
+#include "solve/wide_impl.h"
+
+// Orders below this are fine where the others are coarse: terms there are e^-20 of the whole, and rounding of 64 digits with them.
+enum { LOW_ORDERS = 10 };
+
+// ---------------------------------------------------------------------------------------------- what stands in the way
+static const char* in_words(const pl_run* run) { return run->options.precision == PL_PRECISION_LONG ? "long" : "quad"; }
+
+static bool changes_motion(const pl_event_setup* e) {
+  for (int i = 0; i < e->n_deeds; i++)
+    if (e->deeds[i].deed != PL_DEED_STOP && e->deeds[i].deed != PL_DEED_RECORD) return true;
+  return false;
+}
+
+static pleuel_status check_types(pl_run* run) {
+  if (run->options.precision == PL_PRECISION_LONG && pl_real_long() == NULL)
+    return pl_fail(run->job, PLEUEL_UNSUPPORTED, "precision long: this processor or compiler has no 80-bit numbers; use quad or double");
+  if (pl_real_quad() == NULL)
+    return pl_fail(run->job, PLEUEL_UNSUPPORTED, "precision %s: the compiler that built this program has no 128-bit numbers; use double", in_words(run));
+  return PLEUEL_OK;
+}
+
+static pleuel_status check_contacts(pl_run* run) {
+  const pl_setup* s = run->setup;
+  const char* mode = in_words(run);
+  if (s->n_rubs > 0)
+    return pl_fail(run->job, PLEUEL_UNSUPPORTED, "precision %s: friction (on %s) is followed in double only", mode, s->rubs[0].name);
+  for (int c = 0; c < s->n_c; c++)
+    if (s->links[c].side != 0 || s->links[c].off)
+      return pl_fail(run->job, PLEUEL_UNSUPPORTED, "precision %s: contacts that open and close (%s) are followed in double only", mode, s->links[c].name);
+  for (int e = 0; e < s->n_events; e++)
+    if (changes_motion(&s->events[e]))
+      return pl_fail(run->job, PLEUEL_UNSUPPORTED, "precision %s: event %s changes the motion, which is done in double only; record and stop are possible",
+                     mode, s->events[e].name);
+  return PLEUEL_OK;
+}
+
+pleuel_status pl_wide_check(pl_run* run) {
+  const char* mode = in_words(run);
+  PL_TRY(check_types(run));
+  PL_TRY(check_contacts(run));
+  if (run->options.method == PL_METHOD_RADAU)
+    return pl_fail(run->job, PLEUEL_UNSUPPORTED, "precision %s: the implicit method computes in double only; use the series", mode);
+  if (run->n_kinks > 0)
+    return pl_fail(run->job, PLEUEL_UNSUPPORTED, "precision %s: a force or constraint with a kink (abs, sign, min, max, if) is followed in double only", mode);
+  if (run->has_W)
+    return pl_fail(run->job, PLEUEL_UNSUPPORTED, "precision %s: forces that depend on multipliers are computed in double only", mode);
+  if (run->mass_of_speed)
+    return pl_fail(run->job, PLEUEL_UNSUPPORTED, "precision %s: masses that depend on velocities are computed in double only", mode);
+  if (run->setup->n_turns > 0)
+    return pl_fail(run->job, PLEUEL_UNSUPPORTED, "precision %s: bodies in Euler angles are followed in double only; give their axes as a quaternion", mode);
+  if (!pl_motion_fits(run))
+    return pl_fail(run->job, PLEUEL_UNSUPPORTED, "precision %s: %d coordinates and constraints are more than the %d that it is made for; use double",
+                   mode, run->n_q + run->n_c, PL_MOTION_UNKNOWNS);
+  return PLEUEL_OK;
+}
+
+// ---------------------------------------------------------------------------------------------- the series at a time
+// A series in memory: rows of n numbers, the last of them.
+typedef struct series { int rows, n, last, base, tail, end; } series;
+
+// Horner's sum of rows first .. last into `to`.  base: where row 0 lies; tail: where the sum of the rows behind lies, -1 none.
+static void sum_rows(pl_prog* c, const series* s, int i, int h, int first, int last, int tail, int to) {
+  int x = tail >= 0 ? pl_prog_load(c, tail + i, 0) : pl_prog_load(c, s->rows + last * s->n + i, 0);
+  for (int row = tail >= 0 ? last : last - 1; row >= first; row--) {
+    int from = row == 0 && s->base >= 0 ? s->base : s->rows + row * s->n;
+    x = pl_prog_op3(c, PL_PROG_FMA, x, h, pl_prog_load(c, from + i, 0));
+  }
+  pl_prog_store(c, x, to + i, 0);
+}
+
+static void end_code(pl_wide* w, pl_prog* c) {
+  c->spill = w->o->size;
+  w->o->size += c->n_registers;
+}
+
+static pl_prog* sum_code(pl_run* run, const char* name, const series* s, const int* low, bool tail) {
+  pl_wide* w = run->wide;
+  pl_prog* c = pl_prog_make(run->job->arena, name, 1);
+  int h = pl_prog_load(c, w->o->length, 0);
+  for (int k = 0; k < 2; k++)
+    for (int i = 0; i < s[k].n; i++) {
+      if (tail) sum_rows(c, &s[k], i, h, low[k] + 1, s[k].last, -1, s[k].tail);
+      else sum_rows(c, &s[k], i, h, 0, low[k], w->coarse ? s[k].tail : -1, s[k].end);
+    }
+  end_code(w, c);
+  return c;
+}
+
+// One more coefficient of q comes for nothing.
+static pl_prog* top_code(pl_run* run) {
+  const pl_motion* o = run->wide->o;
+  pl_prog* c = pl_prog_make(run->job->arena, "top", 1);
+  int by = pl_prog_number(c, run->order + 1);
+  for (int i = 0; i < o->n_q; i++) {
+    int v = pl_prog_load(c, o->V + run->order * o->n_q + i, 0);
+    pl_prog_store(c, pl_prog_op2(c, PL_PROG_DIV, v, by), o->Q + (run->order + 1) * o->n_q + i, 0);
+  }
+  end_code(run->wide, c);
+  return c;
+}
+
+static void write_clock(pl_run* run) {
+  pl_wide* w = run->wide;
+  pl_arena* a = run->job->arena;
+  int length = w->o->length;
+  pl_prog* c = w->clock = pl_prog_make(a, "clock", 1);
+  pl_prog_store(c, pl_prog_op2(c, PL_PROG_ADD, pl_prog_load(c, w->t_0, 0), pl_prog_load(c, length, 0)), w->o->time, 0);
+  end_code(w, c);
+  c = w->left = pl_prog_make(a, "left", 1);
+  pl_prog_store(c, pl_prog_op2(c, PL_PROG_SUB, pl_prog_load(c, w->to, 0), pl_prog_load(c, w->t_0, 0)), length, 0);
+  end_code(w, c);
+  c = w->grid = pl_prog_make(a, "grid", 1);
+  int t = pl_prog_op3(c, PL_PROG_FMA, pl_prog_load(c, w->scratch, 0), pl_prog_load(c, w->step, 0), pl_prog_load(c, w->from, 0));
+  pl_prog_store(c, t, w->o->time, 0);
+  pl_prog_store(c, pl_prog_op2(c, PL_PROG_SUB, t, pl_prog_load(c, w->t_0, 0)), length, 0);
+  end_code(w, c);
+}
+
+// The distance of rows that are counted: of `length`, how many are in `scratch`.
+static void write_share(pl_run* run) {
+  pl_wide* w = run->wide;
+  pl_prog* c = w->share = pl_prog_make(run->job->arena, "share", 1);
+  pl_prog_store(c, pl_prog_op2(c, PL_PROG_DIV, pl_prog_load(c, w->o->length, 0), pl_prog_load(c, w->scratch, 0)), w->step, 0);
+  end_code(w, c);
+}
+
+static void write_drift(pl_run* run) {
+  pl_wide* w = run->wide;
+  pl_prog* c = w->drift = pl_prog_make(run->job->arena, "drift", 1);
+  int E = pl_prog_op2(c, PL_PROG_ADD, pl_prog_load(c, w->o->energy, 0), pl_prog_load(c, w->o->energy + 1, 0));
+  pl_prog_store(c, pl_prog_op2(c, PL_PROG_SUB, E, pl_prog_load(c, w->energy_base, 0)), w->scratch, 0);
+  pl_prog_store(c, E, w->scratch + 1, 0);
+  end_code(w, c);
+}
+
+static void write_sums(pl_run* run) {
+  pl_wide* w = run->wide;
+  const pl_motion* o = w->o;
+  int p = run->order, n_q = run->n_q, n_c = run->n_c, all = w->coarse == NULL;
+  series state[2] = {{o->Q, n_q, p + 1, w->q_0, w->tail_q, o->end_q}, {o->V, n_q, p, w->v_0, w->tail_v, o->end_v}};
+  series forces[2] = {{o->A, n_q, p - 1, -1, w->tail_a, w->end_a}, {o->L, n_c, p - 1, -1, w->tail_l, w->end_l}};
+  int low[2] = {all ? p + 1 : w->low, all ? p : w->low}, low_forces[2] = {all ? p - 1 : w->low - 1, all ? p - 1 : w->low - 1};
+  w->top = top_code(run);
+  w->head = sum_code(run, "head", state, low, false);
+  w->head_forces = sum_code(run, "head_forces", forces, low_forces, false);
+  if (all) return;
+  w->tail = sum_code(run, "tail", state, low, true);
+  w->tail_forces = sum_code(run, "tail_forces", forces, low_forces, true);
+}
+
+// ---------------------------------------------------------------------------------------------- memory
+static int take(pl_wide* w, int n) {
+  int at = w->o->size;
+  w->o->size += n;
+  return at;
+}
+
+static void lay_out(pl_run* run) {
+  pl_wide* w = run->wide;
+  int n_q = run->n_q, n_c = run->n_c;
+  int *one[] = {&w->t_0, &w->from, &w->to, &w->step, &w->energy_base};
+  int *of_q[] = {&w->q_0, &w->v_0, &w->end_a, &w->tail_q, &w->tail_v, &w->tail_a}, *of_c[] = {&w->end_l, &w->tail_l};
+  for (size_t i = 0; i < sizeof one / sizeof *one; i++) *one[i] = take(w, 1);
+  for (size_t i = 0; i < sizeof of_q / sizeof *of_q; i++) *of_q[i] = take(w, n_q);
+  for (size_t i = 0; i < sizeof of_c / sizeof *of_c; i++) *of_c[i] = take(w, n_c);
+  w->scratch = take(w, n_q + 4);
+}
+
+static void* memory_of(pl_run* run, const pl_real* real) {
+  const pl_motion* o = run->wide->o;
+  void* m = PL_ARRAY(run->job->arena, char, ((size_t)o->size + 8) * real->size);
+  const double one = 1;
+  real->ratios(m, o->ratio, o->rest, o->orders + 2);
+  real->write(m, o->time + 1, 1, &one);
+  for (int i = 0; i < o->scales.n; i++) {
+    const pl_scale_cell* s = &o->scales.at[i];
+    if (s->from >= 0) real->move(m, s->cell, s->from, 1);
+    else real->write(m, s->cell, 1, &s->x);
+  }
+  for (int i = 0; i < o->constants.n; i++) real->set(m, o->constants.at[i].cell, o->constants.at[i].x);
+  return m;
+}
+
+static void choose_types(pl_run* run) {
+  pl_wide* w = run->wide;
+  bool quad = run->options.precision == PL_PRECISION_QUAD;
+  w->fine = pl_real_quad();
+  w->state = quad ? pl_real_quad() : pl_real_long();
+  w->low = run->order;
+  if (!quad && run->order > LOW_ORDERS) w->low = LOW_ORDERS, w->coarse = pl_real_long();
+  w->floor = 2 * w->state->epsilon;
+}
+
+pleuel_status pl_wide_make(pl_run* run) {
+  pl_wide* w = run->wide = PL_NEW(run->job->arena, pl_wide);
+  const pl_setup* s = run->setup;
+  choose_types(run);
+  w->o = pl_motion_make_for(run, w->fine);
+  if (!w->o->usable)
+    return pl_fail(run->job, PLEUEL_UNSUPPORTED, "precision %s: the mass matrix of this model needs pivots, which are chosen in double only", in_words(run));
+  lay_out(run);
+  write_sums(run);
+  write_clock(run);
+  write_share(run);
+  write_drift(run);
+  w->m = memory_of(run, w->fine);
+  if (w->coarse) w->m_coarse = memory_of(run, w->coarse);
+  w->rows = pl_sheet_make(run, w->state, &run->observers, s->n_out);
+  w->watched = pl_sheet_make(run, w->fine, &run->watched, s->n_watched);
+  return PLEUEL_OK;
+}
