@@ -95,6 +95,7 @@ void pl_traits_of(pl_traits* list, const pleuel_model* m, const pleuel_sim_optio
   add(list, a, "dt", "--dt", number(a, how->dt));
   add(list, a, "count", "count", number(a, (double)how->count));
   add(list, a, "method", "--method", method[how->method]);
+  add(list, a, "precision", "--precision", o->precision ? o->precision : "");
   add(list, a, "sensitivities", "--sensitivities", o->sensitivities ? o->sensitivities : "");
   add(list, a, "rows", "-o", o->csv ? "csv" : o->row ? "row" : "");
   add(list, a, "build", NULL, pl_copy(a, build.name));

@@ -169,7 +169,7 @@ static pleuel_status make_groups(pl_recorder* r) {
 void pl_record_slots(pl_recorder* r, pl_group* g, const pl_expr* lambda, int n_c, pl_tape_slots* out) {
   *out = (pl_tape_slots){.n_q = g->atoms.n, .q = g->atoms.at, .n_c = n_c, .lambda = lambda,
                          .n_index = g->instances.depth, .index = g->instances.symbol, .value_of_symbol = r->value,
-                         .definition = pl_exact_definitions(r)};
+                         .definition = pl_wider_definitions(r)};
 }
 
 // Fills the global coordinates and the index values of each instance.
@@ -427,7 +427,7 @@ pl_expr pl_record_with_elements(pl_recorder* r, pl_expr e, const pl_coordinate* 
     if (pl_kind_of(r->pool, g->atoms.at[i]) != PL_AT) continue;
     int at = pl_record_global(r, g->atoms.at[i]);
     if (at < 0 || !q[at].has_q) return pl_poison();
-    pl_expr given = pl_exact_element(r, at);
+    pl_expr given = pl_wider_element(r, at);
     if (!pl_is_poison(given)) {
       e = pl_subst_expr(r->pool, e, g->atoms.at[i], given);
       continue;
@@ -457,7 +457,7 @@ static bool take_start(pl_recorder* r, const pl_start_value* s, pl_coordinate* q
     pl_symbol name = s->velocity ? pl_symbol_dot(r->pool, pl_symbol_of(r->pool, atom)) : pl_symbol_of(r->pool, atom);
     if ((int)name.id < r->n_value) r->value[name.id] = x;
   }
-  pl_exact_start(r, s, value);
+  pl_wider_start(r, s, value);
   return true;
 }
 
@@ -549,7 +549,7 @@ pleuel_status pl_record(pl_job* job, pl_model* model, const char* sensitivities,
   r.value = pl_model_values(model, a);
   r.n_value = pl_symbol_count(r.pool) + 1;
   read_times(&r);
-  pl_exact_begin(&r);
+  pl_wider_begin(&r);
 
   PL_TRY(make_groups(&r));
   PL_TRY(record_patterns(&r));
@@ -559,7 +559,7 @@ pleuel_status pl_record(pl_job* job, pl_model* model, const char* sensitivities,
   PL_TRY(pl_record_events(&r));
   PL_TRY(pl_record_branches(&r));
   if (r.variation) PL_TRY(pl_variation_setup(&r));
-  PL_TRY(pl_exact_setup_make(&r));
+  PL_TRY(pl_wider_setup(&r));
   r.out->exact = exact;
   *out = r.out;
   return PLEUEL_OK;

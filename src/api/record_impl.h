@@ -95,12 +95,12 @@ pleuel_status pl_variation_record(pl_recorder* r, pl_group* g, const pl_pattern_
 void pl_variation_of_start(pl_recorder* r, const pl_start_value* s);
 pleuel_status pl_variation_setup(pl_recorder* r);
 
-// record_exact.c: what wider numbers need.  Nothing happens where they are not asked for.
-void pl_exact_begin(pl_recorder* r);
-const pl_expr* pl_exact_definitions(pl_recorder* r);           // NULL: none
-pl_expr pl_exact_element(const pl_recorder* r, int at);        // start value of a coordinate, poison where none is known
-void pl_exact_start(pl_recorder* r, const pl_start_value* s, pl_expr value);
-pleuel_status pl_exact_setup_make(pl_recorder* r);
+// record_wider.c: what wider numbers need.  Nothing happens where they are not asked for.
+void pl_wider_begin(pl_recorder* r);
+const pl_expr* pl_wider_definitions(pl_recorder* r);           // NULL: none
+pl_expr pl_wider_element(const pl_recorder* r, int at);        // start value of a coordinate, poison where none is known
+void pl_wider_start(pl_recorder* r, const pl_start_value* s, pl_expr value);
+pleuel_status pl_wider_setup(pl_recorder* r);
 
 // record_friction.c: rows of slip and their coefficients.
 pleuel_status pl_group_friction(pl_recorder* r, pl_group* g);   // before the forces of the group

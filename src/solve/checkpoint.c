@@ -12,6 +12,7 @@
 // not kept of pl_run, follows from setup and options: job setup options n_q n_c order tol_raised motion observers watched
 //   branches has_W mass_of_speed shrink h_plain h_least n_watch at_rub kinks n_kinks mode_size grid_count grid_dt
 // not kept of pl_run, follows from the point: Q V ready t_series
+// not kept of pl_run, follows from how it was started: start_given
 // not kept of pl_run, only when, never what: clock_begin t_begin considered wall_begin
 // not kept of pl_run, lives within a step: rhs Q_last A_last G_series W_series rows rank_work priority row_of row_taken
 //   taken_kept dep dep_tau dep_norm dep_jpvt trial_q trial_v save_q save_v save_a save_l save_unique impulse jump_v jump_q
@@ -35,6 +36,7 @@
 
 #include "solve/motion_impl.h"
 #include "solve/radau_impl.h"
+#include "solve/wide_impl.h"
 
 // ---------------------------------------------------------------------------------------------- whose state
 static void keep_fixed(pl_keeper* k, int x) { pl_keep_int(k, &x, x, x); }
@@ -178,6 +180,18 @@ static void keep_radau(pl_run* run, pl_keeper* k) {
   pl_keep_int(k, &r->dear, 0, INT32_MAX);
 }
 
+// ---------------------------------------------------------------------------------------------- wider numbers
+// Their memory holds the state, the time and the nodes at the point.
+static void keep_wide(pl_run* run, pl_keeper* k) {
+  pl_wide* w = run->wide;
+  pl_keep_section(k, "wide");
+  keep_fixed(k, w ? w->o->size : 0);
+  if (w == NULL) return;
+  pl_keep_bytes(k, w->m, (size_t)w->o->size * w->fine->size);
+  pl_keep_f64s(k, w->o->size_most, (size_t)w->o->n);
+  pl_keep_f64(k, &w->o->fade_best);
+}
+
 static void keep_state(pl_run* run, pl_keeper* k) {
   keep_point(run, k);
   keep_yardsticks(run, k);
@@ -187,6 +201,7 @@ static void keep_state(pl_run* run, pl_keeper* k) {
   keep_turns(run, k);
   keep_stats(run, k);
   keep_radau(run, k);
+  keep_wide(run, k);
 }
 
 // ---------------------------------------------------------------------------------------------- compiled steps
@@ -292,7 +307,7 @@ static bool makes_sense(const pl_run* run) {
   double from = run->options.t_0, to = run->options.t_end;
   bool inside = run->t >= fmin(from, to) && run->t <= fmax(from, to);
   if (!inside || !run->started || !run->begun || run->ended || run->refused) return false;
-  if (run->at_point && !(run->motion_code && run->motion_code->usable)) return false;
+  if (run->at_point && !run->wide && !(run->motion_code && run->motion_code->usable)) return false;
   if (run->radau && !(run->radau->h >= 0 && isfinite(run->radau->h))) return false;
   return isfinite(run->t_low) && isfinite(pl_norm(run->q, run->n_q)) && isfinite(pl_norm(run->v, run->n_q));
 }

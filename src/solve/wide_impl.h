@@ -24,13 +24,13 @@ struct pl_wide {
   void *m, *m_coarse;
   pl_prog *top, *head, *tail;    // one more coefficient of q; the series at `length`: the fine orders, those above
   pl_prog *head_forces, *tail_forces;     // accelerations and multipliers
-  pl_prog *clock, *left, *grid;  // time at `length`; `length` to the end; both for the grid time whose number is in `scratch`
-  pl_prog* share;                // distance of rows that are counted
+  pl_prog *clock, *left, *grid;  // time at `length`; `length` to the end; both for the row whose n `way` is in `scratch`
   pl_prog* drift;                // energy and what it has changed, into `scratch`
   int t_0, q_0, v_0;             // where the series starts
   int end_a, end_l;              // of the series at `length`
   int tail_q, tail_v, tail_a, tail_l;
-  int from, to, step;            // time of row 0, of the end, distance of rows
+  int from, to, share;           // time of row 0, of the end; row n is at n `way` / share
+  pl_parts way;
   int scratch;                   // n_q + 2 numbers
   int energy_base;
   pl_sheet *rows, *watched;
@@ -48,6 +48,7 @@ pl_sheet* pl_sheet_make(pl_run* run, const pl_real* real, const pl_batches* b, i
 void pl_sheet_run(pl_sheet* s);
 
 // ---- wide_make.c
+const char* pl_wide_name(const pl_run* run);        // of its precision
 pleuel_status pl_wide_check(pl_run* run);           // whether the run can be had; fails with what stands in the way
 pleuel_status pl_wide_make(pl_run* run);            // codes and memory, for the constraints that are taken
 

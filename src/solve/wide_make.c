@@ -5,7 +5,7 @@
 enum { LOW_ORDERS = 10 };
 
 // ---------------------------------------------------------------------------------------------- what stands in the way
-static const char* in_words(const pl_run* run) { return run->options.precision == PL_PRECISION_LONG ? "long" : "quad"; }
+const char* pl_wide_name(const pl_run* run) { return run->options.precision == PL_PRECISION_LONG ? "long" : "quad"; }
 
 static bool changes_motion(const pl_event_setup* e) {
   for (int i = 0; i < e->n_deeds; i++)
@@ -17,13 +17,13 @@ static pleuel_status check_types(pl_run* run) {
   if (run->options.precision == PL_PRECISION_LONG && pl_real_long() == NULL)
     return pl_fail(run->job, PLEUEL_UNSUPPORTED, "precision long: this processor or compiler has no 80-bit numbers; use quad or double");
   if (pl_real_quad() == NULL)
-    return pl_fail(run->job, PLEUEL_UNSUPPORTED, "precision %s: the compiler that built this program has no 128-bit numbers; use double", in_words(run));
+    return pl_fail(run->job, PLEUEL_UNSUPPORTED, "precision %s: the compiler that built this program has no 128-bit numbers; use double", pl_wide_name(run));
   return PLEUEL_OK;
 }
 
 static pleuel_status check_contacts(pl_run* run) {
   const pl_setup* s = run->setup;
-  const char* mode = in_words(run);
+  const char* mode = pl_wide_name(run);
   if (s->n_rubs > 0)
     return pl_fail(run->job, PLEUEL_UNSUPPORTED, "precision %s: friction (on %s) is followed in double only", mode, s->rubs[0].name);
   for (int c = 0; c < s->n_c; c++)
@@ -37,7 +37,7 @@ static pleuel_status check_contacts(pl_run* run) {
 }
 
 pleuel_status pl_wide_check(pl_run* run) {
-  const char* mode = in_words(run);
+  const char* mode = pl_wide_name(run);
   PL_TRY(check_types(run));
   PL_TRY(check_contacts(run));
   if (run->options.method == PL_METHOD_RADAU)
@@ -112,17 +112,10 @@ static void write_clock(pl_run* run) {
   pl_prog_store(c, pl_prog_op2(c, PL_PROG_SUB, pl_prog_load(c, w->to, 0), pl_prog_load(c, w->t_0, 0)), length, 0);
   end_code(w, c);
   c = w->grid = pl_prog_make(a, "grid", 1);
-  int t = pl_prog_op3(c, PL_PROG_FMA, pl_prog_load(c, w->scratch, 0), pl_prog_load(c, w->step, 0), pl_prog_load(c, w->from, 0));
+  int way = pl_prog_op2(c, PL_PROG_DIV, pl_prog_load(c, w->scratch, 0), pl_prog_load(c, w->share, 0));
+  int t = pl_prog_op2(c, PL_PROG_ADD, way, pl_prog_load(c, w->from, 0));
   pl_prog_store(c, t, w->o->time, 0);
   pl_prog_store(c, pl_prog_op2(c, PL_PROG_SUB, t, pl_prog_load(c, w->t_0, 0)), length, 0);
-  end_code(w, c);
-}
-
-// The distance of rows that are counted: of `length`, how many are in `scratch`.
-static void write_share(pl_run* run) {
-  pl_wide* w = run->wide;
-  pl_prog* c = w->share = pl_prog_make(run->job->arena, "share", 1);
-  pl_prog_store(c, pl_prog_op2(c, PL_PROG_DIV, pl_prog_load(c, w->o->length, 0), pl_prog_load(c, w->scratch, 0)), w->step, 0);
   end_code(w, c);
 }
 
@@ -160,7 +153,7 @@ static int take(pl_wide* w, int n) {
 static void lay_out(pl_run* run) {
   pl_wide* w = run->wide;
   int n_q = run->n_q, n_c = run->n_c;
-  int *one[] = {&w->t_0, &w->from, &w->to, &w->step, &w->energy_base};
+  int *one[] = {&w->t_0, &w->from, &w->to, &w->share, &w->energy_base};
   int *of_q[] = {&w->q_0, &w->v_0, &w->end_a, &w->tail_q, &w->tail_v, &w->tail_a}, *of_c[] = {&w->end_l, &w->tail_l};
   for (size_t i = 0; i < sizeof one / sizeof *one; i++) *one[i] = take(w, 1);
   for (size_t i = 0; i < sizeof of_q / sizeof *of_q; i++) *of_q[i] = take(w, n_q);
@@ -199,11 +192,10 @@ pleuel_status pl_wide_make(pl_run* run) {
   choose_types(run);
   w->o = pl_motion_make_for(run, w->fine);
   if (!w->o->usable)
-    return pl_fail(run->job, PLEUEL_UNSUPPORTED, "precision %s: the mass matrix of this model needs pivots, which are chosen in double only", in_words(run));
+    return pl_fail(run->job, PLEUEL_UNSUPPORTED, "precision %s: the mass matrix of this model needs pivots, which are chosen in double only", pl_wide_name(run));
   lay_out(run);
   write_sums(run);
   write_clock(run);
-  write_share(run);
   write_drift(run);
   w->m = memory_of(run, w->fine);
   if (w->coarse) w->m_coarse = memory_of(run, w->coarse);

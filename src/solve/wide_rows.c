@@ -28,13 +28,25 @@ void pl_wide_row(pl_run* run, pl_row* row, double* out) {
   fill(run, o->Q, o->V, o->A, o->L, row, out);
 }
 
+// n times the distance of rows, rounded once: each product of doubles is a sum of two.
+static void multiply(pl_wide* w, double n) {
+  pl_parts high = {{0}}, low = {{0}};
+  for (int i = 0; i < 2; i++) {
+    high.part[i] = n * w->way.part[i];
+    low.part[i] = fma(n, w->way.part[i], -high.part[i]);
+  }
+  low.part[2] = n * w->way.part[2];
+  w->fine->set(w->m, w->scratch + 1, (pl_parts){{high.part[1], low.part[1], low.part[2]}});
+  w->fine->set(w->m, w->scratch, (pl_parts){{high.part[0], low.part[0], 0}});
+  w->fine->add(w->m, w->scratch, w->scratch + 1, 1);
+}
+
 void pl_wide_grid_row(pl_run* run, long n, pl_row* row, double* out) {
   pl_wide* w = run->wide;
   const pl_motion* o = w->o;
-  double number = (double)n;
   // the end of the step stands in `time` and `length`, and is needed there later
   pl_parts end = w->fine->get(w->m, o->time), length = w->fine->get(w->m, o->length);
-  w->fine->write(w->m, w->scratch, 1, &number);
+  multiply(w, (double)n);
   w->fine->interpret(w->grid, w->m, 0, 1);
   pl_wide_sum(run);
   fill(run, o->end_q, o->end_v, w->end_a, w->end_l, row, out);

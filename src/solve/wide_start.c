@@ -22,16 +22,14 @@ static void set_times(pl_run* run, double t, const pl_parts* exact) {
     for (int i = 0; i < 3; i++) step.part[i] = -step.part[i];
   w->fine->set(w->m, w->from, from);
   w->fine->set(w->m, w->to, to);
-  w->fine->set(w->m, w->step, step);
   w->fine->set(w->m, w->o->time, t == o->t_0 ? from : (pl_parts){{t}});
-  if (o->count > 0) {
-    // (to - from) / count, by the code of the last step
-    double count = (double)o->count;
-    w->fine->move(w->m, w->t_0, w->from, 1);
-    w->fine->interpret(w->left, w->m, 0, 1);
-    w->fine->write(w->m, w->scratch, 1, &count);
-    w->fine->interpret(w->share, w->m, 0, 1);
-  }
+  double share = o->count > 0 ? (double)o->count : 1;
+  w->fine->write(w->m, w->share, 1, &share);
+  w->way = step;
+  if (o->count == 0) return;
+  w->fine->move(w->m, w->t_0, w->from, 1);
+  w->fine->interpret(w->left, w->m, 0, 1);
+  w->way = w->fine->get(w->m, w->o->length);
 }
 
 // Given values exactly; what the start in doubles found for the others.
@@ -96,7 +94,7 @@ static void refine(pl_run* run) {
 }
 
 static pleuel_status lost(pl_run* run) {
-  return pl_fail(run->job, PLEUEL_NUMERICAL, "the start could not be refined to the digits of the numbers asked for; use precision double");
+  return pl_fail(run->job, PLEUEL_NUMERICAL, "precision %s: the start could not be refined to its digits; use double", pl_wide_name(run));
 }
 
 pleuel_status pl_wide_begin(pl_run* run, double t) {

@@ -5,7 +5,7 @@
 
 #include "api/record_impl.h"
 
-void pl_exact_begin(pl_recorder* r) {
+void pl_wider_begin(pl_recorder* r) {
   if (!r->exact) return;
   r->n_definitions = pl_symbol_count(r->pool) + 1;
   r->definition = pl_model_definitions(r->model, r->arena);
@@ -14,7 +14,7 @@ void pl_exact_begin(pl_recorder* r) {
 }
 
 // Symbols may have been made since.
-const pl_expr* pl_exact_definitions(pl_recorder* r) {
+const pl_expr* pl_wider_definitions(pl_recorder* r) {
   int n = pl_symbol_count(r->pool) + 1;
   if (!r->exact) return NULL;
   if (n <= r->n_definitions) return r->definition;
@@ -25,15 +25,15 @@ const pl_expr* pl_exact_definitions(pl_recorder* r) {
   return more;
 }
 
-pl_expr pl_exact_element(const pl_recorder* r, int at) { return r->exact ? r->start_q[at] : pl_poison(); }
+pl_expr pl_wider_element(const pl_recorder* r, int at) { return r->exact ? r->start_q[at] : pl_poison(); }
 
-void pl_exact_start(pl_recorder* r, const pl_start_value* s, pl_expr value) {
+void pl_wider_start(pl_recorder* r, const pl_start_value* s, pl_expr value) {
   if (!r->exact || s->guess) return;
   // indices have values only as long as their block is at work
   int n = pl_symbols_in(r->pool, value, NULL, 0);
   pl_symbol* symbol = PL_ARRAY(r->arena, pl_symbol, n + 1);
   pl_symbols_in(r->pool, value, symbol, n);
-  pl_exact_definitions(r);
+  pl_wider_definitions(r);
   for (int i = 0; i < n; i++) {
     double x = (int)symbol[i].id < r->n_value ? r->value[symbol[i].id] : (double)NAN;
     bool is_index = pl_symbol_get(r->pool, symbol[i])->role == PL_R_INDEX && pl_is_poison(r->definition[symbol[i].id]);
@@ -44,7 +44,7 @@ void pl_exact_start(pl_recorder* r, const pl_start_value* s, pl_expr value) {
   if (pl_kind_of(r->pool, atom) != PL_SYMBOL) return;
   pl_symbol name = pl_symbol_of(r->pool, atom);
   if (s->velocity) name = pl_symbol_dot(r->pool, name);
-  pl_exact_definitions(r);
+  pl_wider_definitions(r);
   r->definition[name.id] = value;
 }
 
@@ -57,7 +57,7 @@ static int add(pl_recorder* r, roots* all, pl_expr e) {
   return all->list.n - 1;
 }
 
-pleuel_status pl_exact_setup_make(pl_recorder* r) {
+pleuel_status pl_wider_setup(pl_recorder* r) {
   if (!r->exact) return PLEUEL_OK;
   const pl_simulate* s = &r->model->simulate;
   int n = r->out->flat.n, *q = PL_ARRAY(r->arena, int, n + 1), *v = PL_ARRAY(r->arena, int, n + 1);
@@ -72,7 +72,7 @@ pleuel_status pl_exact_setup_make(pl_recorder* r) {
   }
   out->q = q;
   out->v = v;
-  pl_tape_slots slots = {.value_of_symbol = r->value, .definition = pl_exact_definitions(r)};
+  pl_tape_slots slots = {.value_of_symbol = r->value, .definition = pl_wider_definitions(r)};
   pl_tape* tape;
   PL_TRY(pl_tape_record(r->job, r->pool, &slots, all.list.at, NULL, all.list.n, &tape));
   out->tape = tape;
