@@ -291,6 +291,63 @@ static void an_oscillation_is_not_taken_for_stiffness(void** state) {
   t_close(b);
 }
 
+// ---------------------------------------------------------------------------------------------- large systems
+// Masses on a line between hard springs and dampers, each in a potential -cos x; the first is held.
+static t_bench* line(int n, pl_method method, double t_end, double tol) {
+  t_bench* b = t_open();
+  pl_expr K = t_param(b, "K", 1e6), c = t_param(b, "c", 2e3), L = pl_int(P, 0);
+  for (int i = 0; i < n; i++) {
+    pl_expr x = t_coord(b, pl_format(b->arena, "x%d", i));
+    L = pl_add(P, L, pl_add(P, half(b, sq(b, b->v[i])), pl_call(P, PL_COS, x)));
+    b->force[i] = pl_int(P, 0);
+    t_start(b, i, 0.01 * i, 0.5 * sin(M_PI * i / (2 * n - 1)));   // its slowest oscillation
+  }
+  for (int i = 1; i < n; i++) {
+    pl_expr stretch = pl_sub(P, b->q[i], b->q[i - 1]), pull = mul(b, c, pl_sub(P, b->v[i], b->v[i - 1]));
+    L = pl_sub(P, L, half(b, mul(b, K, sq(b, pl_sub(P, stretch, pl_ratio(P, 1, 100))))));
+    b->force[i - 1] = pl_add(P, b->force[i - 1], pull);
+    b->force[i] = pl_sub(P, b->force[i], pull);
+  }
+  t_constraint(b, "held", b->q[0]);
+  b->options.method = method;
+  assert_int_equal(t_make(b, L, t_end, tol), PLEUEL_OK);
+  return b;
+}
+
+static void a_long_line_of_hard_springs_agrees_with_the_series(void** state) {
+  (void)state;
+  enum { N = 150 };
+  t_bench* a = line(N, PL_METHOD_TAYLOR, 0.3, 1e-13);
+  assert_int_equal(pl_run_to_end(a->run), PLEUEL_OK);
+  for (double tol = 1e-6; tol > 1e-12; tol *= 1e-3) {
+    t_bench* b = line(N, PL_METHOD_RADAU, 0.3, tol);
+    assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
+    assert_true(b->run->radau->sparse != NULL);
+    double off = 0;
+    for (int i = 0; i < N; i++) off = fmax(off, fabs(pl_run_q(b->run)[i] - pl_run_q(a->run)[i]));
+    printf("# line, tol %.0e: %ld and %ld steps, off %.1e, λ off %.1e\n", tol, pl_run_stats(a->run)->steps,
+           pl_run_stats(b->run)->steps, off, pl_run_lambda(b->run)[0] - pl_run_lambda(a->run)[0]);
+    assert_true(off < 20 * tol && pl_run_stats(b->run)->steps < 200);
+    t_close(b);
+  }
+  t_close(a);
+}
+
+// A line of many is recognised as stiff, and nothing else follows from that.
+static void a_long_stiff_line_is_recognised(void** state) {
+  (void)state;
+  t_bench *a = line(150, PL_METHOD_RADAU, 1, 1e-9), *b = line(150, PL_METHOD_AUTO, 1, 1e-8);
+  assert_int_equal(pl_run_to_end(a->run), PLEUEL_OK);
+  assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
+  double off = 0;
+  for (int i = 0; i < 150; i++) off = fmax(off, fabs(pl_run_q(b->run)[i] - pl_run_q(a->run)[i]));
+  const pl_stats* s = pl_run_stats(b->run);
+  printf("# long line: implicit from t = %.3g, %ld of %ld steps, off %.1e\n", s->t_implicit, s->steps_implicit, s->steps, off);
+  assert_true(s->steps_implicit > 10 && off < 1e-6);
+  t_close(a);
+  t_close(b);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_coefficients_meet_the_order_conditions),
@@ -301,6 +358,8 @@ int main(void) {
       cmocka_unit_test(rows_between_and_events_are_as_exact_as_steps),
       cmocka_unit_test(it_runs_backwards),
       cmocka_unit_test(a_stiff_motion_is_recognised),
+      cmocka_unit_test(a_long_line_of_hard_springs_agrees_with_the_series),
+      cmocka_unit_test(a_long_stiff_line_is_recognised),
       cmocka_unit_test(an_oscillation_is_not_taken_for_stiffness),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

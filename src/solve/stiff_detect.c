@@ -57,7 +57,7 @@ static double cost_of_sweeps(const pl_run* run) {
 static double cost_of_systems(const pl_run* run) {
   const pl_radau* r = run->radau;
   double s = r->method.s, n = r->n;
-  if (r->sparse) return (1 + 4 * r->method.n_pairs) * (pl_zsparse_work(r->sparse_pair[0]) / 2 + 40.0 * r->shape.n_values);
+  if (r->sparse) return (1 + 4 * r->method.n_pairs) * (pl_zsparse_work(r->sparse_pair[0]) / 2 + 10.0 * r->shape.n_values);
   return (r->couples ? s * s * s : 2 * s) * n * n * n / 8;
 }
 
