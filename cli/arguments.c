@@ -104,6 +104,9 @@ static int apply(cli_options* o, const cli_flag* f, char* value) {
     case CLI_TEXT:
       if (!*value) return cli_error(EXIT_USAGE, "--%s needs %s", f->name, f->argument);
       break;
+    case CLI_OPTIONAL:
+      *(const char**)(void*)(base + f->offset) = value ? value : "";
+      return EXIT_DONE;
   }
   *(const char**)(void*)(base + f->offset) = value;
   return EXIT_DONE;
@@ -126,8 +129,9 @@ int cli_parse(const cli_verb* v, cli_options* o, int argc, char** argv) {
   char shorts[2 * MAX_FLAGS + 2] = ":";
   int n = 0;
   for (const cli_flag* f = v->flags; f->name; f++, n++) {
-    bool takes = f->kind != CLI_SWITCH;
-    longs[n] = (struct option){f->name, takes ? required_argument : no_argument, NULL, FIRST_LONG + n};
+    bool takes = f->kind != CLI_SWITCH && f->kind != CLI_OPTIONAL;
+    int has = takes ? required_argument : f->kind == CLI_OPTIONAL ? optional_argument : no_argument;
+    longs[n] = (struct option){f->name, has, NULL, FIRST_LONG + n};
     if (f->letter) {
       size_t at = strlen(shorts);
       shorts[at++] = f->letter;

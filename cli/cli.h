@@ -21,7 +21,7 @@ enum { CLI_MAX_FILES = 256, CLI_MAX_SETTINGS = 64 };
 
 // Every flag of every verb has a member here; a verb's table says which of them it takes.
 typedef struct cli_options {
-  const char *only, *steps, *lang, *math, *output, *until, *tol, *dt, *method, *engine, *precision, *sensitivities, *checkpoint, *after, *color, *from, *to, *data, *macros, *size, *style, *show, *fps;
+  const char *only, *steps, *lang, *math, *output, *until, *tol, *dt, *method, *engine, *precision, *sensitivities, *certify, *checkpoint, *after, *color, *from, *to, *data, *macros, *size, *style, *show, *fps;
   bool json, terse, strict, force, resume, events, verbose, check, unicode, ascii, timing, no_simulation, no_font, no_animation, list, help, standalone, no_figure, no_forces, forces;
   const char* files[CLI_MAX_FILES];
   int n_files;
@@ -29,7 +29,7 @@ typedef struct cli_options {
   int n_settings;
 } cli_options;
 
-typedef enum cli_flag_kind { CLI_SWITCH, CLI_TEXT, CLI_CHOICE, CLI_SETTING } cli_flag_kind;
+typedef enum cli_flag_kind { CLI_SWITCH, CLI_TEXT, CLI_CHOICE, CLI_SETTING, CLI_OPTIONAL /* --name or --name=VALUE; "" without */ } cli_flag_kind;
 typedef struct cli_flag {
   const char* name;      // "only"
   char letter;           // 'o', or 0

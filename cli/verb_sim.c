@@ -15,6 +15,7 @@ const cli_flag flags_sim[] = {
   {"precision", 0, CLI_TEXT, CLI_AT(precision), "NAME", "double, long (80 bits, long runs), quad (128 bits)"},
   {"verbose", 'v', CLI_SWITCH, CLI_AT(verbose), NULL, "tell too how the steps were computed"},
   {"sensitivities", 0, CLI_TEXT, CLI_AT(sensitivities), "NAMES", "derivatives by these too: m2,x0"},
+  {"certify", 0, CLI_OPTIONAL, CLI_AT(certify), "=WIDTH", "prove intervals for the true motion, this narrow (1e-18)"},
   CLI_FLAG_SET,
   {"resume", 0, CLI_SWITCH, CLI_AT(resume), NULL, "go on with a run that was interrupted"},
   {"checkpoint", 0, CLI_TEXT, CLI_AT(checkpoint), "SECONDS", "how often the state of a run is kept: 10"},
@@ -84,6 +85,9 @@ int verb_sim(pleuel* ctx, const cli_options* o) {
   int code = quantity(ctx, "until", o->until, &how.has_until, &how.until);
   if (!code) code = quantity(ctx, "dt", o->dt, &how.has_dt, &how.dt);
   if (!code) code = quantity(ctx, "tol", o->tol, &how.has_tol, &how.tol);
+  int has_width = 0;
+  how.certify = o->certify != NULL;
+  if (!code && how.certify && *o->certify) code = quantity(ctx, "certify", o->certify, &has_width, &how.certify_width);
   if (!code && o->output) code = unsupported_output(o->output);
   if (!code && o->resume && (!o->output || to_stdout)) code = cli_error(EXIT_USAGE, "--resume needs rows in a file: -o FILE.csv");
   if (!code && o->checkpoint) code = interval(ctx, o->checkpoint, &how.state_every);

@@ -264,6 +264,9 @@ typedef struct pleuel_sim_options {
   double state_every;                /* s by the clock from state to state; 0: 10; below 0: only when interrupted     */
   int resume;
   const char *resume_command;        /* told when the run was interrupted and its state kept; NULL: the file is told */
+  int certify;                      /* 1: prove intervals for the true motion, at the end or at the times of dt; they are told by
+                                     * pleuel_simulation_text and _json                                           */
+  double certify_width;             /* largest half width wanted, relative to the largest coordinate or velocity; 0: 1e-18 */
   const char *precision;            /* "double" (default); "long": 64 binary digits, rounded once a step, for long runs; "quad":
                                      * 113 binary digits.  CSV then has all their digits                           */
   const char *until_as_written, *dt_as_written;   /* with the numbers above: the same as text, "0.1", "500[ms]", so that they are

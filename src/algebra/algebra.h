@@ -25,6 +25,9 @@ void pl_tower_probe(pl_tower* t, const double* value_of_symbol);
 void pl_tower_free(pl_tower* t);
 // Frees what FLINT keeps for the calling thread.  Only when no tower of this thread is alive.
 void pl_algebra_thread_end(void);
+// Runs a body that uses FLINT outside of a tower.  false: FLINT aborted, and what it held is lost.  The body lets nothing
+// else unwind through it.
+bool pl_algebra_guarded(void (*body)(void* data), void* data);
 
 // The assumptions that were used so far, as differences known to be > 0 or >= 0; n in *n.  "used: m1 > 0, r < l".
 const pl_fact* pl_tower_used(const pl_tower* t, int* n);

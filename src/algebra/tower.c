@@ -125,6 +125,19 @@ bool pl_tower_run(pl_tower* t, void (*body)(pl_tower* t, void* data), void* data
   pl_unwind(t->arena, guard.status);
 }
 
+bool pl_algebra_guarded(void (*body)(void* data), void* data) {
+  pl_entry e = {.outer_any = innermost};
+  innermost = &e;
+  flint_set_abort(on_flint_abort);
+  volatile bool done = false;
+  if (setjmp(e.at) == 0) {
+    body(data);
+    done = true;
+  }
+  innermost = e.outer_any;
+  return done;
+}
+
 _Noreturn void pl_tower_give_up(pl_tower* t) { longjmp(t->entry->at, PL_J_GIVE_UP); }
 
 _Noreturn void pl_tower_restart(pl_tower* t) {

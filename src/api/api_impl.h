@@ -20,6 +20,9 @@ struct pleuel {
   pleuel_model* first;            // models that are open
 };
 
+// A start value as written: its expression, in which the indices of an instance may stand.  Poison: none given.
+typedef struct pl_exact_start { pl_expr value; const pl_instances* instances; int instance; } pl_exact_start;
+
 // What the simulation needs, translated from the model (record.c).
 typedef struct pl_recording {
   pl_setup setup;
@@ -27,6 +30,7 @@ typedef struct pl_recording {
   long count;
   pl_flat_coords flat;            // coordinate of each index of the setup
   int n_declared;                 // constraints before the map equations
+  pl_exact_start *exact_q, *exact_v;   // of each coordinate                                          (flat.n)
   // with sensitivities: coordinates stand in blocks of flat.n, the motion and its variation by turns
   int n_directions;
   const double *varied_q, *varied_v;   // variations of the start values that are given  (n_directions x flat.n)
@@ -68,6 +72,7 @@ struct pleuel_model {
   bool tol_raised, start_reported;
   double tol_used;
   char run_message[512];
+  struct pl_certificate_of_run* certified;   // what `certify` found; NULL: not asked for
   pl_keeping* keeping;            // of the run at work; NULL: its state is not kept
   pl_kept kept;
   char kept_why[128];             // PL_KEPT_FAILED
@@ -133,5 +138,12 @@ void pl_motion_json(pl_text* out, const pleuel_model* m);
 
 // ---- summary.c: what `check` says
 void pl_check_summary(pl_text* out, const pleuel_model* m, pl_language lang);
+
+// ---- certified.c: the proven enclosure of a run; certified_words.c: what is said of it
+// The start of the run, before it moves; then, when it is over, the enclosure and how far the run is from it.
+void pl_certify_begin(pleuel_model* m, const pleuel_sim_options* o, const pl_run* run);
+pleuel_status pl_certify_end_of_run(pleuel_model* m, const pleuel_sim_options* o);
+void pl_certified_text(pl_text* out, const pleuel_model* m, pl_language lang, bool ascii);
+void pl_certified_json(pl_json* j, const pleuel_model* m);
 
 #endif

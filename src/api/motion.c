@@ -186,6 +186,7 @@ void pl_motion_text(pl_text* out, const pleuel_model* m, pl_language lang, bool 
                  number(&t, end, DIGITS), unit);
     tell_events(&t);
     if (!events_only) tell_accuracy(&t);
+    pl_certified_text(out, m, lang, ascii);
   }
   tell_stop(&t, started);
 }
@@ -260,6 +261,7 @@ void pl_motion_json(pl_text* out, const pleuel_model* m) {
   pl_json_list(&j, "events");
   for (int i = 0; r && i < r->events.n; i++) json_event(&j, m, &r->events.at[i]);
   pl_json_end_list(&j);
+  pl_certified_json(&j, m);
   pl_json_list(&j, "notes");
   for (int i = 0; i < m->diagnostics.list.n; i++) {
     const pl_diagnostic* d = &m->diagnostics.list.at[i];

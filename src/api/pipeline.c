@@ -335,6 +335,9 @@ static void tell_inelastic(pleuel_model* m) {
                   pl_format(m->arena, "das Stoßgesetz angeben: restitution 0 on %s", e->label), NULL);
   }
   if (m->diagnostics.list.n > before) pl_diagnostics_sort(&m->diagnostics);
+  if (o->certify && !(o->certify_width >= 0 && o->certify_width < 1e-4)) {
+    return pl_fail(&m->job, PLEUEL_USAGE, "the width of an enclosure lies between 0 and 1e-4");
+  }
 }
 
 // setup -> motion
@@ -342,6 +345,7 @@ pleuel_status pl_pipeline_run(pleuel_model* m, const pleuel_sim_options* o) {
   m->is_run = true;
   m->result = NULL;
   m->run_message[0] = '\0';
+  if (o->certify && o->resume) return pl_fail(&m->job, PLEUEL_USAGE, "a run that goes on from a state cannot be certified");
   m->keeping = NULL;
   m->kept = PL_KEPT_NO;
   m->resumed_at = (double)NAN;
@@ -355,7 +359,7 @@ pleuel_status pl_pipeline_run(pleuel_model* m, const pleuel_sim_options* o) {
     return m->run;
   }
   double start = pl_clock();
-  m->result = pl_result_make(m->arena, false);
+  m->result = pl_result_make(m->arena, o->certify);   // with all rows: each is compared with its enclosure
   m->keeping = pl_keeping_make(m, o);
   pl_run* run = NULL;
   m->run = pl_pipeline_start(m, o, &run);
@@ -365,5 +369,8 @@ pleuel_status pl_pipeline_run(pleuel_model* m, const pleuel_sim_options* o) {
   tell_inelastic(m);
   if (m->run != PLEUEL_OK) snprintf(m->run_message, sizeof m->run_message, "%s", m->job.message);
   note_time(m, PL_STAGE_RUN, start);
-  return m->run;
+  pleuel_status proved = pl_certify_end_of_run(m, o);
+  return m->run == PLEUEL_OK ? proved : m->run;
 }
+  m->certified = NULL;
+  if (m->run == PLEUEL_OK) pl_certify_begin(m, o, run);

@@ -446,6 +446,7 @@ static bool take_start(pl_recorder* r, const pl_start_value* s, pl_coordinate* q
   pl_expr value = pl_record_with_elements(r, s->value, q);
   double x = pl_record_number(r, value);
   if (!isfinite(x)) return false;
+  if (!s->guess) (s->velocity ? r->out->exact_v : r->out->exact_q)[s->at] = (pl_exact_start){s->value, s->instances, s->instance};
   pl_coordinate* c = &q[s->at];
   if (s->guess && s->velocity) c->has_v_guess = true, c->v_guess = x;
   else if (s->guess) c->has_guess = true, c->guess = x;
@@ -491,7 +492,7 @@ static pleuel_status make_starts(pl_recorder* r, pl_coordinate* q) {
     PL_TRY(group_for(r, init->block, &g));
     for (int k = 0; k < g->instances.n; k++) {
       set_indices(r, &g->instances, k);
-      pl_start_value s = {.guess = init->guess, .value = init->value};
+      pl_start_value s = {.guess = init->guess, .value = init->value, .instances = &g->instances, .instance = k};
       PL_TRY(pl_record_check(r, &init->value, 1));
       PL_TRY(pl_record_target(r, init->target, &s));
       if (take_start(r, &s, q)) continue;
@@ -518,6 +519,8 @@ static pleuel_status make_coordinates(pl_recorder* r) {
   pl_coordinate* q = PL_ARRAY(r->arena, pl_coordinate, r->out->flat.n + 1);
   for (int i = 0; i < r->out->flat.n; i++) name_coordinate(r, r->out->flat.at[i], &q[i]);
   r->out->setup.coordinates = q;
+  r->out->exact_q = PL_ARRAY(r->arena, pl_exact_start, r->out->flat.n + 1);
+  r->out->exact_v = PL_ARRAY(r->arena, pl_exact_start, r->out->flat.n + 1);
   PL_TRY(make_starts(r, q));
   r->out->setup.n_q = r->out->flat.n;
   return PLEUEL_OK;

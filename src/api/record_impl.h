@@ -77,7 +77,13 @@ pl_expr pl_record_plain(pl_recorder* r, pl_expr e);           // sums over indic
 void pl_group_atoms(pl_recorder* r, pl_group* g, pl_expr e);  // adds the coordinates of e
 double pl_record_number(pl_recorder* r, pl_expr e);           // NaN when it is none
 
-typedef struct pl_start_value { int at; bool velocity, guess; pl_expr value; } pl_start_value;
+typedef struct pl_start_value {
+  int at;
+  bool velocity, guess;
+  pl_expr value;
+  const pl_instances* instances;   // whose indices stand in the value
+  int instance;
+} pl_start_value;
 bool pl_record_index(pl_recorder* r, pl_expr e, long* out);                       // a whole number
 pleuel_status pl_record_check(pl_recorder* r, const pl_expr* e, int n);           // every parameter in them has a number
 void pl_record_slots(pl_recorder* r, pl_group* g, const pl_expr* lambda, int n_c, pl_tape_slots* out);

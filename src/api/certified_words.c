@@ -1,0 +1,210 @@
+// What is said of a certified run: in words, and as JSON.
+#include <math.h>
+
+#include "api/certified_impl.h"
+
+typedef struct teller {
+  pl_text* out;
+  const pleuel_model* m;
+  const pl_certificate_of_run* c;
+  pl_arena* arena;
+  pl_language lang;
+  bool ascii;
+  pl_notation notation;
+} teller;
+
+static const char* say(const teller* t, const char* const words[2]) {
+  return t->ascii ? pl_plain_ascii(t->arena, words[t->lang]) : words[t->lang];
+}
+
+static const char* number(const teller* t, double x, int digits) { return pl_notation_number(t->arena, x, digits, t->notation); }
+
+// A bound is rounded up.
+static const char* bound(const teller* t, double x) {
+  if (!(x > 0) || isinf(x)) return number(t, x, 2);
+  double unit = pow(10, floor(log10(x)) - 1);
+  return number(t, fmax(ceil(x / unit) * unit, x), 2);
+}
+
+// ---------------------------------------------------------------------------------------------- reasons
+static const char* const refusal_words[PL_N_REFUSALS][2] = {
+  [PL_REFUSED_RUN] = {"the run did not reach its end", "die Rechnung kam nicht bis zu ihrem Ende"},
+  [PL_REFUSED_CONTACT] = {"%s is one-sided, and contacts are not certified", "%s ist einseitig, und Kontakte werden nicht zertifiziert"},
+  [PL_REFUSED_FRICTION] = {"there is friction on %s, which is not certified", "an %s wirkt Reibung, und die wird nicht zertifiziert"},
+  [PL_REFUSED_EVENT] = {"the event %s may change or end the motion", "das Ereignis %s kann die Bewegung ändern oder beenden"},
+  [PL_REFUSED_TURN] = {"bodies whose attitude is a quaternion are not certified", "Körper, deren Lage ein Quaternion ist, werden nicht zertifiziert"},
+  [PL_REFUSED_SENSITIVITIES] = {"sensitivities are not certified", "Empfindlichkeiten werden nicht zertifiziert"},
+  [PL_REFUSED_ROWS] = {"there are too many rows", "es sind zu viele Zeilen"},
+  [PL_REFUSED_TIME] = {"the times are not exact", "die Zeiten sind nicht exakt"},
+};
+
+static const char* const end_words[PL_N_CERTIFY_ENDS][2] = {
+  [PL_CERTIFY_TOO_LARGE] = {"the system is too large", "das System ist zu groß"},
+  [PL_CERTIFY_NO_EXACT] = {"%s has no exact value", "%s hat keinen exakten Wert"},
+  [PL_CERTIFY_REDUNDANT] = {"constraints may depend on each other, and that they do is not proved",
+                            "Zwangsbedingungen hängen vielleicht voneinander ab, und das ist nicht bewiesen"},
+  [PL_CERTIFY_START] = {"that a start exists near that of the run is not proved",
+                        "dass es nahe dem Anfang der Rechnung einen exakten gibt, ist nicht bewiesen"},
+  [PL_CERTIFY_ELSEWHERE] = {"the exact start is not that of the run", "der exakte Anfang ist nicht der der Rechnung"},
+  [PL_CERTIFY_STEP] = {"no further step could be proved: the position is nearly singular, or a function is at the end of its domain or at a kink",
+                       "kein weiterer Schritt ließ sich beweisen: die Lage ist fast singulär, oder eine Funktion ist am Rand ihres Bereichs oder an einem Knick"},
+  [PL_CERTIFY_BUDGET] = {"the work that is allowed is used up", "die erlaubte Arbeit ist aufgebraucht"},
+  [PL_CERTIFY_WIDE] = {"the precision that is allowed does not suffice", "die erlaubte Genauigkeit reicht nicht"},
+  [PL_CERTIFY_INTERRUPTED] = {"interrupted", "unterbrochen"},
+};
+
+// ORDER REFUSALS, ORDER ENDS: words of the JSON document.
+static const char* const refusal_names[PL_N_REFUSALS] = {NULL, "run", "contact", "friction", "event", "attitude", "sensitivities", "rows", "time"};
+static const char* const end_names[PL_N_CERTIFY_ENDS] = {NULL, "size", "number", "redundant", "start", "elsewhere", "step", "budget", "width", "interrupted"};
+
+static const char* reason(const teller* t) {
+  const pl_certificate_of_run* c = t->c;
+  if (c->refusal != PL_CERTIFY_TRIED) return pl_format(t->arena, say(t, refusal_words[c->refusal]), c->refused_name ? c->refused_name : "");
+  if (c->proof.end == PL_CERTIFIED) return "";
+  return pl_format(t->arena, say(t, end_words[c->proof.end]), c->proof.what ? c->proof.what : "?");
+}
+
+// ---------------------------------------------------------------------------------------------- one time
+typedef struct extremes {
+  double radius, error, least;
+  int worst;             // value with the largest error, -1 none
+} extremes;
+
+static extremes extremes_of(const pl_certificate_of_run* c, int time, int from, int to) {
+  extremes e = {0, 0, 0, -1};
+  const pl_certified_value* v = c->value + (size_t)time * (size_t)(2 * c->n_q + c->n_c);
+  for (int i = from; i < to; i++) {
+    if (!v[i].text) continue;
+    e.radius = fmax(e.radius, v[i].radius);
+    if (!(v[i].error >= e.error)) continue;
+    e.error = v[i].error;
+    e.least = v[i].least;
+    e.worst = i;
+  }
+  return e;
+}
+
+static const char* name_of(const teller* t, int i) {
+  const pl_setup* s = &t->m->recording->setup;
+  if (i < s->n_q) return s->coordinates[i].name;
+  if (i < 2 * s->n_q) return s->coordinates[i - s->n_q].v_name;
+  return s->links[i - 2 * s->n_q].column;
+}
+
+static void tell_group(teller* t, int time, int from, int to, const char* const what[2]) {
+  extremes e = extremes_of(t->c, time, from, to);
+  if (e.worst < 0 && e.radius == 0) return;
+  static const char* const within[2] = {"       %s: proved to within %s", "       %s: auf %s bewiesen"};
+  static const char* const off[2] = {"; this run is off by %s (%s)\n", "; diese Rechnung weicht um %s ab (%s)\n"};
+  static const char* const at_most[2] = {"; this run is off by at most %s (%s)\n", "; diese Rechnung weicht um höchstens %s ab (%s)\n"};
+  pl_text_addf(t->out, say(t, within), say(t, what), bound(t, e.radius));
+  if (e.worst < 0) pl_text_add(t->out, "\n");
+  else pl_text_addf(t->out, say(t, e.least > 0 ? off : at_most), bound(t, e.error), name_of(t, e.worst));
+}
+
+static void tell_time(teller* t, int time) {
+  static const char* const head[2] = {"     certified at t = %s%s\n", "     zertifiziert bei t = %s%s\n"};
+  static const char* const q[2] = {"coordinates", "Koordinaten"}, * const v[2] = {"velocities", "Geschwindigkeiten"},
+                   * const l[2] = {"multipliers", "Multiplikatoren"};
+  const pl_certificate_of_run* c = t->c;
+  pl_text_addf(t->out, say(t, head), number(t, c->time[time], 12), t->m->model->uses_units ? " s" : "");
+  tell_group(t, time, 0, c->n_q, q);
+  tell_group(t, time, c->n_q, 2 * c->n_q, v);
+  tell_group(t, time, 2 * c->n_q, 2 * c->n_q + c->n_c, l);
+}
+
+// ---------------------------------------------------------------------------------------------- all
+static void tell_start(teller* t) {
+  const pl_certified* p = &t->c->proof;
+  static const char* const pinned[2] = {"     nothing determines the start of %s: the number of the run was taken as exact\n",
+                                        "     den Anfang von %s bestimmt nichts: die Zahl der Rechnung gilt als exakt\n"};
+  static const char* const moved[2] = {"     the start given for %s contradicts the constraints by %s (relative) and was replaced by what follows from them\n",
+                                       "     der gegebene Anfang von %s widerspricht den Zwangsbedingungen um %s (relativ) und wurde durch das ersetzt, was aus ihnen folgt\n"};
+  for (int i = 0; i < p->n_pinned; i++) pl_text_addf(t->out, say(t, pinned), name_of(t, p->pinned[i]));
+  for (int i = 0; i < p->n_moved; i++) pl_text_addf(t->out, say(t, moved), name_of(t, p->moved_q[i]), bound(t, p->moved));
+}
+
+static void tell_how(teller* t) {
+  const pl_certified* p = &t->c->proof;
+  static const char* const how[2] = {"       %ld proved steps of order up to %d in balls of %ld bits; the motion and the arithmetic widened them by %s bits\n",
+                                     "       %ld bewiesene Schritte der Ordnung bis %d in Kugeln von %ld Bit; Bewegung und Arithmetik weiteten sie um %s Bit\n"};
+  if (p->steps > 0) pl_text_addf(t->out, say(t, how), p->steps, p->order, p->bits, number(t, fmax(p->bits_lost, 0), 3));
+}
+
+void pl_certified_text(pl_text* out, const pleuel_model* m, pl_language lang, bool ascii) {
+  const pl_certificate_of_run* c = m->certified;
+  if (!c) return;
+  teller t = {out, m, c, m->arena, lang, ascii, {ascii ? PL_MATH_ASCII : PL_MATH_LINE, lang}};
+  static const char* const not_at_all[2] = {"     not certified: %s\n", "     nicht zertifiziert: %s\n"};
+  static const char* const until[2] = {"     the motion exists until t = %s, beyond it nothing is certified: %s\n",
+                                       "     die Bewegung existiert bis t = %s, danach ist nichts zertifiziert: %s\n"};
+  static const char* const wide[2] = {"     the enclosure is wider than asked for: %s\n", "     die Einschließung ist weiter als verlangt: %s\n"};
+  int done = c->refusal == PL_CERTIFY_TRIED ? c->proof.n_done : 0;
+  // all times are in the JSON document
+  if (done > 0) {
+    tell_start(&t);
+    tell_time(&t, done - 1);
+    tell_how(&t);
+  }
+  if (c->refusal == PL_CERTIFY_TRIED && c->proof.end == PL_CERTIFIED) return;
+  if (done > 0 && done == c->n_times) pl_text_addf(out, say(&t, wide), reason(&t));
+  else if (c->refusal == PL_CERTIFY_TRIED && !isnan(c->proof.t_reached))
+    pl_text_addf(out, say(&t, until), number(&t, c->proof.t_reached, 6), reason(&t));
+  else pl_text_addf(out, say(&t, not_at_all), reason(&t));
+}
+
+// ---------------------------------------------------------------------------------------------- JSON
+static void json_value(pl_json* j, const char* name, const pl_certified_value* v) {
+  pl_json_object(j, name);
+  pl_json_flat(j);
+  pl_json_string(j, "value", v->text);
+  pl_json_number(j, "radius", v->radius);
+  pl_json_number(j, "error", v->error);
+  pl_json_end_object(j);
+}
+
+static void json_rows(pl_json* j, const teller* t) {
+  const pl_certificate_of_run* c = t->c;
+  size_t width = (size_t)(2 * c->n_q + c->n_c);
+  pl_json_list(j, "rows");
+  for (int time = 0; c->value && time < c->proof.n_done; time++) {
+    pl_json_object(j, NULL);
+    pl_json_number(j, "t", c->time[time]);
+    for (int i = 0; i < (int)width; i++)
+      if (c->value[(size_t)time * width + (size_t)i].text && name_of(t, i)) json_value(j, name_of(t, i), &c->value[(size_t)time * width + (size_t)i]);
+    pl_json_end_object(j);
+  }
+  pl_json_end_list(j);
+}
+
+static void json_names(pl_json* j, const char* key, const teller* t, const int* at, int n) {
+  pl_json_list(j, key);
+  pl_json_flat(j);
+  for (int i = 0; i < n; i++) pl_json_string(j, NULL, name_of(t, at[i]));
+  pl_json_end_list(j);
+}
+
+void pl_certified_json(pl_json* j, const pleuel_model* m) {
+  const pl_certificate_of_run* c = m->certified;
+  if (!c) return;
+  teller t = {NULL, m, c, m->arena, m->job.lang, false, {PL_MATH_LINE, m->job.lang}};
+  const pl_certified* p = &c->proof;
+  bool tried = c->refusal == PL_CERTIFY_TRIED, complete = tried && p->end == PL_CERTIFIED;
+  pl_json_object(j, "certified");
+  pl_json_bool(j, "complete", complete);
+  if (!complete) {
+    pl_json_string(j, "why", tried ? end_names[p->end] : refusal_names[c->refusal]);
+    pl_json_string(j, "reason", reason(&t));
+  }
+  pl_json_number(j, "t_reached", tried ? p->t_reached : (double)NAN);
+  pl_json_number(j, "width", tried ? p->width : (double)NAN);
+  pl_json_int(j, "steps", p->steps);
+  pl_json_int(j, "order", p->order);
+  pl_json_int(j, "bits", p->bits);
+  pl_json_number(j, "bits_lost", p->bits_lost);
+  pl_json_int(j, "passes", p->passes);
+  json_names(j, "start_taken_from_run", &t, p->pinned, p->n_pinned);
+  json_names(j, "start_moved", &t, p->moved_q, p->n_moved);
+  json_rows(j, &t);
+  pl_json_end_object(j);
+}
