@@ -14,55 +14,72 @@
 //                  S = sum_{1..k-1} j (a_j b_{k-j} - b_j a_{k-j} - c_j w_{k-j}) / k
 //
 // The first phase puts S where c_k will stand; the second completes it.  At k = 0 S is not used.  Lanes are the inner
-// loop everywhere; sums run upwards in j, so that a compiled kernel can add in the same order.
+// loop everywhere, in blocks of eight, so that a sum stays in a register; sums run upwards in j.  This file is compiled for several
+// kinds of processors (meson.build), with the same bits.
 #include "jet/jet.h"
 
 #include <math.h>
 
-#define LANES for (int l = 0; l < lanes; l++)
+#ifndef PL_INTERPRET
+#define PL_INTERPRET pl_jet_interpret_plain
+#endif
+pl_kernel PL_INTERPRET;
+
+// Lanes of different nodes never overlap.
+#ifdef __clang__
+#define APART _Pragma("clang loop vectorize(assume_safety)")
+#else
+#define APART _Pragma("GCC ivdep")
+#endif
+#define BLOCKS for (int first = 0; first < lanes; first += block)
+#define BLOCK APART for (int l = first; l < first + block; l++)
+#define LANES BLOCKS BLOCK
 #define INLINE static inline __attribute__((always_inline))
 
 // ---------------------------------------------------------------------------------------------- first phase
+// The sum of a block of lanes.
+#define SUM(what)                                              \
+  BLOCKS {                                                     \
+    double sum[8] = {0};                                       \
+    what                                                       \
+  }
+#define IN_BLOCK(i) sum[(i) - first]
+
 // s = sum_{j=1..k-1} a_j b_{k-j}
-INLINE void product_sum(double* restrict s, const double* a, const double* b, int k, int lanes) {
-  double sum[8] = {0};
-  for (int j = 1; j < k; j++) LANES sum[l] += a[j * lanes + l] * b[(k - j) * lanes + l];
-  LANES s[l] = sum[l];
+INLINE void product_sum(double* restrict s, const double* a, const double* b, int k, int lanes, int block) {
+  SUM(for (int j = 1; j < k; j++) BLOCK IN_BLOCK(l) += a[j * lanes + l] * b[(k - j) * lanes + l];
+      BLOCK s[l] = IN_BLOCK(l);)
 }
 
 // the same for a = b: pairs are added once and doubled
-INLINE void square_sum(double* restrict s, const double* a, int k, int lanes) {
-  double sum[8] = {0};
-  for (int j = 1; 2 * j < k; j++) LANES sum[l] += a[j * lanes + l] * a[(k - j) * lanes + l];
-  LANES sum[l] += sum[l];
-  if (k % 2 == 0) LANES sum[l] += a[k / 2 * lanes + l] * a[k / 2 * lanes + l];
-  LANES s[l] = sum[l];
+INLINE void square_sum(double* restrict s, const double* a, int k, int lanes, int block) {
+  SUM(for (int j = 1; 2 * j < k; j++) BLOCK IN_BLOCK(l) += a[j * lanes + l] * a[(k - j) * lanes + l];
+      BLOCK IN_BLOCK(l) += IN_BLOCK(l);
+      if (k % 2 == 0) BLOCK IN_BLOCK(l) += a[k / 2 * lanes + l] * a[k / 2 * lanes + l];
+      BLOCK s[l] = IN_BLOCK(l);)
 }
 
 // s = sum_{j=1..k-1} j a_j b_{k-j} / k
-INLINE void derivative_sum(double* restrict s, const double* a, const double* b, int k, int lanes) {
-  double sum[8] = {0};
-  for (int j = 1; j < k; j++) LANES sum[l] += (double)j * a[j * lanes + l] * b[(k - j) * lanes + l];
-  LANES s[l] = sum[l] / (double)k;
+INLINE void derivative_sum(double* restrict s, const double* a, const double* b, int k, int lanes, int block) {
+  SUM(for (int j = 1; j < k; j++) BLOCK IN_BLOCK(l) += (double)j * a[j * lanes + l] * b[(k - j) * lanes + l];
+      BLOCK s[l] = IN_BLOCK(l) / (double)k;)
 }
 
-INLINE void power_sum(double* restrict s, const double* a, const double* c, const double* r, int k, int lanes) {
-  double sum[8] = {0};
-  for (int j = 1; j < k; j++)
-    LANES sum[l] += (r[l] * (double)j - (double)(k - j)) * a[j * lanes + l] * c[(k - j) * lanes + l];
-  LANES s[l] = sum[l] / (double)k;
+INLINE void power_sum(double* restrict s, const double* a, const double* c, const double* r, int k, int lanes, int block) {
+  SUM(for (int j = 1; j < k; j++)
+        BLOCK IN_BLOCK(l) += (r[l] * (double)j - (double)(k - j)) * a[j * lanes + l] * c[(k - j) * lanes + l];
+      BLOCK s[l] = IN_BLOCK(l) / (double)k;)
 }
 
-INLINE void angle_sum(double* restrict s, const double* a, const double* b, const double* c, const double* w, int k,
-                      int lanes) {
-  double sum[8] = {0};
-  for (int j = 1; j < k; j++)
-    LANES sum[l] += (double)j * (a[j * lanes + l] * b[(k - j) * lanes + l] - b[j * lanes + l] * a[(k - j) * lanes + l] -
-                                 c[j * lanes + l] * w[(k - j) * lanes + l]);
-  LANES s[l] = sum[l] / (double)k;
+INLINE void angle_sum(double* restrict s, const double* a, const double* b, const double* c, const double* w, int k, int lanes,
+                      int block) {
+  SUM(for (int j = 1; j < k; j++)
+        BLOCK IN_BLOCK(l) += (double)j * (a[j * lanes + l] * b[(k - j) * lanes + l] - b[j * lanes + l] * a[(k - j) * lanes + l] -
+                                          c[j * lanes + l] * w[(k - j) * lanes + l]);
+      BLOCK s[l] = IN_BLOCK(l) / (double)k;)
 }
 
-INLINE void known_part(pl_jet* jet, int i, int k, int lanes) {
+INLINE void known_part(pl_jet* jet, int i, int k, int lanes, int block) {
   const pl_tape_node* node = &jet->tape->nodes[i];
   double* c = pl_jet_at(jet, i, 0);
   const double* a = pl_jet_at(jet, node->a, 0);
@@ -70,30 +87,30 @@ INLINE void known_part(pl_jet* jet, int i, int k, int lanes) {
   const double* w = node->c >= 0 ? pl_jet_at(jet, node->c, 0) : a;
   double* s = c + k * lanes;
   switch (node->op) {
-    case PL_OP_MUL: product_sum(s, a, b, k, lanes); break;
-    case PL_OP_SQR: square_sum(s, a, k, lanes); break;
-    case PL_OP_DIV: product_sum(s, b, c, k, lanes); break;
-    case PL_OP_SQRT: square_sum(s, c, k, lanes); break;
-    case PL_OP_POW: power_sum(s, a, c, b, k, lanes); break;
-    case PL_OP_EXP: derivative_sum(s, a, c, k, lanes); break;
-    case PL_OP_LN: derivative_sum(s, c, a, k, lanes); break;
+    case PL_OP_MUL: product_sum(s, a, b, k, lanes, block); break;
+    case PL_OP_SQR: square_sum(s, a, k, lanes, block); break;
+    case PL_OP_DIV: product_sum(s, b, c, k, lanes, block); break;
+    case PL_OP_SQRT: square_sum(s, c, k, lanes, block); break;
+    case PL_OP_POW: power_sum(s, a, c, b, k, lanes, block); break;
+    case PL_OP_EXP: derivative_sum(s, a, c, k, lanes, block); break;
+    case PL_OP_LN: derivative_sum(s, c, a, k, lanes, block); break;
     case PL_OP_SIN:
     case PL_OP_COS:
     case PL_OP_SINH:
     case PL_OP_COSH:
     case PL_OP_TAN:
-    case PL_OP_TANH: derivative_sum(s, a, w, k, lanes); break;
+    case PL_OP_TANH: derivative_sum(s, a, w, k, lanes, block); break;
     case PL_OP_ASIN:
     case PL_OP_ACOS:
-    case PL_OP_ATAN: derivative_sum(s, c, w, k, lanes); break;
-    case PL_OP_ATAN2: angle_sum(s, a, b, c, w, k, lanes); break;
+    case PL_OP_ATAN: derivative_sum(s, c, w, k, lanes, block); break;
+    case PL_OP_ATAN2: angle_sum(s, a, b, c, w, k, lanes, block); break;
     default: break;
   }
 }
 
 // ---------------------------------------------------------------------------------------------- second phase
 // Order 0: the functions themselves.
-INLINE void value(pl_jet* jet, int i, int lanes) {
+INLINE void value(pl_jet* jet, int i, int lanes, int block) {
   const pl_tape_node* node = &jet->tape->nodes[i];
   double* c = pl_jet_at(jet, i, 0);
   const double* a = node->a >= 0 ? pl_jet_at(jet, node->a, 0) : c;
@@ -135,7 +152,7 @@ INLINE void value(pl_jet* jet, int i, int lanes) {
 }
 
 // Order k >= 1; c holds S for series operations.
-INLINE void coefficient(pl_jet* jet, int i, int k, int lanes) {
+INLINE void coefficient(pl_jet* jet, int i, int k, int lanes, int block) {
   const pl_tape_node* node = &jet->tape->nodes[i];
   double* c0 = pl_jet_at(jet, i, 0);
   double* c = c0 + k * lanes;
@@ -143,7 +160,7 @@ INLINE void coefficient(pl_jet* jet, int i, int k, int lanes) {
   const double* b0 = node->b >= 0 ? pl_jet_at(jet, node->b, 0) : a0;
   const double* w0 = node->c >= 0 ? pl_jet_at(jet, node->c, 0) : a0;
   // constants have order 0 only
-  static const double zero[8] = {0};
+  static const double zero[PL_JET_LANES] = {0};
   int n_const = jet->tape->level_end[PL_LEVEL_CONST];
   const double* a = node->a >= n_const ? a0 + k * lanes : zero;
   const double* b = node->b >= n_const ? b0 + k * lanes : zero;
@@ -181,20 +198,21 @@ INLINE void coefficient(pl_jet* jet, int i, int k, int lanes) {
 }
 
 // ---------------------------------------------------------------------------------------------- sweep
-INLINE void sweep(pl_jet* jet, pl_level level, int k, bool all, int lanes) {
+INLINE void sweep(pl_jet* jet, pl_level level, int k, bool all, int lanes, int block) {
   const pl_tape_node* nodes = jet->tape->nodes;
   int from = level == PL_LEVEL_CONST ? 0 : jet->tape->level_end[level - 1], to = jet->tape->level_end[level];
   if (k == 0) {
-    for (int i = from; i < to; i++) value(jet, i, lanes);
+    for (int i = from; i < to; i++) value(jet, i, lanes, block);
     return;
   }
   int n = all ? jet->n_series[level] : jet->n_series_high[level];
-  for (int i = 0; i < n; i++) known_part(jet, jet->series[level][i], k, lanes);
+  for (int i = 0; i < n; i++) known_part(jet, jet->series[level][i], k, lanes, block);
   for (int i = from; i < to; i++)
-    if (all || nodes[i].high) coefficient(jet, i, k, lanes);
+    if (all || nodes[i].high) coefficient(jet, i, k, lanes, block);
 }
 
-void pl_jet_interpret(pl_jet* jet, pl_level level, int k, bool all) {
-  if (jet->lanes == 1) sweep(jet, level, k, all, 1);
-  else sweep(jet, level, k, all, 8);
+void PL_INTERPRET(pl_jet* jet, pl_level level, int k, bool all) {
+  if (jet->lanes == 1) sweep(jet, level, k, all, 1, 1);
+  else if (jet->lanes == 8) sweep(jet, level, k, all, 8, 8);
+  else sweep(jet, level, k, all, jet->lanes, 8);
 }

@@ -21,6 +21,19 @@ static void list_series(pl_jet* j, pl_arena* a, int level) {
   j->n_series[level] = n;
 }
 
+// The interpreter for this processor.  All builds give the same bits.
+pl_kernel pl_jet_interpret_plain, pl_jet_interpret_avx2, pl_jet_interpret_avx512;
+
+void pl_jet_interpret(pl_jet* j, pl_level level, int k, bool all) {
+#ifdef PL_KERNELS_BY_PROCESSOR
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq"))
+    pl_jet_interpret_avx512(j, level, k, all);
+  else if (__builtin_cpu_supports("fma") && __builtin_cpu_supports("avx2")) pl_jet_interpret_avx2(j, level, k, all);
+  else
+#endif
+    pl_jet_interpret_plain(j, level, k, all);
+}
+
 pl_jet* pl_jet_make(pl_arena* a, const pl_tape* tape, int lanes, int orders) {
   pl_jet* j = PL_NEW(a, pl_jet);
   j->tape = tape;

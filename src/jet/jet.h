@@ -10,6 +10,7 @@
 #include "tape/tape.h"
 
 typedef struct pl_jet pl_jet;
+enum { PL_JET_LANES = 128 };
 
 // pl_kernel computes coefficient k of the nodes of one level.  Orders below k of this level, and k of lower
 // levels, must be there; inputs of order k too.  all: also nodes that the motion does not need above order 0.
@@ -17,7 +18,7 @@ typedef void pl_kernel(pl_jet* jet, pl_level level, int k, bool all);
 
 struct pl_jet {
   const pl_tape* tape;
-  int lanes;                      // 1 or 8
+  int lanes;                      // 1 or a multiple of 8 up to PL_JET_LANES
   int orders;                     // coefficients 0 .. orders - 1 have room
   double* c;                      // (lanes x orders x n_nodes)
   const int* series[PL_N_LEVELS]; // series nodes of each level, those with .high first

@@ -1,9 +1,4 @@
-// From the jets of the batches to the linear system: values of the matrix, constraint values, right-hand sides.
-//
-// Order k of the equations of motion and of the constraint on velocity level, with q_{k+1} = v_k / (k+1) known:
-//
-//   M_0 a_k - (G_0^T + W_0) λ_k = -h_k - sum_{j>=1} M_j a_{k-j} + sum_{j>=1} (G_j^T + W_j) λ_{k-j}
-//   G_0 a_k                     = -(k+1) [ sum_{j>=1} G_j v_{k+1-j} + (dg/dt)_{k+1} ]
+// From the jets of the batches to the linear system: values of the matrix, constraint values.  Right-hand sides: orders.c.
 #include "solve/solve_impl.h"
 
 #include <math.h>
@@ -59,10 +54,11 @@ void pl_assemble_matrix(pl_run* run, bool with_W) {
     add_gradients(run, &run->motion.at[i], slips);
     if (with_W) add_force_directions(run, &run->motion.at[i]);
   }
+  run->rests = false;
   for (int i = 0; i < run->n_q; i++)
-    if (run->place_n[i] == 0) k->value[k->diagonal[i]] = 1;  // nothing determines it: it rests
+    if (run->place_n[i] == 0) k->value[k->diagonal[i]] = 1, run->rests = true;  // nothing determines it: it rests
   for (int c = 0; c < run->n_c; c++)
-    if (!run->taken[c]) k->value[k->diagonal[run->n_q + c]] = 1;
+    if (!run->taken[c]) k->value[k->diagonal[run->n_q + c]] = 1, run->rests = true;
   if (slips) pl_friction_matrix(run);
 }
 
@@ -177,108 +173,23 @@ void pl_assemble_gdot(pl_run* run, double* r, double* size) {
 
 // ---------------------------------------------------------------------------------------------- right-hand side
 // s = sum_{j=1..k} x_j y_{k-j} in every lane; x from the jet, y a series of a slot.
-static inline __attribute__((always_inline)) void tail_lanes(double* s, const double* x, const double* y, int k,
-                                                             int lanes) {
+static void tail(double* s, const double* x, const double* y, int k, int lanes) {
   for (int l = 0; l < lanes; l++) s[l] = 0;
   for (int j = 1; j <= k; j++)
     for (int l = 0; l < lanes; l++) s[l] += x[j * lanes + l] * y[(k - j) * lanes + l];
-}
-
-static void tail(double* s, const double* x, const double* y, int k, int lanes) {
-  if (lanes == 1) tail_lanes(s, x, y, k, 1);
-  else tail_lanes(s, x, y, k, PL_FAMILY_LANES);
 }
 
 static const double* slot_series(const pl_batch* b, const double* series, int slot) {
   return series + (size_t)slot * (size_t)b->orders * (size_t)b->lanes;
 }
 
-static void subtract_h(pl_run* run, const pl_batch* b, int k, double* rhs) {
-  for (int e = 0; e < b->pattern->n_h; e++) {
-    const pl_pattern_entry* h = &b->pattern->h[e];
-    int node = node_of(b, h->root);
-    if (k > 0 && is_constant(b, node)) continue;
-    const double* x = coefficient(b, node, k);
-    LANES(b) {
-      rhs[b->q[h->row * b->lanes + l]] -= x[l];
-      if (k == 0 && fabs(x[l]) > run->force_size) run->force_size = fabs(x[l]);
-    }
-  }
-}
-
-static void subtract_mass_tail(const pl_batch* b, int k, double* rhs) {
-  double s[PL_FAMILY_LANES];
-  for (int e = 0; e < b->pattern->n_mass; e++) {
-    const pl_pattern_entry* m = &b->pattern->mass[e];
-    int node = node_of(b, m->root);
-    if (is_constant(b, node)) continue;
-    const double* x = coefficient(b, node, 0);
-    tail(s, x, slot_series(b, b->a, m->col), k, b->lanes);
-    LANES(b) rhs[b->q[m->row * b->lanes + l]] -= s[l];
-    if (m->row == m->col) continue;
-    tail(s, x, slot_series(b, b->a, m->row), k, b->lanes);
-    LANES(b) rhs[b->q[m->col * b->lanes + l]] -= s[l];
-  }
-}
-
-static void add_force_tail(const pl_run* run, const pl_batch* b, int k, double* rhs) {
-  double s[PL_FAMILY_LANES];
-  for (int e = 0; e < b->pattern->n_G; e++) {
-    const pl_pattern_entry* g = &b->pattern->G[e];
-    int node = node_of(b, g->root);
-    if (is_constant(b, node)) continue;
-    tail(s, coefficient(b, node, 0), slot_series(b, b->lambda, g->row), k, b->lanes);
-    LANES(b) {
-      int c = b->c[g->row * b->lanes + l];
-      if (run->taken[c] || run->rubs[c]) rhs[b->q[g->col * b->lanes + l]] += s[l];
-    }
-  }
-  for (int e = 0; e < b->pattern->n_W; e++) {
-    const pl_pattern_entry* w = &b->pattern->W[e];
-    int node = node_of(b, w->root);
-    if (is_constant(b, node)) continue;
-    tail(s, coefficient(b, node, 0), slot_series(b, b->lambda, w->col), k, b->lanes);
-    LANES(b)
-      if (run->taken[b->c[w->col * b->lanes + l]]) rhs[b->q[w->row * b->lanes + l]] += s[l];
-  }
-}
-
-static void subtract_constraint_tail(const pl_run* run, const pl_batch* b, int k, double* rhs) {
-  double s[PL_FAMILY_LANES];
-  for (int e = 0; e < b->pattern->n_G; e++) {
-    const pl_pattern_entry* g = &b->pattern->G[e];
-    int node = node_of(b, g->root);
-    if (is_constant(b, node)) continue;
-    tail(s, coefficient(b, node, 0), slot_series(b, b->v, g->col), k + 1, b->lanes);
-    LANES(b) rhs[run->n_q + b->c[g->row * b->lanes + l]] -= (k + 1) * s[l];
-  }
-  for (int e = 0; e < b->pattern->n_gt; e++) {
-    const pl_pattern_entry* g = &b->pattern->gt[e];
-    int node = node_of(b, g->root);
-    if (is_constant(b, node)) continue;
-    const double* x = coefficient(b, node, k + 1);
-    LANES(b) rhs[run->n_q + b->c[g->row * b->lanes + l]] -= (k + 1) * x[l];
-  }
-}
-
 void pl_assemble_rhs(pl_run* run, int k, double* rhs) {
-  clear(rhs, run->n_q + run->n_c);
-  for (int i = 0; i < run->motion.n; i++) {
-    const pl_batch* b = &run->motion.at[i];
-    subtract_h(run, b, k, rhs);
-    if (k > 0) subtract_mass_tail(b, k, rhs);
-    if (k > 0) add_force_tail(run, b, k, rhs);
-    subtract_constraint_tail(run, b, k, rhs);
-  }
-  for (int i = 0; i < run->n_q; i++)
-    if (run->place_n[i] == 0) rhs[i] = 0;
-  for (int c = 0; c < run->n_c; c++)
-    if (!run->taken[c]) rhs[run->n_q + c] = 0;
+  pl_orders_here()->rhs(run, k, rhs);
   if (run->n_slipping > 0) pl_friction_rhs(run, k, rhs);
 }
 
 void pl_assemble_speed(pl_run* run, int k, double* speed) {
-  double s[PL_FAMILY_LANES];
+  double s[PL_JET_LANES];
   clear(speed, run->n_c);
   for (int i = 0; i < run->motion.n; i++) {
     const pl_batch* b = &run->motion.at[i];

@@ -20,6 +20,74 @@ static void set_constants(pl_arena* a, pl_batch* b, int first) {
   pl_jet_constants(b->jet, index);
 }
 
+// The first index of each slot whose indices follow each other from lane to lane, -1 for the others.
+static int* find_runs(pl_arena* a, const int* index, int slots, int n, int lanes) {
+  int* run = PL_ARRAY(a, int, slots + 1);
+  for (int s = 0; s < slots; s++) {
+    run[s] = n > 1 ? index[s * lanes] : -1;
+    for (int l = 1; l < n && run[s] >= 0; l++)
+      if (index[s * lanes + l] != run[s] + l) run[s] = -1;
+  }
+  return run;
+}
+
+// ---------------------------------------------------------------------------------------------- rows of G
+// The node that a node is a multiple of; the factors of the lanes are multiplied with.
+static int multiple_of(const pl_batch* b, int node, double* factor) {
+  const pl_tape_node* nodes = b->pattern->tape->nodes;
+  for (;;) {
+    const pl_tape_node* n = &nodes[node];
+    if (n->op != PL_OP_NEG && n->op != PL_OP_SCALE && n->op != PL_OP_RSCALE) return node;
+    const double* by = n->op == PL_OP_NEG ? NULL : pl_jet_at(b->jet, n->b, 0);
+    for (int l = 0; l < b->lanes; l++) {
+      if (n->op == PL_OP_NEG) factor[l] = -factor[l];
+      else factor[l] = n->op == PL_OP_SCALE ? factor[l] * by[l] : factor[l] / by[l];
+    }
+    node = n->a;
+  }
+}
+
+static void find_bundles(pl_arena* a, pl_batch* b) {
+  const pl_pattern* p = b->pattern;
+  int* node = PL_ARRAY(a, int, p->n_G + 1);
+  double* factor = PL_ARRAY(a, double, (size_t)p->n_G * (size_t)b->lanes + 1);
+  b->bundles = PL_ARRAY(a, pl_bundle, p->n_G + 1);
+  b->bundle_q = PL_ARRAY(a, int, p->n_G + 1);
+  b->bundle_factor = PL_ARRAY(a, double, (size_t)p->n_G * (size_t)b->lanes + 1);
+  for (int e = 0; e < p->n_G; e++) {
+    double* f = factor + (size_t)e * (size_t)b->lanes;
+    for (int l = 0; l < b->lanes; l++) f[l] = 1;
+    node[e] = multiple_of(b, p->tape->roots[p->G[e].root], f);
+  }
+  int n = 0;
+  bool* done = PL_ARRAY(a, bool, p->n_G + 1);
+  for (int e = 0; e < p->n_G; e++) {
+    if (done[e] || node[e] < p->tape->level_end[PL_LEVEL_CONST]) continue;
+    pl_bundle* t = &b->bundles[b->n_bundles++];
+    *t = (pl_bundle){.node = node[e], .c = p->G[e].row, .first = n};
+    for (int d = e; d < p->n_G; d++) {
+      if (done[d] || node[d] != node[e] || p->G[d].row != t->c) continue;
+      done[d] = true;
+      for (int l = 0; l < b->lanes; l++)
+        b->bundle_factor[(size_t)n * (size_t)b->lanes + (size_t)l] = factor[(size_t)d * (size_t)b->lanes + (size_t)l];
+      b->bundle_q[n++] = p->G[d].col;
+    }
+    t->n = n - t->first;
+  }
+  b->bundle_v = PL_ARRAY(a, double, (size_t)b->n_bundles * (size_t)b->orders * (size_t)b->lanes + 1);
+}
+
+// Which series of slots something reads: v for G v, a for M a where M changes.
+static void find_needs(pl_arena* a, pl_batch* b) {
+  const pl_pattern* p = b->pattern;
+  b->needs_v = PL_ARRAY(a, bool, p->n_q + 1);
+  b->needs_a = PL_ARRAY(a, bool, p->n_q + 1);
+  for (int e = 0; e < p->n_G; e++) b->needs_v[p->G[e].col] = true;
+  for (int e = 0; e < p->n_mass; e++)
+    if (p->tape->roots[p->mass[e].root] >= p->tape->level_end[PL_LEVEL_CONST])
+      b->needs_a[p->mass[e].row] = b->needs_a[p->mass[e].col] = true;
+}
+
 static void make_batch(pl_arena* a, pl_batch* b, const pl_pattern* p, int first, int n, int lanes, int orders) {
   size_t series = (size_t)orders * (size_t)lanes;
   *b = (pl_batch){.pattern = p, .lanes = lanes, .n = n, .orders = orders};
@@ -30,7 +98,11 @@ static void make_batch(pl_arena* a, pl_batch* b, const pl_pattern* p, int first,
   b->v = PL_ARRAY(a, double, series * (size_t)p->n_q + 1);
   b->a = PL_ARRAY(a, double, series * (size_t)p->n_q + 1);
   b->lambda = PL_ARRAY(a, double, series * (size_t)p->n_c + 1);
+  b->q_run = find_runs(a, b->q, p->n_q, n, lanes);
+  b->c_run = find_runs(a, b->c, p->n_c, n, lanes);
   set_constants(a, b, first);
+  find_needs(a, b);
+  find_bundles(a, b);
 }
 
 static bool in_range(const int* index, size_t n, int limit) {
@@ -53,7 +125,11 @@ static pleuel_status check(pl_job* job, const pl_pattern* p, int n_q, int n_c, i
   return PLEUEL_OK;
 }
 
-static int lanes_for(int n) { return n > 1 ? PL_FAMILY_LANES : 1; }
+// Batches of one size, as few as can be.
+static int lanes_for(int n) {
+  int groups = (n + PL_FAMILY_LANES - 1) / PL_FAMILY_LANES, batches = (groups + PL_FAMILY_GROUPS - 1) / PL_FAMILY_GROUPS;
+  return n > 1 ? PL_FAMILY_LANES * ((groups + batches - 1) / batches) : 1;
+}
 static int batches_for(int n) { return (n + lanes_for(n) - 1) / lanes_for(n); }
 
 pleuel_status pl_batches_make(pl_job* job, pl_batches* b, const pl_pattern* patterns, int n, int orders, int n_q,
@@ -80,50 +156,23 @@ void pl_batches_time(pl_batches* b, double t) {
   for (int i = 0; i < b->n; i++) pl_jet_time(b->at[i].jet, t);
 }
 
-static void gather(double* to, const double* from, const int* index, int lanes) {
-  for (int l = 0; l < lanes; l++) to[l] = from[index[l]];
+// The build for this processor.
+extern const pl_orders pl_orders_plain, pl_orders_avx2, pl_orders_avx512;
+
+const pl_orders* pl_orders_here(void) {
+#ifdef PL_KERNELS_BY_PROCESSOR
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq"))
+    return &pl_orders_avx512;
+  if (__builtin_cpu_supports("fma") && __builtin_cpu_supports("avx2")) return &pl_orders_avx2;
+#endif
+  return &pl_orders_plain;
 }
 
-static void into_jet(const pl_batch* b, int node, int k, const double* x, const int* index) {
-  if (node >= 0) gather(pl_jet_at(b->jet, node, k), x, index, b->lanes);
-}
-
-void pl_batches_load_q(pl_batches* bs, const double* q, int k) {
-  for (int i = 0; i < bs->n; i++) {
-    const pl_batch* b = &bs->at[i];
-    for (int s = 0; s < b->pattern->n_q; s++) into_jet(b, b->pattern->tape->q_node[s], k, q, b->q + s * b->lanes);
-  }
-}
-
-void pl_batches_load_v(pl_batches* bs, const double* v, int k) {
-  for (int i = 0; i < bs->n; i++) {
-    const pl_batch* b = &bs->at[i];
-    for (int s = 0; s < b->pattern->n_q; s++) {
-      gather(b->v + ((size_t)s * (size_t)b->orders + (size_t)k) * (size_t)b->lanes, v, b->q + s * b->lanes, b->lanes);
-      into_jet(b, b->pattern->tape->v_node[s], k, v, b->q + s * b->lanes);
-    }
-  }
-}
-
-void pl_batches_load_a(pl_batches* bs, const double* a, int k) {
-  for (int i = 0; i < bs->n; i++) {
-    const pl_batch* b = &bs->at[i];
-    for (int s = 0; s < b->pattern->n_q; s++) {
-      gather(b->a + ((size_t)s * (size_t)b->orders + (size_t)k) * (size_t)b->lanes, a, b->q + s * b->lanes, b->lanes);
-      into_jet(b, b->pattern->tape->a_node[s], k, a, b->q + s * b->lanes);
-    }
-  }
-}
-
-void pl_batches_load_lambda(pl_batches* bs, const double* lambda, int k) {
-  for (int i = 0; i < bs->n; i++) {
-    const pl_batch* b = &bs->at[i];
-    for (int s = 0; s < b->pattern->n_c; s++) {
-      gather(b->lambda + ((size_t)s * (size_t)b->orders + (size_t)k) * (size_t)b->lanes, lambda, b->c + s * b->lanes,
-             b->lanes);
-      into_jet(b, b->pattern->tape->lambda_node[s], k, lambda, b->c + s * b->lanes);
-    }
-  }
+void pl_batches_load_q(pl_batches* b, const double* q, int k) { pl_orders_here()->load(b, PL_IS_Q, q, k); }
+void pl_batches_load_v(pl_batches* b, const double* v, int k) { pl_orders_here()->load(b, PL_IS_V, v, k); }
+void pl_batches_load_a(pl_batches* b, const double* a, int k) { pl_orders_here()->load(b, PL_IS_A, a, k); }
+void pl_batches_load_lambda(pl_batches* b, const double* lambda, int k) {
+  pl_orders_here()->load(b, PL_IS_LAMBDA, lambda, k);
 }
 
 // ---------------------------------------------------------------------------------------------- computing

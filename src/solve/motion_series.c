@@ -9,14 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-double pl_norm(const double* x, int n) {
-  double most = 0;
-  for (int i = 0; i < n; i++) {
-    double y = fabs(x[i]);
-    if (!(y <= most)) most = y;  // NaN comes through
-  }
-  return most;
-}
+double pl_norm(const double* x, int n) { return pl_orders_here()->norm(x, n); }
 
 void pl_sizes_note(pl_run* run, const double* q, const double* v) {
   for (int i = 0; i < run->n_q; i++) {
@@ -65,23 +58,12 @@ bool pl_point_factor(pl_run* run, bool with_W) {
   return regular;
 }
 
-static void take_accelerations(pl_run* run, int k) {
-  double* a = run->A + (size_t)k * (size_t)run->n_q;
-  double* lambda = run->L + (size_t)k * (size_t)run->n_c;
-  double* v_next = run->V + (size_t)(k + 1) * (size_t)run->n_q;
-  for (int i = 0; i < run->n_q; i++) {
-    a[i] = run->rhs[i];
-    v_next[i] = a[i] / (k + 1);
-  }
-  for (int c = 0; c < run->n_c; c++) lambda[c] = run->taken[c] || run->rubs[c] ? -run->rhs[run->n_q + c] : 0;
-}
-
 static void solve_order(pl_run* run, int k) {
   pl_batches* m = &run->motion;
   int n = run->n_q;
   double* q_next = run->Q + (size_t)(k + 1) * (size_t)n;
   const double* v = run->V + (size_t)k * (size_t)n;
-  for (int i = 0; i < n; i++) q_next[i] = v[i] / (k + 1);
+  pl_orders_here()->over(q_next, v, k + 1, n);
   pl_batches_load_q(m, q_next, k + 1);
   // all: where a landing is watched, g itself is needed to all orders
   bool all = run->watch_landings;
@@ -90,7 +72,7 @@ static void solve_order(pl_run* run, int k) {
   if (k > 0 && run->setup->n_rubs > 0) pl_friction_coefficients(run, k);
   pl_assemble_rhs(run, k, run->rhs);
   pl_kkt_solve(&run->kkt, run->rhs);
-  take_accelerations(run, k);
+  pl_orders_here()->take(run, k);
   pl_batches_load_a(m, run->A + (size_t)k * (size_t)n, k);
   pl_batches_load_lambda(m, run->L + (size_t)k * (size_t)run->n_c, k);
   pl_batches_load_v(m, run->V + (size_t)(k + 1) * (size_t)n, k + 1);
@@ -199,11 +181,7 @@ double pl_series_step(pl_run* run) {
 }
 
 // ---------------------------------------------------------------------------------------------- evaluation
-void pl_horner(const double* X, int n, int last, double dt, double* x) {
-  for (int i = 0; i < n; i++) x[i] = X[(size_t)last * (size_t)n + (size_t)i];
-  for (int k = last - 1; k >= 0; k--)
-    for (int i = 0; i < n; i++) x[i] = x[i] * dt + X[(size_t)k * (size_t)n + (size_t)i];
-}
+void pl_horner(const double* X, int n, int last, double dt, double* x) { pl_orders_here()->horner(X, n, last, dt, x); }
 
 void pl_series_at(const pl_run* run, double dt, double* q, double* v) {
   pl_horner(run->Q, run->n_q, run->use + 1, dt, q);

@@ -6,11 +6,18 @@
 #include "solve/solve.h"
 
 enum {
-  PL_FAMILY_LANES = 8,     // instances computed side by side
+  PL_FAMILY_LANES = 8,     // instances computed side by side: a multiple of this
+  PL_FAMILY_GROUPS = 8,    // so many times as many in one batch at most
   PL_DENSE_UP_TO = 60,     // unknowns: dense below, KLU above
   PL_RANK_UP_TO = 400,     // constraint rows whose independence is examined at all; above they must be independent
   PL_RANK_WORK = 200000    // rows^2 columns up to which that is done at every point; above: once a mode
 };
+
+// Entries of one row of G that are multiples of one node u: their products with velocities and multipliers are those of u.
+typedef struct pl_bundle {
+  int node, c;             // u; slot of the constraint
+  int first, n;            // entries bundle_q[first ..]
+} pl_bundle;
 
 // Up to `lanes` instances of one pattern.  Unused lanes repeat the last instance and are not scattered.
 typedef struct pl_batch {
@@ -20,6 +27,12 @@ typedef struct pl_batch {
   int *q, *c, *out;        // global index of slot s in lane l: q[s * lanes + l]
   double *v, *a, *lambda;  // series of each slot, lane fastest: v[(s * orders + k) * lanes + l]
   int orders;              // room for coefficients 0 .. orders-1 of v, a, λ
+  int *q_run, *c_run;      // of a slot whose indices follow each other: the first; else -1
+  bool *needs_v, *needs_a; // some series has to do with this slot                          (n_q)
+  pl_bundle* bundles;
+  int n_bundles, *bundle_q;   // slots of coordinates
+  double* bundle_factor;   // multiples of u, by lanes
+  double* bundle_v;        // series of the sum of multiples of velocities: (bundle orders + k) lanes + l
   int *at_mass, *at_mass_t, *at_G, *at_Gt, *at_W;   // places in the values of the linear system, per entry and lane
 } pl_batch;
 
@@ -120,6 +133,7 @@ struct pl_run {
   bool watch_landings;     // some one-sided constraint is free
   bool factored;           // the factor and the nodes of q, t belong to run->t, q (left by a projection)
   int* place_n;            // structure of coordinates: 1 if the coordinate has an entry in M  (n_q)
+  bool rests;              // some coordinate rests or some constraint is not used
 
   // the motion as codes, for the mode at work and those before; NULL: the general way
   pl_motion *motion_code, *motion_codes;
@@ -259,6 +273,18 @@ struct pl_run {
 };
 
 typedef struct pl_projection { double g_before, g_after, r_before, r_after, move_q, move_v; bool ok; } pl_projection;
+
+// ---- orders.c: what each order of a series costs, compiled for several processors with the same bits
+typedef enum pl_quantity { PL_IS_Q, PL_IS_V, PL_IS_A, PL_IS_LAMBDA } pl_quantity;
+typedef struct pl_orders {
+  void (*load)(pl_batches* b, pl_quantity what, const double* x, int k);
+  void (*rhs)(pl_run* run, int k, double* rhs);
+  void (*take)(pl_run* run, int k);                               // a_k, λ_k, v_{k+1} from run->rhs
+  void (*over)(double* to, const double* from, int by, int n);    // to = from / by
+  void (*horner)(const double* X, int n, int last, double dt, double* x);
+  double (*norm)(const double* x, int n);                         // largest size; NaN comes through
+} pl_orders;
+const pl_orders* pl_orders_here(void);              // batches.c
 
 // ---- batches.c: instances in lanes
 pleuel_status pl_batches_make(pl_job* job, pl_batches* b, const pl_pattern* patterns, int n, int orders, int n_q,

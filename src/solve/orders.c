@@ -1,0 +1,271 @@
+// What happens at every order of a series the general way: coefficients into lanes, right-hand sides, the coefficients that follow.
+// This file is compiled for several kinds of processors (meson.build); sums have one order, so that all give the same bits.
+//
+// Order k of the equations of motion and of the constraint on velocity level, with q_{k+1} = v_k / (k+1) known:
+//
+//   M_0 a_k - (G_0^T + W_0) λ_k = -h_k - sum_{j>=1} M_j a_{k-j} + sum_{j>=1} (G_j^T + W_j) λ_{k-j}
+//   G_0 a_k                     = -(k+1) [ sum_{j>=1} G_j v_{k+1-j} + (dg/dt)_{k+1} ]
+//
+// Entries of a row of G that are multiples of one node u, as u, -u of a rod, share their sums: u with the sum of multiples of velocities,
+// u with λ.
+#include <math.h>
+
+#include "solve/solve_impl.h"
+
+#ifndef PL_ORDERS
+#define PL_ORDERS pl_orders_plain
+#endif
+extern const pl_orders PL_ORDERS;
+
+#ifdef __clang__
+#define APART _Pragma("clang loop vectorize(assume_safety)")
+#else
+#define APART _Pragma("GCC ivdep")
+#endif
+#define INLINE static inline __attribute__((always_inline))
+#define EACH(n) APART for (int l = 0; l < (n); l++)
+#define BLOCK APART for (int l = first; l < first + block; l++)
+
+static const double* coefficient(const pl_batch* b, int node, int k) { return pl_jet_at(b->jet, node, k); }
+static int node_of(const pl_batch* b, int root) { return b->pattern->tape->roots[root]; }
+static bool is_constant(const pl_batch* b, int node) { return node < b->pattern->tape->level_end[PL_LEVEL_CONST]; }
+
+static double* series_at(const pl_batch* b, double* series, int slot, int k) {
+  return series + ((size_t)slot * (size_t)b->orders + (size_t)k) * (size_t)b->lanes;
+}
+
+// ---------------------------------------------------------------------------------------------- loading
+static void gather(double* restrict to, const double* restrict from, const int* restrict index, int run, int n, int lanes) {
+  if (run < 0) {
+    EACH(lanes) to[l] = from[index[l]];
+    return;
+  }
+  EACH(n) to[l] = from[run + l];
+  for (int l = n; l < lanes; l++) to[l] = from[run + n - 1];
+}
+
+// Coefficient k of the sums of multiples of velocities.
+static void load_bundles(const pl_batch* b, int k) {
+  int lanes = b->lanes;
+  for (int t = 0; t < b->n_bundles; t++) {
+    const pl_bundle* bundle = &b->bundles[t];
+    double* restrict to = series_at(b, b->bundle_v, t, k);
+    for (int e = bundle->first; e < bundle->first + bundle->n; e++) {
+      const double *restrict v = series_at(b, b->v, b->bundle_q[e], k), *restrict f = b->bundle_factor + (size_t)e * (size_t)lanes;
+      if (e == bundle->first) EACH(lanes) to[l] = f[l] * v[l];
+      else EACH(lanes) to[l] += f[l] * v[l];
+    }
+  }
+}
+
+static void load(pl_batches* bs, pl_quantity what, const double* x, int k) {
+  for (int i = 0; i < bs->n; i++) {
+    const pl_batch* b = &bs->at[i];
+    const pl_pattern* p = b->pattern;
+    const int *index = what == PL_IS_LAMBDA ? b->c : b->q, *run = what == PL_IS_LAMBDA ? b->c_run : b->q_run;
+    const int* node = what == PL_IS_Q ? p->tape->q_node : what == PL_IS_V ? p->tape->v_node
+                    : what == PL_IS_A ? p->tape->a_node : p->tape->lambda_node;
+    double* series = what == PL_IS_V ? b->v : what == PL_IS_A ? b->a : what == PL_IS_LAMBDA ? b->lambda : NULL;
+    const bool* needs = what == PL_IS_V ? b->needs_v : what == PL_IS_A ? b->needs_a : NULL;
+    int slots = what == PL_IS_LAMBDA ? p->n_c : p->n_q;
+    for (int s = 0; s < slots; s++) {
+      const int* at = index + s * b->lanes;
+      if (series && (needs == NULL || needs[s])) gather(series_at(b, series, s, k), x, at, run[s], b->n, b->lanes);
+      if (node[s] >= 0) gather(pl_jet_at(b->jet, node[s], k), x, at, run[s], b->n, b->lanes);
+    }
+    if (what == PL_IS_V) load_bundles(b, k);
+  }
+}
+
+// ---------------------------------------------------------------------------------------------- spreading
+// Adds factor times x to the places of a slot.
+INLINE void spread(double* restrict to, const double* restrict x, double factor, const int* index, int run, int n) {
+  if (run >= 0) EACH(n) to[run + l] += factor * x[l];
+  else for (int l = 0; l < n; l++) to[index[l]] += factor * x[l];
+}
+
+static void spread_q(const pl_batch* b, double* rhs, const double* x, double factor, int slot) {
+  spread(rhs, x, factor, b->q + slot * b->lanes, b->q_run[slot], b->n);
+}
+
+static void spread_c(const pl_run* run, const pl_batch* b, double* rhs, const double* x, double factor, int slot) {
+  spread(rhs + run->n_q, x, factor, b->c + slot * b->lanes, b->c_run[slot], b->n);
+}
+
+// ---------------------------------------------------------------------------------------------- sums
+// s = sum_{j=1..k} x_j y_{k-j}
+INLINE void tail_in_blocks(double* restrict s, const double* x, const double* y, int k, int lanes, int block) {
+  for (int first = 0; first < lanes; first += block) {
+    double sum[8] = {0};
+    for (int j = 1; j <= k; j++) BLOCK sum[l - first] += x[j * lanes + l] * y[(k - j) * lanes + l];
+    BLOCK s[l] = sum[l - first];
+  }
+}
+
+static void tail(double* s, const double* x, const double* y, int k, int lanes) {
+  if (lanes == 1) tail_in_blocks(s, x, y, k, 1, 1);
+  else tail_in_blocks(s, x, y, k, lanes, 8);
+}
+
+// with_v = sum_{j=1..k+1} u_j v_{k+1-j},  with_lambda = sum_{j=1..k} u_j λ_{k-j}
+INLINE void bundle_in_blocks(double* restrict with_v, double* restrict with_lambda, const double* u, const double* v,
+                           const double* lambda, int k, int lanes, int block) {
+  for (int first = 0; first < lanes; first += block) {
+    double sum[8] = {0}, other[8] = {0};
+    for (int j = 1; j <= k; j++) {
+      BLOCK sum[l - first] += u[j * lanes + l] * v[(k + 1 - j) * lanes + l];
+      BLOCK other[l - first] += u[j * lanes + l] * lambda[(k - j) * lanes + l];
+    }
+    BLOCK with_v[l] = sum[l - first] + u[(k + 1) * lanes + l] * v[l];
+    BLOCK with_lambda[l] = other[l - first];
+  }
+}
+
+static void bundle_sums(double* with_v, double* with_lambda, const double* u, const double* v, const double* lambda, int k, int lanes) {
+  if (lanes == 1) bundle_in_blocks(with_v, with_lambda, u, v, lambda, k, 1, 1);
+  else bundle_in_blocks(with_v, with_lambda, u, v, lambda, k, lanes, 8);
+}
+
+// ---------------------------------------------------------------------------------------------- right-hand side
+static void subtract_h(pl_run* run, const pl_batch* b, int k, double* rhs) {
+  for (int e = 0; e < b->pattern->n_h; e++) {
+    const pl_pattern_entry* h = &b->pattern->h[e];
+    int node = node_of(b, h->root);
+    if (k > 0 && is_constant(b, node)) continue;
+    const double* x = coefficient(b, node, k);
+    spread_q(b, rhs, x, -1, h->row);
+    for (int l = 0; l < b->n && k == 0; l++)
+      if (fabs(x[l]) > run->force_size) run->force_size = fabs(x[l]);
+  }
+}
+
+static void subtract_mass_tail(const pl_batch* b, int k, double* rhs) {
+  double s[PL_JET_LANES];
+  for (int e = 0; e < b->pattern->n_mass; e++) {
+    const pl_pattern_entry* m = &b->pattern->mass[e];
+    int node = node_of(b, m->root);
+    if (is_constant(b, node)) continue;
+    const double* x = coefficient(b, node, 0);
+    tail(s, x, series_at(b, b->a, m->col, 0), k, b->lanes);
+    spread_q(b, rhs, s, -1, m->row);
+    if (m->row == m->col) continue;
+    tail(s, x, series_at(b, b->a, m->row, 0), k, b->lanes);
+    spread_q(b, rhs, s, -1, m->col);
+  }
+}
+
+// λ is zero where a constraint is not used.
+static void add_bundles(const pl_run* run, const pl_batch* b, int k, double* rhs) {
+  double with_v[PL_JET_LANES], with_lambda[PL_JET_LANES], s[PL_JET_LANES];
+  int lanes = b->lanes;
+  for (int t = 0; t < b->n_bundles; t++) {
+    const pl_bundle* bundle = &b->bundles[t];
+    bundle_sums(with_v, with_lambda, coefficient(b, bundle->node, 0), series_at(b, b->bundle_v, t, 0),
+              series_at(b, b->lambda, bundle->c, 0), k, lanes);
+    spread_c(run, b, rhs, with_v, -(k + 1), bundle->c);
+    for (int e = bundle->first; k > 0 && e < bundle->first + bundle->n; e++) {
+      const double* f = b->bundle_factor + (size_t)e * (size_t)lanes;
+      EACH(lanes) s[l] = f[l] * with_lambda[l];
+      spread_q(b, rhs, s, 1, b->bundle_q[e]);
+    }
+  }
+}
+
+static void add_force_tail(const pl_run* run, const pl_batch* b, int k, double* rhs) {
+  double s[PL_JET_LANES];
+  for (int e = 0; e < b->pattern->n_W; e++) {
+    const pl_pattern_entry* w = &b->pattern->W[e];
+    int node = node_of(b, w->root);
+    if (is_constant(b, node)) continue;
+    tail(s, coefficient(b, node, 0), series_at(b, b->lambda, w->col, 0), k, b->lanes);
+    for (int l = 0; l < b->n; l++)
+      if (run->taken[b->c[w->col * b->lanes + l]]) rhs[b->q[w->row * b->lanes + l]] += s[l];
+  }
+}
+
+static void subtract_time(const pl_run* run, const pl_batch* b, int k, double* rhs) {
+  for (int e = 0; e < b->pattern->n_gt; e++) {
+    const pl_pattern_entry* g = &b->pattern->gt[e];
+    int node = node_of(b, g->root);
+    if (!is_constant(b, node)) spread_c(run, b, rhs, coefficient(b, node, k + 1), -(k + 1), g->row);
+  }
+}
+
+static void rhs_of(pl_run* run, int k, double* rhs) {
+  for (int i = 0; i < run->n_q + run->n_c; i++) rhs[i] = 0;
+  for (int i = 0; i < run->motion.n; i++) {
+    const pl_batch* b = &run->motion.at[i];
+    subtract_h(run, b, k, rhs);
+    if (k > 0) subtract_mass_tail(b, k, rhs);
+    add_bundles(run, b, k, rhs);
+    if (k > 0) add_force_tail(run, b, k, rhs);
+    subtract_time(run, b, k, rhs);
+  }
+  if (!run->rests) return;
+  for (int i = 0; i < run->n_q; i++)
+    if (run->place_n[i] == 0) rhs[i] = 0;
+  for (int c = 0; c < run->n_c; c++)
+    if (!run->taken[c]) rhs[run->n_q + c] = 0;
+}
+
+// ---------------------------------------------------------------------------------------------- coefficients
+// x / k is x times the rounded 1 / k and the rest of it.
+static void over(double* restrict to, const double* restrict from, int by, int n) {
+  double ratio = 1.0 / by, rest = __builtin_fma(-ratio, by, 1) * ratio;
+  EACH(n) to[l] = __builtin_fma(from[l], ratio, from[l] * rest);
+}
+
+static void take(pl_run* run, int k) {
+  double* restrict a = run->A + (size_t)k * (size_t)run->n_q;
+  double* restrict lambda = run->L + (size_t)k * (size_t)run->n_c;
+  const double *restrict x = run->rhs, *restrict y = run->rhs + run->n_q;
+  EACH(run->n_q) a[l] = x[l];
+  over(run->V + (size_t)(k + 1) * (size_t)run->n_q, a, k + 1, run->n_q);
+  if (run->rests) {
+    for (int c = 0; c < run->n_c; c++) lambda[c] = run->taken[c] || run->rubs[c] ? -y[c] : 0;
+  } else {
+    EACH(run->n_c) lambda[l] = -y[l];
+  }
+}
+
+static void horner(const double* X, int n, int last, double dt, double* restrict x) {
+  enum { STRIP = 64 };
+  for (int from = 0; from < n; from += STRIP) {
+    int count = n - from < STRIP ? n - from : STRIP;
+    double* restrict to = x + from;
+    const double* top = X + (size_t)last * (size_t)n + (size_t)from;
+    EACH(count) to[l] = top[l];
+    for (int k = last - 1; k >= 0; k--) {
+      const double* restrict row = X + (size_t)k * (size_t)n + (size_t)from;
+      EACH(count) to[l] = to[l] * dt + row[l];
+    }
+  }
+}
+
+static double norm(const double* x, int n) {
+  double most[8] = {0}, wrong[8] = {0};
+  int whole = n / 8 * 8;
+  for (int i = 0; i < whole; i += 8) {
+    const double* y = x + i;
+    EACH(8) {
+      double size = fabs(y[l]);
+      most[l] = size > most[l] ? size : most[l];
+      wrong[l] += 0 * y[l];     // not a number once y is none, or infinite
+    }
+  }
+  for (int i = whole; i < n; i++) {
+    most[0] = fabs(x[i]) > most[0] ? fabs(x[i]) : most[0];
+    wrong[0] += 0 * x[i];
+  }
+  double all = most[0], none = wrong[0];
+  for (int l = 1; l < 8; l++) {
+    all = most[l] > all ? most[l] : all;
+    none += wrong[l];
+  }
+  if (none == 0) return all;
+  for (int i = 0; i < n; i++)
+    if (isnan(x[i])) return x[i];
+  return all;
+}
+
+const pl_orders PL_ORDERS = {load, rhs_of, take, over, horner, norm};
