@@ -30,6 +30,9 @@ typedef struct pl_recording {
   long count;
   pl_flat_coords flat;            // coordinate of each index of the setup
   int n_declared;                 // constraints before the map equations
+  // bodies with Euler angles are integrated with quaternions: the same columns, other coordinates behind them; NULL: as it stands
+  struct pl_recording* turned;
+  const char* angles_kept;        // an expression for which some body keeps its Euler angles, NULL none
   pl_exact_start *exact_q, *exact_v;   // of each coordinate                                          (flat.n)
   // with sensitivities: coordinates stand in blocks of flat.n, the motion and its variation by turns
   int n_directions;
@@ -69,10 +72,10 @@ struct pleuel_model {
   pl_recording* recording;
   pl_result* result;
   pl_start_report start;
+  struct pl_certificate_of_run* certified;   // what `certify` found; NULL: not asked for
   bool tol_raised, start_reported;
   double tol_used;
   char run_message[512];
-  struct pl_certificate_of_run* certified;   // what `certify` found; NULL: not asked for
   pl_keeping* keeping;            // of the run at work; NULL: its state is not kept
   pl_kept kept;
   char kept_why[128];             // PL_KEPT_FAILED
@@ -136,14 +139,14 @@ void pl_engine_text(pl_text* out, const pleuel_model* m, pl_language lang);    /
 void pl_motion_text(pl_text* out, const pleuel_model* m, pl_language lang, bool ascii, bool events_only);
 void pl_motion_json(pl_text* out, const pleuel_model* m);
 
-// ---- summary.c: what `check` says
-void pl_check_summary(pl_text* out, const pleuel_model* m, pl_language lang);
-
 // ---- certified.c: the proven enclosure of a run; certified_words.c: what is said of it
 // The start of the run, before it moves; then, when it is over, the enclosure and how far the run is from it.
 void pl_certify_begin(pleuel_model* m, const pleuel_sim_options* o, const pl_run* run);
 pleuel_status pl_certify_end_of_run(pleuel_model* m, const pleuel_sim_options* o);
 void pl_certified_text(pl_text* out, const pleuel_model* m, pl_language lang, bool ascii);
 void pl_certified_json(pl_json* j, const pleuel_model* m);
+
+// ---- summary.c: what `check` says
+void pl_check_summary(pl_text* out, const pleuel_model* m, pl_language lang);
 
 #endif

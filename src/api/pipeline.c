@@ -116,13 +116,14 @@ static pleuel_status record_varied(pleuel_model* m, const char* sensitivities) {
 typedef struct pl_relay {
   const pleuel_sim_options* options;
   pleuel_model* model;
+  const pl_setup* setup;
   double* values;      // (n_columns)
   bool stopped;        // the caller wants no more
 } pl_relay;
 
 static pleuel_status relay_row(void* user, const pl_row* row) {
   pl_relay* r = user;
-  const pl_setup* s = &r->model->recording->setup;
+  const pl_setup* s = r->setup;
   int n = 0;
   r->values[n++] = row->t;
   for (int i = 0; i < s->n_q; i++) {
@@ -203,6 +204,31 @@ static pleuel_status start_varied(pleuel_model* m, const pl_run_options* how, pl
   return s;
 }
 
+// Bodies in space are integrated as quaternions from the start that was found in their angles.
+static pleuel_status start_turned(pleuel_model* m, const pl_run_options* how, pl_run* run) {
+  const pl_recording* r = m->recording;
+  pl_run* first = NULL;
+  pl_run_options quiet = *how;
+  quiet.sink = (pl_sink){0};
+  quiet.progress = NULL;
+  quiet.keep = NULL;
+  quiet.start_only = true;      // the angles may tell no accelerations there
+  pleuel_status s = pl_run_make(&m->job, &r->setup, &quiet, &first);
+  if (s == PLEUEL_OK) s = start_plain(m, first);
+  size_t n = (size_t)r->flat.n, all = (size_t)r->turned->setup.n_q;
+  double *q = PL_ARRAY(m->arena, double, all), *v = PL_ARRAY(m->arena, double, all);
+  if (s == PLEUEL_OK) {
+    memcpy(q, pl_run_q(first), n * sizeof *q);
+    memcpy(v, pl_run_v(first), n * sizeof *v);
+    s = pl_run_start_turned(run, pl_run_time(first), q, v);
+  }
+  pl_run_free(first);
+  return s;
+}
+
+// What is proven is proven for the coordinates as declared.
+static bool is_turned(const pl_recording* r, const pleuel_sim_options* o) { return r->turned && !o->certify; }
+
 static bool method_named(const char* name, pl_method* out) {
   static const char* const names[] = {[PL_METHOD_TAYLOR] = "taylor", [PL_METHOD_RADAU] = "radau", [PL_METHOD_AUTO] = "auto"};
   for (int i = 0; i < 3; i++) {
@@ -248,6 +274,8 @@ static const double* exact_time(pleuel_model* m, const char* text) {
 pleuel_status pl_pipeline_start(pleuel_model* m, const pleuel_sim_options* o, pl_run** out) {
   PL_TRY(record_varied(m, o->sensitivities));
   const pl_recording* r = m->recording;
+  bool turned = is_turned(r, o);
+  const pl_setup* setup = turned ? &r->turned->setup : &r->setup;
   pl_run_options how = {.t_0 = r->t_0, .t_end = r->t_end, .tol = r->tol, .dt = r->dt, .count = r->count};
   how.method = PL_METHOD_AUTO;
   if (o->method) method_named(o->method, &how.method);
@@ -264,7 +292,7 @@ pleuel_status pl_pipeline_start(pleuel_model* m, const pleuel_sim_options* o, pl
     if (o->csv) m->result->next = m->keeping && o->resume ? pl_csv_sink_behind(m->arena, o->csv) : pl_csv_sink(m->arena, o->csv);
     else if (o->row) {
       pl_relay* relay = PL_NEW(m->arena, pl_relay);
-      *relay = (pl_relay){.options = o, .model = m, .values = PL_ARRAY(m->arena, double, 1 + 2 * r->setup.n_q + r->setup.n_c + r->setup.n_out)};
+      *relay = (pl_relay){.options = o, .model = m, .setup = setup, .values = PL_ARRAY(m->arena, double, 1 + 2 * setup->n_q + setup->n_c + setup->n_out)};
       m->result->next = (pl_sink){.user = relay, .begin = relay_columns, .row = relay_row};
     }
   }
@@ -283,8 +311,8 @@ pleuel_status pl_pipeline_start(pleuel_model* m, const pleuel_sim_options* o, pl
     how.keep_user = m->keeping;
     if (resumes) how.sink = (pl_sink){0};
   }
-  PL_TRY(pl_run_make(&m->job, &r->setup, &how, out));
-  pleuel_status s = r->n_directions ? start_varied(m, &how, *out) : start_plain(m, *out);
+  PL_TRY(pl_run_make(&m->job, setup, &how, out));
+  pleuel_status s = r->n_directions ? start_varied(m, &how, *out) : turned ? start_turned(m, &how, *out) : start_plain(m, *out);
   if (s == PLEUEL_OK && resumes) {
     s = pl_keeping_resume(m->keeping, *out, &sink);
     if (s != PLEUEL_OK) m->result->rows.n = m->result->events.n = 0;     // nothing was run
@@ -308,6 +336,9 @@ static pleuel_status check_times(pleuel_model* m, const pleuel_sim_options* o) {
   if (o->engine && !engine_named(o->engine, NULL)) {
     return pl_fail(&m->job, PLEUEL_USAGE, "there is no engine %s: auto, interpreter or compiled", o->engine);
   }
+  if (o->certify && !(o->certify_width >= 0 && o->certify_width < 1e-4)) {
+    return pl_fail(&m->job, PLEUEL_USAGE, "the width of an enclosure lies between 0 and 1e-4");
+  }
   if (o->precision && !precision_named(o->precision, NULL)) {
     return pl_fail(&m->job, PLEUEL_USAGE, "there is no precision %s: double, long or quad", o->precision);
   }
@@ -315,6 +346,7 @@ static pleuel_status check_times(pleuel_model* m, const pleuel_sim_options* o) {
     return pl_fail(&m->job, PLEUEL_UNSUPPORTED, "precision %s: sensitivities are computed in double only", o->precision);
   }
   if (o->has_dt && !(o->dt > 0)) return pl_fail(&m->job, PLEUEL_USAGE, "dt must be positive");
+  if (o->certify && o->resume) return pl_fail(&m->job, PLEUEL_USAGE, "a run that goes on from a state cannot be certified");
   return PLEUEL_OK;
 }
 
@@ -335,9 +367,6 @@ static void tell_inelastic(pleuel_model* m) {
                   pl_format(m->arena, "das Stoßgesetz angeben: restitution 0 on %s", e->label), NULL);
   }
   if (m->diagnostics.list.n > before) pl_diagnostics_sort(&m->diagnostics);
-  if (o->certify && !(o->certify_width >= 0 && o->certify_width < 1e-4)) {
-    return pl_fail(&m->job, PLEUEL_USAGE, "the width of an enclosure lies between 0 and 1e-4");
-  }
 }
 
 // setup -> motion
@@ -345,8 +374,8 @@ pleuel_status pl_pipeline_run(pleuel_model* m, const pleuel_sim_options* o) {
   m->is_run = true;
   m->result = NULL;
   m->run_message[0] = '\0';
-  if (o->certify && o->resume) return pl_fail(&m->job, PLEUEL_USAGE, "a run that goes on from a state cannot be certified");
   m->keeping = NULL;
+  m->certified = NULL;
   m->kept = PL_KEPT_NO;
   m->resumed_at = (double)NAN;
   m->state = o->state ? pl_copy(m->arena, o->state) : NULL;
@@ -363,6 +392,7 @@ pleuel_status pl_pipeline_run(pleuel_model* m, const pleuel_sim_options* o) {
   m->keeping = pl_keeping_make(m, o);
   pl_run* run = NULL;
   m->run = pl_pipeline_start(m, o, &run);
+  if (m->run == PLEUEL_OK) pl_certify_begin(m, o, run);
   if (m->run == PLEUEL_OK) m->run = pl_run_to_end(run);
   if (run) pl_run_free(run);
   m->keeping = NULL;
@@ -372,5 +402,3 @@ pleuel_status pl_pipeline_run(pleuel_model* m, const pleuel_sim_options* o) {
   pleuel_status proved = pl_certify_end_of_run(m, o);
   return m->run == PLEUEL_OK ? proved : m->run;
 }
-  m->certified = NULL;
-  if (m->run == PLEUEL_OK) pl_certify_begin(m, o, run);

@@ -538,30 +538,53 @@ static void read_times(pl_recorder* r) {
   out->count = s->given ? s->count : 0;
 }
 
-pleuel_status pl_record(pl_job* job, pl_model* model, const char* sensitivities, bool exact, pl_recording** out) {
-  pl_arena* a = job->arena;
-  pl_recorder r = {.exact = exact, .job = job, .arena = a, .model = model, .pool = model->pool, .out = PL_NEW(a, pl_recording)};
-  r.out->flat = pl_model_flat_coords(model, a);
-  r.flat_at = pl_map_make(a);
-  for (int i = 0; i < r.out->flat.n; i++) {
-    pl_map_set(r.flat_at, r.out->flat.at[i].id, (uint64_t)i + 1);
-    pl_symbol_dot(r.pool, pl_symbol_dot(r.pool, pl_symbol_of(r.pool, r.out->flat.at[i])));   // so that the values below have room
+static void list_coordinates(pl_recorder* r) {
+  r->out->flat = pl_model_flat_coords(r->model, r->arena);
+  r->flat_at = pl_map_make(r->arena);
+  for (int i = 0; i < r->out->flat.n; i++) {
+    pl_map_set(r->flat_at, r->out->flat.at[i].id, (uint64_t)i + 1);
+    pl_symbol_dot(r->pool, pl_symbol_dot(r->pool, pl_symbol_of(r->pool, r->out->flat.at[i])));   // so that the values have room
   }
-  if (sensitivities) PL_TRY(pl_variation_begin(&r, sensitivities));
-  pl_record_rub_symbols(&r);
-  r.value = pl_model_values(model, a);
-  r.n_value = pl_symbol_count(r.pool) + 1;
-  read_times(&r);
-  pl_wider_begin(&r);
+}
 
-  PL_TRY(make_groups(&r));
-  PL_TRY(record_patterns(&r));
-  PL_TRY(make_coordinates(&r));
-  make_links(&r);
-  PL_TRY(pl_record_observers(&r));
-  PL_TRY(pl_record_events(&r));
-  PL_TRY(pl_record_branches(&r));
+static void list_values(pl_recorder* r) {
+  pl_record_rub_symbols(r);
+  r->value = pl_model_values(r->model, r->arena);
+  r->n_value = pl_symbol_count(r->pool) + 1;
+  read_times(r);
+  pl_wider_begin(r);
+}
+
+void pl_record_begin(pl_recorder* r) {
+  list_coordinates(r);
+  list_values(r);
+}
+
+pleuel_status pl_record_model(pl_recorder* r) {
+  PL_TRY(make_groups(r));
+  PL_TRY(record_patterns(r));
+  PL_TRY(make_coordinates(r));
+  make_links(r);
+  PL_TRY(pl_record_observers(r));
+  PL_TRY(pl_record_events(r));
+  return pl_record_branches(r);
+}
+
+// The form that is integrated is a second one; where it cannot be had, the first serves.
+static void record_turned(const pl_recorder* r) {
+  if (pl_record_turned(r) == PLEUEL_OK) return;
+  r->job->message[0] = '\0';
+  r->job->status = PLEUEL_OK;
+}
+
+pleuel_status pl_record(pl_job* job, pl_model* model, const char* sensitivities, bool exact, pl_recording** out) {
+  pl_recorder r = {.exact = exact, .job = job, .arena = job->arena, .model = model, .pool = model->pool, .out = PL_NEW(job->arena, pl_recording)};
+  list_coordinates(&r);
+  if (sensitivities) PL_TRY(pl_variation_begin(&r, sensitivities));
+  list_values(&r);
+  PL_TRY(pl_record_model(&r));
   if (r.variation) PL_TRY(pl_variation_setup(&r));
+  else if (!exact) record_turned(&r);
   PL_TRY(pl_wider_setup(&r));
   r.out->exact = exact;
   *out = r.out;

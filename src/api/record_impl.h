@@ -66,6 +66,11 @@ typedef struct pl_recorder {
   pl_expr *start_q, *start_v; // of the coordinates, as given
 } pl_recorder;
 
+// record.c, record_turn.c: the steps of a recording
+void pl_record_begin(pl_recorder* r);                         // coordinates, numbers, times
+pleuel_status pl_record_model(pl_recorder* r);
+pleuel_status pl_record_turned(const pl_recorder* as);        // beside a finished one, the form that is integrated
+
 // record_forces.c: energies and generalized forces of the groups.
 void pl_group_energies(pl_recorder* r);
 void pl_group_forces(pl_recorder* r, pl_group* g);

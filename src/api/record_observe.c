@@ -139,7 +139,7 @@ static pleuel_status settle_start_values(pl_recorder* r) {
   bare.n_branch_outputs = r->out->setup.n_branch_outputs;
   bare.branch_patterns = r->out->setup.branch_patterns;
   bare.n_branch_patterns = r->out->setup.n_branch_patterns;
-  pl_run_options how = {.t_0 = r->out->t_0, .t_end = r->out->t_0};
+  pl_run_options how = {.t_0 = r->out->t_0, .t_end = r->out->t_0, .start_only = true};
   pl_run* run = NULL;
   PL_TRY(pl_run_make(r->job, &bare, &how, &run));
   pleuel_status s = pl_run_start(run);

@@ -329,6 +329,18 @@ pleuel_status pl_model_expand(pl_job* job, const pl_model* m, int max_coords, pl
 // Status PLEUEL_MODEL_ERROR when there is an error among the diagnostics.
 pleuel_status pl_model_check(pl_job* job, pl_model* m);
 
+// ---------------------------------------------------------------------------------------------- attitudes
+// Where the angles of a body in space stood among the coordinates one by one, there stand q1, q2, q3 of its quaternion now.
+typedef struct pl_turned_place { pl_expr angle[3]; int at[3]; int scalar; } pl_turned_place;   // scalar: q0, behind them all
+typedef struct pl_turned {
+  pl_model* model;            // in the same pool; without start values, branches and requests
+  PL_VEC(pl_turned_place) places;
+  const char* why;            // an expression for which a body keeps its angles; NULL: none had to
+} pl_turned;
+// pl_model_turned gives a checked model with unit quaternions instead of the Euler angles of bodies in space.  Outputs may still
+// speak of angles.  false: there is no such body, or the motion depends on the angles in a way that is singular itself.
+bool pl_model_turned(pl_job* job, pl_model* m, pl_turned* out);
+
 // ---------------------------------------------------------------------------------------------- units
 // A unit as written.  `factor` is what a number in front of the unit is multiplied by: the exact factor to SI times the
 // SI base units as symbols ("[m]", "[kg]", ...), so that `1 [m] + 2 [s]` is still seen to be wrong after the constructors

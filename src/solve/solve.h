@@ -251,6 +251,7 @@ typedef struct pl_run_options {
   void (*progress)(void* user, double t, double t_end, double h, const pl_stats* stats);   // after every step; or NULL
   void* progress_user;
   pl_engine engine;
+  bool start_only;                    // pl_run_start finds the start and leaves it at that: no accelerations, nothing to step from
   bool general;                       // without codes (jit.h): every step goes the general way
   void (*keep)(void* user, struct pl_run* run, bool interrupted);   // between two steps, and when it is interrupted; or NULL:
   void* keep_user;                                                  // pl_run_keep may be called there

@@ -497,7 +497,8 @@ pleuel_status pl_run_start(pl_run* run) {
   pl_watch_forget(run);
   mark_leaving(&s);
   run->start_given = true;
-  PL_TRY(pl_run_begin_at(run, run->options.t_0));
+  run->t = run->options.t_0;
+  if (!run->options.start_only) PL_TRY(pl_run_begin_at(run, run->options.t_0));
   list_moves(&s);
   list_sitting(&s);
   return PLEUEL_OK;

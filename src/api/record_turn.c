@@ -1,0 +1,57 @@
+// The motion of bodies with Euler angles as it is integrated: with unit quaternions in the places of their angles
+// (model/turned.c).  Coordinates, columns and events are those of the model as declared.
+#include <math.h>
+#include <string.h>
+
+#include "api/record_impl.h"
+
+// Angles that observers still speak of stand behind all coordinates.
+static void place_angles(pl_recorder* r, const pl_turned* t) {
+  pl_turn_setup* turns = PL_ARRAY(r->arena, pl_turn_setup, t->places.n);
+  for (int i = 0; i < t->places.n; i++) {
+    const pl_turned_place* p = &t->places.at[i];
+    memcpy(turns[i].angle, p->at, sizeof p->at);
+    turns[i].scalar = p->scalar;
+    for (int k = 0; k < 3; k++)
+      pl_map_set(r->flat_at, p->angle[k].id, (uint64_t)(r->out->flat.n + 3 * i + k) + 1);
+  }
+  r->out->setup.turns = turns;
+  r->out->setup.n_turns = t->places.n;
+}
+
+// Names and units as declared; what is new has no column.
+static void name_as_declared(const pl_recorder* r, const pl_recording* declared) {
+  pl_coordinate* q = PL_ARRAY(r->arena, pl_coordinate, r->out->flat.n + 1);
+  for (int i = 0; i < r->out->flat.n; i++) {
+    q[i] = r->out->setup.coordinates[i];
+    q[i].hidden = i >= declared->flat.n;
+    if (q[i].hidden) continue;
+    const pl_coordinate* as = &declared->setup.coordinates[i];
+    q[i].name = as->name, q[i].unit = as->unit, q[i].v_name = as->v_name, q[i].v_unit = as->v_unit;
+  }
+  r->out->setup.coordinates = q;
+  pl_link* link = PL_ARRAY(r->arena, pl_link, r->n_links + 1);
+  memcpy(link, r->out->setup.links, (size_t)r->n_links * sizeof *link);
+  for (int i = 0; i < r->model->constraints.n; i++) {
+    const pl_constraint* c = &r->model->constraints.at[i];
+    int last = i + 1 < r->model->constraints.n ? r->first_link[i + 1] : r->out->n_declared;
+    for (int k = r->first_link[i]; c->body && !c->lambda.id && k < last; k++) link[k].column = NULL;
+  }
+  r->out->setup.links = link;
+}
+
+pleuel_status pl_record_turned(const pl_recorder* as) {
+  pl_turned t;
+  bool turned = pl_model_turned(as->job, as->model, &t);
+  as->out->angles_kept = t.why;
+  if (!turned) return PLEUEL_OK;
+  pl_recorder r = {.job = as->job, .arena = as->arena, .model = t.model, .pool = as->pool, .out = PL_NEW(as->arena, pl_recording)};
+  pl_record_begin(&r);
+  place_angles(&r, &t);
+  if (as->start_settled) memcpy(r.value, as->value, (size_t)as->n_value * sizeof *r.value);
+  r.start_settled = as->start_settled;
+  PL_TRY(pl_record_model(&r));
+  name_as_declared(&r, as->out);
+  as->out->turned = r.out;
+  return PLEUEL_OK;
+}
