@@ -58,8 +58,9 @@ typedef struct pl_prog_sum {
 enum { PL_PROG_PARTS = 4 };
 static inline int pl_prog_parts(const pl_prog_sum* s) { return s->n == 1 ? 2 : PL_PROG_PARTS; }
 typedef struct pl_prog_block { int width, shift, first, n; } pl_prog_block;    // sums first .. first + n - 1
-// y = A x: rows in blocks of 8, column j of A at A + 8 j blocks; sums over j in four parts, j mod 4: (s0+s1)+(s2+s3).
-typedef struct pl_prog_product { int to, matrix, vector, n, blocks; } pl_prog_product;
+// y = A x: rows in blocks of 8, column j of A at A + 8 j blocks.  The last `late` entries of x are waited for and come last: over the
+// others sums in four parts, j mod 4, s = (s0+s1)+(s2+s3); to s and, when there are several late ones, to a second part they are added in turn.
+typedef struct pl_prog_product { int to, matrix, vector, n, late, blocks; } pl_prog_product;
 
 typedef struct pl_prog {
   pl_arena* arena;
@@ -99,7 +100,7 @@ void pl_prog_sum_begin(pl_prog* c, int to, bool weighted);
 void pl_prog_sum_pair(pl_prog* c, int a, int b);
 void pl_prog_sum_lanes(pl_prog* c, int lanes);   // of the sum at work
 void pl_prog_sum_scale(pl_prog* c, int scale, int rest);
-void pl_prog_product_add(pl_prog* c, int to, int matrix, int vector, int n, int blocks);
+void pl_prog_product_add(pl_prog* c, int to, int matrix, int vector, int n, int late, int blocks);
 uint64_t pl_prog_hash(const pl_prog* c, uint64_t seed);
 void pl_prog_dump(pl_text* out, const pl_prog* c);
 

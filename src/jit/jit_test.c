@@ -260,7 +260,8 @@ static void products_and_rows_of_sums_have_the_same_bits(void** state) {
   pl_arena* a = pl_arena_make(NULL);
   pl_random r = {seed_of("products")};
   pl_prog* p = pl_prog_make(a, "product", 1);
-  pl_prog_product_add(p, 0, 64, 32, N, 2);
+  pl_prog_product_add(p, 0, 64, 32, N, 5, 2);
+  pl_prog_product_add(p, 16, 64, 32, N, 1, 2);
   pl_prog_block_begin(p, 8, 1);
   for (int i = 0; i < 11; i++) {
     pl_prog_sum_begin(p, 512 + 8 * i, i == 5);

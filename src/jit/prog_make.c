@@ -106,8 +106,8 @@ void pl_prog_sum_scale(pl_prog* c, int scale, int rest) {
   c->sums.at[c->sums.n - 1].rest = rest;
 }
 
-void pl_prog_product_add(pl_prog* c, int to, int matrix, int vector, int n, int blocks) {
-  pl_push(c->arena, c->products, (pl_prog_product){to, matrix, vector, n, blocks});
+void pl_prog_product_add(pl_prog* c, int to, int matrix, int vector, int n, int late, int blocks) {
+  pl_push(c->arena, c->products, (pl_prog_product){to, matrix, vector, n, late, blocks});
   access(c, PL_PROG_PRODUCT, -1, c->products.n - 1, 0);
 }
 

@@ -51,16 +51,21 @@ static void block_sums(const pl_prog* c, const pl_prog_block* b, double* m, int 
   }
 }
 
+INLINE void add_column(double* s, const pl_prog_product* p, const double* m, int j, int block) {
+  enum { width = 8 };
+  const double* column = m + p->matrix + (j * p->blocks + block) * width;
+  double x = m[p->vector + j];
+  LANES s[l] = __builtin_fma(column[l], x, s[l]);
+}
+
 static void product(const pl_prog_product* p, double* m) {
   enum { width = 8 };
   for (int block = 0; block < p->blocks; block++) {
-    double part[4][8] = {{0}};
-    for (int j = 0; j < p->n; j++) {
-      const double* column = m + p->matrix + (j * p->blocks + block) * width;
-      double x = m[p->vector + j];
-      LANES part[j % 4][l] = __builtin_fma(column[l], x, part[j % 4][l]);
-    }
-    LANES m[p->to + block * width + l] = (part[0][l] + part[1][l]) + (part[2][l] + part[3][l]);
+    double part[4][8] = {{0}}, last[2][8] = {{0}};
+    for (int j = 0; j < p->n - p->late; j++) add_column(part[j % 4], p, m, j, block);
+    LANES last[0][l] = (part[0][l] + part[1][l]) + (part[2][l] + part[3][l]);
+    for (int i = 0; i < p->late; i++) add_column(last[i % 2], p, m, p->n - p->late + i, block);
+    LANES m[p->to + block * width + l] = p->late > 1 ? last[0][l] + last[1][l] : last[0][l];
   }
 }
 

@@ -22,7 +22,7 @@
 enum {
   PL_MOTION_UNKNOWNS = 100,      // largest system: above, compiling takes longer than most runs
   PL_MOTION_INVERSE = 24,        // so many unknowns are solved for by a product with the inverse
-  PL_MOTION_WRITTEN_OUT = 3000,  // operations over all orders up to which these are written out one by one
+  PL_MOTION_WRITTEN_OUT = 4500,  // operations over all orders up to which these are written out one by one
   PL_MOTION_NODES = 6000         // of all instances together
 };
 

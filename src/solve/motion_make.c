@@ -286,7 +286,8 @@ static void speed_code(pl_maker* k) {
   pl_maker_end(k);
 }
 
-// Eight columns at a time; the inverse is symmetric, so its rows are its columns.
+// Eight columns at a time; the inverse is symmetric, so its rows are its columns.  What belongs to constraints is given and taken with the
+// other sign: the identity holds -1 there.
 static void inverse_code(pl_maker* k) {
   pl_motion* o = k->o;
   int blocks = (o->n + 7) / 8, stride = 8 * blocks;
@@ -297,7 +298,10 @@ static void inverse_code(pl_maker* k) {
     for (int u = 0; u < o->n; u++) x[u] = u / 8 == b ? pl_prog_load(k->code, o->identity + u * stride + 8 * b, 0) : -1;
     pl_elimination_solve(k->elimination, k->code, x);
     for (int u = 0; u < o->n; u++)
-      if (x[u] >= 0) pl_prog_store(k->code, x[u], o->matrix + u * stride + 8 * b, 0);
+      if (x[u] >= 0) {
+        int entry = u < o->n - o->n_taken ? x[u] : pl_prog_op1(k->code, PL_PROG_NEG, x[u]);
+        pl_prog_store(k->code, entry, o->matrix + u * stride + 8 * b, 0);
+      }
   }
   pl_maker_end(k);
 }
@@ -373,7 +377,7 @@ static void fill_memory(pl_maker* k) {
   o->m[o->time + 1] = 1;
   int stride = (o->n + 7) / 8 * 8;
   if (o->n <= o->inverse_up_to)
-    for (int u = 0; u < o->n; u++) o->m[o->identity + u * stride + u] = 1;
+    for (int u = 0; u < o->n; u++) o->m[o->identity + u * stride + u] = u < o->n - o->n_taken ? 1 : -1;
   for (int i = 0; i < k->n_nodes; i++) {
     pl_maker_instance* in = &k->instance[k->owner[i]];
     if (k->cell[i] < 0 || i - in->base >= in->tape->level_end[PL_LEVEL_CONST]) continue;

@@ -375,64 +375,82 @@ static int force(pl_maker* k, int i, bool first) {
   return h;
 }
 
+// The unknowns of order k are v_{k+1} = a_k / (k + 1) and λ_k / (k + 1), so that the rows of constraints, which are waited for, need no
+// factor.  Without constraints they are a_k.
+static bool in_velocities(const pl_maker* k, bool first) { return !first && k->o->n_taken > 0; }
+
 static int right_of_coordinate(pl_maker* k, int u, bool first) {
   int s = sum_at(k, u), h = force(k, k->o->index[u], first);
-  if (h < 0) return s;
-  return s < 0 ? pl_prog_op1(k->code, PL_PROG_NEG, h) : pl_prog_op2(k->code, PL_PROG_SUB, s, h);
+  if (h >= 0) s = s < 0 ? pl_prog_op1(k->code, PL_PROG_NEG, h) : pl_prog_op2(k->code, PL_PROG_SUB, s, h);
+  return s >= 0 && in_velocities(k, first) ? over_next(k, s) : s;
 }
 
-static int right_of_constraint(pl_maker* k, int u) {
-  int c = k->o->index[u], s = sum_at(k, u);
+// Order k + 1 of G v + dg/dt without the unknowns, over k + 1.  The newest coefficients of G come in two chains, which are waited for least.
+static int left_of_constraint(pl_maker* k, int u) {
+  int c = k->o->index[u], s[2] = {sum_at(k, u), -1}, n = 0;
   for (int e = 0; e < k->gt.n; e++)
-    if (k->gt.at[e].row == c) s = plus(k, s, k->place_now[k->gt.at[e].node]);
+    if (k->gt.at[e].row == c) s[0] = plus(k, s[0], k->place_now[k->gt.at[e].node]);
   for (int e = 0; e < k->G.n; e++) {
-    int x = k->place_now[k->G.at[e].node];
+    int x = k->place_now[k->G.at[e].node], *to = &s[n % 2];
     if (k->G.at[e].row != c || x < 0) continue;
     int v = pl_prog_load(k->code, k->o->V + k->G.at[e].col, 0);
-    s = s < 0 ? pl_prog_op2(k->code, PL_PROG_MUL, x, v) : pl_prog_op3(k->code, PL_PROG_FMA, x, v, s);
+    *to = *to < 0 ? pl_prog_op2(k->code, PL_PROG_MUL, x, v) : pl_prog_op3(k->code, PL_PROG_FMA, x, v, *to);
+    n++;
   }
-  if (s < 0) return -1;
-  return pl_prog_op1(k->code, PL_PROG_NEG, pl_prog_op2(k->code, PL_PROG_MUL, pl_prog_order(k->code, 1), s));
+  return plus(k, s[0], s[1]);
 }
 
+// Unknowns from right sides, of constraints left sides; of these come λ_k / (k + 1).
 static void solve(pl_maker* k, int* x, bool first) {
   pl_motion* o = k->o;
-  if (first || o->n > o->inverse_up_to) {
+  int n = o->n, n_coordinates = n - o->n_taken;
+  if (first || n > o->inverse_up_to) {
+    for (int u = n_coordinates; u < n; u++) x[u] = x[u] < 0 ? -1 : pl_prog_op1(k->code, PL_PROG_NEG, x[u]);
     pl_elimination_solve(k->elimination, k->code, x);
+    for (int u = n_coordinates; u < n; u++) x[u] = x[u] < 0 ? -1 : pl_prog_op1(k->code, PL_PROG_NEG, x[u]);
     return;
   }
-  for (int u = 0; u < o->n; u++) pl_prog_store(k->code, x[u] < 0 ? pl_prog_number(k->code, 0) : x[u], o->vector + u, 0);
-  pl_prog_product_add(k->code, o->result, o->matrix, o->vector, o->n, (o->n + 7) / 8);
-  for (int u = 0; u < o->n; u++) x[u] = pl_prog_load(k->code, o->result + u, 0);
+  for (int u = 0; u < n; u++) pl_prog_store(k->code, x[u] < 0 ? pl_prog_number(k->code, 0) : x[u], o->vector + u, 0);
+  pl_prog_product_add(k->code, o->result, o->matrix, o->vector, n, o->n_taken, (n + 7) / 8);
+  for (int u = 0; u < n; u++) x[u] = pl_prog_load(k->code, o->result + u, 0);
 }
 
-static void take_solution(pl_maker* k, const int* x) {
+static int times_next(pl_maker* k, int x, bool first) {
+  return in_velocities(k, first) ? pl_prog_op2(k->code, PL_PROG_MUL, pl_prog_order(k->code, 1), x) : x;
+}
+
+static void take_solution(pl_maker* k, const int* x, bool first) {
   pl_motion* o = k->o;
   pl_prog* code = k->code;
   for (int i = 0; i < o->n_q; i++) {
     int u = o->of_coordinate[i];
     if (u < 0 || x[u] < 0) continue;
-    pl_prog_store(code, x[u], o->A + i, o->n_q);
-    int v = over_next(k, x[u]);
+    int v = in_velocities(k, first) || first ? x[u] : over_next(k, x[u]);
     pl_prog_store(code, v, o->V + o->n_q + i, o->n_q);
     write(k, v, &k->from_v[i], 1);
-    if (k->from_a[i].n > 0) write(k, pl_prog_op1(code, PL_PROG_NEG, x[u]), &k->from_a[i], 1);
   }
   for (int c = 0; c < o->n_c; c++) {
     int u = o->of_constraint[c];
     if (u < 0 || x[u] < 0) continue;
-    int lambda = pl_prog_op1(code, PL_PROG_NEG, x[u]);
-    pl_prog_store(code, lambda, o->L + c, o->n_c);
+    int lambda = times_next(k, x[u], first);
     write(k, lambda, &k->from_lambda[c], 1);
+    pl_prog_store(code, lambda, o->L + c, o->n_c);
+  }
+  for (int i = 0; i < o->n_q; i++) {
+    int u = o->of_coordinate[i];
+    if (u < 0 || x[u] < 0) continue;
+    int a = times_next(k, x[u], first);
+    pl_prog_store(code, a, o->A + i, o->n_q);
+    if (k->from_a[i].n > 0) write(k, pl_prog_op1(code, PL_PROG_NEG, a), &k->from_a[i], 1);
   }
 }
 
 static void equations(pl_maker* k, bool first) {
   int n = k->o->n, *x = PL_ARRAY(k->a, int, n + 1);
   k->speed_phase = true;
-  for (int u = 0; u < n; u++) x[u] = u < n - k->o->n_taken ? right_of_coordinate(k, u, first) : right_of_constraint(k, u);
+  for (int u = 0; u < n; u++) x[u] = u < n - k->o->n_taken ? right_of_coordinate(k, u, first) : left_of_constraint(k, u);
   solve(k, x, first);
-  take_solution(k, x);
+  take_solution(k, x, first);
 }
 
 // ---------------------------------------------------------------------------------------------- the two codes
@@ -459,7 +477,7 @@ void pl_maker_start_code(pl_maker* k) {
 // Small programs are written out for every order.
 static bool is_small(const pl_maker* k) {
   long operations = 0;
-  for (int order = 1; order < k->run->order; order++) operations += k->code->lines.n + 4L * k->code->pairs.n * order;
+  for (int order = 1; order < k->run->order; order++) operations += k->code->lines.n + 2L * k->code->pairs.n * order;
   return operations <= PL_MOTION_WRITTEN_OUT;
 }
 
