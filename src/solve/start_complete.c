@@ -72,9 +72,9 @@ pleuel_status pl_run_start_partly(pl_run* run, double t, const double* q, const 
   size_t n = (size_t)run->n_q;
   if (run->rows == NULL) return pl_run_start_at(run, t, q, v);
   pl_arena* a = run->job->arena;
+  double *q_kept = PL_ARRAY(a, double, n + 1), *v_kept = PL_ARRAY(a, double, n + 1);
   pl_mark mark = pl_arena_mark(a);
   double *basis = PL_ARRAY(a, double, n*(size_t)(run->n_c + 1)), *change = PL_ARRAY(a, double, n + 1);
-  double *q_kept = PL_ARRAY(a, double, n + 1), *v_kept = PL_ARRAY(a, double, n + 1);
   memcpy(run->q, q, n * sizeof(double));
   memcpy(run->v, v, n * sizeof(double));
   pl_active_update(run);
@@ -83,7 +83,6 @@ pleuel_status pl_run_start_partly(pl_run* run, double t, const double* q, const 
   if (!complete_velocities(run, t, held_v, basis, change)) memcpy(run->v, v, n * sizeof(double));
   memcpy(q_kept, run->q, n * sizeof(double));
   memcpy(v_kept, run->v, n * sizeof(double));
-  pleuel_status how = pl_run_start_at(run, t, q_kept, v_kept);
-  pl_arena_rewind(a, mark);
-  return how;
+  pl_arena_rewind(a, mark);     // before the start, which makes codes that stay
+  return pl_run_start_at(run, t, q_kept, v_kept);
 }
