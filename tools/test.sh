@@ -105,6 +105,7 @@ part "house/manual" tools/check_manual.py build-test/gcc/pleuel
 part "house/install" tools/check_install.sh
 part "house/words" tools/check_words.sh
 part "house/sentences" tools/check_sentences.py
+part "house/state" tools/check_state.py
 part "house/glossary" tools/check_glossary.py
 
 stage "done"
