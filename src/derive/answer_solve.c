@@ -261,7 +261,7 @@ static pl_expr oscillation(pl_analysis* d, const pl_linear_equation* l, pl_expr 
   pl_expr rest = pl_alg_normal(d->tower, pl_neg(p, pl_div(p, l->A, l->B)));
   pl_expr half = pl_div(p, l->C, pl_int(p, 2));
   pl_expr disc = pl_alg_normal(d->tower, pl_add(p, l->B, pl_square(p, half)));
-  int sign = pl_sign_at_numbers(d, disc);
+  int sign = -pl_sign_or_positive(d, pl_neg(p, disc));
   if (sign == 0) return pl_poison();
   pl_expr w = pl_alg_normal(d->tower, pl_sqrt(p, sign > 0 ? disc : pl_neg(p, disc)));
   pl_expr wt = pl_mul(p, w, t), u0 = pl_sub(p, x0, rest);
@@ -272,10 +272,11 @@ static pl_expr oscillation(pl_analysis* d, const pl_linear_equation* l, pl_expr 
   return pl_add(p, rest, swing);
 }
 
-static pl_expr closed_motion(pl_analysis* d, int i) {
+// poles: the parts that it is made of, where there are several; or NULL.
+static pl_expr closed_motion(pl_analysis* d, int i, pl_laplace_poles* poles) {
   pl_linear_equation l;
   if (pl_is_poison(d->acceleration[i])) return pl_poison();
-  if (!linear_equation(d, i, &l)) return pl_linear_motion(d, i);
+  if (!linear_equation(d, i, &l)) return pl_linear_motion(d, i, poles);
   pl_expr x0 = start_of(d, d->q.at[i].q), v0 = start_of(d, d->q.at[i].v), t = pl_sym(d->pool, pl_time(d->pool));
   if (!pl_is_zero_node(d->pool, l.B)) return oscillation(d, &l, x0, v0, t);
   if (!pl_is_zero_node(d->pool, l.C)) return with_friction(d, &l, x0, v0, t);
@@ -292,7 +293,7 @@ static void claim_motion(pl_analysis* d, int i, pl_expr x) {
   for (int j = 0; j < d->q.n; j++) {
     const pl_variable* c = &d->q.at[j];
     if (j != i && !pl_has_symbol(d->pool, rest, c->q) && !pl_has_symbol(d->pool, rest, c->v)) continue;
-    pl_expr other = j == i ? x : pl_linear_motion(d, j);
+    pl_expr other = j == i ? x : pl_linear_motion(d, j, NULL);
     r[n++] = (pl_replace){c->q, other};
     r[n++] = (pl_replace){c->v, pl_diff(d->pool, other, t)};
   }
@@ -337,6 +338,37 @@ static void why_integrated(pl_analysis* d, int i, pl_expr x) {
   }
 }
 
+static bool fades_or_grows(pl_analysis* d, pl_expr e) {
+  if (pl_kind_of(d->pool, e) == PL_CALL && pl_function_of(d->pool, e) == PL_EXP) return true;
+  for (int k = 0; k < pl_n_args(d->pool, e); k++)
+    if (fades_or_grows(d, pl_arg(d->pool, e, k))) return true;
+  return false;
+}
+
+static int add_terms(const pl_form* f, const pl_form** term, int n, int max) {
+  if (f->kind != PL_F_SUM) {
+    if (n < max) term[n] = f;
+    return n + 1;
+  }
+  for (int k = 0; k < f->n; k++) n = add_terms(f->args[k], term, n, max);
+  return n;
+}
+
+// With exponentials a motion is clearer as a sum over its poles (what is driven, what fades), else where that is shorter.
+static const pl_form* form_of_motion(pl_analysis* d, pl_expr x, const pl_laplace_poles* poles) {
+  enum { most = 48 };
+  const pl_form *whole = pl_f(d, x, PL_S_SOLUTION), *term[most];
+  int n = 0, parts = 0;
+  for (int k = 0; k < poles->n; k++) {
+    if (pl_is_zero_node(d->pool, poles->part[k])) continue;
+    n = add_terms(pl_f(d, poles->part[k], PL_S_SOLUTION), term, n, most);
+    parts++;
+  }
+  if (parts < 2 || n > most) return whole;
+  const pl_form* sum = pl_form_sum(d->arena, term, n);
+  return fades_or_grows(d, x) || pl_form_ops(sum) < pl_form_ops(whole) ? sum : whole;
+}
+
 // At rest where the force is not Lipschitz: rest, or a motion that leaves after any time.
 static bool solve_escape(pl_analysis* d, int i) {
   pl_symbol wait;
@@ -366,7 +398,8 @@ static pl_expr solve_own_motion(pl_analysis* d, int i) {
   const pl_variable* c = &d->q.at[i];
   say_inserted(d, i);
   show_acceleration(d, i);
-  pl_expr x = closed_motion(d, i);
+  pl_laplace_poles poles = {.n = 0};
+  pl_expr x = closed_motion(d, i, &poles);
   if (pl_is_poison(x) && solve_escape(d, i)) return x;
   if (pl_is_poison(x)) {
     pl_say(d, "No elementary closed form of the motion was found.", "Eine elementare geschlossene Form der Bewegung wurde nicht gefunden.", 0);
@@ -378,7 +411,7 @@ static pl_expr solve_own_motion(pl_analysis* d, int i) {
   pl_say(d, uniform_motion ? "Integrated twice:" : !alone ? "Linear equations with constant coefficients; their solution through the start:" : "A linear equation with constant coefficients; its solution through the start:",
          uniform_motion ? "Zweimal integriert:" : !alone ? "Lineare Gleichungen mit konstanten Koeffizienten; die Lösung durch den Start:" : "Lineare Gleichung mit konstanten Koeffizienten; die Lösung durch den Start:", 0);
   why_integrated(d, i, x);
-  const pl_form* form = pl_f(d, x, PL_S_SOLUTION);
+  const pl_form* form = form_of_motion(d, x, &poles);
   pl_step_refs(pl_show_numbered(d, pl_feq(d, of_time(d, i), form)), 1, d->number_acceleration);
   claim_motion(d, i, pl_form_value(d->pool, form));
   pl_answer(d, pl_symbol_get(d->pool, c->q)->ascii, x, form);
@@ -415,7 +448,7 @@ static void multiplier_of_time(pl_analysis* d, int k) {
   for (int j = 0; j < d->q.n && !pl_is_poison(e); j++) {
     const pl_variable* c = &d->q.at[j];
     if (!pl_has_symbol(d->pool, e, c->q) && !pl_has_symbol(d->pool, e, c->v)) continue;
-    pl_expr x = closed_motion(d, j);
+    pl_expr x = closed_motion(d, j, NULL);
     if (pl_is_poison(x)) e = x;
     r[n++] = (pl_replace){c->q, x};
     r[n++] = (pl_replace){c->v, pl_diff(d->pool, x, t)};

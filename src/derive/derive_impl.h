@@ -144,6 +144,7 @@ pl_expr pl_on_fixed(pl_analysis* d, pl_expr e);         // with the dropped coor
 pl_expr pl_on_contact(pl_analysis* d, pl_expr e);       // and with contacts closed
 pl_expr pl_on_maps(pl_analysis* d, pl_expr e);          // and in generalized coordinates, if there are any
 int pl_sign_at_numbers(pl_analysis* d, pl_expr e);      // proven, or that of the given numbers with the assumption on record; 0 open
+int pl_sign_or_positive(pl_analysis* d, pl_expr e);   // the same; where nothing tells, > 0 is assumed and told
 double pl_number(pl_analysis* d, pl_expr e);            // at the parameters; NaN when it depends on more
 
 // energies.c
@@ -255,7 +256,6 @@ void pl_why_energy(pl_analysis* d, pl_expr E);
 void pl_why_cyclic(pl_analysis* d, int i);
 void pl_why_uniform(pl_analysis* d, int i, pl_expr x);
 void pl_why_linear(pl_analysis* d, int i, pl_expr A, pl_expr B, pl_expr C);   // x'' = A + B x + C x'
-void pl_why_transform(pl_analysis* d, int i, pl_expr transform, const pl_root* root, int n);
 void pl_why_linear_motion(pl_analysis* d, int i);                             // linear_motion.c
 void pl_why_oscillations(pl_analysis* d, const pl_expr* M, const pl_expr* K, int n);
 void pl_why_series(pl_analysis* d, pl_expr f, pl_symbol variable, pl_expr to, int lead, const pl_expr* c, int n);
@@ -286,7 +286,17 @@ void pl_answer_pending(pl_analysis* d, const pl_ask* ask);
 pl_expr pl_second_kind(pl_analysis* d, int i);          // Lagrange II of generalized coordinate i, raw; vanishes on the motion
 pl_expr pl_start_value(pl_analysis* d, pl_symbol s);    // exact zero or expression if `init` says so, else the symbol x(0)
 
-pl_expr pl_linear_motion(pl_analysis* d, int i);        // coordinate i of a linear system as a function of t; poison if it is none
+// Laplace transforms: of sums of c t^n e^(a t) cos(b t + f), and back from fractions; poison where there is none of this kind.
+enum { PL_MAX_POLES = 16 };
+typedef struct pl_laplace_poles {
+  int n;
+  const pl_form* at[PL_MAX_POLES];   // equation that a pole or a pair of them solves
+  pl_expr part[PL_MAX_POLES];        // what it contributes to the function of time
+} pl_laplace_poles;
+pl_expr pl_laplace(pl_analysis* d, pl_expr f, pl_symbol s);
+pl_expr pl_laplace_back(pl_analysis* d, pl_expr F, pl_symbol s, pl_laplace_poles* poles);   // poles: NULL or zeroed
+void pl_why_transform(pl_analysis* d, int i, pl_expr transform, const pl_laplace_poles* poles);
+pl_expr pl_linear_motion(pl_analysis* d, int i, pl_laplace_poles* poles);        // coordinate i of a linear system as a function of t; poison if it is none
 
 // motion along an energy integral (eliminate.c)
 // The velocity of the single generalized coordinate squared, from the conserved energy and the start of `motion`;

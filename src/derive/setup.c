@@ -81,6 +81,13 @@ int pl_sign_at_numbers(pl_analysis* d, pl_expr e) {
   return x > 0 ? 1 : -1;
 }
 
+int pl_sign_or_positive(pl_analysis* d, pl_expr e) {
+  int sign = pl_sign_at_numbers(d, e);
+  if (sign != 0 || !isnan(pl_number(d, e)) || pl_alg_is_zero(d->tower, e) == PL_YES) return sign;
+  pl_tower_use(d->tower, (pl_fact){e, true});
+  return 1;
+}
+
 // ---------------------------------------------------------------------------------------------- what there is
 static void add_coordinates(pl_analysis* d) {
   for (int k = 0; k < d->model->coords.n; k++) {

@@ -232,21 +232,19 @@ void pl_why_linear(pl_analysis* d, int i, pl_expr A, pl_expr B, pl_expr C) {
          pl_feq(d, pl_fe(d, characteristic), zero_form(d)))->detail = true;
 }
 
-// The Laplace transform of one coordinate and the squares of its exponents.
-void pl_why_transform(pl_analysis* d, int i, pl_expr transform, const pl_root* root, int n) {
+// The Laplace transform of one coordinate and its poles.
+void pl_why_transform(pl_analysis* d, int i, pl_expr transform, const pl_laplace_poles* poles) {
   const char* x = name_of(d, d->q.at[i].q);
   say(d, "Why: the Laplace transform turns the equations with their start into linear ones for the transforms; solved,",
       "Warum: Die Laplace-Transformation macht aus den Gleichungen mit ihrem Start lineare für die Transformierten; aufgelöst:");
   if (pl_op_count(d->pool, transform) <= 2 * longest_detail) {
     pl_show(d, pl_feq(d, pl_fn(d, pl_format(d->arena, "%s(s)", x)), pl_f(d, transform, PL_S_QUOTIENT)))->detail = true;
   }
-  const pl_form** pole = PL_ARRAY(d->arena, const pl_form*, n + 1);
-  for (int k = 0; k < n; k++) pole[k] = pl_feq(d, pl_fn(d, "s²"), pl_f(d, root[k].value, PL_S_QUOTIENT));
-  if (n > 0) {
+  if (poles->n > 0) {
     pl_say(d, "Its denominator vanishes at {1}. Partial fractions: 1/(s² + ω²) is the transform of sin(ω t)/ω, s/(s² + ω²) that of cos(ω t), "
               "1/s² that of t.",
            "Der Nenner verschwindet bei {1}. Partialbrüche: 1/(s² + ω²) ist die Transformierte von sin(ω t)/ω, s/(s² + ω²) die von cos(ω t), "
-           "1/s² die von t.", 1, pl_flist(d, pole, n))->detail = true;
+           "1/s² die von t.", 1, pl_flist(d, poles->at, poles->n))->detail = true;
   }
 }
 

@@ -452,5 +452,42 @@ def _(program):
     need(not case(program, "apart").values("y"), "circles that do not meet")
 
 
+def runge_kutta(slope_of, y, t_end, n=2000):
+    t, h = 0.0, t_end / n
+    for _ in range(n):
+        add = lambda c, k: [a + c * b for a, b in zip(y, k)]   # noqa: E731
+        k1 = slope_of(t, y)
+        k2 = slope_of(t + h / 2, add(h / 2, k1))
+        k3 = slope_of(t + h / 2, add(h / 2, k2))
+        k4 = slope_of(t + h, add(h, k3))
+        y = [a + h / 6 * (p + 2 * q + 2 * r + s) for a, p, q, r, s in zip(y, k1, k2, k3, k4)]
+        t += h
+    return y
+
+
+@test("driven and damped linear motions: the closed forms are the solutions of their equations")
+def _(program):
+    p = dict(m=1.3, k=9.0, c=0.6, F0=2.1, omega=2.2, a=0.4, g=9.0, tau=0.7)
+    m, k, c, F0, omega, a, g, tau = p.values()
+    w0 = math.sqrt(k / m)
+    motions = {
+        "driven_damped": ("x", lambda t, y: [y[1], (F0 * math.cos(omega * t) - c * y[1] - k * y[0]) / m]),
+        "resonance": ("x", lambda t, y: [y[1], (F0 * math.sin(w0 * t) - k * y[0]) / m]),
+        "moved_support": ("y", lambda t, y: [y[1], k / m * (a * math.cos(omega * t) - y[0]) - g]),
+        "fading_force": ("x", lambda t, y: [y[1], F0 * math.exp(-t / tau) - 0.5 * y[1]]),
+        "damped_pair": ("x", lambda t, y: [y[1], (-2 * k * y[0] + k * y[2] - c * (y[1] - y[3])) / m,
+                                           y[3], (-2 * k * y[2] + k * y[0] - c * (y[3] - y[1])) / m]),
+    }
+    for name, (q, slope_of) in motions.items():
+        answer = case(program, name)
+        checks_pass(answer)
+        expr = answer.value(q)["expr"]
+        start = [0.3, -0.8] if name != "damped_pair" else [0.3, -0.8, -0.5, 0.9]
+        names = {f"{q}_0": start[0], f"{q}_dot_0": start[1], "y_0": start[-2], "y_dot_0": start[-1]}
+        number = dict(p, m=1.0, c=0.5) if name == "fading_force" else p   # given in that model
+        for t in (0.4, 1.7):
+            same(at(expr, **{**number, **names, "t": t}), runge_kutta(slope_of, start, t)[0], f"{name} at {t}")
+
+
 if __name__ == "__main__":
     sys.exit(test.main(program_of(sys.argv)))
