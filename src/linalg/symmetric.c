@@ -32,6 +32,12 @@ static bool is_early(const pl_builder* b, int i) {
   return true;
 }
 
+static int run_of(const int* index, int n) {
+  for (int i = 1; i < n; i++)
+    if (index[i] != index[0] + i) return -1;
+  return n > 0 ? index[0] : -1;
+}
+
 static void divide(pl_builder* b) {
   pl_symmetric* s = b->s;
   b->core_of = PL_ARRAY(b->a, int, s->n + 1);
@@ -43,6 +49,8 @@ static void divide(pl_builder* b) {
     if (is_early(b, i)) b->early_of[i] = s->n_early, s->early[s->n_early++] = i;
     else b->core_of[i] = s->n_core, s->core[s->n_core++] = i;
   }
+  s->early_run = run_of(s->early, s->n_early);
+  s->core_run = run_of(s->core, s->n_core);
 }
 
 // ---------------------------------------------------------------------------------------------- graph of the core

@@ -31,6 +31,7 @@ typedef struct pl_symmetric_front {
 struct pl_symmetric {
   int n, n_early, n_core;
   int *early, *core; // which unknowns
+  int early_run, core_run;   // the first of them when they follow each other, else -1
   pl_symmetric_rows by_core, by_early;   // entries between both, by rows of the core, by rows of the early ones
   int* early_from;   // place of the diagonal                                           (n_early)
   double *early_inverse, *z, *x;         // padded to eight

@@ -1,5 +1,5 @@
 // Numbers of the symmetric solver: factor and solve.  This file is compiled for several kinds of processors (meson.build); every
-// sum has one order and multiplies and adds fused, so that all of them give the same bits.
+// sum has one order, and what is fused says so, so that all of them give the same bits.
 #include <math.h>
 #include <string.h>
 
@@ -169,21 +169,22 @@ INLINE void backward(const pl_symmetric_front* f, int lanes) {
 static void forward_front(const pl_symmetric_front* f) { EACH_FRONT(f, forward) }
 static void backward_front(const pl_symmetric_front* f) { EACH_FRONT(f, backward) }
 
+typedef double pl_eight __attribute__((vector_size(64), aligned(8), may_alias));
+
 // The sums of a group of rows.
-INLINE void rows_times(const pl_symmetric_rows* r, int g, const double* x, double sum[8]) {
-  EIGHT sum[l] = 0;
+INLINE void rows_times(const pl_symmetric_rows* r, int g, const double* x, double* restrict to) {
+  pl_eight sum = {0};
   for (int e = r->first[g]; e < r->first[g + 1]; e++) {
-    const double* c = r->value + 8 * (size_t)e;
+    const pl_eight* c = (const pl_eight*)(r->value + 8 * (size_t)e);
     if (r->base[e] >= 0) {
-      const double* from = x + r->base[e];
-      EIGHT sum[l] = __builtin_fma(c[l], from[l], sum[l]);
+      sum += *c * *(const pl_eight*)(x + r->base[e]);
     } else {
       const int* at = r->index + 8 * (size_t)e;
-      double from[8];
-      EIGHT from[l] = x[at[l]];
-      EIGHT sum[l] = __builtin_fma(c[l], from[l], sum[l]);
+      pl_eight from = {x[at[0]], x[at[1]], x[at[2]], x[at[3]], x[at[4]], x[at[5]], x[at[6]], x[at[7]]};
+      sum += *c * from;
     }
   }
+  *(pl_eight*)to = sum;
 }
 
 static void solve_fronts(pl_symmetric* s) {
@@ -199,25 +200,40 @@ static void solve_fronts(pl_symmetric* s) {
   backward_front(f);
 }
 
+// Unknowns that follow each other are copied in a row.
+static void take(double* restrict to, const double* restrict b, const int* index, int run, int n) {
+  if (run >= 0) memcpy(to, b + run, (size_t)n * sizeof *b);
+  else for (int i = 0; i < n; i++) to[i] = b[index[i]];
+}
+
+static void give(double* restrict b, const double* restrict from, const int* index, int run, int n) {
+  if (run >= 0) memcpy(b + run, from, (size_t)n * sizeof *b);
+  else for (int i = 0; i < n; i++) b[index[i]] = from[i];
+}
+
 static void solve(pl_symmetric* s, double* b) {
   double sum[8];
-  for (int e = 0; e < s->n_early; e++) s->z[e] = b[s->early[e]] * s->early_inverse[e];
-  for (int i = 0; i < s->n_ones; i++) s->solution[s->ones[i]] = 0;
+  const int* restrict to = s->of_core;
+  double *restrict z = s->z, *restrict x = s->x, *restrict y = s->solution;
+  const double* restrict inverse = s->early_inverse;
+  take(z, b, s->early, s->early_run, s->n_early);
+  take(x, b, s->core, s->core_run, s->n_core);
+  for (int e = 0; e < s->n_early; e++) z[e] *= inverse[e];
+  for (int i = 0; i < s->n_ones; i++) y[s->ones[i]] = 0;
   for (int g = 0; g < s->by_core.n_groups; g++) {
+    rows_times(&s->by_core, g, z, sum);
+    EIGHT sum[l] = x[8 * g + l] - sum[l];
     int n = s->n_core - 8 * g < 8 ? s->n_core - 8 * g : 8;
-    const int *core = s->core + 8 * g, *to = s->of_core + 8 * g;
-    rows_times(&s->by_core, g, s->z, sum);
-    for (int l = 0; l < n; l++) s->solution[to[l]] = b[core[l]] - sum[l];
+    for (int l = 0; l < n; l++) y[to[8 * g + l]] = sum[l];
   }
   solve_fronts(s);
-  for (int i = 0; i < s->n_core; i++) b[s->core[i]] = s->x[i] = s->solution[s->of_core[i]];
+  for (int i = 0; i < s->n_core; i++) x[i] = y[to[i]];
+  give(b, x, s->core, s->core_run, s->n_core);
   for (int g = 0; g < s->by_early.n_groups; g++) {
-    int n = s->n_early - 8 * g < 8 ? s->n_early - 8 * g : 8;
-    const double *z = s->z + 8 * g, *inverse = s->early_inverse + 8 * g;
-    rows_times(&s->by_early, g, s->x, sum);
-    EIGHT sum[l] = __builtin_fma(-inverse[l], sum[l], z[l]);
-    for (int l = 0; l < n; l++) b[s->early[8 * g + l]] = sum[l];
+    rows_times(&s->by_early, g, x, sum);
+    EIGHT z[8 * g + l] = __builtin_fma(-inverse[8 * g + l], sum[l], z[8 * g + l]);
   }
+  give(b, z, s->early, s->early_run, s->n_early);
 }
 
 const pl_symmetric_kernels PL_SYMMETRIC = {factor, solve};

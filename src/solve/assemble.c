@@ -84,92 +84,15 @@ void pl_assemble_rows(pl_run* run) {
   }
 }
 
-void pl_assemble_row_sizes(pl_run* run) {
-  for (int c = 0; c < run->n_c; c++) run->row_most[c] = 0;
-  for (int i = 0; i < run->motion.n; i++) {
-    const pl_batch* b = &run->motion.at[i];
-    for (int e = 0; e < b->pattern->n_G; e++) {
-      const pl_pattern_entry* g = &b->pattern->G[e];
-      const double* x = coefficient(b, node_of(b, g->root), 0);
-      LANES(b) {
-        double* most = &run->row_most[b->c[g->row * b->lanes + l]];
-        if (fabs(x[l]) > *most) *most = fabs(x[l]);
-      }
-    }
-  }
-}
+void pl_assemble_row_sizes(pl_run* run) { pl_orders_here()->row_sizes(run); }
 
 // ---------------------------------------------------------------------------------------------- constraints
 static void clear(double* x, int n) {
   for (int i = 0; i < n; i++) x[i] = 0;
 }
 
-// Adds what rounding of the coordinates themselves does to g, |dg/dq| |q|, which the terms need not show (r cos φ after
-// many turns).  |q| is the largest that the coordinate has been, with a floor where it never moved.
-static void add_coordinate_sizes(const pl_run* run, double* size) {
-  static const double part = 1e-6;  // of the largest coordinate of all
-  for (int i = 0; i < run->motion.n; i++) {
-    const pl_batch* b = &run->motion.at[i];
-    for (int e = 0; e < b->pattern->n_G; e++) {
-      const pl_pattern_entry* g = &b->pattern->G[e];
-      const double* x = coefficient(b, node_of(b, g->root), 0);
-      LANES(b) {
-        double q = run->q_most[b->q[g->col * b->lanes + l]];
-        size[b->c[g->row * b->lanes + l]] += fabs(x[l]) * fmax(q, part * run->q_size);
-      }
-    }
-  }
-}
-
-void pl_assemble_g(pl_run* run, int k, double* g, double* size) {
-  clear(g, run->n_c);
-  if (size) clear(size, run->n_c);
-  for (int i = 0; i < run->motion.n; i++) {
-    const pl_batch* b = &run->motion.at[i];
-    for (int e = 0; e < b->pattern->n_g; e++) {
-      const pl_pattern_entry* p = &b->pattern->g[e];
-      int node = node_of(b, p->root);
-      LANES(b) {
-        int c = b->c[p->row * b->lanes + l];
-        if (k == 0 || !is_constant(b, node)) g[c] += coefficient(b, node, k)[l];
-        if (size && p->col >= 0) size[c] += coefficient(b, node_of(b, p->col), 0)[l];
-      }
-    }
-  }
-  if (size == NULL) return;
-  for (int c = 0; c < run->n_c; c++) run->argument[c] = size[c];
-  add_coordinate_sizes(run, size);
-  for (int c = 0; c < run->n_c; c++) run->argument[c] = run->argument[c] > 0 ? size[c] / run->argument[c] : 1;
-}
-
-void pl_assemble_gdot(pl_run* run, double* r, double* size) {
-  clear(r, run->n_c);
-  clear(size, run->n_c);
-  for (int i = 0; i < run->motion.n; i++) {
-    const pl_batch* b = &run->motion.at[i];
-    for (int e = 0; e < b->pattern->n_G; e++) {
-      const pl_pattern_entry* g = &b->pattern->G[e];
-      const double* x = coefficient(b, node_of(b, g->root), 0);
-      const double* v = b->v + (size_t)g->col * (size_t)b->orders * (size_t)b->lanes;
-      LANES(b) {
-        int c = b->c[g->row * b->lanes + l];
-        r[c] += x[l] * v[l];
-        size[c] += fabs(x[l]) * fmax(run->v_most[b->q[g->col * b->lanes + l]], 1e-6 * run->v_size);
-      }
-    }
-    for (int e = 0; e < b->pattern->n_gt; e++) {
-      const pl_pattern_entry* g = &b->pattern->gt[e];
-      const double* x = coefficient(b, node_of(b, g->root), 0);
-      LANES(b) {
-        int c = b->c[g->row * b->lanes + l];
-        r[c] += x[l];
-        size[c] += fabs(x[l]);
-      }
-    }
-  }
-  // the gradient feels the rounding of coordinates as much as g itself does
-  for (int c = 0; c < run->n_c; c++) size[c] *= fmax(run->argument[c], 1);
-}
+void pl_assemble_g(pl_run* run, int k, double* g, double* size) { pl_orders_here()->g(run, k, g, size); }
+void pl_assemble_gdot(pl_run* run, double* r, double* size) { pl_orders_here()->gdot(run, r, size); }
 
 // ---------------------------------------------------------------------------------------------- right-hand side
 // s = sum_{j=1..k} x_j y_{k-j} in every lane; x from the jet, y a series of a slot.

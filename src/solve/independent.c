@@ -88,6 +88,15 @@ static double faintest_taken(const pl_run* run) {
   return least;
 }
 
+// Whether the pivots of the whole system say that no active row depends on others: a large system is factored in no time.
+static bool pivots_of_all_rows_are_sound(pl_run* run) {
+  static const double sound = 1e-8;   // part of a pivot; as the square of the part of a row
+  if (!run->by_pivots || run->kkt.symmetric == NULL) return false;
+  for (int c = 0; c < run->n_c; c++) run->taken[c] = run->active[c];
+  pl_assemble_matrix(run, false);
+  return pl_symmetric_factor(run->kkt.symmetric, run->kkt.value) > sound;
+}
+
 static void examine(pl_run* run) {
   pl_assemble_rows(run);
   scale_columns(run, run->n_active);
@@ -102,6 +111,10 @@ void pl_independent_choose(pl_run* run) {
   if (run->by_pivots && run->rank_mode >= 0) return;  // chosen when the mode began
   if (too_many_to_examine(run)) {
     for (int c = 0; c < run->n_c; c++) run->taken[c] = run->active[c];
+    run->rank = run->n_active;
+    return;
+  }
+  if (pivots_of_all_rows_are_sound(run)) {
     run->rank = run->n_active;
     return;
   }

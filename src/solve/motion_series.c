@@ -12,12 +12,8 @@
 double pl_norm(const double* x, int n) { return pl_orders_here()->norm(x, n); }
 
 void pl_sizes_note(pl_run* run, const double* q, const double* v) {
-  for (int i = 0; i < run->n_q; i++) {
-    run->q_most[i] = fmax(run->q_most[i], fabs(q[i]));
-    run->v_most[i] = fmax(run->v_most[i], fabs(v[i]));
-    run->q_size = fmax(run->q_size, run->q_most[i]);
-    run->v_size = fmax(run->v_size, run->v_most[i]);
-  }
+  run->q_size = fmax(run->q_size, pl_orders_here()->note(run->q_most, q, run->n_q));
+  run->v_size = fmax(run->v_size, pl_orders_here()->note(run->v_most, v, run->n_q));
 }
 
 void pl_sizes_keep(pl_run* run) {

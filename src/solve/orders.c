@@ -44,20 +44,33 @@ static void gather(double* restrict to, const double* restrict from, const int* 
   for (int l = n; l < lanes; l++) to[l] = from[run + n - 1];
 }
 
+// Adds, or begins with, multiples of velocities.
+INLINE void add_multiple(double* restrict to, const double* restrict f, const double* restrict v, const int* restrict index, int run,
+                         const pl_batch* b, bool begins) {
+  int direct = run < 0 ? 0 : b->n;    // the lanes behind repeat the last instance
+  if (begins) {
+    EACH(direct) to[l] = f[l] * v[run + l];
+    for (int l = direct; l < b->lanes; l++) to[l] = f[l] * v[index[l]];
+  } else {
+    EACH(direct) to[l] += f[l] * v[run + l];
+    for (int l = direct; l < b->lanes; l++) to[l] += f[l] * v[index[l]];
+  }
+}
+
 // Coefficient k of the sums of multiples of velocities.
-static void load_bundles(const pl_batch* b, int k) {
-  int lanes = b->lanes;
+static void load_bundles(const pl_batch* b, const double* v, int k) {
   for (int t = 0; t < b->n_bundles; t++) {
     const pl_bundle* bundle = &b->bundles[t];
-    double* restrict to = series_at(b, b->bundle_v, t, k);
+    double* to = series_at(b, b->bundle_v, t, k);
     for (int e = bundle->first; e < bundle->first + bundle->n; e++) {
-      const double *restrict v = series_at(b, b->v, b->bundle_q[e], k), *restrict f = b->bundle_factor + (size_t)e * (size_t)lanes;
-      if (e == bundle->first) EACH(lanes) to[l] = f[l] * v[l];
-      else EACH(lanes) to[l] += f[l] * v[l];
+      int slot = b->bundle_q[e];
+      add_multiple(to, b->bundle_factor + (size_t)e * (size_t)b->lanes, v, b->q + slot * b->lanes, b->q_run[slot], b,
+                   e == bundle->first);
     }
   }
 }
 
+// Slots of v are kept where something reads them: at order 0, in sums with slip, and by the sums of multiples.
 static void load(pl_batches* bs, pl_quantity what, const double* x, int k) {
   for (int i = 0; i < bs->n; i++) {
     const pl_batch* b = &bs->at[i];
@@ -70,10 +83,10 @@ static void load(pl_batches* bs, pl_quantity what, const double* x, int k) {
     int slots = what == PL_IS_LAMBDA ? p->n_c : p->n_q;
     for (int s = 0; s < slots; s++) {
       const int* at = index + s * b->lanes;
-      if (series && (needs == NULL || needs[s])) gather(series_at(b, series, s, k), x, at, run[s], b->n, b->lanes);
+      if (series && (needs == NULL || needs[s]) && (what != PL_IS_V || k == 0 || b->slips)) gather(series_at(b, series, s, k), x, at, run[s], b->n, b->lanes);
       if (node[s] >= 0) gather(pl_jet_at(b->jet, node[s], k), x, at, run[s], b->n, b->lanes);
     }
-    if (what == PL_IS_V) load_bundles(b, k);
+    if (what == PL_IS_V) load_bundles(b, x, k);
   }
 }
 
@@ -268,4 +281,108 @@ static double norm(const double* x, int n) {
   return all;
 }
 
-const pl_orders PL_ORDERS = {load, rhs_of, take, over, horner, norm};
+// A size that is no number is not noted.
+static double note(double* restrict most, const double* restrict x, int n) {
+  double largest[8] = {0}, all = 0;
+  int whole = n / 8 * 8;
+  for (int i = 0; i < whole; i += 8)
+    EACH(8) {
+      double size = fabs(x[i + l]);
+      most[i + l] = size > most[i + l] ? size : most[i + l];
+      largest[l] = most[i + l] > largest[l] ? most[i + l] : largest[l];
+    }
+  for (int i = whole; i < n; i++) {
+    most[i] = fabs(x[i]) > most[i] ? fabs(x[i]) : most[i];
+    largest[0] = most[i] > largest[0] ? most[i] : largest[0];
+  }
+  for (int l = 0; l < 8; l++) all = largest[l] > all ? largest[l] : all;
+  return all;
+}
+
+// ---------------------------------------------------------------------------------------------- constraints
+INLINE double larger(double a, double b) { return a > b ? a : b; }
+
+static void clear(double* x, int n) {
+  for (int i = 0; i < n; i++) x[i] = 0;
+}
+
+// The sizes of the terms G_ce x_e, with |x| the largest that it has been and a floor where it never moved.
+static void add_sizes(const pl_batch* b, const double* restrict most, double floor, double* restrict size) {
+  for (int e = 0; e < b->pattern->n_G; e++) {
+    const pl_pattern_entry* g = &b->pattern->G[e];
+    const double* restrict x = coefficient(b, node_of(b, g->root), 0);
+    const int *c = b->c + g->row * b->lanes, *q = b->q + g->col * b->lanes;
+    int c_run = b->c_run[g->row], q_run = b->q_run[g->col];
+    if (c_run >= 0 && q_run >= 0) EACH(b->n) size[c_run + l] += fabs(x[l]) * larger(most[q_run + l], floor);
+    else for (int l = 0; l < b->n; l++) size[c[l]] += fabs(x[l]) * larger(most[q[l]], floor);
+  }
+}
+
+static void values_of_g(const pl_batch* b, int k, double* g, double* size) {
+  double s[PL_JET_LANES];
+  for (int e = 0; e < b->pattern->n_g; e++) {
+    const pl_pattern_entry* p = &b->pattern->g[e];
+    int node = node_of(b, p->root);
+    if (k == 0 || !is_constant(b, node)) spread(g, coefficient(b, node, k), 1, b->c + p->row * b->lanes, b->c_run[p->row], b->n);
+    if (size == NULL || p->col < 0) continue;
+    const double* x = coefficient(b, node_of(b, p->col), 0);
+    EACH(b->lanes) s[l] = x[l];
+    spread(size, s, 1, b->c + p->row * b->lanes, b->c_run[p->row], b->n);
+  }
+}
+
+// Sizes hold what rounding of the coordinates themselves does to g too, |dg/dq| |q|, which the terms need not show (r cos φ after
+// many turns).
+static void g_of(pl_run* run, int k, double* g, double* size) {
+  static const double part = 1e-6;  // of the largest coordinate of all
+  clear(g, run->n_c);
+  if (size) clear(size, run->n_c);
+  for (int i = 0; i < run->motion.n; i++) values_of_g(&run->motion.at[i], k, g, size);
+  if (size == NULL) return;
+  for (int c = 0; c < run->n_c; c++) run->argument[c] = size[c];
+  for (int i = 0; i < run->motion.n; i++) add_sizes(&run->motion.at[i], run->q_most, part * run->q_size, size);
+  for (int c = 0; c < run->n_c; c++) run->argument[c] = run->argument[c] > 0 ? size[c] / run->argument[c] : 1;
+}
+
+static void gdot_of(pl_run* run, double* r, double* size) {
+  double s[PL_JET_LANES];
+  clear(r, run->n_c);
+  clear(size, run->n_c);
+  for (int i = 0; i < run->motion.n; i++) {
+    const pl_batch* b = &run->motion.at[i];
+    for (int e = 0; e < b->pattern->n_G; e++) {
+      const pl_pattern_entry* g = &b->pattern->G[e];
+      const double *x = coefficient(b, node_of(b, g->root), 0), *v = series_at(b, b->v, g->col, 0);
+      EACH(b->lanes) s[l] = x[l] * v[l];
+      spread(r, s, 1, b->c + g->row * b->lanes, b->c_run[g->row], b->n);
+    }
+    add_sizes(b, run->v_most, 1e-6 * run->v_size, size);
+    for (int e = 0; e < b->pattern->n_gt; e++) {
+      const pl_pattern_entry* g = &b->pattern->gt[e];
+      const double* x = coefficient(b, node_of(b, g->root), 0);
+      spread(r, x, 1, b->c + g->row * b->lanes, b->c_run[g->row], b->n);
+      EACH(b->lanes) s[l] = fabs(x[l]);
+      spread(size, s, 1, b->c + g->row * b->lanes, b->c_run[g->row], b->n);
+    }
+  }
+  // the gradient feels the rounding of coordinates as much as g itself does
+  for (int c = 0; c < run->n_c; c++) size[c] *= larger(run->argument[c], 1);
+}
+
+static void row_sizes(pl_run* run) {
+  clear(run->row_most, run->n_c);
+  for (int i = 0; i < run->motion.n; i++) {
+    const pl_batch* b = &run->motion.at[i];
+    for (int e = 0; e < b->pattern->n_G; e++) {
+      const pl_pattern_entry* g = &b->pattern->G[e];
+      const double* restrict x = coefficient(b, node_of(b, g->root), 0);
+      const int* c = b->c + g->row * b->lanes;
+      int c_run = b->c_run[g->row];
+      double* restrict most = run->row_most;
+      if (c_run >= 0) EACH(b->n) most[c_run + l] = larger(fabs(x[l]), most[c_run + l]);
+      else for (int l = 0; l < b->n; l++) most[c[l]] = larger(fabs(x[l]), most[c[l]]);
+    }
+  }
+}
+
+const pl_orders PL_ORDERS = {load, rhs_of, take, over, horner, norm, note, g_of, gdot_of, row_sizes};

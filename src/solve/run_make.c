@@ -82,13 +82,13 @@ static int plain_order(double tol) {
   return p < MIN_ORDER ? MIN_ORDER : p > MAX_ORDER ? MAX_ORDER : p;
 }
 
-// That is the best order when the work of a step grows with the square of the order.  In a small system most of it is the
-// same for each order, and much of it is done once a step: evaluating the point, the factor, two projections cost as
-// much as six orders, products of series little.  Then a higher order with a step of tol^(1/(p-1)) radii gets farther for
-// its price.  In large ones steps stop growing with the order early, and the plain order stays.
-static int cheapest_order(double tol) {
+// That is the best order when the work of a step grows with the square of the order.  But much of it is done once a step: evaluating
+// the point, the factor, two projections cost as much as six or eight orders.  Then a higher order with a step of tol^(1/(p-1)) radii
+// gets farther for its price.  In small systems products of series are cheap beside everything else; in large ones they are all that is
+// there, and memory is the limit.
+static int cheapest_order(double tol, bool small) {
   enum { LARGEST = 20 };
-  static const double fixed = 6, square = 1 / 60.0;   // in units of the work of an order
+  const double fixed = small ? 6 : 8, square = small ? 1 / 60.0 : 1 / 12.0;   // in units of the work of an order
   int best = plain_order(tol);
   double least = (double)INFINITY;
   for (int p = best; p <= LARGEST; p++) {
@@ -98,20 +98,8 @@ static int cheapest_order(double tol) {
   return best;
 }
 
-// Numbers that are computed in software: all of the work is that of the orders, and grows with their square.
-static void choose_wide_order(pl_run* run) {
-  int p = (int)ceil(-0.5 * log(run->tol) + 1);
-  run->order = p < MIN_ORDER ? MIN_ORDER : p > MAX_WIDE_ORDER ? MAX_WIDE_ORDER : p;
-  run->shrink = -2;
-}
-
 static void choose_order(pl_run* run) {
-  if (run->options.precision != PL_PRECISION_DOUBLE) {
-    choose_wide_order(run);
-    return;
-  }
-  bool small = run->n_q + run->n_c <= PL_DENSE_UP_TO;
-  run->order = small ? cheapest_order(run->tol) : plain_order(run->tol);
+  run->order = cheapest_order(run->tol, run->n_q + run->n_c <= PL_DENSE_UP_TO);
   run->shrink = run->order == plain_order(run->tol) ? -2 : log(0.1 * run->tol) / (run->order - 1);
 }
 
@@ -216,6 +204,7 @@ static pleuel_status check_rows(pl_run* run) {
     const pl_batch* b = &run->motion.at[i];
     const pl_pattern* p = b->pattern;
     run->has_W |= p->n_W > 0;
+    run->motion.at[i].slips = run->setup->n_rubs > 0;
     for (int e = 0; e < p->n_mass; e++)
       run->mass_of_speed |= p->tape->roots[p->mass[e].root] >= p->tape->level_end[PL_LEVEL_PLACE];
     for (int e = 0; e < p->n_g; e++)

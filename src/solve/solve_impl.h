@@ -7,7 +7,7 @@
 
 enum {
   PL_FAMILY_LANES = 8,     // instances computed side by side: a multiple of this
-  PL_FAMILY_GROUPS = 8,    // so many times as many in one batch at most
+  PL_FAMILY_GROUPS = 16,    // so many times as many in one batch at most
   PL_DENSE_UP_TO = 60,     // unknowns: dense below, KLU above
   PL_RANK_UP_TO = 400,     // constraint rows whose independence is examined at all; above they must be independent
   PL_RANK_WORK = 200000    // rows^2 columns up to which that is done at every point; above: once a mode
@@ -29,6 +29,7 @@ typedef struct pl_batch {
   int orders;              // room for coefficients 0 .. orders-1 of v, a, λ
   int *q_run, *c_run;      // of a slot whose indices follow each other: the first; else -1
   bool *needs_v, *needs_a; // some series has to do with this slot                          (n_q)
+  bool slips;              // orders of v are read slot by slot: friction
   pl_bundle* bundles;
   int n_bundles, *bundle_q;   // slots of coordinates
   double* bundle_factor;   // multiples of u, by lanes
@@ -283,6 +284,10 @@ typedef struct pl_orders {
   void (*over)(double* to, const double* from, int by, int n);    // to = from / by
   void (*horner)(const double* X, int n, int last, double dt, double* x);
   double (*norm)(const double* x, int n);                         // largest size; NaN comes through
+  double (*note)(double* most, const double* x, int n);           // most[i] at least |x[i]|; the largest of all
+  void (*g)(pl_run* run, int k, double* g, double* size);         // as pl_assemble_g and so on
+  void (*gdot)(pl_run* run, double* r, double* size);
+  void (*row_sizes)(pl_run* run);
 } pl_orders;
 const pl_orders* pl_orders_here(void);              // batches.c
 
