@@ -11,7 +11,7 @@
 //
 // not kept of pl_run, follows from setup and options: job setup options n_q n_c order tol_raised motion observers watched
 //   branches has_W mass_of_speed shrink h_plain h_least n_watch at_rub kinks n_kinks mode_size grid_count grid_dt
-// not kept of pl_run, follows from the point: Q V ready t_series
+// not kept of pl_run, follows from the point: Q V ready t_series rests
 // not kept of pl_run, follows from how it was started: start_given
 // not kept of pl_run, only when, never what: clock_begin t_begin considered wall_begin
 // not kept of pl_run, lives within a step: rhs Q_last A_last G_series W_series rows rank_work priority row_of row_taken
@@ -25,7 +25,7 @@
 // not kept of pl_watch, pl_rub_now, follows from the setup: kind index direction
 // not kept of pl_motion, follows from the mode: code next size orders n_q n_c n_mass n_taken time ratio rest Q V A L q_floor
 //   v_floor g g_size argument r r_size norms length end_q end_v energy h pivot pivot_size move vector result matrix identity
-//   of_constraint index
+//   of_constraint index inverse_up_to constants scales
 // not kept of pl_motion, of this process: compiled jit tried
 // not kept of pl_radau, follows from setup and options: method n n_q n_c n_C tol tol_stage ready fits shape rub_of
 // not kept of pl_radau, lives within a step: wide here at coupled coupled_scale coupled_rhs coupled_work coupled_pivot real
