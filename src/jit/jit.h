@@ -107,7 +107,7 @@ void pl_prog_dump(pl_text* out, const pl_prog* c);
 // ---- prog_run.c: the interpreter
 void pl_prog_interpret(const pl_prog* c, double* memory, int from, int to);
 
-// ---- real.c, real_type.c: programs on numbers wider than a double, interpreted.  `memory` then holds numbers of that type, as
+// ---- real.c, real_type.c, real_pair.c: programs on numbers wider than a double, interpreted.  `memory` then holds numbers of that type, as
 // many as there would be doubles; a multiply-add rounds twice.
 typedef struct pl_parts { double part[3]; } pl_parts;   // a number as a sum, each part the rounding of what is left
 enum { PL_REAL_TEXT = 64 };
@@ -130,6 +130,7 @@ typedef struct pl_real {
 // NULL where the processor or the compiler has no such type.
 const pl_real* pl_real_long(void);           // 80 bits, 64 of them digits
 const pl_real* pl_real_quad(void);           // 128 bits, 113 of them digits
+const pl_real* pl_real_pair(void);           // two doubles, 106 bits, or some more where there is a gap between them
 
 // ---- recurrences.c: the recurrences of the tape's operations as code
 // What a node's convolutions read: A and B as nodes (itself included), A weighted by j.

@@ -179,7 +179,7 @@ static void* memory_of(pl_run* run, const pl_real* real) {
 static void choose_types(pl_run* run) {
   pl_wide* w = run->wide;
   bool quad = run->options.precision == PL_PRECISION_QUAD;
-  w->fine = pl_real_quad();
+  w->fine = quad || pl_real_pair() == NULL ? pl_real_quad() : pl_real_pair();
   w->state = quad ? pl_real_quad() : pl_real_long();
   w->low = run->order;
   if (!quad && run->order > LOW_ORDERS) w->low = LOW_ORDERS, w->coarse = pl_real_long();
