@@ -101,11 +101,18 @@ static void tell_events(pl_teller* t) {
   }
 }
 
+static const char* precision_word(const pl_stats* s) {
+  static const char* const word[] = {[PL_PRECISION_DOUBLE] = "double", [PL_PRECISION_LONG] = "long", [PL_PRECISION_QUAD] = "quad"};
+  return word[s->precision];
+}
+
 // Which method took how many steps.
 static void tell_steps(pl_teller* t, const pl_stats* s) {
   if (s->steps_implicit < s->steps || s->steps == 0) {
     pl_text_addf(t->out, say(t, "     %ld steps of order %d", "     %ld Schritte der Ordnung %d"), s->steps - s->steps_implicit, s->order);
   }
+  if (s->precision == PL_PRECISION_LONG) pl_text_add(t->out, say(t, " in 80-bit numbers", " in Zahlen mit 80 Bit"));
+  if (s->precision == PL_PRECISION_QUAD) pl_text_add(t->out, say(t, " in 128-bit numbers", " in Zahlen mit 128 Bit"));
   if (s->steps_implicit == 0) return;
   const char* unit = t->m->model->uses_units ? " s" : "";
   if (s->steps_implicit == s->steps) {
@@ -192,10 +199,16 @@ void pl_motion_text(pl_text* out, const pleuel_model* m, pl_language lang, bool 
 }
 
 // ---------------------------------------------------------------------------------------------- JSON
-static void json_columns(pl_json* j, const char* key, const pl_result* r, const double* row, int from, int to) {
+// A number of an event: with all its digits where it has more than a double.
+static void json_digits(pl_json* j, const char* key, double x, const char* digits) {
+  if (digits && isfinite(x)) pl_json_raw(j, key, digits);
+  else pl_json_number(j, key, x);
+}
+
+static void json_columns(pl_json* j, const char* key, const pl_result* r, const double* row, const char* const* digits, int from, int to) {
   pl_json_object(j, key);
   pl_json_flat(j);
-  for (int i = from; i < to; i++) pl_json_number(j, r->columns[i].name, row[i]);
+  for (int i = from; i < to; i++) json_digits(j, r->columns[i].name, row[i], digits ? digits[i] : NULL);
   pl_json_end_object(j);
 }
 
@@ -213,18 +226,18 @@ static void json_event(pl_json* j, const pleuel_model* m, const pl_result_event*
   pl_json_string(j, "label", e->label);
   pl_json_string(j, "kind", pl_event_kind_name[e->kind]);
   pl_json_string(j, "of", of_constraint ? e->label : NULL);
-  pl_json_number(j, "t", e->t);
+  json_digits(j, "t", e->t, e->digits ? e->digits[0] : NULL);
   if (e->at_start) pl_json_bool(j, "at_start", true);
   const double* row = e->after ? e->after : e->before;
   if (row) {
-    json_columns(j, "state", r, row, 1, state);
-    json_columns(j, "values", r, row, state, r->n_columns);
+    json_columns(j, "state", r, row, e->after ? e->digits : NULL, 1, state);
+    json_columns(j, "values", r, row, e->after ? e->digits : NULL, state, r->n_columns);
   }
   if (e->bounces) pl_json_int(j, "bounces", e->bounces);
   if (e->kind == PL_EV_IMPACT || e->jump) {
     if (of_constraint) pl_json_number(j, "impulse", e->impulse);
-    if (e->before) json_columns(j, "before", r, e->before, 1, state);
-    if (e->after) json_columns(j, "after", r, e->after, 1, state);
+    if (e->before) json_columns(j, "before", r, e->before, NULL, 1, state);
+    if (e->after) json_columns(j, "after", r, e->after, e->digits, 1, state);
   }
   pl_json_end_object(j);
 }
@@ -249,6 +262,7 @@ void pl_motion_json(pl_text* out, const pleuel_model* m) {
   }
   bool implicit = s->steps_implicit > 0, both = implicit && s->steps_implicit < s->steps;
   pl_json_string(&j, "method", both ? "taylor, radau" : implicit ? "radau" : "taylor");
+  pl_json_string(&j, "precision", precision_word(s));
   pl_json_int(&j, "order", implicit && !both ? s->order_implicit : s->order);
   if (both) {
     pl_json_int(&j, "steps_implicit", s->steps_implicit);

@@ -18,13 +18,6 @@ static int plain_point(char* out, const char* text) {
   return n;
 }
 
-// "nan" and "inf" stay as they are.
-static const char* plain_number(char* out, const char* text) {
-  if (text[0] == 'n' || text[0] == 'i' || text[1] == 'i') strcpy(out, text);
-  else plain_point(out, text);
-  return out;
-}
-
 int pl_double_text(char out[32], double x) {
   char text[40], shorter[40];
   if (isnan(x)) return (int)strlen(strcpy(out, "nan"));
@@ -95,6 +88,7 @@ typedef struct csv {
   int n_columns;
   bool has_mode;
   double* x;
+  int column;               // of the row that is written
 } csv;
 
 static pleuel_status state_of(const csv* w) { return ferror(w->file) ? PLEUEL_FILE : PLEUEL_OK; }
@@ -115,29 +109,15 @@ static pleuel_status csv_begin(void* user, const pl_setup* setup) {
   return state_of(w);
 }
 
-// ORDER COLUMNS: as name_columns in result.c.
-static void write_digits(const csv* w, const pl_row* row) {
-  const pl_setup* s = w->setup;
-  const pl_row_digits* d = row->digits;
-  char text[PL_ROW_TEXT], plain[PL_ROW_TEXT + 8];
-  int column = 0;
-#define COLUMN(part, i, negative)                              \
-  do {                                                         \
-    if (column++ > 0) fputc(',', w->file);                     \
-    d->text(d->user, part, i, negative, text);                 \
-    fputs(plain_number(plain, text), w->file);              \
-  } while (0)
-  COLUMN(PL_ROW_T, 0, false);
-  for (int part = PL_ROW_Q; part <= PL_ROW_V; part++)
-    for (int i = 0; i < s->n_q; i++)
-      if (!s->coordinates[i].hidden) COLUMN((pl_row_part)part, i, false);
-  for (int c = 0; c < s->n_c; c++) {
-    if (!s->links[c].column) continue;
-    if (row->unique[c]) COLUMN(PL_ROW_LAMBDA, c, s->links[c].minus);
-    else column++, fputs(",nan", w->file);
-  }
-  for (int i = 0; i < s->n_out; i++) COLUMN(PL_ROW_OUT, i, false);
-#undef COLUMN
+static void write_column(void* user, const char* text) {
+  csv* w = user;
+  if (w->column++ > 0) fputc(',', w->file);
+  fputs(text, w->file);
+}
+
+static void write_digits(csv* w, const pl_row* row) {
+  w->column = 0;
+  pl_result_digits(w->setup, row, w, write_column);
   if (w->has_mode) {
     fputc(',', w->file);
     write_text(w->file, row->mode);

@@ -40,6 +40,31 @@ void pl_result_flatten(const pl_setup* s, const pl_row* row, double* x) {
   for (int i = 0; i < s->n_out; i++) x[n++] = row->out[i];
 }
 
+// The decimal point of the locale, whatever it is, becomes a dot.
+static void take_plain(char* text, void* user, void (*take)(void* user, const char* text)) {
+  bool number = text[0] != 'n' && text[0] != 'i' && text[1] != 'i';
+  for (char* c = text; number && *c; c++)
+    if (!(*c >= '0' && *c <= '9') && *c != '-' && *c != '+' && *c != 'e') *c = '.';
+  take(user, text);
+}
+
+// ORDER COLUMNS: as name_columns.
+void pl_result_digits(const pl_setup* s, const pl_row* row, void* user, void (*take)(void* user, const char* text)) {
+  const pl_row_digits* d = row->digits;
+  char text[PL_ROW_TEXT];
+#define COLUMN(part, i, negative) (d->text(d->user, part, i, negative, text), take_plain(text, user, take))
+  COLUMN(PL_ROW_T, 0, false);
+  for (int part = PL_ROW_Q; part <= PL_ROW_V; part++)
+    for (int i = 0; i < s->n_q; i++)
+      if (!s->coordinates[i].hidden) COLUMN((pl_row_part)part, i, false);
+  for (int c = 0; c < s->n_c; c++) {
+    if (s->links[c].column && row->unique[c]) COLUMN(PL_ROW_LAMBDA, c, s->links[c].minus);
+    else if (s->links[c].column) take(user, "nan");
+  }
+  for (int i = 0; i < s->n_out; i++) COLUMN(PL_ROW_OUT, i, false);
+#undef COLUMN
+}
+
 static bool has_mode(const pl_setup* s) {
   for (int c = 0; c < s->n_c; c++)
     if (s->links[c].side != 0) return true;
@@ -117,6 +142,13 @@ static pleuel_status on_row(void* user, const pl_row* row) {
   return f->result->next.row ? f->result->next.row(f->result->next.user, row) : PLEUEL_OK;
 }
 
+typedef struct digits { pl_arena* arena; const char** text; int n; } digits;
+
+static void take_digits(void* user, const char* text) {
+  digits* d = user;
+  d->text[d->n++] = pl_copy(d->arena, text);
+}
+
 static void add_event(filling* f, const void* what) {
   const pl_event_record* e = what;
   pl_result* r = f->result;
@@ -125,6 +157,11 @@ static void add_event(filling* f, const void* what) {
   event.label = e->label ? pl_copy(r->arena, e->label) : NULL;
   event.before = keep_row(f, &e->before);
   event.after = keep_row(f, &e->after);
+  if (e->after.digits) {
+    digits d = {r->arena, PL_ARRAY(r->arena, const char*, r->n_columns + 1), 0};
+    pl_result_digits(f->setup, &e->after, &d, take_digits);
+    event.digits = d.text;
+  }
   event.mode_before = pl_copy(r->arena, e->before.mode);
   event.mode_after = pl_copy(r->arena, e->after.mode);
   pl_push(r->arena, r->events, event);
@@ -169,6 +206,19 @@ static void keep_numbers(pl_result* r, pl_keeper* k, double** x) {
   pl_keep_f64s(k, *x, (size_t)r->n_columns);
 }
 
+static void keep_digits(pl_result* r, pl_keeper* k, pl_result_event* e) {
+  bool any = e->digits != NULL;
+  pl_keep_bool(k, &any);
+  if (!any) return;
+  const char** text = PL_ARRAY(r->arena, const char*, r->n_columns + 1);
+  for (int i = 0; i < r->n_columns; i++) {
+    if (e->digits) text[i] = e->digits[i];
+    pl_keep_text(k, &text[i]);
+    if (k->reads && text[i] == NULL) pl_keep_fail(k);
+  }
+  e->digits = text;
+}
+
 static void keep_event(pl_result* r, pl_keeper* k, pl_result_event* e) {
   int kind = (int)e->kind;
   double *before = (double*)(uintptr_t)e->before, *after = (double*)(uintptr_t)e->after;
@@ -181,6 +231,7 @@ static void keep_event(pl_result* r, pl_keeper* k, pl_result_event* e) {
   pl_keep_long(k, &e->bounces, 0, INT64_MAX);
   pl_keep_text(k, &e->mode_before);
   pl_keep_text(k, &e->mode_after);
+  keep_digits(r, k, e);
   keep_numbers(r, k, &before);
   keep_numbers(r, k, &after);
   e->kind = (pl_event_kind)kind;

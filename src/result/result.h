@@ -18,6 +18,7 @@ typedef struct pl_result_event {
   long bounces;                      // contact after so many bounces and the infinitely many that follow; else 0
   const double *before, *after;      // (n_columns)
   const char *mode_before, *mode_after;
+  const char* const* digits;         // on wider numbers: `after` as text with all digits; NULL in doubles  (n_columns)
 } pl_result_event;
 
 typedef struct pl_result {

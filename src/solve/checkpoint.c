@@ -20,6 +20,7 @@
 //   hold_q hold_v first_a decision choice_kept n_decisions K_series out_now out_before row_q row_v row_a row_l energy_out mode
 //   mode_before t_grid W_coef branch_value reach factored seen shown shown_before
 // not kept of pl_run, of the start, which is found anew: start
+// not kept of pl_stats, follows from the options: precision
 // not kept of pl_stats, a word about this process: why_interpreted
 // not kept of pl_kkt, follows from setup and point: n dense n_values value start row diagonal lu scale balance work pivot ratio
 // not kept of pl_watch, pl_rub_now, follows from the setup: kind index direction

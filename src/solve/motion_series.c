@@ -173,7 +173,8 @@ double pl_series_step(pl_run* run) {
     norms_of(run->V, run->n_q, p, of_v);
   }
   // e^shrink of the radius makes p - 1 factors of tol together; the rest is their safety factor, eq. (3-8) there
-  return exp2(fmin(block_radius(q, p + 1), block_radius(v, p)) - 1.4426950408889634 * (0.7 / (p - 1) - run->shrink));
+  double h = exp2(fmin(block_radius(q, p + 1), block_radius(v, p)) - 1.4426950408889634 * (0.7 / (p - 1) - run->shrink));
+  return run->wide ? pl_wide_vary(run, h) : h;
 }
 
 // ---------------------------------------------------------------------------------------------- evaluation

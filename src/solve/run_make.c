@@ -110,6 +110,7 @@ static void set_options(pl_run* run, const pl_run_options* o) {
   if (o->method == PL_METHOD_RADAU) run->tol = pl_radau_tol(o->tol);
   run->tol_raised = o->tol > 0 && o->tol < run->tol;
   choose_order(run);
+  run->stats.precision = o->precision;
   run->stats.order = run->use = run->use_last = run->order;
   run->grid_count = o->count;
   run->grid_dt = o->count > 0 ? (o->t_end - o->t_0) / (double)o->count : copysign(o->dt, o->t_end - o->t_0);

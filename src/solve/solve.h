@@ -187,7 +187,15 @@ typedef struct pl_event_record {
   long bounces;                       // CONTACT after infinitely many: those that were followed; else 0
 } pl_event_record;
 
+// The numbers that a run computes with.
+typedef enum pl_precision {
+  PL_PRECISION_DOUBLE,
+  PL_PRECISION_LONG,      // the state has 64 binary digits, rounded once a step; what is between is more exact
+  PL_PRECISION_QUAD       // 113 binary digits
+} pl_precision;
+
 typedef struct pl_stats {
+  pl_precision precision;             // of the numbers
   long steps, rejections;
   int order;
   double h_min, h_max;                // s
@@ -232,13 +240,6 @@ typedef enum pl_engine {
 } pl_engine;
 
 struct pl_run;
-// The numbers that a run computes with.
-typedef enum pl_precision {
-  PL_PRECISION_DOUBLE,
-  PL_PRECISION_LONG,      // the state has 64 binary digits, rounded once a step; what is between is more exact
-  PL_PRECISION_QUAD       // 113 binary digits
-} pl_precision;
-
 typedef struct pl_run_options {
   double t_0, t_end;                  // s; t_end may lie before t_0 (backwards)
   double tol;                         // relative local error; 0: what the arithmetic can do, which is the least

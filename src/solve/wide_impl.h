@@ -60,6 +60,7 @@ void pl_wide_copy(const pl_real* to_type, void* to, int at, const pl_real* from_
 bool pl_wide_enter(pl_run* run);
 void pl_wide_expand(pl_run* run);
 void pl_wide_norms(pl_run* run, const double** q, const double** v);
+double pl_wide_vary(const pl_run* run, double h);    // the length of a step, where steps are not to keep time with the motion
 void pl_wide_advance(pl_run* run, double dt);       // the state at the end of a step: trial_q, trial_v
 bool pl_wide_project(pl_run* run, pl_projection* p);
 void pl_wide_accept(pl_run* run, bool to_end);      // time
