@@ -5,6 +5,8 @@
 // Where M falls into blocks of at most three rows this is written out; else accelerations and multipliers stay together.
 // Along a chain of rods the matrix is tridiagonal.  Entries come from raw differentiation, what is shown of them from the
 // tower; each is claimed, and so are the rows of the system and its solution.
+#include <math.h>
+
 #include "structured_impl.h"
 
 enum { most_unknowns = 200, largest_block = 3, most_levels = 4 };
@@ -373,8 +375,55 @@ static bool is_symmetric(pl_analysis* d, const pl_structure* s) {
   return true;
 }
 
+// ---------------------------------------------------------------------------------------------- is it regular?
+// Nested functions may hide from the algebra that rows depend on each other.  Elimination with complete pivoting; the least
+// pivot as a part of the largest.
+static double least_pivot(double* A, int n) {
+  double largest = 0, pivot = 0;
+  for (int step = 0; step < n; step++) {
+    int row = step, column = step;
+    for (int i = step; i < n; i++)
+      for (int j = step; j < n; j++)
+        if (fabs(A[i * n + j]) > fabs(A[row * n + column])) row = i, column = j;
+    pivot = fabs(A[row * n + column]);
+    if (step == 0) largest = pivot;
+    if (!(pivot > 0)) return pivot;
+    for (int j = 0; j < n; j++) {
+      double x = A[row * n + j];
+      A[row * n + j] = A[step * n + j];
+      A[step * n + j] = x;
+    }
+    for (int i = 0; i < n; i++) {
+      double x = A[i * n + column];
+      A[i * n + column] = A[i * n + step];
+      A[i * n + step] = x;
+    }
+    for (int i = step + 1; i < n; i++) {
+      double part = A[i * n + step] / A[step * n + step];
+      for (int j = step; j < n; j++) A[i * n + j] -= part * A[step * n + j];
+    }
+  }
+  return pivot / largest;
+}
+
+// Singular at random points of numbers, each time.
+static bool is_singular(pl_analysis* d, const pl_structure* s) {
+  enum { points = 4 };
+  static const double rounding = 1e-11;
+  int n = s->n, symbols = pl_symbol_count(d->pool);
+  double *A = PL_ARRAY(d->arena, double, n * n), *value = PL_ARRAY(d->arena, double, symbols + 1);
+  pl_random r = {20260};
+  for (int k = 0; k < points; k++) {
+    for (int i = 0; i <= symbols; i++) value[i] = 0.4 + pl_random_unit(&r);
+    for (int i = 0; i < n * n; i++) A[i] = pl_eval(d->pool, s->S[i], value);
+    double least = least_pivot(A, n);
+    if (!(least <= rounding)) return false;   // regular, or without a number here
+  }
+  return true;
+}
+
 static pl_structure* finish(pl_analysis* d, pl_structure* s) {
-  if (!s || !is_symmetric(d, s)) return NULL;
+  if (!s || !is_symmetric(d, s) || is_singular(d, s)) return NULL;
   int* order = PL_ARRAY(d->arena, int, s->n);
   s->chain = s->kind == PL_ST_MULTIPLIERS && walk(d, s, order);
   if (s->chain) reorder(d, s, order);
