@@ -197,10 +197,14 @@ static pleuel_status start_varied(pleuel_model* m, const pl_run_options* how, pl
   quiet.sink = (pl_sink){0};
   quiet.progress = NULL;
   quiet.keep = NULL;
+  bool switched = m->recording->setup.varied != NULL;
+  struct pl_pilot* pilot = switched ? pl_pilot_make(&m->job, run, &plain->setup, &quiet.sink) : NULL;
   pleuel_status s = pl_run_make(&m->job, &plain->setup, &quiet, &first);
   if (s == PLEUEL_OK) s = start_plain(m, first);
+  bool goes_ahead = s == PLEUEL_OK && pilot;     // and is freed with the run
+  if (goes_ahead) pl_pilot_take(pilot, run, first);
   if (s == PLEUEL_OK) s = start_blocks(m, run, pl_run_time(first), pl_run_q(first), pl_run_v(first));
-  pl_run_free(first);
+  if (!goes_ahead) pl_run_free(first);
   return s;
 }
 
@@ -287,6 +291,10 @@ pleuel_status pl_pipeline_start(pleuel_model* m, const pleuel_sim_options* o, pl
   if (o->precision) precision_named(o->precision, &how.precision);
   if (o->has_until && m->exact) how.t_end_exact = exact_time(m, o->until_as_written);
   if (o->has_dt && m->exact) how.dt_exact = exact_time(m, o->dt_as_written);
+  // a run that follows another one is not kept
+  if (r->n_directions && r->setup.varied && o->resume)
+    return pl_fail(&m->job, PLEUEL_UNSUPPORTED, "a run with sensitivities through contacts or events cannot be resumed");
+  if (r->n_directions && r->setup.varied) m->keeping = NULL;
   if (m->result) {
     how.sink = pl_result_sink(m->result);
     if (o->csv) m->result->next = m->keeping && o->resume ? pl_csv_sink_behind(m->arena, o->csv) : pl_csv_sink(m->arena, o->csv);

@@ -42,6 +42,8 @@ typedef struct pl_variation {
   const pl_direction* direction;
   pl_map* delta;              // id of a coordinate (or family, or multiplier) -> id of the symbol of its variation
   double *q, *v;              // variations of the start values given: direction d, coordinate i at d n_q + i
+  pl_pattern* watch;          // derivatives of what is watched
+  int n_watch;
 } pl_variation;
 
 typedef struct pl_recorder {
@@ -105,6 +107,15 @@ int pl_variation_count(const pl_recorder* r);                                   
 pleuel_status pl_variation_record(pl_recorder* r, pl_group* g, const pl_pattern_source* s, pl_pattern* out);
 void pl_variation_of_start(pl_recorder* r, const pl_start_value* s);
 pleuel_status pl_variation_setup(pl_recorder* r);
+pl_expr pl_variation_by_atom(pl_pool* p, pl_expr e, pl_expr atom);
+pl_expr pl_variation_by_parameter(pl_recorder* r, pl_expr e, const pl_direction* d);
+pl_expr pl_variation_delta(pl_recorder* r, pl_expr atom);                         // the variation of a coordinate or multiplier
+
+// record_variation_events.c: the same for what switches the motion.
+bool pl_variation_is_switched(const pl_recorder* r);
+pleuel_status pl_variation_watch(pl_recorder* r, const pl_group* g, const pl_expr* e, int n, const pl_expr* lambda, const int* links,
+                                 int n_c);
+void pl_variation_switch(pl_recorder* r);                                         // the setup, when it has both
 
 // record_wider.c: what wider numbers need.  Nothing happens where they are not asked for.
 void pl_wider_begin(pl_recorder* r);

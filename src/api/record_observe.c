@@ -390,6 +390,7 @@ pleuel_status pl_record_events(pl_recorder* r) {
     }
     for (int k = 0; k < e->actions.n; k++) PL_TRY(make_deed(r, w, &e->actions.at[k], &deeds[k]));
   }
+  if (r->variation) PL_TRY(pl_variation_watch(r, w->group, w->output.at, w->output.n, w->lambda.at, w->links.at, w->lambda.n));
   s->events = events;
   s->n_events = m->events.n;
   s->n_watched = w->output.n;

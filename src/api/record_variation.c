@@ -86,23 +86,11 @@ static pleuel_status read_list(pl_recorder* r, const char* list, pl_variation* v
   return v->n ? PLEUEL_OK : pl_fail(r->job, PLEUEL_USAGE, "sensitivity to what? Name parameters or start values: m2,x0");
 }
 
-// Contacts and deeds change the motion from one moment to the next, and its derivatives with a jump of their own.
+// Where surfaces begin to slip or stick, the derivatives have jumps that are not known here.
 static pleuel_status check_smooth(pl_recorder* r) {
   const pl_model* m = r->model;
-  static const char* const sentence =
-      "%s: sensitivities are not carried through contacts or events that change the motion";
-  for (int i = 0; i < m->constraints.n; i++) {
-    const pl_constraint* c = &m->constraints.at[i];
-    if (c->relation != PL_EQ || c->off || c->while_label) return pl_fail(r->job, PLEUEL_UNSUPPORTED, sentence, c->name.text);
-  }
-  if (m->frictions.n > 0) return pl_fail(r->job, PLEUEL_UNSUPPORTED, sentence, m->frictions.at[0].label);
-  for (int i = 0; i < m->events.n; i++)
-    for (int k = 0; k < m->events.at[i].actions.n; k++) {
-      pl_action_kind kind = m->events.at[i].actions.at[k].kind;
-      if (kind != PL_DO_STOP && kind != PL_DO_RECORD)
-        return pl_fail(r->job, PLEUEL_UNSUPPORTED, sentence, m->events.at[i].name.text);
-    }
-  return PLEUEL_OK;
+  if (m->frictions.n == 0) return PLEUEL_OK;
+  return pl_fail(r->job, PLEUEL_UNSUPPORTED, "%s: sensitivities are not carried through friction", m->frictions.at[0].label);
 }
 
 // The symbol of a variation; colons cannot stand in names of a model.
@@ -136,11 +124,11 @@ pleuel_status pl_variation_begin(pl_recorder* r, const char* list) {
 int pl_variation_count(const pl_recorder* r) { return r->variation ? r->variation->n : 1; }
 
 // ---------------------------------------------------------------------------------------------- derivatives
-static pl_expr by_atom(pl_pool* p, pl_expr e, pl_expr atom) {
+pl_expr pl_variation_by_atom(pl_pool* p, pl_expr e, pl_expr atom) {
   return pl_kind_of(p, atom) == PL_SYMBOL ? pl_diff(p, e, pl_symbol_of(p, atom)) : pl_diff_at(p, e, atom);
 }
 
-static pl_expr delta_of(pl_recorder* r, pl_expr atom) {
+pl_expr pl_variation_delta(pl_recorder* r, pl_expr atom) {
   pl_pool* p = r->pool;
   pl_symbol s = {(uint32_t)pl_map_get(r->variation->delta, pl_symbol_of(p, atom).id)};
   return pl_kind_of(p, atom) == PL_SYMBOL ? pl_sym(p, s) : pl_at(p, s, 0, pl_arg(p, atom, 0));
@@ -177,15 +165,17 @@ static pl_expr by_parameter(pl_recorder* r, pl_expr e, const pl_direction* d, in
   return sum;
 }
 
+pl_expr pl_variation_by_parameter(pl_recorder* r, pl_expr e, const pl_direction* d) { return by_parameter(r, e, d, 0); }
+
 // sum e_q δ + e_v δ' + e_p
 static pl_expr vary(pl_recorder* r, const pl_group* g, pl_expr e, const pl_direction* d) {
   pl_pool* p = r->pool;
   if (pl_is_poison(e)) return e;
   pl_expr sum = by_parameter(r, e, d, 0);
   for (int i = 0; i < g->atoms.n; i++) {
-    pl_expr atom = g->atoms.at[i], delta = delta_of(r, atom);
-    sum = pl_add(p, sum, pl_mul(p, by_atom(p, e, atom), delta));
-    sum = pl_add(p, sum, pl_mul(p, by_atom(p, e, pl_dt(p, atom)), pl_dt(p, delta)));
+    pl_expr atom = g->atoms.at[i], delta = pl_variation_delta(r, atom);
+    sum = pl_add(p, sum, pl_mul(p, pl_variation_by_atom(p, e, atom), delta));
+    sum = pl_add(p, sum, pl_mul(p, pl_variation_by_atom(p, e, pl_dt(p, atom)), pl_dt(p, delta)));
   }
   return sum;
 }
@@ -202,7 +192,7 @@ static void vary_constraints(pl_recorder* r, const pl_group* g, const pl_pattern
     constraint[k] = vary(r, g, s->constraint[k], d);
     constraint[n + k] = s->constraint[k];
     lambda[k] = s->slots.lambda[k];
-    lambda[n + k] = pl_is_poison(lambda[k]) ? lambda[k] : delta_of(r, lambda[k]);
+    lambda[n + k] = pl_is_poison(lambda[k]) ? lambda[k] : pl_variation_delta(r, lambda[k]);
     velocity[k] = velocity[n + k] = s->velocity[k];
   }
   out->constraint = constraint;
@@ -223,7 +213,7 @@ static void vary_forces(pl_recorder* r, const pl_group* g, const pl_pattern_sour
     for (int c = 0; c < s->slots.n_c; c++) {
       pl_expr lambda = s->slots.lambda[c];
       if (pl_is_poison(lambda)) continue;
-      force[i] = pl_add(r->pool, force[i], pl_mul(r->pool, by_atom(r->pool, force[n + i], lambda), delta_of(r, lambda)));
+      force[i] = pl_add(r->pool, force[i], pl_mul(r->pool, pl_variation_by_atom(r->pool, force[n + i], lambda), pl_variation_delta(r, lambda)));
     }
   }
   out->force = force;
@@ -254,7 +244,7 @@ pleuel_status pl_variation_record(pl_recorder* r, pl_group* g, const pl_pattern_
   pl_expr* atoms = PL_ARRAY(r->arena, pl_expr, 2 * n + 1);
   for (int i = 0; i < n; i++) {
     atoms[i] = g->atoms.at[i];
-    atoms[n + i] = delta_of(r, atoms[i]);
+    atoms[n + i] = pl_variation_delta(r, atoms[i]);
   }
   for (int k = 0; k < r->variation->n; k++) {
     const pl_direction* d = &r->variation->direction[k];
@@ -291,7 +281,7 @@ static double derivative_of_start(pl_recorder* r, const pl_start_value* s, int k
     for (int velocity = 0; velocity < 2; velocity++) {
       double x = velocity ? r->variation->v[place] : r->variation->q[place];
       if (x == 0) continue;
-      pl_expr slope = by_atom(r->pool, s->value, velocity ? pl_dt(r->pool, atom) : atom);
+      pl_expr slope = pl_variation_by_atom(r->pool, s->value, velocity ? pl_dt(r->pool, atom) : atom);
       sum += x * pl_record_number(r, pl_record_with_elements(r, slope, q));
     }
   }
@@ -375,6 +365,7 @@ pleuel_status pl_variation_setup(pl_recorder* r) {
   s->links = link;
   s->n_q = 2 * v->n * r->out->flat.n;
   s->n_c = 2 * v->n * r->n_links;
+  pl_variation_switch(r);
   r->out->n_directions = v->n;
   r->out->varied_q = v->q;
   r->out->varied_v = v->v;

@@ -415,6 +415,11 @@ pleuel_status pl_contacts_impact(pl_run* run, bool* any) {
   memcpy(run->hold_q, run->q, (size_t)run->n_q * sizeof(double));
   list_impact(run);
   PL_TRY(decide(run, try_impulses, run->v, true));
+  run->impacts++;
+  for (int c = 0; c < run->n_c; c++) {
+    run->impact_taken[c] = run->taken[c];
+    run->impact_factor[c] = rebound(run, c) != 0 ? run->setup->links[c].restitution : 0;
+  }
   // a friction against a driven surface may add energy, and so may a driven wall
   if (has_used_rub(run) && !moving_walls(run)) PL_TRY(check_gain(run));
   for (int c = 0; c < run->n_c; c++) {

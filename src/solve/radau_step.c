@@ -379,8 +379,6 @@ pleuel_status pl_radau_hold(pl_run* run, pl_radau* r, double* h, double* error, 
 }
 
 // ---------------------------------------------------------------------------------------------- lengths
-static double left_over(const pl_run* run) { return run->options.t_end - run->t - run->t_low; }
-
 // How far the next time of output is; infinite without a grid.
 static double to_grid(const pl_run* run) {
   if (run->grid_dt == 0) return (double)INFINITY;
@@ -393,7 +391,7 @@ static double to_grid(const pl_run* run) {
 }
 
 static double choose_length(pl_run* run, pl_radau* r) {
-  double h = r->h, left = fabs(left_over(run)), grid = to_grid(run);
+  double h = r->h, left = fabs(pl_run_left(run)), grid = to_grid(run);
   h = fmin(h, run->options.h_max > 0 ? run->options.h_max : run->h_plain);
   if (grid < h) h = fmax(grid, fmin(h, r->h_dense));
   if (h >= left) h = left;
@@ -401,7 +399,7 @@ static double choose_length(pl_run* run, pl_radau* r) {
   // a length close to that of the last factors is taken over from them
   if (r->has_factor && h > fabs(r->h_factored) && h < 1.2 * fabs(r->h_factored) && h != grid && h != left)
     h = fabs(r->h_factored);
-  return copysign(h, left_over(run));
+  return copysign(h, pl_run_left(run));
 }
 
 // The first step: a fraction of the radius of the series at the point.
@@ -410,7 +408,7 @@ static void first_length(pl_run* run, pl_radau* r) {
   pl_series_expand(run);
   r->h = pl_series_step(run);
   if (!(r->h > 0)) r->h = 0;
-  if (!isfinite(r->h)) r->h = fabs(left_over(run));
+  if (!isfinite(r->h)) r->h = fabs(pl_run_left(run));
   r->h = fmax(r->h, 100 * run->h_least);
   r->steps_in_row = 0;
 }

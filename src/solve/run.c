@@ -29,10 +29,13 @@ static void note(pl_run* run, const pl_projection* p, double h) {
   }
 }
 
-static double left_over(const pl_run* run) { return run->options.t_end - run->t - run->t_low; }
+double pl_run_left(const pl_run* run) {
+  if (run->stop.early) return (run->stop.t - run->t) + (run->stop.t_low - run->t_low);
+  return run->options.t_end - run->t - run->t_low;
+}
 
 static double choose_step(pl_run* run) {
-  double h = run->h_series = pl_series_step(run), left = left_over(run);
+  double h = run->h_series = pl_series_step(run), left = pl_run_left(run);
   if (run->options.h_max > 0) h = fmin(h, run->options.h_max);
   else h = fmin(h, run->h_plain);
   // not a last step that is almost nothing
@@ -46,7 +49,9 @@ static void advance_time(pl_run* run, double h, bool to_end) {
   double add = h + run->t_low, t = run->t + add;
   run->t_low = add - (t - run->t);
   run->t = t;
-  if (to_end) run->t = run->options.t_end, run->t_low = 0;
+  if (!to_end) return;
+  run->t = run->stop.early ? run->stop.t : run->options.t_end;
+  run->t_low = run->stop.early ? run->stop.t_low : 0;
 }
 
 static pleuel_status too_small(pl_run* run, double h) {
@@ -155,9 +160,9 @@ static pleuel_status step_by_series(pl_run* run, double* h, double* wanted, doub
   if (run->n_kinks > 0) pl_kinks_series(run);
   *h = *wanted = choose_step(run);
   *root = -1;
-  if (!run->wide && pl_singular_leap(run, left_over(run), h, p)) return pl_singular_record(run);
+  if (!run->wide && pl_singular_leap(run, pl_run_left(run), h, p)) return pl_singular_record(run);
   *h = *wanted;
-  if (!(fabs(*h) > run->h_least) && fabs(*h) < fabs(left_over(run))) return too_small(run, *h);
+  if (!(fabs(*h) > run->h_least) && fabs(*h) < fabs(pl_run_left(run))) return too_small(run, *h);
   return try_steps(run, h, root, p);
 }
 
@@ -178,7 +183,7 @@ static pleuel_status step(pl_run* run) {
     if (!run->wide) pl_point_general(run);
     return pl_modes_handle(run);
   }
-  bool to_end = h == wanted && root < 0 && fabs(wanted) == fabs(left_over(run));
+  bool to_end = h == wanted && root < 0 && fabs(wanted) == fabs(pl_run_left(run));
   PL_TRY(pl_rows_grid(run, run->t, run->t + h));
   if (run->n_watch > 0) pl_watch_passed(run, h);
   if (run->n_watch > 0 && run->sunk >= 0)
@@ -209,7 +214,7 @@ pleuel_status pl_run_step(pl_run* run) {
   PL_TRY(pl_rows_begin(run));
   if (pl_run_done(run)) return PLEUEL_OK;
   PL_TRY(limits(run));
-  PL_TRY(step(run));
+  PL_TRY(run->pilot ? pl_pilot_step(run->pilot, step) : step(run));
   run->stats.rank = run->rank;
   if (run->options.progress)
     run->options.progress(run->options.progress_user, run->t, run->options.t_end, run->h_last, &run->stats);
@@ -262,6 +267,7 @@ pleuel_status pl_run_begin_at(pl_run* run, double t) {
   run->started = true;
   PL_TRY(pl_rows_open(run));
   PL_TRY(pl_modes_check(run, true));
+  if (run->pilot) PL_TRY(pl_pilot_begin(run->pilot));
   if (run->options.precision != PL_PRECISION_DOUBLE) PL_TRY(pl_wide_begin(run, t));
   pl_rows_energy(run, true);
   pl_motion_update(run);
@@ -294,7 +300,10 @@ pleuel_status pl_run_start_at(pl_run* run, double t, const double* q, const doub
 
 // ---------------------------------------------------------------------------------------------- reading
 double pl_run_time(const pl_run* run) { return run->t; }
-bool pl_run_done(const pl_run* run) { return run->stopped || (run->started && left_over(run) == 0); }
+bool pl_run_done(const pl_run* run) {
+  bool waits = run->pilot && pl_pilot_waits(run->pilot);
+  return run->stopped || (run->started && pl_run_left(run) == 0 && !waits);
+}
 const double* pl_run_q(const pl_run* run) { return run->q; }
 const double* pl_run_v(const pl_run* run) { return run->v; }
 const double* pl_run_a(const pl_run* run) { return run->A; }

@@ -131,10 +131,11 @@ static void reserve_state(pl_run* run) {
                      &run->jump_q, &run->hold_q, &run->hold_v,  &run->first_a,
                      &run->q_most, &run->v_most, &run->q_kept,  &run->v_kept};
   double** of_c[] = {&run->g,       &run->g_size,   &run->r,        &run->r_size,   &run->save_l,   &run->row_l,
-                     &run->impulse, &run->row_most, &run->argument, &run->row_long, &run->row_part, &run->rank_work};
+                     &run->impulse, &run->row_most, &run->argument, &run->row_long, &run->row_part, &run->rank_work,
+                     &run->impact_factor};
   bool** flags[] = {&run->on,          &run->detached,  &run->active, &run->taken,     &run->unique,
                     &run->save_unique, &run->row_taken, &run->taken_kept, &run->rubs,   &run->near_by, &run->rebounds,
-                    &run->on_before,   &run->jumped, &run->met};
+                    &run->on_before,   &run->jumped, &run->met, &run->impact_taken};
   for (size_t i = 0; i < sizeof of_q / sizeof *of_q; i++) *of_q[i] = PL_ARRAY(a, double, q + 1);
   for (size_t i = 0; i < sizeof of_c / sizeof *of_c; i++) *of_c[i] = PL_ARRAY(a, double, c + 1);
   for (size_t i = 0; i < sizeof flags / sizeof *flags; i++) *flags[i] = PL_ARRAY(a, bool, c + 1);
@@ -263,5 +264,6 @@ void pl_run_free(pl_run* run) {
   if (run == NULL) return;
   pl_kkt_free(&run->kkt);
   pl_radau_free(run->radau);
+  pl_pilot_free(run->pilot);
   pl_motion_free(run);
 }

@@ -106,6 +106,15 @@ typedef struct pl_exact_setup {
   int t_0, t_end, dt;
 } pl_exact_setup;
 
+// A motion with its derivatives by parameters and start values, where contacts or events change it.  Coordinates stand in
+// blocks of n_q, constraints in blocks of n_c, for each direction two: a copy of the motion and its variation.  The rows of
+// the first block of constraints are varied, with the multipliers λ; those of the second are the constraints, with dλ.
+typedef struct pl_varied {
+  int n_directions, n_q, n_c;
+  int n_watched;                      // of the motion; then as many derivatives by time, then by each direction
+  const double* restitution_slope;    // derivatives of the coefficients                       (n_directions x n_c)
+} pl_varied;
+
 typedef struct pl_setup {
   int n_q;
   const pl_coordinate* coordinates;   // (n_q)
@@ -135,6 +144,7 @@ typedef struct pl_setup {
   int n_turns;
   const pl_turn_setup* turns;         // (n_turns)
   const pl_exact_setup* exact;        // or NULL
+  const pl_varied* varied;            // NULL: the motion alone, or nothing changes it
 } pl_setup;
 
 // ---------------------------------------------------------------------------------------------- sink
@@ -317,6 +327,11 @@ pleuel_status pl_run_start_turned(pl_run* run, double t, const double* q, const 
 // linear, move by the least that meets the constraints.
 pleuel_status pl_run_start_partly(pl_run* run, double t, const double* q, const double* v, const bool* held_q,
                                   const bool* held_v);
+
+// A run whose setup has `varied` follows one of the motion alone.  pl_pilot_make gives the sink for that run; started, it is
+// handed over before the other is started, and goes with it.
+struct pl_pilot* pl_pilot_make(pl_job* job, const pl_run* follower, const pl_setup* plain, pl_sink* sink);
+void pl_pilot_take(struct pl_pilot* p, pl_run* follower, pl_run* plain);
 
 // pl_run_step takes one accepted step, not beyond t_end, with everything that happens in it.
 // Status: PLEUEL_SINGULAR, PLEUEL_NUMERICAL, PLEUEL_INTERRUPTED (job->interrupted), or what the sink returned.

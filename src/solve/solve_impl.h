@@ -115,6 +115,9 @@ typedef struct pl_turn_now {
   double rate[2];          // of (φ + ψ)/2 and (φ - ψ)/2, where they were determined last
 } pl_turn_now;
 
+typedef struct pl_pilot pl_pilot;
+typedef struct pl_stop { bool early; double t, t_low; } pl_stop;   // where a run stops before its end
+
 typedef struct pl_motion pl_motion;   // the motion as codes: motion_impl.h
 typedef struct pl_wide pl_wide;       // the same on wider numbers: wide_impl.h
 
@@ -200,6 +203,12 @@ struct pl_run {
   bool* save_unique;
   double* impulse;         // (n_c)
   double *jump_v, *jump_q; // (n_q)
+
+  pl_pilot* pilot;         // goes ahead of a run with derivatives, NULL without it
+  pl_stop stop;
+  long impacts;            // so far; of the last one the rows in force and the factor of their rebound   (n_c)
+  bool* impact_taken;
+  double* impact_factor;
 
   struct pl_radau* radau;  // the implicit method, NULL without it
   bool implicit;           // it is at work
@@ -418,7 +427,15 @@ void pl_radau_changed(pl_run* run, bool jumped);    // the mode is another one; 
 pleuel_status pl_radau_step(pl_run* run, double* h, double* root, pl_projection* p);
 pleuel_status pl_stiff_look(pl_run* run);           // whether to use it; stiff_detect.c
 
+// ---- pilot.c: derivatives through contacts and events
+void pl_pilot_free(pl_pilot* p);
+const char* pl_pilot_mode(const pl_pilot* p);
+bool pl_pilot_waits(const pl_pilot* p);
+pleuel_status pl_pilot_begin(pl_pilot* p);          // tells what happened at the start
+pleuel_status pl_pilot_step(pl_pilot* p, pleuel_status (*of)(pl_run* run));
+
 // ---- run.c
+double pl_run_left(const pl_run* run);              // to the end, or to where it stops before
 pleuel_status pl_run_begin_at(pl_run* run, double t);   // from run->q, v
 
 // ---- singular.c

@@ -98,6 +98,47 @@ want = {
 }
 near("a skate, with its constraint on velocities", rows and rows[-1], want, 1e-12)
 
+bouncing = """
+param e = 0.7, H = 5, g = 10
+coord x, y
+axes x right, y up
+mass 2 at (x, y)
+gravity g along -y
+constraint floor: y >= 0
+restitution e on floor
+init x = 0, x' = 1, y = H, y' = 0
+simulate 0..4
+"""
+rows, said = sim(bouncing, "--sensitivities", "e,H,y0,x_dot0")
+e, H, g = 0.7, 5.0, 10.0
+t0, u0 = math.sqrt(2 * H / g), math.sqrt(2 * g * H)       # the first impact, its speed; the third ends at T
+T, u = t0 * (1 + 2 * e + 2 * e * e), e**3 * u0
+dT = {"e": t0 * (2 + 4 * e), "H": (1 + 2 * e + 2 * e * e) / (g * t0)}
+du = {"e": 3 * e * e * u0, "H": e**3 * g / u0}
+want = {"d(x)/d(x_dot0)": 4.0, "d(y)/d(x_dot0)": 0.0}
+for n, of in (("e", "e"), ("H", "H"), ("y0", "H")):
+    want[f"d(y)/d({n})"] = du[of] * (4 - T) - (u - g * (4 - T)) * dT[of]
+    want[f"d(y_dot)/d({n})"] = du[of] + g * dT[of]
+near("a ball after three bounces, by restitution and height", rows and rows[-1], want, 1e-13)
+
+hit = """
+param g = 10, v = 20, α = 0.6, b = 0
+coord x, y
+axes x right, y up
+mass 2 at (x, y)
+gravity g along -y
+event top: when y' = b falling -> x' = 2 x'
+init x = 0, x' = v cos α, y = 0, y' = v sin α
+simulate 0..2
+"""
+rows, said = sim(hit, "--sensitivities", "v,α,b")
+v, a, up = 20.0, 0.6, 2.0          # after the top the velocity is doubled: x = v cos α (2 t - t*), t* = (v sin α - b) / g
+t = v * math.sin(a) / 10
+want = {"d(x)/d(v)": math.cos(a) * (4 - t) - v * math.cos(a) * math.sin(a) / 10,
+        "d(x)/d(alpha)": -v * math.sin(a) * (4 - t) - v * math.cos(a) * v * math.cos(a) / 10, "d(x)/d(b)": v * math.cos(a) / 10,
+        "d(y)/d(v)": 2 * math.sin(a), "d(x_dot)/d(v)": 2 * math.cos(a)}
+near("a throw that is doubled at its top", rows and rows[-1], want, 1e-13)
+
 # ------------------------------------------------------------------------------------------------ differences
 models = {
     "a pendulum in Cartesian coordinates, released at an angle that is a parameter": ("""
@@ -147,6 +188,75 @@ for i in 0..N { init x[i] = i, y[i] = 0 }
 for i in 0..N { init x[i]' = 0, y[i]' = 0 }
 simulate 0..0.7
 """, {"k": 40, "m": 0.2}),
+    "a cut pendulum that bounces on a moving slope, and is kicked": ("""
+param m = 2, g = 10, l = 1, x0 = 0.6, β = 0.3, e = 0.6, w = 0.4
+coord x, y
+axes x right, y up
+mass A: m at (x, y)
+gravity g along -y
+constraint rod: x^2 + y^2 = l^2
+constraint floor: y - β x + 1.5 + 0.1 sin(3 t) >= 0
+restitution e on floor
+event cut: when x = x0 rising -> release rod
+event kick: when t = 1.1 -> x' = x' + 2 y^2 + m
+init x = -0.9 l, x' = 0
+guess y = -0.4
+simulate 0..1.4
+""", {"m": 2, "g": 10, "l": 1, "x0": 0.6, "β": 0.3, "e": 0.6}),
+    "a rod that falls on its ends": ("""
+param m = 2, l = 1, g = 10, e = 0.4, θ = 0.5, H = 2
+coord x, y, φ
+axes x right, y up
+body rod: mass m, inertia m l^2/12 at (x, y) angle φ
+gravity g along -y
+constraint floor: y - l/2 sin φ >= 0
+restitution e on floor
+init x = 0, y = H, φ = θ, x' = 1, y' = 0, φ' = 0.3
+simulate 0..0.9
+""", {"l": 1, "g": 10, "e": 0.4, "θ": 0.5, "H": 2}),
+    "a double pendulum that hits a wall": ("""
+param l = 1, g = 10, e = 0.4, H = 0.3, k = 2
+coord α, β
+axes x right, y down
+mass A: 1 at (l sin α, l cos α)
+mass B: k at (l sin α + l sin β, l cos α + l cos β)
+gravity g along y
+constraint wall: l sin α + l sin β >= -H
+restitution e on wall
+init α = 0.4, β = 0.7, α' = 0, β' = 0
+simulate 0..1.6
+""", {"l": 1, "g": 10, "e": 0.4, "H": 0.3, "k": 2}),
+    "a rope that goes slack and taut": ("""
+param l = 1, g = 10, V = 6
+coord x, y
+axes x right, y down
+mass A: 1 at (x, y)
+gravity g along y
+constraint rope: x^2 + y^2 <= l^2
+init x = 0, y = l, x' = V, y' = 0
+simulate 0..1.5
+""", {"l": 1, "g": 10, "V": 6}),
+    "a skier who takes off": ("""
+param R = 20, m = 75, g = 9.81, a = 0.3, L = 2
+coord r, ϑ
+axes x right, z up
+mass A: m at (r sin ϑ, r cos ϑ)
+gravity g along -z
+constraint h: r >= R
+init ϑ = a, ϑ' = 0
+simulate 0..3.5
+""", {"R": 20, "g": 9.81, "a": 0.3}),
+    "a ball that comes to rest on a slope": ("""
+param g = 10, e = 0.5, H = 5, u = 1, β = 0.1
+coord x, y
+axes x right, y up
+mass A: 2 at (x, y)
+gravity g along -y
+constraint floor: y - β x >= 0
+restitution e on floor
+init x = 0, x' = u, y = H, y' = 0
+simulate 0..4
+""", {"g": 10, "H": 5, "u": 1, "β": 0.1}),
 }
 
 
@@ -163,7 +273,7 @@ def difference(text, name, value, key):
     return {f"d({n})/d({key})": (16 * one[0][n] - one[1][n]) / 15 for n in one[0]}
 
 
-ascii_name = {"α": "alpha", "ζ": "zeta"}
+ascii_name = {"α": "alpha", "ζ": "zeta", "β": "beta", "θ": "theta"}
 for what, (text, values) in models.items():
     rows, said = sim(text, "--sensitivities", ",".join(values))
     if rows is None:
@@ -179,17 +289,42 @@ for what, (text, values) in models.items():
     near(f"{what}: the motion itself is the same", rows[-1], same, 1e-11)
 
 # ------------------------------------------------------------------------------------------------ limits
-bounce = """
-coord y
-axes y up
-mass 1 at (y)
+rubs = """
+coord x, y
+axes x right, y up
+mass 1 at (x, y)
 gravity 9.81 along -y
 constraint floor: y >= 0
-init y = 1, y' = 0
+friction 0.2 on floor
+init x = 0, x' = 1, y = 1, y' = 0
 simulate 0..2
 """
-for text, names, word in ((bounce, "y0", "contacts"), (oscillator, "q", "no sensitivity to q"), (oscillator, "k,k", "twice"),
+for text, names, word in ((rubs, "y0", "friction"), (oscillator, "q", "no sensitivity to q"), (oscillator, "k,k", "twice"),
                           (atwood, "x20", "no start value"), (oscillator, " , ", "to what")):
     rows, said = sim(text, "--sensitivities", names)
     check(f"--sensitivities {names!r}: a sentence says why not", rows is None and word in said, said)
+
+# what has no derivative is told when it happens: a corner that is met with both sides at once, a floor that is only grazed
+corner = """
+coord x, y
+axes x right, y up
+mass 1 at (x, y)
+constraint floor: y >= 0
+constraint wall: x <= 2
+init x = 0, x' = 1, y = 2, y' = -1
+simulate 0..4
+"""
+grazing = """
+param h = 1/8
+coord x, y
+axes x right, y up
+mass 1 at (x, y)
+gravity 1 along y
+constraint floor: y >= 1 - h
+init x = 0, x' = 1, y = 1, y' = -1/2
+simulate 0..4
+"""
+for text, names, word in ((corner, "y0", "together"), (grazing, "h", "grazed")):
+    run = subprocess.run([program, "sim", "-", "-o", "-", "--sensitivities", names], input=text, capture_output=True, text=True, timeout=100)
+    check(f"no derivative: {word}", run.returncode != 0 and word in run.stderr, run.stderr)
 done()

@@ -1,0 +1,456 @@
+// Derivatives of a motion through contacts and events that change it.
+//
+// A run of the motion alone, the pilot, goes ahead to the next moment at which something happens and decides what; the run
+// with the derivatives (record_variation.c) follows in the mode that holds until then.  There the derivatives jump.  With
+// the moment t* at which e(q, v, a, λ, t, p) = 0, for each direction
+//
+//     dt* = -(e_p + e_q δ + ...) / (de/dt),     Dq = δ + v- dt*,     Dv = δ' + a- dt*        just before,
+//     Dq, Dv through what the event does: the derivative of the impact, or of the new values,
+//     δ = Dq - v+ dt*,     δ' = Dv - a+ dt*                                                  just after
+//
+// [Rozenwasser1959], [HiskensPai2000], for impacts [LeineNijmeijer2004].  The derivative of an impact needs no formula
+// of its own: the impulses of the system with the variations are the derivatives of the impulses.  What has no
+// derivative is refused when it happens: grazing contacts, and two things at once that each change the motion.
+#include <math.h>
+#include <string.h>
+
+#include "solve/solve_impl.h"
+
+typedef struct told {
+  pl_event_record e;       // without its rows
+  double t;
+} told;
+
+struct pl_pilot {
+  pl_run *run, *follower;
+  const pl_varied* s;
+  told* told;              // what happened at the moment ahead
+  int n_told, room;
+  bool waits;              // that moment is not reached by the follower yet
+  pleuel_status how;       // that the pilot ended with
+  const char* why;
+  double t;                // the moment
+  double *q, *v, *a, *l, *lambda_rate, *a_rate;   // of the pilot just before it     (n_q, n_c)
+  long impacts;            // of the pilot, before
+  double* dt;              // of the directions
+  double* watched;         // values, slopes, variations of what is watched
+  double* flow;            // the same, with the motion itself as the variation
+  double *row, *row_size, *flow_row;   // of the follower
+  char* mode;              // until the moment
+};
+
+// ---------------------------------------------------------------------------------------------- the pilot tells
+// Slopes of accelerations and multipliers at the end of the last step.
+static void slope_of(const double* X, int n, int last, double dt, double* out) {
+  for (int i = 0; i < n; i++) out[i] = 0;
+  for (int k = last; k >= 1; k--)
+    for (int i = 0; i < n; i++) out[i] = out[i] * dt + k * X[(size_t)k * (size_t)n + (size_t)i];
+}
+
+static void remember_point(pl_pilot* p) {
+  pl_run* run = p->run;
+  size_t n_q = (size_t)p->s->n_q * sizeof(double), n_c = (size_t)p->s->n_c * sizeof(double);
+  memcpy(p->q, run->save_q, n_q);
+  memcpy(p->v, run->save_v, n_q);
+  memcpy(p->a, run->save_a, n_q);
+  memcpy(p->l, run->save_l, n_c);
+  slope_of(run->A_last, p->s->n_q, run->use_last - 1, run->t - run->t_last, p->a_rate);
+  slope_of(run->L_last, p->s->n_c, run->use_last - 1, run->t - run->t_last, p->lambda_rate);
+}
+
+static pleuel_status hear(void* user, const pl_event_record* e) {
+  pl_pilot* p = user;
+  if (p->n_told == 0 && p->run) remember_point(p);
+  if (p->n_told == p->room) return PLEUEL_OK;
+  p->told[p->n_told] = (told){*e, e->after.t};
+  p->told[p->n_told].e.label = e->label;
+  p->n_told++;
+  return PLEUEL_OK;
+}
+
+pl_pilot* pl_pilot_make(pl_job* job, const pl_run* follower, const pl_setup* plain, pl_sink* sink) {
+  pl_arena* a = job->arena;
+  pl_pilot* p = PL_NEW(a, pl_pilot);
+  const pl_varied* s = p->s = follower->setup->varied;
+  p->room = s->n_c + plain->n_rubs + plain->n_events * (s->n_c + 1) + 4;
+  p->told = PL_ARRAY(a, told, p->room);
+  double** of_q[] = {&p->q, &p->v, &p->a, &p->a_rate};
+  for (size_t i = 0; i < 4; i++) *of_q[i] = PL_ARRAY(a, double, s->n_q + 1);
+  p->l = PL_ARRAY(a, double, s->n_c + 1);
+  p->lambda_rate = PL_ARRAY(a, double, s->n_c + 1);
+  p->dt = PL_ARRAY(a, double, s->n_directions + 1);
+  p->watched = PL_ARRAY(a, double, follower->setup->n_watched + 1);
+  p->flow = PL_ARRAY(a, double, follower->setup->n_watched + 1);
+  p->row = PL_ARRAY(a, double, follower->n_c + 1);
+  p->flow_row = PL_ARRAY(a, double, follower->n_c + 1);
+  p->row_size = PL_ARRAY(a, double, follower->n_c + 1);
+  p->mode = PL_ARRAY(a, char, follower->mode_size);
+  *sink = (pl_sink){.user = p, .event = hear};
+  return p;
+}
+
+// ---------------------------------------------------------------------------------------------- the follower's mode
+static void take_mode(pl_pilot* p) {
+  const pl_varied* s = p->s;
+  for (int c = 0; c < s->n_c; c++)
+    for (int k = 0; k < 2 * s->n_directions; k++) p->follower->on[k * s->n_c + c] = p->run->active[c];
+  pl_mode_text(p->run, p->mode);
+}
+
+void pl_pilot_take(pl_pilot* p, pl_run* follower, pl_run* plain) {
+  p->run = plain;
+  p->follower = follower;
+  follower->pilot = p;
+  take_mode(p);
+}
+
+void pl_pilot_free(pl_pilot* p) {
+  if (p) pl_run_free(p->run);
+}
+
+const char* pl_pilot_mode(const pl_pilot* p) { return p->mode; }
+bool pl_pilot_waits(const pl_pilot* p) { return p->waits; }
+
+// ---------------------------------------------------------------------------------------------- events for the sink
+static pleuel_status tell(pl_pilot* p) {
+  pl_run* f = p->follower;
+  for (int i = 0; i < p->n_told; i++) {
+    const told* t = &p->told[i];
+    const pl_sink* s = &f->options.sink;
+    f->stats.n_events++;
+    if (!s->event) continue;
+    pl_event_record e = t->e;
+    e.before = (pl_row){.t = f->t, .q = f->save_q, .v = f->save_v, .a = f->save_a, .lambda = f->save_l,
+                        .unique = f->save_unique, .out = f->out_before, .mode = f->mode_before, .kind = PL_ROW_BEFORE};
+    e.after = pl_row_now(f, PL_ROW_AFTER, f->out_now, f->mode);
+    double dt = t->t - f->t;
+    if (e.bounces > 0 && dt != 0) {
+      // the state at the limit of the bounces
+      for (int k = 0; k < f->n_q; k++) {
+        f->row_q[k] = f->q[k] + dt * (f->v[k] + 0.5 * dt * f->A[k]);
+        f->row_v[k] = f->v[k] + dt * f->A[k];
+      }
+      PL_TRY(pl_rows_event_beside(f, e, t->t, f->A, f->L));
+      continue;
+    }
+    pleuel_status how = s->event(s->user, &e);
+    f->refused |= how != PLEUEL_OK;
+    PL_TRY(how);
+  }
+  p->n_told = 0;
+  return PLEUEL_OK;
+}
+
+pleuel_status pl_pilot_begin(pl_pilot* p) {
+  pl_rows_before(p->follower);
+  return tell(p);
+}
+
+// ---------------------------------------------------------------------------------------------- when
+static pleuel_status no_derivative(const pl_pilot* p, const char* name, const char* why) {
+  return pl_fail(p->follower->job, PLEUEL_UNSUPPORTED, "the motion has no derivative at t = %.9g s: %s %s", p->t, name, why);
+}
+
+static const char* name_of(const pl_run* run, const pl_watch* w) {
+  if (w->kind == PL_WATCH_EVENT) return run->setup->events[w->index].name;
+  return run->setup->links[w->index].name;
+}
+
+static bool switches(const pl_run* run, const pl_watch* w) {
+  if (w->kind != PL_WATCH_EVENT) return true;
+  const pl_event_setup* e = &run->setup->events[w->index];
+  for (int d = 0; d < e->n_deeds; d++)
+    if (e->deeds[d].deed != PL_DEED_STOP && e->deeds[d].deed != PL_DEED_RECORD) return true;
+  return false;
+}
+
+// What changes the motion: exactly one thing.
+static pleuel_status find_cause(const pl_pilot* p, int* cause) {
+  const pl_run* run = p->run;
+  *cause = -1;
+  for (int i = 0; i < run->n_watch; i++) {
+    if (!run->hit[i] || !switches(run, &run->watch[i])) continue;
+    if (*cause >= 0) return no_derivative(p, name_of(run, &run->watch[i]), "happens together with another change");
+    *cause = i;
+    if (run->touch[i]) return no_derivative(p, name_of(run, &run->watch[i]), "is only grazed");
+  }
+  if (*cause < 0) return no_derivative(p, p->n_told > 0 && p->told[0].e.label ? p->told[0].e.label : "a contact", "changes at an end of its range");
+  return PLEUEL_OK;
+}
+
+// What is watched, with these in place of coordinates and multipliers of the follower.
+static void watch_at(pl_pilot* p, const double* q, const double* v, const double* a, const double* lambda, double* out) {
+  pl_run* f = p->follower;
+  pl_batches* b = &f->watched;
+  if (f->setup->n_watched == 0) return;
+  pl_batches_time(b, f->t);
+  pl_batches_load_q(b, q, 0);
+  pl_batches_load_v(b, v, 0);
+  pl_batches_load_a(b, a, 0);
+  pl_batches_load_lambda(b, lambda, 0);
+  for (int level = PL_LEVEL_PLACE; level < PL_N_LEVELS; level++) pl_batches_sweep(b, (pl_level)level, 0, true);
+  pl_batches_outputs(b, out, f->setup->n_watched, 0);
+}
+
+// The change along the motion of everything watched: variations taken along it, without what they depend on p by, with that on t.
+// row_q and so on serve as the state; flow[i] is d(watched i)/dt.
+static void watch_flow(pl_pilot* p) {
+  pl_run* f = p->follower;
+  const pl_varied* s = p->s;
+  size_t n = (size_t)s->n_q, c = (size_t)s->n_c;
+  if (s->n_watched == 0) return;
+  double* state[] = {f->row_q, f->row_v, f->row_a};
+  const double* along[2][3] = {{NULL, NULL, NULL}, {p->v, p->a, p->a_rate}};
+  const double* from[] = {f->q, f->v, f->A};
+  for (int with = 0; with < 2; with++) {
+    for (int i = 0; i < 3; i++) {
+      memcpy(state[i], from[i], (size_t)f->n_q * sizeof(double));
+      for (size_t e = 0; e < n; e++) state[i][n + e] = with ? along[1][i][e] : 0;
+    }
+    memcpy(f->row_l, f->L, (size_t)f->n_c * sizeof(double));
+    for (size_t e = 0; e < c; e++) f->row_l[c + e] = with ? p->lambda_rate[e] : 0;
+    watch_at(p, f->row_q, f->row_v, f->row_a, f->row_l, p->watched);
+    for (int i = 0; i < s->n_watched; i++)
+      p->flow[i] = with ? p->watched[2 * s->n_watched + i] - p->flow[i] + p->watched[s->n_watched + i]
+                        : p->watched[2 * s->n_watched + i];
+  }
+  watch_at(p, f->q, f->v, f->A, f->L, p->watched);
+}
+
+// Rows of the constraints of the follower at its point.
+static void find_rows(pl_pilot* p, bool speeds) {
+  pl_run* f = p->follower;
+  pl_point_evaluate(f, f->t, f->q, f->v);
+  pl_assemble_g(f, 0, f->g, f->g_size);
+  if (speeds) pl_assemble_gdot(f, p->row, p->row_size);
+  else memcpy(p->row, f->g, (size_t)f->n_c * sizeof(double));
+}
+
+// dt* of each direction, from the state of the follower just before.
+static pleuel_status find_moment(pl_pilot* p, int cause) {
+  pl_run* f = p->follower;
+  const pl_varied* s = p->s;
+  const pl_watch* w = &p->run->watch[cause];
+  const char* name = name_of(p->run, w);
+  int c = w->index, n = s->n_c;
+  double rate = 0;
+  if (w->kind == PL_WATCH_LANDING) {
+    find_rows(p, true);
+    rate = p->row[n + c];
+    if (!(fabs(rate) > 1e-13 * p->row_size[n + c])) return no_derivative(p, name, "is only grazed");
+    find_rows(p, false);
+    for (int k = 0; k < s->n_directions; k++) p->dt[k] = -p->row[2 * k * n + c] / rate;
+  } else if (w->kind == PL_WATCH_RELEASE) {
+    rate = p->lambda_rate[c];
+    if (!p->run->save_unique[c]) return no_derivative(p, name, "has a force that is not determined");
+    if (!(fabs(rate) > 0)) return no_derivative(p, name, "only just lets go");
+    for (int k = 0; k < s->n_directions; k++) p->dt[k] = -f->L[(2 * k + 1) * n + c] / rate;
+  } else {
+    int i = p->run->setup->events[c].watch;
+    rate = p->flow[i];
+    if (!(fabs(rate) > 0)) return no_derivative(p, name, "only touches");
+    for (int k = 0; k < s->n_directions; k++) p->dt[k] = -p->watched[(2 + k) * s->n_watched + i] / rate;
+  }
+  for (int k = 0; k < s->n_directions; k++)
+    if (!isfinite(p->dt[k])) return no_derivative(p, name, "only touches");
+  return PLEUEL_OK;
+}
+
+// ---------------------------------------------------------------------------------------------- the jump
+// δ and δ' in the follower become total derivatives of the state at the moment, or what is left of them behind it.
+static void shift(const pl_pilot* p, double* variations, const double* rate, double sign) {
+  const pl_varied* s = p->s;
+  for (int k = 0; k < s->n_directions; k++)
+    for (int i = 0; i < s->n_q; i++) variations[(2 * k + 1) * s->n_q + i] += sign * p->dt[k] * rate[i];
+}
+
+static void set_motion(pl_pilot* p, const double* q, const double* v) {
+  const pl_varied* s = p->s;
+  for (int k = 0; k < s->n_directions; k++) {
+    memcpy(p->follower->q + 2 * k * s->n_q, q, (size_t)s->n_q * sizeof(double));
+    memcpy(p->follower->v + 2 * k * s->n_q, v, (size_t)s->n_q * sizeof(double));
+  }
+}
+
+static bool sets_values(const pl_run* run, const pl_watch* w) {
+  if (w->kind != PL_WATCH_EVENT) return false;
+  const pl_event_setup* e = &run->setup->events[w->index];
+  for (int d = 0; d < e->n_deeds; d++)
+    if (e->deeds[d].deed == PL_DEED_SET_Q || e->deeds[d].deed == PL_DEED_SET_V) return true;
+  return false;
+}
+
+static bool moves(const pl_run* run) {
+  for (int i = 0; i < run->motion.n; i++)
+    if (run->motion.at[i].pattern->n_gt > 0) return true;
+  return false;
+}
+
+// New values that an event sets: total derivatives of what is set.
+static void set_values(pl_pilot* p, int cause) {
+  const pl_varied* s = p->s;
+  const pl_event_setup* e = &p->run->setup->events[p->run->watch[cause].index];
+  for (int d = 0; d < e->n_deeds; d++) {
+    const pl_event_deed* deed = &e->deeds[d];
+    if (deed->deed != PL_DEED_SET_Q && deed->deed != PL_DEED_SET_V) continue;
+    for (int k = 0; k < s->n_directions; k++) {
+      double* to = (deed->deed == PL_DEED_SET_Q ? p->follower->q : p->follower->v) + (2 * k + 1) * s->n_q;
+      to[deed->target] = p->watched[(2 + k) * s->n_watched + deed->value] + p->dt[k] * p->flow[deed->value];
+    }
+  }
+}
+
+// What the moment adds to the equations of the impact: M and G change along the motion before it by dt* dM/dt, dt* dG/dt.
+//
+// d/dt (G v + dg/dt) without accelerations, at the velocities v of the motion.
+static void turn_of_rows(pl_pilot* p, const double* v, double* out) {
+  pl_run* f = p->follower;
+  const pl_varied* s = p->s;
+  for (int i = 0; i < f->n_q; i++) {
+    f->row_v[i] = (i / s->n_q) % 2 == 0 && v ? v[i % s->n_q] : 0;
+    f->row_a[i] = 0;
+  }
+  pl_batches_load_v(&f->motion, f->row_v, 0);
+  pl_assemble_second(f, f->row_a, out, f->second_size);
+}
+
+// -dM/dt Δv + (dG/dt)^T Λ, times dt* of the direction, to the equations of the varied motion.
+static void add_turn_of_forces(pl_pilot* p, const double* change) {
+  pl_run *f = p->follower, *run = p->run;
+  const pl_varied* s = p->s;
+  for (int i = 0; i < f->motion.n; i++) {
+    const pl_batch* b = &f->motion.at[i];
+    const pl_tape* tape = b->pattern->tape;
+    for (const pl_pattern_entry* e = b->pattern->mass; e < b->pattern->mass + b->pattern->n_mass; e++) {
+      int node = tape->roots[e->root];
+      for (int l = 0; l < b->n && node >= tape->level_end[PL_LEVEL_CONST]; l++) {
+        int q = b->q[e->row * b->lanes + l], d = b->q[e->col * b->lanes + l];
+        if ((q / s->n_q) % 2 == (d / s->n_q) % 2) continue;
+        if ((q / s->n_q) % 2 == 1) q = q + d, d = q - d, q = q - d;      // q of the motion, d of the variation
+        f->rhs[q] -= p->dt[q / s->n_q / 2] * pl_jet_at(b->jet, node, 1)[l] * change[d % s->n_q];
+      }
+    }
+    for (const pl_pattern_entry* e = b->pattern->G; e < b->pattern->G + b->pattern->n_G; e++) {
+      int node = tape->roots[e->root];
+      for (int l = 0; l < b->n && node >= tape->level_end[PL_LEVEL_CONST]; l++) {
+        int q = b->q[e->col * b->lanes + l], c = b->c[e->row * b->lanes + l];
+        if ((c / s->n_c) % 2 == 0 || (q / s->n_q) % 2 == 1 || !run->impact_taken[c % s->n_c]) continue;
+        f->rhs[q] += p->dt[q / s->n_q / 2] * pl_jet_at(b->jet, node, 1)[l] * run->impulse[c % s->n_c];
+      }
+    }
+  }
+}
+
+// The derivative of the impact: impulses of the system with the variations, where a velocity u along g becomes -e u and
+// its variation -e du - de u.  along: positions are still varied at fixed time, the moment adds its part.
+static pleuel_status strike(pl_pilot* p, bool along) {
+  pl_run *f = p->follower, *run = p->run;
+  const pl_varied* s = p->s;
+  int n = s->n_c;
+  double *turn = f->second, *change = p->flow_row, *jump_v = p->a_rate;
+  set_motion(p, run->jump_q, run->jump_v);
+  for (int c = 0; c < n; c++)
+    for (int k = 0; k < 2 * s->n_directions; k++) f->on[k * n + c] = run->impact_taken[c];
+  pl_active_update(f);
+  for (int i = 0; i < s->n_q; i++) jump_v[i] = run->v[i] - run->jump_v[i];
+  find_rows(p, true);
+  if (along) {
+    turn_of_rows(p, jump_v, change);
+    turn_of_rows(p, NULL, turn);
+    for (int c = 0; c < f->n_c; c++) change[c] -= turn[c];
+    turn_of_rows(p, run->jump_v, turn);
+  }
+  pl_independent_choose(f);
+  f->impulsive = true;
+  bool regular = pl_point_factor(f, false);
+  f->impulsive = f->factored = false;
+  if (!regular) return pl_run_undetermined(f);
+  for (int i = 0; i < f->n_q; i++) f->rhs[i] = 0;
+  if (along) add_turn_of_forces(p, jump_v);
+  for (int c = 0; c < n; c++) {
+    double e = run->impact_factor[c];
+    for (int k = 0; k < s->n_directions; k++) {
+      int varied = 2 * k * n + c, plain = varied + n;
+      double u = p->row[plain], du = p->row[varied], de = e > 0 ? s->restitution_slope[k * n + c] : 0, more = 0;
+      if (along) du += p->dt[k] * turn[plain], more = p->dt[k] * change[plain];
+      f->rhs[f->n_q + plain] = f->taken[plain] ? -e * u - u : 0;
+      f->rhs[f->n_q + varied] = f->taken[varied] ? -e * du - de * u - du - more : 0;
+    }
+  }
+  pl_kkt_solve(&f->kkt, f->rhs);
+  if (!isfinite(pl_norm(f->rhs, f->n_q))) return pl_run_undetermined(f);
+  for (int i = 0; i < f->n_q; i++) f->v[i] += f->rhs[i];
+  return PLEUEL_OK;
+}
+
+static bool has_changed(const pl_pilot* p) {
+  const pl_run* run = p->run;
+  if (run->impacts != p->impacts) return true;
+  for (int c = 0; c < p->s->n_c; c++)
+    if (p->follower->on[c] != run->active[c]) return true;
+  for (int i = 0; i < run->n_watch; i++)
+    if (run->hit[i] && switches(run, &run->watch[i])) return true;
+  return false;
+}
+
+static pleuel_status jump(pl_pilot* p) {
+  pl_run *f = p->follower, *run = p->run;
+  int cause;
+  PL_TRY(find_cause(p, &cause));
+  set_motion(p, p->q, p->v);
+  watch_flow(p);
+  PL_TRY(find_moment(p, cause));
+  bool strikes = run->impacts != p->impacts, sets = sets_values(run, &run->watch[cause]);
+  if (strikes && sets && moves(f)) return no_derivative(p, name_of(run, &run->watch[cause]), "sets values and strikes what moves");
+  shift(p, f->v, p->a, 1);
+  if (strikes && !sets) PL_TRY(strike(p, true));
+  shift(p, f->q, p->v, 1);
+  if (sets) set_values(p, cause);
+  if (strikes && sets) PL_TRY(strike(p, false));
+  set_motion(p, run->q, run->v);
+  shift(p, f->q, run->v, -1);
+  shift(p, f->v, run->A, -1);
+  take_mode(p);
+  f->factored = false;
+  PL_TRY(pl_modes_enter(f));
+  if (f->radau) pl_radau_changed(f, true);
+  return PLEUEL_OK;
+}
+
+// ---------------------------------------------------------------------------------------------- steps
+// To the next moment at which something happens, or to the end.
+static void go_ahead(pl_pilot* p) {
+  pl_run* run = p->run;
+  p->impacts = run->impacts;
+  while (p->how == PLEUEL_OK && p->n_told == 0 && !pl_run_done(run)) p->how = pl_run_step(run);
+  p->t = run->t;
+  p->waits = true;
+  p->follower->stop = (pl_stop){true, run->t, run->t_low};
+}
+
+static pleuel_status arrive(pl_pilot* p) {
+  pl_run* f = p->follower;
+  f->stop.early = false;
+  p->waits = false;
+  if (p->how != PLEUEL_OK) return p->how;
+  if (p->n_told == 0) return PLEUEL_OK;
+  bool changes = has_changed(p);
+  // programs at the point by the general way, with their slopes along the motion
+  pl_point_general(f);
+  f->factored = false;
+  if (changes && !pl_point_enter(f)) return pl_run_undetermined(f);
+  if (changes) PL_TRY(pl_rows_point(f, PL_ROW_BEFORE));
+  pl_rows_before(f);
+  if (changes) PL_TRY(jump(p));
+  pl_rows_energy(f, true);
+  PL_TRY(tell(p));
+  f->stopped |= p->run->stopped;
+  return pl_rows_point(f, PL_ROW_AFTER);
+}
+
+// A step of the follower; of = what takes one.
+pleuel_status pl_pilot_step(pl_pilot* p, pleuel_status (*of)(pl_run* run)) {
+  if (!p->waits) go_ahead(p);
+  if (pl_run_left(p->follower) != 0) PL_TRY(of(p->follower));
+  return pl_run_left(p->follower) == 0 ? arrive(p) : PLEUEL_OK;
+}
