@@ -19,6 +19,7 @@ STRUCTS = {
     "pl_stats": ("solve.h", "s"),
     "pl_motion": ("motion_impl.h", "o"),
     "pl_radau": ("radau_impl.h", "r"),
+    "pl_wide": ("wide_impl.h", "w"),
 }
 KEEPERS = [SOLVE / "checkpoint.c", SOLVE / "kkt.c"]
 
@@ -65,7 +66,7 @@ def main():
             bad.append(f"{header}: struct {struct} is not found")
         where = kept_of_kkt if struct == "pl_kkt" else bare
         for name in names:
-            kept = re.search(r"(?:" + owner + r")(?:->|\.)" + name + r"\b", where) is not None
+            kept = re.search(r"\b(?:" + owner + r")(?:->|\.)" + name + r"\b", where) is not None
             if not kept and name not in lists.get(struct, set()):
                 bad.append(f"{header}: {struct}.{name} is neither kept in checkpoint.c nor named there with the reason why not")
         for name in sorted(lists.get(struct, set()) - set(names)):
