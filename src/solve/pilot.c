@@ -147,10 +147,6 @@ pleuel_status pl_pilot_begin(pl_pilot* p) {
 }
 
 // ---------------------------------------------------------------------------------------------- when
-static pleuel_status no_derivative(const pl_pilot* p, const char* name, const char* why) {
-  return pl_fail(p->follower->job, PLEUEL_UNSUPPORTED, "the motion has no derivative at t = %.9g s: %s %s", p->t, name, why);
-}
-
 static const char* name_of(const pl_run* run, const pl_watch* w) {
   if (w->kind == PL_WATCH_EVENT) return run->setup->events[w->index].name;
   return run->setup->links[w->index].name;
@@ -164,17 +160,25 @@ static bool switches(const pl_run* run, const pl_watch* w) {
   return false;
 }
 
+static const char* label_of(const pl_pilot* p) { return p->n_told > 0 && p->told[0].e.label ? p->told[0].e.label : "?"; }
+
 // What changes the motion: exactly one thing.
 static pleuel_status find_cause(const pl_pilot* p, int* cause) {
   const pl_run* run = p->run;
   *cause = -1;
   for (int i = 0; i < run->n_watch; i++) {
     if (!run->hit[i] || !switches(run, &run->watch[i])) continue;
-    if (*cause >= 0) return no_derivative(p, name_of(run, &run->watch[i]), "happens together with another change");
+    if (*cause >= 0)
+      return pl_fail(p->follower->job, PLEUEL_UNSUPPORTED, "the motion has no derivative at t = %.9g s: %s changes together with something else", p->t,
+                     name_of(run, &run->watch[i]));
     *cause = i;
-    if (run->touch[i]) return no_derivative(p, name_of(run, &run->watch[i]), "is only grazed");
+    if (run->touch[i])
+      return pl_fail(p->follower->job, PLEUEL_UNSUPPORTED, "the motion has no derivative at t = %.9g s: %s is only grazed", p->t,
+                     name_of(run, &run->watch[i]));
   }
-  if (*cause < 0) return no_derivative(p, p->n_told > 0 && p->told[0].e.label ? p->told[0].e.label : "a contact", "changes at an end of its range");
+  if (*cause < 0)
+      return pl_fail(p->follower->job, PLEUEL_UNSUPPORTED, "the motion has no derivative at t = %.9g s: %s changes with nothing that leads to it", p->t,
+                     label_of(p));
   return PLEUEL_OK;
 }
 
@@ -237,22 +241,32 @@ static pleuel_status find_moment(pl_pilot* p, int cause) {
   if (w->kind == PL_WATCH_LANDING) {
     find_rows(p, true);
     rate = p->row[n + c];
-    if (!(fabs(rate) > 1e-13 * p->row_size[n + c])) return no_derivative(p, name, "is only grazed");
+    if (!(fabs(rate) > 1e-13 * p->row_size[n + c]))
+      return pl_fail(p->follower->job, PLEUEL_UNSUPPORTED, "the motion has no derivative at t = %.9g s: %s is only grazed", p->t,
+                     name);
     find_rows(p, false);
     for (int k = 0; k < s->n_directions; k++) p->dt[k] = -p->row[2 * k * n + c] / rate;
   } else if (w->kind == PL_WATCH_RELEASE) {
     rate = p->lambda_rate[c];
-    if (!p->run->save_unique[c]) return no_derivative(p, name, "has a force that is not determined");
-    if (!(fabs(rate) > 0)) return no_derivative(p, name, "only just lets go");
+    if (!p->run->save_unique[c])
+      return pl_fail(p->follower->job, PLEUEL_UNSUPPORTED, "the motion has no derivative at t = %.9g s: the force of %s is not determined", p->t,
+                     name);
+    if (!(fabs(rate) > 0))
+      return pl_fail(p->follower->job, PLEUEL_UNSUPPORTED, "the motion has no derivative at t = %.9g s: %s only just lets go", p->t,
+                     name);
     for (int k = 0; k < s->n_directions; k++) p->dt[k] = -f->L[(2 * k + 1) * n + c] / rate;
   } else {
     int i = p->run->setup->events[c].watch;
     rate = p->flow[i];
-    if (!(fabs(rate) > 0)) return no_derivative(p, name, "only touches");
+    if (!(fabs(rate) > 0))
+      return pl_fail(p->follower->job, PLEUEL_UNSUPPORTED, "the motion has no derivative at t = %.9g s: %s only touches zero", p->t,
+                     name);
     for (int k = 0; k < s->n_directions; k++) p->dt[k] = -p->watched[(2 + k) * s->n_watched + i] / rate;
   }
   for (int k = 0; k < s->n_directions; k++)
-    if (!isfinite(p->dt[k])) return no_derivative(p, name, "only touches");
+    if (!isfinite(p->dt[k]))
+      return pl_fail(p->follower->job, PLEUEL_UNSUPPORTED, "the motion has no derivative at t = %.9g s: %s only touches zero", p->t,
+                     name);
   return PLEUEL_OK;
 }
 
@@ -401,7 +415,9 @@ static pleuel_status jump(pl_pilot* p) {
   watch_flow(p);
   PL_TRY(find_moment(p, cause));
   bool strikes = run->impacts != p->impacts, sets = sets_values(run, &run->watch[cause]);
-  if (strikes && sets && moves(f)) return no_derivative(p, name_of(run, &run->watch[cause]), "sets values and strikes what moves");
+  if (strikes && sets && moves(f))
+      return pl_fail(p->follower->job, PLEUEL_UNSUPPORTED, "the motion has no derivative at t = %.9g s: %s sets values and strikes what moves", p->t,
+                     name_of(run, &run->watch[cause]));
   shift(p, f->v, p->a, 1);
   if (strikes && !sets) PL_TRY(strike(p, true));
   shift(p, f->q, p->v, 1);
