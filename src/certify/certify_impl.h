@@ -138,6 +138,7 @@ typedef struct pl_stepper {
   pl_system* s;
   int direction;              // of time: 1, -1
   double radius;              // of the disk of times of the last step, 0 before the first
+  double longest;             // radius so far
   double growth;              // natural step over radius
   int order;
   mag_ptr reach_q, reach_v;   // how far q and v get from their start on the disk of times    (n_q)

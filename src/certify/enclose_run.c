@@ -11,7 +11,7 @@
 #include "algebra/algebra.h"
 
 enum { MOST_PASSES = 6, FIRST_BITS = 96, MOST_BITS = 20000, MOST_STEPS = 200000 };
-static const double default_budget = 3e10;   // about half a minute
+static const double default_budget = 6e9;   // 10 to 20 s
 
 typedef struct pass {
   pl_system* s;
@@ -177,7 +177,7 @@ static pl_certify_end go_to(pass* z, arb_srcptr target) {
     else if (!pl_system_point(s, z->t) || !pl_step_prove(e, z->t, left)) end = PL_CERTIFY_STEP;
     if (end != PL_CERTIFIED) break;
     double reach = e->radius * e->growth;
-    there = left <= reach;
+    there = left <= reach * (1 + 1e-9);
     // two equal steps rather than a long one and a short one
     if (!there) arb_set_d(h, e->direction * short_number(left < 2 * reach ? left / 2 : reach));
     if (!pl_step_advance(e, z->t, h)) end = PL_CERTIFY_STEP;
@@ -230,10 +230,10 @@ static pl_certify_end one_pass(pass* z, slong prec) {
   if (end != PL_CERTIFIED) return end;
   double t_0 = pl_ball_double(z->t);
   z->e->direction = direction_of(z);
-  z->e->radius = 0;
+  z->e->radius = z->e->longest = 0;
   end = to_times(z);
   z->part = end == PL_CERTIFIED ? 1 : part_done(z, t_0);
-  double t = pl_ball_double(z->t);
+  double t = arf_get_d(arb_midref(z->t), z->e->direction > 0 ? ARF_RND_FLOOR : ARF_RND_CEIL);
   if (isnan(z->out->t_reached) || (t - z->out->t_reached) * z->e->direction > 0) z->out->t_reached = t;
   return end;
 }

@@ -6,7 +6,7 @@
 //
 // More may be given than the constraints leave free.  Then some of the given values are solved for as well.  If the one
 // solution in X and the given value are both in X, and the model as written is free of contradiction, they are equal;
-// a given value outside of X contradicts the constraints, and is reported as moved.  What neither is given nor
+// a given value outside of X, or of K, contradicts the constraints, and is reported as moved.  What neither is given nor
 // determined is taken from the simulation's start, as an exact number, and reported too.
 #include "certify/certify_impl.h"
 
@@ -338,7 +338,8 @@ static void note_moved(starter* z, const double* run, arb_srcptr box, arb_ptr (*
   for (int k = 0; k < z->n_unknown; k++) {
     int i = z->list[k];
     if (!z->given[i]) continue;
-    if (box ? arb_contains(box + k, z->value + i) : arb_overlaps(of(z, i), z->value + i)) continue;
+    bool agrees = arb_overlaps(of(z, i), z->value + i) && (!box || arb_contains(box + k, z->value + i));
+    if (agrees) continue;
     pl_push(z->s->arena, z->moved, i + offset);
     z->out->moved = fmax(z->out->moved, apart(of(z, i), z->value + i) / size);
   }

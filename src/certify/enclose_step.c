@@ -14,6 +14,7 @@
 
 static const double shrink = 0.8;         // of the radius when it is not proved
 static const double stretch = 1.4;        // tried beyond the last one
+static const double smallest = 1e-9;      // radius over the longest one: below it the motion runs into a singular position
 static const double natural = 0.14;       // step over radius: least work for p^2 operations of a step, near exp(-2)
 enum { MOST_TRIES = 140, MOST_BOUNDS = 8 };
 
@@ -94,11 +95,14 @@ static bool prove_radius(pl_stepper* e, arb_srcptr t, double radius) {
 }
 
 bool pl_step_prove(pl_stepper* e, arb_srcptr t, double longest) {
-  double radius = e->radius > 0 ? e->radius * stretch : longest / e->growth, least = radius * 1e-12;
-  if (radius > longest / e->growth) radius = longest / e->growth;
+  double radius = e->radius > 0 ? e->radius * stretch : longest / e->growth;
+  double whole = longest / e->growth;   // enough for what is left
+  if (radius > whole) radius = whole;
+  double least = smallest * fmin(fmax(e->longest, radius), whole);
   for (int i = 0; i < MOST_TRIES && radius > least; i++) {
     if (prove_radius(e, t, radius)) {
       e->radius = radius;
+      e->longest = fmax(e->longest, radius);
       return true;
     }
     radius *= i < 3 ? shrink * 1.1 : shrink;
