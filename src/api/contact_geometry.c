@@ -21,6 +21,7 @@ typedef struct pl_partner {
   pl_name name;
   pl_point at;
   pl_expr angle;          // of a body, else poison
+  const pl_spatial* body; // in space, else NULL
 } pl_partner;
 
 typedef PL_VEC(pl_partner) pl_partners;
@@ -88,9 +89,15 @@ static pl_expr by_atom(pl_pool* p, pl_expr e, pl_expr atom) {
 }
 
 // ---------------------------------------------------------------------------------------------- partners
+static const pl_spatial* body_in_space(const pl_model* m, pl_name name, const pl_block* block) {
+  for (int i = 0; i < m->spatials.n; i++)
+    if (m->spatials.at[i].name.text == name.text && m->spatials.at[i].block == block) return &m->spatials.at[i];
+  return NULL;
+}
+
 static void add_partner(pl_geometry* g, pl_name name, const pl_point* at, pl_expr angle, const pl_block* block) {
   if (block && block != g->c->block) return;
-  pl_push(g->r->arena, g->partners, (pl_partner){name, *at, angle});
+  pl_push(g->r->arena, g->partners, (pl_partner){name, *at, angle, body_in_space(g->r->model, name, block)});
   for (int j = 0; j < at->n; j++) pl_group_atoms(g->r, g->atoms, at->at[j]);
   if (!pl_is_poison(angle)) pl_group_atoms(g->r, g->atoms, angle);
 }
@@ -275,6 +282,35 @@ static bool find_arm(pl_geometry* g, const pl_friction* f, const pl_partner* a, 
   return true;
 }
 
+// The arm on a body in space: to the place given; without one, along the normal at the distance that the constraint keeps
+// from a plane (a ball on a floor).
+static bool find_arm_in_space(pl_geometry* g, const pl_friction* f, const pl_partner* a, bool alone, const pl_touch* out, pl_expr* arm) {
+  pl_pool* p = g->pool;
+  pl_expr n[3];
+  bool plane = alone;
+  for (int j = 0; j < 3; j++) {
+    arm[j] = f->at.n == 3 ? pl_sub(p, f->at.at[j], a->at.at[j]) : pl_int(p, 0);
+    n[j] = pl_div(p, out->force[j], out->size);
+    plane = plane && is_constant_here(g, n[j]);
+  }
+  if (f->at.n == 3) return true;
+  pl_expr down = pl_sub(p, pl_div(p, g->c->g, out->size), dot(p, n, a->at.at, 3));
+  if (!plane || !is_constant_here(g, down)) return no_place(g, f);
+  for (int j = 0; j < 3; j++) arm[j] = pl_mul(p, down, n[j]);
+  return true;
+}
+
+// v + ω × r
+static void velocity_in_space(pl_geometry* g, const pl_partner* a, const pl_expr* arm, pl_expr* v) {
+  pl_pool* p = g->pool;
+  const pl_expr* w = a->body->spin;
+  for (int j = 0; j < 3; j++) {
+    int k = (j + 1) % 3, l = (j + 2) % 3;
+    pl_expr turned = pl_sub(p, pl_mul(p, w[k], arm[l]), pl_mul(p, w[l], arm[k]));
+    v[j] = pl_add(p, pl_dt(p, a->at.at[j]), turned);
+  }
+}
+
 // Velocity of the point of a body that is at the arm: of its centre, turned.
 static void velocity_at(pl_geometry* g, const pl_friction* f, const pl_partner* a, const pl_expr* arm, int sense, pl_expr* v) {
   pl_pool* p = g->pool;
@@ -296,6 +332,8 @@ static bool slide(pl_geometry* g, const pl_friction* f, const pl_partner* a, con
   pl_pool* p = g->pool;
   pl_expr arm_a[3], arm_b[3], v[3], w[3];
   bool body_a = u->moment_a >= 0, body_b = u->moment_b >= 0;
+  if (a->body && !find_arm_in_space(g, f, a, b == NULL, out, arm_a)) return false;
+  if (b && b->body && !find_arm_in_space(g, f, b, false, out, arm_b)) return false;
   if (body_a && !find_arm(g, f, a, b == NULL, u->value[u->moment_a], out, arm_a)) return false;
   // a partner that is a point is touched where it is
   for (int j = 0; j < out->n; j++)
@@ -303,8 +341,10 @@ static bool slide(pl_geometry* g, const pl_friction* f, const pl_partner* a, con
   out->placed = (body_a || body_b) && f->at.n == 0;
   if (body_b)
     for (int j = 0; j < 2; j++) arm_b[j] = pl_sub(p, out->place[j], b->at.at[j]);
-  velocity_at(g, f, a, arm_a, out->sense, v);
-  if (b) velocity_at(g, f, b, arm_b, 1, w);
+  if (a->body) velocity_in_space(g, a, arm_a, v);
+  else velocity_at(g, f, a, arm_a, out->sense, v);
+  if (b && b->body) velocity_in_space(g, b, arm_b, w);
+  else if (b) velocity_at(g, f, b, arm_b, 1, w);
   for (int j = 0; j < out->n; j++) {
     out->slip[j] = b ? pl_sub(p, v[j], w[j]) : v[j];
     if (f->surface.n == out->n) out->slip[j] = pl_sub(p, out->slip[j], f->surface.at[j]);
@@ -385,6 +425,21 @@ static pl_geometry* geometry_make(pl_recorder* r, const pl_constraint* c) {
   return g;
 }
 
+// A body in space whose attitude the constraint depends on: where it touches wanders over its surface.
+static bool attitude_matters(const pl_geometry* g) {
+  pl_pool* p = g->pool;
+  for (int i = 0; i < g->r->model->spatials.n; i++) {
+    const pl_spatial* b = &g->r->model->spatials.at[i];
+    for (int k = 0; k < g->atoms->atoms.n; k++) {
+      pl_expr atom = g->atoms->atoms.at[k];
+      bool turns = false;
+      for (int j = 0; j < 3; j++) turns |= !pl_is_zero_node(p, by_atom(p, b->spin[j], pl_dt(p, atom)));
+      if (turns && !pl_is_zero_node(p, by_atom(p, g->c->g, atom))) return true;
+    }
+  }
+  return false;
+}
+
 bool pl_contact_geometry(pl_recorder* r, const pl_constraint* c, const pl_friction* f, pl_touch* out) {
   pl_geometry* g = geometry_make(r, c);
   int errors = r->job->diagnostics->n_errors;
@@ -402,6 +457,10 @@ bool pl_contact_geometry(pl_recorder* r, const pl_constraint* c, const pl_fricti
       if (r->job->diagnostics->n_errors > errors) return false;
     }
   }
+  if (attitude_matters(g))
+    return complain(g, f->span, "%s depends on the attitude of a body in space: friction on it is computed for balls, whose contacts do not",
+                    "%s hängt von der Lage eines Körpers im Raum ab: Reibung an ihm wird für Kugeln berechnet, deren Kontakte das nicht tun",
+                    NULL, NULL);
   return complain(g, f->span, "%s presses no two things together: it is no contact of a mass or body with a surface or with another one",
                   "%s presst nicht zwei Dinge aufeinander: kein Kontakt einer Masse oder eines Körpers mit einer Fläche oder einem anderen",
                   NULL, NULL);

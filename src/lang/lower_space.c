@@ -175,6 +175,7 @@ void pl_space_body(pl_lower* l, const pl_ast* s, pl_site* p, pl_name name) {
   }
   memcpy(b.axes, p->attitude.at, sizeof b.axes);
   memcpy(b.turn, p->attitude.turn, sizeof b.turn);
+  pl_attitude_spin(l->pool, &p->attitude, b.spin);
   pl_load turning = {.kind = PL_L_KINETIC, .block = l->block, .span = b.span};
   turning.name.text = turning.name.ascii = pl_format(l->arena, "kinetic%d", l->m->loads.n + 1);
   turning.name.generated = true;

@@ -104,6 +104,7 @@ typedef struct pl_spatial {
   pl_axes_form form;
   pl_expr axes[9];            // three angles, four components of the quaternion, or three vectors
   pl_expr turn[9];            // component i in space of body axis j at 3 i + j
+  pl_expr spin[3];            // angular velocity in space
   pl_point centre;
   pl_block* block;
   pl_span span, inertia_span;

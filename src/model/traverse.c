@@ -69,6 +69,7 @@ static void physics(const slot_walk* w, pl_model* m) {
     for (int k = 0; k < 6; k++) one(w, &x->inertia[k], PL_SLOT_MASS, x->block, x->inertia_span);
     for (int k = 0; k < 9; k++) one(w, &x->axes[k], PL_SLOT_POINT, x->block, x->span);
     for (int k = 0; k < 9; k++) one(w, &x->turn[k], PL_SLOT_POINT, x->block, x->span);
+    for (int k = 0; k < 3; k++) one(w, &x->spin[k], PL_SLOT_LOAD, x->block, x->span);
     point(w, &x->centre, x->block, x->span);
   }
   for (int i = 0; i < m->points.n; i++) {

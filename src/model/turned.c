@@ -220,6 +220,8 @@ static void copy_spatial(turning* t, const turned_body* b) {
   s->form = PL_AXES_QUATERNION;
   for (int k = 0; k < 9; k++) s->axes[k] = k < 4 ? at_index(t, b->q[k], b->family, index) : pl_poison();
   for (int k = 0; k < 4; k++) unit = pl_add(p, unit, pl_square(p, s->axes[k]));
+  pl_triple triple = triple_of(t, b, index);
+  memcpy(s->spin, triple.spin[1], sizeof s->spin);
   const char* name = pl_format(t->arena, "%s.unit", old->name.text);
   pl_constraint c = {.name = {.text = name, .ascii = name, .index = old->name.index}, .left = unit, .right = pl_int(p, 1), .relation = PL_EQ,
                      .block = old->block, .span = old->span, .body = old->name.text};
@@ -270,7 +272,9 @@ static bool attempt(turning* t) {
   for (int i = 0; i < t->bodies.n; i++) {
     // their own data are not written in angles any more
     pl_spatial* s = &t->to->spatials.at[t->bodies.at[i].spatial];
+    if (t->bodies.at[i].dropped) continue;
     for (int k = 0; k < 9; k++) s->axes[k] = s->turn[k] = pl_poison();
+    for (int k = 0; k < 3; k++) s->spin[k] = pl_poison();
   }
   pl_model_each_slot(t->to, turn_slot, t);
   if (t->again) return false;
