@@ -26,7 +26,7 @@ void cli_print_help(FILE* to, const cli_verb* v) {
     char left[64];
     char letter[8] = "    ";
     if (f->letter) snprintf(letter, sizeof letter, "-%c, ", f->letter);
-    snprintf(left, sizeof left, "%s--%s%s%s", letter, f->name, f->argument ? " " : "", f->argument ? f->argument : "");
+    snprintf(left, sizeof left, "%s--%s%s%s", letter, f->name, f->argument && f->kind != CLI_OPTIONAL ? " " : "", f->argument ? f->argument : "");
     fprintf(to, "  %-32s %s\n", left, f->help);
   }
   if (v->notes) {

@@ -119,7 +119,7 @@ static void zsh(void) {
         fputs(":word:(", stdout);
         print_choice(f->argument);
         putchar(')');
-      } else if (f->kind != CLI_SWITCH) {
+      } else if (f->kind != CLI_SWITCH && f->kind != CLI_OPTIONAL) {
         fputs(f->letter == 'o' ? ":file:_files" : ":value:", stdout);
       }
       putchar('\'');
@@ -153,7 +153,7 @@ static void fish(void) {
         fputs(" -x -a '", stdout);
         print_choice(f->argument);
         putchar('\'');
-      } else if (f->kind != CLI_SWITCH) {
+      } else if (f->kind != CLI_SWITCH && f->kind != CLI_OPTIONAL) {
         fputs(f->letter == 'o' ? " -r -F" : " -x", stdout);
       }
       fputs(" -d ", stdout);

@@ -15,7 +15,7 @@ const cli_flag flags_sim[] = {
   {"precision", 0, CLI_TEXT, CLI_AT(precision), "NAME", "double, long (80 bits, long runs), quad (128 bits)"},
   {"verbose", 'v', CLI_SWITCH, CLI_AT(verbose), NULL, "tell too how the steps were computed"},
   {"sensitivities", 0, CLI_TEXT, CLI_AT(sensitivities), "NAMES", "derivatives by these too: m2,x0"},
-  {"certify", 0, CLI_OPTIONAL, CLI_AT(certify), "=WIDTH", "prove intervals for the true motion, this narrow (1e-18)"},
+  {"certify", 0, CLI_OPTIONAL, CLI_AT(certify), "[=WIDTH]", "prove intervals for the true motion, this narrow (1e-18)"},
   CLI_FLAG_SET,
   {"resume", 0, CLI_SWITCH, CLI_AT(resume), NULL, "go on with a run that was interrupted"},
   {"checkpoint", 0, CLI_TEXT, CLI_AT(checkpoint), "SECONDS", "how often the state of a run is kept: 10"},
@@ -103,7 +103,7 @@ int verb_sim(pleuel* ctx, const cli_options* o) {
   code = to_file ? cli_rows_open(&rows, o) : EXIT_DONE;
   if (code == EXIT_DONE) {
     how.csv = to_file ? rows.file.to : to_stdout ? stdout : NULL;
-    if (rows.state[0]) {
+    if (rows.state[0] && !o->certify) {   // what is certified runs in one go
       cli_resume_command(command, sizeof command, o);
       how.state = rows.state;
       how.resume = o->resume;

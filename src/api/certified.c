@@ -55,12 +55,16 @@ void pl_certify_begin(pleuel_model* m, const pleuel_sim_options* o, const pl_run
 }
 
 // ---------------------------------------------------------------------------------------------- what follows from maps
-// e with the maps of `choose`, and their derivatives, in the places of the old coordinates.
+// e with the maps of `choose`, and their derivatives, in the places of the old coordinates; maps may name each other.
 static pl_expr with_maps(const pleuel_model* m, pl_expr e) {
   pl_pool* p = m->model->pool;
-  for (int k = 0; k < m->model->choose.n_maps; k++) {
-    pl_expr old = m->model->choose.maps[k].old, map = m->model->choose.maps[k].map;
-    e = pl_subst_expr(p, pl_subst_expr(p, e, pl_dt(p, old), pl_dt(p, map)), old, map);
+  for (int round = 0; round <= m->model->choose.n_maps; round++) {
+    pl_expr before = e;
+    for (int k = 0; k < m->model->choose.n_maps; k++) {
+      pl_expr old = m->model->choose.maps[k].old, map = m->model->choose.maps[k].map;
+      e = pl_subst_expr(p, pl_subst_expr(p, e, pl_dt(p, old), pl_dt(p, map)), old, map);
+    }
+    if (pl_same(e, before)) break;
   }
   return e;
 }
