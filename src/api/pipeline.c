@@ -291,10 +291,6 @@ pleuel_status pl_pipeline_start(pleuel_model* m, const pleuel_sim_options* o, pl
   if (o->precision) precision_named(o->precision, &how.precision);
   if (o->has_until && m->exact) how.t_end_exact = exact_time(m, o->until_as_written);
   if (o->has_dt && m->exact) how.dt_exact = exact_time(m, o->dt_as_written);
-  // a run that follows another one is not kept
-  if (r->n_directions && r->setup.varied && o->resume)
-    return pl_fail(&m->job, PLEUEL_UNSUPPORTED, "a run with sensitivities through contacts or events cannot be resumed");
-  if (r->n_directions && r->setup.varied) m->keeping = NULL;
   if (m->result) {
     how.sink = pl_result_sink(m->result);
     if (o->csv) m->result->next = m->keeping && o->resume ? pl_csv_sink_behind(m->arena, o->csv) : pl_csv_sink(m->arena, o->csv);

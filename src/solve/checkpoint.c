@@ -14,12 +14,12 @@
 // not kept of pl_run, follows from the point: Q V ready t_series rests
 // not kept of pl_run, follows from how it was started: start_given
 // not kept of pl_run, only when, never what: clock_begin t_begin considered wall_begin
-// not kept of pl_run, lives within a step: stop impacts impact_taken impact_factor rhs Q_last A_last G_series W_series rows rank_work priority row_of row_taken
+// not kept of pl_run, lives within a step: impact_taken impact_factor rhs Q_last A_last G_series W_series rows rank_work priority row_of row_taken
 //   taken_kept dep dep_tau dep_norm dep_jpvt trial_q trial_v save_q save_v save_a save_l save_unique impulse jump_v jump_q
 //   poly root_work hit root touch sunk rub_before impulsive C_series S_series poly_2 on_before fixed rub_fixed approach second
 //   hold_q hold_v first_a decision choice_kept n_decisions K_series out_now out_before row_q row_v row_a row_l energy_out mode
 //   mode_before t_grid W_coef branch_value reach factored seen shown shown_before
-// not kept of pl_run, as such runs are not kept: pilot
+// not kept of pl_run, where the pilot waits it goes there again: stop impacts
 // not kept of pl_run, of the start, which is found anew: start
 // not kept of pl_stats, follows from the options: precision
 // not kept of pl_stats, a word about this process: why_interpreted
@@ -36,6 +36,7 @@
 // not kept of pl_wide, follows from setup, options and mode: state fine coarse low top head tail head_forces tail_forces clock left
 //   grid drift t_0 q_0 v_0 end_a end_l tail_q tail_v tail_a tail_l from to share way scratch energy_base rows watched floor held
 // not kept of pl_wide, lives within a step: m_coarse digits
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -44,6 +45,10 @@
 #include "solve/wide_impl.h"
 
 // ---------------------------------------------------------------------------------------------- whose state
+// Counts go on from where they are, so there is room above.
+static const long most_count = LONG_MAX / 8;
+enum { LARGE_COUNT = 1 << 28 };
+
 static void keep_fixed(pl_keeper* k, int x) { pl_keep_int(k, &x, x, x); }
 
 // Dimensions: a state of another setup is not read as one of this.
@@ -51,7 +56,7 @@ static void keep_dimensions(pl_run* run, pl_keeper* k) {
   const pl_setup* s = run->setup;
   pl_keep_section(k, "dimensions");
   int of[] = {run->n_q, run->n_c, run->order, s->n_out, s->n_rubs, s->n_turns, s->n_events, s->n_watched, run->n_watch, run->n_kinks,
-              run->kkt.dense, run->radau != NULL, run->radau ? run->radau->method.s : 0};
+              run->kkt.dense, run->pilot != NULL, run->radau != NULL, run->radau ? run->radau->method.s : 0};
   for (size_t i = 0; i < sizeof of / sizeof *of; i++) keep_fixed(k, of[i]);
 }
 
@@ -66,8 +71,8 @@ static void keep_point(pl_run* run, pl_keeper* k) {
   for (size_t i = 0; i < sizeof of_q / sizeof *of_q; i++) pl_keep_f64s(k, of_q[i], q);
   for (size_t i = 0; i < sizeof of_c / sizeof *of_c; i++) pl_keep_f64s(k, of_c[i], c);
   pl_keep_bool(k, &run->at_point);
-  pl_keep_int(k, &run->use, 0, run->order);
-  pl_keep_int(k, &run->use_last, 0, run->order);
+  pl_keep_int(k, &run->use, 1, run->order);
+  pl_keep_int(k, &run->use_last, 1, run->order);
 }
 
 static void keep_yardsticks(pl_run* run, pl_keeper* k) {
@@ -81,7 +86,7 @@ static void keep_yardsticks(pl_run* run, pl_keeper* k) {
   for (size_t i = 0; i < sizeof of_q / sizeof *of_q; i++) pl_keep_f64s(k, of_q[i], q);
   pl_keep_f64s(k, run->row_long, c);
   pl_keep_f64s(k, run->row_part, c);
-  pl_keep_int(k, &run->tiny, 0, INT32_MAX);
+  pl_keep_int(k, &run->tiny, 0, LARGE_COUNT);
 }
 
 // ---------------------------------------------------------------------------------------------- the mode
@@ -97,7 +102,7 @@ static void keep_mode(pl_run* run, pl_keeper* k) {
   pl_keep_int(k, &run->rank_mode, -1, run->n_c);
   pl_keep_bool(k, &run->by_pivots);
   pl_keep_bool(k, &run->watch_landings);
-  pl_keep_int(k, &run->mode_changes, 0, INT32_MAX);
+  pl_keep_int(k, &run->mode_changes, 0, LARGE_COUNT);
   pl_keep_f64(k, &run->mode_change_t);
 }
 
@@ -107,7 +112,7 @@ static void keep_contacts(pl_run* run, pl_keeper* k) {
   pl_keep_f64s(k, run->fastest, c);
   pl_keep_f64s(k, run->bounce_t, 3 * c);
   pl_keep_f64s(k, run->settled_t, c);
-  for (size_t i = 0; i < c; i++) pl_keep_long(k, &run->bounces[i], 0, INT64_MAX);
+  for (size_t i = 0; i < c; i++) pl_keep_long(k, &run->bounces[i], 0, most_count);
   for (int i = 0; i < run->n_watch; i++) {
     pl_keep_int(k, &run->watch[i].fresh, 0, run->order);
     pl_keep_int(k, &run->watch[i].side, -1, 1);
@@ -129,7 +134,7 @@ static void keep_contacts(pl_run* run, pl_keeper* k) {
 // ---------------------------------------------------------------------------------------------- rows, what is told
 static void keep_rows(pl_run* run, pl_keeper* k) {
   pl_keep_section(k, "rows");
-  pl_keep_long(k, &run->grid_n, 0, INT64_MAX);
+  pl_keep_long(k, &run->grid_n, 0, most_count);
   pl_keep_f64(k, &run->last_row_t);
   bool* flags[] = {&run->opened, &run->begun, &run->ended, &run->started, &run->stopped, &run->refused};
   for (size_t i = 0; i < sizeof flags / sizeof *flags; i++) pl_keep_bool(k, flags[i]);
@@ -148,7 +153,7 @@ static void keep_stats(pl_run* run, pl_keeper* k) {
   pl_stats* s = &run->stats;
   pl_keep_section(k, "statistics");
   long* counts[] = {&s->steps, &s->rejections, &s->n_events, &s->steps_implicit, &s->steps_interpreted};
-  for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) pl_keep_long(k, counts[i], 0, INT64_MAX);
+  for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) pl_keep_long(k, counts[i], 0, most_count);
   double* numbers[] = {&s->h_min, &s->h_max, &s->max_g, &s->max_gdot, &s->max_projection, &s->energy_0, &s->energy_drift,
                        &s->t_singular, &s->t_implicit, &s->wall_s, &s->compile_s};
   for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) pl_keep_f64(k, numbers[i]);
@@ -178,11 +183,11 @@ static void keep_radau(pl_run* run, pl_keeper* k) {
   bool* flags[] = {&r->couples, &r->has_jacobian, &r->has_factor, &r->has_last, &r->rejected};
   for (size_t i = 0; i < sizeof flags / sizeof *flags; i++) pl_keep_bool(k, flags[i]);
   long* counts[] = {&r->stay_next, &r->steps_in_row, &r->looks, &r->next_look};
-  for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) pl_keep_long(k, counts[i], 0, INT64_MAX);
-  pl_keep_long(k, &r->stay, -1, INT64_MAX);
-  pl_keep_int(k, &r->newton, 0, INT32_MAX);
-  pl_keep_int(k, &r->newton_last, 0, INT32_MAX);
-  pl_keep_int(k, &r->dear, 0, INT32_MAX);
+  for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) pl_keep_long(k, counts[i], 0, most_count);
+  pl_keep_long(k, &r->stay, -1, most_count);
+  pl_keep_int(k, &r->newton, 0, LARGE_COUNT);
+  pl_keep_int(k, &r->newton_last, 0, LARGE_COUNT);
+  pl_keep_int(k, &r->dear, 0, LARGE_COUNT);
 }
 
 // ---------------------------------------------------------------------------------------------- wider numbers
@@ -305,13 +310,16 @@ void pl_run_keep(pl_run* run, pl_keeper* k) {
   pl_keep_section(k, "pivots");
   pl_kkt_keep(&run->kkt, k);
   keep_state(run, k);
+  pl_keep_section(k, "pilot");
+  if (run->pilot) pl_pilot_write(run->pilot, k);
 }
 
 // What a run that is whole cannot have, whatever its numbers.
 static bool makes_sense(const pl_run* run) {
   double from = run->options.t_0, to = run->options.t_end;
   bool inside = run->t >= fmin(from, to) && run->t <= fmax(from, to);
-  if (!inside || !run->started || !run->begun || run->ended || run->refused) return false;
+  if (!(run->tol > 0 && run->tol < 1)) return false;
+  if (!inside || !run->started || run->ended || run->refused) return false;
   if (run->at_point && !run->wide && !(run->motion_code && run->motion_code->usable)) return false;
   if (run->radau && !(run->radau->h >= 0 && isfinite(run->radau->h))) return false;
   return isfinite(run->t_low) && isfinite(pl_norm(run->q, run->n_q)) && isfinite(pl_norm(run->v, run->n_q));
@@ -355,6 +363,9 @@ pleuel_status pl_run_load(pl_run* run, pl_keeper* k, const pl_sink* sink) {
   k->next = at;
   keep_state(run, k);
   run->considered = 0;
+  pl_keep_section(k, "pilot");
+  if (run->pilot) PL_TRY(pl_pilot_read(run->pilot, k));
+  if (k->wrong) return unreadable(run);
   run->options.sink = *sink;
   return sink->begin ? sink->begin(sink->user, run->setup) : PLEUEL_OK;
 }

@@ -37,6 +37,7 @@ struct pl_pilot {
   double* flow;            // the same, with the motion itself as the variation
   double *row, *row_size, *flow_row;   // of the follower
   char* mode;              // until the moment
+  pl_keeper before;        // state of the pilot where it set out for the moment ahead
 };
 
 // ---------------------------------------------------------------------------------------------- the pilot tells
@@ -434,10 +435,24 @@ static pleuel_status jump(pl_pilot* p) {
 }
 
 // ---------------------------------------------------------------------------------------------- steps
+static pleuel_status remember_state(pl_pilot* p) {
+  pl_arena* a = p->run->job->arena;
+  pl_guard guard;
+  if (p->before.arena == NULL) p->before = pl_keeper_to_write(a);
+  p->before.next = 0;
+  PL_GUARD(a, guard) {
+    pl_run_keep(p->run, &p->before);
+    guard.status = PLEUEL_OK;
+  }
+  pl_guard_end(a, &guard);
+  return guard.status;
+}
+
 // To the next moment at which something happens, or to the end.
 static void go_ahead(pl_pilot* p) {
   pl_run* run = p->run;
   p->impacts = run->impacts;
+  p->how = remember_state(p);
   while (p->how == PLEUEL_OK && p->n_told == 0 && !pl_run_done(run)) p->how = pl_run_step(run);
   p->t = run->t;
   p->waits = true;
@@ -464,9 +479,36 @@ static pleuel_status arrive(pl_pilot* p) {
   return pl_rows_point(f, PL_ROW_AFTER);
 }
 
+// Without the moment ahead the follower cannot go on: both are kept where they parted.
+static pleuel_status stop_here(pl_pilot* p) {
+  pl_run* f = p->follower;
+  if (f->options.keep) f->options.keep(f->options.keep_user, f, true);
+  return pl_fail(f->job, PLEUEL_INTERRUPTED, "interrupted at t = %.9g s", f->t);
+}
+
 // A step of the follower; of = what takes one.
 pleuel_status pl_pilot_step(pl_pilot* p, pleuel_status (*of)(pl_run* run)) {
   if (!p->waits) go_ahead(p);
+  if (p->how == PLEUEL_INTERRUPTED) return stop_here(p);
   if (pl_run_left(p->follower) != 0) PL_TRY(of(p->follower));
   return pl_run_left(p->follower) == 0 ? arrive(p) : PLEUEL_OK;
+}
+
+// ---------------------------------------------------------------------------------------------- interrupted
+// While the follower is on its way, the pilot is kept as it was where they parted: it goes ahead once more.
+void pl_pilot_write(pl_pilot* p, pl_keeper* k) {
+  bool waits = p->waits && p->how != PLEUEL_INTERRUPTED;
+  pl_keep_bool(k, &waits);
+  if (p->waits) pl_keep_bytes(k, p->before.at, p->before.next);
+  else pl_run_keep(p->run, k);
+}
+
+pleuel_status pl_pilot_read(pl_pilot* p, pl_keeper* k) {
+  bool waits = false;
+  pl_keep_bool(k, &waits);
+  pl_sink hears = p->run->options.sink;
+  PL_TRY(pl_run_load(p->run, k, &hears));
+  pl_mode_text(p->run, p->mode);
+  if (waits) go_ahead(p);
+  return p->how == PLEUEL_INTERRUPTED ? p->how : PLEUEL_OK;
 }

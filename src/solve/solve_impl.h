@@ -433,6 +433,8 @@ const char* pl_pilot_mode(const pl_pilot* p);
 bool pl_pilot_waits(const pl_pilot* p);
 pleuel_status pl_pilot_begin(pl_pilot* p);          // tells what happened at the start
 pleuel_status pl_pilot_step(pl_pilot* p, pleuel_status (*of)(pl_run* run));
+void pl_pilot_write(pl_pilot* p, pl_keeper* k);     // for checkpoint.c
+pleuel_status pl_pilot_read(pl_pilot* p, pl_keeper* k);
 
 // ---- run.c
 double pl_run_left(const pl_run* run);              // to the end, or to where it stops before
