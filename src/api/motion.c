@@ -159,6 +159,14 @@ static void tell_stop(pl_teller* t, bool started) {
   else pl_text_addf(t->out, say(t, "     its state is kept in %s\n", "     ihr Zustand ist in %s aufbewahrt\n"), m->state);
 }
 
+// Columns of multipliers that hold no number for some time: redundant constraints, or more contacts and frictions than equations.
+static void tell_undetermined(pl_teller* t) {
+  const char* list = t->m->result->stats.undetermined;
+  if (list == NULL) return;
+  pl_text_addf(t->out, say(t, "     several forces fit, so some are not determined: %s\n",
+                           "     mehrere Kräfte passen, daher nicht bestimmt: %s\n"), list);
+}
+
 void pl_engine_text(pl_text* out, const pleuel_model* m, pl_language lang) {
   pl_teller t = {out, m, m->arena, lang, false, {PL_MATH_LINE, lang}};
   if (!m->result) return;
@@ -193,6 +201,7 @@ void pl_motion_text(pl_text* out, const pleuel_model* m, pl_language lang, bool 
                  number(&t, end, DIGITS), unit);
     tell_events(&t);
     if (!events_only) tell_accuracy(&t);
+    if (!events_only) tell_undetermined(&t);
     pl_certified_text(out, m, lang, ascii);
   }
   tell_stop(&t, started);
@@ -242,6 +251,18 @@ static void json_event(pl_json* j, const pleuel_model* m, const pl_result_event*
   pl_json_end_object(j);
 }
 
+// "a, b" as a list.
+static void json_names(pl_arena* a, pl_json* j, const char* key, const char* names) {
+  pl_json_list(j, key);
+  for (const char* at = names; *at;) {
+    size_t n = strcspn(at, ",");
+    pl_json_string(j, NULL, pl_copy_n(a, at, n));
+    at += n;
+    at += strspn(at, ", ");
+  }
+  pl_json_end_list(j);
+}
+
 void pl_motion_json(pl_text* out, const pleuel_model* m) {
   const pl_result* r = m->result;
   const pl_stats none = {.max_g = NAN, .max_gdot = NAN, .energy_drift = NAN};
@@ -272,6 +293,7 @@ void pl_motion_json(pl_text* out, const pleuel_model* m) {
   pl_json_number(&j, "residual_g", s->max_g);
   pl_json_number(&j, "residual_gdot", s->max_gdot);
   pl_json_number(&j, "energy_drift", m->recording && m->recording->setup.energy_conserved ? s->energy_drift : (double)NAN);
+  if (s->undetermined) json_names(m->arena, &j, "undetermined", s->undetermined);
   pl_json_list(&j, "events");
   for (int i = 0; r && i < r->events.n; i++) json_event(&j, m, &r->events.at[i]);
   pl_json_end_list(&j);

@@ -19,10 +19,12 @@
 //   poly root_work hit root touch sunk rub_before impulsive C_series S_series poly_2 on_before fixed rub_fixed approach second
 //   hold_q hold_v first_a decision choice_kept n_decisions K_series out_now out_before row_q row_v row_a row_l energy_out mode
 //   mode_before t_grid W_coef branch_value reach factored seen shown shown_before
+// not kept of pl_run, lives within a moment: indeterminate
 // not kept of pl_run, where the pilot waits it goes there again: stop impacts
 // not kept of pl_run, of the start, which is found anew: start
 // not kept of pl_stats, follows from the options: precision
 // not kept of pl_stats, a word about this process: why_interpreted
+// not kept of pl_stats, made at the end: undetermined
 // not kept of pl_kkt, follows from setup and point: n dense n_values value start row diagonal lu scale balance work pivot ratio
 // not kept of pl_watch, pl_rub_now, follows from the setup: kind index direction
 // not kept of pl_motion, follows from the mode: code next size orders n_q n_c n_mass n_taken time ratio rest Q V A L q_floor
@@ -93,7 +95,7 @@ static void keep_yardsticks(pl_run* run, pl_keeper* k) {
 static void keep_mode(pl_run* run, pl_keeper* k) {
   size_t c = (size_t)run->n_c;
   pl_keep_section(k, "mode");
-  bool* of_c[] = {run->on, run->detached, run->active, run->taken, run->unique, run->rubs, run->near_by, run->met, run->rebounds,
+  bool* of_c[] = {run->on, run->detached, run->active, run->taken, run->unique, run->several, run->ever_several, run->rubs, run->near_by, run->met, run->rebounds,
                   run->jumped};
   for (size_t i = 0; i < sizeof of_c / sizeof *of_c; i++) pl_keep_bools(k, of_c[i], c);
   for (int i = 0; i < run->n_q; i++) pl_keep_int(k, &run->place_n[i], 0, 1);

@@ -155,8 +155,7 @@ static void mark_partners(pl_run* run, const int* taken_row, int n_taken, int le
   }
 }
 
-void pl_independent_unique(pl_run* run) {
-  for (int c = 0; c < run->n_c; c++) run->unique[c] = true;
+static void mark_dependent(pl_run* run) {
   if (run->rank == run->n_active || too_many_to_examine(run)) return;
   // the rows again, unreduced and not scaled by columns
   pl_assemble_rows(run);
@@ -172,4 +171,10 @@ void pl_independent_unique(pl_run* run) {
     run->unique[c] = false;
     if (run->setup->links[c].priority == 0) mark_partners(run, taken_row, n_taken, run->row_of[c]);
   }
+}
+
+void pl_independent_unique(pl_run* run) {
+  for (int c = 0; c < run->n_c; c++) run->unique[c] = !run->several[c];
+  mark_dependent(run);
+  pl_indeterminate_note(run);
 }

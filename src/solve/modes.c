@@ -187,13 +187,21 @@ static pleuel_status impact_and_settle(pl_run* run) {
   return PLEUEL_OK;
 }
 
-// Surfaces that stick may leave nothing but rounding of the velocities: what counts as small is then what the forces
-// would do on a thousandth of the way.
+// What rests may leave nothing but rounding of velocities, and of coordinates where they are zero: what counts as small
+// is then what the forces would do on a thousandth of the way, or in a ten-thousandth of the time.
 static void size_velocities(pl_run* run) {
-  if (run->setup->n_rubs == 0) return;
+  static const double part_of_time = 1e-4, nothing = 1e-6;
+  double most = 0, T = part_of_time * fabs(run->options.t_end - run->options.t_0);
+  for (int i = 0; i < run->n_q; i++) most = fmax(most, pl_free_size(run, i));
+  double way = run->q_size < nothing * most * T * T ? most * T * T : run->q_size;
+  bool rests = run->v_size <= 1e-12 * sqrt(most * way);
+  if (run->setup->n_rubs == 0 && !rests) return;
+  run->q_size = fmax(run->q_size, way);
+  if (rests) run->energy_size = fmax(run->energy_size, run->force_size * way);
   for (int i = 0; i < run->n_q; i++) {
-    run->v_most[i] = fmax(run->v_most[i], 1e-3 * sqrt(pl_free_size(run, i) * run->q_size));
+    run->v_most[i] = fmax(run->v_most[i], 1e-3 * sqrt(pl_free_size(run, i) * way));
     run->v_size = fmax(run->v_size, run->v_most[i]);
+    if (way > run->q_most[i] && pl_free_size(run, i) > 0 && rests) run->q_most[i] = fmax(run->q_most[i], nothing * way);
   }
   pl_sizes_keep(run);
 }
@@ -209,6 +217,7 @@ static bool is_shaken(const pl_run* run) {
 
 // The motion after this moment, from q and v as they are.
 static pleuel_status follow(pl_run* run) {
+  for (int c = 0; c < run->n_c; c++) run->several[c] = false;
   memcpy(run->jump_v, run->v, (size_t)run->n_q * sizeof(double));
   memcpy(run->jump_q, run->q, (size_t)run->n_q * sizeof(double));
   PL_TRY(impact_and_settle(run));
@@ -219,6 +228,7 @@ static pleuel_status follow(pl_run* run) {
     PL_TRY(impact_and_settle(run));
   }
   renew_watches(run);
+  pl_indeterminate_mark(run);
   size_velocities(run);
   clear_fixed(run);
   if (run->radau) pl_radau_changed(run, is_shaken(run));

@@ -192,6 +192,7 @@ static pleuel_status step(pl_run* run) {
   note(run, &p, h);
   PL_TRY(count_tiny(run, h));
   if (root > 0 && run->n_slipping > 0) pl_friction_keep_directions(run);
+  PL_TRY(pl_turns_poles(run, h));
   pl_turns_follow(run, run->t + h);
   accept(run, h, to_end);
   PL_TRY(arrive_at_point(run));
@@ -239,6 +240,7 @@ pleuel_status pl_run_to_end(pl_run* run) {
     run->ended = true;
   }
   run->stats.wall_s += pl_clock() - begin;
+  pl_indeterminate_tell(run);
   if (run->opened && s->end) {
     pleuel_status end = s->end(s->user, how, how == PLEUEL_OK ? "" : run->job->message, &run->stats);
     if (how == PLEUEL_OK) how = end;

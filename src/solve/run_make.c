@@ -63,6 +63,8 @@ static pleuel_status check_setup(pl_job* job, const pl_setup* s) {
     for (int k = 0; k < 4; k++)
       if (of[k] < 0 || of[k] >= s->n_q) return pl_fail(job, PLEUEL_USAGE, "turn %d does not fit the setup", i);
   }
+  for (int i = 0; i < s->n_poles; i++)
+    if (s->poles[i] < 0 || s->poles[i] >= s->n_q) return pl_fail(job, PLEUEL_USAGE, "pole %d does not fit the setup", i);
   PL_TRY(check_links(job, s));
   return check_events(job, s);
 }
@@ -135,7 +137,8 @@ static void reserve_state(pl_run* run) {
                      &run->impact_factor};
   bool** flags[] = {&run->on,          &run->detached,  &run->active, &run->taken,     &run->unique,
                     &run->save_unique, &run->row_taken, &run->taken_kept, &run->rubs,   &run->near_by, &run->rebounds,
-                    &run->on_before,   &run->jumped, &run->met, &run->impact_taken};
+                    &run->on_before,   &run->jumped, &run->met, &run->impact_taken,
+                    &run->several, &run->ever_several};
   for (size_t i = 0; i < sizeof of_q / sizeof *of_q; i++) *of_q[i] = PL_ARRAY(a, double, q + 1);
   for (size_t i = 0; i < sizeof of_c / sizeof *of_c; i++) *of_c[i] = PL_ARRAY(a, double, c + 1);
   for (size_t i = 0; i < sizeof flags / sizeof *flags; i++) *flags[i] = PL_ARRAY(a, bool, c + 1);
@@ -252,6 +255,7 @@ pleuel_status pl_run_make(pl_job* job, const pl_setup* setup, const pl_run_optio
   PL_TRY(pl_kkt_make(run));
   make_implicit(run);
   pl_friction_make(run);
+  pl_indeterminate_make(run);
   pl_watch_make(run);
   pl_kinks_make(run);
   first_mode(run);

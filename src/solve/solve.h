@@ -143,6 +143,8 @@ typedef struct pl_setup {
   const pl_pattern* branch_patterns;
   int n_turns;
   const pl_turn_setup* turns;         // (n_turns)
+  int n_poles;
+  const int* poles;                   // coordinates ϑ of bodies that are integrated in Euler angles: a motion stops at multiples of 180°
   const pl_exact_setup* exact;        // or NULL
   const pl_varied* varied;            // NULL: the motion alone, or nothing changes it
 } pl_setup;
@@ -219,6 +221,7 @@ typedef struct pl_stats {
   long steps_implicit;                // of steps, those by the implicit method
   int order_implicit;                 // its order, 0 where it was not used
   double t_implicit;                  // when it was first used; NaN: never
+  const char* undetermined;           // columns of multipliers that were not determined at some time, "a, b"; NULL none
   double wall_s;                      // this and what follows is not reproducible
   bool compiled, stored;              // steps were compiled; what was compiled before was found on disk
   double compile_s;

@@ -115,6 +115,7 @@ typedef struct pl_turn_now {
   double rate[2];          // of (φ + ψ)/2 and (φ - ψ)/2, where they were determined last
 } pl_turn_now;
 
+typedef struct pl_indeterminate pl_indeterminate;
 typedef struct pl_pilot pl_pilot;
 typedef struct pl_stop { bool early; double t, t_low; } pl_stop;   // where a run stops before its end
 
@@ -204,6 +205,9 @@ struct pl_run {
   double* impulse;         // (n_c)
   double *jump_v, *jump_q; // (n_q)
 
+  pl_indeterminate* indeterminate;   // NULL without contacts and friction
+  bool* several;           // multipliers that are one of several in this mode        (n_c)
+  bool* ever_several;      // not determined at some time, for whatever reason        (n_c)
   pl_pilot* pilot;         // goes ahead of a run with derivatives, NULL without it
   pl_stop stop;
   long impacts;            // so far; of the last one the rows in force and the factor of their rebound   (n_c)
@@ -411,6 +415,12 @@ void pl_contacts_rates(pl_run* run, double* rates);         // velocities along 
 pleuel_status pl_contacts_impact(pl_run* run, bool* any);   // velocities after an impact, if something arrives
 pleuel_status pl_contacts_settle(pl_run* run);              // the mode whose accelerations and forces fit together
 
+// ---- indeterminate.c: forces that are one of several
+void pl_indeterminate_make(pl_run* run);
+void pl_indeterminate_mark(pl_run* run);                    // at the begin of a mode
+void pl_indeterminate_note(pl_run* run);                    // what unique[] says
+void pl_indeterminate_tell(pl_run* run);                    // in the statistics
+
 // ---- modes.c
 pleuel_status pl_modes_enter(pl_run* run);                  // the point in the mode that on[] says
 pleuel_status pl_modes_check(pl_run* run, bool at_start);   // contacts that pull are released
@@ -453,6 +463,7 @@ void pl_turns_make(pl_run* run);
 void pl_turns_follow(pl_run* run, double t);        // along the series at work
 void pl_turns_seen(pl_run* run, double t, const double** q, const double** v, const double** a);   // as observers need them
 void pl_turns_show(pl_run* run, pl_row* row);       // coordinates as they were declared
+pleuel_status pl_turns_poles(pl_run* run, double h);   // fails when the step to trial_q passes a pole
 
 // ---- rows.c
 pleuel_status pl_rows_open(pl_run* run);            // begin of the sink
