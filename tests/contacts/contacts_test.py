@@ -449,4 +449,53 @@ def a_contact_that_others_depend_on_ends_for_them_too(name):
     check(name, r.kinds() == [("release", "floor")] and near(r.events[0]["t"], t, 1e-12) and near(r.last("x"), (2 - t) ** 2 / 2, 1e-12), r.told())
 
 
+# ---------------------------------------------------------------------------------------------- forces that are one of several
+def undetermined(r):
+    blank = sorted(n for n, v in r.rows[-1].items() if v == "nan") if r.rows else None
+    return (sorted(r.document.get("undetermined", [])), blank)
+
+
+@case
+def a_ladder_at_rest_has_one_force_too_many_only_where_wall_and_floor_are_rough(name):
+    text = ("param m = 10, l = 4, g = 10, μ = 0.6, ν = 0.5\ncoord x, y, α\naxes x right, y up\n"
+            "body ladder: mass m, inertia m l^2/12 at (x, y) angle α\ngravity g along -y\n"
+            "constraint wall: x - l/2 cos α >= 0\nconstraint floor: y - l/2 sin α >= 0\n{rough}friction μ on floor\n"
+            "init α = 60°, x = l/2 cos α, y = l/2 sin α, α' = 0\nsimulate 0..1\n")
+    both, one = Run(text.format(rough="friction ν on wall\n")), Run(text.format(rough=""))
+    four = ["friction_floor", "friction_wall", "lambda_floor", "lambda_wall"]
+    push = 100 / (2 * math.tan(math.pi / 3))
+    check(name, undetermined(both) == (four, four) and undetermined(one) == ([], []) and near(one.last("lambda_wall"), push, 1e-12)
+          and near(one.last("friction_floor"), -push, 1e-12) and abs(both.last("alpha") - math.pi / 3) < 1e-12, both.told() + one.told())
+
+
+@case
+def a_block_on_two_rough_points_knows_the_sum_of_its_frictions(name):
+    text = ("param m = 2, g = 10, F = {F}\ncoord x, y, φ\naxes x right, y up\nbody b: mass m, inertia 1 at (x, y) angle φ\n"
+            "gravity g along -y\nforce (F, 0) on b\nconstraint p1: y - 0.5 sin φ >= 0\nconstraint p2: y + 0.5 sin φ >= 0\n"
+            "friction 0.5, at (x - 0.5 cos φ, y - 0.5 sin φ) on p1\nfriction 0.5, at (x + 0.5 cos φ, y + 0.5 sin φ) on p2\n"
+            "init x = 0, y = 0, φ = 0, x' = 0, y' = 0, φ' = 0\nsimulate 0..1\n")
+    two = ["friction_p1", "friction_p2"]
+    rests = [Run(text.format(F=F)) for F in (1, 7, 9.9)]
+    limit, slides = Run(text.format(F=10)), Run(text.format(F=10.5))
+    ok = all(undetermined(r) == (two, two) and near(r.last("lambda_p1"), 10, 1e-12) and abs(r.last("x")) < 1e-12 for r in rests)
+    ok = ok and undetermined(limit) == ([], []) and near(limit.last("friction_p1"), -5, 1e-9) and near(limit.last("friction_p2"), -5, 1e-9)
+    ok = ok and undetermined(slides) == ([], []) and near(slides.last("x"), 0.125, 1e-12)
+    check(name, ok, "".join(r.told() + str(undetermined(r)) for r in rests + [limit, slides]))
+
+
+@case
+def a_table_on_four_legs_knows_no_force_of_a_leg(name):
+    text = ("param m = 2, g = 10, a = {a}, b = {b}\ncoord z, α, β\naxes x right, y out, z up\nmass M: m at (a, b, z + α b + β a)\n"
+            "mass N: 1 at (0.5, 0, z + 0.5 β)\nmass O: 1 at (0, 0.5, z + 0.5 α)\ngravity g along -z\n"
+            "constraint l1: z + α + β >= 0\nconstraint l2: z + α - β >= 0\nconstraint l3: z - α + β >= 0\n{fourth}"
+            "init z = 0, α = 0, β = 0, z' = 0, α' = 0, β' = 0\nsimulate 0..1\n")
+    leg = "constraint l4: z - α - β >= 0\n"
+    legs = [f"lambda_l{i}" for i in (1, 2, 3, 4)]
+    tables = [Run(text.format(a=a, b=b, fourth=leg)) for a, b in ((0.1, 0.1), (0.3, -0.2), (-0.4, 0))]
+    three = Run(text.format(a=-0.1, b=0.4, fourth=leg.replace("l4: z - α - β", "l4: z + 1 - α - β")))
+    ok = all(undetermined(r) == (legs, legs) and abs(r.last("z")) < 1e-12 for r in tables)
+    total = sum(three.last(n) for n in legs[:3])
+    check(name, ok and undetermined(three) == ([], []) and near(total, 40, 1e-12), "".join(r.told() + str(undetermined(r)) for r in tables + [three]))
+
+
 done()
