@@ -565,6 +565,7 @@ pleuel_status pl_record_model(pl_recorder* r) {
   PL_TRY(record_patterns(r));
   PL_TRY(make_coordinates(r));
   make_links(r);
+  pl_record_poles(r);
   PL_TRY(pl_record_observers(r));
   PL_TRY(pl_record_events(r));
   return pl_record_branches(r);

@@ -71,6 +71,7 @@ typedef struct pl_recorder {
 // record.c, record_turn.c: the steps of a recording
 void pl_record_begin(pl_recorder* r);                         // coordinates, numbers, times
 pleuel_status pl_record_model(pl_recorder* r);
+void pl_record_poles(pl_recorder* r);                         // where Euler angles end
 pleuel_status pl_record_turned(const pl_recorder* as);        // beside a finished one, the form that is integrated
 
 // record_forces.c: energies and generalized forces of the groups.

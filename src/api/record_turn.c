@@ -40,6 +40,35 @@ static void name_as_declared(const pl_recorder* r, const pl_recording* declared)
   r->out->setup.links = link;
 }
 
+// A constraint that holds the precession or the spin makes their sum and difference known everywhere.
+static bool is_held(const pl_recorder* r, const pl_spatial* b) {
+  for (int i = 0; i < r->model->constraints.n; i++) {
+    const pl_constraint* c = &r->model->constraints.at[i];
+    if (c->relation != PL_EQ || c->has_velocity || c->off || c->while_label) continue;
+    for (int k = 0; k < 3; k += 2)
+      if (pl_has_symbol(r->pool, c->g, pl_symbol_of(r->pool, b->axes[k]))) return true;
+  }
+  return false;
+}
+
+static bool is_angle(const pl_recorder* r, pl_expr e) {
+  pl_kind kind = pl_kind_of(r->pool, e);
+  return kind == PL_SYMBOL || kind == PL_AT;
+}
+
+void pl_record_poles(pl_recorder* r) {
+  PL_VEC(int) poles = {0};
+  for (int i = 0; i < r->model->spatials.n; i++) {
+    const pl_spatial* b = &r->model->spatials.at[i];
+    bool free = b->form == PL_AXES_EULER;
+    for (int k = 0; k < 3; k++) free = free && is_angle(r, b->axes[k]);
+    for (int k = 0; free && !is_held(r, b) && k < r->out->flat.n; k++)
+      if (pl_symbol_of(r->pool, r->out->flat.at[k]).id == pl_symbol_of(r->pool, b->axes[1]).id) pl_push(r->arena, poles, k);
+  }
+  r->out->setup.poles = poles.at;
+  r->out->setup.n_poles = poles.n;
+}
+
 pleuel_status pl_record_turned(const pl_recorder* as) {
   pl_turned t;
   bool turned = pl_model_turned(as->job, as->model, &t);

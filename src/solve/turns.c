@@ -189,6 +189,24 @@ void pl_turns_show(pl_run* run, pl_row* row) {
   row->q = out[0], row->v = out[1], row->a = out[2];
 }
 
+// ---------------------------------------------------------------------------------------------- what stays in Euler angles
+// At ϑ = 0 or 180° they do not tell precession and spin apart.  A step that gets to the other side has divided by what
+// is zero on its way, and its end may be anything.
+pleuel_status pl_turns_poles(pl_run* run, double h) {
+  static const double close = 1e-9;
+  for (int i = 0; i < run->setup->n_poles; i++) {
+    int at = run->setup->poles[i];
+    double from = run->q[at] / M_PI, to = run->trial_q[at] / M_PI;
+    if (floor(from) == floor(to) && fabs(to - nearbyint(to)) > close) continue;
+    double pole = to > from ? ceil(from) : floor(from), share = floor(from) == floor(to) ? 1 : (pole - from) / (to - from);
+    run->stats.t_singular = run->t + share * h;
+    return pl_fail(run->job, PLEUEL_SINGULAR,
+                   "%s comes to a multiple of 180° near t = %.6g s, where Euler angles do not tell precession and spin apart, "
+                   "and they themselves are needed here", run->setup->coordinates[at].name, run->stats.t_singular);
+  }
+  return PLEUEL_OK;
+}
+
 // ---------------------------------------------------------------------------------------------- start
 void pl_turns_make(pl_run* run) {
   pl_arena* a = run->job->arena;
