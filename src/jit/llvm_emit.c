@@ -225,10 +225,14 @@ static void add_attribute(pl_emit* e, LLVMValueRef f, const char* name, const ch
   LLVMAddAttributeAtIndex(f, (LLVMAttributeIndex)LLVMAttributeFunctionIndex, a);
 }
 
+static void mark(pl_emit* e, LLVMValueRef f, const char* attribute) {
+  unsigned kind = LLVMGetEnumAttributeKindForName(attribute, strlen(attribute));
+  LLVMAddAttributeAtIndex(f, (LLVMAttributeIndex)LLVMAttributeFunctionIndex, LLVMCreateEnumAttribute(e->context, kind, 0));
+}
+
 LLVMValueRef pl_emit_begin(pl_emit* e, const char* name, LLVMTypeRef t) {
   LLVMValueRef f = LLVMAddFunction(e->module, name, t);
-  unsigned quiet = LLVMGetEnumAttributeKindForName("nounwind", 8);
-  LLVMAddAttributeAtIndex(f, (LLVMAttributeIndex)LLVMAttributeFunctionIndex, LLVMCreateEnumAttribute(e->context, quiet, 0));
+  mark(e, f, "nounwind");
   add_attribute(e, f, "min-legal-vector-width", "512");
   add_attribute(e, f, "prefer-vector-width", "512");
   LLVMPositionBuilderAtEnd(e->build, LLVMAppendBasicBlockInContext(e->context, f, ""));
@@ -245,6 +249,7 @@ static LLVMValueRef emit_chunk(pl_emit* e, int chunk) {
   e->n_strides = 0;
   e->function = pl_emit_begin(e, name, e->line_type);
   LLVMSetLinkage(e->function, LLVMInternalLinkage);
+  if (p->lines.n <= PL_EMIT_CHUNK) mark(e, e->function, "alwaysinline");
   int by[PL_EMIT_STRIDES], n_by = 0;   // the strides first, where every block of the function sees them
   int end = (chunk + 1) * PL_EMIT_CHUNK < p->lines.n ? (chunk + 1) * PL_EMIT_CHUNK : p->lines.n;
   for (int i = chunk * PL_EMIT_CHUNK; i < end; i++) {

@@ -69,7 +69,7 @@ static bool write_object(LLVMModuleRef module, LLVMTargetMachineRef machine, uns
   char* why = NULL;
   LLVMMemoryBufferRef buffer = NULL;
   LLVMPassBuilderOptionsRef options = LLVMCreatePassBuilderOptions();
-  bool bad = failed(LLVMRunPasses(module, "early-cse", machine, options), message, room, "early-cse");
+  bool bad = failed(LLVMRunPasses(module, "always-inline,function(early-cse)", machine, options), message, room, "early-cse");
   LLVMDisposePassBuilderOptions(options);
   if (bad) return false;
   if (LLVMTargetMachineEmitToMemoryBuffer(machine, module, LLVMObjectFile, &why, &buffer)) {

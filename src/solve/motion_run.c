@@ -93,7 +93,7 @@ static bool pivots_are_sound(pl_motion* o) {
     double size = o->m[o->pivot_size + u], part;
     if (size > o->size_most[u]) o->size_most[u] = size;
     part = fabs(o->m[o->pivot + u]) / o->size_most[u];
-    if (!(part >= least)) least = part;
+    least = part >= least ? least : part;
   }
   if (o->n == o->n_mass) return true;
   if (!(least > 0)) return false;
@@ -108,8 +108,8 @@ static void note_largest(double x, double* most) {
 
 static void set_floors(const pl_run* run, pl_motion* o) {
   for (int i = 0; i < o->n_q; i++) {
-    o->m[o->q_floor + i] = fmax(run->q_most[i], 1e-6 * run->q_size);
-    o->m[o->v_floor + i] = fmax(run->v_most[i], 1e-6 * run->v_size);
+    o->m[o->q_floor + i] = pl_larger(run->q_most[i], 1e-6 * run->q_size);
+    o->m[o->v_floor + i] = pl_larger(run->v_most[i], 1e-6 * run->v_size);
   }
 }
 

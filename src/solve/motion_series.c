@@ -9,11 +9,27 @@
 #include <math.h>
 #include <string.h>
 
-double pl_norm(const double* x, int n) { return pl_orders_here()->norm(x, n); }
+enum { FEW = 32 };   // numbers: up to here choosing the code for the processor takes longer than it spares
+
+double pl_norm(const double* x, int n) {
+  double most = 0;
+  if (n > FEW) return pl_orders_here()->norm(x, n);
+  for (int i = 0; i < n; i++) most = pl_size_with(most, x[i]);
+  return most;
+}
 
 void pl_sizes_note(pl_run* run, const double* q, const double* v) {
-  run->q_size = fmax(run->q_size, pl_orders_here()->note(run->q_most, q, run->n_q));
-  run->v_size = fmax(run->v_size, pl_orders_here()->note(run->v_most, v, run->n_q));
+  if (run->n_q > FEW) {
+    run->q_size = pl_larger(run->q_size, pl_orders_here()->note(run->q_most, q, run->n_q));
+    run->v_size = pl_larger(run->v_size, pl_orders_here()->note(run->v_most, v, run->n_q));
+    return;
+  }
+  for (int i = 0; i < run->n_q; i++) {
+    run->q_most[i] = pl_larger(run->q_most[i], fabs(q[i]));
+    run->v_most[i] = pl_larger(run->v_most[i], fabs(v[i]));
+    run->q_size = pl_larger(run->q_size, run->q_most[i]);
+    run->v_size = pl_larger(run->v_size, run->v_most[i]);
+  }
 }
 
 void pl_sizes_keep(pl_run* run) {
@@ -45,11 +61,11 @@ static const double sound = 0.02, least_trusted = 1e-7;
 bool pl_point_factor(pl_run* run, bool with_W) {
   if (run->setup->n_rubs > 0) pl_friction_coefficients(run, 0);
   pl_assemble_matrix(run, with_W);
-  run->kkt.trusted = fmax(least_trusted, run->by_pivots ? sound * run->best * run->best : 0);
+  run->kkt.trusted = pl_larger(least_trusted, run->by_pivots ? sound * run->best * run->best : 0);
   bool regular = pl_kkt_factor(&run->kkt);
   if (run->by_pivots) {
     run->smallest = sqrt(run->kkt.ratio);  // pivots of the whole system fade with the square of those of the rows
-    run->best = fmax(run->best, run->smallest);
+    run->best = pl_larger(run->best, run->smallest);
   }
   return regular;
 }
@@ -122,15 +138,20 @@ void pl_series_expand(pl_run* run) {
 
 // ---------------------------------------------------------------------------------------------- step
 // Binary logarithm to four digits, which is plenty for a step: exponent, and a cubic for the mantissa.
-static double rough_log2(double x) {
-  uint64_t bits;
-  if (!(x >= DBL_MIN) || x > DBL_MAX) return x > DBL_MAX ? (double)INFINITY : x >= 0 ? -2000 : (double)NAN;
-  memcpy(&bits, &x, sizeof bits);
-  int exponent = (int)(bits >> 52) - 1023;
-  bits = (bits & 0xfffffffffffffu) | 0x3ff0000000000000u;
-  memcpy(&x, &bits, sizeof x);
-  double y = (x - 1) / (x + 1), z = y * y;   // ln x = 2 artanh y
-  return exponent + 2.8853900817779268 * y * (1 + z * (1 / 3.0 + z * (0.2 + z * (1 / 7.0))));
+// Several at once, which takes little longer than one.
+static void rough_log2(const double* x, double* log, int n) {
+  for (int i = 0; i < n; i++) {
+    uint64_t bits;
+    memcpy(&bits, &x[i], sizeof bits);
+    int exponent = (int)(bits >> 52) - 1023;
+    bits = (bits & 0xfffffffffffffu) | 0x3ff0000000000000u;
+    double m;
+    memcpy(&m, &bits, sizeof m);
+    double y = (m - 1) / (m + 1), z = y * y;   // ln m = 2 artanh y
+    log[i] = exponent + 2.8853900817779268 * y * (1 + z * (1 / 3.0 + z * (0.2 + z * (1 / 7.0))));
+  }
+  for (int i = 0; i < n; i++)
+    if (!(x[i] >= DBL_MIN) || x[i] > DBL_MAX) log[i] = x[i] > DBL_MAX ? (double)INFINITY : x[i] >= 0 ? -2000 : (double)NAN;
 }
 
 void pl_block_rows(int last, int row[PL_BLOCK_ROWS]) {
@@ -149,14 +170,14 @@ static void norms_of(const double* X, int n, int last, double* norm) {
 // at the point, or what an early coefficient and the radius say when it is near zero there.
 static double block_radius(const double* norm, int last) {
   double log[PL_BLOCK_ROWS], least = (double)INFINITY;
-  for (int i = 0; i < PL_BLOCK_ROWS; i++) log[i] = rough_log2(norm[i]);
+  rough_log2(norm, log, PL_BLOCK_ROWS);
   double size = log[0], before = log[4], top = log[5];
   if (isnan(top) || isnan(before)) return -(double)INFINITY;
   if (top > -2000)
-    for (int k = 1; k <= 3 && k < last; k++) size = fmax(size, log[k] + k * (log[k] - top) / (last - k));
+    for (int k = 1; k <= 3 && k < last; k++) size = pl_larger(size, log[k] + k * (log[k] - top) / (last - k));
   else if (size <= -2000) size = 0;
   if (before > -2000) least = (size - before) / (last - 1);
-  if (top > -2000) least = fmin(least, (size - top) / last);
+  if (top > -2000) least = pl_smaller(least, (size - top) / last);
   return least;
 }
 
@@ -173,7 +194,8 @@ double pl_series_step(pl_run* run) {
     norms_of(run->V, run->n_q, p, of_v);
   }
   // e^shrink of the radius makes p - 1 factors of tol together; the rest is their safety factor, eq. (3-8) there
-  double h = exp2(fmin(block_radius(q, p + 1), block_radius(v, p)) - 1.4426950408889634 * (0.7 / (p - 1) - run->shrink));
+  double radius = pl_smaller(block_radius(q, p + 1), block_radius(v, p));
+  double h = exp2(radius - 1.4426950408889634 * (0.7 / (p - 1) - run->shrink));
   return run->wide ? pl_wide_vary(run, h) : h;
 }
 

@@ -28,7 +28,7 @@ double pl_residual(const pl_run* run, const double* g, const double* size, bool 
   double most = 0, rough = run->rank < run->n_active ? coarsest(run, size, positions) : 0;
   for (int c = 0; c < run->n_c; c++) {
     if (!run->active[c] || g[c] == 0 || (positions && run->setup->links[c].velocity)) continue;
-    find_largest(fabs(g[c]) / (run->taken[c] ? size[c] : fmax(size[c], rough * run->row_most[c])), &most);
+    most = pl_size_with(most, g[c] / (run->taken[c] ? size[c] : pl_larger(size[c], rough * run->row_most[c])));
   }
   return most;
 }

@@ -227,7 +227,7 @@ void pl_rows_energy(pl_run* run, bool anew) {
     T = run->energy_out[s->kinetic];
     V = run->energy_out[s->potential];
   }
-  run->energy_size = fmax(run->energy_size, fabs(T) + fabs(V));
+  run->energy_size = pl_larger(run->energy_size, fabs(T) + fabs(V));
   if (anew) {
     // an impact or a deed has changed it: drift is counted from here
     run->energy_base = T + V;

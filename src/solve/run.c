@@ -13,19 +13,19 @@ static const double allowed_residual = 1e-12;  // |g| and |G v + dg/dt| after it
 // ---------------------------------------------------------------------------------------------- one attempt
 static bool acceptable(const pl_run* run, const pl_projection* p) {
   double rounding = run->wide ? run->wide->floor / DBL_EPSILON : 1;
-  double move = fmax(allowed_move * run->tol, rounding * allowed_floor), left = fmax(10 * run->tol, rounding * allowed_residual);
+  double move = pl_larger(allowed_move * run->tol, rounding * allowed_floor), left = pl_larger(10 * run->tol, rounding * allowed_residual);
   return p->ok && p->move_q <= move && p->move_v <= move && p->g_after <= left && p->r_after <= left;
 }
 
 static void note(pl_run* run, const pl_projection* p, double h) {
   pl_stats* s = &run->stats;
   s->steps++;
-  s->max_g = fmax(s->max_g, p->g_after);
-  s->max_gdot = fmax(s->max_gdot, p->r_after);
-  s->max_projection = fmax(s->max_projection, fmax(p->move_q, p->move_v));
+  s->max_g = pl_larger(s->max_g, p->g_after);
+  s->max_gdot = pl_larger(s->max_gdot, p->r_after);
+  s->max_projection = pl_larger(s->max_projection, pl_larger(p->move_q, p->move_v));
   if (h != 0) {
-    s->h_min = s->h_min == 0 ? fabs(h) : fmin(s->h_min, fabs(h));
-    s->h_max = fmax(s->h_max, fabs(h));
+    s->h_min = s->h_min == 0 ? fabs(h) : pl_smaller(s->h_min, fabs(h));
+    s->h_max = pl_larger(s->h_max, fabs(h));
   }
 }
 
@@ -36,8 +36,8 @@ double pl_run_left(const pl_run* run) {
 
 static double choose_step(pl_run* run) {
   double h = run->h_series = pl_series_step(run), left = pl_run_left(run);
-  if (run->options.h_max > 0) h = fmin(h, run->options.h_max);
-  else h = fmin(h, run->h_plain);
+  if (run->options.h_max > 0) h = pl_smaller(h, run->options.h_max);
+  else h = pl_smaller(h, run->h_plain);
   // not a last step that is almost nothing
   if (h >= fabs(left)) h = fabs(left);
   else if (h > 0.5 * fabs(left)) h = 0.5 * fabs(left);
@@ -72,7 +72,7 @@ static pleuel_status try_steps(pl_run* run, double* h, double* root, pl_projecti
     *root = run->n_watch > 0 ? pl_watch_first(run, *h) : -1;
     if (*root == 0) return PLEUEL_OK;
     double kink = run->n_kinks > 0 ? pl_kinks_first(run, *h) : -1;
-    if (kink >= 0 && (*root < 0 || kink < *root)) *root = -1, *h *= fmin(kink, 1);
+    if (kink >= 0 && (*root < 0 || kink < *root)) *root = -1, *h *= pl_smaller(kink, 1);
     double reach = *root >= 0 ? *root * *h : *h;
     if (run->wide) {
       pl_wide_advance(run, reach);
@@ -120,7 +120,7 @@ static void accept(pl_run* run, double h, bool to_end) {
 }
 
 static pleuel_status check_energy(pl_run* run) {
-  double limit = fmax(1e-8, 1e5 * run->tol);
+  double limit = pl_larger(1e-8, 1e5 * run->tol);
   if (!run->setup->energy_conserved || !(run->stats.energy_drift > limit)) return PLEUEL_OK;
   return pl_fail(run->job, PLEUEL_NUMERICAL,
                  "the energy has drifted by %.2g of its size at t = %.9g s: the result cannot be trusted",

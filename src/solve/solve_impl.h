@@ -2,6 +2,8 @@
 #ifndef PL_SOLVE_IMPL_H
 #define PL_SOLVE_IMPL_H
 
+#include <string.h>
+
 #include "linalg/linalg.h"
 #include "solve/solve.h"
 
@@ -285,6 +287,20 @@ struct pl_run {
   double energy_size, energy_base;
   double wall_begin;
 };
+
+// The larger and the smaller of two numbers, the first where one is none: without a branch, and without the call that fmax is.
+static inline double pl_larger(double a, double b) { return b > a ? b : a; }
+static inline double pl_smaller(double a, double b) { return b < a ? b : a; }
+// The larger of a size and of |x|, where what is no number counts as larger: sizes are ordered as their bits are.
+static inline double pl_size_with(double most, double x) {
+  uint64_t a, b;
+  memcpy(&a, &most, sizeof a);
+  memcpy(&b, &x, sizeof b);
+  b &= INT64_MAX;
+  a = b > a ? b : a;
+  memcpy(&most, &a, sizeof most);
+  return most;
+}
 
 typedef struct pl_projection { double g_before, g_after, r_before, r_after, move_q, move_v; bool ok; } pl_projection;
 
