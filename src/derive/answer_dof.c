@@ -229,6 +229,34 @@ static void theorem(pl_analysis* d) {
   s->detail = true;
 }
 
+// What holds between the axes of a body in space is none of the constraints that were written down.
+static void say_attitudes(pl_analysis* d) {
+  const pl_form** label = PL_ARRAY(d->arena, const pl_form*, d->g.n + 1);
+  for (int k = 0; k < d->g.n; k++) {
+    const char* body = d->g.at[k].source->body;
+    int n = 0;
+    bool first = body != NULL;
+    for (int i = 0; i < d->g.n; i++) {
+      const char* other = d->g.at[i].source->body;
+      if (!body || !other || strcmp(body, other) != 0) continue;
+      first &= i >= k;
+      label[n++] = pl_fn(d, label_of(&d->g.at[i]));
+    }
+    if (!first) continue;
+    if (n == 1) {
+      pl_say(d, "{1} makes the four numbers that give the attitude of {2} a rotation: a unit quaternion. Its multiplier is no force, since "
+             "no turning of the body changes |q|.",
+             "{1} macht aus den vier Zahlen für die Lage von {2} eine Drehung: eine Einheitsquaternion. Ihr Multiplikator ist keine Kraft, "
+             "denn keine Drehung des Körpers ändert |q|.", 2, label[0], pl_fn(d, body));
+    } else {
+      pl_say(d, "{1} make the axes of {2} unit vectors at right angles. Their multipliers are no forces on the body: they keep the axes "
+             "together and do no work when it turns.",
+             "{1} machen aus den Achsen von {2} Einheitsvektoren im rechten Winkel. Ihre Multiplikatoren sind keine Kräfte auf den Körper: "
+             "sie halten die Achsen zusammen und leisten bei keiner Drehung Arbeit.", 2, pl_flist(d, label, n), pl_fn(d, body));
+    }
+  }
+}
+
 void pl_answer_constraints(pl_analysis* d, const pl_ask* ask) {
   bool after_dof = d->section && d->solution->sections.n > 0 && ask->letter && d->section->letter &&
                    strcmp(ask->letter, d->section->letter) == 0;
@@ -253,6 +281,7 @@ void pl_answer_constraints(pl_analysis* d, const pl_ask* ask) {
     v->of = label_of(l);
   }
   if (!after_dof) say_kinds(d);
+  say_attitudes(d);
   if (any(d, is_contact)) {
     const pl_dof* f = &d->solution->dof;
     int n = count_coordinates(d), contacts = 0;
