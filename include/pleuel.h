@@ -259,7 +259,8 @@ typedef struct pleuel_sim_options {
    * then and when it is interrupted; NULL: none.  With resume = 1 the run goes on from there: same model, same options,
    * same program; else PLEUEL_USAGE and a sentence that names what differs, or PLEUEL_FILE.  csv must then be open for
    * reading and writing ("r+", "w+") and hold the rows of before; what stands in it behind the state is cut off.  `row` is
-   * called for what follows the state.  The file stays when the run is complete: remove it when its rows are safe. */
+   * called for what follows the state: of the rows before, the first rows_kept of the summary count.  The file stays when the
+   * run is complete: remove it when its rows are safe. */
   const char *state;
   double state_every;                /* s by the clock from state to state; 0: 10; below 0: only when interrupted     */
   int resume;
@@ -280,6 +281,7 @@ typedef struct pleuel_sim_summary {
   double residual_gdot;      /* largest |dg/dt|, likewise                                      */
   double energy_drift;       /* largest, relative; NaN when energy is not conserved            */
   size_t n_events, n_rows, n_columns;
+  size_t rows_kept;          /* of all rows, those that the state in the file stands behind    */
 } pleuel_sim_summary;
 
 /* pleuel_simulate computes the motion.  summary may be NULL.  A run that cannot go on ends with PLEUEL_NUMERICAL or

@@ -81,6 +81,7 @@ struct pleuel_model {
   char kept_why[128];             // PL_KEPT_FAILED
   const char *state, *resume_command;   // file of the state, and how the run goes on; NULL
   double resumed_at;              // s; NaN: it began at the beginning
+  long rows_kept;                 // that the state in the file stands behind
   double stage_ms[PL_N_STAGES];
 };
 

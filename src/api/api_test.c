@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
@@ -243,6 +244,61 @@ static void hostile_give(void* user, void* block) {
   free(block);
 }
 
+// All numbers of all rows, and a wish to stop after some of them.
+typedef struct pl_collected { double x[20000]; size_t n, width; pleuel* ctx; long stop_at; } pl_collected;
+
+static int collect(void* user, size_t n, const double* values, const char* mode) {
+  pl_collected* c = user;
+  (void)mode;
+  c->width = n;
+  for (size_t i = 0; i < n && c->n < 20000; i++) c->x[c->n++] = values[i];
+  return 0;
+}
+
+static void stop_after_steps(void* user, const pleuel_progress* where) {
+  pl_collected* c = user;
+  if (c->stop_at > 0 && where->steps >= c->stop_at) pleuel_interrupt(c->ctx);
+}
+
+static void an_interrupted_run_goes_on_in_another_context(void** state) {
+  (void)state;
+  static pl_collected all, parts;
+  char file[] = "/tmp/pleuel-state-XXXXXX";
+  int fd = mkstemp(file);
+  assert_true(fd >= 0);
+  close(fd);
+  PLEUEL_OPTIONS(pleuel_sim_options, how);
+  how.dt = 0.01;
+  how.has_dt = 1;
+  how.row = collect;
+  how.progress = stop_after_steps;
+  all = parts = (pl_collected){0};
+  pleuel* ctx = pleuel_open(NULL);
+  how.user = &all;
+  assert_int_equal(pleuel_simulate(load(ctx, pendulum, PLEUEL_OK), NULL, &how), PLEUEL_OK);
+  pleuel_close(ctx);
+  how.user = &parts;
+  how.state = file;
+  how.state_every = -1;
+  pleuel_status s = PLEUEL_INTERRUPTED;
+  for (long stop = 2; s == PLEUEL_INTERRUPTED && stop < 40; stop += 2) {
+    ctx = parts.ctx = pleuel_open(NULL);
+    parts.stop_at = stop;
+    pleuel_sim_summary summary;
+    s = pleuel_simulate(load(ctx, pendulum, PLEUEL_OK), &summary, &how);
+    assert_true(s == PLEUEL_OK || strstr(pleuel_message(ctx), "interrupted"));
+    // the row of the interruption is not one of those that stay
+    if (s == PLEUEL_INTERRUPTED) parts.n = summary.rows_kept * parts.width;
+    how.resume = 1;
+    pleuel_close(ctx);
+  }
+  assert_int_equal(s, PLEUEL_OK);
+  assert_true(parts.stop_at > 4);
+  assert_int_equal(parts.n, all.n);
+  assert_memory_equal(parts.x, all.x, all.n * sizeof(double));
+  remove(file);
+}
+
 static void memory_that_runs_out_is_a_status(void** state) {
   (void)state;
   bool done = false;
@@ -378,6 +434,7 @@ int main(void) {
     cmocka_unit_test(a_row_may_stop_the_run),
     cmocka_unit_test(the_same_run_gives_the_same_bytes),
     cmocka_unit_test(an_interrupted_context_stops_and_can_go_on),
+    cmocka_unit_test(an_interrupted_run_goes_on_in_another_context),
     cmocka_unit_test(memory_that_runs_out_is_a_status),
     cmocka_unit_test(a_memory_limit_is_kept),
     cmocka_unit_test(quantities_carry_units),

@@ -132,6 +132,7 @@ static void write_guarded(pl_keeping* k, pl_run* run) {
     errno = why;
   }
   k->m->kept = fine ? PL_KEPT_YES : PL_KEPT_FAILED;
+  if (fine) k->m->rows_kept = k->m->result->n_rows;
   if (!fine) snprintf(k->m->kept_why, sizeof k->m->kept_why, "%s", strerror(errno));
 }
 
@@ -229,6 +230,7 @@ pleuel_status pl_keeping_resume(pl_keeping* k, pl_run* run, const pl_sink* sink)
   pl_result_keep(k->m->result, &k->state);
   if (!pl_keep_is_whole(&k->state)) return damaged(k);
   k->m->resumed_at = pl_run_time(run);
+  k->m->rows_kept = k->m->result->n_rows;
   if (k->csv == NULL) return PLEUEL_OK;
   bool cut = ftruncate(fileno(k->csv), k->rows.bytes) == 0 && fseek(k->csv, k->rows.bytes, SEEK_SET) == 0;
   return cut ? PLEUEL_OK : pl_fail(&k->m->job, PLEUEL_FILE, "the rows cannot be written: %s", strerror(errno));

@@ -381,6 +381,7 @@ pleuel_status pl_pipeline_run(pleuel_model* m, const pleuel_sim_options* o) {
   m->keeping = NULL;
   m->certified = NULL;
   m->kept = PL_KEPT_NO;
+  m->rows_kept = 0;
   m->resumed_at = (double)NAN;
   m->state = o->state ? pl_copy(m->arena, o->state) : NULL;
   m->resume_command = o->resume_command ? pl_copy(m->arena, o->resume_command) : NULL;

@@ -678,7 +678,7 @@ pleuel_status pleuel_simulate(pleuel_model* m, pleuel_sim_summary* summary, cons
     *summary = (pleuel_sim_summary){
       .t_end = r->rows.n ? r->rows.at[r->rows.n - 1][0] : (double)NAN, .steps = r->stats.steps, .rejected = r->stats.rejections,
       .residual_g = r->stats.max_g, .residual_gdot = r->stats.max_gdot, .energy_drift = r->stats.energy_drift,
-      .n_events = (size_t)r->events.n, .n_columns = (size_t)r->n_columns};
+      .n_events = (size_t)r->events.n, .n_rows = (size_t)r->n_rows, .n_columns = (size_t)r->n_columns, .rows_kept = (size_t)m->rows_kept};
   }
   return s;
 }

@@ -1,6 +1,7 @@
 // Results kept in memory: a sink that copies rows and events into columns.
 #include "result/result_impl.h"
 
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -138,6 +139,7 @@ static void add_row(filling* f, const void* what) {
 
 static pleuel_status on_row(void* user, const pl_row* row) {
   filling* f = user;
+  f->result->n_rows++;
   PL_TRY(guarded(f, add_row, row));
   return f->result->next.row ? f->result->next.row(f->result->next.user, row) : PLEUEL_OK;
 }
@@ -244,6 +246,7 @@ void pl_result_keep(pl_result* r, pl_keeper* k) {
   size_t width = (size_t)columns * sizeof(double);
   pl_keep_section(k, "result");
   pl_keep_int(k, &columns, columns, columns);
+  pl_keep_long(k, &r->n_rows, 0, LONG_MAX / 8);
   pl_keep_count(k, &rows, width);
   for (int i = 0; i < rows && k->wrong == NULL; i++) {
     double* x = k->reads ? NULL : r->rows.at[i];

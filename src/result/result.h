@@ -30,6 +30,7 @@ typedef struct pl_result {
   PL_VEC(const char*) modes;         // one a row
   PL_VEC(pl_row_kind) kinds;
   PL_VEC(pl_result_event) events;
+  long n_rows;                       // so far, also those that are not kept here
   bool keep_rows;                    // false: only first and last row and the events are kept
   bool complete;                     // the run reached its end
   pleuel_status status;
