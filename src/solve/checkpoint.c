@@ -322,7 +322,7 @@ static bool makes_sense(const pl_run* run) {
   bool inside = run->t >= fmin(from, to) && run->t <= fmax(from, to);
   if (!(run->tol > 0 && run->tol < 1)) return false;
   if (!inside || !run->started || run->ended || run->refused) return false;
-  if (run->at_point && !run->wide && !(run->motion_code && run->motion_code->usable)) return false;
+  if (run->at_point && !(run->wide && !run->wide->by_doubles) && !(run->motion_code && run->motion_code->usable)) return false;
   if (run->radau && !(run->radau->h >= 0 && isfinite(run->radau->h))) return false;
   return isfinite(run->t_low) && isfinite(pl_norm(run->q, run->n_q)) && isfinite(pl_norm(run->v, run->n_q));
 }

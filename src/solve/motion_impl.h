@@ -84,6 +84,11 @@ struct pl_motion {
   PL_VEC(pl_scale_cell) scales;
 };
 
+// ---- motion_run.c
+pl_motion* pl_motion_for_mode(pl_run* run);
+// Order 0 at a point that is known to be sound.
+bool pl_motion_enter_at(pl_run* run, double t, const double* q, const double* v);
+
 // ---- motion_make.c
 bool pl_motion_fits(const pl_run* run);
 // Codes for numbers of this type, which are interpreted; NULL: doubles.

@@ -22,7 +22,7 @@ static bool same_mode(const pl_run* run, const pl_motion* o) {
   return memcmp(o->taken, run->taken, (size_t)run->n_c * sizeof(bool)) == 0;
 }
 
-static pl_motion* motion_of_mode(pl_run* run) {
+pl_motion* pl_motion_for_mode(pl_run* run) {
   for (pl_motion* o = run->motion_codes; o; o = o->next)
     if (same_mode(run, o)) return o;
   pl_motion* o = pl_motion_make(run);
@@ -73,8 +73,8 @@ static bool compiling_pays(pl_run* run, const pl_motion* o) {
 }
 
 void pl_motion_update(pl_run* run) {
-  if (run->options.general || run->n_kinks > 0 || run->options.precision != PL_PRECISION_DOUBLE) return;
-  if (!run->at_point && !(run->motion_code && same_mode(run, run->motion_code))) run->motion_code = motion_of_mode(run);
+  if (run->options.general || run->n_kinks > 0 || (run->options.precision != PL_PRECISION_DOUBLE && run->motion_code == NULL)) return;
+  if (!run->at_point && !(run->motion_code && same_mode(run, run->motion_code))) run->motion_code = pl_motion_for_mode(run);
   pl_motion* o = run->motion_code;
   if (o == NULL || !o->usable || o->tried || run->options.engine == PL_ENGINE_INTERPRETER) return;
   if (run->options.engine == PL_ENGINE_COMPILED || compiling_pays(run, o)) compile(run, o);
@@ -197,6 +197,18 @@ bool pl_motion_enter(pl_run* run) {
   run->smallest = run->best;  // sound: as good as it has been
   run->ready = isfinite(pl_norm(run->A, o->n_q)) && isfinite(pl_norm(run->L, o->n_c));
   return run->ready;
+}
+
+bool pl_motion_enter_at(pl_run* run, double t, const double* q, const double* v) {
+  pl_motion* o = run->motion_code;
+  o->m[o->time] = t;
+  memcpy(o->m + o->Q, q, (size_t)o->n_q * sizeof *q);
+  memcpy(o->m + o->V, v, (size_t)o->n_q * sizeof *v);
+  run_part(o, PL_PART_PLACE, 0, 1);
+  double smallest = run->smallest;
+  bool ready = pl_motion_enter(run);
+  run->smallest = smallest;
+  return ready;
 }
 
 void pl_motion_norms(pl_run* run, const double** q, const double** v) {

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { MIN_ORDER = 6, MAX_ORDER = 24, MAX_WIDE_ORDER = 40 };
+enum { MIN_ORDER = 6, MAX_ORDER = 24 };
 
 // The tolerance below which rounding, not truncation, decides.  In long, what is cut off is to stay far below the rounding of the
 // state, since it has a direction and that has none.
@@ -101,6 +101,10 @@ static int cheapest_order(double tol, bool small) {
 }
 
 static void choose_order(pl_run* run) {
+  if (run->options.precision != PL_PRECISION_DOUBLE) {
+    pl_wide_order(run);
+    return;
+  }
   run->order = cheapest_order(run->tol, run->n_q + run->n_c <= PL_DENSE_UP_TO);
   run->shrink = run->order == plain_order(run->tol) ? -2 : log(0.1 * run->tol) / (run->order - 1);
 }

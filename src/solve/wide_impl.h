@@ -1,9 +1,9 @@
 // A run on numbers wider than doubles: the codes of the motion (motion_impl.h) on memory of another type, in which the state lives
 // from step to step.  What the run shows and watches is its rounding.  For files of this folder.
 //
-// Three types have a part in it: `state`, to which positions and velocities are rounded at the end of a step; `fine`, in which the
-// point, its projection and the orders below `low` are computed; `coarse`, in which the orders above are.  Terms of order k are about
-// e^(-2k) of the whole, so that those may be less exact.  In quad all are one and there is no coarse part.
+// Two types have a part in it: `state`, to which positions and velocities are rounded at the end of a step, and `fine`, in which the
+// point, its projection and the orders below `low` are computed.  In quad both are one, and `low` is the order.  In long, the orders
+// above are those of the ordinary codes in doubles, compiled where that pays: terms of order k are about e^(-2k) of the whole.
 #ifndef PL_WIDE_IMPL_H
 #define PL_WIDE_IMPL_H
 
@@ -18,17 +18,18 @@ typedef struct pl_sheet {
 } pl_sheet;
 
 struct pl_wide {
-  const pl_real *state, *fine, *coarse;   // coarse NULL: all orders are fine
+  const pl_real *state, *fine;
   int low;                       // orders below are fine
+  bool by_doubles;               // orders from there on are those of run->motion_code
   pl_motion* o;                  // for the constraints that are taken; its own memory is not used
-  void *m, *m_coarse;
-  pl_prog *top, *head, *tail;    // one more coefficient of q; the series at `length`: the fine orders, those above
-  pl_prog *head_forces, *tail_forces;     // accelerations and multipliers
+  void* m;
+  pl_prog *top, *head;           // one more coefficient of q; the series at `length`
+  pl_prog* head_forces;          // accelerations and multipliers there
   pl_prog *clock, *left, *grid;  // time at `length`; `length` to the end; both for the row whose n `way` is in `scratch`
   pl_prog* drift;                // energy and what it has changed, into `scratch`
   int t_0, q_0, v_0;             // where the series starts
   int end_a, end_l;              // of the series at `length`
-  int tail_q, tail_v, tail_a, tail_l;
+  int tail_q, tail_v, tail_a, tail_l;     // the part of it that doubles give, divided by length^low
   int from, to, share;           // time of row 0, of the end; row n is at n `way` / share
   pl_parts way;
   int scratch;                   // n_q + 2 numbers
@@ -48,6 +49,7 @@ pl_sheet* pl_sheet_make(pl_run* run, const pl_real* real, const pl_batches* b, i
 void pl_sheet_run(pl_sheet* s);
 
 // ---- wide_make.c
+void pl_wide_order(pl_run* run);                    // order and length of the steps from the tolerance
 const char* pl_wide_name(const pl_run* run);        // of its precision
 pleuel_status pl_wide_check(pl_run* run);           // whether the run can be had; fails with what stands in the way
 pleuel_status pl_wide_make(pl_run* run);            // codes and memory, for the constraints that are taken

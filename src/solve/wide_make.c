@@ -1,8 +1,19 @@
 // What a run on wide numbers needs: whether this model can be had, codes, memory.
+#include <math.h>
+
 #include "solve/wide_impl.h"
 
-// Orders below this are fine where the others are coarse: terms there are e^-20 of the whole, and rounding of 64 digits with them.
-enum { LOW_ORDERS = 10 };
+// Orders below this are computed in wide numbers, those above in doubles: terms there are e^-24 of the whole and less, so that their
+// rounding errors are four thousand times smaller than those of the state, which has 64 digits.
+enum { LOW_ORDERS = 12 };
+
+// Jorba and Zou: terms of a series fall best like e^-2 from one to the next, where the work is that of the orders.
+void pl_wide_order(pl_run* run) {
+  enum { LEAST = 6, MOST = 40 };
+  int p = (int)ceil(-0.5 * log(run->tol) + 1);
+  run->order = p < LEAST ? LEAST : p > MOST ? MOST : p;
+  run->shrink = -2;
+}
 
 // ---------------------------------------------------------------------------------------------- what stands in the way
 const char* pl_wide_name(const pl_run* run) { return run->options.precision == PL_PRECISION_LONG ? "long" : "quad"; }
@@ -57,17 +68,17 @@ pleuel_status pl_wide_check(pl_run* run) {
 }
 
 // ---------------------------------------------------------------------------------------------- the series at a time
-// A series in memory: rows of n numbers, the last of them.
-typedef struct series { int rows, n, last, base, tail, end; } series;
+// A series in memory: rows of n numbers; where row 0 lies, the sum of rows that are not here, the result.
+typedef struct series { int rows, n, base, tail, end; } series;
 
-// Horner's sum of rows first .. last into `to`.  base: where row 0 lies; tail: where the sum of the rows behind lies, -1 none.
-static void sum_rows(pl_prog* c, const series* s, int i, int h, int first, int last, int tail, int to) {
+// Horner's sum of rows 0 .. last.  tail: where the sum of the rows behind lies, -1 none.
+static void sum_rows(pl_prog* c, const series* s, int i, int h, int last, int tail) {
   int x = tail >= 0 ? pl_prog_load(c, tail + i, 0) : pl_prog_load(c, s->rows + last * s->n + i, 0);
-  for (int row = tail >= 0 ? last : last - 1; row >= first; row--) {
+  for (int row = tail >= 0 ? last : last - 1; row >= 0; row--) {
     int from = row == 0 && s->base >= 0 ? s->base : s->rows + row * s->n;
     x = pl_prog_op3(c, PL_PROG_FMA, x, h, pl_prog_load(c, from + i, 0));
   }
-  pl_prog_store(c, x, to + i, 0);
+  pl_prog_store(c, x, s->end + i, 0);
 }
 
 static void end_code(pl_wide* w, pl_prog* c) {
@@ -75,15 +86,12 @@ static void end_code(pl_wide* w, pl_prog* c) {
   w->o->size += c->n_registers;
 }
 
-static pl_prog* sum_code(pl_run* run, const char* name, const series* s, const int* low, bool tail) {
+static pl_prog* sum_code(pl_run* run, const char* name, const series* s, const int* low) {
   pl_wide* w = run->wide;
   pl_prog* c = pl_prog_make(run->job->arena, name, 1);
   int h = pl_prog_load(c, w->o->length, 0);
   for (int k = 0; k < 2; k++)
-    for (int i = 0; i < s[k].n; i++) {
-      if (tail) sum_rows(c, &s[k], i, h, low[k] + 1, s[k].last, -1, s[k].tail);
-      else sum_rows(c, &s[k], i, h, 0, low[k], w->coarse ? s[k].tail : -1, s[k].end);
-    }
+    for (int i = 0; i < s[k].n; i++) sum_rows(c, &s[k], i, h, low[k], w->by_doubles ? s[k].tail : -1);
   end_code(w, c);
   return c;
 }
@@ -131,16 +139,13 @@ static void write_drift(pl_run* run) {
 static void write_sums(pl_run* run) {
   pl_wide* w = run->wide;
   const pl_motion* o = w->o;
-  int p = run->order, n_q = run->n_q, n_c = run->n_c, all = w->coarse == NULL;
-  series state[2] = {{o->Q, n_q, p + 1, w->q_0, w->tail_q, o->end_q}, {o->V, n_q, p, w->v_0, w->tail_v, o->end_v}};
-  series forces[2] = {{o->A, n_q, p - 1, -1, w->tail_a, w->end_a}, {o->L, n_c, p - 1, -1, w->tail_l, w->end_l}};
-  int low[2] = {all ? p + 1 : w->low, all ? p : w->low}, low_forces[2] = {all ? p - 1 : w->low - 1, all ? p - 1 : w->low - 1};
+  int p = run->order, n_q = run->n_q, n_c = run->n_c;
+  series state[2] = {{o->Q, n_q, w->q_0, w->tail_q, o->end_q}, {o->V, n_q, w->v_0, w->tail_v, o->end_v}};
+  series forces[2] = {{o->A, n_q, -1, w->tail_a, w->end_a}, {o->L, n_c, -1, w->tail_l, w->end_l}};
+  int last[2] = {w->by_doubles ? w->low : p + 1, w->low}, last_forces[2] = {w->low - 1, w->low - 1};
   w->top = top_code(run);
-  w->head = sum_code(run, "head", state, low, false);
-  w->head_forces = sum_code(run, "head_forces", forces, low_forces, false);
-  if (all) return;
-  w->tail = sum_code(run, "tail", state, low, true);
-  w->tail_forces = sum_code(run, "tail_forces", forces, low_forces, true);
+  w->head = sum_code(run, "head", state, last);
+  w->head_forces = sum_code(run, "head_forces", forces, last_forces);
 }
 
 // ---------------------------------------------------------------------------------------------- memory
@@ -182,7 +187,8 @@ static void choose_types(pl_run* run) {
   w->fine = quad || pl_real_pair() == NULL ? pl_real_quad() : pl_real_pair();
   w->state = quad ? pl_real_quad() : pl_real_long();
   w->low = run->order;
-  if (!quad && run->order > LOW_ORDERS) w->low = LOW_ORDERS, w->coarse = pl_real_long();
+  w->by_doubles = !quad && run->order > LOW_ORDERS;
+  if (w->by_doubles) w->low = LOW_ORDERS;
   w->floor = 2 * w->state->epsilon;
 }
 
@@ -193,12 +199,13 @@ pleuel_status pl_wide_make(pl_run* run) {
   w->o = pl_motion_make_for(run, w->fine);
   if (!w->o->usable)
     return pl_fail(run->job, PLEUEL_UNSUPPORTED, "precision %s: the mass matrix of this model needs pivots, which are chosen in double only", pl_wide_name(run));
+  run->motion_code = w->by_doubles ? pl_motion_for_mode(run) : NULL;
+  if (run->motion_code && !run->motion_code->usable) run->motion_code = NULL, w->by_doubles = false, w->low = run->order;
   lay_out(run);
   write_sums(run);
   write_clock(run);
   write_drift(run);
   w->m = memory_of(run, w->fine);
-  if (w->coarse) w->m_coarse = memory_of(run, w->coarse);
   w->rows = pl_sheet_make(run, w->state, &run->observers, s->n_out);
   w->watched = pl_sheet_make(run, w->fine, &run->watched, s->n_watched);
   return PLEUEL_OK;

@@ -13,22 +13,11 @@
 static const double sound = 1e-16;
 
 static void fine(pl_run* run, const pl_prog* code, int from, int to) { run->wide->fine->interpret(code, run->wide->m, from, to); }
-static void coarse(pl_run* run, const pl_prog* code, int from, int to) { run->wide->coarse->interpret(code, run->wide->m_coarse, from, to); }
 static void fine_part(pl_run* run, pl_motion_part part) { fine(run, run->wide->o->code[part], 0, 1); }
 static void read(const pl_run* run, int at, int n, double* out) { run->wide->fine->read(run->wide->m, at, n, out); }
 
 void pl_wide_copy(const pl_real* to_type, void* to, int at, const pl_real* from_type, const void* from, int from_at, int n) {
   for (int i = 0; i < n; i++) to_type->set(to, at + i, from_type->get(from, from_at + i));
-}
-
-static void to_coarse(pl_run* run, int at, int n) {
-  pl_wide* w = run->wide;
-  pl_wide_copy(w->coarse, w->m_coarse, at, w->fine, w->m, at, n);
-}
-
-static void from_coarse(pl_run* run, int at, int n) {
-  pl_wide* w = run->wide;
-  pl_wide_copy(w->fine, w->m, at, w->coarse, w->m_coarse, at, n);
 }
 
 // ---------------------------------------------------------------------------------------------- projection
@@ -152,25 +141,13 @@ void pl_wide_accept(pl_run* run, bool to_end) {
 
 // ---------------------------------------------------------------------------------------------- order 0
 static void read_orders(pl_run* run, int first, int last) {
-  const pl_wide* w = run->wide;
-  const pl_motion* o = w->o;
-  const pl_real* type = w->coarse ? w->coarse : w->fine;
-  const void* m = w->coarse ? w->m_coarse : w->m;
+  const pl_motion* o = run->wide->o;
   size_t n_q = (size_t)o->n_q, n_c = (size_t)o->n_c, k = (size_t)first;
   int n = last - first + 1;
-  type->read(m, o->Q + first * o->n_q, (n + 1) * o->n_q, run->Q + k * n_q);
-  type->read(m, o->V + first * o->n_q, (n + 1) * o->n_q, run->V + k * n_q);
-  type->read(m, o->A + first * o->n_q, n * o->n_q, run->A + k * n_q);
-  type->read(m, o->L + first * o->n_c, n * o->n_c, run->L + k * n_c);
-}
-
-static void enter_coarse(pl_run* run) {
-  const pl_motion* o = run->wide->o;
-  to_coarse(run, o->time, 1);
-  to_coarse(run, o->Q, o->n_q);
-  to_coarse(run, o->V, o->n_q);
-  coarse(run, o->code[PL_PART_PLACE], 0, 1);
-  coarse(run, o->code[PL_PART_START], 0, 1);
+  read(run, o->Q + first * o->n_q, (n + 1) * o->n_q, run->Q + k * n_q);
+  read(run, o->V + first * o->n_q, (n + 1) * o->n_q, run->V + k * n_q);
+  read(run, o->A + first * o->n_q, n * o->n_q, run->A + k * n_q);
+  read(run, o->L + first * o->n_c, n * o->n_c, run->L + k * n_c);
 }
 
 bool pl_wide_enter(pl_run* run) {
@@ -180,7 +157,7 @@ bool pl_wide_enter(pl_run* run) {
   w->fine->move(w->m, w->q_0, o->Q, o->n_q);
   w->fine->move(w->m, w->v_0, o->V, o->n_q);
   fine_part(run, PL_PART_START);
-  if (w->coarse) enter_coarse(run);
+  if (w->by_doubles) pl_motion_enter_at(run, run->t, run->q, run->v);
   read_orders(run, 0, 0);
   run->t_series = run->t;
   read(run, o->h, o->n_q, run->rhs);
@@ -192,25 +169,26 @@ bool pl_wide_enter(pl_run* run) {
 // ---------------------------------------------------------------------------------------------- series
 void pl_wide_expand(pl_run* run) {
   pl_wide* w = run->wide;
-  run->stats.steps_interpreted++;
   fine(run, w->o->code[PL_PART_ORDER], 1, w->low);
-  if (w->coarse) {
-    coarse(run, w->o->code[PL_PART_ORDER], 1, run->order);
-    coarse(run, w->top, 0, 1);
-  } else {
-    fine(run, w->top, 0, 1);
+  if (w->by_doubles) {
+    if (!pl_motion_is_compiled(run)) run->stats.steps_interpreted++;
+    pl_motion_expand(run);
+    return;
   }
+  run->stats.steps_interpreted++;
+  fine(run, w->top, 0, 1);
   read_orders(run, 1, run->order - 1);
-  size_t n = (size_t)run->n_q, last = (size_t)run->order + 1;
-  (w->coarse ? w->coarse : w->fine)->read(w->coarse ? w->m_coarse : w->m, w->o->Q + (int)(last * n), (int)n, run->Q + last * n);
+  read(run, w->o->Q + (run->order + 1) * run->n_q, run->n_q, run->Q + (size_t)(run->order + 1) * (size_t)run->n_q);
 }
 
 void pl_wide_norms(pl_run* run, const double** q, const double** v) {
-  pl_wide* w = run->wide;
-  pl_motion* o = w->o;
-  if (w->coarse) coarse(run, o->code[PL_PART_NORMS], 0, 1);
-  else fine_part(run, PL_PART_NORMS);
-  (w->coarse ? w->coarse : w->fine)->read(w->coarse ? w->m_coarse : w->m, o->norms, 2 * PL_BLOCK_ROWS, o->m + o->norms);
+  pl_motion* o = run->wide->o;
+  if (run->wide->by_doubles) {
+    pl_motion_norms(run, q, v);
+    return;
+  }
+  fine_part(run, PL_PART_NORMS);
+  read(run, o->norms, 2 * PL_BLOCK_ROWS, o->m + o->norms);
   *q = o->m + o->norms;
   *v = *q + PL_BLOCK_ROWS;
 }
@@ -224,13 +202,22 @@ double pl_wide_vary(const pl_run* run, double h) {
   return run->wide->state == run->wide->fine ? h : h * (1 - most * (turns - floor(turns)));
 }
 
+// The sum of rows first .. last of a series in doubles, divided by dt^first.
+static void sum_tail(pl_run* run, int to, const double* X, int n, int first, int last) {
+  double dt;
+  read(run, run->wide->o->length, 1, &dt);
+  for (int i = 0; i < n; i++) {
+    double x = X[(size_t)last * (size_t)n + (size_t)i];
+    for (int k = last - 1; k >= first; k--) x = x * dt + X[(size_t)k * (size_t)n + (size_t)i];
+    run->wide->fine->write(run->wide->m, to + i, 1, &x);
+  }
+}
+
 static void sum_state(pl_run* run) {
   pl_wide* w = run->wide;
-  if (w->coarse) {
-    to_coarse(run, w->o->length, 1);
-    coarse(run, w->tail, 0, 1);
-    from_coarse(run, w->tail_q, run->n_q);
-    from_coarse(run, w->tail_v, run->n_q);
+  if (w->by_doubles) {
+    sum_tail(run, w->tail_q, run->Q, run->n_q, w->low + 1, run->order + 1);
+    sum_tail(run, w->tail_v, run->V, run->n_q, w->low + 1, run->order);
   }
   fine(run, w->head, 0, 1);
 }
@@ -238,10 +225,9 @@ static void sum_state(pl_run* run) {
 void pl_wide_sum(pl_run* run) {
   pl_wide* w = run->wide;
   sum_state(run);
-  if (w->coarse) {
-    coarse(run, w->tail_forces, 0, 1);
-    from_coarse(run, w->tail_a, run->n_q);
-    from_coarse(run, w->tail_l, run->n_c);
+  if (w->by_doubles) {
+    sum_tail(run, w->tail_a, run->A, run->n_q, w->low, run->order - 1);
+    sum_tail(run, w->tail_l, run->L, run->n_c, w->low, run->order - 1);
   }
   fine(run, w->head_forces, 0, 1);
 }
