@@ -197,7 +197,7 @@ int main(int argc, char** argv) {
     {.name = "radau", .method = "radau", .engine = "interpreter", .tol = 1e-6},
     {.name = "grid", .method = "taylor", .engine = "interpreter", .dt = 0.0137, .tol = 1e-9},
     {.name = "derivatives", .engine = "interpreter", .sensitivities = "g"},
-    {.name = "long", .precision = "long", .dt = 0.0137},
+    {.name = "long", .engine = "interpreter", .precision = "long", .dt = 0.0137},
     {.name = "quad", .precision = "quad"},
   };
   const char *seed = getenv("RESUME_SEED"), *more = getenv("RESUME_MORE");
