@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-// Eigenvalues of a symmetric matrix (xx xy xz yy yz zz), ascending, by Jacobi's rotations [GolubVanLoan1996, 8.4].
+// Eigenvalues of a symmetric matrix (xx xy xz yy yz zz), ascending, by Jacobi's rotations [GolubVanLoan2013, 8.5].
 static void eigenvalues(const double a[6], double out[3]) {
   enum { SWEEPS = 60 };
   double m[3][3] = {{a[0], a[1], a[2]}, {a[1], a[3], a[4]}, {a[2], a[4], a[5]}};
