@@ -213,6 +213,5 @@ INLINE void sweep(pl_jet* jet, pl_level level, int k, bool all, int lanes, int b
 
 void PL_INTERPRET(pl_jet* jet, pl_level level, int k, bool all) {
   if (jet->lanes == 1) sweep(jet, level, k, all, 1, 1);
-  else if (jet->lanes == 8) sweep(jet, level, k, all, 8, 8);
   else sweep(jet, level, k, all, jet->lanes, 8);
 }

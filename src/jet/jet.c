@@ -34,16 +34,32 @@ void pl_jet_interpret(pl_jet* j, pl_level level, int k, bool all) {
     pl_jet_interpret_plain(j, level, k, all);
 }
 
-pl_jet* pl_jet_make(pl_arena* a, const pl_tape* tape, int lanes, int orders) {
+// Orders that a node has room for.  Inputs are filled in to all orders, whoever reads them.
+static int room(const pl_tape* tape, int node, int orders, bool lean) {
+  const pl_tape_node* n = &tape->nodes[node];
+  if (node < tape->level_end[PL_LEVEL_CONST]) return 1;
+  return lean && !n->high && pl_op_reads[n->op] > 0 && orders > 2 ? 2 : orders;
+}
+
+static pl_jet* make(pl_arena* a, const pl_tape* tape, int lanes, int orders, bool lean) {
   pl_jet* j = PL_NEW(a, pl_jet);
+  size_t rows = 0;
   j->tape = tape;
   j->lanes = lanes;
   j->orders = orders;
-  j->c = PL_ARRAY(a, double, (size_t)lanes * (size_t)orders * (size_t)tape->n_nodes + 1);
+  j->at = PL_ARRAY(a, size_t, tape->n_nodes + 1);
+  for (int i = 0; i < tape->n_nodes; i++) {
+    j->at[i] = rows;
+    rows += (size_t)room(tape, i, orders, lean);
+  }
+  j->c = PL_ARRAY(a, double, (size_t)lanes * rows + 1);
   j->kernel = pl_jet_interpret;
   for (int level = 0; level < PL_N_LEVELS; level++) list_series(j, a, level);
   return j;
 }
+
+pl_jet* pl_jet_make(pl_arena* a, const pl_tape* tape, int lanes, int orders) { return make(a, tape, lanes, orders, false); }
+pl_jet* pl_jet_make_lean(pl_arena* a, const pl_tape* tape, int lanes, int orders) { return make(a, tape, lanes, orders, true); }
 
 static void fill(double* x, double value, int lanes) {
   for (int l = 0; l < lanes; l++) x[l] = value;

@@ -20,7 +20,8 @@ struct pl_jet {
   const pl_tape* tape;
   int lanes;                      // 1 or a multiple of 8 up to PL_JET_LANES
   int orders;                     // coefficients 0 .. orders - 1 have room
-  double* c;                      // (lanes x orders x n_nodes)
+  double* c;                      // the coefficients
+  size_t* at;                     // of each node: row of its order 0 in c, rows having `lanes` numbers
   const int* series[PL_N_LEVELS]; // series nodes of each level, those with .high first
   int n_series[PL_N_LEVELS], n_series_high[PL_N_LEVELS];
   pl_kernel* kernel;
@@ -28,10 +29,12 @@ struct pl_jet {
 
 // pl_jet_make reserves a jet and fills in the kernel of the interpreter.  Nothing is allocated later.
 pl_jet* pl_jet_make(pl_arena* a, const pl_tape* tape, int lanes, int orders);
+// The same with room for orders 0 and 1 only where the motion needs no more: then no order above 1 with `all`.
+pl_jet* pl_jet_make_lean(pl_arena* a, const pl_tape* tape, int lanes, int orders);
 
 // Coefficient k of a node, all its lanes.
 static inline double* pl_jet_at(const pl_jet* j, int node, int k) {
-  return j->c + ((size_t)node * (size_t)j->orders + (size_t)k) * (size_t)j->lanes;
+  return j->c + (j->at[node] + (size_t)k) * (size_t)j->lanes;
 }
 
 // pl_jet_constants computes everything of level CONST.  index[s * lanes + lane]: values of the index slots.

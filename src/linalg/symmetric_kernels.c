@@ -9,55 +9,60 @@
 #define PL_SYMMETRIC pl_symmetric_plain
 #endif
 #define INLINE static inline __attribute__((always_inline))
-#define LANES for (int l = 0; l < lanes; l++)
 #define EIGHT for (int l = 0; l < 8; l++)
 
 // ---------------------------------------------------------------------------------------------- elimination
-// Returns the smallest part of a pivot that elimination has left.
-INLINE double eliminate(pl_symmetric_front* f, int lanes) {
-  double *w = f->w, least[PL_SYMMETRIC_LANES], wrong[PL_SYMMETRIC_LANES];
-  const int* pair = f->pair;
-  LANES least[l] = 1, wrong[l] = 0;
-  for (int i = 0; i < f->m * lanes; i++) f->d[i] = w[i];
-  for (int k = 0; k < f->m; k++) {
-    double *d = w + k * lanes, *inverse = f->inverse + k * lanes;
-    const double* before = f->d + k * lanes;
-    LANES {
-      double size = fabs(before[l]), taken = fabs(before[l] - d[l]);
-      double part = fabs(d[l]) / (size > taken ? size : taken);
-      least[l] = part < least[l] ? part : least[l];
-      inverse[l] = 1 / d[l];
-      wrong[l] += 0 * inverse[l];    // not a number once an inverse is none
-    }
-    double* column = w + (size_t)(f->m + f->column[k]) * (size_t)lanes;
-    int n = f->column[k + 1] - f->column[k];
-    const int* to = pair + n * (n + 1) / 2;
-    pair = to;
-    for (int i = n - 1; i >= 0; i--) {
-      double L[PL_SYMMETRIC_LANES], *c = column + i * lanes;
-      to -= i + 1;
-      LANES L[l] = c[l] * inverse[l];
-      for (int j = 0; j <= i; j++) {
-        double *x = w + (size_t)to[j] * (size_t)lanes, *b = column + j * lanes;
-        LANES x[l] = __builtin_fma(-L[l], b[l], x[l]);
-      }
-      LANES c[l] = L[l];
-    }
-  }
-  double all = least[0];
-  LANES all = least[l] < all ? least[l] : all;
-  for (int l = 0; l < lanes; l++)
-    if (wrong[l] != 0) all = 0;
-  return all;
-}
+typedef double pl_eight __attribute__((vector_size(64), aligned(8), may_alias));
 
-static double eliminate_front(pl_symmetric_front* f) {
-  switch (f->lanes) {
-    case 8: return eliminate(f, 8);
-    case 16: return eliminate(f, 16);
-    case 32: return eliminate(f, 32);
-    default: return eliminate(f, 1);
+#define T double
+#define P 1
+#define NAME(x) x##_1
+#include "linalg/symmetric_loops.h"
+#undef T
+#undef P
+#undef NAME
+#define T pl_eight
+#define P 1
+#define NAME(x) x##_8
+#include "linalg/symmetric_loops.h"
+#undef P
+#undef NAME
+#define P 2
+#define NAME(x) x##_16
+#include "linalg/symmetric_loops.h"
+#undef P
+#undef NAME
+#define P 4
+#define NAME(x) x##_32
+#include "linalg/symmetric_loops.h"
+#undef T
+#undef P
+#undef NAME
+
+#define EACH_FRONT(f, what)       \
+  switch ((f)->lanes) {           \
+    case 8: what##_8(f); break;   \
+    case 16: what##_16(f); break; \
+    case 32: what##_32(f); break; \
+    default: what##_1(f); break;  \
   }
+
+static void forward_front(const pl_symmetric_front* f) { EACH_FRONT(f, forward) }
+static void backward_front(const pl_symmetric_front* f) { EACH_FRONT(f, backward) }
+
+// Returns the smallest part of a pivot that the subtractions have left.
+static double eliminate_front(pl_symmetric_front* f) {
+  int n = f->m * f->lanes;
+  double least = 1, wrong = 0;
+  memcpy(f->d, f->w, (size_t)n * sizeof *f->w);
+  EACH_FRONT(f, eliminate)
+  for (int i = 0; i < n; i++) {
+    double before = fabs(f->d[i]), taken = fabs(f->d[i] - f->w[i]), size = before > taken ? before : taken;
+    double part = fabs(f->w[i]);
+    if (part < least * size) least = part / size;
+    wrong += 0 * f->inverse[i];    // not a number once an inverse is none
+  }
+  return wrong == 0 ? least : 0;
 }
 
 static void fill_rows(pl_symmetric_rows* r, const double* value) {
@@ -96,81 +101,6 @@ static double factor(pl_symmetric* s, const double* value) {
 }
 
 // ---------------------------------------------------------------------------------------------- solve
-// y of the border's rows begins with what stands there.
-INLINE void forward(const pl_symmetric_front* f, int lanes) {
-  const double* L = f->w + (size_t)f->m * (size_t)lanes;
-  double *y = f->y, before[PL_SYMMETRIC_LANES];
-  LANES before[l] = 0;
-  for (int r = 0; r < f->m; r++) {
-    double acc[PL_SYMMETRIC_LANES], *to = y + r * lanes;
-    int i = f->row_start[r], end = f->row_start[r + 1];
-    bool last = end > i && f->row_column[end - 1] == r - 1;   // what has just been computed is still at hand
-    LANES acc[l] = to[l];
-    for (end -= last; i < end; i++) {
-      const double *x = y + (size_t)f->row_column[i] * (size_t)lanes, *c = L + (size_t)f->row_entry[i] * (size_t)lanes;
-      LANES acc[l] = __builtin_fma(-c[l], x[l], acc[l]);
-    }
-    if (last) {
-      const double* c = L + (size_t)f->row_entry[end] * (size_t)lanes;
-      LANES acc[l] = __builtin_fma(-c[l], before[l], acc[l]);
-    }
-    LANES before[l] = to[l] = acc[l];
-  }
-  for (int r = f->m; r < f->m + f->nb; r++) {
-    // two sums, because one waits for itself
-    double even[PL_SYMMETRIC_LANES], odd[PL_SYMMETRIC_LANES], *to = y + r * lanes;
-    LANES even[l] = to[l], odd[l] = 0;
-    int i = f->row_start[r], end = f->row_start[r + 1];
-    for (; i + 1 < end; i += 2) {
-      const double *x = y + (size_t)f->row_column[i] * (size_t)lanes, *c = L + (size_t)f->row_entry[i] * (size_t)lanes;
-      const double *x2 = y + (size_t)f->row_column[i + 1] * (size_t)lanes;
-      const double* c2 = L + (size_t)f->row_entry[i + 1] * (size_t)lanes;
-      LANES even[l] = __builtin_fma(-c[l], x[l], even[l]);
-      LANES odd[l] = __builtin_fma(-c2[l], x2[l], odd[l]);
-    }
-    if (i < end) {
-      const double *x = y + (size_t)f->row_column[i] * (size_t)lanes, *c = L + (size_t)f->row_entry[i] * (size_t)lanes;
-      LANES even[l] = __builtin_fma(-c[l], x[l], even[l]);
-    }
-    LANES to[l] = even[l] + odd[l];
-  }
-}
-
-INLINE void backward(const pl_symmetric_front* f, int lanes) {
-  const double* L = f->w + (size_t)f->m * (size_t)lanes;
-  double *y = f->y, before[PL_SYMMETRIC_LANES];
-  LANES before[l] = 0;
-  for (int k = f->m - 1; k >= 0; k--) {
-    double acc[PL_SYMMETRIC_LANES], *to = y + k * lanes;
-    const double* inverse = f->inverse + k * lanes;
-    int first = f->column[k], i = f->column[k + 1] - 1;
-    bool last = i >= first && f->row[first] == k + 1 && k + 1 < f->m;
-    LANES acc[l] = to[l] * inverse[l];
-    for (first += last; i >= first; i--) {
-      const double *x = y + (size_t)f->row[i] * (size_t)lanes, *c = L + (size_t)i * (size_t)lanes;
-      LANES acc[l] = __builtin_fma(-c[l], x[l], acc[l]);
-    }
-    if (last) {
-      const double* c = L + (size_t)i * (size_t)lanes;
-      LANES acc[l] = __builtin_fma(-c[l], before[l], acc[l]);
-    }
-    LANES before[l] = to[l] = acc[l];
-  }
-}
-
-#define EACH_FRONT(f, what)         \
-  switch ((f)->lanes) {             \
-    case 8: what(f, 8); break;      \
-    case 16: what(f, 16); break;    \
-    case 32: what(f, 32); break;    \
-    default: what(f, 1); break;     \
-  }
-
-static void forward_front(const pl_symmetric_front* f) { EACH_FRONT(f, forward) }
-static void backward_front(const pl_symmetric_front* f) { EACH_FRONT(f, backward) }
-
-typedef double pl_eight __attribute__((vector_size(64), aligned(8), may_alias));
-
 // The sums of a group of rows.
 INLINE void rows_times(const pl_symmetric_rows* r, int g, const double* x, double* restrict to) {
   pl_eight sum = {0};

@@ -102,8 +102,8 @@ static void tail(double* s, const double* x, const double* y, int k, int lanes) 
     for (int l = 0; l < lanes; l++) s[l] += x[j * lanes + l] * y[(k - j) * lanes + l];
 }
 
-static const double* slot_series(const pl_batch* b, const double* series, int slot) {
-  return series + (size_t)slot * (size_t)b->orders * (size_t)b->lanes;
+static const double* v_of_slot(const pl_batch* b, int slot) {
+  return b->v + (size_t)slot * (size_t)(b->all_v ? b->orders : 1) * (size_t)b->lanes;
 }
 
 void pl_assemble_rhs(pl_run* run, int k, double* rhs) {
@@ -120,7 +120,7 @@ void pl_assemble_speed(pl_run* run, int k, double* speed) {
       const pl_pattern_entry* g = &b->pattern->G[e];
       int node = node_of(b, g->root);
       if (!run->setup->links[b->c[g->row * b->lanes]].rub) continue;
-      const double *x = coefficient(b, node, 0), *v = slot_series(b, b->v, g->col);
+      const double *x = coefficient(b, node, 0), *v = v_of_slot(b, g->col);
       if (is_constant(b, node)) LANES(b) s[l] = 0;
       else tail(s, x, v, k, b->lanes);
       LANES(b) speed[b->c[g->row * b->lanes + l]] += s[l] + x[l] * v[k * b->lanes + l];
@@ -149,7 +149,7 @@ void pl_assemble_second(pl_run* run, const double* a, double* second, double* si
     for (int e = 0; e < b->pattern->n_G; e++) {
       const pl_pattern_entry* g = &b->pattern->G[e];
       int node = node_of(b, g->root);
-      const double *x = coefficient(b, node, 0), *v = slot_series(b, b->v, g->col);
+      const double *x = coefficient(b, node, 0), *v = v_of_slot(b, g->col);
       const double* slope = is_constant(b, node) ? NULL : coefficient(b, node, 1);
       LANES(b) {
         int c = b->c[g->row * b->lanes + l];

@@ -88,21 +88,26 @@ static void find_needs(pl_arena* a, pl_batch* b) {
       b->needs_a[p->mass[e].row] = b->needs_a[p->mass[e].col] = true;
 }
 
-static void make_batch(pl_arena* a, pl_batch* b, const pl_pattern* p, int first, int n, int lanes, int orders) {
-  size_t series = (size_t)orders * (size_t)lanes;
-  *b = (pl_batch){.pattern = p, .lanes = lanes, .n = n, .orders = orders};
-  b->jet = pl_jet_make(a, p->tape, lanes, orders);
+static double* series_of(pl_arena* a, const pl_batch* b, int slots, bool all) {
+  return PL_ARRAY(a, double, (size_t)slots * (size_t)(all ? b->orders : 1) * (size_t)b->lanes + 1);
+}
+
+static void make_batch(pl_arena* a, pl_batch* b, const pl_pattern* p, int first, int n, int lanes, int orders, bool lean) {
+  *b = (pl_batch){.pattern = p, .lanes = lanes, .n = n, .orders = orders, .all_v = !lean};
+  b->jet = (lean ? pl_jet_make_lean : pl_jet_make)(a, p->tape, lanes, orders);
   b->q = spread(a, p->q, p->n_q, first, n, lanes);
   b->c = spread(a, p->c, p->n_c, first, n, lanes);
   b->out = spread(a, p->out, p->n_outputs, first, n, lanes);
-  b->v = PL_ARRAY(a, double, series * (size_t)p->n_q + 1);
-  b->a = PL_ARRAY(a, double, series * (size_t)p->n_q + 1);
-  b->lambda = PL_ARRAY(a, double, series * (size_t)p->n_c + 1);
   b->q_run = find_runs(a, b->q, p->n_q, n, lanes);
   b->c_run = find_runs(a, b->c, p->n_c, n, lanes);
   set_constants(a, b, first);
   find_needs(a, b);
   find_bundles(a, b);
+  bool any_a = false;
+  for (int s = 0; s < p->n_q; s++) any_a |= b->needs_a[s];
+  b->v = series_of(a, b, p->n_q, b->all_v);
+  b->a = series_of(a, b, p->n_q, any_a);
+  b->lambda = series_of(a, b, p->n_c, true);
 }
 
 static bool in_range(const int* index, size_t n, int limit) {
@@ -145,7 +150,7 @@ pleuel_status pl_batches_make(pl_job* job, pl_batches* b, const pl_pattern* patt
     int lanes = lanes_for(patterns[i].n);
     for (int first = 0; first < patterns[i].n; first += lanes) {
       int left = patterns[i].n - first;
-      make_batch(job->arena, &b->at[b->n++], &patterns[i], first, left < lanes ? left : lanes, lanes, orders);
+      make_batch(job->arena, &b->at[b->n++], &patterns[i], first, left < lanes ? left : lanes, lanes, orders, b->lean);
     }
   }
   return PLEUEL_OK;

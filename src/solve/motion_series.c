@@ -74,8 +74,8 @@ static void solve_order(pl_run* run, int k) {
   pl_batches* m = &run->motion;
   int n = run->n_q;
   double* q_next = run->Q + (size_t)(k + 1) * (size_t)n;
-  const double* v = run->V + (size_t)k * (size_t)n;
-  pl_orders_here()->over(q_next, v, k + 1, n);
+  // from order 1 on it came with v
+  if (k == 0) pl_orders_here()->over(q_next, run->V, 1, n);
   pl_batches_load_q(m, q_next, k + 1);
   // all: where a landing is watched, g itself is needed to all orders
   bool all = run->watch_landings;

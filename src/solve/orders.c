@@ -24,7 +24,6 @@ extern const pl_orders PL_ORDERS;
 #endif
 #define INLINE static inline __attribute__((always_inline))
 #define EACH(n) APART for (int l = 0; l < (n); l++)
-#define BLOCK APART for (int l = first; l < first + block; l++)
 
 static const double* coefficient(const pl_batch* b, int node, int k) { return pl_jet_at(b->jet, node, k); }
 static int node_of(const pl_batch* b, int root) { return b->pattern->tape->roots[root]; }
@@ -32,6 +31,10 @@ static bool is_constant(const pl_batch* b, int node) { return node < b->pattern-
 
 static double* series_at(const pl_batch* b, double* series, int slot, int k) {
   return series + ((size_t)slot * (size_t)b->orders + (size_t)k) * (size_t)b->lanes;
+}
+
+static double* v_of_slot(const pl_batch* b, int slot, int k) {
+  return b->all_v ? series_at(b, b->v, slot, k) : b->v + (size_t)slot * (size_t)b->lanes;
 }
 
 // ---------------------------------------------------------------------------------------------- loading
@@ -83,7 +86,8 @@ static void load(pl_batches* bs, pl_quantity what, const double* x, int k) {
     int slots = what == PL_IS_LAMBDA ? p->n_c : p->n_q;
     for (int s = 0; s < slots; s++) {
       const int* at = index + s * b->lanes;
-      if (series && (needs == NULL || needs[s]) && (what != PL_IS_V || k == 0 || b->slips)) gather(series_at(b, series, s, k), x, at, run[s], b->n, b->lanes);
+      if (series && (needs == NULL || needs[s]) && (what != PL_IS_V || k == 0 || b->all_v))
+        gather(what == PL_IS_V ? v_of_slot(b, s, k) : series_at(b, series, s, k), x, at, run[s], b->n, b->lanes);
       if (node[s] >= 0) gather(pl_jet_at(b->jet, node[s], k), x, at, run[s], b->n, b->lanes);
     }
     if (what == PL_IS_V) load_bundles(b, x, k);
@@ -106,37 +110,42 @@ static void spread_c(const pl_run* run, const pl_batch* b, double* rhs, const do
 }
 
 // ---------------------------------------------------------------------------------------------- sums
-// s = sum_{j=1..k} x_j y_{k-j}
-INLINE void tail_in_blocks(double* restrict s, const double* x, const double* y, int k, int lanes, int block) {
-  for (int first = 0; first < lanes; first += block) {
-    double sum[8] = {0};
-    for (int j = 1; j <= k; j++) BLOCK sum[l - first] += x[j * lanes + l] * y[(k - j) * lanes + l];
-    BLOCK s[l] = sum[l - first];
-  }
-}
+typedef double pl_eight __attribute__((vector_size(64), aligned(8), may_alias));
+#define AT(x, row) (*(const pl_eight*)((x) + (size_t)(row) * (size_t)lanes))
 
+// s = sum_{j=1..k} x_j y_{k-j}
 static void tail(double* s, const double* x, const double* y, int k, int lanes) {
-  if (lanes == 1) tail_in_blocks(s, x, y, k, 1, 1);
-  else tail_in_blocks(s, x, y, k, lanes, 8);
+  if (lanes == 1) {
+    s[0] = 0;
+    for (int j = 1; j <= k; j++) s[0] += x[j] * y[k - j];
+    return;
+  }
+  for (int first = 0; first < lanes; first += 8) {
+    pl_eight sum = {0};
+    for (int j = 1; j <= k; j++) sum += AT(x + first, j) * AT(y + first, k - j);
+    *(pl_eight*)(s + first) = sum;
+  }
 }
 
 // with_v = sum_{j=1..k+1} u_j v_{k+1-j},  with_lambda = sum_{j=1..k} u_j λ_{k-j}
-INLINE void bundle_in_blocks(double* restrict with_v, double* restrict with_lambda, const double* u, const double* v,
-                           const double* lambda, int k, int lanes, int block) {
-  for (int first = 0; first < lanes; first += block) {
-    double sum[8] = {0}, other[8] = {0};
-    for (int j = 1; j <= k; j++) {
-      BLOCK sum[l - first] += u[j * lanes + l] * v[(k + 1 - j) * lanes + l];
-      BLOCK other[l - first] += u[j * lanes + l] * lambda[(k - j) * lanes + l];
-    }
-    BLOCK with_v[l] = sum[l - first] + u[(k + 1) * lanes + l] * v[l];
-    BLOCK with_lambda[l] = other[l - first];
-  }
-}
-
 static void bundle_sums(double* with_v, double* with_lambda, const double* u, const double* v, const double* lambda, int k, int lanes) {
-  if (lanes == 1) bundle_in_blocks(with_v, with_lambda, u, v, lambda, k, 1, 1);
-  else bundle_in_blocks(with_v, with_lambda, u, v, lambda, k, lanes, 8);
+  if (lanes == 1) {
+    double sum = 0, other = 0;
+    for (int j = 1; j <= k; j++) sum += u[j] * v[k + 1 - j], other += u[j] * lambda[k - j];
+    *with_v = sum + u[k + 1] * v[0], *with_lambda = other;
+    return;
+  }
+  for (int first = 0; first < lanes; first += 8) {
+    const double *a = u + first, *b = v + first, *c = lambda + first;
+    pl_eight sum = {0}, other = {0};
+    for (int j = 1; j <= k; j++) {
+      pl_eight x = AT(a, j);
+      sum += x * AT(b, k + 1 - j);
+      other += x * AT(c, k - j);
+    }
+    *(pl_eight*)(with_v + first) = sum + AT(a, k + 1) * AT(b, 0);
+    *(pl_eight*)(with_lambda + first) = other;
+  }
 }
 
 // ---------------------------------------------------------------------------------------------- right-hand side
@@ -223,17 +232,30 @@ static void rhs_of(pl_run* run, int k, double* rhs) {
 
 // ---------------------------------------------------------------------------------------------- coefficients
 // x / k is x times the rounded 1 / k and the rest of it.
+typedef struct pl_ratio_of { double ratio, rest; } pl_ratio_of;
+INLINE pl_ratio_of one_over(int k) {
+  double ratio = 1.0 / k;
+  return (pl_ratio_of){ratio, __builtin_fma(-ratio, k, 1) * ratio};
+}
+#define TIMES(x, r) __builtin_fma((x), (r).ratio, (x) * (r).rest)
+
 static void over(double* restrict to, const double* restrict from, int by, int n) {
-  double ratio = 1.0 / by, rest = __builtin_fma(-ratio, by, 1) * ratio;
-  EACH(n) to[l] = __builtin_fma(from[l], ratio, from[l] * rest);
+  pl_ratio_of r = one_over(by);
+  EACH(n) to[l] = TIMES(from[l], r);
 }
 
+// a_k from the solution; with it v_{k+1} and q_{k+2}.
 static void take(pl_run* run, int k) {
-  double* restrict a = run->A + (size_t)k * (size_t)run->n_q;
-  double* restrict lambda = run->L + (size_t)k * (size_t)run->n_c;
-  const double *restrict x = run->rhs, *restrict y = run->rhs + run->n_q;
-  EACH(run->n_q) a[l] = x[l];
-  over(run->V + (size_t)(k + 1) * (size_t)run->n_q, a, k + 1, run->n_q);
+  int n = run->n_q;
+  double *restrict a = run->A + (size_t)k * (size_t)n, *restrict v = run->V + (size_t)(k + 1) * (size_t)n;
+  double *restrict q = run->Q + (size_t)(k + 2) * (size_t)n, *restrict lambda = run->L + (size_t)k * (size_t)run->n_c;
+  const double *restrict x = run->rhs, *restrict y = run->rhs + n;
+  pl_ratio_of r = one_over(k + 1), s = one_over(k + 2);
+  EACH(n) {
+    a[l] = x[l];
+    v[l] = TIMES(x[l], r);
+    q[l] = TIMES(v[l], s);
+  }
   if (run->rests) {
     for (int c = 0; c < run->n_c; c++) lambda[c] = run->taken[c] || run->rubs[c] ? -y[c] : 0;
   } else {
@@ -352,7 +374,7 @@ static void gdot_of(pl_run* run, double* r, double* size) {
     const pl_batch* b = &run->motion.at[i];
     for (int e = 0; e < b->pattern->n_G; e++) {
       const pl_pattern_entry* g = &b->pattern->G[e];
-      const double *x = coefficient(b, node_of(b, g->root), 0), *v = series_at(b, b->v, g->col, 0);
+      const double *x = coefficient(b, node_of(b, g->root), 0), *v = v_of_slot(b, g->col, 0);
       EACH(b->lanes) s[l] = x[l] * v[l];
       spread(r, s, 1, b->c + g->row * b->lanes, b->c_run[g->row], b->n);
     }

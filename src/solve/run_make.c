@@ -198,6 +198,8 @@ static void reserve_rows(pl_run* run) {
 static pleuel_status reserve_batches(pl_run* run) {
   const pl_setup* s = run->setup;
   int n_q = s->n_q, n_c = s->n_c;
+  run->motion.lean = s->n_rubs == 0;
+  for (int c = 0; c < n_c; c++) run->motion.lean &= s->links[c].side == 0;
   PL_TRY(pl_batches_make(run->job, &run->motion, s->patterns, s->n_patterns, run->order + 2, n_q, n_c, INT32_MAX));
   PL_TRY(pl_batches_make(run->job, &run->observers, s->observers, s->n_observers, 1, n_q + 3 * s->n_turns, n_c, s->n_out));
   PL_TRY(
@@ -213,7 +215,6 @@ static pleuel_status check_rows(pl_run* run) {
     const pl_batch* b = &run->motion.at[i];
     const pl_pattern* p = b->pattern;
     run->has_W |= p->n_W > 0;
-    run->motion.at[i].slips = run->setup->n_rubs > 0;
     for (int e = 0; e < p->n_mass; e++)
       run->mass_of_speed |= p->tape->roots[p->mass[e].root] >= p->tape->level_end[PL_LEVEL_PLACE];
     for (int e = 0; e < p->n_g; e++)

@@ -27,11 +27,11 @@ typedef struct pl_batch {
   pl_jet* jet;
   int lanes, n;
   int *q, *c, *out;        // global index of slot s in lane l: q[s * lanes + l]
-  double *v, *a, *lambda;  // series of each slot, lane fastest: v[(s * orders + k) * lanes + l]
+  double *v, *a, *lambda;  // series of each slot, lane fastest: v[(s * orders + k) * lanes + l]; v only v[s * lanes + l] without all_v
   int orders;              // room for coefficients 0 .. orders-1 of v, a, λ
   int *q_run, *c_run;      // of a slot whose indices follow each other: the first; else -1
   bool *needs_v, *needs_a; // some series has to do with this slot                          (n_q)
-  bool slips;              // orders of v are read slot by slot: friction
+  bool all_v;              // all orders of v are kept slot by slot, which slip reads
   pl_bundle* bundles;
   int n_bundles, *bundle_q;   // slots of coordinates
   double* bundle_factor;   // multiples of u, by lanes
@@ -39,7 +39,11 @@ typedef struct pl_batch {
   int *at_mass, *at_mass_t, *at_G, *at_Gt, *at_W;   // places in the values of the linear system, per entry and lane
 } pl_batch;
 
-typedef struct pl_batches { pl_batch* at; int n; } pl_batches;
+typedef struct pl_batches {
+  pl_batch* at;
+  int n;
+  bool lean;               // said before they are made: no contacts, no friction
+} pl_batches;
 
 // The linear system of a point: [M G^T + W; G 0] [a; -λ] = r.  Rows of constraints not used hold 1 on the diagonal.
 typedef struct pl_kkt {
