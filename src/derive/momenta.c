@@ -22,7 +22,49 @@ static bool displace(pl_analysis* d, pl_symmetry* s, pl_expr coordinate, pl_expr
   return pl_alg_is_zero(d->tower, pl_sub(d->pool, s->eta[i], e)) == PL_YES;
 }
 
-// axis < 0: a turn about axis -1 - axis, (first, second) -> (-second, first).  Angles of bodies turn along in the plane.
+// A turn about an axis displaces the axes of a body in space: its quaternion by n q/2, its vectors by n x e, and Euler angles so
+// that their rates give the angular velocity n.
+static void turn_of_axes(pl_analysis* d, const pl_spatial* b, int about, pl_expr* e) {
+  pl_pool* p = d->pool;
+  pl_expr zero = pl_int(p, 0), n[3] = {zero, zero, zero};
+  int first = (about + 1) % 3, second = (about + 2) % 3;
+  n[about] = pl_int(p, 1);
+  if (b->form == PL_AXES_QUATERNION) {
+    const pl_expr *q = b->axes, half = pl_ratio(p, 1, 2);
+    e[0] = pl_neg(p, pl_mul(p, half, q[1 + about]));
+    e[1 + about] = pl_mul(p, half, q[0]);
+    e[1 + first] = pl_neg(p, pl_mul(p, half, q[1 + second]));
+    e[1 + second] = pl_mul(p, half, q[1 + first]);
+  } else if (b->form == PL_AXES_VECTORS) {
+    for (int k = 0; k < 3; k++) {
+      e[3 * k + about] = zero;
+      e[3 * k + first] = pl_neg(p, b->axes[3 * k + second]);
+      e[3 * k + second] = b->axes[3 * k + first];
+    }
+  } else {
+    pl_expr c = pl_call(p, PL_COS, b->axes[0]), z = pl_call(p, PL_SIN, b->axes[0]);
+    pl_expr across = pl_sub(p, pl_mul(p, z, n[0]), pl_mul(p, c, n[1]));
+    e[1] = pl_add(p, pl_mul(p, c, n[0]), pl_mul(p, z, n[1]));
+    e[2] = pl_div(p, across, pl_call(p, PL_SIN, b->axes[1]));
+    e[0] = pl_sub(p, n[2], pl_mul(p, pl_call(p, PL_COS, b->axes[1]), e[2]));
+  }
+}
+
+static bool turn_bodies(pl_analysis* d, pl_symmetry* s, int about) {
+  for (int k = 0; k < d->model->spatials.n; k++) {
+    const pl_spatial* b = &d->model->spatials.at[k];
+    int n = b->form == PL_AXES_QUATERNION ? 4 : b->form == PL_AXES_VECTORS ? 9 : 3;
+    pl_expr e[9];
+    turn_of_axes(d, b, about, e);
+    for (int j = 0; j < n; j++) {
+      bool symbol = pl_kind_of(d->pool, b->axes[j]) == PL_SYMBOL && pl_variable_index(d, pl_symbol_of(d->pool, b->axes[j])) >= 0;
+      if (symbol ? !displace(d, s, b->axes[j], e[j]) : pl_alg_is_zero(d->tower, e[j]) != PL_YES) return false;
+    }
+  }
+  return true;
+}
+
+// axis < 0: a turn about axis -1 - axis, (first, second) -> (-second, first).  Bodies turn along.
 static bool displacement(pl_analysis* d, pl_symmetry* s, int axis) {
   int first = axis < 0 ? (-axis) % 3 : axis, second = (first + 1) % 3;
   bool turn = axis < 0;
@@ -38,6 +80,7 @@ static bool displacement(pl_analysis* d, pl_symmetry* s, int axis) {
     }
     if (!pl_is_poison(m->angle) && !displace(d, s, m->angle, pl_int(d->pool, turn))) return false;
   }
+  if (turn && !turn_bodies(d, s, -1 - axis)) return false;
   for (int i = 0; i < d->q.n; i++) {
     if (pl_is_poison(s->eta[i])) s->eta[i] = pl_int(d->pool, 0);
   }
@@ -59,20 +102,44 @@ static void find_residuals(pl_analysis* d, pl_symmetry* s) {
   for (int k = 0; k < 2 + d->g.n; k++) s->residual[k] = pl_alg_normal(d->tower, s->residual[k]);
 }
 
-static bool vanishes(pl_analysis* d, const pl_symmetry* s) {
-  for (int k = 0; k < 2 + d->g.n; k++) {
-    if (pl_is_poison(s->residual[k]) || pl_alg_is_zero(d->tower, s->residual[k]) != PL_YES) return false;
-  }
-  return true;
-}
-
 // e with small numbers for the coordinates and velocities, the same ones for each e.
 static pl_expr at_point(pl_analysis* d, pl_expr e, int point) {
+  pl_random r = {(uint64_t)point + 1};
   for (int i = 0; i < d->q.n; i++) {
-    e = pl_subst1(d->pool, e, d->q.at[i].q, pl_ratio(d->pool, 2 + 3 * i + 5 * point, 3 + 2 * point));
-    e = pl_subst1(d->pool, e, d->q.at[i].v, pl_ratio(d->pool, 3 + 2 * i + 7 * point, 5));
+    long of_q = 1 + (long)(pl_random_bits(&r) % 17), of_v = 1 + (long)(pl_random_bits(&r) % 17);
+    e = pl_subst1(d->pool, e, d->q.at[i].q, pl_ratio(d->pool, of_q, 7));
+    e = pl_subst1(d->pool, e, d->q.at[i].v, pl_ratio(d->pool, of_v, 5));
   }
   return e;
+}
+
+// A constraint may turn into others (x = h e_x into y = h e_y): its change is then a sum of constraints with constant
+// coefficients, which follow from as many points as there are constraints, and is zero where these hold.
+static bool follows(pl_analysis* d, pl_expr change) {
+  enum { most = 10 };
+  pl_pool* p = d->pool;
+  int n = d->g.n;
+  if (n == 0 || n > most) return false;
+  pl_expr A[most * most] = {0}, b[most] = {0}, c[most];
+  for (int i = 0; i < n; i++) {
+    for (int k = 0; k < n; k++) A[i * n + k] = pl_alg_normal(d->tower, at_point(d, d->g.at[k].g, i));
+    b[i] = pl_alg_normal(d->tower, at_point(d, change, i));
+  }
+  if (pl_alg_solve(d->tower, n, A, b, c, 400) != PL_YES) return false;
+  for (int k = 0; k < n; k++) {
+    if (pl_has_coordinates(d, c[k]) || pl_has_symbol(p, c[k], pl_time(p))) return false;
+    change = pl_sub(p, change, pl_mul(p, c[k], d->g.at[k].g));
+  }
+  return pl_alg_is_zero(d->tower, change) == PL_YES;
+}
+
+static bool vanishes(pl_analysis* d, const pl_symmetry* s) {
+  for (int k = 0; k < 2 + d->g.n; k++) {
+    pl_expr r = s->residual[k];
+    if (pl_is_poison(r)) return false;
+    if (pl_alg_is_zero(d->tower, r) != PL_YES && (k < 2 || !follows(d, r))) return false;
+  }
+  return true;
 }
 
 enum { most_rows = 16 };
@@ -152,7 +219,10 @@ static void tell(pl_analysis* d, const pl_symmetry* s, const char* name, const c
   v->conserved = 1;
   v->because[0] = "symmetry of the whole system (Noether)";
   v->because[1] = "Symmetrie des ganzen Systems (Noether)";
-  pl_claim_that(d, PL_CLAIM_MOTION, pl_dt(d->pool, pl_form_value(d->pool, form)), pl_int(d->pool, 0));
+  // dI/dt = sum of λ times the changes of the constraints, which vanish where these hold
+  pl_expr rate = pl_int(d->pool, 0);
+  for (int k = 0; k < d->g.n; k++) rate = pl_add(d->pool, rate, pl_mul(d->pool, pl_sym(d->pool, d->g.at[k].lambda), s->residual[2 + k]));
+  pl_claim_that(d, PL_CLAIM_MOTION, pl_dt(d->pool, pl_form_value(d->pool, form)), rate);
 }
 
 static void tell_shift(pl_analysis* d, const pl_symmetry* s, int axis) {

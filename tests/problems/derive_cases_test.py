@@ -489,5 +489,33 @@ def _(program):
             same(at(expr, **{**number, **names, "t": t}), runge_kutta(slope_of, start, t)[0], f"{name} at {t}")
 
 
+@test("the angular momentum of a body in space counts its turning, in quaternion and axes alike")
+def _(program):
+    q = [0.8, 0.2, -0.4, 0.4]
+    omega = [0.7, -1.1, 0.3]
+    a, b, c, d = q
+    turn = [[1 - 2 * (c * c + d * d), 2 * (b * c - a * d), 2 * (b * d + a * c)],
+            [2 * (b * c + a * d), 1 - 2 * (b * b + d * d), 2 * (c * d - a * b)],
+            [2 * (b * d - a * c), 2 * (c * d + a * b), 1 - 2 * (b * b + c * c)]]
+    cross = lambda u, v: [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]   # noqa: E731
+    columns = [[row[k] for row in turn] for k in range(3)]
+    m, h, moments = 1.3, 0.3, (0.2, 0.2, 0.1)
+    place = [h * e for e in columns[2]]
+    velocity = cross(omega, place)
+    spin = sum(moments[k] * sum(w * e for w, e in zip(omega, columns[k])) * columns[k][2] for k in range(3))
+    expected = m * cross(place, velocity)[2] + spin
+    names = dict(zip("xyz", place), m=m, h=h, g=9.81, **dict(zip("abcd", q)))
+    names.update(zip(("x_dot", "y_dot", "z_dot"), velocity))
+    rates = [-sum(w * e for w, e in zip(omega, q[1:])) / 2] + [(a * w + e) / 2 for w, e in zip(omega, cross(omega, q[1:]))]
+    names.update(zip(("a_dot", "b_dot", "c_dot", "d_dot"), rates))
+    for letter, e in zip("uvw", columns):
+        names.update({f"{letter}{i + 1}": e[i] for i in range(3)})
+        names.update({f"{letter}{i + 1}_dot": x for i, x in enumerate(cross(omega, e))})
+    for name in ("top_quaternion", "top_axes"):
+        answer = case(program, name)
+        need(all(check["passed"] for check in answer.document["checks"]), f"own checks of {name}")
+        same(at(answer.value("L_z")["expr"], **names), expected, f"L_z of {name}")
+
+
 if __name__ == "__main__":
     sys.exit(test.main(program_of(sys.argv)))
