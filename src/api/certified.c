@@ -12,6 +12,17 @@ enum { MOST_TIMES = 4000 };
 static const double width_wanted = 1e-18;
 
 // ---------------------------------------------------------------------------------------------- refusals
+// Contacts that let go, events that record, stop, or release a two-sided constraint.
+static bool is_followed(const pl_setup* s, const pl_event_deed* d) {
+  return d->deed == PL_DEED_RECORD || d->deed == PL_DEED_STOP || (d->deed == PL_DEED_RELEASE && s->links[d->target].side == 0);
+}
+
+static bool changes_mode(const pl_setup* s) {
+  for (int c = 0; c < s->n_c; c++)
+    if (s->links[c].side != 0) return true;
+  return s->n_events > 0;
+}
+
 static pl_certify_refusal refusal_of(const pleuel_model* m, const char** name) {
   const pl_setup* s = &m->recording->setup;
   if (m->recording->n_directions > 0) return PL_REFUSED_SENSITIVITIES;
@@ -20,14 +31,9 @@ static pl_certify_refusal refusal_of(const pleuel_model* m, const char** name) {
     *name = s->rubs[0].name;
     return PL_REFUSED_FRICTION;
   }
-  for (int c = 0; c < s->n_c; c++) {
-    if (s->links[c].side == 0 && s->links[c].contact < 0) continue;
-    *name = s->links[c].name;
-    return PL_REFUSED_CONTACT;
-  }
   for (int i = 0; i < s->n_events; i++) {
     for (int k = 0; k < s->events[i].n_deeds; k++) {
-      if (s->events[i].deeds[k].deed == PL_DEED_RECORD) continue;
+      if (is_followed(s, &s->events[i].deeds[k])) continue;
       *name = s->events[i].name;
       return PL_REFUSED_EVENT;
     }
@@ -164,15 +170,52 @@ static void fill_time(const pleuel_model* m, const pl_certified* proof, int time
   }
 }
 
-static void fill(pleuel_model* m, pl_certificate_of_run* c, const pl_certified* proof, const pl_expr* times) {
+static void fill_rows(pleuel_model* m, pl_certificate_of_run* c, const pl_certified* proof, const pl_expr* times) {
   size_t width = (size_t)(2 * c->n_q + c->n_c);
+  const pl_result* r = m->result;
   const double* value = pl_model_values(m->model, m->arena);
   double span = pl_eval(m->model->pool, times[c->n_times - 1], value) - m->recording->t_0;
   c->time = PL_ARRAY(m->arena, double, c->n_times + 1);
   c->value = PL_ARRAY(m->arena, pl_certified_value, width * (size_t)proof->n_done + 1);
-  for (int i = 0; i < c->n_times; i++) c->time[i] = pl_eval(m->model->pool, times[i], value);
-  for (int i = 0; i < proof->n_done; i++)
-    fill_time(m, proof, i, row_at(m->result, c->time[i], span), c->value + width * (size_t)i);
+  for (int i = 0; i < proof->n_done; i++) {
+    bool stop = proof->stopped && i == proof->n_done - 1;
+    c->time[i] = stop ? r->rows.at[r->rows.n - 1][0] : pl_eval(m->model->pool, times[i], value);
+    fill_time(m, proof, i, stop ? r->rows.at[r->rows.n - 1] : row_at(r, c->time[i], span), c->value + width * (size_t)i);
+  }
+}
+
+// The event of the run that a proved one is compared with: the nearest of this name and kind.
+static bool is_same(const pl_setup* s, const pl_happening* h, const pl_result_event* e) {
+  static const pl_event_kind of_contact[] = {PL_EV_RELEASE, PL_EV_SLACK}, of_impact[] = {PL_EV_IMPACT, PL_EV_CONTACT, PL_EV_TAUT},
+                             of_event[] = {PL_EV_EVENT, PL_EV_STOP};
+  bool named = h->kind == PL_HAPPENED_EVENT || h->kind == PL_HAPPENED_STOP;
+  const pl_event_kind* kinds = named ? of_event : h->kind == PL_HAPPENED_RELEASE ? of_contact : of_impact;
+  int n = h->kind == PL_HAPPENED_IMPACT ? 3 : 2;
+  bool kind = false;
+  for (int i = 0; i < n; i++) kind |= e->kind == kinds[i];
+  const char* name = named ? s->events[h->index].name : s->links[h->index].name;
+  return kind && e->label && strcmp(e->label, name) == 0;
+}
+
+static void fill_happenings(pleuel_model* m, pl_certificate_of_run* c, const pl_certified* proof) {
+  const pl_setup* s = &m->recording->setup;
+  c->happened = PL_ARRAY(m->arena, pl_certified_value, proof->n_happened + 1);
+  c->state = PL_ARRAY(m->arena, pl_certified_value, (size_t)proof->n_happened * 2 * (size_t)c->n_q + 1);
+  for (int i = 0; i < proof->n_happened; i++) {
+    pl_certified_value* v = &c->happened[i];
+    *v = (pl_certified_value){.error = (double)NAN, .least = (double)NAN};
+    v->text = pl_certified_time(proof, m->arena, i, &v->radius);
+    for (int k = 0; k < 2 * c->n_q; k++) {
+      pl_certified_value* x = &c->state[(size_t)i * 2 * (size_t)c->n_q + (size_t)k];
+      *x = (pl_certified_value){.error = (double)NAN, .least = (double)NAN};
+      x->text = pl_certified_state(proof, m->arena, i, k < c->n_q ? PL_CERTIFY_Q : PL_CERTIFY_V, k % c->n_q, &x->radius);
+    }
+    for (int k = 0; k < m->result->events.n; k++) {
+      if (!is_same(s, &proof->happened[i], &m->result->events.at[k])) continue;
+      double off = pl_certified_time_error(proof, i, m->result->events.at[k].t);
+      if (!(off >= v->error)) v->error = off;
+    }
+  }
 }
 
 // ---------------------------------------------------------------------------------------------- all
@@ -193,6 +236,10 @@ static pleuel_status prove(pleuel_model* m, const pleuel_sim_options* o, pl_cert
   problem.t_0 = m->model->simulate.given && !pl_is_poison(m->model->simulate.from) ? m->model->simulate.from : pl_int(p, 0);
   problem.times = times_of(m, o, problem.t_0, &problem.n_times, &c->refusal);
   if (c->refusal != PL_CERTIFY_TRIED) return PLEUEL_OK;
+  if ((o->has_until ? o->until : r->t_end) < r->t_0 && changes_mode(&r->setup)) {
+    c->refusal = PL_REFUSED_BACKWARD;
+    return PLEUEL_OK;
+  }
   c->n_times = problem.n_times;
   find_implied(m, c);
   pl_expr *q = PL_ARRAY(m->arena, pl_expr, c->n_q + 1), *v = PL_ARRAY(m->arena, pl_expr, c->n_q + 1);
@@ -207,7 +254,8 @@ static pleuel_status prove(pleuel_model* m, const pleuel_sim_options* o, pl_cert
   pl_certify_watcher w = {o, r->t_0};
   if (o->progress) problem.progress = watch, problem.progress_user = &w;
   PL_TRY(pl_certify_motion(&m->job, &problem, &c->proof));
-  fill(m, c, &c->proof, problem.times);
+  fill_rows(m, c, &c->proof, problem.times);
+  fill_happenings(m, c, &c->proof);
   pl_certified_free(&c->proof);
   return PLEUEL_OK;
 }

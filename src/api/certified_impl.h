@@ -9,13 +9,12 @@
 typedef enum pl_certify_refusal {
   PL_CERTIFY_TRIED,
   PL_REFUSED_RUN,            // the run itself did not reach its end
-  PL_REFUSED_CONTACT,        // one-sided constraints
   PL_REFUSED_FRICTION,
-  PL_REFUSED_EVENT,          // events that change or end the motion
+  PL_REFUSED_EVENT,          // events that change the motion otherwise than by releasing a constraint
+  PL_REFUSED_BACKWARD,       // contacts or events, backwards in time
   PL_REFUSED_TURN,           // attitudes integrated as quaternions
   PL_REFUSED_SENSITIVITIES,
   PL_REFUSED_ROWS,           // too many rows
-  PL_REFUSED_TIME,           // the times are not exact
   PL_N_REFUSALS
 } pl_certify_refusal;
 
@@ -32,6 +31,8 @@ typedef struct pl_certificate_of_run {
   int n_q, n_c, n_times;     // times: that were asked for
   double* time;              // rounded                                   (n_times)
   pl_certified_value* value; // q, v, λ of each time done   (n_done x (2 n_q + n_c))
+  pl_certified_value* happened;   // times of what happened           (n_happened)
+  pl_certified_value* state;      // q, v then                        (n_happened x 2 n_q)
   // the start of the run
   double *q_run, *v_run;
   bool *active, *implied;

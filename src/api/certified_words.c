@@ -1,5 +1,6 @@
 // What is said of a certified run: in words, and as JSON.
 #include <math.h>
+#include <stdlib.h>
 
 #include "api/certified_impl.h"
 
@@ -29,13 +30,12 @@ static const char* bound(const teller* t, double x) {
 // ---------------------------------------------------------------------------------------------- reasons
 static const char* const refusal_words[PL_N_REFUSALS][2] = {
   [PL_REFUSED_RUN] = {"the run did not reach its end", "die Rechnung kam nicht bis zu ihrem Ende"},
-  [PL_REFUSED_CONTACT] = {"%s is one-sided, and contacts are not certified", "%s ist einseitig, und Kontakte werden nicht zertifiziert"},
   [PL_REFUSED_FRICTION] = {"there is friction on %s, which is not certified", "an %s wirkt Reibung, und die wird nicht zertifiziert"},
-  [PL_REFUSED_EVENT] = {"the event %s may change or end the motion", "das Ereignis %s kann die Bewegung ändern oder beenden"},
+  [PL_REFUSED_EVENT] = {"the event %s may change the motion in a way that is not certified", "das Ereignis %s kann die Bewegung auf eine Art ändern, die nicht zertifiziert wird"},
+  [PL_REFUSED_BACKWARD] = {"contacts and events are certified forwards in time only", "Kontakte und Ereignisse werden nur vorwärts in der Zeit zertifiziert"},
   [PL_REFUSED_TURN] = {"bodies whose attitude is a quaternion are not certified", "Körper, deren Lage ein Quaternion ist, werden nicht zertifiziert"},
   [PL_REFUSED_SENSITIVITIES] = {"sensitivities are not certified", "Empfindlichkeiten werden nicht zertifiziert"},
   [PL_REFUSED_ROWS] = {"there are too many rows", "es sind zu viele Zeilen"},
-  [PL_REFUSED_TIME] = {"the times are not exact", "die Zeiten sind nicht exakt"},
 };
 
 static const char* const end_words[PL_N_CERTIFY_ENDS][2] = {
@@ -51,11 +51,15 @@ static const char* const end_words[PL_N_CERTIFY_ENDS][2] = {
   [PL_CERTIFY_BUDGET] = {"the work that is allowed is used up", "die erlaubte Arbeit ist aufgebraucht"},
   [PL_CERTIFY_WIDE] = {"the precision that is allowed does not suffice", "die erlaubte Genauigkeit reicht nicht"},
   [PL_CERTIFY_INTERRUPTED] = {"interrupted", "unterbrochen"},
+  [PL_CERTIFY_WATCH] = {"the event %s speaks of forces or accelerations", "das Ereignis %s spricht von Kräften oder Beschleunigungen"},
+  [PL_CERTIFY_IMPACT] = {"%s is met there, and impacts are not certified", "dort wird %s getroffen, und Stöße werden nicht zertifiziert"},
+  [PL_CERTIFY_UNDECIDED] = {"a contact or event is grazed there, or several come at one time", "ein Kontakt oder Ereignis wird dort gestreift, oder mehrere fallen zusammen"},
 };
 
 // ORDER REFUSALS, ORDER ENDS: words of the JSON document.
-static const char* const refusal_names[PL_N_REFUSALS] = {NULL, "run", "contact", "friction", "event", "attitude", "sensitivities", "rows", "time"};
-static const char* const end_names[PL_N_CERTIFY_ENDS] = {NULL, "size", "number", "redundant", "start", "elsewhere", "step", "budget", "width", "interrupted"};
+static const char* const refusal_names[PL_N_REFUSALS] = {NULL, "run", "friction", "event", "backward", "attitude", "sensitivities", "rows"};
+static const char* const end_names[PL_N_CERTIFY_ENDS] = {NULL, "size", "number", "redundant", "start", "elsewhere", "step", "budget", "width", "interrupted",
+                                                              "watch", "impact", "undecided"};
 
 static const char* reason(const teller* t) {
   const pl_certificate_of_run* c = t->c;
@@ -124,6 +128,26 @@ static void tell_start(teller* t) {
   for (int i = 0; i < p->n_moved; i++) pl_text_addf(t->out, say(t, moved), name_of(t, p->moved_q[i]), bound(t, p->moved));
 }
 
+static const char* name_of_happening(const teller* t, int i) {
+  const pl_happening* h = &t->c->proof.happened[i];
+  bool named = h->kind == PL_HAPPENED_EVENT || h->kind == PL_HAPPENED_STOP;
+  const pl_setup* s = &t->m->recording->setup;
+  return named ? s->events[h->index].name : s->links[h->index].name;
+}
+
+static void tell_happenings(teller* t) {
+  static const char* const what[][2] = {{"%s lets go", "%s löst sich"}, {"%s", "%s"}, {"%s: stop", "%s: Ende"}, {"%s is met", "%s wird getroffen"}};
+  static const char* const when[2] = {"     certified: %s at t = %s, proved to within %s", "     zertifiziert: %s bei t = %s, auf %s bewiesen"};
+  static const char* const off[2] = {"; this run is off by at most %s\n", "; diese Rechnung weicht um höchstens %s ab\n"};
+  for (int i = 0; i < t->c->proof.n_happened; i++) {
+    const pl_certified_value* v = &t->c->happened[i];
+    const char* words = pl_format(t->arena, say(t, what[t->c->proof.happened[i].kind]), name_of_happening(t, i));
+    pl_text_addf(t->out, say(t, when), words, number(t, strtod(v->text, NULL), 12), bound(t, v->radius));
+    if (isnan(v->error)) pl_text_add(t->out, "\n");
+    else pl_text_addf(t->out, say(t, off), bound(t, v->error));
+  }
+}
+
 static void tell_how(teller* t) {
   const pl_certified* p = &t->c->proof;
   static const char* const how[2] = {"       %ld proved steps of order up to %d in balls of %ld bits; the motion and the arithmetic widened them by %s bits\n",
@@ -141,8 +165,11 @@ void pl_certified_text(pl_text* out, const pleuel_model* m, pl_language lang, bo
   static const char* const wide[2] = {"     the enclosure is wider than asked for: %s\n", "     die Einschließung ist weiter als verlangt: %s\n"};
   int done = c->refusal == PL_CERTIFY_TRIED ? c->proof.n_done : 0;
   // all times are in the JSON document
-  if (done > 0) {
+  if (c->refusal == PL_CERTIFY_TRIED && (done > 0 || c->proof.n_happened > 0)) {
     tell_start(&t);
+    tell_happenings(&t);
+  }
+  if (done > 0) {
     tell_time(&t, done - 1);
     tell_how(&t);
   }
@@ -154,12 +181,13 @@ void pl_certified_text(pl_text* out, const pleuel_model* m, pl_language lang, bo
 }
 
 // ---------------------------------------------------------------------------------------------- JSON
-static void json_value(pl_json* j, const char* name, const pl_certified_value* v) {
+// A number with its radius; `error` only where there is one to compare with.
+static void json_value(pl_json* j, const char* name, const pl_certified_value* v, bool compared) {
   pl_json_object(j, name);
   pl_json_flat(j);
   pl_json_string(j, "value", v->text);
   pl_json_number(j, "radius", v->radius);
-  pl_json_number(j, "error", v->error);
+  if (compared) pl_json_number(j, "error", v->error);
   pl_json_end_object(j);
 }
 
@@ -171,7 +199,7 @@ static void json_rows(pl_json* j, const teller* t) {
     pl_json_object(j, NULL);
     pl_json_number(j, "t", c->time[time]);
     for (int i = 0; i < (int)width; i++)
-      if (c->value[(size_t)time * width + (size_t)i].text && name_of(t, i)) json_value(j, name_of(t, i), &c->value[(size_t)time * width + (size_t)i]);
+      if (c->value[(size_t)time * width + (size_t)i].text && name_of(t, i)) json_value(j, name_of(t, i), &c->value[(size_t)time * width + (size_t)i], true);
     pl_json_end_object(j);
   }
   pl_json_end_list(j);
@@ -181,6 +209,24 @@ static void json_names(pl_json* j, const char* key, const teller* t, const int* 
   pl_json_list(j, key);
   pl_json_flat(j);
   for (int i = 0; i < n; i++) pl_json_string(j, NULL, name_of(t, at[i]));
+  pl_json_end_list(j);
+}
+
+static void json_happenings(pl_json* j, const teller* t) {
+  static const char* const kinds[] = {"release", "event", "stop", "impact"};
+  pl_json_list(j, "events");
+  for (int i = 0; t->c->happened && i < t->c->proof.n_happened; i++) {
+    const pl_certified_value* v = &t->c->happened[i];
+    pl_json_object(j, NULL);
+    pl_json_string(j, "kind", kinds[t->c->proof.happened[i].kind]);
+    pl_json_string(j, "label", name_of_happening(t, i));
+    json_value(j, "t", v, true);
+    pl_json_object(j, "state");
+    for (int k = 0; k < 2 * t->c->n_q; k++)
+      if (name_of(t, k)) json_value(j, name_of(t, k), &t->c->state[(size_t)i * 2 * (size_t)t->c->n_q + (size_t)k], false);
+    pl_json_end_object(j);
+    pl_json_end_object(j);
+  }
   pl_json_end_list(j);
 }
 
@@ -205,6 +251,7 @@ void pl_certified_json(pl_json* j, const pleuel_model* m) {
   pl_json_int(j, "passes", p->passes);
   json_names(j, "start_taken_from_run", &t, p->pinned, p->n_pinned);
   json_names(j, "start_moved", &t, p->moved_q, p->n_moved);
+  json_happenings(j, &t);
   json_rows(j, &t);
   pl_json_end_object(j);
 }

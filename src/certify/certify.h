@@ -21,7 +21,7 @@ typedef struct pl_certify_problem {
   int n_symbols;
   const pl_expr *q_start, *v_start;// exact start values; poison: the constraints decide  (n_q)
   const double *q_run, *v_run;     // the start that the simulation found                 (n_q)
-  const bool* active;              // constraints that hold                               (n_c)
+  const bool* active;              // constraints that hold at the start                  (n_c)
   const bool* implied;             // follows from the others by algebra                  (n_c)
   pl_expr t_0;                     // exact
   int n_times;
@@ -44,13 +44,23 @@ typedef enum pl_certify_end {
   PL_CERTIFY_BUDGET,        // the work that is allowed is used up
   PL_CERTIFY_WIDE,          // the enclosure is wider than asked for
   PL_CERTIFY_INTERRUPTED,
+  PL_CERTIFY_WATCH,         // an event speaks of forces or accelerations
+  PL_CERTIFY_IMPACT,        // a contact is met; impacts are not followed
+  PL_CERTIFY_UNDECIDED,     // a contact or event that is grazed, or several at one time
   PL_N_CERTIFY_ENDS
 } pl_certify_end;
 
 typedef enum pl_certify_kind { PL_CERTIFY_Q, PL_CERTIFY_V, PL_CERTIFY_LAMBDA } pl_certify_kind;
 
+// What happened on the way, at a time that is enclosed.
+typedef enum pl_happening_kind { PL_HAPPENED_RELEASE, PL_HAPPENED_EVENT, PL_HAPPENED_STOP, PL_HAPPENED_IMPACT } pl_happening_kind;
+typedef struct pl_happening { pl_happening_kind kind; int index; } pl_happening;   // of the constraint, of the event
+
 typedef struct pl_certified {
   pl_certify_end end;
+  bool stopped;             // by an event: time number n_done - 1 is that of the event
+  int n_happened;
+  const pl_happening* happened;
   int n_done;               // times that are enclosed, from the first
   double t_reached;         // the motion is enclosed up to here, NaN: nowhere
   double width;             // largest half width over all times done, relative as in the problem
@@ -74,6 +84,11 @@ void pl_certified_free(pl_certified* c);
 // The true value at time number `time` lies within *radius of the decimal number that is returned (in the arena).  NULL:
 // not determined (multiplier of a constraint that does not act).
 const char* pl_certified_ball(const pl_certified* c, pl_arena* a, int time, pl_certify_kind kind, int i, double* radius);
+// A coordinate (velocity) at the time of a happening.
+const char* pl_certified_state(const pl_certified* c, pl_arena* a, int happening, pl_certify_kind kind, int i, double* radius);
+// The time of a happening, and bounds of how far t is from it.
+const char* pl_certified_time(const pl_certified* c, pl_arena* a, int happening, double* radius);
+double pl_certified_time_error(const pl_certified* c, int happening, double t);
 // An upper bound of |x - true value|; NaN where it is not determined.
 double pl_certified_error(const pl_certified* c, int time, pl_certify_kind kind, int i, double x);
 // A lower bound of it: 0 when x may be the true value.

@@ -19,6 +19,7 @@ enum {
   PL_CERTIFY_NODES = 40000,      // operations of all instances
   PL_CERTIFY_ORDER = 400,        // of a series
   PL_CERTIFY_CELLS = 6000000,    // operations times orders: memory
+  PL_CERTIFY_HAPPENINGS = 64,    // events, contacts that let go
   PL_DISK_BITS = 64              // of the centres of disks
 };
 
@@ -65,6 +66,7 @@ typedef struct pl_ball_jet {
   const pl_tape* tape;
   const int *q, *c;      // global coordinate and constraint of each slot
   const double* index;
+  const int* out;        // watched quantity of each output; NULL: no events watch this
   int cap;               // coefficients there is room for
   arb_ptr coef;          // node i, order k at i cap + k
   int n_aux;
@@ -92,6 +94,8 @@ typedef struct pl_system {
   long n_nodes;
   int cap;
   slong prec;
+  bool *held, *active;        // constraints: not released by an event; in force
+  struct pl_monitors* monitors;
   int n_rows;                 // constraints in use
   int n_wanted;               // how many there must be
   int *row_of, *constraint_of;// of a constraint: its row, -1 not in use; and back
@@ -107,10 +111,12 @@ typedef struct pl_system {
 } pl_system;
 
 // ---- system.c
+void pl_jet_want(pl_ball_jet* j, int* stack, int root, uint8_t who);   // stack: 3 n_nodes + 4
 pl_certify_end pl_system_make(pl_system* s, pl_job* job, const pl_certify_problem* p);
 void pl_system_free(pl_system* s);
 void pl_system_reserve(pl_system* s, int cap);             // room for so many coefficients
 bool pl_system_precision(pl_system* s, slong prec);        // constants of all programs anew; false: one is not exact
+void pl_system_hold(pl_system* s);                         // what is active, from what is held
 arb_srcptr pl_root_series(const pl_ball_jet* j, int root); // coefficients of a root
 
 // ---- equations.c
@@ -141,6 +147,7 @@ typedef struct pl_stepper {
   double longest;             // radius so far
   double growth;              // natural step over radius
   int order;
+  mag_t x;                    // step over radius, of the series at hand
   mag_ptr reach_q, reach_v;   // how far q and v get from their start on the disk of times    (n_q)
   mag_ptr pull;               // bounds of |a|                                                (n_q)
   double work;                // done so far, in units of the budget
@@ -149,13 +156,43 @@ void pl_stepper_make(pl_stepper* e, pl_system* s, int direction);
 void pl_stepper_free(pl_stepper* e);
 // A disk of times around t on which the motion is proved to exist, with bounds.  false: none is found.
 bool pl_step_prove(pl_stepper* e, arb_srcptr t, double longest);
-// The balls of q[0], v[0] after h, |h| < radius.
-bool pl_step_advance(pl_stepper* e, arb_srcptr t, arb_srcptr h);
+// Series for a step of h, |h| < radius / 2; then the balls of q[0], v[0] after `part`, which lies between 0 and h.
+bool pl_step_series(pl_stepper* e, arb_srcptr t, arb_srcptr h);
+void pl_step_take(pl_stepper* e, arb_srcptr part);
+// reach x^(p+1)/(1-x): what is left of a series bounded by reach on the disk of times.
+void pl_series_tail(mag_t out, mag_srcptr reach, const mag_t x, int p);
+
+// ---- monitors.c: functions whose sign decides the mode of the motion
+typedef enum pl_monitor_kind { PL_MONITOR_FORCE, PL_MONITOR_GAP, PL_MONITOR_EVENT } pl_monitor_kind;
+typedef struct pl_monitor {
+  pl_monitor_kind kind;
+  int index;                  // of the constraint, of the event
+  int sign;                   // of the function now; 0: that of its beginning
+  int fresh;                  // so many coefficients are zero at the start of this step
+  bool begun;
+} pl_monitor;
+
+// pl_monitors_reset begins a pass (anew), or a mode in which contact `released` has just let go at zero force (-1: none).
+void pl_monitors_reset(pl_system* s, bool anew, int released);
+void pl_monitors_free(pl_system* s);
+bool pl_monitors_any(const pl_system* s);
+pl_certify_end pl_monitors_mark(pl_system* s, const char** what);   // nodes that they read are wanted; or PL_CERTIFY_WATCH
+
+typedef enum pl_look { PL_LOOK_CLEAR, PL_LOOK_SHORTER, PL_LOOK_HIT, PL_LOOK_LOST } pl_look;
+// Looks along the step h for the first function that changes sign.  CLEAR: none.  SHORTER: none up to *part.  HIT: one does,
+// alone, and for the first time within the ball *part.  LOST: not decided.
+pl_look pl_monitors_look(pl_stepper* e, arb_srcptr h, arb_t part, pl_monitor** hit);
+void pl_monitors_moved(pl_system* s);       // a step without change was taken
 
 struct pl_certified_balls {
-  int n_q, n_c, n_times;
+  int n_q, n_c, n_times;      // the last time is for an event that stops
   arb_ptr q, v, l;            // time after time
   bool* determined;           // of each multiplier
+  bool* is_stop;              // of each time: it is that of an event that stops
+  arb_ptr time;               // of what happened            (room)
+  arb_ptr state;              // q, v then                   (room x 2 n_q)
+  int room;
 };
+void pl_certified_balls_make(pl_certified* out, pl_job* job, const pl_certify_problem* p);
 
 #endif

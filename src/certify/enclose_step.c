@@ -23,6 +23,7 @@ void pl_stepper_make(pl_stepper* e, pl_system* s, int direction) {
   e->reach_q = _mag_vec_init(s->n_q + 1);
   e->reach_v = _mag_vec_init(s->n_q + 1);
   e->pull = _mag_vec_init(s->n_q + 1);
+  mag_init(e->x);
 }
 
 void pl_stepper_free(pl_stepper* e) {
@@ -30,6 +31,7 @@ void pl_stepper_free(pl_stepper* e) {
   _mag_vec_clear(e->reach_q, e->s->n_q + 1);
   _mag_vec_clear(e->reach_v, e->s->n_q + 1);
   _mag_vec_clear(e->pull, e->s->n_q + 1);
+  mag_clear(e->x);
 }
 
 // ---------------------------------------------------------------------------------------------- existence
@@ -118,7 +120,7 @@ static int order_for(const pl_system* s, double x) {
 }
 
 // reach x^(p+1)/(1-x)
-static void tail(mag_t out, mag_srcptr reach_i, const mag_t x, int p) {
+void pl_series_tail(mag_t out, mag_srcptr reach_i, const mag_t x, int p) {
   mag_t one, gap;
   mag_init(one);
   mag_init(gap);
@@ -144,40 +146,44 @@ static void evaluate(arb_ptr series, arb_srcptr h, int p, const mag_t rest, slon
   arb_clear(y);
 }
 
-static void advance(pl_stepper* e, arb_srcptr h, const mag_t x) {
+void pl_step_take(pl_stepper* e, arb_srcptr part) {
   pl_system* s = e->s;
   mag_t rest;
   mag_init(rest);
   for (int i = 0; i < s->n_q; i++) {
-    tail(rest, e->reach_q + i, x, e->order);
-    evaluate(s->q + (slong)i * s->cap, h, e->order, rest, s->prec);
-    tail(rest, e->reach_v + i, x, e->order);
-    evaluate(s->v + (slong)i * s->cap, h, e->order, rest, s->prec);
+    pl_series_tail(rest, e->reach_q + i, e->x, e->order);
+    evaluate(s->q + (slong)i * s->cap, part, e->order, rest, s->prec);
+    pl_series_tail(rest, e->reach_v + i, e->x, e->order);
+    evaluate(s->v + (slong)i * s->cap, part, e->order, rest, s->prec);
   }
   mag_clear(rest);
 }
 
-bool pl_step_advance(pl_stepper* e, arb_srcptr t, arb_srcptr h) {
-  pl_system* s = e->s;
-  mag_t x, R;
-  mag_init(x);
+// x >= |h|/R
+static void set_ratio(pl_stepper* e, arb_srcptr h) {
+  mag_t R;
   mag_init(R);
-  arb_get_mag(x, h);
+  arb_get_mag(e->x, h);
   mag_set_d_lower(R, e->radius);
-  mag_div(x, x, R);
-  e->order = order_for(s, mag_get_d(x));
-  bool ok = mag_cmp_2exp_si(x, -1) < 0;
-  if (ok && e->order + 2 > s->cap) {
+  mag_div(e->x, e->x, R);
+  // a little more: ends of intervals are rounded
+  mag_set_ui_2exp_si(R, 1, -40);
+  mag_addmul(e->x, e->x, R);
+  mag_clear(R);
+}
+
+bool pl_step_series(pl_stepper* e, arb_srcptr t, arb_srcptr h) {
+  pl_system* s = e->s;
+  set_ratio(e, h);
+  if (mag_cmp_2exp_si(e->x, -1) >= 0) return false;
+  double x = mag_get_d(e->x);
+  e->order = order_for(s, x);
+  if (e->order + 2 > s->cap) {
     pl_system_reserve(s, e->order + 16);
     pl_system_values(s, t, PL_FOR_MOTION);
   }
-  if (ok) {
-    pl_system_series(s, e->order, -log2(mag_get_d(x)));
-    advance(e, h, x);
-    double limbs = (double)s->prec / 64 + 2;
-    e->work += ((double)s->n_nodes + s->n_q * 4.0) * e->order * e->order / 4 * limbs;
-  }
-  mag_clear(x);
-  mag_clear(R);
-  return ok;
+  pl_system_series(s, e->order, -log2(x));
+  double limbs = (double)s->prec / 64 + 2;
+  e->work += ((double)s->n_nodes + s->n_q * 4.0) * e->order * e->order / 4 * limbs;
+  return true;
 }

@@ -59,7 +59,7 @@ int pl_system_choose_rows(pl_system* s) {
     for (int e = 0; e < j->pattern->n_G; e++) {
       const pl_pattern_entry* g = &j->pattern->G[e];
       size_t c = (size_t)j->c[g->row];
-      if (s->p->active[c]) G[c * n_q + (size_t)j->q[g->col]] += pl_ball_double(pl_root_series(j, g->root));
+      if (s->active[c]) G[c * n_q + (size_t)j->q[g->col]] += pl_ball_double(pl_root_series(j, g->root));
     }
   }
   for (int c = 0; c < s->n_c; c++) priority[c] = s->setup->links[c].priority;
@@ -67,7 +67,7 @@ int pl_system_choose_rows(pl_system* s) {
   pl_independent_rows(G, priority, taken, work, s->n_c, s->n_q, 1e-9, &smallest);
   s->n_rows = 0;
   for (int c = 0; c < s->n_c; c++) {
-    s->row_of[c] = s->p->active[c] && taken[c] ? s->n_rows : -1;
+    s->row_of[c] = s->active[c] && taken[c] ? s->n_rows : -1;
     if (s->row_of[c] >= 0) s->constraint_of[s->n_rows++] = c;
   }
   pl_arena_rewind(arena, mark);

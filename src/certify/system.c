@@ -7,7 +7,7 @@
 #include <string.h>
 
 // ---------------------------------------------------------------------------------------------- jets
-static void mark(pl_ball_jet* j, int* stack, int root, uint8_t who) {
+void pl_jet_want(pl_ball_jet* j, int* stack, int root, uint8_t who) {
   int n = 0;
   stack[n++] = j->tape->roots[root];
   while (n > 0) {
@@ -22,7 +22,7 @@ static void mark(pl_ball_jet* j, int* stack, int root, uint8_t who) {
 }
 
 static void mark_entries(pl_ball_jet* j, int* stack, const pl_pattern_entry* e, int n, uint8_t who) {
-  for (int i = 0; i < n; i++) mark(j, stack, e[i].root, who);
+  for (int i = 0; i < n; i++) pl_jet_want(j, stack, e[i].root, who);
 }
 
 static void mark_wanted(pl_system* s, pl_ball_jet* j) {
@@ -52,29 +52,54 @@ static bool has_weights(int op) {
 
 static void make_jet(pl_system* s, pl_ball_jet* j, const pl_pattern* p, int instance) {
   *j = (pl_ball_jet){.pattern = p, .tape = p->tape};
-  j->q = p->q + (size_t)instance * (size_t)p->n_q;
-  j->c = p->c + (size_t)instance * (size_t)p->n_c;
-  j->index = p->index + (size_t)instance * (size_t)p->n_index;
+  size_t i = (size_t)instance;
+  j->q = p->n_q ? p->q + i * (size_t)p->n_q : NULL;
+  j->c = p->n_c ? p->c + i * (size_t)p->n_c : NULL;
+  j->index = p->n_index ? p->index + i * (size_t)p->n_index : NULL;
   mark_wanted(s, j);
-  j->aux_at = PL_ARRAY(s->arena, int, j->tape->n_nodes + 1);
-  for (int i = 0; i < j->tape->n_nodes; i++)
-    j->aux_at[i] = j->wanted[i] && has_weights(j->tape->nodes[i].op) ? j->n_aux++ : -1;
   j->disk = pl_disks_make(j->tape->n_nodes);
   j->slope = pl_disks_make(j->tape->n_nodes);
 }
 
-static void make_jets(pl_system* s) {
-  int n = 0;
-  for (int i = 0; i < s->setup->n_patterns; i++) n += s->setup->patterns[i].n;
-  s->jet = PL_ARRAY(s->arena, pl_ball_jet, n + 1);
-  for (int i = 0; i < s->setup->n_patterns; i++)
-    for (int k = 0; k < s->setup->patterns[i].n; k++) make_jet(s, &s->jet[s->n_jets++], &s->setup->patterns[i], k);
+static void place_weights(pl_system* s, pl_ball_jet* j) {
+  j->aux_at = PL_ARRAY(s->arena, int, j->tape->n_nodes + 1);
+  for (int i = 0; i < j->tape->n_nodes; i++)
+    j->aux_at[i] = j->wanted[i] && has_weights(j->tape->nodes[i].op) ? j->n_aux++ : -1;
 }
 
-static long count_nodes(const pl_setup* setup) {
-  long n = 0;
-  for (int i = 0; i < setup->n_patterns; i++) n += (long)setup->patterns[i].n * setup->patterns[i].tape->n_nodes;
-  return n;
+static int count_instances(const pl_pattern* p, int n) {
+  int all = 0;
+  for (int i = 0; i < n; i++) all += p[i].n;
+  return all;
+}
+
+static void make_jets_of(pl_system* s, const pl_pattern* p, int n, bool watches) {
+  for (int i = 0; i < n; i++) {
+    for (int k = 0; k < p[i].n; k++) {
+      pl_ball_jet* j = &s->jet[s->n_jets++];
+      make_jet(s, j, &p[i], k);
+      if (watches && p[i].n_outputs > 0) j->out = p[i].out + (size_t)k * (size_t)p[i].n_outputs;
+    }
+  }
+}
+
+// What events watch is a program like the others, without equations.
+static void make_jets(pl_system* s) {
+  const pl_setup* setup = s->setup;
+  int n = count_instances(setup->patterns, setup->n_patterns) + count_instances(setup->watch, setup->n_watch_patterns);
+  s->jet = PL_ARRAY(s->arena, pl_ball_jet, n + 1);
+  make_jets_of(s, setup->patterns, setup->n_patterns, false);
+  make_jets_of(s, setup->watch, setup->n_watch_patterns, true);
+}
+
+static long count_nodes_of(const pl_pattern* p, int n) {
+  long all = 0;
+  for (int i = 0; i < n; i++) all += (long)p[i].n * p[i].tape->n_nodes;
+  return all;
+}
+
+static long count_nodes(const pl_setup* s) {
+  return count_nodes_of(s->patterns, s->n_patterns) + count_nodes_of(s->watch, s->n_watch_patterns);
 }
 
 // ---------------------------------------------------------------------------------------------- the whole
@@ -89,6 +114,8 @@ static void make_names(pl_system* s) {
 }
 
 static void make_work(pl_system* s) {
+  s->held = PL_ARRAY(s->arena, bool, s->n_c + 1);
+  s->active = PL_ARRAY(s->arena, bool, s->n_c + 1);
   s->row_of = PL_ARRAY(s->arena, int, s->n_c + 1);
   s->constraint_of = PL_ARRAY(s->arena, int, s->n_c + 1);
   s->rhs = _arb_vec_init(s->n + 1);
@@ -103,9 +130,14 @@ static void make_work(pl_system* s) {
   s->spread = _mag_vec_init(4 * (slong)s->n + 1);
 }
 
-// Every constraint that holds and does not follow from the others must be in use.
-static void count_wanted(pl_system* s) {
-  for (int c = 0; c < s->n_c; c++) s->n_wanted += s->p->active[c] && !s->p->implied[c];
+// Every constraint that is in force and does not follow from the others must be in use.
+void pl_system_hold(pl_system* s) {
+  const pl_link* links = s->setup->links;
+  s->n_wanted = 0;
+  for (int c = 0; c < s->n_c; c++) {
+    s->active[c] = s->held[c] && (links[c].contact < 0 || s->held[links[c].contact]);
+    s->n_wanted += s->active[c] && !s->p->implied[c];
+  }
 }
 
 pl_certify_end pl_system_make(pl_system* s, pl_job* job, const pl_certify_problem* p) {
@@ -118,8 +150,9 @@ pl_certify_end pl_system_make(pl_system* s, pl_job* job, const pl_certify_proble
   make_names(s);
   make_work(s);
   make_jets(s);
-  count_wanted(s);
-  return PL_CERTIFIED;
+  pl_certify_end end = pl_monitors_mark(s, &s->exact.missing);
+  for (int i = 0; i < s->n_jets; i++) place_weights(s, &s->jet[i]);
+  return end;
 }
 
 static void free_balls(pl_system* s) {
@@ -148,6 +181,7 @@ void pl_system_free(pl_system* s) {
   _mag_vec_clear(s->slack, (slong)s->n * s->n + 1);
   _mag_vec_clear(s->spread, 4 * (slong)s->n + 1);
   if (s->has_inverse) arb_mat_clear(s->inverse);
+  pl_monitors_free(s);
   pl_exact_free(&s->exact);
 }
 

@@ -229,6 +229,79 @@ check("a start that contradicts them in the 20th digit is said to be moved", sta
 start = certified(PENDULUM.replace("x = 1, y = 0, x' = 0, y' = 0", "x = sin(0.3), y = -cos(0.3), x' = 0"), "--until", "0.1")
 check("sin and cos of the same number meet the circle", start["complete"] and start["start_moved"] == [], start)
 
+# ------------------------------------------------------------------------------------------ contacts and events
+SKI = """param R = 20, g = 9.81
+coord r, ϑ
+axes x right, z up
+mass 75 at (r sin ϑ, r cos ϑ)
+gravity g along -z
+constraint h: r >= R
+init ϑ = 1°, ϑ' = 0
+event ground: when r cos ϑ = 0 -> stop
+simulate 0..10
+"""
+answer = certified(SKI, width="1e-24")
+off, ground = answer["events"]
+cosine = 2 * cos(PI / 180) / 3
+sine = (1 - cosine * cosine).sqrt()
+angle = 2 * atan(sine / (1 + cosine))
+check("the skier takes off at the angle whose cosine is 2/3 of that of the start", off["kind"] == "release" and off["label"] == "h"
+      and contains(off["state"]["theta"], angle) and off["state"]["theta"]["radius"] < 1e-20, f"{off}\n{angle}")
+speed = (D("9.81") * 20 * cosine).sqrt()
+check("and with the speed at which weight alone holds it on the circle", contains(off["state"]["theta_dot"], speed / 20), f"{off}\n{speed / 20}")
+# free flight from there
+up, fall = speed * sine, 20 * cosine
+flight = (-up + (up * up + 2 * D("9.81") * fall).sqrt()) / D("9.81")
+check("it lands where the parabola from there does", ground["kind"] == "stop" and contains(answer["rows"][-1]["r"], 20 * sine + speed * cosine * flight),
+      answer["rows"][-1])
+check("after so long a flight", abs(D(ground["t"]["value"]) - D(off["t"]["value"]) - flight) <= D(ground["t"]["radius"]) + D(off["t"]["radius"]), answer["events"])
+other = certified(SKI.replace("1°", "1.0000000000000000001°"), width="1e-24")["events"][0]
+check("a start that differs in the 20th digit takes off at another angle", not contains(other["state"]["theta"], angle), other)
+
+SLING = """coord x, y
+axes x right, y up
+mass 1 at (x, y)
+constraint rod: x^2 + y^2 = 1
+event up: when y = 0 rising -> release rod
+event cut: when y = 1/2 rising -> release rod
+event end: when x = -3 -> stop
+init x = 1, y = 0, x' = 0, y' = %s
+simulate 0..10
+"""
+answer = certified(SLING % "1")
+check("released by an event on the way, stopped by another", [e["label"] for e in answer["events"]] == ["cut", "end"]
+      and contains(answer["events"][0]["t"], PI / 6) and contains(answer["events"][1]["t"], PI / 6 + (D("0.75").sqrt() + 3) * 2), answer)
+answer = certified(SLING % "-1")
+check("the zero that the motion begins with is no event, the next one is", answer["events"][0]["label"] == "up"
+      and contains(answer["events"][0]["t"], PI), answer["events"])
+answer = certified((SLING % "1").replace("y = 1/2 rising", "y = 1/2 falling"), "--until", "3")
+check("an event in the other direction does not count", [e["label"] for e in answer["events"]] == ["cut"]
+      and contains(answer["events"][0]["t"], 5 * PI / 6), answer["events"])
+
+BALL = """coord x, y
+axes x right, y up
+mass 1 at (x, y)
+gravity 10 along -y
+constraint floor: y >= 0
+init x = 0, y = 5, x' = 1, y' = 0
+simulate 0..3
+"""
+answer = certified(BALL, "--dt", "0.5", code=6)
+check("an impact is enclosed and ends the proof", answer["why"] == "impact" and contains(answer["events"][0]["t"], D(1))
+      and answer["events"][0]["t"]["radius"] < 1e-20 and len(answer["rows"]) >= 1, answer)
+# a parabola that touches y = 0 at t = 1 and one that misses it by 1e-18
+graze = """coord x, y
+axes x right, y up
+mass 1 at (x, y)
+gravity 10 along -y
+constraint roof: y <= %s
+init x = 0, y = 0, x' = 1, y' = 10
+simulate 0..2
+"""
+answer = certified(graze % "5", code=6)
+check("a grazed contact is not decided", answer["why"] == "undecided" and 0.9 < answer["t_reached"] < 1, answer)
+check("one that is missed by 1e-6 is proved to be missed", certified(graze % "5.000001")["complete"])
+
 # ------------------------------------------------------------------------------------------ what is not proved is said
 kink = """coord x
 kinetic x'^2/2
@@ -243,9 +316,9 @@ answer = certified(kink, "--dt", "0.5", code=6)
 check("rows before it stay", len(answer["rows"]) == 2 and contains(answer["rows"][1]["x"], D("0.5")), answer)
 twin = (cases / "twin.pleuel").read_text(encoding="utf-8")
 check("redundant constraints are refused", certified(twin, code=6)["why"] == "redundant")
-late = FALL.replace("simulate", "event low: when y = 0 -> stop\nsimulate")
-answer = certified(late, code=6)
-check("events that end the motion are refused", answer["why"] == "event" and answer["rows"] == [], answer)
+jump = FALL.replace("simulate", "event kick: when y = 0 -> x' = 1\nsimulate")
+answer = certified(jump, code=6)
+check("events that set values are refused", answer["why"] == "event" and answer["rows"] == [], answer)
 for bad in ("1", "-1e-9", "nan", "many"):
     wrong = subprocess.run([program, "sim", str(cases / "pendulum.pleuel"), f"--certify={bad}"], capture_output=True, text=True, timeout=100)
     check(f"--certify={bad} is a wrong call", wrong.returncode == 2 and wrong.stderr + wrong.stdout, wrong.stdout)
