@@ -100,6 +100,7 @@ void pl_radau_watch(pl_run* run, pl_radau* r, double h) {
   for (int i = 0; i <= s; i++) {
     node n = node_at(run, r, h, i);
     watch_quantities(run, &n);
+    if (i == 0) memcpy(run->W_series, run->W_coef, (size_t)run->setup->n_watched * sizeof(double));   // sizes of terms
     if (contacts || run->n_kinks > 0) pl_point_evaluate(run, n.t, n.q, n.v);
     for (int k = 0; k < run->n_kinks; k++) r->bent[(size_t)k * (PL_RADAU_MOST + 1) + (size_t)i] = pl_kinks_value(run, k);
     if (contacts) {
@@ -192,7 +193,7 @@ static double way_to_root(const pl_run* run, const pl_radau* r, int watch, doubl
   return fabs(value) <= pl_watch_noise(run, w, h) ? 0 : -value / slope * h;
 }
 
-// Slip in space is watched by its square, which hardly changes its sign: where the slip itself is least.
+// Slip in space is watched by its square, which hardly changes its sign: a double root.
 static bool is_square(const pl_run* run, int watch) {
   const pl_watch* w = &run->watch[watch];
   return w->kind == PL_WATCH_STICK && run->setup->rubs[w->index].n_rows == 3;

@@ -180,7 +180,9 @@ static double first_that_counts(pl_run* run, const pl_watch* w, double h, const 
   bool bounced = w->kind == PL_WATCH_LANDING && w->fresh == 1;      // known from its own velocity, however small it is
   double zero = bounced ? 0 : fmax(noise, 1e-14 * size_of(c, n));
   bool to_end = fabs(h) >= fabs(pl_run_left(run));
-  int found = pl_roots(c + m, n - 1 - m, known_part(n - m), m == 0 ? noise : 0, root, MOST_ROOTS, run->root_work);
+  // an event of an implicit step is known to the tolerance: one that only touches is found to that
+  double known = run->implicit && w->kind == PL_WATCH_EVENT && w->direction == 0 ? fmax(known_part(n - m), run->tol) : known_part(n - m);
+  int found = pl_roots(c + m, n - 1 - m, known, m == 0 ? noise : 0, root, MOST_ROOTS, run->root_work);
   for (int i = 0; i < found; i++) {
     int before = root[i].before, after = root[i].after;
     if (before == 0 && after == 0) continue;
