@@ -25,6 +25,8 @@ IMPLICIT = [10.0 ** -k for k in (4, 6, 7, 8, 9, 10, 11, 12)]
 HEYOKA = [1e-6, 1e-9, 1e-12, 1e-15]     # each is compiled anew
 LEVELS = (1e-6, 1e-9, 1e-12)
 PATIENCE_S = 240
+MOST_LINES = 1000     # coordinates up to which heyoka is given its lines: it compiles each
+IN_LARGE = ("CVODE Adams", "ARKODE ERK8", "GSL rk8pd")     # who runs in systems above
 
 SUNDIALS = ("-lsundials_cvode -lsundials_arkode -lsundials_ida -lsundials_nvecserial -lsundials_sunmatrixdense -lsundials_sunlinsoldense "
             "-lsundials_sunlinsolspgmr -lsundials_sunnonlinsolfixedpoint").split()
@@ -235,9 +237,12 @@ def motion(name, kernel, folder, pythons, left_out):
     exact, off = reference(folder, name, end, steps)
     n = json.loads((folder / f"{name}.json").read_text())["n"]
     order = in_pairs if model.startswith("chain") else lambda n: range(n)
-    curves = {f"pleuel, {'compiled' if e == 'compiled' else 'interpreter'}": pleuel_curve(kernel, cases / f"{model}.pleuel", e, end, exact, n, order)
+    path = cases / f"{model}.pleuel"
+    if not path.exists():
+        path = written(folder / f"{model}.pleuel", problems.model_text(model))
+    curves = {f"pleuel, {'compiled' if e == 'compiled' else 'interpreter'}": pleuel_curve(kernel, path, e, end, exact, n, order)
               for e in ("compiled", "interpreter")}
-    if "heyoka" in pythons:
+    if "heyoka" in pythons and n <= MOST_LINES:
         # unrolled code is faster, but takes minutes to compile for larger systems
         for peer, label in (("heyoka", "heyoka"), ("heyoka-compact", "heyoka, compact mode")):
             if n <= 50 or "compact" in peer:
@@ -245,10 +250,12 @@ def motion(name, kernel, folder, pythons, left_out):
             if curves.get(label):
                 break
     for peer, (source, method, ladder) in C_PEERS.items():
+        if n > MOST_LINES and peer not in IN_LARGE:
+            continue
         flags = (SUNDIALS + KLU if source == "peer_sundials" else ["-lgsl", "-lgslcblas"])
         program = None if source in left_out else compiled(folder, source, name, flags)
         curves[peer] = c_curve(program, method, end, exact, n, ladder) if program else []
-    if "scipy" in pythons:
+    if "scipy" in pythons and n <= MOST_LINES:
         library = compiled(folder, "peer_library", name, ["-shared", "-fPIC"], f"lib{name}.so")
         curves["SciPy DOP853"] = python_curve(pythons["scipy"], "DOP853", str(library), end, exact, n, IMPLICIT, folder) if library else []
     return title + f", t = {end:g}", {k: c for k, c in curves.items() if c}, off

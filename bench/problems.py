@@ -119,7 +119,14 @@ def chain_by_hand(n):
 
 
 def by_hand(name):
-    return chain_by_hand(100) if name == "chain100" else None
+    return chain_by_hand(int(name[5:])) if name in ("chain100", "chain1000") else None
+
+
+def model_text(name):
+    """A chain of another length: the model of the cases with another N."""
+    text = (here.parent / "tests" / "cases" / "chain100.pleuel").read_text(encoding="utf-8")
+    lines = [line for line in text.splitlines() if not line.startswith("#")]
+    return "\n".join(lines).replace("param N = 100,", f"param N = {int(name[5:])},") + "\n"
 
 
 # name -> title, model in tests/cases, maker, end, steps of the reference; the coordinates of pleuel's model stand in the order of the
@@ -130,6 +137,7 @@ MOTIONS = {
     "caraxis": ("car axis", "caraxis", caraxis, 3, 100),
     "andrews": ("Andrews' squeezer", "andrews", andrews, R(3, 100), 40),
     "chain100": ("chain, N = 100", "chain100", None, 1, 30),
+    "chain1000": ("chain, N = 1000", "chain1000", None, R(1, 10), 30),
 }
 STIFF = [2, 4, 6, 8]
 STIFF_END = 5

@@ -1,8 +1,8 @@
 // Parts of a graph and orders of elimination.
 //
-// A graph is cut in two by a level of its breadth-first search from an end (George 1973): nodes before the level touch those behind
+// A graph is cut in two by a level of its breadth-first search from an end [George1973]: nodes before the level touch those behind
 // it only through the level.  Chains are cut at one node, ladders at a rung.  Within a part the search from an end, read
-// backwards, is the order of elimination: on trees it fills nothing in, on bands it keeps the band (Cuthill and McKee 1969).
+// backwards, is the order of elimination: on trees it fills nothing in, on bands it keeps the band [CuthillMcKee1969].
 #include "linalg/symmetric_impl.h"
 
 #if __has_include(<suitesparse/amd.h>)
