@@ -417,6 +417,7 @@ static void make_links(pl_recorder* r) {
 
 // The value with elements of families replaced by their start values where they are known.
 pl_expr pl_record_with_elements(pl_recorder* r, pl_expr e, const pl_coordinate* q) {
+  if (pl_kind_of(r->pool, e) == PL_NUMBER) return e;   // most start values of a large family: nothing to look up
   pl_group* g = PL_NEW(r->arena, pl_group);
   g->atom_at = pl_map_make(r->arena);
   g->seen = pl_map_make(r->arena);
