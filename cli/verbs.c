@@ -9,8 +9,7 @@ const cli_verb cli_verbs[] = {
   {"check", "FILE...", "names, units, degrees of freedom, rank, start; nothing is solved", flags_check, verb_check,
    "The messages are the answer here, so they go to stdout."},
   {"sim", "FILE", "simulate, write the motion", flags_sim, verb_sim,
-   "Without -o only the events and the accuracy are told. -o - writes the CSV to stdout.\n"
-   "Ctrl-C ends the run, keeps what is there and marks the file incomplete; a second one stops at once."},
+   "Without -o only events and accuracy are told. Ctrl-C keeps what is there; --resume goes on."},
   {"report", "FILE", "everything in one HTML page: result, motion, derivation, checks", flags_report, verb_report,
    "The page needs nothing beside it and loads nothing. Its derivation needs no script."},
   {"plot", "FILE", "the drawing of the system and plots of its motion", flags_plot, verb_plot,

@@ -35,9 +35,9 @@
 // not kept of pl_radau, lives within a step: wide here at coupled coupled_scale coupled_rhs coupled_work coupled_pivot real
 //   real_scale work pair pair_scale pivot sparse sparse_pair Z Q V A L t F w error_q error_v rhs sc_q sc_v coefficient part watched
 //   watched_h bent first_g last_g last_size end_a end_l save_a save_l
-// not kept of pl_wide, follows from setup, options and mode: state fine coarse low top head tail head_forces tail_forces clock left
+// not kept of pl_wide, follows from setup, options and mode: state fine by_doubles low top head head_forces clock left
 //   grid drift t_0 q_0 v_0 end_a end_l tail_q tail_v tail_a tail_l from to share way scratch energy_base rows watched floor held
-// not kept of pl_wide, lives within a step: m_coarse digits
+// not kept of pl_wide, lives within a step: digits
 #include <limits.h>
 #include <math.h>
 #include <string.h>
