@@ -243,11 +243,15 @@ static void say_attitudes(pl_analysis* d) {
       label[n++] = pl_fn(d, label_of(&d->g.at[i]));
     }
     if (!first) continue;
-    if (n == 1) {
-      pl_say(d, "{1} makes the four numbers that give the attitude of {2} a rotation: a unit quaternion. Its multiplier is no force, since "
-             "no turning of the body changes |q|.",
-             "{1} macht aus den vier Zahlen für die Lage von {2} eine Drehung: eine Einheitsquaternion. Ihr Multiplikator ist keine Kraft, "
-             "denn keine Drehung des Körpers ändert |q|.", 2, label[0], pl_fn(d, body));
+    if (d->g.at[k].source->axes == PL_AXES_QUATERNION) {
+      pl_say(d, n == 1 ? "{1} makes the four numbers that give the attitude of {2} a rotation: a unit quaternion. Its multiplier is no force, "
+                         "since no turning of the body changes |q|."
+                       : "{1} make the four numbers that give the attitude of each {2} a rotation: a unit quaternion. Their multipliers are no "
+                         "forces, since no turning of a body changes |q|.",
+             n == 1 ? "{1} macht aus den vier Zahlen für die Lage von {2} eine Drehung: eine Einheitsquaternion. Ihr Multiplikator ist keine "
+                      "Kraft, denn keine Drehung des Körpers ändert |q|."
+                    : "{1} machen aus den vier Zahlen für die Lage jedes {2} eine Drehung: eine Einheitsquaternion. Ihre Multiplikatoren sind "
+                      "keine Kräfte, denn keine Drehung eines Körpers ändert |q|.", 2, pl_flist(d, label, n), pl_fn(d, body));
     } else {
       pl_say(d, "{1} make the axes of {2} unit vectors at right angles. Their multipliers are no forces on the body: they keep the axes "
              "together and do no work when it turns.",

@@ -1,5 +1,5 @@
-// The attitude of a body in space: which way its axes are given, and what follows from that: the turn, the angular velocity,
-// the energy of turning, what holds between the numbers that give it.
+// The attitude of a body in space: which way its axes are given, and what follows from that: the turn, the angular
+// velocity, the energy of turning, what holds between the numbers that give it.
 //
 //   axes euler(φ, ϑ, ψ)               turn = Rz(φ) Rx(ϑ) Rz(ψ): precession, nutation, spin
 //   axes quaternion(q0, q1, q2, q3)   turn = that of the quaternion q0 + i q1 + j q2 + k q3, with |q| = 1

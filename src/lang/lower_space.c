@@ -1,5 +1,6 @@
-// Bodies in space.  `body B: mass m, inertia J at (x, y, z) axes ...` becomes a mass at its centre, the kinetic energy of its
-// turning, and the constraints that hold between the numbers of its attitude; `torque (Mx, My, Mz) on B` a load.
+// Bodies in space.  `body B: mass m, inertia J at (x, y, z) axes ...` becomes a mass at its centre, the kinetic
+// energy of its turning, and the constraints that hold between the numbers of its attitude; `torque (Mx, My, Mz) on
+// B` a load.
 #include <math.h>
 #include <string.h>
 
@@ -147,7 +148,8 @@ static void choose_right_hand(pl_lower* l, const pl_site* p, pl_span span) {
 
 static void push_conditions(pl_lower* l, const pl_ast* s, const pl_site* p) {
   const pl_ast* axes = pl_ast_kid(s, 5);
-  pl_constraint c = {.relation = PL_EQ, .block = l->block, .span = pl_ast_span(axes), .body = p->shown};
+  pl_constraint c = {.relation = PL_EQ, .block = l->block, .span = pl_ast_span(axes), .body = p->shown,
+                     .axes = p->attitude.form};
   const char* part;
   int n = 0;
   for (int k = 0; pl_attitude_condition(l->pool, &p->attitude, k, &c.left, &c.right, &part); k++) {

@@ -1,5 +1,5 @@
-// Whether a body can have the inertia that is given for one in space: J = ∫ (r² - r r^T) dm, so that E = (trace J)/2 - J = ∫ r r^T dm has
-// no negative eigenvalue; for principal moments that is J1 <= J2 + J3 and so on.
+// Whether a body can have the inertia that is given for one in space: J = ∫ (r² - r r^T) dm, so that E = (trace J)/2
+// - J = ∫ r r^T dm has no negative eigenvalue; for principal moments that is J1 <= J2 + J3 and so on.
 #include "model_impl.h"
 
 #include <math.h>

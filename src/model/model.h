@@ -148,6 +148,7 @@ typedef struct pl_constraint {
   bool redundant_ok, off;
   bool has_velocity;          // contains velocities
   const char* body;           // it holds between the axes of this body in space, and is no constraint of its own; or NULL
+  pl_axes_form axes;          // which are given like this
   pl_block* block;
   pl_span span;
 } pl_constraint;

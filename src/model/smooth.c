@@ -1,21 +1,22 @@
-// Expressions of Euler angles as expressions of the quaternion of the same attitude, where that is possible without
-// a denominator: sin ϑ sin φ becomes 2 (q1 q3 + q0 q2), φ' cos ϑ + ψ' the third component of the angular velocity, and so on.
+// Expressions of Euler angles as expressions of the quaternion of the same attitude, where that is possible without a
+// denominator: sin ϑ sin φ becomes 2 (q1 q3 + q0 q2), φ' cos ϑ + ψ' the third component of the angular velocity, and
+// so on.
 //
-// A polynomial in sines, cosines and rates is written as a sum of e^(i (a φ + b ψ)) f(ϑ) ω^d, rates replaced by the angular velocity,
-// which divides by powers of sin ϑ.  With A = a + b, B = a - b, z_1 = q0 + i q3 = cos(ϑ/2) e^(i (φ + ψ)/2) and
-// z_2 = q1 + i q2 = sin(ϑ/2) e^(i (φ - ψ)/2),
+// A polynomial in sines, cosines and rates is written as a sum of e^(i (a φ + b ψ)) f(ϑ) ω^d, rates replaced by the
+// angular velocity, which divides by powers of sin ϑ.  With A = a + b, B = a - b, z_1 = q0 + i q3 = cos(ϑ/2) e^(i (φ
+// + ψ)/2) and z_2 = q1 + i q2 = sin(ϑ/2) e^(i (φ - ψ)/2),
 //
 //   e^(i (a φ + b ψ)) cos^|A|(ϑ/2) sin^|B|(ϑ/2) = z_1^A z_2^B        (conjugates for negative A, B)
 //
-// so the expression is smooth at every attitude exactly when each f is that product of half angles times a polynomial in
-// cos ϑ = q0² + q3² - q1² - q2².  As Laurent polynomials in u = e^(i ϑ) that is a division by (u - 1)^n (u + 1)^m without
-// remainder, and a quotient that reads the same from both ends.
+// so the expression is smooth at every attitude exactly when each f is that product of half angles times a polynomial
+// in cos ϑ = q0² + q3² - q1² - q2².  As Laurent polynomials in u = e^(i ϑ) that is a division by (u - 1)^n (u + 1)^m
+// without remainder, and a quotient that reads the same from both ends.
 #include "smooth.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_TERMS = 1500, MOST_POWER = 12 };
+enum { MOST_TERMS = 1500, MOST_PRODUCTS = 60000, MOST_POWER = 12 };
 
 typedef struct complex_expr { pl_expr re, im; } complex_expr;
 
@@ -89,6 +90,7 @@ static bool add_term(smoother* s, terms* sum, term x) {
 
 static bool multiply(smoother* s, const terms* x, const terms* y, terms* out) {
   *out = (terms){0};
+  if (x->n * y->n > MOST_PRODUCTS) return false;
   for (int i = 0; i < x->n; i++) {
     for (int j = 0; j < y->n; j++) {
       const term *m = &x->at[i], *n = &y->at[j];

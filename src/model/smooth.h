@@ -16,7 +16,8 @@ typedef struct pl_triple {
 pl_triple pl_triple_make(pl_pool* p, const pl_expr angle[3], const pl_expr q[4]);
 bool pl_triple_in(const pl_pool* p, pl_arena* scratch, const pl_triple* t, pl_expr e);   // e speaks of the angles or their rates
 
-// pl_smooth gives e by the quaternion, equal to it where |q| = 1; poison when e is not smooth at every attitude, or too large to tell.
+// pl_smooth gives e by the quaternion, equal to it where |q| = 1; poison when e is not smooth at every attitude, or
+// too large to tell.
 pl_expr pl_smooth(pl_arena* scratch, pl_pool* p, const pl_triple* t, pl_expr e);
 
 #endif

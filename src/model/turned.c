@@ -1,7 +1,7 @@
-// A model whose bodies have Euler angles, as one in which they have unit quaternions: the form that is integrated, because it has no
-// singular attitude.  The coordinates of the angles φ, ϑ, ψ give their places to q1, q2, q3, q0 comes behind all; where the motion itself
-// speaks of an angle in a way that is not smooth at every attitude (a spring on φ, a torque about it, ϑ held at 30°), its
-// body keeps its angles.
+// A model whose bodies have Euler angles, as one in which they have unit quaternions: the form that is integrated,
+// because it has no singular attitude.  The coordinates of the angles φ, ϑ, ψ give their places to q1, q2, q3, q0
+// comes behind all; where the motion itself speaks of an angle in a way that is not smooth at every attitude (a
+// spring on φ, a torque about it, ϑ held at 30°), its body keeps its angles.
 #include <string.h>
 
 #include "model_impl.h"
@@ -224,7 +224,7 @@ static void copy_spatial(turning* t, const turned_body* b) {
   memcpy(s->spin, triple.spin[1], sizeof s->spin);
   const char* name = pl_format(t->arena, "%s.unit", old->name.text);
   pl_constraint c = {.name = {.text = name, .ascii = name, .index = old->name.index}, .left = unit, .right = pl_int(p, 1), .relation = PL_EQ,
-                     .block = old->block, .span = old->span, .body = old->name.text};
+                     .block = old->block, .span = old->span, .body = old->name.text, .axes = PL_AXES_QUATERNION};
   c.g = pl_sub(p, c.left, c.right);
   pl_push(t->arena, t->to->constraints, c);
 }

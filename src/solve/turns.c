@@ -4,10 +4,11 @@
 //
 //   z_1 = cos(ϑ/2) e^(i (φ + ψ)/2),   z_2 = sin(ϑ/2) e^(i (φ - ψ)/2)
 //
-// so φ + ψ is an argument of z_1, φ - ψ one of z_2, and the singular attitudes are z_2 = 0 (ϑ = 0) and z_1 = 0 (ϑ = 180°).  A rotation has
-// the angles (φ, ϑ, ψ), (φ + 180°, -ϑ, ψ + 180°) and what whole turns make of them; of these the motion is followed continuously along its
-// series.  Through a zero of z_2 or z_1 it goes on with φ and ψ continuous while ϑ changes its sign or passes 180°.  Where it stays
-// in a zero, the argument that is lost goes on at the last rate that it had.
+// so φ + ψ is an argument of z_1, φ - ψ one of z_2, and the singular attitudes are z_2 = 0 (ϑ = 0) and z_1 = 0 (ϑ =
+// 180°).  A rotation has the angles (φ, ϑ, ψ), (φ + 180°, -ϑ, ψ + 180°) and what whole turns make of them; of these
+// the motion is followed continuously along its series.  Through a zero of z_2 or z_1 it goes on with φ and ψ
+// continuous while ϑ changes its sign or passes 180°.  Where it stays in a zero, the argument that is lost goes on at
+// the last rate that it had.
 #include <complex.h>
 #include <math.h>
 #include <string.h>
@@ -21,7 +22,8 @@ typedef double complex pl_complex;
 // The two numbers of a body with two derivatives.
 typedef struct pl_halves { pl_complex z[2], v[2], a[2]; } pl_halves;
 
-static pl_complex number(double re, double im) { return CMPLX(re, im); }
+// CMPLX of the standard is not there with every compiler.
+static pl_complex number(double re, double im) { return __builtin_complex(re, im); }
 
 static pl_complex unit(double angle) { return number(cos(angle), sin(angle)); }
 
@@ -77,7 +79,8 @@ static void rates_of_argument(pl_complex e, double r, pl_complex v, pl_complex a
 
 // Angles, rates and accelerations at h, next to where they were followed to; dt after that.
 static void to_angles(const pl_turn_now* now, const pl_halves* h, double dt, double* angle, double* rate, double* second) {
-  double lost_sum = (now->angle[0] + now->angle[2]) / 2 + dt * now->rate[0], lost_difference = (now->angle[0] - now->angle[2]) / 2 + dt * now->rate[1];
+  double lost_sum = (now->angle[0] + now->angle[2]) / 2 + dt * now->rate[0];
+  double lost_difference = (now->angle[0] - now->angle[2]) / 2 + dt * now->rate[1];
   double sum = carg(direction(h->z[0], h->v[0], lost_sum)), difference = carg(direction(h->z[1], h->v[1], lost_difference));
   nearest_angles(sum, 2 * atan2(cabs(h->z[1]), cabs(h->z[0])), difference, now->angle, angle);
   if (rate == NULL) return;
