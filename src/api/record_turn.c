@@ -40,13 +40,21 @@ static void name_as_declared(const pl_recorder* r, const pl_recording* declared)
   r->out->setup.links = link;
 }
 
+// φ = ..., or φ' = ... of nothing else that moves.
+static bool holds(const pl_recorder* r, const pl_constraint* c, pl_symbol angle) {
+  pl_symbol rate = pl_symbol_dot(r->pool, angle);
+  if (!c->has_velocity) return pl_has_symbol(r->pool, c->g, angle);
+  return pl_has_symbol(r->pool, c->g, rate) &&
+         !pl_has_role(r->pool, pl_subst1(r->pool, c->g, rate, pl_int(r->pool, 0)), PL_R_VELOCITY);
+}
+
 // A constraint that holds the precession or the spin makes their sum and difference known everywhere.
 static bool is_held(const pl_recorder* r, const pl_spatial* b) {
   for (int i = 0; i < r->model->constraints.n; i++) {
     const pl_constraint* c = &r->model->constraints.at[i];
-    if (c->relation != PL_EQ || c->has_velocity || c->off || c->while_label) continue;
+    if (c->relation != PL_EQ || c->off || c->while_label) continue;
     for (int k = 0; k < 3; k += 2)
-      if (pl_has_symbol(r->pool, c->g, pl_symbol_of(r->pool, b->axes[k]))) return true;
+      if (holds(r, c, pl_symbol_of(r->pool, b->axes[k]))) return true;
   }
   return false;
 }
