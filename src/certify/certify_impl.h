@@ -146,7 +146,7 @@ typedef struct pl_stepper {
   double radius;              // of the disk of times of the last step, 0 before the first
   double longest;             // radius so far
   double growth;              // natural step over radius
-  int order;
+  int order, highest;         // of the step; that is allowed
   mag_t x;                    // step over radius, of the series at hand
   mag_ptr reach_q, reach_v;   // how far q and v get from their start on the disk of times    (n_q)
   mag_ptr pull;               // bounds of |a|                                                (n_q)

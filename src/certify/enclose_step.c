@@ -19,7 +19,7 @@ static const double natural = 0.14;       // step over radius: least work for p^
 enum { MOST_TRIES = 140, MOST_BOUNDS = 8 };
 
 void pl_stepper_make(pl_stepper* e, pl_system* s, int direction) {
-  *e = (pl_stepper){.s = s, .direction = direction, .growth = natural};
+  *e = (pl_stepper){.s = s, .direction = direction, .growth = natural, .highest = PL_CERTIFY_ORDER};
   e->reach_q = _mag_vec_init(s->n_q + 1);
   e->reach_v = _mag_vec_init(s->n_q + 1);
   e->pull = _mag_vec_init(s->n_q + 1);
@@ -114,9 +114,9 @@ bool pl_step_prove(pl_stepper* e, arb_srcptr t, double longest) {
 
 // ---------------------------------------------------------------------------------------------- series
 // Smallest order whose tail is below the rounding of the working precision.
-static int order_for(const pl_system* s, double x) {
-  double p = ceil((double)(s->prec + 4) / -log2(x));
-  return p < 4 ? 4 : p > PL_CERTIFY_ORDER ? PL_CERTIFY_ORDER : (int)p;
+static int order_for(const pl_stepper* e, double x) {
+  double p = ceil((double)(e->s->prec + 4) / -log2(x));
+  return p < 4 ? 4 : p > e->highest ? e->highest : (int)p;
 }
 
 // reach x^(p+1)/(1-x)
@@ -177,7 +177,7 @@ bool pl_step_series(pl_stepper* e, arb_srcptr t, arb_srcptr h) {
   set_ratio(e, h);
   if (mag_cmp_2exp_si(e->x, -1) >= 0) return false;
   double x = mag_get_d(e->x);
-  e->order = order_for(s, x);
+  e->order = order_for(e, x);
   if (e->order + 2 > s->cap) {
     pl_system_reserve(s, e->order + 16);
     pl_system_values(s, t, PL_FOR_MOTION);
