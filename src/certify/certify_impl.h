@@ -122,7 +122,7 @@ arb_srcptr pl_root_series(const pl_ball_jet* j, int root); // coefficients of a 
 // ---- equations.c
 // Programs at order 0 for t, q[0], v[0].
 void pl_system_values(pl_system* s, arb_srcptr t, uint8_t wanted);
-int pl_system_choose_rows(pl_system* s);                   // rows whose gradients are independent, declared ones first
+int pl_system_choose_rows(pl_system* s);                   // independent rows, declared ones first; -1: a force needs another
 bool pl_system_invert(pl_system* s);                       // the matrix of order 0; false: not proved to be regular
 // Series of q, v up to order p, of a and λ up to p - 1, after values and inverse.
 void pl_system_series(pl_system* s, int p, double bits_per_order);

@@ -381,7 +381,7 @@ static pl_certify_end velocities(starter* z) {
   if (!take_given(z, s->p->v_start, s->p->v_run, v_of)) return PL_CERTIFY_NO_EXACT;
   pl_system_values(s, z->t, PL_FOR_START);
   if (!choose_unknowns(z, false)) return PL_CERTIFY_START;
-  if (s->n_rows != s->n_wanted) return PL_CERTIFY_REDUNDANT;
+  if (pl_system_choose_rows(s) != s->n_wanted) return PL_CERTIFY_REDUNDANT;
   if (!solve_velocities(z)) return PL_CERTIFY_START;
   note_moved(z, s->p->v_run, NULL, v_of, s->n_q);
   return near_run(z, s->p->v_run, v_of) ? PL_CERTIFIED : PL_CERTIFY_ELSEWHERE;

@@ -44,6 +44,18 @@ void pl_system_values(pl_system* s, arb_srcptr t, uint8_t wanted) {
 }
 
 // ---------------------------------------------------------------------------------------------- rows
+// Forces may depend on multipliers in use only: one that is left out has no value of its own.
+static bool forces_are_determined(const pl_system* s) {
+  for (int i = 0; i < s->n_jets; i++) {
+    const pl_ball_jet* j = &s->jet[i];
+    for (int e = 0; e < j->pattern->n_W; e++) {
+      int c = j->c[j->pattern->W[e].col];
+      if (s->active[c] && s->row_of[c] < 0) return false;
+    }
+  }
+  return true;
+}
+
 // Rows of G in doubles: which are independent.  What is chosen is proved to be regular by the inverse; that the others
 // follow is known by algebra, so a choice that misses one is noticed by their number.
 int pl_system_choose_rows(pl_system* s) {
@@ -71,7 +83,7 @@ int pl_system_choose_rows(pl_system* s) {
     if (s->row_of[c] >= 0) s->constraint_of[s->n_rows++] = c;
   }
   pl_arena_rewind(arena, mark);
-  return s->n_rows;
+  return forces_are_determined(s) ? s->n_rows : -1;
 }
 
 // ---------------------------------------------------------------------------------------------- matrix

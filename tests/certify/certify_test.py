@@ -195,6 +195,22 @@ for force in ("x", "sqrt(1 + x'^2)", "exp(ln(x))", "cosh(t)", "exp(t) - sinh(t)"
     check_row(f"x'' = {force}", certified(model, width="1e-30")["rows"][-1], {"x": (e + 1 / e) / 2, "x_dot": (e - 1 / e) / 2}, "1e-29")
 
 
+SLOPE = """param μ = 0.2
+coord x, y
+axes x right, y up
+mass 1 at (x, y)
+gravity 9.81 along -y
+constraint line: y - x = 0 with λ
+force (μ λ, 0) on (x, y)
+init x = 0, y = 0, x' = 0, y' = 0
+simulate 0..1
+"""
+# x'' = -λ + μ λ, y'' = λ - g, x'' = y'': λ (2 - μ) = g
+force = D("9.81") / D("1.8")
+check_row("a force that depends on a multiplier", certified(SLOPE, width="1e-30")["rows"][-1],
+          {"lambda": force, "x": (force - D("9.81")) / 2}, "1e-29")
+
+
 # ------------------------------------------------------------------------------------------ values of tests/cases
 def reference(path, until):
     """NAME VALUE pairs of the lines `#= t UNTIL` of a case."""
