@@ -16,5 +16,5 @@ bench/derivation_peers.py build-bench/pleuel
 echo
 bench/motion_peers.py build-bench/pleuel --svg build-bench/motion.svg
 echo
-echo 'Energy of 32 pendulums over 1e5 periods, a few minutes'
+echo 'Energy of 32 pendulums over 1e5 periods in double and long, some fifteen minutes'
 tests/cases/energy_test.py build-bench/pleuel 1e5 32

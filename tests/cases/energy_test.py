@@ -65,11 +65,21 @@ check(f"{starts} pendulums over {periods:g} periods: energy drifts by less than 
       all(d <= LIMIT * periods for d in found), "\n".join(f"from {a:.3f} rad: {d:.2e}" for a, d in zip(angles, found)))
 print(f"# largest {max(found):.2e}, root mean square {rms(found):.2e}")
 
+# Over decades of time up to the periods asked for; at least sixteen starts, so that the exponent is known to 0.05.
 usage = subprocess.run([program, "sim", "-h"], capture_output=True, text=True).stdout
-if "--precision" in usage and periods >= 1e4:
-    counts = [10.0 ** k for k in range(2, int(math.log10(periods)) + 1)]
-    values = [rms([drift(a, n, ("--precision", "long")) for a in angles]) for n in counts]
+angles = [0.1 + 2.9 * (k + 0.5) / max(starts, 16) for k in range(max(starts, 16))]
+if "--precision" in usage and periods >= 100 and math.isfinite(drift(angles[0], 1, ("--precision", "long"))):
+    first = 2 if periods >= 1e4 else math.log10(periods) - 1.5
+    n = max(3, round(math.log10(periods) - first) + 1)
+    counts = [10.0 ** (first + (math.log10(periods) - first) * k / (n - 1)) for k in range(n)]
+    table = [[drift(a, n, ("--precision", "long")) for a in angles] for n in counts]
+    values = [rms(row) for row in table]
     slope = exponent(counts, values)
     check("long run: the drift grows like the square root of time", abs(slope - 0.5) <= 0.15,
-          f"exponent {slope:.2f}: " + ", ".join(f"{n:g} {v:.1e}" for n, v in zip(counts, values)))
+          f"exponent {slope:.2f}: " + ", ".join(f"{n:.0f} {v:.1e}" for n, v in zip(counts, values)))
+    print(f"# exponent {slope:.3f}: " + ", ".join(f"{n:.0f} periods {v:.2e}" for n, v in zip(counts, values)))
+    quad = drift(angles[-1], counts[0], ("--precision", "quad"))
+    check("quad: its drift over the first of these times is far below", quad < 1e-10 * values[0], f"{quad:.1e}")
+elif "--precision" in usage:
+    print("# long runs: not measured, this build has no such numbers or the time is too short")
 done()
