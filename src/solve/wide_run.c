@@ -39,16 +39,6 @@ static bool pivots_are_sound(pl_run* run) {
   return least > sound * o->fade_best;
 }
 
-static double relative(const pl_run* run, const double* g, const double* size, bool positions) {
-  double most = 0;
-  for (int c = 0; c < run->n_c; c++) {
-    if (!run->active[c] || g[c] == 0 || (positions && run->setup->links[c].velocity)) continue;
-    double x = fabs(g[c]) / size[c];
-    if (!(x <= most)) most = x;
-  }
-  return most;
-}
-
 static void note_largest(double x, double* most) {
   if (!(x <= *most)) *most = x;
 }
@@ -84,7 +74,7 @@ static bool project_positions(pl_run* run, pl_projection* p) {
     fine_part(run, PL_PART_PLACE);
     read(run, o->g, run->n_c, run->g);
     read(run, o->g_size, run->n_c, run->g_size);
-    double g = relative(run, run->g, run->g_size, true);
+    double g = pl_residual(run, run->g, run->g_size, true);
     if (round == 0) p->g_before = g;
     p->g_after = g;
     if (!isfinite(g) || !pivots_are_sound(run)) return false;
@@ -103,7 +93,7 @@ static bool project_velocities(pl_run* run, pl_projection* p) {
     fine_part(run, PL_PART_SPEED);
     read(run, o->r, run->n_c, run->r);
     read(run, o->r_size, run->n_c, run->r_size);
-    double r = relative(run, run->r, run->r_size, false);
+    double r = pl_residual(run, run->r, run->r_size, false);
     if (round == 0) p->r_before = r;
     p->r_after = r;
     if (!isfinite(r)) return false;
