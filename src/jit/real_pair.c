@@ -1,8 +1,7 @@
 // Programs on numbers that are a sum of two doubles, 106 bits: several times faster than 128-bit numbers in software, where the
 // processor has fused multiply-add; it is compiled a second time for those that have not, with the same bits.
 //
-// Arithmetic after Dekker, Numer. Math. 18 (1971) 224, and Joldes, Muller, Popescu, ACM Trans. Math. Softw. 44 (2017) 15: errors below
-// 2^-102 of the result.  Elementary functions are those of 128 bits.
+// Arithmetic after [Dekker1971] and [JoldesMullerPopescu2017]: errors below 2^-102 of the result.  Elementary functions are those of 128 bits.
 #include <float.h>
 #include <math.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 //
 // The state is rounded to its type with each correction of the projection, and nowhere else: what is computed from it is more exact
 // than that by the digits that the fine type has more, so that the rounding of the state is the only error that counts, and it has
-// no direction.  Then errors grow like a random walk: Brouwer's law, Astron. J. 46 (1937) 149.
+// no direction.  Then errors grow like a random walk: Brouwer's law [Brouwer1937].
 #include <math.h>
 #include <string.h>
 
