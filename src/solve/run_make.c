@@ -273,9 +273,10 @@ pleuel_status pl_run_make(pl_job* job, const pl_setup* setup, const pl_run_optio
   pl_watch_make(run);
   pl_kinks_make(run);
   first_mode(run);
-  if (options->precision != PL_PRECISION_DOUBLE) PL_TRY(pl_wide_check(run));
-  *out = run;
-  return PLEUEL_OK;
+  pleuel_status wide = options->precision != PL_PRECISION_DOUBLE ? pl_wide_check(run) : PLEUEL_OK;
+  if (wide == PLEUEL_OK) *out = run;
+  else pl_run_free(run);
+  return wide;
 }
 
 void pl_run_free(pl_run* run) {
