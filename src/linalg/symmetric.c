@@ -9,7 +9,9 @@
 // where it is not, the caller goes on with a general factorisation.
 #include "linalg/symmetric_impl.h"
 
-enum { MOST_NEIGHBOURS = 24, FEW = 64 };
+#include <math.h>
+
+enum { MOST_NEIGHBOURS = 24, FEW = 64, MOST_SLOTS = 1000 };
 
 typedef struct pl_builder {
   pl_arena* a;
@@ -172,15 +174,15 @@ static void sort_touches(pl_touches* t) {
   }
 }
 
-// Returns the number of slots.
+// Returns the number of slots; more than MOST_SLOTS are not given.
 static int give_slots(pl_builder* b, int lanes) {
   pl_touches* touch = PL_ARRAY(b->a, pl_touches, lanes + 1);
   int most = 0, widest = 0;
   if (b->n_separators > 0) list_touches(b, touch);
-  for (int p = 0; p < lanes; p++) {
-    sort_touches(&touch[p]);
+  for (int p = 0; p < lanes; p++)
     if (touch[p].n > most) most = touch[p].n, widest = p;
-  }
+  if (most > MOST_SLOTS) return most;
+  for (int p = 0; p < lanes; p++) sort_touches(&touch[p]);
   b->slot_separator = PL_ARRAY(b->a, int, most * lanes + 1);
   for (int i = 0; i < most * lanes; i++) b->slot_separator[i] = -1;
   for (int p = 0; p < lanes; p++)
@@ -231,8 +233,8 @@ static bool structure(pl_builder* b, int lanes, pl_symmetric_front* f, pl_symmet
   if (lanes > 1) m = order_in_lanes(b, lanes);
   else if (!order_in_one_lane(b)) return false;
   *f = (pl_symmetric_front){.lanes = lanes, .m = m, .nb = give_slots(b, lanes)};
+  if (f->nb > MOST_SLOTS) return false;
   pl_structure t = {b, f, PL_ARRAY(b->a, pl_int_list, m + 1), PL_ARRAY(b->a, pl_int_list, b->n_separators + 1)};
-  if (f->nb > 1000) return false;
   each_pair(b, add_pair, &t);
   couple_separators(&t);
   return pl_symmetric_front_make(b->a, f, lanes, m, f->nb, t.main) &&
@@ -245,23 +247,25 @@ static double price(const pl_symmetric_front* f) {
   return f->lanes == 1 ? 5.0 * f->n + 20.0 * f->m : 3.0 * vectors * f->n + (12 + 6 * vectors) * f->m;
 }
 
+// Above so many cycles for an unknown too much fills in, as where one coordinate stands in hundreds of constraints: a factorisation that
+// eliminates the constraints first is cheaper.
+static const double too_dear = 40;
+
 static bool choose(pl_builder* b) {
   pl_symmetric* s = b->s;
   pl_symmetric_front f, g;
   bool only_constraints = true;
   for (int i = 0; i < s->n_core; i++) only_constraints &= b->kind[s->core[i]] == PL_UNKNOWN_CONSTRAINT;
   int lanes = s->n_core < FEW || !only_constraints ? 1 : s->n_core < 400 ? 8 : s->n_core < 2000 ? 16 : 32;
-  bool fits = structure(b, lanes, &f, &g);
-  double cost = fits ? price(&f) + price(&g) : 1e300;
+  double most = too_dear * s->n, cost = structure(b, lanes, &f, &g) ? price(&f) + price(&g) : (double)INFINITY;
   s->main = f, s->border = g;
-  if (lanes == 1) return fits;
   // a part as simple as a chain's needs no comparison
-  if (fits && cost < 3.5 * s->n_core + 400) return true;
+  if (lanes == 1 || cost < 3.5 * s->n_core + 400) return cost < most;
   if (structure(b, 1, &f, &g) && price(&f) < cost) {
     s->main = f, s->border = g;
-    return true;
+    return price(&f) < most;
   }
-  return structure(b, lanes, &s->main, &s->border);
+  return cost < most && structure(b, lanes, &s->main, &s->border);
 }
 
 // ---------------------------------------------------------------------------------------------- memory

@@ -34,9 +34,9 @@ static bool fill_in(pl_arena* a, int m, int nb, pl_int_list* below) {
         seen[r] = k + 1;
         pl_push(a, below[k].v, r);
       }
-    below[k].v.n = sort_unique(below[k].v.at, below[k].v.n);
     pairs += 0.5 * below[k].v.n * (below[k].v.n + 1.0);
     if (pairs > MOST_PAIRS + 16.0 * m) return false;
+    below[k].v.n = sort_unique(below[k].v.at, below[k].v.n);
     if (below[k].v.n == 0 || below[k].v.at[0] >= m) continue;
     next[k] = child[below[k].v.at[0]];
     child[below[k].v.at[0]] = k;

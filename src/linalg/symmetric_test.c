@@ -153,6 +153,15 @@ static void a_redundant_rod_leaves_nothing_of_a_pivot(void** state) {
   pl_arena_free(s.a);
 }
 
+// Eliminating the hub first would couple all its rods with each other.
+static void a_hub_of_many_rods_is_left_to_another_order(void** state) {
+  (void)state;
+  t_system s = open_system(301, 300, 12);
+  for (int i = 0; i < 300; i++) rod(&s, i, i + 1, 0);
+  assert_null(close_system(&s));
+  pl_arena_free(s.a);
+}
+
 static void no_number_is_told(void** state) {
   (void)state;
   t_system s = chain(100, 7);
@@ -193,6 +202,7 @@ int main(void) {
       cmocka_unit_test(coupled_masses_are_solved),
       cmocka_unit_test(coordinates_without_mass_come_last),
       cmocka_unit_test(a_redundant_rod_leaves_nothing_of_a_pivot),
+      cmocka_unit_test(a_hub_of_many_rods_is_left_to_another_order),
       cmocka_unit_test(no_number_is_told),
       cmocka_unit_test(every_processor_computes_the_same_bits),
   };
