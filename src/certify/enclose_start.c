@@ -178,9 +178,9 @@ static bool krawczyk(starter* z, arb_mat_t g, arb_mat_t G, arb_mat_t C, arb_ptr 
     mag_init(r);
     arb_ptr x = q_of(z, z->list[k]);
     box_radius(r, x, s->prec);
-    arb_sub(step->rows[k], x, step->rows[k], s->prec);
+    arb_sub(arb_mat_entry(step, k, 0), x, arb_mat_entry(step, k, 0), s->prec);
     arb_add_error_mag(x, r);
-    arb_add_error_mag(width->rows[k], r);
+    arb_add_error_mag(arb_mat_entry(width, k, 0), r);
     arb_set(box + k, x);
     mag_clear(r);
   }
@@ -192,7 +192,7 @@ static bool krawczyk(starter* z, arb_mat_t g, arb_mat_t G, arb_mat_t C, arb_ptr 
   bool inside = true;
   for (int k = 0; k < n; k++) {
     arb_ptr x = q_of(z, z->list[k]);
-    arb_add(x, step->rows[k], width->rows[k], s->prec);
+    arb_add(x, arb_mat_entry(step, k, 0), arb_mat_entry(width, k, 0), s->prec);
     inside = inside && arb_is_finite(x) && arb_contains_interior(box + k, x);
   }
   arb_mat_clear(step);
