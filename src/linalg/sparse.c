@@ -19,10 +19,12 @@ struct pl_sparse {
   klu_numeric* numeric;
   double* value;  // KLU takes it without const  (start[n])
   double* first;  // those that the pivot order was found from  (start[n])
+  double growth;  // reciprocal growth of entries there
 };
 
-// Pivots kept from an earlier factorisation are good while the growth stays above this.
-static const double least_growth = 1e-8;
+// Pivots kept from an earlier factorisation serve while entries grow not much more with them than with pivots of their own:
+// each power of ten that they grow costs a digit of the solution.
+static const double part_of_growth = 0.05;
 
 pl_sparse* pl_sparse_make(pl_arena* a, int n, const int* start, const int* row) {
   pl_sparse* s = PL_NEW(a, pl_sparse);
@@ -51,18 +53,23 @@ void pl_sparse_free(pl_sparse* s) {
   if (s->symbolic) klu_free_symbolic(&s->symbolic, &s->common);
 }
 
+static double growth_of(pl_sparse* s, double* value) {
+  bool known = klu_rgrowth(s->start, s->row, value, s->symbolic, s->numeric, &s->common);
+  return known ? s->common.rgrowth : 0;
+}
+
 static bool refactor_serves(pl_sparse* s) {
   if (!klu_refactor(s->start, s->row, s->value, s->symbolic, s->numeric, &s->common)) return false;
-  if (s->common.status != KLU_OK) return false;
-  if (!klu_rgrowth(s->start, s->row, s->value, s->symbolic, s->numeric, &s->common)) return false;
-  return s->common.rgrowth > least_growth;
+  return s->common.status == KLU_OK && growth_of(s, s->value) > part_of_growth * s->growth;
 }
 
 // A factor with a pivot order of its own, from s->first.
 static bool factor_anew(pl_sparse* s) {
   if (s->numeric) klu_free_numeric(&s->numeric, &s->common);
   s->numeric = klu_factor(s->start, s->row, s->first, s->symbolic, &s->common);
-  return s->numeric != NULL && s->common.status == KLU_OK;
+  if (s->numeric == NULL || s->common.status != KLU_OK) return false;
+  s->growth = growth_of(s, s->first);
+  return true;
 }
 
 bool pl_sparse_factor(pl_sparse* s, const double* value) {
