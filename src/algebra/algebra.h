@@ -1,4 +1,4 @@
-// algebra: exact calculation in a field tower, on FLINT (the only folder that sees FLINT and Arb).
+// algebra: exact calculation in a field tower, on FLINT (beside certify the only folder that sees FLINT and Arb).
 //
 // A tower is opened for one derivation.  Its generators are the symbols, sin and cos of each angle base with
 // s^2 = 1 - c^2, w = sqrt(P) with w^2 = P (Kummer test before a new one is added), exp over a lattice of exponents, sinh and

@@ -29,27 +29,30 @@ typedef struct pass {
 } pass;
 
 // ---------------------------------------------------------------------------------------------- width
-static double largest(arb_srcptr x, const pl_system* s, bool radius) {
+static double largest_radius(arb_srcptr x, const pl_system* s) {
   double most = 0;
-  mag_t m;
-  mag_init(m);
-  for (int i = 0; i < s->n_q; i++) {
-    arb_srcptr y = x + (slong)i * s->cap;
-    if (radius) mag_set(m, arb_radref(y));
-    else arb_get_mag(m, y);
-    most = fmax(most, mag_get_d(m));
-  }
-  mag_clear(m);
+  for (int i = 0; i < s->n_q; i++) most = fmax(most, mag_get_d(arb_radref(x + (slong)i * s->cap)));
   return most;
 }
 
+// Of those that are known to be other than zero.
+static double largest_size(arb_srcptr x, const pl_system* s) {
+  double most = 0;
+  for (int i = 0; i < s->n_q; i++) {
+    arb_srcptr y = x + (slong)i * s->cap;
+    if (arb_rel_accuracy_bits(y) > 10) most = fmax(most, fabs(pl_ball_double(y)));
+  }
+  return most;
+}
+
+// A motion that rests at zero has no size: then the width is in SI units.
 static double over(double x, double size) { return x == 0 ? 0 : size > 0 ? x / size : x; }
 
 // Half width of the state relative to the largest coordinate, or velocity, met so far.
 static double state_width(pass* z) {
-  z->size_q = fmax(z->size_q, largest(z->s->q, z->s, false));
-  z->size_v = fmax(z->size_v, largest(z->s->v, z->s, false));
-  return fmax(over(largest(z->s->q, z->s, true), z->size_q), over(largest(z->s->v, z->s, true), z->size_v));
+  z->size_q = fmax(z->size_q, largest_size(z->s->q, z->s));
+  z->size_v = fmax(z->size_v, largest_size(z->s->v, z->s));
+  return fmax(over(largest_radius(z->s->q, z->s), z->size_q), over(largest_radius(z->s->v, z->s), z->size_v));
 }
 
 // ---------------------------------------------------------------------------------------------- results

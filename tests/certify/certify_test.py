@@ -136,6 +136,8 @@ for back in ("", "-"):
     t = D(back + "7")
     check_row(f"oscillator to {back}7", row, {"x": cos(w * t), "x_dot": -w * sin(w * t)}, "1e-39")
 
+rest = certified(OSCILLATOR.replace("x = 1", "x = 0"))
+check("a body that rests at zero is certified too", rest["complete"] and contains(rest["rows"][-1]["x"], D(0)), rest)
 document = run(OSCILLATOR, "--certify", "--dt", "0.7", "-f", "-o", str(pathlib.Path(scratch.name, "rows.csv")))
 rows = document["certified"]["rows"]
 table = [line.split(",") for line in pathlib.Path(scratch.name, "rows.csv").read_text(encoding="utf-8").splitlines()[1:]]
