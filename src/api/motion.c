@@ -161,10 +161,18 @@ static void tell_stop(pl_teller* t, bool started) {
 
 // Columns of multipliers that hold no number for some time: redundant constraints, or more contacts and frictions than equations.
 static void tell_undetermined(pl_teller* t) {
-  const char* list = t->m->result->stats.undetermined;
+  enum { SHOWN = 6 };
+  const char *list = t->m->result->stats.undetermined, *end = list;
   if (list == NULL) return;
-  pl_text_addf(t->out, say(t, "     several forces fit, so some are not determined: %s\n",
-                           "     mehrere Kräfte passen, daher nicht bestimmt: %s\n"), list);
+  int more = 0, n = 1;
+  for (const char* c = list; *c; c++) {
+    if (*c == ',' && n++ >= SHOWN) more++;
+    if (more == 0) end = c + 1;
+  }
+  pl_text_addf(t->out, say(t, "     several forces fit, so some are not determined: %.*s", "     mehrere Kräfte passen, daher nicht bestimmt: %.*s"),
+               (int)(end - list), list);
+  if (more > 0) pl_text_addf(t->out, say(t, " and %d more", " und %d weitere"), more);
+  pl_text_add(t->out, "\n");
 }
 
 void pl_engine_text(pl_text* out, const pleuel_model* m, pl_language lang) {
