@@ -34,15 +34,28 @@ void pl_jet_interpret(pl_jet* j, pl_level level, int k, bool all) {
     pl_jet_interpret_plain(j, level, k, all);
 }
 
+// Constants whose higher coefficients, zero, are read by the sum of a series.
+static bool* find_summed(pl_arena* a, const pl_tape* tape) {
+  bool* summed = PL_ARRAY(a, bool, tape->n_nodes + 1);
+  for (int i = 0; i < tape->n_nodes; i++) {
+    const pl_tape_node* n = &tape->nodes[i];
+    int operand[] = {n->a, n->b, n->c};
+    for (int o = 0; pl_op_series[n->op] && o < 3; o++)
+      if (operand[o] >= 0 && i >= tape->level_end[PL_LEVEL_CONST]) summed[operand[o]] = true;
+  }
+  return summed;
+}
+
 // Orders that a node has room for.  Inputs are filled in to all orders, whoever reads them.
-static int room(const pl_tape* tape, int node, int orders, bool lean) {
+static int room(const pl_tape* tape, int node, int orders, bool lean, bool summed) {
   const pl_tape_node* n = &tape->nodes[node];
-  if (node < tape->level_end[PL_LEVEL_CONST]) return 1;
+  if (node < tape->level_end[PL_LEVEL_CONST]) return summed ? orders : 1;
   return lean && !n->high && pl_op_reads[n->op] > 0 && orders > 2 ? 2 : orders;
 }
 
 static pl_jet* make(pl_arena* a, const pl_tape* tape, int lanes, int orders, bool lean) {
   pl_jet* j = PL_NEW(a, pl_jet);
+  bool* summed = find_summed(a, tape);
   size_t rows = 0;
   j->tape = tape;
   j->lanes = lanes;
@@ -50,7 +63,7 @@ static pl_jet* make(pl_arena* a, const pl_tape* tape, int lanes, int orders, boo
   j->at = PL_ARRAY(a, size_t, tape->n_nodes + 1);
   for (int i = 0; i < tape->n_nodes; i++) {
     j->at[i] = rows;
-    rows += (size_t)room(tape, i, orders, lean);
+    rows += (size_t)room(tape, i, orders, lean, summed[i]);
   }
   j->c = PL_ARRAY(a, double, (size_t)lanes * rows + 1);
   j->kernel = pl_jet_interpret;

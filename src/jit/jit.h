@@ -59,7 +59,8 @@ enum { PL_PROG_PARTS = 4 };
 static inline int pl_prog_parts(const pl_prog_sum* s) { return s->n == 1 ? 2 : PL_PROG_PARTS; }
 typedef struct pl_prog_block { int width, shift, first, n; } pl_prog_block;    // sums first .. first + n - 1
 // y = A x: rows in blocks of 8, column j of A at A + 8 j blocks.  The last `late` entries of x are waited for and come last: over the
-// others sums in four parts, j mod 4, s = (s0+s1)+(s2+s3); to s and, when there are several late ones, to a second part they are added in turn.
+// others sums in four parts, j mod 4, s = (s0+s1)+(s2+s3); to s and, when there are several late ones, to a second part these
+// are added in turn.
 typedef struct pl_prog_product { int to, matrix, vector, n, late, blocks; } pl_prog_product;
 
 typedef struct pl_prog {
@@ -144,7 +145,6 @@ typedef struct pl_lower {
   int (*start)(void* user, int node);    // order 0
   int (*now)(void* user, int node);      // order k; -1: zero
   int (*sum)(void* user, int node, int i);   // convolution i of the node; -1: zero
-  int (*ratio)(void* user, int node, int part);   // part 0: 1/k rounded, part 1: the rest of it
   bool means;                            // weighted sums come divided by k
   int (*inverse)(void* user, int node);  // what pl_lower_inverse computed at order 0
 } pl_lower;

@@ -190,7 +190,9 @@ static void lowered_recurrences_agree_with_the_series(void** state) {
     t_tape* t = make(&r, round % 2 ? 8 : 1, round % 4 < 2);
     double* m = memory_of(t, &r);
     pl_jet* j = pl_jet_make(t->arena, &t->tape, t->lanes, ORDERS);
-    memcpy(j->c, m, (size_t)t->base_sum * sizeof *m);
+    for (int i = 0; i < t->tape.n_nodes; i++)
+      for (int k = 0; k < (constant(t, i) ? 1 : ORDERS); k++)
+        memcpy(pl_jet_at(j, i, k), m + place(t, i) + k * t->lanes, (size_t)t->lanes * sizeof *m);
     for (int k = 0; k < ORDERS; k++) j->kernel(j, PL_LEVEL_PLACE, k, true);
     pl_prog_interpret(t->value, m, 0, 1);
     pl_prog_interpret(t->order, m, 1, ORDERS);
@@ -282,6 +284,61 @@ static void products_and_rows_of_sums_have_the_same_bits(void** state) {
   pl_arena_free(a);
 }
 
+// A series of six numbers: sums over two streams, of which the second holds what the order before has found, and a product.
+static pl_prog* write_series(pl_arena* a, int orders) {
+  enum { N = 6, A = 0, B = 128, C = 256, SCALE = 384, REST = 512, TO = 640, MATRIX = 704, X = 800, Y = 816, OUT = 832 };
+  pl_prog* p = pl_prog_make(a, "series", 1);
+  pl_prog_block_begin(p, 8, 1);
+  for (int s = 0; s < 3; s++) {
+    pl_prog_sum_begin(p, TO + 8 * s, false);
+    for (int i = 0; i <= 2 * s; i++) pl_prog_sum_pair(p, i % 2 ? C : A, i == 2 ? A : B);
+    if (s == 1) pl_prog_sum_scale(p, SCALE, REST);
+  }
+  for (int i = 0; i < N; i++) {
+    int x = pl_prog_op2(p, PL_PROG_ADD, pl_prog_load(p, TO + i, 0), pl_prog_load(p, TO + 8 + i % 3, 0));
+    x = pl_prog_op3(p, PL_PROG_FMA, pl_prog_load(p, OUT + (i + 1) % N, N), pl_prog_load(p, SCALE, 8), x);
+    pl_prog_store(p, x, X + i, 0);
+    pl_prog_store(p, x, A + 8 + i, 8);
+    if (i < 3) pl_prog_store(p, x, C + 8 + i, 8);
+  }
+  pl_prog_product_add(p, Y, MATRIX, X, N, 2, 1);
+  for (int i = 0; i < N; i++) {
+    int y = pl_prog_op2(p, PL_PROG_SUB, pl_prog_load(p, Y + i, 0), pl_prog_load(p, TO + 16 + i, 0));
+    pl_prog_store(p, y, OUT + N + i, N);
+    if (i != 4) pl_prog_store(p, y, B + (i == 2 ? 0 : 8) + i, 8);   // one lane is written an order later
+  }
+  p->spill = OUT + N * (orders + 2);
+  return p;
+}
+
+static void orders_written_out_have_the_same_bits(void** state) {
+  (void)state;
+  if (!pl_jit_available(NULL)) skip();
+  enum { ORDERS_HERE = 13, SIZE = 4096, STREAMS = 384, OUTPUTS = 832 };
+  pl_arena* a = pl_arena_make(NULL);
+  pl_random r = {seed_of("written out")};
+  pl_prog* p = write_series(a, ORDERS_HERE);
+  double *m = PL_ARRAY(a, double, SIZE), *n = PL_ARRAY(a, double, SIZE);
+  for (int i = 384; i < SIZE; i++) m[i] = pl_random_between(&r, -1, 1);
+  for (int i = 0; i < 16; i++)   // the first rows of what is written
+    for (int s = 0; s < 3; s++)
+      if (i % 8 < (s == 2 ? 3 : 6) && !(s == 1 && i % 8 == 4)) m[128 * s + i] = pl_random_between(&r, -1, 1);
+  memcpy(n, m, SIZE * sizeof *m);
+  pl_prog_interpret(p, m, 1, ORDERS_HERE);
+  p->first_order = 1;
+  p->orders = ORDERS_HERE;
+  const pl_prog* progs[] = {p};
+  pl_prog_run* run;
+  pl_jit_code* code = pl_jit_compile(a, progs, 1, &run, NULL);
+  assert_non_null(code);
+  run(n, 1, ORDERS_HERE);
+  assert_memory_equal(m, n, STREAMS * sizeof *m);
+  assert_memory_equal(m + OUTPUTS, n + OUTPUTS, (size_t)(p->spill - OUTPUTS) * sizeof *m);
+  assert_true(isfinite(m[p->spill - 7]) && m[p->spill - 7] != 0);
+  pl_jit_free(code);
+  pl_arena_free(a);
+}
+
 // ---------------------------------------------------------------------------------------------- the store
 static void damage(const char* folder) {
   char command[512];
@@ -329,6 +386,7 @@ int main(void) {
       cmocka_unit_test(lowered_recurrences_agree_with_the_series),
       cmocka_unit_test(compiled_random_tapes_have_the_bits_of_the_interpreter),
       cmocka_unit_test(products_and_rows_of_sums_have_the_same_bits),
+      cmocka_unit_test(orders_written_out_have_the_same_bits),
       cmocka_unit_test(a_damaged_object_is_compiled_again),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

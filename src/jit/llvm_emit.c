@@ -85,7 +85,10 @@ static void store_sums(pl_emit* e, const pl_prog_sum* s, int n, const pl_sum_par
   LLVMValueRef at_K = row(e, K, width);
   for (int i = 0, first = 0; i < n; first += pl_prog_parts(&s[i++])) {
     LLVMValueRef sum = pl_emit_total(e, x->at + first, pl_prog_parts(&s[i]));
-    if (s[i].scale >= 0) sum = pl_emit_scaled(e, sum, pl_emit_load(e, at_K, s[i].scale, width), pl_emit_load(e, at_K, s[i].rest, width), width);
+    if (s[i].scale >= 0) {
+      LLVMValueRef scale = pl_emit_load(e, at_K, s[i].scale, width), rest = pl_emit_load(e, at_K, s[i].rest, width);
+      sum = pl_emit_scaled(e, sum, scale, rest, width);
+    }
     pl_emit_store(e, sum, e->memory, s[i].to, width);
   }
 }
@@ -110,7 +113,8 @@ static void sums(pl_emit* e, const pl_prog_block* b, const pl_prog_sum* s, int n
   LLVMTypeRef t = pl_emit_type_of(e, width);
   LLVMValueRef one = pl_emit_whole(e, 1), K = LLVMBuildAdd(e->build, e->k, pl_emit_whole(e, b->shift), "");
   LLVMValueRef half = LLVMBuildAShr(e->build, K, one, ""), top = LLVMBuildAShr(e->build, LLVMBuildSub(e->build, K, one, ""), one, "");
-  LLVMValueRef even = LLVMBuildAnd(e->build, LLVMBuildICmp(e->build, LLVMIntNE, half, top, ""), LLVMBuildICmp(e->build, LLVMIntSGE, half, one, ""), "");
+  LLVMValueRef has_middle = LLVMBuildICmp(e->build, LLVMIntNE, half, top, ""), some = LLVMBuildICmp(e->build, LLVMIntSGE, half, one, "");
+  LLVMValueRef even = LLVMBuildAnd(e->build, has_middle, some, "");
   LLVMBasicBlockRef before = LLVMGetInsertBlock(e->build), inner = new_block(e, "middle"), head = new_block(e, "head");
   LLVMBasicBlockRef loop = new_block(e, "sum"), after = new_block(e, "summed");
   pl_sum_parts none, start, now, end;

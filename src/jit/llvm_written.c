@@ -29,7 +29,9 @@ static LLVMValueRef entry_of(pl_emit* e, LLVMValueRef vector, int lane) {
 
 static LLVMValueRef known_load(pl_emit* e, long at) {
   pl_written* w = e->written;
-  if (!w->known[at]) w->known[at] = w->row[at / 8] && at % 8 < w->width[at / 8] ? entry_of(e, w->row[at / 8], (int)(at % 8)) : load(e, at, 1);
+  LLVMValueRef row = w->row[at / 8];
+  int lane = (int)(at % 8);
+  if (!w->known[at]) w->known[at] = row && lane < w->width[at / 8] ? entry_of(e, row, lane) : load(e, at, 1);
   return w->known[at];
 }
 

@@ -139,16 +139,13 @@ static int over(const pl_lower* l, int x, int node) {
 }
 
 // ---------------------------------------------------------------------------------------------- order k
-// Convolution i over the order: x / k as x (1/k) with the rounding of 1/k made good, or divided.
-static int over_order(const pl_lower* l, int node, int x) {
-  if (x < 0) return -1;
-  if (!l->ratio) return pl_prog_op2(l->code, PL_PROG_DIV, x, pl_prog_order(l->code, 0));
-  int main = pl_prog_op2(l->code, PL_PROG_MUL, x, l->ratio(l->user, node, 0));
-  return pl_prog_op3(l->code, PL_PROG_FMA, x, l->ratio(l->user, node, 1), main);
+// x / k
+static int over_order(const pl_lower* l, int x) {
+  return x < 0 ? -1 : pl_prog_op2(l->code, PL_PROG_DIV, x, pl_prog_order(l->code, 0));
 }
 
 static int sum(const pl_lower* l, int node, int i) { return l->sum(l->user, node, i); }
-static int mean(const pl_lower* l, int node) { return l->means ? sum(l, node, 0) : over_order(l, node, sum(l, node, 0)); }
+static int mean(const pl_lower* l, int node) { return l->means ? sum(l, node, 0) : over_order(l, sum(l, node, 0)); }
 
 // a^r:  ((r + 1) S_1 / k - S_2 + r a_k c_0) / a_0,  S_1 = sum j a_j c_{k-j},  S_2 = sum a_j c_{k-j}
 static int power(const pl_lower* l, int node) {
@@ -164,7 +161,7 @@ static int power(const pl_lower* l, int node) {
 static int angle(const pl_lower* l, int node) {
   const pl_tape_node* n = at(l, node);
   int known = sub(l, sub(l, sum(l, node, 0), sum(l, node, 1)), sum(l, node, 2));
-  if (!l->means) known = over_order(l, node, known);
+  if (!l->means) known = over_order(l, known);
   int x = fma_(l, now(l, n->a), start(l, n->b), known);
   return over(l, fnma(l, now(l, n->b), start(l, n->a), x), node);
 }

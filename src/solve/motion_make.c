@@ -119,11 +119,6 @@ static int sum_of(void* user, int node, int i) {
   return k->with_sums && cell >= 0 ? pl_prog_load(k->code, cell, 0) : -1;
 }
 
-static int ratio_of(void* user, int node, int part) {
-  pl_maker* k = user;
-  return pl_prog_load(k->code, (part ? k->o->rest : k->o->ratio) + (k->speed_phase ? 0 : 1), 1);
-}
-
 static int inverse_of(void* user, int node) {
   pl_maker* k = user;
   return pl_prog_load(k->code, k->inverse[pl_maker_same(k, k->instance_now, node)], 0);
@@ -138,7 +133,7 @@ int pl_maker_start(pl_maker* k, int node) {
 
 void pl_maker_begin(pl_maker* k, pl_motion_part part, const char* name, int width) {
   k->code = k->o->code[part] = pl_prog_make(k->a, name, width);
-  k->lower = (pl_lower){.code = k->code, .user = k, .start = start_of, .now = now_of, .sum = sum_of, .ratio = ratio_of, .inverse = inverse_of, .means = true};
+  k->lower = (pl_lower){.code = k->code, .user = k, .start = start_of, .now = now_of, .sum = sum_of, .inverse = inverse_of, .means = true};
   for (int i = 0; i < k->n_nodes; i++) k->start[i] = k->now[i] = k->place_now[i] = -1;
   k->with_sums = k->speed_phase = false;
 }

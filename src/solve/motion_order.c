@@ -385,7 +385,8 @@ static int right_of_coordinate(pl_maker* k, int u, bool first) {
   return s >= 0 && in_velocities(k, first) ? over_next(k, s) : s;
 }
 
-// Order k + 1 of G v + dg/dt without the unknowns, over k + 1.  The newest coefficients of G come in two chains, which are waited for least.
+// Order k + 1 of G v + dg/dt without the unknowns, over k + 1.  The newest coefficients of G come in two chains, which are
+// waited for least.
 static int left_of_constraint(pl_maker* k, int u) {
   int c = k->o->index[u], s[2] = {sum_at(k, u), -1}, n = 0;
   for (int e = 0; e < k->gt.n; e++)

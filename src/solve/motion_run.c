@@ -53,8 +53,10 @@ static void compile(pl_run* run, pl_motion* o) {
 // Seconds that compiling may take: the compiler is opened, then so much for each line.
 static double price(const pl_motion* o) {
   double lines = 0;
-  for (int i = 0; i < PL_N_PARTS; i++)
-    if (o->code[i]) lines += o->code[i]->lines.n;
+  for (int i = 0; i < PL_N_PARTS; i++) {
+    const pl_prog* c = o->code[i];
+    if (c) lines += c->orders > 0 ? (double)c->lines.n * (c->orders - c->first_order) : c->lines.n;
+  }
   return 0.03 + 60e-6 * lines;
 }
 
