@@ -36,7 +36,7 @@
 //   real_scale work pair pair_scale pivot sparse sparse_pair Z Q V A L t F w error_q error_v rhs sc_q sc_v coefficient part watched
 //   watched_h bent first_g last_g last_size end_a end_l save_a save_l
 // not kept of pl_wide, follows from setup, options and mode: state fine by_doubles low top head head_forces clock left
-//   grid drift t_0 q_0 v_0 end_a end_l tail_q tail_v tail_a tail_l from to share way scratch energy_base rows watched floor held
+//   grid drift t_0 q_0 v_0 end_a end_l tail_q tail_v tail_a tail_l from to share way scratch energy_base rows watched floor held high next
 // not kept of pl_wide, lives within a step: digits
 #include <limits.h>
 #include <math.h>
@@ -195,13 +195,15 @@ static void keep_radau(pl_run* run, pl_keeper* k) {
 // ---------------------------------------------------------------------------------------------- wider numbers
 // Their memory holds the state, the time and the nodes at the point.
 static void keep_wide(pl_run* run, pl_keeper* k) {
-  pl_wide* w = run->wide;
   pl_keep_section(k, "wide");
+  if (k->reads && !k->wrong && run->wide && !pl_wide_of_mode(run)) pl_keep_fail(k);
+  pl_wide* w = run->wide;
   keep_fixed(k, w ? w->o->size : 0);
   if (w == NULL) return;
   pl_keep_bytes(k, w->m, (size_t)w->o->size * w->fine->size);
   pl_keep_f64s(k, w->o->size_most, (size_t)w->o->n);
   pl_keep_f64(k, &w->o->fade_best);
+  pl_keep_f64(k, &w->part);
 }
 
 static void keep_state(pl_run* run, pl_keeper* k) {

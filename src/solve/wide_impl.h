@@ -38,6 +38,9 @@ struct pl_wide {
   pl_row_digits digits;
   double floor;                  // what rounding of the state leaves of a residual
   bool held;                     // given start values are exact
+  double part;                   // of the best pivot of this mode that the smallest is now
+  pl_motion* high;               // codes in doubles for this mode, where by_doubles
+  struct pl_wide* next;          // of another mode
 };
 
 // ---- wide_tape.c: tapes in wide numbers
@@ -53,6 +56,9 @@ void pl_wide_order(pl_run* run);                    // order and length of the s
 const char* pl_wide_name(const pl_run* run);        // of its precision
 pleuel_status pl_wide_check(pl_run* run);           // whether the run can be had; fails with what stands in the way
 pleuel_status pl_wide_make(pl_run* run);            // codes and memory, for the constraints that are taken
+// Where of dependent rows others than those at work tell more: the point goes over to these.
+void pl_wide_change_rows(pl_run* run);
+bool pl_wide_of_mode(pl_run* run);                  // run->wide for the constraints that are taken; false: there are no codes
 
 // ---- wide_start.c
 pleuel_status pl_wide_begin(pl_run* run, double t); // from the start that was found in doubles

@@ -1,5 +1,6 @@
 // What a run on wide numbers needs: whether this model can be had, codes, memory.
 #include <math.h>
+#include <string.h>
 
 #include "solve/wide_impl.h"
 
@@ -166,10 +167,12 @@ static void lay_out(pl_run* run) {
   w->scratch = take(w, n_q + 4);
 }
 
-static void* memory_of(pl_run* run, const pl_real* real) {
-  const pl_motion* o = run->wide->o;
-  void* m = PL_ARRAY(run->job->arena, char, ((size_t)o->size + 8) * real->size);
+static void fill_memory(pl_wide* w) {
+  const pl_motion* o = w->o;
+  const pl_real* real = w->fine;
+  void* m = w->m;
   const double one = 1;
+  memset(m, 0, (size_t)o->size * real->size);
   real->ratios(m, o->ratio, o->rest, o->orders + 2);
   real->write(m, o->time + 1, 1, &one);
   for (int i = 0; i < o->scales.n; i++) {
@@ -178,7 +181,6 @@ static void* memory_of(pl_run* run, const pl_real* real) {
     else real->write(m, s->cell, 1, &s->x);
   }
   for (int i = 0; i < o->constants.n; i++) real->set(m, o->constants.at[i].cell, o->constants.at[i].x);
-  return m;
 }
 
 static void choose_types(pl_run* run) {
@@ -201,12 +203,66 @@ pleuel_status pl_wide_make(pl_run* run) {
     return pl_fail(run->job, PLEUEL_UNSUPPORTED, "precision %s: the mass matrix of this model needs pivots, which are chosen in double only", pl_wide_name(run));
   run->motion_code = w->by_doubles ? pl_motion_for_mode(run) : NULL;
   if (run->motion_code && !run->motion_code->usable) run->motion_code = NULL, w->by_doubles = false, w->low = run->order;
+  w->high = run->motion_code;
   lay_out(run);
   write_sums(run);
   write_clock(run);
   write_drift(run);
-  w->m = memory_of(run, w->fine);
+  w->m = PL_ARRAY(run->job->arena, char, ((size_t)w->o->size + 8) * w->fine->size);
+  fill_memory(w);
   w->rows = pl_sheet_make(run, w->state, &run->observers, s->n_out);
   w->watched = pl_sheet_make(run, w->fine, &run->watched, s->n_watched);
   return PLEUEL_OK;
+}
+
+// ---------------------------------------------------------------------------------------------- rows that follow from others
+bool pl_wide_of_mode(pl_run* run) {
+  pl_wide* first = run->wide;
+  for (pl_wide* w = first; w; w = w->next)
+    if (memcmp(w->o->taken, run->taken, (size_t)run->n_c * sizeof(bool)) == 0) {
+      // to the front, where it is at work
+      for (pl_wide** at = &first; *at; at = &(*at)->next)
+        if (*at == w) {
+          *at = w->next;
+          break;
+        }
+      w->next = first;
+      run->wide = w;
+      run->motion_code = w->high;
+      return true;
+    }
+  bool made = pl_wide_make(run) == PLEUEL_OK;
+  if (made) run->wide->next = first, run->wide->way = first->way, run->wide->held = first->held;
+  else run->wide = first, run->job->message[0] = '\0', run->job->status = PLEUEL_OK;
+  return made;
+}
+
+// What a point is, from the memory of one mode to that of another, whose pivots are known from here on.
+static void take_over(pl_wide* to, const pl_wide* from, int n_q) {
+  const int cells[][3] = {{to->o->time, from->o->time, 1}, {to->from, from->from, 1}, {to->to, from->to, 1}, {to->share, from->share, 1},
+                          {to->energy_base, from->energy_base, 1}, {to->o->Q, from->o->Q, n_q}, {to->o->V, from->o->V, n_q}};
+  fill_memory(to);     // as a run has it that comes here for the first time
+  for (size_t i = 0; i < sizeof cells / sizeof *cells; i++)
+    pl_wide_copy(to->fine, to->m, cells[i][0], from->fine, from->m, cells[i][1], cells[i][2]);
+  to->o->fade_best = 0;
+  for (int u = 0; u < to->o->n; u++) to->o->size_most[u] = 0;
+}
+
+void pl_wide_change_rows(pl_run* run) {
+  pl_wide* from = run->wide;
+  size_t n = (size_t)run->n_c * sizeof(bool);
+  bool* before = from->o->taken;
+  int rank = run->rank;
+  double smallest = run->smallest, best = run->best;
+  pl_point_evaluate(run, run->t, run->q, run->v);
+  pl_independent_choose(run);
+  bool other = run->rank == rank && memcmp(before, run->taken, n) != 0 && pl_wide_of_mode(run);
+  if (!other) {
+    memcpy(run->taken, before, n);
+    run->rank = rank;
+    run->smallest = smallest;
+    run->best = best;
+    return;
+  }
+  take_over(run->wide, from, run->n_q);
 }

@@ -33,6 +33,7 @@ static bool pivots_are_sound(pl_run* run) {
     if (!(part >= least)) least = part;
   }
   if (o->n == o->n_mass) return true;
+  run->wide->part = o->fade_best > 0 ? fmin(1, least / o->fade_best) : 1;
   run->smallest = least > 0 && o->fade_best > 0 ? run->best * sqrt(fmin(1, least / o->fade_best)) : run->best;
   if (!(least > 0)) return false;
   if (least > o->fade_best) o->fade_best = least;
@@ -140,7 +141,21 @@ static void read_orders(pl_run* run, int first, int last) {
   read(run, o->L + first * o->n_c, n * o->n_c, run->L + k * n_c);
 }
 
+// Of dependent rows others may tell more by now than those that were chosen.
+static bool look_at_rows(pl_run* run) {
+  static const double faded = 1e-4;
+  const pl_wide* w = run->wide;
+  if (run->rank == run->n_active || !(w->part < faded)) return true;
+  pl_wide_change_rows(run);
+  if (run->wide == w) return true;
+  set_floors(run);
+  fine_part(run, PL_PART_PLACE);
+  fine_part(run, PL_PART_SPEED);
+  return pivots_are_sound(run);
+}
+
 bool pl_wide_enter(pl_run* run) {
+  if (!look_at_rows(run)) return false;
   pl_wide* w = run->wide;
   const pl_motion* o = w->o;
   w->fine->move(w->m, w->t_0, o->time, 1);
