@@ -8,12 +8,14 @@
 // What a step may be off by before it is tried again at half the length, in units of the tolerance.
 static const double allowed_move = 1e4;        // correction by the projection, relative
 static const double allowed_floor = 1e-11;     // and what rounding may do to it close to a singular position
+static const double allowed_floor_wide = 1e-8; // the same of wide numbers, which come closer to one
 static const double allowed_residual = 1e-12;  // |g| and |G v + dg/dt| after it, relative to their terms
 
 // ---------------------------------------------------------------------------------------------- one attempt
 static bool acceptable(const pl_run* run, const pl_projection* p) {
   double rounding = run->wide ? run->wide->floor / DBL_EPSILON : 1;
-  double move = pl_larger(allowed_move * run->tol, rounding * allowed_floor), left = pl_larger(10 * run->tol, rounding * allowed_residual);
+  double move = pl_larger(allowed_move * run->tol, rounding * (run->wide ? allowed_floor_wide : allowed_floor));
+  double left = pl_larger(10 * run->tol, rounding * allowed_residual);
   return p->ok && p->move_q <= move && p->move_v <= move && p->g_after <= left && p->r_after <= left;
 }
 
