@@ -246,17 +246,24 @@ static pl_expr uniform(pl_analysis* d, pl_expr A, pl_expr x0, pl_expr v0, pl_exp
   return pl_add_n(p, (pl_expr[]){x0, pl_mul(p, v0, t), fall}, 3);
 }
 
-// x'' = A + C x':  x = x0 - A t/C + (v0 + A/C)(e^{Ct} - 1)/C
-static pl_expr with_friction(pl_analysis* d, const pl_linear_equation* l, pl_expr x0, pl_expr v0, pl_expr t) {
+static pl_expr in_parts(pl_analysis* d, pl_laplace_poles* parts, pl_expr steady, pl_expr rest) {
+  if (parts) {
+    parts->part[parts->n++] = steady;
+    parts->part[parts->n++] = rest;
+  }
+  return pl_add(d->pool, steady, rest);
+}
+
+// x'' = A + C x':  x = x0 - c - A t/C + c e^{Ct} with c = (v0 + A/C)/C
+static pl_expr with_friction(pl_analysis* d, const pl_linear_equation* l, pl_expr x0, pl_expr v0, pl_expr t, pl_laplace_poles* parts) {
   pl_pool* p = d->pool;
-  pl_expr terminal = pl_div(p, l->A, l->C);
-  pl_expr grown = pl_sub(p, pl_call(p, PL_EXP, pl_mul(p, l->C, t)), pl_int(p, 1));
-  pl_expr fading = pl_div(p, pl_mul(p, pl_add(p, v0, terminal), grown), l->C);
-  return pl_add_n(p, (pl_expr[]){x0, pl_neg(p, pl_mul(p, terminal, t)), fading}, 3);
+  pl_expr terminal = pl_div(p, l->A, l->C), c = pl_div(p, pl_add(p, v0, terminal), l->C);
+  pl_expr steady = pl_add_n(p, (pl_expr[]){x0, pl_neg(p, c), pl_neg(p, pl_mul(p, terminal, t))}, 3);
+  return in_parts(d, parts, steady, pl_mul(p, c, pl_call(p, PL_EXP, pl_mul(p, l->C, t))));
 }
 
 // x'' = A + B x + C x', B != 0, around the rest position -A/B; the sign of the discriminant decides.
-static pl_expr oscillation(pl_analysis* d, const pl_linear_equation* l, pl_expr x0, pl_expr v0, pl_expr t) {
+static pl_expr oscillation(pl_analysis* d, const pl_linear_equation* l, pl_expr x0, pl_expr v0, pl_expr t, pl_laplace_poles* parts) {
   pl_pool* p = d->pool;
   pl_expr rest = pl_alg_normal(d->tower, pl_neg(p, pl_div(p, l->A, l->B)));
   pl_expr half = pl_div(p, l->C, pl_int(p, 2));
@@ -269,7 +276,7 @@ static pl_expr oscillation(pl_analysis* d, const pl_linear_equation* l, pl_expr 
   pl_expr slope = pl_div(p, pl_sub(p, v0, pl_mul(p, half, u0)), w);
   pl_expr swing = pl_add(p, pl_mul(p, u0, even), pl_mul(p, slope, odd));
   if (!pl_is_zero_node(p, half)) swing = pl_mul(p, pl_call(p, PL_EXP, pl_mul(p, half, t)), swing);
-  return pl_add(p, rest, swing);
+  return in_parts(d, parts, rest, swing);
 }
 
 // poles: the parts that it is made of, where there are several; or NULL.
@@ -278,8 +285,8 @@ static pl_expr closed_motion(pl_analysis* d, int i, pl_laplace_poles* poles) {
   if (pl_is_poison(d->acceleration[i])) return pl_poison();
   if (!linear_equation(d, i, &l)) return pl_linear_motion(d, i, poles);
   pl_expr x0 = start_of(d, d->q.at[i].q), v0 = start_of(d, d->q.at[i].v), t = pl_sym(d->pool, pl_time(d->pool));
-  if (!pl_is_zero_node(d->pool, l.B)) return oscillation(d, &l, x0, v0, t);
-  if (!pl_is_zero_node(d->pool, l.C)) return with_friction(d, &l, x0, v0, t);
+  if (!pl_is_zero_node(d->pool, l.B)) return oscillation(d, &l, x0, v0, t, poles);
+  if (!pl_is_zero_node(d->pool, l.C)) return with_friction(d, &l, x0, v0, t, poles);
   return uniform(d, l.A, x0, v0, t);
 }
 

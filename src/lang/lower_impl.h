@@ -101,6 +101,8 @@ typedef struct pl_lower {
   PL_VEC(pl_site*) places;
   PL_VEC(pl_rule) rules;
   PL_VEC(const char*) lost;     // names that broken lines would have declared
+  PL_VEC(const char*) missed;   // names that nothing declares: told once
+  bool choosing;                // in `choose`, whose new names are coordinates
   PL_VEC(const char*) letters;  // of the requests so far
   PL_VEC(pl_setting_node) settings;
   pl_block* block;

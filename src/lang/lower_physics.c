@@ -300,7 +300,10 @@ static void lower_choose(pl_lower* l, const pl_ast* s) {
   if (c->span.source == NULL) c->span = pl_ast_span(s);
   for (int i = 0; i < names->kids.n; i++) {
     pl_expr q;
-    if (!plain_coordinate(l, names->kids.at[i], &q, 0)) continue;
+    l->choosing = true;
+    bool fine = plain_coordinate(l, names->kids.at[i], &q, 0);
+    l->choosing = false;
+    if (!fine) continue;
     if (pl_kind_of(l->pool, q) == PL_SYMBOL) pl_push(l->arena, c->coords, pl_symbol_of(l->pool, q));
     else
       pl_lower_pending(l, PL_N091, "choose", pl_ast_span(names->kids.at[i]),

@@ -245,8 +245,16 @@ static const char* all_coordinates(pl_lower* l, int most) {
   return n > 0 && n <= most ? pl_text_string(&out) : NULL;
 }
 
+static bool told_before(pl_lower* l, const char* key) {
+  for (int i = 0; i < l->missed.n; i++) {
+    if (strcmp(l->missed.at[i], key) == 0) return true;
+  }
+  if (!l->mute) pl_push(l->arena, l->missed, key);
+  return false;
+}
+
 pl_diagnostic* pl_scope_unknown(pl_lower* l, const pl_ast* name) {
-  if (pl_scope_lost(l, name->key) || strcmp(name->key, "?") == 0) {
+  if (pl_scope_lost(l, name->key) || strcmp(name->key, "?") == 0 || told_before(l, name->key)) {
     l->wrong++;
     return PL_NEW(l->arena, pl_diagnostic);
   }
@@ -265,7 +273,9 @@ pl_diagnostic* pl_scope_unknown(pl_lower* l, const pl_ast* name) {
       try_guess(&best, name->key, pl_word_of_request(i), pl_word_of_request(i));
   }
   const char* coordinates = all_coordinates(l, 8);
-  if (best.key == NULL && coordinates == NULL)
+  if (l->choosing)
+    pl_suggest(l->job, m, NULL, "declare it:  coord %s", "vereinbaren:  coord %s", name->shown);
+  else if (best.key == NULL && coordinates == NULL)
     pl_suggest(l->job, m, NULL, "declare it:  param %s = ...", "vereinbaren:  param %s = ...", name->shown);
   else if (best.key == NULL)
     pl_suggest(l->job, m, NULL, "declare it:  param %s = ...        (coordinates: %s)",
