@@ -6,6 +6,11 @@
 // a prime along a line shows.
 #include "algebra/algebra_impl.h"
 
+#if __has_include(<flint/nmod.h>)
+#include <flint/nmod.h>
+#else
+#include <flint/nmod_vec.h>
+#endif
 #include <flint/nmod_poly.h>
 
 static const ulong prime = 2147483647;   // 3 modulo 4: roots are powers
