@@ -55,7 +55,7 @@ static int parts_of(const pl_prog_sum* s, int n) {
 
 // Row K/2 with itself, when K is even.
 static pl_sum_parts middle(pl_emit* e, const pl_prog_sum* s, int n, LLVMValueRef half, int width) {
-  pl_sum_parts x;
+  pl_sum_parts x = {{NULL}};
   LLVMValueRef at = row(e, half, width);
   for (int i = 0, first = 0; i < n; first += pl_prog_parts(&s[i++])) {
     int parts = pl_prog_parts(&s[i]);
@@ -94,7 +94,7 @@ static void store_sums(pl_emit* e, const pl_prog_sum* s, int n, const pl_sum_par
 }
 
 static pl_sum_parts phis(pl_emit* e, LLVMTypeRef t, int parts) {
-  pl_sum_parts x;
+  pl_sum_parts x = {{NULL}};
   for (int i = 0; i < parts; i++) x.at[i] = LLVMBuildPhi(e->build, t, "");
   return x;
 }
