@@ -30,6 +30,7 @@ typedef struct pl_recording {
   long count;
   pl_flat_coords flat;            // coordinate of each index of the setup
   int n_declared;                 // constraints before the map equations
+  const int* first_link;          // row of the first instance of each constraint of the model, then n_declared
   // bodies with Euler angles are integrated with quaternions: the same columns, other coordinates behind them; NULL: as it stands
   struct pl_recording* turned;
   const char* angles_kept;        // an expression for which some body keeps its Euler angles, NULL none

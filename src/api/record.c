@@ -136,7 +136,8 @@ static pleuel_status make_groups(pl_recorder* r) {
     r->first_link[i] = r->n_links;
     r->n_links += g->instances.n;
   }
-  r->out->n_declared = r->n_links;
+  r->out->n_declared = r->first_link[m->constraints.n] = r->n_links;
+  r->out->first_link = r->first_link;
   r->n_links += m->choose.n_maps;
 
   pl_group_energies(r);

@@ -1,0 +1,200 @@
+// The run of a trace: a few steps, each with its state and what holds.
+#include "api/trace_impl.h"
+
+#include <math.h>
+
+enum { MOST_SAMPLES = 120, MOST_STEPS = 2000, STEPS_IN_SPAN = 40 };
+
+typedef struct pl_tracer {
+  pl_arena* arena;
+  pl_trace* trace;
+  const pl_run* run;
+  bool changed;                 // something happened in the step: set, state or both
+  bool jumped;
+  pl_event_kind kind;           // what it was, the first of it
+  const char* label;
+} pl_tracer;
+
+// ---------------------------------------------------------------------------------------------- samples
+static const double* copied(pl_arena* a, const double* x, int n) {
+  double* out = PL_ARRAY(a, double, n + 1);
+  memcpy(out, x, (size_t)n * sizeof *out);
+  return out;
+}
+
+static void add_sample(pl_tracer* t, const pl_row* row) {
+  const pl_setup* s = &t->trace->recording->setup;
+  bool* unique = PL_ARRAY(t->arena, bool, s->n_c + 1);
+  memcpy(unique, row->unique, (size_t)s->n_c * sizeof *unique);
+  pl_trace_sample sample = {.t = row->t, .q = copied(t->arena, row->q, s->n_q), .v = copied(t->arena, row->v, s->n_q),
+                            .a = copied(t->arena, row->a, s->n_q), .lambda = copied(t->arena, row->lambda, s->n_c),
+                            .unique = unique, .out = copied(t->arena, row->out, s->n_out), .phase = t->trace->phases.n - 1};
+  pl_push(t->arena, t->trace->samples, sample);
+  pl_trace_phase* phase = &t->trace->phases.at[sample.phase];
+  phase->n++;
+  phase->t_end = row->t;
+}
+
+// ---------------------------------------------------------------------------------------------- phases
+static bool set_differs(const pl_tracer* t) {
+  const pl_trace_phase* last = &t->trace->phases.at[t->trace->phases.n - 1];
+  for (int c = 0; c < t->trace->recording->setup.n_c; c++) {
+    if (pl_run_is_active(t->run, c) != last->active[c]) return true;
+  }
+  return false;
+}
+
+static void open_phase(pl_tracer* t, double at) {
+  int n_c = t->trace->recording->setup.n_c;
+  bool* active = PL_ARRAY(t->arena, bool, n_c + 1);
+  for (int c = 0; c < n_c; c++) active[c] = pl_run_is_active(t->run, c);
+  pl_trace_phase phase = {.t_begin = at, .t_end = at, .first = t->trace->samples.n, .active = active, .begun_by = t->kind};
+  phase.begun_label = t->label;
+  phase.same_set = t->trace->phases.n > 0 && !set_differs(t);
+  pl_push(t->arena, t->trace->phases, phase);
+}
+
+static pleuel_status on_row(void* user, const pl_row* row) {
+  pl_tracer* t = user;
+  if (t->trace->phases.n == 0 || t->jumped || set_differs(t)) open_phase(t, row->t);
+  t->changed = t->jumped = false;
+  t->label = NULL;
+  add_sample(t, row);
+  return PLEUEL_OK;
+}
+
+static bool same_state(const pl_row* a, const pl_row* b, int n_q) {
+  return memcmp(a->q, b->q, (size_t)n_q * sizeof(double)) == 0 && memcmp(a->v, b->v, (size_t)n_q * sizeof(double)) == 0;
+}
+
+// The state before the first event of a moment belongs to the phase that ends; that after the last is the next row.
+static pleuel_status on_event(void* user, const pl_event_record* e) {
+  pl_tracer* t = user;
+  if (t->trace->phases.n == 0) return PLEUEL_OK;      // at the start: nothing ends
+  bool first = !t->changed;
+  if (first) {
+    t->kind = e->kind;
+    t->label = e->label;
+    add_sample(t, &e->before);
+  }
+  t->changed = true;
+  t->jumped |= e->jump || !same_state(&e->before, &e->after, t->trace->recording->setup.n_q);
+  return PLEUEL_OK;
+}
+
+// ---------------------------------------------------------------------------------------------- the span
+static double norm(const double* x, int n) {
+  double sum = 0;
+  for (int i = 0; i < n; i++) sum += x[i] * x[i];
+  return sqrt(sum);
+}
+
+// A few times the shortest time in which the start changes by its own size.
+static double natural_span(pl_job* job, const pl_recording* r) {
+  pl_run* run = NULL;
+  pl_run_options how = {.t_0 = r->t_0, .t_end = r->t_0 + 1, .engine = PL_ENGINE_INTERPRETER};
+  double span = 1;
+  if (pl_run_make(job, &r->setup, &how, &run) == PLEUEL_OK && pl_run_start(run) == PLEUEL_OK) {
+    int n = r->setup.n_q;
+    double q = fmax(norm(pl_run_q(run), n), 1), v = norm(pl_run_v(run), n), a = norm(pl_run_a(run), n);
+    double by_v = v > 0 ? q / v : (double)INFINITY, by_a = a > 0 ? sqrt(q / a) : (double)INFINITY;
+    span = 3 * fmin(by_v, by_a);
+  }
+  pl_run_free(run);
+  return isfinite(span) && span > 0 ? span : 1;
+}
+
+static double span_of(pl_job* job, const pl_recording* r, const pl_trace_options* o) {
+  if (o->span > 0) return o->span;
+  double given = r->t_end - r->t_0;
+  if (o->seed == 0 && isfinite(given) && given > 0) return given;
+  double span = natural_span(job, r);
+  return isfinite(given) && given > 0 ? fmin(span, given) : span;
+}
+
+// ---------------------------------------------------------------------------------------------- the run
+// Of several assemblies that fit, one is as good as the other: the first.
+static pleuel_status start(pl_run* run, double t_0, int n_q, pl_job* job) {
+  pleuel_status s = pl_run_start(run);
+  const pl_start_report* report = pl_run_start_report(run);
+  if (s == PLEUEL_OK || report->trouble != PL_START_SEVERAL || report->n_candidates == 0) return s;
+  double* v = PL_ARRAY(job->arena, double, n_q + 1);
+  memcpy(v, pl_run_v(run), (size_t)n_q * sizeof *v);
+  return pl_run_start_at(run, t_0, report->candidates, v);
+}
+
+static void steps(pl_tracer* t, pl_run* run, long most) {
+  pl_trace* out = t->trace;
+  while (!pl_run_done(run) && out->samples.n < most && out->steps < MOST_STEPS && out->status == PLEUEL_OK) {
+    out->status = pl_run_step(run);
+    out->steps++;
+  }
+  out->whole = out->status == PLEUEL_OK && pl_run_done(run);
+}
+
+static void run(pl_job* job, pl_trace* out, const pl_trace_options* o) {
+  const pl_recording* r = out->recording;
+  pl_tracer t = {.arena = job->arena, .trace = out};
+  double span = span_of(job, r, o);
+  pl_run_options how = {.t_0 = r->t_0, .t_end = r->t_0 + span, .h_max = span / STEPS_IN_SPAN, .engine = PL_ENGINE_INTERPRETER};
+  how.method = PL_METHOD_AUTO;
+  how.sink = (pl_sink){.user = &t, .row = on_row, .event = on_event};
+  pl_run* made = NULL;
+  out->status = pl_run_make(job, &r->setup, &how, &made);
+  t.run = made;
+  if (out->status == PLEUEL_OK) out->status = start(made, r->t_0, r->setup.n_q, job);
+  if (out->status == PLEUEL_OK) steps(&t, made, o->most_samples > 0 ? o->most_samples : MOST_SAMPLES);
+  out->started = out->samples.n > 0;
+  int n = r->setup.n_q + r->setup.n_c;
+  out->work = (double)out->steps * (double)n * (double)n;
+  pl_run_free(made);
+}
+
+static pl_model* model_of(pl_job* job, pl_model* m, const pl_trace_options* o) {
+  if (o->from && o->from->given) return pl_trace_named_start(job, m, o->from);
+  if (o->seed) return pl_trace_random_start(job, m, o->beside, o->seed);
+  return pl_trace_open_start(job, m);
+}
+
+pl_trace* pl_trace_make(pl_job* job, pl_model* numbered, const pl_trace_options* options) {
+  pl_diagnostics quiet = {.arena = job->arena};
+  pl_job mine = {.arena = job->arena, .diagnostics = &quiet, .interrupted = job->interrupted, .lang = job->lang};
+  pl_trace* out = PL_NEW(job->arena, pl_trace);
+  pl_trace_options o = options ? *options : (pl_trace_options){0};
+  out->model = model_of(&mine, numbered, &o);
+  pl_recording* recording = NULL;
+  out->status = pl_record(&mine, out->model, NULL, false, &recording);
+  out->recording = recording;
+  if (out->status == PLEUEL_OK) run(&mine, out, &o);
+  out->value = pl_model_values(out->model, job->arena);
+  out->n_value = pl_symbol_count(out->model->pool) + 1;
+  out->message = out->status == PLEUEL_OK ? "" : pl_copy(job->arena, mine.message);
+  return out;
+}
+
+// ---------------------------------------------------------------------------------------------- reading
+int pl_trace_link(const pl_trace* t, int constraint, int instance) {
+  if (!t->recording || constraint < 0 || constraint >= t->model->constraints.n) return -1;
+  int at = t->recording->first_link[constraint] + instance;
+  return at < t->recording->first_link[constraint + 1] ? at : -1;
+}
+
+bool pl_trace_holds(const pl_trace* t, const pl_trace_phase* phase, int constraint) {
+  int at = pl_trace_link(t, constraint, 0);
+  if (at < 0) return false;
+  for (int k = 1; at >= 0; at = pl_trace_link(t, constraint, k++)) {
+    if (!phase->active[at]) return false;
+  }
+  return true;
+}
+
+bool pl_trace_sticks(const pl_trace* t, const pl_trace_phase* phase, int friction) {
+  const pl_setup* s = &t->recording->setup;
+  const pl_constraint* on = pl_model_constraint(t->model, t->model->frictions.at[friction].label);
+  if (!on) return false;
+  int link = pl_trace_link(t, (int)(on - t->model->constraints.at), 0);
+  for (int i = 0; i < s->n_rubs; i++) {
+    if (s->rubs[i].link == link) return phase->active[s->rubs[i].row[0]];
+  }
+  return false;
+}

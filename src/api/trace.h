@@ -1,0 +1,66 @@
+// trace: the motion of a model looked at for its own sake, beside the run that a user asked for.  It reads the model the way
+// `sim` does (raw constraints, contacts by their sign), so what a derivation found can be held against it.
+#ifndef PL_TRACE_H
+#define PL_TRACE_H
+
+#include "api/api_impl.h"
+
+// A state of the motion.  Arrays are indexed as in the setup of the recording.
+typedef struct pl_trace_sample {
+  double t;
+  const double *q, *v, *a;      // (n_q)
+  const double* lambda;         // (n_c), 0 where inactive
+  const bool* unique;           // false: this multiplier is not determined  (n_c)
+  const double* out;            // (n_out): T, V, outputs
+  int phase;
+} pl_trace_sample;
+
+// A stretch of the motion between two changes: of what holds, or of the state by an impact or a deed.
+typedef struct pl_trace_phase {
+  double t_begin, t_end;        // s; equal when the motion only touches it
+  int first, n;                 // samples
+  const bool* active;           // rows that hold: contacts that touch, surfaces that stick, what is attached  (n_c)
+  bool same_set;                // rows as in the phase before: only the state jumped
+  pl_event_kind begun_by;       // with the label, NULL for the first phase
+  const char* begun_label;
+} pl_trace_phase;
+
+typedef struct pl_trace {
+  pl_model* model;              // with a number for every parameter
+  const pl_recording* recording;
+  double* value;                // numbers of parameters, by symbol id; NaN else     (pl_symbol_count + 1 when made)
+  int n_value;
+  pleuel_status status;         // how the run ended; PLEUEL_OK also when it was cut short by the budget
+  const char* message;          // its sentence when it failed, else ""
+  bool started;                 // there is a consistent start: at least one phase and one sample
+  bool whole;                   // the span was covered
+  PL_VEC(pl_trace_sample) samples;
+  PL_VEC(pl_trace_phase) phases;
+  long steps;                   // of the integration
+  double work;                  // counted: steps times the size of the system
+} pl_trace;
+
+typedef struct pl_trace_options {
+  uint64_t seed;                // 0: the start of `init`; else a random consistent start beside it
+  const pl_motion* from;        // the start that this names, instead; NULL
+  const pl_trace* beside;       // of seed > 0: the trace from `init`, for its position and contacts; NULL: anywhere
+  long most_samples;            // 0: 120
+  double span;                  // s; 0: as `simulate` says, else a few times the time scale of the start
+} pl_trace_options;
+
+// pl_trace_model gives the model with random positive numbers, within the assumptions, for parameters without any: the same for
+// the same seed.  The model itself where every parameter has one; NULL when none were found.
+pl_model* pl_trace_model(pl_job* job, pl_model* m, uint64_t seed);
+
+// pl_trace_make runs a model whose parameters have numbers.  The trace is there whatever happens; its status tells how it
+// went.  Nothing is reported, and no other run is disturbed.
+pl_trace* pl_trace_make(pl_job* job, pl_model* numbered, const pl_trace_options* options);
+
+// The row of a constraint, by its place in the model (instance 0 outside of families); -1 when there is none.
+int pl_trace_link(const pl_trace* t, int constraint, int instance);
+// Whether a constraint holds during a phase: all instances of it do.
+bool pl_trace_holds(const pl_trace* t, const pl_trace_phase* phase, int constraint);
+// Whether surfaces stick during a phase: those of friction number k of the model.
+bool pl_trace_sticks(const pl_trace* t, const pl_trace_phase* phase, int friction);
+
+#endif
