@@ -118,6 +118,7 @@ typedef struct pl_views {
   bool energy_conserved;
   double tol;
   const char* message;            // why the motion ends early or is not there; NULL
+  const char* missing;            // quantities of plot lines without a number along the motion, "a, b"; NULL
   PL_VEC(pl_html_plot) plots;
 } pl_views;
 // Runs the model for a picture.  A run that stops early keeps its rows.  PLEUEL_OK and no result without `simulate`.

@@ -30,6 +30,7 @@ typedef struct pl_geometry {
   pl_pool* pool;
   const pl_constraint* c;
   pl_group* atoms;        // coordinates that the constraint or a partner depends on
+  pl_group* rows;         // those of them whose virtual work is looked at
   pl_partners partners;
 } pl_geometry;
 
@@ -42,7 +43,9 @@ static double number_at(pl_geometry* g, pl_expr e, uint64_t seed) {
     pl_random random = {seed * 1000 + (uint64_t)i};
     pl_random_bits(&random);
     long k = 100 + (long)(pl_random_bits(&random) % 1800);
-    e = pl_subst_expr(p, e, g->atoms->atoms.at[i], pl_ratio(p, k, 1009));
+    pl_expr atom = g->atoms->atoms.at[i];
+    if (g->c->has_velocity) e = pl_subst_expr(p, e, pl_dt(p, atom), pl_ratio(p, 2 * k + 1, 1013));
+    e = pl_subst_expr(p, e, atom, pl_ratio(p, k, 1009));
   }
   double* value = g->r->value;
   double t = value[pl_time(p).id];
@@ -88,6 +91,11 @@ static pl_expr by_atom(pl_pool* p, pl_expr e, pl_expr atom) {
   return pl_kind_of(p, atom) == PL_SYMBOL ? pl_diff(p, e, pl_symbol_of(p, atom)) : pl_diff_at(p, e, atom);
 }
 
+// dg/dq, of a constraint on velocities dg/dq'.
+static pl_expr slope_of(pl_geometry* g, pl_expr atom) {
+  return by_atom(g->pool, g->c->g, g->c->has_velocity ? pl_dt(g->pool, atom) : atom);
+}
+
 // ---------------------------------------------------------------------------------------------- partners
 static const pl_spatial* body_in_space(const pl_model* m, pl_name name, const pl_block* block) {
   for (int i = 0; i < m->spatials.n; i++)
@@ -111,7 +119,7 @@ static bool depends_on(pl_geometry* g, const pl_partner* a, pl_expr atom) {
 // Whether the constraint moves it at all.
 static bool is_concerned(pl_geometry* g, const pl_partner* a) {
   for (int i = 0; i < g->atoms->atoms.n; i++)
-    if (!pl_is_zero_node(g->pool, by_atom(g->pool, g->c->g, g->atoms->atoms.at[i])) && depends_on(g, a, g->atoms->atoms.at[i]))
+    if (!pl_is_zero_node(g->pool, slope_of(g, g->atoms->atoms.at[i])) && depends_on(g, a, g->atoms->atoms.at[i]))
       return true;
   return false;
 }
@@ -192,9 +200,9 @@ static void eliminate(pl_pool* p, pl_expr* A, pl_expr* b, int n) {
 static bool numbers_of_rows(pl_geometry* g, const pl_unknowns* u, const pl_partner* a, const pl_partner* b, double* A) {
   for (uint64_t seed = 1; seed <= SEEDS; seed++) {
     bool good = true;
-    for (int i = 0; i < g->atoms->atoms.n && good; i++)
+    for (int i = 0; i < g->rows->atoms.n && good; i++)
       for (int k = 0; k < u->n && good; k++) {
-        A[i * u->n + k] = number_at(g, column(g, u, a, b, k, g->atoms->atoms.at[i]), seed);
+        A[i * u->n + k] = number_at(g, column(g, u, a, b, k, g->rows->atoms.at[i]), seed);
         good = !isnan(A[i * u->n + k]);
       }
     if (good) return true;
@@ -202,25 +210,38 @@ static bool numbers_of_rows(pl_geometry* g, const pl_unknowns* u, const pl_partn
   return false;
 }
 
+// Rows that are the same at all positions make the better pivots: they vanish nowhere.
+static void prefer_constant_rows(pl_geometry* g, const pl_unknowns* u, const pl_partner* a, const pl_partner* b, double* A) {
+  static const double less = 1e-3;
+  for (int i = 0; i < g->rows->atoms.n; i++) {
+    bool constant = true;
+    for (int k = 0; k < u->n && constant; k++)
+      constant = is_constant_here(g, column(g, u, a, b, k, g->rows->atoms.at[i]));
+    for (int k = 0; k < u->n && !constant; k++) A[i * u->n + k] *= less;
+  }
+}
+
 // Whether these partners explain the constraint; the forces are then in u.
 static bool explains(pl_geometry* g, const pl_partner* a, const pl_partner* b, pl_unknowns* u) {
   pl_pool* p = g->pool;
-  int rows = g->atoms->atoms.n, row[MOST];
+  int rows = g->rows->atoms.n, row[MOST];
   name_unknowns(g, a, b, u);
   if (u->n == 0 || u->n > MOST || u->n > rows) return false;
   double* numbers = PL_ARRAY(g->r->arena, double, (size_t)rows * (size_t)u->n + 1);
-  if (!numbers_of_rows(g, u, a, b, numbers) || !pick_rows(numbers, rows, u->n, row)) return false;
+  if (!numbers_of_rows(g, u, a, b, numbers)) return false;
+  prefer_constant_rows(g, u, a, b, numbers);
+  if (!pick_rows(numbers, rows, u->n, row)) return false;
   pl_expr A[MOST * MOST];
   for (int i = 0; i < u->n; i++) {
-    pl_expr atom = g->atoms->atoms.at[row[i]];
+    pl_expr atom = g->rows->atoms.at[row[i]];
     for (int k = 0; k < u->n; k++) A[i * u->n + k] = column(g, u, a, b, k, atom);
-    u->value[i] = by_atom(p, g->c->g, atom);
+    u->value[i] = slope_of(g, atom);
   }
   eliminate(p, A, u->value, u->n);
   bool any = false;
   for (int k = 0; k < u->n_components; k++) any |= !vanishes(g, u->value[k], 1);
   for (int i = 0; i < rows && any; i++) {
-    pl_expr atom = g->atoms->atoms.at[i], rest = by_atom(p, g->c->g, atom);
+    pl_expr atom = g->rows->atoms.at[i], rest = slope_of(g, atom);
     for (int k = 0; k < u->n; k++) rest = pl_sub(p, rest, pl_mul(p, u->value[k], column(g, u, a, b, k, atom)));
     any = vanishes(g, rest, 1);
   }
@@ -414,6 +435,7 @@ static bool take(pl_geometry* g, const pl_friction* f, const pl_partner* a, cons
 static pl_geometry* geometry_make(pl_recorder* r, const pl_constraint* c) {
   pl_geometry* g = PL_NEW(r->arena, pl_geometry);
   *g = (pl_geometry){.r = r, .pool = r->pool, .c = c, .atoms = PL_NEW(r->arena, pl_group)};
+  g->rows = g->atoms;
   g->atoms->atom_at = pl_map_make(r->arena);
   g->atoms->seen = pl_map_make(r->arena);
   bool time = r->explicit_time;
@@ -464,4 +486,120 @@ bool pl_contact_geometry(pl_recorder* r, const pl_constraint* c, const pl_fricti
   return complain(g, f->span, "%s presses no two things together: it is no contact of a mass or body with a surface or with another one",
                   "%s presst nicht zwei Dinge aufeinander: kein Kontakt einer Masse oder eines Körpers mit einer Fläche oder einem anderen",
                   NULL, NULL);
+}
+
+// ---------------------------------------------------------------------------------------------- size of a force
+// Virtual work gives the components of Z along which a partner can move.  Those are all of Z where its
+// coordinates span the space; a crank pin at (r cos φ, r sin φ) tells nothing about the part along the crank.
+static bool spans(const pl_unknowns* u, const pl_partner* a) { return u->n_components == a->at.n; }
+
+static bool is_the_same_everywhere(pl_geometry* g, const pl_unknowns* u, const pl_partner* a) {
+  bool same = true;
+  for (int i = 0; i < g->atoms->atoms.n; i++) {
+    pl_expr atom = g->atoms->atoms.at[i];
+    same = same && is_constant_here(g, slope_of(g, atom));
+    for (int k = 0; k < u->n; k++) same = same && is_constant_here(g, column(g, u, a, NULL, k, atom));
+  }
+  return same;
+}
+
+static pl_expr size_of(pl_geometry* g, const pl_unknowns* u) {
+  pl_touch t = {.n = u->n_components};
+  for (int k = 0; k < t.n; k++) t.force[k] = u->value[k];
+  return length_of(g, &t);
+}
+
+// Against something fixed.  Where the coordinates do not span the space the guide is left out of the model; a linear
+// constraint along a straight guide is a drive along it, all others might pull across.
+static pl_expr size_alone(pl_geometry* g, const pl_partner* a) {
+  pl_unknowns u;
+  if (!explains(g, a, NULL, &u)) return pl_poison();
+  if (!spans(&u, a) && !is_the_same_everywhere(g, &u, a)) return pl_poison();
+  return size_of(g, &u);
+}
+
+// The force between two points acts along the line that joins them.
+static bool is_central(pl_geometry* g, const pl_partner* a, const pl_partner* b, const pl_unknowns* u) {
+  pl_pool* p = g->pool;
+  pl_expr Z[3] = {pl_int(p, 0), pl_int(p, 0), pl_int(p, 0)}, way[3] = {Z[0], Z[0], Z[0]};
+  for (int k = 0; k < u->n_components; k++) Z[u->component[k]] = u->value[k];
+  for (int j = 0; j < a->at.n; j++) way[j] = pl_sub(p, a->at.at[j], b->at.at[j]);
+  for (int j = 0; j < 3; j++) {
+    int k = (j + 1) % 3, l = (j + 2) % 3;
+    if (!vanishes(g, pl_sub(p, pl_mul(p, Z[k], way[l]), pl_mul(p, Z[l], way[k])), 1)) return false;
+  }
+  return true;
+}
+
+static pl_expr size_between(pl_geometry* g, const pl_partner* a, const pl_partner* b) {
+  pl_unknowns u;
+  if (a->at.n != b->at.n || !explains(g, a, b, &u)) return pl_poison();
+  bool points = u.moment_a < 0 && u.moment_b < 0 && !a->body && !b->body;
+  if (points ? !is_central(g, a, b, &u) : !spans(&u, a)) return pl_poison();
+  return size_of(g, &u);
+}
+
+// A rope over a fixed pulley: a force on each mass, all of one size.  Each mass has coordinates of its own, which span its space.
+static pl_expr size_on_each(pl_geometry* g) {
+  pl_expr size = pl_poison();
+  for (int m = 0; m < g->partners.n; m++) {
+    const pl_partner* a = &g->partners.at[m];
+    if (!is_concerned(g, a)) continue;
+    if (!pl_is_poison(a->angle) || a->body) return pl_poison();
+    pl_geometry own = *g;
+    own.rows = PL_NEW(g->r->arena, pl_group);
+    for (int i = 0; i < g->atoms->atoms.n; i++) {
+      pl_expr atom = g->atoms->atoms.at[i];
+      if (!depends_on(g, a, atom)) continue;
+      pl_push(g->r->arena, own.rows->atoms, atom);
+      for (int k = 0; k < g->partners.n; k++)
+        if (k != m && depends_on(g, &g->partners.at[k], atom)) return pl_poison();
+    }
+    pl_unknowns u;
+    if (!explains(&own, a, NULL, &u) || !spans(&u, a)) return pl_poison();
+    pl_expr here = size_of(g, &u);
+    if (!pl_is_poison(size) && !vanishes(g, pl_sub(g->pool, here, size), 1)) return pl_poison();
+    size = here;
+  }
+  return size;
+}
+
+// A member of a family that the constraint touches, with its index put in.
+static void add_member(pl_geometry* g, const pl_mass* m, const pl_instances* in, int k) {
+  pl_point at = m->point;
+  bool touched = false;
+  for (int j = 0; j < at.n; j++) {
+    for (int d = 0; d < in->depth; d++) {
+      pl_expr index = pl_int(g->pool, in->index[k * in->depth + d]);
+      at.at[j] = pl_subst1(g->pool, at.at[j], in->symbol[d], index);
+    }
+    for (int i = 0; i < g->atoms->atoms.n; i++)
+      touched |= !pl_is_zero_node(g->pool, by_atom(g->pool, at.at[j], g->atoms->atoms.at[i]));
+  }
+  if (touched) add_partner(g, m->name, &at, pl_poison(), NULL);
+}
+
+static void add_members(pl_geometry* g) {
+  const pl_model* m = g->r->model;
+  bool time = g->r->explicit_time;
+  for (int i = 0; i < m->masses.n; i++) {
+    const pl_mass* mass = &m->masses.at[i];
+    pl_instances in;
+    if (!mass->block || pl_model_instances(g->r->job, m, mass->block, &in) != PLEUEL_OK) continue;
+    for (int k = 0; k < in.n; k++) add_member(g, mass, &in, k);
+  }
+  g->r->explicit_time = time;
+}
+
+pl_expr pl_force_length(pl_recorder* r, const pl_constraint* c) {
+  pl_geometry* g = geometry_make(r, c);
+  add_members(g);
+  pl_expr size = pl_poison();
+  for (int i = 0; i < g->partners.n && pl_is_poison(size); i++)
+    if (is_concerned(g, &g->partners.at[i])) size = size_alone(g, &g->partners.at[i]);
+  for (int i = 0; i < g->partners.n; i++)
+    for (int k = 0; k < i && pl_is_poison(size); k++)
+      if (is_concerned(g, &g->partners.at[i]) && is_concerned(g, &g->partners.at[k]))
+        size = size_between(g, &g->partners.at[i], &g->partners.at[k]);
+  return pl_is_poison(size) ? size_on_each(g) : size;
 }

@@ -18,4 +18,8 @@ typedef struct pl_touch {
 // pl_contact_geometry finds it.  Otherwise false: a message has been reported.
 bool pl_contact_geometry(pl_recorder* r, const pl_constraint* c, const pl_friction* f, pl_touch* out);
 
+// |Z| per unit of its multiplier: the size of the force that the constraint exerts on each mass that
+// it touches.  Poison where virtual work does not determine it or where the masses feel different ones.
+pl_expr pl_force_length(pl_recorder* r, const pl_constraint* c);
+
 #endif

@@ -108,17 +108,6 @@ static void make_panels(pleuel_model* m, pl_language lang, pl_showing* show) {
   }
 }
 
-// A quantity of a `plot` line that has no column has no number along the motion: that is said, beside the picture.
-static void tell_missing(pleuel_model* m, const pl_result* r) {
-  for (int i = 0; r && i < m->model->plots.n; i++) {
-    const pl_plot* line = &m->model->plots.at[i];
-    for (int k = -1; k < line->y.n; k++) {
-      if (pl_result_find(r, pl_plain_ascii(m->arena, pl_format(m->arena, "plot %d %d", i, k))) >= 0) continue;
-      pl_fail(&m->job, PLEUEL_OK, "%s is not plotted: this version has no number for it along the motion", k < 0 ? line->x_text : line->y_text.at[k]);
-    }
-  }
-}
-
 // ---------------------------------------------------------------------------------------------- the page
 static const double cell_width = 440, cell_height = 320, head = 34;
 
@@ -152,7 +141,9 @@ pleuel_status pl_picture_plot(pleuel_model* m, pl_language lang, const pleuel_pl
   pleuel_status s = look(m, lang, o->has_until, o->until, 720, &show);
   if (!show.scene) return s;
   make_panels(m, lang, &show);
-  if (s == PLEUEL_OK && o->panels != PLEUEL_PANELS_DRAWING) tell_missing(m, show.views.result);
+  if (s == PLEUEL_OK && o->panels != PLEUEL_PANELS_DRAWING && show.views.missing) {
+    pl_fail(&m->job, PLEUEL_OK, "no number along the motion, and so no curve: %s", show.views.missing);
+  }
   bool drawing = o->panels != PLEUEL_PANELS_PLOTS && show.scene->n_shapes > 0;
   if (o->panels == PLEUEL_PANELS_DRAWING) show.n_panels = 0;
   int n = show.n_panels + drawing, columns = n > 1 ? 2 : 1;

@@ -77,8 +77,6 @@ pleuel_status pl_record_turned(const pl_recorder* as);        // beside a finish
 // record_forces.c: energies and generalized forces of the groups.
 void pl_group_energies(pl_recorder* r);
 void pl_group_forces(pl_recorder* r, pl_group* g);
-// |Z| of a constraint per unit of its multiplier: the length of its force on the first mass it acts on.
-pl_expr pl_force_length(pl_recorder* r, const pl_constraint* c);
 
 // record.c
 pl_expr pl_record_plain(pl_recorder* r, pl_expr e);           // sums over indices written out

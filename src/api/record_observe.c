@@ -1,8 +1,10 @@
 // record, second half: what is looked at along the motion.  Energies, forces on masses, outputs, events and branches become
 // observer and watch patterns with slots of their own, since they may speak of any coordinate and multiplier.
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "api/contact_geometry.h"
 #include "api/record_impl.h"
 
 // ---------------------------------------------------------------------------------------------- observers
@@ -108,13 +110,40 @@ static pl_expr energy_of(pl_recorder* r, pl_result_kind kind) {
   }
 }
 
+// The constraint of a label as one without a family, and its multiplier: of `c[3]` the member 3 of c.  false: there is no such.
+static bool single_constraint(pl_recorder* r, const char* label, pl_constraint* out, pl_expr* lambda) {
+  const pl_constraint* c = pl_model_constraint(r->model, label);
+  if (!c || !c->lambda.id) return false;
+  *out = *c;
+  *lambda = pl_sym(r->pool, c->lambda);
+  if (!c->block) return true;
+  const char* open = strchr(label, '[');
+  pl_instances in;
+  if (!open || pl_model_instances(r->job, r->model, c->block, &in) != PLEUEL_OK) return false;
+  long member = strtol(open + 1, NULL, 10), index = 0;
+  for (int k = 0; k < in.n; k++) {
+    pl_expr name = c->name.index;
+    out->g = c->g;
+    for (int d = 0; d < in.depth; d++) {
+      pl_expr value = pl_int(r->pool, in.index[k * in.depth + d]);
+      name = pl_subst1(r->pool, name, in.symbol[d], value);
+      out->g = pl_subst1(r->pool, out->g, in.symbol[d], value);
+    }
+    if (!pl_record_index(r, name, &index) || index != member) continue;
+    out->block = NULL;
+    *lambda = pl_at(r->pool, c->lambda, 0, pl_int(r->pool, member));
+    return true;
+  }
+  return false;
+}
+
 // What a result name stands for: T, λ-dependent sizes of forces; poison when this version has no number for it.
 static pl_expr result_value(pl_recorder* r, const pl_result_name* name) {
   if (name->kind != PL_RES_FORCE_NORM && name->kind != PL_RES_NORMAL) return energy_of(r, name->kind);
-  const pl_constraint* c = pl_model_constraint(r->model, name->label);
-  if (!c || c->block || !c->lambda.id) return pl_poison();
-  pl_expr length = pl_force_length(r, c);
-  return pl_mul(r->pool, pl_call(r->pool, PL_ABS, pl_sym(r->pool, c->lambda)), length);
+  pl_constraint c;
+  pl_expr lambda;
+  if (!single_constraint(r, name->label, &c, &lambda)) return pl_poison();
+  return pl_mul(r->pool, pl_call(r->pool, PL_ABS, lambda), pl_force_length(r, &c));
 }
 
 static pl_expr with_results(pl_recorder* r, pl_expr e) {
@@ -184,13 +213,37 @@ static pl_expr minus_multipliers(pl_recorder* r, pl_expr e) {
   return e;
 }
 
+// A size of a force in e that virtual work does not give (contact_geometry.h); NULL if there is none.
+static const char* undetermined_force(pl_recorder* r, pl_expr e) {
+  for (int i = 0; i < r->model->result_names.n; i++) {
+    const pl_result_name* name = &r->model->result_names.at[i];
+    bool of_force = name->kind == PL_RES_FORCE_NORM || name->kind == PL_RES_NORMAL;
+    pl_constraint c;
+    pl_expr lambda;
+    if (!of_force || !pl_has_symbol(r->pool, e, name->symbol)) continue;
+    if (!single_constraint(r, name->label, &c, &lambda)) continue;
+    if (pl_is_poison(pl_force_length(r, &c))) return name->label;
+  }
+  return NULL;
+}
+
+static pleuel_status no_number(pl_recorder* r, pl_expr e, const char* what) {
+  const char* label = undetermined_force(r, e);
+  if (label) {
+    return pl_fail(r->job, PLEUEL_UNSUPPORTED,
+                   "%s: the coordinates of the masses do not determine the whole force of %s, or "
+                   "it differs from mass to mass; give each mass a coordinate for each axis", what, label);
+  }
+  return pl_fail(r->job, PLEUEL_UNSUPPORTED, "%s: this version cannot compute it along the motion", what);
+}
+
 // Adds an expression; its place among the outputs is the next.  PLEUEL_UNSUPPORTED when it has no number.
 static pleuel_status watch(pl_recorder* r, pl_watching* w, pl_expr e, int column, const char* what) {
   pl_expr plain = pl_record_plain(r, with_results(r, r->model->lambda_minus ? minus_multipliers(r, e) : e));
   bool known = !pl_is_poison(plain) && !pl_has_role(r->pool, plain, PL_R_LOCAL) && !pl_has_role(r->pool, plain, PL_R_MOMENTUM);
   if (known && (pl_has_role(r->pool, plain, PL_R_START) || pl_has_role(r->pool, plain, PL_R_CONSTANT))) PL_TRY(settle_start_values(r));
   if (known) known = collect_multipliers(r, w, pl_map_make(r->arena), plain);
-  if (!known) return pl_fail(r->job, PLEUEL_UNSUPPORTED, "%s: this version cannot compute it along the motion", what);
+  if (!known) return no_number(r, e, what);
   pl_group_atoms(r, w->group, plain);
   pl_push(r->arena, w->output, plain);
   pl_push(r->arena, w->column, column);
@@ -262,7 +315,7 @@ static pleuel_status watch_forces(pl_recorder* r, pl_watching* w, pl_columns* co
 // What is only looked at may have no number: then it has no column, and the run goes on without it.
 static bool can_watch(pl_recorder* r, pl_watching* w, const pl_output* o, int column) {
   pl_expr plain = pl_record_plain(r, with_results(r, o->value));
-  bool known = !pl_is_poison(plain) && !pl_has_role(r->pool, plain, PL_R_ACCELERATION) && pl_record_check(r, &plain, 1) == PLEUEL_OK;
+  bool known = !pl_is_poison(plain) && pl_record_check(r, &plain, 1) == PLEUEL_OK;
   known = known && watch(r, w, o->value, column, o->name) == PLEUEL_OK;
   if (known) return true;
   r->job->message[0] = '\0';

@@ -42,7 +42,7 @@ pleuel_status pl_report_page(pleuel_model* m, pl_language lang, const pleuel_rep
   pl_html_input in = {
     .solution = m->solution, .notes = &m->diagnostics, .lang = lang, .only = o->only, .no_font = o->no_font,
     .no_animation = o->no_animation, .data = amount[o->data], .command = o->command, .words = statements, .small_words = small_words,
-    .result = views.result, .scene = scene, .n_columns = views.n_columns, .n_plots = views.plots.n, .plots = views.plots.at,
+    .result = views.result, .scene = scene, .n_columns = views.n_columns, .n_plots = views.plots.n, .plots = views.plots.at, .unplotted = views.missing,
     .energy_conserved = views.energy_conserved, .tol = views.tol, .run_message = views.message};
   pl_text out = pl_text_make(m->arena);
   pl_html_report(&out, &in);

@@ -51,8 +51,16 @@ static const char* unit_of(pl_views* v, pl_pool* p, pl_expr e, int column) {
   return unicode_unit(v->arena, plain >= 0 ? v->result->columns[plain].unit : own);
 }
 
-static const char* curve_name(pl_views* v, pl_pool* p, pl_expr e, const char* text) {
-  return pl_kind_of(p, e) == PL_SYMBOL ? shown_name(v, p, pl_symbol_of(p, e)) : text;
+static bool names_output(const pl_model* m, const char* text) {
+  for (int i = 0; i < m->outputs.n; i++) {
+    if (strcmp(m->outputs.at[i].name, text) == 0) return true;
+  }
+  return false;
+}
+
+static const char* curve_name(pl_views* v, const pl_model* m, pl_expr e, const char* text) {
+  bool symbol = pl_kind_of(m->pool, e) == PL_SYMBOL && !names_output(m, text);
+  return symbol ? shown_name(v, m->pool, pl_symbol_of(m->pool, e)) : text;
 }
 
 // ---------------------------------------------------------------------------------------------- plots
@@ -100,10 +108,10 @@ static void plot_line(pl_views* v, pleuel_model* m, int i) {
     const char* unit = unit_of(v, p, line->y.at[k], column);
     pl_html_plot* plot = plot_for(v, first, unit, 0);
     if (!plot) continue;
-    add_curve(v, plot, (pl_html_curve){curve_name(v, p, line->y.at[k], line->y_text.at[k]), unit, column});
+    add_curve(v, plot, (pl_html_curve){curve_name(v, m->model, line->y.at[k], line->y_text.at[k]), unit, column});
     if (over_time) continue;
     plot->x_column = x;
-    plot->x_name = curve_name(v, p, line->x, line->x_text);
+    plot->x_name = curve_name(v, m->model, line->x, line->x_text);
     plot->x_unit = unit_of(v, p, line->x, x);
   }
 }
@@ -132,6 +140,21 @@ static void plot_columns(pl_views* v, pleuel_model* m, int from, int to) {
     pl_html_plot* plot = plot_for(v, first, unit, size_of(v->result, i));
     if (plot) add_curve(v, plot, (pl_html_curve){column_name(v, m->model->pool, c->name), unit, i});
   }
+}
+
+// A quantity of a `plot` line that has no column has no number along the motion: that is said.
+static const char* missing_quantities(pl_views* v, const pl_model* m) {
+  pl_text names = pl_text_make(v->arena);
+  int n = 0;
+  for (int i = 0; i < m->plots.n; i++) {
+    const pl_plot* line = &m->plots.at[i];
+    for (int k = -1; k < line->y.n; k++) {
+      const char* column = pl_plain_ascii(v->arena, hidden_name(v->arena, i, k));
+      if (pl_result_find(v->result, column) >= 0) continue;
+      pl_text_addf(&names, "%s%s", n++ ? ", " : "", k < 0 ? line->x_text : line->y_text.at[k]);
+    }
+  }
+  return n ? pl_text_string(&names) : NULL;
 }
 
 static int count_shown(const pl_setup* s) {
@@ -223,6 +246,7 @@ pleuel_status pl_views_make(pleuel_model* m, pl_language lang, pl_views* v) {
     v->n_columns = v->result->n_columns;
     for (int i = v->n_columns - 1; i >= 0 && strncmp(v->result->columns[i].name, "plot ", 5) == 0; i--) v->n_columns--;
     v->energy_conserved = m->recording->setup.energy_conserved;
+    v->missing = missing_quantities(v, m->model);
     choose_plots(v, m);
   } else {
     v->result = NULL;

@@ -378,14 +378,17 @@ static void lower_all(pl_lower* l, pl_ast** s, int n) {
   for (int i = 0; i < n; i++) {
     if (s[i]->token == TOK_LET) pl_lower_statement(l, s[i]);
   }
-  // the physics, then what is asked about it
+  // the physics, then what is asked about it; outputs first, whose names can be asked for
   w.first = false;
   w.visit = visit_values;
   for (int i = 0; i < n; i++) {
     if (!in_second_round(s[i]->token)) lower_rest(l, &w, s[i]);
   }
   for (int i = 0; i < n; i++) {
-    if (in_second_round(s[i]->token)) lower_rest(l, &w, s[i]);
+    if (s[i]->token == TOK_OUTPUT) lower_rest(l, &w, s[i]);
+  }
+  for (int i = 0; i < n; i++) {
+    if (in_second_round(s[i]->token) && s[i]->token != TOK_OUTPUT) lower_rest(l, &w, s[i]);
   }
   for (int i = 0; i < l->settings.n; i++) {
     if (!l->settings.at[i].done) set_start(l, &l->settings.at[i]);

@@ -318,6 +318,12 @@ static pl_quantity call_result(pl_lower* l, const call* c, pl_result_kind kind) 
   return q;
 }
 
+const char* pl_force_label(const pl_lower* l, pl_expr e) {
+  if (pl_is_poison(e) || pl_kind_of(l->pool, e) != PL_SYMBOL) return NULL;
+  const pl_result_name* r = pl_model_result_name(l->m, pl_symbol_of(l->pool, e));
+  return r && r->kind == PL_RES_FORCE ? r->label : NULL;
+}
+
 // ---------------------------------------------------------------------------------------------- functions of let
 // A function of a finished model: its body is an expression over the symbols of its arguments.
 static pl_quantity call_finished(pl_lower* l, const call* c, pl_entity* e) {

@@ -314,6 +314,13 @@ static void lower_output(pl_lower* l, const pl_ast* s) {
   l->results = true;
   pl_expr value = pl_lower_scalar(l, pl_ast_kid(s, 1));
   l->results = results;
+  if (pl_force_label(l, value)) {
+    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(pl_ast_kid(s, 1)),
+                                         "a number is needed here, not a force",
+                                         "hier ist eine Zahl nötig, keine Kraft");
+    pl_suggest(l->job, m, NULL, "take its size, norm(force(...))", "ihre Größe nehmen, norm(force(...))");
+    return;
+  }
   for (int i = 0; i < l->m->outputs.n; i++) {
     if (strcmp(l->m->outputs.at[i].name, name->key) != 0) continue;
     pl_diagnostic* m = pl_lower_complain(l, PL_E028, pl_ast_span(name), "output %s is given twice",

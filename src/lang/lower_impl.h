@@ -159,6 +159,7 @@ bool pl_ast_is_name(const pl_ast* node, const char* key);
 // Functions: built in, special, and those of `let f(x)`.
 bool pl_lower_is_function(const pl_lower* l, const char* key);
 pl_quantity pl_lower_call(pl_lower* l, const pl_ast* function, const pl_ast* group);
+const char* pl_force_label(const pl_lower* l, pl_expr e);   // the constraint of `force(label)`; NULL for all else
 pl_quantity pl_lower_apply(pl_lower* l, const pl_ast* function, pl_quantity argument, const pl_ast* where);
 
 // ---------------------------------------------------------------------------------------------- places

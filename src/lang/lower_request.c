@@ -438,16 +438,23 @@ static void lower_simulate(pl_lower* l, const pl_ast* s) {
 }
 
 // ---------------------------------------------------------------------------------------------- pictures
+// A force is drawn by its size.
+static pl_expr plotted(pl_lower* l, const pl_ast* node) {
+  pl_expr e = pl_lower_scalar(l, node);
+  const char* label = pl_force_label(l, e);
+  return label ? pl_sym(l->pool, pl_model_result_symbol(l->m, PL_RES_FORCE_NORM, label)) : e;
+}
+
 static void lower_plot(pl_lower* l, const pl_ast* s) {
   const pl_ast *y = pl_ast_kid(s, 0), *x = pl_ast_kid(s, 1);
   int wrong = l->wrong;
   pl_plot plot = {.span = pl_ast_span(s)};
   for (int i = 0; i < y->kids.n; i++) {
-    pl_expr e = pl_lower_scalar(l, y->kids.at[i]);
+    pl_expr e = plotted(l, y->kids.at[i]);
     pl_push(l->arena, plot.y, e);
     pl_push(l->arena, plot.y_text, pl_source_text(l->arena, pl_ast_span(y->kids.at[i])));
   }
-  plot.x = x ? pl_lower_scalar(l, x) : pl_sym(l->pool, pl_time(l->pool));
+  plot.x = x ? plotted(l, x) : pl_sym(l->pool, pl_time(l->pool));
   plot.x_text = x ? pl_source_text(l->arena, pl_ast_span(x)) : "t";
   if (l->wrong == wrong) pl_push(l->arena, l->m->plots, plot);
 }

@@ -343,6 +343,14 @@ static bool result_kind(const char* key, pl_result_kind* kind) {
   return false;
 }
 
+// `output F = ...` gives a quantity a name, which can be plotted and asked like the quantity itself.
+static pl_expr value_of_output(const pl_lower* l, const char* key) {
+  for (int i = 0; i < l->m->outputs.n; i++) {
+    if (strcmp(l->m->outputs.at[i].name, key) == 0) return l->m->outputs.at[i].value;
+  }
+  return pl_poison();
+}
+
 // λ alone is the multiplier that `with λ` named, or the only one; λ_label that of a constraint.
 static pl_rule* find_multiplier(pl_lower* l, const char* key) {
   for (int i = 0; i < l->rules.n; i++) {
@@ -372,6 +380,7 @@ bool pl_scope_known(pl_lower* l, const pl_ast* name) {
   if (pl_scope_local(l, name->key) || pl_scope_find(l, name->key) || strcmp(name->key, "t") == 0) return true;
   if (pl_word_function(name->key) || find_alias(l, name, &e, &dots, &start) || find_multiplier(l, name->key))
     return true;
+  if (l->results && !pl_is_poison(value_of_output(l, name->key))) return true;
   return (l->results && result_kind(name->key, &kind)) || is_momentum(l, name->key, &e);
 }
 
@@ -539,6 +548,9 @@ pl_quantity pl_lower_name(pl_lower* l, const pl_ast* name, const pl_ast* index, 
   pl_rule* rule = find_multiplier(l, name->key);
   if (rule) return name_of_multiplier(l, rule, index, dots, place);
   pl_result_kind kind;
+  pl_expr output = l->results && !index ? value_of_output(l, name->key) : pl_poison();
+  for (int d = 0; d < dots && !pl_is_poison(output); d++) output = pl_dt(l->pool, output);
+  if (!pl_is_poison(output)) return pl_quantity_of(output);
   if (l->results && !index && dots == 0 && result_kind(name->key, &kind)) {
     return pl_quantity_of(pl_sym(l->pool, pl_model_result_symbol(l->m, kind, NULL)));
   }

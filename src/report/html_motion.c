@@ -91,6 +91,12 @@ void pl_html_motion(pl_html* h) {
   pl_html_plots(h, &rows);
   pl_html_raw(h, "</div></div>\n");
   put_hint(h);
+  if (h->in->unplotted) {
+    pl_html_rawf(h, "<p class=\"note\"><b>%s</b> ",
+                 pl_html_say(h, "No numbers, and so no curve:", "Keine Zahlenwerte, daher keine Kurve:"));
+    pl_html_text(h, h->in->unplotted);
+    pl_html_raw(h, "</p>\n");
+  }
   if (h->in->run_message && *h->in->run_message) {
     pl_html_rawf(h, "<p class=\"note\"><b>%s</b> ", pl_html_say(h, "The motion ends early:", "Die Bewegung endet vorzeitig:"));
     pl_html_text(h, h->in->run_message);

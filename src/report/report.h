@@ -101,6 +101,7 @@ typedef struct pl_html_input {
   int n_columns;                       // columns of the result that a file of `sim` has; those behind it serve plots
   int n_plots;
   const pl_html_plot* plots;
+  const char* unplotted;               // quantities that were to be plotted and have no numbers; NULL
   bool energy_conserved;
   double tol;                          // tolerance of the run
   const char* run_message;             // why there is no motion, or why it ends early; NULL

@@ -195,8 +195,25 @@ for row in rows:
         off.append(abs(ya + (yb - ya) * (px(t) - xa) / (xb - xa) - py(v)))
 check("a plotted curve runs where the data say", len(off) > 25 and max(off) < 1, off)
 check("events are named", "h lets go" in texts(svg), texts(svg))
-r = run("plot", root / "examples/chain.pleuel", "--set", "N=4", "--until", "0.1", "-o", "chain.svg")
-check("a quantity without a number is named", r.returncode == 0 and b"norm(force(c[1])) is not plotted" in r.stderr, r.stderr)
+across = model("across.pleuel", """param m = 1 [kg], r = 1 [m], l = 3 [m], n = 2 [rad/s]
+coord u, s
+axes x right, y up
+mass S: m at (s, 0)
+constraint drive: u = n t
+constraint rod: (s - r cos u)^2 + r^2 sin^2 u = l^2
+branch s > 0
+output push = m s''
+simulate 0..1 [s]
+plot norm(force(rod)), force(rod), s'', push vs t
+""")
+r = run("plot", across, "-o", "across.svg", "--show", "plots")
+check("all quantities without a number are named", r.returncode == 0 and
+      b"no curve: norm(force(rod)), force(rod)" in r.stderr, r.stderr)
+check("accelerations and outputs have their curves", {"s̈ [m/s²]", "push [N]"} <= set(texts(parsed(work / "across.svg"))),
+      texts(parsed(work / "across.svg")))
+r = run("plot", root / "examples/chain.pleuel", "--set", "N=4", "--until", "0.1", "-o", "chain.svg", "--show", "plots")
+check("the force of a member of a family has its curve", r.returncode == 0 and b"no curve" not in r.stderr and
+      "norm(force(c[1])) [N]" in texts(parsed(work / "chain.svg")), r.stderr)
 phase = model("phase.pleuel", pendulum.read_text() + "plot y vs x\n")
 run("plot", phase, "-o", "phase.svg", "--show", "plots")
 svg = parsed(work / "phase.svg")
