@@ -24,6 +24,8 @@ static int find_particle(const pl_analysis* d, const char* label) {
 // ---------------------------------------------------------------------------------------------- components
 typedef struct pl_force {   // of one constraint on one mass
   int n;
+  bool whole;               // the coordinates of the mass span its space, so that nothing of Z is missing
+  int reaction_to;          // particle whose force is the opposite of this one, -1
   const char* along[3];     // "e_x"
   pl_expr factor[3];        // component = λ factor
 } pl_force;
@@ -41,9 +43,12 @@ static bool shared(const pl_analysis* d, int particle, pl_symbol q) {
 // Each component of the position is a coordinate of its own: Z along the axes is λ dg/dx.
 static bool along_axes(pl_analysis* d, int link, int particle, pl_force* out) {
   const pl_particle* m = &d->particle.at[particle];
-  out->n = 0;
+  *out = (pl_force){.whole = true, .reaction_to = -1};
   for (int c = 0; c < m->n; c++) {
-    if (!pl_has_coordinates(d, m->at[c])) continue;   // stays, or is moved as given
+    if (!pl_has_coordinates(d, m->at[c])) {   // stays, or is moved as given
+      out->whole = false;
+      continue;
+    }
     if (pl_kind_of(d->pool, m->at[c]) != PL_SYMBOL) return false;
     int i = pl_variable_index(d, pl_symbol_of(d->pool, m->at[c]));
     if (i < 0 || shared(d, particle, d->q.at[i].q)) return false;
@@ -57,8 +62,9 @@ static bool along_axes(pl_analysis* d, int link, int particle, pl_force* out) {
 
 static bool along_frame(pl_analysis* d, int link, int particle, pl_force* out) {
   pl_frame f;
-  out->n = 0;
+  *out = (pl_force){.reaction_to = -1};
   if (!pl_frame_find(d, &d->particle.at[particle], &f)) return false;
+  out->whole = f.n == d->particle.at[particle].n;
   for (int j = 0; j < f.n; j++) {
     int i = f.coordinate[j];
     if (shared(d, particle, d->q.at[i].q)) return false;
@@ -73,6 +79,47 @@ static bool along_frame(pl_analysis* d, int link, int particle, pl_force* out) {
 
 static bool force_on(pl_analysis* d, int link, int particle, pl_force* out) {
   return along_axes(d, link, particle, out) || along_frame(d, link, particle, out);
+}
+
+// Action is reaction: where constraint `link` joins mass a to mass b, whose force is known along all axes, the force on a is
+// the opposite one.  Virtual work along each coordinate of a decides whether it joins them:
+//   dg/dq_i = -Z_b . dX_a/dq_i.
+static bool is_reaction(pl_analysis* d, int link, int a, int b, const pl_force* on_b) {
+  const pl_particle* m = &d->particle.at[a];
+  if (!on_b->whole || m->n != d->particle.at[b].n) return false;
+  for (int i = 0; i < d->q.n; i++) {
+    pl_expr work = d->g.at[link].gradient[i];
+    bool moves = false;
+    for (int c = 0; c < m->n; c++) {
+      pl_expr way = pl_diff(d->pool, m->at[c], d->q.at[i].q);
+      const char* along = pl_format(d->arena, "e_%s", d->model->axes[c].name);
+      moves |= !pl_is_zero_node(d->pool, way);
+      for (int j = 0; j < on_b->n; j++) {
+        if (strcmp(on_b->along[j], along) != 0) continue;
+        work = pl_add(d->pool, work, pl_mul(d->pool, on_b->factor[j], way));
+      }
+    }
+    if (moves && pl_alg_is_zero(d->tower, pl_on_fixed(d, work)) != PL_YES) return false;
+  }
+  return true;
+}
+
+// Of two masses that the constraint acts on, one may lack coordinates for a part of its force.
+static void complete_by_reaction(pl_analysis* d, int link, pl_force* f) {
+  int acted[2], n = 0;
+  for (int m = 0; m < d->particle.n; m++) {
+    if (f[m].n == 0) continue;
+    if (n == 2) return;
+    acted[n++] = m;
+  }
+  for (int k = 0; n == 2 && k < 2; k++) {
+    int a = acted[k], b = acted[1 - k];
+    pl_force own;
+    if (f[a].whole || !along_axes(d, link, b, &own) || !is_reaction(d, link, a, b, &own)) continue;
+    f[a] = own;
+    f[a].reaction_to = b;
+    for (int j = 0; j < own.n; j++) f[a].factor[j] = pl_neg(d->pool, own.factor[j]);
+  }
 }
 
 pl_expr pl_force_scale(pl_analysis* d, int link) {
@@ -211,6 +258,23 @@ static bool lambda_over_names(pl_analysis* d, int k, pl_lambda_value* out) {
   return true;
 }
 
+// On which mass, and how much of the force this is.
+static void say_on(pl_analysis* d, pl_step* step, const char* label, const pl_force* f, bool only_one) {
+  const char* en = pl_format(d->arena, "on %s", label);
+  const char* de = pl_format(d->arena, "auf %s", label);
+  if (f->reaction_to >= 0) {
+    const char* other = d->particle.at[f->reaction_to].label;
+    en = pl_format(d->arena, "on %s, the reaction to the force on %s", label, other);
+    de = pl_format(d->arena, "auf %s, Gegenkraft zur Kraft auf %s", label, other);
+  } else if (!f->whole) {
+    en = pl_format(d->arena, "on %s, in the directions in which it can move", label);
+    de = pl_format(d->arena, "auf %s, in den Richtungen, in denen sich %s bewegen kann", label, label);
+  } else if (only_one) {
+    return;
+  }
+  pl_step_after(step, en, de);
+}
+
 static void show_on(pl_analysis* d, int k, int particle, const pl_force* f, const pl_lambda_value* lambda, bool only_one) {
   pl_expr with_name[3], value[3];
   long ops = 0;
@@ -226,7 +290,7 @@ static void show_on(pl_analysis* d, int k, int particle, const pl_force* f, cons
   const pl_form* closed = !stays && ops <= closed_ops ? vector_of(d, f, value, PL_S_QUOTIENT) : NULL;
   pl_step* step = pl_show_numbered(d, pl_feq(d, Z, closed ? pl_feq(d, named, closed) : named));
   pl_step_refs(step, 1, lambda->number > 0 ? lambda->number : d->number_lambda);
-  if (!only_one) pl_step_after(step, pl_format(d->arena, "on %s", label), pl_format(d->arena, "auf %s", label));
+  say_on(d, step, label, f, only_one);
   if (f->n == 1) {
     bool known;
     pl_step_value(d, step, value[0], pl_dimension_of_expr(d, value[0], &known));
@@ -309,6 +373,7 @@ static void force_of(pl_analysis* d, const pl_ask* ask, int k) {
     if (!force_on(d, k, m, &f[m])) f[m].n = 0;
     if (f[m].n > 0 && n++ == 0) first = m;
   }
+  complete_by_reaction(d, k, f);
   for (int m = 0; m < d->particle.n; m++) {
     if (f[m].n > 0) show_on(d, k, m, &f[m], &lambda, d->particle.n == 1);
   }

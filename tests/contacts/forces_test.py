@@ -117,4 +117,23 @@ simulate 0..1
 """, 0.5)
 check("members of a family carry what hangs below them", rows and near(rows[-1]["a"], 100) and near(rows[-1]["b"], 40), said or rows)
 
+ROD = """param m = 1, M = 2, r = 0.5, l = 1, g = 9.81, w = 4
+coord u, x, y
+axes x right, y up
+mass A: m at (r cos u, r sin u)
+mass B: M at (x, y)
+gravity g along -y
+constraint drive: u = w t
+constraint rod: (x - r cos u)^2 + (y - r sin u)^2 = l^2
+ask force of rod
+"""
+model = pathlib.Path(scratch.name, "rod.pleuel")
+model.write_text(ROD, encoding="utf-8")
+said = subprocess.run([program, "solve", "--no-simulation", str(model)], capture_output=True, text=True, timeout=60).stdout
+check("the force on a pin that moves on a circle is the reaction", "on A, the reaction to the force on B" in said and
+      "Z_A = 2 λ_rod (r cos(w t) - x) e_x + 2 λ_rod (r sin(w t) - y) e_y" in said, said)
+model.write_text(ROD.replace("ask force of rod", "constraint wall: x = 2\nask force of drive"), encoding="utf-8")
+said = subprocess.run([program, "solve", "--no-simulation", str(model)], capture_output=True, text=True, timeout=60).stdout
+check("a force of which only a part is known is called that", "on A, in the directions in which it can move" in said, said)
+
 done()
