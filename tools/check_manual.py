@@ -2,7 +2,8 @@
 """Runs the examples of the manual.  Usage: tools/check_manual.py PLEUEL
 
 In README.md and docs/*.md:
-  a fenced block ```pleuel        a model; `pleuel check` must find no error.  Blocks that belong together are joined when
+  a fenced block ```pleuel        a model; `pleuel check` must find no error, and `pleuel solve` of those in docs/language.md must
+                                  end with 0.  Blocks that belong together are joined when
                                   one says `<!-- continues -->` on the line before.  `<!-- wrong: E014 -->` before a block: the
                                   check must say E014.  `<!-- part -->`: a fragment, read with the declarations that it lacks
                                   in the block `<!-- given -->` before it.  `<!-- not run -->`: skipped.
@@ -66,6 +67,10 @@ def model_block(where, mark, text, given, folder):
             faults.append(f"{where}: should say {wrong.group(1)}, but says:\n{said}")
     elif code != 0:
         faults.append(f"{where}: does not check (exit {code}):\n{said}")
+    elif where.startswith("docs/language.md"):
+        code, out, err = pleuel(["solve", "-"], folder, given + text if mark == "part" else text)
+        if code != 0:
+            faults.append(f"{where}: does not solve (exit {code}):\n{out}{err}")
 
 
 def matches(want, got):

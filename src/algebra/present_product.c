@@ -166,6 +166,7 @@ static pl_bucket bucket_of_symbol(pl_search* s, pl_symbol x) {
     default: break;
   }
   switch (i->class) {
+    case PL_C_NUMBER:      // a number with its unit: before the masses, by its class
     case PL_C_MASS: return PL_K_MASS;
     case PL_C_GRAVITY: return PL_K_GRAVITY;
     case PL_C_LENGTH: return PL_K_LENGTH;

@@ -29,6 +29,7 @@ static const char* atom_name(pl_recorder* r, pl_expr atom, bool velocity) {
 static bool is_parameter(pl_recorder* r, const char* name, pl_direction* d) {
   for (int i = 0; i < r->model->params.n; i++) {
     const pl_symbol_info* info = pl_symbol_get(r->pool, r->model->params.at[i].symbol);
+    if (r->model->params.at[i].literal) continue;
     if (strcmp(info->ascii, name) != 0 && strcmp(info->name, name) != 0) continue;
     *d = (pl_direction){.name = info->ascii, .parameter = r->model->params.at[i].symbol, .at = -1};
     d->dimension_known = info->dimension_known;

@@ -198,8 +198,10 @@ static void show_root(pl_analysis* d, pl_expr name, pl_expr value, pl_expr condi
 static void say_independent(pl_analysis* d, pl_expr value) {
   if (!pl_is_constant(d->pool, value) || d->model->params.n == 0) return;
   const pl_form** f = PL_ARRAY(d->arena, const pl_form*, d->model->params.n);
-  for (int k = 0; k < d->model->params.n; k++) f[k] = pl_fs(d, d->model->params.at[k].symbol);
-  pl_say(d, "independent of {1}", "unabhängig von {1}", 1, pl_flist(d, f, d->model->params.n));
+  int n = 0;
+  for (int k = 0; k < d->model->params.n; k++)
+    if (!d->model->params.at[k].literal) f[n++] = pl_fs(d, d->model->params.at[k].symbol);
+  if (n) pl_say(d, "independent of {1}", "unabhängig von {1}", 1, pl_flist(d, f, n));
 }
 
 static void show_condition(pl_analysis* d, const pl_ask* ask, pl_expr e) {

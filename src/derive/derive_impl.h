@@ -146,6 +146,7 @@ pl_expr pl_on_maps(pl_analysis* d, pl_expr e);          // and in generalized co
 int pl_sign_at_numbers(pl_analysis* d, pl_expr e);      // proven, or that of the given numbers with the assumption on record; 0 open
 int pl_sign_or_positive(pl_analysis* d, pl_expr e);   // the same; where nothing tells, > 0 is assumed and told
 double pl_number(pl_analysis* d, pl_expr e);            // at the parameters; NaN when it depends on more
+pl_answer3 pl_zero_for_numbers(pl_analysis* d, pl_expr e);   // e = 0, as it stands or with the numbers of the parameters in it
 
 // energies.c
 pleuel_status pl_energies(pl_analysis* d);              // T, V, L, forces, euler

@@ -44,11 +44,8 @@ static double* known_numbers(pl_analysis* d) {
   return value;
 }
 
-// Parameters are exact numbers: where inserting them leaves a rational, its double is the nearest one, 1.962 and not
-// 1.9619999999999997.  Otherwise x stands.
-static double exact_number(pl_analysis* d, pl_expr e, double x) {
-  enum { small = 200 };
-  if (pl_op_count(d->pool, e) > small) return x;
+// e with the given numbers in it, exactly.
+static pl_expr with_numbers(pl_analysis* d, pl_expr e) {
   const pl_model* m = d->model;
   for (int k = m->lets.n - 1; k >= 0; k--) {
     if (!m->lets.at[k].inserted && m->lets.at[k].n_args == 0) e = pl_subst1(d->pool, e, m->lets.at[k].symbol, m->lets.at[k].value);
@@ -58,7 +55,20 @@ static double exact_number(pl_analysis* d, pl_expr e, double x) {
   for (int k = 0; k < m->params.n; k++) {
     if (!pl_is_poison(m->params.at[k].value)) r[n++] = (pl_replace){m->params.at[k].symbol, m->params.at[k].value};
   }
-  e = pl_subst(d->pool, e, r, n);
+  return pl_subst(d->pool, e, r, n);
+}
+
+pl_answer3 pl_zero_for_numbers(pl_analysis* d, pl_expr e) {
+  pl_answer3 zero = pl_alg_is_zero(d->tower, e);
+  return zero == PL_NO ? pl_alg_is_zero(d->tower, with_numbers(d, e)) : zero;
+}
+
+// Parameters are exact numbers: where inserting them leaves a rational, its double is the nearest one, 1.962 and not
+// 1.9619999999999997.  Otherwise x stands.
+static double exact_number(pl_analysis* d, pl_expr e, double x) {
+  enum { small = 200 };
+  if (pl_op_count(d->pool, e) > small) return x;
+  e = with_numbers(d, e);
   return !pl_is_poison(e) && pl_is_number(d->pool, e) ? pl_number_double(d->pool, e) : x;
 }
 
@@ -285,7 +295,7 @@ static void fix_coordinate(pl_analysis* d, int i, int link, pl_expr value) {
 }
 
 pleuel_status pl_contradiction(pl_analysis* d, const pl_bond* l, pl_expr rest) {
-  const char* text = pl_expr_text(d->arena, d->pool, rest);
+  const char* text = pl_notation_print(d->arena, d->pool, pl_form_of(d->arena, d->pool, rest), (pl_notation){PL_MATH_LINE, d->job->lang});
   pl_diagnostic* m = pl_report(d->job->diagnostics, PL_E042, l->source->span,
     pl_format(d->arena, "constraint %s contradicts the others: it leaves %s = 0", l->source->name.text, text),
     pl_format(d->arena, "Zwangsbedingung %s widerspricht den anderen: es bleibt %s = 0", l->source->name.text, text));
@@ -307,7 +317,7 @@ static pleuel_status try_link(pl_analysis* d, int k, bool* changed) {
   int i = only_coordinate(d, e);
   if (i == -1) {
     if (l->contact) return PLEUEL_OK;
-    pl_answer3 zero = pl_alg_is_zero(d->tower, e);
+    pl_answer3 zero = pl_zero_for_numbers(d, e);
     if (zero == PL_NO) return pl_contradiction(d, l, e);
     l->implied = zero == PL_YES;
     *changed |= l->implied;

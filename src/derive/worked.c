@@ -94,7 +94,7 @@ static bool no_common_root(pl_analysis* d, pl_expr given, pl_expr e) {
     pl_root root[8];
     bool complete = false, all = true;
     int n = pl_alg_roots(d->tower, given, d->q.at[i].q, root, 8, &complete);
-    for (int r = 0; r < n; r++) all &= pl_alg_is_zero(d->tower, pl_subst1(d->pool, e, d->q.at[i].q, root[r].value)) == PL_NO;
+    for (int r = 0; r < n; r++) all &= pl_zero_for_numbers(d, pl_subst1(d->pool, e, d->q.at[i].q, root[r].value)) == PL_NO;
     if (n > 0 && complete) return all;
   }
   return false;
@@ -107,7 +107,7 @@ static pleuel_status no_contradiction(pl_analysis* d, int k) {
   if (d->reduced) {
     pl_expr left = pl_on_maps(d, l->g);
     if (pl_has_followers(d, left) && pl_holds_on_loops(d, left, pl_int(d->pool, 0)) != PL_NO) return PLEUEL_OK;
-    return pl_alg_is_zero(d->tower, left) == PL_NO ? pl_contradiction(d, l, pl_alg_normal(d->tower, left)) : PLEUEL_OK;
+    return pl_zero_for_numbers(d, left) == PL_NO ? pl_contradiction(d, l, pl_alg_normal(d->tower, left)) : PLEUEL_OK;
   }
   int m = 0, place = -1, others = 0, other = -1;
   int* row = PL_ARRAY(d->arena, int, d->g.n);
@@ -125,7 +125,7 @@ static pleuel_status no_contradiction(pl_analysis* d, int k) {
   if (others == 0) return PLEUEL_OK;
   if (constant) {
     rest = pl_alg_normal(d->tower, pl_on_fixed(d, rest));
-    bool left = !pl_has_coordinates(d, rest) && pl_alg_is_zero(d->tower, rest) == PL_NO;
+    bool left = !pl_has_coordinates(d, rest) && pl_zero_for_numbers(d, rest) == PL_NO;
     return left ? pl_contradiction(d, l, rest) : PLEUEL_OK;
   }
   pl_expr e = pl_on_fixed(d, l->g);
@@ -354,7 +354,8 @@ static void list_assumptions(pl_analysis* d) {
     sorted[at] = &used[k];
   }
   for (int k = 0; k < n; k++) {
-    if (!is_contact(d, sorted[k])) pl_push(d->arena, d->solution->used, fact_text(d, sorted[k]));
+    bool numbers = pl_is_constant(d->pool, pl_without_measures(d->pool, sorted[k]->difference));    // 2 kg > 0
+    if (!numbers && !is_contact(d, sorted[k])) pl_push(d->arena, d->solution->used, fact_text(d, sorted[k]));
   }
 }
 

@@ -48,6 +48,10 @@ typedef struct pl_symbol_info {
   int dots;                // 0, 1, 2 for coordinate, velocity, acceleration
   pl_symbol base;          // of a velocity, acceleration or start value: its coordinate (for x'(0): the coordinate too)
   pl_symbol up;            // of a coordinate or velocity: its time derivative; 0 if none was made yet
+  // A number with its unit, `20 [kN/m]`, is a symbol of its own, so that formulas keep it as it was written.
+  pl_expr number;          // its exact value in SI; poison: the symbol is a name
+  pl_expr written;         // the number in front of the unit
+  const char* unit;        // the unit as displayed: "kN/m"
 } pl_symbol_info;
 
 // ---------------------------------------------------------------------------------------------- nodes
@@ -89,6 +93,8 @@ int pl_symbol_count(const pl_pool* p);                               // ids run 
 pl_symbol pl_symbol_dot(pl_pool* p, pl_symbol s);                    // x -> x', x' -> x''; made when needed
 pl_symbol pl_symbol_start(pl_pool* p, pl_symbol s);                  // x -> x(0), x' -> x'(0)
 pl_symbol pl_time(pl_pool* p);                                       // t
+bool pl_is_measure(const pl_pool* p, pl_expr e);                     // e is a number with its unit
+pl_expr pl_without_measures(pl_pool* p, pl_expr e);                  // each number with its unit replaced by its value in SI
 
 // Construction
 pl_expr pl_poison(void);

@@ -1,5 +1,5 @@
 // The text of an expression for machines: ASCII, explicit * and ^, brackets where they are needed, names as in
-// pl_symbol_info.ascii.  It reads back with the model language and depends on structure and names only.
+// pl_symbol_info.ascii, numbers with units as their value in SI.  It reads back with the model language and depends on structure and names only.
 //   -2*g*m1*m2/(m1 + m2)      sqrt(l^2 - r^2*sin(phi)^2)      3*cos(theta) - 2
 #include "expr/expr_impl.h"
 
@@ -167,7 +167,10 @@ static void write(writer* w, pl_expr e) {
     case PL_NUMBER: write_number(w, e); return;
     case PL_PI: add(w, "pi"); return;
     case PL_INFINITY: add(w, "infinity"); return;
-    case PL_SYMBOL: add(w, pl_symbol_get(p, pl_symbol_of(p, e))->ascii); return;
+    case PL_SYMBOL:
+      if (pl_is_measure(p, e)) write(w, pl_symbol_get(p, pl_symbol_of(p, e))->number);
+      else add(w, pl_symbol_get(p, pl_symbol_of(p, e))->ascii);
+      return;
     case PL_AT: write_element(w, e); return;
     case PL_ADD: write_sum(w, e); return;
     case PL_MUL: case PL_POW: write_term(w, e, true); return;
@@ -182,6 +185,7 @@ static void write(writer* w, pl_expr e) {
 }
 
 static binding binding_of(const pl_pool* p, pl_expr e) {
+  if (pl_is_measure(p, e)) e = pl_symbol_get(p, pl_symbol_of(p, e))->number;
   switch (pl_kind_of(p, e)) {
     case PL_ADD: return SUM;
     case PL_MUL: return PRODUCT;

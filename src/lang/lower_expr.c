@@ -99,7 +99,8 @@ static pl_quantity lower_sum(pl_lower* l, const pl_ast* node) {
       // a product with -1: -(a + b) stays as written
       terms[i] = node->ops.at[i] == '-' ? pl_mul(l->pool, minus_one, all[i].at[0]) : all[i].at[0];
     }
-    return pl_quantity_of(node->kids.n == 1 ? terms[0] : pl_add_n(l->pool, terms, node->kids.n));
+    if (node->kids.n == 1) return pl_quantity_of(terms[0]);
+    return pl_quantity_of(pl_measure_join(l->pool, pl_add_n(l->pool, terms, node->kids.n)));
   }
   pl_quantity sum = all[0];
   if (node->ops.at[0] == '-') sum = pl_lower_times(l, sum, pl_quantity_of(pl_int(l->pool, -1)), false, node);
@@ -131,7 +132,7 @@ static pl_quantity lower_with_unit(pl_lower* l, const pl_ast* node, pl_quantity 
   pl_unit unit;
   if (!pl_lower_unit(l, node, &unit) || pl_quantity_is_bad(&q)) return pl_quantity_bad();
   bool number = q.n == 0 && pl_is_constant(l->pool, q.at[0]);
-  if (number) return pl_quantity_of(pl_mul(l->pool, q.at[0], unit.factor));
+  if (number) return pl_quantity_of(pl_measure_make(l->pool, q.at[0], &unit, node->text));
   pl_diagnostic* m = pl_lower_complain(l, PL_E023, pl_ast_span(node), "a unit belongs to a number or a declaration",
                                        "eine Einheit gehört zu einer Zahl oder Vereinbarung");
   const char* text = pl_source_text(l->arena, pl_ast_span(pl_ast_kid(node, 0)));

@@ -93,7 +93,8 @@ static void add_rules(pl_lower* l) {
 
 void pl_lower_from_model(pl_lower* l) {
   const pl_model* m = l->m;
-  for (int i = 0; i < m->params.n; i++) add_entity(l, m->params.at[i].symbol, PL_ENTITY_PARAM);
+  for (int i = 0; i < m->params.n; i++)
+    if (!m->params.at[i].literal) add_entity(l, m->params.at[i].symbol, PL_ENTITY_PARAM);
   for (int i = 0; i < m->coords.n; i++) {
     add_entity(l, m->coords.at[i].symbol, pl_is_poison(m->coords.at[i].lo) ? PL_ENTITY_COORD : PL_ENTITY_FAMILY);
   }

@@ -396,5 +396,6 @@ pl_quantity pl_lower_product(pl_lower* l, const pl_ast* node) {
     else divisor = -1;
     if (pl_quantity_is_bad(&next)) value = pl_quantity_bad();
   }
+  if (value.n == 0) value.at[0] = pl_measure_join(l->pool, value.at[0]);   // 2 π [rad/s]
   return value;
 }

@@ -99,14 +99,19 @@ static bool read_group(pl_lower* l, const pl_ast* group, const pl_ast* node, pl_
 
 static bool read_inertia(pl_lower* l, const pl_ast* node, pl_expr J[6]) {
   const pl_ast* group = pl_ast_single(node);
-  pl_unit unit = {.factor = pl_int(l->pool, 1)};
+  pl_unit unit;
+  const pl_ast* unit_node = NULL;
   if (group && group->kind == PL_AST_UNIT) {   // one unit for all: (1, 2, 3) [kg m^2]
     if (!pl_lower_unit(l, group, &unit)) return false;
+    unit_node = group;
     group = pl_ast_single(pl_ast_kid(group, 0));
   }
   if (group && group->kind == PL_AST_GROUP && group->kids.n == 3) {
     if (!read_group(l, group, node, J)) return false;
-    for (int k = 0; k < 6; k++) J[k] = pl_mul(l->pool, J[k], unit.factor);
+    for (int k = 0; k < 6 && unit_node; k++) {
+      bool number = pl_is_constant(l->pool, J[k]);
+      J[k] = number ? pl_measure_make(l->pool, J[k], &unit, unit_node->text) : pl_mul(l->pool, J[k], unit.factor);
+    }
     return true;
   }
   pl_quantity q = pl_lower_quantity(l, node);

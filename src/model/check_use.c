@@ -93,6 +93,7 @@ static void check_coordinates(pl_job* job, use_table* t) {
 
 static void check_params(pl_job* job, use_table* t) {
   for (int i = 0; i < t->m->params.n; i++) {
+    if (t->m->params.at[i].literal) continue;
     const pl_param* p = &t->m->params.at[i];
     if (t->uses[p->symbol.id]) continue;
     const char* name = pl_symbol_get(t->m->pool, p->symbol)->name;

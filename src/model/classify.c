@@ -115,7 +115,8 @@ static void set_used_signs(pl_model* m) {
 static void set_class(pl_model* m, pl_expr e, pl_class class) {
   if (pl_is_poison(e) || pl_kind_of(m->pool, e) != PL_SYMBOL) return;
   pl_symbol_info* info = pl_symbol_get(m->pool, pl_symbol_of(m->pool, e));
-  if (info->role == PL_R_PARAM || info->role == PL_R_LOCAL) info->class = class;
+  bool name = pl_is_poison(info->number);      // a number with its unit stands where numbers stand
+  if (name && (info->role == PL_R_PARAM || info->role == PL_R_LOCAL)) info->class = class;
 }
 
 // Use wins over dimension: what stands in a mass statement is a mass even without units.

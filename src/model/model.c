@@ -210,7 +210,9 @@ double* pl_model_values(const pl_model* m, pl_arena* a) {
   value_pass v = {m, a, PL_ARRAY(a, double, n), PL_ARRAY(a, pl_expr, n), PL_ARRAY(a, char, n)};
   for (int i = 0; i < n; i++) v.value[i] = PL_NAN;
   for (int i = 1; i < n; i++) {
-    if (pl_is_unit_symbol(m->pool, (pl_symbol){(uint32_t)i})) v.value[i] = 1;
+    const pl_symbol_info* info = pl_symbol_get(m->pool, (pl_symbol){(uint32_t)i});
+    if (!pl_is_poison(info->number)) v.value[i] = pl_eval(m->pool, info->number, v.value);
+    else if (pl_is_unit_symbol(m->pool, (pl_symbol){(uint32_t)i})) v.value[i] = 1;
   }
   give_all(&v);
   for (int i = 1; i < n; i++) {
@@ -280,6 +282,7 @@ pleuel_status pl_model_set(pl_job* job, pl_model* m, const char* name, pl_expr v
   if (pl_is_poison(value)) return pl_fail(job, PLEUEL_USAGE, "the value for %s cannot be computed", name);
   for (int i = 0; i < m->params.n; i++) {
     const pl_symbol_info* info = pl_symbol_get(m->pool, m->params.at[i].symbol);
+    if (m->params.at[i].literal) continue;
     if (strcmp(info->ascii, name) != 0 && strcmp(info->name, name) != 0) continue;
     PL_TRY(set_param(job, m, &m->params.at[i], value));
     return settle_after_set(job, m);

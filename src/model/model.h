@@ -21,6 +21,7 @@ typedef struct pl_param {
   pl_expr value;              // exact, SI; poison if only declared
   bool has_unit;              // a unit was written
   const char* unit_text;      // as written, "m/s^2"; NULL
+  bool literal;               // no name: a number with its unit that stands in a formula
   pl_span span;
 } pl_param;
 
@@ -349,8 +350,12 @@ bool pl_model_turned(pl_job* job, pl_model* m, pl_turned* out);
 // have sorted it.  pl_model_check puts 1 for these symbols everywhere in the model; pl_model_plain does it for one
 // expression.  `scale` is the plain exact number.  deg, rpm, min, bar, prefixes: model/units.def.
 typedef struct pl_unit { pl_expr factor; pl_dimension dimension; bool is_angle; pl_expr scale; } pl_unit;
-pl_expr pl_model_plain(pl_pool* p, pl_expr e);      // e with every unit symbol replaced by 1
-bool pl_has_unit(const pl_pool* p, pl_expr e);      // some unit symbol occurs in e
+pl_expr pl_model_plain(pl_pool* p, pl_expr e);      // e with every unit symbol replaced by 1, every number with a unit by its value
+bool pl_has_unit(const pl_pool* p, pl_expr e);      // some unit symbol or number with a unit occurs in e
+// A number with its unit as a symbol (pl_symbol_info.number) that displays as written, `text` being the unit.  Equal quantities
+// are one symbol.  Zero and pure numbers stay numbers, a negative one is minus the symbol.
+pl_expr pl_measure_make(pl_pool* p, pl_expr number, const pl_unit* unit, const char* text);
+pl_expr pl_measure_join(pl_pool* p, pl_expr e);     // 0.5 m + 20 cm as one, 0.7 m; e itself if it has names in it
 // pl_unit_parse reads "m/s^2", "kN m", "m²/s".  On failure false, with the offending part in *bad (offset, length) and the
 // nearest known unit in *near (may be NULL).
 bool pl_unit_parse(pl_pool* p, const char* text, size_t n, pl_unit* out, size_t* bad_at, size_t* bad_n, const char** near);

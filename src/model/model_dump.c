@@ -51,6 +51,7 @@ static void end_line(const dumper* d, const pl_block* b) {
 static void dump_names(const dumper* d) {
   const pl_model* m = d->m;
   for (int i = 0; i < m->params.n; i++) {
+    if (m->params.at[i].literal) continue;
     const pl_symbol_info* info = pl_symbol_get(m->pool, m->params.at[i].symbol);
     pl_text_addf(d->out, "param %s", info->ascii);
     if (!pl_is_poison(m->params.at[i].value)) pl_text_addf(d->out, " = %s", text(d, m->params.at[i].value));

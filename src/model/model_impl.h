@@ -25,7 +25,8 @@ bool pl_exponents_get_dimension(pl_exponents a, pl_dimension* out);            /
 // ---------------------------------------------------------------------------------------------- units.c
 // The nearest unit to a word: a known spelling, or one within two typing errors.  NULL if nothing is near.
 const char* pl_unit_near(pl_arena* a, const char* word, size_t n);
-bool pl_is_unit_symbol(const pl_pool* p, pl_symbol s);
+bool pl_is_unit_symbol(const pl_pool* p, pl_symbol s);   // a base unit, or a number with its unit
+pl_expr pl_model_bare(pl_pool* p, pl_expr e);
 
 // ---------------------------------------------------------------------------------------------- traverse.c
 // Every expression of a model, with the kind of place it stands in.

@@ -439,25 +439,111 @@ static pl_expr base_product(pl_pool* p, pl_exponents d) {
   return e;
 }
 
-pl_expr pl_model_plain(pl_pool* p, pl_expr e) {
-  if (pl_is_poison(e)) return e;
+// The dimension of an expression that has numbers and numbers with units only; false: its terms do not fit together.
+static bool measure_dimension(const pl_pool* p, pl_expr e, pl_dimension* out) {
+  *out = pl_dimension_one();
+  pl_exponents sum = pl_exponents_zero();
+  int n = pl_n_args(p, e);
+  pl_dimension x;
+  long num, den;
+  switch (pl_kind_of(p, e)) {
+    case PL_NUMBER: case PL_PI: return true;
+    case PL_SYMBOL: *out = pl_symbol_get(p, pl_symbol_of(p, e))->dimension; return true;
+    case PL_MUL:
+      for (int i = 0; i < n; i++) {
+        if (!measure_dimension(p, pl_arg(p, e, i), &x)) return false;
+        sum = pl_exponents_add(sum, (pl_fraction){1, 1}, pl_exponents_of(x));
+      }
+      return pl_exponents_get_dimension(sum, out);
+    case PL_POW:
+      if (!measure_dimension(p, pl_arg(p, e, 0), &x) || !pl_is_ratio(p, pl_arg(p, e, 1), &num, &den)) return false;
+      return pl_exponents_get_dimension(pl_exponents_add(sum, pl_fraction_make(num, den), pl_exponents_of(x)), out);
+    case PL_ADD:
+      for (int i = 0; i < n; i++) {
+        if (!measure_dimension(p, pl_arg(p, e, i), &x)) return false;
+        if (i > 0 && !pl_dimension_equal(x, *out)) return false;
+        *out = x;
+      }
+      return true;
+    default: return false;
+  }
+}
+
+// A unit as it is displayed: "kg m^2" with raised digits, one blank or a point between its parts.
+static const char* displayed_unit(pl_arena* a, const char* text) {
+  static const char* const raised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  pl_text t = pl_text_make(a);
+  for (const char* s = text; *s; s++) {
+    bool exponent = *s == '^' && (s[1] == '-' || (s[1] >= '0' && s[1] <= '9'));
+    if (*s == '*') pl_text_add(&t, " ");
+    else if (!exponent) pl_text_add_n(&t, s, 1);
+    if (!exponent) continue;
+    if (s[1] == '-') pl_text_add(&t, "⁻"), s++;
+    while (s[1] >= '0' && s[1] <= '9') pl_text_add(&t, raised[*++s - '0']);
+  }
+  return pl_text_string(&t);
+}
+
+pl_expr pl_measure_make(pl_pool* p, pl_expr number, const pl_unit* unit, const char* text) {
+  pl_expr si = pl_mul(p, number, unit->scale);
+  bool pure = pl_dimension_equal(unit->dimension, pl_dimension_one());
+  if (pl_is_poison(si) || pl_is_zero_node(p, si) || pure) return si;
+  double size = pl_eval(p, si, PL_ARRAY(pl_pool_arena(p), double, pl_symbol_count(p) + 1));
+  if (!(size > 0)) return pl_neg(p, pl_measure_make(p, pl_neg(p, number), unit, text));
+  pl_arena* a = pl_pool_arena(p);
+  const char* ascii = pl_format(a, "[%s %s]", pl_expr_text(a, p, si), pl_dimension_unit(a, unit->dimension, true));
+  pl_symbol_info info = {.name = pl_format(a, "%s %s", pl_expr_text(a, p, number), displayed_unit(a, text)), .ascii = ascii,
+                         .role = PL_R_PARAM, .class = PL_C_NUMBER, .sign = PL_SIGN_POSITIVE,
+                         .dimension = unit->dimension, .dimension_known = true,
+                         .number = si, .written = number, .unit = displayed_unit(a, text)};
+  return pl_sym(p, pl_symbol_make(p, &info));
+}
+
+// What numbers with units make together, 0.5 m + 20 cm = 0.7 m, in the unit of the first that has the dimension of the
+// result; e itself where something else occurs in it, or where it adds what cannot be added.
+pl_expr pl_measure_join(pl_pool* p, pl_expr e) {
+  pl_arena* a = pl_pool_arena(p);
+  int n = pl_is_poison(e) ? 0 : pl_symbols_in(p, e, NULL, 0);
+  pl_symbol* s = PL_ARRAY(a, pl_symbol, n + 1);
+  if (n) pl_symbols_in(p, e, s, n);
+  pl_unit unit = {.scale = pl_int(p, 1)};
+  for (int i = 0; i < n; i++) {
+    if (pl_is_poison(pl_symbol_get(p, s[i])->number)) return e;
+  }
+  if (n == 0 || pl_is_measure(p, e) || !measure_dimension(p, e, &unit.dimension)) return e;
+  const char* text = pl_dimension_unit(a, unit.dimension, false);
+  for (int i = 0; i < n; i++) {
+    const pl_symbol_info* info = pl_symbol_get(p, s[i]);
+    if (!pl_dimension_equal(info->dimension, unit.dimension)) continue;
+    unit.scale = pl_div(p, info->number, info->written);
+    text = info->unit;
+    break;
+  }
+  return pl_measure_make(p, pl_div(p, pl_without_measures(p, e), unit.scale), &unit, text);
+}
+
+// e with the base units taken out, [m] = 1; numbers with units stay.
+pl_expr pl_model_bare(pl_pool* p, pl_expr e) {
   pl_replace replace[PL_N_BASE_UNITS];
   int n = 0;
   for (int i = 0; i < PL_N_BASE_UNITS; i++) {
     pl_symbol s = pl_symbol_find(p, base_ascii[i]);
     if (s.id) replace[n++] = (pl_replace){s, pl_int(p, 1)};
   }
-  return n ? pl_subst(p, e, replace, n) : e;
+  return n && !pl_is_poison(e) ? pl_subst(p, e, replace, n) : e;
 }
 
+pl_expr pl_model_plain(pl_pool* p, pl_expr e) { return pl_model_bare(p, pl_without_measures(p, e)); }
+
 bool pl_has_unit(const pl_pool* p, pl_expr e) {
-  for (int i = 0; i < PL_N_BASE_UNITS; i++) {
-    pl_symbol s = pl_symbol_find(p, base_ascii[i]);
-    if (s.id && pl_has_symbol(p, e, s)) return true;
+  int n_symbols = pl_symbols_in(p, e, NULL, 0);
+  pl_symbol* s = PL_ARRAY(pl_pool_arena(p), pl_symbol, n_symbols + 1);
+  pl_symbols_in(p, e, s, n_symbols);
+  for (int i = 0; i < n_symbols; i++) {
+    if (pl_is_unit_symbol(p, s[i])) return true;
   }
   return false;
 }
-
 // ---------------------------------------------------------------------------------------------- near names
 static bool same_but_case(const char* a, size_t n, const char* b) {
   if (strlen(b) != n) return false;

@@ -29,6 +29,9 @@ const char* pl_notation_symbol(pl_arena* a, const pl_pool* p, pl_symbol s, pl_no
 // pl_notation_words writes a sentence as LaTeX text; nothing in it can act as a command.
 void pl_notation_words(pl_text* out, const char* words);
 
+// A unit as it is displayed, "kg m²/s", upright in LaTeX: "\mathrm{kg\,m^{2}/s}".
+const char* pl_notation_unit_tex(pl_arena* a, const char* unit);
+
 // A number for display with `digits` significant digits, decimal comma in German, no trailing zeros: "-23.544", "1.962", "3.2e-7".
 const char* pl_notation_number(pl_arena* a, double x, int digits, pl_notation how);
 

@@ -242,6 +242,7 @@ static picture draw(pl_arena* a, const pl_box* b) {
     case PL_B_NUMBER:
     case PL_B_WORD:
     case PL_B_PROSE: return text(a, b->text);
+    case PL_B_UNIT: return text(a, pl_format(a, " %s", b->text));
     case PL_B_OP: return draw_op(a, b);
     case PL_B_ROW:
     case PL_B_PRODUCT: return draw_row(a, b);

@@ -150,11 +150,14 @@ static void flatten(pl_builder* b, const pl_form* f, form_list* out, int depth) 
   }
 }
 
+static bool is_measure_box(const pl_box* x) { return x->kind == PL_B_ROW && x->n == 2 && x->at[1]->kind == PL_B_UNIT; }
+
 // A factor as it may stand at place i of n.
 static pl_box* factor_box(pl_builder* b, pl_box* x, int i, int n) {
   if (x->level < PL_LEVEL_PRODUCT) return bracketed(b, x);
   bool last = i == n - 1;
   bool quotient = x->level == PL_LEVEL_PRODUCT;
+  if (n > 1 && is_measure_box(x)) return bracketed(b, x);                       // (0.5 m) k
   if (quotient && i > 0 && x->starts_digit) return bracketed(b, x);            // m (1/2)
   if (quotient && x->open_slash && (!last || x->has_sum)) return bracketed(b, x);  // (g/R) cos ϑ
   return x;
@@ -395,8 +398,23 @@ static pl_box* build_number(pl_builder* b, pl_expr e) {
   return negative ? minus_box(b, x) : x;
 }
 
+// 0.5 m, (1/3) m, √2 m: the number as written, and its unit.  As a factor it gets brackets, so that m can be a mass beside it.
+static pl_box* build_measure(pl_builder* b, const pl_symbol_info* info) {
+  const char* digits = pl_is_number(b->pool, info->written) ? pl_number_decimal(b->arena, b->pool, info->written, b->how) : NULL;
+  pl_box* number = digits ? pl_box_text(b->arena, PL_B_NUMBER, digits) : NULL;
+  bool flat = b->flat;
+  b->flat = true;
+  if (!number) number = at_least(b, pl_build(b, pl_form_of(b->arena, b->pool, info->written)), PL_LEVEL_PRODUCT);
+  b->flat = flat;
+  if (number->kind == PL_B_ROW) number = bracketed(b, number);
+  pl_box* r = row2(b, PL_LEVEL_PRODUCT, number, pl_box_text(b->arena, PL_B_UNIT, info->unit));
+  r->open_slash = true;
+  return r;
+}
+
 static pl_box* build_leaf(pl_builder* b, pl_expr e) {
   pl_arena* a = b->arena;
+  if (pl_is_measure(b->pool, e)) return build_measure(b, pl_symbol_get(b->pool, pl_symbol_of(b->pool, e)));
   switch (pl_kind_of(b->pool, e)) {
     case PL_POISON: return pl_box_text(a, PL_B_PROSE, b->how.lang == PL_GERMAN ? "nicht definiert" : "undefined");
     case PL_NUMBER: return build_number(b, e);

@@ -13,6 +13,7 @@ typedef enum pl_box_kind {
   PL_B_VECTOR,    // unit vector e_r                                         .text .sub
   PL_B_NUMBER,    // digits, perhaps a decimal point                         .text
   PL_B_WORD,      // name of a function                                      .text, .tex
+  PL_B_UNIT,      // unit behind a number, upright                            .text
   PL_B_OP,        // operator or punctuation                                 .text .role
   PL_B_PROSE,     // words inside a formula                                  .text
   PL_B_ROW,       // boxes side by side                                      .at
@@ -75,10 +76,14 @@ const char* pl_greek_tex(uint32_t code_point);                                  
 void pl_write_ascii(pl_text* out, const char* utf8);                               // everything in ASCII letters
 const char* pl_superscript(pl_arena* a, const char* s);                            // "-12" -> "⁻¹²", NULL if a sign has none
 const char* pl_subscript(pl_arena* a, const char* s);
+const char* pl_unit_ascii(pl_arena* a, const char* unit);                          // "kg m²" -> "kg m^2", as the language reads it
 
 // An exact number as it is shown: "3", "9.81", "1/2" as numerator and denominator.  den is NULL for a plain number.
 void pl_number_parts(pl_arena* a, const pl_pool* p, pl_expr e, pl_notation how, bool* negative, const char** num,
                      const char** den);
+
+// "0.5" for 1/2: digits with a decimal point, NULL where they do not end.  For numbers that are not negative.
+const char* pl_number_decimal(pl_arena* a, const pl_pool* p, pl_expr e, pl_notation how);
 
 // Writers.
 void pl_write_line(pl_text* out, const pl_box* b, bool ascii);

@@ -89,6 +89,13 @@ static void write_root(line w, const pl_box* b) {
   if (w.ascii && bare) pl_text_add(w.out, ")");
 }
 
+// 0.5 m; in the model language 0.5 [m], so that it is read back as it is meant.
+static void write_unit(line w, const pl_box* b) {
+  pl_text_addf(w.out, w.ascii ? " [" : " ");
+  pl_text_add(w.out, w.ascii ? pl_unit_ascii(w.out->arena, b->text) : b->text);
+  if (w.ascii) pl_text_add(w.out, "]");
+}
+
 static void write_box(line w, const pl_box* b) {
   switch (b->kind) {
     case PL_B_NAME:
@@ -97,6 +104,7 @@ static void write_box(line w, const pl_box* b) {
     case PL_B_NUMBER:
     case PL_B_WORD:
     case PL_B_PROSE: add(w, b->text); break;
+    case PL_B_UNIT: write_unit(w, b); break;
     case PL_B_OP: write_op(w, b); break;
     case PL_B_PRODUCT: write_product(w, b); break;
     case PL_B_POWER: write_power(w, b); break;

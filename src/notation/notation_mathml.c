@@ -151,6 +151,13 @@ static void write_word(pl_text* out, const char* s) {
   pl_text_add(out, "</mi>");
 }
 
+static void write_unit(pl_text* out, const char* unit) {
+  write_space(out, "0.17em");
+  pl_text_add(out, "<mi mathvariant=\"normal\">");
+  write_escaped(out, unit);
+  pl_text_add(out, "</mi>");
+}
+
 static void write_box(pl_text* out, const pl_box* b) {
   switch (b->kind) {
     case PL_B_NAME:
@@ -158,6 +165,7 @@ static void write_box(pl_text* out, const pl_box* b) {
     case PL_B_VECTOR: write_vector(out, b); break;
     case PL_B_NUMBER: element(out, "mn", b->text); break;
     case PL_B_WORD: write_word(out, b->text); break;
+    case PL_B_UNIT: write_unit(out, b->text); break;
     case PL_B_OP: write_op(out, b); break;
     case PL_B_PROSE: element(out, "mtext", b->text); break;
     case PL_B_ROW: write_row(out, b); break;

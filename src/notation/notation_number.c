@@ -19,17 +19,24 @@ static void add_mantissa(pl_text* out, const char* s, pl_notation how) {
 }
 
 // ---------------------------------------------------------------------------------------------- exact numbers
-// The exponent k with den | 10^k for denominators written in decimal, or -1: such numbers came from decimals.
+// The exponent k with den | 10^k, or -1 if there is none.
+static int all_decimal_places(const char* den) {
+  if (strlen(den) > 15) return -1;
+  long long d = strtoll(den, NULL, 10);
+  int twos = 0, fives = 0;
+  while (d % 2 == 0) d /= 2, twos++;
+  while (d % 5 == 0) d /= 5, fives++;
+  if (d != 1) return -1;
+  return twos > fives ? twos : fives;
+}
+
+// The same for denominators written in decimal: such numbers came from decimals.
 // A denominator without the factor 5 (1/2, 3/8) and the fifths stay fractions.
 static int decimal_places(const char* den) {
   if (strlen(den) > 15) return -1;
   long long d = strtoll(den, NULL, 10);
-  int twos = 0, fives = 0;
-  if (d < 10) return -1;
-  while (d % 2 == 0) d /= 2, twos++;
-  while (d % 5 == 0) d /= 5, fives++;
-  if (d != 1 || fives == 0) return -1;
-  return twos > fives ? twos : fives;
+  if (d < 10 || d % 5 != 0) return -1;
+  return all_decimal_places(den);
 }
 
 // num * 10^places / den as digits with a decimal point.  num and den are short: the caller has looked.
@@ -58,6 +65,16 @@ void pl_number_parts(pl_arena* a, const pl_pool* p, pl_expr e, pl_notation how, 
   pl_text t = pl_text_make(a);
   add_mantissa(&t, digits, how);
   *num = pl_text_string(&t), *den = NULL;
+}
+
+const char* pl_number_decimal(pl_arena* a, const pl_pool* p, pl_expr e, pl_notation how) {
+  const char *num = pl_number_num_text(a, p, e), *den = pl_number_den_text(a, p, e);
+  if (strcmp(den, "1") == 0) return num;
+  int places = strlen(num) <= 18 && num[0] != '-' ? all_decimal_places(den) : -1;
+  const char* digits = places >= 0 && places <= 15 ? decimal_digits(a, num, den, places) : NULL;
+  pl_text t = pl_text_make(a);
+  if (digits) add_mantissa(&t, digits, how);
+  return digits ? pl_text_string(&t) : NULL;
 }
 
 // ---------------------------------------------------------------------------------------------- measured numbers

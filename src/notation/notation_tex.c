@@ -189,6 +189,7 @@ static void write_box(pl_text* out, const pl_box* b) {
       break;
     case PL_B_NUMBER: pl_text_add(out, b->text); break;
     case PL_B_WORD: pl_text_add(out, b->tex ? b->tex : b->text); break;
+    case PL_B_UNIT: pl_text_addf(out, "\\,%s", pl_notation_unit_tex(out->arena, b->text)); break;
     case PL_B_OP: write_op(out, b); break;
     case PL_B_PROSE: write_prose(out, b->text); break;
     case PL_B_ROW:

@@ -124,8 +124,10 @@ static void use(exporter* x, pl_expr e) {
   }
 }
 
+// Other programs read numbers in SI.
 static void collect(exporter* x, entry e) {
   if (pl_is_poison(e.expr)) return;
+  e.expr = pl_without_measures(x->pool, e.expr);
   if (!pl_export_can(x->arena, x->pool, e.expr)) {
     x->n_left_out++;
     return;
@@ -151,7 +153,7 @@ static void name_intermediate(exporter* x, pl_symbol symbol, pl_expr value, pl_r
     symbol = pl_symbol_of(x->pool, renamed[*n - 1].to);
     break;
   }
-  pl_push(x->arena, x->named, (abbreviation){symbol, value});
+  pl_push(x->arena, x->named, (abbreviation){symbol, pl_without_measures(x->pool, value)});
 }
 
 static void collect_value(exporter* x, const char* letter, const pl_value* v) {
@@ -196,7 +198,8 @@ static void keep_abbreviations(exporter* x) {
   use_lets(x);
   for (int k = 0; k < x->model->lets.n; k++) {
     const pl_let* l = &x->model->lets.at[k];
-    if (is_kept(l) && is_used(x, l->symbol)) pl_push(x->arena, x->kept, (abbreviation){l->symbol, l->value});
+    if (!is_kept(l) || !is_used(x, l->symbol)) continue;
+    pl_push(x->arena, x->kept, (abbreviation){l->symbol, pl_without_measures(x->pool, l->value)});
   }
   for (int k = 0; k < x->named.n; k++) {
     if (is_used(x, x->named.at[k].symbol)) pl_push(x->arena, x->kept, x->named.at[k]);
@@ -219,7 +222,7 @@ static void collect_all(exporter* x) {
     if (!pl_worked_wanted(x->in->only, section->letter)) continue;
     for (int k = 0; k < section->values.n; k++) collect_value(x, letter, &section->values.at[k]);
   }
-  for (int i = 0; i < x->model->params.n; i++) x->used[x->model->params.at[i].symbol.id] = true;
+  for (int i = 0; i < x->model->params.n; i++) x->used[x->model->params.at[i].symbol.id] |= !x->model->params.at[i].literal;
   keep_abbreviations(x);
 }
 
@@ -293,6 +296,7 @@ static void add_parameters(exporter* x, const char* between) {
   const double* value = pl_model_values(x->model, x->arena);
   bool first = true;
   for (int i = 0; i < x->model->params.n; i++) {
+    if (x->model->params.at[i].literal) continue;
     pl_symbol s = x->model->params.at[i].symbol;
     if (!isfinite(value[s.id])) continue;
     pl_text_addf(x->out, "%s%s%s", first ? "" : ", ", name_of(x, s, 0), between);
@@ -412,6 +416,7 @@ static void add_json_parameters(exporter* x, pl_json* j) {
   const double* value = pl_model_values(x->model, x->arena);
   pl_json_object(j, "parameters");
   for (int i = 0; i < x->model->params.n; i++) {
+    if (x->model->params.at[i].literal) continue;
     pl_symbol s = x->model->params.at[i].symbol;
     pl_json_number(j, pl_symbol_get(x->pool, s)->ascii, value[s.id]);
   }

@@ -114,6 +114,7 @@ static const char* comment_of(pl_html* h, const pl_param* p, int i) {
   int line = pl_span_place(p->span).line;
   for (int k = 0; k < h->model->params.n; k++) {
     const pl_param* other = &h->model->params.at[k];
+    if (other->literal) continue;
     if (k != i && other->span.source == source && pl_span_place(other->span).line == line) return NULL;
   }
   const char* text = pl_source_line(h->arena, source, line);
@@ -175,13 +176,16 @@ static void put_parameter(pl_html* h, const double* value, int i) {
 }
 
 static void put_parameters(pl_html* h) {
-  if (!h->model || !h->pool || h->model->params.n == 0) return;
+  int n = 0;
+  for (int i = 0; h->model && i < h->model->params.n; i++) n += !h->model->params.at[i].literal;
+  if (!h->pool || n == 0) return;
   const double* value = pl_model_values(h->model, h->arena);
   pl_html_raw(h, "<div class=\"scroll\"><table>");
   pl_html_rawf(h, "<thead><tr><th scope=\"col\">%s</th><th scope=\"col\">%s</th><th scope=\"col\" class=\"r\">%s</th><th scope=\"col\">%s</th></tr></thead><tbody>\n",
                pl_html_say(h, "Symbol", "Symbol"), pl_html_say(h, "Meaning", "Bedeutung"), pl_html_say(h, "Value", "Wert"),
                pl_html_say(h, "Used", "Benutzt"));
-  for (int i = 0; i < h->model->params.n; i++) put_parameter(h, value, i);
+  for (int i = 0; i < h->model->params.n; i++)
+    if (!h->model->params.at[i].literal) put_parameter(h, value, i);
   pl_html_raw(h, "</tbody></table></div>\n");
 }
 

@@ -100,20 +100,6 @@ const char* pl_tex_slug(pl_arena* a, const char* s, const char* otherwise) {
   return *slug ? slug : otherwise;
 }
 
-// A unit as it is displayed, "m/s²", upright.
-static const char* unit_tex(pl_tex_page* g, const char* unit) {
-  static const char* const table[][2] = {{"²", "^{2}"}, {"³", "^{3}"}, {"⁴", "^{4}"}, {"·", "\\cdot "}, {"µ", "\\mu "}, {"μ", "\\mu "}, {"Ω", "\\Omega "}, {"%", "\\%"}};
-  pl_text out = pl_text_make(g->arena);
-  while (*unit) {
-    size_t k = 0, n = sizeof table / sizeof *table;
-    while (k < n && strncmp(unit, table[k][0], strlen(table[k][0])) != 0) k++;
-    if (k < n) pl_text_add(&out, table[k][1]);
-    else pl_text_add_n(&out, unit, 1);
-    unit += k < n ? strlen(table[k][0]) : 1;
-  }
-  return pl_text_string(&out);
-}
-
 const char* pl_tex_value(pl_tex_page* g, double x, const char* unit) {
   bool radians = unit && strcmp(unit, "rad") == 0, degrees = radians || (unit && strcmp(unit, "°") == 0);
   bool bare = !unit || !*unit || strcmp(unit, "1") == 0;
@@ -123,6 +109,6 @@ const char* pl_tex_value(pl_tex_page* g, double x, const char* unit) {
   pl_text_add_n(&out, digits, power ? (size_t)(power - digits) : strlen(digits));
   if (power) pl_text_addf(&out, "\\cdot 10^{%d}", atoi(power + 1));
   if (degrees) pl_text_add(&out, "^{\\circ}");
-  else if (!bare) pl_text_addf(&out, "\\,\\mathrm{%s}", unit_tex(g, unit));
+  else if (!bare) pl_text_addf(&out, "\\,%s", pl_notation_unit_tex(g->arena, unit));
   return pl_text_string(&out);
 }

@@ -34,7 +34,7 @@ const char* pl_status_word(pleuel_status s) {
 
 // ---------------------------------------------------------------------------------------------- printing
 static const char* pl_doc_expr(pl_document* d, pl_expr e) {
-  return pl_is_poison(e) || !d->pool ? NULL : pl_expr_text(d->arena, d->pool, e);
+  return pl_is_poison(e) || !d->pool ? NULL : pl_expr_text(d->arena, d->pool, pl_without_measures(d->pool, e));
 }
 
 static const char* pl_doc_form(pl_document* d, const pl_form* f, pl_math math) {
@@ -75,6 +75,7 @@ static void pl_doc_parameters(pl_document* d) {
   const double* value = m ? pl_model_values(m, d->arena) : NULL;
   for (int i = 0; m && i < m->params.n; i++) {
     const pl_param* p = &m->params.at[i];
+    if (p->literal) continue;
     const pl_symbol_info* s = pl_symbol_get(m->pool, p->symbol);
     pl_json_object(&d->j, s->ascii);
     pl_json_flat(&d->j);
