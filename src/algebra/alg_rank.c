@@ -113,7 +113,7 @@ int pl_alg_rank(pl_tower* t, int m, int n, const pl_expr* A, int* rows) {
   pl_expr* normal = PL_ARRAY(t->arena, pl_expr, m * n);
   uint64_t* R = PL_ARRAY(t->arena, uint64_t, m * n);
   int* here = PL_ARRAY(t->arena, int, m);
-  for (int i = 0; i < m * n; i++) normal[i] = pl_alg_normal(t, A[i]);
+  for (int i = 0; i < m * n; i++) normal[i] = pl_alg_normal(t, pl_tower_see(t, A[i]));
   int best = -1;
   for (int k = 0, used = 0; k < PL_RANK_TRIES && used < PL_RANK_POINTS; k++) {
     if (!residues(t, m, n, normal, 1000 + (uint64_t)k, R)) continue;

@@ -21,6 +21,9 @@ pl_tower* pl_tower_make(pl_job* job, pl_pool* p, const pl_fact* facts, int n_fac
 // Values at which signs may be probed when nothing proves them (start values, parameters), by symbol id.  The answers that
 // rest on it are recorded as assumptions.
 void pl_tower_probe(pl_tower* t, const double* value_of_symbol);
+// Names that stand for other quantities, a := g: they stay names in formulas, and every question (zero, sign, rank) sees through
+// them.  Each value over names that come before it.
+void pl_tower_define(pl_tower* t, const pl_replace* names, int n);
 // Frees FLINT's memory.  Expressions stay.
 void pl_tower_free(pl_tower* t);
 // Frees what FLINT keeps for the calling thread.  Only when no tower of this thread is alive.
@@ -39,6 +42,8 @@ pl_answer3 pl_alg_equal(pl_tower* t, pl_expr a, pl_expr b);
 // Sign of e under the assumptions: order of proof of symbolic.md section 6.  PL_UNKNOWN when it may change.
 // *sign is -1, 0 or 1; with `or_zero` a result of >= 0 is answered as 1 and <= 0 as -1.
 pl_answer3 pl_alg_sign(pl_tower* t, pl_expr e, bool or_zero, int* sign);
+// The same by proof alone: neither samples nor the probe decide, and nothing is assumed.
+pl_answer3 pl_alg_sign_proven(pl_tower* t, pl_expr e, bool or_zero, int* sign);
 
 // ---------------------------------------------------------------------------------------------- normal forms
 // Canonical up to the tower: one fraction, numerator reduced, common factors cancelled.
@@ -58,6 +63,10 @@ int pl_alg_coefficients_atom(pl_tower* t, pl_expr e, pl_expr atom, pl_expr* coef
 // these are all (up to periods of 2π).  `condition` is what must hold besides (may be poison): -1 <= 2/3 <= 1 is decided silently.
 typedef struct pl_root { pl_expr value; pl_expr condition; } pl_root;    // condition >= 0 for the root to be real
 int pl_alg_roots(pl_tower* t, pl_expr e, pl_symbol x, pl_root* out, int max, bool* complete);
+// Zeros of e, which contains no other symbol than x, between lo and hi, as numbers, by ball arithmetic.  *complete: these are all.
+// One that is not proven stands for a narrow box in which it is not decided how many there are: a multiple zero, or none.
+typedef struct pl_zero { double value; bool proven; } pl_zero;
+int pl_alg_zeros(pl_tower* t, pl_expr e, pl_symbol x, double lo, double hi, pl_zero* out, int max, bool* complete);
 
 // ---------------------------------------------------------------------------------------------- linear systems
 // A x = b by memoised minors in the quotient ring, row contents removed, one gcd at the end.  A row-major (n x n).

@@ -137,6 +137,7 @@ struct pl_tower {
   pl_arena* arena;  // of the pool: lives as long as the expressions
   PL_VEC(pl_fact) facts;
   PL_VEC(pl_fact) used;
+  PL_VEC(pl_replace) names;  // that stand for other quantities
   const double* probe;  // by symbol id, n_probe + 1 entries, or NULL
   int n_probe;
 
@@ -313,6 +314,7 @@ pl_sincos pl_convert_sinhcosh(pl_tower* t, pl_expr argument);
 pl_frac pl_convert_exp(pl_tower* t, pl_expr argument);
 
 // Roots and what depends on signs. radical.c
+pl_expr pl_tower_see(const pl_tower* t, pl_expr e);  // e without names that stand for other quantities          tower.c
 pl_frac pl_frac_sqrt(pl_tower* t, pl_frac a);
 pl_frac pl_frac_abs(pl_tower* t, pl_frac a);
 pl_frac pl_frac_ln(pl_tower* t, pl_frac a);

@@ -202,6 +202,7 @@ static bool any_poison(const pl_expr* e, int n) {
 pl_answer3 pl_alg_solve(pl_tower* t, int n, const pl_expr* A, const pl_expr* b, pl_expr* x, long max_terms) {
   if (n == 0) return PL_YES;
   if (n < 0 || n > PL_MAX_ORDER || any_poison(A, n * n) || any_poison(b, n)) return PL_UNKNOWN;
+  if (t->names.n > 0 && pl_alg_rank(t, n, n, A, NULL) < n) return PL_NO;
   pl_expr* out = PL_ARRAY(t->arena, pl_expr, n);
   pl_solve_job j = {.n = n, .A = A, .b = b, .x = out, .max_terms = max_terms, .answer = PL_UNKNOWN};
   if (!pl_tower_run(t, solve_body, &j)) return PL_UNKNOWN;

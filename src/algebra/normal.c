@@ -25,10 +25,19 @@ static void normal_body(pl_tower* t, void* data) {
   if (pl_is_poison(j->out) || pl_is_poison(j->num) || pl_is_poison(j->den)) pl_tower_give_up(t);
 }
 
+// Zero once the names that stand for other quantities are seen through: g - a with a := g.
+static bool vanishes_when_seen(pl_tower* t, pl_expr e) {
+  pl_expr seen = pl_tower_see(t, e);
+  if (pl_same(seen, e) || pl_is_poison(seen)) return false;
+  pl_normal_job j = {.e = seen};
+  return pl_tower_run(t, normal_body, &j) && pl_is_zero_node(t->pool, j.out);
+}
+
 pl_expr pl_alg_normal(pl_tower* t, pl_expr e) {
   if (pl_is_poison(e)) return e;
   pl_normal_job j = {.e = e};
-  return pl_tower_run(t, normal_body, &j) ? j.out : e;
+  if (!pl_tower_run(t, normal_body, &j)) return e;
+  return vanishes_when_seen(t, j.out) ? pl_int(t->pool, 0) : j.out;
 }
 
 void pl_alg_fraction(pl_tower* t, pl_expr e, pl_expr* num, pl_expr* den) {

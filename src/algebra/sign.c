@@ -315,14 +315,14 @@ int pl_poly_sign(pl_tower* t, const pl_poly* a, bool or_zero, bool guess) {
 // ---------------------------------------------------------------------------------------------- the service
 typedef struct pl_sign_job {
   pl_expr e;
-  bool or_zero;
+  bool or_zero, guess;
   int sign;
 } pl_sign_job;
 
 static void sign_body(pl_tower* t, void* data) {
   pl_sign_job* j = data;
   pl_frac f = pl_convert(t, j->e);
-  int num = pl_poly_sign(t, f.num, j->or_zero, true);
+  int num = pl_poly_sign(t, f.num, j->or_zero, j->guess);
   if (num == 0 || num == PL_SIGN_OPEN) {
     j->sign = num;
     return;
@@ -330,17 +330,33 @@ static void sign_body(pl_tower* t, void* data) {
   int sign = num;
   for (int i = 0; i < f.n; i++) {
     if (f.den[i].power % 2 == 0) continue;
-    int s = pl_base_sign(t, f.den[i].base, true, true);  // not zero, since it divides
+    int s = pl_base_sign(t, f.den[i].base, true, j->guess);  // not zero, since it divides
     if (s == PL_SIGN_OPEN) sign = PL_SIGN_OPEN;
     if (sign != PL_SIGN_OPEN) sign *= s;
   }
   j->sign = sign;
 }
 
-pl_answer3 pl_alg_sign(pl_tower* t, pl_expr e, bool or_zero, int* sign) {
-  pl_sign_job j = {.e = e, .or_zero = or_zero, .sign = PL_SIGN_OPEN};
+static pl_answer3 sign_of(pl_tower* t, pl_expr e, bool or_zero, bool guess, int* sign) {
+  pl_sign_job j = {.e = e, .or_zero = or_zero, .guess = guess, .sign = PL_SIGN_OPEN};
   *sign = 0;
+  if (pl_is_poison(e)) return PL_UNKNOWN;
   if (!pl_tower_run(t, sign_body, &j) || j.sign == PL_SIGN_OPEN) return PL_UNKNOWN;
   *sign = j.sign;
   return PL_YES;
+}
+
+// A name that stands for something else is looked through when the names alone prove nothing.
+pl_answer3 pl_alg_sign_proven(pl_tower* t, pl_expr e, bool or_zero, int* sign) {
+  pl_expr seen = pl_tower_see(t, e);
+  pl_answer3 known = sign_of(t, e, or_zero, false, sign);
+  if (pl_same(seen, e)) return known;
+  return known == PL_YES && *sign != 0 ? known : sign_of(t, seen, or_zero, false, sign);
+}
+
+pl_answer3 pl_alg_sign(pl_tower* t, pl_expr e, bool or_zero, int* sign) {
+  pl_expr seen = pl_tower_see(t, e);
+  if (pl_same(seen, e)) return sign_of(t, e, or_zero, true, sign);
+  if (pl_alg_sign_proven(t, e, or_zero, sign) == PL_YES) return PL_YES;
+  return sign_of(t, seen, or_zero, true, sign);
 }

@@ -279,6 +279,17 @@ void pl_tower_probe(pl_tower* t, const double* value_of_symbol) {
   t->probe = copy;
 }
 
+void pl_tower_define(pl_tower* t, const pl_replace* names, int n) {
+  for (int i = 0; i < n; i++) {
+    if (!pl_is_poison(names[i].to)) pl_push(t->arena, t->names, names[i]);
+  }
+}
+
+pl_expr pl_tower_see(const pl_tower* t, pl_expr e) {
+  for (int i = t->names.n - 1; i >= 0; i--) e = pl_subst1(t->pool, e, t->names.at[i].from, t->names.at[i].to);
+  return e;
+}
+
 const pl_fact* pl_tower_used(const pl_tower* t, int* n) {
   *n = t->used.n;
   return t->used.at;

@@ -38,6 +38,7 @@ static void points_body(pl_tower* t, void* data) {
 }
 
 pl_answer3 pl_alg_is_zero(pl_tower* t, pl_expr e) {
+  e = pl_tower_see(t, e);
   if (pl_is_poison(e)) return PL_UNKNOWN;
   if (pl_is_number(t->pool, e)) return pl_is_zero_node(t->pool, e) ? PL_YES : PL_NO;
   pl_zero_job j = {.e = e};

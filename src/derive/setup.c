@@ -250,6 +250,15 @@ static void probe_start(pl_analysis* d) {
   pl_tower_probe(d->tower, value);
 }
 
+// Abbreviations of given quantities are a way of printing: what is asked of formulas sees through them.
+static void define_names(pl_analysis* d) {
+  for (int k = 0; k < d->model->lets.n; k++) {
+    const pl_let* let = &d->model->lets.at[k];
+    if (let->inserted || let->n_args > 0 || pl_has_coordinates(d, let->value)) continue;
+    pl_tower_define(d->tower, &(pl_replace){let->symbol, let->value}, 1);
+  }
+}
+
 pleuel_status pl_setup_coordinates(pl_analysis* d) {
   add_coordinates(d);
   add_particles(d);
@@ -259,6 +268,7 @@ pleuel_status pl_setup_coordinates(pl_analysis* d) {
   for (int i = 0; i < d->q.n; i++) d->q.at[i].carries = carries(d, &d->q.at[i]);
   d->tower = pl_tower_make(d->job, d->pool, d->facts.at, d->facts.n);
   d->solution->tower = d->tower;
+  define_names(d);
   probe_start(d);
   return PLEUEL_OK;
 }

@@ -78,13 +78,19 @@ static bool split(pl_analysis* d, const pl_linear* s, pl_expr* A, pl_expr* b) {
   return true;
 }
 
+// What vanishes only when names that stand for other quantities are seen through, (g - a) sin φ with a := g, is 0.
+static pl_expr or_zero(pl_analysis* d, pl_expr e) {
+  return pl_alg_is_zero(d->tower, e) == PL_YES ? pl_int(d->pool, 0) : e;
+}
+
 static void keep_solution(pl_analysis* d, const pl_linear* s, const pl_expr* x) {
   for (int j = 0; j < s->n_unknowns; j++) {
     int i = pl_variable_index(d, s->unknown[j]);
-    if (i >= 0) d->acceleration[i] = x[j];
+    pl_expr value = d->model->lets.n > 0 ? or_zero(d, x[j]) : x[j];
+    if (i >= 0) d->acceleration[i] = value;
     for (int k = 0; k < d->g.n; k++) {
       if (d->g.at[k].lambda.id != s->unknown[j].id) continue;
-      d->g.at[k].lambda_value = x[j];
+      d->g.at[k].lambda_value = value;
       d->g.at[k].lambda_known = true;
     }
   }
