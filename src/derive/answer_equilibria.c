@@ -1,151 +1,9 @@
-// answer_equilibria: positions of rest of the generalized coordinates, their stability and small oscillations.
+// answer_equilibria: positions of rest, when they exist, whether they are stable, and the small oscillations about them.
 //   f_i(q) = 0 with f the equations of the second kind at rest;  K = df/dq, M = d2T/dv2;  det(K - ω² M) = 0.
 #include <math.h>
 #include <string.h>
 
 #include "derive/equilibria_impl.h"
-
-// Generalized coordinate that is the only unknown one in e: its place, -1 none, -2 several.
-static int only_unknown(const pl_analysis* d, pl_expr e, const pl_rest* r) {
-  int found = -1;
-  for (int k = 0; k < d->gen.n; k++) {
-    if (!pl_is_poison(r->q[k]) || !pl_has_symbol(d->pool, e, d->q.at[d->gen.at[k]].q)) continue;
-    if (found >= 0) return -2;
-    found = k;
-  }
-  return found;
-}
-
-// Of linear equations A q = b (rows x n) the independent rows and columns; the other coordinates stay free, a line or plane of
-// positions.  False when the rows that are left over contradict, or a coefficient is not decided.
-static bool solve_square(pl_analysis* d, int rows, int n, const pl_expr* A, const pl_expr* b, const int* unknown, pl_rest* r) {
-  int row[pl_max_gen], column[pl_max_gen];
-  pl_expr transposed[pl_max_gen * pl_max_gen], S[pl_max_gen * pl_max_gen], c[pl_max_gen], x[pl_max_gen];
-  int rank = pl_alg_rank(d->tower, rows, n, A, row);
-  for (int k = 0; k < rank; k++) {
-    for (int j = 0; j < n; j++) transposed[j * rank + k] = A[row[k] * n + j];
-  }
-  if (rank == 0 || pl_alg_rank(d->tower, n, rank, transposed, column) != rank) return false;
-  for (int k = 0; k < rank; k++) {
-    c[k] = b[row[k]];
-    for (int j = 0; j < n; j++) {
-      bool solved = false;
-      for (int i = 0; i < rank; i++) solved |= column[i] == j;
-      pl_expr free = pl_mul(d->pool, A[row[k] * n + j], pl_sym(d->pool, d->q.at[d->gen.at[unknown[j]]].q));
-      if (!solved) c[k] = pl_sub(d->pool, c[k], free);
-    }
-    for (int i = 0; i < rank; i++) S[k * rank + i] = A[row[k] * n + column[i]];
-  }
-  if (pl_alg_solve(d->tower, rank, S, c, x, 20000) != PL_YES) return false;
-  for (int i = 0; i < rank; i++) r->q[unknown[column[i]]] = pl_alg_normal(d->tower, x[i]);
-  return true;
-}
-
-static bool at_rest_everywhere(pl_analysis* d, const pl_expr* f, const pl_rest* r) {
-  for (int k = 0; k < d->gen.n; k++) {
-    if (pl_alg_is_zero(d->tower, pl_insert_rest(d, f[k], r)) != PL_YES) return false;
-  }
-  return true;
-}
-
-// Equations linear in the coordinates that are left: one position, or a line of them.
-static bool solve_linear(pl_analysis* d, const pl_expr* f, pl_rest* r) {
-  int unknown[pl_max_gen], n = 0, rows = 0;
-  pl_expr A[pl_max_gen * pl_max_gen], b[pl_max_gen];
-  for (int k = 0; k < d->gen.n; k++) {
-    if (pl_is_poison(r->q[k])) unknown[n++] = k;
-  }
-  pl_replace zero[pl_max_gen];
-  for (int j = 0; j < n; j++) zero[j] = (pl_replace){d->q.at[d->gen.at[unknown[j]]].q, pl_int(d->pool, 0)};
-  for (int k = 0; k < d->gen.n; k++) {
-    pl_expr e = pl_alg_normal(d->tower, pl_insert_rest(d, f[k], r));
-    if (pl_is_zero_node(d->pool, e)) continue;
-    for (int j = 0; j < n; j++) {
-      A[rows * n + j] = pl_alg_normal(d->tower, pl_diff(d->pool, e, d->q.at[d->gen.at[unknown[j]]].q));
-      if (pl_has_coordinates(d, A[rows * n + j])) return false;
-    }
-    b[rows++] = pl_neg(d->pool, pl_subst(d->pool, e, zero, n));
-  }
-  return n > 0 && solve_square(d, rows, n, A, b, unknown, r);
-}
-
-static void search(pl_analysis* d, const pl_expr* f, pl_rest r, pl_rests* out);
-
-// One coordinate of a branch solved from e, and the search goes on from each root.
-static void branch(pl_analysis* d, const pl_expr* f, const pl_rest* r, pl_expr e, int j, pl_rests* out) {
-  pl_root root[8];
-  bool complete = false;
-  int n = pl_alg_roots(d->tower, e, d->q.at[d->gen.at[j]].q, root, 8, &complete);
-  out->complete &= complete;
-  for (int i = 0; i < n; i++) {
-    pl_rest next = *r;
-    next.q[j] = root[i].value;
-    if (!pl_is_poison(root[i].condition)) next.condition = root[i].condition;
-    search(d, f, next, out);
-  }
-}
-
-// An equation in several coordinates that falls into factors: each factor in a single one is a branch.
-static bool branch_factors(pl_analysis* d, const pl_expr* f, const pl_rest* r, pl_expr e, pl_rests* out) {
-  pl_factor factor[12];
-  pl_expr unit;
-  int n = pl_alg_factors(d->tower, e, factor, 12, &unit), single = 0;
-  for (int k = 0; k < n; k++) {
-    if (factor[k].power > 0 && only_unknown(d, factor[k].base, r) >= 0) single++;
-  }
-  if (n < 2 || single == 0) return false;
-  for (int k = 0; k < n; k++) {
-    if (factor[k].power < 0) continue;
-    int j = only_unknown(d, factor[k].base, r);
-    if (j >= 0) branch(d, f, r, factor[k].base, j, out);
-    if (j == -2) out->complete = false;
-  }
-  return true;
-}
-
-// Where the mass matrix is singular the coordinates fail (r = 0 of polar ones): no position of rest.
-static bool regular(pl_analysis* d, const pl_rest* r) {
-  pl_expr M[pl_max_gen * pl_max_gen];
-  int n = d->gen.n;
-  for (int i = 0; i < n; i++) {
-    pl_expr momentum = pl_diff(d->pool, d->Lg, d->q.at[d->gen.at[i]].v);
-    for (int j = 0; j < n; j++) M[i * n + j] = pl_insert_rest(d, pl_at_rest(d, pl_diff(d->pool, momentum, d->q.at[d->gen.at[j]].v)), r);
-  }
-  return pl_alg_is_zero(d->tower, pl_alg_det(d->tower, n, M, 20000)) != PL_YES;
-}
-
-// Solves equation after equation, each for the one coordinate that is left in it; branches multiply.
-static void search(pl_analysis* d, const pl_expr* f, pl_rest r, pl_rests* out) {
-  bool done = true;
-  pl_expr several = pl_poison();
-  for (int k = 0; k < d->gen.n; k++) {
-    pl_expr e = pl_alg_normal(d->tower, pl_insert_rest(d, f[k], &r));
-    if (pl_alg_is_zero(d->tower, e) == PL_YES) continue;
-    int j = only_unknown(d, e, &r);
-    if (j == -1) return;   // contradiction on this branch
-    done = false;
-    if (j < 0) {
-      several = e;
-      continue;
-    }
-    branch(d, f, &r, e, j, out);
-    return;
-  }
-  pl_rest linear = r;
-  if (!done && solve_linear(d, f, &linear)) {
-    if (!at_rest_everywhere(d, f, &linear)) return;   // contradiction on this branch
-    r = linear;
-  } else if (!done) {
-    if (pl_is_poison(several) || !branch_factors(d, f, &r, several, out)) out->complete = false;
-    return;
-  }
-  if (!regular(d, &r)) {
-    out->n_singular++;
-    out->singular = r;
-  } else if (out->n < pl_max_found) {
-    out->at[out->n++] = r;
-  }
-}
 
 // ---------------------------------------------------------------------------------------------- display
 static bool is_angle(pl_analysis* d, int i) {
@@ -169,19 +27,43 @@ static const pl_form* all_free(pl_analysis* d) {
   return pl_form_words(d->arena, pl_text_string(&words[0]), pl_text_string(&words[1]));
 }
 
+static const pl_form* in_degrees(pl_analysis* d, double x) {
+  pl_notation how = {.math = PL_MATH_LINE, .lang = d->job->lang};
+  return pl_fn(d, pl_format(d->arena, "%s°", pl_notation_number(d->arena, x * 180 / M_PI, 6, how)));
+}
+
+static const pl_form* value_form(pl_analysis* d, int i, pl_expr value) {
+  const pl_form* form = pl_f(d, value, PL_S_PLAIN);
+  double x = pl_number(d, value);
+  return is_angle(d, i) && !isnan(x) && x != 0 ? pl_feq(d, form, in_degrees(d, x)) : form;
+}
+
+static const pl_form* with_unit(pl_analysis* d, const char* number, const char* unit) {
+  if (!*unit || strcmp(unit, "1") == 0) return pl_fn(d, number);
+  const pl_form* part[2] = {pl_fn(d, number), pl_form_words(d->arena, unit, unit)};
+  return pl_form_product(d->arena, part, 2);
+}
+
+// A place found in numbers: θ ≈ 2.5957 = 148.723°, or what is exact about it.
+static const pl_form* number_form(pl_analysis* d, int i, pl_expr value) {
+  double x = pl_number(d, value);
+  if (isnan(x)) return pl_feq(d, pl_fs(d, d->q.at[i].q), value_form(d, i, value));
+  pl_notation how = {.math = PL_MATH_LINE, .lang = d->job->lang};
+  bool known;
+  pl_dimension dim = pl_dimension_of_expr(d, pl_sym(d->pool, d->q.at[i].q), &known);
+  const char *number = pl_notation_number(d->arena, x, 6, how), *unit = known ? pl_dimension_unit(d->arena, dim, false) : "";
+  const pl_form* about = with_unit(d, number, unit);
+  if (is_angle(d, i) && x != 0) about = pl_feq(d, about, in_degrees(d, x));
+  return pl_frel(d, pl_fs(d, d->q.at[i].q), "≈", about);
+}
+
 const pl_form* pl_rest_form(pl_analysis* d, const pl_rest* r) {
   const pl_form* f[pl_max_gen];
   int n = 0;
   for (int k = 0; k < d->gen.n; k++) {
     int i = d->gen.at[k];
     if (pl_is_poison(r->q[k])) continue;
-    const pl_form* value = pl_f(d, r->q[k], PL_S_PLAIN);
-    double x = pl_number(d, r->q[k]);
-    if (is_angle(d, i) && !isnan(x) && x != 0) {
-      pl_notation how = {.math = PL_MATH_LINE, .lang = d->job->lang};
-      value = pl_feq(d, value, pl_fn(d, pl_format(d->arena, "%s°", pl_notation_number(d->arena, x * 180 / M_PI, 6, how))));
-    }
-    f[n++] = pl_feq(d, pl_fs(d, d->q.at[i].q), value);
+    f[n++] = r->numeric ? number_form(d, i, r->q[k]) : pl_feq(d, pl_fs(d, d->q.at[i].q), value_form(d, i, r->q[k]));
   }
   if (n == 0) return all_free(d);
   return n == 1 ? f[0] : pl_flist(d, f, n);
@@ -191,17 +73,26 @@ static const char* german_stability(const char* s) {
   return strcmp(s, "stable") == 0 ? "stabil" : strcmp(s, "unstable") == 0 ? "instabil" : "indifferent";
 }
 
-static void show_oscillations(pl_analysis* d, const pl_linearised* l, const char* at) {
+// ω² of a place that is known in numbers only.
+const pl_form* pl_square_form(pl_analysis* d, pl_expr w2, bool numeric) {
+  if (!numeric) return pl_feq(d, pl_fs(d, pl_omega_squared(d)), pl_f(d, w2, PL_S_QUOTIENT));
+  pl_notation how = {.math = PL_MATH_LINE, .lang = d->job->lang};
+  const char* number = pl_notation_number(d->arena, pl_number(d, w2), 6, how);
+  return pl_frel(d, pl_fs(d, pl_omega_squared(d)), "≈", with_unit(d, number, "1/s²"));
+}
+
+static void show_oscillations(pl_analysis* d, const pl_linearised* l, const char* at, bool numeric) {
   pl_root root[8];
   int n = pl_small_oscillations(d, l, root, 8);
-  if (n > 0 && !l->gyroscopic) pl_why_oscillations(d, l->M, l->K, l->n);
+  if (n > 0 && !l->gyroscopic && !numeric) pl_why_oscillations(d, l->M, l->K, l->n);
   for (int k = 0; k < n; k++) {
-    const pl_form* form = pl_f(d, root[k].value, PL_S_QUOTIENT);
-    pl_step* s = pl_show_numbered(d, pl_feq(d, pl_fs(d, pl_omega_squared(d)), form));
+    double x = pl_number(d, root[k].value);
+    if (numeric && isnan(x)) continue;
+    const pl_form* form = numeric ? NULL : pl_f(d, root[k].value, PL_S_QUOTIENT);
+    pl_step* s = pl_show_numbered(d, pl_square_form(d, root[k].value, numeric));
     for (int r = 0; r < d->lagrange2_numbers.n; r++) pl_step_refs(s, 1, d->lagrange2_numbers.at[r]);
     bool zero = pl_vanishes(d, root[k].value);
     pl_step_after(s, zero ? "zero mode: it drifts" : "small oscillations", zero ? "Nullmode: Drift" : "kleine Schwingungen");
-    double x = pl_number(d, root[k].value);
     if (x > 0) {
       s->has_value = true;
       s->value = sqrt(x);
@@ -233,10 +124,18 @@ static void say_pulls(pl_analysis* d, const pl_bond* l, const pl_rest* r) {
 }
 
 static void say_singular(pl_analysis* d, const pl_rests* found) {
-  if (found->n_singular == 0) return;
-  pl_say(d, "At positions like {1} the forces vanish too, but these coordinates fail there (the mass matrix is singular); other coordinates decide.",
-         "Auch bei Lagen wie {1} verschwinden die Kräfte, aber diese Koordinaten versagen dort (die Massenmatrix ist singulär); andere Koordinaten "
-         "entscheiden.", 1, pl_rest_form(d, &found->singular));
+  const pl_rest* r = &found->singular;
+  if (found->n_singular == 0 || !pl_rest_exists_at_numbers(d, r)) return;
+  const char* text;
+  const pl_form* real = pl_conditions_form(d, r->condition, r->n_conditions, false, &text);
+  pl_say(d, real ? "At positions like {1} (if {2}) the generalized forces vanish too, but these coordinates fail there (the mass matrix is singular); other "
+                   "coordinates decide."
+                 : "At positions like {1} the generalized forces vanish too, but these coordinates fail there (the mass matrix is singular); other "
+                   "coordinates decide.",
+         real ? "Auch bei Lagen wie {1} (wenn {2}) verschwinden die verallgemeinerten Kräfte, aber diese Koordinaten versagen dort (die Massenmatrix ist "
+                "singulär); andere Koordinaten entscheiden."
+              : "Auch bei Lagen wie {1} verschwinden die verallgemeinerten Kräfte, aber diese Koordinaten versagen dort (die Massenmatrix ist singulär); "
+                "andere Koordinaten entscheiden.", real ? 2 : 1, pl_rest_form(d, r), real);
 }
 
 void pl_say_velocity_terms(pl_analysis* d, const pl_linearised* l) {
@@ -245,72 +144,96 @@ void pl_say_velocity_terms(pl_analysis* d, const pl_linearised* l) {
   }
 }
 
-static void show_rest(pl_analysis* d, const pl_expr* f, const pl_rest* r, int number) {
-  pl_linearised l;
-  pl_linearise(d, f, r, &l);
-  pl_expr stable_if;
-  const char* verdict = pl_stability(d, &l, r, &stable_if);
-  pl_step* step = pl_show(d, pl_rest_form(d, r));
-  double at_numbers = verdict ? (double)NAN : pl_number(d, stable_if);
-  const char* here = verdict ? verdict : at_numbers > 0 ? "stable" : at_numbers < 0 && !l.gyroscopic ? "unstable" : NULL;
-  if (verdict) pl_step_after(step, verdict, german_stability(verdict));
-  if (!verdict && here) {
-    pl_step_after(step, pl_format(d->arena, "%s for the given numbers", here),
-                  pl_format(d->arena, "%s bei den gegebenen Zahlen", german_stability(here)));
+// ---------------------------------------------------------------------------------------------- one position
+bool pl_rest_exists_at_numbers(pl_analysis* d, const pl_rest* r) {
+  static const double rounding = 1e-12;   // a condition met with equality, 1 - cos²(0) >= 0, may be missed by that
+  for (int k = 0; k < r->n_conditions; k++) {
+    if (pl_number(d, r->condition[k]) < -rounding) return false;
   }
-  pl_value v = {.name = pl_format(d->arena, "equilibrium %d", number), .number = (double)NAN, .conserved = -1, .passed = -1, .order = -1,
-                .stability = here};
-  v.components = PL_ARRAY(d->arena, pl_component, d->gen.n);
+  return true;
+}
+
+static void say_doubt(pl_analysis* d, pl_doubt doubt) {
+  static const char* const words[][2] = {
+    [PL_DOUBT_GYROSCOPIC] = {"No minimum of the potential is proven here; the gyroscopic terms decide with the signs of ω².",
+                             "Ein Minimum des Potentials ist hier nicht bewiesen; die gyroskopischen Terme entscheiden mit den Vorzeichen von ω²."},
+    [PL_DOUBT_CIRCULATORY] = {"Forces without potential depend on the position: the potential does not decide on stability, the ω² do.",
+                              "Kräfte ohne Potential hängen vom Ort ab: über die Stabilität entscheidet nicht das Potential, sondern die ω²."},
+    [PL_DOUBT_DRIVEN] = {"The forces around it change with time: a potential does not decide on stability.",
+                         "Die Kräfte in der Umgebung ändern sich mit der Zeit: über die Stabilität entscheidet kein Potential."},
+    [PL_DOUBT_DAMPING] = {"A force along the velocity may feed energy in: the potential alone does not decide on stability.",
+                          "Eine Kraft längs der Geschwindigkeit kann Energie zuführen: das Potential allein entscheidet nicht über die Stabilität."},
+    [PL_DOUBT_INERTIA] = {"The kinetic energy is not positive here: the potential does not decide on stability.",
+                          "Die kinetische Energie ist hier nicht positiv: das Potential entscheidet nicht über die Stabilität."},
+    [PL_DOUBT_DEGENERATE] = {"The linear terms of the force do not decide on stability.",
+                             "Die linearen Terme der Kraft entscheiden nicht über die Stabilität."},
+  };
+  if (doubt != PL_DOUBT_NONE) pl_say(d, words[doubt][0], words[doubt][1], 0);
+}
+
+static void say_existence(pl_analysis* d, const pl_rest* r, pl_value* v) {
+  const pl_form* form = pl_conditions_form(d, r->condition, r->n_conditions, false, &v->exists_if);
+  if (!form) {
+    v->exists_if = NULL;
+    return;
+  }
+  if (pl_rest_exists_at_numbers(d, r)) pl_say(d, "exists if {1}", "besteht, wenn {1}", 1, form);
+  else pl_say(d, "exists if {1}, not for the given numbers", "besteht, wenn {1}, nicht bei den gegebenen Zahlen", 1, form);
+}
+
+static void say_stability(pl_analysis* d, const pl_verdict* judged, pl_value* v) {
+  if (judged->doubt != PL_DOUBT_NONE) {
+    say_doubt(d, judged->doubt);
+    return;
+  }
+  if (judged->word || judged->n == 0) return;
+  const pl_form* form = pl_conditions_form(d, judged->condition, judged->n, true, &v->stable_if);
+  if (form) pl_say(d, "stable if {1}", "stabil, wenn {1}", 1, form);
+  else v->stable_if = NULL;
+}
+
+static void mark_stability(pl_analysis* d, pl_step* step, const pl_verdict* judged, const pl_rest* r) {
+  if (judged->word) pl_step_after(step, judged->word, german_stability(judged->word));
+  if (judged->word || !judged->at_numbers) return;
+  if (r->numeric) pl_step_after(step, judged->at_numbers, german_stability(judged->at_numbers));
+  else pl_step_after(step, pl_format(d->arena, "%s for the given numbers", judged->at_numbers),
+                     pl_format(d->arena, "%s bei den gegebenen Zahlen", german_stability(judged->at_numbers)));
+}
+
+static void name_components(pl_analysis* d, const pl_rest* r, pl_value* v) {
+  v->components = PL_ARRAY(d->arena, pl_component, d->gen.n);
+  v->free_names = NULL;
   const char** free_names = PL_ARRAY(d->arena, const char*, d->gen.n);
   for (int k = 0; k < d->gen.n; k++) {
     const char* name = pl_symbol_get(d->pool, d->q.at[d->gen.at[k]].q)->ascii;
     if (pl_is_poison(r->q[k])) {
-      free_names[v.n_free++] = name;
+      free_names[v->n_free++] = name;
       continue;
     }
-    v.components[v.n_components++] = (pl_component){name, r->q[k], pl_f(d, r->q[k], PL_S_PLAIN), pl_number(d, r->q[k])};
+    v->components[v->n_components++] = (pl_component){name, r->q[k], pl_f(d, r->q[k], PL_S_PLAIN), pl_number(d, r->q[k])};
   }
-  v.free_names = free_names;
-  if (!pl_is_poison(r->condition)) {
-    v.exists_if = pl_format(d->arena, "%s >= 0", pl_expr_text(d->arena, d->pool, r->condition));
-    pl_say(d, "exists if {1}", "besteht, wenn {1}", 1, pl_frel(d, pl_f(d, r->condition, PL_S_PLAIN), "≥", pl_form_leaf(d->arena, pl_int(d->pool, 0))));
-  }
-  if (!verdict && l.gyroscopic) {
-    pl_say(d, "No minimum of the potential is proven here; the gyroscopic terms decide with the signs of ω².",
-           "Ein Minimum des Potentials ist hier nicht bewiesen; die gyroskopischen Terme entscheiden mit den Vorzeichen von ω².", 0);
-  } else if (!verdict) {
-    v.stable_if = pl_format(d->arena, "%s > 0", pl_expr_text(d->arena, d->pool, stable_if));
-    pl_say(d, "stable if {1}", "stabil, wenn {1}", 1, pl_frel(d, pl_f(d, stable_if, PL_S_PLAIN), ">", pl_form_leaf(d->arena, pl_int(d->pool, 0))));
-  }
+  v->free_names = free_names;
+}
+
+static void show_rest(pl_analysis* d, const pl_expr* f, const pl_rest* r, int number) {
+  pl_linearised l;
+  pl_verdict judged;
+  pl_linearise(d, f, r, &l);
+  pl_stability(d, f, &l, r, &judged);
+  bool exists = pl_rest_exists_at_numbers(d, r);
+  pl_step* step = pl_show(d, pl_rest_form(d, r));
+  if (exists) mark_stability(d, step, &judged, r);
+  pl_value v = {.name = pl_format(d->arena, "equilibrium %d", number), .number = (double)NAN, .conserved = -1, .passed = -1, .order = -1,
+                .stability = exists ? judged.at_numbers : judged.word};
+  name_components(d, r, &v);
+  say_existence(d, r, &v);
+  if (!r->numeric) say_stability(d, &judged, &v);
   pl_push(d->arena, d->section->values, v);
-  bool oscillates = !here || strcmp(here, "stable") == 0;
+  const char* here = v.stability;
+  bool oscillates = exists && (!here || strcmp(here, "stable") == 0) && judged.doubt != PL_DOUBT_DRIVEN;
   if (oscillates) pl_say_velocity_terms(d, &l);
-  if (oscillates) show_oscillations(d, &l, v.name);
-  for (int k = 0; k < d->gen.n; k++) pl_claim_free(d, PL_CLAIM_INSERTED, pl_insert_rest(d, f[k], r), pl_int(d->pool, 0));
-}
-
-// A quantity that is given through others, ω = √(2 g k), is a special case: positions of rest are sought with it inserted.
-static pl_expr with_relations(pl_analysis* d, pl_expr e) {
-  for (int k = 0; k < d->model->params.n; k++) {
-    const pl_param* given = &d->model->params.at[k];
-    if (pl_is_poison(given->value) || pl_is_constant(d->pool, given->value)) continue;
-    e = pl_subst1(d->pool, e, given->symbol, given->value);
-  }
-  return pl_alg_normal(d->tower, e);
-}
-
-bool pl_at_rest_equations(pl_analysis* d, pl_expr* f) {
-  for (int k = 0; k < d->gen.n; k++) f[k] = with_relations(d, pl_at_rest(d, pl_second_kind(d, d->gen.at[k])));
-  if (!pl_has_symbol(d->pool, pl_add_n(d->pool, f, d->gen.n), pl_time(d->pool))) return true;
-  pl_say(d, "The equations contain t: there is no position of rest.", "Die Gleichungen enthalten t: es gibt keine Ruhelage.", 0);
-  return false;
-}
-
-pl_rests* pl_find_rests(pl_analysis* d, const pl_expr* f) {
-  pl_rests* found = PL_NEW(d->arena, pl_rests);
-  found->complete = true;
-  search(d, f, (pl_rest){0}, found);
-  return found;
+  if (oscillates) show_oscillations(d, &l, v.name, r->numeric);
+  for (int k = 0; k < d->gen.n && !r->numeric; k++) pl_claim_free(d, PL_CLAIM_INSERTED, pl_insert_rest(d, f[k], r), pl_int(d->pool, 0));
 }
 
 // Positions of rest are sought in a few generalized coordinates.
@@ -363,15 +286,56 @@ static bool turns_steadily(pl_analysis* d, const pl_ask* ask) {
   return true;
 }
 
+// Whether the list is all there is, and how that is known.
+void pl_say_rests_missing(pl_analysis* d, const pl_rests* found) {
+  const pl_form* zero = pl_form_leaf(d->arena, pl_int(d->pool, 0));
+  if (found->complete && found->by_numbers && found->searched > 0) {
+    const pl_form* inside = pl_fs(d, d->q.at[d->gen.at[found->searched_place]].q);
+    pl_expr digits = pl_int(d->pool, lround(log10(found->searched)));
+    const pl_form* range = pl_form_power(d->arena, pl_form_leaf(d->arena, pl_int(d->pool, 10)), pl_form_leaf(d->arena, digits));
+    const pl_form* q = pl_form_call(d->arena, PL_ABS, &inside, 1);
+    pl_say(d, "With {1}, in SI units, there are no others: interval arithmetic proves it for the given numbers.",
+           "Mit {1}, in SI-Einheiten, gibt es keine weiteren: das beweist die Intervallarithmetik für die gegebenen Zahlen.", 1,
+           pl_frel(d, q, "≤", range));
+  } else if (found->complete && found->by_numbers) {
+    pl_say(d, "Up to whole periods there are no others: interval arithmetic proves it for the given numbers.",
+           "Bis auf ganze Perioden gibt es keine weiteren: das beweist die Intervallarithmetik für die gegebenen Zahlen.", 0);
+  }
+  if (found->complete) return;
+  for (int k = 0; k < found->n_open; k++) {
+    const pl_rest* r = &found->open[k];
+    pl_expr e = pl_alg_normal(d->tower, pl_insert_rest(d, pl_at_rest(d, pl_second_kind(d, d->gen.at[r->open_row])), r));
+    pl_say(d, found->n > 0 ? "There may be others: {1} is not solved in closed form." : "{1} is not solved in closed form.",
+           found->n > 0 ? "Es kann weitere geben: {1} ist nicht geschlossen lösbar." : "{1} ist nicht geschlossen lösbar.", 1,
+           pl_feq(d, pl_f(d, e, PL_S_EQUATION), zero));
+  }
+  if (found->n_open > 0) return;
+  pl_say(d, found->n > 0 ? "There may be others: not every equation was solved in closed form."
+                         : "None was found in closed form.",
+         found->n > 0 ? "Es kann weitere geben: nicht jede Gleichung war geschlossen lösbar." : "Geschlossen wurde keine gefunden.", 0);
+}
+
+// What is left of the equations at a named place.
+void pl_say_no_rest_named(pl_analysis* d, const pl_ask* ask, const pl_expr* f) {
+  pl_rest r;
+  pl_named_rest(d, ask, f, &r);
+  for (int k = 0; k < d->gen.n; k++) {
+    pl_expr left = pl_alg_normal(d->tower, pl_insert_rest(d, f[k], &r));
+    if (pl_is_zero_node(d->pool, left)) continue;
+    pl_say(d, "{1} is no position of rest: the equation of {2} there leaves {3}, which is not 0.",
+           "{1} ist keine Ruhelage: von der Gleichung für {2} bleibt dort {3}, was nicht 0 ist.", 3, pl_rest_form(d, &r),
+           pl_fs(d, d->q.at[d->gen.at[k]].q), pl_f(d, left, PL_S_PLAIN));
+    break;
+  }
+  d->section->not_found = true;
+}
+
 void pl_answer_equilibria(pl_analysis* d, const pl_ask* ask) {
   pl_section_open(d, ask, "Equilibria", "Gleichgewichtslagen");
   pl_expr f[pl_max_gen];
   if (pl_rests_out_of_reach(d)) return;
   if (ask->where.n > 0 && !turns_steadily(d, ask)) return;
-  if (!pl_at_rest_equations(d, f)) {
-    end_of_steady(d);
-    return;
-  }
+  pl_at_rest_equations(d, f);
   pl_rests* found = pl_find_rests(d, f);
   int shown = 0;
   for (int k = 0; k < found->n; k++) {
@@ -380,64 +344,8 @@ void pl_answer_equilibria(pl_analysis* d, const pl_ask* ask) {
     else show_rest(d, f, &found->at[k], ++shown);
   }
   say_singular(d, found);
-  if (shown == 0 && found->complete && found->n_singular == 0) pl_say(d, "There is none.", "Es gibt keine.", 0);
-  if (!found->complete) {
-    pl_say(d, found->n > 0 ? "There may be others: not every equation was solved in closed form."
-                           : "None was found in closed form.",
-           found->n > 0 ? "Es kann weitere geben: nicht jede Gleichung war geschlossen lösbar." : "Geschlossen wurde keine gefunden.", 0);
-    d->section->not_found = found->n == 0;
-  }
+  if (found->n == 0 && found->complete && found->n_singular == 0) pl_say(d, "There is none.", "Es gibt keine.", 0);
+  pl_say_rests_missing(d, found);
+  if (!found->complete) d->section->not_found = found->n == 0;
   end_of_steady(d);
-}
-
-// ---------------------------------------------------------------------------------------------- thresholds
-enum { max_thresholds = 16 };
-typedef struct pl_found_thresholds { pl_expr value[max_thresholds]; int n; } pl_found_thresholds;
-
-// The values of a given quantity at which the stability of a position of rest changes, or at which it comes into being: the roots of
-// its conditions.
-static void threshold_of(pl_analysis* d, pl_expr e, pl_symbol x, pl_found_thresholds* found, const pl_form* where) {
-  pl_root root[8];
-  bool complete = false;
-  if (pl_is_poison(e) || !pl_has_symbol(d->pool, e, x)) return;
-  int n = pl_alg_roots(d->tower, e, x, root, 8, &complete), own = 0, sign = 0;
-  bool positive = pl_alg_sign(d->tower, pl_sym(d->pool, x), false, &own) == PL_YES && own > 0;
-  double here = pl_number(d, pl_sym(d->pool, x));
-  for (int k = 0; k < n; k++) {
-    pl_expr value = root[k].value;
-    bool negative = pl_alg_sign(d->tower, value, true, &sign) == PL_YES && sign <= 0;
-    if (negative && (positive || here > 0)) continue;
-    bool told = false;
-    for (int j = 0; j < found->n; j++) told |= pl_alg_equal(d->tower, found->value[j], value) == PL_YES;
-    if (told || found->n == max_thresholds) continue;
-    found->value[found->n++] = value;
-    const pl_form* form = pl_f(d, value, PL_S_QUOTIENT);
-    pl_step* step = pl_show_numbered(d, pl_feq(d, pl_fs(d, x), form));
-    bool known;
-    pl_step_value(d, step, value, pl_dimension_of_expr(d, value, &known));
-    pl_answer(d, pl_symbol_get(d->pool, x)->ascii, value, form);
-    pl_say(d, "where the stability of {1} changes", "dort ändert sich die Stabilität von {1}", 1, where);
-    pl_claim_free(d, PL_CLAIM_INSERTED, pl_subst1(d->pool, e, x, value), pl_int(d->pool, 0));
-  }
-}
-
-void pl_answer_threshold(pl_analysis* d, const pl_ask* ask) {
-  pl_section_open(d, ask, "Threshold", "Schwelle");
-  pl_expr f[pl_max_gen];
-  if (!ask->label || strcmp(ask->label, "stable") != 0 || !ask->variable.id) {
-    pl_answer_pending(d, ask);
-    return;
-  }
-  if (pl_rests_out_of_reach(d) || !pl_at_rest_equations(d, f)) return;
-  pl_rests* rests = pl_find_rests(d, f);
-  pl_found_thresholds found = {.n = 0};
-  for (int k = 0; k < rests->n; k++) {
-    pl_linearised l;
-    pl_expr stable_if;
-    pl_linearise(d, f, &rests->at[k], &l);
-    if (pl_stability(d, &l, &rests->at[k], &stable_if)) continue;
-    threshold_of(d, stable_if, ask->variable, &found, pl_rest_form(d, &rests->at[k]));
-  }
-  if (found.n > 0) return;
-  pl_say(d, "No position of rest changes its stability with {1}.", "Keine Ruhelage ändert mit {1} ihre Stabilität.", 1, pl_fs(d, ask->variable));
 }

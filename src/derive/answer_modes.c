@@ -29,15 +29,47 @@ static bool amplitudes(pl_analysis* d, const pl_linearised* l, pl_expr w2, pl_ex
   return false;
 }
 
-static void show_mode(pl_analysis* d, const pl_linearised* l, pl_expr w2, int number, const char* at) {
+// The number beside ω²: the frequency, or the rate at which a deviation grows.
+static void number_of_mode(pl_analysis* d, pl_step* step, pl_expr w2) {
+  double x = pl_number(d, w2);
+  if (isnan(x) || x == 0) return;
+  step->has_value = true;
+  step->value = sqrt(fabs(x));
+  step->unit = "1/s";
+  step->value_name = x < 0 ? "σ" : strncmp(pl_symbol_get(d->pool, pl_omega_squared(d))->name, "Ω", 2) == 0 ? "Ω" : "ω";
+}
+
+// ω² < 0 is no oscillation.
+static void say_growth(pl_analysis* d, const pl_linearised* l, pl_expr w2, const pl_rest* r) {
+  int sign = 0;
+  const pl_form* form = NULL;
+  const char* text;
+  if (pl_vanishes(d, w2)) return;
+  double x = pl_number(d, w2);
+  bool negative = pl_alg_sign_proven(d->tower, w2, false, &sign) == PL_YES ? sign < 0 : x < 0;
+  if (negative && l->gyroscopic) {
+    pl_say(d, "unstable: the deviation grows", "instabil: die Abweichung wächst", 0);
+  } else if (negative) {
+    pl_say(d, "unstable: no oscillation, the deviation grows as e^(σ t) with {1}",
+           "instabil: keine Schwingung, die Abweichung wächst wie e^(σ t) mit {1}", 1,
+           pl_feq(d, pl_fn(d, "σ²"), pl_f(d, pl_alg_normal(d->tower, pl_neg(d->pool, w2)), PL_S_QUOTIENT)));
+  } else if (sign == 0 && isnan(x) && pl_holds_if(d, w2, true, &form, &text) == PL_UNKNOWN) {
+    bool always = r->n_conditions == 0;
+    pl_say(d, always ? "an oscillation if {1}, else the deviation grows" : "an oscillation if {1}",
+           always ? "eine Schwingung, wenn {1}, sonst wächst die Abweichung" : "eine Schwingung, wenn {1}", 1, form);
+  }
+}
+
+static void show_mode(pl_analysis* d, const pl_linearised* l, const pl_rest* r, pl_expr w2, int number, const char* at) {
   const pl_form* form = pl_f(d, w2, PL_S_QUOTIENT);
-  pl_step* step = pl_show_numbered(d, pl_feq(d, pl_fs(d, pl_omega_squared(d)), form));
+  pl_step* step = pl_show_numbered(d, pl_square_form(d, w2, r->numeric));
+  number_of_mode(d, step, w2);
   for (int k = 0; k < d->lagrange2_numbers.n; k++) pl_step_refs(step, 1, d->lagrange2_numbers.at[k]);
   pl_step_after(step, pl_format(d->arena, "mode %d", number), pl_format(d->arena, "Mode %d", number));
   pl_value v = {.name = "omega^2", .of = pl_format(d->arena, "mode %d", number), .at = at, .form = form, .expr = w2,
                 .number = pl_number(d, w2), .unit = "1/s^2", .conserved = -1, .passed = -1, .order = -1};
   pl_expr u[pl_max_gen];
-  if (!l->gyroscopic && amplitudes(d, l, w2, u)) {
+  if (!l->gyroscopic && !r->numeric && amplitudes(d, l, w2, u)) {
     const pl_form* ratio[pl_max_gen];
     v.components = PL_ARRAY(d->arena, pl_component, l->n);
     for (int j = 0; j < l->n; j++) {
@@ -52,6 +84,7 @@ static void show_mode(pl_analysis* d, const pl_linearised* l, pl_expr w2, int nu
     }
   }
   pl_push(d->arena, d->section->values, v);
+  if (!r->numeric) say_growth(d, l, w2, r);
 }
 
 // One damped coordinate, M u'' + C u' + K u = 0:  u = e^(-γ t) cos(ω_d t) with γ = C/2M, ω_d² = K/M - γ²; the sign of ω_d² decides
@@ -85,24 +118,13 @@ static void show_modes(pl_analysis* d, const pl_expr* f, const pl_rest* r, int n
   pl_root root[pl_max_gen];
   int n = pl_small_oscillations(d, &l, root, pl_max_gen);
   if (n > 0 && !l.gyroscopic) pl_why_oscillations(d, l.M, l.K, l.n);
-  for (int k = 0; k < n; k++) show_mode(d, &l, root[k].value, k + 1, at);
+  for (int k = 0; k < n; k++) show_mode(d, &l, r, root[k].value, k + 1, at);
   show_damped(d, &l, at);
   if (n < l.n) {
     pl_say(d, "Not every root of the characteristic equation was found in closed form.",
            "Nicht jede Wurzel der charakteristischen Gleichung war geschlossen zu finden.", 0);
     d->section->not_found = n == 0;
   }
-}
-
-// The position named by `at (u = 0, v = 0)`; what is not named is free to fit an equilibrium.
-static bool named_position(pl_analysis* d, const pl_ask* ask, const pl_rest* r) {
-  for (int k = 0; k < d->gen.n; k++) {
-    for (int c = 0; c < ask->where.n; c++) {
-      if (!pl_same(ask->where.at[c].left, pl_sym(d->pool, d->q.at[d->gen.at[k]].q))) continue;
-      if (pl_is_poison(r->q[k]) || pl_alg_equal(d->tower, r->q[k], ask->where.at[c].right) != PL_YES) return false;
-    }
-  }
-  return true;
 }
 
 // ---------------------------------------------------------------------------------------------- steady motions
@@ -172,7 +194,7 @@ static void modes_of_steady(pl_analysis* d, const pl_ask* ask) {
   pl_root root[pl_max_gen];
   int n = pl_small_oscillations(d, &l, root, pl_max_gen), shown = 0;
   for (int k = 0; k < n; k++) {
-    if (!pl_vanishes(d, root[k].value)) show_mode(d, &l, root[k].value, ++shown, "steady motion");
+    if (!pl_vanishes(d, root[k].value)) show_mode(d, &l, &r, root[k].value, ++shown, "steady motion");
   }
   if (shown == 0) {
     pl_say(d, "The characteristic equation was not solved in closed form.", "Die charakteristische Gleichung war nicht geschlossen lösbar.", 0);
@@ -189,17 +211,27 @@ void pl_answer_modes(pl_analysis* d, const pl_ask* ask) {
     modes_of_steady(d, ask);
     return;
   }
-  if (!pl_at_rest_equations(d, f)) return;
+  pl_at_rest_equations(d, f);
+  pl_rest named;
+  pl_answer3 is_rest = pl_names_a_place(d, ask) ? pl_named_rest(d, ask, f, &named) : PL_UNKNOWN;
+  if (is_rest == PL_NO) {
+    pl_say_no_rest_named(d, ask, f);
+    return;
+  }
+  if (is_rest == PL_YES) {
+    show_modes(d, f, &named, 1);
+    return;
+  }
   pl_rests* found = pl_find_rests(d, f);
   int shown = 0, number = 0;
   for (int k = 0; k < found->n; k++) {
     if (pl_rest_pulls(d, &found->at[k])) continue;
     number++;
-    if (!named_position(d, ask, &found->at[k])) continue;
+    if (!pl_rest_is_named(d, ask, &found->at[k]) || !pl_rest_exists_at_numbers(d, &found->at[k])) continue;
     show_modes(d, f, &found->at[k], number);
     shown++;
   }
-  if (shown > 0) return;
-  pl_say(d, "No equilibrium to oscillate about was found there.", "Dort wurde keine Gleichgewichtslage gefunden.", 0);
-  d->section->not_found = true;
+  if (shown == 0 && found->complete) pl_say(d, "There is no position of rest to oscillate about.", "Es gibt keine Ruhelage, um die etwas schwingen könnte.", 0);
+  if (!found->complete) pl_say_rests_missing(d, found);
+  d->section->not_found = shown == 0;
 }

@@ -148,6 +148,9 @@ int pl_sign_or_positive(pl_analysis* d, pl_expr e);   // the same; where nothing
 double pl_number(pl_analysis* d, pl_expr e);            // at the parameters; NaN when it depends on more
 pl_answer3 pl_zero_for_numbers(pl_analysis* d, pl_expr e);   // e = 0, as it stands or with the numbers of the parameters in it
 
+// conditions.c: e > 0 (strict) or e >= 0.  PL_YES: always, PL_NO: never; else the shortest form of the condition and its text.
+pl_answer3 pl_holds_if(pl_analysis* d, pl_expr e, bool strict, const pl_form** form, const char** text);
+const pl_form* pl_conditions_form(pl_analysis* d, const pl_expr* e, int n, bool strict, const char** text);   // a list; NULL: all hold
 // energies.c
 pleuel_status pl_energies(pl_analysis* d);              // T, V, L, forces, euler
 // frames.c
