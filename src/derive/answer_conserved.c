@@ -26,6 +26,17 @@ static void claim_constant(pl_analysis* d, const pl_form* form) {
   pl_claim_that(d, PL_CLAIM_MOTION, pl_dt(d->pool, pl_form_value(d->pool, form)), power);
 }
 
+static void jacobi(pl_analysis* d) {
+  pl_expr integral = pl_energy_integral(d);
+  const pl_form* form = pl_f(d, integral, PL_S_ENERGY);
+  pl_why_energy(d, integral);
+  pl_step_refs(pl_show(d, pl_feq(d, pl_fn(d, "H"), form)), 1, d->number_lagrangian);
+  pl_say(d, "Jacobi's integral is conserved: in these coordinates the Lagrange function does not contain t.",
+         "Das Jacobi-Integral ist erhalten: in diesen Koordinaten enthält die Lagrange-Funktion t nicht.", 0);
+  add_reason(pl_answer(d, "H", integral, form), "the Lagrange function does not contain t", "die Lagrange-Funktion enthält t nicht", 1);
+  claim_constant(d, form);
+}
+
 static void energy(pl_analysis* d) {
   bool scleronomic = pl_scleronomic(d), conserved = pl_energy_conserved(d);
   pl_expr integral = pl_energy_integral(d);
@@ -61,14 +72,7 @@ static void energy(pl_analysis* d) {
   }
   pl_say(d, pl_format(d->arena, "The energy is not conserved: %s.", en), pl_format(d->arena, "Die Energie ist nicht erhalten: %s.", de), 0);
   add_reason(pl_answer(d, "E", pl_poison(), NULL), en, de, 0);
-  if (!conserved) return;
-  const pl_form* form = pl_f(d, integral, PL_S_ENERGY);
-  pl_why_energy(d, integral);
-  pl_step_refs(pl_show(d, pl_feq(d, pl_fn(d, "H"), form)), 1, d->number_lagrangian);
-  pl_say(d, "Jacobi's integral is conserved: in these coordinates the Lagrange function does not contain t.",
-         "Das Jacobi-Integral ist erhalten: in diesen Koordinaten enthält die Lagrange-Funktion t nicht.", 0);
-  add_reason(pl_answer(d, "H", integral, form), "the Lagrange function does not contain t", "die Lagrange-Funktion enthält t nicht", 1);
-  claim_constant(d, form);
+  if (conserved) jacobi(d);
 }
 
 // Is the generalized force along coordinate i zero, so that a cyclic momentum is conserved?
@@ -100,9 +104,37 @@ static void cyclic(pl_analysis* d, int i) {
   if (conserved) pl_claim_that(d, PL_CLAIM_MOTION, pl_dt(d->pool, pl_form_value(d->pool, form)), pl_int(d->pool, 0));
 }
 
+// A momentum that the section has already, in the coordinates of the model.
+static bool is_found(pl_analysis* a, int i) {
+  pl_expr p = pl_diff(a->pool, a->Lg, a->q.at[i].v);
+  for (int k = 0; k < a->section->values.n; k++) {
+    const pl_value* v = &a->section->values.at[k];
+    if (v->conserved == 1 && pl_alg_equal(a->tower, pl_on_maps(a, v->expr), p) == PL_YES) return true;
+  }
+  return false;
+}
+
+// What only generalized coordinates show: Jacobi's integral, and momenta beside those of the whole system.
+static void in_proposed(pl_analysis* d) {
+  pl_analysis* a = d->reduced ? NULL : pl_propose(d);
+  if (!a || a->loops.n > 0) return;
+  a->section = d->section;
+  if (!pl_energy_conserved(d) && pl_energy_conserved(a) && !pl_scleronomic(a)) {
+    pl_tell_proposal(a);
+    jacobi(a);
+  }
+  for (int k = 0; k < a->gen.n; k++) {
+    int i = a->gen.at[k];
+    if (pl_alg_is_zero(a->tower, pl_by_coordinate(a, a->Lg, i)) != PL_YES || is_found(a, i)) continue;
+    pl_tell_proposal(a);
+    cyclic(a, i);
+  }
+}
+
 void pl_answer_conserved(pl_analysis* d, const pl_ask* ask) {
   pl_section_open(d, ask, "Conserved", "Erhaltungsgrößen");
   energy(d);
   for (int k = 0; d->reduced && k < d->gen.n && !pl_nonholonomic(d); k++) cyclic(d, d->gen.at[k]);
   pl_conserved_momenta(d);
+  in_proposed(d);
 }

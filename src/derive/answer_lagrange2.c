@@ -27,7 +27,7 @@ static void say_what_it_solves(pl_analysis* d, pl_step* step, int i) {
   int k = d->q.at[i].solved_by;
   if (k < 0) return;
   const char* label = d->g.at[k].source->name.text;
-  for (int b = 0; b < d->model->branches.n; b++) {
+  for (int b = 0; b < d->model->branches.n && d->q.at[i].by_branch; b++) {
     const pl_condition* c = &d->model->branches.at[b];
     if (!pl_has_symbol(d->pool, c->left, d->q.at[i].q) && !pl_has_symbol(d->pool, c->right, d->q.at[i].q)) continue;
     static const char* const op[] = {"=", ">=", "<=", ">", "<", "≠"};

@@ -3,6 +3,7 @@
 //   sum_k m_k J_k^T (J_k a + a0_k) = Q + G^T lambda,   d^2 g/dt^2 = 0,
 // so neither the Lagrange function's expansion nor the tower takes part.
 #include <math.h>
+#include <string.h>
 
 #include "derive/derive_impl.h"
 
@@ -253,6 +254,22 @@ static void check_at(pl_analysis* d, pl_check* check, const pl_claim* c, pl_cert
   if (got.equal != PL_YES) fail_check(d, check, c);
 }
 
+// Checks of one kind are one line, in whatever coordinates the formulas were.
+static void add_check(pl_analysis* d, pl_check check) {
+  if (check.formulas == 0) return;
+  for (int k = 0; k < d->solution->checks.n; k++) {
+    pl_check* before = &d->solution->checks.at[k];
+    if (strcmp(before->name[0], check.name[0]) != 0) continue;
+    before->passed &= check.passed;
+    before->points += check.points;
+    before->formulas += check.formulas;
+    if (check.worst > before->worst) before->worst = check.worst;
+    if (!before->failed_on) before->failed_on = check.failed_on;
+    return;
+  }
+  pl_push(d->arena, d->solution->checks, check);
+}
+
 // motion: one for each assembly.
 static void check_kind(pl_analysis* d, pl_claim_kind kind, pl_certifier** motion, int n_motions, pl_certifier* free_points) {
   pl_check check = {.name = {claim_name[kind][0], claim_name[kind][1]}, .passed = true};
@@ -264,7 +281,7 @@ static void check_kind(pl_analysis* d, pl_claim_kind kind, pl_certifier** motion
     if (c->own_domain) check_at(d, &check, c, free_points);
     for (int a = 0; a < n_motions && !c->own_domain; a++) check_at(d, &check, c, motion[a]);
   }
-  if (check.formulas > 0) pl_push(d->arena, d->solution->checks, check);
+  add_check(d, check);
 }
 
 // Both sides of each claim have the same dimension, where all names have one.
@@ -282,7 +299,7 @@ static void check_units(pl_analysis* d) {
     check.formulas++;
     if (!pl_dimension_equal(a, b)) fail_check(d, &check, c);
   }
-  if (check.formulas > 0) pl_push(d->arena, d->solution->checks, check);
+  add_check(d, check);
 }
 
 void pl_claims_check(pl_analysis* d) {

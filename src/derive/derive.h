@@ -108,6 +108,7 @@ typedef enum pl_derive_stage { PL_D_EQUATIONS, PL_D_SOLUTION, PL_D_PRESENTATION,
 typedef struct pl_solution {
   const pl_model* model;
   pl_tower* tower;
+  PL_VEC(pl_tower*) trial_towers;  // of the generalized coordinates that were tried
   PL_VEC(pl_section) sections;
   PL_VEC(pl_constraint_info) constraints;
   pl_dof dof;

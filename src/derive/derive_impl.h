@@ -13,6 +13,7 @@ typedef struct pl_variable {
   bool by_contact;     // fixed_by is one-sided: fixed while the contact lasts
   pl_expr fixed;       // its value then
   pl_expr map;         // as a function of the generalized coordinates and t; poison while unresolved
+  bool by_branch;      // map is one of several roots
   int solved_by;       // index of the constraint that map solves, -1: of `choose`, -2: generalized itself or fixed, -3: its own
                        // equation, which contains no acceleration
 } pl_variable;
@@ -20,6 +21,7 @@ typedef struct pl_variable {
 typedef struct pl_bond {   // a constraint at work
   const pl_constraint* source;
   pl_expr g;               // left - right
+  pl_expr place;           // vanishes at the same places, without the root of a distance
   int fixes;               // coordinate that it fixes, -1
   bool contact;            // one-sided
   bool velocity;           // contains velocities (linear): nonholonomic
@@ -60,6 +62,7 @@ typedef struct pl_claim {
   bool own_domain;             // compare for free symbols, not on the motion
 } pl_claim;
 
+typedef struct pl_proposal pl_proposal;     // generalized coordinates that the constraints suggest, propose.c
 typedef struct pl_structure pl_structure;   // a linear system with named entries, structured_impl.h
 
 // One or two coordinates that follow from others in several ways, the assemblies of a linkage.  They keep their names; every
@@ -132,6 +135,8 @@ typedef struct pl_analysis {
   pl_structure *of_multipliers, *of_accelerations;   // made when a closed form is too long; NULL if not found
   PL_VEC(pl_loop) loops;       // in the order in which they can be computed
   bool loops_told;
+  struct pl_proposal* proposal;   // what was found when nothing is chosen; NULL: not looked for
+  bool is_proposal;            // this is the analysis of the copy that chooses what is proposed
 } pl_analysis;
 
 // ---------------------------------------------------------------------------------------------- setup.c
@@ -160,11 +165,23 @@ const char* pl_unit_vector(pl_analysis* d, int coordinate);      // "e_r"
 void pl_collect_generalized(pl_analysis* d);             // what is neither fixed nor mapped
 pleuel_status pl_reduce(pl_analysis* d);                // generalized coordinates and maps
 pl_expr pl_mapped(pl_analysis* d, pl_expr e);            // while maps are made: with those that there are
+void pl_find_places(pl_analysis* d);                    // constraints without the roots of distances
 bool pl_open_coordinate(const pl_variable* c);          // neither fixed, chosen nor mapped
+// propose.c
+pl_analysis* pl_propose(pl_analysis* d);                // the analysis with what the constraints suggest; NULL: nothing was found
+void pl_tell_proposal(pl_analysis* a);                  // once, in the section that is open
+void pl_define_proposed(pl_analysis* d);                // values over proposed angles get their definitions
+// places.c
+// Conditions on coordinates that are mapped, as conditions on generalized ones; -1: none speaks of such.
+int pl_in_generalized(pl_analysis* d, const pl_condition* c, int n, pl_condition** out);
+void pl_start_in_generalized(pl_analysis* d);           // `init` too
+// worked.c
+pleuel_status pl_form_equations(pl_analysis* d);        // coordinates, energies, reduction, implied constraints
 // loops.c
 bool pl_solve_loop(pl_analysis* d, int bond, bool pair);   // with another one for two coordinates, or alone in several ways
 bool pl_in_loop(const pl_analysis* d, int bond);
 int pl_follower(const pl_analysis* d, int coordinate);  // the loop that determines it, -1
+void pl_take_squares_out(pl_analysis* d, pl_expr e, pl_expr* outer, pl_expr* rest);   // sqrt(e) = outer sqrt(rest), without bars
 bool pl_has_followers(const pl_analysis* d, pl_expr e); // a coordinate of a loop occurs
 int pl_assemblies(const pl_analysis* d);
 int pl_loop_definitions(pl_analysis* d, int assembly, pl_definition* out);   // names, coordinates, velocities; out NULL: how many
@@ -198,6 +215,7 @@ pl_expr pl_escape_motion(pl_analysis* d, pl_symbol* wait);   // a motion that le
 // redundant.c
 void pl_depend(pl_analysis* d, int implied, int m, const int* row, const pl_expr* c, int place);
 void pl_share_forces(pl_analysis* d);
+void pl_inherit_dependences(pl_analysis* a, const pl_analysis* from);   // of the same constraints in other coordinates
 bool pl_not_determined(pl_analysis* d, pl_expr e);      // e contains a multiplier that nothing determines
 bool pl_say_shared(pl_analysis* d, int link);           // false when the force of link is determined
 // structured.c: what is too long to be written out, in named intermediates.  NULL when there is no such system.

@@ -310,7 +310,7 @@ static bool find_rates(pl_analysis* d, pl_loop* l) {
   pl_replace zero[2];
   for (int j = 0; j < l->n; j++) zero[j] = (pl_replace){d->q.at[l->coordinate[j]].v, pl_int(d->pool, 0)};
   for (int r = 0; r < l->n; r++) {
-    pl_expr rate = pl_mapped(d, pl_dt(d->pool, d->g.at[l->bond[r]].g));
+    pl_expr rate = pl_mapped(d, pl_dt(d->pool, d->g.at[l->bond[r]].place));
     for (int j = 0; j < l->n; j++) A[r * l->n + j] = pl_alg_normal(d->tower, pl_diff(d->pool, rate, zero[j].from));
     b[r] = pl_neg(d->pool, pl_subst(d->pool, rate, zero, l->n));
   }
@@ -488,12 +488,12 @@ static bool is_at_work(const pl_analysis* d, int k) {
 
 bool pl_solve_loop(pl_analysis* d, int bond, bool pair) {
   int open[2], other_open[2];
-  pl_expr e[2] = {pl_mapped(d, d->g.at[bond].g), pl_poison()};
+  pl_expr e[2] = {pl_mapped(d, d->g.at[bond].place), pl_poison()};
   int n = unknowns_in(d, e[0], open);
   if (n == 1 && !pair) return solve_alone(d, bond, e[0], open[0]);
   for (int k = 0; n == 2 && pair && k < d->g.n; k++) {
     if (k == bond || !is_at_work(d, k)) continue;
-    e[1] = pl_mapped(d, d->g.at[k].g);
+    e[1] = pl_mapped(d, d->g.at[k].place);
     int m = unknowns_in(d, e[1], other_open);
     bool same = m == 2 && open[0] == other_open[0] && open[1] == other_open[1];
     if (same && solve_pair(d, bond, k, e, open)) return true;

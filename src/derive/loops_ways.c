@@ -58,7 +58,7 @@ static pl_expr with_name(pl_analysis* d, pl_loop* l, const char* letter, pl_symb
 
 // ---------------------------------------------------------------------------------------------- one unknown
 // sqrt(e) = outer * inner with the squares in e taken out, without bars.
-static void take_squares_out(pl_analysis* d, pl_expr e, pl_expr* outer, pl_expr* rest) {
+void pl_take_squares_out(pl_analysis* d, pl_expr e, pl_expr* outer, pl_expr* rest) {
   pl_factor f[most_factors];
   pl_expr unit;
   *outer = pl_int(d->pool, 1);
@@ -94,7 +94,7 @@ static bool plain_ways(pl_analysis* d, pl_loop* l, pl_expr F, pl_symbol u) {
   if (n != 2) return n == 1;
   pl_expr disc = pl_alg_normal(d->tower, pl_sub(p, pl_square(p, c[1]), pl_mul_n(p, (pl_expr[]){pl_int(p, 4), c[0], c[2]}, 3)));
   if (is_zero(d, disc)) return false;
-  take_squares_out(d, disc, &outer, &rest);
+  pl_take_squares_out(d, disc, &outer, &rest);
   must_be_real(d, l, rest);
   pl_expr w = pl_sqrt(p, rest);
   if (pl_op_count(p, rest) > longest_unnamed) w = with_name(d, l, "w", u, w);
@@ -213,7 +213,7 @@ static bool quadratic_in_each(pl_analysis* d, pl_loop* l, const pl_expr* c, cons
     for (int j = 0; j < 3; j++) at[j] = pl_alg_normal(d->tower, pl_subst1(p, c[j], u->q, value));
     pl_expr disc = pl_alg_normal(d->tower, pl_sub(p, pl_square(p, at[1]), pl_mul_n(p, (pl_expr[]){pl_int(p, 4), at[0], at[2]}, 3)));
     pl_expr outer, rest;
-    take_squares_out(d, disc, &outer, &rest);
+    pl_take_squares_out(d, disc, &outer, &rest);
     must_be_real(d, l, rest);
     for (int s = 0; s < 2; s++) {
       pl_expr root = pl_mul_n(p, (pl_expr[]){pl_int(p, s ? -1 : 1), outer, pl_sqrt(p, rest)}, 3);

@@ -31,6 +31,33 @@ pl_expr pl_mapped(pl_analysis* d, pl_expr e) {
   return pl_subst(d->pool, pl_on_contact(d, e), d->maps.at, d->maps.n);
 }
 
+// ---------------------------------------------------------------------------------------------- roots
+// A root that contains coordinates; poison if there is none.
+static pl_expr root_in(pl_analysis* d, pl_expr e) {
+  if (pl_is_sqrt(d->pool, e) && pl_has_coordinates(d, e)) return e;
+  for (int k = 0; k < pl_n_args(d->pool, e); k++) {
+    pl_expr found = root_in(d, pl_arg(d->pool, e, k));
+    if (!pl_is_poison(found)) return found;
+  }
+  return pl_poison();
+}
+
+// sqrt(P) = r with a given r > 0 says P = r^2.
+static pl_expr without_root(pl_analysis* d, pl_expr e) {
+  int sign = 0;
+  pl_expr root = root_in(d, e), c[2];
+  if (pl_is_poison(root) || pl_alg_coefficients_atom(d->tower, e, root, c, 1) != 1) return e;
+  if (pl_has_coordinates(d, c[0]) || pl_has_coordinates(d, c[1])) return e;
+  pl_expr length = pl_alg_normal(d->tower, pl_neg(d->pool, pl_div(d->pool, c[0], c[1])));
+  if (pl_alg_sign(d->tower, length, false, &sign) != PL_YES || sign < 0) return e;
+  return pl_alg_normal(d->tower, pl_sub(d->pool, pl_arg(d->pool, root, 0), pl_square(d->pool, length)));
+}
+
+void pl_find_places(pl_analysis* d) {
+  for (int k = 0; k < d->g.n; k++) d->g.at[k].place = d->g.at[k].velocity ? d->g.at[k].g : without_root(d, d->g.at[k].g);
+}
+
+// ---------------------------------------------------------------------------------------------- maps
 // The map of `choose`: old coordinates first to last, each with the ones before it inserted.
 static void chosen_maps(pl_analysis* d) {
   const pl_choose* choose = &d->model->choose;
@@ -95,11 +122,13 @@ static bool solve_linear(pl_analysis* d, pl_expr e, int i, pl_expr* out) {
 }
 
 static bool solve_roots(pl_analysis* d, pl_expr e, int i, pl_expr* out) {
+  d->q.at[i].by_branch = false;
   pl_root root[max_roots];
   bool complete = false;
   int n = pl_alg_roots(d->tower, e, d->q.at[i].q, root, max_roots, &complete);
   int k = n == 1 && complete ? 0 : pick_root(d, i, root, n);
   if (k < 0) return false;
+  d->q.at[i].by_branch = n > 1;
   *out = root[k].value;
   return true;
 }
@@ -114,7 +143,7 @@ static bool has_start(const pl_analysis* d, const pl_variable* c) {
 }
 
 static bool solve_link_for(pl_analysis* d, int k, bool roots, bool started) {
-  pl_expr e = pl_mapped(d, d->g.at[k].g);
+  pl_expr e = pl_mapped(d, d->g.at[k].place);
   for (int i = d->q.n - 1; i >= 0; i--) {
     if (!pl_open_coordinate(&d->q.at[i]) || !pl_has_symbol(d->pool, e, d->q.at[i].q)) continue;
     if (has_start(d, &d->q.at[i]) != started) continue;
@@ -150,7 +179,7 @@ static bool solve_somehow(pl_analysis* d, int k, bool roots_allowed) {
 // Passes over the constraints, as long as one more is solved.
 static bool solve_links(pl_analysis* d) {
   bool kinematic = d->particle.n == 0 && d->model->loads.n == 0;
-  bool roots_allowed = d->model->choose.coords.n > 0 || kinematic, all = false;
+  bool roots_allowed = d->model->choose.coords.n > 0 || d->is_proposal || kinematic, all = false;
   bool* done = PL_ARRAY(d->arena, bool, d->g.n + 1);
   for (bool progress = true; progress && !all;) {
     progress = false;
@@ -194,6 +223,7 @@ static bool find_hidden(pl_analysis* d) {
 }
 
 pleuel_status pl_reduce(pl_analysis* d) {
+  pl_find_places(d);
   chosen_maps(d);
   d->reduced = solve_links(d);
   if (!d->reduced) {

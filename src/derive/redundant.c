@@ -43,6 +43,15 @@ void pl_share_forces(pl_analysis* d) {
   }
 }
 
+void pl_inherit_dependences(pl_analysis* a, const pl_analysis* from) {
+  for (int r = 0; r < from->dependences.n; r++) {
+    pl_dependence p = {.implied = from->dependences.at[r].implied, .c = PL_ARRAY(a->arena, pl_expr, a->g.n)};
+    for (int k = 0; k < a->g.n; k++) p.c[k] = pl_alg_normal(a->tower, pl_on_maps(a, from->dependences.at[r].c[k]));
+    pl_push(a->arena, a->dependences, p);
+  }
+  pl_share_forces(a);
+}
+
 // A multiplier of e is one that nothing determines.
 bool pl_not_determined(pl_analysis* d, pl_expr e) {
   for (int r = 0; r < d->dependences.n; r++) {

@@ -267,7 +267,8 @@ pleuel_status pl_setup_coordinates(pl_analysis* d) {
   add_contact_facts(d);
   for (int i = 0; i < d->q.n; i++) d->q.at[i].carries = carries(d, &d->q.at[i]);
   d->tower = pl_tower_make(d->job, d->pool, d->facts.at, d->facts.n);
-  d->solution->tower = d->tower;
+  if (d->is_proposal) pl_push(d->arena, d->solution->trial_towers, d->tower);
+  else d->solution->tower = d->tower;
   define_names(d);
   probe_start(d);
   return PLEUEL_OK;

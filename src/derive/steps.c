@@ -17,6 +17,7 @@ pl_section* pl_section_open(pl_analysis* d, const pl_ask* ask, const char* en, c
   }
   pl_push(d->arena, d->solution->sections, s);
   d->section = &d->solution->sections.at[d->solution->sections.n - 1];
+  pl_tell_proposal(d);
   if (pl_speaks_of_loops(ask)) pl_tell_loops(d);
   return d->section;
 }

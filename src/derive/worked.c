@@ -218,7 +218,38 @@ static void leave_implicit(pl_analysis* d, const pl_ask* ask) {
   if (ask->kind == PL_ASK_EQUILIBRIA) show_rest(d);
 }
 
-static void answer(pl_analysis* d, const pl_ask* ask) {
+// ---------------------------------------------------------------------------------------------- which coordinates
+static bool of_forces(pl_analysis* d, pl_expr e) {
+  return pl_has_role(d->pool, e, PL_R_ACCELERATION) || pl_has_role(d->pool, e, PL_R_MULTIPLIER) || pl_has_role(d->pool, e, PL_R_LOCAL);
+}
+
+// What is answered in generalized coordinates.  Multipliers, accelerations and forces stay in the coordinates of the model, where
+// these have a closed form and no motion is named.
+static bool in_generalized(pl_analysis* d, const pl_ask* ask) {
+  switch (ask->kind) {
+    case PL_ASK_LIMIT:
+    case PL_ASK_SERIES: return false;
+    case PL_ASK_SOLVE: return !d->solved || ask->of_time || !of_forces(d, ask->value);
+    case PL_ASK_VALUE: return !d->solved || ask->where.n > 0 || ask->motion.given || !of_forces(d, ask->value);
+    case PL_ASK_FORCE_OF:
+    case PL_ASK_FORCE_ON: return !d->solved || ask->motion.given;
+    default: return true;
+  }
+}
+
+// No freedom is left: all is a function of t.
+static bool is_driven(const pl_analysis* d) { return d->solution->dof.dof == 0; }
+
+// The analysis that answers: in the coordinates of the model, or with what is proposed.
+static pl_analysis* serving(pl_analysis* d, const pl_ask* ask) {
+  bool first_kind = ask->kind == PL_ASK_DOF || ask->kind == PL_ASK_CONSTRAINTS || ask->kind == PL_ASK_LAGRANGE1 ||
+                    ask->kind == PL_ASK_NEWTON || ask->kind == PL_ASK_CONSERVED;
+  if (d->reduced || first_kind || !(in_generalized(d, ask) || is_driven(d))) return d;
+  pl_analysis* a = pl_propose(d);
+  return a ? a : d;
+}
+
+static void answer_with(pl_analysis* d, const pl_ask* ask) {
   if (d->model->frictions.n > 0 && !survives_friction(ask->kind)) {
     leave_to_simulation(d, ask);
     return;
@@ -253,6 +284,32 @@ static void answer(pl_analysis* d, const pl_ask* ask) {
   }
 }
 
+// The motion that is meant, and the place of a position of rest, in generalized coordinates.
+static pl_ask in_its_coordinates(pl_analysis* d, const pl_ask* ask) {
+  pl_ask own = *ask;
+  pl_condition* found;
+  int n = pl_in_generalized(d, ask->motion.from, ask->motion.n_from, &found);
+  if (n >= 0) {
+    own.motion.from = found;
+    own.motion.n_from = n;
+  }
+  bool place = ask->kind == PL_ASK_MODES || ask->kind == PL_ASK_EQUILIBRIA || ask->kind == PL_ASK_THRESHOLD;
+  n = place ? pl_in_generalized(d, ask->where.at, ask->where.n, &found) : -1;
+  if (n >= 0) {
+    own.where.at = found;
+    own.where.n = own.where.cap = n;
+  }
+  return own;
+}
+
+static void answer(pl_analysis* d, const pl_ask* ask) {
+  pl_analysis* a = serving(d, ask);
+  pl_ask own = in_its_coordinates(a, ask);
+  a->section = d->section;
+  answer_with(a, &own);
+  d->section = a->section;
+}
+
 static void standard(pl_analysis* d, pl_ask_kind kind, const char* text) {
   pl_ask ask = {.kind = kind, .text = text};
   answer(d, &ask);
@@ -273,12 +330,13 @@ static void answer_standard(pl_analysis* d) {
     pl_ask ask = {.kind = PL_ASK_SOLVE, .text = pl_format(d->arena, "solve %s", lambda->name), .value = pl_sym(d->pool, d->g.at[k].lambda)};
     answer(d, &ask);
   }
-  if (d->reduced) {
+  const pl_analysis* a = d->reduced ? d : pl_propose(d);
+  if (a) {
     standard(d, PL_ASK_LAGRANGIAN, "lagrangian");
     standard(d, PL_ASK_LAGRANGE2, "lagrange2");
   }
   standard(d, PL_ASK_CONSERVED, "conserved");
-  if (d->reduced && d->loops.n == 0) standard(d, PL_ASK_EQUILIBRIA, "equilibria");
+  if (a && a->loops.n == 0) standard(d, PL_ASK_EQUILIBRIA, "equilibria");
 }
 
 static bool wanted(const pl_derive_options* o, const pl_ask* ask) {
@@ -344,19 +402,26 @@ static uint64_t fact_order(const pl_analysis* d, const pl_fact* f) {
   return ((uint64_t)n << 32) + first.id;
 }
 
-static void list_assumptions(pl_analysis* d) {
-  int n = 0;
-  const pl_fact* used = pl_tower_used(d->tower, &n);
-  const pl_fact** sorted = PL_ARRAY(d->arena, const pl_fact*, n + 1);
-  for (int k = 0; k < n; k++) {   // by insertion: few, and equal ones keep their order
-    int at = k;
-    for (; at > 0 && fact_order(d, sorted[at - 1]) > fact_order(d, &used[k]); at--) sorted[at] = sorted[at - 1];
-    sorted[at] = &used[k];
+static bool is_listed(pl_analysis* d, const pl_fact* f, const pl_fact** sorted, int n) {
+  bool numbers = pl_is_constant(d->pool, pl_without_measures(d->pool, f->difference));    // 2 kg > 0
+  bool listed = numbers || is_contact(d, f);
+  for (int k = 0; k < n; k++) listed |= sorted[k]->strict == f->strict && pl_same(sorted[k]->difference, f->difference);
+  return listed;
+}
+
+// Those of d, and those of a if it is there.
+static void list_assumptions(pl_analysis* d, pl_analysis* a) {
+  int n_own = 0, n_other = 0, n = 0;
+  const pl_fact *own = pl_tower_used(d->tower, &n_own), *other = a ? pl_tower_used(a->tower, &n_other) : NULL;
+  const pl_fact** sorted = PL_ARRAY(d->arena, const pl_fact*, n_own + n_other + 1);
+  for (int k = 0; k < n_own + n_other; k++) {   // by insertion: few, and equal ones keep their order
+    const pl_fact* f = k < n_own ? &own[k] : &other[k - n_own];
+    if (is_listed(d, f, sorted, n)) continue;
+    int at = n++;
+    for (; at > 0 && fact_order(d, sorted[at - 1]) > fact_order(d, f); at--) sorted[at] = sorted[at - 1];
+    sorted[at] = f;
   }
-  for (int k = 0; k < n; k++) {
-    bool numbers = pl_is_constant(d->pool, pl_without_measures(d->pool, sorted[k]->difference));    // 2 kg > 0
-    if (!numbers && !is_contact(d, sorted[k])) pl_push(d->arena, d->solution->used, fact_text(d, sorted[k]));
-  }
+  for (int k = 0; k < n; k++) pl_push(d->arena, d->solution->used, fact_text(d, sorted[k]));
 }
 
 // ---------------------------------------------------------------------------------------------- the whole
@@ -367,18 +432,20 @@ static void pass(pl_analysis* d, pl_derive_stage stage, double* since) {
   *since = now;
 }
 
-static pleuel_status form_equations(pl_analysis* d) {
+pleuel_status pl_form_equations(pl_analysis* d) {
   PL_TRY(pl_setup_coordinates(d));
   PL_TRY(pl_setup_trivial(d));
   PL_TRY(pl_energies(d));
   PL_TRY(pl_reduce(d));
+  pl_start_in_generalized(d);
   find_implied(d);
-  return find_contradictions(d);
+  return PLEUEL_OK;
 }
 
 static pleuel_status derive(pl_analysis* d) {
   double since = pl_cpu_ms();
-  pleuel_status status = form_equations(d);
+  pleuel_status status = pl_form_equations(d);
+  if (status == PLEUEL_OK) status = find_contradictions(d);
   pass(d, PL_D_EQUATIONS, &since);
   PL_TRY(status);
   PL_TRY(pl_solve_motion(d));
@@ -389,11 +456,15 @@ static pleuel_status derive(pl_analysis* d) {
   pl_note_equilibrium_start(d);
   if (d->options && d->options->structure) return PLEUEL_OK;
   status = answer_all(d);
+  pl_analysis* proposed = d->proposal ? pl_propose(d) : NULL;
   pl_spread_assemblies(d);
+  if (proposed) pl_spread_assemblies(proposed);
+  pl_define_proposed(d);
   pass(d, PL_D_PRESENTATION, &since);
   pl_claims_check(d);
+  if (proposed) pl_claims_check(proposed);
   pass(d, PL_D_CERTIFICATES, &since);
-  list_assumptions(d);
+  list_assumptions(d, proposed);
   return status;
 }
 
@@ -428,8 +499,11 @@ pleuel_status pl_derive(pl_job* job, pl_model* model, const pl_derive_options* o
 }
 
 void pl_solution_close(pl_solution* s) {
-  if (s && s->tower) pl_tower_free(s->tower);
-  if (s) s->tower = NULL;
+  if (!s) return;
+  if (s->tower) pl_tower_free(s->tower);
+  s->tower = NULL;
+  for (int k = 0; k < s->trial_towers.n; k++) pl_tower_free(s->trial_towers.at[k]);
+  s->trial_towers.n = 0;
 }
 
 void pl_derive_dump(pl_text* out, const pl_solution* s) {

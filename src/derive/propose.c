@@ -1,0 +1,510 @@
+// propose: generalized coordinates for a model that chooses none.
+//
+// The constraints tell them.  A sum of squares, (x - a)^2/A + (y - b)^2/B = 1, gives its angle, a sphere two angles; where there is
+// none, a coordinate that is there already leads and the constraints are solved for the others.  Each proposal is a `choose` in a
+// copy of the model: it is tried as if the text had said it, and the first one that solves all constraints is taken.  What is derived
+// with it is a second analysis beside the one in the coordinates of the model; both share pool and solution.
+#include <string.h>
+
+#include "loops_impl.h"
+
+enum { most_angles = 12, most_trials = 8 };
+
+// One sum of squares: half axes and centres along its coordinates, and the angles that take their place.
+typedef struct pl_round {
+  int n, bond;
+  int coordinate[3];
+  pl_expr centre[3], axis[3];
+} pl_round;
+
+typedef struct pl_trial {
+  pl_round round[most_angles];
+  int n_rounds;
+  int chosen[most_angles];          // coordinates that are there already
+  int n_chosen;
+} pl_trial;
+
+// Letters that were made, and how many the present trial has taken.
+typedef struct pl_angle_names { pl_symbol at[most_angles]; int n, next; } pl_angle_names;
+
+struct pl_proposal {
+  pl_analysis* analysis;            // of the copy; NULL: nothing was found
+  PL_VEC(pl_definition) angles;     // the new ones, over the coordinates of the model
+  PL_VEC(pl_definition) tried;      // the same, of the present trial
+  pl_angle_names plain, numbered, polar;
+  int n_trials;
+  bool told;                        // what is proposed has been said
+};
+
+// ---------------------------------------------------------------------------------------------- sums of squares
+// e = square q^2 + slope q + rest, the first two without q; false if it is not of this shape.
+static bool square_in(pl_analysis* d, pl_expr e, pl_symbol q, pl_expr* c) {
+  if (pl_alg_coefficients(d->tower, e, q, c, 2) != 2 || pl_has_coordinates(d, c[2])) return false;
+  return true;
+}
+
+// e is a sum of squares in these coordinates; what is left of it is minus the square of the radius times a coefficient.
+static bool round_in(pl_analysis* d, pl_expr e, const int* coordinate, int n, pl_round* out) {
+  pl_pool* p = d->pool;
+  pl_expr square[3], c[3];
+  *out = (pl_round){.n = n};
+  for (int k = 0; k < n; k++) {
+    if (!square_in(d, e, d->q.at[coordinate[k]].q, c)) return false;
+    for (int j = k + 1; j < n; j++) {
+      if (pl_has_symbol(p, c[1], d->q.at[coordinate[j]].q)) return false;
+    }
+    out->coordinate[k] = coordinate[k];
+    out->centre[k] = pl_alg_normal(d->tower, pl_neg(p, pl_div(p, c[1], pl_mul(p, pl_int(p, 2), c[2]))));
+    square[k] = c[2];
+    e = pl_alg_normal(d->tower, pl_sub(p, c[0], pl_mul(p, c[2], pl_square(p, out->centre[k]))));
+  }
+  for (int k = 0; k < n; k++) {
+    pl_expr outer, rest;
+    int sign = 0;
+    pl_take_squares_out(d, pl_alg_normal(d->tower, pl_neg(p, pl_div(p, e, square[k]))), &outer, &rest);
+    if (pl_has_coordinates(d, rest) || pl_is_zero_node(p, rest)) return false;
+    if (pl_alg_sign(d->tower, rest, true, &sign) == PL_YES && sign < 0) return false;
+    out->axis[k] = pl_alg_normal(d->tower, pl_mul(p, outer, pl_sqrt(p, rest)));
+  }
+  return true;
+}
+
+// Both are components of the position of one mass.
+static bool of_one_particle(pl_analysis* d, int i, int j) {
+  for (int k = 0; k < d->particle.n; k++) {
+    const pl_particle* m = &d->particle.at[k];
+    bool has_i = false, has_j = false;
+    for (int c = 0; c < m->n; c++) {
+      has_i |= pl_has_symbol(d->pool, m->at[c], d->q.at[i].q);
+      has_j |= pl_has_symbol(d->pool, m->at[c], d->q.at[j].q);
+    }
+    if (has_i && has_j) return true;
+  }
+  return false;
+}
+
+// The axis along which a coordinate moves a mass; behind all axes where it moves none.
+static int axis_along(pl_analysis* d, int i) {
+  for (int c = 0; c < 3; c++) {
+    for (int k = 0; k < d->particle.n; k++) {
+      const pl_particle* m = &d->particle.at[k];
+      if (c < m->n && pl_has_symbol(d->pool, m->at[c], d->q.at[i].q)) return c;
+    }
+  }
+  return 3;
+}
+
+// In the order of the axes, whatever the order of declaration.
+static void sort_by_axis(pl_analysis* d, int* coordinate, int n) {
+  for (int k = 1; k < n; k++) {
+    for (int j = k; j > 0 && axis_along(d, coordinate[j - 1]) > axis_along(d, coordinate[j]); j--) {
+      int other = coordinate[j];
+      coordinate[j] = coordinate[j - 1];
+      coordinate[j - 1] = other;
+    }
+  }
+}
+
+// The coordinates of e that no sum of squares before it has taken.
+static int free_in(pl_analysis* d, pl_expr e, const bool* taken, int* out, int max) {
+  int n = 0;
+  for (int i = 0; i < d->q.n; i++) {
+    const pl_variable* c = &d->q.at[i];
+    if (!c->carries || c->fixed_by >= 0 || taken[i] || !pl_has_symbol(d->pool, e, c->q)) continue;
+    if (n < max) out[n] = i;
+    n++;
+  }
+  sort_by_axis(d, out, n < max ? n : max);
+  return n;
+}
+
+// Of several pairs that make a circle the one that belongs to one mass, else the last.
+static bool round_among(pl_analysis* d, pl_expr e, const int* open, int n, pl_round* out) {
+  bool found = false, whole = false;
+  for (int a = 0; a < n; a++) {
+    for (int b = a + 1; b < n; b++) {
+      pl_round r;
+      bool one = of_one_particle(d, open[a], open[b]);
+      if ((whole && !one) || !round_in(d, e, (int[]){open[a], open[b]}, 2, &r)) continue;
+      found = true;
+      whole = one;
+      *out = r;
+    }
+  }
+  return found;
+}
+
+static bool round_of_factor(pl_analysis* d, pl_expr e, const bool* taken, int freedoms, pl_round* out) {
+  enum { most_open = 8 };
+  int open[most_open];
+  int n = free_in(d, e, taken, open, most_open);
+  if (n < 2 || n > most_open) return false;
+  if (n == 3 && freedoms >= 2 && round_in(d, e, open, 3, out)) return true;
+  return round_among(d, e, open, n, out);
+}
+
+// (x^2 + y^2)^2 = l^4 has one factor that is a circle, and one that never vanishes.
+static bool round_of(pl_analysis* d, int bond, const bool* taken, int freedoms, pl_round* out) {
+  enum { most_factors = 8 };
+  pl_factor f[most_factors];
+  pl_expr unit, e = pl_alg_normal(d->tower, pl_on_contact(d, d->g.at[bond].place));
+  int n = pl_alg_factors(d->tower, e, f, most_factors, &unit), found = 0;
+  for (int k = 0; k < n; k++) {
+    if (f[k].power > 0 && pl_has_coordinates(d, f[k].base)) found += round_of_factor(d, f[k].base, taken, freedoms, out);
+  }
+  out->bond = bond;
+  return found == 1;
+}
+
+// ---------------------------------------------------------------------------------------------- what can be tried
+static bool at_work(const pl_bond* l) { return l->fixes < 0 && !l->implied; }
+
+// A body in space whose axes are coordinates keeps them.
+static bool has_axes(const pl_analysis* d) {
+  for (int k = 0; k < d->g.n; k++) {
+    if (d->g.at[k].source->body) return true;
+  }
+  return false;
+}
+
+static int freedoms(const pl_analysis* d) {
+  int n = 0;
+  for (int i = 0; i < d->q.n; i++) n += d->q.at[i].carries && d->q.at[i].fixed_by < 0;
+  for (int k = 0; k < d->g.n; k++) n -= at_work(&d->g.at[k]);
+  return n;
+}
+
+// Sums of squares one after the other, from one constraint on, as many as there are freedoms.
+static void collect_rounds(pl_analysis* d, int first, int n_freedoms, pl_trial* out) {
+  bool* taken = PL_ARRAY(d->arena, bool, d->q.n + 1);
+  bool* used = PL_ARRAY(d->arena, bool, d->g.n + 1);
+  int n_angles = 0;
+  for (bool found = true; found;) {
+    found = false;
+    for (int k = 0; k < d->g.n && !found; k++) {
+      int bond = (first + k) % d->g.n;
+      pl_round* r = &out->round[out->n_rounds];
+      if (used[bond] || !at_work(&d->g.at[bond]) || n_angles >= n_freedoms || out->n_rounds == most_angles) continue;
+      if (!round_of(d, bond, taken, n_freedoms - n_angles, r)) continue;
+      found = used[bond] = true;
+      for (int j = 0; j < r->n; j++) taken[r->coordinate[j]] = true;
+      n_angles += r->n - 1;
+      out->n_rounds++;
+    }
+  }
+}
+
+static bool is_turned(pl_analysis* d, pl_expr e, pl_symbol q) {
+  bool here = pl_kind_of(d->pool, e) == PL_CALL && pl_has_symbol(d->pool, e, q);
+  for (int k = 0; k < pl_n_args(d->pool, e) && !here; k++) here = is_turned(d, pl_arg(d->pool, e, k), q);
+  return here;
+}
+
+// Angles before lengths, what has a start before what has none, in the order of declaration.
+static int preference(pl_analysis* d, int i) {
+  int rank = 0;
+  for (int k = 0; k < d->g.n; k++) {
+    if (is_turned(d, d->g.at[k].g, d->q.at[i].q)) rank |= 2;
+  }
+  for (int k = 0; k < d->model->inits.n; k++) {
+    const pl_init* init = &d->model->inits.at[k];
+    bool own = pl_same(init->target, pl_sym(d->pool, d->q.at[i].q)) || pl_same(init->target, pl_sym(d->pool, d->q.at[i].v));
+    if (own && !init->guess) rank |= 1;
+  }
+  return rank;
+}
+
+static int by_preference(pl_analysis* d, int* out, bool angles) {
+  int n = 0;
+  for (int rank = 3; rank >= (angles ? 2 : 0); rank--) {
+    for (int i = 0; i < d->q.n; i++) {
+      if (d->q.at[i].carries && d->q.at[i].fixed_by < 0 && preference(d, i) == rank) out[n++] = i;
+    }
+  }
+  return n;
+}
+
+// ---------------------------------------------------------------------------------------------- names
+// The letters of angles, in the order in which they are given; polar angles have their own.
+static const char* const letter[][2] = {{"φ", "phi"}, {"ψ", "psi"}, {"χ", "chi"}, {"α", "alpha"}, {"β", "beta"}, {"γ", "gamma"}};
+static const char* const polar[][2] = {{"ϑ", "theta"}, {"α", "alpha"}, {"β", "beta"}, {"γ", "gamma"}, {"δ", "delta"}, {"η", "eta"}};
+enum { n_letters = sizeof letter / sizeof *letter, several = 3 };   // from `several` circles on: φ1, φ2, φ3
+
+static pl_symbol make_angle(pl_analysis* d, const char* name, const char* ascii) {
+  pl_symbol_info info = {.name = name, .ascii = ascii, .role = PL_R_COORD, .class = PL_C_COORD,
+                         .dimension = pl_dimension_one(), .dimension_known = d->model->uses_units};
+  return pl_symbol_make(d->pool, &info);
+}
+
+// Names are made once for all trials; one that the model uses is passed over.
+static pl_symbol angle_name(pl_analysis* d, pl_proposal* p, bool is_polar, bool numbered) {
+  pl_angle_names* kept = is_polar ? &p->polar : numbered ? &p->numbered : &p->plain;
+  if (kept->next < kept->n) return kept->at[kept->next++];
+  pl_symbol made = {0};
+  for (int k = kept->n; k < most_angles && numbered && !is_polar && !made.id; k++) {
+    const char* ascii = pl_format(d->arena, "phi%d", k + 1);
+    if (!pl_symbol_find(d->pool, ascii).id) made = make_angle(d, pl_format(d->arena, "φ%d", k + 1), ascii);
+  }
+  const char* const (*list)[2] = is_polar ? polar : letter;
+  for (int k = 0; k < n_letters && !made.id; k++) {
+    if (!pl_symbol_find(d->pool, list[k][1]).id) made = make_angle(d, list[k][0], list[k][1]);
+  }
+  if (made.id) kept->at[kept->n++] = made;
+  kept->next = kept->n;
+  return made;
+}
+
+// ---------------------------------------------------------------------------------------------- the copy of the model
+static pl_expr call(pl_analysis* d, pl_function f, pl_symbol q) { return pl_call(d->pool, f, pl_sym(d->pool, q)); }
+
+static void add_map(pl_analysis* d, pl_model* m, const pl_round* r, int k, pl_expr direction) {
+  pl_expr map = pl_add(d->pool, r->centre[k], pl_mul(d->pool, r->axis[k], direction));
+  m->choose.maps[m->choose.n_maps].old = pl_sym(d->pool, d->q.at[r->coordinate[k]].q);
+  m->choose.maps[m->choose.n_maps++].map = map;
+}
+
+static pl_expr along_axis(pl_analysis* d, const pl_round* r, int k) {
+  return pl_div(d->pool, pl_sub(d->pool, pl_sym(d->pool, d->q.at[r->coordinate[k]].q), r->centre[k]), r->axis[k]);
+}
+
+// The angle of the pair a, b of coordinates: its inverse is known where the radius is.
+static pl_expr turn(pl_analysis* d, const pl_round* r, int a, int b) {
+  bool circle = pl_alg_equal(d->tower, r->axis[a], r->axis[b]) == PL_YES && !pl_has_coordinates(d, r->axis[a]);
+  pl_expr x = along_axis(d, r, a), y = along_axis(d, r, b);
+  if (circle) x = pl_alg_normal(d->tower, pl_mul(d->pool, x, r->axis[a]));
+  if (circle) y = pl_alg_normal(d->tower, pl_mul(d->pool, y, r->axis[b]));
+  return pl_call2(d->pool, PL_ATAN2, y, x);
+}
+
+// What `init` says of s, as formulas speak of it: 0, a formula of given quantities, or the name s(0); poison if it says nothing.
+static pl_expr said_of(pl_analysis* d, pl_symbol s) {
+  for (int k = 0; k < d->model->inits.n; k++) {
+    const pl_init* init = &d->model->inits.at[k];
+    if (init->guess || !pl_same(init->target, pl_sym(d->pool, s))) continue;
+    bool formula = pl_is_zero_node(d->pool, init->value) || !pl_is_constant(d->pool, init->value);
+    return formula ? init->value : pl_sym(d->pool, pl_symbol_start(d->pool, s));
+  }
+  return pl_poison();
+}
+
+// e at the start, when all of it is given there.
+static pl_expr said_at_start(pl_analysis* d, pl_expr e) {
+  for (int i = 0; i < d->q.n && !pl_is_poison(e); i++) {
+    const pl_variable* c = &d->q.at[i];
+    if (pl_has_symbol(d->pool, e, c->v)) e = pl_subst1(d->pool, e, c->v, said_of(d, c->v));
+    if (pl_has_symbol(d->pool, e, c->q)) e = pl_subst1(d->pool, e, c->q, said_of(d, c->q));
+  }
+  return pl_is_poison(e) || pl_has_coordinates(d, e) ? pl_poison() : pl_alg_normal(d->tower, e);
+}
+
+static void start_angle(pl_analysis* d, pl_model* m, pl_symbol q, pl_expr inverse) {
+  pl_expr place = said_at_start(d, inverse), velocity = said_at_start(d, pl_dt(d->pool, inverse));
+  if (pl_is_poison(place)) return;
+  pl_push(d->arena, m->inits, (pl_init){.time = pl_poison(), .target = pl_sym(d->pool, q), .value = place});
+  if (pl_is_poison(velocity)) return;
+  pl_push(d->arena, m->inits, (pl_init){.time = pl_poison(), .target = pl_sym(d->pool, pl_symbol_dot(d->pool, q)), .value = velocity});
+}
+
+static bool add_angle(pl_analysis* d, pl_proposal* p, pl_model* m, pl_symbol q, pl_expr inverse) {
+  if (!q.id) return false;
+  start_angle(d, m, q, inverse);
+  pl_push(d->arena, m->coords, (pl_coord){.symbol = q, .lo = pl_poison(), .hi = pl_poison()});
+  pl_push(d->arena, m->choose.coords, q);
+  pl_push(d->arena, p->tried, (pl_definition){q, inverse});
+  return true;
+}
+
+static bool add_circle(pl_analysis* d, pl_proposal* p, pl_model* m, const pl_round* r, bool numbered) {
+  pl_symbol q = angle_name(d, p, false, numbered);
+  if (!add_angle(d, p, m, q, turn(d, r, 0, 1))) return false;
+  add_map(d, m, r, 0, call(d, PL_COS, q));
+  add_map(d, m, r, 1, call(d, PL_SIN, q));
+  return true;
+}
+
+// The axis of the sphere is the coordinate in which there is a potential, so that the other angle is cyclic; else the last one.
+static int axis_of(pl_analysis* d, const pl_round* r) {
+  int found = 2;
+  for (int k = 0; k < 3; k++) {
+    if (!pl_is_zero_node(d->pool, pl_diff(d->pool, d->V, d->q.at[r->coordinate[k]].q))) found = k;
+  }
+  return found;
+}
+
+static bool add_sphere(pl_analysis* d, pl_proposal* p, pl_model* m, const pl_round* r, bool numbered) {
+  int axis = axis_of(d, r), a = axis == 0 ? 1 : 0, b = axis == 2 ? 1 : 2;
+  pl_symbol theta = angle_name(d, p, true, false), phi = angle_name(d, p, false, numbered);
+  if (!add_angle(d, p, m, theta, pl_call(d->pool, PL_ACOS, along_axis(d, r, axis)))) return false;
+  if (!add_angle(d, p, m, phi, turn(d, r, a, b))) return false;
+  add_map(d, m, r, a, pl_mul(d->pool, call(d, PL_SIN, theta), call(d, PL_COS, phi)));
+  add_map(d, m, r, b, pl_mul(d->pool, call(d, PL_SIN, theta), call(d, PL_SIN, phi)));
+  add_map(d, m, r, axis, call(d, PL_COS, theta));
+  return true;
+}
+
+// The lists that grow are copied.
+static pl_model* copy_of(pl_analysis* d) {
+  pl_model* m = PL_NEW(d->arena, pl_model);
+  *m = *d->model;
+  m->coords.at = NULL;
+  m->coords.n = m->coords.cap = 0;
+  for (int k = 0; k < d->model->coords.n; k++) pl_push(d->arena, m->coords, d->model->coords.at[k]);
+  m->inits.at = NULL;
+  m->inits.n = m->inits.cap = 0;
+  for (int k = 0; k < d->model->inits.n; k++) pl_push(d->arena, m->inits, d->model->inits.at[k]);
+  m->choose = (pl_choose){.maps = PL_ARRAY(d->arena, struct pl_map_equation, 3 * most_angles)};
+  return m;
+}
+
+static pl_model* chosen_model(pl_analysis* d, pl_proposal* p, const pl_trial* t) {
+  pl_model* m = copy_of(d);
+  int n_circles = 0;
+  for (int k = 0; k < t->n_rounds; k++) n_circles += t->round[k].n == 2;
+  p->tried.n = p->plain.next = p->numbered.next = p->polar.next = 0;
+  for (int k = 0; k < t->n_rounds; k++) {
+    const pl_round* r = &t->round[k];
+    bool numbered = n_circles >= several;
+    if (!(r->n == 3 ? add_sphere(d, p, m, r, numbered) : add_circle(d, p, m, r, numbered))) return NULL;
+  }
+  for (int k = 0; k < t->n_chosen; k++) pl_push(d->arena, m->choose.coords, d->q.at[t->chosen[k]].q);
+  return m;
+}
+
+// ---------------------------------------------------------------------------------------------- trying
+// The equations of the copy.  True when all constraints are solved without ways that stay open; with such ways the first trial is
+// kept until a better one is found.
+static bool solves(pl_analysis* d, pl_proposal* p, const pl_trial* t, int n_freedoms) {
+  if (++p->n_trials > most_trials) return false;
+  pl_model* m = chosen_model(d, p, t);
+  if (!m) return false;
+  pl_analysis* a = PL_NEW(d->arena, pl_analysis);
+  *a = (pl_analysis){.job = d->job, .arena = d->arena, .pool = d->pool, .model = m, .options = d->options,
+                     .solution = d->solution, .told = pl_map_make(d->arena), .began_ms = d->began_ms, .proposal = p, .is_proposal = true};
+  if (pl_form_equations(a) != PLEUEL_OK || !a->reduced) return false;
+  if (a->gen.n + a->hidden.n != n_freedoms) return false;
+  bool best = a->loops.n == 0;
+  if (!best && p->analysis) return false;
+  p->analysis = a;
+  p->angles.at = NULL;
+  p->angles.n = p->angles.cap = 0;
+  for (int k = 0; k < p->tried.n; k++) pl_push(d->arena, p->angles, p->tried.at[k]);
+  return best;
+}
+
+static bool try_rounds(pl_analysis* d, pl_proposal* p, int n_freedoms) {
+  int before = -1;
+  for (int first = 0; first < d->g.n; first++) {
+    pl_trial t = {.n_rounds = 0};
+    collect_rounds(d, first, n_freedoms, &t);
+    if (t.n_rounds == 0 || t.round[0].bond == before) continue;
+    before = t.round[0].bond;
+    if (solves(d, p, &t, n_freedoms)) return true;
+  }
+  return false;
+}
+
+// Coordinates that are there lead, as many as there are freedoms: angles alone, or any.
+static bool try_coordinates(pl_analysis* d, pl_proposal* p, int n_freedoms, bool angles) {
+  int* order = PL_ARRAY(d->arena, int, d->q.n + 1);
+  int n = by_preference(d, order, angles);
+  if (n_freedoms > most_angles) return false;
+  for (int first = 0; first + n_freedoms <= n; first++) {
+    pl_trial t = {.n_chosen = n_freedoms};
+    for (int k = 0; k < n_freedoms; k++) t.chosen[k] = order[first + k];
+    if (solves(d, p, &t, n_freedoms)) return true;
+    if (n_freedoms == 0) return false;
+  }
+  return false;
+}
+
+pl_analysis* pl_propose(pl_analysis* d) {
+  if (d->is_proposal) return d;
+  if (d->proposal) return d->proposal->analysis;
+  d->proposal = PL_NEW(d->arena, pl_proposal);
+  if (d->reduced || d->model->choose.coords.n > 0 || d->g.n == 0 || pl_nonholonomic(d) || has_axes(d)) return NULL;
+  int n = freedoms(d);
+  if (n < 0 || d->model->frictions.n > 0) return NULL;
+  if (!try_coordinates(d, d->proposal, n, true) && !try_rounds(d, d->proposal, n)) try_coordinates(d, d->proposal, n, false);
+  pl_analysis* a = d->proposal->analysis;
+  if (!a) return NULL;
+  if (pl_solve_motion(a) != PLEUEL_OK) return d->proposal->analysis = NULL;
+  pl_inherit_dependences(a, d);
+  return a;
+}
+
+// ---------------------------------------------------------------------------------------------- what is said
+// "x = l cos φ, y = l sin φ": the maps of all that the new angles give, or of what is solved for a leading coordinate.
+static const pl_form* maps_form(pl_analysis* a, int* n) {
+  const pl_form** f = PL_ARRAY(a->arena, const pl_form*, a->q.n + 1);
+  *n = 0;
+  for (int i = 0; i < a->q.n; i++) {
+    const pl_variable* c = &a->q.at[i];
+    bool angle = c->solved_by == -1 && a->proposal->angles.n > 0;
+    if (!pl_is_poison(c->map) && angle) f[(*n)++] = pl_feq(a, pl_fs(a, c->q), pl_f(a, c->map, PL_S_SOLUTION));
+  }
+  return pl_flist(a, f, *n);
+}
+
+void pl_tell_proposal(pl_analysis* a) {
+  if (!a->is_proposal || a->proposal->told) return;
+  a->proposal->told = true;
+  const pl_choose* choose = &a->model->choose;
+  if (choose->coords.n == 0) return;
+  const pl_form** name = PL_ARRAY(a->arena, const pl_form*, choose->coords.n);
+  for (int k = 0; k < choose->coords.n; k++) name[k] = pl_fs(a, choose->coords.at[k]);
+  const pl_form* names = pl_flist(a, name, choose->coords.n);
+  int n;
+  const pl_form* maps = maps_form(a, &n);
+  bool one = choose->coords.n == 1;
+  if (n > 0) {
+    pl_say(a, one ? "{1} is proposed as generalized coordinate: {2}." : "{1} are proposed as generalized coordinates: {2}.",
+           one ? "{1} wird als verallgemeinerte Koordinate vorgeschlagen: {2}."
+               : "{1} werden als verallgemeinerte Koordinaten vorgeschlagen: {2}.", 2, names, maps);
+  } else {
+    pl_say(a, one ? "{1} is proposed as generalized coordinate." : "{1} are proposed as generalized coordinates.",
+           one ? "{1} wird als verallgemeinerte Koordinate vorgeschlagen." : "{1} werden als verallgemeinerte Koordinaten vorgeschlagen.",
+           1, names);
+  }
+}
+
+// ---------------------------------------------------------------------------------------------- values
+static bool speaks_of(pl_analysis* a, const pl_value* v, pl_symbol s) {
+  bool has = !pl_is_poison(v->expr) && pl_has_symbol(a->pool, v->expr, s);
+  has |= !pl_is_poison(v->got) && pl_has_symbol(a->pool, v->got, s);
+  for (int c = 0; c < v->n_components; c++) has |= pl_has_symbol(a->pool, v->components[c].expr, s);
+  for (int c = 0; c < v->n_where; c++) has |= pl_has_symbol(a->pool, v->where_expr[c], s);
+  return has;
+}
+
+// Puts the definition in front of the other names of a value.
+static void define_in(pl_analysis* a, pl_value* v, pl_symbol s, pl_expr value) {
+  if (!speaks_of(a, v, s)) return;
+  const char** name = PL_ARRAY(a->arena, const char*, v->n_where + 1);
+  pl_expr* expr = PL_ARRAY(a->arena, pl_expr, v->n_where + 1);
+  name[0] = pl_symbol_get(a->pool, s)->ascii;
+  expr[0] = value;
+  for (int k = 0; k < v->n_where; k++) {
+    name[k + 1] = v->where_name[k];
+    expr[k + 1] = v->where_expr[k];
+  }
+  v->where_name = name;
+  v->where_expr = expr;
+  v->n_where++;
+}
+
+// Angles that the model does not know, over its own coordinates.
+void pl_define_proposed(pl_analysis* d) {
+  pl_proposal* p = d->proposal;
+  if (!p || !p->analysis) return;
+  pl_analysis* a = p->analysis;
+  for (int k = 0; k < d->solution->sections.n; k++) {
+    pl_section* s = &d->solution->sections.at[k];
+    for (int i = 0; i < s->values.n; i++) {
+      for (int j = 0; j < p->angles.n; j++) {
+        const pl_definition* angle = &p->angles.at[j];
+        define_in(a, &s->values.at[i], pl_symbol_dot(a->pool, angle->symbol), pl_alg_normal(a->tower, pl_dt(a->pool, angle->value)));
+        define_in(a, &s->values.at[i], angle->symbol, angle->value);
+      }
+    }
+  }
+}
