@@ -26,63 +26,85 @@ static void claim_constant(pl_analysis* d, const pl_form* form) {
   pl_claim_that(d, PL_CLAIM_MOTION, pl_dt(d->pool, pl_form_value(d->pool, form)), power);
 }
 
-static void jacobi(pl_analysis* d) {
-  pl_expr integral = pl_energy_integral(d);
+typedef struct pl_words { const char *en, *de; } pl_words;
+
+static bool contains_time(pl_analysis* d) {
+  for (int k = 0; k < d->g.n; k++) {
+    if (!d->g.at[k].implied && pl_has_symbol(d->pool, d->g.at[k].g, pl_time(d->pool))) return true;
+  }
+  return false;
+}
+
+// Why T + V is not conserved.
+static pl_words loss(pl_analysis* d) {
+  if (pl_dissipates(d)) return (pl_words){"a force without potential acts", "es wirkt eine Kraft ohne Potential"};
+  if (pl_scleronomic(d)) {
+    return (pl_words){"a constraint that is not homogeneous in the velocities does work",
+                      "eine in den Geschwindigkeiten nicht homogene Zwangsbedingung leistet Arbeit"};
+  }
+  if (contains_time(d)) {
+    return (pl_words){"a constraint contains t, so its force does work", "eine Zwangsbedingung enthält t, ihre Zwangskraft leistet also Arbeit"};
+  }
+  return (pl_words){"the Lagrange function contains t", "die Lagrange-Funktion enthält t"};
+}
+
+static void energy_is_conserved(pl_analysis* d, pl_expr integral) {
+  const pl_form* form = energy_sum(d, integral);
+  if (!d->dissipative) pl_why_energy(d, integral);
+  pl_step_refs(pl_show(d, pl_feq(d, pl_fn(d, "E"), form)), 1, d->number_lagrangian);
+  const pl_form* V = pl_potential_form(d, pl_on_maps(d, d->V), d->reduced ? d->Vg : pl_on_contact(d, d->V));
+  if (d->dissipative) {
+    pl_say(d, "conserved: the forces without potential do no work, and neither the Lagrange function nor a constraint contains t.",
+           "erhalten: die Kräfte ohne Potential leisten keine Arbeit, und weder die Lagrange-Funktion noch eine Zwangsbedingung enthält t.", 0);
+  } else if (pl_is_zero_node(d->pool, d->V)) {
+    pl_say(d, "conserved: the Lagrange function does not contain t, and neither does any constraint.",
+           "erhalten: weder die Lagrange-Funktion noch eine Zwangsbedingung enthält t.", 0);
+  } else {
+    pl_say(d, "conserved: all forces have the potential {1}, and no constraint contains t.",
+           "erhalten: alle Kräfte haben das Potential {1}, und keine Zwangsbedingung enthält t.", 1, pl_feq(d, pl_fn(d, "V"), V));
+  }
+  const char *en = "all forces have a potential, and no constraint contains t", *de = "alle Kräfte haben ein Potential, und keine Zwangsbedingung enthält t";
+  if (d->dissipative) {
+    en = "the forces without potential do no work, and nothing contains t";
+    de = "die Kräfte ohne Potential leisten keine Arbeit, und nichts enthält t";
+  }
+  add_reason(pl_answer(d, "E", integral, form), en, de, 1);
+  claim_constant(d, form);
+}
+
+// H = sum v ∂L/∂v - L, or what is left of it when ∂L/∂t is a total time derivative.
+static void jacobi(pl_analysis* d, pl_expr integral) {
+  bool pure = pl_alg_is_zero(d->tower, pl_sub(d->pool, integral, pl_energy_integral(d))) == PL_YES;
   const pl_form* form = pl_f(d, integral, PL_S_ENERGY);
-  pl_why_energy(d, integral);
-  pl_step_refs(pl_show(d, pl_feq(d, pl_fn(d, "H"), form)), 1, d->number_lagrangian);
-  pl_say(d, "Jacobi's integral is conserved: in these coordinates the Lagrange function does not contain t.",
-         "Das Jacobi-Integral ist erhalten: in diesen Koordinaten enthält die Lagrange-Funktion t nicht.", 0);
-  add_reason(pl_answer(d, "H", integral, form), "the Lagrange function does not contain t", "die Lagrange-Funktion enthält t nicht", 1);
+  if (pure) pl_why_energy(d, integral);
+  pl_step_refs(pl_show(d, pl_feq(d, pl_fn(d, pure ? "H" : "J"), form)), 1, d->number_lagrangian);
+  pl_say(d, pure ? "Jacobi's integral is conserved: in these coordinates the Lagrange function does not contain t."
+                 : "Jacobi's integral is conserved: the Lagrange function contains t only in a total time derivative.",
+         pure ? "Das Jacobi-Integral ist erhalten: in diesen Koordinaten enthält die Lagrange-Funktion t nicht."
+              : "Das Jacobi-Integral ist erhalten: die Lagrange-Funktion enthält t nur in einer totalen Zeitableitung.", 0);
+  add_reason(pl_answer(d, pure ? "H" : "J", integral, form),
+             pure ? "the Lagrange function does not contain t" : "the Lagrange function contains t only in a total time derivative",
+             pure ? "die Lagrange-Funktion enthält t nicht" : "die Lagrange-Funktion enthält t nur in einer totalen Zeitableitung", 1);
   claim_constant(d, form);
 }
 
 static void energy(pl_analysis* d) {
-  bool scleronomic = pl_scleronomic(d), conserved = pl_energy_conserved(d);
-  pl_expr integral = pl_energy_integral(d);
-  const char *en, *de;
-  if (d->dissipative) {
-    en = "a force without potential acts";
-    de = "es wirkt eine Kraft ohne Potential";
-  } else if (scleronomic && conserved) {
-    en = "all forces have a potential, and no constraint contains t";
-    de = "alle Kräfte haben ein Potential, und keine Zwangsbedingung enthält t";
-  } else if (scleronomic) {
-    en = "a constraint that is not homogeneous in the velocities does work";
-    de = "eine in den Geschwindigkeiten nicht homogene Zwangsbedingung leistet Arbeit";
-  } else {
-    en = "a constraint or force contains t, so the constraint does work";
-    de = "eine Zwangsbedingung oder Kraft enthält t, der Zwang leistet also Arbeit";
-  }
-  if (conserved && scleronomic) {
-    const pl_form* form = energy_sum(d, integral);
-    pl_why_energy(d, integral);
-    pl_step_refs(pl_show(d, pl_feq(d, pl_fn(d, "E"), form)), 1, d->number_lagrangian);
-    const pl_form* V = pl_potential_form(d, pl_on_maps(d, d->V), d->reduced ? d->Vg : pl_on_contact(d, d->V));
-    if (pl_is_zero_node(d->pool, d->V)) {
-      pl_say(d, "conserved: the Lagrange function does not contain t, and neither does any constraint.",
-             "erhalten: weder die Lagrange-Funktion noch eine Zwangsbedingung enthält t.", 0);
-    } else {
-      pl_say(d, "conserved: all forces have the potential {1}, and no constraint contains t.",
-             "erhalten: alle Kräfte haben das Potential {1}, und keine Zwangsbedingung enthält t.", 1, pl_feq(d, pl_fn(d, "V"), V));
-    }
-    add_reason(pl_answer(d, "E", integral, form), en, de, 1);
-    claim_constant(d, form);
+  pl_expr integral = pl_jacobi_integral(d);
+  if (!pl_is_poison(integral) && pl_scleronomic(d)) {
+    energy_is_conserved(d, integral);
     return;
   }
-  pl_say(d, pl_format(d->arena, "The energy is not conserved: %s.", en), pl_format(d->arena, "Die Energie ist nicht erhalten: %s.", de), 0);
-  add_reason(pl_answer(d, "E", pl_poison(), NULL), en, de, 0);
-  if (conserved) jacobi(d);
+  pl_words why = loss(d);
+  pl_say(d, pl_format(d->arena, "The energy is not conserved: %s.", why.en), pl_format(d->arena, "Die Energie ist nicht erhalten: %s.", why.de), 0);
+  add_reason(pl_answer(d, "E", pl_poison(), NULL), why.en, why.de, 0);
+  if (!pl_is_poison(integral)) jacobi(d, integral);
 }
 
-// Is the generalized force along coordinate i zero, so that a cyclic momentum is conserved?
+// Is the generalized force along coordinate i not zero, so that a cyclic momentum is not conserved?
 bool pl_pushed(pl_analysis* d, int i) {
-  for (int j = 0; j < d->q.n; j++) {
-    if (pl_is_zero_node(d->pool, d->force[j])) continue;
-    const pl_variable* c = &d->q.at[j];
-    if (j == i || (!pl_is_poison(c->map) && !pl_is_zero_node(d->pool, pl_by_coordinate(d, c->map, i)))) return true;
-  }
-  return false;
+  bool none = true;
+  for (int j = 0; j < d->q.n; j++) none &= pl_is_zero_node(d->pool, d->force[j]);
+  return !none && pl_alg_is_zero(d->tower, pl_generalized_force(d, i)) != PL_YES;
 }
 
 static void cyclic(pl_analysis* d, int i) {
@@ -121,7 +143,7 @@ static void in_proposed(pl_analysis* d) {
   a->section = d->section;
   if (!pl_energy_conserved(d) && pl_energy_conserved(a) && !pl_scleronomic(a)) {
     pl_tell_proposal(a);
-    jacobi(a);
+    jacobi(a, pl_jacobi_integral(a));
   }
   for (int k = 0; k < a->gen.n; k++) {
     int i = a->gen.at[k];

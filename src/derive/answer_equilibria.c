@@ -330,6 +330,13 @@ void pl_say_no_rest_named(pl_analysis* d, const pl_ask* ask, const pl_expr* f) {
   d->section->not_found = true;
 }
 
+static void say_none(pl_analysis* d, const pl_expr* f) {
+  bool moves = false;
+  for (int k = 0; k < d->gen.n; k++) moves |= pl_has_symbol(d->pool, f[k], pl_time(d->pool));
+  pl_say(d, moves ? "There is none: the equations contain t, and no position fits at all times." : "There is none.",
+         moves ? "Es gibt keine: die Gleichungen enthalten t, und keine Lage passt zu allen Zeiten." : "Es gibt keine.", 0);
+}
+
 void pl_answer_equilibria(pl_analysis* d, const pl_ask* ask) {
   pl_section_open(d, ask, "Equilibria", "Gleichgewichtslagen");
   pl_expr f[pl_max_gen];
@@ -344,7 +351,7 @@ void pl_answer_equilibria(pl_analysis* d, const pl_ask* ask) {
     else show_rest(d, f, &found->at[k], ++shown);
   }
   say_singular(d, found);
-  if (found->n == 0 && found->complete && found->n_singular == 0) pl_say(d, "There is none.", "Es gibt keine.", 0);
+  if (found->n == 0 && found->complete && found->n_singular == 0) say_none(d, f);
   pl_say_rests_missing(d, found);
   if (!found->complete) d->section->not_found = found->n == 0;
   end_of_steady(d);

@@ -161,7 +161,7 @@ static const pl_form* at_start(pl_analysis* d, const pl_variable* c, pl_expr q0,
 // The energy equation and q'^2 from it; returns the number of the latter.
 static int show_elimination(pl_analysis* d, pl_expr v2, pl_expr q0, pl_expr v0) {
   const pl_variable* c = &d->q.at[d->gen.at[0]];
-  pl_expr E = pl_energy_integral(d);
+  pl_expr E = pl_conserved_energy(d);
   pl_replace start[2] = {{c->q, q0}, {c->v, v0}};
   pl_expr E0 = pl_alg_normal(d->tower, pl_subst(d->pool, E, start, 2));
   pl_say(d, "The energy is conserved; from {1}:", "Die Energie ist erhalten; von {1} aus:", 1, at_start(d, c, q0, v0));

@@ -203,15 +203,7 @@ static void modes_of_steady(pl_analysis* d, const pl_ask* ask) {
   d->steady.n = 0;
 }
 
-void pl_answer_modes(pl_analysis* d, const pl_ask* ask) {
-  pl_section_open(d, ask, "Modes", "Eigenschwingungen");
-  pl_expr f[pl_max_gen];
-  if (pl_rests_out_of_reach(d)) return;
-  if (ask->frame.n > 0) {
-    modes_of_steady(d, ask);
-    return;
-  }
-  pl_at_rest_equations(d, f);
+static void modes_at_rest(pl_analysis* d, const pl_ask* ask, const pl_expr* f) {
   pl_rest named;
   pl_answer3 is_rest = pl_names_a_place(d, ask) ? pl_named_rest(d, ask, f, &named) : PL_UNKNOWN;
   if (is_rest == PL_NO) {
@@ -231,7 +223,28 @@ void pl_answer_modes(pl_analysis* d, const pl_ask* ask) {
     show_modes(d, f, &found->at[k], number);
     shown++;
   }
-  if (shown == 0 && found->complete) pl_say(d, "There is no position of rest to oscillate about.", "Es gibt keine Ruhelage, um die etwas schwingen könnte.", 0);
+  if (shown == 0 && found->complete) {
+    pl_say(d, "There is no position of rest to oscillate about.", "Es gibt keine Ruhelage, um die etwas schwingen könnte.", 0);
+  }
   if (!found->complete) pl_say_rests_missing(d, found);
   d->section->not_found = shown == 0;
+}
+
+void pl_answer_modes(pl_analysis* d, const pl_ask* ask) {
+  pl_section_open(d, ask, "Modes", "Eigenschwingungen");
+  pl_expr f[pl_max_gen];
+  if (pl_rests_out_of_reach(d)) return;
+  if (ask->frame.n > 0) {
+    modes_of_steady(d, ask);
+    return;
+  }
+  pl_at_rest_equations(d, f);
+  if (pl_without_drive(d, f)) {
+    modes_at_rest(d, ask, f);
+  } else {
+    pl_say(d, "The equations contain t in a way that is no drive to be left out: there are no modes of constant frequency.",
+           "Die Gleichungen enthalten t nicht nur in einem Antrieb, den man weglassen könnte: es gibt keine Eigenschwingungen fester Frequenz.", 0);
+    d->section->not_found = true;
+  }
+  d->steady.n = 0;
 }

@@ -346,7 +346,10 @@ pl_expr pl_conserved_energy(pl_analysis* d);            // E in generalized coor
 // The value of e (in coordinates, velocities, accelerations, multipliers) on the motion, in generalized coordinates.
 pl_expr pl_on_motion(pl_analysis* d, pl_expr e);
 pl_expr pl_energy_integral(pl_analysis* d);             // sum v dL/dv - L, conserved or not
-bool pl_energy_conserved(pl_analysis* d);
+bool pl_energy_conserved(pl_analysis* d);               // the energy, or Jacobi's integral
+pl_expr pl_jacobi_integral(pl_analysis* d);             // what is conserved then: sum v dL/dv - L, up to a total time derivative; or poison
+bool pl_dissipates(pl_analysis* d);                     // forces without potential do work
+pl_expr pl_generalized_force(pl_analysis* d, int i);    // those along generalized coordinate i (energies.c)
 bool pl_scleronomic(pl_analysis* d);
 bool pl_nonholonomic(const pl_analysis* d);             // some constraint contains velocities
 pl_expr pl_without_velocity(pl_analysis* d, pl_expr e, pl_expr v2);   // q'^2 inserted

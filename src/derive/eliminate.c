@@ -44,14 +44,55 @@ pl_expr pl_energy_integral(pl_analysis* d) {
   return pl_alg_normal(d->tower, sum);
 }
 
-bool pl_energy_conserved(pl_analysis* d) {
-  if (d->dissipative || works(d)) return false;
-  if (!d->reduced) return pl_scleronomic(d);
-  return !pl_has_symbol(d->pool, pl_energy_integral(d), pl_time(d->pool));
+// The power of the forces without potential vanishes: a force across the velocity, as of a magnetic field.
+static bool powerless(pl_analysis* d) {
+  pl_expr power = pl_int(d->pool, 0);
+  for (int i = 0; i < d->q.n; i++) power = pl_add(d->pool, power, pl_mul(d->pool, d->force[i], pl_sym(d->pool, d->q.at[i].v)));
+  return pl_alg_is_zero(d->tower, pl_on_maps(d, power)) == PL_YES;
 }
 
+bool pl_dissipates(pl_analysis* d) { return d->dissipative && !powerless(d); }
+
+// A function of (q, t) whose total time derivative is e = sum a_i v_i + b, by integration along one coordinate after the other; poison
+// where there is none, or none was found.  There is one when the Lagrange equations of e vanish identically.
+static pl_expr primitive(pl_analysis* d, pl_expr e) {
+  pl_pool* p = d->pool;
+  pl_expr G = pl_int(p, 0);
+  for (int k = 0; k < d->gen.n; k++) {
+    const pl_variable* c = &d->q.at[d->gen.at[k]];
+    pl_expr euler = pl_sub(p, pl_dt(p, pl_diff(p, e, c->v)), pl_diff(p, e, c->q));
+    if (pl_alg_is_zero(d->tower, euler) != PL_YES) return pl_poison();
+  }
+  pl_expr rest = e;
+  for (int k = 0; k < d->gen.n; k++) {
+    const pl_variable* c = &d->q.at[d->gen.at[k]];
+    pl_expr part = pl_alg_integral(d->tower, pl_alg_normal(d->tower, pl_diff(p, rest, c->v)), c->q);
+    if (pl_is_poison(part)) return part;
+    G = pl_add(p, G, part);
+    rest = pl_alg_normal(d->tower, pl_sub(p, rest, pl_dt(p, part)));
+  }
+  if (pl_has_coordinates(d, rest)) return pl_poison();
+  pl_expr part = pl_is_zero_node(p, rest) ? rest : pl_alg_integral(d->tower, rest, pl_time(p));
+  return pl_add(p, G, part);
+}
+
+// dh/dt = -∂L/∂t for h = sum v ∂L/∂v - L.  Where ∂L/∂t is the total derivative of G, h + G is conserved.   [Arnold1989, sec. 20]
+static pl_expr conserved_integral(pl_analysis* d) {
+  if (pl_dissipates(d) || works(d)) return pl_poison();
+  if (!d->reduced) return pl_scleronomic(d) ? pl_energy_integral(d) : pl_poison();
+  pl_expr by_time = pl_alg_normal(d->tower, pl_by_coordinate(d, d->Lg, -1));
+  if (pl_is_zero_node(d->pool, by_time)) return pl_energy_integral(d);
+  return d->loops.n > 0 ? pl_poison() : pl_alg_normal(d->tower, pl_add(d->pool, pl_energy_integral(d), primitive(d, by_time)));
+}
+
+bool pl_energy_conserved(pl_analysis* d) { return !pl_is_poison(conserved_integral(d)); }
+
+pl_expr pl_jacobi_integral(pl_analysis* d) { return conserved_integral(d); }
+
+// One that contains t does not give velocities from a place.
 pl_expr pl_conserved_energy(pl_analysis* d) {
-  return pl_energy_conserved(d) ? pl_energy_integral(d) : pl_poison();
+  pl_expr E = conserved_integral(d);
+  return !pl_is_poison(E) && pl_has_symbol(d->pool, E, pl_time(d->pool)) ? pl_poison() : E;
 }
 
 // ---------------------------------------------------------------------------------------------- starts

@@ -207,7 +207,7 @@ pleuel_status pl_energies(pl_analysis* d) {
 
 // ---------------------------------------------------------------------------------------------- second kind
 // Q of generalized coordinate i: sum of Q_j dq_j/dq_i over the map.
-static pl_expr generalized_force(pl_analysis* d, int i) {
+pl_expr pl_generalized_force(pl_analysis* d, int i) {
   pl_expr sum = pl_on_maps(d, d->force[i]);
   for (int j = 0; j < d->q.n; j++) {
     const pl_variable* c = &d->q.at[j];
@@ -222,7 +222,7 @@ pl_expr pl_second_kind(pl_analysis* d, int i) {
   pl_expr momentum = pl_dt(d->pool, pl_diff(d->pool, d->Lg, c->v));
   if (d->loops.n > 0) momentum = pl_on_maps(d, momentum);   // velocities of the coordinates that follow
   pl_expr e = pl_sub(d->pool, momentum, pl_by_coordinate(d, d->Lg, i));
-  return pl_sub(d->pool, e, generalized_force(d, i));
+  return pl_sub(d->pool, e, pl_generalized_force(d, i));
 }
 
 // ---------------------------------------------------------------------------------------------- names of results

@@ -62,6 +62,9 @@ int pl_small_oscillations(pl_analysis* d, const pl_linearised* l, pl_root* root,
 bool pl_rests_out_of_reach(pl_analysis* d);                                 // said why
 void pl_at_rest_equations(pl_analysis* d, pl_expr* f);
 pl_rests* pl_find_rests(pl_analysis* d, const pl_expr* f);
+// Equations that contain t lose their drive, and it is said: forces that depend on t alone, or an amplitude, which joins d->steady.
+// False where t cannot be taken out.
+bool pl_without_drive(pl_analysis* d, pl_expr* f);
 // The position that the conditions `q = value` name: tried by inserting it.  PL_YES: one of rest; PL_NO: none, a force is left;
 // PL_UNKNOWN: they do not name every coordinate, or it is not decided.
 pl_answer3 pl_named_rest(pl_analysis* d, const pl_ask* ask, const pl_expr* f, pl_rest* out);

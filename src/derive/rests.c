@@ -385,6 +385,85 @@ pl_rests* pl_find_rests(pl_analysis* d, const pl_expr* f) {
   return found;
 }
 
+// ---------------------------------------------------------------------------------------------- without a drive
+static bool has_time(pl_analysis* d, const pl_expr* e, int n) {
+  for (int k = 0; k < n; k++) {
+    if (pl_has_symbol(d->pool, e[k], pl_time(d->pool))) return true;
+  }
+  return false;
+}
+
+// Forces that depend on time alone: f = f0(q) + h(t).  The terms of h.
+static bool split_drive(pl_analysis* d, pl_expr* f, pl_expr* drive) {
+  pl_pool* p = d->pool;
+  pl_replace zero[pl_max_gen];
+  for (int k = 0; k < d->gen.n; k++) zero[k] = (pl_replace){name_of(d, k), pl_int(p, 0)};
+  for (int k = 0; k < d->gen.n; k++) {
+    pl_expr change = pl_alg_normal(d->tower, pl_diff(p, f[k], pl_time(p)));
+    drive[k] = pl_int(p, 0);
+    if (pl_is_zero_node(p, change)) continue;
+    if (pl_has_coordinates(d, change)) return false;
+    pl_expr e = pl_expand(p, pl_alg_normal(d->tower, pl_subst(p, f[k], zero, d->gen.n)), 64);
+    int n = pl_kind_of(p, e) == PL_ADD ? pl_n_args(p, e) : 1;
+    for (int i = 0; i < n; i++) {
+      pl_expr term = pl_kind_of(p, e) == PL_ADD ? pl_arg(p, e, i) : e;
+      if (pl_has_symbol(p, term, pl_time(p))) drive[k] = pl_add(p, drive[k], term);
+    }
+  }
+  for (int k = 0; k < d->gen.n; k++) f[k] = pl_alg_normal(d->tower, pl_sub(p, f[k], drive[k]));
+  return !has_time(d, f, d->gen.n);
+}
+
+// The name stands beside t in a function: cos(Ω t + α).  Zero for it stops the clock and not the drive.
+static bool in_phase(pl_pool* p, pl_expr e, pl_symbol name) {
+  bool with_time = pl_kind_of(p, e) == PL_CALL && pl_has_symbol(p, e, pl_time(p));
+  if (with_time && pl_has_symbol(p, e, name)) return true;
+  for (int k = 0; k < pl_n_args(p, e); k++) {
+    if (in_phase(p, pl_arg(p, e, k), name)) return true;
+  }
+  return false;
+}
+
+// An amplitude: a given quantity without which nothing contains t, and the masses stay.
+static bool is_amplitude(pl_analysis* d, const pl_expr* f, pl_symbol name) {
+  pl_expr without[pl_max_gen];
+  bool all_zero = true;
+  for (int k = 0; k < d->gen.n; k++) {
+    if (in_phase(d->pool, f[k], name)) return false;
+    without[k] = pl_alg_normal(d->tower, pl_subst1(d->pool, f[k], name, pl_int(d->pool, 0)));
+    if (pl_is_poison(without[k])) return false;
+    all_zero &= pl_is_zero_node(d->pool, without[k]);
+  }
+  if (all_zero || has_time(d, without, d->gen.n)) return false;
+  pl_push(d->arena, d->steady, (pl_replace){name, pl_int(d->pool, 0)});
+  bool stays = regular(d, &(pl_rest){0});
+  d->steady.n--;
+  return stays;
+}
+
+bool pl_without_drive(pl_analysis* d, pl_expr* f) {
+  pl_expr drive[pl_max_gen];
+  if (!has_time(d, f, d->gen.n)) return true;
+  if (split_drive(d, f, drive)) {
+    const pl_form* term[pl_max_gen];
+    int n = 0;
+    for (int k = 0; k < d->gen.n; k++) {
+      if (!pl_is_zero_node(d->pool, drive[k])) term[n++] = pl_f(d, pl_neg(d->pool, drive[k]), PL_S_PLAIN);
+    }
+    pl_say(d, "Without the drive: {1} is set to 0.", "Ohne den Antrieb: {1} wird 0 gesetzt.", 1, pl_flist(d, term, n));
+    return true;
+  }
+  for (int i = 0; i < d->model->params.n; i++) {
+    pl_symbol name = d->model->params.at[i].symbol;
+    if (!is_amplitude(d, f, name)) continue;
+    pl_push(d->arena, d->steady, (pl_replace){name, pl_int(d->pool, 0)});
+    for (int k = 0; k < d->gen.n; k++) f[k] = pl_alg_normal(d->tower, pl_subst1(d->pool, f[k], name, pl_int(d->pool, 0)));
+    pl_say(d, "Without the drive: {1}.", "Ohne den Antrieb: {1}.", 1, pl_feq(d, pl_fs(d, name), pl_form_leaf(d->arena, pl_int(d->pool, 0))));
+    return true;
+  }
+  return false;
+}
+
 // ---------------------------------------------------------------------------------------------- positions that are named
 bool pl_names_a_place(pl_analysis* d, const pl_ask* ask) {
   for (int c = 0; c < ask->where.n; c++) {

@@ -268,7 +268,8 @@ item : DOF                            { $$ = ITEM(DOF, @$, 0); }
                                       { $$ = ITEM(SERIES, @$, 6, NULL, NULL, $2, $4, $5, $7); }
   | SERIES expr '=' expr ',' expr ARROW expr order OF expr
                                       { $$ = ITEM(SERIES, @$, 6, $2, $4, $6, $8, $9, $11); }
-  | THRESHOLD expr OF element         { $$ = ITEM(THRESHOLD, @$, 2, $2, $4); }
+  | THRESHOLD expr OF element at_element
+                                      { $$ = ITEM(THRESHOLD, @$, 3, $2, $4, $5); }
   | MAXIMUM expr motion               { $$ = ITEM(MAXIMUM, @$, 2, $2, $3); }
   | MINIMUM expr motion               { $$ = ITEM(MINIMUM, @$, 2, $2, $3); }
   | AVERAGE OVER expr                 { $$ = ITEM(AVERAGE, @$, 1, $3); }

@@ -119,6 +119,16 @@ static void lower_series(pl_lower* l, const pl_ast* i, pl_ask* a) {
   lower_of(l, pl_ast_kid(i, 5), a);
 }
 
+// `at θ = 0`, `at (u = 0, v = 0)`
+static void lower_place(pl_lower* l, const pl_ast* at, pl_ask* a) {
+  const pl_ast* group = at && at->kind != PL_AST_RELATION ? pl_ast_single(at) : NULL;
+  pl_condition c;
+  if (group && group->kind == PL_AST_GROUP) PUSH_CONDITIONS(l, group, a->where);
+  else if (at && at->kind == PL_AST_RELATION) {
+    if (pl_lower_relation(l, at, &c, 0)) pl_push(l->arena, a->where, c);
+  } else if (at) not_a_condition(l, at);
+}
+
 static void lower_threshold(pl_lower* l, const pl_ast* i, pl_ask* a) {
   a->kind = PL_ASK_THRESHOLD;
   a->variable = lower_variable(l, pl_ast_kid(i, 0), false);
@@ -130,6 +140,7 @@ static void lower_threshold(pl_lower* l, const pl_ast* i, pl_ask* a) {
   }
   const pl_ast* one = pl_ast_single(of);
   bool label = one && one->kind == PL_AST_NAME && (pl_scope_rule(l, one->key) || strcmp(one->key, "stable") == 0);
+  lower_place(l, pl_ast_kid(i, 2), a);
   if (label) a->label = one->shown;
   else a->value = pl_lower_scalar(l, of);
 }
@@ -199,13 +210,8 @@ static void lower_extreme(pl_lower* l, const pl_ast* i, pl_ask* a) {
 
 static void lower_modes(pl_lower* l, const pl_ast* i, pl_ask* a) {
   a->kind = PL_ASK_MODES;
-  const pl_ast *at = pl_ast_kid(i, 0), *holding = pl_ast_kid(i, 1);
-  const pl_ast* group = at && at->kind != PL_AST_RELATION ? pl_ast_single(at) : NULL;
-  pl_condition c;
-  if (group && group->kind == PL_AST_GROUP) PUSH_CONDITIONS(l, group, a->where);
-  else if (at && at->kind == PL_AST_RELATION) {
-    if (pl_lower_relation(l, at, &c, 0)) pl_push(l->arena, a->where, c);
-  } else if (at) not_a_condition(l, at);
+  const pl_ast* holding = pl_ast_kid(i, 1);
+  lower_place(l, pl_ast_kid(i, 0), a);
   // momenta that are held: their coordinates
   for (int k = 0; holding && k < holding->kids.n; k++) {
     pl_expr e = pl_lower_scalar(l, holding->kids.at[k]);
