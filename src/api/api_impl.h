@@ -136,6 +136,7 @@ pl_scene* pl_picture_scene(pleuel_model* m, pl_language lang);
 
 // ---- start_messages.c: a start that does not fit, as messages
 void pl_start_report_trouble(pleuel_model* m);
+void pl_start_report_choice(pleuel_model* m);      // several solutions fit: which one was taken
 
 // ---- motion.c: words and JSON about a run
 void pl_engine_text(pl_text* out, const pleuel_model* m, pl_language lang);    // how the steps were computed

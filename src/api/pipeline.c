@@ -40,6 +40,14 @@ static bool only_contradictions(const pl_diagnostics* d) {
   return d->n_errors > 0;
 }
 
+// A start violates constraints that contradict each other, whatever the start is: then that is the message.
+static void find_contradiction(pleuel_model* m) {
+  pl_solution* solution = NULL;
+  pl_derive(&m->job, m->model, &(pl_derive_options){.structure = true}, &solution);
+  pl_solution_close(solution);
+  if (pl_diagnostics_have(&m->diagnostics, PL_E042)) pl_diagnostics_drop(&m->diagnostics, PL_E041);
+}
+
 // model -> checked model
 pleuel_status pl_pipeline_check(pleuel_model* m) {
   if (m->is_checked) return m->checked;
@@ -50,6 +58,7 @@ pleuel_status pl_pipeline_check(pleuel_model* m) {
   m->checked = pl_model_check(&m->job, m->model);
   if (m->checked == PLEUEL_OK && m->diagnostics.n_errors > 0) m->checked = PLEUEL_MODEL_ERROR;
   if (m->checked == PLEUEL_MODEL_ERROR && only_contradictions(&m->diagnostics)) m->checked = PLEUEL_CONTRADICTION;
+  if (m->checked == PLEUEL_CONTRADICTION) find_contradiction(m);
   pl_diagnostics_sort(&m->diagnostics);
   note_time(m, PL_STAGE_CHECK, start);
   return m->checked;
@@ -324,6 +333,7 @@ pleuel_status pl_pipeline_start(pleuel_model* m, const pleuel_sim_options* o, pl
   m->tol_raised = pl_run_tol_raised(*out);
   m->tol_used = pl_run_tol(*out);
   if (s == PLEUEL_CONTRADICTION) pl_start_report_trouble(m);
+  if (s == PLEUEL_OK && !resumes) pl_start_report_choice(m);
   return s;
 }
 

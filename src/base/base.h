@@ -189,6 +189,9 @@ void pl_report_label(pl_diagnostics* d, pl_diagnostic* m, pl_span span, const ch
 
 // pl_diagnostics_sort puts messages in the order of their places, without duplicates.
 void pl_diagnostics_sort(pl_diagnostics* d);
+// pl_diagnostics_drop takes out all messages of a code; pl_diagnostics_have asks for one.
+void pl_diagnostics_drop(pl_diagnostics* d, pl_code code);
+bool pl_diagnostics_have(const pl_diagnostics* d, pl_code code);
 
 // pl_diagnostic_print writes one message in the form of the manual: sentence, line, caret, reason, fix.
 typedef struct pl_print_style { pl_language lang; bool colour, terse; } pl_print_style;

@@ -125,3 +125,22 @@ void pl_diagnostics_sort(pl_diagnostics* d) {
   }
   d->list.n = kept;
 }
+
+bool pl_diagnostics_have(const pl_diagnostics* d, pl_code code) {
+  for (int i = 0; i < d->list.n; i++) {
+    if (d->list.at[i].code == code) return true;
+  }
+  return false;
+}
+
+void pl_diagnostics_drop(pl_diagnostics* d, pl_code code) {
+  int kept = 0;
+  for (int i = 0; i < d->list.n; i++) {
+    if (d->list.at[i].code == code) {
+      d->n_errors -= pl_code_severity(code) == PL_ERROR;
+    } else {
+      d->list.at[kept++] = d->list.at[i];
+    }
+  }
+  d->list.n = kept;
+}

@@ -3,6 +3,8 @@
 #include "model_impl.h"
 
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 // ---------------------------------------------------------------------------------------------- given twice
 static const char* target_text(pl_job* job, const pl_model* m, pl_expr target, long index) {
@@ -262,16 +264,70 @@ static bool branch_allows(const pl_model* m, const double* value) {
   return true;
 }
 
-// Values of one coordinate, all others as given, that satisfy g = 0 and the branches.  Starts: around the given value.
+// What rounding of the start values themselves can do to g: sum of |dg/dq| |q|.  cos 90° is not exactly 0.
+static double size_of_start(const pl_model* m, pl_expr g, const double* value) {
+  double sum = 0;
+  for (int i = 0; i < m->inits.n; i++) {
+    const pl_init* x = &m->inits.at[i];
+    if (x->guess || pl_is_poison(x->target) || pl_kind_of(m->pool, x->target) != PL_SYMBOL) continue;
+    pl_symbol q = pl_symbol_of(m->pool, x->target);
+    double slope = pl_eval(m->pool, pl_diff(m->pool, g, q), value);
+    if (!isnan(slope) && !isnan(value[q.id])) sum += fabs(slope * value[q.id]);
+  }
+  return sum;
+}
+
+// Whether the values violate c; false where some of them are not known.
+static bool violates(const pl_model* m, const pl_constraint* c, const double* value) {
+  if (c->off || c->block || pl_is_poison(c->g) || c->while_label) return false;
+  double g = pl_eval(m->pool, c->g, value);
+  double size = size_of_terms(m->pool, c->g, value) + size_of_start(m, c->g, value);
+  if (isnan(g) || isnan(size)) return false;
+  if (c->relation == PL_GE) return g < -start_tolerance * size;
+  if (c->relation == PL_LE) return g > start_tolerance * size;
+  return fabs(g) > start_tolerance * size;
+}
+
+// Whether all constraints that speak of q are met, as far as their values are known.
+static bool fits(const pl_model* m, pl_symbol q, const double* value) {
+  for (int i = 0; i < m->constraints.n; i++) {
+    const pl_constraint* c = &m->constraints.at[i];
+    if (!pl_is_poison(c->g) && pl_has_symbol(m->pool, c->g, q) && violates(m, c, value)) return false;
+  }
+  return true;
+}
+
+// The same place a turn further: no constraint tells x from x + 2 π.
+static bool is_an_angle(const pl_model* m, pl_symbol q, double* value) {
+  static const double turn = 6.28318530717958647692;
+  double x = value[q.id];
+  bool same = true;
+  for (int i = 0; i < m->constraints.n && same; i++) {
+    pl_expr g = m->constraints.at[i].g;
+    if (pl_is_poison(g) || !pl_has_symbol(m->pool, g, q)) continue;
+    double here = pl_eval(m->pool, g, value), size = size_of_terms(m->pool, g, value);
+    value[q.id] = x + turn;
+    double there = pl_eval(m->pool, g, value);
+    value[q.id] = x;
+    same = isnan(here) || fabs(there - here) <= 1e-12 * (size + fabs(there));
+  }
+  return same;
+}
+
+// Values of one coordinate, all others as given, that satisfy g = 0, the branches and all constraints that speak of it.  Starts: around
+// the given value.
 static int fitting_values(const pl_model* m, pl_expr g, pl_symbol q, double* value, double roots[MAX_ROOTS]) {
   double given = value[q.id];
   pl_expr slope = pl_diff(m->pool, g, q);
   if (pl_is_poison(slope) || isnan(given)) return 0;
   static const double factor[] = {1, -1, 0.5, -0.5, 2, -2}, shift[] = {0, 1, -1, 0.1, -0.1, 10, -10};
+  static const double turn = 6.28318530717958647692;
+  bool angle = is_an_angle(m, q, value);
   int n = 0;
   for (int i = 0; i < 13 && n < MAX_ROOTS; i++) {
     double x = i < 6 ? given * factor[i] : given + shift[i - 6];
-    if (!newton(m, g, slope, value, q.id, &x) || !branch_allows(m, value)) continue;
+    if (!newton(m, g, slope, value, q.id, &x) || !branch_allows(m, value) || !fits(m, q, value)) continue;
+    if (angle) x -= turn * nearbyint(x / turn);
     bool known = false;
     for (int k = 0; k < n; k++) known |= fabs(roots[k] - x) <= 1e-9 * (fabs(x) + fabs(roots[k]));
     if (!known) roots[n++] = x;
@@ -280,16 +336,44 @@ static int fitting_values(const pl_model* m, pl_expr g, pl_symbol q, double* val
   return n;
 }
 
-static const char* value_text(pl_job* job, const pl_model* m, pl_symbol q, const double* roots, int n) {
+// The value with as many digits as the check of the start needs, so that whoever types it is not refused.
+static const char* typed_value(pl_job* job, const pl_model* m, pl_symbol q, double x, bool degrees, double* value) {
+  static const double degree = 0.017453292519943295769;
+  double given = value[q.id];
+  char text[40] = "";
+  for (int digits = 6; digits <= 17; digits++) {
+    snprintf(text, sizeof text, "%.*g", digits, degrees ? x / degree : x);
+    value[q.id] = strtod(text, NULL) * (degrees ? degree : 1);
+    if (fits(m, q, value)) break;
+  }
+  value[q.id] = given;
+  return PL_F(job, "%s%s", text, degrees ? "°" : "");
+}
+
+// What stands in the text: "ψ = 20°" is answered in degrees.
+static bool in_degrees(const pl_init* x) {
+  if (!x->span.source) return false;
+  const char* text = x->span.source->text;
+  for (size_t i = x->span.begin; i + 1 < x->span.end; i++) {
+    if (memcmp(text + i, "°", 2) == 0) return true;
+  }
+  return false;
+}
+
+static const char* value_text(pl_job* job, const pl_model* m, const pl_init* x, const double* roots, int n, double* value) {
+  pl_symbol q = pl_symbol_of(m->pool, x->target);
   const pl_symbol_info* info = pl_symbol_get(m->pool, q);
   pl_dimension d;
   const char* unit = "";
   bool pure = !pl_model_dimension(m, pl_sym(m->pool, q), &d) || pl_dimension_equal(d, pl_dimension_one());
   if (!pure) unit = PL_F(job, " %s", pl_dimension_unit(job->arena, d, false));
+  const char* or = job->lang == PL_GERMAN ? " oder " : " or ";
   pl_text t = pl_text_make(job->arena);
   pl_text_addf(&t, "%s%s = ", info->name, info->dots ? "'" : "");
-  for (int i = 0; i < n; i++)
-    pl_text_addf(&t, "%s%.6g%s", i == 0 ? "" : job->lang == PL_GERMAN ? " oder " : " or ", roots[i], unit);
+  for (int i = 0; i < n; i++) {
+    const char* number = typed_value(job, m, q, roots[i], pure && in_degrees(x), value);
+    pl_text_addf(&t, "%s%s%s", i == 0 ? "" : or, number, unit);
+  }
   return pl_text_string(&t);
 }
 
@@ -306,7 +390,7 @@ static const pl_init* blame(pl_job* job, const pl_model* m, pl_expr g, double* v
     double roots[MAX_ROOTS];
     int n = fitting_values(m, g, q, value, roots);
     if (n == 0 || n > 4) continue;
-    *fit = value_text(job, m, q, roots, n);
+    *fit = value_text(job, m, x, roots, n, value);
     return x;
   }
   return last;
@@ -334,29 +418,6 @@ static void tell_violated(pl_job* job, pl_model* m, const pl_constraint* c, doub
   }
 }
 
-// What rounding of the start values themselves can do to g: sum of |dg/dq| |q|.  cos 90° is not exactly 0.
-static double size_of_start(const pl_model* m, pl_expr g, const double* value) {
-  double sum = 0;
-  for (int i = 0; i < m->inits.n; i++) {
-    const pl_init* x = &m->inits.at[i];
-    if (x->guess || pl_is_poison(x->target) || pl_kind_of(m->pool, x->target) != PL_SYMBOL) continue;
-    pl_symbol q = pl_symbol_of(m->pool, x->target);
-    double slope = pl_eval(m->pool, pl_diff(m->pool, g, q), value);
-    if (!isnan(slope) && !isnan(value[q.id])) sum += fabs(slope * value[q.id]);
-  }
-  return sum;
-}
-
-static void check_start_of(pl_job* job, pl_model* m, const pl_constraint* c, double* value) {
-  if (c->off || c->block || pl_is_poison(c->g) || c->while_label) return;
-  double g = pl_eval(m->pool, c->g, value);
-  double size = size_of_terms(m->pool, c->g, value) + size_of_start(m, c->g, value);
-  if (isnan(g) || isnan(size)) return;
-  bool violated = c->relation == PL_EQ ? fabs(g) > start_tolerance * size
-                : c->relation == PL_GE ? g < -start_tolerance * size : g > start_tolerance * size;
-  if (violated) tell_violated(job, m, c, value);
-}
-
 void pl_check_start(pl_job* job, pl_model* m) {
   for (int i = 0; i < m->inits.n; i++) {
     check_target(job, m, &m->inits.at[i]);
@@ -368,5 +429,7 @@ void pl_check_start(pl_job* job, pl_model* m) {
   check_numbers_given(job, m);
   if (job->diagnostics->n_errors) return;
   double* value = start_values(job, m);
-  for (int i = 0; i < m->constraints.n; i++) check_start_of(job, m, &m->constraints.at[i], value);
+  for (int i = 0; i < m->constraints.n; i++) {
+    if (violates(m, &m->constraints.at[i], value)) tell_violated(job, m, &m->constraints.at[i], value);
+  }
 }

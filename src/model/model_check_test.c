@@ -387,7 +387,35 @@ PL_TEST(a_start_that_would_fit_is_named) {
   init(a.k, a.y, number(&a, "0.5"), NULL);
   init(a.k, a.x, number(&a, "2"), NULL);
   const pl_diagnostic* d = check_tells(a.k, PL_E041);
-  assert_string_equal(d->fix[0], "x = -0.866025 would fit. Change it, or remove it from init and let it follow");
+  assert_string_equal(d->fix[0], "x = -0.866025404 would fit. Change it, or remove it from init and let it follow");
+  kit_free(a.k);
+}
+
+// x = √0.75 would fit c, but then d is violated: no single value helps.
+PL_TEST(a_value_that_another_constraint_refuses_is_not_proposed) {
+  plane a = plane_make(NULL);
+  constraint(a.k, named("c"), pl_add(a.p, pl_square(a.p, a.x), pl_square(a.p, a.y)), PL_EQ, number(&a, "1"), NULL,
+             NULL);
+  constraint(a.k, named("d"), pl_add(a.p, a.x, a.y), PL_EQ, number(&a, "1"), NULL, NULL);
+  init(a.k, a.y, number(&a, "0.5"), NULL);
+  init(a.k, a.x, number(&a, "0.5"), NULL);
+  const pl_diagnostic* d = check_tells(a.k, PL_E041);
+  assert_null(strstr(d->fix[0], "would fit"));
+  kit_free(a.k);
+}
+
+// y enters as cos y: of all turns one is named.
+PL_TEST(an_angle_that_would_fit_is_named_without_whole_turns) {
+  plane a = plane_make(NULL);
+  pl_expr cosine = pl_call(a.p, PL_COS, a.y);
+  constraint(a.k, named("c"), pl_add(a.p, a.x, cosine), PL_EQ, number(&a, "1"), NULL, NULL);
+  init(a.k, a.x, number(&a, "0.5"), NULL);
+  init(a.k, a.y, number(&a, "9"), NULL);
+  const pl_diagnostic* d = check_tells(a.k, PL_E041);
+  assert_non_null(strstr(d->fix[0], "y = "));
+  assert_non_null(strstr(d->fix[0], "1.04719755"));
+  assert_null(strstr(d->fix[0], "5.2"));
+  assert_null(strstr(d->fix[0], "7.33"));
   kit_free(a.k);
 }
 
@@ -680,6 +708,8 @@ int main(void) {
       cmocka_unit_test(a_parameter_has_no_start_value),
       cmocka_unit_test(a_start_against_a_constraint_is_found),
       cmocka_unit_test(a_start_that_would_fit_is_named),
+      cmocka_unit_test(a_value_that_another_constraint_refuses_is_not_proposed),
+      cmocka_unit_test(an_angle_that_would_fit_is_named_without_whole_turns),
       cmocka_unit_test(a_start_on_the_wrong_side_is_found),
       cmocka_unit_test(a_start_on_the_right_side_is_fine),
       cmocka_unit_test(a_start_through_other_values_is_followed),

@@ -304,6 +304,7 @@ typedef struct pl_start_report {
   const int* free;                    // their coordinates
   int n_candidates;                   // distinct solutions that fit
   const double* candidates;           // (n_candidates x n_q), solution after solution
+  int taken;                          // the candidate that is the start
   int link;                           // VIOLATED: which constraint, else -1
   bool link_velocity;                 // VIOLATED: on velocity level
   double residual;                    // VIOLATED: |g| relative to its terms

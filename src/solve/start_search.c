@@ -2,7 +2,7 @@
 //
 // Positions: Gauss-Newton from the guesses, then, where the given values determine the rest, from a fixed set of random
 // guesses of several sizes, so that other solutions are found; those that fit the branch conditions are kept.  One
-// fits: it is the start.  Several: they are listed.  None: a given value is looked for that, left free,
+// fits: it is the start.  Several: the one nearest to the given numbers is, unless two are equally near; all are listed.  None: a given value is looked for that, left free,
 // would let the constraints be met.  Velocities: linear, of least kinetic energy where they are free.
 //
 // A one-sided constraint whose side the other values determine is in contact when it is met and free otherwise; one
@@ -169,18 +169,26 @@ static bool same_but_for_turns(pl_start* s, const double* a, const double* b) {
 
 static bool can_compare_turns(const pl_run* run) { return run->n_c <= PL_RANK_UP_TO; }
 
-// Keeps the solution in s->q if it is new; of two that differ by turns the one with the smaller angles stays.
+// Takes whole turns out of angles that lie more than half a turn from their guess.
+static void unwind(pl_start* s) {
+  pl_run* run = s->run;
+  size_t n = (size_t)run->n_q;
+  for (int i = 0; i < run->n_q; i++) {
+    double turns = nearbyint((s->q[i] - plain_guess(&run->setup->coordinates[i])) / (2 * pi));
+    if (s->held_q[i] || turns == 0) continue;
+    memcpy(s->try_q, s->q, n * sizeof(double));
+    s->try_q[i] -= 2 * pi * turns;
+    if (same_but_for_turns(s, s->q, s->try_q)) memcpy(s->q, s->try_q, n * sizeof(double));
+  }
+}
+
+// Keeps the solution in s->q if it is new.
 static void keep_solution(pl_start* s) {
   pl_run* run = s->run;
   size_t n = (size_t)run->n_q;
-  for (int k = 0; k < s->n_solutions && can_compare_turns(run); k++) {
-    double* known = s->solutions + (size_t)k * n;
-    if (!same_but_for_turns(s, known, s->q)) continue;
-    double sum = 0, sum_known = 0;
-    for (size_t i = 0; i < n; i++) sum += fabs(s->q[i]), sum_known += fabs(known[i]);
-    if (sum < sum_known * (1 - 1e-6)) memcpy(known, s->q, n * sizeof(double));
-    return;
-  }
+  if (can_compare_turns(run)) unwind(s);
+  for (int k = 0; k < s->n_solutions && can_compare_turns(run); k++)
+    if (same_but_for_turns(s, s->solutions + (size_t)k * n, s->q)) return;
   if (s->n_solutions == PL_START_ROOM) return;
   memcpy(s->solutions + (size_t)s->n_solutions * n, s->q, n * sizeof(double));
   memcpy(s->solution_on + (size_t)s->n_solutions * (size_t)run->n_c, run->on, (size_t)run->n_c * sizeof(bool));
@@ -357,6 +365,34 @@ static pleuel_status several_solutions(pl_start* s) {
   return pl_fail(run->job, PLEUEL_CONTRADICTION, "%d solutions fit the start: %s", s->n_solutions, text);
 }
 
+// How far a solution is from what was given or guessed, in units of the given values.
+static double distance_from_guess(const pl_start* s, const double* q) {
+  double sum = 0;
+  for (int i = 0; i < s->run->n_q; i++) {
+    double d = q[i] - plain_guess(&s->run->setup->coordinates[i]);
+    sum += d * d;
+  }
+  return sqrt(sum) / size_of_given(s->run);
+}
+
+// The solution nearest to the given numbers; -1 when another one is as near, as for mirror images.
+static int nearest_solution(const pl_start* s) {
+  static const double as_near = 1e-6;
+  size_t n = (size_t)s->run->n_q;
+  int best = 0;
+  for (int k = 1; k < s->n_solutions; k++) {
+    bool nearer = distance_from_guess(s, s->solutions + (size_t)k * n) <
+                  distance_from_guess(s, s->solutions + (size_t)best * n);
+    if (nearer) best = k;
+  }
+  double least = distance_from_guess(s, s->solutions + (size_t)best * n);
+  for (int k = 0; k < s->n_solutions; k++) {
+    double other = distance_from_guess(s, s->solutions + (size_t)k * n);
+    if (k != best && other <= least * (1 + as_near) + as_near) return -1;
+  }
+  return best;
+}
+
 // ---------------------------------------------------------------------------------------------- positions, velocities
 static pleuel_status find_positions(pl_start* s) {
   pl_run* run = s->run;
@@ -364,9 +400,11 @@ static pleuel_status find_positions(pl_start* s) {
   run->start.n_candidates = s->n_solutions;
   run->start.candidates = s->solutions;
   if (s->n_solutions == 0) return no_solution(s);
-  if (s->n_solutions > 1) return several_solutions(s);
-  memcpy(s->q, s->solutions, (size_t)run->n_q * sizeof(double));
-  memcpy(run->on, s->solution_on, (size_t)run->n_c * sizeof(bool));
+  int taken = nearest_solution(s);
+  if (taken < 0) return several_solutions(s);
+  run->start.taken = taken;
+  memcpy(s->q, s->solutions + (size_t)taken * (size_t)run->n_q, (size_t)run->n_q * sizeof(double));
+  memcpy(run->on, s->solution_on + (size_t)taken * (size_t)run->n_c, (size_t)run->n_c * sizeof(bool));
   pl_active_update(run);
   return PLEUEL_OK;
 }

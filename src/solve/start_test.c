@@ -52,16 +52,28 @@ static void an_angle_and_its_speed_determine_a_crank(void** state) {
   t_close(b);
 }
 
-static void two_assemblies_are_listed(void** state) {
+static void two_assemblies_are_listed_and_the_nearer_one_is_taken(void** state) {
   (void)state;
   t_bench* b = crank();
   t_start(b, 3, 0.5, 2);
+  assert_int_equal(make_and_start(b, crank_energy(b)), PLEUEL_OK);
+  const pl_start_report* r = pl_run_start_report(b->run);
+  assert_int_equal(r->n_candidates, 2);
+  double middle = 0.5 * (r->candidates[2] + r->candidates[6]);
+  assert_true(fabs(middle - cos(0.5)) < 1e-12);
+  assert_true(fabs(pl_run_q(b->run)[2] - r->candidates[4 * r->taken + 2]) < 1e-12);
+  assert_true(fabs(pl_run_q(b->run)[2]) < fabs(r->candidates[4 * (1 - r->taken) + 2]));
+  t_close(b);
+}
+
+static void of_two_mirror_images_none_is_taken(void** state) {
+  (void)state;
+  t_bench* b = crank();
+  t_start(b, 3, 1.57079632679489662, 2);
   assert_int_equal(make_and_start(b, crank_energy(b)), PLEUEL_CONTRADICTION);
   const pl_start_report* r = pl_run_start_report(b->run);
   assert_int_equal(r->trouble, PL_START_SEVERAL);
   assert_int_equal(r->n_candidates, 2);
-  double middle = 0.5 * (r->candidates[2] + r->candidates[6]);
-  assert_true(fabs(middle - cos(0.5)) < 1e-12);
   assert_true(strstr(b->job.message, "2 solutions") != NULL);
   t_close(b);
 }
@@ -225,7 +237,8 @@ static void values_that_are_no_numbers_are_refused(void** state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(an_angle_and_its_speed_determine_a_crank),
-      cmocka_unit_test(two_assemblies_are_listed),
+      cmocka_unit_test(two_assemblies_are_listed_and_the_nearer_one_is_taken),
+    cmocka_unit_test(of_two_mirror_images_none_is_taken),
       cmocka_unit_test(a_pin_position_determines_the_angle_up_to_turns),
       cmocka_unit_test(no_assembly_fits_an_impossible_branch),
       cmocka_unit_test(a_violated_constraint_is_named_with_what_would_mend_it),

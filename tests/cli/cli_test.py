@@ -113,6 +113,37 @@ r = run("check", "-", text=PENDULUM)
 check("- is stdin", r.code == 0 and "<stdin>" in r.out, r)
 r = run("check", "-", text=PENDULUM.replace("branch y < 0\n", ""))
 check("two solutions that fit the start are E043, exit 4", r.code == 4 and "E043" in r.out and "branch y" in r.out, r)
+linkage = """param a = 1 [m], b = 3 [m], c = 2.5 [m], d = 3 [m], m = 1 [kg], g = 9.81 [m/s^2]
+coord α, β, γ
+axes x right, y up
+mass B: m at (a cos α + b cos β, a sin α + b sin β)
+mass C: m at (d + c/2 cos γ, c/2 sin γ)
+gravity g along -y
+constraint lx: a cos α + b cos β - c cos γ = d
+constraint ly: a sin α + b sin β - c sin γ = 0
+init α = 60°, α' = 0
+simulate 0..0.1 [s]
+"""
+r = run("sim", "-", "-o", "-", text=linkage)
+check("of two assemblies the nearer one is taken, and that is said", r.code == 0 and "N073" in r.err and
+      "branch sin β > 0" in r.err, r)
+taken = r.out
+r = run("sim", "-", "-o", "-", text=linkage + "branch sin β > 0\n")
+check("the proposed branch takes the same one without a word", r.code == 0 and r.out == taken and "N073" not in r.err, r)
+r = run("sim", "-", "-o", "-", text=linkage + "branch sin β < 0\n")
+check("the other branch takes another one", r.code == 0 and r.out != taken and "N073" not in r.err, r)
+loop = linkage.replace("init α = 60°,", "init α = 60°, β = 30°, γ = 1.5,")
+r = run("check", "-", text=loop)
+check("one start value cannot close a loop of two equations", r.code == 4 and "would fit" not in r.out, r)
+crank = linkage.replace("constraint lx: a cos α + b cos β - c cos γ = d\n", "").replace("init α = 60°,", "init α = 60°, β = 30°, γ = 20°,")
+r = run("check", "-", text=crank)
+fits = re.search(r"= γ = (-?[\d.]+°)", r.out)
+check("a value that would fit is given as the text has it", r.code == 4 and fits is not None, r)
+if fits:
+    r = run("check", "-", text=crank.replace("γ = 20°", "γ = " + fits.group(1)))
+    check("and is accepted when it is typed", r.code == 0, r)
+r = run("check", "-", text=PENDULUM.replace("branch y < 0\n", "constraint bar: x^2 + y^2 = 4 l^2\n").replace("x = 0.3 [m],", "x = 0.3 [m], y = 0.2 [m],"))
+check("constraints that contradict each other are E042 whatever the start is", r.code == 4 and "E042" in r.out and "E041" not in r.out, r)
 r = run("check", "-", text=PENDULUM.replace("x = 0.3 [m], x' = 0", "x = 0.3 [m], y = -0.3 [m], x' = 0"))
 check("a start off the constraint is E041, exit 4", r.code == 4 and "E041" in r.out, r)
 r = run("check", wrong, env={"PLEUEL_LANG": "de"})
