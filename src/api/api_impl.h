@@ -70,6 +70,7 @@ struct pleuel_model {
   pl_solution* solution;
   const char* solved_only;        // letters it was derived for
   bool structure;                 // derived as far as freedoms and notes
+  bool start_only;                // derived for what holds at the start, not along the motion
   pl_recording* recording;
   pl_result* result;
   pl_start_report start;
@@ -89,7 +90,8 @@ struct pleuel_model {
 // ---- pipeline.c: every arrow
 pleuel_status pl_pipeline_parse(pleuel_model* m);
 pleuel_status pl_pipeline_check(pleuel_model* m);
-pleuel_status pl_pipeline_derive(pleuel_model* m, const char* only, double seconds);
+// along: also for what holds later in the motion.
+pleuel_status pl_pipeline_derive(pleuel_model* m, const char* only, double seconds, bool along);
 pleuel_status pl_pipeline_structure(pleuel_model* m);     // freedoms, ranks and notes only
 pleuel_status pl_pipeline_record(pleuel_model* m);
 pleuel_status pl_pipeline_start(pleuel_model* m, const pleuel_sim_options* o, pl_run** out);

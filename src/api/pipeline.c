@@ -5,7 +5,7 @@
 //
 // Each step is taken once and remembered in the pleuel_model; asking for a later one takes those before it.  A step that
 // was interrupted is taken anew.
-#include "api/api_impl.h"
+#include "api/stages.h"
 
 #include <math.h>
 #include <string.h>
@@ -65,13 +65,19 @@ pleuel_status pl_pipeline_check(pleuel_model* m) {
 }
 
 // checked model -> equations and steps
-static pleuel_status derive(pleuel_model* m, const char* only, double seconds, bool structure) {
+static pleuel_status derive(pleuel_model* m, const char* only, double seconds, bool structure, bool along) {
   double start = pl_clock();
   pl_solution_close(m->solution);
   m->solution = NULL;
   m->solved_only = only ? pl_copy(m->arena, only) : NULL;
   m->structure = structure;
+  m->start_only = !along;
   pl_derive_options how = {.only = m->solved_only, .seconds = seconds, .structure = structure};
+  pl_staging* staging = pl_staging_make(m, along && !only);
+  how.n_stages = staging->n;
+  how.stages = staging->stages;
+  how.stage_from = pl_staging_from;
+  how.user = staging;
   m->derived = pl_derive(&m->job, m->model, &how, &m->solution);
   m->is_derived = m->derived != PLEUEL_INTERRUPTED;
   pl_diagnostics_sort(&m->diagnostics);
@@ -79,16 +85,16 @@ static pleuel_status derive(pleuel_model* m, const char* only, double seconds, b
   return m->derived;
 }
 
-pleuel_status pl_pipeline_derive(pleuel_model* m, const char* only, double seconds) {
+pleuel_status pl_pipeline_derive(pleuel_model* m, const char* only, double seconds, bool along) {
   PL_TRY(pl_pipeline_check(m));
   bool same = m->solved_only == only || (only && m->solved_only && strcmp(only, m->solved_only) == 0);
-  if (m->is_derived && !m->structure && same) return m->derived;
-  return derive(m, only, seconds, false);
+  if (m->is_derived && !m->structure && same && m->start_only == !along) return m->derived;
+  return derive(m, only, seconds, false, along);
 }
 
 pleuel_status pl_pipeline_structure(pleuel_model* m) {
   PL_TRY(pl_pipeline_check(m));
-  return m->is_derived ? m->derived : derive(m, NULL, 0, true);
+  return m->is_derived ? m->derived : derive(m, NULL, 0, true, false);
 }
 
 // checked model -> setup of the motion: patterns, start values, events

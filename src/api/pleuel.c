@@ -458,7 +458,7 @@ static pleuel_status contradictory_start(pleuel_model* m) {
 static pleuel_status solve_text(pleuel_model* m, void* argument) {
   pl_asking* a = argument;
   const pleuel_solve_options* o = a->solve;
-  pleuel_status s = pl_pipeline_derive(m, o->only, o->seconds);
+  pleuel_status s = pl_pipeline_derive(m, o->only, o->seconds, !o->no_simulation);
   if (!m->solution) return s;
   simulate_for_solution(m, o);
   if (s == PLEUEL_OK) s = contradictory_start(m);
@@ -487,7 +487,7 @@ static pleuel_status solve_json(pleuel_model* m, void* argument) {
   pl_asking* a = argument;
   const pleuel_solve_options* o = a->solve;
   static const char* const stages[] = {"check", "derive", "record", "simulate"};
-  pleuel_status s = pl_pipeline_derive(m, o->only, o->seconds);
+  pleuel_status s = pl_pipeline_derive(m, o->only, o->seconds, !o->no_simulation);
   if (m->solution) simulate_for_solution(m, o);
   if (m->solution && s == PLEUEL_OK) s = contradictory_start(m);
   pl_text simulation = pl_text_make(m->arena);
@@ -529,7 +529,7 @@ static pleuel_status export(pleuel_model* m, void* argument) {
   if (!pl_export_target_find(a->word, &in.target)) {
     return pl_fail(&m->job, PLEUEL_USAGE, "there is no export to `%s`: sympy, mathematica, maxima, julia, json", a->word);
   }
-  pleuel_status s = pl_pipeline_derive(m, a->solve->only, a->solve->seconds);
+  pleuel_status s = pl_pipeline_derive(m, a->solve->only, a->solve->seconds, false);
   if (!m->solution || s != PLEUEL_OK) return s;
   in.solution = m->solution;
   pl_text out = pl_text_make(m->arena);
@@ -557,7 +557,7 @@ pleuel_status pleuel_export(pleuel_model* m, const char** text, const char* targ
 static pleuel_status tex(pleuel_model* m, void* argument) {
   pl_asking* a = argument;
   const pleuel_tex_options* o = a->tex;
-  pleuel_status s = pl_pipeline_derive(m, o->only, o->seconds);
+  pleuel_status s = pl_pipeline_derive(m, o->only, o->seconds, !o->no_simulation);
   if (!m->solution) return s;
   pl_tex_style style = {.lang = solution_language(m, o->lang), .standalone = o->standalone, .plain = o->plain,
                         .full = o->full, .only = o->only, .name = m->name};
@@ -590,7 +590,7 @@ typedef struct pl_reporting { const pleuel_report_options* options; const char* 
 
 static pleuel_status report(pleuel_model* m, void* argument) {
   pl_reporting* r = argument;
-  pleuel_status s = pl_pipeline_derive(m, r->options->only, r->options->seconds);
+  pleuel_status s = pl_pipeline_derive(m, r->options->only, r->options->seconds, true);
   if (!m->solution) return s;
   PL_TRY(pl_report_page(m, solution_language(m, r->options->lang), r->options, &r->html));
   return verdict(m, s);
@@ -754,7 +754,7 @@ static pleuel_status dump(pleuel_model* m, void* argument) {
     s = pl_pipeline_check(m);
     if (m->model) pl_model_dump(&out, m->model);
   } else if (strcmp(a->word, "derive") == 0) {
-    s = pl_pipeline_derive(m, NULL, 0);
+    s = pl_pipeline_derive(m, NULL, 0, false);
     if (m->solution) pl_derive_dump(&out, m->solution);
   } else if (strcmp(a->word, "record") == 0) {
     s = pl_pipeline_record(m);

@@ -13,6 +13,8 @@ static void tell_freedoms(pl_text* out, const pleuel_model* m, pl_language lang)
                de ? plural(f->constraints, "Zwangsbedingung", "Zwangsbedingungen") : plural(f->constraints, "constraint", "constraints"));
   int hidden = m->solution->hidden.n;
   if (f->rank < f->constraints) pl_text_addf(out, de ? ", davon %d unabhängig" : ", %d of them independent", f->rank);
+  if (f->open > 0) pl_text_addf(out, de ? ", %d %s offen" : ", %d %s open", f->open,
+                                de ? plural(f->open, "Kontakt", "Kontakte") : plural(f->open, "contact", "contacts"));
   if (hidden > 0) pl_text_addf(out, de ? ", %d verborgen" : ", %d hidden", hidden);
   pl_text_addf(out, ", %d %s", f->dof, de ? plural(f->dof, "Freiheitsgrad", "Freiheitsgrade") : plural(f->dof, "degree of freedom", "degrees of freedom"));
   if (f->velocity_dof != f->dof) pl_text_addf(out, de ? " (%d der Geschwindigkeit)" : " (%d of the velocity)", f->velocity_dof);

@@ -46,9 +46,12 @@ static bool set_differs(const pl_tracer* t) {
 
 static void open_phase(pl_tracer* t, double at) {
   int n_c = t->trace->recording->setup.n_c;
-  bool* active = PL_ARRAY(t->arena, bool, n_c + 1);
-  for (int c = 0; c < n_c; c++) active[c] = pl_run_is_active(t->run, c);
-  pl_trace_phase phase = {.t_begin = at, .t_end = at, .first = t->trace->samples.n, .active = active, .begun_by = t->kind};
+  bool *active = PL_ARRAY(t->arena, bool, n_c + 1), *released = PL_ARRAY(t->arena, bool, n_c + 1);
+  for (int c = 0; c < n_c; c++) {
+    active[c] = pl_run_is_active(t->run, c);
+    released[c] = pl_run_is_released(t->run, c);
+  }
+  pl_trace_phase phase = {.t_begin = at, .t_end = at, .first = t->trace->samples.n, .active = active, .released = released, .begun_by = t->kind};
   phase.begun_label = t->label;
   phase.same_set = t->trace->phases.n > 0 && !set_differs(t);
   pl_push(t->arena, t->trace->phases, phase);
@@ -70,7 +73,12 @@ static bool same_state(const pl_row* a, const pl_row* b, int n_q) {
 // The state before the first event of a moment belongs to the phase that ends; that after the last is the next row.
 static pleuel_status on_event(void* user, const pl_event_record* e) {
   pl_tracer* t = user;
-  if (t->trace->phases.n == 0) return PLEUEL_OK;      // at the start: nothing ends
+  if (t->trace->phases.n == 0) {      // at the start: nothing ends
+    bool lets_go = e->kind == PL_EV_RELEASE || e->kind == PL_EV_SLACK;
+    if (lets_go && e->at_start) t->trace->pulls[e->index] = true;
+    return PLEUEL_OK;
+  }
+  if (e->kind == PL_EV_STOP) t->trace->stopped_by = e->label;
   bool first = !t->changed;
   if (first) {
     t->kind = e->kind;
@@ -130,6 +138,7 @@ static void steps(pl_tracer* t, pl_run* run, long most) {
     out->steps++;
   }
   out->whole = out->status == PLEUEL_OK && pl_run_done(run);
+  out->t_end = pl_run_time(run);
 }
 
 static void run(pl_job* job, pl_trace* out, const pl_trace_options* o) {
@@ -140,6 +149,7 @@ static void run(pl_job* job, pl_trace* out, const pl_trace_options* o) {
   how.method = PL_METHOD_AUTO;
   how.sink = (pl_sink){.user = &t, .row = on_row, .event = on_event};
   pl_run* made = NULL;
+  out->pulls = PL_ARRAY(job->arena, bool, r->setup.n_c + 1);
   out->status = pl_run_make(job, &r->setup, &how, &made);
   t.run = made;
   if (out->status == PLEUEL_OK) out->status = start(made, r->t_0, r->setup.n_q, job);
@@ -153,7 +163,7 @@ static void run(pl_job* job, pl_trace* out, const pl_trace_options* o) {
 static pl_model* model_of(pl_job* job, pl_model* m, const pl_trace_options* o) {
   if (o->from && o->from->given) return pl_trace_named_start(job, m, o->from);
   if (o->seed) return pl_trace_random_start(job, m, o->beside, o->seed);
-  return pl_trace_open_start(job, m);
+  return o->as_run ? m : pl_trace_open_start(job, m);
 }
 
 pl_trace* pl_trace_make(pl_job* job, pl_model* numbered, const pl_trace_options* options) {

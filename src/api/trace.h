@@ -20,6 +20,7 @@ typedef struct pl_trace_phase {
   double t_begin, t_end;        // s; equal when the motion only touches it
   int first, n;                 // samples
   const bool* active;           // rows that hold: contacts that touch, surfaces that stick, what is attached  (n_c)
+  const bool* released;         // rows that an event released, or that are off  (n_c)
   bool same_set;                // rows as in the phase before: only the state jumped
   pl_event_kind begun_by;       // with the label, NULL for the first phase
   const char* begun_label;
@@ -34,6 +35,9 @@ typedef struct pl_trace {
   const char* message;          // its sentence when it failed, else ""
   bool started;                 // there is a consistent start: at least one phase and one sample
   bool whole;                   // the span was covered
+  double t_end;                 // s, how far it came
+  const char* stopped_by;       // the event that ended it before; NULL
+  bool* pulls;                  // contacts that are met at the start but would have to pull: they let go at once  (n_c)
   PL_VEC(pl_trace_sample) samples;
   PL_VEC(pl_trace_phase) phases;
   long steps;                   // of the integration
@@ -46,6 +50,7 @@ typedef struct pl_trace_options {
   const pl_trace* beside;       // of seed > 0: the trace from `init`, for its position and contacts; NULL: anywhere
   long most_samples;            // 0: 120
   double span;                  // s; 0: as `simulate` says, else a few times the time scale of the start
+  bool as_run;                  // coordinates that nothing is said of start as in a run, not anywhere
 } pl_trace_options;
 
 // pl_trace_model gives the model with random positive numbers, within the assumptions, for parameters without any: the same for

@@ -8,11 +8,13 @@ static const char* label_of(const pl_bond* l) { return l->source->name.text; }
 static const pl_form* zero_form(pl_analysis* d) { return pl_form_leaf(d->arena, pl_int(d->pool, 0)); }
 
 // "g1 = x1 + x2 - l = 0", "h = r - R ≥ 0"
-static const pl_form* link_form(pl_analysis* d, const pl_bond* l) {
-  const char* op = l->source->relation == PL_GE ? "≥" : l->source->relation == PL_LE ? "≤" : "=";
-  const pl_form* body = pl_frel(d, pl_difference_form(d, l->source->left, l->source->right), op, zero_form(d));
-  return pl_feq(d, pl_fn(d, label_of(l)), body);
+static const pl_form* constraint_form(pl_analysis* d, const pl_constraint* c) {
+  const char* op = c->relation == PL_GE ? "≥" : c->relation == PL_LE ? "≤" : "=";
+  const pl_form* body = pl_frel(d, pl_difference_form(d, c->left, c->right), op, zero_form(d));
+  return pl_feq(d, pl_fn(d, c->name.text), body);
 }
+
+static const pl_form* link_form(pl_analysis* d, const pl_bond* l) { return constraint_form(d, l->source); }
 
 static bool told(pl_analysis* d, const char* what) {
   const char* key = pl_format(d->arena, "told %s", what);
@@ -62,6 +64,15 @@ static void rows_of_constraints(pl_analysis* d) {
     row_of_lets(d, l->g);
     en = de = "";
   }
+  for (int k = 0; k < d->open.n; k++) {
+    const pl_open* o = &d->open.at[k];
+    if (o->off) continue;
+    pl_step* row = pl_row(d, en, de, constraint_form(d, o->source), "0");
+    if (o->contact && !o->released) pl_step_after(row, "one-sided, open", "einseitig, offen");
+    else pl_step_after(row, "does not hold", "gilt nicht");
+    row_of_lets(d, o->source->g);
+    en = de = "";
+  }
 }
 
 static bool any(const pl_analysis* d, bool (*is)(const pl_analysis*, const pl_bond*)) {
@@ -104,36 +115,41 @@ static void say_hidden(pl_analysis* d) {
   }
 }
 
+// "in contact", and with what the start leaves open: "at the start".
+static void rows_of_freedom(pl_analysis* d) {
+  const pl_dof* f = &d->dof;
+  bool closed = f->free > f->dof;
+  pl_step* row = pl_row(d, "degrees of freedom", "Freiheitsgrade", NULL, pl_format(d->arena, "%d", f->dof));
+  if (f->open > 0) pl_step_after(row, "at the start", "beim Start");
+  else if (closed) pl_step_after(row, "in contact", "im Kontakt");
+  if (closed) {
+    row = pl_row(d, "", "", NULL, pl_format(d->arena, "%d", f->free));
+    if (f->open > 0) pl_step_after(row, "with all contacts open", "mit allen Kontakten offen");
+    else pl_step_after(row, "after lift-off", "nach dem Abheben");
+  }
+  if (f->velocity_dof == f->dof) return;
+  pl_step_after(row, "of position", "der Lage");
+  row = pl_row(d, "", "", NULL, pl_format(d->arena, "%d", f->velocity_dof));
+  pl_step_after(row, "of velocity", "der Geschwindigkeit");
+}
+
 void pl_answer_dof(pl_analysis* d, const pl_ask* ask) {
   pl_section_open(d, ask, "Degrees of freedom", "Freiheitsgrade");
   row_of_coordinates(d);
   rows_of_constraints(d);
   say_kinds(d);
-  const pl_dof* f = &d->solution->dof;
-  int contacts = 0;
-  for (int k = 0; k < d->g.n; k++) contacts += d->g.at[k].contact && !d->g.at[k].implied;
-  pl_step* row = pl_row(d, "degrees of freedom", "Freiheitsgrade", NULL, pl_format(d->arena, "%d", f->dof));
-  if (contacts > 0) pl_step_after(row, "in contact", "im Kontakt");
-  if (contacts > 0) {
-    row = pl_row(d, "", "", NULL, pl_format(d->arena, "%d", f->dof + contacts));
-    pl_step_after(row, "after lift-off", "nach dem Abheben");
-  }
-  if (f->velocity_dof != f->dof) {
-    pl_step_after(row, "of position", "der Lage");
-    row = pl_row(d, "", "", NULL, pl_format(d->arena, "%d", f->velocity_dof));
-    pl_step_after(row, "of velocity", "der Geschwindigkeit");
-  }
+  rows_of_freedom(d);
   say_hidden(d);
-  pl_answer(d, "dof", pl_int(d->pool, f->dof), NULL);
+  pl_answer(d, "dof", pl_int(d->pool, d->dof.dof), NULL);
 }
 
 // ---------------------------------------------------------------------------------------------- constraints
-static void say_contact(pl_analysis* d, const pl_bond* l) {
-  bool push = (l->source->relation == PL_GE) != d->model->lambda_minus;
-  const pl_form* closed = pl_feq(d, pl_fe(d, l->source->left), pl_fe(d, l->source->right));
-  const pl_form* lambda = pl_frel(d, pl_fs(d, l->lambda), push ? "≥" : "≤", zero_form(d));
-  const pl_form* open = pl_feq(d, pl_fs(d, l->lambda), zero_form(d));
-  pl_show(d, link_form(d, l));
+static void say_contact(pl_analysis* d, const pl_constraint* c) {
+  bool push = (c->relation == PL_GE) != d->model->lambda_minus;
+  const pl_form* closed = pl_feq(d, pl_fe(d, c->left), pl_fe(d, c->right));
+  const pl_form* lambda = pl_frel(d, pl_fs(d, c->lambda), push ? "≥" : "≤", zero_form(d));
+  const pl_form* open = pl_feq(d, pl_fs(d, c->lambda), zero_form(d));
+  pl_show(d, constraint_form(d, c));
   pl_say(d, "One-sided: in contact {1} and {2}; after lift-off {3}.",
          "Einseitig: im Kontakt {1} und {2}; nach dem Abheben {3}.", 3, closed, lambda, open);
 }
@@ -261,17 +277,46 @@ static void say_attitudes(pl_analysis* d) {
   }
 }
 
+static int count_open(const pl_analysis* d) {
+  int n = 0;
+  for (int k = 0; k < d->open.n; k++) n += !d->open.at[k].off;
+  return n;
+}
+
+static void show_open(pl_analysis* d, const pl_open* o, bool after_dof) {
+  if (o->off) return;
+  const pl_constraint* c = o->source;
+  if (o->contact && !o->released) {
+    say_contact(d, c);
+    pl_say(d, "At the start {1} is open.", "Beim Start ist {1} offen.", 1, pl_fn(d, c->name.text));
+  } else {
+    if (!after_dof) pl_show(d, constraint_form(d, c));
+    pl_say(d, "{1} does not hold here.", "{1} gilt hier nicht.", 1, pl_fn(d, c->name.text));
+  }
+  pl_answer(d, c->name.text, c->g, pl_difference_form(d, c->left, c->right))->of = c->name.text;
+}
+
+// Freedoms in contact and after lift-off.
+static void say_freedom(pl_analysis* d) {
+  const pl_dof* f = &d->dof;
+  int n = count_coordinates(d);
+  pl_say(d, pl_format(d->arena, "%d coordinates, %d independent constraint%s: %d degree%s of freedom in contact, %d after lift-off.", n,
+                      f->rank, f->rank == 1 ? "" : "s", f->dof, f->dof == 1 ? "" : "s", f->free),
+         pl_format(d->arena, "%d Koordinaten, %d unabhängige Zwangsbedingung%s: %d Freiheitsgrad%s im Kontakt, %d nach dem Abheben.", n,
+                   f->rank, f->rank == 1 ? "" : "en", f->dof, f->dof == 1 ? "" : "e", f->free), 0);
+}
+
 void pl_answer_constraints(pl_analysis* d, const pl_ask* ask) {
   bool after_dof = d->section && d->solution->sections.n > 0 && ask->letter && d->section->letter &&
                    strcmp(ask->letter, d->section->letter) == 0;
   pl_section_open(d, ask, after_dof ? NULL : "Constraints", after_dof ? NULL : "Zwangsbedingungen");
   bool some_dropped = false;
-  if (d->g.n == 0) pl_say(d, "There are none.", "Es gibt keine.", 0);
+  if (d->g.n + count_open(d) == 0) pl_say(d, "There are none.", "Es gibt keine.", 0);
   for (int k = 0; k < d->g.n; k++) {
     const pl_bond* l = &d->g.at[k];
     some_dropped |= dropped(l);
     if (l->contact) {
-      say_contact(d, l);
+      say_contact(d, l->source);
     } else if (!after_dof) {
       pl_show(d, link_form(d, l));
       row_of_lets(d, l->g);
@@ -284,17 +329,10 @@ void pl_answer_constraints(pl_analysis* d, const pl_ask* ask) {
     pl_value* v = pl_answer(d, label_of(l), l->g, pl_difference_form(d, l->source->left, l->source->right));
     v->of = label_of(l);
   }
+  for (int k = 0; k < d->open.n; k++) show_open(d, &d->open.at[k], after_dof);
   if (!after_dof) say_kinds(d);
   say_attitudes(d);
-  if (any(d, is_contact)) {
-    const pl_dof* f = &d->solution->dof;
-    int n = count_coordinates(d), contacts = 0;
-    for (int k = 0; k < d->g.n; k++) contacts += d->g.at[k].contact;
-    pl_say(d, pl_format(d->arena, "%d coordinates, %d independent constraint%s: %d degree%s of freedom in contact, %d after lift-off.", n,
-                        f->rank, f->rank == 1 ? "" : "s", f->dof, f->dof == 1 ? "" : "s", f->dof + contacts),
-           pl_format(d->arena, "%d Koordinaten, %d unabhängige Zwangsbedingung%s: %d Freiheitsgrad%s im Kontakt, %d nach dem Abheben.", n,
-                     f->rank, f->rank == 1 ? "" : "en", f->dof, f->dof == 1 ? "" : "e", f->dof + contacts), 0);
-  }
+  if (any(d, is_contact)) say_freedom(d);
   if (some_dropped) {
     say_dropped(d);
     theorem(d);

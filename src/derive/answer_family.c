@@ -281,7 +281,7 @@ static void dof(pl_analysis* d, const pl_ask* ask) {
 
 pleuel_status pl_derive_families(pl_analysis* d) {
   d->tower = pl_tower_make(d->job, d->pool, NULL, 0);
-  d->solution->tower = d->tower;
+  pl_push(d->arena, d->solution->towers, d->tower);
   pl_dof* f = &d->solution->dof;
   f->coordinates = pl_model_flat_coords(d->model, d->arena).n;
   for (int k = 0; k < d->model->constraints.n; k++) f->constraints += (int)count_instances(d, d->model->constraints.at[k].block);

@@ -166,6 +166,7 @@ static const char* title_of(pl_analysis* d, pl_language lang) {
   const char* de = "Lagrange-Gleichungen erster Art";
   const char* en = "Lagrange equations of the first kind";
   const char* sign = d->model->lambda_minus ? "-" : "";
+  if (d->g.n == 0) return lang == PL_GERMAN ? de : en;
   if (n != 1) return pl_format(d->arena, lang == PL_GERMAN ? "%s mit Z = %sΣ λ ∇g" : "%s, with Z = %sΣ λ ∇g", lang == PL_GERMAN ? de : en, sign);
   const char* lambda = pl_symbol_get(d->pool, only->lambda)->name;
   return pl_format(d->arena, lang == PL_GERMAN ? "%s mit Z = %s%s ∇%s" : "%s, with Z = %s%s ∇%s", lang == PL_GERMAN ? de : en, sign, lambda,

@@ -437,8 +437,22 @@ static void solve_by_map(pl_analysis* d, int i) {
   pl_answer(d, pl_symbol_get(d->pool, d->q.at[i].q)->ascii, x, form);
 }
 
+// A coordinate that a constraint fixes: its value.
+static void show_fixed(pl_analysis* d, int i) {
+  const pl_variable* c = &d->q.at[i];
+  const pl_form* form = pl_f(d, c->fixed, PL_S_SOLUTION);
+  pl_say(d, "{1} gives", "Aus {1} folgt", 1, pl_fn(d, d->g.at[c->fixed_by].source->name.text));
+  pl_show_numbered(d, pl_feq(d, of_time(d, i), form));
+  pl_claim_that(d, PL_CLAIM_MAP, pl_form_value(d->pool, form), pl_sym(d->pool, c->q));
+  pl_answer(d, pl_symbol_get(d->pool, c->q)->ascii, c->fixed, form);
+}
+
 static void solve_motion(pl_analysis* d, int i) {
   const pl_variable* c = &d->q.at[i];
+  if (c->fixed_by >= 0) {
+    show_fixed(d, i);
+    return;
+  }
   bool hangs = !pl_is_poison(c->map) && c->solved_by != -2 && d->reduced && d->gen.n == 1 && d->gen.at[0] != i;
   bool alone = d->solved && !pl_is_poison(d->acceleration[i]) && !pl_has_coordinates(d, d->acceleration[i]);
   if (hangs && !alone) solve_by_map(d, i);

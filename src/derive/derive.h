@@ -76,7 +76,35 @@ typedef struct pl_section {        // one request
   PL_VEC(pl_step) steps;
   PL_VEC(pl_value) values;
   bool not_found;                  // a closed form was asked for and not found (exit 5 with --strict)
+  int stage;                       // of the motion; 0: where the solution begins
+  const struct pl_analysis* by;    // who wrote it, inside of derive
 } pl_section;
+
+// ---------------------------------------------------------------------------------------------- what holds
+// How a stretch of the motion ends.
+typedef enum pl_stage_end {
+  PL_END_UNKNOWN,                  // not looked at further
+  PL_END_OF_RUN,                   // the simulation ends
+  PL_END_OPENS,                    // a contact: its multiplier is zero
+  PL_END_CLOSES,                   // a contact: its constraint is met
+  PL_END_EVENT                     // of the model
+} pl_stage_end;
+
+// A set of constraints that hold together, and the first stretch of the motion on which it does.  Rows are named as in the
+// simulation: "floor", "c[3]", and "choose x" for the map of x.  Who calls derive finds out; derive does not guess.
+typedef struct pl_stage {
+  int n;
+  const char* const* name;         // (n)
+  const bool* holds;               // (n)
+  const bool* released;            // by an event, or `off`: nothing keeps its side either  (n)
+  const bool* pulls;               // met at the beginning, but would have to pull          (n)
+  double from, to;                 // s
+  int n_q;
+  const char* const *q_name, *const *q_unit;   // coordinates where the stretch begins, units as text, "rad" for angles
+  const double* q;                 // (n_q)
+  pl_stage_end end;
+  const char* ended_by;            // label of the contact or event; NULL
+} pl_stage;
 
 // ---------------------------------------------------------------------------------------------- constraints, dof
 typedef struct pl_constraint_info {
@@ -86,10 +114,16 @@ typedef struct pl_constraint_info {
   bool nonholonomic, one_sided, rheonomic;
   bool dropped;                    // coordinate = constant or f(t): taken out
   bool implied;                    // follows from the others
+  bool open;                       // does not hold where the solution begins: a contact that is open, a constraint that is off
   int n_implied_by; const char** implied_by;
 } pl_constraint_info;
 
-typedef struct pl_dof { int coordinates, constraints, rank, dof, velocity_dof; } pl_dof;
+typedef struct pl_dof {
+  int coordinates, constraints;    // constraints that hold
+  int rank, dof, velocity_dof;
+  int open;                        // contacts that are open
+  int free;                        // degrees of freedom with all contacts open
+} pl_dof;
 
 // ---------------------------------------------------------------------------------------------- checks
 typedef struct pl_check {
@@ -107,8 +141,7 @@ typedef enum pl_derive_stage { PL_D_EQUATIONS, PL_D_SOLUTION, PL_D_PRESENTATION,
 
 typedef struct pl_solution {
   const pl_model* model;
-  pl_tower* tower;
-  PL_VEC(pl_tower*) trial_towers;  // of the generalized coordinates that were tried
+  PL_VEC(pl_tower*) towers;        // of all sets of constraints and coordinates that were tried
   PL_VEC(pl_section) sections;
   PL_VEC(pl_constraint_info) constraints;
   pl_dof dof;
@@ -125,6 +158,12 @@ typedef struct pl_derive_options {
   const char* only;                // letters, comma separated; NULL: all
   double seconds;                  // presentation budget for each quantity; 0: 0.02
   bool structure;                  // constraints, freedoms and notes only: no sections, nothing to certify
+  // The sets of constraints that hold along the motion of `init`, in order, each once; the first is that of the start.
+  // n_stages = 0: not known, then contacts are taken as closed.
+  int n_stages;
+  const pl_stage* stages;
+  const pl_stage* (*stage_from)(void* user, const pl_motion* from);   // of a motion that starts elsewhere; NULL: not known
+  void* user;
 } pl_derive_options;
 
 // pl_derive works the model out.  The solution lives in the job's arena; the tower inside it is freed with

@@ -34,6 +34,14 @@ typedef struct pl_bond {   // a constraint at work
   bool lambda_known;
 } pl_bond;
 
+// A constraint that is not in the equations: it is open, off or released.  Its multiplier is zero.
+typedef struct pl_open {
+  const pl_constraint* source;
+  bool contact;            // one-sided
+  bool released;           // nothing keeps its side
+  bool off;                // from the beginning, as written
+} pl_open;
+
 typedef struct pl_particle {   // a point mass or the centre of a body
   const char* label;           // "m1"
   const char* ascii;
@@ -88,11 +96,12 @@ typedef struct pl_loop {
   bool told;
 } pl_loop;
 
-typedef struct pl_analysis {
+typedef struct pl_analysis pl_analysis;
+struct pl_analysis {
   pl_job* job;
   pl_arena* arena;
   pl_pool* pool;
-  pl_model* model;
+  pl_model* model;             // with the constraints that hold, and the maps that hold with them
   pl_tower* tower;
   pl_solution* solution;
   pl_section* section;         // the one being written
@@ -137,9 +146,33 @@ typedef struct pl_analysis {
   bool loops_told;
   struct pl_proposal* proposal;   // what was found when nothing is chosen; NULL: not looked for
   bool is_proposal;            // this is the analysis of the copy that chooses what is proposed
-} pl_analysis;
+
+  // sets of constraints (sets.c)
+  pl_model* whole;             // the model with all its constraints
+  const pl_stage* stage;       // where this set holds; NULL: not known, contacts are taken as closed
+  PL_VEC(pl_open) open;
+  PL_VEC(pl_symbol) unnamed;   // coordinates of `choose` that mean nothing here: their map went with its constraint
+  pl_dof dof;
+  PL_VEC(pl_analysis*) sets;   // of the first analysis: all that were made, itself first
+  bool open_told;
+};
+
+// ---------------------------------------------------------------------------------------------- sets.c
+void pl_choose_set(pl_analysis* d, pl_model* whole, const pl_stage* stage);     // d->model, d->open
+pl_analysis* pl_analysis_of(pl_analysis* first, const pl_ask* ask);             // that of the motion that is asked about; NULL: it failed
+void pl_answer_closed(pl_analysis* first, const pl_ask* ask);   // positions of rest with all contacts closed
+void pl_answer_stages(pl_analysis* first);              // a section for each later set of the motion
+bool pl_answer_open(pl_analysis* d, const pl_ask* ask); // asked about what does not hold: said
+const pl_ask* pl_without_open(pl_analysis* d, const pl_ask* ask);   // multipliers of what is open are zero
+void pl_tell_open(pl_analysis* d);                      // once, before the first formula
+void pl_note_undecided(pl_analysis* d);                 // contacts taken as closed, because nothing tells
+pl_expr pl_open_removed(pl_analysis* d, pl_expr e);
+// worked.c
+pl_analysis* pl_analysis_make(const pl_analysis* like, const pl_stage* stage);  // derived as far as the motion
+void pl_answer_one(pl_analysis* d, const pl_ask* ask);
 
 // ---------------------------------------------------------------------------------------------- setup.c
+void pl_setup_facts(pl_analysis* d);                    // the assumptions of the model
 pleuel_status pl_setup_coordinates(pl_analysis* d);     // coordinates, particles, links, facts, start numbers
 pleuel_status pl_setup_trivial(pl_analysis* d);         // coordinate = constant or f(t); contradictions; implied ones
 pleuel_status pl_contradiction(pl_analysis* d, const pl_bond* l, pl_expr rest);   // reports E042

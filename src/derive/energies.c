@@ -253,6 +253,9 @@ static pl_expr result_value(pl_analysis* d, const pl_result_name* r) {
            : r->kind == PL_RES_NORMAL && l->source->relation == PL_GE ? size
                                                                      : pl_call(d->pool, PL_ABS, size);
   }
+  for (int k = 0; k < d->open.n; k++) {
+    if (r->label && strcmp(d->open.at[k].source->name.text, r->label) == 0) return pl_int(d->pool, 0);
+  }
   return pl_poison();
 }
 

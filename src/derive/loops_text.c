@@ -345,5 +345,7 @@ static void spread(pl_analysis* d, pl_section* s) {
 }
 
 void pl_spread_assemblies(pl_analysis* d) {
-  for (int k = 0; k < d->solution->sections.n && d->loops.n > 0; k++) spread(d, &d->solution->sections.at[k]);
+  for (int k = 0; k < d->solution->sections.n && d->loops.n > 0; k++) {
+    if (d->solution->sections.at[k].by == d) spread(d, &d->solution->sections.at[k]);
+  }
 }

@@ -380,6 +380,11 @@ static bool solves(pl_analysis* d, pl_proposal* p, const pl_trial* t, int n_free
   pl_analysis* a = PL_NEW(d->arena, pl_analysis);
   *a = (pl_analysis){.job = d->job, .arena = d->arena, .pool = d->pool, .model = m, .options = d->options,
                      .solution = d->solution, .told = pl_map_make(d->arena), .began_ms = d->began_ms, .proposal = p, .is_proposal = true};
+  a->whole = d->whole;
+  a->stage = d->stage;
+  a->open = d->open;
+  a->unnamed = d->unnamed;
+  pl_setup_facts(a);
   if (pl_form_equations(a) != PLEUEL_OK || !a->reduced) return false;
   if (a->gen.n + a->hidden.n != n_freedoms) return false;
   bool best = a->loops.n == 0;

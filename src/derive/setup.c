@@ -157,7 +157,6 @@ static pl_expr integrated(pl_analysis* d, const pl_constraint* c) {
 static void add_links(pl_analysis* d) {
   for (int k = 0; k < d->model->constraints.n; k++) {
     const pl_constraint* c = &d->model->constraints.at[k];
-    if (c->off) continue;
     pl_bond l = {.source = c, .g = c->g, .fixes = -1, .contact = c->relation != PL_EQ, .velocity = c->has_velocity,
                  .lambda = c->lambda};
     l.gradient = PL_ARRAY(d->arena, pl_expr, d->q.n);
@@ -175,7 +174,7 @@ static void add_links(pl_analysis* d) {
   }
 }
 
-static void add_facts(pl_analysis* d) {
+void pl_setup_facts(pl_analysis* d) {
   pl_pool* p = d->pool;
   for (int k = 0; k < d->model->assumptions.n; k++) {
     const pl_assumption* a = &d->model->assumptions.at[k];
@@ -192,13 +191,16 @@ static void add_facts(pl_analysis* d) {
   }
 }
 
+static void add_contact_fact(pl_analysis* d, const pl_constraint* c) {
+  if (c->relation == PL_EQ || c->has_velocity) return;
+  pl_push(d->arena, d->facts, (pl_fact){c->relation == PL_GE ? c->g : pl_neg(d->pool, c->g), false});
+}
+
 // In contact or above it, a one-sided constraint is a fact too: r >= R.
 static void add_contact_facts(pl_analysis* d) {
-  for (int k = 0; k < d->g.n; k++) {
-    const pl_bond* l = &d->g.at[k];
-    if (!l->contact || l->velocity) continue;
-    bool ge = l->source->relation == PL_GE;
-    pl_push(d->arena, d->facts, (pl_fact){ge ? l->g : pl_neg(d->pool, l->g), false});
+  for (int k = 0; k < d->g.n; k++) add_contact_fact(d, d->g.at[k].source);
+  for (int k = 0; k < d->open.n; k++) {
+    if (!d->open.at[k].released) add_contact_fact(d, d->open.at[k].source);
   }
 }
 
@@ -263,12 +265,10 @@ pleuel_status pl_setup_coordinates(pl_analysis* d) {
   add_coordinates(d);
   add_particles(d);
   add_links(d);
-  add_facts(d);
   add_contact_facts(d);
   for (int i = 0; i < d->q.n; i++) d->q.at[i].carries = carries(d, &d->q.at[i]);
   d->tower = pl_tower_make(d->job, d->pool, d->facts.at, d->facts.n);
-  if (d->is_proposal) pl_push(d->arena, d->solution->trial_towers, d->tower);
-  else d->solution->tower = d->tower;
+  pl_push(d->arena, d->solution->towers, d->tower);
   define_names(d);
   probe_start(d);
   return PLEUEL_OK;

@@ -97,7 +97,7 @@ static void keep_solution(pl_analysis* d, const pl_linear* s, const pl_expr* x) 
 }
 
 pl_expr pl_on_motion(pl_analysis* d, pl_expr e) {
-  e = pl_on_maps(d, e);
+  e = pl_on_maps(d, pl_open_removed(d, e));
   pl_replace* r = PL_ARRAY(d->arena, pl_replace, d->q.n + d->g.n);
   int n = 0;
   for (int i = 0; i < d->q.n; i++) {

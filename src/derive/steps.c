@@ -9,7 +9,7 @@
 static bool same_letter(const char* a, const char* b) { return a && b ? strcmp(a, b) == 0 : a == b; }
 
 pl_section* pl_section_open(pl_analysis* d, const pl_ask* ask, const char* en, const char* de) {
-  pl_section s = {.letter = ask->letter, .item = ask->text, .title = {en, de}};
+  pl_section s = {.letter = ask->letter, .item = ask->text, .title = {en, de}, .by = d};
   if (d->solution->sections.n > 0) {
     const pl_section* last = &d->solution->sections.at[d->solution->sections.n - 1];
     bool same_title = !en || (last->title[0] && strcmp(last->title[0], en) == 0);
@@ -17,6 +17,7 @@ pl_section* pl_section_open(pl_analysis* d, const pl_ask* ask, const char* en, c
   }
   pl_push(d->arena, d->solution->sections, s);
   d->section = &d->solution->sections.at[d->solution->sections.n - 1];
+  if (ask->kind != PL_ASK_DOF && ask->kind != PL_ASK_CONSTRAINTS) pl_tell_open(d);
   pl_tell_proposal(d);
   if (pl_speaks_of_loops(ask)) pl_tell_loops(d);
   return d->section;

@@ -18,7 +18,11 @@ static void find_implied(pl_analysis* d) {
   for (int k = 0; k < d->g.n; k++) {
     if (d->g.at[k].fixes < 0 && !d->g.at[k].implied) row[m++] = k;
   }
-  if (m == 0 || n == 0) return;
+  if (m == 0) return;
+  if (n == 0) {   // nothing is left to move: what holds, holds already
+    for (int a = 0; a < m; a++) d->g.at[row[a]].implied = true;
+    return;
+  }
   pl_expr* A = PL_ARRAY(d->arena, pl_expr, m * n);
   for (int a = 0; a < m; a++) {
     for (int b = 0; b < n; b++) A[a * n + b] = pl_on_maps(d, d->g.at[row[a]].gradient[column[b]]);
@@ -33,8 +37,8 @@ static void find_implied(pl_analysis* d) {
 }
 
 static void count_freedom(pl_analysis* d) {
-  pl_dof* f = &d->solution->dof;
-  int velocity = 0;
+  pl_dof* f = &d->dof;
+  int velocity = 0, contacts = 0;
   for (int i = 0; i < d->q.n; i++) f->coordinates += d->q.at[i].carries;
   for (int k = 0; k < d->g.n; k++) {
     f->constraints++;
@@ -43,14 +47,20 @@ static void count_freedom(pl_analysis* d) {
       velocity++;
     } else {
       f->rank++;
+      contacts += d->g.at[k].contact || d->g.at[k].source->while_label;
     }
   }
+  for (int k = 0; k < d->open.n; k++) f->open += d->open.at[k].contact && !d->open.at[k].released;
+  f->dof = f->coordinates - f->rank - d->hidden.n;
+  f->velocity_dof = f->dof - velocity;
+  f->free = f->dof + contacts;
+}
+
+static void list_hidden(pl_analysis* d) {
   for (int k = 0; k < d->hidden.n; k++) {
     const pl_variable* c = &d->q.at[d->hidden.at[k]];
     pl_push(d->arena, d->solution->hidden, pl_sub(d->pool, pl_sym(d->pool, c->q), c->map));
   }
-  f->dof = f->coordinates - f->rank - d->hidden.n;
-  f->velocity_dof = f->dof - velocity;
 }
 
 static const char* relation_text(pl_analysis* d, const pl_constraint* c) {
@@ -154,7 +164,19 @@ static void note_implied(pl_analysis* d, const pl_bond* l, const pl_constraint_i
                 "für die Bewegung ohne Folgen, aber die Kräfte dieser Zwangsbedingungen sind nicht eindeutig; mit \", redundant ok\" bleibt sie", NULL);
 }
 
-static void describe_constraints(pl_analysis* d) {
+static void describe_open(pl_analysis* d) {
+  for (int k = 0; k < d->open.n; k++) {
+    const pl_open* o = &d->open.at[k];
+    if (o->off) continue;
+    pl_constraint_info info = {.source = o->source, .label = o->source->name.text, .text = relation_text(d, o->source), .open = true,
+                               .nonholonomic = o->source->has_velocity, .one_sided = o->contact,
+                               .rheonomic = pl_has_symbol(d->pool, o->source->g, pl_time(d->pool))};
+    pl_push(d->arena, d->solution->constraints, info);
+  }
+}
+
+// first: it is told.  What depends on what is found for every set.
+static void describe_constraints(pl_analysis* d, bool first) {
   for (int k = 0; k < d->g.n; k++) {
     const pl_bond* l = &d->g.at[k];
     pl_constraint_info info = {.source = l->source, .label = l->source->name.text, .text = relation_text(d, l->source),
@@ -163,10 +185,11 @@ static void describe_constraints(pl_analysis* d) {
                                .dropped = l->fixes >= 0 && !l->contact, .implied = l->implied};
     if (l->implied) {
       implied_by(d, k, &info);
-      note_implied(d, l, &info);
+      if (first) note_implied(d, l, &info);
     }
-    pl_push(d->arena, d->solution->constraints, info);
+    if (first) pl_push(d->arena, d->solution->constraints, info);
   }
+  if (first) describe_open(d);
 }
 
 // ---------------------------------------------------------------------------------------------- requests
@@ -238,7 +261,7 @@ static bool in_generalized(pl_analysis* d, const pl_ask* ask) {
 }
 
 // No freedom is left: all is a function of t.
-static bool is_driven(const pl_analysis* d) { return d->solution->dof.dof == 0; }
+static bool is_driven(const pl_analysis* d) { return d->dof.dof == 0; }
 
 // The analysis that answers: in the coordinates of the model, or with what is proposed.
 static pl_analysis* serving(pl_analysis* d, const pl_ask* ask) {
@@ -302,17 +325,24 @@ static pl_ask in_its_coordinates(pl_analysis* d, const pl_ask* ask) {
   return own;
 }
 
-static void answer(pl_analysis* d, const pl_ask* ask) {
+void pl_answer_one(pl_analysis* d, const pl_ask* ask) {
+  int n = d->solution->sections.n;
+  d->section = n > 0 ? &d->solution->sections.at[n - 1] : NULL;   // another analysis may have written it
+  if (pl_answer_open(d, ask)) return;
+  ask = pl_without_open(d, ask);
   pl_analysis* a = serving(d, ask);
   pl_ask own = in_its_coordinates(a, ask);
   a->section = d->section;
+  a->open_told = d->open_told;
+  a->stage = d->stage;
   answer_with(a, &own);
   d->section = a->section;
+  d->open_told = a->open_told;
 }
 
 static void standard(pl_analysis* d, pl_ask_kind kind, const char* text) {
   pl_ask ask = {.kind = kind, .text = text};
-  answer(d, &ask);
+  pl_answer_one(d, &ask);
 }
 
 // Without `ask`: the standard worked solution.
@@ -328,7 +358,7 @@ static void answer_standard(pl_analysis* d) {
     if (d->g.at[k].implied || (d->g.at[k].fixes >= 0 && !d->g.at[k].contact)) continue;
     const pl_symbol_info* lambda = pl_symbol_get(d->pool, d->g.at[k].lambda);
     pl_ask ask = {.kind = PL_ASK_SOLVE, .text = pl_format(d->arena, "solve %s", lambda->name), .value = pl_sym(d->pool, d->g.at[k].lambda)};
-    answer(d, &ask);
+    pl_answer_one(d, &ask);
   }
   const pl_analysis* a = d->reduced ? d : pl_propose(d);
   if (a) {
@@ -357,8 +387,13 @@ static pleuel_status answer_all(pl_analysis* d) {
   if (d->model->asks.n == 0) answer_standard(d);
   for (int k = 0; k < d->model->asks.n; k++) {
     if (pl_interrupted(d->job)) return pl_fail(d->job, PLEUEL_INTERRUPTED, "stopped after %d of %d requests", k, d->model->asks.n);
-    if (wanted(d->options, &d->model->asks.at[k])) answer(d, &d->model->asks.at[k]);
+    const pl_ask* ask = &d->model->asks.at[k];
+    if (!wanted(d->options, ask)) continue;
+    pl_analysis* of = pl_analysis_of(d, ask);
+    pl_answer_one(of ? of : d, ask);
+    pl_answer_closed(d, ask);
   }
+  pl_answer_stages(d);
   return PLEUEL_OK;
 }
 
@@ -387,6 +422,11 @@ static const char* fact_text(pl_analysis* d, const pl_fact* f) {
 
 // A one-sided constraint of the model is no assumption of ours.
 static bool is_contact(pl_analysis* d, const pl_fact* f) {
+  for (int k = 0; k < d->open.n; k++) {
+    const pl_constraint* c = d->open.at[k].source;
+    bool same = pl_same(f->difference, c->g) || pl_same(f->difference, pl_neg(d->pool, c->g));
+    if (d->open.at[k].contact && !f->strict && same) return true;
+  }
   for (int k = 0; k < d->g.n; k++) {
     const pl_bond* l = &d->g.at[k];
     bool same = pl_same(f->difference, l->g) || pl_same(f->difference, pl_neg(d->pool, l->g));
@@ -409,17 +449,22 @@ static bool is_listed(pl_analysis* d, const pl_fact* f, const pl_fact** sorted, 
   return listed;
 }
 
-// Those of d, and those of a if it is there.
-static void list_assumptions(pl_analysis* d, pl_analysis* a) {
-  int n_own = 0, n_other = 0, n = 0;
-  const pl_fact *own = pl_tower_used(d->tower, &n_own), *other = a ? pl_tower_used(a->tower, &n_other) : NULL;
-  const pl_fact** sorted = PL_ARRAY(d->arena, const pl_fact*, n_own + n_other + 1);
-  for (int k = 0; k < n_own + n_other; k++) {   // by insertion: few, and equal ones keep their order
-    const pl_fact* f = k < n_own ? &own[k] : &other[k - n_own];
-    if (is_listed(d, f, sorted, n)) continue;
-    int at = n++;
-    for (; at > 0 && fact_order(d, sorted[at - 1]) > fact_order(d, f); at--) sorted[at] = sorted[at - 1];
-    sorted[at] = f;
+// Those of all analyses.
+static void list_assumptions(pl_analysis* d, pl_analysis** of, int n_of) {
+  int most = 0, n = 0, n_used;
+  for (int k = 0; k < n_of; k++) {
+    pl_tower_used(of[k]->tower, &n_used);
+    most += n_used;
+  }
+  const pl_fact** sorted = PL_ARRAY(d->arena, const pl_fact*, most + 1);
+  for (int k = 0; k < n_of; k++) {
+    const pl_fact* used = pl_tower_used(of[k]->tower, &n_used);
+    for (const pl_fact* f = used; f < used + n_used; f++) {   // by insertion: few, and equal ones keep their order
+      if (is_listed(d, f, sorted, n)) continue;
+      int at = n++;
+      for (; at > 0 && fact_order(d, sorted[at - 1]) > fact_order(d, f); at--) sorted[at] = sorted[at - 1];
+      sorted[at] = f;
+    }
   }
   for (int k = 0; k < n; k++) pl_push(d->arena, d->solution->used, fact_text(d, sorted[k]));
 }
@@ -442,29 +487,74 @@ pleuel_status pl_form_equations(pl_analysis* d) {
   return PLEUEL_OK;
 }
 
-static pleuel_status derive(pl_analysis* d) {
-  double since = pl_cpu_ms();
+// Equations and the motion that follows from them.
+static pleuel_status derive_motion(pl_analysis* d, bool first, double* since) {
   pleuel_status status = pl_form_equations(d);
   if (status == PLEUEL_OK) status = find_contradictions(d);
-  pass(d, PL_D_EQUATIONS, &since);
+  pass(d, PL_D_EQUATIONS, since);
   PL_TRY(status);
   PL_TRY(pl_solve_motion(d));
-  pass(d, PL_D_SOLUTION, &since);
+  pass(d, PL_D_SOLUTION, since);
   count_freedom(d);
-  describe_constraints(d);
+  describe_constraints(d, first);
   pl_share_forces(d);
+  return PLEUEL_OK;
+}
+
+static pl_analysis* analysis(pl_job* job, pl_model* whole, const pl_derive_options* options, pl_solution* solution, const pl_stage* stage) {
+  pl_analysis* d = PL_NEW(job->arena, pl_analysis);
+  *d = (pl_analysis){.job = job, .arena = job->arena, .pool = whole->pool, .model = whole, .options = options, .solution = solution};
+  d->told = pl_map_make(job->arena);
+  d->began_ms = pl_cpu_ms();
+  pl_setup_facts(d);
+  pl_choose_set(d, whole, stage);
+  return d;
+}
+
+pl_analysis* pl_analysis_make(const pl_analysis* like, const pl_stage* stage) {
+  pl_job* job = like->job;
+  pl_analysis* d = analysis(job, like->whole, like->options, like->solution, stage);
+  double since = pl_cpu_ms();
+  int messages = job->diagnostics->list.n, errors = job->diagnostics->n_errors;
+  if (derive_motion(d, false, &since) == PLEUEL_OK) return d;
+  job->diagnostics->list.n = messages;       // a set that does not fit is no fault of the model
+  job->diagnostics->n_errors = errors;
+  job->status = PLEUEL_OK;
+  job->message[0] = '\0';
+  return NULL;
+}
+
+// Those of all sets, and of the coordinates that are proposed for them.
+static pl_analysis** all_analyses(pl_analysis* first, int* n) {
+  pl_analysis** out = PL_ARRAY(first->arena, pl_analysis*, 2 * first->sets.n);
+  *n = 0;
+  for (int k = 0; k < first->sets.n; k++) {
+    pl_analysis* d = first->sets.at[k];
+    pl_analysis* proposed = d->proposal ? pl_propose(d) : NULL;
+    out[(*n)++] = d;
+    if (proposed) out[(*n)++] = proposed;
+  }
+  return out;
+}
+
+static pleuel_status derive(pl_analysis* d) {
+  double since = pl_cpu_ms();
+  pl_push(d->arena, d->sets, d);
+  PL_TRY(derive_motion(d, true, &since));
+  d->solution->dof = d->dof;
+  list_hidden(d);
   pl_note_equilibrium_start(d);
-  if (d->options && d->options->structure) return PLEUEL_OK;
-  status = answer_all(d);
-  pl_analysis* proposed = d->proposal ? pl_propose(d) : NULL;
-  pl_spread_assemblies(d);
-  if (proposed) pl_spread_assemblies(proposed);
-  pl_define_proposed(d);
+  pl_note_undecided(d);
+  if (d->options->structure) return PLEUEL_OK;
+  pleuel_status status = answer_all(d);
+  int n;
+  pl_analysis** all = all_analyses(d, &n);
+  for (int k = 0; k < n; k++) pl_spread_assemblies(all[k]);
+  for (int k = 0; k < d->sets.n; k++) pl_define_proposed(d->sets.at[k]);
   pass(d, PL_D_PRESENTATION, &since);
-  pl_claims_check(d);
-  if (proposed) pl_claims_check(proposed);
+  for (int k = 0; k < n; k++) pl_claims_check(all[k]);
   pass(d, PL_D_CERTIFICATES, &since);
-  list_assumptions(d, proposed);
+  list_assumptions(d, all, n);
   return status;
 }
 
@@ -488,22 +578,22 @@ pleuel_status pl_derive(pl_job* job, pl_model* model, const pl_derive_options* o
     job->message[0] = 0;
   }
   if (!families && status != PLEUEL_OK) return status;
+  static const pl_derive_options plain = {0};
+  if (!options) options = &plain;
+  *out = PL_NEW(job->arena, pl_solution);
+  (*out)->model = flat;
+  const pl_stage* stage = options->n_stages > 0 ? &options->stages[0] : NULL;
+  if (!families) return derive(analysis(job, flat, options, *out, stage));
   pl_analysis* d = PL_NEW(job->arena, pl_analysis);
-  *d = (pl_analysis){.job = job, .arena = job->arena, .pool = flat->pool, .model = flat, .options = options};
+  *d = (pl_analysis){.job = job, .arena = job->arena, .pool = flat->pool, .model = flat, .options = options, .solution = *out};
   d->told = pl_map_make(job->arena);
-  d->solution = PL_NEW(job->arena, pl_solution);
   d->began_ms = pl_cpu_ms();
-  d->solution->model = flat;
-  *out = d->solution;
-  return families ? pl_derive_families(d) : derive(d);
+  return pl_derive_families(d);
 }
 
 void pl_solution_close(pl_solution* s) {
-  if (!s) return;
-  if (s->tower) pl_tower_free(s->tower);
-  s->tower = NULL;
-  for (int k = 0; k < s->trial_towers.n; k++) pl_tower_free(s->trial_towers.at[k]);
-  s->trial_towers.n = 0;
+  for (int k = 0; s && k < s->towers.n; k++) pl_tower_free(s->towers.at[k]);
+  if (s) s->towers.n = 0;
 }
 
 void pl_derive_dump(pl_text* out, const pl_solution* s) {

@@ -11,7 +11,7 @@ static void open_card(pl_html* h, const char* class) { pl_html_rawf(h, "<div cla
 // ---------------------------------------------------------------------------------------------- freedoms
 static int count_one_sided(const pl_solution* s) {
   int n = 0;
-  for (int i = 0; i < s->constraints.n; i++) n += s->constraints.at[i].one_sided;
+  for (int i = 0; i < s->constraints.n; i++) n += s->constraints.at[i].one_sided && !s->constraints.at[i].open;
   return n;
 }
 
@@ -25,6 +25,7 @@ static void put_freedom(pl_html* h) {
   pl_html_rawf(h, d->constraints == 1 ? pl_html_say(h, "%d constraint", "%d Zwangsbedingung") : pl_html_say(h, "%d constraints", "%d Zwangsbedingungen"), d->constraints);
   if (one_sided > 0 && one_sided == d->constraints) pl_html_raw(h, pl_html_say(h, ", one-sided", ", einseitig"));
   else if (one_sided > 0) pl_html_rawf(h, pl_html_say(h, ", %d one-sided", ", davon %d einseitig"), one_sided);
+  if (d->open > 0) pl_html_rawf(h, pl_html_say(h, ", %d open", ", %d offen"), d->open);
   if (d->velocity_dof != d->dof) pl_html_rawf(h, pl_html_say(h, "; %d for velocities", "; %d für Geschwindigkeiten"), d->velocity_dof);
   else if (implied > 0) pl_html_rawf(h, pl_html_say(h, ", %d follow from the others", ", %d folgen aus den anderen"), implied);
   pl_html_raw(h, "</p></div>\n");

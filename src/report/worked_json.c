@@ -94,6 +94,7 @@ static void pl_doc_constraint(pl_document* d, const pl_constraint_info* c) {
   pl_json_string(&d->j, "sided", c->one_sided ? "one" : "two");
   pl_json_bool(&d->j, "rheonomic", c->rheonomic);
   pl_json_bool(&d->j, "dropped", c->dropped);
+  if (c->open) pl_json_bool(&d->j, "open", true);
   pl_doc_strings(d, "implied_by", c->implied_by, c->n_implied_by);
   pl_json_end_object(&d->j);
 }
@@ -129,6 +130,7 @@ static void pl_doc_dof(pl_document* d) {
   pl_json_flat(&d->j);
   pl_json_int(&d->j, "coordinates", s->dof.coordinates);
   pl_json_int(&d->j, "constraints", s->dof.constraints);
+  if (s->dof.open > 0) pl_json_int(&d->j, "open", s->dof.open);
   pl_json_int(&d->j, "rank", s->dof.rank);
   pl_json_int(&d->j, "dof", s->dof.dof);
   pl_json_int(&d->j, "velocity_dof", s->dof.velocity_dof);
@@ -303,6 +305,7 @@ static void pl_doc_value(pl_document* d, const pl_value* v) {
 static void pl_doc_section(pl_document* d, const pl_section* s) {
   pl_json_object(&d->j, NULL);
   pl_json_string(&d->j, "item", s->item);
+  if (s->stage > 0) pl_json_int(&d->j, "stage", s->stage + 1);
   pl_json_list(&d->j, "steps");
   for (int i = 0; i < s->steps.n; i++) pl_doc_one_step(d, &s->steps.at[i]);
   pl_json_end_list(&d->j);

@@ -317,6 +317,7 @@ const pl_stats* pl_run_stats(const pl_run* run) { return &run->stats; }
 double pl_run_tol(const pl_run* run) { return run->tol; }
 bool pl_run_tol_raised(const pl_run* run) { return run->tol_raised; }
 bool pl_run_is_active(const pl_run* run, int link) { return run->active[link]; }
+bool pl_run_is_released(const pl_run* run, int link) { return run->detached[link]; }
 
 void pl_run_dense(const pl_run* run, double t, double* q, double* v, double* lambda) {
   double dt = t - run->t_last;

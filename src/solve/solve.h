@@ -363,6 +363,7 @@ const pl_stats* pl_run_stats(const pl_run* run);
 double pl_run_tol(const pl_run* run);                // tolerance in use
 bool pl_run_tol_raised(const pl_run* run);           // the one asked for was below what the arithmetic can do
 bool pl_run_is_active(const pl_run* run, int link);
+bool pl_run_is_released(const pl_run* run, int link);   // by an event, or off: it is not watched either
 const char* pl_run_mode(const pl_run* run);
 
 // pl_run_dense evaluates the series of the last step at time t (within it).  Any pointer may be NULL.
