@@ -173,6 +173,7 @@ void pl_answer_one(pl_analysis* d, const pl_ask* ask);
 
 // ---------------------------------------------------------------------------------------------- setup.c
 void pl_setup_facts(pl_analysis* d);                    // the assumptions of the model
+pl_tower* pl_setup_tower(pl_analysis* d);               // over them; names of given quantities are seen through
 pleuel_status pl_setup_coordinates(pl_analysis* d);     // coordinates, particles, links, facts, start numbers
 pleuel_status pl_setup_trivial(pl_analysis* d);         // coordinate = constant or f(t); contradictions; implied ones
 pleuel_status pl_contradiction(pl_analysis* d, const pl_bond* l, pl_expr rest);   // reports E042

@@ -68,7 +68,7 @@ static bool is_left_out(const pl_analysis* d, const char* label) {
 }
 
 static void choose_constraints(pl_analysis* d, const pl_model* whole, pl_model* m) {
-  pl_tower* t = d->stage ? NULL : pl_tower_make(d->job, d->pool, d->facts.at, d->facts.n);
+  pl_tower* t = d->stage ? NULL : pl_setup_tower(d);
   m->constraints.n = m->constraints.cap = 0;
   m->constraints.at = NULL;
   for (int k = 0; k < whole->constraints.n; k++) {

@@ -253,12 +253,18 @@ static void probe_start(pl_analysis* d) {
 }
 
 // Abbreviations of given quantities are a way of printing: what is asked of formulas sees through them.
-static void define_names(pl_analysis* d) {
+static void define_names(pl_analysis* d, pl_tower* t) {
   for (int k = 0; k < d->model->lets.n; k++) {
     const pl_let* let = &d->model->lets.at[k];
     if (let->inserted || let->n_args > 0 || pl_has_coordinates(d, let->value)) continue;
-    pl_tower_define(d->tower, &(pl_replace){let->symbol, let->value}, 1);
+    pl_tower_define(t, &(pl_replace){let->symbol, let->value}, 1);
   }
+}
+
+pl_tower* pl_setup_tower(pl_analysis* d) {
+  pl_tower* t = pl_tower_make(d->job, d->pool, d->facts.at, d->facts.n);
+  define_names(d, t);
+  return t;
 }
 
 pleuel_status pl_setup_coordinates(pl_analysis* d) {
@@ -267,9 +273,8 @@ pleuel_status pl_setup_coordinates(pl_analysis* d) {
   add_links(d);
   add_contact_facts(d);
   for (int i = 0; i < d->q.n; i++) d->q.at[i].carries = carries(d, &d->q.at[i]);
-  d->tower = pl_tower_make(d->job, d->pool, d->facts.at, d->facts.n);
+  d->tower = pl_setup_tower(d);
   pl_push(d->arena, d->solution->towers, d->tower);
-  define_names(d);
   probe_start(d);
   return PLEUEL_OK;
 }
