@@ -24,6 +24,7 @@ typedef struct formatter {
   int last;         // kind written last, 0 at the start of a statement
   bool last_unary;  // it was a sign
   bool in_statement, continued;
+  bool words;       // the statement is made of words with hyphens, lambda-minus: no blank comes in
   int dots_to_write;  // primes that wait for the end of an index
   int brackets;
 } formatter;
@@ -91,9 +92,10 @@ static const char* name_text(formatter* f, const pl_token* t, int next) {
   if (f->spelling == PL_SPELL_KEEP) return source;
   bool root = strcmp(source, "√") == 0;
   // underscores stay: x_0 may be a start value
+  bool plain = is_ascii(source) || t->number == 0;      // no dots over its letters
   const char* name = f->spelling == PL_SPELL_ASCII ? (is_ascii(source) ? source : t->key)
                      : root                        ? source
-                     : is_ascii(source)            ? pl_spell_unicode(f->arena, source)
+                     : plain                       ? pl_spell_unicode(f->arena, source)
                                                    : t->shown;
   if (t->number == 0) return name;
   if (next == '[') {
@@ -167,6 +169,7 @@ static bool blank_before(const formatter* f, int kind, const pl_token* t, bool w
     default: break;
   }
   if (last == ',' || last == TOK_SEPARATOR || last == ':') return true;
+  if (f->words && last != TOK_CONVENTION) return !t->tight;
   if (last == '(' || last == '[' || last == TOK_RANGE || last == '^' || last == '/' || last == '*') return false;
   if (kind == '[' || f->last_unary) return false;
   if (f->brackets && (kind == '+' || kind == '-' || last == '+' || last == '-')) return false;  // x[i-1]
@@ -202,6 +205,7 @@ static void write_token(formatter* f, int i) {
   int kind = f->p->kinds[i] ? f->p->kinds[i] : t->kind;
   const char* text = token_text(f, t, next_kind(f, i));
   bool at_start = f->code.n == 0;
+  if (!f->in_statement) f->words = kind == TOK_CONVENTION;
   indent(f);
   if (!at_start && blank_before(f, kind, t, grows_together(f, kind, text)) && text[0] != ' ')
     pl_text_add(&f->code, " ");

@@ -30,6 +30,7 @@ static void layout_is_canonical(void** state) {
   becomes("potential  m g( x+l )-1 / 2 k x ^ 2\n", PL_SPELL_KEEP, "potential m g(x + l) - 1/2 k x^2\n");
   becomes("ask b :dof ,limit m->0 of x''\n", PL_SPELL_KEEP, "ask b: dof, limit m -> 0 of x''\n");
   becomes("gravity g along - y\nplot - x vs t\n", PL_SPELL_KEEP, "gravity g along -y\nplot -x vs t\n");
+  becomes("convention  lambda-minus ,right-handed\n", PL_SPELL_KEEP, "convention lambda-minus, right-handed\n");
   becomes("#: printed\ncoord x  #: too\n", PL_SPELL_KEEP, "#: printed\ncoord x  #: too\n");
 }
 
@@ -38,6 +39,7 @@ static void spellings_can_be_chosen(void** state) {
   becomes("init ϑ̇ = 2π R·x″, m₁ = √2 ≥ 3²\n", PL_SPELL_ASCII, "init theta' = 2pi R*x'', m1 = sqrt 2 >= 3^2\n");
   becomes("init theta' = 2 pi, m_1 = 90°, ẋ[i] = 1\n", PL_SPELL_UNICODE, "init θ' = 2 π, m_1 = 90°, x[i]' = 1\n");
   becomes("init φ = 90°, ẋ[i] = 3 [m²/s·°]\n", PL_SPELL_ASCII, "init phi = 90 [deg], x[i]' = 3 [m^2/s*deg]\n");
+  becomes("param λ_1, lambda_2\n", PL_SPELL_UNICODE, "param λ_1, λ_2\n");
   becomes("plot sin²φ, πR vs t\n", PL_SPELL_ASCII, "plot sin^2 phi, pi R vs t\n");
 }
 

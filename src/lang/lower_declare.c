@@ -61,11 +61,19 @@ static void lower_axes(pl_lower* l, const pl_ast* s) {
   }
 }
 
+// lambda - minus is read as lambda-minus.
+static const char* without_blanks(pl_lower* l, const char* s) {
+  pl_text t = pl_text_make(l->arena);
+  for (; *s; s++)
+    if (*s != ' ' && *s != '\t') pl_text_add_n(&t, s, 1);
+  return pl_text_string(&t);
+}
+
 static void lower_convention(pl_lower* l, const pl_ast* s) {
   const pl_ast* list = pl_ast_kid(s, 0);
   for (int i = 0; i < list->kids.n; i++) {
     pl_span span = pl_ast_span(list->kids.at[i]);
-    const char* word = pl_source_text(l->arena, span);
+    const char* word = without_blanks(l, pl_source_text(l->arena, span));
     if (strcmp(word, "lambda-minus") == 0 || strcmp(word, "λ-minus") == 0) l->m->lambda_minus = true;
     else if (strncmp(word, "lambda", 6) == 0 && strcmp(word, "lambda-plus") != 0) {
       pl_diagnostic* m =
@@ -211,11 +219,13 @@ static void lower_param(pl_lower* l, const pl_ast* d, bool broken) {
   }
   if (l->wrong > wrong || broken) e->broken = true;
   if (unit_fine) give_dimension(l, e->symbol, &unit);
-  bool has_unit = unit_node != NULL || (!pl_is_poison(v) && pl_has_unit(l->pool, v));
+  const pl_ast* single = value ? pl_ast_single(value) : NULL;
+  bool degrees = single && single->kind == PL_AST_DEGREE;      // 30° is 30 [deg]
+  bool has_unit = unit_node != NULL || degrees || (!pl_is_poison(v) && pl_has_unit(l->pool, v));
   pl_param p = {.symbol = e->symbol,
                 .value = v,
                 .has_unit = has_unit,
-                .unit_text = unit_node ? unit_node->text : NULL,
+                .unit_text = unit_node ? unit_node->text : degrees ? "deg" : NULL,
                 .span = pl_ast_span(d)};
   pl_push(l->arena, l->m->params, p);
 }
