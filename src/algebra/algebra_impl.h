@@ -51,7 +51,9 @@ enum {
   PL_MAX_DEGREE = 4000,        // in one variable: Horner's rule for s^2 = 1 - c^2 is linear in it
   PL_MAX_INTEGER_BITS = 96,    // integers up to this size are split into primes
   PL_MAX_POWER = 64,           // integer exponent of a sum
-  PL_MAX_MULTIPLE = 24,        // cos(nθ) is written in powers of cos θ up to this n
+  PL_MAX_MULTIPLE = 6,         // cos(nθ) is written in powers of cos θ up to this n: its coefficients stay below 50
+  PL_MAX_RATIO = 24,           // numerator and denominator of a multiple; larger ones stay inside the atom
+  PL_MAX_APART = 8,            // multiples of an atom that are remembered as atoms of their own
   PL_WORK_OF_SERVICE = 15000000,  // products of terms, about 2 s; counted, not timed: the same input ends in the same way everywhere
   PL_WORK_OF_ALL = 60000000,      // of all services of a tower, about 8 s; beyond it each has
   PL_WORK_OF_SMALL = 200000,
@@ -124,11 +126,17 @@ typedef struct pl_points pl_points;  // sample points with Arb values, alg_point
 typedef struct pl_entry pl_entry;    // a running service, tower.c
 
 // An angle base or a base of exponents, kept when the tower restarts: the atom occurs as (integer/den) * atom.
+typedef struct pl_multiple {
+  long num, den;
+} pl_multiple;
 typedef struct pl_lattice {
   pl_expr atom;
   long den;
   bool hyperbolic;
   int gen;
+  long most_num, most_den;           // largest multiple of the atom met so far
+  pl_multiple apart[PL_MAX_APART];   // multiples that became atoms of their own     (n_apart)
+  int n_apart;
 } pl_lattice;
 
 struct pl_tower {
@@ -309,6 +317,7 @@ pl_expr pl_fmpq_expr(pl_tower* t, const fmpz* num, const fmpz* den);
 typedef struct pl_sincos {
   pl_frac s, c;
 } pl_sincos;
+pl_lattice pl_lattice_of(pl_expr atom);      // as coarse as it begins
 pl_sincos pl_convert_sincos(pl_tower* t, pl_expr argument);
 pl_sincos pl_convert_sinhcosh(pl_tower* t, pl_expr argument);
 pl_frac pl_convert_exp(pl_tower* t, pl_expr argument);

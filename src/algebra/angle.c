@@ -1,7 +1,8 @@
 // Angles and exponents as lattices.  An argument is split into rational multiples of atoms (monomials over a common
 // denominator); each atom has one base, atom/den, and sin, cos or exp of the base are generators.  When a multiple
 // comes that the base is too coarse for (θ/2 after θ), the base is refined and the tower starts again, so that θ/2 and
-// 2θ share it.
+// 2θ share it.  A multiple that would need high powers of the base (19/20 θ beside θ) is an atom of its own, or shares the
+// base of another such atom: cos(19 u) in powers of cos u loses nine digits, and nobody can read it.
 //
 // Angles that are inverse functions have no base: cos(acos u) = u, sin(acos u) = sqrt(1 - u^2).
 #include "algebra/algebra_impl.h"
@@ -59,7 +60,7 @@ static pl_angle_term term_of(pl_tower* t, pl_frac a, slong i, long max_num, long
 
 // An argument of too many terms is one atom.
 static void split(pl_tower* t, pl_expr argument, bool exponent, pl_angle* out) {
-  long max_num = exponent ? PL_MAX_DEGREE : PL_MAX_MULTIPLE, max_den = exponent ? PL_MAX_EXPONENT_DEN : PL_MAX_MULTIPLE;
+  long max_num = exponent ? PL_MAX_DEGREE : PL_MAX_RATIO, max_den = exponent ? PL_MAX_EXPONENT_DEN : PL_MAX_RATIO;
   pl_frac a = pl_convert(t, argument);
   out->n = 0;
   if (a.num->length > PL_MAX_ANGLE_TERMS) {
@@ -80,11 +81,12 @@ static long gcd_long(long a, long b) {
   return a < 0 ? -a : a;
 }
 
+pl_lattice pl_lattice_of(pl_expr atom) { return (pl_lattice){.atom = atom, .den = 1, .gen = -1, .most_den = 1}; }
+
 static pl_lattice* angle_lattice(pl_tower* t, pl_expr atom) {
   uint64_t known = pl_map_get(t->angle_of, atom.id);
   if (!known) {
-    pl_lattice l = {.atom = atom, .den = 1, .gen = -1};
-    pl_push(t->arena, t->angles, l);
+    pl_push(t->arena, t->angles, pl_lattice_of(atom));
     known = (uint64_t)t->angles.n;
     pl_map_set(t->angle_of, atom.id, known);
   }
@@ -94,8 +96,7 @@ static pl_lattice* angle_lattice(pl_tower* t, pl_expr atom) {
 static pl_lattice* exponent_lattice(pl_tower* t, pl_expr atom) {
   uint64_t known = pl_map_get(t->exponent_of, atom.id);
   if (!known) {
-    pl_lattice l = {.atom = atom, .den = 1, .gen = -1};
-    pl_push(t->arena, t->exponents, l);
+    pl_push(t->arena, t->exponents, pl_lattice_of(atom));
     known = (uint64_t)t->exponents.n;
     pl_map_set(t->exponent_of, atom.id, known);
   }
@@ -111,6 +112,46 @@ static bool refine(pl_tower* t, pl_lattice* l, long den, long max_den) {
   t->tangled = true;
   if (l->gen >= 0) pl_tower_restart(t);
   return true;
+}
+
+// The multiple num/den of the atom, in bases that are made fine enough for it: *n of them.  false when this one or one met
+// before would become more than PL_MAX_MULTIPLE bases.
+static bool take(pl_tower* t, pl_lattice* l, long num, long den, long* n) {
+  long finer = l->den / gcd_long(l->den, den) * den;
+  *n = num * (finer / den);
+  if (finer > PL_MAX_MULTIPLE || labs(*n) > PL_MAX_MULTIPLE || l->most_num * (finer / l->most_den) > PL_MAX_MULTIPLE) return false;
+  if (labs(num) * l->most_den > l->most_num * den) l->most_num = labs(num), l->most_den = den, t->tangled = true;
+  return refine(t, l, den, PL_MAX_MULTIPLE);
+}
+
+typedef pl_lattice* lattice_of(pl_tower* t, pl_expr atom);
+
+// Among the multiples of an atom that are atoms of their own: the one whose base can serve for this multiple too.
+static pl_lattice* lattice_apart(pl_tower* t, lattice_of* of, pl_angle_term a, long* n) {
+  for (int k = 0; k < of(t, a.atom)->n_apart; k++) {
+    const pl_multiple other = of(t, a.atom)->apart[k];
+    long num = a.num * other.den, den = other.num * a.den, common = gcd_long(num, den);
+    pl_expr atom = pl_mul(t->pool, pl_ratio(t->pool, other.num, other.den), a.atom);
+    if (take(t, of(t, atom), num / common, den / common, n)) return of(t, atom);
+  }
+  return NULL;
+}
+
+// The lattice of a multiple of an atom, with *n of its bases.  A multiple that fits nowhere becomes an atom.
+static pl_lattice* lattice_of_multiple(pl_tower* t, lattice_of* of, pl_angle_term a, long* n) {
+  pl_lattice* l = NULL;
+  if (of(t, a.atom)->most_num == 0) l = lattice_apart(t, of, a, n);     // sin 8θ, then sin 4θ: powers of sin 4θ
+  if (l) return l;
+  if (take(t, of(t, a.atom), a.num, a.den, n)) return of(t, a.atom);
+  l = lattice_apart(t, of, a, n);
+  if (l) return l;
+  pl_multiple size = {labs(a.num), a.den};
+  l = of(t, a.atom);
+  if (l->n_apart < PL_MAX_APART) l->apart[l->n_apart++] = size;
+  t->tangled = true;
+  pl_expr atom = pl_mul(t->pool, pl_ratio(t->pool, size.num, size.den), a.atom);
+  if (!take(t, of(t, atom), a.num < 0 ? -1 : 1, 1, n)) pl_tower_give_up(t);
+  return of(t, atom);
 }
 
 // ---------------------------------------------------------------------------------------------- pairs
@@ -209,16 +250,9 @@ static bool special_pair(pl_tower* t, pl_angle_term a, pl_sincos* out) {
 static pl_sincos pair_of_term(pl_tower* t, pl_angle_term a) {
   pl_sincos r;
   if (special_pair(t, a, &r)) return r;
-  if (a.den == 1 && inverse_pair(t, a.atom, &r)) return multiple(t, r, a.num, false);
-  pl_lattice* l = angle_lattice(t, a.atom);
+  if (a.den == 1 && labs(a.num) <= PL_MAX_MULTIPLE && inverse_pair(t, a.atom, &r)) return multiple(t, r, a.num, false);
   long n = 0;
-  if (refine(t, l, a.den, PL_MAX_MULTIPLE)) n = a.num * (l->den / a.den);
-  if (n == 0 || labs(n) > PL_MAX_MULTIPLE) {
-    // too fine for the common base: an atom of its own
-    long sign = a.num < 0 ? -1 : 1;
-    l = angle_lattice(t, pl_mul(t->pool, pl_ratio(t->pool, labs(a.num), a.den), a.atom));
-    n = sign * l->den;
-  }
+  pl_lattice* l = lattice_of_multiple(t, angle_lattice, a, &n);
   return multiple(t, pair_of_base(t, l), n, false);
 }
 
@@ -246,14 +280,12 @@ pl_sincos pl_convert_sinhcosh(pl_tower* t, pl_expr argument) {
   split(t, argument, false, &angle);
   pl_sincos r = {pl_frac_int(t, 0), pl_frac_int(t, 1)};
   for (int i = 0; i < angle.n; i++) {
-    pl_lattice* l = exponent_lattice(t, angle.at[i].atom);
+    long n = 0;
+    pl_lattice* l = lattice_of_multiple(t, exponent_lattice, angle.at[i], &n);
     bool changed = !l->hyperbolic && l->gen >= 0;
     l->hyperbolic = true;
     t->tangled = true;
     if (changed) pl_tower_restart(t);
-    if (!refine(t, l, angle.at[i].den, PL_MAX_EXPONENT_DEN)) pl_tower_give_up(t);
-    long n = angle.at[i].num * (l->den / angle.at[i].den);
-    if (labs(n) > PL_MAX_MULTIPLE) pl_tower_give_up(t);
     r = product(t, r, multiple(t, hyperbolic_pair(t, l), n, true), true);
   }
   return r;
@@ -271,8 +303,13 @@ static pl_frac exp_of_term(pl_tower* t, pl_angle_term a) {
   pl_frac r;
   if (power_of_logarithm(t, a, &r)) return r;
   pl_lattice* l = exponent_lattice(t, a.atom);
-  if (!refine(t, l, a.den, PL_MAX_EXPONENT_DEN)) pl_tower_give_up(t);
-  long n = a.num * (l->den / a.den);
+  long n = 0;
+  if (l->hyperbolic || l->n_apart > 0) {
+    l = lattice_of_multiple(t, exponent_lattice, a, &n);
+  } else {
+    if (!refine(t, l, a.den, PL_MAX_EXPONENT_DEN)) pl_tower_give_up(t);
+    n = a.num * (l->den / a.den);
+  }
   if (l->hyperbolic) {
     pl_sincos pair = multiple(t, hyperbolic_pair(t, l), n, true);
     return pl_frac_add(t, pair.c, pair.s);

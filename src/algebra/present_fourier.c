@@ -29,6 +29,17 @@ typedef struct series {
 } series;
 
 // ---------------------------------------------------------------------------------------------- angles
+// θ and 19/20 θ, which have no base in common: their sums and differences are multiples of θ again, and no wave of its own.
+static bool is_multiple_of_known(series* w, int gen) {
+  pl_search* s = w->s;
+  for (int j = 0; j < w->n_angles; j++) {
+    pl_expr known = pl_arg(s->p, s->t->gens.at[w->cos_gen[j]].expr, 0);
+    pl_expr ratio = pl_div(s->p, pl_arg(s->p, s->t->gens.at[gen].expr, 0), known);
+    if (pl_is_number(s->p, ratio)) return true;
+  }
+  return false;
+}
+
 static bool find_angles(series* w, const pl_poly* f) {
   pl_tower* t = w->s->t;
   long degree[PL_MAX_GENERATORS];
@@ -38,7 +49,7 @@ static bool find_angles(series* w, const pl_poly* f) {
     if (t->gens.at[g].kind != PL_G_COS) continue;
     long d = degree[g] + degree[t->gens.at[g].partner];
     if (d == 0) continue;
-    if (w->n_angles == MAX_ANGLES) return false;
+    if (w->n_angles == MAX_ANGLES || is_multiple_of_known(w, g)) return false;
     w->cos_gen[w->n_angles++] = g;
     total += d;
   }

@@ -91,6 +91,7 @@ pl_prod pl_prod_bracket(pl_search* s, const pl_prod* terms, int n);         // t
 // Appends x to the terms of a sum; a bare bracket is opened, up to PL_OPENED_TERMS terms.
 enum { PL_OPENED_TERMS = 8 };
 void pl_terms_put(pl_search* s, pl_prod x, pl_prod* terms, int* n);
+void pl_terms_add(pl_search* s, pl_prod x, pl_prod* terms, int* n);        // as it is
 const pl_form* pl_terms_form(pl_search* s, const pl_prod* terms, int n);     // in the order given
 const pl_form* pl_piece_base(pl_search* s, const pl_piece* piece);           // with the form of a sum filled in
 void pl_terms_sort(pl_search* s, pl_prod* terms, int n);

@@ -22,7 +22,7 @@ typedef struct term_list {
 static void put(term_list* l, pl_prod x) {
   if (pl_prod_is_zero(l->s, x)) return;
   if (l->n == MAX_STYLE_TERMS) l->full = true;
-  else l->at[l->n++] = x;
+  else pl_terms_add(l->s, x, l->at, &l->n);
 }
 
 // The same with a bare bracket opened.

@@ -152,15 +152,27 @@ pl_prod pl_prod_sum(pl_search* s, const pl_prod* given, int n) {
   return pl_prod_neg(s, pl_prod_bracket(s, terms, n));
 }
 
+// Plain numbers come from several terms: 2 sin²a is 1 - cos(2 a).  They are one term, or none.
+void pl_terms_add(pl_search* s, pl_prod x, pl_prod* terms, int* n) {
+  for (int i = 0; x.n == 0 && i < *n; i++) {
+    if (terms[i].n != 0) continue;
+    pl_expr sum = pl_add(s->p, terms[i].unit, x.unit);
+    if (pl_is_zero_node(s->p, sum)) terms[i] = terms[--*n];
+    else terms[i] = pl_prod_number(s, sum);
+    return;
+  }
+  terms[(*n)++] = x;
+}
+
 void pl_terms_put(pl_search* s, pl_prod x, pl_prod* terms, int* n) {
   bool bare = x.n == 1 && x.at[0].sum && x.at[0].power == 1 && x.at[0].sum->n <= PL_OPENED_TERMS;
   bool one = pl_is_one_node(s->p, x.unit), minus_one = pl_is_one_node(s->p, pl_neg(s->p, x.unit));
   if (!bare || (!one && !minus_one)) {
-    terms[(*n)++] = x;
+    pl_terms_add(s, x, terms, n);
     return;
   }
   for (int i = 0; i < x.at[0].sum->n; i++) {
     pl_prod y = x.at[0].sum->at[i];
-    terms[(*n)++] = one ? y : pl_prod_neg(s, y);
+    pl_terms_add(s, one ? y : pl_prod_neg(s, y), terms, n);
   }
 }

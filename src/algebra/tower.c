@@ -80,11 +80,8 @@ static void empty_tower(pl_tower* t, int capacity);
 
 // Bases as coarse as they were before anything was asked.
 static void untangle(pl_tower* t) {
-  for (int i = 0; i < t->angles.n; i++) t->angles.at[i].den = 1;
-  for (int i = 0; i < t->exponents.n; i++) {
-    t->exponents.at[i].den = 1;
-    t->exponents.at[i].hyperbolic = false;
-  }
+  for (int i = 0; i < t->angles.n; i++) t->angles.at[i] = pl_lattice_of(t->angles.at[i].atom);
+  for (int i = 0; i < t->exponents.n; i++) t->exponents.at[i] = pl_lattice_of(t->exponents.at[i].atom);
   t->tangled = false;
   empty_tower(t, t->capacity);
 }

@@ -76,6 +76,22 @@ PL_TEST(exponentials_form_a_lattice) {
   pl_world_free(w);
 }
 
+// cos(19 u) in powers of cos u has coefficients of twelve digits: multiples that are far apart have no base in common.
+PL_TEST(high_multiples_of_an_angle_stay_as_they_are) {
+  pl_world* w = pl_world_make(NULL);
+  NORMAL(w, "cos(19*x/20)", "cos(19*x/20)");
+  NORMAL(w, "cos(19*x/20)*cos(x)", "cos(19*x/20)*cos(x)");
+  NORMAL(w, "sin(25*asin(y))", "sin(25*asin(y))");
+  NORMAL(w, "cosh(9*x)", "cosh(9*x)");
+  pl_assert_zero(w, "sin(8*x) - 2*sin(4*x)*cos(4*x)");
+  pl_assert_zero(w, "sin(19*x/10) - 2*sin(19*x/20)*cos(19*x/20)");
+  pl_assert_zero(w, "cos(6*x) + 1 - 2*cos(3*x)^2");
+  pl_assert_zero(w, "cosh(18*x) - 2*cosh(9*x)^2 + 1");
+  pl_assert_zero(w, "exp(9*x) - cosh(9*x) - sinh(9*x)");
+  pl_assert_not_zero(w, "sin(8*x) - 2*sin(4*x)*cos(4*x) + sin(x)");
+  pl_world_free(w);
+}
+
 PL_TEST(logarithms_and_inverse_functions) {
   pl_world* w = pl_world_make(NULL);
   pl_assert_zero(w, "ln(m1*l^2/m2) - ln(m1) - 2*ln(l) + ln(m2)");
@@ -287,6 +303,7 @@ int main(void) {
       cmocka_unit_test(special_angles_have_values),
       cmocka_unit_test(roots_depend_on_each_other),
       cmocka_unit_test(exponentials_form_a_lattice),
+      cmocka_unit_test(high_multiples_of_an_angle_stay_as_they_are),
       cmocka_unit_test(logarithms_and_inverse_functions),
       cmocka_unit_test(the_normal_form_does_not_depend_on_history),
       cmocka_unit_test(denominators_begin_with_a_positive_mass),

@@ -7,6 +7,9 @@
 
 enum { PL_JSON_VERSION = 1, PL_DISPLAY_DIGITS = 6 };
 
+// Operators of one formula: beyond it nobody reads it, and a reader of the document would choke on it.
+static const long pl_max_formula = 50000;
+
 typedef struct pl_document {
   pl_json j;
   pl_arena* arena;
@@ -34,11 +37,17 @@ const char* pl_status_word(pleuel_status s) {
 
 // ---------------------------------------------------------------------------------------------- printing
 static const char* pl_doc_expr(pl_document* d, pl_expr e) {
-  return pl_is_poison(e) || !d->pool ? NULL : pl_expr_text(d->arena, d->pool, pl_without_measures(d->pool, e));
+  if (pl_is_poison(e) || !d->pool) return NULL;
+  long n = pl_op_count(d->pool, e);
+  if (n > pl_max_formula) return pl_format(d->arena, "<an expression of %ld operators>", n);
+  return pl_expr_text(d->arena, d->pool, pl_without_measures(d->pool, e));
 }
 
 static const char* pl_doc_form(pl_document* d, const pl_form* f, pl_math math) {
-  return f && d->pool ? pl_notation_print(d->arena, d->pool, f, (pl_notation){math, d->in->lang}) : NULL;
+  if (!f || !d->pool) return NULL;
+  long n = pl_form_ops(f);
+  if (n > pl_max_formula) return pl_format(d->arena, "…");
+  return pl_notation_print(d->arena, d->pool, f, (pl_notation){math, d->in->lang});
 }
 
 static void pl_doc_optional(pl_document* d, const char* key, const char* s) {

@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """Models whose closed forms explode: the program ends, and what it shows passes its own checks.  Usage: nasty_test.py PROGRAM"""
+import math
 import os
+import re
 import sys
 import tempfile
 
@@ -61,6 +63,28 @@ def declare(name, text):
 
 for name, text in MODELS.items():
     declare(name, text)
+
+@test("multiples of an angle that are far apart: formulas keep their digits in doubles")
+def _(program):
+    potentials = ["cos(0.95 θ + 0.32 x)", "cos(0.95 θ) cos(θ)", "sin(13 θ) cos(x)", "cosh(0.95 θ) + cosh(x/7) + cosh(x)"]
+    for potential in potentials:
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "multiples.pleuel")
+            with open(path, "w", encoding="utf-8") as out:
+                out.write(f"coord θ, x\nlagrangian 1/2 θ'^2 + 1/2 x'^2 - {potential}\nask a: lagrange2\n")
+            document = run(program, path, "--no-simulation").document
+        need(document["status"] == "ok", f"{potential}: {document['status']}")
+        expr = next(v["expr"] for item in document["answers"]["a"] for v in item["values"] if v["name"] == "theta_ddot")
+        need(len(expr) < 200, f"{potential}: {expr}")
+        names = {f: getattr(math, f) for f in ("sin", "cos", "sinh", "cosh")}
+        value = lambda text, **at: eval(text.replace("^", "**"), {"__builtins__": {}}, names | at)
+        plain = re.sub(r"(\d) ([θx])", r"\1*\2", potential).replace(") c", ")*c").replace("θ", "theta")
+        for theta, x in ((0.3, -1.1), (1.7, 2.3), (-2.9, 0.4)):
+            step = 1e-5          # difference quotient, good to ten digits
+            slope = (value(plain, theta=theta + step, x=x) - value(plain, theta=theta - step, x=x)) / (2 * step)
+            got = value(expr, theta=theta, x=x)
+            need(abs(got + slope) < 1e-7 * (1 + abs(slope)), f"{potential}: {got} for {-slope} at {theta}, {x}")
+
 
 if __name__ == "__main__":
     sys.exit(test.main(program_of(sys.argv)))
