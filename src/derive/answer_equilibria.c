@@ -6,7 +6,7 @@
 #include "derive/equilibria_impl.h"
 
 // ---------------------------------------------------------------------------------------------- display
-static bool is_angle(pl_analysis* d, int i) {
+bool pl_is_angle(pl_analysis* d, int i) {
   const pl_symbol_info* s = pl_symbol_get(d->pool, d->q.at[i].q);
   bool plain = !s->dimension_known || pl_dimension_equal(s->dimension, pl_dimension_one());
   if (!plain) return false;
@@ -35,7 +35,7 @@ static const pl_form* in_degrees(pl_analysis* d, double x) {
 static const pl_form* value_form(pl_analysis* d, int i, pl_expr value) {
   const pl_form* form = pl_f(d, value, PL_S_PLAIN);
   double x = pl_number(d, value);
-  return is_angle(d, i) && !isnan(x) && x != 0 ? pl_feq(d, form, in_degrees(d, x)) : form;
+  return pl_is_angle(d, i) && !isnan(x) && x != 0 ? pl_feq(d, form, in_degrees(d, x)) : form;
 }
 
 static const pl_form* with_unit(pl_analysis* d, const char* number, const char* unit) {
@@ -53,7 +53,7 @@ static const pl_form* number_form(pl_analysis* d, int i, pl_expr value) {
   pl_dimension dim = pl_dimension_of_expr(d, pl_sym(d->pool, d->q.at[i].q), &known);
   const char *number = pl_notation_number(d->arena, x, 6, how), *unit = known ? pl_dimension_unit(d->arena, dim, false) : "";
   const pl_form* about = with_unit(d, number, unit);
-  if (is_angle(d, i) && x != 0) about = pl_feq(d, about, in_degrees(d, x));
+  if (pl_is_angle(d, i) && x != 0) about = pl_feq(d, about, in_degrees(d, x));
   return pl_frel(d, pl_fs(d, d->q.at[i].q), "≈", about);
 }
 

@@ -290,6 +290,8 @@ static pl_expr closed_motion(pl_analysis* d, int i, pl_laplace_poles* poles) {
   return uniform(d, l.A, x0, v0, t);
 }
 
+pl_expr pl_closed_motion(pl_analysis* d, int i) { return closed_motion(d, i, NULL); }
+
 // The solution inserted into the equation, together with those of the coordinates it hangs on, and its start:
 // x(t)'' - x''(x, x') = 0, x(0) = x0.
 static void claim_motion(pl_analysis* d, int i, pl_expr x) {

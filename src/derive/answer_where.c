@@ -1,21 +1,26 @@
 // answer_where: a quantity where conditions hold, `θ where λ = 0 from θ = 0 at rest`.
 //
-// Conditions of the form name = value are inserted.  One condition that is left is met on the motion: velocities are eliminated by
-// its integrals (line.c), and of several solutions the one that the motion meets first is meant.  Two and more conditions, or a system
-// without such integrals, are equations for the state: each is solved for a quantity that it contains, and all solutions count.
+// A given quantity that a condition names, `m3 = m1 + m2`, is inserted everywhere.  One condition on the motion is met on it: along
+// the coordinate that its integrals leave (line.c), else along time where the motion is known in closed form, else in numbers
+// (where_met.c, where_follow.c).  Two and more conditions, or a motion of which nothing is known, are equations for the state: each is
+// solved for a quantity that it contains, and all solutions count.
 #include <math.h>
 
-#include "derive/derive_impl.h"
+#include "where_impl.h"
 
 enum { max_conditions = 8, max_solutions = 8 };
 
 typedef struct pl_where {
+  const pl_ask* ask;
   int n;                             // equations left
   pl_expr equation[max_conditions];  // each vanishes
   int n_pins;
   pl_replace pin[max_conditions];    // name = value
+  int n_given;
+  pl_replace given[max_conditions];  // given quantity = value
   pl_expr asked;
   bool on_line;                      // on the motion `line`
+  bool several;                      // conditions besides those for given quantities
   pl_line line;
 } pl_where;
 
@@ -37,25 +42,96 @@ static bool pin_of(pl_analysis* d, const pl_condition* c, pl_replace* out) {
   return false;
 }
 
-static pl_expr on_motion(pl_analysis* d, pl_expr e) { return pl_on_motion(d, pl_with_results(d, e)); }
+static bool is_given(pl_analysis* d, pl_expr e) {
+  bool motion = pl_has_coordinates(d, e) || pl_has_role(d->pool, e, PL_R_MULTIPLIER) || pl_has_role(d->pool, e, PL_R_LOCAL);
+  return !motion && !pl_has_symbol(d->pool, e, pl_time(d->pool));
+}
+
+// A number that stands in a formula with its unit.
+static bool is_literal(const pl_analysis* d, pl_symbol s) {
+  const pl_param* p = pl_model_param(d->model, s);
+  return p && p->literal;
+}
+
+// m3 = m1 + m2: the name on the left, else the one on the right; not what is asked for, which is solved for.
+static bool given_of(pl_analysis* d, const pl_ask* ask, const pl_condition* c, pl_replace* out) {
+  if (!is_given(d, c->left) || !is_given(d, c->right)) return false;
+  for (int side = 0; side < 2; side++) {
+    pl_expr name = side ? c->right : c->left, value = side ? c->left : c->right;
+    if (pl_kind_of(d->pool, name) != PL_SYMBOL) continue;
+    pl_symbol s = pl_symbol_of(d->pool, name);
+    if (pl_symbol_get(d->pool, s)->role != PL_R_PARAM || is_literal(d, s) || pl_has_symbol(d->pool, value, s)) continue;
+    if (pl_same(ask->value, name)) return false;
+    *out = (pl_replace){s, value};
+    return true;
+  }
+  return false;
+}
+
+// Abbreviations that contain the name are written out first.
+static pl_expr with_given(pl_analysis* d, const pl_where* p, pl_expr e) {
+  for (int k = 0; k < p->n_given; k++) {
+    for (int j = d->model->lets.n - 1; j >= 0; j--) {
+      const pl_let* l = &d->model->lets.at[j];
+      if (l->inserted || l->n_args > 0 || !pl_has_symbol(d->pool, l->value, p->given[k].from)) continue;
+      e = pl_subst1(d->pool, e, l->symbol, l->value);
+    }
+    e = pl_subst1(d->pool, e, p->given[k].from, p->given[k].to);
+  }
+  return e;
+}
+
+static pl_expr on_motion(pl_analysis* d, const pl_where* p, pl_expr e) {
+  return with_given(d, p, pl_on_motion(d, pl_with_results(d, e)));
+}
+
+static void insert_into_line(pl_analysis* d, const pl_where* p, pl_line* l) {
+  if (p->n_given == 0) return;
+  l->v2 = pl_alg_normal(d->tower, with_given(d, p, l->v2));
+  l->q0 = with_given(d, p, l->q0);
+  l->v0 = with_given(d, p, l->v0);
+  for (int k = 0; k < l->n; k++) l->velocity[k].to = with_given(d, p, l->velocity[k].to);
+}
+
+// The asked quantity is given, and only the start of the motion contains it: v0.
+static bool asks_for_the_start(pl_analysis* d, const pl_where* p) {
+  if (pl_kind_of(d->pool, p->asked) != PL_SYMBOL) return false;
+  pl_symbol s = pl_symbol_of(d->pool, p->asked);
+  for (int k = 0; k < p->n; k++) {
+    if (pl_has_symbol(d->pool, p->equation[k], s)) return false;
+  }
+  return pl_has_symbol(d->pool, p->line.v2, s) || pl_has_symbol(d->pool, p->line.q0, s) || pl_has_symbol(d->pool, p->line.v0, s);
+}
 
 static bool collect(pl_analysis* d, const pl_ask* ask, pl_where* p) {
   if (ask->where.n > max_conditions) return false;
+  p->ask = ask;
+  bool is_inserted[max_conditions] = {false};
+  for (int k = 0; k < ask->where.n; k++) {
+    is_inserted[k] = given_of(d, ask, &ask->where.at[k], &p->given[p->n_given]);
+    p->n_given += is_inserted[k];
+  }
+  int n = ask->where.n - p->n_given;
+  p->several = n > 1;
   for (int k = 0; k < ask->where.n; k++) {
     const pl_condition* c = &ask->where.at[k];
+    if (is_inserted[k]) continue;
     pl_replace pin;
-    bool pinned = pin_of(d, c, &pin);
+    bool pinned = n > 1 && pin_of(d, c, &pin);   // a single one is met on the motion
     for (int j = 0; j < p->n_pins && pinned; j++) pinned = p->pin[j].from.id != pin.from.id;   // twice: an equation
     if (pinned) {
-      p->pin[p->n_pins] = pin;
+      p->pin[p->n_pins] = (pl_replace){pin.from, with_given(d, p, pin.to)};
       p->n_pins++;
     } else {
-      p->equation[p->n++] = on_motion(d, pl_sub(d->pool, c->left, c->right));
+      p->equation[p->n++] = on_motion(d, p, pl_sub(d->pool, c->left, c->right));
     }
   }
-  p->asked = on_motion(d, ask->value);
-  bool named = ask->motion.given;
-  p->on_line = (named || ask->where.n == 1) && pl_line_of(d, &ask->motion, &p->line);
+  p->asked = on_motion(d, p, ask->value);
+  pl_number(d, p->asked);   // numbers of all names
+  bool line = pl_line_of(d, &ask->motion, &p->line);
+  p->on_line = line && (ask->motion.given || n == 1);
+  if (line) insert_into_line(d, p, &p->line);
+  if (line && !p->on_line && n > 1) p->on_line = asks_for_the_start(d, p);
   return true;
 }
 
@@ -88,7 +164,7 @@ static int rank_of(pl_analysis* d, const pl_where* p, pl_symbol s) {
   int needed = pl_has_symbol(d->pool, p->asked, s) ? 2 : 0;
   if (info->role == PL_R_VELOCITY) return 3 + needed;
   if (info->role == PL_R_COORD) return 2 + needed;
-  if (info->role == PL_R_PARAM) return needed ? 1 : -1;
+  if (info->role == PL_R_PARAM) return needed && (p->several || isnan(d->value[s.id])) ? 1 : -1;   // one on the motion: its number stands
   return s.id == pl_time(d->pool).id ? 1 : -1;
 }
 
@@ -102,60 +178,11 @@ static bool unknown_of(pl_analysis* d, const pl_where* p, pl_expr e, pl_symbol* 
   int n = pl_symbols_in(d->pool, e, in, max_symbols), best = 0;
   for (int k = 0; k < n && k < max_symbols; k++) {
     int rank = rank_of(d, p, in[k]);
-    if (rank <= best) continue;
+    if (rank <= best || is_literal(d, in[k])) continue;
     best = rank;
     *out = in[k];
   }
   return best > 0;
-}
-
-// ---------------------------------------------------------------------------------------------- the first one met
-// Of several solutions the nearest to the start on the side the motion goes to; -1 when no number tells.
-static int first_met(pl_analysis* d, const pl_line* l, const pl_root* root, int n) {
-  double start = pl_number(d, l->q0), nearest = (double)INFINITY;
-  int best = -1;
-  if (isnan(start)) start = 0;
-  for (int k = 0; k < n; k++) {
-    double step = (pl_number(d, root[k].value) - start) * l->direction;
-    if (isnan(step) || step <= 0 || step >= nearest) continue;
-    best = k;
-    nearest = step;
-  }
-  return best >= 0 ? best : n > 0 ? 0 : -1;
-}
-
-// e as a number where s has the value x and all else its given number.
-static double number_at(pl_analysis* d, pl_expr e, pl_symbol s, double x) {
-  pl_number(d, e);   // the table of numbers covers every name of e
-  double kept = d->value[s.id];
-  d->value[s.id] = x;
-  double y = pl_eval(d->pool, e, d->value);
-  d->value[s.id] = kept;
-  return y;
-}
-
-// Where no closed form was found: the first change of sign on the way, by steps that grow from a thousandth of the scale, then by
-// bisection.  NaN when there is none, or when some quantity has no number.
-static double first_crossing(pl_analysis* d, pl_expr e, pl_symbol s, double start, int direction) {
-  static const double growth = 1.01, first = 1e-4, farthest = 1e3;   // of the way, in the unit of the coordinate
-  double scale = start != 0 ? fabs(start) : 1, a = start, fa = (double)NAN;
-  if (scale > 1) scale = 1;
-  for (double step = first * scale; step < farthest; step *= growth) {
-    double b = start + direction * step, fb = number_at(d, e, s, b);
-    if (isnan(fa) || isnan(fb) || (fa > 0) == (fb > 0)) {
-      a = b;
-      fa = fb;
-      continue;
-    }
-    for (int k = 0; k < 200 && fb != 0; k++) {
-      double m = 0.5 * (a + b), fm = number_at(d, e, s, m);
-      if (m == a || m == b) break;
-      if ((fm > 0) == (fa > 0)) a = m;
-      else b = m;
-    }
-    return b;
-  }
-  return (double)NAN;
 }
 
 // ---------------------------------------------------------------------------------------------- display
@@ -165,43 +192,103 @@ static bool is_an_angle(pl_analysis* d, pl_expr e) {
   return f == PL_ACOS || f == PL_ASIN || f == PL_ATAN || f == PL_ATAN2;
 }
 
-static void show_root(pl_analysis* d, pl_expr name, pl_expr value, pl_expr condition) {
+// The coordinate itself was asked for, and it is an angle.
+static bool names_an_angle(pl_analysis* d, pl_expr name) {
+  if (pl_kind_of(d->pool, name) != PL_SYMBOL) return false;
+  int i = pl_variable_index(d, pl_symbol_of(d->pool, name));
+  return i >= 0 && d->q.at[i].q.id == pl_symbol_of(d->pool, name).id && pl_is_angle(d, i);
+}
+
+static bool is_circular(pl_analysis* d, pl_expr name, pl_expr value) {
+  if (pl_is_poison(value) || pl_is_constant(d->pool, name)) return false;
+  if (pl_same(name, value)) return true;
+  return pl_kind_of(d->pool, name) == PL_SYMBOL && pl_has_symbol(d->pool, value, pl_symbol_of(d->pool, name));
+}
+
+void pl_say_circular(pl_analysis* d, pl_expr name) {
+  pl_say(d, "This cannot be answered: the conditions and the motion that is known give no equation from which {1} follows.",
+         "Das lässt sich nicht beantworten: die Bedingungen und was von der Bewegung bekannt ist, geben keine Gleichung, aus der {1} folgt.", 1,
+         pl_fe(d, name));
+  d->section->not_found = true;
+}
+
+static void say_independent(pl_analysis* d, pl_expr value) {
+  if (!pl_is_constant(d->pool, value) || pl_is_zero_node(d->pool, value) || d->model->params.n == 0) return;
+  const pl_form** f = PL_ARRAY(d->arena, const pl_form*, d->model->params.n);
+  int n = 0;
+  for (int k = 0; k < d->model->params.n; k++)
+    if (!d->model->params.at[k].literal) f[n++] = pl_fs(d, d->model->params.at[k].symbol);
+  if (n) pl_say(d, "independent of {1}", "unabhängig von {1}", 1, pl_flist(d, f, n));
+}
+
+// e >= 0 without factors that are positive anyway.
+static pl_expr without_positive_factors(pl_analysis* d, pl_expr e) {
+  enum { most_factors = 16 };
+  pl_factor f[most_factors];
+  pl_expr unit = pl_poison(), rest = pl_int(d->pool, 1);
+  int n = pl_alg_factors(d->tower, e, f, most_factors, &unit), sign = 0;
+  if (n < 0 || n > most_factors || pl_is_poison(unit) || pl_alg_sign(d->tower, unit, false, &sign) != PL_YES || sign == 0) return e;
+  for (int k = 0; k < n; k++) {
+    int own = 0;
+    if (f[k].power % 2 == 0) continue;
+    if (pl_alg_sign(d->tower, f[k].base, false, &own) == PL_YES && own != 0) sign *= own;
+    else rest = pl_mul(d->pool, rest, f[k].base);
+  }
+  return sign < 0 ? pl_neg(d->pool, rest) : rest;
+}
+
+void pl_show_met(pl_analysis* d, pl_expr name, pl_expr value, pl_expr condition) {
+  if (is_circular(d, name, value)) {
+    pl_say_circular(d, name);
+    return;
+  }
   const pl_form* form = pl_f(d, value, PL_S_PLAIN);
-  bool angle = is_an_angle(d, value);
-  if (angle) {
+  bool inverse = is_an_angle(d, value), angle = inverse || names_an_angle(d, name);
+  if (inverse) {
     const pl_form* inside = pl_fe(d, name);
-    const pl_form* inverse = pl_form_call(d->arena, pl_function_of(d->pool, value) == PL_ASIN ? PL_SIN : PL_COS, &inside, 1);
+    const pl_form* turned = pl_form_call(d->arena, pl_function_of(d->pool, value) == PL_ASIN ? PL_SIN : PL_COS, &inside, 1);
     pl_function f = pl_function_of(d->pool, value);
-    if (f == PL_ACOS || f == PL_ASIN) pl_show_numbered(d, pl_feq(d, inverse, pl_f(d, pl_arg(d->pool, value, 0), PL_S_QUOTIENT)));
+    if (f == PL_ACOS || f == PL_ASIN) pl_show_numbered(d, pl_feq(d, turned, pl_f(d, pl_arg(d->pool, value, 0), PL_S_QUOTIENT)));
   }
   pl_step* step = pl_show(d, pl_feq(d, pl_fe(d, name), form));
   double x = pl_number(d, value);
   pl_value* v = pl_answer(d, pl_expr_text(d->arena, d->pool, name), value, form);
-  if (!pl_is_poison(condition)) v->exists_if = pl_format(d->arena, "%s >= 0", pl_expr_text(d->arena, d->pool, condition));
+  if (!pl_is_poison(condition)) {
+    condition = without_positive_factors(d, condition);
+    v->exists_if = pl_format(d->arena, "%s >= 0", pl_expr_text(d->arena, d->pool, condition));
+    pl_say(d, "if {1}", "falls {1}", 1, pl_frel(d, pl_f(d, condition, PL_S_PLAIN), "≥", pl_form_leaf(d->arena, pl_int(d->pool, 0))));
+  }
+  say_independent(d, value);
   if (isnan(x)) return;
   if (!angle) {
     bool known;
     pl_dimension dim = pl_dimension_of_expr(d, name, &known);
     if (known) v->unit = pl_dimension_unit(d->arena, dim, true);
+    if (known) v->display = pl_display(d, x, dim, false);
     step->has_value = !pl_is_number(d->pool, value);
     step->value = x;
     step->unit = known ? pl_dimension_unit(d->arena, dim, false) : "";
     return;
   }
-  step->has_value = true;
+  step->has_value = !pl_is_zero_node(d->pool, value);
   step->value = x * 180 / M_PI;
   step->unit = "°";
   v->unit = "rad";
   v->display = pl_display(d, x, pl_dimension_one(), true);
 }
 
-static void say_independent(pl_analysis* d, pl_expr value) {
-  if (!pl_is_constant(d->pool, value) || d->model->params.n == 0) return;
-  const pl_form** f = PL_ARRAY(d->arena, const pl_form*, d->model->params.n);
-  int n = 0;
-  for (int k = 0; k < d->model->params.n; k++)
-    if (!d->model->params.at[k].literal) f[n++] = pl_fs(d, d->model->params.at[k].symbol);
-  if (n) pl_say(d, "independent of {1}", "unabhängig von {1}", 1, pl_flist(d, f, n));
+void pl_show_met_number(pl_analysis* d, pl_expr name, double x) {
+  pl_notation how = {.math = PL_MATH_LINE, .lang = d->job->lang};
+  bool known, angle = names_an_angle(d, name);
+  pl_dimension dim = pl_dimension_of_expr(d, name, &known);
+  const char* unit = known ? pl_dimension_unit(d->arena, dim, false) : "";
+  bool plain = angle || !*unit || *unit == '1';
+  const char* text = pl_format(d->arena, "%s%s%s", pl_notation_number(d->arena, angle ? x * 180 / M_PI : x, 10, how), angle ? "°" : plain ? "" : " ", plain ? "" : unit);
+  pl_show(d, pl_feq(d, pl_fe(d, name), pl_fn(d, text)));
+  pl_value* v = pl_answer(d, pl_expr_text(d->arena, d->pool, name), pl_poison(), NULL);
+  v->number = x;
+  if (known) v->unit = angle ? "rad" : pl_dimension_unit(d->arena, dim, true);
+  if (angle) v->display = pl_display(d, x, pl_dimension_one(), true);
 }
 
 static void show_condition(pl_analysis* d, const pl_ask* ask, pl_expr e) {
@@ -213,45 +300,137 @@ static void show_condition(pl_analysis* d, const pl_ask* ask, pl_expr e) {
 }
 
 // ---------------------------------------------------------------------------------------------- on the motion
-static void numerical(pl_analysis* d, const pl_ask* ask, const pl_where* p, pl_expr e, pl_symbol s, bool complete) {
-  bool time = s.id == pl_time(d->pool).id;
-  double start = time ? 0 : pl_number(d, p->line.q0), x = (double)NAN;
-  if (!isnan(start)) x = first_crossing(d, e, s, start, time ? 1 : p->line.direction);
-  if (isnan(x)) {
-    pl_say(d, complete ? "This never happens on the motion." : "No solution in closed form was found.",
-           complete ? "Das tritt auf der Bewegung nicht ein." : "Eine geschlossene Lösung wurde nicht gefunden.", 0);
-    d->section->not_found = !complete;
-    return;
+// One-sided constraints have to push all the way: λ with the sign that the relation allows.
+static void add_contacts(pl_analysis* d, const pl_where* p, pl_search* s) {
+  for (int k = 0; k < d->g.n && s->n_contacts < pl_max_contacts_met; k++) {
+    const pl_bond* l = &d->g.at[k];
+    if (!l->contact || l->velocity || !l->lambda_known) continue;
+    pl_expr push = with_given(d, p, pl_on_maps(d, l->lambda_value));
+    if ((l->source->relation == PL_LE) != d->model->lambda_minus) push = pl_neg(d->pool, push);
+    s->contact[s->n_contacts] = l->source->name.text;
+    s->push[s->n_contacts++] = push;
   }
-  pl_say(d, "No solution in closed form was found; for the given numbers:",
-         "Eine geschlossene Lösung wurde nicht gefunden; mit den gegebenen Zahlen:", 0);
-  pl_expr asked = at_place(d, p, p->asked);
-  double y = number_at(d, asked, s, x);
-  pl_notation how = {.math = PL_MATH_LINE, .lang = d->job->lang};
-  bool known;
-  pl_dimension dim = pl_dimension_of_expr(d, ask->value, &known);
-  const char* unit = known ? pl_dimension_unit(d->arena, dim, false) : "";
-  const char* text = pl_format(d->arena, "%s%s%s", pl_notation_number(d->arena, y, 10, how), *unit && *unit != '1' ? " " : "", *unit != '1' ? unit : "");
-  pl_show(d, pl_feq(d, pl_fe(d, ask->value), pl_fn(d, text)));
-  pl_value* v = pl_answer(d, pl_expr_text(d->arena, d->pool, ask->value), pl_poison(), NULL);
-  v->number = y;
-  if (known) v->unit = pl_dimension_unit(d->arena, dim, true);
-  d->section->not_found = true;
 }
 
-static void on_the_way(pl_analysis* d, const pl_ask* ask, const pl_where* p, pl_expr e, pl_symbol s) {
-  pl_root root[max_solutions];
+static void add_root(pl_search* s, pl_root r) {
+  for (int k = 0; k < s->n_roots; k++) {
+    if (pl_same(s->root[k].value, r.value)) return;
+  }
+  if (s->n_roots < pl_max_roots_met) s->root[s->n_roots++] = r;
+}
+
+static void add_roots(pl_analysis* d, pl_search* s, pl_expr e) {
+  if (!pl_has_symbol(d->pool, e, s->s)) return;
+  pl_root root[pl_max_roots_met];
   bool complete = false;
-  int n = pl_alg_roots(d->tower, e, s, root, max_solutions, &complete);
-  int k = p->on_line ? first_met(d, &p->line, root, n) : -1;
-  if (k < 0) {
-    numerical(d, ask, p, e, s, complete);
+  int n = pl_alg_roots(d->tower, e, s->s, root, pl_max_roots_met, &complete);
+  s->complete &= complete;
+  for (int k = 0; k < n; k++) add_root(s, root[k]);
+}
+
+// A(q) + B(q) q' = 0 with q'^2 = w(q): the roots of A² - w B² count for both signs of q'.
+static void roots_on_line(pl_analysis* d, pl_search* s) {
+  pl_symbol v = d->q.at[s->line->i].v;
+  pl_expr c[9], part[2] = {pl_int(d->pool, 0), pl_int(d->pool, 0)};
+  s->complete = true;
+  int n = pl_alg_coefficients(d->tower, s->condition, v, c, 8);
+  if (n < 0) {
+    add_roots(d, s, pl_along_line(d, s->line, s->condition));
+    s->complete = false;
     return;
   }
-  pl_claim_free(d, PL_CLAIM_INSERTED, pl_subst1(d->pool, e, s, root[k].value), pl_int(d->pool, 0));
-  pl_expr value = pl_alg_normal(d->tower, pl_subst1(d->pool, at_place(d, p, p->asked), s, root[k].value));
-  show_root(d, ask->value, value, pl_poison());
-  say_independent(d, value);
+  for (int k = 0; k <= n; k++) part[k % 2] = pl_add(d->pool, part[k % 2], pl_mul(d->pool, c[k], pl_pow_int(d->pool, s->line->v2, k / 2)));
+  pl_expr A = pl_alg_normal(d->tower, part[0]), B = pl_alg_normal(d->tower, part[1]);
+  if (pl_is_zero_node(d->pool, B)) {
+    add_roots(d, s, A);
+  } else if (pl_is_zero_node(d->pool, A)) {
+    add_roots(d, s, s->line->v2);
+    add_roots(d, s, B);
+  } else {
+    add_roots(d, s, pl_alg_normal(d->tower, pl_sub(d->pool, pl_square(d->pool, A), pl_mul(d->pool, s->line->v2, pl_square(d->pool, B)))));
+  }
+}
+
+static pl_expr on_cyclic(pl_analysis* d, const pl_where* p, pl_expr e) { return pl_subst(d->pool, e, p->line.velocity, p->line.n); }
+
+// Only the coordinate that is left and its velocity occur.
+static bool is_on_line(pl_analysis* d, const pl_where* p, pl_expr e) {
+  for (int k = 0; k < d->q.n; k++) {
+    const pl_variable* c = &d->q.at[k];
+    if (k != p->line.i && (pl_has_symbol(d->pool, e, c->q) || pl_has_symbol(d->pool, e, c->v))) return false;
+  }
+  return !pl_has_symbol(d->pool, e, pl_time(d->pool));
+}
+
+// q = value
+static bool place_of(pl_analysis* d, pl_expr e, pl_symbol q, pl_expr* value) {
+  pl_expr c[2];
+  if (pl_alg_coefficients(d->tower, e, q, c, 1) != 1 || pl_has_coordinates(d, c[0]) || pl_has_coordinates(d, c[1])) return false;
+  *value = pl_alg_normal(d->tower, pl_neg(d->pool, pl_div(d->pool, c[0], c[1])));
+  return true;
+}
+
+static bool search_on_line(pl_analysis* d, const pl_where* p) {
+  if (!p->on_line) return false;
+  pl_search s = {.line = &p->line, .s = d->q.at[p->line.i].q, .name = p->ask->value};
+  s.condition = pl_alg_normal(d->tower, on_cyclic(d, p, p->equation[0]));
+  s.asked = on_cyclic(d, p, p->asked);
+  if (!is_on_line(d, p, s.condition) || !is_on_line(d, p, s.asked)) return false;
+  if (!pl_has_symbol(d->pool, s.condition, s.s) && !pl_has_symbol(d->pool, s.condition, d->q.at[p->line.i].v)) return false;
+  add_contacts(d, p, &s);
+  pl_expr place;
+  if (place_of(d, s.condition, s.s, &place)) {
+    s.place = s.complete = true;
+    s.root[s.n_roots++] = (pl_root){place, pl_poison()};
+  } else {
+    pl_expr e = pl_along_line(d, &p->line, s.condition);
+    show_condition(d, p->ask, e);
+    roots_on_line(d, &s);
+  }
+  pl_search_motion(d, &s);
+  return true;
+}
+
+// ---------------------------------------------------------------------------------------------- along time
+// Coordinates and velocities in e as functions of time, from the start of the motion.  false: some has no closed form.
+static bool on_time(pl_analysis* d, const pl_where* p, pl_expr* e) {
+  pl_replace *r = PL_ARRAY(d->arena, pl_replace, 2 * d->q.n + 1), *start = PL_ARRAY(d->arena, pl_replace, 2 * d->q.n + 1);
+  int n = 0, n_start = 0;
+  for (int k = 0; k < d->gen.n; k++) {
+    const pl_variable* c = &d->q.at[d->gen.at[k]];
+    pl_expr q0, v0;
+    pl_motion_start(d, &p->ask->motion, c, &q0, &v0);
+    start[n_start++] = (pl_replace){pl_symbol_start(d->pool, c->q), q0};
+    start[n_start++] = (pl_replace){pl_symbol_start(d->pool, c->v), v0};
+    if (!pl_has_symbol(d->pool, *e, c->q) && !pl_has_symbol(d->pool, *e, c->v)) continue;
+    pl_expr x = pl_closed_motion(d, d->gen.at[k]);
+    if (pl_is_poison(x)) return false;
+    r[n++] = (pl_replace){c->q, x};
+    r[n++] = (pl_replace){c->v, pl_diff(d->pool, x, pl_time(d->pool))};
+  }
+  *e = pl_subst(d->pool, pl_subst(d->pool, *e, r, n), start, n_start);
+  *e = pl_alg_normal(d->tower, with_given(d, p, *e));
+  return !pl_has_coordinates(d, *e);
+}
+
+static bool search_in_time(pl_analysis* d, const pl_where* p) {
+  pl_search s = {.s = pl_time(d->pool), .name = p->ask->value, .condition = p->equation[0], .asked = p->asked, .complete = true};
+  if (!d->reduced || !on_time(d, p, &s.condition) || !on_time(d, p, &s.asked)) return false;
+  if (!pl_has_symbol(d->pool, s.condition, s.s)) return false;
+  add_contacts(d, p, &s);
+  for (int k = 0; k < s.n_contacts; k++) {
+    if (!on_time(d, p, &s.push[k])) return false;
+  }
+  show_condition(d, p->ask, s.condition);
+  add_roots(d, &s, s.condition);
+  pl_search_motion(d, &s);
+  return true;
+}
+
+static pl_search plain_search(pl_analysis* d, const pl_where* p) {
+  pl_search s = {.s = pl_time(d->pool), .name = p->ask->value, .condition = p->equation[0], .asked = p->asked};
+  add_contacts(d, p, &s);
+  return s;
 }
 
 // ---------------------------------------------------------------------------------------------- of the state
@@ -302,43 +481,99 @@ static void solve_rest(pl_analysis* d, const pl_where* p, int k, pl_expr conditi
   }
 }
 
-static void of_the_state(pl_analysis* d, const pl_ask* ask, const pl_where* p) {
+static pl_found solutions(pl_analysis* d, const pl_where* p) {
   pl_found found = {.complete = true};
   solve_rest(d, p, 0, pl_poison(), &found);
+  return found;
+}
+
+// All that is solved for has a number, and the solution has none: a root of a negative number, acos beyond 1.
+static bool is_unreal(pl_analysis* d, pl_expr value) {
+  enum { max_symbols = 64 };
+  pl_symbol in[max_symbols];
+  if (!isnan(pl_number(d, value))) return false;
+  int n = pl_symbols_in(d->pool, value, in, max_symbols);
+  for (int k = 0; k < n && k < max_symbols; k++) {
+    if (isnan(d->value[in[k].id])) return false;
+  }
+  return n <= max_symbols;
+}
+
+static void of_the_state(pl_analysis* d, const pl_ask* ask, const pl_where* p) {
+  pl_found found = solutions(d, p);
+  int unreal = 0;
   for (int k = 0; k < found.n; k++) {
     if (pl_say_unsolved(d, ask->value, found.value[k])) return;
+    if (is_unreal(d, found.value[k])) {
+      unreal++;
+      continue;
+    }
     pl_expr condition = found.condition[k];
     int sign;
     if (!pl_is_poison(condition) && pl_alg_sign(d->tower, condition, true, &sign) == PL_YES) condition = pl_poison();
-    show_root(d, ask->value, found.value[k], condition);
-    say_independent(d, found.value[k]);
+    pl_show_met(d, ask->value, found.value[k], condition);
   }
-  if (found.n > 0) return;
+  if (found.n > unreal) return;
   pl_say(d, found.complete ? "No state satisfies this." : "No solution in closed form was found.",
          found.complete ? "Kein Zustand erfüllt das." : "Eine geschlossene Lösung wurde nicht gefunden.", 0);
   d->section->not_found = !found.complete;
 }
 
 // ---------------------------------------------------------------------------------------------- the section
+// The equation gives what is asked whatever the motion was before.
+static bool holds_on_every_motion(pl_analysis* d, const pl_where* p) {
+  pl_found found = solutions(d, p);
+  if (found.n != 1 || !found.complete || pl_has_symbol(d->pool, found.value[0], pl_time(d->pool))) return false;
+  return !pl_has_coordinates(d, found.value[0]) && !is_circular(d, p->ask->value, found.value[0]);
+}
+
+// One condition on the motion.  false: it is an equation for the state.
+static bool on_the_way(pl_analysis* d, const pl_where* p) {
+  if (!pl_has_coordinates(d, p->equation[0]) && !pl_has_symbol(d->pool, p->equation[0], pl_time(d->pool))) return false;
+  if (search_on_line(d, p)) return true;
+  pl_search s = plain_search(d, p);
+  pl_followed f;
+  bool every = holds_on_every_motion(d, p);
+  if (!every && search_in_time(d, p)) return true;
+  pl_follow_motion(d, &p->ask->motion, &s, &f);
+  if (f.how == PL_FOLLOWED_NOT || (every && f.how == PL_FOLLOWED_MET && f.lost < 0)) return false;
+  pl_say_followed(d, &s, &f);
+  return true;
+}
+
+static void say_motion_unknown(pl_analysis* d) {
+  pl_say(d, "The motion from this start is not known in closed form, and not all numbers are given.",
+         "Die Bewegung von diesem Start ist nicht geschlossen bekannt, und nicht alle Zahlen sind gegeben.", 0);
+  d->section->not_found = true;
+}
+
+static void drop_what_vanishes(pl_analysis* d, pl_where* p) {
+  int n = 0;
+  for (int k = 0; k < p->n; k++) {
+    if (pl_alg_is_zero(d->tower, p->equation[k]) != PL_YES) p->equation[n++] = p->equation[k];
+  }
+  p->n = n;
+}
+
 void pl_answer_where(pl_analysis* d, const pl_ask* ask) {
   pl_where p = {0};
   if (!collect(d, ask, &p)) {
     pl_answer_pending(d, ask);
     return;
   }
-  pins_of_the_motion(d, &p);
   for (int k = 0; k < p.n; k++) {
-    p.equation[k] = at_place(d, &p, p.equation[k]);
-    if (pl_say_unsolved(d, ask->value, p.equation[k])) return;
+    if (pl_say_unsolved(d, ask->value, pl_alg_normal(d->tower, p.equation[k]))) return;
   }
-  if (p.n > 0) show_condition(d, ask, p.equation[0]);
-  pl_symbol s;
-  bool motion = p.n == 1 && unknown_of(d, &p, p.equation[0], &s) &&
-                ((p.on_line && s.id == d->q.at[p.line.i].q.id) || s.id == pl_time(d->pool).id);
-  if (motion) {
-    on_the_way(d, ask, &p, p.equation[0], s);
+  if (pl_say_unsolved(d, ask->value, pl_alg_normal(d->tower, p.asked))) return;
+  if (p.n == 1 && p.n_pins == 0 && on_the_way(d, &p)) return;
+  if (p.n == 1 && p.n_pins == 0 && ask->motion.given && !p.on_line && !holds_on_every_motion(d, &p)) {
+    say_motion_unknown(d);
     return;
   }
+  pins_of_the_motion(d, &p);
+  for (int k = 0; k < p.n; k++) p.equation[k] = at_place(d, &p, p.equation[k]);
+  drop_what_vanishes(d, &p);
+  if (p.n > 0) show_condition(d, ask, p.equation[0]);
   p.asked = at_place(d, &p, p.asked);
   of_the_state(d, ask, &p);
 }

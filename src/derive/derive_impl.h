@@ -351,6 +351,7 @@ typedef struct pl_laplace_poles {
 } pl_laplace_poles;
 pl_expr pl_laplace(pl_analysis* d, pl_expr f, pl_symbol s);
 pl_expr pl_laplace_back(pl_analysis* d, pl_expr F, pl_symbol s, pl_laplace_poles* poles);   // poles: NULL or zeroed
+pl_expr pl_closed_motion(pl_analysis* d, int i);         // coordinate i as a function of time, over x(0), x'(0); poison (answer_solve.c)
 void pl_why_transform(pl_analysis* d, int i, pl_expr transform, const pl_laplace_poles* poles);
 pl_expr pl_linear_motion(pl_analysis* d, int i, pl_laplace_poles* poles);        // coordinate i of a linear system as a function of t; poison if it is none
 
@@ -375,6 +376,7 @@ typedef struct pl_line {
 void pl_motion_start(pl_analysis* d, const pl_motion* motion, const pl_variable* c, pl_expr* q0, pl_expr* v0);   // eliminate.c
 bool pl_line_of(pl_analysis* d, const pl_motion* motion, pl_line* out);
 pl_expr pl_along_line(pl_analysis* d, const pl_line* l, pl_expr e);   // velocities inserted
+bool pl_is_angle(pl_analysis* d, int i);                // coordinate i is a pure number under sin or cos
 bool pl_pushed(pl_analysis* d, int i);                  // a force without potential acts along coordinate i (answer_conserved.c)
 pl_expr pl_conserved_energy(pl_analysis* d);            // E in generalized coordinates if it is conserved, else poison
 // The value of e (in coordinates, velocities, accelerations, multipliers) on the motion, in generalized coordinates.

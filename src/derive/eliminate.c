@@ -106,6 +106,15 @@ pl_expr pl_start_value(pl_analysis* d, pl_symbol s) {
   return pl_sym(d->pool, pl_symbol_start(d->pool, s));
 }
 
+// Where a coordinate starts: a zero of `init` is inserted too.
+static pl_expr start_place(pl_analysis* d, pl_symbol q) {
+  for (int k = 0; k < d->model->inits.n; k++) {
+    const pl_init* init = &d->model->inits.at[k];
+    if (!init->guess && pl_same(init->target, pl_sym(d->pool, q)) && pl_is_zero_node(d->pool, init->value)) return init->value;
+  }
+  return pl_start_value(d, q);
+}
+
 // The value that `from` gives for s; poison if it does not speak of it.
 static pl_expr from_value(pl_analysis* d, const pl_motion* motion, pl_symbol s) {
   for (int k = 0; k < motion->n_from; k++) {
@@ -122,7 +131,7 @@ void pl_motion_start(pl_analysis* d, const pl_motion* motion, const pl_variable*
     *q0 = from_value(d, motion, c->q);
     *v0 = motion->at_rest ? pl_int(d->pool, 0) : from_value(d, motion, c->v);
   }
-  if (pl_is_poison(*q0)) *q0 = pl_start_value(d, c->q);
+  if (pl_is_poison(*q0)) *q0 = start_place(d, c->q);
   if (pl_is_poison(*v0)) *v0 = pl_start_value(d, c->v);
 }
 

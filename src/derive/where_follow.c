@@ -1,0 +1,189 @@
+// where_follow: the motion followed in numbers up to the first place where a condition holds, for systems whose integrals do not
+// suffice: several freedoms, drag.  Explicit steps of order 5 with an error estimate [DormandPrince1980]; the place is found by
+// bisection of the last step.
+#include <math.h>
+#include <string.h>
+
+#include "where_impl.h"
+
+enum { most = 24, most_steps = 40000, stages = 7 };
+static const double tolerance = 1e-12;   // of a step, relative to the largest value so far
+static const double safety = 0.9, grows = 4, shrinks = 0.2;
+
+typedef struct flow {
+  pl_analysis* d;
+  double* value;            // numbers by symbol id
+  int n;                    // coordinates
+  int coordinate[most];
+  pl_expr f;                // whose zero is looked for
+} flow;
+
+static void put(const flow* w, double t, const double* y) {
+  w->value[pl_time(w->d->pool).id] = t;
+  for (int k = 0; k < w->n; k++) {
+    const pl_variable* c = &w->d->q.at[w->coordinate[k]];
+    w->value[c->q.id] = y[k];
+    w->value[c->v.id] = y[w->n + k];
+  }
+}
+
+static void slope(const flow* w, double t, const double* y, double* out) {
+  put(w, t, y);
+  for (int k = 0; k < w->n; k++) {
+    out[k] = y[w->n + k];
+    out[w->n + k] = pl_eval(w->d->pool, w->d->acceleration[w->coordinate[k]], w->value);
+  }
+}
+
+static double watched(const flow* w, double t, const double* y) {
+  put(w, t, y);
+  return pl_eval(w->d->pool, w->f, w->value);
+}
+
+// One step of length h; returns its estimated error relative to `size`.
+static double step(const flow* w, double t, const double* y, double h, const double* size, double* out) {
+  // clang-format off
+  static const double c[stages] = {0, 1.0/5, 3.0/10, 4.0/5, 8.0/9, 1, 1};
+  static const double a[stages][stages] = {
+    {0}, {1.0/5}, {3.0/40, 9.0/40}, {44.0/45, -56.0/15, 32.0/9}, {19372.0/6561, -25360.0/2187, 64448.0/6561, -212.0/729},
+    {9017.0/3168, -355.0/33, 46732.0/5247, 49.0/176, -5103.0/18656}, {35.0/384, 0, 500.0/1113, 125.0/192, -2187.0/6784, 11.0/84}};
+  static const double e[stages] = {71.0/57600, 0, -71.0/16695, 71.0/1920, -17253.0/339200, 22.0/525, -1.0/40};
+  // clang-format on
+  double k[stages][2 * most], z[2 * most];
+  int n = 2 * w->n;
+  for (int s = 0; s < stages; s++) {
+    for (int i = 0; i < n; i++) {
+      z[i] = y[i];
+      for (int j = 0; j < s; j++) z[i] += h * a[s][j] * k[j][i];
+    }
+    slope(w, t + c[s] * h, z, k[s]);
+  }
+  memcpy(out, z, (size_t)n * sizeof *z);
+  double worst = 0;
+  for (int i = 0; i < n; i++) {
+    double error = 0;
+    for (int s = 0; s < stages; s++) error += h * e[s] * k[s][i];
+    if (!(fabs(error) <= worst * size[i])) worst = fabs(error) / size[i];
+  }
+  return worst;
+}
+
+static bool starts(const flow* w, const pl_motion* motion, double* y) {
+  for (int k = 0; k < w->n; k++) {
+    const pl_variable* c = &w->d->q.at[w->coordinate[k]];
+    pl_expr q0, v0;
+    pl_motion_start(w->d, motion, c, &q0, &v0);
+    y[k] = pl_number(w->d, q0);
+    y[w->n + k] = pl_number(w->d, v0);
+    if (isnan(y[k]) || isnan(y[w->n + k])) return false;
+  }
+  return true;
+}
+
+static bool follows(pl_analysis* d, flow* w) {
+  if (!d->solved || !d->reduced || d->loops.n > 0 || d->gen.n == 0 || d->gen.n > most || pl_nonholonomic(d)) return false;
+  for (int k = 0; k < d->gen.n; k++) {
+    w->coordinate[w->n++] = d->gen.at[k];
+    if (pl_is_poison(d->acceleration[d->gen.at[k]])) return false;
+  }
+  return true;
+}
+
+// The time and state of the first zero of w->f; the start does not count.
+static pl_followed_how first_zero(const flow* w, double end, double* time, double* y) {
+  double size[2 * most], next[2 * most], t = 0, h = 1e-3, before = watched(w, 0, y);
+  int n = 2 * w->n;
+  bool leaves = fabs(before) == 0;
+  for (int i = 0; i < n; i++) size[i] = fabs(y[i]) > 1e-3 ? fabs(y[i]) : 1e-3;
+  for (int k = 0; k < most_steps && t < end; k++) {
+    if (t + h > end) h = end - t;
+    double error = step(w, t, y, h, size, next) / tolerance;
+    if (!(error <= 1)) {
+      h *= isfinite(error) && error < 1e10 ? fmax(shrinks, safety * pow(error, -0.2)) : shrinks;
+      if (h < 1e-12 * (1 + t)) return PL_FOLLOWED_NOT;
+      *time = t;
+      continue;
+    }
+    double after = watched(w, t + h, next);
+    if (!leaves && isfinite(after) && (before > 0) != (after > 0)) {
+      double low = 0, high = h;
+      for (int i = 0; i < 100; i++) {
+        double m = 0.5 * (low + high);
+        if (m == low || m == high) break;
+        step(w, t, y, m, size, next);
+        if ((watched(w, t + m, next) > 0) == (before > 0)) low = m;
+        else high = m;
+      }
+      step(w, t, y, high, size, next);
+      memcpy(y, next, (size_t)n * sizeof *y);
+      *time = t + high;
+      return PL_FOLLOWED_MET;
+    }
+    t += h;
+    *time = t;
+    leaves = false;
+    before = after;
+    memcpy(y, next, (size_t)n * sizeof *y);
+    for (int i = 0; i < n; i++) size[i] = fmax(size[i], fabs(y[i]));
+    h *= error > 0 ? fmin(grows, safety * pow(error, -0.2)) : grows;
+  }
+  return PL_FOLLOWED_PAST;
+}
+
+static double end_of(pl_analysis* d) {
+  static const double long_time = 1e3;   // s, where the model says nothing
+  if (!d->model->simulate.given) return long_time;
+  double end = pl_number(d, d->model->simulate.to);
+  return end > 0 ? end : long_time;
+}
+
+static const pl_form* time_form(pl_analysis* d, double t) {
+  pl_notation how = {.math = PL_MATH_LINE, .lang = d->job->lang};
+  return pl_feq(d, pl_fs(d, pl_time(d->pool)), pl_fn(d, pl_format(d->arena, "%s s", pl_notation_number(d->arena, t, 6, how))));
+}
+
+// A contact that would have to pull on the way there.
+static void look_at_contacts(flow* w, const pl_search* p, const pl_motion* motion, double until, pl_followed* out) {
+  for (int k = 0; k < p->n_contacts; k++) {
+    double y[2 * most];
+    starts(w, motion, y);
+    w->f = p->push[k];
+    out->lost_at = 0;
+    bool at_once = watched(w, 0, y) < 0;
+    if (!at_once && first_zero(w, until * (1 - 1e-9), &out->lost_at, y) != PL_FOLLOWED_MET) continue;
+    out->lost = k;
+    return;
+  }
+}
+
+void pl_follow_motion(pl_analysis* d, const pl_motion* motion, const pl_search* p, pl_followed* out) {
+  flow w = {.d = d, .f = p->condition};
+  double y[2 * most];
+  *out = (pl_followed){.how = PL_FOLLOWED_NOT, .lost = -1};
+  pl_number(d, pl_add(d->pool, p->condition, p->asked));   // the table of numbers covers every name
+  w.value = PL_ARRAY(d->arena, double, pl_symbol_count(d->pool) + 1);
+  memcpy(w.value, d->value, (size_t)(pl_symbol_count(d->pool) + 1) * sizeof *w.value);
+  if (!follows(d, &w) || !starts(&w, motion, y)) return;
+  if (isnan(watched(&w, 0, y)) || isnan(pl_eval(d->pool, p->asked, w.value))) return;
+  out->how = first_zero(&w, end_of(d), &out->time, y);
+  if (out->how == PL_FOLLOWED_NOT) return;
+  put(&w, out->time, y);
+  out->asked = pl_eval(d->pool, p->asked, w.value);
+  look_at_contacts(&w, p, motion, out->time, out);
+}
+
+void pl_say_followed(pl_analysis* d, const pl_search* p, const pl_followed* f) {
+  if (f->lost >= 0) {
+    pl_say(d, "{1} lets go before, at {2}; beyond it the formulas do not hold.",
+           "{1} löst sich vorher, bei {2}; danach gelten die Formeln nicht.", 2, pl_fn(d, p->contact[f->lost]), time_form(d, f->lost_at));
+    return;
+  }
+  d->section->not_found = true;
+  if (f->how == PL_FOLLOWED_PAST) {
+    pl_say(d, "As far as {1} this does not happen on the motion.", "Bis {1} tritt das auf der Bewegung nicht ein.", 1, time_form(d, f->time));
+    return;
+  }
+  pl_say(d, "No solution in closed form was found; for the given numbers:",
+         "Eine geschlossene Lösung wurde nicht gefunden; mit den gegebenen Zahlen:", 0);
+  pl_show_met_number(d, p->name, f->asked);
+}
