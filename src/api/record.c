@@ -581,6 +581,7 @@ static void record_turned(const pl_recorder* r) {
 }
 
 pleuel_status pl_record(pl_job* job, pl_model* model, const char* sensitivities, bool exact, pl_recording** out) {
+  PL_TRY(pl_model_write_sums(job, model, &model));
   pl_recorder r = {.exact = exact, .job = job, .arena = job->arena, .model = model, .pool = model->pool, .out = PL_NEW(job->arena, pl_recording)};
   list_coordinates(&r);
   if (sensitivities) PL_TRY(pl_variation_begin(&r, sensitivities));

@@ -65,7 +65,11 @@ static int link_of_multiplier(pl_recorder* r, pl_expr atom) {
     const pl_constraint* c = &r->model->constraints.at[i];
     if (c->lambda.id != lambda.id) continue;
     if (!element) return c->block ? -1 : r->first_link[i];
-    const char* name = pl_format(r->arena, "%s[%ld]", c->name.ascii ? c->name.ascii : c->name.text, index);
+    // a member that was written out has the name of the member
+    const char* own = c->name.ascii ? c->name.ascii : c->name.text;
+    const char* name = strchr(own, '[') ? own : pl_format(r->arena, "%s[%ld]", own, index);
+    char* end = strchr(name, '[') + 1;
+    if (strtol(end, NULL, 10) != index) continue;
     int last = i + 1 < r->model->constraints.n ? r->first_link[i + 1] : r->out->n_declared;
     for (int k = r->first_link[i]; k < last; k++) {
       if (strcmp(r->out->setup.links[k].name, name) == 0) return k;
@@ -115,12 +119,13 @@ static bool single_constraint(pl_recorder* r, const char* label, pl_constraint* 
   const pl_constraint* c = pl_model_constraint(r->model, label);
   if (!c || !c->lambda.id) return false;
   *out = *c;
-  *lambda = pl_sym(r->pool, c->lambda);
-  if (!c->block) return true;
   const char* open = strchr(label, '[');
+  long member = open ? strtol(open + 1, NULL, 10) : 0, index = 0;
+  pl_expr at = pl_int(r->pool, member);
+  *lambda = open ? pl_at(r->pool, c->lambda, 0, at) : pl_sym(r->pool, c->lambda);
+  if (!c->block) return true;
   pl_instances in;
   if (!open || pl_model_instances(r->job, r->model, c->block, &in) != PLEUEL_OK) return false;
-  long member = strtol(open + 1, NULL, 10), index = 0;
   for (int k = 0; k < in.n; k++) {
     pl_expr name = c->name.index;
     out->g = c->g;
@@ -131,7 +136,6 @@ static bool single_constraint(pl_recorder* r, const char* label, pl_constraint* 
     }
     if (!pl_record_index(r, name, &index) || index != member) continue;
     out->block = NULL;
-    *lambda = pl_at(r->pool, c->lambda, 0, pl_int(r->pool, member));
     return true;
   }
   return false;

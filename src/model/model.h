@@ -328,6 +328,10 @@ pleuel_status pl_model_instances(pl_job* job, const pl_model* m, const pl_block*
 // scalar coordinates named x1, x2, ... (ascii x_1, ...; CSV uses x[1]).  Used by the derivation below `max_coords`.
 pleuel_status pl_model_expand(pl_job* job, const pl_model* m, int max_coords, pl_model** out);
 
+// pl_model_write_sums gives a copy in which masses, bodies, points, loads and constraints of families that contain a sum over j in 1..i are
+// written out, one for each index; x[3] stays an element of its family.  A model without such sums is only copied.
+pleuel_status pl_model_write_sums(pl_job* job, pl_model* m, pl_model** out);
+
 // pl_model_check infers dimensions through every equation, resolves families, and reports everything it finds wrong.
 // Status PLEUEL_MODEL_ERROR when there is an error among the diagnostics.
 pleuel_status pl_model_check(pl_job* job, pl_model* m);

@@ -15,6 +15,7 @@ typedef struct expansion {
   pl_map* constant;           // for pl_is_constant_known
   pl_map* memo;               // expression id -> rewritten id, for the instance at work
   bool too_long;              // a sum has too many terms, or the families too many members
+  bool keep_elements;         // x[3] stays an element of its family
   long budget;                // statements that may still be written
 } expansion;
 
@@ -47,6 +48,7 @@ static pl_expr rewrite_element(expansion* x, pl_expr e) {
   long k;
   pl_expr index = pl_arg(p, e, 0);
   if (!pl_index_eval(&x->values, index, &k)) return pl_at(p, pl_symbol_of(p, e), pl_dots_of(p, e), rewrite(x, index));
+  if (x->keep_elements) return pl_at(p, pl_symbol_of(p, e), pl_dots_of(p, e), pl_int(p, k));
   pl_symbol s = element_symbol(x, pl_symbol_of(p, e), k);
   for (int i = 0; i < pl_dots_of(p, e); i++) s = pl_symbol_dot(p, s);
   return pl_sym(p, s);
@@ -197,7 +199,7 @@ static bool expand_constraint(void* user, pl_index_values* v) {
   if (!pl_is_poison(item.name.index)) pl_index_eval(v, item.name.index, &k);
   else if (item.name.text) item.name.text = item.name.ascii = pl_format(o->x->arena, "%s[%ld]", item.name.text, k);
   write_label(o->x, &item.name);
-  if (item.lambda.id) item.lambda = element_symbol(o->x, item.lambda, k);
+  if (item.lambda.id && !o->x->keep_elements) item.lambda = element_symbol(o->x, item.lambda, k);
   PL_EXPAND_ITEM(o->x, constraints, item);
   return true;
 }
@@ -343,6 +345,73 @@ pleuel_status pl_model_expand(pl_job* job, const pl_model* m, int max_coords, pl
   pl_model_each_slot(to, rewrite_slot, &x);
   expand_coordinates(&x);
   bool ok = expand_statements(&x);
+  if (x.too_long) return pl_fail(job, PLEUEL_UNSUPPORTED, "a family or sum has too many members to be written out");
+  if (!ok) return pl_fail(job, PLEUEL_MODEL_ERROR, "the bounds of a family are not whole numbers");
+  *out = to;
+  return PLEUEL_OK;
+}
+
+// ---------------------------------------------------------------------------------------------- sums that grow with the index
+// sum(j in 1..i, ...) in a family over i: its instances differ in length, so that they are no instances of one pattern.
+static bool grows(const pl_pool* p, pl_expr e) {
+  if (pl_is_poison(e)) return false;
+  int n = pl_n_args(p, e);
+  if (pl_kind_of(p, e) == PL_SUM) {
+    bool by_index = pl_has_role(p, pl_arg(p, e, n - 3), PL_R_INDEX) || pl_has_role(p, pl_arg(p, e, n - 2), PL_R_INDEX);
+    if (by_index) return true;
+  }
+  for (int i = 0; i < n; i++) {
+    if (grows(p, pl_arg(p, e, i))) return true;
+  }
+  return false;
+}
+
+typedef struct growth { const pl_pool* pool; bool found; } growth;
+
+static void look_for_growth(void* user, const pl_slot* slot) {
+  growth* g = user;
+  g->found |= grows(g->pool, *slot->at);
+}
+
+// Whether one item of a list contains such a sum.
+#define PL_ITEM_GROWS(x, field, item, answer)                        \
+  do {                                                               \
+    pl_model one = {.pool = (x)->from->pool};                        \
+    growth g = {(x)->from->pool, false};                             \
+    one.field.at = &(item);                                          \
+    one.field.n = 1;                                                 \
+    pl_model_each_slot(&one, look_for_growth, &g);                   \
+    (answer) = g.found;                                              \
+  } while (0)
+
+// A list with the families written out whose items contain such sums, the others as they are.
+#define PL_EXPAND_GROWING(x, field, visit)                                                               \
+  for (int i = 0; i < (x)->from->field.n && ok; i++) {                                                   \
+    bool grown = false;                                                                                  \
+    pl_block* block = (x)->from->field.at[i].block;                                                      \
+    if (block) PL_ITEM_GROWS((x), field, (x)->from->field.at[i], grown);                                 \
+    if (!grown) pl_push((x)->arena, (x)->to->field, (x)->from->field.at[i]);                             \
+    else ok = expand_each((x), i, block, (visit)) == PL_WALK_DONE;                                       \
+  }
+
+pleuel_status pl_model_write_sums(pl_job* job, pl_model* m, pl_model** out) {
+  pl_arena* a = pl_pool_arena(m->pool);
+  pl_model* to = PL_NEW(a, pl_model);
+  *to = *m;
+  expansion x = {.job = job, .arena = a, .from = m, .to = to, .element = pl_map_make(a),
+                 .constant = pl_map_make(a), .memo = pl_map_make(a), .budget = MAX_STATEMENTS, .keep_elements = true};
+  x.values = pl_index_values_make(m, a);
+  PL_EMPTY_VEC(to->masses);
+  PL_EMPTY_VEC(to->bodies);
+  PL_EMPTY_VEC(to->points);
+  PL_EMPTY_VEC(to->loads);
+  PL_EMPTY_VEC(to->constraints);
+  bool ok = true;
+  PL_EXPAND_GROWING(&x, masses, expand_mass);
+  PL_EXPAND_GROWING(&x, bodies, expand_body);
+  PL_EXPAND_GROWING(&x, points, expand_place);
+  PL_EXPAND_GROWING(&x, loads, expand_load);
+  PL_EXPAND_GROWING(&x, constraints, expand_constraint);
   if (x.too_long) return pl_fail(job, PLEUEL_UNSUPPORTED, "a family or sum has too many members to be written out");
   if (!ok) return pl_fail(job, PLEUEL_MODEL_ERROR, "the bounds of a family are not whole numbers");
   *out = to;
