@@ -517,9 +517,23 @@ static pleuel_status make_starts(pl_recorder* r, pl_coordinate* q) {
                  pl_expr_text(r->arena, r->pool, waiting.at[0].value));
 }
 
+// T, V or L was written with this coordinate.
+static bool is_in_load(const pl_recorder* r, pl_expr atom) {
+  if (pl_kind_of(r->pool, atom) != PL_SYMBOL) return false;
+  pl_symbol q = pl_symbol_of(r->pool, atom), v = pl_symbol_dot(r->pool, q);
+  for (int i = 0; i < r->model->loads.n; i++) {
+    pl_expr value = r->model->loads.at[i].value;
+    if (!pl_is_poison(value) && (pl_has_symbol(r->pool, value, q) || pl_has_symbol(r->pool, value, v))) return true;
+  }
+  return false;
+}
+
 static pleuel_status make_coordinates(pl_recorder* r) {
   pl_coordinate* q = PL_ARRAY(r->arena, pl_coordinate, r->out->flat.n + 1);
-  for (int i = 0; i < r->out->flat.n; i++) name_coordinate(r, r->out->flat.at[i], &q[i]);
+  for (int i = 0; i < r->out->flat.n; i++) {
+    name_coordinate(r, r->out->flat.at[i], &q[i]);
+    q[i].in_load = is_in_load(r, r->out->flat.at[i]);
+  }
   r->out->setup.coordinates = q;
   r->out->exact_q = PL_ARRAY(r->arena, pl_exact_start, r->out->flat.n + 1);
   r->out->exact_v = PL_ARRAY(r->arena, pl_exact_start, r->out->flat.n + 1);

@@ -109,6 +109,13 @@ static void say_kinds(pl_analysis* d) {
 static void say_hidden(pl_analysis* d) {
   for (int k = 0; k < d->hidden.n; k++) {
     const pl_variable* c = &d->q.at[d->hidden.at[k]];
+    if (c->by_combination) {
+      pl_say(d, "The mass matrix is singular: in a combination of the equations all accelerations cancel, and what is left is a hidden constraint, {1}. "
+                "The start value of {2} is not free.",
+             "Die Massenmatrix ist singulär: in einer Kombination der Gleichungen fallen alle Beschleunigungen heraus, und was bleibt, ist eine verborgene "
+             "Zwangsbedingung, {1}. Der Startwert von {2} ist nicht frei.", 2, pl_feq(d, pl_fs(d, c->q), pl_f(d, c->map, PL_S_SOLUTION)), pl_fs(d, c->q));
+      continue;
+    }
     pl_say(d, "{1} carries no inertia: its own equation contains no acceleration and is a hidden constraint, {2}. Its start value is not free.",
            "{1} trägt keine Trägheit: die eigene Gleichung enthält keine Beschleunigung und ist eine verborgene Zwangsbedingung, {2}. Ihr "
            "Startwert ist nicht frei.", 2, pl_fs(d, c->q), pl_feq(d, pl_fs(d, c->q), pl_f(d, c->map, PL_S_SOLUTION)));
@@ -140,6 +147,12 @@ void pl_answer_dof(pl_analysis* d, const pl_ask* ask) {
   say_kinds(d);
   rows_of_freedom(d);
   say_hidden(d);
+  pl_say_rank_at_start(d);
+  if (d->mass_is_singular) {
+    pl_say(d, "The mass matrix is singular and the equations do not determine all accelerations: fewer start values than this number promises are free.",
+           "Die Massenmatrix ist singulär, und die Gleichungen bestimmen nicht alle Beschleunigungen: weniger Startwerte sind frei, als diese Zahl erwarten "
+           "lässt.", 0);
+  }
   pl_answer(d, "dof", pl_int(d->pool, d->dof.dof), NULL);
 }
 

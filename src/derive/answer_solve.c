@@ -159,6 +159,7 @@ static void show_lambda(pl_analysis* d, int k) {
     refer_to_equations(d, step, d->number_gdd);
     bool known;
     pl_step_value(d, step, l->lambda_value, pl_dimension_of_expr(d, l->lambda_value, &known));
+    pl_say_pole_at_start(d, pl_fs(d, l->lambda), l->lambda_value);
   }
   pl_claim_that(d, PL_CLAIM_MOTION, pl_form_value(d->pool, form), pl_sym(d->pool, l->lambda));
   pl_value* v = pl_answer(d, pl_symbol_get(d->pool, l->lambda)->ascii, l->lambda_value, form);
@@ -188,6 +189,7 @@ static void show_acceleration(pl_analysis* d, int i) {
   refer_to_equations(d, step, d->number_lambda);
   bool known;
   pl_step_value(d, step, d->acceleration[i], pl_dimension_of_expr(d, d->acceleration[i], &known));
+  pl_say_pole_at_start(d, pl_fs(d, d->q.at[i].a), d->acceleration[i]);
   pl_claim_that(d, PL_CLAIM_MOTION, pl_form_value(d->pool, form), pl_sym(d->pool, d->q.at[i].a));
 }
 

@@ -243,6 +243,7 @@ static void fail_check(pl_analysis* d, pl_check* check, const pl_claim* c) {
 
 // Without a unique motion (singular mass matrix) accelerations and multipliers cannot be drawn.
 static bool needs_motion(const pl_analysis* d, const pl_claim* c) {
+  if (c->kind == PL_CLAIM_MOTION || c->kind == PL_CLAIM_ONE_TWO) return true;   // equations of first order have no free velocities
   return pl_has_role(d->pool, c->shown, PL_R_ACCELERATION) || pl_has_role(d->pool, c->reference, PL_R_ACCELERATION) ||
          pl_has_role(d->pool, c->shown, PL_R_MULTIPLIER) || pl_has_role(d->pool, c->reference, PL_R_MULTIPLIER);
 }

@@ -16,6 +16,7 @@ typedef struct pl_variable {
   bool by_branch;      // map is one of several roots
   int solved_by;       // index of the constraint that map solves, -1: of `choose`, -2: generalized itself or fixed, -3: its own
                        // equation, which contains no acceleration
+  bool by_combination; // of several equations, rather
 } pl_variable;
 
 typedef struct pl_bond {   // a constraint at work
@@ -124,6 +125,7 @@ struct pl_analysis {
   PL_VEC(pl_replace) contact;  // of the ones fixed by contact
 
   PL_VEC(int) hidden;          // coordinates without inertia whose own equation gives them: constraints behind a singular mass matrix
+  bool mass_is_singular;       // and no constraint was found behind it: the equations do not determine all accelerations
   bool reduced;                // every coordinate has a map
   PL_VEC(int) gen;             // generalized coordinates
   PL_VEC(pl_replace) maps;     // q -> map, v -> map', a -> map'' of all that are not generalized
@@ -187,6 +189,10 @@ int pl_sign_or_positive(pl_analysis* d, pl_expr e);   // the same; where nothing
 double pl_number(pl_analysis* d, pl_expr e);            // at the parameters; NaN when it depends on more
 pl_answer3 pl_zero_for_numbers(pl_analysis* d, pl_expr e);   // e = 0, as it stands or with the numbers of the parameters in it
 
+// start_rank.c
+pl_expr pl_with_given_numbers(pl_analysis* d, pl_expr e);   // exact: parameters and abbreviations inserted
+void pl_say_rank_at_start(pl_analysis* d);              // constraints that lose rank at the start
+void pl_say_pole_at_start(pl_analysis* d, const pl_form* name, pl_expr e);   // a denominator that vanishes there
 // conditions.c: e > 0 (strict) or e >= 0.  PL_YES: always, PL_NO: never; else the shortest form of the condition and its text.
 pl_answer3 pl_holds_if(pl_analysis* d, pl_expr e, bool strict, const pl_form** form, const char** text);
 const pl_form* pl_conditions_form(pl_analysis* d, const pl_expr* e, int n, bool strict, const char** text);   // a list; NULL: all hold

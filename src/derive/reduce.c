@@ -222,6 +222,67 @@ static bool find_hidden(pl_analysis* d) {
   return false;
 }
 
+// ---------------------------------------------------------------------------------------------- hidden behind a singular mass matrix
+enum { max_hidden = 8 };
+
+static void mass_matrix(pl_analysis* d, pl_expr* M) {
+  int n = d->gen.n;
+  for (int a = 0; a < n; a++) {
+    pl_expr momentum = pl_diff(d->pool, d->Lg, d->q.at[d->gen.at[a]].v);
+    for (int b = 0; b < n; b++) M[a * n + b] = pl_alg_normal(d->tower, pl_diff(d->pool, momentum, d->q.at[d->gen.at[b]].v));
+  }
+}
+
+// A combination w of the equations without accelerations: w M = 0, with constant w.  The row `of` has w = 1.
+static bool null_combination(pl_analysis* d, const pl_expr* M, int of, pl_expr* w) {
+  int n = d->gen.n;
+  if (pl_alg_dependency(d->tower, n, n, M, of, w) != PL_YES) return false;
+  for (int k = 0; k < n; k++) {
+    if (k == of) continue;
+    w[k] = pl_alg_normal(d->tower, pl_neg(d->pool, w[k]));
+    if (pl_has_coordinates(d, w[k]) || pl_has_symbol(d->pool, w[k], pl_time(d->pool))) return false;
+  }
+  w[of] = pl_int(d->pool, 1);
+  return true;
+}
+
+// What the combination leaves is a constraint between places, and moving along w leaves it: then the coordinate follows from it.
+static bool solve_combination(pl_analysis* d, const pl_expr* w) {
+  pl_pool* p = d->pool;
+  pl_expr left = pl_int(p, 0), across = pl_int(p, 0), value;
+  for (int k = 0; k < d->gen.n; k++) left = pl_add(p, left, pl_mul(p, w[k], pl_second_kind(d, d->gen.at[k])));
+  left = pl_alg_normal(d->tower, left);
+  if (pl_has_role(p, left, PL_R_ACCELERATION) || pl_has_role(p, left, PL_R_VELOCITY)) return false;
+  for (int k = 0; k < d->gen.n; k++) across = pl_add(p, across, pl_mul(p, w[k], pl_diff(p, left, d->q.at[d->gen.at[k]].q)));
+  if (pl_alg_is_zero(d->tower, across) != PL_NO) return false;
+  for (int k = d->gen.n - 1; k >= 0; k--) {
+    int i = d->gen.at[k];
+    if (pl_is_zero_node(p, w[k]) || !pl_has_symbol(p, left, d->q.at[i].q) || !solve_linear(d, left, i, &value)) continue;
+    set_map(d, i, value, -3);
+    d->q.at[i].by_combination = true;
+    pl_push(d->arena, d->hidden, i);
+    d->gen.n = 0;
+    pl_collect_generalized(d);
+    d->Lg = pl_on_maps(d, d->L);
+    return true;
+  }
+  return false;
+}
+
+// The mass matrix is singular by its values: m (x' + y')²/2 moves x + y alone, and the forces along x - y are a constraint.
+static bool find_hidden_combination(pl_analysis* d) {
+  int n = d->gen.n;
+  pl_expr M[max_hidden * max_hidden], w[max_hidden];
+  if (n == 0 || n > max_hidden) return false;
+  mass_matrix(d, M);
+  int rank = pl_alg_rank(d->tower, n, n, M, NULL);
+  for (int of = n - 1; of >= 0 && rank < n; of--) {
+    if (null_combination(d, M, of, w) && solve_combination(d, w)) return true;
+  }
+  d->mass_is_singular = rank < n;
+  return false;
+}
+
 pleuel_status pl_reduce(pl_analysis* d) {
   pl_find_places(d);
   chosen_maps(d);
@@ -233,7 +294,7 @@ pleuel_status pl_reduce(pl_analysis* d) {
   }
   pl_collect_generalized(d);
   d->Lg = pl_on_maps(d, d->L);
-  while (d->loops.n == 0 && find_hidden(d)) {
+  while (d->loops.n == 0 && (find_hidden(d) || find_hidden_combination(d))) {
   }
   d->Tg = pl_alg_normal(d->tower, pl_on_maps(d, d->T));
   d->Vg = pl_alg_normal(d->tower, pl_on_maps(d, d->V));

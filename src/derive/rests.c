@@ -253,18 +253,6 @@ static void search(pl_analysis* d, const pl_expr* f, pl_rest r, pl_rests* out) {
 }
 
 // ---------------------------------------------------------------------------------------------- in numbers
-// e with the numbers of what is given, exact ones.
-static pl_expr with_numbers(pl_analysis* d, pl_expr e) {
-  const pl_model* m = d->model;
-  for (int k = m->lets.n - 1; k >= 0; k--) {
-    if (!m->lets.at[k].inserted && m->lets.at[k].n_args == 0) e = pl_subst1(d->pool, e, m->lets.at[k].symbol, m->lets.at[k].value);
-  }
-  for (int k = m->params.n - 1; k >= 0; k--) {
-    if (!pl_is_poison(m->params.at[k].value)) e = pl_subst1(d->pool, e, m->params.at[k].symbol, m->params.at[k].value);
-  }
-  return e;
-}
-
 static long gcd_of(long a, long b) { return b == 0 ? labs(a) : gcd_of(b, a % b); }
 
 // e depends on x through sines and cosines of rational multiples only: *num/den becomes the largest common measure of these.
@@ -334,7 +322,7 @@ static pl_expr number_of(pl_analysis* d, double x) {
 static void open_branch(pl_analysis* d, const pl_expr* f, const pl_rest* r, pl_rests* out) {
   int place = r->open - 1;
   pl_symbol x = name_of(d, place);
-  pl_expr top, bottom, e = with_numbers(d, pl_insert_rest(d, f[r->open_row], r));
+  pl_expr top, bottom, e = pl_with_given_numbers(d, pl_insert_rest(d, f[r->open_row], r));
   pl_alg_fraction(d->tower, e, &top, &bottom);
   pl_number_search found = {.n = 0};
   search_numbers(d, top, x, &found);
@@ -486,7 +474,7 @@ pl_answer3 pl_named_rest(pl_analysis* d, const pl_ask* ask, const pl_expr* f, pl
     pl_expr left = pl_alg_normal(d->tower, pl_insert_rest(d, f[k], out));
     if (only_unknown(d, left, out) != -1) return PL_UNKNOWN;
     pl_answer3 zero = pl_alg_is_zero(d->tower, left);
-    if (zero == PL_NO && pl_vanishes(d, with_numbers(d, left))) zero = PL_YES;   // for these numbers
+    if (zero == PL_NO && pl_vanishes(d, pl_with_given_numbers(d, left))) zero = PL_YES;   // for these numbers
     if (zero == PL_NO) return PL_NO;
     if (zero == PL_UNKNOWN) answer = PL_UNKNOWN;
   }

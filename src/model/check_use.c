@@ -83,8 +83,8 @@ static void check_coordinates(pl_job* job, use_table* t) {
       pl_report_fix(d, PL_F(job, "remove %s, or use it", name), PL_F(job, "%s entfernen oder benutzen", name), NULL);
     } else if (dynamic && !(t->uses[q.id] & (BIT_INERTIA | BIT_CHOSEN))) {
       pl_diagnostic* d = pl_tell(
-          job, PL_N067, at, PL_F(job, "%s carries no mass: its motion has to follow from the constraints", name),
-          PL_F(job, "%s trägt keine Masse: seine Bewegung muss aus den Zwangsbedingungen folgen", name));
+          job, PL_N067, at, PL_F(job, "%s carries no mass: its motion has to follow from constraints or forces", name),
+          PL_F(job, "%s trägt keine Masse: seine Bewegung muss aus Zwangsbedingungen oder Kräften folgen", name));
       pl_report_fix(d, "let a mass or body depend on it, or leave it as it is",
                     "eine Masse oder einen Körper davon abhängen lassen, oder so lassen", NULL);
     }

@@ -23,6 +23,7 @@ static void look_for_landings(pl_run* run) {
 // The point in the mode that now holds: projected, accelerations and multipliers known.
 pleuel_status pl_modes_enter(pl_run* run) {
   pl_active_update(run);
+  PL_TRY(pl_run_left_open(run));
   look_for_landings(run);
   pl_projection p = pl_project(run, run->t, run->q, run->v);
   if (!p.ok || !pl_point_enter(run)) return pl_run_undetermined(run);

@@ -95,9 +95,34 @@ pleuel_status pl_run_undetermined(pl_run* run) {
   int idle = without_inertia(run);
   if (run->rank == run->n_active && idle >= 0)
     return pl_fail(run->job, PLEUEL_SINGULAR,
-                   "nothing determines the acceleration of %s: it carries no mass, and no constraint moves it",
+                   "%s carries no mass, and no constraint moves it: its equation contains no acceleration, and what forces say "
+                   "about its place is not simulated",
                    run->setup->coordinates[idle].name);
+  if (run->rank == run->n_active && !run->started)
+    return pl_fail(run->job, PLEUEL_SINGULAR,
+                   "the mass matrix is singular at t = %.9g s (%s): the equations of motion do not determine all accelerations",
+                   run->t, where);
   return pl_run_singular(run);
+}
+
+static bool in_constraint(const pl_run* run, int q) {
+  for (int i = 0; i < run->motion.n; i++) {
+    const pl_batch* b = &run->motion.at[i];
+    for (int l = 0; l < b->n; l++) {
+      for (int e = 0; e < b->pattern->n_G; e++)
+        if (b->q[b->pattern->G[e].col * b->lanes + l] == q) return true;
+    }
+  }
+  return false;
+}
+
+pleuel_status pl_run_left_open(pl_run* run) {
+  for (int i = 0; i < run->n_q; i++) {
+    if (run->place_n[i] != 0 || !run->setup->coordinates[i].in_load || in_constraint(run, i)) continue;
+    return pl_fail(run->job, PLEUEL_SINGULAR, "the equations of motion do not contain %s: nothing determines how it moves",
+                   run->setup->coordinates[i].name);
+  }
+  return PLEUEL_OK;
 }
 
 pleuel_status pl_run_singular(pl_run* run) {

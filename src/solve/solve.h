@@ -24,6 +24,7 @@ typedef struct pl_coordinate {
   bool has_guess, has_v_guess;        // only steers the numerics
   double guess, v_guess;
   bool hidden;                        // no column
+  bool in_load;                       // an energy or a force speaks of it: an equation has to
 } pl_coordinate;
 
 // A constraint row.

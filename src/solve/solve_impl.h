@@ -474,6 +474,7 @@ pleuel_status pl_run_begin_at(pl_run* run, double t);   // from run->q, v
 void pl_singular_watch(pl_run* run);                // at every point
 bool pl_is_singular(const pl_run* run);
 pleuel_status pl_run_singular(pl_run* run);         // fails with the place
+pleuel_status pl_run_left_open(pl_run* run);        // fails where a coordinate of the energies has no equation: L = x x'
 pleuel_status pl_run_undetermined(pl_run* run);     // fails with the reason why there are no accelerations
 bool pl_singular_leap(pl_run* run, double left, double* length, pl_projection* p);
 pleuel_status pl_singular_record(pl_run* run);
