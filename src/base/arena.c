@@ -13,6 +13,19 @@ static const size_t alignment = 64;            // a cache line, a vector of eigh
 static const size_t first_block = 16 << 10;    // bytes; most tests never need a second one
 static const size_t largest_step = 8 << 20;    // bytes; blocks double up to here
 
+// Under the address sanitizer the place that a growing array has left must not be touched any more.
+#ifndef __has_feature
+#define __has_feature(x) 0
+#endif
+#if defined(__SANITIZE_ADDRESS__) || __has_feature(address_sanitizer)
+#include <sanitizer/asan_interface.h>
+static const bool checked = true;
+#else
+#define ASAN_POISON_MEMORY_REGION(at, size) ((void)(at), (void)(size))
+#define ASAN_UNPOISON_MEMORY_REGION(at, size) ((void)(at), (void)(size))
+static const bool checked = false;
+#endif
+
 typedef struct pl_block {
   struct pl_block* next;
   char* data;    // aligned
@@ -98,6 +111,7 @@ void* pl_alloc(pl_arena* a, size_t size) {
   char* at = a->current->data + a->current->used;
   a->current->used += n;
   a->count++;
+  ASAN_UNPOISON_MEMORY_REGION(at, n);
   return memset(at, 0, n);
 }
 
@@ -154,12 +168,13 @@ static bool grow_in_place(pl_arena* a, void* at, size_t old_bytes, size_t new_by
 void* pl_vec_grow(pl_arena* a, void* at, int n, int* cap, size_t size) {
   if (*cap > INT_MAX / 2) pl_unwind(a, PLEUEL_NO_MEMORY);
   int wider = *cap < 4 ? 8 : *cap * 2;
-  if (at != NULL && grow_in_place(a, at, (size_t)*cap * size, (size_t)wider * size)) {
+  if (at != NULL && !checked && grow_in_place(a, at, (size_t)*cap * size, (size_t)wider * size)) {
     *cap = wider;
     return at;
   }
   void* to = pl_alloc_array(a, (size_t)wider, size);
   if (n > 0) memcpy(to, at, (size_t)n * size);
+  if (at != NULL) ASAN_POISON_MEMORY_REGION(at, (size_t)*cap * size);
   *cap = wider;
   return to;
 }

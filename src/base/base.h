@@ -68,8 +68,9 @@ unsigned long pl_arena_count(const pl_arena* a);        // allocations so far, f
 void* pl_vec_grow(pl_arena* a, void* at, int n, int* cap, size_t size);
 #define pl_push(a, v, ...)                                                                               \
   do {                                                                                                   \
+    __typeof__(*(v).at) pl_pushed_ = __VA_ARGS__;   /* first: finding it may push onto v as well */      \
     if ((v).n == (v).cap) (v).at = pl_vec_grow((a), (v).at, (v).n, &(v).cap, sizeof *(v).at);            \
-    (v).at[(v).n++] = __VA_ARGS__;                                                                       \
+    (v).at[(v).n++] = pl_pushed_;                                                                        \
   } while (0)
 
 // ---------------------------------------------------------------------------------------------- text

@@ -5,6 +5,7 @@
 // Nodes are emitted in topological order and sorted by level at the end (ORDER LEVELS).
 #include "tape/tape.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -161,8 +162,8 @@ static int with_partner(recorder* r, pl_op op, int a, int b, int partner) {
 static int one_minus_square(recorder* r, int a) { return emit(r, PL_OP_SUB, number(r, 1), times(r, a, a)); }
 
 static int with_own_square(recorder* r, pl_op op, int a) {
-  int x = emit(r, op, a, -1);
-  r->nodes.at[x].c = times(r, x, x);
+  int x = emit(r, op, a, -1), square = times(r, x, x);   // may move the list of nodes
+  r->nodes.at[x].c = square;
   return x;
 }
 
@@ -465,6 +466,8 @@ static pl_tape* finish(recorder* r, const int* root, const bool* high, int n) {
   for (int i = 0; i < n; i++)
     if (high == NULL || high[i]) mark_high(r, stack, root[i]);
   sort_by_level(r, tape, sorted, to);
+  // functions from sin to atan2 are recurrences with a partner
+  for (int i = 0; i < n_nodes; i++) assert(sorted[i].c >= 0 || sorted[i].op < PL_OP_SIN || sorted[i].op > PL_OP_ATAN2);
   for (int i = 0; i < n; i++) roots[i] = to[root[i]];
   tape->nodes = sorted;
   tape->n_nodes = n_nodes;

@@ -213,6 +213,24 @@ static void numbers_keep_what_they_are_exactly(void** state) {
   pl_arena_free(b->arena);
 }
 
+// The list of nodes moves when it is full: every number of nodes before the function is tried, so that each place is.
+static void a_function_has_its_square_wherever_the_list_of_nodes_ends(void** state) {
+  (void)state;
+  for (int before = 0; before < 140; before++) {
+    bench* b = bench_open();
+    pl_pool* p = b->pool;
+    pl_expr e[2] = {b->x, pl_call(p, before % 2 ? PL_TAN : PL_TANH, b->y)};
+    for (int i = 0; i < before; i++) e[0] = pl_call(p, PL_EXP, e[0]);
+    pl_tape* tape;
+    assert_int_equal(record(b, e, 2, &tape), PLEUEL_OK);
+    const pl_tape_node* f = &tape->nodes[tape->roots[1]];
+    assert_true(f->c >= 0);
+    assert_int_equal(tape->nodes[f->c].op, PL_OP_SQR);
+    assert_int_equal(tape->nodes[f->c].a, tape->roots[1]);
+    pl_arena_free(b->arena);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(common_subexpressions_are_computed_once),
@@ -225,6 +243,7 @@ int main(void) {
       cmocka_unit_test(what_cannot_be_moved_is_refused),
       cmocka_unit_test(a_tape_can_be_read),
       cmocka_unit_test(numbers_keep_what_they_are_exactly),
+      cmocka_unit_test(a_function_has_its_square_wherever_the_list_of_nodes_ends),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
