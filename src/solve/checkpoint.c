@@ -10,12 +10,12 @@
 // tools/check_state.py holds the structs of a run against this file: each member is kept below or stands in one of these lists.
 //
 // not kept of pl_run, follows from setup and options: job setup options n_q n_c order tol_raised motion observers watched
-//   branches has_W mass_of_speed shrink h_plain h_least n_watch at_rub kinks n_kinks mode_size grid_count grid_dt
+//   branches has_W mass_of_speed shrink h_plain h_least row_gap n_watch at_rub kinks n_kinks mode_size grid_count grid_dt
 // not kept of pl_run, follows from the point: Q V ready t_series rests
 // not kept of pl_run, follows from how it was started: start_given
 // not kept of pl_run, only when, never what: clock_begin t_begin considered wall_begin
 // not kept of pl_run, lives within a step: impact_taken impact_factor rhs Q_last A_last G_series W_series rows rank_work priority row_of row_taken
-//   taken_kept dep dep_tau dep_norm dep_jpvt trial_q trial_v save_q save_v save_a save_l save_unique impulse jump_v jump_q
+//   taken_kept dep dep_tau dep_norm dep_jpvt trial_q trial_v end_a end_by_codes arrived save_q save_v save_a save_l save_unique impulse jump_v jump_q
 //   poly root_work hit root touch sunk rub_before impulsive C_series S_series poly_2 on_before fixed rub_fixed approach second
 //   hold_q hold_v first_a decision choice_kept n_decisions K_series out_now out_before row_q row_v row_a row_l energy_out mode
 //   mode_before t_grid W_coef branch_value reach factored seen shown shown_before
@@ -28,7 +28,7 @@
 // not kept of pl_kkt, follows from setup and point: n dense n_values value start row diagonal lu scale balance work pivot ratio
 // not kept of pl_watch, pl_rub_now, follows from the setup: kind index direction
 // not kept of pl_motion, follows from the mode: code next size orders n_q n_c n_mass n_taken time ratio rest Q V A L q_floor
-//   v_floor g g_size argument r r_size norms length end_q end_v energy h pivot pivot_size move vector result matrix identity
+//   v_floor g g_size argument r r_size norms length end_q end_v end_a off energy h pivot pivot_size move vector result matrix identity
 //   of_constraint index inverse_up_to constants scales
 // not kept of pl_motion, of this process: compiled jit tried
 // not kept of pl_radau, follows from setup and options: method n n_q n_c n_C tol tol_stage ready fits shape rub_of
@@ -36,8 +36,8 @@
 //   real_scale work pair pair_scale pivot sparse sparse_pair Z Q V A L t F w error_q error_v rhs sc_q sc_v coefficient part watched
 //   watched_h bent first_g last_g last_size end_a end_l save_a save_l
 // not kept of pl_wide, follows from setup, options and mode: state fine by_doubles low top head head_forces clock left
-//   grid drift t_0 q_0 v_0 end_a end_l tail_q tail_v tail_a tail_l from to share way scratch energy_base rows watched floor held high next
-// not kept of pl_wide, lives within a step: digits
+//   grid drift t_0 q_0 v_0 a_0 l_0 end_a end_l tail_q tail_v tail_a tail_l from to share way scratch energy_base rows watched floor held high next
+// not kept of pl_wide, pl_motion, lives within a step: digits arrived
 #include <limits.h>
 #include <math.h>
 #include <string.h>
@@ -82,7 +82,7 @@ static void keep_yardsticks(pl_run* run, pl_keeper* k) {
   pl_keep_section(k, "yardsticks");
   double* numbers[] = {&run->smallest, &run->best, &run->smallest_here, &run->smallest_before, &run->t_before,
                        &run->fade[0].t, &run->fade[0].smallest, &run->fade[1].t, &run->fade[1].smallest,
-                       &run->h_series, &run->h_regular, &run->q_size, &run->v_size, &run->energy_size, &run->energy_base};
+                       &run->h_series, &run->h_regular, &run->q_size, &run->v_size, &run->energy_size, &run->energy_base, &run->a_rough};
   for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) pl_keep_f64(k, numbers[i]);
   double* of_q[] = {run->q_most, run->v_most, run->q_kept, run->v_kept, run->column};
   for (size_t i = 0; i < sizeof of_q / sizeof *of_q; i++) pl_keep_f64s(k, of_q[i], q);

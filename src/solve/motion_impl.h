@@ -66,6 +66,8 @@ struct pl_motion {
   int r, r_size;                 // G v + dg/dt                                       (n_c)
   int norms;                     // pl_block_rows of Q, then of V
   int length, end_q, end_v;      // of a step; the state there                          (1, n_q, n_q)
+  int end_a, off;                // accelerations of the series there; what these are off by, how large they are   (n_q, 2)
+  bool arrived;                  // order 0 of the end of the step that is tried stands in memory
   int energy;                    // kinetic, potential
   int h;                         // forces at order 0                                 (n_q)
   int pivot, pivot_size;         // of the unknowns: pivot, sum of what was subtracted          (n)

@@ -75,6 +75,8 @@ static void lay_out(pl_maker* k) {
   o->length = pl_maker_take(k, 1);
   o->end_q = pl_maker_take(k, n_q);
   o->end_v = pl_maker_take(k, n_q);
+  o->end_a = pl_maker_take(k, n_q);
+  o->off = pl_maker_take(k, 2);
   int* of_q[] = {&o->q_floor, &o->v_floor, &o->h, &o->move};
   int* of_c[] = {&o->g, &o->g_size, &o->argument, &o->r, &o->r_size};
   for (size_t i = 0; i < sizeof of_q / sizeof *of_q; i++) *of_q[i] = pl_maker_take(k, n_q);
@@ -329,9 +331,13 @@ static void advance_code(pl_maker* k) {
   for (int b = 0; b < 2; b++)
     for (int i = 0; i < o->n_q; i++) {
       int last = k->run->order + (b == 0), x = pl_prog_load(k->code, of[b] + last * o->n_q + i, 0);
-      for (int row = last - 1; row >= 0; row--)
+      int slope = x;
+      for (int row = last - 1; row >= 0; row--) {
+        if (b == 1 && row < last - 1) slope = pl_prog_op3(k->code, PL_PROG_FMA, slope, h, x);
         x = pl_prog_op3(k->code, PL_PROG_FMA, x, h, pl_prog_load(k->code, of[b] + row * o->n_q + i, 0));
+      }
       pl_prog_store(k->code, x, to[b] + i, 0);
+      if (b == 1) pl_prog_store(k->code, slope, o->end_a + i, 0);
     }
   pl_maker_end(k);
 }

@@ -465,6 +465,24 @@ static void inverses(pl_maker* k, pl_level level) {
   }
 }
 
+static int larger(pl_maker* k, int most, int x) {
+  x = pl_prog_op1(k->code, PL_PROG_ABS, x);
+  return most < 0 ? x : pl_prog_if_le(k->code, x, most, most, x);
+}
+
+// At the end of a step: how large accelerations are, and by how much those of the series are off.
+static void compare_accelerations(pl_maker* k) {
+  int off = -1, most = -1;
+  for (int i = 0; i < k->o->n_q; i++) {
+    int a = pl_prog_load(k->code, k->o->A + i, 0), end = pl_prog_load(k->code, k->o->end_a + i, 0);
+    off = larger(k, off, pl_prog_op2(k->code, PL_PROG_SUB, end, a));
+    most = larger(k, most, a);
+  }
+  if (off < 0) return;
+  pl_prog_store(k->code, off, k->o->off, 0);
+  pl_prog_store(k->code, most, k->o->off + 1, 0);
+}
+
 void pl_maker_start_code(pl_maker* k) {
   pl_maker_begin(k, PL_PART_START, "start", 1);
   inverses(k, PL_LEVEL_PLACE);
@@ -472,6 +490,7 @@ void pl_maker_start_code(pl_maker* k) {
   pl_maker_level(k, PL_LEVEL_SPEED, k->needed);
   inverses(k, PL_LEVEL_SPEED);
   equations(k, true);
+  compare_accelerations(k);
   pl_maker_end(k);
 }
 

@@ -159,6 +159,7 @@ static bool project_velocities(pl_run* run, pl_motion* o, pl_projection* p) {
 bool pl_motion_project(pl_run* run, double t, double* q, double* v, pl_projection* p) {
   pl_motion* o = run->motion_code;
   run->at_point = false;
+  if (o) o->arrived = false;
   if (o == NULL || !o->usable || run->watch_landings || !same_mode(run, o)) return false;
   *p = (pl_projection){0};
   pl_sizes_note(run, q, v);
@@ -188,12 +189,24 @@ static void copy_orders(pl_run* run, int first, int last) {
   copy_rows(run->L, o->m + o->L, o->n_c, first, last);
 }
 
-bool pl_motion_enter(pl_run* run) {
-  pl_motion* o = run->motion_code;
+static void compute_start(pl_motion* o) {
   if (o->code[PL_PART_INVERSE]) run_part(o, PL_PART_INVERSE, 0, 1);
   run_part(o, PL_PART_START, 0, 1);
+}
+
+void pl_motion_arrive(pl_run* run, double* off, double* size) {
+  pl_motion* o = run->motion_code;
+  compute_start(o);
+  o->arrived = true;
+  *off = o->m[o->off];
+  *size = o->m[o->off + 1];
+}
+
+bool pl_motion_enter(pl_run* run) {
+  pl_motion* o = run->motion_code;
+  if (!o->arrived) compute_start(o);
+  o->arrived = false;
   copy_orders(run, 0, 0);
-  run->t_series = run->t;
   double force = pl_norm(o->m + o->h, o->n_q);
   if (force > run->force_size) run->force_size = force;
   run->smallest = run->best;  // sound: as good as it has been
@@ -206,6 +219,7 @@ bool pl_motion_enter_at(pl_run* run, double t, const double* q, const double* v)
   o->m[o->time] = t;
   memcpy(o->m + o->Q, q, (size_t)o->n_q * sizeof *q);
   memcpy(o->m + o->V, v, (size_t)o->n_q * sizeof *v);
+  o->arrived = false;
   run_part(o, PL_PART_PLACE, 0, 1);
   double smallest = run->smallest;
   bool ready = pl_motion_enter(run);
@@ -226,6 +240,11 @@ void pl_motion_advance(pl_run* run, double dt, double* q, double* v) {
   run_part(o, PL_PART_ADVANCE, 0, 1);
   memcpy(q, o->m + o->end_q, (size_t)o->n_q * sizeof *q);
   memcpy(v, o->m + o->end_v, (size_t)o->n_q * sizeof *v);
+}
+
+void pl_motion_end_a(const pl_run* run, double* a) {
+  const pl_motion* o = run->motion_code;
+  memcpy(a, o->m + o->end_a, (size_t)o->n_q * sizeof *a);
 }
 
 bool pl_motion_energy(pl_run* run, double* kinetic, double* potential) {

@@ -90,20 +90,20 @@ static void solve_order(pl_run* run, int k) {
   pl_batches_load_v(m, run->V + (size_t)(k + 1) * (size_t)n, k + 1);
 }
 
-bool pl_point_enter(pl_run* run) {
+// Order 0 at a point whose programs may be there already, into the series at work.
+static bool enter_at(pl_run* run, double t, const double* q, const double* v) {
   int n = run->n_q;
-  memcpy(run->Q, run->q, (size_t)n * sizeof *run->q);
-  memcpy(run->V, run->v, (size_t)n * sizeof *run->v);
-  run->t_series = run->t;
+  memcpy(run->Q, q, (size_t)n * sizeof *q);
+  memcpy(run->V, v, (size_t)n * sizeof *v);
   if (run->wide) return run->at_point && pl_wide_enter(run);
   if (run->at_point && pl_motion_enter(run)) return true;
   run->at_point = false;
   if (run->factored) {
     // the projection left nodes of q and t and the factor; only v has changed since
-    pl_batches_load_v(&run->motion, run->v, 0);
+    pl_batches_load_v(&run->motion, v, 0);
     pl_batches_sweep(&run->motion, PL_LEVEL_SPEED, 0, true);
   } else {
-    pl_point_evaluate(run, run->t, run->q, run->v);
+    pl_point_evaluate(run, t, q, v);
     pl_independent_choose(run);
     if (!pl_point_factor(run, true)) return false;
   }
@@ -111,6 +111,44 @@ bool pl_point_enter(pl_run* run) {
   solve_order(run, 0);
   run->ready = isfinite(pl_norm(run->A, n)) && isfinite(pl_norm(run->L, run->n_c));
   return run->ready;
+}
+
+bool pl_point_enter(pl_run* run) {
+  run->t_series = run->t;
+  if (run->arrived) {
+    run->arrived = false;
+    return run->ready;
+  }
+  return enter_at(run, run->t, run->q, run->v);
+}
+
+static void swap(double** a, double** b) {
+  double* x = *a;
+  *a = *b;
+  *b = x;
+}
+
+void pl_series_swap(pl_run* run) {
+  swap(&run->Q, &run->Q_last);
+  swap(&run->V, &run->V_last);
+  swap(&run->A, &run->A_last);
+  swap(&run->L, &run->L_last);
+}
+
+bool pl_point_arrive(pl_run* run, double h, double* off, double* size) {
+  if (run->wide) return pl_wide_arrive(run, off, size);
+  if (run->at_point && run->end_by_codes) {
+    pl_motion_arrive(run, off, size);
+    return isfinite(*off) && isfinite(*size);
+  }
+  if (run->end_by_codes) pl_motion_end_a(run, run->end_a);
+  pl_series_swap(run);
+  run->arrived = enter_at(run, run->t + run->t_low + h, run->trial_q, run->trial_v);
+  pl_series_swap(run);
+  for (int i = 0; i < run->n_q; i++) run->end_a[i] -= run->A_last[i];
+  *off = pl_norm(run->end_a, run->n_q);
+  *size = pl_norm(run->A_last, run->n_q);
+  return run->arrived;
 }
 
 void pl_point_general(pl_run* run) {
@@ -181,6 +219,36 @@ static double block_radius(const double* norm, int last) {
   return least;
 }
 
+static const double grown = 1.3;    // a step longer by this than the one before, or than what other orders say, is doubtful
+
+// Radius of a block from the norms of many orders, where the last two may be none or rounding: motions that start at rest or in a
+// symmetric position have coefficients of every second or fourth order only, and others have wider gaps.  The least of what orders of the
+// upper half say, each as if it was the last; infinite where all of these are zero, as those of a fall are.
+static double wide_radius(const double* X, int n, int last) {
+  enum { EARLY = 3 };
+  double least = (double)INFINITY, first[EARLY + 1];
+  int top = 0;
+  for (int k = last; k > last / 2; k--) {
+    double norm = pl_norm(X + (size_t)k * (size_t)n, n), log;
+    rough_log2(&norm, &log, 1);
+    if (isnan(log)) return -(double)INFINITY;
+    if (log <= -2000) continue;
+    if (top == 0) {
+      top = k;
+      for (int j = 0; j <= EARLY; j++) {
+        double early = pl_norm(X + (size_t)j * (size_t)n, n), of_early;
+        rough_log2(&early, &of_early, 1);
+        first[j] = of_early + j * (of_early - log) / (k - j);
+        if (of_early <= -2000) first[j] = -(double)INFINITY;
+        if (j > 0) first[0] = pl_larger(first[0], first[j]);
+      }
+      if (!isfinite(first[0])) first[0] = 0;
+    }
+    least = pl_smaller(least, (first[0] - log) / k);
+  }
+  return least;
+}
+
 double pl_series_step(pl_run* run) {
   int p = run->order;
   double of_q[PL_BLOCK_ROWS], of_v[PL_BLOCK_ROWS];
@@ -194,8 +262,12 @@ double pl_series_step(pl_run* run) {
     norms_of(run->V, run->n_q, p, of_v);
   }
   // e^shrink of the radius makes p - 1 factors of tol together; the rest is their safety factor, eq. (3-8) there
-  double radius = pl_smaller(block_radius(q, p + 1), block_radius(v, p));
-  double h = exp2(radius - 1.4426950408889634 * (0.7 / (p - 1) - run->shrink));
+  double shrink = 1.4426950408889634 * (0.7 / (p - 1) - run->shrink);
+  double radius = pl_smaller(block_radius(q, p + 1), block_radius(v, p)), h = exp2(radius - shrink);
+  if (!(h <= grown * run->h_series)) {
+    double all = exp2(pl_smaller(wide_radius(run->Q, run->n_q, p + 1), wide_radius(run->V, run->n_q, p)) - shrink);
+    if (!(h <= grown * all)) h = all;
+  }
   return run->wide ? pl_wide_vary(run, h) : h;
 }
 

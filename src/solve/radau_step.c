@@ -392,7 +392,7 @@ static double to_grid(const pl_run* run) {
 
 static double choose_length(pl_run* run, pl_radau* r) {
   double h = r->h, left = fabs(pl_run_left(run)), grid = to_grid(run);
-  h = fmin(h, run->options.h_max > 0 ? run->options.h_max : run->h_plain);
+  h = fmin(h, run->options.h_max > 0 ? run->options.h_max : run->row_gap);
   if (grid < h) h = fmax(grid, fmin(h, r->h_dense));
   if (h >= left) h = left;
   else if (h > 0.5 * left) h = 0.5 * left;

@@ -115,33 +115,46 @@ pleuel_status pl_rows_point(pl_run* run, pl_row_kind kind) {
   return send(run, &row);
 }
 
+// A row between the ends of a step: at grid time n, or without a grid where n is -1.
+static pleuel_status row_between(pl_run* run, double t, long n) {
+  if (!run->wide) {
+    pl_turns_follow(run, t);
+    pl_series_at(run, t - run->t_series, run->row_q, run->row_v);
+    pl_series_lambda_at(run, t - run->t_series, run->row_a, run->row_l);
+    pl_observe(run, t, run->row_q, run->row_v, run->row_a, run->row_l, run->out_now);
+  }
+  pl_mode_text(run, run->mode);
+  pl_row row = {.t = t,
+                .q = run->row_q,
+                .v = run->row_v,
+                .a = run->row_a,
+                .lambda = run->row_l,
+                .unique = run->unique,
+                .out = run->out_now,
+                .mode = run->mode,
+                .kind = PL_ROW_STEP};
+  pl_turns_show(run, &row);
+  if (run->wide && n >= 0) pl_wide_grid_row(run, n, &row, run->out_now);
+  else if (run->wide) pl_wide_row_at(run, t, &row, run->out_now);
+  return send(run, &row);
+}
+
+// Without a grid every step is a row; long ones have rows between, so that a motion that few steps follow still shows its shape.
+static pleuel_status rows_of_step(pl_run* run, double t_from, double t_to) {
+  long n = (long)ceil((1 - 1e-9) * fabs(t_to - t_from) / run->row_gap);
+  for (long i = 1; i < n; i++) PL_TRY(row_between(run, t_from + (t_to - t_from) * ((double)i / (double)n), -1));
+  return PLEUEL_OK;
+}
+
 pleuel_status pl_rows_grid(pl_run* run, double t_from, double t_to) {
   double direction = run->options.t_end < run->options.t_0 ? -1 : 1;
-  if (run->grid_dt == 0) return PLEUEL_OK;
+  if (run->grid_dt == 0) return rows_of_step(run, t_from, t_to);
   for (;; run->grid_n++) {
     double t = grid_time(run, run->grid_n);
     if (run->grid_count > 0 && run->grid_n > run->grid_count) return PLEUEL_OK;
     if (direction * (t_to - t) <= grid_slack(run)) return PLEUEL_OK;
     if (direction * (t - t_from) < 0) continue;
-    if (!run->wide) {
-      pl_turns_follow(run, t);
-      pl_series_at(run, t - run->t_series, run->row_q, run->row_v);
-      pl_series_lambda_at(run, t - run->t_series, run->row_a, run->row_l);
-      pl_observe(run, t, run->row_q, run->row_v, run->row_a, run->row_l, run->out_now);
-    }
-    pl_mode_text(run, run->mode);
-    pl_row row = {.t = t,
-                  .q = run->row_q,
-                  .v = run->row_v,
-                  .a = run->row_a,
-                  .lambda = run->row_l,
-                  .unique = run->unique,
-                  .out = run->out_now,
-                  .mode = run->mode,
-                  .kind = PL_ROW_STEP};
-    pl_turns_show(run, &row);
-    if (run->wide) pl_wide_grid_row(run, run->grid_n, &row, run->out_now);
-    PL_TRY(send(run, &row));
+    PL_TRY(row_between(run, t, run->grid_n));
   }
 }
 

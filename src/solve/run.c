@@ -9,6 +9,8 @@
 static const double allowed_move = 1e4;        // correction by the projection, relative
 static const double allowed_floor = 1e-11;     // and what rounding may do to it close to a singular position
 static const double allowed_floor_wide = 1e-8; // the same of wide numbers, which come closer to one
+static const double allowed_defect = 10;       // of velocities, by what accelerations at its end tell; a tenth is usual
+static const double allowed_rounding = 450;    // the same in roundings
 static const double allowed_residual = 1e-12;  // |g| and |G v + dg/dt| after it, relative to their terms
 
 // ---------------------------------------------------------------------------------------------- one attempt
@@ -68,24 +70,62 @@ static pleuel_status too_small(pl_run* run, double h) {
                  run->t, h);
 }
 
-// The longest step up to h whose end passes the check; the state there is in trial_q, trial_v.
+// The state at the end of a step of this length, projected.
+static void advance(pl_run* run, double h, bool at_root, pl_projection* p) {
+  double t = run->t + run->t_low + h;
+  if (run->wide) {
+    pl_wide_advance(run, h);
+    if (at_root) pl_wide_refine(run, h);
+    pl_wide_project(run, p);
+    return;
+  }
+  run->end_by_codes = run->at_point && run->use == run->order;
+  if (run->end_by_codes) {
+    pl_motion_advance(run, h, run->trial_q, run->trial_v);
+  } else {
+    pl_series_at(run, h, run->trial_q, run->trial_v);
+    pl_horner(run->A, run->n_q, run->use - 1, h, run->end_a);
+  }
+  // what follows a root changes the mode: it needs the general way
+  if (at_root || !pl_motion_project(run, t, run->trial_q, run->trial_v, p)) *p = pl_project(run, t, run->trial_q, run->trial_v);
+}
+
+// A slip that ends here has another direction for what follows: accelerations are not those of the step.
+static bool ends_slip(const pl_run* run) {
+  for (int i = 0; i < run->n_watch; i++)
+    if (run->hit[i] && run->watch[i].kind == PL_WATCH_STICK) return true;
+  return false;
+}
+
+// Whether the equations at the end of a step give the accelerations that the series says: one that is cut off at order p is off by
+// (p + 1)/h times as much in acceleration as in velocity.  What does not lessen with the step is rounding, and is allowed from then on;
+// *before: what a longer step was off by, 0 none.
+static bool series_holds(pl_run* run, double h, double* before) {
+  double off, size, rounding = run->wide ? run->wide->state->epsilon : DBL_EPSILON;
+  if (!pl_point_arrive(run, h, &off, &size)) return true;      // what stands in the way is told when the step is taken
+  double part = allowed_defect * run->tol + allowed_rounding * rounding, of_v = pl_larger(run->v_size, fabs(h) * size);
+  if (off * fabs(h) <= part * of_v * (run->order + 1) || off <= run->a_rough) return true;
+  bool rough = *before > 0 && off > 0.25 * *before;
+  *before = off;
+  if (rough) run->a_rough = 2 * off;
+  else run->arrived = false;
+  return rough;
+}
+
+// The longest step up to h whose end passes the checks; the state there is in trial_q, trial_v.
 static pleuel_status try_steps(pl_run* run, double* h, double* root, pl_projection* p) {
+  double off = 0;
+  run->arrived = false;
   for (;;) {
     *root = run->n_watch > 0 ? pl_watch_first(run, *h) : -1;
     if (*root == 0) return PLEUEL_OK;
     double kink = run->n_kinks > 0 ? pl_kinks_first(run, *h) : -1;
-    if (kink >= 0 && (*root < 0 || kink < *root)) *root = -1, *h *= pl_smaller(kink, 1);
+    bool at_kink = kink >= 0 && (*root < 0 || kink < *root);
+    if (at_kink) *root = -1, *h *= pl_smaller(kink, 1);
     double reach = *root >= 0 ? *root * *h : *h;
-    if (run->wide) {
-      pl_wide_advance(run, reach);
-      if (*root >= 0) pl_wide_refine(run, reach);
-    } else if (run->at_point && run->use == run->order) pl_motion_advance(run, reach, run->trial_q, run->trial_v);
-    else pl_series_at(run, reach, run->trial_q, run->trial_v);
-    if (run->wide) pl_wide_project(run, p);
-    // what follows a root changes the mode: it needs the general way
-    else if (*root >= 0 || !pl_motion_project(run, run->t + run->t_low + reach, run->trial_q, run->trial_v, p))
-      *p = pl_project(run, run->t + run->t_low + reach, run->trial_q, run->trial_v);
-    if (acceptable(run, p)) {
+    advance(run, reach, *root >= 0, p);
+    bool open = at_kink || (*root >= 0 && ends_slip(run));   // accelerations jump there
+    if (acceptable(run, p) && (open || series_holds(run, reach, &off))) {
       *h = reach;
       return PLEUEL_OK;
     }
@@ -98,17 +138,8 @@ static pleuel_status try_steps(pl_run* run, double* h, double* root, pl_projecti
 }
 
 // ---------------------------------------------------------------------------------------------- a step
-static void swap_series(double** a, double** b) {
-  double* x = *a;
-  *a = *b;
-  *b = x;
-}
-
 static void accept(pl_run* run, double h, bool to_end) {
-  swap_series(&run->Q, &run->Q_last);
-  swap_series(&run->V, &run->V_last);
-  swap_series(&run->A, &run->A_last);
-  swap_series(&run->L, &run->L_last);
+  pl_series_swap(run);
   run->t_last = run->t_series;
   run->smallest_before = run->smallest_here;
   run->t_before = run->t;
@@ -119,6 +150,7 @@ static void accept(pl_run* run, double h, bool to_end) {
   memcpy(run->q, run->trial_q, (size_t)run->n_q * sizeof(double));
   memcpy(run->v, run->trial_v, (size_t)run->n_q * sizeof(double));
   pl_sizes_keep(run);
+  run->a_rough *= 0.9;
 }
 
 static pleuel_status check_energy(pl_run* run) {

@@ -130,8 +130,9 @@ static void set_options(pl_run* run, const pl_run_options* o) {
   run->grid_count = o->count;
   run->grid_dt = o->count > 0 ? (o->t_end - o->t_0) / (double)o->count : copysign(o->dt, o->t_end - o->t_0);
   if (o->dt == 0 && o->count == 0) run->grid_dt = 0;
-  // every step is a row: then a motion that one step could follow to its end still shows its shape
-  run->h_plain = run->grid_dt == 0 ? length / 50 : (double)INFINITY;
+  // a series sees the equations at the ends of its steps only: not fewer than this, whatever it says
+  run->h_plain = length / 16;
+  run->row_gap = length / 50;
   run->h_least = fmax(1e-13 * length, 4 * DBL_EPSILON * fmax(fabs(o->t_0), fabs(o->t_end)));
   run->stats.energy_drift = run->stats.energy_0 = run->stats.t_singular = run->stats.t_implicit = (double)NAN;
   run->last_row_t = (double)NAN;
@@ -143,7 +144,7 @@ static void reserve_state(pl_run* run) {
   size_t q = (size_t)run->n_q, c = (size_t)run->n_c, orders = (size_t)run->order + 2;
   double** of_q[] = {&run->q,      &run->v,      &run->trial_q, &run->trial_v, &run->save_q, &run->save_v,
                      &run->save_a, &run->row_q,  &run->row_v,   &run->row_a,   &run->jump_v, &run->column,
-                     &run->jump_q, &run->hold_q, &run->hold_v,  &run->first_a,
+                     &run->jump_q, &run->hold_q, &run->hold_v,  &run->first_a, &run->end_a,
                      &run->q_most, &run->v_most, &run->q_kept,  &run->v_kept};
   double** of_c[] = {&run->g,       &run->g_size,   &run->r,        &run->r_size,   &run->save_l,   &run->row_l,
                      &run->impulse, &run->row_most, &run->argument, &run->row_long, &run->row_part, &run->rank_work,

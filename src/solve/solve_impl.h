@@ -204,8 +204,13 @@ struct pl_run {
   double q_size, v_size;   // largest norms met
   double *q_most, *v_most; // largest size of each coordinate and velocity met   (n_q)
   double *q_kept, *v_kept; // the same at the point, without the trial
-  double h_plain, h_least; // s: longest without a grid, shortest
+  double h_plain, h_least; // s: longest step, shortest
+  double row_gap;          // s: longest between two rows without a grid
   double *trial_q, *trial_v;
+  double* end_a;           // accelerations of the series at the end of the step that is tried   (n_q)
+  bool end_by_codes;       // they were computed by the codes
+  bool arrived;            // order 0 of that point is known: in Q_last and so on, until the step is taken
+  double a_rough;          // difference between these and those of the equations that shorter steps did not lessen
   double *save_q, *save_v, *save_a, *save_l;   // the point before a mode change
   bool* save_unique;
   double* impulse;         // (n_c)
@@ -373,6 +378,9 @@ bool pl_motion_enter(pl_run* run);
 void pl_motion_expand(pl_run* run);
 void pl_motion_norms(pl_run* run, const double** q, const double** v);   // of pl_block_rows
 void pl_motion_advance(pl_run* run, double dt, double* q, double* v);
+// Order 0 after pl_motion_project; how large its accelerations are, and what those of the series were off by after pl_motion_advance.
+void pl_motion_arrive(pl_run* run, double* off, double* size);
+void pl_motion_end_a(const pl_run* run, double* a);   // accelerations of the series after pl_motion_advance
 bool pl_motion_energy(pl_run* run, double* kinetic, double* potential);   // at the point; false: not this way
 
 // ---- start_complete.c
@@ -391,6 +399,10 @@ enum { PL_BLOCK_ROWS = 6 };
 void pl_block_rows(int last, int row[PL_BLOCK_ROWS]);   // coefficients whose norms tell the radius: 0, 1, 2, 3, last - 1, last
 void pl_horner(const double* X, int n, int last, double dt, double* x);   // sum of X_k dt^k
 void pl_series_at(const pl_run* run, double dt, double* q, double* v);
+void pl_series_swap(pl_run* run);                   // the series at work and that of the step before
+// Order 0 of the point in trial_q, trial_v, after its projection; how large its accelerations are, and what those of the series are
+// off by.
+bool pl_point_arrive(pl_run* run, double h, double* off, double* size);
 void pl_series_lambda_at(const pl_run* run, double dt, double* a, double* lambda);
 
 // ---- project.c

@@ -27,8 +27,10 @@ struct pl_wide {
   pl_prog* head_forces;          // accelerations and multipliers there
   pl_prog *clock, *left, *grid;  // time at `length`; `length` to the end; both for the row whose n `way` is in `scratch`
   pl_prog* drift;                // energy and what it has changed, into `scratch`
-  int t_0, q_0, v_0;             // where the series starts
+  int t_0, q_0, v_0;             // where the series starts: two rows
   int end_a, end_l;              // of the series at `length`
+  int a_0, l_0;                  // and where it starts: one row
+  bool arrived;                  // order 0 of the end of the step that is tried stands in memory
   int tail_q, tail_v, tail_a, tail_l;     // the part of it that doubles give, divided by length^low
   int from, to, share;           // time of row 0, of the end; row n is at n `way` / share
   pl_parts way;
@@ -66,6 +68,7 @@ pleuel_status pl_wide_begin(pl_run* run, double t); // from the start that was f
 // ---- wide_run.c: as pl_motion_
 void pl_wide_copy(const pl_real* to_type, void* to, int at, const pl_real* from_type, const void* from, int from_at, int n);
 bool pl_wide_enter(pl_run* run);
+bool pl_wide_arrive(pl_run* run, double* off, double* size);   // pl_point_arrive
 void pl_wide_expand(pl_run* run);
 void pl_wide_norms(pl_run* run, const double** q, const double** v);
 double pl_wide_vary(const pl_run* run, double h);    // the length of a step, where steps are not to keep time with the motion
@@ -80,5 +83,6 @@ void pl_wide_refine(pl_run* run, double dt);
 // ---- wide_rows.c
 void pl_wide_row(pl_run* run, pl_row* row, double* out);                 // of the point
 void pl_wide_grid_row(pl_run* run, long n, pl_row* row, double* out);    // of grid time n
+void pl_wide_row_at(pl_run* run, double t, pl_row* row, double* out);    // on the step
 
 #endif

@@ -69,14 +69,15 @@ pleuel_status pl_wide_check(pl_run* run) {
 }
 
 // ---------------------------------------------------------------------------------------------- the series at a time
-// A series in memory: rows of n numbers; where row 0 lies, the sum of rows that are not here, the result.
-typedef struct series { int rows, n, base, tail, end; } series;
+// A series in memory: rows of n numbers; a copy of the first, which order 0 of the next point takes; the sum of rows that are not here;
+// the result.
+typedef struct series { int rows, n, first, n_first, tail, end; } series;
 
 // Horner's sum of rows 0 .. last.  tail: where the sum of the rows behind lies, -1 none.
 static void sum_rows(pl_prog* c, const series* s, int i, int h, int last, int tail) {
   int x = tail >= 0 ? pl_prog_load(c, tail + i, 0) : pl_prog_load(c, s->rows + last * s->n + i, 0);
   for (int row = tail >= 0 ? last : last - 1; row >= 0; row--) {
-    int from = row == 0 && s->base >= 0 ? s->base : s->rows + row * s->n;
+    int from = (row < s->n_first ? s->first : s->rows) + row * s->n;
     x = pl_prog_op3(c, PL_PROG_FMA, x, h, pl_prog_load(c, from + i, 0));
   }
   pl_prog_store(c, x, s->end + i, 0);
@@ -141,8 +142,8 @@ static void write_sums(pl_run* run) {
   pl_wide* w = run->wide;
   const pl_motion* o = w->o;
   int p = run->order, n_q = run->n_q, n_c = run->n_c;
-  series state[2] = {{o->Q, n_q, w->q_0, w->tail_q, o->end_q}, {o->V, n_q, w->v_0, w->tail_v, o->end_v}};
-  series forces[2] = {{o->A, n_q, -1, w->tail_a, w->end_a}, {o->L, n_c, -1, w->tail_l, w->end_l}};
+  series state[2] = {{o->Q, n_q, w->q_0, 2, w->tail_q, o->end_q}, {o->V, n_q, w->v_0, 2, w->tail_v, o->end_v}};
+  series forces[2] = {{o->A, n_q, w->a_0, 1, w->tail_a, w->end_a}, {o->L, n_c, w->l_0, 1, w->tail_l, w->end_l}};
   int last[2] = {w->by_doubles ? w->low : p + 1, w->low}, last_forces[2] = {w->low - 1, w->low - 1};
   w->top = top_code(run);
   w->head = sum_code(run, "head", state, last);
@@ -160,10 +161,12 @@ static void lay_out(pl_run* run) {
   pl_wide* w = run->wide;
   int n_q = run->n_q, n_c = run->n_c;
   int *one[] = {&w->t_0, &w->from, &w->to, &w->share, &w->energy_base};
-  int *of_q[] = {&w->q_0, &w->v_0, &w->end_a, &w->tail_q, &w->tail_v, &w->tail_a}, *of_c[] = {&w->end_l, &w->tail_l};
+  int *of_q[] = {&w->a_0, &w->end_a, &w->tail_q, &w->tail_v, &w->tail_a}, *of_c[] = {&w->l_0, &w->end_l, &w->tail_l};
   for (size_t i = 0; i < sizeof one / sizeof *one; i++) *one[i] = take(w, 1);
   for (size_t i = 0; i < sizeof of_q / sizeof *of_q; i++) *of_q[i] = take(w, n_q);
   for (size_t i = 0; i < sizeof of_c / sizeof *of_c; i++) *of_c[i] = take(w, n_c);
+  w->q_0 = take(w, 2 * n_q);
+  w->v_0 = take(w, 2 * n_q);
   w->scratch = take(w, n_q + 4);
 }
 

@@ -41,13 +41,10 @@ static void multiply(pl_wide* w, double n) {
   w->fine->add(w->m, w->scratch, w->scratch + 1, 1);
 }
 
-void pl_wide_grid_row(pl_run* run, long n, pl_row* row, double* out) {
+// The row at `length`, which stands there already.
+static void row_of_series(pl_run* run, pl_row* row, double* out) {
   pl_wide* w = run->wide;
   const pl_motion* o = w->o;
-  // the end of the step stands in `time` and `length`, and is needed there later
-  pl_parts end = w->fine->get(w->m, o->time), length = w->fine->get(w->m, o->length);
-  multiply(w, (double)n);
-  w->fine->interpret(w->grid, w->m, 0, 1);
   pl_wide_sum(run);
   fill(run, o->end_q, o->end_v, w->end_a, w->end_l, row, out);
   w->fine->read(w->m, o->time, 1, &row->t);
@@ -55,6 +52,28 @@ void pl_wide_grid_row(pl_run* run, long n, pl_row* row, double* out) {
   w->fine->read(w->m, o->end_v, run->n_q, run->row_v);
   w->fine->read(w->m, w->end_a, run->n_q, run->row_a);
   w->fine->read(w->m, w->end_l, run->n_c, run->row_l);
+}
+
+void pl_wide_grid_row(pl_run* run, long n, pl_row* row, double* out) {
+  pl_wide* w = run->wide;
+  const pl_motion* o = w->o;
+  // the end of the step stands in `time` and `length`, and is needed there later
+  pl_parts end = w->fine->get(w->m, o->time), length = w->fine->get(w->m, o->length);
+  multiply(w, (double)n);
+  w->fine->interpret(w->grid, w->m, 0, 1);
+  row_of_series(run, row, out);
+  w->fine->set(w->m, o->time, end);
+  w->fine->set(w->m, o->length, length);
+}
+
+void pl_wide_row_at(pl_run* run, double t, pl_row* row, double* out) {
+  pl_wide* w = run->wide;
+  const pl_motion* o = w->o;
+  double dt = t - run->t_series;
+  pl_parts end = w->fine->get(w->m, o->time), length = w->fine->get(w->m, o->length);
+  w->fine->write(w->m, o->length, 1, &dt);
+  w->fine->interpret(w->clock, w->m, 0, 1);
+  row_of_series(run, row, out);
   w->fine->set(w->m, o->time, end);
   w->fine->set(w->m, o->length, length);
 }

@@ -107,7 +107,7 @@ static bool project_velocities(pl_run* run, pl_projection* p) {
 
 bool pl_wide_project(pl_run* run, pl_projection* p) {
   pl_wide* w = run->wide;
-  run->at_point = false;
+  run->at_point = w->arrived = false;
   *p = (pl_projection){0};
   pl_sizes_note(run, run->trial_q, run->trial_v);
   set_floors(run);
@@ -155,20 +155,38 @@ static bool look_at_rows(pl_run* run) {
 }
 
 bool pl_wide_enter(pl_run* run) {
+  const pl_wide* before = run->wide;
+  bool arrived = before->arrived;
+  run->wide->arrived = false;
   if (!look_at_rows(run)) return false;
   pl_wide* w = run->wide;
   const pl_motion* o = w->o;
   w->fine->move(w->m, w->t_0, o->time, 1);
-  w->fine->move(w->m, w->q_0, o->Q, o->n_q);
-  w->fine->move(w->m, w->v_0, o->V, o->n_q);
-  fine_part(run, PL_PART_START);
+  if (!arrived || w != before) fine_part(run, PL_PART_START);
+  w->fine->move(w->m, w->q_0, o->Q, 2 * o->n_q);
+  w->fine->move(w->m, w->v_0, o->V, 2 * o->n_q);
+  w->fine->move(w->m, w->a_0, o->A, o->n_q);
+  w->fine->move(w->m, w->l_0, o->L, o->n_c);
   if (w->by_doubles) pl_motion_enter_at(run, run->t, run->q, run->v);
   read_orders(run, 0, 0);
-  run->t_series = run->t;
   read(run, o->h, o->n_q, run->rhs);
   run->force_size = fmax(run->force_size, pl_norm(run->rhs, o->n_q));
   run->ready = isfinite(pl_norm(run->A, o->n_q)) && isfinite(pl_norm(run->L, o->n_c));
   return run->ready;
+}
+
+bool pl_wide_arrive(pl_run* run, double* off, double* size) {
+  pl_wide* w = run->wide;
+  pl_wide_sum(run);
+  fine_part(run, PL_PART_START);
+  w->arrived = true;
+  *off = *size = 0;
+  for (int i = 0; i < run->n_q; i++) {
+    pl_parts a = w->fine->get(w->m, w->end_a + i), b = w->fine->get(w->m, w->o->A + i);
+    *off = pl_size_with(*off, (a.part[0] - b.part[0]) + (a.part[1] - b.part[1]));
+    *size = pl_size_with(*size, b.part[0]);
+  }
+  return isfinite(*size);
 }
 
 // ---------------------------------------------------------------------------------------------- series
