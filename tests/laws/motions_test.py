@@ -187,7 +187,7 @@ ALWAYS = ["acceleration", "multiplier", "expression", "force", "conserved", "ene
 
 
 # scenes in which a kind of comparison is frequent
-SCENES_FOR = {"where": ["oscillator"], "contact kept": ["sliding", "wire"], "equilibrium": ["oscillator", "hoop"],
+SCENES_FOR = {"where": ["oscillator"], "contact kept": ["thrown"], "equilibrium": ["oscillator", "hoop"],
               "equilibrium missing": ["oscillator", "hoop"], "x(t)": ["oscillator", "chain"], "impact": ["thrown"]}
 
 

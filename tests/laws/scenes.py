@@ -155,7 +155,8 @@ class Scene:
 
     def text(self):
         text = "\n".join(self.lines + self.asks) + f"\nsimulate 0..{self.end:g} [s]\n"
-        return text if self.on("units", 0.5) else re.sub(r" \[[^\]]*\]", "", text)
+        units = self.recipe != "abstract" and self.on("units", 0.5)
+        return text if units else re.sub(r" \[[^\]]*\]", "", text)
 
 
 # ------------------------------------------------------------------------------------------------ scenes

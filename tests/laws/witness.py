@@ -238,13 +238,13 @@ class Point:
             self.gamma.append(part[-1])
         self.T, self.V, self.H, self.steady = got[-4:]
 
-    def candidates(self, released, tolerance=1e-7):
-        """Contacts that touch and do not separate at first order."""
+    def candidates(self, released):
+        """Contacts that touch and do not separate at first order; the smallest bounce followed is faster."""
         out = []
         for j, c in enumerate(self.w.rows):
             if c.one_sided and c.label not in released:
                 size = max([abs(x) for x in self.G[j]] + [1e-9])
-                if abs(self.g[j]) <= tolerance * size and abs(self.rate[j]) <= tolerance * 10 * size:
+                if abs(self.g[j]) <= 1e-9 * size and abs(self.rate[j]) <= 1e-10 * size:
                     out.append(j)
         return out
 
