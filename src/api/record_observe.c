@@ -370,9 +370,9 @@ pleuel_status pl_record_observers(pl_recorder* r) {
   pl_pattern* pattern = PL_ARRAY(r->arena, pl_pattern, r->groups.n + 1);
   s->kinetic = 0;
   s->potential = 1;
-  pl_push(r->arena, columns, (pl_column){"T", joule});
-  pl_push(r->arena, columns, (pl_column){"V", joule});
-  pl_push(r->arena, columns, (pl_column){"E", joule});
+  pl_push(r->arena, columns, (pl_column){pl_model_column(m, r->arena, "T"), joule});
+  pl_push(r->arena, columns, (pl_column){pl_model_column(m, r->arena, "V"), joule});
+  pl_push(r->arena, columns, (pl_column){pl_model_column(m, r->arena, "E"), joule});
   for (int i = 0; i < r->groups.n; i++) {
     pl_group* g = r->groups.at[i];
     if (g->instances.n == 0) continue;

@@ -169,8 +169,8 @@ static int count_multipliers(const pl_setup* s) {
   return n;
 }
 
-static void plot_energies(pl_views* v) {
-  static const char* const name[] = {"T", "V", "E"};
+static void plot_energies(pl_views* v, const pl_model* m) {
+  const char* const name[] = {pl_model_column(m, v->arena, "T"), pl_model_column(m, v->arena, "V"), pl_model_column(m, v->arena, "E")};
   pl_html_plot* plot = NULL;
   for (int i = 0; i < 3; i++) {
     int column = pl_result_find(v->result, name[i]);
@@ -189,7 +189,7 @@ static void choose_plots(pl_views* v, pleuel_model* m) {
     plot_columns(v, m, 1, 1 + n_q);
     plot_columns(v, m, 1 + 2 * n_q, 1 + 2 * n_q + n_c);
   }
-  plot_energies(v);
+  plot_energies(v, m->model);
 }
 
 // ---------------------------------------------------------------------------------------------- the run

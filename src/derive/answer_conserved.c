@@ -51,7 +51,7 @@ static pl_words loss(pl_analysis* d) {
 static void energy_is_conserved(pl_analysis* d, pl_expr integral) {
   const pl_form* form = energy_sum(d, integral);
   if (!d->dissipative) pl_why_energy(d, integral);
-  pl_step_refs(pl_show(d, pl_feq(d, pl_fn(d, "E"), form)), 1, d->number_lagrangian);
+  pl_step_refs(pl_show(d, pl_feq(d, pl_fl(d, "E"), form)), 1, d->number_lagrangian);
   const pl_form* V = pl_potential_form(d, pl_on_maps(d, d->V), d->reduced ? d->Vg : pl_on_contact(d, d->V));
   if (d->dissipative) {
     pl_say(d, "conserved: the forces without potential do no work, and neither the Lagrange function nor a constraint contains t.",
@@ -61,7 +61,7 @@ static void energy_is_conserved(pl_analysis* d, pl_expr integral) {
            "erhalten: weder die Lagrange-Funktion noch eine Zwangsbedingung enthält t.", 0);
   } else {
     pl_say(d, "conserved: all forces have the potential {1}, and no constraint contains t.",
-           "erhalten: alle Kräfte haben das Potential {1}, und keine Zwangsbedingung enthält t.", 1, pl_feq(d, pl_fn(d, "V"), V));
+           "erhalten: alle Kräfte haben das Potential {1}, und keine Zwangsbedingung enthält t.", 1, pl_feq(d, pl_fl(d, "V"), V));
   }
   const char *en = "all forces have a potential, and no constraint contains t", *de = "alle Kräfte haben ein Potential, und keine Zwangsbedingung enthält t";
   if (d->dissipative) {
@@ -77,7 +77,7 @@ static void jacobi(pl_analysis* d, pl_expr integral) {
   bool pure = pl_alg_is_zero(d->tower, pl_sub(d->pool, integral, pl_energy_integral(d))) == PL_YES;
   const pl_form* form = pl_f(d, integral, PL_S_ENERGY);
   if (pure) pl_why_energy(d, integral);
-  pl_step_refs(pl_show(d, pl_feq(d, pl_fn(d, pure ? "H" : "J"), form)), 1, d->number_lagrangian);
+  pl_step_refs(pl_show(d, pl_feq(d, pl_fl(d, pure ? "H" : "J"), form)), 1, d->number_lagrangian);
   pl_say(d, pure ? "Jacobi's integral is conserved: in these coordinates the Lagrange function does not contain t."
                  : "Jacobi's integral is conserved: the Lagrange function contains t only in a total time derivative.",
          pure ? "Das Jacobi-Integral ist erhalten: in diesen Koordinaten enthält die Lagrange-Funktion t nicht."

@@ -284,7 +284,7 @@ static void show_on(pl_analysis* d, int k, int particle, const pl_force* f, cons
     ops += pl_form_ops(pl_f(d, value[j], PL_S_QUOTIENT));
   }
   const char* label = d->particle.at[particle].label;
-  const pl_form* Z = pl_fn(d, only_one ? "Z" : pl_format(d->arena, "Z_%s", label));
+  const pl_form* Z = pl_fn(d, only_one ? pl_letter(d, "Z") : pl_format(d->arena, "Z_%s", label));
   const pl_form* named = vector_of(d, f, with_name, PL_S_PLAIN);
   bool stays = pl_same(lambda->value, pl_sym(d->pool, d->g.at[k].lambda));
   const pl_form* closed = !stays && ops <= closed_ops ? vector_of(d, f, value, PL_S_QUOTIENT) : NULL;
@@ -413,7 +413,7 @@ static int together_on(pl_analysis* d, int m) {
     return n;
   }
   pl_say(d, "{1} together (each alone is not determined):", "{1} zusammen (einzeln nicht bestimmt):", 1, pl_flist(d, name, n));
-  pl_show_numbered(d, pl_feq(d, pl_fn(d, "Z"), vector_of(d, &sum, value, PL_S_QUOTIENT)));
+  pl_show_numbered(d, pl_feq(d, pl_fl(d, "Z"), vector_of(d, &sum, value, PL_S_QUOTIENT)));
   answer_components(d, NULL, d->particle.at[m].label, &sum, value);
   return n;
 }

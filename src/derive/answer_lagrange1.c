@@ -166,17 +166,18 @@ static const char* title_of(pl_analysis* d, pl_language lang) {
   const char* de = "Lagrange-Gleichungen erster Art";
   const char* en = "Lagrange equations of the first kind";
   const char* sign = d->model->lambda_minus ? "-" : "";
+  const char* Z = pl_letter(d, "Z");
   if (d->g.n == 0) return lang == PL_GERMAN ? de : en;
-  if (n != 1) return pl_format(d->arena, lang == PL_GERMAN ? "%s mit Z = %sΣ λ ∇g" : "%s, with Z = %sΣ λ ∇g", lang == PL_GERMAN ? de : en, sign);
+  if (n != 1) return pl_format(d->arena, lang == PL_GERMAN ? "%s mit %s = %sΣ λ ∇g" : "%s, with %s = %sΣ λ ∇g", lang == PL_GERMAN ? de : en, Z, sign);
   const char* lambda = pl_symbol_get(d->pool, only->lambda)->name;
-  return pl_format(d->arena, lang == PL_GERMAN ? "%s mit Z = %s%s ∇%s" : "%s, with Z = %s%s ∇%s", lang == PL_GERMAN ? de : en, sign, lambda,
+  return pl_format(d->arena, lang == PL_GERMAN ? "%s mit %s = %s%s ∇%s" : "%s, with %s = %s%s ∇%s", lang == PL_GERMAN ? de : en, Z, sign, lambda,
                    only->source->name.text);
 }
 
 static void lagrange1_in_frame(pl_analysis* d, const pl_particle* k, const pl_frame* f) {
   pl_why_frame(d, k, f);
   show_kinematics(d, k, f);
-  pl_say(d, "Newton's law with Z along the unit vectors:", "Newtons Gesetz mit Z längs der Einheitsvektoren:", 0);
+  pl_say(d, "Newton's law with {1} along the unit vectors:", "Newtons Gesetz mit {1} längs der Einheitsvektoren:", 1, pl_fl(d, "Z"));
   for (int j = 0; j < f->n; j++) show_equation(d, f->coordinate[j], f->scale[j], false);
 }
 

@@ -92,7 +92,7 @@ static void show_velocities(pl_analysis* d) {
 
 static void show_energy(pl_analysis* d, const char* name, pl_expr e, pl_expr raw) {
   const pl_form* form = strcmp(name, "V") == 0 ? pl_potential_form(d, pl_on_maps(d, raw), e) : pl_f(d, e, PL_S_ENERGY);
-  pl_show(d, pl_feq(d, pl_fn(d, name), form));
+  pl_show(d, pl_feq(d, pl_fl(d, name), form));
   pl_claim_that(d, PL_CLAIM_ENERGY, pl_form_value(d->pool, form), raw);
   pl_answer(d, name, e, form);
 }
@@ -108,9 +108,9 @@ static bool given(const pl_analysis* d) {
 static void show_lagrangian(pl_analysis* d) {
   pl_expr L = pl_alg_normal(d->tower, d->Lg);
   const pl_form* form = pl_f(d, L, PL_S_ENERGY);
-  const pl_form* both[2] = {pl_fn(d, "T"), pl_form_neg(d->arena, pl_fn(d, "V"))};
+  const pl_form* both[2] = {pl_fl(d, "T"), pl_form_neg(d->arena, pl_fl(d, "V"))};
   const pl_form* right = given(d) ? form : pl_feq(d, pl_form_sum(d->arena, both, 2), form);
-  d->number_lagrangian = pl_show_numbered(d, pl_feq(d, pl_fn(d, "L"), right))->number;
+  d->number_lagrangian = pl_show_numbered(d, pl_feq(d, pl_fl(d, "L"), right))->number;
   pl_claim_that(d, PL_CLAIM_ENERGY, pl_form_value(d->pool, form), d->L);
   pl_answer(d, "L", L, form);
 }
@@ -124,7 +124,7 @@ void pl_answer_lagrangian(pl_analysis* d, const pl_ask* ask) {
     show_energy(d, "T", T, d->T);
     show_energy(d, "V", V, d->V);
     pl_expr L = pl_on_contact(d, d->L);
-    pl_show_numbered(d, pl_feq(d, pl_fn(d, "L"), pl_f(d, L, PL_S_ENERGY)));
+    pl_show_numbered(d, pl_feq(d, pl_fl(d, "L"), pl_f(d, L, PL_S_ENERGY)));
     pl_answer(d, "L", L, pl_f(d, L, PL_S_ENERGY));
     return;
   }
@@ -170,8 +170,8 @@ static bool show_with_named_mass(pl_analysis* d, int i) {
   bool natural = pl_alg_equal(d->tower, momentum, pl_mul(d->pool, M, pl_sym(d->pool, c->v))) == PL_YES;
   const pl_form* form = pl_f(d, M, PL_S_ENERGY);
   if (!pl_has_symbol(d->pool, M, c->q) || pl_form_ops(form) < long_mass || d->dissipative || !natural || d->loops.n > 0) return false;
-  const pl_form* mass = pl_fn(d, pl_format(d->arena, "M(%s)", pl_symbol_get(d->pool, c->q)->name));
-  const pl_form* M_name = pl_fn(d, "M");
+  const pl_form* mass = pl_fn(d, pl_format(d->arena, "%s(%s)", pl_letter(d, "M"), pl_symbol_get(d->pool, c->q)->name));
+  const pl_form* M_name = pl_fl(d, "M");
   pl_say(d, "With {1}", "Mit {1}", 1, pl_feq(d, mass, form));
   pl_claim_that(d, PL_CLAIM_ENERGY, pl_form_value(d->pool, form), M);
   const pl_form* q2 = pl_form_power(d->arena, pl_fs(d, c->v), pl_form_leaf(d->arena, pl_int(d->pool, 2)));
@@ -271,9 +271,9 @@ static void show_quadrature(pl_analysis* d, int i) {
   pl_expr M = pl_diff(d->pool, pl_diff(d->pool, d->Tg, c->v), c->v);
   if (!pl_has_coordinates(d, d->acceleration[i]) || !pl_has_symbol(d->pool, M, c->q)) return;
   const pl_form* V = pl_f(d, d->Vg, PL_S_ENERGY);
-  const pl_form* difference[2] = {pl_fn(d, "E"), pl_form_neg(d->arena, V)};
+  const pl_form* difference[2] = {pl_fl(d, "E"), pl_form_neg(d->arena, V)};
   const pl_form* twice[2] = {pl_form_leaf(d->arena, pl_int(d->pool, 2)), pl_form_sum(d->arena, difference, 2)};
-  const pl_form* root = pl_form_root(d->arena, pl_form_quotient(d->arena, pl_fn(d, "M"), pl_form_product(d->arena, twice, 2)));
+  const pl_form* root = pl_form_root(d->arena, pl_form_quotient(d->arena, pl_fl(d, "M"), pl_form_product(d->arena, twice, 2)));
   pl_form* integral = pl_form_make(d->arena, PL_F_INTEGRAL, 1, &root);
   integral->expr = pl_sym(d->pool, c->q);
   pl_say(d, "The energy is conserved, so the motion is one integral; no elementary closed form was found:",
@@ -339,6 +339,6 @@ void pl_answer_hamiltonian(pl_analysis* d, const pl_ask* ask) {
   }
   H = pl_alg_normal(d->tower, pl_subst(d->pool, H, rest, n));
   const pl_form* form = pl_f(d, H, PL_S_ENERGY);
-  pl_step_refs(pl_show_numbered(d, pl_feq(d, pl_fn(d, "H"), form)), 1, d->number_lagrangian);
+  pl_step_refs(pl_show_numbered(d, pl_feq(d, pl_fl(d, "H"), form)), 1, d->number_lagrangian);
   pl_answer(d, "H", H, form);
 }

@@ -297,6 +297,8 @@ const char* pl_display(pl_analysis* d, double x, pl_dimension dim, bool angle);
 const pl_form* pl_f(pl_analysis* d, pl_expr e, pl_style style);                         // presented
 const pl_form* pl_fs(pl_analysis* d, pl_symbol s);                                      // a symbol
 const pl_form* pl_fe(pl_analysis* d, pl_expr e);                                        // plain form
+const char* pl_letter(pl_analysis* d, const char* letter);      // of a result, unless a declared name hides it: then another
+const pl_form* pl_fl(pl_analysis* d, const char* letter);        // the same as a form
 const pl_form* pl_fn(pl_analysis* d, const char* name);                                 // a name: T, Z1
 const pl_form* pl_feq(pl_analysis* d, const pl_form* l, const pl_form* r);              // l = r
 const pl_form* pl_frel(pl_analysis* d, const pl_form* l, const char* op, const pl_form* r);

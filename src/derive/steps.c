@@ -197,6 +197,8 @@ const pl_form* pl_f(pl_analysis* d, pl_expr e, pl_style style) {
 const pl_form* pl_fs(pl_analysis* d, pl_symbol s) { return pl_form_leaf(d->arena, pl_sym(d->pool, s)); }
 const pl_form* pl_fe(pl_analysis* d, pl_expr e) { return pl_form_of(d->arena, d->pool, e); }
 const pl_form* pl_fn(pl_analysis* d, const char* name) { return pl_form_name(d->arena, name, pl_poison()); }
+const char* pl_letter(pl_analysis* d, const char* letter) { return pl_model_letter(d->model, d->arena, letter); }
+const pl_form* pl_fl(pl_analysis* d, const char* letter) { return pl_fn(d, pl_letter(d, letter)); }
 const pl_form* pl_feq(pl_analysis* d, const pl_form* l, const pl_form* r) { return pl_form_relation(d->arena, l, "=", r); }
 const pl_form* pl_frel(pl_analysis* d, const pl_form* l, const char* op, const pl_form* r) {
   return pl_form_relation(d->arena, l, op, r);

@@ -10,6 +10,7 @@
 //   integration    the attempt e^{st}, the position of rest, the Laplace transform
 //   oscillations   the linearised equations
 //   series         Taylor coefficients
+#include <ctype.h>
 #include <string.h>
 
 #include "derive/derive_impl.h"
@@ -23,7 +24,19 @@ static const char* velocity_name(pl_analysis* d, const pl_variable* c) { return 
 
 static const pl_form* zero_form(pl_analysis* d) { return pl_form_leaf(d->arena, pl_int(d->pool, 0)); }
 
-static void say(pl_analysis* d, const char* en, const char* de) { pl_say(d, en, de, 0)->detail = true; }
+// A sentence with L and E as the solution calls them: the letters of the textbook unless the model declares them.
+static const char* lettered(pl_analysis* d, const char* s) {
+  pl_text t = pl_text_make(d->arena);
+  for (const char* at = s; *at; at++) {
+    bool stands_alone = (at == s || !isalpha((unsigned char)at[-1])) && !isalpha((unsigned char)at[1]) && !((unsigned char)at[1] & 0x80);
+    if (*at == 'L' && stands_alone) pl_text_add(&t, pl_letter(d, "L"));
+    else if (strncmp(at, "dE/dt", 5) == 0) pl_text_addf(&t, "d%s/dt", pl_letter(d, "E")), at += 4;
+    else pl_text_add_n(&t, at, 1);
+  }
+  return pl_text_string(&t);
+}
+
+static void say(pl_analysis* d, const char* en, const char* de) { pl_say(d, lettered(d, en), lettered(d, de), 0)->detail = true; }
 
 // name = e, certified against the reference; nothing where it would be too long to help.
 static pl_step* show(pl_analysis* d, const char* name, pl_expr e, pl_expr reference, bool on_motion) {
@@ -68,9 +81,9 @@ void pl_why_first_kind(pl_analysis* d, int i) {
   }
   const char *x = name_of(d, c->q), *v = velocity_name(d, c);
   pl_expr p = pl_diff(d->pool, d->L, c->v), slope = pl_diff(d->pool, d->L, c->q);
-  show_tidy(d, pl_format(d->arena, "∂L/∂%s", v), p);
-  show_tidy(d, pl_format(d->arena, "d/dt ∂L/∂%s", v), pl_dt(d->pool, p));
-  show_tidy(d, pl_format(d->arena, "∂L/∂%s", x), slope);
+  show_tidy(d, pl_format(d->arena, "∂%s/∂%s", pl_letter(d, "L"), v), p);
+  show_tidy(d, pl_format(d->arena, "d/dt ∂%s/∂%s", pl_letter(d, "L"), v), pl_dt(d->pool, p));
+  show_tidy(d, pl_format(d->arena, "∂%s/∂%s", pl_letter(d, "L"), x), slope);
   if (!pl_is_zero_node(d->pool, d->force[i])) show_tidy(d, pl_format(d->arena, "Q_%s", x), d->force[i]);
   for (int k = 0; k < d->g.n; k++) {
     const pl_bond* l = &d->g.at[k];
@@ -171,9 +184,9 @@ void pl_why_second_kind(pl_analysis* d, int i) {
   pl_expr rest = tidy(d, pl_sub(d->pool, pl_sub(d->pool, rate, slope), pl_second_kind(d, i)));
   if (pl_op_count(d->pool, tidy(d, p)) > longest_detail) return;
   say(d, "Why: momentum, its time derivative, and the slope of L:", "Warum: Impuls, seine Zeitableitung und die Ableitung von L nach der Koordinate:");
-  show_tidy(d, pl_format(d->arena, "∂L/∂%s", v), p);
-  show_tidy(d, pl_format(d->arena, "d/dt ∂L/∂%s", v), rate);
-  show_tidy(d, pl_format(d->arena, "∂L/∂%s", x), slope);
+  show_tidy(d, pl_format(d->arena, "∂%s/∂%s", pl_letter(d, "L"), v), p);
+  show_tidy(d, pl_format(d->arena, "d/dt ∂%s/∂%s", pl_letter(d, "L"), v), rate);
+  show_tidy(d, pl_format(d->arena, "∂%s/∂%s", pl_letter(d, "L"), x), slope);
   if (!pl_is_zero_node(d->pool, rest)) show_tidy(d, pl_format(d->arena, "Q_%s", x), rest);
   pl_say(d, pl_is_zero_node(d->pool, rest) ? "Their difference vanishes; common factors are left out:" : "The derivative less the slope and {1} vanishes; common factors are left out:",
          pl_is_zero_node(d->pool, rest) ? "Die Differenz verschwindet; gemeinsame Faktoren sind weggelassen:" : "Die Zeitableitung, vermindert um die Ableitung nach der Koordinate und um {1}, "
@@ -193,16 +206,16 @@ void pl_why_energy(pl_analysis* d, pl_expr E) {
   if (pl_op_count(d->pool, sum) > longest_detail) return;
   say(d, "Why: dE/dt = Σ q' (d/dt ∂L/∂q' - ∂L/∂q) - ∂L/∂t, and ∂L/∂t = 0. The brackets are Lagrange's equations, which vanish on the motion:",
       "Warum: dE/dt = Σ q' (d/dt ∂L/∂q' - ∂L/∂q) - ∂L/∂t, und ∂L/∂t = 0. Die Klammern sind die Lagrange-Gleichungen, auf der Bewegung null:");
-  show(d, "dE/dt", sum, pl_on_maps(d, pl_dt(d->pool, E)), false);
+  show(d, pl_format(d->arena, "d%s/dt", pl_letter(d, "E")), sum, pl_on_maps(d, pl_dt(d->pool, E)), false);
 }
 
 void pl_why_cyclic(pl_analysis* d, int i) {
   const pl_variable* c = &d->q.at[i];
-  pl_say(d, "Why: {1} may be shifted, {1} → {1} + ε, without a change of L; to each such symmetry belongs a conserved quantity (Noether). Here "
-            "Lagrange's equation of {1} is the time derivative of the momentum alone, since",
-         "Warum: {1} darf verschoben werden, {1} → {1} + ε, ohne dass L sich ändert; zu jeder solchen Symmetrie gehört eine Erhaltungsgröße "
-         "(Noether). Hier ist die Lagrange-Gleichung von {1} allein die Zeitableitung des Impulses, denn", 1, pl_fs(d, c->q))->detail = true;
-  show(d, pl_format(d->arena, "∂L/∂%s", name_of(d, c->q)), pl_int(d->pool, 0), pl_by_coordinate(d, d->Lg, i), false);
+  pl_say(d, lettered(d, "Why: {1} may be shifted, {1} → {1} + ε, without a change of L; to each such symmetry belongs a conserved quantity (Noether). Here "
+            "Lagrange's equation of {1} is the time derivative of the momentum alone, since"),
+         lettered(d, "Warum: {1} darf verschoben werden, {1} → {1} + ε, ohne dass L sich ändert; zu jeder solchen Symmetrie gehört eine Erhaltungsgröße "
+         "(Noether). Hier ist die Lagrange-Gleichung von {1} allein die Zeitableitung des Impulses, denn"), 1, pl_fs(d, c->q))->detail = true;
+  show(d, pl_format(d->arena, "∂%s/∂%s", pl_letter(d, "L"), name_of(d, c->q)), pl_int(d->pool, 0), pl_by_coordinate(d, d->Lg, i), false);
 }
 
 // ---------------------------------------------------------------------------------------------- integration

@@ -102,6 +102,33 @@ static const char* result_text(pl_arena* a, pl_result_kind kind, const char* lab
   return "?";
 }
 
+static bool is_declared(const pl_model* m, const char* name) {
+  for (int i = 0; i < m->params.n; i++)
+    if (strcmp(pl_symbol_get(m->pool, m->params.at[i].symbol)->name, name) == 0) return true;
+  for (int i = 0; i < m->coords.n; i++)
+    if (strcmp(pl_symbol_get(m->pool, m->coords.at[i].symbol)->name, name) == 0) return true;
+  for (int i = 0; i < m->lets.n; i++)
+    if (m->lets.at[i].symbol.id && strcmp(pl_symbol_get(m->pool, m->lets.at[i].symbol)->name, name) == 0) return true;
+  return false;
+}
+
+const char* pl_model_letter(const pl_model* m, pl_arena* a, const char* letter) {
+  static const char* const others[][2] = {{"T", "T_kin"}, {"V", "V_pot"}, {"L", "L_Lag"}, {"E", "E_tot"},
+                                          {"H", "H_Ham"}, {"J", "J_Jac"}, {"M", "M_eff"}, {"Z", "F_Z"}};
+  if (!is_declared(m, letter)) return letter;
+  const char* other = letter;
+  for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+    if (strcmp(others[i][0], letter) == 0) other = others[i][1];
+  while (is_declared(m, other)) other = pl_format(a, "%s_", other);
+  return other;
+}
+
+const char* pl_model_column(const pl_model* m, pl_arena* a, const char* letter) {
+  for (int i = 0; i < m->coords.n; i++)
+    if (strcmp(pl_symbol_get(m->pool, m->coords.at[i].symbol)->ascii, letter) == 0) return pl_model_letter(m, a, letter);
+  return letter;
+}
+
 // The ASCII name cannot be that of a declared quantity: a parameter T and the kinetic energy T live side by side.
 static pl_symbol result_symbol(pl_model* m, pl_result_kind kind, const char* label, const char* shown_label) {
   pl_arena* a = pl_pool_arena(m->pool);
@@ -112,7 +139,7 @@ static pl_symbol result_symbol(pl_model* m, pl_result_kind kind, const char* lab
   }
   const char* ascii = pl_symbol_find(m->pool, text).id ? pl_format(a, "%s_result", text) : text;
   pl_symbol_info info = {
-      .name = result_text(a, kind, shown_label), .ascii = ascii, .role = PL_R_LOCAL, .class = PL_C_OTHER, .dimension = pl_dimension_one()};
+      .name = pl_model_letter(m, a, result_text(a, kind, shown_label)), .ascii = ascii, .role = PL_R_LOCAL, .class = PL_C_OTHER, .dimension = pl_dimension_one()};
   pl_symbol s = pl_symbol_make(m->pool, &info);
   pl_push(a, m->result_names, (pl_result_name){.symbol = s, .kind = kind, .label = label ? pl_copy(a, label) : NULL});
   return s;

@@ -306,6 +306,10 @@ const pl_constraint* pl_model_constraint(const pl_model* m, const char* label);
 const pl_restitution* pl_model_restitution(const pl_model* m, const pl_constraint* c);
 const pl_friction* pl_model_friction(const pl_model* m, const pl_constraint* c);
 const pl_mass* pl_model_mass(const pl_model* m, const char* label);
+// The letter of a result, or, when a declared name hides it, another one: T_kin for T where T is a tension.
+const char* pl_model_letter(const pl_model* m, pl_arena* a, const char* letter);
+// The column of T, V or E: the letter itself, unless a coordinate has a column of that name.
+const char* pl_model_column(const pl_model* m, pl_arena* a, const char* letter);
 pl_symbol pl_model_result_symbol(pl_model* m, pl_result_kind kind, const char* label);   // made on first use
 pl_symbol pl_model_result_derivative(pl_model* m, pl_result_kind kind, pl_expr of, pl_symbol by);   // DT, DIFF
 const pl_result_name* pl_model_result_name(const pl_model* m, pl_symbol s);
