@@ -310,7 +310,7 @@ static pleuel_status record_patterns(pl_recorder* r) {
 static const char* unit_of(pl_recorder* r, pl_symbol s, const char* plain) {
   const pl_symbol_info* info = pl_symbol_get(r->pool, s);
   if (!r->model->uses_units || !info->dimension_known) return "";
-  return pl_dimension_equal(info->dimension, pl_dimension_one()) ? plain : pl_dimension_unit(r->arena, info->dimension, true);
+  return pl_dimension_equal(info->dimension, pl_dimension_one()) ? plain : pl_unit_of_symbol(r->arena, r->pool, s, info->dimension, true);
 }
 
 static void name_coordinate(pl_recorder* r, pl_expr atom, pl_coordinate* out) {

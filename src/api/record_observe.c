@@ -327,6 +327,11 @@ static bool can_watch(pl_recorder* r, pl_watching* w, const pl_output* o, int co
   return false;
 }
 
+static const char* unit_of_output(pl_recorder* r, pl_expr value, pl_dimension d) {
+  pl_symbol named = pl_kind_of(r->pool, value) == PL_SYMBOL ? pl_symbol_of(r->pool, value) : (pl_symbol){0};
+  return pl_unit_of_symbol(r->arena, r->pool, named, d, true);
+}
+
 static pleuel_status watch_outputs(pl_recorder* r, pl_watching* w, pl_columns* columns) {
   const pl_model* m = r->model;
   bool explicit_time = r->explicit_time;     // that something looked at contains t says nothing about the motion
@@ -336,7 +341,7 @@ static pleuel_status watch_outputs(pl_recorder* r, pl_watching* w, pl_columns* c
     if (!o->optional) PL_TRY(watch(r, w, o->value, columns->n, pl_format(r->arena, "output %s", o->name)));
     pl_dimension d;
     bool known = m->uses_units && pl_model_dimension(m, o->value, &d) && !pl_dimension_equal(d, pl_dimension_one());
-    pl_push(r->arena, *columns, (pl_column){pl_plain_ascii(r->arena, o->name), known ? pl_dimension_unit(r->arena, d, true) : ""});
+    pl_push(r->arena, *columns, (pl_column){pl_plain_ascii(r->arena, o->name), known ? unit_of_output(r, o->value, d) : ""});
   }
   r->explicit_time = explicit_time;
   return PLEUEL_OK;

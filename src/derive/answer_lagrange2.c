@@ -227,6 +227,21 @@ static const pl_form* by_order(pl_analysis* d, pl_expr e) {
   return pl_joined_sum(d, part, n);
 }
 
+// Without inertia the equation of the second kind is the principle of virtual work: minus the work of all forces along a shift of q_i,
+//   dV/dq_i - sum Q_j dq_j/dq_i,
+// with the shifts from the constraints' maps.
+static pl_expr virtual_work(pl_analysis* d, int i) {
+  pl_expr sum = pl_int(d->pool, 0);
+  for (int j = 0; j < d->q.n; j++) {
+    const pl_variable* c = &d->q.at[j];
+    pl_expr shift = j == i ? pl_int(d->pool, 1) : pl_is_poison(c->map) ? pl_int(d->pool, 0) : pl_by_coordinate(d, c->map, i);
+    if (pl_is_zero_node(d->pool, shift)) continue;
+    pl_expr push = pl_sub(d->pool, pl_diff(d->pool, d->V, c->q), d->force[j]);
+    sum = pl_add(d->pool, sum, pl_mul(d->pool, shift, pl_on_maps(d, push)));
+  }
+  return sum;
+}
+
 static void show_second_kind(pl_analysis* d, int i) {
   pl_expr raw = pl_second_kind(d, i);
   pl_expr e = pl_alg_normal(d->tower, raw);
@@ -237,30 +252,44 @@ static void show_second_kind(pl_analysis* d, int i) {
   pl_step* step = pl_show_numbered(d, pl_feq(d, form, zero_form(d)));
   pl_step_refs(step, 1, d->number_lagrangian);
   pl_push(d->arena, d->lagrange2_numbers, step->number);
-  pl_claim_that(d, PL_CLAIM_ONE_TWO, pl_form_value(d->pool, form), pl_int(d->pool, 0));
+  bool moves = pl_has_role(d->pool, e, PL_R_ACCELERATION) || pl_has_role(d->pool, e, PL_R_VELOCITY);
+  if (moves) {
+    pl_claim_that(d, PL_CLAIM_ONE_TWO, pl_form_value(d->pool, form), pl_int(d->pool, 0));
+  } else {   // a condition on the place: it holds where there is balance, not everywhere
+    pl_claim_that(d, PL_CLAIM_OTHER, pl_mul(d->pool, factor, pl_form_value(d->pool, form)), virtual_work(d, i));
+  }
 }
 
-static const long longest_shown = 60;   // operators up to which a solved acceleration is displayed; all are in the values
-
 static const long longest_searched = 1500;   // operators of a normal form up to which a shorter form is looked for
-static const long longest_answer = 150;      // operators up to which the answer is the closed form
+static const long longest_answer = 150;      // operators up to which an acceleration is written in closed form
+static const long longest_beside = 60;       // the same, when another one is shown over named intermediates
 
-// Solved accelerations: in closed form, or over named intermediates.
-static void show_solved(pl_analysis* d, int i) {
+// Too long to be written out when there are several.
+static bool is_long(pl_analysis* d, int i, long longest) {
+  pl_expr a = d->solved ? d->acceleration[i] : pl_poison();
+  if (pl_is_poison(a)) return true;
+  if (d->gen.n == 1) return false;
+  return pl_op_count(d->pool, a) > longest_searched || pl_form_ops(pl_f(d, a, PL_S_QUOTIENT)) > longest;
+}
+
+// A solved acceleration: in closed form, or over named intermediates.
+static void show_solved(pl_analysis* d, int i, long longest) {
   pl_expr a = d->solved ? d->acceleration[i] : pl_poison();
   pl_symbol name = d->q.at[i].a;
-  bool several = d->gen.n > 1;
-  if (pl_is_poison(a) || (several && pl_op_count(d->pool, a) > longest_searched)) {
-    if (pl_show_structured(d, name, a) || pl_is_poison(a)) return;
-  }
+  if (is_long(d, i, longest) && pl_show_structured(d, name, a)) return;
+  if (pl_is_poison(a)) return;
   const pl_form* form = pl_f(d, a, PL_S_QUOTIENT);
-  if (several && pl_form_ops(form) > longest_answer && pl_show_structured(d, name, a)) return;
   pl_claim_that(d, PL_CLAIM_ONE_TWO, pl_form_value(d->pool, form), pl_sym(d->pool, name));
-  if (pl_form_ops(form) <= longest_shown) {
-    pl_step* step = pl_show_numbered(d, pl_feq(d, pl_fs(d, name), form));
-    for (int k = 0; k < d->lagrange2_numbers.n; k++) pl_step_refs(step, 1, d->lagrange2_numbers.at[k]);
-  }
+  bool told = d->gen.n == 1 && pl_form_ops(form) > longest_beside;   // its equation tells it better
+  pl_step* step = told ? NULL : pl_show_numbered(d, pl_feq(d, pl_fs(d, name), form));
+  for (int k = 0; k < d->lagrange2_numbers.n && step; k++) pl_step_refs(step, 1, d->lagrange2_numbers.at[k]);
   pl_answer(d, pl_symbol_get(d->pool, name)->ascii, a, form);
+}
+
+static void show_all_solved(pl_analysis* d) {
+  bool structured = false;
+  for (int k = 0; k < d->gen.n; k++) structured |= is_long(d, d->gen.at[k], longest_answer);
+  for (int k = 0; k < d->gen.n; k++) show_solved(d, d->gen.at[k], structured ? longest_beside : longest_answer);
 }
 
 // With the energy the motion of one degree of freedom is an integral:  t = ∫ dq sqrt(M / (2 (E - V))).
@@ -287,8 +316,14 @@ void pl_answer_lagrange2(pl_analysis* d, const pl_ask* ask) {
   if (without_reduction(d)) return;
   bool named = d->gen.n == 1 && show_with_named_mass(d, d->gen.at[0]);
   for (int k = 0; k < d->gen.n && !named; k++) show_second_kind(d, d->gen.at[k]);
-  for (int k = 0; k < d->gen.n; k++) show_solved(d, d->gen.at[k]);
-  if (d->gen.n > 0 && !d->solved && !pl_structure_of_accelerations(d)) {
+  show_all_solved(d);
+  if (d->gen.n == 0) {
+    pl_say(d, "Nothing is left to choose: the constraints prescribe the whole motion.",
+           "Es bleibt nichts frei: Die Zwangsbedingungen schreiben die ganze Bewegung vor.", 0);
+  } else if (!d->solved && !pl_has_role(d->pool, d->Lg, PL_R_VELOCITY)) {
+    pl_say(d, "No mass moves: this is the condition of balance, the principle of virtual work.",
+           "Keine Masse bewegt sich: Das ist die Gleichgewichtsbedingung, das Prinzip der virtuellen Arbeit.", 0);
+  } else if (!d->solved && !pl_structure_of_accelerations(d)) {
     pl_say(d, "The accelerations are not determined by these equations: the mass matrix is singular.",
            "Die Beschleunigungen sind durch diese Gleichungen nicht bestimmt: die Massenmatrix ist singulär.", 0);
     d->section->not_found = true;

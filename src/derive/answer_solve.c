@@ -451,12 +451,26 @@ static void show_fixed(pl_analysis* d, int i) {
   pl_answer(d, pl_symbol_get(d->pool, c->q)->ascii, c->fixed, form);
 }
 
+// A coordinate that the constraints make a function of time: nothing is left to integrate.
+static bool prescribed_motion(pl_analysis* d, int i) {
+  const pl_variable* c = &d->q.at[i];
+  pl_expr x = d->reduced && pl_follower(d, i) < 0 ? c->map : pl_poison();
+  if (pl_is_poison(x) || pl_has_coordinates(d, x)) return false;
+  pl_say(d, "The constraints prescribe it:", "Die Zwangsbedingungen schreiben sie vor:", 0);
+  const pl_form* form = pl_f(d, x, PL_S_SOLUTION);
+  pl_show_numbered(d, pl_feq(d, of_time(d, i), form));
+  pl_claim_that(d, PL_CLAIM_MAP, pl_form_value(d->pool, form), pl_sym(d->pool, c->q));
+  pl_answer(d, pl_symbol_get(d->pool, c->q)->ascii, x, form);
+  return true;
+}
+
 static void solve_motion(pl_analysis* d, int i) {
   const pl_variable* c = &d->q.at[i];
   if (c->fixed_by >= 0) {
     show_fixed(d, i);
     return;
   }
+  if (prescribed_motion(d, i)) return;
   bool hangs = !pl_is_poison(c->map) && c->solved_by != -2 && d->reduced && d->gen.n == 1 && d->gen.at[0] != i;
   bool alone = d->solved && !pl_is_poison(d->acceleration[i]) && !pl_has_coordinates(d, d->acceleration[i]);
   if (hangs && !alone) solve_by_map(d, i);

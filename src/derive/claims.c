@@ -133,11 +133,12 @@ static int independent_maps(pl_analysis* d, int* of) {
   return rank;
 }
 
-// A force on a chosen coordinate reaches the masses through the map: x = X(φ) is then a constraint like the others, with
-// multipliers of its own.  Adds them as unknowns, after the coordinates' rows.
+// A force on a chosen coordinate reaches the masses through the map: it pushes along dX/dφ, with a multiplier for each chosen
+// coordinate.  Adds them as unknowns, after the coordinates' rows.
 typedef struct pl_coupling {
-  int n;
+  int n, n_chosen;
   int* of;                // coordinates whose map it is
+  int* chosen;
   pl_symbol* multiplier;  // NULL: nothing acts on chosen coordinates, none are needed
 } pl_coupling;
 
@@ -145,20 +146,27 @@ static pl_coupling couple(pl_analysis* d) {
   pl_coupling c = {.of = PL_ARRAY(d->arena, int, d->q.n + 1)};
   c.n = independent_maps(d, c.of);
   if (pl_loaded_by_name(d) < 0) return c;
-  c.multiplier = PL_ARRAY(d->arena, pl_symbol, c.n + 1);
-  for (int k = 0; k < c.n; k++) {
+  c.multiplier = PL_ARRAY(d->arena, pl_symbol, d->q.n + 1);
+  c.chosen = PL_ARRAY(d->arena, int, d->q.n + 1);
+  for (int i = 0; i < d->q.n; i++) {
+    if (d->q.at[i].chosen && !d->q.at[i].carries) c.chosen[c.n_chosen++] = i;
+  }
+  for (int k = 0; k < c.n_chosen; k++) {
     const char* name = pl_format(d->arena, "map_%d", k);
     c.multiplier[k] = pl_symbol_make(d->pool, &(pl_symbol_info){.name = name, .ascii = name, .role = PL_R_LOCAL, .class = PL_C_OTHER});
   }
   return c;
 }
 
-// What the map exerts on coordinate i.
+// What the map exerts on coordinate i: a force along dX/dφ on the mapped ones, its reaction on the chosen ones.
 static pl_expr coupling_push(pl_analysis* d, const pl_coupling* c, int i) {
-  pl_expr sum = pl_int(d->pool, 0);
-  for (int k = 0; c->multiplier && k < c->n; k++) {
-    pl_expr gap = pl_sub(d->pool, pl_sym(d->pool, d->q.at[c->of[k]].q), d->q.at[c->of[k]].map);
-    sum = pl_add(d->pool, sum, pl_mul(d->pool, pl_sym(d->pool, c->multiplier[k]), pl_diff(d->pool, gap, d->q.at[i].q)));
+  pl_pool* p = d->pool;
+  const pl_variable* to = &d->q.at[i];
+  bool chosen = to->chosen && !to->carries, mapped = to->solved_by == -1 && !pl_is_poison(to->map);
+  pl_expr sum = pl_int(p, 0);
+  for (int k = 0; c->multiplier && k < c->n_chosen; k++) {
+    pl_expr way = chosen ? pl_neg(p, pl_map_product(d, i, c->chosen[k])) : mapped ? pl_diff(p, to->map, d->q.at[c->chosen[k]].q) : pl_int(p, 0);
+    sum = pl_add(p, sum, pl_mul(p, pl_sym(p, c->multiplier[k]), way));
   }
   return sum;
 }
@@ -187,7 +195,7 @@ static void rows(pl_analysis* d, pl_system_of_motion* s) {
     }
     s->row[n_rows++] = pl_sub(d->pool, row, coupling_push(d, &coupling, i));
   }
-  for (int k = 0; coupling.multiplier && k < coupling.n; k++) s->unknown[s->n++] = coupling.multiplier[k];
+  for (int k = 0; coupling.multiplier && k < coupling.n_chosen; k++) s->unknown[s->n++] = coupling.multiplier[k];
   for (int k = 0; k < d->g.n; k++) {
     if (d->g.at[k].implied) continue;
     s->unknown[s->n++] = d->g.at[k].lambda;

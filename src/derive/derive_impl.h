@@ -97,6 +97,8 @@ typedef struct pl_loop {
   bool told;
 } pl_loop;
 
+typedef struct pl_chosen_force { int coordinate; pl_expr along; } pl_chosen_force;   // on a coordinate of `choose` alone, for each unit of dX/dq
+
 typedef struct pl_analysis pl_analysis;
 struct pl_analysis {
   pl_job* job;
@@ -131,6 +133,7 @@ struct pl_analysis {
   PL_VEC(pl_replace) maps;     // q -> map, v -> map', a -> map'' of all that are not generalized
   pl_expr Tg, Vg, Lg;          // in generalized coordinates
 
+  PL_VEC(pl_chosen_force) chosen_forces;   // what acts on coordinates that only stand in `choose`, solve_motion.c
   bool solved;                 // accelerations and multipliers
   pl_expr* acceleration;       // q'' on the constraints, in q, v or generalized ones      (n_q); poison where not
 
@@ -242,6 +245,7 @@ void pl_spread_assemblies(pl_analysis* d);              // values over followers
 pleuel_status pl_solve_motion(pl_analysis* d);          // accelerations and multipliers
 pl_expr pl_force_scale(pl_analysis* d, int link);       // |Z| = scale |λ| on each mass it acts on; poison when they differ (answer_force.c)
 bool pl_say_unsolved(pl_analysis* d, pl_expr asked, pl_expr e);   // e still contains accelerations or multipliers: said (answer_value.c)
+pl_expr pl_map_product(pl_analysis* d, int a, int b);   // sum of dX/dq_a dX/dq_b over the coordinates that `choose` maps
 int pl_loaded_by_name(const pl_analysis* d);            // a coordinate of `choose` alone on which a force or potential acts; -1
 pl_expr pl_bond_acceleration(pl_analysis* d, int link); // twice differentiated constraint, raw
 // The equation of one coordinate solved for multiplier k, accelerations and other multipliers left as names: short where the closed

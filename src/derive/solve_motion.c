@@ -13,6 +13,17 @@ pl_expr pl_bond_acceleration(pl_analysis* d, int k) {
   return l->velocity ? once : pl_dt(d->pool, once);
 }
 
+pl_expr pl_map_product(pl_analysis* d, int a, int b) {
+  pl_expr sum = pl_int(d->pool, 0);
+  for (int i = 0; i < d->q.n; i++) {
+    const pl_variable* c = &d->q.at[i];
+    if (c->solved_by != -1 || pl_is_poison(c->map)) continue;
+    pl_expr left = pl_diff(d->pool, c->map, d->q.at[a].q), right = pl_diff(d->pool, c->map, d->q.at[b].q);
+    sum = pl_add(d->pool, sum, pl_mul(d->pool, left, right));
+  }
+  return sum;
+}
+
 int pl_loaded_by_name(const pl_analysis* d) {
   for (int i = 0; i < d->q.n; i++) {
     const pl_variable* c = &d->q.at[i];
@@ -29,9 +40,41 @@ typedef struct pl_linear {
 
 static bool at_work(const pl_bond* l) { return l->fixes < 0 && !l->implied; }
 
+// What acts on a coordinate that only stands in `choose`, a torque on φ or its inertia, reaches the masses through the map x = X(φ),
+// as a force along the map: with J = dX/dφ
+//   E_x + J (J^T J)^-1 E_φ = sum λ ∇g.
+// A part across the map does no work; it belongs to the constraints.
+static pl_expr through_map(pl_analysis* d, int i) {
+  const pl_variable* c = &d->q.at[i];
+  pl_expr sum = pl_int(d->pool, 0);
+  for (int k = 0; c->solved_by == -1 && k < d->chosen_forces.n; k++) {
+    const pl_chosen_force* f = &d->chosen_forces.at[k];
+    pl_expr J = pl_diff(d->pool, c->map, d->q.at[f->coordinate].q);
+    sum = pl_add(d->pool, sum, pl_mul(d->pool, J, f->along));
+  }
+  return sum;
+}
+
+// The loads of chosen coordinates, (J^T J)^-1 E_φ; false when the map does not determine them.
+static bool find_chosen_forces(pl_analysis* d) {
+  int n = 0, *at = PL_ARRAY(d->arena, int, d->q.n + 1);
+  if (!d->reduced || pl_loaded_by_name(d) < 0) return true;
+  for (int i = 0; i < d->q.n; i++) {
+    if (d->q.at[i].chosen && !d->q.at[i].carries) at[n++] = i;
+  }
+  pl_expr *A = PL_ARRAY(d->arena, pl_expr, n * n), *b = PL_ARRAY(d->arena, pl_expr, n), *x = PL_ARRAY(d->arena, pl_expr, n);
+  for (int r = 0; r < n; r++) {
+    b[r] = pl_on_maps(d, d->euler[at[r]]);
+    for (int c = 0; c < n; c++) A[r * n + c] = pl_map_product(d, at[r], at[c]);
+  }
+  if (pl_alg_solve(d->tower, n, A, b, x, max_terms) != PL_YES) return false;
+  for (int k = 0; k < n; k++) pl_push(d->arena, d->chosen_forces, (pl_chosen_force){at[k], x[k]});
+  return true;
+}
+
 // E_i - sum over the working constraints of lambda dg/dq_i.
 static pl_expr equation_of(pl_analysis* d, int i) {
-  pl_expr e = d->euler[i];
+  pl_expr e = pl_add(d->pool, d->euler[i], through_map(d, i));
   for (int k = 0; k < d->g.n; k++) {
     if (!at_work(&d->g.at[k])) continue;
     pl_expr push = pl_mul(d->pool, pl_sym(d->pool, d->g.at[k].lambda), d->g.at[k].gradient[i]);
@@ -52,7 +95,8 @@ static pl_linear collect(pl_analysis* d) {
     if (generalized) add_unknown(&s, c->a);
     if (c->solved_by != -3 && (c->carries || (d->reduced && c->chosen))) {
       pl_expr row = equation_of(d, i);
-      if (c->carries || !pl_is_zero_node(d->pool, row)) s.row[s.n_rows++] = row;
+      bool passed_on = c->chosen && !c->carries && d->chosen_forces.n > 0;
+      if (c->carries || !(passed_on || pl_is_zero_node(d->pool, row))) s.row[s.n_rows++] = row;
     }
   }
   for (int k = 0; k < d->g.n; k++) {
@@ -155,7 +199,7 @@ static pl_expr on_positions(pl_analysis* d, pl_expr e) {
 }
 
 static pl_expr row_of(pl_analysis* d, int k, int i, int* n_others) {
-  pl_expr e = d->euler[i];
+  pl_expr e = pl_add(d->pool, d->euler[i], through_map(d, i));
   *n_others = 0;
   for (int c = 0; c < d->g.n; c++) {
     const pl_bond* other = &d->g.at[c];
@@ -192,8 +236,8 @@ static bool solve_system(pl_analysis* d, pl_linear* s, pl_expr* x) {
   return s->n_unknowns == 0 || pl_alg_solve(d->tower, s->n_unknowns, A, b, x, max_terms) == PL_YES;
 }
 
-// Where forces act on the chosen coordinates themselves, or the first-kind system is too large: the equations of the second
-// kind give the accelerations; multipliers of non-trivial constraints then stay open.
+// Where the first-kind system is too large, or the map does not tell how a load of a chosen coordinate reaches the masses: the equations
+// of the second kind give the accelerations; multipliers of non-trivial constraints then stay open.
 static pl_linear collect_second_kind(pl_analysis* d) {
   pl_linear s = {.unknown = PL_ARRAY(d->arena, pl_symbol, d->gen.n + 1), .row = PL_ARRAY(d->arena, pl_expr, d->gen.n + 1)};
   for (int k = 0; k < d->gen.n; k++) {
@@ -234,8 +278,9 @@ static void record_denominators(pl_analysis* d) {
 pleuel_status pl_solve_motion(pl_analysis* d) {
   d->acceleration = PL_ARRAY(d->arena, pl_expr, d->q.n);
   pl_expr* x = PL_ARRAY(d->arena, pl_expr, d->q.n + d->g.n + 1);
+  bool passed_on = find_chosen_forces(d);
   pl_linear s = collect(d);
-  d->solved = solve_system(d, &s, x);
+  d->solved = passed_on && solve_system(d, &s, x);
   if (!d->solved && d->reduced) {
     s = collect_second_kind(d);
     d->solved = solve_system(d, &s, x);

@@ -84,12 +84,18 @@ void pl_step_refs(pl_step* s, int n, ...) {
   va_end(ap);
 }
 
+// The name on the left of an equation.
+static pl_symbol named_by(pl_analysis* d, const pl_form* f) {
+  bool named = f && f->kind == PL_F_RELATION && f->args[0]->kind == PL_F_EXPR && pl_kind_of(d->pool, f->args[0]->expr) == PL_SYMBOL;
+  return named ? pl_symbol_of(d->pool, f->args[0]->expr) : (pl_symbol){0};
+}
+
 void pl_step_value(pl_analysis* d, pl_step* s, pl_expr e, pl_dimension dim) {
   double x = pl_number(d, e);
   if (isnan(x) || pl_is_number(d->pool, e)) return;
   s->has_value = true;
   s->value = x;
-  s->unit = pl_dimension_unit(d->arena, dim, false);
+  s->unit = pl_unit_of_symbol(d->arena, d->pool, named_by(d, s->formula), dim, false);
 }
 
 // ---------------------------------------------------------------------------------------------- dimensions of formulas
@@ -141,13 +147,17 @@ pl_dimension pl_dimension_of_expr(pl_analysis* d, pl_expr e, bool* known) {
   return dim;
 }
 
+static const char* display_in(pl_analysis* d, double x, const char* unit) {
+  pl_notation how = {.math = PL_MATH_ASCII, .lang = d->job->lang};
+  const char* number = pl_notation_number(d->arena, x, 6, how);
+  return *unit && strcmp(unit, "1") != 0 ? pl_format(d->arena, "%s %s", number, unit) : number;
+}
+
 const char* pl_display(pl_analysis* d, double x, pl_dimension dim, bool angle) {
   if (isnan(x)) return NULL;
   pl_notation how = {.math = PL_MATH_ASCII, .lang = d->job->lang};
   if (angle) return pl_format(d->arena, "%s deg", pl_notation_number(d->arena, x * 180 / M_PI, 6, how));
-  const char* unit = pl_dimension_unit(d->arena, dim, true);
-  const char* number = pl_notation_number(d->arena, x, 6, how);
-  return *unit && strcmp(unit, "1") != 0 ? pl_format(d->arena, "%s %s", number, unit) : number;
+  return display_in(d, x, pl_dimension_unit(d->arena, dim, true));
 }
 
 // ---------------------------------------------------------------------------------------------- values
@@ -182,8 +192,8 @@ pl_value* pl_answer(pl_analysis* d, const char* name, pl_expr e, const pl_form* 
     dim = pl_symbol_get(d->pool, symbol)->dimension;
     known = pl_symbol_get(d->pool, symbol)->dimension_known;
   }
-  if (known) v.unit = pl_dimension_unit(d->arena, dim, true);
-  v.display = pl_display(d, v.number, dim, false);
+  if (known) v.unit = pl_unit_of_symbol(d->arena, d->pool, symbol, dim, true);
+  v.display = isnan(v.number) ? NULL : display_in(d, v.number, pl_unit_of_symbol(d->arena, d->pool, symbol, dim, true));
   pl_push(d->arena, d->section->values, v);
   return &d->section->values.at[d->section->values.n - 1];
 }

@@ -283,7 +283,6 @@ static bool find_by_row(pl_analysis* d, pl_symbol u, pl_found* f) {
     *f = (pl_found){s, s->lines.at[line].value, s->lines.at[line].form};
     return true;
   }
-  if (bond >= 0 && pl_loaded_by_name(d) >= 0) return false;   // how such a force divides among the masses is open
   pl_expr e = bond >= 0 ? pl_multiplier_by_row(d, bond, &i) : pl_sym(d->pool, u);
   if (pl_is_poison(e)) return false;
   e = pl_alg_normal(d->tower, pl_on_maps(d, e));

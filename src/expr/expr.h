@@ -93,6 +93,8 @@ int pl_symbol_count(const pl_pool* p);                               // ids run 
 pl_symbol pl_symbol_dot(pl_pool* p, pl_symbol s);                    // x -> x', x' -> x''; made when needed
 pl_symbol pl_symbol_start(pl_pool* p, pl_symbol s);                  // x -> x(0), x' -> x'(0)
 pl_symbol pl_time(pl_pool* p);                                       // t
+// The unit in which a quantity with this name is written: a multiplier that is an energy is the torque that turns an angle, in N m.
+const char* pl_unit_of_symbol(pl_arena* a, const pl_pool* p, pl_symbol s, pl_dimension d, bool ascii);
 bool pl_is_measure(const pl_pool* p, pl_expr e);                     // e is a number with its unit
 pl_expr pl_without_measures(pl_pool* p, pl_expr e);                  // each number with its unit replaced by its value in SI
 

@@ -163,3 +163,8 @@ int pl_symbol_compare(const pl_pool* p, pl_symbol a, pl_symbol b) {
   if (x->dots != y->dots) return x->dots < y->dots ? -1 : 1;
   return pl_natural_compare(x->ascii, y->ascii);
 }
+
+const char* pl_unit_of_symbol(pl_arena* a, const pl_pool* p, pl_symbol s, pl_dimension d, bool ascii) {
+  bool torque = s.id && pl_symbol_get(p, s)->role == PL_R_MULTIPLIER && pl_dimension_equal(d, pl_dimension_of(2, 1, -2));
+  return torque ? "N m" : pl_dimension_unit(a, d, ascii);
+}

@@ -236,5 +236,117 @@ def _(program):
             same(x, y, f"{title}: frequency")
 
 
+@test("two-link arm: equations of the second kind give every acceleration")
+def _(program):
+    answer = solve(program, "param m1 = 2 [kg], m2 = 1.5 [kg], l1 = 0.5 [m], l2 = 0.4 [m], g = 9.81 [m/s^2]\ncoord q1, q2\n"
+                   "axes x right, y up\nbody arm1: mass m1, inertia m1 l1^2/12 at (l1/2 cos q1, l1/2 sin q1) angle q1\n"
+                   "body arm2: mass m2, inertia m2 l2^2/12 at (l1 cos q1 + l2/2 cos(q1 + q2), l1 sin q1 + l2/2 sin(q1 + q2)) angle q1 + q2\n"
+                   "gravity g along -y\nask lagrange2\n")
+    certified(answer, "arm")
+    steps = " ".join(str(s) for i in answer.items() for s in i["steps"])
+    for name in ("q1''", "q2''"):
+        need(f"{name} =" in steps, f"{name} is not shown")
+    for name in ("q1_ddot", "q2_ddot"):
+        answer.value(name)
+
+
+# ------------------------------------------------------------------------------------------------ driven mechanisms
+DRIVEN = "param m1 = 1 [kg], m2 = 2 [kg], r = 0.1 [m], l = 0.3 [m], g = 9.81 [m/s^2], ω = 5 [rad/s]\nassume r < l\naxes x right, z up\n"
+driven = {
+    "angle and slide": "coord φ, x2\n" + TURNED + B + FALL + "constraint rod: norm(pos(A) - pos(B)) = l\n"
+                       "constraint drive: φ = ω t with M\nbranch x2 > r cos φ\n",
+    "tied": "coord x1, z1, x2, z2, φ\n" + A + "mass B: m2 at (x2, z2)\n" + FALL + "constraint c1: x1 = r cos φ\nconstraint c2: z1 = r sin φ\n"
+            "constraint slide: z2 = 0\nconstraint rod: (x2 - x1)^2 + (z2 - z1)^2 = l^2\nconstraint drive: φ = ω t with M\nbranch x2 > x1\n",
+    "two angles": "coord ψ, φ\n" + TURNED + "mass B: m2 at (r cos φ + l cos ψ, 0)\n" + FALL + "constraint drive: φ - ω t = 0 with M\n"
+                  "constraint rod: l sin ψ = r sin φ\nbranch cos ψ > 0\n",
+}
+
+
+@test("a driven crank: place, velocity and torque are functions of time, the torque in N m")
+def _(program):
+    r, l, m1, m2, g, w = 0.1, 0.3, 1, 2, 9.81, 5
+
+    def slide(t):
+        return r * math.cos(w * t) + math.sqrt(l * l - (r * math.sin(w * t)) ** 2)
+
+    def torque(t):     # power of the drive = rate of the energy, by differences of fourth order
+        def energy(u):
+            h = 1e-4
+            v = (8 * (slide(u + h) - slide(u - h)) - slide(u + 2 * h) + slide(u - 2 * h)) / (12 * h)
+            return m2 * v * v / 2 + m1 * g * r * math.sin(w * u)
+        h = 1e-3
+        return (8 * (energy(t + h) - energy(t - h)) - energy(t + 2 * h) + energy(t - 2 * h)) / (12 * h) / w
+
+    for title, text in driven.items():
+        place = "r cos φ + l cos ψ" if title == "two angles" else "x2"
+        asks = f"ask a: solve M\nask b: {place}\nask c: dof\n" + ("" if title == "two angles" else "ask d: x2'\nask e: solve x2(t)\n")
+        answer = solve(program, DRIVEN + text + asks)
+        certified(answer, title)
+        need(answer.document["dof"]["dof"] == 0, f"{title}: {answer.document['dof']}")
+        M = answer.value("M", key="a")
+        need(M["unit"] == "N m", f"{title}: the torque is in {M['unit']}")
+        for t in (0.05, 0.31, 0.9, 1.7):
+            at = {"t": t}
+            need(close(evaluated(answer, M, at), torque(t), 1e-6, 1e-3), f"{title}: M({t}) is {evaluated(answer, M, at)}, not {torque(t)}")
+            same(evaluated(answer, answer.values(key="b")[0], at), slide(t), f"{title}: {place}")
+            if title != "two angles":
+                same(evaluated(answer, answer.value("x2", key="e"), at), slide(t), f"{title}: x2(t)")
+
+
+# ------------------------------------------------------------------------------------------------ loads of the chosen angle
+@test("slider-crank with a torque on the chosen angle, or with a flywheel: forces of rod, slide and crank")
+def _(program):
+    head = ("param ML = 5 [N m], F = 200 [N], J = 0.3 [kg m^2]\n" + CRANK + "coord x1, z1, x2, z2, φ\n" + A + "mass B: m2 at (x2, z2)\n" + FALL +
+            "constraint k: x1^2 + z1^2 = r^2\nconstraint slide: z2 = 0\nconstraint rod: (x2 - x1)^2 + (z2 - z1)^2 = l^2\n"
+            "choose φ with x1 = r cos φ, z1 = r sin φ\nbranch x2 > x1\nforce gas: (-F, 0) on B\n")
+    ask = "ask a: solve λ_rod, solve λ_slide, solve λ_k\n"
+    rng = random.Random(SEED)
+    for load in ("torque -ML on φ\n", "kinetic J/2 φ'^2\n"):
+        answer = solve(program, head + load + ask)
+        certified(answer, load)
+        for _ in range(5):
+            phi, omega = rng.uniform(-3, 3), rng.uniform(-9, 9)
+            state, slope = crank_state(phi, omega)
+            x1, z1, x2 = state["x1"], state["z1"], state["x2"]
+            torque, extra = (-5, 0) if "torque" in load else (0, 0.3)
+            # x1, z1, x2, z2 with the torque as a tangential force, the flywheel as a mass J/r^2 that the crank carries
+            m = 1.2
+            a1 = crank_inverse(state, m + extra / 0.01, torque, -200)
+            push = [m * a1[0], m * (a1[1] + 9.81)]          # what the constraints and the torque exert on A
+            t = [-z1 / 0.1, x1 / 0.1]
+            tangential = (torque - extra * a1[3]) / 0.1
+            push = [push[k] - tangential * t[k] for k in range(2)]
+            rod = (2 * a1[2] + 200) / (2 * (x2 - x1))       # on B along x
+            radial = (push[0] * x1 + push[1] * z1) / 0.01 - 2 * rod * ((x1 - x2) * x1 + z1 * z1) / 0.01
+            names = {"lambda_rod": rod, "lambda_slide": 2 * 9.81 + 2 * rod * z1, "lambda_k": radial / 2}
+            for name, wanted in names.items():
+                same(evaluated(answer, answer.value(name), state), wanted, f"{load.strip()}: {name}")
+
+
+def crank_inverse(state, m1, torque, gas):
+    """Accelerations x1'', z1'', x2'', φ'' of the crank with m1 as its turning mass; the weight is that of 1.2 kg."""
+    r, l, g = 0.1, 0.35, 9.81
+    phi, omega = state["phi"], state["phi_dot"]
+    s, c = math.sin(phi), math.cos(phi)
+    w = math.sqrt(l * l - r * r * s * s)
+    slope = -r * s - r * r * s * c / w
+    bend = -r * c - r * r * (c * c - s * s) / w - r ** 4 * s * s * c * c / w ** 3
+    a = (torque + gas * slope - 2 * slope * bend * omega ** 2 - 1.2 * g * r * c) / (m1 * r * r + 2 * slope ** 2)
+    return -r * s * a - r * c * omega ** 2, r * c * a - r * s * omega ** 2, slope * a + bend * omega ** 2, a
+
+
+@test("statics of a massless crank: the condition of balance, and no check fails")
+def _(program):
+    rng = random.Random(SEED)
+    for text in ("coord φ, x2\npoint B at (x2, 0)\nconstraint rod: (x2 - r cos φ)^2 + (r sin φ)^2 = l^2\nbranch x2 > r cos φ\n"
+                 "force (-F, 0) on B\ntorque Mo on φ\n",
+                 "coord φ, ψ\npoint B at (r cos φ + l cos ψ, 0)\nconstraint rod: r sin φ = l sin ψ\nbranch cos ψ > 0\n"
+                 "force (-F, 0) on B\ntorque Mo on φ\n"):
+        answer = solve(program, "param r = 0.1 [m], l = 0.35 [m], F = 7 [N], Mo = 2 [N m]\nassume r < l\naxes x right, z up\n" + text +
+                       "ask lagrange2\n")
+        certified(answer, text)
+        need(any("= 0" in str(s) for i in answer.items() for s in i["steps"]), "no equation")
+
+
 if __name__ == "__main__":
     sys.exit(test.main(program_of(sys.argv)))
