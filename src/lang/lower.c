@@ -362,6 +362,9 @@ static void lower_all(pl_lower* l, pl_ast** s, int n) {
   file.kids.at = s, file.kids.n = n;
   // headers and names
   for (int i = 0; i < n; i++) declare_inside(l, s[i]);
+  for (int i = 0; i < n; i++) {
+    if (s[i]->token == TOK_CHOOSE) pl_lower_declare_chosen(l, s[i]);
+  }
   set_names(l);
   pl_axes_settle(l, &file);
   // parameters first: they size families; then coordinates, then what is abbreviated
@@ -371,6 +374,9 @@ static void lower_all(pl_lower* l, pl_ast** s, int n) {
     for (int i = 0; i < n; i++) {
       if (s[i]->token == order[k]) pl_lower_statement(l, s[i]);
     }
+  }
+  for (int i = 0; i < n; i++) {
+    if (s[i]->token == TOK_CHOOSE) pl_lower_chosen(l, s[i]);
   }
   for (int i = 0; i < n; i++) {
     if (s[i]->token == TOK_FOR || may_stand_in_block(s[i]->token)) walk_statement(l, &w, s[i]);

@@ -150,6 +150,27 @@ static void declare_names(pl_lower* l, const pl_ast* s) {
   }
 }
 
+// `choose φ with x = l sin φ` names a coordinate of its own: one that the file does not declare is declared here.
+void pl_lower_declare_chosen(pl_lower* l, const pl_ast* s) {
+  const pl_ast *names = pl_ast_kid(s, 0), *maps = pl_ast_kid(s, 1);
+  for (int i = 0; maps && i < names->kids.n; i++) {
+    const pl_ast* name = pl_ast_single(names->kids.at[i]);
+    bool plain = name && name->kind == PL_AST_NAME && !name->number;
+    if (!plain || pl_scope_find(l, name->key) || strcmp(name->key, "t") == 0) continue;
+    if (pl_word_reserved(name->key) || pl_word_function(name->key)) continue;
+    pl_scope_declare(l, PL_ENTITY_COORD, name, pl_scope_symbol(l, name, PL_R_COORD))->definition = name;
+  }
+}
+
+void pl_lower_chosen(pl_lower* l, const pl_ast* s) {
+  const pl_ast* names = pl_ast_kid(s, 0);
+  for (int i = 0; i < names->kids.n; i++) {
+    const pl_ast* name = pl_ast_single(names->kids.at[i]);
+    pl_entity* e = name && name->kind == PL_AST_NAME ? pl_scope_find(l, name->key) : NULL;
+    if (e && e->definition == name) pl_push(l->arena, l->m->coords, (pl_coord){.symbol = e->symbol, .span = pl_ast_span(name)});
+  }
+}
+
 // ---------------------------------------------------------------------------------------------- values, second pass
 // The unit that a value is written in: that of the last factor.
 static const pl_ast* unit_of_value(const pl_ast* value) {

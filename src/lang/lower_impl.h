@@ -193,6 +193,8 @@ int pl_ast_components(const pl_ast* point);
 
 // ---------------------------------------------------------------------------------------------- statements
 void pl_lower_declare(pl_lower* l, const pl_ast* statement);    // first pass: names
+void pl_lower_declare_chosen(pl_lower* l, const pl_ast* statement);   // likewise of `choose ... with`, after all other names
+void pl_lower_chosen(pl_lower* l, const pl_ast* statement);           // second pass: they join the coordinates
 void pl_lower_statement(pl_lower* l, const pl_ast* statement);  // second pass
 void pl_lower_physics(pl_lower* l, const pl_ast* statement);
 void pl_lower_contact(pl_lower* l, const pl_ast* statement);    // restitution, friction

@@ -9,7 +9,7 @@ typedef struct use_table {
   const pl_param* self;       // a parameter's own value does not count as its use
 } use_table;
 
-enum { BIT_INERTIA = 1 << 30, BIT_CHOSEN = 1 << 29 };
+enum { BIT_INERTIA = 1 << 30, BIT_CHOSEN = 1 << 29, BIT_PUSHED = 1 << 28 };
 
 static void use_symbol(use_table* t, pl_symbol s, unsigned bit) {
   if (!s.id) return;
@@ -45,7 +45,7 @@ static void see_inertia(use_table* t) {
   for (int i = 0; i < m->loads.n; i++) {
     pl_load_kind k = m->loads.at[i].kind;
     if (k == PL_L_KINETIC || k == PL_L_LAGRANGIAN) use_inertia(t, m->loads.at[i].value);
-    use_symbol(t, m->loads.at[i].coordinate, 1u << PL_SLOT_LOAD);
+    use_symbol(t, m->loads.at[i].coordinate, BIT_PUSHED);
   }
   for (int i = 0; i < m->choose.coords.n; i++) use_symbol(t, m->choose.coords.at[i], BIT_CHOSEN);
   for (int i = 0; i < m->choose.n_maps; i++) {
@@ -59,12 +59,60 @@ static void see_inertia(use_table* t) {
 }
 
 static const unsigned in_physics = 1u << PL_SLOT_POINT | 1u << PL_SLOT_MASS | 1u << PL_SLOT_LOAD |
-                                   1u << PL_SLOT_CONSTRAINT | 1u << PL_SLOT_CHOOSE | BIT_CHOSEN | BIT_INERTIA;
+                                   1u << PL_SLOT_CONSTRAINT | 1u << PL_SLOT_CHOOSE | BIT_CHOSEN | BIT_INERTIA | BIT_PUSHED;
 
 // The name in its declaration, for `coord x, y, z` has one span.
 static pl_span name_place(const pl_model* m, pl_symbol s, pl_span span) {
   pl_span at;
   return pl_span_find_name(span, pl_symbol_get(m->pool, s)->ascii, &at) ? at : span;
+}
+
+// ---------------------------------------------------------------------------------------------- chosen, but tied to nothing
+// a x^2 + a y^2 - a r^2 in the two coordinates: the radius; poison for any other expression.
+static pl_expr radius_in(pl_job* job, const pl_model* m, pl_expr g, pl_symbol x, pl_symbol y) {
+  pl_pool* p = m->pool;
+  pl_expr gx = pl_diff(p, g, x), gy = pl_diff(p, g, y), a = pl_diff(p, gx, x), zero = pl_int(p, 0);
+  if (!pl_same(a, pl_diff(p, gy, y)) || !pl_is_zero_node(p, pl_diff(p, gx, y)) || pl_has_coordinate(p, a, job->arena)) return pl_poison();
+  pl_replace centre[2] = {{x, zero}, {y, zero}};
+  pl_expr rest = pl_subst(p, g, centre, 2);
+  if (!pl_is_zero_node(p, pl_subst(p, gx, centre, 2)) || !pl_is_zero_node(p, pl_subst(p, gy, centre, 2))) return pl_poison();
+  if (pl_is_zero_node(p, a) || pl_has_coordinate(p, rest, job->arena)) return pl_poison();
+  pl_expr square = pl_neg(p, pl_div(p, pl_mul(p, pl_int(p, 2), rest), a));
+  long power = 0;
+  if (pl_kind_of(p, square) == PL_POW) pl_is_int(p, pl_arg(p, square, 1), &power);
+  return power == 2 ? pl_arg(p, square, 0) : pl_sqrt(p, square);
+}
+
+// "choose φ with x1 = r cos φ, z1 = r sin φ" where a constraint makes it possible.
+static const char* choice_for(pl_job* job, const pl_model* m, const char* name) {
+  for (int k = 0; k < m->constraints.n; k++) {
+    for (int i = 0; i < m->coords.n; i++) {
+      for (int j = i + 1; j < m->coords.n; j++) {
+        pl_symbol x = m->coords.at[i].symbol, y = m->coords.at[j].symbol;
+        pl_expr g = m->constraints.at[k].g;
+        if (pl_is_poison(g) || !pl_has_symbol(m->pool, g, x) || !pl_has_symbol(m->pool, g, y)) continue;
+        pl_expr r = radius_in(job, m, g, x, y);
+        if (pl_is_poison(r)) continue;
+        const char *radius = pl_expr_words(job->arena, m->pool, r), *a = pl_symbol_get(m->pool, x)->name, *b = pl_symbol_get(m->pool, y)->name;
+        return pl_format(job->arena, "choose %s with %s = %s cos %s, %s = %s sin %s", name, a, radius, name, b, radius, name);
+      }
+    }
+  }
+  return NULL;
+}
+
+static void check_chosen(pl_job* job, use_table* t) {
+  static const unsigned tied = 1u << PL_SLOT_POINT | 1u << PL_SLOT_MASS | 1u << PL_SLOT_CONSTRAINT | 1u << PL_SLOT_CHOOSE | BIT_INERTIA;
+  const pl_model* m = t->m;
+  for (int i = 0; i < m->choose.coords.n; i++) {
+    pl_symbol q = m->choose.coords.at[i];
+    if (t->uses[q.id] & tied) continue;
+    const char *name = pl_symbol_get(m->pool, q)->name, *choice = choice_for(job, m, name);
+    pl_diagnostic* d = pl_tell(job, PL_E058, m->choose.span, PL_F(job, "%s is chosen, but nothing ties it to the other coordinates", name),
+                               PL_F(job, "%s ist gewählt, aber nichts verbindet es mit den anderen Koordinaten", name));
+    if (choice) pl_report_fix(d, PL_F(job, "write  %s", choice), PL_F(job, "%s  schreiben", choice), choice);
+    else pl_report_fix(d, PL_F(job, "choose %s with x = ... %s ...", name, name), PL_F(job, "choose %s with x = ... %s ...", name, name), NULL);
+  }
 }
 
 static void check_coordinates(pl_job* job, use_table* t) {
@@ -136,6 +184,7 @@ void pl_check_use(pl_job* job, pl_model* m) {
   use_table t = {.m = m, .arena = job->arena, .uses = PL_ARRAY(job->arena, unsigned, pl_symbol_count(m->pool) + 1)};
   pl_model_each_slot(m, see_slot, &t);
   see_inertia(&t);
+  check_chosen(job, &t);
   check_coordinates(job, &t);
   check_params(job, &t);
   check_still_masses(job, m);
