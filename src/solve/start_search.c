@@ -178,7 +178,9 @@ static void unwind(pl_start* s) {
     if (s->held_q[i] || turns == 0) continue;
     memcpy(s->try_q, s->q, n * sizeof(double));
     s->try_q[i] -= 2 * pi * turns;
-    if (same_but_for_turns(s, s->q, s->try_q)) memcpy(s->q, s->try_q, n * sizeof(double));
+    int worst;
+    bool fits = pl_start_residual(s, s->try_q, &worst) <= met;
+    if (fits && same_but_for_turns(s, s->q, s->try_q)) memcpy(s->q, s->try_q, n * sizeof(double));
   }
 }
 

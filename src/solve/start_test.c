@@ -78,6 +78,19 @@ static void of_two_mirror_images_none_is_taken(void** state) {
   t_close(b);
 }
 
+// φ = -4 θ: a whole turn of φ is another place of θ, so it must not be taken out.
+static void a_turn_that_a_constraint_counts_is_kept(void** state) {
+  (void)state;
+  t_bench* b = t_open();
+  pl_expr theta = t_coord(b, "theta"), phi = t_coord(b, "phi");
+  t_constraint(b, "roll", pl_add(P, phi, pl_mul(P, pl_int(P, 4), theta)));
+  t_start(b, 0, 1.57079632679489662, 0);
+  assert_int_equal(make_and_start(b, half(b, pl_add(P, sq(b, b->v[0]), sq(b, b->v[1])))), PLEUEL_OK);
+  assert_true(pl_run_q(b->run)[0] == 1.57079632679489662);
+  assert_true(fabs(pl_run_q(b->run)[1] + 6.28318530717958648) < 1e-14);
+  t_close(b);
+}
+
 static void a_pin_position_determines_the_angle_up_to_turns(void** state) {
   (void)state;
   t_bench* b = crank();
@@ -239,6 +252,7 @@ int main(void) {
       cmocka_unit_test(an_angle_and_its_speed_determine_a_crank),
       cmocka_unit_test(two_assemblies_are_listed_and_the_nearer_one_is_taken),
     cmocka_unit_test(of_two_mirror_images_none_is_taken),
+    cmocka_unit_test(a_turn_that_a_constraint_counts_is_kept),
       cmocka_unit_test(a_pin_position_determines_the_angle_up_to_turns),
       cmocka_unit_test(no_assembly_fits_an_impossible_branch),
       cmocka_unit_test(a_violated_constraint_is_named_with_what_would_mend_it),
