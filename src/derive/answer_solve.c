@@ -294,6 +294,23 @@ static pl_expr closed_motion(pl_analysis* d, int i, pl_laplace_poles* poles) {
 
 pl_expr pl_closed_motion(pl_analysis* d, int i) { return closed_motion(d, i, NULL); }
 
+// The limit of a coordinate or velocity means that of its motion.  Another quantity, or one without a closed motion, stays.
+pl_expr pl_as_function_of_time(pl_analysis* d, pl_expr e, pl_expr name) {
+  int i = pl_kind_of(d->pool, name) == PL_SYMBOL ? pl_variable_index(d, pl_symbol_of(d->pool, name)) : -1;
+  if (i < 0 || !d->reduced) return e;
+  pl_replace* r = PL_ARRAY(d->arena, pl_replace, 2 * d->gen.n + 1);
+  int n = 0;
+  for (int k = 0; k < d->gen.n; k++) {
+    const pl_variable* c = &d->q.at[d->gen.at[k]];
+    if (!pl_has_symbol(d->pool, e, c->q) && !pl_has_symbol(d->pool, e, c->v)) continue;
+    pl_expr x = closed_motion(d, d->gen.at[k], NULL);
+    if (pl_is_poison(x)) return e;
+    r[n++] = (pl_replace){c->q, x};
+    r[n++] = (pl_replace){c->v, pl_diff(d->pool, x, pl_time(d->pool))};
+  }
+  return pl_subst(d->pool, e, r, n);
+}
+
 // The solution inserted into the equation, together with those of the coordinates it hangs on, and its start:
 // x(t)'' - x''(x, x') = 0, x(0) = x0.
 static void claim_motion(pl_analysis* d, int i, pl_expr x) {

@@ -199,7 +199,7 @@ static bool names_an_angle(pl_analysis* d, pl_expr name) {
   return i >= 0 && d->q.at[i].q.id == pl_symbol_of(d->pool, name).id && pl_is_angle(d, i);
 }
 
-static bool is_circular(pl_analysis* d, pl_expr name, pl_expr value) {
+bool pl_is_circular(pl_analysis* d, pl_expr name, pl_expr value) {
   if (pl_is_poison(value) || pl_is_constant(d->pool, name)) return false;
   if (pl_same(name, value)) return true;
   return pl_kind_of(d->pool, name) == PL_SYMBOL && pl_has_symbol(d->pool, value, pl_symbol_of(d->pool, name));
@@ -238,7 +238,7 @@ static pl_expr without_positive_factors(pl_analysis* d, pl_expr e) {
 }
 
 void pl_show_met(pl_analysis* d, pl_expr name, pl_expr value, pl_expr condition) {
-  if (is_circular(d, name, value)) {
+  if (pl_is_circular(d, name, value)) {
     pl_say_circular(d, name);
     return;
   }
@@ -524,7 +524,7 @@ static void of_the_state(pl_analysis* d, const pl_ask* ask, const pl_where* p) {
 static bool holds_on_every_motion(pl_analysis* d, const pl_where* p) {
   pl_found found = solutions(d, p);
   if (found.n != 1 || !found.complete || pl_has_symbol(d->pool, found.value[0], pl_time(d->pool))) return false;
-  return !pl_has_coordinates(d, found.value[0]) && !is_circular(d, p->ask->value, found.value[0]);
+  return !pl_has_coordinates(d, found.value[0]) && !pl_is_circular(d, p->ask->value, found.value[0]);
 }
 
 // One condition on the motion.  false: it is an equation for the state.

@@ -347,6 +347,7 @@ void pl_answer_series(pl_analysis* d, const pl_ask* ask);
 void pl_answer_value(pl_analysis* d, const pl_ask* ask);
 void pl_answer_expect(pl_analysis* d, const pl_ask* ask);
 void pl_answer_where(pl_analysis* d, const pl_ask* ask);                             // a quantity where conditions hold (answer_where.c)
+bool pl_is_circular(pl_analysis* d, pl_expr name, pl_expr value);                    // the value contains what it is the value of
 pl_expr pl_value_on(pl_analysis* d, const pl_motion* motion, pl_expr e, bool* eliminated);  // with the velocities that the motion gives
 pleuel_status pl_derive_families(pl_analysis* d);       // by pattern, with index i (answer_family.c)
 void pl_answer_pending(pl_analysis* d, const pl_ask* ask);
@@ -364,6 +365,7 @@ typedef struct pl_laplace_poles {
 pl_expr pl_laplace(pl_analysis* d, pl_expr f, pl_symbol s);
 pl_expr pl_laplace_back(pl_analysis* d, pl_expr F, pl_symbol s, pl_laplace_poles* poles);   // poles: NULL or zeroed
 pl_expr pl_closed_motion(pl_analysis* d, int i);         // coordinate i as a function of time, over x(0), x'(0); poison (answer_solve.c)
+pl_expr pl_as_function_of_time(pl_analysis* d, pl_expr e, pl_expr name);   // e, the value of `name`, on its closed motion if name is of the state
 void pl_why_transform(pl_analysis* d, int i, pl_expr transform, const pl_laplace_poles* poles);
 pl_expr pl_linear_motion(pl_analysis* d, int i, pl_laplace_poles* poles);        // coordinate i of a linear system as a function of t; poison if it is none
 

@@ -226,6 +226,23 @@ pl_expr pl_second_kind(pl_analysis* d, int i) {
 }
 
 // ---------------------------------------------------------------------------------------------- names of results
+// E(0), λ(0): on the motion, and there at its start.
+static pl_expr start_of_result(pl_analysis* d, const pl_result_name* r) {
+  pl_expr e = pl_on_motion(d, pl_with_results(d, r->of));
+  pl_replace* start = PL_ARRAY(d->arena, pl_replace, 2 * d->q.n + 1);
+  pl_motion init = {0};
+  int n = 0;
+  for (int k = 0; k < d->q.n; k++) {
+    const pl_variable* c = &d->q.at[k];
+    pl_expr q0, v0;
+    pl_motion_start(d, &init, c, &q0, &v0);
+    start[n++] = (pl_replace){c->q, q0};
+    start[n++] = (pl_replace){c->v, v0};
+  }
+  start[n++] = (pl_replace){pl_time(d->pool), pl_int(d->pool, 0)};
+  return pl_subst(d->pool, e, start, n);
+}
+
 static pl_expr result_value(pl_analysis* d, const pl_result_name* r) {
   switch (r->kind) {
     case PL_RES_T: return d->T;
@@ -239,6 +256,7 @@ static pl_expr result_value(pl_analysis* d, const pl_result_name* r) {
     case PL_RES_H: return pl_energy_integral(d);
     case PL_RES_DT: return pl_dt(d->pool, pl_on_maps(d, pl_with_results(d, r->of)));
     case PL_RES_DIFF: return pl_diff(d->pool, pl_on_maps(d, pl_with_results(d, r->of)), r->by);
+    case PL_RES_START: return start_of_result(d, r);
     case PL_RES_FORCE:
     case PL_RES_FORCE_NORM:
     case PL_RES_NORMAL: break;

@@ -165,25 +165,17 @@ static pl_quantity start_of(product* p, const pl_ast* place, pl_quantity q, cons
   pl_symbol s = symbol ? pl_symbol_of(l->pool, q.at[0]) : (pl_symbol){0};
   pl_role role = symbol ? pl_symbol_get(l->pool, s)->role : PL_R_ARRAY;
   if (role == PL_R_COORD || role == PL_R_VELOCITY) return pl_quantity_of(pl_sym(l->pool, pl_symbol_start(l->pool, s)));
-  if (role == PL_R_LOCAL && pl_model_result_name(l->m, s)) {
-    // E(0): a constant of the motion
-    const char* name = pl_symbol_get(l->pool, s)->name;
-    pl_symbol_info info = {.name = pl_format(l->arena, "%s(0)", name),
-                           .ascii = pl_format(l->arena, "%s_0", name),
-                           .role = PL_R_CONSTANT,
-                           .class = PL_C_OTHER,
-                           .dimension = pl_dimension_one()};
-    return pl_quantity_of(pl_sym(l->pool, pl_symbol_make(l->pool, &info)));
-  }
+  bool result = role == PL_R_MULTIPLIER || role == PL_R_ACCELERATION || (role == PL_R_LOCAL && pl_model_result_name(l->m, s));
+  if (result && l->results) return pl_quantity_of(pl_sym(l->pool, pl_model_result_derivative(l->m, PL_RES_START, q.at[0], (pl_symbol){0})));
   const char* text = pl_source_text(l->arena, pl_ast_span(place));
   pl_diagnostic* m = pl_lower_complain(l, PL_E016, span, "the start value of %s cannot be named",
                                        "der Startwert von %s lässt sich nicht benennen", text);
-  pl_because(l->job, m, "only coordinates, velocities and energies have one",
-             "nur Koordinaten, Geschwindigkeiten und Energien haben einen");
+  pl_because(l->job, m, "only coordinates and velocities have one, and results where they are asked for",
+             "nur Koordinaten und Geschwindigkeiten haben einen, und Ergebnisse dort, wo nach ihnen gefragt wird");
   return pl_quantity_bad();
 }
 
-// Names whose value at a time can be asked: coordinates, velocities, T V L E H.
+// Names whose value at a time can be asked: coordinates, velocities, T V L E H, multipliers.
 static bool has_moments(product* p, const pl_ast* f) {
   const pl_ast* base = pl_ast_base(f);
   if (f->kind != PL_AST_NAME && f->kind != PL_AST_PRIME && f->kind != PL_AST_INDEXED) return false;
@@ -191,6 +183,7 @@ static bool has_moments(product* p, const pl_ast* f) {
   if (base->kind != PL_AST_NAME || pl_scope_local(p->l, base->key)) return false;
   pl_entity* e = pl_scope_find(p->l, base->key);
   if (e) return e->kind == PL_ENTITY_COORD || e->kind == PL_ENTITY_FAMILY;
+  if (p->l->results && pl_scope_is_multiplier(p->l, base->key)) return true;
   return p->l->results && strlen(base->key) == 1 && strchr("TVLEH", base->key[0]) != NULL;
 }
 

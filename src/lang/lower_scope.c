@@ -366,6 +366,8 @@ static pl_rule* find_multiplier(pl_lower* l, const char* key) {
   return NULL;
 }
 
+bool pl_scope_is_multiplier(pl_lower* l, const char* key) { return find_multiplier(l, key) != NULL; }
+
 static bool is_momentum(pl_lower* l, const char* key, pl_entity** coordinate) {
   if (strncmp(key, "p_", 2) != 0) return false;
   *coordinate = pl_scope_find(l, pl_intern(l->names, key + 2));

@@ -429,6 +429,11 @@ static void walk_results(pl_dim_pass* d) {
       if (f) pl_dim_unify(&d->system, pl_dim_unknown(&d->system, pl_dim_symbol_var(d, r->symbol)), times(d, f, -1, over), (pl_span){0});
       continue;
     }
+    if (r->kind == PL_RES_START) {
+      const pl_dim_form* f = form_of_side(d, r->of);
+      if (f) pl_dim_unify(&d->system, pl_dim_unknown(&d->system, pl_dim_symbol_var(d, r->symbol)), f, (pl_span){0});
+      continue;
+    }
     bool force = r->kind == PL_RES_FORCE || r->kind == PL_RES_FORCE_NORM || r->kind == PL_RES_NORMAL;
     pl_dim_unify(&d->system, pl_dim_unknown(&d->system, pl_dim_symbol_var(d, r->symbol)),
                  force ? energy_over(d, 1, 0) : energy(d), (pl_span){0});

@@ -98,6 +98,7 @@ static const char* result_text(pl_arena* a, pl_result_kind kind, const char* lab
     case PL_RES_NORMAL: return pl_format(a, "normal(%s)", label ? label : "");
     case PL_RES_DT: return pl_format(a, "dt(%s)", label ? label : "");
     case PL_RES_DIFF: return pl_format(a, "diff(%s)", label ? label : "");
+    case PL_RES_START: return pl_format(a, "%s(0)", label ? label : "");
   }
   return "?";
 }

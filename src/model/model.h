@@ -202,7 +202,7 @@ typedef struct pl_event {
 // They stand in expressions as symbols of role PL_R_LOCAL made by pl_model_result_symbol.
 typedef enum pl_result_kind { PL_RES_T, PL_RES_V, PL_RES_L, PL_RES_E, PL_RES_H, PL_RES_FORCE /* force(label), a vector */,
                               PL_RES_FORCE_NORM /* norm(force(label)) */, PL_RES_NORMAL /* normal(label) */,
-                              PL_RES_DT /* dt(E) */, PL_RES_DIFF /* diff(T, φ') */ } pl_result_kind;
+                              PL_RES_DT /* dt(E) */, PL_RES_DIFF /* diff(T, φ') */, PL_RES_START /* E(0), λ(0), x''(0) */ } pl_result_kind;
 typedef struct pl_result_name {
   pl_symbol symbol;
   pl_result_kind kind;
