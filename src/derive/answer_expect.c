@@ -109,10 +109,21 @@ static bool unsolved(pl_analysis* d, pl_expr e) {
   return pl_has_role(d->pool, e, PL_R_ACCELERATION) || pl_has_role(d->pool, e, PL_R_MULTIPLIER);
 }
 
+// A side of the statement, on the motion that `from` names.
+static pl_expr side_of(pl_analysis* d, const pl_ask* ask, pl_expr e, bool* unused) {
+  pl_line line;
+  bool eliminated = false;
+  if (!ask->motion.given) return pl_on_motion(d, pl_with_results(d, e));
+  e = pl_value_on(d, &ask->motion, e, &line, &eliminated);
+  *unused |= !eliminated && pl_has_role(d->pool, e, PL_R_VELOCITY);
+  return e;
+}
+
 void pl_answer_expect(pl_analysis* d, const pl_ask* ask) {
   pl_section_open(d, ask, "Expected", "Erwartet");
   const pl_condition* c = &ask->where.at[0];
-  pl_expr left = pl_on_motion(d, pl_with_results(d, c->left)), right = pl_on_motion(d, pl_with_results(d, c->right));
+  bool unused = false;   // the start gives no velocities
+  pl_expr left = side_of(d, ask, c->left, &unused), right = side_of(d, ask, c->right, &unused);
   for (int k = 1; k < ask->where.n; k++) {
     left = pl_subst_expr(d->pool, left, ask->where.at[k].left, ask->where.at[k].right);
     right = pl_subst_expr(d->pool, right, ask->where.at[k].left, ask->where.at[k].right);
@@ -123,7 +134,8 @@ void pl_answer_expect(pl_analysis* d, const pl_ask* ask) {
     equal = pl_holds_on_loops(d, left, right);
   }
   if (equal == PL_UNKNOWN) equal = zero_by_turns(d, pl_sub(d->pool, left, right));
-  if (equal == PL_NO && (unsolved(d, left) || unsolved(d, right))) equal = PL_UNKNOWN;
+  if (equal == PL_NO && (unused || unsolved(d, left) || unsolved(d, right))) equal = PL_UNKNOWN;
+  if (equal == PL_UNKNOWN && unused) pl_say_from_unused(d);
   const pl_form* claim = pl_feq(d, pl_fe(d, c->left), pl_fe(d, c->right));
   left = pl_alg_normal(d->tower, left);
   pl_value* v = pl_answer(d, "expect", equal == PL_YES ? right : left, NULL);

@@ -176,6 +176,24 @@ static int show_elimination(pl_analysis* d, pl_expr v2, pl_expr q0, pl_expr v0) 
   return step->number;
 }
 
+// Several freedoms: the momenta that stay give the other velocities.
+static int show_line(pl_analysis* d, const pl_line* l) {
+  const pl_variable* c = &d->q.at[l->i];
+  const pl_form* square = pl_form_power(d->arena, pl_fs(d, c->v), pl_form_leaf(d->arena, pl_int(d->pool, 2)));
+  if (l->drag) {
+    pl_say(d, "{1} contains {2} only as its square, which follows from d({3})/d{4} = 2 {1}, an equation linear in {3}:",
+           "{1} enthält {2} nur im Quadrat, das aus d({3})/d{4} = 2 {1} folgt, einer in {3} linearen Gleichung:", 4,
+           pl_fs(d, c->a), pl_fs(d, c->v), square, pl_fs(d, c->q));
+  } else {
+    pl_say(d, "The energy and the momenta of cyclic coordinates are conserved; from this start:",
+           "Die Energie und die Impulse zyklischer Koordinaten sind erhalten; von diesem Start aus:", 0);
+    for (int k = 0; k < l->n; k++) {
+      pl_show(d, pl_feq(d, pl_f(d, l->momentum[k], PL_S_ENERGY), pl_f(d, l->momentum0[k], PL_S_ENERGY)));
+    }
+  }
+  return pl_show_numbered(d, pl_feq(d, square, pl_f(d, l->v2, PL_S_QUOTIENT)))->number;
+}
+
 static void show_differentiated(pl_analysis* d, int k) {
   const pl_bond* l = &d->g.at[k];
   const char* g = l->source->name.text;
@@ -219,15 +237,23 @@ static pl_lambda_value lambda_for(pl_analysis* d, int k, const pl_motion* motion
     pl_step_value(d, step, l->lambda_value, pl_dimension_of_expr(d, l->lambda_value, &known));
     out.number = step->number;
   }
-  pl_expr v2, q0, v0;
-  if (!moves || !motion->given || !pl_velocity_squared(d, motion, &v2, &q0, &v0)) return out;
+  if (!motion->given || !pl_has_role(d->pool, l->lambda_value, PL_R_VELOCITY)) return out;
+  pl_line line;
+  if (!pl_line_from(d, motion, &line)) {
+    if (show) pl_say_from_unused(d);
+    return out;
+  }
   if (show) {
-    int number = show_elimination(d, v2, q0, v0);
+    bool alone = d->gen.n == 1 && !line.drag;
+    int number = alone ? show_elimination(d, line.v2, line.q0, line.v0) : show_line(d, &line);
     if (out.number) pl_say(d, "{1} inserted into {2}:", "{1} in {2} eingesetzt:", 2, pl_fref(d, number), pl_fref(d, out.number));
   }
-  out.value = pl_without_velocity(d, l->lambda_value, v2);
+  out.value = pl_along_line(d, &line, l->lambda_value);
   out.eliminated = true;
-  pl_claim_free(d, PL_CLAIM_INSERTED, out.value, pl_subst1(d->pool, l->lambda_value, d->q.at[d->gen.at[0]].v, pl_sqrt(d->pool, v2)));
+  if (show) pl_say_way(d, &line, l->lambda_value);
+  pl_expr root = pl_mul(d->pool, pl_int(d->pool, line.direction), pl_sqrt(d->pool, line.v2));
+  pl_expr inserted = pl_subst(d->pool, l->lambda_value, line.velocity, line.n);
+  pl_claim_free(d, PL_CLAIM_INSERTED, out.value, pl_subst1(d->pool, inserted, d->q.at[line.i].v, root));
   return out;
 }
 

@@ -10,13 +10,10 @@ const char* pl_text_of(pl_analysis* d, pl_expr e) {
 }
 
 // e on the motion; where a motion is meant, its velocities inserted.
-pl_expr pl_value_on(pl_analysis* d, const pl_motion* motion, pl_expr e, bool* eliminated) {
+pl_expr pl_value_on(pl_analysis* d, const pl_motion* motion, pl_expr e, pl_line* line, bool* eliminated) {
   e = pl_alg_normal(d->tower, pl_on_motion(d, pl_with_results(d, e)));
-  *eliminated = false;
-  pl_line line;
-  if (!pl_has_role(d->pool, e, PL_R_VELOCITY) || !pl_line_of(d, motion, &line)) return e;
-  *eliminated = true;
-  return pl_along_line(d, &line, e);
+  *eliminated = pl_has_role(d->pool, e, PL_R_VELOCITY) && pl_line_from(d, motion, line);
+  return *eliminated ? pl_along_line(d, line, e) : e;
 }
 
 static bool unsolved(pl_analysis* d, pl_expr e) {
@@ -56,7 +53,8 @@ static bool kinematic(const pl_analysis* d) { return d->particle.n == 0 && d->mo
 static void plain_value(pl_analysis* d, const pl_ask* ask) {
   if (pl_kind_of(d->pool, ask->value) == PL_SYMBOL && pl_answer_follower(d, pl_symbol_of(d->pool, ask->value))) return;
   bool eliminated = false;
-  pl_expr e = ask->motion.given ? pl_value_on(d, &ask->motion, ask->value, &eliminated)
+  pl_line line;
+  pl_expr e = ask->motion.given ? pl_value_on(d, &ask->motion, ask->value, &line, &eliminated)
                                 : pl_alg_normal(d->tower, pl_on_motion(d, pl_with_results(d, ask->value)));
   if (pl_is_poison(e)) {
     pl_answer_pending(d, ask);
@@ -69,12 +67,14 @@ static void plain_value(pl_analysis* d, const pl_ask* ask) {
   if (unsolved(d, e) && !pl_not_determined(d, e) && pl_show_value_structured(d, ask->value, e)) return;
   bool given = kinematic(d) && d->reduced && !pl_same(ask->value, e);   // accelerations of generalized coordinates are
   if (!given && stays_open(d, ask->value, e)) return;
+  if (ask->motion.given && !eliminated && pl_has_role(d->pool, e, PL_R_VELOCITY)) pl_say_from_unused(d);
   const pl_form* form = pl_f(d, e, PL_S_QUOTIENT);
   pl_step* step = pl_show_numbered(d, pl_feq(d, pl_fe(d, ask->value), form));
   bool known;
   pl_step_value(d, step, e, pl_dimension_of_expr(d, e, &known));
   if (!eliminated) pl_claim_that(d, PL_CLAIM_OTHER, pl_form_value(d->pool, form), pl_with_results(d, ask->value));
   pl_answer(d, pl_expr_text(d->arena, d->pool, ask->value), e, form);
+  if (eliminated) pl_say_way(d, &line, pl_on_motion(d, pl_with_results(d, ask->value)));
 }
 
 // The request as a German title: the words between its formulas, "ϑ bei λ = 0 mit Start ϑ = 0 in Ruhe".

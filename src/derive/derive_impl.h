@@ -348,7 +348,8 @@ void pl_answer_value(pl_analysis* d, const pl_ask* ask);
 void pl_answer_expect(pl_analysis* d, const pl_ask* ask);
 void pl_answer_where(pl_analysis* d, const pl_ask* ask);                             // a quantity where conditions hold (answer_where.c)
 bool pl_is_circular(pl_analysis* d, pl_expr name, pl_expr value);                    // the value contains what it is the value of
-pl_expr pl_value_on(pl_analysis* d, const pl_motion* motion, pl_expr e, bool* eliminated);  // with the velocities that the motion gives
+typedef struct pl_line pl_line;
+pl_expr pl_value_on(pl_analysis* d, const pl_motion* motion, pl_expr e, pl_line* line, bool* eliminated);  // with the velocities that the motion gives
 pleuel_status pl_derive_families(pl_analysis* d);       // by pattern, with index i (answer_family.c)
 void pl_answer_pending(pl_analysis* d, const pl_ask* ask);
 
@@ -376,7 +377,7 @@ bool pl_velocity_squared(pl_analysis* d, const pl_motion* motion, pl_expr* v2, p
 // A motion reduced to one coordinate by every integral that is known: the velocities of cyclic coordinates follow from their momenta,
 // the last velocity from the energy.
 enum { pl_max_line = 8 };
-typedef struct pl_line {
+struct pl_line {
   int i;                            // the coordinate that is left
   pl_expr v2;                       // its velocity squared, in terms of it alone
   pl_expr q0, v0;                   // its start
@@ -386,9 +387,13 @@ typedef struct pl_line {
   pl_expr momentum[pl_max_line];    // the momentum, and its value at the start
   pl_expr momentum0[pl_max_line];
   int direction;                    // of the motion after the start: +1, -1
-} pl_line;
+  bool drag;                        // not by the energy, and only while the motion goes this way
+};
 void pl_motion_start(pl_analysis* d, const pl_motion* motion, const pl_variable* c, pl_expr* q0, pl_expr* v0);   // eliminate.c
 bool pl_line_of(pl_analysis* d, const pl_motion* motion, pl_line* out);
+bool pl_line_from(pl_analysis* d, const pl_motion* motion, pl_line* out);   // the same, or with drag as the square of the velocity
+void pl_say_way(pl_analysis* d, const pl_line* l, pl_expr e);   // e changes with the sign of the velocity: which one is meant
+void pl_say_from_unused(pl_analysis* d);                // why the start gives no velocities
 pl_expr pl_along_line(pl_analysis* d, const pl_line* l, pl_expr e);   // velocities inserted
 bool pl_is_angle(pl_analysis* d, int i);                // coordinate i is a pure number under sin or cos
 bool pl_pushed(pl_analysis* d, int i);                  // a force without potential acts along coordinate i (answer_conserved.c)

@@ -108,3 +108,55 @@ pl_expr pl_along_line(pl_analysis* d, const pl_line* l, pl_expr e) {
   }
   return pl_alg_normal(d->tower, sum);
 }
+
+// ---------------------------------------------------------------------------------------------- drag
+// Drag with the square of the velocity, while the motion goes one way: q'' = a(q) + b q'^2 with constant b is linear in u = q'^2,
+//   du/dq = 2 a + 2 b u,   u = e^{2 b q} (u0 e^{-2 b q0} + ∫ 2 a e^{-2 b q} dq from q0).
+static bool drag_line(pl_analysis* d, const pl_motion* motion, pl_line* l) {
+  *l = (pl_line){.drag = true};
+  if (!d->reduced || !d->solved || d->gen.n != 1 || d->loops.n > 0 || pl_nonholonomic(d)) return false;
+  pl_pool* p = d->pool;
+  l->i = d->gen.at[0];
+  const pl_variable* c = &d->q.at[l->i];
+  pl_motion_start(d, motion, c, &l->q0, &l->v0);
+  pl_replace start[2] = {{c->q, l->q0}, {c->v, l->v0}};
+  l->direction = direction_of(d, l, start, 2);
+  pl_expr v = pl_sym(p, c->v), along = pl_mul(p, pl_int(p, l->direction), v), part[3], q = pl_sym(p, c->q);
+  pl_expr a = pl_subst_expr(p, pl_alg_normal(d->tower, d->acceleration[l->i]), pl_call(p, PL_ABS, v), along);
+  if (pl_has_symbol(p, a, pl_time(p)) || pl_alg_coefficients(d->tower, a, c->v, part, 2) != 2) return false;
+  if (!pl_is_zero_node(p, part[1]) || pl_has_coordinates(d, part[2])) return false;
+  pl_expr twice_b = pl_mul(p, pl_int(p, 2), part[2]), fade = pl_call(p, PL_EXP, pl_neg(p, pl_mul(p, twice_b, q)));
+  pl_expr F = pl_alg_integral(d->tower, pl_alg_normal(d->tower, pl_mul_n(p, (pl_expr[]){pl_int(p, 2), part[0], fade}, 3)), c->q);
+  if (pl_is_poison(F)) return false;
+  pl_expr grown = pl_sub(p, F, pl_subst1(p, F, c->q, l->q0));
+  pl_expr kept = pl_mul(p, pl_square(p, l->v0), pl_subst1(p, fade, c->q, l->q0));
+  l->v2 = pl_alg_normal(d->tower, pl_div(p, pl_add(p, grown, kept), fade));
+  return !pl_is_poison(l->v2);
+}
+
+bool pl_line_from(pl_analysis* d, const pl_motion* motion, pl_line* l) { return pl_line_of(d, motion, l) || drag_line(d, motion, l); }
+
+// ---------------------------------------------------------------------------------------------- sentences
+void pl_say_way(pl_analysis* d, const pl_line* l, pl_expr e) {
+  pl_symbol v = d->q.at[l->i].v;
+  pl_expr on = pl_subst(d->pool, e, l->velocity, l->n), back = pl_subst1(d->pool, on, v, pl_neg(d->pool, pl_sym(d->pool, v)));
+  if (!l->drag && pl_alg_equal(d->tower, on, back) == PL_YES) return;
+  pl_say(d, "This holds while {1}.", "Das gilt, solange {1}.", 1, pl_frel(d, pl_fs(d, v), l->direction > 0 ? ">" : "<", pl_form_leaf(d->arena, pl_int(d->pool, 0))));
+}
+
+void pl_say_from_unused(pl_analysis* d) {
+  const char *en = "more coordinates are free than integrals are known", *de = "es sind mehr Koordinaten frei, als Integrale bekannt sind";
+  if (pl_dissipates(d)) {
+    en = "a force without potential acts";
+    de = "es wirkt eine Kraft ohne Potential";
+  } else if (!pl_scleronomic(d)) {
+    en = "a force or a constraint contains t";
+    de = "eine Kraft oder eine Zwangsbedingung enthält t";
+  } else if (pl_nonholonomic(d)) {
+    en = "a constraint contains velocities";
+    de = "eine Zwangsbedingung enthält Geschwindigkeiten";
+  }
+  pl_say(d, pl_format(d->arena, "The velocities from this start are not known in closed form: %s. The formula holds for every start.", en),
+         pl_format(d->arena, "Die Geschwindigkeiten ab diesem Start sind nicht geschlossen bekannt: %s. Die Formel gilt für jeden Start.", de), 0);
+  d->section->not_found = true;
+}

@@ -235,6 +235,7 @@ static void lower_expect(pl_lower* l, const pl_ast* i, pl_ask* a) {
   pl_push(l->arena, a->where, c);
   a->value = c.left;
   PUSH_CONDITIONS(l, pl_ast_kid(i, 1), a->where);
+  lower_motion(l, pl_ast_kid(i, 2), &a->motion);
 }
 
 // ---------------------------------------------------------------------------------------------- forces
