@@ -206,13 +206,14 @@ def check_named(ex, named, active):
     for place in named:
         if any(k not in w.q for k in place):
             continue
-        best = None
+        best, closed = None, False
         for m in (ex.first + ex.near_by)[:10]:
             q = [place[k] if place.get(k) is not None else x for k, x in zip(w.q, m.q)]
             fixed = [k for k, x in place.items() if x is not None]
             q = completed(w, q, fixed, active)
             if q is None:
                 continue
+            closed = True
             try:
                 r, p = static_residual(w, q, active)
             except Lost:
@@ -220,6 +221,8 @@ def check_named(ex, named, active):
             size = max([abs(x) for x in p.f] + [1.0])
             off = max(abs(x) for x in r) / size
             best = off if best is None else min(best, off)
+        if not closed:
+            ex.report.check("equilibrium", False, f"{place} is named as a place of rest; no such place fulfils the constraints")
         if best is not None:
             ex.report.check("equilibrium", best < 1e-6, lambda: (
                 f"{place} is named as a place of rest; a force of {best} is left there"))
