@@ -375,29 +375,85 @@ static void name_links(pl_recorder* r, int i, pl_link* link) {
   }
 }
 
-// The one-sided constraint that a map equation takes for granted: the map, inserted, makes it an identity.
-static int contact_of_map(pl_recorder* r, int k) {
-  const pl_model* m = r->model;
-  for (int i = 0; i < m->constraints.n; i++) {
-    const pl_constraint* c = &m->constraints.at[i];
-    if (c->relation == PL_EQ || c->block) continue;
-    pl_expr inserted = c->g;
-    bool uses = false;
-    for (int j = 0; j < m->choose.n_maps; j++) {
-      pl_expr next = pl_subst_expr(r->pool, inserted, m->choose.maps[j].old, m->choose.maps[j].map);
-      if (j == k) uses = !pl_same(next, inserted);
-      inserted = next;
+// ---------------------------------------------------------------------------------------------- what maps take for granted
+// A constraint that may be missing: a contact, or what an event releases or attaches.
+static bool may_be_missing(const pl_model* m, const pl_constraint* c) {
+  if (c->block) return false;
+  if (c->relation != PL_EQ || c->off || c->while_label) return true;
+  for (int i = 0; i < m->events.n; i++) {
+    const pl_event* e = &m->events.at[i];
+    for (int k = 0; k < e->actions.n; k++) {
+      bool deed = e->actions.at[k].kind == PL_DO_RELEASE || e->actions.at[k].kind == PL_DO_ATTACH;
+      if (deed && e->actions.at[k].label && pl_model_constraint(m, e->actions.at[k].label) == c) return true;
     }
-    if (!uses) continue;
-    bool vanishes = true;
-    for (uint64_t seed = 1; vanishes && seed <= 3; seed++) {
-      bool ok;
-      uint64_t residue = pl_eval_mod(pl_mod_point_make(r->arena, r->pool, seed), inserted, &ok);
-      vanishes = ok && residue == 0;
-    }
-    if (vanishes) return r->first_link[i];
   }
-  return -1;
+  return false;
+}
+
+static bool vanishes(pl_recorder* r, pl_expr e) {
+  for (uint64_t seed = 1; seed <= 3; seed++) {
+    bool ok;
+    uint64_t residue = pl_eval_mod(pl_mod_point_make(r->arena, r->pool, seed), e, &ok);
+    if (!ok || residue != 0) return false;
+  }
+  return true;
+}
+
+// Whether g is zero identically with the maps that are marked.
+static bool is_granted(pl_recorder* r, const pl_constraint* c, const bool* map) {
+  const pl_choose* choose = &r->model->choose;
+  pl_expr e = c->g;
+  for (int k = 0; k < choose->n_maps; k++) {
+    if (map[k]) e = pl_subst_expr(r->pool, e, choose->maps[k].old, choose->maps[k].map);
+  }
+  return vanishes(r, e);
+}
+
+// The fewest maps that make a constraint an identity; false: they do not.
+static bool maps_granting(pl_recorder* r, const pl_constraint* c, bool* map) {
+  int n = r->model->choose.n_maps;
+  for (int k = 0; k < n; k++) map[k] = true;
+  if (c->has_velocity || !is_granted(r, c, map)) return false;
+  for (int k = 0; k < n; k++) {
+    map[k] = false;
+    if (!is_granted(r, c, map)) map[k] = true;
+  }
+  return true;
+}
+
+// Maps that go with constraint i: those that it is granted by, but for those that the others are granted by too.
+static void list_own_maps(int i, int n_c, int n_maps, const bool* granted, const bool* map, bool* own) {
+  bool any = false;
+  for (int k = 0; k < n_maps; k++) {
+    own[k] = map[i * n_maps + k];
+    for (int j = 0; j < n_c; j++) own[k] = own[k] && (j == i || !granted[j] || !map[j * n_maps + k]);
+    any |= own[k];
+  }
+  for (int k = 0; k < n_maps && !any; k++) own[k] = map[i * n_maps + k];
+}
+
+static void find_needs(pl_recorder* r, pl_link* map_link) {
+  const pl_model* m = r->model;
+  int n_c = m->constraints.n, n_maps = m->choose.n_maps;
+  if (n_maps == 0) return;
+  bool *granted = PL_ARRAY(r->arena, bool, n_c + 1), *map = PL_ARRAY(r->arena, bool, n_c * n_maps + 1), *own = PL_ARRAY(r->arena, bool, n_maps);
+  bool any = false;
+  for (int i = 0; i < n_c; i++) any |= may_be_missing(m, &m->constraints.at[i]);
+  for (int i = 0; i < n_c && any; i++) {
+    const pl_constraint* c = &m->constraints.at[i];
+    granted[i] = !c->block && maps_granting(r, c, &map[i * n_maps]);
+  }
+  for (int i = 0; i < n_c && any; i++) {
+    if (!granted[i] || !may_be_missing(m, &m->constraints.at[i])) continue;
+    list_own_maps(i, n_c, n_maps, granted, map, own);
+    for (int k = 0; k < n_maps; k++) {
+      if (!own[k]) continue;
+      int* needs = PL_ARRAY(r->arena, int, map_link[k].n_needs + 1);
+      for (int j = 0; j < map_link[k].n_needs; j++) needs[j] = map_link[k].needs[j];
+      needs[map_link[k].n_needs++] = r->first_link[i];
+      map_link[k].needs = needs;
+    }
+  }
 }
 
 static void make_links(pl_recorder* r) {
@@ -407,8 +463,9 @@ static void make_links(pl_recorder* r) {
     pl_link* out = &link[r->out->n_declared + k];
     out->name = pl_format(r->arena, "choose %s", pl_expr_text(r->arena, r->pool, r->model->choose.maps[k].old));
     out->priority = 1;
-    out->contact = contact_of_map(r, k);
+    out->contact = -1;
   }
+  find_needs(r, link + r->out->n_declared);
   pl_record_rubs(r, link);
   r->out->setup.links = link;
   r->out->setup.n_c = r->n_links;
@@ -626,6 +683,7 @@ void pl_record_dump(pl_text* out, const pl_model* model, const pl_recording* r) 
     pl_text_addf(out, "  g%-3d %s%s", i, c->name, c->side > 0 ? "  >= 0" : c->side < 0 ? "  <= 0" : "");
     if (c->priority) pl_text_add(out, "  (map)");
     if (c->contact >= 0) pl_text_addf(out, "  while %s", s->links[c->contact].name);
+    for (int k = 0; k < c->n_needs; k++) pl_text_addf(out, "  while %s", s->links[c->needs[k]].name);
     pl_text_add(out, "\n");
   }
   for (int i = 0; i < s->n_patterns; i++) {

@@ -128,6 +128,7 @@ void pl_variation_switch(pl_recorder* r) {
     link[c] = s->links[c];
     link[c].side = 0;
     link[c].contact = -1;
+    link[c].n_needs = 0;
     link[c].off = link[c].rope = false;
     link[c].restitution = 0;
   }

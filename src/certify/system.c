@@ -136,6 +136,7 @@ void pl_system_hold(pl_system* s) {
   s->n_wanted = 0;
   for (int c = 0; c < s->n_c; c++) {
     s->active[c] = s->held[c] && (links[c].contact < 0 || s->held[links[c].contact]);
+    for (int i = 0; i < links[c].n_needs; i++) s->active[c] = s->active[c] && s->held[links[c].needs[i]];
     s->n_wanted += s->active[c] && !s->p->implied[c];
   }
 }

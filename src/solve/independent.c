@@ -33,12 +33,19 @@ static void find_orphans(pl_run* run) {
     if (run->place_n[i] == 0) run->v[i] = 0;
 }
 
+// What a row goes with is there: its contact, and what a map takes for granted.
+static bool stands(const pl_run* run, const pl_link* l) {
+  if (l->contact >= 0 && (!run->on[l->contact] || run->rebounds[l->contact])) return false;
+  for (int i = 0; i < l->n_needs; i++)
+    if (!run->on[l->needs[i]] || run->rebounds[l->needs[i]]) return false;
+  return true;
+}
+
 void pl_active_update(pl_run* run) {
   const pl_link* link = run->setup->links;
   run->n_active = 0;
   for (int c = 0; c < run->n_c; c++) {
-    int contact = link[c].contact;
-    run->active[c] = run->on[c] && !link[c].rub && (contact < 0 || (run->on[contact] && !run->rebounds[contact]));
+    run->active[c] = run->on[c] && !link[c].rub && stands(run, &link[c]);
     run->n_active += run->active[c];
   }
   pl_friction_activate(run);

@@ -77,7 +77,8 @@ static void find_multipliers(pl_run* run, pl_indeterminate* s) {
   for (int c = 0; c < run->n_c; c++) {
     const pl_link* link = &run->setup->links[c];
     bool met = link->side != 0 && !link->velocity && run->met[c] && !run->active[c] && no_rate(run, c);
-    if (!link->rub && (run->active[c] || met)) take(s, c);
+    // equations that only define coordinates carry no force of their own
+    if (!link->rub && link->priority == 0 && (run->active[c] || met)) take(s, c);
   }
   for (int r = 0; r < run->setup->n_rubs; r++) {
     const pl_rub* rub = &run->setup->rubs[r];

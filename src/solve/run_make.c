@@ -20,6 +20,9 @@ static pleuel_status check_links(pl_job* job, const pl_setup* s) {
     if (l->side < -1 || l->side > 1) return pl_fail(job, PLEUEL_USAGE, "%s: side is -1, 0 or 1", l->name);
     if (l->contact >= s->n_c || l->contact == c || (l->contact >= 0 && s->links[l->contact].side == 0))
       return pl_fail(job, PLEUEL_USAGE, "%s goes with a contact that is none", l->name);
+    for (int i = 0; i < l->n_needs; i++)
+      if (l->needs[i] < 0 || l->needs[i] >= s->n_c || l->needs[i] == c)
+        return pl_fail(job, PLEUEL_USAGE, "%s needs a constraint that is none", l->name);
     if (!(l->restitution >= 0 && l->restitution <= 1))
       return pl_fail(job, PLEUEL_USAGE, "%s: restitution is between 0 and 1", l->name);
   }

@@ -34,8 +34,9 @@ typedef struct pl_link {
   bool velocity;                      // nonholonomic: only on velocity level
   int side;                           // 0 two-sided; +1: g >= 0, λ >= 0 in contact; -1: g <= 0, λ <= 0
   int priority;                       // 0 declared, 1 map equations of `choose`; of dependent rows the lower is kept
-  int contact;                        // `while`: the one-sided constraint it goes with, or -1.  A map equation that holds
-                                      // only in contact is written so too
+  int contact;                        // `while`: the one-sided constraint it goes with, or -1
+  int n_needs;
+  const int* needs;                   // of a map equation: constraints that it takes for granted; without one it does not hold
   bool off;                           // starts inactive; an event may attach it
   bool minus;                         // its column shows -λ: the sign convention of the model
   double restitution;                 // of impacts on it, 0 inelastic

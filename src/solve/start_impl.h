@@ -13,6 +13,8 @@ typedef struct pl_start {
   bool* solution_on;       // contacts of each                          (room x n_c)
   int n_solutions;
   bool* sits;              // one-sided, closed without being given     (n_c)
+  bool* before_on;         // contacts before velocities were looked at (n_c)
+  bool on_maps;            // with the contacts that maps take for granted
   int worst_link;          // of the last solve that failed
   double worst;            // its relative residual
   int below;               // one-sided constraint that given values put on the wrong side, -1

@@ -31,6 +31,7 @@ static pl_start make(pl_run* run) {
   s.solutions = PL_ARRAY(a, double, q* PL_START_ROOM + 1);
   s.solution_on = PL_ARRAY(a, bool, c* PL_START_ROOM + 1);
   s.sits = PL_ARRAY(a, bool, c + 1);
+  s.before_on = PL_ARRAY(a, bool, c + 1);
   for (int i = 0; i < run->n_q; i++) {
     s.held_q[i] = run->setup->coordinates[i].has_q;
     s.held_v[i] = run->setup->coordinates[i].has_v;
@@ -114,13 +115,33 @@ static bool decide_contact(pl_start* s, int c) {
   return pl_start_positions(s, s->held_q) && side_value(s, c) >= -met;
 }
 
+// Contacts that a map takes for granted: whoever writes the map means them.
+static bool close_granted(pl_start* s) {
+  pl_run* run = s->run;
+  bool any = false;
+  for (int c = 0; c < run->n_c; c++) {
+    const pl_link* map = &run->setup->links[c];
+    for (int i = 0; i < map->n_needs; i++) {
+      int k = map->needs[i];
+      if (run->setup->links[k].side == 0 || run->detached[k] || run->on[k]) continue;
+      run->on[k] = any = true;
+    }
+  }
+  pl_active_update(run);
+  return any;
+}
+
+static bool decide_contacts(pl_start* s) {
+  for (int c = 0; c < s->run->n_c; c++)
+    if (!s->run->on[c] && !decide_contact(s, c)) return false;
+  return pl_start_positions(s, s->held_q);
+}
+
 // Positions from the guess in s->q, contacts decided.
 static bool solve_positions(pl_start* s) {
   only_two_sided(s);
-  if (!pl_start_positions(s, s->held_q)) return false;
-  for (int c = 0; c < s->run->n_c; c++)
-    if (!decide_contact(s, c)) return false;
-  return pl_start_positions(s, s->held_q);
+  if (s->on_maps) close_granted(s);
+  return pl_start_positions(s, s->held_q) && decide_contacts(s);
 }
 
 // ---------------------------------------------------------------------------------------------- branches
@@ -226,8 +247,7 @@ static bool a_guess_was_given(const pl_run* run) {
   return false;
 }
 
-// Looks for solutions; how many fit is in s->n_solutions.
-static void search(pl_start* s) {
+static void search_guesses(pl_start* s) {
   pl_run* run = s->run;
   int n_free = count_free(s), most = n_free == 0 ? 1 : run->kkt.dense ? GUESSES : GUESSES_LARGE;
   for (int number = 0; number < most; number++) {
@@ -243,6 +263,17 @@ static void search(pl_start* s) {
     // nothing to compare with: the first solution is the start
     if (!determined || (number == 0 && a_guess_was_given(run))) return;
   }
+}
+
+// Looks for solutions; how many fit is in s->n_solutions.  With the contacts that maps take for granted first; where given
+// values lie elsewhere, without.
+static void search(pl_start* s) {
+  only_two_sided(s);
+  s->on_maps = close_granted(s);
+  if (s->on_maps) search_guesses(s);
+  if (s->n_solutions > 0) return;
+  s->on_maps = false;
+  search_guesses(s);
 }
 
 // ---------------------------------------------------------------------------------------------- what went wrong
@@ -435,12 +466,38 @@ static bool leaves(pl_start* s, int c) {
   return false;
 }
 
+// Contacts that the given velocities run into: an impact at the start, which the run computes.  All that move are taken out.
+static bool run_into(pl_start* s) {
+  pl_run* run = s->run;
+  bool any = false;
+  for (int c = 0; c < run->n_c; c++) {
+    s->before_on[c] = run->on[c];
+    if (run->setup->links[c].side != 0 && !run->setup->links[c].velocity) run->on[c] = false;
+  }
+  pl_active_update(run);
+  set_velocities(s);
+  bool solved = pl_start_velocities(s, s->held_v);
+  for (int c = 0; c < run->n_c; c++) {
+    if (run->on[c] == s->before_on[c]) continue;
+    bool moves = solved && fabs(run->r[c]) > met * run->r_size[c];
+    run->on[c] = !moves;
+    if (moves) s->sits[c] = false;
+    any |= moves;
+  }
+  pl_active_update(run);
+  set_velocities(s);
+  return any && pl_start_velocities(s, s->held_v);
+}
+
 static pleuel_status find_velocities(pl_start* s) {
   pl_run* run = s->run;
   set_velocities(s);
   if (pl_start_velocities(s, s->held_v)) return PLEUEL_OK;
   for (int c = 0; c < run->n_c; c++)
     if (run->setup->links[c].side != 0 && run->on[c] && leaves(s, c)) return find_velocities(s);
+  if (run_into(s)) return PLEUEL_OK;
+  memcpy(run->on, s->before_on, (size_t)run->n_c * sizeof(bool));
+  pl_active_update(run);
   set_velocities(s);
   pl_start_velocities(s, s->held_v);
   if (s->worst_link < 0)
@@ -479,7 +536,7 @@ static void list_moves(pl_start* s) {
   pl_start_report* report = &run->start;
   pl_start_move* moves = PL_ARRAY(run->job->arena, pl_start_move, 2 * (size_t)run->n_q + 1);
   for (int pass = 0; pass < 2; pass++) {
-    const double* x = pass == 0 ? run->q : run->v;
+    const double* x = pass == 0 ? run->q : s->v;     // before an impact at the start
     double size = pl_norm(x, run->n_q);
     for (int i = 0; i < run->n_q; i++) {
       const pl_coordinate* c = &run->setup->coordinates[i];
