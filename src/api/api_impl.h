@@ -46,7 +46,7 @@ typedef struct pl_recording {
 typedef enum pl_kept { PL_KEPT_NO, PL_KEPT_YES, PL_KEPT_FAILED } pl_kept;
 typedef struct pl_keeping pl_keeping;
 
-enum { PL_STAGE_CHECK, PL_STAGE_DERIVE, PL_STAGE_RECORD, PL_STAGE_RUN, PL_N_STAGES };
+enum { PL_STAGE_CHECK, PL_STAGE_DERIVE, PL_STAGE_WITNESS, PL_STAGE_RECORD, PL_STAGE_RUN, PL_N_STAGES };
 
 struct pleuel_model {
   pleuel* ctx;

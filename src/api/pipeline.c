@@ -6,6 +6,7 @@
 // Each step is taken once and remembered in the pleuel_model; asking for a later one takes those before it.  A step that
 // was interrupted is taken anew.
 #include "api/stages.h"
+#include "api/witness.h"
 
 #include <math.h>
 #include <string.h>
@@ -82,6 +83,9 @@ static pleuel_status derive(pleuel_model* m, const char* only, double seconds, b
   m->is_derived = m->derived != PLEUEL_INTERRUPTED;
   pl_diagnostics_sort(&m->diagnostics);
   note_time(m, PL_STAGE_DERIVE, start);
+  start = pl_clock();
+  if (m->derived == PLEUEL_OK && !structure) pl_witness_hold(&m->job, m->solution, staging->stages, staging->n);
+  note_time(m, PL_STAGE_WITNESS, start);
   return m->derived;
 }
 

@@ -486,7 +486,7 @@ static const char* indented(pl_arena* a, const char* json) {
 static pleuel_status solve_json(pleuel_model* m, void* argument) {
   pl_asking* a = argument;
   const pleuel_solve_options* o = a->solve;
-  static const char* const stages[] = {"check", "derive", "record", "simulate"};
+  static const char* const stages[] = {"check", "derive", "witness", "record", "simulate"};
   pleuel_status s = pl_pipeline_derive(m, o->only, o->seconds, !o->no_simulation);
   if (m->solution) simulate_for_solution(m, o);
   if (m->solution && s == PLEUEL_OK) s = contradictory_start(m);

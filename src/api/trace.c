@@ -62,7 +62,7 @@ static pleuel_status on_row(void* user, const pl_row* row) {
   if (t->trace->phases.n == 0 || t->jumped || set_differs(t)) open_phase(t, row->t);
   t->changed = t->jumped = false;
   t->label = NULL;
-  add_sample(t, row);
+  if (!t->trace->singular) add_sample(t, row);
   return PLEUEL_OK;
 }
 
@@ -79,7 +79,8 @@ static pleuel_status on_event(void* user, const pl_event_record* e) {
     return PLEUEL_OK;
   }
   if (e->kind == PL_EV_STOP) t->trace->stopped_by = e->label;
-  bool first = !t->changed;
+  bool first = !t->changed && e->kind != PL_EV_SINGULAR && !t->trace->singular;
+  t->trace->singular |= e->kind == PL_EV_SINGULAR;
   if (first) {
     t->kind = e->kind;
     t->label = e->label;
@@ -126,19 +127,22 @@ static pleuel_status start(pl_run* run, double t_0, int n_q, pl_job* job) {
   pleuel_status s = pl_run_start(run);
   const pl_start_report* report = pl_run_start_report(run);
   if (s == PLEUEL_OK || report->trouble != PL_START_SEVERAL || report->n_candidates == 0) return s;
-  double* v = PL_ARRAY(job->arena, double, n_q + 1);
-  memcpy(v, pl_run_v(run), (size_t)n_q * sizeof *v);
-  return pl_run_start_at(run, t_0, report->candidates, v);
+  bool* held = PL_ARRAY(job->arena, bool, 2 * n_q + 1);
+  for (int i = 0; i < n_q; i++) held[i] = true;
+  return pl_run_start_partly(run, t_0, report->candidates, copied(job->arena, pl_run_v(run), n_q), held, held + n_q);
 }
 
 static void steps(pl_tracer* t, pl_run* run, long most) {
   pl_trace* out = t->trace;
-  while (!pl_run_done(run) && out->samples.n < most && out->steps < MOST_STEPS && out->status == PLEUEL_OK) {
+  while (!pl_run_done(run) && !out->singular && out->samples.n < most && out->steps < MOST_STEPS && out->status == PLEUEL_OK) {
     out->status = pl_run_step(run);
     out->steps++;
   }
   out->whole = out->status == PLEUEL_OK && pl_run_done(run);
   out->t_end = pl_run_time(run);
+  bool failed = out->status != PLEUEL_OK && out->phases.n > 0;
+  pl_trace_phase* last = failed ? &out->phases.at[out->phases.n - 1] : NULL;
+  if (last && out->samples.n > 1 && last->n > 1) out->samples.n--, last->n--;      // where it failed nothing is sure
 }
 
 static void run(pl_job* job, pl_trace* out, const pl_trace_options* o) {
@@ -153,6 +157,8 @@ static void run(pl_job* job, pl_trace* out, const pl_trace_options* o) {
   out->status = pl_run_make(job, &r->setup, &how, &made);
   t.run = made;
   if (out->status == PLEUEL_OK) out->status = start(made, r->t_0, r->setup.n_q, job);
+  out->n_free = made ? pl_run_start_report(made)->n_free : 0;
+  out->moved = made ? pl_run_start_report(made)->largest_move : 0;
   if (out->status == PLEUEL_OK) steps(&t, made, o->most_samples > 0 ? o->most_samples : MOST_SAMPLES);
   out->started = out->samples.n > 0;
   int n = r->setup.n_q + r->setup.n_c;
@@ -160,10 +166,24 @@ static void run(pl_job* job, pl_trace* out, const pl_trace_options* o) {
   pl_run_free(made);
 }
 
-static pl_model* model_of(pl_job* job, pl_model* m, const pl_trace_options* o) {
-  if (o->from && o->from->given) return pl_trace_named_start(job, m, o->from);
-  if (o->seed) return pl_trace_random_start(job, m, o->beside, o->seed);
-  return o->as_run ? m : pl_trace_open_start(job, m);
+static void attempt(pl_job* job, pl_trace* out, pl_model* model, const pl_trace_options* o) {
+  *out = (pl_trace){.model = model};
+  pl_recording* recording = NULL;
+  out->status = pl_record(job, model, NULL, false, &recording);
+  out->recording = out->status == PLEUEL_OK ? recording : NULL;
+  if (out->recording) run(job, out, o);
+  out->message = out->status == PLEUEL_OK ? "" : pl_copy(job->arena, job->message);
+}
+
+// The start of `init` as `sim` finds it; where that leaves something open, or finds none, coordinates that are not given start
+// somewhere.
+static void attempt_init(pl_job* job, pl_trace* out, pl_model* m, const pl_trace_options* o) {
+  attempt(job, out, m, o);
+  bool open = !out->started || (out->n_free > 0 && !m->simulate.given);
+  if (!open || !out->recording) return;
+  pl_trace first = *out;
+  attempt(job, out, pl_trace_open_start(job, m), o);
+  if (!out->started) *out = first;
 }
 
 pl_trace* pl_trace_make(pl_job* job, pl_model* numbered, const pl_trace_options* options) {
@@ -171,14 +191,12 @@ pl_trace* pl_trace_make(pl_job* job, pl_model* numbered, const pl_trace_options*
   pl_job mine = {.arena = job->arena, .diagnostics = &quiet, .interrupted = job->interrupted, .lang = job->lang};
   pl_trace* out = PL_NEW(job->arena, pl_trace);
   pl_trace_options o = options ? *options : (pl_trace_options){0};
-  out->model = model_of(&mine, numbered, &o);
-  pl_recording* recording = NULL;
-  out->status = pl_record(&mine, out->model, NULL, false, &recording);
-  out->recording = recording;
-  if (out->status == PLEUEL_OK) run(&mine, out, &o);
+  if (o.from && o.from->given) attempt(&mine, out, pl_trace_named_start(job, numbered, o.from, o.push), &o);
+  else if (o.seed) attempt(&mine, out, pl_trace_random_start(job, numbered, o.beside, o.seed), &o);
+  else if (o.as_run) attempt(&mine, out, numbered, &o);
+  else attempt_init(&mine, out, pl_trace_closed(job, numbered), &o);
   out->value = pl_model_values(out->model, job->arena);
   out->n_value = pl_symbol_count(out->model->pool) + 1;
-  out->message = out->status == PLEUEL_OK ? "" : pl_copy(job->arena, mine.message);
   return out;
 }
 

@@ -38,8 +38,11 @@ typedef struct pl_trace {
   double t_end;                 // s, how far it came
   const char* stopped_by;       // the event that ended it before; NULL
   bool* pulls;                  // contacts that are met at the start but would have to pull: they let go at once  (n_c)
+  bool singular;                // it ends at a singular position, behind which another assembly may go on
   PL_VEC(pl_trace_sample) samples;
   PL_VEC(pl_trace_phase) phases;
+  int n_free;                   // positions that nothing determined
+  double moved;                 // how far given start values were moved, relative: from another start beyond rounding
   long steps;                   // of the integration
   double work;                  // counted: steps times the size of the system
 } pl_trace;
@@ -47,6 +50,7 @@ typedef struct pl_trace {
 typedef struct pl_trace_options {
   uint64_t seed;                // 0: the start of `init`; else a random consistent start beside it
   const pl_motion* from;        // the start that this names, instead; NULL
+  double push;                  // of `from`: velocities of this size beside it, so that the motion leaves a position of rest
   const pl_trace* beside;       // of seed > 0: the trace from `init`, for its position and contacts; NULL: anywhere
   long most_samples;            // 0: 120
   double span;                  // s; 0: as `simulate` says, else a few times the time scale of the start
@@ -56,6 +60,9 @@ typedef struct pl_trace_options {
 // pl_trace_model gives the model with random positive numbers, within the assumptions, for parameters without any: the same for
 // the same seed.  The model itself where every parameter has one; NULL when none were found.
 pl_model* pl_trace_model(pl_job* job, pl_model* m, uint64_t seed);
+
+// pl_trace_copy gives a model of its own: lists of parameters, constraints, start values, events, outputs can be written.
+pl_model* pl_trace_copy(pl_arena* a, const pl_model* m);
 
 // pl_trace_make runs a model whose parameters have numbers.  The trace is there whatever happens; its status tells how it
 // went.  Nothing is reported, and no other run is disturbed.

@@ -7,11 +7,11 @@
 #include "api/trace.h"
 
 // trace_model.c
-pl_model* pl_trace_copy(pl_arena* a, const pl_model* m);
 pl_expr pl_trace_number(pl_pool* p, double x);
 bool pl_trace_is_given(const pl_model* m, pl_expr atom, bool velocity);
 pl_model* pl_trace_random_start(pl_job* job, pl_model* m, const pl_trace* beside, uint64_t seed);
 pl_model* pl_trace_open_start(pl_job* job, pl_model* m);
-pl_model* pl_trace_named_start(pl_job* job, pl_model* m, const pl_motion* from);
+pl_model* pl_trace_closed(pl_job* job, pl_model* m);              // without `init`: contacts hold
+pl_model* pl_trace_named_start(pl_job* job, pl_model* m, const pl_motion* from, double push);
 
 #endif

@@ -21,6 +21,8 @@ pl_model* pl_trace_copy(pl_arena* a, const pl_model* m) {
   COPY_OF(a, out->params);
   COPY_OF(a, out->constraints);
   COPY_OF(a, out->inits);
+  COPY_OF(a, out->events);
+  COPY_OF(a, out->outputs);
   COPY_OF(a, out->result_names);
   return out;
 }
@@ -132,13 +134,71 @@ static double size_of(const double* x, int n) {
 }
 
 // What touches at the start of `beside` holds for good, what does not is away: which of several contacts holds is no matter of
-// a random start.
+// a random start.  What goes with a contact goes with it still.
 static void settle_contacts(pl_model* m, const pl_trace* beside) {
   for (int i = 0; i < m->constraints.n; i++) {
     pl_constraint* c = &m->constraints.at[i];
-    if (c->relation == PL_EQ || c->block || c->has_velocity) continue;
-    if (pl_trace_holds(beside, &beside->phases.at[0], i)) c->relation = PL_EQ;
-    else c->off = true;
+    if (c->block || (c->relation == PL_EQ && !c->while_label)) continue;
+    bool holds = !beside || pl_trace_holds(beside, &beside->phases.at[0], i);
+    c->relation = PL_EQ;
+    c->while_label = NULL;
+    c->off |= !holds;
+  }
+}
+
+pl_model* pl_trace_closed(pl_job* job, pl_model* m) {
+  if (m->inits.n > 0) return m;
+  pl_model* out = pl_trace_copy(job->arena, m);
+  settle_contacts(out, NULL);
+  return out;
+}
+
+// A state that is drawn: positions and velocities of all coordinates.
+typedef struct pl_drawn_state { pl_flat_coords flat; double *q, *v; } pl_drawn_state;
+
+static pl_drawn_state draw_state(pl_job* job, const pl_model* m, const pl_trace* beside, uint64_t seed) {
+  pl_drawn_state s = {.flat = pl_model_flat_coords(m, job->arena)};
+  int n = s.flat.n;
+  s.q = PL_ARRAY(job->arena, double, n + 1);
+  s.v = PL_ARRAY(job->arena, double, n + 1);
+  pl_random r = {seed};
+  const pl_trace_sample* at = beside && beside->started ? &beside->samples.at[0] : NULL;
+  double q_size = at ? size_of(at->q, n) : 1, v_size = at ? size_of(at->v, n) : 1;
+  for (int i = 0; i < n; i++) {
+    double shift = pl_random_between(&r, -0.3, 0.3), push = pl_random_between(&r, -1, 1);
+    s.q[i] = at ? at->q[i] + shift * fmin(q_size, fmax(fabs(at->q[i]), 1)) : pl_random_between(&r, 0.3, 1.5);
+    s.v[i] = at ? at->v[i] + push * v_size : push;
+  }
+  return s;
+}
+
+// The table of numbers with a state in it.
+static void put_state(const pl_model* m, const pl_drawn_state* s, double* value) {
+  for (int i = 0; i < s->flat.n; i++) {
+    if (pl_kind_of(m->pool, s->flat.at[i]) != PL_SYMBOL) continue;
+    pl_symbol x = pl_symbol_of(m->pool, s->flat.at[i]);
+    value[x.id] = s->q[i];
+    value[pl_symbol_dot(m->pool, x).id] = s->v[i];
+  }
+}
+
+// The coordinates that `choose` maps follow from the others: there the equations of the map and the constraints that it solves
+// hold already, of which some depend on others.
+static void follow_maps(pl_job* job, pl_model* m, pl_drawn_state* s) {
+  for (int k = 0; k < m->choose.n_maps; k++) pl_dt(m->pool, m->choose.maps[k].map);      // makes the symbols
+  for (int i = 0; i < s->flat.n; i++) pl_dt(m->pool, s->flat.at[i]);
+  double* value = pl_model_values(m, job->arena);
+  value[pl_time(m->pool).id] = 0;
+  for (int pass = 0; pass < m->choose.n_maps; pass++) {
+    put_state(m, s, value);
+    for (int k = 0; k < m->choose.n_maps; k++) {
+      double x = pl_eval(m->pool, m->choose.maps[k].map, value), v = pl_eval(m->pool, pl_dt(m->pool, m->choose.maps[k].map), value);
+      for (int i = 0; i < s->flat.n; i++) {
+        if (!pl_same(s->flat.at[i], m->choose.maps[k].old) || isnan(x) || isnan(v)) continue;
+        s->q[i] = x;
+        s->v[i] = v;
+      }
+    }
   }
 }
 
@@ -146,32 +206,24 @@ pl_model* pl_trace_random_start(pl_job* job, pl_model* m, const pl_trace* beside
   pl_model* out = pl_trace_copy(job->arena, m);
   out->inits.n = 0;
   out->events.n = 0;
-  pl_flat_coords flat = pl_model_flat_coords(m, job->arena);
-  pl_random r = {seed};
-  bool near_by = beside && beside->started;
-  const pl_trace_sample* at = near_by ? &beside->samples.at[0] : NULL;
-  double q_size = near_by ? size_of(at->q, flat.n) : 1, v_size = near_by ? size_of(at->v, flat.n) : 1;
-  if (near_by) settle_contacts(out, beside);
-  for (int i = 0; i < flat.n; i++) {
-    double shift = pl_random_between(&r, -0.3, 0.3), push = pl_random_between(&r, -1, 1);
-    double q = near_by ? at->q[i] + shift * fmin(q_size, fmax(fabs(at->q[i]), 1)) : pl_random_between(&r, 0.3, 1.5);
-    double v = near_by ? at->v[i] + push * v_size : push;
-    guess(job, out, flat.at[i], false, q);
-    guess(job, out, flat.at[i], true, v);
+  if (beside && beside->started) settle_contacts(out, beside);
+  pl_drawn_state s = draw_state(job, m, beside, seed);
+  follow_maps(job, m, &s);
+  for (int i = 0; i < s.flat.n; i++) {
+    guess(job, out, s.flat.at[i], false, s.q[i]);
+    guess(job, out, s.flat.at[i], true, s.v[i]);
   }
   return out;
 }
 
 // Coordinates of which nothing is known start somewhere: zero is a singular place of many coordinates.
 pl_model* pl_trace_open_start(pl_job* job, pl_model* m) {
-  if (m->simulate.given && m->inits.n > 0) return m;
   pl_model* out = pl_trace_copy(job->arena, m);
-  pl_flat_coords flat = pl_model_flat_coords(m, job->arena);
-  pl_random r = {0x73746172};
-  for (int i = 0; i < flat.n; i++) {
-    double q = pl_random_between(&r, 0.3, 1.2), v = pl_random_between(&r, -0.5, 0.5);
-    if (!pl_trace_is_given(m, flat.at[i], false)) guess(job, out, flat.at[i], false, q);
-    if (!pl_trace_is_given(m, flat.at[i], true)) guess(job, out, flat.at[i], true, v);
+  pl_drawn_state s = draw_state(job, m, NULL, 0x73746172);
+  follow_maps(job, m, &s);
+  for (int i = 0; i < s.flat.n; i++) {
+    if (!pl_trace_is_given(m, s.flat.at[i], false)) guess(job, out, s.flat.at[i], false, s.q[i]);
+    if (!pl_trace_is_given(m, s.flat.at[i], true)) guess(job, out, s.flat.at[i], true, s.v[i]);
   }
   return out;
 }
@@ -195,7 +247,7 @@ bool pl_trace_is_given(const pl_model* m, pl_expr atom, bool velocity) {
 }
 
 // The start that `from` names: its conditions with a coordinate or velocity on the left, at rest or not; the rest as `init` says.
-pl_model* pl_trace_named_start(pl_job* job, pl_model* m, const pl_motion* from) {
+pl_model* pl_trace_named_start(pl_job* job, pl_model* m, const pl_motion* from, double push) {
   pl_model* out = pl_trace_copy(job->arena, m);
   out->inits.n = 0;
   pl_flat_coords flat = pl_model_flat_coords(m, job->arena);
@@ -211,6 +263,6 @@ pl_model* pl_trace_named_start(pl_job* job, pl_model* m, const pl_motion* from) 
     for (int k = 0; k < named; k++) again |= pl_same(out->inits.at[k].target, old->target);
     if (!again) pl_push(job->arena, out->inits, *old);
   }
-  for (int i = 0; from->at_rest && i < flat.n; i++) guess(job, out, flat.at[i], true, 0);
+  for (int i = 0; from->at_rest && i < flat.n; i++) guess(job, out, flat.at[i], true, push);
   return out;
 }

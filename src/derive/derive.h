@@ -66,6 +66,7 @@ typedef struct pl_value {
   pl_expr got;                     // expect: what it is instead
   int order;                       // series: terms up to this power are shown; -1 else
   int n_where; const char** where_name; pl_expr* where_expr;   // named intermediates in order of use
+  bool withdrawn;                  // the simulated motion contradicts it, or another formula of its section
 } pl_value;
 
 typedef struct pl_section {        // one request
@@ -75,9 +76,12 @@ typedef struct pl_section {        // one request
   bool continues;                  // same letter and same title as the section before: no new heading
   PL_VEC(pl_step) steps;
   PL_VEC(pl_value) values;
+  const pl_ask* ask;               // what it answers; of standard requests one without expressions
+  bool withdrawn;                  // its formulas and the simulated motion disagree: nothing is claimed (api/witness)
   bool not_found;                  // a closed form was asked for and not found (exit 5 with --strict)
   int stage;                       // of the motion; 0: where the solution begins
   const struct pl_analysis* by;    // who wrote it, inside of derive
+  pl_tower* tower;                 // with the assumptions that its formulas rest on
 } pl_section;
 
 // ---------------------------------------------------------------------------------------------- what holds
@@ -132,6 +136,7 @@ typedef struct pl_check {
   double worst;                    // largest relative difference, 0 for exact checks
   int points;                      // points tried
   int formulas;                    // formulas compared
+  int starts;                      // motions that they were compared with; 0 where there are none
   const char* failed_on;           // text of the first formula that failed, or NULL
 } pl_check;
 

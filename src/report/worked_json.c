@@ -299,7 +299,8 @@ static void pl_doc_value(pl_document* d, const pl_value* v) {
   pl_doc_optional(d, "at", v->at);
   pl_doc_optional(d, "branch", v->branch);
   pl_doc_expr_key(d, "lhs", v->lhs);
-  pl_doc_expr_key(d, "expr", v->expr);
+  if (v->withdrawn) pl_json_null(&d->j, "expr");
+  else pl_doc_expr_key(d, "expr", v->expr);
   pl_doc_where(d, v);
   pl_doc_components(d, v);
   pl_doc_spellings(d, v);
@@ -308,6 +309,7 @@ static void pl_doc_value(pl_document* d, const pl_value* v) {
   pl_json_string(&d->j, "display", pl_doc_display(d, v));
   pl_doc_claims(d, v);
   pl_doc_strings(d, "assuming", v->assuming, v->n_assuming);
+  if (v->withdrawn) pl_json_bool(&d->j, "withdrawn", true);
   pl_json_end_object(&d->j);
 }
 
@@ -367,6 +369,7 @@ static void pl_doc_checks(pl_document* d) {
     pl_json_number(&d->j, "worst", c->worst);
     pl_json_int(&d->j, "points", c->points);
     pl_json_int(&d->j, "formulas", c->formulas);
+    if (c->starts > 0) pl_json_int(&d->j, "starts", c->starts);
     pl_doc_optional(d, "failed_on", c->failed_on);
     pl_json_end_object(&d->j);
   }

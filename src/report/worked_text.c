@@ -48,6 +48,7 @@ static void pl_put_notes(pl_page* g, const pl_solution* s, const pl_diagnostics*
 // ---------------------------------------------------------------------------------------------- checks
 static const char* pl_check_text(pl_page* g, const pl_check* c) {
   const char* name = pl_page_words(g, c->name);
+  if (c->starts > 0) name = pl_format(g->arena, "%s (%d)", name, c->formulas);
   if (!(c->worst > pl_worst_told)) return name;
   return pl_format(g->arena, "%s %s", name, pl_notation_number(g->arena, c->worst, 1, g->how));
 }

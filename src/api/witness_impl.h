@@ -1,0 +1,67 @@
+// witness, inside.
+#ifndef PL_WITNESS_IMPL_H
+#define PL_WITNESS_IMPL_H
+
+#include "api/witness.h"
+
+// A start, with the motion from it.
+typedef enum pl_start_kind { PL_FROM_INIT, PL_FROM_NAMED, PL_FROM_RANDOM } pl_start_kind;
+typedef struct pl_witnessed {
+  pl_start_kind kind;
+  const pl_motion* from;           // FROM_NAMED
+  bool pushed;                     // beside a position of rest
+  pl_trace* trace;
+} pl_witnessed;
+
+// What is stated of the motion.
+typedef enum pl_statement_kind {
+  PL_EQUALS,                       // shown = left
+  PL_VANISHES,                     // shown is zero
+  PL_STAYS,                        // shown is a constant of the motion
+  PL_FOLLOWS                       // left(t) = shown, along the motion from its start
+} pl_statement_kind;
+typedef struct pl_statement {
+  pl_statement_kind kind;
+  int section, stage;              // stage: whose constraints hold; 0 those of the start
+  const pl_value* value;           // whose definitions are needed; NULL
+  pl_expr shown, left;
+  const char* name;                // of what is stated, as text
+  const pl_motion* from;           // holds on the motion from this start only; NULL: on every motion
+  double most;                     // largest value that the motion had so far
+  int group;                       // of several statements with the same number one has to hold (assemblies)
+} pl_statement;
+
+// Where formula and motion disagree.
+typedef struct pl_contradiction_found { double t, shown, motion; pl_start_kind start; } pl_contradiction_found;
+
+typedef struct pl_witness {
+  pl_job* job;
+  pl_arena* arena;
+  pl_pool* pool;
+  pl_solution* solution;
+  const pl_stage* stages;          // (n_stages)
+  int n_stages;
+  pl_model* model;                 // with numbers
+  pl_expr* rate;                   // g'' of each constraint of the model, g' of those on velocities
+  PL_VEC(pl_witnessed) starts;
+  PL_VEC(pl_statement) statements;
+  double *value, *shifted;         // numbers by symbol id, and the same with inputs moved by the noise of a run
+  double q_size, v_size, a_size, l_size;   // largest numbers of each kind at the starts
+  int n_value;
+} pl_witness;
+
+// witness_state.c: numbers at a sample.
+void pl_state_open(pl_witness* w);
+void pl_state_sizes(pl_witness* w);                              // of the starts so far
+// Fills the tables with the state of a sample.  origin: the sample whose state x(0) speaks of; time counts from `t_0`.
+void pl_state_set(pl_witness* w, const pl_trace* t, const pl_trace_sample* s, const pl_trace_sample* origin, double t_0);
+void pl_state_define(pl_witness* w, const pl_value* v);          // named intermediates of an answer
+double pl_state_value(const pl_witness* w, pl_expr e);
+// How far e may be off because the state is known to so many digits only; includes what cancels.
+double pl_state_noise(const pl_witness* w, pl_expr e);
+bool pl_state_is_valid(const pl_witness* w, const pl_tower* tower);   // the assumptions that were used hold
+
+// witness_list.c: the statements of a solution.
+void pl_statements_collect(pl_witness* w);
+
+#endif

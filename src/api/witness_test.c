@@ -1,0 +1,168 @@
+// Formulas that are false are seen by the motion: each kind of answer is made false and held against it.
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "api/witness.h"
+
+typedef struct bench { pleuel* ctx; pleuel_model* m; pl_solution* s; } bench;
+
+static bench solved(const char* text) {
+  bench b = {.ctx = pleuel_open(NULL)};
+  const char* answer = NULL;
+  assert_int_equal(pleuel_load_text(b.ctx, &b.m, text, strlen(text), NULL), PLEUEL_OK);
+  pleuel_solve_text(b.m, &answer, NULL);
+  b.s = b.m->solution;
+  assert_non_null(b.s);
+  return b;
+}
+
+static void done(bench* b) { pleuel_close(b->ctx); }
+
+static const pl_check* last_check(const bench* b) { return &b->s->checks.at[b->s->checks.n - 1]; }
+
+static pl_value* value_named(const bench* b, const char* name, pl_section** of) {
+  for (int i = 0; i < b->s->sections.n; i++) {
+    for (int k = 0; k < b->s->sections.at[i].values.n; k++) {
+      *of = &b->s->sections.at[i];
+      if (strcmp((*of)->values.at[k].name, name) == 0) return &(*of)->values.at[k];
+    }
+  }
+  fail_msg("there is no value %s", name);
+  return NULL;
+}
+
+// Multiplies a formula by a factor close to one and asks the motion again.
+static void is_seen(const char* text, const char* name) {
+  bench b = solved(text);
+  assert_string_equal(last_check(&b)->name[0], "formulas against the motion");
+  assert_true(last_check(&b)->passed);
+  assert_true(last_check(&b)->formulas > 0 && last_check(&b)->starts >= 1);
+  pl_section* section = NULL;
+  pl_value* v = value_named(&b, name, &section);
+  pl_pool* p = b.s->model->pool;
+  v->expr = pl_mul(p, v->expr, pl_add(p, pl_ratio(p, 1001, 1000), pl_mul(p, pl_ratio(p, 1, 1000), pl_square(p, pl_sym(p, pl_time(p))))));
+  if (pl_is_zero_node(p, v->expr)) v->expr = pl_ratio(p, 1, 100);
+  b.s->checks.n = 0;
+  pl_witness_hold(&b.m->job, b.s, NULL, 0);
+  assert_false(last_check(&b)->passed);
+  assert_string_equal(last_check(&b)->failed_on, name);
+  assert_true(section->withdrawn && v->withdrawn);
+  assert_true(pl_is_poison(v->expr) && v->form == NULL && isnan(v->number));
+  assert_true(section->steps.n == 2 && section->steps.at[0].words[0] != NULL && section->steps.at[0].words[1] != NULL);
+  done(&b);
+}
+
+#define PENDULUM                                                                                                        \
+  "param m = 1 [kg], l = 1/2 [m], g = 9.81 [m/s^2]\ncoord r, φ\naxes x right, y up\nmass m at (r sin φ, -r cos φ)\n" \
+  "gravity g along -y\nconstraint rod: r = l\ninit φ = 40°, φ' = 1 [1/s]\nsimulate 0..1 [s]\n"
+
+static void a_false_acceleration(void** state) {
+  (void)state;
+  is_seen(PENDULUM "ask solve φ''\n", "phi_ddot");
+  is_seen(PENDULUM "ask lagrange2\n", "phi_ddot");
+}
+
+static void a_false_multiplier(void** state) {
+  (void)state;
+  is_seen(PENDULUM "ask solve λ_rod\n", "lambda_rod");
+  is_seen(PENDULUM "ask force of rod\n", "lambda_rod");
+}
+
+static void a_false_constant_of_the_motion(void** state) {
+  (void)state;
+  is_seen(PENDULUM "ask conserved\n", "E");
+}
+
+static void a_false_closed_motion(void** state) {
+  (void)state;
+  is_seen("param a = 2 [m/s^2], k = 3 [1/s^2]\ncoord x, y\nlagrangian x'^2/2 + a x + y'^2/2 - k y^2/2\n"
+          "init x = 1 [m], x' = 0, y = 1 [m], y' = 0\nsimulate 0..1 [s]\nask solve x(t), solve y(t)\n", "y");
+}
+
+static void a_false_value_on_a_named_motion(void** state) {
+  (void)state;
+  is_seen(PENDULUM "ask λ_rod from φ = 60° at rest\n", "lambda_rod");
+  // where the motion never leaves: of starts beside it
+  is_seen(PENDULUM "ask λ_rod from φ = 180° at rest\n", "lambda_rod");
+}
+
+static void a_false_result_of_the_whole_system(void** state) {
+  (void)state;
+  is_seen(PENDULUM "ask T\n", "T");
+  is_seen(PENDULUM "ask norm(force(rod))\n", "norm(force(rod))");
+}
+
+static void an_equation_that_the_motion_does_not_satisfy(void** state) {
+  (void)state;
+  bench b = solved(PENDULUM "ask lagrange1\n");
+  pl_section* section = &b.s->sections.at[0];
+  pl_step* step = NULL;
+  for (int i = 0; i < section->steps.n && !step; i++) {
+    if (section->steps.at[i].number == 1) step = &section->steps.at[i];
+  }
+  assert_non_null(step);
+  pl_pool* p = b.s->model->pool;
+  const pl_form* zero = pl_form_leaf(b.m->arena, pl_int(p, 0));
+  step->formula = pl_form_relation(b.m->arena, step->formula->args[0], "=", zero);
+  b.s->checks.n = 0;
+  pl_witness_hold(&b.m->job, b.s, NULL, 0);
+  assert_string_equal(last_check(&b)->failed_on, "(1)");
+  done(&b);
+}
+
+static void the_failed_check_is_the_status(void** state) {
+  (void)state;
+  bench b = solved(PENDULUM "ask solve φ''\n");
+  pl_section* section = NULL;
+  value_named(&b, "phi_ddot", &section)->expr = pl_int(b.s->model->pool, 0);
+  b.s->checks.n = 0;
+  pl_witness_hold(&b.m->job, b.s, NULL, 0);
+  const char* answer = NULL;
+  assert_int_equal(pleuel_solve_json(b.m, &answer, NULL), PLEUEL_EXPECT_FAILED);
+  assert_non_null(strstr(answer, "\"withdrawn\": true"));
+  assert_non_null(strstr(answer, "\"expr\": null"));
+  assert_int_equal(pleuel_solve_text(b.m, &answer, NULL), PLEUEL_EXPECT_FAILED);
+  assert_non_null(strstr(answer, "the formula gives 0, the motion -"));
+  PLEUEL_OPTIONS(pleuel_solve_options, how);
+  how.lang = "de";
+  assert_int_equal(pleuel_solve_text(b.m, &answer, &how), PLEUEL_EXPECT_FAILED);
+  assert_non_null(strstr(answer, "die Formel gibt 0, die Bewegung -"));
+  done(&b);
+}
+
+static void a_motion_that_cannot_be_had_is_told(void** state) {
+  (void)state;
+  bench b = solved("param m, k1, k2\ncoord x, y\nlagrangian m x'^2/2 - k1 y^2/2 - k2 (x - y)^2/2\nask lagrange2\n");
+  assert_true(strncmp(last_check(&b)->name[0], "formulas not held against the motion: ", 38) == 0);
+  assert_true(last_check(&b)->passed && last_check(&b)->starts == 0);
+  done(&b);
+}
+
+static void parameters_without_numbers_are_no_obstacle(void** state) {
+  (void)state;
+  is_seen("param m, l, g\ncoord r, φ\naxes x right, y up\nmass m at (r sin φ, -r cos φ)\ngravity g along -y\n"
+          "constraint rod: r = l\nask solve φ''\n", "phi_ddot");
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(a_false_acceleration),
+    cmocka_unit_test(a_false_multiplier),
+    cmocka_unit_test(a_false_constant_of_the_motion),
+    cmocka_unit_test(a_false_closed_motion),
+    cmocka_unit_test(a_false_value_on_a_named_motion),
+    cmocka_unit_test(a_false_result_of_the_whole_system),
+    cmocka_unit_test(an_equation_that_the_motion_does_not_satisfy),
+    cmocka_unit_test(the_failed_check_is_the_status),
+    cmocka_unit_test(a_motion_that_cannot_be_had_is_told),
+    cmocka_unit_test(parameters_without_numbers_are_no_obstacle),
+  };
+  return cmocka_run_group_tests_name("witness", tests, NULL, NULL);
+}
