@@ -83,7 +83,8 @@ const pl_form* pl_square_form(pl_analysis* d, pl_expr w2, bool numeric) {
 
 static void show_oscillations(pl_analysis* d, const pl_linearised* l, const char* at, bool numeric) {
   pl_root root[8];
-  int n = pl_small_oscillations(d, l, root, 8);
+  bool complete;
+  int n = pl_small_oscillations(d, l, root, 8, &complete);
   if (n > 0 && !l->gyroscopic && !numeric) pl_why_oscillations(d, l->M, l->K, l->n);
   for (int k = 0; k < n; k++) {
     double x = pl_number(d, root[k].value);

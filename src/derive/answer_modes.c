@@ -102,25 +102,61 @@ static void show_damped(pl_analysis* d, const pl_linearised* l, const char* at) 
     pl_say(d, "Overdamped: no oscillation.", "Überdämpft: keine Schwingung.", 0);
     return;
   }
+  if (sign == 0 && (pl_vanishes_at_numbers(d, square) || pl_vanishes(d, square))) {
+    pl_say(d, "Critically damped: no oscillation.", "Aperiodischer Grenzfall: keine Schwingung.", 0);
+    return;
+  }
   pl_expr root = pl_alg_normal(d->tower, pl_sqrt(p, square));
   form = pl_f(d, root, PL_S_QUOTIENT);
   pl_step* step = pl_show_numbered(d, pl_feq(d, pl_fn(d, "ω_d"), form));
   pl_step_after(step, "damped oscillation", "gedämpfte Schwingung");
   pl_answer(d, "omega_d", root, form)->at = at;
+  const char* text;
+  if (sign == 0 && pl_holds_if(d, square, true, &form, &text) == PL_UNKNOWN) {
+    pl_say(d, "an oscillation if {1}", "eine Schwingung, wenn {1}", 1, form);
+  }
+}
+
+// Amplitudes that divide by zero for the given numbers, as where two frequencies coincide: these numbers are a special case then.
+static bool specialise(pl_analysis* d, pl_linearised* l) {
+  pl_root root[pl_max_gen];
+  pl_expr u[pl_max_gen], base;
+  bool complete;
+  int n = l->gyroscopic || l->n == 1 ? 0 : pl_small_oscillations(d, l, root, pl_max_gen, &complete), before = d->special.n;
+  for (int k = 0; k < n; k++) {
+    bool found = amplitudes(d, l, root[k].value, u);
+    for (int j = 0; found && j < l->n; j++) {
+      if (pl_pole_at_numbers(d, u[j], &base)) pl_find_special(d, base);
+    }
+  }
+  if (d->special.n == before) return false;
+  for (int k = 0; k < l->n * l->n; k++) {
+    l->M[k] = pl_on_special(d, l->M[k]);
+    l->C[k] = pl_on_special(d, l->C[k]);
+    l->K[k] = pl_on_special(d, l->K[k]);
+  }
+  return true;
 }
 
 static void show_modes(pl_analysis* d, const pl_expr* f, const pl_rest* r, int number) {
   pl_linearised l;
   pl_linearise(d, f, r, &l);
+  bool special = false;
+  while (!r->numeric && specialise(d, &l)) special = true;
+  if (special) pl_say_special(d);
   const char* at = pl_format(d->arena, "equilibrium %d", number);
   pl_say(d, "At {1}:", "Bei {1}:", 1, pl_rest_form(d, r));
   pl_say_velocity_terms(d, &l);
   pl_root root[pl_max_gen];
-  int n = pl_small_oscillations(d, &l, root, pl_max_gen);
+  bool complete;
+  int n = pl_small_oscillations(d, &l, root, pl_max_gen, &complete);
   if (n > 0 && !l.gyroscopic) pl_why_oscillations(d, l.M, l.K, l.n);
   for (int k = 0; k < n; k++) show_mode(d, &l, r, root[k].value, k + 1, at);
   show_damped(d, &l, at);
-  if (n < l.n) {
+  if (n < l.n && complete && !l.gyroscopic && !l.circulatory) {
+    pl_say(d, "A frequency is repeated: all combinations of its modes are modes.",
+           "Eine Frequenz ist mehrfach: alle Kombinationen ihrer Eigenschwingungen sind Eigenschwingungen.", 0);
+  } else if (n < l.n) {
     pl_say(d, "Not every root of the characteristic equation was found in closed form.",
            "Nicht jede Wurzel der charakteristischen Gleichung war geschlossen zu finden.", 0);
     d->section->not_found = n == 0;
@@ -192,7 +228,8 @@ static void modes_of_steady(pl_analysis* d, const pl_ask* ask) {
   pl_linearise(d, f, &r, &l);
   l.gyroscopic = true;   // the held coordinate is coupled by its velocity
   pl_root root[pl_max_gen];
-  int n = pl_small_oscillations(d, &l, root, pl_max_gen), shown = 0;
+  bool complete;
+  int n = pl_small_oscillations(d, &l, root, pl_max_gen, &complete), shown = 0;
   for (int k = 0; k < n; k++) {
     if (!pl_vanishes(d, root[k].value)) show_mode(d, &l, &r, root[k].value, ++shown, "steady motion");
   }
@@ -203,7 +240,7 @@ static void modes_of_steady(pl_analysis* d, const pl_ask* ask) {
   d->steady.n = 0;
 }
 
-static void modes_at_rest(pl_analysis* d, const pl_ask* ask, const pl_expr* f) {
+static void modes_at_rest(pl_analysis* d, const pl_ask* ask, pl_expr* f) {
   pl_rest named;
   pl_answer3 is_rest = pl_names_a_place(d, ask) ? pl_named_rest(d, ask, f, &named) : PL_UNKNOWN;
   if (is_rest == PL_NO) {

@@ -228,7 +228,7 @@ static bool is_parameter(pl_analysis* d, pl_expr e) {
 }
 
 static bool linear_equation(pl_analysis* d, int i, pl_linear_equation* out) {
-  pl_expr a = d->acceleration[i], cx[2], cv[2];
+  pl_expr a = pl_on_special(d, d->acceleration[i]), cx[2], cv[2];
   int nx = pl_alg_coefficients(d->tower, a, d->q.at[i].q, cx, 1);
   if (nx < 0) return false;
   out->B = nx == 1 ? cx[1] : pl_int(d->pool, 0);
@@ -264,6 +264,19 @@ static pl_expr with_friction(pl_analysis* d, const pl_linear_equation* l, pl_exp
   return in_parts(d, parts, steady, pl_mul(p, c, pl_call(p, PL_EXP, pl_mul(p, l->C, t))));
 }
 
+// The discriminant is zero: critical damping, u = e^{Ct/2} (u0 + (v0 - C u0/2) t).  Where only the given numbers make it zero, they are a
+// special case, which is tried next.
+static pl_expr critical(pl_analysis* d, pl_expr disc, pl_expr half, pl_expr rest, pl_expr x0, pl_expr v0, pl_expr t, pl_laplace_poles* parts) {
+  pl_pool* p = d->pool;
+  if (pl_alg_is_zero(d->tower, disc) != PL_YES) {
+    pl_find_special(d, disc);
+    return pl_poison();
+  }
+  pl_expr u0 = pl_sub(p, x0, rest), slope = pl_sub(p, v0, pl_mul(p, half, u0));
+  pl_expr swing = pl_mul(p, pl_call(p, PL_EXP, pl_mul(p, half, t)), pl_add(p, u0, pl_mul(p, slope, t)));
+  return in_parts(d, parts, rest, swing);
+}
+
 // x'' = A + B x + C x', B != 0, around the rest position -A/B; the sign of the discriminant decides.
 static pl_expr oscillation(pl_analysis* d, const pl_linear_equation* l, pl_expr x0, pl_expr v0, pl_expr t, pl_laplace_poles* parts) {
   pl_pool* p = d->pool;
@@ -271,7 +284,7 @@ static pl_expr oscillation(pl_analysis* d, const pl_linear_equation* l, pl_expr 
   pl_expr half = pl_div(p, l->C, pl_int(p, 2));
   pl_expr disc = pl_alg_normal(d->tower, pl_add(p, l->B, pl_square(p, half)));
   int sign = -pl_sign_or_positive(d, pl_neg(p, disc));
-  if (sign == 0) return pl_poison();
+  if (sign == 0) return critical(d, disc, half, rest, x0, v0, t, parts);
   pl_expr w = pl_alg_normal(d->tower, pl_sqrt(p, sign > 0 ? disc : pl_neg(p, disc)));
   pl_expr wt = pl_mul(p, w, t), u0 = pl_sub(p, x0, rest);
   pl_expr even = pl_call(p, sign > 0 ? PL_COSH : PL_COS, wt), odd = pl_call(p, sign > 0 ? PL_SINH : PL_SIN, wt);
@@ -282,7 +295,7 @@ static pl_expr oscillation(pl_analysis* d, const pl_linear_equation* l, pl_expr 
 }
 
 // poles: the parts that it is made of, where there are several; or NULL.
-static pl_expr closed_motion(pl_analysis* d, int i, pl_laplace_poles* poles) {
+static pl_expr general_motion(pl_analysis* d, int i, pl_laplace_poles* poles) {
   pl_linear_equation l;
   if (pl_is_poison(d->acceleration[i])) return pl_poison();
   if (!linear_equation(d, i, &l)) return pl_linear_motion(d, i, poles);
@@ -290,6 +303,18 @@ static pl_expr closed_motion(pl_analysis* d, int i, pl_laplace_poles* poles) {
   if (!pl_is_zero_node(d->pool, l.B)) return oscillation(d, &l, x0, v0, t, poles);
   if (!pl_is_zero_node(d->pool, l.C)) return with_friction(d, &l, x0, v0, t, poles);
   return uniform(d, l.A, x0, v0, t);
+}
+
+// Where the given numbers make the general solution divide by zero, that of the special case.
+static pl_expr closed_motion(pl_analysis* d, int i, pl_laplace_poles* poles) {
+  for (;;) {
+    int before = d->special.n;
+    if (poles) poles->n = 0;
+    pl_expr x = general_motion(d, i, poles), base;
+    bool pole = pl_pole_at_numbers(d, x, &base);
+    if (pole) pl_find_special(d, base);
+    if (d->special.n == before) return pole ? pl_poison() : x;
+  }
 }
 
 pl_expr pl_closed_motion(pl_analysis* d, int i) { return closed_motion(d, i, NULL); }
@@ -315,7 +340,7 @@ pl_expr pl_as_function_of_time(pl_analysis* d, pl_expr e, pl_expr name) {
 // x(t)'' - x''(x, x') = 0, x(0) = x0.
 static void claim_motion(pl_analysis* d, int i, pl_expr x) {
   pl_symbol t = pl_time(d->pool);
-  pl_expr v = pl_diff(d->pool, x, t), a = pl_diff(d->pool, v, t), rest = d->acceleration[i];
+  pl_expr v = pl_diff(d->pool, x, t), a = pl_diff(d->pool, v, t), rest = pl_on_special(d, d->acceleration[i]);
   pl_replace* r = PL_ARRAY(d->arena, pl_replace, 2 * d->q.n);
   int n = 0;
   for (int j = 0; j < d->q.n; j++) {
@@ -438,6 +463,7 @@ static pl_expr solve_own_motion(pl_analysis* d, int i) {
   bool alone = d->gen.n == 1;
   pl_say(d, uniform_motion ? "Integrated twice:" : !alone ? "Linear equations with constant coefficients; their solution through the start:" : "A linear equation with constant coefficients; its solution through the start:",
          uniform_motion ? "Zweimal integriert:" : !alone ? "Lineare Gleichungen mit konstanten Koeffizienten; die Lösung durch den Start:" : "Lineare Gleichung mit konstanten Koeffizienten; die Lösung durch den Start:", 0);
+  pl_say_special(d);
   why_integrated(d, i, x);
   const pl_form* form = form_of_motion(d, x, &poles);
   pl_step_refs(pl_show_numbered(d, pl_feq(d, of_time(d, i), form)), 1, d->number_acceleration);
@@ -514,7 +540,8 @@ static void multiplier_of_time(pl_analysis* d, int k) {
     d->section->not_found = true;
     return;
   }
-  e = pl_alg_normal(d->tower, pl_subst(d->pool, e, r, n));
+  e = pl_alg_normal(d->tower, pl_subst(d->pool, pl_on_special(d, e), r, n));
+  pl_say_special(d);
   const pl_symbol_info* s = pl_symbol_get(d->pool, l->lambda);
   const pl_form* form = pl_f(d, e, PL_S_SOLUTION);
   pl_show_numbered(d, pl_feq(d, pl_fn(d, pl_format(d->arena, "%s(t)", s->name)), form));

@@ -70,10 +70,17 @@ static void define(pl_system_of_motion* s, pl_symbol symbol, pl_expr value) {
   s->definition[s->n_definitions++] = (pl_definition){symbol, value};
 }
 
+// The special case that the given numbers are: c = √(m1 m2).
+static void define_cases(pl_analysis* d, pl_system_of_motion* s) {
+  for (int k = 0; k < d->cases.n; k++) define(s, d->cases.at[k].from, d->cases.at[k].to);
+}
+
 // Coordinates and velocities that follow from others: fixed, closed contacts, mapped.
 static void definitions(pl_analysis* d, pl_system_of_motion* s, int assembly) {
   int n_loops = pl_loop_definitions(d, assembly, NULL);
-  s->definition = PL_ARRAY(d->arena, pl_definition, 2 * d->q.n + d->model->lets.n + n_loops + pl_structure_definitions(d, NULL, 0));
+  int n_given = d->cases.n + d->model->lets.n;
+  s->definition = PL_ARRAY(d->arena, pl_definition, 2 * d->q.n + n_given + n_loops + pl_structure_definitions(d, NULL, 0));
+  define_cases(d, s);
   for (int k = 0; k < d->model->lets.n; k++) {
     const pl_let* l = &d->model->lets.at[k];
     if (l->n_args == 0 && !l->inserted) define(s, l->symbol, l->value);
@@ -233,7 +240,8 @@ static pl_certifier* on_the_motion(pl_analysis* d, int assembly) {
 
 static pl_certifier* on_free_points(pl_analysis* d) {
   pl_system_of_motion s = {0};
-  s.definition = PL_ARRAY(d->arena, pl_definition, d->model->lets.n);
+  s.definition = PL_ARRAY(d->arena, pl_definition, d->cases.n + d->model->lets.n);
+  define_cases(d, &s);
   for (int k = 0; k < d->model->lets.n; k++) {
     const pl_let* l = &d->model->lets.at[k];
     if (l->n_args == 0 && !l->inserted) define(&s, l->symbol, l->value);

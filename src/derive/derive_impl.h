@@ -142,6 +142,9 @@ struct pl_analysis {
   int number_lambda, number_gdd, number_acceleration, number_lagrangian;
   PL_VEC(int) lagrange2_numbers;
   PL_VEC(pl_claim) claims;
+  PL_VEC(pl_replace) special;  // given quantities in terms of others, k = b²/(4 m): the case that the given numbers are, of one request
+  PL_VEC(pl_replace) cases;    // the same for all requests: without it accelerations would divide by zero.  Names that are seen through
+  bool cases_told;
   PL_VEC(pl_replace) steady;   // velocities that stay during the request: of equilibria for φ' = Ω, of modes holding φ
   pl_map* told;                // what has been said already (notes, definitions)
   bool multipliers_tried, accelerations_tried;
@@ -196,6 +199,15 @@ pl_answer3 pl_zero_for_numbers(pl_analysis* d, pl_expr e);   // e = 0, as it sta
 pl_expr pl_with_given_numbers(pl_analysis* d, pl_expr e);   // exact: parameters and abbreviations inserted
 void pl_say_rank_at_start(pl_analysis* d);              // constraints that lose rank at the start
 void pl_say_pole_at_start(pl_analysis* d, const pl_form* name, pl_expr e);   // a denominator that vanishes there
+// special.c: given numbers for which a general formula has no value
+bool pl_vanishes_at_numbers(pl_analysis* d, pl_expr e);   // e over given quantities, not zero in general, is zero for their exact numbers
+bool pl_pole_at_numbers(pl_analysis* d, pl_expr e, pl_expr* base);   // a denominator inside e does
+bool pl_find_special(pl_analysis* d, pl_expr e);        // such an e is solved for a given quantity, which joins d->special
+pl_expr pl_on_special(pl_analysis* d, pl_expr e);       // with those inserted
+void pl_say_special(pl_analysis* d);
+void pl_say_pole(pl_analysis* d, pl_expr e);            // a formula that has no value for the given numbers
+bool pl_find_case(pl_analysis* d);                      // accelerations or multipliers that divide by zero: joins d->cases
+void pl_tell_cases(pl_analysis* d);                     // once
 // conditions.c: e > 0 (strict) or e >= 0.  PL_YES: always, PL_NO: never; else the shortest form of the condition and its text.
 pl_answer3 pl_holds_if(pl_analysis* d, pl_expr e, bool strict, const pl_form** form, const char** text);
 const pl_form* pl_conditions_form(pl_analysis* d, const pl_expr* e, int n, bool strict, const char** text);   // a list; NULL: all hold

@@ -57,11 +57,11 @@ bool pl_vanishes(pl_analysis* d, pl_expr e);
 void pl_linearise(pl_analysis* d, const pl_expr* f, const pl_rest* r, pl_linearised* out);
 void pl_stability(pl_analysis* d, const pl_expr* f, const pl_linearised* l, const pl_rest* r, pl_verdict* out);
 pl_symbol pl_omega_squared(pl_analysis* d);
-int pl_small_oscillations(pl_analysis* d, const pl_linearised* l, pl_root* root, int max);
+int pl_small_oscillations(pl_analysis* d, const pl_linearised* l, pl_root* root, int max, bool* complete);
 // rests.c
 bool pl_rests_out_of_reach(pl_analysis* d);                                 // said why
 void pl_at_rest_equations(pl_analysis* d, pl_expr* f);
-pl_rests* pl_find_rests(pl_analysis* d, const pl_expr* f);
+pl_rests* pl_find_rests(pl_analysis* d, pl_expr* f);   // with the special case inserted that the given numbers are
 // Equations that contain t lose their drive, and it is said: forces that depend on t alone, or an amplitude, which joins d->steady.
 // False where t cannot be taken out.
 bool pl_without_drive(pl_analysis* d, pl_expr* f);

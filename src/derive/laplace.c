@@ -209,7 +209,10 @@ static bool in_time(pl_analysis* d, const pl_partial* f, pl_pair q, pl_residue r
   pl_pool* p = d->pool;
   pl_expr delta = pl_div(p, q.beta, pl_int(p, 2)), square = tidy(d, pl_sub(p, q.gamma, pl_square(p, delta)));
   int sign = pl_sign_or_positive(d, square);
-  if (sign == 0) return false;
+  if (sign == 0) {   // for the given numbers the pair is a double pole
+    pl_find_special(d, square);
+    return false;
+  }
   pl_expr w = tidy(d, pl_sqrt(p, sign > 0 ? square : pl_neg(p, square)));
   if (pl_is_poison(w)) return false;
   pl_expr wt = pl_mul(p, w, f->t), odd = pl_call(p, sign > 0 ? PL_SIN : PL_SINH, wt), even = pl_call(p, sign > 0 ? PL_COS : PL_COSH, wt);

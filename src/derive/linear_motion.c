@@ -28,7 +28,7 @@ static bool transform_system(pl_analysis* d, pl_symbol variable, pl_expr* A, pl_
     rest[3 * j + 2] = (pl_replace){c->a, pl_int(p, 0)};
   }
   for (int i = 0; i < n; i++) {
-    pl_expr f = pl_second_kind(d, d->gen.at[i]);
+    pl_expr f = pl_on_special(d, pl_second_kind(d, d->gen.at[i]));
     pl_expr c = pl_neg(p, pl_subst(p, f, rest, 3 * n));
     if (pl_has_coordinates(d, c)) return false;
     b[i] = pl_laplace(d, c, variable);

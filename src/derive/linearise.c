@@ -244,9 +244,8 @@ static pl_expr characteristic(pl_analysis* d, const pl_linearised* l, pl_symbol 
   return sum;
 }
 
-int pl_small_oscillations(pl_analysis* d, const pl_linearised* l, pl_root* root, int max) {
+int pl_small_oscillations(pl_analysis* d, const pl_linearised* l, pl_root* root, int max, bool* complete) {
   pl_symbol w2 = pl_omega_squared(d);
-  bool complete;
-  return pl_alg_roots(d->tower, characteristic(d, l, w2), w2, root, max, &complete);
+  return pl_alg_roots(d->tower, characteristic(d, l, w2), w2, root, max, complete);
 }
 

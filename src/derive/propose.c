@@ -384,6 +384,8 @@ static bool solves(pl_analysis* d, pl_proposal* p, const pl_trial* t, int n_free
   a->stage = d->stage;
   a->open = d->open;
   a->unnamed = d->unnamed;
+  a->cases = d->cases;
+  a->cases_told = true;
   pl_setup_facts(a);
   if (pl_form_equations(a) != PLEUEL_OK || !a->reduced) return false;
   if (a->gen.n + a->hidden.n != n_freedoms) return false;

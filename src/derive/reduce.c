@@ -246,12 +246,24 @@ static bool null_combination(pl_analysis* d, const pl_expr* M, int of, pl_expr* 
   return true;
 }
 
+// e without accelerations and velocities whose coefficients vanish, maybe only once names are seen through.
+static pl_expr without_idle(pl_analysis* d, pl_expr e) {
+  for (int k = 0; k < d->gen.n; k++) {
+    const pl_variable* c = &d->q.at[d->gen.at[k]];
+    pl_symbol moving[2] = {c->a, c->v};
+    for (int j = 0; j < 2; j++) {
+      if (pl_alg_is_zero(d->tower, pl_diff(d->pool, e, moving[j])) == PL_YES) e = pl_subst1(d->pool, e, moving[j], pl_int(d->pool, 0));
+    }
+  }
+  return pl_alg_normal(d->tower, e);
+}
+
 // What the combination leaves is a constraint between places, and moving along w leaves it: then the coordinate follows from it.
 static bool solve_combination(pl_analysis* d, const pl_expr* w) {
   pl_pool* p = d->pool;
   pl_expr left = pl_int(p, 0), across = pl_int(p, 0), value;
   for (int k = 0; k < d->gen.n; k++) left = pl_add(p, left, pl_mul(p, w[k], pl_second_kind(d, d->gen.at[k])));
-  left = pl_alg_normal(d->tower, left);
+  left = without_idle(d, pl_alg_normal(d->tower, left));
   if (pl_has_role(p, left, PL_R_ACCELERATION) || pl_has_role(p, left, PL_R_VELOCITY)) return false;
   for (int k = 0; k < d->gen.n; k++) across = pl_add(p, across, pl_mul(p, w[k], pl_diff(p, left, d->q.at[d->gen.at[k]].q)));
   if (pl_alg_is_zero(d->tower, across) != PL_NO) return false;

@@ -229,7 +229,8 @@ static void search(pl_analysis* d, const pl_expr* f, pl_rest r, pl_rests* out) {
     pl_answer3 zero = pl_alg_is_zero(d->tower, e);
     if (zero == PL_YES) continue;
     int j = only_unknown(d, e, &r);
-    if (j == -1) {   // contradiction on this branch
+    if (j == -1) {   // contradiction on this branch, unless the given numbers make it hold
+      pl_find_special(d, e);
       if (zero != PL_NO || r.open) out->complete = false;
       return;
     }
@@ -365,10 +366,28 @@ void pl_at_rest_equations(pl_analysis* d, pl_expr* f) {
   for (int k = 0; k < d->gen.n; k++) f[k] = with_relations(d, pl_at_rest(d, pl_second_kind(d, d->gen.at[k])));
 }
 
-pl_rests* pl_find_rests(pl_analysis* d, const pl_expr* f) {
-  pl_rests* found = PL_NEW(d->arena, pl_rests);
-  found->complete = true;
-  search(d, f, (pl_rest){0}, found);
+// Positions that divide by zero for the given numbers: these are a special case.
+static void find_poles(pl_analysis* d, const pl_rests* found) {
+  pl_expr base;
+  for (int k = 0; k < found->n; k++) {
+    for (int j = 0; j < d->gen.n; j++) {
+      if (pl_pole_at_numbers(d, found->at[k].q[j], &base)) pl_find_special(d, base);
+    }
+  }
+}
+
+pl_rests* pl_find_rests(pl_analysis* d, pl_expr* f) {
+  pl_rests* found;
+  int before, first = d->special.n;
+  do {
+    before = d->special.n;
+    found = PL_NEW(d->arena, pl_rests);
+    found->complete = true;
+    for (int k = 0; k < d->gen.n; k++) f[k] = pl_on_special(d, f[k]);
+    search(d, f, (pl_rest){0}, found);
+    find_poles(d, found);
+  } while (d->special.n > before);
+  if (d->special.n > first) pl_say_special(d);
   for (int k = 0; k < found->n_open; k++) open_branch(d, f, &found->open[k], found);
   return found;
 }

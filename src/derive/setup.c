@@ -84,6 +84,7 @@ double pl_number(pl_analysis* d, pl_expr e) {
 
 int pl_sign_at_numbers(pl_analysis* d, pl_expr e) {
   int sign = 0;
+  if (pl_vanishes_at_numbers(d, e)) return 0;   // exactly; rounding would give it a sign
   if (pl_alg_sign(d->tower, e, false, &sign) == PL_YES) return sign;
   double x = pl_number(d, e);
   if (isnan(x) || x == 0) return 0;
@@ -93,7 +94,7 @@ int pl_sign_at_numbers(pl_analysis* d, pl_expr e) {
 
 int pl_sign_or_positive(pl_analysis* d, pl_expr e) {
   int sign = pl_sign_at_numbers(d, e);
-  if (sign != 0 || !isnan(pl_number(d, e)) || pl_alg_is_zero(d->tower, e) == PL_YES) return sign;
+  if (sign != 0 || !isnan(pl_number(d, e)) || pl_vanishes_at_numbers(d, e) || pl_alg_is_zero(d->tower, e) == PL_YES) return sign;
   pl_tower_use(d->tower, (pl_fact){e, true});
   return 1;
 }
@@ -259,6 +260,7 @@ static void define_names(pl_analysis* d, pl_tower* t) {
     if (let->inserted || let->n_args > 0 || pl_has_coordinates(d, let->value)) continue;
     pl_tower_define(t, &(pl_replace){let->symbol, let->value}, 1);
   }
+  pl_tower_define(t, d->cases.at, d->cases.n);
 }
 
 pl_tower* pl_setup_tower(pl_analysis* d) {

@@ -21,6 +21,8 @@ pl_section* pl_section_open(pl_analysis* d, const pl_ask* ask, const char* en, c
   d->section = &d->solution->sections.at[d->solution->sections.n - 1];
   if (ask->kind != PL_ASK_DOF && ask->kind != PL_ASK_CONSTRAINTS) pl_tell_open(d);
   pl_tell_proposal(d);
+  d->special.n = 0;
+  pl_tell_cases(d);
   if (pl_speaks_of_loops(ask)) pl_tell_loops(d);
   return d->section;
 }
@@ -197,6 +199,7 @@ pl_value* pl_answer(pl_analysis* d, const char* name, pl_expr e, const pl_form* 
   if (known) v.unit = pl_unit_of_symbol(d->arena, d->pool, symbol, dim, true);
   v.display = isnan(v.number) ? NULL : display_in(d, v.number, pl_unit_of_symbol(d->arena, d->pool, symbol, dim, true));
   pl_push(d->arena, d->section->values, v);
+  pl_say_pole(d, e);
   return &d->section->values.at[d->section->values.n - 1];
 }
 

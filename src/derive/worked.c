@@ -487,14 +487,36 @@ pleuel_status pl_form_equations(pl_analysis* d) {
   return PLEUEL_OK;
 }
 
-// Equations and the motion that follows from them.
-static pleuel_status derive_motion(pl_analysis* d, bool first, double* since) {
+static pleuel_status solve_equations(pl_analysis* d, double* since) {
   pleuel_status status = pl_form_equations(d);
   if (status == PLEUEL_OK) status = find_contradictions(d);
   pass(d, PL_D_EQUATIONS, since);
   PL_TRY(status);
-  PL_TRY(pl_solve_motion(d));
+  status = pl_solve_motion(d);
   pass(d, PL_D_SOLUTION, since);
+  return status;
+}
+
+// From the beginning, with the special case known that the given numbers are.
+static void begin_again(pl_analysis* d) {
+  pl_analysis fresh = {.job = d->job, .arena = d->arena, .pool = d->pool, .options = d->options, .solution = d->solution};
+  fresh.told = pl_map_make(d->arena);
+  fresh.began_ms = d->began_ms;
+  fresh.sets = d->sets;
+  fresh.cases = d->cases;
+  fresh.model = d->whole;
+  pl_setup_facts(&fresh);
+  pl_choose_set(&fresh, d->whole, d->stage);
+  *d = fresh;
+}
+
+// Equations and the motion that follows from them.
+static pleuel_status derive_motion(pl_analysis* d, bool first, double* since) {
+  PL_TRY(solve_equations(d, since));
+  while (pl_find_case(d)) {
+    begin_again(d);
+    PL_TRY(solve_equations(d, since));
+  }
   count_freedom(d);
   describe_constraints(d, first);
   pl_share_forces(d);
