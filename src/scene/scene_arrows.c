@@ -196,6 +196,14 @@ static void add_weights(pl_stage* s) {
   }
 }
 
+// Coordinates that move a thing: its place and, of a body, its angle.
+static void coordinates_of(pl_stage* s, const pl_thing* t, int** deps, int* n) {
+  bool timed = false;
+  *deps = t->deps.at;
+  *n = t->deps.n;
+  if (t->body) pl_collect_coords(s, t->body->angle, deps, n, &timed);
+}
+
 // A coordinate that several masses share leaves open on which of them a force acts.
 static bool own_coordinates(const pl_stage* s, int thing, const pl_bond* b) {
   const pl_thing* t = &s->things.at[thing];
@@ -207,28 +215,119 @@ static bool own_coordinates(const pl_stage* s, int thing, const pl_bond* b) {
     any = true;
     for (int i = 0; i < s->things.n; i++) {
       const pl_thing* o = &s->things.at[i];
-      for (int l = 0; i != thing && !pl_is_poison(o->mass) && l < o->deps.n; l++) if (o->deps.at[l] == t->deps.at[k]) return false;
+      bool other = i != thing && !pl_is_poison(o->mass);
+      for (int l = 0; other && l < o->deps.n; l++) if (o->deps.at[l] == t->deps.at[k]) return false;
     }
   }
   return any;
 }
 
+// Whether the coordinates of the arrow move its place through the whole space, or along a straight guide.
+static bool spans_space(pl_stage* s, const pl_arrow* a) {
+  static const double clear = 1e-9;
+  double N[3][3] = {{0}}, size = 0;
+  bool straight = true;
+  for (int i = 0; i < 3; i++) {
+    for (int k = 0; k < a->n; k++) {
+      double x = pl_stage_eval(s, a->J[i][k]);
+      for (int j = 0; j < 3; j++) N[i][j] += x * pl_stage_eval(s, a->J[j][k]);
+      int* deps = NULL;
+      int n = 0;
+      bool timed = false;
+      pl_collect_coords(s, a->J[i][k], &deps, &n, &timed);
+      straight = straight && n == 0;
+    }
+    size += N[i][i];
+  }
+  if (straight) return true;
+  for (int j = s->model->n_axes; j < 3; j++) N[j][j] = size;
+  double det = N[0][0] * (N[1][1] * N[2][2] - N[1][2] * N[2][1]) - N[0][1] * (N[1][0] * N[2][2] - N[1][2] * N[2][0]) +
+               N[0][2] * (N[1][0] * N[2][1] - N[1][1] * N[2][0]);
+  return det > clear * size * size * size;
+}
+
+// Virtual work: the force at this place explains the constraint for every coordinate that moves the thing, so that there is no
+// torque beside it.  Otherwise the arrow would stand at a wrong place.
+static bool explains(pl_stage* s, const pl_arrow* a) {
+  static const double clear = 1e-7;
+  double A[8 * 3], b[8], F[3], off = 0, size = 0;
+  for (int k = 0; k < a->n; k++) {
+    b[k] = pl_stage_eval(s, a->slope[k]);
+    for (int j = 0; j < 3; j++) A[3 * k + j] = pl_stage_eval(s, a->J[j][k]);
+  }
+  if (!pl_least(A, b, a->n, 3, F)) return false;
+  for (int k = 0; k < a->n; k++) {
+    double work = 0;
+    for (int j = 0; j < 3; j++) work += A[3 * k + j] * F[j];
+    off += (work - b[k]) * (work - b[k]);
+    size += b[k] * b[k];
+  }
+  return size > 0 && off <= clear * clear * size && spans_space(s, a);
+}
+
+// The force of a bond at the place of `at`, for the coordinates that move the thing `on`; false: it does not act there.
+static bool bond_arrow(pl_stage* s, const pl_bond* b, const pl_thing* on, const pl_spot* at, pl_arrow* out) {
+  int *deps, n;
+  coordinates_of(s, on, &deps, &n);
+  if (n > 8) return false;
+  *out = (pl_arrow){.kind = PL_ARROW_BOND, .spot = *at, .c = b->c, .minus = s->model->lambda_minus, .n = n};
+  for (int l = 0; l < n; l++) {
+    out->q[l] = deps[l];
+    out->slope[l] = pl_diff(s->pool, b->c->g, b->velocity ? s->v[deps[l]] : s->q[deps[l]]);
+    for (int j = 0; j < 3; j++) {
+      bool fixed = pl_is_poison(at->e[j]);
+      out->J[j][l] = fixed ? pl_int(s->pool, 0) : pl_diff(s->pool, at->e[j], s->q[deps[l]]);
+    }
+  }
+  return explains(s, out);
+}
+
+static void keep_bond_arrow(pl_stage* s, int thing, const pl_arrow* found) {
+  const pl_constraint* c = found->c;
+  pl_arrow* a = add_arrow(s, PL_ARROW_BOND, thing, c->multiplier ? c->multiplier : c->name.text, c->name.text);
+  double* per_metre = a->per_metre;
+  *a = *found;
+  a->thing = thing;
+  a->per_metre = per_metre;
+}
+
+// The force of a plane on the point of a body that touches it.
+static void add_touch_force(pl_stage* s, const pl_bond* b) {
+  const pl_thing* t = &s->things.at[b->touched];
+  const char* label = b->c->multiplier ? b->c->multiplier : b->c->name.text;
+  pl_arrow* a = add_arrow(s, PL_ARROW_LOAD, b->touched, label, b->c->name.text);
+  a->spot.angle = t->body->angle;
+  a->spot.sense = t->sense;
+  a->minus = s->model->lambda_minus;
+  pl_expr lambda = pl_sym(s->pool, b->c->lambda);
+  for (int j = 0; j < 2; j++) {
+    a->spot.p[j] = b->touch_place[j];
+    double factor = a->minus ? -b->touch_normal[j] : b->touch_normal[j];
+    char number[32];
+    int n = snprintf(number, sizeof number, "%.17g", factor);
+    a->e[j] = pl_mul(s->pool, lambda, pl_number_from_text(s->pool, number, (size_t)n));
+  }
+}
+
+// At the mass or centre, or at a point of the body: a joint at its end.
 static void add_bond_forces(pl_stage* s) {
   for (int i = 0; i < s->bonds.n; i++) {
     const pl_bond* b = &s->bonds.at[i];
     if (!b->c->lambda.id) continue;
+    if (b->touches) {
+      add_touch_force(s, b);
+      continue;
+    }
     for (int k = 0; k < s->things.n; k++) {
       const pl_thing* t = &s->things.at[k];
-      if (pl_is_poison(t->mass) || t->deps.n > 8 || !own_coordinates(s, k, b)) continue;
-      pl_arrow* a = add_arrow(s, PL_ARROW_BOND, k, b->c->multiplier ? b->c->multiplier : b->c->name.text, b->c->name.text);
-      a->c = b->c;
-      a->minus = s->model->lambda_minus;
-      a->n = t->deps.n;
-      for (int l = 0; l < a->n; l++) {
-        a->q[l] = t->deps.at[l];
-        a->slope[l] = pl_diff(s->pool, b->c->g, b->velocity ? s->v[a->q[l]] : s->q[a->q[l]]);
-        for (int j = 0; j < 3; j++) a->J[j][l] = pl_is_poison(t->spot.e[j]) ? pl_int(s->pool, 0) : pl_diff(s->pool, t->spot.e[j], s->q[a->q[l]]);
+      pl_arrow a;
+      if (pl_is_poison(t->mass) || !own_coordinates(s, k, b)) continue;
+      bool found = bond_arrow(s, b, t, &t->spot, &a);
+      for (int p = 0; p < s->things.n && !found; p++) {
+        const pl_thing* point = &s->things.at[p];
+        if (t->body && point->kind == PL_THING_POINT) found = bond_arrow(s, b, t, &point->spot, &a);
       }
+      if (found) keep_bond_arrow(s, k, &a);
     }
   }
 }

@@ -177,6 +177,9 @@ static void add_floor(pl_stage* s, int thing, const pl_touch* touch, int sense, 
   p->data = f;
   p->normal = f->normal;
   b->touches = true;
+  b->touched = thing;
+  memcpy(b->touch_normal, touch->n, sizeof b->touch_normal);
+  memcpy(b->touch_place, touch->p[sense], sizeof b->touch_place);
 }
 
 // ---------------------------------------------------------------------------------------------- outlines

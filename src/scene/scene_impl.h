@@ -66,6 +66,9 @@ typedef struct pl_bond {
   bool drawn;
   bool velocity;
   bool touches;                 // a point of a body touches a plane: drawn with the body
+  int touched;                  // that body, a thing
+  double touch_normal[2];       // force per λ there
+  double touch_place[2];        // on the body, as in a spot
   pl_hint hint;
   int settles;                  // coordinate that it holds at a constant, -1
 } pl_bond;

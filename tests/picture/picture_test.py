@@ -214,6 +214,26 @@ check("accelerations and outputs have their curves", {"s̈ [m/s²]", "push [N]"}
 r = run("plot", root / "examples/chain.pleuel", "--set", "N=4", "--until", "0.1", "-o", "chain.svg", "--show", "plots")
 check("the force of a member of a family has its curve", r.returncode == 0 and b"no curve" not in r.stderr and
       "norm(force(c[1])) [N]" in texts(parsed(work / "chain.svg")), r.stderr)
+fourbar = model("fourbar.pleuel", """param W = 5 [rad/s], a = 0.1 [m], b = 0.3 [m], c = 0.25 [m], d = 0.3 [m], m = 1 [kg], g = 9.81 [m/s^2]
+coord α, x, y, β, γ
+axes x right, y up
+body crank: mass m, inertia m a^2/12 at (a/2 cos α, a/2 sin α) angle α
+body coupler: mass m, inertia m b^2/12 at (x, y) angle β
+point A on coupler at (-b/2, 0)
+body rocker: mass m, inertia m c^2/12 at (d + c/2 cos γ, c/2 sin γ) angle γ
+gravity g along -y
+constraint drive: α = W t
+constraint j1x: x - b/2 cos β = a cos α
+constraint j1y: y - b/2 sin β = a sin α
+constraint j2x: x + b/2 cos β = d + c cos γ
+constraint j2y: y + b/2 sin β = c sin γ
+branch sin β > 0
+simulate 0..0.1 [s]
+""")
+run("plot", fourbar, "-o", "fourbar.svg", "--show", "drawing")
+shown = texts(parsed(work / "fourbar.svg"))
+check("a force is drawn where it acts: at the joint, once", shown.count("j1x") == 1 and shown.count("j1y") == 1, shown)
+check("no arrow where virtual work does not give a force", not {"drive", "j2x", "j2y"} & set(shown), shown)
 phase = model("phase.pleuel", pendulum.read_text() + "plot y vs x\n")
 run("plot", phase, "-o", "phase.svg", "--show", "plots")
 svg = parsed(work / "phase.svg")
