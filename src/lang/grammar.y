@@ -140,9 +140,10 @@ statement
                                       { $$ = STATEMENT(EVENT, @$, 4, $2, $5, $6, $8); }
   | ASK items                         { $$ = STATEMENT(ASK, @$, 2, NULL, $2); }
   | ASK NAME ':' items                { $$ = STATEMENT(ASK, @$, 2, $2, $4); }
-  | SIMULATE range tolerance          { $$ = STATEMENT(SIMULATE, @$, 2, $2, $3); }
+  | SIMULATE times tolerance          { $$ = STATEMENT(SIMULATE, @$, 2, $2, $3); }
   | PLOT expressions                  { $$ = STATEMENT(PLOT, @$, 2, $2, NULL); }
   | PLOT expressions VS expr          { $$ = STATEMENT(PLOT, @$, 2, $2, $4); }
+  | ANIMATE                           { $$ = STATEMENT(ANIMATE, @$, 1, pl_ast_make(p, PL_AST_LIST, @$)); }
   | ANIMATE things                    { $$ = STATEMENT(ANIMATE, @$, 1, $2); }
   | DRAW NAME things                  { $$ = STATEMENT(DRAW, @$, 4, $2, $3, NULL, NULL); }
   | DRAW NAME BETWEEN expr AND expr   { $$ = STATEMENT(DRAW, @$, 4, $2, NULL, $4, $6); }
@@ -275,7 +276,7 @@ item : DOF                            { $$ = ITEM(DOF, @$, 0); }
   | AVERAGE OVER expr                 { $$ = ITEM(AVERAGE, @$, 1, $3); }
   | STABILITY OF relation OVER expr   { $$ = ITEM(STABILITY, @$, 2, $3, $5); }
   | EXPECT relation where motion      { $$ = ITEM(EXPECT, @$, 3, $2, $3, $4); }
-  | SIMULATE range tolerance          { $$ = ITEM(SIMULATE, @$, 2, $2, $3); }
+  | SIMULATE times tolerance          { $$ = ITEM(SIMULATE, @$, 2, $2, $3); }
   | PLOT expressions VS expr          { $$ = ITEM(PLOT, @$, 2, $2, $4); }
   | ANIMATE things %prec LIST_ENDS    { $$ = ITEM(ANIMATE, @$, 1, $2); }
   | SWEEP sweeps OF swept             { $$ = ITEM(SWEEP, @$, 2, $2, $4); }
@@ -337,6 +338,13 @@ expressions : expr                    { $$ = LIST($1, @$); }
 range : expr RANGE expr               { $$ = NODE(RANGE, @$, 4, $1, $3, NULL, NULL); }
   | expr RANGE expr STEP expr         { $$ = NODE(RANGE, @$, 4, $1, $3, $5, NULL); }
   | expr RANGE expr COUNT expr        { $$ = NODE(RANGE, @$, 4, $1, $3, NULL, $5); }
+  ;
+
+// simulate 10 [s] begins at 0
+times : range
+  | expr                              { $$ = NODE(RANGE, @$, 4, pl_ast_zero(p, @$), $1, NULL, NULL); }
+  | expr STEP expr                    { $$ = NODE(RANGE, @$, 4, pl_ast_zero(p, @$), $1, $3, NULL); }
+  | expr COUNT expr                   { $$ = NODE(RANGE, @$, 4, pl_ast_zero(p, @$), $1, NULL, $3); }
   ;
 
 // ---------------------------------------------------------------------------------------------- expressions

@@ -59,6 +59,12 @@ void pl_suggest(pl_job* job, pl_diagnostic* m, const char* replacement, const ch
 void pl_because(pl_job* job, pl_diagnostic* m, const char* en, const char* de, ...);
 const char* pl_source_text(pl_arena* a, pl_span s);  // the source under a span, blanks collapsed
 
+// ---------------------------------------------------------------------------------------------- slips
+struct pl_parse;
+bool pl_slip(struct pl_parse* p);                    // what was typed is a known slip, and has been told with its fix
+const char* pl_slip_statement(const char* typed);    // the statement that a word of another language means, or NULL
+const char* pl_slip_request(const char* typed);      // the request or result, likewise
+
 // ---------------------------------------------------------------------------------------------- parser
 enum { PL_MAX_DEPTH = 200, PL_MAX_BLOCKS = 16 };  // of brackets and of `for` inside each other
 
@@ -84,6 +90,7 @@ pl_ast* pl_parse_expression(pl_parse* p, pl_job* job, pl_names* names, const pl_
 typedef struct pl_bytes {
   uint32_t begin, end;
 } pl_bytes;
+pl_ast* pl_ast_zero(pl_parse* p, pl_bytes at);
 pl_ast* pl_ast_make(pl_parse* p, pl_ast_kind kind, pl_bytes at);
 pl_ast* pl_ast_of_token(pl_parse* p, int kind, const pl_token* t);
 pl_ast* pl_ast_with(pl_parse* p, pl_ast_kind kind, pl_bytes at, int n, ...);  // n children, NULL allowed

@@ -3,6 +3,7 @@
 // it had been written, so that one wrong character costs one message.
 #include "lang/lang_impl.h"
 
+#include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,6 +19,7 @@ typedef struct lexer {
   uint32_t last_end;         // end of the token before
   bool line_start;
   bool said_encoding;        // a file in another encoding is one mistake
+  int n_semicolons, semicolon;   // how many, and the message about the first: a habit costs one message
   uint32_t wrong_before;     // character complained about last on this line, so that |x| costs one message
 } lexer;
 
@@ -237,10 +239,16 @@ static const char* lex_wrong(lexer* x, const char* cursor, uint32_t c) {
     m = pl_complain(x->job, PL_E002, span, "%1$s is %2$s%3$.0s", "%1$s ist %2$.0s%3$s", shown, what[0], what[1]);
   } else if (meant) {
     m = pl_complain(x->job, PL_E002, span, "U+%1$04X is %2$s%3$.0s", "U+%1$04X ist %2$.0s%3$s", c, what[0], what[1]);
+  } else if (c == ';' && x->n_semicolons > 0) {
+    x->n_semicolons++;
+    emit(x, PL_TOKEN_WRONG, cursor);
+    return cursor;
   } else if (c == ';') {
     m = pl_complain(x->job, PL_E002, span, "; does not belong here", "; gehört nicht hierher");
     pl_because(x->job, m, "one statement per line", "eine Anweisung je Zeile");
     pl_suggest(x->job, m, "", "remove it, or start a new line", "weglassen oder eine neue Zeile beginnen");
+    x->n_semicolons = 1;
+    x->semicolon = x->job->diagnostics->list.n - 1;
   } else if (c == '.') {
     m = pl_complain(x->job, PL_E002, span, "a dot that belongs to no number", "ein Punkt, der zu keiner Zahl gehört");
     pl_suggest(x->job, m, NULL, "write 1.0 or 0.5 in full", "schreibe 1.0 oder 0.5 aus");
@@ -267,6 +275,30 @@ static const char* lex_invalid(lexer* x, const char* cursor) {
   return cursor;
 }
 
+static const char* line_end(const lexer* x, const char* s) {
+  while (s < x->end && *s != '\n') s++;
+  return s;
+}
+
+// \dot{x}: the braces belong to the command.  Returns where to go on.
+static const char* lex_dotted(lexer* x, const char* cursor, int dots) {
+  const char *begin = *cursor == '{' ? cursor + 1 : cursor, *stop = begin;
+  while (*stop == ' ') begin = ++stop;
+  if (*stop == '\\') begin = ++stop;           // \dot{\theta}
+  while (stop < x->end && (isalnum((unsigned char)*stop) || *stop == '_' || (unsigned char)*stop >= 0x80)) stop++;
+  if (stop == begin) return NULL;
+  const char* close = *cursor == '{' ? memchr(stop, '}', (size_t)(line_end(x, stop) - stop)) : stop;
+  const char* name = piece(x, begin, stop);
+  const char* ours = pl_format(x->job->arena, "%s%s", name, dots == 2 ? "''" : "'");
+  pl_diagnostic* m = pl_complain(x->job, PL_E002, span_to(x, cursor), "\\%s is a TeX command", "\\%s ist ein TeX-Befehl", dots == 2 ? "ddot" : "dot");
+  pl_suggest(x->job, m, ours, "write %s", "schreibe %s", ours);
+  emit(x, PL_TOKEN_WRONG, cursor);
+  x->token = begin;
+  lex_name(x, stop);
+  x->out->list.at[x->out->list.n - 1].number = dots;
+  return close && *cursor == '{' ? close + 1 : stop;
+}
+
 static void lex_command(lexer* x, const char* cursor) {
   const char* name = piece(x, x->token + 1, cursor);
   pl_diagnostic* m = pl_complain(x->job, PL_E002, span_to(x, cursor), "\\%s is a TeX command", "\\%s ist ein TeX-Befehl", name);
@@ -274,11 +306,6 @@ static void lex_command(lexer* x, const char* cursor) {
   emit(x, PL_TOKEN_WRONG, cursor);
   x->token++;
   lex_name(x, cursor);
-}
-
-static const char* line_end(const lexer* x, const char* s) {
-  while (s < x->end && *s != '\n') s++;
-  return s;
 }
 
 static const char* lex_comment(lexer* x, const char* cursor, bool printed) {
@@ -379,6 +406,12 @@ static const char* lex_one(lexer* x, const char* YYCURSOR) {
                         emit(x, PL_TOKEN_WRONG, YYCURSOR);
                         return YYCURSOR;
                       }
+    "\\" "d"{1,2} "ot"   {
+                        const char* next = lex_dotted(x, YYCURSOR, (int)(YYCURSOR - x->token) - 3);
+                        if (next) return next;
+                        lex_command(x, YYCURSOR);
+                        return YYCURSOR;
+                      }
     "\\" [a-zA-Z]+    { lex_command(x, YYCURSOR); return YYCURSOR; }
     [^]               {
                         uint32_t c = 0;
@@ -387,6 +420,14 @@ static const char* lex_one(lexer* x, const char* YYCURSOR) {
                       }
     *                 { return lex_invalid(x, YYCURSOR); }
   */
+}
+
+static void count_semicolons(lexer* x) {
+  if (x->n_semicolons < 2) return;
+  pl_diagnostic* m = &x->job->diagnostics->list.at[x->semicolon];
+  int more = x->n_semicolons - 1;
+  m->sentence[PL_ENGLISH] = pl_format(x->job->arena, "; does not belong here, and %d more do not", more);
+  m->sentence[PL_GERMAN] = pl_format(x->job->arena, "; gehört nicht hierher, und %d weitere auch nicht", more);
 }
 
 void pl_lex(pl_job* job, pl_names* names, const pl_source* source, pl_tokens* out) {
@@ -399,4 +440,5 @@ void pl_lex(pl_job* job, pl_names* names, const pl_source* source, pl_tokens* ou
   x.token = x.end;
   if (out->list.n && out->list.at[out->list.n - 1].kind != TOK_EOL) emit(&x, TOK_EOL, x.end);
   emit(&x, 0, x.end);
+  count_semicolons(&x);
 }

@@ -240,6 +240,11 @@ pl_quantity pl_lower_factor(pl_lower* l, const pl_ast* node, const pl_ast* base,
     case PL_AST_UNIT: return lower_with_unit(l, node, pl_lower_factor(l, pl_ast_kid(node, 0), base, base_value));
     case PL_AST_DEGREE: return lower_degree(l, node, pl_lower_factor(l, pl_ast_kid(node, 0), base, base_value));
     case PL_AST_PRIME:
+      if (base && base == l->component) {      // x(K)' is dt(x(K))
+        pl_quantity q = pl_lower_factor(l, pl_ast_kid(node, 0), base, base_value);
+        for (int i = 0; i < node->number && !pl_quantity_is_bad(&q); i++) q.at[0] = pl_dt(l->pool, q.at[0]);
+        return q;
+      }
       if (base && pl_ast_base(node) == base) {
         pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node), "a prime belongs to a name",
                                              "ein Strich gehört zu einem Namen");

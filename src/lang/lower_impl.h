@@ -110,6 +110,7 @@ typedef struct pl_lower {
   int wrong;      // errors so far, reported or not
   bool results;   // T, V, λ, force(...) may stand here
   bool infinity;  // ∞ may stand here
+  const pl_ast* component;  // bracket of the component read last, x(A): primes may follow it
   int n_rules_declared, n_rules_lowered;
   int n_guesses;  // names looked for in vain so far
   bool log_said;

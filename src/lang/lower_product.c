@@ -303,6 +303,7 @@ static pl_quantity read_run(product* p) {
     if (is_component(p, f, group)) {
       p->at += 2;
       pl_quantity q = component(p, f, group);
+      l->component = group;
       return next == group || pl_quantity_is_bad(&q) ? q : pl_lower_factor(l, next, group, &q);
     }
     if (has_moments(p, f)) return coordinate_bracket(p, f, next);

@@ -273,7 +273,10 @@ pl_diagnostic* pl_scope_unknown(pl_lower* l, const pl_ast* name) {
       try_guess(&best, name->key, pl_word_of_request(i), pl_word_of_request(i));
   }
   const char* coordinates = all_coordinates(l, 8);
-  if (l->choosing)
+  const char* meant = l->results ? pl_slip_request(name->key) : NULL;
+  if (meant)
+    pl_suggest(l->job, m, meant, "did you mean %s?", "war %s gemeint?", meant);
+  else if (l->choosing)
     pl_suggest(l->job, m, NULL, "declare it:  coord %s", "vereinbaren:  coord %s", name->shown);
   else if (best.key == NULL && coordinates == NULL)
     pl_suggest(l->job, m, NULL, "declare it:  param %s = ...", "vereinbaren:  param %s = ...", name->shown);

@@ -63,6 +63,13 @@ pl_ast* pl_ast_of_token(pl_parse* p, int kind, const pl_token* t) {
   return n;
 }
 
+// The 0 that was not written.
+pl_ast* pl_ast_zero(pl_parse* p, pl_bytes at) {
+  pl_ast* zero = pl_ast_make(p, PL_AST_NUMBER, at);
+  zero->text = "0";
+  return zero;
+}
+
 static void add_kids(pl_parse* p, pl_ast* node, int n, va_list ap) {
   for (int i = 0; i < n; i++) adopt(p, node, 0, va_arg(ap, pl_ast*));
 }
@@ -206,6 +213,32 @@ static int word_of_statement(feeder* f, const pl_token* t, int i) {
     case TOK_DRAW: return f->last != TOK_DRAW && is_word(t, "force") && followed_by_of(f->p, i) ? TOK_FORCE : 0;
     case TOK_SWEEP: return f->last == TOK_OF && is_word(t, "equilibria") ? TOK_EQUILIBRIA : 0;
     default: return 0;
+  }
+}
+
+// A small word is a label where a label stands: before its colon, and wherever the file speaks of it again.
+static bool declares_label(const pl_parse* p, int i) {
+  const pl_token *before = token_at(p, i - 1), *after = token_at(p, i + 1);
+  if (i < 1 || !before->first || before->kind != TOK_NAME || before->number || !pl_word_statement(before->key)) return false;
+  int word = pl_word_statement(before->key);
+  return after->kind == ':' || (word == TOK_POINT && (is_word(after, "at") || is_word(after, "on")));
+}
+
+static bool is_known_label(const pl_parse* p, const char* key) {
+  for (int i = 1; i < p->tokens->list.n; i++) {
+    const pl_token* t = token_at(p, i);
+    if (t->kind == TOK_NAME && t->number == 0 && strcmp(t->key, key) == 0 && declares_label(p, i)) return true;
+  }
+  return false;
+}
+
+static bool speaks_of_label(const feeder* f, int i) {
+  const pl_parse* p = f->p;
+  const pl_token *t = token_at(p, i), *before = token_at(p, i - 1), *after = token_at(p, i + 1);
+  switch (f->last) {
+    case TOK_ON: case TOK_OF: case TOK_BETWEEN: case TOK_AND: case TOK_WHILE: case TOK_WORD_RELEASE: case TOK_WORD_ATTACH:
+      return is_known_label(p, t->key);
+    default: return before->kind == '(' && after->kind == ')' && is_known_label(p, t->key);
   }
 }
 
@@ -386,7 +419,8 @@ static void unknown_statement(feeder* f, int i) {
   } else if (!p->said) {
     const char* word = pl_source_text(p->arena, span);
     pl_diagnostic* m = pl_complain(p->job, PL_E004, span, "%s is not a statement", "%s ist keine Anweisung", word);
-    const char* near = pl_word_near_statement(t->key);
+    const char* near = pl_slip_statement(t->key);
+    if (!near) near = pl_word_near_statement(t->key);
     bool equation = false;
     for (int k = i; token_at(p, k)->kind != TOK_EOL && token_at(p, k)->kind != 0; k++)
       equation |= token_at(p, k)->kind == '=';
@@ -418,7 +452,19 @@ static void begin_statement(feeder* f, int i) {
 static int feed_word(feeder* f, int i) {
   pl_parse* p = f->p;
   const pl_token* t = token_at(p, i);
+  if (f->statement == TOK_SIMULATE && !p->said) {      // simulate 0 to 10 would be a product
+    p->at = i;
+    if (pl_slip(p)) {
+      p->said = f->skip = true;
+      return i;
+    }
+  }
   int word = word_of_statement(f, t, i);
+  if (t->number == 0 && pl_word_reserved(t->key) && (declares_label(p, i) || speaks_of_label(f, i))) {
+    f->item_start = false;
+    push(f, TOK_NAME, i);
+    return i;
+  }
   if (f->item_start && f->statement == TOK_ASK) f->item = word;
   f->item_start = false;
   if (word == 0 && t->number == 0 && f->n_open == 0) word = pl_word_reserved(t->key);

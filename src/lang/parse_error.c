@@ -76,8 +76,8 @@ static const named plain[] = {
     {TOK_RANGE, "..", ".."},
     {TOK_MUCH, ">>", ">>"},
     {'=', "=", "="},
-    {':', ":", ":"},
-    {',', ",", ","},
+    {':', "a colon", "ein Doppelpunkt"},
+    {',', "a comma", "ein Komma"},
     {'(', "(", "("},
     {')', ")", ")"},
     {'[', "[", "["},
@@ -177,8 +177,15 @@ static bool decimal_comma(pl_parse* p) {
   const pl_token* after = &p->tokens->list.at[i + 2 < p->tokens->list.n ? i + 2 : i + 1];
   pl_diagnostic* m =
       pl_complain(p->job, PL_E003, (pl_span){p->source, whole->begin, part->end}, "decimal comma", "Dezimalkomma");
+  const char* degree = after->kind == TOK_DEGREE ? "°" : "";
+  // 1,000 may be a thousand
+  if (strlen(part->text) == 3 && strlen(whole->text) <= 3 && whole->text[0] != '0') {
+    pl_suggest(p->job, m, NULL, "write %1$s%3$s, or %2$s%3$s if a thousand is meant", "schreibe %1$s%3$s, oder %2$s%3$s, falls Tausend gemeint ist",
+               fixed, pl_format(p->arena, "%s%s", whole->text, part->text), degree);
+    return true;
+  }
   pl_suggest(p->job, m, fixed, "write %s%s        (Dezimalpunkt statt Komma)",
-             "schreibe %s%s        (Dezimalpunkt statt Komma)", fixed, after->kind == TOK_DEGREE ? "°" : "");
+             "schreibe %s%s        (Dezimalpunkt statt Komma)", fixed, degree);
   return true;
 }
 
@@ -249,7 +256,7 @@ static bool missing_comma(pl_parse* p, const int* expected, int n) {
 void pl_parse_complain(pl_parse* p, const int* expected, int n) {
   if (p->said) return;
   p->said = true;
-  if (decimal_comma(p) || reserved_name(p, expected, n) || line_ends_early(p, expected, n) ||
+  if (decimal_comma(p) || pl_slip(p) || reserved_name(p, expected, n) || line_ends_early(p, expected, n) ||
       missing_comma(p, expected, n))
     return;
   if (missing_equals(p, expected, n)) return;
