@@ -13,6 +13,7 @@ bool pl_is_angle(pl_analysis* d, int i) {
   pl_expr c = pl_call(d->pool, PL_COS, pl_sym(d->pool, d->q.at[i].q)), s2 = pl_call(d->pool, PL_SIN, pl_sym(d->pool, d->q.at[i].q));
   pl_expr mark = pl_int(d->pool, 7);
   pl_expr probe = pl_add(d->pool, d->Tg, d->Vg);
+  for (int k = 0; k < d->g.n; k++) probe = pl_add(d->pool, probe, d->g.at[k].g);
   return !pl_same(pl_subst_expr(d->pool, probe, c, mark), probe) || !pl_same(pl_subst_expr(d->pool, probe, s2, mark), probe);
 }
 

@@ -5,6 +5,7 @@
 // (where_met.c, where_follow.c).  Two and more conditions, or a motion of which nothing is known, are equations for the state: each is
 // solved for a quantity that it contains, and all solutions count.
 #include <math.h>
+#include <string.h>
 
 #include "where_impl.h"
 
@@ -237,6 +238,12 @@ static pl_expr without_positive_factors(pl_analysis* d, pl_expr e) {
   return sign < 0 ? pl_neg(d->pool, rest) : rest;
 }
 
+// "cos θ ≥ 0", "f ≤ 0"
+static const pl_form* condition_form(pl_analysis* d, pl_expr condition) {
+  const pl_form *f = pl_f(d, condition, PL_S_PLAIN), *zero = pl_form_leaf(d->arena, pl_int(d->pool, 0));
+  return f->kind == PL_F_NEG ? pl_frel(d, f->args[0], "≤", zero) : pl_frel(d, f, "≥", zero);
+}
+
 void pl_show_met(pl_analysis* d, pl_expr name, pl_expr value, pl_expr condition) {
   if (pl_is_circular(d, name, value)) {
     pl_say_circular(d, name);
@@ -256,7 +263,7 @@ void pl_show_met(pl_analysis* d, pl_expr name, pl_expr value, pl_expr condition)
   if (!pl_is_poison(condition)) {
     condition = without_positive_factors(d, condition);
     v->exists_if = pl_format(d->arena, "%s >= 0", pl_expr_text(d->arena, d->pool, condition));
-    pl_say(d, "if {1}", "falls {1}", 1, pl_frel(d, pl_f(d, condition, PL_S_PLAIN), "≥", pl_form_leaf(d->arena, pl_int(d->pool, 0))));
+    pl_say(d, "if {1}", "falls {1}", 1, condition_form(d, condition));
   }
   say_independent(d, value);
   if (isnan(x)) return;
@@ -277,18 +284,21 @@ void pl_show_met(pl_analysis* d, pl_expr name, pl_expr value, pl_expr condition)
   v->display = pl_display(d, x, pl_dimension_one(), true);
 }
 
-void pl_show_met_number(pl_analysis* d, pl_expr name, double x) {
+void pl_show_met_number(pl_analysis* d, pl_expr name, double x) { pl_show_number(d, name, x); }
+
+pl_step* pl_show_number(pl_analysis* d, pl_expr name, double x) {
   pl_notation how = {.math = PL_MATH_LINE, .lang = d->job->lang};
   bool known, angle = names_an_angle(d, name);
   pl_dimension dim = pl_dimension_of_expr(d, name, &known);
   const char* unit = known ? pl_dimension_unit(d->arena, dim, false) : "";
   bool plain = angle || !*unit || *unit == '1';
   const char* text = pl_format(d->arena, "%s%s%s", pl_notation_number(d->arena, angle ? x * 180 / M_PI : x, 10, how), angle ? "°" : plain ? "" : " ", plain ? "" : unit);
-  pl_show(d, pl_feq(d, pl_fe(d, name), pl_fn(d, text)));
+  pl_step* step = pl_show(d, pl_feq(d, pl_fe(d, name), pl_fn(d, text)));
   pl_value* v = pl_answer(d, pl_expr_text(d->arena, d->pool, name), pl_poison(), NULL);
   v->number = x;
   if (known) v->unit = angle ? "rad" : pl_dimension_unit(d->arena, dim, true);
   if (angle) v->display = pl_display(d, x, pl_dimension_one(), true);
+  return step;
 }
 
 static void show_condition(pl_analysis* d, const pl_ask* ask, pl_expr e) {
@@ -487,6 +497,67 @@ static pl_found solutions(pl_analysis* d, const pl_where* p) {
   return found;
 }
 
+// ---------------------------------------------------------------------------------------------- signs that are only supposed
+// A given quantity without number counts as positive.  For one that is no mass, length, stiffness or gravity, and of which the model
+// assumes nothing, this is a guess.
+static bool is_guessed(pl_analysis* d, const pl_where* p, const pl_param* given) {
+  const pl_symbol_info* info = pl_symbol_get(d->pool, given->symbol);
+  if (given->literal || !pl_is_poison(given->value) || info->sign != PL_SIGN_POSITIVE || info->class != PL_C_OTHER) return false;
+  if (pl_same(p->asked, pl_sym(d->pool, given->symbol))) return false;
+  for (int k = 0; k < d->model->assumptions.n; k++) {
+    const pl_assumption* a = &d->model->assumptions.at[k];
+    pl_expr e = a->kind == PL_A_RELATION ? pl_sub(d->pool, a->condition.left, a->condition.right) : a->subject;
+    if (!pl_is_poison(e) && pl_has_symbol(d->pool, e, given->symbol)) return false;
+  }
+  for (int k = 0; k < d->model->loads.n; k++) {
+    const pl_load* l = &d->model->loads.at[k];
+    if (l->kind == PL_L_SPRING && pl_has_symbol(d->pool, l->value, given->symbol)) return false;
+  }
+  return true;
+}
+
+// Names that look the same and may have either sign, for all guessed ones.
+static int free_names(pl_analysis* d, const pl_where* p, pl_replace* to, pl_replace* back) {
+  int n = 0;
+  for (int k = 0; k < d->model->params.n; k++) {
+    const pl_param* given = &d->model->params.at[k];
+    if (!is_guessed(d, p, given)) continue;
+    pl_symbol_info info = *pl_symbol_get(d->pool, given->symbol);
+    info.ascii = pl_format(d->arena, "%s_free", info.ascii);
+    info.sign = PL_SIGN_ANY;
+    pl_symbol s = pl_symbol_make(d->pool, &info);
+    to[n] = (pl_replace){given->symbol, pl_sym(d->pool, s)};
+    back[n++] = (pl_replace){s, pl_sym(d->pool, given->symbol)};
+  }
+  return n;
+}
+
+// Nothing was found: without the guesses, and with the condition that then picks the sign.  false: nothing either.
+static bool with_free_signs(pl_analysis* d, const pl_where* p) {
+  pl_replace* to = PL_ARRAY(d->arena, pl_replace, d->model->params.n + 1);
+  pl_replace* back = PL_ARRAY(d->arena, pl_replace, d->model->params.n + 1);
+  int n = free_names(d, p, to, back), shown = 0;
+  pl_where q = *p;
+  for (int k = 0; k < p->n; k++) q.equation[k] = pl_subst(d->pool, p->equation[k], to, n);
+  q.asked = pl_subst(d->pool, p->asked, to, n);
+  pl_found found = {0};
+  if (n > 0) found = solutions(d, &q);
+  for (int k = 0; k < found.n; k++) {
+    pl_expr condition = found.condition[k];
+    if (pl_is_poison(condition) || pl_is_circular(d, p->ask->value, found.value[k])) continue;
+    condition = without_positive_factors(d, condition);
+    const pl_form* form = pl_f(d, found.value[k], PL_S_PLAIN);
+    pl_show(d, pl_feq(d, pl_fe(d, p->ask->value), form));
+    pl_say(d, "if {1}", "falls {1}", 1, condition_form(d, condition));
+    pl_expr value = pl_subst(d->pool, found.value[k], back, n);
+    pl_value* v = pl_answer(d, pl_expr_text(d->arena, d->pool, p->ask->value), value, NULL);
+    v->exists_if = pl_format(d->arena, "%s >= 0", pl_expr_text(d->arena, d->pool, pl_subst(d->pool, condition, back, n)));
+    v->form = form;
+    shown++;
+  }
+  return shown > 0;
+}
+
 // All that is solved for has a number, and the solution has none: a root of a negative number, acos beyond 1.
 static bool is_unreal(pl_analysis* d, pl_expr value) {
   enum { max_symbols = 64 };
@@ -513,7 +584,7 @@ static void of_the_state(pl_analysis* d, const pl_ask* ask, const pl_where* p) {
     if (!pl_is_poison(condition) && pl_alg_sign(d->tower, condition, true, &sign) == PL_YES) condition = pl_poison();
     pl_show_met(d, ask->value, found.value[k], condition);
   }
-  if (found.n > unreal) return;
+  if (found.n > unreal || with_free_signs(d, p)) return;
   pl_say(d, found.complete ? "No state satisfies this." : "No solution in closed form was found.",
          found.complete ? "Kein Zustand erfüllt das." : "Eine geschlossene Lösung wurde nicht gefunden.", 0);
   d->section->not_found = !found.complete;
@@ -535,7 +606,7 @@ static bool on_the_way(pl_analysis* d, const pl_where* p) {
   pl_followed f;
   bool every = holds_on_every_motion(d, p);
   if (!every && search_in_time(d, p)) return true;
-  pl_follow_motion(d, &p->ask->motion, &s, &f);
+  pl_follow_motion(d, &p->ask->motion, 0, &s, &f);
   if (f.how == PL_FOLLOWED_NOT || (every && f.how == PL_FOLLOWED_MET && f.lost < 0)) return false;
   pl_say_followed(d, &s, &f);
   return true;
@@ -545,6 +616,74 @@ static void say_motion_unknown(pl_analysis* d) {
   pl_say(d, "The motion from this start is not known in closed form, and not all numbers are given.",
          "Die Bewegung von diesem Start ist nicht geschlossen bekannt, und nicht alle Zahlen sind gegeben.", 0);
   d->section->not_found = true;
+}
+
+// ---------------------------------------------------------------------------------------------- closed loops
+// The numbers of an assembly where all generalized coordinates that matter are given; NaN where something has none.
+static double in_assembly(pl_analysis* d, const pl_where* p, int assembly) {
+  int n = pl_loop_definitions(d, assembly, NULL);
+  pl_definition* definition = PL_ARRAY(d->arena, pl_definition, n + 1);
+  pl_loop_definitions(d, assembly, definition);
+  pl_number(d, p->asked);   // the table of numbers covers every name
+  size_t size = (size_t)(pl_symbol_count(d->pool) + 1);
+  double* value = memcpy(PL_ARRAY(d->arena, double, size), d->value, size * sizeof *value);
+  for (int k = 0; k < p->n_pins; k++) value[p->pin[k].from.id] = pl_number(d, p->pin[k].to);
+  for (int k = 0; k < n; k++) value[definition[k].symbol.id] = pl_eval(d->pool, definition[k].value, value);
+  return pl_eval(d->pool, p->asked, value);
+}
+
+static void show_in_assembly(pl_analysis* d, const pl_where* p, int assembly, double x) {
+  pl_step* step = pl_show_number(d, p->ask->value, x);
+  const char* branch = pl_branch_text(d, assembly, PL_MATH_LINE);
+  if (!branch) return;
+  pl_step_after(step, pl_format(d->arena, "for %s", branch), pl_format(d->arena, "für %s", branch));
+  d->section->values.at[d->section->values.n - 1].branch = pl_branch_text(d, assembly, PL_MATH_ASCII);
+}
+
+// On the motion, in each assembly.
+static bool loops_followed(pl_analysis* d, const pl_where* p) {
+  pl_search s = plain_search(d, p);
+  bool any = false;
+  for (int a = 0; a < pl_assemblies(d); a++) {
+    pl_followed f;
+    pl_follow_motion(d, &p->ask->motion, a, &s, &f);
+    if (f.how == PL_FOLLOWED_NOT) continue;
+    any = true;
+    const char* branch = pl_branch_text(d, a, PL_MATH_LINE);
+    if (f.how == PL_FOLLOWED_MET && f.lost < 0) {
+      show_in_assembly(d, p, a, f.asked);
+      continue;
+    }
+    if (branch) pl_say(d, "For {1}:", "Für {1}:", 1, pl_fn(d, branch));
+    pl_say_followed(d, &s, &f);
+  }
+  return any;
+}
+
+bool pl_where_in_loops(pl_analysis* d, const pl_ask* ask) {
+  pl_where p = {0};
+  if (!collect(d, ask, &p) || pl_has_role(d->pool, p.asked, PL_R_ACCELERATION) || pl_has_role(d->pool, p.asked, PL_R_MULTIPLIER)) return false;
+  bool one = p.n == 1 && p.n_pins == 0;
+  if (one) {
+    for (int k = 0; k < ask->where.n; k++) p.n_pins += pin_of(d, &ask->where.at[k], &p.pin[p.n_pins]);
+  }
+  bool pinned = p.n_pins > 0 && (p.n == 0 || one);
+  double* x = PL_ARRAY(d->arena, double, pl_assemblies(d) + 1);
+  for (int a = 0; a < pl_assemblies(d); a++) {
+    x[a] = pinned ? in_assembly(d, &p, a) : (double)NAN;
+    pinned = !isnan(x[a]);
+  }
+  bool unmoved = pinned && !pl_has_role(d->pool, p.asked, PL_R_VELOCITY);   // the place alone decides
+  if (!pinned && !one) return false;
+  pl_section_open(d, ask, ask->text, ask->text);
+  pl_say(d, "For the given numbers:", "Mit den gegebenen Zahlen:", 0);
+  if (unmoved || (pinned && !one)) {
+    for (int a = 0; a < pl_assemblies(d); a++) show_in_assembly(d, &p, a, x[a]);
+    return true;
+  }
+  if (loops_followed(d, &p)) return true;
+  say_motion_unknown(d);
+  return true;
 }
 
 static void drop_what_vanishes(pl_analysis* d, pl_where* p) {

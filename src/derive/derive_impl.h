@@ -252,6 +252,7 @@ bool pl_speaks_of_loops(const pl_ask* ask);            // formulas of this reque
 pl_expr pl_without_slopes(pl_analysis* d, pl_expr e);  // coefficients written out
 bool pl_answer_follower(pl_analysis* d, pl_symbol q);   // a position: shown, one value for each assembly
 void pl_answer_positions(pl_analysis* d);               // kinematics without requests
+const char* pl_branch_text(pl_analysis* d, int assembly, pl_math math);   // what picks an assembly; NULL: there is one
 void pl_spread_assemblies(pl_analysis* d);              // values over followers get their definitions, one value for each assembly
 // solve_motion.c
 pleuel_status pl_solve_motion(pl_analysis* d);          // accelerations and multipliers
@@ -360,6 +361,7 @@ void pl_answer_value(pl_analysis* d, const pl_ask* ask);
 void pl_answer_expect(pl_analysis* d, const pl_ask* ask);
 void pl_answer_where(pl_analysis* d, const pl_ask* ask);                             // a quantity where conditions hold (answer_where.c)
 bool pl_is_circular(pl_analysis* d, pl_expr name, pl_expr value);                    // the value contains what it is the value of
+bool pl_where_in_loops(pl_analysis* d, const pl_ask* ask);   // in numbers, with closed loops; false: not possible, nothing is said
 typedef struct pl_line pl_line;
 pl_expr pl_value_on(pl_analysis* d, const pl_motion* motion, pl_expr e, pl_line* line, bool* eliminated);  // with the velocities that the motion gives
 pleuel_status pl_derive_families(pl_analysis* d);       // by pattern, with index i (answer_family.c)

@@ -28,9 +28,9 @@ static int digit(const pl_analysis* d, int assembly, int k) {
 }
 
 // The conditions of an assembly up to one of the loops; NULL when there is no choice.
-static const char* branch_text(pl_analysis* d, int assembly, int last) {
+static const char* branch_words(pl_analysis* d, int assembly, int last, pl_math math) {
   pl_text text = pl_text_make(d->arena);
-  pl_notation how = {.math = PL_MATH_ASCII, .lang = d->job->lang};
+  pl_notation how = {.math = math, .lang = d->job->lang};
   for (int k = 0; k <= last; k++) {
     const pl_loop* l = &d->loops.at[k];
     if (l->n_ways < 2) continue;
@@ -39,6 +39,10 @@ static const char* branch_text(pl_analysis* d, int assembly, int last) {
   }
   return text.n ? pl_text_string(&text) : NULL;
 }
+
+static const char* branch_text(pl_analysis* d, int assembly, int last) { return branch_words(d, assembly, last, PL_MATH_ASCII); }
+
+const char* pl_branch_text(pl_analysis* d, int assembly, pl_math math) { return branch_words(d, assembly, d->loops.n - 1, math); }
 
 // ---------------------------------------------------------------------------------------------- a loop displayed
 static const pl_form* zero_form(pl_analysis* d) { return pl_form_leaf(d->arena, pl_int(d->pool, 0)); }

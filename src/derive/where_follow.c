@@ -16,6 +16,8 @@ typedef struct flow {
   int n;                    // coordinates
   int coordinate[most];
   pl_expr f;                // whose zero is looked for
+  int n_definitions;        // coordinates, velocities and names of closed loops, in one assembly
+  pl_definition* definition;
 } flow;
 
 static void put(const flow* w, double t, const double* y) {
@@ -24,6 +26,9 @@ static void put(const flow* w, double t, const double* y) {
     const pl_variable* c = &w->d->q.at[w->coordinate[k]];
     w->value[c->q.id] = y[k];
     w->value[c->v.id] = y[w->n + k];
+  }
+  for (int k = 0; k < w->n_definitions; k++) {
+    w->value[w->definition[k].symbol.id] = pl_eval(w->d->pool, w->definition[k].value, w->value);
   }
 }
 
@@ -80,12 +85,15 @@ static bool starts(const flow* w, const pl_motion* motion, double* y) {
   return true;
 }
 
-static bool follows(pl_analysis* d, flow* w) {
-  if (!d->solved || !d->reduced || d->loops.n > 0 || d->gen.n == 0 || d->gen.n > most || pl_nonholonomic(d)) return false;
+static bool follows(pl_analysis* d, flow* w, int assembly) {
+  if (!d->solved || !d->reduced || d->gen.n == 0 || d->gen.n > most || pl_nonholonomic(d)) return false;
   for (int k = 0; k < d->gen.n; k++) {
     w->coordinate[w->n++] = d->gen.at[k];
     if (pl_is_poison(d->acceleration[d->gen.at[k]])) return false;
   }
+  w->n_definitions = pl_loop_definitions(d, assembly, NULL);
+  w->definition = PL_ARRAY(d->arena, pl_definition, w->n_definitions + 1);
+  pl_loop_definitions(d, assembly, w->definition);
   return true;
 }
 
@@ -156,14 +164,14 @@ static void look_at_contacts(flow* w, const pl_search* p, const pl_motion* motio
   }
 }
 
-void pl_follow_motion(pl_analysis* d, const pl_motion* motion, const pl_search* p, pl_followed* out) {
+void pl_follow_motion(pl_analysis* d, const pl_motion* motion, int assembly, const pl_search* p, pl_followed* out) {
   flow w = {.d = d, .f = p->condition};
   double y[2 * most];
   *out = (pl_followed){.how = PL_FOLLOWED_NOT, .lost = -1};
   pl_number(d, pl_add(d->pool, p->condition, p->asked));   // the table of numbers covers every name
   w.value = PL_ARRAY(d->arena, double, pl_symbol_count(d->pool) + 1);
   memcpy(w.value, d->value, (size_t)(pl_symbol_count(d->pool) + 1) * sizeof *w.value);
-  if (!follows(d, &w) || !starts(&w, motion, y)) return;
+  if (!follows(d, &w, assembly) || !starts(&w, motion, y)) return;
   if (isnan(watched(&w, 0, y)) || isnan(pl_eval(d->pool, p->asked, w.value))) return;
   out->how = first_zero(&w, end_of(d), &out->time, y);
   if (out->how == PL_FOLLOWED_NOT) return;

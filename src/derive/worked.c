@@ -278,6 +278,7 @@ static void answer_with(pl_analysis* d, const pl_ask* ask) {
     return;
   }
   if (d->loops.n > 0 && needs_explicit_maps(ask)) {
+    if (ask->kind == PL_ASK_VALUE && pl_where_in_loops(d, ask)) return;
     leave_implicit(d, ask);
     return;
   }
