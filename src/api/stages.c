@@ -46,7 +46,11 @@ static pl_stage* stage_of(pl_arena* a, const pl_trace* t, int phase) {
   const pl_setup* s = &t->recording->setup;
   const pl_trace_phase* p = &t->phases.at[phase];
   const char** name = PL_ARRAY(a, const char*, s->n_c + 1);
-  for (int c = 0; c < s->n_c; c++) name[c] = s->links[c].name;
+  bool* rope = PL_ARRAY(a, bool, s->n_c + 1);
+  for (int c = 0; c < s->n_c; c++) {
+    name[c] = s->links[c].name;
+    rope[c] = s->links[c].rope;
+  }
   int n_q = t->recording->flat.n;
   const char **q_name = PL_ARRAY(a, const char*, n_q + 1), **q_unit = PL_ARRAY(a, const char*, n_q + 1);
   for (int i = 0; i < n_q; i++) {
@@ -54,7 +58,7 @@ static pl_stage* stage_of(pl_arena* a, const pl_trace* t, int phase) {
     q_unit[i] = s->coordinates[i].unit ? s->coordinates[i].unit : "";
   }
   pl_stage* out = PL_NEW(a, pl_stage);
-  *out = (pl_stage){.n = s->n_c, .name = name, .holds = p->active, .released = p->released, .from = p->t_begin, .to = p->t_end,
+  *out = (pl_stage){.n = s->n_c, .name = name, .holds = p->active, .released = p->released, .rope = rope, .from = p->t_begin, .to = p->t_end,
                     .n_q = n_q, .q_name = q_name, .q_unit = q_unit, .q = t->samples.at[p->first].q};
   out->pulls = phase == 0 ? t->pulls : PL_ARRAY(a, bool, s->n_c + 1);
   return out;

@@ -117,7 +117,9 @@ static void domain(pl_analysis* d, pl_certifier_setup* setup) {
   setup->n_facts = n;
 }
 
-static bool takes_part(const pl_analysis* d, const pl_variable* c) { return c->carries || (c->chosen && d->reduced); }
+static bool takes_part(const pl_analysis* d, const pl_variable* c) {
+  return c->carries || (c->chosen && d->reduced && (pl_is_poison(c->map) || c->solved_by == -3));
+}
 
 // Rows of the map that determine the chosen coordinates: which coordinates they are of, in `of`.
 static int independent_maps(pl_analysis* d, int* of) {

@@ -102,6 +102,7 @@ typedef struct pl_stage {
   const bool* holds;               // (n)
   const bool* released;            // by an event, or `off`: nothing keeps its side either  (n)
   const bool* pulls;               // met at the beginning, but would have to pull          (n)
+  const bool* rope;                // taut or slack, not closed or open                     (n)
   double from, to;                 // s
   int n_q;
   const char* const *q_name, *const *q_unit;   // coordinates where the stretch begins, units as text, "rad" for angles

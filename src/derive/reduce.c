@@ -58,6 +58,22 @@ void pl_find_places(pl_analysis* d) {
 }
 
 // ---------------------------------------------------------------------------------------------- maps
+static bool solve_linear(pl_analysis* d, pl_expr e, int i, pl_expr* out);
+
+// x = s with x fixed by a constraint: the map fixes the chosen coordinate.
+static void map_of_fixed(pl_analysis* d, pl_expr old, pl_expr map) {
+  int i = pl_kind_of(d->pool, old) == PL_SYMBOL ? pl_variable_index(d, pl_symbol_of(d->pool, old)) : -1;
+  if (i < 0 || d->q.at[i].fixed_by < 0) return;
+  pl_expr e = pl_mapped(d, pl_sub(d->pool, map, d->q.at[i].fixed));
+  for (int j = 0; j < d->q.n; j++) {
+    pl_variable* c = &d->q.at[j];
+    pl_expr value;
+    if (!c->chosen || c->carries || !pl_is_poison(c->map) || !pl_has_symbol(d->pool, e, c->q) || !solve_linear(d, e, j, &value)) continue;
+    set_map(d, j, value, d->q.at[i].fixed_by);
+    return;
+  }
+}
+
 // The map of `choose`: old coordinates first to last, each with the ones before it inserted.
 static void chosen_maps(pl_analysis* d) {
   const pl_choose* choose = &d->model->choose;
@@ -66,6 +82,7 @@ static void chosen_maps(pl_analysis* d) {
     int i = pl_variable_index(d, pl_symbol_of(d->pool, choose->maps[k].old));
     if (i >= 0 && d->q.at[i].fixed_by < 0) set_map(d, i, pl_mapped(d, choose->maps[k].map), -1);
   }
+  for (int k = 0; k < choose->n_maps; k++) map_of_fixed(d, choose->maps[k].old, choose->maps[k].map);
 }
 
 // Does a candidate for coordinate i satisfy the branch conditions?  PL_UNKNOWN: nothing speaks for or against it.

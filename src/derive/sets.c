@@ -171,6 +171,7 @@ static bool asks_lambda(const pl_analysis* d, pl_expr e, const pl_open* o) {
 // A request for the force of an open constraint, or for the place where that vanishes.
 static bool is_about(const pl_analysis* d, const pl_ask* ask, const pl_open* o) {
   const pl_name* name = &o->source->name;
+  if (ask->kind == PL_ASK_EXPECT) return false;      // decided with λ = 0
   if (ask->kind == PL_ASK_FORCE_OF && ask->label)
     return strcmp(name->text, ask->label) == 0 || (name->ascii && strcmp(name->ascii, ask->label) == 0);
   if (asks_lambda(d, ask->value, o)) return true;
@@ -232,10 +233,12 @@ bool pl_answer_open(pl_analysis* d, const pl_ask* ask) {
   for (int k = 0; k < d->open.n; k++) {
     const pl_open* o = &d->open.at[k];
     if (!is_about(d, ask, o)) continue;
-    d->open_told |= would_pull(d, o);
     bool force = ask->kind == PL_ASK_FORCE_OF;
+    bool told = d->open_told;
+    d->open_told = true;      // said here in other words
     pl_section_open(d, ask, force ? pl_format(d->arena, "Force of %s", o->source->name.text) : ask->text,
                     force ? german_force(d, o) : ask->text);
+    d->open_told = told;
     say_open(d, o);
     if (ask->where.n > 0 || !o->source->lambda.id) return true;
     pl_answer(d, pl_symbol_get(d->pool, o->source->lambda)->ascii, pl_int(d->pool, 0), zero_form(d))->of = o->source->name.text;
@@ -286,13 +289,28 @@ static const pl_event* event_named(const pl_analysis* d, const char* label) {
   return NULL;
 }
 
+// e = 0 with its negative terms on the right: t = 1/2, and not t - 1/2 = 0.
+static const pl_form* equation_form(pl_analysis* d, pl_expr e) {
+  pl_pool* p = d->pool;
+  pl_expr right = pl_int(p, 0), left = right;
+  int n = pl_kind_of(p, e) == PL_ADD ? pl_n_args(p, e) : 0;
+  for (int k = 0; k < n; k++) {
+    pl_expr term = pl_arg(p, e, k), opposite = pl_neg(p, term);
+    bool negative = pl_op_count(p, opposite) < pl_op_count(p, term) || (pl_is_number(p, term) && pl_number_sign(p, term) < 0);
+    if (negative) right = pl_add(p, right, opposite);
+    else left = pl_add(p, left, term);
+  }
+  bool split = n > 0 && !pl_is_zero_node(p, left);
+  return pl_feq(d, pl_fe(d, split ? left : e), split ? pl_fe(d, right) : zero_form(d));
+}
+
 // The equation that ends a stage: y = 0, λ = 0, or the condition of an event.  NULL when there is none to show.
 static const pl_form* end_form(pl_analysis* d, const pl_stage* s) {
   const pl_constraint* c = constraint_named(d, s->ended_by);
   if (s->end == PL_END_CLOSES && c) return met_form(d, c);
   if (s->end == PL_END_OPENS && c) return pl_feq(d, pl_fs(d, c->lambda), zero_form(d));
   const pl_event* e = s->end == PL_END_EVENT ? event_named(d, s->ended_by) : NULL;
-  return e ? pl_feq(d, pl_fe(d, e->value), zero_form(d)) : NULL;
+  return e ? equation_form(d, e->value) : NULL;
 }
 
 static void say_end(pl_analysis* d, const pl_stage* s) {
@@ -433,20 +451,38 @@ static bool repeat(pl_analysis* d, const pl_ask* ask) {
   return false;
 }
 
-static int list_changes(pl_analysis* d, const pl_stage* before, bool holds, const char** out) {
+// What has become of a constraint, in one word.
+typedef enum pl_state_word { PL_WORD_CONTACT, PL_WORD_ROPE, PL_WORD_DEED, PL_N_WORDS } pl_state_word;
+static const char* const state_word[PL_N_WORDS][2][2] = {     // holds, does not; in two languages
+    [PL_WORD_CONTACT] = {{"closed", "geschlossen"}, {"open", "offen"}},
+    [PL_WORD_ROPE] = {{"taut", "straff"}, {"slack", "schlaff"}},
+    [PL_WORD_DEED] = {{"attached", "befestigt"}, {"released", "gelöst"}},
+};
+
+static pl_state_word word_for(const pl_analysis* d, const pl_constraint* c) {
+  int row = row_of(d->stage, label_of(c));
+  if (c->relation == PL_EQ || d->stage->released[row]) return PL_WORD_DEED;
+  return d->stage->rope[row] ? PL_WORD_ROPE : PL_WORD_CONTACT;
+}
+
+static int list_changes(pl_analysis* d, const pl_stage* before, bool holds, pl_state_word word, const char** out) {
   int n = 0;
   for (int k = 0; k < d->whole->constraints.n; k++) {
     const pl_constraint* c = &d->whole->constraints.at[k];
     int now = row_of(d->stage, label_of(c)), then = row_of(before, label_of(c));
     if (now < 0 || then < 0 || d->stage->holds[now] != holds || before->holds[then] == holds || c->while_label) continue;
+    if (word_for(d, c) != word) continue;
     out[n++] = c->name.text;
   }
   return n;
 }
 
-static void add_names(pl_text* t, const char* const* name, int n, const char* what) {
+static void add_names(pl_text* t, const char* const* name, int n, const char* what, bool* any) {
+  if (n == 0) return;
+  if (*any) pl_text_add(t, ", ");
   for (int k = 0; k < n; k++) pl_text_addf(t, "%s%s", k ? ", " : "", name[k]);
-  if (n > 0) pl_text_addf(t, " %s", what);
+  pl_text_addf(t, " %s", what);
+  *any = true;
 }
 
 // "From t = 6.54427 s: h open"
@@ -456,11 +492,13 @@ static const char* stage_title(pl_analysis* d, pl_language lang) {
   pl_text t = pl_text_make(d->arena);
   pl_text_addf(&t, de ? "Ab %s: " : "From %s: ", seconds(d, d->stage->from, lang));
   const pl_stage* first = &d->options->stages[0];
-  int n = list_changes(d, first, true, name);
-  add_names(&t, name, n, de ? "geschlossen" : "closed");
-  int opened = list_changes(d, first, false, name);
-  if (n > 0 && opened > 0) pl_text_add(&t, ", ");
-  add_names(&t, name, opened, de ? "offen" : "open");
+  bool any = false;
+  for (int holds = 1; holds >= 0; holds--) {
+    for (int word = 0; word < PL_N_WORDS; word++) {
+      int n = list_changes(d, first, holds, (pl_state_word)word, name);
+      add_names(&t, name, n, state_word[word][!holds][de], &any);
+    }
+  }
   return pl_text_string(&t);
 }
 
