@@ -60,7 +60,7 @@ static void show_maps(pl_analysis* d) {
   bool chosen = false;
   for (int i = 0; i < d->q.n; i++) {
     const pl_variable* c = &d->q.at[i];
-    if (c->fixed_by >= 0 || pl_is_poison(c->map) || pl_follower(d, i) >= 0) continue;
+    if (c->fixed_by >= 0 || pl_is_poison(c->map) || pl_follower(d, i) >= 0 || c->follows) continue;
     const pl_form* form = pl_f(d, c->map, PL_S_SOLUTION);
     pl_step* step = pl_show(d, pl_feq(d, pl_fs(d, c->q), form));
     say_what_it_solves(d, step, i);
@@ -79,7 +79,7 @@ static void show_maps(pl_analysis* d) {
 static void show_velocities(pl_analysis* d) {
   for (int i = 0; i < d->q.n; i++) {
     const pl_variable* c = &d->q.at[i];
-    if (c->fixed_by >= 0 || pl_is_poison(c->map) || pl_follower(d, i) >= 0) continue;
+    if (c->fixed_by >= 0 || pl_is_poison(c->map) || pl_follower(d, i) >= 0 || c->follows) continue;
     pl_expr v = pl_dt(d->pool, c->map);
     const pl_form* form = pl_f(d, v, PL_S_PLAIN);
     pl_show(d, pl_feq(d, pl_fs(d, c->v), form));

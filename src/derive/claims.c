@@ -212,7 +212,9 @@ static void rows(pl_analysis* d, pl_system_of_motion* s) {
   }
   for (int k = 0; k < coupling.n; k++) {
     const pl_variable* c = &d->q.at[coupling.of[k]];
-    s->row[n_rows++] = pl_sub(d->pool, pl_sym(d->pool, c->a), pl_dt(d->pool, pl_dt(d->pool, c->map)));
+    pl_expr a = pl_dt(d->pool, pl_dt(d->pool, c->map));
+    if (pl_has_followers(d, c->map)) a = pl_subst(d->pool, a, d->maps.at, d->maps.n);   // angles that are no coordinates of the model
+    s->row[n_rows++] = pl_sub(d->pool, pl_sym(d->pool, c->a), a);
   }
   if (n_rows != s->n) s->n = 0;
 }

@@ -9,6 +9,7 @@ typedef struct pl_variable {
   pl_symbol q, v, a;
   bool carries;        // moves a mass or occurs in a force or constraint; false: only stands in `choose`
   bool chosen;         // named by `choose`
+  bool follows;        // a proposed angle that a constraint gives
   int fixed_by;        // index of the constraint that makes it constant or f(t), -1
   bool by_contact;     // fixed_by is one-sided: fixed while the contact lasts
   pl_expr fixed;       // its value then
@@ -224,6 +225,7 @@ void pl_find_places(pl_analysis* d);                    // constraints without t
 bool pl_open_coordinate(const pl_variable* c);          // neither fixed, chosen nor mapped
 // propose.c
 pl_analysis* pl_propose(pl_analysis* d);                // the analysis with what the constraints suggest; NULL: nothing was found
+bool pl_follows_by_constraint(const pl_analysis* a, pl_symbol q);   // a new angle that does not lead
 void pl_tell_proposal(pl_analysis* a);                  // once, in the section that is open
 void pl_define_proposed(pl_analysis* d);                // values over proposed angles get their definitions
 // places.c

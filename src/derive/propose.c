@@ -4,11 +4,12 @@
 // none, a coordinate that is there already leads and the constraints are solved for the others.  Each proposal is a `choose` in a
 // copy of the model: it is tried as if the text had said it, and the first one that solves all constraints is taken.  What is derived
 // with it is a second analysis beside the one in the coordinates of the model; both share pool and solution.
+#include <math.h>
 #include <string.h>
 
 #include "loops_impl.h"
 
-enum { most_angles = 12, most_trials = 8 };
+enum { most_angles = 12, most_trials = 12 };
 
 // One sum of squares: half axes and centres along its coordinates, and the angles that take their place.
 typedef struct pl_round {
@@ -20,6 +21,7 @@ typedef struct pl_round {
 typedef struct pl_trial {
   pl_round round[most_angles];
   int n_rounds;
+  int leader, n_leaders;            // of the new angles: these lead, the others follow by a constraint; n_leaders 0: all lead
   int chosen[most_angles];          // coordinates that are there already
   int n_chosen;
 } pl_trial;
@@ -32,7 +34,7 @@ struct pl_proposal {
   PL_VEC(pl_definition) angles;     // the new ones, over the coordinates of the model
   PL_VEC(pl_definition) tried;      // the same, of the present trial
   pl_angle_names plain, numbered, polar;
-  int n_trials;
+  int n_trials, flaws;              // of the analysis that is kept
   bool told;                        // what is proposed has been said
 };
 
@@ -309,7 +311,6 @@ static bool add_angle(pl_analysis* d, pl_proposal* p, pl_model* m, pl_symbol q, 
   if (!q.id) return false;
   start_angle(d, m, q, inverse);
   pl_push(d->arena, m->coords, (pl_coord){.symbol = q, .lo = pl_poison(), .hi = pl_poison()});
-  pl_push(d->arena, m->choose.coords, q);
   pl_push(d->arena, p->tried, (pl_definition){q, inverse});
   return true;
 }
@@ -366,13 +367,78 @@ static pl_model* chosen_model(pl_analysis* d, pl_proposal* p, const pl_trial* t)
     bool numbered = n_circles >= several;
     if (!(r->n == 3 ? add_sphere(d, p, m, r, numbered) : add_circle(d, p, m, r, numbered))) return NULL;
   }
+  for (int k = 0; k < p->tried.n; k++) {
+    bool leads = t->n_leaders == 0 || (k >= t->leader && k < t->leader + t->n_leaders);
+    if (leads) pl_push(d->arena, m->choose.coords, p->tried.at[k].symbol);
+  }
   for (int k = 0; k < t->n_chosen; k++) pl_push(d->arena, m->choose.coords, d->q.at[t->chosen[k]].q);
   return m;
 }
 
+// ---------------------------------------------------------------------------------------------- how good it is
+static const int n_samples = 60, most_draws = 50;
+static const double longest_place = 100;   // of places that are drawn, in SI
+
+static bool is_an_angle(pl_analysis* a, int i) {
+  pl_symbol q = a->q.at[i].q;
+  bool turned = false;
+  for (int k = 0; k < a->proposal->tried.n; k++) turned |= a->proposal->tried.at[k].symbol.id == q.id;
+  for (int k = 0; k < a->g.n; k++) turned |= is_turned(a, a->g.at[k].g, q);
+  return turned;
+}
+
+static bool facts_hold(pl_analysis* a, const double* x) {
+  for (int k = 0; k < a->facts.n; k++) {
+    double y = pl_eval(a->pool, a->facts.at[k].difference, x);
+    if (!isnan(y) && y < 0) return false;
+  }
+  return true;
+}
+
+// A place of the generalized coordinates, and numbers for what is given without one.
+static void draw(pl_analysis* a, pl_random* r, double* x, const double* known, int n) {
+  for (int k = 1; k <= n; k++) {
+    pl_role role = pl_symbol_get(a->pool, (pl_symbol){(uint32_t)k})->role;
+    x[k] = isnan(known[k]) && role == PL_R_PARAM ? pl_random_between(r, 0.3, 3) : role == PL_R_TIME ? pl_random_between(r, 0, 10) : known[k];
+  }
+  for (int k = 0; k < a->gen.n; k++) {
+    int i = a->gen.at[k];
+    double wide = is_an_angle(a, i) ? M_PI : pow(longest_place, pl_random_between(r, -1, 1));
+    x[a->q.at[i].q.id] = pl_random_between(r, -wide, wide);
+  }
+}
+
+// The maps have a value wherever the generalized coordinates are, as the crank goes round; a rod between them only swings.
+static bool covers_all(pl_analysis* a) {
+  pl_number(a, pl_int(a->pool, 0));   // numbers are up to date
+  int n = pl_symbol_count(a->pool);
+  double* x = PL_ARRAY(a->arena, double, n + 1);
+  pl_random r = {2718};
+  for (int s = 0; s < n_samples; s++) {
+    draw(a, &r, x, a->value, n);
+    for (int tries = 0; tries < most_draws && !facts_hold(a, x); tries++) draw(a, &r, x, a->value, n);
+    for (int i = 0; i < a->q.n; i++) {
+      const pl_variable* c = &a->q.at[i];
+      if (!pl_is_poison(c->map) && pl_follower(a, i) < 0 && !pl_has_followers(a, c->map) && isnan(pl_eval(a->pool, c->map, x))) return false;
+    }
+  }
+  for (int k = 0; k < a->loops.n; k++) {
+    if (!pl_is_poison(a->loops.at[k].real)) return false;
+  }
+  return true;
+}
+
 // ---------------------------------------------------------------------------------------------- trying
-// The equations of the copy.  True when all constraints are solved without ways that stay open; with such ways the first trial is
-// kept until a better one is found.
+static void keep(pl_analysis* d, pl_proposal* p, pl_analysis* a, int flaws) {
+  p->analysis = a;
+  p->flaws = flaws;
+  p->angles.at = NULL;
+  p->angles.n = p->angles.cap = 0;
+  for (int k = 0; k < p->tried.n; k++) pl_push(d->arena, p->angles, p->tried.at[k]);
+}
+
+// The equations of the copy.  True when all constraints are solved without a flaw: for every place, and in one way.  Else the best
+// trial so far is kept.
 static bool solves(pl_analysis* d, pl_proposal* p, const pl_trial* t, int n_freedoms) {
   if (++p->n_trials > most_trials) return false;
   pl_model* m = chosen_model(d, p, t);
@@ -389,13 +455,22 @@ static bool solves(pl_analysis* d, pl_proposal* p, const pl_trial* t, int n_free
   pl_setup_facts(a);
   if (pl_form_equations(a) != PLEUEL_OK || !a->reduced) return false;
   if (a->gen.n + a->hidden.n != n_freedoms) return false;
-  bool best = a->loops.n == 0;
-  if (!best && p->analysis) return false;
-  p->analysis = a;
-  p->angles.at = NULL;
-  p->angles.n = p->angles.cap = 0;
-  for (int k = 0; k < p->tried.n; k++) pl_push(d->arena, p->angles, p->tried.at[k]);
-  return best;
+  int flaws = (covers_all(a) ? 0 : 2) + (a->loops.n > 0 ? 1 : 0);
+  if (!p->analysis || flaws < p->flaws) keep(d, p, a, flaws);
+  return flaws == 0;
+}
+
+// More sums of squares than freedoms: some of the angles lead, the others follow by the constraints that are left.
+static bool try_followers(pl_analysis* d, pl_proposal* p, int n_freedoms) {
+  pl_trial t = {.n_rounds = 0};
+  collect_rounds(d, 0, most_angles, &t);
+  int n_angles = 0;
+  for (int k = 0; k < t.n_rounds; k++) n_angles += t.round[k].n - 1;
+  t.n_leaders = n_freedoms;
+  for (t.leader = 0; n_freedoms > 0 && t.leader + n_freedoms <= n_angles && n_angles > n_freedoms; t.leader++) {
+    if (solves(d, p, &t, n_freedoms)) return true;
+  }
+  return false;
 }
 
 static bool try_rounds(pl_analysis* d, pl_proposal* p, int n_freedoms) {
@@ -424,6 +499,17 @@ static bool try_coordinates(pl_analysis* d, pl_proposal* p, int n_freedoms, bool
   return false;
 }
 
+bool pl_follows_by_constraint(const pl_analysis* a, pl_symbol q) {
+  if (!a->is_proposal) return false;
+  for (int k = 0; k < a->model->choose.coords.n; k++) {
+    if (a->model->choose.coords.at[k].id == q.id) return false;
+  }
+  for (int k = 0; k < a->proposal->tried.n; k++) {
+    if (a->proposal->tried.at[k].symbol.id == q.id) return true;
+  }
+  return false;
+}
+
 pl_analysis* pl_propose(pl_analysis* d) {
   if (d->is_proposal) return d;
   if (d->proposal) return d->proposal->analysis;
@@ -431,7 +517,9 @@ pl_analysis* pl_propose(pl_analysis* d) {
   if (d->reduced || d->model->choose.coords.n > 0 || d->g.n == 0 || pl_nonholonomic(d) || has_axes(d)) return NULL;
   int n = freedoms(d);
   if (n < 0 || d->model->frictions.n > 0) return NULL;
-  if (!try_coordinates(d, d->proposal, n, true) && !try_rounds(d, d->proposal, n)) try_coordinates(d, d->proposal, n, false);
+  pl_proposal* p = d->proposal;
+  bool found = try_coordinates(d, p, n, true) || try_rounds(d, p, n) || try_followers(d, p, n);
+  if (!found) try_coordinates(d, p, n, false);
   pl_analysis* a = d->proposal->analysis;
   if (!a) return NULL;
   if (pl_solve_motion(a) != PLEUEL_OK) return d->proposal->analysis = NULL;

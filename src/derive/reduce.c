@@ -8,7 +8,7 @@
 enum { max_roots = 8 };
 
 bool pl_open_coordinate(const pl_variable* c) {
-  return c->carries && c->fixed_by < 0 && !c->chosen && pl_is_poison(c->map);
+  return (c->carries || c->follows) && c->fixed_by < 0 && !c->chosen && pl_is_poison(c->map);
 }
 
 static void set_map(pl_analysis* d, int i, pl_expr map, int solved_by) {
@@ -104,9 +104,10 @@ static pl_answer3 on_branch(pl_analysis* d, int i, pl_expr candidate) {
 
 // Compares a candidate with the start value that `init` gives for coordinate i.
 static pl_answer3 fits_start(pl_analysis* d, int i, pl_expr candidate) {
-  pl_replace start[64];
+  pl_replace start[65];
   int n = 0;
-  for (int j = 0; j < d->q.n && n < 64; j++) {
+  start[n++] = (pl_replace){pl_time(d->pool), pl_int(d->pool, 0)};
+  for (int j = 0; j < d->q.n && n < 65; j++) {
     start[n++] = (pl_replace){d->q.at[j].q, pl_sym(d->pool, pl_symbol_start(d->pool, d->q.at[j].q))};
   }
   double given = pl_number(d, pl_sym(d->pool, pl_symbol_start(d->pool, d->q.at[i].q)));
@@ -138,6 +139,25 @@ static bool solve_linear(pl_analysis* d, pl_expr e, int i, pl_expr* out) {
   return true;
 }
 
+// The argument of a sine, cosine or tangent in e; poison if there is none.
+static pl_expr turned_by(pl_analysis* d, pl_expr e) {
+  if (pl_kind_of(d->pool, e) == PL_CALL) {
+    pl_function f = pl_function_of(d->pool, e);
+    if (f == PL_SIN || f == PL_COS || f == PL_TAN) return pl_arg(d->pool, e, 0);
+  }
+  pl_expr found = pl_poison();
+  for (int k = 0; k < pl_n_args(d->pool, e) && pl_is_poison(found); k++) found = turned_by(d, pl_arg(d->pool, e, k));
+  return found;
+}
+
+// tan u = tan(Ω t) has the root u = Ω t, which goes round; atan(tan(Ω t)) jumps back at every half turn.
+static pl_expr without_jumps(pl_analysis* d, pl_expr e, pl_symbol q, pl_expr root) {
+  if (pl_kind_of(d->pool, root) != PL_CALL || pl_function_of(d->pool, root) != PL_ATAN) return root;
+  pl_expr angle = turned_by(d, root);
+  bool solves = !pl_is_poison(angle) && pl_alg_is_zero(d->tower, pl_subst1(d->pool, e, q, angle)) == PL_YES;
+  return solves ? angle : root;
+}
+
 static bool solve_roots(pl_analysis* d, pl_expr e, int i, pl_expr* out) {
   d->q.at[i].by_branch = false;
   pl_root root[max_roots];
@@ -146,7 +166,7 @@ static bool solve_roots(pl_analysis* d, pl_expr e, int i, pl_expr* out) {
   int k = n == 1 && complete ? 0 : pick_root(d, i, root, n);
   if (k < 0) return false;
   d->q.at[i].by_branch = n > 1;
-  *out = root[k].value;
+  *out = without_jumps(d, e, d->q.at[i].q, root[k].value);
   return true;
 }
 

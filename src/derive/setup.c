@@ -103,6 +103,7 @@ int pl_sign_or_positive(pl_analysis* d, pl_expr e) {
 static void add_coordinates(pl_analysis* d) {
   for (int k = 0; k < d->model->coords.n; k++) {
     pl_variable c = {.q = d->model->coords.at[k].symbol, .fixed_by = -1, .solved_by = -2};
+    c.follows = pl_follows_by_constraint(d, c.q);
     c.v = pl_symbol_dot(d->pool, c.q);
     c.a = pl_symbol_dot(d->pool, c.v);
     pl_symbol_start(d->pool, c.q);
