@@ -36,6 +36,11 @@ static void say_what_it_solves(pl_analysis* d, pl_step* step, int i) {
     pl_step_after(step, pl_format(d->arena, "solves %s, branch %s", label, branch), pl_format(d->arena, "löst %s, Zweig %s", label, branch));
     return;
   }
+  if (d->q.at[i].by_branch) {   // the other solutions belong to other positions
+    pl_step_after(step, pl_format(d->arena, "solves %s, on the side of the start", label),
+                  pl_format(d->arena, "löst %s, auf der Seite des Starts", label));
+    return;
+  }
   pl_step_after(step, pl_format(d->arena, "solves %s", label), pl_format(d->arena, "löst %s", label));
 }
 

@@ -597,7 +597,7 @@ void pl_define_proposed(pl_analysis* d) {
     for (int i = 0; i < s->values.n; i++) {
       for (int j = 0; j < p->angles.n; j++) {
         const pl_definition* angle = &p->angles.at[j];
-        define_in(a, &s->values.at[i], pl_symbol_dot(a->pool, angle->symbol), pl_alg_normal(a->tower, pl_dt(a->pool, angle->value)));
+        define_in(a, &s->values.at[i], pl_symbol_dot(a->pool, angle->symbol), pl_dt(a->pool, angle->value));
         define_in(a, &s->values.at[i], angle->symbol, angle->value);
       }
     }

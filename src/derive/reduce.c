@@ -139,34 +139,44 @@ static bool solve_linear(pl_analysis* d, pl_expr e, int i, pl_expr* out) {
   return true;
 }
 
-// The argument of a sine, cosine or tangent in e; poison if there is none.
-static pl_expr turned_by(pl_analysis* d, pl_expr e) {
-  if (pl_kind_of(d->pool, e) == PL_CALL) {
+// The arguments of sines and cosines in e that do not contain q.
+enum { max_angles = 8 };
+static int other_angles(pl_analysis* d, pl_expr e, pl_symbol q, pl_expr* out, int n) {
+  if (pl_kind_of(d->pool, e) == PL_CALL && !pl_has_symbol(d->pool, e, q)) {
     pl_function f = pl_function_of(d->pool, e);
-    if (f == PL_SIN || f == PL_COS || f == PL_TAN) return pl_arg(d->pool, e, 0);
+    bool turned = (f == PL_SIN || f == PL_COS) && n < max_angles;
+    if (turned) out[n++] = pl_arg(d->pool, e, 0);
   }
-  pl_expr found = pl_poison();
-  for (int k = 0; k < pl_n_args(d->pool, e) && pl_is_poison(found); k++) found = turned_by(d, pl_arg(d->pool, e, k));
-  return found;
+  for (int k = 0; k < pl_n_args(d->pool, e); k++) n = other_angles(d, pl_arg(d->pool, e, k), q, out, n);
+  return n;
 }
 
-// tan u = tan(Ω t) has the root u = Ω t, which goes round; atan(tan(Ω t)) jumps back at every half turn.
-static pl_expr without_jumps(pl_analysis* d, pl_expr e, pl_symbol q, pl_expr root) {
-  if (pl_kind_of(d->pool, root) != PL_CALL || pl_function_of(d->pool, root) != PL_ATAN) return root;
-  pl_expr angle = turned_by(d, root);
-  bool solves = !pl_is_poison(angle) && pl_alg_is_zero(d->tower, pl_subst1(d->pool, e, q, angle)) == PL_YES;
-  return solves ? angle : root;
+// A proposed angle that is another angle, sin(φ - Ω t) = 0: φ = Ω t goes round, where atan(tan(Ω t)) jumps at every half turn.
+static bool solve_turning(pl_analysis* d, pl_expr e, int i, pl_expr* out) {
+  pl_expr angle[max_angles];
+  int n = d->q.at[i].follows ? other_angles(d, e, d->q.at[i].q, angle, 0) : 0;
+  for (int k = 0; k < 2 * n; k++) {
+    *out = k % 2 ? pl_add(d->pool, angle[k / 2], pl_pi(d->pool)) : angle[k / 2];
+    if (pl_alg_is_zero(d->tower, pl_subst1(d->pool, e, d->q.at[i].q, *out)) != PL_YES) continue;
+    if (on_branch(d, i, *out) != PL_NO && fits_start(d, i, *out) != PL_NO) return true;
+  }
+  return false;
 }
+
+// atan(y/x) is one of two angles: the other one is half a turn away.
+static bool is_half(pl_analysis* d, pl_expr root) { return pl_kind_of(d->pool, root) == PL_CALL && pl_function_of(d->pool, root) == PL_ATAN; }
 
 static bool solve_roots(pl_analysis* d, pl_expr e, int i, pl_expr* out) {
   d->q.at[i].by_branch = false;
+  if (solve_turning(d, e, i, out)) return true;
   pl_root root[max_roots];
   bool complete = false;
   int n = pl_alg_roots(d->tower, e, d->q.at[i].q, root, max_roots, &complete);
+  if (n == 1 && is_half(d, root[0].value)) return false;
   int k = n == 1 && complete ? 0 : pick_root(d, i, root, n);
   if (k < 0) return false;
   d->q.at[i].by_branch = n > 1;
-  *out = without_jumps(d, e, d->q.at[i].q, root[k].value);
+  *out = root[k].value;
   return true;
 }
 
@@ -201,7 +211,7 @@ static bool solve_link(pl_analysis* d, int k, bool roots) {
 
 // 0: the map satisfies the constraint identically; 1: something is left; -1: not decided.
 static int left_over(pl_analysis* d, const pl_bond* l) {
-  pl_expr g = pl_mapped(d, l->g);
+  pl_expr g = pl_mapped(d, l->place);
   pl_answer3 zero = pl_alg_is_zero(d->tower, g);
   if (zero != PL_YES && pl_has_followers(d, g)) zero = pl_holds_on_loops(d, g, pl_int(d->pool, 0));
   return zero == PL_YES ? 0 : zero == PL_NO ? 1 : -1;

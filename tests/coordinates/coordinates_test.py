@@ -261,6 +261,39 @@ def _(program):
         answer.value(name)
 
 
+# ------------------------------------------------------------------------------------------------ a hoop that turns
+HOOP = "param m = 1 [kg], R = 0.8 [m], Ω = 5 [rad/s], g = 9.81 [m/s^2]\naxes x right, y out, z up\n"
+HOOPS = {   # text, how the angle from below shows in its coordinates
+    "sphere and plane": "coord x, y, z\nmass P: m at (x, y, z)\ngravity g along -z\nconstraint ring: x^2 + y^2 + z^2 = R^2\n"
+                        "constraint turn: y cos(Ω t) = x sin(Ω t)\n",
+    "distance, other order": "coord z, y, x\nmass P: m at (x, y, z)\ngravity g along -z\nconstraint turn: x sin(Ω t) - y cos(Ω t) = 0\n"
+                             "constraint ring: norm(pos(P)) = R\n",
+    "circle in its plane": "coord ρ, z\nmass P: m at (ρ cos(Ω t), ρ sin(Ω t), z)\ngravity g along -z\nconstraint ring: ρ^2 + z^2 = R^2\n",
+    "angle": "coord ϑ\nmass P: m at (R sin ϑ cos(Ω t), R sin ϑ sin(Ω t), -R cos ϑ)\ngravity g along -z\n",
+}
+
+
+@test("bead on a turning hoop: four positions of rest, the Jacobi integral, and the frequency in every spelling")
+def _(program):
+    for title, text in HOOPS.items():
+        answer = solve(program, HOOP + text + "ask a: equilibria\nask b: conserved\nask c: lagrangian\n")
+        certified(answer, title)
+        rest = rests(answer)
+        need(len(rest) == 4 and sum(v["stability"] == "stable" for v in rest) == 2, f"{title}: {[v.get('stability') for v in rest]}")
+        for v in answer.values("omega^2", key="a"):
+            same(evaluated(answer, v, {}), 25 - 9.81 ** 2 / (0.8 ** 2 * 25), f"{title}: frequency")
+        answer.value("H", key="b", conserved=True)
+        rng = random.Random(SEED)
+        for _ in range(5):
+            θ, rate, t = rng.uniform(0.1, 3), rng.uniform(-3, 3), rng.uniform(0, 3)
+            ρ, z = 0.8 * math.sin(θ), -0.8 * math.cos(θ)
+            dρ, dz, c, s = 0.8 * math.cos(θ) * rate, 0.8 * math.sin(θ) * rate, math.cos(5 * t), math.sin(5 * t)
+            state = dict(t=t, x=ρ * c, y=ρ * s, z=z, rho=ρ, rho_dot=dρ, z_dot=dz, theta=θ, theta_dot=rate,
+                         x_dot=dρ * c - 5 * ρ * s, y_dot=dρ * s + 5 * ρ * c)
+            L = (dρ ** 2 + dz ** 2 + 25 * ρ ** 2) / 2 - 9.81 * z
+            same(evaluated(answer, answer.value("L", key="c"), state), L, f"{title}: L")
+
+
 # ------------------------------------------------------------------------------------------------ driven mechanisms
 DRIVEN = "param m1 = 1 [kg], m2 = 2 [kg], r = 0.1 [m], l = 0.3 [m], g = 9.81 [m/s^2], ω = 5 [rad/s]\nassume r < l\naxes x right, z up\n"
 driven = {
