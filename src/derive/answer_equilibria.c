@@ -64,7 +64,7 @@ const pl_form* pl_rest_form(pl_analysis* d, const pl_rest* r) {
   for (int k = 0; k < d->gen.n; k++) {
     int i = d->gen.at[k];
     if (pl_is_poison(r->q[k])) continue;
-    f[n++] = r->numeric ? number_form(d, i, r->q[k]) : pl_feq(d, pl_fs(d, d->q.at[i].q), value_form(d, i, r->q[k]));
+    f[n++] = r->numeric && !r->exact[k] ? number_form(d, i, r->q[k]) : pl_feq(d, pl_fs(d, d->q.at[i].q), value_form(d, i, r->q[k]));
   }
   if (n == 0) return all_free(d);
   return n == 1 ? f[0] : pl_flist(d, f, n);
@@ -288,30 +288,46 @@ static bool turns_steadily(pl_analysis* d, const pl_ask* ask) {
   return true;
 }
 
+static void say_turns(pl_analysis* d) {
+  pl_say(d, "There are others: of an angle one period is listed, and the system as a whole does not repeat with it.",
+         "Es gibt weitere: von einem Winkel steht eine Periode da, und das System als Ganzes wiederholt sich mit ihr nicht.", 0);
+}
+
 // Whether the list is all there is, and how that is known.
 void pl_say_rests_missing(pl_analysis* d, const pl_rests* found) {
   const pl_form* zero = pl_form_leaf(d->arena, pl_int(d->pool, 0));
   if (found->complete && found->by_numbers && found->searched > 0) {
     const pl_form* inside = pl_fs(d, d->q.at[d->gen.at[found->searched_place]].q);
     pl_expr digits = pl_int(d->pool, lround(log10(found->searched)));
-    const pl_form* range = pl_form_power(d->arena, pl_form_leaf(d->arena, pl_int(d->pool, 10)), pl_form_leaf(d->arena, digits));
+    const pl_form* range = pl_form_leaf(d->arena, pl_int(d->pool, 10));
+    if (found->searched > 10) range = pl_form_power(d->arena, range, pl_form_leaf(d->arena, digits));
     const pl_form* q = pl_form_call(d->arena, PL_ABS, &inside, 1);
-    pl_say(d, "With {1}, in SI units, there are no others: interval arithmetic proves it for the given numbers.",
-           "Mit {1}, in SI-Einheiten, gibt es keine weiteren: das beweist die Intervallarithmetik für die gegebenen Zahlen.", 1,
-           pl_frel(d, q, "≤", range));
+    bool alone = d->gen.n == 1;
+    pl_say(d, alone ? "With {1}, in SI units, there are no others: interval arithmetic proves it for the given numbers."
+                    : "With {1}, in SI units, and up to whole periods of other angles there are no others: interval arithmetic proves it for the given numbers.",
+           alone ? "Mit {1}, in SI-Einheiten, gibt es keine weiteren: das beweist die Intervallarithmetik für die gegebenen Zahlen."
+                 : "Mit {1}, in SI-Einheiten, und bis auf ganze Perioden anderer Winkel gibt es keine weiteren: das beweist die Intervallarithmetik für die "
+                   "gegebenen Zahlen.", 1, pl_frel(d, q, "≤", range));
   } else if (found->complete && found->by_numbers) {
     pl_say(d, "Up to whole periods there are no others: interval arithmetic proves it for the given numbers.",
            "Bis auf ganze Perioden gibt es keine weiteren: das beweist die Intervallarithmetik für die gegebenen Zahlen.", 0);
   }
   if (found->complete) return;
+  bool told = found->more_turns;
+  if (found->more_turns) say_turns(d);
   for (int k = 0; k < found->n_open; k++) {
     const pl_rest* r = &found->open[k];
+    if (r->turns) {
+      if (!told) say_turns(d);
+      told = true;
+      continue;
+    }
     pl_expr e = pl_alg_normal(d->tower, pl_insert_rest(d, pl_at_rest(d, pl_second_kind(d, d->gen.at[r->open_row])), r));
     pl_say(d, found->n > 0 ? "There may be others: {1} is not solved in closed form." : "{1} is not solved in closed form.",
            found->n > 0 ? "Es kann weitere geben: {1} ist nicht geschlossen lösbar." : "{1} ist nicht geschlossen lösbar.", 1,
            pl_feq(d, pl_f(d, e, PL_S_EQUATION), zero));
   }
-  if (found->n_open > 0) return;
+  if (found->n_open > 0 || told) return;
   pl_say(d, found->n > 0 ? "There may be others: not every equation was solved in closed form."
                          : "None was found in closed form.",
          found->n > 0 ? "Es kann weitere geben: nicht jede Gleichung war geschlossen lösbar." : "Geschlossen wurde keine gefunden.", 0);

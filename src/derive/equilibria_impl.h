@@ -14,7 +14,9 @@ typedef struct pl_rest {
   int n_conditions;
   int open;                    // 1 + place of a coordinate whose equation has no closed solution; q holds its name then
   int open_row;                // that equation
+  bool turns;                  // solved for one period of it; the system does not repeat
   bool numeric;                // a zero found in numbers
+  bool exact[pl_max_gen];      // of such a one: coordinates that do not hang on that zero
 } pl_rest;
 
 typedef struct pl_rests {
@@ -27,6 +29,7 @@ typedef struct pl_rests {
   int n_open;
   double searched;          // |q| up to which the open ones were searched in numbers; 0: one period, or not at all
   int searched_place;
+  bool more_turns;          // places in other periods were left out
   bool by_numbers;          // completeness was proven in numbers
   int tries;                // positions inserted by trial
 } pl_rests;

@@ -118,12 +118,46 @@ static bool is_among(pl_analysis* d, const pl_root* root, int n, pl_expr value) 
   return false;
 }
 
+// Every x in e stands in a sine or cosine of a linear argument: places repeat with whole periods.
+static bool repeats(pl_analysis* d, pl_expr e, pl_symbol x) {
+  pl_pool* p = d->pool;
+  if (!pl_has_symbol(p, e, x)) return true;
+  pl_kind kind = pl_kind_of(p, e);
+  if (kind == PL_SYMBOL || kind == PL_IF || kind == PL_SUM) return false;
+  bool wave = kind == PL_CALL && (pl_function_of(p, e) == PL_SIN || pl_function_of(p, e) == PL_COS);
+  if (wave && !pl_has_coordinates(d, pl_diff(p, pl_arg(p, e, 0), x))) return true;
+  for (int k = 0; k < pl_n_args(p, e); k++) {
+    if (!repeats(d, pl_arg(p, e, k), x)) return false;
+  }
+  return true;
+}
+
+static bool has_wave(pl_pool* p, pl_expr e, pl_symbol x) {
+  bool wave = pl_kind_of(p, e) == PL_CALL && (pl_function_of(p, e) == PL_SIN || pl_function_of(p, e) == PL_COS);
+  if (wave && pl_has_symbol(p, e, x)) return true;
+  for (int k = 0; k < pl_n_args(p, e); k++) {
+    if (has_wave(p, pl_arg(p, e, k), x)) return true;
+  }
+  return false;
+}
+
+// A solver gives one period.  Where the system as a whole does not repeat, the places in other periods are others.
+static bool stops_at_one_turn(pl_analysis* d, const pl_expr* f, pl_expr e, int j) {
+  if (!has_wave(d->pool, e, name_of(d, j))) return false;
+  for (int k = 0; k < d->gen.n; k++) {
+    if (!repeats(d, f[k], name_of(d, j))) return true;
+  }
+  return false;
+}
+
 // One coordinate of a branch solved from e, and the search goes on from each root.  What has no closed form stays open.
 static void branch(pl_analysis* d, const pl_expr* f, const pl_rest* r, pl_expr e, int j, int row, pl_rests* out) {
   enum { most = 12 };
   pl_root root[most + 4];
   bool complete = false;
   int n = pl_alg_roots(d->tower, e, name_of(d, j), root, most, &complete), places = 0;
+  bool turns = complete && stops_at_one_turn(d, f, e, j);
+  complete &= !turns;
   pl_expr place[4];
   if (!complete) places = known_places(d, j, place);
   for (int k = 0; k < places; k++) {
@@ -140,11 +174,13 @@ static void branch(pl_analysis* d, const pl_expr* f, const pl_rest* r, pl_expr e
   pl_rest next = *r;
   if (r->open || row < 0 || pl_has_symbol(d->pool, e, pl_time(d->pool))) {
     out->complete = false;
+    out->more_turns |= turns;
     return;
   }
   next.q[j] = pl_sym(d->pool, name_of(d, j));
   next.open = j + 1;
   next.open_row = row;
+  next.turns = turns;
   search(d, f, next, out);
 }
 
@@ -280,12 +316,12 @@ static bool is_periodic(pl_analysis* d, pl_expr e, pl_symbol x, long* num, long*
 
 typedef struct pl_number_search { pl_zero zero[pl_max_found]; int n; bool complete; double range; } pl_number_search;
 
-// All zeros of one period, or with |x| up to a range as large as the boxes allow.
-static void search_numbers(pl_analysis* d, pl_expr e, pl_symbol x, pl_number_search* out) {
+// All zeros of one period, where the system repeats with it, or with |x| up to a range as large as the boxes allow.
+static void search_numbers(pl_analysis* d, pl_expr e, pl_symbol x, bool turns, pl_number_search* out) {
   static const double range[] = {1e9, 1e6, 1e4, 1e3, 100, 10};
   static const double shift = 0.0613;   // the ends are no place where somebody would look for a zero
   long num = 0, den = 1;
-  if (is_periodic(d, e, x, &num, &den) && num > 0) {
+  if (!turns && is_periodic(d, e, x, &num, &den) && num > 0) {
     double period = 2 * M_PI * (double)den / (double)num;
     double from = -period / 2 + shift * period;
     out->n = pl_alg_zeros(d->tower, e, x, from, from + period, out->zero, pl_max_found, &out->complete);
@@ -303,12 +339,12 @@ static void search_numbers(pl_analysis* d, pl_expr e, pl_symbol x, pl_number_sea
 }
 
 // Whether a zero in numbers is one of the closed positions.
-static bool is_closed(pl_analysis* d, const pl_rests* out, int place, double x) {
+static bool is_closed(pl_analysis* d, const pl_rests* out, int place, double x, bool periodic) {
   for (int k = 0; k < out->n; k++) {
     double known = pl_number(d, out->at[k].q[place]);
-    double off = fabs(known - x), turn = fabs(off - 2 * M_PI);
-    double near = 1e-9 * fmax(1, fabs(x));
-    if (!out->at[k].numeric && (off < near || turn < near)) return true;
+    double off = fabs(known - x), near = 1e-9 * fmax(1, fabs(x));
+    bool turned = periodic && fabs(off - 2 * M_PI * round(off / (2 * M_PI))) < near;
+    if (!out->at[k].numeric && (off < near || turned)) return true;
   }
   return false;
 }
@@ -326,7 +362,7 @@ static void open_branch(pl_analysis* d, const pl_expr* f, const pl_rest* r, pl_r
   pl_expr top, bottom, e = pl_with_given_numbers(d, pl_insert_rest(d, f[r->open_row], r));
   pl_alg_fraction(d->tower, e, &top, &bottom);
   pl_number_search found = {.n = 0};
-  search_numbers(d, top, x, &found);
+  search_numbers(d, top, x, r->turns, &found);
   out->complete &= found.complete;
   out->by_numbers |= found.complete;
   if (found.complete) {
@@ -334,7 +370,7 @@ static void open_branch(pl_analysis* d, const pl_expr* f, const pl_rest* r, pl_r
     out->searched_place = place;
   }
   for (int k = 0; k < found.n; k++) {
-    if (is_closed(d, out, place, found.zero[k].value)) continue;
+    if (is_closed(d, out, place, found.zero[k].value, found.range == 0)) continue;
     if (!found.zero[k].proven) {
       out->complete = false;
       continue;
@@ -343,7 +379,10 @@ static void open_branch(pl_analysis* d, const pl_expr* f, const pl_rest* r, pl_r
     next.open = 0;
     next.numeric = true;
     pl_expr value = number_of(d, found.zero[k].value);
-    for (int j = 0; j < d->gen.n; j++) next.q[j] = pl_subst1(d->pool, next.q[j], x, value);
+    for (int j = 0; j < d->gen.n; j++) {
+      next.exact[j] = !pl_has_symbol(d->pool, next.q[j], x);
+      next.q[j] = pl_subst1(d->pool, next.q[j], x, value);
+    }
     for (int c = 0; c < next.n_conditions; c++) next.condition[c] = pl_subst1(d->pool, next.condition[c], x, value);
     if (!pl_rest_exists_at_numbers(d, &next)) continue;
     if (out->n < pl_max_found) out->at[out->n++] = next;
