@@ -140,21 +140,24 @@ static pl_symbol element_name(pl_analysis* d, pl_expr element) {
   return pl_symbol_make(d->pool, &info);
 }
 
+typedef PL_VEC(pl_expr) pl_elements;
+
+static void list_elements(pl_analysis* d, pl_expr e, pl_map* seen, pl_elements* out) {
+  if (pl_is_poison(e) || pl_map_get(seen, e.id)) return;
+  pl_map_set(seen, e.id, 1);
+  if (pl_kind_of(d->pool, e) == PL_AT) pl_push(d->arena, *out, e);
+  for (int k = 0; k < pl_n_args(d->pool, e); k++) list_elements(d, pl_arg(d->pool, e, k), seen, out);
+}
+
 static pl_expr named(pl_analysis* d, pl_expr e) {
-  pl_kind kind = pl_kind_of(d->pool, e);
-  if (kind == PL_AT) {
-    pl_symbol s = element_name(d, e);
-    for (int k = 0; k < pl_dots_of(d->pool, e); k++) s = pl_symbol_dot(d->pool, s);
-    return pl_sym(d->pool, s);
+  pl_elements all = {0};
+  list_elements(d, e, pl_map_make(d->arena), &all);
+  for (int k = 0; k < all.n; k++) {
+    pl_symbol s = element_name(d, all.at[k]);
+    for (int j = 0; j < pl_dots_of(d->pool, all.at[k]); j++) s = pl_symbol_dot(d->pool, s);
+    e = pl_subst_expr(d->pool, e, all.at[k], pl_sym(d->pool, s));
   }
-  int n = pl_n_args(d->pool, e);
-  if (n == 0) return e;
-  pl_expr out = e;
-  for (int k = 0; k < n; k++) {
-    pl_expr arg = pl_arg(d->pool, e, k), fresh = named(d, arg);
-    if (!pl_same(arg, fresh)) out = pl_subst_expr(d->pool, out, arg, fresh);
-  }
-  return out;
+  return e;
 }
 
 // The running index of a pattern, moved so that its element is member i.
@@ -264,10 +267,14 @@ static long count_instances(pl_analysis* d, const pl_block* b) {
 static void dof(pl_analysis* d, const pl_ask* ask) {
   pl_section_open(d, ask, "Degrees of freedom", "Freiheitsgrade");
   const pl_dof* f = &d->solution->dof;
+  bool contacts = false;
   pl_row(d, "coordinates", "Koordinaten", NULL, pl_format(d->arena, "%d", f->coordinates));
   for (int k = 0; k < d->model->constraints.n; k++) {
     const pl_constraint* c = &d->model->constraints.at[k];
-    const pl_form* body = pl_feq(d, pl_difference_form(d, c->left, c->right), pl_form_leaf(d->arena, pl_int(d->pool, 0)));
+    static const char* const signs[] = {[PL_EQ] = "=", [PL_GE] = "≥", [PL_LE] = "≤"};
+    const pl_form* zero = pl_form_leaf(d->arena, pl_int(d->pool, 0));
+    const pl_form* body = pl_frel(d, pl_difference_form(d, c->left, c->right), signs[c->relation], zero);
+    contacts |= c->relation != PL_EQ;
     const char* label = pl_is_poison(c->name.index) ? c->name.text
                                                     : pl_format(d->arena, "%s[%s]", c->name.text, pl_expr_text(d->arena, d->pool, c->name.index));
     pl_row(d, k ? "" : "constraints", k ? "" : "Zwangsbedingungen", pl_feq(d, pl_fn(d, label), body),
@@ -276,6 +283,11 @@ static void dof(pl_analysis* d, const pl_ask* ask) {
   pl_row(d, "degrees of freedom", "Freiheitsgrade", NULL, pl_format(d->arena, "%d", f->dof));
   pl_say(d, "Counted, not tested for independence: the families are too large to be written out.",
          "Gezählt, nicht auf Unabhängigkeit geprüft: die Familien sind zu groß, um ausgeschrieben zu werden.", 0);
+  if (contacts) {
+    pl_say(d, "One-sided constraints are counted as closed, each with λ on the side where it pushes; where one is open its λ is 0.",
+           "Einseitige Zwangsbedingungen sind als geschlossen gezählt, jede mit λ auf der Seite, auf der sie drückt; "
+           "wo eine offen ist, ist ihr λ gleich 0.", 0);
+  }
   pl_answer(d, "dof", pl_int(d->pool, f->dof), NULL);
 }
 

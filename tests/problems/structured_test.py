@@ -7,6 +7,7 @@ structured_test.py PROGRAM
 import math
 import re
 import os
+import subprocess
 import sys
 import tempfile
 
@@ -131,6 +132,27 @@ def _(program):
     full = at | {"m": 1.0, "d": 1.0} | {re.sub(r"^([xy])(\d+)", r"\1_\2", k): v for k, v in at.items()}
     expected = tensions(30, at)[0]
     need(abs(value_of(entry, full) - expected) < 1e-9 * max(1, abs(expected)), f"{value_of(entry, full)} against {expected}")
+
+
+@test("a large family of polar coordinates: each element is one quantity, contacts stay one-sided")
+def _(program):
+    text = """param N = 50, m = 75 [kg], R = 20 [m], g = 9.81 [m/s^2]
+coord r[1..N], u[1..N]
+axes x right, z up
+for i in 1..N {
+    mass S[i]: m at (r[i] sin u[i], r[i] cos u[i])
+    constraint h[i]: r[i] >= R
+}
+gravity g along -z
+ask dof, lagrange1
+"""
+    with tempfile.NamedTemporaryFile("w", suffix=".pleuel", encoding="utf-8") as f:
+        f.write(text)
+        f.flush()
+        shown = subprocess.run([program, "solve", f.name], capture_output=True, text=True, timeout=60).stdout
+    for line in ("h[i] = r[i] - R ≥ 0", "m r[i]'' = m r[i] u[i]'² - m g cos(u[i]) + λ_h[i]",
+                 "m r[i]² u[i]'' = -2 m r[i] u[i]' r[i]' + m g r[i] sin(u[i])", "counted as closed"):
+        need(line in shown, f"{line} is not in\n{shown}")
 
 
 @test("the names of the model are not taken: A_1 is a length of the model")
