@@ -4,6 +4,7 @@
 //   (iii) the facts substituted away: r < l becomes l = r + δ, δ > 0, and then (i); sines and cosines run to the
 //   corners
 //         of -1..1, since a polynomial that is linear in each of them is smallest in a corner; bounds by Fourier sums
+//   (iv') a square is completed: quadratic in one generator, with a discriminant of known sign
 //   (iv)  the polynomial is one of the facts, or a radicand (w = sqrt(P) is real)
 //   (v)   fifty sample points of the domain agree, or the probe (the start values) decides: an assumption, recorded.
 // What a proof has used is recorded too.
@@ -11,7 +12,7 @@
 
 #include <math.h>
 
-enum { PL_MAX_CORNER_GENS = 4, PL_MAX_FACT_DEPTH = 3, PL_MAX_FACTS = 16, PL_MAX_SIGN_TERMS = 400 };
+enum { PL_MAX_CORNER_GENS = 4, PL_MAX_FACT_DEPTH = 3, PL_MAX_FACTS = 16, PL_MAX_SIGN_TERMS = 400, PL_MAX_SQUARE_TERMS = 40 };
 static const double sample_floor = 1e-9;  // of the largest sample: smaller values do not count as having a sign
 
 // ---------------------------------------------------------------------------------------------- evidence
@@ -216,7 +217,10 @@ static int sign_as_fact(pl_tower* t, const pl_poly* a, const pl_poly* const* D, 
   return 0;
 }
 
-static int prove(pl_tower* t, const pl_poly* a) {
+static int prove_by_squares(pl_tower* t, const pl_poly* a, int depth);
+
+// depth: how often squares may be completed still.
+static int prove_to(pl_tower* t, const pl_poly* a, int depth) {
   pl_proof p = {.t = t};
   int sign = definite(&p, a);
   const pl_poly* D[PL_MAX_FACTS];
@@ -235,11 +239,31 @@ static int prove(pl_tower* t, const pl_poly* a) {
   if (!sign) sign = definite_in_corners(&p, a, D, n_D);
   if (!sign) sign = definite_in_corners(&p, pl_poly_shortest_view(t, a), D, n_D);
   if (!sign) sign = definite_by_bounds(&p, a, D, n_D);
+  if (!sign && depth > 0) return prove_by_squares(t, a, depth);
   if (!sign || t->silent) return sign;
   record_symbols(t, a);
   for (int i = 0; i < p.n_facts; i++) pl_tower_use(t, t->facts.at[p.facts[i]]);
   return sign;
 }
+
+// f2 x^2 + f1 x + f0 with f2 > 0 and 4 f0 f2 - f1^2 >= 0 is a sum of squares, for every real generator x; with f2 < 0 minus one.
+static int prove_by_squares(pl_tower* t, const pl_poly* a, int depth) {
+  for (int g = 0; g < t->gens.n && a->length <= PL_MAX_SQUARE_TERMS; g++) {
+    int degree = 0;
+    if (pl_poly_degree(t, a, g) != 2) continue;
+    const pl_poly** f = pl_poly_coefficients(t, a, g, &degree);
+    if (pl_poly_is_zero(t, f[1])) continue;   // nothing is completed
+    int lead = prove_to(t, f[2], 0);
+    if (lead != 1 && lead != -1) continue;
+    const pl_poly* product = pl_poly_mul(t, pl_poly_mul(t, f[0], f[2]), pl_poly_int(t, 4));
+    const pl_poly* rest = pl_poly_sub(t, product, pl_poly_mul(t, f[1], f[1]));
+    int sign = pl_poly_is_zero(t, rest) ? 2 : prove_to(t, rest, depth - 1);
+    if (sign > 0) return lead * sign;
+  }
+  return 0;
+}
+
+static int prove(pl_tower* t, const pl_poly* a) { return prove_to(t, a, 2); }
 
 // (v)
 static int sampled(pl_tower* t, pl_expr e) {

@@ -1,5 +1,6 @@
 // linear_motion: the motion of several generalized coordinates whose equations are linear with constant coefficients,
 //   M q'' + C q' + K q = c(t),
+// or whose solved accelerations are, where the coordinates are not reduced or constraints hold between velocities,
 // by the Laplace transform:  (s² M + s C + K) Q(s) = C(s) + M (s q0 + v0) + C q0.  Each Q_i(s) is a fraction, and laplace.c
 // brings it back.
 #include "derive/derive_impl.h"
@@ -15,26 +16,29 @@ static bool constant(pl_analysis* d, pl_expr e) {
   return !pl_is_poison(e) && !pl_has_coordinates(d, e) && !pl_has_symbol(d->pool, e, pl_time(d->pool));
 }
 
+// Equations that vanish, one for each of some coordinates.
+typedef struct pl_linear_system { int n, coordinate[max_size]; pl_expr equation[max_size]; } pl_linear_system;
+
 // The transformed system A Q = b; false when an equation is not linear with constant coefficients.
-static bool transform_system(pl_analysis* d, pl_symbol variable, pl_expr* A, pl_expr* b) {
+static bool transform_system(pl_analysis* d, const pl_linear_system* sys, pl_symbol variable, pl_expr* A, pl_expr* b) {
   pl_pool* p = d->pool;
-  int n = d->gen.n;
+  int n = sys->n;
   pl_expr s = pl_sym(p, variable);
-  pl_replace* rest = PL_ARRAY(d->arena, pl_replace, 3 * n);
+  pl_replace rest[3 * max_size];
   for (int j = 0; j < n; j++) {
-    const pl_variable* c = &d->q.at[d->gen.at[j]];
+    const pl_variable* c = &d->q.at[sys->coordinate[j]];
     rest[3 * j] = (pl_replace){c->q, pl_int(p, 0)};
     rest[3 * j + 1] = (pl_replace){c->v, pl_int(p, 0)};
     rest[3 * j + 2] = (pl_replace){c->a, pl_int(p, 0)};
   }
   for (int i = 0; i < n; i++) {
-    pl_expr f = pl_on_special(d, pl_second_kind(d, d->gen.at[i]));
+    pl_expr f = pl_on_special(d, sys->equation[i]);
     pl_expr c = pl_neg(p, pl_subst(p, f, rest, 3 * n));
     if (pl_has_coordinates(d, c)) return false;
     b[i] = pl_laplace(d, c, variable);
     if (pl_is_poison(b[i])) return false;
     for (int j = 0; j < n; j++) {
-      const pl_variable* q = &d->q.at[d->gen.at[j]];
+      const pl_variable* q = &d->q.at[sys->coordinate[j]];
       pl_expr M = pl_alg_normal(d->tower, pl_diff(p, f, q->a)), C = pl_alg_normal(d->tower, pl_diff(p, f, q->v));
       pl_expr K = pl_alg_normal(d->tower, pl_diff(p, f, q->q));
       if (!constant(d, M) || !constant(d, C) || !constant(d, K)) return false;
@@ -47,16 +51,51 @@ static bool transform_system(pl_analysis* d, pl_symbol variable, pl_expr* A, pl_
   return true;
 }
 
-static pl_expr motion(pl_analysis* d, int i, bool explain, pl_laplace_poles* poles) {
-  int n = d->gen.n, place = -1;
-  for (int k = 0; k < n; k++) {
-    if (d->gen.at[k] == i) place = k;
+static bool has_place(const pl_linear_system* sys, int i) {
+  for (int k = 0; k < sys->n; k++) {
+    if (sys->coordinate[k] == i) return true;
   }
-  if (!d->reduced || place < 0 || n > max_size) return pl_poison();
-  pl_symbol s = transform_variable(d);
+  return false;
+}
+
+// The equations of the second kind; false when they are not those of coordinate i.
+static bool of_second_kind(pl_analysis* d, int i, pl_linear_system* out) {
+  *out = (pl_linear_system){.n = d->gen.n};
+  if (!d->reduced || d->gen.n > max_size || pl_nonholonomic(d)) return false;
+  for (int k = 0; k < d->gen.n; k++) {
+    out->coordinate[k] = d->gen.at[k];
+    out->equation[k] = pl_second_kind(d, d->gen.at[k]);
+  }
+  return has_place(out, i);
+}
+
+// The accelerations of i and of all coordinates that these hang on, constraints between velocities taken in: a ball that rolls on a
+// turntable has x'' = -2/7 Ω y', y'' = 2/7 Ω x'.
+static bool of_accelerations(pl_analysis* d, int i, pl_linear_system* out) {
+  *out = (pl_linear_system){.n = 1, .coordinate = {i}};
+  for (int k = 0; k < out->n; k++) {
+    pl_expr a = d->solved ? d->acceleration[out->coordinate[k]] : pl_poison();
+    if (pl_is_poison(a)) return false;
+    out->equation[k] = pl_sub(d->pool, pl_sym(d->pool, d->q.at[out->coordinate[k]].a), a);
+    for (int j = 0; j < d->q.n; j++) {
+      bool hangs = pl_has_symbol(d->pool, a, d->q.at[j].q) || pl_has_symbol(d->pool, a, d->q.at[j].v);
+      if (!hangs || has_place(out, j)) continue;
+      if (out->n == max_size) return false;
+      out->coordinate[out->n++] = j;
+    }
+  }
+  return true;
+}
+
+static pl_expr motion(pl_analysis* d, int i, bool explain, pl_laplace_poles* poles) {
+  pl_linear_system sys;
   pl_expr A[max_size * max_size], b[max_size], Q[max_size];
-  if (!transform_system(d, s, A, b)) return pl_poison();
-  if (pl_alg_solve(d->tower, n, A, b, Q, 20000) != PL_YES) return pl_poison();
+  if (!of_second_kind(d, i, &sys) && !of_accelerations(d, i, &sys)) return pl_poison();
+  pl_symbol s = transform_variable(d);
+  if (!transform_system(d, &sys, s, A, b)) return pl_poison();
+  if (pl_alg_solve(d->tower, sys.n, A, b, Q, 20000) != PL_YES) return pl_poison();
+  int place = 0;
+  while (sys.coordinate[place] != i) place++;
   pl_expr x = pl_laplace_back(d, Q[place], s, poles);
   if (explain) pl_why_transform(d, i, pl_alg_normal(d->tower, Q[place]), poles);
   return x;

@@ -113,6 +113,20 @@ def check_masses(program):
     tap.check("other numbers leave two", answers[0]["values"][-1]["number"] == 2 and "special case" not in words(answers[0]), answers[0])
 
 
+def check_turntable(program):
+    """A ball that rolls on a turntable: constraints between velocities, and yet linear equations for x and y alone."""
+    model = ("param m = 0.3, R = 0.05, w = 1.4\ncoord x, y, p, q\naxes x right, y up\nmass m at (x, y)\nkinetic 1/5 m R^2 (p'^2 + q'^2)\n"
+             "constraint sideways: x' - R q' = -w y\nconstraint away: y' + R p' = w x\nask solve x(t), solve y(t)\n")
+    answers, got = solve(program, model)
+    rate = 2 / 7 * 1.4
+    rows = run(lambda t, q, v: [-rate * v[1], rate * v[0]], [0.2, -0.1], [0.5, 0.3])
+    names = names_of({}) | {"w": 1.4, "x_0": 0.2, "y_0": -0.1, "x_dot_0": 0.5, "y_dot_0": 0.3}
+    for i, name in enumerate("xy"):
+        shown = [v["expr"] for v in answers[i]["values"] if v["name"] == name]
+        worst = max([abs(eval(shown[0].replace("^", "**"), {}, names | {"t": row[0]}) - row[1][i]) for row in rows[::200]]) if shown else None
+        tap.check(f"a ball on a turntable runs on a circle: {name}(t)", shown and worst < 1e-9, (worst, words(answers[i])))
+
+
 def check_net(program):
     answers, _ = solve(program, "param m1 = 2, m2 = 2\ncoord x\nkinetic 1/2 (m1 + m2) x'^2\nask m1/(m1 - m2)\n")
     tap.check("a value that divides by zero for the given numbers is told", "has no value" in words(answers[0]), words(answers[0]))
@@ -124,6 +138,7 @@ def main(program):
     check_rests(program)
     check_masses(program)
     check_net(program)
+    check_turntable(program)
     tap.done()
 
 
