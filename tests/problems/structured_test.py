@@ -150,8 +150,8 @@ ask dof, lagrange1
         f.write(text)
         f.flush()
         shown = subprocess.run([program, "solve", f.name], capture_output=True, text=True, timeout=60).stdout
-    for line in ("h[i] = r[i] - R ≥ 0", "m r[i]'' = m r[i] u[i]'² - m g cos(u[i]) + λ_h[i]",
-                 "m r[i]² u[i]'' = -2 m r[i] u[i]' r[i]' + m g r[i] sin(u[i])", "counted as closed"):
+    for line in ("h[i] = r[i] - R ≥ 0", "m r[i]'' = m r[i] u[i]'² - m g cos u[i] + λ_h[i]",
+                 "m r[i]² u[i]'' = -2 m r[i] u[i]' r[i]' + m g r[i] sin u[i]", "counted as closed"):
         need(line in shown, f"{line} is not in\n{shown}")
 
 
