@@ -131,10 +131,10 @@ typedef struct pl_multiple {
 } pl_multiple;
 typedef struct pl_lattice {
   pl_expr atom;
-  long den;
+  long num, den;                     // the base is num/den atoms
   bool hyperbolic;
   int gen;
-  long most_num, most_den;           // largest multiple of the atom met so far
+  pl_multiple most, common;          // largest multiple of the atom met so far; what measures all of them
   pl_multiple apart[PL_MAX_APART];   // multiples that became atoms of their own     (n_apart)
   int n_apart;
 } pl_lattice;

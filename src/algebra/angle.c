@@ -81,7 +81,9 @@ static long gcd_long(long a, long b) {
   return a < 0 ? -a : a;
 }
 
-pl_lattice pl_lattice_of(pl_expr atom) { return (pl_lattice){.atom = atom, .den = 1, .gen = -1, .most_den = 1}; }
+pl_lattice pl_lattice_of(pl_expr atom) {
+  return (pl_lattice){.atom = atom, .num = 1, .den = 1, .gen = -1, .most = {0, 1}, .common = {0, 1}};
+}
 
 static pl_lattice* angle_lattice(pl_tower* t, pl_expr atom) {
   uint64_t known = pl_map_get(t->angle_of, atom.id);
@@ -114,14 +116,35 @@ static bool refine(pl_tower* t, pl_lattice* l, long den, long max_den) {
   return true;
 }
 
-// The multiple num/den of the atom, in bases that are made fine enough for it: *n of them.  false when this one or one met
-// before would become more than PL_MAX_MULTIPLE bases.
-static bool take(pl_tower* t, pl_lattice* l, long num, long den, long* n) {
-  long finer = l->den / gcd_long(l->den, den) * den;
-  *n = num * (finer / den);
-  if (finer > PL_MAX_MULTIPLE || labs(*n) > PL_MAX_MULTIPLE || l->most_num * (finer / l->most_den) > PL_MAX_MULTIPLE) return false;
-  if (labs(num) * l->most_den > l->most_num * den) l->most_num = labs(num), l->most_den = den, t->tangled = true;
-  return refine(t, l, den, PL_MAX_MULTIPLE);
+// q in whole bases: *n of them; false when it is no whole number, or more than PL_MAX_MULTIPLE.
+static bool in_bases(pl_multiple q, pl_multiple base, long* n) {
+  long num = q.num * base.den, den = q.den * base.num;
+  *n = num / den;
+  return num % den == 0 && labs(*n) <= PL_MAX_MULTIPLE;
+}
+
+// The largest of which both are whole multiples.
+static pl_multiple common_measure(pl_multiple a, pl_multiple b) {
+  if (a.num == 0) return (pl_multiple){labs(b.num), b.den};
+  long num = gcd_long(a.num * b.den, b.num * a.den), den = a.den * b.den, common = gcd_long(num, den);
+  return (pl_multiple){num / common, den / common};
+}
+
+// The multiple q of the atom in bases of its lattice, *n of them.  The base is an integer part of the atom, or, where that would
+// need high powers, the common measure of all multiples met.  false: q is too far from those met before.
+static bool take(pl_tower* t, pl_lattice* l, pl_multiple q, long* n) {
+  pl_multiple base = {l->num, l->den}, common = common_measure(l->common, q);
+  bool more = labs(q.num) * l->most.den > l->most.num * q.den;
+  pl_multiple most = more ? (pl_multiple){labs(q.num), q.den} : l->most, fine = {1, common.den};
+  if (!in_bases(q, base, n) || !in_bases(most, base, n)) {
+    base = in_bases(most, fine, n) ? fine : common;
+    if (!in_bases(most, base, n)) return false;
+  }
+  bool new_base = base.num != l->num || base.den != l->den;
+  if (new_base || more || common.num != l->common.num || common.den != l->common.den) t->tangled = true;
+  l->num = base.num, l->den = base.den, l->most = most, l->common = common;
+  if (new_base && l->gen >= 0) pl_tower_restart(t);
+  return in_bases(q, base, n);
 }
 
 typedef pl_lattice* lattice_of(pl_tower* t, pl_expr atom);
@@ -132,25 +155,31 @@ static pl_lattice* lattice_apart(pl_tower* t, lattice_of* of, pl_angle_term a, l
     const pl_multiple other = of(t, a.atom)->apart[k];
     long num = a.num * other.den, den = other.num * a.den, common = gcd_long(num, den);
     pl_expr atom = pl_mul(t->pool, pl_ratio(t->pool, other.num, other.den), a.atom);
-    if (take(t, of(t, atom), num / common, den / common, n)) return of(t, atom);
+    if (take(t, of(t, atom), (pl_multiple){num / common, den / common}, n)) return of(t, atom);
   }
   return NULL;
 }
 
 // The lattice of a multiple of an atom, with *n of its bases.  A multiple that fits nowhere becomes an atom.
 static pl_lattice* lattice_of_multiple(pl_tower* t, lattice_of* of, pl_angle_term a, long* n) {
-  pl_lattice* l = NULL;
-  if (of(t, a.atom)->most_num == 0) l = lattice_apart(t, of, a, n);     // sin 8θ, then sin 4θ: powers of sin 4θ
-  if (l) return l;
-  if (take(t, of(t, a.atom), a.num, a.den, n)) return of(t, a.atom);
-  l = lattice_apart(t, of, a, n);
+  if (take(t, of(t, a.atom), (pl_multiple){a.num, a.den}, n)) return of(t, a.atom);
+  pl_lattice* l = lattice_apart(t, of, a, n);
   if (l) return l;
   pl_multiple size = {labs(a.num), a.den};
   l = of(t, a.atom);
-  if (l->n_apart < PL_MAX_APART) l->apart[l->n_apart++] = size;
+  bool whole = size.num == size.den;      // θ after 7 θ: the lattice of θ is for θ, and what it had goes apart
+  if (l->n_apart < PL_MAX_APART) l->apart[l->n_apart++] = whole ? l->common : size;
+  if (whole) {
+    l->num = l->den = 1;
+    l->most = l->common = (pl_multiple){1, 1};
+    t->tangled = true;
+    if (l->gen >= 0) pl_tower_restart(t);
+    *n = a.num;
+    return l;
+  }
   t->tangled = true;
   pl_expr atom = pl_mul(t->pool, pl_ratio(t->pool, size.num, size.den), a.atom);
-  if (!take(t, of(t, atom), a.num < 0 ? -1 : 1, 1, n)) pl_tower_give_up(t);
+  if (!take(t, of(t, atom), (pl_multiple){a.num < 0 ? -1 : 1, 1}, n)) pl_tower_give_up(t);
   return of(t, atom);
 }
 
@@ -218,7 +247,7 @@ static bool inverse_pair(pl_tower* t, pl_expr atom, pl_sincos* out) {
 
 static pl_sincos pair_of_base(pl_tower* t, pl_lattice* l) {
   if (l->gen < 0) {
-    pl_expr base = pl_div(t->pool, l->atom, pl_int(t->pool, l->den));
+    pl_expr base = pl_mul(t->pool, pl_ratio(t->pool, l->num, l->den), l->atom);
     pl_expr atom = l->atom;
     int gen = make_pair(t, base, false);
     angle_lattice(t, atom)->gen = gen;
@@ -268,7 +297,7 @@ pl_sincos pl_convert_sincos(pl_tower* t, pl_expr argument) {
 static pl_sincos hyperbolic_pair(pl_tower* t, pl_lattice* l) {
   if (l->gen < 0) {
     pl_expr atom = l->atom;
-    int gen = make_pair(t, pl_div(t->pool, atom, pl_int(t->pool, l->den)), true);
+    int gen = make_pair(t, pl_mul(t->pool, pl_ratio(t->pool, l->num, l->den), atom), true);
     l = exponent_lattice(t, atom);
     l->gen = gen;
   }
@@ -316,7 +345,7 @@ static pl_frac exp_of_term(pl_tower* t, pl_angle_term a) {
   }
   if (l->gen < 0) {
     pl_gen g = {.kind = PL_G_EXP, .partner = -1, .class = PL_C_FUNCTION, .sign = 1};
-    g.expr = pl_call(t->pool, PL_EXP, pl_div(t->pool, l->atom, pl_int(t->pool, l->den)));
+    g.expr = pl_call(t->pool, PL_EXP, pl_mul(t->pool, pl_ratio(t->pool, l->num, l->den), l->atom));
     int gen = pl_tower_generator(t, &g);
     l->gen = gen;
   }

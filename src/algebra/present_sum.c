@@ -135,11 +135,22 @@ pl_prod pl_prod_bracket(pl_search* s, const pl_prod* given, int n) {
   return pl_prod_piece(s, piece, 1);
 }
 
-// The term that comes first by K5, before any minus is avoided.
+// 0.5 m, (2 kg) (3 m/s²): numbers with units and nothing else.
+static bool is_measured_number(pl_search* s, const pl_prod* x) {
+  for (int i = 0; i < x->n; i++) {
+    pl_symbol lead = x->at[i].lead;
+    if (x->at[i].sum || !lead.id || pl_is_poison(pl_symbol_get(s->p, lead)->number)) return false;
+  }
+  return x->n > 0;
+}
+
+// The term that comes first by K5, before any minus is avoided: w - 0.5 m begins with w.
 static int leading_term(pl_search* s, const pl_prod* terms, int n) {
   int first = 0;
-  for (int i = 1; i < n; i++)
-    if (pl_terms_compare(s, &terms[i], &terms[first]) < 0) first = i;
+  for (int i = 1; i < n; i++) {
+    bool number = is_measured_number(s, &terms[i]), first_number = is_measured_number(s, &terms[first]);
+    if (number == first_number ? pl_terms_compare(s, &terms[i], &terms[first]) < 0 : first_number) first = i;
+  }
   return first;
 }
 

@@ -59,6 +59,7 @@ pleuel_status pl_model_check(pl_job* job, pl_model* m) {
   bool sized = pl_check_sizes(job, m);
   if (sized) pl_check_names(job, m);
   pl_check_dimensions(job, m);
+  pl_dress_bare_numbers(m);
   pl_strip_units(m);
   pl_classify_symbols(m);
   pl_check_structure(job, m);

@@ -27,6 +27,7 @@ bool pl_exponents_get_dimension(pl_exponents a, pl_dimension* out);            /
 const char* pl_unit_near(pl_arena* a, const char* word, size_t n);
 bool pl_is_unit_symbol(const pl_pool* p, pl_symbol s);   // a base unit, or a number with its unit
 pl_expr pl_model_bare(pl_pool* p, pl_expr e);
+void pl_dress_bare_numbers(pl_model* m);                 // w - 0.5 with w a length: 0.5 m
 
 // ---------------------------------------------------------------------------------------------- traverse.c
 // Every expression of a model, with the kind of place it stands in.

@@ -150,4 +150,30 @@ check("those that do not contradict each other", code == 4 and "E042" in err and
 named = "param p = 1 [m], q = 2 [m], s = 3 [m]\n" + CHAIN.replace("1 [m]\n", "p\n").replace("2 [m]\n", "q\n")
 code, out, err = pleuel(["solve"], named.format("s"))
 check("the same with parameters", code == 0 and "says nothing new" in out, out + err)
+# ---------------------------------------------------------------------------------------------- without a unit, beside quantities
+code, out, err = pleuel(["solve"], """param m = 75 [kg], R = 20 [m], g = 9.81 [m/s^2]
+coord w, θ
+axes x right, z up
+mass m at ((w - 0.5) sin θ, (w - 0.5) cos θ)
+gravity g along -z
+constraint hill: w - 0.5 >= R
+init w = R + 0.5, θ = 1°, θ' = 0
+ask lagrange1 in (w, θ)
+""")
+check("a bare number beside a length is one", code == 0 and "m (w - 0.5 m) θ''" in out and "N021" in out, out + err)
+code, out, err = pleuel(["solve"], """param m = 1 [kg], k = 2 [N/m]
+coord x, y
+axes x right, y up
+mass A: 2 at (x, y)
+mass B: m at (x + 1, y)
+point O at (1, 0)
+spring 3, rest 0.2 between O and A
+force (0, 4) on A
+drag 0.1 on A
+potential k (y - 0.5)^2/2
+constraint c: y = 1
+ask lagrange1, solve λ_c
+""")
+shown_all = all(text in out for text in ("2 kg", "1 m", "3 N/m", "0.2 m", "4 N", "0.1 kg/s", "0.5 m"))
+check("bare numbers are quantities wherever they stand", code == 0 and shown_all, out + err)
 done()
