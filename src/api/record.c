@@ -122,6 +122,42 @@ static pleuel_status group_for(pl_recorder* r, const pl_block* block, pl_group**
   return pl_model_instances(r->job, r->model, block, &(*out)->instances);
 }
 
+// ---------------------------------------------------------------------------------------------- loads of chosen coordinates
+static bool speaks_of(pl_recorder* r, pl_expr e, pl_symbol q) {
+  return !pl_is_poison(e) && (pl_has_symbol(r->pool, e, q) || pl_has_symbol(r->pool, e, pl_symbol_dot(r->pool, q)));
+}
+
+// A torque, an inertia or a potential of a coordinate that stands in a map: it reaches the masses through the map.
+static bool is_loaded(pl_recorder* r, pl_symbol q) {
+  const pl_model* m = r->model;
+  bool mapped = false, loaded = false;
+  for (int k = 0; k < m->choose.n_maps; k++) mapped |= pl_has_symbol(r->pool, m->choose.maps[k].map, q);
+  for (int i = 0; i < m->loads.n && mapped; i++) {
+    const pl_load* l = &m->loads.at[i];
+    loaded |= l->coordinate.id == q.id || speaks_of(r, l->value, q);
+  }
+  return loaded;
+}
+
+static int count_along(pl_recorder* r) {
+  int n = 0;
+  for (int k = 0; k < r->model->choose.coords.n; k++) n += is_loaded(r, r->model->choose.coords.at[k]);
+  return n;
+}
+
+// Such a load acts along the map and not across it: the row  sum dX/dφ (x - X) = 0  goes before the maps x = X, which say the same.
+static pl_expr along_equation(pl_recorder* r, int k) {
+  const pl_choose* choose = &r->model->choose;
+  int at = 0;
+  while (!is_loaded(r, choose->coords.at[at]) || k-- > 0) at++;
+  pl_expr sum = pl_int(r->pool, 0);
+  for (int j = 0; j < choose->n_maps; j++) {
+    pl_expr gap = pl_sub(r->pool, choose->maps[j].old, choose->maps[j].map);
+    sum = pl_add(r->pool, sum, pl_mul(r->pool, pl_diff(r->pool, choose->maps[j].map, choose->coords.at[at]), gap));
+  }
+  return sum;
+}
+
 static pleuel_status make_groups(pl_recorder* r) {
   const pl_model* m = r->model;
   pl_group* g;
@@ -138,7 +174,7 @@ static pleuel_status make_groups(pl_recorder* r) {
   }
   r->out->n_declared = r->first_link[m->constraints.n] = r->n_links;
   r->out->first_link = r->first_link;
-  r->n_links += m->choose.n_maps;
+  r->n_links += m->choose.n_maps + count_along(r);
 
   pl_group_energies(r);
   for (int i = 0; i < r->groups.n; i++) {
@@ -211,6 +247,7 @@ pleuel_status pl_record_check(pl_recorder* r, const pl_expr* e, int n) {
 }
 
 static pl_expr map_equation(pl_recorder* r, int k) {
+  if (k >= r->model->choose.n_maps) return along_equation(r, k - r->model->choose.n_maps);
   return pl_sub(r->pool, r->model->choose.maps[k].old, r->model->choose.maps[k].map);
 }
 
@@ -236,7 +273,7 @@ static void list_slip(pl_recorder* r, const pl_group* g, pl_rows_of_group* rows,
 
 static void list_rows(pl_recorder* r, const pl_group* g, pl_rows_of_group* rows) {
   const pl_model* m = r->model;
-  *rows = (pl_rows_of_group){.n_declared = g->constraints.n, .n_maps = g->block ? 0 : m->choose.n_maps};
+  *rows = (pl_rows_of_group){.n_declared = g->constraints.n, .n_maps = g->block ? 0 : m->choose.n_maps + count_along(r)};
   rows->n = rows->n_declared + rows->n_maps;
   for (int i = 0; i < g->rubs.n; i++) rows->n += r->rubs.at[g->rubs.at[i]]->n_rows;
   rows->constraint = PL_ARRAY(r->arena, pl_expr, rows->n + 1);
@@ -456,16 +493,32 @@ static void find_needs(pl_recorder* r, pl_link* map_link) {
   }
 }
 
+// The row along the maps goes with them.
+static void along_links(pl_recorder* r, const pl_link* map, pl_link* out) {
+  int n_maps = r->model->choose.n_maps, n = 0;
+  for (int k = 0; k < n_maps; k++) n += map[k].n_needs;
+  for (int k = 0; k < count_along(r); k++) {
+    int* needs = PL_ARRAY(r->arena, int, n + 1);
+    out[k] = (pl_link){.name = pl_format(r->arena, "choose along %d", k + 1), .priority = 1, .contact = -1};
+    for (int j = 0; j < n_maps; j++) {
+      for (int i = 0; i < map[j].n_needs; i++) needs[out[k].n_needs++] = map[j].needs[i];
+    }
+    out[k].needs = needs;
+  }
+}
+
 static void make_links(pl_recorder* r) {
   pl_link* link = PL_ARRAY(r->arena, pl_link, r->n_links + 1);
   for (int i = 0; i < r->model->constraints.n; i++) name_links(r, i, link);
   for (int k = 0; k < r->model->choose.n_maps; k++) {
     pl_link* out = &link[r->out->n_declared + k];
     out->name = pl_format(r->arena, "choose %s", pl_expr_text(r->arena, r->pool, r->model->choose.maps[k].old));
-    out->priority = 1;
+    out->priority = count_along(r) > 0 ? 2 : 1;
     out->contact = -1;
   }
-  find_needs(r, link + r->out->n_declared);
+  pl_link* maps = link + r->out->n_declared;
+  find_needs(r, maps);
+  along_links(r, maps, maps + r->model->choose.n_maps);
   pl_record_rubs(r, link);
   r->out->setup.links = link;
   r->out->setup.n_c = r->n_links;

@@ -169,13 +169,10 @@ static pl_coupling couple(pl_analysis* d) {
 
 // What the map exerts on coordinate i: a force along dX/dφ on the mapped ones, its reaction on the chosen ones.
 static pl_expr coupling_push(pl_analysis* d, const pl_coupling* c, int i) {
-  pl_pool* p = d->pool;
-  const pl_variable* to = &d->q.at[i];
-  bool chosen = to->chosen && !to->carries, mapped = to->solved_by == -1 && !pl_is_poison(to->map);
-  pl_expr sum = pl_int(p, 0);
+  pl_expr sum = pl_int(d->pool, 0);
   for (int k = 0; c->multiplier && k < c->n_chosen; k++) {
-    pl_expr way = chosen ? pl_neg(p, pl_map_product(d, i, c->chosen[k])) : mapped ? pl_diff(p, to->map, d->q.at[c->chosen[k]].q) : pl_int(p, 0);
-    sum = pl_add(p, sum, pl_mul(p, pl_sym(p, c->multiplier[k]), way));
+    pl_expr slope = pl_diff(d->pool, pl_along_map(d, d->q.at[c->chosen[k]].q), d->q.at[i].q);
+    sum = pl_add(d->pool, sum, pl_mul(d->pool, pl_sym(d->pool, c->multiplier[k]), slope));
   }
   return sum;
 }

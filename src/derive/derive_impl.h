@@ -260,7 +260,7 @@ void pl_spread_assemblies(pl_analysis* d);              // values over followers
 pleuel_status pl_solve_motion(pl_analysis* d);          // accelerations and multipliers
 pl_expr pl_force_scale(pl_analysis* d, int link);       // |Z| = scale |λ| on each mass it acts on; poison when they differ (answer_force.c)
 bool pl_say_unsolved(pl_analysis* d, pl_expr asked, pl_expr e);   // e still contains accelerations or multipliers: said (answer_value.c)
-pl_expr pl_map_product(pl_analysis* d, int a, int b);   // sum of dX/dq_a dX/dq_b over the coordinates that `choose` maps
+pl_expr pl_along_map(pl_analysis* d, pl_symbol chosen); // sum of dX/dφ (x - X) over the maps x = X of `choose`: vanishes with them
 int pl_loaded_by_name(const pl_analysis* d);            // a coordinate of `choose` alone on which a force or potential acts; -1
 pl_expr pl_bond_acceleration(pl_analysis* d, int link); // twice differentiated constraint, raw
 // The equation of one coordinate solved for multiplier k, accelerations and other multipliers left as names: short where the closed

@@ -19,6 +19,8 @@ static pl_expr dot_columns(pl_analysis* d, const pl_particle* k, int i, int j) {
 static pl_expr without_bars(pl_analysis* d, pl_expr e) {
   if (pl_kind_of(d->pool, e) == PL_CALL && pl_function_of(d->pool, e) == PL_ABS) {
     pl_expr inside = pl_arg(d->pool, e, 0);
+    int sign = 0;
+    if (pl_alg_sign(d->tower, pl_on_contact(d, inside), false, &sign) == PL_YES && sign < 0) return pl_neg(d->pool, inside);
     pl_tower_use(d->tower, (pl_fact){inside, false});
     return inside;
   }

@@ -13,13 +13,12 @@ pl_expr pl_bond_acceleration(pl_analysis* d, int k) {
   return l->velocity ? once : pl_dt(d->pool, once);
 }
 
-pl_expr pl_map_product(pl_analysis* d, int a, int b) {
+pl_expr pl_along_map(pl_analysis* d, pl_symbol chosen) {
+  const pl_choose* choose = &d->model->choose;
   pl_expr sum = pl_int(d->pool, 0);
-  for (int i = 0; i < d->q.n; i++) {
-    const pl_variable* c = &d->q.at[i];
-    if (c->solved_by != -1 || pl_is_poison(c->map)) continue;
-    pl_expr left = pl_diff(d->pool, c->map, d->q.at[a].q), right = pl_diff(d->pool, c->map, d->q.at[b].q);
-    sum = pl_add(d->pool, sum, pl_mul(d->pool, left, right));
+  for (int k = 0; k < choose->n_maps; k++) {
+    pl_expr gap = pl_sub(d->pool, choose->maps[k].old, choose->maps[k].map);
+    sum = pl_add(d->pool, sum, pl_mul(d->pool, pl_diff(d->pool, choose->maps[k].map, chosen), gap));
   }
   return sum;
 }
@@ -41,16 +40,15 @@ typedef struct pl_linear {
 static bool at_work(const pl_bond* l) { return l->fixes < 0 && !l->implied; }
 
 // What acts on a coordinate that only stands in `choose`, a torque on φ or its inertia, reaches the masses through the map x = X(φ),
-// as a force along the map: with J = dX/dφ
-//   E_x + J (J^T J)^-1 E_φ = sum λ ∇g.
+// as a force along the map: A = dX/dφ (x - X) is a constraint whose multiplier takes up the equation of φ,
+//   E_x + ∇A (J^T J)^-1 E_φ = sum λ ∇g,  J = dX/dφ.
 // A part across the map does no work; it belongs to the constraints.
 static pl_expr through_map(pl_analysis* d, int i) {
-  const pl_variable* c = &d->q.at[i];
   pl_expr sum = pl_int(d->pool, 0);
-  for (int k = 0; c->solved_by == -1 && k < d->chosen_forces.n; k++) {
+  for (int k = 0; k < d->chosen_forces.n; k++) {
     const pl_chosen_force* f = &d->chosen_forces.at[k];
-    pl_expr J = pl_diff(d->pool, c->map, d->q.at[f->coordinate].q);
-    sum = pl_add(d->pool, sum, pl_mul(d->pool, J, f->along));
+    pl_expr slope = pl_diff(d->pool, pl_along_map(d, d->q.at[f->coordinate].q), d->q.at[i].q);
+    sum = pl_add(d->pool, sum, pl_mul(d->pool, slope, f->along));
   }
   return sum;
 }
@@ -65,7 +63,7 @@ static bool find_chosen_forces(pl_analysis* d) {
   pl_expr *A = PL_ARRAY(d->arena, pl_expr, n * n), *b = PL_ARRAY(d->arena, pl_expr, n), *x = PL_ARRAY(d->arena, pl_expr, n);
   for (int r = 0; r < n; r++) {
     b[r] = pl_on_maps(d, d->euler[at[r]]);
-    for (int c = 0; c < n; c++) A[r * n + c] = pl_map_product(d, at[r], at[c]);
+    for (int c = 0; c < n; c++) A[r * n + c] = pl_neg(d->pool, pl_on_maps(d, pl_diff(d->pool, pl_along_map(d, d->q.at[at[c]].q), d->q.at[at[r]].q)));
   }
   if (pl_alg_solve(d->tower, n, A, b, x, max_terms) != PL_YES) return false;
   for (int k = 0; k < n; k++) pl_push(d->arena, d->chosen_forces, (pl_chosen_force){at[k], x[k]});
