@@ -15,6 +15,7 @@ typedef struct pl_places {
   int n;
   pl_symbol name[max_given];
   pl_expr value[max_given];
+  bool at_zero;              // at t = 0
 } pl_places;
 
 static int place_of(const pl_places* p, pl_symbol s) {
@@ -45,7 +46,7 @@ static bool place_in(pl_analysis* d, const pl_condition* c, pl_symbol* name, pl_
 
 static pl_expr with_places(pl_analysis* d, const pl_places* p, pl_expr e) {
   for (int k = 0; k < p->n; k++) e = pl_subst1(d->pool, e, p->name[k], p->value[k]);
-  return e;
+  return p->at_zero ? pl_subst1(d->pool, e, pl_time(d->pool), pl_int(d->pool, 0)) : e;
 }
 
 // Coordinates of the model that are functions of generalized ones alone.
@@ -181,7 +182,7 @@ static bool speaks_of_mapped(pl_analysis* d, const pl_places* p) {
 }
 
 int pl_in_generalized(pl_analysis* d, const pl_condition* c, int n, pl_condition** out) {
-  pl_places given = {.n = 0}, known = {.n = 0};
+  pl_places given = {.at_zero = true}, known = {.at_zero = true};
   pl_condition* all = PL_ARRAY(d->arena, pl_condition, n + max_given);
   int n_all = 0;
   for (int k = 0; k < n; k++) {
@@ -201,7 +202,7 @@ int pl_in_generalized(pl_analysis* d, const pl_condition* c, int n, pl_condition
 
 // The start of `init` in generalized coordinates, where it is given in others: it joins the start values of the model.
 void pl_start_in_generalized(pl_analysis* d) {
-  pl_places given = {.n = 0}, known = {.n = 0};
+  pl_places given = {.at_zero = true}, known = {.at_zero = true};
   for (int k = 0; k < d->model->inits.n; k++) {
     const pl_init* init = &d->model->inits.at[k];
     pl_condition c = {.left = init->target, .right = init->value, .relation = PL_EQ};

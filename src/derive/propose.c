@@ -307,9 +307,10 @@ static void start_angle(pl_analysis* d, pl_model* m, pl_symbol q, pl_expr invers
   pl_push(d->arena, m->inits, (pl_init){.time = pl_poison(), .target = pl_sym(d->pool, pl_symbol_dot(d->pool, q)), .value = velocity});
 }
 
-static bool add_angle(pl_analysis* d, pl_proposal* p, pl_model* m, pl_symbol q, pl_expr inverse) {
+// at_start: its value over the coordinates of the model, where this tells the start; poison: it does not.
+static bool add_angle(pl_analysis* d, pl_proposal* p, pl_model* m, pl_symbol q, pl_expr inverse, pl_expr at_start) {
   if (!q.id) return false;
-  start_angle(d, m, q, inverse);
+  start_angle(d, m, q, at_start);
   pl_push(d->arena, m->coords, (pl_coord){.symbol = q, .lo = pl_poison(), .hi = pl_poison()});
   pl_push(d->arena, p->tried, (pl_definition){q, inverse});
   return true;
@@ -317,7 +318,8 @@ static bool add_angle(pl_analysis* d, pl_proposal* p, pl_model* m, pl_symbol q, 
 
 static bool add_circle(pl_analysis* d, pl_proposal* p, pl_model* m, const pl_round* r, bool numbered) {
   pl_symbol q = angle_name(d, p, false, numbered);
-  if (!add_angle(d, p, m, q, turn(d, r, 0, 1))) return false;
+  pl_expr angle = turn(d, r, 0, 1);
+  if (!add_angle(d, p, m, q, angle, angle)) return false;
   add_map(d, m, r, 0, call(d, PL_COS, q));
   add_map(d, m, r, 1, call(d, PL_SIN, q));
   return true;
@@ -332,13 +334,19 @@ static int axis_of(pl_analysis* d, const pl_round* r) {
   return found;
 }
 
-static bool add_sphere(pl_analysis* d, pl_proposal* p, pl_model* m, const pl_round* r, bool numbered) {
+// The polar angle counts from the axis towards the azimuth, ϑ = atan2(u cos φ + v sin φ, w): where the azimuth is given by a
+// constraint, both signs occur.
+static bool add_sphere(pl_analysis* d, pl_proposal* p, pl_model* m, const pl_round* r, bool numbered, bool given) {
+  pl_pool* pool = d->pool;
   int axis = axis_of(d, r), a = axis == 0 ? 1 : 0, b = axis == 2 ? 1 : 2;
   pl_symbol theta = angle_name(d, p, true, false), phi = angle_name(d, p, false, numbered);
-  if (!add_angle(d, p, m, theta, pl_call(d->pool, PL_ACOS, along_axis(d, r, axis)))) return false;
-  if (!add_angle(d, p, m, phi, turn(d, r, a, b))) return false;
-  add_map(d, m, r, a, pl_mul(d->pool, call(d, PL_SIN, theta), call(d, PL_COS, phi)));
-  add_map(d, m, r, b, pl_mul(d->pool, call(d, PL_SIN, theta), call(d, PL_SIN, phi)));
+  if (!theta.id || !phi.id) return false;
+  pl_expr w = along_axis(d, r, axis), azimuth = turn(d, r, a, b);
+  pl_expr u = pl_mul(pool, along_axis(d, r, a), call(d, PL_COS, phi)), v = pl_mul(pool, along_axis(d, r, b), call(d, PL_SIN, phi));
+  add_angle(d, p, m, theta, pl_call2(pool, PL_ATAN2, pl_add(pool, u, v), w), given ? pl_poison() : pl_call(pool, PL_ACOS, w));
+  add_angle(d, p, m, phi, azimuth, given ? pl_poison() : azimuth);
+  add_map(d, m, r, a, pl_mul(pool, call(d, PL_SIN, theta), call(d, PL_COS, phi)));
+  add_map(d, m, r, b, pl_mul(pool, call(d, PL_SIN, theta), call(d, PL_SIN, phi)));
   add_map(d, m, r, axis, call(d, PL_COS, theta));
   return true;
 }
@@ -365,7 +373,7 @@ static pl_model* chosen_model(pl_analysis* d, pl_proposal* p, const pl_trial* t)
   for (int k = 0; k < t->n_rounds; k++) {
     const pl_round* r = &t->round[k];
     bool numbered = n_circles >= several;
-    if (!(r->n == 3 ? add_sphere(d, p, m, r, numbered) : add_circle(d, p, m, r, numbered))) return NULL;
+    if (!(r->n == 3 ? add_sphere(d, p, m, r, numbered, t->n_leaders > 0) : add_circle(d, p, m, r, numbered))) return NULL;
   }
   for (int k = 0; k < p->tried.n; k++) {
     bool leads = t->n_leaders == 0 || (k >= t->leader && k < t->leader + t->n_leaders);
@@ -587,6 +595,13 @@ static void define_in(pl_analysis* a, pl_value* v, pl_symbol s, pl_expr value) {
   v->n_where++;
 }
 
+// An angle that a constraint gives has the value of that constraint.
+static pl_expr definition_of(pl_analysis* a, const pl_definition* angle) {
+  int i = pl_variable_index(a, angle->symbol);
+  bool given = a->q.at[i].follows && !pl_is_poison(a->q.at[i].map) && pl_follower(a, i) < 0;
+  return given ? a->q.at[i].map : angle->value;
+}
+
 // Angles that the model does not know, over its own coordinates.
 void pl_define_proposed(pl_analysis* d) {
   pl_proposal* p = d->proposal;
@@ -596,9 +611,10 @@ void pl_define_proposed(pl_analysis* d) {
     pl_section* s = &d->solution->sections.at[k];
     for (int i = 0; i < s->values.n; i++) {
       for (int j = 0; j < p->angles.n; j++) {
-        const pl_definition* angle = &p->angles.at[j];
-        define_in(a, &s->values.at[i], pl_symbol_dot(a->pool, angle->symbol), pl_dt(a->pool, angle->value));
-        define_in(a, &s->values.at[i], angle->symbol, angle->value);
+        pl_symbol q = p->angles.at[j].symbol;
+        pl_expr value = definition_of(a, &p->angles.at[j]);
+        define_in(a, &s->values.at[i], pl_symbol_dot(a->pool, q), pl_dt(a->pool, value));
+        define_in(a, &s->values.at[i], q, value);
       }
     }
   }
