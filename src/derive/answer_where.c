@@ -423,10 +423,12 @@ static bool on_time(pl_analysis* d, const pl_where* p, pl_expr* e) {
   return !pl_has_coordinates(d, *e);
 }
 
+static const long longest_in_time = 150;   // operations of a condition over t that are worth reading
+
 static bool search_in_time(pl_analysis* d, const pl_where* p) {
   pl_search s = {.s = pl_time(d->pool), .name = p->ask->value, .condition = p->equation[0], .asked = p->asked, .complete = true};
   if (!d->reduced || !on_time(d, p, &s.condition) || !on_time(d, p, &s.asked)) return false;
-  if (!pl_has_symbol(d->pool, s.condition, s.s)) return false;
+  if (!pl_has_symbol(d->pool, s.condition, s.s) || pl_op_count(d->pool, s.condition) > longest_in_time) return false;
   add_contacts(d, p, &s);
   for (int k = 0; k < s.n_contacts; k++) {
     if (!on_time(d, p, &s.push[k])) return false;

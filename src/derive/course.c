@@ -15,6 +15,7 @@ static const double whole_period = 1.5;       // where all repeats after one
 static const double steps_of_a_period = 300;
 static const double double_zero = 1e-11;      // of the largest value around: below it an extremum is a zero
 static const double vanishes = 1e-9;          // likewise, at the ends of a leg
+static const double at_the_end = 1e-7;        // of a leg: a zero there is one at the turn
 
 double pl_course_value(const pl_course* c, pl_expr f, double q, int sign) {
   c->value[c->q.id] = q;
@@ -224,7 +225,7 @@ static bool meets_on(const pl_course* c, int k, pl_expr f, pl_meeting* out) {
   walk w = {0};
   double begin = at(&l, 0);
   if (l.bent) {
-    for (int i = 1; i < points_of_a_leg; i++) {
+    for (int i = 1; i <= points_of_a_leg; i++) {
       if (step(&l, &w, (double)i / points_of_a_leg, false)) break;
     }
   } else {
@@ -240,6 +241,10 @@ static bool meets_on(const pl_course* c, int k, pl_expr f, pl_meeting* out) {
   if (w.kind == CROSSES || w.kind == TOUCHES) {
     out->at = place(&l, w.zero);
     out->touches = w.kind == TOUCHES;
+    if (g->end == PL_END_TURN && w.zero > 1 - at_the_end) {
+      out->at = g->to;
+      out->sign = 0;
+    }
     return true;
   }
   if (g->end != PL_END_TURN) return false;

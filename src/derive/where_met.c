@@ -284,15 +284,22 @@ static pl_expr condition_of(pl_analysis* d, const pl_search* p, const outcome* o
   pl_expr e = p->root[o->root].condition;
   int sign;
   if (pl_is_poison(e) && p->line && o->at.sign != 0) e = pl_alg_normal(d->tower, pl_subst1(d->pool, p->line->v2, p->s, place));
-  if (pl_is_poison(e) || pl_alg_sign(d->tower, e, true, &sign) == PL_YES) return pl_poison();
-  return e;
+  if (!pl_is_poison(e) && pl_alg_sign(d->tower, e, true, &sign) != PL_YES) return e;
+  if (!p->line || o->at.leg > 0 || o->at.sign == 0) return pl_poison();
+  e = pl_mul(d->pool, pl_int(d->pool, o->at.sign), pl_sub(d->pool, place, p->line->q0));   // ahead of the start
+  return pl_alg_sign(d->tower, e, true, &sign) == PL_YES ? pl_poison() : pl_alg_normal(d->tower, e);
 }
 
+// conditional: for some numbers it does not happen.
 static void show_way(pl_analysis* d, const pl_search* p, const rates* r, const outcome* o, bool conditional) {
   pl_expr place = place_of(d, p, r, o);
   if (!p->place) pl_claim_free(d, PL_CLAIM_INSERTED, at_place(d, p, p->condition, place, o->at.sign), pl_int(d->pool, 0));
   pl_expr value = at_place(d, p, p->asked, place, o->at.sign);
-  pl_show_met(d, p->name, value, conditional ? condition_of(d, p, o, place) : pl_poison());
+  pl_expr condition = conditional ? condition_of(d, p, o, place) : pl_poison();
+  pl_show_met(d, p->name, value, condition);
+  if (conditional && pl_is_poison(condition)) {
+    pl_say(d, "This does not happen for all values of the given quantities.", "Das tritt nicht für alle Werte der gegebenen Größen ein.", 0);
+  }
 }
 
 // The closed form against the course: the number of what is asked there.
