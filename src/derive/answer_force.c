@@ -151,7 +151,7 @@ static const pl_form* vector_of(pl_analysis* d, const pl_force* f, const pl_expr
 
 // ---------------------------------------------------------------------------------------------- λ on the way
 // What λ is worth for this request: on the motion, with the velocity eliminated when a motion is named.
-typedef struct pl_lambda_value { pl_expr value; int number; bool eliminated; } pl_lambda_value;
+typedef struct pl_lambda_value { pl_expr value; int number; bool eliminated; pl_expr holds_while; } pl_lambda_value;
 
 static const pl_form* at_start(pl_analysis* d, const pl_variable* c, pl_expr q0, pl_expr v0) {
   const pl_form* f[2] = {pl_feq(d, pl_fs(d, c->q), pl_fe(d, q0)), pl_feq(d, pl_fs(d, c->v), pl_fe(d, v0))};
@@ -250,7 +250,7 @@ static pl_lambda_value lambda_for(pl_analysis* d, int k, const pl_motion* motion
   }
   out.value = pl_along_line(d, &line, l->lambda_value);
   out.eliminated = true;
-  if (show) pl_say_way(d, &line, l->lambda_value);
+  if (show) out.holds_while = pl_say_way(d, &line, l->lambda_value);
   pl_expr root = pl_mul(d->pool, pl_int(d->pool, line.direction), pl_sqrt(d->pool, line.v2));
   pl_expr inserted = pl_subst(d->pool, l->lambda_value, line.velocity, line.n);
   pl_claim_free(d, PL_CLAIM_INSERTED, out.value, pl_subst1(d->pool, inserted, d->q.at[line.i].v, root));
@@ -379,6 +379,7 @@ static void not_attributable(pl_analysis* d, int k) {
 static void answer_lambda(pl_analysis* d, int k, const pl_lambda_value* lambda) {
   pl_value* v = pl_answer(d, pl_symbol_get(d->pool, d->g.at[k].lambda)->ascii, lambda->value, pl_f(d, lambda->value, PL_S_QUOTIENT));
   v->of = d->g.at[k].source->name.text;
+  v->holds_while = lambda->holds_while;
 }
 
 static void force_of(pl_analysis* d, const pl_ask* ask, int k) {

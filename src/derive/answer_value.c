@@ -73,8 +73,8 @@ static void plain_value(pl_analysis* d, const pl_ask* ask) {
   bool known;
   pl_step_value(d, step, e, pl_dimension_of_expr(d, e, &known));
   if (!eliminated) pl_claim_that(d, PL_CLAIM_OTHER, pl_form_value(d->pool, form), pl_with_results(d, ask->value));
-  pl_answer(d, pl_expr_text(d->arena, d->pool, ask->value), e, form);
-  if (eliminated) pl_say_way(d, &line, pl_on_motion(d, pl_with_results(d, ask->value)));
+  pl_value* v = pl_answer(d, pl_expr_text(d->arena, d->pool, ask->value), e, form);
+  if (eliminated) v->holds_while = pl_say_way(d, &line, pl_on_motion(d, pl_with_results(d, ask->value)));
 }
 
 // The request as a German title: the words between its formulas, "ϑ bei λ = 0 mit Start ϑ = 0 in Ruhe".

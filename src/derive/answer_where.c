@@ -310,7 +310,7 @@ static void show_condition(pl_analysis* d, const pl_ask* ask, pl_expr e) {
 }
 
 // ---------------------------------------------------------------------------------------------- on the motion
-// One-sided constraints have to push all the way: λ with the sign that the relation allows.
+// One-sided constraints have to stay as they are all the way: a closed one pushes, an open one is not met.
 static void add_contacts(pl_analysis* d, const pl_where* p, pl_search* s) {
   for (int k = 0; k < d->g.n && s->n_contacts < pl_max_contacts_met; k++) {
     const pl_bond* l = &d->g.at[k];
@@ -319,6 +319,14 @@ static void add_contacts(pl_analysis* d, const pl_where* p, pl_search* s) {
     if ((l->source->relation == PL_LE) != d->model->lambda_minus) push = pl_neg(d->pool, push);
     s->contact[s->n_contacts] = l->source->name.text;
     s->push[s->n_contacts++] = push;
+  }
+  for (int k = 0; k < d->open.n && s->n_contacts < pl_max_contacts_met; k++) {
+    const pl_open* o = &d->open.at[k];
+    if (!o->contact || o->released || o->off || o->source->has_velocity) continue;
+    pl_expr away = with_given(d, p, pl_on_maps(d, o->source->g));
+    s->open[s->n_contacts] = true;
+    s->contact[s->n_contacts] = o->source->name.text;
+    s->push[s->n_contacts++] = o->source->relation == PL_LE ? pl_neg(d->pool, away) : away;
   }
 }
 
@@ -388,6 +396,10 @@ static bool search_on_line(pl_analysis* d, const pl_where* p) {
   if (!is_on_line(d, p, s.condition) || !is_on_line(d, p, s.asked)) return false;
   if (!pl_has_symbol(d->pool, s.condition, s.s) && !pl_has_symbol(d->pool, s.condition, d->q.at[p->line.i].v)) return false;
   add_contacts(d, p, &s);
+  for (int k = 0; k < s.n_contacts; k++) {
+    s.push[k] = on_cyclic(d, p, s.push[k]);
+    if (!is_on_line(d, p, s.push[k])) return false;
+  }
   pl_expr place;
   if (place_of(d, s.condition, s.s, &place)) {
     s.place = s.complete = true;

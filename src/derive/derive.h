@@ -47,6 +47,7 @@ typedef struct pl_value {
   const char* on;                  // mass
   const char* at;                  // "equilibrium 1"
   const char* branch;              // condition that picks it, as text
+  pl_expr holds_while;             // > 0 where it holds; poison: everywhere
   const pl_form* form;             // as displayed (right-hand side)
   const pl_form* lhs_form;         // displayed left-hand side, when it is an equation
   pl_expr expr;                    // right-hand side

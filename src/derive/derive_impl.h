@@ -408,7 +408,7 @@ struct pl_line {
 void pl_motion_start(pl_analysis* d, const pl_motion* motion, const pl_variable* c, pl_expr* q0, pl_expr* v0);   // eliminate.c
 bool pl_line_of(pl_analysis* d, const pl_motion* motion, pl_line* out);
 bool pl_line_from(pl_analysis* d, const pl_motion* motion, pl_line* out);   // the same, or with drag as the square of the velocity
-void pl_say_way(pl_analysis* d, const pl_line* l, pl_expr e);   // e changes with the sign of the velocity: which one is meant
+pl_expr pl_say_way(pl_analysis* d, const pl_line* l, pl_expr e);   // e changes with the sign of the velocity: which one is meant; > 0 then, or poison
 void pl_say_from_unused(pl_analysis* d);                // why the start gives no velocities
 pl_expr pl_along_line(pl_analysis* d, const pl_line* l, pl_expr e);   // velocities inserted
 bool pl_is_angle(pl_analysis* d, int i);                // coordinate i is a pure number under sin or cos

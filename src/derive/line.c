@@ -137,11 +137,12 @@ static bool drag_line(pl_analysis* d, const pl_motion* motion, pl_line* l) {
 bool pl_line_from(pl_analysis* d, const pl_motion* motion, pl_line* l) { return pl_line_of(d, motion, l) || drag_line(d, motion, l); }
 
 // ---------------------------------------------------------------------------------------------- sentences
-void pl_say_way(pl_analysis* d, const pl_line* l, pl_expr e) {
+pl_expr pl_say_way(pl_analysis* d, const pl_line* l, pl_expr e) {
   pl_symbol v = d->q.at[l->i].v;
   pl_expr on = pl_subst(d->pool, e, l->velocity, l->n), back = pl_subst1(d->pool, on, v, pl_neg(d->pool, pl_sym(d->pool, v)));
-  if (!l->drag && pl_alg_equal(d->tower, on, back) == PL_YES) return;
+  if (!l->drag && pl_alg_equal(d->tower, on, back) == PL_YES) return pl_poison();
   pl_say(d, "This holds while {1}.", "Das gilt, solange {1}.", 1, pl_frel(d, pl_fs(d, v), l->direction > 0 ? ">" : "<", pl_form_leaf(d->arena, pl_int(d->pool, 0))));
+  return pl_mul(d->pool, pl_int(d->pool, l->direction), pl_sym(d->pool, v));
 }
 
 void pl_say_from_unused(pl_analysis* d) {

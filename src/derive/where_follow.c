@@ -176,11 +176,15 @@ void pl_follow_motion(pl_analysis* d, const pl_motion* motion, int assembly, con
   out->how = first_zero(&w, end_of(d), &out->time, y);
   if (out->how == PL_FOLLOWED_NOT) return;
   put(&w, out->time, y);
-  out->asked = pl_eval(d->pool, p->asked, w.value);
+  if (out->how == PL_FOLLOWED_MET) out->asked = pl_eval(d->pool, p->asked, w.value);
   look_at_contacts(&w, p, motion, out->time, out);
 }
 
 void pl_say_followed(pl_analysis* d, const pl_search* p, const pl_followed* f) {
+  if (f->lost >= 0 && p->open[f->lost]) {
+    pl_say_met_before(d, p->contact[f->lost], time_form(d, f->lost_at));
+    return;
+  }
   if (f->lost >= 0) {
     pl_say(d, "{1} lets go before, at {2}; beyond it the formulas do not hold.",
            "{1} löst sich vorher, bei {2}; danach gelten die Formeln nicht.", 2, pl_fn(d, p->contact[f->lost]), time_form(d, f->lost_at));

@@ -16,8 +16,9 @@ typedef struct pl_search {
   pl_root root[pl_max_roots_met];
   int n_roots;
   bool complete;               // all roots are there
-  int n_contacts;              // one-sided constraints that must push up to there
-  pl_expr push[pl_max_contacts_met];
+  int n_contacts;              // one-sided constraints: what must stay above zero up to there
+  pl_expr push[pl_max_contacts_met];            // λ of a closed one, the distance of an open one
+  bool open[pl_max_contacts_met];
   const char* contact[pl_max_contacts_met];
 } pl_search;
 
@@ -30,6 +31,7 @@ void pl_say_followed(pl_analysis* d, const pl_search* p, const pl_followed* f);
 void pl_show_met(pl_analysis* d, pl_expr name, pl_expr value, pl_expr condition);
 void pl_show_met_number(pl_analysis* d, pl_expr name, double x);
 pl_step* pl_show_number(pl_analysis* d, pl_expr name, double x);   // the line of it
+void pl_say_met_before(pl_analysis* d, const char* contact, const pl_form* where);   // an open contact
 void pl_say_circular(pl_analysis* d, pl_expr name);   // the answer would contain what is asked
 
 #endif

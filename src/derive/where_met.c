@@ -251,10 +251,17 @@ static void say_never(pl_analysis* d, const pl_search* p, const pl_course* c) {
   }
 }
 
+void pl_say_met_before(pl_analysis* d, const char* contact, const pl_form* where) {
+  pl_say(d, "{1} is met before, at {2}; beyond it the formulas do not hold.",
+         "{1} wird vorher erreicht, bei {2}; danach gelten die Formeln nicht.", 2, pl_fn(d, contact), where);
+}
+
 static bool say_lost(pl_analysis* d, const pl_search* p, const outcome* o) {
   if (o->lost < 0) return false;
   const pl_form* contact = pl_fn(d, p->contact[o->lost]);
-  if (o->at_once) {
+  if (p->open[o->lost]) {
+    pl_say_met_before(d, p->contact[o->lost], place_form(d, p, o->lost_at));
+  } else if (o->at_once) {
     pl_say(d, "At this start {1} would have to pull: it lets go at once, and the formulas do not hold.",
            "Bei diesem Start müsste {1} ziehen: der Kontakt löst sich sofort, und die Formeln gelten nicht.", 1, contact);
   } else {

@@ -104,6 +104,15 @@ choose x
 init x = 0, x' = v0
 """
 
+BALL = """param m = 1 [kg], g = 9.81 [m/s^2]
+coord x, y
+axes x right, y up
+mass A: m at (x, y)
+gravity g along -y
+constraint floor: y >= 0
+init x = 0, y = 2 [m], x' = 1 [m/s], y' = 3 [m/s]
+"""
+
 FOURBAR = """param a = 0.1 [m], b = 0.3 [m], c = 0.25 [m], D = 0.3 [m], m = 1 [kg], g = 9.81 [m/s^2], W = 2 [1/s]
 coord th2, th3, th4
 axes x right, y up
@@ -172,6 +181,9 @@ CASES = [
     (ATWOOD % ("", "", ""), "series m1 -> 0 of x1''/m1", [None], ["-g m1⁻¹ + 2 g/m2", "O(m1³)"], []),
     (ATWOOD % ("", "", ""), "limit m1 = m2 of x1(t)", [None], ["x1(0) + x1'(0) t"], []),
     (HILL, "v0 where λ = 0 and x = 0", [None, None], ["f2 ≤ 0"], ["No state"]),
+    (HILL, "x' where x' = v0/2 from x = 0 and x' = v0", [], [], ["2 x'"]),
+    (BALL, "y' where y = 1 [m]", [-math.sqrt(9 + 2 * G)], [], []),
+    (BALL, "y where x = 5 [m]", [], ["floor is met before"], ["y ="]),
     (FOURBAR, "th4 where th2 = 60°", fourbar(math.pi / 3), [], []),
 ]
 
