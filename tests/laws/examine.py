@@ -58,7 +58,7 @@ class Program:
     """Runs pleuel.  damage is a function of the parsed answers that a test of the test hands in."""
 
     def __init__(self, path, damage=None):
-        self.path, self.damage = path, damage
+        self.path, self.damage, self.hurt = path, damage, 0
 
     def call(self, verb, text, *flags):
         done = subprocess.run([self.path, verb, *flags, "-"], input=text.encode(), capture_output=True, timeout=60)
@@ -71,7 +71,7 @@ class Program:
         except ValueError:
             document = None
         if document and self.damage:
-            self.damage("solve", document)
+            self.hurt += bool(self.damage("solve", document))
         return code, document, err
 
     def simulate(self, text, *flags):
@@ -84,7 +84,7 @@ class Program:
                 document = {}
             rows = rows_of(path) if os.path.exists(path) else []
         if self.damage:
-            self.damage("sim", rows)
+            self.hurt += bool(self.damage("sim", rows))
         return code, document, rows, err
 
 

@@ -8,20 +8,20 @@ import re
 
 # What a scene may contain.  A feature that is off is left out in `make test`; the reason stands beside it.
 FEATURES = {
-    "units": False,           # units, and numbers with units in formulas
+    "units": True,           # units, and numbers with units in formulas
     "numbers": True,         # numbers as masses and other given quantities
     "let": True,             # abbreviations
     "let_given": True,       # let a = g
-    "open_contact": False,    # one-sided constraints that the start leaves open
-    "closed_contact": False,
-    "rope": False,            # <= between distances
+    "open_contact": True,    # one-sided constraints that the start leaves open
+    "closed_contact": True,
+    "rope": True,            # <= between distances
     "release": True,         # release and attach by events
     "choose": True,          # choose with maps
-    "choose_release": False,  # the map of a constraint that is released
+    "choose_release": True,  # the map of a constraint that is released
     "velocity": True,        # starts with velocity
     "kinetic": True,
     "lagrangian": True,
-    "total_derivative": False,   # parts of L that change no equation
+    "total_derivative": True,   # parts of L that change no equation
     "family": True,
     "drive": True,           # f(t) in constraints, points or forces
     "friction": True,
@@ -30,8 +30,8 @@ FEATURES = {
     "loop": True,
     "no_freedom": True,
     "nonholonomic": True,
-    "where": False,
-    "from": False,
+    "where": True,
+    "from": True,
     "equilibria": True,
     "closed_motion": True,
     "cartesian": True,       # no generalized coordinate of its own
@@ -336,7 +336,7 @@ def skier(s):
         return
     if not polar and not s.on("cartesian"):
         polar = True
-    high = "1.2 " if where == "above" else ""
+    high = "1.2*" if where == "above" else ""
     if polar:
         s.line("coord r [m], θ", "axes x right, z up")
         s.mass("A", "(r sin θ, r cos θ)")
