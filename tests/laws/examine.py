@@ -27,6 +27,7 @@ from witness import Lost, Witness, integrate, kinematic_places, kinematic_rates,
 
 sys.setrecursionlimit(100000)
 ROWS = 24            # rows of a motion that are looked at
+UNIT_BEHIND = r"(\d) (?:m|s|kg|N)\b"     # 1.5 m is a length, or a product with m: both are tried
 TURNS = {"release", "impact", "contact", "slack", "taut", "stick", "slip"}
 
 
@@ -368,8 +369,10 @@ class Examination:
 
     def read_assumptions(self, texts):
         """Relations as expressions that are not negative where they hold."""
-        out = []
+        out, both = [], []
         for text in texts:
+            both += [text] + ([re.sub(UNIT_BEHIND, r"\1", text)] if re.search(UNIT_BEHIND, text) else [])
+        for text in both:
             try:
                 tokens = tokens_of(text)
                 at = find_word(tokens, ">", "<", ">=", "<=")
@@ -510,6 +513,9 @@ class Examination:
     # -------------------------------------------------------------------------------------------- items
     def check_item(self, item):
         text = item["item"]
+        if item.get("stage", 1) > 1:
+            self.check_stage(item)
+            return
         text_said = " ".join(str(x.get("text")) for x in item.get("steps", []))
         if re.match(r"equilibria\s*$", text):
             rest.check_equilibria(self, item, text_said)
@@ -521,12 +527,37 @@ class Examination:
             return
         branches = any(v.get("branch") for v in item["values"])
         for v in item["values"]:
-            if v.get("components"):
+            if v.get("withdrawn"):
+                self.report.refused["withdrawn"] += 1
+                self.report.solve_said = f"withdrawn: {v['name']} of {text}"
+            elif v.get("components"):
                 self.check_force(item, v)
             elif v.get("conserved"):
                 self.check_conserved(v)
             elif v.get("expr") and not branches and not v.get("lhs"):
                 self.check_value(text, v)
+
+    def check_stage(self, item):
+        """Formulas for a later set of contacts are those of one of the sets that the motion has."""
+        sets = {}
+        for m in self.moments:
+            if m.motion:
+                sets.setdefault((tuple(m.motion.labels()), tuple(sorted(m.released))), []).append(m)
+        groups = [g[:8] for g in sets.values() if len(g) > 1]
+        for v in item["values"]:
+            known_kind = v["name"].endswith("_ddot") or v["name"] in self.multipliers()
+            if groups and v.get("expr") and known_kind and not v.get("branch"):
+                self.report.check("later stage", any(self.agrees(v, g) for g in groups), lambda: (
+                    f"{v['name']} = {v['expr'][:300]} ({item['item']}, stage {item['stage']}) fits no set of contacts "
+                    f"of the motion: {sorted(sets)}"))
+
+    def agrees(self, value, moments):
+        for m in moments:
+            names = self.names_at(m)
+            x, want = self.formula(value, names), names.get(value["name"])
+            if x is not None and want is not None and not near(x, want, max([abs(a) for a in m.motion.a] + [1.0]), 1e-6):
+                return False
+        return True
 
     def expected(self, text, value):
         """What a value is at a moment, as a function; None if this cannot be told."""

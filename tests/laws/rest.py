@@ -204,6 +204,7 @@ def holds(ex, condition):
 def check_named(ex, named, active):
     w = ex.w
     for place in named:
+        check_assumed(ex, place)
         if any(k not in w.q for k in place):
             continue
         best, closed = None, False
@@ -226,6 +227,17 @@ def check_named(ex, named, active):
         if best is not None:
             ex.report.check("equilibrium", best < 1e-6, lambda: (
                 f"{place} is named as a place of rest; a force of {best} is left there"))
+
+
+def check_assumed(ex, place):
+    """A place named is one that the assumptions of the same answer allow."""
+    w = ex.w
+    base = (ex.first or ex.near_by)[0]
+    q = completed(w, [place[k] if place.get(k) is not None else x for k, x in zip(w.q, base.q)],
+                  [k for k, x in place.items() if x is not None], list(range(len(w.rows))))
+    if q is not None and None not in place.values():
+        ex.report.check("equilibrium assumed", ex.assumed_there(q), lambda: (
+            f"{place} is named as a place of rest, against {ex.document['assumptions']}"))
 
 
 def completed(w, q, fixed, active):
@@ -274,7 +286,7 @@ def check_where(ex, item, said):
         tokens = tokens_of(condition)
         at = find_word(tokens, "=")
         g = Parser(tokens[:at], ex.model, {}).whole() - Parser(tokens[at + 1 :], ex.model, {}).whole()
-        expr = Parser(tokens_of(re.sub(r"^solve\s+", "", wanted)), ex.model, {}).whole()
+        expr = wanted_expression(ex, re.sub(r"^solve\s+", "", wanted))
     except (Unread, AttributeError, IndexError, TypeError):
         return
     states = {n for q in ex.w.q for n in (q, q + "_dot")} | set(ex.w.values)
@@ -297,6 +309,16 @@ def check_where(ex, item, said):
         ex.report.check("where", False, f"{item['item']} is answered {values[0]['name']} = {values[0]['expr']}")
     else:
         ex.report.compared["where without number"] += 1
+
+
+def wanted_expression(ex, text):
+    """The quantity asked for: a result by its name, or an expression."""
+    word = ascii_name(text.strip())
+    if word in ("T", "V", "E") and word not in ex.model.coords + list(ex.model.params) + list(ex.model.lets):
+        return s.name(word)
+    if word in ex.multipliers():
+        return s.name(word)
+    return Parser(tokens_of(text), ex.model, {}).whole()
 
 
 def number(ex, v):
@@ -322,6 +344,9 @@ def first_meeting(ex, condition, start, expr):
             return None
     t0, t1 = ex.model.interval or (ex.model.start_time, ex.model.start_time + 1.0)
     end = t0 + 8 * (t1 - t0)
+    from examine import column_name, spelled
+    for q in ex.w.q:
+        text += f"\noutput acc_{q} = {spelled(ex.model, q)}''"
     text += f"\nevent meeting: when {condition} -> stop\nsimulate {t0!r}..{end!r}\n"
     flags = []
     for k, v in ex.assumed.items():
@@ -335,8 +360,11 @@ def first_meeting(ex, condition, start, expr):
         return "never"
     if hit[0]["t"] <= t0 + 1e-12:
         return None
-    names = {**ex.numbers(), **{re.sub(r"\[(-?\d+)\]", r"_\1", k): x for k, x in hit[0]["state"].items()}}
-    names["t"] = hit[0]["t"]
+    if not all(assumed(ex, e["state"], e["t"]) for e in document["events"]):
+        return None
+    names = {**ex.numbers(), **{column_name(k): x for k, x in {**hit[0]["values"], **hit[0]["state"]}.items()}}
+    names.update({q + "_ddot": names["acc_" + q] for q in ex.w.q if "acc_" + q in names}, t=hit[0]["t"])
+    names = {k: x for k, x in names.items() if x is not None and x == x}
     if not s.names_of(expr) <= set(names):
         return None
     order = sorted(s.names_of(expr))
@@ -344,6 +372,15 @@ def first_meeting(ex, condition, start, expr):
         return s.compiled([expr], order)([names[n] for n in order])[0]
     except (ValueError, ZeroDivisionError, OverflowError):
         return None
+
+
+def assumed(ex, state, t):
+    """Whether a state is among those that the program speaks of."""
+    from examine import column_name
+    names = {column_name(k): x for k, x in state.items()}
+    if not all(q in names and q + "_dot" in names for q in ex.w.q):
+        return True
+    return ex.holds_at(ex.w.state([names[q] for q in ex.w.q], [names[q + "_dot"] for q in ex.w.q], t))
 
 
 def with_start(ex, text, start):

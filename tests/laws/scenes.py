@@ -17,6 +17,9 @@ FEATURES = {
     "rope": True,            # <= between distances
     "release": True,         # release and attach by events
     "choose": True,          # choose with maps
+    "choose_rope": False,    # the map of a rope: places jump when it goes taut
+    "line_spring": False,    # springs on a line, whose length is an absolute value: rest outside of the assumptions
+    "contact_equilibria": False,   # positions of rest on contacts that exist for other numbers
     "choose_release": True,  # the map of a constraint that is released
     "velocity": True,        # starts with velocity
     "kinetic": True,
@@ -36,6 +39,10 @@ FEATURES = {
     "closed_motion": True,
     "cartesian": True,       # no generalized coordinate of its own
 }
+
+
+def s_line(s):
+    return s.on("line_spring")
 
 
 class Scene:
@@ -107,7 +114,7 @@ class Scene:
         for label in self.moving:
             roll = self.rng.random()
             anchor = f"({self.n(-1, 1)} [m], {self.n(1.2, 2)} [m])" if plane else f"({self.n(-1, 1)} [m])"
-            if roll < 0.22:
+            if roll < 0.22 and (plane or s_line(self)):
                 self.line(f"spring {self.param('k', 2, 20, 'N/m')}, rest {self.param('d', 0.2, 0.6, 'm')}"
                           f" between {label} and {anchor}")
             elif roll < 0.30 and not conservative and self.on("damping"):
@@ -136,7 +143,8 @@ class Scene:
             self.ask(f"solve {x}''")
         for c in multipliers:
             self.ask(f"solve λ_{c}", f"force of {c}")
-        if self.on("equilibria", 0.5):
+        contact = any(re.match(r"constraint .*[<>]=", line) for line in self.lines)
+        if (not contact or self.on("contact_equilibria")) and self.on("equilibria", 0.5):
             self.ask("equilibria")
         if self.on("closed_motion", 0.3):
             self.ask(f"solve {coords[0]}(t)")
@@ -195,7 +203,7 @@ def pendulum(s):
     l = s.named("l", 0.5, 1.5, "m")
     spelling = s.one("cartesian", "polar", "angle", "choose")
     kind = s.one("rod", "rod", "rope") if spelling != "angle" else "rod"
-    if kind == "rope" and not s.on("rope"):
+    if kind == "rope" and (not s.on("rope") or spelling == "choose" and not s.on("choose_rope")):
         kind = "rod"
     if spelling == "cartesian" and not s.on("cartesian"):
         spelling = "polar"
@@ -259,7 +267,9 @@ def oscillator(s):
         s.mass("A", "(x)")
         s.weight("x")
         k = s.param("k", 5, 30, "N/m")
-        if kind != "drag":
+        if kind != "drag" and not s.on("line_spring", 0.3):
+            s.line(f"potential {k}/2 (x + {s.n(1, 3)} [m])^2")
+        elif kind != "drag":
             s.line(f"spring {k}, rest {s.n(0.1, 0.6)} [m] between A and (-{s.n(1, 3)} [m])")
         if kind == "drag" and s.on("damping"):
             s.line(f"drag {s.param('b', 0.2, 1, 'N s/m')} on A")
@@ -349,7 +359,7 @@ def skier(s):
         s.line(f"constraint dome: x^2 + z^2 >= {R}^2")
         if where == "on" and s.on("choose", 0.4):
             s.line("choose x", "branch z > 0")
-        s.line(f"init x = 0.28 {high}{R}, z = 0.96 {high}{R}, x' = 0, z' = 0")
+        s.line(f"init x = 0.28*{high}{R}, z = 0.96*{high}{R}, x' = 0, z' = 0")
         coords = ["x", "z"]
     s.weight("-z")
     if s.on("open_contact", 0.3):

@@ -101,7 +101,7 @@ class Witness:
         rng = random.Random(5)
         if not spare:
             return False
-        rows = [c.g for c in self.rows if not c.velocity and not c.one_sided]
+        rows = [c.g for c in self.rows if not c.velocity]
         grad = [[s.diff(g, q) for q in self.q] for g in rows + [c.g for c in self.map_rows]]
         program = s.compiled([x for r in grad for x in r] + [c.g for c in self.map_rows], self.names)
         for _ in range(8):
@@ -354,8 +354,9 @@ def kinematic_rates(w, z, a):
         x = reduced(N, [-sum(r[i] * row[2 + k] for r, row in zip(J, rows)) for i in range(k)])
     except (ValueError, ZeroDivisionError, OverflowError):
         return {}
-    if v[2] < k:
-        return {}
+    off = max(abs(row[0]) + abs(row[2 + k] + sum(j * y for j, y in zip(row[1 : 1 + k], x[0]))) for row in rows)
+    if v[2] < k or off > 1e-6 * max(1.0, max(abs(y) for y in second)):
+        return {}               # nothing ties the new coordinate to the old ones here
     return {q: (v[0][i], x[0][i]) for i, q in enumerate(w.kinematic)}
 
 
