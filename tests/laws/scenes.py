@@ -34,6 +34,7 @@ FEATURES = {
     "no_freedom": True,
     "nonholonomic": True,
     "where": True,
+    "where_events": False,   # places behind a contact or an event that ends what the formula speaks of
     "from": True,
     "equilibria": True,
     "closed_motion": True,
@@ -151,7 +152,8 @@ class Scene:
 
     def meets(self, q, low, high, unit, multipliers=(), velocity=True):
         """Quantities where the motion meets a place."""
-        if not self.on("where", 0.6):
+        ends = any(re.match(r"(constraint .*[<>]=|event)", line) for line in self.lines)
+        if ends and not self.on("where_events") or not self.on("where", 0.6):
             return
         at = f"{q} = {self.n(low, high)}" + (f" [{unit}]" if unit else "")
         wanted = [f"{q}'", f"{q}''", "T"] + [f"λ_{c}" for c in multipliers]
