@@ -30,6 +30,11 @@ typedef struct pl_recording {
   long count;
   pl_flat_coords flat;            // coordinate of each index of the setup
   int n_declared;                 // constraints before the map equations
+  // the equations as they stand, of a model without families: L = T - V and more (poison else), and the forces without potential
+  // along n_atoms coordinates, poison where there is none
+  pl_expr lagrangian;
+  int n_atoms;
+  const pl_expr *atom, *force;
   const int* first_link;          // row of the first instance of each constraint of the model, then n_declared
   // bodies with Euler angles are integrated with quaternions: the same columns, other coordinates behind them; NULL: as it stands
   struct pl_recording* turned;

@@ -317,6 +317,12 @@ static pleuel_status record_group(pl_recorder* r, pl_group* g, pl_pattern* out) 
   for (int k = 0; k < rows.n; k++)
     if (pl_is_poison(rows.constraint[k])) return pl_fail(r->job, PLEUEL_UNSUPPORTED, "a constraint has no value everywhere");
   pl_expr L = pl_add(r->pool, g->L, pl_sub(r->pool, g->T, g->V));
+  if (r->groups.n == 1) {
+    r->out->lagrangian = L;
+    r->out->n_atoms = g->atoms.n;
+    r->out->atom = g->atoms.at;
+    r->out->force = g->force;
+  }
   PL_TRY(pl_record_check(r, &L, 1));
   PL_TRY(pl_record_check(r, g->force, g->atoms.n));
   PL_TRY(pl_record_check(r, rows.constraint, rows.n));

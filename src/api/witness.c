@@ -106,6 +106,15 @@ static double slack_of(const pl_statement* s, const pl_witnessed* start) {
   return s->kind == PL_FOLLOWS || start->pushed ? closed_form : 1e-10;
 }
 
+// A position that is an angle is told up to whole turns, where it comes from an arc function.
+static double without_turns(const pl_witness* w, const pl_statement* s, double shown, double motion) {
+  bool place = s->kind == PL_EQUALS && pl_kind_of(w->pool, s->left) == PL_SYMBOL;
+  const pl_symbol_info* info = place ? pl_symbol_get(w->pool, pl_symbol_of(w->pool, s->left)) : NULL;
+  if (!info || info->role != PL_R_COORD || (info->dimension_known && !pl_dimension_equal(info->dimension, pl_dimension_one()))) return shown;
+  double turns = nearbyint((motion - shown) / (2 * M_PI));
+  return isfinite(turns) ? shown + 2 * M_PI * turns : shown;
+}
+
 static pl_agreement compare(const pl_witness* w, pl_statement* s, const pl_witnessed* start, pl_memory* m, int phase,
                             pl_contradiction_found* out) {
   if (s->value && !pl_is_poison(s->value->holds_while) && !(pl_state_value(w, s->value->holds_while) > 0)) return PL_NOT_COMPARED;
@@ -118,7 +127,7 @@ static pl_agreement compare(const pl_witness* w, pl_statement* s, const pl_witne
   double motion = pl_state_value(w, s->left);
   noise += pl_state_noise(w, s->left) + slack_of(s, start) * s->most;
   *out = (pl_contradiction_found){.shown = shown, .motion = motion};
-  return verdict(shown, motion, noise);
+  return verdict(without_turns(w, s, shown, motion), motion, noise);
 }
 
 // ---------------------------------------------------------------------------------------------- along a motion
@@ -286,6 +295,7 @@ static const char* disagreement(const pl_witness* w, const pl_statement* s, cons
 }
 
 static pl_step sentence(pl_witness* w, const char* en, const char* de, const pl_form* name) {
+  if (!name) return (pl_step){.kind = PL_STEP_TEXT, .words = {en, de}};
   const pl_form** insert = PL_ARRAY(w->arena, const pl_form*, 1);
   insert[0] = name;
   return (pl_step){.kind = PL_STEP_TEXT, .words = {en, de}, .n_inserts = 1, .inserts = insert};
@@ -303,18 +313,21 @@ static void withdraw_value(pl_value* v) {
 }
 
 // The formulas of the section go with the one that is false: they came the same way.
+static void withdraw_section(pl_witness* w, pl_section* section, pl_step why) {
+  if (section->withdrawn) return;
+  section->withdrawn = true;
+  section->steps.n = 0;
+  for (int i = 0; i < section->values.n; i++) withdraw_value(&section->values.at[i]);
+  pl_push(w->arena, section->steps, why);
+  pl_push(w->arena, section->steps, sentence(w, "One of them is wrong; nothing is claimed here.", "Eines davon ist falsch; hier wird nichts behauptet.", NULL));
+}
+
 static void withdraw(pl_witness* w, const pl_statement* s, const pl_contradiction_found* f) {
   pl_section* section = &w->solution->sections.at[s->section];
   const pl_form* name = s->kind == PL_EQUALS || s->kind == PL_FOLLOWS ? pl_form_of(w->arena, w->pool, s->left)
                                                                         : pl_form_name(w->arena, s->name, pl_poison());
   pl_step why = sentence(w, disagreement(w, s, f, PL_ENGLISH), disagreement(w, s, f, PL_GERMAN), name);
-  if (!section->withdrawn) {
-    section->steps.n = 0;
-    for (int i = 0; i < section->values.n; i++) withdraw_value(&section->values.at[i]);
-    pl_push(w->arena, section->steps, why);
-    pl_push(w->arena, section->steps, sentence(w, "One of them is wrong; nothing is claimed here.", "Eines davon ist falsch; hier wird nichts behauptet.", name));
-  }
-  section->withdrawn = true;
+  withdraw_section(w, section, why);
 }
 
 // ---------------------------------------------------------------------------------------------- the check
@@ -328,11 +341,18 @@ static void report(pl_witness* w, const pl_verdicts* v) {
   pl_check check = {.name = {"formulas against the motion", "Formeln gegen die Bewegung"}, .passed = true,
                     .starts = count_started(w)};
   for (int i = 0; i < w->statements.n; i++) check.formulas += v->of[i] != PL_NOT_COMPARED;
+  check.formulas += w->n_searched;
   for (int i = 0; i < w->statements.n; i++) {
     if (v->of[i] != PL_DISAGREE) continue;
     check.passed = false;
     if (!check.failed_on) check.failed_on = w->statements.at[i].name;
     withdraw(w, &w->statements.at[i], &v->found[i]);
+  }
+  for (int i = 0; i < w->refusals.n; i++) {
+    const pl_refusal* r = &w->refusals.at[i];
+    check.passed = false;
+    if (!check.failed_on) check.failed_on = r->of;
+    withdraw_section(w, &w->solution->sections.at[r->section], sentence(w, r->words[0], r->words[1], r->name));
   }
   pl_push(w->arena, w->solution->checks, check);
 }
@@ -359,18 +379,26 @@ static void differentiate(pl_witness* w) {
   }
 }
 
+static bool is_searched(const pl_witness* w) {
+  for (int i = 0; i < w->solution->sections.n; i++) {
+    const pl_ask* ask = w->solution->sections.at[i].ask;
+    if (ask && (ask->kind == PL_ASK_DOF || ask->kind == PL_ASK_EQUILIBRIA)) return true;
+  }
+  return false;
+}
+
 void pl_witness_hold(pl_job* job, pl_solution* solution, const pl_stage* stages, int n_stages) {
   pl_model* m = (pl_model*)(uintptr_t)solution->model;
   pl_witness w = {.job = job, .arena = job->arena, .pool = m->pool, .solution = solution, .stages = stages,
                   .n_stages = n_stages};
   if (solution->sections.n == 0) return;
   pl_statements_collect(&w);
-  if (w.statements.n == 0) return;
+  if (w.statements.n == 0 && !is_searched(&w)) return;
   if (too_large(&w, m)) {
     report_without_motion(&w, "the system is large", "das System ist groß");
     return;
   }
-  pl_model* numbered = pl_trace_model(job, m, 1);
+  pl_model* numbered = pl_trace_model(job, m, PL_SEED_OF_NUMBERS);
   if (!numbered) {
     report_without_motion(&w, "no numbers fit the assumptions", "keine Zahlen passen zu den Annahmen");
     return;
@@ -381,6 +409,7 @@ void pl_witness_hold(pl_job* job, pl_solution* solution, const pl_stage* stages,
   pl_state_open(&w);
   pl_verdicts v = {PL_ARRAY(w.arena, pl_agreement, w.statements.n), PL_ARRAY(w.arena, pl_contradiction_found, w.statements.n)};
   for (int i = 0; i < w.starts.n; i++) compare_along(&w, &w.starts.at[i], &v);
+  pl_search(&w);
   if (count_started(&w) > 0) report(&w, &v);
   else report_without_motion(&w, w.starts.at[0].trace->message, pl_in_language(PL_GERMAN, w.starts.at[0].trace->message));
 }

@@ -71,9 +71,20 @@ static void put_coordinates(pl_witness* w, const pl_trace* t, const pl_trace_sam
   }
 }
 
+// A load on a coordinate of `choose` reaches the masses through the map, whose rows may depend on a constraint: then how it is
+// shared between them is no matter of the motion.
+static bool maps_push(const pl_trace* t, const pl_trace_sample* s, double size) {
+  const pl_recording* r = t->recording;
+  for (int k = 0; k < t->model->choose.n_maps; k++) {
+    if (fabs(s->lambda[r->n_declared + k]) > 1e-9 * size) return true;
+  }
+  return false;
+}
+
 static void put_multipliers(pl_witness* w, const pl_trace* t, const pl_trace_sample* s) {
   const pl_setup* setup = &t->recording->setup;
   double size = size_of(s->lambda, setup->n_c, w->l_size);
+  if (maps_push(t, s, size)) return;
   for (int i = 0; i < t->model->constraints.n; i++) {
     const pl_constraint* c = &t->model->constraints.at[i];
     if (c->block || !c->lambda.id) continue;

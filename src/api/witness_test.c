@@ -145,6 +145,83 @@ static void a_motion_that_cannot_be_had_is_told(void** state) {
   done(&b);
 }
 
+#define SWING PENDULUM "ask dof, equilibria\n"
+
+static void is_refused(bench* b, const char* of, const char* words) {
+  b->s->checks.n = 0;
+  pl_witness_hold(&b->m->job, b->s, NULL, 0);
+  assert_false(last_check(b)->passed);
+  assert_string_equal(last_check(b)->failed_on, of);
+  const char* answer = NULL;
+  assert_int_equal(pleuel_solve_text(b->m, &answer, NULL), PLEUEL_EXPECT_FAILED);
+  if (!strstr(answer, words)) fail_msg("%s\nis not in\n%s", words, answer);
+  done(b);
+}
+
+static void degrees_of_freedom_that_the_rank_does_not_leave(void** state) {
+  (void)state;
+  bench b = solved(SWING);
+  assert_true(last_check(&b)->passed);
+  b.s->dof.dof = b.s->dof.velocity_dof = 2;
+  is_refused(&b, "dof", "leaves 1 degrees of freedom");
+}
+
+static void a_position_of_rest_where_nothing_rests(void** state) {
+  (void)state;
+  bench b = solved(SWING);
+  pl_section* section = NULL;
+  value_named(&b, "equilibrium 1", &section)->components[0].expr = pl_ratio(b.s->model->pool, 1, 10);
+  is_refused(&b, "equilibrium 1", "equilibrium 1 is no position of rest");
+}
+
+static void a_list_with_one_left_out(void** state) {
+  (void)state;
+  bench b = solved(SWING);
+  pl_section* section = NULL;
+  pl_value* v = value_named(&b, "equilibrium 2", &section);
+  assert_true(section->complete);
+  v->name = "another";
+  is_refused(&b, "equilibria", "not complete");
+}
+
+static void there_is_none_where_there_is_one(void** state) {
+  (void)state;
+  bench b = solved(PENDULUM "ask equilibria\n");
+  b.s->sections.at[0].values.n = 0;
+  is_refused(&b, "equilibria", "not complete");
+}
+
+static void stable_for_unstable(void** state) {
+  (void)state;
+  bench b = solved(SWING);
+  pl_section* section = NULL;
+  pl_value* v = value_named(&b, "equilibrium 1", &section);
+  v->stability = strcmp(v->stability, "stable") == 0 ? "unstable" : "stable";
+  is_refused(&b, "equilibrium 1", "by its eigenvalues");
+}
+
+static void damped_and_coupled_positions_of_rest_pass(void** state) {
+  (void)state;
+  static const char* const right[] = {
+    // with Cartesian coordinates, with a drive, with damping, two freedoms, friction-free contact
+    "param m = 1 [kg], l = 1 [m], g = 9.81 [m/s^2]\ncoord x, y\naxes x right, y up\nmass m at (x, y)\ngravity g along -y\n"
+    "constraint rod: x^2 + y^2 = l^2\ninit x = 0.6 [m], y = -0.8 [m], x' = 0\nask dof, equilibria\n",
+    "param m = 1 [kg], R = 1 [m], g = 9.81 [m/s^2], w = 5 [1/s]\ncoord θ, φ\naxes x right, y out, z up\n"
+    "mass m at (R sin θ cos φ, R sin θ sin φ, -R cos θ)\ngravity g along -z\nconstraint drive: φ = w t\ninit θ = 0.3, θ' = 0\n"
+    "ask dof, equilibria\n",
+    "param m = 1 [kg], k = 4 [N/m], c = 1 [N s/m], g = 9.81 [m/s^2]\ncoord y\naxes y up\nmass m at (y)\ngravity g along -y\n"
+    "potential k y^2/2\nrayleigh c y'^2/2\ninit y = 0, y' = 0\nask dof, equilibria\n",
+    "param m = 1 [kg], l = 1 [m], g = 9.81 [m/s^2]\ncoord a, b\naxes x right, y up\nmass m at (l sin a, -l cos a)\n"
+    "mass m at (l sin a + l sin b, -l cos a - l cos b)\ngravity g along -y\ninit a = 0.1, b = 0.2, a' = 0, b' = 0\nask dof, equilibria\n",
+  };
+  for (size_t i = 0; i < sizeof right / sizeof *right; i++) {
+    bench b = solved(right[i]);
+    if (!last_check(&b)->passed) fail_msg("%s: %s", right[i], last_check(&b)->failed_on);
+    if (last_check(&b)->formulas < (i == 0 ? 1 : 2)) fail_msg("%s", right[i]);
+    done(&b);
+  }
+}
+
 static void parameters_without_numbers_are_no_obstacle(void** state) {
   (void)state;
   is_seen("param m, l, g\ncoord r, φ\naxes x right, y up\nmass m at (r sin φ, -r cos φ)\ngravity g along -y\n"
@@ -163,6 +240,12 @@ int main(void) {
     cmocka_unit_test(the_failed_check_is_the_status),
     cmocka_unit_test(a_motion_that_cannot_be_had_is_told),
     cmocka_unit_test(parameters_without_numbers_are_no_obstacle),
+    cmocka_unit_test(degrees_of_freedom_that_the_rank_does_not_leave),
+    cmocka_unit_test(a_position_of_rest_where_nothing_rests),
+    cmocka_unit_test(a_list_with_one_left_out),
+    cmocka_unit_test(there_is_none_where_there_is_one),
+    cmocka_unit_test(stable_for_unstable),
+    cmocka_unit_test(damped_and_coupled_positions_of_rest_pass),
   };
   return cmocka_run_group_tests_name("witness", tests, NULL, NULL);
 }

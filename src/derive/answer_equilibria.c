@@ -371,6 +371,7 @@ void pl_answer_equilibria(pl_analysis* d, const pl_ask* ask) {
   say_singular(d, found);
   if (found->n == 0 && found->complete && found->n_singular == 0) say_none(d, f);
   pl_say_rests_missing(d, found);
+  d->section->complete = found->complete && found->n_singular == 0;
   if (!found->complete) d->section->not_found = found->n == 0;
   end_of_steady(d);
 }

@@ -79,10 +79,12 @@ typedef struct pl_section {        // one request
   PL_VEC(pl_value) values;
   const pl_ask* ask;               // what it answers; of standard requests one without expressions
   bool withdrawn;                  // its formulas and the simulated motion disagree: nothing is claimed (api/witness)
+  bool complete;                   // of positions of rest: these are all
   bool not_found;                  // a closed form was asked for and not found (exit 5 with --strict)
   int stage;                       // of the motion; 0: where the solution begins
   const struct pl_analysis* by;    // who wrote it, inside of derive
   pl_tower* tower;                 // with the assumptions that its formulas rest on
+  const pl_model* model;           // whose coordinates they are in: with those that were proposed
 } pl_section;
 
 // ---------------------------------------------------------------------------------------------- what holds

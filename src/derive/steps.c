@@ -11,7 +11,7 @@ static bool same_letter(const char* a, const char* b) { return a && b ? strcmp(a
 pl_section* pl_section_open(pl_analysis* d, const pl_ask* ask, const char* en, const char* de) {
   pl_ask* kept = PL_NEW(d->arena, pl_ask);
   *kept = *ask;
-  pl_section s = {.letter = ask->letter, .item = ask->text, .title = {en, de}, .by = d, .tower = d->tower, .ask = kept};
+  pl_section s = {.letter = ask->letter, .item = ask->text, .title = {en, de}, .by = d, .tower = d->tower, .model = d->model, .ask = kept};
   if (d->solution->sections.n > 0) {
     const pl_section* last = &d->solution->sections.at[d->solution->sections.n - 1];
     bool same_title = !en || (last->title[0] && strcmp(last->title[0], en) == 0);
