@@ -247,20 +247,29 @@ static int prove_to(pl_tower* t, const pl_poly* a, int depth) {
 }
 
 // f2 x^2 + f1 x + f0 with f2 > 0 and 4 f0 f2 - f1^2 >= 0 is a sum of squares, for every real generator x; with f2 < 0 minus one.
+static int square_completed(pl_tower* t, const pl_poly* a, int g, int depth) {
+  int degree = 0;
+  const pl_poly** f = pl_poly_coefficients(t, a, g, &degree);
+  if (pl_poly_is_zero(t, f[1])) return 0;   // nothing is completed
+  int lead = prove_to(t, f[2], 0);
+  if (lead != 1 && lead != -1) return 0;
+  const pl_poly* product = pl_poly_mul(t, pl_poly_mul(t, f[0], f[2]), pl_poly_int(t, 4));
+  const pl_poly* rest = pl_poly_sub(t, product, pl_poly_mul(t, f[1], f[1]));
+  int sign = pl_poly_is_zero(t, rest) ? 2 : prove_to(t, rest, depth - 1);
+  return sign > 0 ? lead * sign : 0;
+}
+
+// What attempts use that fail is no assumption.
 static int prove_by_squares(pl_tower* t, const pl_poly* a, int depth) {
-  for (int g = 0; g < t->gens.n && a->length <= PL_MAX_SQUARE_TERMS; g++) {
-    int degree = 0;
-    if (pl_poly_degree(t, a, g) != 2) continue;
-    const pl_poly** f = pl_poly_coefficients(t, a, g, &degree);
-    if (pl_poly_is_zero(t, f[1])) continue;   // nothing is completed
-    int lead = prove_to(t, f[2], 0);
-    if (lead != 1 && lead != -1) continue;
-    const pl_poly* product = pl_poly_mul(t, pl_poly_mul(t, f[0], f[2]), pl_poly_int(t, 4));
-    const pl_poly* rest = pl_poly_sub(t, product, pl_poly_mul(t, f[1], f[1]));
-    int sign = pl_poly_is_zero(t, rest) ? 2 : prove_to(t, rest, depth - 1);
-    if (sign > 0) return lead * sign;
+  bool silent = t->silent;
+  int sign = 0;
+  t->silent = true;
+  for (int g = 0; g < t->gens.n && a->length <= PL_MAX_SQUARE_TERMS && !sign; g++) {
+    if (pl_poly_degree(t, a, g) == 2) sign = square_completed(t, a, g, depth);
   }
-  return 0;
+  t->silent = silent;
+  if (sign && !silent) record_symbols(t, a);
+  return sign;
 }
 
 static int prove(pl_tower* t, const pl_poly* a) { return prove_to(t, a, 2); }
