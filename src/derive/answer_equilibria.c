@@ -235,7 +235,7 @@ static void show_rest(pl_analysis* d, const pl_expr* f, const pl_rest* r, int nu
   bool oscillates = exists && (!here || strcmp(here, "stable") == 0) && judged.doubt != PL_DOUBT_DRIVEN;
   if (oscillates) pl_say_velocity_terms(d, &l);
   if (oscillates) show_oscillations(d, &l, v.name, r->numeric);
-  for (int k = 0; k < d->gen.n && !r->numeric; k++) pl_claim_free(d, PL_CLAIM_INSERTED, pl_insert_rest(d, f[k], r), pl_int(d->pool, 0));
+  for (int k = 0; k < d->gen.n && !r->numeric && exists; k++) pl_claim_free(d, PL_CLAIM_INSERTED, pl_insert_rest(d, f[k], r), pl_int(d->pool, 0));
 }
 
 // Positions of rest are sought in a few generalized coordinates.
@@ -313,7 +313,15 @@ void pl_say_rests_missing(pl_analysis* d, const pl_rests* found) {
            "Bis auf ganze Perioden gibt es keine weiteren: das beweist die Intervallarithmetik für die gegebenen Zahlen.", 0);
   }
   if (found->complete) return;
-  bool told = found->more_turns;
+  const char* text;
+  const pl_form* side = pl_conditions_form(d, found->side, found->n_sides, false, &text);
+  if (side) pl_say(d, "Only places with {1} were looked at.", "Gesucht wurde nur unter Lagen mit {1}.", 1, side);
+  if (found->map_ends) {
+    pl_say(d, "Where a root of the map vanishes these coordinates end, and beyond it the mechanism is assembled in another way: there may be others.",
+           "Wo eine Wurzel der Abbildung verschwindet, enden diese Koordinaten, und dahinter ist der Mechanismus anders zusammengebaut: es kann weitere geben.",
+           0);
+  }
+  bool told = found->more_turns || side || found->map_ends;
   if (found->more_turns) say_turns(d);
   for (int k = 0; k < found->n_open; k++) {
     const pl_rest* r = &found->open[k];

@@ -48,7 +48,8 @@ static pl_expr open_part(pl_analysis* d, pl_expr e, bool strict, int* sign) {
     if (even && (!strict || factor[k].power < 0)) continue;
     bool known = pl_alg_sign_proven(d->tower, factor[k].base, factor[k].power < 0, &own) == PL_YES;
     if (known && !even) *sign *= own;
-    if (!known) rest = pl_mul(d->pool, rest, even ? pl_square(d->pool, factor[k].base) : factor[k].base);
+    pl_expr base = pl_is_sqrt(d->pool, factor[k].base) ? pl_arg(d->pool, factor[k].base, 0) : factor[k].base;   // √P > 0 where P > 0
+    if (!known) rest = pl_mul(d->pool, rest, even ? pl_square(d->pool, base) : base);
   }
   return rest;
 }

@@ -29,6 +29,9 @@ typedef struct pl_rests {
   int n_open;
   double searched;          // |q| up to which the open ones were searched in numbers; 0: one period, or not at all
   int searched_place;
+  pl_expr side[pl_max_conditions];   // each >= 0 where the formulas hold: signs taken from the start
+  int n_sides;
+  bool map_ends;            // a root of the map vanishes somewhere: the coordinates end there
   bool more_turns;          // places in other periods were left out
   bool by_numbers;          // completeness was proven in numbers
   int tries;                // positions inserted by trial

@@ -178,6 +178,13 @@ static void judge_minors(pl_analysis* d, const pl_linearised* l, unsigned held, 
     bool by_numbers;
     pl_expr minor = minor_of(d, l->K, l->n, set);
     bool known = sign_of(d, minor, &sign, &by_numbers);
+    int weak = 0;   // -√(...): negative wherever it does not vanish
+    bool never = pl_alg_sign_proven(d->tower, minor, true, &weak) == PL_YES && weak < 0;
+    if (never && !(known && sign == 0)) {
+      sign = -1;
+      known = true;
+      by_numbers = false;
+    }
     if (known && sign < 0 && !by_numbers) {
       *out = (pl_verdict){.word = l->gyroscopic ? NULL : "unstable", .doubt = l->gyroscopic ? PL_DOUBT_GYROSCOPIC : PL_DOUBT_NONE};
       return;

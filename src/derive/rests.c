@@ -228,6 +228,92 @@ static bool regular(pl_analysis* d, const pl_rest* r) {
   return !pl_vanishes(d, pl_alg_det(d->tower, n, M, 20000));
 }
 
+// ---------------------------------------------------------------------------------------------- where the formulas hold
+// A sign that was taken from the start, |x - a| = x - a, holds on one side only.
+static bool is_of_place(pl_analysis* d, const pl_fact* f) {
+  return pl_has_role(d->pool, f->difference, PL_R_COORD) && !pl_has_role(d->pool, f->difference, PL_R_VELOCITY) &&
+         !pl_has_role(d->pool, f->difference, PL_R_ACCELERATION);
+}
+
+static bool is_contact(const pl_analysis* d, const pl_fact* f) {
+  for (int k = 0; k < d->whole->constraints.n; k++) {
+    const pl_constraint* c = &d->whole->constraints.at[k];
+    if (c->relation != PL_EQ && (pl_same(f->difference, c->g) || pl_same(f->difference, pl_neg(d->pool, c->g)))) return true;
+  }
+  return false;
+}
+
+static bool is_given_fact(const pl_analysis* d, const pl_fact* f) {
+  for (int k = 0; k < d->facts.n; k++) {
+    if (pl_same(d->facts.at[k].difference, f->difference)) return true;
+  }
+  return false;
+}
+
+// Some place has the other sign: the determinant of the masses, say, has none.
+static bool has_other_side(pl_analysis* d, pl_expr e) {
+  enum { draws = 300 };
+  int n = pl_symbol_count(d->pool) + 1;
+  double* value = PL_ARRAY(d->arena, double, n);
+  pl_random r = {1};
+  for (int k = 0; k < draws; k++) {
+    for (int i = 1; i < n; i++) {
+      pl_symbol s = {(uint32_t)i};
+      bool given = pl_symbol_get(d->pool, s)->role == PL_R_PARAM;
+      double number = given ? pl_number(d, pl_sym(d->pool, s)) : (double)NAN, unit = pl_random_unit(&r);
+      value[i] = !isnan(number) ? number : given ? 0.3 + 2.7 * unit : 6.4 * unit - 3.2;
+    }
+    if (pl_eval(d->pool, e, value) < 0) return true;
+  }
+  return false;
+}
+
+static bool negative_there(pl_analysis* d, pl_expr e, const pl_rest* r) {
+  static const double rounding = 1e-9;
+  e = pl_alg_normal(d->tower, pl_insert_rest(d, e, r));
+  int sign = 0;
+  return (pl_alg_sign_proven(d->tower, e, false, &sign) == PL_YES && sign < 0) || pl_number(d, e) < -rounding;
+}
+
+// On the side that the formulas were derived for.  out->side: the sides that were taken.
+static bool on_the_side(pl_analysis* d, const pl_rest* r, pl_rests* out) {
+  int n = 0;
+  const pl_fact* used = pl_tower_used(d->tower, &n);
+  bool inside = true;
+  for (int k = 0; k < n; k++) {
+    if (!is_of_place(d, &used[k]) || is_contact(d, &used[k]) || is_given_fact(d, &used[k])) continue;
+    bool told = false;
+    for (int j = 0; j < out->n_sides; j++) told |= pl_same(out->side[j], used[k].difference);
+    pl_expr e = pl_on_maps(d, used[k].difference);
+    inside &= !negative_there(d, e, r);
+    if (!told && out->n_sides < pl_max_conditions && has_other_side(d, e)) out->side[out->n_sides++] = used[k].difference;
+  }
+  return inside;
+}
+
+// The roots of the maps, √(l² - r² sin²φ), are real.
+static bool maps_are_real(pl_analysis* d, pl_expr e, pl_rest* r, pl_rests* out) {
+  if (pl_n_args(d->pool, e) == 0) return true;
+  if (pl_is_sqrt(d->pool, e) && pl_has_coordinates(d, e)) {
+    pl_expr inside = pl_arg(d->pool, e, 0);
+    int sign = 0;
+    out->map_ends |= pl_alg_sign_proven(d->tower, inside, false, &sign) != PL_YES;
+    if (negative_there(d, inside, r) || !add_condition(d, r, pl_alg_normal(d->tower, pl_insert_rest(d, inside, r)))) return false;
+  }
+  for (int k = 0; k < pl_n_args(d->pool, e); k++) {
+    if (!maps_are_real(d, pl_arg(d->pool, e, k), r, out)) return false;
+  }
+  return true;
+}
+
+static bool formulas_hold(pl_analysis* d, pl_rest* r, pl_rests* out) {
+  bool fine = on_the_side(d, r, out);
+  for (int i = 0; i < d->q.n; i++) {
+    if (!pl_is_poison(d->q.at[i].map) && !maps_are_real(d, d->q.at[i].map, r, out)) fine = false;
+  }
+  return fine;
+}
+
 static bool same_place(pl_analysis* d, const pl_rest* a, const pl_rest* b) {
   for (int k = 0; k < d->gen.n; k++) {
     if (pl_is_poison(a->q[k]) != pl_is_poison(b->q[k])) return false;
@@ -236,7 +322,8 @@ static bool same_place(pl_analysis* d, const pl_rest* a, const pl_rest* b) {
   return true;
 }
 
-static void keep(pl_analysis* d, const pl_rest* r, pl_rests* out) {
+static void keep(pl_analysis* d, pl_rest* r, pl_rests* out) {
+  if (!formulas_hold(d, r, out)) return;
   if (r->open) {
     if (out->n_open < 4) out->open[out->n_open++] = *r;
     else out->complete = false;
@@ -384,7 +471,7 @@ static void open_branch(pl_analysis* d, const pl_expr* f, const pl_rest* r, pl_r
       next.q[j] = pl_subst1(d->pool, next.q[j], x, value);
     }
     for (int c = 0; c < next.n_conditions; c++) next.condition[c] = pl_subst1(d->pool, next.condition[c], x, value);
-    if (!pl_rest_exists_at_numbers(d, &next)) continue;
+    if (!formulas_hold(d, &next, out) || !pl_rest_exists_at_numbers(d, &next)) continue;
     if (out->n < pl_max_found) out->at[out->n++] = next;
     else out->complete = false;
   }
@@ -428,6 +515,8 @@ pl_rests* pl_find_rests(pl_analysis* d, pl_expr* f) {
   } while (d->special.n > before);
   if (d->special.n > first) pl_say_special(d);
   for (int k = 0; k < found->n_open; k++) open_branch(d, f, &found->open[k], found);
+  formulas_hold(d, &(pl_rest){0}, found);   // sides and ends, when nothing was found
+  found->complete &= found->n_sides == 0 && !found->map_ends;
   return found;
 }
 

@@ -161,6 +161,29 @@ def check_lets(program):
     tap.check("at half of it the lower place is stable, the upper one is not", v == {0: "stable", round(math.pi, 6): "unstable"}, v)
 
 
+def check_sides(program):
+    """Formulas that hold on one side of a spring, or up to the end of a map, give no places beyond it."""
+    atwood = ("param m1 = 2.88, m2 = 2, g = 9.81, F = -1.57, k = 3.51, d = 0.52\ncoord x1, x2\naxes x down\nmass A1: m1 at (x1)\n"
+              "mass A2: m2 at (x2)\ngravity g along x\nforce (F) on A1\nspring k, rest d between A2 and (0.63)\n"
+              "constraint rope: x1 + x2 = 1.07\ninit x1 = 0.37, x2 = 0.7, x1' = 0, x2' = 0\nask equilibria\n")
+    document, got = solve(program, atwood)
+    found, said = rests(document)
+    tap.check("no place on the other side of the spring, and the side is told", not found and "Only places with" in said, (found, said))
+    far = ("param k = 13, d = {d}, m = 1\ncoord x, y\naxes x right, y up\nmass A: m at (x, y)\nspring k, rest d between A and (0.87, 1.31)\n"
+           "constraint rail: y = -0.37\nask equilibria\n")
+    for d, wanted in ((0.48, 1), (2, 3)):
+        document, got = solve(program, far.format(d=d))
+        at_numbers = [v for v in document["list"][0]["values"] if v["name"].startswith("equil") and v.get("stability")]
+        tap.check(f"a spring of rest length {d} at 1.68 from a rail: {wanted} places, own checks pass",
+                  len(at_numbers) == wanted and got.returncode == 0, (at_numbers, got.stderr))
+    turned = "coord x, y\nkinetic 1/2 x'^2 + 1/2 y'^2\npotential x cos(y) + exp(y/2)\nask equilibria\n"
+    document, got = solve(program, turned)
+    places = {round(v["components"][1]["number"] / math.pi, 6) for v in document["list"][0]["values"] if v["name"].startswith("equil")}
+    tap.check("where the system does not repeat, other turns are other places", {0.5, -0.5, 1.5, -1.5, 2.5, -2.5} <= places, places)
+    document, _ = solve(program, turned.replace("x cos(y) + exp", "a x cos(y) + b exp").replace("coord", "param a, b\ncoord"))
+    tap.check("and without numbers they are told of", "There are others" in rests(document)[1], rests(document)[1])
+
+
 def main(program):
     for case in POTENTIALS:
         check_potential(program, *case)
@@ -168,6 +191,7 @@ def main(program):
     check_several(program)
     check_driven_damping(program)
     check_lets(program)
+    check_sides(program)
     tap.done()
 
 
