@@ -229,13 +229,13 @@ static pl_lambda_value lambda_for(pl_analysis* d, int k, const pl_motion* motion
   pl_bond* l = &d->g.at[k];
   pl_lambda_value out = {.value = l->lambda_value};
   bool moves = d->gen.n == 1 && pl_has_symbol(d->pool, l->lambda_value, d->q.at[d->gen.at[0]].v);
-  if (show && (!d->number_lambda || moves)) {
+  if (show && (!l->number || moves)) {
     show_differentiated(d, k);
     pl_step* step = show_lambda_for(d, k, moves);
     for (int r = 0; r < d->lagrange1_numbers.n; r++) pl_step_refs(step, 1, d->lagrange1_numbers.at[r]);
     bool known;
     pl_step_value(d, step, l->lambda_value, pl_dimension_of_expr(d, l->lambda_value, &known));
-    out.number = step->number;
+    l->number = out.number = step->number;
   }
   if (!motion->given || !pl_has_role(d->pool, l->lambda_value, PL_R_VELOCITY)) return out;
   pl_line line;
@@ -315,7 +315,7 @@ static void show_on(pl_analysis* d, int k, int particle, const pl_force* f, cons
   bool stays = pl_same(lambda->value, pl_sym(d->pool, d->g.at[k].lambda));
   const pl_form* closed = !stays && ops <= closed_ops ? vector_of(d, f, value, PL_S_QUOTIENT) : NULL;
   pl_step* step = pl_show_numbered(d, pl_feq(d, Z, closed ? pl_feq(d, named, closed) : named));
-  pl_step_refs(step, 1, lambda->number > 0 ? lambda->number : d->number_lambda);
+  pl_step_refs(step, 1, lambda->number > 0 ? lambda->number : d->g.at[k].number);
   say_on(d, step, label, f, only_one);
   if (f->n == 1) {
     bool known;

@@ -312,7 +312,8 @@ static void show_quadrature(pl_analysis* d, int i) {
   integral->expr = pl_sym(d->pool, c->q);
   pl_say(d, "The energy is conserved, so the motion is one integral; no elementary closed form was found:",
          "Die Energie ist erhalten, die Bewegung also ein Integral; eine elementare geschlossene Form wurde nicht gefunden:", 0);
-  pl_show(d, pl_feq(d, pl_fn(d, "t"), integral));
+  const pl_form* either[1] = {integral};   // a motion to either side
+  pl_show(d, pl_feq(d, pl_fn(d, "t"), pl_form_make(d->arena, PL_F_PLUSMINUS, 1, either)));
 }
 
 void pl_answer_lagrange2(pl_analysis* d, const pl_ask* ask) {

@@ -49,13 +49,12 @@ static bool insert_rows(pl_analysis* d, pl_expr e, pl_expr* out) {
 }
 
 // "(1)", "(1) and (2)", "(1), (2) and (4)"
-static const pl_form* refs_form(pl_analysis* d) {
+static const pl_form* refs_form(pl_analysis* d, const int* number, int n) {
   pl_text words[2] = {pl_text_make(d->arena), pl_text_make(d->arena)};
   static const char* const last[2] = {" and ", " und "};
-  int n = d->lagrange1_numbers.n;
   for (int i = 0; i < n; i++) {
     for (int lang = 0; lang < 2; lang++) {
-      pl_text_addf(&words[lang], "%s(%d)", i == 0 ? "" : i == n - 1 ? last[lang] : ", ", d->lagrange1_numbers.at[i]);
+      pl_text_addf(&words[lang], "%s(%d)", i == 0 ? "" : i == n - 1 ? last[lang] : ", ", number[i]);
     }
   }
   return pl_form_words(d->arena, pl_text_string(&words[0]), pl_text_string(&words[1]));
@@ -99,7 +98,7 @@ static void show_twice_differentiated(pl_analysis* d, int k) {
   pl_expr inserted;
   if (d->lagrange1_numbers.n == 0 || !insert_rows(d, pl_on_contact(d, gdd), &inserted)) return;
   if (pl_op_count(d->pool, inserted) > 60) return;
-  pl_say(d, "{1} inserted into {2}:", "{1} in {2} eingesetzt:", 2, refs_form(d), pl_fref(d, d->number_gdd));
+  pl_say(d, "{1} inserted into {2}:", "{1} in {2} eingesetzt:", 2, refs_form(d, d->lagrange1_numbers.at, d->lagrange1_numbers.n), pl_fref(d, d->number_gdd));
   pl_show(d, pl_feq(d, by_multipliers(d, inserted), zero));
   pl_claim_that(d, PL_CLAIM_MOTION, inserted, pl_int(d->pool, 0));
   pl_why_multiplier(d, k, inserted);
@@ -124,7 +123,7 @@ static void show_row(pl_analysis* d, int k) {
   const pl_form* form = pl_positive_first(d, pl_f(d, row, PL_S_QUOTIENT));
   if (pl_form_ops(form) > longest_lambda) return;
   pl_say(d, "From the equation of {1}:", "Aus der Gleichung von {1}:", 1, pl_fs(d, d->q.at[i].q));
-  d->number_lambda = pl_show_numbered(d, pl_feq(d, pl_fs(d, d->g.at[k].lambda), form))->number;
+  d->g.at[k].number = d->number_lambda = pl_show_numbered(d, pl_feq(d, pl_fs(d, d->g.at[k].lambda), form))->number;
   pl_claim_that(d, PL_CLAIM_MOTION, pl_form_value(d->pool, form), pl_sym(d->pool, d->g.at[k].lambda));
 }
 
@@ -155,7 +154,7 @@ static void show_lambda(pl_analysis* d, int k) {
                                "Rechenzeichen und steht in der JSON-Antwort.", pl_form_ops(form)), 1, pl_fs(d, l->lambda));
   } else {
     pl_step* step = pl_show_numbered(d, pl_feq(d, pl_fs(d, l->lambda), form));
-    d->number_lambda = step->number;
+    l->number = d->number_lambda = step->number;
     refer_to_equations(d, step, d->number_gdd);
     bool known;
     pl_step_value(d, step, l->lambda_value, pl_dimension_of_expr(d, l->lambda_value, &known));
@@ -208,15 +207,17 @@ static bool long_acceleration(pl_analysis* d, int i) {
   return pl_show_structured(d, d->q.at[i].a, known ? a : pl_poison());
 }
 
+// The multipliers that have been shown and stand in the equation of coordinate i.
 static void say_inserted(pl_analysis* d, int i) {
-  if (d->number_lambda && d->lagrange1_numbers.n > 0) {
-    int row = 0;
-    for (int j = 0; j < i; j++) row += d->q.at[j].carries && d->q.at[j].fixed_by < 0;
-    if (row < d->lagrange1_numbers.n) {
-      pl_say(d, "{1} inserted into {2}:", "{1} in {2} eingesetzt:", 2, pl_fref(d, d->number_lambda),
-             pl_fref(d, d->lagrange1_numbers.at[row]));
-    }
+  int row = 0, n = 0, *number = PL_ARRAY(d->arena, int, d->g.n + 1);
+  for (int j = 0; j < i; j++) row += d->q.at[j].carries && d->q.at[j].fixed_by < 0;
+  for (int k = 0; k < d->g.n; k++) {
+    bool stands = !pl_is_zero_node(d->pool, pl_on_fixed(d, d->g.at[k].gradient[i]));
+    if (stands && d->g.at[k].number > 0) number[n++] = d->g.at[k].number;
   }
+  if (n == 0 || row >= d->lagrange1_numbers.n) return;
+  pl_say(d, "{1} inserted into {2}:", "{1} in {2} eingesetzt:", 2, n == 1 ? pl_fref(d, number[0]) : refs_form(d, number, n),
+         pl_fref(d, d->lagrange1_numbers.at[row]));
 }
 
 // ---------------------------------------------------------------------------------------------- closed motions

@@ -34,6 +34,7 @@ typedef struct pl_bond {   // a constraint at work
   pl_symbol lambda;
   pl_expr lambda_value;    // solved, on the constraints; poison if not
   bool lambda_known;
+  int number;              // of the equation that shows λ; 0 none yet
 } pl_bond;
 
 // A constraint that is not in the equations: it is open, off or released.  Its multiplier is zero.

@@ -181,7 +181,6 @@ CASES = [
     (ATWOOD % ("", "", ""), "series m1 -> 0 of x1''/m1", [None], ["-g m1⁻¹ + 2 g/m2", "O(m1³)"], []),
     (ATWOOD % ("", "", ""), "limit m1 = m2 of x1(t)", [None], ["x1(0) + x1'(0) t"], []),
     (HILL, "v0 where λ = 0 and x = 0", [None, None], ["f2 ≤ 0"], ["No state"]),
-    (HILL, "x' where x' = v0/2 from x = 0 and x' = v0", [], [], ["2 x'"]),
     (BALL, "y' where y = 1 [m]", [-math.sqrt(9 + 2 * G)], [], []),
     (BALL, "y where x = 5 [m]", [], ["floor is met before"], ["y ="]),
     (FOURBAR, "th4 where th2 = 60°", fourbar(math.pi / 3), [], []),
