@@ -22,7 +22,7 @@ from formulas import evaluate as evaluate_formula  # noqa: E402
 import rest  # noqa: E402
 import symbols as s  # noqa: E402
 from model import Model  # noqa: E402
-from reader import Parser, Unread, ascii_name, find_word, tokens_of  # noqa: E402
+from reader import Parser, Unread, ascii_name, find_word, split_top, tokens_of  # noqa: E402
 from witness import Lost, Witness, integrate, kinematic_places, kinematic_rates, project, rank_of  # noqa: E402
 
 sys.setrecursionlimit(100000)
@@ -525,6 +525,8 @@ class Examination:
         if re.search(r"\b(where|from)\b", text):
             rest.check_where(self, item, text_said)
             return
+        if re.match(r"lagrange[12]", text):
+            self.check_equations(item)
         branches = any(v.get("branch") for v in item["values"])
         for v in item["values"]:
             if v.get("withdrawn"):
@@ -536,6 +538,36 @@ class Examination:
                 self.check_conserved(v)
             elif v.get("expr") and not branches and not v.get("lhs"):
                 self.check_value(text, v)
+
+    def check_equations(self, item):
+        """Every equation that is shown, as far as its names are known, holds at every moment."""
+        for step in item.get("steps", []):
+            pair = self.shown_equation(step)
+            if not pair:
+                continue
+            for m in self.first[:: max(1, len(self.first) // 4)] + self.near_by:
+                names = self.names_at(m)
+                a, b = (value_or_none(e, names) for e in pair)
+                if a is None or b is None:
+                    continue
+                size = max([abs(x) for x in m.motion.a] + [abs(a), 1.0])
+                if not self.report.check("equation", near(a, b, size, 1e-6), lambda: (
+                        f"{step['text']} ({item['item']}): {a} = {b} at t = {m.row['t']}; {brief(m)}")):
+                    return
+
+    def shown_equation(self, step):
+        """Both sides of an equation that is shown; None where it speaks of something else."""
+        text = step.get("text") or ""
+        if step.get("kind") != "equation" or not text or " e_" in text or re.search(r"\d (?:1/)?(?:m|s|kg|N|rad)\b", text):
+            return None         # 1.5 m may be a length there, or a product with m
+        try:
+            sides = split_top(tokens_of(step["text"]), "=")
+            if len(sides) != 2 or any(not side for side in sides):
+                return None
+            scope = Shown(self.model, self.multipliers())
+            return [Parser(side, scope, {}).whole() for side in sides]
+        except (Unread, AttributeError, IndexError, TypeError):
+            return None
 
     def check_stage(self, item):
         """Formulas for a later set of contacts are those of one of the sets that the motion has."""
@@ -677,6 +709,21 @@ class Examination:
                 if got is not None and not self.report.check("force", near(got, want, size, 1e-6), lambda: (
                         f"force of {value['of']} on {value['on']} along {axis} is {got}, true is {want}, at {brief(m)}")):
                     return
+
+
+class Shown:
+    """Names in formulas as they are shown: those of the model, and multipliers."""
+
+    def __init__(self, model, multipliers):
+        self.model, self.multipliers = model, multipliers
+
+    def __getattr__(self, word):
+        return getattr(self.model, word)
+
+    def value(self, word, primes, parser):
+        if word in self.multipliers and not primes:
+            return s.name(word)
+        return self.model.value(word, primes, parser)
 
 
 class Parsed:

@@ -130,6 +130,14 @@ def damages():
                 hurt = True
         return hurt
 
+    def equation(verb, what):
+        """x'' becomes 1.01 x''."""
+        steps = [x for items in what["answers"].values() for i in items for x in i["steps"]] if verb == "solve" else []
+        found = [x for x in steps if x.get("kind") == "equation" and "''" in (x.get("text") or "")]
+        for x in found:
+            x["text"] = re.sub(r"(\w+'')", r"1.01*\1", x["text"])
+        return bool(found)
+
     def dof(verb, what):
         if verb == "solve" and what.get("dof"):
             what["dof"]["dof"] += 1
@@ -159,6 +167,7 @@ def damages():
         "force": each(lambda i, v: v["name"] == "Z" and v.get("components"), part),
         "equilibrium": each(lambda i, v: v["name"].startswith("equilibrium"), part),
         "equilibrium missing": missing,
+        "equation": equation,
         "dof": dof,
         "where": each(lambda i, v: " where " in i["item"] and v["number"], lambda v: v.update(number=v["number"] * 1.01 + 0.01)),
         "sim acceleration": column(lambda k: k.startswith("acc_"), bump),
@@ -171,7 +180,7 @@ def damages():
 
 
 # what every run of eighty models and more has to have compared
-ALWAYS = ["acceleration", "multiplier", "expression", "force", "conserved", "energy", "dof", "equilibrium", "x(t)",
+ALWAYS = ["equation", "acceleration", "multiplier", "expression", "force", "conserved", "energy", "dof", "equilibrium", "x(t)",
           "sim acceleration", "sim multiplier", "sim energy", "sim step", "constraint kept", "event place"]
 
 
