@@ -23,6 +23,9 @@ struct pleuel {
 // A start value as written: its expression, in which the indices of an instance may stand.  Poison: none given.
 typedef struct pl_exact_start { pl_expr value; const pl_instances* instances; int instance; } pl_exact_start;
 
+// The slip of a friction and its coefficients: |F| <= limit |λ| while it sticks, = scale |λ| while it slips.
+typedef struct pl_friction_law { pl_expr slip, limit, scale; } pl_friction_law;
+
 // What the simulation needs, translated from the model (record.c).
 typedef struct pl_recording {
   pl_setup setup;
@@ -35,6 +38,7 @@ typedef struct pl_recording {
   pl_expr lagrangian;
   int n_atoms;
   const pl_expr *atom, *force;
+  const pl_friction_law* laws;    // of each friction of the setup, where it stands outside of families and in the plane; slip poison else
   const int* first_link;          // row of the first instance of each constraint of the model, then n_declared
   // bodies with Euler angles are integrated with quaternions: the same columns, other coordinates behind them; NULL: as it stands
   struct pl_recording* turned;

@@ -99,10 +99,13 @@ void pl_record_rubs(pl_recorder* r, pl_link* link) {
   int n = 0, at = 0;
   for (int i = 0; i < r->rubs.n; i++) n += r->rubs.at[i]->group->instances.n;
   pl_rub* rub = PL_ARRAY(r->arena, pl_rub, n + 1);
+  pl_friction_law* law = PL_ARRAY(r->arena, pl_friction_law, n + 1);
   for (int i = 0; i < r->rubs.n; i++) {
     const pl_rub_source* s = r->rubs.at[i];
     for (int k = 0; k < s->group->instances.n; k++) {
       int first = s->first_coefficient + k * s->n_coefficients;
+      bool plain = s->n_rows == 1 && !s->group->block;
+      law[at] = plain ? (pl_friction_law){s->slip[0], s->limit, s->scale} : (pl_friction_law){pl_poison(), pl_poison(), pl_poison()};
       pl_rub* out = &rub[at++];
       *out = (pl_rub){.link = r->first_link[s->constraint] + k, .n_rows = s->n_rows, .limit = first, .scale = first + 1};
       out->name = link[out->link].name;
@@ -114,6 +117,7 @@ void pl_record_rubs(pl_recorder* r, pl_link* link) {
       for (int j = 0; j < 6 && s->n_rows == 3; j++) out->metric[j] = first + 5 + j;
     }
   }
+  r->out->laws = law;
   r->out->setup.rubs = rub;
   r->out->setup.n_rubs = n;
 }

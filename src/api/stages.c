@@ -11,6 +11,7 @@ enum { MOST_COORDINATES = 80, MOST_SAMPLES = 4000, MOST_STAGES = 8 };
 // ---------------------------------------------------------------------------------------------- whether to look
 // Sets can change: there are contacts, or constraints that are off or that an event releases.
 static bool has_sets(const pl_model* m) {
+  if (m->frictions.n > 0) return true;
   for (int k = 0; k < m->constraints.n; k++) {
     if (m->constraints.at[k].relation != PL_EQ || m->constraints.at[k].off) return true;
   }
@@ -42,6 +43,24 @@ static bool can_look(pleuel_model* m) {
 }
 
 // ---------------------------------------------------------------------------------------------- from phase to stage
+// How each friction goes on.
+static void list_rubs(pl_arena* a, const pl_trace* t, const pl_trace_phase* p, pl_stage* out) {
+  const pl_setup* s = &t->recording->setup;
+  pl_stage_rub* rub = PL_ARRAY(a, pl_stage_rub, s->n_rubs + 1);
+  out->rubs = rub;
+  out->n_rubs = s->n_rubs;
+  out->rubs_known = true;
+  for (int i = 0; i < s->n_rubs; i++) {
+    const pl_friction_law* law = &t->recording->laws[i];
+    const pl_rub_report* now = &p->rubs[i];
+    rub[i] = (pl_stage_rub){.on = s->rubs[i].name, .name = s->links[s->rubs[i].row[0]].name, .slip = law->slip, .limit = law->limit,
+                            .scale = law->scale, .sticks = now->mode == PL_RUB_STICKS, .slips = now->mode == PL_RUB_SLIPS,
+                            .way = now->way, .press = now->press};
+    out->rubs_known &= !pl_is_poison(law->slip);
+  }
+  if (!out->rubs_known) out->n_rubs = 0;
+}
+
 static pl_stage* stage_of(pl_arena* a, const pl_trace* t, int phase) {
   const pl_setup* s = &t->recording->setup;
   const pl_trace_phase* p = &t->phases.at[phase];
@@ -60,11 +79,16 @@ static pl_stage* stage_of(pl_arena* a, const pl_trace* t, int phase) {
   pl_stage* out = PL_NEW(a, pl_stage);
   *out = (pl_stage){.n = s->n_c, .name = name, .holds = p->active, .released = p->released, .rope = rope, .from = p->t_begin, .to = p->t_end,
                     .n_q = n_q, .q_name = q_name, .q_unit = q_unit, .q = t->samples.at[p->first].q};
+  list_rubs(a, t, p, out);
   out->pulls = phase == 0 ? t->pulls : PL_ARRAY(a, bool, s->n_c + 1);
   return out;
 }
 
 static bool same_set(const pl_stage* a, const pl_stage* b) {
+  for (int i = 0; i < a->n_rubs; i++) {
+    const pl_stage_rub *x = &a->rubs[i], *y = &b->rubs[i];
+    if (x->sticks != y->sticks || x->slips != y->slips || (x->slips && x->way * x->press != y->way * y->press)) return false;
+  }
   return memcmp(a->holds, b->holds, (size_t)a->n * sizeof(bool)) == 0 && memcmp(a->released, b->released, (size_t)a->n * sizeof(bool)) == 0;
 }
 
@@ -81,6 +105,8 @@ static void note_end(pl_stage* s, const pl_trace* t, int next) {
     case PL_EV_IMPACT:
     case PL_EV_CONTACT:
     case PL_EV_TAUT: s->end = PL_END_CLOSES; break;
+    case PL_EV_STICK: s->end = PL_END_STICKS; break;
+    case PL_EV_SLIP: s->end = PL_END_SLIPS; break;
     default: break;
   }
 }

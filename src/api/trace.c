@@ -36,8 +36,16 @@ static void add_sample(pl_tracer* t, const pl_row* row) {
 }
 
 // ---------------------------------------------------------------------------------------------- phases
+static bool rub_differs(const pl_rub_report* a, const pl_rub_report* b) {
+  return a->mode != b->mode || (a->mode == PL_RUB_SLIPS && (a->way != b->way || a->press != b->press));
+}
+
 static bool set_differs(const pl_tracer* t) {
   const pl_trace_phase* last = &t->trace->phases.at[t->trace->phases.n - 1];
+  for (int i = 0; i < t->trace->recording->setup.n_rubs; i++) {
+    pl_rub_report now = pl_run_rub(t->run, i);
+    if (rub_differs(&now, &last->rubs[i])) return true;
+  }
   for (int c = 0; c < t->trace->recording->setup.n_c; c++) {
     if (pl_run_is_active(t->run, c) != last->active[c]) return true;
   }
@@ -51,7 +59,10 @@ static void open_phase(pl_tracer* t, double at) {
     active[c] = pl_run_is_active(t->run, c);
     released[c] = pl_run_is_released(t->run, c);
   }
-  pl_trace_phase phase = {.t_begin = at, .t_end = at, .first = t->trace->samples.n, .active = active, .released = released, .begun_by = t->kind};
+  int n_rubs = t->trace->recording->setup.n_rubs;
+  pl_rub_report* rubs = PL_ARRAY(t->arena, pl_rub_report, n_rubs + 1);
+  for (int i = 0; i < n_rubs; i++) rubs[i] = pl_run_rub(t->run, i);
+  pl_trace_phase phase = {.rubs = rubs, .t_begin = at, .t_end = at, .first = t->trace->samples.n, .active = active, .released = released, .begun_by = t->kind};
   phase.begun_label = t->label;
   phase.same_set = t->trace->phases.n > 0 && !set_differs(t);
   pl_push(t->arena, t->trace->phases, phase);

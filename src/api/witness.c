@@ -132,13 +132,29 @@ static pl_agreement compare(const pl_witness* w, pl_statement* s, const pl_witne
 
 // ---------------------------------------------------------------------------------------------- along a motion
 // Answers hold for the contacts of the start: samples where other ones hold say nothing of them.
+// Friction goes on the same way: it sticks, or slips to the same side.
+static bool same_rubs(const pl_trace* a, int phase_a, const pl_trace* b, int phase_b) {
+  for (int i = 0; i < a->recording->setup.n_rubs; i++) {
+    const pl_rub_report *x = &a->phases.at[phase_a].rubs[i], *y = &b->phases.at[phase_b].rubs[i];
+    if (x->mode != y->mode || (x->mode == PL_RUB_SLIPS && x->way * x->press != y->way * y->press)) return false;
+  }
+  return true;
+}
+
 static bool same_set(const pl_trace* a, int phase_a, const pl_trace* b, int phase_b) {
   int n = a->recording->setup.n_c;
   if (n != b->recording->setup.n_c) return false;
+  if (!same_rubs(a, phase_a, b, phase_b)) return false;
   return memcmp(a->phases.at[phase_a].active, b->phases.at[phase_b].active, (size_t)n * sizeof(bool)) == 0;
 }
 
 static bool is_stage(const pl_trace* t, int phase, const pl_stage* stage) {
+  for (int i = 0; i < stage->n_rubs; i++) {
+    const pl_stage_rub* rub = &stage->rubs[i];
+    const pl_rub_report* now = &t->phases.at[phase].rubs[i];
+    if (rub->sticks != (now->mode == PL_RUB_STICKS) || rub->slips != (now->mode == PL_RUB_SLIPS)) return false;
+    if (rub->slips && rub->way * rub->press != now->way * now->press) return false;
+  }
   const pl_setup* s = &t->recording->setup;
   for (int c = 0; c < s->n_c; c++) {
     for (int k = 0; k < stage->n; k++) {
@@ -222,6 +238,14 @@ static void compare_one(pl_witness* w, int i, const pl_witnessed* start, const p
   v->found[i] = found;
 }
 
+// Closed motions of a later stage count the time from its beginning; where a force contains t there are none.
+static bool has_motions(const pl_witness* w, int stage) {
+  for (int i = 0; i < w->statements.n; i++) {
+    if (w->statements.at[i].stage == stage && w->statements.at[i].kind == PL_FOLLOWS) return true;
+  }
+  return false;
+}
+
 // The statements about one stage; times and start values of a later one are those of its beginning.
 static void compare_stage(pl_witness* w, int stage, const pl_witnessed* start, const pl_trace_sample* sample, pl_memory* memory,
                           pl_verdicts* v) {
@@ -229,7 +253,7 @@ static void compare_stage(pl_witness* w, int stage, const pl_witnessed* start, c
   int begin = begins_at(w, t, stage);
   if (begin < 0) return;
   const pl_trace_sample* origin = &t->samples.at[t->phases.at[begin].first];
-  pl_state_set(w, t, sample, origin, stage > 0 ? origin->t : 0);
+  pl_state_set(w, t, sample, origin, stage > 0 && has_motions(w, stage) ? origin->t : 0);
   if (!is_sound(w, t, sample->phase)) return;
   for (int i = 0; i < w->statements.n; i++) {
     const pl_statement* s = &w->statements.at[i];

@@ -50,7 +50,7 @@ static const pl_form* right_side(pl_analysis* d, int i, const pl_sides* s, pl_ex
   for (int k = 0; k < d->g.n; k++) {
     const pl_bond* l = &d->g.at[k];
     if ((l->implied && !l->shared) || (insert && l->fixes >= 0 && !l->contact && l->fixes != i)) continue;
-    pl_expr gradient = pl_div(d->pool, insert ? pl_on_fixed(d, l->gradient[i]) : l->gradient[i], scale);
+    pl_expr gradient = pl_div(d->pool, insert ? pl_on_fixed(d, l->push[i]) : l->push[i], scale);
     gradient = pl_alg_normal(d->tower, gradient);
     if (!pl_is_zero_node(d->pool, gradient)) flatten(push_form(d, l, gradient), term, &n, max_sum + d->g.n);
   }
@@ -62,7 +62,7 @@ static pl_expr push_of(pl_analysis* d, int i) {
   pl_expr sum = pl_int(d->pool, 0);
   for (int k = 0; k < d->g.n; k++) {
     if (d->g.at[k].implied && !d->g.at[k].shared) continue;
-    sum = pl_add(d->pool, sum, pl_mul(d->pool, pl_sym(d->pool, d->g.at[k].lambda), d->g.at[k].gradient[i]));
+    sum = pl_add(d->pool, sum, pl_mul(d->pool, pl_sym(d->pool, d->g.at[k].lambda), d->g.at[k].push[i]));
   }
   return sum;
 }
@@ -146,7 +146,7 @@ static void show_kinematics(pl_analysis* d, const pl_particle* k, const pl_frame
     const pl_bond* l = &d->g.at[c];
     bool acts = false;
     for (int j = 0; j < f->n; j++) {
-      pl_expr push = pl_div(d->pool, pl_mul(d->pool, pl_sym(d->pool, l->lambda), l->gradient[f->coordinate[j]]), f->scale[j]);
+      pl_expr push = pl_div(d->pool, pl_mul(d->pool, pl_sym(d->pool, l->lambda), l->push[f->coordinate[j]]), f->scale[j]);
       component[j] = pl_alg_normal(d->tower, push);
       acts |= !pl_is_zero_node(d->pool, component[j]);
     }

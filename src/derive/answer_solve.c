@@ -29,7 +29,7 @@ static pl_expr own_acceleration(pl_analysis* d, int i) {
   for (int k = 0; k < d->g.n; k++) {
     const pl_bond* l = &d->g.at[k];
     if ((l->implied && !l->shared) || l->fixes >= 0) continue;
-    push = pl_add(d->pool, push, pl_mul(d->pool, pl_sym(d->pool, l->lambda), pl_on_contact(d, l->gradient[i])));
+    push = pl_add(d->pool, push, pl_mul(d->pool, pl_sym(d->pool, l->lambda), pl_on_contact(d, l->push[i])));
   }
   return pl_div(d->pool, push, own);
 }

@@ -196,7 +196,7 @@ static void rows(pl_analysis* d, pl_system_of_motion* s) {
     pl_expr row = pl_add(d->pool, inertia_row(d, i), force_row(d, i));
     for (int k = 0; k < d->g.n; k++) {
       if (d->g.at[k].implied && !d->g.at[k].shared) continue;   // a shared force is free: any value will do
-      pl_expr push = pl_mul(d->pool, pl_sym(d->pool, d->g.at[k].lambda), d->g.at[k].gradient[i]);
+      pl_expr push = pl_mul(d->pool, pl_sym(d->pool, d->g.at[k].lambda), d->g.at[k].push[i]);
       row = pl_sub(d->pool, row, push);
     }
     s->row[n_rows++] = pl_sub(d->pool, row, coupling_push(d, &coupling, i));

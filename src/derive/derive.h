@@ -94,8 +94,19 @@ typedef enum pl_stage_end {
   PL_END_OF_RUN,                   // the simulation ends
   PL_END_OPENS,                    // a contact: its multiplier is zero
   PL_END_CLOSES,                   // a contact: its constraint is met
+  PL_END_STICKS,                   // friction: the slip has come to rest
+  PL_END_SLIPS,                    // friction: its force has come to the limit
   PL_END_EVENT                     // of the model
 } pl_stage_end;
+
+// Friction in the plane on a constraint.  It slips with the velocity `slip` and feels -way press scale λ along it, or sticks.
+typedef struct pl_stage_rub {
+  const char* on;                  // name of the row of the constraint
+  const char* name;                // of the row of the slip, "friction floor"
+  pl_expr slip, limit, scale;      // |F| <= limit |λ| while it sticks, = scale |λ| while it slips
+  bool sticks, slips;
+  int way, press;                  // signs of the slip and of the multiplier
+} pl_stage_rub;
 
 // A set of constraints that hold together, and the first stretch of the motion on which it does.  Rows are named as in the
 // simulation: "floor", "c[3]", and "choose x" for the map of x.  Who calls derive finds out; derive does not guess.
@@ -106,6 +117,9 @@ typedef struct pl_stage {
   const bool* released;            // by an event, or `off`: nothing keeps its side either  (n)
   const bool* pulls;               // met at the beginning, but would have to pull          (n)
   const bool* rope;                // taut or slack, not closed or open                     (n)
+  int n_rubs;
+  const pl_stage_rub* rubs;        // (n_rubs)
+  bool rubs_known;                 // all friction of the model is among them
   double from, to;                 // s
   int n_q;
   const char* const *q_name, *const *q_unit;   // coordinates where the stretch begins, units as text, "rad" for angles

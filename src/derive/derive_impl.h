@@ -30,6 +30,8 @@ typedef struct pl_bond {   // a constraint at work
   bool implied;            // says nothing new
   bool integrated;         // given for velocities; g is its integral
   bool shared;             // depends on others: its force is not determined (redundant.c)
+  pl_expr* push;           // forces along the coordinates for λ = 1: the gradient, and the friction that slips with it   (n_q), raw
+  const pl_stage_rub* rub; // friction that slips; NULL
   pl_expr* gradient;       // dg/dq, of a nonholonomic one dg/dv; negative by `convention lambda-minus`   (n_q), raw
   pl_symbol lambda;
   pl_expr lambda_value;    // solved, on the constraints; poison if not
@@ -165,6 +167,7 @@ struct pl_analysis {
   pl_dof dof;
   PL_VEC(pl_analysis*) sets;   // of the first analysis: all that were made, itself first
   bool open_told;
+  bool later;                  // what is answered now is about a later stretch: start values are those of its beginning
 };
 
 // ---------------------------------------------------------------------------------------------- sets.c
@@ -174,6 +177,8 @@ void pl_answer_closed(pl_analysis* first, const pl_ask* ask);   // positions of 
 void pl_answer_stages(pl_analysis* first);              // a section for each later set of the motion
 bool pl_answer_open(pl_analysis* d, const pl_ask* ask); // asked about what does not hold: said
 const pl_ask* pl_without_open(pl_analysis* d, const pl_ask* ask);   // multipliers of what is open are zero
+bool pl_knows_friction(const pl_analysis* d);           // what slips and what sticks is known, or nothing rubs
+const pl_stage_rub* pl_slipping_on(const pl_analysis* d, const pl_constraint* c);   // NULL: nothing slips on it
 void pl_tell_open(pl_analysis* d);                      // once, before the first formula
 void pl_note_undecided(pl_analysis* d);                 // contacts taken as closed, because nothing tells
 pl_expr pl_open_removed(pl_analysis* d, pl_expr e);

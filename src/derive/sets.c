@@ -67,6 +67,32 @@ static bool is_left_out(const pl_analysis* d, const char* label) {
   return false;
 }
 
+bool pl_knows_friction(const pl_analysis* d) { return d->model->frictions.n == 0 || (d->stage && d->stage->rubs_known); }
+
+const pl_stage_rub* pl_slipping_on(const pl_analysis* d, const pl_constraint* c) {
+  for (int k = 0; d->stage && k < d->stage->n_rubs; k++) {
+    const pl_stage_rub* rub = &d->stage->rubs[k];
+    if (rub->slips && strcmp(rub->on, label_of(c)) == 0) return rub;
+  }
+  return NULL;
+}
+
+// Surfaces that stick are a constraint between velocities; its multiplier is the friction along the tangent.
+static void add_sticking(pl_analysis* d, pl_model* m) {
+  for (int k = 0; d->stage && k < d->stage->n_rubs; k++) {
+    const pl_stage_rub* rub = &d->stage->rubs[k];
+    if (!rub->sticks) continue;
+    const char* name = pl_format(d->arena, "friction_%s", rub->on);
+    pl_symbol s = pl_symbol_find(d->pool, name);
+    if (!s.id) s = pl_symbol_make(d->pool, &(pl_symbol_info){.name = name, .ascii = name, .role = PL_R_MULTIPLIER, .class = PL_C_OTHER});
+    const pl_constraint* on = pl_model_constraint(d->whole, rub->on);
+    pl_constraint c = {.name = {.text = rub->name, .ascii = rub->name, .index = pl_poison()}, .left = rub->slip, .right = pl_int(d->pool, 0),
+                       .g = rub->slip, .relation = PL_EQ, .lambda = s, .redundant_ok = true, .has_velocity = true, .sticking = true,
+                       .span = on ? on->span : (pl_span){0}};
+    pl_push(d->arena, m->constraints, c);
+  }
+}
+
 static void choose_constraints(pl_analysis* d, const pl_model* whole, pl_model* m) {
   pl_tower* t = d->stage ? NULL : pl_setup_tower(d);
   m->constraints.n = m->constraints.cap = 0;
@@ -118,6 +144,7 @@ void pl_choose_set(pl_analysis* d, pl_model* whole, const pl_stage* stage) {
   d->model = PL_NEW(d->arena, pl_model);
   *d->model = *whole;
   choose_constraints(d, whole, d->model);
+  add_sticking(d, d->model);
   choose_maps(d, whole, d->model);
 }
 
@@ -128,6 +155,13 @@ static bool same_set(const pl_analysis* d, const pl_stage* s) {
     const char* label = label_of(&m->constraints.at[k]);
     int row = row_of(s, label);
     if (row >= 0 && s->holds[row] == is_left_out(d, label)) return false;
+  }
+  int n = d->stage ? d->stage->n_rubs : 0;
+  if (n != s->n_rubs) return n == 0 && s->n_rubs == 0;
+  for (int k = 0; k < n; k++) {
+    const pl_stage_rub *a = &d->stage->rubs[k], *b = &s->rubs[k];
+    if (a->sticks != b->sticks || a->slips != b->slips) return false;
+    if (a->slips && a->way * a->press != b->way * b->press) return false;
   }
   return true;
 }
@@ -289,6 +323,57 @@ static const pl_event* event_named(const pl_analysis* d, const char* label) {
   return NULL;
 }
 
+static const pl_stage_rub* rub_on(const pl_stage* s, const char* label) {
+  for (int k = 0; label && k < s->n_rubs; k++) {
+    if (strcmp(s->rubs[k].on, label) == 0) return &s->rubs[k];
+  }
+  return NULL;
+}
+
+static pl_expr size_of_multiplier(pl_analysis* d, const pl_stage_rub* rub, const pl_constraint* c) {
+  pl_expr lambda = pl_sym(d->pool, c->lambda);
+  return rub->press * (d->model->lambda_minus ? -1 : 1) > 0 ? lambda : pl_neg(d->pool, lambda);
+}
+
+// |friction_floor| = μ λ
+static const pl_form* limit_form(pl_analysis* d, const pl_stage_rub* rub, const pl_constraint* c) {
+  pl_symbol F = pl_symbol_find(d->pool, pl_format(d->arena, "friction_%s", rub->on));
+  pl_expr most = pl_mul(d->pool, rub->limit, size_of_multiplier(d, rub, c));
+  return pl_feq(d, pl_fe(d, pl_call(d->pool, PL_ABS, pl_sym(d->pool, F))), pl_fe(d, most));
+}
+
+// The force that sticking takes, as far as it is solved.
+static void show_sticking_force(pl_analysis* d, const pl_stage_rub* rub) {
+  for (int k = 0; k < d->g.n; k++) {
+    const pl_bond* l = &d->g.at[k];
+    if (!l->source->sticking || strcmp(l->source->name.text, rub->name) != 0 || !l->lambda_known) continue;
+    const pl_form* form = pl_f(d, l->lambda_value, PL_S_QUOTIENT);
+    bool known;
+    pl_step_value(d, pl_show_numbered(d, pl_feq(d, pl_fs(d, l->lambda), form)), l->lambda_value, pl_dimension_of_expr(d, l->lambda_value, &known));
+    pl_claim_that(d, PL_CLAIM_MOTION, pl_form_value(d->pool, form), pl_sym(d->pool, l->lambda));
+    pl_answer(d, pl_symbol_get(d->pool, l->lambda)->ascii, l->lambda_value, form)->of = rub->on;
+  }
+}
+
+// Friction of the set: what sticks, and what slips with which force.
+static void tell_friction(pl_analysis* d) {
+  for (int k = 0; d->stage && k < d->stage->n_rubs; k++) {
+    const pl_stage_rub* rub = &d->stage->rubs[k];
+    const pl_constraint* c = constraint_named(d, rub->on);
+    if (!c || (!rub->sticks && !rub->slips)) continue;
+    const pl_form* slip = pl_frel(d, pl_fe(d, rub->slip), rub->sticks ? "=" : rub->way > 0 ? ">" : "<", zero_form(d));
+    if (rub->sticks) {
+      pl_say(d, "Friction on {1} sticks, {2}, as long as {3}.", "Die Reibung auf {1} haftet, {2}, solange {3}.", 3,
+             pl_fn(d, c->name.text), slip, pl_frel(d, limit_form(d, rub, c)->args[0], "≤", limit_form(d, rub, c)->args[1]));
+      show_sticking_force(d, rub);
+    } else {
+      pl_expr force = pl_mul(d->pool, rub->scale, size_of_multiplier(d, rub, c));
+      pl_say(d, "Friction on {1} slips, {2}, with the force {3} against the slip.", "Die Reibung auf {1} gleitet, {2}, mit der Kraft {3} gegen das Gleiten.",
+             3, pl_fn(d, c->name.text), slip, pl_fe(d, force));
+    }
+  }
+}
+
 // e = 0 with its negative terms on the right: t = 1/2, and not t - 1/2 = 0.
 static const pl_form* equation_form(pl_analysis* d, pl_expr e) {
   pl_pool* p = d->pool;
@@ -308,6 +393,10 @@ static const pl_form* equation_form(pl_analysis* d, pl_expr e) {
 static const pl_form* end_form(pl_analysis* d, const pl_stage* s) {
   const pl_constraint* c = constraint_named(d, s->ended_by);
   if (s->end == PL_END_CLOSES && c) return met_form(d, c);
+  const pl_stage_rub* rub = rub_on(s, s->ended_by);
+  if (s->end == PL_END_STICKS && rub) return pl_feq(d, pl_fe(d, rub->slip), zero_form(d));
+  if (s->end == PL_END_SLIPS && rub && rub->sticks && c) return limit_form(d, rub, c);
+  if (s->end == PL_END_SLIPS && rub) return pl_feq(d, pl_fe(d, rub->slip), zero_form(d));
   if (s->end == PL_END_OPENS && c) return pl_feq(d, pl_fs(d, c->lambda), zero_form(d));
   const pl_event* e = s->end == PL_END_EVENT ? event_named(d, s->ended_by) : NULL;
   return e ? equation_form(d, e->value) : NULL;
@@ -335,10 +424,11 @@ static int list_open(pl_analysis* d, const pl_form** label, const pl_form** apar
 }
 
 void pl_tell_open(pl_analysis* d) {
-  if (d->open_told || d->open.n == 0) return;
+  if (d->open_told || (d->open.n == 0 && d->model->frictions.n == 0)) return;
   d->open_told = true;
+  tell_friction(d);
   use_signs(d);
-  const pl_form **label = PL_ARRAY(d->arena, const pl_form*, d->open.n), **apart = PL_ARRAY(d->arena, const pl_form*, d->open.n);
+  const pl_form **label = PL_ARRAY(d->arena, const pl_form*, d->open.n + 1), **apart = PL_ARRAY(d->arena, const pl_form*, d->open.n + 1);
   int n = list_open(d, label, apart, true);
   if (n > 0) {
     pl_say(d, n == 1 ? "At the start the force of {1} would have to pull: it lets go at once." : "At the start the forces of {1} would have to pull: they let go at once.",
@@ -499,6 +589,12 @@ static const char* stage_title(pl_analysis* d, pl_language lang) {
       add_names(&t, name, n, state_word[word][!holds][de], &any);
     }
   }
+  for (int k = 0; k < d->stage->n_rubs; k++) {
+    const pl_stage_rub *now = &d->stage->rubs[k], *then = k < first->n_rubs ? &first->rubs[k] : NULL;
+    bool same = then && now->sticks == then->sticks && now->slips == then->slips && (!now->slips || now->way == then->way);
+    if (same || (!now->sticks && !now->slips)) continue;
+    add_names(&t, &now->on, 1, now->sticks ? (de ? "haftet" : "sticks") : (de ? "gleitet" : "slips"), &any);
+  }
   return pl_text_string(&t);
 }
 
@@ -547,6 +643,7 @@ static void answer_stage(pl_analysis* first, int k) {
   const pl_stage* s = &first->options->stages[k];
   pl_analysis* d = analysis_in(first, s);
   if (!d) return;
+  d->later = true;
   int from = d->solution->sections.n;
   pl_ask head = {.kind = PL_ASK_DOF, .text = pl_format(d->arena, "stage %d", k + 1)};
   pl_section_open(d, &head, stage_title(d, PL_ENGLISH), stage_title(d, PL_GERMAN));
@@ -554,6 +651,7 @@ static void answer_stage(pl_analysis* first, int k) {
   say_end(d, s);
   pl_answer(d, "dof", pl_int(d->pool, d->dof.dof), NULL);
   d->open_told = true;
+  tell_friction(d);
   bool any = false;
   for (int i = 0; i < d->whole->asks.n; i++) {
     const pl_ask* ask = &d->whole->asks.at[i];
@@ -562,11 +660,12 @@ static void answer_stage(pl_analysis* first, int k) {
   pl_ask plain = {.kind = PL_ASK_LAGRANGE1, .text = "lagrange1"};
   if (!any) repeat(d, &plain);
   mark(d, from, k);
+  d->later = false;
 }
 
 void pl_answer_stages(pl_analysis* first) {
   const pl_derive_options* o = first->options;
-  if (o->only || first->model->frictions.n > 0) return;
+  if (o->only || !pl_knows_friction(first)) return;
   for (int k = 1; k < o->n_stages && k <= MOST_LATER_STAGES; k++) {
     if (!pl_interrupted(first->job)) answer_stage(first, k);
   }

@@ -78,6 +78,7 @@ double pl_number(pl_analysis* d, pl_expr e) {
     d->value = known_numbers(d);
     d->n_value = pl_symbol_count(d->pool);
   }
+  if (d->later && pl_has_role(d->pool, e, PL_R_START)) return (double)NAN;      // another moment is meant
   double x = pl_eval(d->pool, e, d->value);
   return isnan(x) ? x : exact_number(d, e, x);
 }
@@ -148,12 +149,28 @@ static pl_expr integrated(pl_analysis* d, const pl_constraint* c) {
   for (int i = 0; i < d->q.n; i++) {
     pl_expr slope = pl_diff(d->pool, c->g, d->q.at[i].v), q = pl_sym(d->pool, d->q.at[i].q);
     if (pl_has_coordinates(d, slope) || pl_has_symbol(d->pool, slope, pl_time(d->pool))) return pl_poison();
-    pl_expr way = pl_sub(d->pool, q, start_place(d, d->q.at[i].q));
+    // surfaces that stick may do so from a later moment on
+    pl_expr from = c->sticking ? pl_sym(d->pool, pl_symbol_start(d->pool, d->q.at[i].q)) : start_place(d, d->q.at[i].q);
+    pl_expr way = pl_sub(d->pool, q, from);
     sum = pl_add(d->pool, sum, pl_mul(d->pool, slope, way));
     rest = pl_subst1(d->pool, rest, d->q.at[i].v, pl_int(d->pool, 0));
   }
   if (pl_has_coordinates(d, rest) || pl_has_symbol(d->pool, rest, pl_time(d->pool))) return pl_poison();
   return pl_add(d->pool, sum, pl_mul(d->pool, rest, pl_sym(d->pool, pl_time(d->pool))));
+}
+
+// What slips on a constraint feels -way press scale λ along the slip.
+static void add_friction(pl_analysis* d, pl_bond* l) {
+  l->push = l->gradient;
+  l->rub = pl_slipping_on(d, l->source);
+  if (!l->rub) return;
+  int sign = -l->rub->way * l->rub->press * (d->model->lambda_minus ? -1 : 1);
+  l->push = PL_ARRAY(d->arena, pl_expr, d->q.n);
+  for (int i = 0; i < d->q.n; i++) {
+    pl_expr along = pl_mul(d->pool, l->rub->scale, pl_diff(d->pool, l->rub->slip, d->q.at[i].v));
+    l->push[i] = pl_add(d->pool, l->gradient[i], sign > 0 ? along : pl_neg(d->pool, along));
+  }
+  d->dissipative = true;
 }
 
 static void add_links(pl_analysis* d) {
@@ -164,8 +181,9 @@ static void add_links(pl_analysis* d) {
     l.gradient = PL_ARRAY(d->arena, pl_expr, d->q.n);
     for (int i = 0; i < d->q.n; i++) {
       pl_expr slope = pl_diff(d->pool, c->g, l.velocity ? d->q.at[i].v : d->q.at[i].q);
-      l.gradient[i] = d->model->lambda_minus ? pl_neg(d->pool, slope) : slope;   // Z = -λ ∇g by `convention lambda-minus`
+      l.gradient[i] = d->model->lambda_minus && !c->sticking ? pl_neg(d->pool, slope) : slope;   // Z = -λ ∇g by `convention lambda-minus`
     }
+    add_friction(d, &l);
     pl_expr whole = l.velocity && !l.contact ? integrated(d, c) : pl_poison();
     if (!pl_is_poison(whole)) {
       l.g = whole;
@@ -331,7 +349,7 @@ static bool never_zero(pl_analysis* d, pl_expr e) {
 // What is left of a constraint when the fixed coordinates are in: nothing (implied), a contradiction, or one coordinate.
 static pleuel_status try_link(pl_analysis* d, int k, bool* changed) {
   pl_bond* l = &d->g.at[k];
-  if (l->fixes >= 0 || l->implied || l->velocity) return PLEUEL_OK;
+  if (l->fixes >= 0 || l->implied || l->velocity || l->rub) return PLEUEL_OK;
   pl_expr e = l->contact ? pl_on_contact(d, l->g) : pl_on_fixed(d, l->g);
   int i = only_coordinate(d, e);
   if (i == -1) {

@@ -75,7 +75,7 @@ static pl_expr equation_of(pl_analysis* d, int i) {
   pl_expr e = pl_add(d->pool, d->euler[i], through_map(d, i));
   for (int k = 0; k < d->g.n; k++) {
     if (!at_work(&d->g.at[k])) continue;
-    pl_expr push = pl_mul(d->pool, pl_sym(d->pool, d->g.at[k].lambda), d->g.at[k].gradient[i]);
+    pl_expr push = pl_mul(d->pool, pl_sym(d->pool, d->g.at[k].lambda), d->g.at[k].push[i]);
     e = pl_sub(d->pool, e, push);
   }
   return pl_on_maps(d, e);
@@ -174,12 +174,12 @@ static void dropped_multipliers(pl_analysis* d) {
       bool ready = true;
       for (int c = 0; c < d->g.n; c++) {
         const pl_bond* other = &d->g.at[c];
-        if (c == k || other->implied || pl_is_zero_node(d->pool, other->gradient[i])) continue;
+        if (c == k || other->implied || pl_is_zero_node(d->pool, other->push[i])) continue;
         ready &= other->lambda_known;
-        if (ready) rest = pl_sub(d->pool, rest, pl_mul(d->pool, other->lambda_value, other->gradient[i]));
+        if (ready) rest = pl_sub(d->pool, rest, pl_mul(d->pool, other->lambda_value, other->push[i]));
       }
       if (!ready) continue;
-      l->lambda_value = pl_alg_normal(d->tower, pl_on_motion(d, pl_div(d->pool, rest, l->gradient[i])));
+      l->lambda_value = pl_alg_normal(d->tower, pl_on_motion(d, pl_div(d->pool, rest, l->push[i])));
       l->lambda_known = !pl_is_poison(l->lambda_value);
     }
   }
@@ -201,11 +201,11 @@ static pl_expr row_of(pl_analysis* d, int k, int i, int* n_others) {
   *n_others = 0;
   for (int c = 0; c < d->g.n; c++) {
     const pl_bond* other = &d->g.at[c];
-    if (c == k || (other->implied && !other->shared) || pl_is_zero_node(d->pool, pl_on_fixed(d, other->gradient[i]))) continue;
-    e = pl_sub(d->pool, e, pl_mul(d->pool, pl_sym(d->pool, other->lambda), other->gradient[i]));
+    if (c == k || (other->implied && !other->shared) || pl_is_zero_node(d->pool, pl_on_fixed(d, other->push[i]))) continue;
+    e = pl_sub(d->pool, e, pl_mul(d->pool, pl_sym(d->pool, other->lambda), other->push[i]));
     (*n_others)++;
   }
-  return pl_alg_normal(d->tower, on_positions(d, pl_div(d->pool, e, d->g.at[k].gradient[i])));
+  return pl_alg_normal(d->tower, on_positions(d, pl_div(d->pool, e, d->g.at[k].push[i])));
 }
 
 pl_expr pl_multiplier_by_row(pl_analysis* d, int k, int* coordinate) {
@@ -214,7 +214,7 @@ pl_expr pl_multiplier_by_row(pl_analysis* d, int k, int* coordinate) {
   long best_cost = 0;
   for (int i = 0; i < d->q.n; i++) {
     bool own = l->fixes < 0 ? d->q.at[i].fixed_by < 0 : i == l->fixes;
-    if (!d->q.at[i].carries || !own || pl_is_zero_node(d->pool, pl_on_fixed(d, l->gradient[i]))) continue;
+    if (!d->q.at[i].carries || !own || pl_is_zero_node(d->pool, pl_on_fixed(d, l->push[i]))) continue;
     int n_others;
     pl_expr e = row_of(d, k, i, &n_others);
     long cost = pl_is_poison(e) ? 0 : 1000L * n_others + pl_op_count(d->pool, e);
@@ -273,19 +273,27 @@ static void record_denominators(pl_analysis* d) {
   }
 }
 
+// Friction that slips hangs on the multipliers, which the equations of the second kind do not know.
+static bool slips(const pl_analysis* d) {
+  for (int k = 0; k < d->g.n; k++) {
+    if (d->g.at[k].rub) return true;
+  }
+  return false;
+}
+
 pleuel_status pl_solve_motion(pl_analysis* d) {
   d->acceleration = PL_ARRAY(d->arena, pl_expr, d->q.n);
   pl_expr* x = PL_ARRAY(d->arena, pl_expr, d->q.n + d->g.n + 1);
   bool passed_on = find_chosen_forces(d);
   pl_linear s = collect(d);
   d->solved = passed_on && solve_system(d, &s, x);
-  if (!d->solved && d->reduced) {
+  if (!d->solved && d->reduced && !slips(d)) {
     s = collect_second_kind(d);
     d->solved = solve_system(d, &s, x);
   }
   if (!d->solved) return PLEUEL_OK;   // said by the sections that need it
   keep_solution(d, &s, x);
-  if (d->loops.n > 0 && d->gen.n > 0) {   // shorter over the coefficients than by elimination of the multipliers
+  if (d->loops.n > 0 && d->gen.n > 0 && !slips(d)) {   // shorter over the coefficients than by elimination of the multipliers
     s = collect_second_kind(d);
     if (solve_system(d, &s, x)) keep_solution(d, &s, x);
   }

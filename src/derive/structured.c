@@ -61,7 +61,7 @@ static bool collect_first_kind(pl_analysis* d, pl_first_kind* k) {
     pl_expr gdd = pl_on_contact(d, pl_bond_acceleration(d, k->bond[b]));
     for (int i = 0; i < n; i++) {
       k->G[b * n + i] = tidy(d, placed(d, pl_diff(d->pool, gdd, d->q.at[k->coordinate[i]].a)));
-      k->push[b * n + i] = tidy(d, placed(d, d->g.at[k->bond[b]].gradient[k->coordinate[i]]));
+      k->push[b * n + i] = tidy(d, placed(d, d->g.at[k->bond[b]].push[k->coordinate[i]]));
     }
     k->gamma[b] = placed(d, without(d, gdd));
   }

@@ -259,7 +259,7 @@ static pl_expr own_row(pl_analysis* d, int i) {
   for (int k = 0; k < d->g.n; k++) {
     const pl_bond* l = &d->g.at[k];
     if (l->implied || l->fixes >= 0) continue;
-    rest = pl_sub(p, rest, pl_mul(p, pl_sym(p, l->lambda), pl_on_contact(d, l->gradient[i])));
+    rest = pl_sub(p, rest, pl_mul(p, pl_sym(p, l->lambda), pl_on_contact(d, l->push[i])));
   }
   return pl_neg(p, pl_div(p, rest, own));
 }

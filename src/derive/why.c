@@ -87,9 +87,9 @@ void pl_why_first_kind(pl_analysis* d, int i) {
   if (!pl_is_zero_node(d->pool, d->force[i])) show_tidy(d, pl_format(d->arena, "Q_%s", x), d->force[i]);
   for (int k = 0; k < d->g.n; k++) {
     const pl_bond* l = &d->g.at[k];
-    if (l->implied || pl_is_zero_node(d->pool, l->gradient[i])) continue;
+    if (l->implied || pl_is_zero_node(d->pool, l->push[i])) continue;
     const char* sign = d->model->lambda_minus ? "-" : "";
-    show_tidy(d, pl_format(d->arena, "%s∂%s/∂%s", sign, l->source->name.text, l->velocity ? v : x), l->gradient[i]);
+    show_tidy(d, pl_format(d->arena, "%s∂%s/∂%s", sign, l->source->name.text, l->velocity ? v : x), l->push[i]);
   }
 }
 

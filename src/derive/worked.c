@@ -194,8 +194,36 @@ static void describe_constraints(pl_analysis* d, bool first) {
 
 // ---------------------------------------------------------------------------------------------- requests
 // What friction leaves as it is.  Everything else would be right without friction only.
-static bool survives_friction(pl_ask_kind kind) {
-  return kind == PL_ASK_DOF || kind == PL_ASK_CONSTRAINTS || kind == PL_ASK_LAGRANGIAN;
+static bool survives_friction(pl_analysis* d, const pl_ask* ask) {
+  switch (ask->kind) {
+    case PL_ASK_DOF:
+    case PL_ASK_CONSTRAINTS:
+    case PL_ASK_LAGRANGIAN: return true;
+    case PL_ASK_LAGRANGE1:
+    case PL_ASK_NEWTON:
+    case PL_ASK_CONSERVED:
+    case PL_ASK_SOLVE: return pl_knows_friction(d);
+    case PL_ASK_VALUE: return pl_knows_friction(d) && ask->where.n == 0 && !ask->motion.given;
+    default: return false;
+  }
+}
+
+static bool any_slips(const pl_analysis* d) {
+  for (int k = 0; k < d->g.n; k++) {
+    if (d->g.at[k].rub) return true;
+  }
+  return false;
+}
+
+// What slips takes energy, and more is not claimed.
+static void answer_conserved_with_friction(pl_analysis* d, const pl_ask* ask) {
+  pl_section_open(d, ask, "Conserved", "Erhaltungsgrößen");
+  pl_say(d, "The energy is not conserved: surfaces slip, and friction does work.",
+         "Die Energie ist nicht erhalten: Flächen gleiten, und die Reibung leistet Arbeit.", 0);
+  pl_value* v = pl_answer(d, "E", pl_poison(), NULL);
+  v->conserved = 0;
+  v->because[0] = "friction does work";
+  v->because[1] = "die Reibung leistet Arbeit";
 }
 
 static void leave_to_simulation(pl_analysis* d, const pl_ask* ask) {
@@ -206,7 +234,7 @@ static void leave_to_simulation(pl_analysis* d, const pl_ask* ask) {
 }
 
 static void note_friction(pl_analysis* d) {
-  if (d->model->frictions.n == 0 || d->options->structure) return;
+  if (pl_knows_friction(d) || d->options->structure) return;
   pl_diagnostic* m = pl_report(d->job->diagnostics, PL_N091, d->model->frictions.at[0].span,
                                "friction is computed by the simulation, formulas are not derived with it",
                                "Reibung berechnet die Simulation, Formeln werden mit ihr nicht hergeleitet");
@@ -273,7 +301,7 @@ static pl_analysis* serving(pl_analysis* d, const pl_ask* ask) {
 }
 
 static void answer_with(pl_analysis* d, const pl_ask* ask) {
-  if (d->model->frictions.n > 0 && !survives_friction(ask->kind)) {
+  if (d->model->frictions.n > 0 && !survives_friction(d, ask)) {
     leave_to_simulation(d, ask);
     return;
   }
@@ -294,7 +322,10 @@ static void answer_with(pl_analysis* d, const pl_ask* ask) {
     case PL_ASK_VALUE: pl_answer_value(d, ask); break;
     case PL_ASK_FORCE_OF:
     case PL_ASK_FORCE_ON: pl_answer_force(d, ask); break;
-    case PL_ASK_CONSERVED: pl_answer_conserved(d, ask); break;
+    case PL_ASK_CONSERVED:
+      if (any_slips(d)) answer_conserved_with_friction(d, ask);
+      else pl_answer_conserved(d, ask);
+      break;
     case PL_ASK_EQUILIBRIA: pl_answer_equilibria(d, ask); break;
     case PL_ASK_MODES: pl_answer_modes(d, ask); break;
     case PL_ASK_LIMIT: pl_answer_limit(d, ask); break;

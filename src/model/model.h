@@ -148,6 +148,7 @@ typedef struct pl_constraint {
   const char* while_label;    // contact it depends on, or NULL
   bool redundant_ok, off;
   bool has_velocity;          // contains velocities
+  bool sticking;              // of the derivation: surfaces that stick to each other
   const char* body;           // it holds between the axes of this body in space, and is no constraint of its own; or NULL
   pl_axes_form axes;          // which are given like this
   pl_block* block;

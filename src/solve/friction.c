@@ -64,6 +64,12 @@ void pl_friction_keep_directions(pl_run* run) {
 }
 
 // ---------------------------------------------------------------------------------------------- in the linear system
+pl_rub_report pl_run_rub(const pl_run* run, int rub) {
+  const pl_rub_now* now = &run->rub[rub];
+  static const pl_rub_mode mode[] = {[PL_RUB_OFF] = PL_RUB_NONE, [PL_RUB_STICK] = PL_RUB_STICKS, [PL_RUB_SLIP] = PL_RUB_SLIPS};
+  return (pl_rub_report){pl_friction_is_used(run, rub) ? mode[now->state] : PL_RUB_NONE, now->way, now->press};
+}
+
 double pl_friction_kappa(const pl_run* run, int r, int i, const double* C) {
   const pl_rub* rub = &run->setup->rubs[r];
   const pl_rub_now* now = &run->rub[r];

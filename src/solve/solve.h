@@ -365,6 +365,10 @@ const pl_stats* pl_run_stats(const pl_run* run);
 double pl_run_tol(const pl_run* run);                // tolerance in use
 bool pl_run_tol_raised(const pl_run* run);           // the one asked for was below what the arithmetic can do
 bool pl_run_is_active(const pl_run* run, int link);
+// Friction: whether it sticks, slips or is not there, and the signs of slip and pressing multiplier.
+typedef enum pl_rub_mode { PL_RUB_NONE, PL_RUB_STICKS, PL_RUB_SLIPS } pl_rub_mode;
+typedef struct pl_rub_report { pl_rub_mode mode; int way, press; } pl_rub_report;
+pl_rub_report pl_run_rub(const pl_run* run, int rub);
 bool pl_run_is_released(const pl_run* run, int link);   // by an event, or off: it is not watched either
 const char* pl_run_mode(const pl_run* run);
 
