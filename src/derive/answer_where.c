@@ -615,8 +615,8 @@ static bool holds_on_every_motion(pl_analysis* d, const pl_where* p) {
 // One condition on the motion.  false: it is an equation for the state.
 static bool on_the_way(pl_analysis* d, const pl_where* p) {
   if (!pl_has_coordinates(d, p->equation[0]) && !pl_has_symbol(d->pool, p->equation[0], pl_time(d->pool))) return false;
-  if (search_on_line(d, p)) return true;
   pl_search s = plain_search(d, p);
+  if (pl_say_event_before(d, &p->ask->motion, &s) || search_on_line(d, p)) return true;
   pl_followed f;
   bool every = holds_on_every_motion(d, p);
   if (!every && search_in_time(d, p)) return true;

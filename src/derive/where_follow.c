@@ -16,6 +16,7 @@ typedef struct flow {
   int n;                    // coordinates
   int coordinate[most];
   pl_expr f;                // whose zero is looked for
+  int direction;            // +1 rising, -1 falling, 0 both
   int n_definitions;        // coordinates, velocities and names of closed loops, in one assembly
   pl_definition* definition;
 } flow;
@@ -113,7 +114,8 @@ static pl_followed_how first_zero(const flow* w, double end, double* time, doubl
       continue;
     }
     double after = watched(w, t + h, next);
-    if (!leaves && isfinite(after) && (before > 0) != (after > 0)) {
+    bool this_way = w->direction == 0 || (after > before) == (w->direction > 0);
+    if (!leaves && isfinite(after) && (before > 0) != (after > 0) && this_way) {
       double low = 0, high = h;
       for (int i = 0; i < 100; i++) {
         double m = 0.5 * (low + high);
@@ -164,14 +166,19 @@ static void look_at_contacts(flow* w, const pl_search* p, const pl_motion* motio
   }
 }
 
+static bool begin(pl_analysis* d, const pl_search* p, int assembly, flow* w) {
+  *w = (flow){.d = d, .f = p->condition};
+  pl_number(d, pl_add(d->pool, p->condition, p->asked));   // the table of numbers covers every name
+  w->value = PL_ARRAY(d->arena, double, pl_symbol_count(d->pool) + 1);
+  memcpy(w->value, d->value, (size_t)(pl_symbol_count(d->pool) + 1) * sizeof *w->value);
+  return follows(d, w, assembly);
+}
+
 void pl_follow_motion(pl_analysis* d, const pl_motion* motion, int assembly, const pl_search* p, pl_followed* out) {
-  flow w = {.d = d, .f = p->condition};
+  flow w;
   double y[2 * most];
   *out = (pl_followed){.how = PL_FOLLOWED_NOT, .lost = -1};
-  pl_number(d, pl_add(d->pool, p->condition, p->asked));   // the table of numbers covers every name
-  w.value = PL_ARRAY(d->arena, double, pl_symbol_count(d->pool) + 1);
-  memcpy(w.value, d->value, (size_t)(pl_symbol_count(d->pool) + 1) * sizeof *w.value);
-  if (!follows(d, &w, assembly) || !starts(&w, motion, y)) return;
+  if (!begin(d, p, assembly, &w) || !starts(&w, motion, y)) return;
   if (isnan(watched(&w, 0, y)) || isnan(pl_eval(d->pool, p->asked, w.value))) return;
   out->how = first_zero(&w, end_of(d), &out->time, y);
   if (out->how == PL_FOLLOWED_NOT) return;
@@ -198,4 +205,46 @@ void pl_say_followed(pl_analysis* d, const pl_search* p, const pl_followed* f) {
   pl_say(d, "No solution in closed form was found; for the given numbers:",
          "Eine geschlossene Lösung wurde nicht gefunden; mit den gegebenen Zahlen:", 0);
   pl_show_met_number(d, p->name, f->asked);
+}
+
+// ---------------------------------------------------------------------------------------------- events
+static bool changes_the_motion(const pl_event* e) {
+  for (int k = 0; k < e->actions.n; k++) {
+    if (e->actions.at[k].kind != PL_DO_STOP && e->actions.at[k].kind != PL_DO_RECORD) return true;
+  }
+  return false;
+}
+
+// The first event that changes the motion, up to the time `until`; NULL.
+static const pl_event* first_event(pl_analysis* d, flow* w, const pl_motion* motion, double until, double* time) {
+  const pl_event* first = NULL;
+  for (int k = 0; k < d->whole->events.n; k++) {
+    const pl_event* e = &d->whole->events.at[k];
+    double y[2 * most], t = 0;
+    if (!changes_the_motion(e) || !starts(w, motion, y)) continue;
+    w->f = pl_on_motion(d, pl_with_results(d, e->value));
+    w->direction = e->direction;
+    if (isnan(watched(w, 0, y)) || first_zero(w, until * (1 - 1e-9), &t, y) != PL_FOLLOWED_MET) continue;
+    first = e;
+    until = *time = t;
+  }
+  return first;
+}
+
+bool pl_say_event_before(pl_analysis* d, const pl_motion* motion, const pl_search* p) {
+  bool any = false;
+  for (int k = 0; d->whole && k < d->whole->events.n; k++) any |= changes_the_motion(&d->whole->events.at[k]);
+  if (!any || (d->stage && d->stage->from > 0)) return false;   // the time of a later set counts from its beginning
+  pl_followed f;
+  flow w;
+  double time = 0;
+  pl_follow_motion(d, motion, 0, p, &f);
+  double y[2 * most];
+  if (f.how == PL_FOLLOWED_NOT || !begin(d, p, 0, &w) || !starts(&w, motion, y)) return false;
+  if (watched(&w, 0, y) == 0) return false;   // at the start already
+  const pl_event* e = first_event(d, &w, motion, f.time, &time);
+  if (!e) return false;
+  pl_say(d, "{1} comes before, at {2}; beyond it the formulas do not hold.", "{1} tritt vorher ein, bei {2}; danach gelten die Formeln nicht.", 2,
+         pl_fn(d, e->name.text ? e->name.text : "event"), time_form(d, time));
+  return true;
 }

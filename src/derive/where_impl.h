@@ -27,6 +27,7 @@ void pl_search_motion(pl_analysis* d, const pl_search* p);
 typedef enum pl_followed_how { PL_FOLLOWED_NOT, PL_FOLLOWED_PAST, PL_FOLLOWED_MET } pl_followed_how;   // not possible; not met up to `time`
 typedef struct pl_followed { pl_followed_how how; double time, asked; int lost; double lost_at; } pl_followed;   // lost: a contact, -1
 void pl_follow_motion(pl_analysis* d, const pl_motion* motion, int assembly, const pl_search* p, pl_followed* out);   // 0 without loops
+bool pl_say_event_before(pl_analysis* d, const pl_motion* motion, const pl_search* p);   // an event that changes the motion comes first
 void pl_say_followed(pl_analysis* d, const pl_search* p, const pl_followed* f);
 void pl_show_met(pl_analysis* d, pl_expr name, pl_expr value, pl_expr condition);
 void pl_show_met_number(pl_analysis* d, pl_expr name, double x);

@@ -113,6 +113,17 @@ constraint floor: y >= 0
 init x = 0, y = 2 [m], x' = 1 [m/s], y' = 3 [m/s]
 """
 
+CUT = """param l = 0.93, m = 2.33, g = 9.81
+coord x, y, φ
+axes x right, y up
+mass A: m at (x, y)
+constraint rod: sqrt(x^2 + y^2) = l
+choose φ with x = l sin φ, y = -l cos φ
+init φ = 110°, φ' = -1.19
+gravity g along -y
+event cut: when t = 0.24 -> release rod
+"""
+
 FOURBAR = """param a = 0.1 [m], b = 0.3 [m], c = 0.25 [m], D = 0.3 [m], m = 1 [kg], g = 9.81 [m/s^2], W = 2 [1/s]
 coord th2, th3, th4
 axes x right, y up
@@ -183,6 +194,8 @@ CASES = [
     (HILL, "v0 where λ = 0 and x = 0", [None, None], ["f2 ≤ 0"], ["No state"]),
     (BALL, "y' where y = 1 [m]", [-math.sqrt(9 + 2 * G)], [], []),
     (BALL, "y where x = 5 [m]", [], ["floor is met before"], ["y ="]),
+    (CUT, "λ_rod where φ = 0.86", [], ["cut comes before"], ["λ_rod ="]),
+    (CUT, "φ' where φ = 1.8", [-math.sqrt(1.19 ** 2 + 2 * G / 0.93 * (math.cos(1.8) - math.cos(math.radians(110))))], [], []),
     (FOURBAR, "th4 where th2 = 60°", fourbar(math.pi / 3), [], []),
 ]
 
