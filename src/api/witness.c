@@ -118,6 +118,7 @@ static double without_turns(const pl_witness* w, const pl_statement* s, double s
 static pl_agreement compare(const pl_witness* w, pl_statement* s, const pl_witnessed* start, pl_memory* m, int phase,
                             pl_contradiction_found* out) {
   if (s->value && !pl_is_poison(s->value->holds_while) && !(pl_state_value(w, s->value->holds_while) > 0)) return PL_NOT_COMPARED;
+  if (s->value && !pl_is_poison(s->value->holds_while) && !(pl_state_value(w, s->value->holds_while) > 0)) return PL_NOT_COMPARED;
   if (s->kind == PL_STAYS) return compare_constant(w, s, m, phase, out);
   double shown = pl_state_value(w, s->shown), noise = pl_state_noise(w, s->shown);
   if (s->kind == PL_VANISHES) {
@@ -282,12 +283,25 @@ static int last_stage(const pl_witness* w) {
 // A start that had to be moved is another one.
 static bool is_usable(const pl_trace* t) { return t->started && t->moved < 1e-8; }
 
+// A motion through the border between two assemblies goes on in the other one, of which formulas for a `branch` say nothing.
+static bool keeps_branches(pl_witness* w, const pl_trace* t, const pl_trace_sample* s) {
+  for (int i = 0; i < w->model->branches.n; i++) {
+    const pl_condition* c = &w->model->branches.at[i];
+    pl_expr side = pl_sub(w->pool, c->left, c->right);
+    pl_state_set(w, t, &t->samples.at[0], &t->samples.at[0], 0);
+    double begin = pl_state_value(w, side);
+    pl_state_set(w, t, s, &t->samples.at[0], 0);
+    if (begin * pl_state_value(w, side) < 0) return false;
+  }
+  return true;
+}
+
 static void compare_along(pl_witness* w, const pl_witnessed* start, pl_verdicts* v) {
   if (!is_usable(start->trace)) return;
   find_largest(w, start);
   pl_memory* memory = PL_ARRAY(w->arena, pl_memory, w->statements.n + 1);
   for (int i = 0; i < w->statements.n; i++) memory[i].phase = -1;
-  for (int k = 0; k < start->trace->samples.n; k++) {
+  for (int k = 0; k < start->trace->samples.n && keeps_branches(w, start->trace, &start->trace->samples.at[k]); k++) {
     for (int stage = 0; stage <= last_stage(w); stage++) compare_stage(w, stage, start, &start->trace->samples.at[k], memory, v);
   }
 }

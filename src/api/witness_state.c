@@ -18,6 +18,12 @@ static double largest(const double* x, int n) {
   return most;
 }
 
+// Where everything is at rest or uniform, what a run leaves of forces that cancel is rounding.
+static double or_small(double size) {
+  static const double nothing = 1e-12, small = 1e-3;
+  return size < nothing ? small : size;
+}
+
 void pl_state_sizes(pl_witness* w) {
   for (int i = 0; i < w->starts.n; i++) {
     const pl_trace* t = w->starts.at[i].trace;
@@ -29,6 +35,8 @@ void pl_state_sizes(pl_witness* w) {
     w->a_size = fmax(w->a_size, largest(s->a, n));
     w->l_size = fmax(w->l_size, largest(s->lambda, t->recording->setup.n_c));
   }
+  w->a_size = or_small(w->a_size);
+  w->l_size = or_small(w->l_size);
 }
 
 void pl_state_open(pl_witness* w) {
@@ -71,20 +79,9 @@ static void put_coordinates(pl_witness* w, const pl_trace* t, const pl_trace_sam
   }
 }
 
-// A load on a coordinate of `choose` reaches the masses through the map, whose rows may depend on a constraint: then how it is
-// shared between them is no matter of the motion.
-static bool maps_push(const pl_trace* t, const pl_trace_sample* s, double size) {
-  const pl_recording* r = t->recording;
-  for (int k = 0; k < t->model->choose.n_maps; k++) {
-    if (fabs(s->lambda[r->n_declared + k]) > 1e-9 * size) return true;
-  }
-  return false;
-}
-
 static void put_multipliers(pl_witness* w, const pl_trace* t, const pl_trace_sample* s) {
   const pl_setup* setup = &t->recording->setup;
   double size = size_of(s->lambda, setup->n_c, w->l_size);
-  if (maps_push(t, s, size)) return;
   for (int i = 0; i < t->model->constraints.n; i++) {
     const pl_constraint* c = &t->model->constraints.at[i];
     if (c->block || !c->lambda.id) continue;

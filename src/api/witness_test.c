@@ -222,6 +222,22 @@ static void damped_and_coupled_positions_of_rest_pass(void** state) {
   }
 }
 
+// What vanishes exactly, and what holds on one side only, is no disagreement.
+static void nothing_is_seen_where_nothing_is(void** state) {
+  (void)state;
+  static const char* const right[] = {
+    "param m = 1 [kg], l = 1 [m], g = 9.81 [m/s^2]\nlet a = g\ncoord φ\naxes x right, z up\nmass m at (l sin φ, -l cos φ - 1/2 a t^2)\n"
+    "gravity g along -z\nask solve φ''\n",
+    "param m1, m2, r, l, g\ncoord φ, x2\naxes x right, z up\nmass A: m1 at (r cos φ, r sin φ)\nmass B: m2 at (x2, 0)\ngravity g along -z\n"
+    "constraint rod: (x2 - r cos φ)^2 + (r sin φ)^2 = l^2\nbranch x2 > r cos φ\nask lagrangian, lagrange2\n",
+  };
+  for (size_t i = 0; i < sizeof right / sizeof *right; i++) {
+    bench b = solved(right[i]);
+    if (!last_check(&b)->passed || last_check(&b)->formulas < 1) fail_msg("%s", right[i]);
+    done(&b);
+  }
+}
+
 static void parameters_without_numbers_are_no_obstacle(void** state) {
   (void)state;
   is_seen("param m, l, g\ncoord r, φ\naxes x right, y up\nmass m at (r sin φ, -r cos φ)\ngravity g along -y\n"
@@ -240,6 +256,7 @@ int main(void) {
     cmocka_unit_test(the_failed_check_is_the_status),
     cmocka_unit_test(a_motion_that_cannot_be_had_is_told),
     cmocka_unit_test(parameters_without_numbers_are_no_obstacle),
+    cmocka_unit_test(nothing_is_seen_where_nothing_is),
     cmocka_unit_test(degrees_of_freedom_that_the_rank_does_not_leave),
     cmocka_unit_test(a_position_of_rest_where_nothing_rests),
     cmocka_unit_test(a_list_with_one_left_out),
