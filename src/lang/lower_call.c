@@ -80,6 +80,16 @@ static void hint_log(pl_lower* l, const pl_ast* name) {
   pl_suggest(l->job, m, "ln", "write ln to say so", "schreibe ln, um das zu sagen");
 }
 
+// sin 30: an angle without its sign for degrees, several turns if it is one in radians.
+static void hint_degrees(pl_lower* l, const pl_ast* name, pl_expr x, const pl_ast* where) {
+  bool trig = strcmp(name->key, "sin") == 0 || strcmp(name->key, "cos") == 0 || strcmp(name->key, "tan") == 0;
+  long n = 0;
+  if (!trig || pl_is_poison(x) || !pl_is_int(l->pool, x, &n) || (n < 7 && n > -7)) return;
+  pl_diagnostic* m = pl_lower_complain(l, PL_N021, pl_ast_span(where), "%s of %ld is taken in radians", "%s von %ld gilt im Bogenmaß",
+                                       name->shown, n);
+  pl_suggest(l->job, m, NULL, "write %s(%ld°) if degrees are meant", "schreibe %s(%ld°), falls Grad gemeint sind", name->shown, n);
+}
+
 static bool is_elementary_of_one(const char* key) {
   if (strcmp(key, "sqrt") == 0 || strcmp(key, "log") == 0) return true;
   int f = elementary(key);
@@ -433,6 +443,7 @@ pl_quantity pl_lower_apply(pl_lower* l, const pl_ast* name, pl_quantity x, const
     if (strcmp(name->key, "abs") == 0) pl_suggest(l->job, m, NULL, "write norm(...)", "schreibe norm(...)");
     return pl_quantity_bad();
   }
+  hint_degrees(l, name, x.at[0], where);
   pl_expr value = apply_elementary(l, name->key, x.at[0]);
   if (pl_is_poison(value))
     pl_lower_complain(l, PL_E040, pl_ast_span(where), "this has no value", "das hat keinen Wert");

@@ -217,6 +217,23 @@ static pl_expr value_with_unit(pl_lower* l, const pl_ast* d, const pl_ast* value
   return e;
 }
 
+// l = 0.5 m with m a mass: half of it; a metre has its brackets.
+static void hint_unit(pl_lower* l, const pl_ast* value) {
+  if (!value || (value->kind == PL_AST_SUM && value->kids.n != 1)) return;
+  const pl_ast* v = value->kind == PL_AST_SUM ? value->kids.at[0] : value;
+  if (v->kind != PL_AST_PRODUCT || v->kids.n != 2 || v->ops.at[1] != ' ') return;
+  const pl_ast *number = v->kids.at[0], *name = v->kids.at[1];
+  if (number->kind != PL_AST_NUMBER || name->kind != PL_AST_NAME || name->number || !pl_scope_find(l, name->key)) return;
+  pl_unit unit;
+  size_t at, n;
+  const char* near;
+  if (!pl_unit_parse(l->pool, name->raw, strlen(name->raw), &unit, &at, &n, &near)) return;
+  pl_diagnostic* m = pl_lower_complain(l, PL_W071, pl_ast_span(value), "%1$s %2$s is read as %1$s times %2$s", "%1$s %2$s wird als %1$s mal %2$s gelesen",
+                                       number->text, name->shown);
+  pl_suggest(l->job, m, pl_format(l->arena, "%s [%s]", number->text, name->raw), "write %1$s [%2$s] if the unit is meant",
+             "schreibe %1$s [%2$s], falls die Einheit gemeint ist", number->text, name->raw);
+}
+
 static void lower_param(pl_lower* l, const pl_ast* d, bool broken) {
   const pl_ast *name = declared_name(d), *value = pl_ast_kid(d, 2);
   pl_entity* e = pl_scope_find(l, name->key);
@@ -236,6 +253,7 @@ static void lower_param(pl_lower* l, const pl_ast* d, bool broken) {
         !pl_is_poison(v) && pl_is_constant(l->pool, v) && !pl_has_unit(l->pool, v) && !has_own_unit(e->override);
     if (bare && unit_node && pl_lower_unit(l, unit_node, &own)) v = pl_mul(l->pool, v, own.factor);
   } else if (value) {
+    hint_unit(l, value);
     v = value_with_unit(l, d, value, &unit, declared && unit_fine);
   }
   if (l->wrong > wrong || broken) e->broken = true;

@@ -53,10 +53,29 @@ static void axes_in_order(pl_model* m) {
   }
 }
 
+// Points of three components under two axes x, y, z: the one that is left is there too.
+static void third_axis(pl_lower* l, const pl_ast* file) {
+  static const char* const names[] = {"x", "y", "z"};
+  static const char* const ways[] = {"out", "up", "right"};
+  if (l->m->n_axes != 2 || most_components(file) != 3) return;
+  pl_axis third = {.direction = NULL};
+  for (int i = 0; i < 3; i++) {
+    if (pl_axis_find(l, names[i]) < 0) third.name = third.ascii = third.name ? third.name : names[i];
+    bool free_way = true;
+    for (int k = 0; k < 2; k++) free_way &= !l->m->axes[k].direction || strcmp(l->m->axes[k].direction, ways[i]) != 0;
+    if (free_way && !third.direction) third.direction = ways[i];
+  }
+  for (int k = 0; k < 2; k++)
+    if (strlen(l->m->axes[k].ascii) != 1 || !strchr("xyz", l->m->axes[k].ascii[0])) return;
+  l->m->axes[l->m->n_axes++] = third;
+  axes_in_order(l->m);
+}
+
 // Without `axes`: as many as the points have components, x right, y up, z out.
 void pl_axes_settle(pl_lower* l, const pl_ast* file) {
   static const pl_axis usual[3] = {{"x", "x", "right", false}, {"y", "y", "up", false}, {"z", "z", "out", false}};
   axes_in_order(l->m);
+  third_axis(l, file);
   if (l->m->n_axes) return;
   // where a broken line may have told, no axis is missed
   int n = l->lost.n ? 3 : most_components(file);

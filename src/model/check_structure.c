@@ -229,7 +229,7 @@ static void check_masses(pl_job* job, pl_model* m) {
     check_point(job, m, &b->centre, b->span);
     check_value(job, b->angle, b->span, "this angle", "dieser Winkel");
     check_order(job, m, b->angle, 0, b->span, "the angle of a body", "der Winkel eines Körpers");
-    if (m->n_axes != 2) {
+    if (m->n_axes > 2) {        // along one axis it turns about an axis across: a yo-yo
       pl_diagnostic* d = pl_tell(
           job, PL_E035, b->span, PL_F(job, "a body with one angle lives in a plane, but there are %d axes", m->n_axes),
           PL_F(job, "ein Körper mit einem Winkel lebt in der Ebene, aber es gibt %d Achsen", m->n_axes));

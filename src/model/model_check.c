@@ -70,6 +70,7 @@ pleuel_status pl_model_check(pl_job* job, pl_model* m) {
   if (sized) pl_check_start(job, m);
   pl_check_requests(job, m);
   pl_check_use(job, m);
+  pl_check_reading(job, m);
   m->checked = true;
   drop_echoes(job->diagnostics);
   pl_diagnostics_sort(job->diagnostics);

@@ -133,6 +133,7 @@ void pl_check_contacts(pl_job* job, pl_model* m);
 void pl_check_start(pl_job* job, pl_model* m);
 void pl_check_requests(pl_job* job, pl_model* m);
 void pl_check_use(pl_job* job, pl_model* m);
+void pl_check_reading(pl_job* job, pl_model* m);
 
 // An expression as a reader writes it, in one line: "x' sin φ".
 const char* pl_expr_words(pl_arena* a, pl_pool* p, pl_expr e);

@@ -71,6 +71,16 @@ for line, wanted in ACCEPTED:
     run = subprocess.run([program, "solve", "-"], input=HEAD + line + "\n", capture_output=True, text=True, encoding="utf-8", env=clean)
     check(f"{line!r} is understood", run.returncode in (0, 5) and wanted in run.stdout and "E0" not in run.stderr, f"{run.returncode}\n{run.stdout}{run.stderr}")
 
+# the axis that is left, and a body that falls along one axis
+for model, wanted in (("param m = 1 [kg], g = 9.81 [m/s^2]\ncoord x, y, z\naxes x right, z up\nmass A: m at (x, y, z)\ngravity g along -z\nask lagrangian\n",
+                       "V = m g z"),
+                      ("param m = 1 [kg], g = 9.81 [m/s^2]\ncoord x, y, z\naxes x right, y up\nmass A: m at (x, y, z)\ngravity g along -z\nask lagrangian\n",
+                       "V = m g z"),
+                      ("param m = 1 [kg], r = 0.1 [m], J = 0.01 [kg m^2], g = 9.81 [m/s^2]\ncoord x, φ\naxes x down\nbody B: mass m, inertia J at (x) angle φ\n"
+                       "gravity g along x\nconstraint roll: x = r φ\ninit x = 0, x' = 0\nask solve x''\nsimulate 1 [s]\n", "= 4.905 m/s²")):
+    run = subprocess.run([program, "solve", "-"], input=model, capture_output=True, text=True, encoding="utf-8", env=clean)
+    check(f"{model.splitlines()[2]} is enough", run.returncode == 0 and wanted in run.stdout, run.stdout + run.stderr)
+
 run = subprocess.run([program, "solve", "-", "--only", "a"], input=HEAD + "ask a: x(A)', dt(x(A))\n", capture_output=True, text=True, encoding="utf-8",
                      env=clean)
 lines = [line.split("(")[0].strip() for line in run.stdout.splitlines() if line.strip().startswith("x' =")]
