@@ -20,6 +20,50 @@ static pl_expr without_velocity_part(pl_recorder* r, pl_group* g, pl_expr V) {
   return sum;
 }
 
+// Energies of a group.  What a `lagrangian` says is split by degree in the velocities: its part of degree 2 is kinetic, that of degree 0 a
+// potential with the other sign, and one of degree 1 does not enter.
+typedef struct pl_energies { pl_expr T, V, E; } pl_energies;
+
+static pl_expr at_rest(pl_recorder* r, pl_group* g, pl_expr e) {
+  for (int i = 0; i < g->atoms.n; i++)
+    e = pl_subst_expr(r->pool, e, pl_dt(r->pool, g->atoms.at[i]), pl_int(r->pool, 0));
+  return e;
+}
+
+// Whether something but squares of velocities may stand in T or L.
+static bool has_written_energies(const pl_recorder* r) {
+  for (int i = 0; i < r->model->loads.n; i++) {
+    pl_load_kind kind = r->model->loads.at[i].kind;
+    if (kind == PL_L_LAGRANGIAN || kind == PL_L_KINETIC) return true;
+  }
+  return false;
+}
+
+static bool has_lagrangian(const pl_recorder* r) {
+  for (int i = 0; i < r->model->loads.n; i++)
+    if (r->model->loads.at[i].kind == PL_L_LAGRANGIAN) return true;
+  return false;
+}
+
+// E is Jacobi's integral, sum of v dL/dv - L, which is T2 - T0 + V.  Where t stands in the places of masses or in constraints, T + V is the energy
+// and that integral is another quantity; a `lagrangian` knows of no places.
+static bool is_jacobis(const pl_recorder* r) {
+  return has_written_energies(r) && (!r->explicit_time || has_lagrangian(r));
+}
+
+static pl_energies energies_of(pl_recorder* r, pl_group* g) {
+  pl_pool* p = r->pool;
+  pl_expr of_L = without_velocity_part(r, g, pl_neg(p, g->L)), still = at_rest(r, g, of_L);
+  pl_energies e = {.V = without_velocity_part(r, g, g->V), .T = g->T};
+  if (pl_is_poison(still)) still = of_L;
+  e.T = pl_add(p, e.T, pl_sub(p, of_L, still));
+  e.V = pl_add(p, e.V, still);
+  e.E = pl_add(p, e.T, e.V);
+  if (!is_jacobis(r)) return e;
+  e.E = pl_add(p, pl_neg(p, without_velocity_part(r, g, g->T)), pl_add(p, pl_sub(p, of_L, still), e.V));
+  return e;
+}
+
 static pleuel_status observe(pl_recorder* r, pl_group* g, const pl_expr* out, const int* column, int n, const pl_expr* lambda,
                              const int* links, int n_c, pl_pattern* pattern) {
   int* where = PL_ARRAY(r->arena, int, (size_t)g->instances.n * (size_t)n + 1);
@@ -106,10 +150,10 @@ static pl_expr energy_of(pl_recorder* r, pl_result_kind kind) {
   pl_group* g = r->groups.at[0];
   pl_pool* p = r->pool;
   switch (kind) {
-    case PL_RES_T: return g->T;
-    case PL_RES_V: return g->V;
+    case PL_RES_T: return energies_of(r, g).T;
+    case PL_RES_V: return pl_add(p, g->V, at_rest(r, g, pl_neg(p, g->L)));
     case PL_RES_L: return pl_add(p, g->L, pl_sub(p, g->T, g->V));
-    case PL_RES_E: return pl_add(p, g->T, without_velocity_part(r, g, pl_sub(p, g->V, g->L)));
+    case PL_RES_E: return energies_of(r, g).E;
     default: return pl_poison();
   }
 }
@@ -165,6 +209,7 @@ static pleuel_status settle_start_values(pl_recorder* r) {
   pl_setup bare = r->out->setup;
   bare.n_out = bare.n_observers = bare.n_events = bare.n_watched = bare.n_watch_patterns = 0;
   bare.kinetic = bare.potential = -1;
+  bare.energy = 0;
   bare.energy_conserved = false;
   PL_TRY(pl_record_branches(r));
   bare.branches = r->out->setup.branches;
@@ -375,17 +420,18 @@ pleuel_status pl_record_observers(pl_recorder* r) {
   pl_pattern* pattern = PL_ARRAY(r->arena, pl_pattern, r->groups.n + 1);
   s->kinetic = 0;
   s->potential = 1;
+  s->energy = is_jacobis(r) ? 2 : 0;
   pl_push(r->arena, columns, (pl_column){pl_model_column(m, r->arena, "T"), joule});
   pl_push(r->arena, columns, (pl_column){pl_model_column(m, r->arena, "V"), joule});
   pl_push(r->arena, columns, (pl_column){pl_model_column(m, r->arena, "E"), joule});
   for (int i = 0; i < r->groups.n; i++) {
     pl_group* g = r->groups.at[i];
     if (g->instances.n == 0) continue;
-    pl_expr V = without_velocity_part(r, g, pl_sub(r->pool, g->V, g->L));
+    pl_energies e = energies_of(r, g);
     pl_expr* out = PL_ARRAY(r->arena, pl_expr, 3);
-    out[0] = g->T;
-    out[1] = V;
-    out[2] = pl_add(r->pool, g->T, V);
+    out[0] = e.T;
+    out[1] = e.V;
+    out[2] = e.E;
     static const int column[3] = {0, 1, 2};
     PL_TRY(observe(r, g, out, column, 3, NULL, NULL, 0, &pattern[s->n_observers++]));
   }

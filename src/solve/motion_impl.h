@@ -68,7 +68,7 @@ struct pl_motion {
   int length, end_q, end_v;      // of a step; the state there                          (1, n_q, n_q)
   int end_a, off;                // accelerations of the series there; what these are off by, how large they are   (n_q, 2)
   bool arrived;                  // order 0 of the end of the step that is tried stands in memory
-  int energy;                    // kinetic, potential
+  int energy;                    // kinetic, potential, what is conserved if that is not their sum
   int h;                         // forces at order 0                                 (n_q)
   int pivot, pivot_size;         // of the unknowns: pivot, sum of what was subtracted          (n)
   int move;                      // correction of the coordinates                     (n_q)

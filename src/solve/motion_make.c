@@ -70,7 +70,7 @@ static void lay_out(pl_maker* k) {
   o->V = pl_maker_take(k, rows * n_q);
   o->A = pl_maker_take(k, rows * n_q);
   o->L = pl_maker_take(k, rows * n_c);
-  o->energy = pl_maker_take(k, 2);
+  o->energy = pl_maker_take(k, 3);
   o->norms = pl_maker_take(k, 2 * PL_BLOCK_ROWS);
   o->length = pl_maker_take(k, 1);
   o->end_q = pl_maker_take(k, n_q);
@@ -352,7 +352,7 @@ static void energy_code(pl_maker* k) {
   pl_maker_begin(k, PL_PART_ENERGY, "energy", 1);
   pl_maker_level(k, PL_LEVEL_PLACE, k->for_energy);
   pl_maker_level(k, PL_LEVEL_SPEED, k->for_energy);
-  for (int i = 0; i < 2; i++) {
+  for (int i = 0; i < (k->run->setup->energy > 0 ? 3 : 2); i++) {
     SUM_OF_ROW(energy, i);
     pl_prog_store(k->code, or_zero(k, row_), k->o->energy + i, 0);
   }

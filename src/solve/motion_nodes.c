@@ -149,6 +149,7 @@ static void list_energies(pl_maker* k, const pl_maker_instance* i) {
     int column = b->out[o->row * b->lanes + i->lane];
     if (column == k->run->setup->kinetic) TERM(energy, 0, 0, root(k, i, o->root));
     if (column == k->run->setup->potential) TERM(energy, 1, 0, root(k, i, o->root));
+    if (column == k->run->setup->energy && column > 0) TERM(energy, 2, 0, root(k, i, o->root));
   }
 }
 

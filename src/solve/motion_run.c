@@ -247,12 +247,13 @@ void pl_motion_end_a(const pl_run* run, double* a) {
   memcpy(a, o->m + o->end_a, (size_t)o->n_q * sizeof *a);
 }
 
-bool pl_motion_energy(pl_run* run, double* kinetic, double* potential) {
+bool pl_motion_energy(pl_run* run, double* kinetic, double* potential, double* all) {
   pl_motion* o = run->motion_code;
   if (!run->at_point || o->code[PL_PART_ENERGY] == NULL) return false;
   run_part(o, PL_PART_ENERGY, 0, 1);
   *kinetic = o->m[o->energy];
   *potential = o->m[o->energy + 1];
+  *all = run->setup->energy > 0 ? o->m[o->energy + 2] : *kinetic + *potential;
   return true;
 }
 

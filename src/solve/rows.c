@@ -227,26 +227,32 @@ pleuel_status pl_rows_settled(pl_run* run, pl_event_kind kind, int index, double
 }
 
 // ---------------------------------------------------------------------------------------------- energy
+double pl_rows_conserved(const pl_run* run, const double* out) {
+  const pl_setup* s = run->setup;
+  return s->energy > 0 ? out[s->energy] : out[s->kinetic] + out[s->potential];
+}
+
 void pl_rows_energy(pl_run* run, bool anew) {
   const pl_setup* s = run->setup;
   if (s->kinetic < 0 || s->potential < 0) return;
-  double T, V;
+  double T, V, E;
   if (run->wide) {
     pl_wide_energy(run, anew);
     return;
   }
-  if (!pl_motion_energy(run, &T, &V)) {
+  if (!pl_motion_energy(run, &T, &V, &E)) {
     pl_observe(run, run->t, run->q, run->v, run->A, run->L, run->energy_out);
     T = run->energy_out[s->kinetic];
     V = run->energy_out[s->potential];
+    E = pl_rows_conserved(run, run->energy_out);
   }
   run->energy_size = pl_larger(run->energy_size, fabs(T) + fabs(V));
   if (anew) {
     // an impact or a deed has changed it: drift is counted from here
-    run->energy_base = T + V;
-    if (isnan(run->stats.energy_drift)) run->stats.energy_0 = T + V, run->stats.energy_drift = 0;
+    run->energy_base = E;
+    if (isnan(run->stats.energy_drift)) run->stats.energy_0 = E, run->stats.energy_drift = 0;
     return;
   }
-  double drift = run->energy_size > 0 ? fabs(T + V - run->energy_base) / run->energy_size : 0;
+  double drift = run->energy_size > 0 ? fabs(E - run->energy_base) / run->energy_size : 0;
   if (!(drift <= run->stats.energy_drift)) run->stats.energy_drift = drift;
 }

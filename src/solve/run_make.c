@@ -56,7 +56,7 @@ static pleuel_status check_events(pl_job* job, const pl_setup* s) {
 
 static pleuel_status check_setup(pl_job* job, const pl_setup* s) {
   if (s->n_q <= 0 || s->n_c < 0) return pl_fail(job, PLEUEL_USAGE, "a run needs coordinates");
-  if (s->kinetic >= s->n_out || s->potential >= s->n_out)
+  if (s->kinetic >= s->n_out || s->potential >= s->n_out || s->energy < 0 || (s->energy > 0 && s->energy >= s->n_out))
     return pl_fail(job, PLEUEL_USAGE, "no output column for the energy");
   for (int i = 0; i < s->n_q; i++)
     if (s->coordinates[i].name == NULL) return pl_fail(job, PLEUEL_USAGE, "coordinate %d has no name", i);
@@ -136,7 +136,9 @@ static void set_options(pl_run* run, const pl_run_options* o) {
   // a series sees the equations at the ends of its steps only: not fewer than this, whatever it says
   run->h_plain = length / 16;
   run->row_gap = length / 50;
-  run->h_least = fmax(1e-13 * length, 4 * DBL_EPSILON * fmax(fabs(o->t_0), fabs(o->t_end)));
+  static const double least[] = {[PL_PRECISION_DOUBLE] = 1e-13, [PL_PRECISION_LONG] = 1e-16, [PL_PRECISION_QUAD] = 1e-25};
+  double of_t = o->precision == PL_PRECISION_DOUBLE ? 4 * DBL_EPSILON : least[o->precision];
+  run->h_least = fmax(least[o->precision] * length, of_t * fmax(fabs(o->t_0), fabs(o->t_end)));
   run->stats.energy_drift = run->stats.energy_0 = run->stats.t_singular = run->stats.t_implicit = (double)NAN;
   run->last_row_t = (double)NAN;
 }

@@ -197,7 +197,7 @@ static bool energy_agrees(pl_run* run) {
   const pl_setup* s = run->setup;
   if (!s->energy_conserved || s->kinetic < 0 || s->potential < 0) return true;
   pl_observe(run, run->t, run->trial_q, run->trial_v, run->A, run->L, run->energy_out);
-  double E = run->energy_out[s->kinetic] + run->energy_out[s->potential];
+  double E = pl_rows_conserved(run, run->energy_out);
   return fabs(E - run->energy_base) <= run->stats.energy_drift * run->energy_size + 1e-10 * run->energy_size;
 }
 

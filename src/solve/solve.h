@@ -128,7 +128,8 @@ typedef struct pl_setup {
   const pl_column* out;               // (n_out)
   int n_observers;
   const pl_pattern* observers;        // outputs are columns 0 .. n_out-1
-  int kinetic, potential;             // output columns of T and V, or -1; their sum is the energy
+  int kinetic, potential;             // output columns of T and V, or -1
+  int energy;                         // of what is conserved where that is not their sum, as T2 - T0 + V; 0: it is
   bool energy_conserved;              // said by the model: then its drift is checked
   int n_events;
   const pl_event_setup* events;

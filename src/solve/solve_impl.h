@@ -108,6 +108,9 @@ typedef struct pl_watch {
 
 typedef struct pl_fade { double t, smallest; } pl_fade;   // how small the smallest pivot was, and when
 
+// How often an event has changed the motion in ever shorter time: when last, after how long, the longest of these times.
+typedef struct pl_repeat { double t, gap, widest; long n; } pl_repeat;
+
 // A place in a program that has branches: node a (or a - b) changes sign at the kink.
 typedef struct pl_kink {
   const pl_batch* batch;
@@ -264,6 +267,7 @@ struct pl_run {
   double* fastest;         // largest approach that a contact has seen        (n_c)
   double* bounce_t;        // times of its last three impacts                 (3 n_c)
   long* bounces;           // how many one after the other                    (n_c)
+  pl_repeat* repeat;       // (n_events)
   double* settled_t;       // end of its infinitely many bounces, NaN         (n_c)
 
   pl_kink* kinks;
@@ -381,7 +385,8 @@ void pl_motion_advance(pl_run* run, double dt, double* q, double* v);
 // Order 0 after pl_motion_project; how large its accelerations are, and what those of the series were off by after pl_motion_advance.
 void pl_motion_arrive(pl_run* run, double* off, double* size);
 void pl_motion_end_a(const pl_run* run, double* a);   // accelerations of the series after pl_motion_advance
-bool pl_motion_energy(pl_run* run, double* kinetic, double* potential);   // at the point; false: not this way
+// T, V and what is conserved, at the point; false: not this way.
+bool pl_motion_energy(pl_run* run, double* kinetic, double* potential, double* all);
 
 // ---- start_complete.c
 // The least change of what is not held that takes the residuals away, for the rows at hand; false: there is none.
@@ -416,9 +421,14 @@ double pl_norm(const double* x, int n);
 void pl_watch_make(pl_run* run);
 void pl_watch_series(pl_run* run);                  // after pl_series_expand
 double pl_watch_first(pl_run* run, double h);       // earliest root in (0, h], hit[] says who; -1 none
+double pl_watch_reach(pl_run* run, double h);       // up to h, where the series of all that is watched are known
+double pl_watch_known(double* c, int n, double noise, double part);
+bool pl_watch_holds(pl_run* run, double h, double x);   // events that end the step that is tried at x h are zero there
+bool pl_watch_is_followed(pl_run* run, double h);   // events between the stages of an implicit step are as they say
 void pl_watch_forget(pl_run* run);                  // all sides unknown: after a start or a jump
 void pl_watch_passed(pl_run* run, double h);        // the step h was taken: sides at its end
 pl_watch* pl_watch_of(pl_run* run, pl_watch_kind kind, int index);
+bool pl_event_sets(const pl_run* run, int e);       // an event gives places or velocities new values
 double pl_watch_force_noise(const pl_run* run, int c);   // rounding error of λ_c
 double pl_watch_noise(const pl_run* run, const pl_watch* w, double h);   // what of a watched value is rounding
 
@@ -426,6 +436,7 @@ double pl_watch_noise(const pl_run* run, const pl_watch* w, double h);   // what
 void pl_kinks_make(pl_run* run);
 void pl_kinks_series(pl_run* run);                  // after pl_series_expand
 double pl_kinks_value(const pl_run* run, int i);
+double pl_kinks_reach(pl_run* run, double h);       // as pl_watch_reach
 double pl_kinks_first(pl_run* run, double h);       // just behind the first kink, in units of h; -1 none on the step
 
 // ---- friction.c
@@ -457,6 +468,7 @@ void pl_indeterminate_tell(pl_run* run);                    // in the statistics
 pleuel_status pl_modes_enter(pl_run* run);                  // the point in the mode that on[] says
 pleuel_status pl_modes_check(pl_run* run, bool at_start);   // contacts that pull are released
 pleuel_status pl_modes_handle(pl_run* run);                 // what hit[] says, at the point
+void pl_modes_size_rest(pl_run* run);                       // what counts as small where the start rests
 void pl_mode_text(const pl_run* run, char* out);
 
 // ---- radau_step.c: the implicit method
@@ -512,6 +524,7 @@ pleuel_status pl_rows_event(pl_run* run, pl_event_kind kind, int index, double i
 pleuel_status pl_rows_event_beside(pl_run* run, pl_event_record e, double t, const double* a, const double* lambda);
 // A contact after endless bounces, dt after the point.
 pleuel_status pl_rows_settled(pl_run* run, pl_event_kind kind, int index, double dt, long bounces);
+double pl_rows_conserved(const pl_run* run, const double* out);          // T + V, or what the setup says
 void pl_rows_energy(pl_run* run, bool anew);                             // energy at the point, drift
 
 #endif

@@ -132,7 +132,8 @@ static void write_clock(pl_run* run) {
 static void write_drift(pl_run* run) {
   pl_wide* w = run->wide;
   pl_prog* c = w->drift = pl_prog_make(run->job->arena, "drift", 1);
-  int E = pl_prog_op2(c, PL_PROG_ADD, pl_prog_load(c, w->o->energy, 0), pl_prog_load(c, w->o->energy + 1, 0));
+  int T = pl_prog_load(c, w->o->energy, 0), V = pl_prog_load(c, w->o->energy + 1, 0);
+  int E = run->setup->energy > 0 ? pl_prog_load(c, w->o->energy + 2, 0) : pl_prog_op2(c, PL_PROG_ADD, T, V);
   pl_prog_store(c, pl_prog_op2(c, PL_PROG_SUB, E, pl_prog_load(c, w->energy_base, 0)), w->scratch, 0);
   pl_prog_store(c, E, w->scratch + 1, 0);
   end_code(w, c);

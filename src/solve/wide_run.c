@@ -327,6 +327,7 @@ static void evaluate_energies(pl_run* run) {
   pl_wide_row(run, &row, run->energy_out);
   pl_wide_copy(w->fine, w->m, w->o->energy, w->rows->real, w->rows->m, w->rows->out + s->kinetic, 1);
   pl_wide_copy(w->fine, w->m, w->o->energy + 1, w->rows->real, w->rows->m, w->rows->out + s->potential, 1);
+  if (s->energy > 0) pl_wide_copy(w->fine, w->m, w->o->energy + 2, w->rows->real, w->rows->m, w->rows->out + s->energy, 1);
 }
 
 void pl_wide_energy(pl_run* run, bool anew) {
