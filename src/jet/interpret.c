@@ -179,8 +179,9 @@ INLINE void coefficient(pl_jet* jet, int i, int k, int lanes, int block) {
     case PL_OP_MUL: LANES c[l] += a0[l] * b[l] + a[l] * b0[l]; break;
     case PL_OP_SQR: LANES c[l] += 2 * a0[l] * a[l]; break;
     case PL_OP_DIV: LANES c[l] = (a[l] - b[l] * c0[l] - c[l]) / b0[l]; break;
-    case PL_OP_SQRT: LANES c[l] = (a[l] - c[l]) / (2 * c0[l]); break;
-    case PL_OP_POW: LANES c[l] = (c[l] + b0[l] * a[l] * c0[l]) / a0[l]; break;
+    // a power of zero has no series: it goes on as if it stayed zero, and what that is off by shortens the step
+    case PL_OP_SQRT: LANES c[l] = c0[l] != 0 ? (a[l] - c[l]) / (2 * c0[l]) : 0; break;
+    case PL_OP_POW: LANES c[l] = a0[l] != 0 ? (c[l] + b0[l] * a[l] * c0[l]) / a0[l] : 0; break;
     case PL_OP_EXP: LANES c[l] += a[l] * c0[l]; break;
     case PL_OP_LN: LANES c[l] = (a[l] - c[l]) / a0[l]; break;
     case PL_OP_SIN:

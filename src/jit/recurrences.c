@@ -124,18 +124,26 @@ static int twice_root(const pl_lower* l, int node) {
   return pl_prog_op2(l->code, PL_PROG_MUL, pl_prog_number(l->code, 2), start(l, node));
 }
 
+// A power of zero has no series: it goes on as if it stayed zero, and what that is off by shortens the step.
+static int unless_zero(const pl_lower* l, int node, int x) {
+  pl_op op = (pl_op)at(l, node)->op;
+  if (op != PL_OP_SQRT && op != PL_OP_POW) return x;
+  int size = pl_prog_op1(l->code, PL_PROG_ABS, start(l, divisor(l->tape, node)));
+  return pl_prog_op3(l->code, PL_PROG_IF_MORE, size, x, pl_prog_number(l->code, 0));
+}
+
 int pl_lower_inverse(const pl_lower* l, int node) {
   int of = divisor(l->tape, node);
   if (of < 0) return -1;
   int x = at(l, node)->op == PL_OP_SQRT ? twice_root(l, node) : start(l, of);
-  return pl_prog_op2(l->code, PL_PROG_DIV, pl_prog_number(l->code, 1), x);
+  return unless_zero(l, node, pl_prog_op2(l->code, PL_PROG_DIV, pl_prog_number(l->code, 1), x));
 }
 
 static int over(const pl_lower* l, int x, int node) {
   if (x < 0) return -1;
   if (l->inverse) return pl_prog_op2(l->code, PL_PROG_MUL, x, l->inverse(l->user, node));
   int by = at(l, node)->op == PL_OP_SQRT ? twice_root(l, node) : start(l, divisor(l->tape, node));
-  return pl_prog_op2(l->code, PL_PROG_DIV, x, by);
+  return unless_zero(l, node, pl_prog_op2(l->code, PL_PROG_DIV, x, by));
 }
 
 // ---------------------------------------------------------------------------------------------- order k

@@ -211,6 +211,7 @@ static double block_radius(const double* norm, int last) {
   rough_log2(norm, log, PL_BLOCK_ROWS);
   double size = log[0], before = log[4], top = log[5];
   if (isnan(top) || isnan(before)) return -(double)INFINITY;
+  if (isinf(top) || isinf(before)) return (double)INFINITY;     // beyond a double: lower orders tell
   if (top > -2000)
     for (int k = 1; k <= 3 && k < last; k++) size = pl_larger(size, log[k] + k * (log[k] - top) / (last - k));
   else if (size <= -2000) size = 0;
@@ -228,11 +229,11 @@ static double wide_radius(const double* X, int n, int last) {
   enum { EARLY = 3 };
   double least = (double)INFINITY, first[EARLY + 1];
   int top = 0;
-  for (int k = last; k > last / 2; k--) {
+  for (int k = last; k > last / 2 || (top == 0 && k > EARLY && k > last / 4); k--) {
     double norm = pl_norm(X + (size_t)k * (size_t)n, n), log;
     rough_log2(&norm, &log, 1);
     if (isnan(log)) return -(double)INFINITY;
-    if (log <= -2000) continue;
+    if (log <= -2000 || isinf(log)) continue;
     if (top == 0) {
       top = k;
       for (int j = 0; j <= EARLY; j++) {
@@ -264,7 +265,7 @@ double pl_series_step(pl_run* run) {
   // e^shrink of the radius makes p - 1 factors of tol together; the rest is their safety factor, eq. (3-8) there
   double shrink = 1.4426950408889634 * (0.7 / (p - 1) - run->shrink);
   double radius = pl_smaller(block_radius(q, p + 1), block_radius(v, p)), h = exp2(radius - shrink);
-  if (!(h <= grown * run->h_series)) {
+  if (!(h <= grown * run->h_series) || isinf(run->h_series)) {
     double all = exp2(pl_smaller(wide_radius(run->Q, run->n_q, p + 1), wide_radius(run->V, run->n_q, p)) - shrink);
     if (!(h <= grown * all)) h = all;
   }
