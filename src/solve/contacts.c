@@ -158,6 +158,15 @@ static void guess_directions(pl_run* run) {
   }
 }
 
+// Whether accelerations meet the rows that were left out because others seemed to say the same: where rows depend on each other
+// for a moment only, as sticking does at a dead centre, they need not, and then that set cannot last.
+static bool meets_all_rows(const pl_run* run) {
+  static const double off = 1e-7;
+  for (int c = 0; c < run->n_c && run->rank < run->n_active; c++)
+    if (run->active[c] && !run->taken[c] && fabs(run->second[c]) > off * run->second_size[c]) return false;
+  return true;
+}
+
 static bool try_accelerations(pl_run* run, pl_look* l) {
   apply(run);
   guess_directions(run);
@@ -168,6 +177,7 @@ static bool try_accelerations(pl_run* run, pl_look* l) {
     if (!p.ok || !pl_point_enter(run)) return false;
     pl_assemble_row_sizes(run);
     pl_assemble_second(run, run->A, run->second, run->second_size);
+    if (!meets_all_rows(run)) return false;
     if (!turn_slips(run, run->second) || turn >= MOST_TURNS) break;
   }
   *l = (pl_look){run->L, run->second, run->second_size, -1, false};
