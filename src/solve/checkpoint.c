@@ -115,6 +115,12 @@ static void keep_contacts(pl_run* run, pl_keeper* k) {
   pl_keep_f64s(k, run->bounce_t, 3 * c);
   pl_keep_f64s(k, run->settled_t, c);
   for (size_t i = 0; i < c; i++) pl_keep_long(k, &run->bounces[i], 0, most_count);
+  for (int e = 0; e < run->setup->n_events; e++) {
+    pl_keep_f64(k, &run->repeat[e].t);
+    pl_keep_f64(k, &run->repeat[e].gap);
+    pl_keep_f64(k, &run->repeat[e].widest);
+    pl_keep_long(k, &run->repeat[e].n, 0, most_count);
+  }
   for (int i = 0; i < run->n_watch; i++) {
     pl_keep_int(k, &run->watch[i].fresh, 0, run->order);
     pl_keep_int(k, &run->watch[i].side, -1, 1);

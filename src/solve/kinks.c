@@ -91,6 +91,17 @@ static double find_kink(pl_run* run, const double* c, int n, double size) {
   return root < 0 ? -1 : behind(c, n, size, root);
 }
 
+double pl_kinks_reach(pl_run* run, double h) {
+  double part = fmax(100 * run->tol, 1e-14);
+  for (int i = 0; i < run->n_kinks; i++) {
+    double *c = run->poly, power = 1;
+    for (int k = 0; k < run->use; k++, power *= h)
+      c[k] = power * run->K_series[(size_t)i * (size_t)run->order + (size_t)k];
+    h *= pl_watch_known(c, run->use, 0, part);
+  }
+  return h;
+}
+
 double pl_kinks_first(pl_run* run, double h) {
   double first = -1;
   for (int i = 0; i < run->n_kinks; i++) {

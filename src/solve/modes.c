@@ -207,6 +207,15 @@ static void size_velocities(pl_run* run) {
   pl_sizes_keep(run);
 }
 
+// A system that stays where it is, because nothing is free or because forces balance: rounding is all that moves it.
+void pl_modes_size_rest(pl_run* run) {
+  static const double rounding = 1e-12;
+  double most = 0;
+  for (int i = 0; i < run->n_q; i++) most = fmax(most, pl_free_size(run, i));
+  if (run->v_size == 0 && pl_norm(run->A, run->n_q) == 0) return;
+  if (pl_norm(run->A, run->n_q) <= rounding * most) size_velocities(run);
+}
+
 // Whether velocities or forces are others than before, so that a stiff part is set going.
 static bool is_shaken(const pl_run* run) {
   static const double same = 1e-3;
@@ -345,6 +354,23 @@ static pleuel_status do_deed(pl_run* run, const pl_event_deed* d) {
   return PLEUEL_OK;
 }
 
+// Events that follow each other ever faster come to an end that they never reach, as bounces do; what the motion does then, only a
+// contact says.  Long before that the events would be lost in rounding.
+static pleuel_status count_repeats(pl_run* run, int e) {
+  enum { FEW = 8 };
+  static const double close = 1e-6;    // times shorter than this part of the longest: heights are 1e-12 of the first
+  pl_repeat *r = &run->repeat[e], before = *r;
+  double gap = fabs(run->t - before.t);
+  bool faster = before.n > 0 && (before.n == 1 || gap < before.gap);
+  *r = (pl_repeat){run->t, gap, faster ? fmax(before.widest, gap) : gap, faster ? before.n + 1 : 1};
+  if (r->n < FEW || !(gap < close * r->widest)) return PLEUEL_OK;
+  double ratio = gap / before.gap, end = run->t + copysign(gap * ratio / (1 - ratio), pl_run_left(run));
+  return pl_fail(run->job, PLEUEL_NUMERICAL,
+                 "%s happens without end: %ld times in ever shorter time, the last after %.2g s; they come to an end at "
+                 "t = %.9g s, and the model does not say what follows (a one-sided constraint with restitution would)",
+                 run->setup->events[e].name, r->n, gap, end);
+}
+
 static pleuel_status happen(pl_run* run, int e, bool touches) {
   const pl_event_setup* event = &run->setup->events[e];
   bool stops = false, changes = false;
@@ -363,6 +389,7 @@ static pleuel_status happen(pl_run* run, int e, bool touches) {
   w->fresh = touches ? 2 : 1;
   if (!touches) w->side = -w->side;
   PL_TRY(pl_rows_event(run, stops ? PL_EV_STOP : PL_EV_EVENT, e, 0, false));
+  if (changes) PL_TRY(count_repeats(run, e));
   return changes ? tell_changes(run, false) : PLEUEL_OK;
 }
 

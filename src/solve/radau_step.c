@@ -452,6 +452,15 @@ pleuel_status pl_radau_step(pl_run* run, double* h, double* root, pl_projection*
   pl_radau_watch(run, r, *h);
   pl_radau_series(run, r, *h);
   PL_TRY(pl_radau_stop_at_kinks(run, r, h, p));
+  while (run->setup->n_events > 0 && !pl_watch_is_followed(run, *h)) {
+    // an event that is faster than the motion
+    *h *= 0.5;
+    if (!(fabs(*h) > run->h_least)) return too_small(run, *h);
+    pl_sizes_forget(run);
+    PL_TRY(pl_radau_hold(run, r, h, &error, &next, p));
+    pl_radau_watch(run, r, *h);
+    pl_radau_series(run, r, *h);
+  }
   if (run->n_watch > 0) {
     *root = pl_watch_first(run, *h);
     if (*root == 0) return PLEUEL_OK;

@@ -11,6 +11,7 @@ static const double allowed_floor = 1e-11;     // and what rounding may do to it
 static const double allowed_floor_wide = 1e-8; // the same of wide numbers, which come closer to one
 static const double allowed_defect = 10;       // of velocities, by what accelerations at its end tell; a tenth is usual
 static const double allowed_rounding = 450;    // the same in roundings
+static const double not_less = 0.75;           // of what a step twice as long was off by: rounding
 static const double allowed_residual = 1e-12;  // |g| and |G v + dg/dt| after it, relative to their terms
 
 // ---------------------------------------------------------------------------------------------- one attempt
@@ -64,6 +65,11 @@ static pleuel_status too_small(pl_run* run, double h) {
     return pl_fail(run->job, PLEUEL_NUMERICAL,
                    "no step is short enough at t = %.9g s (%.3g s tried): forces of contact grow without bound while surfaces "
                    "slip, as on the way into Painlevé's paradox", run->t, h);
+  double way = pl_norm(run->q, run->n_q), speed = pl_norm(run->v, run->n_q), most = pl_norm(run->A, run->n_q);
+  // x = c/(t_0 - t)^n: what is left of the time is n x/v, and less than n v/a
+  if (speed * run->h_series > 0.02 * way && most * run->h_series > 0.02 * speed && speed > 1e6 * fabs(way) / fabs(run->t - run->options.t_0))
+    return pl_fail(run->job, PLEUEL_NUMERICAL,
+                   "the motion runs away: positions and velocities grow without bound as t comes to %.9g s", run->t);
   return pl_fail(run->job, PLEUEL_NUMERICAL,
                  "no step is short enough at t = %.9g s (%.3g s tried): the motion leaves the domain of a function, "
                  "or a force or the constraints jump there",
@@ -105,7 +111,7 @@ static bool series_holds(pl_run* run, double h, double* before) {
   if (!pl_point_arrive(run, h, &off, &size)) return true;      // what stands in the way is told when the step is taken
   double part = allowed_defect * run->tol + allowed_rounding * rounding, of_v = pl_larger(run->v_size, fabs(h) * size);
   if (off * fabs(h) <= part * of_v * (run->order + 1) || off <= run->a_rough) return true;
-  bool rough = *before > 0 && off > 0.25 * *before;
+  bool rough = *before > 0 && off > not_less * *before;
   *before = off;
   if (rough) run->a_rough = 2 * off;
   else run->arrived = false;
@@ -125,7 +131,8 @@ static pleuel_status try_steps(pl_run* run, double* h, double* root, pl_projecti
     double reach = *root >= 0 ? *root * *h : *h;
     advance(run, reach, *root >= 0, p);
     bool open = at_kink || (*root >= 0 && ends_slip(run));   // accelerations jump there
-    if (acceptable(run, p) && (open || series_holds(run, reach, &off))) {
+    bool found = *root < 0 || run->wide || pl_watch_holds(run, *h, *root);
+    if (acceptable(run, p) && found && (open || series_holds(run, reach, &off))) {
       *h = reach;
       return PLEUEL_OK;
     }
@@ -192,7 +199,10 @@ static pleuel_status step_by_series(pl_run* run, double* h, double* wanted, doub
   pl_series_expand(run);
   pl_watch_series(run);
   if (run->n_kinks > 0) pl_kinks_series(run);
-  *h = *wanted = choose_step(run);
+  *h = choose_step(run);
+  if (run->n_watch > 0) *h = pl_watch_reach(run, *h);
+  if (run->n_kinks > 0) *h = pl_kinks_reach(run, *h);
+  *wanted = *h;
   *root = -1;
   if (!run->wide && pl_singular_leap(run, pl_run_left(run), h, p)) return pl_singular_record(run);
   *h = *wanted;
@@ -303,6 +313,7 @@ pleuel_status pl_run_begin_at(pl_run* run, double t) {
   run->started = true;
   PL_TRY(pl_rows_open(run));
   PL_TRY(pl_modes_check(run, true));
+  pl_modes_size_rest(run);
   if (run->pilot) PL_TRY(pl_pilot_begin(run->pilot));
   if (run->options.precision != PL_PRECISION_DOUBLE) PL_TRY(pl_wide_begin(run, t));
   pl_rows_energy(run, true);

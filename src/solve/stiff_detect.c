@@ -87,7 +87,8 @@ pleuel_status pl_stiff_look(pl_run* run) {
   if (++r->looks < r->next_look) return PLEUEL_OK;
   r->next_look = r->next_look ? 2 * r->next_look : FIRST_LOOK;
 
-  double left = fabs(run->options.t_end - run->t), h = fabs(run->h_last), reach;
+  // the step that the series allowed: what ended it, an event or a bounce, is not stiffness
+  double left = fabs(run->options.t_end - run->t), h = fmax(fabs(run->h_last), run->h_series), reach;
   if (r->looks < FIRST_LOOK || !worth_a_look(run, left, h)) return PLEUEL_OK;
   bool holds = pl_radau_probe(run, copysign(fmin(slow_radius(run) / 4, left), run->options.t_end - run->t), h, &reach);
   // the jets were used for other points

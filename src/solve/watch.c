@@ -28,6 +28,7 @@ void pl_watch_make(pl_run* run) {
   }
   for (int e = 0; e < s->n_events; e++)
     run->watch[run->n_watch++] = (pl_watch){.kind = PL_WATCH_EVENT, .index = e, .direction = s->events[e].direction};
+  run->repeat = PL_ARRAY(run->job->arena, pl_repeat, s->n_events + 1);
   run->hit = PL_ARRAY(run->job->arena, bool, run->n_watch + 1);
   run->root = PL_ARRAY(run->job->arena, double, run->n_watch + 1);
   run->touch = PL_ARRAY(run->job->arena, bool, run->n_watch + 1);
@@ -84,6 +85,13 @@ static bool is_watched(const pl_run* run, const pl_watch* w) {
   if (w->kind == PL_WATCH_RELEASE) return run->active[w->index];
   return !run->on[w->index] && !run->detached[w->index] && !link->velocity &&
          (link->contact < 0 || run->on[link->contact]);
+}
+
+bool pl_event_sets(const pl_run* run, int e) {
+  const pl_event_setup* event = &run->setup->events[e];
+  for (int i = 0; i < event->n_deeds; i++)
+    if (event->deeds[i].deed == PL_DEED_SET_Q || event->deeds[i].deed == PL_DEED_SET_V) return true;
+  return false;
 }
 
 double pl_watch_force_noise(const pl_run* run, int c) {
@@ -177,7 +185,8 @@ enum { MOST_ROOTS = 16 };
 static double first_that_counts(pl_run* run, const pl_watch* w, double h, const double* c, int n, int m, double noise,
                                 bool* touches) {
   pl_root root[MOST_ROOTS];
-  bool bounced = w->kind == PL_WATCH_LANDING && w->fresh == 1;      // known from its own velocity, however small it is
+  // known from its own velocity, however small it is
+  bool bounced = w->fresh == 1 && (w->kind == PL_WATCH_LANDING || (w->kind == PL_WATCH_EVENT && pl_event_sets(run, w->index)));
   double zero = bounced ? 0 : fmax(noise, 1e-14 * size_of(c, n));
   bool to_end = fabs(h) >= fabs(pl_run_left(run));
   // an event of an implicit step is known to the tolerance: one that only touches is found to that
@@ -223,6 +232,88 @@ static double find_root(pl_run* run, pl_watch* w, double h, bool* touches) {
   return first_that_counts(run, w, h, c, n, m, noise, touches);
 }
 
+// ---------------------------------------------------------------------------------------------- how far they are known
+// Part of the step on which a polynomial in units of it is cut off below this part of its size: each order of the upper half
+// as if it was the last.  What is below the noise says nothing.
+double pl_watch_known(double* c, int n, double noise, double part) {
+  enum { ROUNDS = 60 };
+  double all = 1, margin = n > 1 ? pow(part, 1.0 / (n - 1)) : 1;
+  for (int round = 0; round < ROUNDS; round++) {
+    double size = fmax(size_of(c, n), noise), least = 1, power = 1;
+    for (int k = n - 1; k > n / 2; k--)
+      if (fabs(c[k]) > 1e-3 * noise) least = fmin(least, margin * pow(size / fabs(c[k]), 1.0 / k));
+    if (!(least < 0.9)) return all;
+    for (int k = 0; k < n; k++, power *= least) c[k] *= power;
+    all *= least;
+  }
+  return all;
+}
+
+double pl_watch_reach(pl_run* run, double h) {
+  // roots are found to some 1e-14 of the step; where the motion is known less, so is what is watched
+  double part = fmax(100 * run->tol, 1e-14);
+  for (int i = 0; i < run->n_watch; i++) {
+    const pl_watch* w = &run->watch[i];
+    if (is_of_rub(w) || !is_watched(run, w)) continue;
+    int n = polynomial(run, w, h, run->poly);
+    h *= pl_watch_known(run->poly, n, pl_watch_noise(run, w, h), part);
+  }
+  return h;
+}
+
+// The value of an event from its own equations, not from its series.
+static double event_at(pl_run* run, int e, double t, const double* q, const double* v) {
+  pl_batches* b = &run->watched;
+  pl_batches_time(b, t);
+  pl_batches_load_q(b, q, 0);
+  pl_batches_load_v(b, v, 0);
+  pl_batches_load_a(b, run->row_a, 0);
+  pl_batches_load_lambda(b, run->row_l, 0);
+  for (int l = PL_LEVEL_PLACE; l < PL_N_LEVELS; l++) pl_batches_sweep(b, (pl_level)l, 0, true);
+  pl_batches_outputs(b, run->W_coef, run->setup->n_watched, 0);
+  return run->W_coef[run->setup->events[e].watch];
+}
+
+// Whether what is watched is as its polynomial says, at x of the step h: to this much, to its noise, and to the rounding of
+// the time.  The polynomial is in run->poly.
+static bool is_as_told(pl_run* run, const pl_watch* w, double h, int n, double x, double value, double most) {
+  double t = run->t + run->t_low + x * h, slope = 0;
+  for (int k = n - 1; k >= 1; k--) slope = slope * x + k * run->poly[k];
+  double rounding = pl_watch_noise(run, w, h) + 16 * DBL_EPSILON * fabs(t * slope / h);
+  return fabs(value - value_at(run->poly, n, x)) <= most + rounding;
+}
+
+bool pl_watch_holds(pl_run* run, double h, double x) {
+  double part = fmax(1e3 * run->tol, 1e-9);
+  for (int i = 0; i < run->n_watch; i++) {
+    const pl_watch* w = &run->watch[i];
+    if (!run->hit[i] || w->kind != PL_WATCH_EVENT) continue;
+    pl_series_lambda_at(run, x * h, run->row_a, run->row_l);
+    double value = event_at(run, w->index, run->t + run->t_low + x * h, run->trial_q, run->trial_v);
+    int n = polynomial(run, w, h, run->poly);
+    if (!is_as_told(run, w, h, n, x, value, part * size_of(run->poly, n))) return false;
+  }
+  return true;
+}
+
+bool pl_watch_is_followed(pl_run* run, double h) {
+  static const double place[] = {0.31, 0.83}, part = 0.02;   // of the values; what is faster than the step is off by all of them
+  for (size_t k = 0; k < sizeof place / sizeof *place; k++) {
+    pl_series_at(run, place[k] * h, run->row_q, run->row_v);
+    pl_series_lambda_at(run, place[k] * h, run->row_a, run->row_l);
+    for (int i = 0; i < run->n_watch; i++) {
+      const pl_watch* w = &run->watch[i];
+      if (w->kind != PL_WATCH_EVENT) continue;
+      double t = run->t + run->t_low + place[k] * h, value = event_at(run, w->index, t, run->row_q, run->row_v);
+      int n = polynomial(run, w, h, run->poly);
+      double size = fabs(value) + fabs(run->poly[0]) + fabs(value_at(run->poly, n, 1));
+      if (!is_as_told(run, w, h, n, place[k], value, part * size)) return false;
+    }
+  }
+  return true;
+}
+
+// ---------------------------------------------------------------------------------------------- the first of all
 double pl_watch_first(pl_run* run, double h) {
   static const double together = 1e-12;  // of the step: roots closer than this happen at once
   double first = -1;
