@@ -353,15 +353,16 @@ static bool same_answer(const numeric* x, const outcome* a, const pl_course* on_
 
 // false: the numbers lead to no motion.
 static bool with_given_numbers(pl_analysis* d, const pl_search* p, const numeric* x, const rates* r) {
-  int side = named_side(d, p);
+  int side = named_side(d, p), n = pl_symbol_count(d->pool) + 1;
+  double* value = memcpy(PL_ARRAY(d->arena, double, n), d->value, (size_t)n * sizeof(double));   // the course writes into it
   pl_course c, other;
-  outcome o = follow(d, x, r, d->value, side, &c);
+  outcome o = follow(d, x, r, value, side, &c);
   if (o.kind == FAILS) return false;
   if (!c.either) {
     show_given(d, p, x, r, &o, &c);
     return true;
   }
-  outcome right = follow(d, x, r, d->value, 1, &c), left = follow(d, x, r, d->value, -1, &other);
+  outcome right = follow(d, x, r, value, 1, &c), left = follow(d, x, r, value, -1, &other);
   bool same = right.kind == left.kind && right.lost == left.lost;
   bool one = left.kind == NEVER || (same && right.kind == NEVER) || (same && same_answer(x, &right, &c, &left, &other));
   if (!one && right.kind == MET && left.kind == MET) {

@@ -194,6 +194,7 @@ CASES = [
     (HILL, "v0 where λ = 0 and x = 0", [None, None], ["f2 ≤ 0"], ["No state"]),
     (BALL, "y' where y = 1 [m]", [-math.sqrt(9 + 2 * G)], [], []),
     (BALL, "y where x = 5 [m]", [], ["floor is met before"], ["y ="]),
+    (SPRING, "x where x' = 0, x x'", [SPRING_TURN, None], [], []),   # the search leaves no numbers behind
     (CUT, "λ_rod where φ = 0.86", [], ["cut comes before"], ["λ_rod ="]),
     (CUT, "φ' where φ = 1.8", [-math.sqrt(1.19 ** 2 + 2 * G / 0.93 * (math.cos(1.8) - math.cos(math.radians(110))))], [], []),
     (FOURBAR, "th4 where th2 = 60°", fourbar(math.pi / 3), [], []),
