@@ -15,12 +15,19 @@ static pl_expr dot_columns(pl_analysis* d, const pl_particle* k, int i, int j) {
   return sum;
 }
 
+// A constraint says r = -l.
+static bool is_fixed_below_zero(pl_analysis* d, pl_expr e) {
+  pl_expr value = pl_on_contact(d, e), other = pl_neg(d->pool, value);
+  if (pl_same(value, e) || pl_op_count(d->pool, other) >= pl_op_count(d->pool, value)) return false;   // no minus sign in it
+  int sign = 0;
+  return pl_alg_sign(d->tower, value, false, &sign) == PL_YES && sign < 0;
+}
+
 // |r| -> r with the assumption r >= 0 on record, factor by factor.
 static pl_expr without_bars(pl_analysis* d, pl_expr e) {
   if (pl_kind_of(d->pool, e) == PL_CALL && pl_function_of(d->pool, e) == PL_ABS) {
     pl_expr inside = pl_arg(d->pool, e, 0);
-    int sign = 0;
-    if (pl_alg_sign(d->tower, pl_on_contact(d, inside), false, &sign) == PL_YES && sign < 0) return pl_neg(d->pool, inside);
+    if (is_fixed_below_zero(d, inside)) return pl_neg(d->pool, inside);
     pl_tower_use(d->tower, (pl_fact){inside, false});
     return inside;
   }
