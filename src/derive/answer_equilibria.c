@@ -130,13 +130,13 @@ static void say_singular(pl_analysis* d, const pl_rests* found) {
   if (found->n_singular == 0 || !pl_rest_exists_at_numbers(d, r)) return;
   const char* text;
   const pl_form* real = pl_conditions_form(d, r->condition, r->n_conditions, false, &text);
-  pl_say(d, real ? "At positions like {1} (if {2}) the generalized forces vanish too, but these coordinates fail there (the mass matrix is singular); other "
+  pl_say(d, real ? "At positions like {1} (if {2}) the generalized forces vanish too, but these coordinates fail there (the mass matrix or a constraint is singular); other "
                    "coordinates decide."
-                 : "At positions like {1} the generalized forces vanish too, but these coordinates fail there (the mass matrix is singular); other "
+                 : "At positions like {1} the generalized forces vanish too, but these coordinates fail there (the mass matrix or a constraint is singular); other "
                    "coordinates decide.",
-         real ? "Auch bei Lagen wie {1} (wenn {2}) verschwinden die verallgemeinerten Kräfte, aber diese Koordinaten versagen dort (die Massenmatrix ist "
-                "singulär); andere Koordinaten entscheiden."
-              : "Auch bei Lagen wie {1} verschwinden die verallgemeinerten Kräfte, aber diese Koordinaten versagen dort (die Massenmatrix ist singulär); "
+         real ? "Auch bei Lagen wie {1} (wenn {2}) verschwinden die verallgemeinerten Kräfte, aber diese Koordinaten versagen dort (die Massenmatrix oder eine "
+                "Zwangsbedingung ist singulär); andere Koordinaten entscheiden."
+              : "Auch bei Lagen wie {1} verschwinden die verallgemeinerten Kräfte, aber diese Koordinaten versagen dort (die Massenmatrix oder eine Zwangsbedingung ist singulär); "
                 "andere Koordinaten entscheiden.", real ? 2 : 1, pl_rest_form(d, r), real);
 }
 

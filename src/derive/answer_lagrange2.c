@@ -142,6 +142,7 @@ void pl_answer_lagrangian(pl_analysis* d, const pl_ask* ask) {
   }
   if (mapped) {
     show_maps(d);
+    pl_tell_singular(d);
     show_velocities(d);
   }
   if (!given(d)) {
@@ -320,6 +321,7 @@ void pl_answer_lagrange2(pl_analysis* d, const pl_ask* ask) {
   pl_section_open(d, ask, d->gen.n == 1 ? "Lagrange equation of the second kind" : "Lagrange equations of the second kind",
                   d->gen.n == 1 ? "Lagrange-Gleichung zweiter Art" : "Lagrange-Gleichungen zweiter Art");
   if (without_reduction(d)) return;
+  pl_tell_singular(d);
   bool named = d->gen.n == 1 && show_with_named_mass(d, d->gen.at[0]);
   for (int k = 0; k < d->gen.n && !named; k++) show_second_kind(d, d->gen.at[k]);
   show_all_solved(d);

@@ -157,6 +157,7 @@ struct pl_analysis {
   PL_VEC(pl_loop) loops;       // in the order in which they can be computed
   bool loops_told;
   struct pl_proposal* proposal;   // what was found when nothing is chosen; NULL: not looked for
+  bool singular_told;          // positions where the maps fail
   bool is_proposal;            // this is the analysis of the copy that chooses what is proposed
 
   // sets of constraints (sets.c)
@@ -234,6 +235,13 @@ pl_analysis* pl_propose(pl_analysis* d);                // the analysis with wha
 bool pl_follows_by_constraint(const pl_analysis* a, pl_symbol q);   // a new angle that does not lead
 void pl_tell_proposal(pl_analysis* a);                  // once, in the section that is open
 void pl_define_proposed(pl_analysis* d);                // values over proposed angles get their definitions
+// branch_points.c
+bool pl_map_fails_at(pl_analysis* d, const pl_replace* at, int n);   // at these places a constraint does not determine what it was solved for
+void pl_tell_singular(pl_analysis* d);                  // such places, once
+// samples.c
+bool pl_is_turned(pl_analysis* d, pl_expr e, pl_symbol q);          // q stands inside a function
+void pl_draw_place(pl_analysis* d, pl_random* r, double* x);        // numbers by symbol id
+bool pl_keeps_sign(pl_analysis* d, pl_expr e);                      // at all places drawn, and is real there
 // places.c
 // Conditions on coordinates that are mapped, as conditions on generalized ones; -1: none speaks of such.
 int pl_in_generalized(pl_analysis* d, const pl_condition* c, int n, pl_condition** out);

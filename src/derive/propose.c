@@ -196,17 +196,11 @@ static void collect_rounds(pl_analysis* d, int first, int n_freedoms, pl_trial* 
   }
 }
 
-static bool is_turned(pl_analysis* d, pl_expr e, pl_symbol q) {
-  bool here = pl_kind_of(d->pool, e) == PL_CALL && pl_has_symbol(d->pool, e, q);
-  for (int k = 0; k < pl_n_args(d->pool, e) && !here; k++) here = is_turned(d, pl_arg(d->pool, e, k), q);
-  return here;
-}
-
 // Angles before lengths, what has a start before what has none, in the order of declaration.
 static int preference(pl_analysis* d, int i) {
   int rank = 0;
   for (int k = 0; k < d->g.n; k++) {
-    if (is_turned(d, d->g.at[k].g, d->q.at[i].q)) rank |= 2;
+    if (pl_is_turned(d, d->g.at[k].g, d->q.at[i].q)) rank |= 2;
   }
   for (int k = 0; k < d->model->inits.n; k++) {
     const pl_init* init = &d->model->inits.at[k];
@@ -384,47 +378,14 @@ static pl_model* chosen_model(pl_analysis* d, pl_proposal* p, const pl_trial* t)
 }
 
 // ---------------------------------------------------------------------------------------------- how good it is
-static const int n_samples = 60, most_draws = 50;
-static const double longest_place = 100;   // of places that are drawn, in SI
-
-static bool is_an_angle(pl_analysis* a, int i) {
-  pl_symbol q = a->q.at[i].q;
-  bool turned = false;
-  for (int k = 0; k < a->proposal->tried.n; k++) turned |= a->proposal->tried.at[k].symbol.id == q.id;
-  for (int k = 0; k < a->g.n; k++) turned |= is_turned(a, a->g.at[k].g, q);
-  return turned;
-}
-
-static bool facts_hold(pl_analysis* a, const double* x) {
-  for (int k = 0; k < a->facts.n; k++) {
-    double y = pl_eval(a->pool, a->facts.at[k].difference, x);
-    if (!isnan(y) && y < 0) return false;
-  }
-  return true;
-}
-
-// A place of the generalized coordinates, and numbers for what is given without one.
-static void draw(pl_analysis* a, pl_random* r, double* x, const double* known, int n) {
-  for (int k = 1; k <= n; k++) {
-    pl_role role = pl_symbol_get(a->pool, (pl_symbol){(uint32_t)k})->role;
-    x[k] = isnan(known[k]) && role == PL_R_PARAM ? pl_random_between(r, 0.3, 3) : role == PL_R_TIME ? pl_random_between(r, 0, 10) : known[k];
-  }
-  for (int k = 0; k < a->gen.n; k++) {
-    int i = a->gen.at[k];
-    double wide = is_an_angle(a, i) ? M_PI : pow(longest_place, pl_random_between(r, -1, 1));
-    x[a->q.at[i].q.id] = pl_random_between(r, -wide, wide);
-  }
-}
+static const int n_samples = 60;
 
 // The maps have a value wherever the generalized coordinates are, as the crank goes round; a rod between them only swings.
 static bool covers_all(pl_analysis* a) {
-  pl_number(a, pl_int(a->pool, 0));   // numbers are up to date
-  int n = pl_symbol_count(a->pool);
-  double* x = PL_ARRAY(a->arena, double, n + 1);
+  double* x = PL_ARRAY(a->arena, double, pl_symbol_count(a->pool) + 1);
   pl_random r = {2718};
   for (int s = 0; s < n_samples; s++) {
-    draw(a, &r, x, a->value, n);
-    for (int tries = 0; tries < most_draws && !facts_hold(a, x); tries++) draw(a, &r, x, a->value, n);
+    pl_draw_place(a, &r, x);
     for (int i = 0; i < a->q.n; i++) {
       const pl_variable* c = &a->q.at[i];
       if (!pl_is_poison(c->map) && pl_follower(a, i) < 0 && !pl_has_followers(a, c->map) && isnan(pl_eval(a->pool, c->map, x))) return false;

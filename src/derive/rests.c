@@ -225,7 +225,12 @@ static bool regular(pl_analysis* d, const pl_rest* r) {
     pl_expr momentum = pl_diff(d->pool, d->Lg, d->q.at[d->gen.at[i]].v);
     for (int j = 0; j < n; j++) M[i * n + j] = pl_insert_rest(d, pl_at_rest(d, pl_diff(d->pool, momentum, d->q.at[d->gen.at[j]].v)), r);
   }
-  return !pl_vanishes(d, pl_alg_det(d->tower, n, M, 20000));
+  pl_replace at[pl_max_gen];
+  int n_at = 0;
+  for (int k = 0; k < n; k++) {
+    if (!pl_is_poison(r->q[k])) at[n_at++] = (pl_replace){d->q.at[d->gen.at[k]].q, r->q[k]};
+  }
+  return !pl_map_fails_at(d, at, n_at) && !pl_vanishes(d, pl_alg_det(d->tower, n, M, 20000));
 }
 
 // ---------------------------------------------------------------------------------------------- where the formulas hold

@@ -208,6 +208,12 @@ static pl_expr row_of(pl_analysis* d, int k, int i, int* n_others) {
   return pl_alg_normal(d->tower, on_positions(d, pl_div(d->pool, e, d->g.at[k].push[i])));
 }
 
+// A row is divided by its coefficient of the multiplier: at a dead centre r sin φ = 0 it says nothing.
+static bool can_vanish(pl_analysis* d, pl_expr coefficient) {
+  pl_expr e = pl_on_maps(d, coefficient);
+  return d->reduced && d->loops.n == 0 && pl_has_coordinates(d, e) && !pl_keeps_sign(d, e);
+}
+
 pl_expr pl_multiplier_by_row(pl_analysis* d, int k, int* coordinate) {
   const pl_bond* l = &d->g.at[k];
   pl_expr best = pl_poison();
@@ -217,7 +223,7 @@ pl_expr pl_multiplier_by_row(pl_analysis* d, int k, int* coordinate) {
     if (!d->q.at[i].carries || !own || pl_is_zero_node(d->pool, pl_on_fixed(d, l->push[i]))) continue;
     int n_others;
     pl_expr e = row_of(d, k, i, &n_others);
-    long cost = pl_is_poison(e) ? 0 : 1000L * n_others + pl_op_count(d->pool, e);
+    long cost = pl_is_poison(e) ? 0 : 1000L * n_others + pl_op_count(d->pool, e) + (can_vanish(d, l->gradient[i]) ? 500 : 0);
     if (pl_is_poison(e) || (!pl_is_poison(best) && cost >= best_cost)) continue;
     best = e;
     best_cost = cost;

@@ -218,6 +218,19 @@ def _(program):
         same(evaluated(answer, answer.values("omega^2", key="b")[0], {}), 1.2 * 9.81 / (3.2 * 0.1), f"{title}: frequency")
 
 
+@test("a rod as long as its crank: the singular positions are named, and nothing is claimed there")
+def _(program):
+    for title in ("Cartesian", "angle and slide", "two angles"):
+        text = CRANK.replace("l = 0.35 [m]", "l = 0.1 [m]").replace("assume r < l\n", "") + cranks[title]
+        answer = solve(program, text + "ask a: lagrangian\nask b: equilibria\n")
+        words = str(answer.items("a"))
+        need("Singular position" in words, f"{title}: {words[-300:]}")
+        need(not [v for v in answer.values(key="b") if v["name"] == "omega^2"], f"{title}: a frequency at a singular position")
+    for title in ("Cartesian", "angle and slide"):
+        answer = solve(program, CRANK + cranks[title] + "ask a: lagrangian\n")
+        need("Singular" not in str(answer.items("a")), f"{title}: a long rod has no singular position")
+
+
 # ------------------------------------------------------------------------------------------------ two and more freedoms
 DOUBLE = "param m1 = 1 [kg], m2 = 2 [kg], l1 = 0.5 [m], l2 = 0.7 [m], g = 9.81 [m/s^2]\naxes x right, y up\n"
 BOBS = "mass A: m1 at (x1, y1)\nmass B: m2 at (x2, y2)\ngravity g along -y\n"
