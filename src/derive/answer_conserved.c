@@ -19,7 +19,7 @@ static const pl_form* energy_sum(pl_analysis* d, pl_expr integral) {
 static void claim_constant(pl_analysis* d, const pl_form* form) {
   pl_expr power = pl_int(d->pool, 0);
   for (int k = 0; !d->reduced && k < d->g.n; k++) {
-    if (d->g.at[k].implied || d->g.at[k].fixes >= 0) continue;
+    if ((d->g.at[k].implied && !d->g.at[k].shared) || d->g.at[k].fixes >= 0) continue;
     pl_expr rate = d->g.at[k].velocity ? d->g.at[k].g : pl_dt(d->pool, d->g.at[k].g);
     power = pl_add(d->pool, power, pl_mul(d->pool, pl_sym(d->pool, d->g.at[k].lambda), rate));
   }

@@ -57,7 +57,7 @@ typedef struct pl_particle {   // a point mass or the centre of a body
 } pl_particle;
 
 // ∇g_implied = sum over all constraints of c ∇g.
-typedef struct pl_dependence { int implied; pl_expr* c; } pl_dependence;   // c: (n_g)
+typedef struct pl_dependence { int implied; pl_expr* c; bool there; } pl_dependence;   // c: (n_g); there: only where the constraints hold
 
 // The orthonormal frame that a position map implies: e_i along dX/dq_i.
 typedef struct pl_frame {
@@ -203,6 +203,9 @@ int pl_sign_or_positive(pl_analysis* d, pl_expr e);   // the same; where nothing
 double pl_number(pl_analysis* d, pl_expr e);            // at the parameters; NaN when it depends on more
 pl_answer3 pl_zero_for_numbers(pl_analysis* d, pl_expr e);   // e = 0, as it stands or with the numbers of the parameters in it
 
+// manifold_rank.c: the rank of gradients where the constraints hold, in numbers; -1: no such points were found
+int pl_rank_on_manifold(pl_analysis* d, const int* row, int m, const int* column, int n, int* independent);
+void pl_depend_on_manifold(pl_analysis* d, int k, const int* independent, int rank, const int* column, int n);
 // start_rank.c
 pl_expr pl_with_given_numbers(pl_analysis* d, pl_expr e);   // exact: parameters and abbreviations inserted
 void pl_say_rank_at_start(pl_analysis* d);              // constraints that lose rank at the start

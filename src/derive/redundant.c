@@ -45,7 +45,8 @@ void pl_share_forces(pl_analysis* d) {
 
 void pl_inherit_dependences(pl_analysis* a, const pl_analysis* from) {
   for (int r = 0; r < from->dependences.n; r++) {
-    pl_dependence p = {.implied = from->dependences.at[r].implied, .c = PL_ARRAY(a->arena, pl_expr, a->g.n)};
+    pl_dependence p = {.implied = from->dependences.at[r].implied, .c = PL_ARRAY(a->arena, pl_expr, a->g.n),
+                       .there = from->dependences.at[r].there};
     for (int k = 0; k < a->g.n; k++) p.c[k] = pl_alg_normal(a->tower, pl_on_maps(a, from->dependences.at[r].c[k]));
     pl_push(a->arena, a->dependences, p);
   }
@@ -96,6 +97,14 @@ static pl_expr combination(pl_analysis* d, int a) {
   return sum;
 }
 
+// A sum that follows from the gradients at every place can be certified at any; else the motion is its witness alone.
+static bool holds_everywhere(const pl_analysis* d) {
+  for (int r = 0; r < d->dependences.n; r++) {
+    if (d->dependences.at[r].there) return false;
+  }
+  return true;
+}
+
 static void show_combinations(pl_analysis* d, const bool* in) {
   for (int a = 0; a < d->g.n; a++) {
     if (!in[a] || dependence_of(d, a) || !d->g.at[a].lambda_known) continue;
@@ -104,7 +113,7 @@ static void show_combinations(pl_analysis* d, const bool* in) {
     pl_step* step = pl_show_numbered(d, pl_feq(d, pl_fe(d, sum), form));
     bool known;
     pl_step_value(d, step, value, pl_dimension_of_expr(d, value, &known));
-    pl_claim_that(d, PL_CLAIM_MOTION, pl_form_value(d->pool, form), sum);
+    if (holds_everywhere(d)) pl_claim_that(d, PL_CLAIM_MOTION, pl_form_value(d->pool, form), sum);
     pl_answer(d, pl_expr_text(d->arena, d->pool, sum), value, form);
   }
 }

@@ -7,7 +7,18 @@ static const int largest_expansion = 24;   // coordinates up to which a family i
 static const int largest_for_a_member = 80;   // the same when a multiplier, an acceleration or a force of a member is asked for
 
 // ---------------------------------------------------------------------------------------------- degrees of freedom
-// Constraints that the others imply, by the rank of dg/dq at a generic point.
+// Those that depend on others only where all hold.
+static void depend_where_they_hold(pl_analysis* d, const int* row, int m, const int* column, int n) {
+  int *kept = PL_ARRAY(d->arena, int, m), n_kept = 0;
+  for (int a = 0; a < m; a++) {
+    if (!d->g.at[row[a]].implied) kept[n_kept++] = row[a];
+  }
+  for (int a = 0; a < m; a++) {
+    if (d->g.at[row[a]].implied) pl_depend_on_manifold(d, row[a], kept, n_kept, column, n);
+  }
+}
+
+// Constraints that the others imply, by the rank of dg/dq at a generic point, or at points where the constraints hold.
 static void find_implied(pl_analysis* d) {
   int n = 0, m = 0;
   int* column = PL_ARRAY(d->arena, int, d->q.n + 1);
@@ -27,13 +38,20 @@ static void find_implied(pl_analysis* d) {
   for (int a = 0; a < m; a++) {
     for (int b = 0; b < n; b++) A[a * n + b] = pl_on_maps(d, d->g.at[row[a]].gradient[column[b]]);
   }
-  int* independent = PL_ARRAY(d->arena, int, m);
+  int *independent = PL_ARRAY(d->arena, int, m), *there = PL_ARRAY(d->arena, int, m);
   int rank = pl_alg_rank(d->tower, m, n, A, independent);
+  int where_they_hold = d->reduced ? -1 : pl_rank_on_manifold(d, row, m, column, n, there);
+  bool smaller = where_they_hold >= 0 && where_they_hold < rank;
+  if (smaller) {
+    rank = where_they_hold;
+    memcpy(independent, there, (size_t)rank * sizeof *independent);
+  }
   for (int a = 0; a < m; a++) {
     bool kept = false;
     for (int r = 0; r < rank; r++) kept |= independent[r] == a;
     d->g.at[row[a]].implied = !kept;
   }
+  if (smaller) depend_where_they_hold(d, row, m, column, n);
 }
 
 static void count_freedom(pl_analysis* d) {

@@ -137,11 +137,28 @@ def check_rank(program):
     tap.check("where they cross nothing is said", lost not in said and "no value" not in said, said)
 
 
+def check_manifold(program):
+    """Bars that are parallel on one coupler: their gradients depend on each other only where all constraints hold."""
+    def bars(l, third):
+        out = "coord x, y, a0, a1, a2\naxes x right, y up\nmass coupler: 2 at (x, y)\ngravity 9.81 along -y\n"
+        for k, length in enumerate((l, l, third)):
+            out += f"constraint b{k}x: x = {k + 1} + {length} sin a{k} - {k}\nconstraint b{k}y: y = {length} cos a{k}\n"
+        return out + "ask dof, lagrange2\n"
+    document, got = call(program, "solve", bars("1", "1") + "init a0 = 0.3, a1 = 0.3, a2 = 0.3\n")
+    tap.check("three parallel bars on a coupler: one freedom", (document["dof"]["rank"], document["dof"]["dof"]) == (4, 1), document["dof"])
+    tap.check("and no check of its own fails", got.returncode == 0, got.stderr)
+    document, _ = call(program, "solve", "param l\n" + bars("l", "l"))
+    tap.check("the same with a letter for the length", document["dof"]["dof"] == 1, document["dof"])
+    document, _ = call(program, "solve", bars("1", "1").replace("x = 3 + 1 sin a2 - 2", "x = 3/2 + 1 sin a2") + "init a0 = 0.3, a1 = 0.3\n")
+    tap.check("a third bar that is not parallel holds the coupler", document["dof"]["dof"] == 0, document["dof"])
+
+
 def main(program):
     for case in HIDDEN:
         check_hidden(program, *case)
     check_first_order(program)
     check_rank(program)
+    check_manifold(program)
     tap.done()
 
 
