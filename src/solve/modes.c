@@ -61,6 +61,7 @@ static void find_near(pl_run* run) {
                       (run->on[c] || link->side * run->g[c] <= met * run->g_size[c]);
     run->met[c] = run->near_by[c];
   }
+  pl_maps_follow(run);
 }
 
 // ---------------------------------------------------------------------------------------------- watches

@@ -439,6 +439,9 @@ double pl_kinks_value(const pl_run* run, int i);
 double pl_kinks_reach(pl_run* run, double h);       // as pl_watch_reach
 double pl_kinks_first(pl_run* run, double h);       // just behind the first kink, in units of h; -1 none on the step
 
+// ---- maps.c
+void pl_maps_follow(pl_run* run);                   // coordinates that only a map determines, where it begins to hold
+
 // ---- friction.c
 void pl_friction_make(pl_run* run);
 void pl_friction_keep_directions(pl_run* run);      // before the point at a root

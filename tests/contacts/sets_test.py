@@ -244,6 +244,25 @@ case("a jump that lands on a slope",
 case("a body on a slope slides",
      POINT + "constraint slope: x + y >= 0\ninit x = 0, y = 0, x' = 0, y' = 0\nask solve x'', solve y'', solve λ_slope, conserved\nsimulate 0..1 [s]\n",
      [(["slope"], 1, 0, 1)], 3)
+jerk = math.sqrt(4 * 0.92 * math.sin(math.radians(5)) / G)
+
+
+def keeps_place(motion):
+    """What goes taut loses the radial part of its velocity, and stays where it is."""
+    rows = [r for r in motion.rows if abs(r["t"] - jerk) < 1e-6]
+    need(len(rows) == 2, f"rows at the jerk: {rows}")
+    for name, want in (("x", 0.92 * math.cos(math.radians(5))), ("y", -0.92 * math.sin(math.radians(5)))):
+        need(abs(rows[1][name] - want) < 1e-9, f"{name} = {rows[1][name]} after the jerk, not {want}")
+    fall, side = -G * jerk, math.radians(85)
+    along = (math.cos(side), math.sin(side))
+    speed = fall * along[1]
+    for name, want in (("x_dot", speed * along[0]), ("y_dot", speed * along[1])):
+        need(abs(rows[1][name] - want) < 1e-9, f"{name} = {rows[1][name]} after the jerk, not {want}")
+
+
+case("a string goes taut where its angle is a choice",
+     POINT + "param l = 0.92 [m]\ncoord φ\nconstraint string: sqrt(x^2 + y^2) <= l\nchoose φ with x = l sin φ, y = -l cos φ\ninit φ = 95°, φ' = 0\n"
+     "ask solve x'', solve y'', solve λ_string\nsimulate 0..1 [s]\n", [([], 2, 0, jerk), (["string"], 1, jerk, 1)], 4, keeps_place)
 case("a bead leaves a sphere, in Cartesian coordinates with a choice",
      "param m = 1 [kg], R = 1 [m], g = 9.81 [m/s^2]\ncoord x, z, ϑ\naxes x right, z up\nmass m at (x, z)\ngravity g along -z\n"
      "constraint h: x^2 + z^2 >= R^2\nchoose ϑ with x = R sin ϑ, z = R cos ϑ\ninit ϑ = 0.3, ϑ' = 0\nevent ground: when z = 0 -> stop\n"
