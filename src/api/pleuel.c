@@ -48,6 +48,9 @@ static pl_language language_of(const char* name, pl_language otherwise) {
   return strncmp(name, "de", 2) == 0 ? PL_GERMAN : PL_ENGLISH;
 }
 
+// What is asked for, else what the file names, else what the context speaks: messages and solution alike.
+static pl_language solution_language(const pleuel_model* m, const char* asked) { return language_of(asked, m->job.lang); }
+
 static pleuel_status fail(pleuel* ctx, pleuel_status s, const char* sentence) {
   snprintf(ctx->message, sizeof ctx->message, "%s", pl_in_language(ctx->lang, sentence));
   return s;
@@ -295,7 +298,7 @@ const char* pleuel_diagnostics_text(pleuel_model* m, unsigned severities, const 
   if (!m) return NULL;
   pleuel_text_options o;
   copy_options(&o, sizeof o, options);
-  pl_telling t = {severities, {language_of(o.lang, m->ctx->lang), o.colour, o.terse}, NULL};
+  pl_telling t = {severities, {solution_language(m, o.lang), o.colour, o.terse}, NULL};
   char sentence[sizeof m->ctx->message];
   memcpy(sentence, m->ctx->message, sizeof sentence);      // telling about a failure must not hide its sentence
   guarded(m, tell, &t);
@@ -341,7 +344,7 @@ static pleuel_status check_text(pleuel_model* m, void* argument) {
   pl_asking* a = argument;
   pleuel_status s = check(m);
   pl_text out = pl_text_make(m->arena);
-  if (s == PLEUEL_OK) pl_check_summary(&out, m, language_of(a->text->lang, m->ctx->lang));
+  if (s == PLEUEL_OK) pl_check_summary(&out, m, solution_language(m, a->text->lang));
   a->answer = pl_text_string(&out);
   return s;
 }
@@ -378,7 +381,6 @@ pleuel_status pleuel_check_json(pleuel_model* m, const char** json, const pleuel
 
 // ---------------------------------------------------------------------------------------------- solve
 // The language of a solution: what was asked for, else the file's, else the context's.
-static pl_language solution_language(const pleuel_model* m, const char* asked) { return language_of(asked, m->job.lang); }
 
 // Simulation that the file asks for; a big family is left to `sim`.
 enum { MAX_COORDINATES_IN_SOLUTION = 60 };
@@ -686,7 +688,7 @@ pleuel_status pleuel_simulate(pleuel_model* m, pleuel_sim_summary* summary, cons
 static pleuel_status simulation_text(pleuel_model* m, void* argument) {
   pl_asking* a = argument;
   pl_text out = pl_text_make(m->arena);
-  if (m->is_run) pl_motion_text(&out, m, language_of(a->text->lang, m->ctx->lang), false, a->text->terse);
+  if (m->is_run) pl_motion_text(&out, m, solution_language(m, a->text->lang), false, a->text->terse);
   a->answer = pl_text_string(&out);
   return PLEUEL_OK;
 }
@@ -694,7 +696,7 @@ static pleuel_status simulation_text(pleuel_model* m, void* argument) {
 static pleuel_status simulation_engine(pleuel_model* m, void* argument) {
   pl_asking* a = argument;
   pl_text out = pl_text_make(m->arena);
-  if (m->is_run) pl_engine_text(&out, m, language_of(a->text->lang, m->ctx->lang));
+  if (m->is_run) pl_engine_text(&out, m, solution_language(m, a->text->lang));
   a->answer = pl_text_string(&out);
   return PLEUEL_OK;
 }

@@ -338,9 +338,16 @@ static void compare_with_free_fall(pl_analysis* d, int i) {
   if (pl_is_poison(ratio) || pl_has_coordinates(d, ratio) || pl_is_number(d->pool, ratio)) return;
   const pl_form* form = pl_f(d, ratio, PL_S_QUOTIENT);
   if (pl_form_ops(form) > 12) return;
-  pl_say(d, "Compared with free fall, {1}, the motion is slower by the factor {2}.",
-         "Verglichen mit dem freien Fall, {1}, ist die Bewegung um den Faktor {2} langsamer.", 2,
-         pl_feq(d, pl_fs(d, d->q.at[i].a), pl_f(d, free_fall, PL_S_QUOTIENT)), form);
+  // slowed only where the factor is known to lie between 0 and 1: it may be negative
+  const pl_form* fall = pl_f(d, free_fall, PL_S_QUOTIENT);
+  double x = pl_number(d, ratio);
+  if (x > 0 && x < 1) {
+    pl_say(d, "Slowed free fall: the acceleration is {2} times {1}.", "Verlangsamter freier Fall: die Beschleunigung ist das {2}-fache von {1}.", 2,
+           fall, form);
+  } else {
+    pl_say(d, "Compared with free fall, {1}, the acceleration is {2} times as large.",
+           "Verglichen mit dem freien Fall, {1}, ist die Beschleunigung das {2}-fache.", 2, pl_feq(d, pl_fs(d, d->q.at[i].a), fall), form);
+  }
   pl_claim_that(d, PL_CLAIM_MOTION, pl_mul(d->pool, pl_form_value(d->pool, form), free_fall), pl_sym(d->pool, d->q.at[i].a));
 }
 

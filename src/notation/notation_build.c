@@ -119,6 +119,20 @@ static pl_box* minus_box(pl_builder* b, pl_box* x) {
 }
 
 // ---------------------------------------------------------------------------------------------- sums
+static bool is_measure_box(const pl_box* x) { return x->kind == PL_B_ROW && x->n == 2 && x->at[1]->kind == PL_B_UNIT; }
+
+// Does the model have a name like a part of this unit?  On a line nothing else tells metres from a mass m.
+static bool reads_like_a_name(pl_builder* b, const char* unit) {
+  if (b->how.math == PL_MATH_TEX || b->how.math == PL_MATH_MATHML || b->how.math == PL_MATH_ASCII) return false;
+  for (const char* s = unit; *s;) {
+    size_t n = 0;
+    while ((s[n] >= 'a' && s[n] <= 'z') || (s[n] >= 'A' && s[n] <= 'Z')) n++;
+    if (n && pl_symbol_find(b->pool, pl_copy_n(b->arena, s, n)).id) return true;
+    s += n ? n : 1;
+  }
+  return false;
+}
+
 static pl_box* build_sum(pl_builder* b, const pl_form* f) {
   if (f->n == 0) return pl_box_text(b->arena, PL_B_NUMBER, "0");
   if (f->n == 1) return pl_build(b, f->args[0]);
@@ -129,7 +143,8 @@ static pl_box* build_sum(pl_builder* b, const pl_form* f) {
     pl_box* x = pl_build(b, term);
     if (i > 0) pl_push(b->arena, parts, pl_box_op(b->arena, minus ? "-" : "+", PL_OP_INFIX));
     else if (minus) pl_push(b->arena, parts, pl_box_op(b->arena, "-", PL_OP_PREFIX));
-    // a sum inside a sum keeps its brackets: the form wants to be read that way
+    // a sum inside a sum keeps its brackets: the form wants to be read that way; 0.5 m beside a mass m is no half of it
+    if (is_measure_box(x) && reads_like_a_name(b, x->at[1]->text)) x = bracketed(b, x);
     pl_push(b->arena, parts, at_least(b, x, PL_LEVEL_PRODUCT));
   }
   pl_box* r = pl_box_make(b->arena, PL_B_ROW, PL_LEVEL_SUM, parts.n);
@@ -149,8 +164,6 @@ static void flatten(pl_builder* b, const pl_form* f, form_list* out, int depth) 
     else pl_push(b->arena, *out, f->args[i]);
   }
 }
-
-static bool is_measure_box(const pl_box* x) { return x->kind == PL_B_ROW && x->n == 2 && x->at[1]->kind == PL_B_UNIT; }
 
 // A factor as it may stand at place i of n.
 static pl_box* factor_box(pl_builder* b, pl_box* x, int i, int n) {

@@ -146,7 +146,7 @@ ask dof
 code, out, err = pleuel(["solve"], CHAIN.format("3 [m]"))
 check("constraints that agree for their numbers are redundant", code == 0 and "says nothing new" in out, out + err)
 code, out, err = pleuel(["solve"], CHAIN.format("4 [m]"))
-check("those that do not contradict each other", code == 4 and "E042" in err and "1 m + 2 m - 4 m" in err, out + err)
+check("those that do not contradict each other", code == 4 and "E042" in err and "1 m + 2 m - 4 m" in err.replace("(", "").replace(")", ""), out + err)
 named = "param p = 1 [m], q = 2 [m], s = 3 [m]\n" + CHAIN.replace("1 [m]\n", "p\n").replace("2 [m]\n", "q\n")
 code, out, err = pleuel(["solve"], named.format("s"))
 check("the same with parameters", code == 0 and "says nothing new" in out, out + err)
@@ -160,7 +160,7 @@ constraint hill: w - 0.5 >= R
 init w = R + 0.5, θ = 1°, θ' = 0
 ask lagrange1 in (w, θ)
 """)
-check("a bare number beside a length is one", code == 0 and "m (w - 0.5 m) θ''" in out and "N021" in out, out + err)
+check("a bare number beside a length is one, in brackets beside a mass m", code == 0 and "m (w - (0.5 m)) θ''" in out and "N021" in out, out + err)
 code, out, err = pleuel(["solve"], """param m = 1 [kg], k = 2 [N/m]
 coord x, y
 axes x right, y up

@@ -71,6 +71,12 @@ for line, wanted in ACCEPTED:
     run = subprocess.run([program, "solve", "-"], input=HEAD + line + "\n", capture_output=True, text=True, encoding="utf-8", env=clean)
     check(f"{line!r} is understood", run.returncode in (0, 5) and wanted in run.stdout and "E0" not in run.stderr, f"{run.returncode}\n{run.stdout}{run.stderr}")
 
+# the language of the file is that of its messages, whole ones
+run = subprocess.run([program, "check", "-"], input="lang de\nparam m = 1\ncoord x\naxes x right\nmass m at (x)\nmass m at (x)\nfoo\n", capture_output=True, text=True,
+                     encoding="utf-8", env=clean)
+said = run.stdout + run.stderr
+check("lang de: German messages, no English halves", run.returncode == 3 and "ist keine Anweisung" in said and "line" not in said and "did you" not in said, said)
+
 # the axis that is left, and a body that falls along one axis
 for model, wanted in (("param m = 1 [kg], g = 9.81 [m/s^2]\ncoord x, y, z\naxes x right, z up\nmass A: m at (x, y, z)\ngravity g along -z\nask lagrangian\n",
                        "V = m g z"),
