@@ -164,7 +164,7 @@ static int show_elimination(pl_analysis* d, pl_expr v2, pl_expr q0, pl_expr v0) 
   pl_expr E = pl_conserved_energy(d);
   pl_replace start[2] = {{c->q, q0}, {c->v, v0}};
   pl_expr E0 = pl_alg_normal(d->tower, pl_subst(d->pool, E, start, 2));
-  pl_say(d, "The energy is conserved; from {1}:", "Die Energie ist erhalten; von {1} aus:", 1, at_start(d, c, q0, v0));
+  pl_say(d, "The energy is conserved; from {1}:", "Energieerhaltung mit dem Start {1}:", 1, at_start(d, c, q0, v0));
   pl_show(d, pl_feq(d, pl_f(d, E, PL_S_ENERGY), pl_f(d, E0, PL_S_ENERGY)));
   const pl_form* square = pl_form_power(d->arena, pl_fs(d, c->v), pl_form_leaf(d->arena, pl_int(d->pool, 2)));
   const pl_form* form = pl_f(d, v2, PL_S_QUOTIENT);

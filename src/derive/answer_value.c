@@ -77,17 +77,19 @@ static void plain_value(pl_analysis* d, const pl_ask* ask) {
   if (eliminated) v->holds_while = pl_say_way(d, &line, pl_on_motion(d, pl_with_results(d, ask->value)));
 }
 
-// The request as a German title: the words between its formulas, "ϑ bei λ = 0 mit Start ϑ = 0 in Ruhe".
+// The request as a German title: the words between its formulas, "ϑ für λ = 0, Start aus der Ruhe bei ϑ = 0".
 static const char* german_title(pl_analysis* d, const char* request) {
-  static const char* const word[][2] = {{" where ", " bei "}, {" from ", " mit Start "}, {" and ", " und "}, {" at rest", " in Ruhe"}};
+  size_t length = strlen(request), rest = strlen(" at rest");
+  bool at_rest = length > rest && strcmp(request + length - rest, " at rest") == 0;
+  const char* const word[][2] = {{" where ", " für "}, {" from rest", ", Start aus der Ruhe"}, {" at rest", ""},
+                                 {" from ", at_rest ? ", Start aus der Ruhe bei " : ", Start bei "}, {" and ", " und "}};
   pl_text out = pl_text_make(d->arena);
   while (*request) {
     size_t n = 0;
     for (size_t k = 0; k < sizeof word / sizeof *word && n == 0; k++) {
       if (strncmp(request, word[k][0], strlen(word[k][0])) != 0) continue;
       pl_text_add(&out, word[k][1]);
-      n = strlen(word[k][0]) - (word[k][0][strlen(word[k][0]) - 1] == ' ');   // the blank may begin the next word
-      if (n < strlen(word[k][0])) out.at[--out.n] = '\0';
+      n = strlen(word[k][0]);
     }
     if (n == 0) pl_text_add_n(&out, request, n = 1);
     request += n;

@@ -600,7 +600,7 @@ static void of_the_state(pl_analysis* d, const pl_ask* ask, const pl_where* p) {
   }
   if (found.n > unreal || with_free_signs(d, p)) return;
   pl_say(d, found.complete ? "No state satisfies this." : "No solution in closed form was found.",
-         found.complete ? "Kein Zustand erfüllt das." : "Eine geschlossene Lösung wurde nicht gefunden.", 0);
+         found.complete ? "Das ist nie erfüllt." : "Eine geschlossene Lösung wurde nicht gefunden.", 0);
   d->section->not_found = !found.complete;
 }
 

@@ -199,7 +199,7 @@ void pl_say_followed(pl_analysis* d, const pl_search* p, const pl_followed* f) {
   }
   d->section->not_found = true;
   if (f->how == PL_FOLLOWED_PAST) {
-    pl_say(d, "As far as {1} this does not happen on the motion.", "Bis {1} tritt das auf der Bewegung nicht ein.", 1, time_form(d, f->time));
+    pl_say(d, "As far as {1} this does not happen on the motion.", "Bis {1} geschieht das während der Bewegung nicht.", 1, time_form(d, f->time));
     return;
   }
   pl_say(d, "No solution in closed form was found; for the given numbers:",

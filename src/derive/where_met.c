@@ -212,9 +212,9 @@ static const pl_form* place_form(pl_analysis* d, const pl_search* p, double at) 
 static void say_turns(pl_analysis* d, const pl_search* p, const pl_course* c) {
   const pl_form* first = place_form(d, p, c->leg[0].to);
   if (c->n_legs > 2) {
-    pl_say(d, "It turns round at {1} and at {2}.", "Sie kehrt bei {1} und bei {2} um.", 2, first, place_form(d, p, c->leg[1].to));
+    pl_say(d, "It turns round at {1} and at {2}.", "Die Bewegung kehrt bei {1} und bei {2} um.", 2, first, place_form(d, p, c->leg[1].to));
   } else {
-    pl_say(d, "It turns round at {1} and does not come back.", "Sie kehrt bei {1} um und kommt nicht zurück.", 1, first);
+    pl_say(d, "It turns round at {1} and does not come back.", "Die Bewegung kehrt bei {1} um und kommt nicht zurück.", 1, first);
   }
 }
 
@@ -233,21 +233,21 @@ static void say_never(pl_analysis* d, const pl_search* p, const pl_course* c) {
   const pl_leg* last = c->n_legs > 0 ? &c->leg[c->n_legs - 1] : NULL;
   bool searched = !last || last->end != PL_END_OPEN || p->place || no_root_beyond(d, p, c);
   if (!searched && !(p->line && pl_course_repeats(c, p->condition))) {
-    pl_say(d, "As far as {1} this does not happen on the motion.", "Bis {1} tritt das auf der Bewegung nicht ein.", 1, place_form(d, p, last->to));
+    pl_say(d, "As far as {1} this does not happen on the motion.", "Bis {1} geschieht das während der Bewegung nicht.", 1, place_form(d, p, last->to));
     d->section->not_found = true;
     return;
   }
-  pl_say(d, "This never happens on the motion.", "Das tritt auf der Bewegung nie ein.", 0);
+  pl_say(d, "This never happens on the motion.", "Das geschieht während der Bewegung nie.", 0);
   if (c->stays) {
-    pl_say(d, "It stays at rest at {1}.", "Sie bleibt bei {1} in Ruhe.", 1, place_form(d, p, c->start));
+    pl_say(d, "It stays at rest at {1}.", "Das System bleibt bei {1} in Ruhe.", 1, place_form(d, p, c->start));
   } else if (c->n_legs > 1) {
     say_turns(d, p, c);
   }
   if (last && last->end == PL_END_REST) {
-    pl_say(d, "It approaches {1} without reaching it.", "Sie nähert sich {1}, ohne es zu erreichen.", 1, place_form(d, p, last->to));
+    pl_say(d, "It approaches {1} without reaching it.", "Die Bewegung nähert sich {1}, ohne diese Stelle zu erreichen.", 1, place_form(d, p, last->to));
   }
   if (last && last->end == PL_END_EDGE) {
-    pl_say(d, "It cannot go on beyond {1}.", "Über {1} hinaus kann sie nicht weitergehen.", 1, place_form(d, p, last->to));
+    pl_say(d, "It cannot go on beyond {1}.", "Über {1} hinaus geht die Bewegung nicht weiter.", 1, place_form(d, p, last->to));
   }
 }
 
@@ -305,7 +305,7 @@ static void show_way(pl_analysis* d, const pl_search* p, const rates* r, const o
   pl_expr condition = conditional ? condition_of(d, p, o, place) : pl_poison();
   pl_show_met(d, p->name, value, condition);
   if (conditional && pl_is_poison(condition)) {
-    pl_say(d, "This does not happen for all values of the given quantities.", "Das tritt nicht für alle Werte der gegebenen Größen ein.", 0);
+    pl_say(d, "This does not happen for all values of the given quantities.", "Das geschieht nicht für alle Werte der gegebenen Größen.", 0);
   }
 }
 
@@ -406,12 +406,12 @@ static void show_drawn(pl_analysis* d, const pl_search* p, const rates* r, const
     return;
   }
   if (w->n == 0 && p->complete && p->n_roots == 0) {
-    pl_say(d, "This never happens on the motion.", "Das tritt auf der Bewegung nie ein.", 0);
+    pl_say(d, "This never happens on the motion.", "Das geschieht während der Bewegung nie.", 0);
     return;
   }
   if (!any_closed(w)) {
     pl_say(d, w->n ? "No solution in closed form was found." : "For none of the numbers that were tried does this happen on the motion.",
-           w->n ? "Eine geschlossene Lösung wurde nicht gefunden." : "Für keine der Zahlen, die versucht wurden, tritt das auf der Bewegung ein.", 0);
+           w->n ? "Eine geschlossene Lösung wurde nicht gefunden." : "Für keine der versuchten Zahlen geschieht das während der Bewegung.", 0);
     d->section->not_found = true;
     return;
   }
