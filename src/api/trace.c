@@ -22,13 +22,17 @@ static const double* copied(pl_arena* a, const double* x, int n) {
   return out;
 }
 
-static void add_sample(pl_tracer* t, const pl_row* row) {
+static pl_trace_sample sample_of(pl_tracer* t, const pl_row* row) {
   const pl_setup* s = &t->trace->recording->setup;
   bool* unique = PL_ARRAY(t->arena, bool, s->n_c + 1);
   memcpy(unique, row->unique, (size_t)s->n_c * sizeof *unique);
-  pl_trace_sample sample = {.t = row->t, .q = copied(t->arena, row->q, s->n_q), .v = copied(t->arena, row->v, s->n_q),
-                            .a = copied(t->arena, row->a, s->n_q), .lambda = copied(t->arena, row->lambda, s->n_c),
-                            .unique = unique, .out = copied(t->arena, row->out, s->n_out), .phase = t->trace->phases.n - 1};
+  return (pl_trace_sample){.t = row->t, .q = copied(t->arena, row->q, s->n_q), .v = copied(t->arena, row->v, s->n_q),
+                           .a = copied(t->arena, row->a, s->n_q), .lambda = copied(t->arena, row->lambda, s->n_c),
+                           .unique = unique, .out = copied(t->arena, row->out, s->n_out), .phase = t->trace->phases.n - 1};
+}
+
+static void add_sample(pl_tracer* t, const pl_row* row) {
+  pl_trace_sample sample = sample_of(t, row);
   pl_push(t->arena, t->trace->samples, sample);
   pl_trace_phase* phase = &t->trace->phases.at[sample.phase];
   phase->n++;
@@ -89,8 +93,10 @@ static pleuel_status on_event(void* user, const pl_event_record* e) {
     if (lets_go && e->at_start) t->trace->pulls[e->index] = true;
     return PLEUEL_OK;
   }
+  if (e->kind == PL_EV_EVENT && e->label && strcmp(e->label, PL_TRACE_MARK) == 0) pl_push(t->arena, t->trace->marks, sample_of(t, &e->before));
   if (e->kind == PL_EV_STOP) t->trace->stopped_by = e->label;
-  bool first = !t->changed && e->kind != PL_EV_SINGULAR && !t->trace->singular;
+  bool settles = e->bounces > 0;      // behind endless bounces: nothing is before
+  bool first = !t->changed && e->kind != PL_EV_SINGULAR && !settles && !t->trace->singular;
   t->trace->singular |= e->kind == PL_EV_SINGULAR;
   if (first) {
     t->kind = e->kind;
@@ -145,7 +151,7 @@ static pleuel_status start(pl_run* run, double t_0, int n_q, pl_job* job) {
 
 static void steps(pl_tracer* t, pl_run* run, long most) {
   pl_trace* out = t->trace;
-  while (!pl_run_done(run) && !out->singular && out->samples.n < most && out->steps < MOST_STEPS && out->status == PLEUEL_OK) {
+  while (!pl_run_done(run) && !out->singular && out->marks.n == 0 && out->samples.n < most && out->steps < MOST_STEPS && out->status == PLEUEL_OK) {
     out->status = pl_run_step(run);
     out->steps++;
   }
@@ -178,6 +184,7 @@ static void run(pl_job* job, pl_trace* out, const pl_trace_options* o) {
 }
 
 static void attempt(pl_job* job, pl_trace* out, pl_model* model, const pl_trace_options* o) {
+  if (!pl_is_poison(o->meet)) model = pl_trace_marked(job, model, o->meet);
   *out = (pl_trace){.model = model};
   pl_recording* recording = NULL;
   out->status = pl_record(job, model, NULL, false, &recording);

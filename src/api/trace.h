@@ -42,6 +42,7 @@ typedef struct pl_trace {
   bool singular;                // it ends at a singular position, behind which another assembly may go on
   PL_VEC(pl_trace_sample) samples;
   PL_VEC(pl_trace_phase) phases;
+  PL_VEC(pl_trace_sample) marks;   // where the quantity to be met was zero, in order
   int n_free;                   // positions that nothing determined
   double moved;                 // how far given start values were moved, relative: from another start beyond rounding
   long steps;                   // of the integration
@@ -52,6 +53,7 @@ typedef struct pl_trace_options {
   uint64_t seed;                // 0: the start of `init`; else a random consistent start beside it
   const pl_motion* from;        // the start that this names, instead; NULL
   double push;                  // of `from`: velocities of this size beside it, so that the motion leaves a position of rest
+  pl_expr meet;                 // a quantity: the run ends where it is zero the first time; poison: none
   const pl_trace* beside;       // of seed > 0: the trace from `init`, for its position and contacts; NULL: anywhere
   long most_samples;            // 0: 120
   double span;                  // s; 0: as `simulate` says, else a few times the time scale of the start

@@ -228,6 +228,13 @@ pl_model* pl_trace_open_start(pl_job* job, pl_model* m) {
   return out;
 }
 
+pl_model* pl_trace_marked(pl_job* job, const pl_model* m, pl_expr meet) {
+  pl_model* out = pl_trace_copy(job->arena, m);
+  pl_event mark = {.name = {.text = PL_TRACE_MARK, .ascii = PL_TRACE_MARK}, .value = meet};
+  pl_push(job->arena, out->events, mark);
+  return out;
+}
+
 // Whether `init` speaks of a coordinate or of its velocity; of families it is taken to.
 bool pl_trace_is_given(const pl_model* m, pl_expr atom, bool velocity) {
   pl_pool* p = m->pool;

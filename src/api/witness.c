@@ -10,7 +10,6 @@ enum {
   SAMPLES_OF_RANDOM = 8,
   SAMPLES_OF_INIT = 60
 };
-static const double small_push = 1e-5;     // of the natural velocity
 static const double closed_form = 1e-6;    // of the size of a motion: what its closed form may be off by at its end
 
 // ---------------------------------------------------------------------------------------------- starts
@@ -51,14 +50,14 @@ static void push_it(pl_witness* w, const pl_motion* from) {
   pl_state_sizes(w);
   double natural = sqrt(fmax(w->a_size, 1e-12) * fmax(w->q_size, 1e-12));
   for (int side = -1; side <= 1; side += 2) {
-    pl_trace_options how = {.from = from, .push = side * small_push * natural, .most_samples = SAMPLES_OF_INIT};
+    pl_trace_options how = {.from = from, .push = side * PL_SMALL_PUSH * natural, .most_samples = SAMPLES_OF_INIT};
     add_start(w, PL_FROM_NAMED, &how);
   }
 }
 
 static void add_named_start(pl_witness* w, const pl_motion* from) {
   const pl_trace* t = add_start(w, PL_FROM_NAMED, &(pl_trace_options){.from = from, .most_samples = SAMPLES_OF_INIT})->trace;
-  if (t->started && from->at_rest && fastest(t) < small_push * w->v_size) push_it(w, from);
+  if (t->started && from->at_rest && fastest(t) < PL_SMALL_PUSH * w->v_size) push_it(w, from);
 }
 
 static void add_named_starts(pl_witness* w) {
@@ -420,7 +419,7 @@ static void differentiate(pl_witness* w) {
 static bool is_searched(const pl_witness* w) {
   for (int i = 0; i < w->solution->sections.n; i++) {
     const pl_ask* ask = w->solution->sections.at[i].ask;
-    if (ask && (ask->kind == PL_ASK_DOF || ask->kind == PL_ASK_EQUILIBRIA)) return true;
+    if (ask && (ask->kind == PL_ASK_DOF || ask->kind == PL_ASK_EQUILIBRIA || ask->where.n == 1)) return true;
   }
   return false;
 }
@@ -448,6 +447,7 @@ void pl_witness_hold(pl_job* job, pl_solution* solution, const pl_stage* stages,
   pl_verdicts v = {PL_ARRAY(w.arena, pl_agreement, w.statements.n), PL_ARRAY(w.arena, pl_contradiction_found, w.statements.n)};
   for (int i = 0; i < w.starts.n; i++) compare_along(&w, &w.starts.at[i], &v);
   pl_search(&w);
+  pl_meet(&w);
   if (count_started(&w) > 0) report(&w, &v);
   else report_without_motion(&w, w.starts.at[0].trace->message, pl_in_language(PL_GERMAN, w.starts.at[0].trace->message));
 }

