@@ -469,6 +469,9 @@ class Examination:
             except (ValueError, ZeroDivisionError, OverflowError):
                 pass
         out.update(self.start_values())
+        if not w.rows and self.model.lagrangian is not None:
+            out.update({f"p_{q}": x for q, x in zip(w.d, momenta(w, m.z))})
+            out["H of the witness"] = m.motion.point.H
         p = m.motion.point
         for n, x in (("T", p.T), ("V", p.V if not self.model.pushes else p.V + p.steady)):
             out.setdefault(n, x)
@@ -596,6 +599,8 @@ class Examination:
         n = value["name"]
         if n.endswith("_ddot") or n in self.multipliers():
             return lambda names: names.get(n)
+        if n == "H" and text == "hamiltonian":
+            return lambda names: names.get("H of the witness")
         if n in ("T", "V") and not (n == "V" and self.velocity_potential()) and self.model.lagrangian is None:
             return lambda names: names.get(n)
         if text.startswith("solve ") and "(t)" in text:
@@ -724,6 +729,13 @@ class Shown:
         if word in self.multipliers and not primes:
             return s.name(word)
         return self.model.value(word, primes, parser)
+
+
+def momenta(w, z):
+    """dL/dv."""
+    if not hasattr(w, "momentum_program"):
+        w.momentum_program = s.compiled([s.diff(w.m.L, q + "_dot") for q in w.d], w.names)
+    return w.momentum_program(z)
 
 
 class Parsed:

@@ -145,6 +145,7 @@ def check_equilibria(ex, item, said):
     if any(k not in w.q for place in named for k in place):
         return                  # no number, or coordinates of the program's own
     check_named(ex, named, active)
+    check_stability(ex, item, active)
     whole = not re.search(r"may be others|closed form|[Cc]ould|name them|sought|not ", said)
     if not (named or "There is none" in said) or not whole:
         return
@@ -273,6 +274,112 @@ def found_places(ex, active):
         except Lost:
             continue
     return out
+
+
+# ------------------------------------------------------------------------------------------------ around a place of rest
+def slow_motions(ex, q, active):
+    """omega^2 of the small oscillations at a place of rest, sorted; None where this is no question of M and K."""
+    w = ex.w
+    d = [w.q.index(x) for x in w.d]
+    p = w.at(w.state(q, [0.0] * w.n, 0.0))
+    N = null_space([p.G[j] for j in active], len(d))
+    if not velocity_free(ex, q) or not N:
+        return None
+    M = [[sum(a[i] * p.M[i][j] * b[j] for i in range(len(d)) for j in range(len(d))) for b in N] for a in N]
+    columns = []
+    for direction in N:
+        h, moved = 1e-4, []
+        for step in (h, -h):
+            at = list(q)
+            for k, i in enumerate(d):
+                at[i] += step * direction[k]
+            at = completed(w, at, [], active)
+            if at is None:
+                return None
+            r, _ = static_residual(w, at, active)
+            moved.append(r[: len(d)])
+        columns.append([(a - b) / (2 * h) for a, b in zip(*moved)])
+    K = [[-sum(a[i] * c[i] for i in range(len(d))) for c in columns] for a in N]
+    return roots_of_pencil(M, K)
+
+
+def velocity_free(ex, q):
+    """Whether forces near rest hang on places alone: no damping, no gyroscopic terms."""
+    w, zero = ex.w, [0.0] * ex.w.n
+    base = w.at(w.state(q, zero, 0.0)).f
+    for i in range(w.n):
+        v = list(zero)
+        v[i] = 1e-4
+        if any(abs(a - b) > 1e-6 for a, b in zip(w.at(w.state(q, v, 0.0)).f, base)):
+            return False
+    return True
+
+
+def null_space(G, n):
+    """Orthonormal directions that the rows allow."""
+    basis = []
+    for row in G:
+        basis = grown(basis, row)
+    known = len(basis)
+    for i in range(n):
+        basis = grown(basis, [1.0 if k == i else 0.0 for k in range(n)])
+    return basis[known:]
+
+
+def grown(basis, v):
+    for b in basis:
+        x = sum(p * r for p, r in zip(v, b))
+        v = [p - x * r for p, r in zip(v, b)]
+    size = math.sqrt(sum(x * x for x in v))
+    return basis + [[x / size for x in v]] if size > 1e-8 else basis
+
+
+def roots_of_pencil(M, K):
+    """det(K - s M) = 0 for one or two directions."""
+    if len(M) == 1:
+        return [K[0][0] / M[0][0]] if M[0][0] > 0 else None
+    if len(M) > 2:
+        return None
+    a = M[0][0] * M[1][1] - M[0][1] * M[1][0]
+    b = -(K[0][0] * M[1][1] + K[1][1] * M[0][0] - K[0][1] * M[1][0] - K[1][0] * M[0][1])
+    c = K[0][0] * K[1][1] - K[0][1] * K[1][0]
+    root = b * b - 4 * a * c
+    if a <= 0 or root < 0:
+        return None
+    return sorted([(-b - math.sqrt(root)) / (2 * a), (-b + math.sqrt(root)) / (2 * a)])
+
+
+def check_stability(ex, item, active):
+    """`stable`, `unstable` and omega^2 of each place named, against M and K in numbers."""
+    w, spoken = ex.w, {}
+    for v in item["values"]:
+        if v["name"] == "omega^2":
+            spoken.setdefault(v.get("at"), []).append(number(ex, v))
+    for v in item["values"]:
+        places = named_places(ex, {"values": [v]})
+        if not places or None in places[0].values() or not set(places[0]) <= set(w.q) or v.get("free"):
+            continue
+        place, found = places[0], None
+        for m in (ex.first + ex.near_by)[:6]:
+            q = completed(w, [place.get(k, x) for k, x in zip(w.q, m.q)], list(place), active)
+            try:
+                if q is not None and max(map(abs, static_residual(w, q, active)[0])) < 1e-6:
+                    found = slow_motions(ex, q, active)
+                    break
+            except Lost:
+                continue
+        if not found:
+            continue
+        size = max(abs(x) for x in found) + 1e-3
+        verdict = "stable" if found[0] > 1e-4 * size else "unstable" if found[0] < -1e-4 * size else None
+        if verdict and v.get("stability") in ("stable", "unstable"):
+            ex.report.check("stability", v["stability"] == verdict, lambda: (
+                f"{place} is called {v['stability']}; omega^2 there is {found}"))
+        said = spoken.get(v["name"], [])
+        if said and None not in said:
+            ex.report.check("modes", len(said) <= len(found) and all(
+                min(abs(x - y) for y in found) < 1e-4 * size for x in said), lambda: (
+                f"omega^2 at {place} is {said}, by numbers {found}"))
 
 
 # ------------------------------------------------------------------------------------------------ first places

@@ -571,5 +571,105 @@ def sliding(s):
     s.end = 0.8
 
 
+def corner(s):
+    """A ball between a floor and a wall, on a moving floor, or in a wedge: two contacts that both may hold."""
+    if not s.on("closed_contact"):
+        return
+    s.line("coord x [m], y [m]", "axes x right, y up")
+    s.mass("A", "(x, y)")
+    s.weight()
+    kind = s.one("corner", "wedge", "lift")
+    if kind == "lift" and not s.on("drive"):
+        kind = "corner"
+    if kind == "corner":
+        s.line("constraint floor: y >= 0", "constraint wall: x >= 0", "init x = 0, y = 0, x' = 0, y' = 0")
+        s.line(f"force ({s.n(-3, 3)} [N], {s.n(-5, 5)} [N]) on A")
+        contacts = ["floor", "wall"]
+    elif kind == "wedge":
+        s.line(f"constraint left: y >= -{s.n(0.4, 1.5)} x", f"constraint right: y >= {s.n(0.4, 1.5)} x")
+        s.line("init x = 0, y = 0, x' = 0, y' = 0")
+        s.line(f"force ({s.n(-6, 6)} [N], 0) on A")
+        contacts = ["left", "right"]
+    else:
+        s.line(f"constraint floor: y >= {s.n(0.05, 0.3)} [m] sin({s.n(2, 6)} [1/s] t)")
+        s.line(f"init x = 0, y = 0, x' = {s.velocity()} [m/s]")
+        contacts = ["floor"]
+    s.usual(["x", "y"], ["A"], contacts)
+    s.end = 0.6
+
+
+def bound(s):
+    """Constraints that say the same twice, fix a coordinate, or are put on by an event."""
+    s.line("coord x [m], y [m], z [m]", "axes x right, y out, z up")
+    s.mass("A", "(x, y, z)")
+    s.weight("-z")
+    kind = s.one("fixed", "twice", "attach")
+    slope = s.n(0.2, 0.8)
+    if kind == "fixed":
+        s.line(f"constraint side: y = {s.n(-1, 1)} [m]", f"constraint slope: z = {slope} x")
+        s.line(f"init x = 0, x' = {s.velocity()} [m/s]")
+        bonds = ["side", "slope"]
+    elif kind == "twice":
+        s.line(f"constraint slope: z = {slope} x", f"constraint same: 2 z - 2*{slope} x = 0")
+        s.line(f"init x = 0, y = 0, x' = {s.velocity()} [m/s], y' = {s.velocity()} [m/s]")
+        bonds = []
+    else:
+        if not s.on("release"):
+            kind = "plain"
+        s.line(f"constraint slope: z = {slope} x")
+        s.line(f"init x = 0, y = 0, x' = {s.velocity()} [m/s], y' = {s.velocity()} [m/s]")
+        bonds = ["slope"]
+        if kind == "attach":
+            s.line(f"event off: when t = {s.n(0.1, 0.3)} [s] -> release slope")
+    if s.rng.random() < 0.4:
+        s.line(f"spring {s.param('k', 3, 20, 'N/m')}, rest 0.2 [m] between A and (1 [m], 0.5 [m], 1 [m])")
+    s.usual(["x", "z"], ["A"], bonds)
+    s.end = 0.6
+
+
+def space(s):
+    """A pendulum in space, a bowl, a cone: three coordinates."""
+    s.line("coord x [m], y [m], z [m]" if s.one(True, False) else "coord ρ [m], φ, z [m]", "axes x right, y out, z up")
+    cylindrical = "ρ" in s.lines[-2]
+    s.mass("A", "(ρ cos φ, ρ sin φ, z)" if cylindrical else "(x, y, z)")
+    s.weight("-z")
+    square = "ρ^2" if cylindrical else "(x^2 + y^2)"
+    kind = s.one("sphere", "bowl", "cone")
+    relation = s.one("=", ">=") if kind == "bowl" and s.on("closed_contact") else "="
+    if kind == "sphere":
+        s.line(f"constraint tie: {square} + z^2 = 1")
+        r, z = "0.6", "-0.8"
+    elif kind == "bowl":
+        s.line(f"constraint tie: z {relation} {square}/(1 [m])")
+        r, z = "0.5", "0.25"
+    else:
+        s.line(f"constraint tie: z = sqrt({square})")
+        r, z = "0.7", "0.7"
+    v, w = s.velocity(), s.n(0.5, 2)
+    if cylindrical:
+        s.line(f"init ρ = {r} [m], φ = 0.3, z = {z} [m], ρ' = 0, φ' = {w} [1/s]")
+        coords = ["ρ", "φ"]
+    else:
+        s.line(f"init x = {r} [m], y = 0, z = {z} [m], x' = 0, y' = {v} [m/s]")
+        coords = ["x", "z"]
+    s.usual(coords, ["A"], ["tie"])
+    s.end = 0.6
+
+
+def lift(s):
+    """A pendulum or a spring in a lift: the weight of the lift under another name."""
+    if not s.on("drive"):
+        return
+    s.line("param g = 9.81 [m/s^2]")
+    s.letters.add("g")
+    same = s.on("let_given", 0.5)
+    s.line("let a = g" if same else f"param a = {s.n(1, 9)} [m/s^2]", "gravity g along -y")
+    l = s.named("l", 0.5, 1.2, "m")
+    s.line("coord φ", "axes x right, y up")
+    s.mass("A", f"({l} sin φ, -1/2 a t^2 - {l} cos φ)")
+    s.line(f"init φ = {s.n(10, 120, 0)}°, φ' = {s.velocity()} [1/s]")
+    s.usual(["φ"], ["A"])
+
+
 RECIPES = {f.__name__: f for f in (thrown, pendulum, oscillator, wire, pulley, skier, hoop, abstract, chain, cart, crank,
-                                   rolling, blade, sliding)}
+                                   rolling, blade, sliding, corner, bound, space, lift)}
