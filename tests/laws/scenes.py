@@ -12,6 +12,7 @@ FEATURES = {
     "numbers": True,         # numbers as masses and other given quantities
     "let": True,             # abbreviations
     "let_given": True,       # let a = g
+    "free_fall": False,      # a lift that falls with g: the witness of the motion withdraws a right zero
     "open_contact": True,    # one-sided constraints that the start leaves open
     "closed_contact": True,
     "rope": True,            # <= between distances
@@ -645,7 +646,7 @@ def space(s):
     else:
         s.line(f"constraint tie: z = sqrt({square})")
         r, z = "0.7", "0.7"
-    v, w = s.velocity(), s.n(0.5, 2)
+    v, w = s.n(0.5, 2), s.n(0.5, 2)      # not through the tip of the cone
     if cylindrical:
         s.line(f"init ρ = {r} [m], φ = 0.3, z = {z} [m], ρ' = 0, φ' = {w} [1/s]")
         coords = ["ρ", "φ"]
@@ -662,7 +663,7 @@ def lift(s):
         return
     s.line("param g = 9.81 [m/s^2]")
     s.letters.add("g")
-    same = s.on("let_given", 0.5)
+    same = s.on("let_given", 0.5) and s.on("free_fall")
     s.line("let a = g" if same else f"param a = {s.n(1, 9)} [m/s^2]", "gravity g along -y")
     l = s.named("l", 0.5, 1.2, "m")
     s.line("coord φ", "axes x right, y up")
