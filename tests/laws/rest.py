@@ -399,6 +399,8 @@ def check_where(ex, item, said):
     states = {n for q in ex.w.q for n in (q, q + "_dot")} | set(ex.w.values)
     if not s.names_of(g) <= states or not s.names_of(g) & {n for n in states if n not in ex.w.values}:
         return
+    if start is None and ex.moments and abs(s.compiled([g], ex.w.names)(ex.moments[0].z)[0]) < 1e-9:
+        return                  # the start is such a place
     met = first_meeting(ex, condition, start, expr)
     if met is None:
         return

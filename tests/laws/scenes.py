@@ -12,6 +12,9 @@ FEATURES = {
     "numbers": True,         # numbers as masses and other given quantities
     "let": True,             # abbreviations
     "let_given": True,       # let a = g
+    "stays": False,          # a mass that stays where it is: T = 0 is withdrawn by the witness of the motion
+    "sticks": False,         # friction from rest: the count of freedoms is withdrawn by it
+    "degenerate_rest": False,   # a force that begins with a cube: a position of rest is withdrawn by it
     "free_fall": False,      # a lift that falls with g: the witness of the motion withdraws a right zero
     "open_contact": True,    # one-sided constraints that the start leaves open
     "closed_contact": True,
@@ -184,7 +187,7 @@ def thrown(s):
         s.line(f"constraint floor: y >= {s.n(-1, 0.2)} [m]")
     elif s.on("closed_contact", 0.5):
         contacts.append("floor")
-        y0, vy = s.n(-0.5, 0.5), "0"
+        y0, vy = s.n(0.1, 0.5), "0"
         s.line(f"constraint floor: y >= {y0} [m]")
     if s.on("open_contact", 0.3):
         contacts.append("wall")
@@ -402,7 +405,8 @@ def abstract(s):
     two = s.rng.random() < 0.5
     s.line("coord u, v" if two else "coord u")
     a, b, c, e = (s.n(0.5, 2) for _ in range(4))
-    L = f"1/2*{a}*u'^2 - " + s.one(f"1/2*{b}*u^2", f"{b}*cos(u)", f"1/4*{b}*u^4", f"{b}*(1 - cos(u))")
+    L = f"1/2*{a}*u'^2 - " + s.one(f"1/2*{b}*u^2", f"{b}*cos(u)", f"{b}*(1 - cos(u))",
+                                          f"1/4*{b}*u^4" if s.on("degenerate_rest") else f"1/4*{b}*(u^4 + u^2)")
     if two:
         L += f" + 1/2*{c}*v'^2 - 1/2*{e}*v^2 + " + s.one(f"({s.n(-0.4, 0.4)})*u*v", f"{s.n(0.2, 1)}*u*v'",
                                                       f"({s.n(-0.3, 0.3)})*u'*v'", f"1/2*{s.n(0.1, 0.5)}*u^2*v'^2")
@@ -567,7 +571,7 @@ def sliding(s):
     s.line(f"friction {s.n(0.1, 0.6)} on floor")
     if s.rng.random() < 0.5:
         s.line(f"spring {s.param('k', 3, 20, 'N/m')}, rest 0.2 [m] between A and (1.5 [m], 1 [m])")
-    s.line(f"init x = 0, y = 0, x' = {s.velocity()} [m/s]")
+    s.line(f"init x = 0, y = 0, x' = {'0' if s.on('sticks', 0.2) else s.n(0.4, 2.5)} [m/s]")
     s.ask("dof, constraints, conserved")
     s.end = 0.8
 
@@ -579,9 +583,10 @@ def corner(s):
     s.line("coord x [m], y [m]", "axes x right, y up")
     s.mass("A", "(x, y)")
     s.weight()
-    kind = s.one("corner", "wedge", "lift")
+    kind = s.one("corner", "wedge", "lift") if s.on("stays") else "lift"
     if kind == "lift" and not s.on("drive"):
-        kind = "corner"
+        s.lines = []
+        return
     if kind == "corner":
         s.line("constraint floor: y >= 0", "constraint wall: x >= 0", "init x = 0, y = 0, x' = 0, y' = 0")
         s.line(f"force ({s.n(-3, 3)} [N], {s.n(-5, 5)} [N]) on A")

@@ -153,8 +153,26 @@ class Witness:
         if extra:
             raise Lost(f"the equations contain {sorted(extra)}")
         self.program = s.compiled(roots, self.names)
+        self.slips = self.read_friction()
         self.map_program = self.build_maps()
         self.lets = self.build_lets()
+
+    def read_friction(self):
+        """Row number: (coefficient, the two coordinates of the mass that rubs); None where it is more than that."""
+        out = {}
+        for label, (mu, more) in self.m.friction.items():
+            j = next((k for k, c in enumerate(self.rows) if c.label == label), None)
+            if j is None or "surface" in more or "at" in more or not s.is_num(self.numbered(mu)):
+                return None
+            moved = [q for q in self.d if not s.is_num(s.diff(self.rows[j].g, q), 0)]
+            owners = [at for _, at in self.m.masses.values() if {x.args[0] for x in at if x.op == "name"} >= set(moved)]
+            if len(owners) != 1 or len(owners[0]) != 2 or any(x.op != "name" for x in owners[0]):
+                return None
+            out[j] = (self.numbered(mu).args[0], [self.d.index(x.args[0]) for x in owners[0]])
+        return out
+
+    def numbered(self, e):
+        return s.replaced(e, {k: num(v) for k, v in self.values.items() if v is not None})
 
     def jacobi(self, p, v):
         h = num(0) - self.m.L
@@ -252,9 +270,33 @@ class Point:
         return [j for j, c in enumerate(self.w.rows) if not c.one_sided and c.label not in released]
 
     def solve(self, active):
-        """Accelerations and multipliers with these rows in force."""
+        """Accelerations and multipliers with these rows in force; what rubs, slips."""
+        rubs = [j for j in active if j in (self.w.slips or {})]
+        for signs in itertools.product((1.0, -1.0), repeat=len(rubs)):
+            a, lam, determined = self.solve_pushed(active, dict(zip(rubs, signs)))
+            if all(lam[active.index(j)] * sign >= 0 for j, sign in zip(rubs, signs)):
+                return a, lam, determined
+        raise Lost("friction fits with no sign of the force")
+
+    def rubbing(self, j, push):
+        """The gradient of a row with the friction that belongs to it, against the slip along the tangent."""
+        mu, (x, y) = self.w.slips[j]
+        row, n, at = list(self.G[j]), self.w.n, [self.w.q.index(q) for q in self.w.d]
+        size = math.hypot(row[x], row[y])
+        tangent = (row[y] / size, -row[x] / size)
+        slip = tangent[0] * self.z[n + at[x]] + tangent[1] * self.z[n + at[y]]
+        if abs(slip) < 1e-6:
+            raise Lost("it sticks, or begins to slip")
+        pull = -mu * size * math.copysign(1.0, slip) * push
+        return {x: pull * tangent[0], y: pull * tangent[1]}
+
+    def solve_pushed(self, active, pushes):
         n = self.w.sizes[0]
-        A = [self.M[i] + [-self.G[j][i] for j in active] for i in range(n)]
+        column = {j: [self.G[j][i] for i in range(n)] for j in active}
+        for j, push in pushes.items():
+            for i, extra in self.rubbing(j, push).items():
+                column[j][i] += extra
+        A = [self.M[i] + [-column[j][i] for j in active] for i in range(n)]
         A += [self.G[j] + [0.0] * len(active) for j in active]
         x, determined, rank, consistent = reduced(A, self.f + [-self.gamma[j] for j in active])
         if not consistent:
