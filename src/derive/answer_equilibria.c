@@ -9,7 +9,7 @@
 bool pl_is_angle(pl_analysis* d, int i) {
   const pl_symbol_info* s = pl_symbol_get(d->pool, d->q.at[i].q);
   bool plain = !s->dimension_known || pl_dimension_equal(s->dimension, pl_dimension_one());
-  if (!plain) return false;
+  if (!plain || !pl_places_repeat(d, d->q.at[i].q)) return false;
   pl_expr c = pl_call(d->pool, PL_COS, pl_sym(d->pool, d->q.at[i].q)), s2 = pl_call(d->pool, PL_SIN, pl_sym(d->pool, d->q.at[i].q));
   pl_expr mark = pl_int(d->pool, 7);
   pl_expr probe = pl_add(d->pool, d->Tg, d->Vg);
@@ -294,7 +294,13 @@ static void say_turns(pl_analysis* d) {
 }
 
 // Whether the list is all there is, and how that is known.
-void pl_say_rests_missing(pl_analysis* d, const pl_rests* found) {
+void pl_say_rests_missing(pl_analysis* d, const pl_expr* f, const pl_rests* found) {
+  for (int k = 0; k < d->gen.n && found->n > 0; k++) {
+    if (!pl_rests_recur(d, f, k)) continue;
+    pl_say(d, "The forces repeat with whole periods of {1}, the places do not: beside each of these there are others, whole periods further.",
+           "Die Kräfte wiederholen sich mit ganzen Perioden von {1}, die Lagen nicht: zu jeder gibt es weitere, ganze Perioden entfernt.", 1,
+           pl_fs(d, d->q.at[d->gen.at[k]].q));
+  }
   const pl_form* zero = pl_form_leaf(d->arena, pl_int(d->pool, 0));
   if (found->complete && found->by_numbers && found->searched > 0) {
     const pl_form* inside = pl_fs(d, d->q.at[d->gen.at[found->searched_place]].q);
@@ -378,7 +384,7 @@ void pl_answer_equilibria(pl_analysis* d, const pl_ask* ask) {
   }
   say_singular(d, found);
   if (found->n == 0 && found->complete && found->n_singular == 0) say_none(d, f);
-  pl_say_rests_missing(d, found);
+  pl_say_rests_missing(d, f, found);
   d->section->complete = found->complete && found->n_singular == 0;
   if (!found->complete) d->section->not_found = found->n == 0;
   end_of_steady(d);

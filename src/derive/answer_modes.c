@@ -263,7 +263,7 @@ static void modes_at_rest(pl_analysis* d, const pl_ask* ask, pl_expr* f) {
   if (shown == 0 && found->complete) {
     pl_say(d, "There is no position of rest to oscillate about.", "Es gibt keine Ruhelage, um die etwas schwingen könnte.", 0);
   }
-  if (!found->complete) pl_say_rests_missing(d, found);
+  if (!found->complete) pl_say_rests_missing(d, f, found);
   d->section->not_found = shown == 0;
 }
 

@@ -76,6 +76,9 @@ bool pl_without_drive(pl_analysis* d, pl_expr* f);
 pl_answer3 pl_named_rest(pl_analysis* d, const pl_ask* ask, const pl_expr* f, pl_rest* out);
 bool pl_rest_is_named(pl_analysis* d, const pl_ask* ask, const pl_rest* r);
 bool pl_names_a_place(pl_analysis* d, const pl_ask* ask);
+bool pl_repeats(pl_analysis* d, pl_expr e, pl_symbol x);                    // x stands in sines and cosines only
+bool pl_places_repeat(pl_analysis* d, pl_symbol x);                         // and so in the places of the masses: an angle
+bool pl_rests_recur(pl_analysis* d, const pl_expr* f, int place);           // the forces repeat with a coordinate, the places do not
 // answer_equilibria.c
 const pl_bond* pl_rest_pulls(pl_analysis* d, const pl_rest* r);             // a one-sided constraint that would have to pull; NULL
 const pl_form* pl_rest_form(pl_analysis* d, const pl_rest* r);
@@ -83,6 +86,6 @@ bool pl_rest_exists_at_numbers(pl_analysis* d, const pl_rest* r);
 const pl_form* pl_square_form(pl_analysis* d, pl_expr w2, bool numeric);    // ω² = ..., or ω² ≈ ... in numbers
 void pl_say_velocity_terms(pl_analysis* d, const pl_linearised* l);
 void pl_say_no_rest_named(pl_analysis* d, const pl_ask* ask, const pl_expr* f);
-void pl_say_rests_missing(pl_analysis* d, const pl_rests* found);
+void pl_say_rests_missing(pl_analysis* d, const pl_expr* f, const pl_rests* found);
 
 #endif

@@ -176,6 +176,11 @@ def check_sides(program):
         at_numbers = [v for v in document["list"][0]["values"] if v["name"].startswith("equil") and v.get("stability")]
         tap.check(f"a spring of rest length {d} at 1.68 from a rail: {wanted} places, own checks pass",
                   len(at_numbers) == wanted and got.returncode == 0, (at_numbers, got.stderr))
+    wire = ("param m = 2.68, g = 9.81\ncoord x, y\naxes x right, y up\nmass A: m at (x, y)\ngravity g along -y\nforce (2.46, 0) on A\n"
+            "constraint wire: y = 0.5 cos(x)\nchoose x\ninit x = 0.14, y = 0.5 cos(0.14), x' = 0.64\nask equilibria\n")
+    document, _ = solve(program, wire)
+    said = rests(document)[1]
+    tap.check("a length is no angle, and the places of other waves are told of", "°" not in said and "whole periods further" in said, said)
     turned = "coord x, y\nkinetic 1/2 x'^2 + 1/2 y'^2\npotential x cos(y) + exp(y/2)\nask equilibria\n"
     document, got = solve(program, turned)
     places = {round(v["components"][1]["number"] / math.pi, 6) for v in document["list"][0]["values"] if v["name"].startswith("equil")}
