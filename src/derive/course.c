@@ -225,7 +225,8 @@ static bool meets_on(const pl_course* c, int k, pl_expr f, pl_meeting* out) {
   walk w = {0};
   double begin = at(&l, 0);
   if (l.bent) {
-    for (int i = 1; i <= points_of_a_leg; i++) {
+    int last = g->end == PL_END_TURN ? points_of_a_leg : points_of_a_leg - 1;   // other ends are not reached
+    for (int i = 1; i <= last; i++) {
       if (step(&l, &w, (double)i / points_of_a_leg, false)) break;
     }
   } else {

@@ -124,6 +124,14 @@ gravity g along -y
 event cut: when t = 0.24 -> release rod
 """
 
+PENDULUM = """param m = 1 [kg], l = 1 [m], g = 9.81 [m/s^2]
+coord φ
+axes x right, y up
+mass A: m at (l sin φ, -l cos φ)
+gravity g along -y
+init φ = 60°, φ' = 0
+"""
+
 FOURBAR = """param a = 0.1 [m], b = 0.3 [m], c = 0.25 [m], D = 0.3 [m], m = 1 [kg], g = 9.81 [m/s^2], W = 2 [1/s]
 coord th2, th3, th4
 axes x right, y up
@@ -197,6 +205,13 @@ CASES = [
     (SPRING, "x where x' = 0, x x'", [SPRING_TURN, None], [], []),   # the search leaves no numbers behind
     (CUT, "λ_rod where φ = 0.86", [], ["cut comes before"], ["λ_rod ="]),
     (CUT, "φ' where φ = 1.8", [-math.sqrt(1.19 ** 2 + 2 * G / 0.93 * (math.cos(1.8) - math.cos(math.radians(110))))], [], []),
+    (PENDULUM, "φ' where φ = 90°", [], ["never happens", "φ = -60° and at φ = 60°"], []),
+    (PENDULUM, "φ' where φ = 0", [-math.sqrt(G)], [], []),
+    (PENDULUM, "t where φ = 0", [math.pi / 2 / math.sqrt(G) * 1.0731820071], [], []),   # K(sin 30°)/(π/2)
+    (PENDULUM, "φ where φ' = 1 [1/s]", [-math.acos(1 / (2 * G) + 0.5)], ["turns round"], []),
+    (PENDULUM, "φ where φ' = 0 from φ = 0 and φ' = 2 sqrt(g/l)", [], ["never happens", "approaches φ = 180°"], []),
+    (PENDULUM, "φ' where φ = 450° from φ = 0 and φ' = 7 [1/s]", [math.sqrt(49 - 2 * G)], [], []),
+    (PENDULUM, "φ where φ' = 2 [1/s] from φ = 0 and φ' = 7 [1/s]", [], ["never happens"], []),
     (FOURBAR, "th4 where th2 = 60°", fourbar(math.pi / 3), [], []),
 ]
 
