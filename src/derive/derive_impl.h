@@ -157,6 +157,7 @@ struct pl_analysis {
   PL_VEC(pl_loop) loops;       // in the order in which they can be computed
   bool loops_told;
   struct pl_proposal* proposal;   // what was found when nothing is chosen; NULL: not looked for
+  struct pl_proposal* proposal_for_rest;   // the same where these coordinates fail at rest
   bool singular_told;          // positions where the maps fail
   bool is_proposal;            // this is the analysis of the copy that chooses what is proposed
 
@@ -235,6 +236,7 @@ void pl_find_places(pl_analysis* d);                    // constraints without t
 bool pl_open_coordinate(const pl_variable* c);          // neither fixed, chosen nor mapped
 // propose.c
 pl_analysis* pl_propose(pl_analysis* d);                // the analysis with what the constraints suggest; NULL: nothing was found
+pl_analysis* pl_propose_for_rest(pl_analysis* d);       // the same for positions of rest
 bool pl_follows_by_constraint(const pl_analysis* a, pl_symbol q);   // a new angle that does not lead
 void pl_tell_proposal(pl_analysis* a);                  // once, in the section that is open
 void pl_define_proposed(pl_analysis* d);                // values over proposed angles get their definitions

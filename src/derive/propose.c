@@ -36,6 +36,7 @@ struct pl_proposal {
   pl_angle_names plain, numbered, polar;
   int n_trials, flaws;              // of the analysis that is kept
   bool told;                        // what is proposed has been said
+  bool on_sphere, across;           // it has a sphere; whose axis lies across the force
 };
 
 // ---------------------------------------------------------------------------------------------- sums of squares
@@ -319,11 +320,13 @@ static bool add_circle(pl_analysis* d, pl_proposal* p, pl_model* m, const pl_rou
   return true;
 }
 
-// The axis of the sphere is the coordinate in which there is a potential, so that the other angle is cyclic; else the last one.
-static int axis_of(pl_analysis* d, const pl_round* r) {
+// The axis of the sphere is the coordinate in which there is a potential, so that the other angle is cyclic; else the last one.  Or
+// across it: the first one without.
+static int axis_of(pl_analysis* d, const pl_round* r, bool across) {
   int found = 2;
-  for (int k = 0; k < 3; k++) {
-    if (!pl_is_zero_node(d->pool, pl_diff(d->pool, d->V, d->q.at[r->coordinate[k]].q))) found = k;
+  for (int k = 2; k >= 0; k--) {
+    bool pushed = !pl_is_zero_node(d->pool, pl_diff(d->pool, d->V, d->q.at[r->coordinate[k]].q));
+    if (pushed != across) found = k;
   }
   return found;
 }
@@ -332,7 +335,7 @@ static int axis_of(pl_analysis* d, const pl_round* r) {
 // constraint, both signs occur.
 static bool add_sphere(pl_analysis* d, pl_proposal* p, pl_model* m, const pl_round* r, bool numbered, bool given) {
   pl_pool* pool = d->pool;
-  int axis = axis_of(d, r), a = axis == 0 ? 1 : 0, b = axis == 2 ? 1 : 2;
+  int axis = axis_of(d, r, p->across), a = axis == 0 ? 1 : 0, b = axis == 2 ? 1 : 2;
   pl_symbol theta = angle_name(d, p, true, false), phi = angle_name(d, p, false, numbered);
   if (!theta.id || !phi.id) return false;
   pl_expr w = along_axis(d, r, axis), azimuth = turn(d, r, a, b);
@@ -425,7 +428,11 @@ static bool solves(pl_analysis* d, pl_proposal* p, const pl_trial* t, int n_free
   if (pl_form_equations(a) != PLEUEL_OK || !a->reduced) return false;
   if (a->gen.n + a->hidden.n != n_freedoms) return false;
   int flaws = (covers_all(a) ? 0 : 2) + (a->loops.n > 0 ? 1 : 0);
-  if (!p->analysis || flaws < p->flaws) keep(d, p, a, flaws);
+  if (!p->analysis || flaws < p->flaws) {
+    keep(d, p, a, flaws);
+    p->on_sphere = false;
+    for (int k = 0; k < t->n_rounds; k++) p->on_sphere |= t->n_leaders == 0 && t->round[k].n == 3;
+  }
   return flaws == 0;
 }
 
@@ -479,21 +486,35 @@ bool pl_follows_by_constraint(const pl_analysis* a, pl_symbol q) {
   return false;
 }
 
+static pl_analysis* find_proposal(pl_analysis* d, pl_proposal* p) {
+  if (d->reduced || d->model->choose.coords.n > 0 || d->g.n == 0 || pl_nonholonomic(d) || has_axes(d)) return NULL;
+  int n = freedoms(d);
+  if (n < 0 || d->model->frictions.n > 0) return NULL;
+  bool found = try_coordinates(d, p, n, true) || try_rounds(d, p, n) || try_followers(d, p, n);
+  if (!found) try_coordinates(d, p, n, false);
+  pl_analysis* a = p->analysis;
+  if (!a) return NULL;
+  if (pl_solve_motion(a) != PLEUEL_OK) return p->analysis = NULL;
+  pl_inherit_dependences(a, d);
+  return a;
+}
+
 pl_analysis* pl_propose(pl_analysis* d) {
   if (d->is_proposal) return d;
   if (d->proposal) return d->proposal->analysis;
   d->proposal = PL_NEW(d->arena, pl_proposal);
-  if (d->reduced || d->model->choose.coords.n > 0 || d->g.n == 0 || pl_nonholonomic(d) || has_axes(d)) return NULL;
-  int n = freedoms(d);
-  if (n < 0 || d->model->frictions.n > 0) return NULL;
-  pl_proposal* p = d->proposal;
-  bool found = try_coordinates(d, p, n, true) || try_rounds(d, p, n) || try_followers(d, p, n);
-  if (!found) try_coordinates(d, p, n, false);
-  pl_analysis* a = d->proposal->analysis;
-  if (!a) return NULL;
-  if (pl_solve_motion(a) != PLEUEL_OK) return d->proposal->analysis = NULL;
-  pl_inherit_dependences(a, d);
-  return a;
+  return find_proposal(d, d->proposal);
+}
+
+// The angles of a sphere fail on its axis, which the first proposal lays along the force: where things rest, the axis lies across it.
+pl_analysis* pl_propose_for_rest(pl_analysis* d) {
+  pl_analysis* a = pl_propose(d);
+  if (!a || !d->proposal || !d->proposal->on_sphere) return a;
+  if (d->proposal_for_rest) return d->proposal_for_rest->analysis ? d->proposal_for_rest->analysis : a;
+  d->proposal_for_rest = PL_NEW(d->arena, pl_proposal);
+  d->proposal_for_rest->across = true;
+  pl_analysis* b = find_proposal(d, d->proposal_for_rest);
+  return b ? b : a;
 }
 
 // ---------------------------------------------------------------------------------------------- what is said
@@ -564,19 +585,22 @@ static pl_expr definition_of(pl_analysis* a, const pl_definition* angle) {
 }
 
 // Angles that the model does not know, over its own coordinates.
+static void define_angles(pl_analysis* d, const pl_proposal* p, pl_value* v) {
+  for (int j = 0; j < p->angles.n; j++) {
+    pl_symbol q = p->angles.at[j].symbol;
+    pl_expr value = definition_of(p->analysis, &p->angles.at[j]);
+    define_in(p->analysis, v, pl_symbol_dot(d->pool, q), pl_dt(d->pool, value));
+    define_in(p->analysis, v, q, value);
+  }
+}
+
 void pl_define_proposed(pl_analysis* d) {
-  pl_proposal* p = d->proposal;
-  if (!p || !p->analysis) return;
-  pl_analysis* a = p->analysis;
-  for (int k = 0; k < d->solution->sections.n; k++) {
-    pl_section* s = &d->solution->sections.at[k];
-    for (int i = 0; i < s->values.n; i++) {
-      for (int j = 0; j < p->angles.n; j++) {
-        pl_symbol q = p->angles.at[j].symbol;
-        pl_expr value = definition_of(a, &p->angles.at[j]);
-        define_in(a, &s->values.at[i], pl_symbol_dot(a->pool, q), pl_dt(a->pool, value));
-        define_in(a, &s->values.at[i], q, value);
-      }
+  const pl_proposal* both[2] = {d->proposal, d->proposal_for_rest};
+  for (int b = 0; b < 2; b++) {
+    if (!both[b] || !both[b]->analysis) continue;
+    for (int k = 0; k < d->solution->sections.n; k++) {
+      pl_section* s = &d->solution->sections.at[k];
+      for (int i = 0; i < s->values.n; i++) define_angles(d, both[b], &s->values.at[i]);
     }
   }
 }

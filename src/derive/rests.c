@@ -338,7 +338,19 @@ static bool formulas_hold(pl_analysis* d, pl_rest* r, pl_rests* out) {
   return fine;
 }
 
+// Proposed angles may name one place twice, (α, ψ) and (-α, ψ + π).
+static bool same_in_the_model(pl_analysis* d, const pl_rest* a, const pl_rest* b) {
+  for (int i = 0; i < d->q.n; i++) {
+    const pl_variable* c = &d->q.at[i];
+    if (c->follows || !c->carries || c->fixed_by >= 0) continue;
+    pl_expr place = pl_is_poison(c->map) ? pl_sym(d->pool, c->q) : c->map;
+    if (pl_alg_equal(d->tower, pl_insert_rest(d, place, a), pl_insert_rest(d, place, b)) != PL_YES) return false;
+  }
+  return true;
+}
+
 static bool same_place(pl_analysis* d, const pl_rest* a, const pl_rest* b) {
+  if (d->is_proposal && same_in_the_model(d, a, b)) return true;
   for (int k = 0; k < d->gen.n; k++) {
     if (pl_is_poison(a->q[k]) != pl_is_poison(b->q[k])) return false;
     if (!pl_is_poison(a->q[k]) && pl_alg_equal(d->tower, a->q[k], b->q[k]) != PL_YES) return false;

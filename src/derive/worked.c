@@ -314,7 +314,8 @@ static pl_analysis* serving(pl_analysis* d, const pl_ask* ask) {
   bool first_kind = ask->kind == PL_ASK_DOF || ask->kind == PL_ASK_CONSTRAINTS || ask->kind == PL_ASK_LAGRANGE1 ||
                     ask->kind == PL_ASK_NEWTON || ask->kind == PL_ASK_CONSERVED;
   if (d->reduced || first_kind || !(in_generalized(d, ask) || is_driven(d))) return d;
-  pl_analysis* a = pl_propose(d);
+  bool rest = ask->kind == PL_ASK_EQUILIBRIA || ask->kind == PL_ASK_MODES || ask->kind == PL_ASK_THRESHOLD;
+  pl_analysis* a = rest ? pl_propose_for_rest(d) : pl_propose(d);
   return a ? a : d;
 }
 
@@ -598,13 +599,15 @@ pl_analysis* pl_analysis_make(const pl_analysis* like, const pl_stage* stage) {
 
 // Those of all sets, and of the coordinates that are proposed for them.
 static pl_analysis** all_analyses(pl_analysis* first, int* n) {
-  pl_analysis** out = PL_ARRAY(first->arena, pl_analysis*, 2 * first->sets.n);
+  pl_analysis** out = PL_ARRAY(first->arena, pl_analysis*, 3 * first->sets.n);
   *n = 0;
   for (int k = 0; k < first->sets.n; k++) {
     pl_analysis* d = first->sets.at[k];
     pl_analysis* proposed = d->proposal ? pl_propose(d) : NULL;
     out[(*n)++] = d;
     if (proposed) out[(*n)++] = proposed;
+    pl_analysis* at_rest = d->proposal_for_rest ? pl_propose_for_rest(d) : NULL;
+    if (at_rest && at_rest != proposed) out[(*n)++] = at_rest;
   }
   return out;
 }
