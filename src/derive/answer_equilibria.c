@@ -202,8 +202,22 @@ static void mark_stability(pl_analysis* d, pl_step* step, const pl_verdict* judg
                      pl_format(d->arena, "%s bei den gegebenen Zahlen", german_stability(judged->at_numbers)));
 }
 
+// Proposed coordinates are not those of the model: the place in these.  Returns how many; also where the formulas stand in forms.
+static int in_the_model(pl_analysis* d, const pl_rest* r, pl_component* out, const pl_form** form) {
+  int n = 0;
+  for (int i = 0; d->is_proposal && !r->numeric && i < d->q.n; i++) {
+    const pl_variable* c = &d->q.at[i];
+    if (c->solved_by != -1 || pl_is_poison(c->map) || c->follows) continue;
+    pl_expr place = pl_alg_normal(d->tower, pl_insert_rest(d, c->map, r));
+    const pl_form* shown = pl_f(d, place, PL_S_PLAIN);
+    form[n] = pl_feq(d, pl_fs(d, c->q), shown);
+    out[n++] = (pl_component){pl_symbol_get(d->pool, c->q)->ascii, place, shown, pl_number(d, place)};
+  }
+  return n;
+}
+
 static void name_components(pl_analysis* d, const pl_rest* r, pl_value* v) {
-  v->components = PL_ARRAY(d->arena, pl_component, d->gen.n);
+  v->components = PL_ARRAY(d->arena, pl_component, d->gen.n + d->q.n);
   v->free_names = NULL;
   const char** free_names = PL_ARRAY(d->arena, const char*, d->gen.n);
   for (int k = 0; k < d->gen.n; k++) {
@@ -215,6 +229,10 @@ static void name_components(pl_analysis* d, const pl_rest* r, pl_value* v) {
     v->components[v->n_components++] = (pl_component){name, r->q[k], pl_f(d, r->q[k], PL_S_PLAIN), pl_number(d, r->q[k])};
   }
   v->free_names = free_names;
+  const pl_form** form = PL_ARRAY(d->arena, const pl_form*, d->q.n + 1);
+  int n = in_the_model(d, r, v->components + v->n_components, form);
+  v->n_components += n;
+  if (n > 0) pl_show(d, n == 1 ? form[0] : pl_flist(d, form, n));
 }
 
 static void show_rest(pl_analysis* d, const pl_expr* f, const pl_rest* r, int number) {

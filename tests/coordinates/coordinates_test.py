@@ -405,5 +405,23 @@ def _(program):
         need(any("= 0" in str(s) for i in answer.items() for s in i["steps"]), "no equation")
 
 
+@test("spherical pendulum in Cartesian coordinates: two positions of rest, named in these, and the frequency below")
+def _(program):
+    for up, axes, order in (("z", "axes x right, y out, z up", "x, y, z"), ("z", "axes x right, y out, z up", "z, y, x"),
+                            ("y", "axes x right, y up, z out", "x, y, z")):
+        text = (f"coord {order}\n{axes}\nmass A: m at (x, y, z)\ngravity g along -{up}\nconstraint rod: x^2 + y^2 + z^2 = l^2\n"
+                "init x = l/2\nask b: equilibria\nask c: conserved\n")
+        answer = solve(program, PENDULUM + text)
+        certified(answer, f"{order}, {up}")
+        rest = rests(answer)
+        need(sorted(v["stability"] for v in rest) == ["stable", "unstable"], f"{order}, {up}: {[v.get('stability') for v in rest]}")
+        below = next(v for v in rest if v["stability"] == "stable")
+        place = {c["along"]: Formula(c["expr"]).value({"pi": math.pi, **answer.parameters()}) for c in below["components"]}
+        for name in "xyz":
+            same(place[name], -0.7 if name == up else 0, f"{order}, {up}: {name}")
+        same(evaluated(answer, answer.values("omega^2", key="b")[0], {}), 9.81 / 0.7, f"{order}, {up}: frequency")
+        answer.value(f"L_{up}", key="c", conserved=True)
+
+
 if __name__ == "__main__":
     sys.exit(test.main(program_of(sys.argv)))
