@@ -219,7 +219,7 @@ static void try_complete(pl_witness* w, int section, const pl_ground* on, const 
 
 static void search_rests(pl_witness* w, int section, const pl_ground* on) {
   const pl_section* s = &w->solution->sections.at[section];
-  if (!on->f || !pl_rest_is_possible(on->f) || s->ask->where.n > 0 || s->stage > 0) return;
+  if (!on->f || !pl_rest_is_possible(on->f) || s->ask->where.n > 0 || s->stage > 0 || s->beside) return;
   pl_listed* l = PL_ARRAY(w->arena, pl_listed, s->values.n + 1);
   int n = 0;
   for (int i = 0; i < s->values.n; i++) {

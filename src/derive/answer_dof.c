@@ -5,6 +5,13 @@
 
 static const char* label_of(const pl_bond* l) { return l->source->name.text; }
 
+// Friction that sticks holds like a constraint, but is none that was written: it stands behind the others.
+static int count_written(const pl_analysis* d) {
+  int n = d->g.n;
+  while (n > 0 && d->g.at[n - 1].source->sticking) n--;
+  return n;
+}
+
 static const pl_form* zero_form(pl_analysis* d) { return pl_form_leaf(d->arena, pl_int(d->pool, 0)); }
 
 // "g1 = x1 + x2 - l = 0", "h = r - R ≥ 0"
@@ -51,7 +58,7 @@ static void row_of_coordinates(pl_analysis* d) {
 
 static void rows_of_constraints(pl_analysis* d) {
   const char *en = "constraints", *de = "Zwangsbedingungen";
-  for (int k = 0; k < d->g.n; k++) {
+  for (int k = 0; k < count_written(d); k++) {
     const pl_bond* l = &d->g.at[k];
     pl_step* row = pl_row(d, en, de, link_form(d, l), l->implied ? "0" : "-1");
     if (l->implied) {
@@ -76,7 +83,7 @@ static void rows_of_constraints(pl_analysis* d) {
 }
 
 static bool any(const pl_analysis* d, bool (*is)(const pl_analysis*, const pl_bond*)) {
-  for (int k = 0; k < d->g.n; k++) {
+  for (int k = 0; k < count_written(d); k++) {
     if (is(d, &d->g.at[k])) return true;
   }
   return false;
@@ -88,10 +95,10 @@ static bool is_contact(const pl_analysis* d, const pl_bond* l) { return l->conta
 static bool is_implied(const pl_analysis* d, const pl_bond* l) { return l->implied; }
 
 static void say_kinds(pl_analysis* d) {
-  if (d->g.n == 0) return;
+  if (count_written(d) == 0) return;
   const char* time[2] = {any(d, is_rheonomic) ? "time-dependent (rheonomic)" : "independent of time (scleronomic)",
                          any(d, is_rheonomic) ? "zeitabhängig (rheonom)" : "zeitunabhängig (skleronom)"};
-  if (d->g.n == 1) {
+  if (count_written(d) == 1) {
     bool integrable = !any(d, is_nonholonomic);
     pl_say(d, pl_format(d->arena, "%s, %s", integrable ? "holonomic" : "nonholonomic", time[0]),
            pl_format(d->arena, "%s, %s", integrable ? "holonom" : "nichtholonom", time[1]), 0);
@@ -195,7 +202,7 @@ static const pl_form* multiplier_form(pl_analysis* d, int k) {
 
 static int collect_dropped(pl_analysis* d, pl_dropped_kind kind, const pl_form** label, const pl_form** second, const pl_form** lambda) {
   int n = 0;
-  for (int k = 0; k < d->g.n; k++) {
+  for (int k = 0; k < count_written(d); k++) {
     const pl_bond* l = &d->g.at[k];
     if (!of_kind(d, l, kind)) continue;
     const pl_variable* c = &d->q.at[l->fixes];
@@ -324,8 +331,8 @@ void pl_answer_constraints(pl_analysis* d, const pl_ask* ask) {
                    strcmp(ask->letter, d->section->letter) == 0;
   pl_section_open(d, ask, after_dof ? NULL : "Constraints", after_dof ? NULL : "Zwangsbedingungen");
   bool some_dropped = false;
-  if (d->g.n + count_open(d) == 0) pl_say(d, "There are none.", "Es gibt keine.", 0);
-  for (int k = 0; k < d->g.n; k++) {
+  if (count_written(d) + count_open(d) == 0) pl_say(d, "There are none.", "Es gibt keine.", 0);
+  for (int k = 0; k < count_written(d); k++) {
     const pl_bond* l = &d->g.at[k];
     some_dropped |= dropped(l);
     if (l->contact) {

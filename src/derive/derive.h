@@ -81,6 +81,7 @@ typedef struct pl_section {        // one request
   bool withdrawn;                  // its formulas and the simulated motion disagree: nothing is claimed (api/witness)
   bool complete;                   // of positions of rest: these are all
   bool not_found;                  // a closed form was asked for and not found (exit 5 with --strict)
+  bool beside;                     // of contacts that the motion of `init` need not come to: all of them closed
   int stage;                       // of the motion; 0: where the solution begins
   const struct pl_analysis* by;    // who wrote it, inside of derive
   pl_tower* tower;                 // with the assumptions that its formulas rest on

@@ -485,6 +485,7 @@ void pl_answer_closed(pl_analysis* first, const pl_ask* ask) {
   own->title[0] = "Equilibria as the start has the contacts";
   own->title[1] = "Gleichgewichtslagen mit den Kontakten des Starts";
   pl_answer_one(d, ask);
+  d->section->beside = true;
   d->section->title[0] = "Equilibria with all contacts closed";
   d->section->title[1] = "Gleichgewichtslagen mit allen Kontakten geschlossen";
 }

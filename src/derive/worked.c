@@ -59,6 +59,7 @@ static void count_freedom(pl_analysis* d) {
   int velocity = 0, contacts = 0;
   for (int i = 0; i < d->q.n; i++) f->coordinates += d->q.at[i].carries;
   for (int k = 0; k < d->g.n; k++) {
+    if (d->g.at[k].source->sticking) continue;       // friction is a force
     f->constraints++;
     if (d->g.at[k].implied) continue;
     if (d->g.at[k].velocity) {
@@ -205,7 +206,7 @@ static void describe_constraints(pl_analysis* d, bool first) {
       implied_by(d, k, &info);
       if (first) note_implied(d, l, &info);
     }
-    if (first) pl_push(d->arena, d->solution->constraints, info);
+    if (first && !l->source->sticking) pl_push(d->arena, d->solution->constraints, info);
   }
   if (first) describe_open(d);
 }
