@@ -175,6 +175,7 @@ struct pl_analysis {
 // ---------------------------------------------------------------------------------------------- sets.c
 void pl_choose_set(pl_analysis* d, pl_model* whole, const pl_stage* stage);     // d->model, d->open
 pl_analysis* pl_analysis_of(pl_analysis* first, const pl_ask* ask);             // that of the motion that is asked about; NULL: it failed
+pl_analysis* pl_without_sticking(pl_analysis* first);   // energies do not know of friction
 void pl_answer_closed(pl_analysis* first, const pl_ask* ask);   // positions of rest with all contacts closed
 void pl_answer_stages(pl_analysis* first);              // a section for each later set of the motion
 bool pl_answer_open(pl_analysis* d, const pl_ask* ask); // asked about what does not hold: said

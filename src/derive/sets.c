@@ -189,6 +189,17 @@ pl_analysis* pl_analysis_of(pl_analysis* first, const pl_ask* ask) {
   return first;
 }
 
+pl_analysis* pl_without_sticking(pl_analysis* first) {
+  bool sticks = false;
+  for (int k = 0; first->stage && k < first->stage->n_rubs; k++) sticks |= first->stage->rubs[k].sticks;
+  if (!sticks || first->sets.n == 0) return first;
+  pl_stage* s = PL_NEW(first->arena, pl_stage);
+  *s = *first->stage;
+  s->n_rubs = 0;
+  pl_analysis* d = analysis_in(first, s);
+  return d ? d : first;
+}
+
 // ---------------------------------------------------------------------------------------------- what is open
 pl_expr pl_open_removed(pl_analysis* d, pl_expr e) {
   for (int k = 0; k < d->open.n; k++) {

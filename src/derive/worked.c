@@ -227,9 +227,9 @@ static bool survives_friction(pl_analysis* d, const pl_ask* ask) {
   }
 }
 
-static bool any_slips(const pl_analysis* d) {
+static bool rubs(const pl_analysis* d) {
   for (int k = 0; k < d->g.n; k++) {
-    if (d->g.at[k].rub) return true;
+    if (d->g.at[k].rub || d->g.at[k].source->sticking) return true;
   }
   return false;
 }
@@ -237,8 +237,8 @@ static bool any_slips(const pl_analysis* d) {
 // What slips takes energy, and more is not claimed.
 static void answer_conserved_with_friction(pl_analysis* d, const pl_ask* ask) {
   pl_section_open(d, ask, "Conserved", "Erhaltungsgrößen");
-  pl_say(d, "The energy is not conserved: surfaces slip, and friction does work.",
-         "Die Energie ist nicht erhalten: Flächen gleiten, und die Reibung leistet Arbeit.", 0);
+  pl_say(d, "The energy is not conserved: where surfaces slip, friction does work.",
+         "Die Energie ist nicht erhalten: wo Flächen gleiten, leistet die Reibung Arbeit.", 0);
   pl_value* v = pl_answer(d, "E", pl_poison(), NULL);
   v->conserved = 0;
   v->because[0] = "friction does work";
@@ -343,7 +343,7 @@ static void answer_with(pl_analysis* d, const pl_ask* ask) {
     case PL_ASK_FORCE_OF:
     case PL_ASK_FORCE_ON: pl_answer_force(d, ask); break;
     case PL_ASK_CONSERVED:
-      if (any_slips(d)) answer_conserved_with_friction(d, ask);
+      if (rubs(d)) answer_conserved_with_friction(d, ask);
       else pl_answer_conserved(d, ask);
       break;
     case PL_ASK_EQUILIBRIA: pl_answer_equilibria(d, ask); break;
@@ -378,6 +378,7 @@ static pl_ask in_its_coordinates(pl_analysis* d, const pl_ask* ask) {
 }
 
 void pl_answer_one(pl_analysis* d, const pl_ask* ask) {
+  if (ask->kind == PL_ASK_LAGRANGIAN) d = pl_without_sticking(d);
   int n = d->solution->sections.n;
   d->section = n > 0 ? &d->solution->sections.at[n - 1] : NULL;   // another analysis may have written it
   if (pl_answer_open(d, ask)) return;
