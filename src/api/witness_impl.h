@@ -59,7 +59,7 @@ typedef struct pl_witness {
   PL_VEC(pl_refusal) refusals;
   int n_searched;                  // statements that were tried by a search
   double *value, *shifted;         // numbers by symbol id, and the same with inputs moved by the noise of a run
-  double q_size, v_size, a_size, l_size;   // largest numbers of each kind at the starts
+  double q_size, v_size, a_size, l_size, e_size;   // largest numbers of each kind at the starts
   int n_value;
 } pl_witness;
 

@@ -6,7 +6,7 @@
 #include "api/witness_impl.h"
 
 enum { TRIES = 24 };
-static const double same_place = 1e-5;     // of a coordinate: what two positions of rest are told apart by
+static const double same_place = 1e-2;     // of a coordinate: Newton ends as far from a position where forces vanish with their slopes
 
 static void refuse(pl_witness* w, int section, const char* of, const pl_form* name, const char* en, const char* de) {
   pl_refusal r = {.section = section, .words = {en, de}, .name = name, .of = of};
@@ -232,6 +232,13 @@ static void search_rests(pl_witness* w, int section, const pl_ground* on) {
   if (s->complete) try_complete(w, section, on, l, n);
 }
 
+// A section may be about other contacts than those of the start.
+static bool is_of_start(const pl_witness* w, const pl_section* s, const pl_trace* t) {
+  int holds = 0;
+  for (int i = 0; i < w->model->constraints.n; i++) holds += pl_trace_holds(t, &t->phases.at[0], i);
+  return !s->model || s->model->constraints.n == holds;
+}
+
 // Coordinates that were proposed are those of another model, in which they are chosen.
 static pl_ground ground_of(pl_witness* w, const pl_section* s, const pl_ground* plain) {
   if (!s->model || s->model->choose.n_maps == w->model->choose.n_maps) return *plain;
@@ -251,7 +258,7 @@ void pl_search(pl_witness* w) {
     const pl_section* s = &w->solution->sections.at[i];
     if (!s->ask) continue;
     if (s->ask->kind == PL_ASK_DOF && s->stage == 0) search_freedoms(w, i, plain.f);
-    if (s->ask->kind != PL_ASK_EQUILIBRIA) continue;
+    if (s->ask->kind != PL_ASK_EQUILIBRIA || !is_of_start(w, s, plain.t)) continue;
     pl_ground on = ground_of(w, s, &plain);
     search_rests(w, i, &on);
   }

@@ -30,11 +30,16 @@ void pl_state_sizes(pl_witness* w) {
     if (!t->started) continue;
     const pl_trace_sample* s = &t->samples.at[0];
     int n = t->recording->flat.n;
+    const pl_setup* setup = &t->recording->setup;
+    if (setup->kinetic >= 0 && setup->potential >= 0) {
+      w->e_size = fmax(w->e_size, fabs(s->out[setup->kinetic]) + fabs(s->out[setup->potential]));
+    }
     w->q_size = fmax(w->q_size, largest(s->q, n));
     w->v_size = fmax(w->v_size, largest(s->v, n));
     w->a_size = fmax(w->a_size, largest(s->a, n));
     w->l_size = fmax(w->l_size, largest(s->lambda, t->recording->setup.n_c));
   }
+  w->e_size = or_small(w->e_size);
   w->a_size = or_small(w->a_size);
   w->l_size = or_small(w->l_size);
 }
@@ -91,17 +96,24 @@ static void put_multipliers(pl_witness* w, const pl_trace* t, const pl_trace_sam
   }
 }
 
+// What a result is small beside: energies, or forces.
+static double size_of_result(const pl_witness* w, pl_result_kind kind) {
+  bool force = kind == PL_RES_FORCE_NORM || kind == PL_RES_NORMAL;
+  return 1e-3 * (force ? w->l_size : w->e_size);
+}
+
 // T, E, norm(force(rope)): as the simulation reads them.
 static void put_results(pl_witness* w, const pl_trace* t, const pl_trace_sample* s, const pl_trace_sample* origin) {
   const pl_setup* setup = &t->recording->setup;
   for (int i = 0; i < w->model->result_names.n; i++) {
     const char* name = pl_format(w->arena, "witness_%d", i);
+    double size = size_of_result(w, w->model->result_names.at[i].kind);
     for (int k = 0; k < setup->n_out; k++) {
       if (strcmp(setup->out[k].name, name) != 0) continue;
       pl_symbol of = w->model->result_names.at[i].symbol;
-      put(w, of, s->out[k], shift_of(s->out[k], 0, 2000 + (uint64_t)i));
+      put(w, of, s->out[k], shift_of(s->out[k], size, 2000 + (uint64_t)i));
       pl_symbol start = pl_symbol_find(w->pool, pl_format(w->arena, "%s_0", pl_symbol_get(w->pool, of)->name));
-      put(w, start, origin->out[k], shift_of(origin->out[k], 0, 2000 + (uint64_t)i));
+      put(w, start, origin->out[k], shift_of(origin->out[k], size, 2000 + (uint64_t)i));
     }
   }
 }

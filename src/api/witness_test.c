@@ -253,6 +253,13 @@ static void nothing_is_seen_where_nothing_is(void** state) {
   static const char* const right[] = {
     "param m = 1 [kg], l = 1 [m], g = 9.81 [m/s^2]\nlet a = g\ncoord φ\naxes x right, z up\nmass m at (l sin φ, -l cos φ - 1/2 a t^2)\n"
     "gravity g along -z\nask solve φ''\n",
+    "coord u, v\nlagrangian 1/2*1.59*u'^2 - 1/4*1.27*u^4 + 1/2*1.78*v'^2 - 1/2*1.89*v^2 + 0.26*u'*v'\nask equilibria\n",
+    "param m = 0.86\ncoord θ\nkinetic m/2 θ'^2\npotential 2.25/2 θ^2 + 1.64 θ\ninit θ = -1.2, θ' = 2.85\nask θ' where θ' = 0, T where θ' = 0\n"
+    "simulate 0..40\n",
+    "coord x, y\naxes x right, y up\nmass A: 2.37 at (x, y)\nconstraint floor: y >= 0\nconstraint wall: x >= 0\nforce (-0.59, -4.73) on A\n"
+    "init x = 0, y = 0, x' = 0, y' = 0\nask T, V, solve x''\nsimulate 0..1\n",
+    "param m = 1, R = 2, g = 9.81\ncoord r, θ\naxes x right, y up\nmass A: m at (r sin θ, r cos θ)\ngravity g along -y\nconstraint dome: r >= R\n"
+    "init r = 1.2*R, θ = 7.79°, r' = 0, θ' = 0.02\nask equilibria, solve θ''\nsimulate 0..1\n",
     "param m1, m2, r, l, g\ncoord φ, x2\naxes x right, z up\nmass A: m1 at (r cos φ, r sin φ)\nmass B: m2 at (x2, 0)\ngravity g along -z\n"
     "constraint rod: (x2 - r cos φ)^2 + (r sin φ)^2 = l^2\nbranch x2 > r cos φ\nask lagrangian, lagrange2\n",
   };
