@@ -86,6 +86,7 @@ typedef struct pl_rest_field pl_rest_field;
 pl_rest_field* pl_rest_make(pl_witness* w, const pl_trace* t);   // with what holds at its start; NULL: too large, or by pattern
 bool pl_rest_is_possible(const pl_rest_field* f);                // nothing but drives of one coordinate hangs on the time
 int pl_rest_coordinates(const pl_rest_field* f);
+int pl_rest_idle(const pl_rest_field* f);             // of these, names of a map that does not hold at the start
 int pl_rest_place_of(const pl_rest_field* f, int at);            // of a coordinate of the recording; -1
 int pl_rest_rows(const pl_rest_field* f);                        // constraints that hold, maps too
 int pl_rest_link(const pl_rest_field* f, int row);               // in the setup

@@ -148,6 +148,18 @@ pl_rest_field* pl_rest_make(pl_witness* w, const pl_trace* t) {
 
 bool pl_rest_is_possible(const pl_rest_field* f) { return f->rests; }
 
+// Names of a map that does not hold: no mass, no force, no row.
+int pl_rest_idle(const pl_rest_field* f) {
+  const pl_pool* p = f->w->pool;
+  int n = 0;
+  for (int i = 0; i < f->n; i++) {
+    bool idle = pl_is_zero_node(p, f->push[i]);
+    for (int k = 0; k < f->n_g + f->n_v; k++) idle &= pl_is_zero_node(p, f->slope[k * f->n + i]);
+    n += idle;
+  }
+  return n;
+}
+
 // ---------------------------------------------------------------------------------------------- numbers
 static void put(pl_rest_field* f, const double* q, const double* v) {
   pl_witness* w = f->w;

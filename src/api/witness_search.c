@@ -34,7 +34,7 @@ static int freedoms(pl_rest_field* f, const pl_trace* t, bool with_velocities) {
     if (at >= 0) q[at] = t->samples.at[0].q[i];
   }
   int rank = pl_rest_rank(f, q, with_velocities);
-  return rank < 0 ? -1 : n - rank;
+  return rank < 0 ? -1 : n - pl_rest_idle(f) - rank;
 }
 
 // Constraints on velocities may be integrable, and are then counted as constraints of positions.  At one start at least it is as
