@@ -16,7 +16,7 @@
 // not kept of pl_run, only when, never what: clock_begin t_begin considered wall_begin
 // not kept of pl_run, lives within a step: impact_taken impact_factor rhs Q_last A_last G_series W_series rows rank_work priority row_of row_taken
 //   taken_kept dep dep_tau dep_norm dep_jpvt trial_q trial_v end_a end_by_codes arrived save_q save_v save_a save_l save_unique impulse jump_v jump_q
-//   poly root_work hit root touch sunk rub_before impulsive C_series S_series poly_2 on_before fixed rub_fixed approach second
+//   poly root_work hit root touch undecided sunk rub_before impulsive C_series S_series poly_2 on_before fixed rub_fixed approach second
 //   hold_q hold_v first_a decision choice_kept n_decisions K_series out_now out_before row_q row_v row_a row_l energy_out mode
 //   mode_before t_grid W_coef branch_value reach factored seen shown shown_before
 // not kept of pl_run, lives within a moment: indeterminate

@@ -327,17 +327,14 @@ static void norms_code(pl_maker* k) {
 static void advance_code(pl_maker* k) {
   pl_motion* o = k->o;
   pl_maker_begin(k, PL_PART_ADVANCE, "advance", 1);
-  int h = pl_prog_load(k->code, o->length, 0), of[] = {o->Q, o->V}, to[] = {o->end_q, o->end_v};
-  for (int b = 0; b < 2; b++)
+  int h = pl_prog_load(k->code, o->length, 0), order = k->run->order;
+  int of[] = {o->Q, o->V, o->A}, to[] = {o->end_q, o->end_v, o->end_a};
+  for (int b = 0; b < 3; b++)
     for (int i = 0; i < o->n_q; i++) {
-      int last = k->run->order + (b == 0), x = pl_prog_load(k->code, of[b] + last * o->n_q + i, 0);
-      int slope = x;
-      for (int row = last - 1; row >= 0; row--) {
-        if (b == 1 && row < last - 1) slope = pl_prog_op3(k->code, PL_PROG_FMA, slope, h, x);
+      int last = order + 1 - b, x = pl_prog_load(k->code, of[b] + last * o->n_q + i, 0);
+      for (int row = last - 1; row >= 0; row--)
         x = pl_prog_op3(k->code, PL_PROG_FMA, x, h, pl_prog_load(k->code, of[b] + row * o->n_q + i, 0));
-      }
       pl_prog_store(k->code, x, to[b] + i, 0);
-      if (b == 1) pl_prog_store(k->code, slope, o->end_a + i, 0);
     }
   pl_maker_end(k);
 }

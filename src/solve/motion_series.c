@@ -220,7 +220,9 @@ static double block_radius(const double* norm, int last) {
   return least;
 }
 
-static const double grown = 1.3;    // a step longer by this than the one before, or than what other orders say, is doubtful
+// A step twice as long as the one before is looked at closely: coefficients that are rounding make it three to seven times as long.
+// What many orders say counts where it is clearly less: ordinary steps stay as they are.
+static const double grown = 2, clearly = 1.3;
 
 // Radius of a block from the norms of many orders, where the last two may be none or rounding: motions that start at rest or in a
 // symmetric position have coefficients of every second or fourth order only, and others have wider gaps.  The least of what orders of the
@@ -267,7 +269,7 @@ double pl_series_step(pl_run* run) {
   double radius = pl_smaller(block_radius(q, p + 1), block_radius(v, p)), h = exp2(radius - shrink);
   if (!(h <= grown * run->h_series) || isinf(run->h_series)) {
     double all = exp2(pl_smaller(wide_radius(run->Q, run->n_q, p + 1), wide_radius(run->V, run->n_q, p)) - shrink);
-    if (!(h <= grown * all)) h = all;
+    if (!(h <= clearly * all)) h = all;
   }
   return run->wide ? pl_wide_vary(run, h) : h;
 }

@@ -153,7 +153,7 @@ pleuel_status pl_rows_grid(pl_run* run, double t_from, double t_to) {
     double t = grid_time(run, run->grid_n);
     if (run->grid_count > 0 && run->grid_n > run->grid_count) return PLEUEL_OK;
     if (direction * (t_to - t) <= grid_slack(run)) return PLEUEL_OK;
-    if (direction * (t - t_from) < 0) continue;
+    if (direction * (t - t_from) < -grid_slack(run)) continue;
     PL_TRY(row_between(run, t, run->grid_n));
   }
 }

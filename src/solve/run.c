@@ -241,7 +241,9 @@ static pleuel_status step(pl_run* run) {
   accept(run, h, to_end);
   PL_TRY(arrive_at_point(run));
   if (root > 0) return pl_modes_handle(run);
-  return pl_run_done(run) ? PLEUEL_OK : pl_rows_point(run, PL_ROW_STEP);
+  // a row of the grid that falls together with a root is written when that is known
+  bool waits = run->n_watch > 0 && run->undecided && run->grid_dt != 0 && !run->implicit;
+  return pl_run_done(run) || waits ? PLEUEL_OK : pl_rows_point(run, PL_ROW_STEP);
 }
 
 static pleuel_status limits(pl_run* run) {

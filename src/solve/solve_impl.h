@@ -238,6 +238,7 @@ struct pl_run {
   bool* hit;               // (n_watch)
   double* root;            // (n_watch)
   bool* touch;             // the root only touches    (n_watch)
+  bool undecided;          // what is watched may be zero just at the end of the step
   int sunk;                // constraint that the step went through, unseen; -1 none
 
   // contacts and friction

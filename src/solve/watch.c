@@ -329,6 +329,7 @@ double pl_watch_first(pl_run* run, double h) {
 // ---------------------------------------------------------------------------------------------- afterwards
 void pl_watch_passed(pl_run* run, double h) {
   run->sunk = -1;
+  run->undecided = false;
   for (int i = 0; i < run->n_watch; i++) {
     pl_watch* w = &run->watch[i];
     if (!is_watched(run, w)) continue;
@@ -340,7 +341,9 @@ void pl_watch_passed(pl_run* run, double h) {
     if (h != 0 && clear) w->fresh = 0;
     if (w->kind == PL_WATCH_LANDING && x < -1e-9 * run->g_size[w->index]) run->sunk = w->index;
     // what the roots leave open at the end is decided at the start of the next step
-    if (fabs(x) > fmax(pl_watch_noise(run, w, h), 2 * known_part(n) * size_of(run->poly, n))) w->side = (int)sign(x);
+    bool decided = fabs(x) > fmax(pl_watch_noise(run, w, h), 2 * known_part(n) * size_of(run->poly, n));
+    if (decided) w->side = (int)sign(x);
+    run->undecided |= !decided;
   }
   // slip in space that has become clear of rounding counts as none only far below that again
   for (int r = 0; r < run->setup->n_rubs; r++) {
