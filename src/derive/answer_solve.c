@@ -79,6 +79,18 @@ static const pl_form* by_multipliers(pl_analysis* d, pl_expr e) {
   return n == 1 ? term[0] : pl_form_sum(d->arena, term, n);
 }
 
+// The equations of motion that have an acceleration of e; all of them where rows and coordinates do not pair.
+static const pl_form* refs_of_accelerations(pl_analysis* d, pl_expr e) {
+  int rows = 0, n = 0, *number = PL_ARRAY(d->arena, int, d->q.n + 1);
+  for (int j = 0; j < d->q.n; j++) {
+    if (!d->q.at[j].carries || d->q.at[j].fixed_by >= 0) continue;
+    int row = rows++;
+    if (row < d->lagrange1_numbers.n && pl_has_symbol(d->pool, e, d->q.at[j].a)) number[n++] = d->lagrange1_numbers.at[row];
+  }
+  if (n == 0 || rows != d->lagrange1_numbers.n) return refs_form(d, d->lagrange1_numbers.at, d->lagrange1_numbers.n);
+  return n == 1 ? pl_fref(d, number[0]) : refs_form(d, number, n);
+}
+
 static void show_twice_differentiated(pl_analysis* d, int k) {
   const pl_bond* l = &d->g.at[k];
   const pl_form* zero = pl_form_leaf(d->arena, pl_int(d->pool, 0));
@@ -98,7 +110,7 @@ static void show_twice_differentiated(pl_analysis* d, int k) {
   pl_expr inserted;
   if (d->lagrange1_numbers.n == 0 || !insert_rows(d, pl_on_contact(d, gdd), &inserted)) return;
   if (pl_op_count(d->pool, inserted) > 60) return;
-  pl_say(d, "{1} inserted into {2}:", "{1} in {2} eingesetzt:", 2, refs_form(d, d->lagrange1_numbers.at, d->lagrange1_numbers.n), pl_fref(d, d->number_gdd));
+  pl_say(d, "{1} inserted into {2}:", "{1} in {2} eingesetzt:", 2, refs_of_accelerations(d, gdd), pl_fref(d, d->number_gdd));
   pl_show(d, pl_feq(d, by_multipliers(d, inserted), zero));
   pl_claim_that(d, PL_CLAIM_MOTION, inserted, pl_int(d->pool, 0));
   pl_why_multiplier(d, k, inserted);

@@ -214,6 +214,7 @@ void pl_say_circular(pl_analysis* d, pl_expr name) {
 }
 
 static void say_independent(pl_analysis* d, pl_expr value) {
+  if (pl_is_zero_node(d->pool, value)) return;      // nothing depends on nothing
   if (!pl_is_constant(d->pool, value) || pl_is_zero_node(d->pool, value) || d->model->params.n == 0) return;
   const pl_form** f = PL_ARRAY(d->arena, const pl_form*, d->model->params.n);
   int n = 0;
