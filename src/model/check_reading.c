@@ -114,7 +114,19 @@ static void check_idle_gravity(pl_job* job, const pl_model* m) {
   }
 }
 
+// ---------------------------------------------------------------------------------------------- start
+// A run without any start value begins somewhere.  Where constraints may give every coordinate nothing is said.
+static void check_no_start(pl_job* job, const pl_model* m) {
+  if (!m->simulate.given || m->inits.n > 0 || m->blocks.n > 0 || job->diagnostics->n_errors) return;
+  if (m->coords.n + m->choose.coords.n == 0 || m->coords.n <= m->constraints.n) return;
+  const char* name = pl_symbol_get(m->pool, m->coords.at[0].symbol)->name;
+  pl_diagnostic* d = pl_tell(job, PL_N077, m->simulate.span, "no start value is given: the run begins at a place of its own choice",
+                             "kein Startwert ist gegeben: der Lauf beginnt an einer selbst gewählten Lage");
+  pl_report_fix(d, PL_F(job, "give one: init %s = ..., %s' = ...", name, name), PL_F(job, "angeben: init %s = ..., %s' = ...", name, name), NULL);
+}
+
 void pl_check_reading(pl_job* job, pl_model* m) {
+  check_no_start(job, m);
   check_idle_gravity(job, m);
   check_places(job, m);
   check_degrees(job, m);
