@@ -42,8 +42,14 @@ static void refuse(pl_witness* w, int section, const pl_value* v, pl_expr asked,
 static void compare(pl_witness* w, int section, const pl_trace* t, const pl_trace_sample* at, bool pushed) {
   const pl_section* s = &w->solution->sections.at[section];
   const pl_trace_sample* start = &t->samples.at[0];
+  double most = 0;   // what vanishes there is small beside its values on the way
+  for (int k = 0; k < t->samples.n; k++) {
+    pl_state_set(w, t, &t->samples.at[k], start, 0);
+    double x = pl_state_value(w, s->ask->value);
+    if (isfinite(x)) most = fmax(most, fabs(x));
+  }
   pl_state_set(w, t, at, start, 0);
-  double motion = pl_state_value(w, s->ask->value), noise = pl_state_noise(w, s->ask->value);
+  double motion = pl_state_value(w, s->ask->value), noise = pl_state_noise(w, s->ask->value) + 1e-10 * most;
   const pl_value* wrong = NULL;
   double shown = 0;
   for (int i = 0; i < s->values.n; i++) {

@@ -15,6 +15,7 @@ static const double whole_period = 1.5;       // where all repeats after one
 static const double steps_of_a_period = 300;
 static const double double_zero = 1e-11;      // of the largest value around: below it an extremum is a zero
 static const double vanishes = 1e-9;          // likewise, at the ends of a leg
+static const double faded = 1e-250;           // what gets smaller than this and then 0 has no zero: e^(-t)
 static const double at_the_end = 1e-7;        // of a leg: a zero there is one at the turn
 
 double pl_course_value(const pl_course* c, pl_expr f, double q, int sign) {
@@ -93,7 +94,8 @@ static bool step(const line_of* l, walk* w, double u, bool domain_ends) {
   w->u[2] = u, w->f[2] = f;
   w->n++;
   if (fabs(f) > w->size) w->size = fabs(f);
-  if (w->n >= 2 && (w->f[1] > 0) != (f > 0)) {
+  bool underflows = f == 0 && fabs(w->f[1]) < faded;
+  if (w->n >= 2 && (w->f[1] > 0) != (f > 0) && !underflows) {
     double zero = f == 0 ? u : bisect(l, w->u[1], u, w->f[1]);
     if (f != 0 && is_pole(l, w, zero)) {
       w->kind = HAS_POLE;

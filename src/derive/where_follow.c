@@ -6,7 +6,8 @@
 
 #include "where_impl.h"
 
-enum { most = 24, most_steps = 40000, stages = 7 };
+enum { most = 24, most_steps = 40000, stages = 7 };   // coordinates; of one search; of a step
+static const double most_work = 4e8;       // operations of one search: some seconds
 static const double tolerance = 1e-12;   // of a step, relative to the largest value so far
 static const double safety = 0.9, grows = 4, shrinks = 0.2;
 
@@ -98,13 +99,23 @@ static bool follows(pl_analysis* d, flow* w, int assembly) {
   return true;
 }
 
+// Steps that most_work allows.
+static int steps_of(const flow* w) {
+  double work = (double)pl_op_count(w->d->pool, w->f);
+  for (int k = 0; k < w->n; k++) work += (double)pl_op_count(w->d->pool, w->d->acceleration[w->coordinate[k]]);
+  for (int k = 0; k < w->n_definitions; k++) work += (double)pl_op_count(w->d->pool, w->definition[k].value);
+  double steps = most_work / (stages * (work + 1));
+  return steps < most_steps ? (int)steps : most_steps;
+}
+
 // The time and state of the first zero of w->f; the start does not count.
 static pl_followed_how first_zero(const flow* w, double end, double* time, double* y) {
   double size[2 * most], next[2 * most], t = 0, h = 1e-3, before = watched(w, 0, y);
-  int n = 2 * w->n;
+  int n = 2 * w->n, steps = steps_of(w);
   bool leaves = fabs(before) == 0;
   for (int i = 0; i < n; i++) size[i] = fabs(y[i]) > 1e-3 ? fabs(y[i]) : 1e-3;
-  for (int k = 0; k < most_steps && t < end; k++) {
+  for (int k = 0; k < steps && t < end; k++) {
+    if (k % 256 == 255 && pl_interrupted(w->d->job)) return PL_FOLLOWED_NOT;
     if (t + h > end) h = end - t;
     double error = step(w, t, y, h, size, next) / tolerance;
     if (!(error <= 1)) {

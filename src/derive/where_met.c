@@ -340,6 +340,11 @@ static void show_given(pl_analysis* d, const pl_search* p, const numeric* x, con
     show_way(d, p, r, o, false);
     return;
   }
+  if (!isfinite(y)) {
+    pl_say(d, "No solution in closed form was found.", "Eine geschlossene Lösung wurde nicht gefunden.", 0);
+    d->section->not_found = true;
+    return;
+  }
   pl_say(d, "No solution in closed form was found; for the given numbers:",
          "Eine geschlossene Lösung wurde nicht gefunden; mit den gegebenen Zahlen:", 0);
   pl_show_met_number(d, p->name, y);
