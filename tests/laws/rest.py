@@ -146,7 +146,7 @@ def check_equilibria(ex, item, said):
         return                  # no number, or coordinates of the program's own
     check_named(ex, named, active)
     check_stability(ex, item, active)
-    whole = not re.search(r"may be others|closed form|[Cc]ould|name them|sought|not ", said)
+    whole = not re.search(r"may be others|closed form|[Cc]ould|name them|sought|not |Only places", said)
     if not (named or "There is none" in said) or not whole:
         return
     for q in found_places(ex, active):
