@@ -13,17 +13,18 @@ FEATURES = {
     "let": True,             # abbreviations
     "let_given": True,       # let a = g
     "stays": False,          # a mass that stays where it is: T = 0 is withdrawn by the witness of the motion
-    "sticks": False,         # friction from rest: the count of freedoms is withdrawn by it
+    "sticks": True,          # friction from rest
     "degenerate_rest": False,   # a force that begins with a cube: a position of rest is withdrawn by it
-    "free_fall": False,      # a lift that falls with g: the witness of the motion withdraws a right zero
+    "cosine_length": False,  # a length inside a cosine: rest modulo 2 pi is claimed to be all
+    "free_fall": True,       # a lift that falls with g
     "open_contact": True,    # one-sided constraints that the start leaves open
     "closed_contact": True,
     "rope": True,            # <= between distances
     "release": True,         # release and attach by events
     "choose": True,          # choose with maps
-    "choose_rope": False,    # the map of a rope: places jump when it goes taut
-    "line_spring": False,    # springs on a line, whose length is an absolute value: rest outside of the assumptions
-    "contact_equilibria": False,   # positions of rest on contacts that exist for other numbers
+    "choose_rope": False,    # the map of a rope that is slack: the count of freedoms is withdrawn by the witness
+    "line_spring": True,     # springs on a line, whose length is an absolute value
+    "contact_equilibria": True,   # positions of rest of models with contacts
     "choose_release": True,  # the map of a constraint that is released
     "velocity": True,        # starts with velocity
     "kinetic": True,
@@ -38,7 +39,7 @@ FEATURES = {
     "no_freedom": True,
     "nonholonomic": True,
     "where": True,
-    "where_events": False,   # places behind a contact or an event that ends what the formula speaks of
+    "where_events": True,    # places behind a contact or an event
     "from": True,
     "equilibria": True,
     "closed_motion": True,
@@ -295,7 +296,9 @@ def wire(s):
     s.mass("A", "(x, y)")
     s.weight()
     s.loads()
-    f = s.one("0.4 x^2/(1 [m])", "-0.3 x^2/(1 [m])", "0.5 [m] cos(x/(1 [m]))", "0.6 x", "0.2 [m] sin(2 x/(1 [m]))")
+    f = s.one("0.4 x^2/(1 [m])", "-0.3 x^2/(1 [m])", "0.6 x")
+    if s.on("cosine_length", 0.4):
+        f = s.one("0.5 [m] cos(x/(1 [m]))", "0.2 [m] sin(2 x/(1 [m]))")
     relation = "="
     if s.on("closed_contact", 0.35):
         relation = ">="
