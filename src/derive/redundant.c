@@ -152,6 +152,9 @@ static bool smallest(pl_analysis* d, const bool* in, pl_replace* out, int* n_out
 static void show_smallest(pl_analysis* d, const bool* in) {
   pl_replace r[max_free];
   int n = 0;
+  for (int k = 0; k < d->g.n; k++) {
+    if (in[k] && d->g.at[k].contact) return;      // contacts push: the choice might let one of them pull
+  }
   if (!smallest(d, in, r, &n)) return;
   pl_say(d, "A choice is needed for more; the one with the smallest sum of squares (minimum norm) is:",
          "Für mehr ist eine Wahl nötig; die mit der kleinsten Quadratsumme (minimale Norm) ist:", 0);

@@ -213,7 +213,11 @@ void pl_setup_facts(pl_analysis* d) {
 
 static void add_contact_fact(pl_analysis* d, const pl_constraint* c) {
   if (c->relation == PL_EQ || c->has_velocity) return;
-  pl_push(d->arena, d->facts, (pl_fact){c->relation == PL_GE ? c->g : pl_neg(d->pool, c->g), false});
+  pl_expr apart = c->relation == PL_GE ? c->g : pl_neg(d->pool, c->g), other = pl_neg(d->pool, apart);
+  for (int k = 0; k < d->facts.n; k++) {      // y >= 0 and y <= 0: an equality, in which no sample lies
+    if (pl_same(d->facts.at[k].difference, other)) return;
+  }
+  pl_push(d->arena, d->facts, (pl_fact){apart, false});
 }
 
 // In contact or above it, a one-sided constraint is a fact too: r >= R.

@@ -201,6 +201,17 @@ case("a ball below a ceiling that falls faster is pushed down",
      DROP + "constraint ceiling: y <= 1 [m] - (20 [m/s^2]) t^2/2\ninit y = 1 [m], y' = 0\nask solve y'', solve λ_ceiling\nsimulate 0..0.3 [s]\n",
      [(["ceiling"], 0, 0, 0.3)], 2)
 
+
+
+def shares(motion):
+    """Two contacts on one place: only what they do together is determined, and no choice is made that pulls."""
+    need("λ_floor + λ_lid = m g" in texts(motion) and "minimum norm" not in texts(motion), texts(motion))
+
+
+case("a floor and a ceiling at the same height are an equality",
+     POINT + "constraint floor: y >= 0\nconstraint lid: y <= 0\ninit x = 0, y = 0, x' = 1 [m/s], y' = 0\n"
+     "ask dof, solve x'', solve λ_floor, conserved\nsimulate 0..1 [s]\n", [(["floor", "lid"], 1, 0, 1)], 2, shares)
+
 # ---------------------------------------------------------------------------------------------- walls
 case("a wall far away does nothing",
      POINT + "param F = 150 [N]\nforce (F, 0) on A\nconstraint table: y >= 0\nconstraint wall: x >= -100 [m]\n"
