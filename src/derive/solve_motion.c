@@ -269,13 +269,15 @@ static pl_expr denominator(pl_analysis* d, pl_expr e) {
   return den;
 }
 
-// What is divided by must not vanish: proving its sign puts the assumptions on record ("used: m1 > 0, m2 > 0").
+// What is divided by must not vanish: proving its sign puts the assumptions on record ("used: m1 > 0, m2 > 0").  Where coordinates are
+// in it, it is the determinant of a definite matrix, and nothing is assumed.
 static void record_denominators(pl_analysis* d) {
   for (int k = 0; k < d->g.n; k++) {
     int sign;
     if (!d->g.at[k].lambda_known) continue;
     pl_expr den = denominator(d, d->g.at[k].lambda_value);
-    if (!pl_is_poison(den) && !pl_is_number(d->pool, den) && pl_op_count(d->pool, den) <= longest_denominator) pl_alg_sign(d->tower, den, false, &sign);
+    bool given = !pl_is_poison(den) && !pl_is_number(d->pool, den) && !pl_has_coordinates(d, den);
+    if (given && pl_op_count(d->pool, den) <= longest_denominator) pl_alg_sign(d->tower, den, false, &sign);
   }
 }
 
