@@ -10,6 +10,7 @@
 #include "solve/motion_impl.h"
 
 static const double sound = 0.02;       // square of the part of its best at which a pivot is no longer trusted
+static const double least_sound = 1e-7; // of what was subtracted there: below, whatever the best was, it may be rounding
 static const double rounding = 2.3e-16;
 
 static void run_part(pl_motion* o, pl_motion_part part, int from, int to) {
@@ -98,7 +99,7 @@ static bool pivots_are_sound(pl_motion* o) {
     least = part >= least ? least : part;
   }
   if (o->n == o->n_mass) return true;
-  if (!(least > 0)) return false;
+  if (!(least > least_sound)) return false;
   if (least > o->fade_best) o->fade_best = least;
   return least > sound * o->fade_best;
 }

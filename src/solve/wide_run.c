@@ -11,6 +11,7 @@
 // Part of the largest sum ever subtracted at a pivot at which this is lost, compared with the best part: the digits that are left are
 // still those of a double.
 static const double sound = 1e-16;
+static const double least_sound = 1e-24;   // of what was subtracted there: below, it may be rounding
 
 static void fine(pl_run* run, const pl_prog* code, int from, int to) { run->wide->fine->interpret(code, run->wide->m, from, to); }
 static void fine_part(pl_run* run, pl_motion_part part) { fine(run, run->wide->o->code[part], 0, 1); }
@@ -35,7 +36,7 @@ static bool pivots_are_sound(pl_run* run) {
   if (o->n == o->n_mass) return true;
   run->wide->part = o->fade_best > 0 ? fmin(1, least / o->fade_best) : 1;
   run->smallest = least > 0 && o->fade_best > 0 ? run->best * sqrt(fmin(1, least / o->fade_best)) : run->best;
-  if (!(least > 0)) return false;
+  if (!(least > least_sound)) return false;
   if (least > o->fade_best) o->fade_best = least;
   return least > sound * o->fade_best;
 }
