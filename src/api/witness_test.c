@@ -253,6 +253,8 @@ static void nothing_is_seen_where_nothing_is(void** state) {
   static const char* const right[] = {
     "param m = 1 [kg], l = 1 [m], g = 9.81 [m/s^2]\nlet a = g\ncoord φ\naxes x right, z up\nmass m at (l sin φ, -l cos φ - 1/2 a t^2)\n"
     "gravity g along -z\nask solve φ''\n",
+    "param l = 1.01, g = 9.81\ncoord x, y, φ\naxes x right, y up\nmass A: 1.15 at (x, y)\nconstraint rod: sqrt(x^2 + y^2) <= l\n"
+    "choose φ with x = l sin φ, y = -l cos φ\ninit φ = 119°, φ' = 0\ngravity g along -y\nask dof\nsimulate 0..1\n",
     "coord u, v\nlagrangian 1/2*1.59*u'^2 - 1/4*1.27*u^4 + 1/2*1.78*v'^2 - 1/2*1.89*v^2 + 0.26*u'*v'\nask equilibria\n",
     "param m = 0.86\ncoord θ\nkinetic m/2 θ'^2\npotential 2.25/2 θ^2 + 1.64 θ\ninit θ = -1.2, θ' = 2.85\nask θ' where θ' = 0, T where θ' = 0\n"
     "simulate 0..40\n",
