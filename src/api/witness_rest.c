@@ -10,7 +10,7 @@
 #include "api/least_squares.h"
 #include "api/witness_impl.h"
 
-enum { MOST_COORDINATES = PL_MOST_AT_REST, MOST_ROWS = PL_MOST_ROWS, MOST_ITERATIONS = 60 };
+enum { MOST_COORDINATES = PL_MOST_AT_REST, MOST_ROWS = PL_MOST_ROWS, MOST_ITERATIONS = 20 };
 static const double solved = 1e-10;        // residual of a position of rest, in units of the terms
 static const double difference = 1e-6;     // step of differences
 

@@ -5,7 +5,7 @@
 
 #include "api/witness_impl.h"
 
-enum { TRIES = 24 };
+enum { TRIES = 12 };
 static const double same_place = 1e-2;     // of a coordinate: Newton ends as far from a position where forces vanish with their slopes
 
 static void refuse(pl_witness* w, int section, const char* of, const pl_form* name, const char* en, const char* de) {
