@@ -488,7 +488,9 @@ class Examination:
         return out
 
     def formula(self, value, names):
-        """The number of a value; None where it has none."""
+        """The number of a value; None where it has none, or was withdrawn."""
+        if not value.get("expr"):
+            return None
         try:
             names = dict(names)
             for k, text in value.get("where", {}).items():

@@ -68,6 +68,9 @@ def one(program, seed, options, totals):
     except subprocess.TimeoutExpired:
         tap.check(name, False, f"no answer within a minute\n{text}")
         return
+    except Exception as e:  # noqa: BLE001  a stumble of the witness is shown with its model, and the run goes on
+        tap.check(name, False, f"the witness stumbled, {type(e).__name__}: {e}\n{text}")
+        return
     if r is None:
         totals["not read"] += 1
         tap.check(name, False, f"the witness cannot read its own model\n{text}")
