@@ -12,9 +12,9 @@ FEATURES = {
     "numbers": True,         # numbers as masses and other given quantities
     "let": True,             # abbreviations
     "let_given": True,       # let a = g
-    "stays": False,          # a mass that stays where it is: T = 0 is withdrawn by the witness of the motion
+    "stays": True,           # a mass that stays where it is
     "sticks": True,          # friction from rest
-    "degenerate_rest": False,   # a force that begins with a cube: a position of rest is withdrawn by it
+    "degenerate_rest": True,    # a force that begins with a cube
     "cosine_length": False,  # a length inside a cosine: rest modulo 2 pi is claimed to be all
     "free_fall": True,       # a lift that falls with g
     "open_contact": True,    # one-sided constraints that the start leaves open
@@ -22,7 +22,7 @@ FEATURES = {
     "rope": True,            # <= between distances
     "release": True,         # release and attach by events
     "choose": True,          # choose with maps
-    "choose_rope": False,    # the map of a rope that is slack: the count of freedoms is withdrawn by the witness
+    "choose_rope": True,     # the map of a rope that is slack
     "line_spring": True,     # springs on a line, whose length is an absolute value
     "contact_equilibria": True,   # positions of rest of models with contacts
     "choose_release": True,  # the map of a constraint that is released
