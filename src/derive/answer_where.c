@@ -628,8 +628,8 @@ static bool on_the_way(pl_analysis* d, const pl_where* p) {
 }
 
 static void say_motion_unknown(pl_analysis* d) {
-  pl_say(d, "The motion from this start is not known in closed form, and not all numbers are given.",
-         "Die Bewegung von diesem Start ist nicht geschlossen bekannt, und nicht alle Zahlen sind gegeben.", 0);
+  pl_say(d, "The motion from this start is not known in closed form, and it could not be followed in numbers.",
+         "Die Bewegung von diesem Start ist nicht geschlossen bekannt und ließ sich in Zahlen nicht verfolgen.", 0);
   d->section->not_found = true;
 }
 

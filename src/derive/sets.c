@@ -366,13 +366,19 @@ static void show_sticking_force(pl_analysis* d, const pl_stage_rub* rub) {
   }
 }
 
+// The velocity of slip with the contacts of the set closed.
+static const pl_form* slip_form(pl_analysis* d, const pl_stage_rub* rub) {
+  pl_expr slip = pl_alg_normal(d->tower, pl_on_contact(d, rub->slip));
+  return pl_f(d, pl_is_poison(slip) ? rub->slip : slip, PL_S_PLAIN);
+}
+
 // Friction of the set: what sticks, and what slips with which force.
 static void tell_friction(pl_analysis* d) {
   for (int k = 0; d->stage && k < d->stage->n_rubs; k++) {
     const pl_stage_rub* rub = &d->stage->rubs[k];
     const pl_constraint* c = constraint_named(d, rub->on);
     if (!c || (!rub->sticks && !rub->slips)) continue;
-    const pl_form* slip = pl_frel(d, pl_fe(d, rub->slip), rub->sticks ? "=" : rub->way > 0 ? ">" : "<", zero_form(d));
+    const pl_form* slip = pl_frel(d, slip_form(d, rub), rub->sticks ? "=" : rub->way > 0 ? ">" : "<", zero_form(d));
     if (rub->sticks) {
       pl_say(d, "Friction on {1} sticks, {2}, as long as {3}.", "Die Reibung auf {1} haftet, {2}, solange {3}.", 3,
              pl_fn(d, c->name.text), slip, pl_frel(d, limit_form(d, rub, c)->args[0], "≤", limit_form(d, rub, c)->args[1]));
@@ -405,9 +411,9 @@ static const pl_form* end_form(pl_analysis* d, const pl_stage* s) {
   const pl_constraint* c = constraint_named(d, s->ended_by);
   if (s->end == PL_END_CLOSES && c) return met_form(d, c);
   const pl_stage_rub* rub = rub_on(s, s->ended_by);
-  if (s->end == PL_END_STICKS && rub) return pl_feq(d, pl_fe(d, rub->slip), zero_form(d));
+  if (s->end == PL_END_STICKS && rub) return pl_feq(d, slip_form(d, rub), zero_form(d));
   if (s->end == PL_END_SLIPS && rub && rub->sticks && c) return limit_form(d, rub, c);
-  if (s->end == PL_END_SLIPS && rub) return pl_feq(d, pl_fe(d, rub->slip), zero_form(d));
+  if (s->end == PL_END_SLIPS && rub) return pl_feq(d, slip_form(d, rub), zero_form(d));
   if (s->end == PL_END_OPENS && c) return pl_feq(d, pl_fs(d, c->lambda), zero_form(d));
   const pl_event* e = s->end == PL_END_EVENT ? event_named(d, s->ended_by) : NULL;
   return e ? equation_form(d, e->value) : NULL;
