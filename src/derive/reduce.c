@@ -251,6 +251,15 @@ void pl_collect_generalized(pl_analysis* d) {
   }
 }
 
+// Coordinate i follows from its own equation and is no freedom of its own.
+static void hide_coordinate(pl_analysis* d, int i, pl_expr value) {
+  set_map(d, i, value, -3);
+  pl_push(d->arena, d->hidden, i);
+  d->gen.n = 0;
+  pl_collect_generalized(d);
+  d->Lg = pl_on_maps(d, d->L);
+}
+
 // A generalized coordinate whose equation of the second kind contains neither accelerations nor velocities: a hidden constraint.
 // Where it is linear in the coordinate, the coordinate is solved for and is no freedom of its own.
 static bool find_hidden(pl_analysis* d) {
@@ -259,11 +268,7 @@ static bool find_hidden(pl_analysis* d) {
     pl_expr e = pl_alg_normal(d->tower, pl_second_kind(d, i)), value;
     bool moving = pl_has_role(d->pool, e, PL_R_ACCELERATION) || pl_has_role(d->pool, e, PL_R_VELOCITY);
     if (moving || !pl_has_symbol(d->pool, e, d->q.at[i].q) || !solve_linear(d, e, i, &value)) continue;
-    set_map(d, i, value, -3);
-    pl_push(d->arena, d->hidden, i);
-    d->gen.n = 0;
-    pl_collect_generalized(d);
-    d->Lg = pl_on_maps(d, d->L);
+    hide_coordinate(d, i, value);
     return true;
   }
   return false;
@@ -317,12 +322,8 @@ static bool solve_combination(pl_analysis* d, const pl_expr* w) {
   for (int k = d->gen.n - 1; k >= 0; k--) {
     int i = d->gen.at[k];
     if (pl_is_zero_node(p, w[k]) || !pl_has_symbol(p, left, d->q.at[i].q) || !solve_linear(d, left, i, &value)) continue;
-    set_map(d, i, value, -3);
     d->q.at[i].by_combination = true;
-    pl_push(d->arena, d->hidden, i);
-    d->gen.n = 0;
-    pl_collect_generalized(d);
-    d->Lg = pl_on_maps(d, d->L);
+    hide_coordinate(d, i, value);
     return true;
   }
   return false;
