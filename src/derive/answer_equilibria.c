@@ -235,11 +235,24 @@ static void name_components(pl_analysis* d, const pl_rest* r, pl_value* v) {
   if (n > 0) pl_show(d, n == 1 ? form[0] : pl_flist(d, form, n));
 }
 
+// Where the position is there it is unstable: the condition of stability is the opposite of one of existence.
+static void judge_by_existence(pl_analysis* d, const pl_rest* r, pl_verdict* judged) {
+  if (judged->word || judged->doubt != PL_DOUBT_NONE) return;
+  for (int k = 0; k < judged->n; k++) {
+    for (int j = 0; j < r->n_conditions; j++) {
+      if (!pl_conditions_exclude(d, r->condition[j], judged->condition[k])) continue;
+      judged->word = "unstable";
+      return;
+    }
+  }
+}
+
 static void show_rest(pl_analysis* d, const pl_expr* f, const pl_rest* r, int number) {
   pl_linearised l;
   pl_verdict judged;
   pl_linearise(d, f, r, &l);
   pl_stability(d, f, &l, r, &judged);
+  judge_by_existence(d, r, &judged);
   bool exists = pl_rest_exists_at_numbers(d, r);
   pl_step* step = pl_show(d, pl_rest_form(d, r));
   if (exists) mark_stability(d, step, &judged, r);

@@ -142,3 +142,12 @@ const pl_form* pl_conditions_form(pl_analysis* d, const pl_expr* e, int n, bool 
   *text = pl_text_string(&words);
   return shown == 0 ? NULL : shown == 1 ? form[0] : pl_flist(d, form, shown);
 }
+
+bool pl_conditions_exclude(pl_analysis* d, pl_expr real, pl_expr positive) {
+  int sign_real = 0, sign_positive = 0;
+  pl_expr a = open_part(d, real, true, &sign_real), b = open_part(d, positive, true, &sign_positive);
+  if (sign_real == 0 || sign_positive == 0) return false;
+  pl_expr sum = pl_add(d->pool, pl_mul(d->pool, pl_int(d->pool, sign_real), a),
+                       pl_mul(d->pool, pl_int(d->pool, sign_positive), b));
+  return pl_alg_is_zero(d->tower, sum) == PL_YES;
+}

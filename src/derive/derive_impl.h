@@ -224,6 +224,7 @@ void pl_tell_cases(pl_analysis* d);                     // once
 // conditions.c: e > 0 (strict) or e >= 0.  PL_YES: always, PL_NO: never; else the shortest form of the condition and its text.
 pl_answer3 pl_holds_if(pl_analysis* d, pl_expr e, bool strict, const pl_form** form, const char** text);
 const pl_form* pl_conditions_form(pl_analysis* d, const pl_expr* e, int n, bool strict, const char** text);   // a list; NULL: all hold
+bool pl_conditions_exclude(pl_analysis* d, pl_expr real, pl_expr positive);   // real >= 0 leaves no room for positive > 0
 // energies.c
 pleuel_status pl_energies(pl_analysis* d);              // T, V, L, forces, euler
 // frames.c

@@ -189,6 +189,25 @@ def check_sides(program):
     tap.check("and without numbers they are told of", "There are others" in rests(document)[1], rests(document)[1])
 
 
+TRAMMEL = """param m = 1 [kg], M = 2 [kg], l = 1 [m], g = 9.81 [m/s^2], k = 30 [N/m]
+coord θ
+axes x right, y up
+mass A: m at (l cos θ, 0)
+mass B: M at (0, l sin θ)
+gravity g along -y
+spring k between A and (0, 0)
+ask equilibria
+"""
+
+
+def check_existence(program):
+    """The leaning rod exists for l k >= M g only, and would be stable for l k < M g: unstable wherever it is."""
+    document, got = solve(program, TRAMMEL)
+    leaning = [v for v in document["list"][0]["values"] if v.get("exists_if")]
+    tap.check("a condition of stability that existence excludes is no condition",
+              len(leaning) == 2 and all(v["stability"] == "unstable" and not v.get("stable_if") for v in leaning), got)
+
+
 def main(program):
     for case in POTENTIALS:
         check_potential(program, *case)
@@ -197,6 +216,7 @@ def main(program):
     check_driven_damping(program)
     check_lets(program)
     check_sides(program)
+    check_existence(program)
     tap.done()
 
 
