@@ -16,6 +16,7 @@
 enum { PL_MAX_REDRAWS = 400, PL_MAX_NODES = 400000, PL_CHUNK_SLOTS = 64, PL_LIMBS = 4096 };
 static const double draw_low = 0.3, draw_high = 3.0;  // sizes that are neither tiny nor huge: no cancellation by scale
 static const double grid = 1073741824.0;              // 2^30
+static const double rounding = 1e-14;                 // of the terms of a fact
 
 typedef struct pl_point {
   double* value;  // by symbol id, NaN where not drawn yet      (n_values)
@@ -102,10 +103,16 @@ static int define(pl_points* s, pl_point* q) {
   return bad;
 }
 
+// A closed contact is zero by definition, but for rounding.
+static bool is_met(const pl_points* s, const pl_point* q, const pl_fact* f) {
+  double v = pl_eval(s->pool, f->difference, q->value);
+  if (f->strict) return v > 0;
+  return v >= 0 || v >= -rounding * pl_eval_terms(s->pool, f->difference, q->value);
+}
+
 static int first_violated(const pl_points* s, const pl_point* q) {
   for (int i = 0; i < s->setup.n_facts; i++) {
-    double v = pl_eval(s->pool, s->setup.facts[i].difference, q->value);
-    if (!(s->setup.facts[i].strict ? v > 0 : v >= 0)) return i;
+    if (!is_met(s, q, &s->setup.facts[i])) return i;
   }
   return -1;
 }

@@ -144,22 +144,10 @@ void pl_state_define(pl_witness* w, const pl_value* v) {
 // ---------------------------------------------------------------------------------------------- reading
 double pl_state_value(const pl_witness* w, pl_expr e) { return pl_is_poison(e) ? (double)NAN : pl_eval(w->pool, e, w->value); }
 
-// The size of the terms of e: what its rounding error is relative to.
-static double size_of_terms(const pl_witness* w, pl_expr e) {
-  pl_kind kind = pl_kind_of(w->pool, e);
-  if (kind != PL_ADD && kind != PL_MUL) return fabs(pl_eval(w->pool, e, w->value));
-  double size = kind == PL_ADD ? 0 : 1;
-  for (int i = 0; i < pl_n_args(w->pool, e); i++) {
-    double part = size_of_terms(w, pl_arg(w->pool, e, i));
-    size = kind == PL_ADD ? size + part : size * part;
-  }
-  return size;
-}
-
 double pl_state_noise(const pl_witness* w, pl_expr e) {
   if (pl_is_poison(e)) return 0;
   double moves = fabs(pl_eval(w->pool, e, w->shifted) - pl_eval(w->pool, e, w->value));
-  return times_moved * moves + rounding * size_of_terms(w, e);
+  return times_moved * moves + rounding * pl_eval_terms(w->pool, e, w->value);
 }
 
 // What is assumed of given quantities alone is met by their numbers, or the formula is false for them.

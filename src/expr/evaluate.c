@@ -140,3 +140,14 @@ double pl_eval(const pl_pool* p, pl_expr e, const double* value_of_symbol) {
   pl_walk_end(&w);
   return result;
 }
+
+double pl_eval_terms(const pl_pool* p, pl_expr e, const double* value_of_symbol) {
+  pl_kind kind = pl_kind_of(p, e);
+  if (kind != PL_ADD && kind != PL_MUL) return fabs(pl_eval(p, e, value_of_symbol));
+  double size = kind == PL_ADD ? 0 : 1;
+  for (int i = 0; i < pl_n_args(p, e); i++) {
+    double part = pl_eval_terms(p, pl_arg(p, e, i), value_of_symbol);
+    size = kind == PL_ADD ? size + part : size * part;
+  }
+  return size;
+}

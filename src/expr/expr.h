@@ -169,6 +169,8 @@ pl_expr pl_expand(pl_pool* p, pl_expr e, int max_terms);
 // ---------------------------------------------------------------------------------------------- evaluation
 // Values by symbol id; NaN where unknown.  Result NaN outside the domain.
 double pl_eval(const pl_pool* p, pl_expr e, const double* value_of_symbol);
+// The size of the terms of e: what the rounding error of pl_eval is relative to.
+double pl_eval_terms(const pl_pool* p, pl_expr e, const double* value_of_symbol);
 
 // Modulo P, a prime just below 2^61.  sin and cos through t = tan(x/2) with one residue per angle base; of the two square
 // roots always the one that is a square itself, so sqrt(a) sqrt(b) = sqrt(a b).  ok = false when the point is bad
