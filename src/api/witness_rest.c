@@ -379,8 +379,8 @@ static int free_directions(pl_rest_field* f, const double* q, double* T) {
   return d;
 }
 
-static bool slopes(pl_rest_field* f, const double* q, const double* T, int d, bool of_velocity, double* out) {
-  double h = of_velocity ? 1e-4 : 1e-4 * (1 + size(q, f->n)), a[2][MOST_COORDINATES];
+static bool slopes(pl_rest_field* f, const double* q, const double* T, int d, double near, bool of_velocity, double* out) {
+  double h = of_velocity ? near : near * (1 + size(q, f->n)), a[2][MOST_COORDINATES];
   for (int j = 0; j < d; j++) {
     for (int side = 0; side < 2; side++) {
       double at[MOST_COORDINATES], v[MOST_COORDINATES];
@@ -400,10 +400,10 @@ static bool slopes(pl_rest_field* f, const double* q, const double* T, int d, bo
   return true;
 }
 
-int pl_rest_stability(pl_rest_field* f, const double* q) {
+static int stability_near(pl_rest_field* f, const double* q, double near) {
   double T[2 * MOST_COORDINATES], K[4], C[4];
   int d = free_directions(f, q, T);
-  if (d < 1 || !slopes(f, q, T, d, false, K) || !slopes(f, q, T, d, true, C)) return 0;
+  if (d < 1 || !slopes(f, q, T, d, near, false, K) || !slopes(f, q, T, d, near, true, C)) return 0;
   double tiny = 1e-6 * (size(K, d * d) + 1e-300);
   if (d == 1) return K[0] > tiny ? -1 : K[0] < -tiny && C[0] < 1e-6 * sqrt(-K[0]) ? 1 : 0;
   // without forces that hang on velocities: y'' = K y, stable where both eigenvalues are negative
@@ -412,4 +412,10 @@ int pl_rest_stability(pl_rest_field* f, const double* q) {
   if (det < -small) return -1;
   if (det > small) return trace < -tiny ? 1 : trace > tiny ? -1 : 0;
   return 0;
+}
+
+// A kink of a force beside the place (a spring of no length, a stop) is in the differences of one step and not of a smaller one.
+int pl_rest_stability(pl_rest_field* f, const double* q) {
+  int far = stability_near(f, q, 1e-4);
+  return far != 0 && far == stability_near(f, q, 1e-5) ? far : 0;
 }
