@@ -262,6 +262,14 @@ static void nothing_is_seen_where_nothing_is(void** state) {
     "init x = 0, y = 0, x' = 0, y' = 0\nask T, V, solve x''\nsimulate 0..1\n",
     "param m = 1, R = 2, g = 9.81\ncoord r, θ\naxes x right, y up\nmass A: m at (r sin θ, r cos θ)\ngravity g along -y\nconstraint dome: r >= R\n"
     "init r = 1.2*R, θ = 7.79°, r' = 0, θ' = 0.02\nask equilibria, solve θ''\nsimulate 0..1\n",
+    // a place of rest a tenth of a millimetre beside that where the spring has no length
+    "param m1 = 2.15, m2 = 2.97, g = 9.81, d = 0.54\ncoord x1, x2\naxes x down\nmass A1: m1 at (x1)\nmass A2: m2 at (x2)\n"
+    "gravity g along x\nspring 14.9, rest d between A1 and (-0.42)\nconstraint rope: x1 + x2 = 1.14\n"
+    "init x1 = 0.77, x2 = 0.37, x1' = 0, x2' = 0\nask equilibria, solve x1''\nsimulate 0..1\n",
+    // energies of a Lagrange function, by degree in the velocities
+    "coord u, v\nlagrangian 0.41*u'^2*cos(v)^2 + 0.3*v'^2 - 0.59*u^2 + 0.2*u*v' - 0.7*v^2 + 0.81*sin(t)*u\n"
+    "init u = -0.8, u' = -0.26, v = 0.3, v' = 0.5\nask T, V, 2*T - V\nsimulate 0..2\n",
+    "coord u\nlagrangian 0.41*u'^2 - 0.59*u^2\ninit u = -0.8, u' = -0.26\nask T where u = -0.73, V where u = -0.73\nsimulate 0..2\n",
     "param m1, m2, r, l, g\ncoord φ, x2\naxes x right, z up\nmass A: m1 at (r cos φ, r sin φ)\nmass B: m2 at (x2, 0)\ngravity g along -z\n"
     "constraint rod: (x2 - r cos φ)^2 + (r sin φ)^2 = l^2\nbranch x2 > r cos φ\nask lagrangian, lagrange2\n",
   };

@@ -123,6 +123,7 @@ struct pl_analysis {
   int n_value;                 // symbols it was made for
 
   pl_expr T, V, L;             // in all coordinates, raw
+  pl_expr written;             // the part of L that stands in `lagrangian`
   pl_expr* force;              // generalized forces without potential                     (n_q)
   bool dissipative;            // some force has no potential or is a Rayleigh function
   pl_expr* euler;              // d/dt dL/dv - dL/dq - Q, equals sum of lambda dg/dq        (n_q), raw

@@ -177,7 +177,7 @@ static void load(pl_analysis* d, const pl_load* l) {
       break;
     case PL_L_POTENTIAL: add_to(d, &d->V, l->value); break;
     case PL_L_KINETIC: add_to(d, &d->T, l->value); break;
-    case PL_L_LAGRANGIAN: add_to(d, &d->L, l->value); break;
+    case PL_L_LAGRANGIAN: add_to(d, &d->written, l->value); break;
     case PL_L_SPRING: spring(d, l); break;
     case PL_L_RAYLEIGH:
     case PL_L_DRAG: dissipate(d, pl_load_dissipation(d->pool, l, pl_poison())); break;
@@ -187,13 +187,13 @@ static void load(pl_analysis* d, const pl_load* l) {
 
 pleuel_status pl_energies(pl_analysis* d) {
   pl_pool* p = d->pool;
-  d->T = d->V = d->L = pl_int(p, 0);
+  d->T = d->V = d->written = pl_int(p, 0);
   d->force = PL_ARRAY(d->arena, pl_expr, d->q.n);
   d->euler = PL_ARRAY(d->arena, pl_expr, d->q.n);
   for (int i = 0; i < d->q.n; i++) d->force[i] = pl_int(p, 0);
   masses(d);
   for (int k = 0; k < d->model->loads.n; k++) load(d, &d->model->loads.at[k]);
-  d->L = pl_add(p, d->L, pl_sub(p, d->T, d->V));
+  d->L = pl_add(p, d->written, pl_sub(p, d->T, d->V));
   for (int i = 0; i < d->q.n; i++) {
     pl_expr momentum = pl_dt(p, pl_diff(p, d->L, d->q.at[i].v));
     d->euler[i] = pl_sub(p, pl_sub(p, momentum, pl_diff(p, d->L, d->q.at[i].q)), d->force[i]);
@@ -243,10 +243,27 @@ static pl_expr start_of_result(pl_analysis* d, const pl_result_name* r) {
   return pl_subst(d->pool, e, start, n);
 }
 
+// What a `lagrangian` says is split by degree in the velocities: its part of degree 0 is a potential with the other sign, and
+// that of degree 2 is kinetic.
+static pl_expr written_potential(pl_analysis* d) {
+  pl_replace* rest = PL_ARRAY(d->arena, pl_replace, d->q.n + 1);
+  for (int i = 0; i < d->q.n; i++) rest[i] = (pl_replace){d->q.at[i].v, pl_int(d->pool, 0)};
+  return pl_neg(d->pool, pl_subst(d->pool, d->written, rest, d->q.n));
+}
+
+static pl_expr written_kinetic(pl_analysis* d) {
+  pl_expr sum = pl_neg(d->pool, d->written);
+  for (int i = 0; i < d->q.n; i++) {
+    pl_symbol v = d->q.at[i].v;
+    sum = pl_add(d->pool, sum, pl_mul(d->pool, pl_sym(d->pool, v), pl_diff(d->pool, d->written, v)));
+  }
+  return pl_alg_normal(d->tower, pl_sub(d->pool, sum, written_potential(d)));
+}
+
 static pl_expr result_value(pl_analysis* d, const pl_result_name* r) {
   switch (r->kind) {
-    case PL_RES_T: return d->T;
-    case PL_RES_V: return d->V;
+    case PL_RES_T: return pl_add(d->pool, d->T, written_kinetic(d));
+    case PL_RES_V: return pl_add(d->pool, d->V, written_potential(d));
     case PL_RES_L: return d->L;
     case PL_RES_E:
       if (!pl_scleronomic(d) && pl_is_zero_node(d->pool, pl_sub(d->pool, d->L, pl_sub(d->pool, d->T, d->V)))) {
