@@ -29,6 +29,19 @@ pl_expr pl_on_maps(pl_analysis* d, pl_expr e) {
   return d->reduced ? pl_subst(d->pool, e, d->maps.at, d->maps.n) : e;
 }
 
+// A later set of constraints begins elsewhere: the places of its beginning decide on signs there.
+static void know_later_start(pl_analysis* d, double* value, int n) {
+  const pl_stage* s = d->stage;
+  if (!s || !d->options || d->options->n_stages == 0 || s == &d->options->stages[0]) return;
+  for (int i = 0; i < s->n_q; i++) {
+    pl_symbol q = pl_symbol_find(d->pool, s->q_name[i]);
+    if (!q.id || pl_symbol_get(d->pool, q)->role != PL_R_COORD) continue;
+    pl_symbol start = pl_symbol_start(d->pool, q), speed = pl_symbol_start(d->pool, pl_symbol_dot(d->pool, q));
+    if ((int)start.id <= n) value[start.id] = s->q[i];
+    if ((int)speed.id <= n) value[speed.id] = (double)NAN;
+  }
+}
+
 // Numbers known by symbol id: parameters, abbreviations of parameters, start values.
 static double* known_numbers(pl_analysis* d) {
   double* value = pl_model_values(d->model, d->arena);
@@ -41,6 +54,7 @@ static double* known_numbers(pl_analysis* d) {
     pl_symbol s = pl_symbol_start(d->pool, pl_symbol_of(d->pool, init->target));
     if ((int)s.id <= n) value[s.id] = x;
   }
+  know_later_start(d, value, n);
   return value;
 }
 

@@ -360,4 +360,9 @@ case("a block slides to the edge of a table and falls",
      POINT + "param μ = 0.1\nconstraint floor: y >= 0\nfriction μ on floor\nevent edge: when x = 1 [m] -> release floor\n"
      "init x = 0, y = 0, x' = 3 [m/s], y' = 0\nask solve x'', solve y'', solve λ_floor\nsimulate 0..0.8 [s]\n",
      [(["floor"], 1, 0, 0.35), ([], 2, 0.37, 0.8)], 5)
+case("a spring that has passed zero length when another set begins",
+     "param m = 1 [kg], k = 20 [N/m], F = 3 [N]\ncoord u, w\naxes x right, y up\nmass A: m at (u, 0)\nmass B: m at (w, 0)\n"
+     "spring k, rest 0.3 [m] between A and (0, 0)\nforce (-F, 0) on B\nconstraint stop: w >= -0.5 [m]\n"
+     "init u = 0.9 [m], u' = 0, w = -0.5 [m], w' = 0\nevent cut: when u = -0.1 [m] falling -> release stop\n"
+     "ask solve u'', conserved\nsimulate 0..0.8 [s]\n", [(["stop"], 1, 0, 0.45), ([], 2, 0.52, 0.75)], 3)
 done()
