@@ -32,8 +32,9 @@ pl_expr pl_on_maps(pl_analysis* d, pl_expr e) {
 // A later set of constraints begins elsewhere: the places of its beginning decide on signs there.
 static void know_later_start(pl_analysis* d, double* value, int n) {
   const pl_stage* s = d->stage;
-  if (!s || !d->options || d->options->n_stages == 0 || s == &d->options->stages[0]) return;
-  for (int i = 0; i < s->n_q; i++) {
+  bool later = false;   // the set of a start that `from` names is none of the list
+  for (int k = 1; d->options && k < d->options->n_stages; k++) later |= s == &d->options->stages[k];
+  for (int i = 0; later && i < s->n_q; i++) {
     pl_symbol q = pl_symbol_find(d->pool, s->q_name[i]);
     if (!q.id || pl_symbol_get(d->pool, q)->role != PL_R_COORD) continue;
     pl_symbol start = pl_symbol_start(d->pool, q), speed = pl_symbol_start(d->pool, pl_symbol_dot(d->pool, q));
