@@ -3,7 +3,7 @@
 import re
 
 import symbols as s
-from reader import (STATEMENTS, Parser, Unread, ascii_name, find_word, lines_of, split_top, tokens_of)
+from reader import (STATEMENTS, Parser, Unread, ascii_name, find_word, split_top, statements_of, tokens_of)
 from symbols import call, name, num
 
 IGNORED = {"pleuel", "system", "lang", "ask", "plot", "animate", "draw", "output", "assume", "guess", "sweep",
@@ -48,37 +48,17 @@ class Model:
 
     # -------------------------------------------------------------------------------------------- reading
     def read(self, text):
-        statements = self.unrolled(self.blocks(text))
+        statements = self.unrolled(statements_of(text))
         for tokens, index in statements:
             self.declare(tokens, index)
         self.number_parameters()
-        statements = self.unrolled(self.blocks(text))   # bounds of families are numbers now
+        statements = self.unrolled(statements_of(text))   # bounds of families are numbers now
         for tokens, index in statements:
             self.place(tokens, index)
         self.ordinal, self.label_count = {}, 0
         for tokens, index in statements:
             self.state(tokens, index)
         self.weigh()
-
-    def blocks(self, text):
-        """Statements, and (head, statements) for families."""
-        spread = re.sub(r"[{}]", lambda m: "{\n" if m.group() == "{" else "\n}\n",
-                        "\n".join(self.bare(line) for line in text.splitlines()))
-        stack = [[]]
-        for line in lines_of(spread):
-            if line.endswith("{"):
-                stack.append([])
-                stack[-2].append((line[:-1].strip(), stack[-1]))
-            elif line == "}":
-                stack.pop()
-            else:
-                stack[-1].append(line)
-        return stack[0]
-
-    @staticmethod
-    def bare(line):
-        from reader import without_comment
-        return without_comment(line)
 
     def unrolled(self, blocks, index=None):
         """(tokens, index, ordinal of the statement in the text)."""

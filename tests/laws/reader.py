@@ -106,6 +106,22 @@ def lines_of(text):
     return out + ([held] if held else [])
 
 
+def statements_of(text):
+    """Statements, and (head, statements) for families."""
+    spread = re.sub(r"[{}]", lambda m: "{\n" if m.group() == "{" else "\n}\n",
+                    "\n".join(without_comment(line) for line in text.splitlines()))
+    stack = [[]]
+    for line in lines_of(spread):
+        if line.endswith("{"):
+            stack.append([])
+            stack[-2].append((line[:-1].strip(), stack[-1]))
+        elif line == "}":
+            stack.pop()
+        else:
+            stack[-1].append(line)
+    return stack[0]
+
+
 def split_top(tokens, separator):
     """Token lists between separators outside of brackets."""
     out, depth, part = [], 0, []

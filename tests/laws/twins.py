@@ -5,7 +5,7 @@ import re
 
 import symbols as s
 from model import Model
-from reader import Unread, ascii_name, find_word, lines_of, split_top, tokens_of, without_comment
+from reader import Unread, ascii_name, find_word, split_top, statements_of, tokens_of
 
 LEFT_OUT = {"plot", "animate", "draw", "system", "sweep", "poincare"}
 UNTOUCHED = {"axes", "param", "lang", "pleuel", "convention", "include"}
@@ -39,22 +39,6 @@ def signed(x):
 
 def text_of(tokens):
     return "".join((" " if t.blank else "") + t.text for t in tokens).strip()
-
-
-def statements_of(text):
-    """Lines, and (head, lines) for families, as in model.py."""
-    spread = re.sub(r"[{}]", lambda m: "{\n" if m.group() == "{" else "\n}\n",
-                    "\n".join(without_comment(line) for line in text.splitlines()))
-    stack = [[]]
-    for line in lines_of(spread):
-        if line.endswith("{"):
-            stack.append([])
-            stack[-2].append((line[:-1].strip(), stack[-1]))
-        elif line == "}":
-            stack.pop()
-        else:
-            stack[-1].append(line)
-    return stack[0]
 
 
 def written(statements, indent=""):
