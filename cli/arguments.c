@@ -1,4 +1,5 @@
-// Flags and files of a verb, from its table, by getopt_long; with a suggestion for what was mistyped.
+// Flags and files of a verb, from its table, by getopt_long; with a suggestion for what was
+// mistyped.
 #include "cli.h"
 
 #include <getopt.h>
@@ -48,7 +49,9 @@ static int distance(const char* a, const char* b) {
       int best = d[i - 1][j - 1] + (a[i - 1] != b[j - 1]);
       if (d[i - 1][j] + 1 < best) best = d[i - 1][j] + 1;
       if (d[i][j - 1] + 1 < best) best = d[i][j - 1] + 1;
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] && d[i - 2][j - 2] + 1 < best) best = d[i - 2][j - 2] + 1;
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]
+          && d[i - 2][j - 2] + 1 < best)
+        best = d[i - 2][j - 2] + 1;
       d[i][j] = best;
     }
   }
@@ -57,7 +60,7 @@ static int distance(const char* a, const char* b) {
 
 const char* cli_nearest(const char* word, const char* const* words, int n) {
   const char* near = NULL;
-  int best = (int)strlen(word) <= 3 ? 2 : 3;      // beyond this it would be guessing
+  int best = (int)strlen(word) <= 3 ? 2 : 3;  // beyond this it would be guessing
   for (int i = 0; i < n; i++) {
     int d = distance(word, words[i]);
     if (d < best) {
@@ -82,8 +85,10 @@ static bool is_choice(const char* words, const char* value) {
 // NAME=VALUE; the text of the argument is cut in two where it stands.
 static int add_setting(cli_options* o, char* text) {
   char* equals = strchr(text, '=');
-  if (!equals || equals == text || !equals[1]) return cli_error(EXIT_USAGE, "--set takes NAME=VALUE, not `%s`", text);
-  if (o->n_settings == CLI_MAX_SETTINGS) return cli_error(EXIT_USAGE, "more than %d --set", CLI_MAX_SETTINGS);
+  if (!equals || equals == text || !equals[1])
+    return cli_error(EXIT_USAGE, "--set takes NAME=VALUE, not `%s`", text);
+  if (o->n_settings == CLI_MAX_SETTINGS)
+    return cli_error(EXIT_USAGE, "more than %d --set", CLI_MAX_SETTINGS);
   *equals = '\0';
   char* end = equals;
   while (end > text && end[-1] == ' ') *--end = '\0';
@@ -120,7 +125,8 @@ static int unknown_flag(const cli_verb* v, const char* word) {
   snprintf(bare, sizeof bare, "%s", word + strspn(word, "-"));
   bare[strcspn(bare, "=")] = '\0';
   const char* near = cli_nearest(bare, names, n);
-  if (near) return cli_error(EXIT_USAGE, "%s has no flag `%s`. Did you mean --%s ?", v->name, word, near);
+  if (near)
+    return cli_error(EXIT_USAGE, "%s has no flag `%s`. Did you mean --%s ?", v->name, word, near);
   return cli_error(EXIT_USAGE, "%s has no flag `%s`. See  pleuel %s -h", v->name, word, v->name);
 }
 
@@ -150,19 +156,22 @@ int cli_parse(const cli_verb* v, cli_options* o, int argc, char** argv) {
     int c = getopt_long(argc, argv, shorts, longs, NULL);
     if (c == -1) break;
     const char* word = argv[optind > before ? optind - 1 : before];
-    if (c == ':') return cli_error(EXIT_USAGE, "`%s` needs a value. See  pleuel %s -h", word, v->name);
+    if (c == ':')
+      return cli_error(EXIT_USAGE, "`%s` needs a value. See  pleuel %s -h", word, v->name);
     if (c == '?') {
       char letter[3] = {'-', (char)optopt, '\0'};
       return unknown_flag(v, optopt > 0 && optopt < FIRST_LONG ? letter : word);
     }
     const cli_flag* f = v->flags;
     if (c >= FIRST_LONG) f += c - FIRST_LONG;
-    else while (f->letter != c) f++;
+    else
+      while (f->letter != c) f++;
     int code = apply(o, f, optarg);
     if (code != EXIT_DONE) return code;
   }
   for (; optind < argc; optind++) {
-    if (o->n_files == CLI_MAX_FILES) return cli_error(EXIT_USAGE, "more than %d files", CLI_MAX_FILES);
+    if (o->n_files == CLI_MAX_FILES)
+      return cli_error(EXIT_USAGE, "more than %d files", CLI_MAX_FILES);
     o->files[o->n_files++] = argv[optind];
   }
   return EXIT_DONE;

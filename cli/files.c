@@ -25,7 +25,7 @@ int cli_exit_code(pleuel_status s) {
   return EXIT_NUMERICAL;
 }
 
-// ---------------------------------------------------------------------------------------------- models in
+// --------------------------------------------------------------------------------------- models in
 // All of stdin, grown as needed; NULL when it cannot be read.
 static char* read_stdin(size_t* size) {
   size_t cap = 1 << 16, n = 0;
@@ -84,14 +84,16 @@ void cli_print_diagnostics(pleuel_model* m, const cli_options* o, FILE* to, unsi
   if (text) fputs(text, to);
 }
 
-int cli_each_file(pleuel* ctx, const cli_options* o, int (*work)(pleuel*, const cli_options*, const char* file)) {
+int cli_each_file(pleuel* ctx, const cli_options* o,
+                  int (*work)(pleuel*, const cli_options*, const char* file)) {
   if (o->n_files == 0) return cli_error(EXIT_USAGE, "which file? - is stdin");
   bool several = o->n_files > 1;
   int worst = EXIT_DONE;
   if (several && o->json) fputs("{\"pleuel\": 1, \"documents\": [\n", stdout);
   for (int i = 0; i < o->n_files && !cli_was_interrupted(); i++) {
     if (several && o->json && i > 0) fputs(",\n", stdout);
-    if (several && !o->json && !o->terse) printf("%s==> %s <==\n", i ? "\n" : "", cli_display_name(o->files[i]));
+    if (several && !o->json && !o->terse)
+      printf("%s==> %s <==\n", i ? "\n" : "", cli_display_name(o->files[i]));
     fflush(stdout);
     int code = work(ctx, o, o->files[i]);
     if (code > worst) worst = code;
@@ -100,19 +102,21 @@ int cli_each_file(pleuel* ctx, const cli_options* o, int (*work)(pleuel*, const 
   return worst;
 }
 
-// ---------------------------------------------------------------------------------------------- results out
+// ------------------------------------------------------------------------------------- results out
 int cli_file_open(cli_file* f, const char* path, bool replace) {
   *f = (cli_file){.path = path};
   struct stat st;
   bool there = stat(path, &st) == 0;
   if (there && S_ISDIR(st.st_mode)) return cli_error(EXIT_FILE, "%s is a folder", path);
-  if (there && S_ISREG(st.st_mode) && !replace) return cli_error(EXIT_FILE, "%s exists already; -f replaces it", path);
-  if (there && !S_ISREG(st.st_mode)) {       // a device or a pipe: nothing to rename
+  if (there && S_ISREG(st.st_mode) && !replace)
+    return cli_error(EXIT_FILE, "%s exists already; -f replaces it", path);
+  if (there && !S_ISREG(st.st_mode)) {  // a device or a pipe: nothing to rename
     f->to = fopen(path, "w");
     return f->to ? EXIT_DONE : cli_error(EXIT_FILE, "%s: %s", path, strerror(errno));
   }
   int n = snprintf(f->temporary, sizeof f->temporary, "%s.XXXXXX", path);
-  if (n < 0 || (size_t)n >= sizeof f->temporary) return cli_error(EXIT_FILE, "the name is too long: %s", path);
+  if (n < 0 || (size_t)n >= sizeof f->temporary)
+    return cli_error(EXIT_FILE, "the name is too long: %s", path);
   int fd = mkstemp(f->temporary);
   if (fd < 0) {
     f->temporary[0] = '\0';
@@ -149,7 +153,7 @@ void cli_file_drop(cli_file* f) {
   f->temporary[0] = '\0';
 }
 
-// ---------------------------------------------------------------------------------------------- one text as the answer
+// -------------------------------------------------------------------------- one text as the answer
 static int write_answer(const cli_options* o, const char* bytes, size_t n) {
   if (!o->output || strcmp(o->output, "-") == 0) {
     fwrite(bytes, 1, n, stdout);
@@ -162,16 +166,19 @@ static int write_answer(const cli_options* o, const char* bytes, size_t n) {
   return cli_file_close(&f);
 }
 
-int cli_finish_text(pleuel* ctx, pleuel_model* m, const cli_options* o, pleuel_status s, const char* text) {
+int cli_finish_text(pleuel* ctx, pleuel_model* m, const cli_options* o, pleuel_status s,
+                    const char* text) {
   return cli_finish_bytes(ctx, m, o, s, text, text ? strlen(text) : 0);
 }
 
-int cli_finish_bytes(pleuel* ctx, pleuel_model* m, const cli_options* o, pleuel_status s, const char* bytes, size_t n) {
+int cli_finish_bytes(pleuel* ctx, pleuel_model* m, const cli_options* o, pleuel_status s,
+                     const char* bytes, size_t n) {
   char why[512];
   snprintf(why, sizeof why, "%s", pleuel_message(ctx));
   int written = bytes ? write_answer(o, bytes, n) : EXIT_DONE;
   cli_print_diagnostics(m, o, stderr, 1u << PLEUEL_ERROR | 1u << PLEUEL_WARNING);
-  if (s != PLEUEL_OK && *why && pleuel_diagnostic_count(m, PLEUEL_ERROR) == 0) cli_error(0, "%s", why);
+  if (s != PLEUEL_OK && *why && pleuel_diagnostic_count(m, PLEUEL_ERROR) == 0)
+    cli_error(0, "%s", why);
   pleuel_model_free(m);
   if (written != EXIT_DONE) return written;
   if (s == PLEUEL_NO_CLOSED_FORM && !o->strict) return EXIT_DONE;

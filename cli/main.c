@@ -22,7 +22,9 @@ static int unknown_verb(const char* word) {
   int n = 0;
   for (const cli_verb* v = cli_verbs; v->name; v++) words[n++] = v->name;
   const char* near = cli_nearest(word, words, n);
-  if (near) return cli_error(EXIT_USAGE, "`%s` is neither a verb nor a file. Did you mean  pleuel %s ?", word, near);
+  if (near)
+    return cli_error(EXIT_USAGE, "`%s` is neither a verb nor a file. Did you mean  pleuel %s ?",
+                     word, near);
   return cli_error(EXIT_USAGE, "`%s` is neither a verb nor a file. See  pleuel help", word);
 }
 
@@ -44,7 +46,8 @@ static int run_verb(const cli_verb* v, int argc, char** argv) {
   pleuel_close(ctx);
 
   // a full disk or a closed pipe must not look like success
-  if (fflush(stdout) != 0 || ferror(stdout)) return code ? code : cli_error(EXIT_FILE, "stdout could not be written");
+  if (fflush(stdout) != 0 || ferror(stdout))
+    return code ? code : cli_error(EXIT_FILE, "stdout could not be written");
   return code;
 }
 
@@ -64,7 +67,8 @@ int main(int argc, char** argv) {
   }
   const cli_verb* v = cli_verb_find(word);
   if (v) return run_verb(v, argc - 2, argv + 2);
-  if (word[0] == '-' && word[1] != '\0') return run_verb(cli_verb_find("solve"), argc - 1, argv + 1);
+  if (word[0] == '-' && word[1] != '\0')
+    return run_verb(cli_verb_find("solve"), argc - 1, argv + 1);
   if (is_file_argument(word)) return run_verb(cli_verb_find("solve"), argc - 1, argv + 1);
   return unknown_verb(word);
 }

@@ -1,7 +1,8 @@
-// The files of a run: rows, which lie in FILE.part until they are complete, and FILE.resume, the state that a run which was
-// interrupted goes on from (pleuel.h, pleuel_sim_options).
+// The files of a run: rows, which lie in FILE.part until they are complete, and FILE.resume, the
+// state that a run which was interrupted goes on from (pleuel.h, pleuel_sim_options).
 //
-// FILE.part has a name of its own so that rows outlive the program; it is locked while a run writes it.
+// FILE.part has a name of its own so that rows outlive the program; it is locked while a run writes
+// it.
 #include "cli.h"
 
 #include <errno.h>
@@ -18,12 +19,15 @@ static int add_ending(char out[4096], const char* path, const char* ending) {
   return n < 0 || n >= 4096 ? cli_error(EXIT_FILE, "the name is too long: %s", path) : EXIT_DONE;
 }
 
-static int cannot_write(const char* path) { return cli_error(EXIT_FILE, "%s cannot be written: %s", path, strerror(errno)); }
+static int cannot_write(const char* path) {
+  return cli_error(EXIT_FILE, "%s cannot be written: %s", path, strerror(errno));
+}
 
 // Whether `path` still names the file that is open: another run may have finished it in between.
 static bool is_named(int fd, const char* path) {
   struct stat open_one, named;
-  return fstat(fd, &open_one) == 0 && stat(path, &named) == 0 && open_one.st_ino == named.st_ino && open_one.st_dev == named.st_dev;
+  return fstat(fd, &open_one) == 0 && stat(path, &named) == 0 && open_one.st_ino == named.st_ino
+         && open_one.st_dev == named.st_dev;
 }
 
 // Opens and locks; -1 after a message.
@@ -48,16 +52,20 @@ static int open_stream(cli_rows* r, int fd, const char* how) {
   return cannot_write(r->file.temporary);
 }
 
-// ---------------------------------------------------------------------------------------------- beginning
+// --------------------------------------------------------------------------------------- beginning
 static int begin_anew(cli_rows* r, const cli_options* o) {
   const char* path = r->file.path;
   struct stat st;
   bool there = stat(path, &st) == 0, interrupted = exists(r->state);
   if (there && !o->force && interrupted)
-    return cli_error(EXIT_FILE, "%s exists already, of a run that was interrupted: --resume goes on with it, -f begins anew", path);
+    return cli_error(EXIT_FILE,
+                     "%s exists already, of a run that was interrupted: --resume goes on with it, "
+                     "-f begins anew",
+                     path);
   if (there && !o->force) return cli_error(EXIT_FILE, "%s exists already; -f replaces it", path);
   if (interrupted && !o->force)
-    return cli_error(EXIT_FILE, "a run into %s was interrupted: --resume goes on with it, -f begins anew", path);
+    return cli_error(
+        EXIT_FILE, "a run into %s was interrupted: --resume goes on with it, -f begins anew", path);
   int fd = open_locked(r->file.temporary, O_CREAT);
   if (fd < 0) return EXIT_FILE;
   unlink(r->state);
@@ -74,11 +82,17 @@ static int begin_anew(cli_rows* r, const cli_options* o) {
 static int go_on(cli_rows* r, const cli_options* o) {
   const char *path = r->file.path, *part = r->file.temporary;
   if (!exists(r->state))
-    return cli_error(EXIT_FILE, "there is nothing to go on from: %s is not there. The run is complete, or was interrupted before its "
-                                "first state was kept; without --resume it begins anew", r->state);
+    return cli_error(EXIT_FILE,
+                     "there is nothing to go on from: %s is not there. The run is complete, or was "
+                     "interrupted before its "
+                     "first state was kept; without --resume it begins anew",
+                     r->state);
   bool in_part = exists(part);
-  if (!in_part && !exists(path)) return cli_error(EXIT_FILE, "the rows of %s are gone: without --resume the run begins anew", r->state);
-  if (in_part && exists(path) && !o->force) return cli_error(EXIT_FILE, "%s exists already; -f replaces it", path);
+  if (!in_part && !exists(path))
+    return cli_error(EXIT_FILE, "the rows of %s are gone: without --resume the run begins anew",
+                     r->state);
+  if (in_part && exists(path) && !o->force)
+    return cli_error(EXIT_FILE, "%s exists already; -f replaces it", path);
   int fd = open_locked(in_part ? part : path, 0);
   if (fd < 0) return EXIT_FILE;
   r->renamed = !in_part;
@@ -104,7 +118,7 @@ int cli_rows_open(cli_rows* r, const cli_options* o) {
   return o->resume ? go_on(r, o) : begin_anew(r, o);
 }
 
-// ---------------------------------------------------------------------------------------------- ending
+// ------------------------------------------------------------------------------------------ ending
 static int could_not(const cli_rows* r, int why) {
   int code = cli_error(EXIT_FILE, "%s could not be written: %s", r->file.path, strerror(why));
   if (exists(r->state)) cli_error(code, "what was computed is kept: --resume goes on with it");
@@ -126,7 +140,8 @@ int cli_rows_close(cli_rows* r, pleuel_status s, bool started) {
   bool kept = exists(r->state);
   if (!started) {
     // as it was before; when memory ran out on the way, the rows so far stay beside the state
-    if (r->renamed) return rename(r->file.temporary, r->file.path) == 0 ? EXIT_DONE : could_not(r, errno);
+    if (r->renamed)
+      return rename(r->file.temporary, r->file.path) == 0 ? EXIT_DONE : could_not(r, errno);
     if (!kept) unlink(r->file.temporary);
     return EXIT_DONE;
   }
@@ -137,7 +152,7 @@ int cli_rows_close(cli_rows* r, pleuel_status s, bool started) {
   return EXIT_DONE;
 }
 
-// ---------------------------------------------------------------------------------------------- how it goes on
+// ---------------------------------------------------------------------------------- how it goes on
 static void add(char* out, size_t size, const char* text) {
   size_t n = strlen(out);
   if (n < size) snprintf(out + n, size - n, "%s", text);
@@ -147,8 +162,9 @@ static void add(char* out, size_t size, const char* text) {
 static void add_word(char* out, size_t size, const char* word) {
   bool plain = *word != '\0';
   for (const char* c = word; *c; c++)
-    plain = plain && ((unsigned char)*c > 127 || (*c >= '0' && *c <= '9') || (*c >= 'a' && *c <= 'z') || (*c >= 'A' && *c <= 'Z') ||
-                      strchr("_./=,:+@%-", *c));
+    plain = plain
+            && ((unsigned char)*c > 127 || (*c >= '0' && *c <= '9') || (*c >= 'a' && *c <= 'z')
+                || (*c >= 'A' && *c <= 'Z') || strchr("_./=,:+@%-", *c));
   add(out, size, " ");
   if (plain) {
     add(out, size, word);

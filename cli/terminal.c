@@ -23,7 +23,9 @@ int cli_width(FILE* stream) {
   if (!isatty(fileno(stream))) return 0;
   struct winsize w;
   const char* columns = getenv("COLUMNS");
-  int n = columns ? atoi(columns) : ioctl(fileno(stream), TIOCGWINSZ, &w) == 0 && w.ws_col ? w.ws_col : USUAL + 2;
+  int n = columns                                                  ? atoi(columns)
+          : ioctl(fileno(stream), TIOCGWINSZ, &w) == 0 && w.ws_col ? w.ws_col
+                                                                   : USUAL + 2;
   n -= 2;
   return n < NARROWEST ? NARROWEST : n > WIDEST ? WIDEST : n;
 }
@@ -37,7 +39,7 @@ const char* cli_environment_language(void) {
   return "en";
 }
 
-// ---------------------------------------------------------------------------------------------- Ctrl-C
+// ------------------------------------------------------------------------------------------ Ctrl-C
 static pleuel* volatile watched;
 static volatile sig_atomic_t interrupts;
 
@@ -69,13 +71,14 @@ void cli_watch_interrupt(pleuel* ctx) {
   sigaction(SIGTERM, &act, NULL);
   // a terminal that goes away, unless nohup has said that it does not matter
   struct sigaction hang_up;
-  if (sigaction(SIGHUP, NULL, &hang_up) == 0 && hang_up.sa_handler != SIG_IGN) sigaction(SIGHUP, &act, NULL);
+  if (sigaction(SIGHUP, NULL, &hang_up) == 0 && hang_up.sa_handler != SIG_IGN)
+    sigaction(SIGHUP, &act, NULL);
   signal(SIGPIPE, SIG_IGN);
 }
 
 bool cli_was_interrupted(void) { return interrupts != 0; }
 
-// ---------------------------------------------------------------------------------------------- progress
+// ---------------------------------------------------------------------------------------- progress
 static double now(void) {
   struct timespec t;
   clock_gettime(CLOCK_MONOTONIC, &t);
@@ -87,16 +90,21 @@ static bool shown;
 // sim  38 %  t = 19.0 of 50 s  step 2.1e-3  energy 3e-12  eta 0:14
 void cli_progress(void* user, const pleuel_progress* p) {
   (void)user;
-  static const double patience_s = 0.5;      // shorter runs stay silent
+  static const double patience_s = 0.5;  // shorter runs stay silent
   static const double interval_s = 0.1;
   static double start, last, part_before;
-  double t = now(), part = p->t_end > p->t_begin ? (p->t - p->t_begin) / (p->t_end - p->t_begin) : 0;
-  if (start <= 0) start = t, part_before = part;      // a run that goes on does not begin at zero
+  double t = now(),
+         part = p->t_end > p->t_begin ? (p->t - p->t_begin) / (p->t_end - p->t_begin) : 0;
+  if (start <= 0) {
+    start = t;
+    part_before = part;
+  }  // a run that goes on does not begin at zero
   if (!isatty(fileno(stderr)) || t - start < patience_s || t - last < interval_s) return;
   last = t;
 
   double eta = part > part_before ? (t - start) * (1 - part) / (part - part_before) : 0;
-  fprintf(stderr, "\rsim %3.0f %%  t = %.4g of %.4g s  step %.1e", 100 * part, p->t, p->t_end, p->step);
+  fprintf(stderr, "\rsim %3.0f %%  t = %.4g of %.4g s  step %.1e", 100 * part, p->t, p->t_end,
+          p->step);
   if (!isnan(p->energy_drift)) fprintf(stderr, "  energy %.0e", p->energy_drift);
   fprintf(stderr, "  eta %d:%02d \033[K", (int)(eta / 60), (int)eta % 60);
   fflush(stderr);

@@ -1,5 +1,6 @@
-// pleuel completion SHELL: completions made from the tables of verbs and flags.  They know verbs, flags, the words of a
-// choice, *.pleuel, the letters after --only and the parameters after --set of the file on the command line.
+// pleuel completion SHELL: completions made from the tables of verbs and flags. They know verbs,
+// flags, the words of a choice, *.pleuel, the letters after --only and the parameters after --set
+// of the file on the command line.
 #include "cli.h"
 
 #include <string.h>
@@ -8,7 +9,8 @@ const cli_flag flags_completion[] = {CLI_FLAG_HELP, CLI_FLAG_END};
 
 // Words of all verbs, separated by blanks.
 static void print_verbs(void) {
-  for (const cli_verb* v = cli_verbs; v->name; v++) printf("%s%s", v == cli_verbs ? "" : " ", v->name);
+  for (const cli_verb* v = cli_verbs; v->name; v++)
+    printf("%s%s", v == cli_verbs ? "" : " ", v->name);
 }
 
 static void print_flags(const cli_verb* v) {
@@ -22,7 +24,7 @@ static void print_choice(const char* words) {
   for (const char* c = words; *c; c++) putchar(*c == '|' ? ' ' : *c);
 }
 
-// Has an earlier verb a flag of this name?  Choices are the same everywhere, so one line serves all.
+// Has an earlier verb a flag of this name? Choices are the same everywhere, so one line serves all.
 static bool seen_before(const cli_verb* verb, const cli_flag* flag) {
   for (const cli_verb* v = cli_verbs; v->name; v++) {
     for (const cli_flag* f = v->flags; f->name; f++) {
@@ -34,17 +36,21 @@ static bool seen_before(const cli_verb* verb, const cli_flag* flag) {
 }
 
 static void bash(void) {
-  puts("# bash completion for pleuel; made by `pleuel completion bash`\n"
-       "_pleuel_file() { local w; for w in \"${COMP_WORDS[@]}\"; do [[ $w == *.pleuel && -f $w ]] && { echo \"$w\"; return; }; done; }\n"
-       "_pleuel_letters() { local f; f=$(_pleuel_file); [ -n \"$f\" ] && sed -n 's/^ *ask  *\\([a-z]\\) *:.*/\\1/p' \"$f\" | sort -u; }\n"
-       "_pleuel_params() { local f; f=$(_pleuel_file); [ -n \"$f\" ] && sed -n 's/#.*//; s/^ *param  *//p' \"$f\" | tr ',' '\\n' |"
-       " sed -n 's/^ *\\([^ =[]*\\).*/\\1=/p'; }\n"
-       "_pleuel() {\n"
-       "  local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]} words=\n"
-       "  COMPREPLY=()\n"
-       "  case $prev in\n"
-       "    --only) words=$(_pleuel_letters) ;;\n"
-       "    --set) compopt -o nospace; words=$(_pleuel_params) ;;");
+  puts(
+      "# bash completion for pleuel; made by `pleuel completion bash`\n"
+      "_pleuel_file() { local w; for w in \"${COMP_WORDS[@]}\"; do [[ $w == *.pleuel && -f $w ]] "
+      "&& { echo \"$w\"; return; }; done; }\n"
+      "_pleuel_letters() { local f; f=$(_pleuel_file); [ -n \"$f\" ] && sed -n 's/^ *ask  "
+      "*\\([a-z]\\) *:.*/\\1/p' \"$f\" | sort -u; }\n"
+      "_pleuel_params() { local f; f=$(_pleuel_file); [ -n \"$f\" ] && sed -n 's/#.*//; s/^ *param "
+      " *//p' \"$f\" | tr ',' '\\n' |"
+      " sed -n 's/^ *\\([^ =[]*\\).*/\\1=/p'; }\n"
+      "_pleuel() {\n"
+      "  local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]} words=\n"
+      "  COMPREPLY=()\n"
+      "  case $prev in\n"
+      "    --only) words=$(_pleuel_letters) ;;\n"
+      "    --set) compopt -o nospace; words=$(_pleuel_params) ;;");
   for (const cli_verb* v = cli_verbs; v->name; v++) {
     for (const cli_flag* f = v->flags; f->name; f++) {
       if (f->kind != CLI_CHOICE || seen_before(v, f)) continue;
@@ -53,14 +59,15 @@ static void bash(void) {
       puts("' ;;");
     }
   }
-  puts("    explain) words=$(pleuel explain 2>/dev/null | cut -d' ' -f1) ;;\n"
-       "    examples|--from) words=$(pleuel examples 2>/dev/null | cut -d' ' -f1) ;;\n"
-       "    completion) words='bash zsh fish' ;;\n"
-       "    -o|--output) COMPREPLY=($(compgen -f -- \"$cur\")); return ;;\n"
-       "  esac\n"
-       "  if [ -z \"$words\" ]; then\n"
-       "    case $cur in\n"
-       "      -*) case ${COMP_WORDS[1]} in");
+  puts(
+      "    explain) words=$(pleuel explain 2>/dev/null | cut -d' ' -f1) ;;\n"
+      "    examples|--from) words=$(pleuel examples 2>/dev/null | cut -d' ' -f1) ;;\n"
+      "    completion) words='bash zsh fish' ;;\n"
+      "    -o|--output) COMPREPLY=($(compgen -f -- \"$cur\")); return ;;\n"
+      "  esac\n"
+      "  if [ -z \"$words\" ]; then\n"
+      "    case $cur in\n"
+      "      -*) case ${COMP_WORDS[1]} in");
   for (const cli_verb* v = cli_verbs; v->name; v++) {
     printf("        %s) words='", v->name);
     print_flags(v);
@@ -68,16 +75,18 @@ static void bash(void) {
   }
   printf("        *) words='");
   print_flags(cli_verbs);
-  printf("' ;;\n      esac ;;\n"
-         "      *) COMPREPLY=($(compgen -f -X '!*.pleuel' -- \"$cur\") $(compgen -d -- \"$cur\"))\n"
-         "         [ \"$COMP_CWORD\" = 1 ] && words='");
+  printf(
+      "' ;;\n      esac ;;\n"
+      "      *) COMPREPLY=($(compgen -f -X '!*.pleuel' -- \"$cur\") $(compgen -d -- \"$cur\"))\n"
+      "         [ \"$COMP_CWORD\" = 1 ] && words='");
   print_verbs();
-  puts("' ;;\n"
-       "    esac\n"
-       "  fi\n"
-       "  COMPREPLY+=($(compgen -W \"$words\" -- \"$cur\"))\n"
-       "}\n"
-       "complete -F _pleuel pleuel");
+  puts(
+      "' ;;\n"
+      "    esac\n"
+      "  fi\n"
+      "  COMPREPLY+=($(compgen -W \"$words\" -- \"$cur\"))\n"
+      "}\n"
+      "complete -F _pleuel pleuel");
 }
 
 // In zsh's descriptions brackets and colons have a meaning.
@@ -90,25 +99,27 @@ static void zsh_text(const char* s) {
 }
 
 static void zsh(void) {
-  puts("#compdef pleuel\n"
-       "# zsh completion for pleuel; made by `pleuel completion zsh`\n"
-       "_pleuel() {\n"
-       "  local -a verbs\n"
-       "  verbs=(");
+  puts(
+      "#compdef pleuel\n"
+      "# zsh completion for pleuel; made by `pleuel completion zsh`\n"
+      "_pleuel() {\n"
+      "  local -a verbs\n"
+      "  verbs=(");
   for (const cli_verb* v = cli_verbs; v->name; v++) {
     printf("    '%s:", v->name);
     zsh_text(v->summary);
     puts("'");
   }
-  puts("  )\n"
-       "  if (( CURRENT == 2 )); then\n"
-       "    _describe verb verbs\n"
-       "    _files -g '*.pleuel'\n"
-       "    return\n"
-       "  fi\n"
-       "  local verb=$words[2]\n"
-       "  shift words; (( CURRENT-- ))\n"
-       "  case $verb in");
+  puts(
+      "  )\n"
+      "  if (( CURRENT == 2 )); then\n"
+      "    _describe verb verbs\n"
+      "    _files -g '*.pleuel'\n"
+      "    return\n"
+      "  fi\n"
+      "  local verb=$words[2]\n"
+      "  shift words; (( CURRENT-- ))\n"
+      "  case $verb in");
   for (const cli_verb* v = cli_verbs; v->name; v++) {
     printf("    %s) _arguments", v->name);
     for (const cli_flag* f = v->flags; f->name; f++) {
@@ -139,9 +150,10 @@ static void fish_text(const char* s) {
 }
 
 static void fish(void) {
-  puts("# fish completion for pleuel; made by `pleuel completion fish`\n"
-       "complete -c pleuel -f\n"
-       "complete -c pleuel -k -a '(__fish_complete_suffix .pleuel)'");
+  puts(
+      "# fish completion for pleuel; made by `pleuel completion fish`\n"
+      "complete -c pleuel -f\n"
+      "complete -c pleuel -k -a '(__fish_complete_suffix .pleuel)'");
   for (const cli_verb* v = cli_verbs; v->name; v++) {
     printf("complete -c pleuel -n __fish_use_subcommand -a %s -d ", v->name);
     fish_text(v->summary);
@@ -165,7 +177,10 @@ static void fish(void) {
 
 int verb_completion(pleuel* ctx, const cli_options* o) {
   (void)ctx;
-  static const struct { const char* name; void (*print)(void); } shells[] = {{"bash", bash}, {"zsh", zsh}, {"fish", fish}};
+  static const struct {
+    const char* name;
+    void (*print)(void);
+  } shells[] = {{"bash", bash}, {"zsh", zsh}, {"fish", fish}};
   for (size_t i = 0; o->n_files == 1 && i < sizeof shells / sizeof *shells; i++) {
     if (strcmp(o->files[0], shells[i].name) == 0) {
       shells[i].print();

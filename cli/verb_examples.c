@@ -4,10 +4,10 @@
 #include <string.h>
 
 const cli_flag flags_examples[] = {
-  {"output", 'o', CLI_TEXT, CLI_AT(output), "FILE", "copy one there instead of printing it"},
-  {"force", 'f', CLI_SWITCH, CLI_AT(force), NULL, "replace a file that is there"},
-  CLI_FLAG_HELP,
-  CLI_FLAG_END,
+    {"output", 'o', CLI_TEXT, CLI_AT(output), "FILE", "copy one there instead of printing it"},
+    {"force", 'f', CLI_SWITCH, CLI_AT(force), NULL, "replace a file that is there"},
+    CLI_FLAG_HELP,
+    CLI_FLAG_END,
 };
 
 // The title between the quotes of the `system` line, or "".
@@ -47,7 +47,8 @@ int verb_examples(pleuel* ctx, const cli_options* o) {
     }
     return EXIT_DONE;
   }
-  if (o->output && o->n_files > 1) return cli_error(EXIT_USAGE, "-o takes one example, but there are several");
+  if (o->output && o->n_files > 1)
+    return cli_error(EXIT_USAGE, "-o takes one example, but there are several");
   for (int i = 0; i < o->n_files; i++) {
     text = find(o->files[i]);
     if (!text) return EXIT_USAGE;

@@ -5,15 +5,16 @@
 #include <string.h>
 
 const cli_flag flags_fmt[] = {
-  {"check", 0, CLI_SWITCH, CLI_AT(check), NULL, "change nothing, name the files that would change (exit 1)"},
-  {"unicode", 0, CLI_SWITCH, CLI_AT(unicode), NULL, "write θ, λ, ²"},
-  {"ascii", 0, CLI_SWITCH, CLI_AT(ascii), NULL, "write theta, lambda, ^2"},
-  {"output", 'o', CLI_TEXT, CLI_AT(output), "FILE", "write there instead; - is stdout"},
-  {"force", 'f', CLI_SWITCH, CLI_AT(force), NULL, "with -o: replace a file that is there"},
-  CLI_FLAG_LANG,
-  CLI_FLAG_COLOR,
-  CLI_FLAG_HELP,
-  CLI_FLAG_END,
+    {"check", 0, CLI_SWITCH, CLI_AT(check), NULL,
+     "change nothing, name the files that would change (exit 1)"},
+    {"unicode", 0, CLI_SWITCH, CLI_AT(unicode), NULL, "write θ, λ, ²"},
+    {"ascii", 0, CLI_SWITCH, CLI_AT(ascii), NULL, "write theta, lambda, ^2"},
+    {"output", 'o', CLI_TEXT, CLI_AT(output), "FILE", "write there instead; - is stdout"},
+    {"force", 'f', CLI_SWITCH, CLI_AT(force), NULL, "with -o: replace a file that is there"},
+    CLI_FLAG_LANG,
+    CLI_FLAG_COLOR,
+    CLI_FLAG_HELP,
+    CLI_FLAG_END,
 };
 
 // Does the file hold exactly this text?
@@ -40,7 +41,9 @@ static int format_file(pleuel* ctx, const cli_options* o, const char* file) {
   pleuel_model* m = cli_load(ctx, o, file, &code);
   if (!m) return code;
 
-  pleuel_spelling spelling = o->unicode ? PLEUEL_SPELL_UNICODE : o->ascii ? PLEUEL_SPELL_ASCII : PLEUEL_SPELL_KEEP;
+  pleuel_spelling spelling = o->unicode ? PLEUEL_SPELL_UNICODE
+                             : o->ascii ? PLEUEL_SPELL_ASCII
+                                        : PLEUEL_SPELL_KEEP;
   const char* text = NULL;
   pleuel_status s = pleuel_format(m, &text, spelling);
   code = cli_exit_code(s);
@@ -65,7 +68,8 @@ static int format_file(pleuel* ctx, const cli_options* o, const char* file) {
 
 int verb_fmt(pleuel* ctx, const cli_options* o) {
   if (o->unicode && o->ascii) return cli_error(EXIT_USAGE, "--unicode or --ascii, not both");
-  if (o->output && o->n_files > 1) return cli_error(EXIT_USAGE, "-o names one file, but there are several");
+  if (o->output && o->n_files > 1)
+    return cli_error(EXIT_USAGE, "-o names one file, but there are several");
   if (o->n_files == 0) return cli_error(EXIT_USAGE, "which file? - is stdin");
   int worst = EXIT_DONE;
   for (int i = 0; i < o->n_files; i++) {

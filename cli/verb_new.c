@@ -4,10 +4,10 @@
 #include <string.h>
 
 const cli_flag flags_new[] = {
-  {"from", 0, CLI_TEXT, CLI_AT(from), "EXAMPLE", "start from a built-in example instead"},
-  {"force", 'f', CLI_SWITCH, CLI_AT(force), NULL, "replace a file that is there"},
-  CLI_FLAG_HELP,
-  CLI_FLAG_END,
+    {"from", 0, CLI_TEXT, CLI_AT(from), "EXAMPLE", "start from a built-in example instead"},
+    {"force", 'f', CLI_SWITCH, CLI_AT(force), NULL, "replace a file that is there"},
+    CLI_FLAG_HELP,
+    CLI_FLAG_END,
 };
 
 static const char* example(const char* name) {
@@ -33,7 +33,9 @@ int verb_new(pleuel* ctx, const cli_options* o) {
   if (!*title) return cli_error(EXIT_USAGE, "the model needs a name:  pleuel new pendulum");
 
   const char* text = o->from ? example(o->from) : pleuel_template(ctx, title);
-  if (!text) return cli_error(EXIT_USAGE, "there is no example `%s`. See  pleuel examples", o->from ? o->from : title);
+  if (!text)
+    return cli_error(EXIT_USAGE, "there is no example `%s`. See  pleuel examples",
+                     o->from ? o->from : title);
   cli_file f;
   int code = cli_file_open(&f, path, o->force);
   if (code != EXIT_DONE) return code;

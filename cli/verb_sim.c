@@ -5,26 +5,31 @@
 #include <string.h>
 
 const cli_flag flags_sim[] = {
-  {"output", 'o', CLI_TEXT, CLI_AT(output), "FILE.csv", "where the rows go; - is stdout"},
-  {"force", 'f', CLI_SWITCH, CLI_AT(force), NULL, "replace a file that is there"},
-  {"until", 0, CLI_TEXT, CLI_AT(until), "TIME", "end of the run: 5, '500[ms]'"},
-  {"dt", 0, CLI_TEXT, CLI_AT(dt), "TIME", "distance of the rows; without it a row for each step"},
-  {"tol", 0, CLI_TEXT, CLI_AT(tol), "NUMBER", "relative local error of a step"},
-  {"method", 0, CLI_TEXT, CLI_AT(method), "NAME", "taylor, radau (implicit) or auto: radau where stiff"},
-  {"engine", 0, CLI_TEXT, CLI_AT(engine), "NAME", "auto, interpreter, compiled: same result"},
-  {"precision", 0, CLI_TEXT, CLI_AT(precision), "NAME", "double, long (80 bits, long runs), quad (128 bits)"},
-  {"verbose", 'v', CLI_SWITCH, CLI_AT(verbose), NULL, "tell too how the steps were computed"},
-  {"sensitivities", 0, CLI_TEXT, CLI_AT(sensitivities), "NAMES", "derivatives by these too: m2,x0"},
-  {"certify", 0, CLI_OPTIONAL, CLI_AT(certify), "[=WIDTH]", "prove intervals for the true motion, this narrow (1e-18)"},
-  CLI_FLAG_SET,
-  {"resume", 0, CLI_SWITCH, CLI_AT(resume), NULL, "go on with a run that was interrupted"},
-  {"checkpoint", 0, CLI_TEXT, CLI_AT(checkpoint), "SECONDS", "how often the state of a run is kept: 10"},
-  {"events", 0, CLI_SWITCH, CLI_AT(events), NULL, "tell events only, not the accuracy"},
-  CLI_FLAG_JSON,
-  CLI_FLAG_LANG,
-  CLI_FLAG_COLOR,
-  CLI_FLAG_HELP,
-  CLI_FLAG_END,
+    {"output", 'o', CLI_TEXT, CLI_AT(output), "FILE.csv", "where the rows go; - is stdout"},
+    {"force", 'f', CLI_SWITCH, CLI_AT(force), NULL, "replace a file that is there"},
+    {"until", 0, CLI_TEXT, CLI_AT(until), "TIME", "end of the run: 5, '500[ms]'"},
+    {"dt", 0, CLI_TEXT, CLI_AT(dt), "TIME", "distance of the rows; without it a row for each step"},
+    {"tol", 0, CLI_TEXT, CLI_AT(tol), "NUMBER", "relative local error of a step"},
+    {"method", 0, CLI_TEXT, CLI_AT(method), "NAME",
+     "taylor, radau (implicit) or auto: radau where stiff"},
+    {"engine", 0, CLI_TEXT, CLI_AT(engine), "NAME", "auto, interpreter, compiled: same result"},
+    {"precision", 0, CLI_TEXT, CLI_AT(precision), "NAME",
+     "double, long (80 bits, long runs), quad (128 bits)"},
+    {"verbose", 'v', CLI_SWITCH, CLI_AT(verbose), NULL, "tell too how the steps were computed"},
+    {"sensitivities", 0, CLI_TEXT, CLI_AT(sensitivities), "NAMES",
+     "derivatives by these too: m2,x0"},
+    {"certify", 0, CLI_OPTIONAL, CLI_AT(certify), "[=WIDTH]",
+     "prove intervals for the true motion, this narrow (1e-18)"},
+    CLI_FLAG_SET,
+    {"resume", 0, CLI_SWITCH, CLI_AT(resume), NULL, "go on with a run that was interrupted"},
+    {"checkpoint", 0, CLI_TEXT, CLI_AT(checkpoint), "SECONDS",
+     "how often the state of a run is kept: 10"},
+    {"events", 0, CLI_SWITCH, CLI_AT(events), NULL, "tell events only, not the accuracy"},
+    CLI_FLAG_JSON,
+    CLI_FLAG_LANG,
+    CLI_FLAG_COLOR,
+    CLI_FLAG_HELP,
+    CLI_FLAG_END,
 };
 
 // A time or number given as text.
@@ -49,13 +54,15 @@ static int unsupported_output(const char* path) {
   const char* dot = strrchr(path, '.');
   if (!dot || strcmp(path, "-") == 0) return EXIT_DONE;
   if (strcmp(dot, ".h5") == 0 || strcmp(dot, ".npz") == 0) {
-    return cli_error(EXIT_USAGE, "this version writes CSV, not %s: choose a name that ends in .csv", dot);
+    return cli_error(EXIT_USAGE, "this version writes CSV, not %s: choose a name that ends in .csv",
+                     dot);
   }
   return EXIT_DONE;
 }
 
 // A run that did not start has nothing to tell but why.
-static void tell(pleuel* ctx, const cli_options* o, pleuel_model* m, pleuel_status s, bool started, bool stdout_taken) {
+static void tell(pleuel* ctx, const cli_options* o, pleuel_model* m, pleuel_status s, bool started,
+                 bool stdout_taken) {
   if (o->json) {
     const char* json = pleuel_simulation_json(m);
     if (json) fputs(json, stdout);
@@ -87,9 +94,11 @@ int verb_sim(pleuel* ctx, const cli_options* o) {
   if (!code) code = quantity(ctx, "tol", o->tol, &how.has_tol, &how.tol);
   int has_width = 0;
   how.certify = o->certify != NULL;
-  if (!code && how.certify && *o->certify) code = quantity(ctx, "certify", o->certify, &has_width, &how.certify_width);
+  if (!code && how.certify && *o->certify)
+    code = quantity(ctx, "certify", o->certify, &has_width, &how.certify_width);
   if (!code && o->output) code = unsupported_output(o->output);
-  if (!code && o->resume && (!o->output || to_stdout)) code = cli_error(EXIT_USAGE, "--resume needs rows in a file: -o FILE.csv");
+  if (!code && o->resume && (!o->output || to_stdout))
+    code = cli_error(EXIT_USAGE, "--resume needs rows in a file: -o FILE.csv");
   if (!code && o->checkpoint) code = interval(ctx, o->checkpoint, &how.state_every);
   if (code) return code;
 
@@ -103,7 +112,7 @@ int verb_sim(pleuel* ctx, const cli_options* o) {
   code = to_file ? cli_rows_open(&rows, o) : EXIT_DONE;
   if (code == EXIT_DONE) {
     how.csv = to_file ? rows.file.to : to_stdout ? stdout : NULL;
-    if (rows.state[0] && !o->certify) {   // what is certified runs in one go
+    if (rows.state[0] && !o->certify) {  // what is certified runs in one go
       cli_resume_command(command, sizeof command, o);
       how.state = rows.state;
       how.resume = o->resume;

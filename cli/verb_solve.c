@@ -4,18 +4,21 @@
 #include <string.h>
 
 const cli_flag flags_solve[] = {
-  {"only", 0, CLI_TEXT, CLI_AT(only), "LETTERS", "only these requests: b,c"},
-  {"steps", 0, CLI_CHOICE, CLI_AT(steps), "brief|full", "how much is written down"},
-  CLI_FLAG_LANG,
-  {"math", 0, CLI_CHOICE, CLI_AT(math), "line|2d|ascii", "formulas on a line, stacked, or in plain ASCII"},
-  CLI_FLAG_JSON,
-  CLI_FLAG_SET,
-  {"strict", 0, CLI_SWITCH, CLI_AT(strict), NULL, "a closed form that was not found is an error (exit 5)"},
-  {"no-simulation", 0, CLI_SWITCH, CLI_AT(no_simulation), NULL, "leave out the motion that the file asks for"},
-  {"timing", 0, CLI_SWITCH, CLI_AT(timing), NULL, "with --json: how long each stage took"},
-  CLI_FLAG_COLOR,
-  CLI_FLAG_HELP,
-  CLI_FLAG_END,
+    {"only", 0, CLI_TEXT, CLI_AT(only), "LETTERS", "only these requests: b,c"},
+    {"steps", 0, CLI_CHOICE, CLI_AT(steps), "brief|full", "how much is written down"},
+    CLI_FLAG_LANG,
+    {"math", 0, CLI_CHOICE, CLI_AT(math), "line|2d|ascii",
+     "formulas on a line, stacked, or in plain ASCII"},
+    CLI_FLAG_JSON,
+    CLI_FLAG_SET,
+    {"strict", 0, CLI_SWITCH, CLI_AT(strict), NULL,
+     "a closed form that was not found is an error (exit 5)"},
+    {"no-simulation", 0, CLI_SWITCH, CLI_AT(no_simulation), NULL,
+     "leave out the motion that the file asks for"},
+    {"timing", 0, CLI_SWITCH, CLI_AT(timing), NULL, "with --json: how long each stage took"},
+    CLI_FLAG_COLOR,
+    CLI_FLAG_HELP,
+    CLI_FLAG_END,
 };
 
 static pleuel_math math_of(const cli_options* o) {
@@ -40,7 +43,8 @@ static int solve_file(pleuel* ctx, const cli_options* o, const char* file) {
   how.timing = o->timing;
 
   const char* answer = NULL;
-  pleuel_status s = o->json ? pleuel_solve_json(m, &answer, &how) : pleuel_solve_text(m, &answer, &how);
+  pleuel_status s = o->json ? pleuel_solve_json(m, &answer, &how)
+                            : pleuel_solve_text(m, &answer, &how);
   if (answer) fputs(answer, stdout);
   if (!o->json) {
     fflush(stdout);

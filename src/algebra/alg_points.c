@@ -1,22 +1,24 @@
 // Sample points of a domain, and the values of expressions there as balls.
 //
-// A symbol's value is drawn from its name and the number of the point, so that it does not depend on what was asked
-// before.  Values are multiples of 2^-30, exact as doubles and as balls.  When a fact fails at a point, one of the
-// symbols in it is drawn anew, until all facts hold (in the manner of WalkSAT: a random symbol of the first violated
-// fact).
+// A symbol's value is drawn from its name and the number of the point, so that it does not depend
+// on what was asked before. Values are multiples of 2^-30, exact as doubles and as balls. When a
+// fact fails at a point, one of the symbols in it is drawn anew, until all facts hold (in the
+// manner of WalkSAT: a random symbol of the first violated fact).
 //
-// All points share one straight-line program: the distinct nodes of all expressions asked so far, arguments first. Each
-// point keeps the balls it has computed, so that a formula that shares nodes with earlier ones costs only its new ones.
-// Kept balls are frozen: read-only copies whose mantissas stand in the arena, so that there is nothing to free.
+// All points share one straight-line program: the distinct nodes of all expressions asked so far,
+// arguments first. Each point keeps the balls it has computed, so that a formula that shares nodes
+// with earlier ones costs only its new ones. Kept balls are frozen: read-only copies whose
+// mantissas stand in the arena, so that there is nothing to free.
 #include "algebra/arb_eval.h"
 
 #include <math.h>
 #include <string.h>
 
 enum { PL_MAX_REDRAWS = 400, PL_MAX_NODES = 400000, PL_CHUNK_SLOTS = 64, PL_LIMBS = 4096 };
-static const double draw_low = 0.3, draw_high = 3.0;  // sizes that are neither tiny nor huge: no cancellation by scale
-static const double grid = 1073741824.0;              // 2^30
-static const double rounding = 1e-14;                 // of the terms of a fact
+// sizes that are neither tiny nor huge: no cancellation by scale
+static const double draw_low = 0.3, draw_high = 3.0;
+static const double grid = 1073741824.0;  // 2^30
+static const double rounding = 1e-14;     // of the terms of a fact
 
 typedef struct pl_point {
   double* value;  // by symbol id, NaN where not drawn yet      (n_values)
@@ -25,7 +27,8 @@ typedef struct pl_point {
   bool usable;
   PL_VEC(arb_ptr) chunks;  // frozen balls by slot
   int n_done;              // slots computed
-  arb_ptr unknown;         // frozen solution of the linear system        (n_unknowns), NULL until needed
+  // frozen solution of the linear system        (n_unknowns), NULL until needed
+  arb_ptr unknown;
   bool solved;
 } pl_point;
 
@@ -46,7 +49,7 @@ struct pl_points {
   size_t n_limbs;         // free ones
 };
 
-// ---------------------------------------------------------------------------------------------- drawing
+// ----------------------------------------------------------------------------------------- drawing
 static double on_grid(double x) { return nearbyint(x * grid) / grid; }
 
 static double draw(const pl_points* s, int point, pl_symbol x, uint32_t attempt) {
@@ -161,24 +164,31 @@ static void draw_point(pl_points* s, int point) {
       q->usable = true;
       return;
     }
-    pl_expr e = undefined >= 0 ? s->setup.definitions[undefined].value : s->setup.facts[violated].difference;
+    pl_expr e = undefined >= 0 ? s->setup.definitions[undefined].value
+                               : s->setup.facts[violated].difference;
     if (!redraw_one_of(s, point, e, &r)) return;
   }
 }
 
-pl_points* pl_points_make(pl_job* job, pl_pool* p, const pl_certifier_setup* setup, int n_points, long precision,
-                          uint64_t seed) {
+pl_points* pl_points_make(pl_job* job, pl_pool* p, const pl_certifier_setup* setup, int n_points,
+                          long precision, uint64_t seed) {
   pl_arena* a = pl_pool_arena(p);
   pl_points* s = PL_NEW(a, pl_points);
-  *s = (pl_points){
-      .job = job, .pool = p, .arena = a, .setup = *setup, .precision = precision, .seed = seed, .n = n_points};
+  *s = (pl_points){.job = job,
+                   .pool = p,
+                   .arena = a,
+                   .setup = *setup,
+                   .precision = precision,
+                   .seed = seed,
+                   .n = n_points};
   s->slot_of = pl_map_make(a);
   s->definition_of = pl_map_make(a);
   s->unknown_of = pl_map_make(a);
   for (int i = 0; i < setup->n_definitions; i++) {
     pl_map_set(s->definition_of, setup->definitions[i].symbol.id, (uint64_t)i + 1);
   }
-  for (int i = 0; i < setup->n_unknowns; i++) pl_map_set(s->unknown_of, setup->unknowns[i].id, (uint64_t)i + 1);
+  for (int i = 0; i < setup->n_unknowns; i++)
+    pl_map_set(s->unknown_of, setup->unknowns[i].id, (uint64_t)i + 1);
   s->at = PL_ARRAY(a, pl_point, n_points);
   for (int i = 0; i < n_points; i++) draw_point(s, i);
   return s;
@@ -186,10 +196,13 @@ pl_points* pl_points_make(pl_job* job, pl_pool* p, const pl_certifier_setup* set
 
 int pl_points_count(const pl_points* s) { return s->n; }
 
-// ---------------------------------------------------------------------------------------------- the program
-static arb_ptr ball(const pl_point* q, int slot) { return &q->chunks.at[slot / PL_CHUNK_SLOTS][slot % PL_CHUNK_SLOTS]; }
+// ------------------------------------------------------------------------------------- the program
+static arb_ptr ball(const pl_point* q, int slot) {
+  return &q->chunks.at[slot / PL_CHUNK_SLOTS][slot % PL_CHUNK_SLOTS];
+}
 
-// Room for one more mantissa, so that freezing allocates nothing while a ball of Arb's own is alive.
+// Room for one more mantissa, so that freezing allocates nothing while a ball of Arb's own is
+// alive.
 static void reserve_limbs(pl_points* s, size_t n) {
   size_t needed = n * ((size_t)s->precision / FLINT_BITS + 2);
   if (s->n_limbs >= needed) return;
@@ -197,7 +210,8 @@ static void reserve_limbs(pl_points* s, size_t n) {
   s->limbs = PL_ARRAY(s->arena, mp_limb_t, s->n_limbs);
 }
 
-// to becomes a read-only copy of from.  Huge exponents, which have memory of their own, count as no value.
+// to becomes a read-only copy of from. Huge exponents, which have memory of their own, count as no
+// value.
 static void freeze(pl_points* s, arb_ptr to, arb_srcptr from) {
   const arf_struct* mid = arb_midref(from);
   bool large = COEFF_IS_MPZ(*ARF_EXPREF(mid)) || COEFF_IS_MPZ(MAG_EXP(arb_radref(from)));
@@ -248,7 +262,7 @@ static bool add_to_program(pl_points* s, pl_expr e, int depth) {
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- unknowns
+// ---------------------------------------------------------------------------------------- unknowns
 // Gauss elimination with the largest pivot, in balls; on the n x (n+1) matrix M.
 static bool solve_balls(arb_ptr M, int n, long precision) {
   arb_t factor;
@@ -258,7 +272,9 @@ static bool solve_balls(arb_ptr M, int n, long precision) {
     int best = -1;
     for (int i = k; i < n; i++) {
       if (arb_contains_zero(&M[i * (n + 1) + k])) continue;
-      if (best < 0 || arf_cmpabs(arb_midref(&M[i * (n + 1) + k]), arb_midref(&M[best * (n + 1) + k])) > 0) best = i;
+      if (best < 0
+          || arf_cmpabs(arb_midref(&M[i * (n + 1) + k]), arb_midref(&M[best * (n + 1) + k])) > 0)
+        best = i;
     }
     ok = best >= 0;
     if (!ok) break;
@@ -266,7 +282,8 @@ static bool solve_balls(arb_ptr M, int n, long precision) {
     for (int i = 0; i < n; i++) {
       if (i == k || arb_is_zero(&M[i * (n + 1) + k])) continue;
       arb_div(factor, &M[i * (n + 1) + k], &M[k * (n + 1) + k], precision);
-      for (int j = k; j <= n; j++) arb_submul(&M[i * (n + 1) + j], factor, &M[k * (n + 1) + j], precision);
+      for (int j = k; j <= n; j++)
+        arb_submul(&M[i * (n + 1) + j], factor, &M[k * (n + 1) + j], precision);
     }
   }
   for (int i = 0; i < n && ok; i++) {
@@ -284,7 +301,8 @@ static void solve_unknowns(pl_points* s, pl_point* q) {
   arb_ptr M = _arb_vec_init((slong)n * (n + 1));
   bool ok = true;
   for (int i = 0; i < n; i++) {
-    for (int j = 0; j < n; j++) arb_set(&M[i * (n + 1) + j], ball(q, slot_of(s, s->setup.A[i * n + j])));
+    for (int j = 0; j < n; j++)
+      arb_set(&M[i * (n + 1) + j], ball(q, slot_of(s, s->setup.A[i * n + j])));
     arb_set(&M[i * (n + 1) + n], ball(q, slot_of(s, s->setup.b[i])));
   }
   for (int i = 0; i < n * (n + 1); i++) ok = ok && arb_is_finite(&M[i]);
@@ -293,7 +311,7 @@ static void solve_unknowns(pl_points* s, pl_point* q) {
   _arb_vec_clear(M, (slong)n * (n + 1));
 }
 
-// ---------------------------------------------------------------------------------------------- running the program
+// ----------------------------------------------------------------------------- running the program
 static void prepare_symbol(pl_points* s, pl_point* q, pl_symbol x) {
   if (!q->unknown && pl_map_get(s->unknown_of, x.id)) solve_unknowns(s, q);
 }
@@ -354,7 +372,8 @@ static void run_to(pl_points* s, int point, int slot) {
   fill(s, point);
   for (; q->n_done <= slot; q->n_done++) {
     if (q->n_done == q->chunks.n * PL_CHUNK_SLOTS) {
-      arb_ptr chunk = PL_ARRAY(s->arena, arb_struct, PL_CHUNK_SLOTS);  // zeroed memory is the ball 0
+      // zeroed memory is the ball 0
+      arb_ptr chunk = PL_ARRAY(s->arena, arb_struct, PL_CHUNK_SLOTS);
       pl_push(s->arena, q->chunks, chunk);
     }
     run_slot(s, point, q->n_done);

@@ -1,13 +1,13 @@
-// Rank and dependencies of rows.  The rank is taken of the normal forms modulo a prime at random points: fast, and
-// right at a generic point.  Where there are no values modulo the prime, in ball arithmetic at sample points.  A
-// dependency is solved for exactly and verified in every column.
+// Rank and dependencies of rows. The rank is taken of the normal forms modulo a prime at random
+// points: fast, and right at a generic point. Where there are no values modulo the prime, in ball
+// arithmetic at sample points. A dependency is solved for exactly and verified in every column.
 #include "algebra/algebra_impl.h"
 
 #include <string.h>
 
 enum { PL_RANK_POINTS = 3, PL_RANK_TRIES = 60, PL_MAX_RANK = 512 };
 
-// ---------------------------------------------------------------------------------------------- modulo p
+// ---------------------------------------------------------------------------------------- modulo p
 static bool residues(pl_tower* t, int m, int n, const pl_expr* A, uint64_t seed, uint64_t* out) {
   pl_mod_point* point = pl_mod_point_make(t->arena, t->pool, seed);
   for (int i = 0; i < m * n; i++) {
@@ -20,7 +20,8 @@ static bool residues(pl_tower* t, int m, int n, const pl_expr* A, uint64_t seed,
 
 static uint64_t minus_mod(uint64_t a) { return a ? PL_MOD_P - a : 0; }
 
-// Greedy from the first row on: a row is taken when it is independent of those taken before.  R (m x n) is destroyed.
+// Greedy from the first row on: a row is taken when it is independent of those taken before. R (m x
+// n) is destroyed.
 static int independent_rows(uint64_t* R, int m, int n, int* rows) {
   int rank = 0;
   int pivot[PL_MAX_RANK];
@@ -43,13 +44,14 @@ static int independent_rows(uint64_t* R, int m, int n, int* rows) {
   return rank;
 }
 
-// ---------------------------------------------------------------------------------------------- in balls
+// ---------------------------------------------------------------------------------------- in balls
 // a -= factor * b on rows of n balls.
 static void subtract_row(arb_ptr a, arb_srcptr b, arb_srcptr factor, int n, long bits) {
   for (int j = 0; j < n; j++) arb_submul(&a[j], factor, &b[j], bits);
 }
 
-// The first entry that is not zero, or n.  A ball that contains zero at this precision is taken for zero.
+// The first entry that is not zero, or n. A ball that contains zero at this precision is taken for
+// zero.
 static int first_entry(arb_srcptr a, int n) {
   int p = 0;
   while (p < n && arb_contains_zero(&a[p])) p++;
@@ -107,7 +109,7 @@ static void ball_rank_body(pl_tower* t, void* data) {
   _arb_vec_clear(R, (slong)j->m * j->n);
 }
 
-// ---------------------------------------------------------------------------------------------- the service
+// ------------------------------------------------------------------------------------- the service
 int pl_alg_rank(pl_tower* t, int m, int n, const pl_expr* A, int* rows) {
   if (m <= 0 || n <= 0) return 0;
   pl_expr* normal = PL_ARRAY(t->arena, pl_expr, m * n);
@@ -131,9 +133,10 @@ int pl_alg_rank(pl_tower* t, int m, int n, const pl_expr* A, int* rows) {
   return j.rank;
 }
 
-// ---------------------------------------------------------------------------------------------- dependencies
+// ------------------------------------------------------------------------------------ dependencies
 // Checks sum_i c_i A_ij = A_kj in every column.
-static pl_answer3 verify_dependency(pl_tower* t, int m, int n, const pl_expr* A, int k, const pl_expr* c) {
+static pl_answer3 verify_dependency(pl_tower* t, int m, int n, const pl_expr* A, int k,
+                                    const pl_expr* c) {
   pl_answer3 answer = PL_YES;
   for (int j = 0; j < n; j++) {
     pl_expr sum = pl_neg(t->pool, A[k * n + j]);

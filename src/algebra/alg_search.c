@@ -1,30 +1,41 @@
-// All zeros of a function of one symbol in a range, proven: by ball arithmetic on smaller and smaller boxes.
+// All zeros of a function of one symbol in a range, proven: by ball arithmetic on smaller and
+// smaller boxes.
 //   f has no zero where its ball does not contain 0;
-//   f has one zero where the ball of f' does not contain 0 and f changes its sign, none where it does not.
-// A box in which neither is decided at the smallest width is left open: a multiple zero, or nearly one.
-// [Tucker2011, sec. 5.1]
+//   f has one zero where the ball of f' does not contain 0 and f changes its sign, none where it
+//   does not.
+// A box in which neither is decided at the smallest width is left open: a multiple zero, or nearly
+// one. [Tucker2011, sec. 5.1]
 #include "algebra/arb_eval.h"
 
 #include <math.h>
 
-enum { PL_MAX_SEARCH_NODES = 2000, PL_MAX_BOXES = 20000, PL_SEARCH_BITS = 128, PL_SEARCH_STACK = 4096, PL_HALVINGS = 90 };
-static const double split_at = 0.4687;   // of the width: a zero at a round number is then no end of a box
-static const double narrowest = 1e-11;   // width of a box left open, relative to its place or to 1
+enum {
+  PL_MAX_SEARCH_NODES = 2000,
+  PL_MAX_BOXES = 20000,
+  PL_SEARCH_BITS = 128,
+  PL_SEARCH_STACK = 4096,
+  PL_HALVINGS = 90
+};
+// of the width: a zero at a round number is then no end of a box
+static const double split_at = 0.4687;
+static const double narrowest = 1e-11;  // width of a box left open, relative to its place or to 1
 
 // f and f' with their nodes, arguments first.
 typedef struct pl_search {
   pl_pool* pool;
   pl_arena* arena;
   pl_symbol x;
-  pl_map* slot_of;         // expression id -> slot + 1
+  pl_map* slot_of;  // expression id -> slot + 1
   PL_VEC(pl_expr) node;
-  arb_ptr value;           //                     (n_nodes)
+  arb_ptr value;  //                     (n_nodes)
   arb_t at;
-  int f, slope;            // slots
+  int f, slope;  // slots
   int boxes;
 } pl_search;
 
-typedef struct pl_box { double lo, hi; } pl_box;
+typedef struct pl_box {
+  double lo, hi;
+} pl_box;
 
 static int slot_of(const pl_search* s, pl_expr e) { return (int)pl_map_get(s->slot_of, e.id) - 1; }
 
@@ -46,7 +57,8 @@ static bool outside_domain(const pl_search* s, pl_expr e, const arb_srcptr* args
   pl_kind kind = pl_kind_of(s->pool, e);
   if (kind == PL_CALL) return pl_function_of(s->pool, e) == PL_LN && arb_is_negative(args[0]);
   long num = 0, den = 1;
-  bool root = kind == PL_POW && pl_is_ratio(s->pool, pl_arg(s->pool, e, 1), &num, &den) && den % 2 == 0;
+  bool root = kind == PL_POW && pl_is_ratio(s->pool, pl_arg(s->pool, e, 1), &num, &den)
+              && den % 2 == 0;
   return root && arb_is_negative(args[0]);
 }
 
@@ -86,7 +98,9 @@ static bool on_box(pl_search* s, double lo, double hi) {
 
 static int sign_of(arb_srcptr v) { return arb_is_positive(v) ? 1 : arb_is_negative(v) ? -1 : 0; }
 
-static int sign_at(pl_search* s, double x) { return on_box(s, x, x) ? sign_of(&s->value[s->f]) : 0; }
+static int sign_at(pl_search* s, double x) {
+  return on_box(s, x, x) ? sign_of(&s->value[s->f]) : 0;
+}
 
 // The zero between two places of opposite sign, to the digits of a double.
 static double halved(pl_search* s, double lo, double hi, int at_lo) {
@@ -153,7 +167,7 @@ static void search_body(pl_tower* t, void* data) {
     } else if (n + 2 > PL_SEARCH_STACK || s->boxes > PL_MAX_BOXES) {
       j->complete = false;
     } else {
-      stack[n++] = (pl_box){mid, b.hi};   // the lower half is looked at first
+      stack[n++] = (pl_box){mid, b.hi};  // the lower half is looked at first
       stack[n++] = (pl_box){b.lo, mid};
     }
   }
@@ -161,10 +175,15 @@ static void search_body(pl_tower* t, void* data) {
   arb_clear(s->at);
 }
 
-int pl_alg_zeros(pl_tower* t, pl_expr e, pl_symbol x, double lo, double hi, pl_zero* out, int max, bool* complete) {
+int pl_alg_zeros(pl_tower* t, pl_expr e, pl_symbol x, double lo, double hi, pl_zero* out, int max,
+                 bool* complete) {
   pl_expr slope = pl_diff(t->pool, e, x);
-  pl_zeros_job j = {.s = {.pool = t->pool, .arena = t->arena, .x = x, .slot_of = pl_map_make(t->arena)},
-                    .range = {lo, hi}, .out = out, .max = max, .complete = true};
+  pl_zeros_job j = {
+      .s = {.pool = t->pool, .arena = t->arena, .x = x, .slot_of = pl_map_make(t->arena)},
+      .range = {lo, hi},
+      .out = out,
+      .max = max,
+      .complete = true};
   *complete = false;
   if (!add_node(&j.s, e, 0) || !add_node(&j.s, slope, 0)) return 0;
   j.s.f = slot_of(&j.s, e);

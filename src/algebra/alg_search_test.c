@@ -3,8 +3,10 @@
 
 #include "algebra/algebra_test_text.h"
 
-static int zeros(pl_world* w, const char* text, double lo, double hi, pl_zero* out, bool* complete) {
-  return pl_alg_zeros(w->tower, pl_text_expr(w, text), pl_text_symbol(w, "x"), lo, hi, out, 32, complete);
+static int zeros(pl_world* w, const char* text, double lo, double hi, pl_zero* out,
+                 bool* complete) {
+  return pl_alg_zeros(w->tower, pl_text_expr(w, text), pl_text_symbol(w, "x"), lo, hi, out, 32,
+                      complete);
 }
 
 PL_TEST(zeros_are_all_found) {
@@ -18,7 +20,7 @@ PL_TEST(zeros_are_all_found) {
   assert_true(complete);
   assert_int_equal(zeros(w, "sin(x)", -10.1, 10.2, z, &complete), 7);
   assert_true(complete);
-  assert_int_equal(zeros(w, "x - 2*sqrt(x)", -5.1, 20, z, &complete), 2);   // not real below 0
+  assert_int_equal(zeros(w, "x - 2*sqrt(x)", -5.1, 20, z, &complete), 2);  // not real below 0
   pl_world_free(w);
 }
 
@@ -39,11 +41,11 @@ PL_TEST(what_is_not_decided_is_said) {
   pl_world* w = pl_world_make(NULL);
   pl_zero z[32];
   bool complete = false;
-  assert_int_equal(zeros(w, "x^2", -3.1, 4, z, &complete), 1);   // a double zero touches
+  assert_int_equal(zeros(w, "x^2", -3.1, 4, z, &complete), 1);  // a double zero touches
   assert_false(z[0].proven);
-  zeros(w, "sin(x)", -1e9, 1.1e9, z, &complete);                   // more than can be listed
+  zeros(w, "sin(x)", -1e9, 1.1e9, z, &complete);  // more than can be listed
   assert_false(complete);
-  assert_int_equal(zeros(w, "x - l", -3.1, 4, z, &complete), 0);   // a letter without number
+  assert_int_equal(zeros(w, "x - l", -3.1, 4, z, &complete), 0);  // a letter without number
   assert_false(complete);
   pl_world_free(w);
 }
@@ -60,14 +62,15 @@ PL_TEST(completed_squares_have_a_sign) {
   assert_int_equal(proven_sign(w, "-3*x^2 + 2*x*y - y^2", true), -1);
   assert_int_equal(proven_sign(w, "(x*l - y*r)^2 + 2*x*y*l*r + l*r", false), 1);
   assert_int_equal(proven_sign(w, "m1^2*x^2 + 2*m1*m2*x*sin(y) + m2^2", true), 1);
-  assert_int_equal(proven_sign(w, "x^2 + 3*x*y + y^2", true), 7);   // indefinite
+  assert_int_equal(proven_sign(w, "x^2 + 3*x*y + y^2", true), 7);  // indefinite
   assert_int_equal(proven_sign(w, "x^2 - 4*x + 3", true), 7);
   pl_world_free(w);
 }
 
 PL_TEST(a_proof_takes_no_sample_for_one) {
   pl_world* w = pl_world_make(NULL);
-  assert_int_equal(proven_sign(w, "100*l - r", false), 7);   // at all points that are drawn it is positive
+  // at all points that are drawn it is positive
+  assert_int_equal(proven_sign(w, "100*l - r", false), 7);
   pl_world_free(w);
 }
 

@@ -1,4 +1,5 @@
-// Laws on random expressions: the axioms of a field through the tower, and the tower against independent evaluation.
+// Laws on random expressions: the axioms of a field through the tower, and the tower against
+// independent evaluation.
 #include "algebra/algebra_test_text.h"
 
 enum { PL_ROUNDS = 60 };
@@ -7,8 +8,8 @@ static const uint64_t seed = 20240611;
 static void assert_zero_expr(pl_world* w, pl_expr e, int round, const char* law) {
   pl_answer3 zero = pl_alg_is_zero(w->tower, e);
   if (zero != PL_YES) {
-    fail_msg("%s fails (answer %d), seed %llu round %d: %s", law, zero, (unsigned long long)seed, round,
-             pl_text_of(w, e));
+    fail_msg("%s fails (answer %d), seed %llu round %d: %s", law, zero, (unsigned long long)seed,
+             round, pl_text_of(w, e));
   }
 }
 
@@ -23,7 +24,8 @@ PL_TEST(sums_and_products_obey_the_axioms) {
     pl_expr sum = pl_alg_normal(w->tower, pl_add(p, a, b));
     assert_zero_expr(w, pl_sub(p, pl_sub(p, sum, b), a), i, "(a + b) - b = a");
     pl_expr left = pl_alg_normal(w->tower, pl_mul(p, c, sum));
-    assert_zero_expr(w, pl_sub(p, left, pl_add(p, pl_mul(p, c, a), pl_mul(p, c, b))), i, "c(a + b) = ca + cb");
+    assert_zero_expr(w, pl_sub(p, left, pl_add(p, pl_mul(p, c, a), pl_mul(p, c, b))), i,
+                     "c(a + b) = ca + cb");
     if (pl_alg_is_zero(w->tower, b) == PL_NO) {
       pl_expr quotient = pl_alg_normal(w->tower, pl_div(p, a, b));
       assert_zero_expr(w, pl_sub(p, pl_mul(p, quotient, b), a), i, "(a/b) b = a");
@@ -34,8 +36,10 @@ PL_TEST(sums_and_products_obey_the_axioms) {
 
 // a b has at least the factors of a and b, however its factoring was found.
 PL_TEST(a_product_is_never_taken_for_irreducible) {
-  static const char* const factor[] = {"m1 + m2", "x^2 + y^2 - l^2", "m1*x + m2*y", "m1^2 - 3*x*y", "x*y + l*m2 + 1",
-                                       "x^3 + m1*y + 2*l", "x^2 + m1", "m1*m2 + m1*l + m2*x", "y^2 - 2*x^2", "l + x^2*y"};
+  static const char* const factor[] = {"m1 + m2",      "x^2 + y^2 - l^2",     "m1*x + m2*y",
+                                       "m1^2 - 3*x*y", "x*y + l*m2 + 1",      "x^3 + m1*y + 2*l",
+                                       "x^2 + m1",     "m1*m2 + m1*l + m2*x", "y^2 - 2*x^2",
+                                       "l + x^2*y"};
   int n = (int)(sizeof factor / sizeof *factor);
   pl_world* w = pl_world_make(NULL);
   for (int i = 0; i < n; i++) {
@@ -58,8 +62,8 @@ PL_TEST(the_normal_form_of_a_normal_form_is_itself) {
     pl_expr e = pl_random_expr(w, &r, 3);
     pl_expr once = pl_alg_normal(w->tower, e), twice = pl_alg_normal(w->tower, once);
     if (!pl_same(once, twice)) {
-      fail_msg("seed %llu round %d: %s becomes %s", (unsigned long long)seed + 1, i, pl_text_of(w, once),
-               pl_text_of(w, twice));
+      fail_msg("seed %llu round %d: %s becomes %s", (unsigned long long)seed + 1, i,
+               pl_text_of(w, once), pl_text_of(w, twice));
     }
   }
   pl_world_free(w);
@@ -75,7 +79,8 @@ PL_TEST(the_normal_form_has_the_value_of_the_input) {
   for (int i = 0; i < PL_ROUNDS; i++) {
     pl_expr e = pl_random_expr(w, &r, 3);
     pl_certificate s = pl_certify(c, pl_alg_normal(w->tower, e), e);
-    if (s.equal == PL_NO) fail_msg("seed %llu round %d: %s", (unsigned long long)seed + 2, i, pl_text_of(w, e));
+    if (s.equal == PL_NO)
+      fail_msg("seed %llu round %d: %s", (unsigned long long)seed + 2, i, pl_text_of(w, e));
     decided += s.equal == PL_YES;
     pl_certificate changed = pl_certify(c, pl_add(w->pool, e, pl_int(w->pool, 1)), e);
     assert_true(changed.equal != PL_YES);
@@ -92,7 +97,8 @@ PL_TEST(factors_multiply_to_the_whole) {
     pl_factor f[32];
     pl_expr product;
     int n = pl_alg_factors(w->tower, e, f, 32, &product);
-    for (int k = 0; k < n; k++) product = pl_mul(w->pool, product, pl_pow_int(w->pool, f[k].base, f[k].power));
+    for (int k = 0; k < n; k++)
+      product = pl_mul(w->pool, product, pl_pow_int(w->pool, f[k].base, f[k].power));
     assert_zero_expr(w, pl_sub(w->pool, product, e), i, "product of factors");
   }
   pl_world_free(w);
@@ -117,14 +123,16 @@ PL_TEST(what_is_solved_satisfies_the_system) {
   for (int i = 0; i < 12; i++) {
     enum { N = 3 };
     pl_expr A[N * N], b[N], x[N];
-    for (int k = 0; k < N * N; k++) A[k] = pl_random_bits(&r) % 3 ? pl_random_expr(w, &r, 1) : pl_int(p, 0);
+    for (int k = 0; k < N * N; k++)
+      A[k] = pl_random_bits(&r) % 3 ? pl_random_expr(w, &r, 1) : pl_int(p, 0);
     for (int k = 0; k < N; k++) b[k] = pl_random_expr(w, &r, 1);
     pl_answer3 answer = pl_alg_solve(w->tower, N, A, b, x, 10000);
     pl_expr det = pl_alg_det(w->tower, N, A, 10000);
     assert_int_equal(answer == PL_NO, pl_alg_is_zero(w->tower, det) == PL_YES);
     int rank = pl_alg_rank(w->tower, N, N, A, NULL);
     if ((answer == PL_YES) != (rank == N)) {
-      fail_msg("seed %llu round %d: answer %d, rank %d", (unsigned long long)seed + 5, i, answer, rank);
+      fail_msg("seed %llu round %d: answer %d, rank %d", (unsigned long long)seed + 5, i, answer,
+               rank);
     }
     for (int k = 0; k < N && answer == PL_YES; k++) {
       pl_expr rest = pl_neg(p, b[k]);

@@ -1,5 +1,6 @@
-// The hostile allocator: the n-th allocation fails, for every n.  The work unwinds to the guard with PLEUEL_NO_MEMORY,
-// the tower can be freed, and nothing is left (looked for by the leak checker of the sanitizer build).
+// The hostile allocator: the n-th allocation fails, for every n. The work unwinds to the guard with
+// PLEUEL_NO_MEMORY, the tower can be freed, and nothing is left (looked for by the leak checker of
+// the sanitizer build).
 #include "algebra/algebra_test_text.h"
 
 #include <stdlib.h>
@@ -30,18 +31,22 @@ typedef struct pl_alive {
 static void work(pl_arena* a, pl_job* job, pl_pool* p, volatile pl_alive* alive) {
   alive->tower = pl_tower_make(job, p, NULL, 0);
   pl_world w = {.arena = a, .pool = p, .job = *job, .tower = alive->tower};
-  pl_alg_normal(w.tower, pl_text_expr(&w, "sqrt(l^2 - r^2*sin(x)^2)/(m1 + m2*cos(x/2)^2) + ln(12*l)*exp(x)"));
+  pl_alg_normal(
+      w.tower, pl_text_expr(&w, "sqrt(l^2 - r^2*sin(x)^2)/(m1 + m2*cos(x/2)^2) + ln(12*l)*exp(x)"));
   pl_assert_zero(&w, "sqrt(m1*m2)*sqrt(m2) - m2*sqrt(m1)");
   pl_root r[4];
   bool complete = false;
-  pl_alg_roots(w.tower, pl_text_expr(&w, "m1*cos(x) + g*sin(x) - l"), pl_text_symbol(&w, "x"), r, 4, &complete);
+  pl_alg_roots(w.tower, pl_text_expr(&w, "m1*cos(x) + g*sin(x) - l"), pl_text_symbol(&w, "x"), r, 4,
+               &complete);
   pl_expr A[4], b[2], x[2];
   for (int i = 0; i < 4; i++) A[i] = pl_text_expr(&w, i % 3 ? "cos(a - b)" : "m1 + m2");
   for (int i = 0; i < 2; i++) b[i] = pl_text_expr(&w, "m1*g");
   assert_int_equal(pl_alg_solve(w.tower, 2, A, b, x, 0), PL_YES);
   pl_certifier_setup none = {0};
   pl_certifier* c = pl_certifier_make(job, p, &none);
-  assert_int_equal(pl_certify(c, pl_text_expr(&w, "(l + r)^2"), pl_text_expr(&w, "l^2 + 2*l*r + r^2")).equal, PL_YES);
+  assert_int_equal(
+      pl_certify(c, pl_text_expr(&w, "(l + r)^2"), pl_text_expr(&w, "l^2 + 2*l*r + r^2")).equal,
+      PL_YES);
 }
 
 // Some padding first, so that the arena's blocks end elsewhere in the work.

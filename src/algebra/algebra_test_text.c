@@ -15,7 +15,10 @@ pl_symbol pl_text_symbol(pl_world* w, const char* name) {
   bool free = strchr("xyzuvabtp", name[0]) != NULL;
   pl_symbol_info info = {.name = name, .ascii = name, .dimension = pl_dimension_one()};
   info.role = free ? PL_R_COORD : PL_R_PARAM;
-  info.class = free ? PL_C_COORD : name[0] == 'm' ? PL_C_MASS : name[0] == 'g' ? PL_C_GRAVITY : PL_C_LENGTH;
+  info.class = free             ? PL_C_COORD
+               : name[0] == 'm' ? PL_C_MASS
+               : name[0] == 'g' ? PL_C_GRAVITY
+                                : PL_C_LENGTH;
   info.sign = free ? PL_SIGN_ANY : PL_SIGN_POSITIVE;
   info.name = info.ascii = pl_copy(w->arena, name);
   return pl_symbol_make(w->pool, &info);
@@ -98,7 +101,7 @@ pl_expr pl_text_expr(pl_world* w, const char* text) {
   return read_sum(&r);
 }
 
-// ---------------------------------------------------------------------------------------------- worlds
+// ------------------------------------------------------------------------------------------ worlds
 pl_world* pl_world_make(const char* facts) {
   pl_arena* a = pl_arena_make(NULL);
   pl_world* w = PL_NEW(a, pl_world);
@@ -138,7 +141,7 @@ void pl_assert_not_zero(pl_world* w, const char* text) {
   if (zero != PL_NO) fail_msg("%s should not be zero, answer %d", text, zero);
 }
 
-// ---------------------------------------------------------------------------------------------- random expressions
+// ------------------------------------------------------------------------------ random expressions
 static pl_expr random_leaf(pl_world* w, pl_random* r) {
   static const char* const names[] = {"x", "y", "m1", "m2", "l"};
   uint64_t k = pl_random_bits(r) % 8;

@@ -1,6 +1,6 @@
-// For the tests of this folder: a world (arena, pool, tower) and expressions written as text, "sqrt(l^2 -
-// r^2*sin(x)^2)". Names that begin with one of x y z u v a b t p are coordinates without a sign; all others are
-// positive parameters: m... masses, g gravity, the rest lengths.
+// For the tests of this folder: a world (arena, pool, tower) and expressions written as text,
+// "sqrt(l^2 - r^2*sin(x)^2)". Names that begin with one of x y z u v a b t p are coordinates
+// without a sign; all others are positive parameters: m... masses, g gravity, the rest lengths.
 #ifndef PL_ALGEBRA_TEST_TEXT_H
 #define PL_ALGEBRA_TEST_TEXT_H
 

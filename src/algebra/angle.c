@@ -1,8 +1,9 @@
-// Angles and exponents as lattices.  An argument is split into rational multiples of atoms (monomials over a common
-// denominator); each atom has one base, atom/den, and sin, cos or exp of the base are generators.  When a multiple
-// comes that the base is too coarse for (θ/2 after θ), the base is refined and the tower starts again, so that θ/2 and
-// 2θ share it.  A multiple that would need high powers of the base (19/20 θ beside θ) is an atom of its own, or shares the
-// base of another such atom: cos(19 u) in powers of cos u loses nine digits, and nobody can read it.
+// Angles and exponents as lattices. An argument is split into rational multiples of atoms
+// (monomials over a common denominator); each atom has one base, atom/den, and sin, cos or exp of
+// the base are generators. When a multiple comes that the base is too coarse for (θ/2 after θ), the
+// base is refined and the tower starts again, so that θ/2 and 2θ share it. A multiple that would
+// need high powers of the base (19/20 θ beside θ) is an atom of its own, or shares the base of
+// another such atom: cos(19 u) in powers of cos u loses nine digits, and nobody can read it.
 //
 // Angles that are inverse functions have no base: cos(acos u) = u, sin(acos u) = sqrt(1 - u^2).
 #include "algebra/algebra_impl.h"
@@ -21,8 +22,9 @@ typedef struct pl_angle {
   pl_angle_term at[PL_MAX_ANGLE_TERMS];
 } pl_angle;
 
-// ---------------------------------------------------------------------------------------------- splitting
-// Monomial i of the numerator, over the factors of the denominator but without its integer coefficient.
+// --------------------------------------------------------------------------------------- splitting
+// Monomial i of the numerator, over the factors of the denominator but without its integer
+// coefficient.
 static pl_expr atom_of(pl_tower* t, pl_frac a, slong i) {
   ulong exponent[PL_MAX_GENERATORS];
   fmpz_mpoly_get_term_exp_ui(exponent, a.num, i, &t->ctx);
@@ -36,8 +38,10 @@ static pl_expr atom_of(pl_tower* t, pl_frac a, slong i) {
   return pl_frac_expr(t, f);
 }
 
-// The coefficient when it is a small rational; larger ones stay inside the atom, with their sign outside.
-static pl_angle_term term_of(pl_tower* t, pl_frac a, slong i, long max_num, long max_den, bool numbers_are_atoms) {
+// The coefficient when it is a small rational; larger ones stay inside the atom, with their sign
+// outside.
+static pl_angle_term term_of(pl_tower* t, pl_frac a, slong i, long max_num, long max_den,
+                             bool numbers_are_atoms) {
   fmpz* g = pl_int_new(t);
   fmpz* num = pl_int_new(t);
   fmpz* den = pl_int_new(t);
@@ -45,7 +49,8 @@ static pl_angle_term term_of(pl_tower* t, pl_frac a, slong i, long max_num, long
   fmpz_divexact(num, &a.num->coeffs[i], g);
   fmpz_divexact(den, a.unit, g);
   pl_angle_term term = {.num = fmpz_sgn(num), .den = 1, .atom = atom_of(t, a, i)};
-  bool small = fmpz_cmp_si(den, max_den) <= 0 && fmpz_fits_si(num) && labs(fmpz_get_si(num)) <= max_num;
+  bool small = fmpz_cmp_si(den, max_den) <= 0 && fmpz_fits_si(num)
+               && labs(fmpz_get_si(num)) <= max_num;
   // sin 7 is not written in powers of sin 1: a number is an atom as it is
   if (small && !(numbers_are_atoms && pl_is_number(t->pool, term.atom))) {
     term.num = fmpz_get_si(num);
@@ -60,7 +65,8 @@ static pl_angle_term term_of(pl_tower* t, pl_frac a, slong i, long max_num, long
 
 // An argument of too many terms is one atom.
 static void split(pl_tower* t, pl_expr argument, bool exponent, pl_angle* out) {
-  long max_num = exponent ? PL_MAX_DEGREE : PL_MAX_RATIO, max_den = exponent ? PL_MAX_EXPONENT_DEN : PL_MAX_RATIO;
+  long max_num = exponent ? PL_MAX_DEGREE : PL_MAX_RATIO,
+       max_den = exponent ? PL_MAX_EXPONENT_DEN : PL_MAX_RATIO;
   pl_frac a = pl_convert(t, argument);
   out->n = 0;
   if (a.num->length > PL_MAX_ANGLE_TERMS) {
@@ -68,10 +74,11 @@ static void split(pl_tower* t, pl_expr argument, bool exponent, pl_angle* out) {
     out->at[out->n++] = (pl_angle_term){sign, 1, pl_frac_expr(t, sign < 0 ? pl_frac_neg(t, a) : a)};
     return;
   }
-  for (slong i = 0; i < a.num->length; i++) out->at[out->n++] = term_of(t, a, i, max_num, max_den, !exponent);
+  for (slong i = 0; i < a.num->length; i++)
+    out->at[out->n++] = term_of(t, a, i, max_num, max_den, !exponent);
 }
 
-// ---------------------------------------------------------------------------------------------- lattices
+// ---------------------------------------------------------------------------------------- lattices
 static long gcd_long(long a, long b) {
   while (b) {
     long r = a % b;
@@ -82,7 +89,8 @@ static long gcd_long(long a, long b) {
 }
 
 pl_lattice pl_lattice_of(pl_expr atom) {
-  return (pl_lattice){.atom = atom, .num = 1, .den = 1, .gen = -1, .most = {0, 1}, .common = {0, 1}};
+  return (pl_lattice){
+      .atom = atom, .num = 1, .den = 1, .gen = -1, .most = {0, 1}, .common = {0, 1}};
 }
 
 static pl_lattice* angle_lattice(pl_tower* t, pl_expr atom) {
@@ -105,7 +113,8 @@ static pl_lattice* exponent_lattice(pl_tower* t, pl_expr atom) {
   return &t->exponents.at[known - 1];
 }
 
-// Makes the base fine enough for a multiple with this denominator; false when it would become too fine.
+// Makes the base fine enough for a multiple with this denominator; false when it would become too
+// fine.
 static bool refine(pl_tower* t, pl_lattice* l, long den, long max_den) {
   long finer = l->den / gcd_long(l->den, den) * den;
   if (finer == l->den) return true;
@@ -126,12 +135,14 @@ static bool in_bases(pl_multiple q, pl_multiple base, long* n) {
 // The largest of which both are whole multiples.
 static pl_multiple common_measure(pl_multiple a, pl_multiple b) {
   if (a.num == 0) return (pl_multiple){labs(b.num), b.den};
-  long num = gcd_long(a.num * b.den, b.num * a.den), den = a.den * b.den, common = gcd_long(num, den);
+  long num = gcd_long(a.num * b.den, b.num * a.den), den = a.den * b.den,
+       common = gcd_long(num, den);
   return (pl_multiple){num / common, den / common};
 }
 
-// The multiple q of the atom in bases of its lattice, *n of them.  The base is an integer part of the atom, or, where that would
-// need high powers, the common measure of all multiples met.  false: q is too far from those met before.
+// The multiple q of the atom in bases of its lattice, *n of them. The base is an integer part of
+// the atom, or, where that would need high powers, the common measure of all multiples met. false:
+// q is too far from those met before.
 static bool take(pl_tower* t, pl_lattice* l, pl_multiple q, long* n) {
   pl_multiple base = {l->num, l->den}, common = common_measure(l->common, q);
   bool more = labs(q.num) * l->most.den > l->most.num * q.den;
@@ -141,15 +152,20 @@ static bool take(pl_tower* t, pl_lattice* l, pl_multiple q, long* n) {
     if (!in_bases(most, base, n)) return false;
   }
   bool new_base = base.num != l->num || base.den != l->den;
-  if (new_base || more || common.num != l->common.num || common.den != l->common.den) t->tangled = true;
-  l->num = base.num, l->den = base.den, l->most = most, l->common = common;
+  if (new_base || more || common.num != l->common.num || common.den != l->common.den)
+    t->tangled = true;
+  l->num = base.num;
+  l->den = base.den;
+  l->most = most;
+  l->common = common;
   if (new_base && l->gen >= 0) pl_tower_restart(t);
   return in_bases(q, base, n);
 }
 
 typedef pl_lattice* lattice_of(pl_tower* t, pl_expr atom);
 
-// Among the multiples of an atom that are atoms of their own: the one whose base can serve for this multiple too.
+// Among the multiples of an atom that are atoms of their own: the one whose base can serve for this
+// multiple too.
 static pl_lattice* lattice_apart(pl_tower* t, lattice_of* of, pl_angle_term a, long* n) {
   for (int k = 0; k < of(t, a.atom)->n_apart; k++) {
     const pl_multiple other = of(t, a.atom)->apart[k];
@@ -160,14 +176,16 @@ static pl_lattice* lattice_apart(pl_tower* t, lattice_of* of, pl_angle_term a, l
   return NULL;
 }
 
-// The lattice of a multiple of an atom, with *n of its bases.  A multiple that fits nowhere becomes an atom.
+// The lattice of a multiple of an atom, with *n of its bases. A multiple that fits nowhere becomes
+// an atom.
 static pl_lattice* lattice_of_multiple(pl_tower* t, lattice_of* of, pl_angle_term a, long* n) {
   if (take(t, of(t, a.atom), (pl_multiple){a.num, a.den}, n)) return of(t, a.atom);
   pl_lattice* l = lattice_apart(t, of, a, n);
   if (l) return l;
   pl_multiple size = {labs(a.num), a.den};
   l = of(t, a.atom);
-  bool whole = size.num == size.den;      // θ after 7 θ: the lattice of θ is for θ, and what it had goes apart
+  // θ after 7 θ: the lattice of θ is for θ, and what it had goes apart
+  bool whole = size.num == size.den;
   if (l->n_apart < PL_MAX_APART) l->apart[l->n_apart++] = whole ? l->common : size;
   if (whole) {
     l->num = l->den = 1;
@@ -183,11 +201,14 @@ static pl_lattice* lattice_of_multiple(pl_tower* t, lattice_of* of, pl_angle_ter
   return of(t, atom);
 }
 
-// ---------------------------------------------------------------------------------------------- pairs
+// ------------------------------------------------------------------------------------------- pairs
 static int make_pair(pl_tower* t, pl_expr base, bool hyperbolic) {
-  pl_gen first = {.kind = hyperbolic ? PL_G_SINH : PL_G_COS, .partner = t->gens.n + 1, .class = PL_C_FUNCTION};
-  pl_gen second = {
-      .kind = hyperbolic ? PL_G_COSH : PL_G_SIN, .partner = t->gens.n, .class = PL_C_FUNCTION, .degree = 2};
+  pl_gen first = {
+      .kind = hyperbolic ? PL_G_SINH : PL_G_COS, .partner = t->gens.n + 1, .class = PL_C_FUNCTION};
+  pl_gen second = {.kind = hyperbolic ? PL_G_COSH : PL_G_SIN,
+                   .partner = t->gens.n,
+                   .class = PL_C_FUNCTION,
+                   .degree = 2};
   first.expr = pl_call(t->pool, hyperbolic ? PL_SINH : PL_COS, base);
   second.expr = pl_call(t->pool, hyperbolic ? PL_COSH : PL_SIN, base);
   if (hyperbolic) second.sign = 1;
@@ -198,7 +219,8 @@ static int make_pair(pl_tower* t, pl_expr base, bool hyperbolic) {
   int gen = pl_tower_generator(t, &first);
   const pl_poly* one = pl_poly_int(t, 1);
   const pl_poly* square = pl_poly_gen_power(t, gen, 2);
-  second.value = pl_poly_keep(t, hyperbolic ? pl_poly_add(t, one, square) : pl_poly_sub(t, one, square));
+  second.value = pl_poly_keep(
+      t, hyperbolic ? pl_poly_add(t, one, square) : pl_poly_sub(t, one, square));
   pl_tower_generator(t, &second);
   return gen;
 }
@@ -226,7 +248,7 @@ static pl_sincos multiple(pl_tower* t, pl_sincos a, long n, bool hyperbolic) {
   return r;
 }
 
-// ---------------------------------------------------------------------------------------------- angles
+// ------------------------------------------------------------------------------------------ angles
 // cos and sin of an inverse function of u.
 static bool inverse_pair(pl_tower* t, pl_expr atom, pl_sincos* out) {
   if (pl_kind_of(t->pool, atom) != PL_CALL) return false;
@@ -270,7 +292,8 @@ static bool special_pair(pl_tower* t, pl_angle_term a, pl_sincos* out) {
   if (a.den != 1 && a.den != 2 && a.den != 3 && a.den != 4 && a.den != 6) return false;
   pl_expr angle = pl_mul(t->pool, pl_ratio(t->pool, a.num, a.den), a.atom);
   pl_expr s = pl_call(t->pool, PL_SIN, angle), c = pl_call(t->pool, PL_COS, angle);
-  if (!pl_is_constant(t->pool, s) || pl_kind_of(t->pool, s) == PL_CALL || pl_kind_of(t->pool, c) == PL_CALL)
+  if (!pl_is_constant(t->pool, s) || pl_kind_of(t->pool, s) == PL_CALL
+      || pl_kind_of(t->pool, c) == PL_CALL)
     return false;
   *out = (pl_sincos){pl_convert(t, s), pl_convert(t, c)};
   return true;
@@ -279,7 +302,8 @@ static bool special_pair(pl_tower* t, pl_angle_term a, pl_sincos* out) {
 static pl_sincos pair_of_term(pl_tower* t, pl_angle_term a) {
   pl_sincos r;
   if (special_pair(t, a, &r)) return r;
-  if (a.den == 1 && labs(a.num) <= PL_MAX_MULTIPLE && inverse_pair(t, a.atom, &r)) return multiple(t, r, a.num, false);
+  if (a.den == 1 && labs(a.num) <= PL_MAX_MULTIPLE && inverse_pair(t, a.atom, &r))
+    return multiple(t, r, a.num, false);
   long n = 0;
   pl_lattice* l = lattice_of_multiple(t, angle_lattice, a, &n);
   return multiple(t, pair_of_base(t, l), n, false);
@@ -293,7 +317,7 @@ pl_sincos pl_convert_sincos(pl_tower* t, pl_expr argument) {
   return r;
 }
 
-// ---------------------------------------------------------------------------------------------- exponents
+// --------------------------------------------------------------------------------------- exponents
 static pl_sincos hyperbolic_pair(pl_tower* t, pl_lattice* l) {
   if (l->gen < 0) {
     pl_expr atom = l->atom;
@@ -322,7 +346,9 @@ pl_sincos pl_convert_sinhcosh(pl_tower* t, pl_expr argument) {
 
 // exp(q ln u) = u^q for integers and halves.
 static bool power_of_logarithm(pl_tower* t, pl_angle_term a, pl_frac* out) {
-  if (a.den > 2 || pl_kind_of(t->pool, a.atom) != PL_CALL || pl_function_of(t->pool, a.atom) != PL_LN) return false;
+  if (a.den > 2 || pl_kind_of(t->pool, a.atom) != PL_CALL
+      || pl_function_of(t->pool, a.atom) != PL_LN)
+    return false;
   pl_frac u = pl_convert(t, pl_arg(t->pool, a.atom, 0));
   *out = pl_frac_pow(t, a.den == 2 ? pl_frac_sqrt(t, u) : u, a.num);
   return true;

@@ -31,7 +31,8 @@ static void rational_power(arb_t out, arb_srcptr base, long num, long den, long 
   if (invert) arb_inv(out, out, precision);
 }
 
-static void power_node(arb_t out, const pl_pool* p, pl_expr e, const arb_srcptr* args, long precision) {
+static void power_node(arb_t out, const pl_pool* p, pl_expr e, const arb_srcptr* args,
+                       long precision) {
   long num = 0, den = 1;
   if (pl_is_ratio(p, pl_arg(p, e, 1), &num, &den)) {
     rational_power(out, args[0], num, den, precision);
@@ -84,7 +85,8 @@ static void choice_node(arb_t out, const arb_srcptr* args) {
   }
 }
 
-void pl_arb_node(arb_t out, const pl_pool* p, pl_expr e, const arb_srcptr* args, pl_arena* scratch, long precision) {
+void pl_arb_node(arb_t out, const pl_pool* p, pl_expr e, const arb_srcptr* args, pl_arena* scratch,
+                 long precision) {
   int n = pl_n_args(p, e);
   switch (pl_kind_of(p, e)) {
     case PL_NUMBER: number_node(out, p, e, scratch, precision); break;

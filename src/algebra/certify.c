@@ -1,10 +1,11 @@
-// Certificates: is what is shown the same as what was derived?  Decided without the tower, by evaluation at sample
-// points: 20 modulo p = 2^61 - 9265983825153 and 50 in ball arithmetic, 256 bits and more when that does not decide.
+// Certificates: is what is shown the same as what was derived? Decided without the tower, by
+// evaluation at sample points: 20 modulo p = 2^61 - 9265983825153 and 50 in ball arithmetic, 256
+// bits and more when that does not decide.
 //
-// The points, the values of definitions and unknowns there and all nodes evaluated so far are kept, so that many
-// formulas over the same quantities cost little more than one.  Modulo p the sign of a root is a free choice: an
-// identity that holds there holds on all branches.  One that fails there but holds at all 50 points depends on a sign;
-// the points decide.
+// The points, the values of definitions and unknowns there and all nodes evaluated so far are kept,
+// so that many formulas over the same quantities cost little more than one. Modulo p the sign of a
+// root is a free choice: an identity that holds there holds on all branches. One that fails there
+// but holds at all 50 points depends on a sign; the points decide.
 #include "algebra/algebra_impl.h"
 
 #include <math.h>
@@ -28,14 +29,16 @@ struct pl_certifier {
   pl_certifier_setup setup;
   pl_points* points;
   pl_points* fine;  // at more bits, made when needed
-  pl_points* inside;  // where logarithms, roots and inverse functions have values; made when the others meet that too rarely
+  // where logarithms, roots and inverse functions have values; made when the others meet that too
+  // rarely
+  pl_points* inside;
   PL_VEC(pl_fact) within;  // the conditions for it, after the facts of the setup
   pl_map* visited;         // nodes whose conditions are among them
   pl_mod_point* mod[PL_CERTIFY_MOD];
   int n_mod;
 };
 
-// ---------------------------------------------------------------------------------------------- points modulo p
+// --------------------------------------------------------------------------------- points modulo p
 static uint64_t minus_mod(uint64_t a) { return a ? PL_MOD_P - a : 0; }
 
 // Gauss-Jordan on M (n x (n + 1)).
@@ -55,7 +58,8 @@ static bool solve_mod(uint64_t* M, int n) {
       uint64_t f = M[i * (n + 1) + k];
       if (i == k || f == 0) continue;
       for (int j = k; j <= n; j++) {
-        M[i * (n + 1) + j] = pl_mod_add(M[i * (n + 1) + j], minus_mod(pl_mod_mul(f, M[k * (n + 1) + j])));
+        M[i * (n + 1) + j] = pl_mod_add(M[i * (n + 1) + j],
+                                        minus_mod(pl_mod_mul(f, M[k * (n + 1) + j])));
       }
     }
   }
@@ -68,7 +72,8 @@ static bool set_unknowns(pl_certifier* c, pl_mod_point* m) {
   uint64_t* M = PL_ARRAY(c->arena, uint64_t, n * (n + 1));
   bool ok = true;
   for (int i = 0; i < n && ok; i++) {
-    for (int j = 0; j < n && ok; j++) M[i * (n + 1) + j] = pl_eval_mod(m, c->setup.A[i * n + j], &ok);
+    for (int j = 0; j < n && ok; j++)
+      M[i * (n + 1) + j] = pl_eval_mod(m, c->setup.A[i * n + j], &ok);
     if (ok) M[i * (n + 1) + n] = pl_eval_mod(m, c->setup.b[i], &ok);
   }
   if (!ok || !solve_mod(M, n)) return false;
@@ -93,7 +98,7 @@ static void make_mod_points(pl_certifier* c) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- making
+// ------------------------------------------------------------------------------------------ making
 static void* copy_array(pl_arena* a, const void* from, size_t n, size_t size) {
   if (n == 0) return NULL;
   void* to = pl_alloc_array(a, n, size);
@@ -110,7 +115,8 @@ pl_certifier* pl_certifier_make(pl_job* job, pl_pool* p, const pl_certifier_setu
   size_t n = (size_t)s->n_unknowns;
   c->setup = *s;
   c->setup.facts = copy_array(a, s->facts, (size_t)s->n_facts, sizeof *s->facts);
-  c->setup.definitions = copy_array(a, s->definitions, (size_t)s->n_definitions, sizeof *s->definitions);
+  c->setup.definitions = copy_array(a, s->definitions, (size_t)s->n_definitions,
+                                    sizeof *s->definitions);
   c->setup.unknowns = copy_array(a, s->unknowns, n, sizeof *s->unknowns);
   c->setup.A = copy_array(a, s->A, n * n, sizeof *s->A);
   c->setup.b = copy_array(a, s->b, n, sizeof *s->b);
@@ -119,7 +125,7 @@ pl_certifier* pl_certifier_make(pl_job* job, pl_pool* p, const pl_certifier_setu
   return c;
 }
 
-// ---------------------------------------------------------------------------------------------- comparing
+// --------------------------------------------------------------------------------------- comparing
 typedef struct pl_mod_count {
   int equal, different;
 } pl_mod_count;
@@ -137,8 +143,10 @@ static pl_mod_count compare_mod(pl_certifier* c, pl_expr shown, pl_expr referenc
   return count;
 }
 
-// Relative difference at one point: bound in *relative.  PL_UNKNOWN when the point or the precision does not do.
-static pl_answer3 compare_at(pl_points* s, int i, pl_expr shown, pl_expr reference, long bits, double* relative) {
+// Relative difference at one point: bound in *relative. PL_UNKNOWN when the point or the precision
+// does not do.
+static pl_answer3 compare_at(pl_points* s, int i, pl_expr shown, pl_expr reference, long bits,
+                             double* relative) {
   arb_srcptr a, b;
   if (!pl_points_value(s, i, shown, &a) || !pl_points_value(s, i, reference, &b)) return PL_UNKNOWN;
   arb_t difference, size;
@@ -163,7 +171,8 @@ static pl_answer3 compare_at(pl_points* s, int i, pl_expr shown, pl_expr referen
 }
 
 static pl_points* fine_points(pl_certifier* c) {
-  if (!c->fine) c->fine = pl_points_make(c->job, c->pool, &c->setup, PL_CERTIFY_ARB, PL_CERTIFY_MORE_BITS, 2);
+  if (!c->fine)
+    c->fine = pl_points_make(c->job, c->pool, &c->setup, PL_CERTIFY_ARB, PL_CERTIFY_MORE_BITS, 2);
   return c->fine;
 }
 
@@ -172,10 +181,10 @@ static bool point_is_usable(pl_points* s, int i, pl_expr shown, pl_expr referenc
   return pl_points_value(s, i, shown, &v) && pl_points_value(s, i, reference, &v);
 }
 
-// ---------------------------------------------------------------------------------------------- domains of functions
+// ---------------------------------------------------------------------------- domains of functions
 static void must_hold(pl_certifier* c, pl_expr difference, bool strict) {
-  if (pl_is_constant(c->pool, difference) || pl_has_role(c->pool, difference, PL_R_ACCELERATION) ||
-      pl_has_role(c->pool, difference, PL_R_MULTIPLIER)) {
+  if (pl_is_constant(c->pool, difference) || pl_has_role(c->pool, difference, PL_R_ACCELERATION)
+      || pl_has_role(c->pool, difference, PL_R_MULTIPLIER)) {
     return;
   }
   pl_push(c->arena, c->within, (pl_fact){difference, strict});
@@ -187,7 +196,8 @@ static void collect_domain(pl_certifier* c, pl_expr e, int depth) {
   if (depth > PL_MAX_DEPTH || pl_map_get(c->visited, e.id)) return;
   pl_map_set(c->visited, e.id, 1);
   if (k == PL_SUM || k == PL_AT || k == PL_UNKNOWN_FUNCTION) return;
-  for (int i = 0; i < pl_n_args(c->pool, e); i++) collect_domain(c, pl_arg(c->pool, e, i), depth + 1);
+  for (int i = 0; i < pl_n_args(c->pool, e); i++)
+    collect_domain(c, pl_arg(c->pool, e, i), depth + 1);
   if (k == PL_POW) {
     long num = 0, den = 1;
     bool whole = pl_is_ratio(c->pool, pl_arg(c->pool, e, 1), &num, &den) && den == 1;
@@ -206,7 +216,8 @@ static void add_domain(pl_certifier* c, pl_expr shown, pl_expr reference) {
   if (!c->visited) {
     c->visited = pl_map_make(c->arena);
     for (int i = 0; i < c->setup.n_facts; i++) pl_push(c->arena, c->within, c->setup.facts[i]);
-    for (int i = 0; i < c->setup.n_definitions; i++) collect_domain(c, c->setup.definitions[i].value, 0);
+    for (int i = 0; i < c->setup.n_definitions; i++)
+      collect_domain(c, c->setup.definitions[i].value, 0);
   }
   int before = c->within.n;
   collect_domain(c, shown, 0);
@@ -218,7 +229,7 @@ static void add_domain(pl_certifier* c, pl_expr shown, pl_expr reference) {
   c->inside = pl_points_make(c->job, c->pool, &s, PL_CERTIFY_ARB, PL_CERTIFY_MORE_BITS, 3);
 }
 
-// ---------------------------------------------------------------------------------------------- verdicts
+// ---------------------------------------------------------------------------------------- verdicts
 // One point more; false when it shows a difference.
 static bool count_point(pl_certificate* r, pl_answer3 here, double relative) {
   if (here == PL_UNKNOWN) return true;
@@ -227,7 +238,8 @@ static bool count_point(pl_certificate* r, pl_answer3 here, double relative) {
   return here != PL_NO;
 }
 
-// At the points of the certifier.  Finite but too wide: more bits; not finite: outside the domain, the next point.
+// At the points of the certifier. Finite but too wide: more bits; not finite: outside the domain,
+// the next point.
 static bool equal_anywhere(pl_certifier* c, pl_certificate* r, pl_expr shown, pl_expr reference) {
   for (int i = 0; i < PL_CERTIFY_ARB; i++) {
     double relative = 0;

@@ -1,8 +1,9 @@
-// From expressions into the tower.  Every node is converted once and remembered; arguments of functions are
-// brought to normal form first, so that sin(2(a - b)) and sin(2a - 2b) meet.
+// From expressions into the tower. Every node is converted once and remembered; arguments of
+// functions are brought to normal form first, so that sin(2(a - b)) and sin(2a - 2b) meet.
 //
-// What has no algebra here (sums over an index, x^a, functions of two arguments) becomes a formal generator: two of
-// them are equal when their normalised arguments are.  That can miss a relation, never invent one.
+// What has no algebra here (sums over an index, x^a, functions of two arguments) becomes a formal
+// generator: two of them are equal when their normalised arguments are. That can miss a relation,
+// never invent one.
 #include "algebra/algebra_impl.h"
 
 static pl_frac convert_node(pl_tower* t, pl_expr e);
@@ -31,7 +32,7 @@ void pl_convert_known(pl_tower* t, pl_expr e, pl_frac f) {
 
 static pl_expr normal(pl_tower* t, pl_expr e) { return pl_frac_expr(t, pl_convert(t, e)); }
 
-// ---------------------------------------------------------------------------------------------- leaves
+// ------------------------------------------------------------------------------------------ leaves
 static pl_frac convert_number(pl_tower* t, pl_expr e) {
   long num = 0, den = 1;
   fmpz* n = pl_int_new(t);
@@ -80,7 +81,7 @@ pl_frac pl_formal(pl_tower* t, pl_expr e) {
   return pl_frac_gen(t, pl_tower_generator(t, &g));
 }
 
-// ---------------------------------------------------------------------------------------------- sums and products
+// ------------------------------------------------------------------------------- sums and products
 // Halving keeps the intermediate sums balanced: a sum of n terms costs n log n, not n^2.
 static pl_frac convert_sum(pl_tower* t, pl_expr e, int from, int to) {
   if (to - from == 1) return pl_convert(t, pl_arg(t->pool, e, from));
@@ -96,13 +97,14 @@ static pl_frac convert_product(pl_tower* t, pl_expr e, int from, int to) {
   return pl_frac_mul(t, left, convert_product(t, e, middle, to));
 }
 
-// ---------------------------------------------------------------------------------------------- powers
+// ------------------------------------------------------------------------------------------ powers
 // base^(p/q), q > 2: a generator w with w^q = base.
 static pl_frac convert_root(pl_tower* t, pl_frac base, long p, long q) {
   pl_expr w = pl_pow(t->pool, pl_frac_expr(t, base), pl_ratio(t->pool, 1, q));
   int gen = pl_tower_find(t, w);
   if (gen < 0) {
-    if (base.n > 0 || !fmpz_is_one(base.unit) || q > PL_MAX_POWER || pl_kind_of(t->pool, w) != PL_POW) {
+    if (base.n > 0 || !fmpz_is_one(base.unit) || q > PL_MAX_POWER
+        || pl_kind_of(t->pool, w) != PL_POW) {
       return pl_frac_pow(t, pl_formal(t, w), p);
     }
     pl_gen g = {.kind = PL_G_ROOT, .expr = w, .partner = -1, .class = PL_C_FUNCTION, .sign = 2};
@@ -134,7 +136,7 @@ static pl_frac convert_power(pl_tower* t, pl_expr e) {
   return convert_root(t, b, p, q);
 }
 
-// ---------------------------------------------------------------------------------------------- functions
+// --------------------------------------------------------------------------------------- functions
 static pl_frac one_plus_minus_abs(pl_tower* t, pl_frac a, pl_frac b, long sign) {
   // max, min = (a + b +- |a - b|)/2
   pl_frac size = pl_frac_abs(t, pl_frac_sub(t, a, b));
@@ -154,7 +156,8 @@ static pl_frac convert_call2(pl_tower* t, pl_function f, pl_expr a, pl_expr b) {
   return pl_kind_of(t->pool, call) == PL_CALL ? pl_formal(t, call) : pl_convert(t, call);
 }
 
-// asin, acos, atan of a normalised argument; the odd ones with a normalised sign, acos(-u) = π - acos(u).
+// asin, acos, atan of a normalised argument; the odd ones with a normalised sign, acos(-u) = π -
+// acos(u).
 static pl_frac convert_inverse(pl_tower* t, pl_function f, pl_expr argument) {
   pl_frac u = pl_convert(t, argument);
   bool flip = pl_poly_leading_sign(t, u.num) < 0;

@@ -1,21 +1,21 @@
-// Division modulo the relations: 1 - c^2 is divisible by s, and q1^2 + q2^2 - 2 q1 q2 (c1 c2 + s1 s2) may be a factor
-// that a product no longer shows once its s1^2 s2^2 have been rewritten.
+// Division modulo the relations: 1 - c^2 is divisible by s, and q1^2 + q2^2 - 2 q1 q2 (c1 c2 + s1
+// s2) may be a factor that a product no longer shows once its s1^2 s2^2 have been rewritten.
 //
-// a/b = a b'/(b b') with the conjugate b' = c0 - c1 g of b = c0 + c1 g, relation after relation, newest first; the last divisor
-// is free of them, and division in the free ring decides.  Most candidates are no factors, which one look modulo
-// a prime along a line shows.
+// a/b = a b'/(b b') with the conjugate b' = c0 - c1 g of b = c0 + c1 g, relation after relation,
+// newest first; the last divisor is free of them, and division in the free ring decides. Most
+// candidates are no factors, which one look modulo a prime along a line shows.
 #include "algebra/algebra_impl.h"
 
 #if __has_include(<flint/nmod.h>)
-#include <flint/nmod.h>
+#  include <flint/nmod.h>
 #else
-#include <flint/nmod_vec.h>
+#  include <flint/nmod_vec.h>
 #endif
 #include <flint/nmod_poly.h>
 
-static const ulong prime = 2147483647;   // 3 modulo 4: roots are powers
+static const ulong prime = 2147483647;  // 3 modulo 4: roots are powers
 
-// ---------------------------------------------------------------------------------------------- along a line
+// ------------------------------------------------------------------------------------ along a line
 static bool is_free(const pl_tower* t, int g) {
   const pl_gen* gen = &t->gens.at[g];
   return gen->degree == 0 && gen->partner < 0;
@@ -56,7 +56,7 @@ static ulong drawn(int g, int attempt) {
 static ulong root_of(pl_tower* t, const pl_poly* square, int x, const ulong* value) {
   nmod_t mod;
   nmod_init(&mod, prime);
-  if (pl_poly_degree(t, square, x) > 0) return 0;   // it moves along the line
+  if (pl_poly_degree(t, square, x) > 0) return 0;  // it moves along the line
   nmod_poly_t p;
   nmod_poly_init(p, prime);
   on_line(t, p, square, x, value);
@@ -76,7 +76,8 @@ static bool draw_point(pl_tower* t, const long* used, int x, ulong* value) {
     value[g] = 0;
     for (int k = 1; k <= TRIES && value[g] == 0; k++) {
       value[g] = root_of(t, gen->value, x, value);
-      if (value[g] == 0 && gen->partner >= 0 && gen->partner < g) value[gen->partner] = drawn(gen->partner, k);
+      if (value[g] == 0 && gen->partner >= 0 && gen->partner < g)
+        value[gen->partner] = drawn(gen->partner, k);
     }
     if (value[g] == 0) return false;
   }
@@ -107,13 +108,14 @@ static bool refuted(pl_tower* t, const pl_poly* a, const pl_poly* b) {
   return rest;
 }
 
-// ---------------------------------------------------------------------------------------------- by conjugates
+// ----------------------------------------------------------------------------------- by conjugates
 // The newest square relation whose generator occurs; -1 none, -2 a relation of another degree.
 static int newest_relation(const pl_tower* t, const pl_poly* a) {
   long degree[PL_MAX_GENERATORS];
   pl_poly_degrees(t, a, degree);
   for (int g = t->gens.n - 1; g >= 0; g--) {
-    if (degree[g] > 0 && t->gens.at[g].degree > 0) return t->gens.at[g].degree == 2 && degree[g] == 1 ? g : -2;
+    if (degree[g] > 0 && t->gens.at[g].degree > 0)
+      return t->gens.at[g].degree == 2 && degree[g] == 1 ? g : -2;
   }
   return -1;
 }

@@ -1,13 +1,14 @@
-// Factoring: every polynomial that is factored is remembered, every irreducible factor is entered once in the table of
-// bases. Denominators are products of bases, so that the common denominator of a sum needs no gcd.
+// Factoring: every polynomial that is factored is remembered, every irreducible factor is entered
+// once in the table of bases. Denominators are products of bases, so that the common denominator of
+// a sum needs no gcd.
 //
-// FLINT's factoring is fast on the few variables that a factor really has and slow in a wide context, so it is
-// done in a compact one.  Monomial and integer contents are split off before.
+// FLINT's factoring is fast on the few variables that a factor really has and slow in a wide
+// context, so it is done in a compact one. Monomial and integer contents are split off before.
 #include "algebra/algebra_impl.h"
 
 #include <stdlib.h>
 
-// ---------------------------------------------------------------------------------------------- the table of bases
+// ------------------------------------------------------------------------------ the table of bases
 int pl_base_find(pl_tower* t, const pl_poly* f, bool composite) {
   uint64_t key = pl_poly_hash(t, f);
   for (;; key += 2) {
@@ -34,7 +35,7 @@ pl_expr pl_base_expr(pl_tower* t, int base) {
   return t->bases.at[base].expr;
 }
 
-// ---------------------------------------------------------------------------------------------- collecting factors
+// ------------------------------------------------------------------------------ collecting factors
 typedef struct pl_collect {
   pl_tower* t;
   fmpz* unit;
@@ -93,12 +94,14 @@ static bool too_large_to_factor(pl_tower* t, const pl_poly* f) {
   return total > PL_MAX_FACTOR_DEGREE;
 }
 
-// Polynomials of two terms that share no variable, of degree 1 in one of them, are irreducible at sight.
+// Polynomials of two terms that share no variable, of degree 1 in one of them, are irreducible at
+// sight.
 static bool irreducible_at_sight(pl_tower* t, const pl_poly* f) {
   if (f->length < 2) return true;
   for (int g = 0; g < t->gens.n; g++) {
     if (pl_poly_degree(t, f, g) != 1) continue;
-    // linear in g with a monomial coefficient: a factor free of g divides that monomial, but monomials were split off
+    // linear in g with a monomial coefficient: a factor free of g divides that monomial, but
+    // monomials were split off
     ulong exponent[PL_MAX_GENERATORS];
     int n = 0;
     for (slong i = 0; i < f->length && n < 2; i++) {
@@ -112,7 +115,8 @@ static bool irreducible_at_sight(pl_tower* t, const pl_poly* f) {
 
 // FLINT's list of factors stands in the tower: what is collected from it may unwind.
 static void drop_flint_factors(pl_tower* t) {
-  if (t->flint_factors_context) fmpz_mpoly_factor_clear(&t->flint_factors, t->flint_factors_context);
+  if (t->flint_factors_context)
+    fmpz_mpoly_factor_clear(&t->flint_factors, t->flint_factors_context);
   t->flint_factors_context = NULL;
 }
 
@@ -135,8 +139,8 @@ static bool factor_with_flint(pl_tower* t, const pl_poly* f, const int* use, int
   return found;
 }
 
-// f = a x + b is the common factor of a and b times what is left, which has no factors.  The factor that may have some; NULL
-// if there is none.
+// f = a x + b is the common factor of a and b times what is left, which has no factors. The factor
+// that may have some; NULL if there is none.
 static const pl_poly* split_linear(pl_collect* c, const pl_poly* f, int x) {
   pl_tower* t = c->t;
   int degree = 0;
@@ -174,7 +178,7 @@ static void collect_factors_of(pl_collect* c, const pl_poly* f) {
   drop_flint_factors(t);
 }
 
-// ---------------------------------------------------------------------------------------------- integers
+// ---------------------------------------------------------------------------------------- integers
 pl_primes pl_int_primes(pl_tower* t, const fmpz* c) {
   pl_primes list = {0};
   if (fmpz_is_zero(c) || fmpz_is_pm1(c)) return list;
@@ -226,7 +230,8 @@ pl_factored pl_poly_factor(pl_tower* t, const pl_poly* a) {
   for (;; key += 2) {
     uint64_t found = pl_map_get(t->factored_of, key);
     if (!found) break;
-    if (pl_poly_equal(t, t->factorings.at[found - 1].poly, a)) return t->factorings.at[found - 1].factors;
+    if (pl_poly_equal(t, t->factorings.at[found - 1].poly, a))
+      return t->factorings.at[found - 1].factors;
   }
   pl_tower_check(t);
   pl_factored f = factor_now(t, a);
@@ -237,7 +242,7 @@ pl_factored pl_poly_factor(pl_tower* t, const pl_poly* a) {
   return f;
 }
 
-// ---------------------------------------------------------------------------------------------- products of bases
+// ------------------------------------------------------------------------------- products of bases
 const pl_poly* pl_factored_expand(pl_tower* t, pl_factored f) {
   const pl_poly* product = pl_poly_fmpz(t, f.unit);
   for (int i = 0; i < f.n; i++) {
@@ -260,7 +265,8 @@ static int* power_of_one_plus(pl_collect* c, int gen, int sign) {
   const pl_poly* one = pl_poly_int(t, 1);
   const pl_poly* f = sign > 0 ? pl_poly_add(t, one, g) : pl_poly_sub(t, one, g);
   for (int i = 0; i < c->at.n; i++) {
-    if (pl_poly_equal(t, pl_base_poly(t, c->at.at[i].base), f)) return power_of(c, c->at.at[i].base);
+    if (pl_poly_equal(t, pl_base_poly(t, c->at.at[i].base), f))
+      return power_of(c, c->at.at[i].base);
   }
   return NULL;
 }

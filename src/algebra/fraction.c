@@ -1,7 +1,8 @@
-// Fractions of the tower: reduced numerator over an integer and powers of bases.  Neither sines nor roots are
-// rationalised out of denominators: that would make them 10 to 100 times larger.
+// Fractions of the tower: reduced numerator over an integer and powers of bases. Neither sines nor
+// roots are rationalised out of denominators: that would make them 10 to 100 times larger.
 //
-// A base of a denominator is irreducible, so cancelling is trial division; only composite bases need a gcd.
+// A base of a denominator is irreducible, so cancelling is trial division; only composite bases
+// need a gcd.
 #include "algebra/algebra_impl.h"
 
 #include <string.h>
@@ -31,7 +32,7 @@ static void build_factored(pl_build* b, pl_factored f, int times) {
   for (int i = 0; i < f.n; i++) build_power(b, f.at[i].base, times * f.at[i].power);
 }
 
-// ---------------------------------------------------------------------------------------------- cancelling
+// -------------------------------------------------------------------------------------- cancelling
 // A composite base may share only a part with the numerator: split that part off.
 static void cancel_composite(pl_build* b, int i) {
   pl_tower* t = b->t;
@@ -39,7 +40,8 @@ static void cancel_composite(pl_build* b, int i) {
   const pl_poly* g = pl_poly_gcd(t, b->num, pl_base_poly(t, base));
   if (pl_poly_is_number(t, g)) return;
   const pl_poly *rest = NULL, *num = NULL;
-  if (!pl_poly_divides(t, &rest, pl_base_poly(t, base), g) || !pl_poly_divides(t, &num, b->num, g)) return;
+  if (!pl_poly_divides(t, &rest, pl_base_poly(t, base), g) || !pl_poly_divides(t, &num, b->num, g))
+    return;
   b->num = num;
   b->den.at[i].power--;
   pl_factored f = pl_poly_factor(t, rest);
@@ -47,7 +49,8 @@ static void cancel_composite(pl_build* b, int i) {
   build_factored(b, f, 1);
 }
 
-// w^2 = P is used on the denominator too: w^2k becomes P^k there, and w/P becomes 1/w.  For a sine, P = (1 - c)(1 + c).
+// w^2 = P is used on the denominator too: w^2k becomes P^k there, and w/P becomes 1/w. For a sine,
+// P = (1 - c)(1 + c).
 static void lower_powers(pl_build* b) {
   pl_tower* t = b->t;
   for (int i = 0; i < b->den.n; i++) {
@@ -108,7 +111,8 @@ static void raise_roots(pl_build* b) {
   }
 }
 
-// In the free ring, which is quick, or modulo the relations: s^2 may have been rewritten in the product.
+// In the free ring, which is quick, or modulo the relations: s^2 may have been rewritten in the
+// product.
 static bool divides(pl_tower* t, const pl_poly** q, const pl_poly* num, int base) {
   const pl_poly* den = pl_base_poly(t, base);
   if (pl_poly_divides(t, q, num, den)) return true;
@@ -167,7 +171,7 @@ static pl_build build_begin(pl_tower* t, const pl_poly* num) {
   return b;
 }
 
-// ---------------------------------------------------------------------------------------------- making
+// ------------------------------------------------------------------------------------------ making
 pl_frac pl_frac_poly(pl_tower* t, const pl_poly* num) {
   fmpz* unit = pl_int_new(t);
   fmpz_one(unit);
@@ -203,11 +207,12 @@ pl_frac pl_frac_over(pl_tower* t, const pl_poly* num, pl_frac like) {
 }
 
 pl_frac pl_frac_keep(pl_tower* t, pl_frac a) {
-  pl_frac f = {.num = pl_poly_keep(t, a.num), .unit = pl_int_keep(t, a.unit), .n = a.n, .den = a.den};
+  pl_frac f = {
+      .num = pl_poly_keep(t, a.num), .unit = pl_int_keep(t, a.unit), .n = a.n, .den = a.den};
   return f;
 }
 
-// ---------------------------------------------------------------------------------------------- questions
+// --------------------------------------------------------------------------------------- questions
 bool pl_frac_is_zero(const pl_tower* t, pl_frac a) { return pl_poly_is_zero(t, a.num); }
 
 bool pl_frac_is_number(const pl_tower* t, pl_frac a, fmpq_t value) {
@@ -224,7 +229,7 @@ const pl_poly* pl_frac_den(pl_tower* t, pl_frac a) {
   return pl_factored_expand(t, (pl_factored){.unit = a.unit, .n = a.n, .at = a.den});
 }
 
-// ---------------------------------------------------------------------------------------------- arithmetic
+// -------------------------------------------------------------------------------------- arithmetic
 pl_frac pl_frac_neg(pl_tower* t, pl_frac a) {
   a.num = pl_poly_neg(t, a.num);
   return a;
@@ -240,7 +245,8 @@ static const pl_poly* raise_num(pl_build* common, pl_frac a) {
     int have = 0;
     if (k < a.n && a.den[k].base == common->den.at[i].base) have = a.den[k++].power;
     int lacks = common->den.at[i].power - have;
-    if (lacks > 0) num = pl_poly_mul(t, num, pl_poly_pow(t, pl_base_poly(t, common->den.at[i].base), lacks));
+    if (lacks > 0)
+      num = pl_poly_mul(t, num, pl_poly_pow(t, pl_base_poly(t, common->den.at[i].base), lacks));
   }
   return num;
 }
@@ -275,7 +281,9 @@ pl_frac pl_frac_add(pl_tower* t, pl_frac a, pl_frac b) {
   return built(&s);
 }
 
-pl_frac pl_frac_sub(pl_tower* t, pl_frac a, pl_frac b) { return pl_frac_add(t, a, pl_frac_neg(t, b)); }
+pl_frac pl_frac_sub(pl_tower* t, pl_frac a, pl_frac b) {
+  return pl_frac_add(t, a, pl_frac_neg(t, b));
+}
 
 pl_frac pl_frac_mul(pl_tower* t, pl_frac a, pl_frac b) {
   if (pl_frac_is_zero(t, a)) return a;
@@ -307,7 +315,9 @@ pl_frac pl_frac_inv(pl_tower* t, pl_frac a) {
   return built(&q);
 }
 
-pl_frac pl_frac_div(pl_tower* t, pl_frac a, pl_frac b) { return pl_frac_mul(t, a, pl_frac_inv(t, b)); }
+pl_frac pl_frac_div(pl_tower* t, pl_frac a, pl_frac b) {
+  return pl_frac_mul(t, a, pl_frac_inv(t, b));
+}
 
 pl_frac pl_frac_pow(pl_tower* t, pl_frac a, long n) {
   if (n < 0) return pl_frac_pow(t, pl_frac_inv(t, a), -n);

@@ -1,5 +1,6 @@
-// Antiderivatives of sums of  x^k exp(a x) cos(b x + c): products of sines and cosines become sums, powers of x go by
-// repeated integration by parts.  Also (a x + b)^-n.  The result is differentiated and compared before it is returned.
+// Antiderivatives of sums of x^k exp(a x) cos(b x + c): products of sines and cosines become sums,
+// powers of x go by repeated integration by parts. Also (a x + b)^-n. The result is differentiated
+// and compared before it is returned.
 #include "algebra/algebra_impl.h"
 
 enum { PL_MAX_WAVES = 256, PL_MAX_INTEGRAL_DEGREE = 40 };
@@ -22,7 +23,7 @@ typedef struct pl_integral_job {
   bool found;
 } pl_integral_job;
 
-// ---------------------------------------------------------------------------------------------- taking apart
+// ------------------------------------------------------------------------------------ taking apart
 
 // Multiplies waves [from, n) by cos or sin of `angle`.
 static void times_wave(pl_tower* t, pl_integral_job* j, int from, pl_expr angle, bool sine) {
@@ -50,7 +51,9 @@ static void wave_of_term(pl_tower* t, pl_integral_job* j, pl_frac f, slong i) {
   fmpz_mpoly_get_term_exp_ui(exponent, f.num, i, &t->ctx);
   if (j->n == PL_MAX_WAVES) pl_tower_give_up(t);
   int from = j->n;
-  pl_wave w = {.coefficient = pl_fmpz_expr(t, &f.num->coeffs[i]), .exponent = pl_int(p, 0), .angle = pl_int(p, 0)};
+  pl_wave w = {.coefficient = pl_fmpz_expr(t, &f.num->coeffs[i]),
+               .exponent = pl_int(p, 0),
+               .angle = pl_int(p, 0)};
   for (int g = 0; g < t->gens.n; g++) {
     if (exponent[g] == 0) continue;
     const pl_gen* gen = &t->gens.at[g];
@@ -60,8 +63,10 @@ static void wave_of_term(pl_tower* t, pl_integral_job* j, pl_frac f, slong i) {
     } else if (!pl_gen_contains(t, g, j->x)) {
       w.coefficient = pl_mul(p, w.coefficient, pl_pow_int(p, gen->expr, (long)exponent[g]));
     } else if (gen->kind == PL_G_EXP) {
-      w.exponent = pl_add(p, w.exponent, pl_mul(p, pl_int(p, (long)exponent[g]), pl_arg(p, gen->expr, 0)));
-    } else if ((gen->kind != PL_G_COS && gen->kind != PL_G_SIN) || pl_kind_of(p, gen->expr) != PL_CALL) {
+      w.exponent = pl_add(p, w.exponent,
+                          pl_mul(p, pl_int(p, (long)exponent[g]), pl_arg(p, gen->expr, 0)));
+    } else if ((gen->kind != PL_G_COS && gen->kind != PL_G_SIN)
+               || pl_kind_of(p, gen->expr) != PL_CALL) {
       pl_tower_give_up(t);
     }
   }
@@ -69,7 +74,8 @@ static void wave_of_term(pl_tower* t, pl_integral_job* j, pl_frac f, slong i) {
   for (int g = 0; g < t->gens.n; g++) {
     const pl_gen gen = t->gens.at[g];
     if ((gen.kind != PL_G_COS && gen.kind != PL_G_SIN) || !pl_gen_contains(t, g, j->x)) continue;
-    for (ulong k = 0; k < exponent[g]; k++) times_wave(t, j, from, pl_arg(p, gen.expr, 0), gen.kind == PL_G_SIN);
+    for (ulong k = 0; k < exponent[g]; k++)
+      times_wave(t, j, from, pl_arg(p, gen.expr, 0), gen.kind == PL_G_SIN);
   }
 }
 
@@ -127,8 +133,10 @@ static void reciprocal_body(pl_tower* t, void* data) {
   j->found = j->degree > 0;
 }
 
-// ---------------------------------------------------------------------------------------------- integrating
-static pl_expr trig(pl_pool* p, pl_expr angle, bool sine) { return pl_call(p, sine ? PL_SIN : PL_COS, angle); }
+// ------------------------------------------------------------------------------------- integrating
+static pl_expr trig(pl_pool* p, pl_expr angle, bool sine) {
+  return pl_call(p, sine ? PL_SIN : PL_COS, angle);
+}
 
 // a = slope of a linear function of x; false if it is not linear.
 static bool slope_of(pl_tower* t, pl_expr e, pl_symbol x, pl_expr* slope) {
@@ -138,15 +146,15 @@ static bool slope_of(pl_tower* t, pl_expr e, pl_symbol x, pl_expr* slope) {
   return d >= 0;
 }
 
-// ∫ x^k F' = x^k F - k ∫ x^(k-1) F,  with F = e^u (α cos φ + a sin φ)/(α² + a²) for F' = e^u cos φ, and likewise for
-// sin.
+// ∫ x^k F' = x^k F - k ∫ x^(k-1) F, with F = e^u (α cos φ + a sin φ)/(α² + a²) for F' = e^u cos φ,
+// and likewise for sin.
 static pl_expr integrate_wave(pl_tower* t, pl_wave w, pl_expr alpha, pl_expr a, pl_symbol x) {
   pl_pool* p = t->pool;
   pl_expr X = pl_sym(p, x);
   bool flat = pl_is_zero_node(p, alpha) && pl_is_zero_node(p, a);
   if (flat) {
-    pl_expr constant =
-        pl_mul_n(p, (pl_expr[]){w.coefficient, pl_call(p, PL_EXP, w.exponent), trig(p, w.angle, w.sine)}, 3);
+    pl_expr constant = pl_mul_n(
+        p, (pl_expr[]){w.coefficient, pl_call(p, PL_EXP, w.exponent), trig(p, w.angle, w.sine)}, 3);
     return pl_div(p, pl_mul(p, constant, pl_pow_int(p, X, w.power + 1)), pl_int(p, w.power + 1));
   }
   pl_expr size = pl_add(p, pl_square(p, alpha), pl_square(p, a));
@@ -163,8 +171,10 @@ static pl_expr integrate_wave(pl_tower* t, pl_wave w, pl_expr alpha, pl_expr a, 
   same.power = other.power = w.power - 1;
   same.coefficient = pl_mul(p, factor, same.coefficient);
   other.coefficient = pl_mul(p, factor, other.coefficient);
-  if (!pl_is_zero_node(p, same.coefficient)) result = pl_add(p, result, integrate_wave(t, same, alpha, a, x));
-  if (!pl_is_zero_node(p, other.coefficient)) result = pl_add(p, result, integrate_wave(t, other, alpha, a, x));
+  if (!pl_is_zero_node(p, same.coefficient))
+    result = pl_add(p, result, integrate_wave(t, same, alpha, a, x));
+  if (!pl_is_zero_node(p, other.coefficient))
+    result = pl_add(p, result, integrate_wave(t, other, alpha, a, x));
   return result;
 }
 
@@ -175,7 +185,8 @@ static pl_expr integrate_waves(pl_tower* t, pl_integral_job* j) {
     pl_expr alpha, a;
     w.angle = pl_alg_normal(t, w.angle);
     if (w.sine && pl_is_zero_node(t->pool, w.angle)) continue;
-    if (!slope_of(t, w.exponent, j->x, &alpha) || !slope_of(t, w.angle, j->x, &a)) return pl_poison();
+    if (!slope_of(t, w.exponent, j->x, &alpha) || !slope_of(t, w.angle, j->x, &a))
+      return pl_poison();
     // by parts doubles the number of terms each time when both slopes are there
     bool doubles = !pl_is_zero_node(t->pool, alpha) && !pl_is_zero_node(t->pool, a);
     if (doubles && w.power > 8) return pl_poison();
@@ -192,8 +203,10 @@ static pl_expr integrate_reciprocal(pl_tower* t, const pl_integral_job* j) {
   if (pl_alg_coefficients(t, j->reciprocal, j->x, c, 1) != 1) return pl_poison();
   a = c[1];
   pl_expr factor = pl_div(p, j->coefficient, a);
-  if (j->degree == 1) return pl_mul(p, factor, pl_call(p, PL_LN, pl_call(p, PL_ABS, j->reciprocal)));
-  return pl_mul(p, pl_div(p, factor, pl_int(p, 1 - j->degree)), pl_pow_int(p, j->reciprocal, 1 - j->degree));
+  if (j->degree == 1)
+    return pl_mul(p, factor, pl_call(p, PL_LN, pl_call(p, PL_ABS, j->reciprocal)));
+  return pl_mul(p, pl_div(p, factor, pl_int(p, 1 - j->degree)),
+                pl_pow_int(p, j->reciprocal, 1 - j->degree));
 }
 
 pl_expr pl_alg_integral(pl_tower* t, pl_expr e, pl_symbol x) {

@@ -1,14 +1,16 @@
-// Proofs of irreducibility that are much cheaper than factoring.  Most polynomials that presentation asks about have no
-// factors, and many are linear in a mass or in g; FLINT's general factoring spends 50 to 500 µs to find that out.
+// Proofs of irreducibility that are much cheaper than factoring. Most polynomials that presentation
+// asks about have no factors, and many are linear in a mass or in g; FLINT's general factoring
+// spends 50 to 500 µs to find that out.
 //
-// Seen as a polynomial in one generator x of degree d, f = g h means that g is free of x (then it divides every coefficient
-// of f), or that the image of f under values for the other generators, modulo a prime, splits too as long as it keeps its
-// degree.  So f is irreducible when
+// Seen as a polynomial in one generator x of degree d, f = g h means that g is free of x (then it
+// divides every coefficient of f), or that the image of f under values for the other generators,
+// modulo a prime, splits too as long as it keeps its degree. So f is irreducible when
 //   its coefficients have no common factor, and
 //   d = 1, or some image of degree d is irreducible over the prime field.
-// A common factor of the coefficients contains a generator y that all of them contain; its degree in y is at most that of
-// the greatest common divisor of the images in y, when one coefficient keeps its degree.  Both arguments are proofs whatever
-// the prime and the values are; bad luck only sends f to FLINT.
+// A common factor of the coefficients contains a generator y that all of them contain; its degree
+// in y is at most that of the greatest common divisor of the images in y, when one coefficient
+// keeps its degree. Both arguments are proofs whatever the prime and the values are; bad luck only
+// sends f to FLINT.
 #include "algebra/algebra_impl.h"
 
 #include <flint/nmod_poly.h>
@@ -16,14 +18,14 @@
 #include <string.h>
 
 enum { MAX_DEGREE = 6, MAX_TRIES = 6, MAX_VARIABLES = 3 };
-static const uint64_t prime = 2147483647u;   // 2^31 - 1: products fit into a word
+static const uint64_t prime = 2147483647u;  // 2^31 - 1: products fit into a word
 
 // A polynomial with its exponents laid open.
 typedef struct open_poly {
-  int n, terms;            // generators that occur, terms
-  ulong* exponent;         // (terms x n)
-  uint64_t* coefficient;   // modulo the prime      (terms)
-  int* degree;             // (n)
+  int n, terms;           // generators that occur, terms
+  ulong* exponent;        // (terms x n)
+  uint64_t* coefficient;  // modulo the prime      (terms)
+  int* degree;            // (n)
 } open_poly;
 
 static uint64_t times(uint64_t a, uint64_t b) { return a * b % prime; }
@@ -55,7 +57,8 @@ static open_poly lay_open(pl_tower* t, const pl_poly* f, const int* use, int n) 
   return o;
 }
 
-// Values for the generators: the same for every polynomial, so that a result never depends on history.
+// Values for the generators: the same for every polynomial, so that a result never depends on
+// history.
 static uint64_t value_of(int variable, int trial) {
   return pl_hash_mix(0x51ab3e07u + (uint64_t)trial, (uint64_t)variable + 1) % prime;
 }
@@ -71,19 +74,21 @@ static uint64_t term_value(const open_poly* o, int i, const uint64_t* value, int
   return v;
 }
 
-// ---------------------------------------------------------------------------------------------- polynomials in one variable
+// --------------------------------------------------------------------- polynomials in one variable
 static int degree_of(const uint64_t* a, int from) {
   while (from >= 0 && a[from] == 0) from--;
   return from;
 }
 
-// a becomes the greatest common divisor of a and b, which is used up; returns its degree.  Degrees -1: zero.
+// a becomes the greatest common divisor of a and b, which is used up; returns its degree. Degrees
+// -1: zero.
 static int common_degree(uint64_t* a, int da, uint64_t* b, int db) {
   while (db >= 0) {
     uint64_t inverse = power(b[db], prime - 2);
     while (da >= db) {
       uint64_t q = times(a[da], inverse);
-      for (int k = 0; k <= db; k++) a[da - db + k] = (a[da - db + k] + prime - times(q, b[k])) % prime;
+      for (int k = 0; k <= db; k++)
+        a[da - db + k] = (a[da - db + k] + prime - times(q, b[k])) % prime;
       da = degree_of(a, da - 1);
     }
     for (int k = 0; k <= db || k <= da; k++) {
@@ -98,8 +103,9 @@ static int common_degree(uint64_t* a, int da, uint64_t* b, int db) {
   return da;
 }
 
-// ---------------------------------------------------------------------------------------------- contents
-// Generators other than x that every coefficient of f in x contains, in `shared`; returns how many there are.
+// ---------------------------------------------------------------------------------------- contents
+// Generators other than x that every coefficient of f in x contains, in `shared`; returns how many
+// there are.
 static int shared_variables(const open_poly* o, int x, bool* shared) {
   bool present[MAX_DEGREE + 1] = {false};
   uint64_t in[MAX_DEGREE + 1][PL_MAX_GENERATORS / 64 + 1];
@@ -139,8 +145,10 @@ static bool free_of(pl_tower* t, const open_poly* o, int x, int y, const uint64_
     if (full[d] < 0) continue;
     int degree = degree_of(&image[d * size], full[d]);
     kept |= degree == full[d];
-    if (best < 0) best = d, common = degree;
-    else common = common_degree(&image[best * size], common, &image[d * size], degree);
+    if (best < 0) {
+      best = d;
+      common = degree;
+    } else common = common_degree(&image[best * size], common, &image[d * size], degree);
   }
   return kept && common == 0;
 }
@@ -153,8 +161,9 @@ static bool content_is_one(pl_tower* t, const open_poly* o, int x, const uint64_
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- images
-// f as a polynomial in x alone, of degree d with a leading coefficient that is not 0; false when that is lost.
+// ------------------------------------------------------------------------------------------ images
+// f as a polynomial in x alone, of degree d with a leading coefficient that is not 0; false when
+// that is lost.
 static bool image_in(const open_poly* o, int x, const uint64_t* value, uint64_t* c) {
   memset(c, 0, (size_t)(o->degree[x] + 1) * sizeof *c);
   for (int i = 0; i < o->terms; i++) {
@@ -193,7 +202,7 @@ static bool some_image_is_irreducible(const open_poly* o, int x) {
   return false;
 }
 
-// ---------------------------------------------------------------------------------------------- verdict
+// ----------------------------------------------------------------------------------------- verdict
 static int terms_of_degree(const open_poly* o, int x, ulong d) {
   int n = 0;
   for (int i = 0; i < o->terms; i++) n += o->exponent[i * o->n + x] == d;

@@ -1,10 +1,11 @@
-// Linear systems by Cramer's rule with memoised minors in the quotient ring: no division until the end, so the
-// relations s^2 = 1 - c^2 may be used at every product.  Rows are cleared of denominators and contents first, sparse
-// rows are expanded first; every minor of the lower rows is computed once.  One cancellation at the end. Bareiss needs
-// exact division, which the quotient ring does not have; elimination in the field collects spurious factors.
+// Linear systems by Cramer's rule with memoised minors in the quotient ring: no division until the
+// end, so the relations s^2 = 1 - c^2 may be used at every product. Rows are cleared of
+// denominators and contents first, sparse rows are expanded first; every minor of the lower rows is
+// computed once. One cancellation at the end. Bareiss needs exact division, which the quotient ring
+// does not have; elimination in the field collects spurious factors.
 //
-// Denominators of the right-hand side alone stay out of the determinant, where they would be multiplied out: they become
-// one common denominator beside it.
+// Denominators of the right-hand side alone stay out of the determinant, where they would be
+// multiplied out: they become one common denominator beside it.
 #include "algebra/algebra_impl.h"
 
 #include <stdlib.h>
@@ -19,14 +20,14 @@ typedef struct pl_minors {
   pl_map* of_mask;    // set of columns -> index in memo + 1
   PL_VEC(const pl_poly*) memo;
   long max_terms;
-  long work;  // products of terms formed so far, over all minors
-  int sign;       // of the permutation of rows
-  pl_frac scale;  // det of the given rows = scale * det M
-  pl_frac* right; // right-hand sides of the rows of M  (n), where there is a last column for them
-  pl_frac below;  // that column of M is below * right
+  long work;       // products of terms formed so far, over all minors
+  int sign;        // of the permutation of rows
+  pl_frac scale;   // det of the given rows = scale * det M
+  pl_frac* right;  // right-hand sides of the rows of M  (n), where there is a last column for them
+  pl_frac below;   // that column of M is below * right
 } pl_minors;
 
-// ---------------------------------------------------------------------------------------------- preparing the rows
+// ------------------------------------------------------------------------------ preparing the rows
 static pl_frac denominator(pl_tower* t, pl_frac f) {
   return pl_frac_inv(t, pl_frac_over(t, pl_poly_int(t, 1), f));
 }
@@ -54,7 +55,8 @@ static void clear_row(pl_minors* m, const pl_frac* row, int i) {
   }
   if (pl_poly_is_zero(t, content)) content = pl_poly_int(t, 1);
   for (int j = 0; j < m->n; j++) {
-    if (!pl_poly_is_zero(t, out[j]) && !pl_poly_divides(t, &out[j], out[j], content)) pl_tower_give_up(t);
+    if (!pl_poly_is_zero(t, out[j]) && !pl_poly_divides(t, &out[j], out[j], content))
+      pl_tower_give_up(t);
   }
   pl_frac scale = pl_frac_div(t, pl_frac_poly(t, content), common);
   m->scale = pl_frac_mul(t, m->scale, scale);
@@ -83,7 +85,8 @@ static void prepare(pl_minors* m, const pl_frac* entries) {
   pl_row_order* order = PL_ARRAY(t->arena, pl_row_order, m->n);
   for (int i = 0; i < m->n; i++) {
     order[i].row = i;
-    for (int j = 0; j < m->columns; j++) order[i].filled += !pl_frac_is_zero(t, entries[i * m->columns + j]);
+    for (int j = 0; j < m->columns; j++)
+      order[i].filled += !pl_frac_is_zero(t, entries[i * m->columns + j]);
   }
   qsort(order, (size_t)m->n, sizeof *order, compare_rows);
   m->sign = 1;
@@ -99,14 +102,14 @@ static void prepare(pl_minors* m, const pl_frac* entries) {
   if (m->columns > m->n) clear_right(m);
 }
 
-// ---------------------------------------------------------------------------------------------- minors
+// ------------------------------------------------------------------------------------------ minors
 static const pl_poly* known_minor(const pl_minors* m, uint64_t mask) {
   uint64_t k = pl_map_get(m->of_mask, mask);
   return k ? m->memo.at[k - 1] : NULL;
 }
 
-// Determinant of the last rows, from `row` on, in the columns of mask.
-// Many minors below the cap may together still take minutes: so much work is allowed for each term of the cap.
+// Determinant of the last rows, from `row` on, in the columns of mask. Many minors below the cap
+// may together still take minutes: so much work is allowed for each term of the cap.
 static const long work_per_term = 100;
 
 static const pl_poly* minor_of(pl_minors* m, int row, uint64_t mask) {
@@ -141,13 +144,16 @@ static const pl_poly* minor_of(pl_minors* m, int row, uint64_t mask) {
   return sum;
 }
 
-static pl_minors minors_begin(pl_tower* t, int n, int columns, const pl_frac* entries, long max_terms) {
-  pl_minors m = {.t = t, .n = n, .columns = columns, .max_terms = max_terms, .of_mask = pl_map_make(t->arena)};
+static pl_minors minors_begin(pl_tower* t, int n, int columns, const pl_frac* entries,
+                              long max_terms) {
+  pl_minors m = {
+      .t = t, .n = n, .columns = columns, .max_terms = max_terms, .of_mask = pl_map_make(t->arena)};
   prepare(&m, entries);
   return m;
 }
 
-// A determinant that is not zero algebraically may still be zero when roots or formal functions depend on each other.
+// A determinant that is not zero algebraically may still be zero when roots or formal functions
+// depend on each other.
 static pl_answer3 vanishes(pl_tower* t, const pl_poly* D) {
   if (pl_poly_is_zero(t, D)) return PL_YES;
   for (int g = 0; g < t->gens.n; g++) {
@@ -158,7 +164,7 @@ static pl_answer3 vanishes(pl_tower* t, const pl_poly* D) {
   return PL_NO;
 }
 
-// ---------------------------------------------------------------------------------------------- solve
+// ------------------------------------------------------------------------------------------- solve
 typedef struct pl_solve_job {
   int n;
   const pl_expr *A, *b;
@@ -199,7 +205,8 @@ static bool any_poison(const pl_expr* e, int n) {
   return false;
 }
 
-pl_answer3 pl_alg_solve(pl_tower* t, int n, const pl_expr* A, const pl_expr* b, pl_expr* x, long max_terms) {
+pl_answer3 pl_alg_solve(pl_tower* t, int n, const pl_expr* A, const pl_expr* b, pl_expr* x,
+                        long max_terms) {
   if (n == 0) return PL_YES;
   if (n < 0 || n > PL_MAX_ORDER || any_poison(A, n * n) || any_poison(b, n)) return PL_UNKNOWN;
   if (t->names.n > 0 && pl_alg_rank(t, n, n, A, NULL) < n) return PL_NO;
@@ -210,7 +217,7 @@ pl_answer3 pl_alg_solve(pl_tower* t, int n, const pl_expr* A, const pl_expr* b, 
   return j.answer;
 }
 
-// ---------------------------------------------------------------------------------------------- determinant
+// ------------------------------------------------------------------------------------- determinant
 typedef struct pl_det_job {
   int n;
   const pl_expr* A;

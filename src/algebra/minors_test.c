@@ -1,4 +1,5 @@
-// Linear systems of mechanics: what comes out, that it satisfies the equations, how large it may become.
+// Linear systems of mechanics: what comes out, that it satisfies the equations, how large it may
+// become.
 #include "algebra/algebra_test_text.h"
 
 enum { MAX_N = 12 };
@@ -18,7 +19,8 @@ static pl_system read_system(pl_world* w, int n, const char* const* A, const cha
 static void assert_solves(pl_world* w, const pl_system* s) {
   for (int i = 0; i < s->n; i++) {
     pl_expr rest = pl_neg(w->pool, s->b[i]);
-    for (int j = 0; j < s->n; j++) rest = pl_add(w->pool, rest, pl_mul(w->pool, s->A[i * s->n + j], s->x[j]));
+    for (int j = 0; j < s->n; j++)
+      rest = pl_add(w->pool, rest, pl_mul(w->pool, s->A[i * s->n + j], s->x[j]));
     if (pl_alg_is_zero(w->tower, rest) != PL_YES) fail_msg("row %d is not satisfied", i);
   }
 }
@@ -37,7 +39,8 @@ PL_TEST(atwood_comes_out_as_in_the_textbook) {
 
 PL_TEST(the_double_pendulum_is_solved) {
   pl_world* w = pl_world_make(NULL);
-  static const char* const A[] = {"(m1 + m2)*l1^2", "m2*l1*l2*cos(a - b)", "m2*l1*l2*cos(a - b)", "m2*l2^2"};
+  static const char* const A[] = {"(m1 + m2)*l1^2", "m2*l1*l2*cos(a - b)", "m2*l1*l2*cos(a - b)",
+                                  "m2*l2^2"};
   static const char* const b[] = {"-m2*l1*l2*sin(a - b)*y^2 - (m1 + m2)*g*l1*sin(a)",
                                   "m2*l1*l2*sin(a - b)*x^2 - m2*g*l2*sin(b)"};
   pl_system s = read_system(w, 2, A, b);
@@ -78,7 +81,8 @@ PL_TEST(a_singular_system_is_recognised) {
 
 PL_TEST(the_rank_prefers_the_first_rows) {
   pl_world* w = pl_world_make(NULL);
-  static const char* const A[] = {"x", "y", "0", "2*x", "2*y", "0", "sqrt(3)", "1", "0", "x + sqrt(3)", "y + 1", "0"};
+  static const char* const A[] = {"x",       "y", "0", "2*x",         "2*y",   "0",
+                                  "sqrt(3)", "1", "0", "x + sqrt(3)", "y + 1", "0"};
   pl_expr M[12];
   for (int i = 0; i < 12; i++) M[i] = pl_text_expr(w, A[i]);
   int rows[4] = {-1, -1, -1, -1};
@@ -90,7 +94,8 @@ PL_TEST(the_rank_prefers_the_first_rows) {
 
 PL_TEST(a_dependency_is_found_and_verified) {
   pl_world* w = pl_world_make(NULL);
-  static const char* const A[] = {"x", "y", "u", "y", "0", "1", "x^2 + y*cos(z)", "x*y", "x*u + cos(z)", "1", "0", "0"};
+  static const char* const A[] = {
+      "x", "y", "u", "y", "0", "1", "x^2 + y*cos(z)", "x*y", "x*u + cos(z)", "1", "0", "0"};
   pl_expr M[12], c[4];
   for (int i = 0; i < 12; i++) M[i] = pl_text_expr(w, A[i]);
   assert_int_equal(pl_alg_dependency(w->tower, 3, 3, M, 2, c), PL_YES);

@@ -1,10 +1,11 @@
-// Normal forms: one reduced fraction, its factors, its coefficients in a symbol or in an atom of the tower.
+// Normal forms: one reduced fraction, its factors, its coefficients in a symbol or in an atom of
+// the tower.
 #include "algebra/algebra_impl.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-// ---------------------------------------------------------------------------------------------- one fraction
+// ------------------------------------------------------------------------------------ one fraction
 typedef struct pl_normal_job {
   pl_expr e, out, num, den;
 } pl_normal_job;
@@ -49,7 +50,7 @@ void pl_alg_fraction(pl_tower* t, pl_expr e, pl_expr* num, pl_expr* den) {
   *den = j.den;
 }
 
-// ---------------------------------------------------------------------------------------------- factors
+// ----------------------------------------------------------------------------------------- factors
 typedef struct pl_factors_job {
   pl_expr e;
   pl_factor* out;
@@ -73,7 +74,8 @@ static void factors_body(pl_tower* t, void* data) {
     return;
   }
   pl_factored num = pl_factored_merge_pairs(t, pl_poly_factor(t, f.num));
-  pl_factored den = pl_factored_merge_pairs(t, (pl_factored){.unit = f.unit, .n = f.n, .at = f.den});
+  pl_factored den = pl_factored_merge_pairs(t,
+                                            (pl_factored){.unit = f.unit, .n = f.n, .at = f.den});
   put_factors(t, j, num, 1);
   put_factors(t, j, den, -1);
   j->unit = pl_fmpq_expr(t, num.unit, den.unit);
@@ -95,7 +97,8 @@ static int compare_keys(const void* a, const void* b) {
 static void sort_factors(pl_tower* t, pl_factor* f, int n) {
   pl_sort_key* keys = PL_ARRAY(t->arena, pl_sort_key, n + 1);
   for (int i = 0; i < n; i++) {
-    keys[i] = (pl_sort_key){pl_op_count(t->pool, f[i].base), pl_expr_text(t->arena, t->pool, f[i].base), f[i]};
+    keys[i] = (pl_sort_key){pl_op_count(t->pool, f[i].base),
+                            pl_expr_text(t->arena, t->pool, f[i].base), f[i]};
   }
   qsort(keys, (size_t)n, sizeof *keys, compare_keys);
   for (int i = 0; i < n; i++) f[i] = keys[i].factor;
@@ -114,7 +117,7 @@ int pl_alg_factors(pl_tower* t, pl_expr e, pl_factor* out, int max, pl_expr* uni
   return 1;
 }
 
-// ---------------------------------------------------------------------------------------------- coefficients
+// ------------------------------------------------------------------------------------ coefficients
 typedef struct pl_coefficients_job {
   pl_expr e, atom;
   pl_symbol x;
@@ -129,7 +132,8 @@ static bool depends(pl_tower* t, const pl_poly* f, int gen, pl_symbol x) {
   return false;
 }
 
-static void put_coefficients(pl_tower* t, pl_coefficients_job* j, pl_frac f, const pl_poly* num, int gen) {
+static void put_coefficients(pl_tower* t, pl_coefficients_job* j, pl_frac f, const pl_poly* num,
+                             int gen) {
   int degree = 0;
   const pl_poly** c = pl_poly_coefficients(t, num, gen, &degree);
   if (degree > j->max) return;
@@ -151,7 +155,8 @@ static void coefficients_body(pl_tower* t, void* data) {
 }
 
 int pl_alg_coefficients(pl_tower* t, pl_expr e, pl_symbol x, pl_expr* coefficient, int max_degree) {
-  pl_coefficients_job j = {.e = e, .x = x, .atom = pl_sym(t->pool, x), .out = coefficient, .max = max_degree};
+  pl_coefficients_job j = {
+      .e = e, .x = x, .atom = pl_sym(t->pool, x), .out = coefficient, .max = max_degree};
   if (pl_is_poison(e) || max_degree < 0 || !pl_tower_run(t, coefficients_body, &j)) return -1;
   return j.degree;
 }
@@ -176,8 +181,10 @@ static void atom_body(pl_tower* t, void* data) {
   put_coefficients(t, j, f, num, gen);
 }
 
-int pl_alg_coefficients_atom(pl_tower* t, pl_expr e, pl_expr atom, pl_expr* coefficient, int max_degree) {
+int pl_alg_coefficients_atom(pl_tower* t, pl_expr e, pl_expr atom, pl_expr* coefficient,
+                             int max_degree) {
   pl_coefficients_job j = {.e = e, .atom = atom, .out = coefficient, .max = max_degree};
-  if (pl_is_poison(e) || pl_is_poison(atom) || max_degree < 0 || !pl_tower_run(t, atom_body, &j)) return -1;
+  if (pl_is_poison(e) || pl_is_poison(atom) || max_degree < 0 || !pl_tower_run(t, atom_body, &j))
+    return -1;
   return j.degree;
 }

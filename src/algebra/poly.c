@@ -1,8 +1,10 @@
-// Polynomials of the tower: arithmetic in the quotient ring, views of the trigonometric pairs, greatest common divisors
-// in compact contexts.  Needs a running service (the results stand on its stack).
+// Polynomials of the tower: arithmetic in the quotient ring, views of the trigonometric pairs,
+// greatest common divisors in compact contexts. Needs a running service (the results stand on its
+// stack).
 //
-// Reduced means: degree in s below 2 for every sine, in w below 2 for every square root.  The relations are taken
-// newest first, since the value of a root may contain older generators but never newer ones.
+// Reduced means: degree in s below 2 for every sine, in w below 2 for every square root. The
+// relations are taken newest first, since the value of a root may contain older generators but
+// never newer ones.
 #include "algebra/algebra_impl.h"
 
 #include <string.h>
@@ -99,9 +101,13 @@ bool pl_poly_is_zero(const pl_tower* t, const pl_poly* a) { return fmpz_mpoly_is
 
 bool pl_poly_is_one(const pl_tower* t, const pl_poly* a) { return fmpz_mpoly_is_one(a, &t->ctx); }
 
-bool pl_poly_is_number(const pl_tower* t, const pl_poly* a) { return fmpz_mpoly_is_fmpz(a, &t->ctx); }
+bool pl_poly_is_number(const pl_tower* t, const pl_poly* a) {
+  return fmpz_mpoly_is_fmpz(a, &t->ctx);
+}
 
-bool pl_poly_equal(const pl_tower* t, const pl_poly* a, const pl_poly* b) { return fmpz_mpoly_equal(a, b, &t->ctx); }
+bool pl_poly_equal(const pl_tower* t, const pl_poly* a, const pl_poly* b) {
+  return fmpz_mpoly_equal(a, b, &t->ctx);
+}
 
 long pl_poly_terms(const pl_poly* a) { return a->length; }
 
@@ -131,16 +137,19 @@ long pl_poly_degree(const pl_tower* t, const pl_poly* a, int gen) {
   return a->length == 0 ? 0 : fmpz_mpoly_degree_si(a, gen, &t->ctx);
 }
 
-void pl_poly_content(pl_tower* t, fmpz* c, const pl_poly* a) { _fmpz_vec_content(c, a->coeffs, a->length); }
+void pl_poly_content(pl_tower* t, fmpz* c, const pl_poly* a) {
+  _fmpz_vec_content(c, a->coeffs, a->length);
+}
 
-// ---------------------------------------------------------------------------------------------- relations
+// --------------------------------------------------------------------------------------- relations
 const pl_poly** pl_poly_coefficients(pl_tower* t, const pl_poly* a, int gen, int* degree) {
   long d = pl_poly_degree(t, a, gen);
   if (d > PL_MAX_DEGREE) pl_tower_give_up(t);
   const pl_poly** c = PL_ARRAY(t->arena, const pl_poly*, d + 1);
   pl_poly** out = PL_ARRAY(t->arena, pl_poly*, d + 1);
   for (long i = 0; i <= d; i++) c[i] = out[i] = pl_poly_new(t);
-  // from here on nothing allocates in the arena, so nothing of FLINT's is left behind when memory runs out
+  // from here on nothing allocates in the arena, so nothing of FLINT's is left behind when memory
+  // runs out
   fmpz_mpoly_univar_t u;
   fmpz_mpoly_univar_init(u, &t->ctx);
   fmpz_mpoly_to_univar(u, a, gen, &t->ctx);
@@ -154,8 +163,10 @@ const pl_poly** pl_poly_coefficients(pl_tower* t, const pl_poly* a, int gen, int
   return c;
 }
 
-// gen^degree -> value:  sum_k c_k gen^k = sum_r gen^r sum_m c_{degree m + r} value^m, the inner sums by Horner.
-const pl_poly* pl_poly_eliminate(pl_tower* t, const pl_poly* a, int gen, int degree, const pl_poly* value) {
+// gen^degree -> value: sum_k c_k gen^k = sum_r gen^r sum_m c_{degree m + r} value^m, the inner sums
+// by Horner.
+const pl_poly* pl_poly_eliminate(pl_tower* t, const pl_poly* a, int gen, int degree,
+                                 const pl_poly* value) {
   int d = 0;
   const pl_poly** c = pl_poly_coefficients(t, a, gen, &d);
   if (d < degree) return a;
@@ -189,7 +200,8 @@ const pl_poly* pl_poly_view(pl_tower* t, const pl_poly* a, int gen) {
   const pl_poly* square = pl_poly_gen_power(t, g->partner, 2);
   const pl_poly* one = pl_poly_int(t, 1);
   // c^2 = 1 - s^2,  S^2 = C^2 - 1
-  const pl_poly* value = g->kind == PL_G_COS ? pl_poly_sub(t, one, square) : pl_poly_sub(t, square, one);
+  const pl_poly* value = g->kind == PL_G_COS ? pl_poly_sub(t, one, square)
+                                             : pl_poly_sub(t, square, one);
   return pl_poly_eliminate(t, a, gen, 2, value);
 }
 
@@ -205,7 +217,7 @@ const pl_poly* pl_poly_shortest_view(pl_tower* t, const pl_poly* a) {
   return a;
 }
 
-// ---------------------------------------------------------------------------------------------- compact contexts
+// -------------------------------------------------------------------------------- compact contexts
 const fmpz_mpoly_ctx_struct* pl_poly_small_context(pl_tower* t, int n) {
   if (n == 0) n = 1;  // a number; FLINT wants a variable
   if (!t->small[n]) {
@@ -226,19 +238,20 @@ void pl_poly_used(const pl_tower* t, const pl_poly* a, int* use, int* n) {
   }
 }
 
-void pl_poly_pack(pl_tower* t, fmpz_mpoly_struct* out, const fmpz_mpoly_ctx_struct* small, const pl_poly* a,
-                  const int* use, int n) {
+void pl_poly_pack(pl_tower* t, fmpz_mpoly_struct* out, const fmpz_mpoly_ctx_struct* small,
+                  const pl_poly* a, const int* use, int n) {
   ulong wide[PL_MAX_GENERATORS], narrow[PL_MAX_GENERATORS] = {0};
   fmpz_mpoly_zero(out, small);
   for (slong i = 0; i < a->length; i++) {
     fmpz_mpoly_get_term_exp_ui(wide, a, i, &t->ctx);
     for (int k = 0; k < n; k++) narrow[k] = wide[use[k]];
-    fmpz_mpoly_push_term_fmpz_ui(out, &a->coeffs[i], narrow, small);  // the order stays, since use[] ascends
+    // the order stays, since use[] ascends
+    fmpz_mpoly_push_term_fmpz_ui(out, &a->coeffs[i], narrow, small);
   }
 }
 
-void pl_poly_unpack(pl_tower* t, pl_poly* out, const fmpz_mpoly_struct* a, const fmpz_mpoly_ctx_struct* small,
-                    const int* use, int n) {
+void pl_poly_unpack(pl_tower* t, pl_poly* out, const fmpz_mpoly_struct* a,
+                    const fmpz_mpoly_ctx_struct* small, const int* use, int n) {
   ulong wide[PL_MAX_GENERATORS] = {0}, narrow[PL_MAX_GENERATORS];
   fmpz_mpoly_zero(out, &t->ctx);
   for (slong i = 0; i < a->length; i++) {
@@ -248,7 +261,7 @@ void pl_poly_unpack(pl_tower* t, pl_poly* out, const fmpz_mpoly_struct* a, const
   }
 }
 
-// ---------------------------------------------------------------------------------------------- division
+// ---------------------------------------------------------------------------------------- division
 bool pl_poly_divides(pl_tower* t, const pl_poly** q, const pl_poly* a, const pl_poly* b) {
   if (a->length == 0 || a->length < (b->length > 1 ? 2 : 1)) return false;
   long da[PL_MAX_GENERATORS], db[PL_MAX_GENERATORS];
@@ -263,7 +276,8 @@ bool pl_poly_divides(pl_tower* t, const pl_poly** q, const pl_poly* a, const pl_
   return true;
 }
 
-static const pl_poly* gcd_small(pl_tower* t, const pl_poly* a, const pl_poly* b, const int* use, int n) {
+static const pl_poly* gcd_small(pl_tower* t, const pl_poly* a, const pl_poly* b, const int* use,
+                                int n) {
   const fmpz_mpoly_ctx_struct* small = pl_poly_small_context(t, n);
   pl_poly* f = pl_poly_new(t);
   fmpz_mpoly_t x, y, g;
@@ -310,8 +324,9 @@ bool pl_poly_square_root(pl_tower* t, const pl_poly** root, const pl_poly* a) {
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- leading sign
-// Compares terms i and j in the order of writing: a number first, then by exponent of the first generator that differs.
+// ------------------------------------------------------------------------------------ leading sign
+// Compares terms i and j in the order of writing: a number first, then by exponent of the first
+// generator that differs.
 static bool written_before(pl_tower* t, const ulong* x, const ulong* y) {
   bool x_number = true, y_number = true;
   for (int g = 0; g < t->gens.n; g++) {

@@ -1,5 +1,6 @@
-// Back from the tower: polynomials and fractions as expressions.  A polynomial is written in the view with the fewest
-// terms (m1 + m2 sin^2, not m1 + m2 - m2 cos^2), a denominator as its factors, with (1 - c)(1 + c) as s^2.
+// Back from the tower: polynomials and fractions as expressions. A polynomial is written in the
+// view with the fewest terms (m1 + m2 sin^2, not m1 + m2 - m2 cos^2), a denominator as its factors,
+// with (1 - c)(1 + c) as s^2.
 #include "algebra/algebra_impl.h"
 
 #include <string.h>
@@ -36,15 +37,20 @@ pl_expr pl_poly_expr_as_is(pl_tower* t, const pl_poly* a) {
   return pl_add_n(t->pool, terms, (int)a->length);
 }
 
-pl_expr pl_poly_expr(pl_tower* t, const pl_poly* a) { return pl_poly_expr_as_is(t, pl_poly_shortest_view(t, a)); }
+pl_expr pl_poly_expr(pl_tower* t, const pl_poly* a) {
+  return pl_poly_expr_as_is(t, pl_poly_shortest_view(t, a));
+}
 
 static pl_expr den_expr(pl_tower* t, pl_frac a) {
   pl_factored f = pl_factored_merge_pairs(t, (pl_factored){.unit = a.unit, .n = a.n, .at = a.den});
   pl_expr product = pl_fmpz_expr(t, f.unit);
   for (int i = 0; i < f.n; i++) {
-    product = pl_mul(t->pool, product, pl_pow_int(t->pool, pl_base_expr(t, f.at[i].base), f.at[i].power));
+    product = pl_mul(t->pool, product,
+                     pl_pow_int(t->pool, pl_base_expr(t, f.at[i].base), f.at[i].power));
   }
   return product;
 }
 
-pl_expr pl_frac_expr(pl_tower* t, pl_frac a) { return pl_div(t->pool, pl_poly_expr(t, a.num), den_expr(t, a)); }
+pl_expr pl_frac_expr(pl_tower* t, pl_frac a) {
+  return pl_div(t->pool, pl_poly_expr(t, a.num), den_expr(t, a));
+}

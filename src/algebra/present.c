@@ -1,19 +1,29 @@
 // pl_present: the most readable form of an expression, an anytime search with a budget of work.
 //
-// The search runs at depth 0, 1, 2, 3 (how many sums inside sums are collected) and keeps the cheapest form; deeper runs
-// start while work is left.  Work is counted in steps, not in seconds, so that the same input gives the same form on every
-// machine.  What is returned has the value of the input modulo a large prime at several points; where only the sign of a
-// root can be at fault (√A √B = √(A B) holds for positive A, B), balls at points of the domain decide.
+// The search runs at depth 0, 1, 2, 3 (how many sums inside sums are collected) and keeps the
+// cheapest form; deeper runs start while work is left. Work is counted in steps, not in seconds, so
+// that the same input gives the same form on every machine. What is returned has the value of the
+// input modulo a large prime at several points; where only the sign of a root can be at fault (√A
+// √B = √(A B) holds for positive A, B), balls at points of the domain decide.
 #include "present_impl.h"
 
 #include <math.h>
 
-enum { MAX_SEARCH_DEPTH = 3, POINTS = 4, MAX_BAD_POINTS = 24, DOMAIN_POINTS = 12, SMALL_TERMS = 150, LARGE_TERMS = 3000 };
+enum {
+  MAX_SEARCH_DEPTH = 3,
+  POINTS = 4,
+  MAX_BAD_POINTS = 24,
+  DOMAIN_POINTS = 12,
+  SMALL_TERMS = 150,
+  LARGE_TERMS = 3000
+};
 
-// Steps of work in a second: a step is a small part of factoring a polynomial of a few terms, 5 to 20 µs.
+// Steps of work in a second: a step is a small part of factoring a polynomial of a few terms, 5 to
+// 20 µs.
 static const double work_per_second = 100000;
 
-// What the first form may cost in any case, a few milliseconds: small formulas are searched to the end with that.
+// What the first form may cost in any case, a few milliseconds: small formulas are searched to the
+// end with that.
 static const long work_of_first_form = 600;
 
 typedef struct present_job {
@@ -45,7 +55,7 @@ static void search_forms(pl_tower* t, void* data) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- checks
+// ------------------------------------------------------------------------------------------ checks
 static bool has_root(const pl_form* f) {
   if (f->kind == PL_F_ROOT) return true;
   for (int i = 0; i < f->n; i++)

@@ -1,9 +1,10 @@
-// The Fourier form of a polynomial: powers and products of sines and cosines written as cos and sin of multiple angles.
+// The Fourier form of a polynomial: powers and products of sines and cosines written as cos and sin
+// of multiple angles.
 //
-// Each monomial c1^a1 s1^b1 c2^a2 ... is a Laurent polynomial in z_i = e^(iθ_i):  c = (z + 1/z)/2, s = (z - 1/z)/(2i).  The
-// coefficients of z^k and z^-k together are a cosine when the number of sines is even, a sine when it is odd.
-// Two more forms come from cos 2K = 1 - 2 sin²K and cos 2K = 2 cos²K - 1, which turn m1 + m2/2 - m2/2 cos(2(α - β)) into
-// m1 + m2 sin²(α - β).
+// Each monomial c1^a1 s1^b1 c2^a2 ... is a Laurent polynomial in z_i = e^(iθ_i): c = (z + 1/z)/2, s
+// = (z - 1/z)/(2i). The coefficients of z^k and z^-k together are a cosine when the number of sines
+// is even, a sine when it is odd. Two more forms come from cos 2K = 1 - 2 sin²K and cos 2K = 2
+// cos²K - 1, which turn m1 + m2/2 - m2/2 cos(2(α - β)) into m1 + m2 sin²(α - β).
 #include "present_impl.h"
 
 #include <stdlib.h>
@@ -12,24 +13,28 @@
 enum { MAX_ANGLES = 4, MAX_ORDER = 8, MAX_WAVES = 40, MAX_WAVE_TERMS = 80, MAX_HALVED = 8 };
 
 typedef struct wave_key {
-  int k[MAX_ANGLES];         // multiples of the angle bases
+  int k[MAX_ANGLES];  // multiples of the angle bases
   bool sine;
-  int power;                 // 1, or 2 after cos 2K was replaced
+  int power;  // 1, or 2 after cos 2K was replaced
 } wave_key;
 
-typedef struct wave { wave_key key; const pl_poly* coefficient; } wave;
+typedef struct wave {
+  wave_key key;
+  const pl_poly* coefficient;
+} wave;
 
 typedef struct series {
   pl_search* s;
   int n_angles;
   int cos_gen[MAX_ANGLES];
-  int halvings;              // everything stands over 2^halvings
+  int halvings;  // everything stands over 2^halvings
   int n;
   wave at[MAX_WAVES];
 } series;
 
-// ---------------------------------------------------------------------------------------------- angles
-// θ and 19/20 θ, which have no base in common: their sums and differences are multiples of θ again, and no wave of its own.
+// ------------------------------------------------------------------------------------------ angles
+// θ and 19/20 θ, which have no base in common: their sums and differences are multiples of θ again,
+// and no wave of its own.
 static bool is_multiple_of_known(series* w, int gen) {
   pl_search* s = w->s;
   for (int j = 0; j < w->n_angles; j++) {
@@ -73,7 +78,7 @@ static int trig_degree(series* w, const pl_poly* f) {
   return most;
 }
 
-// ---------------------------------------------------------------------------------------------- adding waves
+// ------------------------------------------------------------------------------------ adding waves
 static bool same_key(const wave_key* x, const wave_key* y) {
   return memcmp(x->k, y->k, sizeof x->k) == 0 && x->sine == y->sine && x->power == y->power;
 }
@@ -90,7 +95,8 @@ static bool add_wave(series* w, wave_key key, const pl_poly* f) {
   return true;
 }
 
-// Makes the first multiple positive: cos(-x) = cos x, sin(-x) = -sin x.  Returns the sign that comes out; 0 for sin 0.
+// Makes the first multiple positive: cos(-x) = cos x, sin(-x) = -sin x. Returns the sign that comes
+// out; 0 for sin 0.
 static int normalise(wave_key* key) {
   int first = 0;
   while (first < MAX_ANGLES && key->k[first] == 0) first++;
@@ -108,7 +114,10 @@ static void laurent(long* out, int a, int b) {
     for (int m = i + 1; m > 0; m--) out[m] += i < a ? out[m - 1] : -out[m - 1];
 }
 
-typedef struct expansion { long coefficient; int k[MAX_ANGLES]; } expansion;
+typedef struct expansion {
+  long coefficient;
+  int k[MAX_ANGLES];
+} expansion;
 
 // One term of f: rest * prod c^a s^b, over all combinations of exponents of z.
 static bool add_term(series* w, const fmpz* coefficient, const ulong* exponent) {
@@ -135,7 +144,8 @@ static bool add_term(series* w, const fmpz* coefficient, const ulong* exponent) 
       c *= table[j][m[j]];
       key.k[j] = order[j] - 2 * m[j];
     }
-    // z^k and z^-k both come by; each gives half of the real wave, which cancels the 2 in 2 cos k or 2i sin k
+    // z^k and z^-k both come by; each gives half of the real wave, which cancels the 2 in 2 cos k
+    // or 2i sin k
     c *= normalise(&key);
     if (c != 0) {
       pl_poly* f = pl_poly_new(t);
@@ -165,7 +175,7 @@ static bool add_all(series* w, const pl_poly* f) {
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- double angles
+// ----------------------------------------------------------------------------------- double angles
 static bool is_even(const wave_key* key) {
   bool zero = true;
   for (int j = 0; j < MAX_ANGLES; j++) {
@@ -175,7 +185,8 @@ static bool is_even(const wave_key* key) {
   return !zero && !key->sine && key->power == 1;
 }
 
-// cos 2K -> 1 - 2 sin²K, or 2 cos²K - 1, in the wave `only` or in all when it is -1.  false when there is no such wave.
+// cos 2K -> 1 - 2 sin²K, or 2 cos²K - 1, in the wave `only` or in all when it is -1. false when
+// there is no such wave.
 static bool halve_angles(series* w, bool to_sine, int only) {
   pl_tower* t = w->s->t;
   bool any = false;
@@ -199,12 +210,16 @@ static bool halve_angles(series* w, bool to_sine, int only) {
   return any;
 }
 
-// ---------------------------------------------------------------------------------------------- writing
+// ----------------------------------------------------------------------------------------- writing
 static int common_multiple(const wave_key* key) {
   int g = 0;
   for (int j = 0; j < MAX_ANGLES; j++) {
     int a = abs(key->k[j]), b = g;
-    while (b) { int r = a % b; a = b; b = r; }
+    while (b) {
+      int r = a % b;
+      a = b;
+      b = r;
+    }
     g = a;
   }
   return g;
@@ -225,10 +240,12 @@ static const pl_form* argument_form(series* w, const wave_key* key, pl_expr* val
   const pl_form* f = pl_form_of(s->a, s->p, inner);
   if (common == 1) return f;
   if (n == 1) return pl_form_of(s->a, s->p, *value);
-  return pl_form_product(s->a, (const pl_form* const[]){pl_form_leaf(s->a, pl_int(s->p, common)), f}, 2);
+  return pl_form_product(s->a,
+                         (const pl_form* const[]){pl_form_leaf(s->a, pl_int(s->p, common)), f}, 2);
 }
 
-// cos or sin of the multiple as a piece.  One piece an expression, so that equal ones are recognised.
+// cos or sin of the multiple as a piece. One piece an expression, so that equal ones are
+// recognised.
 static pl_piece wave_piece(series* w, const wave_key* key) {
   pl_search* s = w->s;
   pl_expr value;
@@ -242,11 +259,14 @@ static pl_piece wave_piece(series* w, const wave_key* key) {
   pl_piece piece = pl_piece_of_gen(s, w->cos_gen[first]);
   int one = abs(key->k[first]), others = 0;
   for (int j = 0; j < MAX_ANGLES; j++) others += j != first && key->k[j] != 0;
-  if (one == 1 && others == 0) return key->sine ? pl_piece_of_gen(s, s->t->gens.at[w->cos_gen[first]].partner) : piece;
+  if (one == 1 && others == 0)
+    return key->sine ? pl_piece_of_gen(s, s->t->gens.at[w->cos_gen[first]].partner) : piece;
   piece.base = pl_form_call(s->a, f, &argument, 1);
-  piece.gen = -1, piece.order = (int)f;
+  piece.gen = -1;
+  piece.order = (int)f;
   // function, brackets, two for each angle, two for each digit of a multiple
-  piece.cost = 4 + 2 * (1 + others) + (others ? 2 * (1 + others) : 0) + (common_multiple(key) > 1 ? 2 : 0);
+  piece.cost = 4 + 2 * (1 + others) + (others ? 2 * (1 + others) : 0)
+               + (common_multiple(key) > 1 ? 2 : 0);
   pl_push(s->a, s->waves, (pl_wave_known){piece});
   pl_map_set(s->wave_at, call.id, (uint64_t)s->waves.n);
   return piece;
@@ -261,7 +281,8 @@ static bool is_constant(const wave_key* key) {
 static const pl_poly* common_factor(series* w) {
   pl_tower* t = w->s->t;
   const pl_poly* g = w->at[0].coefficient;
-  for (int i = 1; i < w->n && !pl_poly_is_one(t, g); i++) g = pl_poly_gcd(t, g, w->at[i].coefficient);
+  for (int i = 1; i < w->n && !pl_poly_is_one(t, g); i++)
+    g = pl_poly_gcd(t, g, w->at[i].coefficient);
   w->s->work += w->n;
   return g;
 }
@@ -287,7 +308,8 @@ static pl_prod written(series* w, int depth) {
   for (int i = 0; i < w->n; i++) {
     pl_prod x = pl_present_poly(s, w->at[i].coefficient, depth - 1);
     bool constant = is_constant(&w->at[i].key);
-    if (!constant) x = pl_prod_mul(s, x, pl_prod_piece(s, wave_piece(w, &w->at[i].key), w->at[i].key.power));
+    if (!constant)
+      x = pl_prod_mul(s, x, pl_prod_piece(s, wave_piece(w, &w->at[i].key), w->at[i].key.power));
     pl_terms_put(s, x, terms, &n);
   }
   pl_prod sum = pl_prod_mul(s, pl_present_poly(s, common, depth), pl_prod_sum(s, terms, n));
@@ -302,7 +324,7 @@ bool pl_present_fourier(pl_search* s, const pl_poly* f, int depth, pl_prod* best
   if (w.halvings < 2) return false;
   s->work += 1 + f->length / 2;
   if (!add_all(&w, f)) return false;
-  const series waves = w;    // writing takes the common factor out
+  const series waves = w;  // writing takes the common factor out
   *best = written(&w, depth);
   // all double angles at once, or, with work to spare, one of them
   int last = depth > 0 && waves.n <= MAX_HALVED ? waves.n : 0;

@@ -3,20 +3,21 @@
 //   the sums obtained by collecting it by classes of symbols, each coefficient presented in turn;
 //   the factors it has when a radicand is recognised (l² -> w² + r² s² for w = √(l² - r² s²));
 //   its Fourier form.
-// Results are remembered by polynomial and depth.  A polynomial that is met again while it is being worked on is only expanded.
+// Results are remembered by polynomial and depth. A polynomial that is met again while it is being
+// worked on is only expanded.
 #include "present_impl.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 enum {
-  MAX_VIEWS = 8,            // of one polynomial: three pairs in both views
-  MAX_LEFT_EXPANDED = 4,    // products that may be shorter multiplied out
-  MAX_COLLECT_TERMS = 150,  // beyond it a sum is factored and collected once by what moves
-  MAX_EXPANDED_TERMS = 3000 // beyond it no form is sought at all
+  MAX_VIEWS = 8,             // of one polynomial: three pairs in both views
+  MAX_LEFT_EXPANDED = 4,     // products that may be shorter multiplied out
+  MAX_COLLECT_TERMS = 150,   // beyond it a sum is factored and collected once by what moves
+  MAX_EXPANDED_TERMS = 3000  // beyond it no form is sought at all
 };
 
-// ---------------------------------------------------------------------------------------------- groups
+// ------------------------------------------------------------------------------------------ groups
 bool pl_gen_in_key(pl_search* s, int gen, pl_key_set set) {
   pl_gen_kind kind = s->t->gens.at[gen].kind;
   if (set == PL_KEY_ROOT) return kind == PL_G_ROOT;
@@ -61,13 +62,14 @@ int pl_poly_group(pl_search* s, const pl_poly* f, const bool* in, pl_group** out
       rest[g] -= key[g];
     }
     // dividing equal keys out keeps the terms in order
-    fmpz_mpoly_push_term_fmpz_ui(find_group(s, groups, &n, key)->coefficient, &f->coeffs[i], rest, &t->ctx);
+    fmpz_mpoly_push_term_fmpz_ui(find_group(s, groups, &n, key)->coefficient, &f->coeffs[i], rest,
+                                 &t->ctx);
   }
   *out = groups;
   return n;
 }
 
-// ---------------------------------------------------------------------------------------------- candidates
+// -------------------------------------------------------------------------------------- candidates
 static void keep_best(pl_prod* best, pl_prod x, bool* have) {
   if (*have && best->cost <= x.cost) return;
   *best = x;
@@ -97,7 +99,8 @@ static bool collected(pl_search* s, const pl_poly* f, const bool* in, int depth,
   pl_expr one = pl_int(s->p, 1);
   for (int i = 0; i < n; i++) {
     pl_prod coefficient = pl_present_poly(s, groups[i].coefficient, depth - 1);
-    pl_terms_put(s, pl_prod_mul(s, pl_prod_of_exponents(s, one, groups[i].key), coefficient), terms, &n_terms);
+    pl_terms_put(s, pl_prod_mul(s, pl_prod_of_exponents(s, one, groups[i].key), coefficient), terms,
+                 &n_terms);
   }
   *out = pl_prod_sum(s, terms, n_terms);
   return true;
@@ -105,10 +108,10 @@ static bool collected(pl_search* s, const pl_poly* f, const bool* in, int depth,
 
 static bool within_budget(const pl_search* s) { return s->work < s->limit; }
 
-// ---------------------------------------------------------------------------------------------- sums
+// -------------------------------------------------------------------------------------------- sums
 static void sums_by_class(pl_search* s, const pl_poly* f, int depth, pl_prod* best, bool* have) {
-  static const pl_key_set sets[] = {PL_KEY_MASS, PL_KEY_MOTION, PL_KEY_GRAVITY, PL_KEY_OTHER, PL_KEY_LENGTH, PL_KEY_COORD,
-                                    PL_KEY_FUNCTION, PL_KEY_ROOT};
+  static const pl_key_set sets[] = {PL_KEY_MASS,   PL_KEY_MOTION, PL_KEY_GRAVITY,  PL_KEY_OTHER,
+                                    PL_KEY_LENGTH, PL_KEY_COORD,  PL_KEY_FUNCTION, PL_KEY_ROOT};
   int n = f->length > MAX_COLLECT_TERMS ? 2 : (int)(sizeof sets / sizeof *sets);
   for (int k = 0; k < n && within_budget(s); k++) {
     bool in[PL_MAX_GENERATORS] = {false};
@@ -130,8 +133,8 @@ static void sums_by_symbol(pl_search* s, const pl_poly* f, int depth, pl_prod* b
   }
 }
 
-// Generators that meet in a term belong together, and so do sin and cos of an angle: marks the component of each by its
-// smallest member.
+// Generators that meet in a term belong together, and so do sin and cos of an angle: marks the
+// component of each by its smallest member.
 static void find_components(pl_search* s, const pl_poly* f, int* component) {
   pl_tower* t = s->t;
   for (int g = 0; g < t->gens.n; g++) {
@@ -145,7 +148,8 @@ static void find_components(pl_search* s, const pl_poly* f, int* component) {
     for (int g = 0; g < t->gens.n; g++) {
       if (!exponent[g]) continue;
       if (first < 0) first = component[g];
-      int a = component[g] < first ? component[g] : first, b = component[g] < first ? first : component[g];
+      int a = component[g] < first ? component[g] : first,
+          b = component[g] < first ? first : component[g];
       for (int k = 0; a != b && k < t->gens.n; k++)
         if (component[k] == b) component[k] = a;
       first = a;
@@ -153,7 +157,8 @@ static void find_components(pl_search* s, const pl_poly* f, int* component) {
   }
 }
 
-// The sum of the parts of f that share no generator: x1² - 2 x1 x2 + x2² + y1² - ... = (x1 - x2)² + (y1 - y2)².
+// The sum of the parts of f that share no generator: x1² - 2 x1 x2 + x2² + y1² - ... = (x1 - x2)² +
+// (y1 - y2)².
 static bool sum_of_components(pl_search* s, const pl_poly* f, int depth, pl_prod* out) {
   pl_tower* t = s->t;
   int component[PL_MAX_GENERATORS], n = 0;
@@ -162,10 +167,13 @@ static bool sum_of_components(pl_search* s, const pl_poly* f, int depth, pl_prod
   ulong exponent[PL_MAX_GENERATORS];
   for (slong i = 0; i < f->length; i++) {
     fmpz_mpoly_get_term_exp_ui(exponent, f, i, &t->ctx);
-    int c = PL_MAX_GENERATORS;    // the constant
+    int c = PL_MAX_GENERATORS;  // the constant
     for (int g = 0; g < t->gens.n; g++)
       if (exponent[g]) c = component[g];
-    if (!part[c]) part[c] = pl_poly_new(t), n++;
+    if (!part[c]) {
+      part[c] = pl_poly_new(t);
+      n++;
+    }
     fmpz_mpoly_push_term_fmpz_ui(part[c], &f->coeffs[i], exponent, &t->ctx);
   }
   if (n < 2 || n == f->length) return false;
@@ -180,13 +188,14 @@ static bool sum_of_components(pl_search* s, const pl_poly* f, int depth, pl_prod
 static void sums(pl_search* s, const pl_poly* f, int depth, pl_prod* best, bool* have) {
   if (f->length <= MAX_EXPANDED_TERMS) keep_best(best, expanded(s, f), have);
   pl_prod parts;
-  if (f->length <= MAX_COLLECT_TERMS && sum_of_components(s, f, depth, &parts)) keep_best(best, parts, have);
+  if (f->length <= MAX_COLLECT_TERMS && sum_of_components(s, f, depth, &parts))
+    keep_best(best, parts, have);
   if (f->length < 3 || depth < 1) return;
   sums_by_class(s, f, depth, best, have);
   if (depth >= 2) sums_by_symbol(s, f, depth - 1, best, have);
 }
 
-// ---------------------------------------------------------------------------------------------- factors
+// ----------------------------------------------------------------------------------------- factors
 static bool is_trivial(pl_factored f) { return f.n == 1 && f.at[0].power == 1; }
 
 static pl_prod factors_product(pl_search* s, pl_factored f, int depth) {
@@ -232,7 +241,8 @@ static void present_view(pl_search* s, const pl_poly* f, int depth, pl_prod* bes
   pl_factored factors = factor(s, f);
   if (!is_trivial(factors)) {
     keep_best(best, factors_product(s, factors, depth), have);
-    if (f->length <= MAX_LEFT_EXPANDED) keep_best(best, expanded(s, f), have);    // l² - x² beside (l + x) (l - x)
+    // l² - x² beside (l + x) (l - x)
+    if (f->length <= MAX_LEFT_EXPANDED) keep_best(best, expanded(s, f), have);
   } else if (pl_fmpz_expr(s->t, factors.unit).id == pl_int(s->p, 1).id) {
     sums(s, f, depth, best, have);
   } else {
@@ -241,9 +251,10 @@ static void present_view(pl_search* s, const pl_poly* f, int depth, pl_prod* bes
   }
 }
 
-// ---------------------------------------------------------------------------------------------- radicands
+// --------------------------------------------------------------------------------------- radicands
 // f with v² replaced by what w² = P says of it, for a term ±v² of P; NULL where it does not apply.
-static const pl_poly* reraised(pl_search* s, const pl_poly* f, int w, const pl_poly* radicand, slong term) {
+static const pl_poly* reraised(pl_search* s, const pl_poly* f, int w, const pl_poly* radicand,
+                               slong term) {
   pl_tower* t = s->t;
   if (!fmpz_is_pm1(&radicand->coeffs[term])) return NULL;
   ulong exponent[PL_MAX_GENERATORS];
@@ -267,13 +278,17 @@ static void reraise(pl_search* s, const pl_poly* f, int depth, pl_prod* best, bo
   pl_tower* t = s->t;
   for (int w = 0; w < t->gens.n && within_budget(s); w++) {
     const pl_gen* g = &t->gens.at[w];
-    if (g->kind != PL_G_ROOT || g->degree != 2 || pl_poly_degree(t, f, w) != 1 || g->value->length > 12) continue;
+    if (g->kind != PL_G_ROOT || g->degree != 2 || pl_poly_degree(t, f, w) != 1
+        || g->value->length > 12)
+      continue;
     const pl_poly* radicands[MAX_VIEWS];
     int n = views(s, g->value, radicands);
     for (int k = 0; k < n; k++) {
       for (slong i = 0; i < radicands[k]->length; i++) {
         const pl_poly* raised = reraised(s, f, w, radicands[k], i);
-        if (!raised || raised->length == 0 || raised->length > MAX_EXPANDED_TERMS || pl_poly_equal(t, raised, f)) continue;
+        if (!raised || raised->length == 0 || raised->length > MAX_EXPANDED_TERMS
+            || pl_poly_equal(t, raised, f))
+          continue;
         pl_factored factors = factor(s, raised);
         if (!is_trivial(factors)) keep_best(best, factors_product(s, factors, depth), have);
       }
@@ -297,7 +312,7 @@ bool pl_poly_root_divides(pl_search* s, const pl_poly* f, int w, const pl_poly**
   return false;
 }
 
-// ---------------------------------------------------------------------------------------------- memory
+// ------------------------------------------------------------------------------------------ memory
 static pl_found* recall(pl_search* s, const pl_poly* f, int depth, uint64_t* key) {
   *key = pl_hash_mix(pl_poly_hash(s->t, f), (uint64_t)depth) | 1;
   for (;; *key += 2) {
@@ -309,7 +324,8 @@ static pl_found* recall(pl_search* s, const pl_poly* f, int depth, uint64_t* key
 }
 
 static pl_prod search_poly(pl_search* s, const pl_poly* f, int depth) {
-  pl_tower_charge(s->t, 200 + 20 * f->length);   // thousands of sums inside sums: the form of the depth before stands
+  // thousands of sums inside sums: the form of the depth before stands
+  pl_tower_charge(s->t, 200 + 20 * f->length);
   pl_prod best = {0};
   bool have = false;
   const pl_poly* v[MAX_VIEWS];

@@ -5,9 +5,17 @@
 #include <string.h>
 
 // What things cost to read.  Symbolic design, section 4.
-enum { COST_SYMBOL = 2, COST_POWER = 2, COST_FACTOR = 1, COST_FUNCTION = 2, COST_BRACKET = 2, COST_DIGIT = 2, COST_MINUS = 1 };
+enum {
+  COST_SYMBOL = 2,
+  COST_POWER = 2,
+  COST_FACTOR = 1,
+  COST_FUNCTION = 2,
+  COST_BRACKET = 2,
+  COST_DIGIT = 2,
+  COST_MINUS = 1
+};
 
-// ---------------------------------------------------------------------------------------------- cost
+// -------------------------------------------------------------------------------------------- cost
 long pl_number_cost(pl_search* s, pl_expr number) {
   long digits = 0, num = 0, den = 1;
   if (pl_is_ratio(s->p, number, &num, &den)) {
@@ -27,7 +35,10 @@ static long cost_of(pl_search* s, pl_prod x) {
     cost += COST_MINUS;
     unit = pl_neg(s->p, unit);
   }
-  if (!pl_is_one_node(s->p, unit) || x.n == 0) cost += pl_number_cost(s, unit), factors++;
+  if (!pl_is_one_node(s->p, unit) || x.n == 0) {
+    cost += pl_number_cost(s, unit);
+    factors++;
+  }
   for (int i = 0; i < x.n; i++) {
     const pl_piece* f = &x.at[i];
     cost += f->cost;
@@ -54,13 +65,15 @@ static long form_cost(pl_search* s, const pl_form* f) {
     case PL_F_PRODUCT:
     case PL_F_QUOTIENT: return cost + (f->n - 1) * COST_FACTOR;
     case PL_F_POWER: return cost + COST_POWER;
-    case PL_F_CALL: return cost + COST_FUNCTION + (f->n == 1 && f->args[0]->kind == PL_F_EXPR ? 0 : COST_BRACKET);
+    case PL_F_CALL:
+      return cost + COST_FUNCTION + (f->n == 1 && f->args[0]->kind == PL_F_EXPR ? 0 : COST_BRACKET);
     default: return cost + COST_FUNCTION;
   }
 }
 
-// ---------------------------------------------------------------------------------------------- order
-// Coordinates and their derivatives stand in the order in which the model declares them, all else by name.
+// ------------------------------------------------------------------------------------------- order
+// Coordinates and their derivatives stand in the order in which the model declares them, all else
+// by name.
 static int compare_leads(pl_search* s, const pl_piece* x, const pl_piece* y) {
   if (x->lead.id == y->lead.id) return 0;
   if (!x->lead.id || !y->lead.id) return x->lead.id ? -1 : 1;
@@ -87,8 +100,10 @@ static void insert_sorted(pl_search* s, pl_piece* at, int n, pl_piece x) {
   at[i] = x;
 }
 
-// ---------------------------------------------------------------------------------------------- arithmetic
-pl_prod pl_prod_number(pl_search* s, pl_expr number) { return costed(s, (pl_prod){.unit = number}); }
+// -------------------------------------------------------------------------------------- arithmetic
+pl_prod pl_prod_number(pl_search* s, pl_expr number) {
+  return costed(s, (pl_prod){.unit = number});
+}
 
 bool pl_prod_is_zero(const pl_search* s, pl_prod x) { return pl_is_zero_node(s->p, x.unit); }
 
@@ -116,7 +131,10 @@ pl_prod pl_prod_mul(pl_search* s, pl_prod x, pl_prod y) {
     while (i < n && at[i].base != y.at[j].base) i++;
     if (i < n) {
       at[i].power += y.at[j].power;
-      if (at[i].power == 0) memmove(at + i, at + i + 1, (size_t)(n - i - 1) * sizeof *at), n--;
+      if (at[i].power == 0) {
+        memmove(at + i, at + i + 1, (size_t)(n - i - 1) * sizeof *at);
+        n--;
+      }
     } else {
       insert_sorted(s, at, n++, y.at[j]);
     }
@@ -146,13 +164,14 @@ static const pl_form* call_form(pl_search* s, pl_expr e) {
   const pl_form* args[2];
   for (int i = 0; i < n; i++) {
     pl_expr x = pl_arg(s->p, e, i);
-    if (pl_kind_of(s->p, x) == PL_SYMBOL || pl_is_constant(s->p, x)) args[i] = pl_form_of(s->a, s->p, x);
+    if (pl_kind_of(s->p, x) == PL_SYMBOL || pl_is_constant(s->p, x))
+      args[i] = pl_form_of(s->a, s->p, x);
     else args[i] = pl_prod_form(s, pl_prod_flip(s, pl_present_quotient(s, pl_convert(s->t, x), 1)));
   }
   return pl_form_call(s->a, pl_function_of(s->p, e), args, n);
 }
 
-// ---------------------------------------------------------------------------------------------- generators
+// -------------------------------------------------------------------------------------- generators
 static pl_bucket bucket_of_symbol(pl_search* s, pl_symbol x) {
   const pl_symbol_info* i = pl_symbol_get(s->p, x);
   switch (i->role) {
@@ -166,7 +185,7 @@ static pl_bucket bucket_of_symbol(pl_search* s, pl_symbol x) {
     default: break;
   }
   switch (i->class) {
-    case PL_C_NUMBER:      // a number with its unit: before the masses, by its class
+    case PL_C_NUMBER:  // a number with its unit: before the masses, by its class
     case PL_C_MASS: return PL_K_MASS;
     case PL_C_GRAVITY: return PL_K_GRAVITY;
     case PL_C_LENGTH: return PL_K_LENGTH;
@@ -193,8 +212,8 @@ static pl_bucket bucket_of_element(pl_search* s, pl_expr e) {
 }
 
 static bool moves(pl_search* s, pl_expr e) {
-  return pl_has_role(s->p, e, PL_R_COORD) || pl_has_role(s->p, e, PL_R_VELOCITY) || pl_has_role(s->p, e, PL_R_TIME) ||
-         pl_has_role(s->p, e, PL_R_ARRAY);
+  return pl_has_role(s->p, e, PL_R_COORD) || pl_has_role(s->p, e, PL_R_VELOCITY)
+         || pl_has_role(s->p, e, PL_R_TIME) || pl_has_role(s->p, e, PL_R_ARRAY);
 }
 
 // w = √P with P in its own best form.
@@ -203,24 +222,26 @@ static void root_piece(pl_search* s, int gen, pl_piece* piece) {
   pl_prod inside = pl_prod_flip(s, pl_present_poly(s, g->value, 1));
   const pl_form* f = pl_prod_form(s, inside);
   piece->base = g->degree == 2
-                  ? pl_form_root(s->a, f)
-                  : pl_form_power(s->a, f, pl_form_leaf(s->a, pl_ratio(s->p, 1, g->degree)));
+                    ? pl_form_root(s->a, f)
+                    : pl_form_power(s->a, f, pl_form_leaf(s->a, pl_ratio(s->p, 1, g->degree)));
   piece->cost = COST_FUNCTION + COST_BRACKET + inside.cost;
-  piece->bucket = pl_poly_is_number(s->t, g->value) ? PL_K_NUMBER : moves(s, g->expr) ? PL_K_ROOT : PL_K_OTHER;
+  piece->bucket = pl_poly_is_number(s->t, g->value) ? PL_K_NUMBER
+                  : moves(s, g->expr)               ? PL_K_ROOT
+                                                    : PL_K_OTHER;
 }
 
 static pl_piece make_gen_piece(pl_search* s, int gen) {
   const pl_gen* g = &s->t->gens.at[gen];
-  pl_piece piece = {.power = 1, .gen = gen, .lead = first_symbol(s, g->expr), .bucket = PL_K_FUNCTION};
+  pl_piece piece = {
+      .power = 1, .gen = gen, .lead = first_symbol(s, g->expr), .bucket = PL_K_FUNCTION};
   switch (g->kind) {
-    case PL_G_ROOT:
-      root_piece(s, gen, &piece);
-      return piece;
+    case PL_G_ROOT: root_piece(s, gen, &piece); return piece;
     case PL_G_SYMBOL:
       piece.base = pl_form_leaf(s->a, g->expr);
       piece.cost = COST_SYMBOL;
       if (pl_kind_of(s->p, g->expr) == PL_AT) piece.bucket = bucket_of_element(s, g->expr);
-      else if (pl_kind_of(s->p, g->expr) == PL_SYMBOL) piece.bucket = bucket_of_symbol(s, pl_symbol_of(s->p, g->expr));
+      else if (pl_kind_of(s->p, g->expr) == PL_SYMBOL)
+        piece.bucket = bucket_of_symbol(s, pl_symbol_of(s->p, g->expr));
       else piece.bucket = PL_K_NUMBER;
       return piece;
     default:
@@ -234,7 +255,8 @@ static pl_piece make_gen_piece(pl_search* s, int gen) {
 
 static pl_piece plain_piece(pl_search* s, int gen) {
   const pl_gen* g = &s->t->gens.at[gen];
-  pl_piece piece = {.power = 1, .gen = gen, .lead = first_symbol(s, g->expr), .bucket = PL_K_FUNCTION};
+  pl_piece piece = {
+      .power = 1, .gen = gen, .lead = first_symbol(s, g->expr), .bucket = PL_K_FUNCTION};
   piece.base = pl_form_of(s->a, s->p, g->expr);
   piece.cost = form_cost(s, piece.base);
   return piece;
@@ -242,8 +264,8 @@ static pl_piece plain_piece(pl_search* s, int gen) {
 
 pl_piece pl_piece_of_gen(pl_search* s, int gen) {
   if (!s->gen_known[gen]) {
-    // While the argument of a function is presented, the search asks for all generators, this one too: it then stands
-    // in its plain form.
+    // While the argument of a function is presented, the search asks for all generators, this one
+    // too: it then stands in its plain form.
     s->gen_piece[gen] = plain_piece(s, gen);
     s->gen_known[gen] = true;
     pl_piece made = make_gen_piece(s, gen);
@@ -252,10 +274,12 @@ pl_piece pl_piece_of_gen(pl_search* s, int gen) {
   return s->gen_piece[gen];
 }
 
-pl_prod pl_prod_of_gen(pl_search* s, int gen, int power) { return pl_prod_piece(s, pl_piece_of_gen(s, gen), power); }
+pl_prod pl_prod_of_gen(pl_search* s, int gen, int power) {
+  return pl_prod_piece(s, pl_piece_of_gen(s, gen), power);
+}
 
 pl_prod pl_prod_of_exponents(pl_search* s, pl_expr unit, const ulong* exponent) {
-  int n = 0, present = 0;   // few of the generators: a piece for each would fill the memory
+  int n = 0, present = 0;  // few of the generators: a piece for each would fill the memory
   for (int g = 0; g < s->t->gens.n; g++) present += exponent[g] != 0;
   pl_piece* at = PL_ARRAY(s->a, pl_piece, present + 1);
   for (int g = 0; g < s->t->gens.n; g++) {
@@ -267,7 +291,7 @@ pl_prod pl_prod_of_exponents(pl_search* s, pl_expr unit, const ulong* exponent) 
   return costed(s, (pl_prod){.unit = unit, .n = n, .at = at});
 }
 
-// ---------------------------------------------------------------------------------------------- forms
+// ------------------------------------------------------------------------------------------- forms
 typedef PL_VEC(const pl_form*) forms;
 
 static const pl_form* product_of(pl_search* s, forms* f) {
@@ -287,7 +311,9 @@ static const pl_form* piece_form(pl_search* s, const pl_piece* f, int power) {
   return pl_form_power(s->a, base, pl_form_leaf(s->a, exponent));
 }
 
-static bool is_exp(pl_search* s, const pl_piece* f) { return f->gen >= 0 && s->t->gens.at[f->gen].kind == PL_G_EXP; }
+static bool is_exp(pl_search* s, const pl_piece* f) {
+  return f->gen >= 0 && s->t->gens.at[f->gen].kind == PL_G_EXP;
+}
 
 // e^x e^2y / e^z as one function: the exponent of all exponentials of a product together.
 static pl_expr exponents_together(pl_search* s, pl_prod x) {
@@ -321,7 +347,8 @@ static void split_pieces(pl_search* s, pl_prod x, forms* above, forms* below) {
   for (int i = 0; i < x.n; i++) {
     const pl_piece* f = &x.at[i];
     if (is_exp(s, f)) {
-      if (!exp_done) pl_push(s->a, *above, call_form(s, pl_call(s->p, PL_EXP, exponents_together(s, x))));
+      if (!exp_done)
+        pl_push(s->a, *above, call_form(s, pl_call(s->p, PL_EXP, exponents_together(s, x))));
       exp_done = true;
     } else if (f->power > 0) {
       pl_push(s->a, *above, piece_form(s, f, f->power));
@@ -353,7 +380,7 @@ const pl_form* pl_prod_form(pl_search* s, pl_prod x) {
   return pl_prod_form_with(s, x, pl_prod_wants_fraction_first(s, x));
 }
 
-// ---------------------------------------------------------------------------------------------- tidying
+// ----------------------------------------------------------------------------------------- tidying
 static bool has_both_signs(pl_search* s, const pl_sum_terms* sum) {
   int minus = 0;
   for (int i = 0; i < sum->n; i++) minus += pl_prod_is_negative(s, sum->at[i]);
@@ -408,7 +435,8 @@ static pl_prod merge_tangent(pl_search* s, pl_prod x) {
     pl_piece tangent = x.at[i];
     tangent.base = pl_form_of(s->a, s->p, pl_call(s->p, PL_TAN, angle));
     if (tangent.base->kind != PL_F_CALL) continue;
-    tangent.gen = -1, tangent.order = PL_TAN;
+    tangent.gen = -1;
+    tangent.order = PL_TAN;
     int power = x.at[i].power;
     pl_prod rest = without_piece(s, without_piece(s, x, i > k ? i : k), i > k ? k : i);
     return merge_tangent(s, pl_prod_mul(s, rest, pl_prod_piece(s, tangent, power)));
@@ -449,18 +477,23 @@ static pl_prod with_root(pl_search* s, pl_prod x, int i, pl_prod inside) {
   return pl_prod_mul(s, without_piece(s, x, i), pl_prod_piece(s, root, 1));
 }
 
-// √(g l)/l -> √(g/l) and l/√(g l) -> √(l/g), for positive symbols on the other side of the line that divide what stands under the root.
+// √(g l)/l -> √(g/l) and l/√(g l) -> √(l/g), for positive symbols on the other side of the line
+// that divide what stands under the root.
 static pl_prod divide_under_root(pl_search* s, pl_prod x) {
   pl_tower* t = s->t;
   for (int i = 0; i < x.n; i++) {
     int w = x.at[i].gen, side = x.at[i].power;
-    if (w < 0 || t->gens.at[w].kind != PL_G_ROOT || t->gens.at[w].degree != 2 || abs(side) != 1) continue;
+    if (w < 0 || t->gens.at[w].kind != PL_G_ROOT || t->gens.at[w].degree != 2 || abs(side) != 1)
+      continue;
     const pl_poly* rest = t->gens.at[w].value;
     pl_prod taken = pl_prod_number(s, pl_int(s->p, 1));
     for (int k = 0; k < x.n; k++) {
       int b = x.at[k].gen;
-      if (b < 0 || x.at[k].power * side >= 0 || t->gens.at[b].kind != PL_G_SYMBOL || t->gens.at[b].sign != 1) continue;
-      if (pl_poly_divides(t, &rest, rest, pl_poly_gen(t, b))) taken = pl_prod_mul(s, taken, pl_prod_of_gen(s, b, 1));
+      if (b < 0 || x.at[k].power * side >= 0 || t->gens.at[b].kind != PL_G_SYMBOL
+          || t->gens.at[b].sign != 1)
+        continue;
+      if (pl_poly_divides(t, &rest, rest, pl_poly_gen(t, b)))
+        taken = pl_prod_mul(s, taken, pl_prod_of_gen(s, b, 1));
     }
     if (taken.n == 0) continue;
     pl_prod inside = pl_prod_mul(s, pl_present_poly(s, rest, 1), pl_prod_pow(s, taken, -1));
@@ -481,9 +514,12 @@ static pl_prod divide_under_root(pl_search* s, pl_prod x) {
 static pl_prod raise_roots(pl_search* s, pl_prod x) {
   for (int i = 0; i < x.n; i++) {
     int w = x.at[i].gen;
-    if (w < 0 || x.at[i].power >= 0 || s->t->gens.at[w].kind != PL_G_ROOT || s->t->gens.at[w].degree != 2) continue;
+    if (w < 0 || x.at[i].power >= 0 || s->t->gens.at[w].kind != PL_G_ROOT
+        || s->t->gens.at[w].degree != 2)
+      continue;
     pl_prod radicand = pl_present_poly(s, s->t->gens.at[w].value, 1);
-    pl_prod y = pl_prod_mul(s, pl_prod_mul(s, x, pl_prod_pow(s, radicand, -1)), pl_prod_of_gen(s, w, 2));
+    pl_prod y = pl_prod_mul(s, pl_prod_mul(s, x, pl_prod_pow(s, radicand, -1)),
+                            pl_prod_of_gen(s, w, 2));
     if (y.cost < x.cost) return raise_roots(s, y);
   }
   return x;

@@ -21,8 +21,8 @@ pl_frac pl_frac_part(pl_search* s, pl_frac f, const pl_poly* part) {
   return pl_frac_make(s->t, part, pl_frac_den(s->t, f));
 }
 
-// ---------------------------------------------------------------------------------------------- denominators
-// The radicand that this base is: its root generator, or -1.  l² - r² sin²φ beside √(l² - r² sin²φ).
+// ------------------------------------------------------------------------------------ denominators
+// The radicand that this base is: its root generator, or -1. l² - r² sin²φ beside √(l² - r² sin²φ).
 static int root_of_base(pl_search* s, const pl_poly* base) {
   pl_tower* t = s->t;
   for (int g = 0; g < t->gens.n; g++) {
@@ -33,7 +33,8 @@ static int root_of_base(pl_search* s, const pl_poly* base) {
 }
 
 static pl_prod denominator(pl_search* s, pl_frac f, int depth, bool as_roots) {
-  pl_factored den = pl_factored_merge_pairs(s->t, (pl_factored){.unit = f.unit, .n = f.n, .at = f.den});
+  pl_factored den = pl_factored_merge_pairs(s->t,
+                                            (pl_factored){.unit = f.unit, .n = f.n, .at = f.den});
   pl_prod d = pl_prod_number(s, pl_fmpz_expr(s->t, den.unit));
   for (int i = 0; i < den.n; i++) {
     const pl_poly* base = pl_base_poly(s->t, den.at[i].base);
@@ -44,7 +45,7 @@ static pl_prod denominator(pl_search* s, pl_frac f, int depth, bool as_roots) {
   return d;
 }
 
-// ---------------------------------------------------------------------------------------------- roots absorbed
+// ---------------------------------------------------------------------------------- roots absorbed
 static int power_of_gen(pl_prod x, int gen) {
   for (int i = 0; i < x.n; i++)
     if (x.at[i].gen == gen) return x.at[i].power;
@@ -95,7 +96,7 @@ static bool cancel_root(pl_search* s, pl_frac f, pl_prod den, int depth, pl_prod
   return false;
 }
 
-// ---------------------------------------------------------------------------------------------- parts
+// ------------------------------------------------------------------------------------------- parts
 static bool cancels(pl_frac whole, pl_frac part) {
   long before = 0, after = 0;
   for (int i = 0; i < whole.n; i++) before += whole.den[i].power;
@@ -119,13 +120,15 @@ static bool split(pl_search* s, pl_frac f, pl_key_set set, int depth, pl_prod* o
   if (!any) return false;
   pl_prod terms[MAX_PARTS * PL_OPENED_TERMS];
   int n_terms = 0;
-  for (int i = 0; i < n; i++) pl_terms_put(s, pl_present_quotient(s, part[i], depth - 1), terms, &n_terms);
+  for (int i = 0; i < n; i++)
+    pl_terms_put(s, pl_present_quotient(s, part[i], depth - 1), terms, &n_terms);
   *out = pl_prod_sum(s, terms, n_terms);
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- whole part
-// The generators and numbers that divide the numerator, in *outside, and the one factor that is left; NULL if there are several.
+// -------------------------------------------------------------------------------------- whole part
+// The generators and numbers that divide the numerator, in *outside, and the one factor that is
+// left; NULL if there are several.
 static const pl_poly* split_content(pl_search* s, const pl_poly* num, pl_prod* outside) {
   pl_tower* t = s->t;
   pl_factored f = pl_poly_factor(t, num);
@@ -141,7 +144,8 @@ static const pl_poly* split_content(pl_search* s, const pl_poly* num, pl_prod* o
 }
 
 // Term i of a over term j of b, if it is an integer times a monomial; NULL.
-static const pl_poly* term_ratio(pl_search* s, const pl_poly* a, slong i, const pl_poly* b, slong j) {
+static const pl_poly* term_ratio(pl_search* s, const pl_poly* a, slong i, const pl_poly* b,
+                                 slong j) {
   pl_tower* t = s->t;
   ulong x[PL_MAX_GENERATORS] = {0}, y[PL_MAX_GENERATORS] = {0};
   if (!fmpz_divisible(&a->coeffs[i], &b->coeffs[j])) return NULL;
@@ -160,29 +164,38 @@ static const pl_poly* term_ratio(pl_search* s, const pl_poly* a, slong i, const 
 
 enum { MAX_DIVIDED_TERMS = 12 };
 
-// (D - 2 B)/D = 1 - 2 B/D: the one-term multiple of the denominator that leaves the least of the numerator stands by itself.
+// (D - 2 B)/D = 1 - 2 B/D: the one-term multiple of the denominator that leaves the least of the
+// numerator stands by itself.
 static bool whole_part(pl_search* s, pl_frac f, int depth, pl_prod* out) {
   pl_tower* t = s->t;
   pl_prod outside;
   const pl_poly* num = split_content(s, f.num, &outside);
-  const pl_poly* den = pl_factored_expand(t, (pl_factored){.unit = pl_poly_int(t, 1)->coeffs, .n = f.n, .at = f.den});
-  if (!num || num->length < 3 || den->length < 3 || num->length > MAX_DIVIDED_TERMS || den->length > MAX_DIVIDED_TERMS) return false;
+  const pl_poly* den = pl_factored_expand(
+      t, (pl_factored){.unit = pl_poly_int(t, 1)->coeffs, .n = f.n, .at = f.den});
+  if (!num || num->length < 3 || den->length < 3 || num->length > MAX_DIVIDED_TERMS
+      || den->length > MAX_DIVIDED_TERMS)
+    return false;
   const pl_poly *q = NULL, *rest = num;
   for (slong k = 0; k < num->length * den->length; k++) {
     const pl_poly* ratio = term_ratio(s, num, k / den->length, den, k % den->length);
     const pl_poly* left = ratio ? pl_poly_sub(t, num, pl_poly_mul(t, ratio, den)) : num;
     s->work += ratio != NULL;
-    if (left->length < rest->length) q = ratio, rest = left;
+    if (left->length < rest->length) {
+      q = ratio;
+      rest = left;
+    }
   }
   if (!q || rest->length == 0) return false;
-  pl_prod terms[2] = {pl_present_poly(s, q, 0), pl_present_quotient(s, pl_frac_over(t, rest, f), depth - 1)};
+  pl_prod terms[2] = {pl_present_poly(s, q, 0),
+                      pl_present_quotient(s, pl_frac_over(t, rest, f), depth - 1)};
   terms[0] = pl_prod_scale(s, terms[0], pl_fmpq_expr(t, pl_poly_int(t, 1)->coeffs, f.unit));
   *out = pl_prod_mul(s, outside, pl_prod_sum(s, terms, 2));
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- reciprocals
-// m1 m2 m3/(m1 m2 + m1 m3 + m2 m3) = 1/(1/m1 + 1/m2 + 1/m3), m2 m3/(...) = 1/(m1/m2 + m1/m3 + 1), for three terms and more: of two masses one writes the product over the sum.
+// ------------------------------------------------------------------------------------- reciprocals
+// m1 m2 m3/(m1 m2 + m1 m3 + m2 m3) = 1/(1/m1 + 1/m2 + 1/m3), m2 m3/(...) = 1/(m1/m2 + m1/m3 + 1),
+// for three terms and more: of two masses one writes the product over the sum.
 static bool reciprocals(pl_search* s, pl_frac f, pl_prod whole, pl_prod* out) {
   pl_tower* t = s->t;
   const pl_poly* den = f.n == 1 && f.den[0].power == 1 ? pl_base_poly(t, f.den[0].base) : NULL;
@@ -190,21 +203,25 @@ static bool reciprocals(pl_search* s, pl_frac f, pl_prod whole, pl_prod* out) {
   pl_prod taken = pl_prod_number(s, pl_int(s->p, 1));
   for (int i = 0; i < whole.n; i++) {
     const pl_piece* m = &whole.at[i];
-    if (m->power == 1 && m->gen >= 0 && m->bucket == PL_K_MASS) taken = pl_prod_mul(s, taken, pl_prod_piece(s, *m, 1));
+    if (m->power == 1 && m->gen >= 0 && m->bucket == PL_K_MASS)
+      taken = pl_prod_mul(s, taken, pl_prod_piece(s, *m, 1));
   }
   if (taken.n < 2) return false;
   int use[PL_MAX_GENERATORS], n_use = 0;
   pl_poly_used(t, den, use, &n_use);
   for (int i = 0; i < n_use; i++)
-    if (pl_piece_of_gen(s, use[i]).bucket != PL_K_MASS) return false;   // cos²α/m is no ratio of masses
+    // cos²α/m is no ratio of masses
+    if (pl_piece_of_gen(s, use[i]).bucket != PL_K_MASS) return false;
   pl_prod under = pl_prod_pow(s, taken, -1), terms[6];
   ulong exponent[PL_MAX_GENERATORS];
   for (slong i = 0; i < den->length; i++) {
     fmpz_mpoly_get_term_exp_ui(exponent, den, i, &t->ctx);
-    terms[i] = pl_prod_mul(s, pl_prod_of_exponents(s, pl_fmpz_expr(t, &den->coeffs[i]), exponent), under);
+    terms[i] = pl_prod_mul(s, pl_prod_of_exponents(s, pl_fmpz_expr(t, &den->coeffs[i]), exponent),
+                           under);
   }
   pl_prod above = pl_prod_mul(s, pl_present_poly(s, f.num, 0), under);
-  pl_prod below = pl_prod_scale(s, pl_prod_sum(s, terms, (int)den->length), pl_fmpz_expr(t, f.unit));
+  pl_prod below = pl_prod_scale(s, pl_prod_sum(s, terms, (int)den->length),
+                                pl_fmpz_expr(t, f.unit));
   *out = pl_prod_mul(s, above, pl_prod_pow(s, below, -1));
   return true;
 }
@@ -213,7 +230,8 @@ static pl_prod smaller(pl_prod x, pl_prod y) { return y.cost < x.cost ? y : x; }
 
 pl_prod pl_present_quotient(pl_search* s, pl_frac f, int depth) {
   pl_prod n = pl_present_poly(s, f.num, depth);
-  pl_prod best = pl_prod_tidy(s, pl_prod_mul(s, n, pl_prod_pow(s, denominator(s, f, depth, false), -1)));
+  pl_prod best = pl_prod_tidy(
+      s, pl_prod_mul(s, n, pl_prod_pow(s, denominator(s, f, depth, false), -1)));
   if (f.n == 0) return best;
   pl_prod root_den = pl_prod_pow(s, denominator(s, f, depth, true), -1);
   pl_prod rooted = pl_prod_mul(s, n, root_den), cancelled;
@@ -223,12 +241,15 @@ pl_prod pl_present_quotient(pl_search* s, pl_frac f, int depth) {
   pl_prod inverted;
   if (reciprocals(s, f, n, &inverted)) best = smaller(best, inverted);
   if (depth < 1 || f.num->length > MAX_SPLIT_TERMS || f.num->length < 2) return best;
-  static const pl_key_set sets[] = {PL_KEY_MASS, PL_KEY_MOTION, PL_KEY_GRAVITY, PL_KEY_OTHER, PL_KEY_ROOT};
+  static const pl_key_set sets[] = {PL_KEY_MASS, PL_KEY_MOTION, PL_KEY_GRAVITY, PL_KEY_OTHER,
+                                    PL_KEY_ROOT};
   for (size_t i = 0; i < sizeof sets / sizeof *sets && s->work < s->limit; i++) {
     pl_prod x;
     if (split(s, f, sets[i], depth, &x)) best = smaller(best, x);
   }
   pl_prod divided;
-  if (s->style == PL_S_QUOTIENT && f.num->length >= 3 && s->work < s->limit && whole_part(s, f, depth, &divided)) best = smaller(best, divided);
+  if (s->style == PL_S_QUOTIENT && f.num->length >= 3 && s->work < s->limit
+      && whole_part(s, f, depth, &divided))
+    best = smaller(best, divided);
   return best;
 }

@@ -33,7 +33,7 @@ static void put_opened(term_list* l, pl_prod x) {
   for (int i = 0; i < n; i++) put(l, terms[i]);
 }
 
-// ---------------------------------------------------------------------------------------------- what a product is like
+// -------------------------------------------------------------------------- what a product is like
 static bool is_plain(pl_prod x) {
   for (int i = 0; i < x.n; i++)
     if (x.at[i].sum) return false;
@@ -46,7 +46,8 @@ static bool has_root_or_bracket(pl_prod x) {
   return false;
 }
 
-// A coefficient that is better written as one term for each mass: some bracket holds roots or further brackets.
+// A coefficient that is better written as one term for each mass: some bracket holds roots or
+// further brackets.
 static bool is_overloaded(pl_prod x) {
   for (int i = 0; i < x.n; i++) {
     const pl_sum_terms* sum = x.at[i].sum;
@@ -78,11 +79,13 @@ static pl_prod times_rest(pl_search* s, pl_prod x, int i, pl_prod y) {
   return pl_prod_mul(s, rest, y);
 }
 
-// Adds a(b + c) as a b + a c where the bracket is a plain sum of quantities; m g l (1 - cos θ) and (m1 + m2) g stay.
+// Adds a(b + c) as a b + a c where the bracket is a plain sum of quantities; m g l (1 - cos θ) and
+// (m1 + m2) g stay.
 static void put_distributed(term_list* l, pl_prod x) {
   pl_search* s = l->s;
   int i = only_sum(x);
-  bool keep = i < 0 || has_pure_number(x.at[i].sum) || x.at[i].bucket < PL_K_PARAM_SUM || x.at[i].sum->n > 6;
+  bool keep = i < 0 || has_pure_number(x.at[i].sum) || x.at[i].bucket < PL_K_PARAM_SUM
+              || x.at[i].sum->n > 6;
   if (keep) {
     put(l, x);
     return;
@@ -90,16 +93,21 @@ static void put_distributed(term_list* l, pl_prod x) {
   for (int k = 0; k < x.at[i].sum->n; k++) put(l, times_rest(s, x, i, x.at[i].sum->at[k]));
 }
 
-// ---------------------------------------------------------------------------------------------- groups
-typedef struct style_group { pl_frac part; const ulong* key; } style_group;
+// ------------------------------------------------------------------------------------------ groups
+typedef struct style_group {
+  pl_frac part;
+  const ulong* key;
+} style_group;
 
-// f by its monomials in the generators in[]: the part that goes with each, with the monomial or without.  0 if there are too many.
+// f by its monomials in the generators in[]: the part that goes with each, with the monomial or
+// without. 0 if there are too many.
 static int groups_of(pl_search* s, pl_frac f, const bool* in, bool with_key, style_group* out) {
   pl_group* groups;
   int n = pl_poly_group(s, f.num, in, &groups);
   if (n > MAX_STYLE_TERMS) return 0;
   for (int i = 0; i < n; i++) {
-    out[i].part = pl_frac_part(s, f, with_key ? pl_group_poly(s, &groups[i]) : groups[i].coefficient);
+    out[i].part = pl_frac_part(s, f,
+                               with_key ? pl_group_poly(s, &groups[i]) : groups[i].coefficient);
     out[i].key = groups[i].key;
   }
   return n;
@@ -121,7 +129,7 @@ static void mask_of(pl_search* s, const pl_key_set* sets, int n, bool* in) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- energies and equations
+// -------------------------------------------------------------------------- energies and equations
 static void put_by_mass(term_list* l, pl_frac f, pl_prod key, int depth) {
   pl_search* s = l->s;
   static const pl_key_set by_mass[] = {PL_KEY_MASS};
@@ -129,12 +137,13 @@ static void put_by_mass(term_list* l, pl_frac f, pl_prod key, int depth) {
   mask_of(s, by_mass, 1, in);
   style_group group[MAX_STYLE_TERMS];
   int n = groups_of(s, f, in, true, group);
-  for (int i = 0; i < n; i++) put(l, pl_prod_mul(s, key, pl_present_quotient(s, group[i].part, depth)));
+  for (int i = 0; i < n; i++)
+    put(l, pl_prod_mul(s, key, pl_present_quotient(s, group[i].part, depth)));
   if (n == 0) put(l, pl_prod_mul(s, key, pl_present_quotient(s, f, depth)));
 }
 
-// Everything that goes with one monomial of velocities: one term, or one for each mass when that is more than a
-// reader takes in at once.
+// Everything that goes with one monomial of velocities: one term, or one for each mass when that is
+// more than a reader takes in at once.
 static void put_kinetic(term_list* l, pl_frac f, const ulong* key, int depth) {
   pl_search* s = l->s;
   pl_prod monomial = pl_prod_of_exponents(s, pl_int(s->p, 1), key);
@@ -143,7 +152,8 @@ static void put_kinetic(term_list* l, pl_frac f, const ulong* key, int depth) {
   else put(l, whole);
 }
 
-static void put_parts(term_list* l, pl_frac f, const pl_key_set* sets, int n_sets, bool distribute, int depth) {
+static void put_parts(term_list* l, pl_frac f, const pl_key_set* sets, int n_sets, bool distribute,
+                      int depth) {
   pl_search* s = l->s;
   bool in[PL_MAX_GENERATORS];
   mask_of(s, sets, n_sets, in);
@@ -176,8 +186,8 @@ static bool has_mass_difference(const term_list* l) {
   return false;
 }
 
-// Potentials and forces: by gravity and other parameters as plain sums, (m1 + m2) g l1 cos α + ..., or by masses too,
-// m1 g x + m2 g (l - x), whichever is shorter.
+// Potentials and forces: by gravity and other parameters as plain sums, (m1 + m2) g l1 cos α + ...,
+// or by masses too, m1 g x + m2 g (l - x), whichever is shorter.
 static void put_static(term_list* l, pl_frac f, int depth) {
   static const pl_key_set sets[] = {PL_KEY_MASS, PL_KEY_GRAVITY, PL_KEY_OTHER};
   term_list* by_mass = PL_NEW(l->s->a, term_list);
@@ -189,11 +199,13 @@ static void put_static(term_list* l, pl_frac f, int depth) {
   bool shorter = heaps || list_cost(by_mass) <= list_cost(by_kind);
   const term_list* best = by_kind->full || (!by_mass->full && shorter) ? by_mass : by_kind;
   if (best->full) put(l, pl_present_quotient(l->s, f, depth));
-  else for (int i = 0; i < best->n; i++) put(l, best->at[i]);
+  else
+    for (int i = 0; i < best->n; i++) put(l, best->at[i]);
 }
 
 static int motion_rank(pl_search* s, const pl_prod* x) {
-  // squares and products of velocities of two coordinates: the squares first, then the products, then what is linear
+  // squares and products of velocities of two coordinates: the squares first, then the products,
+  // then what is linear
   int pieces = 0, total = 0;
   for (int i = 0; i < x->n; i++) {
     if (x->at[i].bucket != PL_K_VELOCITY && x->at[i].bucket != PL_K_ACCELERATION) continue;
@@ -204,7 +216,8 @@ static int motion_rank(pl_search* s, const pl_prod* x) {
   return total >= 2 ? (pieces == 1 ? 0 : 1) : 2;
 }
 
-// The coordinate that moves in a term: terms stand in the order in which the model declares its coordinates.
+// The coordinate that moves in a term: terms stand in the order in which the model declares its
+// coordinates.
 static uint32_t moving_coordinate(pl_search* s, const pl_prod* x) {
   for (int i = 0; i < x->n; i++) {
     if (x->at[i].bucket != PL_K_VELOCITY && x->at[i].bucket != PL_K_ACCELERATION) continue;
@@ -236,7 +249,8 @@ static void sort_terms(term_list* l) {
   }
 }
 
-// A sum with a leading minus takes its first positive term to the front, if no term moves past a kinetic one.
+// A sum with a leading minus takes its first positive term to the front, if no term moves past a
+// kinetic one.
 static void avoid_leading_minus(term_list* l) {
   if (l->n < 2 || !pl_prod_is_negative(l->s, l->at[0])) return;
   int i = 1;
@@ -255,7 +269,8 @@ static bool is_half(pl_search* s, pl_prod x) {
   return pl_same(size, half(s));
 }
 
-// All terms with ½ begin with the symbol of one mass, and not all with the same: m1/2 r² φ'² + m2/2 ...
+// All terms with ½ begin with the symbol of one mass, and not all with the same: m1/2 r² φ'² + m2/2
+// ...
 static bool mass_takes_half(term_list* l) {
   const pl_form* first = NULL;
   bool several = false;
@@ -287,7 +302,9 @@ static const pl_form* energy_form(term_list* l) {
   bool into_mass = mass_takes_half(l);
   const pl_form** f = PL_ARRAY(s->a, const pl_form*, l->n);
   for (int i = 0; i < l->n; i++) {
-    f[i] = into_mass && is_half(s, l->at[i]) && !pl_prod_has_denominator(l->at[i]) ? halved_first_factor(s, l->at[i]) : NULL;
+    f[i] = into_mass && is_half(s, l->at[i]) && !pl_prod_has_denominator(l->at[i])
+               ? halved_first_factor(s, l->at[i])
+               : NULL;
     if (!f[i]) f[i] = pl_prod_form_with(s, l->at[i], true);
   }
   return l->n == 1 ? f[0] : pl_form_sum(s->a, f, l->n);
@@ -305,7 +322,8 @@ static bool moving_denominator(pl_search* s, pl_frac f) {
 
 // A product that is the whole formula: -(a + b) becomes -a - b.
 static const pl_form* whole_form(pl_search* s, pl_prod x) {
-  bool bare = x.n == 1 && x.at[0].sum && x.at[0].power == 1 && pl_is_one_node(s->p, pl_neg(s->p, x.unit));
+  bool bare = x.n == 1 && x.at[0].sum && x.at[0].power == 1
+              && pl_is_one_node(s->p, pl_neg(s->p, x.unit));
   if (!bare) return pl_prod_form(s, x);
   const pl_sum_terms* sum = x.at[0].sum;
   pl_prod* terms = PL_ARRAY(s->a, pl_prod, sum->n);
@@ -322,7 +340,8 @@ static const pl_form* plain(pl_search* s, pl_frac f, int depth, long* cost) {
   return whole_form(s, x);
 }
 
-// The terms of f whose highest derivative is `order`: 2 accelerations, 1 velocities and momenta, 0 the rest.
+// The terms of f whose highest derivative is `order`: 2 accelerations, 1 velocities and momenta, 0
+// the rest.
 static const pl_poly* terms_of_order(pl_search* s, const pl_poly* f, int order) {
   pl_tower* t = s->t;
   pl_poly* part = pl_poly_new(t);
@@ -349,8 +368,8 @@ static bool is_product_of_sums(pl_prod x) {
   return sums >= 2;
 }
 
-// A part of an equation written in products of brackets, as constraints of distances differentiated twice are:
-// 2 (x1 - x2) (x1'' - x2'') + 2 (y1 - y2) (y1'' - y2''), when all of it can be.
+// A part of an equation written in products of brackets, as constraints of distances differentiated
+// twice are: 2 (x1 - x2) (x1'' - x2'') + 2 (y1 - y2) (y1'' - y2''), when all of it can be.
 static bool put_products(term_list* l, pl_frac part, int depth) {
   pl_search* s = l->s;
   pl_prod x = pl_present_quotient(s, part, depth);
@@ -402,15 +421,17 @@ static const pl_form* by_motion(pl_search* s, pl_frac f, int depth, long* cost) 
   return s->style == PL_S_ENERGY ? energy_form(&l) : pl_terms_form(s, l.at, l.n);
 }
 
-// ---------------------------------------------------------------------------------------------- quotients
-// m (g cos ϑ - R ϑ'²) -> m g cos ϑ - m R ϑ'²: forces of different kind under one short factor, no denominator.
+// --------------------------------------------------------------------------------------- quotients
+// m (g cos ϑ - R ϑ'²) -> m g cos ϑ - m R ϑ'²: forces of different kind under one short factor, no
+// denominator.
 static bool is_sum_of_forces(pl_search* s, pl_prod x, int* bracket) {
   int i = only_sum(x);
   if (i < 0 || pl_prod_has_denominator(x) || x.n > 3 || x.at[i].sum->n > 3) return false;
   const pl_sum_terms* sum = x.at[i].sum;
   bool differ = false;
   for (int k = 0; k < sum->n; k++) {
-    if (!is_plain(sum->at[k]) || sum->at[k].n == 0 || pl_prod_has_denominator(sum->at[k])) return false;
+    if (!is_plain(sum->at[k]) || sum->at[k].n == 0 || pl_prod_has_denominator(sum->at[k]))
+      return false;
     differ |= pl_prod_motion(s, sum->at[k]) != pl_prod_motion(s, sum->at[0]);
   }
   bool plain_front = true;
@@ -432,7 +453,7 @@ static const pl_form* quotient(pl_search* s, pl_frac f, int depth, long* cost) {
   return pl_terms_form(s, terms, n);
 }
 
-// ---------------------------------------------------------------------------------------------- solutions
+// --------------------------------------------------------------------------------------- solutions
 enum { LAST_RANK = 40 };
 
 static long time_rank(pl_search* s, const ulong* key) {
@@ -472,7 +493,8 @@ static const pl_form* by_time(pl_search* s, pl_frac f, int depth, long* cost) {
   // ascending powers of t, functions of t behind them
   for (long rank = 0; rank <= LAST_RANK; rank++) {
     for (int i = 0; i < n; i++)
-      if (time_rank(s, group[i].key) == rank) put_opened(&l, pl_present_quotient(s, group[i].part, depth));
+      if (time_rank(s, group[i].key) == rank)
+        put_opened(&l, pl_present_quotient(s, group[i].part, depth));
     if (rank == 0) start_first(&l);
   }
   *cost = list_cost(&l);

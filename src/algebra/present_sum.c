@@ -1,7 +1,8 @@
 // Sums of products: the order of terms and the brackets made from them.
 //
-// Terms stand in the order accelerations, velocities, rest; then as their factors do (K5).  When the first term would
-// carry a minus, the first positive terms go in front: 3 cos ϑ - 2, x2 - x1, m g cos ϑ - m R ϑ'².
+// Terms stand in the order accelerations, velocities, rest; then as their factors do (K5). When the
+// first term would carry a minus, the first positive terms go in front: 3 cos ϑ - 2, x2 - x1, m g
+// cos ϑ - m R ϑ'².
 #include "present_impl.h"
 
 #include <stdlib.h>
@@ -82,8 +83,11 @@ const pl_form* pl_piece_base(pl_search* s, const pl_piece* piece) {
   return sum->form;
 }
 
-// ---------------------------------------------------------------------------------------------- brackets
-typedef struct sum_census { bool mass, motion, coord, function; unsigned buckets; } sum_census;
+// ---------------------------------------------------------------------------------------- brackets
+typedef struct sum_census {
+  bool mass, motion, coord, function;
+  unsigned buckets;
+} sum_census;
 
 static void count_pieces(pl_search* s, pl_prod x, sum_census* c) {
   for (int i = 0; i < x.n; i++) {
@@ -93,15 +97,16 @@ static void count_pieces(pl_search* s, pl_prod x, sum_census* c) {
       continue;
     }
     c->mass |= f->bucket == PL_K_MASS;
-    c->motion |= f->bucket == PL_K_VELOCITY || f->bucket == PL_K_ACCELERATION || f->bucket == PL_K_MULTIPLIER;
+    c->motion |= f->bucket == PL_K_VELOCITY || f->bucket == PL_K_ACCELERATION
+                 || f->bucket == PL_K_MULTIPLIER;
     c->coord |= f->bucket >= PL_K_START;
     c->function |= f->bucket == PL_K_FUNCTION || f->bucket == PL_K_ROOT;
     c->buckets |= 1u << f->bucket;
   }
 }
 
-// Where a bracket stands among the factors: (m1 + m2) with the masses, (m1 + m2 sin²θ) before what it multiplies, (l0 + x) with the
-// coordinates, the rest last.
+// Where a bracket stands among the factors: (m1 + m2) with the masses, (m1 + m2 sin²θ) before what
+// it multiplies, (l0 + x) with the coordinates, the rest last.
 static pl_bucket bucket_of_sum(pl_search* s, const pl_prod* terms, int n) {
   sum_census c = {0};
   for (int i = 0; i < n; i++) count_pieces(s, terms[i], &c);
@@ -126,8 +131,14 @@ pl_prod pl_prod_bracket(pl_search* s, const pl_prod* given, int n) {
   memcpy(terms, given, (size_t)n * sizeof *terms);
   pl_terms_sort(s, terms, n);
   pl_sum_terms* sum = PL_NEW(s->a, pl_sum_terms);
-  sum->n = n, sum->at = terms, sum->form = pl_form_make(s->a, PL_F_SUM, 0, NULL);
-  pl_piece piece = {.gen = -1, .power = 1, .sum = sum, .bucket = bucket_of_sum(s, terms, n), .lead = lead_of(terms, n)};
+  sum->n = n;
+  sum->at = terms;
+  sum->form = pl_form_make(s->a, PL_F_SUM, 0, NULL);
+  pl_piece piece = {.gen = -1,
+                    .power = 1,
+                    .sum = sum,
+                    .bucket = bucket_of_sum(s, terms, n),
+                    .lead = lead_of(terms, n)};
   piece.base = sum->form;
   for (int i = 0; i < n; i++) piece.cost += terms[i].cost + 2;
   // a minus between two terms costs nothing, only a leading one does
@@ -148,8 +159,10 @@ static bool is_measured_number(pl_search* s, const pl_prod* x) {
 static int leading_term(pl_search* s, const pl_prod* terms, int n) {
   int first = 0;
   for (int i = 1; i < n; i++) {
-    bool number = is_measured_number(s, &terms[i]), first_number = is_measured_number(s, &terms[first]);
-    if (number == first_number ? pl_terms_compare(s, &terms[i], &terms[first]) < 0 : first_number) first = i;
+    bool number = is_measured_number(s, &terms[i]),
+         first_number = is_measured_number(s, &terms[first]);
+    if (number == first_number ? pl_terms_compare(s, &terms[i], &terms[first]) < 0 : first_number)
+      first = i;
   }
   return first;
 }
@@ -157,7 +170,8 @@ static int leading_term(pl_search* s, const pl_prod* terms, int n) {
 pl_prod pl_prod_sum(pl_search* s, const pl_prod* given, int n) {
   if (n == 0) return pl_prod_number(s, pl_int(s->p, 0));
   if (n == 1) return given[0];
-  if (!pl_prod_is_negative(s, given[leading_term(s, given, n)])) return pl_prod_bracket(s, given, n);
+  if (!pl_prod_is_negative(s, given[leading_term(s, given, n)]))
+    return pl_prod_bracket(s, given, n);
   pl_prod* terms = PL_ARRAY(s->a, pl_prod, n);
   for (int i = 0; i < n; i++) terms[i] = pl_prod_neg(s, given[i]);
   return pl_prod_neg(s, pl_prod_bracket(s, terms, n));

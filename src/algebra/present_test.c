@@ -1,5 +1,6 @@
-// The table of the symbolic design beside the textbook: what presentation makes of the quantities of the founding sheet
-// and of classic systems, and that it never costs more operations than listed there.
+// The table of the symbolic design beside the textbook: what presentation makes of the quantities
+// of the founding sheet and of classic systems, and that it never costs more operations than listed
+// there.
 #include "algebra/algebra.h"
 
 #include <ctype.h>
@@ -40,26 +41,43 @@ static int tear_down(void** state) {
   return 0;
 }
 
-// ---------------------------------------------------------------------------------------------- reading formulas
-// Names say what they are: m.. masses, g gravity, l r R lengths, a b th.. phi psi x y z coordinates, others parameters;
-// p_.. momenta, t time, primes velocities and accelerations.
+// -------------------------------------------------------------------------------- reading formulas
+// Names say what they are: m.. masses, g gravity, l r R lengths, a b th.. phi psi x y z
+// coordinates, others parameters; p_.. momenta, t time, primes velocities and accelerations.
 static pl_symbol symbol_of(fixture* f, const char* name) {
   if (strcmp(name, "t") == 0) return pl_time(f->p);
-  static const char* const coords[] = {"a", "b", "th", "th0", "phi", "psi", "x", "y", "z", "a1", "a2", "a3", "x1", "x2", "rho"};
-  pl_symbol_info i = {.name = name, .ascii = name, .role = PL_R_PARAM, .class = PL_C_OTHER, .sign = PL_SIGN_POSITIVE};
+  static const char* const coords[] = {"a", "b",  "th", "th0", "phi", "psi", "x",  "y",
+                                       "z", "a1", "a2", "a3",  "x1",  "x2",  "rho"};
+  pl_symbol_info i = {.name = name,
+                      .ascii = name,
+                      .role = PL_R_PARAM,
+                      .class = PL_C_OTHER,
+                      .sign = PL_SIGN_POSITIVE};
   if (name[0] == 'm') i.class = PL_C_MASS;
   if (strcmp(name, "g") == 0) i.class = PL_C_GRAVITY;
   if (name[0] == 'l' || name[0] == 'r' || name[0] == 'R') i.class = PL_C_LENGTH;
-  if (strncmp(name, "p_", 2) == 0) i.role = PL_R_MOMENTUM, i.sign = PL_SIGN_ANY;
+  if (strncmp(name, "p_", 2) == 0) {
+    i.role = PL_R_MOMENTUM;
+    i.sign = PL_SIGN_ANY;
+  }
   for (size_t k = 0; k < sizeof coords / sizeof *coords; k++)
-    if (strcmp(name, coords[k]) == 0) i.role = PL_R_COORD, i.class = PL_C_COORD, i.sign = PL_SIGN_ANY;
+    if (strcmp(name, coords[k]) == 0) {
+      i.role = PL_R_COORD;
+      i.class = PL_C_COORD;
+      i.sign = PL_SIGN_ANY;
+    }
   return pl_symbol_make(f->p, &i);
 }
 
-typedef struct reader { fixture* f; const char* s; } reader;
+typedef struct reader {
+  fixture* f;
+  const char* s;
+} reader;
 static pl_expr read_sum(reader* r);
 
-static void blanks(reader* r) { while (*r->s == ' ') r->s++; }
+static void blanks(reader* r) {
+  while (*r->s == ' ') r->s++;
+}
 
 static pl_expr read_call(reader* r, const char* name) {
   pl_pool* p = r->f->p;
@@ -138,7 +156,7 @@ static pl_expr formula(fixture* f, const char* text) {
   return e;
 }
 
-// ---------------------------------------------------------------------------------------------- writing forms
+// ----------------------------------------------------------------------------------- writing forms
 static void write_form(fixture* f, pl_text* out, const pl_form* x, int level);
 
 static void write_list(fixture* f, pl_text* out, const pl_form* x, const char* between, int level) {
@@ -160,14 +178,20 @@ static void write_sum(fixture* f, pl_text* out, const pl_form* x) {
 
 // level: 1 anything may stand here, 2 a term, 3 a factor, 4 the base of a power or a divisor
 static void write_form(fixture* f, pl_text* out, const pl_form* x, int level) {
-  int own = x->kind == PL_F_SUM || x->kind == PL_F_NEG ? 1 : x->kind == PL_F_PRODUCT || x->kind == PL_F_QUOTIENT ? 2
-            : x->kind == PL_F_POWER ? 3 : 4;
-  bool half = x->kind == PL_F_QUOTIENT && level == 3 && x->args[1]->kind == PL_F_EXPR && pl_is_number(f->p, x->args[1]->expr);
+  int own = x->kind == PL_F_SUM || x->kind == PL_F_NEG            ? 1
+            : x->kind == PL_F_PRODUCT || x->kind == PL_F_QUOTIENT ? 2
+            : x->kind == PL_F_POWER                               ? 3
+                                                                  : 4;
+  bool half = x->kind == PL_F_QUOTIENT && level == 3 && x->args[1]->kind == PL_F_EXPR
+              && pl_is_number(f->p, x->args[1]->expr);
   bool bracket = own < level && !half;
   if (bracket) pl_text_add(out, "(");
   switch (x->kind) {
     case PL_F_SUM: write_sum(f, out, x); break;
-    case PL_F_NEG: pl_text_add(out, "-"); write_form(f, out, x->args[0], 2); break;
+    case PL_F_NEG:
+      pl_text_add(out, "-");
+      write_form(f, out, x->args[0], 2);
+      break;
     case PL_F_PRODUCT: write_list(f, out, x, " ", 3); break;
     case PL_F_QUOTIENT:
       write_form(f, out, x->args[0], 2);
@@ -179,14 +203,19 @@ static void write_form(fixture* f, pl_text* out, const pl_form* x, int level) {
       pl_text_add(out, "^");
       write_form(f, out, x->args[1], 4);
       break;
-    case PL_F_ROOT: pl_text_add(out, "sqrt("); write_form(f, out, x->args[0], 1); pl_text_add(out, ")"); break;
+    case PL_F_ROOT:
+      pl_text_add(out, "sqrt(");
+      write_form(f, out, x->args[0], 1);
+      pl_text_add(out, ")");
+      break;
     case PL_F_CALL:
       pl_text_addf(out, "%s(", pl_function_name[x->function]);
       write_list(f, out, x, ", ", 1);
       pl_text_add(out, ")");
       break;
     default: {
-      pl_symbol s = pl_kind_of(f->p, x->expr) == PL_SYMBOL ? pl_symbol_of(f->p, x->expr) : (pl_symbol){0};
+      pl_symbol s = pl_kind_of(f->p, x->expr) == PL_SYMBOL ? pl_symbol_of(f->p, x->expr)
+                                                           : (pl_symbol){0};
       if (s.id) {
         pl_text_add(out, pl_symbol_get(f->p, s)->name);
         for (int i = 0; i < pl_symbol_get(f->p, s)->dots; i++) pl_text_add(out, "'");
@@ -213,23 +242,27 @@ static const pl_form* presented(fixture* f, const char* from, pl_style style) {
 
 #define PRESENTS(style, from, to) assert_string_equal(text_of(f, presented(f, from, style)), to)
 
-// ---------------------------------------------------------------------------------------------- atwood
+// ------------------------------------------------------------------------------------------ atwood
 static void atwood_quotients(void** state) {
   fixture* f = *state;
   PRESENTS(PL_S_QUOTIENT, "-2*g/(1/m1 + 1/m2)", "-2 m1 m2 g/(m1 + m2)");
   PRESENTS(PL_S_QUOTIENT, "g - 2*m2*g/(m1 + m2)", "(m1 - m2) g/(m1 + m2)");
-  PRESENTS(PL_S_SOLUTION, "(m1 - m2)*g/(m1 + m2)*t^2/2 + v0*t + c", "c + v0 t + (m1 - m2) g t^2/(2 (m1 + m2))");
-  PRESENTS(PL_S_ENERGY, "1/2*m1*x'^2 + 1/2*m2*x'^2 - m1*g*x - m2*g*(l - x)", "1/2 (m1 + m2) x'^2 - m1 g x - m2 g (l - x)");
+  PRESENTS(PL_S_SOLUTION, "(m1 - m2)*g/(m1 + m2)*t^2/2 + v0*t + c",
+           "c + v0 t + (m1 - m2) g t^2/(2 (m1 + m2))");
+  PRESENTS(PL_S_ENERGY, "1/2*m1*x'^2 + 1/2*m2*x'^2 - m1*g*x - m2*g*(l - x)",
+           "1/2 (m1 + m2) x'^2 - m1 g x - m2 g (l - x)");
 }
 
-// ---------------------------------------------------------------------------------------------- slider-crank
-static const char* const slider = "(-r*phi'*sin(phi) + r^2*sin(phi)*cos(phi)*phi'/sqrt(l^2 - r^2*sin(phi)^2))";
+// ------------------------------------------------------------------------------------ slider-crank
+static const char* const slider =
+    "(-r*phi'*sin(phi) + r^2*sin(phi)*cos(phi)*phi'/sqrt(l^2 - r^2*sin(phi)^2))";
 
 static void crank_energy_keeps_the_square(void** state) {
   fixture* f = *state;
   const char* T = pl_format(f->a, "1/2*m1*r^2*phi'^2 + 1/2*m2*%s^2 - m1*g*r*sin(phi)", slider);
   PRESENTS(PL_S_ENERGY, T,
-           "m1/2 r^2 phi'^2 + m2/2 r^2 phi'^2 sin(phi)^2 (1 - r cos(phi)/sqrt(l^2 - r^2 sin(phi)^2))^2 - m1 g r sin(phi)");
+           "m1/2 r^2 phi'^2 + m2/2 r^2 phi'^2 sin(phi)^2 (1 - r cos(phi)/sqrt(l^2 - r^2 "
+           "sin(phi)^2))^2 - m1 g r sin(phi)");
 }
 
 static void crank_velocity(void** state) {
@@ -240,7 +273,8 @@ static void crank_velocity(void** state) {
 static void crank_inertia(void** state) {
   fixture* f = *state;
   const char* M = pl_format(f->a, "m1*r^2 + m2*%s^2/phi'^2", slider);
-  PRESENTS(PL_S_ENERGY, M, "m1 r^2 + m2 r^2 sin(phi)^2 (1 - r cos(phi)/sqrt(l^2 - r^2 sin(phi)^2))^2");
+  PRESENTS(PL_S_ENERGY, M,
+           "m1 r^2 + m2 r^2 sin(phi)^2 (1 - r cos(phi)/sqrt(l^2 - r^2 sin(phi)^2))^2");
 }
 
 static void crank_small_oscillations(void** state) {
@@ -248,7 +282,7 @@ static void crank_small_oscillations(void** state) {
   PRESENTS(PL_S_QUOTIENT, "m1*g*r/(m1*r^2 + m2*r^2)", "m1 g/((m1 + m2) r)");
 }
 
-// ---------------------------------------------------------------------------------------------- skier
+// ------------------------------------------------------------------------------------------- skier
 static void skier_forces(void** state) {
   fixture* f = *state;
   PRESENTS(PL_S_QUOTIENT, "m*g*cos(th) - 2*m*g*(1 - cos(th))", "m g (3 cos(th) - 2)");
@@ -259,22 +293,28 @@ static void skier_forces(void** state) {
 static void skier_energy(void** state) {
   fixture* f = *state;
   PRESENTS(PL_S_ENERGY, "m*R*(R*th'^2 - 2*g*cos(th))/2", "1/2 m R^2 th'^2 - m g R cos(th)");
-  PRESENTS(PL_S_ENERGY, "m*R^2*(th'^2 - w^2*sin(th)^2)/2", "1/2 m R^2 th'^2 - 1/2 m R^2 w^2 sin(th)^2");
+  PRESENTS(PL_S_ENERGY, "m*R^2*(th'^2 - w^2*sin(th)^2)/2",
+           "1/2 m R^2 th'^2 - 1/2 m R^2 w^2 sin(th)^2");
 }
 
-// ---------------------------------------------------------------------------------------------- double pendulum
+// --------------------------------------------------------------------------------- double pendulum
 static void double_pendulum_energy(void** state) {
   fixture* f = *state;
-  const char* T = "1/2*m1*l1^2*a'^2 + 1/2*m2*((l1*a'*cos(a) + l2*b'*cos(b))^2 + (l1*a'*sin(a) + l2*b'*sin(b))^2)";
-  PRESENTS(PL_S_ENERGY, T, "1/2 (m1 + m2) l1^2 a'^2 + 1/2 m2 l2^2 b'^2 + m2 l1 l2 a' b' cos(a - b)");
-  PRESENTS(PL_S_ENERGY, "-m1*g*l1*cos(a) - m2*g*(l1*cos(a) + l2*cos(b))", "-(m1 + m2) g l1 cos(a) - m2 g l2 cos(b)");
+  const char* T =
+      "1/2*m1*l1^2*a'^2 + 1/2*m2*((l1*a'*cos(a) + l2*b'*cos(b))^2 + (l1*a'*sin(a) + "
+      "l2*b'*sin(b))^2)";
+  PRESENTS(PL_S_ENERGY, T,
+           "1/2 (m1 + m2) l1^2 a'^2 + 1/2 m2 l2^2 b'^2 + m2 l1 l2 a' b' cos(a - b)");
+  PRESENTS(PL_S_ENERGY, "-m1*g*l1*cos(a) - m2*g*(l1*cos(a) + l2*cos(b))",
+           "-(m1 + m2) g l1 cos(a) - m2 g l2 cos(b)");
 }
 
 static void double_pendulum_acceleration(void** state) {
   fixture* f = *state;
   // solution of the two equations by Cramer's rule, as the linear solver hands it over
-  const char* num = "(m2*l1*l2*sin(a - b)*b'^2 + (m1 + m2)*g*l1*sin(a))*m2*l2^2"
-                    " - m2*l1*l2*cos(a - b)*(-m2*l1*l2*sin(a - b)*a'^2 + m2*g*l2*sin(b))";
+  const char* num =
+      "(m2*l1*l2*sin(a - b)*b'^2 + (m1 + m2)*g*l1*sin(a))*m2*l2^2"
+      " - m2*l1*l2*cos(a - b)*(-m2*l1*l2*sin(a - b)*a'^2 + m2*g*l2*sin(b))";
   const char* den = "((m1 + m2)*l1^2*m2*l2^2 - (m2*l1*l2*cos(a - b))^2)";
   const pl_form* x = presented(f, pl_format(f->a, "-(%s)/%s", num, den), PL_S_QUOTIENT);
   if (pl_form_ops(x) > 35) fail_msg("%ld operations: %s", pl_form_ops(x), text_of(f, x));
@@ -286,7 +326,7 @@ static void double_pendulum_modes(void** state) {
   PRESENTS(PL_S_QUOTIENT, "(2 - sqrt(2))*g/l", "(2 - sqrt(2)) g/l");
 }
 
-// ---------------------------------------------------------------------------------------------- others
+// ------------------------------------------------------------------------------------------ others
 static void cart_with_pendulum(void** state) {
   fixture* f = *state;
   symbol_of(f, "x");
@@ -318,7 +358,8 @@ static void elastic_pendulum(void** state) {
 
 static void triple_pendulum_determinant(void** state) {
   fixture* f = *state;
-  const pl_form* x = presented(f, "m2*sin(a1 - a2)^2*(m2 + m3) + m1*m3*sin(a2 - a3)^2 + m1*m2", PL_S_PLAIN);
+  const pl_form* x = presented(f, "m2*sin(a1 - a2)^2*(m2 + m3) + m1*m3*sin(a2 - a3)^2 + m1*m2",
+                               PL_S_PLAIN);
   assert_in_range(pl_form_ops(x), 1, 22);
 }
 
@@ -349,7 +390,8 @@ static void distances_are_seen(void** state) {
   fixture* f = *state;
   PRESENTS(PL_S_QUOTIENT, "m*((x1' - x2')^2 + (y' - z')^2)/(2*(x1 - x2)^2 + 2*(y - z)^2)",
            "m ((x1' - x2')^2 + (y' - z')^2)/(2 ((x1 - x2)^2 + (y - z)^2))");
-  PRESENTS(PL_S_EQUATION, "2*(x1 - x2)*(x1'' - x2'') + 2*(y - z)*(y'' - z'') + 2*(x1' - x2')^2 + 2*(y' - z')^2",
+  PRESENTS(PL_S_EQUATION,
+           "2*(x1 - x2)*(x1'' - x2'') + 2*(y - z)*(y'' - z'') + 2*(x1' - x2')^2 + 2*(y' - z')^2",
            "2 (x1 - x2) (x1'' - x2'') + 2 (y - z) (y'' - z'') + 2 (x1' - x2')^2 + 2 (y' - z')^2");
 }
 
@@ -368,13 +410,16 @@ static void zero_and_numbers(void** state) {
 
 static void equations_are_ordered_by_derivatives(void** state) {
   fixture* f = *state;
-  PRESENTS(PL_S_EQUATION, "-m2*l1*l2*sin(a - b)*a'^2 + m2*l2^2*b'' + m2*g*l2*sin(b) + m2*l1*l2*cos(a - b)*a''",
+  PRESENTS(PL_S_EQUATION,
+           "-m2*l1*l2*sin(a - b)*a'^2 + m2*l2^2*b'' + m2*g*l2*sin(b) + m2*l1*l2*cos(a - b)*a''",
            "m2 l1 l2 a'' cos(a - b) + m2 l2^2 b'' - m2 l1 l2 a'^2 sin(a - b) + m2 g l2 sin(b)");
 }
 
-// ---------------------------------------------------------------------------------------------- whole systems
-// Accelerations of a Lagrange function by the second kind, solved and presented; the sum of their operations.
-static long operations(fixture* f, const char* lagrangian, const char* const* coords, int n, double seconds) {
+// ----------------------------------------------------------------------------------- whole systems
+// Accelerations of a Lagrange function by the second kind, solved and presented; the sum of their
+// operations.
+static long operations(fixture* f, const char* lagrangian, const char* const* coords, int n,
+                       double seconds) {
   pl_pool* p = f->p;
   pl_expr L = formula(f, lagrangian), A[16], b[4], x[4];
   assert_in_range(n, 1, 4);
@@ -401,27 +446,33 @@ static long operations(fixture* f, const char* lagrangian, const char* const* co
   return ops;
 }
 
-#define OPERATIONS(limit, seconds, L, ...)                                                         \
-  do {                                                                                             \
-    const char* const coords_[] = {__VA_ARGS__};                                                   \
-    long ops_ = operations(f, L, coords_, (int)(sizeof coords_ / sizeof *coords_), seconds);       \
-    if (ops_ > (limit)) fail_msg("%ld operations instead of %d", ops_, limit);                     \
+#define OPERATIONS(limit, seconds, L, ...)                                                   \
+  do {                                                                                       \
+    const char* const coords_[] = {__VA_ARGS__};                                             \
+    long ops_ = operations(f, L, coords_, (int)(sizeof coords_ / sizeof *coords_), seconds); \
+    if (ops_ > (limit)) fail_msg("%ld operations instead of %d", ops_, limit);               \
   } while (0)
 
 static void accelerations_are_short(void** state) {
   fixture* f = *state;
   OPERATIONS(10, 0.02, "m/2*R^2*(th'^2 + w^2*sin(th)^2) + m*g*R*cos(th)", "th");
-  OPERATIONS(36, 0.02, "(m1 + m2)/2*x'^2 + m2/2*l^2*th'^2 + m2*l*x'*th'*cos(th) + m2*g*l*cos(th)", "x", "th");
-  OPERATIONS(19, 0.02, "m/2*(rho'^2 + rho^2*th'^2) + m*g*rho*cos(th) - k/2*(rho - l0)^2", "rho", "th");
+  OPERATIONS(36, 0.02, "(m1 + m2)/2*x'^2 + m2/2*l^2*th'^2 + m2*l*x'*th'*cos(th) + m2*g*l*cos(th)",
+             "x", "th");
+  OPERATIONS(19, 0.02, "m/2*(rho'^2 + rho^2*th'^2) + m*g*rho*cos(th) - k/2*(rho - l0)^2", "rho",
+             "th");
   OPERATIONS(17, 0.02, "m/2*l^2*(th'^2 + sin(th)^2*phi'^2) + m*g*l*cos(th)", "th", "phi");
   OPERATIONS(34, 0.02, "m/2*(x'^2 + y'^2) - m*g*y - k/2*(sqrt(x^2 + y^2) - l0)^2", "x", "y");
 }
 
 static void double_pendulum_accelerations_are_short(void** state) {
   fixture* f = *state;
-  OPERATIONS(75, 0.02, "(m1 + m2)/2*l1^2*a'^2 + m2/2*l2^2*b'^2 + m2*l1*l2*a'*b'*cos(a - b) + (m1 + m2)*g*l1*cos(a) + m2*g*l2*cos(b)",
+  OPERATIONS(75, 0.02,
+             "(m1 + m2)/2*l1^2*a'^2 + m2/2*l2^2*b'^2 + m2*l1*l2*a'*b'*cos(a - b) + (m1 + "
+             "m2)*g*l1*cos(a) + m2*g*l2*cos(b)",
              "a", "b");
-  OPERATIONS(68, 1, "(m1 + m2)/2*l1^2*a'^2 + m2/2*l2^2*b'^2 + m2*l1*l2*a'*b'*cos(a - b) + (m1 + m2)*g*l1*cos(a) + m2*g*l2*cos(b)",
+  OPERATIONS(68, 1,
+             "(m1 + m2)/2*l1^2*a'^2 + m2/2*l2^2*b'^2 + m2*l1*l2*a'*b'*cos(a - b) + (m1 + "
+             "m2)*g*l1*cos(a) + m2*g*l2*cos(b)",
              "a", "b");
 }
 
@@ -433,15 +484,19 @@ static void crank_acceleration_is_short(void** state) {
 
 static void triple_pendulum_accelerations_are_short(void** state) {
   fixture* f = *state;
-  const char* L = "(m1 + m2 + m3)/2*l1^2*a1'^2 + (m2 + m3)/2*l2^2*a2'^2 + m3/2*l3^2*a3'^2 + (m2 + m3)*l1*l2*a1'*a2'*cos(a1 - a2)"
-                  " + m3*l1*l3*a1'*a3'*cos(a1 - a3) + m3*l2*l3*a2'*a3'*cos(a2 - a3)"
-                  " + (m1 + m2 + m3)*g*l1*cos(a1) + (m2 + m3)*g*l2*cos(a2) + m3*g*l3*cos(a3)";
+  const char* L =
+      "(m1 + m2 + m3)/2*l1^2*a1'^2 + (m2 + m3)/2*l2^2*a2'^2 + m3/2*l3^2*a3'^2 + (m2 + "
+      "m3)*l1*l2*a1'*a2'*cos(a1 - a2)"
+      " + m3*l1*l3*a1'*a3'*cos(a1 - a3) + m3*l2*l3*a2'*a3'*cos(a2 - a3)"
+      " + (m1 + m2 + m3)*g*l1*cos(a1) + (m2 + m3)*g*l2*cos(a2) + m3*g*l3*cos(a3)";
   OPERATIONS(280, 0.5, L, "a1", "a2", "a3");
 }
 
 // The same value, whatever comes in: sums and products of random shape.
 static pl_expr random_expression(fixture* f, pl_random* r, int depth) {
-  static const char* const atoms[] = {"m1", "m2", "g", "l", "r", "sin(a)", "cos(a)", "sin(b)", "cos(b)", "x", "x'", "2", "sqrt(l^2 - x^2)"};
+  static const char* const atoms[] = {
+      "m1",     "m2",     "g", "l",  "r", "sin(a)",         "cos(a)",
+      "sin(b)", "cos(b)", "x", "x'", "2", "sqrt(l^2 - x^2)"};
   if (depth == 0) return formula(f, atoms[pl_random_bits(r) % (sizeof atoms / sizeof *atoms)]);
   pl_expr x = random_expression(f, r, depth - 1), y = random_expression(f, r, depth - 1);
   switch (pl_random_bits(r) % 5) {
@@ -463,7 +518,8 @@ static void every_form_has_the_value_of_its_expression(void** state) {
       const pl_form* x = pl_present(f->t, e, (pl_style)style, 0.004);
       pl_expr value = pl_form_value(f->p, x);
       if (pl_same(value, e)) continue;
-      if (pl_alg_equal(f->t, value, e) == PL_NO) fail_msg("seed %llu: %s", (unsigned long long)seed, pl_expr_text(f->a, f->p, e));
+      if (pl_alg_equal(f->t, value, e) == PL_NO)
+        fail_msg("seed %llu: %s", (unsigned long long)seed, pl_expr_text(f->a, f->p, e));
     }
   }
 }
@@ -481,34 +537,34 @@ static void the_same_input_gives_the_same_bytes(void** state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
 #define T(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
-    T(atwood_quotients),
-    T(crank_energy_keeps_the_square),
-    T(crank_velocity),
-    T(crank_inertia),
-    T(crank_small_oscillations),
-    T(skier_forces),
-    T(skier_energy),
-    T(double_pendulum_energy),
-    T(double_pendulum_acceleration),
-    T(double_pendulum_modes),
-    T(cart_with_pendulum),
-    T(hoop),
-    T(spherical_pendulum_hamiltonian),
-    T(elastic_pendulum),
-    T(triple_pendulum_determinant),
-    T(multiples_of_angles),
-    T(fractions_stand_where_they_are_read_once),
-    T(roots_come_together),
-    T(distances_are_seen),
-    T(symbols_go_under_the_root),
-    T(zero_and_numbers),
-    T(equations_are_ordered_by_derivatives),
-    T(accelerations_are_short),
-    T(double_pendulum_accelerations_are_short),
-    T(crank_acceleration_is_short),
-    T(triple_pendulum_accelerations_are_short),
-    T(every_form_has_the_value_of_its_expression),
-    T(the_same_input_gives_the_same_bytes),
+      T(atwood_quotients),
+      T(crank_energy_keeps_the_square),
+      T(crank_velocity),
+      T(crank_inertia),
+      T(crank_small_oscillations),
+      T(skier_forces),
+      T(skier_energy),
+      T(double_pendulum_energy),
+      T(double_pendulum_acceleration),
+      T(double_pendulum_modes),
+      T(cart_with_pendulum),
+      T(hoop),
+      T(spherical_pendulum_hamiltonian),
+      T(elastic_pendulum),
+      T(triple_pendulum_determinant),
+      T(multiples_of_angles),
+      T(fractions_stand_where_they_are_read_once),
+      T(roots_come_together),
+      T(distances_are_seen),
+      T(symbols_go_under_the_root),
+      T(zero_and_numbers),
+      T(equations_are_ordered_by_derivatives),
+      T(accelerations_are_short),
+      T(double_pendulum_accelerations_are_short),
+      T(crank_acceleration_is_short),
+      T(triple_pendulum_accelerations_are_short),
+      T(every_form_has_the_value_of_its_expression),
+      T(the_same_input_gives_the_same_bytes),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,17 +1,18 @@
 // Square roots, absolute values and logarithms: where the tower meets signs.
 //
-// sqrt(F) is taken factor by factor.  Even powers come out, with their sign proven or assumed and recorded.  What is
-// left, P, becomes a generator w with w^2 = P only if it is independent of the roots that exist (Kummer): over the
-// factor base (primes, irreducible polynomials, the sign) the exponent vectors mod 2 must be independent.  If they are
-// not, P times some of the older radicands is a square h^2 and sqrt(P) = |h| / (w_1 ... w_k).  Nested roots are taken
-// apart where A^2 - B^2 C is a square.  There is never a generator with w^2 = x^2.
+// sqrt(F) is taken factor by factor. Even powers come out, with their sign proven or assumed and
+// recorded. What is left, P, becomes a generator w with w^2 = P only if it is independent of the
+// roots that exist (Kummer): over the factor base (primes, irreducible polynomials, the sign) the
+// exponent vectors mod 2 must be independent. If they are not, P times some of the older radicands
+// is a square h^2 and sqrt(P) = |h| / (w_1 ... w_k). Nested roots are taken apart where A^2 - B^2 C
+// is a square. There is never a generator with w^2 = x^2.
 #include "algebra/algebra_impl.h"
 
 #include <stdlib.h>
 
 enum { PL_MAX_ABS_TERMS = 60 };  // |u| gets the relation a^2 = u^2 up to this length of u
 
-// ---------------------------------------------------------------------------------------------- absolute values
+// --------------------------------------------------------------------------------- absolute values
 static pl_frac abs_generator(pl_tower* t, int base) {
   pl_expr e = pl_call(t->pool, PL_ABS, pl_base_expr(t, base));
   int gen = pl_tower_find(t, e);
@@ -57,7 +58,8 @@ static void split_add(pl_tower* t, pl_split* s, pl_factored f, int times) {
 static pl_split split_of(pl_tower* t, pl_frac a) {
   pl_split s = {.num = pl_int_new(t), .den = pl_int_new(t)};
   pl_factored num = pl_factored_merge_pairs(t, pl_poly_factor(t, a.num));
-  pl_factored den = pl_factored_merge_pairs(t, (pl_factored){.unit = a.unit, .n = a.n, .at = a.den});
+  pl_factored den = pl_factored_merge_pairs(t,
+                                            (pl_factored){.unit = a.unit, .n = a.n, .at = a.den});
   fmpz_set(s.num, num.unit);
   fmpz_set(s.den, den.unit);
   split_add(t, &s, num, 1);
@@ -70,12 +72,14 @@ pl_frac pl_frac_abs(pl_tower* t, pl_frac a) {
   pl_split s = split_of(t, a);
   fmpz_abs(s.num, s.num);
   pl_frac r = pl_frac_ratio(t, s.num, s.den);
-  for (int i = 0; i < s.at.n; i++) r = pl_frac_mul(t, r, abs_power(t, s.at.at[i].base, s.at.at[i].power, false));
+  for (int i = 0; i < s.at.n; i++)
+    r = pl_frac_mul(t, r, abs_power(t, s.at.at[i].base, s.at.at[i].power, false));
   return r;
 }
 
-// ---------------------------------------------------------------------------------------------- the factor base mod 2
-// A set of keys: 2 base for a polynomial, odd numbers for primes (2 p + 1) and the sign (-1).  Sorted, descending.
+// --------------------------------------------------------------------------- the factor base mod 2
+// A set of keys: 2 base for a polynomial, odd numbers for primes (2 p + 1) and the sign (-1).
+// Sorted, descending.
 typedef struct pl_keys {
   PL_VEC(int64_t) at;
 } pl_keys;
@@ -98,7 +102,8 @@ static void keys_flip_integer(pl_tower* t, pl_keys* k, const fmpz* c) {
   if (fmpz_sgn(c) < 0) keys_flip(t, k, -1);
   pl_primes f = pl_int_primes(t, c);
   for (int i = 0; i < f.n; i++) {
-    if (f.at[i].power % 2) keys_flip(t, k, 2 * (int64_t)fmpz_fdiv_ui(f.at[i].p, 2305843009213693951u) + 1);
+    if (f.at[i].power % 2)
+      keys_flip(t, k, 2 * (int64_t)fmpz_fdiv_ui(f.at[i].p, 2305843009213693951u) + 1);
   }
 }
 
@@ -157,7 +162,7 @@ static bool dependent_roots(pl_tower* t, pl_factored P, pl_row* out) {
   return row_reduce(t, out, rows, n);
 }
 
-// ---------------------------------------------------------------------------------------------- square roots
+// ------------------------------------------------------------------------------------ square roots
 // c = square^2 * free, free squarefree and with the sign of c.
 static void integer_square_part(pl_tower* t, fmpz* square, fmpz* free, const fmpz* c) {
   fmpz_one(square);
@@ -262,12 +267,14 @@ static bool square_of(pl_tower* t, const pl_poly* f, pl_frac* h) {
 // sqrt(A + B w) = sqrt((A + h)/2) + sign(B) sqrt((A - h)/2)  with  h^2 = A^2 - B^2 w^2.
 static bool denest(pl_tower* t, const pl_poly* P, pl_frac* out) {
   for (int g = t->gens.n - 1; g >= 0; g--) {
-    if (t->gens.at[g].kind != PL_G_ROOT || t->gens.at[g].degree != 2 || pl_poly_degree(t, P, g) != 1) continue;
+    if (t->gens.at[g].kind != PL_G_ROOT || t->gens.at[g].degree != 2
+        || pl_poly_degree(t, P, g) != 1)
+      continue;
     int degree = 0;
     const pl_poly** c = pl_poly_coefficients(t, P, g, &degree);
     const pl_poly *A = c[0], *B = c[1];
-    const pl_poly* norm =
-        pl_poly_sub(t, pl_poly_mul(t, A, A), pl_poly_mul(t, pl_poly_mul(t, B, B), t->gens.at[g].value));
+    const pl_poly* norm = pl_poly_sub(t, pl_poly_mul(t, A, A),
+                                      pl_poly_mul(t, pl_poly_mul(t, B, B), t->gens.at[g].value));
     pl_frac h;
     if (!square_of(t, pl_poly_reduce(t, norm), &h)) continue;
     int sign = pl_poly_sign(t, B, true, true);
@@ -315,8 +322,8 @@ static int sign_of_root(pl_tower* t, const pl_poly* P) {
 
 static pl_frac sqrt_of_poly(pl_tower* t, const pl_poly* P) {
   for (int g = 0; g < t->gens.n; g++) {
-    bool same =
-        t->gens.at[g].kind == PL_G_ROOT && t->gens.at[g].degree == 2 && pl_poly_equal(t, t->gens.at[g].value, P);
+    bool same = t->gens.at[g].kind == PL_G_ROOT && t->gens.at[g].degree == 2
+                && pl_poly_equal(t, t->gens.at[g].value, P);
     if (same) return pl_frac_gen(t, g);
   }
   pl_factored f = pl_poly_factor(t, P);
@@ -328,7 +335,12 @@ static pl_frac sqrt_of_poly(pl_tower* t, const pl_poly* P) {
   pl_expr e = pl_sqrt(t->pool, pl_poly_expr(t, P));
   int gen = pl_tower_find(t, e);
   if (gen < 0) {
-    pl_gen g = {.kind = PL_G_ROOT, .expr = e, .partner = -1, .class = PL_C_FUNCTION, .sign = 2, .degree = 2};
+    pl_gen g = {.kind = PL_G_ROOT,
+                .expr = e,
+                .partner = -1,
+                .class = PL_C_FUNCTION,
+                .sign = 2,
+                .degree = 2};
     g.sign = sign_of_root(t, P);
     g.value = pl_poly_keep(t, P);
     gen = pl_tower_generator(t, &g);
@@ -336,7 +348,7 @@ static pl_frac sqrt_of_poly(pl_tower* t, const pl_poly* P) {
   return pl_frac_gen(t, gen);
 }
 
-// ---------------------------------------------------------------------------------------------- logarithms
+// -------------------------------------------------------------------------------------- logarithms
 static pl_frac ln_formal(pl_tower* t, pl_expr argument) {
   pl_expr e = pl_call(t->pool, PL_LN, argument);
   return pl_kind_of(t->pool, e) == PL_CALL ? pl_formal(t, e) : pl_convert(t, e);
@@ -356,7 +368,8 @@ static pl_frac ln_integer(pl_tower* t, const fmpz* c) {
 
 static pl_frac ln_of_base(pl_tower* t, int base) {
   int gen = t->bases.at[base].gen;
-  if (gen >= 0 && t->gens.at[gen].kind == PL_G_EXP) return pl_convert(t, pl_arg(t->pool, t->gens.at[gen].expr, 0));
+  if (gen >= 0 && t->gens.at[gen].kind == PL_G_EXP)
+    return pl_convert(t, pl_arg(t->pool, t->gens.at[gen].expr, 0));
   if (gen >= 0 && t->gens.at[gen].kind == PL_G_ROOT) {
     pl_frac inner = pl_frac_ln(t, pl_frac_poly(t, t->gens.at[gen].value));
     return pl_frac_div(t, inner, pl_frac_int(t, t->gens.at[gen].degree));
@@ -368,7 +381,8 @@ pl_frac pl_frac_ln(pl_tower* t, pl_frac a) {
   if (pl_frac_is_zero(t, a)) pl_tower_give_up(t);
   pl_split s = split_of(t, a);
   bool positive = fmpz_sgn(s.num) > 0;
-  for (int i = 0; i < s.at.n; i++) positive = positive && pl_base_sign(t, s.at.at[i].base, true, false) == 1;
+  for (int i = 0; i < s.at.n; i++)
+    positive = positive && pl_base_sign(t, s.at.at[i].base, true, false) == 1;
   if (!positive) return ln_formal(t, pl_frac_expr(t, a));
   pl_frac sum = pl_frac_sub(t, ln_integer(t, s.num), ln_integer(t, s.den));
   for (int i = 0; i < s.at.n; i++) {

@@ -1,10 +1,12 @@
-// Roots of e = 0 for one symbol.  The numerator is factored; each factor is solved by what the symbol occurs in:
+// Roots of e = 0 for one symbol. The numerator is factored; each factor is solved by what the
+// symbol occurs in:
 //   itself             linear, quadratic, biquadratic, a pure power
 //   cos u, sin u       polynomial in one of them; A cos u + B sin u + C; quadratic forms through 2u; u = k x
 //   exp u              polynomial in it
 //   sqrt, |.|          isolated and squared, the roots of the square verified
 //   ln, asin, ...      isolated and inverted, verified
-// A root is kept only when it satisfies the equation (or cannot be refuted); a condition that is proven is dropped.
+// A root is kept only when it satisfies the equation (or cannot be refuted); a condition that is
+// proven is dropped.
 #include "algebra/algebra_impl.h"
 
 #include <string.h>
@@ -28,7 +30,7 @@ typedef struct pl_roots {
 
 static void solve_equation(pl_roots* r, pl_expr e);
 
-// ---------------------------------------------------------------------------------------------- small helpers
+// ----------------------------------------------------------------------------------- small helpers
 static pl_expr normal(pl_roots* r, pl_expr e) { return pl_alg_normal(r->t, e); }
 
 typedef struct pl_proof_job {
@@ -57,7 +59,8 @@ static pl_expr both(pl_roots* r, pl_expr a, pl_expr b) {
   return pl_call2(r->p, PL_MIN, a, b);
 }
 
-// Adds a root under a condition (poison: none); a condition that is proven goes, a refuted one takes the root along.
+// Adds a root under a condition (poison: none); a condition that is proven goes, a refuted one
+// takes the root along.
 static void add_root(pl_roots* r, pl_expr value, pl_expr condition) {
   if (pl_is_poison(value)) {
     r->complete = false;
@@ -78,7 +81,7 @@ static void add_root(pl_roots* r, pl_expr value, pl_expr condition) {
   r->at[r->n++] = (pl_root){value, condition};
 }
 
-// ---------------------------------------------------------------------------------------------- polynomials in an
+// ------------------------------------------------------------------------------- polynomials in an
 // unknown Roots of sum c_k y^k, as values of y.
 typedef struct pl_values {
   pl_expr value[PL_MAX_ROOT_DEGREE], condition[PL_MAX_ROOT_DEGREE];
@@ -97,7 +100,8 @@ static void add_value(pl_values* v, pl_expr value, pl_expr condition) {
 
 static void quadratic(pl_roots* r, const pl_expr* c, pl_values* v) {
   pl_pool* p = r->p;
-  pl_expr disc = normal(r, pl_sub(p, pl_square(p, c[1]), pl_mul_n(p, (pl_expr[]){pl_int(p, 4), c[0], c[2]}, 3)));
+  pl_expr disc = normal(
+      r, pl_sub(p, pl_square(p, c[1]), pl_mul_n(p, (pl_expr[]){pl_int(p, 4), c[0], c[2]}, 3)));
   int sign = proven(r, disc);
   if (sign < 0) return;
   pl_expr condition = sign > 0 ? pl_poison() : disc;
@@ -115,7 +119,8 @@ static void pure_power(pl_roots* r, const pl_expr* c, int n, pl_values* v) {
   pl_expr exponent = pl_ratio(p, 1, n);
   if (n % 2) {
     int sign = proven(r, q);
-    if (sign < 0) add_value(v, pl_neg(p, pl_pow(p, normal(r, pl_neg(p, q)), exponent)), pl_poison());
+    if (sign < 0)
+      add_value(v, pl_neg(p, pl_pow(p, normal(r, pl_neg(p, q)), exponent)), pl_poison());
     else add_value(v, pl_pow(p, q, exponent), sign > 0 ? pl_poison() : q);
     if (sign == 0) v->complete = false;  // the branch of a negative q is not written
     return;
@@ -156,7 +161,7 @@ static pl_values polynomial_roots(pl_roots* r, const pl_expr* c, int degree) {
   return v;
 }
 
-// ---------------------------------------------------------------------------------------------- angles: u = k x
+// --------------------------------------------------------------------------------- angles: u = k x
 // x from u, u = base expression of a pair; false when u is not linear in x.
 static bool angle_scale(pl_roots* r, pl_expr base, pl_expr* slope, pl_expr* offset) {
   pl_expr c[2];
@@ -194,7 +199,8 @@ static void roots_from_sin(pl_roots* r, const pl_values* v, pl_expr slope, pl_ex
 }
 
 // A cos u + B sin u + C = 0
-static void roots_of_linear_pair(pl_roots* r, pl_expr A, pl_expr B, pl_expr C, pl_expr slope, pl_expr offset) {
+static void roots_of_linear_pair(pl_roots* r, pl_expr A, pl_expr B, pl_expr C, pl_expr slope,
+                                 pl_expr offset) {
   pl_pool* p = r->p;
   if (pl_is_zero_node(p, C)) {
     pl_expr angle = pl_call(p, PL_ATAN, normal(r, pl_neg(p, pl_div(p, A, B))));
@@ -210,8 +216,10 @@ static void roots_of_linear_pair(pl_roots* r, pl_expr A, pl_expr B, pl_expr C, p
   add_angle(r, pl_sub(p, start, width), slope, offset, condition);
 }
 
-// f0 + f1 sin u with f0, f1 polynomials in cos u, f1 not zero, and not a polynomial in sin u either.
-static void roots_of_pair(pl_roots* r, pl_expr e, pl_expr cosine, pl_expr sine, pl_expr slope, pl_expr offset) {
+// f0 + f1 sin u with f0, f1 polynomials in cos u, f1 not zero, and not a polynomial in sin u
+// either.
+static void roots_of_pair(pl_roots* r, pl_expr e, pl_expr cosine, pl_expr sine, pl_expr slope,
+                          pl_expr offset) {
   pl_pool* p = r->p;
   pl_expr none = pl_int(p, 0), a[3] = {none, none, none}, b[3] = {none, none, none};
   pl_expr by_sine[PL_MAX_ROOT_DEGREE + 1];
@@ -239,7 +247,8 @@ static void roots_of_pair(pl_roots* r, pl_expr e, pl_expr cosine, pl_expr sine, 
     // a0 + a2 sin^2 + b1 sin cos = (a0 + a2/2) - a2/2 cos 2u + b1/2 sin 2u; with 2u also 2u + 2π
     pl_expr half = pl_ratio(p, 1, 2), two = pl_int(p, 2);
     pl_expr A = normal(r, pl_neg(p, pl_mul(p, half, a[2]))), B = normal(r, pl_mul(p, half, b[1]));
-    pl_expr C = normal(r, pl_sub(p, a[0], A)), slope2 = pl_mul(p, two, slope), offset2 = pl_mul(p, two, offset);
+    pl_expr C = normal(r, pl_sub(p, a[0], A)), slope2 = pl_mul(p, two, slope),
+            offset2 = pl_mul(p, two, offset);
     roots_of_linear_pair(r, A, B, C, slope2, offset2);
     roots_of_linear_pair(r, A, B, C, slope2, pl_sub(p, offset2, pl_mul(p, two, pl_pi(p))));
   } else {
@@ -276,7 +285,7 @@ static void roots_of_angle(pl_roots* r, pl_expr e, pl_expr cosine, pl_expr sine)
   roots_of_pair(r, e, cosine, sine, slope, offset);
 }
 
-// ---------------------------------------------------------------------------------------------- exponentials
+// ------------------------------------------------------------------------------------ exponentials
 static void roots_of_exp(pl_roots* r, pl_expr e, pl_expr atom) {
   pl_expr slope, offset, c[PL_MAX_ROOT_DEGREE + 1];
   int d = pl_alg_coefficients_atom(r->t, e, atom, c, PL_MAX_ROOT_DEGREE);
@@ -293,7 +302,7 @@ static void roots_of_exp(pl_roots* r, pl_expr e, pl_expr atom) {
   r->complete &= v.complete;
 }
 
-// ---------------------------------------------------------------------------------------------- isolate and invert
+// ------------------------------------------------------------------------------ isolate and invert
 // Solves `other` = 0 and keeps of its roots those that satisfy e = 0.
 static void roots_that_verify(pl_roots* r, pl_expr e, pl_expr other) {
   int from = r->n;
@@ -323,7 +332,8 @@ static void roots_of_radical(pl_roots* r, pl_expr e, pl_expr atom) {
 static void roots_of_inverse(pl_roots* r, pl_expr e, pl_expr atom) {
   pl_pool* p = r->p;
   pl_expr c[2];
-  bool isolated = pl_kind_of(p, atom) == PL_CALL && pl_alg_coefficients_atom(r->t, e, atom, c, 1) == 1;
+  bool isolated = pl_kind_of(p, atom) == PL_CALL
+                  && pl_alg_coefficients_atom(r->t, e, atom, c, 1) == 1;
   if (!isolated || pl_has_symbol(p, c[0], r->x) || pl_has_symbol(p, c[1], r->x)) {
     r->complete = false;
     return;
@@ -341,7 +351,7 @@ static void roots_of_inverse(pl_roots* r, pl_expr e, pl_expr atom) {
   roots_that_verify(r, e, pl_sub(p, u, pl_call(p, inverse, v)));
 }
 
-// ---------------------------------------------------------------------------------------------- one factor
+// -------------------------------------------------------------------------------------- one factor
 typedef struct pl_occur_job {
   pl_expr e;
   pl_symbol x;
@@ -421,7 +431,7 @@ static void solve_equation(pl_roots* r, pl_expr e) {
   r->depth--;
 }
 
-// ---------------------------------------------------------------------------------------------- the service
+// ------------------------------------------------------------------------------------- the service
 // What does not satisfy the equation, or is a pole, goes.
 static void verify(pl_roots* r, pl_expr e) {
   pl_expr num, den;

@@ -1,7 +1,9 @@
-// Roots of equations in one symbol, as models need them: elimination of constraints, positions of events.
+// Roots of equations in one symbol, as models need them: elimination of constraints, positions of
+// events.
 #include "algebra/algebra_test_text.h"
 
-// The roots as text, "a; b", with " if c" where a condition stays, and " ..." when there may be more.
+// The roots as text, "a; b", with " if c" where a condition stays, and " ..." when there may be
+// more.
 static const char* roots(pl_world* w, const char* x, const char* text) {
   pl_root r[16];
   bool complete = false;
@@ -90,7 +92,8 @@ PL_TEST(every_root_satisfies_its_equation) {
     if (n == 0) fail_msg("no root of %s", texts[i]);
     for (int k = 0; k < n; k++) {
       pl_answer3 zero = pl_alg_is_zero(w->tower, pl_subst1(w->pool, e, x, r[k].value));
-      if (zero != PL_YES) fail_msg("%s at %s: answer %d", texts[i], pl_text_of(w, r[k].value), zero);
+      if (zero != PL_YES)
+        fail_msg("%s at %s: answer %d", texts[i], pl_text_of(w, r[k].value), zero);
     }
     pl_world_free(w);
   }

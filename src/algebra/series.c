@@ -1,13 +1,15 @@
-// Power series and limits.  Every node of the expression gets a truncated Laurent series in u = x - at (u = 1/x at
-// infinity) with coefficients in normal form; leading coefficients are tested for zero, so poles and cancellations are
-// seen. Powers of any rational exponent by Miller's recurrence, elementary functions by their differential equations.
+// Power series and limits. Every node of the expression gets a truncated Laurent series in u = x -
+// at (u = 1/x at infinity) with coefficients in normal form; leading coefficients are tested for
+// zero, so poles and cancellations are seen. Powers of any rational exponent by Miller's
+// recurrence, elementary functions by their differential equations.
 #include "algebra/algebra_impl.h"
 
 #include <string.h>
 
 enum { PL_MAX_SERIES = 40, PL_SERIES_TRIES = 4 };
 
-// sum_{k < n} c[k] u^(lead + k) + O(u^(lead + n)); c[0] is not zero, unless the series is zero to its order.
+// sum_{k < n} c[k] u^(lead + k) + O(u^(lead + n)); c[0] is not zero, unless the series is zero to
+// its order.
 typedef struct pl_series {
   int lead, n;
   bool zero;
@@ -82,7 +84,7 @@ static pl_series* constant(pl_expansion* s, pl_expr e) {
   return r;
 }
 
-// ---------------------------------------------------------------------------------------------- arithmetic
+// -------------------------------------------------------------------------------------- arithmetic
 static pl_series* add(pl_expansion* s, const pl_series* a, const pl_series* b) {
   if (a->zero || b->zero) {
     pl_series* copy = fresh(s, 0, 0);
@@ -117,7 +119,8 @@ static pl_series* mul(pl_expansion* s, const pl_series* a, const pl_series* b) {
 static pl_series* power(pl_expansion* s, const pl_series* a, long num, long den) {
   pl_pool* p = s->p;
   if (all_zero(s, a)) return a->zero && num > 0 ? constant(s, pl_int(p, 0)) : fail(s);
-  // u^(lead α) must be a whole power, and for even roots u must be positive unless it does not occur
+  // u^(lead α) must be a whole power, and for even roots u must be positive unless it does not
+  // occur
   long lead = (long)a->lead * num;
   if (lead % den != 0 || (den % 2 == 0 && a->lead != 0 && !s->from_above)) return fail(s);
   if (lead / den > 1000 || lead / den < -1000) return fail(s);
@@ -135,7 +138,7 @@ static pl_series* power(pl_expansion* s, const pl_series* a, long num, long den)
   return r;
 }
 
-// ---------------------------------------------------------------------------------------------- functions
+// --------------------------------------------------------------------------------------- functions
 // The same series with lead 0 (a zero in front where needed); false when there is a pole.
 static bool regular(pl_expansion* s, const pl_series* a, pl_series* out) {
   if (a->lead < 0) return false;
@@ -150,7 +153,8 @@ static bool regular(pl_expansion* s, const pl_series* a, pl_series* out) {
 }
 
 // f' = g a' with a given g:  k f_k = sum_{j=1..k} j a_j g_{k-j}
-static pl_series* integrate(pl_expansion* s, pl_expr start, const pl_series* a, const pl_series* g) {
+static pl_series* integrate(pl_expansion* s, pl_expr start, const pl_series* a,
+                            const pl_series* g) {
   pl_series ga;
   if (!regular(s, g, &ga)) return fail(s);
   pl_series* r = fresh(s, 0, a->n < ga.n + 1 ? a->n : ga.n + 1);
@@ -158,15 +162,16 @@ static pl_series* integrate(pl_expansion* s, pl_expr start, const pl_series* a, 
   for (int k = 1; k < r->n; k++) {
     pl_expr sum = pl_int(s->p, 0);
     for (int j = 1; j <= k; j++)
-      sum = pl_add(s->p, sum, pl_mul_n(s->p, (pl_expr[]){pl_int(s->p, j), a->c[j], ga.c[k - j]}, 3));
+      sum = pl_add(s->p, sum,
+                   pl_mul_n(s->p, (pl_expr[]){pl_int(s->p, j), a->c[j], ga.c[k - j]}, 3));
     r->c[k] = normal(s, pl_div(s->p, sum, pl_int(s->p, k)));
   }
   return strip(s, r);
 }
 
 // Two functions with f' = a' g, g' = sign a' f: sin and cos (sign -1), sinh and cosh (sign 1).
-static void pair(pl_expansion* s, pl_function f0, pl_function g0, int sign, const pl_series* a, pl_series** f,
-                 pl_series** g) {
+static void pair(pl_expansion* s, pl_function f0, pl_function g0, int sign, const pl_series* a,
+                 pl_series** f, pl_series** g) {
   pl_pool* p = s->p;
   *f = fresh(s, 0, a->n);
   *g = fresh(s, 0, a->n);
@@ -191,7 +196,8 @@ static pl_series* exp_series(pl_expansion* s, const pl_series* a) {
   if (r->n > 0) r->c[0] = normal(s, pl_call(p, PL_EXP, a->c[0]));
   for (int k = 1; k < r->n; k++) {
     pl_expr sum = pl_int(p, 0);
-    for (int j = 1; j <= k; j++) sum = pl_add(p, sum, pl_mul_n(p, (pl_expr[]){pl_int(p, j), a->c[j], r->c[k - j]}, 3));
+    for (int j = 1; j <= k; j++)
+      sum = pl_add(p, sum, pl_mul_n(p, (pl_expr[]){pl_int(p, j), a->c[j], r->c[k - j]}, 3));
     r->c[k] = normal(s, pl_div(p, sum, pl_int(p, k)));
   }
   return r;
@@ -200,7 +206,9 @@ static pl_series* exp_series(pl_expansion* s, const pl_series* a) {
 // Beyond a pole: exp(-1/u) is smaller than every power, atan and tanh have limits.
 static pl_series* at_pole(pl_expansion* s, pl_function f, const pl_series* a) {
   int sign = 0;
-  if (a->n == 0 || !s->from_above || pl_alg_sign(s->t, a->c[0], false, &sign) != PL_YES || sign == 0) return fail(s);
+  if (a->n == 0 || !s->from_above || pl_alg_sign(s->t, a->c[0], false, &sign) != PL_YES
+      || sign == 0)
+    return fail(s);
   if (f == PL_EXP && sign < 0) return constant(s, pl_int(s->p, 0));
   if (f == PL_TANH) return constant(s, pl_int(s->p, sign));
   if (f != PL_ATAN) return fail(s);
@@ -229,7 +237,8 @@ static pl_series* inverse_function(pl_expansion* s, pl_function f, const pl_seri
 static pl_series* abs_series(pl_expansion* s, const pl_series* a, bool only_sign) {
   int sign = 0;
   if (a->lead != 0 && !s->from_above) return fail(s);
-  if (all_zero(s, a) || pl_alg_sign(s->t, a->c[0], false, &sign) != PL_YES || sign == 0) return fail(s);
+  if (all_zero(s, a) || pl_alg_sign(s->t, a->c[0], false, &sign) != PL_YES || sign == 0)
+    return fail(s);
   pl_series* factor = constant(s, pl_int(s->p, sign));
   return only_sign ? factor : mul(s, factor, a);
 }
@@ -263,7 +272,7 @@ static pl_series* call_series(pl_expansion* s, pl_expr e) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- nodes
+// ------------------------------------------------------------------------------------------- nodes
 static pl_series* variable(pl_expansion* s) {
   if (s->infinite) {
     pl_series* r = fresh(s, -1, s->n);
@@ -313,9 +322,10 @@ static const pl_series* expand_node(pl_expansion* s, pl_expr e) {
   return r;
 }
 
-// ---------------------------------------------------------------------------------------------- services
+// ---------------------------------------------------------------------------------------- services
 // More terms are carried along than asked for, and more still when the leading ones cancel.
-static bool expand_to(pl_tower* t, pl_expr e, pl_symbol x, pl_expr at, int n, bool from_above, pl_series* out) {
+static bool expand_to(pl_tower* t, pl_expr e, pl_symbol x, pl_expr at, int n, bool from_above,
+                      pl_series* out) {
   if (pl_is_poison(e) || pl_is_poison(at) || n < 1) return false;
   bool infinite = pl_kind_of(t->pool, at) == PL_INFINITY;
   for (int k = 0; k < PL_SERIES_TRIES; k++) {
@@ -336,7 +346,8 @@ static bool expand_to(pl_tower* t, pl_expr e, pl_symbol x, pl_expr at, int n, bo
   return false;
 }
 
-bool pl_alg_series(pl_tower* t, pl_expr e, pl_symbol x, pl_expr at, int n, int* lead, pl_expr* coefficient) {
+bool pl_alg_series(pl_tower* t, pl_expr e, pl_symbol x, pl_expr at, int n, int* lead,
+                   pl_expr* coefficient) {
   pl_series s;
   if (n > PL_MAX_SERIES || !expand_to(t, e, x, at, n, false, &s)) return false;
   *lead = s.lead;

@@ -6,7 +6,8 @@ static const char* series(pl_world* w, const char* text, const char* at, int n) 
   int lead = 0;
   pl_expr c[8];
   pl_expr point = strcmp(at, "inf") == 0 ? pl_infinity(w->pool) : pl_text_expr(w, at);
-  if (!pl_alg_series(w->tower, pl_text_expr(w, text), pl_text_symbol(w, "x"), point, n, &lead, c)) return "none";
+  if (!pl_alg_series(w->tower, pl_text_expr(w, text), pl_text_symbol(w, "x"), point, n, &lead, c))
+    return "none";
   pl_text out = pl_text_make(w->arena);
   pl_text_addf(&out, "%d:", lead);
   for (int i = 0; i < n; i++) pl_text_addf(&out, "%s %s", i ? "," : "", pl_text_of(w, c[i]));
@@ -15,11 +16,12 @@ static const char* series(pl_world* w, const char* text, const char* at, int n) 
 
 static const char* limit(pl_world* w, const char* text, const char* to) {
   pl_expr point = strcmp(to, "inf") == 0 ? pl_infinity(w->pool) : pl_text_expr(w, to);
-  return pl_text_of(w, pl_alg_limit(w->tower, pl_text_expr(w, text), pl_text_symbol(w, "x"), point));
+  return pl_text_of(w,
+                    pl_alg_limit(w->tower, pl_text_expr(w, text), pl_text_symbol(w, "x"), point));
 }
 
 #define SERIES(w, in, at, n, out) assert_string_equal(series(w, in, at, n), out)
-#define LIMIT(w, in, to, out) assert_string_equal(limit(w, in, to), out)
+#define LIMIT(w, in, to, out)     assert_string_equal(limit(w, in, to), out)
 
 PL_TEST(atwood_in_powers_of_the_mass_ratio) {
   pl_world* w = pl_world_make(NULL);
@@ -79,9 +81,13 @@ PL_TEST(limits_are_leading_terms) {
 
 PL_TEST(antiderivatives_differentiate_back) {
   static const char* const texts[] = {
-      "m1*x^2 + 3",   "x*sin(l*x)",          "exp(-m1*x)*cos(l*x)", "sin(x)^2",          "1/(m1*x + l)",
-      "cos(l*x + r)", "x*exp(-x/l)",         "x^3*exp(x)*sin(x)",   "cos(x)^3*sin(x)^2", "g",
-      "1/(x + l)^3",  "x^2*cos(x)*cos(2*x)", "exp(x)/(m1 + m2)",
+      "m1*x^2 + 3",          "x*sin(l*x)",
+      "exp(-m1*x)*cos(l*x)", "sin(x)^2",
+      "1/(m1*x + l)",        "cos(l*x + r)",
+      "x*exp(-x/l)",         "x^3*exp(x)*sin(x)",
+      "cos(x)^3*sin(x)^2",   "g",
+      "1/(x + l)^3",         "x^2*cos(x)*cos(2*x)",
+      "exp(x)/(m1 + m2)",
   };
   pl_world* w = pl_world_make(NULL);
   pl_symbol x = pl_text_symbol(w, "x");
@@ -109,7 +115,8 @@ PL_TEST(a_series_agrees_with_the_function_to_its_order) {
     found++;
     // what is left, divided by the last power kept, goes to zero
     for (int k = 0; k < 3; k++) {
-      e = pl_sub(w->pool, e, pl_mul(w->pool, c[k], pl_pow_int(w->pool, pl_sym(w->pool, x), lead + k)));
+      e = pl_sub(w->pool, e,
+                 pl_mul(w->pool, c[k], pl_pow_int(w->pool, pl_sym(w->pool, x), lead + k)));
     }
     pl_expr rest = pl_div(w->pool, e, pl_pow_int(w->pool, pl_sym(w->pool, x), lead + 2));
     pl_expr end = pl_alg_limit(w->tower, rest, x, pl_int(w->pool, 0));

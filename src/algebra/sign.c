@@ -1,9 +1,11 @@
 // Signs of polynomials under the assumptions, in the order of trust:
 //   (i)   every term has a known sign, and all are the same
 //   (ii)  factor by factor
-//   (iii) the facts substituted away: r < l becomes l = r + δ, δ > 0, and then (i); sines and cosines run to the
+//   (iii) the facts substituted away: r < l becomes l = r + δ, δ > 0, and then (i); sines and
+//   cosines run to the
 //   corners
-//         of -1..1, since a polynomial that is linear in each of them is smallest in a corner; bounds by Fourier sums
+//         of -1..1, since a polynomial that is linear in each of them is smallest in a corner;
+//         bounds by Fourier sums
 //   (iv') a square is completed: quadratic in one generator, with a discriminant of known sign
 //   (iv)  the polynomial is one of the facts, or a radicand (w = sqrt(P) is real)
 //   (v)   fifty sample points of the domain agree, or the probe (the start values) decides: an assumption, recorded.
@@ -12,19 +14,28 @@
 
 #include <math.h>
 
-enum { PL_MAX_CORNER_GENS = 4, PL_MAX_FACT_DEPTH = 3, PL_MAX_FACTS = 16, PL_MAX_SIGN_TERMS = 400, PL_MAX_SQUARE_TERMS = 40 };
-static const double sample_floor = 1e-9;  // of the largest sample: smaller values do not count as having a sign
+enum {
+  PL_MAX_CORNER_GENS = 4,
+  PL_MAX_FACT_DEPTH = 3,
+  PL_MAX_FACTS = 16,
+  PL_MAX_SIGN_TERMS = 400,
+  PL_MAX_SQUARE_TERMS = 40
+};
+// of the largest sample: smaller values do not count as having a sign
+static const double sample_floor = 1e-9;
 
-// ---------------------------------------------------------------------------------------------- evidence
-// What a proof may use beyond the signs of the generators: numbers in the place of sines, and δ in the place of a
-// symbol.
+// ---------------------------------------------------------------------------------------- evidence
+// What a proof may use beyond the signs of the generators: numbers in the place of sines, and δ in
+// the place of a symbol.
 typedef struct pl_proof {
   pl_tower* t;
   bool positive[PL_MAX_GENERATORS];  // generator stands for a positive difference now
   int n_facts, facts[PL_MAX_FACT_DEPTH];
 } pl_proof;
 
-static int generator_sign(const pl_proof* p, int g) { return p->positive[g] ? 1 : p->t->gens.at[g].sign; }
+static int generator_sign(const pl_proof* p, int g) {
+  return p->positive[g] ? 1 : p->t->gens.at[g].sign;
+}
 
 // (i): sign of one term, 2 for >= 0, -2 for <= 0, 0 when open.
 static int term_sign(const pl_proof* p, const pl_poly* a, slong i) {
@@ -55,14 +66,16 @@ static int definite(const pl_proof* p, const pl_poly* a) {
   return strict ? sign : 2 * sign;
 }
 
-// ---------------------------------------------------------------------------------------------- facts
+// ------------------------------------------------------------------------------------------- facts
 static const pl_poly* fact_poly(pl_tower* t, int i) {
   pl_frac f = pl_convert(t, t->facts.at[i].difference);
   return pl_poly_mul(t, f.num, pl_frac_den(t, f));  // the same sign without a denominator
 }
 
-// D = c y + rest with a number c > 0: then y = (δ - rest)/c, and c^k p(y) has the sign of p.  δ is written as y.
-static bool substitute_fact(pl_tower* t, const pl_poly* D, int y, const pl_poly* a, const pl_poly** out) {
+// D = c y + rest with a number c > 0: then y = (δ - rest)/c, and c^k p(y) has the sign of p. δ is
+// written as y.
+static bool substitute_fact(pl_tower* t, const pl_poly* D, int y, const pl_poly* a,
+                            const pl_poly** out) {
   int degree = 0;
   const pl_poly** c = pl_poly_coefficients(t, D, y, &degree);
   if (degree != 1 || !pl_poly_is_number(t, c[1]) || fmpz_sgn(&c[1]->coeffs[0]) <= 0) return false;
@@ -81,13 +94,15 @@ static bool substitute_fact(pl_tower* t, const pl_poly* D, int y, const pl_poly*
   return true;
 }
 
-static int definite_with_facts(pl_proof* p, const pl_poly* a, const pl_poly* const* D, int n_D, int depth) {
+static int definite_with_facts(pl_proof* p, const pl_poly* a, const pl_poly* const* D, int n_D,
+                               int depth) {
   int sign = definite(p, a);
   if (sign || depth == PL_MAX_FACT_DEPTH || a->length > PL_MAX_SIGN_TERMS) return sign;
   pl_tower* t = p->t;
   for (int i = 0; i < n_D; i++) {
     for (int y = 0; y < t->gens.n; y++) {
-      if (t->gens.at[y].kind != PL_G_SYMBOL || p->positive[y] || pl_poly_degree(t, a, y) == 0) continue;
+      if (t->gens.at[y].kind != PL_G_SYMBOL || p->positive[y] || pl_poly_degree(t, a, y) == 0)
+        continue;
       const pl_poly* next = NULL;
       if (pl_poly_degree(t, D[i], y) != 1 || !substitute_fact(t, D[i], y, a, &next)) continue;
       const pl_poly* others[PL_MAX_FACTS];
@@ -108,7 +123,7 @@ static int definite_with_facts(pl_proof* p, const pl_poly* a, const pl_poly* con
   return 0;
 }
 
-// ---------------------------------------------------------------------------------------------- corners
+// ----------------------------------------------------------------------------------------- corners
 // a with generator g set to value, or (even) with g^2 set to it.
 static const pl_poly* at_corner(pl_tower* t, const pl_poly* a, int g, bool even, int value) {
   int degree = 0;
@@ -123,7 +138,8 @@ static const pl_poly* at_corner(pl_tower* t, const pl_poly* a, int g, bool even,
   return sum;
 }
 
-// Sines and cosines of a, and whether only their squares occur; false if one occurs otherwise than linearly.
+// Sines and cosines of a, and whether only their squares occur; false if one occurs otherwise than
+// linearly.
 static bool corner_gens(pl_tower* t, const pl_poly* a, int* gen, bool* even, int* n) {
   *n = 0;
   for (int g = 0; g < t->gens.n; g++) {
@@ -149,7 +165,8 @@ static int definite_in_corners(pl_proof* p, const pl_poly* a, const pl_poly* con
   bool strict = true;
   for (int corner = 0; corner < 1 << n; corner++) {
     const pl_poly* f = a;
-    for (int k = 0; k < n; k++) f = at_corner(p->t, f, gen[k], even[k], corner >> k & 1 ? 1 : even[k] ? 0 : -1);
+    for (int k = 0; k < n; k++)
+      f = at_corner(p->t, f, gen[k], even[k], corner >> k & 1 ? 1 : even[k] ? 0 : -1);
     if (pl_poly_is_zero(p->t, f)) {
       strict = false;
       continue;
@@ -183,7 +200,7 @@ static int definite_by_bounds(pl_proof* p, const pl_poly* a, const pl_poly* cons
   return sign;
 }
 
-// ---------------------------------------------------------------------------------------------- whole proofs
+// ------------------------------------------------------------------------------------ whole proofs
 static void record_symbols(pl_tower* t, const pl_poly* a) {
   long degree[PL_MAX_GENERATORS];
   pl_poly_degrees(t, a, degree);
@@ -196,13 +213,15 @@ static void record_symbols(pl_tower* t, const pl_poly* a) {
 }
 
 // (iv): a is, up to a positive factor, the difference of a fact or a radicand.
-static int sign_as_fact(pl_tower* t, const pl_poly* a, const pl_poly* const* D, int n_D, int* fact) {
+static int sign_as_fact(pl_tower* t, const pl_poly* a, const pl_poly* const* D, int n_D,
+                        int* fact) {
   pl_factored f = pl_poly_factor(t, a);
   for (int i = 0; i < n_D; i++) {
     pl_factored d = pl_poly_factor(t, D[i]);
     if (d.n != f.n) continue;
     bool same = true;
-    for (int k = 0; k < f.n; k++) same &= d.at[k].base == f.at[k].base && d.at[k].power % 2 == f.at[k].power % 2;
+    for (int k = 0; k < f.n; k++)
+      same &= d.at[k].base == f.at[k].base && d.at[k].power % 2 == f.at[k].power % 2;
     if (!same) continue;
     *fact = i;
     return fmpz_sgn(f.unit) * fmpz_sgn(d.unit) * (t->facts.at[i].strict ? 1 : 2);
@@ -246,11 +265,12 @@ static int prove_to(pl_tower* t, const pl_poly* a, int depth) {
   return sign;
 }
 
-// f2 x^2 + f1 x + f0 with f2 > 0 and 4 f0 f2 - f1^2 >= 0 is a sum of squares, for every real generator x; with f2 < 0 minus one.
+// f2 x^2 + f1 x + f0 with f2 > 0 and 4 f0 f2 - f1^2 >= 0 is a sum of squares, for every real
+// generator x; with f2 < 0 minus one.
 static int square_completed(pl_tower* t, const pl_poly* a, int g, int depth) {
   int degree = 0;
   const pl_poly** f = pl_poly_coefficients(t, a, g, &degree);
-  if (pl_poly_is_zero(t, f[1])) return 0;   // nothing is completed
+  if (pl_poly_is_zero(t, f[1])) return 0;  // nothing is completed
   int lead = prove_to(t, f[2], 0);
   if (lead != 1 && lead != -1) return 0;
   const pl_poly* product = pl_poly_mul(t, pl_poly_mul(t, f[0], f[2]), pl_poly_int(t, 4));
@@ -279,7 +299,8 @@ static int sampled(pl_tower* t, pl_expr e) {
   int plus = 0, minus = 0;
   double largest = 0;
   pl_points* points = pl_tower_points(t);
-  for (int i = 0; i < PL_POINT_COUNT; i++) largest = fmax(largest, fabs(pl_points_double(points, i, e)));
+  for (int i = 0; i < PL_POINT_COUNT; i++)
+    largest = fmax(largest, fabs(pl_points_double(points, i, e)));
   for (int i = 0; i < PL_POINT_COUNT; i++) {
     double v = pl_points_double(points, i, e);
     plus += v > sample_floor * largest;
@@ -345,7 +366,7 @@ int pl_poly_sign(pl_tower* t, const pl_poly* a, bool or_zero, bool guess) {
   return sign;
 }
 
-// ---------------------------------------------------------------------------------------------- the service
+// ------------------------------------------------------------------------------------- the service
 typedef struct pl_sign_job {
   pl_expr e;
   bool or_zero, guess;

@@ -1,9 +1,11 @@
-// The tower itself: making and freeing it, running a service so that neither FLINT nor a hopeless case can take the
-// program along, starting over with a larger context, and the list of generators with their order of writing.
+// The tower itself: making and freeing it, running a service so that neither FLINT nor a hopeless
+// case can take the program along, starting over with a larger context, and the list of generators
+// with their order of writing.
 //
-// FLINT reports trouble by calling an abort function that must not return.  Ours jumps to the innermost service of this
-// thread; what FLINT held at that moment is lost (a leak, not a crash).  A body that gives up of its own will takes the
-// same jump, and then nothing is lost, because all polynomials stand on the tower's stack.
+// FLINT reports trouble by calling an abort function that must not return. Ours jumps to the
+// innermost service of this thread; what FLINT held at that moment is lost (a leak, not a crash). A
+// body that gives up of its own will takes the same jump, and then nothing is lost, because all
+// polynomials stand on the tower's stack.
 #include "algebra/algebra_impl.h"
 
 #include <stdlib.h>
@@ -22,7 +24,8 @@ struct pl_entry {
   bool facts_busy, silent;
 };
 
-// The innermost service of this thread: FLINT's abort hook has no argument, so it has to be found without one.
+// The innermost service of this thread: FLINT's abort hook has no argument, so it has to be found
+// without one.
 static _Thread_local pl_entry* innermost;
 
 static FLINT_NORETURN void on_flint_abort(void);
@@ -31,7 +34,7 @@ static void on_flint_abort(void) {
   abort();
 }
 
-// ---------------------------------------------------------------------------------------------- services
+// ---------------------------------------------------------------------------------------- services
 static void enter(pl_tower* t, pl_entry* e) {
   e->outer = t->entry;
   e->outer_any = innermost;
@@ -48,7 +51,8 @@ static void enter(pl_tower* t, pl_entry* e) {
 static void forget_since(pl_tower* t, pl_tower_mark m) {
   for (int i = m.polys; i < t->polys_used; i++)
     fmpz_mpoly_init(&t->poly_chunks.at[i / PL_CHUNK][i % PL_CHUNK], &t->ctx);
-  for (int i = m.ints; i < t->ints_used; i++) fmpz_init(&t->int_chunks.at[i / PL_CHUNK][i % PL_CHUNK]);
+  for (int i = m.ints; i < t->ints_used; i++)
+    fmpz_init(&t->int_chunks.at[i / PL_CHUNK][i % PL_CHUNK]);
 }
 
 static void leave(pl_tower* t, pl_entry* e, int why) {
@@ -81,7 +85,8 @@ static void empty_tower(pl_tower* t, int capacity);
 // Bases as coarse as they were before anything was asked.
 static void untangle(pl_tower* t) {
   for (int i = 0; i < t->angles.n; i++) t->angles.at[i] = pl_lattice_of(t->angles.at[i].atom);
-  for (int i = 0; i < t->exponents.n; i++) t->exponents.at[i] = pl_lattice_of(t->exponents.at[i].atom);
+  for (int i = 0; i < t->exponents.n; i++)
+    t->exponents.at[i] = pl_lattice_of(t->exponents.at[i].atom);
   t->tangled = false;
   empty_tower(t, t->capacity);
 }
@@ -97,11 +102,13 @@ static bool run_outermost(pl_tower* t, void (*body)(pl_tower*, void*), void* dat
   return false;
 }
 
-// The outermost service also stops an allocation failure on its way out, to leave the thread in order.
+// The outermost service also stops an allocation failure on its way out, to leave the thread in
+// order.
 bool pl_tower_run(pl_tower* t, void (*body)(pl_tower* t, void* data), void* data) {
   int why = 0;
   if (t->entry) return run_once(t, body, data, &why);
-  // one budget for each service; when all of them together have used theirs, only small ones are done
+  // one budget for each service; when all of them together have used theirs, only small ones are
+  // done
   t->work_left = t->work_done > PL_WORK_OF_ALL ? PL_WORK_OF_SMALL : PL_WORK_OF_SERVICE;
   pl_entry* const before = innermost;
   pl_tower_mark const mark = pl_tower_mark_now(t);
@@ -153,8 +160,10 @@ void pl_tower_check(pl_tower* t) {
   if (pl_interrupted(t->job)) pl_tower_give_up(t);
 }
 
-// ---------------------------------------------------------------------------------------------- what FLINT must free
-pl_tower_mark pl_tower_mark_now(const pl_tower* t) { return (pl_tower_mark){t->polys_used, t->ints_used}; }
+// ---------------------------------------------------------------------------- what FLINT must free
+pl_tower_mark pl_tower_mark_now(const pl_tower* t) {
+  return (pl_tower_mark){t->polys_used, t->ints_used};
+}
 
 void pl_tower_rewind(pl_tower* t, pl_tower_mark m) {
   for (int i = m.polys; i < t->polys_used; i++) {
@@ -166,7 +175,8 @@ void pl_tower_rewind(pl_tower* t, pl_tower_mark m) {
       fmpz_mpoly_init(f, &t->ctx);
     }
   }
-  for (int i = m.ints; i < t->ints_used; i++) fmpz_zero(&t->int_chunks.at[i / PL_CHUNK][i % PL_CHUNK]);
+  for (int i = m.ints; i < t->ints_used; i++)
+    fmpz_zero(&t->int_chunks.at[i / PL_CHUNK][i % PL_CHUNK]);
   t->polys_used = m.polys;
   t->ints_used = m.ints;
 }
@@ -209,7 +219,8 @@ const fmpz* pl_int_keep(pl_tower* t, const fmpz* c) {
 }
 
 static void clear_polys(pl_tower* t) {
-  for (int i = 0; i < t->polys_made; i++) fmpz_mpoly_clear(&t->poly_chunks.at[i / PL_CHUNK][i % PL_CHUNK], &t->ctx);
+  for (int i = 0; i < t->polys_made; i++)
+    fmpz_mpoly_clear(&t->poly_chunks.at[i / PL_CHUNK][i % PL_CHUNK], &t->ctx);
   for (int i = 0; i < t->kept_polys.n; i++) fmpz_mpoly_clear(t->kept_polys.at[i], &t->ctx);
   for (int i = 0; i < t->kept_ints.n; i++) fmpz_clear(t->kept_ints.at[i]);
   t->polys_made = t->polys_used = 0;
@@ -231,7 +242,7 @@ static void empty_tower(pl_tower* t, int capacity) {
   for (int i = 0; i < t->exponents.n; i++) t->exponents.at[i].gen = -1;
 }
 
-// ---------------------------------------------------------------------------------------------- making and freeing
+// ------------------------------------------------------------------------------ making and freeing
 pl_tower* pl_tower_make(pl_job* job, pl_pool* p, const pl_fact* facts, int n_facts) {
   flint_set_abort(on_flint_abort);
   pl_arena* a = pl_pool_arena(p);
@@ -255,7 +266,8 @@ void pl_tower_free(pl_tower* t) {
   if (!t) return;
   pl_factor_free(t);
   clear_polys(t);
-  for (int i = 0; i < t->int_chunks.n * PL_CHUNK; i++) fmpz_clear(&t->int_chunks.at[i / PL_CHUNK][i % PL_CHUNK]);
+  for (int i = 0; i < t->int_chunks.n * PL_CHUNK; i++)
+    fmpz_clear(&t->int_chunks.at[i / PL_CHUNK][i % PL_CHUNK]);
   t->int_chunks.n = 0;
   for (int i = 0; i <= PL_MAX_GENERATORS; i++) {
     if (t->small[i]) fmpz_mpoly_ctx_clear(t->small[i]);
@@ -264,7 +276,7 @@ void pl_tower_free(pl_tower* t) {
   fmpz_mpoly_ctx_clear(&t->ctx);
 }
 
-// ---------------------------------------------------------------------------------------------- assumptions
+// ------------------------------------------------------------------------------------- assumptions
 void pl_tower_probe(pl_tower* t, const double* value_of_symbol) {
   t->n_probe = value_of_symbol ? pl_symbol_count(t->pool) : 0;
   if (!value_of_symbol) {
@@ -283,7 +295,8 @@ void pl_tower_define(pl_tower* t, const pl_replace* names, int n) {
 }
 
 pl_expr pl_tower_see(const pl_tower* t, pl_expr e) {
-  for (int i = t->names.n - 1; i >= 0; i--) e = pl_subst1(t->pool, e, t->names.at[i].from, t->names.at[i].to);
+  for (int i = t->names.n - 1; i >= 0; i--)
+    e = pl_subst1(t->pool, e, t->names.at[i].from, t->names.at[i].to);
   return e;
 }
 
@@ -302,14 +315,15 @@ void pl_tower_use(pl_tower* t, pl_fact fact) {
   pl_push(t->arena, t->used, fact);
 }
 
-// ---------------------------------------------------------------------------------------------- generators
+// -------------------------------------------------------------------------------------- generators
 int pl_tower_find(const pl_tower* t, pl_expr e) { return (int)pl_map_get(t->gen_of, e.id) - 1; }
 
 int pl_tower_generator(pl_tower* t, const pl_gen* g) {
   if (pl_is_poison(g->expr)) pl_tower_give_up(t);  // the root of a negative number
   if (t->gens.n == t->capacity) {
     if (t->capacity + 8 > PL_MAX_GENERATORS) pl_tower_give_up(t);
-    // the polynomials that exist belong to the old context, so everything starts again in a larger one
+    // the polynomials that exist belong to the old context, so everything starts again in a larger
+    // one
     t->capacity += 8;
     pl_tower_restart(t);
   }
@@ -338,7 +352,8 @@ void pl_tower_order(pl_tower* t) {
   // insertion: generators come one by one, and the order of the old ones does not change
   for (int g = t->n_ranked; g < t->gens.n; g++) {
     int k = g;
-    for (; k > 0 && compare_generators(t, g, t->by_rank[k - 1]) < 0; k--) t->by_rank[k] = t->by_rank[k - 1];
+    for (; k > 0 && compare_generators(t, g, t->by_rank[k - 1]) < 0; k--)
+      t->by_rank[k] = t->by_rank[k - 1];
     t->by_rank[k] = g;
   }
   t->n_ranked = t->gens.n;

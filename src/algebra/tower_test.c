@@ -1,5 +1,5 @@
-// The tower: normal forms, the identities that a naive tower misses, signs and recorded assumptions, factors,
-// coefficients.
+// The tower: normal forms, the identities that a naive tower misses, signs and recorded
+// assumptions, factors, coefficients.
 #include "algebra/algebra_test_text.h"
 
 #include <math.h>
@@ -36,8 +36,13 @@ PL_TEST(sines_and_cosines_meet) {
 PL_TEST(a_factor_hidden_by_a_relation_is_cancelled) {
   pl_world* w = pl_world_make(NULL);
   // squares of sines are rewritten, so the products do not show their factors
-  NORMAL(w, "(m1*(r^2 - 2*r*b*sin(x)*sin(y) + b^2)^2 - (r^2 - 2*r*b*sin(x)*sin(y) + b^2)*((r^2 - 2*r*b*sin(x)*sin(y) + b^2) - g))/(r^2 - 2*r*b*sin(x)*sin(y) + b^2)^2", "(-b^2 + b^2*m1 - 2*b*m1*r*sin(x)*sin(y) + 2*b*r*sin(x)*sin(y) + g + m1*r^2 - r^2)/(b^2 - 2*b*r*sin(x)*sin(y) + r^2)");
-  NORMAL(w, "(m1*(sin(x) + sin(y))^2 - (sin(x) + sin(y))*sin(x))/(sin(x) + sin(y))", "m1*sin(x) + m1*sin(y) - sin(x)");
+  NORMAL(w,
+         "(m1*(r^2 - 2*r*b*sin(x)*sin(y) + b^2)^2 - (r^2 - 2*r*b*sin(x)*sin(y) + b^2)*((r^2 - "
+         "2*r*b*sin(x)*sin(y) + b^2) - g))/(r^2 - 2*r*b*sin(x)*sin(y) + b^2)^2",
+         "(-b^2 + b^2*m1 - 2*b*m1*r*sin(x)*sin(y) + 2*b*r*sin(x)*sin(y) + g + m1*r^2 - r^2)/(b^2 - "
+         "2*b*r*sin(x)*sin(y) + r^2)");
+  NORMAL(w, "(m1*(sin(x) + sin(y))^2 - (sin(x) + sin(y))*sin(x))/(sin(x) + sin(y))",
+         "m1*sin(x) + m1*sin(y) - sin(x)");
   NORMAL(w, "(m1*(1 + l*sqrt(y))^2 + l + l^2*sqrt(y))/(1 + l*sqrt(y))", "l + l*m1*sqrt(y) + m1");
   NORMAL(w, "(1 + l*sin(x))/(1 + l*sin(y))", "(l*sin(x) + 1)/(l*sin(y) + 1)");
   pl_world_free(w);
@@ -76,11 +81,12 @@ PL_TEST(exponentials_form_a_lattice) {
   pl_world_free(w);
 }
 
-// cos(19 u) in powers of cos u has coefficients of twelve digits: multiples that are far apart have no base in common.
+// cos(19 u) in powers of cos u has coefficients of twelve digits: multiples that are far apart have
+// no base in common.
 PL_TEST(high_multiples_of_an_angle_stay_as_they_are) {
   pl_world* w = pl_world_make(NULL);
   NORMAL(w, "cos(19*x/20)", "cos(19*x/20)");
-  const char* both = pl_text_normal(w, "cos(19*x/20)*cos(x)");      // in whatever order
+  const char* both = pl_text_normal(w, "cos(19*x/20)*cos(x)");  // in whatever order
   assert_non_null(strstr(both, "cos(19*x/20)"));
   assert_non_null(strstr(both, "cos(x)"));
   NORMAL(w, "sin(25*asin(y))", "sin(25*asin(y))");
@@ -111,7 +117,8 @@ PL_TEST(the_normal_form_does_not_depend_on_history) {
   pl_world* fresh = pl_world_make(NULL);
   pl_world* used = pl_world_make(NULL);
   pl_text_normal(used, "cos(x/2)*sinh(y) + sqrt(m1*m2)*sqrt(m2) + z/(m2 + x)");
-  static const char* const texts[] = {"cos(2*x)", "exp(y)", "sqrt(m1)", "1/(m2*sin(x)^2 + m1)", "1/(x - l)"};
+  static const char* const texts[] = {"cos(2*x)", "exp(y)", "sqrt(m1)", "1/(m2*sin(x)^2 + m1)",
+                                      "1/(x - l)"};
   for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
     char* a = pl_copy(fresh->arena, pl_text_normal(fresh, texts[i]));
     assert_string_equal(a, pl_text_normal(used, texts[i]));
@@ -197,15 +204,19 @@ PL_TEST(factors_of_a_fraction) {
   pl_world* w = pl_world_make(NULL);
   pl_factor f[8];
   pl_expr unit;
-  int n = pl_alg_factors(w->tower, pl_text_expr(w, "(2*m1^2*x - 2*m2^2*x)*sin(y)^2/(3*(l + x)^2)"), f, 8, &unit);
+  int n = pl_alg_factors(w->tower, pl_text_expr(w, "(2*m1^2*x - 2*m2^2*x)*sin(y)^2/(3*(l + x)^2)"),
+                         f, 8, &unit);
   assert_string_equal(pl_text_of(w, unit), "2/3");
   assert_int_equal(n, 5);
   pl_expr product = unit;
-  for (int i = 0; i < n; i++) product = pl_mul(w->pool, product, pl_pow_int(w->pool, f[i].base, f[i].power));
-  pl_expr difference = pl_sub(w->pool, product, pl_text_expr(w, "2/3*(m1^2 - m2^2)*x*sin(y)^2/(l + x)^2"));
+  for (int i = 0; i < n; i++)
+    product = pl_mul(w->pool, product, pl_pow_int(w->pool, f[i].base, f[i].power));
+  pl_expr difference = pl_sub(w->pool, product,
+                              pl_text_expr(w, "2/3*(m1^2 - m2^2)*x*sin(y)^2/(l + x)^2"));
   assert_int_equal(pl_alg_is_zero(w->tower, difference), PL_YES);
   bool sine_squared = false;
-  for (int i = 0; i < n; i++) sine_squared |= f[i].power == 2 && strcmp(pl_text_of(w, f[i].base), "sin(y)") == 0;
+  for (int i = 0; i < n; i++)
+    sine_squared |= f[i].power == 2 && strcmp(pl_text_of(w, f[i].base), "sin(y)") == 0;
   assert_true(sine_squared);
   pl_world_free(w);
 }
@@ -213,23 +224,31 @@ PL_TEST(factors_of_a_fraction) {
 PL_TEST(coefficients_in_a_symbol) {
   pl_world* w = pl_world_make(NULL);
   pl_expr c[4];
-  assert_int_equal(pl_alg_coefficients(w->tower, pl_text_expr(w, "(x + l)^2/m1 - x"), pl_text_symbol(w, "x"), c, 3), 2);
+  assert_int_equal(pl_alg_coefficients(w->tower, pl_text_expr(w, "(x + l)^2/m1 - x"),
+                                       pl_text_symbol(w, "x"), c, 3),
+                   2);
   assert_string_equal(pl_text_of(w, c[2]), "1/m1");
   assert_string_equal(pl_text_of(w, c[1]), "(2*l - m1)/m1");
-  assert_int_equal(pl_alg_coefficients(w->tower, pl_text_expr(w, "x*sin(x)"), pl_text_symbol(w, "x"), c, 3), -1);
-  assert_int_equal(pl_alg_coefficients(w->tower, pl_text_expr(w, "1/x"), pl_text_symbol(w, "x"), c, 3), -1);
-  assert_int_equal(pl_alg_coefficients(w->tower, pl_text_expr(w, "x^5"), pl_text_symbol(w, "x"), c, 3), -1);
-  assert_int_equal(pl_alg_coefficients(w->tower, pl_text_expr(w, "y"), pl_text_symbol(w, "x"), c, 3), 0);
+  assert_int_equal(
+      pl_alg_coefficients(w->tower, pl_text_expr(w, "x*sin(x)"), pl_text_symbol(w, "x"), c, 3), -1);
+  assert_int_equal(
+      pl_alg_coefficients(w->tower, pl_text_expr(w, "1/x"), pl_text_symbol(w, "x"), c, 3), -1);
+  assert_int_equal(
+      pl_alg_coefficients(w->tower, pl_text_expr(w, "x^5"), pl_text_symbol(w, "x"), c, 3), -1);
+  assert_int_equal(
+      pl_alg_coefficients(w->tower, pl_text_expr(w, "y"), pl_text_symbol(w, "x"), c, 3), 0);
   pl_world_free(w);
 }
 
 PL_TEST(coefficients_in_an_atom) {
   pl_world* w = pl_world_make(NULL);
   pl_expr c[4];
-  assert_int_equal(
-      pl_alg_coefficients_atom(w->tower, pl_text_expr(w, "3*g*cos(x) - 2*g"), pl_text_expr(w, "cos(x)"), c, 3), 1);
+  assert_int_equal(pl_alg_coefficients_atom(w->tower, pl_text_expr(w, "3*g*cos(x) - 2*g"),
+                                            pl_text_expr(w, "cos(x)"), c, 3),
+                   1);
   assert_string_equal(pl_text_of(w, c[1]), "3*g");
-  assert_int_equal(pl_alg_coefficients_atom(w->tower, pl_text_expr(w, "1 - cos(x)^2"), pl_text_expr(w, "sin(x)"), c, 3),
+  assert_int_equal(pl_alg_coefficients_atom(w->tower, pl_text_expr(w, "1 - cos(x)^2"),
+                                            pl_text_expr(w, "sin(x)"), c, 3),
                    2);
   assert_string_equal(pl_text_of(w, c[2]), "1");
   pl_world_free(w);
@@ -261,7 +280,8 @@ PL_TEST(many_generators_make_the_tower_grow) {
     pl_expr x = pl_sym(w->pool, pl_text_symbol(w, pl_format(w->arena, "x%d", i)));
     pl_expr s = pl_call(w->pool, PL_SIN, x), c = pl_call(w->pool, PL_COS, x);
     sum = pl_add(w->pool, sum, x);
-    squares = pl_add(w->pool, squares, pl_add(w->pool, pl_square(w->pool, s), pl_square(w->pool, c)));
+    squares = pl_add(w->pool, squares,
+                     pl_add(w->pool, pl_square(w->pool, s), pl_square(w->pool, c)));
   }
   assert_string_equal(pl_text_of(w, pl_alg_normal(w->tower, squares)), "50");
   assert_true(pl_same(pl_alg_normal(w->tower, sum), sum));

@@ -1,9 +1,10 @@
-// Bounds of a polynomial over all angles.  The coefficient of each monomial in the other generators is a trigonometric
-// polynomial; as a Fourier sum  a_0 + sum_k a_k e^(ikθ)  it lies between a_0 - sum |a_k| and a_0 + sum |a_k|.
-// So m1 + m2 sin^2(a - b), expanded into sines and cosines of a and b, is seen to be at least m1.
+// Bounds of a polynomial over all angles. The coefficient of each monomial in the other generators
+// is a trigonometric polynomial; as a Fourier sum a_0 + sum_k a_k e^(ikθ) it lies between a_0 - sum
+// |a_k| and a_0 + sum |a_k|. So m1 + m2 sin^2(a - b), expanded into sines and cosines of a and b,
+// is seen to be at least m1.
 //
-// Coefficients are exact integers over a common power of 2 (each sine and cosine halves); whatever would not fit gives
-// up.
+// Coefficients are exact integers over a common power of 2 (each sine and cosine halves); whatever
+// would not fit gives up.
 #include "algebra/algebra_impl.h"
 
 #include <math.h>
@@ -30,7 +31,7 @@ typedef struct pl_fourier {
   pl_harmonic at[PL_MAX_WAVE_TERMS];
 } pl_fourier;
 
-// ---------------------------------------------------------------------------------------------- one term
+// ---------------------------------------------------------------------------------------- one term
 static bool add_harmonic(pl_fourier* f, const pl_harmonic* h) {
   for (int i = 0; i < f->n; i++) {
     if (memcmp(f->at[i].k, h->k, sizeof h->k) != 0) continue;
@@ -111,7 +112,7 @@ static bool survey(pl_tower* t, const pl_poly* a, pl_fourier* f) {
   return f->n_pairs > 0;
 }
 
-// ---------------------------------------------------------------------------------------------- one monomial
+// ------------------------------------------------------------------------------------ one monomial
 // Is the monomial, which has no sines, at least 0?  1 yes, -1 at most 0, 0 open.
 static int monomial_sign(pl_tower* t, const ulong* exponent) {
   int sign = 1;
@@ -146,7 +147,8 @@ static bool same_monomial(pl_tower* t, const ulong* a, const ulong* b) {
 }
 
 // Fourier sum of the coefficient of the monomial of term i; terms that belong to it are marked.
-static bool collect_monomial(pl_tower* t, const pl_poly* a, slong i, pl_fourier* f, bool* done, ulong* monomial) {
+static bool collect_monomial(pl_tower* t, const pl_poly* a, slong i, pl_fourier* f, bool* done,
+                             ulong* monomial) {
   int cosines[PL_MAX_WAVE_PAIRS], sines[PL_MAX_WAVE_PAIRS];
   f->n = 0;
   fmpz_mpoly_get_term_exp_ui(monomial, a, i, &t->ctx);

@@ -1,5 +1,6 @@
-// Is it zero?  Algebra answers yes (its zero is sound); no is answered only when ball arithmetic separates the value
-// from zero at a sample point, or when nothing but independent symbols is involved.  Otherwise: unknown, never a guess.
+// Is it zero? Algebra answers yes (its zero is sound); no is answered only when ball arithmetic
+// separates the value from zero at a sample point, or when nothing but independent symbols is
+// involved. Otherwise: unknown, never a guess.
 #include "algebra/algebra_impl.h"
 
 enum { PL_ZERO_POINTS = 12, PL_ZERO_MORE_BITS = 1000 };
@@ -33,7 +34,8 @@ static void points_body(pl_tower* t, void* data) {
   j->zero = !separated(pl_tower_points(t), j->e);
   if (!j->zero) return;
   pl_certifier_setup s = {.facts = t->facts.at, .n_facts = t->facts.n};
-  if (!t->fine_points) t->fine_points = pl_points_make(t->job, t->pool, &s, PL_ZERO_POINTS, PL_ZERO_MORE_BITS, 1);
+  if (!t->fine_points)
+    t->fine_points = pl_points_make(t->job, t->pool, &s, PL_ZERO_POINTS, PL_ZERO_MORE_BITS, 1);
   j->zero = !separated(t->fine_points, j->e);
 }
 

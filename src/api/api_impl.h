@@ -15,51 +15,74 @@ struct pleuel {
   const pleuel_allocator* alloc;  // a copy in the arena; NULL: malloc and free
   char message[512];
   pl_language lang;
-  size_t limit;                   // bytes a model may take; 0: none
+  size_t limit;  // bytes a model may take; 0: none
   volatile int interrupted;
-  pleuel_model* first;            // models that are open
+  pleuel_model* first;  // models that are open
 };
 
-// A start value as written: its expression, in which the indices of an instance may stand.  Poison: none given.
-typedef struct pl_exact_start { pl_expr value; const pl_instances* instances; int instance; } pl_exact_start;
+// A start value as written: its expression, in which the indices of an instance may stand. Poison:
+// none given.
+typedef struct pl_exact_start {
+  pl_expr value;
+  const pl_instances* instances;
+  int instance;
+} pl_exact_start;
 
-// The slip of a friction and its coefficients: |F| <= limit |λ| while it sticks, = scale |λ| while it slips.
-typedef struct pl_friction_law { pl_expr slip, limit, scale; } pl_friction_law;
+// The slip of a friction and its coefficients: |F| <= limit |λ| while it sticks, = scale |λ| while
+// it slips.
+typedef struct pl_friction_law {
+  pl_expr slip, limit, scale;
+} pl_friction_law;
 
 // What the simulation needs, translated from the model (record.c).
 typedef struct pl_recording {
   pl_setup setup;
-  double t_0, t_end, tol, dt;     // of `simulate`; NaN t_end without it, 0 tol and dt without them
+  double t_0, t_end, tol, dt;  // of `simulate`; NaN t_end without it, 0 tol and dt without them
   long count;
-  pl_flat_coords flat;            // coordinate of each index of the setup
-  int n_declared;                 // constraints before the map equations
-  // the equations as they stand, of a model without families: L = T - V and more (poison else), and the forces without potential
-  // along n_atoms coordinates, poison where there is none
+  pl_flat_coords flat;  // coordinate of each index of the setup
+  int n_declared;       // constraints before the map equations
+  // the equations as they stand, of a model without families: L = T - V and more (poison else), and
+  // the forces without potential along n_atoms coordinates, poison where there is none
   pl_expr lagrangian;
   int n_atoms;
   const pl_expr *atom, *force;
-  const pl_friction_law* laws;    // of each friction of the setup, where it stands outside of families and in the plane; slip poison else
-  const int* first_link;          // row of the first instance of each constraint of the model, then n_declared
-  // bodies with Euler angles are integrated with quaternions: the same columns, other coordinates behind them; NULL: as it stands
+  // of each friction of the setup, where it stands outside of families and in the plane; slip
+  // poison else
+  const pl_friction_law* laws;
+  // row of the first instance of each constraint of the model, then n_declared
+  const int* first_link;
+  // bodies with Euler angles are integrated with quaternions: the same columns, other coordinates
+  // behind them; NULL: as it stands
   struct pl_recording* turned;
-  const char* angles_kept;        // an expression for which some body keeps its Euler angles, NULL none
-  pl_exact_start *exact_q, *exact_v;   // of each coordinate                                          (flat.n)
-  // with sensitivities: coordinates stand in blocks of flat.n, the motion and its variation by turns
+  // an expression for which some body keeps its Euler angles, NULL none
+  const char* angles_kept;
+  // of each coordinate                                          (flat.n)
+  pl_exact_start *exact_q, *exact_v;
+  // with sensitivities: coordinates stand in blocks of flat.n, the motion and its variation by
+  // turns
   int n_directions;
-  const double *varied_q, *varied_v;   // variations of the start values that are given  (n_directions x flat.n)
-  const char* sensitivities;      // as asked for
-  bool exact;                     // numbers as they are written, not their doubles
+  // variations of the start values that are given  (n_directions x flat.n)
+  const double *varied_q, *varied_v;
+  const char* sensitivities;  // as asked for
+  bool exact;                 // numbers as they are written, not their doubles
 } pl_recording;
 
 // Whether the state of a run that was interrupted lies in its file.
 typedef enum pl_kept { PL_KEPT_NO, PL_KEPT_YES, PL_KEPT_FAILED } pl_kept;
 typedef struct pl_keeping pl_keeping;
 
-enum { PL_STAGE_CHECK, PL_STAGE_DERIVE, PL_STAGE_WITNESS, PL_STAGE_RECORD, PL_STAGE_RUN, PL_N_STAGES };
+enum {
+  PL_STAGE_CHECK,
+  PL_STAGE_DERIVE,
+  PL_STAGE_WITNESS,
+  PL_STAGE_RECORD,
+  PL_STAGE_RUN,
+  PL_N_STAGES
+};
 
 struct pleuel_model {
   pleuel* ctx;
-  pleuel_model *before, *next;    // list of the context
+  pleuel_model *before, *next;  // list of the context
   pl_arena* arena;
   pl_job job;
   pl_diagnostics diagnostics;
@@ -68,31 +91,31 @@ struct pleuel_model {
   const pl_include_reader* reader;
   const pl_setting* settings;
   int n_settings;
-  bool broken;                    // memory ran out once: nothing but freeing is left
-  uint64_t text_hash;             // of the text and of all that it includes
+  bool broken;         // memory ran out once: nothing but freeing is left
+  uint64_t text_hash;  // of the text and of all that it includes
 
   // the value at each arrow of the pipeline, and how it was reached
   pl_model* model;
   pleuel_status parsed, checked, derived, recorded, run;
   bool is_checked, is_derived, is_recorded, is_run;
-  bool exact;                     // the run that is asked for is on numbers wider than doubles
+  bool exact;  // the run that is asked for is on numbers wider than doubles
   pl_solution* solution;
-  const char* solved_only;        // letters it was derived for
-  bool structure;                 // derived as far as freedoms and notes
-  bool start_only;                // derived for what holds at the start, not along the motion
+  const char* solved_only;  // letters it was derived for
+  bool structure;           // derived as far as freedoms and notes
+  bool start_only;          // derived for what holds at the start, not along the motion
   pl_recording* recording;
   pl_result* result;
   pl_start_report start;
-  struct pl_certificate_of_run* certified;   // what `certify` found; NULL: not asked for
+  struct pl_certificate_of_run* certified;  // what `certify` found; NULL: not asked for
   bool tol_raised, start_reported;
   double tol_used;
   char run_message[512];
-  pl_keeping* keeping;            // of the run at work; NULL: its state is not kept
+  pl_keeping* keeping;  // of the run at work; NULL: its state is not kept
   pl_kept kept;
-  char kept_why[128];             // PL_KEPT_FAILED
-  const char *state, *resume_command;   // file of the state, and how the run goes on; NULL
-  double resumed_at;              // s; NaN: it began at the beginning
-  long rows_kept;                 // that the state in the file stands behind
+  char kept_why[128];                  // PL_KEPT_FAILED
+  const char *state, *resume_command;  // file of the state, and how the run goes on; NULL
+  double resumed_at;                   // s; NaN: it began at the beginning
+  long rows_kept;                      // that the state in the file stands behind
   double stage_ms[PL_N_STAGES];
 };
 
@@ -101,61 +124,73 @@ pleuel_status pl_pipeline_parse(pleuel_model* m);
 pleuel_status pl_pipeline_check(pleuel_model* m);
 // along: also for what holds later in the motion.
 pleuel_status pl_pipeline_derive(pleuel_model* m, const char* only, double seconds, bool along);
-pleuel_status pl_pipeline_structure(pleuel_model* m);     // freedoms, ranks and notes only
+pleuel_status pl_pipeline_structure(pleuel_model* m);  // freedoms, ranks and notes only
 pleuel_status pl_pipeline_record(pleuel_model* m);
 pleuel_status pl_pipeline_start(pleuel_model* m, const pleuel_sim_options* o, pl_run** out);
 pleuel_status pl_pipeline_run(pleuel_model* m, const pleuel_sim_options* o);
 
 // ---- keeping.c: the state of a run in a file
-pl_keeping* pl_keeping_make(pleuel_model* m, const pleuel_sim_options* o);   // NULL: not wanted
-pleuel_status pl_keeping_open(pl_keeping* k, const pleuel_sim_options* o, const pl_run_options* how);   // reads and checks
+pl_keeping* pl_keeping_make(pleuel_model* m, const pleuel_sim_options* o);  // NULL: not wanted
+// reads and checks
+pleuel_status pl_keeping_open(pl_keeping* k, const pleuel_sim_options* o,
+                              const pl_run_options* how);
 pleuel_status pl_keeping_resume(pl_keeping* k, pl_run* run, const pl_sink* sink);
-void pl_keeping_step(void* user, pl_run* run, bool interrupted);             // pl_run_options.keep
+void pl_keeping_step(void* user, pl_run* run, bool interrupted);  // pl_run_options.keep
 // ---- pages.c
-const char* pl_quantity_parts(pl_arena* a, const char* text, double part[3]);   // 500[ms] in three doubles; what is wrong, or NULL
+// 500[ms] in three doubles; what is wrong, or NULL
+const char* pl_quantity_parts(pl_arena* a, const char* text, double part[3]);
 
-// ---- record.c: model -> setup of the simulation
-// sensitivities: names of parameters and start values (m2,x0) whose derivatives are columns too; NULL none.
-// exact: for numbers wider than doubles.
-pleuel_status pl_record(pl_job* job, pl_model* model, const char* sensitivities, bool exact, pl_recording** out);
+// ---- record.c: model -> setup of the simulation sensitivities: names of parameters and start
+// values (m2,x0) whose derivatives are columns too; NULL none. exact: for numbers wider than
+// doubles.
+pleuel_status pl_record(pl_job* job, pl_model* model, const char* sensitivities, bool exact,
+                        pl_recording** out);
 void pl_record_dump(pl_text* out, const pl_model* model, const pl_recording* r);
 
 // ---- views.c: the motion as it is looked at
 typedef struct pl_views {
   pl_arena* arena;
   pl_language lang;
-  pl_result* result;              // with its rows; NULL: there is no motion
-  int n_columns;                  // those of `sim`; the plotted quantities stand behind them
+  pl_result* result;  // with its rows; NULL: there is no motion
+  int n_columns;      // those of `sim`; the plotted quantities stand behind them
   bool energy_conserved;
   double tol;
-  const char* message;            // why the motion ends early or is not there; NULL
-  const char* missing;            // quantities of plot lines without a number along the motion, "a, b"; NULL
+  const char* message;  // why the motion ends early or is not there; NULL
+  // quantities of plot lines without a number along the motion, "a, b"; NULL
+  const char* missing;
   PL_VEC(pl_html_plot) plots;
 } pl_views;
-// Runs the model for a picture.  A run that stops early keeps its rows.  PLEUEL_OK and no result without `simulate`.
+// Runs the model for a picture. A run that stops early keeps its rows. PLEUEL_OK and no result
+// without `simulate`.
 pleuel_status pl_views_make(pleuel_model* m, pl_language lang, pl_views* out);
 
 // ---- report_page.c: the HTML report
-pleuel_status pl_report_page(pleuel_model* m, pl_language lang, const pleuel_report_options* o, const char** html);
+pleuel_status pl_report_page(pleuel_model* m, pl_language lang, const pleuel_report_options* o,
+                             const char** html);
 
 // ---- pictures.c: drawings, plots, animations
-pleuel_status pl_picture_plot(pleuel_model* m, pl_language lang, const pleuel_plot_options* o, const char** bytes, size_t* size);
-pleuel_status pl_picture_animate(pleuel_model* m, pl_language lang, const pleuel_animate_options* o, const char** bytes, size_t* size);
+pleuel_status pl_picture_plot(pleuel_model* m, pl_language lang, const pleuel_plot_options* o,
+                              const char** bytes, size_t* size);
+pleuel_status pl_picture_animate(pleuel_model* m, pl_language lang, const pleuel_animate_options* o,
+                                 const char** bytes, size_t* size);
 
-// The drawing of a model along its motion, or at its start when it has none; NULL when it cannot be drawn.
+// The drawing of a model along its motion, or at its start when it has none; NULL when it cannot be
+// drawn.
 pl_scene* pl_picture_scene(pleuel_model* m, pl_language lang);
 
 // ---- start_messages.c: a start that does not fit, as messages
 void pl_start_report_trouble(pleuel_model* m);
-void pl_start_report_choice(pleuel_model* m);      // several solutions fit: which one was taken
+void pl_start_report_choice(pleuel_model* m);  // several solutions fit: which one was taken
 
 // ---- motion.c: words and JSON about a run
-void pl_engine_text(pl_text* out, const pleuel_model* m, pl_language lang);    // how the steps were computed
-void pl_motion_text(pl_text* out, const pleuel_model* m, pl_language lang, bool ascii, bool events_only);
+// how the steps were computed
+void pl_engine_text(pl_text* out, const pleuel_model* m, pl_language lang);
+void pl_motion_text(pl_text* out, const pleuel_model* m, pl_language lang, bool ascii,
+                    bool events_only);
 void pl_motion_json(pl_text* out, const pleuel_model* m);
 
-// ---- certified.c: the proven enclosure of a run; certified_words.c: what is said of it
-// The start of the run, before it moves; then, when it is over, the enclosure and how far the run is from it.
+// ---- certified.c: the proven enclosure of a run; certified_words.c: what is said of it The start
+// of the run, before it moves; then, when it is over, the enclosure and how far the run is from it.
 void pl_certify_begin(pleuel_model* m, const pleuel_sim_options* o, const pl_run* run);
 pleuel_status pl_certify_end_of_run(pleuel_model* m, const pleuel_sim_options* o);
 void pl_certified_text(pl_text* out, const pleuel_model* m, pl_language lang, bool ascii);

@@ -16,17 +16,17 @@
 #include "pleuel.h"
 
 static const char pendulum[] =
-  "system \"Pendulum\"\n"
-  "param m = 1 [kg], l = 1/2 [m], g = 9.81 [m/s^2]\n"
-  "coord x, y\n"
-  "axes x right, y up\n"
-  "mass m at (x, y)\n"
-  "gravity g along -y\n"
-  "constraint rod: x^2 + y^2 = l^2\n"
-  "init x = 0.3 [m], x' = 0\n"
-  "branch y < 0\n"
-  "ask dof, lagrange1\n"
-  "simulate 0..1 [s]\n";
+    "system \"Pendulum\"\n"
+    "param m = 1 [kg], l = 1/2 [m], g = 9.81 [m/s^2]\n"
+    "coord x, y\n"
+    "axes x right, y up\n"
+    "mass m at (x, y)\n"
+    "gravity g along -y\n"
+    "constraint rod: x^2 + y^2 = l^2\n"
+    "init x = 0.3 [m], x' = 0\n"
+    "branch y < 0\n"
+    "ask dof, lagrange1\n"
+    "simulate 0..1 [s]\n";
 
 static pleuel_model* load(pleuel* ctx, const char* text, pleuel_status expected) {
   pleuel_model* m = NULL;
@@ -105,12 +105,15 @@ static void settings_replace_parameters(void** state) {
   const char* text;
   assert_int_equal(pleuel_dump(m, &text, "record"), PLEUEL_OK);
   assert_int_equal(pleuel_check(m, &text, NULL), PLEUEL_OK);
-  assert_non_null(strstr(text, "y = -0.953939"));       // -sqrt(1 - 0.09)
+  assert_non_null(strstr(text, "y = -0.953939"));  // -sqrt(1 - 0.09)
   pleuel_close(ctx);
 }
 
-// ---------------------------------------------------------------------------------------------- includes
-typedef struct reading { int calls; const char* text; } reading;
+// ---------------------------------------------------------------------------------------- includes
+typedef struct reading {
+  int calls;
+  const char* text;
+} reading;
 static const char* read_include(void* user, const char* path, const char* from) {
   (void)from;
   reading* r = user;
@@ -134,8 +137,13 @@ static void includes_come_from_the_caller(void** state) {
   pleuel_close(ctx);
 }
 
-// ---------------------------------------------------------------------------------------------- simulation
-typedef struct rows { size_t n_columns, E; long n; double first, last, energy; int stop_after; } rows;
+// -------------------------------------------------------------------------------------- simulation
+typedef struct rows {
+  size_t n_columns, E;
+  long n;
+  double first, last, energy;
+  int stop_after;
+} rows;
 
 static int take_columns(void* user, size_t n, const char* const* names, const char* const* units) {
   rows* r = user;
@@ -229,9 +237,11 @@ static void an_interrupted_context_stops_and_can_go_on(void** state) {
   pleuel_close(ctx);
 }
 
-// ---------------------------------------------------------------------------------------------- memory
+// ------------------------------------------------------------------------------------------ memory
 // An allocator that fails at the n-th call and counts what is out.
-typedef struct hostile { long calls, fail_at, out; } hostile;
+typedef struct hostile {
+  long calls, fail_at, out;
+} hostile;
 static void* hostile_take(void* user, size_t size) {
   hostile* h = user;
   if (++h->calls >= h->fail_at) return NULL;
@@ -245,7 +255,12 @@ static void hostile_give(void* user, void* block) {
 }
 
 // All numbers of all rows, and a wish to stop after some of them.
-typedef struct pl_collected { double x[20000]; size_t n, width; pleuel* ctx; long stop_at; } pl_collected;
+typedef struct pl_collected {
+  double x[20000];
+  size_t n, width;
+  pleuel* ctx;
+  long stop_at;
+} pl_collected;
 
 static int collect(void* user, size_t n, const double* values, const char* mode) {
   pl_collected* c = user;
@@ -328,7 +343,9 @@ static void a_memory_limit_is_kept(void** state) {
   (void)state;
   pleuel* ctx = pleuel_open(NULL);
   pleuel_set_memory_limit(ctx, 300000);
-  static const char many[] = "param N = 100000\ncoord x[1..N]\nfor i in 1..N {\n  mass 1 at (x[i])\n  init x[i] = i\n}\nsimulate 0..1\n";
+  static const char many[] =
+      "param N = 100000\ncoord x[1..N]\nfor i in 1..N {\n  mass 1 at (x[i])\n  init x[i] = "
+      "i\n}\nsimulate 0..1\n";
   pleuel_model* m = NULL;
   pleuel_status s = pleuel_load_text(ctx, &m, many, strlen(many), NULL);
   if (s == PLEUEL_OK) s = pleuel_simulate(m, NULL, NULL);
@@ -336,7 +353,7 @@ static void a_memory_limit_is_kept(void** state) {
   pleuel_close(ctx);
 }
 
-// ---------------------------------------------------------------------------------------------- without a model
+// --------------------------------------------------------------------------------- without a model
 static void quantities_carry_units(void** state) {
   (void)state;
   pleuel* ctx = pleuel_open(NULL);
@@ -347,10 +364,12 @@ static void quantities_carry_units(void** state) {
   assert_true(x == -0.25);
   assert_int_equal(pleuel_quantity(ctx, &x, "1e-3"), PLEUEL_OK);
   assert_true(x == 1e-3);
-  static const char* const wrong[] = {"", "-", "soon", "5 s", "5[", "5[]x", "5[furlong]", "nan", "[s]", "1e999999999"};
+  static const char* const wrong[] = {"",     "-",          "soon", "5 s", "5[",
+                                      "5[]x", "5[furlong]", "nan",  "[s]", "1e999999999"};
   for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
     x = 7;
-    if (pleuel_quantity(ctx, &x, wrong[i]) != PLEUEL_USAGE) fail_msg("`%s` was read as %g", wrong[i], x);
+    if (pleuel_quantity(ctx, &x, wrong[i]) != PLEUEL_USAGE)
+      fail_msg("`%s` was read as %g", wrong[i], x);
     assert_true(*pleuel_message(ctx) != '\0');
   }
   pleuel_close(ctx);
@@ -366,7 +385,8 @@ static void every_example_is_built_in_and_checks(void** state) {
     const char* summary = NULL;
     pleuel_status s = pleuel_load_text(ctx, &m, text, strlen(text), NULL);
     if (s == PLEUEL_OK) s = pleuel_check(m, &summary, NULL);
-    if (s != PLEUEL_OK) fail_msg("%s: %s %s", name, pleuel_message(ctx), pleuel_diagnostics_text(m, 7, NULL));
+    if (s != PLEUEL_OK)
+      fail_msg("%s: %s %s", name, pleuel_message(ctx), pleuel_diagnostics_text(m, 7, NULL));
     pleuel_model_free(m);
   }
   assert_true(n >= 8);
@@ -387,16 +407,20 @@ static void contexts_do_not_know_of_each_other(void** state) {
   pleuel_close(b);
 }
 
-// ---------------------------------------------------------------------------------------------- threads
+// ----------------------------------------------------------------------------------------- threads
 enum { N_THREADS = 4 };
-typedef struct job { const char* text; char* answer; } job;
+typedef struct job {
+  const char* text;
+  char* answer;
+} job;
 
 static void* solve_in_thread(void* argument) {
   job* j = argument;
   pleuel* ctx = pleuel_open(NULL);
   pleuel_model* m = NULL;
   const char* json = NULL;
-  if (pleuel_load_text(ctx, &m, j->text, strlen(j->text), NULL) == PLEUEL_OK) pleuel_solve_json(m, &json, NULL);
+  if (pleuel_load_text(ctx, &m, j->text, strlen(j->text), NULL) == PLEUEL_OK)
+    pleuel_solve_json(m, &json, NULL);
   j->answer = strdup(json ? json : "");
   pleuel_close(ctx);
   pleuel_thread_end();
@@ -424,23 +448,23 @@ static void threads_with_their_own_contexts_agree(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a_model_is_loaded_checked_and_solved),
-    cmocka_unit_test(errors_of_a_text_are_diagnostics),
-    cmocka_unit_test(a_missing_file_is_a_status_with_a_sentence),
-    cmocka_unit_test(arguments_without_sense_are_refused),
-    cmocka_unit_test(settings_replace_parameters),
-    cmocka_unit_test(includes_come_from_the_caller),
-    cmocka_unit_test(rows_reach_the_caller),
-    cmocka_unit_test(a_row_may_stop_the_run),
-    cmocka_unit_test(the_same_run_gives_the_same_bytes),
-    cmocka_unit_test(an_interrupted_context_stops_and_can_go_on),
-    cmocka_unit_test(an_interrupted_run_goes_on_in_another_context),
-    cmocka_unit_test(memory_that_runs_out_is_a_status),
-    cmocka_unit_test(a_memory_limit_is_kept),
-    cmocka_unit_test(quantities_carry_units),
-    cmocka_unit_test(every_example_is_built_in_and_checks),
-    cmocka_unit_test(contexts_do_not_know_of_each_other),
-    cmocka_unit_test(threads_with_their_own_contexts_agree),
+      cmocka_unit_test(a_model_is_loaded_checked_and_solved),
+      cmocka_unit_test(errors_of_a_text_are_diagnostics),
+      cmocka_unit_test(a_missing_file_is_a_status_with_a_sentence),
+      cmocka_unit_test(arguments_without_sense_are_refused),
+      cmocka_unit_test(settings_replace_parameters),
+      cmocka_unit_test(includes_come_from_the_caller),
+      cmocka_unit_test(rows_reach_the_caller),
+      cmocka_unit_test(a_row_may_stop_the_run),
+      cmocka_unit_test(the_same_run_gives_the_same_bytes),
+      cmocka_unit_test(an_interrupted_context_stops_and_can_go_on),
+      cmocka_unit_test(an_interrupted_run_goes_on_in_another_context),
+      cmocka_unit_test(memory_that_runs_out_is_a_status),
+      cmocka_unit_test(a_memory_limit_is_kept),
+      cmocka_unit_test(quantities_carry_units),
+      cmocka_unit_test(every_example_is_built_in_and_checks),
+      cmocka_unit_test(contexts_do_not_know_of_each_other),
+      cmocka_unit_test(threads_with_their_own_contexts_agree),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,9 @@
-// From a run to its proof: what the model says exactly, the times, and how far the run is from the enclosure.
+// From a run to its proof: what the model says exactly, the times, and how far the run is from the
+// enclosure.
 //
-// Whatever changes the equations on the way (contacts, friction, events) is refused by name.  Constraints that follow from
-// the map equations of `choose` are recognised by algebra: inserted, the maps make them identities.
+// Whatever changes the equations on the way (contacts, friction, events) is refused by name.
+// Constraints that follow from the map equations of `choose` are recognised by algebra: inserted,
+// the maps make them identities.
 #include <math.h>
 #include <string.h>
 
@@ -11,10 +13,11 @@
 enum { MOST_TIMES = 4000 };
 static const double width_wanted = 1e-18;
 
-// ---------------------------------------------------------------------------------------------- refusals
+// ---------------------------------------------------------------------------------------- refusals
 // Contacts that let go, events that record, stop, or release a two-sided constraint.
 static bool is_followed(const pl_setup* s, const pl_event_deed* d) {
-  return d->deed == PL_DEED_RECORD || d->deed == PL_DEED_STOP || (d->deed == PL_DEED_RELEASE && s->links[d->target].side == 0);
+  return d->deed == PL_DEED_RECORD || d->deed == PL_DEED_STOP
+         || (d->deed == PL_DEED_RELEASE && s->links[d->target].side == 0);
 }
 
 static bool changes_mode(const pl_setup* s) {
@@ -41,14 +44,15 @@ static pl_certify_refusal refusal_of(const pleuel_model* m, const char** name) {
   return PL_CERTIFY_TRIED;
 }
 
-// ---------------------------------------------------------------------------------------------- before the run
+// ---------------------------------------------------------------------------------- before the run
 void pl_certify_begin(pleuel_model* m, const pleuel_sim_options* o, const pl_run* run) {
   if (!o->certify) return;
   const pl_setup* s = &m->recording->setup;
   pl_certificate_of_run* c = PL_NEW(m->arena, pl_certificate_of_run);
   c->n_q = s->n_q;
   c->n_c = s->n_c;
-  c->proof = (pl_certified){.end = PL_CERTIFY_TOO_LARGE, .t_reached = (double)NAN, .width = (double)NAN};
+  c->proof = (pl_certified){
+      .end = PL_CERTIFY_TOO_LARGE, .t_reached = (double)NAN, .width = (double)NAN};
   c->refusal = refusal_of(m, &c->refused_name);
   c->q_run = PL_ARRAY(m->arena, double, s->n_q + 1);
   c->v_run = PL_ARRAY(m->arena, double, s->n_q + 1);
@@ -60,8 +64,9 @@ void pl_certify_begin(pleuel_model* m, const pleuel_sim_options* o, const pl_run
   m->certified = c;
 }
 
-// ---------------------------------------------------------------------------------------------- what follows from maps
-// e with the maps of `choose`, and their derivatives, in the places of the old coordinates; maps may name each other.
+// -------------------------------------------------------------------------- what follows from maps
+// e with the maps of `choose`, and their derivatives, in the places of the old coordinates; maps
+// may name each other.
 static pl_expr with_maps(const pleuel_model* m, pl_expr e) {
   pl_pool* p = m->model->pool;
   for (int round = 0; round <= m->model->choose.n_maps; round++) {
@@ -83,13 +88,14 @@ static void find_implied(pleuel_model* m, pl_certificate_of_run* c) {
     const pl_constraint* g = &model->constraints.at[i];
     pl_instances in = {.n = 1};
     if (g->block && pl_model_instances(&m->job, model, g->block, &in) != PLEUEL_OK) break;
-    if (!g->block && c->active[link]) c->implied[link] = pl_alg_is_zero(t, with_maps(m, g->g)) == PL_YES;
+    if (!g->block && c->active[link])
+      c->implied[link] = pl_alg_is_zero(t, with_maps(m, g->g)) == PL_YES;
     link += in.n;
   }
   pl_tower_free(t);
 }
 
-// ---------------------------------------------------------------------------------------------- exact numbers
+// ----------------------------------------------------------------------------------- exact numbers
 static pl_expr decimal(const pleuel_model* m, double x) {
   char text[32];
   pl_double_text(text, fabs(x));
@@ -101,25 +107,30 @@ static pl_expr start_of(const pleuel_model* m, const pl_exact_start* s) {
   pl_pool* p = m->model->pool;
   pl_expr e = s->value;
   for (int d = 0; s->instances && !pl_is_poison(e) && d < s->instances->depth; d++)
-    e = pl_subst1(p, e, s->instances->symbol[d], pl_int(p, s->instances->index[s->instance * s->instances->depth + d]));
+    e = pl_subst1(p, e, s->instances->symbol[d],
+                  pl_int(p, s->instances->index[s->instance * s->instances->depth + d]));
   return e;
 }
 
 // Times: those of the grid, or the end alone.  The end of the grid is the end of the run.
-static pl_expr* times_of(const pleuel_model* m, const pleuel_sim_options* o, pl_expr t_0, int* n, pl_certify_refusal* why) {
+static pl_expr* times_of(const pleuel_model* m, const pleuel_sim_options* o, pl_expr t_0, int* n,
+                         pl_certify_refusal* why) {
   pl_pool* p = m->model->pool;
   const pl_recording* r = m->recording;
   pl_expr end = o->has_until ? decimal(m, o->until) : m->model->simulate.to;
   double t_end = o->has_until ? o->until : r->t_end, span = t_end - r->t_0;
   double dt = o->has_dt ? o->dt : r->dt;
-  long count = o->has_dt ? 0 : r->count, rows = count > 0 ? count : dt > 0 ? lround(ceil(fabs(span) / dt - 1e-9)) : 1;
+  long count = o->has_dt ? 0 : r->count, rows = count > 0 ? count
+                                                : dt > 0  ? lround(ceil(fabs(span) / dt - 1e-9))
+                                                          : 1;
   if (rows > MOST_TIMES) {
     *why = PL_REFUSED_ROWS;
     return NULL;
   }
   if (rows < 1) rows = 1;
   pl_expr step = count > 0 ? pl_mul(p, pl_sub(p, end, t_0), pl_ratio(p, 1, count))
-                 : dt > 0  ? (o->has_dt ? decimal(m, dt) : m->model->simulate.step) : end;
+                 : dt > 0  ? (o->has_dt ? decimal(m, dt) : m->model->simulate.step)
+                           : end;
   if (span < 0 && count == 0) step = pl_neg(p, step);
   pl_expr* t = PL_ARRAY(m->arena, pl_expr, rows + 1);
   for (long i = 1; i < rows; i++) t[i - 1] = pl_add(p, t_0, pl_mul(p, pl_int(p, i), step));
@@ -128,7 +139,7 @@ static pl_expr* times_of(const pleuel_model* m, const pleuel_sim_options* o, pl_
   return t;
 }
 
-// ---------------------------------------------------------------------------------------------- comparison with the rows
+// ------------------------------------------------------------------------ comparison with the rows
 // The last row at this time.
 static const double* row_at(const pl_result* r, double t, double span) {
   for (int i = r->rows.n - 1; i >= 0; i--)
@@ -136,8 +147,8 @@ static const double* row_at(const pl_result* r, double t, double span) {
   return NULL;
 }
 
-static void fill_value(const pleuel_model* m, const pl_certified* proof, int time, pl_certify_kind kind, int i, double x,
-                       pl_certified_value* out) {
+static void fill_value(const pleuel_model* m, const pl_certified* proof, int time,
+                       pl_certify_kind kind, int i, double x, pl_certified_value* out) {
   *out = (pl_certified_value){.error = (double)NAN, .least = (double)NAN, .radius = (double)NAN};
   out->text = pl_certified_ball(proof, m->arena, time, kind, i, &out->radius);
   if (!out->text) return;
@@ -146,7 +157,8 @@ static void fill_value(const pleuel_model* m, const pl_certified* proof, int tim
 }
 
 // ORDER COLUMNS: as result.c.
-static void fill_time(const pleuel_model* m, const pl_certified* proof, int time, const double* row, pl_certified_value* out) {
+static void fill_time(const pleuel_model* m, const pl_certified* proof, int time, const double* row,
+                      pl_certified_value* out) {
   const pl_setup* s = &m->recording->setup;
   int column = 1;
   for (pl_certify_kind kind = PL_CERTIFY_Q; kind <= PL_CERTIFY_V; kind++) {
@@ -166,11 +178,13 @@ static void fill_time(const pleuel_model* m, const pl_certified* proof, int time
       continue;
     }
     fill_value(m, proof, time, PL_CERTIFY_LAMBDA, i, s->links[i].minus ? -x : x, out);
-    if (out->text && s->links[i].minus) out->text = *out->text == '-' ? out->text + 1 : pl_format(m->arena, "-%s", out->text);
+    if (out->text && s->links[i].minus)
+      out->text = *out->text == '-' ? out->text + 1 : pl_format(m->arena, "-%s", out->text);
   }
 }
 
-static void fill_rows(pleuel_model* m, pl_certificate_of_run* c, const pl_certified* proof, const pl_expr* times) {
+static void fill_rows(pleuel_model* m, pl_certificate_of_run* c, const pl_certified* proof,
+                      const pl_expr* times) {
   size_t width = (size_t)(2 * c->n_q + c->n_c);
   const pl_result* r = m->result;
   const double* value = pl_model_values(m->model, m->arena);
@@ -180,16 +194,20 @@ static void fill_rows(pleuel_model* m, pl_certificate_of_run* c, const pl_certif
   for (int i = 0; i < proof->n_done; i++) {
     bool stop = proof->stopped && i == proof->n_done - 1;
     c->time[i] = stop ? r->rows.at[r->rows.n - 1][0] : pl_eval(m->model->pool, times[i], value);
-    fill_time(m, proof, i, stop ? r->rows.at[r->rows.n - 1] : row_at(r, c->time[i], span), c->value + width * (size_t)i);
+    fill_time(m, proof, i, stop ? r->rows.at[r->rows.n - 1] : row_at(r, c->time[i], span),
+              c->value + width * (size_t)i);
   }
 }
 
 // The event of the run that a proved one is compared with: the nearest of this name and kind.
 static bool is_same(const pl_setup* s, const pl_happening* h, const pl_result_event* e) {
-  static const pl_event_kind of_contact[] = {PL_EV_RELEASE, PL_EV_SLACK}, of_impact[] = {PL_EV_IMPACT, PL_EV_CONTACT, PL_EV_TAUT},
+  static const pl_event_kind of_contact[] = {PL_EV_RELEASE, PL_EV_SLACK},
+                             of_impact[] = {PL_EV_IMPACT, PL_EV_CONTACT, PL_EV_TAUT},
                              of_event[] = {PL_EV_EVENT, PL_EV_STOP};
   bool named = h->kind == PL_HAPPENED_EVENT || h->kind == PL_HAPPENED_STOP;
-  const pl_event_kind* kinds = named ? of_event : h->kind == PL_HAPPENED_RELEASE ? of_contact : of_impact;
+  const pl_event_kind* kinds = named                            ? of_event
+                               : h->kind == PL_HAPPENED_RELEASE ? of_contact
+                                                                : of_impact;
   int n = h->kind == PL_HAPPENED_IMPACT ? 3 : 2;
   bool kind = false;
   for (int i = 0; i < n; i++) kind |= e->kind == kinds[i];
@@ -200,7 +218,8 @@ static bool is_same(const pl_setup* s, const pl_happening* h, const pl_result_ev
 static void fill_happenings(pleuel_model* m, pl_certificate_of_run* c, const pl_certified* proof) {
   const pl_setup* s = &m->recording->setup;
   c->happened = PL_ARRAY(m->arena, pl_certified_value, proof->n_happened + 1);
-  c->state = PL_ARRAY(m->arena, pl_certified_value, (size_t)proof->n_happened * 2 * (size_t)c->n_q + 1);
+  c->state = PL_ARRAY(m->arena, pl_certified_value,
+                      (size_t)proof->n_happened * 2 * (size_t)c->n_q + 1);
   for (int i = 0; i < proof->n_happened; i++) {
     pl_certified_value* v = &c->happened[i];
     *v = (pl_certified_value){.error = (double)NAN, .least = (double)NAN};
@@ -208,7 +227,8 @@ static void fill_happenings(pleuel_model* m, pl_certificate_of_run* c, const pl_
     for (int k = 0; k < 2 * c->n_q; k++) {
       pl_certified_value* x = &c->state[(size_t)i * 2 * (size_t)c->n_q + (size_t)k];
       *x = (pl_certified_value){.error = (double)NAN, .least = (double)NAN};
-      x->text = pl_certified_state(proof, m->arena, i, k < c->n_q ? PL_CERTIFY_Q : PL_CERTIFY_V, k % c->n_q, &x->radius);
+      x->text = pl_certified_state(proof, m->arena, i, k < c->n_q ? PL_CERTIFY_Q : PL_CERTIFY_V,
+                                   k % c->n_q, &x->radius);
     }
     for (int k = 0; k < m->result->events.n; k++) {
       if (!is_same(s, &proof->happened[i], &m->result->events.at[k])) continue;
@@ -218,8 +238,11 @@ static void fill_happenings(pleuel_model* m, pl_certificate_of_run* c, const pl_
   }
 }
 
-// ---------------------------------------------------------------------------------------------- all
-typedef struct pl_certify_watcher { const pleuel_sim_options* options; double t_0; } pl_certify_watcher;
+// --------------------------------------------------------------------------------------------- all
+typedef struct pl_certify_watcher {
+  const pleuel_sim_options* options;
+  double t_0;
+} pl_certify_watcher;
 
 static void watch(void* user, double t, double t_end, double h, long steps) {
   const pl_certify_watcher* w = user;
@@ -230,10 +253,17 @@ static void watch(void* user, double t, double t_end, double h, long steps) {
 static pleuel_status prove(pleuel_model* m, const pleuel_sim_options* o, pl_certificate_of_run* c) {
   const pl_recording* r = m->recording;
   pl_pool* p = m->model->pool;
-  pl_certify_problem problem = {.pool = p, .setup = &r->setup, .coordinates = r->flat.at, .q_run = c->q_run, .v_run = c->v_run,
-                                .active = c->active, .implied = c->implied};
+  pl_certify_problem problem = {.pool = p,
+                                .setup = &r->setup,
+                                .coordinates = r->flat.at,
+                                .q_run = c->q_run,
+                                .v_run = c->v_run,
+                                .active = c->active,
+                                .implied = c->implied};
   problem.width = o->certify_width > 0 ? o->certify_width : width_wanted;
-  problem.t_0 = m->model->simulate.given && !pl_is_poison(m->model->simulate.from) ? m->model->simulate.from : pl_int(p, 0);
+  problem.t_0 = m->model->simulate.given && !pl_is_poison(m->model->simulate.from)
+                    ? m->model->simulate.from
+                    : pl_int(p, 0);
   problem.times = times_of(m, o, problem.t_0, &problem.n_times, &c->refusal);
   if (c->refusal != PL_CERTIFY_TRIED) return PLEUEL_OK;
   if ((o->has_until ? o->until : r->t_end) < r->t_0 && changes_mode(&r->setup)) {
@@ -242,7 +272,8 @@ static pleuel_status prove(pleuel_model* m, const pleuel_sim_options* o, pl_cert
   }
   c->n_times = problem.n_times;
   find_implied(m, c);
-  pl_expr *q = PL_ARRAY(m->arena, pl_expr, c->n_q + 1), *v = PL_ARRAY(m->arena, pl_expr, c->n_q + 1);
+  pl_expr *q = PL_ARRAY(m->arena, pl_expr, c->n_q + 1),
+          *v = PL_ARRAY(m->arena, pl_expr, c->n_q + 1);
   for (int i = 0; i < c->n_q; i++) {
     q[i] = start_of(m, &r->exact_q[i]);
     v[i] = start_of(m, &r->exact_v[i]);
@@ -252,7 +283,10 @@ static pleuel_status prove(pleuel_model* m, const pleuel_sim_options* o, pl_cert
   problem.exact = pl_model_definitions(m->model, m->arena);
   problem.n_symbols = pl_symbol_count(p) + 1;
   pl_certify_watcher w = {o, r->t_0};
-  if (o->progress) problem.progress = watch, problem.progress_user = &w;
+  if (o->progress) {
+    problem.progress = watch;
+    problem.progress_user = &w;
+  }
   PL_TRY(pl_certify_motion(&m->job, &problem, &c->proof));
   fill_rows(m, c, &c->proof, problem.times);
   fill_happenings(m, c, &c->proof);
@@ -266,8 +300,11 @@ pleuel_status pl_certify_end_of_run(pleuel_model* m, const pleuel_sim_options* o
   if (c->refusal == PL_CERTIFY_TRIED && m->run != PLEUEL_OK) c->refusal = PL_REFUSED_RUN;
   if (c->refusal == PL_CERTIFY_TRIED) PL_TRY(prove(m, o, c));
   if (c->refusal == PL_REFUSED_RUN) return m->run;
-  if (c->refusal != PL_CERTIFY_TRIED) return pl_fail(&m->job, PLEUEL_UNSUPPORTED, "the motion cannot be certified");
-  if (c->proof.end == PL_CERTIFY_INTERRUPTED) return pl_fail(&m->job, PLEUEL_INTERRUPTED, "the certification was interrupted");
-  if (c->proof.end != PL_CERTIFIED) return pl_fail(&m->job, PLEUEL_NUMERICAL, "the motion is not certified as asked for");
+  if (c->refusal != PL_CERTIFY_TRIED)
+    return pl_fail(&m->job, PLEUEL_UNSUPPORTED, "the motion cannot be certified");
+  if (c->proof.end == PL_CERTIFY_INTERRUPTED)
+    return pl_fail(&m->job, PLEUEL_INTERRUPTED, "the certification was interrupted");
+  if (c->proof.end != PL_CERTIFIED)
+    return pl_fail(&m->job, PLEUEL_NUMERICAL, "the motion is not certified as asked for");
   return PLEUEL_OK;
 }

@@ -18,7 +18,9 @@ static const char* say(const teller* t, const char* const words[2]) {
   return t->ascii ? pl_plain_ascii(t->arena, words[t->lang]) : words[t->lang];
 }
 
-static const char* number(const teller* t, double x, int digits) { return pl_notation_number(t->arena, x, digits, t->notation); }
+static const char* number(const teller* t, double x, int digits) {
+  return pl_notation_number(t->arena, x, digits, t->notation);
+}
 
 // A bound is rounded up.
 static const char* bound(const teller* t, double x) {
@@ -27,51 +29,74 @@ static const char* bound(const teller* t, double x) {
   return number(t, fmax(ceil(x / unit) * unit, x), 2);
 }
 
-// ---------------------------------------------------------------------------------------------- reasons
+// ----------------------------------------------------------------------------------------- reasons
 static const char* const refusal_words[PL_N_REFUSALS][2] = {
-  [PL_REFUSED_RUN] = {"the run did not reach its end", "die Rechnung kam nicht bis zu ihrem Ende"},
-  [PL_REFUSED_FRICTION] = {"there is friction on %s, which is not certified", "an %s wirkt Reibung, und die wird nicht zertifiziert"},
-  [PL_REFUSED_EVENT] = {"the event %s may change the motion in a way that is not certified", "das Ereignis %s kann die Bewegung auf eine Art ändern, die nicht zertifiziert wird"},
-  [PL_REFUSED_BACKWARD] = {"contacts and events are certified forwards in time only", "Kontakte und Ereignisse werden nur vorwärts in der Zeit zertifiziert"},
-  [PL_REFUSED_TURN] = {"bodies whose attitude is a quaternion are not certified", "Körper, deren Lage ein Quaternion ist, werden nicht zertifiziert"},
-  [PL_REFUSED_SENSITIVITIES] = {"sensitivities are not certified", "Empfindlichkeiten werden nicht zertifiziert"},
-  [PL_REFUSED_ROWS] = {"there are too many rows", "es sind zu viele Zeilen"},
+    [PL_REFUSED_RUN] = {"the run did not reach its end",
+                        "die Rechnung kam nicht bis zu ihrem Ende"},
+    [PL_REFUSED_FRICTION] = {"there is friction on %s, which is not certified",
+                             "an %s wirkt Reibung, und die wird nicht zertifiziert"},
+    [PL_REFUSED_EVENT] =
+        {"the event %s may change the motion in a way that is not certified",
+         "das Ereignis %s kann die Bewegung auf eine Art ändern, die nicht zertifiziert wird"},
+    [PL_REFUSED_BACKWARD] =
+        {"contacts and events are certified forwards in time only",
+         "Kontakte und Ereignisse werden nur vorwärts in der Zeit zertifiziert"},
+    [PL_REFUSED_TURN] = {"bodies whose attitude is a quaternion are not certified",
+                         "Körper, deren Lage ein Quaternion ist, werden nicht zertifiziert"},
+    [PL_REFUSED_SENSITIVITIES] = {"sensitivities are not certified",
+                                  "Empfindlichkeiten werden nicht zertifiziert"},
+    [PL_REFUSED_ROWS] = {"there are too many rows", "es sind zu viele Zeilen"},
 };
 
 static const char* const end_words[PL_N_CERTIFY_ENDS][2] = {
-  [PL_CERTIFY_TOO_LARGE] = {"the system is too large", "das System ist zu groß"},
-  [PL_CERTIFY_NO_EXACT] = {"%s has no exact value", "%s hat keinen exakten Wert"},
-  [PL_CERTIFY_REDUNDANT] = {"constraints may depend on each other, and that they do is not proved",
-                            "Zwangsbedingungen hängen vielleicht voneinander ab, und das ist nicht bewiesen"},
-  [PL_CERTIFY_START] = {"that a start exists near that of the run is not proved",
-                        "dass es nahe dem Anfang der Rechnung einen exakten gibt, ist nicht bewiesen"},
-  [PL_CERTIFY_ELSEWHERE] = {"the exact start is not that of the run", "der exakte Anfang ist nicht der der Rechnung"},
-  [PL_CERTIFY_STEP] = {"no further step could be proved: the position is nearly singular, or a function is at the end of its domain or at a kink",
-                       "kein weiterer Schritt ließ sich beweisen: die Lage ist fast singulär, oder eine Funktion ist am Rand ihres Bereichs oder an einem Knick"},
-  [PL_CERTIFY_BUDGET] = {"the work that is allowed is used up", "die erlaubte Arbeit ist aufgebraucht"},
-  [PL_CERTIFY_WIDE] = {"the precision that is allowed does not suffice", "die erlaubte Genauigkeit reicht nicht"},
-  [PL_CERTIFY_INTERRUPTED] = {"interrupted", "unterbrochen"},
-  [PL_CERTIFY_WATCH] = {"the event %s speaks of forces or accelerations", "das Ereignis %s spricht von Kräften oder Beschleunigungen"},
-  [PL_CERTIFY_IMPACT] = {"%s is met there, and impacts are not certified", "dort wird %s getroffen, und Stöße werden nicht zertifiziert"},
-  [PL_CERTIFY_UNDECIDED] = {"a contact or event is grazed there, or several come at one time", "ein Kontakt oder Ereignis wird dort gestreift, oder mehrere fallen zusammen"},
+    [PL_CERTIFY_TOO_LARGE] = {"the system is too large", "das System ist zu groß"},
+    [PL_CERTIFY_NO_EXACT] = {"%s has no exact value", "%s hat keinen exakten Wert"},
+    [PL_CERTIFY_REDUNDANT] =
+        {"constraints may depend on each other, and that they do is not proved",
+         "Zwangsbedingungen hängen vielleicht voneinander ab, und das ist nicht bewiesen"},
+    [PL_CERTIFY_START] =
+        {"that a start exists near that of the run is not proved",
+         "dass es nahe dem Anfang der Rechnung einen exakten gibt, ist nicht bewiesen"},
+    [PL_CERTIFY_ELSEWHERE] = {"the exact start is not that of the run",
+                              "der exakte Anfang ist nicht der der Rechnung"},
+    [PL_CERTIFY_STEP] = {"no further step could be proved: the position is nearly singular, or a "
+                         "function is at the end of its domain or at a kink",
+                         "kein weiterer Schritt ließ sich beweisen: die Lage ist fast singulär, "
+                         "oder eine Funktion ist am Rand ihres Bereichs oder an einem Knick"},
+    [PL_CERTIFY_BUDGET] = {"the work that is allowed is used up",
+                           "die erlaubte Arbeit ist aufgebraucht"},
+    [PL_CERTIFY_WIDE] = {"the precision that is allowed does not suffice",
+                         "die erlaubte Genauigkeit reicht nicht"},
+    [PL_CERTIFY_INTERRUPTED] = {"interrupted", "unterbrochen"},
+    [PL_CERTIFY_WATCH] = {"the event %s speaks of forces or accelerations",
+                          "das Ereignis %s spricht von Kräften oder Beschleunigungen"},
+    [PL_CERTIFY_IMPACT] = {"%s is met there, and impacts are not certified",
+                           "dort wird %s getroffen, und Stöße werden nicht zertifiziert"},
+    [PL_CERTIFY_UNDECIDED] =
+        {"a contact or event is grazed there, or several come at one time",
+         "ein Kontakt oder Ereignis wird dort gestreift, oder mehrere fallen zusammen"},
 };
 
 // ORDER REFUSALS, ORDER ENDS: words of the JSON document.
-static const char* const refusal_names[PL_N_REFUSALS] = {NULL, "run", "friction", "event", "backward", "attitude", "sensitivities", "rows"};
-static const char* const end_names[PL_N_CERTIFY_ENDS] = {NULL, "size", "number", "redundant", "start", "elsewhere", "step", "budget", "width", "interrupted",
-                                                              "watch", "impact", "undecided"};
+static const char* const refusal_names[PL_N_REFUSALS] = {
+    NULL, "run", "friction", "event", "backward", "attitude", "sensitivities", "rows"};
+static const char* const end_names[PL_N_CERTIFY_ENDS] = {
+    NULL,     "size",  "number",      "redundant", "start",  "elsewhere", "step",
+    "budget", "width", "interrupted", "watch",     "impact", "undecided"};
 
 static const char* reason(const teller* t) {
   const pl_certificate_of_run* c = t->c;
-  if (c->refusal != PL_CERTIFY_TRIED) return pl_format(t->arena, say(t, refusal_words[c->refusal]), c->refused_name ? c->refused_name : "");
+  if (c->refusal != PL_CERTIFY_TRIED)
+    return pl_format(t->arena, say(t, refusal_words[c->refusal]),
+                     c->refused_name ? c->refused_name : "");
   if (c->proof.end == PL_CERTIFIED) return "";
   return pl_format(t->arena, say(t, end_words[c->proof.end]), c->proof.what ? c->proof.what : "?");
 }
 
-// ---------------------------------------------------------------------------------------------- one time
+// ---------------------------------------------------------------------------------------- one time
 typedef struct extremes {
   double radius, error, least;
-  int worst;             // value with the largest error, -1 none
+  int worst;  // value with the largest error, -1 none
 } extremes;
 
 static extremes extremes_of(const pl_certificate_of_run* c, int time, int from, int to) {
@@ -98,34 +123,48 @@ static const char* name_of(const teller* t, int i) {
 static void tell_group(teller* t, int time, int from, int to, const char* const what[2]) {
   extremes e = extremes_of(t->c, time, from, to);
   if (e.worst < 0 && e.radius == 0) return;
-  static const char* const within[2] = {"       %s: proved to within %s", "       %s: auf %s bewiesen"};
-  static const char* const off[2] = {"; this run is off by %s (%s)\n", "; diese Rechnung weicht um %s ab (%s)\n"};
-  static const char* const at_most[2] = {"; this run is off by at most %s (%s)\n", "; diese Rechnung weicht um höchstens %s ab (%s)\n"};
+  static const char* const within[2] = {"       %s: proved to within %s",
+                                        "       %s: auf %s bewiesen"};
+  static const char* const off[2] = {"; this run is off by %s (%s)\n",
+                                     "; diese Rechnung weicht um %s ab (%s)\n"};
+  static const char* const at_most[2] = {"; this run is off by at most %s (%s)\n",
+                                         "; diese Rechnung weicht um höchstens %s ab (%s)\n"};
   pl_text_addf(t->out, say(t, within), say(t, what), bound(t, e.radius));
   if (e.worst < 0) pl_text_add(t->out, "\n");
-  else pl_text_addf(t->out, say(t, e.least > 0 ? off : at_most), bound(t, e.error), name_of(t, e.worst));
+  else
+    pl_text_addf(t->out, say(t, e.least > 0 ? off : at_most), bound(t, e.error),
+                 name_of(t, e.worst));
 }
 
 static void tell_time(teller* t, int time) {
-  static const char* const head[2] = {"     certified at t = %s%s\n", "     zertifiziert bei t = %s%s\n"};
-  static const char* const q[2] = {"coordinates", "Koordinaten"}, * const v[2] = {"velocities", "Geschwindigkeiten"},
-                   * const l[2] = {"multipliers", "Multiplikatoren"};
+  static const char* const head[2] = {"     certified at t = %s%s\n",
+                                      "     zertifiziert bei t = %s%s\n"};
+  static const char *const q[2] = {"coordinates", "Koordinaten"},
+                           *const v[2] = {"velocities", "Geschwindigkeiten"},
+                           *const l[2] = {"multipliers", "Multiplikatoren"};
   const pl_certificate_of_run* c = t->c;
-  pl_text_addf(t->out, say(t, head), number(t, c->time[time], 12), t->m->model->uses_units ? " s" : "");
+  pl_text_addf(t->out, say(t, head), number(t, c->time[time], 12),
+               t->m->model->uses_units ? " s" : "");
   tell_group(t, time, 0, c->n_q, q);
   tell_group(t, time, c->n_q, 2 * c->n_q, v);
   tell_group(t, time, 2 * c->n_q, 2 * c->n_q + c->n_c, l);
 }
 
-// ---------------------------------------------------------------------------------------------- all
+// --------------------------------------------------------------------------------------------- all
 static void tell_start(teller* t) {
   const pl_certified* p = &t->c->proof;
-  static const char* const pinned[2] = {"     nothing determines the start of %s: the number of the run was taken as exact\n",
-                                        "     den Anfang von %s bestimmt nichts: die Zahl der Rechnung gilt als exakt\n"};
-  static const char* const moved[2] = {"     the start given for %s contradicts the constraints by %s (relative) and was replaced by what follows from them\n",
-                                       "     der gegebene Anfang von %s widerspricht den Zwangsbedingungen um %s (relativ) und wurde durch das ersetzt, was aus ihnen folgt\n"};
-  for (int i = 0; i < p->n_pinned; i++) pl_text_addf(t->out, say(t, pinned), name_of(t, p->pinned[i]));
-  for (int i = 0; i < p->n_moved; i++) pl_text_addf(t->out, say(t, moved), name_of(t, p->moved_q[i]), bound(t, p->moved));
+  static const char* const pinned[2] = {
+      "     nothing determines the start of %s: the number of the run was taken as exact\n",
+      "     den Anfang von %s bestimmt nichts: die Zahl der Rechnung gilt als exakt\n"};
+  static const char* const moved[2] = {
+      "     the start given for %s contradicts the constraints by %s (relative) and was replaced "
+      "by what follows from them\n",
+      "     der gegebene Anfang von %s widerspricht den Zwangsbedingungen um %s (relativ) und "
+      "wurde durch das ersetzt, was aus ihnen folgt\n"};
+  for (int i = 0; i < p->n_pinned; i++)
+    pl_text_addf(t->out, say(t, pinned), name_of(t, p->pinned[i]));
+  for (int i = 0; i < p->n_moved; i++)
+    pl_text_addf(t->out, say(t, moved), name_of(t, p->moved_q[i]), bound(t, p->moved));
 }
 
 static const char* name_of_happening(const teller* t, int i) {
@@ -136,13 +175,20 @@ static const char* name_of_happening(const teller* t, int i) {
 }
 
 static void tell_happenings(teller* t) {
-  static const char* const what[][2] = {{"%s lets go", "%s löst sich"}, {"%s", "%s"}, {"%s: stop", "%s: Ende"}, {"%s is met", "%s wird getroffen"}};
-  static const char* const when[2] = {"     certified: %s at t = %s, proved to within %s", "     zertifiziert: %s bei t = %s, auf %s bewiesen"};
-  static const char* const off[2] = {"; this run is off by at most %s\n", "; diese Rechnung weicht um höchstens %s ab\n"};
+  static const char* const what[][2] = {{"%s lets go", "%s löst sich"},
+                                        {"%s", "%s"},
+                                        {"%s: stop", "%s: Ende"},
+                                        {"%s is met", "%s wird getroffen"}};
+  static const char* const when[2] = {"     certified: %s at t = %s, proved to within %s",
+                                      "     zertifiziert: %s bei t = %s, auf %s bewiesen"};
+  static const char* const off[2] = {"; this run is off by at most %s\n",
+                                     "; diese Rechnung weicht um höchstens %s ab\n"};
   for (int i = 0; i < t->c->proof.n_happened; i++) {
     const pl_certified_value* v = &t->c->happened[i];
-    const char* words = pl_format(t->arena, say(t, what[t->c->proof.happened[i].kind]), name_of_happening(t, i));
-    pl_text_addf(t->out, say(t, when), words, number(t, strtod(v->text, NULL), 12), bound(t, v->radius));
+    const char* words = pl_format(t->arena, say(t, what[t->c->proof.happened[i].kind]),
+                                  name_of_happening(t, i));
+    pl_text_addf(t->out, say(t, when), words, number(t, strtod(v->text, NULL), 12),
+                 bound(t, v->radius));
     if (isnan(v->error)) pl_text_add(t->out, "\n");
     else pl_text_addf(t->out, say(t, off), bound(t, v->error));
   }
@@ -150,19 +196,27 @@ static void tell_happenings(teller* t) {
 
 static void tell_how(teller* t) {
   const pl_certified* p = &t->c->proof;
-  static const char* const how[2] = {"       %ld proved steps of order up to %d in balls of %ld bits; the motion and the arithmetic widened them by %s bits\n",
-                                     "       %ld bewiesene Schritte der Ordnung bis %d in Kugeln von %ld Bit; Bewegung und Arithmetik weiteten sie um %s Bit\n"};
-  if (p->steps > 0) pl_text_addf(t->out, say(t, how), p->steps, p->order, p->bits, number(t, fmax(p->bits_lost, 0), 3));
+  static const char* const how[2] = {
+      "       %ld proved steps of order up to %d in balls of %ld bits; the motion and the "
+      "arithmetic widened them by %s bits\n",
+      "       %ld bewiesene Schritte der Ordnung bis %d in Kugeln von %ld Bit; Bewegung und "
+      "Arithmetik weiteten sie um %s Bit\n"};
+  if (p->steps > 0)
+    pl_text_addf(t->out, say(t, how), p->steps, p->order, p->bits,
+                 number(t, fmax(p->bits_lost, 0), 3));
 }
 
 void pl_certified_text(pl_text* out, const pleuel_model* m, pl_language lang, bool ascii) {
   const pl_certificate_of_run* c = m->certified;
   if (!c) return;
   teller t = {out, m, c, m->arena, lang, ascii, {ascii ? PL_MATH_ASCII : PL_MATH_LINE, lang}};
-  static const char* const not_at_all[2] = {"     not certified: %s\n", "     nicht zertifiziert: %s\n"};
-  static const char* const until[2] = {"     the motion exists until t = %s, beyond it nothing is certified: %s\n",
-                                       "     die Bewegung existiert bis t = %s, danach ist nichts zertifiziert: %s\n"};
-  static const char* const wide[2] = {"     the enclosure is wider than asked for: %s\n", "     die Einschließung ist weiter als verlangt: %s\n"};
+  static const char* const not_at_all[2] = {"     not certified: %s\n",
+                                            "     nicht zertifiziert: %s\n"};
+  static const char* const until[2] = {
+      "     the motion exists until t = %s, beyond it nothing is certified: %s\n",
+      "     die Bewegung existiert bis t = %s, danach ist nichts zertifiziert: %s\n"};
+  static const char* const wide[2] = {"     the enclosure is wider than asked for: %s\n",
+                                      "     die Einschließung ist weiter als verlangt: %s\n"};
   int done = c->refusal == PL_CERTIFY_TRIED ? c->proof.n_done : 0;
   // all times are in the JSON document
   if (c->refusal == PL_CERTIFY_TRIED && (done > 0 || c->proof.n_happened > 0)) {
@@ -180,7 +234,7 @@ void pl_certified_text(pl_text* out, const pleuel_model* m, pl_language lang, bo
   else pl_text_addf(out, say(&t, not_at_all), reason(&t));
 }
 
-// ---------------------------------------------------------------------------------------------- JSON
+// -------------------------------------------------------------------------------------------- JSON
 // A number with its radius; `error` only where there is one to compare with.
 static void json_value(pl_json* j, const char* name, const pl_certified_value* v, bool compared) {
   pl_json_object(j, name);
@@ -199,7 +253,8 @@ static void json_rows(pl_json* j, const teller* t) {
     pl_json_object(j, NULL);
     pl_json_number(j, "t", c->time[time]);
     for (int i = 0; i < (int)width; i++)
-      if (c->value[(size_t)time * width + (size_t)i].text && name_of(t, i)) json_value(j, name_of(t, i), &c->value[(size_t)time * width + (size_t)i], true);
+      if (c->value[(size_t)time * width + (size_t)i].text && name_of(t, i))
+        json_value(j, name_of(t, i), &c->value[(size_t)time * width + (size_t)i], true);
     pl_json_end_object(j);
   }
   pl_json_end_list(j);
@@ -223,7 +278,9 @@ static void json_happenings(pl_json* j, const teller* t) {
     json_value(j, "t", v, true);
     pl_json_object(j, "state");
     for (int k = 0; k < 2 * t->c->n_q; k++)
-      if (name_of(t, k)) json_value(j, name_of(t, k), &t->c->state[(size_t)i * 2 * (size_t)t->c->n_q + (size_t)k], false);
+      if (name_of(t, k))
+        json_value(j, name_of(t, k), &t->c->state[(size_t)i * 2 * (size_t)t->c->n_q + (size_t)k],
+                   false);
     pl_json_end_object(j);
     pl_json_end_object(j);
   }

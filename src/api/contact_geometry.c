@@ -1,17 +1,19 @@
 // What a constraint presses together.
 //
-// A contact transmits one force Z per unit of λ, to a mass against something fixed or between two of them, and possibly a
-// moment M on a body.  Virtual work says what they are: for every coordinate q
+// A contact transmits one force Z per unit of λ, to a mass against something fixed or between two
+// of them, and possibly a moment M on a body. Virtual work says what they are: for every coordinate
+// q
 //
 //     Z . d(P_A - P_B)/dq + M_A dφ_A/dq + M_B dφ_B/dq = dg/dq.
 //
-// Each mass alone and then each pair is tried: the system has more equations than unknowns, so the right partners are
-// those for which it has a solution.  Zero is decided at random points in numbers.
+// Each mass alone and then each pair is tried: the system has more equations than unknowns, so the
+// right partners are those for which it has a solution. Zero is decided at random points in
+// numbers.
 //
-// Z and M give the line along which the force acts on a body, not the point on it.  That point is the one for which
-// the constraint is the distance of a point fixed in the body from a plane (then the arm turns with the body), or, when
-// the constraint does not contain the angle, at the distance that the constraint keeps (a disc on a plane).  Other
-// surfaces need the place given.
+// Z and M give the line along which the force acts on a body, not the point on it. That point is
+// the one for which the constraint is the distance of a point fixed in the body from a plane (then
+// the arm turns with the body), or, when the constraint does not contain the angle, at the distance
+// that the constraint keeps (a disc on a plane). Other surfaces need the place given.
 #include "api/contact_geometry.h"
 
 #include <math.h>
@@ -20,8 +22,8 @@
 typedef struct pl_partner {
   pl_name name;
   pl_point at;
-  pl_expr angle;          // of a body, else poison
-  const pl_spatial* body; // in space, else NULL
+  pl_expr angle;           // of a body, else poison
+  const pl_spatial* body;  // in space, else NULL
 } pl_partner;
 
 typedef PL_VEC(pl_partner) pl_partners;
@@ -29,12 +31,12 @@ typedef struct pl_geometry {
   pl_recorder* r;
   pl_pool* pool;
   const pl_constraint* c;
-  pl_group* atoms;        // coordinates that the constraint or a partner depends on
-  pl_group* rows;         // those of them whose virtual work is looked at
+  pl_group* atoms;  // coordinates that the constraint or a partner depends on
+  pl_group* rows;   // those of them whose virtual work is looked at
   pl_partners partners;
 } pl_geometry;
 
-// ---------------------------------------------------------------------------------------------- numbers at random points
+// ------------------------------------------------------------------------ numbers at random points
 // The same point for the same seed, whatever the expression is.
 static double number_at(pl_geometry* g, pl_expr e, uint64_t seed) {
   pl_pool* p = g->pool;
@@ -88,7 +90,8 @@ static bool is_constant_here(pl_geometry* g, pl_expr e) {
 }
 
 static pl_expr by_atom(pl_pool* p, pl_expr e, pl_expr atom) {
-  return pl_kind_of(p, atom) == PL_SYMBOL ? pl_diff(p, e, pl_symbol_of(p, atom)) : pl_diff_at(p, e, atom);
+  return pl_kind_of(p, atom) == PL_SYMBOL ? pl_diff(p, e, pl_symbol_of(p, atom))
+                                          : pl_diff_at(p, e, atom);
 }
 
 // dg/dq, of a constraint on velocities dg/dq'.
@@ -96,44 +99,50 @@ static pl_expr slope_of(pl_geometry* g, pl_expr atom) {
   return by_atom(g->pool, g->c->g, g->c->has_velocity ? pl_dt(g->pool, atom) : atom);
 }
 
-// ---------------------------------------------------------------------------------------------- partners
+// ---------------------------------------------------------------------------------------- partners
 static const pl_spatial* body_in_space(const pl_model* m, pl_name name, const pl_block* block) {
   for (int i = 0; i < m->spatials.n; i++)
-    if (m->spatials.at[i].name.text == name.text && m->spatials.at[i].block == block) return &m->spatials.at[i];
+    if (m->spatials.at[i].name.text == name.text && m->spatials.at[i].block == block)
+      return &m->spatials.at[i];
   return NULL;
 }
 
-static void add_partner(pl_geometry* g, pl_name name, const pl_point* at, pl_expr angle, const pl_block* block) {
+static void add_partner(pl_geometry* g, pl_name name, const pl_point* at, pl_expr angle,
+                        const pl_block* block) {
   if (block && block != g->c->block) return;
-  pl_push(g->r->arena, g->partners, (pl_partner){name, *at, angle, body_in_space(g->r->model, name, block)});
+  pl_push(g->r->arena, g->partners,
+          (pl_partner){name, *at, angle, body_in_space(g->r->model, name, block)});
   for (int j = 0; j < at->n; j++) pl_group_atoms(g->r, g->atoms, at->at[j]);
   if (!pl_is_poison(angle)) pl_group_atoms(g->r, g->atoms, angle);
 }
 
 static bool depends_on(pl_geometry* g, const pl_partner* a, pl_expr atom) {
   bool any = !pl_is_poison(a->angle) && !pl_is_zero_node(g->pool, by_atom(g->pool, a->angle, atom));
-  for (int j = 0; j < a->at.n; j++) any |= !pl_is_zero_node(g->pool, by_atom(g->pool, a->at.at[j], atom));
+  for (int j = 0; j < a->at.n; j++)
+    any |= !pl_is_zero_node(g->pool, by_atom(g->pool, a->at.at[j], atom));
   return any;
 }
 
 // Whether the constraint moves it at all.
 static bool is_concerned(pl_geometry* g, const pl_partner* a) {
   for (int i = 0; i < g->atoms->atoms.n; i++)
-    if (!pl_is_zero_node(g->pool, slope_of(g, g->atoms->atoms.at[i])) && depends_on(g, a, g->atoms->atoms.at[i]))
+    if (!pl_is_zero_node(g->pool, slope_of(g, g->atoms->atoms.at[i]))
+        && depends_on(g, a, g->atoms->atoms.at[i]))
       return true;
   return false;
 }
 
-// ---------------------------------------------------------------------------------------------- the linear system
-enum { MOST = 5 };          // 3 components and 2 moments
+// ------------------------------------------------------------------------------- the linear system
+enum { MOST = 5 };  // 3 components and 2 moments
 typedef struct pl_unknowns {
   int n, n_components;
-  int component[3];         // of the force: those in which the partners move
-  int moment_a, moment_b;   // columns, -1: none
+  int component[3];        // of the force: those in which the partners move
+  int moment_a, moment_b;  // columns, -1: none
   pl_expr value[MOST];
 } pl_unknowns;
 
-static pl_expr column(pl_geometry* g, const pl_unknowns* u, const pl_partner* a, const pl_partner* b, int col, pl_expr atom) {
+static pl_expr column(pl_geometry* g, const pl_unknowns* u, const pl_partner* a,
+                      const pl_partner* b, int col, pl_expr atom) {
   pl_pool* p = g->pool;
   if (col == u->moment_a) return by_atom(p, a->angle, atom);
   if (col == u->moment_b) return by_atom(p, b->angle, atom);
@@ -145,12 +154,15 @@ static pl_expr column(pl_geometry* g, const pl_unknowns* u, const pl_partner* a,
 static bool moves_along(pl_geometry* g, const pl_partner* a, const pl_partner* b, int j) {
   for (int i = 0; i < g->atoms->atoms.n; i++) {
     pl_expr atom = g->atoms->atoms.at[i], own = by_atom(g->pool, a->at.at[j], atom);
-    if (!pl_is_zero_node(g->pool, b ? pl_sub(g->pool, own, by_atom(g->pool, b->at.at[j], atom)) : own)) return true;
+    if (!pl_is_zero_node(g->pool,
+                         b ? pl_sub(g->pool, own, by_atom(g->pool, b->at.at[j], atom)) : own))
+      return true;
   }
   return false;
 }
 
-static void name_unknowns(pl_geometry* g, const pl_partner* a, const pl_partner* b, pl_unknowns* u) {
+static void name_unknowns(pl_geometry* g, const pl_partner* a, const pl_partner* b,
+                          pl_unknowns* u) {
   *u = (pl_unknowns){.moment_a = -1, .moment_b = -1};
   for (int j = 0; j < a->at.n; j++)
     if (moves_along(g, a, b, j)) u->component[u->n++] = j;
@@ -159,7 +171,8 @@ static void name_unknowns(pl_geometry* g, const pl_partner* a, const pl_partner*
   if (b && !pl_is_poison(b->angle)) u->moment_b = u->n++;
 }
 
-// Rows that determine the unknowns, by elimination in numbers with the largest pivots; false: they do not.
+// Rows that determine the unknowns, by elimination in numbers with the largest pivots; false: they
+// do not.
 static bool pick_rows(double* A, int rows, int n, int* row) {
   bool* used = NULL;
   bool small[256] = {false};
@@ -187,7 +200,8 @@ static void eliminate(pl_pool* p, pl_expr* A, pl_expr* b, int n) {
     for (int i = k + 1; i < n; i++) {
       if (pl_is_zero_node(p, A[i * n + k])) continue;
       pl_expr f = pl_div(p, A[i * n + k], A[k * n + k]);
-      for (int j = k; j < n; j++) A[i * n + j] = j == k ? pl_int(p, 0) : pl_sub(p, A[i * n + j], pl_mul(p, f, A[k * n + j]));
+      for (int j = k; j < n; j++)
+        A[i * n + j] = j == k ? pl_int(p, 0) : pl_sub(p, A[i * n + j], pl_mul(p, f, A[k * n + j]));
       b[i] = pl_sub(p, b[i], pl_mul(p, f, b[k]));
     }
   }
@@ -197,7 +211,8 @@ static void eliminate(pl_pool* p, pl_expr* A, pl_expr* b, int n) {
   }
 }
 
-static bool numbers_of_rows(pl_geometry* g, const pl_unknowns* u, const pl_partner* a, const pl_partner* b, double* A) {
+static bool numbers_of_rows(pl_geometry* g, const pl_unknowns* u, const pl_partner* a,
+                            const pl_partner* b, double* A) {
   for (uint64_t seed = 1; seed <= SEEDS; seed++) {
     bool good = true;
     for (int i = 0; i < g->rows->atoms.n && good; i++)
@@ -211,7 +226,8 @@ static bool numbers_of_rows(pl_geometry* g, const pl_unknowns* u, const pl_partn
 }
 
 // Rows that are the same at all positions make the better pivots: they vanish nowhere.
-static void prefer_constant_rows(pl_geometry* g, const pl_unknowns* u, const pl_partner* a, const pl_partner* b, double* A) {
+static void prefer_constant_rows(pl_geometry* g, const pl_unknowns* u, const pl_partner* a,
+                                 const pl_partner* b, double* A) {
   static const double less = 1e-3;
   for (int i = 0; i < g->rows->atoms.n; i++) {
     bool constant = true;
@@ -227,7 +243,7 @@ static bool explains(pl_geometry* g, const pl_partner* a, const pl_partner* b, p
   int rows = g->rows->atoms.n, row[MOST];
   name_unknowns(g, a, b, u);
   if (u->n == 0 || u->n > MOST || u->n > rows) return false;
-  double* numbers = PL_ARRAY(g->r->arena, double, (size_t)rows * (size_t)u->n + 1);
+  double* numbers = PL_ARRAY(g->r->arena, double, (size_t)rows*(size_t)u->n + 1);
   if (!numbers_of_rows(g, u, a, b, numbers)) return false;
   prefer_constant_rows(g, u, a, b, numbers);
   if (!pick_rows(numbers, rows, u->n, row)) return false;
@@ -242,39 +258,49 @@ static bool explains(pl_geometry* g, const pl_partner* a, const pl_partner* b, p
   for (int k = 0; k < u->n_components; k++) any |= !vanishes(g, u->value[k], 1);
   for (int i = 0; i < rows && any; i++) {
     pl_expr atom = g->rows->atoms.at[i], rest = slope_of(g, atom);
-    for (int k = 0; k < u->n; k++) rest = pl_sub(p, rest, pl_mul(p, u->value[k], column(g, u, a, b, k, atom)));
+    for (int k = 0; k < u->n; k++)
+      rest = pl_sub(p, rest, pl_mul(p, u->value[k], column(g, u, a, b, k, atom)));
     any = vanishes(g, rest, 1);
   }
   return any;
 }
 
-// ---------------------------------------------------------------------------------------------- where it touches
+// -------------------------------------------------------------------------------- where it touches
 static pl_expr dot(pl_pool* p, const pl_expr* a, const pl_expr* b, int n) {
   pl_expr sum = pl_int(p, 0);
   for (int j = 0; j < n; j++) sum = pl_add(p, sum, pl_mul(p, a[j], b[j]));
   return sum;
 }
 
-static bool complain(pl_geometry* g, pl_span span, const char* en, const char* de, const char* fix_en, const char* fix_de) {
+static bool complain(pl_geometry* g, pl_span span, const char* en, const char* de,
+                     const char* fix_en, const char* fix_de) {
   const char* label = g->c->name.text;
-  pl_diagnostic* d = pl_report(g->r->job->diagnostics, PL_E066, span, pl_format(g->r->arena, en, label), pl_format(g->r->arena, de, label));
-  if (fix_en) pl_report_fix(d, pl_format(g->r->arena, fix_en, label), pl_format(g->r->arena, fix_de, label), NULL);
+  pl_diagnostic* d = pl_report(g->r->job->diagnostics, PL_E066, span,
+                               pl_format(g->r->arena, en, label),
+                               pl_format(g->r->arena, de, label));
+  if (fix_en)
+    pl_report_fix(d, pl_format(g->r->arena, fix_en, label), pl_format(g->r->arena, fix_de, label),
+                  NULL);
   return false;
 }
 
 static bool no_place(pl_geometry* g, const pl_friction* f) {
   return complain(g, f->span, "the constraint %s does not say where on the body the friction acts",
-                  "die Zwangsbedingung %s sagt nicht, wo am Körper die Reibung angreift", "say where: friction ..., at (x, y) on %s",
+                  "die Zwangsbedingung %s sagt nicht, wo am Körper die Reibung angreift",
+                  "say where: friction ..., at (x, y) on %s",
                   "angeben, wo: friction ..., at (x, y) on %s");
 }
 
-// The arm of a point fixed in the body, in the sense in which its angle turns it: r = r_t t + r_n n with M = r x Z.
-static bool fixed_arm(pl_geometry* g, const pl_partner* a, pl_expr moment, const pl_touch* out, int sense, pl_expr* arm) {
+// The arm of a point fixed in the body, in the sense in which its angle turns it: r = r_t t + r_n n
+// with M = r x Z.
+static bool fixed_arm(pl_geometry* g, const pl_partner* a, pl_expr moment, const pl_touch* out,
+                      int sense, pl_expr* arm) {
   pl_pool* p = g->pool;
   pl_expr n[2], along = pl_div(p, moment, out->size);
   for (int j = 0; j < 2; j++) n[j] = pl_div(p, out->force[j], out->size);
   bool plain = pl_kind_of(p, a->angle) == PL_SYMBOL || pl_kind_of(p, a->angle) == PL_AT;
-  if (!plain || !is_constant_here(g, n[0]) || !is_constant_here(g, n[1]) || vanishes(g, moment, 1)) return false;
+  if (!plain || !is_constant_here(g, n[0]) || !is_constant_here(g, n[1]) || vanishes(g, moment, 1))
+    return false;
   pl_expr t[2] = {n[1], pl_neg(p, n[0])}, down = pl_neg(p, by_atom(p, along, a->angle));
   along = pl_mul(p, pl_int(p, sense), along);
   for (int j = 0; j < 2; j++) arm[j] = pl_add(p, pl_mul(p, along, t[j]), pl_mul(p, down, n[j]));
@@ -282,8 +308,8 @@ static bool fixed_arm(pl_geometry* g, const pl_partner* a, pl_expr moment, const
 }
 
 // The arm of the force on body a.
-static bool find_arm(pl_geometry* g, const pl_friction* f, const pl_partner* a, bool alone, pl_expr moment, const pl_touch* out,
-                     pl_expr* arm) {
+static bool find_arm(pl_geometry* g, const pl_friction* f, const pl_partner* a, bool alone,
+                     pl_expr moment, const pl_touch* out, pl_expr* arm) {
   pl_pool* p = g->pool;
   if (f->at.n == 2) {
     for (int j = 0; j < 2; j++) arm[j] = pl_sub(p, f->at.at[j], a->at.at[j]);
@@ -296,16 +322,22 @@ static bool find_arm(pl_geometry* g, const pl_friction* f, const pl_partner* a, 
   for (int j = 0; j < 2; j++) n[j] = pl_div(p, out->force[j], out->size);
   pl_expr down = pl_sub(p, pl_div(p, g->c->g, out->size), dot(p, n, a->at.at, 2)), at_zero = down;
   // it does not depend on the coordinates, so any of their values will do
-  for (int i = 0; i < g->atoms->atoms.n; i++) at_zero = pl_subst_expr(p, at_zero, g->atoms->atoms.at[i], pl_int(p, 0));
-  if (!isnan(number_at(g, at_zero, 1)) && fabs(number_at(g, at_zero, 1) - number_at(g, down, 1)) < 1e-9) down = at_zero;
-  if (!alone || !is_constant_here(g, n[0]) || !is_constant_here(g, n[1]) || !is_constant_here(g, down)) return no_place(g, f);
+  for (int i = 0; i < g->atoms->atoms.n; i++)
+    at_zero = pl_subst_expr(p, at_zero, g->atoms->atoms.at[i], pl_int(p, 0));
+  if (!isnan(number_at(g, at_zero, 1))
+      && fabs(number_at(g, at_zero, 1) - number_at(g, down, 1)) < 1e-9)
+    down = at_zero;
+  if (!alone || !is_constant_here(g, n[0]) || !is_constant_here(g, n[1])
+      || !is_constant_here(g, down))
+    return no_place(g, f);
   for (int j = 0; j < 2; j++) arm[j] = pl_mul(p, down, n[j]);
   return true;
 }
 
-// The arm on a body in space: to the place given; without one, along the normal at the distance that the constraint keeps
-// from a plane (a ball on a floor).
-static bool find_arm_in_space(pl_geometry* g, const pl_friction* f, const pl_partner* a, bool alone, const pl_touch* out, pl_expr* arm) {
+// The arm on a body in space: to the place given; without one, along the normal at the distance
+// that the constraint keeps from a plane (a ball on a floor).
+static bool find_arm_in_space(pl_geometry* g, const pl_friction* f, const pl_partner* a, bool alone,
+                              const pl_touch* out, pl_expr* arm) {
   pl_pool* p = g->pool;
   pl_expr n[3];
   bool plane = alone;
@@ -333,7 +365,8 @@ static void velocity_in_space(pl_geometry* g, const pl_partner* a, const pl_expr
 }
 
 // Velocity of the point of a body that is at the arm: of its centre, turned.
-static void velocity_at(pl_geometry* g, const pl_friction* f, const pl_partner* a, const pl_expr* arm, int sense, pl_expr* v) {
+static void velocity_at(pl_geometry* g, const pl_friction* f, const pl_partner* a,
+                        const pl_expr* arm, int sense, pl_expr* v) {
   pl_pool* p = g->pool;
   for (int j = 0; j < a->at.n; j++) v[j] = pl_dt(p, a->at.at[j]);
   if (pl_is_poison(a->angle)) return;
@@ -341,7 +374,8 @@ static void velocity_at(pl_geometry* g, const pl_friction* f, const pl_partner* 
   bool fixed = false;
   for (int j = 0; j < f->at.n; j++)
     for (int i = 0; i < g->atoms->atoms.n; i++)
-      fixed |= !pl_is_zero_node(p, by_atom(p, a->angle, g->atoms->atoms.at[i])) && !pl_is_zero_node(p, by_atom(p, f->at.at[j], g->atoms->atoms.at[i]));
+      fixed |= !pl_is_zero_node(p, by_atom(p, a->angle, g->atoms->atoms.at[i]))
+               && !pl_is_zero_node(p, by_atom(p, f->at.at[j], g->atoms->atoms.at[i]));
   for (int j = 0; j < f->at.n && fixed; j++) v[j] = pl_dt(p, f->at.at[j]);
   if (fixed) return;
   pl_expr turn = pl_mul(p, pl_int(p, sense), pl_dt(p, a->angle));
@@ -349,7 +383,8 @@ static void velocity_at(pl_geometry* g, const pl_friction* f, const pl_partner* 
   v[1] = pl_add(p, v[1], pl_mul(p, turn, arm[0]));
 }
 
-static bool slide(pl_geometry* g, const pl_friction* f, const pl_partner* a, const pl_partner* b, const pl_unknowns* u, pl_touch* out) {
+static bool slide(pl_geometry* g, const pl_friction* f, const pl_partner* a, const pl_partner* b,
+                  const pl_unknowns* u, pl_touch* out) {
   pl_pool* p = g->pool;
   pl_expr arm_a[3], arm_b[3], v[3], w[3];
   bool body_a = u->moment_a >= 0, body_b = u->moment_b >= 0;
@@ -358,7 +393,9 @@ static bool slide(pl_geometry* g, const pl_friction* f, const pl_partner* a, con
   if (body_a && !find_arm(g, f, a, b == NULL, u->value[u->moment_a], out, arm_a)) return false;
   // a partner that is a point is touched where it is
   for (int j = 0; j < out->n; j++)
-    out->place[j] = body_a ? pl_add(p, a->at.at[j], arm_a[j]) : f->at.n == out->n && body_b ? f->at.at[j] : a->at.at[j];
+    out->place[j] = body_a                        ? pl_add(p, a->at.at[j], arm_a[j])
+                    : f->at.n == out->n && body_b ? f->at.at[j]
+                                                  : a->at.at[j];
   out->placed = (body_a || body_b) && f->at.n == 0;
   if (body_b)
     for (int j = 0; j < 2; j++) arm_b[j] = pl_sub(p, out->place[j], b->at.at[j]);
@@ -395,28 +432,31 @@ static bool same_arm(pl_geometry* g, const pl_expr* a, const pl_expr* b) {
   return vanishes(g, pl_sub(g->pool, a[0], b[0]), 1) && vanishes(g, pl_sub(g->pool, a[1], b[1]), 1);
 }
 
-// Which way the angle of a body turns it.  Counter-clockwise, unless other contacts of the body say otherwise: two planes
-// touch it at two points, so where the arms would coincide the angle turns the other way (the angle of a ladder to the
-// floor).
+// Which way the angle of a body turns it. Counter-clockwise, unless other contacts of the body say
+// otherwise: two planes touch it at two points, so where the arms would coincide the angle turns
+// the other way (the angle of a ladder to the floor).
 static int sense_of(pl_geometry* g, const pl_partner* a, const pl_expr* arm) {
   const pl_model* m = g->r->model;
   const pl_constraint* c = g->c;
   int sense = 1;
   for (int i = 0; i < m->constraints.n && sense > 0; i++) {
     const pl_constraint* other = &m->constraints.at[i];
-    if (other == c || other->block != c->block || other->has_velocity || other->relation == PL_EQ) continue;
+    if (other == c || other->block != c->block || other->has_velocity || other->relation == PL_EQ)
+      continue;
     pl_unknowns u;
     pl_touch t = {0};
     pl_expr there[3];
     g->c = other;
-    bool fits = force_on(g, a, &u, &t) && u.moment_a >= 0 && fixed_arm(g, a, u.value[u.moment_a], &t, 1, there);
+    bool fits = force_on(g, a, &u, &t) && u.moment_a >= 0
+                && fixed_arm(g, a, u.value[u.moment_a], &t, 1, there);
     g->c = c;
     if (fits && same_arm(g, arm, there)) sense = -1;
   }
   return sense;
 }
 
-static bool take(pl_geometry* g, const pl_friction* f, const pl_partner* a, const pl_partner* b, pl_touch* out) {
+static bool take(pl_geometry* g, const pl_friction* f, const pl_partner* a, const pl_partner* b,
+                 pl_touch* out) {
   pl_unknowns u;
   pl_pool* p = g->pool;
   if (b && a->at.n != b->at.n) return false;
@@ -427,11 +467,12 @@ static bool take(pl_geometry* g, const pl_friction* f, const pl_partner* a, cons
   for (int k = 0; k < u.n_components; k++) out->force[u.component[k]] = u.value[k];
   out->size = length_of(g, out);
   pl_expr arm[3];
-  if (u.moment_a >= 0 && !b && f->at.n == 0 && fixed_arm(g, a, u.value[u.moment_a], out, 1, arm)) out->sense = sense_of(g, a, arm);
+  if (u.moment_a >= 0 && !b && f->at.n == 0 && fixed_arm(g, a, u.value[u.moment_a], out, 1, arm))
+    out->sense = sense_of(g, a, arm);
   return slide(g, f, a, b, &u, out);
 }
 
-// ---------------------------------------------------------------------------------------------- all
+// --------------------------------------------------------------------------------------------- all
 static pl_geometry* geometry_make(pl_recorder* r, const pl_constraint* c) {
   pl_geometry* g = PL_NEW(r->arena, pl_geometry);
   *g = (pl_geometry){.r = r, .pool = r->pool, .c = c, .atoms = PL_NEW(r->arena, pl_group)};
@@ -441,13 +482,18 @@ static pl_geometry* geometry_make(pl_recorder* r, const pl_constraint* c) {
   bool time = r->explicit_time;
   pl_group_atoms(r, g->atoms, c->g);
   const pl_model* m = r->model;
-  for (int i = 0; i < m->masses.n; i++) add_partner(g, m->masses.at[i].name, &m->masses.at[i].point, pl_poison(), m->masses.at[i].block);
-  for (int i = 0; i < m->bodies.n; i++) add_partner(g, m->bodies.at[i].name, &m->bodies.at[i].centre, m->bodies.at[i].angle, m->bodies.at[i].block);
+  for (int i = 0; i < m->masses.n; i++)
+    add_partner(g, m->masses.at[i].name, &m->masses.at[i].point, pl_poison(),
+                m->masses.at[i].block);
+  for (int i = 0; i < m->bodies.n; i++)
+    add_partner(g, m->bodies.at[i].name, &m->bodies.at[i].centre, m->bodies.at[i].angle,
+                m->bodies.at[i].block);
   r->explicit_time = time;
   return g;
 }
 
-// A body in space whose attitude the constraint depends on: where it touches wanders over its surface.
+// A body in space whose attitude the constraint depends on: where it touches wanders over its
+// surface.
 static bool attitude_matters(const pl_geometry* g) {
   pl_pool* p = g->pool;
   for (int i = 0; i < g->r->model->spatials.n; i++) {
@@ -455,14 +501,16 @@ static bool attitude_matters(const pl_geometry* g) {
     for (int k = 0; k < g->atoms->atoms.n; k++) {
       pl_expr atom = g->atoms->atoms.at[k];
       bool turns = false;
-      for (int j = 0; j < 3; j++) turns |= !pl_is_zero_node(p, by_atom(p, b->spin[j], pl_dt(p, atom)));
+      for (int j = 0; j < 3; j++)
+        turns |= !pl_is_zero_node(p, by_atom(p, b->spin[j], pl_dt(p, atom)));
       if (turns && !pl_is_zero_node(p, by_atom(p, g->c->g, atom))) return true;
     }
   }
   return false;
 }
 
-bool pl_contact_geometry(pl_recorder* r, const pl_constraint* c, const pl_friction* f, pl_touch* out) {
+bool pl_contact_geometry(pl_recorder* r, const pl_constraint* c, const pl_friction* f,
+                         pl_touch* out) {
   pl_geometry* g = geometry_make(r, c);
   int errors = r->job->diagnostics->n_errors;
   *out = (pl_touch){0};
@@ -480,17 +528,24 @@ bool pl_contact_geometry(pl_recorder* r, const pl_constraint* c, const pl_fricti
     }
   }
   if (attitude_matters(g))
-    return complain(g, f->span, "%s depends on the attitude of a body in space: friction on it is computed for balls, whose contacts do not",
-                    "%s hängt von der Lage eines Körpers im Raum ab: Reibung an ihm wird für Kugeln berechnet, deren Kontakte das nicht tun",
+    return complain(g, f->span,
+                    "%s depends on the attitude of a body in space: friction on it is computed for "
+                    "balls, whose contacts do not",
+                    "%s hängt von der Lage eines Körpers im Raum ab: Reibung an ihm wird für "
+                    "Kugeln berechnet, deren Kontakte das nicht tun",
                     NULL, NULL);
-  return complain(g, f->span, "%s presses no two things together: it is no contact of a mass or body with a surface or with another one",
-                  "%s presst nicht zwei Dinge aufeinander: kein Kontakt einer Masse oder eines Körpers mit einer Fläche oder einem anderen",
+  return complain(g, f->span,
+                  "%s presses no two things together: it is no contact of a mass or body with a "
+                  "surface or with another one",
+                  "%s presst nicht zwei Dinge aufeinander: kein Kontakt einer Masse oder eines "
+                  "Körpers mit einer Fläche oder einem anderen",
                   NULL, NULL);
 }
 
-// ---------------------------------------------------------------------------------------------- size of a force
-// Virtual work gives the components of Z along which a partner can move.  Those are all of Z where its
-// coordinates span the space; a crank pin at (r cos φ, r sin φ) tells nothing about the part along the crank.
+// --------------------------------------------------------------------------------- size of a force
+// Virtual work gives the components of Z along which a partner can move. Those are all of Z where
+// its coordinates span the space; a crank pin at (r cos φ, r sin φ) tells nothing about the part
+// along the crank.
 static bool spans(const pl_unknowns* u, const pl_partner* a) { return u->n_components == a->at.n; }
 
 static bool is_the_same_everywhere(pl_geometry* g, const pl_unknowns* u, const pl_partner* a) {
@@ -498,7 +553,8 @@ static bool is_the_same_everywhere(pl_geometry* g, const pl_unknowns* u, const p
   for (int i = 0; i < g->atoms->atoms.n; i++) {
     pl_expr atom = g->atoms->atoms.at[i];
     same = same && is_constant_here(g, slope_of(g, atom));
-    for (int k = 0; k < u->n; k++) same = same && is_constant_here(g, column(g, u, a, NULL, k, atom));
+    for (int k = 0; k < u->n; k++)
+      same = same && is_constant_here(g, column(g, u, a, NULL, k, atom));
   }
   return same;
 }
@@ -509,8 +565,9 @@ static pl_expr size_of(pl_geometry* g, const pl_unknowns* u) {
   return length_of(g, &t);
 }
 
-// Against something fixed.  Where the coordinates do not span the space the guide is left out of the model; a linear
-// constraint along a straight guide is a drive along it, all others might pull across.
+// Against something fixed. Where the coordinates do not span the space the guide is left out of the
+// model; a linear constraint along a straight guide is a drive along it, all others might pull
+// across.
 static pl_expr size_alone(pl_geometry* g, const pl_partner* a) {
   pl_unknowns u;
   if (!explains(g, a, NULL, &u)) return pl_poison();
@@ -519,7 +576,8 @@ static pl_expr size_alone(pl_geometry* g, const pl_partner* a) {
 }
 
 // The force between two points acts along the line that joins them.
-static bool is_central(pl_geometry* g, const pl_partner* a, const pl_partner* b, const pl_unknowns* u) {
+static bool is_central(pl_geometry* g, const pl_partner* a, const pl_partner* b,
+                       const pl_unknowns* u) {
   pl_pool* p = g->pool;
   pl_expr Z[3] = {pl_int(p, 0), pl_int(p, 0), pl_int(p, 0)}, way[3] = {Z[0], Z[0], Z[0]};
   for (int k = 0; k < u->n_components; k++) Z[u->component[k]] = u->value[k];
@@ -539,7 +597,8 @@ static pl_expr size_between(pl_geometry* g, const pl_partner* a, const pl_partne
   return size_of(g, &u);
 }
 
-// A rope over a fixed pulley: a force on each mass, all of one size.  Each mass has coordinates of its own, which span its space.
+// A rope over a fixed pulley: a force on each mass, all of one size. Each mass has coordinates of
+// its own, which span its space.
 static pl_expr size_on_each(pl_geometry* g) {
   pl_expr size = pl_poison();
   for (int m = 0; m < g->partners.n; m++) {

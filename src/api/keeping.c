@@ -1,13 +1,14 @@
-// The file that a run keeps its state in.  It is written beside itself and renamed, now and then and when the run is
-// interrupted, after the rows so far have reached the disk; so at any moment there is one that is whole and whose rows are
-// there.  The clock decides when, never what.
+// The file that a run keeps its state in. It is written beside itself and renamed, now and then and
+// when the run is interrupted, after the rows so far have reached the disk; so at any moment there
+// is one that is whole and whose rows are there. The clock decides when, never what.
 //
 //     head        16 bytes "pleuel state 1", then 8 each: a number that tells the order of bytes, length, checksum of the rest
 //     traits      what must be the same in the run that goes on (keeping_traits.c)
 //     rows        bytes of CSV, and their hash
 //     state       the run (solve/checkpoint.c), then first and last row and the events (result)
 //
-// A run that goes on checks head, traits and rows before anything is changed; then rows behind the kept ones are cut off.
+// A run that goes on checks head, traits and rows before anything is changed; then rows behind the
+// kept ones are cut off.
 #include "api/keeping.h"
 
 #include <errno.h>
@@ -21,12 +22,15 @@
 
 static const char magic[16] = "pleuel state 1\n";
 static const uint64_t order_of_bytes = 0x0102030405060708u;
-typedef struct pl_kept_head { char magic[16]; uint64_t order, size, sum; } pl_kept_head;
+typedef struct pl_kept_head {
+  char magic[16];
+  uint64_t order, size, sum;
+} pl_kept_head;
 
 static const double usual_interval_s = 10;
-static const double part_of_time = 0.02;      // that keeping may take
+static const double part_of_time = 0.02;  // that keeping may take
 
-// ---------------------------------------------------------------------------------------------- rows
+// -------------------------------------------------------------------------------------------- rows
 enum { BLOCK = 1 << 16 };
 
 static size_t read_at(int fd, unsigned char* to, long at, size_t n) {
@@ -40,7 +44,8 @@ static size_t read_at(int fd, unsigned char* to, long at, size_t n) {
   return got;
 }
 
-// Hash of the first n bytes; what was hashed before is not read again.  false: they are not there, or cannot be read.
+// Hash of the first n bytes; what was hashed before is not read again. false: they are not there,
+// or cannot be read.
 static bool hash_rows(pl_keeping* k, long n, uint64_t* hash) {
   unsigned char block[BLOCK];
   int fd = fileno(k->csv);
@@ -70,7 +75,7 @@ static void keep_rows(pl_keeper* k, pl_kept_rows* rows) {
   pl_keep_bytes(k, &rows->hash, sizeof rows->hash);
 }
 
-// ---------------------------------------------------------------------------------------------- writing
+// ----------------------------------------------------------------------------------------- writing
 static bool write_all(int fd, const void* bytes, size_t n) {
   const char* at = bytes;
   while (n > 0) {
@@ -91,11 +96,13 @@ static void sync_folder(pl_arena* a, const char* path) {
   close(fd);
 }
 
-static bool replace_file(pl_arena* a, const char* path, const pl_kept_head* head, const pl_keeper* rest) {
+static bool replace_file(pl_arena* a, const char* path, const pl_kept_head* head,
+                         const pl_keeper* rest) {
   char* temporary = pl_format(a, "%s.XXXXXX", path);
   int fd = mkstemp(temporary);
   if (fd < 0) return false;
-  bool fine = write_all(fd, head, sizeof *head) && write_all(fd, rest->at, rest->next) && fsync(fd) == 0;
+  bool fine = write_all(fd, head, sizeof *head) && write_all(fd, rest->at, rest->next)
+              && fsync(fd) == 0;
   fine &= close(fd) == 0;
   fine = fine && rename(temporary, path) == 0;
   int why = errno;
@@ -113,7 +120,9 @@ static bool write_state(pl_keeping* k, pl_run* run, pl_arena* a) {
   keep_rows(&out, &rows);
   pl_run_keep(run, &out);
   pl_result_keep(k->m->result, &out);
-  pl_kept_head head = {.order = order_of_bytes, .size = sizeof head + out.next, .sum = pl_hash_bytes(out.at, out.next, 0)};
+  pl_kept_head head = {.order = order_of_bytes,
+                       .size = sizeof head + out.next,
+                       .sum = pl_hash_bytes(out.at, out.next, 0)};
   memcpy(head.magic, magic, sizeof magic);
   return replace_file(a, k->path, &head, &out);
 }
@@ -136,10 +145,11 @@ static void write_guarded(pl_keeping* k, pl_run* run) {
   if (!fine) snprintf(k->m->kept_why, sizeof k->m->kept_why, "%s", strerror(errno));
 }
 
-// ---------------------------------------------------------------------------------------------- when
+// -------------------------------------------------------------------------------------------- when
 // Looks at the clock about twenty times an interval, however long a step takes.
 static void set_pace(pl_keeping* k, double now) {
-  double a_step = (now - k->look_s) / (double)k->pace, wanted = a_step > 0 ? k->every_s / 20 / a_step : 1e9;
+  double a_step = (now - k->look_s) / (double)k->pace,
+         wanted = a_step > 0 ? k->every_s / 20 / a_step : 1e9;
   k->pace = wanted < 1 ? 1 : wanted > 2.0 * (double)k->pace ? 2 * k->pace : (long)wanted;
   k->countdown = k->pace;
   k->look_s = now;
@@ -159,18 +169,22 @@ void pl_keeping_step(void* user, pl_run* run, bool interrupted) {
   set_pace(k, now);
 }
 
-// ---------------------------------------------------------------------------------------------- reading
+// ----------------------------------------------------------------------------------------- reading
 static pleuel_status no_file(pl_keeping* k, int why) {
   pl_job* job = &k->m->job;
   if (why == ENOENT)
     return pl_fail(job, PLEUEL_FILE,
-                   "there is nothing to go on from: %s is not there. The run is complete, or was interrupted before its first "
-                   "state was kept; without --resume it begins anew", k->path);
+                   "there is nothing to go on from: %s is not there. The run is complete, or was "
+                   "interrupted before its first "
+                   "state was kept; without --resume it begins anew",
+                   k->path);
   return pl_fail(job, PLEUEL_FILE, "%s: %s", k->path, strerror(why));
 }
 
 static pleuel_status damaged(pl_keeping* k) {
-  return pl_fail(&k->m->job, PLEUEL_FILE, "%s is damaged: nothing can go on from it; without --resume the run begins anew", k->path);
+  return pl_fail(&k->m->job, PLEUEL_FILE,
+                 "%s is damaged: nothing can go on from it; without --resume the run begins anew",
+                 k->path);
 }
 
 // The bytes behind the head, whole and as they were written.
@@ -179,8 +193,10 @@ static pleuel_status read_file(pl_keeping* k) {
   if (fd < 0) return no_file(k, errno);
   struct stat st;
   pl_kept_head head;
-  bool fits = fstat(fd, &st) == 0 && S_ISREG(st.st_mode) && read_at(fd, (unsigned char*)&head, 0, sizeof head) == sizeof head;
-  fits = fits && memcmp(head.magic, magic, sizeof magic) == 0 && head.order == order_of_bytes && head.size == (uint64_t)st.st_size;
+  bool fits = fstat(fd, &st) == 0 && S_ISREG(st.st_mode)
+              && read_at(fd, (unsigned char*)&head, 0, sizeof head) == sizeof head;
+  fits = fits && memcmp(head.magic, magic, sizeof magic) == 0 && head.order == order_of_bytes
+         && head.size == (uint64_t)st.st_size;
   size_t n = fits ? (size_t)head.size - sizeof head : 0;
   unsigned char* bytes = pl_alloc(k->m->arena, n + 1);
   fits = fits && read_at(fd, bytes, sizeof head, n) == n && pl_hash_bytes(bytes, n, 0) == head.sum;
@@ -196,22 +212,31 @@ static pleuel_status check_rows(pl_keeping* k) {
   struct stat st;
   if (fstat(fileno(k->csv), &st) != 0 || st.st_size < k->rows.bytes)
     return pl_fail(&k->m->job, PLEUEL_FILE,
-                   "rows are missing: %s goes on behind %ld bytes of them. Restore the file of rows, or begin anew without --resume",
+                   "rows are missing: %s goes on behind %ld bytes of them. Restore the file of "
+                   "rows, or begin anew without --resume",
                    k->path, k->rows.bytes);
   if (hash_rows(k, k->rows.bytes, &hash) && hash == k->rows.hash) return PLEUEL_OK;
   return pl_fail(&k->m->job, PLEUEL_FILE,
-                 "the rows were changed since %s was written: restore the file of rows, or begin anew without --resume", k->path);
+                 "the rows were changed since %s was written: restore the file of rows, or begin "
+                 "anew without --resume",
+                 k->path);
 }
 
 pl_keeping* pl_keeping_make(pleuel_model* m, const pleuel_sim_options* o) {
   if (o->state == NULL) return NULL;
   pl_keeping* k = PL_NEW(m->arena, pl_keeping);
-  *k = (pl_keeping){.m = m, .path = pl_copy(m->arena, o->state), .csv = o->csv, .resumes = o->resume != 0, .countdown = 1, .pace = 1};
+  *k = (pl_keeping){.m = m,
+                    .path = pl_copy(m->arena, o->state),
+                    .csv = o->csv,
+                    .resumes = o->resume != 0,
+                    .countdown = 1,
+                    .pace = 1};
   k->every_s = o->state_every == 0 ? usual_interval_s : o->state_every;
   return k;
 }
 
-pleuel_status pl_keeping_open(pl_keeping* k, const pleuel_sim_options* o, const pl_run_options* how) {
+pleuel_status pl_keeping_open(pl_keeping* k, const pleuel_sim_options* o,
+                              const pl_run_options* how) {
   pl_traits_of(&k->traits, k->m, o, how);
   k->last_s = k->look_s = pl_clock();
   if (!k->resumes) return PLEUEL_OK;
@@ -232,6 +257,8 @@ pleuel_status pl_keeping_resume(pl_keeping* k, pl_run* run, const pl_sink* sink)
   k->m->resumed_at = pl_run_time(run);
   k->m->rows_kept = k->m->result->n_rows;
   if (k->csv == NULL) return PLEUEL_OK;
-  bool cut = ftruncate(fileno(k->csv), k->rows.bytes) == 0 && fseek(k->csv, k->rows.bytes, SEEK_SET) == 0;
-  return cut ? PLEUEL_OK : pl_fail(&k->m->job, PLEUEL_FILE, "the rows cannot be written: %s", strerror(errno));
+  bool cut = ftruncate(fileno(k->csv), k->rows.bytes) == 0
+             && fseek(k->csv, k->rows.bytes, SEEK_SET) == 0;
+  return cut ? PLEUEL_OK
+             : pl_fail(&k->m->job, PLEUEL_FILE, "the rows cannot be written: %s", strerror(errno));
 }

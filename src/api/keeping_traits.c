@@ -1,28 +1,34 @@
-// What must be the same for a run to go on bit for bit: the model, what was asked for, the program, and how this machine
-// computes.
-#define _GNU_SOURCE   // dl_iterate_phdr
+// What must be the same for a run to go on bit for bit: the model, what was asked for, the program,
+// and how this machine computes.
+#define _GNU_SOURCE  // dl_iterate_phdr
 
 #ifdef __linux__
-#include <link.h>
+#  include <link.h>
 #endif
 #include <math.h>
 #include <string.h>
 
 #include "api/keeping.h"
 
-// ---------------------------------------------------------------------------------------------- program and machine
+// ----------------------------------------------------------------------------- program and machine
 // The linker's name of this very build: another one may add in another order.
-typedef struct pl_build { const void* here; char name[48]; } pl_build;
+typedef struct pl_build {
+  const void* here;
+  char name[48];
+} pl_build;
 
 #ifdef __linux__
-static void copy_build(pl_build* b, const struct dl_phdr_info* info, const ElfW(Phdr)* note) {
+static void copy_build(pl_build* b, const struct dl_phdr_info* info, const ElfW(Phdr) * note) {
   const char *at = (const char*)(info->dlpi_addr + note->p_vaddr), *end = at + note->p_memsz;
   while (at + sizeof(ElfW(Nhdr)) <= end) {
     ElfW(Nhdr) head;
     memcpy(&head, at, sizeof head);
-    const unsigned char* bytes = (const unsigned char*)at + sizeof head + ((head.n_namesz + 3u) & ~3u);
-    if (head.n_type == NT_GNU_BUILD_ID && head.n_namesz == 4 && memcmp(at + sizeof head, "GNU", 4) == 0)
-      for (unsigned i = 0; i < head.n_descsz && 2 * i + 3 < sizeof b->name; i++) snprintf(b->name + 2 * i, 3, "%02x", bytes[i]);
+    const unsigned char* bytes = (const unsigned char*)at + sizeof head
+                                 + ((head.n_namesz + 3u) & ~3u);
+    if (head.n_type == NT_GNU_BUILD_ID && head.n_namesz == 4
+        && memcmp(at + sizeof head, "GNU", 4) == 0)
+      for (unsigned i = 0; i < head.n_descsz && 2 * i + 3 < sizeof b->name; i++)
+        snprintf(b->name + 2 * i, 3, "%02x", bytes[i]);
     at = (const char*)bytes + ((head.n_descsz + 3u) & ~3u);
   }
 }
@@ -43,12 +49,14 @@ static int find_build(struct dl_phdr_info* info, size_t size, void* user) {
 
 static void name_build(pl_build* b) { dl_iterate_phdr(find_build, b); }
 #else
-static void name_build(pl_build* b) { (void)b; }   // then the version has to do
+static void name_build(pl_build* b) { (void)b; }  // then the version has to do
 #endif
 
-// The last digits of the functions that a motion is computed with.  Libraries choose among versions of them by processor.
+// The last digits of the functions that a motion is computed with. Libraries choose among versions
+// of them by processor.
 static uint64_t digits_of_functions(void) {
-  static double (*const one[])(double) = {sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, exp, log, exp2, sqrt};
+  static double (*const one[])(double) = {sin,  cos,  tan, asin, acos, atan, sinh,
+                                          cosh, tanh, exp, log,  exp2, sqrt};
   static double (*const two[])(double, double) = {pow, atan2};
   uint64_t hash = 0;
   pl_random dice = {1};
@@ -63,8 +71,9 @@ static uint64_t digits_of_functions(void) {
   return hash;
 }
 
-// ---------------------------------------------------------------------------------------------- the list
-static void add(pl_traits* list, pl_arena* a, const char* name, const char* flag, const char* value) {
+// ---------------------------------------------------------------------------------------- the list
+static void add(pl_traits* list, pl_arena* a, const char* name, const char* flag,
+                const char* value) {
   pl_push(a, *list, (pl_trait){name, flag, value});
 }
 
@@ -81,8 +90,10 @@ static const char* settings(const pleuel_model* m) {
   return pl_text_string(&text);
 }
 
-void pl_traits_of(pl_traits* list, const pleuel_model* m, const pleuel_sim_options* o, const pl_run_options* how) {
-  static const char* const method[] = {[PL_METHOD_TAYLOR] = "taylor", [PL_METHOD_RADAU] = "radau", [PL_METHOD_AUTO] = "auto"};
+void pl_traits_of(pl_traits* list, const pleuel_model* m, const pleuel_sim_options* o,
+                  const pl_run_options* how) {
+  static const char* const method[] = {
+      [PL_METHOD_TAYLOR] = "taylor", [PL_METHOD_RADAU] = "radau", [PL_METHOD_AUTO] = "auto"};
   pl_arena* a = m->arena;
   pl_build build = {.here = (const void*)(uintptr_t)pl_traits_of};
   name_build(&build);
@@ -114,7 +125,7 @@ void pl_traits_keep(pl_keeper* k, pl_traits* list, pl_arena* a) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- comparing
+// --------------------------------------------------------------------------------------- comparing
 static const char* value_of(const pl_traits* list, const char* name) {
   for (int i = 0; i < list->n; i++)
     if (list->at[i].name && strcmp(list->at[i].name, name) == 0) return list->at[i].value;
@@ -122,29 +133,42 @@ static const char* value_of(const pl_traits* list, const char* name) {
 }
 
 // 0 and nothing stand for: not given.
-static const char* shown(const char* value) { return !value || !*value || strcmp(value, "0") == 0 ? "-" : value; }
-
-static pleuel_status differs(pleuel_model* m, const char* path, const pl_trait* now, const char* was) {
-  pl_job* job = &m->job;
-  if (strcmp(now->name, "program") == 0)
-    return pl_fail(job, PLEUEL_USAGE, "%s is of pleuel %s, this is %s: go on with that one, or begin anew", path, shown(was), now->value);
-  if (strcmp(now->name, "build") == 0)
-    return pl_fail(job, PLEUEL_USAGE, "%s is of another build of pleuel %s: go on with that one, or begin anew", path, pleuel_version());
-  if (strcmp(now->name, "model") == 0)
-    return pl_fail(job, PLEUEL_USAGE,
-                   "%s belongs to another text of %s, or of a file that it includes: restore it, or begin anew", path, m->name);
-  if (strcmp(now->name, "machine") == 0)
-    return pl_fail(job, PLEUEL_USAGE,
-                   "%s was written where sin, exp or pow have other last digits (another processor or C library): go on there, or "
-                   "begin anew", path);
-  return pl_fail(job, PLEUEL_USAGE, "%s belongs to a run with another %s: it was %s, now it is %s", path, now->flag, shown(was),
-                 shown(now->value));
+static const char* shown(const char* value) {
+  return !value || !*value || strcmp(value, "0") == 0 ? "-" : value;
 }
 
-pleuel_status pl_traits_compare(pleuel_model* m, const char* path, const pl_traits* kept, const pl_traits* now) {
+static pleuel_status differs(pleuel_model* m, const char* path, const pl_trait* now,
+                             const char* was) {
+  pl_job* job = &m->job;
+  if (strcmp(now->name, "program") == 0)
+    return pl_fail(job, PLEUEL_USAGE,
+                   "%s is of pleuel %s, this is %s: go on with that one, or begin anew", path,
+                   shown(was), now->value);
+  if (strcmp(now->name, "build") == 0)
+    return pl_fail(job, PLEUEL_USAGE,
+                   "%s is of another build of pleuel %s: go on with that one, or begin anew", path,
+                   pleuel_version());
+  if (strcmp(now->name, "model") == 0)
+    return pl_fail(job, PLEUEL_USAGE,
+                   "%s belongs to another text of %s, or of a file that it includes: restore it, "
+                   "or begin anew",
+                   path, m->name);
+  if (strcmp(now->name, "machine") == 0)
+    return pl_fail(job, PLEUEL_USAGE,
+                   "%s was written where sin, exp or pow have other last digits (another processor "
+                   "or C library): go on there, or "
+                   "begin anew",
+                   path);
+  return pl_fail(job, PLEUEL_USAGE, "%s belongs to a run with another %s: it was %s, now it is %s",
+                 path, now->flag, shown(was), shown(now->value));
+}
+
+pleuel_status pl_traits_compare(pleuel_model* m, const char* path, const pl_traits* kept,
+                                const pl_traits* now) {
   for (int i = 0; i < now->n; i++) {
     const char* was = value_of(kept, now->at[i].name);
-    if (was == NULL || strcmp(was, now->at[i].value) != 0) return differs(m, path, &now->at[i], was);
+    if (was == NULL || strcmp(was, now->at[i].value) != 0)
+      return differs(m, path, &now->at[i], was);
   }
   return PLEUEL_OK;
 }

@@ -1,10 +1,11 @@
-// What a run has to say for itself: events with their states, how far it came, how exact it stayed.  In words and as JSON.
+// What a run has to say for itself: events with their states, how far it came, how exact it
+// stayed. In words and as JSON.
 #include <math.h>
 #include <string.h>
 
 #include "api/api_impl.h"
 
-// ---------------------------------------------------------------------------------------------- words
+// ------------------------------------------------------------------------------------------- words
 typedef struct pl_teller {
   pl_text* out;
   const pleuel_model* m;
@@ -19,32 +20,40 @@ static const char* say(const pl_teller* t, const char* en, const char* de) {
   return t->ascii ? pl_plain_ascii(t->arena, words) : words;
 }
 
-static const char* number(const pl_teller* t, double x, int digits) { return pl_notation_number(t->arena, x, digits, t->notation); }
+static const char* number(const pl_teller* t, double x, int digits) {
+  return pl_notation_number(t->arena, x, digits, t->notation);
+}
 
 // The name of a coordinate as it is displayed: ϑ, x[3].
 static const char* coordinate_name(const pl_teller* t, int i) {
   const pl_recording* r = t->m->recording;
   const pl_pool* p = t->m->model->pool;
-  if (t->ascii || i >= r->flat.n || pl_kind_of(p, r->flat.at[i]) != PL_SYMBOL) return r->setup.coordinates[i].name;
+  if (t->ascii || i >= r->flat.n || pl_kind_of(p, r->flat.at[i]) != PL_SYMBOL)
+    return r->setup.coordinates[i].name;
   return pl_symbol_get(p, pl_symbol_of(p, r->flat.at[i]))->name;
 }
 
-enum { MOST_COORDINATES = 8, DIGITS = 6 };    // of a state shown on one line
+enum { MOST_COORDINATES = 8, DIGITS = 6 };  // of a state shown on one line
 
 // r = 20 m, ϑ = 48.1975°
 static void add_state(pl_teller* t, const double* row) {
   const pl_setup* s = &t->m->recording->setup;
   int shown = 0, column = 1;
-  double most = 0;        // what is rounding beside it is shown as zero
+  double most = 0;  // what is rounding beside it is shown as zero
   for (int i = 0, k = 1; i < t->m->recording->flat.n; i++)
     if (!s->coordinates[i].hidden) most = fmax(most, fabs(row[k++]));
   for (int i = 0; i < t->m->recording->flat.n && shown < MOST_COORDINATES; i++) {
     const pl_coordinate* q = &s->coordinates[i];
     if (q->hidden) continue;
     bool angle = q->unit && strcmp(q->unit, "rad") == 0;
-    double x = fabs(row[column]) < 1e-14 * most ? 0 : angle ? row[column] * (180 / M_PI) : row[column];
-    const char* unit = angle ? (t->ascii ? " deg" : "°") : q->unit && *q->unit ? pl_format(t->arena, " %s", q->unit) : "";
-    pl_text_addf(t->out, "%s%s = %s%s", shown ? ", " : "   ", coordinate_name(t, i), number(t, x, DIGITS), unit);
+    double x = fabs(row[column]) < 1e-14 * most ? 0
+               : angle                          ? row[column] * (180 / M_PI)
+                                                : row[column];
+    const char* unit = angle                 ? (t->ascii ? " deg" : "°")
+                       : q->unit && *q->unit ? pl_format(t->arena, " %s", q->unit)
+                                             : "";
+    pl_text_addf(t->out, "%s%s = %s%s", shown ? ", " : "   ", coordinate_name(t, i),
+                 number(t, x, DIGITS), unit);
     column++;
     shown++;
   }
@@ -54,28 +63,40 @@ static const char* event_words(const pl_teller* t, const pl_result_event* e) {
   const char* label = e->label ? e->label : "";
   switch (e->kind) {
     case PL_EV_RELEASE:
-      if (e->at_start) return pl_format(t->arena, say(t, "%s lets go at once: its force would have to pull", "%s löst sich sofort: die Kraft müsste ziehen"), label);
+      if (e->at_start)
+        return pl_format(t->arena,
+                         say(t, "%s lets go at once: its force would have to pull",
+                             "%s löst sich sofort: die Kraft müsste ziehen"),
+                         label);
       return pl_format(t->arena, say(t, "%s lets go", "%s löst sich"), label);
     case PL_EV_IMPACT: return pl_format(t->arena, say(t, "impact on %s", "Stoß auf %s"), label);
     case PL_EV_SLACK: return pl_format(t->arena, say(t, "%s goes slack", "%s wird schlaff"), label);
     case PL_EV_TAUT:
       if (e->bounces) break;
-      return pl_format(t->arena, e->jump ? say(t, "%s goes taut with a jerk", "%s strafft sich mit einem Ruck") : say(t, "%s goes taut", "%s strafft sich"), label);
+      return pl_format(t->arena,
+                       e->jump
+                           ? say(t, "%s goes taut with a jerk", "%s strafft sich mit einem Ruck")
+                           : say(t, "%s goes taut", "%s strafft sich"),
+                       label);
     case PL_EV_STICK: return pl_format(t->arena, say(t, "%s sticks", "%s haftet"), label);
     case PL_EV_SLIP: return pl_format(t->arena, say(t, "%s slips", "%s gleitet"), label);
-    case PL_EV_CONTACT: if (e->bounces) break;
+    case PL_EV_CONTACT:
+      if (e->bounces) break;
       return pl_format(t->arena, say(t, "contact with %s", "Kontakt mit %s"), label);
     case PL_EV_SINGULAR: return say(t, "singular position", "singuläre Lage");
     case PL_EV_STOP: return pl_format(t->arena, say(t, "%s: stop", "%s: Ende"), label);
     case PL_EV_EVENT: break;
   }
   if (e->bounces)
-    return pl_format(t->arena, say(t, "%s at rest after endless bounces (%ld followed, the rest summed)",
-                                   "%s in Ruhe nach unendlich vielen Stößen (%ld verfolgt, der Rest summiert)"), label, e->bounces);
+    return pl_format(
+        t->arena,
+        say(t, "%s at rest after endless bounces (%ld followed, the rest summed)",
+            "%s in Ruhe nach unendlich vielen Stößen (%ld verfolgt, der Rest summiert)"),
+        label, e->bounces);
   return label;
 }
 
-enum { MOST_EVENTS = 40 };    // in words; JSON has all
+enum { MOST_EVENTS = 40 };  // in words; JSON has all
 
 static void tell_events(pl_teller* t) {
   const pl_result* r = t->m->result;
@@ -97,30 +118,38 @@ static void tell_events(pl_teller* t) {
     pl_text_add(t->out, "\n");
   }
   if (r->events.n > MOST_EVENTS) {
-    pl_text_addf(t->out, say(t, "     and %d more events\n", "     und %d weitere Ereignisse\n"), r->events.n - MOST_EVENTS);
+    pl_text_addf(t->out, say(t, "     and %d more events\n", "     und %d weitere Ereignisse\n"),
+                 r->events.n - MOST_EVENTS);
   }
 }
 
 static const char* precision_word(const pl_stats* s) {
-  static const char* const word[] = {[PL_PRECISION_DOUBLE] = "double", [PL_PRECISION_LONG] = "long", [PL_PRECISION_QUAD] = "quad"};
+  static const char* const word[] = {
+      [PL_PRECISION_DOUBLE] = "double", [PL_PRECISION_LONG] = "long", [PL_PRECISION_QUAD] = "quad"};
   return word[s->precision];
 }
 
 // Which method took how many steps.
 static void tell_steps(pl_teller* t, const pl_stats* s) {
   if (s->steps_implicit < s->steps || s->steps == 0) {
-    pl_text_addf(t->out, say(t, "     %ld steps of order %d", "     %ld Schritte der Ordnung %d"), s->steps - s->steps_implicit, s->order);
+    pl_text_addf(t->out, say(t, "     %ld steps of order %d", "     %ld Schritte der Ordnung %d"),
+                 s->steps - s->steps_implicit, s->order);
   }
-  if (s->precision == PL_PRECISION_LONG) pl_text_add(t->out, say(t, " in 80-bit numbers", " in Zahlen mit 80 Bit"));
-  if (s->precision == PL_PRECISION_QUAD) pl_text_add(t->out, say(t, " in 128-bit numbers", " in Zahlen mit 128 Bit"));
+  if (s->precision == PL_PRECISION_LONG)
+    pl_text_add(t->out, say(t, " in 80-bit numbers", " in Zahlen mit 80 Bit"));
+  if (s->precision == PL_PRECISION_QUAD)
+    pl_text_add(t->out, say(t, " in 128-bit numbers", " in Zahlen mit 128 Bit"));
   if (s->steps_implicit == 0) return;
   const char* unit = t->m->model->uses_units ? " s" : "";
   if (s->steps_implicit == s->steps) {
-    pl_text_addf(t->out, say(t, "     %ld implicit steps of order %d (Radau IIA)", "     %ld implizite Schritte der Ordnung %d (Radau IIA)"),
+    pl_text_addf(t->out,
+                 say(t, "     %ld implicit steps of order %d (Radau IIA)",
+                     "     %ld implizite Schritte der Ordnung %d (Radau IIA)"),
                  s->steps, s->order_implicit);
   } else {
-    pl_text_addf(t->out, say(t, "; stiff from t = %s%s, %ld implicit steps of order %d (Radau IIA)",
-                             "; steif ab t = %s%s, %ld implizite Schritte der Ordnung %d (Radau IIA)"),
+    pl_text_addf(t->out,
+                 say(t, "; stiff from t = %s%s, %ld implicit steps of order %d (Radau IIA)",
+                     "; steif ab t = %s%s, %ld implizite Schritte der Ordnung %d (Radau IIA)"),
                  number(t, s->t_implicit, 3), unit, s->steps_implicit, s->order_implicit);
   }
 }
@@ -129,19 +158,28 @@ static void tell_accuracy(pl_teller* t) {
   const pl_result* r = t->m->result;
   const pl_stats* s = &r->stats;
   tell_steps(t, s);
-  if (t->m->recording->setup.n_c > 0) pl_text_addf(t->out, say(t, ", constraints kept to %s", ", Zwangsbedingungen auf %s erfüllt"), number(t, s->max_g, 2));
+  if (t->m->recording->setup.n_c > 0)
+    pl_text_addf(t->out, say(t, ", constraints kept to %s", ", Zwangsbedingungen auf %s erfüllt"),
+                 number(t, s->max_g, 2));
   if (t->m->recording->setup.energy_conserved && !isnan(s->energy_drift)) {
-    pl_text_addf(t->out, say(t, ", energy to %s", ", Energie auf %s"), number(t, s->energy_drift, 2));
+    pl_text_addf(t->out, say(t, ", energy to %s", ", Energie auf %s"),
+                 number(t, s->energy_drift, 2));
   }
   pl_text_add(t->out, "\n");
   if (t->m->tol_raised) {
-    pl_text_addf(t->out, say(t, "     the tolerance was raised to %s, which is what the arithmetic can do\n",
-                             "     die Toleranz wurde auf %s erhöht, mehr gibt die Rechengenauigkeit nicht her\n"), number(t, t->m->tol_used, 2));
+    pl_text_addf(
+        t->out,
+        say(t, "     the tolerance was raised to %s, which is what the arithmetic can do\n",
+            "     die Toleranz wurde auf %s erhöht, mehr gibt die Rechengenauigkeit nicht her\n"),
+        number(t, t->m->tol_used, 2));
   }
   if (t->m->start.largest_move > 0) {
-    pl_text_addf(t->out, say(t, "     given start values were moved by %s (relative) to meet the constraints\n",
-                             "     gegebene Startwerte wurden um %s (relativ) verschoben, damit die Zwangsbedingungen gelten\n"),
-                 number(t, t->m->start.largest_move, 2));
+    pl_text_addf(
+        t->out,
+        say(t, "     given start values were moved by %s (relative) to meet the constraints\n",
+            "     gegebene Startwerte wurden um %s (relativ) verschoben, damit die "
+            "Zwangsbedingungen gelten\n"),
+        number(t, t->m->start.largest_move, 2));
   }
 }
 
@@ -149,17 +187,28 @@ static void tell_accuracy(pl_teller* t) {
 static void tell_stop(pl_teller* t, bool started) {
   const pleuel_model* m = t->m;
   if (m->run == PLEUEL_OK || !m->run_message[0]) return;
-  pl_text_addf(t->out, started ? say(t, "     stopped there: %s\n", "     dort beendet: %s\n") : say(t, "  not simulated: %s\n", "  nicht simuliert: %s\n"),
+  pl_text_addf(t->out,
+               started ? say(t, "     stopped there: %s\n", "     dort beendet: %s\n")
+                       : say(t, "  not simulated: %s\n", "  nicht simuliert: %s\n"),
                m->run_message);
   if (m->run != PLEUEL_INTERRUPTED || m->state == NULL) return;
   if (m->kept == PL_KEPT_FAILED)
-    pl_text_addf(t->out, say(t, "     its state could not be kept in %s: %s\n", "     ihr Zustand ließ sich nicht in %s aufbewahren: %s\n"), m->state, m->kept_why);
+    pl_text_addf(t->out,
+                 say(t, "     its state could not be kept in %s: %s\n",
+                     "     ihr Zustand ließ sich nicht in %s aufbewahren: %s\n"),
+                 m->state, m->kept_why);
   if (m->kept != PL_KEPT_YES) return;
-  if (m->resume_command) pl_text_addf(t->out, say(t, "     to go on:  %s\n", "     weiter geht es mit:  %s\n"), m->resume_command);
-  else pl_text_addf(t->out, say(t, "     its state is kept in %s\n", "     ihr Zustand ist in %s aufbewahrt\n"), m->state);
+  if (m->resume_command)
+    pl_text_addf(t->out, say(t, "     to go on:  %s\n", "     weiter geht es mit:  %s\n"),
+                 m->resume_command);
+  else
+    pl_text_addf(
+        t->out, say(t, "     its state is kept in %s\n", "     ihr Zustand ist in %s aufbewahrt\n"),
+        m->state);
 }
 
-// Columns of multipliers that hold no number for some time: redundant constraints, or more contacts and frictions than equations.
+// Columns of multipliers that hold no number for some time: redundant constraints, or more contacts
+// and frictions than equations.
 static void tell_undetermined(pl_teller* t) {
   enum { SHOWN = 6 };
   const char *list = t->m->result->stats.undetermined, *end = list;
@@ -169,7 +218,9 @@ static void tell_undetermined(pl_teller* t) {
     if (*c == ',' && n++ >= SHOWN) more++;
     if (more == 0) end = c + 1;
   }
-  pl_text_addf(t->out, say(t, "     several forces fit, so some are not determined: %.*s", "     mehrere Kräfte passen, daher nicht bestimmt: %.*s"),
+  pl_text_addf(t->out,
+               say(t, "     several forces fit, so some are not determined: %.*s",
+                   "     mehrere Kräfte passen, daher nicht bestimmt: %.*s"),
                (int)(end - list), list);
   if (more > 0) pl_text_addf(t->out, say(t, " and %d more", " und %d weitere"), more);
   pl_text_add(t->out, "\n");
@@ -181,32 +232,41 @@ void pl_engine_text(pl_text* out, const pleuel_model* m, pl_language lang) {
   const pl_stats* s = &m->result->stats;
   if (!isnan(m->resumed_at)) {
     const char* unit = m->model->uses_units ? " s" : "";
-    pl_text_addf(out, say(&t, "     went on from t = %s%s\n", "     fortgesetzt von t = %s%s an\n"), number(&t, m->resumed_at, DIGITS), unit);
+    pl_text_addf(out, say(&t, "     went on from t = %s%s\n", "     fortgesetzt von t = %s%s an\n"),
+                 number(&t, m->resumed_at, DIGITS), unit);
   }
   if (!s->compiled) {
-    pl_text_addf(out, say(&t, "     %ld steps, interpreted", "     %ld Schritte, interpretiert"), s->steps);
+    pl_text_addf(out, say(&t, "     %ld steps, interpreted", "     %ld Schritte, interpretiert"),
+                 s->steps);
     if (s->why_interpreted) pl_text_addf(out, ": %s", s->why_interpreted);
     pl_text_add(out, "\n");
     return;
   }
-  pl_text_addf(out, say(&t, "     %ld steps, %ld of them interpreted, the others compiled (%s ms%s)\n",
-                        "     %ld Schritte, davon %ld interpretiert, die anderen kompiliert (%s ms%s)\n"), s->steps, s->steps_interpreted,
-               number(&t, 1e3 * s->compile_s, 2), s->stored ? say(&t, ", from disk", ", von der Platte") : "");
+  pl_text_addf(
+      out,
+      say(&t, "     %ld steps, %ld of them interpreted, the others compiled (%s ms%s)\n",
+          "     %ld Schritte, davon %ld interpretiert, die anderen kompiliert (%s ms%s)\n"),
+      s->steps, s->steps_interpreted, number(&t, 1e3 * s->compile_s, 2),
+      s->stored ? say(&t, ", from disk", ", von der Platte") : "");
 }
 
-void pl_motion_text(pl_text* out, const pleuel_model* m, pl_language lang, bool ascii, bool events_only) {
+void pl_motion_text(pl_text* out, const pleuel_model* m, pl_language lang, bool ascii,
+                    bool events_only) {
   pl_teller t = {out, m, m->arena, lang, ascii, {ascii ? PL_MATH_ASCII : PL_MATH_LINE, lang}};
   const pl_result* r = m->result;
   if (!r) {
-    if (m->run_message[0]) pl_text_addf(out, say(&t, "  not simulated: %s\n", "  nicht simuliert: %s\n"), m->run_message);
+    if (m->run_message[0])
+      pl_text_addf(out, say(&t, "  not simulated: %s\n", "  nicht simuliert: %s\n"),
+                   m->run_message);
     return;
   }
   const char* unit = m->model->uses_units ? " s" : "";
   bool started = r->rows.n > 0;
   double end = started ? r->rows.at[r->rows.n - 1][0] : m->recording->t_0;
   if (started) {
-    pl_text_addf(out, say(&t, "  simulated from t = %s to %s%s\n", "  simuliert von t = %s bis %s%s\n"), number(&t, m->recording->t_0, DIGITS),
-                 number(&t, end, DIGITS), unit);
+    pl_text_addf(out,
+                 say(&t, "  simulated from t = %s to %s%s\n", "  simuliert von t = %s bis %s%s\n"),
+                 number(&t, m->recording->t_0, DIGITS), number(&t, end, DIGITS), unit);
     tell_events(&t);
     if (!events_only) tell_accuracy(&t);
     if (!events_only) tell_undetermined(&t);
@@ -215,17 +275,19 @@ void pl_motion_text(pl_text* out, const pleuel_model* m, pl_language lang, bool 
   tell_stop(&t, started);
 }
 
-// ---------------------------------------------------------------------------------------------- JSON
+// -------------------------------------------------------------------------------------------- JSON
 // A number of an event: with all its digits where it has more than a double.
 static void json_digits(pl_json* j, const char* key, double x, const char* digits) {
   if (digits && isfinite(x)) pl_json_raw(j, key, digits);
   else pl_json_number(j, key, x);
 }
 
-static void json_columns(pl_json* j, const char* key, const pl_result* r, const double* row, const char* const* digits, int from, int to) {
+static void json_columns(pl_json* j, const char* key, const pl_result* r, const double* row,
+                         const char* const* digits, int from, int to) {
   pl_json_object(j, key);
   pl_json_flat(j);
-  for (int i = from; i < to; i++) json_digits(j, r->columns[i].name, row[i], digits ? digits[i] : NULL);
+  for (int i = from; i < to; i++)
+    json_digits(j, r->columns[i].name, row[i], digits ? digits[i] : NULL);
   pl_json_end_object(j);
 }
 
@@ -300,7 +362,9 @@ void pl_motion_json(pl_text* out, const pleuel_model* m) {
   }
   pl_json_number(&j, "residual_g", s->max_g);
   pl_json_number(&j, "residual_gdot", s->max_gdot);
-  pl_json_number(&j, "energy_drift", m->recording && m->recording->setup.energy_conserved ? s->energy_drift : (double)NAN);
+  pl_json_number(
+      &j, "energy_drift",
+      m->recording && m->recording->setup.energy_conserved ? s->energy_drift : (double)NAN);
   if (s->undetermined) json_names(m->arena, &j, "undetermined", s->undetermined);
   pl_json_list(&j, "events");
   for (int i = 0; r && i < r->events.n; i++) json_event(&j, m, &r->events.at[i]);

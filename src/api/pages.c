@@ -1,10 +1,11 @@
-// pages: what the library can tell without a model.  Pages on messages, units, examples, the model to start from.
+// pages: what the library can tell without a model. Pages on messages, units, examples, the model
+// to start from.
 #include <math.h>
 #include <string.h>
 
 #include "api/api_impl.h"
 
-// ---------------------------------------------------------------------------------------------- guarded texts
+// ----------------------------------------------------------------------------------- guarded texts
 typedef const char* pl_page_work(pleuel* ctx, const char* argument);
 
 // Runs work under a guard on the context's memory; NULL when that runs out.
@@ -13,16 +14,15 @@ static const char* guarded_page(pleuel* ctx, pl_page_work* work, const char* arg
   ctx->message[0] = '\0';
   const char* volatile text = NULL;
   pl_guard guard;
-  PL_GUARD(ctx->arena, guard) {
-    text = work(ctx, argument);
-  } else {
+  PL_GUARD(ctx->arena, guard) { text = work(ctx, argument); }
+  else {
     snprintf(ctx->message, sizeof ctx->message, "memory ran out");
   }
   pl_guard_end(ctx->arena, &guard);
   return text;
 }
 
-// ---------------------------------------------------------------------------------------------- messages
+// ---------------------------------------------------------------------------------------- messages
 static const char* embedded(const pl_embedded* table, const char* name) {
   for (; table->name; table++) {
     if (strcmp(table->name, name) == 0) return table->text;
@@ -38,7 +38,9 @@ static const char* explain(pleuel* ctx, const char* name) {
   return pl_format(ctx->arena, "# %s: %s\n", name, pl_code_title(code, ctx->lang));
 }
 
-const char* pleuel_explain(pleuel* ctx, const char* code) { return code ? guarded_page(ctx, explain, code) : NULL; }
+const char* pleuel_explain(pleuel* ctx, const char* code) {
+  return code ? guarded_page(ctx, explain, code) : NULL;
+}
 
 static const char* codes(pleuel* ctx, const char* unused) {
   pl_text out = pl_text_make(ctx->arena);
@@ -50,12 +52,19 @@ static const char* codes(pleuel* ctx, const char* unused) {
 
 const char* pleuel_codes(pleuel* ctx) { return guarded_page(ctx, codes, NULL); }
 
-// ---------------------------------------------------------------------------------------------- no model at all
-typedef struct pl_no_model { const char* file; char message[512]; pleuel_status status; } pl_no_model;
+// --------------------------------------------------------------------------------- no model at all
+typedef struct pl_no_model {
+  const char* file;
+  char message[512];
+  pleuel_status status;
+} pl_no_model;
 
 static const char* failure_json(pleuel* ctx, const pl_no_model* f) {
   pl_text out = pl_text_make(ctx->arena);
-  pl_json_input in = {.file = f->file, .status = f->status, .message = pl_copy(ctx->arena, f->message), .lang = ctx->lang};
+  pl_json_input in = {.file = f->file,
+                      .status = f->status,
+                      .message = pl_copy(ctx->arena, f->message),
+                      .lang = ctx->lang};
   pl_worked_json(&out, &in);
   return pl_text_string(&out);
 }
@@ -66,14 +75,12 @@ const char* pleuel_failure_json(pleuel* ctx, const char* file, pleuel_status sta
   memcpy(f.message, ctx->message, sizeof f.message);
   const char* volatile text = NULL;
   pl_guard guard;
-  PL_GUARD(ctx->arena, guard) {
-    text = failure_json(ctx, &f);
-  }
+  PL_GUARD(ctx->arena, guard) { text = failure_json(ctx, &f); }
   pl_guard_end(ctx->arena, &guard);
   return text;
 }
 
-// ---------------------------------------------------------------------------------------------- units, quantities
+// ------------------------------------------------------------------------------- units, quantities
 static const char* units(pleuel* ctx, const char* unit) {
   pl_pool* pool = pl_pool_make(ctx->arena);
   pl_unit parsed;
@@ -82,7 +89,8 @@ static const char* units(pleuel* ctx, const char* unit) {
   const char* text = pl_unit_explain(ctx->arena, pool, unit, ctx->lang);
   size_t length = strlen(text);
   while (length > 0 && text[length - 1] == '\n') length--;
-  if (pl_unit_parse(pool, unit, strlen(unit), &parsed, &at, &n, &near)) return pl_format(ctx->arena, "%.*s\n", (int)length, text);
+  if (pl_unit_parse(pool, unit, strlen(unit), &parsed, &at, &n, &near))
+    return pl_format(ctx->arena, "%.*s\n", (int)length, text);
   snprintf(ctx->message, sizeof ctx->message, "%.*s", (int)length, text);
   return NULL;
 }
@@ -122,7 +130,8 @@ static const char* number_of(pleuel* ctx, const char* text, double* value) {
   pl_pool* pool = pl_pool_make(ctx->arena);
   pl_expr number;
   const char* fault = read_quantity(ctx->arena, pool, text, &number);
-  if (fault == NULL) *value = pl_eval(pool, number, PL_ARRAY(ctx->arena, double, pl_symbol_count(pool) + 1));
+  if (fault == NULL)
+    *value = pl_eval(pool, number, PL_ARRAY(ctx->arena, double, pl_symbol_count(pool) + 1));
   return fault;
 }
 
@@ -140,15 +149,13 @@ pleuel_status pleuel_quantity(pleuel* ctx, double* value, const char* text) {
   ctx->message[0] = '\0';
   const char* volatile fault = "memory ran out";
   pl_guard guard;
-  PL_GUARD(ctx->arena, guard) {
-    fault = number_of(ctx, text, value);
-  }
+  PL_GUARD(ctx->arena, guard) { fault = number_of(ctx, text, value); }
   pl_guard_end(ctx->arena, &guard);
   if (fault) snprintf(ctx->message, sizeof ctx->message, "%s", fault);
   return fault ? PLEUEL_USAGE : PLEUEL_OK;
 }
 
-// ---------------------------------------------------------------------------------------------- models to start from
+// ---------------------------------------------------------------------------- models to start from
 // The template's own name stands between the quotes of its `system` line; it is replaced.
 static const char* template(pleuel* ctx, const char* name) {
   const char* text = pl_templates[0].text;
@@ -165,7 +172,9 @@ static const char* template(pleuel* ctx, const char* name) {
   return pl_format(ctx->arena, "%.*s%s%s", (int)(at - text), text, title, end);
 }
 
-const char* pleuel_template(pleuel* ctx, const char* name) { return name ? guarded_page(ctx, template, name) : NULL; }
+const char* pleuel_template(pleuel* ctx, const char* name) {
+  return name ? guarded_page(ctx, template, name) : NULL;
+}
 
 const char* pleuel_example(size_t i, const char** name) {
   size_t n = 0;

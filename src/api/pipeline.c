@@ -3,18 +3,21 @@
 //     text -> lang -> model -> derive -> (a) notation -> report            worked solution, JSON
 //                                     -> (b) tape -> jet -> solve -> result -> report     motion
 //
-// Each step is taken once and remembered in the pleuel_model; asking for a later one takes those before it.  A step that
-// was interrupted is taken anew.
+// Each step is taken once and remembered in the pleuel_model; asking for a later one takes those
+// before it. A step that was interrupted is taken anew.
 #include "api/stages.h"
 #include "api/witness.h"
 
 #include <math.h>
 #include <string.h>
 
-static void note_time(pleuel_model* m, int stage, double start_s) { m->stage_ms[stage] += 1e3 * (pl_clock() - start_s); }
+static void note_time(pleuel_model* m, int stage, double start_s) {
+  m->stage_ms[stage] += 1e3 * (pl_clock() - start_s);
+}
 
 // Includes as they are read, all of them part of the text.
-static const pl_source* read_hashed(void* user, pl_arena* a, const char* path, const pl_source* from) {
+static const pl_source* read_hashed(void* user, pl_arena* a, const char* path,
+                                    const pl_source* from) {
   pleuel_model* m = user;
   const pl_source* s = m->reader->read(m->reader->user, a, path, from);
   if (s) m->text_hash = pl_hash_bytes(s->text, s->size, m->text_hash);
@@ -25,7 +28,8 @@ static const pl_source* read_hashed(void* user, pl_arena* a, const char* path, c
 pleuel_status pl_pipeline_parse(pleuel_model* m) {
   pl_include_reader hashed = {read_hashed, m};
   m->text_hash = pl_hash_bytes(m->source->text, m->source->size, 0);
-  m->parsed = pl_lang_parse(&m->job, m->source, m->reader ? &hashed : NULL, m->settings, m->n_settings, &m->model);
+  m->parsed = pl_lang_parse(&m->job, m->source, m->reader ? &hashed : NULL, m->settings,
+                            m->n_settings, &m->model);
   if (m->model && m->model->lang_given) m->job.lang = m->model->lang;
   pl_diagnostics_sort(&m->diagnostics);
   return m->parsed;
@@ -41,7 +45,8 @@ static bool only_contradictions(const pl_diagnostics* d) {
   return d->n_errors > 0;
 }
 
-// A start violates constraints that contradict each other, whatever the start is: then that is the message.
+// A start violates constraints that contradict each other, whatever the start is: then that is the
+// message.
 static void find_contradiction(pleuel_model* m) {
   pl_solution* solution = NULL;
   pl_derive(&m->job, m->model, &(pl_derive_options){.structure = true}, &solution);
@@ -58,7 +63,8 @@ pleuel_status pl_pipeline_check(pleuel_model* m) {
   double start = pl_clock();
   m->checked = pl_model_check(&m->job, m->model);
   if (m->checked == PLEUEL_OK && m->diagnostics.n_errors > 0) m->checked = PLEUEL_MODEL_ERROR;
-  if (m->checked == PLEUEL_MODEL_ERROR && only_contradictions(&m->diagnostics)) m->checked = PLEUEL_CONTRADICTION;
+  if (m->checked == PLEUEL_MODEL_ERROR && only_contradictions(&m->diagnostics))
+    m->checked = PLEUEL_CONTRADICTION;
   if (m->checked == PLEUEL_CONTRADICTION) find_contradiction(m);
   pl_diagnostics_sort(&m->diagnostics);
   note_time(m, PL_STAGE_CHECK, start);
@@ -66,7 +72,8 @@ pleuel_status pl_pipeline_check(pleuel_model* m) {
 }
 
 // checked model -> equations and steps
-static pleuel_status derive(pleuel_model* m, const char* only, double seconds, bool structure, bool along) {
+static pleuel_status derive(pleuel_model* m, const char* only, double seconds, bool structure,
+                            bool along) {
   double start = pl_clock();
   pl_solution_close(m->solution);
   m->solution = NULL;
@@ -84,14 +91,16 @@ static pleuel_status derive(pleuel_model* m, const char* only, double seconds, b
   pl_diagnostics_sort(&m->diagnostics);
   note_time(m, PL_STAGE_DERIVE, start);
   start = pl_clock();
-  if (m->derived == PLEUEL_OK && !structure) pl_witness_hold(&m->job, m->solution, staging->stages, staging->n);
+  if (m->derived == PLEUEL_OK && !structure)
+    pl_witness_hold(&m->job, m->solution, staging->stages, staging->n);
   note_time(m, PL_STAGE_WITNESS, start);
   return m->derived;
 }
 
 pleuel_status pl_pipeline_derive(pleuel_model* m, const char* only, double seconds, bool along) {
   PL_TRY(pl_pipeline_check(m));
-  bool same = m->solved_only == only || (only && m->solved_only && strcmp(only, m->solved_only) == 0);
+  bool same = m->solved_only == only
+              || (only && m->solved_only && strcmp(only, m->solved_only) == 0);
   if (m->is_derived && !m->structure && same && m->start_only == !along) return m->derived;
   return derive(m, only, seconds, false, along);
 }
@@ -112,11 +121,15 @@ pleuel_status pl_pipeline_record(pleuel_model* m) {
   return m->recorded;
 }
 
-// The same with derivatives by parameters and start values, if they are asked for: another setup of the same model.
+// The same with derivatives by parameters and start values, if they are asked for: another setup of
+// the same model.
 static pleuel_status record_varied(pleuel_model* m, const char* sensitivities) {
-  if (m->is_recorded && m->recorded == PLEUEL_OK && m->recording->exact != m->exact) m->is_recorded = false;
-  const char* known = m->is_recorded && m->recorded == PLEUEL_OK ? m->recording->sensitivities : NULL;
-  bool same = known == sensitivities || (known && sensitivities && strcmp(known, sensitivities) == 0);
+  if (m->is_recorded && m->recorded == PLEUEL_OK && m->recording->exact != m->exact)
+    m->is_recorded = false;
+  const char* known = m->is_recorded && m->recorded == PLEUEL_OK ? m->recording->sensitivities
+                                                                 : NULL;
+  bool same = known == sensitivities
+              || (known && sensitivities && strcmp(known, sensitivities) == 0);
   if (m->is_recorded && m->recorded == PLEUEL_OK && !same) m->is_recorded = false;
   if (!sensitivities) return pl_pipeline_record(m);
   PL_TRY(pl_pipeline_check(m));
@@ -130,14 +143,14 @@ static pleuel_status record_varied(pleuel_model* m, const char* sensitivities) {
   return m->recorded;
 }
 
-// ---------------------------------------------------------------------------------------------- motion
+// ------------------------------------------------------------------------------------------ motion
 // Hands the rows on to the functions of the caller.
 typedef struct pl_relay {
   const pleuel_sim_options* options;
   pleuel_model* model;
   const pl_setup* setup;
-  double* values;      // (n_columns)
-  bool stopped;        // the caller wants no more
+  double* values;  // (n_columns)
+  bool stopped;    // the caller wants no more
 } pl_relay;
 
 static pleuel_status relay_row(void* user, const pl_row* row) {
@@ -155,7 +168,8 @@ static pleuel_status relay_row(void* user, const pl_row* row) {
     if (s->links[i].column) r->values[n++] = s->links[i].minus ? -row->lambda[i] : row->lambda[i];
   }
   for (int i = 0; i < s->n_out; i++) r->values[n++] = row->out[i];
-  if (!r->stopped) r->stopped = r->options->row(r->options->user, (size_t)n, r->values, row->mode) != 0;
+  if (!r->stopped)
+    r->stopped = r->options->row(r->options->user, (size_t)n, r->values, row->mode) != 0;
   return r->stopped ? PLEUEL_INTERRUPTED : PLEUEL_OK;
 }
 
@@ -173,7 +187,10 @@ static pleuel_status relay_columns(void* user, const pl_setup* setup) {
   return stop ? PLEUEL_INTERRUPTED : PLEUEL_OK;
 }
 
-typedef struct pl_watcher { const pleuel_sim_options* options; double t_0; } pl_watcher;
+typedef struct pl_watcher {
+  const pleuel_sim_options* options;
+  double t_0;
+} pl_watcher;
 static void watch(void* user, double t, double t_end, double h, const pl_stats* stats) {
   pl_watcher* w = user;
   pleuel_progress p = {t, w->t_0, t_end, h, stats->energy_drift, stats->steps};
@@ -187,7 +204,8 @@ static pleuel_status start_plain(pleuel_model* m, pl_run* run) {
 }
 
 // Positions and velocities of all blocks: the motion, and what is known of its variation.
-static pleuel_status start_blocks(pleuel_model* m, pl_run* run, double t, const double* q, const double* v) {
+static pleuel_status start_blocks(pleuel_model* m, pl_run* run, double t, const double* q,
+                                  const double* v) {
   const pl_recording* r = m->recording;
   size_t n = (size_t)r->flat.n, all = (size_t)r->setup.n_q;
   double *q_all = PL_ARRAY(m->arena, double, all), *v_all = PL_ARRAY(m->arena, double, all);
@@ -217,12 +235,14 @@ static pleuel_status start_varied(pleuel_model* m, const pl_run_options* how, pl
   quiet.progress = NULL;
   quiet.keep = NULL;
   bool switched = m->recording->setup.varied != NULL;
-  struct pl_pilot* pilot = switched ? pl_pilot_make(&m->job, run, &plain->setup, &quiet.sink) : NULL;
+  struct pl_pilot* pilot = switched ? pl_pilot_make(&m->job, run, &plain->setup, &quiet.sink)
+                                    : NULL;
   pleuel_status s = pl_run_make(&m->job, &plain->setup, &quiet, &first);
   if (s == PLEUEL_OK) s = start_plain(m, first);
-  bool goes_ahead = s == PLEUEL_OK && pilot;     // and is freed with the run
+  bool goes_ahead = s == PLEUEL_OK && pilot;  // and is freed with the run
   if (goes_ahead) pl_pilot_take(pilot, run, first);
-  if (s == PLEUEL_OK) s = start_blocks(m, run, pl_run_time(first), pl_run_q(first), pl_run_v(first));
+  if (s == PLEUEL_OK)
+    s = start_blocks(m, run, pl_run_time(first), pl_run_q(first), pl_run_v(first));
   if (!goes_ahead) pl_run_free(first);
   return s;
 }
@@ -235,7 +255,7 @@ static pleuel_status start_turned(pleuel_model* m, const pl_run_options* how, pl
   quiet.sink = (pl_sink){0};
   quiet.progress = NULL;
   quiet.keep = NULL;
-  quiet.start_only = true;      // the angles may tell no accelerations there
+  quiet.start_only = true;  // the angles may tell no accelerations there
   pleuel_status s = pl_run_make(&m->job, &r->setup, &quiet, &first);
   if (s == PLEUEL_OK) s = start_plain(m, first);
   size_t n = (size_t)r->flat.n, all = (size_t)r->turned->setup.n_q;
@@ -250,10 +270,13 @@ static pleuel_status start_turned(pleuel_model* m, const pl_run_options* how, pl
 }
 
 // What is proven is proven for the coordinates as declared.
-static bool is_turned(const pl_recording* r, const pleuel_sim_options* o) { return r->turned && !o->certify; }
+static bool is_turned(const pl_recording* r, const pleuel_sim_options* o) {
+  return r->turned && !o->certify;
+}
 
 static bool method_named(const char* name, pl_method* out) {
-  static const char* const names[] = {[PL_METHOD_TAYLOR] = "taylor", [PL_METHOD_RADAU] = "radau", [PL_METHOD_AUTO] = "auto"};
+  static const char* const names[] = {
+      [PL_METHOD_TAYLOR] = "taylor", [PL_METHOD_RADAU] = "radau", [PL_METHOD_AUTO] = "auto"};
   for (int i = 0; i < 3; i++) {
     if (strcmp(name, names[i]) != 0) continue;
     if (out) *out = (pl_method)i;
@@ -263,7 +286,9 @@ static bool method_named(const char* name, pl_method* out) {
 }
 
 static bool engine_named(const char* name, pl_engine* out) {
-  static const char* const names[] = {[PL_ENGINE_AUTO] = "auto", [PL_ENGINE_INTERPRETER] = "interpreter", [PL_ENGINE_COMPILED] = "compiled"};
+  static const char* const names[] = {[PL_ENGINE_AUTO] = "auto",
+                                      [PL_ENGINE_INTERPRETER] = "interpreter",
+                                      [PL_ENGINE_COMPILED] = "compiled"};
   for (int i = 0; i < 3; i++) {
     if (strcmp(name, names[i]) != 0) continue;
     if (out) *out = (pl_engine)i;
@@ -273,7 +298,8 @@ static bool engine_named(const char* name, pl_engine* out) {
 }
 
 static bool precision_named(const char* name, pl_precision* out) {
-  static const char* const names[] = {[PL_PRECISION_DOUBLE] = "double", [PL_PRECISION_LONG] = "long", [PL_PRECISION_QUAD] = "quad"};
+  static const char* const names[] = {
+      [PL_PRECISION_DOUBLE] = "double", [PL_PRECISION_LONG] = "long", [PL_PRECISION_QUAD] = "quad"};
   for (int i = 0; i < 3; i++) {
     if (strcmp(name, names[i]) != 0) continue;
     if (out) *out = (pl_precision)i;
@@ -299,23 +325,33 @@ pleuel_status pl_pipeline_start(pleuel_model* m, const pleuel_sim_options* o, pl
   const pl_recording* r = m->recording;
   bool turned = is_turned(r, o);
   const pl_setup* setup = turned ? &r->turned->setup : &r->setup;
-  pl_run_options how = {.t_0 = r->t_0, .t_end = r->t_end, .tol = r->tol, .dt = r->dt, .count = r->count};
+  pl_run_options how = {
+      .t_0 = r->t_0, .t_end = r->t_end, .tol = r->tol, .dt = r->dt, .count = r->count};
   how.method = PL_METHOD_AUTO;
   if (o->method) method_named(o->method, &how.method);
   if (o->engine) engine_named(o->engine, &how.engine);
   if (o->has_until) how.t_end = o->until;
   if (o->has_tol) how.tol = o->tol;
-  if (o->has_dt) how.dt = o->dt, how.count = 0;
+  if (o->has_dt) {
+    how.dt = o->dt;
+    how.count = 0;
+  }
   if (isnan(how.t_end)) how.t_end = how.t_0;
   if (o->precision) precision_named(o->precision, &how.precision);
   if (o->has_until && m->exact) how.t_end_exact = exact_time(m, o->until_as_written);
   if (o->has_dt && m->exact) how.dt_exact = exact_time(m, o->dt_as_written);
   if (m->result) {
     how.sink = pl_result_sink(m->result);
-    if (o->csv) m->result->next = m->keeping && o->resume ? pl_csv_sink_behind(m->arena, o->csv) : pl_csv_sink(m->arena, o->csv);
+    if (o->csv)
+      m->result->next = m->keeping && o->resume ? pl_csv_sink_behind(m->arena, o->csv)
+                                                : pl_csv_sink(m->arena, o->csv);
     else if (o->row) {
       pl_relay* relay = PL_NEW(m->arena, pl_relay);
-      *relay = (pl_relay){.options = o, .model = m, .setup = setup, .values = PL_ARRAY(m->arena, double, 1 + 2 * setup->n_q + setup->n_c + setup->n_out)};
+      *relay = (pl_relay){
+          .options = o,
+          .model = m,
+          .setup = setup,
+          .values = PL_ARRAY(m->arena, double, 1 + 2 * setup->n_q + setup->n_c + setup->n_out)};
       m->result->next = (pl_sink){.user = relay, .begin = relay_columns, .row = relay_row};
     }
   }
@@ -335,10 +371,12 @@ pleuel_status pl_pipeline_start(pleuel_model* m, const pleuel_sim_options* o, pl
     if (resumes) how.sink = (pl_sink){0};
   }
   PL_TRY(pl_run_make(&m->job, setup, &how, out));
-  pleuel_status s = r->n_directions ? start_varied(m, &how, *out) : turned ? start_turned(m, &how, *out) : start_plain(m, *out);
+  pleuel_status s = r->n_directions ? start_varied(m, &how, *out)
+                    : turned        ? start_turned(m, &how, *out)
+                                    : start_plain(m, *out);
   if (s == PLEUEL_OK && resumes) {
     s = pl_keeping_resume(m->keeping, *out, &sink);
-    if (s != PLEUEL_OK) m->result->rows.n = m->result->events.n = 0;     // nothing was run
+    if (s != PLEUEL_OK) m->result->rows.n = m->result->events.n = 0;  // nothing was run
   }
   m->tol_raised = pl_run_tol_raised(*out);
   m->tol_used = pl_run_tol(*out);
@@ -350,45 +388,63 @@ pleuel_status pl_pipeline_start(pleuel_model* m, const pleuel_sim_options* o, pl
 static pleuel_status check_times(pleuel_model* m, const pleuel_sim_options* o) {
   const pl_recording* r = m->recording;
   if (!o->has_until && isnan(r->t_end)) {
-    return pl_fail(&m->job, PLEUEL_USAGE, "how long? The file has no `simulate` line; give --until, for example --until 10");
+    return pl_fail(
+        &m->job, PLEUEL_USAGE,
+        "how long? The file has no `simulate` line; give --until, for example --until 10");
   }
-  if (o->has_until && !isfinite(o->until)) return pl_fail(&m->job, PLEUEL_USAGE, "the end of the run is no number");
-  if (o->has_tol && !(o->tol > 0 && o->tol < 1)) return pl_fail(&m->job, PLEUEL_USAGE, "tol must lie between 0 and 1");
+  if (o->has_until && !isfinite(o->until))
+    return pl_fail(&m->job, PLEUEL_USAGE, "the end of the run is no number");
+  if (o->has_tol && !(o->tol > 0 && o->tol < 1))
+    return pl_fail(&m->job, PLEUEL_USAGE, "tol must lie between 0 and 1");
   if (o->method && !method_named(o->method, NULL)) {
-    return pl_fail(&m->job, PLEUEL_USAGE, "there is no method %s: taylor, radau or auto", o->method);
+    return pl_fail(&m->job, PLEUEL_USAGE, "there is no method %s: taylor, radau or auto",
+                   o->method);
   }
   if (o->engine && !engine_named(o->engine, NULL)) {
-    return pl_fail(&m->job, PLEUEL_USAGE, "there is no engine %s: auto, interpreter or compiled", o->engine);
+    return pl_fail(&m->job, PLEUEL_USAGE, "there is no engine %s: auto, interpreter or compiled",
+                   o->engine);
   }
   if (o->certify && !(o->certify_width >= 0 && o->certify_width < 1e-4)) {
     return pl_fail(&m->job, PLEUEL_USAGE, "the width of an enclosure lies between 0 and 1e-4");
   }
   if (o->precision && !precision_named(o->precision, NULL)) {
-    return pl_fail(&m->job, PLEUEL_USAGE, "there is no precision %s: double, long or quad", o->precision);
+    return pl_fail(&m->job, PLEUEL_USAGE, "there is no precision %s: double, long or quad",
+                   o->precision);
   }
   if (is_wide(o) && o->sensitivities) {
-    return pl_fail(&m->job, PLEUEL_UNSUPPORTED, "precision %s: sensitivities are computed in double only", o->precision);
+    return pl_fail(&m->job, PLEUEL_UNSUPPORTED,
+                   "precision %s: sensitivities are computed in double only", o->precision);
   }
   if (o->has_dt && !(o->dt > 0)) return pl_fail(&m->job, PLEUEL_USAGE, "dt must be positive");
-  if (o->certify && o->resume) return pl_fail(&m->job, PLEUEL_USAGE, "a run that goes on from a state cannot be certified");
+  if (o->certify && o->resume)
+    return pl_fail(&m->job, PLEUEL_USAGE, "a run that goes on from a state cannot be certified");
   return PLEUEL_OK;
 }
 
-// An impact on a contact for which no `restitution` is given was taken as inelastic: said once for each, with the request for a law.
+// An impact on a contact for which no `restitution` is given was taken as inelastic: said once for
+// each, with the request for a law.
 static void tell_inelastic(pleuel_model* m) {
   int before = m->diagnostics.list.n;
   for (int i = 0; i < m->result->events.n; i++) {
     const pl_result_event* e = &m->result->events.at[i];
-    const pl_constraint* c = e->kind == PL_EV_IMPACT && e->label ? pl_model_constraint(m->model, e->label) : NULL;
+    const pl_constraint* c = e->kind == PL_EV_IMPACT && e->label
+                                 ? pl_model_constraint(m->model, e->label)
+                                 : NULL;
     if (!c || pl_model_restitution(m->model, c)) continue;
     bool told = false;
-    for (int k = before; k < m->diagnostics.list.n; k++) told |= m->diagnostics.list.at[k].span.begin == c->span.begin;
+    for (int k = before; k < m->diagnostics.list.n; k++)
+      told |= m->diagnostics.list.at[k].span.begin == c->span.begin;
     if (told) continue;
-    pl_diagnostic* d = pl_report(&m->diagnostics, PL_N068, c->span,
-      pl_format(m->arena, "%s has no restitution: its impact at t = %.6g s was taken as inelastic", e->label, e->t),
-      pl_format(m->arena, "%s hat keine Stoßzahl: der Stoß bei t = %.6g s gilt als unelastisch", e->label, e->t));
-    pl_report_fix(d, pl_format(m->arena, "give the law of the impact: restitution 0 on %s", e->label),
-                  pl_format(m->arena, "das Stoßgesetz angeben: restitution 0 on %s", e->label), NULL);
+    pl_diagnostic* d = pl_report(
+        &m->diagnostics, PL_N068, c->span,
+        pl_format(m->arena,
+                  "%s has no restitution: its impact at t = %.6g s was taken as inelastic",
+                  e->label, e->t),
+        pl_format(m->arena, "%s hat keine Stoßzahl: der Stoß bei t = %.6g s gilt als unelastisch",
+                  e->label, e->t));
+    pl_report_fix(
+        d, pl_format(m->arena, "give the law of the impact: restitution 0 on %s", e->label),
+        pl_format(m->arena, "das Stoßgesetz angeben: restitution 0 on %s", e->label), NULL);
   }
   if (m->diagnostics.list.n > before) pl_diagnostics_sort(&m->diagnostics);
 }
@@ -413,7 +469,8 @@ pleuel_status pl_pipeline_run(pleuel_model* m, const pleuel_sim_options* o) {
     return m->run;
   }
   double start = pl_clock();
-  m->result = pl_result_make(m->arena, o->certify);   // with all rows: each is compared with its enclosure
+  // with all rows: each is compared with its enclosure
+  m->result = pl_result_make(m->arena, o->certify);
   m->keeping = pl_keeping_make(m, o);
   pl_run* run = NULL;
   m->run = pl_pipeline_start(m, o, &run);

@@ -1,5 +1,5 @@
-// pleuel: the public functions.  Each enters through a guard, so that memory that runs out becomes a status, does one
-// step of the pipeline, and hands out a text or a status.
+// pleuel: the public functions. Each enters through a guard, so that memory that runs out becomes a
+// status, does one step of the pipeline, and hands out a text or a status.
 #include "pleuel.h"
 
 #include <errno.h>
@@ -12,7 +12,7 @@
 
 const char* pleuel_version(void) { return PLEUEL_VERSION; }
 
-// ---------------------------------------------------------------------------------------------- context
+// ----------------------------------------------------------------------------------------- context
 pleuel* pleuel_open(const pleuel_allocator* alloc) {
   pl_arena* arena = pl_arena_make(alloc);
   if (!arena) return NULL;
@@ -48,8 +48,11 @@ static pl_language language_of(const char* name, pl_language otherwise) {
   return strncmp(name, "de", 2) == 0 ? PL_GERMAN : PL_ENGLISH;
 }
 
-// What is asked for, else what the file names, else what the context speaks: messages and solution alike.
-static pl_language solution_language(const pleuel_model* m, const char* asked) { return language_of(asked, m->job.lang); }
+// What is asked for, else what the file names, else what the context speaks: messages and solution
+// alike.
+static pl_language solution_language(const pleuel_model* m, const char* asked) {
+  return language_of(asked, m->job.lang);
+}
 
 static pleuel_status fail(pleuel* ctx, pleuel_status s, const char* sentence) {
   snprintf(ctx->message, sizeof ctx->message, "%s", pl_in_language(ctx->lang, sentence));
@@ -78,7 +81,7 @@ void pleuel_interrupt_clear(pleuel* ctx) {
   if (ctx) ctx->interrupted = 0;
 }
 
-// ---------------------------------------------------------------------------------------------- guarded calls
+// ----------------------------------------------------------------------------------- guarded calls
 // Options of an older caller are shorter: what it does not know keeps its default.
 static void copy_options(void* to, size_t size, const void* from) {
   memset(to, 0, size);
@@ -99,32 +102,39 @@ static pleuel_status guarded(pleuel_model* m, pl_work* work, void* argument) {
   m->job.status = PLEUEL_OK;
   volatile pleuel_status status = PLEUEL_NO_MEMORY;
   pl_guard guard;
-  PL_GUARD(m->arena, guard) {
-    status = work(m, argument);
-  } else {
+  PL_GUARD(m->arena, guard) { status = work(m, argument); }
+  else {
     status = guard.status;
     m->broken = true;
   }
   pl_guard_end(m->arena, &guard);
   if (m->broken && status == PLEUEL_NO_MEMORY) {
-    fail(ctx, PLEUEL_NO_MEMORY, ctx->limit ? "this takes more memory than the limit allows" : "memory ran out");
+    fail(ctx, PLEUEL_NO_MEMORY,
+         ctx->limit ? "this takes more memory than the limit allows" : "memory ran out");
   } else if (m->job.message[0]) {
     fail(ctx, status, m->job.message);
   }
   return status;
 }
 
-// ---------------------------------------------------------------------------------------------- loading
-typedef struct pl_reading { const char* text; size_t size; const pleuel_load_options* options; bool is_file; } pl_reading;
+// ----------------------------------------------------------------------------------------- loading
+typedef struct pl_reading {
+  const char* text;
+  size_t size;
+  const pleuel_load_options* options;
+  bool is_file;
+} pl_reading;
 
 // Includes of the caller.
-static const pl_source* read_by_caller(void* user, pl_arena* a, const char* path, const pl_source* from) {
+static const pl_source* read_by_caller(void* user, pl_arena* a, const char* path,
+                                       const pl_source* from) {
   const pleuel_load_options* o = user;
   const char* text = o->read(o->read_user, path, from ? from->name : "");
   return text ? pl_source_make(a, pl_copy(a, path), pl_copy(a, text), strlen(text)) : NULL;
 }
 
-enum { MAX_FILE_BYTES = 64 << 20 };   // a model is kilobytes; this keeps a mistyped name from filling the memory
+// a model is kilobytes; this keeps a mistyped name from filling the memory
+enum { MAX_FILE_BYTES = 64 << 20 };
 
 // The whole of a file, NUL-terminated; NULL with errno set when it cannot be read.
 static char* read_file(pl_arena* a, const char* path, size_t* size) {
@@ -148,10 +158,13 @@ static char* read_file(pl_arena* a, const char* path, size_t* size) {
 }
 
 // Includes of a file: what lies beside it.
-static const pl_source* read_beside(void* user, pl_arena* a, const char* path, const pl_source* from) {
+static const pl_source* read_beside(void* user, pl_arena* a, const char* path,
+                                    const pl_source* from) {
   (void)user;
   const char* slash = from ? strrchr(from->name, '/') : NULL;
-  const char* full = path[0] == '/' || !slash ? path : pl_format(a, "%.*s/%s", (int)(slash - from->name), from->name, path);
+  const char* full = path[0] == '/' || !slash
+                         ? path
+                         : pl_format(a, "%.*s/%s", (int)(slash - from->name), from->name, path);
   size_t size = 0;
   char* text = read_file(a, full, &size);
   return text ? pl_source_make(a, pl_copy(a, full), text, size) : NULL;
@@ -173,7 +186,8 @@ static pleuel_status load(pleuel_model* m, void* argument) {
 
   pl_setting* set = PL_ARRAY(m->arena, pl_setting, o->n_settings);
   for (size_t i = 0; i < o->n_settings; i++) {
-    set[i] = (pl_setting){pl_copy(m->arena, o->settings[i].name), pl_copy(m->arena, o->settings[i].value)};
+    set[i] = (pl_setting){pl_copy(m->arena, o->settings[i].name),
+                          pl_copy(m->arena, o->settings[i].value)};
   }
   m->settings = set;
   m->n_settings = (int)o->n_settings;
@@ -202,7 +216,10 @@ static pleuel_model* model_make(pleuel* ctx, const char* name) {
     m->ctx = ctx;
     m->arena = arena;
     m->diagnostics.arena = arena;
-    m->job = (pl_job){.arena = arena, .diagnostics = &m->diagnostics, .interrupted = &ctx->interrupted, .lang = ctx->lang};
+    m->job = (pl_job){.arena = arena,
+                      .diagnostics = &m->diagnostics,
+                      .interrupted = &ctx->interrupted,
+                      .lang = ctx->lang};
     m->name = pl_copy(arena, name);
     made = m;
   }
@@ -218,7 +235,8 @@ static pleuel_model* model_make(pleuel* ctx, const char* name) {
   return m;
 }
 
-static pleuel_status load_model(pleuel* ctx, pleuel_model** model, pl_reading* l, const char* name) {
+static pleuel_status load_model(pleuel* ctx, pleuel_model** model, pl_reading* l,
+                                const char* name) {
   pleuel_model* m = model_make(ctx, name);
   if (!m) return fail(ctx, PLEUEL_NO_MEMORY, "memory ran out");
   pleuel_status s = guarded(m, load, l);
@@ -234,7 +252,8 @@ static pleuel_status load_model(pleuel* ctx, pleuel_model** model, pl_reading* l
   return s;
 }
 
-pleuel_status pleuel_load_text(pleuel* ctx, pleuel_model** model, const char* text, size_t size, const pleuel_load_options* options) {
+pleuel_status pleuel_load_text(pleuel* ctx, pleuel_model** model, const char* text, size_t size,
+                               const pleuel_load_options* options) {
   if (!ctx || !model) return PLEUEL_USAGE;
   *model = NULL;
   ctx->message[0] = '\0';
@@ -246,7 +265,8 @@ pleuel_status pleuel_load_text(pleuel* ctx, pleuel_model** model, const char* te
   return load_model(ctx, model, &l, o.name ? o.name : "<text>");
 }
 
-pleuel_status pleuel_load_file(pleuel* ctx, pleuel_model** model, const char* path, const pleuel_load_options* options) {
+pleuel_status pleuel_load_file(pleuel* ctx, pleuel_model** model, const char* path,
+                               const pleuel_load_options* options) {
   if (!ctx || !model) return PLEUEL_USAGE;
   *model = NULL;
   ctx->message[0] = '\0';
@@ -266,16 +286,21 @@ void pleuel_model_free(pleuel_model* m) {
   pl_arena_free(m->arena);
 }
 
-// ---------------------------------------------------------------------------------------------- messages
+// ---------------------------------------------------------------------------------------- messages
 size_t pleuel_diagnostic_count(const pleuel_model* m, pleuel_severity severity) {
   size_t n = 0;
-  for (int i = 0; m && i < m->diagnostics.list.n; i++) n += (int)pl_code_severity(m->diagnostics.list.at[i].code) == (int)severity;
+  for (int i = 0; m && i < m->diagnostics.list.n; i++)
+    n += (int)pl_code_severity(m->diagnostics.list.at[i].code) == (int)severity;
   return n;
 }
 
-enum { MOST_MESSAGES = 50 };     // of one kind of text; a file that is no model has thousands
+enum { MOST_MESSAGES = 50 };  // of one kind of text; a file that is no model has thousands
 
-typedef struct pl_telling { unsigned severities; pl_print_style style; const char* text; } pl_telling;
+typedef struct pl_telling {
+  unsigned severities;
+  pl_print_style style;
+  const char* text;
+} pl_telling;
 
 static pleuel_status tell(pleuel_model* m, void* argument) {
   pl_telling* t = argument;
@@ -288,25 +313,29 @@ static pleuel_status tell(pleuel_model* m, void* argument) {
     pl_diagnostic_print(&out, d, t->style);
   }
   if (n > MOST_MESSAGES) {
-    pl_text_addf(&out, t->style.lang == PL_GERMAN ? "und %d weitere Meldungen\n" : "and %d more messages\n", n - MOST_MESSAGES);
+    pl_text_addf(
+        &out, t->style.lang == PL_GERMAN ? "und %d weitere Meldungen\n" : "and %d more messages\n",
+        n - MOST_MESSAGES);
   }
   t->text = pl_text_string(&out);
   return PLEUEL_OK;
 }
 
-const char* pleuel_diagnostics_text(pleuel_model* m, unsigned severities, const pleuel_text_options* options) {
+const char* pleuel_diagnostics_text(pleuel_model* m, unsigned severities,
+                                    const pleuel_text_options* options) {
   if (!m) return NULL;
   pleuel_text_options o;
   copy_options(&o, sizeof o, options);
   pl_telling t = {severities, {solution_language(m, o.lang), o.colour, o.terse}, NULL};
   char sentence[sizeof m->ctx->message];
-  memcpy(sentence, m->ctx->message, sizeof sentence);      // telling about a failure must not hide its sentence
+  // telling about a failure must not hide its sentence
+  memcpy(sentence, m->ctx->message, sizeof sentence);
   guarded(m, tell, &t);
   if (!m->broken) memcpy(m->ctx->message, sentence, sizeof sentence);
   return t.text;
 }
 
-// ---------------------------------------------------------------------------------------------- check
+// ------------------------------------------------------------------------------------------- check
 typedef struct pl_asking {
   const pleuel_text_options* text;
   const pleuel_solve_options* solve;
@@ -329,7 +358,8 @@ static pleuel_status look_at_start(pleuel_model* m) {
     pl_run_free(run);
   }
   // that numbers are missing is no fault of the model; that they contradict each other is
-  if (m->run == PLEUEL_CONTRADICTION || m->run == PLEUEL_SINGULAR || m->run == PLEUEL_INTERRUPTED) return m->run;
+  if (m->run == PLEUEL_CONTRADICTION || m->run == PLEUEL_SINGULAR || m->run == PLEUEL_INTERRUPTED)
+    return m->run;
   snprintf(m->run_message, sizeof m->run_message, "%s", m->job.message);
   m->job.message[0] = '\0';
   return PLEUEL_OK;
@@ -353,14 +383,20 @@ static pleuel_status check_json(pleuel_model* m, void* argument) {
   pl_asking* a = argument;
   pleuel_status s = check(m);
   pl_text out = pl_text_make(m->arena);
-  pl_json_input in = {.file = m->name, .model = m->model, .solution = m->solution, .diagnostics = &m->diagnostics, .status = s,
-                      .message = m->job.message, .lang = language_of(a->text->lang, m->job.lang)};
+  pl_json_input in = {.file = m->name,
+                      .model = m->model,
+                      .solution = m->solution,
+                      .diagnostics = &m->diagnostics,
+                      .status = s,
+                      .message = m->job.message,
+                      .lang = language_of(a->text->lang, m->job.lang)};
   pl_worked_json(&out, &in);
   a->answer = pl_text_string(&out);
   return s;
 }
 
-static pleuel_status ask_text(pleuel_model* m, const char** text, const pleuel_text_options* options, pl_work* work) {
+static pleuel_status ask_text(pleuel_model* m, const char** text,
+                              const pleuel_text_options* options, pl_work* work) {
   if (text) *text = NULL;
   if (!m) return PLEUEL_USAGE;
   pleuel_text_options o;
@@ -371,15 +407,17 @@ static pleuel_status ask_text(pleuel_model* m, const char** text, const pleuel_t
   return s;
 }
 
-pleuel_status pleuel_check(pleuel_model* m, const char** summary, const pleuel_text_options* options) {
+pleuel_status pleuel_check(pleuel_model* m, const char** summary,
+                           const pleuel_text_options* options) {
   return ask_text(m, summary, options, check_text);
 }
 
-pleuel_status pleuel_check_json(pleuel_model* m, const char** json, const pleuel_text_options* options) {
+pleuel_status pleuel_check_json(pleuel_model* m, const char** json,
+                                const pleuel_text_options* options) {
   return ask_text(m, json, options, check_json);
 }
 
-// ---------------------------------------------------------------------------------------------- solve
+// ------------------------------------------------------------------------------------------- solve
 // The language of a solution: what was asked for, else the file's, else the context's.
 
 // Simulation that the file asks for; a big family is left to `sim`.
@@ -393,8 +431,10 @@ static void simulate_for_solution(pleuel_model* m, const pleuel_solve_options* o
   if (n > MAX_COORDINATES_IN_SOLUTION) {
     m->is_run = true;
     m->run = PLEUEL_UNSUPPORTED;
-    snprintf(m->run_message, sizeof m->run_message, m->job.lang == PL_GERMAN ? "%d Koordinaten sind eine Sache für pleuel sim"
-                                                                             : "%d coordinates are a matter for pleuel sim", n);
+    snprintf(m->run_message, sizeof m->run_message,
+             m->job.lang == PL_GERMAN ? "%d Koordinaten sind eine Sache für pleuel sim"
+                                      : "%d coordinates are a matter for pleuel sim",
+             n);
     return;
   }
   PLEUEL_OPTIONS(pleuel_sim_options, how);
@@ -427,10 +467,12 @@ static pleuel_status verdict(pleuel_model* m, pleuel_status derived) {
   }
   if (m->solution && !all_passed(m->solution)) {
     return pl_fail(&m->job, PLEUEL_EXPECT_FAILED,
-                   m->solution->expect_failed ? "an `expect` of the model is false" : "a check of the solution failed");
+                   m->solution->expect_failed ? "an `expect` of the model is false"
+                                              : "a check of the solution failed");
   }
   if (m->solution && any_not_found(m->solution)) {
-    return pl_fail(&m->job, PLEUEL_NO_CLOSED_FORM, "a closed form that was asked for was not found");
+    return pl_fail(&m->job, PLEUEL_NO_CLOSED_FORM,
+                   "a closed form that was asked for was not found");
   }
   return PLEUEL_OK;
 }
@@ -439,14 +481,15 @@ static pl_math math_of(pleuel_math m) {
   return m == PLEUEL_MATH_2D ? PL_MATH_2D : m == PLEUEL_MATH_ASCII ? PL_MATH_ASCII : PL_MATH_LINE;
 }
 
-// The solution does not hang on the start values, but a start that contradicts the constraints has to be said.  That several
-// positions fit, or that numbers are missing, matters to the motion alone.
+// The solution does not hang on the start values, but a start that contradicts the constraints has
+// to be said. That several positions fit, or that numbers are missing, matters to the motion alone.
 static pleuel_status contradictory_start(pleuel_model* m) {
-  if (m->is_run || pl_model_flat_coords(m->model, m->arena).n > MAX_COORDINATES_IN_SOLUTION) return PLEUEL_OK;
+  if (m->is_run || pl_model_flat_coords(m->model, m->arena).n > MAX_COORDINATES_IN_SOLUTION)
+    return PLEUEL_OK;
   char sentence[sizeof m->job.message];
   memcpy(sentence, m->job.message, sizeof sentence);
   bool reported = m->start_reported;
-  m->start_reported = true;   // said below, if at all
+  m->start_reported = true;  // said below, if at all
   pleuel_status s = look_at_start(m);
   m->start_reported = reported;
   if (s == PLEUEL_CONTRADICTION && m->start.trouble == PL_START_VIOLATED) {
@@ -464,8 +507,12 @@ static pleuel_status solve_text(pleuel_model* m, void* argument) {
   if (!m->solution) return s;
   simulate_for_solution(m, o);
   if (s == PLEUEL_OK) s = contradictory_start(m);
-  pl_worked_style style = {.math = math_of(o->math), .lang = solution_language(m, o->lang), .colour = o->colour,
-                           .full = o->full, .width = o->width, .only = o->only};
+  pl_worked_style style = {.math = math_of(o->math),
+                           .lang = solution_language(m, o->lang),
+                           .colour = o->colour,
+                           .full = o->full,
+                           .width = o->width,
+                           .only = o->only};
   pl_text motion = pl_text_make(m->arena);
   if (m->is_run) pl_motion_text(&motion, m, style.lang, style.math == PL_MATH_ASCII, false);
   if (m->is_run) style.motion = pl_text_string(&motion);
@@ -495,33 +542,46 @@ static pleuel_status solve_json(pleuel_model* m, void* argument) {
   pl_text simulation = pl_text_make(m->arena);
   if (m->is_run) pl_motion_json(&simulation, m);
   s = verdict(m, s);
-  pl_json_input in = {.file = m->name, .model = m->model, .solution = m->solution, .diagnostics = &m->diagnostics,
-                      .status = s, .message = m->job.message, .lang = solution_language(m, o->lang), .only = o->only,
-                      .simulation = m->is_run ? indented(m->arena, pl_text_string(&simulation)) : NULL,
-                      .n_timing = o->timing ? PL_N_STAGES : 0, .timing_name = stages, .timing_ms = m->stage_ms};
+  pl_json_input in = {
+      .file = m->name,
+      .model = m->model,
+      .solution = m->solution,
+      .diagnostics = &m->diagnostics,
+      .status = s,
+      .message = m->job.message,
+      .lang = solution_language(m, o->lang),
+      .only = o->only,
+      .simulation = m->is_run ? indented(m->arena, pl_text_string(&simulation)) : NULL,
+      .n_timing = o->timing ? PL_N_STAGES : 0,
+      .timing_name = stages,
+      .timing_ms = m->stage_ms};
   pl_text out = pl_text_make(m->arena);
   pl_worked_json(&out, &in);
   a->answer = pl_text_string(&out);
   return s;
 }
 
-static pleuel_status ask_solution(pleuel_model* m, const char** text, const pleuel_solve_options* options, pl_work* work) {
+static pleuel_status ask_solution(pleuel_model* m, const char** text,
+                                  const pleuel_solve_options* options, pl_work* work) {
   if (text) *text = NULL;
   if (!m) return PLEUEL_USAGE;
   pleuel_solve_options o;
   copy_options(&o, sizeof o, options);
-  if ((unsigned)o.math > PLEUEL_MATH_ASCII || o.width < 0) return fail(m->ctx, PLEUEL_USAGE, "unknown manner of writing formulas");
+  if ((unsigned)o.math > PLEUEL_MATH_ASCII || o.width < 0)
+    return fail(m->ctx, PLEUEL_USAGE, "unknown manner of writing formulas");
   pl_asking a = {.solve = &o};
   pleuel_status s = guarded(m, work, &a);
   if (text) *text = a.answer;
   return s;
 }
 
-pleuel_status pleuel_solve_text(pleuel_model* m, const char** text, const pleuel_solve_options* options) {
+pleuel_status pleuel_solve_text(pleuel_model* m, const char** text,
+                                const pleuel_solve_options* options) {
   return ask_solution(m, text, options, solve_text);
 }
 
-pleuel_status pleuel_solve_json(pleuel_model* m, const char** json, const pleuel_solve_options* options) {
+pleuel_status pleuel_solve_json(pleuel_model* m, const char** json,
+                                const pleuel_solve_options* options) {
   return ask_solution(m, json, options, solve_json);
 }
 
@@ -529,7 +589,8 @@ static pleuel_status export(pleuel_model* m, void* argument) {
   pl_asking* a = argument;
   pl_export_input in = {.file = m->name, .only = a->solve->only};
   if (!pl_export_target_find(a->word, &in.target)) {
-    return pl_fail(&m->job, PLEUEL_USAGE, "there is no export to `%s`: sympy, mathematica, maxima, julia, json", a->word);
+    return pl_fail(&m->job, PLEUEL_USAGE,
+                   "there is no export to `%s`: sympy, mathematica, maxima, julia, json", a->word);
   }
   pleuel_status s = pl_pipeline_derive(m, a->solve->only, a->solve->seconds, false);
   if (!m->solution || s != PLEUEL_OK) return s;
@@ -538,13 +599,14 @@ static pleuel_status export(pleuel_model* m, void* argument) {
   pl_export(&out, &in);
   a->answer = pl_text_string(&out);
   bool is_run = m->is_run;
-  m->is_run = false;                             // a motion of before has no say in this
+  m->is_run = false;  // a motion of before has no say in this
   s = verdict(m, s);
   m->is_run = is_run;
   return s;
 }
 
-pleuel_status pleuel_export(pleuel_model* m, const char** text, const char* target, const pleuel_solve_options* options) {
+pleuel_status pleuel_export(pleuel_model* m, const char** text, const char* target,
+                            const pleuel_solve_options* options) {
   if (text) *text = NULL;
   if (!m || !target) return PLEUEL_USAGE;
   pleuel_solve_options o;
@@ -555,14 +617,18 @@ pleuel_status pleuel_export(pleuel_model* m, const char** text, const char* targ
   return s;
 }
 
-// ---------------------------------------------------------------------------------------------- LaTeX
+// ------------------------------------------------------------------------------------------- LaTeX
 static pleuel_status tex(pleuel_model* m, void* argument) {
   pl_asking* a = argument;
   const pleuel_tex_options* o = a->tex;
   pleuel_status s = pl_pipeline_derive(m, o->only, o->seconds, !o->no_simulation);
   if (!m->solution) return s;
-  pl_tex_style style = {.lang = solution_language(m, o->lang), .standalone = o->standalone, .plain = o->plain,
-                        .full = o->full, .only = o->only, .name = m->name};
+  pl_tex_style style = {.lang = solution_language(m, o->lang),
+                        .standalone = o->standalone,
+                        .plain = o->plain,
+                        .full = o->full,
+                        .only = o->only,
+                        .name = m->name};
   if (!o->no_figure) style.scene = pl_picture_scene(m, style.lang);
   PLEUEL_OPTIONS(pleuel_solve_options, how);
   how.no_simulation = o->no_simulation;
@@ -587,8 +653,11 @@ pleuel_status pleuel_tex(pleuel_model* m, const char** text, const pleuel_tex_op
   return s;
 }
 
-// ---------------------------------------------------------------------------------------------- report
-typedef struct pl_reporting { const pleuel_report_options* options; const char* html; } pl_reporting;
+// ------------------------------------------------------------------------------------------ report
+typedef struct pl_reporting {
+  const pleuel_report_options* options;
+  const char* html;
+} pl_reporting;
 
 static pleuel_status report(pleuel_model* m, void* argument) {
   pl_reporting* r = argument;
@@ -598,39 +667,50 @@ static pleuel_status report(pleuel_model* m, void* argument) {
   return verdict(m, s);
 }
 
-pleuel_status pleuel_report(pleuel_model* m, const char** html, const pleuel_report_options* options) {
+pleuel_status pleuel_report(pleuel_model* m, const char** html,
+                            const pleuel_report_options* options) {
   if (html) *html = NULL;
   if (!m) return PLEUEL_USAGE;
   pleuel_report_options o;
   copy_options(&o, sizeof o, options);
-  if ((unsigned)o.data > PLEUEL_DATA_FULL) return fail(m->ctx, PLEUEL_USAGE, "data of a report: thin, none or full");
+  if ((unsigned)o.data > PLEUEL_DATA_FULL)
+    return fail(m->ctx, PLEUEL_USAGE, "data of a report: thin, none or full");
   pl_reporting r = {&o, NULL};
   pleuel_status s = guarded(m, report, &r);
   if (html) *html = r.html;
   return s;
 }
 
-// ---------------------------------------------------------------------------------------------- pictures
+// ---------------------------------------------------------------------------------------- pictures
 enum { LARGEST_PICTURE = 8192 };
 static bool size_fits(int width, int height) {
-  return width >= 0 && height >= 0 && width <= LARGEST_PICTURE && height <= LARGEST_PICTURE && (width == 0 || width >= 64) && (height == 0 || height >= 64);
+  return width >= 0 && height >= 0 && width <= LARGEST_PICTURE && height <= LARGEST_PICTURE
+         && (width == 0 || width >= 64) && (height == 0 || height >= 64);
 }
 
-typedef struct pl_picturing { const pleuel_plot_options* plot; const pleuel_animate_options* animate; const char* bytes; size_t n; } pl_picturing;
+typedef struct pl_picturing {
+  const pleuel_plot_options* plot;
+  const pleuel_animate_options* animate;
+  const char* bytes;
+  size_t n;
+} pl_picturing;
 
 static pleuel_status plot(pleuel_model* m, void* argument) {
   pl_picturing* p = argument;
   return pl_picture_plot(m, solution_language(m, p->plot->lang), p->plot, &p->bytes, &p->n);
 }
 
-pleuel_status pleuel_plot(pleuel_model* m, const char** bytes, size_t* n, const pleuel_plot_options* options) {
+pleuel_status pleuel_plot(pleuel_model* m, const char** bytes, size_t* n,
+                          const pleuel_plot_options* options) {
   if (bytes) *bytes = NULL;
   if (n) *n = 0;
   if (!m || !bytes || !n) return PLEUEL_USAGE;
   pleuel_plot_options o;
   copy_options(&o, sizeof o, options);
-  if (!size_fits(o.width, o.height) || (unsigned)o.style > PLEUEL_FOR_PRINT || (unsigned)o.format > PLEUEL_PDF || (unsigned)o.panels > PLEUEL_PANELS_DRAWING) {
-    return fail(m->ctx, PLEUEL_USAGE, "a plot is SVG, PNG or PDF, at most 8192 pixels wide and high");
+  if (!size_fits(o.width, o.height) || (unsigned)o.style > PLEUEL_FOR_PRINT
+      || (unsigned)o.format > PLEUEL_PDF || (unsigned)o.panels > PLEUEL_PANELS_DRAWING) {
+    return fail(m->ctx, PLEUEL_USAGE,
+                "a plot is SVG, PNG or PDF, at most 8192 pixels wide and high");
   }
   pl_picturing p = {.plot = &o};
   pleuel_status s = guarded(m, plot, &p);
@@ -641,18 +721,22 @@ pleuel_status pleuel_plot(pleuel_model* m, const char** bytes, size_t* n, const 
 
 static pleuel_status animate(pleuel_model* m, void* argument) {
   pl_picturing* p = argument;
-  return pl_picture_animate(m, solution_language(m, p->animate->lang), p->animate, &p->bytes, &p->n);
+  return pl_picture_animate(m, solution_language(m, p->animate->lang), p->animate, &p->bytes,
+                            &p->n);
 }
 
-pleuel_status pleuel_animate(pleuel_model* m, const char** bytes, size_t* n, const pleuel_animate_options* options) {
+pleuel_status pleuel_animate(pleuel_model* m, const char** bytes, size_t* n,
+                             const pleuel_animate_options* options) {
   if (bytes) *bytes = NULL;
   if (n) *n = 0;
   if (!m || !bytes || !n) return PLEUEL_USAGE;
   pleuel_animate_options o;
   copy_options(&o, sizeof o, options);
-  if (!size_fits(o.width, o.height) || (unsigned)o.style > PLEUEL_FOR_PRINT || o.fps < 0 || o.fps > 100 || o.seconds < 0 ||
-      (o.format != PLEUEL_SVG && o.format != PLEUEL_GIF)) {
-    return fail(m->ctx, PLEUEL_USAGE, "an animation is SVG or GIF, at most 8192 pixels wide and high, at most 100 frames per second");
+  if (!size_fits(o.width, o.height) || (unsigned)o.style > PLEUEL_FOR_PRINT || o.fps < 0
+      || o.fps > 100 || o.seconds < 0 || (o.format != PLEUEL_SVG && o.format != PLEUEL_GIF)) {
+    return fail(m->ctx, PLEUEL_USAGE,
+                "an animation is SVG or GIF, at most 8192 pixels wide and high, at most 100 frames "
+                "per second");
   }
   pl_picturing p = {.animate = &o};
   pleuel_status s = guarded(m, animate, &p);
@@ -661,7 +745,7 @@ pleuel_status pleuel_animate(pleuel_model* m, const char** bytes, size_t* n, con
   return s;
 }
 
-// ---------------------------------------------------------------------------------------------- simulate
+// ---------------------------------------------------------------------------------------- simulate
 static pleuel_status simulate(pleuel_model* m, void* argument) {
   const pleuel_sim_options* o = argument;
   pleuel_status s = pl_pipeline_run(m, o);
@@ -669,7 +753,8 @@ static pleuel_status simulate(pleuel_model* m, void* argument) {
   return s;
 }
 
-pleuel_status pleuel_simulate(pleuel_model* m, pleuel_sim_summary* summary, const pleuel_sim_options* options) {
+pleuel_status pleuel_simulate(pleuel_model* m, pleuel_sim_summary* summary,
+                              const pleuel_sim_options* options) {
   if (summary) *summary = (pleuel_sim_summary){.t_end = NAN, .energy_drift = NAN};
   if (!m) return PLEUEL_USAGE;
   pleuel_sim_options o;
@@ -677,10 +762,16 @@ pleuel_status pleuel_simulate(pleuel_model* m, pleuel_sim_summary* summary, cons
   pleuel_status s = guarded(m, simulate, &o);
   const pl_result* r = m->broken ? NULL : m->result;
   if (summary && r) {
-    *summary = (pleuel_sim_summary){
-      .t_end = r->rows.n ? r->rows.at[r->rows.n - 1][0] : (double)NAN, .steps = r->stats.steps, .rejected = r->stats.rejections,
-      .residual_g = r->stats.max_g, .residual_gdot = r->stats.max_gdot, .energy_drift = r->stats.energy_drift,
-      .n_events = (size_t)r->events.n, .n_rows = (size_t)r->n_rows, .n_columns = (size_t)r->n_columns, .rows_kept = (size_t)m->rows_kept};
+    *summary = (pleuel_sim_summary){.t_end = r->rows.n ? r->rows.at[r->rows.n - 1][0] : (double)NAN,
+                                    .steps = r->stats.steps,
+                                    .rejected = r->stats.rejections,
+                                    .residual_g = r->stats.max_g,
+                                    .residual_gdot = r->stats.max_gdot,
+                                    .energy_drift = r->stats.energy_drift,
+                                    .n_events = (size_t)r->events.n,
+                                    .n_rows = (size_t)r->n_rows,
+                                    .n_columns = (size_t)r->n_columns,
+                                    .rows_kept = (size_t)m->rows_kept};
   }
   return s;
 }
@@ -688,7 +779,8 @@ pleuel_status pleuel_simulate(pleuel_model* m, pleuel_sim_summary* summary, cons
 static pleuel_status simulation_text(pleuel_model* m, void* argument) {
   pl_asking* a = argument;
   pl_text out = pl_text_make(m->arena);
-  if (m->is_run) pl_motion_text(&out, m, solution_language(m, a->text->lang), false, a->text->terse);
+  if (m->is_run)
+    pl_motion_text(&out, m, solution_language(m, a->text->lang), false, a->text->terse);
   a->answer = pl_text_string(&out);
   return PLEUEL_OK;
 }
@@ -731,7 +823,7 @@ const char* pleuel_simulation_engine(pleuel_model* m, const pleuel_text_options*
 
 const char* pleuel_simulation_json(pleuel_model* m) { return tell_run(m, NULL, simulation_json); }
 
-// ---------------------------------------------------------------------------------------------- format, dump
+// ------------------------------------------------------------------------------------ format, dump
 static pleuel_status format(pleuel_model* m, void* argument) {
   pl_asking* a = argument;
   if (m->parsed != PLEUEL_OK) return m->parsed;

@@ -1,15 +1,18 @@
 // record: from a checked model to the setup of a simulation.
 //
-// What stands outside of families is one pattern with one instance; each `for` block is one pattern with an instance
-// for each value of its index.  Map equations of `choose` become constraints of lower priority, so the motion is
-// integrated in all declared coordinates as written, and nothing here depends on what the derivation found.
+// What stands outside of families is one pattern with one instance; each `for` block is one pattern
+// with an instance for each value of its index. Map equations of `choose` become constraints of
+// lower priority, so the motion is integrated in all declared coordinates as written, and nothing
+// here depends on what the derivation found.
 #include <math.h>
 #include <string.h>
 
 #include "api/record_impl.h"
 
-// ---------------------------------------------------------------------------------------------- numbers
-double pl_record_number(pl_recorder* r, pl_expr e) { return pl_is_poison(e) ? (double)NAN : pl_eval(r->pool, e, r->value); }
+// ----------------------------------------------------------------------------------------- numbers
+double pl_record_number(pl_recorder* r, pl_expr e) {
+  return pl_is_poison(e) ? (double)NAN : pl_eval(r->pool, e, r->value);
+}
 
 bool pl_record_index(pl_recorder* r, pl_expr e, long* out) {
   double x = pl_record_number(r, e);
@@ -19,16 +22,18 @@ bool pl_record_index(pl_recorder* r, pl_expr e, long* out) {
 }
 
 static void set_indices(pl_recorder* r, const pl_instances* in, int instance) {
-  for (int d = 0; d < in->depth; d++) r->value[in->symbol[d].id] = (double)in->index[instance * in->depth + d];
+  for (int d = 0; d < in->depth; d++)
+    r->value[in->symbol[d].id] = (double)in->index[instance * in->depth + d];
 }
 
-// ---------------------------------------------------------------------------------------------- sums written out
-enum { MAX_SUM_TERMS = 20000 };   // beyond this a sum belongs into a family
+// -------------------------------------------------------------------------------- sums written out
+enum { MAX_SUM_TERMS = 20000 };  // beyond this a sum belongs into a family
 
 static pl_expr write_out(pl_recorder* r, pl_expr sum) {
   pl_pool* p = r->pool;
   long lo, hi;
-  if (!pl_record_index(r, pl_arg(p, sum, 1), &lo) || !pl_record_index(r, pl_arg(p, sum, 2), &hi)) return pl_poison();
+  if (!pl_record_index(r, pl_arg(p, sum, 1), &lo) || !pl_record_index(r, pl_arg(p, sum, 2), &hi))
+    return pl_poison();
   if (hi - lo >= MAX_SUM_TERMS) return pl_poison();
   int n = hi >= lo ? (int)(hi - lo + 1) : 0;
   pl_expr* term = PL_ARRAY(r->arena, pl_expr, n + 1);
@@ -59,7 +64,7 @@ pl_expr pl_record_plain(pl_recorder* r, pl_expr e) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- coordinates of a group
+// -------------------------------------------------------------------------- coordinates of a group
 static void collect(pl_recorder* r, pl_group* g, pl_expr e) {
   pl_pool* p = r->pool;
   if (pl_is_poison(e) || pl_map_get(g->seen, e.id)) return;
@@ -70,12 +75,14 @@ static void collect(pl_recorder* r, pl_group* g, pl_expr e) {
     const pl_symbol_info* info = pl_symbol_get(p, pl_symbol_of(p, e));
     if (info->role == PL_R_TIME) r->explicit_time = true;
     if (info->role == PL_R_COORD) atom = e;
-    if (info->role == PL_R_VELOCITY || info->role == PL_R_ACCELERATION) atom = pl_sym(p, info->base);
+    if (info->role == PL_R_VELOCITY || info->role == PL_R_ACCELERATION)
+      atom = pl_sym(p, info->base);
     while (!pl_is_poison(atom) && pl_symbol_get(p, pl_symbol_of(p, atom))->role != PL_R_COORD) {
       atom = pl_sym(p, pl_symbol_get(p, pl_symbol_of(p, atom))->base);
     }
   } else if (kind == PL_AT) {
-    if (pl_symbol_get(p, pl_symbol_of(p, e))->role == PL_R_ARRAY) atom = pl_at(p, pl_symbol_of(p, e), 0, pl_arg(p, e, 0));
+    if (pl_symbol_get(p, pl_symbol_of(p, e))->role == PL_R_ARRAY)
+      atom = pl_at(p, pl_symbol_of(p, e), 0, pl_arg(p, e, 0));
   } else {
     for (int i = 0; i < pl_n_args(p, e); i++) collect(r, g, pl_arg(p, e, i));
   }
@@ -98,10 +105,11 @@ int pl_record_global(pl_recorder* r, pl_expr atom) {
 }
 
 static pleuel_status no_such(pl_recorder* r, pl_expr atom) {
-  return pl_fail(r->job, PLEUEL_USAGE, "there is no coordinate %s", pl_expr_text(r->arena, r->pool, atom));
+  return pl_fail(r->job, PLEUEL_USAGE, "there is no coordinate %s",
+                 pl_expr_text(r->arena, r->pool, atom));
 }
 
-// ---------------------------------------------------------------------------------------------- groups
+// ------------------------------------------------------------------------------------------ groups
 static pl_group* group_make(pl_recorder* r, const pl_block* block) {
   pl_group* g = PL_NEW(r->arena, pl_group);
   g->block = block;
@@ -122,16 +130,19 @@ static pleuel_status group_for(pl_recorder* r, const pl_block* block, pl_group**
   return pl_model_instances(r->job, r->model, block, &(*out)->instances);
 }
 
-// ---------------------------------------------------------------------------------------------- loads of chosen coordinates
+// --------------------------------------------------------------------- loads of chosen coordinates
 static bool speaks_of(pl_recorder* r, pl_expr e, pl_symbol q) {
-  return !pl_is_poison(e) && (pl_has_symbol(r->pool, e, q) || pl_has_symbol(r->pool, e, pl_symbol_dot(r->pool, q)));
+  return !pl_is_poison(e)
+         && (pl_has_symbol(r->pool, e, q) || pl_has_symbol(r->pool, e, pl_symbol_dot(r->pool, q)));
 }
 
-// A torque, an inertia or a potential of a coordinate that stands in a map: it reaches the masses through the map.
+// A torque, an inertia or a potential of a coordinate that stands in a map: it reaches the masses
+// through the map.
 static bool is_loaded(pl_recorder* r, pl_symbol q) {
   const pl_model* m = r->model;
   bool mapped = false, loaded = false;
-  for (int k = 0; k < m->choose.n_maps; k++) mapped |= pl_has_symbol(r->pool, m->choose.maps[k].map, q);
+  for (int k = 0; k < m->choose.n_maps; k++)
+    mapped |= pl_has_symbol(r->pool, m->choose.maps[k].map, q);
   for (int i = 0; i < m->loads.n && mapped; i++) {
     const pl_load* l = &m->loads.at[i];
     loaded |= l->coordinate.id == q.id || speaks_of(r, l->value, q);
@@ -141,11 +152,13 @@ static bool is_loaded(pl_recorder* r, pl_symbol q) {
 
 static int count_along(pl_recorder* r) {
   int n = 0;
-  for (int k = 0; k < r->model->choose.coords.n; k++) n += is_loaded(r, r->model->choose.coords.at[k]);
+  for (int k = 0; k < r->model->choose.coords.n; k++)
+    n += is_loaded(r, r->model->choose.coords.at[k]);
   return n;
 }
 
-// Such a load acts along the map and not across it: the row  sum dX/dφ (x - X) = 0  goes before the maps x = X, which say the same.
+// Such a load acts along the map and not across it: the row sum dX/dφ (x - X) = 0 goes before the
+// maps x = X, which say the same.
 static pl_expr along_equation(pl_recorder* r, int k) {
   const pl_choose* choose = &r->model->choose;
   int at = 0;
@@ -153,7 +166,9 @@ static pl_expr along_equation(pl_recorder* r, int k) {
   pl_expr sum = pl_int(r->pool, 0);
   for (int j = 0; j < choose->n_maps; j++) {
     pl_expr gap = pl_sub(r->pool, choose->maps[j].old, choose->maps[j].map);
-    sum = pl_add(r->pool, sum, pl_mul(r->pool, pl_diff(r->pool, choose->maps[j].map, choose->coords.at[at]), gap));
+    sum = pl_add(
+        r->pool, sum,
+        pl_mul(r->pool, pl_diff(r->pool, choose->maps[j].map, choose->coords.at[at]), gap));
   }
   return sum;
 }
@@ -183,12 +198,15 @@ static pleuel_status make_groups(pl_recorder* r) {
     g->V = pl_record_plain(r, g->V);
     g->L = pl_record_plain(r, g->L);
     if (pl_is_poison(g->T) || pl_is_poison(g->V) || pl_is_poison(g->L)) {
-      return pl_fail(r->job, PLEUEL_UNSUPPORTED, "the energies cannot be written down (a sum without bounds, or a division by zero)");
+      return pl_fail(
+          r->job, PLEUEL_UNSUPPORTED,
+          "the energies cannot be written down (a sum without bounds, or a division by zero)");
     }
     collect(r, g, g->T);
     collect(r, g, g->V);
     collect(r, g, g->L);
-    for (int k = 0; k < g->constraints.n; k++) collect(r, g, m->constraints.at[g->constraints.at[k]].g);
+    for (int k = 0; k < g->constraints.n; k++)
+      collect(r, g, m->constraints.at[g->constraints.at[k]].g);
     if (i == 0) {
       for (int k = 0; k < m->choose.n_maps; k++) {
         collect(r, g, m->choose.maps[k].old);
@@ -201,18 +219,24 @@ static pleuel_status make_groups(pl_recorder* r) {
   return PLEUEL_OK;
 }
 
-// ---------------------------------------------------------------------------------------------- patterns
+// ---------------------------------------------------------------------------------------- patterns
 // Slots of a pattern: atoms of its coordinates, multipliers of its constraints.
-void pl_record_slots(pl_recorder* r, pl_group* g, const pl_expr* lambda, int n_c, pl_tape_slots* out) {
-  *out = (pl_tape_slots){.n_q = g->atoms.n, .q = g->atoms.at, .n_c = n_c, .lambda = lambda,
-                         .n_index = g->instances.depth, .index = g->instances.symbol, .value_of_symbol = r->value,
+void pl_record_slots(pl_recorder* r, pl_group* g, const pl_expr* lambda, int n_c,
+                     pl_tape_slots* out) {
+  *out = (pl_tape_slots){.n_q = g->atoms.n,
+                         .q = g->atoms.at,
+                         .n_c = n_c,
+                         .lambda = lambda,
+                         .n_index = g->instances.depth,
+                         .index = g->instances.symbol,
+                         .value_of_symbol = r->value,
                          .definition = pl_wider_definitions(r)};
 }
 
 // Fills the global coordinates and the index values of each instance.
 pleuel_status pl_record_place(pl_recorder* r, pl_group* g, pl_pattern_source* s) {
-  int* q = PL_ARRAY(r->arena, int, (size_t)s->n * (size_t)g->atoms.n + 1);
-  double* index = PL_ARRAY(r->arena, double, (size_t)s->n * (size_t)g->instances.depth + 1);
+  int* q = PL_ARRAY(r->arena, int, (size_t)s->n*(size_t)g->atoms.n + 1);
+  double* index = PL_ARRAY(r->arena, double, (size_t)s->n*(size_t)g->instances.depth + 1);
   for (int i = 0; i < s->n; i++) {
     set_indices(r, &g->instances, i);
     for (int k = 0; k < g->atoms.n; k++) {
@@ -220,7 +244,8 @@ pleuel_status pl_record_place(pl_recorder* r, pl_group* g, pl_pattern_source* s)
       if (at < 0) return no_such(r, g->atoms.at[k]);
       q[i * g->atoms.n + k] = at;
     }
-    for (int d = 0; d < g->instances.depth; d++) index[i * g->instances.depth + d] = (double)g->instances.index[i * g->instances.depth + d];
+    for (int d = 0; d < g->instances.depth; d++)
+      index[i * g->instances.depth + d] = (double)g->instances.index[i * g->instances.depth + d];
   }
   for (int d = 0; d < g->instances.depth; d++) r->value[g->instances.symbol[d].id] = NAN;
   s->q = q;
@@ -238,8 +263,10 @@ pleuel_status pl_record_check(pl_recorder* r, const pl_expr* e, int n) {
     for (int k = 0; k < n_symbols; k++) {
       const pl_symbol_info* info = pl_symbol_get(r->pool, s[k]);
       if (info->role == PL_R_PARAM && isnan(r->value[s[k].id])) {
-        return pl_fail(r->job, PLEUEL_USAGE, "%s has no number. Give one in the file (param %s = ...) or with --set %s=...",
-                       info->name, info->name, info->ascii);
+        return pl_fail(
+            r->job, PLEUEL_USAGE,
+            "%s has no number. Give one in the file (param %s = ...) or with --set %s=...",
+            info->name, info->name, info->ascii);
       }
     }
   }
@@ -256,7 +283,7 @@ typedef struct pl_rows_of_group {
   int n, n_declared, n_maps;
   pl_expr *constraint, *lambda;
   bool* velocity;
-  int* c;                     // link of each, instance by instance
+  int* c;  // link of each, instance by instance
 } pl_rows_of_group;
 
 static void list_slip(pl_recorder* r, const pl_group* g, pl_rows_of_group* rows, int k) {
@@ -266,27 +293,31 @@ static void list_slip(pl_recorder* r, const pl_group* g, pl_rows_of_group* rows,
       rows->constraint[k] = s->slip[j];
       rows->velocity[k] = true;
       rows->lambda[k] = pl_poison();
-      for (int in = 0; in < g->instances.n; in++) rows->c[in * rows->n + k] = s->first_row + in * s->n_rows + j;
+      for (int in = 0; in < g->instances.n; in++)
+        rows->c[in * rows->n + k] = s->first_row + in * s->n_rows + j;
     }
   }
 }
 
 static void list_rows(pl_recorder* r, const pl_group* g, pl_rows_of_group* rows) {
   const pl_model* m = r->model;
-  *rows = (pl_rows_of_group){.n_declared = g->constraints.n, .n_maps = g->block ? 0 : m->choose.n_maps + count_along(r)};
+  *rows = (pl_rows_of_group){.n_declared = g->constraints.n,
+                             .n_maps = g->block ? 0 : m->choose.n_maps + count_along(r)};
   rows->n = rows->n_declared + rows->n_maps;
   for (int i = 0; i < g->rubs.n; i++) rows->n += r->rubs.at[g->rubs.at[i]]->n_rows;
   rows->constraint = PL_ARRAY(r->arena, pl_expr, rows->n + 1);
   rows->lambda = PL_ARRAY(r->arena, pl_expr, rows->n + 1);
   rows->velocity = PL_ARRAY(r->arena, bool, rows->n + 1);
-  rows->c = PL_ARRAY(r->arena, int, (size_t)g->instances.n * (size_t)rows->n + 1);
+  rows->c = PL_ARRAY(r->arena, int, (size_t)g->instances.n*(size_t)rows->n + 1);
   for (int k = 0; k < rows->n_declared + rows->n_maps; k++) {
     bool is_map = k >= g->constraints.n;
     const pl_constraint* source = is_map ? NULL : &m->constraints.at[g->constraints.at[k]];
-    rows->constraint[k] = is_map ? map_equation(r, k - g->constraints.n) : pl_record_plain(r, source->g);
+    rows->constraint[k] = is_map ? map_equation(r, k - g->constraints.n)
+                                 : pl_record_plain(r, source->g);
     rows->velocity[k] = !is_map && source->has_velocity;
     rows->lambda[k] = is_map || !source->lambda.id ? pl_poison() : pl_sym(r->pool, source->lambda);
-    int first = is_map ? r->out->n_declared + k - g->constraints.n : r->first_link[g->constraints.at[k]];
+    int first = is_map ? r->out->n_declared + k - g->constraints.n
+                       : r->first_link[g->constraints.at[k]];
     for (int i = 0; i < g->instances.n; i++) rows->c[i * rows->n + k] = is_map ? first : first + i;
   }
   list_slip(r, g, rows, rows->n_declared + rows->n_maps);
@@ -297,13 +328,14 @@ static void list_coefficients(pl_recorder* r, const pl_group* g, pl_pattern_sour
   int n = 0;
   for (int i = 0; i < g->rubs.n; i++) n += r->rubs.at[g->rubs.at[i]]->n_coefficients;
   pl_expr* output = PL_ARRAY(r->arena, pl_expr, n + 1);
-  int* out = PL_ARRAY(r->arena, int, (size_t)g->instances.n * (size_t)n + 1);
+  int* out = PL_ARRAY(r->arena, int, (size_t)g->instances.n*(size_t)n + 1);
   int k = 0;
   for (int i = 0; i < g->rubs.n; i++) {
     const pl_rub_source* rub = r->rubs.at[g->rubs.at[i]];
     for (int j = 0; j < rub->n_coefficients; j++, k++) {
       output[k] = pl_record_plain(r, pl_rub_coefficient(rub, j));
-      for (int in = 0; in < g->instances.n; in++) out[in * n + k] = rub->first_coefficient + in * rub->n_coefficients + j;
+      for (int in = 0; in < g->instances.n; in++)
+        out[in * n + k] = rub->first_coefficient + in * rub->n_coefficients + j;
     }
   }
   s->n_outputs = n;
@@ -315,7 +347,8 @@ static pleuel_status record_group(pl_recorder* r, pl_group* g, pl_pattern* out) 
   pl_rows_of_group rows;
   list_rows(r, g, &rows);
   for (int k = 0; k < rows.n; k++)
-    if (pl_is_poison(rows.constraint[k])) return pl_fail(r->job, PLEUEL_UNSUPPORTED, "a constraint has no value everywhere");
+    if (pl_is_poison(rows.constraint[k]))
+      return pl_fail(r->job, PLEUEL_UNSUPPORTED, "a constraint has no value everywhere");
   pl_expr L = pl_add(r->pool, g->L, pl_sub(r->pool, g->T, g->V));
   if (r->groups.n == 1) {
     r->out->lagrangian = L;
@@ -326,13 +359,18 @@ static pleuel_status record_group(pl_recorder* r, pl_group* g, pl_pattern* out) 
   PL_TRY(pl_record_check(r, &L, 1));
   PL_TRY(pl_record_check(r, g->force, g->atoms.n));
   PL_TRY(pl_record_check(r, rows.constraint, rows.n));
-  pl_pattern_source s = {.lagrangian = L, .force = g->force, .constraint = rows.constraint, .velocity = rows.velocity,
-                         .n = g->instances.n, .c = rows.c};
+  pl_pattern_source s = {.lagrangian = L,
+                         .force = g->force,
+                         .constraint = rows.constraint,
+                         .velocity = rows.velocity,
+                         .n = g->instances.n,
+                         .c = rows.c};
   list_coefficients(r, g, &s);
   PL_TRY(pl_record_check(r, s.output, s.n_outputs));
   pl_record_slots(r, g, rows.lambda, rows.n, &s.slots);
   PL_TRY(pl_record_place(r, g, &s));
-  return r->variation ? pl_variation_record(r, g, &s, out) : pl_pattern_record(r->job, r->pool, &s, out);
+  return r->variation ? pl_variation_record(r, g, &s, out)
+                      : pl_pattern_record(r->job, r->pool, &s, out);
 }
 
 static pleuel_status record_patterns(pl_recorder* r) {
@@ -348,12 +386,15 @@ static pleuel_status record_patterns(pl_recorder* r) {
   return PLEUEL_OK;
 }
 
-// ---------------------------------------------------------------------------------------------- names, units
-// Angles have no unit of their own in the dimensions; a coordinate without dimension is shown in rad.
+// ------------------------------------------------------------------------------------ names, units
+// Angles have no unit of their own in the dimensions; a coordinate without dimension is shown in
+// rad.
 static const char* unit_of(pl_recorder* r, pl_symbol s, const char* plain) {
   const pl_symbol_info* info = pl_symbol_get(r->pool, s);
   if (!r->model->uses_units || !info->dimension_known) return "";
-  return pl_dimension_equal(info->dimension, pl_dimension_one()) ? plain : pl_unit_of_symbol(r->arena, r->pool, s, info->dimension, true);
+  return pl_dimension_equal(info->dimension, pl_dimension_one())
+             ? plain
+             : pl_unit_of_symbol(r->arena, r->pool, s, info->dimension, true);
 }
 
 static void name_coordinate(pl_recorder* r, pl_expr atom, pl_coordinate* out) {
@@ -361,7 +402,9 @@ static void name_coordinate(pl_recorder* r, pl_expr atom, pl_coordinate* out) {
   pl_symbol dot = pl_symbol_dot(r->pool, s);
   bool element = pl_kind_of(r->pool, atom) == PL_AT;
   const char* ascii = pl_symbol_get(r->pool, s)->ascii;
-  const char* index = element ? pl_format(r->arena, "[%s]", pl_expr_text(r->arena, r->pool, pl_arg(r->pool, atom, 0))) : "";
+  const char* index = element ? pl_format(r->arena, "[%s]",
+                                          pl_expr_text(r->arena, r->pool, pl_arg(r->pool, atom, 0)))
+                              : "";
   out->name = pl_format(r->arena, "%s%s", ascii, index);
   out->v_name = pl_format(r->arena, "%s_dot%s", ascii, index);
   out->unit = unit_of(r, s, "rad");
@@ -376,7 +419,8 @@ int pl_record_link(pl_recorder* r, const char* label) {
   return c ? r->first_link[c - r->model->constraints.at] : -1;
 }
 
-// Whether the left side of a constraint is a distance or its square: a sum of squares, or the root of one.
+// Whether the left side of a constraint is a distance or its square: a sum of squares, or the root
+// of one.
 static bool is_distance(pl_recorder* r, const pl_constraint* c) {
   pl_pool* p = r->pool;
   pl_expr e = c->left;
@@ -386,7 +430,8 @@ static bool is_distance(pl_recorder* r, const pl_constraint* c) {
   for (int i = 0; i < pl_n_args(p, e); i++) {
     long n = 0;
     pl_expr term = pl_arg(p, e, i);
-    if (pl_kind_of(p, term) != PL_POW || !pl_is_int(p, pl_arg(p, term, 1), &n) || n != 2) return false;
+    if (pl_kind_of(p, term) != PL_POW || !pl_is_int(p, pl_arg(p, term, 1), &n) || n != 2)
+      return false;
   }
   return true;
 }
@@ -404,10 +449,13 @@ static void name_links(pl_recorder* r, int i, pl_link* link) {
     const char* suffix = indexed ? pl_format(r->arena, "[%ld]", index) : "";
     if (!indexed && c->block) suffix = pl_format(r->arena, "[%d]", k + 1);
     out->name = pl_format(r->arena, "%s%s", c->name.ascii ? c->name.ascii : c->name.text, suffix);
-    out->column = own ? pl_format(r->arena, "%s%s", own, suffix) : pl_format(r->arena, "lambda_%s", out->name);
+    out->column = own ? pl_format(r->arena, "%s%s", own, suffix)
+                      : pl_format(r->arena, "lambda_%s", out->name);
     out->unit = c->lambda.id ? unit_of(r, c->lambda, "") : "";
     out->velocity = c->has_velocity;
-    out->side = c->relation == PL_GE || c->relation == PL_GT ? 1 : c->relation == PL_LE || c->relation == PL_LT ? -1 : 0;
+    out->side = c->relation == PL_GE || c->relation == PL_GT   ? 1
+                : c->relation == PL_LE || c->relation == PL_LT ? -1
+                                                               : 0;
     out->contact = pl_record_link(r, c->while_label);
     out->off = c->off;
     const pl_restitution* bounce = pl_model_restitution(r->model, c);
@@ -418,7 +466,7 @@ static void name_links(pl_recorder* r, int i, pl_link* link) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- what maps take for granted
+// ---------------------------------------------------------------------- what maps take for granted
 // A constraint that may be missing: a contact, or what an event releases or attaches.
 static bool may_be_missing(const pl_model* m, const pl_constraint* c) {
   if (c->block) return false;
@@ -427,7 +475,8 @@ static bool may_be_missing(const pl_model* m, const pl_constraint* c) {
     const pl_event* e = &m->events.at[i];
     for (int k = 0; k < e->actions.n; k++) {
       bool deed = e->actions.at[k].kind == PL_DO_RELEASE || e->actions.at[k].kind == PL_DO_ATTACH;
-      if (deed && e->actions.at[k].label && pl_model_constraint(m, e->actions.at[k].label) == c) return true;
+      if (deed && e->actions.at[k].label && pl_model_constraint(m, e->actions.at[k].label) == c)
+        return true;
     }
   }
   return false;
@@ -464,12 +513,15 @@ static bool maps_granting(pl_recorder* r, const pl_constraint* c, bool* map) {
   return true;
 }
 
-// Maps that go with constraint i: those that it is granted by, but for those that the others are granted by too.
-static void list_own_maps(int i, int n_c, int n_maps, const bool* granted, const bool* map, bool* own) {
+// Maps that go with constraint i: those that it is granted by, but for those that the others are
+// granted by too.
+static void list_own_maps(int i, int n_c, int n_maps, const bool* granted, const bool* map,
+                          bool* own) {
   bool any = false;
   for (int k = 0; k < n_maps; k++) {
     own[k] = map[i * n_maps + k];
-    for (int j = 0; j < n_c; j++) own[k] = own[k] && (j == i || !granted[j] || !map[j * n_maps + k]);
+    for (int j = 0; j < n_c; j++)
+      own[k] = own[k] && (j == i || !granted[j] || !map[j * n_maps + k]);
     any |= own[k];
   }
   for (int k = 0; k < n_maps && !any; k++) own[k] = map[i * n_maps + k];
@@ -479,7 +531,8 @@ static void find_needs(pl_recorder* r, pl_link* map_link) {
   const pl_model* m = r->model;
   int n_c = m->constraints.n, n_maps = m->choose.n_maps;
   if (n_maps == 0) return;
-  bool *granted = PL_ARRAY(r->arena, bool, n_c + 1), *map = PL_ARRAY(r->arena, bool, n_c * n_maps + 1), *own = PL_ARRAY(r->arena, bool, n_maps);
+  bool *granted = PL_ARRAY(r->arena, bool, n_c + 1),
+       *map = PL_ARRAY(r->arena, bool, n_c*n_maps + 1), *own = PL_ARRAY(r->arena, bool, n_maps);
   bool any = false;
   for (int i = 0; i < n_c; i++) any |= may_be_missing(m, &m->constraints.at[i]);
   for (int i = 0; i < n_c && any; i++) {
@@ -505,7 +558,8 @@ static void along_links(pl_recorder* r, const pl_link* map, pl_link* out) {
   for (int k = 0; k < n_maps; k++) n += map[k].n_needs;
   for (int k = 0; k < count_along(r); k++) {
     int* needs = PL_ARRAY(r->arena, int, n + 1);
-    out[k] = (pl_link){.name = pl_format(r->arena, "choose along %d", k + 1), .priority = 1, .contact = -1};
+    out[k] = (pl_link){
+        .name = pl_format(r->arena, "choose along %d", k + 1), .priority = 1, .contact = -1};
     for (int j = 0; j < n_maps; j++) {
       for (int i = 0; i < map[j].n_needs; i++) needs[out[k].n_needs++] = map[j].needs[i];
     }
@@ -518,7 +572,8 @@ static void make_links(pl_recorder* r) {
   for (int i = 0; i < r->model->constraints.n; i++) name_links(r, i, link);
   for (int k = 0; k < r->model->choose.n_maps; k++) {
     pl_link* out = &link[r->out->n_declared + k];
-    out->name = pl_format(r->arena, "choose %s", pl_expr_text(r->arena, r->pool, r->model->choose.maps[k].old));
+    out->name = pl_format(r->arena, "choose %s",
+                          pl_expr_text(r->arena, r->pool, r->model->choose.maps[k].old));
     out->priority = count_along(r) > 0 ? 2 : 1;
     out->contact = -1;
   }
@@ -530,11 +585,12 @@ static void make_links(pl_recorder* r) {
   r->out->setup.n_c = r->n_links;
 }
 
-// ---------------------------------------------------------------------------------------------- start values
+// ------------------------------------------------------------------------------------ start values
 
 // The value with elements of families replaced by their start values where they are known.
 pl_expr pl_record_with_elements(pl_recorder* r, pl_expr e, const pl_coordinate* q) {
-  if (pl_kind_of(r->pool, e) == PL_NUMBER) return e;   // most start values of a large family: nothing to look up
+  // most start values of a large family: nothing to look up
+  if (pl_kind_of(r->pool, e) == PL_NUMBER) return e;
   pl_group* g = PL_NEW(r->arena, pl_group);
   g->atom_at = pl_map_make(r->arena);
   g->seen = pl_map_make(r->arena);
@@ -552,8 +608,9 @@ pl_expr pl_record_with_elements(pl_recorder* r, pl_expr e, const pl_coordinate* 
     }
     char text[32];
     pl_double_text(text, q[at].q);
-    pl_expr number = text[0] == '-' ? pl_neg(r->pool, pl_number_from_text(r->pool, text + 1, strlen(text) - 1))
-                                    : pl_number_from_text(r->pool, text, strlen(text));
+    pl_expr number = text[0] == '-'
+                         ? pl_neg(r->pool, pl_number_from_text(r->pool, text + 1, strlen(text) - 1))
+                         : pl_number_from_text(r->pool, text, strlen(text));
     e = pl_subst_expr(r->pool, e, g->atoms.at[i], number);
   }
   return e;
@@ -564,16 +621,28 @@ static bool take_start(pl_recorder* r, const pl_start_value* s, pl_coordinate* q
   pl_expr value = pl_record_with_elements(r, s->value, q);
   double x = pl_record_number(r, value);
   if (!isfinite(x)) return false;
-  if (!s->guess) (s->velocity ? r->out->exact_v : r->out->exact_q)[s->at] = (pl_exact_start){s->value, s->instances, s->instance};
+  if (!s->guess)
+    (s->velocity ? r->out->exact_v : r->out->exact_q)[s->at] = (pl_exact_start){
+        s->value, s->instances, s->instance};
   pl_coordinate* c = &q[s->at];
-  if (s->guess && s->velocity) c->has_v_guess = true, c->v_guess = x;
-  else if (s->guess) c->has_guess = true, c->guess = x;
-  else if (s->velocity) c->has_v = true, c->v = x;
-  else c->has_q = true, c->q = x;
+  if (s->guess && s->velocity) {
+    c->has_v_guess = true;
+    c->v_guess = x;
+  } else if (s->guess) {
+    c->has_guess = true;
+    c->guess = x;
+  } else if (s->velocity) {
+    c->has_v = true;
+    c->v = x;
+  } else {
+    c->has_q = true;
+    c->q = x;
+  }
   if (r->variation && !s->guess) pl_variation_of_start(r, s);
   pl_expr atom = r->out->flat.at[s->at];
   if (!s->guess && pl_kind_of(r->pool, atom) == PL_SYMBOL) {
-    pl_symbol name = s->velocity ? pl_symbol_dot(r->pool, pl_symbol_of(r->pool, atom)) : pl_symbol_of(r->pool, atom);
+    pl_symbol name = s->velocity ? pl_symbol_dot(r->pool, pl_symbol_of(r->pool, atom))
+                                 : pl_symbol_of(r->pool, atom);
     if ((int)name.id < r->n_value) r->value[name.id] = x;
   }
   pl_wider_start(r, s, value);
@@ -597,25 +666,29 @@ pleuel_status pl_record_target(pl_recorder* r, pl_expr target, pl_start_value* o
 
 static pleuel_status make_starts(pl_recorder* r, pl_coordinate* q) {
   const pl_model* m = r->model;
-  // values of elements are looked up while the indices of their block are set, so one by one in order of declaration;
-  // what depends on a later one waits for the next round
+  // values of elements are looked up while the indices of their block are set, so one by one in
+  // order of declaration; what depends on a later one waits for the next round
   PL_VEC(pl_start_value) waiting = {0};
   for (int i = 0; i < m->inits.n; i++) {
     const pl_init* init = &m->inits.at[i];
     double at = pl_record_number(r, init->time);
     if (!isnan(at) && at != r->out->t_0) {
-      return pl_fail(r->job, PLEUEL_UNSUPPORTED, "start values at t = %g s, but the simulation begins at t = %g s", at, r->out->t_0);
+      return pl_fail(r->job, PLEUEL_UNSUPPORTED,
+                     "start values at t = %g s, but the simulation begins at t = %g s", at,
+                     r->out->t_0);
     }
     pl_group* g;
     PL_TRY(group_for(r, init->block, &g));
     for (int k = 0; k < g->instances.n; k++) {
       set_indices(r, &g->instances, k);
-      pl_start_value s = {.guess = init->guess, .value = init->value, .instances = &g->instances, .instance = k};
+      pl_start_value s = {
+          .guess = init->guess, .value = init->value, .instances = &g->instances, .instance = k};
       PL_TRY(pl_record_check(r, &init->value, 1));
       PL_TRY(pl_record_target(r, init->target, &s));
       if (take_start(r, &s, q)) continue;
       for (int d = 0; d < g->instances.depth; d++) {
-        s.value = pl_subst1(r->pool, s.value, g->instances.symbol[d], pl_int(r->pool, g->instances.index[k * g->instances.depth + d]));
+        s.value = pl_subst1(r->pool, s.value, g->instances.symbol[d],
+                            pl_int(r->pool, g->instances.index[k * g->instances.depth + d]));
       }
       pl_push(r->arena, waiting, s);
     }
@@ -629,8 +702,8 @@ static pleuel_status make_starts(pl_recorder* r, pl_coordinate* q) {
     }
   }
   if (waiting.n == 0) return PLEUEL_OK;
-  return pl_fail(r->job, PLEUEL_UNSUPPORTED, "the start value of %s, %s, is no number", q[waiting.at[0].at].name,
-                 pl_expr_text(r->arena, r->pool, waiting.at[0].value));
+  return pl_fail(r->job, PLEUEL_UNSUPPORTED, "the start value of %s, %s, is no number",
+                 q[waiting.at[0].at].name, pl_expr_text(r->arena, r->pool, waiting.at[0].value));
 }
 
 // T, V or L was written with this coordinate.
@@ -639,7 +712,9 @@ static bool is_in_load(const pl_recorder* r, pl_expr atom) {
   pl_symbol q = pl_symbol_of(r->pool, atom), v = pl_symbol_dot(r->pool, q);
   for (int i = 0; i < r->model->loads.n; i++) {
     pl_expr value = r->model->loads.at[i].value;
-    if (!pl_is_poison(value) && (pl_has_symbol(r->pool, value, q) || pl_has_symbol(r->pool, value, v))) return true;
+    if (!pl_is_poison(value)
+        && (pl_has_symbol(r->pool, value, q) || pl_has_symbol(r->pool, value, v)))
+      return true;
   }
   return false;
 }
@@ -658,11 +733,12 @@ static pleuel_status make_coordinates(pl_recorder* r) {
   return PLEUEL_OK;
 }
 
-// ---------------------------------------------------------------------------------------------- all
+// --------------------------------------------------------------------------------------------- all
 static void read_times(pl_recorder* r) {
   const pl_simulate* s = &r->model->simulate;
   pl_recording* out = r->out;
-  double from = pl_record_number(r, s->from), step = pl_record_number(r, s->step), tol = pl_record_number(r, s->tol);
+  double from = pl_record_number(r, s->from), step = pl_record_number(r, s->step),
+         tol = pl_record_number(r, s->tol);
   out->t_0 = s->given && isfinite(from) ? from : 0;
   out->t_end = s->given ? pl_record_number(r, s->to) : (double)NAN;
   out->dt = s->given && step > 0 ? step : 0;
@@ -675,7 +751,8 @@ static void list_coordinates(pl_recorder* r) {
   r->flat_at = pl_map_make(r->arena);
   for (int i = 0; i < r->out->flat.n; i++) {
     pl_map_set(r->flat_at, r->out->flat.at[i].id, (uint64_t)i + 1);
-    pl_symbol_dot(r->pool, pl_symbol_dot(r->pool, pl_symbol_of(r->pool, r->out->flat.at[i])));   // so that the values have room
+    // so that the values have room
+    pl_symbol_dot(r->pool, pl_symbol_dot(r->pool, pl_symbol_of(r->pool, r->out->flat.at[i])));
   }
 }
 
@@ -710,9 +787,15 @@ static void record_turned(const pl_recorder* r) {
   r->job->status = PLEUEL_OK;
 }
 
-pleuel_status pl_record(pl_job* job, pl_model* model, const char* sensitivities, bool exact, pl_recording** out) {
+pleuel_status pl_record(pl_job* job, pl_model* model, const char* sensitivities, bool exact,
+                        pl_recording** out) {
   PL_TRY(pl_model_write_sums(job, model, &model));
-  pl_recorder r = {.exact = exact, .job = job, .arena = job->arena, .model = model, .pool = model->pool, .out = PL_NEW(job->arena, pl_recording)};
+  pl_recorder r = {.exact = exact,
+                   .job = job,
+                   .arena = job->arena,
+                   .model = model,
+                   .pool = model->pool,
+                   .out = PL_NEW(job->arena, pl_recording)};
   list_coordinates(&r);
   if (sensitivities) PL_TRY(pl_variation_begin(&r, sensitivities));
   list_values(&r);
@@ -727,7 +810,8 @@ pleuel_status pl_record(pl_job* job, pl_model* model, const char* sensitivities,
 
 void pl_record_dump(pl_text* out, const pl_model* model, const pl_recording* r) {
   const pl_setup* s = &r->setup;
-  pl_text_addf(out, "coordinates %d, constraints %d (%d of them maps), patterns %d\n", s->n_q, s->n_c, s->n_c - r->n_declared, s->n_patterns);
+  pl_text_addf(out, "coordinates %d, constraints %d (%d of them maps), patterns %d\n", s->n_q,
+               s->n_c, s->n_c - r->n_declared, s->n_patterns);
   for (int i = 0; i < s->n_q; i++) {
     const pl_coordinate* q = &s->coordinates[i];
     pl_text_addf(out, "  q%-3d %s", i, q->name);
@@ -739,14 +823,19 @@ void pl_record_dump(pl_text* out, const pl_model* model, const pl_recording* r) 
   }
   for (int i = 0; i < s->n_c; i++) {
     const pl_link* c = &s->links[i];
-    pl_text_addf(out, "  g%-3d %s%s", i, c->name, c->side > 0 ? "  >= 0" : c->side < 0 ? "  <= 0" : "");
+    pl_text_addf(out, "  g%-3d %s%s", i, c->name,
+                 c->side > 0   ? "  >= 0"
+                 : c->side < 0 ? "  <= 0"
+                               : "");
     if (c->priority) pl_text_add(out, "  (map)");
     if (c->contact >= 0) pl_text_addf(out, "  while %s", s->links[c->contact].name);
-    for (int k = 0; k < c->n_needs; k++) pl_text_addf(out, "  while %s", s->links[c->needs[k]].name);
+    for (int k = 0; k < c->n_needs; k++)
+      pl_text_addf(out, "  while %s", s->links[c->needs[k]].name);
     pl_text_add(out, "\n");
   }
   for (int i = 0; i < s->n_patterns; i++) {
-    pl_text_addf(out, "pattern %d: %d instances, %d slots, %d constraints\n", i + 1, s->patterns[i].n, s->patterns[i].n_q, s->patterns[i].n_c);
+    pl_text_addf(out, "pattern %d: %d instances, %d slots, %d constraints\n", i + 1,
+                 s->patterns[i].n, s->patterns[i].n_q, s->patterns[i].n_c);
     pl_tape_dump(out, model->pool, s->patterns[i].tape);
   }
 }

@@ -1,5 +1,6 @@
-// Energies and forces of a model, group by group, as the simulation needs them: kinetic energy of masses and bodies,
-// potentials of gravity and springs, generalized forces Q_i = F . dX/dq_i and Q_i = -dR/dv_i.
+// Energies and forces of a model, group by group, as the simulation needs them: kinetic energy of
+// masses and bodies, potentials of gravity and springs, generalized forces Q_i = F . dX/dq_i and
+// Q_i = -dR/dv_i.
 #include "api/record_impl.h"
 
 static pl_group* group_of(pl_recorder* r, const pl_block* block) {
@@ -17,7 +18,8 @@ static void add_mass(pl_recorder* r, pl_group* g, pl_expr mass, const pl_point* 
 // Distance of two points; on one line it is |difference|.
 static pl_expr distance(pl_recorder* r, const pl_point* a, const pl_point* b) {
   pl_expr squared, only;
-  return pl_points_apart(r->pool, a, b, &squared, &only) == 1 ? pl_call(r->pool, PL_ABS, only) : pl_sqrt(r->pool, squared);
+  return pl_points_apart(r->pool, a, b, &squared, &only) == 1 ? pl_call(r->pool, PL_ABS, only)
+                                                              : pl_sqrt(r->pool, squared);
 }
 
 static void add_potential(pl_recorder* r, pl_group* g, const pl_load* l) {
@@ -37,19 +39,22 @@ static bool has_condition(const pl_model* m, const pl_spatial* b) {
   return false;
 }
 
-// The energy of a turning quaternion knows nothing of the rate of |q|, so its matrix of masses is singular along q.  2 J (q·q')²,
-// with J the mean moment, makes it regular, and for a ball a multiple of 1; where |q| = 1 it is zero with all that it adds to the
-// equations, so that neither motion nor multiplier changes.
+// The energy of a turning quaternion knows nothing of the rate of |q|, so its matrix of masses is
+// singular along q. 2 J (q·q')², with J the mean moment, makes it regular, and for a ball a
+// multiple of 1; where |q| = 1 it is zero with all that it adds to the equations, so that neither
+// motion nor multiplier changes.
 static pl_expr steady_length(pl_recorder* r, const pl_spatial* b) {
   pl_pool* p = r->pool;
-  pl_expr rate = pl_int(p, 0), J = pl_add(p, b->inertia[0], pl_add(p, b->inertia[3], b->inertia[5]));
+  pl_expr rate = pl_int(p, 0),
+          J = pl_add(p, b->inertia[0], pl_add(p, b->inertia[3], b->inertia[5]));
   for (int i = 0; i < 4; i++) rate = pl_add(p, rate, pl_mul(p, b->axes[i], pl_dt(p, b->axes[i])));
   return pl_mul_n(p, (pl_expr[]){pl_ratio(p, 2, 3), J, pl_square(p, rate)}, 3);
 }
 
 void pl_group_energies(pl_recorder* r) {
   const pl_model* m = r->model;
-  for (int i = 0; i < m->masses.n; i++) add_mass(r, group_of(r, m->masses.at[i].block), m->masses.at[i].mass, &m->masses.at[i].point);
+  for (int i = 0; i < m->masses.n; i++)
+    add_mass(r, group_of(r, m->masses.at[i].block), m->masses.at[i].mass, &m->masses.at[i].point);
   for (int i = 0; i < m->bodies.n; i++) {
     const pl_body* b = &m->bodies.at[i];
     pl_group* g = group_of(r, b->block);
@@ -59,24 +64,33 @@ void pl_group_energies(pl_recorder* r) {
   for (int i = 0; i < m->spatials.n; i++) {
     const pl_spatial* b = &m->spatials.at[i];
     pl_group* g = group_of(r, b->block);
-    if (b->form == PL_AXES_QUATERNION && has_condition(m, b)) g->T = pl_add(r->pool, g->T, steady_length(r, b));
+    if (b->form == PL_AXES_QUATERNION && has_condition(m, b))
+      g->T = pl_add(r->pool, g->T, steady_length(r, b));
   }
   for (int i = 0; i < m->loads.n; i++) {
     const pl_load* l = &m->loads.at[i];
     pl_group* g = group_of(r, l->block);
     switch (l->kind) {
-      case PL_L_POTENTIAL: case PL_L_FORCE: case PL_L_TORQUE: add_potential(r, g, l); break;
+      case PL_L_POTENTIAL:
+      case PL_L_FORCE:
+      case PL_L_TORQUE: add_potential(r, g, l); break;
       case PL_L_KINETIC: g->T = pl_add(r->pool, g->T, l->value); break;
       case PL_L_LAGRANGIAN: g->L = pl_add(r->pool, g->L, l->value); break;
-      case PL_L_SPRING: g->V = pl_add(r->pool, g->V, pl_spring_energy(r->pool, l, distance(r, &l->a, &l->b))); break;
-      case PL_L_RAYLEIGH: case PL_L_DAMPER: case PL_L_DRAG: case PL_L_COUPLE: r->dissipative = true; break;
+      case PL_L_SPRING:
+        g->V = pl_add(r->pool, g->V, pl_spring_energy(r->pool, l, distance(r, &l->a, &l->b)));
+        break;
+      case PL_L_RAYLEIGH:
+      case PL_L_DAMPER:
+      case PL_L_DRAG:
+      case PL_L_COUPLE: r->dissipative = true; break;
     }
   }
 }
 
-// ---------------------------------------------------------------------------------------------- forces
+// ------------------------------------------------------------------------------------------ forces
 static pl_expr by_atom(pl_pool* p, pl_expr e, pl_expr atom) {
-  return pl_kind_of(p, atom) == PL_SYMBOL ? pl_diff(p, e, pl_symbol_of(p, atom)) : pl_diff_at(p, e, atom);
+  return pl_kind_of(p, atom) == PL_SYMBOL ? pl_diff(p, e, pl_symbol_of(p, atom))
+                                          : pl_diff_at(p, e, atom);
 }
 
 static void add_force(pl_recorder* r, pl_group* g, int i, pl_expr Q) {
@@ -113,7 +127,7 @@ static void twist(pl_recorder* r, pl_group* g, const pl_load* l) {
 
 static void add_load(pl_recorder* r, pl_group* g, const pl_load* l) {
   pl_pool* p = r->pool;
-  if (!pl_is_poison(pl_load_potential(p, l))) return;   // among the potentials
+  if (!pl_is_poison(pl_load_potential(p, l))) return;  // among the potentials
   switch (l->kind) {
     case PL_L_FORCE: work(r, g, l->vector, l->a.at, l->a.n); break;
     case PL_L_COUPLE: twist(r, g, l); break;
@@ -122,10 +136,17 @@ static void add_load(pl_recorder* r, pl_group* g, const pl_load* l) {
       work(r, g, &l->value, &angle, 1);
       break;
     }
-    case PL_L_RAYLEIGH: case PL_L_DAMPER: case PL_L_DRAG:
-      dissipate(r, g, pl_load_dissipation(p, l, l->kind == PL_L_DAMPER ? distance(r, &l->a, &l->b) : pl_poison()));
+    case PL_L_RAYLEIGH:
+    case PL_L_DAMPER:
+    case PL_L_DRAG:
+      dissipate(r, g,
+                pl_load_dissipation(
+                    p, l, l->kind == PL_L_DAMPER ? distance(r, &l->a, &l->b) : pl_poison()));
       break;
-    case PL_L_POTENTIAL: case PL_L_KINETIC: case PL_L_LAGRANGIAN: case PL_L_SPRING: break;
+    case PL_L_POTENTIAL:
+    case PL_L_KINETIC:
+    case PL_L_LAGRANGIAN:
+    case PL_L_SPRING: break;
   }
 }
 

@@ -1,15 +1,19 @@
 // record, friction: rows of slip and coefficients of each constraint with friction.
 //
-// In the plane the slip velocity is one row, along the tangent t = (n_y, -n_x); in space it is the three components of
-// its part in the tangent plane.  The rows follow the map equations in the numbering of the links, instance by instance.
+// In the plane the slip velocity is one row, along the tangent t = (n_y, -n_x); in space it is the
+// three components of its part in the tangent plane. The rows follow the map equations in the
+// numbering of the links, instance by instance.
 #include "api/contact_geometry.h"
 
-static pl_expr unit_normal(pl_pool* p, const pl_touch* t, int j) { return pl_div(p, t->force[j], t->size); }
+static pl_expr unit_normal(pl_pool* p, const pl_touch* t, int j) {
+  return pl_div(p, t->force[j], t->size);
+}
 
 static void in_the_plane(pl_recorder* r, const pl_touch* t, pl_rub_source* s) {
   pl_pool* p = r->pool;
   s->n_rows = 1;
-  s->slip[0] = pl_sub(p, pl_mul(p, unit_normal(p, t, 1), t->slip[0]), pl_mul(p, unit_normal(p, t, 0), t->slip[1]));
+  s->slip[0] = pl_sub(p, pl_mul(p, unit_normal(p, t, 1), t->slip[0]),
+                      pl_mul(p, unit_normal(p, t, 0), t->slip[1]));
 }
 
 static void in_space(pl_recorder* r, const pl_touch* t, pl_rub_source* s) {
@@ -21,7 +25,8 @@ static void in_space(pl_recorder* r, const pl_touch* t, pl_rub_source* s) {
   for (int j = 0; j < 3; j++) along = pl_add(p, along, pl_mul(p, n[j], t->slip[j]));
   for (int j = 0; j < 3; j++) s->slip[j] = pl_sub(p, t->slip[j], pl_mul(p, n[j], along));
   for (int j = 0; j < 3; j++) square = pl_add(p, square, pl_square(p, s->slip[j]));
-  for (int j = 0; j < 3; j++) s->along[j] = pl_div(p, pl_mul(p, s->scale, s->slip[j]), pl_sqrt(p, square));
+  for (int j = 0; j < 3; j++)
+    s->along[j] = pl_div(p, pl_mul(p, s->scale, s->slip[j]), pl_sqrt(p, square));
   for (int k = 0; k < 6; k++) {
     pl_expr both = pl_mul(p, n[pair[k][0]], n[pair[k][1]]);
     s->metric[k] = k < 3 ? pl_sub(p, pl_int(p, 1), both) : pl_neg(p, both);
@@ -31,9 +36,12 @@ static void in_space(pl_recorder* r, const pl_touch* t, pl_rub_source* s) {
 static void tell_place(pl_recorder* r, const pl_friction* f, const pl_touch* t) {
   const char* x = pl_expr_text(r->arena, r->pool, t->place[0]);
   const char* y = pl_expr_text(r->arena, r->pool, t->place[1]);
-  pl_diagnostic* d = pl_report(r->job->diagnostics, PL_N069, f->span, pl_format(r->arena, "friction on %s acts at (%s, %s)", f->label, x, y),
-                               pl_format(r->arena, "die Reibung auf %s greift an in (%s, %s)", f->label, x, y));
-  pl_report_fix(d, "another place is written: friction ..., at (x, y) on ...", "ein anderer Ort: friction ..., at (x, y) on ...", NULL);
+  pl_diagnostic* d = pl_report(
+      r->job->diagnostics, PL_N069, f->span,
+      pl_format(r->arena, "friction on %s acts at (%s, %s)", f->label, x, y),
+      pl_format(r->arena, "die Reibung auf %s greift an in (%s, %s)", f->label, x, y));
+  pl_report_fix(d, "another place is written: friction ..., at (x, y) on ...",
+                "ein anderer Ort: friction ..., at (x, y) on ...", NULL);
 }
 
 static pleuel_status add_source(pl_recorder* r, pl_group* g, int i, const pl_friction* f) {
@@ -42,12 +50,17 @@ static pleuel_status add_source(pl_recorder* r, pl_group* g, int i, const pl_fri
   pl_touch t;
   if (!pl_contact_geometry(r, c, f, &t)) return PLEUEL_MODEL_ERROR;
   if (t.n < 2) {
-    pl_report(r->job->diagnostics, PL_E066, f->span, pl_format(r->arena, "there is no direction along which anything slides on %s", f->label),
-              pl_format(r->arena, "auf %s gibt es keine Richtung, in der etwas gleitet", f->label));
+    pl_report(
+        r->job->diagnostics, PL_E066, f->span,
+        pl_format(r->arena, "there is no direction along which anything slides on %s", f->label),
+        pl_format(r->arena, "auf %s gibt es keine Richtung, in der etwas gleitet", f->label));
     return PLEUEL_MODEL_ERROR;
   }
   pl_rub_source* s = PL_NEW(r->arena, pl_rub_source);
-  *s = (pl_rub_source){.constraint = i, .group = g, .first_row = r->n_links, .first_coefficient = r->out->setup.n_coefficients};
+  *s = (pl_rub_source){.constraint = i,
+                       .group = g,
+                       .first_row = r->n_links,
+                       .first_coefficient = r->out->setup.n_coefficients};
   s->scale = pl_mul(p, f->kinetic, t.size);
   s->limit = pl_is_poison(f->sticking) ? s->scale : pl_mul(p, f->sticking, t.size);
   if (t.n == 2) in_the_plane(r, &t, s);
@@ -77,16 +90,21 @@ pleuel_status pl_group_friction(pl_recorder* r, pl_group* g) {
   return PLEUEL_OK;
 }
 
-// ---------------------------------------------------------------------------------------------- coefficients
+// ------------------------------------------------------------------------------------ coefficients
 // ORDER RUB: limit, scale; in space along[3], metric[6].
 pl_expr pl_rub_coefficient(const pl_rub_source* s, int k) {
   if (k < 2) return k == 0 ? s->limit : s->scale;
   return k < 5 ? s->along[k - 2] : s->metric[k - 5];
 }
 
-// ---------------------------------------------------------------------------------------------- links
-static void name_row(pl_recorder* r, const pl_rub_source* s, int k, const pl_link* of, int link, pl_link* out) {
-  *out = (pl_link){.name = pl_format(r->arena, "friction %s", of->name), .velocity = true, .rub = true, .priority = 2, .off = true,
+// ------------------------------------------------------------------------------------------- links
+static void name_row(pl_recorder* r, const pl_rub_source* s, int k, const pl_link* of, int link,
+                     pl_link* out) {
+  *out = (pl_link){.name = pl_format(r->arena, "friction %s", of->name),
+                   .velocity = true,
+                   .rub = true,
+                   .priority = 2,
+                   .off = true,
                    .contact = of->side != 0 ? link : of->contact};
   if (s->n_rows == 1) {
     out->column = pl_format(r->arena, "friction_%s", of->name);
@@ -105,9 +123,13 @@ void pl_record_rubs(pl_recorder* r, pl_link* link) {
     for (int k = 0; k < s->group->instances.n; k++) {
       int first = s->first_coefficient + k * s->n_coefficients;
       bool plain = s->n_rows == 1 && !s->group->block;
-      law[at] = plain ? (pl_friction_law){s->slip[0], s->limit, s->scale} : (pl_friction_law){pl_poison(), pl_poison(), pl_poison()};
+      law[at] = plain ? (pl_friction_law){s->slip[0], s->limit, s->scale}
+                      : (pl_friction_law){pl_poison(), pl_poison(), pl_poison()};
       pl_rub* out = &rub[at++];
-      *out = (pl_rub){.link = r->first_link[s->constraint] + k, .n_rows = s->n_rows, .limit = first, .scale = first + 1};
+      *out = (pl_rub){.link = r->first_link[s->constraint] + k,
+                      .n_rows = s->n_rows,
+                      .limit = first,
+                      .scale = first + 1};
       out->name = link[out->link].name;
       for (int j = 0; j < s->n_rows; j++) {
         out->row[j] = s->first_row + k * s->n_rows + j;
@@ -122,23 +144,29 @@ void pl_record_rubs(pl_recorder* r, pl_link* link) {
   r->out->setup.n_rubs = n;
 }
 
-// ---------------------------------------------------------------------------------------------- columns in space
-// Multipliers of the rows have names before anything has a value, so that the tables of values have room for them.
+// -------------------------------------------------------------------------------- columns in space
+// Multipliers of the rows have names before anything has a value, so that the tables of values have
+// room for them.
 void pl_record_rub_symbols(pl_recorder* r) {
   for (int i = 0; i < r->model->constraints.n && r->model->n_axes == 3; i++) {
     const pl_constraint* c = &r->model->constraints.at[i];
     if (!pl_model_friction(r->model, c)) continue;
     for (int k = 0; k < 3; k++) {
-      const char* name = pl_format(r->arena, "rub_%s_%d", c->name.ascii ? c->name.ascii : c->name.text, k);
+      const char* name = pl_format(r->arena, "rub_%s_%d",
+                                   c->name.ascii ? c->name.ascii : c->name.text, k);
       if (!pl_symbol_find(r->pool, name).id)
-        pl_symbol_make(r->pool, &(pl_symbol_info){.name = name, .ascii = name, .role = PL_R_MULTIPLIER, .class = PL_C_OTHER});
+        pl_symbol_make(
+            r->pool,
+            &(pl_symbol_info){
+                .name = name, .ascii = name, .role = PL_R_MULTIPLIER, .class = PL_C_OTHER});
     }
   }
 }
 
 pl_symbol pl_rub_symbol(pl_recorder* r, const pl_rub_source* s, int k) {
   const pl_constraint* c = &r->model->constraints.at[s->constraint];
-  return pl_symbol_find(r->pool, pl_format(r->arena, "rub_%s_%d", c->name.ascii ? c->name.ascii : c->name.text, k));
+  return pl_symbol_find(
+      r->pool, pl_format(r->arena, "rub_%s_%d", c->name.ascii ? c->name.ascii : c->name.text, k));
 }
 
 // Row of a multiplier of slip, -1: it is none.
@@ -154,6 +182,7 @@ pl_expr pl_rub_force(pl_recorder* r, const pl_rub_source* s, int j) {
   static const int entry[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
   pl_expr sum = pl_int(r->pool, 0);
   for (int k = 0; k < 3; k++)
-    sum = pl_add(r->pool, sum, pl_mul(r->pool, s->metric[entry[j][k]], pl_sym(r->pool, pl_rub_symbol(r, s, k))));
+    sum = pl_add(r->pool, sum,
+                 pl_mul(r->pool, s->metric[entry[j][k]], pl_sym(r->pool, pl_rub_symbol(r, s, k))));
   return sum;
 }

@@ -1,5 +1,6 @@
-// record, second half: what is looked at along the motion.  Energies, forces on masses, outputs, events and branches become
-// observer and watch patterns with slots of their own, since they may speak of any coordinate and multiplier.
+// record, second half: what is looked at along the motion. Energies, forces on masses, outputs,
+// events and branches become observer and watch patterns with slots of their own, since they may
+// speak of any coordinate and multiplier.
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,22 +8,26 @@
 #include "api/contact_geometry.h"
 #include "api/record_impl.h"
 
-// ---------------------------------------------------------------------------------------------- observers
+// --------------------------------------------------------------------------------------- observers
 // Energy as it is conserved: sum of v dL/dv - L, which is T + V for ordinary potentials.
 static pl_expr without_velocity_part(pl_recorder* r, pl_group* g, pl_expr V) {
   pl_pool* p = r->pool;
   pl_expr sum = V;
   for (int i = 0; i < g->atoms.n; i++) {
     pl_expr v = pl_dt(p, g->atoms.at[i]);
-    pl_expr slope = pl_kind_of(p, v) == PL_SYMBOL ? pl_diff(p, V, pl_symbol_of(p, v)) : pl_diff_at(p, V, v);
+    pl_expr slope = pl_kind_of(p, v) == PL_SYMBOL ? pl_diff(p, V, pl_symbol_of(p, v))
+                                                  : pl_diff_at(p, V, v);
     sum = pl_sub(p, sum, pl_mul(p, v, slope));
   }
   return sum;
 }
 
-// Energies of a group.  What a `lagrangian` says is split by degree in the velocities: its part of degree 2 is kinetic, that of degree 0 a
-// potential with the other sign, and one of degree 1 does not enter.
-typedef struct pl_energies { pl_expr T, V, E; } pl_energies;
+// Energies of a group. What a `lagrangian` says is split by degree in the velocities: its part of
+// degree 2 is kinetic, that of degree 0 a potential with the other sign, and one of degree 1 does
+// not enter.
+typedef struct pl_energies {
+  pl_expr T, V, E;
+} pl_energies;
 
 static pl_expr at_rest(pl_recorder* r, pl_group* g, pl_expr e) {
   for (int i = 0; i < g->atoms.n; i++)
@@ -45,8 +50,9 @@ static bool has_lagrangian(const pl_recorder* r) {
   return false;
 }
 
-// E is Jacobi's integral, sum of v dL/dv - L, which is T2 - T0 + V.  Where t stands in the places of masses or in constraints, T + V is the energy
-// and that integral is another quantity; a `lagrangian` knows of no places.
+// E is Jacobi's integral, sum of v dL/dv - L, which is T2 - T0 + V. Where t stands in the places of
+// masses or in constraints, T + V is the energy and that integral is another quantity; a
+// `lagrangian` knows of no places.
 static bool is_jacobis(const pl_recorder* r) {
   return has_written_energies(r) && (!r->explicit_time || has_lagrangian(r));
 }
@@ -60,14 +66,16 @@ static pl_energies energies_of(pl_recorder* r, pl_group* g) {
   e.V = pl_add(p, e.V, still);
   e.E = pl_add(p, e.T, e.V);
   if (!is_jacobis(r)) return e;
-  e.E = pl_add(p, pl_neg(p, without_velocity_part(r, g, g->T)), pl_add(p, pl_sub(p, of_L, still), e.V));
+  e.E = pl_add(p, pl_neg(p, without_velocity_part(r, g, g->T)),
+               pl_add(p, pl_sub(p, of_L, still), e.V));
   return e;
 }
 
-static pleuel_status observe(pl_recorder* r, pl_group* g, const pl_expr* out, const int* column, int n, const pl_expr* lambda,
-                             const int* links, int n_c, pl_pattern* pattern) {
-  int* where = PL_ARRAY(r->arena, int, (size_t)g->instances.n * (size_t)n + 1);
-  int* c = PL_ARRAY(r->arena, int, (size_t)g->instances.n * (size_t)n_c + 1);
+static pleuel_status observe(pl_recorder* r, pl_group* g, const pl_expr* out, const int* column,
+                             int n, const pl_expr* lambda, const int* links, int n_c,
+                             pl_pattern* pattern) {
+  int* where = PL_ARRAY(r->arena, int, (size_t)g->instances.n*(size_t)n + 1);
+  int* c = PL_ARRAY(r->arena, int, (size_t)g->instances.n*(size_t)n_c + 1);
   for (int i = 0; i < g->instances.n; i++) {
     for (int k = 0; k < n; k++) where[i * n + k] = column[k];
     for (int k = 0; k < n_c; k++) c[i * n_c + k] = links[k];
@@ -79,7 +87,8 @@ static pleuel_status observe(pl_recorder* r, pl_group* g, const pl_expr* out, co
   return pl_pattern_record(r->job, r->pool, &s, pattern);
 }
 
-// Expressions outside of families, with multipliers: their own slots, since they may speak of any coordinate.
+// Expressions outside of families, with multipliers: their own slots, since they may speak of any
+// coordinate.
 typedef struct pl_watching {
   pl_group* group;
   PL_VEC(pl_expr) output;
@@ -158,8 +167,10 @@ static pl_expr energy_of(pl_recorder* r, pl_result_kind kind) {
   }
 }
 
-// The constraint of a label as one without a family, and its multiplier: of `c[3]` the member 3 of c.  false: there is no such.
-static bool single_constraint(pl_recorder* r, const char* label, pl_constraint* out, pl_expr* lambda) {
+// The constraint of a label as one without a family, and its multiplier: of `c[3]` the member 3 of
+// c. false: there is no such.
+static bool single_constraint(pl_recorder* r, const char* label, pl_constraint* out,
+                              pl_expr* lambda) {
   const pl_constraint* c = pl_model_constraint(r->model, label);
   if (!c || !c->lambda.id) return false;
   *out = *c;
@@ -185,9 +196,11 @@ static bool single_constraint(pl_recorder* r, const char* label, pl_constraint* 
   return false;
 }
 
-// What a result name stands for: T, λ-dependent sizes of forces; poison when this version has no number for it.
+// What a result name stands for: T, λ-dependent sizes of forces; poison when this version has no
+// number for it.
 static pl_expr result_value(pl_recorder* r, const pl_result_name* name) {
-  if (name->kind != PL_RES_FORCE_NORM && name->kind != PL_RES_NORMAL) return energy_of(r, name->kind);
+  if (name->kind != PL_RES_FORCE_NORM && name->kind != PL_RES_NORMAL)
+    return energy_of(r, name->kind);
   pl_constraint c;
   pl_expr lambda;
   if (!single_constraint(r, name->label, &c, &lambda)) return pl_poison();
@@ -197,12 +210,14 @@ static pl_expr result_value(pl_recorder* r, const pl_result_name* name) {
 static pl_expr with_results(pl_recorder* r, pl_expr e) {
   for (int i = 0; i < r->model->result_names.n; i++) {
     const pl_result_name* name = &r->model->result_names.at[i];
-    if (pl_has_symbol(r->pool, e, name->symbol)) e = pl_subst1(r->pool, e, name->symbol, result_value(r, name));
+    if (pl_has_symbol(r->pool, e, name->symbol))
+      e = pl_subst1(r->pool, e, name->symbol, result_value(r, name));
   }
   return e;
 }
 
-// Start values such as x(0) and E(0) in what is watched: found by looking for the start once, without anything watched.
+// Start values such as x(0) and E(0) in what is watched: found by looking for the start once,
+// without anything watched.
 static pleuel_status settle_start_values(pl_recorder* r) {
   if (r->start_settled) return PLEUEL_OK;
   r->start_settled = true;
@@ -237,13 +252,16 @@ static pleuel_status settle_start_values(pl_recorder* r) {
   value[pl_time(r->pool).id] = r->out->t_0;
   for (int i = 0; s == PLEUEL_OK && i < r->model->result_names.n; i++) {
     const pl_result_name* name = &r->model->result_names.at[i];
-    pl_symbol start = pl_symbol_find(r->pool, pl_format(r->arena, "%s_0", pl_symbol_get(r->pool, name->symbol)->name));
+    pl_symbol start = pl_symbol_find(
+        r->pool, pl_format(r->arena, "%s_0", pl_symbol_get(r->pool, name->symbol)->name));
     pl_expr energy = start.id ? energy_of(r, name->kind) : pl_poison();
-    if (!pl_is_poison(energy) && (int)start.id <= n_symbols) value[start.id] = pl_eval(r->pool, energy, value);
+    if (!pl_is_poison(energy) && (int)start.id <= n_symbols)
+      value[start.id] = pl_eval(r->pool, energy, value);
   }
   pl_run_free(run);
   value[pl_time(r->pool).id] = NAN;
-  for (int i = 0; i < r->out->flat.n; i++) {      // coordinates move on: only their start values stay
+  // coordinates move on: only their start values stay
+  for (int i = 0; i < r->out->flat.n; i++) {
     if (pl_kind_of(r->pool, r->out->flat.at[i]) != PL_SYMBOL) continue;
     pl_symbol x = pl_symbol_of(r->pool, r->out->flat.at[i]);
     value[x.id] = value[pl_symbol_dot(r->pool, x).id] = NAN;
@@ -253,16 +271,19 @@ static pleuel_status settle_start_values(pl_recorder* r) {
   return s;
 }
 
-// `convention lambda-minus`: the λ of the text is the negative of the solver's, whose forces are λ ∇g.
+// `convention lambda-minus`: the λ of the text is the negative of the solver's, whose forces are λ
+// ∇g.
 static pl_expr minus_multipliers(pl_recorder* r, pl_expr e) {
   for (int i = 0; i < r->model->constraints.n; i++) {
     pl_symbol s = r->model->constraints.at[i].lambda;
-    if (s.id && !r->model->constraints.at[i].block && pl_has_symbol(r->pool, e, s)) e = pl_subst1(r->pool, e, s, pl_neg(r->pool, pl_sym(r->pool, s)));
+    if (s.id && !r->model->constraints.at[i].block && pl_has_symbol(r->pool, e, s))
+      e = pl_subst1(r->pool, e, s, pl_neg(r->pool, pl_sym(r->pool, s)));
   }
   return e;
 }
 
-// A size of a force in e that virtual work does not give (contact_geometry.h); NULL if there is none.
+// A size of a force in e that virtual work does not give (contact_geometry.h); NULL if there is
+// none.
 static const char* undetermined_force(pl_recorder* r, pl_expr e) {
   for (int i = 0; i < r->model->result_names.n; i++) {
     const pl_result_name* name = &r->model->result_names.at[i];
@@ -281,16 +302,24 @@ static pleuel_status no_number(pl_recorder* r, pl_expr e, const char* what) {
   if (label) {
     return pl_fail(r->job, PLEUEL_UNSUPPORTED,
                    "%s: the coordinates of the masses do not determine the whole force of %s, or "
-                   "it differs from mass to mass; give each mass a coordinate for each axis", what, label);
+                   "it differs from mass to mass; give each mass a coordinate for each axis",
+                   what, label);
   }
-  return pl_fail(r->job, PLEUEL_UNSUPPORTED, "%s: this version cannot compute it along the motion", what);
+  return pl_fail(r->job, PLEUEL_UNSUPPORTED, "%s: this version cannot compute it along the motion",
+                 what);
 }
 
-// Adds an expression; its place among the outputs is the next.  PLEUEL_UNSUPPORTED when it has no number.
-static pleuel_status watch(pl_recorder* r, pl_watching* w, pl_expr e, int column, const char* what) {
-  pl_expr plain = pl_record_plain(r, with_results(r, r->model->lambda_minus ? minus_multipliers(r, e) : e));
-  bool known = !pl_is_poison(plain) && !pl_has_role(r->pool, plain, PL_R_LOCAL) && !pl_has_role(r->pool, plain, PL_R_MOMENTUM);
-  if (known && (pl_has_role(r->pool, plain, PL_R_START) || pl_has_role(r->pool, plain, PL_R_CONSTANT))) PL_TRY(settle_start_values(r));
+// Adds an expression; its place among the outputs is the next. PLEUEL_UNSUPPORTED when it has no
+// number.
+static pleuel_status watch(pl_recorder* r, pl_watching* w, pl_expr e, int column,
+                           const char* what) {
+  pl_expr plain = pl_record_plain(
+      r, with_results(r, r->model->lambda_minus ? minus_multipliers(r, e) : e));
+  bool known = !pl_is_poison(plain) && !pl_has_role(r->pool, plain, PL_R_LOCAL)
+               && !pl_has_role(r->pool, plain, PL_R_MOMENTUM);
+  if (known
+      && (pl_has_role(r->pool, plain, PL_R_START) || pl_has_role(r->pool, plain, PL_R_CONSTANT)))
+    PL_TRY(settle_start_values(r));
   if (known) known = collect_multipliers(r, w, pl_map_make(r->arena), plain);
   if (!known) return no_number(r, e, what);
   pl_group_atoms(r, w->group, plain);
@@ -299,21 +328,24 @@ static pleuel_status watch(pl_recorder* r, pl_watching* w, pl_expr e, int column
   return PLEUEL_OK;
 }
 
-static pleuel_status watching_record(pl_recorder* r, pl_watching* w, const pl_pattern** patterns, int* n) {
+static pleuel_status watching_record(pl_recorder* r, pl_watching* w, const pl_pattern** patterns,
+                                     int* n) {
   *n = 0;
   if (w->output.n == 0) return PLEUEL_OK;
   pl_pattern* p = PL_NEW(r->arena, pl_pattern);
-  PL_TRY(observe(r, w->group, w->output.at, w->column.at, w->output.n, w->lambda.at, w->links.at, w->lambda.n, p));
+  PL_TRY(observe(r, w->group, w->output.at, w->column.at, w->output.n, w->lambda.at, w->links.at,
+                 w->lambda.n, p));
   *patterns = p;
   *n = 1;
   return PLEUEL_OK;
 }
 
-// The force of a constraint on a mass whose position is given by coordinates of its own, along one axis: λ dg/dx.  Poison where
-// there is none, or where it is λ itself.
+// The force of a constraint on a mass whose position is given by coordinates of its own, along one
+// axis: λ dg/dx. Poison where there is none, or where it is λ itself.
 static pl_expr force_along(pl_recorder* r, const pl_constraint* c, const pl_mass* m, int axis) {
   pl_pool* p = r->pool;
-  if (c->block || m->block || !c->lambda.id || pl_kind_of(p, m->point.at[axis]) != PL_SYMBOL) return pl_poison();
+  if (c->block || m->block || !c->lambda.id || pl_kind_of(p, m->point.at[axis]) != PL_SYMBOL)
+    return pl_poison();
   pl_symbol x = pl_symbol_of(p, m->point.at[axis]);
   if (pl_symbol_get(p, x)->role != PL_R_COORD) return pl_poison();
   for (int i = 0; i < r->model->masses.n; i++) {
@@ -324,7 +356,8 @@ static pl_expr force_along(pl_recorder* r, const pl_constraint* c, const pl_mass
   }
   pl_expr slope = pl_diff(p, c->g, c->has_velocity ? pl_symbol_dot(p, x) : x);
   long n;
-  if (pl_is_zero_node(p, slope) || (pl_is_int(p, slope, &n) && (n == 1 || n == -1))) return pl_poison();
+  if (pl_is_zero_node(p, slope) || (pl_is_int(p, slope, &n) && (n == 1 || n == -1)))
+    return pl_poison();
   pl_expr force = pl_mul(p, pl_sym(p, c->lambda), slope);
   return r->model->lambda_minus ? pl_neg(p, force) : force;
 }
@@ -337,7 +370,9 @@ static pleuel_status watch_friction(pl_recorder* r, pl_watching* w, pl_columns* 
     const pl_rub_source* s = r->rubs.at[i];
     if (s->n_rows != 3 || s->group->block) continue;
     for (int j = 0; j < 3; j++) {
-      const char* name = pl_format(r->arena, "friction_%s_%s", r->model->constraints.at[s->constraint].name.ascii, r->model->axes[j].ascii);
+      const char* name = pl_format(r->arena, "friction_%s_%s",
+                                   r->model->constraints.at[s->constraint].name.ascii,
+                                   r->model->axes[j].ascii);
       PL_TRY(watch(r, w, pl_rub_force(r, s, j), columns->n, name));
       pl_push(r->arena, *columns, (pl_column){name, r->model->uses_units ? "N" : ""});
     }
@@ -352,7 +387,8 @@ static pleuel_status watch_forces(pl_recorder* r, pl_watching* w, pl_columns* co
       for (int axis = 0; axis < m->masses.at[k].point.n; axis++) {
         pl_expr force = force_along(r, &m->constraints.at[i], &m->masses.at[k], axis);
         if (pl_is_poison(force)) continue;
-        const char* name = pl_format(r->arena, "force_%s_%s_%s", m->constraints.at[i].name.ascii, m->masses.at[k].name.ascii, m->axes[axis].ascii);
+        const char* name = pl_format(r->arena, "force_%s_%s_%s", m->constraints.at[i].name.ascii,
+                                     m->masses.at[k].name.ascii, m->axes[axis].ascii);
         PL_TRY(watch(r, w, force, columns->n, name));
         pl_push(r->arena, *columns, (pl_column){name, m->uses_units ? "N" : ""});
       }
@@ -373,20 +409,26 @@ static bool can_watch(pl_recorder* r, pl_watching* w, const pl_output* o, int co
 }
 
 static const char* unit_of_output(pl_recorder* r, pl_expr value, pl_dimension d) {
-  pl_symbol named = pl_kind_of(r->pool, value) == PL_SYMBOL ? pl_symbol_of(r->pool, value) : (pl_symbol){0};
+  pl_symbol named = pl_kind_of(r->pool, value) == PL_SYMBOL ? pl_symbol_of(r->pool, value)
+                                                            : (pl_symbol){0};
   return pl_unit_of_symbol(r->arena, r->pool, named, d, true);
 }
 
 static pleuel_status watch_outputs(pl_recorder* r, pl_watching* w, pl_columns* columns) {
   const pl_model* m = r->model;
-  bool explicit_time = r->explicit_time;     // that something looked at contains t says nothing about the motion
+  // that something looked at contains t says nothing about the motion
+  bool explicit_time = r->explicit_time;
   for (int i = 0; i < m->outputs.n; i++) {
     const pl_output* o = &m->outputs.at[i];
     if (o->optional && !can_watch(r, w, o, columns->n)) continue;
-    if (!o->optional) PL_TRY(watch(r, w, o->value, columns->n, pl_format(r->arena, "output %s", o->name)));
+    if (!o->optional)
+      PL_TRY(watch(r, w, o->value, columns->n, pl_format(r->arena, "output %s", o->name)));
     pl_dimension d;
-    bool known = m->uses_units && pl_model_dimension(m, o->value, &d) && !pl_dimension_equal(d, pl_dimension_one());
-    pl_push(r->arena, *columns, (pl_column){pl_plain_ascii(r->arena, o->name), known ? unit_of_output(r, o->value, d) : ""});
+    bool known = m->uses_units && pl_model_dimension(m, o->value, &d)
+                 && !pl_dimension_equal(d, pl_dimension_one());
+    pl_push(r->arena, *columns,
+            (pl_column){pl_plain_ascii(r->arena, o->name),
+                        known ? unit_of_output(r, o->value, d) : ""});
   }
   r->explicit_time = explicit_time;
   return PLEUEL_OK;
@@ -451,17 +493,20 @@ pleuel_status pl_record_observers(pl_recorder* r) {
   return PLEUEL_OK;
 }
 
-// ---------------------------------------------------------------------------------------------- events, branches
-static pleuel_status make_deed(pl_recorder* r, pl_watching* w, const pl_action* a, pl_event_deed* out) {
+// -------------------------------------------------------------------------------- events, branches
+static pleuel_status make_deed(pl_recorder* r, pl_watching* w, const pl_action* a,
+                               pl_event_deed* out) {
   *out = (pl_event_deed){.target = -1};
   pl_start_value target = {0};
   switch (a->kind) {
     case PL_DO_STOP: out->deed = PL_DEED_STOP; return PLEUEL_OK;
     case PL_DO_RECORD: out->deed = PL_DEED_RECORD; return PLEUEL_OK;
-    case PL_DO_RELEASE: case PL_DO_ATTACH:
+    case PL_DO_RELEASE:
+    case PL_DO_ATTACH:
       out->deed = a->kind == PL_DO_RELEASE ? PL_DEED_RELEASE : PL_DEED_ATTACH;
       out->target = pl_record_link(r, a->label);
-      return out->target < 0 ? pl_fail(r->job, PLEUEL_USAGE, "there is no constraint %s", a->label) : PLEUEL_OK;
+      return out->target < 0 ? pl_fail(r->job, PLEUEL_USAGE, "there is no constraint %s", a->label)
+                             : PLEUEL_OK;
     case PL_DO_SET:
       PL_TRY(pl_record_target(r, a->target, &target));
       out->deed = target.velocity ? PL_DEED_SET_V : PL_DEED_SET_Q;
@@ -476,7 +521,8 @@ static pleuel_status make_deed(pl_recorder* r, pl_watching* w, const pl_action* 
 static pl_expr size_of_terms(pl_recorder* r, pl_expr e) {
   if (pl_kind_of(r->pool, e) != PL_ADD) return pl_poison();
   pl_expr size = pl_int(r->pool, 0);
-  for (int i = 0; i < pl_n_args(r->pool, e); i++) size = pl_add(r->pool, size, pl_call(r->pool, PL_ABS, pl_arg(r->pool, e, i)));
+  for (int i = 0; i < pl_n_args(r->pool, e); i++)
+    size = pl_add(r->pool, size, pl_call(r->pool, PL_ABS, pl_arg(r->pool, e, i)));
   return size;
 }
 
@@ -489,7 +535,11 @@ pleuel_status pl_record_events(pl_recorder* r) {
     const pl_event* e = &m->events.at[i];
     pl_event_deed* deeds = PL_ARRAY(r->arena, pl_event_deed, e->actions.n + 1);
     const char* name = e->name.ascii ? e->name.ascii : e->name.text;
-    events[i] = (pl_event_setup){.name = name, .watch = w->output.n, .direction = e->direction, .n_deeds = e->actions.n, .deeds = deeds};
+    events[i] = (pl_event_setup){.name = name,
+                                 .watch = w->output.n,
+                                 .direction = e->direction,
+                                 .n_deeds = e->actions.n,
+                                 .deeds = deeds};
     PL_TRY(watch(r, w, e->value, w->output.n, pl_format(r->arena, "event %s", name)));
     pl_expr size = size_of_terms(r, e->value);
     if (!pl_is_poison(size)) {
@@ -498,7 +548,9 @@ pleuel_status pl_record_events(pl_recorder* r) {
     }
     for (int k = 0; k < e->actions.n; k++) PL_TRY(make_deed(r, w, &e->actions.at[k], &deeds[k]));
   }
-  if (r->variation) PL_TRY(pl_variation_watch(r, w->group, w->output.at, w->output.n, w->lambda.at, w->links.at, w->lambda.n));
+  if (r->variation)
+    PL_TRY(pl_variation_watch(r, w->group, w->output.at, w->output.n, w->lambda.at, w->links.at,
+                              w->lambda.n));
   s->events = events;
   s->n_events = m->events.n;
   s->n_watched = w->output.n;
@@ -506,7 +558,8 @@ pleuel_status pl_record_events(pl_recorder* r) {
 }
 
 static const char* relation_text(pl_relation relation) {
-  static const char* const text[] = {[PL_EQ] = "=", [PL_GE] = ">=", [PL_LE] = "<=", [PL_GT] = ">", [PL_LT] = "<", [PL_NE] = "!="};
+  static const char* const text[] = {
+      [PL_EQ] = "=", [PL_GE] = ">=", [PL_LE] = "<=", [PL_GT] = ">", [PL_LT] = "<", [PL_NE] = "!="};
   return text[relation];
 }
 
@@ -517,12 +570,16 @@ pleuel_status pl_record_branches(pl_recorder* r) {
   pl_watching* w = watching_make(r);
   for (int i = 0; i < m->branches.n; i++) {
     const pl_condition* c = &m->branches.at[i];
-    const char* text = pl_format(r->arena, "%s %s %s", pl_expr_text(r->arena, r->pool, c->left), relation_text(c->relation),
+    const char* text = pl_format(r->arena, "%s %s %s", pl_expr_text(r->arena, r->pool, c->left),
+                                 relation_text(c->relation),
                                  pl_expr_text(r->arena, r->pool, c->right));
-    int relation = c->relation == PL_GT || c->relation == PL_GE ? 1 : c->relation == PL_LT || c->relation == PL_LE ? -1 : 0;
+    int relation = c->relation == PL_GT || c->relation == PL_GE   ? 1
+                   : c->relation == PL_LT || c->relation == PL_LE ? -1
+                                                                  : 0;
     branches[i] = (pl_branch_setup){text, i, relation};
     if (pl_has_role(r->pool, c->left, PL_R_START) || pl_has_role(r->pool, c->right, PL_R_START)) {
-      return pl_fail(r->job, PLEUEL_UNSUPPORTED, "branch %s speaks of the start that it is to choose", text);
+      return pl_fail(r->job, PLEUEL_UNSUPPORTED,
+                     "branch %s speaks of the start that it is to choose", text);
     }
     PL_TRY(watch(r, w, pl_sub(r->pool, c->left, c->right), i, text));
   }

@@ -1,5 +1,6 @@
-// The motion of bodies with Euler angles as it is integrated: with unit quaternions in the places of their angles
-// (model/turned.c).  Coordinates, columns and events are those of the model as declared.
+// The motion of bodies with Euler angles as it is integrated: with unit quaternions in the places
+// of their angles (model/turned.c). Coordinates, columns and events are those of the model as
+// declared.
 #include <math.h>
 #include <string.h>
 
@@ -27,7 +28,10 @@ static void name_as_declared(const pl_recorder* r, const pl_recording* declared)
     q[i].hidden = i >= declared->flat.n;
     if (q[i].hidden) continue;
     const pl_coordinate* as = &declared->setup.coordinates[i];
-    q[i].name = as->name, q[i].unit = as->unit, q[i].v_name = as->v_name, q[i].v_unit = as->v_unit;
+    q[i].name = as->name;
+    q[i].unit = as->unit;
+    q[i].v_name = as->v_name;
+    q[i].v_unit = as->v_unit;
   }
   r->out->setup.coordinates = q;
   pl_link* link = PL_ARRAY(r->arena, pl_link, r->n_links + 1);
@@ -44,11 +48,13 @@ static void name_as_declared(const pl_recorder* r, const pl_recording* declared)
 static bool holds(const pl_recorder* r, const pl_constraint* c, pl_symbol angle) {
   pl_symbol rate = pl_symbol_dot(r->pool, angle);
   if (!c->has_velocity) return pl_has_symbol(r->pool, c->g, angle);
-  return pl_has_symbol(r->pool, c->g, rate) &&
-         !pl_has_role(r->pool, pl_subst1(r->pool, c->g, rate, pl_int(r->pool, 0)), PL_R_VELOCITY);
+  return pl_has_symbol(r->pool, c->g, rate)
+         && !pl_has_role(r->pool, pl_subst1(r->pool, c->g, rate, pl_int(r->pool, 0)),
+                         PL_R_VELOCITY);
 }
 
-// A constraint that holds the precession or the spin makes their sum and difference known everywhere.
+// A constraint that holds the precession or the spin makes their sum and difference known
+// everywhere.
 static bool is_held(const pl_recorder* r, const pl_spatial* b) {
   for (int i = 0; i < r->model->constraints.n; i++) {
     const pl_constraint* c = &r->model->constraints.at[i];
@@ -71,7 +77,8 @@ void pl_record_poles(pl_recorder* r) {
     bool free = b->form == PL_AXES_EULER;
     for (int k = 0; k < 3; k++) free = free && is_angle(r, b->axes[k]);
     for (int k = 0; free && !is_held(r, b) && k < r->out->flat.n; k++)
-      if (pl_symbol_of(r->pool, r->out->flat.at[k]).id == pl_symbol_of(r->pool, b->axes[1]).id) pl_push(r->arena, poles, k);
+      if (pl_symbol_of(r->pool, r->out->flat.at[k]).id == pl_symbol_of(r->pool, b->axes[1]).id)
+        pl_push(r->arena, poles, k);
   }
   r->out->setup.poles = poles.at;
   r->out->setup.n_poles = poles.n;
@@ -82,7 +89,11 @@ pleuel_status pl_record_turned(const pl_recorder* as) {
   bool turned = pl_model_turned(as->job, as->model, &t);
   as->out->angles_kept = t.why;
   if (!turned) return PLEUEL_OK;
-  pl_recorder r = {.job = as->job, .arena = as->arena, .model = t.model, .pool = as->pool, .out = PL_NEW(as->arena, pl_recording)};
+  pl_recorder r = {.job = as->job,
+                   .arena = as->arena,
+                   .model = t.model,
+                   .pool = as->pool,
+                   .out = PL_NEW(as->arena, pl_recording)};
   pl_record_begin(&r);
   place_angles(&r, &t);
   if (as->start_settled) memcpy(r.value, as->value, (size_t)as->n_value * sizeof *r.value);

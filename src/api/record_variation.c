@@ -1,15 +1,18 @@
-// Sensitivities: derivatives of the motion by parameters and start values, integrated along with it.
+// Sensitivities: derivatives of the motion by parameters and start values, integrated along with
+// it.
 //
-// The variational equations are again those of a mechanical system.  With δ the derivative of q by p and
+// The variational equations are again those of a mechanical system. With δ the derivative of q by p
+// and
 //
 //   L^(q, δ, v, δ') = sum δ_i dL/dq_i + δ'_i dL/dv_i + dL/dp,      g = 0,      G δ + dg/dp = 0,
 //
-// the equation of Lagrange for δ is that of the motion, with the multiplier of the second constraint as its λ; the one
-// for q is its derivative by p, with the multiplier of the first as dλ/dp [NunezYepez2001].  So each pattern of the
-// motion becomes one of twice the coordinates and constraints, for each direction one with a copy of the motion of its
-// own, and the integrator needs no more than it has: its projection on the constraints projects δ as the derivative of
-// the projection.  The mass matrix is [A M; M 0], which is not definite, but as regular as M.  Forces and nonholonomic constraints
-// f(q, v, t) = 0 are differentiated likewise: sum f_q δ + f_v δ' + f_p.
+// the equation of Lagrange for δ is that of the motion, with the multiplier of the second
+// constraint as its λ; the one for q is its derivative by p, with the multiplier of the first as
+// dλ/dp [NunezYepez2001]. So each pattern of the motion becomes one of twice the coordinates and
+// constraints, for each direction one with a copy of the motion of its own, and the integrator
+// needs no more than it has: its projection on the constraints projects δ as the derivative of the
+// projection. The mass matrix is [A M; M 0], which is not definite, but as regular as M. Forces and
+// nonholonomic constraints f(q, v, t) = 0 are differentiated likewise: sum f_q δ + f_v δ' + f_p.
 #include <ctype.h>
 #include <math.h>
 #include <string.h>
@@ -18,12 +21,13 @@
 
 enum { MOST_DIRECTIONS = 64 };
 
-// ---------------------------------------------------------------------------------------------- directions
+// -------------------------------------------------------------------------------------- directions
 static const char* atom_name(pl_recorder* r, pl_expr atom, bool velocity) {
   const char* ascii = pl_symbol_get(r->pool, pl_symbol_of(r->pool, atom))->ascii;
   const char* dot = velocity ? "_dot" : "";
   if (pl_kind_of(r->pool, atom) != PL_AT) return pl_format(r->arena, "%s%s", ascii, dot);
-  return pl_format(r->arena, "%s%s[%s]", ascii, dot, pl_expr_text(r->arena, r->pool, pl_arg(r->pool, atom, 0)));
+  return pl_format(r->arena, "%s%s[%s]", ascii, dot,
+                   pl_expr_text(r->arena, r->pool, pl_arg(r->pool, atom, 0)));
 }
 
 static bool is_parameter(pl_recorder* r, const char* name, pl_direction* d) {
@@ -49,8 +53,8 @@ static bool is_start_value(pl_recorder* r, const char* name, pl_direction* d) {
     for (int velocity = 0; velocity < 2; velocity++) {
       const char* own = atom_name(r, atom, velocity);
       bool same = strlen(own) == n - 1 && strncmp(own, name, n - 1) == 0;
-      bool displayed = !velocity && pl_kind_of(r->pool, atom) == PL_SYMBOL && strlen(info->name) == n - 1 &&
-                       strncmp(info->name, name, n - 1) == 0;
+      bool displayed = !velocity && pl_kind_of(r->pool, atom) == PL_SYMBOL
+                       && strlen(info->name) == n - 1 && strncmp(info->name, name, n - 1) == 0;
       if (!same && !displayed) continue;
       *d = (pl_direction){.name = pl_format(r->arena, "%s0", own), .at = i, .velocity = velocity};
       pl_expr e = velocity ? pl_dt(r->pool, atom) : atom;
@@ -63,8 +67,9 @@ static bool is_start_value(pl_recorder* r, const char* name, pl_direction* d) {
 
 static pleuel_status read_direction(pl_recorder* r, const char* name, pl_direction* d) {
   if (is_parameter(r, name, d) || is_start_value(r, name, d)) return PLEUEL_OK;
-  return pl_fail(r->job, PLEUEL_USAGE,
-                 "there is no sensitivity to %s: name a parameter (m2) or a start value (x0, x_dot0)", name);
+  return pl_fail(
+      r->job, PLEUEL_USAGE,
+      "there is no sensitivity to %s: name a parameter (m2) or a start value (x0, x_dot0)", name);
 }
 
 static pleuel_status read_list(pl_recorder* r, const char* list, pl_variation* v) {
@@ -73,10 +78,14 @@ static pleuel_status read_list(pl_recorder* r, const char* list, pl_variation* v
     size_t n = strcspn(at, ",");
     const char* from = at;
     at += n + (at[n] == ',');
-    while (n > 0 && isspace((unsigned char)*from)) from++, n--;
+    while (n > 0 && isspace((unsigned char)*from)) {
+      from++;
+      n--;
+    }
     while (n > 0 && isspace((unsigned char)from[n - 1])) n--;
     if (n == 0) continue;
-    if (v->n == MOST_DIRECTIONS) return pl_fail(r->job, PLEUEL_USAGE, "at most %d sensitivities at once", MOST_DIRECTIONS);
+    if (v->n == MOST_DIRECTIONS)
+      return pl_fail(r->job, PLEUEL_USAGE, "at most %d sensitivities at once", MOST_DIRECTIONS);
     PL_TRY(read_direction(r, pl_copy_n(r->arena, from, n), &d[v->n]));
     for (int i = 0; i < v->n; i++)
       if (strcmp(d[i].name, d[v->n].name) == 0)
@@ -84,14 +93,17 @@ static pleuel_status read_list(pl_recorder* r, const char* list, pl_variation* v
     v->n++;
   }
   v->direction = d;
-  return v->n ? PLEUEL_OK : pl_fail(r->job, PLEUEL_USAGE, "sensitivity to what? Name parameters or start values: m2,x0");
+  return v->n ? PLEUEL_OK
+              : pl_fail(r->job, PLEUEL_USAGE,
+                        "sensitivity to what? Name parameters or start values: m2,x0");
 }
 
 // Where surfaces begin to slip or stick, the derivatives have jumps that are not known here.
 static pleuel_status check_smooth(pl_recorder* r) {
   const pl_model* m = r->model;
   if (m->frictions.n == 0) return PLEUEL_OK;
-  return pl_fail(r->job, PLEUEL_UNSUPPORTED, "%s: sensitivities are not carried through friction", m->frictions.at[0].label);
+  return pl_fail(r->job, PLEUEL_UNSUPPORTED, "%s: sensitivities are not carried through friction",
+                 m->frictions.at[0].label);
 }
 
 // The symbol of a variation; colons cannot stand in names of a model.
@@ -105,7 +117,7 @@ static void make_delta(pl_recorder* r, pl_symbol of) {
   info.dimension_known = false;
   pl_symbol s = pl_symbol_make(r->pool, &info);
   pl_map_set(r->variation->delta, of.id, s.id);
-  pl_symbol_dot(r->pool, pl_symbol_dot(r->pool, s));   // so that the values have room
+  pl_symbol_dot(r->pool, pl_symbol_dot(r->pool, s));  // so that the values have room
 }
 
 pleuel_status pl_variation_begin(pl_recorder* r, const char* list) {
@@ -124,9 +136,10 @@ pleuel_status pl_variation_begin(pl_recorder* r, const char* list) {
 
 int pl_variation_count(const pl_recorder* r) { return r->variation ? r->variation->n : 1; }
 
-// ---------------------------------------------------------------------------------------------- derivatives
+// ------------------------------------------------------------------------------------- derivatives
 pl_expr pl_variation_by_atom(pl_pool* p, pl_expr e, pl_expr atom) {
-  return pl_kind_of(p, atom) == PL_SYMBOL ? pl_diff(p, e, pl_symbol_of(p, atom)) : pl_diff_at(p, e, atom);
+  return pl_kind_of(p, atom) == PL_SYMBOL ? pl_diff(p, e, pl_symbol_of(p, atom))
+                                          : pl_diff_at(p, e, atom);
 }
 
 pl_expr pl_variation_delta(pl_recorder* r, pl_expr atom) {
@@ -146,7 +159,7 @@ static pl_expr definition(const pl_recorder* r, pl_symbol s) {
   return pl_poison();
 }
 
-enum { DEEPEST = 100 };   // parameters given by parameters
+enum { DEEPEST = 100 };  // parameters given by parameters
 
 // Derivative by the parameter of the direction, through parameters that are given by it.
 static pl_expr by_parameter(pl_recorder* r, pl_expr e, const pl_direction* d, int depth) {
@@ -166,7 +179,9 @@ static pl_expr by_parameter(pl_recorder* r, pl_expr e, const pl_direction* d, in
   return sum;
 }
 
-pl_expr pl_variation_by_parameter(pl_recorder* r, pl_expr e, const pl_direction* d) { return by_parameter(r, e, d, 0); }
+pl_expr pl_variation_by_parameter(pl_recorder* r, pl_expr e, const pl_direction* d) {
+  return by_parameter(r, e, d, 0);
+}
 
 // sum e_q δ + e_v δ' + e_p
 static pl_expr vary(pl_recorder* r, const pl_group* g, pl_expr e, const pl_direction* d) {
@@ -181,10 +196,11 @@ static pl_expr vary(pl_recorder* r, const pl_group* g, pl_expr e, const pl_direc
   return sum;
 }
 
-// ---------------------------------------------------------------------------------------------- patterns
-// Constraints of the pattern: the varied ones first, whose multipliers are those of the motion, then the others.
-static void vary_constraints(pl_recorder* r, const pl_group* g, const pl_pattern_source* s, const pl_direction* d,
-                             pl_pattern_source* out) {
+// ---------------------------------------------------------------------------------------- patterns
+// Constraints of the pattern: the varied ones first, whose multipliers are those of the motion,
+// then the others.
+static void vary_constraints(pl_recorder* r, const pl_group* g, const pl_pattern_source* s,
+                             const pl_direction* d, pl_pattern_source* out) {
   int n = s->slots.n_c;
   pl_expr* constraint = PL_ARRAY(r->arena, pl_expr, 2 * n + 1);
   pl_expr* lambda = PL_ARRAY(r->arena, pl_expr, 2 * n + 1);
@@ -203,8 +219,8 @@ static void vary_constraints(pl_recorder* r, const pl_group* g, const pl_pattern
 }
 
 // Forces: δQ on q, Q on δ; the multipliers in Q vary too.
-static void vary_forces(pl_recorder* r, const pl_group* g, const pl_pattern_source* s, const pl_direction* d,
-                        pl_pattern_source* out) {
+static void vary_forces(pl_recorder* r, const pl_group* g, const pl_pattern_source* s,
+                        const pl_direction* d, pl_pattern_source* out) {
   int n = g->atoms.n;
   pl_expr* force = PL_ARRAY(r->arena, pl_expr, 2 * n + 1);
   for (int i = 0; i < n; i++) {
@@ -214,14 +230,16 @@ static void vary_forces(pl_recorder* r, const pl_group* g, const pl_pattern_sour
     for (int c = 0; c < s->slots.n_c; c++) {
       pl_expr lambda = s->slots.lambda[c];
       if (pl_is_poison(lambda)) continue;
-      force[i] = pl_add(r->pool, force[i], pl_mul(r->pool, pl_variation_by_atom(r->pool, force[n + i], lambda), pl_variation_delta(r, lambda)));
+      force[i] = pl_add(r->pool, force[i],
+                        pl_mul(r->pool, pl_variation_by_atom(r->pool, force[n + i], lambda),
+                               pl_variation_delta(r, lambda)));
     }
   }
   out->force = force;
 }
 
-static void vary_places(pl_recorder* r, const pl_group* g, const pl_pattern_source* s, int direction,
-                        pl_pattern_source* out) {
+static void vary_places(pl_recorder* r, const pl_group* g, const pl_pattern_source* s,
+                        int direction, pl_pattern_source* out) {
   int n = g->atoms.n, n_c = s->slots.n_c, all = r->out->flat.n, rows = r->n_links;
   int* q = PL_ARRAY(r->arena, int, (size_t)s->n * 2 * (size_t)n + 1);
   int* c = PL_ARRAY(r->arena, int, (size_t)s->n * 2 * (size_t)n_c + 1);
@@ -240,7 +258,8 @@ static void vary_places(pl_recorder* r, const pl_group* g, const pl_pattern_sour
 }
 
 // One pattern for each direction, from that of the motion.
-pleuel_status pl_variation_record(pl_recorder* r, pl_group* g, const pl_pattern_source* s, pl_pattern* out) {
+pleuel_status pl_variation_record(pl_recorder* r, pl_group* g, const pl_pattern_source* s,
+                                  pl_pattern* out) {
   int n = g->atoms.n;
   pl_expr* atoms = PL_ARRAY(r->arena, pl_expr, 2 * n + 1);
   for (int i = 0; i < n; i++) {
@@ -261,7 +280,7 @@ pleuel_status pl_variation_record(pl_recorder* r, pl_group* g, const pl_pattern_
   return PLEUEL_OK;
 }
 
-// ---------------------------------------------------------------------------------------------- start values
+// ------------------------------------------------------------------------------------ start values
 // Derivative of one start value; those that it is given by were taken before it.
 static double derivative_of_start(pl_recorder* r, const pl_start_value* s, int k) {
   const pl_direction* d = &r->variation->direction[k];
@@ -282,7 +301,8 @@ static double derivative_of_start(pl_recorder* r, const pl_start_value* s, int k
     for (int velocity = 0; velocity < 2; velocity++) {
       double x = velocity ? r->variation->v[place] : r->variation->q[place];
       if (x == 0) continue;
-      pl_expr slope = pl_variation_by_atom(r->pool, s->value, velocity ? pl_dt(r->pool, atom) : atom);
+      pl_expr slope = pl_variation_by_atom(r->pool, s->value,
+                                           velocity ? pl_dt(r->pool, atom) : atom);
       sum += x * pl_record_number(r, pl_record_with_elements(r, slope, q));
     }
   }
@@ -302,7 +322,8 @@ static pleuel_status check_starts(pl_recorder* r) {
   for (int k = 0; k < v->n; k++) {
     const pl_direction* d = &v->direction[k];
     if (d->at >= 0 && !(d->velocity ? q[d->at].has_v : q[d->at].has_q))
-      return pl_fail(r->job, PLEUEL_USAGE, "no sensitivity to %s: the model gives no start value for it", d->name);
+      return pl_fail(r->job, PLEUEL_USAGE,
+                     "no sensitivity to %s: the model gives no start value for it", d->name);
     if (d->at < 0 && isnan(r->value[d->parameter.id]))
       return pl_fail(r->job, PLEUEL_USAGE, "no sensitivity to %s: it has no number", d->name);
   }
@@ -313,10 +334,11 @@ static pleuel_status check_starts(pl_recorder* r) {
   return PLEUEL_OK;
 }
 
-// ---------------------------------------------------------------------------------------------- names
+// ------------------------------------------------------------------------------------------- names
 static const char* unit_of_quotient(pl_recorder* r, pl_expr of, const pl_direction* d) {
   pl_dimension upper;
-  if (!r->model->uses_units || !d->dimension_known || !pl_model_dimension(r->model, of, &upper)) return "";
+  if (!r->model->uses_units || !d->dimension_known || !pl_model_dimension(r->model, of, &upper))
+    return "";
   pl_dimension q = pl_dimension_div(upper, d->dimension);
   if (pl_dimension_equal(q, pl_dimension_one())) return "";
   return pl_dimension_unit(r->arena, q, true);
@@ -328,7 +350,7 @@ static void name_block(pl_recorder* r, int k, const pl_coordinate* from, pl_coor
   for (int i = 0; i < n; i++) {
     pl_expr atom = r->out->flat.at[i];
     to[i] = from[i];
-    to[i].hidden |= k > 0;     // copies of the motion
+    to[i].hidden |= k > 0;  // copies of the motion
     to[n + i] = (pl_coordinate){.hidden = from[i].hidden};
     to[n + i].name = pl_format(r->arena, "d(%s)/d(%s)", from[i].name, d->name);
     to[n + i].v_name = pl_format(r->arena, "d(%s)/d(%s)", from[i].v_name, d->name);

@@ -1,5 +1,5 @@
-// record for numbers wider than doubles: parameters are written down as what they are defined by, start values and times as they
-// stand in the text, so that nothing is rounded on the way.
+// record for numbers wider than doubles: parameters are written down as what they are defined by,
+// start values and times as they stand in the text, so that nothing is rounded on the way.
 #include <math.h>
 #include <string.h>
 
@@ -25,7 +25,9 @@ const pl_expr* pl_wider_definitions(pl_recorder* r) {
   return more;
 }
 
-pl_expr pl_wider_element(const pl_recorder* r, int at) { return r->exact ? r->start_q[at] : pl_poison(); }
+pl_expr pl_wider_element(const pl_recorder* r, int at) {
+  return r->exact ? r->start_q[at] : pl_poison();
+}
 
 void pl_wider_start(pl_recorder* r, const pl_start_value* s, pl_expr value) {
   if (!r->exact || s->guess) return;
@@ -36,8 +38,10 @@ void pl_wider_start(pl_recorder* r, const pl_start_value* s, pl_expr value) {
   pl_wider_definitions(r);
   for (int i = 0; i < n; i++) {
     double x = (int)symbol[i].id < r->n_value ? r->value[symbol[i].id] : (double)NAN;
-    bool is_index = pl_symbol_get(r->pool, symbol[i])->role == PL_R_INDEX && pl_is_poison(r->definition[symbol[i].id]);
-    if (is_index && x == nearbyint(x)) value = pl_subst1(r->pool, value, symbol[i], pl_int(r->pool, lround(x)));
+    bool is_index = pl_symbol_get(r->pool, symbol[i])->role == PL_R_INDEX
+                    && pl_is_poison(r->definition[symbol[i].id]);
+    if (is_index && x == nearbyint(x))
+      value = pl_subst1(r->pool, value, symbol[i], pl_int(r->pool, lround(x)));
   }
   (s->velocity ? r->start_v : r->start_q)[s->at] = value;
   pl_expr atom = r->out->flat.at[s->at];
@@ -48,8 +52,10 @@ void pl_wider_start(pl_recorder* r, const pl_start_value* s, pl_expr value) {
   r->definition[name.id] = value;
 }
 
-// ---------------------------------------------------------------------------------------------- the tape of constants
-typedef struct roots { PL_VEC(pl_expr) list; } roots;
+// --------------------------------------------------------------------------- the tape of constants
+typedef struct roots {
+  PL_VEC(pl_expr) list;
+} roots;
 
 static int add(pl_recorder* r, roots* all, pl_expr e) {
   if (pl_is_poison(e) || !isfinite(pl_record_number(r, e))) return -1;

@@ -8,7 +8,7 @@
 
 enum { MOST_COORDINATES = 80, MOST_SAMPLES = 4000, MOST_STAGES = 8 };
 
-// ---------------------------------------------------------------------------------------------- whether to look
+// --------------------------------------------------------------------------------- whether to look
 // Sets can change: there are contacts, or constraints that are off or that an event releases.
 static bool has_sets(const pl_model* m) {
   if (m->frictions.n > 0) return true;
@@ -39,10 +39,11 @@ static bool has_start(const pl_model* m) {
 }
 
 static bool can_look(pleuel_model* m) {
-  return has_sets(m->model) && has_numbers(m->model) && pl_model_flat_coords(m->model, m->arena).n <= MOST_COORDINATES;
+  return has_sets(m->model) && has_numbers(m->model)
+         && pl_model_flat_coords(m->model, m->arena).n <= MOST_COORDINATES;
 }
 
-// ---------------------------------------------------------------------------------------------- from phase to stage
+// ----------------------------------------------------------------------------- from phase to stage
 // How each friction goes on.
 static void list_rubs(pl_arena* a, const pl_trace* t, const pl_trace_phase* p, pl_stage* out) {
   const pl_setup* s = &t->recording->setup;
@@ -53,9 +54,15 @@ static void list_rubs(pl_arena* a, const pl_trace* t, const pl_trace_phase* p, p
   for (int i = 0; i < s->n_rubs; i++) {
     const pl_friction_law* law = &t->recording->laws[i];
     const pl_rub_report* now = &p->rubs[i];
-    rub[i] = (pl_stage_rub){.on = s->rubs[i].name, .name = s->links[s->rubs[i].row[0]].name, .slip = law->slip, .limit = law->limit,
-                            .scale = law->scale, .sticks = now->mode == PL_RUB_STICKS, .slips = now->mode == PL_RUB_SLIPS,
-                            .way = now->way, .press = now->press};
+    rub[i] = (pl_stage_rub){.on = s->rubs[i].name,
+                            .name = s->links[s->rubs[i].row[0]].name,
+                            .slip = law->slip,
+                            .limit = law->limit,
+                            .scale = law->scale,
+                            .sticks = now->mode == PL_RUB_STICKS,
+                            .slips = now->mode == PL_RUB_SLIPS,
+                            .way = now->way,
+                            .press = now->press};
     out->rubs_known &= !pl_is_poison(law->slip);
   }
   if (!out->rubs_known) out->n_rubs = 0;
@@ -71,14 +78,24 @@ static pl_stage* stage_of(pl_arena* a, const pl_trace* t, int phase) {
     rope[c] = s->links[c].rope;
   }
   int n_q = t->recording->flat.n;
-  const char **q_name = PL_ARRAY(a, const char*, n_q + 1), **q_unit = PL_ARRAY(a, const char*, n_q + 1);
+  const char **q_name = PL_ARRAY(a, const char*, n_q + 1),
+             **q_unit = PL_ARRAY(a, const char*, n_q + 1);
   for (int i = 0; i < n_q; i++) {
     q_name[i] = s->coordinates[i].name;
     q_unit[i] = s->coordinates[i].unit ? s->coordinates[i].unit : "";
   }
   pl_stage* out = PL_NEW(a, pl_stage);
-  *out = (pl_stage){.n = s->n_c, .name = name, .holds = p->active, .released = p->released, .rope = rope, .from = p->t_begin, .to = p->t_end,
-                    .n_q = n_q, .q_name = q_name, .q_unit = q_unit, .q = t->samples.at[p->first].q};
+  *out = (pl_stage){.n = s->n_c,
+                    .name = name,
+                    .holds = p->active,
+                    .released = p->released,
+                    .rope = rope,
+                    .from = p->t_begin,
+                    .to = p->t_end,
+                    .n_q = n_q,
+                    .q_name = q_name,
+                    .q_unit = q_unit,
+                    .q = t->samples.at[p->first].q};
   list_rubs(a, t, p, out);
   out->pulls = phase == 0 ? t->pulls : PL_ARRAY(a, bool, s->n_c + 1);
   return out;
@@ -87,12 +104,16 @@ static pl_stage* stage_of(pl_arena* a, const pl_trace* t, int phase) {
 static bool same_set(const pl_stage* a, const pl_stage* b) {
   for (int i = 0; i < a->n_rubs; i++) {
     const pl_stage_rub *x = &a->rubs[i], *y = &b->rubs[i];
-    if (x->sticks != y->sticks || x->slips != y->slips || (x->slips && x->way * x->press != y->way * y->press)) return false;
+    if (x->sticks != y->sticks || x->slips != y->slips
+        || (x->slips && x->way * x->press != y->way * y->press))
+      return false;
   }
-  return memcmp(a->holds, b->holds, (size_t)a->n * sizeof(bool)) == 0 && memcmp(a->released, b->released, (size_t)a->n * sizeof(bool)) == 0;
+  return memcmp(a->holds, b->holds, (size_t)a->n * sizeof(bool)) == 0
+         && memcmp(a->released, b->released, (size_t)a->n * sizeof(bool)) == 0;
 }
 
-// What ends the stage in favour of the next phase: a contact that opens or closes by itself, or an event.
+// What ends the stage in favour of the next phase: a contact that opens or closes by itself, or an
+// event.
 static void note_end(pl_stage* s, const pl_trace* t, int next) {
   const pl_trace_phase* p = &t->phases.at[next];
   s->to = p->t_begin;
@@ -126,7 +147,7 @@ static void list_stages(pl_staging* out, pl_arena* a, const pl_trace* t) {
     if (last + 1 < t->phases.n) note_end(s, t, last + 1);
     else note_last(s, t);
     k = last;
-    bool known = s->to <= s->from && t->phases.n > 1 && k > 0;      // touched, not held
+    bool known = s->to <= s->from && t->phases.n > 1 && k > 0;  // touched, not held
     for (int i = 0; i < out->n; i++) known |= same_set(&out->stages[i], s);
     if (!known) out->stages[out->n++] = *s;
   }
@@ -137,21 +158,25 @@ pl_staging* pl_staging_make(pleuel_model* m, bool along) {
   out->m = m;
   if (!can_look(m) || !has_start(m->model)) return out;
   along = along && m->model->simulate.given;
-  pl_trace_options how = {.as_run = true, .most_samples = along ? MOST_SAMPLES : 1, .span = along ? 0 : 1};
+  pl_trace_options how = {
+      .as_run = true, .most_samples = along ? MOST_SAMPLES : 1, .span = along ? 0 : 1};
   const pl_trace* t = pl_trace_make(&m->job, m->model, &how);
   if (t->started) list_stages(out, m->arena, t);
-  if (!along && out->n > 0) out->n = 1, out->stages[0].end = PL_END_UNKNOWN;
+  if (!along && out->n > 0) {
+    out->n = 1;
+    out->stages[0].end = PL_END_UNKNOWN;
+  }
   return out;
 }
 
-// ---------------------------------------------------------------------------------------------- starts that are named
+// --------------------------------------------------------------------------- starts that are named
 const pl_stage* pl_staging_from(void* staging, const pl_motion* from) {
   pl_staging* s = staging;
   pleuel_model* m = s->m;
   if (!can_look(m)) return NULL;
   pl_trace_options how = {.from = from, .most_samples = 1, .span = 1};
   pl_trace* t = pl_trace_make(&m->job, m->model, &how);
-  if (!t->started) {      // what `init` says of the rest may not fit
+  if (!t->started) {  // what `init` says of the rest may not fit
     pl_model bare = *m->model;
     bare.inits.n = 0;
     t = pl_trace_make(&m->job, &bare, &how);

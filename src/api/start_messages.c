@@ -1,4 +1,5 @@
-// A start that does not fit the constraints, or fits in several ways, as messages with a place and a fix: E041, E043, N073.
+// A start that does not fit the constraints, or fits in several ways, as messages with a place and
+// a fix: E041, E043, N073.
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,7 +17,8 @@ static pl_span init_span(const pleuel_model* m, int coordinate, bool velocity) {
     const pl_symbol_info* info = pl_symbol_get(p, pl_symbol_of(p, target));
     bool is_velocity = info->role == PL_R_VELOCITY;
     pl_symbol base = is_velocity ? info->base : pl_symbol_of(p, target);
-    if (pl_kind_of(p, atom) == PL_SYMBOL && base.id == pl_symbol_of(p, atom).id && is_velocity == velocity) {
+    if (pl_kind_of(p, atom) == PL_SYMBOL && base.id == pl_symbol_of(p, atom).id
+        && is_velocity == velocity) {
       return model->inits.at[i].span;
     }
   }
@@ -45,11 +47,14 @@ static void report_violated(pleuel_model* m) {
   const pl_setup* s = &m->recording->setup;
   const pl_link* link = &s->links[r->link];
   const pl_constraint* c = constraint_of_link(m, r->link);
-  pl_span span = r->move_coordinate >= 0 ? init_span(m, r->move_coordinate, r->move_velocity) : (pl_span){0};
+  pl_span span = r->move_coordinate >= 0 ? init_span(m, r->move_coordinate, r->move_velocity)
+                                         : (pl_span){0};
   if (!span.source && c) span = c->span;
   const char* en = r->link_velocity ? "the start velocity violates %s" : "the start violates %s";
-  const char* de = r->link_velocity ? "die Startgeschwindigkeit verletzt %s" : "der Start verletzt %s";
-  pl_diagnostic* d = pl_report(&m->diagnostics, PL_E041, span, pl_format(m->arena, en, link->name), pl_format(m->arena, de, link->name));
+  const char* de = r->link_velocity ? "die Startgeschwindigkeit verletzt %s"
+                                    : "der Start verletzt %s";
+  pl_diagnostic* d = pl_report(&m->diagnostics, PL_E041, span, pl_format(m->arena, en, link->name),
+                               pl_format(m->arena, de, link->name));
   if (r->move_coordinate < 0) return;
   const pl_coordinate* q = &s->coordinates[r->move_coordinate];
   const char* name = r->move_velocity ? q->v_name : q->name;
@@ -57,11 +62,18 @@ static void report_violated(pleuel_model* m) {
   const char* blank = unit && *unit ? " " : "";
   if (!unit) unit = "";
   const char* number = typed(m->arena, r->move_to);
-  pl_report_fix(d, pl_format(m->arena, "%s = %s%s%s would fit. Change it, or remove it from init and let it follow", name, number, blank, unit),
-                pl_format(m->arena, "%s = %s%s%s würde passen. Ändern, oder aus init entfernen und folgen lassen", name, number, blank, unit), NULL);
+  pl_report_fix(
+      d,
+      pl_format(m->arena,
+                "%s = %s%s%s would fit. Change it, or remove it from init and let it follow", name,
+                number, blank, unit),
+      pl_format(m->arena,
+                "%s = %s%s%s würde passen. Ändern, oder aus init entfernen und folgen lassen", name,
+                number, blank, unit),
+      NULL);
 }
 
-// ---------------------------------------------------------------------------------------------- several solutions
+// ------------------------------------------------------------------------------- several solutions
 static const char* shown_coordinate(const pleuel_model* m, int i) {
   pl_expr atom = m->recording->flat.at[i];
   if (pl_kind_of(m->model->pool, atom) != PL_SYMBOL) return m->recording->setup.coordinates[i].name;
@@ -89,14 +101,18 @@ static int differing(const pl_setup* s, const double* a, const double* b) {
 static const char* sign_of_angle(pleuel_model* m, int i, double a, double b) {
   static const double clear = 1e-3;
   const char* name = shown_coordinate(m, i);
-  if (sin(a) * sin(b) < 0 && fabs(sin(a)) > clear && fabs(sin(b)) > clear) return pl_format(m->arena, "sin %s", name);
-  if (cos(a) * cos(b) < 0 && fabs(cos(a)) > clear && fabs(cos(b)) > clear) return pl_format(m->arena, "cos %s", name);
+  if (sin(a) * sin(b) < 0 && fabs(sin(a)) > clear && fabs(sin(b)) > clear)
+    return pl_format(m->arena, "sin %s", name);
+  if (cos(a) * cos(b) < 0 && fabs(cos(a)) > clear && fabs(cos(b)) > clear)
+    return pl_format(m->arena, "cos %s", name);
   return NULL;
 }
 
-// A condition on which two solutions differ, `left` against `right`: an angle by a sign, a coordinate against one of the same
-// letter that lies between (x2 < x1), or against a number.  Returns whether left > right at a.
-static bool condition_between(pleuel_model* m, const double* a, const double* b, const char** left, const char** right) {
+// A condition on which two solutions differ, `left` against `right`: an angle by a sign, a
+// coordinate against one of the same letter that lies between (x2 < x1), or against a number.
+// Returns whether left > right at a.
+static bool condition_between(pleuel_model* m, const double* a, const double* b, const char** left,
+                              const char** right) {
   const pl_setup* s = &m->recording->setup;
   for (int i = 0; i < s->n_q; i++) {
     if (s->coordinates[i].has_q || !is_angle(s, i)) continue;
@@ -111,7 +127,8 @@ static bool condition_between(pleuel_model* m, const double* a, const double* b,
   *right = NULL;
   for (int i = 0; i < s->n_q && !*right; i++) {
     bool same_letter = s->coordinates[i].name[0] == s->coordinates[k].name[0];
-    if (i != k && same_letter && a[i] == b[i] && lo < a[i] && a[i] < hi) *right = shown_coordinate(m, i);
+    if (i != k && same_letter && a[i] == b[i] && lo < a[i] && a[i] < hi)
+      *right = shown_coordinate(m, i);
   }
   if (!*right) *right = lo < 0 && hi > 0 ? "0" : pl_format(m->arena, "%.4g", 0.5 * (lo + hi));
   return a[k] > b[k];
@@ -125,11 +142,17 @@ static void report_several(pleuel_model* m) {
   const pl_start_report* r = &m->start;
   const char *left, *right;
   condition_between(m, r->candidates, r->candidates + m->recording->setup.n_q, &left, &right);
-  pl_diagnostic* d = pl_report(&m->diagnostics, PL_E043, place_of_start(m),
-    pl_format(m->arena, "%d solutions of the constraints fit the start; choose one", r->n_candidates),
-    pl_format(m->arena, "%d Lösungen der Zwangsbedingungen passen zum Start; eine ist zu wählen", r->n_candidates));
-  pl_report_fix(d, pl_format(m->arena, "add  branch %s < %s   or   branch %s > %s", left, right, left, right),
-                pl_format(m->arena, "branch %s < %s   oder   branch %s > %s   hinzufügen", left, right, left, right), NULL);
+  pl_diagnostic* d = pl_report(
+      &m->diagnostics, PL_E043, place_of_start(m),
+      pl_format(m->arena, "%d solutions of the constraints fit the start; choose one",
+                r->n_candidates),
+      pl_format(m->arena, "%d Lösungen der Zwangsbedingungen passen zum Start; eine ist zu wählen",
+                r->n_candidates));
+  pl_report_fix(
+      d, pl_format(m->arena, "add  branch %s < %s   or   branch %s > %s", left, right, left, right),
+      pl_format(m->arena, "branch %s < %s   oder   branch %s > %s   hinzufügen", left, right, left,
+                right),
+      NULL);
 }
 
 // The solution nearest to the given numbers was taken: which one it is, and how to have another.
@@ -143,22 +166,31 @@ static void report_taken(pleuel_model* m) {
   for (int i = 0; i < s->n_q && shown < 6; i++) {
     const char* unit = s->coordinates[i].unit ? s->coordinates[i].unit : "";
     if (s->coordinates[i].has_q) continue;
-    pl_text_addf(&values, "%s%s = %.6g%s%s", shown++ ? ", " : "", shown_coordinate(m, i), taken[i], *unit ? " " : "", unit);
+    pl_text_addf(&values, "%s%s = %.6g%s%s", shown++ ? ", " : "", shown_coordinate(m, i), taken[i],
+                 *unit ? " " : "", unit);
   }
   const char *left, *right;
   bool greater = condition_between(m, taken, other, &left, &right);
   const char* at = pl_text_string(&values);
-  pl_diagnostic* d = pl_report(&m->diagnostics, PL_N073, place_of_start(m),
-    pl_format(m->arena, "%d solutions of the constraints fit the start; the nearest one is taken: %s", r->n_candidates, at),
-    pl_format(m->arena, "%d Lösungen der Zwangsbedingungen passen zum Start; die nächste wird genommen: %s", r->n_candidates, at));
+  pl_diagnostic* d = pl_report(
+      &m->diagnostics, PL_N073, place_of_start(m),
+      pl_format(m->arena,
+                "%d solutions of the constraints fit the start; the nearest one is taken: %s",
+                r->n_candidates, at),
+      pl_format(m->arena,
+                "%d Lösungen der Zwangsbedingungen passen zum Start; die nächste wird genommen: %s",
+                r->n_candidates, at));
   const char* own = pl_format(m->arena, "branch %s %s %s", left, greater ? ">" : "<", right);
   const char* opposite = pl_format(m->arena, "branch %s %s %s", left, greater ? "<" : ">", right);
   pl_report_fix(d, pl_format(m->arena, "%s  keeps it, %s  takes another one", own, opposite),
-                pl_format(m->arena, "%s  hält das fest, %s  nimmt eine andere", own, opposite), NULL);
+                pl_format(m->arena, "%s  hält das fest, %s  nimmt eine andere", own, opposite),
+                NULL);
 }
 
 void pl_start_report_choice(pleuel_model* m) {
-  if (m->start_reported || m->start.n_candidates < 2 || pl_diagnostics_have(&m->diagnostics, PL_N073)) return;
+  if (m->start_reported || m->start.n_candidates < 2
+      || pl_diagnostics_have(&m->diagnostics, PL_N073))
+    return;
   report_taken(m);
   pl_diagnostics_sort(&m->diagnostics);
 }
@@ -167,7 +199,9 @@ void pl_start_report_trouble(pleuel_model* m) {
   if (m->start_reported) return;
   m->start_reported = true;
   // the derivation may have said it already
-  if (pl_diagnostics_have(&m->diagnostics, PL_E041) || pl_diagnostics_have(&m->diagnostics, PL_E043)) return;
+  if (pl_diagnostics_have(&m->diagnostics, PL_E041)
+      || pl_diagnostics_have(&m->diagnostics, PL_E043))
+    return;
   if (m->start.trouble == PL_START_VIOLATED && m->start.link >= 0) report_violated(m);
   if (m->start.trouble == PL_START_SEVERAL && m->start.n_candidates > 1) report_several(m);
   pl_diagnostics_sort(&m->diagnostics);

@@ -9,15 +9,24 @@ static void tell_freedoms(pl_text* out, const pleuel_model* m, pl_language lang)
   const pl_dof* f = &m->solution->dof;
   bool de = lang == PL_GERMAN;
   pl_text_addf(out, "%d %s, %d %s", f->coordinates,
-               de ? plural(f->coordinates, "Koordinate", "Koordinaten") : plural(f->coordinates, "coordinate", "coordinates"), f->constraints,
-               de ? plural(f->constraints, "Zwangsbedingung", "Zwangsbedingungen") : plural(f->constraints, "constraint", "constraints"));
+               de ? plural(f->coordinates, "Koordinate", "Koordinaten")
+                  : plural(f->coordinates, "coordinate", "coordinates"),
+               f->constraints,
+               de ? plural(f->constraints, "Zwangsbedingung", "Zwangsbedingungen")
+                  : plural(f->constraints, "constraint", "constraints"));
   int hidden = m->solution->hidden.n;
-  if (f->rank < f->constraints) pl_text_addf(out, de ? ", davon %d unabhängig" : ", %d of them independent", f->rank);
-  if (f->open > 0) pl_text_addf(out, de ? ", %d %s offen" : ", %d %s open", f->open,
-                                de ? plural(f->open, "Kontakt", "Kontakte") : plural(f->open, "contact", "contacts"));
+  if (f->rank < f->constraints)
+    pl_text_addf(out, de ? ", davon %d unabhängig" : ", %d of them independent", f->rank);
+  if (f->open > 0)
+    pl_text_addf(
+        out, de ? ", %d %s offen" : ", %d %s open", f->open,
+        de ? plural(f->open, "Kontakt", "Kontakte") : plural(f->open, "contact", "contacts"));
   if (hidden > 0) pl_text_addf(out, de ? ", %d verborgen" : ", %d hidden", hidden);
-  pl_text_addf(out, ", %d %s", f->dof, de ? plural(f->dof, "Freiheitsgrad", "Freiheitsgrade") : plural(f->dof, "degree of freedom", "degrees of freedom"));
-  if (f->velocity_dof != f->dof) pl_text_addf(out, de ? " (%d der Geschwindigkeit)" : " (%d of the velocity)", f->velocity_dof);
+  pl_text_addf(out, ", %d %s", f->dof,
+               de ? plural(f->dof, "Freiheitsgrad", "Freiheitsgrade")
+                  : plural(f->dof, "degree of freedom", "degrees of freedom"));
+  if (f->velocity_dof != f->dof)
+    pl_text_addf(out, de ? " (%d der Geschwindigkeit)" : " (%d of the velocity)", f->velocity_dof);
 }
 
 // Positions and velocities that the constraints settled.
@@ -29,8 +38,12 @@ static void tell_start(pl_text* out, const pleuel_model* m, pl_language lang) {
     if (move->given || move->to == 0) continue;
     const pl_coordinate* q = &s->coordinates[move->coordinate];
     const char* unit = move->velocity ? q->v_unit : q->unit;
-    pl_text_addf(out, "%s%s = %.6g%s%s", shown++ ? ", " : lang == PL_GERMAN ? "Aus den Zwangsbedingungen folgt " : "the constraints give ",
-                 move->velocity ? q->v_name : q->name, move->to, unit && *unit ? " " : "", unit ? unit : "");
+    pl_text_addf(out, "%s%s = %.6g%s%s",
+                 shown++             ? ", "
+                 : lang == PL_GERMAN ? "Aus den Zwangsbedingungen folgt "
+                                     : "the constraints give ",
+                 move->velocity ? q->v_name : q->name, move->to, unit && *unit ? " " : "",
+                 unit ? unit : "");
   }
   if (shown) pl_text_add(out, "\n");
 }
@@ -45,6 +58,9 @@ void pl_check_summary(pl_text* out, const pleuel_model* m, pl_language lang) {
     tell_start(out, m, lang);
   } else {
     pl_text_add(out, "\n");
-    if (m->run_message[0]) pl_text_addf(out, de ? "der Start wurde nicht geprüft: %s\n" : "the start was not looked at: %s\n", m->run_message);
+    if (m->run_message[0])
+      pl_text_addf(out,
+                   de ? "der Start wurde nicht geprüft: %s\n" : "the start was not looked at: %s\n",
+                   m->run_message);
   }
 }

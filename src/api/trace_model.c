@@ -1,18 +1,19 @@
-// The models that traces run: numbers for parameters without any, and starts beside the one that is given.
+// The models that traces run: numbers for parameters without any, and starts beside the one that is
+// given.
 //
 // A model is copied as far as it changes; expressions stay in its pool.
 #include "api/trace_impl.h"
 
 #include <math.h>
 
-// ---------------------------------------------------------------------------------------------- copies
-#define COPY_OF(a, vec)                                                       \
-  do {                                                                        \
-    size_t bytes_ = (size_t)(vec).n * sizeof *(vec).at;                       \
-    void* copy_ = pl_alloc((a), bytes_ + sizeof *(vec).at);                   \
-    if (bytes_) memcpy(copy_, (vec).at, bytes_);                              \
-    (vec).at = copy_;                                                         \
-    (vec).cap = (vec).n + 1;                                                  \
+// ------------------------------------------------------------------------------------------ copies
+#define COPY_OF(a, vec)                                     \
+  do {                                                      \
+    size_t bytes_ = (size_t)(vec).n * sizeof *(vec).at;     \
+    void* copy_ = pl_alloc((a), bytes_ + sizeof *(vec).at); \
+    if (bytes_) memcpy(copy_, (vec).at, bytes_);            \
+    (vec).at = copy_;                                       \
+    (vec).cap = (vec).n + 1;                                \
   } while (0)
 
 pl_model* pl_trace_copy(pl_arena* a, const pl_model* m) {
@@ -35,7 +36,7 @@ pl_expr pl_trace_number(pl_pool* p, double x) {
   return negative ? pl_neg(p, e) : e;
 }
 
-// ---------------------------------------------------------------------------------------------- numbers
+// ----------------------------------------------------------------------------------------- numbers
 // Whether an assumption is met; what cannot be evaluated (it speaks of coordinates) does not count.
 static bool is_met(const pl_model* m, const pl_assumption* a, const double* value) {
   if (a->kind == PL_A_INTEGER) return true;
@@ -77,7 +78,10 @@ static void range_of(const pl_model* m, pl_symbol s, const double* value, double
     const pl_assumption* a = &m->assumptions.at[i];
     if (a->kind != PL_A_IN || !pl_same(a->subject, pl_sym(m->pool, s))) continue;
     double from = pl_eval(m->pool, a->lo, value), to = pl_eval(m->pool, a->hi, value);
-    if (isfinite(from) && isfinite(to) && from < to) *lo = from, *hi = to;
+    if (isfinite(from) && isfinite(to) && from < to) {
+      *lo = from;
+      *hi = to;
+    }
   }
 }
 
@@ -87,8 +91,10 @@ static double draw(pl_random* r, double lo, double hi) {
   return nearbyint(x / unit) * unit;
 }
 
-// Try number k: from a narrow range first, so that formulas are well conditioned, then from wider ones.
-static void give_numbers(pl_model* m, const pl_model* plain, const double* value, pl_random* r, int k) {
+// Try number k: from a narrow range first, so that formulas are well conditioned, then from wider
+// ones.
+static void give_numbers(pl_model* m, const pl_model* plain, const double* value, pl_random* r,
+                         int k) {
   double wide = k < 200 ? 2 : k < 600 ? 10 : 100;
   for (int i = 0; i < m->params.n; i++) {
     if (!pl_is_poison(plain->params.at[i].value)) continue;
@@ -117,11 +123,12 @@ pl_model* pl_trace_model(pl_job* job, pl_model* m, uint64_t seed) {
   return NULL;
 }
 
-// ---------------------------------------------------------------------------------------------- starts
+// ------------------------------------------------------------------------------------------ starts
 static void guess(pl_job* job, pl_model* m, pl_expr atom, bool velocity, double x) {
   pl_pool* p = m->pool;
   pl_expr target = atom;
-  if (velocity && pl_kind_of(p, atom) == PL_AT) target = pl_at(p, pl_symbol_of(p, atom), 1, pl_arg(p, atom, 0));
+  if (velocity && pl_kind_of(p, atom) == PL_AT)
+    target = pl_at(p, pl_symbol_of(p, atom), 1, pl_arg(p, atom, 0));
   else if (velocity) target = pl_sym(p, pl_symbol_dot(p, pl_symbol_of(p, atom)));
   pl_init init = {.target = target, .value = pl_trace_number(p, x), .guess = true};
   pl_push(job->arena, m->inits, init);
@@ -133,8 +140,8 @@ static double size_of(const double* x, int n) {
   return most > 0 ? most : 1;
 }
 
-// What touches at the start of `beside` holds for good, what does not is away: which of several contacts holds is no matter of
-// a random start.  What goes with a contact goes with it still.
+// What touches at the start of `beside` holds for good, what does not is away: which of several
+// contacts holds is no matter of a random start. What goes with a contact goes with it still.
 static void settle_contacts(pl_model* m, const pl_trace* beside) {
   for (int i = 0; i < m->constraints.n; i++) {
     pl_constraint* c = &m->constraints.at[i];
@@ -154,9 +161,13 @@ pl_model* pl_trace_closed(pl_job* job, pl_model* m) {
 }
 
 // A state that is drawn: positions and velocities of all coordinates.
-typedef struct pl_drawn_state { pl_flat_coords flat; double *q, *v; } pl_drawn_state;
+typedef struct pl_drawn_state {
+  pl_flat_coords flat;
+  double *q, *v;
+} pl_drawn_state;
 
-static pl_drawn_state draw_state(pl_job* job, const pl_model* m, const pl_trace* beside, uint64_t seed) {
+static pl_drawn_state draw_state(pl_job* job, const pl_model* m, const pl_trace* beside,
+                                 uint64_t seed) {
   pl_drawn_state s = {.flat = pl_model_flat_coords(m, job->arena)};
   int n = s.flat.n;
   s.q = PL_ARRAY(job->arena, double, n + 1);
@@ -166,7 +177,8 @@ static pl_drawn_state draw_state(pl_job* job, const pl_model* m, const pl_trace*
   double q_size = at ? size_of(at->q, n) : 1, v_size = at ? size_of(at->v, n) : 1;
   for (int i = 0; i < n; i++) {
     double shift = pl_random_between(&r, -0.3, 0.3), push = pl_random_between(&r, -1, 1);
-    s.q[i] = at ? at->q[i] + shift * fmin(q_size, fmax(fabs(at->q[i]), 1)) : pl_random_between(&r, 0.3, 1.5);
+    s.q[i] = at ? at->q[i] + shift * fmin(q_size, fmax(fabs(at->q[i]), 1))
+                : pl_random_between(&r, 0.3, 1.5);
     s.v[i] = at ? at->v[i] + push * v_size : push;
   }
   return s;
@@ -182,17 +194,19 @@ static void put_state(const pl_model* m, const pl_drawn_state* s, double* value)
   }
 }
 
-// The coordinates that `choose` maps follow from the others: there the equations of the map and the constraints that it solves
-// hold already, of which some depend on others.
+// The coordinates that `choose` maps follow from the others: there the equations of the map and the
+// constraints that it solves hold already, of which some depend on others.
 static void follow_maps(pl_job* job, pl_model* m, pl_drawn_state* s) {
-  for (int k = 0; k < m->choose.n_maps; k++) pl_dt(m->pool, m->choose.maps[k].map);      // makes the symbols
+  // makes the symbols
+  for (int k = 0; k < m->choose.n_maps; k++) pl_dt(m->pool, m->choose.maps[k].map);
   for (int i = 0; i < s->flat.n; i++) pl_dt(m->pool, s->flat.at[i]);
   double* value = pl_model_values(m, job->arena);
   value[pl_time(m->pool).id] = 0;
   for (int pass = 0; pass < m->choose.n_maps; pass++) {
     put_state(m, s, value);
     for (int k = 0; k < m->choose.n_maps; k++) {
-      double x = pl_eval(m->pool, m->choose.maps[k].map, value), v = pl_eval(m->pool, pl_dt(m->pool, m->choose.maps[k].map), value);
+      double x = pl_eval(m->pool, m->choose.maps[k].map, value),
+             v = pl_eval(m->pool, pl_dt(m->pool, m->choose.maps[k].map), value);
       for (int i = 0; i < s->flat.n; i++) {
         if (!pl_same(s->flat.at[i], m->choose.maps[k].old) || isnan(x) || isnan(v)) continue;
         s->q[i] = x;
@@ -216,7 +230,8 @@ pl_model* pl_trace_random_start(pl_job* job, pl_model* m, const pl_trace* beside
   return out;
 }
 
-// Coordinates of which nothing is known start somewhere: zero is a singular place of many coordinates.
+// Coordinates of which nothing is known start somewhere: zero is a singular place of many
+// coordinates.
 pl_model* pl_trace_open_start(pl_job* job, pl_model* m) {
   pl_model* out = pl_trace_copy(job->arena, m);
   pl_drawn_state s = draw_state(job, m, NULL, 0x73746172);
@@ -243,7 +258,9 @@ bool pl_trace_is_given(const pl_model* m, pl_expr atom, bool velocity) {
     pl_kind kind = pl_kind_of(p, target);
     if (kind != pl_kind_of(p, atom)) continue;
     if (kind == PL_AT) {
-      if (pl_symbol_of(p, target).id == pl_symbol_of(p, atom).id && (pl_dots_of(p, target) > 0) == velocity) return true;
+      if (pl_symbol_of(p, target).id == pl_symbol_of(p, atom).id
+          && (pl_dots_of(p, target) > 0) == velocity)
+        return true;
       continue;
     }
     pl_symbol s = pl_symbol_of(p, atom);
@@ -253,7 +270,8 @@ bool pl_trace_is_given(const pl_model* m, pl_expr atom, bool velocity) {
   return false;
 }
 
-// The start that `from` names: its conditions with a coordinate or velocity on the left, at rest or not; the rest as `init` says.
+// The start that `from` names: its conditions with a coordinate or velocity on the left, at rest or
+// not; the rest as `init` says.
 pl_model* pl_trace_named_start(pl_job* job, pl_model* m, const pl_motion* from, double push) {
   pl_model* out = pl_trace_copy(job->arena, m);
   out->inits.n = 0;

@@ -1,22 +1,35 @@
-// The motion as it is looked at: rows on an even grid that is fine enough for a picture, and beside the columns of `sim`
-// the quantities of the `plot` lines.  Without such lines: coordinates, multipliers, energies.
+// The motion as it is looked at: rows on an even grid that is fine enough for a picture, and beside
+// the columns of `sim` the quantities of the `plot` lines. Without such lines: coordinates,
+// multipliers, energies.
 #include <math.h>
 #include <string.h>
 
 #include "api/api_impl.h"
 
-enum { FEWEST_ROWS = 320, A_STEP = 3, MOST_FINER = 2400, MOST_ROWS = 20000, MOST_CURVES = 4, MOST_PLOTS = 8 };
+enum {
+  FEWEST_ROWS = 320,
+  A_STEP = 3,
+  MOST_FINER = 2400,
+  MOST_ROWS = 20000,
+  MOST_CURVES = 4,
+  MOST_PLOTS = 8
+};
 
-// ---------------------------------------------------------------------------------------------- what is plotted
+// --------------------------------------------------------------------------------- what is plotted
 // A quantity of a plot line becomes an output of the run under this name.
-static const char* hidden_name(pl_arena* a, int plot, int curve) { return pl_format(a, "plot %d %d", plot, curve); }
+static const char* hidden_name(pl_arena* a, int plot, int curve) {
+  return pl_format(a, "plot %d %d", plot, curve);
+}
 
 static void add_outputs(pleuel_model* m) {
   pl_model* model = m->model;
   for (int i = 0; i < model->plots.n; i++) {
     const pl_plot* p = &model->plots.at[i];
     for (int k = -1; k < p->y.n; k++) {
-      pl_output o = {.name = hidden_name(m->arena, i, k), .value = k < 0 ? p->x : p->y.at[k], .span = p->span, .optional = true};
+      pl_output o = {.name = hidden_name(m->arena, i, k),
+                     .value = k < 0 ? p->x : p->y.at[k],
+                     .span = p->span,
+                     .optional = true};
       pl_push(m->arena, model->outputs, o);
     }
   }
@@ -36,14 +49,19 @@ static const char* unicode_unit(pl_arena* a, const char* unit) {
   if (!unit) return "";
   pl_text t = pl_text_make(a);
   for (const char* c = unit; *c; c++) {
-    if (c[0] == '^' && c[1] == '2') pl_text_add(&t, "²"), c++;
-    else if (c[0] == '^' && c[1] == '3') pl_text_add(&t, "³"), c++;
-    else pl_text_add_n(&t, c, 1);
+    if (c[0] == '^' && c[1] == '2') {
+      pl_text_add(&t, "²");
+      c++;
+    } else if (c[0] == '^' && c[1] == '3') {
+      pl_text_add(&t, "³");
+      c++;
+    } else pl_text_add_n(&t, c, 1);
   }
   return pl_text_string(&t);
 }
 
-// The unit of a plotted quantity; that of a coordinate or multiplier is the one of its column, so that angles are in rad.
+// The unit of a plotted quantity; that of a coordinate or multiplier is the one of its column, so
+// that angles are in rad.
 static const char* unit_of(pl_views* v, pl_pool* p, pl_expr e, int column) {
   const char* own = v->result->columns[column].unit;
   if (pl_kind_of(p, e) != PL_SYMBOL) return unicode_unit(v->arena, own);
@@ -63,7 +81,7 @@ static const char* curve_name(pl_views* v, const pl_model* m, pl_expr e, const c
   return symbol ? shown_name(v, m->pool, pl_symbol_of(m->pool, e)) : text;
 }
 
-// ---------------------------------------------------------------------------------------------- plots
+// ------------------------------------------------------------------------------------------- plots
 static void add_curve(pl_views* v, pl_html_plot* plot, pl_html_curve c) {
   pl_html_curve* more = PL_ARRAY(v->arena, pl_html_curve, plot->n_curves + 1);
   for (int i = 0; i < plot->n_curves; i++) more[i] = plot->curves[i];
@@ -79,12 +97,13 @@ static pl_html_plot* new_plot(pl_views* v) {
 
 static double size_of(const pl_result* r, int column) {
   double size = 0;
-  for (int i = 0; i < r->rows.n; i++) if (fabs(r->rows.at[i][column]) > size) size = fabs(r->rows.at[i][column]);
+  for (int i = 0; i < r->rows.n; i++)
+    if (fabs(r->rows.at[i][column]) > size) size = fabs(r->rows.at[i][column]);
   return size;
 }
 
-// The plot that takes another curve of this unit, among those from `first` on; curves of very different size (0: whatever it
-// is) would hide each other.
+// The plot that takes another curve of this unit, among those from `first` on; curves of very
+// different size (0: whatever it is) would hide each other.
 static pl_html_plot* plot_for(pl_views* v, int first, const char* unit, double size) {
   for (int i = first; i < v->plots.n; i++) {
     pl_html_plot* p = &v->plots.at[i];
@@ -98,8 +117,11 @@ static pl_html_plot* plot_for(pl_views* v, int first, const char* unit, double s
 static void plot_line(pl_views* v, pleuel_model* m, int i) {
   const pl_plot* line = &m->model->plots.at[i];
   pl_pool* p = m->model->pool;
-  bool over_time = pl_kind_of(p, line->x) == PL_SYMBOL && pl_symbol_of(p, line->x).id == pl_time(p).id;
-  int x = over_time ? 0 : pl_result_find(v->result, pl_plain_ascii(v->arena, hidden_name(v->arena, i, -1)));
+  bool over_time = pl_kind_of(p, line->x) == PL_SYMBOL
+                   && pl_symbol_of(p, line->x).id == pl_time(p).id;
+  int x = over_time
+              ? 0
+              : pl_result_find(v->result, pl_plain_ascii(v->arena, hidden_name(v->arena, i, -1)));
   if (x < 0) return;
   int first = v->plots.n;
   for (int k = 0; k < line->y.n; k++) {
@@ -108,7 +130,9 @@ static void plot_line(pl_views* v, pleuel_model* m, int i) {
     const char* unit = unit_of(v, p, line->y.at[k], column);
     pl_html_plot* plot = plot_for(v, first, unit, 0);
     if (!plot) continue;
-    add_curve(v, plot, (pl_html_curve){curve_name(v, m->model, line->y.at[k], line->y_text.at[k]), unit, column});
+    add_curve(
+        v, plot,
+        (pl_html_curve){curve_name(v, m->model, line->y.at[k], line->y_text.at[k]), unit, column});
     if (over_time) continue;
     plot->x_column = x;
     plot->x_name = curve_name(v, m->model, line->x, line->x_text);
@@ -170,14 +194,17 @@ static int count_multipliers(const pl_setup* s) {
 }
 
 static void plot_energies(pl_views* v, const pl_model* m) {
-  const char* const name[] = {pl_model_column(m, v->arena, "T"), pl_model_column(m, v->arena, "V"), pl_model_column(m, v->arena, "E")};
+  const char* const name[] = {pl_model_column(m, v->arena, "T"), pl_model_column(m, v->arena, "V"),
+                              pl_model_column(m, v->arena, "E")};
   pl_html_plot* plot = NULL;
   for (int i = 0; i < 3; i++) {
     int column = pl_result_find(v->result, name[i]);
     if (column < 0 || (i < 2 && !moves(v->result, column)) || (i == 2 && !plot)) continue;
     if (!plot) plot = new_plot(v);
     plot->title = v->lang == PL_GERMAN ? "Energien" : "Energies";
-    add_curve(v, plot, (pl_html_curve){name[i], unicode_unit(v->arena, v->result->columns[column].unit), column});
+    add_curve(
+        v, plot,
+        (pl_html_curve){name[i], unicode_unit(v->arena, v->result->columns[column].unit), column});
   }
 }
 
@@ -192,11 +219,13 @@ static void choose_plots(pl_views* v, pleuel_model* m) {
   plot_energies(v, m->model);
 }
 
-// ---------------------------------------------------------------------------------------------- the run
+// ----------------------------------------------------------------------------------------- the run
 // The rows that the file asks for, divided further until there are enough for a picture.
 static long grid_of(const pl_recording* r) {
   double span = fabs(r->t_end - r->t_0);
-  double given = r->count > 0 ? (double)r->count : r->dt > 0 && isfinite(span) ? floor(span / r->dt + 0.5) : 1;
+  double given = r->count > 0                  ? (double)r->count
+                 : r->dt > 0 && isfinite(span) ? floor(span / r->dt + 0.5)
+                                               : 1;
   if (!(given >= 1) || given > MOST_ROWS) return r->count > 0 || r->dt > 0 ? 0 : FEWEST_ROWS;
   bool even = r->count > 0 || (r->dt > 0 && fabs(given * r->dt - span) < 1e-9 * span);
   if (!even && r->dt > 0) return 0;
@@ -205,7 +234,10 @@ static long grid_of(const pl_recording* r) {
 }
 
 static pleuel_status run_once(pleuel_model* m, pl_views* v, long count) {
-  if (count > 0) m->recording->count = count, m->recording->dt = 0;
+  if (count > 0) {
+    m->recording->count = count;
+    m->recording->dt = 0;
+  }
   PLEUEL_OPTIONS(pleuel_sim_options, how);
   m->result = pl_result_make(m->arena, true);
   pl_run* r = NULL;
@@ -216,7 +248,8 @@ static pleuel_status run_once(pleuel_model* m, pl_views* v, long count) {
   return s;
 }
 
-// A motion that takes many steps needs more rows than one that takes few, which is known only afterwards.
+// A motion that takes many steps needs more rows than one that takes few, which is known only
+// afterwards.
 static pleuel_status run(pleuel_model* m, pl_views* v) {
   m->recorded = pl_pipeline_record(m);
   if (m->recorded != PLEUEL_OK) return m->recorded;
@@ -230,7 +263,8 @@ static pleuel_status run(pleuel_model* m, pl_views* v) {
   return times > 1 ? run_once(m, v, times * count) : s;
 }
 
-// Nothing of this is remembered as "the run" of the model, which has the columns and rows that the file asks for.
+// Nothing of this is remembered as "the run" of the model, which has the columns and rows that the
+// file asks for.
 pleuel_status pl_views_make(pleuel_model* m, pl_language lang, pl_views* v) {
   *v = (pl_views){.arena = m->arena, .lang = lang};
   if (!m->model->simulate.given) return PLEUEL_OK;
@@ -244,7 +278,9 @@ pleuel_status pl_views_make(pleuel_model* m, pl_language lang, pl_views* v) {
   v->tol = m->tol_used;
   if (v->result && v->result->rows.n > 1) {
     v->n_columns = v->result->n_columns;
-    for (int i = v->n_columns - 1; i >= 0 && strncmp(v->result->columns[i].name, "plot ", 5) == 0; i--) v->n_columns--;
+    for (int i = v->n_columns - 1; i >= 0 && strncmp(v->result->columns[i].name, "plot ", 5) == 0;
+         i--)
+      v->n_columns--;
     v->energy_conserved = m->recording->setup.energy_conserved;
     v->missing = missing_quantities(v, m->model);
     choose_plots(v, m);

@@ -5,26 +5,34 @@
 #include <string.h>
 
 enum {
-  LARGEST = 60,              // coordinates and constraints up to which a motion is made for comparing
+  // coordinates and constraints up to which a motion is made for comparing
+  LARGEST = 60,
   RANDOM_STARTS = 2,
   SAMPLES_OF_RANDOM = 8,
   SAMPLES_OF_INIT = 60
 };
-static const double closed_form = 1e-6;    // of the size of a motion: what its closed form may be off by at its end
+// of the size of a motion: what its closed form may be off by at its end
+static const double closed_form = 1e-6;
 
-// ---------------------------------------------------------------------------------------------- starts
+// ------------------------------------------------------------------------------------------ starts
 // Names of results get columns, so that T, E or norm(force(rope)) are those of the simulation.
 static pl_model* watched_model(pl_witness* w, const pl_model* numbered) {
   pl_model* m = pl_trace_copy(w->arena, numbered);
   for (int i = 0; i < m->result_names.n; i++) {
-    pl_output o = {.name = pl_format(w->arena, "witness_%d", i), .value = pl_sym(w->pool, m->result_names.at[i].symbol), .optional = true};
+    pl_output o = {.name = pl_format(w->arena, "witness_%d", i),
+                   .value = pl_sym(w->pool, m->result_names.at[i].symbol),
+                   .optional = true};
     pl_push(w->arena, m->outputs, o);
   }
   return m;
 }
 
-static const pl_witnessed* add_start(pl_witness* w, pl_start_kind kind, const pl_trace_options* how) {
-  pl_witnessed s = {.kind = kind, .from = how->from, .pushed = how->push != 0, .trace = pl_trace_make(w->job, w->model, how)};
+static const pl_witnessed* add_start(pl_witness* w, pl_start_kind kind,
+                                     const pl_trace_options* how) {
+  pl_witnessed s = {.kind = kind,
+                    .from = how->from,
+                    .pushed = how->push != 0,
+                    .trace = pl_trace_make(w->job, w->model, how)};
   pl_push(w->arena, w->starts, s);
   return &w->starts.at[w->starts.n - 1];
 }
@@ -32,7 +40,8 @@ static const pl_witnessed* add_start(pl_witness* w, pl_start_kind kind, const pl
 static bool same_motion(const pl_motion* a, const pl_motion* b) {
   if (a->n_from != b->n_from || a->at_rest != b->at_rest) return false;
   for (int i = 0; i < a->n_from; i++) {
-    if (!pl_same(a->from[i].left, b->from[i].left) || !pl_same(a->from[i].right, b->from[i].right)) return false;
+    if (!pl_same(a->from[i].left, b->from[i].left) || !pl_same(a->from[i].right, b->from[i].right))
+      return false;
   }
   return true;
 }
@@ -50,13 +59,16 @@ static void push_it(pl_witness* w, const pl_motion* from) {
   pl_state_sizes(w);
   double natural = sqrt(fmax(w->a_size, 1e-12) * fmax(w->q_size, 1e-12));
   for (int side = -1; side <= 1; side += 2) {
-    pl_trace_options how = {.from = from, .push = side * PL_SMALL_PUSH * natural, .most_samples = SAMPLES_OF_INIT};
+    pl_trace_options how = {
+        .from = from, .push = side * PL_SMALL_PUSH * natural, .most_samples = SAMPLES_OF_INIT};
     add_start(w, PL_FROM_NAMED, &how);
   }
 }
 
 static void add_named_start(pl_witness* w, const pl_motion* from) {
-  const pl_trace* t = add_start(w, PL_FROM_NAMED, &(pl_trace_options){.from = from, .most_samples = SAMPLES_OF_INIT})->trace;
+  const pl_trace* t = add_start(w, PL_FROM_NAMED,
+                                &(pl_trace_options){.from = from, .most_samples = SAMPLES_OF_INIT})
+                          ->trace;
   if (t->started && from->at_rest && fastest(t) < PL_SMALL_PUSH * w->v_size) push_it(w, from);
 }
 
@@ -64,32 +76,40 @@ static void add_named_starts(pl_witness* w) {
   for (int i = 0; i < w->statements.n; i++) {
     const pl_motion* from = w->statements.at[i].from;
     bool known = !from;
-    for (int k = 0; k < w->starts.n && !known; k++) known = w->starts.at[k].from && same_motion(w->starts.at[k].from, from);
+    for (int k = 0; k < w->starts.n && !known; k++)
+      known = w->starts.at[k].from && same_motion(w->starts.at[k].from, from);
     if (!known) add_named_start(w, from);
   }
 }
 
 static void make_starts(pl_witness* w) {
-  const pl_trace* init = add_start(w, PL_FROM_INIT, &(pl_trace_options){.most_samples = SAMPLES_OF_INIT})->trace;
+  const pl_trace* init =
+      add_start(w, PL_FROM_INIT, &(pl_trace_options){.most_samples = SAMPLES_OF_INIT})->trace;
   for (uint64_t seed = 1; init->recording && seed <= RANDOM_STARTS; seed++) {
-    add_start(w, PL_FROM_RANDOM, &(pl_trace_options){.seed = seed, .beside = init, .most_samples = SAMPLES_OF_RANDOM});
+    add_start(w, PL_FROM_RANDOM,
+              &(pl_trace_options){.seed = seed, .beside = init, .most_samples = SAMPLES_OF_RANDOM});
   }
   pl_state_sizes(w);
   add_named_starts(w);
 }
 
-// ---------------------------------------------------------------------------------------------- one comparison
+// ---------------------------------------------------------------------------------- one comparison
 typedef enum pl_agreement { PL_NOT_COMPARED, PL_AGREE, PL_DISAGREE } pl_agreement;
 
 // What a run remembers of a statement: the value at the beginning of a phase, of what stays.
-typedef struct pl_memory { int phase; double value, noise; } pl_memory;
+typedef struct pl_memory {
+  int phase;
+  double value, noise;
+} pl_memory;
 
 static pl_agreement verdict(double shown, double motion, double allowed) {
   if (isnan(shown) || isnan(motion) || isnan(allowed) || isinf(shown)) return PL_NOT_COMPARED;
-  return fabs(shown - motion) <= allowed + 1e-9 * (fabs(shown) + fabs(motion)) ? PL_AGREE : PL_DISAGREE;
+  return fabs(shown - motion) <= allowed + 1e-9 * (fabs(shown) + fabs(motion)) ? PL_AGREE
+                                                                               : PL_DISAGREE;
 }
 
-static pl_agreement compare_constant(const pl_witness* w, const pl_statement* s, pl_memory* m, int phase, pl_contradiction_found* out) {
+static pl_agreement compare_constant(const pl_witness* w, const pl_statement* s, pl_memory* m,
+                                     int phase, pl_contradiction_found* out) {
   double x = pl_state_value(w, s->shown), noise = pl_state_noise(w, s->shown);
   if (isnan(x)) return PL_NOT_COMPARED;
   if (m->phase != phase) {
@@ -100,24 +120,33 @@ static pl_agreement compare_constant(const pl_witness* w, const pl_statement* s,
   return verdict(m->value, x, fmax(noise, m->noise));
 }
 
-// What a comparison may be off by for another reason than rounding at the sample, in units of the largest value met.
+// What a comparison may be off by for another reason than rounding at the sample, in units of the
+// largest value met.
 static double slack_of(const pl_statement* s, const pl_witnessed* start) {
   return s->kind == PL_FOLLOWS || start->pushed ? closed_form : 1e-10;
 }
 
 // A position that is an angle is told up to whole turns, where it comes from an arc function.
-static double without_turns(const pl_witness* w, const pl_statement* s, double shown, double motion) {
+static double without_turns(const pl_witness* w, const pl_statement* s, double shown,
+                            double motion) {
   bool place = s->kind == PL_EQUALS && pl_kind_of(w->pool, s->left) == PL_SYMBOL;
-  const pl_symbol_info* info = place ? pl_symbol_get(w->pool, pl_symbol_of(w->pool, s->left)) : NULL;
-  if (!info || info->role != PL_R_COORD || (info->dimension_known && !pl_dimension_equal(info->dimension, pl_dimension_one()))) return shown;
+  const pl_symbol_info* info = place ? pl_symbol_get(w->pool, pl_symbol_of(w->pool, s->left))
+                                     : NULL;
+  if (!info || info->role != PL_R_COORD
+      || (info->dimension_known && !pl_dimension_equal(info->dimension, pl_dimension_one())))
+    return shown;
   double turns = nearbyint((motion - shown) / (2 * M_PI));
   return isfinite(turns) ? shown + 2 * M_PI * turns : shown;
 }
 
-static pl_agreement compare(const pl_witness* w, pl_statement* s, const pl_witnessed* start, pl_memory* m, int phase,
-                            pl_contradiction_found* out) {
-  if (s->value && !pl_is_poison(s->value->holds_while) && !(pl_state_value(w, s->value->holds_while) > 0)) return PL_NOT_COMPARED;
-  if (s->value && !pl_is_poison(s->value->holds_while) && !(pl_state_value(w, s->value->holds_while) > 0)) return PL_NOT_COMPARED;
+static pl_agreement compare(const pl_witness* w, pl_statement* s, const pl_witnessed* start,
+                            pl_memory* m, int phase, pl_contradiction_found* out) {
+  if (s->value && !pl_is_poison(s->value->holds_while)
+      && !(pl_state_value(w, s->value->holds_while) > 0))
+    return PL_NOT_COMPARED;
+  if (s->value && !pl_is_poison(s->value->holds_while)
+      && !(pl_state_value(w, s->value->holds_while) > 0))
+    return PL_NOT_COMPARED;
   if (s->kind == PL_STAYS) return compare_constant(w, s, m, phase, out);
   double shown = pl_state_value(w, s->shown), noise = pl_state_noise(w, s->shown);
   if (s->kind == PL_VANISHES) {
@@ -130,13 +159,14 @@ static pl_agreement compare(const pl_witness* w, pl_statement* s, const pl_witne
   return verdict(without_turns(w, s, shown, motion), motion, noise);
 }
 
-// ---------------------------------------------------------------------------------------------- along a motion
+// ---------------------------------------------------------------------------------- along a motion
 // Answers hold for the contacts of the start: samples where other ones hold say nothing of them.
 // Friction goes on the same way: it sticks, or slips to the same side.
 static bool same_rubs(const pl_trace* a, int phase_a, const pl_trace* b, int phase_b) {
   for (int i = 0; i < a->recording->setup.n_rubs; i++) {
     const pl_rub_report *x = &a->phases.at[phase_a].rubs[i], *y = &b->phases.at[phase_b].rubs[i];
-    if (x->mode != y->mode || (x->mode == PL_RUB_SLIPS && x->way * x->press != y->way * y->press)) return false;
+    if (x->mode != y->mode || (x->mode == PL_RUB_SLIPS && x->way * x->press != y->way * y->press))
+      return false;
   }
   return true;
 }
@@ -145,20 +175,25 @@ static bool same_set(const pl_trace* a, int phase_a, const pl_trace* b, int phas
   int n = a->recording->setup.n_c;
   if (n != b->recording->setup.n_c) return false;
   if (!same_rubs(a, phase_a, b, phase_b)) return false;
-  return memcmp(a->phases.at[phase_a].active, b->phases.at[phase_b].active, (size_t)n * sizeof(bool)) == 0;
+  return memcmp(a->phases.at[phase_a].active, b->phases.at[phase_b].active,
+                (size_t)n * sizeof(bool))
+         == 0;
 }
 
 static bool is_stage(const pl_trace* t, int phase, const pl_stage* stage) {
   for (int i = 0; i < stage->n_rubs; i++) {
     const pl_stage_rub* rub = &stage->rubs[i];
     const pl_rub_report* now = &t->phases.at[phase].rubs[i];
-    if (rub->sticks != (now->mode == PL_RUB_STICKS) || rub->slips != (now->mode == PL_RUB_SLIPS)) return false;
+    if (rub->sticks != (now->mode == PL_RUB_STICKS) || rub->slips != (now->mode == PL_RUB_SLIPS))
+      return false;
     if (rub->slips && rub->way * rub->press != now->way * now->press) return false;
   }
   const pl_setup* s = &t->recording->setup;
   for (int c = 0; c < s->n_c; c++) {
     for (int k = 0; k < stage->n; k++) {
-      if (strcmp(stage->name[k], s->links[c].name) == 0 && stage->holds[k] != t->phases.at[phase].active[c]) return false;
+      if (strcmp(stage->name[k], s->links[c].name) == 0
+          && stage->holds[k] != t->phases.at[phase].active[c])
+        return false;
     }
   }
   return true;
@@ -173,21 +208,25 @@ static int begins_at(const pl_witness* w, const pl_trace* t, int stage) {
   return -1;
 }
 
-static bool speaks_of(const pl_witness* w, const pl_statement* s, const pl_witnessed* start, int phase) {
-  if (s->stage > 0 && s->kind == PL_FOLLOWS) return start->kind == PL_FROM_INIT && phase == begins_at(w, start->trace, s->stage);
-  if (s->stage > 0) return s->stage < w->n_stages && is_stage(start->trace, phase, &w->stages[s->stage]);
+static bool speaks_of(const pl_witness* w, const pl_statement* s, const pl_witnessed* start,
+                      int phase) {
+  if (s->stage > 0 && s->kind == PL_FOLLOWS)
+    return start->kind == PL_FROM_INIT && phase == begins_at(w, start->trace, s->stage);
+  if (s->stage > 0)
+    return s->stage < w->n_stages && is_stage(start->trace, phase, &w->stages[s->stage]);
   if (s->from) {
     bool named = start->kind == PL_FROM_NAMED && same_motion(s->from, start->from);
-    return named && phase == 0;      // behind an impact its energy is another one
+    return named && phase == 0;  // behind an impact its energy is another one
   }
-  if (s->kind == PL_FOLLOWS) return phase == 0 && start->trace->samples.at[0].t == 0 && start->kind != PL_FROM_NAMED;
+  if (s->kind == PL_FOLLOWS)
+    return phase == 0 && start->trace->samples.at[0].t == 0 && start->kind != PL_FROM_NAMED;
   const pl_trace* init = w->starts.at[0].trace;
   return same_set(start->trace, phase, init->started ? init : start->trace, 0);
 }
 
 // All statements of a group at one sample: one of them has to hold.
-static pl_agreement compare_group(pl_witness* w, int first, const pl_witnessed* start, pl_memory* memory, int phase,
-                                  pl_contradiction_found* out) {
+static pl_agreement compare_group(pl_witness* w, int first, const pl_witnessed* start,
+                                  pl_memory* memory, int phase, pl_contradiction_found* out) {
   pl_agreement all = PL_NOT_COMPARED;
   int group = w->statements.at[first].group;
   for (int i = first; i < w->statements.n; i++) {
@@ -214,8 +253,8 @@ static bool is_zero(const pl_witness* w, pl_expr e) {
   return pl_is_poison(e) || !(fabs(pl_state_value(w, e)) > pl_state_noise(w, e));
 }
 
-// A sample is worth something where its state satisfies the constraints that hold, and its accelerations the same
-// differentiated as they stand.
+// A sample is worth something where its state satisfies the constraints that hold, and its
+// accelerations the same differentiated as they stand.
 static bool is_sound(const pl_witness* w, const pl_trace* t, int phase) {
   for (int i = 0; i < w->model->constraints.n; i++) {
     if (!pl_trace_holds(t, &t->phases.at[phase], i)) continue;
@@ -225,9 +264,14 @@ static bool is_sound(const pl_witness* w, const pl_trace* t, int phase) {
   return true;
 }
 
-typedef struct pl_verdicts { pl_agreement* of; pl_contradiction_found* found; } pl_verdicts;   // by statement
+// by statement
+typedef struct pl_verdicts {
+  pl_agreement* of;
+  pl_contradiction_found* found;
+} pl_verdicts;
 
-static void compare_one(pl_witness* w, int i, const pl_witnessed* start, const pl_trace_sample* sample, pl_memory* memory, pl_verdicts* v) {
+static void compare_one(pl_witness* w, int i, const pl_witnessed* start,
+                        const pl_trace_sample* sample, pl_memory* memory, pl_verdicts* v) {
   pl_contradiction_found found;
   pl_agreement a = compare_group(w, i, start, memory, sample->phase, &found);
   if (a == PL_NOT_COMPARED) return;
@@ -238,7 +282,8 @@ static void compare_one(pl_witness* w, int i, const pl_witnessed* start, const p
   v->found[i] = found;
 }
 
-// Closed motions of a later stage count the time from its beginning; where a force contains t there are none.
+// Closed motions of a later stage count the time from its beginning; where a force contains t there
+// are none.
 static bool has_motions(const pl_witness* w, int stage) {
   for (int i = 0; i < w->statements.n; i++) {
     if (w->statements.at[i].stage == stage && w->statements.at[i].kind == PL_FOLLOWS) return true;
@@ -247,8 +292,8 @@ static bool has_motions(const pl_witness* w, int stage) {
 }
 
 // The statements about one stage; times and start values of a later one are those of its beginning.
-static void compare_stage(pl_witness* w, int stage, const pl_witnessed* start, const pl_trace_sample* sample, pl_memory* memory,
-                          pl_verdicts* v) {
+static void compare_stage(pl_witness* w, int stage, const pl_witnessed* start,
+                          const pl_trace_sample* sample, pl_memory* memory, pl_verdicts* v) {
   const pl_trace* t = start->trace;
   int begin = begins_at(w, t, stage);
   if (begin < 0) return;
@@ -257,12 +302,16 @@ static void compare_stage(pl_witness* w, int stage, const pl_witnessed* start, c
   if (!is_sound(w, t, sample->phase)) return;
   for (int i = 0; i < w->statements.n; i++) {
     const pl_statement* s = &w->statements.at[i];
-    if (s->stage != stage || v->of[i] == PL_DISAGREE || !leads_group(w, i) || !speaks_of(w, s, start, sample->phase)) continue;
-    if (pl_state_is_valid(w, w->solution->sections.at[s->section].tower)) compare_one(w, i, start, sample, memory, v);
+    if (s->stage != stage || v->of[i] == PL_DISAGREE || !leads_group(w, i)
+        || !speaks_of(w, s, start, sample->phase))
+      continue;
+    if (pl_state_is_valid(w, w->solution->sections.at[s->section].tower))
+      compare_one(w, i, start, sample, memory, v);
   }
 }
 
-// The largest values that what is compared takes on a motion: rounding and pushes are small beside them.
+// The largest values that what is compared takes on a motion: rounding and pushes are small beside
+// them.
 static void find_largest(pl_witness* w, const pl_witnessed* start) {
   for (int k = 0; k < start->trace->samples.n; k++) {
     pl_state_set(w, start->trace, &start->trace->samples.at[k], &start->trace->samples.at[0], 0);
@@ -275,14 +324,16 @@ static void find_largest(pl_witness* w, const pl_witnessed* start) {
 
 static int last_stage(const pl_witness* w) {
   int last = 0;
-  for (int i = 0; i < w->statements.n; i++) last = w->statements.at[i].stage > last ? w->statements.at[i].stage : last;
+  for (int i = 0; i < w->statements.n; i++)
+    last = w->statements.at[i].stage > last ? w->statements.at[i].stage : last;
   return last;
 }
 
 // A start that had to be moved is another one.
 static bool is_usable(const pl_trace* t) { return t->started && t->moved < 1e-8; }
 
-// A motion through the border between two assemblies goes on in the other one, of which formulas for a `branch` say nothing.
+// A motion through the border between two assemblies goes on in the other one, of which formulas
+// for a `branch` say nothing.
 static bool keeps_branches(pl_witness* w, const pl_trace* t, const pl_trace_sample* s) {
   for (int i = 0; i < w->model->branches.n; i++) {
     const pl_condition* c = &w->model->branches.at[i];
@@ -300,35 +351,46 @@ static void compare_along(pl_witness* w, const pl_witnessed* start, pl_verdicts*
   find_largest(w, start);
   pl_memory* memory = PL_ARRAY(w->arena, pl_memory, w->statements.n + 1);
   for (int i = 0; i < w->statements.n; i++) memory[i].phase = -1;
-  for (int k = 0; k < start->trace->samples.n && keeps_branches(w, start->trace, &start->trace->samples.at[k]); k++) {
-    for (int stage = 0; stage <= last_stage(w); stage++) compare_stage(w, stage, start, &start->trace->samples.at[k], memory, v);
+  for (int k = 0;
+       k < start->trace->samples.n && keeps_branches(w, start->trace, &start->trace->samples.at[k]);
+       k++) {
+    for (int stage = 0; stage <= last_stage(w); stage++)
+      compare_stage(w, stage, start, &start->trace->samples.at[k], memory, v);
   }
 }
 
-// ---------------------------------------------------------------------------------------------- what disagrees
+// ---------------------------------------------------------------------------------- what disagrees
 static const char* number(const pl_witness* w, double x, pl_language lang) {
   return pl_notation_number(w->arena, x, 6, (pl_notation){.math = PL_MATH_LINE, .lang = lang});
 }
 
-static const char* start_words(const pl_witness* w, const pl_contradiction_found* f, pl_language lang) {
-  static const char* const words[][2] = {{"from the start", "vom Anfang aus"},
-                                         {"from the start that is named", "vom genannten Anfang aus"},
-                                         {"from a random start", "von einem zufälligen Anfang aus"}};
+static const char* start_words(const pl_witness* w, const pl_contradiction_found* f,
+                               pl_language lang) {
+  static const char* const words[][2] = {
+      {"from the start", "vom Anfang aus"},
+      {"from the start that is named", "vom genannten Anfang aus"},
+      {"from a random start", "von einem zufälligen Anfang aus"}};
   return pl_format(w->arena, "%s, t = %s s", words[f->start][lang], number(w, f->t, lang));
 }
 
-static const char* disagreement(const pl_witness* w, const pl_statement* s, const pl_contradiction_found* f, pl_language lang) {
+static const char* disagreement(const pl_witness* w, const pl_statement* s,
+                                const pl_contradiction_found* f, pl_language lang) {
   static const char* const words[][2] = {
-      [PL_EQUALS] = {"Formula and motion disagree about {1} (%s): the formula gives %s, the motion %s.",
-                     "Formel und Bewegung widersprechen sich bei {1} (%s): die Formel gibt %s, die Bewegung %s."},
+      [PL_EQUALS] =
+          {"Formula and motion disagree about {1} (%s): the formula gives %s, the motion %s.",
+           "Formel und Bewegung widersprechen sich bei {1} (%s): die Formel gibt %s, die Bewegung "
+           "%s."},
       [PL_VANISHES] = {"The motion does not satisfy {1} (%s): %s is left where %s should be.",
                        "Die Bewegung erfüllt {1} nicht (%s): es bleibt %s, wo %s stehen sollte."},
       [PL_STAYS] = {"{1} is not constant along the motion (%s): it goes from %s to %s.",
                     "{1} ist längs der Bewegung nicht erhalten (%s): der Wert geht von %s zu %s."},
-      [PL_FOLLOWS] = {"Formula and motion disagree about {1} (%s): the formula gives %s, the motion %s.",
-                      "Formel und Bewegung widersprechen sich bei {1} (%s): die Formel gibt %s, die Bewegung %s."},
+      [PL_FOLLOWS] =
+          {"Formula and motion disagree about {1} (%s): the formula gives %s, the motion %s.",
+           "Formel und Bewegung widersprechen sich bei {1} (%s): die Formel gibt %s, die Bewegung "
+           "%s."},
   };
-  return pl_format(w->arena, words[s->kind][lang], start_words(w, f, lang), number(w, f->shown, lang), number(w, f->motion, lang));
+  return pl_format(w->arena, words[s->kind][lang], start_words(w, f, lang),
+                   number(w, f->shown, lang), number(w, f->motion, lang));
 }
 
 static pl_step sentence(pl_witness* w, const char* en, const char* de, const pl_form* name) {
@@ -356,18 +418,22 @@ static void withdraw_section(pl_witness* w, pl_section* section, pl_step why) {
   section->steps.n = 0;
   for (int i = 0; i < section->values.n; i++) withdraw_value(&section->values.at[i]);
   pl_push(w->arena, section->steps, why);
-  pl_push(w->arena, section->steps, sentence(w, "One of them is wrong; nothing is claimed here.", "Eines davon ist falsch; hier wird nichts behauptet.", NULL));
+  pl_push(w->arena, section->steps,
+          sentence(w, "One of them is wrong; nothing is claimed here.",
+                   "Eines davon ist falsch; hier wird nichts behauptet.", NULL));
 }
 
 static void withdraw(pl_witness* w, const pl_statement* s, const pl_contradiction_found* f) {
   pl_section* section = &w->solution->sections.at[s->section];
-  const pl_form* name = s->kind == PL_EQUALS || s->kind == PL_FOLLOWS ? pl_form_of(w->arena, w->pool, s->left)
-                                                                        : pl_form_name(w->arena, s->name, pl_poison());
-  pl_step why = sentence(w, disagreement(w, s, f, PL_ENGLISH), disagreement(w, s, f, PL_GERMAN), name);
+  const pl_form* name = s->kind == PL_EQUALS || s->kind == PL_FOLLOWS
+                            ? pl_form_of(w->arena, w->pool, s->left)
+                            : pl_form_name(w->arena, s->name, pl_poison());
+  pl_step why = sentence(w, disagreement(w, s, f, PL_ENGLISH), disagreement(w, s, f, PL_GERMAN),
+                         name);
   withdraw_section(w, section, why);
 }
 
-// ---------------------------------------------------------------------------------------------- the check
+// --------------------------------------------------------------------------------------- the check
 static int count_started(const pl_witness* w) {
   int n = 0;
   for (int i = 0; i < w->starts.n; i++) n += is_usable(w->starts.at[i].trace);
@@ -375,7 +441,8 @@ static int count_started(const pl_witness* w) {
 }
 
 static void report(pl_witness* w, const pl_verdicts* v) {
-  pl_check check = {.name = {"formulas against the motion", "Formeln gegen die Bewegung"}, .passed = true,
+  pl_check check = {.name = {"formulas against the motion", "Formeln gegen die Bewegung"},
+                    .passed = true,
                     .starts = count_started(w)};
   for (int i = 0; i < w->statements.n; i++) check.formulas += v->of[i] != PL_NOT_COMPARED;
   check.formulas += w->n_searched;
@@ -389,15 +456,17 @@ static void report(pl_witness* w, const pl_verdicts* v) {
     const pl_refusal* r = &w->refusals.at[i];
     check.passed = false;
     if (!check.failed_on) check.failed_on = r->of;
-    withdraw_section(w, &w->solution->sections.at[r->section], sentence(w, r->words[0], r->words[1], r->name));
+    withdraw_section(w, &w->solution->sections.at[r->section],
+                     sentence(w, r->words[0], r->words[1], r->name));
   }
   pl_push(w->arena, w->solution->checks, check);
 }
 
 static void report_without_motion(pl_witness* w, const char* why_en, const char* why_de) {
-  pl_check check = {.passed = true,
-                    .name = {pl_format(w->arena, "formulas not held against the motion: %s", why_en),
-                             pl_format(w->arena, "Formeln nicht gegen die Bewegung gehalten: %s", why_de)}};
+  pl_check check = {
+      .passed = true,
+      .name = {pl_format(w->arena, "formulas not held against the motion: %s", why_en),
+               pl_format(w->arena, "Formeln nicht gegen die Bewegung gehalten: %s", why_de)}};
   pl_push(w->arena, w->solution->checks, check);
 }
 
@@ -419,14 +488,19 @@ static void differentiate(pl_witness* w) {
 static bool is_searched(const pl_witness* w) {
   for (int i = 0; i < w->solution->sections.n; i++) {
     const pl_ask* ask = w->solution->sections.at[i].ask;
-    if (ask && (ask->kind == PL_ASK_DOF || ask->kind == PL_ASK_EQUILIBRIA || ask->where.n == 1)) return true;
+    if (ask && (ask->kind == PL_ASK_DOF || ask->kind == PL_ASK_EQUILIBRIA || ask->where.n == 1))
+      return true;
   }
   return false;
 }
 
 void pl_witness_hold(pl_job* job, pl_solution* solution, const pl_stage* stages, int n_stages) {
   pl_model* m = (pl_model*)(uintptr_t)solution->model;
-  pl_witness w = {.job = job, .arena = job->arena, .pool = m->pool, .solution = solution, .stages = stages,
+  pl_witness w = {.job = job,
+                  .arena = job->arena,
+                  .pool = m->pool,
+                  .solution = solution,
+                  .stages = stages,
                   .n_stages = n_stages};
   if (solution->sections.n == 0) return;
   pl_statements_collect(&w);
@@ -437,17 +511,21 @@ void pl_witness_hold(pl_job* job, pl_solution* solution, const pl_stage* stages,
   }
   pl_model* numbered = pl_trace_model(job, m, PL_SEED_OF_NUMBERS);
   if (!numbered) {
-    report_without_motion(&w, "no numbers fit the assumptions", "keine Zahlen passen zu den Annahmen");
+    report_without_motion(&w, "no numbers fit the assumptions",
+                          "keine Zahlen passen zu den Annahmen");
     return;
   }
   w.model = watched_model(&w, numbered);
   differentiate(&w);
   make_starts(&w);
   pl_state_open(&w);
-  pl_verdicts v = {PL_ARRAY(w.arena, pl_agreement, w.statements.n), PL_ARRAY(w.arena, pl_contradiction_found, w.statements.n)};
+  pl_verdicts v = {PL_ARRAY(w.arena, pl_agreement, w.statements.n),
+                   PL_ARRAY(w.arena, pl_contradiction_found, w.statements.n)};
   for (int i = 0; i < w.starts.n; i++) compare_along(&w, &w.starts.at[i], &v);
   pl_search(&w);
   pl_meet(&w);
   if (count_started(&w) > 0) report(&w, &v);
-  else report_without_motion(&w, w.starts.at[0].trace->message, pl_in_language(PL_GERMAN, w.starts.at[0].trace->message));
+  else
+    report_without_motion(&w, w.starts.at[0].trace->message,
+                          pl_in_language(PL_GERMAN, w.starts.at[0].trace->message));
 }

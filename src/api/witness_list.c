@@ -1,5 +1,5 @@
-// What the sections of a solution state of the motion.  The left sides are read from the requests as they were written, not from
-// what the derivation made of them.
+// What the sections of a solution state of the motion. The left sides are read from the requests as
+// they were written, not from what the derivation made of them.
 #include <string.h>
 
 #include "api/witness_impl.h"
@@ -11,19 +11,23 @@ static pl_statement* state(pl_witness* w, pl_statement s) {
   return &w->statements.at[w->statements.n - 1];
 }
 
-// The symbol that a value is named after, when it is one of the motion.  Results hide behind names of given quantities.
+// The symbol that a value is named after, when it is one of the motion. Results hide behind names
+// of given quantities.
 static pl_expr subject_of(const pl_witness* w, const pl_value* v) {
   if (!pl_is_poison(v->lhs)) return v->lhs;
   pl_symbol s = pl_symbol_find(w->pool, v->name);
   if (!s.id) return pl_poison();
   pl_role role = pl_symbol_get(w->pool, s)->role;
-  bool moves = role == PL_R_COORD || role == PL_R_VELOCITY || role == PL_R_ACCELERATION || role == PL_R_MULTIPLIER;
+  bool moves = role == PL_R_COORD || role == PL_R_VELOCITY || role == PL_R_ACCELERATION
+               || role == PL_R_MULTIPLIER;
   return moves ? pl_sym(w->pool, s) : pl_poison();
 }
 
-static const pl_motion* motion_of(const pl_ask* ask) { return ask && ask->motion.given ? &ask->motion : NULL; }
+static const pl_motion* motion_of(const pl_ask* ask) {
+  return ask && ask->motion.given ? &ask->motion : NULL;
+}
 
-// ---------------------------------------------------------------------------------------------- by kind of request
+// ------------------------------------------------------------------------------ by kind of request
 static void state_subjects(pl_witness* w, int section, const pl_ask* ask) {
   const pl_section* s = &w->solution->sections.at[section];
   for (int i = 0; i < s->values.n; i++) {
@@ -31,7 +35,12 @@ static void state_subjects(pl_witness* w, int section, const pl_ask* ask) {
     pl_expr left = subject_of(w, v);
     bool shows_itself = pl_same(left, v->expr);
     if (pl_is_poison(left) || shows_itself) continue;
-    state(w, (pl_statement){.kind = PL_EQUALS, .section = section, .value = v, .shown = v->expr, .left = left, .name = v->name,
+    state(w, (pl_statement){.kind = PL_EQUALS,
+                            .section = section,
+                            .value = v,
+                            .shown = v->expr,
+                            .left = left,
+                            .name = v->name,
                             .from = motion_of(ask)});
   }
 }
@@ -41,8 +50,14 @@ static void state_motion(pl_witness* w, int section) {
   for (int i = 0; i < s->values.n; i++) {
     const pl_value* v = &s->values.at[i];
     pl_expr left = subject_of(w, v);
-    if (pl_is_poison(left) || v->n_free > 0) continue;      // with free names it is one motion of many
-    state(w, (pl_statement){.kind = PL_FOLLOWS, .section = section, .value = v, .shown = v->expr, .left = left, .name = v->name});
+    // with free names it is one motion of many
+    if (pl_is_poison(left) || v->n_free > 0) continue;
+    state(w, (pl_statement){.kind = PL_FOLLOWS,
+                            .section = section,
+                            .value = v,
+                            .shown = v->expr,
+                            .left = left,
+                            .name = v->name});
   }
 }
 
@@ -51,7 +66,12 @@ static void state_conserved(pl_witness* w, int section) {
   for (int i = 0; i < s->values.n; i++) {
     const pl_value* v = &s->values.at[i];
     if (v->conserved != 1) continue;
-    state(w, (pl_statement){.kind = PL_STAYS, .section = section, .value = v, .shown = v->expr, .left = pl_poison(), .name = v->name});
+    state(w, (pl_statement){.kind = PL_STAYS,
+                            .section = section,
+                            .value = v,
+                            .shown = v->expr,
+                            .left = pl_poison(),
+                            .name = v->name});
   }
 }
 
@@ -61,12 +81,18 @@ static void state_equations(pl_witness* w, int section) {
   for (int i = 0; i < s->steps.n; i++) {
     const pl_step* step = &s->steps.at[i];
     const pl_form* f = step->formula;
-    if (step->kind != PL_STEP_EQUATION || step->number == 0 || step->detail || !f || f->kind != PL_F_RELATION) continue;
+    if (step->kind != PL_STEP_EQUATION || step->number == 0 || step->detail || !f
+        || f->kind != PL_F_RELATION)
+      continue;
     if (strcmp(f->text, "=") != 0) continue;
     pl_expr left = pl_form_value(w->pool, f->args[0]), right = pl_form_value(w->pool, f->args[1]);
     if (pl_is_poison(left) || pl_is_poison(right)) continue;
     const pl_value* v = s->values.n > 0 ? &s->values.at[0] : NULL;
-    state(w, (pl_statement){.kind = PL_VANISHES, .section = section, .value = v, .shown = pl_sub(w->pool, left, right), .left = pl_poison(),
+    state(w, (pl_statement){.kind = PL_VANISHES,
+                            .section = section,
+                            .value = v,
+                            .shown = pl_sub(w->pool, left, right),
+                            .left = pl_poison(),
                             .name = pl_format(w->arena, "(%d)", step->number)});
   }
 }
@@ -75,10 +101,16 @@ static void state_value(pl_witness* w, int section, const pl_ask* ask) {
   const pl_section* s = &w->solution->sections.at[section];
   for (int i = 0; i < s->values.n; i++) {
     const pl_value* v = &s->values.at[i];
-    bool is_asked = strcmp(v->name, pl_expr_text(w->arena, w->pool, ask->value)) == 0;     // else it stands on the way there
+    // else it stands on the way there
+    bool is_asked = strcmp(v->name, pl_expr_text(w->arena, w->pool, ask->value)) == 0;
     pl_expr left = is_asked ? ask->value : subject_of(w, v);
     if (pl_is_poison(left) || pl_same(left, v->expr)) continue;
-    state(w, (pl_statement){.kind = PL_EQUALS, .section = section, .value = v, .shown = v->expr, .left = left, .name = v->name,
+    state(w, (pl_statement){.kind = PL_EQUALS,
+                            .section = section,
+                            .value = v,
+                            .shown = v->expr,
+                            .left = left,
+                            .name = v->name,
                             .from = motion_of(ask)});
   }
 }
@@ -89,8 +121,13 @@ static void state_expected(pl_witness* w, int section, const pl_ask* ask) {
   bool plain = ask->where.n == 1 && ask->where.at[0].relation == PL_EQ;
   for (int i = 0; plain && i < s->values.n; i++) {
     if (s->values.at[i].passed != 1) continue;
-    state(w, (pl_statement){.kind = PL_EQUALS, .section = section, .value = &s->values.at[i], .shown = ask->where.at[0].right,
-                            .left = ask->where.at[0].left, .name = "expect", .from = motion_of(ask)});
+    state(w, (pl_statement){.kind = PL_EQUALS,
+                            .section = section,
+                            .value = &s->values.at[i],
+                            .shown = ask->where.at[0].right,
+                            .left = ask->where.at[0].left,
+                            .name = "expect",
+                            .from = motion_of(ask)});
   }
 }
 
@@ -121,7 +158,8 @@ static void state_section(pl_witness* w, int section) {
   }
 }
 
-// Several values of one quantity in one section are its assemblies: one of them is that of the motion.
+// Several values of one quantity in one section are its assemblies: one of them is that of the
+// motion.
 static void group_assemblies(pl_witness* w) {
   int groups = 0;
   for (int i = 0; i < w->statements.n; i++) {
@@ -129,7 +167,8 @@ static void group_assemblies(pl_witness* w) {
     s->group = ++groups;
     for (int k = 0; k < i && s->kind != PL_VANISHES; k++) {
       const pl_statement* other = &w->statements.at[k];
-      bool same = other->section == s->section && other->kind == s->kind && pl_same(other->left, s->left);
+      bool same = other->section == s->section && other->kind == s->kind
+                  && pl_same(other->left, s->left);
       if (same && strcmp(other->name, s->name) == 0) s->group = other->group;
     }
   }

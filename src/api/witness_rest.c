@@ -2,34 +2,37 @@
 //
 //     dL/dq_i + Q_i + sum λ_c dg_c/dq_i = 0   at v = 0,      g = 0
 //
-// in all coordinates and multipliers, so without what the derivation chose or eliminated.  A coordinate that one constraint
-// drives alone, φ = Ω t, keeps its rate: rest is then rest beside it.  Jacobians by central differences, steps by least squares
-// (constraints may depend on each other).
+// in all coordinates and multipliers, so without what the derivation chose or eliminated. A
+// coordinate that one constraint drives alone, φ = Ω t, keeps its rate: rest is then rest beside
+// it. Jacobians by central differences, steps by least squares (constraints may depend on each
+// other).
 #include <math.h>
 
 #include "api/least_squares.h"
 #include "api/witness_impl.h"
 
 enum { MOST_COORDINATES = PL_MOST_AT_REST, MOST_ROWS = PL_MOST_ROWS, MOST_ITERATIONS = 20 };
-static const double solved = 1e-10;        // residual of a position of rest, in units of the terms
-static const double difference = 1e-6;     // step of differences
+static const double solved = 1e-10;     // residual of a position of rest, in units of the terms
+static const double difference = 1e-6;  // step of differences
 
 struct pl_rest_field {
   pl_witness* w;
   const pl_trace* t;
-  int n;                          // coordinates that the motion knows
-  int* at;                        // of each: its place in the recording
+  int n;    // coordinates that the motion knows
+  int* at;  // of each: its place in the recording
   pl_symbol *q, *v, *a;
-  int n_g, n_v;                   // rows of coordinates; behind them rows of velocities
-  pl_expr* g;                     // (n_g + n_v)
-  int* link;                      // of each row, in the setup
-  pl_expr* slope;                 // dg/dq, of rows of velocities dg/dv: (n_g + n_v) x n, row after row
-  pl_expr* push;                  // d/dt dL/dv - dL/dq - Q, at the accelerations in the table  (n)
-  pl_expr* mass;                  // d²L/dv dv  (n x n)
-  double* drive;                  // rate of each coordinate, 0 where nothing drives it  (n)
-  bool rests;                     // positions of rest are looked for: nothing but drives hangs on the time
+  int n_g, n_v;  // rows of coordinates; behind them rows of velocities
+  pl_expr* g;    // (n_g + n_v)
+  int* link;     // of each row, in the setup
+  // dg/dq, of rows of velocities dg/dv: (n_g + n_v) x n, row after row
+  pl_expr* slope;
+  pl_expr* push;  // d/dt dL/dv - dL/dq - Q, at the accelerations in the table  (n)
+  pl_expr* mass;  // d²L/dv dv  (n x n)
+  double* drive;  // rate of each coordinate, 0 where nothing drives it  (n)
+  // positions of rest are looked for: nothing but drives hangs on the time
+  bool rests;
   pl_squares* squares;
-  double *A, *b;                  // its matrix and right side
+  double *A, *b;  // its matrix and right side
 };
 
 int pl_rest_coordinates(const pl_rest_field* f) { return f->n; }
@@ -42,7 +45,7 @@ int pl_rest_place_of(const pl_rest_field* f, int at) {
 int pl_rest_link(const pl_rest_field* f, int row) { return f->link[row]; }
 int pl_rest_rows(const pl_rest_field* f) { return f->n_g + f->n_v; }
 
-// ---------------------------------------------------------------------------------------------- the equations
+// ----------------------------------------------------------------------------------- the equations
 static void list_coordinates(pl_rest_field* f, const pl_recording* r) {
   pl_pool* p = f->w->pool;
   for (int i = 0; i < r->n_atoms && f->n >= 0; i++) {
@@ -65,7 +68,8 @@ static void add_row(pl_rest_field* f, pl_expr g, int link, bool velocity) {
   int k = f->n_g + f->n_v;
   f->g[k] = g;
   f->link[k] = link;
-  for (int i = 0; i < f->n; i++) f->slope[k * f->n + i] = pl_diff(p, g, velocity ? f->v[i] : f->q[i]);
+  for (int i = 0; i < f->n; i++)
+    f->slope[k * f->n + i] = pl_diff(p, g, velocity ? f->v[i] : f->q[i]);
   if (velocity) f->n_v++;
   else f->n_g++;
 }
@@ -76,7 +80,8 @@ static void list_rows(pl_rest_field* f) {
   for (int velocity = 0; velocity < 2; velocity++) {
     for (int i = 0; i < m->constraints.n; i++) {
       const pl_constraint* c = &m->constraints.at[i];
-      if (c->has_velocity == (velocity == 1) && pl_trace_holds(f->t, start, i)) add_row(f, c->g, pl_trace_link(f->t, i, 0), velocity == 1);
+      if (c->has_velocity == (velocity == 1) && pl_trace_holds(f->t, start, i))
+        add_row(f, c->g, pl_trace_link(f->t, i, 0), velocity == 1);
     }
     for (int k = 0; velocity == 0 && k < m->choose.n_maps; k++) {
       int link = f->t->recording->n_declared + k;
@@ -104,9 +109,13 @@ static bool find_drives(pl_rest_field* f) {
     if (!pl_has_symbol(p, f->g[k], time)) continue;
     int only = -1, rows = 0, columns = 0;
     for (int i = 0; i < f->n; i++) {
-      if (!pl_is_zero_node(p, f->slope[k * f->n + i])) columns++, only = i;
+      if (!pl_is_zero_node(p, f->slope[k * f->n + i])) {
+        columns++;
+        only = i;
+      }
     }
-    for (int j = 0; j < f->n_g + f->n_v && only >= 0; j++) rows += !pl_is_zero_node(p, f->slope[j * f->n + only]);
+    for (int j = 0; j < f->n_g + f->n_v && only >= 0; j++)
+      rows += !pl_is_zero_node(p, f->slope[j * f->n + only]);
     if (columns != 1 || rows != 1 || k >= f->n_g) return false;
     pl_expr rate = pl_neg(p, pl_div(p, pl_diff(p, f->g[k], time), f->slope[k * f->n + only]));
     if (!pl_is_zero_node(p, pl_diff(p, pl_diff(p, f->g[k], time), time))) return false;
@@ -122,7 +131,9 @@ static bool find_drives(pl_rest_field* f) {
 pl_rest_field* pl_rest_make(pl_witness* w, const pl_trace* t) {
   const pl_recording* r = t->recording;
   int n = r->n_atoms, rows = t->model->constraints.n + t->model->choose.n_maps;
-  if (!t->started || pl_is_poison(r->lagrangian) || n == 0 || n > MOST_COORDINATES || rows > MOST_ROWS) return NULL;
+  if (!t->started || pl_is_poison(r->lagrangian) || n == 0 || n > MOST_COORDINATES
+      || rows > MOST_ROWS)
+    return NULL;
   pl_rest_field* f = PL_NEW(w->arena, pl_rest_field);
   *f = (pl_rest_field){.w = w, .t = t, .at = PL_ARRAY(w->arena, int, n)};
   f->q = PL_ARRAY(w->arena, pl_symbol, n);
@@ -160,10 +171,11 @@ int pl_rest_idle(const pl_rest_field* f) {
   return n;
 }
 
-// ---------------------------------------------------------------------------------------------- numbers
+// ----------------------------------------------------------------------------------------- numbers
 static void put(pl_rest_field* f, const double* q, const double* v) {
   pl_witness* w = f->w;
-  for (int i = 0; i < w->n_value; i++) w->value[i] = i < f->t->n_value ? f->t->value[i] : (double)NAN;
+  for (int i = 0; i < w->n_value; i++)
+    w->value[i] = i < f->t->n_value ? f->t->value[i] : (double)NAN;
   w->value[pl_time(w->pool).id] = 0;
   for (int i = 0; i < f->n; i++) {
     w->value[f->q[i].id] = q[i];
@@ -172,14 +184,17 @@ static void put(pl_rest_field* f, const double* q, const double* v) {
   }
 }
 
-static double number(const pl_rest_field* f, pl_expr e) { return pl_eval(f->w->pool, e, f->w->value); }
+static double number(const pl_rest_field* f, pl_expr e) {
+  return pl_eval(f->w->pool, e, f->w->value);
+}
 
 // The residual of everything: n equations of rest, then n_g constraints.
 static void residual(pl_rest_field* f, const double* q, const double* lambda, double* out) {
   put(f, q, NULL);
   for (int i = 0; i < f->n; i++) {
     out[i] = -number(f, f->push[i]);
-    for (int k = 0; k < f->n_g + f->n_v; k++) out[i] += lambda[k] * number(f, f->slope[k * f->n + i]);
+    for (int k = 0; k < f->n_g + f->n_v; k++)
+      out[i] += lambda[k] * number(f, f->slope[k * f->n + i]);
   }
   for (int k = 0; k < f->n_g; k++) out[f->n + k] = number(f, f->g[k]);
 }
@@ -206,13 +221,14 @@ int pl_rest_rank(pl_rest_field* f, const double* q, bool with_velocities) {
   return pl_squares_rank(f->squares, m, f->n, 1e-9);
 }
 
-// One step of least squares with a matrix (m x n) in A and the residual in b: the unknowns in x move by -A⁺ b.
+// One step of least squares with a matrix (m x n) in A and the residual in b: the unknowns in x
+// move by -A⁺ b.
 static void step(pl_rest_field* f, int m, int n, double* x) {
   pl_squares_solve(f->squares, m, n, x);
   for (int j = 0; j < n; j++) x[j] = -x[j];
 }
 
-// ---------------------------------------------------------------------------------------------- searches
+// ---------------------------------------------------------------------------------------- searches
 bool pl_rest_place(pl_rest_field* f, double* q, const bool* held) {
   double x[MOST_COORDINATES];
   int m = f->n_g;
@@ -242,7 +258,8 @@ static double force_size(pl_rest_field* f, const double* q, const double* lambda
   double most = 0;
   for (int i = 0; i < f->n; i++) {
     most = fmax(most, fabs(number(f, f->push[i])));
-    for (int k = 0; k < f->n_g + f->n_v; k++) most = fmax(most, fabs(lambda[k] * number(f, f->slope[k * f->n + i])));
+    for (int k = 0; k < f->n_g + f->n_v; k++)
+      most = fmax(most, fabs(lambda[k] * number(f, f->slope[k * f->n + i])));
   }
   // forces that vanish at rest: their size beside it
   double beside[MOST_COORDINATES];
@@ -283,8 +300,10 @@ double pl_rest_left(pl_rest_field* f, const double* q, double* lambda) {
   return left_with(f, q, lambda, row, all);
 }
 
-static void jacobian(pl_rest_field* f, const double* q, const double* lambda, const int* of, int n, int m) {
-  double above[2 * MOST_COORDINATES + MOST_ROWS], below[2 * MOST_COORDINATES + MOST_ROWS], at[MOST_COORDINATES];
+static void jacobian(pl_rest_field* f, const double* q, const double* lambda, const int* of, int n,
+                     int m) {
+  double above[2 * MOST_COORDINATES + MOST_ROWS], below[2 * MOST_COORDINATES + MOST_ROWS],
+      at[MOST_COORDINATES];
   for (int i = 0; i < f->n; i++) at[i] = q[i];
   for (int j = 0; j < n; j++) {
     double h = difference * (1 + fabs(q[of[j]]));
@@ -317,7 +336,8 @@ bool pl_rest_find(pl_rest_field* f, double* q, double* lambda, const bool* held)
     jacobian(f, q, lambda, of, n, m);
     for (int k = 0; k < m; k++) f->b[k] = r[k];
     step(f, m, n + rows, x);
-    double limit = 0.5 * (1 + size(q, f->n)), most = size(x, n), part = most > limit ? limit / most : 1;
+    double limit = 0.5 * (1 + size(q, f->n)), most = size(x, n),
+           part = most > limit ? limit / most : 1;
     if (!isfinite(most)) return false;
     for (int j = 0; j < n; j++) q[of[j]] += part * x[j];
     for (int c = 0; c < rows; c++) lambda[c] += part * x[n + c];
@@ -325,8 +345,9 @@ bool pl_rest_find(pl_rest_field* f, double* q, double* lambda, const bool* held)
   return false;
 }
 
-// ---------------------------------------------------------------------------------------------- stability
-// Accelerations at (q, v), from the linear system of the equations and the constraints twice differentiated at rest.
+// --------------------------------------------------------------------------------------- stability
+// Accelerations at (q, v), from the linear system of the equations and the constraints twice
+// differentiated at rest.
 static bool accelerations(pl_rest_field* f, const double* q, const double* v, double* a) {
   int rows = f->n_g + f->n_v, m = f->n + rows;
   put(f, q, v);
@@ -341,7 +362,7 @@ static bool accelerations(pl_rest_field* f, const double* q, const double* v, do
   }
   for (int k = 0; k < rows; k++) {
     for (int j = 0; j < rows; j++) f->A[f->n + k + (f->n + j) * m] = 0;
-    f->b[f->n + k] = 0;      // terms of second order in v beside rest
+    f->b[f->n + k] = 0;  // terms of second order in v beside rest
   }
   double x[2 * MOST_COORDINATES + MOST_ROWS];
   step(f, m, m, x);
@@ -349,7 +370,8 @@ static bool accelerations(pl_rest_field* f, const double* q, const double* v, do
   return isfinite(size(a, f->n));
 }
 
-// Directions that the constraints leave, orthonormal: (n x d), column after column.  -1: more than two.
+// Directions that the constraints leave, orthonormal: (n x d), column after column. -1: more than
+// two.
 static int free_directions(pl_rest_field* f, const double* q, double* T) {
   int rows = f->n_g + f->n_v, n = f->n;
   put(f, q, NULL);
@@ -379,7 +401,8 @@ static int free_directions(pl_rest_field* f, const double* q, double* T) {
   return d;
 }
 
-static bool slopes(pl_rest_field* f, const double* q, const double* T, int d, double near, bool of_velocity, double* out) {
+static bool slopes(pl_rest_field* f, const double* q, const double* T, int d, double near,
+                   bool of_velocity, double* out) {
   double h = of_velocity ? near : near * (1 + size(q, f->n)), a[2][MOST_COORDINATES];
   for (int j = 0; j < d; j++) {
     for (int side = 0; side < 2; side++) {
@@ -394,7 +417,8 @@ static bool slopes(pl_rest_field* f, const double* q, const double* T, int d, do
     }
     for (int k = 0; k < d; k++) {
       out[k * d + j] = 0;
-      for (int i = 0; i < f->n; i++) out[k * d + j] += T[k * f->n + i] * (a[0][i] - a[1][i]) / (2 * h);
+      for (int i = 0; i < f->n; i++)
+        out[k * d + j] += T[k * f->n + i] * (a[0][i] - a[1][i]) / (2 * h);
     }
   }
   return true;
@@ -414,7 +438,8 @@ static int stability_near(pl_rest_field* f, const double* q, double near) {
   return 0;
 }
 
-// A kink of a force beside the place (a spring of no length, a stop) is in the differences of one step and not of a smaller one.
+// A kink of a force beside the place (a spring of no length, a stop) is in the differences of one
+// step and not of a smaller one.
 int pl_rest_stability(pl_rest_field* f, const double* q) {
   int far = stability_near(f, q, 1e-4);
   return far != 0 && far == stability_near(f, q, 1e-5) ? far : 0;

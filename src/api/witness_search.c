@@ -1,14 +1,16 @@
-// Statements that no single motion tells: degrees of freedom, "none", "these are all", "stable".  They are tried at the starts,
-// and by Newton from many places.
+// Statements that no single motion tells: degrees of freedom, "none", "these are all", "stable".
+// They are tried at the starts, and by Newton from many places.
 #include <math.h>
 #include <string.h>
 
 #include "api/witness_impl.h"
 
 enum { TRIES = 12 };
-static const double same_place = 1e-2;     // of a coordinate: Newton ends as far from a position where forces vanish with their slopes
+// of a coordinate: Newton ends as far from a position where forces vanish with their slopes
+static const double same_place = 1e-2;
 
-static void refuse(pl_witness* w, int section, const char* of, const pl_form* name, const char* en, const char* de) {
+static void refuse(pl_witness* w, int section, const char* of, const pl_form* name, const char* en,
+                   const char* de) {
   pl_refusal r = {.section = section, .words = {en, de}, .name = name, .of = of};
   pl_push(w->arena, w->refusals, r);
 }
@@ -19,12 +21,12 @@ static const char* number(const pl_witness* w, double x, pl_language lang) {
 
 // Where is searched: the equations of a model, with what holds at its start.
 typedef struct pl_ground {
-  const pl_model* model;              // contacts as they are written
+  const pl_model* model;  // contacts as they are written
   const pl_trace* t;
   pl_rest_field* f;
 } pl_ground;
 
-// ---------------------------------------------------------------------------------------------- degrees of freedom
+// ------------------------------------------------------------------------------ degrees of freedom
 // The freedoms that the rows leave at the start of a motion; -1 when that has no number.
 static int freedoms(pl_rest_field* f, const pl_trace* t, bool with_velocities) {
   int n = pl_rest_coordinates(f);
@@ -37,8 +39,8 @@ static int freedoms(pl_rest_field* f, const pl_trace* t, bool with_velocities) {
   return rank < 0 ? -1 : n - pl_rest_idle(f) - rank;
 }
 
-// Constraints on velocities may be integrable, and are then counted as constraints of positions.  At one start at least it is as
-// said: at others the rank may be smaller.
+// Constraints on velocities may be integrable, and are then counted as constraints of positions. At
+// one start at least it is as said: at others the rank may be smaller.
 static bool count_is(pl_witness* w, pl_rest_field* f, const pl_dof* said, int hidden, int* found) {
   bool any = false;
   for (int i = 0; i < w->starts.n; i++) {
@@ -56,18 +58,20 @@ static bool count_is(pl_witness* w, pl_rest_field* f, const pl_dof* said, int hi
 
 static void search_freedoms(pl_witness* w, int section, pl_rest_field* f) {
   int found = 0;
-  if (w->model->frictions.n > 0) return;      // surfaces that stick are counted too
+  if (w->model->frictions.n > 0) return;  // surfaces that stick are counted too
   w->n_searched++;
   if (count_is(w, f, &w->solution->dof, w->solution->hidden.n, &found)) return;
   refuse(w, section, "dof", pl_form_leaf(w->arena, pl_int(w->pool, found)),
-         "The rank of the constraints at the start, and beside it, leaves {1} degrees of freedom, not what was counted.",
-         "Der Rang der Zwangsbedingungen beim Start und daneben lässt {1} Freiheitsgrade, nicht so viele wie gezählt.");
+         "The rank of the constraints at the start, and beside it, leaves {1} degrees of freedom, "
+         "not what was counted.",
+         "Der Rang der Zwangsbedingungen beim Start und daneben lässt {1} Freiheitsgrade, nicht so "
+         "viele wie gezählt.");
 }
 
-// ---------------------------------------------------------------------------------------------- positions that are listed
+// ----------------------------------------------------------------------- positions that are listed
 typedef struct pl_listed {
   const pl_value* value;
-  bool exists;                        // at these numbers
+  bool exists;  // at these numbers
   bool known[PL_MOST_AT_REST];
   double q[PL_MOST_AT_REST];
 } pl_listed;
@@ -80,7 +84,8 @@ static int coordinate_named(const pl_rest_field* f, const pl_trace* t, const cha
 }
 
 // false: it speaks of a coordinate that the motion does not know, or of other coordinates.
-static bool read_listed(pl_witness* w, const pl_rest_field* f, const pl_trace* t, const pl_value* v, pl_listed* out) {
+static bool read_listed(pl_witness* w, const pl_rest_field* f, const pl_trace* t, const pl_value* v,
+                        pl_listed* out) {
   *out = (pl_listed){.value = v, .exists = true};
   for (int k = 0; k < v->n_components; k++) {
     const pl_component* c = &v->components[k];
@@ -112,13 +117,15 @@ static bool is_at(const pl_rest_field* f, const pl_trace* t, const pl_listed* l,
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- places to begin
+// --------------------------------------------------------------------------------- places to begin
 static void begin_at(pl_rest_field* f, const pl_trace* t, pl_random* r, int k, double* q) {
   for (int i = 0; i < t->recording->flat.n; i++) {
     int at = pl_rest_place_of(f, i);
     if (at < 0) continue;
     double start = t->samples.at[0].q[i], range = 2 * fmax(1, fabs(start));
-    q[at] = k == 0 ? start : is_angle(f, t, at) && k % 2 ? pl_random_between(r, -M_PI, M_PI) : start + pl_random_between(r, -range, range);
+    q[at] = k == 0                        ? start
+            : is_angle(f, t, at) && k % 2 ? pl_random_between(r, -M_PI, M_PI)
+                                          : start + pl_random_between(r, -range, range);
   }
 }
 
@@ -130,7 +137,9 @@ static bool is_allowed(pl_witness* w, const pl_ground* on, int section, const do
   if (!(pl_rest_left(f, q, lambda) < 1e-6)) return false;
   for (int i = 0; i < on->model->constraints.n; i++) {
     pl_relation relation = on->model->constraints.at[i].relation;
-    int side = relation == PL_GE || relation == PL_GT ? 1 : relation == PL_LE || relation == PL_LT ? -1 : 0;
+    int side = relation == PL_GE || relation == PL_GT   ? 1
+               : relation == PL_LE || relation == PL_LT ? -1
+                                                        : 0;
     for (int k = 0; k < pl_rest_rows(f); k++) {
       if (pl_rest_link(f, k) == pl_trace_link(t, i, 0) && side * lambda[k] < 0) return false;
     }
@@ -142,10 +151,11 @@ static bool is_allowed(pl_witness* w, const pl_ground* on, int section, const do
   for (int i = 0; i < on->model->branches.n; i++) {
     const pl_condition* c = &on->model->branches.at[i];
     double x = pl_eval(w->pool, pl_sub(w->pool, c->left, c->right), w->value);
-    bool above = c->relation == PL_GT || c->relation == PL_GE, below = c->relation == PL_LT || c->relation == PL_LE;
+    bool above = c->relation == PL_GT || c->relation == PL_GE,
+         below = c->relation == PL_LT || c->relation == PL_LE;
     if ((above && x < 0) || (below && x > 0)) return false;
   }
-  for (int i = 0; i < on->model->constraints.n; i++) {      // contacts that are open stay so
+  for (int i = 0; i < on->model->constraints.n; i++) {  // contacts that are open stay so
     const pl_constraint* c = &on->model->constraints.at[i];
     double g = pl_eval(w->pool, c->g, w->value);
     if ((c->relation == PL_GE && g < -1e-9) || (c->relation == PL_LE && g > 1e-9)) return false;
@@ -153,9 +163,11 @@ static bool is_allowed(pl_witness* w, const pl_ground* on, int section, const do
   return pl_state_is_valid(w, w->solution->sections.at[section].tower);
 }
 
-// ---------------------------------------------------------------------------------------------- what is listed rests
-// The other coordinates follow from the constraints, in one way of several: in one of them it rests.
-static bool rests(pl_rest_field* f, const pl_trace* t, const pl_listed* l, double* q, double* lambda, double* left) {
+// ---------------------------------------------------------------------------- what is listed rests
+// The other coordinates follow from the constraints, in one way of several: in one of them it
+// rests.
+static bool rests(pl_rest_field* f, const pl_trace* t, const pl_listed* l, double* q,
+                  double* lambda, double* left) {
   pl_random r = {0x72657374};
   bool placed = false;
   *left = (double)NAN;
@@ -172,29 +184,40 @@ static bool rests(pl_rest_field* f, const pl_trace* t, const pl_listed* l, doubl
   return false;
 }
 
-static void try_listed(pl_witness* w, int section, pl_rest_field* f, const pl_trace* t, const pl_listed* l) {
+static void try_listed(pl_witness* w, int section, pl_rest_field* f, const pl_trace* t,
+                       const pl_listed* l) {
   double q[PL_MOST_AT_REST], lambda[PL_MOST_ROWS], left;
   if (!l->exists || l->value->n_components == 0) return;
   bool found_rest = rests(f, t, l, q, lambda, &left);
-  if (!found_rest && isnan(left)) return;      // no way to put it there
+  if (!found_rest && isnan(left)) return;  // no way to put it there
   if (!found_rest) {
     refuse(w, section, l->value->name, pl_form_name(w->arena, l->value->name, pl_poison()),
-           pl_format(w->arena, "{1} is no position of rest of the equations as they stand: %s of the forces is left there.", number(w, left, PL_ENGLISH)),
-           pl_format(w->arena, "{1} ist keine Ruhelage der Gleichungen, wie sie dastehen: %s der Kräfte bleibt dort übrig.", number(w, left, PL_GERMAN)));
+           pl_format(w->arena,
+                     "{1} is no position of rest of the equations as they stand: %s of the forces "
+                     "is left there.",
+                     number(w, left, PL_ENGLISH)),
+           pl_format(w->arena,
+                     "{1} ist keine Ruhelage der Gleichungen, wie sie dastehen: %s der Kräfte "
+                     "bleibt dort übrig.",
+                     number(w, left, PL_GERMAN)));
     return;
   }
   const char* said = l->value->stability;
   if (!said || l->value->n_free > 0) return;
   int found = pl_rest_stability(f, q);
-  bool wrong = (found > 0 && strcmp(said, "unstable") == 0) || (found < 0 && strcmp(said, "stable") == 0);
+  bool wrong = (found > 0 && strcmp(said, "unstable") == 0)
+               || (found < 0 && strcmp(said, "stable") == 0);
   if (!wrong) return;
   refuse(w, section, l->value->name, pl_form_name(w->arena, l->value->name, pl_poison()),
-         found > 0 ? "{1} is stable: so the motion beside it says, by its eigenvalues." : "{1} is unstable: so the motion beside it says, by its eigenvalues.",
-         found > 0 ? "{1} ist stabil: das sagt die Bewegung daneben, nach ihren Eigenwerten." : "{1} ist instabil: das sagt die Bewegung daneben, nach ihren Eigenwerten.");
+         found > 0 ? "{1} is stable: so the motion beside it says, by its eigenvalues."
+                   : "{1} is unstable: so the motion beside it says, by its eigenvalues.",
+         found > 0 ? "{1} ist stabil: das sagt die Bewegung daneben, nach ihren Eigenwerten."
+                   : "{1} ist instabil: das sagt die Bewegung daneben, nach ihren Eigenwerten.");
 }
 
-// ---------------------------------------------------------------------------------------------- nothing is missing
-static void try_complete(pl_witness* w, int section, const pl_ground* on, const pl_listed* l, int n) {
+// ------------------------------------------------------------------------------ nothing is missing
+static void try_complete(pl_witness* w, int section, const pl_ground* on, const pl_listed* l,
+                         int n) {
   pl_rest_field* f = on->f;
   const pl_trace* t = on->t;
   pl_random r = {0x616c6c};
@@ -208,18 +231,23 @@ static void try_complete(pl_witness* w, int section, const pl_ground* on, const 
     pl_text where = pl_text_make(w->arena);
     for (int i = 0; i < t->recording->flat.n; i++) {
       int at = pl_rest_place_of(f, i);
-      if (at >= 0) pl_text_addf(&where, "%s%s = %s", where.n ? ", " : "", t->recording->setup.coordinates[i].name, number(w, q[at], PL_ENGLISH));
+      if (at >= 0)
+        pl_text_addf(&where, "%s%s = %s", where.n ? ", " : "",
+                     t->recording->setup.coordinates[i].name, number(w, q[at], PL_ENGLISH));
     }
     refuse(w, section, "equilibria", pl_form_name(w->arena, pl_text_string(&where), pl_poison()),
-           "The list of positions of rest is not complete: the equations as they stand have another one at {1}.",
-           "Die Liste der Ruhelagen ist nicht vollständig: die Gleichungen, wie sie dastehen, haben noch eine bei {1}.");
+           "The list of positions of rest is not complete: the equations as they stand have "
+           "another one at {1}.",
+           "Die Liste der Ruhelagen ist nicht vollständig: die Gleichungen, wie sie dastehen, "
+           "haben noch eine bei {1}.");
     return;
   }
 }
 
 static void search_rests(pl_witness* w, int section, const pl_ground* on) {
   const pl_section* s = &w->solution->sections.at[section];
-  if (!on->f || !pl_rest_is_possible(on->f) || s->ask->where.n > 0 || s->stage > 0 || s->beside) return;
+  if (!on->f || !pl_rest_is_possible(on->f) || s->ask->where.n > 0 || s->stage > 0 || s->beside)
+    return;
   pl_listed* l = PL_ARRAY(w->arena, pl_listed, s->values.n + 1);
   int n = 0;
   for (int i = 0; i < s->values.n; i++) {
@@ -244,7 +272,9 @@ static pl_ground ground_of(pl_witness* w, const pl_section* s, const pl_ground* 
   if (!s->model || s->model->choose.n_maps == w->model->choose.n_maps) return *plain;
   pl_model* numbered = pl_trace_model(w->job, (pl_model*)(uintptr_t)s->model, PL_SEED_OF_NUMBERS);
   if (!numbered) return *plain;
-  pl_ground out = {.model = numbered, .t = pl_trace_make(w->job, numbered, &(pl_trace_options){.most_samples = 1, .span = 1})};
+  pl_ground out = {
+      .model = numbered,
+      .t = pl_trace_make(w->job, numbered, &(pl_trace_options){.most_samples = 1, .span = 1})};
   if (out.t->started) out.f = pl_rest_make(w, out.t);
   return out;
 }

@@ -1,17 +1,19 @@
-// The numbers that formulas are read with at a sample of a motion: by symbol, as pl_eval wants them.
+// The numbers that formulas are read with at a sample of a motion: by symbol, as pl_eval wants
+// them.
 //
-// A second table holds the same state moved by more than the noise of a run.  What a formula changes by is a measure of the
-// digits that it can have there, cancellation and poles included.
+// A second table holds the same state moved by more than the noise of a run. What a formula changes
+// by is a measure of the digits that it can have there, cancellation and poles included.
 #include <math.h>
 #include <string.h>
 
 #include "api/witness_impl.h"
 
-static const double moved = 1e-9;          // relative, of what the state is moved by
-static const double rounding = 1e-11;      // of the terms of a formula
-static const double times_moved = 100;     // of the change that this makes: what formula and motion may differ by
+static const double moved = 1e-9;      // relative, of what the state is moved by
+static const double rounding = 1e-11;  // of the terms of a formula
+// of the change that this makes: what formula and motion may differ by
+static const double times_moved = 100;
 
-// ---------------------------------------------------------------------------------------------- tables
+// ------------------------------------------------------------------------------------------ tables
 static double largest(const double* x, int n) {
   double most = 0;
   for (int i = 0; i < n; i++) most = fmax(most, fabs(x[i]));
@@ -66,11 +68,15 @@ static double shift_of(double x, double size, uint64_t k) {
 }
 
 // Where all of a kind rest, a little of what they are at other starts.
-static double size_of(const double* x, int n, double elsewhere) { return fmax(largest(x, n), 1e-3 * elsewhere); }
+static double size_of(const double* x, int n, double elsewhere) {
+  return fmax(largest(x, n), 1e-3 * elsewhere);
+}
 
-static void put_coordinates(pl_witness* w, const pl_trace* t, const pl_trace_sample* s, const pl_trace_sample* start) {
+static void put_coordinates(pl_witness* w, const pl_trace* t, const pl_trace_sample* s,
+                            const pl_trace_sample* start) {
   const pl_flat_coords* flat = &t->recording->flat;
-  double q = size_of(s->q, flat->n, w->q_size), v = size_of(s->v, flat->n, w->v_size), a = size_of(s->a, flat->n, w->a_size);
+  double q = size_of(s->q, flat->n, w->q_size), v = size_of(s->v, flat->n, w->v_size),
+         a = size_of(s->a, flat->n, w->a_size);
   double q0 = size_of(start->q, flat->n, w->q_size), v0 = size_of(start->v, flat->n, w->v_size);
   for (int i = 0; i < flat->n; i++) {
     if (pl_kind_of(w->pool, flat->at[i]) != PL_SYMBOL) continue;
@@ -103,7 +109,8 @@ static double size_of_result(const pl_witness* w, pl_result_kind kind) {
 }
 
 // T, E, norm(force(rope)): as the simulation reads them.
-static void put_results(pl_witness* w, const pl_trace* t, const pl_trace_sample* s, const pl_trace_sample* origin) {
+static void put_results(pl_witness* w, const pl_trace* t, const pl_trace_sample* s,
+                        const pl_trace_sample* origin) {
   const pl_setup* setup = &t->recording->setup;
   for (int i = 0; i < w->model->result_names.n; i++) {
     const char* name = pl_format(w->arena, "witness_%d", i);
@@ -112,14 +119,17 @@ static void put_results(pl_witness* w, const pl_trace* t, const pl_trace_sample*
       if (strcmp(setup->out[k].name, name) != 0) continue;
       pl_symbol of = w->model->result_names.at[i].symbol;
       put(w, of, s->out[k], shift_of(s->out[k], size, 2000 + (uint64_t)i));
-      pl_symbol start = pl_symbol_find(w->pool, pl_format(w->arena, "%s_0", pl_symbol_get(w->pool, of)->name));
+      pl_symbol start = pl_symbol_find(
+          w->pool, pl_format(w->arena, "%s_0", pl_symbol_get(w->pool, of)->name));
       put(w, start, origin->out[k], shift_of(origin->out[k], size, 2000 + (uint64_t)i));
     }
   }
 }
 
-void pl_state_set(pl_witness* w, const pl_trace* t, const pl_trace_sample* s, const pl_trace_sample* origin, double t_0) {
-  for (int i = 0; i < w->n_value; i++) w->value[i] = w->shifted[i] = i < t->n_value ? t->value[i] : (double)NAN;
+void pl_state_set(pl_witness* w, const pl_trace* t, const pl_trace_sample* s,
+                  const pl_trace_sample* origin, double t_0) {
+  for (int i = 0; i < w->n_value; i++)
+    w->value[i] = w->shifted[i] = i < t->n_value ? t->value[i] : (double)NAN;
   put(w, pl_time(w->pool), s->t - t_0, shift_of(s->t - t_0, 0, 1));
   put_coordinates(w, t, s, origin);
   put_multipliers(w, t, s);
@@ -141,8 +151,10 @@ void pl_state_define(pl_witness* w, const pl_value* v) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- reading
-double pl_state_value(const pl_witness* w, pl_expr e) { return pl_is_poison(e) ? (double)NAN : pl_eval(w->pool, e, w->value); }
+// ----------------------------------------------------------------------------------------- reading
+double pl_state_value(const pl_witness* w, pl_expr e) {
+  return pl_is_poison(e) ? (double)NAN : pl_eval(w->pool, e, w->value);
+}
 
 double pl_state_noise(const pl_witness* w, pl_expr e) {
   if (pl_is_poison(e)) return 0;
@@ -150,9 +162,11 @@ double pl_state_noise(const pl_witness* w, pl_expr e) {
   return times_moved * moves + rounding * pl_eval_terms(w->pool, e, w->value);
 }
 
-// What is assumed of given quantities alone is met by their numbers, or the formula is false for them.
+// What is assumed of given quantities alone is met by their numbers, or the formula is false for
+// them.
 static bool speaks_of_state(const pl_witness* w, pl_expr e) {
-  return pl_has_role(w->pool, e, PL_R_COORD) || pl_has_role(w->pool, e, PL_R_VELOCITY) || pl_has_role(w->pool, e, PL_R_TIME);
+  return pl_has_role(w->pool, e, PL_R_COORD) || pl_has_role(w->pool, e, PL_R_VELOCITY)
+         || pl_has_role(w->pool, e, PL_R_TIME);
 }
 
 bool pl_state_is_valid(const pl_witness* w, const pl_tower* tower) {

@@ -1,7 +1,7 @@
-// Arenas: memory by lifetime.  Blocks form a list; allocation walks along it and never goes back, except by a rewind,
-// which keeps the later blocks for the next pass.  When the system, or the limit, gives no more, the arena unwinds to
-// its innermost guard, so that no caller needs an error path for memory.
-// Method: QBE util.c (alloc/freeall), MuJoCo engine_memory.h (mark and rewind).
+// Arenas: memory by lifetime. Blocks form a list; allocation walks along it and never goes back,
+// except by a rewind, which keeps the later blocks for the next pass. When the system, or the
+// limit, gives no more, the arena unwinds to its innermost guard, so that no caller needs an error
+// path for memory. Method: QBE util.c (alloc/freeall), MuJoCo engine_memory.h (mark and rewind).
 #include "base/base.h"
 
 #include <assert.h>
@@ -9,36 +9,36 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const size_t alignment = 64;            // a cache line, a vector of eight doubles
-static const size_t first_block = 16 << 10;    // bytes; most tests never need a second one
-static const size_t largest_step = 8 << 20;    // bytes; blocks double up to here
+static const size_t alignment = 64;          // a cache line, a vector of eight doubles
+static const size_t first_block = 16 << 10;  // bytes; most tests never need a second one
+static const size_t largest_step = 8 << 20;  // bytes; blocks double up to here
 
 // Under the address sanitizer the place that a growing array has left must not be touched any more.
 #ifndef __has_feature
-#define __has_feature(x) 0
+#  define __has_feature(x) 0
 #endif
 #if defined(__SANITIZE_ADDRESS__) || __has_feature(address_sanitizer)
-#include <sanitizer/asan_interface.h>
+#  include <sanitizer/asan_interface.h>
 static const bool checked = true;
 #else
-#define ASAN_POISON_MEMORY_REGION(at, size) ((void)(at), (void)(size))
-#define ASAN_UNPOISON_MEMORY_REGION(at, size) ((void)(at), (void)(size))
+#  define ASAN_POISON_MEMORY_REGION(at, size)   ((void)(at), (void)(size))
+#  define ASAN_UNPOISON_MEMORY_REGION(at, size) ((void)(at), (void)(size))
 static const bool checked = false;
 #endif
 
 typedef struct pl_block {
   struct pl_block* next;
-  char* data;    // aligned
-  size_t size;   // bytes at data
-  size_t used;   // bytes handed out
+  char* data;   // aligned
+  size_t size;  // bytes at data
+  size_t used;  // bytes handed out
 } pl_block;
 
 struct pl_arena {
   pleuel_allocator alloc;
   pl_block* first;
   pl_block* current;
-  pl_guard* guard;       // innermost
-  size_t total, limit;   // bytes taken; 0: no limit
+  pl_guard* guard;      // innermost
+  size_t total, limit;  // bytes taken; 0: no limit
   unsigned long count;
 };
 
@@ -93,7 +93,8 @@ static void next_block(pl_arena* a, size_t size) {
   if (want > largest_step) want = largest_step;
   if (want < size) want = size;
   if (a->limit != 0 && a->total + want + sizeof(pl_block) + alignment > a->limit) want = size;
-  if (a->limit != 0 && a->total + want + sizeof(pl_block) + alignment > a->limit) pl_unwind(a, PLEUEL_NO_MEMORY);
+  if (a->limit != 0 && a->total + want + sizeof(pl_block) + alignment > a->limit)
+    pl_unwind(a, PLEUEL_NO_MEMORY);
 
   size_t taken = 0;
   pl_block* b = take_block(&a->alloc, want, &taken);
@@ -121,7 +122,7 @@ void* pl_alloc_array(pl_arena* a, size_t n, size_t size) {
   return pl_alloc(a, bytes);
 }
 
-// ---------------------------------------------------------------------------------------------- mark and rewind
+// --------------------------------------------------------------------------------- mark and rewind
 pl_mark pl_arena_mark(pl_arena* a) { return (pl_mark){a->current, a->current->used}; }
 
 void pl_arena_rewind(pl_arena* a, pl_mark m) {
@@ -129,7 +130,7 @@ void pl_arena_rewind(pl_arena* a, pl_mark m) {
   a->current->used = m.used;
 }
 
-// ---------------------------------------------------------------------------------------------- guards
+// ------------------------------------------------------------------------------------------ guards
 void pl_guard_begin(pl_arena* a, pl_guard* g) {
   g->outer = a->guard;
   g->status = PLEUEL_OK;
@@ -147,12 +148,12 @@ _Noreturn void pl_unwind(pl_arena* a, pleuel_status why) {
   longjmp(g->at, 1);
 }
 
-// ---------------------------------------------------------------------------------------------- counting
+// ---------------------------------------------------------------------------------------- counting
 size_t pl_arena_total(const pl_arena* a) { return a->total; }
 void pl_arena_limit(pl_arena* a, size_t bytes) { a->limit = bytes; }
 unsigned long pl_arena_count(const pl_arena* a) { return a->count; }
 
-// ---------------------------------------------------------------------------------------------- growable arrays
+// --------------------------------------------------------------------------------- growable arrays
 // When the array is the last thing in its block it grows in place.
 static bool grow_in_place(pl_arena* a, void* at, size_t old_bytes, size_t new_bytes) {
   pl_block* b = a->current;

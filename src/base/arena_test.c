@@ -65,7 +65,9 @@ PL_TEST(absurd_sizes_unwind) {
     pl_guard g;
     volatile bool fell = false;
     PL_GUARD(a, g) { pl_alloc_array(a, absurd[i][0], absurd[i][1]); }
-    else { fell = true; }
+    else {
+      fell = true;
+    }
     pl_guard_end(a, &g);
     assert_true(fell);
   }
@@ -76,7 +78,7 @@ PL_TEST(arrays_grow_and_keep_what_they_hold) {
   PL_VEC(int) w = {0};
   for (int i = 0; i < 10000; i++) {
     pl_push(a, v, i);
-    if (i % 3 == 0) pl_push(a, w, -i);   // so that v cannot always grow in place
+    if (i % 3 == 0) pl_push(a, w, -i);  // so that v cannot always grow in place
   }
   for (int i = 0; i < v.n; i++) assert_int_equal(v.at[i], i);
   for (int i = 0; i < w.n; i++) assert_int_equal(w.at[i], -3 * i);

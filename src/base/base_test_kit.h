@@ -12,13 +12,13 @@
 
 #include "base/base.h"
 
-#define PL_TEST(name)                    \
-  static void name##_body(pl_arena* a);  \
-  static void name(void** state) {       \
-    pl_arena* a = pl_arena_make(NULL);   \
-    name##_body(a);                      \
-    pl_arena_free(a);                    \
-  }                                      \
+#define PL_TEST(name)                   \
+  static void name##_body(pl_arena* a); \
+  static void name(void** state) {      \
+    pl_arena* a = pl_arena_make(NULL);  \
+    name##_body(a);                     \
+    pl_arena_free(a);                   \
+  }                                     \
   static void name##_body(pl_arena* a)
 
 #endif

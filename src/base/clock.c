@@ -9,4 +9,6 @@ double pl_clock(void) {
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-bool pl_interrupted(const pl_job* job) { return job->interrupted != NULL && *job->interrupted != 0; }
+bool pl_interrupted(const pl_job* job) {
+  return job->interrupted != NULL && *job->interrupted != 0;
+}

@@ -6,18 +6,18 @@
 //         |                m  (x1 from line 10: init x1 = 1 [m])
 //         = did you mean l (line 4, m)?
 //
-// Marks on one line share one caret line: the text of the last stands beside its caret, the texts of the others below
-// their own.  Marks on other lines bring their line with them.
+// Marks on one line share one caret line: the text of the last stands beside its caret, the texts
+// of the others below their own. Marks on other lines bring their line with them.
 #include "base/base.h"
 
 #include <string.h>
 
-enum { MAX_MARKS = 32 };            // marks of one message; more would not be read
-static const int max_cells = 160;   // a longer source line is cut to a window around its first mark
+enum { MAX_MARKS = 32 };           // marks of one message; more would not be read
+static const int max_cells = 160;  // a longer source line is cut to a window around its first mark
 
 typedef struct mark {
-  int line, column, width;   // from 1, in cells
-  const char* text;          // beside or below the caret, or NULL
+  int line, column, width;  // from 1, in cells
+  const char* text;         // beside or below the caret, or NULL
 } mark;
 
 typedef struct printer {
@@ -42,7 +42,7 @@ static void colour_of_severity(const printer* pr) {
 
 static const char plain[] = "\033[0m", faint[] = "\033[2m", bold[] = "\033[1m";
 
-// ---------------------------------------------------------------------------------------------- marks
+// ------------------------------------------------------------------------------------------- marks
 // Cells of the span on its first line; at least one caret.
 static mark mark_of(pl_span s, const char* text) {
   pl_place at = pl_span_place(s);
@@ -58,8 +58,8 @@ static bool is_before(const mark* x, const mark* y) {
   return x->line != y->line ? x->line < y->line : x->column < y->column;
 }
 
-// The marks that lie in the source of the message, in order of line and column.  Marks elsewhere are returned by the
-// labels themselves (see print_foreign_labels).
+// The marks that lie in the source of the message, in order of line and column. Marks elsewhere are
+// returned by the labels themselves (see print_foreign_labels).
 static int collect_marks(mark* marks, const pl_diagnostic* m, pl_language lang) {
   int n = 0;
   marks[n++] = mark_of(m->span, in_language(m->reason, lang));
@@ -73,8 +73,9 @@ static int collect_marks(mark* marks, const pl_diagnostic* m, pl_language lang) 
   return n;
 }
 
-// ---------------------------------------------------------------------------------------------- lines
-// One source line, from the cell `from` on; what a terminal would obey (tabs, escapes) becomes a blank or a mark.
+// ------------------------------------------------------------------------------------------- lines
+// One source line, from the cell `from` on; what a terminal would obey (tabs, escapes) becomes a
+// blank or a mark.
 static void print_line_text(const printer* pr, const char* s, int from) {
   const char* end = s + strlen(s);
   int cell = 0;
@@ -144,7 +145,8 @@ static void print_marks(const printer* pr, const pl_diagnostic* m) {
   for (int pass = 0; pass < 2; pass++) {
     for (int i = 0, k; i < n; i = k) {
       for (k = i + 1; k < n && marks[k].line == marks[i].line; k++) {}
-      if ((marks[i].line == own) == (pass == 0)) print_marked_line(pr, m->span.source, marks + i, k - i);
+      if ((marks[i].line == own) == (pass == 0))
+        print_marked_line(pr, m->span.source, marks + i, k - i);
     }
   }
 }
@@ -178,7 +180,7 @@ static void print_fix(const printer* pr, const char* fix) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- heads
+// ------------------------------------------------------------------------------------------- heads
 static const char* sentence_of(const printer* pr, const pl_diagnostic* m) {
   const char* sentence = in_language(m->sentence, pr->style.lang);
   return sentence ? sentence : pl_code_title(m->code, pr->style.lang);

@@ -1,6 +1,6 @@
-// Diagnostics: what is wrong with a model.  Collected by the passes, put in order, and printed in the form of the
-// manual: sentence, the user's own line, a caret range with the reason beside it, one suggestion.  language.md,
-// "Messages".
+// Diagnostics: what is wrong with a model. Collected by the passes, put in order, and printed in
+// the form of the manual: sentence, the user's own line, a caret range with the reason beside it,
+// one suggestion. language.md, "Messages".
 #include "base/base.h"
 
 #include <string.h>
@@ -21,7 +21,9 @@ static bool known(pl_code c) { return (int)c >= 0 && c < PL_N_CODES; }
 
 const char* pl_code_name(pl_code c) { return known(c) ? names[c] : "?"; }
 
-const char* pl_code_title(pl_code c, pl_language lang) { return known(c) ? titles[c][lang == PL_GERMAN] : "?"; }
+const char* pl_code_title(pl_code c, pl_language lang) {
+  return known(c) ? titles[c][lang == PL_GERMAN] : "?";
+}
 
 pl_severity pl_code_severity(pl_code c) {
   char letter = pl_code_name(c)[0];
@@ -38,8 +40,9 @@ bool pl_code_find(const char* name, pl_code* out) {
   return false;
 }
 
-// ---------------------------------------------------------------------------------------------- collecting
-pl_diagnostic* pl_report(pl_diagnostics* d, pl_code code, pl_span span, const char* en, const char* de) {
+// -------------------------------------------------------------------------------------- collecting
+pl_diagnostic* pl_report(pl_diagnostics* d, pl_code code, pl_span span, const char* en,
+                         const char* de) {
   pl_push(d->arena, d->list, (pl_diagnostic){.code = code, .span = span, .sentence = {en, de}});
   if (pl_code_severity(code) == PL_ERROR) d->n_errors++;
   return &d->list.at[d->list.n - 1];
@@ -60,13 +63,14 @@ void pl_report_label(pl_diagnostics* d, pl_diagnostic* m, pl_span span, const ch
   pl_push(d->arena, m->labels, (pl_label){span, text});
 }
 
-// ---------------------------------------------------------------------------------------------- order
+// ------------------------------------------------------------------------------------------- order
 static const char* text_in(const char* const by_language[2], pl_language lang) {
   const char* s = by_language[lang == PL_GERMAN];
   return s ? s : by_language[PL_ENGLISH];
 }
 
-// By source (in the order of their names), place and code; what concerns the whole model comes last.
+// By source (in the order of their names), place and code; what concerns the whole model comes
+// last.
 static int compare_place(const pl_diagnostic* a, const pl_diagnostic* b) {
   const pl_source *s = a->span.source, *t = b->span.source;
   if (s == NULL || t == NULL) {
@@ -81,7 +85,8 @@ static int compare_place(const pl_diagnostic* a, const pl_diagnostic* b) {
 
 static bool same_message(const pl_diagnostic* a, const pl_diagnostic* b) {
   const char *s = text_in(a->sentence, PL_ENGLISH), *t = text_in(b->sentence, PL_ENGLISH);
-  return compare_place(a, b) == 0 && a->span.end == b->span.end && strcmp(s ? s : "", t ? t : "") == 0;
+  return compare_place(a, b) == 0 && a->span.end == b->span.end
+         && strcmp(s ? s : "", t ? t : "") == 0;
 }
 
 static bool said_before(const pl_diagnostics* d, int kept, const pl_diagnostic* m) {
@@ -92,7 +97,8 @@ static bool said_before(const pl_diagnostics* d, int kept, const pl_diagnostic* 
 }
 
 // Stable merge of two sorted neighbours.
-static void merge(pl_diagnostic* to, const pl_diagnostic* a, int n_a, const pl_diagnostic* b, int n_b) {
+static void merge(pl_diagnostic* to, const pl_diagnostic* a, int n_a, const pl_diagnostic* b,
+                  int n_b) {
   int i = 0, j = 0;
   while (i < n_a || j < n_b) {
     bool left = j == n_b || (i < n_a && compare_place(&a[i], &b[j]) <= 0);

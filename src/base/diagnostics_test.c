@@ -14,7 +14,9 @@ static pl_span span_of(const pl_source* s, const char* text) {
   return (pl_span){s, begin, begin + (uint32_t)strlen(text)};
 }
 
-static pl_source* source(pl_arena* a) { return pl_source_make(a, "atwood.pleuel", atwood, sizeof atwood - 1); }
+static pl_source* source(pl_arena* a) {
+  return pl_source_make(a, "atwood.pleuel", atwood, sizeof atwood - 1);
+}
 
 static const char* printed(pl_arena* a, const pl_diagnostic* m, pl_print_style style) {
   pl_text t = pl_text_make(a);
@@ -30,7 +32,7 @@ PL_TEST(places_count_lines_and_cells) {
   assert_int_equal(p.column, 16);
   p = pl_span_place(span_of(s, "at \t"));
   assert_int_equal(p.line, 4);
-  assert_int_equal(p.column, 9);   // two Greek letters are two cells
+  assert_int_equal(p.column, 9);  // two Greek letters are two cells
   p = pl_span_place((pl_span){s, 100000, 100001});
   assert_int_equal(p.line, 4);
   assert_string_equal(pl_source_line(a, s, 3), "init x1 = 1 [m]");
@@ -48,7 +50,8 @@ PL_TEST(spans_join) {
 PL_TEST(a_message_shows_sentence_line_carets_reason_and_fix) {
   pl_source* s = source(a);
   pl_diagnostics d = {.arena = a};
-  pl_diagnostic* m = pl_report(&d, PL_E021, span_of(s, "x1 + x2"), "a length cannot equal an acceleration",
+  pl_diagnostic* m = pl_report(&d, PL_E021, span_of(s, "x1 + x2"),
+                               "a length cannot equal an acceleration",
                                "eine Länge kann keiner Beschleunigung gleich sein");
   pl_report_reason(m, "m  (x1 from line 3)", NULL);
   pl_span g = span_of(s, "= g\n");
@@ -60,8 +63,9 @@ PL_TEST(a_message_shows_sentence_line_carets_reason_and_fix) {
                       "      |                ^^^^^^^   ^ m/s²  (line 1)\n"
                       "      |                m  (x1 from line 3)\n"
                       "      = did you mean l?\n");
-  assert_string_equal(printed(a, m, (pl_print_style){.lang = PL_GERMAN, .terse = true}),
-                      "atwood.pleuel:2:16: E021: eine Länge kann keiner Beschleunigung gleich sein\n");
+  assert_string_equal(
+      printed(a, m, (pl_print_style){.lang = PL_GERMAN, .terse = true}),
+      "atwood.pleuel:2:16: E021: eine Länge kann keiner Beschleunigung gleich sein\n");
 }
 
 PL_TEST(marks_on_another_line_bring_their_line) {
@@ -91,11 +95,13 @@ PL_TEST(what_a_terminal_would_obey_is_not_printed) {
   const char text[] = "bad \033[31m\ttab \x80 end";
   pl_source* s = pl_source_make(a, "x", text, sizeof text - 1);
   pl_diagnostics d = {.arena = a};
-  const char* shown = printed(a, pl_report(&d, PL_E001, span_of(s, "tab"), "s", NULL), (pl_print_style){0});
+  const char* shown = printed(a, pl_report(&d, PL_E001, span_of(s, "tab"), "s", NULL),
+                              (pl_print_style){0});
   assert_null(strchr(shown, '\033'));
   assert_null(strchr(shown, '\t'));
   assert_non_null(strstr(shown, "      |           ^^^\n"));
-  assert_non_null(strstr(printed(a, &d.list.at[0], (pl_print_style){.colour = true}), "\033[1;31m^^^\033[0m"));
+  assert_non_null(
+      strstr(printed(a, &d.list.at[0], (pl_print_style){.colour = true}), "\033[1;31m^^^\033[0m"));
 }
 
 PL_TEST(a_very_long_line_is_cut_to_a_window) {
@@ -104,9 +110,11 @@ PL_TEST(a_very_long_line_is_cut_to_a_window) {
   memcpy(text + 4000, "HERE", 4);
   pl_source* s = pl_source_make(a, "x", text, 5000);
   pl_diagnostics d = {.arena = a};
-  const char* shown = printed(a, pl_report(&d, PL_E001, span_of(s, "HERE"), "s", NULL), (pl_print_style){0});
+  const char* shown = printed(a, pl_report(&d, PL_E001, span_of(s, "HERE"), "s", NULL),
+                              (pl_print_style){0});
   assert_true(strlen(shown) < 500);
-  const char *here = strstr(shown, "HERE"), *line = strstr(shown, "    1 | "), *carets = strstr(shown, "^^^^");
+  const char *here = strstr(shown, "HERE"), *line = strstr(shown, "    1 | "),
+             *carets = strstr(shown, "^^^^");
   assert_non_null(here);
   const char* caret_line = strstr(shown, "      | ");
   assert_int_equal(here - line, carets - caret_line);

@@ -7,7 +7,7 @@
 static const char* const base_units[PL_N_BASE_UNITS] = {"m", "kg", "s", "A", "K", "mol", "cd"};
 static const int written_order[PL_N_BASE_UNITS] = {1, 0, 2, 3, 4, 5, 6};  // kg before m: "kg m/s"
 
-// ---------------------------------------------------------------------------------------------- arithmetic
+// -------------------------------------------------------------------------------------- arithmetic
 static int gcd_int(int a, int b) {
   while (b != 0) {
     int r = a % b;
@@ -21,9 +21,15 @@ static int gcd_int(int a, int b) {
 static int8_t clamp(int x) { return (int8_t)(x > 127 ? 127 : x < -127 ? -127 : x); }
 
 static void set_exponent(pl_dimension* d, int i, int num, int den) {
-  if (den < 0) num = -num, den = -den;
+  if (den < 0) {
+    num = -num;
+    den = -den;
+  }
   int g = gcd_int(num, den);
-  if (g > 1) num /= g, den /= g;
+  if (g > 1) {
+    num /= g;
+    den /= g;
+  }
   d->num[i] = clamp(num);
   d->den[i] = clamp(den);
 }
@@ -61,7 +67,10 @@ pl_dimension pl_dimension_pow(pl_dimension a, int num, int den) {
   pl_dimension d = pl_dimension_one();
   for (int i = 0; i < PL_N_BASE_UNITS; i++) {
     long n = (long)a.num[i] * num, m = (long)den_of(a, i) * den;
-    if (labs(n) > 1000000 || labs(m) > 1000000) n = n < 0 ? -127 : 127, m = 1;
+    if (labs(n) > 1000000 || labs(m) > 1000000) {
+      n = n < 0 ? -127 : 127;
+      m = 1;
+    }
     set_exponent(&d, i, (int)n, (int)m);
   }
   return d;
@@ -74,9 +83,9 @@ bool pl_dimension_equal(pl_dimension a, pl_dimension b) {
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- what they are called
-// Exponents of m kg s A, unit (UTF-8 and ASCII) where a name fits better than base units, words (NULL: "a quantity
-// in").
+// ---------------------------------------------------------------------------- what they are called
+// Exponents of m kg s A, unit (UTF-8 and ASCII) where a name fits better than base units, words
+// (NULL: "a quantity in").
 typedef struct named {
   int8_t m, kg, s, A;
   const char *unit, *ascii;
@@ -140,7 +149,8 @@ static void add_exponent(pl_text* t, int num, int den, bool ascii) {
   }
 }
 
-// The base units with positive (sign 1) or negative (sign -1) exponents, separated by blanks.  Returns how many.
+// The base units with positive (sign 1) or negative (sign -1) exponents, separated by blanks.
+// Returns how many.
 static int add_units(pl_text* t, pl_dimension d, int sign, bool ascii) {
   int n = 0;
   for (int k = 0; k < PL_N_BASE_UNITS; k++) {

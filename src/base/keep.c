@@ -1,5 +1,6 @@
-// States on their way to bytes and back.  Numbers stand as the machine has them, eight bytes each, flags one byte; what
-// surrounds them (whose state, which machine, a checksum) is the business of the caller.
+// States on their way to bytes and back. Numbers stand as the machine has them, eight bytes each,
+// flags one byte; what surrounds them (whose state, which machine, a checksum) is the business of
+// the caller.
 #include <string.h>
 
 #include "base/base.h"
@@ -16,7 +17,7 @@ void pl_keep_fail(pl_keeper* k) {
 
 bool pl_keep_is_whole(const pl_keeper* k) { return k->wrong == NULL && k->next == k->size; }
 
-// ---------------------------------------------------------------------------------------------- bytes
+// ------------------------------------------------------------------------------------------- bytes
 static void write_bytes(pl_keeper* k, const void* x, size_t n) {
   if (n > k->size - k->next) {
     size_t size = k->size < 4096 ? 4096 : k->size;
@@ -42,7 +43,7 @@ void pl_keep_bytes(pl_keeper* k, void* x, size_t n) {
   k->next += n;
 }
 
-// ---------------------------------------------------------------------------------------------- numbers
+// ----------------------------------------------------------------------------------------- numbers
 void pl_keep_f64(pl_keeper* k, double* x) { pl_keep_bytes(k, x, sizeof *x); }
 
 void pl_keep_f64s(pl_keeper* k, double* x, size_t n) {
@@ -79,11 +80,13 @@ void pl_keep_bools(pl_keeper* k, bool* x, size_t n) {
 
 void pl_keep_count(pl_keeper* k, int* n, size_t bytes_each) {
   pl_keep_int(k, n, 0, INT32_MAX);
-  if (k->reads && k->wrong == NULL && bytes_each > 0 && (size_t)*n > (k->size - k->next) / bytes_each) pl_keep_fail(k);
+  if (k->reads && k->wrong == NULL && bytes_each > 0
+      && (size_t)*n > (k->size - k->next) / bytes_each)
+    pl_keep_fail(k);
   if (k->wrong) *n = 0;
 }
 
-// ---------------------------------------------------------------------------------------------- texts
+// ------------------------------------------------------------------------------------------- texts
 void pl_keep_text(pl_keeper* k, const char** text) {
   int n = 0;
   if (!k->reads) n = *text ? (int)strlen(*text) + 1 : 0;

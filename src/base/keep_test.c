@@ -1,4 +1,5 @@
-// A state that is written down reads back as it was; one that does not fit is seen, whatever it holds.
+// A state that is written down reads back as it was; one that does not fit is seen, whatever it
+// holds.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <string.h>
@@ -28,7 +29,8 @@ static void visit(pl_keeper* k, state* s) {
   pl_keep_text(k, &s->none);
 }
 
-static const state example = {0.1, {1, 2, 3, -0.0, 1e300}, -1, 77, true, {true, false, true}, "ϑ = 90°", NULL};
+static const state example = {0.1,  {1, 2, 3, -0.0, 1e300}, -1,        77,
+                              true, {true, false, true},    "ϑ = 90°", NULL};
 
 static void a_state_reads_back_as_it_was(void** unused) {
   (void)unused;
@@ -40,7 +42,8 @@ static void a_state_reads_back_as_it_was(void** unused) {
   visit(&in, &back);
   assert_true(pl_keep_is_whole(&in));
   assert_memory_equal(back.list, s.list, sizeof s.list);
-  assert_true(back.x == s.x && back.way == -1 && back.steps == 77 && back.on && !back.flags[1] && back.flags[2]);
+  assert_true(back.x == s.x && back.way == -1 && back.steps == 77 && back.on && !back.flags[1]
+              && back.flags[2]);
   assert_string_equal(back.name, s.name);
   assert_null(back.none);
   pl_arena_free(a);
@@ -76,7 +79,8 @@ static void no_bytes_are_trusted(void** unused) {
     state s = example, back = {0};
     pl_keeper out = pl_keeper_to_write(a);
     visit(&out, &s);
-    for (int i = 0; i < 4; i++) out.at[pl_random_bits(&r) % out.next] = (unsigned char)pl_random_bits(&r);
+    for (int i = 0; i < 4; i++)
+      out.at[pl_random_bits(&r) % out.next] = (unsigned char)pl_random_bits(&r);
     pl_keeper in = pl_keeper_to_read(a, out.at, out.next);
     visit(&in, &back);
     assert_true(back.way >= -1 && back.way <= 1 && back.steps >= 0 && back.steps <= 1000);

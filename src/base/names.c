@@ -1,10 +1,11 @@
-// Names and maps: interned strings (equal text, equal pointer), and a map from 64-bit keys to 64-bit values.
-// Both are open-addressing tables with linear probing; order of insertion never depends on addresses.
+// Names and maps: interned strings (equal text, equal pointer), and a map from 64-bit keys to
+// 64-bit values. Both are open-addressing tables with linear probing; order of insertion never
+// depends on addresses.
 #include "base/base.h"
 
 #include <string.h>
 
-// ---------------------------------------------------------------------------------------------- hashing
+// ----------------------------------------------------------------------------------------- hashing
 // Finaliser of splitmix64 [Steele, Lea, Flood 2014].
 static uint64_t scramble(uint64_t x) {
   x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9ull;
@@ -12,7 +13,9 @@ static uint64_t scramble(uint64_t x) {
   return x ^ x >> 31;
 }
 
-uint64_t pl_hash_mix(uint64_t h, uint64_t x) { return scramble(h * 0x9e3779b97f4a7c15ull + x + 0x632be59bd9b4e019ull); }
+uint64_t pl_hash_mix(uint64_t h, uint64_t x) {
+  return scramble(h * 0x9e3779b97f4a7c15ull + x + 0x632be59bd9b4e019ull);
+}
 
 uint64_t pl_hash_bytes(const void* p, size_t n, uint64_t seed) {
   const unsigned char* at = p;
@@ -20,7 +23,8 @@ uint64_t pl_hash_bytes(const void* p, size_t n, uint64_t seed) {
   while (n > 0) {
     size_t step = n < 8 ? n : 8;
     uint64_t word = 0;
-    for (size_t i = 0; i < step; i++) word |= (uint64_t)at[i] << (8 * i);  // the same on every machine
+    // the same on every machine
+    for (size_t i = 0; i < step; i++) word |= (uint64_t)at[i] << (8 * i);
     h = pl_hash_mix(h, word);
     at += step;
     n -= step;
@@ -28,7 +32,7 @@ uint64_t pl_hash_bytes(const void* p, size_t n, uint64_t seed) {
   return h;
 }
 
-// ---------------------------------------------------------------------------------------------- names
+// ------------------------------------------------------------------------------------------- names
 typedef struct name {
   const char* text;
   size_t size;
@@ -37,8 +41,8 @@ typedef struct name {
 
 struct pl_names {
   pl_arena* arena;
-  name* table;       // (cap), text NULL when empty
-  size_t n, cap;     // cap is a power of two
+  name* table;    // (cap), text NULL when empty
+  size_t n, cap;  // cap is a power of two
 };
 
 pl_names* pl_names_make(pl_arena* a) {
@@ -85,7 +89,7 @@ const char* pl_intern_n(pl_names* names, const char* s, size_t n) {
   return text;
 }
 
-// ---------------------------------------------------------------------------------------------- map
+// --------------------------------------------------------------------------------------------- map
 typedef struct entry {
   uint64_t key, value;
   bool used;
@@ -93,9 +97,9 @@ typedef struct entry {
 
 struct pl_map {
   pl_arena* arena;
-  entry* table;       // (cap)
-  size_t n, cap;      // keys ever set; cap is a power of two
-  int present;        // keys whose value is not 0
+  entry* table;   // (cap)
+  size_t n, cap;  // keys ever set; cap is a power of two
+  int present;    // keys whose value is not 0
 };
 
 pl_map* pl_map_make(pl_arena* a) {
@@ -112,7 +116,9 @@ static entry* map_slot(entry* table, size_t cap, uint64_t key) {
   return &table[i];
 }
 
-uint64_t pl_map_get(const pl_map* m, uint64_t key) { return map_slot(m->table, m->cap, key)->value; }
+uint64_t pl_map_get(const pl_map* m, uint64_t key) {
+  return map_slot(m->table, m->cap, key)->value;
+}
 
 static void map_widen(pl_map* m) {
   size_t cap = m->cap * 2;

@@ -1,5 +1,5 @@
-// Random numbers for laws and sample points: splitmix64 [Steele, Lea, Flood 2014].  The same seed gives the same
-// numbers everywhere.
+// Random numbers for laws and sample points: splitmix64 [Steele, Lea, Flood 2014]. The same seed
+// gives the same numbers everywhere.
 #include "base/base.h"
 
 uint64_t pl_random_bits(pl_random* r) {
@@ -11,4 +11,6 @@ uint64_t pl_random_bits(pl_random* r) {
 
 double pl_random_unit(pl_random* r) { return (double)(pl_random_bits(r) >> 11) * 0x1p-53; }
 
-double pl_random_between(pl_random* r, double lo, double hi) { return lo + (hi - lo) * pl_random_unit(r); }
+double pl_random_between(pl_random* r, double lo, double hi) {
+  return lo + (hi - lo) * pl_random_unit(r);
+}

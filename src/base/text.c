@@ -30,7 +30,7 @@ char* pl_vformat(pl_arena* a, const char* fmt, va_list ap) {
   return s;
 }
 
-// ---------------------------------------------------------------------------------------------- under construction
+// ------------------------------------------------------------------------------ under construction
 pl_text pl_text_make(pl_arena* a) { return (pl_text){.arena = a}; }
 
 // Room for n more bytes and the final NUL.

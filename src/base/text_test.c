@@ -28,7 +28,7 @@ PL_TEST(every_code_point_survives_utf8) {
 
 PL_TEST(malformed_utf8_is_refused) {
   const char* bad[] = {"\x80", "\xc0\x80", "\xe0\x80\x80", "\xed\xa0\x80", "\xf4\x90\x80\x80",
-                       "\xff", "\xc3(", "\xf0\x9f\x98"};
+                       "\xff", "\xc3(",    "\xf0\x9f\x98"};
   for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
     uint32_t c;
     assert_int_equal(pl_utf8_decode(bad[i], bad[i] + strlen(bad[i]), &c), 0);
@@ -38,8 +38,8 @@ PL_TEST(malformed_utf8_is_refused) {
 PL_TEST(width_counts_cells) {
   assert_int_equal(pl_utf8_width("m1"), 2);
   assert_int_equal(pl_utf8_width("ϑ² ≥ λ"), 6);
-  assert_int_equal(pl_utf8_width("x\xcc\x87"), 1);         // x with a combining dot
-  assert_int_equal(pl_utf8_width("\xe6\xbc\xa2"), 2);      // a wide character
+  assert_int_equal(pl_utf8_width("x\xcc\x87"), 1);     // x with a combining dot
+  assert_int_equal(pl_utf8_width("\xe6\xbc\xa2"), 2);  // a wide character
   assert_int_equal(pl_utf8_width("a\x80z"), 3);
 }
 
@@ -94,7 +94,7 @@ PL_TEST(random_numbers_repeat_with_their_seed) {
   }
   assert_true(sum > 9000 && sum < 11000);
   pl_random first = {0};
-  assert_true(pl_random_bits(&first) == 0xe220a8397b1dcdafull);   // reference value of splitmix64
+  assert_true(pl_random_bits(&first) == 0xe220a8397b1dcdafull);  // reference value of splitmix64
 }
 
 int main(void) {

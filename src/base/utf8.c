@@ -28,7 +28,9 @@ int pl_utf8_decode(const char* s, const char* end, uint32_t* code_point) {
     c = c << 6 | (b & 0x3f);
   }
   // overlong forms, surrogates and what lies beyond Unicode are malformed
-  if ((n == 3 && c < 0x800) || (n == 4 && c < 0x10000) || c > 0x10ffff || (c >= 0xd800 && c <= 0xdfff)) return 0;
+  if ((n == 3 && c < 0x800) || (n == 4 && c < 0x10000) || c > 0x10ffff
+      || (c >= 0xd800 && c <= 0xdfff))
+    return 0;
   *code_point = c;
   return n;
 }
@@ -56,19 +58,20 @@ int pl_utf8_encode(char out[4], uint32_t c) {
   return 4;
 }
 
-// ---------------------------------------------------------------------------------------------- width
+// ------------------------------------------------------------------------------------------- width
 typedef struct range {
   uint32_t first, last;
 } range;
 
 // Marks that sit on the letter before them, and characters of no width.
-static const range zero_width[] = {{0x0300, 0x036f}, {0x0483, 0x0489}, {0x1ab0, 0x1aff}, {0x1dc0, 0x1dff},
-                                   {0x200b, 0x200f}, {0x20d0, 0x20ff}, {0xfe00, 0xfe0f}, {0xfe20, 0xfe2f},
-                                   {0xfeff, 0xfeff}};
+static const range zero_width[] = {{0x0300, 0x036f}, {0x0483, 0x0489}, {0x1ab0, 0x1aff},
+                                   {0x1dc0, 0x1dff}, {0x200b, 0x200f}, {0x20d0, 0x20ff},
+                                   {0xfe00, 0xfe0f}, {0xfe20, 0xfe2f}, {0xfeff, 0xfeff}};
 // East Asian wide and full-width characters, emoji.
-static const range double_width[] = {{0x1100, 0x115f}, {0x2e80, 0x303e}, {0x3041, 0xa4cf}, {0xac00, 0xd7a3},
-                                     {0xf900, 0xfaff}, {0xfe30, 0xfe6f}, {0xff00, 0xff60}, {0xffe0, 0xffe6},
-                                     {0x1f300, 0x1f64f}, {0x1f900, 0x1f9ff}, {0x20000, 0x3fffd}};
+static const range double_width[] = {{0x1100, 0x115f},   {0x2e80, 0x303e},  {0x3041, 0xa4cf},
+                                     {0xac00, 0xd7a3},   {0xf900, 0xfaff},  {0xfe30, 0xfe6f},
+                                     {0xff00, 0xff60},   {0xffe0, 0xffe6},  {0x1f300, 0x1f64f},
+                                     {0x1f900, 0x1f9ff}, {0x20000, 0x3fffd}};
 
 static bool in_ranges(uint32_t c, const range* r, size_t n) {
   for (size_t i = 0; i < n; i++) {
@@ -98,7 +101,7 @@ int pl_utf8_width_n(const char* s, size_t n) {
   return width;
 }
 
-// ---------------------------------------------------------------------------------------------- edit distance
+// ----------------------------------------------------------------------------------- edit distance
 enum { MAX_LETTERS = 64 };  // longer names are not misspelt names
 
 static int letters_of(const char* s, uint32_t out[MAX_LETTERS]) {
@@ -116,7 +119,8 @@ static int letters_of(const char* s, uint32_t out[MAX_LETTERS]) {
 
 static int min_int(int a, int b) { return a < b ? a : b; }
 
-// Optimal string alignment: insertion, deletion, replacement, and exchange of neighbours cost 1 each.
+// Optimal string alignment: insertion, deletion, replacement, and exchange of neighbours cost 1
+// each.
 int pl_edit_distance(const char* a, const char* b, int cap) {
   uint32_t x[MAX_LETTERS], y[MAX_LETTERS];
   int n = letters_of(a, x), m = letters_of(b, y);
@@ -129,11 +133,14 @@ int pl_edit_distance(const char* a, const char* b, int cap) {
     now[0] = i;
     for (int j = 1; j <= m; j++) {
       int d = min_int(min_int(last[j] + 1, now[j - 1] + 1), last[j - 1] + (x[i - 1] != y[j - 1]));
-      if (i > 1 && j > 1 && x[i - 1] == y[j - 2] && x[i - 2] == y[j - 1]) d = min_int(d, before[j - 2] + 1);
+      if (i > 1 && j > 1 && x[i - 1] == y[j - 2] && x[i - 2] == y[j - 1])
+        d = min_int(d, before[j - 2] + 1);
       now[j] = d;
     }
     int* free_row = before;
-    before = last, last = now, now = free_row;
+    before = last;
+    last = now;
+    now = free_row;
   }
   return last[m] <= cap ? last[m] : cap + 1;
 }

@@ -1,8 +1,10 @@
-// Taylor coefficients in balls through a tape: the recurrences of jet/interpret.c, whose proof is that of power series
-// (each is an identity between the coefficients of analytic functions), so that in ball arithmetic coefficient k of each
-// node contains that of every motion that begins in the balls of order 0.
+// Taylor coefficients in balls through a tape: the recurrences of jet/interpret.c, whose proof is
+// that of power series (each is an identity between the coefficients of analytic functions), so
+// that in ball arithmetic coefficient k of each node contains that of every motion that begins in
+// the balls of order 0.
 //
-// Recurrences with weights (k c_k = sum j a_j w_{k-j}) read the weighted series j x_j, kept beside the nodes that need it.
+// Recurrences with weights (k c_k = sum j a_j w_{k-j}) read the weighted series j x_j, kept beside
+// the nodes that need it.
 #include "certify/certify_impl.h"
 
 typedef struct place {
@@ -10,15 +12,17 @@ typedef struct place {
   int i, k;
   slong prec;
   const pl_tape_node* node;
-  arb_ptr c, a, b, w;       // series of the node, of its operands
-  arb_ptr weighted;         // j a_j or j c_j
+  arb_ptr c, a, b, w;  // series of the node, of its operands
+  arb_ptr weighted;    // j a_j or j c_j
 } place;
 
-static arb_ptr series_of(const pl_ball_jet* j, int node) { return node < 0 ? NULL : j->coef + (slong)node * j->cap; }
+static arb_ptr series_of(const pl_ball_jet* j, int node) {
+  return node < 0 ? NULL : j->coef + (slong)node * j->cap;
+}
 
 // out = start - sum or + sum of x_from y_{k - from} for from .. to.
-static void convolve(arb_t out, arb_srcptr start, bool subtract, arb_srcptr x, arb_srcptr y, int from, int to, int k,
-                     slong prec) {
+static void convolve(arb_t out, arb_srcptr start, bool subtract, arb_srcptr x, arb_srcptr y,
+                     int from, int to, int k, slong prec) {
   arb_dot(out, start, subtract, x + from, 1, y + (k - from), -1, to - from + 1, prec);
 }
 
@@ -54,7 +58,10 @@ static void inverse_flow(place* p, arb_srcptr x, int sign) {
   convolve(c, NULL, 0, p->weighted, x, 1, p->k - 1, p->k, p->prec);
   arb_div_si(c, c, p->k, p->prec);
   if (sign > 0) arb_sub(c, p->a + p->k, c, p->prec);
-  else arb_add(c, p->a + p->k, c, p->prec), arb_neg(c, c);
+  else {
+    arb_add(c, p->a + p->k, c, p->prec);
+    arb_neg(c, c);
+  }
   arb_div(c, c, x, p->prec);
   arb_mul_si(p->weighted + p->k, c, p->k, p->prec);
 }
@@ -154,7 +161,7 @@ static void coefficient(place* p) {
     case PL_OP_MIN:
     case PL_OP_MAX:
     case PL_OP_IF: branch(p); break;
-    default: break;   // inputs are there
+    default: break;  // inputs are there
   }
 }
 
@@ -164,12 +171,21 @@ static void value(place* p) {
 }
 
 void pl_jet_coefficients(pl_ball_jet* j, pl_level level, int k, slong prec, uint8_t wanted) {
-  int from = level == PL_LEVEL_CONST ? 0 : j->tape->level_end[level - 1], to = j->tape->level_end[level];
+  int from = level == PL_LEVEL_CONST ? 0 : j->tape->level_end[level - 1],
+      to = j->tape->level_end[level];
   for (int i = from; i < to; i++) {
     if (!(j->wanted[i] & wanted)) continue;
     const pl_tape_node* node = &j->tape->nodes[i];
     arb_ptr weighted = j->aux_at[i] >= 0 ? j->aux + (slong)j->aux_at[i] * j->cap : NULL;
-    place p = {j, i, k, prec, node, series_of(j, i), series_of(j, node->a), series_of(j, node->b), series_of(j, node->c),
+    place p = {j,
+               i,
+               k,
+               prec,
+               node,
+               series_of(j, i),
+               series_of(j, node->a),
+               series_of(j, node->b),
+               series_of(j, node->c),
                weighted};
     if (k == 0) value(&p);
     else coefficient(&p);

@@ -1,20 +1,26 @@
-// Values in balls: one operation, and the exact expressions that stand behind numbers, parameters and start values.
+// Values in balls: one operation, and the exact expressions that stand behind numbers, parameters
+// and start values.
 //
-// Arb's functions include the image of every point of their arguments; outside a domain they give a ball that is not
-// finite, which spreads.  A condition that the ball does not decide gives such a ball too.
+// Arb's functions include the image of every point of their arguments; outside a domain they give a
+// ball that is not finite, which spreads. A condition that the ball does not decide gives such a
+// ball too.
 #include "certify/certify_impl.h"
 
-enum { MAX_DEPTH = 400 };   // names that are given by names
+enum { MAX_DEPTH = 400 };  // names that are given by names
 
-// ---------------------------------------------------------------------------------------------- operations
+// -------------------------------------------------------------------------------------- operations
 static void choose(arb_t out, arb_srcptr a, bool is_a, arb_srcptr b, bool is_b) {
   if (is_a) arb_set(out, a);
   else if (is_b) arb_set(out, b);
   else arb_indeterminate(out);
 }
 
-static void minimum(arb_t out, arb_srcptr a, arb_srcptr b) { choose(out, a, arb_le(a, b), b, arb_lt(b, a)); }
-static void maximum(arb_t out, arb_srcptr a, arb_srcptr b) { choose(out, a, arb_ge(a, b), b, arb_gt(b, a)); }
+static void minimum(arb_t out, arb_srcptr a, arb_srcptr b) {
+  choose(out, a, arb_le(a, b), b, arb_lt(b, a));
+}
+static void maximum(arb_t out, arb_srcptr a, arb_srcptr b) {
+  choose(out, a, arb_ge(a, b), b, arb_gt(b, a));
+}
 
 static void absolute(arb_t out, arb_srcptr a) {
   if (arb_is_nonnegative(a)) arb_set(out, a);
@@ -62,14 +68,16 @@ void pl_ball_op(arb_t out, pl_op op, arb_srcptr a, arb_srcptr b, arb_srcptr c, s
 
 double pl_ball_double(arb_srcptr x) { return arf_get_d(arb_midref(x), ARF_RND_NEAR); }
 
-// ---------------------------------------------------------------------------------------------- exact expressions
+// ------------------------------------------------------------------------------- exact expressions
 static bool evaluate(pl_exact* x, arb_t out, pl_expr e);
 
 static const pl_op op_of_function[PL_N_FUNCTIONS] = {
-    [PL_SIN] = PL_OP_SIN,   [PL_COS] = PL_OP_COS,   [PL_TAN] = PL_OP_TAN,     [PL_ASIN] = PL_OP_ASIN,
-    [PL_ACOS] = PL_OP_ACOS, [PL_ATAN] = PL_OP_ATAN, [PL_ATAN2] = PL_OP_ATAN2, [PL_SINH] = PL_OP_SINH,
-    [PL_COSH] = PL_OP_COSH, [PL_TANH] = PL_OP_TANH, [PL_EXP] = PL_OP_EXP,     [PL_LN] = PL_OP_LN,
-    [PL_ABS] = PL_OP_ABS,   [PL_SIGN] = PL_OP_SIGN, [PL_MIN] = PL_OP_MIN,     [PL_MAX] = PL_OP_MAX};
+    [PL_SIN] = PL_OP_SIN,     [PL_COS] = PL_OP_COS,   [PL_TAN] = PL_OP_TAN,
+    [PL_ASIN] = PL_OP_ASIN,   [PL_ACOS] = PL_OP_ACOS, [PL_ATAN] = PL_OP_ATAN,
+    [PL_ATAN2] = PL_OP_ATAN2, [PL_SINH] = PL_OP_SINH, [PL_COSH] = PL_OP_COSH,
+    [PL_TANH] = PL_OP_TANH,   [PL_EXP] = PL_OP_EXP,   [PL_LN] = PL_OP_LN,
+    [PL_ABS] = PL_OP_ABS,     [PL_SIGN] = PL_OP_SIGN, [PL_MIN] = PL_OP_MIN,
+    [PL_MAX] = PL_OP_MAX};
 
 static bool number(pl_exact* x, arb_t out, pl_expr e) {
   fmpq_t q;
@@ -200,4 +208,6 @@ void pl_exact_free(pl_exact* x) {
   x->balls.n = 0;
 }
 
-bool pl_exact_ball(pl_exact* x, arb_t out, pl_expr e) { return evaluate(x, out, e) && arb_is_finite(out); }
+bool pl_exact_ball(pl_exact* x, arb_t out, pl_expr e) {
+  return evaluate(x, out, e) && arb_is_finite(out);
+}

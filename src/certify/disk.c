@@ -1,7 +1,8 @@
 // Disks in the complex plane with real centres, and what the operations of a tape do to them.
 //
-// A disk {z: |z - x| <= r for some x of the ball c}.  For f analytic on the disk around x with the bound
-// |f(x + z) - f(x)| <= F(|z|), F increasing, the image lies in the disk around f(x) of radius F(r).  The bounds:
+// A disk {z: |z - x| <= r for some x of the ball c}. For f analytic on the disk around x with the
+// bound |f(x + z) - f(x)| <= F(|z|), F increasing, the image lies in the disk around f(x) of radius
+// F(r). The bounds:
 //
 //   product     |a||z_b| + |b||z_a| + |z_a||z_b|
 //   quotient    a/b + z: z = (z_a - (a/b) z_b)/(b + z_b), so |z| <= (r_a + |a/b| r_b)/(|b| - r_b)
@@ -9,13 +10,14 @@
 //   a^p         |(1+w)^p - 1| <= exp(|p| |ln(1+w)|) - 1 <= (1 - |w|)^-|p| - 1, w = z/a
 //   exp, ln     e^a (e^r - 1); -ln(1 - r/a)
 //   sin, cos    |f(a)| (cosh r - 1) + |f'(a)| sinh r, from the addition theorem; sinh and cosh likewise
-//   asin, atan  the integral of the derivative along the segment, the derivative bounded on the disk
+//   asin, atan the integral of the derivative along the segment, the derivative bounded on the disk
 //
-// abs, sign, min, max and if are analytic where their condition is decided on the whole disk; then they are one of
-// their branches.  The centre is a ball because the numbers that a motion begins with are balls.
+// abs, sign, min, max and if are analytic where their condition is decided on the whole disk; then
+// they are one of their branches. The centre is a ball because the numbers that a motion begins
+// with are balls.
 #include "certify/certify_impl.h"
 
-// ---------------------------------------------------------------------------------------------- memory, bounds
+// ---------------------------------------------------------------------------------- memory, bounds
 pl_disk* pl_disks_make(slong n) {
   pl_disk* d = flint_malloc(sizeof(pl_disk) * (size_t)(n > 0 ? n : 1));
   for (slong i = 0; i < n; i++) {
@@ -66,7 +68,7 @@ static void set(pl_disk* z, const pl_disk* x) {
   mag_set(&z->r, &x->r);
 }
 
-// ---------------------------------------------------------------------------------------------- arithmetic
+// -------------------------------------------------------------------------------------- arithmetic
 void pl_disk_add(pl_disk* z, const pl_disk* x, const pl_disk* y) {
   arb_add(&z->c, &x->c, &y->c, PL_DISK_BITS);
   mag_add(&z->r, &x->r, &y->r);
@@ -119,7 +121,7 @@ static bool divide(pl_disk* z, const pl_disk* x, const pl_disk* y) {
   return ok;
 }
 
-// ---------------------------------------------------------------------------------------------- functions
+// --------------------------------------------------------------------------------------- functions
 static bool square_root(pl_disk* z, const pl_disk* x) {
   if (!right_of_zero(x)) return false;
   mag_t far, near;
@@ -286,7 +288,8 @@ static bool arc_tangent(pl_disk* z, const pl_disk* x) {
   return ok;
 }
 
-// d atan2(y, x) = (x dy - y dx)/(x² + y²), bounded along the segment.  The cut y = 0, x < 0 must not be met.
+// d atan2(y, x) = (x dy - y dx)/(x² + y²), bounded along the segment. The cut y = 0, x < 0 must not
+// be met.
 static bool angle_of(pl_disk* z, const pl_disk* y, const pl_disk* x) {
   if (!right_of_zero(x) && !right_of_zero(y) && !left_of_zero(y)) return false;
   pl_disk* d = pl_disks_make(2);
@@ -315,7 +318,7 @@ static bool angle_of(pl_disk* z, const pl_disk* y, const pl_disk* x) {
   return ok;
 }
 
-// ---------------------------------------------------------------------------------------------- branches
+// ---------------------------------------------------------------------------------------- branches
 // 1 or -1 when every point of x lies on that side of zero, 2 when x is the number 0, else 0.
 static int side(const pl_disk* x) {
   if (right_of_zero(x)) return 1;
@@ -349,7 +352,7 @@ static bool branch(pl_disk* z, pl_op op, const pl_disk* a, const pl_disk* b, con
   }
 }
 
-// ---------------------------------------------------------------------------------------------- one operation
+// ----------------------------------------------------------------------------------- one operation
 static bool apply(pl_disk* d, pl_op op, const pl_disk* a, const pl_disk* b, const pl_disk* c) {
   switch (op) {
     case PL_OP_ADD: pl_disk_add(d, a, b); return true;
@@ -390,10 +393,10 @@ bool pl_disk_op(pl_disk* d, pl_op op, const pl_disk* a, const pl_disk* b, const 
   return apply(d, op, a, b, c) && arb_is_finite(&d->c) && !mag_is_inf(&d->r);
 }
 
-// ---------------------------------------------------------------------------------------------- derivatives
+// ------------------------------------------------------------------------------------- derivatives
 // out = (x u + sign y v)/w; y NULL: without the second product, w NULL: without the quotient.
-static bool combine(pl_disk* out, const pl_disk* x, const pl_disk* u, int sign, const pl_disk* y, const pl_disk* v,
-                    const pl_disk* w) {
+static bool combine(pl_disk* out, const pl_disk* x, const pl_disk* u, int sign, const pl_disk* y,
+                    const pl_disk* v, const pl_disk* w) {
   pl_disk* d = pl_disks_make(2);
   pl_disk_mul(&d[0], x, u);
   if (y) {
@@ -416,7 +419,8 @@ static void tangent_slope(pl_disk* dw, const pl_disk* p, const pl_disk* da, int 
   pl_disks_free(d, 1);
 }
 
-static bool quotient_slope(pl_disk* dw, const pl_disk* w, const pl_disk* b, const pl_disk* da, const pl_disk* db) {
+static bool quotient_slope(pl_disk* dw, const pl_disk* w, const pl_disk* b, const pl_disk* da,
+                           const pl_disk* db) {
   pl_disk* d = pl_disks_make(1);
   pl_disk_mul(d, w, db);
   pl_disk_sub(d, da, d);
@@ -427,12 +431,15 @@ static bool quotient_slope(pl_disk* dw, const pl_disk* w, const pl_disk* b, cons
 
 static void negate(pl_disk* d) { arb_neg(&d->c, &d->c); }
 
-static bool slope(pl_disk* dw, pl_op op, const pl_disk* w, const pl_disk* a, const pl_disk* b, const pl_disk* p,
-                  const pl_disk* da, const pl_disk* db, const pl_disk* dp) {
+static bool slope(pl_disk* dw, pl_op op, const pl_disk* w, const pl_disk* a, const pl_disk* b,
+                  const pl_disk* p, const pl_disk* da, const pl_disk* db, const pl_disk* dp) {
   switch (op) {
     case PL_OP_ADD: pl_disk_add(dw, da, db); return true;
     case PL_OP_SUB: pl_disk_sub(dw, da, db); return true;
-    case PL_OP_NEG: set(dw, da); negate(dw); return true;
+    case PL_OP_NEG:
+      set(dw, da);
+      negate(dw);
+      return true;
     case PL_OP_SCALE:
     case PL_OP_MUL: return combine(dw, a, db, 1, b, da, NULL);
     case PL_OP_SQR: return combine(dw, a, da, 1, a, da, NULL);
@@ -443,13 +450,17 @@ static bool slope(pl_disk* dw, pl_op op, const pl_disk* w, const pl_disk* a, con
       arb_mul_2exp_si(&dw->c, &dw->c, -1);
       mag_mul_2exp_si(&dw->r, &dw->r, -1);
       return true;
-    case PL_OP_POW: return combine(dw, w, da, 1, NULL, NULL, a) && combine(dw, dw, b, 1, NULL, NULL, NULL);
+    case PL_OP_POW:
+      return combine(dw, w, da, 1, NULL, NULL, a) && combine(dw, dw, b, 1, NULL, NULL, NULL);
     case PL_OP_EXP: pl_disk_mul(dw, w, da); return true;
     case PL_OP_LN: return divide(dw, da, a);
     case PL_OP_SIN:
     case PL_OP_SINH:
     case PL_OP_COSH: pl_disk_mul(dw, p, da); return true;
-    case PL_OP_COS: pl_disk_mul(dw, p, da); negate(dw); return true;
+    case PL_OP_COS:
+      pl_disk_mul(dw, p, da);
+      negate(dw);
+      return true;
     case PL_OP_TAN: tangent_slope(dw, p, da, 1); return true;
     case PL_OP_TANH: tangent_slope(dw, p, da, -1); return true;
     case PL_OP_ASIN:
@@ -463,7 +474,10 @@ static bool slope(pl_disk* dw, pl_op op, const pl_disk* w, const pl_disk* a, con
       set(dw, da);
       if (arb_is_negative(&a->c)) negate(dw);
       return true;
-    case PL_OP_SIGN: arb_zero(&dw->c); mag_zero(&dw->r); return true;
+    case PL_OP_SIGN:
+      arb_zero(&dw->c);
+      mag_zero(&dw->r);
+      return true;
     case PL_OP_MIN: set(dw, order(a, b) == 1 ? db : da); return true;
     case PL_OP_MAX: set(dw, order(a, b) == -1 ? db : da); return true;
     case PL_OP_IF: set(dw, side(a) == 1 ? db : dp); return true;
@@ -471,7 +485,7 @@ static bool slope(pl_disk* dw, pl_op op, const pl_disk* w, const pl_disk* a, con
   }
 }
 
-void pl_disk_derivative(pl_disk* dw, pl_op op, const pl_disk* w, const pl_disk* a, const pl_disk* b, const pl_disk* p,
-                        const pl_disk* da, const pl_disk* db, const pl_disk* dp) {
+void pl_disk_derivative(pl_disk* dw, pl_op op, const pl_disk* w, const pl_disk* a, const pl_disk* b,
+                        const pl_disk* p, const pl_disk* da, const pl_disk* db, const pl_disk* dp) {
   if (!slope(dw, op, w, a, b, p, da, db, dp)) mag_inf(&dw->r);
 }

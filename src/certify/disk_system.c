@@ -1,13 +1,14 @@
 // Accelerations and multipliers at all points of disks of t, q, v.
 //
-// The matrix A = [M  -(G^T + W); G  0] and the right side b = (-h; -(dG/dt v + d²g/dt²)) are disks, the derivative along
-// the motion taken with q' = v, t' = 1.  With C near the inverse of A's centre and x near the solution there, e = A^-1 b - x
-// satisfies (I - F) e = C (b - A x), F = I - C A.  Let Φ >= |F| and u >= |C (b - A x)| entry by entry.  If some d > 0 has
-// u + Φ d <= d with u > 0, then Φ d < d, so the spectral radius of Φ is below 1, A is regular at every point, and
-// |e| <= (I - Φ)^-1 u <= d  [Rump2010, sec. 10].
+// The matrix A = [M -(G^T + W); G 0] and the right side b = (-h; -(dG/dt v + d²g/dt²)) are disks,
+// the derivative along the motion taken with q' = v, t' = 1. With C near the inverse of A's centre
+// and x near the solution there, e = A^-1 b - x satisfies (I - F) e = C (b - A x), F = I - C A. Let
+// Φ >= |F| and u >= |C (b - A x)| entry by entry. If some d > 0 has u + Φ d <= d with u > 0, then Φ
+// d < d, so the spectral radius of Φ is below 1, A is regular at every point, and |e| <= (I - Φ)^-1
+// u <= d [Rump2010, sec. 10].
 #include "certify/certify_impl.h"
 
-// ---------------------------------------------------------------------------------------------- programs
+// ---------------------------------------------------------------------------------------- programs
 static const pl_disk* at(const pl_disk* d, int node) { return node < 0 ? NULL : d + node; }
 
 static bool run_node(pl_ball_jet* j, int i) {
@@ -17,7 +18,8 @@ static bool run_node(pl_ball_jet* j, int i) {
 
 static bool run_level(pl_ball_jet* j, pl_level level) {
   for (int i = j->tape->level_end[level - 1]; i < j->tape->level_end[level]; i++)
-    if ((j->wanted[i] & PL_FOR_MOTION) && j->tape->nodes[i].op >= PL_OP_ADD && !run_node(j, i)) return false;
+    if ((j->wanted[i] & PL_FOR_MOTION) && j->tape->nodes[i].op >= PL_OP_ADD && !run_node(j, i))
+      return false;
   return true;
 }
 
@@ -26,8 +28,9 @@ static void run_slopes(pl_ball_jet* j) {
   for (int i = j->tape->level_end[PL_LEVEL_CONST]; i < j->tape->level_end[PL_LEVEL_PLACE]; i++) {
     const pl_tape_node* n = &j->tape->nodes[i];
     if (!(j->wanted[i] & PL_FOR_MOTION) || n->op < PL_OP_ADD) continue;
-    pl_disk_derivative(&j->slope[i], n->op, &j->disk[i], at(j->disk, n->a), at(j->disk, n->b), at(j->disk, n->c),
-                       at(j->slope, n->a), at(j->slope, n->b), at(j->slope, n->c));
+    pl_disk_derivative(&j->slope[i], n->op, &j->disk[i], at(j->disk, n->a), at(j->disk, n->b),
+                       at(j->disk, n->c), at(j->slope, n->a), at(j->slope, n->b),
+                       at(j->slope, n->c));
   }
 }
 
@@ -62,10 +65,14 @@ static bool run_programs(pl_system* s, const pl_disk* t) {
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- assembly
-static const pl_disk* root_of(const pl_ball_jet* j, const pl_disk* d, int root) { return d + j->tape->roots[root]; }
+// ---------------------------------------------------------------------------------------- assembly
+static const pl_disk* root_of(const pl_ball_jet* j, const pl_disk* d, int root) {
+  return d + j->tape->roots[root];
+}
 
-static pl_disk* entry(pl_system* s, int row, int col) { return s->matrix + (slong)row * (s->n_q + s->n_rows) + col; }
+static pl_disk* entry(pl_system* s, int row, int col) {
+  return s->matrix + (slong)row * (s->n_q + s->n_rows) + col;
+}
 
 static void assemble_matrix(pl_system* s, const pl_ball_jet* j) {
   const pl_pattern* p = j->pattern;
@@ -127,13 +134,13 @@ static void assemble(pl_system* s) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- solution
+// ---------------------------------------------------------------------------------------- solution
 typedef struct solver {
   pl_system* s;
   int n;
-  arb_mat_t C, F;    // near the inverse; I - C A at the centre
-  arb_ptr x, rest;   // near the solution; b - A x at the centre
-  mag_ptr phi;       // (n x n)
+  arb_mat_t C, F;   // near the inverse; I - C A at the centre
+  arb_ptr x, rest;  // near the solution; b - A x at the centre
+  mag_ptr phi;      // (n x n)
   mag_ptr u, d, next, size;
 } solver;
 
@@ -164,7 +171,8 @@ static void guess(solver* z) {
       mag_zero(arb_radref(arb_mat_entry(z->C, i, k)));
     }
   for (int i = 0; i < z->n; i++) {
-    for (int k = 0; k < z->n; k++) arb_addmul(z->x + i, arb_mat_entry(z->C, i, k), &s->right[k].c, PL_DISK_BITS);
+    for (int k = 0; k < z->n; k++)
+      arb_addmul(z->x + i, arb_mat_entry(z->C, i, k), &s->right[k].c, PL_DISK_BITS);
     mag_zero(arb_radref(z->x + i));
   }
 }

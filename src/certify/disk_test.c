@@ -1,5 +1,5 @@
-// Laws of disks and series on random input: an operation in disks contains its values at complex points of the disks, and
-// slopes and Taylor coefficients contain derivatives found in another way.
+// Laws of disks and series on random input: an operation in disks contains its values at complex
+// points of the disks, and slopes and Taylor coefficients contain derivatives found in another way.
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -12,14 +12,17 @@
 #include "certify/certify_impl.h"
 
 #if __has_include(<flint/acb.h>)
-#include <flint/acb.h>
+#  include <flint/acb.h>
 #else
-#include <acb.h>
+#  include <acb.h>
 #endif
 
 enum { ROUNDS = 400, BITS = 128 };
 
-typedef struct random_disk { pl_disk* d; double centre, radius; } random_disk;
+typedef struct random_disk {
+  pl_disk* d;
+  double centre, radius;
+} random_disk;
 
 static random_disk* disks_make(int n) {
   random_disk* x = calloc((size_t)n, sizeof *x);
@@ -41,7 +44,8 @@ static void draw(random_disk* x, pl_random* r) {
 
 // A point of the disk, often on its rim.
 static void point(acb_t z, const random_disk* x, pl_random* r) {
-  double part = pl_random_unit(r) < 0.5 ? 0.999999999 : pl_random_unit(r), turn = pl_random_between(r, -M_PI, M_PI);
+  double part = pl_random_unit(r) < 0.5 ? 0.999999999 : pl_random_unit(r),
+         turn = pl_random_between(r, -M_PI, M_PI);
   acb_set_d_d(z, x->centre + part * x->radius * cos(turn), part * x->radius * sin(turn));
 }
 
@@ -68,7 +72,7 @@ static void exact_op(acb_t w, pl_op op, acb_t a, acb_t b) {
     case PL_OP_ASIN: acb_asin(w, a, BITS); break;
     case PL_OP_ACOS: acb_acos(w, a, BITS); break;
     case PL_OP_ATAN: acb_atan(w, a, BITS); break;
-    default:   // atan2(a, b) with a above: π/2 - atan(b/a)
+    default:  // atan2(a, b) with a above: π/2 - atan(b/a)
       acb_div(t, b, a, BITS);
       acb_atan(w, t, BITS);
       acb_const_pi(t, BITS);
@@ -97,8 +101,10 @@ static bool holds(const pl_disk* d, acb_t w) {
   return yes;
 }
 
-static const pl_op ops[] = {PL_OP_ADD, PL_OP_SUB, PL_OP_NEG, PL_OP_MUL, PL_OP_SQR, PL_OP_DIV, PL_OP_SQRT, PL_OP_POW, PL_OP_EXP, PL_OP_LN,
-                            PL_OP_SIN, PL_OP_COS, PL_OP_SINH, PL_OP_COSH, PL_OP_TAN, PL_OP_TANH, PL_OP_ASIN, PL_OP_ACOS, PL_OP_ATAN, PL_OP_ATAN2};
+static const pl_op ops[] = {PL_OP_ADD,  PL_OP_SUB,  PL_OP_NEG,  PL_OP_MUL,  PL_OP_SQR,
+                            PL_OP_DIV,  PL_OP_SQRT, PL_OP_POW,  PL_OP_EXP,  PL_OP_LN,
+                            PL_OP_SIN,  PL_OP_COS,  PL_OP_SINH, PL_OP_COSH, PL_OP_TAN,
+                            PL_OP_TANH, PL_OP_ASIN, PL_OP_ACOS, PL_OP_ATAN, PL_OP_ATAN2};
 enum { N_OPS = sizeof ops / sizeof *ops };
 
 static void an_operation_contains_its_values_at_complex_points(void** state) {
@@ -114,7 +120,7 @@ static void an_operation_contains_its_values_at_complex_points(void** state) {
       pl_random r = {seed * 100 + (uint64_t)k};
       draw(&x[0], &r);
       draw(&x[1], &r);
-      if (ops[k] == PL_OP_POW) {   // exponents are numbers
+      if (ops[k] == PL_OP_POW) {  // exponents are numbers
         mag_zero(&x[1].d->r);
         x[1].radius = 0;
       }
@@ -126,11 +132,13 @@ static void an_operation_contains_its_values_at_complex_points(void** state) {
         point(b, &x[1], &r);
         exact_op(w, ops[k], a, b);
         if (!holds(x[2].d, w))
-          fail_msg("%s: seed %lu, disks (%g, %g), (%g, %g)", pl_op_name[ops[k]], (unsigned long)seed, x[0].centre, x[0].radius, x[1].centre, x[1].radius);
+          fail_msg("%s: seed %lu, disks (%g, %g), (%g, %g)", pl_op_name[ops[k]],
+                   (unsigned long)seed, x[0].centre, x[0].radius, x[1].centre, x[1].radius);
       }
     }
   }
-  for (int k = 0; k < N_OPS; k++) assert_true(proved[k] > ROUNDS / 20);   // the law says nothing of what was refused
+  // the law says nothing of what was refused
+  for (int k = 0; k < N_OPS; k++) assert_true(proved[k] > ROUNDS / 20);
   acb_clear(a);
   acb_clear(b);
   acb_clear(w);
@@ -160,7 +168,8 @@ static void what_is_not_analytic_is_refused(void** state) {
   static const pl_op touching_zero[] = {PL_OP_SQRT, PL_OP_LN, PL_OP_ABS, PL_OP_SIGN};
   arb_set_d(&x[0].d->c, 1);
   mag_set_d(&x[0].d->r, 1.0000001);
-  for (int i = 0; i < 4; i++) assert_false(pl_disk_op(x[1].d, touching_zero[i], x[0].d, NULL, NULL));
+  for (int i = 0; i < 4; i++)
+    assert_false(pl_disk_op(x[1].d, touching_zero[i], x[0].d, NULL, NULL));
   assert_false(pl_disk_op(x[1].d, PL_OP_DIV, x[0].d, x[0].d, NULL));
   assert_false(pl_disk_op(x[1].d, PL_OP_ASIN, x[0].d, NULL, NULL));
   mag_set_d(&x[0].d->r, 0.99);
@@ -168,7 +177,7 @@ static void what_is_not_analytic_is_refused(void** state) {
   disks_free(x, 2);
 }
 
-// ---------------------------------------------------------------------------------------------- series and slopes
+// ------------------------------------------------------------------------------- series and slopes
 typedef struct bench {
   pl_arena* arena;
   pl_pool* pool;
@@ -187,7 +196,8 @@ static bench* bench_open(void) {
   b->pool = pl_pool_make(arena);
   b->diagnostics.arena = arena;
   b->job = (pl_job){.arena = arena, .diagnostics = &b->diagnostics};
-  pl_symbol_info info = {.name = "x", .ascii = "x", .role = PL_R_COORD, .dimension = pl_dimension_one()};
+  pl_symbol_info info = {
+      .name = "x", .ascii = "x", .role = PL_R_COORD, .dimension = pl_dimension_one()};
   b->x = pl_sym(b->pool, pl_symbol_make(b->pool, &info));
   return b;
 }
@@ -203,7 +213,7 @@ static pl_expr random_expression(bench* b, pl_random* r, int depth) {
   pl_pool* p = b->pool;
   if (depth == 0) return b->x;
   pl_expr a = random_expression(b, r, depth - 1);
-  pl_expr small = pl_div(p, a, pl_add(p, pl_int(p, 2), pl_square(p, a)));   // |small| < 0.36
+  pl_expr small = pl_div(p, a, pl_add(p, pl_int(p, 2), pl_square(p, a)));  // |small| < 0.36
   switch (pl_random_bits(r) % 16) {
     case 0: return pl_call(p, PL_SIN, a);
     case 1: return pl_call(p, PL_COS, a);
@@ -292,7 +302,9 @@ static void series_continue_their_functions(void** state) {
       }
       arb_sub(sum, sum, exact, 256);
       double off = fabs(pl_ball_double(sum)), size = fabs(pl_ball_double(exact)) + 1;
-      if (!(off < 1e-30 * size)) fail_msg("seed %lu: %s at %g: off by %g", (unsigned long)seed, pl_expr_text(b->arena, b->pool, e), x_0, off);
+      if (!(off < 1e-30 * size))
+        fail_msg("seed %lu: %s at %g: off by %g", (unsigned long)seed,
+                 pl_expr_text(b->arena, b->pool, e), x_0, off);
       met++;
       arb_clear(sum);
       arb_clear(exact);
@@ -315,20 +327,24 @@ static void slopes_are_first_coefficients(void** state) {
     jet_open(b, 2);
     pl_ball_jet* j = &b->jet;
     run_series(b, x_0, 128);
-    for (int i = 0; i < b->tape->n_nodes; i++) pl_disk_set_ball(&j->disk[i], j->coef + (slong)i * j->cap);
+    for (int i = 0; i < b->tape->n_nodes; i++)
+      pl_disk_set_ball(&j->disk[i], j->coef + (slong)i * j->cap);
     arb_one(&j->slope[b->tape->q_node[0]].c);
     const pl_tape_node* nodes = b->tape->nodes;
     for (int i = b->tape->level_end[PL_LEVEL_CONST]; i < b->tape->n_nodes; i++) {
       const pl_tape_node* n = &nodes[i];
       if (n->op < PL_OP_ADD) continue;
 #define AT(array, k) ((k) < 0 ? NULL : &j->array[k])
-      pl_disk_derivative(&j->slope[i], n->op, &j->disk[i], AT(disk, n->a), AT(disk, n->b), AT(disk, n->c), AT(slope, n->a), AT(slope, n->b), AT(slope, n->c));
+      pl_disk_derivative(&j->slope[i], n->op, &j->disk[i], AT(disk, n->a), AT(disk, n->b),
+                         AT(disk, n->c), AT(slope, n->a), AT(slope, n->b), AT(slope, n->c));
 #undef AT
     }
     int root = b->tape->roots[0];
-    double slope = pl_ball_double(&j->slope[root].c), first = pl_ball_double(j->coef + (slong)root * j->cap + 1);
+    double slope = pl_ball_double(&j->slope[root].c),
+           first = pl_ball_double(j->coef + (slong)root * j->cap + 1);
     if (!(fabs(slope - first) <= 1e-14 * (1 + fabs(first))))
-      fail_msg("seed %lu: %s: %g, %g", (unsigned long)seed, pl_expr_text(b->arena, b->pool, e), slope, first);
+      fail_msg("seed %lu: %s: %g, %g", (unsigned long)seed, pl_expr_text(b->arena, b->pool, e),
+               slope, first);
     jet_close(b);
     pl_arena_free(b->arena);
   }

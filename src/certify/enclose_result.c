@@ -1,11 +1,13 @@
-// What was proved, as it is handed out: decimal numbers with radii, and distances from the numbers of a run.
+// What was proved, as it is handed out: decimal numbers with radii, and distances from the numbers
+// of a run.
 #include "certify/certify_impl.h"
 
 #include <math.h>
 
 void pl_certified_balls_make(pl_certified* out, pl_job* job, const pl_certify_problem* p) {
   struct pl_certified_balls* b = PL_NEW(job->arena, struct pl_certified_balls);
-  *b = (struct pl_certified_balls){.n_q = p->setup->n_q, .n_c = p->setup->n_c, .n_times = p->n_times + 1};
+  *b = (struct pl_certified_balls){
+      .n_q = p->setup->n_q, .n_c = p->setup->n_c, .n_times = p->n_times + 1};
   b->q = _arb_vec_init((slong)b->n_q * b->n_times);
   b->v = _arb_vec_init((slong)b->n_q * b->n_times);
   b->l = _arb_vec_init((slong)b->n_c * b->n_times);
@@ -13,7 +15,7 @@ void pl_certified_balls_make(pl_certified* out, pl_job* job, const pl_certify_pr
   b->time = _arb_vec_init(b->room);
   b->state = _arb_vec_init((slong)b->room * 2 * b->n_q);
   b->is_stop = PL_ARRAY(job->arena, bool, b->n_times);
-  b->determined = PL_ARRAY(job->arena, bool, (size_t)b->n_c * (size_t)b->n_times + 1);
+  b->determined = PL_ARRAY(job->arena, bool, (size_t)b->n_c*(size_t)b->n_times + 1);
   out->balls = b;
 }
 
@@ -37,7 +39,8 @@ static arb_srcptr ball_of(const pl_certified* c, int time, pl_certify_kind kind,
   return known ? b->l + (slong)time * b->n_c + i : NULL;
 }
 
-// The decimal is cut to the digits that the ball supports; the radius is measured from what was written.
+// The decimal is cut to the digits that the ball supports; the radius is measured from what was
+// written.
 static const char* decimal_of(pl_arena* a, arb_srcptr x, double* radius) {
   slong bits = arb_rel_accuracy_bits(x);
   slong digits = bits < 0 ? 1 : bits > 3000 ? 900 : (slong)((double)bits * 0.30103) + 2;
@@ -57,14 +60,18 @@ static const char* decimal_of(pl_arena* a, arb_srcptr x, double* radius) {
   return copy;
 }
 
-const char* pl_certified_ball(const pl_certified* c, pl_arena* a, int time, pl_certify_kind kind, int i, double* radius) {
+const char* pl_certified_ball(const pl_certified* c, pl_arena* a, int time, pl_certify_kind kind,
+                              int i, double* radius) {
   arb_srcptr x = ball_of(c, time, kind, i);
   return x ? decimal_of(a, x, radius) : NULL;
 }
 
-const char* pl_certified_state(const pl_certified* c, pl_arena* a, int happening, pl_certify_kind kind, int i, double* radius) {
+const char* pl_certified_state(const pl_certified* c, pl_arena* a, int happening,
+                               pl_certify_kind kind, int i, double* radius) {
   int n_q = c->balls->n_q;
-  return decimal_of(a, c->balls->state + (slong)happening * 2 * n_q + (kind == PL_CERTIFY_V ? n_q : 0) + i, radius);
+  return decimal_of(
+      a, c->balls->state + (slong)happening * 2 * n_q + (kind == PL_CERTIFY_V ? n_q : 0) + i,
+      radius);
 }
 
 const char* pl_certified_time(const pl_certified* c, pl_arena* a, int happening, double* radius) {
@@ -91,8 +98,11 @@ double pl_certified_error(const pl_certified* c, int time, pl_certify_kind kind,
   return distance(ball_of(c, time, kind, i), x, false);
 }
 
-double pl_certified_error_least(const pl_certified* c, int time, pl_certify_kind kind, int i, double x) {
+double pl_certified_error_least(const pl_certified* c, int time, pl_certify_kind kind, int i,
+                                double x) {
   return distance(ball_of(c, time, kind, i), x, true);
 }
 
-double pl_certified_time_error(const pl_certified* c, int happening, double t) { return distance(c->balls->time + happening, t, false); }
+double pl_certified_time_error(const pl_certified* c, int happening, double t) {
+  return distance(c->balls->time + happening, t, false);
+}

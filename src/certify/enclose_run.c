@@ -1,8 +1,9 @@
 // The whole motion: passes of growing precision until the enclosure is as narrow as asked for.
 //
-// How much a motion and the arithmetic of balls widen an enclosure is not known beforehand.  The first pass measures it
-// in bits; the next has as many bits more.  A pass that becomes wider than the motion itself is given up and its loss so far
-// is extrapolated.  What a pass has enclosed is proved whatever comes after it; the narrowest is kept.
+// How much a motion and the arithmetic of balls widen an enclosure is not known beforehand. The
+// first pass measures it in bits; the next has as many bits more. A pass that becomes wider than
+// the motion itself is given up and its loss so far is extrapolated. What a pass has enclosed is
+// proved whatever comes after it; the narrowest is kept.
 #include "certify/certify_impl.h"
 
 #include <math.h>
@@ -11,7 +12,7 @@
 #include "algebra/algebra.h"
 
 enum { MOST_PASSES = 6, FIRST_BITS = 96, MOST_BITS = 20000, MOST_STEPS = 200000 };
-static const double default_budget = 6e9;   // 10 to 20 s
+static const double default_budget = 6e9;  // 10 to 20 s
 
 typedef struct pass {
   pl_system* s;
@@ -19,16 +20,16 @@ typedef struct pass {
   pl_certified* out;
   double budget;
   arb_t t, t_end;
-  double lost;         // bits at the end or where it was given up
-  double part;         // of the way, 1 at the end
+  double lost;  // bits at the end or where it was given up
+  double part;  // of the way, 1 at the end
   double size_q, size_v, width;
   bool watches, stopped;
   int n_happened;
   pl_happening happened[PL_CERTIFY_HAPPENINGS];
-  arb_ptr time, state; // of each
+  arb_ptr time, state;  // of each
 } pass;
 
-// ---------------------------------------------------------------------------------------------- width
+// ------------------------------------------------------------------------------------------- width
 static double largest_radius(arb_srcptr x, const pl_system* s) {
   double most = 0;
   for (int i = 0; i < s->n_q; i++) most = fmax(most, mag_get_d(arb_radref(x + (slong)i * s->cap)));
@@ -52,10 +53,11 @@ static double over(double x, double size) { return x == 0 ? 0 : size > 0 ? x / s
 static double state_width(pass* z) {
   z->size_q = fmax(z->size_q, largest_size(z->s->q, z->s));
   z->size_v = fmax(z->size_v, largest_size(z->s->v, z->s));
-  return fmax(over(largest_radius(z->s->q, z->s), z->size_q), over(largest_radius(z->s->v, z->s), z->size_v));
+  return fmax(over(largest_radius(z->s->q, z->s), z->size_q),
+              over(largest_radius(z->s->v, z->s), z->size_v));
 }
 
-// ---------------------------------------------------------------------------------------------- results
+// ----------------------------------------------------------------------------------------- results
 // The first pass that reaches a time fills it; later ones only where they are narrower.
 static void keep(arb_ptr to, arb_srcptr x, bool fresh) {
   if (fresh || mag_cmp(arb_radref(x), arb_radref(to)) < 0) arb_set(to, x);
@@ -64,7 +66,8 @@ static void keep(arb_ptr to, arb_srcptr x, bool fresh) {
 static void keep_state(pass* z, int time, bool is_stop) {
   pl_system* s = z->s;
   struct pl_certified_balls* b = z->out->balls;
-  // what another pass took for the time of the grid may be that of an event that stops, or the other way round
+  // what another pass took for the time of the grid may be that of an event that stops, or the
+  // other way round
   bool fresh = time >= z->out->n_done || b->is_stop[time] != is_stop;
   b->is_stop[time] = is_stop;
   for (int i = 0; i < b->n_q; i++) {
@@ -79,7 +82,7 @@ static void keep_state(pass* z, int time, bool is_stop) {
   if (time + 1 == z->out->n_done) z->out->stopped = is_stop;
 }
 
-// ---------------------------------------------------------------------------------------------- one pass
+// ---------------------------------------------------------------------------------------- one pass
 static bool exact_time(pass* z, arb_t t, pl_expr e) { return pl_exact_ball(&z->s->exact, t, e); }
 
 static int direction_of(pass* z) { return arb_lt(z->t_end, z->t) ? -1 : 1; }
@@ -97,7 +100,7 @@ static double short_number(double h) {
   return ldexp(floor(m * 4096) / 4096, exponent);
 }
 
-// ---------------------------------------------------------------------------------------------- what happens
+// ------------------------------------------------------------------------------------ what happens
 static void note(pass* z, pl_happening_kind kind, int index) {
   if (z->n_happened == PL_CERTIFY_HAPPENINGS) return;
   arb_set(z->time + z->n_happened, z->t);
@@ -110,7 +113,8 @@ static void note(pass* z, pl_happening_kind kind, int index) {
 }
 
 static const char* name_of(const pl_system* s, const pl_monitor* m) {
-  return m->kind == PL_MONITOR_EVENT ? s->setup->events[m->index].name : s->setup->links[m->index].name;
+  return m->kind == PL_MONITOR_EVENT ? s->setup->events[m->index].name
+                                     : s->setup->links[m->index].name;
 }
 
 static bool stops(const pl_event_setup* event) {
@@ -158,9 +162,9 @@ static pl_certify_end happen(pass* z, pl_monitor* m) {
   return PL_CERTIFIED;
 }
 
-// ---------------------------------------------------------------------------------------------- one step
-// The series of a step that is proved, towards `target`.  *there: it ends on it; then signs are looked at some way further,
-// since a zero may lie on the target.
+// ---------------------------------------------------------------------------------------- one step
+// The series of a step that is proved, towards `target`. *there: it ends on it; then signs are
+// looked at some way further, since a zero may lie on the target.
 static pl_certify_end prepare(pass* z, arb_srcptr target, arb_t h, arb_t sight, bool* there) {
   pl_stepper* e = z->e;
   arb_sub(h, target, z->t, z->s->prec);
@@ -177,19 +181,22 @@ static pl_certify_end prepare(pass* z, arb_srcptr target, arb_t h, arb_t sight, 
   return pl_step_series(e, z->t, sight) ? PL_CERTIFIED : PL_CERTIFY_STEP;
 }
 
-// A zero that was found beyond the target does not count yet.  One that may lie on it counts when it ends the motion; otherwise
-// the state at the target would be that of two modes.
-static pl_look before_target(const pass* z, pl_look look, arb_srcptr h, arb_t part, const pl_monitor* hit) {
+// A zero that was found beyond the target does not count yet. One that may lie on it counts when it
+// ends the motion; otherwise the state at the target would be that of two modes.
+static pl_look before_target(const pass* z, pl_look look, arb_srcptr h, arb_t part,
+                             const pl_monitor* hit) {
   if (look == PL_LOOK_CLEAR || look == PL_LOOK_LOST || arb_gt(part, h)) {
     arb_set(part, h);
     return look == PL_LOOK_LOST ? PL_LOOK_LOST : PL_LOOK_CLEAR;
   }
   if (look != PL_LOOK_HIT || arb_lt(part, h) || hit->kind == PL_MONITOR_GAP) return look;
-  return hit->kind == PL_MONITOR_EVENT && stops(&z->s->setup->events[hit->index]) ? look : PL_LOOK_LOST;
+  return hit->kind == PL_MONITOR_EVENT && stops(&z->s->setup->events[hit->index]) ? look
+                                                                                  : PL_LOOK_LOST;
 }
 
 // As far as no function that decides the mode changes its sign.
-static pl_certify_end move(pass* z, arb_srcptr target, arb_srcptr h, arb_srcptr sight, bool* there) {
+static pl_certify_end move(pass* z, arb_srcptr target, arb_srcptr h, arb_srcptr sight,
+                           bool* there) {
   pl_monitor* hit = NULL;
   arb_t part;
   arb_init(part);
@@ -292,14 +299,16 @@ static pl_certify_end one_pass(pass* z, slong prec) {
   keep_happenings(z);
   z->part = end == PL_CERTIFIED || end == PL_CERTIFY_IMPACT ? 1 : part_done(z, t_0);
   double t = arf_get_d(arb_midref(z->t), z->e->direction > 0 ? ARF_RND_FLOOR : ARF_RND_CEIL);
-  if (isnan(z->out->t_reached) || (t - z->out->t_reached) * z->e->direction > 0) z->out->t_reached = t;
+  if (isnan(z->out->t_reached) || (t - z->out->t_reached) * z->e->direction > 0)
+    z->out->t_reached = t;
   return end;
 }
 
-// ---------------------------------------------------------------------------------------------- passes
+// ------------------------------------------------------------------------------------------ passes
 // Bits that the next pass needs.
 static slong next_precision(const pass* z, slong prec) {
-  double needed = -log2(z->s->p->width) + 8, whole = z->part > 1e-6 ? z->lost / z->part : (double)MOST_BITS;
+  double needed = -log2(z->s->p->width) + 8,
+         whole = z->part > 1e-6 ? z->lost / z->part : (double)MOST_BITS;
   double bits = needed + fmax(whole, 0) * (z->part < 1 ? 1.1 : 1) + 8;
   if (bits < (double)prec + 32) bits = (double)prec + 32;
   return bits > MOST_BITS ? MOST_BITS : (slong)bits;
@@ -307,7 +316,8 @@ static slong next_precision(const pass* z, slong prec) {
 
 // Nothing but more precision could be gained.
 static bool came_to_its_end(pl_certify_end end) {
-  return end == PL_CERTIFIED || end == PL_CERTIFY_IMPACT || end == PL_CERTIFY_UNDECIDED || end == PL_CERTIFY_STEP;
+  return end == PL_CERTIFIED || end == PL_CERTIFY_IMPACT || end == PL_CERTIFY_UNDECIDED
+         || end == PL_CERTIFY_STEP;
 }
 
 static void passes(pass* z) {
@@ -318,7 +328,8 @@ static void passes(pass* z) {
   for (int i = 0; i < MOST_PASSES; i++) {
     out->passes++;
     out->end = one_pass(z, prec);
-    bool again = out->end == PL_CERTIFY_WIDE || (out->end == PL_CERTIFY_STEP && z->lost > (double)prec / 2);
+    bool again = out->end == PL_CERTIFY_WIDE
+                 || (out->end == PL_CERTIFY_STEP && z->lost > (double)prec / 2);
     if (came_to_its_end(out->end)) {
       out->width = z->width;
       out->bits_lost = z->lost;
@@ -336,8 +347,8 @@ typedef struct whole {
   pl_certified* out;
   pl_system s;
   pl_stepper e;
-  pl_guard guard;         // here, because FLINT's abort leaves without ending it
-  pleuel_status memory;   // PLEUEL_NO_MEMORY when the arena unwound
+  pl_guard guard;        // here, because FLINT's abort leaves without ending it
+  pleuel_status memory;  // PLEUEL_NO_MEMORY when the arena unwound
 } whole;
 
 static void work(whole* w) {
@@ -347,7 +358,10 @@ static void work(whole* w) {
   pl_certified_balls_make(w->out, w->job, w->p);
   pl_system_reserve(&w->s, 64);
   pl_stepper_make(&w->e, &w->s, 1);
-  pass z = {.s = &w->s, .e = &w->e, .out = w->out, .budget = w->p->budget > 0 ? (double)w->p->budget : default_budget};
+  pass z = {.s = &w->s,
+            .e = &w->e,
+            .out = w->out,
+            .budget = w->p->budget > 0 ? (double)w->p->budget : default_budget};
   z.watches = pl_monitors_any(&w->s);
   z.time = _arb_vec_init(PL_CERTIFY_HAPPENINGS);
   z.state = _arb_vec_init((slong)PL_CERTIFY_HAPPENINGS * 2 * w->s.n_q);
@@ -375,8 +389,10 @@ static void guarded(void* data) {
 }
 
 pleuel_status pl_certify_motion(pl_job* job, const pl_certify_problem* p, pl_certified* out) {
-  *out = (pl_certified){.end = PL_CERTIFY_TOO_LARGE, .t_reached = (double)NAN, .width = (double)NAN};
-  if (p->n_times < 1) return pl_fail(job, PLEUEL_USAGE, "there is no time at which to enclose the motion");
+  *out = (pl_certified){
+      .end = PL_CERTIFY_TOO_LARGE, .t_reached = (double)NAN, .width = (double)NAN};
+  if (p->n_times < 1)
+    return pl_fail(job, PLEUEL_USAGE, "there is no time at which to enclose the motion");
   whole* w = PL_NEW(job->arena, whole);
   *w = (whole){.job = job, .p = p, .out = out};
   if (!pl_algebra_guarded(guarded, w)) {

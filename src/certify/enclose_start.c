@@ -1,35 +1,38 @@
 // The exact start: given values as written, the rest from the constraints.
 //
-// Positions: Newton's method from the simulation's start, then Krawczyk's test [Krawczyk1969]: with m the approximation, X a
-// box around it and C near G^-1, K = m - C g(m) + (I - C G(X)) (X - m) inside of X proves that g has exactly one zero in
-// X and that it lies in K.  Velocities: one linear system in balls, the least kinetic energy where they are free.
+// Positions: Newton's method from the simulation's start, then Krawczyk's test [Krawczyk1969]: with
+// m the approximation, X a box around it and C near G^-1, K = m - C g(m) + (I - C G(X)) (X - m)
+// inside of X proves that g has exactly one zero in X and that it lies in K. Velocities: one linear
+// system in balls, the least kinetic energy where they are free.
 //
-// More may be given than the constraints leave free.  Then some of the given values are solved for as well.  If the one
-// solution in X and the given value are both in X, and the model as written is free of contradiction, they are equal;
-// a given value outside of X, or of K, contradicts the constraints, and is reported as moved.  What neither is given nor
-// determined is taken from the simulation's start, as an exact number, and reported too.
+// More may be given than the constraints leave free. Then some of the given values are solved for
+// as well. If the one solution in X and the given value are both in X, and the model as written is
+// free of contradiction, they are equal; a given value outside of X, or of K, contradicts the
+// constraints, and is reported as moved. What neither is given nor determined is taken from the
+// simulation's start, as an exact number, and reported too.
 #include "certify/certify_impl.h"
 
 #include <math.h>
 
-static const double dependent = 1e-9;   // of a row: what counts as nothing
-static const double near = 1e-6;        // of the start of the simulation
+static const double dependent = 1e-9;  // of a row: what counts as nothing
+static const double near = 1e-6;       // of the start of the simulation
 
 typedef struct starter {
   pl_system* s;
   pl_certified* out;
   arb_srcptr t;
-  bool* unknown;          // solved for                          (n_q)
-  bool* given;            //                                     (n_q)
-  arb_ptr value;          // of what is given                    (n_q)
-  int n_unknown, *list;   //                                     (n_q)
-  int n_rows, *row;       // constraints used                    (n_c)
-  int* place;             // of a constraint in row, -1          (n_c)
+  bool* unknown;         // solved for                          (n_q)
+  bool* given;           //                                     (n_q)
+  arb_ptr value;         // of what is given                    (n_q)
+  int n_unknown, *list;  //                                     (n_q)
+  int n_rows, *row;      // constraints used                    (n_c)
+  int* place;            // of a constraint in row, -1          (n_c)
   PL_VEC(int) pinned, moved;
 } starter;
 
-// ---------------------------------------------------------------------------------------------- which
-// Columns that the rows (A, n_rows x n) determine, those preferred first.  Elimination with full pivoting.
+// ------------------------------------------------------------------------------------------- which
+// Columns that the rows (A, n_rows x n) determine, those preferred first. Elimination with full
+// pivoting.
 static int pick(double* A, int n_rows, int n, const bool* preferred, bool* picked) {
   int done = 0;
   for (int pass = 0; pass < 2; pass++) {
@@ -63,7 +66,7 @@ static int pick(double* A, int n_rows, int n, const bool* preferred, bool* picke
 // Rows in use, gradients of length 1.
 static double* gradients(starter* z) {
   pl_system* s = z->s;
-  double* A = PL_ARRAY(s->arena, double, (size_t)z->n_rows * (size_t)s->n_q + 1);
+  double* A = PL_ARRAY(s->arena, double, (size_t)z->n_rows*(size_t)s->n_q + 1);
   for (int i = 0; i < s->n_jets; i++) {
     const pl_ball_jet* j = &s->jet[i];
     for (int e = 0; e < j->pattern->n_G; e++) {
@@ -110,7 +113,7 @@ static bool choose_unknowns(starter* z, bool positions) {
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- positions
+// --------------------------------------------------------------------------------------- positions
 static arb_ptr q_of(starter* z, int i) { return z->s->q + (slong)i * z->s->cap; }
 static arb_ptr v_of(starter* z, int i) { return z->s->v + (slong)i * z->s->cap; }
 
@@ -124,14 +127,17 @@ static void constraints(starter* z, arb_mat_t g, arb_mat_t G) {
     const pl_ball_jet* j = &s->jet[i];
     for (int e = 0; e < j->pattern->n_g; e++) {
       int r = z->place[j->c[j->pattern->g[e].row]];
-      if (r >= 0) arb_add(arb_mat_entry(g, r, 0), arb_mat_entry(g, r, 0), pl_root_series(j, j->pattern->g[e].root), s->prec);
+      if (r >= 0)
+        arb_add(arb_mat_entry(g, r, 0), arb_mat_entry(g, r, 0),
+                pl_root_series(j, j->pattern->g[e].root), s->prec);
     }
     for (int e = 0; e < j->pattern->n_G; e++) {
       const pl_pattern_entry* d = &j->pattern->G[e];
       int r = z->place[j->c[d->row]];
       for (int k = 0; k < z->n_unknown && r >= 0; k++)
         if (z->list[k] == j->q[d->col])
-          arb_add(arb_mat_entry(G, r, k), arb_mat_entry(G, r, k), pl_root_series(j, d->root), s->prec);
+          arb_add(arb_mat_entry(G, r, k), arb_mat_entry(G, r, k), pl_root_series(j, d->root),
+                  s->prec);
     }
   }
 }
@@ -186,7 +192,8 @@ static bool krawczyk(starter* z, arb_mat_t g, arb_mat_t G, arb_mat_t C, arb_ptr 
   }
   constraints(z, g, G);
   arb_mat_mul(spread, C, G, s->prec);
-  for (int k = 0; k < n; k++) arb_sub_si(arb_mat_entry(spread, k, k), arb_mat_entry(spread, k, k), 1, s->prec);
+  for (int k = 0; k < n; k++)
+    arb_sub_si(arb_mat_entry(spread, k, k), arb_mat_entry(spread, k, k), 1, s->prec);
   arb_mat_neg(spread, spread);
   arb_mat_mul(width, spread, width, s->prec);
   bool inside = true;
@@ -216,9 +223,10 @@ static bool solve_positions(starter* z, arb_ptr box) {
   return ok;
 }
 
-// ---------------------------------------------------------------------------------------------- velocities
+// -------------------------------------------------------------------------------------- velocities
 // [M G^T; G 0] of the unknowns and the right side [M v_guess - M v; -dg/dt - G v] of what is given.
-static void energy_rows(starter* z, const pl_ball_jet* j, const int* at, bool plain, arb_mat_t A, arb_mat_t b) {
+static void energy_rows(starter* z, const pl_ball_jet* j, const int* at, bool plain, arb_mat_t A,
+                        arb_mat_t b) {
   pl_system* s = z->s;
   const pl_pattern* p = j->pattern;
   arb_t guess;
@@ -226,19 +234,22 @@ static void energy_rows(starter* z, const pl_ball_jet* j, const int* at, bool pl
   for (int e = 0; e < p->n_mass && !plain; e++) {
     arb_srcptr m = pl_root_series(j, p->mass[e].root);
     for (int twice = 0; twice < (p->mass[e].row == p->mass[e].col ? 1 : 2); twice++) {
-      int r = j->q[twice ? p->mass[e].col : p->mass[e].row], c = j->q[twice ? p->mass[e].row : p->mass[e].col];
+      int r = j->q[twice ? p->mass[e].col : p->mass[e].row],
+          c = j->q[twice ? p->mass[e].row : p->mass[e].col];
       if (at[r] < 0) continue;
       const pl_coordinate* q = &s->setup->coordinates[c];
       arb_set_d(guess, q->has_v_guess ? q->v_guess : 0);
       arb_addmul(arb_mat_entry(b, at[r], 0), m, guess, s->prec);
-      if (at[c] >= 0) arb_add(arb_mat_entry(A, at[r], at[c]), arb_mat_entry(A, at[r], at[c]), m, s->prec);
+      if (at[c] >= 0)
+        arb_add(arb_mat_entry(A, at[r], at[c]), arb_mat_entry(A, at[r], at[c]), m, s->prec);
       else arb_submul(arb_mat_entry(b, at[r], 0), m, v_of(z, c), s->prec);
     }
   }
   arb_clear(guess);
 }
 
-static void constraint_rows(starter* z, const pl_ball_jet* j, const int* at, arb_mat_t A, arb_mat_t b) {
+static void constraint_rows(starter* z, const pl_ball_jet* j, const int* at, arb_mat_t A,
+                            arb_mat_t b) {
   pl_system* s = z->s;
   const pl_pattern* p = j->pattern;
   for (int e = 0; e < p->n_G; e++) {
@@ -297,7 +308,7 @@ static bool solve_velocities(starter* z) {
   return z->n_unknown == 0 || solve_velocities_with(z, false) || solve_velocities_with(z, true);
 }
 
-// ---------------------------------------------------------------------------------------------- comparison
+// -------------------------------------------------------------------------------------- comparison
 // An upper bound of |x - y|.
 static double apart(arb_srcptr x, arb_srcptr y) {
   arb_t d;
@@ -331,23 +342,26 @@ static bool near_run(starter* z, const double* run, arb_ptr (*of)(starter*, int)
   return yes;
 }
 
-// Given values that were solved for and do not agree.  box: the neighbourhood in which the solution is the only one;
-// NULL: everywhere.
-static void note_moved(starter* z, const double* run, arb_srcptr box, arb_ptr (*of)(starter*, int), int offset) {
+// Given values that were solved for and do not agree. box: the neighbourhood in which the solution
+// is the only one; NULL: everywhere.
+static void note_moved(starter* z, const double* run, arb_srcptr box, arb_ptr (*of)(starter*, int),
+                       int offset) {
   double size = size_of(run, z->s->n_q);
   for (int k = 0; k < z->n_unknown; k++) {
     int i = z->list[k];
     if (!z->given[i]) continue;
-    bool agrees = arb_overlaps(of(z, i), z->value + i) && (!box || arb_contains(box + k, z->value + i));
+    bool agrees = arb_overlaps(of(z, i), z->value + i)
+                  && (!box || arb_contains(box + k, z->value + i));
     if (agrees) continue;
     pl_push(z->s->arena, z->moved, i + offset);
     z->out->moved = fmax(z->out->moved, apart(of(z, i), z->value + i) / size);
   }
 }
 
-// ---------------------------------------------------------------------------------------------- all
+// --------------------------------------------------------------------------------------------- all
 // Given values, and what the simulation begins with for the rest.
-static bool take_given(starter* z, const pl_expr* exact, const double* run, arb_ptr (*of)(starter*, int)) {
+static bool take_given(starter* z, const pl_expr* exact, const double* run,
+                       arb_ptr (*of)(starter*, int)) {
   for (int i = 0; i < z->s->n_q; i++) {
     z->given[i] = !pl_is_poison(exact[i]);
     if (!z->given[i]) {

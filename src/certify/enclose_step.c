@@ -1,21 +1,24 @@
 // One proved step.
 //
-// Existence.  Let Y be the product of the disks |q_i - q_i(t)| <= reach_q, |v_i - v_i(t)| <= reach_v and A_i a bound of |a_i|
-// over Y and the disk of times of radius R.  If R A_i <= reach_v and R |v_i| + R² A_i/2 <= reach_q, Picard's operator
-// q -> q + v t + double integral of a, v -> v + integral of a, along the radius to each complex time, maps the analytic functions with
-// values in Y to themselves, so the motion exists for |s - t| < R, is analytic there and stays in Y
+// Existence. Let Y be the product of the disks |q_i - q_i(t)| <= reach_q, |v_i - v_i(t)| <= reach_v
+// and A_i a bound of |a_i| over Y and the disk of times of radius R. If R A_i <= reach_v and R
+// |v_i| + R² A_i/2 <= reach_q, Picard's operator q -> q + v t + double integral of a, v -> v +
+// integral of a, along the radius to each complex time, maps the analytic functions with values in
+// Y to themselves, so the motion exists for |s - t| < R, is analytic there and stays in Y
 // [Hairer1993, I.7], [Tucker2011, ch. 6].
 //
-// Tail.  By Cauchy's estimate coefficient k of q_i is at most reach_q R^-k, so that what is left of the series after order p
-// at |h| = x R is at most reach_q x^(p+1)/(1-x).  Likewise v.
+// Tail. By Cauchy's estimate coefficient k of q_i is at most reach_q R^-k, so that what is left of
+// the series after order p at |h| = x R is at most reach_q x^(p+1)/(1-x). Likewise v.
 #include "certify/certify_impl.h"
 
 #include <math.h>
 
-static const double shrink = 0.8;         // of the radius when it is not proved
-static const double stretch = 1.4;        // tried beyond the last one
-static const double smallest = 1e-9;      // radius over the longest one: below it the motion runs into a singular position
-static const double natural = 0.14;       // step over radius: least work for p^2 operations of a step, near exp(-2)
+static const double shrink = 0.8;   // of the radius when it is not proved
+static const double stretch = 1.4;  // tried beyond the last one
+// radius over the longest one: below it the motion runs into a singular position
+static const double smallest = 1e-9;
+// step over radius: least work for p^2 operations of a step, near exp(-2)
+static const double natural = 0.14;
 enum { MOST_TRIES = 140, MOST_BOUNDS = 8 };
 
 void pl_stepper_make(pl_stepper* e, pl_system* s, int direction) {
@@ -34,7 +37,7 @@ void pl_stepper_free(pl_stepper* e) {
   mag_clear(e->x);
 }
 
-// ---------------------------------------------------------------------------------------------- existence
+// --------------------------------------------------------------------------------------- existence
 static void reach(pl_stepper* e, double radius) {
   pl_system* s = e->s;
   mag_t R, half, m;
@@ -98,7 +101,7 @@ static bool prove_radius(pl_stepper* e, arb_srcptr t, double radius) {
 
 bool pl_step_prove(pl_stepper* e, arb_srcptr t, double longest) {
   double radius = e->radius > 0 ? e->radius * stretch : longest / e->growth;
-  double whole = longest / e->growth;   // enough for what is left
+  double whole = longest / e->growth;  // enough for what is left
   if (radius > whole) radius = whole;
   double least = smallest * fmin(fmax(e->longest, radius), whole);
   for (int i = 0; i < MOST_TRIES && radius > least; i++) {
@@ -112,7 +115,7 @@ bool pl_step_prove(pl_stepper* e, arb_srcptr t, double longest) {
   return false;
 }
 
-// ---------------------------------------------------------------------------------------------- series
+// ------------------------------------------------------------------------------------------ series
 // Smallest order whose tail is below the rounding of the working precision.
 static int order_for(const pl_stepper* e, double x) {
   double p = ceil((double)(e->s->prec + 4) / -log2(x));

@@ -1,5 +1,5 @@
-// One step of an oscillator x'' = -x and of x'' = x'^2, whose motion ends in a pole: the bounds of the proof against closed forms at
-// complex times, and tails that matter because the order is low.
+// One step of an oscillator x'' = -x and of x'' = x'^2, whose motion ends in a pole: the bounds of
+// the proof against closed forms at complex times, and tails that matter because the order is low.
 #include "solve/setup_test.h"
 
 #include "certify/certify_impl.h"
@@ -32,8 +32,18 @@ static bench* open_bench(bool pole, long v) {
   k->time = pl_int(pool, 0);
   k->q_run = 1;
   k->v_run = (double)v;
-  k->p = (pl_certify_problem){.pool = pool, .setup = &b->setup, .coordinates = &x, .q_start = &k->q, .v_start = &k->v, .q_run = &k->q_run,
-                              .v_run = &k->v_run, .active = &k->none, .implied = &k->none, .t_0 = k->time, .n_times = 1, .times = &k->time};
+  k->p = (pl_certify_problem){.pool = pool,
+                              .setup = &b->setup,
+                              .coordinates = &x,
+                              .q_start = &k->q,
+                              .v_start = &k->v,
+                              .q_run = &k->q_run,
+                              .v_run = &k->v_run,
+                              .active = &k->none,
+                              .implied = &k->none,
+                              .t_0 = k->time,
+                              .n_times = 1,
+                              .times = &k->time};
   assert_int_equal(pl_system_make(&k->s, &b->job, &k->p), PL_CERTIFIED);
   k->p.coordinates = NULL;
   pl_system_hold(&k->s);
@@ -68,7 +78,8 @@ static double step(bench* k, int order) {
   return h;
 }
 
-// The ball of q holds the exact value, and its middle alone does not: the tail is needed, and no wider than `widest`.
+// The ball of q holds the exact value, and its middle alone does not: the tail is needed, and no
+// wider than `widest`.
 static void holds(bench* k, arb_srcptr exact, double widest) {
   arb_t middle, off;
   arb_init(middle);
@@ -114,7 +125,8 @@ static void the_disk_of_times_ends_before_a_pole(void** state) {
   close_bench(k);
 }
 
-// On the rim of the disk, at i R, cos is cosh R: within the proven reach, and that is not far beyond it.
+// On the rim of the disk, at i R, cos is cosh R: within the proven reach, and that is not far
+// beyond it.
 static void the_reach_holds_at_complex_times(void** state) {
   (void)state;
   bench* k = open_bench(false, 0);

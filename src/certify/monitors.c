@@ -1,13 +1,16 @@
-// Functions whose sign decides which equations hold: forces of contacts, gaps of free contacts, values of events.
+// Functions whose sign decides which equations hold: forces of contacts, gaps of free contacts,
+// values of events.
 //
-// Along a step each has a series with a proven tail: coefficient k is at most B R^-k, B a bound on the disk of times.  A sign
-// is proved on the whole step by evaluating the polynomial on intervals, halved where they are too long.  Where a function is
-// not proved to keep its sign, its derivative is proved to have the other one, the function to have changed at the end, and
-// Newton's method on intervals encloses the one zero between [Moore1966].
+// Along a step each has a series with a proven tail: coefficient k is at most B R^-k, B a bound on
+// the disk of times. A sign is proved on the whole step by evaluating the polynomial on intervals,
+// halved where they are too long. Where a function is not proved to keep its sign, its derivative
+// is proved to have the other one, the function to have changed at the end, and Newton's method on
+// intervals encloses the one zero between [Moore1966].
 //
-// Where a mode begins at a zero, the first `fresh` coefficients are exactly zero (one for an event that was just passed, three
-// for the gap of a contact that lets go: its gap, the velocity and, since the force is zero, the acceleration of it).  Then the
-// function divided by that power of the time is looked at.
+// Where a mode begins at a zero, the first `fresh` coefficients are exactly zero (one for an event
+// that was just passed, three for the gap of a contact that lets go: its gap, the velocity and,
+// since the force is zero, the acceleration of it). Then the function divided by that power of the
+// time is looked at.
 #include "certify/certify_impl.h"
 
 #include <math.h>
@@ -17,21 +20,22 @@ enum { HALVINGS = 16, LOOK_BITS = 96, MOST_NEWTON = 60 };
 typedef struct pl_monitors {
   PL_VEC(pl_monitor) list;
   int cap;
-  arb_ptr series;        // of the function looked at       (cap)
+  arb_ptr series;  // of the function looked at       (cap)
 } pl_monitors;
 
-// The function looked at: f(τ) = sum c_k τ^k, k = fresh .. order, times sign, divided by τ^fresh, and its tail.
+// The function looked at: f(τ) = sum c_k τ^k, k = fresh .. order, times sign, divided by τ^fresh,
+// and its tail.
 typedef struct look {
   pl_stepper* e;
   pl_monitors* all;
   const pl_monitor* m;
   int order;
-  mag_t bound;           // of |f| on the disk of times
+  mag_t bound;  // of |f| on the disk of times
   mag_t tail, slope_tail;
   arb_srcptr h;
 } look;
 
-// ---------------------------------------------------------------------------------------------- which
+// ------------------------------------------------------------------------------------------- which
 static bool does_something(const pl_event_setup* e) {
   for (int i = 0; i < e->n_deeds; i++)
     if (e->deeds[i].deed != PL_DEED_RECORD) return true;
@@ -57,12 +61,17 @@ void pl_monitors_reset(pl_system* s, bool anew, int released) {
     const pl_link* link = &s->setup->links[c];
     bool exists = link->contact < 0 || s->held[link->contact];
     if (link->side == 0 || link->off || !exists) continue;
-    pl_monitor m = {.kind = s->active[c] ? PL_MONITOR_FORCE : PL_MONITOR_GAP, .index = c, .sign = link->side};
-    if (c == released) m.fresh = 3, m.begun = true;
+    pl_monitor m = {
+        .kind = s->active[c] ? PL_MONITOR_FORCE : PL_MONITOR_GAP, .index = c, .sign = link->side};
+    if (c == released) {
+      m.fresh = 3;
+      m.begun = true;
+    }
     pl_push(s->arena, all->list, m);
   }
   for (int i = 0; i < s->setup->n_events && anew; i++)
-    if (does_something(&s->setup->events[i])) pl_push(s->arena, all->list, (pl_monitor){.kind = PL_MONITOR_EVENT, .index = i});
+    if (does_something(&s->setup->events[i]))
+      pl_push(s->arena, all->list, (pl_monitor){.kind = PL_MONITOR_EVENT, .index = i});
 }
 
 void pl_monitors_free(pl_system* s) {
@@ -77,7 +86,7 @@ void pl_monitors_moved(pl_system* s) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- programs
+// ---------------------------------------------------------------------------------------- programs
 typedef void (*visit)(pl_system* s, pl_ball_jet* j, int root, void* data);
 
 // Every root that contributes to the function of a monitor.
@@ -88,7 +97,8 @@ static void each_root(pl_system* s, const pl_monitor* m, visit visit_root, void*
     for (int e = 0; e < p->n_g && m->kind == PL_MONITOR_GAP; e++)
       if (j->c[p->g[e].row] == m->index) visit_root(s, j, p->g[e].root, data);
     for (int e = 0; e < p->n_out && m->kind == PL_MONITOR_EVENT; e++)
-      if (j->out && j->out[p->outputs[e].row] == s->setup->events[m->index].watch) visit_root(s, j, p->outputs[e].root, data);
+      if (j->out && j->out[p->outputs[e].row] == s->setup->events[m->index].watch)
+        visit_root(s, j, p->outputs[e].root, data);
   }
 }
 
@@ -103,7 +113,8 @@ pl_certify_end pl_monitors_mark(pl_system* s, const char** what) {
   s->monitors = PL_NEW(s->arena, pl_monitors);
   for (int c = 0; c < s->n_c; c++) {
     bool plain = true;
-    if (s->setup->links[c].side != 0) each_root(s, &(pl_monitor){.kind = PL_MONITOR_GAP, .index = c}, want, &plain);
+    if (s->setup->links[c].side != 0)
+      each_root(s, &(pl_monitor){.kind = PL_MONITOR_GAP, .index = c}, want, &plain);
   }
   for (int i = 0; i < s->setup->n_events; i++) {
     if (!does_something(&s->setup->events[i])) continue;
@@ -121,7 +132,8 @@ static void add_series(pl_system* s, pl_ball_jet* j, int root, void* data) {
   mag_t m;
   mag_init(m);
   arb_srcptr c = pl_root_series(j, root);
-  for (int i = 0; i <= k->order; i++) arb_add(k->all->series + i, k->all->series + i, c + i, s->prec);
+  for (int i = 0; i <= k->order; i++)
+    arb_add(k->all->series + i, k->all->series + i, c + i, s->prec);
   pl_disk_bound(m, &j->disk[j->tape->roots[root]]);
   mag_add(k->bound, k->bound, m);
   mag_clear(m);
@@ -146,8 +158,8 @@ static void load(look* k) {
   }
 }
 
-// tail: B R^-f x^(p+1-f)/(1-x).  That of the derivative: (p+1-f) B R^-(f+1) x^(p-f)/(1-x)², since sum k x^(k-1) over k > n
-// is at most (n+1) x^n/(1-x)².
+// tail: B R^-f x^(p+1-f)/(1-x). That of the derivative: (p+1-f) B R^-(f+1) x^(p-f)/(1-x)², since
+// sum k x^(k-1) over k > n is at most (n+1) x^n/(1-x)².
 static void set_tails(look* k) {
   mag_t R, one, gap;
   mag_init(R);
@@ -170,7 +182,7 @@ static void set_tails(look* k) {
   mag_clear(gap);
 }
 
-// ---------------------------------------------------------------------------------------------- values
+// ------------------------------------------------------------------------------------------ values
 // The function, or its derivative, on the ball τ.
 static void value(const look* k, arb_t out, arb_srcptr tau, bool slope, slong prec) {
   arb_t c;
@@ -212,8 +224,10 @@ static int sign_on(const look* k, double lo, double hi, bool slope) {
   return sign;
 }
 
-// The first short interval on which the function is not proved to be positive; false: there is none.
-static bool first_doubt(const look* k, double lo, double hi, int halvings, double* from, double* to) {
+// The first short interval on which the function is not proved to be positive; false: there is
+// none.
+static bool first_doubt(const look* k, double lo, double hi, int halvings, double* from,
+                        double* to) {
   if (sign_on(k, lo, hi, false) > 0) return false;
   if (halvings == 0) {
     *from = lo;
@@ -221,11 +235,13 @@ static bool first_doubt(const look* k, double lo, double hi, int halvings, doubl
     return true;
   }
   double middle = lo + (hi - lo) / 2;
-  return first_doubt(k, lo, middle, halvings - 1, from, to) || first_doubt(k, middle, hi, halvings - 1, from, to);
+  return first_doubt(k, lo, middle, halvings - 1, from, to)
+         || first_doubt(k, middle, hi, halvings - 1, from, to);
 }
 
-// ---------------------------------------------------------------------------------------------- zeros
-// Newton's method on the interval [lo, hi], on which the derivative has no zero and the function changes sign.
+// ------------------------------------------------------------------------------------------- zeros
+// Newton's method on the interval [lo, hi], on which the derivative has no zero and the function
+// changes sign.
 static bool newton(const look* k, arb_t root, double lo, double hi) {
   slong prec = k->e->s->prec;
   arb_t middle, slope, next;
@@ -261,7 +277,7 @@ static bool zero_behind(const look* k, arb_t root, double from, double to, doubl
   return false;
 }
 
-// ---------------------------------------------------------------------------------------------- beginning
+// --------------------------------------------------------------------------------------- beginning
 // Coefficients that are exactly zero where the motion begins; the sign of an event's value there.
 static bool begin(look* k, pl_monitor* m) {
   if (m->begun && m->sign != 0) return true;
@@ -280,7 +296,7 @@ static pl_look look_at(look* k, pl_monitor* m, arb_t root, double* safe) {
   if (!begin(k, m)) return PL_LOOK_LOST;
   set_tails(k);
   *safe = h;
-  double end = h * (1 + 1e-15);   // h may be a ball
+  double end = h * (1 + 1e-15);  // h may be a ball
   if (!first_doubt(k, 0, end, HALVINGS, &from, &to)) return PL_LOOK_CLEAR;
   *safe = from;
   // a beginning at zero is no zero of its own
@@ -288,10 +304,10 @@ static pl_look look_at(look* k, pl_monitor* m, arb_t root, double* safe) {
   return from > 0 ? PL_LOOK_SHORTER : PL_LOOK_LOST;
 }
 
-// ---------------------------------------------------------------------------------------------- all
+// --------------------------------------------------------------------------------------------- all
 typedef struct first {
   pl_look look;
-  double safe;           // all functions keep their signs up to here, but for the one that hits
+  double safe;  // all functions keep their signs up to here, but for the one that hits
   arb_t root;
   pl_monitor* hit;
 } first;

@@ -1,4 +1,5 @@
-// The system of a certified motion: one jet for each instance of each pattern, unknowns, and their memory.
+// The system of a certified motion: one jet for each instance of each pattern, unknowns, and their
+// memory.
 //
 // Balls are FLINT's, so they are freed by pl_system_free; everything else stands in the arena.
 #include "certify/certify_impl.h"
@@ -6,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-// ---------------------------------------------------------------------------------------------- jets
+// -------------------------------------------------------------------------------------------- jets
 void pl_jet_want(pl_ball_jet* j, int* stack, int root, uint8_t who) {
   int n = 0;
   stack[n++] = j->tape->roots[root];
@@ -21,7 +22,8 @@ void pl_jet_want(pl_ball_jet* j, int* stack, int root, uint8_t who) {
   }
 }
 
-static void mark_entries(pl_ball_jet* j, int* stack, const pl_pattern_entry* e, int n, uint8_t who) {
+static void mark_entries(pl_ball_jet* j, int* stack, const pl_pattern_entry* e, int n,
+                         uint8_t who) {
   for (int i = 0; i < n; i++) pl_jet_want(j, stack, e[i].root, who);
 }
 
@@ -44,8 +46,17 @@ static void mark_wanted(pl_system* s, pl_ball_jet* j) {
 // Nodes whose recurrence has weights.
 static bool has_weights(int op) {
   switch (op) {
-    case PL_OP_EXP: case PL_OP_LN: case PL_OP_SIN: case PL_OP_COS: case PL_OP_SINH: case PL_OP_COSH: case PL_OP_TAN:
-    case PL_OP_TANH: case PL_OP_ASIN: case PL_OP_ACOS: case PL_OP_ATAN: return true;
+    case PL_OP_EXP:
+    case PL_OP_LN:
+    case PL_OP_SIN:
+    case PL_OP_COS:
+    case PL_OP_SINH:
+    case PL_OP_COSH:
+    case PL_OP_TAN:
+    case PL_OP_TANH:
+    case PL_OP_ASIN:
+    case PL_OP_ACOS:
+    case PL_OP_ATAN: return true;
     default: return false;
   }
 }
@@ -86,7 +97,8 @@ static void make_jets_of(pl_system* s, const pl_pattern* p, int n, bool watches)
 // What events watch is a program like the others, without equations.
 static void make_jets(pl_system* s) {
   const pl_setup* setup = s->setup;
-  int n = count_instances(setup->patterns, setup->n_patterns) + count_instances(setup->watch, setup->n_watch_patterns);
+  int n = count_instances(setup->patterns, setup->n_patterns)
+          + count_instances(setup->watch, setup->n_watch_patterns);
   s->jet = PL_ARRAY(s->arena, pl_ball_jet, n + 1);
   make_jets_of(s, setup->patterns, setup->n_patterns, false);
   make_jets_of(s, setup->watch, setup->n_watch_patterns, true);
@@ -102,7 +114,7 @@ static long count_nodes(const pl_setup* s) {
   return count_nodes_of(s->patterns, s->n_patterns) + count_nodes_of(s->watch, s->n_watch_patterns);
 }
 
-// ---------------------------------------------------------------------------------------------- the whole
+// --------------------------------------------------------------------------------------- the whole
 static void make_names(pl_system* s) {
   pl_pool* pool = s->p->pool;
   s->exact = (pl_exact){.p = s->p, .arena = s->arena, .place = pl_map_make(s->arena)};
@@ -136,7 +148,8 @@ void pl_system_hold(pl_system* s) {
   s->n_wanted = 0;
   for (int c = 0; c < s->n_c; c++) {
     s->active[c] = s->held[c] && (links[c].contact < 0 || s->held[links[c].contact]);
-    for (int i = 0; i < links[c].n_needs; i++) s->active[c] = s->active[c] && s->held[links[c].needs[i]];
+    for (int i = 0; i < links[c].n_needs; i++)
+      s->active[c] = s->active[c] && s->held[links[c].needs[i]];
     s->n_wanted += s->active[c] && !s->p->implied[c];
   }
 }
@@ -212,19 +225,23 @@ void pl_system_reserve(pl_system* s, int cap) {
   if (s->prec) pl_system_precision(s, s->prec);
 }
 
-arb_srcptr pl_root_series(const pl_ball_jet* j, int root) { return j->coef + (slong)j->tape->roots[root] * j->cap; }
+arb_srcptr pl_root_series(const pl_ball_jet* j, int root) {
+  return j->coef + (slong)j->tape->roots[root] * j->cap;
+}
 
-// ---------------------------------------------------------------------------------------------- constants
+// --------------------------------------------------------------------------------------- constants
 static bool constant(pl_system* s, pl_ball_jet* j, int i) {
   const pl_tape_node* node = &j->tape->nodes[i];
   arb_ptr c = j->coef + (slong)i * j->cap;
   switch (node->op) {
     case PL_OP_CONST:
-      if (!pl_is_poison(j->tape->constant[i])) return pl_exact_ball(&s->exact, c, j->tape->constant[i]);
+      if (!pl_is_poison(j->tape->constant[i]))
+        return pl_exact_ball(&s->exact, c, j->tape->constant[i]);
       arb_set_d(c, node->value);
       return true;
     case PL_OP_INDEX: arb_set_d(c, j->index[node->slot]); return true;
-    case PL_OP_PARAM: return pl_exact_ball(&s->exact, c, pl_sym(s->p->pool, j->tape->param_symbol[node->slot]));
+    case PL_OP_PARAM:
+      return pl_exact_ball(&s->exact, c, pl_sym(s->p->pool, j->tape->param_symbol[node->slot]));
     default: return true;
   }
 }

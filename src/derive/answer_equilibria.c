@@ -1,20 +1,24 @@
-// answer_equilibria: positions of rest, when they exist, whether they are stable, and the small oscillations about them.
-//   f_i(q) = 0 with f the equations of the second kind at rest;  K = df/dq, M = d2T/dv2;  det(K - ω² M) = 0.
+// answer_equilibria: positions of rest, when they exist, whether they are stable, and the small
+// oscillations about them.
+//   f_i(q) = 0 with f the equations of the second kind at rest; K = df/dq, M = d2T/dv2; det(K - ω²
+//   M) = 0.
 #include <math.h>
 #include <string.h>
 
 #include "derive/equilibria_impl.h"
 
-// ---------------------------------------------------------------------------------------------- display
+// ----------------------------------------------------------------------------------------- display
 bool pl_is_angle(pl_analysis* d, int i) {
   const pl_symbol_info* s = pl_symbol_get(d->pool, d->q.at[i].q);
   bool plain = !s->dimension_known || pl_dimension_equal(s->dimension, pl_dimension_one());
   if (!plain || !pl_places_repeat(d, d->q.at[i].q)) return false;
-  pl_expr c = pl_call(d->pool, PL_COS, pl_sym(d->pool, d->q.at[i].q)), s2 = pl_call(d->pool, PL_SIN, pl_sym(d->pool, d->q.at[i].q));
+  pl_expr c = pl_call(d->pool, PL_COS, pl_sym(d->pool, d->q.at[i].q)),
+          s2 = pl_call(d->pool, PL_SIN, pl_sym(d->pool, d->q.at[i].q));
   pl_expr mark = pl_int(d->pool, 7);
   pl_expr probe = pl_add(d->pool, d->Tg, d->Vg);
   for (int k = 0; k < d->g.n; k++) probe = pl_add(d->pool, probe, d->g.at[k].g);
-  return !pl_same(pl_subst_expr(d->pool, probe, c, mark), probe) || !pl_same(pl_subst_expr(d->pool, probe, s2, mark), probe);
+  return !pl_same(pl_subst_expr(d->pool, probe, c, mark), probe)
+         || !pl_same(pl_subst_expr(d->pool, probe, s2, mark), probe);
 }
 
 // No equation contains a coordinate: every position is one of rest.
@@ -52,7 +56,8 @@ static const pl_form* number_form(pl_analysis* d, int i, pl_expr value) {
   pl_notation how = {.math = PL_MATH_LINE, .lang = d->job->lang};
   bool known;
   pl_dimension dim = pl_dimension_of_expr(d, pl_sym(d->pool, d->q.at[i].q), &known);
-  const char *number = pl_notation_number(d->arena, x, 6, how), *unit = known ? pl_dimension_unit(d->arena, dim, false) : "";
+  const char *number = pl_notation_number(d->arena, x, 6, how),
+             *unit = known ? pl_dimension_unit(d->arena, dim, false) : "";
   const pl_form* about = with_unit(d, number, unit);
   if (pl_is_angle(d, i) && x != 0) about = pl_feq(d, about, in_degrees(d, x));
   return pl_frel(d, pl_fs(d, d->q.at[i].q), "≈", about);
@@ -64,14 +69,18 @@ const pl_form* pl_rest_form(pl_analysis* d, const pl_rest* r) {
   for (int k = 0; k < d->gen.n; k++) {
     int i = d->gen.at[k];
     if (pl_is_poison(r->q[k])) continue;
-    f[n++] = r->numeric && !r->exact[k] ? number_form(d, i, r->q[k]) : pl_feq(d, pl_fs(d, d->q.at[i].q), value_form(d, i, r->q[k]));
+    f[n++] = r->numeric && !r->exact[k]
+                 ? number_form(d, i, r->q[k])
+                 : pl_feq(d, pl_fs(d, d->q.at[i].q), value_form(d, i, r->q[k]));
   }
   if (n == 0) return all_free(d);
   return n == 1 ? f[0] : pl_flist(d, f, n);
 }
 
 static const char* german_stability(const char* s) {
-  return strcmp(s, "stable") == 0 ? "stabil" : strcmp(s, "unstable") == 0 ? "instabil" : "indifferent";
+  return strcmp(s, "stable") == 0     ? "stabil"
+         : strcmp(s, "unstable") == 0 ? "instabil"
+                                      : "indifferent";
 }
 
 // ω² of a place that is known in numbers only.
@@ -82,7 +91,8 @@ const pl_form* pl_square_form(pl_analysis* d, pl_expr w2, bool numeric) {
   return pl_frel(d, pl_fs(d, pl_omega_squared(d)), "≈", with_unit(d, number, "1/s²"));
 }
 
-static void show_oscillations(pl_analysis* d, const pl_linearised* l, const char* at, bool numeric) {
+static void show_oscillations(pl_analysis* d, const pl_linearised* l, const char* at,
+                              bool numeric) {
   pl_root root[8];
   bool complete;
   int n = pl_small_oscillations(d, l, root, 8, &complete);
@@ -94,12 +104,14 @@ static void show_oscillations(pl_analysis* d, const pl_linearised* l, const char
     pl_step* s = pl_show_numbered(d, pl_square_form(d, root[k].value, numeric));
     for (int r = 0; r < d->lagrange2_numbers.n; r++) pl_step_refs(s, 1, d->lagrange2_numbers.at[r]);
     bool zero = pl_vanishes(d, root[k].value);
-    pl_step_after(s, zero ? "zero mode: it drifts" : "small oscillations", zero ? "Nullmode: Drift" : "kleine Schwingungen");
+    pl_step_after(s, zero ? "zero mode: it drifts" : "small oscillations",
+                  zero ? "Nullmode: Drift" : "kleine Schwingungen");
     if (x > 0) {
       s->has_value = true;
       s->value = sqrt(x);
       s->unit = "1/s";
-      s->value_name = strncmp(pl_symbol_get(d->pool, pl_omega_squared(d))->name, "Ω", 2) == 0 ? "Ω" : "ω";
+      s->value_name = strncmp(pl_symbol_get(d->pool, pl_omega_squared(d))->name, "Ω", 2) == 0 ? "Ω"
+                                                                                              : "ω";
     }
     pl_value* v = pl_answer(d, "omega^2", root[k].value, form);
     v->of = pl_format(d->arena, "mode %d", k + 1);
@@ -122,7 +134,8 @@ const pl_bond* pl_rest_pulls(pl_analysis* d, const pl_rest* r) {
 
 static void say_pulls(pl_analysis* d, const pl_bond* l, const pl_rest* r) {
   pl_say(d, "{1} is none: {2} is one-sided and would have to act the other way.",
-         "{1} ist keine: {2} ist einseitig und müsste andersherum wirken.", 2, pl_rest_form(d, r), pl_fn(d, l->source->name.text));
+         "{1} ist keine: {2} ist einseitig und müsste andersherum wirken.", 2, pl_rest_form(d, r),
+         pl_fn(d, l->source->name.text));
 }
 
 static void say_singular(pl_analysis* d, const pl_rests* found) {
@@ -130,25 +143,34 @@ static void say_singular(pl_analysis* d, const pl_rests* found) {
   if (found->n_singular == 0 || !pl_rest_exists_at_numbers(d, r)) return;
   const char* text;
   const pl_form* real = pl_conditions_form(d, r->condition, r->n_conditions, false, &text);
-  pl_say(d, real ? "At positions like {1} (if {2}) the generalized forces vanish too, but these coordinates fail there (the mass matrix or a constraint is singular); other "
-                   "coordinates decide."
-                 : "At positions like {1} the generalized forces vanish too, but these coordinates fail there (the mass matrix or a constraint is singular); other "
-                   "coordinates decide.",
-         real ? "Auch bei Lagen wie {1} (wenn {2}) verschwinden die verallgemeinerten Kräfte, aber diese Koordinaten versagen dort (die Massenmatrix oder eine "
-                "Zwangsbedingung ist singulär); andere Koordinaten entscheiden."
-              : "Auch bei Lagen wie {1} verschwinden die verallgemeinerten Kräfte, aber diese Koordinaten versagen dort (die Massenmatrix oder eine Zwangsbedingung ist singulär); "
-                "andere Koordinaten entscheiden.", real ? 2 : 1, pl_rest_form(d, r), real);
+  pl_say(
+      d,
+      real ? "At positions like {1} (if {2}) the generalized forces vanish too, but these "
+             "coordinates fail there (the mass matrix or a constraint is singular); other "
+             "coordinates decide."
+           : "At positions like {1} the generalized forces vanish too, but these coordinates fail "
+             "there (the mass matrix or a constraint is singular); other "
+             "coordinates decide.",
+      real ? "Auch bei Lagen wie {1} (wenn {2}) verschwinden die verallgemeinerten Kräfte, aber "
+             "diese Koordinaten versagen dort (die Massenmatrix oder eine "
+             "Zwangsbedingung ist singulär); andere Koordinaten entscheiden."
+           : "Auch bei Lagen wie {1} verschwinden die verallgemeinerten Kräfte, aber diese "
+             "Koordinaten versagen dort (die Massenmatrix oder eine Zwangsbedingung ist singulär); "
+             "andere Koordinaten entscheiden.",
+      real ? 2 : 1, pl_rest_form(d, r), real);
 }
 
 void pl_say_velocity_terms(pl_analysis* d, const pl_linearised* l) {
   if (l->damped) {
-    pl_say(d, "The motion is damped; ω² is that of the system without damping.", "Die Bewegung ist gedämpft; ω² ist das ohne Dämpfung.", 0);
+    pl_say(d, "The motion is damped; ω² is that of the system without damping.",
+           "Die Bewegung ist gedämpft; ω² ist das ohne Dämpfung.", 0);
   }
 }
 
-// ---------------------------------------------------------------------------------------------- one position
+// ------------------------------------------------------------------------------------ one position
 bool pl_rest_exists_at_numbers(pl_analysis* d, const pl_rest* r) {
-  static const double rounding = 1e-12;   // a condition met with equality, 1 - cos²(0) >= 0, may be missed by that
+  // a condition met with equality, 1 - cos²(0) >= 0, may be missed by that
+  static const double rounding = 1e-12;
   for (int k = 0; k < r->n_conditions; k++) {
     if (pl_number(d, r->condition[k]) < -rounding) return false;
   }
@@ -157,18 +179,29 @@ bool pl_rest_exists_at_numbers(pl_analysis* d, const pl_rest* r) {
 
 static void say_doubt(pl_analysis* d, pl_doubt doubt) {
   static const char* const words[][2] = {
-    [PL_DOUBT_GYROSCOPIC] = {"No minimum of the potential is proven here; the gyroscopic terms decide with the signs of ω².",
-                             "Ein Minimum des Potentials ist hier nicht bewiesen; die gyroskopischen Terme entscheiden mit den Vorzeichen von ω²."},
-    [PL_DOUBT_CIRCULATORY] = {"Forces without potential depend on the position: the potential does not decide on stability, the ω² do.",
-                              "Kräfte ohne Potential hängen vom Ort ab: über die Stabilität entscheidet nicht das Potential, sondern die ω²."},
-    [PL_DOUBT_DRIVEN] = {"The forces around it change with time: a potential does not decide on stability.",
-                         "Die Kräfte in der Umgebung ändern sich mit der Zeit: über die Stabilität entscheidet kein Potential."},
-    [PL_DOUBT_DAMPING] = {"A force along the velocity may feed energy in: the potential alone does not decide on stability.",
-                          "Eine Kraft längs der Geschwindigkeit kann Energie zuführen: das Potential allein entscheidet nicht über die Stabilität."},
-    [PL_DOUBT_INERTIA] = {"The kinetic energy is not positive here: the potential does not decide on stability.",
-                          "Die kinetische Energie ist hier nicht positiv: das Potential entscheidet nicht über die Stabilität."},
-    [PL_DOUBT_DEGENERATE] = {"The linear terms of the force do not decide on stability.",
-                             "Die linearen Terme der Kraft entscheiden nicht über die Stabilität."},
+      [PL_DOUBT_GYROSCOPIC] = {"No minimum of the potential is proven here; the gyroscopic terms "
+                               "decide with the signs of ω².",
+                               "Ein Minimum des Potentials ist hier nicht bewiesen; die "
+                               "gyroskopischen Terme entscheiden mit den Vorzeichen von ω²."},
+      [PL_DOUBT_CIRCULATORY] = {"Forces without potential depend on the position: the potential "
+                                "does not decide on stability, the ω² do.",
+                                "Kräfte ohne Potential hängen vom Ort ab: über die Stabilität "
+                                "entscheidet nicht das Potential, sondern die ω²."},
+      [PL_DOUBT_DRIVEN] =
+          {"The forces around it change with time: a potential does not decide on stability.",
+           "Die Kräfte in der Umgebung ändern sich mit der Zeit: über die Stabilität entscheidet "
+           "kein Potential."},
+      [PL_DOUBT_DAMPING] = {"A force along the velocity may feed energy in: the potential alone "
+                            "does not decide on stability.",
+                            "Eine Kraft längs der Geschwindigkeit kann Energie zuführen: das "
+                            "Potential allein entscheidet nicht über die Stabilität."},
+      [PL_DOUBT_INERTIA] =
+          {"The kinetic energy is not positive here: the potential does not decide on stability.",
+           "Die kinetische Energie ist hier nicht positiv: das Potential entscheidet nicht über "
+           "die Stabilität."},
+      [PL_DOUBT_DEGENERATE] =
+          {"The linear terms of the force do not decide on stability.",
+           "Die linearen Terme der Kraft entscheiden nicht über die Stabilität."},
   };
   if (doubt != PL_DOUBT_NONE) pl_say(d, words[doubt][0], words[doubt][1], 0);
 }
@@ -180,7 +213,9 @@ static void say_existence(pl_analysis* d, const pl_rest* r, pl_value* v) {
     return;
   }
   if (pl_rest_exists_at_numbers(d, r)) pl_say(d, "exists if {1}", "besteht, wenn {1}", 1, form);
-  else pl_say(d, "exists if {1}, not for the given numbers", "besteht, wenn {1}, nicht bei den gegebenen Zahlen", 1, form);
+  else
+    pl_say(d, "exists if {1}, not for the given numbers",
+           "besteht, wenn {1}, nicht bei den gegebenen Zahlen", 1, form);
 }
 
 static void say_stability(pl_analysis* d, const pl_verdict* judged, pl_value* v) {
@@ -194,15 +229,19 @@ static void say_stability(pl_analysis* d, const pl_verdict* judged, pl_value* v)
   else v->stable_if = NULL;
 }
 
-static void mark_stability(pl_analysis* d, pl_step* step, const pl_verdict* judged, const pl_rest* r) {
+static void mark_stability(pl_analysis* d, pl_step* step, const pl_verdict* judged,
+                           const pl_rest* r) {
   if (judged->word) pl_step_after(step, judged->word, german_stability(judged->word));
   if (judged->word || !judged->at_numbers) return;
   if (r->numeric) pl_step_after(step, judged->at_numbers, german_stability(judged->at_numbers));
-  else pl_step_after(step, pl_format(d->arena, "%s for the given numbers", judged->at_numbers),
-                     pl_format(d->arena, "%s bei den gegebenen Zahlen", german_stability(judged->at_numbers)));
+  else
+    pl_step_after(
+        step, pl_format(d->arena, "%s for the given numbers", judged->at_numbers),
+        pl_format(d->arena, "%s bei den gegebenen Zahlen", german_stability(judged->at_numbers)));
 }
 
-// Proposed coordinates are not those of the model: the place in these.  Returns how many; also where the formulas stand in forms.
+// Proposed coordinates are not those of the model: the place in these. Returns how many; also where
+// the formulas stand in forms.
 static int in_the_model(pl_analysis* d, const pl_rest* r, pl_component* out, const pl_form** form) {
   int n = 0;
   for (int i = 0; d->is_proposal && !r->numeric && i < d->q.n; i++) {
@@ -211,7 +250,8 @@ static int in_the_model(pl_analysis* d, const pl_rest* r, pl_component* out, con
     pl_expr place = pl_alg_normal(d->tower, pl_insert_rest(d, c->map, r));
     const pl_form* shown = pl_f(d, place, PL_S_PLAIN);
     form[n] = pl_feq(d, pl_fs(d, c->q), shown);
-    out[n++] = (pl_component){pl_symbol_get(d->pool, c->q)->ascii, place, shown, pl_number(d, place)};
+    out[n++] = (pl_component){pl_symbol_get(d->pool, c->q)->ascii, place, shown,
+                              pl_number(d, place)};
   }
   return n;
 }
@@ -226,7 +266,8 @@ static void name_components(pl_analysis* d, const pl_rest* r, pl_value* v) {
       free_names[v->n_free++] = name;
       continue;
     }
-    v->components[v->n_components++] = (pl_component){name, r->q[k], pl_f(d, r->q[k], PL_S_PLAIN), pl_number(d, r->q[k])};
+    v->components[v->n_components++] = (pl_component){name, r->q[k], pl_f(d, r->q[k], PL_S_PLAIN),
+                                                      pl_number(d, r->q[k])};
   }
   v->free_names = free_names;
   const pl_form** form = PL_ARRAY(d->arena, const pl_form*, d->q.n + 1);
@@ -235,7 +276,8 @@ static void name_components(pl_analysis* d, const pl_rest* r, pl_value* v) {
   if (n > 0) pl_show(d, n == 1 ? form[0] : pl_flist(d, form, n));
 }
 
-// Where the position is there it is unstable: the condition of stability is the opposite of one of existence.
+// Where the position is there it is unstable: the condition of stability is the opposite of one of
+// existence.
 static void judge_by_existence(pl_analysis* d, const pl_rest* r, pl_verdict* judged) {
   if (judged->word || judged->doubt != PL_DOUBT_NONE) return;
   for (int k = 0; k < judged->n; k++) {
@@ -256,33 +298,50 @@ static void show_rest(pl_analysis* d, const pl_expr* f, const pl_rest* r, int nu
   bool exists = pl_rest_exists_at_numbers(d, r);
   pl_step* step = pl_show(d, pl_rest_form(d, r));
   if (exists) mark_stability(d, step, &judged, r);
-  pl_value v = {.name = pl_format(d->arena, "equilibrium %d", number), .number = (double)NAN, .conserved = -1, .passed = -1, .order = -1,
+  pl_value v = {.name = pl_format(d->arena, "equilibrium %d", number),
+                .number = (double)NAN,
+                .conserved = -1,
+                .passed = -1,
+                .order = -1,
                 .stability = exists ? judged.at_numbers : judged.word};
   name_components(d, r, &v);
   say_existence(d, r, &v);
   if (!r->numeric) say_stability(d, &judged, &v);
   pl_push(d->arena, d->section->values, v);
   const char* here = v.stability;
-  bool oscillates = exists && (!here || strcmp(here, "stable") == 0) && judged.doubt != PL_DOUBT_DRIVEN;
+  bool oscillates = exists && (!here || strcmp(here, "stable") == 0)
+                    && judged.doubt != PL_DOUBT_DRIVEN;
   if (oscillates) pl_say_velocity_terms(d, &l);
   if (oscillates) show_oscillations(d, &l, v.name, r->numeric);
-  for (int k = 0; k < d->gen.n && !r->numeric && exists; k++) pl_claim_free(d, PL_CLAIM_INSERTED, pl_insert_rest(d, f[k], r), pl_int(d->pool, 0));
+  for (int k = 0; k < d->gen.n && !r->numeric && exists; k++)
+    pl_claim_free(d, PL_CLAIM_INSERTED, pl_insert_rest(d, f[k], r), pl_int(d->pool, 0));
 }
 
 // Positions of rest are sought in a few generalized coordinates.
 bool pl_rests_out_of_reach(pl_analysis* d) {
   if (d->reduced && d->gen.n == 0) {
-    pl_say(d, "No coordinate is free: the constraints give the position.", "Keine Koordinate ist frei: die Zwangsbedingungen geben die Lage.", 0);
+    pl_say(d, "No coordinate is free: the constraints give the position.",
+           "Keine Koordinate ist frei: die Zwangsbedingungen geben die Lage.", 0);
     return true;
   }
   if (d->reduced && d->gen.n <= pl_max_gen) return false;
   if (!d->reduced) {
-    pl_say(d, "They are sought in generalized coordinates, and the constraints were not solved for such. Name them: choose φ with ...",
-           "Sie werden in verallgemeinerten Koordinaten gesucht, und danach sind die Zwangsbedingungen nicht aufgelöst. Man nenne sie: choose φ with ...",
+    pl_say(d,
+           "They are sought in generalized coordinates, and the constraints were not solved for "
+           "such. Name them: choose φ with ...",
+           "Sie werden in verallgemeinerten Koordinaten gesucht, und danach sind die "
+           "Zwangsbedingungen nicht aufgelöst. Man nenne sie: choose φ with ...",
            0);
   } else {
-    pl_say(d, pl_format(d->arena, "They are sought for up to %d generalized coordinates; here there are %d.", pl_max_gen, d->gen.n),
-           pl_format(d->arena, "Sie werden für höchstens %d verallgemeinerte Koordinaten gesucht; hier sind es %d.", pl_max_gen, d->gen.n), 0);
+    pl_say(d,
+           pl_format(d->arena,
+                     "They are sought for up to %d generalized coordinates; here there are %d.",
+                     pl_max_gen, d->gen.n),
+           pl_format(
+               d->arena,
+               "Sie werden für höchstens %d verallgemeinerte Koordinaten gesucht; hier sind es %d.",
+               pl_max_gen, d->gen.n),
+           0);
   }
   d->section->not_found = true;
   return true;
@@ -295,19 +354,26 @@ static void end_of_steady(pl_analysis* d) {
   pl_collect_generalized(d);
 }
 
-// `for φ' = Ω`: the coordinate is driven at a steady rate and is no freedom then.  It must not occur itself.
+// `for φ' = Ω`: the coordinate is driven at a steady rate and is no freedom then. It must not occur
+// itself.
 static bool turns_steadily(pl_analysis* d, const pl_ask* ask) {
   for (int k = 0; k < ask->where.n; k++) {
     const pl_condition* c = &ask->where.at[k];
-    pl_symbol v = pl_kind_of(d->pool, c->left) == PL_SYMBOL ? pl_symbol_of(d->pool, c->left) : (pl_symbol){0};
+    pl_symbol v = pl_kind_of(d->pool, c->left) == PL_SYMBOL ? pl_symbol_of(d->pool, c->left)
+                                                            : (pl_symbol){0};
     int i = pl_variable_index(d, v), place = -1;
     for (int j = 0; j < d->gen.n; j++) {
       if (d->gen.at[j] == i && d->q.at[i].v.id == v.id) place = j;
     }
-    bool steady = place >= 0 && !pl_has_coordinates(d, c->right) && !pl_has_symbol(d->pool, c->right, pl_time(d->pool));
+    bool steady = place >= 0 && !pl_has_coordinates(d, c->right)
+                  && !pl_has_symbol(d->pool, c->right, pl_time(d->pool));
     if (!steady || pl_alg_is_zero(d->tower, pl_diff(d->pool, d->Lg, d->q.at[i].q)) != PL_YES) {
-      pl_say(d, "After `for` the velocity of a cyclic coordinate is given a constant value, as in φ' = Ω.",
-             "Nach `for` erhält die Geschwindigkeit einer zyklischen Koordinate einen festen Wert, wie in φ' = Ω.", 0);
+      pl_say(d,
+             "After `for` the velocity of a cyclic coordinate is given a constant value, as in φ' "
+             "= Ω.",
+             "Nach `for` erhält die Geschwindigkeit einer zyklischen Koordinate einen festen Wert, "
+             "wie in φ' = Ω.",
+             0);
       end_of_steady(d);
       d->section->not_found = true;
       return false;
@@ -320,42 +386,65 @@ static bool turns_steadily(pl_analysis* d, const pl_ask* ask) {
 }
 
 static void say_turns(pl_analysis* d) {
-  pl_say(d, "There are others: of an angle one period is listed, and the system as a whole does not repeat with it.",
-         "Es gibt weitere: von einem Winkel steht eine Periode da, und das System als Ganzes wiederholt sich mit ihr nicht.", 0);
+  pl_say(d,
+         "There are others: of an angle one period is listed, and the system as a whole does not "
+         "repeat with it.",
+         "Es gibt weitere: von einem Winkel steht eine Periode da, und das System als Ganzes "
+         "wiederholt sich mit ihr nicht.",
+         0);
 }
 
 // Whether the list is all there is, and how that is known.
 void pl_say_rests_missing(pl_analysis* d, const pl_expr* f, const pl_rests* found) {
   for (int k = 0; k < d->gen.n && found->n > 0; k++) {
     if (!pl_rests_recur(d, f, k)) continue;
-    pl_say(d, "The forces repeat with whole periods of {1}, the places do not: beside each of these there are others, whole periods further.",
-           "Die Kräfte wiederholen sich mit ganzen Perioden von {1}, die Lagen nicht: zu jeder gibt es weitere, ganze Perioden entfernt.", 1,
-           pl_fs(d, d->q.at[d->gen.at[k]].q));
+    pl_say(d,
+           "The forces repeat with whole periods of {1}, the places do not: beside each of these "
+           "there are others, whole periods further.",
+           "Die Kräfte wiederholen sich mit ganzen Perioden von {1}, die Lagen nicht: zu jeder "
+           "gibt es weitere, ganze Perioden entfernt.",
+           1, pl_fs(d, d->q.at[d->gen.at[k]].q));
   }
   const pl_form* zero = pl_form_leaf(d->arena, pl_int(d->pool, 0));
   if (found->complete && found->by_numbers && found->searched > 0) {
     const pl_form* inside = pl_fs(d, d->q.at[d->gen.at[found->searched_place]].q);
     pl_expr digits = pl_int(d->pool, lround(log10(found->searched)));
     const pl_form* range = pl_form_leaf(d->arena, pl_int(d->pool, 10));
-    if (found->searched > 10) range = pl_form_power(d->arena, range, pl_form_leaf(d->arena, digits));
+    if (found->searched > 10)
+      range = pl_form_power(d->arena, range, pl_form_leaf(d->arena, digits));
     const pl_form* q = pl_form_call(d->arena, PL_ABS, &inside, 1);
     bool alone = d->gen.n == 1;
-    pl_say(d, alone ? "With {1}, in SI units, there are no others: interval arithmetic proves it for the given numbers."
-                    : "With {1}, in SI units, and up to whole periods of other angles there are no others: interval arithmetic proves it for the given numbers.",
-           alone ? "Mit {1}, in SI-Einheiten, gibt es keine weiteren: das beweist die Intervallarithmetik für die gegebenen Zahlen."
-                 : "Mit {1}, in SI-Einheiten, und bis auf ganze Perioden anderer Winkel gibt es keine weiteren: das beweist die Intervallarithmetik für die "
-                   "gegebenen Zahlen.", 1, pl_frel(d, q, "≤", range));
+    pl_say(d,
+           alone ? "With {1}, in SI units, there are no others: interval arithmetic proves it for "
+                   "the given numbers."
+                 : "With {1}, in SI units, and up to whole periods of other angles there are no "
+                   "others: interval arithmetic proves it for the given numbers.",
+           alone ? "Mit {1}, in SI-Einheiten, gibt es keine weiteren: das beweist die "
+                   "Intervallarithmetik für die gegebenen Zahlen."
+                 : "Mit {1}, in SI-Einheiten, und bis auf ganze Perioden anderer Winkel gibt es "
+                   "keine weiteren: das beweist die Intervallarithmetik für die "
+                   "gegebenen Zahlen.",
+           1, pl_frel(d, q, "≤", range));
   } else if (found->complete && found->by_numbers) {
-    pl_say(d, "Up to whole periods there are no others: interval arithmetic proves it for the given numbers.",
-           "Bis auf ganze Perioden gibt es keine weiteren: das beweist die Intervallarithmetik für die gegebenen Zahlen.", 0);
+    pl_say(d,
+           "Up to whole periods there are no others: interval arithmetic proves it for the given "
+           "numbers.",
+           "Bis auf ganze Perioden gibt es keine weiteren: das beweist die Intervallarithmetik für "
+           "die gegebenen Zahlen.",
+           0);
   }
   if (found->complete) return;
   const char* text;
   const pl_form* side = pl_conditions_form(d, found->side, found->n_sides, false, &text);
-  if (side) pl_say(d, "Only places with {1} were looked at.", "Gesucht wurde nur unter Lagen mit {1}.", 1, side);
+  if (side)
+    pl_say(d, "Only places with {1} were looked at.", "Gesucht wurde nur unter Lagen mit {1}.", 1,
+           side);
   if (found->map_ends) {
-    pl_say(d, "Where a root of the map vanishes these coordinates end, and beyond it the mechanism is assembled in another way: there may be others.",
-           "Wo eine Wurzel der Abbildung verschwindet, enden diese Koordinaten, und dahinter ist der Mechanismus anders zusammengebaut: es kann weitere geben.",
+    pl_say(d,
+           "Where a root of the map vanishes these coordinates end, and beyond it the mechanism is "
+           "assembled in another way: there may be others.",
+           "Wo eine Wurzel der Abbildung verschwindet, enden diese Koordinaten, und dahinter ist "
+           "der Mechanismus anders zusammengebaut: es kann weitere geben.",
            0);
   }
   bool told = found->more_turns || side || found->map_ends;
@@ -367,15 +456,22 @@ void pl_say_rests_missing(pl_analysis* d, const pl_expr* f, const pl_rests* foun
       told = true;
       continue;
     }
-    pl_expr e = pl_alg_normal(d->tower, pl_insert_rest(d, pl_at_rest(d, pl_second_kind(d, d->gen.at[r->open_row])), r));
-    pl_say(d, found->n > 0 ? "There may be others: {1} is not solved in closed form." : "{1} is not solved in closed form.",
-           found->n > 0 ? "Es kann weitere geben: {1} ist nicht geschlossen lösbar." : "{1} ist nicht geschlossen lösbar.", 1,
-           pl_feq(d, pl_f(d, e, PL_S_EQUATION), zero));
+    pl_expr e = pl_alg_normal(
+        d->tower, pl_insert_rest(d, pl_at_rest(d, pl_second_kind(d, d->gen.at[r->open_row])), r));
+    pl_say(d,
+           found->n > 0 ? "There may be others: {1} is not solved in closed form."
+                        : "{1} is not solved in closed form.",
+           found->n > 0 ? "Es kann weitere geben: {1} ist nicht geschlossen lösbar."
+                        : "{1} ist nicht geschlossen lösbar.",
+           1, pl_feq(d, pl_f(d, e, PL_S_EQUATION), zero));
   }
   if (found->n_open > 0 || told) return;
-  pl_say(d, found->n > 0 ? "There may be others: not every equation was solved in closed form."
-                         : "None was found in closed form.",
-         found->n > 0 ? "Es kann weitere geben: nicht jede Gleichung war geschlossen lösbar." : "Geschlossen wurde keine gefunden.", 0);
+  pl_say(d,
+         found->n > 0 ? "There may be others: not every equation was solved in closed form."
+                      : "None was found in closed form.",
+         found->n > 0 ? "Es kann weitere geben: nicht jede Gleichung war geschlossen lösbar."
+                      : "Geschlossen wurde keine gefunden.",
+         0);
 }
 
 // What is left of the equations at a named place.
@@ -386,8 +482,8 @@ void pl_say_no_rest_named(pl_analysis* d, const pl_ask* ask, const pl_expr* f) {
     pl_expr left = pl_alg_normal(d->tower, pl_insert_rest(d, f[k], &r));
     if (pl_is_zero_node(d->pool, left)) continue;
     pl_say(d, "{1} is no position of rest: the equation of {2} there leaves {3}, which is not 0.",
-           "{1} ist keine Ruhelage: von der Gleichung für {2} bleibt dort {3}, was nicht 0 ist.", 3, pl_rest_form(d, &r),
-           pl_fs(d, d->q.at[d->gen.at[k]].q), pl_f(d, left, PL_S_PLAIN));
+           "{1} ist keine Ruhelage: von der Gleichung für {2} bleibt dort {3}, was nicht 0 ist.", 3,
+           pl_rest_form(d, &r), pl_fs(d, d->q.at[d->gen.at[k]].q), pl_f(d, left, PL_S_PLAIN));
     break;
   }
   d->section->not_found = true;
@@ -396,8 +492,12 @@ void pl_say_no_rest_named(pl_analysis* d, const pl_ask* ask, const pl_expr* f) {
 static void say_none(pl_analysis* d, const pl_expr* f) {
   bool moves = false;
   for (int k = 0; k < d->gen.n; k++) moves |= pl_has_symbol(d->pool, f[k], pl_time(d->pool));
-  pl_say(d, moves ? "There is none: the equations contain t, and no position fits at all times." : "There is none.",
-         moves ? "Es gibt keine: die Gleichungen enthalten t, und keine Lage passt zu allen Zeiten." : "Es gibt keine.", 0);
+  pl_say(d,
+         moves ? "There is none: the equations contain t, and no position fits at all times."
+               : "There is none.",
+         moves ? "Es gibt keine: die Gleichungen enthalten t, und keine Lage passt zu allen Zeiten."
+               : "Es gibt keine.",
+         0);
 }
 
 void pl_answer_equilibria(pl_analysis* d, const pl_ask* ask) {

@@ -1,6 +1,7 @@
-// answer_family: models whose families are too large to be written out.  The Lagrange equations of the first kind are derived
-// once for a member with index i: each pattern (mass, potential, constraint) that contains x[k + c] contributes to the equation
-// of x[i] with k = i - c, where its range allows; ranges with the same contributions share one equation.
+// answer_family: models whose families are too large to be written out. The Lagrange equations of
+// the first kind are derived once for a member with index i: each pattern (mass, potential,
+// constraint) that contains x[k + c] contributes to the equation of x[i] with k = i - c, where its
+// range allows; ranges with the same contributions share one equation.
 #include <math.h>
 #include <string.h>
 
@@ -8,13 +9,14 @@
 
 // A pattern: part of L, or a constraint with its multiplier.
 typedef struct pl_motif {
-  const pl_block* block;      // NULL: one instance
-  pl_expr L;                  // T - V of one member; poison for a constraint
-  pl_expr g;                  // of one member; poison for a part of L
-  pl_expr lambda;             // its multiplier, an element of a family for c[1] and c[i]
+  const pl_block* block;  // NULL: one instance
+  pl_expr L;              // T - V of one member; poison for a constraint
+  pl_expr g;              // of one member; poison for a part of L
+  pl_expr lambda;         // its multiplier, an element of a family for c[1] and c[i]
 } pl_motif;
 
-// It contributes through the element array[k + shift] (or array[shift] without block) for i in lo..hi.
+// It contributes through the element array[k + shift] (or array[shift] without block) for i in
+// lo..hi.
 typedef struct pl_contribution {
   const pl_motif* motif;
   pl_expr element;
@@ -24,11 +26,11 @@ typedef struct pl_contribution {
 typedef struct pl_family_pass {
   pl_analysis* d;
   PL_VEC(pl_motif) motifs;
-  PL_VEC(pl_contribution) list;   // of the array at hand
-  pl_symbol i;                    // running index of what is printed
+  PL_VEC(pl_contribution) list;  // of the array at hand
+  pl_symbol i;                   // running index of what is printed
 } pl_family_pass;
 
-// ---------------------------------------------------------------------------------------------- patterns
+// ---------------------------------------------------------------------------------------- patterns
 static pl_expr speed_squared(pl_pool* p, const pl_point* at) {
   pl_expr sum = pl_int(p, 0);
   for (int c = 0; c < at->n; c++) sum = pl_add(p, sum, pl_square(p, pl_dt(p, at->at[c])));
@@ -41,13 +43,15 @@ static void mass_motif(pl_family_pass* f, const pl_mass* m) {
   for (int k = 0; k < f->d->model->gravities.n; k++) {
     const pl_gravity* g = &f->d->model->gravities.at[k];
     if (g->axis >= m->point.n) continue;
-    L = pl_add(p, L, pl_mul_n(p, (pl_expr[]){pl_int(p, g->sign), m->mass, g->g, m->point.at[g->axis]}, 4));
+    L = pl_add(
+        p, L, pl_mul_n(p, (pl_expr[]){pl_int(p, g->sign), m->mass, g->g, m->point.at[g->axis]}, 4));
   }
   pl_push(f->d->arena, f->motifs, (pl_motif){.block = m->block, .L = L});
 }
 
 static pl_expr multiplier(pl_analysis* d, const pl_constraint* c) {
-  return pl_is_poison(c->name.index) ? pl_sym(d->pool, c->lambda) : pl_at(d->pool, c->lambda, 0, c->name.index);
+  return pl_is_poison(c->name.index) ? pl_sym(d->pool, c->lambda)
+                                     : pl_at(d->pool, c->lambda, 0, c->name.index);
 }
 
 static bool collect_motifs(pl_family_pass* f) {
@@ -62,15 +66,16 @@ static bool collect_motifs(pl_family_pass* f) {
   for (int k = 0; k < m->constraints.n; k++) {
     const pl_constraint* c = &m->constraints.at[k];
     if (c->off || c->has_velocity) return false;
-    pl_push(f->d->arena, f->motifs, (pl_motif){.block = c->block, .g = c->g, .lambda = multiplier(f->d, c)});
+    pl_push(f->d->arena, f->motifs,
+            (pl_motif){.block = c->block, .g = c->g, .lambda = multiplier(f->d, c)});
   }
   for (int k = 0; k < f->motifs.n; k++) {
-    if (f->motifs.at[k].block && f->motifs.at[k].block->outer) return false;   // nested ranges
+    if (f->motifs.at[k].block && f->motifs.at[k].block->outer) return false;  // nested ranges
   }
   return m->bodies.n == 0;
 }
 
-// ---------------------------------------------------------------------------------------------- who contributes
+// --------------------------------------------------------------------------------- who contributes
 static bool whole(pl_analysis* d, pl_expr e, long* out) {
   double x = pl_number(d, e);
   if (isnan(x) || fabs(x) > 1e9 || x != floor(x)) return false;
@@ -78,7 +83,8 @@ static bool whole(pl_analysis* d, pl_expr e, long* out) {
   return true;
 }
 
-static void elements(pl_analysis* d, pl_expr e, pl_symbol array, pl_map* seen, pl_expr* out, int* n, int max) {
+static void elements(pl_analysis* d, pl_expr e, pl_symbol array, pl_map* seen, pl_expr* out, int* n,
+                     int max) {
   if (pl_is_poison(e) || pl_map_get(seen, e.id)) return;
   pl_map_set(seen, e.id, 1);
   if (pl_kind_of(d->pool, e) == PL_AT) {
@@ -90,7 +96,8 @@ static void elements(pl_analysis* d, pl_expr e, pl_symbol array, pl_map* seen, p
     if (*n < max) out[(*n)++] = position;
     return;
   }
-  for (int k = 0; k < pl_n_args(d->pool, e); k++) elements(d, pl_arg(d->pool, e, k), array, seen, out, n, max);
+  for (int k = 0; k < pl_n_args(d->pool, e); k++)
+    elements(d, pl_arg(d->pool, e, k), array, seen, out, n, max);
 }
 
 static bool contribute(pl_family_pass* f, const pl_motif* m, pl_expr element) {
@@ -117,7 +124,8 @@ static bool contributions(pl_family_pass* f, pl_symbol array) {
     const pl_motif* m = &f->motifs.at[k];
     pl_expr found[16];
     int n = 0;
-    elements(f->d, pl_is_poison(m->L) ? m->g : m->L, array, pl_map_make(f->d->arena), found, &n, 16);
+    elements(f->d, pl_is_poison(m->L) ? m->g : m->L, array, pl_map_make(f->d->arena), found, &n,
+             16);
     for (int j = 0; j < n; j++) {
       if (!contribute(f, m, found[j])) return false;
     }
@@ -125,8 +133,9 @@ static bool contributions(pl_family_pass* f, pl_symbol array) {
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- one equation
-// Elements become plain names: x[i-1]'' is the symbol "x[i - 1]" with two dots, so that algebra and notation treat it as any other.
+// ------------------------------------------------------------------------------------ one equation
+// Elements become plain names: x[i-1]'' is the symbol "x[i - 1]" with two dots, so that algebra and
+// notation treat it as any other.
 static pl_symbol element_name(pl_analysis* d, pl_expr element) {
   pl_symbol_info info = *pl_symbol_get(d->pool, pl_symbol_of(d->pool, element));
   bool multiplier = info.role == PL_R_MULTIPLIER;
@@ -146,7 +155,8 @@ static void list_elements(pl_analysis* d, pl_expr e, pl_map* seen, pl_elements* 
   if (pl_is_poison(e) || pl_map_get(seen, e.id)) return;
   pl_map_set(seen, e.id, 1);
   if (pl_kind_of(d->pool, e) == PL_AT) pl_push(d->arena, *out, e);
-  for (int k = 0; k < pl_n_args(d->pool, e); k++) list_elements(d, pl_arg(d->pool, e, k), seen, out);
+  for (int k = 0; k < pl_n_args(d->pool, e); k++)
+    list_elements(d, pl_arg(d->pool, e, k), seen, out);
 }
 
 static pl_expr named(pl_analysis* d, pl_expr e) {
@@ -171,23 +181,26 @@ static pl_expr euler_part(pl_family_pass* f, const pl_contribution* c, pl_expr i
   pl_pool* p = f->d->pool;
   pl_symbol array = pl_symbol_of(p, c->element);
   pl_expr velocity = pl_at(p, array, 1, pl_arg(p, c->element, 0));
-  pl_expr e = pl_sub(p, pl_dt(p, pl_diff_at(p, c->motif->L, velocity)), pl_diff_at(p, c->motif->L, c->element));
+  pl_expr e = pl_sub(p, pl_dt(p, pl_diff_at(p, c->motif->L, velocity)),
+                     pl_diff_at(p, c->motif->L, c->element));
   return shifted(f, c, e, i);
 }
 
 static pl_expr push_part(pl_family_pass* f, const pl_contribution* c, pl_expr i) {
   pl_pool* p = f->d->pool;
   pl_expr slope = pl_diff_at(p, c->motif->g, c->element);
-  return shifted(f, c, pl_mul(p, c->motif->lambda, f->d->model->lambda_minus ? pl_neg(p, slope) : slope), i);
+  return shifted(
+      f, c, pl_mul(p, c->motif->lambda, f->d->model->lambda_minus ? pl_neg(p, slope) : slope), i);
 }
 
-static pl_expr rest_of(pl_analysis* d, pl_expr e) {   // without accelerations
+static pl_expr rest_of(pl_analysis* d, pl_expr e) {  // without accelerations
   int n = pl_symbols_in(d->pool, e, NULL, 0), m = 0;
   pl_symbol* s = PL_ARRAY(d->arena, pl_symbol, n + 1);
   pl_replace* zero = PL_ARRAY(d->arena, pl_replace, n + 1);
   pl_symbols_in(d->pool, e, s, n);
   for (int k = 0; k < n; k++) {
-    if (pl_symbol_get(d->pool, s[k])->role == PL_R_ACCELERATION) zero[m++] = (pl_replace){s[k], pl_int(d->pool, 0)};
+    if (pl_symbol_get(d->pool, s[k])->role == PL_R_ACCELERATION)
+      zero[m++] = (pl_replace){s[k], pl_int(d->pool, 0)};
   }
   return pl_subst(d->pool, e, zero, m);
 }
@@ -212,9 +225,11 @@ static void show_equation(pl_family_pass* f, long lo, long hi) {
   if (lo == hi) {
     pl_say(d, pl_format(d->arena, "for i = %ld:", lo), pl_format(d->arena, "für i = %ld:", lo), 0);
   } else {
-    pl_say(d, pl_format(d->arena, "for i = %ld … %ld:", lo, hi), pl_format(d->arena, "für i = %ld … %ld:", lo, hi), 0);
+    pl_say(d, pl_format(d->arena, "for i = %ld … %ld:", lo, hi),
+           pl_format(d->arena, "für i = %ld … %ld:", lo, hi), 0);
   }
-  const pl_form* left = pl_f(d, pl_alg_normal(d->tower, pl_sub(d->pool, euler, force)), PL_S_EQUATION);
+  const pl_form* left = pl_f(d, pl_alg_normal(d->tower, pl_sub(d->pool, euler, force)),
+                             PL_S_EQUATION);
   pl_show_numbered(d, pl_feq(d, left, pl_joined_sum(d, part, n)));
 }
 
@@ -222,7 +237,7 @@ static void show_equation(pl_family_pass* f, long lo, long hi) {
 static int ranges(const pl_family_pass* f, long lo, long hi, long* start, int max) {
   int n = 0;
   start[n++] = lo;
-  for (;;) {   // smallest change above the last start
+  for (;;) {  // smallest change above the last start
     long next = hi + 1;
     for (int k = 0; k < f->list.n; k++) {
       long edge[2] = {f->list.at[k].lo, f->list.at[k].hi + 1};
@@ -237,18 +252,22 @@ static int ranges(const pl_family_pass* f, long lo, long hi, long* start, int ma
 
 static bool equations_of(pl_family_pass* f, const pl_coord* c) {
   long lo, hi, start[32];
-  if (pl_is_poison(c->lo)) return true;   // a single coordinate beside families
-  if (!whole(f->d, c->lo, &lo) || !whole(f->d, c->hi, &hi) || !contributions(f, c->symbol)) return false;
+  if (pl_is_poison(c->lo)) return true;  // a single coordinate beside families
+  if (!whole(f->d, c->lo, &lo) || !whole(f->d, c->hi, &hi) || !contributions(f, c->symbol))
+    return false;
   int n = ranges(f, lo, hi, start, 32);
   for (int k = 0; k < n; k++) show_equation(f, start[k], k + 1 < n ? start[k + 1] - 1 : hi);
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- sections
+// ---------------------------------------------------------------------------------------- sections
 static void lagrange1(pl_analysis* d, const pl_ask* ask) {
   bool minus = d->model->lambda_minus;
-  pl_section_open(d, ask, minus ? "Lagrange equations of the first kind, with Z = -Σ λ ∇g" : "Lagrange equations of the first kind, with Z = Σ λ ∇g",
-                  minus ? "Lagrange-Gleichungen erster Art mit Z = -Σ λ ∇g" : "Lagrange-Gleichungen erster Art mit Z = Σ λ ∇g");
+  pl_section_open(d, ask,
+                  minus ? "Lagrange equations of the first kind, with Z = -Σ λ ∇g"
+                        : "Lagrange equations of the first kind, with Z = Σ λ ∇g",
+                  minus ? "Lagrange-Gleichungen erster Art mit Z = -Σ λ ∇g"
+                        : "Lagrange-Gleichungen erster Art mit Z = Σ λ ∇g");
   pl_family_pass f = {.d = d};
   pl_symbol_info info = {.name = "i", .ascii = "i", .role = PL_R_INDEX};
   f.i = pl_symbol_find(d->pool, "i");
@@ -273,20 +292,30 @@ static void dof(pl_analysis* d, const pl_ask* ask) {
     const pl_constraint* c = &d->model->constraints.at[k];
     static const char* const signs[] = {[PL_EQ] = "=", [PL_GE] = "≥", [PL_LE] = "≤"};
     const pl_form* zero = pl_form_leaf(d->arena, pl_int(d->pool, 0));
-    const pl_form* body = pl_frel(d, pl_difference_form(d, c->left, c->right), signs[c->relation], zero);
+    const pl_form* body = pl_frel(d, pl_difference_form(d, c->left, c->right), signs[c->relation],
+                                  zero);
     contacts |= c->relation != PL_EQ;
-    const char* label = pl_is_poison(c->name.index) ? c->name.text
-                                                    : pl_format(d->arena, "%s[%s]", c->name.text, pl_expr_text(d->arena, d->pool, c->name.index));
-    pl_row(d, k ? "" : "constraints", k ? "" : "Zwangsbedingungen", pl_feq(d, pl_fn(d, label), body),
+    const char* label = pl_is_poison(c->name.index)
+                            ? c->name.text
+                            : pl_format(d->arena, "%s[%s]", c->name.text,
+                                        pl_expr_text(d->arena, d->pool, c->name.index));
+    pl_row(d, k ? "" : "constraints", k ? "" : "Zwangsbedingungen",
+           pl_feq(d, pl_fn(d, label), body),
            pl_format(d->arena, "-%ld", count_instances(d, c->block)));
   }
   pl_row(d, "degrees of freedom", "Freiheitsgrade", NULL, pl_format(d->arena, "%d", f->dof));
   pl_say(d, "Counted, not tested for independence: the families are too large to be written out.",
-         "Gezählt, nicht auf Unabhängigkeit geprüft: die Familien sind zu groß, um ausgeschrieben zu werden.", 0);
+         "Gezählt, nicht auf Unabhängigkeit geprüft: die Familien sind zu groß, um ausgeschrieben "
+         "zu werden.",
+         0);
   if (contacts) {
-    pl_say(d, "One-sided constraints are counted as closed, each with λ on the side where it pushes; where one is open its λ is 0.",
-           "Einseitige Zwangsbedingungen sind als geschlossen gezählt, jede mit λ auf der Seite, auf der sie drückt; "
-           "wo eine offen ist, ist ihr λ gleich 0.", 0);
+    pl_say(d,
+           "One-sided constraints are counted as closed, each with λ on the side where it pushes; "
+           "where one is open its λ is 0.",
+           "Einseitige Zwangsbedingungen sind als geschlossen gezählt, jede mit λ auf der Seite, "
+           "auf der sie drückt; "
+           "wo eine offen ist, ist ihr λ gleich 0.",
+           0);
   }
   pl_answer(d, "dof", pl_int(d->pool, f->dof), NULL);
 }
@@ -296,10 +325,12 @@ pleuel_status pl_derive_families(pl_analysis* d) {
   pl_push(d->arena, d->solution->towers, d->tower);
   pl_dof* f = &d->solution->dof;
   f->coordinates = pl_model_flat_coords(d->model, d->arena).n;
-  for (int k = 0; k < d->model->constraints.n; k++) f->constraints += (int)count_instances(d, d->model->constraints.at[k].block);
+  for (int k = 0; k < d->model->constraints.n; k++)
+    f->constraints += (int)count_instances(d, d->model->constraints.at[k].block);
   f->rank = f->constraints;
   f->dof = f->velocity_dof = f->coordinates - f->rank;
-  static const pl_ask standard[2] = {{.kind = PL_ASK_DOF, .text = "dof"}, {.kind = PL_ASK_LAGRANGE1, .text = "lagrange1"}};
+  static const pl_ask standard[2] = {{.kind = PL_ASK_DOF, .text = "dof"},
+                                     {.kind = PL_ASK_LAGRANGE1, .text = "lagrange1"}};
   bool own = d->model->asks.n == 0;
   for (int k = 0; k < (own ? 2 : d->model->asks.n); k++) {
     const pl_ask* ask = own ? &standard[k] : &d->model->asks.at[k];

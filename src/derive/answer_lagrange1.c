@@ -1,12 +1,15 @@
-// answer_lagrange1: the Lagrange equations of the first kind, in the coordinates or along an orthonormal frame, and the way from
-// them to the multipliers: constraints twice differentiated, equations inserted, solved.
+// answer_lagrange1: the Lagrange equations of the first kind, in the coordinates or along an
+// orthonormal frame, and the way from them to the multipliers: constraints twice differentiated,
+// equations inserted, solved.
 #include <string.h>
 
 #include "derive/derive_impl.h"
 
-// ---------------------------------------------------------------------------------------------- one equation
+// ------------------------------------------------------------------------------------ one equation
 // M_i a = forces + sum lambda dg/dq_i, each side divided by the scale of the frame.
-typedef struct pl_sides { pl_expr inertia, force; } pl_sides;
+typedef struct pl_sides {
+  pl_expr inertia, force;
+} pl_sides;
 
 static pl_expr without_accelerations(pl_analysis* d, pl_expr e) {
   pl_replace* zero = PL_ARRAY(d->arena, pl_replace, d->q.n);
@@ -43,16 +46,20 @@ static void flatten(const pl_form* f, const pl_form** out, int* n, int max) {
 
 enum { max_sum = 96 };
 
-static const pl_form* right_side(pl_analysis* d, int i, const pl_sides* s, pl_expr scale, bool insert) {
+static const pl_form* right_side(pl_analysis* d, int i, const pl_sides* s, pl_expr scale,
+                                 bool insert) {
   const pl_form** term = PL_ARRAY(d->arena, const pl_form*, max_sum + d->g.n);
   int n = 0;
-  if (!pl_is_zero_node(d->pool, s->force)) flatten(pl_f(d, s->force, PL_S_EQUATION), term, &n, max_sum);
+  if (!pl_is_zero_node(d->pool, s->force))
+    flatten(pl_f(d, s->force, PL_S_EQUATION), term, &n, max_sum);
   for (int k = 0; k < d->g.n; k++) {
     const pl_bond* l = &d->g.at[k];
-    if ((l->implied && !l->shared) || (insert && l->fixes >= 0 && !l->contact && l->fixes != i)) continue;
+    if ((l->implied && !l->shared) || (insert && l->fixes >= 0 && !l->contact && l->fixes != i))
+      continue;
     pl_expr gradient = pl_div(d->pool, insert ? pl_on_fixed(d, l->push[i]) : l->push[i], scale);
     gradient = pl_alg_normal(d->tower, gradient);
-    if (!pl_is_zero_node(d->pool, gradient)) flatten(push_form(d, l, gradient), term, &n, max_sum + d->g.n);
+    if (!pl_is_zero_node(d->pool, gradient))
+      flatten(push_form(d, l, gradient), term, &n, max_sum + d->g.n);
   }
   if (n == 0) return pl_form_leaf(d->arena, pl_int(d->pool, 0));
   return n == 1 ? term[0] : pl_form_sum(d->arena, term, n);
@@ -62,15 +69,16 @@ static pl_expr push_of(pl_analysis* d, int i) {
   pl_expr sum = pl_int(d->pool, 0);
   for (int k = 0; k < d->g.n; k++) {
     if (d->g.at[k].implied && !d->g.at[k].shared) continue;
-    sum = pl_add(d->pool, sum, pl_mul(d->pool, pl_sym(d->pool, d->g.at[k].lambda), d->g.at[k].push[i]));
+    sum = pl_add(d->pool, sum,
+                 pl_mul(d->pool, pl_sym(d->pool, d->g.at[k].lambda), d->g.at[k].push[i]));
   }
   return sum;
 }
 
 static void show_equation(pl_analysis* d, int i, pl_expr scale, bool insert) {
   pl_sides s = sides_of(d, i, scale, insert);
-  if (pl_is_zero_node(d->pool, s.inertia) && pl_is_zero_node(d->pool, s.force) && d->q.at[i].fixed_by < 0 &&
-      pl_is_zero_node(d->pool, push_of(d, i))) {
+  if (pl_is_zero_node(d->pool, s.inertia) && pl_is_zero_node(d->pool, s.force)
+      && d->q.at[i].fixed_by < 0 && pl_is_zero_node(d->pool, push_of(d, i))) {
     return;
   }
   if (pl_is_one_node(d->pool, scale)) pl_why_first_kind(d, i);
@@ -83,7 +91,7 @@ static void show_equation(pl_analysis* d, int i, pl_expr scale, bool insert) {
                 pl_add(d->pool, s.force, pl_div(d->pool, push_of(d, i), scale)));
 }
 
-// ---------------------------------------------------------------------------------------------- frames
+// ------------------------------------------------------------------------------------------ frames
 static const pl_particle* particle_of_frame(pl_analysis* d, const pl_ask* ask, pl_frame* f) {
   for (int k = 0; k < d->particle.n; k++) {
     const pl_particle* m = &d->particle.at[k];
@@ -95,7 +103,8 @@ static const pl_particle* particle_of_frame(pl_analysis* d, const pl_ask* ask, p
   return NULL;
 }
 
-static const pl_form* vector_form(pl_analysis* d, const pl_frame* f, const pl_expr* component, pl_style style) {
+static const pl_form* vector_form(pl_analysis* d, const pl_frame* f, const pl_expr* component,
+                                  pl_style style) {
   const pl_form** part = PL_ARRAY(d->arena, const pl_form*, f->n);
   const char** unit = PL_ARRAY(d->arena, const char*, f->n);
   int n = 0;
@@ -109,7 +118,8 @@ static const pl_form* vector_form(pl_analysis* d, const pl_frame* f, const pl_ex
 }
 
 // Components of a vector, given along the axes, in the frame.
-static void in_frame(pl_analysis* d, const pl_particle* k, const pl_frame* f, const pl_expr* vector, pl_expr* out) {
+static void in_frame(pl_analysis* d, const pl_particle* k, const pl_frame* f, const pl_expr* vector,
+                     pl_expr* out) {
   for (int j = 0; j < f->n; j++) {
     pl_expr sum = pl_int(d->pool, 0);
     for (int c = 0; c < k->n; c++) {
@@ -120,7 +130,8 @@ static void in_frame(pl_analysis* d, const pl_particle* k, const pl_frame* f, co
   }
 }
 
-static void show_vector(pl_analysis* d, const char* name, const pl_frame* f, const pl_expr* component) {
+static void show_vector(pl_analysis* d, const char* name, const pl_frame* f,
+                        const pl_expr* component) {
   pl_show(d, pl_feq(d, pl_fn(d, name), vector_form(d, f, component, PL_S_EQUATION)));
 }
 
@@ -146,15 +157,18 @@ static void show_kinematics(pl_analysis* d, const pl_particle* k, const pl_frame
     const pl_bond* l = &d->g.at[c];
     bool acts = false;
     for (int j = 0; j < f->n; j++) {
-      pl_expr push = pl_div(d->pool, pl_mul(d->pool, pl_sym(d->pool, l->lambda), l->push[f->coordinate[j]]), f->scale[j]);
+      pl_expr push = pl_div(d->pool,
+                            pl_mul(d->pool, pl_sym(d->pool, l->lambda), l->push[f->coordinate[j]]),
+                            f->scale[j]);
       component[j] = pl_alg_normal(d->tower, push);
       acts |= !pl_is_zero_node(d->pool, component[j]);
     }
-    if (acts && (!l->implied || l->shared)) show_vector(d, pl_format(d->arena, "Z_%s", l->source->name.text), f, component);
+    if (acts && (!l->implied || l->shared))
+      show_vector(d, pl_format(d->arena, "Z_%s", l->source->name.text), f, component);
   }
 }
 
-// ---------------------------------------------------------------------------------------------- the section
+// ------------------------------------------------------------------------------------- the section
 static const char* title_of(pl_analysis* d, pl_language lang) {
   const pl_bond* only = NULL;
   int n = 0;
@@ -168,16 +182,20 @@ static const char* title_of(pl_analysis* d, pl_language lang) {
   const char* sign = d->model->lambda_minus ? "-" : "";
   const char* Z = pl_letter(d, "Z");
   if (d->g.n == 0) return lang == PL_GERMAN ? de : en;
-  if (n != 1) return pl_format(d->arena, lang == PL_GERMAN ? "%s mit %s = %sΣ λ ∇g" : "%s, with %s = %sΣ λ ∇g", lang == PL_GERMAN ? de : en, Z, sign);
+  if (n != 1)
+    return pl_format(d->arena,
+                     lang == PL_GERMAN ? "%s mit %s = %sΣ λ ∇g" : "%s, with %s = %sΣ λ ∇g",
+                     lang == PL_GERMAN ? de : en, Z, sign);
   const char* lambda = pl_symbol_get(d->pool, only->lambda)->name;
-  return pl_format(d->arena, lang == PL_GERMAN ? "%s mit %s = %s%s ∇%s" : "%s, with %s = %s%s ∇%s", lang == PL_GERMAN ? de : en, Z, sign, lambda,
-                   only->source->name.text);
+  return pl_format(d->arena, lang == PL_GERMAN ? "%s mit %s = %s%s ∇%s" : "%s, with %s = %s%s ∇%s",
+                   lang == PL_GERMAN ? de : en, Z, sign, lambda, only->source->name.text);
 }
 
 static void lagrange1_in_frame(pl_analysis* d, const pl_particle* k, const pl_frame* f) {
   pl_why_frame(d, k, f);
   show_kinematics(d, k, f);
-  pl_say(d, "Newton's law with {1} along the unit vectors:", "Newtons Gesetz mit {1} längs der Einheitsvektoren:", 1, pl_fl(d, "Z"));
+  pl_say(d, "Newton's law with {1} along the unit vectors:",
+         "Newtons Gesetz mit {1} längs der Einheitsvektoren:", 1, pl_fl(d, "Z"));
   for (int j = 0; j < f->n; j++) show_equation(d, f->coordinate[j], f->scale[j], false);
 }
 
@@ -193,8 +211,8 @@ static void lagrange1_in_coordinates(pl_analysis* d, const pl_ask* ask) {
   }
 }
 
-// Operations of a normal form up to which a shorter one is looked for, and of that; beyond them the value is given over named
-// intermediates.
+// Operations of a normal form up to which a shorter one is looked for, and of that; beyond them the
+// value is given over named intermediates.
 static const long longest_searched = 1500, longest_answer = 150;
 
 static void answer_accelerations(pl_analysis* d) {
@@ -202,22 +220,30 @@ static void answer_accelerations(pl_analysis* d) {
     const pl_variable* c = &d->q.at[i];
     if (!c->carries || (c->fixed_by >= 0 && !c->by_contact)) continue;
     bool open = !d->solved || pl_is_poison(d->acceleration[i]);
-    bool can = c->fixed_by < 0, unread = open || pl_op_count(d->pool, d->acceleration[i]) > longest_searched;
+    bool can = c->fixed_by < 0,
+         unread = open || pl_op_count(d->pool, d->acceleration[i]) > longest_searched;
     if ((unread && can && pl_answer_structured(d, c->a)) || open) continue;
     const pl_form* form = pl_f(d, d->acceleration[i], PL_S_QUOTIENT);
-    if (!unread && pl_form_ops(form) > longest_answer && can && pl_answer_structured(d, c->a)) continue;
+    if (!unread && pl_form_ops(form) > longest_answer && can && pl_answer_structured(d, c->a))
+      continue;
     pl_answer(d, pl_symbol_get(d->pool, c->a)->ascii, d->acceleration[i], form);
   }
 }
 
-// A force on a coordinate that is only a name for the place of masses: how it divides among them is open up to constraint forces.
+// A force on a coordinate that is only a name for the place of masses: how it divides among them is
+// open up to constraint forces.
 static bool not_in_these_coordinates(pl_analysis* d) {
   int i = pl_loaded_by_name(d);
   if (i < 0) return false;
-  pl_say(d, "A force or potential acts on {1}, which only names the place of the masses. How it divides among their coordinates is not "
-            "determined, constraint forces may be added; the equations of the second kind need no such choice.",
-         "Auf {1} wirkt eine Kraft oder ein Potential, {1} benennt aber nur den Ort der Massen. Wie sie sich auf deren Koordinaten verteilt, ist "
-         "bis auf Zwangskräfte offen; die Gleichungen zweiter Art brauchen diese Wahl nicht.", 1, pl_fs(d, d->q.at[i].q));
+  pl_say(d,
+         "A force or potential acts on {1}, which only names the place of the masses. How it "
+         "divides among their coordinates is not "
+         "determined, constraint forces may be added; the equations of the second kind need no "
+         "such choice.",
+         "Auf {1} wirkt eine Kraft oder ein Potential, {1} benennt aber nur den Ort der Massen. "
+         "Wie sie sich auf deren Koordinaten verteilt, ist "
+         "bis auf Zwangskräfte offen; die Gleichungen zweiter Art brauchen diese Wahl nicht.",
+         1, pl_fs(d, d->q.at[i].q));
   d->section->not_found = true;
   return true;
 }
@@ -226,10 +252,13 @@ static bool not_in_these_coordinates(pl_analysis* d) {
 static void say_not_along(pl_analysis* d, const pl_ask* ask) {
   const pl_form** name = PL_ARRAY(d->arena, const pl_form*, ask->frame.n + 1);
   for (int j = 0; j < ask->frame.n; j++) name[j] = pl_fs(d, ask->frame.at[j]);
-  pl_say(d, "The masses do not stand in {1}: ask for the equations without \"in\", for those of the second kind, or write the places of the "
-            "masses in {1}.",
-         "Die Massen stehen nicht in {1}: ohne „in“ fragen, nach den Gleichungen zweiter Art, oder die Orte der Massen in {1} schreiben.", 1,
-         pl_flist(d, name, ask->frame.n));
+  pl_say(d,
+         "The masses do not stand in {1}: ask for the equations without \"in\", for those of the "
+         "second kind, or write the places of the "
+         "masses in {1}.",
+         "Die Massen stehen nicht in {1}: ohne „in“ fragen, nach den Gleichungen zweiter Art, oder "
+         "die Orte der Massen in {1} schreiben.",
+         1, pl_flist(d, name, ask->frame.n));
   d->section->not_found = true;
 }
 
@@ -243,7 +272,8 @@ void pl_answer_lagrange1(pl_analysis* d, const pl_ask* ask) {
   const pl_particle* k = ask->frame.n > 0 ? particle_of_frame(d, ask, &frame) : NULL;
   bool own = k && frame.n > 0;
   // A frame of plain coordinates adds nothing to the equations in coordinates.
-  for (int j = 0; own && j < frame.n; j++) own = !pl_is_one_node(d->pool, frame.scale[j]) || frame.n > 1;
+  for (int j = 0; own && j < frame.n; j++)
+    own = !pl_is_one_node(d->pool, frame.scale[j]) || frame.n > 1;
   if (own) {
     lagrange1_in_frame(d, k, &frame);
   } else {

@@ -1,9 +1,12 @@
-// answer_lagrange2: the Lagrange function in generalized coordinates, the equations of the second kind, the Hamilton function.
+// answer_lagrange2: the Lagrange function in generalized coordinates, the equations of the second
+// kind, the Hamilton function.
 #include <string.h>
 
 #include "derive/derive_impl.h"
 
-static const pl_form* zero_form(pl_analysis* d) { return pl_form_leaf(d->arena, pl_int(d->pool, 0)); }
+static const pl_form* zero_form(pl_analysis* d) {
+  return pl_form_leaf(d->arena, pl_int(d->pool, 0));
+}
 
 static const pl_form* names_of_generalized(pl_analysis* d) {
   const pl_form** f = PL_ARRAY(d->arena, const pl_form*, d->gen.n + 1);
@@ -13,15 +16,19 @@ static const pl_form* names_of_generalized(pl_analysis* d) {
 
 static bool without_reduction(pl_analysis* d) {
   if (d->reduced) return false;
-  pl_say(d, "The constraints were not solved for generalized coordinates. Name them and their map, for example: "
-            "choose φ with x = l cos φ, y = l sin φ.",
-         "Die Zwangsbedingungen wurden nicht nach verallgemeinerten Koordinaten aufgelöst. Man nenne sie mit ihrer Abbildung, etwa: "
-         "choose φ with x = l cos φ, y = l sin φ.", 0);
+  pl_say(d,
+         "The constraints were not solved for generalized coordinates. Name them and their map, "
+         "for example: "
+         "choose φ with x = l cos φ, y = l sin φ.",
+         "Die Zwangsbedingungen wurden nicht nach verallgemeinerten Koordinaten aufgelöst. Man "
+         "nenne sie mit ihrer Abbildung, etwa: "
+         "choose φ with x = l cos φ, y = l sin φ.",
+         0);
   d->section->not_found = true;
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- the map
+// ----------------------------------------------------------------------------------------- the map
 // Text after a map equation: which constraint it solves, by which branch.
 static void say_what_it_solves(pl_analysis* d, pl_step* step, int i) {
   int k = d->q.at[i].solved_by;
@@ -29,19 +36,23 @@ static void say_what_it_solves(pl_analysis* d, pl_step* step, int i) {
   const char* label = d->g.at[k].source->name.text;
   for (int b = 0; b < d->model->branches.n && d->q.at[i].by_branch; b++) {
     const pl_condition* c = &d->model->branches.at[b];
-    if (!pl_has_symbol(d->pool, c->left, d->q.at[i].q) && !pl_has_symbol(d->pool, c->right, d->q.at[i].q)) continue;
+    if (!pl_has_symbol(d->pool, c->left, d->q.at[i].q)
+        && !pl_has_symbol(d->pool, c->right, d->q.at[i].q))
+      continue;
     static const char* const op[] = {"=", ">=", "<=", ">", "<", "≠"};
-    const char* branch = pl_format(d->arena, "%s %s %s", pl_expr_text(d->arena, d->pool, c->left), op[c->relation],
-                                   pl_expr_text(d->arena, d->pool, c->right));
-    pl_step_after(step, pl_format(d->arena, "solves %s, branch %s", label, branch), pl_format(d->arena, "löst %s, Zweig %s", label, branch));
+    const char* branch = pl_format(d->arena, "%s %s %s", pl_expr_text(d->arena, d->pool, c->left),
+                                   op[c->relation], pl_expr_text(d->arena, d->pool, c->right));
+    pl_step_after(step, pl_format(d->arena, "solves %s, branch %s", label, branch),
+                  pl_format(d->arena, "löst %s, Zweig %s", label, branch));
     return;
   }
-  if (d->q.at[i].by_branch) {   // the other solutions belong to other positions
+  if (d->q.at[i].by_branch) {  // the other solutions belong to other positions
     pl_step_after(step, pl_format(d->arena, "solves %s, on the side of the start", label),
                   pl_format(d->arena, "löst %s, auf der Seite des Starts", label));
     return;
   }
-  pl_step_after(step, pl_format(d->arena, "solves %s", label), pl_format(d->arena, "löst %s", label));
+  pl_step_after(step, pl_format(d->arena, "solves %s", label),
+                pl_format(d->arena, "löst %s", label));
 }
 
 // Constraints that the map of `choose` satisfies identically.
@@ -58,7 +69,8 @@ static void say_satisfied(pl_analysis* d) {
   }
   if (n == 0) return;
   pl_say(d, n == 1 ? "With this map {1} holds identically." : "With this map {1} hold identically.",
-         n == 1 ? "Damit ist {1} identisch erfüllt." : "Damit sind {1} identisch erfüllt.", 1, pl_flist(d, f, n));
+         n == 1 ? "Damit ist {1} identisch erfüllt." : "Damit sind {1} identisch erfüllt.", 1,
+         pl_flist(d, f, n));
 }
 
 static void show_maps(pl_analysis* d) {
@@ -71,7 +83,8 @@ static void show_maps(pl_analysis* d) {
     say_what_it_solves(d, step, i);
     chosen |= c->solved_by == -1;
     if (c->solved_by >= 0) {
-      pl_expr g = pl_subst1(d->pool, pl_on_contact(d, d->g.at[c->solved_by].g), c->q, pl_form_value(d->pool, form));
+      pl_expr g = pl_subst1(d->pool, pl_on_contact(d, d->g.at[c->solved_by].g), c->q,
+                            pl_form_value(d->pool, form));
       pl_claim_free(d, PL_CLAIM_MAP, pl_on_maps(d, g), pl_int(d->pool, 0));
     }
     pl_value* v = pl_answer(d, pl_symbol_get(d->pool, c->q)->ascii, c->map, form);
@@ -96,7 +109,8 @@ static void show_velocities(pl_analysis* d) {
 }
 
 static void show_energy(pl_analysis* d, const char* name, pl_expr e, pl_expr raw) {
-  const pl_form* form = strcmp(name, "V") == 0 ? pl_potential_form(d, pl_on_maps(d, raw), e) : pl_f(d, e, PL_S_ENERGY);
+  const pl_form* form = strcmp(name, "V") == 0 ? pl_potential_form(d, pl_on_maps(d, raw), e)
+                                               : pl_f(d, e, PL_S_ENERGY);
   pl_show(d, pl_feq(d, pl_fl(d, name), form));
   pl_claim_that(d, PL_CLAIM_ENERGY, pl_form_value(d->pool, form), raw);
   pl_answer(d, name, e, form);
@@ -137,8 +151,10 @@ void pl_answer_lagrangian(pl_analysis* d, const pl_ask* ask) {
     pl_say(d, "Nothing is left to choose: the constraints prescribe the whole motion.",
            "Es bleibt nichts frei: Die Zwangsbedingungen schreiben die ganze Bewegung vor.", 0);
   } else {
-    pl_say(d, d->gen.n == 1 ? "Generalized coordinate: {1}." : "Generalized coordinates: {1}.",
-           d->gen.n == 1 ? "Verallgemeinerte Koordinate: {1}." : "Verallgemeinerte Koordinaten: {1}.", 1, names);
+    pl_say(
+        d, d->gen.n == 1 ? "Generalized coordinate: {1}." : "Generalized coordinates: {1}.",
+        d->gen.n == 1 ? "Verallgemeinerte Koordinate: {1}." : "Verallgemeinerte Koordinaten: {1}.",
+        1, names);
   }
   if (mapped) {
     show_maps(d);
@@ -152,35 +168,42 @@ void pl_answer_lagrangian(pl_analysis* d, const pl_ask* ask) {
   show_lagrangian(d);
 }
 
-// ---------------------------------------------------------------------------------------------- second kind
+// ------------------------------------------------------------------------------------- second kind
 // The constant factor that all terms of an equation share: masses, lengths, numbers.
 static pl_expr common_factor(pl_analysis* d, pl_expr e) {
   pl_factor f[24];
   pl_expr unit = pl_int(d->pool, 1), common = pl_int(d->pool, 1);
   int n = pl_alg_factors(d->tower, e, f, 24, &unit);
   for (int k = 0; k < n; k++) {
-    if (pl_has_coordinates(d, f[k].base) || pl_has_symbol(d->pool, f[k].base, pl_time(d->pool))) continue;
+    if (pl_has_coordinates(d, f[k].base) || pl_has_symbol(d->pool, f[k].base, pl_time(d->pool)))
+      continue;
     common = pl_mul(d->pool, common, pl_pow_int(d->pool, f[k].base, f[k].power));
   }
-  if (pl_is_number(d->pool, unit) && pl_number_sign(d->pool, unit) < 0) unit = pl_neg(d->pool, unit);
+  if (pl_is_number(d->pool, unit) && pl_number_sign(d->pool, unit) < 0)
+    unit = pl_neg(d->pool, unit);
   return n > 0 ? pl_mul(d->pool, unit, common) : common;
 }
 
-static const long long_mass = 14;   // operators in M(q) above which it gets a name
+static const long long_mass = 14;  // operators in M(q) above which it gets a name
 
 // One degree of freedom with a long M(q):  M q'' + 1/2 M' q'^2 + V' = 0.
 static bool show_with_named_mass(pl_analysis* d, int i) {
   const pl_variable* c = &d->q.at[i];
   pl_expr M = pl_alg_normal(d->tower, pl_diff(d->pool, pl_diff(d->pool, d->Tg, c->v), c->v));
   pl_expr momentum = pl_diff(d->pool, d->Tg, c->v);
-  bool natural = pl_alg_equal(d->tower, momentum, pl_mul(d->pool, M, pl_sym(d->pool, c->v))) == PL_YES;
+  bool natural = pl_alg_equal(d->tower, momentum, pl_mul(d->pool, M, pl_sym(d->pool, c->v)))
+                 == PL_YES;
   const pl_form* form = pl_f(d, M, PL_S_ENERGY);
-  if (!pl_has_symbol(d->pool, M, c->q) || pl_form_ops(form) < long_mass || d->dissipative || !natural || d->loops.n > 0) return false;
-  const pl_form* mass = pl_fn(d, pl_format(d->arena, "%s(%s)", pl_letter(d, "M"), pl_symbol_get(d->pool, c->q)->name));
+  if (!pl_has_symbol(d->pool, M, c->q) || pl_form_ops(form) < long_mass || d->dissipative
+      || !natural || d->loops.n > 0)
+    return false;
+  const pl_form* mass = pl_fn(
+      d, pl_format(d->arena, "%s(%s)", pl_letter(d, "M"), pl_symbol_get(d->pool, c->q)->name));
   const pl_form* M_name = pl_fl(d, "M");
   pl_say(d, "With {1}", "Mit {1}", 1, pl_feq(d, mass, form));
   pl_claim_that(d, PL_CLAIM_ENERGY, pl_form_value(d->pool, form), M);
-  const pl_form* q2 = pl_form_power(d->arena, pl_fs(d, c->v), pl_form_leaf(d->arena, pl_int(d->pool, 2)));
+  const pl_form* q2 = pl_form_power(d->arena, pl_fs(d, c->v),
+                                    pl_form_leaf(d->arena, pl_int(d->pool, 2)));
   pl_form* slope = pl_form_make(d->arena, PL_F_DERIVATIVE, 1, &M_name);
   slope->expr = pl_sym(d->pool, c->q);
   const pl_form* first[2] = {M_name, pl_fs(d, c->a)};
@@ -193,7 +216,8 @@ static bool show_with_named_mass(pl_analysis* d, int i) {
   terms[1] = pl_form_product(d->arena, second, 3);
   for (int k = 0; k < n_force; k++) terms[2 + k] = force->kind == PL_F_SUM ? force->args[k] : force;
   pl_why_second_kind(d, i);
-  pl_step* step = pl_show_numbered(d, pl_feq(d, pl_form_sum(d->arena, terms, 2 + n_force), zero_form(d)));
+  pl_step* step = pl_show_numbered(
+      d, pl_feq(d, pl_form_sum(d->arena, terms, 2 + n_force), zero_form(d)));
   pl_step_refs(step, 1, d->number_lagrangian);
   pl_push(d->arena, d->lagrange2_numbers, step->number);
   return true;
@@ -228,19 +252,24 @@ static const pl_form* by_order(pl_analysis* d, pl_expr e) {
   }
   pl_expr rest = with_zero(d, e, false), force = with_zero(d, rest, true);
   pl_expr moving = pl_alg_normal(d->tower, pl_sub(d->pool, rest, force));
-  if (!pl_is_zero_node(d->pool, moving)) part[n++] = pl_positive_first(d, pl_f(d, moving, PL_S_EQUATION));
-  if (!pl_is_zero_node(d->pool, force)) part[n++] = pl_positive_first(d, pl_f(d, force, PL_S_EQUATION));
+  if (!pl_is_zero_node(d->pool, moving))
+    part[n++] = pl_positive_first(d, pl_f(d, moving, PL_S_EQUATION));
+  if (!pl_is_zero_node(d->pool, force))
+    part[n++] = pl_positive_first(d, pl_f(d, force, PL_S_EQUATION));
   return pl_joined_sum(d, part, n);
 }
 
-// Without inertia the equation of the second kind is the principle of virtual work: minus the work of all forces along a shift of q_i,
+// Without inertia the equation of the second kind is the principle of virtual work: minus the work
+// of all forces along a shift of q_i,
 //   dV/dq_i - sum Q_j dq_j/dq_i,
 // with the shifts from the constraints' maps.
 static pl_expr virtual_work(pl_analysis* d, int i) {
   pl_expr sum = pl_int(d->pool, 0);
   for (int j = 0; j < d->q.n; j++) {
     const pl_variable* c = &d->q.at[j];
-    pl_expr shift = j == i ? pl_int(d->pool, 1) : pl_is_poison(c->map) ? pl_int(d->pool, 0) : pl_by_coordinate(d, c->map, i);
+    pl_expr shift = j == i                 ? pl_int(d->pool, 1)
+                    : pl_is_poison(c->map) ? pl_int(d->pool, 0)
+                                           : pl_by_coordinate(d, c->map, i);
     if (pl_is_zero_node(d->pool, shift)) continue;
     pl_expr push = pl_sub(d->pool, pl_diff(d->pool, d->V, c->q), d->force[j]);
     sum = pl_add(d->pool, sum, pl_mul(d->pool, shift, pl_on_maps(d, push)));
@@ -261,21 +290,26 @@ static void show_second_kind(pl_analysis* d, int i) {
   bool moves = pl_has_role(d->pool, e, PL_R_ACCELERATION) || pl_has_role(d->pool, e, PL_R_VELOCITY);
   if (moves) {
     pl_claim_that(d, PL_CLAIM_ONE_TWO, pl_form_value(d->pool, form), pl_int(d->pool, 0));
-  } else {   // a condition on the place: it holds where there is balance, not everywhere
-    pl_claim_that(d, PL_CLAIM_OTHER, pl_mul(d->pool, factor, pl_form_value(d->pool, form)), virtual_work(d, i));
+  } else {  // a condition on the place: it holds where there is balance, not everywhere
+    pl_claim_that(d, PL_CLAIM_OTHER, pl_mul(d->pool, factor, pl_form_value(d->pool, form)),
+                  virtual_work(d, i));
   }
 }
 
-static const long longest_searched = 1500;   // operators of a normal form up to which a shorter form is looked for
-static const long longest_answer = 150;      // operators up to which an acceleration is written in closed form
-static const long longest_beside = 60;       // the same, when another one is shown over named intermediates
+// operators of a normal form up to which a shorter form is looked for
+static const long longest_searched = 1500;
+// operators up to which an acceleration is written in closed form
+static const long longest_answer = 150;
+// the same, when another one is shown over named intermediates
+static const long longest_beside = 60;
 
 // Too long to be written out when there are several.
 static bool is_long(pl_analysis* d, int i, long longest) {
   pl_expr a = d->solved ? d->acceleration[i] : pl_poison();
   if (pl_is_poison(a)) return true;
   if (d->gen.n == 1) return false;
-  return pl_op_count(d->pool, a) > longest_searched || pl_form_ops(pl_f(d, a, PL_S_QUOTIENT)) > longest;
+  return pl_op_count(d->pool, a) > longest_searched
+         || pl_form_ops(pl_f(d, a, PL_S_QUOTIENT)) > longest;
 }
 
 // A solved acceleration: in closed form, or over named intermediates.
@@ -286,19 +320,22 @@ static void show_solved(pl_analysis* d, int i, long longest) {
   if (pl_is_poison(a)) return;
   const pl_form* form = pl_f(d, a, PL_S_QUOTIENT);
   pl_claim_that(d, PL_CLAIM_ONE_TWO, pl_form_value(d->pool, form), pl_sym(d->pool, name));
-  bool told = d->gen.n == 1 && pl_form_ops(form) > longest_beside;   // its equation tells it better
+  bool told = d->gen.n == 1 && pl_form_ops(form) > longest_beside;  // its equation tells it better
   pl_step* step = told ? NULL : pl_show_numbered(d, pl_feq(d, pl_fs(d, name), form));
-  for (int k = 0; k < d->lagrange2_numbers.n && step; k++) pl_step_refs(step, 1, d->lagrange2_numbers.at[k]);
+  for (int k = 0; k < d->lagrange2_numbers.n && step; k++)
+    pl_step_refs(step, 1, d->lagrange2_numbers.at[k]);
   pl_answer(d, pl_symbol_get(d->pool, name)->ascii, a, form);
 }
 
 static void show_all_solved(pl_analysis* d) {
   bool structured = false;
   for (int k = 0; k < d->gen.n; k++) structured |= is_long(d, d->gen.at[k], longest_answer);
-  for (int k = 0; k < d->gen.n; k++) show_solved(d, d->gen.at[k], structured ? longest_beside : longest_answer);
+  for (int k = 0; k < d->gen.n; k++)
+    show_solved(d, d->gen.at[k], structured ? longest_beside : longest_answer);
 }
 
-// With the energy the motion of one degree of freedom is an integral:  t = ∫ dq sqrt(M / (2 (E - V))).
+// With the energy the motion of one degree of freedom is an integral: t = ∫ dq sqrt(M / (2 (E -
+// V))).
 static void show_quadrature(pl_analysis* d, int i) {
   const pl_variable* c = &d->q.at[i];
   pl_expr E = pl_conserved_energy(d);
@@ -307,19 +344,28 @@ static void show_quadrature(pl_analysis* d, int i) {
   if (!pl_has_coordinates(d, d->acceleration[i]) || !pl_has_symbol(d->pool, M, c->q)) return;
   const pl_form* V = pl_f(d, d->Vg, PL_S_ENERGY);
   const pl_form* difference[2] = {pl_fl(d, "E"), pl_form_neg(d->arena, V)};
-  const pl_form* twice[2] = {pl_form_leaf(d->arena, pl_int(d->pool, 2)), pl_form_sum(d->arena, difference, 2)};
-  const pl_form* root = pl_form_root(d->arena, pl_form_quotient(d->arena, pl_fl(d, "M"), pl_form_product(d->arena, twice, 2)));
+  const pl_form* twice[2] = {pl_form_leaf(d->arena, pl_int(d->pool, 2)),
+                             pl_form_sum(d->arena, difference, 2)};
+  const pl_form* root = pl_form_root(
+      d->arena, pl_form_quotient(d->arena, pl_fl(d, "M"), pl_form_product(d->arena, twice, 2)));
   pl_form* integral = pl_form_make(d->arena, PL_F_INTEGRAL, 1, &root);
   integral->expr = pl_sym(d->pool, c->q);
-  pl_say(d, "The energy is conserved, so the motion is one integral; no elementary closed form was found:",
-         "Die Energie ist erhalten, die Bewegung also ein Integral; eine elementare geschlossene Form wurde nicht gefunden:", 0);
-  const pl_form* either[1] = {integral};   // a motion to either side
+  pl_say(d,
+         "The energy is conserved, so the motion is one integral; no elementary closed form was "
+         "found:",
+         "Die Energie ist erhalten, die Bewegung also ein Integral; eine elementare geschlossene "
+         "Form wurde nicht gefunden:",
+         0);
+  const pl_form* either[1] = {integral};  // a motion to either side
   pl_show(d, pl_feq(d, pl_fn(d, "t"), pl_form_make(d->arena, PL_F_PLUSMINUS, 1, either)));
 }
 
 void pl_answer_lagrange2(pl_analysis* d, const pl_ask* ask) {
-  pl_section_open(d, ask, d->gen.n == 1 ? "Lagrange equation of the second kind" : "Lagrange equations of the second kind",
-                  d->gen.n == 1 ? "Lagrange-Gleichung zweiter Art" : "Lagrange-Gleichungen zweiter Art");
+  pl_section_open(
+      d, ask,
+      d->gen.n == 1 ? "Lagrange equation of the second kind"
+                    : "Lagrange equations of the second kind",
+      d->gen.n == 1 ? "Lagrange-Gleichung zweiter Art" : "Lagrange-Gleichungen zweiter Art");
   if (without_reduction(d)) return;
   pl_tell_singular(d);
   bool named = d->gen.n == 1 && show_with_named_mass(d, d->gen.at[0]);
@@ -330,25 +376,33 @@ void pl_answer_lagrange2(pl_analysis* d, const pl_ask* ask) {
            "Es bleibt nichts frei: Die Zwangsbedingungen schreiben die ganze Bewegung vor.", 0);
   } else if (!d->solved && !pl_has_role(d->pool, d->Lg, PL_R_VELOCITY)) {
     pl_say(d, "No mass moves: this is the condition of balance, the principle of virtual work.",
-           "Keine Masse bewegt sich: Das ist die Gleichgewichtsbedingung, das Prinzip der virtuellen Arbeit.", 0);
+           "Keine Masse bewegt sich: Das ist die Gleichgewichtsbedingung, das Prinzip der "
+           "virtuellen Arbeit.",
+           0);
   } else if (!d->solved && !pl_structure_of_accelerations(d)) {
-    pl_say(d, "The accelerations are not determined by these equations: the mass matrix is singular.",
-           "Die Beschleunigungen sind durch diese Gleichungen nicht bestimmt: die Massenmatrix ist singulär.", 0);
+    pl_say(d,
+           "The accelerations are not determined by these equations: the mass matrix is singular.",
+           "Die Beschleunigungen sind durch diese Gleichungen nicht bestimmt: die Massenmatrix ist "
+           "singulär.",
+           0);
     d->section->not_found = true;
   }
   if (named) show_quadrature(d, d->gen.at[0]);
 }
 
-// ---------------------------------------------------------------------------------------------- Hamilton function
+// ------------------------------------------------------------------------------- Hamilton function
 static pl_symbol momentum_symbol(pl_analysis* d, int i) {
   const pl_symbol_info* q = pl_symbol_get(d->pool, d->q.at[i].q);
-  pl_symbol_info info = {.name = pl_format(d->arena, "p_%s", q->name), .ascii = pl_format(d->arena, "p_%s", q->ascii),
-                         .role = PL_R_MOMENTUM, .class = PL_C_VELOCITY};
-  info.dimension = pl_dimension_of_expr(d, pl_diff(d->pool, d->Lg, d->q.at[i].v), &info.dimension_known);
+  pl_symbol_info info = {.name = pl_format(d->arena, "p_%s", q->name),
+                         .ascii = pl_format(d->arena, "p_%s", q->ascii),
+                         .role = PL_R_MOMENTUM,
+                         .class = PL_C_VELOCITY};
+  info.dimension = pl_dimension_of_expr(d, pl_diff(d->pool, d->Lg, d->q.at[i].v),
+                                        &info.dimension_known);
   return pl_symbol_make(d->pool, &info);
 }
 
-enum { most_momenta = 4 };   // up to which H(q, p) is written out in full
+enum { most_momenta = 4 };  // up to which H(q, p) is written out in full
 
 void pl_answer_hamiltonian(pl_analysis* d, const pl_ask* ask) {
   pl_section_open(d, ask, "Hamilton function", "Hamilton-Funktion");
@@ -365,19 +419,30 @@ void pl_answer_hamiltonian(pl_analysis* d, const pl_ask* ask) {
     for (int j = 0; j < n; j++) A[k * n + j] = pl_diff(d->pool, p, d->q.at[d->gen.at[j]].v);
     b[k] = pl_sub(d->pool, pl_sym(d->pool, name), pl_subst(d->pool, p, rest, n));
   }
-  pl_answer3 solved = n == 0 ? PL_NO : n > most_momenta ? PL_UNKNOWN : pl_alg_solve(d->tower, n, A, b, v, 50000);
+  pl_answer3 solved = n == 0             ? PL_NO
+                      : n > most_momenta ? PL_UNKNOWN
+                                         : pl_alg_solve(d->tower, n, A, b, v, 50000);
   if (solved != PL_YES) {
     bool singular = solved == PL_NO;
-    pl_say(d, singular ? "The momenta cannot be solved for the velocities: the Lagrange function is singular."
-                       : "H(q, p) takes the inverse of the mass matrix, which is too long to be written out here; the momenta are given.",
-           singular ? "Die Impulse sind nicht nach den Geschwindigkeiten auflösbar: die Lagrange-Funktion ist singulär."
-                    : "H(q, p) braucht das Inverse der Massenmatrix, das hier zu lang zum Ausschreiben ist; die Impulse sind angegeben.", 0);
+    pl_say(
+        d,
+        singular
+            ? "The momenta cannot be solved for the velocities: the Lagrange function is singular."
+            : "H(q, p) takes the inverse of the mass matrix, which is too long to be written out "
+              "here; the momenta are given.",
+        singular ? "Die Impulse sind nicht nach den Geschwindigkeiten auflösbar: die "
+                   "Lagrange-Funktion ist singulär."
+                 : "H(q, p) braucht das Inverse der Massenmatrix, das hier zu lang zum "
+                   "Ausschreiben ist; die Impulse sind angegeben.",
+        0);
     d->section->not_found = true;
     return;
   }
   pl_expr H = pl_neg(d->pool, d->Lg);
   for (int k = 0; k < n; k++) {
-    H = pl_add(d->pool, H, pl_mul(d->pool, pl_sym(d->pool, momentum_symbol(d, d->gen.at[k])), pl_sym(d->pool, d->q.at[d->gen.at[k]].v)));
+    H = pl_add(d->pool, H,
+               pl_mul(d->pool, pl_sym(d->pool, momentum_symbol(d, d->gen.at[k])),
+                      pl_sym(d->pool, d->q.at[d->gen.at[k]].v)));
     rest[k].to = v[k];
   }
   H = pl_alg_normal(d->tower, pl_subst(d->pool, H, rest, n));

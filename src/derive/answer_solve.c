@@ -11,14 +11,15 @@ static int link_of_lambda(const pl_analysis* d, pl_symbol s) {
   return -1;
 }
 
-// ---------------------------------------------------------------------------------------------- multipliers
+// ------------------------------------------------------------------------------------- multipliers
 static pl_expr zero_accelerations(pl_analysis* d, pl_expr e) {
   pl_replace* zero = PL_ARRAY(d->arena, pl_replace, d->q.n);
   for (int j = 0; j < d->q.n; j++) zero[j] = (pl_replace){d->q.at[j].a, pl_int(d->pool, 0)};
   return pl_subst(d->pool, e, zero, d->q.n);
 }
 
-// Row i solved for its own acceleration when no other one occurs in it: x'' = (F + sum lambda dg)/m.
+// Row i solved for its own acceleration when no other one occurs in it: x'' = (F + sum lambda
+// dg)/m.
 static pl_expr own_acceleration(pl_analysis* d, int i) {
   pl_expr e = pl_on_contact(d, d->euler[i]);
   pl_expr own = pl_diff(d->pool, e, d->q.at[i].a);
@@ -29,7 +30,8 @@ static pl_expr own_acceleration(pl_analysis* d, int i) {
   for (int k = 0; k < d->g.n; k++) {
     const pl_bond* l = &d->g.at[k];
     if ((l->implied && !l->shared) || l->fixes >= 0) continue;
-    push = pl_add(d->pool, push, pl_mul(d->pool, pl_sym(d->pool, l->lambda), pl_on_contact(d, l->push[i])));
+    push = pl_add(d->pool, push,
+                  pl_mul(d->pool, pl_sym(d->pool, l->lambda), pl_on_contact(d, l->push[i])));
   }
   return pl_div(d->pool, push, own);
 }
@@ -73,21 +75,25 @@ static const pl_form* by_multipliers(pl_analysis* d, pl_expr e) {
     if (pl_is_zero_node(d->pool, c)) continue;
     pl_expr normal = pl_alg_normal(d->tower, c);
     bool shorter = pl_op_count(d->pool, normal) < pl_op_count(d->pool, c);
-    const pl_form* factor[2] = {pl_fs(d, d->g.at[k].lambda), shorter ? pl_f(d, normal, PL_S_QUOTIENT) : pl_fe(d, c)};
+    const pl_form* factor[2] = {pl_fs(d, d->g.at[k].lambda),
+                                shorter ? pl_f(d, normal, PL_S_QUOTIENT) : pl_fe(d, c)};
     term[n++] = pl_form_product(d->arena, factor, 2);
   }
   return n == 1 ? term[0] : pl_form_sum(d->arena, term, n);
 }
 
-// The equations of motion that have an acceleration of e; all of them where rows and coordinates do not pair.
+// The equations of motion that have an acceleration of e; all of them where rows and coordinates do
+// not pair.
 static const pl_form* refs_of_accelerations(pl_analysis* d, pl_expr e) {
   int rows = 0, n = 0, *number = PL_ARRAY(d->arena, int, d->q.n + 1);
   for (int j = 0; j < d->q.n; j++) {
     if (!d->q.at[j].carries || d->q.at[j].fixed_by >= 0) continue;
     int row = rows++;
-    if (row < d->lagrange1_numbers.n && pl_has_symbol(d->pool, e, d->q.at[j].a)) number[n++] = d->lagrange1_numbers.at[row];
+    if (row < d->lagrange1_numbers.n && pl_has_symbol(d->pool, e, d->q.at[j].a))
+      number[n++] = d->lagrange1_numbers.at[row];
   }
-  if (n == 0 || rows != d->lagrange1_numbers.n) return refs_form(d, d->lagrange1_numbers.at, d->lagrange1_numbers.n);
+  if (n == 0 || rows != d->lagrange1_numbers.n)
+    return refs_form(d, d->lagrange1_numbers.at, d->lagrange1_numbers.n);
   return n == 1 ? pl_fref(d, number[0]) : refs_form(d, number, n);
 }
 
@@ -95,22 +101,28 @@ static void show_twice_differentiated(pl_analysis* d, int k) {
   const pl_bond* l = &d->g.at[k];
   const pl_form* zero = pl_form_leaf(d->arena, pl_int(d->pool, 0));
   pl_expr gdd = pl_on_fixed(d, pl_bond_acceleration(d, k));
-  pl_say(d, l->velocity ? "The time derivative of {1}:" : "Two time derivatives of {1}:",
-         l->velocity ? "Zeitableitung von {1}:" : "Zweimalige Zeitableitung der Zwangsbedingung {1}:", 1, pl_fn(d, l->source->name.text));
+  pl_say(
+      d, l->velocity ? "The time derivative of {1}:" : "Two time derivatives of {1}:",
+      l->velocity ? "Zeitableitung von {1}:" : "Zweimalige Zeitableitung der Zwangsbedingung {1}:",
+      1, pl_fn(d, l->source->name.text));
   pl_why_differentiated(d, k);
   if (l->contact && l->fixes >= 0) {
     const pl_variable* c = &d->q.at[l->fixes];
-    const pl_form* both[2] = {pl_feq(d, pl_fs(d, c->v), pl_fe(d, pl_dt(d->pool, c->fixed))),
-                              pl_feq(d, pl_fs(d, c->a), pl_fe(d, pl_dt(d->pool, pl_dt(d->pool, c->fixed))))};
+    const pl_form* both[2] = {
+        pl_feq(d, pl_fs(d, c->v), pl_fe(d, pl_dt(d->pool, c->fixed))),
+        pl_feq(d, pl_fs(d, c->a), pl_fe(d, pl_dt(d->pool, pl_dt(d->pool, c->fixed))))};
     d->number_gdd = pl_show_numbered(d, pl_flist(d, both, 2))->number;
     return;
   }
-  d->number_gdd = pl_show_numbered(d, pl_feq(d, pl_f(d, pl_alg_normal(d->tower, gdd), PL_S_EQUATION), zero))->number;
+  d->number_gdd = pl_show_numbered(
+                      d, pl_feq(d, pl_f(d, pl_alg_normal(d->tower, gdd), PL_S_EQUATION), zero))
+                      ->number;
   pl_claim_that(d, PL_CLAIM_MOTION, gdd, pl_int(d->pool, 0));
   pl_expr inserted;
   if (d->lagrange1_numbers.n == 0 || !insert_rows(d, pl_on_contact(d, gdd), &inserted)) return;
   if (pl_op_count(d->pool, inserted) > 60) return;
-  pl_say(d, "{1} inserted into {2}:", "{1} in {2} eingesetzt:", 2, refs_of_accelerations(d, gdd), pl_fref(d, d->number_gdd));
+  pl_say(d, "{1} inserted into {2}:", "{1} in {2} eingesetzt:", 2, refs_of_accelerations(d, gdd),
+         pl_fref(d, d->number_gdd));
   pl_show(d, pl_feq(d, by_multipliers(d, inserted), zero));
   pl_claim_that(d, PL_CLAIM_MOTION, inserted, pl_int(d->pool, 0));
   pl_why_multiplier(d, k, inserted);
@@ -118,13 +130,16 @@ static void show_twice_differentiated(pl_analysis* d, int k) {
 
 // A line that follows from the equations of motion and one more: as many as a step can name.
 static void refer_to_equations(pl_analysis* d, pl_step* step, int more) {
-  for (int k = 0; k < d->lagrange1_numbers.n; k++) pl_step_refs(step, 1, d->lagrange1_numbers.at[k]);
+  for (int k = 0; k < d->lagrange1_numbers.n; k++)
+    pl_step_refs(step, 1, d->lagrange1_numbers.at[k]);
   pl_step_refs(step, 1, more);
 }
 
-static const long longest_lambda = 150;     // operations up to which a multiplier is written out in the text
-static const long longest_beside = 40;     // likewise, when another one has been shown over names
-static const long longest_searched = 1500; // of the normal form, up to which a shorter one is looked for
+// operations up to which a multiplier is written out in the text
+static const long longest_lambda = 150;
+static const long longest_beside = 40;  // likewise, when another one has been shown over names
+// of the normal form, up to which a shorter one is looked for
+static const long longest_searched = 1500;
 
 // λ with the state eliminated, displayed with its number.
 // Where the closed form is too long to read: one equation of motion, solved for it.
@@ -135,35 +150,49 @@ static void show_row(pl_analysis* d, int k) {
   const pl_form* form = pl_positive_first(d, pl_f(d, row, PL_S_QUOTIENT));
   if (pl_form_ops(form) > longest_lambda) return;
   pl_say(d, "From the equation of {1}:", "Aus der Gleichung von {1}:", 1, pl_fs(d, d->q.at[i].q));
-  d->g.at[k].number = d->number_lambda = pl_show_numbered(d, pl_feq(d, pl_fs(d, d->g.at[k].lambda), form))->number;
-  pl_claim_that(d, PL_CLAIM_MOTION, pl_form_value(d->pool, form), pl_sym(d->pool, d->g.at[k].lambda));
+  d->g.at[k].number = d->number_lambda =
+      pl_show_numbered(d, pl_feq(d, pl_fs(d, d->g.at[k].lambda), form))->number;
+  pl_claim_that(d, PL_CLAIM_MOTION, pl_form_value(d->pool, form),
+                pl_sym(d->pool, d->g.at[k].lambda));
 }
 
 static void show_lambda(pl_analysis* d, int k) {
   pl_bond* l = &d->g.at[k];
-  bool solved = l->lambda_known, long_at_sight = solved && pl_op_count(d->pool, l->lambda_value) > longest_searched;
-  if ((!solved || long_at_sight) && pl_show_structured(d, l->lambda, solved ? l->lambda_value : pl_poison())) {
+  bool solved = l->lambda_known,
+       long_at_sight = solved && pl_op_count(d->pool, l->lambda_value) > longest_searched;
+  if ((!solved || long_at_sight)
+      && pl_show_structured(d, l->lambda, solved ? l->lambda_value : pl_poison())) {
     d->section->values.at[d->section->values.n - 1].of = l->source->name.text;
     return;
   }
   if (!solved) {
-    pl_say(d, "{1} is not determined by the equations in closed form.", "{1} ist durch die Gleichungen nicht geschlossen bestimmt.", 1,
-           pl_fs(d, l->lambda));
+    pl_say(d, "{1} is not determined by the equations in closed form.",
+           "{1} ist durch die Gleichungen nicht geschlossen bestimmt.", 1, pl_fs(d, l->lambda));
     d->section->not_found = true;
     return;
   }
-  const pl_form* form = pl_positive_first(d, pl_f(d, l->lambda_value, l->contact ? PL_S_EQUATION : PL_S_QUOTIENT));
-  bool beside = pl_structure_is_told(d) && l->fixes < 0;   // the names are there
-  if (pl_form_ops(form) > (beside ? longest_beside : longest_lambda) && pl_show_structured(d, l->lambda, l->lambda_value)) {
+  const pl_form* form = pl_positive_first(
+      d, pl_f(d, l->lambda_value, l->contact ? PL_S_EQUATION : PL_S_QUOTIENT));
+  bool beside = pl_structure_is_told(d) && l->fixes < 0;  // the names are there
+  if (pl_form_ops(form) > (beside ? longest_beside : longest_lambda)
+      && pl_show_structured(d, l->lambda, l->lambda_value)) {
     d->section->values.at[d->section->values.n - 1].of = l->source->name.text;
     return;
   }
   if (pl_form_ops(form) > longest_lambda) {
     show_row(d, k);
-    pl_say(d, pl_format(d->arena, "The linear equations for the multipliers and accelerations are solved; {1} takes %ld operations to write "
-                                  "and stands in the JSON answer.", pl_form_ops(form)),
-           pl_format(d->arena, "Die linearen Gleichungen für Multiplikatoren und Beschleunigungen sind gelöst; {1} hat ausgeschrieben %ld "
-                               "Rechenzeichen und steht in der JSON-Antwort.", pl_form_ops(form)), 1, pl_fs(d, l->lambda));
+    pl_say(d,
+           pl_format(d->arena,
+                     "The linear equations for the multipliers and accelerations are solved; {1} "
+                     "takes %ld operations to write "
+                     "and stands in the JSON answer.",
+                     pl_form_ops(form)),
+           pl_format(d->arena,
+                     "Die linearen Gleichungen für Multiplikatoren und Beschleunigungen sind "
+                     "gelöst; {1} hat ausgeschrieben %ld "
+                     "Rechenzeichen und steht in der JSON-Antwort.",
+                     pl_form_ops(form)),
+           1, pl_fs(d, l->lambda));
   } else {
     pl_step* step = pl_show_numbered(d, pl_feq(d, pl_fs(d, l->lambda), form));
     l->number = d->number_lambda = step->number;
@@ -187,12 +216,13 @@ static void solve_lambda(pl_analysis* d, int k) {
     show_twice_differentiated(d, k);
   } else {
     pl_say(d, "{1} was dropped; its multiplier is what the equation of its coordinate leaves:",
-           "{1} ist entfallen; der Multiplikator ist der Rest der Gleichung ihrer Koordinate:", 1, pl_fn(d, d->g.at[k].source->name.text));
+           "{1} ist entfallen; der Multiplikator ist der Rest der Gleichung ihrer Koordinate:", 1,
+           pl_fn(d, d->g.at[k].source->name.text));
   }
   show_lambda(d, k);
 }
 
-// ---------------------------------------------------------------------------------------------- accelerations
+// ----------------------------------------------------------------------------------- accelerations
 static void show_acceleration(pl_analysis* d, int i) {
   const pl_form* form = pl_f(d, d->acceleration[i], PL_S_QUOTIENT);
   pl_step* step = pl_show_numbered(d, pl_feq(d, pl_fs(d, d->q.at[i].a), form));
@@ -215,7 +245,9 @@ static bool no_acceleration(pl_analysis* d, int i) {
 static bool long_acceleration(pl_analysis* d, int i) {
   pl_expr a = d->acceleration[i];
   bool known = d->solved && !pl_is_poison(a);
-  if (known && pl_op_count(d->pool, a) <= longest_searched && pl_form_ops(pl_f(d, a, PL_S_QUOTIENT)) <= longest_lambda) return false;
+  if (known && pl_op_count(d->pool, a) <= longest_searched
+      && pl_form_ops(pl_f(d, a, PL_S_QUOTIENT)) <= longest_lambda)
+    return false;
   return pl_show_structured(d, d->q.at[i].a, known ? a : pl_poison());
 }
 
@@ -228,13 +260,16 @@ static void say_inserted(pl_analysis* d, int i) {
     if (stands && d->g.at[k].number > 0) number[n++] = d->g.at[k].number;
   }
   if (n == 0 || row >= d->lagrange1_numbers.n) return;
-  pl_say(d, "{1} inserted into {2}:", "{1} in {2} eingesetzt:", 2, n == 1 ? pl_fref(d, number[0]) : refs_form(d, number, n),
+  pl_say(d, "{1} inserted into {2}:", "{1} in {2} eingesetzt:", 2,
+         n == 1 ? pl_fref(d, number[0]) : refs_form(d, number, n),
          pl_fref(d, d->lagrange1_numbers.at[row]));
 }
 
-// ---------------------------------------------------------------------------------------------- closed motions
+// ---------------------------------------------------------------------------------- closed motions
 // x'' = A + B x + C x' with constant A, B, C: the general solution through x(0), x'(0).   [Arnold 1989, sec. 5]
-typedef struct pl_linear_equation { pl_expr A, B, C; } pl_linear_equation;
+typedef struct pl_linear_equation {
+  pl_expr A, B, C;
+} pl_linear_equation;
 
 static bool is_parameter(pl_analysis* d, pl_expr e) {
   return !pl_has_coordinates(d, e) && !pl_has_symbol(d->pool, e, pl_time(d->pool));
@@ -253,7 +288,9 @@ static bool linear_equation(pl_analysis* d, int i, pl_linear_equation* out) {
 }
 
 // The general solution keeps x(0) and x'(0) as names, whatever `init` says.
-static pl_expr start_of(pl_analysis* d, pl_symbol s) { return pl_sym(d->pool, pl_symbol_start(d->pool, s)); }
+static pl_expr start_of(pl_analysis* d, pl_symbol s) {
+  return pl_sym(d->pool, pl_symbol_start(d->pool, s));
+}
 
 static pl_expr uniform(pl_analysis* d, pl_expr A, pl_expr x0, pl_expr v0, pl_expr t) {
   pl_pool* p = d->pool;
@@ -270,28 +307,33 @@ static pl_expr in_parts(pl_analysis* d, pl_laplace_poles* parts, pl_expr steady,
 }
 
 // x'' = A + C x':  x = x0 - c - A t/C + c e^{Ct} with c = (v0 + A/C)/C
-static pl_expr with_friction(pl_analysis* d, const pl_linear_equation* l, pl_expr x0, pl_expr v0, pl_expr t, pl_laplace_poles* parts) {
+static pl_expr with_friction(pl_analysis* d, const pl_linear_equation* l, pl_expr x0, pl_expr v0,
+                             pl_expr t, pl_laplace_poles* parts) {
   pl_pool* p = d->pool;
   pl_expr terminal = pl_div(p, l->A, l->C), c = pl_div(p, pl_add(p, v0, terminal), l->C);
   pl_expr steady = pl_add_n(p, (pl_expr[]){x0, pl_neg(p, c), pl_neg(p, pl_mul(p, terminal, t))}, 3);
   return in_parts(d, parts, steady, pl_mul(p, c, pl_call(p, PL_EXP, pl_mul(p, l->C, t))));
 }
 
-// The discriminant is zero: critical damping, u = e^{Ct/2} (u0 + (v0 - C u0/2) t).  Where only the given numbers make it zero, they are a
-// special case, which is tried next.
-static pl_expr critical(pl_analysis* d, pl_expr disc, pl_expr half, pl_expr rest, pl_expr x0, pl_expr v0, pl_expr t, pl_laplace_poles* parts) {
+// The discriminant is zero: critical damping, u = e^{Ct/2} (u0 + (v0 - C u0/2) t). Where only the
+// given numbers make it zero, they are a special case, which is tried next.
+static pl_expr critical(pl_analysis* d, pl_expr disc, pl_expr half, pl_expr rest, pl_expr x0,
+                        pl_expr v0, pl_expr t, pl_laplace_poles* parts) {
   pl_pool* p = d->pool;
   if (pl_alg_is_zero(d->tower, disc) != PL_YES) {
     pl_find_special(d, disc);
     return pl_poison();
   }
   pl_expr u0 = pl_sub(p, x0, rest), slope = pl_sub(p, v0, pl_mul(p, half, u0));
-  pl_expr swing = pl_mul(p, pl_call(p, PL_EXP, pl_mul(p, half, t)), pl_add(p, u0, pl_mul(p, slope, t)));
+  pl_expr swing = pl_mul(p, pl_call(p, PL_EXP, pl_mul(p, half, t)),
+                         pl_add(p, u0, pl_mul(p, slope, t)));
   return in_parts(d, parts, rest, swing);
 }
 
-// x'' = A + B x + C x', B != 0, around the rest position -A/B; the sign of the discriminant decides.
-static pl_expr oscillation(pl_analysis* d, const pl_linear_equation* l, pl_expr x0, pl_expr v0, pl_expr t, pl_laplace_poles* parts) {
+// x'' = A + B x + C x', B != 0, around the rest position -A/B; the sign of the discriminant
+// decides.
+static pl_expr oscillation(pl_analysis* d, const pl_linear_equation* l, pl_expr x0, pl_expr v0,
+                           pl_expr t, pl_laplace_poles* parts) {
   pl_pool* p = d->pool;
   pl_expr rest = pl_alg_normal(d->tower, pl_neg(p, pl_div(p, l->A, l->B)));
   pl_expr half = pl_div(p, l->C, pl_int(p, 2));
@@ -300,7 +342,8 @@ static pl_expr oscillation(pl_analysis* d, const pl_linear_equation* l, pl_expr 
   if (sign == 0) return critical(d, disc, half, rest, x0, v0, t, parts);
   pl_expr w = pl_alg_normal(d->tower, pl_sqrt(p, sign > 0 ? disc : pl_neg(p, disc)));
   pl_expr wt = pl_mul(p, w, t), u0 = pl_sub(p, x0, rest);
-  pl_expr even = pl_call(p, sign > 0 ? PL_COSH : PL_COS, wt), odd = pl_call(p, sign > 0 ? PL_SINH : PL_SIN, wt);
+  pl_expr even = pl_call(p, sign > 0 ? PL_COSH : PL_COS, wt),
+          odd = pl_call(p, sign > 0 ? PL_SINH : PL_SIN, wt);
   pl_expr slope = pl_div(p, pl_sub(p, v0, pl_mul(p, half, u0)), w);
   pl_expr swing = pl_add(p, pl_mul(p, u0, even), pl_mul(p, slope, odd));
   if (!pl_is_zero_node(p, half)) swing = pl_mul(p, pl_call(p, PL_EXP, pl_mul(p, half, t)), swing);
@@ -312,7 +355,8 @@ static pl_expr general_motion(pl_analysis* d, int i, pl_laplace_poles* poles) {
   pl_linear_equation l;
   if (pl_is_poison(d->acceleration[i])) return pl_poison();
   if (!linear_equation(d, i, &l)) return pl_linear_motion(d, i, poles);
-  pl_expr x0 = start_of(d, d->q.at[i].q), v0 = start_of(d, d->q.at[i].v), t = pl_sym(d->pool, pl_time(d->pool));
+  pl_expr x0 = start_of(d, d->q.at[i].q), v0 = start_of(d, d->q.at[i].v),
+          t = pl_sym(d->pool, pl_time(d->pool));
   if (!pl_is_zero_node(d->pool, l.B)) return oscillation(d, &l, x0, v0, t, poles);
   if (!pl_is_zero_node(d->pool, l.C)) return with_friction(d, &l, x0, v0, t, poles);
   return uniform(d, l.A, x0, v0, t);
@@ -332,9 +376,11 @@ static pl_expr closed_motion(pl_analysis* d, int i, pl_laplace_poles* poles) {
 
 pl_expr pl_closed_motion(pl_analysis* d, int i) { return closed_motion(d, i, NULL); }
 
-// The limit of a coordinate or velocity means that of its motion.  Another quantity, or one without a closed motion, stays.
+// The limit of a coordinate or velocity means that of its motion. Another quantity, or one without
+// a closed motion, stays.
 pl_expr pl_as_function_of_time(pl_analysis* d, pl_expr e, pl_expr name) {
-  int i = pl_kind_of(d->pool, name) == PL_SYMBOL ? pl_variable_index(d, pl_symbol_of(d->pool, name)) : -1;
+  int i = pl_kind_of(d->pool, name) == PL_SYMBOL ? pl_variable_index(d, pl_symbol_of(d->pool, name))
+                                                 : -1;
   if (i < 0 || !d->reduced) return e;
   pl_replace* r = PL_ARRAY(d->arena, pl_replace, 2 * d->gen.n + 1);
   int n = 0;
@@ -349,16 +395,18 @@ pl_expr pl_as_function_of_time(pl_analysis* d, pl_expr e, pl_expr name) {
   return pl_subst(d->pool, e, r, n);
 }
 
-// The solution inserted into the equation, together with those of the coordinates it hangs on, and its start:
-// x(t)'' - x''(x, x') = 0, x(0) = x0.
+// The solution inserted into the equation, together with those of the coordinates it hangs on, and
+// its start: x(t)'' - x''(x, x') = 0, x(0) = x0.
 static void claim_motion(pl_analysis* d, int i, pl_expr x) {
   pl_symbol t = pl_time(d->pool);
-  pl_expr v = pl_diff(d->pool, x, t), a = pl_diff(d->pool, v, t), rest = pl_on_special(d, d->acceleration[i]);
+  pl_expr v = pl_diff(d->pool, x, t), a = pl_diff(d->pool, v, t),
+          rest = pl_on_special(d, d->acceleration[i]);
   pl_replace* r = PL_ARRAY(d->arena, pl_replace, 2 * d->q.n);
   int n = 0;
   for (int j = 0; j < d->q.n; j++) {
     const pl_variable* c = &d->q.at[j];
-    if (j != i && !pl_has_symbol(d->pool, rest, c->q) && !pl_has_symbol(d->pool, rest, c->v)) continue;
+    if (j != i && !pl_has_symbol(d->pool, rest, c->q) && !pl_has_symbol(d->pool, rest, c->v))
+      continue;
     pl_expr other = j == i ? x : pl_linear_motion(d, j, NULL);
     r[n++] = (pl_replace){c->q, other};
     r[n++] = (pl_replace){c->v, pl_diff(d->pool, other, t)};
@@ -387,8 +435,11 @@ static pl_symbol function_of_time(pl_analysis* d, int i) {
 static void show_followers(pl_analysis* d, int i) {
   for (int j = 0; j < d->q.n; j++) {
     const pl_variable* c = &d->q.at[j];
-    if (j == i || c->fixed_by >= 0 || pl_is_poison(c->map) || !pl_has_symbol(d->pool, c->map, d->q.at[i].q)) continue;
-    pl_expr shown = pl_subst1(d->pool, c->map, d->q.at[i].q, pl_sym(d->pool, function_of_time(d, i)));
+    if (j == i || c->fixed_by >= 0 || pl_is_poison(c->map)
+        || !pl_has_symbol(d->pool, c->map, d->q.at[i].q))
+      continue;
+    pl_expr shown = pl_subst1(d->pool, c->map, d->q.at[i].q,
+                              pl_sym(d->pool, function_of_time(d, i)));
     pl_show(d, pl_feq(d, of_time(d, j), pl_f(d, shown, PL_S_SOLUTION)));
   }
 }
@@ -420,7 +471,8 @@ static int add_terms(const pl_form* f, const pl_form** term, int n, int max) {
   return n;
 }
 
-// With exponentials a motion is clearer as a sum over its poles (what is driven, what fades), else where that is shorter.
+// With exponentials a motion is clearer as a sum over its poles (what is driven, what fades), else
+// where that is shorter.
 static const pl_form* form_of_motion(pl_analysis* d, pl_expr x, const pl_laplace_poles* poles) {
   enum { most = 48 };
   const pl_form *whole = pl_f(d, x, PL_S_SOLUTION), *term[most];
@@ -444,11 +496,14 @@ static bool solve_escape(pl_analysis* d, int i) {
   const pl_form* zero = pl_form_leaf(d->arena, pl_int(d->pool, 0));
   pl_say(d, "The motion is not unique: rest is one, and for every {1} so is, from {2} on,",
          "Die Bewegung ist nicht eindeutig: Ruhe ist eine, und für jedes {1} auch, ab {2},", 2,
-         pl_frel(d, pl_fs(d, wait), "≥", zero), pl_feq(d, pl_fs(d, pl_time(d->pool)), pl_fs(d, wait)));
+         pl_frel(d, pl_fs(d, wait), "≥", zero),
+         pl_feq(d, pl_fs(d, pl_time(d->pool)), pl_fs(d, wait)));
   pl_show_numbered(d, pl_feq(d, of_time(d, i), form));
   pl_symbol t = pl_time(d->pool);
   pl_expr rest = pl_subst1(d->pool, d->acceleration[i], d->q.at[i].q, x);
-  pl_claim_free(d, PL_CLAIM_INSERTED, pl_square(d->pool, pl_diff(d->pool, pl_diff(d->pool, x, t), t)), pl_square(d->pool, rest));
+  pl_claim_free(d, PL_CLAIM_INSERTED,
+                pl_square(d->pool, pl_diff(d->pool, pl_diff(d->pool, x, t), t)),
+                pl_square(d->pool, rest));
   pl_value* v = pl_answer(d, pl_symbol_get(d->pool, d->q.at[i].q)->ascii, x, form);
   const char** name = PL_ARRAY(d->arena, const char*, 1);
   name[0] = pl_symbol_get(d->pool, wait)->ascii;
@@ -458,7 +513,8 @@ static bool solve_escape(pl_analysis* d, int i) {
   return true;
 }
 
-// x_i(t) of the generalized coordinate or of one whose equation stands alone; poison if none was found.
+// x_i(t) of the generalized coordinate or of one whose equation stands alone; poison if none was
+// found.
 static pl_expr solve_own_motion(pl_analysis* d, int i) {
   if (no_acceleration(d, i)) return pl_poison();
   const pl_variable* c = &d->q.at[i];
@@ -468,14 +524,21 @@ static pl_expr solve_own_motion(pl_analysis* d, int i) {
   pl_expr x = closed_motion(d, i, &poles);
   if (pl_is_poison(x) && solve_escape(d, i)) return x;
   if (pl_is_poison(x)) {
-    pl_say(d, "No elementary closed form of the motion was found.", "Eine elementare geschlossene Form der Bewegung wurde nicht gefunden.", 0);
+    pl_say(d, "No elementary closed form of the motion was found.",
+           "Eine elementare geschlossene Form der Bewegung wurde nicht gefunden.", 0);
     d->section->not_found = true;
     return x;
   }
   bool uniform_motion = !pl_has_coordinates(d, d->acceleration[i]);
   bool alone = d->gen.n == 1;
-  pl_say(d, uniform_motion ? "Integrated twice:" : !alone ? "Linear equations with constant coefficients; their solution through the start:" : "A linear equation with constant coefficients; its solution through the start:",
-         uniform_motion ? "Zweimal integriert:" : !alone ? "Lineare Gleichungen mit konstanten Koeffizienten; die Lösung durch den Start:" : "Lineare Gleichung mit konstanten Koeffizienten; die Lösung durch den Start:", 0);
+  pl_say(d,
+         uniform_motion ? "Integrated twice:"
+         : !alone ? "Linear equations with constant coefficients; their solution through the start:"
+                  : "A linear equation with constant coefficients; its solution through the start:",
+         uniform_motion ? "Zweimal integriert:"
+         : !alone ? "Lineare Gleichungen mit konstanten Koeffizienten; die Lösung durch den Start:"
+                  : "Lineare Gleichung mit konstanten Koeffizienten; die Lösung durch den Start:",
+         0);
   pl_say_special(d);
   why_integrated(d, i, x);
   const pl_form* form = form_of_motion(d, x, &poles);
@@ -527,8 +590,10 @@ static void solve_motion(pl_analysis* d, int i) {
     return;
   }
   if (prescribed_motion(d, i)) return;
-  bool hangs = !pl_is_poison(c->map) && c->solved_by != -2 && d->reduced && d->gen.n == 1 && d->gen.at[0] != i;
-  bool alone = d->solved && !pl_is_poison(d->acceleration[i]) && !pl_has_coordinates(d, d->acceleration[i]);
+  bool hangs = !pl_is_poison(c->map) && c->solved_by != -2 && d->reduced && d->gen.n == 1
+               && d->gen.at[0] != i;
+  bool alone = d->solved && !pl_is_poison(d->acceleration[i])
+               && !pl_has_coordinates(d, d->acceleration[i]);
   if (hangs && !alone) solve_by_map(d, i);
   else solve_own_motion(d, i);
 }
@@ -549,7 +614,8 @@ static void multiplier_of_time(pl_analysis* d, int k) {
     r[n++] = (pl_replace){c->v, pl_diff(d->pool, x, t)};
   }
   if (pl_is_poison(e)) {
-    pl_say(d, "No elementary closed form of the motion was found.", "Eine elementare geschlossene Form der Bewegung wurde nicht gefunden.", 0);
+    pl_say(d, "No elementary closed form of the motion was found.",
+           "Eine elementare geschlossene Form der Bewegung wurde nicht gefunden.", 0);
     d->section->not_found = true;
     return;
   }
@@ -561,10 +627,12 @@ static void multiplier_of_time(pl_analysis* d, int k) {
   pl_answer(d, s->ascii, e, form)->of = l->source->name.text;
 }
 
-// ---------------------------------------------------------------------------------------------- the section
+// ------------------------------------------------------------------------------------- the section
 void pl_answer_solve(pl_analysis* d, const pl_ask* ask) {
-  bool goes_on = ask->letter && d->solution->sections.n > 0 && d->section->letter && strcmp(d->section->letter, ask->letter) == 0;
-  pl_symbol s = pl_kind_of(d->pool, ask->value) == PL_SYMBOL ? pl_symbol_of(d->pool, ask->value) : (pl_symbol){0};
+  bool goes_on = ask->letter && d->solution->sections.n > 0 && d->section->letter
+                 && strcmp(d->section->letter, ask->letter) == 0;
+  pl_symbol s = pl_kind_of(d->pool, ask->value) == PL_SYMBOL ? pl_symbol_of(d->pool, ask->value)
+                                                             : (pl_symbol){0};
   int k = link_of_lambda(d, s), i = pl_variable_index(d, s);
   if (k >= 0 && ask->of_time) {
     pl_section_open(d, ask, "Multiplier", "Multiplikator");
@@ -581,7 +649,8 @@ void pl_answer_solve(pl_analysis* d, const pl_ask* ask) {
     if (no_acceleration(d, i)) return;
     say_inserted(d, i);
     show_acceleration(d, i);
-    pl_answer(d, pl_symbol_get(d->pool, s)->ascii, d->acceleration[i], pl_f(d, d->acceleration[i], PL_S_QUOTIENT));
+    pl_answer(d, pl_symbol_get(d->pool, s)->ascii, d->acceleration[i],
+              pl_f(d, d->acceleration[i], PL_S_QUOTIENT));
   } else if (i >= 0) {
     pl_section_open(d, ask, "Motion", "Bewegung");
     solve_motion(d, i);

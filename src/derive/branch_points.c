@@ -1,5 +1,6 @@
-// branch_points: positions where a constraint does not determine the coordinate that it was solved for: dg/dx = 0 on the map.  There the rank
-// of the constraints drops, the mechanism may branch (a crank whose rod is as long as the crank), and formulas divide by zero.
+// branch_points: positions where a constraint does not determine the coordinate that it was solved
+// for: dg/dx = 0 on the map. There the rank of the constraints drops, the mechanism may branch (a
+// crank whose rod is as long as the crank), and formulas divide by zero.
 #include <math.h>
 
 #include "derive/derive_impl.h"
@@ -26,9 +27,12 @@ bool pl_map_fails_at(pl_analysis* d, const pl_replace* at, int n) {
 
 static void say_places(pl_analysis* d, int i, const pl_form* const* place, int n) {
   const char* label = d->g.at[d->q.at[i].solved_by].source->name.text;
-  pl_say(d, "Singular position {1}: there {2} does not determine {3}, the mechanism can branch, and these formulas do not hold.",
-         "Singuläre Lage {1}: dort legt {2} die Koordinate {3} nicht fest, der Mechanismus kann sich verzweigen, und diese Formeln gelten nicht.", 3,
-         pl_flist(d, place, n), pl_fn(d, label), pl_fs(d, d->q.at[i].q));
+  pl_say(d,
+         "Singular position {1}: there {2} does not determine {3}, the mechanism can branch, and "
+         "these formulas do not hold.",
+         "Singuläre Lage {1}: dort legt {2} die Koordinate {3} nicht fest, der Mechanismus kann "
+         "sich verzweigen, und diese Formeln gelten nicht.",
+         3, pl_flist(d, place, n), pl_fn(d, label), pl_fs(d, d->q.at[i].q));
 }
 
 // With the given numbers: the places themselves.
@@ -47,7 +51,7 @@ static bool tell_at_numbers(pl_analysis* d, int i, pl_expr square) {
   int found = pl_alg_roots(d->tower, e, d->q.at[unknown].q, root, max_roots, &complete);
   for (int r = 0; r < found; r++) {
     double x = pl_number(d, root[r].value);
-    if (isnan(x) && !pl_has_symbol(d->pool, e, pl_time(d->pool))) continue;   // not real
+    if (isnan(x) && !pl_has_symbol(d->pool, e, pl_time(d->pool))) continue;  // not real
     place[n++] = pl_feq(d, pl_fs(d, d->q.at[unknown].q), pl_fe(d, root[r].value));
   }
   if (n > 0) say_places(d, i, place, n);
@@ -80,9 +84,11 @@ void pl_tell_singular(pl_analysis* d) {
     pl_factor f[max_roots];
     int n = pl_alg_factors(d->tower, square, f, max_roots, &unit);
     for (int k = 0; k < n; k++) {
-      if (f[k].power > 0 && pl_has_coordinates(d, f[k].base)) rest = pl_mul(d->pool, rest, f[k].base);
+      if (f[k].power > 0 && pl_has_coordinates(d, f[k].base))
+        rest = pl_mul(d->pool, rest, f[k].base);
     }
-    const pl_form* place = pl_feq(d, pl_f(d, rest, PL_S_PLAIN), pl_form_leaf(d->arena, pl_int(d->pool, 0)));
+    const pl_form* place = pl_feq(d, pl_f(d, rest, PL_S_PLAIN),
+                                  pl_form_leaf(d->arena, pl_int(d->pool, 0)));
     say_places(d, i, &place, 1);
   }
 }

@@ -1,5 +1,6 @@
-// claims: what was displayed is held against the model itself.  Accelerations and multipliers are found numerically at random
-// points of the domain, from d'Alembert's principle with raw derivatives of the position map,
+// claims: what was displayed is held against the model itself. Accelerations and multipliers are
+// found numerically at random points of the domain, from d'Alembert's principle with raw
+// derivatives of the position map,
 //   sum_k m_k J_k^T (J_k a + a0_k) = Q + G^T lambda,   d^2 g/dt^2 = 0,
 // so neither the Lagrange function's expansion nor the tower takes part.
 #include <math.h>
@@ -8,7 +9,8 @@
 #include "derive/derive_impl.h"
 
 static const char* const claim_name[PL_N_CLAIMS][2] = {
-    [PL_CLAIM_MOTION] = {"accelerations and multipliers against d'Alembert", "Beschleunigungen und Multiplikatoren gegen d'Alembert"},
+    [PL_CLAIM_MOTION] = {"accelerations and multipliers against d'Alembert",
+                         "Beschleunigungen und Multiplikatoren gegen d'Alembert"},
     [PL_CLAIM_ONE_TWO] = {"Lagrange I against II", "Lagrange I gegen II"},
     [PL_CLAIM_MAP] = {"constraints vanish identically", "Zwangsbedingungen verschwinden identisch"},
     [PL_CLAIM_ENERGY] = {"energies against the Cartesian ones", "Energien gegen die kartesischen"},
@@ -16,14 +18,19 @@ static const char* const claim_name[PL_N_CLAIMS][2] = {
     [PL_CLAIM_OTHER] = {"other formulas", "weitere Formeln"},
 };
 
-static void claim(pl_analysis* d, pl_claim_kind kind, pl_expr shown, pl_expr reference, bool own_domain) {
+static void claim(pl_analysis* d, pl_claim_kind kind, pl_expr shown, pl_expr reference,
+                  bool own_domain) {
   pl_push(d->arena, d->claims, (pl_claim){kind, shown, reference, own_domain});
 }
 
-void pl_claim_that(pl_analysis* d, pl_claim_kind kind, pl_expr shown, pl_expr reference) { claim(d, kind, shown, reference, false); }
-void pl_claim_free(pl_analysis* d, pl_claim_kind kind, pl_expr shown, pl_expr reference) { claim(d, kind, shown, reference, true); }
+void pl_claim_that(pl_analysis* d, pl_claim_kind kind, pl_expr shown, pl_expr reference) {
+  claim(d, kind, shown, reference, false);
+}
+void pl_claim_free(pl_analysis* d, pl_claim_kind kind, pl_expr shown, pl_expr reference) {
+  claim(d, kind, shown, reference, true);
+}
 
-// ---------------------------------------------------------------------------------------------- d'Alembert
+// -------------------------------------------------------------------------------------- d'Alembert
 // Row i:  sum_k m_k dX_k/dq_i . X_k''  +  J dα/dq_i α''  -  Q_i.
 static pl_expr inertia_row(pl_analysis* d, int i) {
   pl_pool* p = d->pool;
@@ -32,30 +39,40 @@ static pl_expr inertia_row(pl_analysis* d, int i) {
     const pl_particle* m = &d->particle.at[k];
     for (int c = 0; c < m->n; c++) {
       pl_expr push = pl_dt(p, pl_dt(p, m->at[c]));
-      sum = pl_add(p, sum, pl_mul_n(p, (pl_expr[]){m->mass, pl_diff(p, m->at[c], d->q.at[i].q), push}, 3));
+      sum = pl_add(p, sum,
+                   pl_mul_n(p, (pl_expr[]){m->mass, pl_diff(p, m->at[c], d->q.at[i].q), push}, 3));
     }
     if (pl_is_poison(m->angle)) continue;
     pl_expr turn = pl_dt(p, pl_dt(p, m->angle));
-    sum = pl_add(p, sum, pl_mul_n(p, (pl_expr[]){m->inertia, pl_diff(p, m->angle, d->q.at[i].q), turn}, 3));
+    sum = pl_add(p, sum,
+                 pl_mul_n(p, (pl_expr[]){m->inertia, pl_diff(p, m->angle, d->q.at[i].q), turn}, 3));
   }
   return sum;
 }
 
-// What the masses do not account for: potentials, extra kinetic terms, a given Lagrange function, forces.
+// What the masses do not account for: potentials, extra kinetic terms, a given Lagrange function,
+// forces.
 static pl_expr force_row(pl_analysis* d, int i) {
   pl_pool* p = d->pool;
   pl_expr T = pl_int(p, 0);
   for (int k = 0; k < d->particle.n; k++) {
     const pl_particle* m = &d->particle.at[k];
     for (int c = 0; c < m->n; c++) {
-      T = pl_add(p, T, pl_mul_n(p, (pl_expr[]){pl_ratio(p, 1, 2), m->mass, pl_square(p, pl_dt(p, m->at[c]))}, 3));
+      T = pl_add(
+          p, T,
+          pl_mul_n(p, (pl_expr[]){pl_ratio(p, 1, 2), m->mass, pl_square(p, pl_dt(p, m->at[c]))},
+                   3));
     }
     if (!pl_is_poison(m->angle)) {
-      T = pl_add(p, T, pl_mul_n(p, (pl_expr[]){pl_ratio(p, 1, 2), m->inertia, pl_square(p, pl_dt(p, m->angle))}, 3));
+      T = pl_add(
+          p, T,
+          pl_mul_n(p, (pl_expr[]){pl_ratio(p, 1, 2), m->inertia, pl_square(p, pl_dt(p, m->angle))},
+                   3));
     }
   }
   pl_expr rest = pl_sub(p, d->L, T);
-  pl_expr euler = pl_sub(p, pl_dt(p, pl_diff(p, rest, d->q.at[i].v)), pl_diff(p, rest, d->q.at[i].q));
+  pl_expr euler = pl_sub(p, pl_dt(p, pl_diff(p, rest, d->q.at[i].v)),
+                         pl_diff(p, rest, d->q.at[i].q));
   return pl_sub(p, euler, d->force[i]);
 }
 
@@ -79,7 +96,8 @@ static void define_cases(pl_analysis* d, pl_system_of_motion* s) {
 static void definitions(pl_analysis* d, pl_system_of_motion* s, int assembly) {
   int n_loops = pl_loop_definitions(d, assembly, NULL);
   int n_given = d->cases.n + d->model->lets.n;
-  s->definition = PL_ARRAY(d->arena, pl_definition, 2 * d->q.n + n_given + n_loops + pl_structure_definitions(d, NULL, 0));
+  s->definition = PL_ARRAY(d->arena, pl_definition,
+                           2 * d->q.n + n_given + n_loops + pl_structure_definitions(d, NULL, 0));
   define_cases(d, s);
   for (int k = 0; k < d->model->lets.n; k++) {
     const pl_let* l = &d->model->lets.at[k];
@@ -94,17 +112,22 @@ static void definitions(pl_analysis* d, pl_system_of_motion* s, int assembly) {
     define(s, c->v, pl_dt(d->pool, value));
   }
   // named intermediates
-  s->n_definitions += pl_structure_definitions(d, s->definition + s->n_definitions, pl_structure_definitions(d, NULL, 0));
+  s->n_definitions += pl_structure_definitions(d, s->definition + s->n_definitions,
+                                               pl_structure_definitions(d, NULL, 0));
 }
 
-// The motion is unique: solved in closed form, or by a system with named entries whose pivots do not vanish.
-static bool is_determined(const pl_analysis* d) { return d->solved || d->of_multipliers || d->of_accelerations; }
+// The motion is unique: solved in closed form, or by a system with named entries whose pivots do
+// not vanish.
+static bool is_determined(const pl_analysis* d) {
+  return d->solved || d->of_multipliers || d->of_accelerations;
+}
 
 static bool contains_motion(pl_analysis* d, pl_expr e) {
   return pl_has_role(d->pool, e, PL_R_VELOCITY) || pl_has_role(d->pool, e, PL_R_ACCELERATION);
 }
 
-// The facts of the model, and the signs that were assumed on the way (r >= 0 of a distance, cos α >= 0): formulas hold there.
+// The facts of the model, and the signs that were assumed on the way (r >= 0 of a distance, cos α
+// >= 0): formulas hold there.
 static void domain(pl_analysis* d, pl_certifier_setup* setup) {
   int n_used = 0, n = d->facts.n;
   const pl_fact* used = pl_tower_used(d->tower, &n_used);
@@ -134,7 +157,8 @@ static int independent_maps(pl_analysis* d, int* of) {
   if (m == 0 || n == 0) return 0;
   pl_expr* J = PL_ARRAY(d->arena, pl_expr, m * n);
   for (int a = 0; a < m; a++) {
-    for (int b = 0; b < n; b++) J[a * n + b] = pl_diff(d->pool, d->q.at[mapped[a]].map, d->q.at[chosen[b]].q);
+    for (int b = 0; b < n; b++)
+      J[a * n + b] = pl_diff(d->pool, d->q.at[mapped[a]].map, d->q.at[chosen[b]].q);
   }
   int* independent = PL_ARRAY(d->arena, int, m);
   int rank = pl_alg_rank(d->tower, m, n, J, independent);
@@ -142,11 +166,11 @@ static int independent_maps(pl_analysis* d, int* of) {
   return rank;
 }
 
-// A force on a chosen coordinate reaches the masses through the map: it pushes along dX/dφ, with a multiplier for each chosen
-// coordinate.  Adds them as unknowns, after the coordinates' rows.
+// A force on a chosen coordinate reaches the masses through the map: it pushes along dX/dφ, with a
+// multiplier for each chosen coordinate. Adds them as unknowns, after the coordinates' rows.
 typedef struct pl_coupling {
   int n, n_chosen;
-  int* of;                // coordinates whose map it is
+  int* of;  // coordinates whose map it is
   int* chosen;
   pl_symbol* multiplier;  // NULL: nothing acts on chosen coordinates, none are needed
 } pl_coupling;
@@ -162,12 +186,15 @@ static pl_coupling couple(pl_analysis* d) {
   }
   for (int k = 0; k < c.n_chosen; k++) {
     const char* name = pl_format(d->arena, "map_%d", k);
-    c.multiplier[k] = pl_symbol_make(d->pool, &(pl_symbol_info){.name = name, .ascii = name, .role = PL_R_LOCAL, .class = PL_C_OTHER});
+    c.multiplier[k] = pl_symbol_make(
+        d->pool,
+        &(pl_symbol_info){.name = name, .ascii = name, .role = PL_R_LOCAL, .class = PL_C_OTHER});
   }
   return c;
 }
 
-// What the map exerts on coordinate i: a force along dX/dφ on the mapped ones, its reaction on the chosen ones.
+// What the map exerts on coordinate i: a force along dX/dφ on the mapped ones, its reaction on the
+// chosen ones.
 static pl_expr coupling_push(pl_analysis* d, const pl_coupling* c, int i) {
   pl_expr sum = pl_int(d->pool, 0);
   for (int k = 0; c->multiplier && k < c->n_chosen; k++) {
@@ -177,8 +204,9 @@ static pl_expr coupling_push(pl_analysis* d, const pl_coupling* c, int i) {
   return sum;
 }
 
-// Unknowns: accelerations of all coordinates and all multipliers.  Rows: d'Alembert for what carries something, constraints
-// twice differentiated, maps twice differentiated for what only stands in `choose`.
+// Unknowns: accelerations of all coordinates and all multipliers. Rows: d'Alembert for what carries
+// something, constraints twice differentiated, maps twice differentiated for what only stands in
+// `choose`.
 static void rows(pl_analysis* d, pl_system_of_motion* s) {
   int cap = 3 * d->q.n + d->g.n, n_rows = 0;
   pl_coupling coupling = couple(d);
@@ -189,19 +217,22 @@ static void rows(pl_analysis* d, pl_system_of_motion* s) {
     if (!takes_part(d, c)) continue;
     s->unknown[s->n++] = c->a;
     if (c->chosen && !c->carries && !coupling.multiplier) continue;
-    if (c->solved_by == -3) {   // a hidden constraint gives it
-      s->row[n_rows++] = pl_sub(d->pool, pl_sym(d->pool, c->a), pl_dt(d->pool, pl_dt(d->pool, c->map)));
+    if (c->solved_by == -3) {  // a hidden constraint gives it
+      s->row[n_rows++] = pl_sub(d->pool, pl_sym(d->pool, c->a),
+                                pl_dt(d->pool, pl_dt(d->pool, c->map)));
       continue;
     }
     pl_expr row = pl_add(d->pool, inertia_row(d, i), force_row(d, i));
     for (int k = 0; k < d->g.n; k++) {
-      if (d->g.at[k].implied && !d->g.at[k].shared) continue;   // a shared force is free: any value will do
+      // a shared force is free: any value will do
+      if (d->g.at[k].implied && !d->g.at[k].shared) continue;
       pl_expr push = pl_mul(d->pool, pl_sym(d->pool, d->g.at[k].lambda), d->g.at[k].push[i]);
       row = pl_sub(d->pool, row, push);
     }
     s->row[n_rows++] = pl_sub(d->pool, row, coupling_push(d, &coupling, i));
   }
-  for (int k = 0; coupling.multiplier && k < coupling.n_chosen; k++) s->unknown[s->n++] = coupling.multiplier[k];
+  for (int k = 0; coupling.multiplier && k < coupling.n_chosen; k++)
+    s->unknown[s->n++] = coupling.multiplier[k];
   for (int k = 0; k < d->g.n; k++) {
     if (d->g.at[k].implied) continue;
     s->unknown[s->n++] = d->g.at[k].lambda;
@@ -210,7 +241,8 @@ static void rows(pl_analysis* d, pl_system_of_motion* s) {
   for (int k = 0; k < coupling.n; k++) {
     const pl_variable* c = &d->q.at[coupling.of[k]];
     pl_expr a = pl_dt(d->pool, pl_dt(d->pool, c->map));
-    if (pl_has_followers(d, c->map)) a = pl_subst(d->pool, a, d->maps.at, d->maps.n);   // angles that are no coordinates of the model
+    // angles that are no coordinates of the model
+    if (pl_has_followers(d, c->map)) a = pl_subst(d->pool, a, d->maps.at, d->maps.n);
     s->row[n_rows++] = pl_sub(d->pool, pl_sym(d->pool, c->a), a);
   }
   if (n_rows != s->n) s->n = 0;
@@ -234,7 +266,11 @@ static pl_certifier* on_the_motion(pl_analysis* d, int assembly) {
   if (!is_determined(d)) s.n = 0;
   split_rows(d, &s);
   pl_certifier_setup setup = {.definitions = s.definition,
-                              .n_definitions = s.n_definitions, .n_unknowns = s.n, .unknowns = s.unknown, .A = s.A, .b = s.b};
+                              .n_definitions = s.n_definitions,
+                              .n_unknowns = s.n,
+                              .unknowns = s.unknown,
+                              .A = s.A,
+                              .b = s.b};
   domain(d, &setup);
   return pl_certifier_make(d->job, d->pool, &setup);
 }
@@ -252,7 +288,7 @@ static pl_certifier* on_free_points(pl_analysis* d) {
   return pl_certifier_make(d->job, d->pool, &setup);
 }
 
-// ---------------------------------------------------------------------------------------------- verdicts
+// ---------------------------------------------------------------------------------------- verdicts
 static void fail_check(pl_analysis* d, pl_check* check, const pl_claim* c) {
   check->passed = false;
   if (!check->failed_on) check->failed_on = pl_expr_text(d->arena, d->pool, c->shown);
@@ -260,9 +296,12 @@ static void fail_check(pl_analysis* d, pl_check* check, const pl_claim* c) {
 
 // Without a unique motion (singular mass matrix) accelerations and multipliers cannot be drawn.
 static bool needs_motion(const pl_analysis* d, const pl_claim* c) {
-  if (c->kind == PL_CLAIM_MOTION || c->kind == PL_CLAIM_ONE_TWO) return true;   // equations of first order have no free velocities
-  return pl_has_role(d->pool, c->shown, PL_R_ACCELERATION) || pl_has_role(d->pool, c->reference, PL_R_ACCELERATION) ||
-         pl_has_role(d->pool, c->shown, PL_R_MULTIPLIER) || pl_has_role(d->pool, c->reference, PL_R_MULTIPLIER);
+  // equations of first order have no free velocities
+  if (c->kind == PL_CLAIM_MOTION || c->kind == PL_CLAIM_ONE_TWO) return true;
+  return pl_has_role(d->pool, c->shown, PL_R_ACCELERATION)
+         || pl_has_role(d->pool, c->reference, PL_R_ACCELERATION)
+         || pl_has_role(d->pool, c->shown, PL_R_MULTIPLIER)
+         || pl_has_role(d->pool, c->reference, PL_R_MULTIPLIER);
 }
 
 static void check_at(pl_analysis* d, pl_check* check, const pl_claim* c, pl_certifier* where) {
@@ -289,7 +328,8 @@ static void add_check(pl_analysis* d, pl_check check) {
 }
 
 // motion: one for each assembly.
-static void check_kind(pl_analysis* d, pl_claim_kind kind, pl_certifier** motion, int n_motions, pl_certifier* free_points) {
+static void check_kind(pl_analysis* d, pl_claim_kind kind, pl_certifier** motion, int n_motions,
+                       pl_certifier* free_points) {
   pl_check check = {.name = {claim_name[kind][0], claim_name[kind][1]}, .passed = true};
   for (int i = 0; i < d->claims.n; i++) {
     const pl_claim* c = &d->claims.at[i];
@@ -307,12 +347,13 @@ static void check_units(pl_analysis* d) {
   pl_check check = {.name = {"units", "Einheiten"}, .passed = true};
   for (int i = 0; i < d->claims.n; i++) {
     const pl_claim* c = &d->claims.at[i];
-    if (pl_is_poison(c->shown) || pl_is_poison(c->reference) || pl_is_constant(d->pool, c->shown) ||
-        pl_is_constant(d->pool, c->reference)) {
+    if (pl_is_poison(c->shown) || pl_is_poison(c->reference) || pl_is_constant(d->pool, c->shown)
+        || pl_is_constant(d->pool, c->reference)) {
       continue;
     }
     bool known1, known2;
-    pl_dimension a = pl_dimension_of_expr(d, c->shown, &known1), b = pl_dimension_of_expr(d, c->reference, &known2);
+    pl_dimension a = pl_dimension_of_expr(d, c->shown, &known1),
+                 b = pl_dimension_of_expr(d, c->reference, &known2);
     if (!known1 || !known2) continue;
     check.formulas++;
     if (!pl_dimension_equal(a, b)) fail_check(d, &check, c);

@@ -1,5 +1,5 @@
-// eliminate: velocities along a given motion, by the energy integral.  One generalized coordinate q, E(q, q') conserved and
-// quadratic in q':  q'^2 follows from E(q, q') = E(q0, q0').
+// eliminate: velocities along a given motion, by the energy integral. One generalized coordinate q,
+// E(q, q') conserved and quadratic in q': q'^2 follows from E(q, q') = E(q0, q0').
 #include <math.h>
 
 #include "derive/derive_impl.h"
@@ -28,7 +28,9 @@ static bool works(pl_analysis* d) {
   pl_replace* zero = PL_ARRAY(d->arena, pl_replace, d->q.n + 1);
   for (int i = 0; i < d->q.n; i++) zero[i] = (pl_replace){d->q.at[i].v, pl_int(d->pool, 0)};
   for (int k = 0; k < d->g.n; k++) {
-    if (d->g.at[k].velocity && pl_alg_is_zero(d->tower, pl_subst(d->pool, d->g.at[k].g, zero, d->q.n)) != PL_YES) return true;
+    if (d->g.at[k].velocity
+        && pl_alg_is_zero(d->tower, pl_subst(d->pool, d->g.at[k].g, zero, d->q.n)) != PL_YES)
+      return true;
   }
   return false;
 }
@@ -44,17 +46,20 @@ pl_expr pl_energy_integral(pl_analysis* d) {
   return pl_alg_normal(d->tower, sum);
 }
 
-// The power of the forces without potential vanishes: a force across the velocity, as of a magnetic field.
+// The power of the forces without potential vanishes: a force across the velocity, as of a magnetic
+// field.
 static bool powerless(pl_analysis* d) {
   pl_expr power = pl_int(d->pool, 0);
-  for (int i = 0; i < d->q.n; i++) power = pl_add(d->pool, power, pl_mul(d->pool, d->force[i], pl_sym(d->pool, d->q.at[i].v)));
+  for (int i = 0; i < d->q.n; i++)
+    power = pl_add(d->pool, power, pl_mul(d->pool, d->force[i], pl_sym(d->pool, d->q.at[i].v)));
   return pl_alg_is_zero(d->tower, pl_on_maps(d, power)) == PL_YES;
 }
 
 bool pl_dissipates(pl_analysis* d) { return d->dissipative && !powerless(d); }
 
-// A function of (q, t) whose total time derivative is e = sum a_i v_i + b, by integration along one coordinate after the other; poison
-// where there is none, or none was found.  There is one when the Lagrange equations of e vanish identically.
+// A function of (q, t) whose total time derivative is e = sum a_i v_i + b, by integration along one
+// coordinate after the other; poison where there is none, or none was found. There is one when the
+// Lagrange equations of e vanish identically.
 static pl_expr primitive(pl_analysis* d, pl_expr e) {
   pl_pool* p = d->pool;
   pl_expr G = pl_int(p, 0);
@@ -82,7 +87,9 @@ static pl_expr conserved_integral(pl_analysis* d) {
   if (!d->reduced) return pl_scleronomic(d) ? pl_energy_integral(d) : pl_poison();
   pl_expr by_time = pl_alg_normal(d->tower, pl_by_coordinate(d, d->Lg, -1));
   if (pl_is_zero_node(d->pool, by_time)) return pl_energy_integral(d);
-  return d->loops.n > 0 ? pl_poison() : pl_alg_normal(d->tower, pl_add(d->pool, pl_energy_integral(d), primitive(d, by_time)));
+  return d->loops.n > 0 ? pl_poison()
+                        : pl_alg_normal(d->tower, pl_add(d->pool, pl_energy_integral(d),
+                                                         primitive(d, by_time)));
 }
 
 bool pl_energy_conserved(pl_analysis* d) { return !pl_is_poison(conserved_integral(d)); }
@@ -95,12 +102,13 @@ pl_expr pl_conserved_energy(pl_analysis* d) {
   return !pl_is_poison(E) && pl_has_symbol(d->pool, E, pl_time(d->pool)) ? pl_poison() : E;
 }
 
-// ---------------------------------------------------------------------------------------------- starts
+// ------------------------------------------------------------------------------------------ starts
 pl_expr pl_start_value(pl_analysis* d, pl_symbol s) {
   for (int k = 0; k < d->model->inits.n; k++) {
     const pl_init* init = &d->model->inits.at[k];
     if (init->guess || !pl_same(init->target, pl_sym(d->pool, s))) continue;
-    if (pl_is_zero_node(d->pool, init->value) && pl_symbol_get(d->pool, s)->role == PL_R_VELOCITY) return init->value;
+    if (pl_is_zero_node(d->pool, init->value) && pl_symbol_get(d->pool, s)->role == PL_R_VELOCITY)
+      return init->value;
     if (!pl_is_constant(d->pool, init->value)) return init->value;
   }
   return pl_sym(d->pool, pl_symbol_start(d->pool, s));
@@ -110,7 +118,9 @@ pl_expr pl_start_value(pl_analysis* d, pl_symbol s) {
 static pl_expr start_place(pl_analysis* d, pl_symbol q) {
   for (int k = 0; k < d->model->inits.n; k++) {
     const pl_init* init = &d->model->inits.at[k];
-    if (!init->guess && pl_same(init->target, pl_sym(d->pool, q)) && pl_is_zero_node(d->pool, init->value)) return init->value;
+    if (!init->guess && pl_same(init->target, pl_sym(d->pool, q))
+        && pl_is_zero_node(d->pool, init->value))
+      return init->value;
   }
   return pl_start_value(d, q);
 }
@@ -125,7 +135,8 @@ static pl_expr from_value(pl_analysis* d, const pl_motion* motion, pl_symbol s) 
   return pl_poison();
 }
 
-void pl_motion_start(pl_analysis* d, const pl_motion* motion, const pl_variable* c, pl_expr* q0, pl_expr* v0) {
+void pl_motion_start(pl_analysis* d, const pl_motion* motion, const pl_variable* c, pl_expr* q0,
+                     pl_expr* v0) {
   *q0 = *v0 = pl_poison();
   if (motion->given) {
     *q0 = from_value(d, motion, c->q);
@@ -135,7 +146,8 @@ void pl_motion_start(pl_analysis* d, const pl_motion* motion, const pl_variable*
   if (pl_is_poison(*v0)) *v0 = pl_start_value(d, c->v);
 }
 
-bool pl_velocity_squared(pl_analysis* d, const pl_motion* motion, pl_expr* v2, pl_expr* start_q, pl_expr* start_v) {
+bool pl_velocity_squared(pl_analysis* d, const pl_motion* motion, pl_expr* v2, pl_expr* start_q,
+                         pl_expr* start_v) {
   if (!d->reduced || d->gen.n != 1) return false;
   pl_expr E = pl_conserved_energy(d);
   if (pl_is_poison(E)) return false;

@@ -1,10 +1,13 @@
-// energies: T, V and the generalized forces of a model, and the left-hand sides of Lagrange's equations
+// energies: T, V and the generalized forces of a model, and the left-hand sides of Lagrange's
+// equations
 //   E_i = d/dt dL/dv_i - dL/dq_i - Q_i  =  sum_c lambda_c dg_c/dq_i.
 #include <string.h>
 
 #include "derive/derive_impl.h"
 
-static void add_to(pl_analysis* d, pl_expr* sum, pl_expr term) { *sum = pl_add(d->pool, *sum, term); }
+static void add_to(pl_analysis* d, pl_expr* sum, pl_expr term) {
+  *sum = pl_add(d->pool, *sum, term);
+}
 
 static void masses(pl_analysis* d) {
   for (int k = 0; k < d->particle.n; k++) {
@@ -28,16 +31,21 @@ static pl_expr plain_distance(pl_analysis* d, pl_expr e) {
 // Distance of two points; on one line with a known order there are no bars.
 static pl_expr distance(pl_analysis* d, const pl_point* a, const pl_point* b) {
   pl_expr squared, only;
-  if (pl_points_apart(d->pool, a, b, &squared, &only) != 1) return plain_distance(d, pl_sqrt(d->pool, squared));
+  if (pl_points_apart(d->pool, a, b, &squared, &only) != 1)
+    return plain_distance(d, pl_sqrt(d->pool, squared));
   int sign;
-  if (pl_alg_sign(d->tower, only, true, &sign) == PL_YES) return sign < 0 ? pl_neg(d->pool, only) : only;
+  if (pl_alg_sign(d->tower, only, true, &sign) == PL_YES)
+    return sign < 0 ? pl_neg(d->pool, only) : only;
   return pl_call(d->pool, PL_ABS, only);
 }
 
-static bool has_rest(const pl_analysis* d, const pl_load* l) { return !pl_is_poison(l->rest) && !pl_is_zero_node(d->pool, l->rest); }
+static bool has_rest(const pl_analysis* d, const pl_load* l) {
+  return !pl_is_poison(l->rest) && !pl_is_zero_node(d->pool, l->rest);
+}
 
 static void spring(pl_analysis* d, const pl_load* l) {
-  add_to(d, &d->V, pl_spring_energy(d->pool, l, has_rest(d, l) ? distance(d, &l->a, &l->b) : pl_poison()));
+  add_to(d, &d->V,
+         pl_spring_energy(d->pool, l, has_rest(d, l) ? distance(d, &l->a, &l->b) : pl_poison()));
 }
 
 // A force on a point does the work F . dX.
@@ -51,11 +59,13 @@ static void force(pl_analysis* d, const pl_load* l) {
   d->dissipative = true;
 }
 
-// ---------------------------------------------------------------------------------------------- potentials of forces
+// ---------------------------------------------------------------------------- potentials of forces
 // Q_i as functions of the coordinates alone, with equal mixed derivatives.
 static bool is_curl_free(pl_analysis* d, const pl_expr* Q) {
   for (int i = 0; i < d->q.n; i++) {
-    if (pl_has_role(d->pool, Q[i], PL_R_VELOCITY) || pl_has_role(d->pool, Q[i], PL_R_MULTIPLIER) || pl_has_symbol(d->pool, Q[i], pl_time(d->pool))) return false;
+    if (pl_has_role(d->pool, Q[i], PL_R_VELOCITY) || pl_has_role(d->pool, Q[i], PL_R_MULTIPLIER)
+        || pl_has_symbol(d->pool, Q[i], pl_time(d->pool)))
+      return false;
   }
   for (int i = 0; i < d->q.n; i++) {
     for (int k = 0; k < i; k++) {
@@ -73,15 +83,18 @@ static pl_expr homogeneous_potential(pl_analysis* d, const pl_expr* Q) {
   for (int j = 0; j < d->q.n; j++) {
     if (pl_is_zero_node(p, Q[j])) continue;
     pl_expr grown = pl_int(p, 0);
-    for (int i = 0; i < d->q.n; i++) grown = pl_add(p, grown, pl_mul(p, pl_sym(p, d->q.at[i].q), pl_diff(p, Q[j], d->q.at[i].q)));
+    for (int i = 0; i < d->q.n; i++)
+      grown = pl_add(p, grown, pl_mul(p, pl_sym(p, d->q.at[i].q), pl_diff(p, Q[j], d->q.at[i].q)));
     pl_expr n = pl_alg_normal(d->tower, pl_div(p, grown, Q[j]));
-    if (pl_is_poison(n) || !pl_is_number(p, n) || (!pl_is_poison(degree) && !pl_same(n, degree))) return pl_poison();
+    if (pl_is_poison(n) || !pl_is_number(p, n) || (!pl_is_poison(degree) && !pl_same(n, degree)))
+      return pl_poison();
     degree = n;
     work = pl_add(p, work, pl_mul(p, pl_sym(p, d->q.at[j].q), Q[j]));
   }
   if (pl_is_poison(degree)) return degree;
   pl_expr next = pl_add(p, degree, pl_int(p, 1));
-  return pl_is_zero_node(p, next) ? pl_poison() : pl_alg_normal(d->tower, pl_neg(p, pl_div(p, work, next)));
+  return pl_is_zero_node(p, next) ? pl_poison()
+                                  : pl_alg_normal(d->tower, pl_neg(p, pl_div(p, work, next)));
 }
 
 // One coordinate after the other:  V = -∫ (Q_i + dV/dq_i) dq_i.
@@ -109,7 +122,8 @@ static bool find_potential(pl_analysis* d, const pl_expr* before) {
   if (pl_is_poison(V)) V = integrated_potential(d, Q);
   if (pl_is_poison(V)) return false;
   for (int i = 0; i < d->q.n; i++) {
-    if (pl_alg_is_zero(d->tower, pl_add(p, Q[i], pl_diff(p, V, d->q.at[i].q))) != PL_YES) return false;
+    if (pl_alg_is_zero(d->tower, pl_add(p, Q[i], pl_diff(p, V, d->q.at[i].q))) != PL_YES)
+      return false;
   }
   for (int i = 0; i < d->q.n; i++) d->force[i] = before[i];
   add_to(d, &d->V, pl_alg_normal(d->tower, V));
@@ -138,7 +152,8 @@ static void couple(pl_analysis* d, const pl_load* l) {
 
 // Rayleigh's dissipation function R: Q_i = -dR/dv_i.
 static void dissipate(pl_analysis* d, pl_expr R) {
-  for (int i = 0; i < d->q.n; i++) add_to(d, &d->force[i], pl_neg(d->pool, pl_diff(d->pool, R, d->q.at[i].v)));
+  for (int i = 0; i < d->q.n; i++)
+    add_to(d, &d->force[i], pl_neg(d->pool, pl_diff(d->pool, R, d->q.at[i].v)));
   d->dissipative = true;
 }
 
@@ -157,7 +172,8 @@ static void damper(pl_analysis* d, const pl_load* l) {
   dissipate(d, pl_load_dissipation(d->pool, l, line ? pl_poison() : distance(d, &l->a, &l->b)));
 }
 
-// A force or torque that depends on the place; it has a potential when the work does not depend on the way.
+// A force or torque that depends on the place; it has a potential when the work does not depend on
+// the way.
 static void push(pl_analysis* d, const pl_load* l) {
   bool dissipative = d->dissipative;
   pl_expr* before = PL_ARRAY(d->arena, pl_expr, d->q.n + 1);
@@ -205,14 +221,15 @@ pleuel_status pl_energies(pl_analysis* d) {
   return PLEUEL_OK;
 }
 
-// ---------------------------------------------------------------------------------------------- second kind
+// ------------------------------------------------------------------------------------- second kind
 // Q of generalized coordinate i: sum of Q_j dq_j/dq_i over the map.
 pl_expr pl_generalized_force(pl_analysis* d, int i) {
   pl_expr sum = pl_on_maps(d, d->force[i]);
   for (int j = 0; j < d->q.n; j++) {
     const pl_variable* c = &d->q.at[j];
     if (c->fixed_by >= 0 || pl_is_poison(c->map) || pl_is_zero_node(d->pool, d->force[j])) continue;
-    sum = pl_add(d->pool, sum, pl_mul(d->pool, pl_on_maps(d, d->force[j]), pl_by_coordinate(d, c->map, i)));
+    sum = pl_add(d->pool, sum,
+                 pl_mul(d->pool, pl_on_maps(d, d->force[j]), pl_by_coordinate(d, c->map, i)));
   }
   return sum;
 }
@@ -220,12 +237,13 @@ pl_expr pl_generalized_force(pl_analysis* d, int i) {
 pl_expr pl_second_kind(pl_analysis* d, int i) {
   const pl_variable* c = &d->q.at[i];
   pl_expr momentum = pl_dt(d->pool, pl_diff(d->pool, d->Lg, c->v));
-  if (d->loops.n > 0) momentum = pl_on_maps(d, momentum);   // velocities of the coordinates that follow
+  // velocities of the coordinates that follow
+  if (d->loops.n > 0) momentum = pl_on_maps(d, momentum);
   pl_expr e = pl_sub(d->pool, momentum, pl_by_coordinate(d, d->Lg, i));
   return pl_sub(d->pool, e, pl_generalized_force(d, i));
 }
 
-// ---------------------------------------------------------------------------------------------- names of results
+// -------------------------------------------------------------------------------- names of results
 // E(0), λ(0): on the motion, and there at its start.
 static pl_expr start_of_result(pl_analysis* d, const pl_result_name* r) {
   pl_expr e = pl_on_motion(d, pl_with_results(d, r->of));
@@ -243,8 +261,8 @@ static pl_expr start_of_result(pl_analysis* d, const pl_result_name* r) {
   return pl_subst(d->pool, e, start, n);
 }
 
-// What a `lagrangian` says is split by degree in the velocities: its part of degree 0 is a potential with the other sign, and
-// that of degree 2 is kinetic.
+// What a `lagrangian` says is split by degree in the velocities: its part of degree 0 is a
+// potential with the other sign, and that of degree 2 is kinetic.
 static pl_expr written_potential(pl_analysis* d) {
   pl_replace* rest = PL_ARRAY(d->arena, pl_replace, d->q.n + 1);
   for (int i = 0; i < d->q.n; i++) rest[i] = (pl_replace){d->q.at[i].v, pl_int(d->pool, 0)};
@@ -255,7 +273,8 @@ static pl_expr written_kinetic(pl_analysis* d) {
   pl_expr sum = pl_neg(d->pool, d->written);
   for (int i = 0; i < d->q.n; i++) {
     pl_symbol v = d->q.at[i].v;
-    sum = pl_add(d->pool, sum, pl_mul(d->pool, pl_sym(d->pool, v), pl_diff(d->pool, d->written, v)));
+    sum = pl_add(d->pool, sum,
+                 pl_mul(d->pool, pl_sym(d->pool, v), pl_diff(d->pool, d->written, v)));
   }
   return pl_alg_normal(d->tower, pl_sub(d->pool, sum, written_potential(d)));
 }
@@ -266,8 +285,9 @@ static pl_expr result_value(pl_analysis* d, const pl_result_name* r) {
     case PL_RES_V: return pl_add(d->pool, d->V, written_potential(d));
     case PL_RES_L: return d->L;
     case PL_RES_E:
-      if (!pl_scleronomic(d) && pl_is_zero_node(d->pool, pl_sub(d->pool, d->L, pl_sub(d->pool, d->T, d->V)))) {
-        return pl_add(d->pool, d->T, d->V);   // the integral is Jacobi's then
+      if (!pl_scleronomic(d)
+          && pl_is_zero_node(d->pool, pl_sub(d->pool, d->L, pl_sub(d->pool, d->T, d->V)))) {
+        return pl_add(d->pool, d->T, d->V);  // the integral is Jacobi's then
       }
       return pl_energy_integral(d);
     case PL_RES_H: return pl_energy_integral(d);
@@ -285,11 +305,13 @@ static pl_expr result_value(pl_analysis* d, const pl_result_name* r) {
     if (pl_is_poison(scale)) return scale;
     pl_expr size = pl_mul(d->pool, scale, pl_sym(d->pool, l->lambda));
     return r->kind == PL_RES_NORMAL && l->source->relation == PL_LE ? pl_neg(d->pool, size)
-           : r->kind == PL_RES_NORMAL && l->source->relation == PL_GE ? size
-                                                                     : pl_call(d->pool, PL_ABS, size);
+           : r->kind == PL_RES_NORMAL && l->source->relation == PL_GE
+               ? size
+               : pl_call(d->pool, PL_ABS, size);
   }
   for (int k = 0; k < d->open.n; k++) {
-    if (r->label && strcmp(d->open.at[k].source->name.text, r->label) == 0) return pl_int(d->pool, 0);
+    if (r->label && strcmp(d->open.at[k].source->name.text, r->label) == 0)
+      return pl_int(d->pool, 0);
   }
   return pl_poison();
 }
@@ -297,7 +319,8 @@ static pl_expr result_value(pl_analysis* d, const pl_result_name* r) {
 pl_expr pl_with_results(pl_analysis* d, pl_expr e) {
   for (int k = 0; k < d->model->result_names.n; k++) {
     const pl_result_name* r = &d->model->result_names.at[k];
-    if (pl_has_symbol(d->pool, e, r->symbol)) e = pl_subst1(d->pool, e, r->symbol, result_value(d, r));
+    if (pl_has_symbol(d->pool, e, r->symbol))
+      e = pl_subst1(d->pool, e, r->symbol, result_value(d, r));
   }
   return e;
 }

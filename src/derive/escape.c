@@ -1,6 +1,8 @@
-// escape: starts from which a motion is not unique.  At rest in an equilibrium u = q - q0 = 0 of one coordinate with
+// escape: starts from which a motion is not unique. At rest in an equilibrium u = q - q0 = 0 of one
+// coordinate with
 //   u'' = C u^p + ...,  0 < p < 1,  C > 0
-// the force has an unbounded slope (it is not Lipschitz), and besides rest every u = A (t - T)^k with k = 2/(1 - p) and
+// the force has an unbounded slope (it is not Lipschitz), and besides rest every u = A (t - T)^k
+// with k = 2/(1 - p) and
 // A^(1-p) = C/(k (k - 1)) leaves it, T as late as one likes.     [Norton 2003; Coddington and Levinson 1955, chapter 1]
 #include <math.h>
 
@@ -36,7 +38,8 @@ static bool power_law(pl_analysis* d, pl_expr q0, pl_expr* p, pl_expr* C) {
   return !pl_is_poison(*C) && !pl_has_coordinates(d, *C);
 }
 
-// The slope of the force at the start is unbounded: u a'/a stays below 1 while u shrinks.  By numbers.
+// The slope of the force at the start is unbounded: u a'/a stays below 1 while u shrinks. By
+// numbers.
 static bool unbounded_slope(pl_analysis* d, pl_expr q0) {
   const pl_variable* c = &d->q.at[d->gen.at[0]];
   pl_expr a = d->acceleration[d->gen.at[0]], slope = pl_diff(d->pool, a, c->q);
@@ -48,8 +51,9 @@ static bool unbounded_slope(pl_analysis* d, pl_expr q0) {
   for (int k = 6; k <= 12 && all; k += 3) {
     double u = pow(10, -k);
     d->value[c->q.id] = at + u;
-    double f = pl_eval(d->pool, a, d->value), df = pl_eval(d->pool, slope, d->value), ratio = u * df / f;
-    all = f > 0 && ratio > 0 && ratio < 0.999;   // a smooth force has a ratio of 1 or more
+    double f = pl_eval(d->pool, a, d->value), df = pl_eval(d->pool, slope, d->value),
+           ratio = u * df / f;
+    all = f > 0 && ratio > 0 && ratio < 0.999;  // a smooth force has a ratio of 1 or more
   }
   d->value[c->q.id] = kept;
   return all;
@@ -63,11 +67,16 @@ bool pl_escapes(pl_analysis* d) {
 
 // A name for the waiting time that the model does not use.
 static pl_symbol waiting_time(pl_analysis* d) {
-  bool taken = pl_symbol_find(d->pool, "T0").id != 0 && pl_symbol_get(d->pool, pl_symbol_find(d->pool, "T0"))->role == PL_R_PARAM;
+  bool taken = pl_symbol_find(d->pool, "T0").id != 0
+               && pl_symbol_get(d->pool, pl_symbol_find(d->pool, "T0"))->role == PL_R_PARAM;
   const char* name = taken ? "T_wait" : "T0";
-  pl_symbol_info info = {.name = taken ? "T_wait" : "T₀", .ascii = name, .role = PL_R_LOCAL, .class = PL_C_OTHER,
-                         .dimension = pl_symbol_get(d->pool, pl_time(d->pool))->dimension,
-                         .dimension_known = pl_symbol_get(d->pool, pl_time(d->pool))->dimension_known};
+  pl_symbol_info info = {
+      .name = taken ? "T_wait" : "T₀",
+      .ascii = name,
+      .role = PL_R_LOCAL,
+      .class = PL_C_OTHER,
+      .dimension = pl_symbol_get(d->pool, pl_time(d->pool))->dimension,
+      .dimension_known = pl_symbol_get(d->pool, pl_time(d->pool))->dimension_known};
   return pl_symbol_make(d->pool, &info);
 }
 

@@ -1,5 +1,6 @@
-// frames: the orthonormal frame that a position map implies.  When the columns dX/dq_i are orthogonal, e_i points along
-// them, and the equation of q_i divided by |dX/dq_i| is the component of Newton's law along e_i.
+// frames: the orthonormal frame that a position map implies. When the columns dX/dq_i are
+// orthogonal, e_i points along them, and the equation of q_i divided by |dX/dq_i| is the component
+// of Newton's law along e_i.
 #include "derive/derive_impl.h"
 
 const char* pl_unit_vector(pl_analysis* d, int i) {
@@ -9,7 +10,8 @@ const char* pl_unit_vector(pl_analysis* d, int i) {
 static pl_expr dot_columns(pl_analysis* d, const pl_particle* k, int i, int j) {
   pl_expr sum = pl_int(d->pool, 0);
   for (int c = 0; c < k->n; c++) {
-    pl_expr a = pl_diff(d->pool, k->at[c], d->q.at[i].q), b = pl_diff(d->pool, k->at[c], d->q.at[j].q);
+    pl_expr a = pl_diff(d->pool, k->at[c], d->q.at[i].q),
+            b = pl_diff(d->pool, k->at[c], d->q.at[j].q);
     sum = pl_add(d->pool, sum, pl_mul(d->pool, a, b));
   }
   return sum;
@@ -18,7 +20,8 @@ static pl_expr dot_columns(pl_analysis* d, const pl_particle* k, int i, int j) {
 // A constraint says r = -l.
 static bool is_fixed_below_zero(pl_analysis* d, pl_expr e) {
   pl_expr value = pl_on_contact(d, e), other = pl_neg(d->pool, value);
-  if (pl_same(value, e) || pl_op_count(d->pool, other) >= pl_op_count(d->pool, value)) return false;   // no minus sign in it
+  // no minus sign in it
+  if (pl_same(value, e) || pl_op_count(d->pool, other) >= pl_op_count(d->pool, value)) return false;
   int sign = 0;
   return pl_alg_sign(d->tower, value, false, &sign) == PL_YES && sign < 0;
 }
@@ -33,11 +36,13 @@ static pl_expr without_bars(pl_analysis* d, pl_expr e) {
   }
   if (pl_kind_of(d->pool, e) != PL_MUL) return e;
   pl_expr product = pl_int(d->pool, 1);
-  for (int j = 0; j < pl_n_args(d->pool, e); j++) product = pl_mul(d->pool, product, without_bars(d, pl_arg(d->pool, e, j)));
+  for (int j = 0; j < pl_n_args(d->pool, e); j++)
+    product = pl_mul(d->pool, product, without_bars(d, pl_arg(d->pool, e, j)));
   return product;
 }
 
-// |dX/dq_i|, with the sign of a radius taken positive (sin θ of spherical coordinates too: recorded as assumption).
+// |dX/dq_i|, with the sign of a radius taken positive (sin θ of spherical coordinates too: recorded
+// as assumption).
 static pl_expr scale_of(pl_analysis* d, const pl_particle* k, int i) {
   pl_expr square = pl_alg_normal(d->tower, dot_columns(d, k, i, i));
   pl_expr scale = pl_alg_normal(d->tower, pl_sqrt(d->pool, square));

@@ -1,26 +1,33 @@
-// linear_motion: the motion of several generalized coordinates whose equations are linear with constant coefficients,
+// linear_motion: the motion of several generalized coordinates whose equations are linear with
+// constant coefficients,
 //   M q'' + C q' + K q = c(t),
-// or whose solved accelerations are, where the coordinates are not reduced or constraints hold between velocities,
-// by the Laplace transform:  (s² M + s C + K) Q(s) = C(s) + M (s q0 + v0) + C q0.  Each Q_i(s) is a fraction, and laplace.c
-// brings it back.
+// or whose solved accelerations are, where the coordinates are not reduced or constraints hold
+// between velocities, by the Laplace transform: (s² M + s C + K) Q(s) = C(s) + M (s q0 + v0) + C
+// q0. Each Q_i(s) is a fraction, and laplace.c brings it back.
 #include "derive/derive_impl.h"
 
 enum { max_size = 5 };
 
 static pl_symbol transform_variable(pl_analysis* d) {
-  pl_symbol_info info = {.name = "s", .ascii = "laplace_s", .role = PL_R_LOCAL, .class = PL_C_OTHER};
+  pl_symbol_info info = {
+      .name = "s", .ascii = "laplace_s", .role = PL_R_LOCAL, .class = PL_C_OTHER};
   return pl_symbol_make(d->pool, &info);
 }
 
 static bool constant(pl_analysis* d, pl_expr e) {
-  return !pl_is_poison(e) && !pl_has_coordinates(d, e) && !pl_has_symbol(d->pool, e, pl_time(d->pool));
+  return !pl_is_poison(e) && !pl_has_coordinates(d, e)
+         && !pl_has_symbol(d->pool, e, pl_time(d->pool));
 }
 
 // Equations that vanish, one for each of some coordinates.
-typedef struct pl_linear_system { int n, coordinate[max_size]; pl_expr equation[max_size]; } pl_linear_system;
+typedef struct pl_linear_system {
+  int n, coordinate[max_size];
+  pl_expr equation[max_size];
+} pl_linear_system;
 
 // The transformed system A Q = b; false when an equation is not linear with constant coefficients.
-static bool transform_system(pl_analysis* d, const pl_linear_system* sys, pl_symbol variable, pl_expr* A, pl_expr* b) {
+static bool transform_system(pl_analysis* d, const pl_linear_system* sys, pl_symbol variable,
+                             pl_expr* A, pl_expr* b) {
   pl_pool* p = d->pool;
   int n = sys->n;
   pl_expr s = pl_sym(p, variable);
@@ -39,7 +46,8 @@ static bool transform_system(pl_analysis* d, const pl_linear_system* sys, pl_sym
     if (pl_is_poison(b[i])) return false;
     for (int j = 0; j < n; j++) {
       const pl_variable* q = &d->q.at[sys->coordinate[j]];
-      pl_expr M = pl_alg_normal(d->tower, pl_diff(p, f, q->a)), C = pl_alg_normal(d->tower, pl_diff(p, f, q->v));
+      pl_expr M = pl_alg_normal(d->tower, pl_diff(p, f, q->a)),
+              C = pl_alg_normal(d->tower, pl_diff(p, f, q->v));
       pl_expr K = pl_alg_normal(d->tower, pl_diff(p, f, q->q));
       if (!constant(d, M) || !constant(d, C) || !constant(d, K)) return false;
       pl_expr q0 = pl_sym(p, pl_symbol_start(p, q->q)), v0 = pl_sym(p, pl_symbol_start(p, q->v));
@@ -69,8 +77,8 @@ static bool of_second_kind(pl_analysis* d, int i, pl_linear_system* out) {
   return has_place(out, i);
 }
 
-// The accelerations of i and of all coordinates that these hang on, constraints between velocities taken in: a ball that rolls on a
-// turntable has x'' = -2/7 Ω y', y'' = 2/7 Ω x'.
+// The accelerations of i and of all coordinates that these hang on, constraints between velocities
+// taken in: a ball that rolls on a turntable has x'' = -2/7 Ω y', y'' = 2/7 Ω x'.
 static bool of_accelerations(pl_analysis* d, int i, pl_linear_system* out) {
   *out = (pl_linear_system){.n = 1, .coordinate = {i}};
   for (int k = 0; k < out->n; k++) {
@@ -78,7 +86,8 @@ static bool of_accelerations(pl_analysis* d, int i, pl_linear_system* out) {
     if (pl_is_poison(a)) return false;
     out->equation[k] = pl_sub(d->pool, pl_sym(d->pool, d->q.at[out->coordinate[k]].a), a);
     for (int j = 0; j < d->q.n; j++) {
-      bool hangs = pl_has_symbol(d->pool, a, d->q.at[j].q) || pl_has_symbol(d->pool, a, d->q.at[j].v);
+      bool hangs = pl_has_symbol(d->pool, a, d->q.at[j].q)
+                   || pl_has_symbol(d->pool, a, d->q.at[j].v);
       if (!hangs || has_place(out, j)) continue;
       if (out->n == max_size) return false;
       out->coordinate[out->n++] = j;
@@ -106,4 +115,6 @@ pl_expr pl_linear_motion(pl_analysis* d, int i, pl_laplace_poles* poles) {
   return d->loops.n > 0 ? pl_poison() : motion(d, i, false, poles);
 }
 
-void pl_why_linear_motion(pl_analysis* d, int i) { motion(d, i, true, &(pl_laplace_poles){.n = 0}); }
+void pl_why_linear_motion(pl_analysis* d, int i) {
+  motion(d, i, true, &(pl_laplace_poles){.n = 0});
+}

@@ -1,10 +1,11 @@
-// linearise: the equations around a position of rest or a steady motion,  M u'' + C u' + K u = 0,  their stability and frequencies.
+// linearise: the equations around a position of rest or a steady motion, M u'' + C u' + K u = 0,
+// their stability and frequencies.
 #include <math.h>
 #include <string.h>
 
 #include "derive/equilibria_impl.h"
 
-// ---------------------------------------------------------------------------------------------- equations at rest
+// ------------------------------------------------------------------------------- equations at rest
 pl_expr pl_at_rest(pl_analysis* d, pl_expr e) {
   pl_replace r[2 * pl_max_gen];
   for (int k = 0; k < d->gen.n; k++) {
@@ -25,7 +26,7 @@ pl_expr pl_insert_rest(pl_analysis* d, pl_expr e, const pl_rest* r) {
   return pl_subst(d->pool, e, s, n);
 }
 
-// ---------------------------------------------------------------------------------------------- stability
+// --------------------------------------------------------------------------------------- stability
 //   M u'' + C u' + K u = 0,  C split by symmetry into damping and gyroscopic terms.
 bool pl_vanishes(pl_analysis* d, pl_expr e) { return pl_alg_is_zero(d->tower, e) == PL_YES; }
 
@@ -54,15 +55,18 @@ void pl_linearise(pl_analysis* d, const pl_expr* f, const pl_rest* r, pl_lineari
     for (int j = 0; j < out->n; j++) {
       pl_expr M = pl_diff(d->pool, momentum, d->q.at[d->gen.at[j]].v);
       out->M[i * out->n + j] = pl_alg_normal(d->tower, pl_insert_rest(d, pl_at_rest(d, M), r));
-      out->K[i * out->n + j] = pl_alg_normal(d->tower, pl_insert_rest(d, pl_diff(d->pool, f[i], d->q.at[d->gen.at[j]].q), r));
+      out->K[i * out->n + j] = pl_alg_normal(
+          d->tower, pl_insert_rest(d, pl_diff(d->pool, f[i], d->q.at[d->gen.at[j]].q), r));
     }
   }
   for (int i = 0; i < out->n; i++) {
-    for (int j = 0; j < i; j++) out->circulatory |= !pl_vanishes(d, pl_sub(d->pool, out->K[i * out->n + j], out->K[j * out->n + i]));
+    for (int j = 0; j < i; j++)
+      out->circulatory |= !pl_vanishes(
+          d, pl_sub(d->pool, out->K[i * out->n + j], out->K[j * out->n + i]));
   }
 }
 
-// ---------------------------------------------------------------------------------------------- signs of minors
+// --------------------------------------------------------------------------------- signs of minors
 // The minor of A (n x n) with the rows and columns in `set`.
 static pl_expr minor_of(pl_analysis* d, const pl_expr* A, int n, unsigned set) {
   pl_expr B[pl_max_gen * pl_max_gen];
@@ -118,9 +122,11 @@ static bool of_masses(const pl_analysis* d) {
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- one coordinate
-// Where the slope of the force vanishes, its first derivative that does not decides: V = c u^n is a minimum for even n and c > 0.
-static const char* by_higher_derivatives(pl_analysis* d, const pl_expr* f, const pl_rest* r, bool numbers) {
+// ---------------------------------------------------------------------------------- one coordinate
+// Where the slope of the force vanishes, its first derivative that does not decides: V = c u^n is a
+// minimum for even n and c > 0.
+static const char* by_higher_derivatives(pl_analysis* d, const pl_expr* f, const pl_rest* r,
+                                         bool numbers) {
   enum { highest = 8 };
   pl_symbol q = d->q.at[d->gen.at[0]].q;
   pl_expr e = f[0];
@@ -136,13 +142,15 @@ static const char* by_higher_derivatives(pl_analysis* d, const pl_expr* f, const
   return NULL;
 }
 
-// ---------------------------------------------------------------------------------------------- the verdict
+// ------------------------------------------------------------------------------------- the verdict
 // What speaks against judging by the potential.
 static pl_doubt doubt_of(pl_analysis* d, const pl_linearised* l) {
   int n = l->n;
   pl_expr D[pl_max_gen * pl_max_gen];
   for (int k = 0; k < n * n; k++) {
-    if (pl_has_symbol(d->pool, l->K[k], pl_time(d->pool)) || pl_has_symbol(d->pool, l->M[k], pl_time(d->pool))) return PL_DOUBT_DRIVEN;
+    if (pl_has_symbol(d->pool, l->K[k], pl_time(d->pool))
+        || pl_has_symbol(d->pool, l->M[k], pl_time(d->pool)))
+      return PL_DOUBT_DRIVEN;
   }
   for (int i = 0; i < n; i++) {
     for (int j = 0; j < n; j++) D[i * n + j] = pl_add(d->pool, l->C[i * n + j], l->C[j * n + i]);
@@ -160,8 +168,9 @@ static bool is_blown_up(pl_analysis* d, const pl_linearised* l) {
   return l->n == 1 && l->damped && sign_of(d, l->C[0], &sign, &by_numbers) && sign < 0;
 }
 
-// Signs of the principal minors of K over the coordinates that forces hold; free ones drift at will and are left out.
-// All leading ones positive: stable.  Some principal one negative: unstable, unless gyroscopic terms hold what forces do not.
+// Signs of the principal minors of K over the coordinates that forces hold; free ones drift at will
+// and are left out. All leading ones positive: stable. Some principal one negative: unstable,
+// unless gyroscopic terms hold what forces do not.
 static void judge_minors(pl_analysis* d, const pl_linearised* l, unsigned held, pl_verdict* out) {
   unsigned leading = 0;
   bool zero = false;
@@ -178,7 +187,7 @@ static void judge_minors(pl_analysis* d, const pl_linearised* l, unsigned held, 
     bool by_numbers;
     pl_expr minor = minor_of(d, l->K, l->n, set);
     bool known = sign_of(d, minor, &sign, &by_numbers);
-    int weak = 0;   // -√(...): negative wherever it does not vanish
+    int weak = 0;  // -√(...): negative wherever it does not vanish
     bool never = pl_alg_sign_proven(d->tower, minor, true, &weak) == PL_YES && weak < 0;
     if (never && !(known && sign == 0)) {
       sign = -1;
@@ -186,28 +195,35 @@ static void judge_minors(pl_analysis* d, const pl_linearised* l, unsigned held, 
       by_numbers = false;
     }
     if (known && sign < 0 && !by_numbers) {
-      *out = (pl_verdict){.word = l->gyroscopic ? NULL : "unstable", .doubt = l->gyroscopic ? PL_DOUBT_GYROSCOPIC : PL_DOUBT_NONE};
+      *out = (pl_verdict){.word = l->gyroscopic ? NULL : "unstable",
+                          .doubt = l->gyroscopic ? PL_DOUBT_GYROSCOPIC : PL_DOUBT_NONE};
       return;
     }
     if (known && sign < 0) out->at_numbers = l->gyroscopic ? NULL : "unstable";
     if (!is_leading) continue;
     leading++;
     if (known && sign == 0 && !by_numbers) zero = true;
-    if (!known || sign == 0) out->at_numbers = out->at_numbers && strcmp(out->at_numbers, "unstable") == 0 ? out->at_numbers : NULL;
+    if (!known || sign == 0)
+      out->at_numbers = out->at_numbers && strcmp(out->at_numbers, "unstable") == 0
+                            ? out->at_numbers
+                            : NULL;
     if (!known || by_numbers) out->condition[out->n++] = minor;
   }
   if (zero) *out = (pl_verdict){.doubt = PL_DOUBT_DEGENERATE};
   else if (out->n == 0) out->word = "stable";
-  if (out->n > 0 && l->gyroscopic && (!out->at_numbers || strcmp(out->at_numbers, "stable") != 0)) out->doubt = PL_DOUBT_GYROSCOPIC;
+  if (out->n > 0 && l->gyroscopic && (!out->at_numbers || strcmp(out->at_numbers, "stable") != 0))
+    out->doubt = PL_DOUBT_GYROSCOPIC;
 }
 
-void pl_stability(pl_analysis* d, const pl_expr* f, const pl_linearised* l, const pl_rest* r, pl_verdict* out) {
+void pl_stability(pl_analysis* d, const pl_expr* f, const pl_linearised* l, const pl_rest* r,
+                  pl_verdict* out) {
   *out = (pl_verdict){.word = NULL};
   unsigned held = 0;
   for (int k = 0; k < l->n; k++) held |= pl_is_poison(r->q[k]) ? 0 : 1u << k;
   out->doubt = doubt_of(d, l);
   if (is_blown_up(d, l)) *out = (pl_verdict){.word = "unstable", .at_numbers = "unstable"};
-  else if (!out->doubt && held == 0) *out = (pl_verdict){.word = "marginal", .at_numbers = "marginal"};
+  else if (!out->doubt && held == 0)
+    *out = (pl_verdict){.word = "marginal", .at_numbers = "marginal"};
   if (out->word || out->doubt) return;
   judge_minors(d, l, held, out);
   bool simple = l->n == 1 && !pl_nonholonomic(d);
@@ -221,18 +237,24 @@ void pl_stability(pl_analysis* d, const pl_expr* f, const pl_linearised* l, cons
 }
 
 pl_symbol pl_omega_squared(pl_analysis* d) {
-  bool taken = pl_symbol_find(d->pool, "omega").id != 0;   // the model has an ω of its own
-  pl_symbol_info info = {.name = taken ? "Ω²" : "ω²", .ascii = "omega_squared", .role = PL_R_LOCAL, .class = PL_C_OTHER,
-                         .dimension = pl_dimension_of(0, 0, -2), .dimension_known = true};
+  bool taken = pl_symbol_find(d->pool, "omega").id != 0;  // the model has an ω of its own
+  pl_symbol_info info = {.name = taken ? "Ω²" : "ω²",
+                         .ascii = "omega_squared",
+                         .role = PL_R_LOCAL,
+                         .class = PL_C_OTHER,
+                         .dimension = pl_dimension_of(0, 0, -2),
+                         .dimension_known = true};
   return pl_symbol_make(d->pool, &info);
 }
 
-// det(K - ω² M); with gyroscopic terms det(K + s C + s² M), which is even in s, at s² = -ω².  Damping is left out: what is
-// given then are the frequencies of the undamped system, and that is said.
+// det(K - ω² M); with gyroscopic terms det(K + s C + s² M), which is even in s, at s² = -ω².
+// Damping is left out: what is given then are the frequencies of the undamped system, and that is
+// said.
 static pl_expr characteristic(pl_analysis* d, const pl_linearised* l, pl_symbol w2) {
   pl_pool* p = d->pool;
   int n = l->n;
-  pl_symbol_info info = {.name = "s", .ascii = "characteristic_s", .role = PL_R_LOCAL, .class = PL_C_OTHER};
+  pl_symbol_info info = {
+      .name = "s", .ascii = "characteristic_s", .role = PL_R_LOCAL, .class = PL_C_OTHER};
   pl_symbol s = pl_symbol_make(p, &info);
   pl_expr A[pl_max_gen * pl_max_gen], c[2 * pl_max_gen + 1];
   for (int k = 0; k < n * n; k++) A[k] = pl_sub(p, l->K[k], pl_mul(p, pl_sym(p, w2), l->M[k]));
@@ -243,7 +265,8 @@ static pl_expr characteristic(pl_analysis* d, const pl_linearised* l, pl_symbol 
       A[i * n + j] = pl_add(p, A[i * n + j], pl_mul(p, pl_sym(p, s), turn));
     }
   }
-  int degree = pl_alg_coefficients(d->tower, pl_alg_det(d->tower, n, A, 20000), s, c, 2 * pl_max_gen);
+  int degree = pl_alg_coefficients(d->tower, pl_alg_det(d->tower, n, A, 20000), s, c,
+                                   2 * pl_max_gen);
   pl_expr sum = degree < 0 ? pl_poison() : pl_int(p, 0);
   for (int k = 0; k <= degree; k += 2) {
     sum = pl_add(p, sum, pl_mul(p, c[k], pl_pow_int(p, pl_neg(p, pl_sym(p, w2)), k / 2)));
@@ -251,8 +274,8 @@ static pl_expr characteristic(pl_analysis* d, const pl_linearised* l, pl_symbol 
   return sum;
 }
 
-int pl_small_oscillations(pl_analysis* d, const pl_linearised* l, pl_root* root, int max, bool* complete) {
+int pl_small_oscillations(pl_analysis* d, const pl_linearised* l, pl_root* root, int max,
+                          bool* complete) {
   pl_symbol w2 = pl_omega_squared(d);
   return pl_alg_roots(d->tower, characteristic(d, l, w2), w2, root, max, complete);
 }
-

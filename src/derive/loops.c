@@ -1,14 +1,16 @@
-// loops: closed linkages.  One or two constraints determine one or two coordinates in several ways, the assemblies: a four-bar
-// linkage, an offset slider-crank, two circles.  The coordinates keep their names; velocities follow by implicit differentiation,
+// loops: closed linkages. One or two constraints determine one or two coordinates in several ways,
+// the assemblies: a four-bar linkage, an offset slider-crank, two circles. The coordinates keep
+// their names; velocities follow by implicit differentiation,
 //   dg/du u' = -(dg/dq q' + dg/dt),
-// linear and short, the same in all assemblies.  Functions of generalized coordinates are then functions of the names too, and
-// d/dq_i follows them (pl_by_coordinate).  Which assembly it is, a `branch` or the start tells; else all are answered.
+// linear and short, the same in all assemblies. Functions of generalized coordinates are then
+// functions of the names too, and d/dq_i follows them (pl_by_coordinate). Which assembly it is, a
+// `branch` or the start tells; else all are answered.
 #include <math.h>
 #include <string.h>
 
 #include "loops_impl.h"
 
-// ---------------------------------------------------------------------------------------------- questions
+// --------------------------------------------------------------------------------------- questions
 bool pl_in_loop(const pl_analysis* d, int bond) {
   for (int k = 0; k < d->loops.n; k++) {
     const pl_loop* l = &d->loops.at[k];
@@ -66,7 +68,8 @@ int pl_loop_definitions(pl_analysis* d, int assembly, pl_definition* out) {
       if (out) out[n] = l->names.at[j];
     }
     for (int j = 0; j < l->n; j++, n++) {
-      if (out) out[n] = (pl_definition){d->q.at[l->coordinate[j]].q, l->value[way_of(d, assembly, k)][j]};
+      if (out)
+        out[n] = (pl_definition){d->q.at[l->coordinate[j]].q, l->value[way_of(d, assembly, k)][j]};
     }
     for (int j = 0; j < l->slopes.n; j++, n++) {
       if (out) out[n] = (pl_definition){l->slopes.at[j].name, l->slopes.at[j].value};
@@ -87,8 +90,10 @@ int pl_loop_definitions(pl_analysis* d, int assembly, pl_definition* out) {
 pl_expr pl_on_assembly(pl_analysis* d, pl_expr e, int assembly) {
   for (int k = d->loops.n - 1; k >= 0; k--) {
     const pl_loop* l = &d->loops.at[k];
-    for (int j = l->n - 1; j >= 0; j--) e = pl_subst1(d->pool, e, d->q.at[l->coordinate[j]].q, l->value[way_of(d, assembly, k)][j]);
-    for (int j = l->names.n - 1; j >= 0; j--) e = pl_subst1(d->pool, e, l->names.at[j].symbol, l->names.at[j].value);
+    for (int j = l->n - 1; j >= 0; j--)
+      e = pl_subst1(d->pool, e, d->q.at[l->coordinate[j]].q, l->value[way_of(d, assembly, k)][j]);
+    for (int j = l->names.n - 1; j >= 0; j--)
+      e = pl_subst1(d->pool, e, l->names.at[j].symbol, l->names.at[j].value);
   }
   return e;
 }
@@ -98,7 +103,8 @@ static pl_expr through(pl_analysis* d, pl_expr e, pl_symbol s, pl_expr rate, int
   pl_expr slope = pl_diff(d->pool, e, s);
   if (pl_is_zero_node(d->pool, slope)) return slope;
   if (i >= 0) return pl_mul(d->pool, slope, pl_diff(d->pool, rate, d->q.at[i].v));
-  for (int k = 0; k < d->q.n; k++) rate = pl_subst1(d->pool, rate, d->q.at[k].v, pl_int(d->pool, 0));
+  for (int k = 0; k < d->q.n; k++)
+    rate = pl_subst1(d->pool, rate, d->q.at[k].v, pl_int(d->pool, 0));
   return pl_mul(d->pool, slope, rate);
 }
 
@@ -106,8 +112,10 @@ pl_expr pl_by_coordinate(pl_analysis* d, pl_expr e, int i) {
   pl_expr sum = pl_diff(d->pool, e, i >= 0 ? d->q.at[i].q : pl_time(d->pool));
   for (int k = 0; k < d->loops.n; k++) {
     const pl_loop* l = &d->loops.at[k];
-    for (int j = 0; j < l->n; j++) sum = pl_add(d->pool, sum, through(d, e, d->q.at[l->coordinate[j]].q, l->rate[j], i));
-    for (int j = 0; j < l->slopes.n; j++) sum = pl_add(d->pool, sum, through(d, e, l->slopes.at[j].name, l->slopes.at[j].rate, i));
+    for (int j = 0; j < l->n; j++)
+      sum = pl_add(d->pool, sum, through(d, e, d->q.at[l->coordinate[j]].q, l->rate[j], i));
+    for (int j = 0; j < l->slopes.n; j++)
+      sum = pl_add(d->pool, sum, through(d, e, l->slopes.at[j].name, l->slopes.at[j].rate, i));
   }
   return sum;
 }
@@ -124,21 +132,25 @@ pl_answer3 pl_holds_on_loops(pl_analysis* d, pl_expr left, pl_expr right) {
   pl_answer3 all = PL_YES;
   for (int a = 0; a < pl_assemblies(d) && all != PL_NO; a++) {
     pl_loop_definitions(d, a, definition);
-    pl_certifier_setup setup = {.facts = fact, .n_facts = n, .definitions = definition, .n_definitions = n_definitions};
+    pl_certifier_setup setup = {
+        .facts = fact, .n_facts = n, .definitions = definition, .n_definitions = n_definitions};
     pl_answer3 equal = pl_certify(pl_certifier_make(d->job, d->pool, &setup), left, right).equal;
     if (equal != PL_YES) all = equal;
   }
   return all;
 }
 
-// ---------------------------------------------------------------------------------------------- numbers at sample points
+// ------------------------------------------------------------------------ numbers at sample points
 static const int n_samples = 48;
-static const double widest = 3.0;        // generalized coordinates are drawn from -3 .. 3
+static const double widest = 3.0;  // generalized coordinates are drawn from -3 .. 3
 
-typedef struct pl_sample { double* x; pl_random random; } pl_sample;   // by symbol id
+typedef struct pl_sample {
+  double* x;
+  pl_random random;
+} pl_sample;  // by symbol id
 
 static void number_parameters(pl_analysis* d, pl_sample* s) {
-  pl_number(d, pl_int(d->pool, 0));   // numbers are up to date
+  pl_number(d, pl_int(d->pool, 0));  // numbers are up to date
   int n = pl_symbol_count(d->pool) + 1;
   s->x = PL_ARRAY(d->arena, double, n);
   for (int k = 1; k < n; k++) s->x[k] = k < d->n_value + 1 ? d->value[k] : (double)NAN;
@@ -150,8 +162,10 @@ static void draw(pl_analysis* d, pl_sample* s) {
   for (int k = 1; k < n; k++) {
     pl_symbol x = {(uint32_t)k};
     pl_role role = pl_symbol_get(d->pool, x)->role;
-    if (role == PL_R_COORD || role == PL_R_TIME) s->x[k] = pl_random_between(&s->random, -widest, widest);
-    else if (role == PL_R_PARAM && isnan(d->value[k])) s->x[k] = pl_random_between(&s->random, 0.3, widest);
+    if (role == PL_R_COORD || role == PL_R_TIME)
+      s->x[k] = pl_random_between(&s->random, -widest, widest);
+    else if (role == PL_R_PARAM && isnan(d->value[k]))
+      s->x[k] = pl_random_between(&s->random, 0.3, widest);
   }
 }
 
@@ -160,7 +174,8 @@ static bool follow(pl_analysis* d, pl_sample* s, const pl_loop* last, int way) {
   for (int k = 0; k <= d->loops.n; k++) {
     const pl_loop* l = k < d->loops.n ? &d->loops.at[k] : last;
     int w = k < d->loops.n ? 0 : way;
-    for (int j = 0; j < l->names.n; j++) s->x[l->names.at[j].symbol.id] = pl_eval(d->pool, l->names.at[j].value, s->x);
+    for (int j = 0; j < l->names.n; j++)
+      s->x[l->names.at[j].symbol.id] = pl_eval(d->pool, l->names.at[j].value, s->x);
     for (int j = 0; j < l->n; j++) {
       double x = pl_eval(d->pool, l->value[w][j], s->x);
       if (!isfinite(x)) return false;
@@ -170,13 +185,15 @@ static bool follow(pl_analysis* d, pl_sample* s, const pl_loop* last, int way) {
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- what tells the ways apart
+// ----------------------------------------------------------------------- what tells the ways apart
 // The sign of det dg/du: positive factors are dropped, and those of parameters too.
 static void find_side(pl_analysis* d, pl_loop* l, const pl_expr* e) {
   pl_pool* p = d->pool;
   pl_symbol u = d->q.at[l->coordinate[0]].q, v = l->n == 2 ? d->q.at[l->coordinate[1]].q : u;
   pl_expr J = pl_diff(p, e[0], u), unit;
-  if (l->n == 2) J = pl_sub(p, pl_mul(p, J, pl_diff(p, e[1], v)), pl_mul(p, pl_diff(p, e[0], v), pl_diff(p, e[1], u)));
+  if (l->n == 2)
+    J = pl_sub(p, pl_mul(p, J, pl_diff(p, e[1], v)),
+               pl_mul(p, pl_diff(p, e[0], v), pl_diff(p, e[1], u)));
   pl_factor f[16];
   int n = pl_alg_factors(d->tower, J, f, 16, &unit), sign;
   l->side = pl_int(p, 1);
@@ -195,13 +212,19 @@ static void find_side(pl_analysis* d, pl_loop* l, const pl_expr* e) {
       if (fabs(x) > 1e-9) seen[w][x > 0]++;
     }
   }
-  for (int w = 0; w < l->n_ways; w++) l->sign[w] = seen[w][0] && seen[w][1] ? 0 : seen[w][1] ? 1 : seen[w][0] ? -1 : 0;
+  for (int w = 0; w < l->n_ways; w++)
+    l->sign[w] = seen[w][0] && seen[w][1] ? 0 : seen[w][1] ? 1 : seen[w][0] ? -1 : 0;
 }
 
-static bool wants_positive(const pl_condition* c) { return c->relation == PL_GT || c->relation == PL_GE; }
+static bool wants_positive(const pl_condition* c) {
+  return c->relation == PL_GT || c->relation == PL_GE;
+}
 
-// How often the branch conditions on the unknowns hold for a way: at all sample points, at some, at none.
-typedef struct pl_tally { int met, missed; } pl_tally;
+// How often the branch conditions on the unknowns hold for a way: at all sample points, at some, at
+// none.
+typedef struct pl_tally {
+  int met, missed;
+} pl_tally;
 
 static bool speaks_of(pl_analysis* d, pl_expr e, const pl_loop* l) {
   for (int j = 0; j < l->n; j++) {
@@ -256,7 +279,7 @@ static void pick_by_branch(pl_analysis* d, pl_loop* l) {
   keep_ways(l, keep);
 }
 
-// ---------------------------------------------------------------------------------------------- the start
+// --------------------------------------------------------------------------------------- the start
 static double start_of(pl_analysis* d, pl_symbol q) {
   for (int k = 0; k < d->model->inits.n; k++) {
     const pl_init* init = &d->model->inits.at[k];
@@ -281,7 +304,7 @@ static double distance(pl_analysis* d, const pl_sample* s, const pl_loop* l, con
   return n ? sqrt(sum) : (double)NAN;
 }
 
-static const double clearly = 0.5;   // the nearest way is at most half as far as the next
+static const double clearly = 0.5;  // the nearest way is at most half as far as the next
 
 // The branch conditions at the start, then the way nearest to what `init` says.
 static void pick_by_start(pl_analysis* d, pl_loop* l, const bool* angle) {
@@ -304,14 +327,16 @@ static void pick_by_start(pl_analysis* d, pl_loop* l, const bool* angle) {
   keep_ways(l, keep);
 }
 
-// ---------------------------------------------------------------------------------------------- velocities
+// -------------------------------------------------------------------------------------- velocities
 static bool find_rates(pl_analysis* d, pl_loop* l) {
   pl_expr A[4], b[2], x[2];
   pl_replace zero[2];
-  for (int j = 0; j < l->n; j++) zero[j] = (pl_replace){d->q.at[l->coordinate[j]].v, pl_int(d->pool, 0)};
+  for (int j = 0; j < l->n; j++)
+    zero[j] = (pl_replace){d->q.at[l->coordinate[j]].v, pl_int(d->pool, 0)};
   for (int r = 0; r < l->n; r++) {
     pl_expr rate = pl_mapped(d, pl_dt(d->pool, d->g.at[l->bond[r]].place));
-    for (int j = 0; j < l->n; j++) A[r * l->n + j] = pl_alg_normal(d->tower, pl_diff(d->pool, rate, zero[j].from));
+    for (int j = 0; j < l->n; j++)
+      A[r * l->n + j] = pl_alg_normal(d->tower, pl_diff(d->pool, rate, zero[j].from));
     b[r] = pl_neg(d->pool, pl_subst(d->pool, rate, zero, l->n));
   }
   if (pl_alg_solve(d->tower, l->n, A, b, x, 2000) != PL_YES) return false;
@@ -320,7 +345,7 @@ static bool find_rates(pl_analysis* d, pl_loop* l) {
 }
 
 enum { most_leaders = 8 };
-static const long longest_inline = 3;   // operations of a coefficient that needs no name
+static const long longest_inline = 3;  // operations of a coefficient that needs no name
 
 // Coordinates whose velocities stand in e.
 static int leaders_in(pl_analysis* d, pl_expr e, int* out) {
@@ -331,9 +356,11 @@ static int leaders_in(pl_analysis* d, pl_expr e, int* out) {
   return n;
 }
 
-static pl_symbol coefficient_name(pl_analysis* d, const char* letter, pl_symbol of, const int* by, int n_by, bool moves, pl_expr value) {
+static pl_symbol coefficient_name(pl_analysis* d, const char* letter, pl_symbol of, const int* by,
+                                  int n_by, bool moves, pl_expr value) {
   const pl_symbol_info* q = pl_symbol_get(d->pool, of);
-  const char *name = pl_format(d->arena, "%s_%s", letter, q->name), *ascii = pl_format(d->arena, "%s_%s", letter, q->ascii);
+  const char *name = pl_format(d->arena, "%s_%s", letter, q->name),
+             *ascii = pl_format(d->arena, "%s_%s", letter, q->ascii);
   for (int k = 0; k < n_by; k++) {
     const pl_symbol_info* b = pl_symbol_get(d->pool, d->q.at[by[k]].q);
     name = pl_format(d->arena, "%s,%s", name, b->name);
@@ -343,7 +370,8 @@ static pl_symbol coefficient_name(pl_analysis* d, const char* letter, pl_symbol 
     name = pl_format(d->arena, "%s%s", letter, name);
     ascii = pl_format(d->arena, "%s%s", letter, ascii);
   }
-  pl_symbol_info info = {.name = name, .ascii = ascii, .role = moves ? PL_R_COORD : PL_R_LOCAL, .class = PL_C_OTHER};
+  pl_symbol_info info = {
+      .name = name, .ascii = ascii, .role = moves ? PL_R_COORD : PL_R_LOCAL, .class = PL_C_OTHER};
   info.dimension = pl_dimension_of_expr(d, value, &info.dimension_known);
   return pl_symbol_make(d->pool, &info);
 }
@@ -395,13 +423,17 @@ static void keep_names(pl_analysis* d, const pl_loop* l) {
   int n = 0;
   pl_replace* fresh = PL_ARRAY(d->arena, pl_replace, 2 * l->n + l->slopes.n);
   for (int j = 0; j < l->n; j++) fresh[n++] = (pl_replace){d->q.at[l->coordinate[j]].v, l->rate[j]};
-  for (int j = 0; j < l->slopes.n; j++) fresh[n++] = (pl_replace){l->slopes.at[j].dot, l->slopes.at[j].rate};
+  for (int j = 0; j < l->slopes.n; j++)
+    fresh[n++] = (pl_replace){l->slopes.at[j].dot, l->slopes.at[j].rate};
   int n_first = n;
   for (int j = 0; j < l->n; j++) {
-    pl_expr a = pl_subst(d->pool, pl_subst(d->pool, pl_dt(d->pool, l->rate[j]), d->maps.at, d->maps.n), fresh, n_first);
+    pl_expr a = pl_subst(d->pool,
+                         pl_subst(d->pool, pl_dt(d->pool, l->rate[j]), d->maps.at, d->maps.n),
+                         fresh, n_first);
     fresh[n++] = (pl_replace){d->q.at[l->coordinate[j]].a, a};
   }
-  for (int k = 0; k < d->maps.n; k++) d->maps.at[k].to = pl_subst(d->pool, d->maps.at[k].to, fresh, n);
+  for (int k = 0; k < d->maps.n; k++)
+    d->maps.at[k].to = pl_subst(d->pool, d->maps.at[k].to, fresh, n);
   for (int k = 0; k < n; k++) pl_push(d->arena, d->maps, fresh[k]);
   for (int j = 0; j < l->n; j++) {
     pl_variable* c = &d->q.at[l->coordinate[j]];
@@ -410,7 +442,7 @@ static void keep_names(pl_analysis* d, const pl_loop* l) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- finding loops
+// ----------------------------------------------------------------------------------- finding loops
 static bool started(const pl_analysis* d, int i) {
   for (int k = 0; k < d->model->inits.n; k++) {
     pl_expr target = d->model->inits.at[k].target;
@@ -422,14 +454,17 @@ static bool started(const pl_analysis* d, int i) {
 static int open_in(const pl_analysis* d, pl_expr e, int* out, int max, bool with_start) {
   int n = 0;
   for (int i = 0; i < d->q.n; i++) {
-    if (!pl_open_coordinate(&d->q.at[i]) || !pl_has_symbol(d->pool, e, d->q.at[i].q) || (!with_start && started(d, i))) continue;
+    if (!pl_open_coordinate(&d->q.at[i]) || !pl_has_symbol(d->pool, e, d->q.at[i].q)
+        || (!with_start && started(d, i)))
+      continue;
     if (n < max) out[n] = i;
     n++;
   }
   return n;
 }
 
-// The unknowns of a constraint: two at most.  Without `choose`, a coordinate with a start is not one when others are left.
+// The unknowns of a constraint: two at most. Without `choose`, a coordinate with a start is not one
+// when others are left.
 static int unknowns_in(pl_analysis* d, pl_expr e, int* out) {
   int n = open_in(d, e, out, 2, true);
   if (n > 2 && d->model->choose.coords.n == 0) n = open_in(d, e, out, 2, false);
@@ -443,7 +478,8 @@ static bool add_loop(pl_analysis* d, pl_loop* l, const pl_expr* e, const pl_unkn
     angle[j] = unknown[j].angle;
   }
   int sign;
-  bool never = !pl_is_poison(l->real) && pl_alg_sign(d->tower, l->real, false, &sign) == PL_YES && sign < 0;
+  bool never = !pl_is_poison(l->real) && pl_alg_sign(d->tower, l->real, false, &sign) == PL_YES
+               && sign < 0;
   if (never || pl_assemblies(d) * l->n_ways > pl_max_assemblies || !find_rates(d, l)) return false;
   if (!pl_is_poison(l->real)) pl_tower_use(d->tower, (pl_fact){l->real, false});
   find_side(d, l, e);
@@ -458,7 +494,11 @@ static bool add_loop(pl_analysis* d, pl_loop* l, const pl_expr* e, const pl_unkn
 }
 
 static pl_loop empty_loop(int n, int bond, int other) {
-  return (pl_loop){.n = n, .bond = {bond, other}, .real = pl_poison(), .eliminated = pl_poison(), .side = pl_poison()};
+  return (pl_loop){.n = n,
+                   .bond = {bond, other},
+                   .real = pl_poison(),
+                   .eliminated = pl_poison(),
+                   .side = pl_poison()};
 }
 
 static bool solve_alone(pl_analysis* d, int bond, pl_expr e, int i) {
@@ -473,7 +513,7 @@ static bool solve_pair(pl_analysis* d, int bond, int other, const pl_expr* e, co
   for (int j = 0; j < 2; j++) {
     if (!pl_unknown_of(d, open[j], e, 2, &u[j])) return false;
   }
-  for (int last = 0; last < 2; last++) {   // the first coordinate is eliminated, if it can be
+  for (int last = 0; last < 2; last++) {  // the first coordinate is eliminated, if it can be
     pl_loop l = empty_loop(2, bond, other);
     pl_unknown order[2] = {u[1 - last], u[last]};
     if (pl_ways_of_two(d, &l, e, &order[0], &order[1]) && add_loop(d, &l, e, order)) return true;
@@ -501,13 +541,14 @@ bool pl_solve_loop(pl_analysis* d, int bond, bool pair) {
   return false;
 }
 
-// ---------------------------------------------------------------------------------------------- claims
+// ------------------------------------------------------------------------------------------ claims
 void pl_claim_loops(pl_analysis* d) {
   for (int k = 0; k < d->loops.n; k++) {
     const pl_loop* l = &d->loops.at[k];
     for (int j = 0; j < l->n; j++) {
       pl_claim_that(d, PL_CLAIM_MAP, pl_on_contact(d, d->g.at[l->bond[j]].g), pl_int(d->pool, 0));
-      pl_claim_that(d, PL_CLAIM_MAP, pl_on_contact(d, pl_dt(d->pool, d->g.at[l->bond[j]].g)), pl_int(d->pool, 0));
+      pl_claim_that(d, PL_CLAIM_MAP, pl_on_contact(d, pl_dt(d->pool, d->g.at[l->bond[j]].g)),
+                    pl_int(d->pool, 0));
     }
   }
 }

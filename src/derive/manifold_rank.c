@@ -1,21 +1,23 @@
-// manifold_rank: constraints whose gradients depend on each other where all of them hold, and nowhere else: two bars beside a third one on
-// the same coupler.  The rank at a general place counts them as independent.  Points that satisfy the constraints are found in numbers,
-// by Newton's method from the start and from places around it, and the rank is taken there.
+// manifold_rank: constraints whose gradients depend on each other where all of them hold, and
+// nowhere else: two bars beside a third one on the same coupler. The rank at a general place counts
+// them as independent. Points that satisfy the constraints are found in numbers, by Newton's method
+// from the start and from places around it, and the rank is taken there.
 #include <math.h>
 #include <string.h>
 
 #include "derive/derive_impl.h"
 
 enum { max_rows = 40, max_columns = 60, n_points = 4, max_newton = 80 };
-static const double solved_to = 1e-11;      // of a constraint, beside 1
-static const double dependent_below = 1e-6; // of a row of length 1, at points that are solved to 1e-11
-static const double off_start = 0.1;        // how far beside the start other points are looked for
+static const double solved_to = 1e-11;  // of a constraint, beside 1
+// of a row of length 1, at points that are solved to 1e-11
+static const double dependent_below = 1e-6;
+static const double off_start = 0.1;  // how far beside the start other points are looked for
 
 typedef struct pl_manifold {
   pl_analysis* d;
   int m, n;
   const int *row, *column;
-  double* value;                  // by symbol
+  double* value;  // by symbol
   double J[max_rows * max_columns], g[max_rows];
 } pl_manifold;
 
@@ -24,7 +26,8 @@ static void evaluate(pl_manifold* w) {
   for (int a = 0; a < w->m; a++) {
     const pl_bond* l = &d->g.at[w->row[a]];
     w->g[a] = l->velocity ? 0 : pl_eval(d->pool, pl_on_fixed(d, l->g), w->value);
-    for (int b = 0; b < w->n; b++) w->J[a * w->n + b] = pl_eval(d->pool, pl_on_fixed(d, l->gradient[w->column[b]]), w->value);
+    for (int b = 0; b < w->n; b++)
+      w->J[a * w->n + b] = pl_eval(d->pool, pl_on_fixed(d, l->gradient[w->column[b]]), w->value);
   }
 }
 
@@ -55,7 +58,8 @@ static bool solve(double* A, double* b, int n) {
   return true;
 }
 
-// The least change of the coordinates that solves the linear equations; what depends is held by a small weight.
+// The least change of the coordinates that solves the linear equations; what depends is held by a
+// small weight.
 static bool newton_step(pl_manifold* w) {
   static const double weight = 1e-10;
   double N[max_rows * max_rows], y[max_rows], trace = 0;
@@ -118,7 +122,7 @@ static void draw(pl_manifold* w, int point) {
   pl_analysis* d = w->d;
   int n = pl_symbol_count(d->pool) + 1;
   const double* known = pl_model_values(d->model, d->arena);
-  pl_random r = {(uint64_t)7919};   // parameters are the same at all points
+  pl_random r = {(uint64_t)7919};  // parameters are the same at all points
   w->value = PL_ARRAY(d->arena, double, n);
   for (int i = 1; i < n; i++) {
     double unit = pl_random_unit(&r);
@@ -132,13 +136,16 @@ static void draw(pl_manifold* w, int point) {
   w->value[pl_time(d->pool).id] = 0;
   r.state = (uint64_t)point + 1;
   for (int i = 0; i < d->q.n; i++) {
-    double start = pl_number(d, pl_sym(d->pool, pl_symbol_start(d->pool, d->q.at[i].q))), beside = 2 * pl_random_unit(&r) - 1;
+    double start = pl_number(d, pl_sym(d->pool, pl_symbol_start(d->pool, d->q.at[i].q))),
+           beside = 2 * pl_random_unit(&r) - 1;
     double at = isnan(start) ? 0.4 + 0.3 * pl_random_unit(&r) : start;
-    w->value[d->q.at[i].q.id] = at + (point == 0 && !isnan(start) ? 0 : off_start * (1 + fabs(at)) * beside);
+    w->value[d->q.at[i].q.id] =
+        at + (point == 0 && !isnan(start) ? 0 : off_start * (1 + fabs(at)) * beside);
   }
 }
 
-int pl_rank_on_manifold(pl_analysis* d, const int* row, int m, const int* column, int n, int* independent) {
+int pl_rank_on_manifold(pl_analysis* d, const int* row, int m, const int* column, int n,
+                        int* independent) {
   if (m > max_rows || n > max_columns) return -1;
   pl_manifold* w = PL_NEW(d->arena, pl_manifold);
   *w = (pl_manifold){.d = d, .m = m, .n = n, .row = row, .column = column};
@@ -147,7 +154,7 @@ int pl_rank_on_manifold(pl_analysis* d, const int* row, int m, const int* column
     draw(w, point);
     if (!find_point(w)) continue;
     int rank = independent_rows(w, here);
-    found += point > 0;   // the start itself may be singular
+    found += point > 0;  // the start itself may be singular
     if (rank <= best) continue;
     best = rank;
     memcpy(independent, here, (size_t)rank * sizeof *here);
@@ -156,14 +163,16 @@ int pl_rank_on_manifold(pl_analysis* d, const int* row, int m, const int* column
 }
 
 // Row k over the independent ones, from as many columns: right where the constraints hold.
-void pl_depend_on_manifold(pl_analysis* d, int k, const int* independent, int rank, const int* column, int n) {
-  pl_expr* A = PL_ARRAY(d->arena, pl_expr, n * rank + 1);      // transposed: a row for each column
+void pl_depend_on_manifold(pl_analysis* d, int k, const int* independent, int rank,
+                           const int* column, int n) {
+  pl_expr* A = PL_ARRAY(d->arena, pl_expr, n * rank + 1);  // transposed: a row for each column
   for (int b = 0; b < n; b++) {
     for (int a = 0; a < rank; a++) A[b * rank + a] = d->g.at[independent[a]].gradient[column[b]];
   }
   int* of = PL_ARRAY(d->arena, int, n + 1);
   if (rank == 0 || pl_alg_rank(d->tower, n, rank, A, of) != rank) return;
-  pl_expr *S = PL_ARRAY(d->arena, pl_expr, rank * rank), *b = PL_ARRAY(d->arena, pl_expr, rank), *c = PL_ARRAY(d->arena, pl_expr, rank);
+  pl_expr *S = PL_ARRAY(d->arena, pl_expr, rank * rank), *b = PL_ARRAY(d->arena, pl_expr, rank),
+          *c = PL_ARRAY(d->arena, pl_expr, rank);
   for (int i = 0; i < rank; i++) {
     for (int a = 0; a < rank; a++) S[i * rank + a] = A[of[i] * rank + a];
     b[i] = d->g.at[k].gradient[column[of[i]]];

@@ -1,6 +1,6 @@
-// momenta: conserved total momenta and angular momenta.  A motion of the whole system, every mass shifted along an axis or turned
-// about one, displaces the coordinates by η_i.  If neither the Lagrange function nor a constraint changes, and no force without
-// potential works along it,
+// momenta: conserved total momenta and angular momenta. A motion of the whole system, every mass
+// shifted along an axis or turned about one, displaces the coordinates by η_i. If neither the
+// Lagrange function nor a constraint changes, and no force without potential works along it,
 //   sum η_i dL/dq_i + η_i' dL/dv_i = 0,   sum η_i dg/dq_i = 0,   sum η_i Q_i = 0,
 // then  I = sum η_i dL/dv_i  is conserved (Noether), whatever the multipliers are.     [Arnold 1989, sec. 20]
 #include <string.h>
@@ -8,12 +8,13 @@
 #include "derive/derive_impl.h"
 
 typedef struct pl_symmetry {
-  pl_expr* eta;          // (n_q)
-  pl_expr* residual;     // of L, of Q, of each constraint: all vanish       (2 + n_g)
+  pl_expr* eta;       // (n_q)
+  pl_expr* residual;  // of L, of Q, of each constraint: all vanish       (2 + n_g)
 } pl_symmetry;
 
-// ---------------------------------------------------------------------------------------------- displacements
-// Coordinate i is displaced by e wherever it is component j of a mass; false when two masses disagree.
+// ----------------------------------------------------------------------------------- displacements
+// Coordinate i is displaced by e wherever it is component j of a mass; false when two masses
+// disagree.
 static bool displace(pl_analysis* d, pl_symmetry* s, pl_expr coordinate, pl_expr e) {
   if (pl_kind_of(d->pool, coordinate) != PL_SYMBOL) return true;
   int i = pl_variable_index(d, pl_symbol_of(d->pool, coordinate));
@@ -22,8 +23,8 @@ static bool displace(pl_analysis* d, pl_symmetry* s, pl_expr coordinate, pl_expr
   return pl_alg_is_zero(d->tower, pl_sub(d->pool, s->eta[i], e)) == PL_YES;
 }
 
-// A turn about an axis displaces the axes of a body in space: its quaternion by n q/2, its vectors by n x e, and Euler angles so
-// that their rates give the angular velocity n.
+// A turn about an axis displaces the axes of a body in space: its quaternion by n q/2, its vectors
+// by n x e, and Euler angles so that their rates give the angular velocity n.
 static void turn_of_axes(pl_analysis* d, const pl_spatial* b, int about, pl_expr* e) {
   pl_pool* p = d->pool;
   pl_expr zero = pl_int(p, 0), n[3] = {zero, zero, zero};
@@ -57,8 +58,10 @@ static bool turn_bodies(pl_analysis* d, pl_symmetry* s, int about) {
     pl_expr e[9];
     turn_of_axes(d, b, about, e);
     for (int j = 0; j < n; j++) {
-      bool symbol = pl_kind_of(d->pool, b->axes[j]) == PL_SYMBOL && pl_variable_index(d, pl_symbol_of(d->pool, b->axes[j])) >= 0;
-      if (symbol ? !displace(d, s, b->axes[j], e[j]) : pl_alg_is_zero(d->tower, e[j]) != PL_YES) return false;
+      bool symbol = pl_kind_of(d->pool, b->axes[j]) == PL_SYMBOL
+                    && pl_variable_index(d, pl_symbol_of(d->pool, b->axes[j])) >= 0;
+      if (symbol ? !displace(d, s, b->axes[j], e[j]) : pl_alg_is_zero(d->tower, e[j]) != PL_YES)
+        return false;
     }
   }
   return true;
@@ -97,7 +100,9 @@ static void find_residuals(pl_analysis* d, pl_symmetry* s) {
     change = pl_add(p, change, pl_mul(p, pl_dt(p, s->eta[i]), pl_diff(p, d->L, d->q.at[i].v)));
     s->residual[0] = pl_add(p, s->residual[0], change);
     s->residual[1] = pl_add(p, s->residual[1], pl_mul(p, s->eta[i], d->force[i]));
-    for (int k = 0; k < d->g.n; k++) s->residual[2 + k] = pl_add(p, s->residual[2 + k], pl_mul(p, s->eta[i], d->g.at[k].gradient[i]));
+    for (int k = 0; k < d->g.n; k++)
+      s->residual[2 + k] = pl_add(p, s->residual[2 + k],
+                                  pl_mul(p, s->eta[i], d->g.at[k].gradient[i]));
   }
   for (int k = 0; k < 2 + d->g.n; k++) s->residual[k] = pl_alg_normal(d->tower, s->residual[k]);
 }
@@ -113,8 +118,9 @@ static pl_expr at_point(pl_analysis* d, pl_expr e, int point) {
   return e;
 }
 
-// A constraint may turn into others (x = h e_x into y = h e_y): its change is then a sum of constraints with constant
-// coefficients, which follow from as many points as there are constraints, and is zero where these hold.
+// A constraint may turn into others (x = h e_x into y = h e_y): its change is then a sum of
+// constraints with constant coefficients, which follow from as many points as there are
+// constraints, and is zero where these hold.
 static bool follows(pl_analysis* d, pl_expr change) {
   enum { most = 10 };
   pl_pool* p = d->pool;
@@ -122,7 +128,8 @@ static bool follows(pl_analysis* d, pl_expr change) {
   if (n == 0 || n > most) return false;
   pl_expr A[most * most] = {0}, b[most] = {0}, c[most];
   for (int i = 0; i < n; i++) {
-    for (int k = 0; k < n; k++) A[i * n + k] = pl_alg_normal(d->tower, at_point(d, d->g.at[k].g, i));
+    for (int k = 0; k < n; k++)
+      A[i * n + k] = pl_alg_normal(d->tower, at_point(d, d->g.at[k].g, i));
     b[i] = pl_alg_normal(d->tower, at_point(d, change, i));
   }
   if (pl_alg_solve(d->tower, n, A, b, c, 400) != PL_YES) return false;
@@ -144,9 +151,11 @@ static bool vanishes(pl_analysis* d, const pl_symmetry* s) {
 
 enum { most_rows = 16 };
 
-// A turn about another point: shifts are added until nothing changes.  turn + a shift1 + b shift2 with constant a, b, which follow
-// from the residuals at two points; whether they do it everywhere is proven afterwards.
-static bool move_centre(pl_analysis* d, pl_symmetry* turn, const pl_symmetry* shift1, const pl_symmetry* shift2, pl_expr* a, pl_expr* b) {
+// A turn about another point: shifts are added until nothing changes. turn + a shift1 + b shift2
+// with constant a, b, which follow from the residuals at two points; whether they do it everywhere
+// is proven afterwards.
+static bool move_centre(pl_analysis* d, pl_symmetry* turn, const pl_symmetry* shift1,
+                        const pl_symmetry* shift2, pl_expr* a, pl_expr* b) {
   pl_expr left[2][most_rows], right[most_rows];
   int n = 0;
   for (int k = 0; k < 2 + d->g.n; k++) {
@@ -158,9 +167,11 @@ static bool move_centre(pl_analysis* d, pl_symmetry* turn, const pl_symmetry* sh
     }
   }
   bool one = vanishes(d, shift1) || vanishes(d, shift2);
-  int free = vanishes(d, shift1) ? 1 : 0;   // with one shift a symmetry itself, only the other one is looked for
+  // with one shift a symmetry itself, only the other one is looked for
+  int free = vanishes(d, shift1) ? 1 : 0;
   pl_expr x[2] = {pl_int(d->pool, 0), pl_int(d->pool, 0)};
-  bool solved = one && n > 0 && pl_alg_solve(d->tower, 1, &left[free][0], &right[0], &x[free], 200) == PL_YES;
+  bool solved = one && n > 0
+                && pl_alg_solve(d->tower, 1, &left[free][0], &right[0], &x[free], 200) == PL_YES;
   for (int r = 0; r < n && !one && !solved; r++) {
     for (int s = r + 1; s < n && !solved; s++) {
       pl_expr A[4] = {left[0][r], left[1][r], left[0][s], left[1][s]}, y[2] = {right[r], right[s]};
@@ -168,18 +179,21 @@ static bool move_centre(pl_analysis* d, pl_symmetry* turn, const pl_symmetry* sh
     }
   }
   if (!solved || pl_has_coordinates(d, x[0]) || pl_has_coordinates(d, x[1])) return false;
-  if (pl_has_symbol(d->pool, x[0], pl_time(d->pool)) || pl_has_symbol(d->pool, x[1], pl_time(d->pool))) return false;
+  if (pl_has_symbol(d->pool, x[0], pl_time(d->pool))
+      || pl_has_symbol(d->pool, x[1], pl_time(d->pool)))
+    return false;
   *a = x[0];
   *b = x[1];
   for (int i = 0; i < d->q.n; i++) {
-    pl_expr more = pl_add(d->pool, pl_mul(d->pool, *a, shift1->eta[i]), pl_mul(d->pool, *b, shift2->eta[i]));
+    pl_expr more = pl_add(d->pool, pl_mul(d->pool, *a, shift1->eta[i]),
+                          pl_mul(d->pool, *b, shift2->eta[i]));
     turn->eta[i] = pl_add(d->pool, turn->eta[i], more);
   }
   find_residuals(d, turn);
   return vanishes(d, turn);
 }
 
-// ---------------------------------------------------------------------------------------------- answers
+// ----------------------------------------------------------------------------------------- answers
 static pl_expr integral(pl_analysis* d, const pl_symmetry* s) {
   pl_expr sum = pl_int(d->pool, 0);
   for (int i = 0; i < d->q.n; i++) {
@@ -208,7 +222,8 @@ static bool name_is_taken(pl_analysis* d, const char* name) {
   return false;
 }
 
-static void tell(pl_analysis* d, const pl_symmetry* s, const char* name, const char* en, const char* de, int n, const pl_form* axis, const pl_form* point) {
+static void tell(pl_analysis* d, const pl_symmetry* s, const char* name, const char* en,
+                 const char* de, int n, const pl_form* axis, const pl_form* point) {
   pl_expr I = integral(d, s);
   if (is_known(d, I)) return;
   for (int k = 1; name_is_taken(d, name); k++) name = pl_format(d->arena, "I%d", k);
@@ -221,16 +236,20 @@ static void tell(pl_analysis* d, const pl_symmetry* s, const char* name, const c
   v->because[1] = "Symmetrie des ganzen Systems (Noether)";
   // dI/dt = sum of λ times the changes of the constraints, which vanish where these hold
   pl_expr rate = pl_int(d->pool, 0);
-  for (int k = 0; k < d->g.n; k++) rate = pl_add(d->pool, rate, pl_mul(d->pool, pl_sym(d->pool, d->g.at[k].lambda), s->residual[2 + k]));
+  for (int k = 0; k < d->g.n; k++)
+    rate = pl_add(d->pool, rate,
+                  pl_mul(d->pool, pl_sym(d->pool, d->g.at[k].lambda), s->residual[2 + k]));
   pl_claim_that(d, PL_CLAIM_MOTION, pl_dt(d->pool, pl_form_value(d->pool, form)), rate);
 }
 
 static void tell_shift(pl_analysis* d, const pl_symmetry* s, int axis) {
   const char* name = d->model->axes[axis].ascii;
   tell(d, s, pl_format(d->arena, "p_%s", name),
-       "conserved: nothing changes when all masses are shifted along {1}, and no force without potential works along it.",
-       "erhalten: nichts ändert sich, wenn alle Massen längs {1} verschoben werden, und keine Kraft ohne Potential arbeitet längs dieser Richtung.", 1,
-       pl_fn(d, d->model->axes[axis].name), NULL);
+       "conserved: nothing changes when all masses are shifted along {1}, and no force without "
+       "potential works along it.",
+       "erhalten: nichts ändert sich, wenn alle Massen längs {1} verschoben werden, und keine "
+       "Kraft ohne Potential arbeitet längs dieser Richtung.",
+       1, pl_fn(d, d->model->axes[axis].name), NULL);
 }
 
 static void tell_turn(pl_analysis* d, const pl_symmetry* s, int about, pl_expr a, pl_expr b) {
@@ -238,13 +257,19 @@ static void tell_turn(pl_analysis* d, const pl_symmetry* s, int about, pl_expr a
   const char* axis = about < d->model->n_axes ? d->model->axes[about].name : "z";
   bool origin = pl_is_zero_node(d->pool, a) && pl_is_zero_node(d->pool, b);
   // (x, y) -> (-(y - y0), x - x0): the shift along the first axis is y0, along the second -x0
-  const pl_form* place[2] = {pl_feq(d, pl_fn(d, d->model->axes[first].name), pl_f(d, pl_neg(d->pool, b), PL_S_PLAIN)),
-                             pl_feq(d, pl_fn(d, d->model->axes[second].name), pl_f(d, a, PL_S_PLAIN))};
-  tell(d, s, pl_format(d->arena, "L_%s", about < d->model->n_axes ? d->model->axes[about].ascii : "z"),
-       origin ? "conserved: nothing changes when the whole system is turned about the {1} axis, and no force without potential works along it."
-              : "conserved: nothing changes when the whole system is turned about the line along {1} at {2}, and no force without potential works along it.",
-       origin ? "erhalten: nichts ändert sich, wenn das ganze System um die {1}-Achse gedreht wird, und keine Kraft ohne Potential arbeitet dabei."
-              : "erhalten: nichts ändert sich, wenn das ganze System um die Gerade längs {1} bei {2} gedreht wird, und keine Kraft ohne Potential arbeitet dabei.",
+  const pl_form* place[2] = {
+      pl_feq(d, pl_fn(d, d->model->axes[first].name), pl_f(d, pl_neg(d->pool, b), PL_S_PLAIN)),
+      pl_feq(d, pl_fn(d, d->model->axes[second].name), pl_f(d, a, PL_S_PLAIN))};
+  tell(d, s,
+       pl_format(d->arena, "L_%s", about < d->model->n_axes ? d->model->axes[about].ascii : "z"),
+       origin ? "conserved: nothing changes when the whole system is turned about the {1} axis, "
+                "and no force without potential works along it."
+              : "conserved: nothing changes when the whole system is turned about the line along "
+                "{1} at {2}, and no force without potential works along it.",
+       origin ? "erhalten: nichts ändert sich, wenn das ganze System um die {1}-Achse gedreht "
+                "wird, und keine Kraft ohne Potential arbeitet dabei."
+              : "erhalten: nichts ändert sich, wenn das ganze System um die Gerade längs {1} bei "
+                "{2} gedreht wird, und keine Kraft ohne Potential arbeitet dabei.",
        origin ? 1 : 2, pl_fn(d, axis), pl_flist(d, place, 2));
 }
 
@@ -266,7 +291,8 @@ void pl_conserved_momenta(pl_analysis* d) {
     if (!displacement(d, &turn, -1 - about)) continue;
     find_residuals(d, &turn);
     bool done = vanishes(d, &turn);
-    if (!done && shifted[first] && shifted[second]) done = move_centre(d, &turn, &shift[first], &shift[second], &a, &b);
+    if (!done && shifted[first] && shifted[second])
+      done = move_centre(d, &turn, &shift[first], &shift[second], &a, &b);
     if (done) tell_turn(d, &turn, about, a, b);
   }
 }

@@ -1,21 +1,23 @@
 // places: what is said of the coordinates of a model, in its generalized coordinates.
 //
-// A start `from x = 0 and z = R at rest` names coordinates that are functions of φ: x = R cos φ, z = R sin φ.  Each equation
-// X(φ) = value is solved for one φ; of its roots those count that the other values and the branches allow, and of these the nearest to
-// the start of `init`.  Velocities follow from X' = dX/dφ φ' + ..., which is linear.
+// A start `from x = 0 and z = R at rest` names coordinates that are functions of φ: x = R cos φ, z
+// = R sin φ. Each equation X(φ) = value is solved for one φ; of its roots those count that the
+// other values and the branches allow, and of these the nearest to the start of `init`. Velocities
+// follow from X' = dX/dφ φ' + ..., which is linear.
 #include <math.h>
 #include <string.h>
 
 #include "derive/derive_impl.h"
 
 enum { max_given = 32, max_roots = 8 };
-static const double near_enough = 1e-6;   // of two numbers that ought to be equal, relative to their size
+// of two numbers that ought to be equal, relative to their size
+static const double near_enough = 1e-6;
 
 typedef struct pl_places {
   int n;
   pl_symbol name[max_given];
   pl_expr value[max_given];
-  bool at_zero;              // at t = 0
+  bool at_zero;  // at t = 0
 } pl_places;
 
 static int place_of(const pl_places* p, pl_symbol s) {
@@ -52,7 +54,8 @@ static pl_expr with_places(pl_analysis* d, const pl_places* p, pl_expr e) {
 // Coordinates of the model that are functions of generalized ones alone.
 static bool is_mapped(pl_analysis* d, int i) {
   const pl_variable* c = &d->q.at[i];
-  return c->fixed_by < 0 && !pl_is_poison(c->map) && pl_follower(d, i) < 0 && !pl_has_followers(d, c->map);
+  return c->fixed_by < 0 && !pl_is_poison(c->map) && pl_follower(d, i) < 0
+         && !pl_has_followers(d, c->map);
 }
 
 // The generalized coordinate that is left in e when the known ones are in; -1: none or several.
@@ -66,7 +69,7 @@ static int only_unknown(pl_analysis* d, pl_expr e) {
   return found;
 }
 
-// ---------------------------------------------------------------------------------------------- of several roots
+// -------------------------------------------------------------------------------- of several roots
 static pl_answer3 vanishes(pl_analysis* d, pl_expr e) {
   double x = pl_number(d, e);
   if (isnan(x)) return pl_has_coordinates(d, e) ? PL_UNKNOWN : pl_alg_is_zero(d->tower, e);
@@ -74,26 +77,32 @@ static pl_answer3 vanishes(pl_analysis* d, pl_expr e) {
 }
 
 // Does φ = value agree with everything else that is said?
-static bool agrees(pl_analysis* d, const pl_places* given, const pl_places* known, int gen, pl_expr value) {
+static bool agrees(pl_analysis* d, const pl_places* given, const pl_places* known, int gen,
+                   pl_expr value) {
   pl_places all = *known;
   put(&all, d->q.at[gen].q, value);
   for (int i = 0; i < d->q.n; i++) {
     int k = place_of(given, d->q.at[i].q);
     if (k < 0 || !is_mapped(d, i)) continue;
-    if (vanishes(d, pl_sub(d->pool, with_places(d, &all, d->q.at[i].map), given->value[k])) == PL_NO) return false;
+    if (vanishes(d, pl_sub(d->pool, with_places(d, &all, d->q.at[i].map), given->value[k]))
+        == PL_NO)
+      return false;
   }
   for (int k = 0; k < d->model->branches.n; k++) {
     const pl_condition* c = &d->model->branches.at[k];
-    double x = pl_number(d, with_places(d, &all, pl_on_maps(d, pl_sub(d->pool, c->left, c->right))));
+    double x = pl_number(d,
+                         with_places(d, &all, pl_on_maps(d, pl_sub(d->pool, c->left, c->right))));
     bool positive = c->relation == PL_GT || c->relation == PL_GE;
     if (!isnan(x) && fabs(x) > near_enough && (x > 0) != positive) return false;
   }
   return true;
 }
 
-// The nearest to the start of `init`, modulo 2π where angles are meant; without one there must not be several.
+// The nearest to the start of `init`, modulo 2π where angles are meant; without one there must not
+// be several.
 static int nearest(pl_analysis* d, int gen, const pl_expr* value, int n) {
-  double start = pl_number(d, pl_sym(d->pool, pl_symbol_start(d->pool, d->q.at[gen].q))), least = (double)INFINITY;
+  double start = pl_number(d, pl_sym(d->pool, pl_symbol_start(d->pool, d->q.at[gen].q))),
+         least = (double)INFINITY;
   int best = n == 1 ? 0 : -1;
   for (int k = 0; k < n && !isnan(start); k++) {
     double apart = fabs(pl_number(d, value[k]) - start);
@@ -104,7 +113,8 @@ static int nearest(pl_analysis* d, int gen, const pl_expr* value, int n) {
   return best;
 }
 
-static bool solve_place(pl_analysis* d, const pl_places* given, pl_places* known, int i, pl_expr wanted) {
+static bool solve_place(pl_analysis* d, const pl_places* given, pl_places* known, int i,
+                        pl_expr wanted) {
   pl_expr e = with_places(d, known, pl_sub(d->pool, d->q.at[i].map, wanted)), fits[max_roots];
   int gen = only_unknown(d, e), n = 0;
   if (gen < 0 || place_of(known, d->q.at[gen].q) >= 0) return false;
@@ -120,7 +130,7 @@ static bool solve_place(pl_analysis* d, const pl_places* given, pl_places* known
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- velocities
+// -------------------------------------------------------------------------------------- velocities
 static int only_velocity(pl_analysis* d, pl_expr e) {
   int found = -1;
   for (int k = 0; k < d->gen.n; k++) {
@@ -145,30 +155,34 @@ static bool solve_velocity(pl_analysis* d, pl_places* known, int i, pl_expr want
   pl_expr e = at_start(d, known, pl_sub(d->pool, pl_dt(d->pool, d->q.at[i].map), wanted)), c[2];
   int gen = only_velocity(d, e);
   if (gen < 0 || place_of(known, d->q.at[gen].v) >= 0) return false;
-  if (pl_alg_coefficients(d->tower, e, d->q.at[gen].v, c, 1) != 1 || vanishes(d, c[1]) == PL_YES) return false;
+  if (pl_alg_coefficients(d->tower, e, d->q.at[gen].v, c, 1) != 1 || vanishes(d, c[1]) == PL_YES)
+    return false;
   put(known, d->q.at[gen].v, pl_alg_normal(d->tower, pl_neg(d->pool, pl_div(d->pool, c[0], c[1]))));
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- the whole
+// --------------------------------------------------------------------------------------- the whole
 // From what is given to generalized coordinates, as far as it determines them.
 static void solve_places(pl_analysis* d, const pl_places* given, pl_places* known) {
   for (int k = 0; k < given->n; k++) {
     int i = pl_variable_index(d, given->name[k]);
-    if (i >= 0 && pl_is_poison(d->q.at[i].map) && d->q.at[i].fixed_by < 0) put(known, given->name[k], given->value[k]);
+    if (i >= 0 && pl_is_poison(d->q.at[i].map) && d->q.at[i].fixed_by < 0)
+      put(known, given->name[k], given->value[k]);
   }
   for (bool more = true; more;) {
     more = false;
     for (int k = 0; k < given->n; k++) {
       int i = pl_variable_index(d, given->name[k]);
-      if (i >= 0 && d->q.at[i].q.id == given->name[k].id && is_mapped(d, i)) more |= solve_place(d, given, known, i, given->value[k]);
+      if (i >= 0 && d->q.at[i].q.id == given->name[k].id && is_mapped(d, i))
+        more |= solve_place(d, given, known, i, given->value[k]);
     }
   }
   for (bool more = true; more;) {
     more = false;
     for (int k = 0; k < given->n; k++) {
       int i = pl_variable_index(d, given->name[k]);
-      if (i >= 0 && d->q.at[i].v.id == given->name[k].id && is_mapped(d, i)) more |= solve_velocity(d, known, i, given->value[k]);
+      if (i >= 0 && d->q.at[i].v.id == given->name[k].id && is_mapped(d, i))
+        more |= solve_velocity(d, known, i, given->value[k]);
     }
   }
 }
@@ -194,13 +208,17 @@ int pl_in_generalized(pl_analysis* d, const pl_condition* c, int n, pl_condition
   if (!d->reduced || !speaks_of_mapped(d, &given)) return -1;
   solve_places(d, &given, &known);
   for (int k = 0; k < known.n; k++) {
-    all[n_all++] = (pl_condition){.left = pl_sym(d->pool, known.name[k]), .right = known.value[k], .relation = PL_EQ, .span = c[0].span};
+    all[n_all++] = (pl_condition){.left = pl_sym(d->pool, known.name[k]),
+                                  .right = known.value[k],
+                                  .relation = PL_EQ,
+                                  .span = c[0].span};
   }
   *out = all;
   return n_all;
 }
 
-// The start of `init` in generalized coordinates, where it is given in others: it joins the start values of the model.
+// The start of `init` in generalized coordinates, where it is given in others: it joins the start
+// values of the model.
 void pl_start_in_generalized(pl_analysis* d) {
   pl_places given = {.at_zero = true}, known = {.at_zero = true};
   for (int k = 0; k < d->model->inits.n; k++) {
@@ -209,7 +227,8 @@ void pl_start_in_generalized(pl_analysis* d) {
     pl_symbol name;
     pl_expr value;
     if (init->guess || !place_in(d, &c, &name, &value)) continue;
-    bool number = pl_is_constant(d->pool, value) && !pl_is_zero_node(d->pool, value);   // formulas speak of x(0), not of 0.3
+    // formulas speak of x(0), not of 0.3
+    bool number = pl_is_constant(d->pool, value) && !pl_is_zero_node(d->pool, value);
     put(&given, name, number ? pl_sym(d->pool, pl_symbol_start(d->pool, name)) : value);
   }
   if (!d->reduced || !speaks_of_mapped(d, &given)) return;
@@ -221,9 +240,10 @@ void pl_start_in_generalized(pl_analysis* d) {
   for (int k = 0; k < d->model->inits.n; k++) pl_push(d->arena, m->inits, d->model->inits.at[k]);
   for (int k = 0; k < known.n; k++) {
     if (place_of(&given, known.name[k]) >= 0) continue;
-    pl_init init = {.time = pl_poison(), .target = pl_sym(d->pool, known.name[k]), .value = known.value[k]};
+    pl_init init = {
+        .time = pl_poison(), .target = pl_sym(d->pool, known.name[k]), .value = known.value[k]};
     pl_push(d->arena, m->inits, init);
   }
   d->model = m;
-  d->n_value = -1;   // numbers are found anew
+  d->n_value = -1;  // numbers are found anew
 }

@@ -1,9 +1,11 @@
 // propose: generalized coordinates for a model that chooses none.
 //
-// The constraints tell them.  A sum of squares, (x - a)^2/A + (y - b)^2/B = 1, gives its angle, a sphere two angles; where there is
-// none, a coordinate that is there already leads and the constraints are solved for the others.  Each proposal is a `choose` in a
-// copy of the model: it is tried as if the text had said it, and the first one that solves all constraints is taken.  What is derived
-// with it is a second analysis beside the one in the coordinates of the model; both share pool and solution.
+// The constraints tell them. A sum of squares, (x - a)^2/A + (y - b)^2/B = 1, gives its angle, a
+// sphere two angles; where there is none, a coordinate that is there already leads and the
+// constraints are solved for the others. Each proposal is a `choose` in a copy of the model: it is
+// tried as if the text had said it, and the first one that solves all constraints is taken. What is
+// derived with it is a second analysis beside the one in the coordinates of the model; both share
+// pool and solution.
 #include <math.h>
 #include <string.h>
 
@@ -11,7 +13,8 @@
 
 enum { most_angles = 12, most_trials = 12 };
 
-// One sum of squares: half axes and centres along its coordinates, and the angles that take their place.
+// One sum of squares: half axes and centres along its coordinates, and the angles that take their
+// place.
 typedef struct pl_round {
   int n, bond;
   int coordinate[3];
@@ -21,32 +24,37 @@ typedef struct pl_round {
 typedef struct pl_trial {
   pl_round round[most_angles];
   int n_rounds;
-  int leader, n_leaders;            // of the new angles: these lead, the others follow by a constraint; n_leaders 0: all lead
-  int chosen[most_angles];          // coordinates that are there already
+  // of the new angles: these lead, the others follow by a constraint; n_leaders 0: all lead
+  int leader, n_leaders;
+  int chosen[most_angles];  // coordinates that are there already
   int n_chosen;
 } pl_trial;
 
 // Letters that were made, and how many the present trial has taken.
-typedef struct pl_angle_names { pl_symbol at[most_angles]; int n, next; } pl_angle_names;
+typedef struct pl_angle_names {
+  pl_symbol at[most_angles];
+  int n, next;
+} pl_angle_names;
 
 struct pl_proposal {
-  pl_analysis* analysis;            // of the copy; NULL: nothing was found
-  PL_VEC(pl_definition) angles;     // the new ones, over the coordinates of the model
-  PL_VEC(pl_definition) tried;      // the same, of the present trial
+  pl_analysis* analysis;         // of the copy; NULL: nothing was found
+  PL_VEC(pl_definition) angles;  // the new ones, over the coordinates of the model
+  PL_VEC(pl_definition) tried;   // the same, of the present trial
   pl_angle_names plain, numbered, polar;
-  int n_trials, flaws;              // of the analysis that is kept
-  bool told;                        // what is proposed has been said
-  bool on_sphere, across;           // it has a sphere; whose axis lies across the force
+  int n_trials, flaws;     // of the analysis that is kept
+  bool told;               // what is proposed has been said
+  bool on_sphere, across;  // it has a sphere; whose axis lies across the force
 };
 
-// ---------------------------------------------------------------------------------------------- sums of squares
+// --------------------------------------------------------------------------------- sums of squares
 // e = square q^2 + slope q + rest, the first two without q; false if it is not of this shape.
 static bool square_in(pl_analysis* d, pl_expr e, pl_symbol q, pl_expr* c) {
   if (pl_alg_coefficients(d->tower, e, q, c, 2) != 2 || pl_has_coordinates(d, c[2])) return false;
   return true;
 }
 
-// e is a sum of squares in these coordinates; what is left of it is minus the square of the radius times a coefficient.
+// e is a sum of squares in these coordinates; what is left of it is minus the square of the radius
+// times a coefficient.
 static bool round_in(pl_analysis* d, pl_expr e, const int* coordinate, int n, pl_round* out) {
   pl_pool* p = d->pool;
   pl_expr square[3], c[3];
@@ -57,14 +65,16 @@ static bool round_in(pl_analysis* d, pl_expr e, const int* coordinate, int n, pl
       if (pl_has_symbol(p, c[1], d->q.at[coordinate[j]].q)) return false;
     }
     out->coordinate[k] = coordinate[k];
-    out->centre[k] = pl_alg_normal(d->tower, pl_neg(p, pl_div(p, c[1], pl_mul(p, pl_int(p, 2), c[2]))));
+    out->centre[k] = pl_alg_normal(d->tower,
+                                   pl_neg(p, pl_div(p, c[1], pl_mul(p, pl_int(p, 2), c[2]))));
     square[k] = c[2];
     e = pl_alg_normal(d->tower, pl_sub(p, c[0], pl_mul(p, c[2], pl_square(p, out->centre[k]))));
   }
   for (int k = 0; k < n; k++) {
     pl_expr outer, rest;
     int sign = 0;
-    pl_take_squares_out(d, pl_alg_normal(d->tower, pl_neg(p, pl_div(p, e, square[k]))), &outer, &rest);
+    pl_take_squares_out(d, pl_alg_normal(d->tower, pl_neg(p, pl_div(p, e, square[k]))), &outer,
+                        &rest);
     if (pl_has_coordinates(d, rest) || pl_is_zero_node(p, rest)) return false;
     if (pl_alg_sign(d->tower, rest, true, &sign) == PL_YES && sign < 0) return false;
     out->axis[k] = pl_alg_normal(d->tower, pl_mul(p, outer, pl_sqrt(p, rest)));
@@ -137,7 +147,8 @@ static bool round_among(pl_analysis* d, pl_expr e, const int* open, int n, pl_ro
   return found;
 }
 
-static bool round_of_factor(pl_analysis* d, pl_expr e, const bool* taken, int freedoms, pl_round* out) {
+static bool round_of_factor(pl_analysis* d, pl_expr e, const bool* taken, int freedoms,
+                            pl_round* out) {
   enum { most_open = 8 };
   int open[most_open];
   int n = free_in(d, e, taken, open, most_open);
@@ -153,13 +164,14 @@ static bool round_of(pl_analysis* d, int bond, const bool* taken, int freedoms, 
   pl_expr unit, e = pl_alg_normal(d->tower, pl_on_contact(d, d->g.at[bond].place));
   int n = pl_alg_factors(d->tower, e, f, most_factors, &unit), found = 0;
   for (int k = 0; k < n; k++) {
-    if (f[k].power > 0 && pl_has_coordinates(d, f[k].base)) found += round_of_factor(d, f[k].base, taken, freedoms, out);
+    if (f[k].power > 0 && pl_has_coordinates(d, f[k].base))
+      found += round_of_factor(d, f[k].base, taken, freedoms, out);
   }
   out->bond = bond;
   return found == 1;
 }
 
-// ---------------------------------------------------------------------------------------------- what can be tried
+// ------------------------------------------------------------------------------- what can be tried
 static bool at_work(const pl_bond* l) { return l->fixes < 0 && !l->implied; }
 
 // A body in space whose axes are coordinates keeps them.
@@ -187,7 +199,9 @@ static void collect_rounds(pl_analysis* d, int first, int n_freedoms, pl_trial* 
     for (int k = 0; k < d->g.n && !found; k++) {
       int bond = (first + k) % d->g.n;
       pl_round* r = &out->round[out->n_rounds];
-      if (used[bond] || !at_work(&d->g.at[bond]) || n_angles >= n_freedoms || out->n_rounds == most_angles) continue;
+      if (used[bond] || !at_work(&d->g.at[bond]) || n_angles >= n_freedoms
+          || out->n_rounds == most_angles)
+        continue;
       if (!round_of(d, bond, taken, n_freedoms - n_angles, r)) continue;
       found = used[bond] = true;
       for (int j = 0; j < r->n; j++) taken[r->coordinate[j]] = true;
@@ -205,7 +219,8 @@ static int preference(pl_analysis* d, int i) {
   }
   for (int k = 0; k < d->model->inits.n; k++) {
     const pl_init* init = &d->model->inits.at[k];
-    bool own = pl_same(init->target, pl_sym(d->pool, d->q.at[i].q)) || pl_same(init->target, pl_sym(d->pool, d->q.at[i].v));
+    bool own = pl_same(init->target, pl_sym(d->pool, d->q.at[i].q))
+               || pl_same(init->target, pl_sym(d->pool, d->q.at[i].v));
     if (own && !init->guess) rank |= 1;
   }
   return rank;
@@ -221,15 +236,22 @@ static int by_preference(pl_analysis* d, int* out, bool angles) {
   return n;
 }
 
-// ---------------------------------------------------------------------------------------------- names
+// ------------------------------------------------------------------------------------------- names
 // The letters of angles, in the order in which they are given; polar angles have their own.
-static const char* const letter[][2] = {{"φ", "phi"}, {"ψ", "psi"}, {"χ", "chi"}, {"α", "alpha"}, {"β", "beta"}, {"γ", "gamma"}};
-static const char* const polar[][2] = {{"ϑ", "theta"}, {"α", "alpha"}, {"β", "beta"}, {"γ", "gamma"}, {"δ", "delta"}, {"η", "eta"}};
-enum { n_letters = sizeof letter / sizeof *letter, several = 3 };   // from `several` circles on: φ1, φ2, φ3
+static const char* const letter[][2] = {{"φ", "phi"},   {"ψ", "psi"},  {"χ", "chi"},
+                                        {"α", "alpha"}, {"β", "beta"}, {"γ", "gamma"}};
+static const char* const polar[][2] = {{"ϑ", "theta"}, {"α", "alpha"}, {"β", "beta"},
+                                       {"γ", "gamma"}, {"δ", "delta"}, {"η", "eta"}};
+// from `several` circles on: φ1, φ2, φ3
+enum { n_letters = sizeof letter / sizeof *letter, several = 3 };
 
 static pl_symbol make_angle(pl_analysis* d, const char* name, const char* ascii) {
-  pl_symbol_info info = {.name = name, .ascii = ascii, .role = PL_R_COORD, .class = PL_C_COORD,
-                         .dimension = pl_dimension_one(), .dimension_known = d->model->uses_units};
+  pl_symbol_info info = {.name = name,
+                         .ascii = ascii,
+                         .role = PL_R_COORD,
+                         .class = PL_C_COORD,
+                         .dimension = pl_dimension_one(),
+                         .dimension_known = d->model->uses_units};
   return pl_symbol_make(d->pool, &info);
 }
 
@@ -240,9 +262,10 @@ static pl_symbol angle_name(pl_analysis* d, pl_proposal* p, bool is_polar, bool 
   pl_symbol made = {0};
   for (int k = kept->n; k < most_angles && numbered && !is_polar && !made.id; k++) {
     const char* ascii = pl_format(d->arena, "phi%d", k + 1);
-    if (!pl_symbol_find(d->pool, ascii).id) made = make_angle(d, pl_format(d->arena, "φ%d", k + 1), ascii);
+    if (!pl_symbol_find(d->pool, ascii).id)
+      made = make_angle(d, pl_format(d->arena, "φ%d", k + 1), ascii);
   }
-  const char* const (*list)[2] = is_polar ? polar : letter;
+  const char* const(*list)[2] = is_polar ? polar : letter;
   for (int k = 0; k < n_letters && !made.id; k++) {
     if (!pl_symbol_find(d->pool, list[k][1]).id) made = make_angle(d, list[k][0], list[k][1]);
   }
@@ -251,8 +274,10 @@ static pl_symbol angle_name(pl_analysis* d, pl_proposal* p, bool is_polar, bool 
   return made;
 }
 
-// ---------------------------------------------------------------------------------------------- the copy of the model
-static pl_expr call(pl_analysis* d, pl_function f, pl_symbol q) { return pl_call(d->pool, f, pl_sym(d->pool, q)); }
+// --------------------------------------------------------------------------- the copy of the model
+static pl_expr call(pl_analysis* d, pl_function f, pl_symbol q) {
+  return pl_call(d->pool, f, pl_sym(d->pool, q));
+}
 
 static void add_map(pl_analysis* d, pl_model* m, const pl_round* r, int k, pl_expr direction) {
   pl_expr map = pl_add(d->pool, r->centre[k], pl_mul(d->pool, r->axis[k], direction));
@@ -261,19 +286,23 @@ static void add_map(pl_analysis* d, pl_model* m, const pl_round* r, int k, pl_ex
 }
 
 static pl_expr along_axis(pl_analysis* d, const pl_round* r, int k) {
-  return pl_div(d->pool, pl_sub(d->pool, pl_sym(d->pool, d->q.at[r->coordinate[k]].q), r->centre[k]), r->axis[k]);
+  return pl_div(d->pool,
+                pl_sub(d->pool, pl_sym(d->pool, d->q.at[r->coordinate[k]].q), r->centre[k]),
+                r->axis[k]);
 }
 
 // The angle of the pair a, b of coordinates: its inverse is known where the radius is.
 static pl_expr turn(pl_analysis* d, const pl_round* r, int a, int b) {
-  bool circle = pl_alg_equal(d->tower, r->axis[a], r->axis[b]) == PL_YES && !pl_has_coordinates(d, r->axis[a]);
+  bool circle = pl_alg_equal(d->tower, r->axis[a], r->axis[b]) == PL_YES
+                && !pl_has_coordinates(d, r->axis[a]);
   pl_expr x = along_axis(d, r, a), y = along_axis(d, r, b);
   if (circle) x = pl_alg_normal(d->tower, pl_mul(d->pool, x, r->axis[a]));
   if (circle) y = pl_alg_normal(d->tower, pl_mul(d->pool, y, r->axis[b]));
   return pl_call2(d->pool, PL_ATAN2, y, x);
 }
 
-// What `init` says of s, as formulas speak of it: 0, a formula of given quantities, or the name s(0); poison if it says nothing.
+// What `init` says of s, as formulas speak of it: 0, a formula of given quantities, or the name
+// s(0); poison if it says nothing.
 static pl_expr said_of(pl_analysis* d, pl_symbol s) {
   for (int k = 0; k < d->model->inits.n; k++) {
     const pl_init* init = &d->model->inits.at[k];
@@ -297,13 +326,19 @@ static pl_expr said_at_start(pl_analysis* d, pl_expr e) {
 static void start_angle(pl_analysis* d, pl_model* m, pl_symbol q, pl_expr inverse) {
   pl_expr place = said_at_start(d, inverse), velocity = said_at_start(d, pl_dt(d->pool, inverse));
   if (pl_is_poison(place)) return;
-  pl_push(d->arena, m->inits, (pl_init){.time = pl_poison(), .target = pl_sym(d->pool, q), .value = place});
+  pl_push(d->arena, m->inits,
+          (pl_init){.time = pl_poison(), .target = pl_sym(d->pool, q), .value = place});
   if (pl_is_poison(velocity)) return;
-  pl_push(d->arena, m->inits, (pl_init){.time = pl_poison(), .target = pl_sym(d->pool, pl_symbol_dot(d->pool, q)), .value = velocity});
+  pl_push(d->arena, m->inits,
+          (pl_init){.time = pl_poison(),
+                    .target = pl_sym(d->pool, pl_symbol_dot(d->pool, q)),
+                    .value = velocity});
 }
 
-// at_start: its value over the coordinates of the model, where this tells the start; poison: it does not.
-static bool add_angle(pl_analysis* d, pl_proposal* p, pl_model* m, pl_symbol q, pl_expr inverse, pl_expr at_start) {
+// at_start: its value over the coordinates of the model, where this tells the start; poison: it
+// does not.
+static bool add_angle(pl_analysis* d, pl_proposal* p, pl_model* m, pl_symbol q, pl_expr inverse,
+                      pl_expr at_start) {
   if (!q.id) return false;
   start_angle(d, m, q, at_start);
   pl_push(d->arena, m->coords, (pl_coord){.symbol = q, .lo = pl_poison(), .hi = pl_poison()});
@@ -311,7 +346,8 @@ static bool add_angle(pl_analysis* d, pl_proposal* p, pl_model* m, pl_symbol q, 
   return true;
 }
 
-static bool add_circle(pl_analysis* d, pl_proposal* p, pl_model* m, const pl_round* r, bool numbered) {
+static bool add_circle(pl_analysis* d, pl_proposal* p, pl_model* m, const pl_round* r,
+                       bool numbered) {
   pl_symbol q = angle_name(d, p, false, numbered);
   pl_expr angle = turn(d, r, 0, 1);
   if (!add_angle(d, p, m, q, angle, angle)) return false;
@@ -320,8 +356,8 @@ static bool add_circle(pl_analysis* d, pl_proposal* p, pl_model* m, const pl_rou
   return true;
 }
 
-// The axis of the sphere is the coordinate in which there is a potential, so that the other angle is cyclic; else the last one.  Or
-// across it: the first one without.
+// The axis of the sphere is the coordinate in which there is a potential, so that the other angle
+// is cyclic; else the last one. Or across it: the first one without.
 static int axis_of(pl_analysis* d, const pl_round* r, bool across) {
   int found = 2;
   for (int k = 2; k >= 0; k--) {
@@ -331,16 +367,19 @@ static int axis_of(pl_analysis* d, const pl_round* r, bool across) {
   return found;
 }
 
-// The polar angle counts from the axis towards the azimuth, ϑ = atan2(u cos φ + v sin φ, w): where the azimuth is given by a
-// constraint, both signs occur.
-static bool add_sphere(pl_analysis* d, pl_proposal* p, pl_model* m, const pl_round* r, bool numbered, bool given) {
+// The polar angle counts from the axis towards the azimuth, ϑ = atan2(u cos φ + v sin φ, w): where
+// the azimuth is given by a constraint, both signs occur.
+static bool add_sphere(pl_analysis* d, pl_proposal* p, pl_model* m, const pl_round* r,
+                       bool numbered, bool given) {
   pl_pool* pool = d->pool;
   int axis = axis_of(d, r, p->across), a = axis == 0 ? 1 : 0, b = axis == 2 ? 1 : 2;
   pl_symbol theta = angle_name(d, p, true, false), phi = angle_name(d, p, false, numbered);
   if (!theta.id || !phi.id) return false;
   pl_expr w = along_axis(d, r, axis), azimuth = turn(d, r, a, b);
-  pl_expr u = pl_mul(pool, along_axis(d, r, a), call(d, PL_COS, phi)), v = pl_mul(pool, along_axis(d, r, b), call(d, PL_SIN, phi));
-  add_angle(d, p, m, theta, pl_call2(pool, PL_ATAN2, pl_add(pool, u, v), w), given ? pl_poison() : pl_call(pool, PL_ACOS, w));
+  pl_expr u = pl_mul(pool, along_axis(d, r, a), call(d, PL_COS, phi)),
+          v = pl_mul(pool, along_axis(d, r, b), call(d, PL_SIN, phi));
+  add_angle(d, p, m, theta, pl_call2(pool, PL_ATAN2, pl_add(pool, u, v), w),
+            given ? pl_poison() : pl_call(pool, PL_ACOS, w));
   add_angle(d, p, m, phi, azimuth, given ? pl_poison() : azimuth);
   add_map(d, m, r, a, pl_mul(pool, call(d, PL_SIN, theta), call(d, PL_COS, phi)));
   add_map(d, m, r, b, pl_mul(pool, call(d, PL_SIN, theta), call(d, PL_SIN, phi)));
@@ -370,20 +409,24 @@ static pl_model* chosen_model(pl_analysis* d, pl_proposal* p, const pl_trial* t)
   for (int k = 0; k < t->n_rounds; k++) {
     const pl_round* r = &t->round[k];
     bool numbered = n_circles >= several;
-    if (!(r->n == 3 ? add_sphere(d, p, m, r, numbered, t->n_leaders > 0) : add_circle(d, p, m, r, numbered))) return NULL;
+    if (!(r->n == 3 ? add_sphere(d, p, m, r, numbered, t->n_leaders > 0)
+                    : add_circle(d, p, m, r, numbered)))
+      return NULL;
   }
   for (int k = 0; k < p->tried.n; k++) {
     bool leads = t->n_leaders == 0 || (k >= t->leader && k < t->leader + t->n_leaders);
     if (leads) pl_push(d->arena, m->choose.coords, p->tried.at[k].symbol);
   }
-  for (int k = 0; k < t->n_chosen; k++) pl_push(d->arena, m->choose.coords, d->q.at[t->chosen[k]].q);
+  for (int k = 0; k < t->n_chosen; k++)
+    pl_push(d->arena, m->choose.coords, d->q.at[t->chosen[k]].q);
   return m;
 }
 
-// ---------------------------------------------------------------------------------------------- how good it is
+// ---------------------------------------------------------------------------------- how good it is
 static const int n_samples = 60;
 
-// The maps have a value wherever the generalized coordinates are, as the crank goes round; a rod between them only swings.
+// The maps have a value wherever the generalized coordinates are, as the crank goes round; a rod
+// between them only swings.
 static bool covers_all(pl_analysis* a) {
   double* x = PL_ARRAY(a->arena, double, pl_symbol_count(a->pool) + 1);
   pl_random r = {2718};
@@ -391,7 +434,9 @@ static bool covers_all(pl_analysis* a) {
     pl_draw_place(a, &r, x);
     for (int i = 0; i < a->q.n; i++) {
       const pl_variable* c = &a->q.at[i];
-      if (!pl_is_poison(c->map) && pl_follower(a, i) < 0 && !pl_has_followers(a, c->map) && isnan(pl_eval(a->pool, c->map, x))) return false;
+      if (!pl_is_poison(c->map) && pl_follower(a, i) < 0 && !pl_has_followers(a, c->map)
+          && isnan(pl_eval(a->pool, c->map, x)))
+        return false;
     }
   }
   for (int k = 0; k < a->loops.n; k++) {
@@ -400,7 +445,7 @@ static bool covers_all(pl_analysis* a) {
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- trying
+// ------------------------------------------------------------------------------------------ trying
 static void keep(pl_analysis* d, pl_proposal* p, pl_analysis* a, int flaws) {
   p->analysis = a;
   p->flaws = flaws;
@@ -409,15 +454,23 @@ static void keep(pl_analysis* d, pl_proposal* p, pl_analysis* a, int flaws) {
   for (int k = 0; k < p->tried.n; k++) pl_push(d->arena, p->angles, p->tried.at[k]);
 }
 
-// The equations of the copy.  True when all constraints are solved without a flaw: for every place, and in one way.  Else the best
-// trial so far is kept.
+// The equations of the copy. True when all constraints are solved without a flaw: for every place,
+// and in one way. Else the best trial so far is kept.
 static bool solves(pl_analysis* d, pl_proposal* p, const pl_trial* t, int n_freedoms) {
   if (++p->n_trials > most_trials) return false;
   pl_model* m = chosen_model(d, p, t);
   if (!m) return false;
   pl_analysis* a = PL_NEW(d->arena, pl_analysis);
-  *a = (pl_analysis){.job = d->job, .arena = d->arena, .pool = d->pool, .model = m, .options = d->options,
-                     .solution = d->solution, .told = pl_map_make(d->arena), .began_ms = d->began_ms, .proposal = p, .is_proposal = true};
+  *a = (pl_analysis){.job = d->job,
+                     .arena = d->arena,
+                     .pool = d->pool,
+                     .model = m,
+                     .options = d->options,
+                     .solution = d->solution,
+                     .told = pl_map_make(d->arena),
+                     .began_ms = d->began_ms,
+                     .proposal = p,
+                     .is_proposal = true};
   a->whole = d->whole;
   a->stage = d->stage;
   a->open = d->open;
@@ -436,14 +489,16 @@ static bool solves(pl_analysis* d, pl_proposal* p, const pl_trial* t, int n_free
   return flaws == 0;
 }
 
-// More sums of squares than freedoms: some of the angles lead, the others follow by the constraints that are left.
+// More sums of squares than freedoms: some of the angles lead, the others follow by the constraints
+// that are left.
 static bool try_followers(pl_analysis* d, pl_proposal* p, int n_freedoms) {
   pl_trial t = {.n_rounds = 0};
   collect_rounds(d, 0, most_angles, &t);
   int n_angles = 0;
   for (int k = 0; k < t.n_rounds; k++) n_angles += t.round[k].n - 1;
   t.n_leaders = n_freedoms;
-  for (t.leader = 0; n_freedoms > 0 && t.leader + n_freedoms <= n_angles && n_angles > n_freedoms; t.leader++) {
+  for (t.leader = 0; n_freedoms > 0 && t.leader + n_freedoms <= n_angles && n_angles > n_freedoms;
+       t.leader++) {
     if (solves(d, p, &t, n_freedoms)) return true;
   }
   return false;
@@ -487,7 +542,9 @@ bool pl_follows_by_constraint(const pl_analysis* a, pl_symbol q) {
 }
 
 static pl_analysis* find_proposal(pl_analysis* d, pl_proposal* p) {
-  if (d->reduced || d->model->choose.coords.n > 0 || d->g.n == 0 || pl_nonholonomic(d) || has_axes(d)) return NULL;
+  if (d->reduced || d->model->choose.coords.n > 0 || d->g.n == 0 || pl_nonholonomic(d)
+      || has_axes(d))
+    return NULL;
   int n = freedoms(d);
   if (n < 0 || d->model->frictions.n > 0) return NULL;
   bool found = try_coordinates(d, p, n, true) || try_rounds(d, p, n) || try_followers(d, p, n);
@@ -506,26 +563,30 @@ pl_analysis* pl_propose(pl_analysis* d) {
   return find_proposal(d, d->proposal);
 }
 
-// The angles of a sphere fail on its axis, which the first proposal lays along the force: where things rest, the axis lies across it.
+// The angles of a sphere fail on its axis, which the first proposal lays along the force: where
+// things rest, the axis lies across it.
 pl_analysis* pl_propose_for_rest(pl_analysis* d) {
   pl_analysis* a = pl_propose(d);
   if (!a || !d->proposal || !d->proposal->on_sphere) return a;
-  if (d->proposal_for_rest) return d->proposal_for_rest->analysis ? d->proposal_for_rest->analysis : a;
+  if (d->proposal_for_rest)
+    return d->proposal_for_rest->analysis ? d->proposal_for_rest->analysis : a;
   d->proposal_for_rest = PL_NEW(d->arena, pl_proposal);
   d->proposal_for_rest->across = true;
   pl_analysis* b = find_proposal(d, d->proposal_for_rest);
   return b ? b : a;
 }
 
-// ---------------------------------------------------------------------------------------------- what is said
-// "x = l cos φ, y = l sin φ": the maps of all that the new angles give, or of what is solved for a leading coordinate.
+// ------------------------------------------------------------------------------------ what is said
+// "x = l cos φ, y = l sin φ": the maps of all that the new angles give, or of what is solved for a
+// leading coordinate.
 static const pl_form* maps_form(pl_analysis* a, int* n) {
   const pl_form** f = PL_ARRAY(a->arena, const pl_form*, a->q.n + 1);
   *n = 0;
   for (int i = 0; i < a->q.n; i++) {
     const pl_variable* c = &a->q.at[i];
     bool angle = c->solved_by == -1 && a->proposal->angles.n > 0;
-    if (!pl_is_poison(c->map) && angle) f[(*n)++] = pl_feq(a, pl_fs(a, c->q), pl_f(a, c->map, PL_S_SOLUTION));
+    if (!pl_is_poison(c->map) && angle)
+      f[(*n)++] = pl_feq(a, pl_fs(a, c->q), pl_f(a, c->map, PL_S_SOLUTION));
   }
   return pl_flist(a, f, *n);
 }
@@ -542,17 +603,23 @@ void pl_tell_proposal(pl_analysis* a) {
   const pl_form* maps = maps_form(a, &n);
   bool one = choose->coords.n == 1;
   if (n > 0) {
-    pl_say(a, one ? "{1} is proposed as generalized coordinate: {2}." : "{1} are proposed as generalized coordinates: {2}.",
+    pl_say(a,
+           one ? "{1} is proposed as generalized coordinate: {2}."
+               : "{1} are proposed as generalized coordinates: {2}.",
            one ? "{1} wird als verallgemeinerte Koordinate vorgeschlagen: {2}."
-               : "{1} werden als verallgemeinerte Koordinaten vorgeschlagen: {2}.", 2, names, maps);
+               : "{1} werden als verallgemeinerte Koordinaten vorgeschlagen: {2}.",
+           2, names, maps);
   } else {
-    pl_say(a, one ? "{1} is proposed as generalized coordinate." : "{1} are proposed as generalized coordinates.",
-           one ? "{1} wird als verallgemeinerte Koordinate vorgeschlagen." : "{1} werden als verallgemeinerte Koordinaten vorgeschlagen.",
+    pl_say(a,
+           one ? "{1} is proposed as generalized coordinate."
+               : "{1} are proposed as generalized coordinates.",
+           one ? "{1} wird als verallgemeinerte Koordinate vorgeschlagen."
+               : "{1} werden als verallgemeinerte Koordinaten vorgeschlagen.",
            1, names);
   }
 }
 
-// ---------------------------------------------------------------------------------------------- values
+// ------------------------------------------------------------------------------------------ values
 static bool speaks_of(pl_analysis* a, const pl_value* v, pl_symbol s) {
   bool has = !pl_is_poison(v->expr) && pl_has_symbol(a->pool, v->expr, s);
   has |= !pl_is_poison(v->got) && pl_has_symbol(a->pool, v->got, s);

@@ -1,7 +1,8 @@
 // redundant: the forces of constraints that depend on each other.  With gradients
 //   ∇g_k = sum_a c_ka ∇g_a      (k implied, a independent)
-// only the total sum of λ ∇g follows from the motion:  λ_a = λ_a0 - sum_k c_ka λ_k with every λ_k free.  Determined are the
-// combinations λ_a + sum_k c_ka λ_k; among all values the smallest sum of squares is offered: (1 + C C^T) λ_k = C λ_0.
+// only the total sum of λ ∇g follows from the motion: λ_a = λ_a0 - sum_k c_ka λ_k with every λ_k
+// free. Determined are the combinations λ_a + sum_k c_ka λ_k; among all values the smallest sum of
+// squares is offered: (1 + C C^T) λ_k = C λ_0.
 #include "derive/derive_impl.h"
 
 enum { max_free = 12 };
@@ -45,9 +46,11 @@ void pl_share_forces(pl_analysis* d) {
 
 void pl_inherit_dependences(pl_analysis* a, const pl_analysis* from) {
   for (int r = 0; r < from->dependences.n; r++) {
-    pl_dependence p = {.implied = from->dependences.at[r].implied, .c = PL_ARRAY(a->arena, pl_expr, a->g.n),
+    pl_dependence p = {.implied = from->dependences.at[r].implied,
+                       .c = PL_ARRAY(a->arena, pl_expr, a->g.n),
                        .there = from->dependences.at[r].there};
-    for (int k = 0; k < a->g.n; k++) p.c[k] = pl_alg_normal(a->tower, pl_on_maps(a, from->dependences.at[r].c[k]));
+    for (int k = 0; k < a->g.n; k++)
+      p.c[k] = pl_alg_normal(a->tower, pl_on_maps(a, from->dependences.at[r].c[k]));
     pl_push(a->arena, a->dependences, p);
   }
   pl_share_forces(a);
@@ -56,7 +59,9 @@ void pl_inherit_dependences(pl_analysis* a, const pl_analysis* from) {
 // A multiplier of e is one that nothing determines.
 bool pl_not_determined(pl_analysis* d, pl_expr e) {
   for (int r = 0; r < d->dependences.n; r++) {
-    if (d->g.at[d->dependences.at[r].implied].shared && pl_has_symbol(d->pool, e, d->g.at[d->dependences.at[r].implied].lambda)) return true;
+    if (d->g.at[d->dependences.at[r].implied].shared
+        && pl_has_symbol(d->pool, e, d->g.at[d->dependences.at[r].implied].lambda))
+      return true;
   }
   return false;
 }
@@ -92,12 +97,14 @@ static pl_expr combination(pl_analysis* d, int a) {
   pl_expr sum = pl_sym(d->pool, d->g.at[a].lambda);
   for (int r = 0; r < d->dependences.n; r++) {
     const pl_dependence* p = &d->dependences.at[r];
-    sum = pl_add(d->pool, sum, pl_mul(d->pool, p->c[a], pl_sym(d->pool, d->g.at[p->implied].lambda)));
+    sum = pl_add(d->pool, sum,
+                 pl_mul(d->pool, p->c[a], pl_sym(d->pool, d->g.at[p->implied].lambda)));
   }
   return sum;
 }
 
-// A sum that follows from the gradients at every place can be certified at any; else the motion is its witness alone.
+// A sum that follows from the gradients at every place can be certified at any; else the motion is
+// its witness alone.
 static bool holds_everywhere(const pl_analysis* d) {
   for (int r = 0; r < d->dependences.n; r++) {
     if (d->dependences.at[r].there) return false;
@@ -118,7 +125,8 @@ static void show_combinations(pl_analysis* d, const bool* in) {
   }
 }
 
-// The free multipliers of the group with the smallest sum of squares; false when they are too many or not solvable.
+// The free multipliers of the group with the smallest sum of squares; false when they are too many
+// or not solvable.
 static bool smallest(pl_analysis* d, const bool* in, pl_replace* out, int* n_out) {
   int n = 0, implied[max_free];
   const pl_dependence* p[max_free];
@@ -140,7 +148,8 @@ static bool smallest(pl_analysis* d, const bool* in, pl_replace* out, int* n_out
     }
     for (int j = 0; j < n; j++) {
       A[i * n + j] = pl_int(d->pool, i == j);
-      for (int a = 0; a < d->g.n; a++) A[i * n + j] = pl_add(d->pool, A[i * n + j], pl_mul(d->pool, p[i]->c[a], p[j]->c[a]));
+      for (int a = 0; a < d->g.n; a++)
+        A[i * n + j] = pl_add(d->pool, A[i * n + j], pl_mul(d->pool, p[i]->c[a], p[j]->c[a]));
     }
   }
   if (pl_alg_solve(d->tower, n, A, b, x, 20000) != PL_YES) return false;
@@ -153,11 +162,13 @@ static void show_smallest(pl_analysis* d, const bool* in) {
   pl_replace r[max_free];
   int n = 0;
   for (int k = 0; k < d->g.n; k++) {
-    if (in[k] && d->g.at[k].contact) return;      // contacts push: the choice might let one of them pull
+    // contacts push: the choice might let one of them pull
+    if (in[k] && d->g.at[k].contact) return;
   }
   if (!smallest(d, in, r, &n)) return;
-  pl_say(d, "A choice is needed for more; the one with the smallest sum of squares (minimum norm) is:",
-         "Für mehr ist eine Wahl nötig; die mit der kleinsten Quadratsumme (minimale Norm) ist:", 0);
+  pl_say(
+      d, "A choice is needed for more; the one with the smallest sum of squares (minimum norm) is:",
+      "Für mehr ist eine Wahl nötig; die mit der kleinsten Quadratsumme (minimale Norm) ist:", 0);
   for (int a = 0; a < d->g.n; a++) {
     if (!in[a] || !d->g.at[a].lambda_known) continue;
     pl_expr value = pl_alg_normal(d->tower, pl_subst(d->pool, d->g.at[a].lambda_value, r, n));
@@ -184,8 +195,15 @@ bool pl_say_shared(pl_analysis* d, int link) {
     name[n++] = pl_fn(d, d->g.at[k].source->name.text);
     n_free += dependence_of(d, k) != NULL;
   }
-  pl_say(d, pl_format(d->arena, "The constraints {1} depend on each other (rank %d of %d): {2} is not determined, only the sums", n - n_free, n),
-         pl_format(d->arena, "Die Zwangsbedingungen {1} hängen voneinander ab (Rang %d von %d): {2} ist nicht bestimmt, nur die Summen", n - n_free, n),
+  pl_say(d,
+         pl_format(d->arena,
+                   "The constraints {1} depend on each other (rank %d of %d): {2} is not "
+                   "determined, only the sums",
+                   n - n_free, n),
+         pl_format(d->arena,
+                   "Die Zwangsbedingungen {1} hängen voneinander ab (Rang %d von %d): {2} ist "
+                   "nicht bestimmt, nur die Summen",
+                   n - n_free, n),
          2, pl_flist(d, name, n), pl_fs(d, d->g.at[link].lambda));
   show_combinations(d, in);
   show_smallest(d, in);

@@ -1,6 +1,7 @@
-// rests: positions of rest of the generalized coordinates, f_i(q) = 0 with f the equations of the second kind at rest.
-// Equation after equation is solved for the one coordinate that is left in it; where no closed form exists, the known places (0, π/2, π)
-// are tried, and with numbers for what is given all zeros of an equation in one coordinate are found by ball arithmetic.
+// rests: positions of rest of the generalized coordinates, f_i(q) = 0 with f the equations of the
+// second kind at rest. Equation after equation is solved for the one coordinate that is left in it;
+// where no closed form exists, the known places (0, π/2, π) are tried, and with numbers for what is
+// given all zeros of an equation in one coordinate are found by ball arithmetic.
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,12 +23,15 @@ static int only_unknown(const pl_analysis* d, pl_expr e, const pl_rest* r) {
   return found;
 }
 
-// ---------------------------------------------------------------------------------------------- linear equations
-// Of linear equations A q = b (rows x n) the independent rows and columns; the other coordinates stay free, a line or plane of
-// positions.  False when the rows that are left over contradict, or a coefficient is not decided.
-static bool solve_square(pl_analysis* d, int rows, int n, const pl_expr* A, const pl_expr* b, const int* unknown, pl_rest* r) {
+// -------------------------------------------------------------------------------- linear equations
+// Of linear equations A q = b (rows x n) the independent rows and columns; the other coordinates
+// stay free, a line or plane of positions. False when the rows that are left over contradict, or a
+// coefficient is not decided.
+static bool solve_square(pl_analysis* d, int rows, int n, const pl_expr* A, const pl_expr* b,
+                         const int* unknown, pl_rest* r) {
   int row[pl_max_gen], column[pl_max_gen];
-  pl_expr transposed[pl_max_gen * pl_max_gen], S[pl_max_gen * pl_max_gen], c[pl_max_gen], x[pl_max_gen];
+  pl_expr transposed[pl_max_gen * pl_max_gen], S[pl_max_gen * pl_max_gen], c[pl_max_gen],
+      x[pl_max_gen];
   int rank = pl_alg_rank(d->tower, rows, n, A, row);
   for (int k = 0; k < rank; k++) {
     for (int j = 0; j < n; j++) transposed[j * rank + k] = A[row[k] * n + j];
@@ -77,7 +81,7 @@ static bool solve_linear(pl_analysis* d, const pl_expr* f, pl_rest* r) {
   return n > 0 && solve_square(d, rows, n, A, b, unknown, r);
 }
 
-// ---------------------------------------------------------------------------------------------- branches
+// ---------------------------------------------------------------------------------------- branches
 static void search(pl_analysis* d, const pl_expr* f, pl_rest r, pl_rests* out);
 
 // MIN(a, b) >= 0 is a >= 0 and b >= 0.  False where it can never hold.
@@ -133,7 +137,8 @@ bool pl_repeats(pl_analysis* d, pl_expr e, pl_symbol x) {
 }
 
 static bool has_wave(pl_pool* p, pl_expr e, pl_symbol x) {
-  bool wave = pl_kind_of(p, e) == PL_CALL && (pl_function_of(p, e) == PL_SIN || pl_function_of(p, e) == PL_COS);
+  bool wave = pl_kind_of(p, e) == PL_CALL
+              && (pl_function_of(p, e) == PL_SIN || pl_function_of(p, e) == PL_COS);
   if (wave && pl_has_symbol(p, e, x)) return true;
   for (int k = 0; k < pl_n_args(p, e); k++) {
     if (has_wave(p, pl_arg(p, e, k), x)) return true;
@@ -160,7 +165,8 @@ bool pl_rests_recur(pl_analysis* d, const pl_expr* f, int place) {
   return wave && !pl_places_repeat(d, name_of(d, place));
 }
 
-// A solver gives one period.  Where the system as a whole does not repeat, the places in other periods are others.
+// A solver gives one period. Where the system as a whole does not repeat, the places in other
+// periods are others.
 static bool stops_at_one_turn(pl_analysis* d, const pl_expr* f, pl_expr e, int j) {
   if (!has_wave(d->pool, e, name_of(d, j))) return false;
   for (int k = 0; k < d->gen.n; k++) {
@@ -169,8 +175,10 @@ static bool stops_at_one_turn(pl_analysis* d, const pl_expr* f, pl_expr e, int j
   return false;
 }
 
-// One coordinate of a branch solved from e, and the search goes on from each root.  What has no closed form stays open.
-static void branch(pl_analysis* d, const pl_expr* f, const pl_rest* r, pl_expr e, int j, int row, pl_rests* out) {
+// One coordinate of a branch solved from e, and the search goes on from each root. What has no
+// closed form stays open.
+static void branch(pl_analysis* d, const pl_expr* f, const pl_rest* r, pl_expr e, int j, int row,
+                   pl_rests* out) {
   enum { most = 12 };
   pl_root root[most + 4];
   bool complete = false;
@@ -203,8 +211,10 @@ static void branch(pl_analysis* d, const pl_expr* f, const pl_rest* r, pl_expr e
   search(d, f, next, out);
 }
 
-// An equation in several coordinates that falls into factors: each factor in a single one is a branch.
-static bool branch_factors(pl_analysis* d, const pl_expr* f, const pl_rest* r, pl_expr e, pl_rests* out) {
+// An equation in several coordinates that falls into factors: each factor in a single one is a
+// branch.
+static bool branch_factors(pl_analysis* d, const pl_expr* f, const pl_rest* r, pl_expr e,
+                           pl_rests* out) {
   pl_factor factor[12];
   pl_expr unit;
   int n = pl_alg_factors(d->tower, e, factor, 12, &unit), single = 0;
@@ -221,7 +231,8 @@ static bool branch_factors(pl_analysis* d, const pl_expr* f, const pl_rest* r, p
   return true;
 }
 
-// No equation stands alone: the known places of each coordinate are tried, and what follows from them.
+// No equation stands alone: the known places of each coordinate are tried, and what follows from
+// them.
 static void try_places(pl_analysis* d, const pl_expr* f, const pl_rest* r, pl_rests* out) {
   out->complete = false;
   for (int k = 0; k < d->gen.n; k++) {
@@ -236,13 +247,16 @@ static void try_places(pl_analysis* d, const pl_expr* f, const pl_rest* r, pl_re
   }
 }
 
-// Where the mass matrix is singular the coordinates fail (r = 0 of polar ones): no position of rest.
+// Where the mass matrix is singular the coordinates fail (r = 0 of polar ones): no position of
+// rest.
 static bool regular(pl_analysis* d, const pl_rest* r) {
   pl_expr M[pl_max_gen * pl_max_gen];
   int n = d->gen.n;
   for (int i = 0; i < n; i++) {
     pl_expr momentum = pl_diff(d->pool, d->Lg, d->q.at[d->gen.at[i]].v);
-    for (int j = 0; j < n; j++) M[i * n + j] = pl_insert_rest(d, pl_at_rest(d, pl_diff(d->pool, momentum, d->q.at[d->gen.at[j]].v)), r);
+    for (int j = 0; j < n; j++)
+      M[i * n + j] = pl_insert_rest(
+          d, pl_at_rest(d, pl_diff(d->pool, momentum, d->q.at[d->gen.at[j]].v)), r);
   }
   pl_replace at[pl_max_gen];
   int n_at = 0;
@@ -252,17 +266,20 @@ static bool regular(pl_analysis* d, const pl_rest* r) {
   return !pl_map_fails_at(d, at, n_at) && !pl_vanishes(d, pl_alg_det(d->tower, n, M, 20000));
 }
 
-// ---------------------------------------------------------------------------------------------- where the formulas hold
+// ------------------------------------------------------------------------- where the formulas hold
 // A sign that was taken from the start, |x - a| = x - a, holds on one side only.
 static bool is_of_place(pl_analysis* d, const pl_fact* f) {
-  return pl_has_role(d->pool, f->difference, PL_R_COORD) && !pl_has_role(d->pool, f->difference, PL_R_VELOCITY) &&
-         !pl_has_role(d->pool, f->difference, PL_R_ACCELERATION);
+  return pl_has_role(d->pool, f->difference, PL_R_COORD)
+         && !pl_has_role(d->pool, f->difference, PL_R_VELOCITY)
+         && !pl_has_role(d->pool, f->difference, PL_R_ACCELERATION);
 }
 
 static bool is_contact(const pl_analysis* d, const pl_fact* f) {
   for (int k = 0; k < d->whole->constraints.n; k++) {
     const pl_constraint* c = &d->whole->constraints.at[k];
-    if (c->relation != PL_EQ && (pl_same(f->difference, c->g) || pl_same(f->difference, pl_neg(d->pool, c->g)))) return true;
+    if (c->relation != PL_EQ
+        && (pl_same(f->difference, c->g) || pl_same(f->difference, pl_neg(d->pool, c->g))))
+      return true;
   }
   return false;
 }
@@ -284,7 +301,8 @@ static bool has_other_side(pl_analysis* d, pl_expr e) {
     for (int i = 1; i < n; i++) {
       pl_symbol s = {(uint32_t)i};
       bool given = pl_symbol_get(d->pool, s)->role == PL_R_PARAM;
-      double number = given ? pl_number(d, pl_sym(d->pool, s)) : (double)NAN, unit = pl_random_unit(&r);
+      double number = given ? pl_number(d, pl_sym(d->pool, s)) : (double)NAN,
+             unit = pl_random_unit(&r);
       value[i] = !isnan(number) ? number : given ? 0.3 + 2.7 * unit : 6.4 * unit - 3.2;
     }
     if (pl_eval(d->pool, e, value) < 0) return true;
@@ -296,7 +314,8 @@ static bool negative_there(pl_analysis* d, pl_expr e, const pl_rest* r) {
   static const double rounding = 1e-9;
   e = pl_alg_normal(d->tower, pl_insert_rest(d, e, r));
   int sign = 0;
-  return (pl_alg_sign_proven(d->tower, e, false, &sign) == PL_YES && sign < 0) || pl_number(d, e) < -rounding;
+  return (pl_alg_sign_proven(d->tower, e, false, &sign) == PL_YES && sign < 0)
+         || pl_number(d, e) < -rounding;
 }
 
 // On the side that the formulas were derived for.  out->side: the sides that were taken.
@@ -305,12 +324,14 @@ static bool on_the_side(pl_analysis* d, const pl_rest* r, pl_rests* out) {
   const pl_fact* used = pl_tower_used(d->tower, &n);
   bool inside = true;
   for (int k = 0; k < n; k++) {
-    if (!is_of_place(d, &used[k]) || is_contact(d, &used[k]) || is_given_fact(d, &used[k])) continue;
+    if (!is_of_place(d, &used[k]) || is_contact(d, &used[k]) || is_given_fact(d, &used[k]))
+      continue;
     bool told = false;
     for (int j = 0; j < out->n_sides; j++) told |= pl_same(out->side[j], used[k].difference);
     pl_expr e = pl_on_maps(d, used[k].difference);
     inside &= !negative_there(d, e, r);
-    if (!told && out->n_sides < pl_max_conditions && has_other_side(d, e)) out->side[out->n_sides++] = used[k].difference;
+    if (!told && out->n_sides < pl_max_conditions && has_other_side(d, e))
+      out->side[out->n_sides++] = used[k].difference;
   }
   return inside;
 }
@@ -322,7 +343,9 @@ static bool maps_are_real(pl_analysis* d, pl_expr e, pl_rest* r, pl_rests* out) 
     pl_expr inside = pl_arg(d->pool, e, 0);
     int sign = 0;
     out->map_ends |= pl_alg_sign_proven(d->tower, inside, false, &sign) != PL_YES;
-    if (negative_there(d, inside, r) || !add_condition(d, r, pl_alg_normal(d->tower, pl_insert_rest(d, inside, r)))) return false;
+    if (negative_there(d, inside, r)
+        || !add_condition(d, r, pl_alg_normal(d->tower, pl_insert_rest(d, inside, r))))
+      return false;
   }
   for (int k = 0; k < pl_n_args(d->pool, e); k++) {
     if (!maps_are_real(d, pl_arg(d->pool, e, k), r, out)) return false;
@@ -344,7 +367,8 @@ static bool same_in_the_model(pl_analysis* d, const pl_rest* a, const pl_rest* b
     const pl_variable* c = &d->q.at[i];
     if (c->follows || !c->carries || c->fixed_by >= 0) continue;
     pl_expr place = pl_is_poison(c->map) ? pl_sym(d->pool, c->q) : c->map;
-    if (pl_alg_equal(d->tower, pl_insert_rest(d, place, a), pl_insert_rest(d, place, b)) != PL_YES) return false;
+    if (pl_alg_equal(d->tower, pl_insert_rest(d, place, a), pl_insert_rest(d, place, b)) != PL_YES)
+      return false;
   }
   return true;
 }
@@ -378,7 +402,8 @@ static void keep(pl_analysis* d, pl_rest* r, pl_rests* out) {
   }
 }
 
-// Solves equation after equation, each for the one coordinate that is left in it; branches multiply.
+// Solves equation after equation, each for the one coordinate that is left in it; branches
+// multiply.
 static void search(pl_analysis* d, const pl_expr* f, pl_rest r, pl_rests* out) {
   bool done = true;
   pl_expr several = pl_poison();
@@ -388,7 +413,7 @@ static void search(pl_analysis* d, const pl_expr* f, pl_rest r, pl_rests* out) {
     pl_answer3 zero = pl_alg_is_zero(d->tower, e);
     if (zero == PL_YES) continue;
     int j = only_unknown(d, e, &r);
-    if (j == -1) {   // contradiction on this branch, unless the given numbers make it hold
+    if (j == -1) {  // contradiction on this branch, unless the given numbers make it hold
       pl_find_special(d, e);
       if (zero != PL_NO || r.open) out->complete = false;
       return;
@@ -403,7 +428,7 @@ static void search(pl_analysis* d, const pl_expr* f, pl_rest r, pl_rests* out) {
   }
   pl_rest linear = r;
   if (!done && solve_linear(d, f, &linear)) {
-    if (!at_rest_everywhere(d, f, &linear)) return;   // contradiction on this branch
+    if (!at_rest_everywhere(d, f, &linear)) return;  // contradiction on this branch
     r = linear;
   } else if (!done) {
     if (pl_is_poison(several) || !branch_factors(d, f, &r, several, out)) try_places(d, f, &r, out);
@@ -412,10 +437,11 @@ static void search(pl_analysis* d, const pl_expr* f, pl_rest r, pl_rests* out) {
   keep(d, &r, out);
 }
 
-// ---------------------------------------------------------------------------------------------- in numbers
+// -------------------------------------------------------------------------------------- in numbers
 static long gcd_of(long a, long b) { return b == 0 ? labs(a) : gcd_of(b, a % b); }
 
-// e depends on x through sines and cosines of rational multiples only: *num/den becomes the largest common measure of these.
+// e depends on x through sines and cosines of rational multiples only: *num/den becomes the largest
+// common measure of these.
 static bool is_periodic(pl_analysis* d, pl_expr e, pl_symbol x, long* num, long* den) {
   pl_pool* p = d->pool;
   if (!pl_has_symbol(p, e, x)) return true;
@@ -423,7 +449,8 @@ static bool is_periodic(pl_analysis* d, pl_expr e, pl_symbol x, long* num, long*
   if (kind == PL_SYMBOL || kind == PL_IF || kind == PL_SUM) return false;
   if (kind == PL_CALL && (pl_function_of(p, e) == PL_SIN || pl_function_of(p, e) == PL_COS)) {
     long a = 0, b = 1;
-    if (!pl_is_ratio(p, pl_diff(p, pl_arg(p, e, 0), x), &a, &b) || labs(a) > 10000 || b > 10000) return false;
+    if (!pl_is_ratio(p, pl_diff(p, pl_arg(p, e, 0), x), &a, &b) || labs(a) > 10000 || b > 10000)
+      return false;
     *num = gcd_of(*num * b, a * *den);
     *den = *den * b;
     long common = gcd_of(*num, *den);
@@ -437,17 +464,26 @@ static bool is_periodic(pl_analysis* d, pl_expr e, pl_symbol x, long* num, long*
   return true;
 }
 
-typedef struct pl_number_search { pl_zero zero[pl_max_found]; int n; bool complete; double range; } pl_number_search;
+typedef struct pl_number_search {
+  pl_zero zero[pl_max_found];
+  int n;
+  bool complete;
+  double range;
+} pl_number_search;
 
-// All zeros of one period, where the system repeats with it, or with |x| up to a range as large as the boxes allow.
-static void search_numbers(pl_analysis* d, pl_expr e, pl_symbol x, bool turns, pl_number_search* out) {
+// All zeros of one period, where the system repeats with it, or with |x| up to a range as large as
+// the boxes allow.
+static void search_numbers(pl_analysis* d, pl_expr e, pl_symbol x, bool turns,
+                           pl_number_search* out) {
   static const double range[] = {1e9, 1e6, 1e4, 1e3, 100, 10};
-  static const double shift = 0.0613;   // the ends are no place where somebody would look for a zero
+  // the ends are no place where somebody would look for a zero
+  static const double shift = 0.0613;
   long num = 0, den = 1;
   if (!turns && is_periodic(d, e, x, &num, &den) && num > 0) {
     double period = 2 * M_PI * (double)den / (double)num;
     double from = -period / 2 + shift * period;
-    out->n = pl_alg_zeros(d->tower, e, x, from, from + period, out->zero, pl_max_found, &out->complete);
+    out->n = pl_alg_zeros(d->tower, e, x, from, from + period, out->zero, pl_max_found,
+                          &out->complete);
     out->range = 0;
     for (int k = 0; k < out->n; k++) {
       if (out->zero[k].value > period / 2) out->zero[k].value -= period;
@@ -456,7 +492,8 @@ static void search_numbers(pl_analysis* d, pl_expr e, pl_symbol x, bool turns, p
   }
   for (int k = 0; k < (int)(sizeof range / sizeof *range); k++) {
     out->range = range[k];
-    out->n = pl_alg_zeros(d->tower, e, x, -range[k] * (1 + shift), range[k] * (1 + 2 * shift), out->zero, pl_max_found, &out->complete);
+    out->n = pl_alg_zeros(d->tower, e, x, -range[k] * (1 + shift), range[k] * (1 + 2 * shift),
+                          out->zero, pl_max_found, &out->complete);
     if (out->complete) return;
   }
 }
@@ -506,15 +543,17 @@ static void open_branch(pl_analysis* d, const pl_expr* f, const pl_rest* r, pl_r
       next.exact[j] = !pl_has_symbol(d->pool, next.q[j], x);
       next.q[j] = pl_subst1(d->pool, next.q[j], x, value);
     }
-    for (int c = 0; c < next.n_conditions; c++) next.condition[c] = pl_subst1(d->pool, next.condition[c], x, value);
+    for (int c = 0; c < next.n_conditions; c++)
+      next.condition[c] = pl_subst1(d->pool, next.condition[c], x, value);
     if (!formulas_hold(d, &next, out) || !pl_rest_exists_at_numbers(d, &next)) continue;
     if (out->n < pl_max_found) out->at[out->n++] = next;
     else out->complete = false;
   }
 }
 
-// ---------------------------------------------------------------------------------------------- the service
-// A quantity that is given through others, ω = √(2 g k), is a special case: positions of rest are sought with it inserted.
+// ------------------------------------------------------------------------------------- the service
+// A quantity that is given through others, ω = √(2 g k), is a special case: positions of rest are
+// sought with it inserted.
 static pl_expr with_relations(pl_analysis* d, pl_expr e) {
   for (int k = 0; k < d->model->params.n; k++) {
     const pl_param* given = &d->model->params.at[k];
@@ -525,7 +564,8 @@ static pl_expr with_relations(pl_analysis* d, pl_expr e) {
 }
 
 void pl_at_rest_equations(pl_analysis* d, pl_expr* f) {
-  for (int k = 0; k < d->gen.n; k++) f[k] = with_relations(d, pl_at_rest(d, pl_second_kind(d, d->gen.at[k])));
+  for (int k = 0; k < d->gen.n; k++)
+    f[k] = with_relations(d, pl_at_rest(d, pl_second_kind(d, d->gen.at[k])));
 }
 
 // Positions that divide by zero for the given numbers: these are a special case.
@@ -551,12 +591,12 @@ pl_rests* pl_find_rests(pl_analysis* d, pl_expr* f) {
   } while (d->special.n > before);
   if (d->special.n > first) pl_say_special(d);
   for (int k = 0; k < found->n_open; k++) open_branch(d, f, &found->open[k], found);
-  formulas_hold(d, &(pl_rest){0}, found);   // sides and ends, when nothing was found
+  formulas_hold(d, &(pl_rest){0}, found);  // sides and ends, when nothing was found
   found->complete &= found->n_sides == 0 && !found->map_ends;
   return found;
 }
 
-// ---------------------------------------------------------------------------------------------- without a drive
+// --------------------------------------------------------------------------------- without a drive
 static bool has_time(pl_analysis* d, const pl_expr* e, int n) {
   for (int k = 0; k < n; k++) {
     if (pl_has_symbol(d->pool, e[k], pl_time(d->pool))) return true;
@@ -585,7 +625,8 @@ static bool split_drive(pl_analysis* d, pl_expr* f, pl_expr* drive) {
   return !has_time(d, f, d->gen.n);
 }
 
-// The name stands beside t in a function: cos(Ω t + α).  Zero for it stops the clock and not the drive.
+// The name stands beside t in a function: cos(Ω t + α). Zero for it stops the clock and not the
+// drive.
 static bool in_phase(pl_pool* p, pl_expr e, pl_symbol name) {
   bool with_time = pl_kind_of(p, e) == PL_CALL && pl_has_symbol(p, e, pl_time(p));
   if (with_time && pl_has_symbol(p, e, name)) return true;
@@ -619,23 +660,27 @@ bool pl_without_drive(pl_analysis* d, pl_expr* f) {
     const pl_form* term[pl_max_gen];
     int n = 0;
     for (int k = 0; k < d->gen.n; k++) {
-      if (!pl_is_zero_node(d->pool, drive[k])) term[n++] = pl_f(d, pl_neg(d->pool, drive[k]), PL_S_PLAIN);
+      if (!pl_is_zero_node(d->pool, drive[k]))
+        term[n++] = pl_f(d, pl_neg(d->pool, drive[k]), PL_S_PLAIN);
     }
-    pl_say(d, "Without the drive: {1} is set to 0.", "Ohne den Antrieb: {1} wird 0 gesetzt.", 1, pl_flist(d, term, n));
+    pl_say(d, "Without the drive: {1} is set to 0.", "Ohne den Antrieb: {1} wird 0 gesetzt.", 1,
+           pl_flist(d, term, n));
     return true;
   }
   for (int i = 0; i < d->model->params.n; i++) {
     pl_symbol name = d->model->params.at[i].symbol;
     if (!is_amplitude(d, f, name)) continue;
     pl_push(d->arena, d->steady, (pl_replace){name, pl_int(d->pool, 0)});
-    for (int k = 0; k < d->gen.n; k++) f[k] = pl_alg_normal(d->tower, pl_subst1(d->pool, f[k], name, pl_int(d->pool, 0)));
-    pl_say(d, "Without the drive: {1}.", "Ohne den Antrieb: {1}.", 1, pl_feq(d, pl_fs(d, name), pl_form_leaf(d->arena, pl_int(d->pool, 0))));
+    for (int k = 0; k < d->gen.n; k++)
+      f[k] = pl_alg_normal(d->tower, pl_subst1(d->pool, f[k], name, pl_int(d->pool, 0)));
+    pl_say(d, "Without the drive: {1}.", "Ohne den Antrieb: {1}.", 1,
+           pl_feq(d, pl_fs(d, name), pl_form_leaf(d->arena, pl_int(d->pool, 0))));
     return true;
   }
   return false;
 }
 
-// ---------------------------------------------------------------------------------------------- positions that are named
+// ------------------------------------------------------------------------ positions that are named
 bool pl_names_a_place(pl_analysis* d, const pl_ask* ask) {
   for (int c = 0; c < ask->where.n; c++) {
     for (int k = 0; k < d->gen.n; k++) {
@@ -649,7 +694,8 @@ pl_answer3 pl_named_rest(pl_analysis* d, const pl_ask* ask, const pl_expr* f, pl
   *out = (pl_rest){0};
   for (int k = 0; k < d->gen.n; k++) {
     for (int c = 0; c < ask->where.n; c++) {
-      if (pl_same(ask->where.at[c].left, pl_sym(d->pool, name_of(d, k)))) out->q[k] = ask->where.at[c].right;
+      if (pl_same(ask->where.at[c].left, pl_sym(d->pool, name_of(d, k))))
+        out->q[k] = ask->where.at[c].right;
     }
   }
   pl_answer3 answer = PL_YES;
@@ -657,7 +703,8 @@ pl_answer3 pl_named_rest(pl_analysis* d, const pl_ask* ask, const pl_expr* f, pl
     pl_expr left = pl_alg_normal(d->tower, pl_insert_rest(d, f[k], out));
     if (only_unknown(d, left, out) != -1) return PL_UNKNOWN;
     pl_answer3 zero = pl_alg_is_zero(d->tower, left);
-    if (zero == PL_NO && pl_vanishes(d, pl_with_given_numbers(d, left))) zero = PL_YES;   // for these numbers
+    // for these numbers
+    if (zero == PL_NO && pl_vanishes(d, pl_with_given_numbers(d, left))) zero = PL_YES;
     if (zero == PL_NO) return PL_NO;
     if (zero == PL_UNKNOWN) answer = PL_UNKNOWN;
   }
@@ -668,7 +715,9 @@ bool pl_rest_is_named(pl_analysis* d, const pl_ask* ask, const pl_rest* r) {
   for (int k = 0; k < d->gen.n; k++) {
     for (int c = 0; c < ask->where.n; c++) {
       if (!pl_same(ask->where.at[c].left, pl_sym(d->pool, name_of(d, k)))) continue;
-      if (pl_is_poison(r->q[k]) || pl_alg_equal(d->tower, r->q[k], ask->where.at[c].right) != PL_YES) return false;
+      if (pl_is_poison(r->q[k])
+          || pl_alg_equal(d->tower, r->q[k], ask->where.at[c].right) != PL_YES)
+        return false;
     }
   }
   return true;

@@ -1,8 +1,10 @@
-// sets: which constraints the equations contain.  Contacts open and close, constraints are released and attached; each set that
-// holds for a while has equations of its own, and an analysis of its own derives them.  What holds when was found by the
-// simulation (pl_stage); without numbers the signs at the start decide where they are provable, and the rest is taken as closed.
+// sets: which constraints the equations contain. Contacts open and close, constraints are released
+// and attached; each set that holds for a while has equations of its own, and an analysis of its
+// own derives them. What holds when was found by the simulation (pl_stage); without numbers the
+// signs at the start decide where they are provable, and the rest is taken as closed.
 //
-// Needs a model whose families are written out.  The analyses share pool, solution and equation numbers.
+// Needs a model whose families are written out. The analyses share pool, solution and equation
+// numbers.
 #include <math.h>
 #include <string.h>
 
@@ -10,7 +12,7 @@
 
 enum { MOST_LATER_STAGES = 5 };
 
-// ---------------------------------------------------------------------------------------------- what holds
+// -------------------------------------------------------------------------------------- what holds
 static int row_of(const pl_stage* s, const char* name) {
   for (int i = 0; s && i < s->n; i++) {
     if (strcmp(s->name[i], name) == 0) return i;
@@ -18,7 +20,9 @@ static int row_of(const pl_stage* s, const char* name) {
   return -1;
 }
 
-static const char* label_of(const pl_constraint* c) { return c->name.ascii ? c->name.ascii : c->name.text; }
+static const char* label_of(const pl_constraint* c) {
+  return c->name.ascii ? c->name.ascii : c->name.text;
+}
 
 static const char* map_name(pl_analysis* d, const pl_model* m, int k) {
   return pl_format(d->arena, "choose %s", pl_expr_text(d->arena, d->pool, m->choose.maps[k].old));
@@ -33,8 +37,10 @@ static pl_expr at_start(pl_analysis* d, const pl_model* m, pl_expr e) {
   return e;
 }
 
-// The sign of g of a contact at the start, or of its derivative where g is zero there: 1 open.  Only what is proven.
-static bool is_open_by_signs(pl_analysis* d, const pl_model* m, pl_tower* t, const pl_constraint* c) {
+// The sign of g of a contact at the start, or of its derivative where g is zero there: 1 open. Only
+// what is proven.
+static bool is_open_by_signs(pl_analysis* d, const pl_model* m, pl_tower* t,
+                             const pl_constraint* c) {
   if (c->relation == PL_EQ || c->has_velocity) return false;
   int side = c->relation == PL_GE ? 1 : -1, sign = 0;
   pl_expr g = at_start(d, m, c->g);
@@ -47,7 +53,9 @@ static bool is_open_by_signs(pl_analysis* d, const pl_model* m, pl_tower* t, con
 }
 
 static void leave_out(pl_analysis* d, const pl_constraint* c, bool released) {
-  pl_push(d->arena, d->open, (pl_open){.source = c, .contact = c->relation != PL_EQ, .released = released, .off = c->off});
+  pl_push(
+      d->arena, d->open,
+      (pl_open){.source = c, .contact = c->relation != PL_EQ, .released = released, .off = c->off});
 }
 
 // Where signs decided, what they assumed is told.
@@ -55,19 +63,24 @@ static void use_signs(pl_analysis* d) {
   for (int k = 0; k < d->open.n && !d->stage; k++) {
     const pl_open* o = &d->open.at[k];
     pl_expr g = at_start(d, d->whole, o->source->g);
-    if (o->contact && !o->off) pl_tower_use(d->tower, (pl_fact){o->source->relation == PL_GE ? g : pl_neg(d->pool, g), true});
+    if (o->contact && !o->off)
+      pl_tower_use(d->tower,
+                   (pl_fact){o->source->relation == PL_GE ? g : pl_neg(d->pool, g), true});
   }
 }
 
 static bool is_left_out(const pl_analysis* d, const char* label) {
   for (int k = 0; k < d->open.n; k++) {
     const pl_name* name = &d->open.at[k].source->name;
-    if (strcmp(name->text, label) == 0 || (name->ascii && strcmp(name->ascii, label) == 0)) return true;
+    if (strcmp(name->text, label) == 0 || (name->ascii && strcmp(name->ascii, label) == 0))
+      return true;
   }
   return false;
 }
 
-bool pl_knows_friction(const pl_analysis* d) { return d->model->frictions.n == 0 || (d->stage && d->stage->rubs_known); }
+bool pl_knows_friction(const pl_analysis* d) {
+  return d->model->frictions.n == 0 || (d->stage && d->stage->rubs_known);
+}
 
 const pl_stage_rub* pl_slipping_on(const pl_analysis* d, const pl_constraint* c) {
   for (int k = 0; d->stage && k < d->stage->n_rubs; k++) {
@@ -77,17 +90,28 @@ const pl_stage_rub* pl_slipping_on(const pl_analysis* d, const pl_constraint* c)
   return NULL;
 }
 
-// Surfaces that stick are a constraint between velocities; its multiplier is the friction along the tangent.
+// Surfaces that stick are a constraint between velocities; its multiplier is the friction along the
+// tangent.
 static void add_sticking(pl_analysis* d, pl_model* m) {
   for (int k = 0; d->stage && k < d->stage->n_rubs; k++) {
     const pl_stage_rub* rub = &d->stage->rubs[k];
     if (!rub->sticks) continue;
     const char* name = pl_format(d->arena, "friction_%s", rub->on);
     pl_symbol s = pl_symbol_find(d->pool, name);
-    if (!s.id) s = pl_symbol_make(d->pool, &(pl_symbol_info){.name = name, .ascii = name, .role = PL_R_MULTIPLIER, .class = PL_C_OTHER});
+    if (!s.id)
+      s = pl_symbol_make(
+          d->pool, &(pl_symbol_info){
+                       .name = name, .ascii = name, .role = PL_R_MULTIPLIER, .class = PL_C_OTHER});
     const pl_constraint* on = pl_model_constraint(d->whole, rub->on);
-    pl_constraint c = {.name = {.text = rub->name, .ascii = rub->name, .index = pl_poison()}, .left = rub->slip, .right = pl_int(d->pool, 0),
-                       .g = rub->slip, .relation = PL_EQ, .lambda = s, .redundant_ok = true, .has_velocity = true, .sticking = true,
+    pl_constraint c = {.name = {.text = rub->name, .ascii = rub->name, .index = pl_poison()},
+                       .left = rub->slip,
+                       .right = pl_int(d->pool, 0),
+                       .g = rub->slip,
+                       .relation = PL_EQ,
+                       .lambda = s,
+                       .redundant_ok = true,
+                       .has_velocity = true,
+                       .sticking = true,
                        .span = on ? on->span : (pl_span){0}};
     pl_push(d->arena, m->constraints, c);
   }
@@ -100,7 +124,8 @@ static void choose_constraints(pl_analysis* d, const pl_model* whole, pl_model* 
   for (int k = 0; k < whole->constraints.n; k++) {
     const pl_constraint* c = &whole->constraints.at[k];
     int row = row_of(d->stage, label_of(c));
-    bool holds = row >= 0 ? d->stage->holds[row] : !c->off && !(t && is_open_by_signs(d, whole, t, c));
+    bool holds = row >= 0 ? d->stage->holds[row]
+                          : !c->off && !(t && is_open_by_signs(d, whole, t, c));
     if (row < 0 && c->while_label && is_left_out(d, c->while_label)) holds = false;
     if (!holds) {
       leave_out(d, c, row >= 0 ? d->stage->released[row] : c->off);
@@ -120,7 +145,8 @@ static bool is_named_by(const pl_analysis* d, const pl_choose* c, pl_symbol s) {
   return false;
 }
 
-// Maps go with the constraints that they take for granted, and with them the names that only they explain.
+// Maps go with the constraints that they take for granted, and with them the names that only they
+// explain.
 static void choose_maps(pl_analysis* d, const pl_model* whole, pl_model* m) {
   pl_choose* c = &m->choose;
   c->maps = PL_ARRAY(d->arena, struct pl_map_equation, whole->choose.n_maps + 1);
@@ -133,7 +159,8 @@ static void choose_maps(pl_analysis* d, const pl_model* whole, pl_model* m) {
   c->coords.n = c->coords.cap = 0;
   for (int k = 0; k < whole->choose.coords.n; k++) {
     pl_symbol s = whole->choose.coords.at[k];
-    if (is_named_by(d, &whole->choose, s) && !is_named_by(d, c, s)) pl_push(d->arena, d->unnamed, s);
+    if (is_named_by(d, &whole->choose, s) && !is_named_by(d, c, s))
+      pl_push(d->arena, d->unnamed, s);
     else pl_push(d->arena, c->coords, s);
   }
 }
@@ -148,7 +175,7 @@ void pl_choose_set(pl_analysis* d, pl_model* whole, const pl_stage* stage) {
   choose_maps(d, whole, d->model);
 }
 
-// ---------------------------------------------------------------------------------------------- sets that were derived
+// -------------------------------------------------------------------------- sets that were derived
 static bool same_set(const pl_analysis* d, const pl_stage* s) {
   const pl_model* m = d->whole;
   for (int k = 0; k < m->constraints.n; k++) {
@@ -191,7 +218,8 @@ pl_analysis* pl_analysis_of(pl_analysis* first, const pl_ask* ask) {
 
 pl_analysis* pl_without_sticking(pl_analysis* first) {
   bool sticks = false;
-  for (int k = 0; first->stage && k < first->stage->n_rubs; k++) sticks |= first->stage->rubs[k].sticks;
+  for (int k = 0; first->stage && k < first->stage->n_rubs; k++)
+    sticks |= first->stage->rubs[k].sticks;
   if (!sticks || first->sets.n == 0) return first;
   pl_stage* s = PL_NEW(first->arena, pl_stage);
   *s = *first->stage;
@@ -200,11 +228,12 @@ pl_analysis* pl_without_sticking(pl_analysis* first) {
   return d ? d : first;
 }
 
-// ---------------------------------------------------------------------------------------------- what is open
+// ------------------------------------------------------------------------------------ what is open
 pl_expr pl_open_removed(pl_analysis* d, pl_expr e) {
   for (int k = 0; k < d->open.n; k++) {
     pl_symbol lambda = d->open.at[k].source->lambda;
-    if (lambda.id && pl_has_symbol(d->pool, e, lambda)) e = pl_subst1(d->pool, e, lambda, pl_int(d->pool, 0));
+    if (lambda.id && pl_has_symbol(d->pool, e, lambda))
+      e = pl_subst1(d->pool, e, lambda, pl_int(d->pool, 0));
   }
   return e;
 }
@@ -216,12 +245,14 @@ static bool asks_lambda(const pl_analysis* d, pl_expr e, const pl_open* o) {
 // A request for the force of an open constraint, or for the place where that vanishes.
 static bool is_about(const pl_analysis* d, const pl_ask* ask, const pl_open* o) {
   const pl_name* name = &o->source->name;
-  if (ask->kind == PL_ASK_EXPECT) return false;      // decided with λ = 0
+  if (ask->kind == PL_ASK_EXPECT) return false;  // decided with λ = 0
   if (ask->kind == PL_ASK_FORCE_OF && ask->label)
-    return strcmp(name->text, ask->label) == 0 || (name->ascii && strcmp(name->ascii, ask->label) == 0);
+    return strcmp(name->text, ask->label) == 0
+           || (name->ascii && strcmp(name->ascii, ask->label) == 0);
   if (asks_lambda(d, ask->value, o)) return true;
   for (int k = 0; k < ask->where.n; k++) {
-    if (asks_lambda(d, ask->where.at[k].left, o) || asks_lambda(d, ask->where.at[k].right, o)) return true;
+    if (asks_lambda(d, ask->where.at[k].left, o) || asks_lambda(d, ask->where.at[k].right, o))
+      return true;
   }
   return false;
 }
@@ -231,25 +262,34 @@ static bool would_pull(const pl_analysis* d, const pl_open* o) {
   return row >= 0 && d->stage->pulls[row];
 }
 
-static const pl_form* zero_form(pl_analysis* d) { return pl_form_leaf(d->arena, pl_int(d->pool, 0)); }
+static const pl_form* zero_form(pl_analysis* d) {
+  return pl_form_leaf(d->arena, pl_int(d->pool, 0));
+}
 
 // y > 0
 static const pl_form* apart_form(pl_analysis* d, const pl_constraint* c) {
   return pl_frel(d, pl_fe(d, c->left), c->relation == PL_GE ? ">" : "<", pl_fe(d, c->right));
 }
 
-static const pl_form* met_form(pl_analysis* d, const pl_constraint* c) { return pl_feq(d, pl_fe(d, c->left), pl_fe(d, c->right)); }
+static const pl_form* met_form(pl_analysis* d, const pl_constraint* c) {
+  return pl_feq(d, pl_fe(d, c->left), pl_fe(d, c->right));
+}
 
 static void say_open(pl_analysis* d, const pl_open* o) {
-  const pl_form *label = pl_fn(d, o->source->name.text), *none = pl_feq(d, pl_fs(d, o->source->lambda), zero_form(d));
+  const pl_form *label = pl_fn(d, o->source->name.text),
+                *none = pl_feq(d, pl_fs(d, o->source->lambda), zero_form(d));
   if (would_pull(d, o)) {
     pl_say(d, "At this start the force of {1} would have to pull: it lets go at once, and {2}.",
-           "Bei diesem Start müsste die Kraft von {1} ziehen: die Bedingung löst sich sofort, und {2}.", 2, label, none);
+           "Bei diesem Start müsste die Kraft von {1} ziehen: die Bedingung löst sich sofort, und "
+           "{2}.",
+           2, label, none);
   } else if (o->contact && !o->released) {
-    pl_say(d, "{1} is open here, {2}: it exerts no force, {3}.", "{1} ist hier offen, {2}: es wirkt keine Kraft, {3}.", 3, label,
+    pl_say(d, "{1} is open here, {2}: it exerts no force, {3}.",
+           "{1} ist hier offen, {2}: es wirkt keine Kraft, {3}.", 3, label,
            apart_form(d, o->source), none);
   } else {
-    pl_say(d, "{1} does not hold here: it exerts no force, {2}.", "{1} gilt hier nicht: es wirkt keine Kraft, {2}.", 2, label, none);
+    pl_say(d, "{1} does not hold here: it exerts no force, {2}.",
+           "{1} gilt hier nicht: es wirkt keine Kraft, {2}.", 2, label, none);
   }
 }
 
@@ -260,11 +300,13 @@ static const char* german_force(pl_analysis* d, const pl_open* o) {
 // A name that only a map explains, whose constraint does not hold.
 static bool speaks_of_unnamed(pl_analysis* d, const pl_ask* ask, pl_symbol* which) {
   for (int k = 0; k < d->unnamed.n; k++) {
-    pl_symbol q = d->unnamed.at[k], v = pl_symbol_dot(d->pool, q), name[3] = {q, v, pl_symbol_dot(d->pool, v)};
+    pl_symbol q = d->unnamed.at[k], v = pl_symbol_dot(d->pool, q),
+              name[3] = {q, v, pl_symbol_dot(d->pool, v)};
     for (int j = 0; j < 3; j++) {
       bool here = !pl_is_poison(ask->value) && pl_has_symbol(d->pool, ask->value, name[j]);
       for (int c = 0; c < ask->where.n; c++) {
-        here |= pl_has_symbol(d->pool, ask->where.at[c].left, name[j]) || pl_has_symbol(d->pool, ask->where.at[c].right, name[j]);
+        here |= pl_has_symbol(d->pool, ask->where.at[c].left, name[j])
+                || pl_has_symbol(d->pool, ask->where.at[c].right, name[j]);
       }
       if (!here) continue;
       *which = q;
@@ -280,20 +322,24 @@ bool pl_answer_open(pl_analysis* d, const pl_ask* ask) {
     if (!is_about(d, ask, o)) continue;
     bool force = ask->kind == PL_ASK_FORCE_OF;
     bool told = d->open_told;
-    d->open_told = true;      // said here in other words
-    pl_section_open(d, ask, force ? pl_format(d->arena, "Force of %s", o->source->name.text) : ask->text,
+    d->open_told = true;  // said here in other words
+    pl_section_open(d, ask,
+                    force ? pl_format(d->arena, "Force of %s", o->source->name.text) : ask->text,
                     force ? german_force(d, o) : ask->text);
     d->open_told = told;
     say_open(d, o);
     if (ask->where.n > 0 || !o->source->lambda.id) return true;
-    pl_answer(d, pl_symbol_get(d->pool, o->source->lambda)->ascii, pl_int(d->pool, 0), zero_form(d))->of = o->source->name.text;
+    pl_answer(d, pl_symbol_get(d->pool, o->source->lambda)->ascii, pl_int(d->pool, 0), zero_form(d))
+        ->of = o->source->name.text;
     return true;
   }
   pl_symbol s;
   if (!speaks_of_unnamed(d, ask, &s)) return false;
   pl_section_open(d, ask, ask->text, ask->text);
   pl_say(d, "{1} names the place only while the constraints of its map hold, and here they do not.",
-         "{1} benennt den Ort nur, solange die Zwangsbedingungen der Abbildung gelten, und hier gelten sie nicht.", 1, pl_fs(d, s));
+         "{1} benennt den Ort nur, solange die Zwangsbedingungen der Abbildung gelten, und hier "
+         "gelten sie nicht.",
+         1, pl_fs(d, s));
   d->section->not_found = true;
   return true;
 }
@@ -312,7 +358,7 @@ const pl_ask* pl_without_open(pl_analysis* d, const pl_ask* ask) {
   return out;
 }
 
-// ---------------------------------------------------------------------------------------------- telling
+// ----------------------------------------------------------------------------------------- telling
 static const char* seconds(pl_analysis* d, double t, pl_language lang) {
   const char* number = pl_notation_number(d->arena, t, 6, (pl_notation){PL_MATH_LINE, lang});
   return pl_format(d->arena, "t = %s%s", number, d->model->uses_units ? " s" : "");
@@ -329,7 +375,8 @@ static const pl_constraint* constraint_named(const pl_analysis* d, const char* l
 static const pl_event* event_named(const pl_analysis* d, const char* label) {
   for (int k = 0; label && k < d->whole->events.n; k++) {
     const pl_name* name = &d->whole->events.at[k].name;
-    if (strcmp(name->text, label) == 0 || (name->ascii && strcmp(name->ascii, label) == 0)) return &d->whole->events.at[k];
+    if (strcmp(name->text, label) == 0 || (name->ascii && strcmp(name->ascii, label) == 0))
+      return &d->whole->events.at[k];
   }
   return NULL;
 }
@@ -357,10 +404,12 @@ static const pl_form* limit_form(pl_analysis* d, const pl_stage_rub* rub, const 
 static void show_sticking_force(pl_analysis* d, const pl_stage_rub* rub) {
   for (int k = 0; k < d->g.n; k++) {
     const pl_bond* l = &d->g.at[k];
-    if (!l->source->sticking || strcmp(l->source->name.text, rub->name) != 0 || !l->lambda_known) continue;
+    if (!l->source->sticking || strcmp(l->source->name.text, rub->name) != 0 || !l->lambda_known)
+      continue;
     const pl_form* form = pl_f(d, l->lambda_value, PL_S_QUOTIENT);
     bool known;
-    pl_step_value(d, pl_show_numbered(d, pl_feq(d, pl_fs(d, l->lambda), form)), l->lambda_value, pl_dimension_of_expr(d, l->lambda_value, &known));
+    pl_step_value(d, pl_show_numbered(d, pl_feq(d, pl_fs(d, l->lambda), form)), l->lambda_value,
+                  pl_dimension_of_expr(d, l->lambda_value, &known));
     pl_claim_that(d, PL_CLAIM_MOTION, pl_form_value(d->pool, form), pl_sym(d->pool, l->lambda));
     pl_answer(d, pl_symbol_get(d->pool, l->lambda)->ascii, l->lambda_value, form)->of = rub->on;
   }
@@ -378,15 +427,21 @@ static void tell_friction(pl_analysis* d) {
     const pl_stage_rub* rub = &d->stage->rubs[k];
     const pl_constraint* c = constraint_named(d, rub->on);
     if (!c || (!rub->sticks && !rub->slips)) continue;
-    const pl_form* slip = pl_frel(d, slip_form(d, rub), rub->sticks ? "=" : rub->way > 0 ? ">" : "<", zero_form(d));
+    const pl_form* slip = pl_frel(d, slip_form(d, rub),
+                                  rub->sticks    ? "="
+                                  : rub->way > 0 ? ">"
+                                                 : "<",
+                                  zero_form(d));
     if (rub->sticks) {
-      pl_say(d, "Friction on {1} sticks, {2}, as long as {3}.", "Die Reibung auf {1} haftet, {2}, solange {3}.", 3,
-             pl_fn(d, c->name.text), slip, pl_frel(d, limit_form(d, rub, c)->args[0], "≤", limit_form(d, rub, c)->args[1]));
+      pl_say(d, "Friction on {1} sticks, {2}, as long as {3}.",
+             "Die Reibung auf {1} haftet, {2}, solange {3}.", 3, pl_fn(d, c->name.text), slip,
+             pl_frel(d, limit_form(d, rub, c)->args[0], "≤", limit_form(d, rub, c)->args[1]));
       show_sticking_force(d, rub);
     } else {
       pl_expr force = pl_mul(d->pool, rub->scale, size_of_multiplier(d, rub, c));
-      pl_say(d, "Friction on {1} slips, {2}, with the force {3} against the slip.", "Die Reibung auf {1} gleitet, {2}, mit der Kraft {3} gegen das Gleiten.",
-             3, pl_fn(d, c->name.text), slip, pl_fe(d, force));
+      pl_say(d, "Friction on {1} slips, {2}, with the force {3} against the slip.",
+             "Die Reibung auf {1} gleitet, {2}, mit der Kraft {3} gegen das Gleiten.", 3,
+             pl_fn(d, c->name.text), slip, pl_fe(d, force));
     }
   }
 }
@@ -398,7 +453,8 @@ static const pl_form* equation_form(pl_analysis* d, pl_expr e) {
   int n = pl_kind_of(p, e) == PL_ADD ? pl_n_args(p, e) : 0;
   for (int k = 0; k < n; k++) {
     pl_expr term = pl_arg(p, e, k), opposite = pl_neg(p, term);
-    bool negative = pl_op_count(p, opposite) < pl_op_count(p, term) || (pl_is_number(p, term) && pl_number_sign(p, term) < 0);
+    bool negative = pl_op_count(p, opposite) < pl_op_count(p, term)
+                    || (pl_is_number(p, term) && pl_number_sign(p, term) < 0);
     if (negative) right = pl_add(p, right, opposite);
     else left = pl_add(p, left, term);
   }
@@ -406,7 +462,8 @@ static const pl_form* equation_form(pl_analysis* d, pl_expr e) {
   return pl_feq(d, pl_fe(d, split ? left : e), split ? pl_fe(d, right) : zero_form(d));
 }
 
-// The equation that ends a stage: y = 0, λ = 0, or the condition of an event.  NULL when there is none to show.
+// The equation that ends a stage: y = 0, λ = 0, or the condition of an event. NULL when there is
+// none to show.
 static const pl_form* end_form(pl_analysis* d, const pl_stage* s) {
   const pl_constraint* c = constraint_named(d, s->ended_by);
   if (s->end == PL_END_CLOSES && c) return met_form(d, c);
@@ -422,9 +479,11 @@ static const pl_form* end_form(pl_analysis* d, const pl_stage* s) {
 static void say_end(pl_analysis* d, const pl_stage* s) {
   const pl_form* end = end_form(d, s);
   if (end) {
-    pl_say(d, "This holds until {1}, at {2}.", "Das gilt bis {1}, bei {2}.", 2, end, when(d, s->to));
+    pl_say(d, "This holds until {1}, at {2}.", "Das gilt bis {1}, bei {2}.", 2, end,
+           when(d, s->to));
   } else if (s->end == PL_END_OF_RUN) {
-    pl_say(d, "This holds to the end of the simulation, {1}.", "Das gilt bis zum Ende der Simulation, {1}.", 1, when(d, s->to));
+    pl_say(d, "This holds to the end of the simulation, {1}.",
+           "Das gilt bis zum Ende der Simulation, {1}.", 1, when(d, s->to));
   }
 }
 
@@ -445,17 +504,25 @@ void pl_tell_open(pl_analysis* d) {
   d->open_told = true;
   tell_friction(d);
   use_signs(d);
-  const pl_form **label = PL_ARRAY(d->arena, const pl_form*, d->open.n + 1), **apart = PL_ARRAY(d->arena, const pl_form*, d->open.n + 1);
+  const pl_form **label = PL_ARRAY(d->arena, const pl_form*, d->open.n + 1),
+                **apart = PL_ARRAY(d->arena, const pl_form*, d->open.n + 1);
   int n = list_open(d, label, apart, true);
   if (n > 0) {
-    pl_say(d, n == 1 ? "At the start the force of {1} would have to pull: it lets go at once." : "At the start the forces of {1} would have to pull: they let go at once.",
-           n == 1 ? "Beim Start müsste die Kraft von {1} ziehen: die Bedingung löst sich sofort."
-                  : "Beim Start müssten die Kräfte von {1} ziehen: die Bedingungen lösen sich sofort.", 1, pl_flist(d, label, n));
+    pl_say(d,
+           n == 1 ? "At the start the force of {1} would have to pull: it lets go at once."
+                  : "At the start the forces of {1} would have to pull: they let go at once.",
+           n == 1
+               ? "Beim Start müsste die Kraft von {1} ziehen: die Bedingung löst sich sofort."
+               : "Beim Start müssten die Kräfte von {1} ziehen: die Bedingungen lösen sich sofort.",
+           1, pl_flist(d, label, n));
   }
   n = list_open(d, label, apart, false);
   if (n > 0) {
-    pl_say(d, n == 1 ? "{1} is open at the start, {2}, and not in the equations." : "{1} are open at the start, {2}, and not in the equations.",
-           n == 1 ? "{1} ist beim Start offen, {2}, und steht nicht in den Gleichungen." : "{1} sind beim Start offen, {2}, und stehen nicht in den Gleichungen.",
+    pl_say(d,
+           n == 1 ? "{1} is open at the start, {2}, and not in the equations."
+                  : "{1} are open at the start, {2}, and not in the equations.",
+           n == 1 ? "{1} ist beim Start offen, {2}, und steht nicht in den Gleichungen."
+                  : "{1} sind beim Start offen, {2}, und stehen nicht in den Gleichungen.",
            2, pl_flist(d, label, n), pl_flist(d, apart, n));
   }
   if (d->stage) say_end(d, d->stage);
@@ -468,17 +535,24 @@ void pl_note_undecided(pl_analysis* d) {
     if (!l->contact) continue;
     const char *label = l->source->name.text, *lambda = pl_symbol_get(d->pool, l->lambda)->name;
     bool push = (l->source->relation == PL_GE) != d->model->lambda_minus;
-    pl_diagnostic* m = pl_report(d->job->diagnostics, PL_N075, l->source->span,
-      pl_format(d->arena, "%s is taken as closed: no start with numbers decides", label),
-      pl_format(d->arena, "%s gilt als geschlossen: kein Start mit Zahlen entscheidet", label));
-    const char* closed = pl_notation_print(d->arena, d->pool, met_form(d, l->source), (pl_notation){.math = PL_MATH_LINE, .lang = d->job->lang});
-    pl_report_reason(m, pl_format(d->arena, "the formulas hold while %s and %s %s 0", closed, lambda, push ? "≥" : "≤"),
-                     pl_format(d->arena, "die Formeln gelten, solange %s und %s %s 0", closed, lambda, push ? "≥" : "≤"));
+    pl_diagnostic* m = pl_report(
+        d->job->diagnostics, PL_N075, l->source->span,
+        pl_format(d->arena, "%s is taken as closed: no start with numbers decides", label),
+        pl_format(d->arena, "%s gilt als geschlossen: kein Start mit Zahlen entscheidet", label));
+    const char* closed = pl_notation_print(
+        d->arena, d->pool, met_form(d, l->source),
+        (pl_notation){.math = PL_MATH_LINE, .lang = d->job->lang});
+    pl_report_reason(m,
+                     pl_format(d->arena, "the formulas hold while %s and %s %s 0", closed, lambda,
+                               push ? "≥" : "≤"),
+                     pl_format(d->arena, "die Formeln gelten, solange %s und %s %s 0", closed,
+                               lambda, push ? "≥" : "≤"));
   }
 }
 
-// ---------------------------------------------------------------------------------------------- with all contacts closed
-// A body at rest may lie on what is open at the start: the set with every contact closed.  NULL when none is open.
+// ------------------------------------------------------------------------ with all contacts closed
+// A body at rest may lie on what is open at the start: the set with every contact closed. NULL when
+// none is open.
 static pl_stage* all_closed(pl_analysis* d) {
   bool any = false;
   for (int k = 0; k < d->open.n; k++) any |= d->open.at[k].contact && !d->open.at[k].released;
@@ -507,7 +581,7 @@ void pl_answer_closed(pl_analysis* first, const pl_ask* ask) {
   d->section->title[1] = "Gleichgewichtslagen mit allen Kontakten geschlossen";
 }
 
-// ---------------------------------------------------------------------------------------------- the later sets
+// ---------------------------------------------------------------------------------- the later sets
 // What hangs on the set, and is asked about the motion of `init`.
 static bool is_repeated(const pl_ask* ask) {
   switch (ask->kind) {
@@ -532,7 +606,8 @@ static bool contains_time(pl_analysis* d) {
 
 static bool is_motion(const pl_ask* ask) { return ask->kind == PL_ASK_SOLVE && ask->of_time; }
 
-// What speaks of t or of the start means those of the whole motion: a stretch in the middle has another clock.
+// What speaks of t or of the start means those of the whole motion: a stretch in the middle has
+// another clock.
 static bool fits_clock(pl_analysis* d, const pl_ask* ask) {
   if (is_motion(ask)) return !contains_time(d);
   return pl_is_poison(ask->value) || !pl_has_role(d->pool, ask->value, PL_R_START);
@@ -548,10 +623,12 @@ static bool repeat(pl_analysis* d, const pl_ask* ask) {
   for (int k = 0; k < d->open.n; k++) {
     if (is_about(d, &again, &d->open.at[k])) return false;
   }
-  int sections = d->solution->sections.n, equations = d->solution->n_equations, claims = d->claims.n;
+  int sections = d->solution->sections.n, equations = d->solution->n_equations,
+      claims = d->claims.n;
   pl_answer_one(d, &again);
   bool found = true;
-  for (int k = sections; k < d->solution->sections.n; k++) found &= !d->solution->sections.at[k].not_found;
+  for (int k = sections; k < d->solution->sections.n; k++)
+    found &= !d->solution->sections.at[k].not_found;
   if (found) return true;
   d->solution->sections.n = sections;
   d->solution->n_equations = equations;
@@ -560,8 +637,14 @@ static bool repeat(pl_analysis* d, const pl_ask* ask) {
 }
 
 // What has become of a constraint, in one word.
-typedef enum pl_state_word { PL_WORD_CONTACT, PL_WORD_ROPE, PL_WORD_DEED, PL_N_WORDS } pl_state_word;
-static const char* const state_word[PL_N_WORDS][2][2] = {     // holds, does not; in two languages
+typedef enum pl_state_word {
+  PL_WORD_CONTACT,
+  PL_WORD_ROPE,
+  PL_WORD_DEED,
+  PL_N_WORDS
+} pl_state_word;
+static const char* const state_word[PL_N_WORDS][2][2] = {
+    // holds, does not; in two languages
     [PL_WORD_CONTACT] = {{"closed", "geschlossen"}, {"open", "offen"}},
     [PL_WORD_ROPE] = {{"taut", "straff"}, {"slack", "schlaff"}},
     [PL_WORD_DEED] = {{"attached", "befestigt"}, {"released", "gelöst"}},
@@ -573,12 +656,15 @@ static pl_state_word word_for(const pl_analysis* d, const pl_constraint* c) {
   return d->stage->rope[row] ? PL_WORD_ROPE : PL_WORD_CONTACT;
 }
 
-static int list_changes(pl_analysis* d, const pl_stage* before, bool holds, pl_state_word word, const char** out) {
+static int list_changes(pl_analysis* d, const pl_stage* before, bool holds, pl_state_word word,
+                        const char** out) {
   int n = 0;
   for (int k = 0; k < d->whole->constraints.n; k++) {
     const pl_constraint* c = &d->whole->constraints.at[k];
     int now = row_of(d->stage, label_of(c)), then = row_of(before, label_of(c));
-    if (now < 0 || then < 0 || d->stage->holds[now] != holds || before->holds[then] == holds || c->while_label) continue;
+    if (now < 0 || then < 0 || d->stage->holds[now] != holds || before->holds[then] == holds
+        || c->while_label)
+      continue;
     if (word_for(d, c) != word) continue;
     out[n++] = c->name.text;
   }
@@ -608,10 +694,13 @@ static const char* stage_title(pl_analysis* d, pl_language lang) {
     }
   }
   for (int k = 0; k < d->stage->n_rubs; k++) {
-    const pl_stage_rub *now = &d->stage->rubs[k], *then = k < first->n_rubs ? &first->rubs[k] : NULL;
-    bool same = then && now->sticks == then->sticks && now->slips == then->slips && (!now->slips || now->way == then->way);
+    const pl_stage_rub *now = &d->stage->rubs[k],
+                       *then = k < first->n_rubs ? &first->rubs[k] : NULL;
+    bool same = then && now->sticks == then->sticks && now->slips == then->slips
+                && (!now->slips || now->way == then->way);
     if (same || (!now->sticks && !now->slips)) continue;
-    add_names(&t, &now->on, 1, now->sticks ? (de ? "haftet" : "sticks") : (de ? "gleitet" : "slips"), &any);
+    add_names(&t, &now->on, 1,
+              now->sticks ? (de ? "haftet" : "sticks") : (de ? "gleitet" : "slips"), &any);
   }
   return pl_text_string(&t);
 }
@@ -628,17 +717,23 @@ static const char* place_text(pl_analysis* d, const pl_stage* s, pl_language lan
     const char* number = pl_notation_number(d->arena, x, 6, (pl_notation){PL_MATH_LINE, lang});
     pl_symbol symbol = pl_symbol_find(d->pool, s->q_name[i]);
     const char* name = symbol.id ? pl_symbol_get(d->pool, symbol)->name : s->q_name[i];
-    pl_text_addf(&t, "%s%s = %s%s%s", i ? ", " : "", name, number, angle ? "°" : *s->q_unit[i] ? " " : "", angle ? "" : s->q_unit[i]);
+    pl_text_addf(&t, "%s%s = %s%s%s", i ? ", " : "", name, number,
+                 angle           ? "°"
+                 : *s->q_unit[i] ? " "
+                                 : "",
+                 angle ? "" : s->q_unit[i]);
   }
   return pl_text_string(&t);
 }
 
 static void say_begin(pl_analysis* d, const pl_stage* before) {
   const pl_stage* s = d->stage;
-  const pl_form* place = pl_form_words(d->arena, place_text(d, s, PL_ENGLISH), place_text(d, s, PL_GERMAN));
+  const pl_form* place = pl_form_words(d->arena, place_text(d, s, PL_ENGLISH),
+                                       place_text(d, s, PL_GERMAN));
   const pl_form* end = before->to == s->from ? end_form(d, before) : NULL;
   if (end) {
-    pl_say(d, "It begins where {1}: at {2}, {3}.", "Es beginnt, wo {1}: bei {2}, {3}.", 3, end, when(d, s->from), place);
+    pl_say(d, "It begins where {1}: at {2}, {3}.", "Es beginnt, wo {1}: bei {2}, {3}.", 3, end,
+           when(d, s->from), place);
   } else {
     pl_say(d, "It begins at {1}, {2}.", "Es beginnt bei {1}, {2}.", 2, when(d, s->from), place);
   }
@@ -647,8 +742,12 @@ static void say_begin(pl_analysis* d, const pl_stage* before) {
          n == 1 ? "1 Freiheitsgrad." : pl_format(d->arena, "%d Freiheitsgrade.", n), 0);
   for (int k = 0; k < d->whole->asks.n; k++) {
     if (!is_motion(&d->whole->asks.at[k]) || contains_time(d)) continue;
-    pl_say(d, "In the motions that follow {1} counts from here, and the start values are those of this moment.",
-           "In den folgenden Bewegungen zählt {1} von hier, und die Startwerte sind die dieses Augenblicks.", 1, pl_fs(d, pl_time(d->pool)));
+    pl_say(d,
+           "In the motions that follow {1} counts from here, and the start values are those of "
+           "this moment.",
+           "In den folgenden Bewegungen zählt {1} von hier, und die Startwerte sind die dieses "
+           "Augenblicks.",
+           1, pl_fs(d, pl_time(d->pool)));
     return;
   }
 }

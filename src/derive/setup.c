@@ -1,5 +1,6 @@
-// setup: what moves, what is heavy, what constrains; then the constraints of the form coordinate = constant or f(t), which
-// are inserted and dropped (theorem T101: their multipliers remain available, see solve_motion.c).
+// setup: what moves, what is heavy, what constrains; then the constraints of the form coordinate =
+// constant or f(t), which are inserted and dropped (theorem T101: their multipliers remain
+// available, see solve_motion.c).
 #include <math.h>
 #include <string.h>
 
@@ -14,11 +15,13 @@ int pl_variable_index(const pl_analysis* d, pl_symbol s) {
 }
 
 bool pl_has_coordinates(const pl_analysis* d, pl_expr e) {
-  return pl_has_role(d->pool, e, PL_R_COORD) || pl_has_role(d->pool, e, PL_R_VELOCITY) ||
-         pl_has_role(d->pool, e, PL_R_ACCELERATION);
+  return pl_has_role(d->pool, e, PL_R_COORD) || pl_has_role(d->pool, e, PL_R_VELOCITY)
+         || pl_has_role(d->pool, e, PL_R_ACCELERATION);
 }
 
-pl_expr pl_on_fixed(pl_analysis* d, pl_expr e) { return pl_subst(d->pool, e, d->fixed.at, d->fixed.n); }
+pl_expr pl_on_fixed(pl_analysis* d, pl_expr e) {
+  return pl_subst(d->pool, e, d->fixed.at, d->fixed.n);
+}
 
 pl_expr pl_on_contact(pl_analysis* d, pl_expr e) {
   return pl_subst(d->pool, pl_on_fixed(d, e), d->contact.at, d->contact.n);
@@ -32,12 +35,13 @@ pl_expr pl_on_maps(pl_analysis* d, pl_expr e) {
 // A later set of constraints begins elsewhere: the places of its beginning decide on signs there.
 static void know_later_start(pl_analysis* d, double* value, int n) {
   const pl_stage* s = d->stage;
-  bool later = false;   // the set of a start that `from` names is none of the list
+  bool later = false;  // the set of a start that `from` names is none of the list
   for (int k = 1; d->options && k < d->options->n_stages; k++) later |= s == &d->options->stages[k];
   for (int i = 0; later && i < s->n_q; i++) {
     pl_symbol q = pl_symbol_find(d->pool, s->q_name[i]);
     if (!q.id || pl_symbol_get(d->pool, q)->role != PL_R_COORD) continue;
-    pl_symbol start = pl_symbol_start(d->pool, q), speed = pl_symbol_start(d->pool, pl_symbol_dot(d->pool, q));
+    pl_symbol start = pl_symbol_start(d->pool, q),
+              speed = pl_symbol_start(d->pool, pl_symbol_dot(d->pool, q));
     if ((int)start.id <= n) value[start.id] = s->q[i];
     if ((int)speed.id <= n) value[speed.id] = (double)NAN;
   }
@@ -63,12 +67,14 @@ static double* known_numbers(pl_analysis* d) {
 static pl_expr with_numbers(pl_analysis* d, pl_expr e) {
   const pl_model* m = d->model;
   for (int k = m->lets.n - 1; k >= 0; k--) {
-    if (!m->lets.at[k].inserted && m->lets.at[k].n_args == 0) e = pl_subst1(d->pool, e, m->lets.at[k].symbol, m->lets.at[k].value);
+    if (!m->lets.at[k].inserted && m->lets.at[k].n_args == 0)
+      e = pl_subst1(d->pool, e, m->lets.at[k].symbol, m->lets.at[k].value);
   }
   pl_replace* r = PL_ARRAY(d->arena, pl_replace, m->params.n + 1);
   int n = 0;
   for (int k = 0; k < m->params.n; k++) {
-    if (!pl_is_poison(m->params.at[k].value)) r[n++] = (pl_replace){m->params.at[k].symbol, m->params.at[k].value};
+    if (!pl_is_poison(m->params.at[k].value))
+      r[n++] = (pl_replace){m->params.at[k].symbol, m->params.at[k].value};
   }
   return pl_subst(d->pool, e, r, n);
 }
@@ -78,8 +84,8 @@ pl_answer3 pl_zero_for_numbers(pl_analysis* d, pl_expr e) {
   return zero == PL_NO ? pl_alg_is_zero(d->tower, with_numbers(d, e)) : zero;
 }
 
-// Parameters are exact numbers: where inserting them leaves a rational, its double is the nearest one, 1.962 and not
-// 1.9619999999999997.  Otherwise x stands.
+// Parameters are exact numbers: where inserting them leaves a rational, its double is the nearest
+// one, 1.962 and not 1.9619999999999997. Otherwise x stands.
 static double exact_number(pl_analysis* d, pl_expr e, double x) {
   enum { small = 200 };
   if (pl_op_count(d->pool, e) > small) return x;
@@ -89,18 +95,19 @@ static double exact_number(pl_analysis* d, pl_expr e, double x) {
 
 double pl_number(pl_analysis* d, pl_expr e) {
   if (pl_is_poison(e)) return (double)NAN;
-  if (d->n_value != pl_symbol_count(d->pool)) {   // names were made since
+  if (d->n_value != pl_symbol_count(d->pool)) {  // names were made since
     d->value = known_numbers(d);
     d->n_value = pl_symbol_count(d->pool);
   }
-  if (d->later && pl_has_role(d->pool, e, PL_R_START)) return (double)NAN;      // another moment is meant
+  // another moment is meant
+  if (d->later && pl_has_role(d->pool, e, PL_R_START)) return (double)NAN;
   double x = pl_eval(d->pool, e, d->value);
   return isnan(x) ? x : exact_number(d, e, x);
 }
 
 int pl_sign_at_numbers(pl_analysis* d, pl_expr e) {
   int sign = 0;
-  if (pl_vanishes_at_numbers(d, e)) return 0;   // exactly; rounding would give it a sign
+  if (pl_vanishes_at_numbers(d, e)) return 0;  // exactly; rounding would give it a sign
   if (pl_alg_sign(d->tower, e, false, &sign) == PL_YES) return sign;
   double x = pl_number(d, e);
   if (isnan(x) || x == 0) return 0;
@@ -110,12 +117,14 @@ int pl_sign_at_numbers(pl_analysis* d, pl_expr e) {
 
 int pl_sign_or_positive(pl_analysis* d, pl_expr e) {
   int sign = pl_sign_at_numbers(d, e);
-  if (sign != 0 || !isnan(pl_number(d, e)) || pl_vanishes_at_numbers(d, e) || pl_alg_is_zero(d->tower, e) == PL_YES) return sign;
+  if (sign != 0 || !isnan(pl_number(d, e)) || pl_vanishes_at_numbers(d, e)
+      || pl_alg_is_zero(d->tower, e) == PL_YES)
+    return sign;
   pl_tower_use(d->tower, (pl_fact){e, true});
   return 1;
 }
 
-// ---------------------------------------------------------------------------------------------- what there is
+// ----------------------------------------------------------------------------------- what there is
 static void add_coordinates(pl_analysis* d) {
   for (int k = 0; k < d->model->coords.n; k++) {
     pl_variable c = {.q = d->model->coords.at[k].symbol, .fixed_by = -1, .solved_by = -2};
@@ -135,14 +144,19 @@ static void add_coordinates(pl_analysis* d) {
 static void add_particles(pl_analysis* d) {
   for (int k = 0; k < d->model->masses.n; k++) {
     const pl_mass* m = &d->model->masses.at[k];
-    pl_particle p = {.label = m->name.text, .ascii = m->name.ascii, .mass = m->mass, .n = m->point.n};
+    pl_particle p = {
+        .label = m->name.text, .ascii = m->name.ascii, .mass = m->mass, .n = m->point.n};
     memcpy(p.at, m->point.at, sizeof p.at);
     pl_push(d->arena, d->particle, p);
   }
   for (int k = 0; k < d->model->bodies.n; k++) {
     const pl_body* b = &d->model->bodies.at[k];
-    pl_particle p = {.label = b->name.text, .ascii = b->name.ascii, .mass = b->mass, .inertia = b->inertia,
-                     .angle = b->angle, .n = b->centre.n};
+    pl_particle p = {.label = b->name.text,
+                     .ascii = b->name.ascii,
+                     .mass = b->mass,
+                     .inertia = b->inertia,
+                     .angle = b->angle,
+                     .n = b->centre.n};
     memcpy(p.at, b->centre.at, sizeof p.at);
     pl_push(d->arena, d->particle, p);
   }
@@ -152,25 +166,30 @@ static void add_particles(pl_analysis* d) {
 static pl_expr start_place(pl_analysis* d, pl_symbol q) {
   for (int k = 0; k < d->model->inits.n; k++) {
     const pl_init* init = &d->model->inits.at[k];
-    if (!init->guess && pl_same(init->target, pl_sym(d->pool, q)) && pl_is_zero_node(d->pool, init->value)) return init->value;
+    if (!init->guess && pl_same(init->target, pl_sym(d->pool, q))
+        && pl_is_zero_node(d->pool, init->value))
+      return init->value;
   }
   return pl_start_value(d, q);
 }
 
-// Linear in the velocities with constant coefficients, s' - R φ' = 0: the integral s - R φ with the constant of the start, which
-// restricts positions.  Poison for all others.
+// Linear in the velocities with constant coefficients, s' - R φ' = 0: the integral s - R φ with the
+// constant of the start, which restricts positions. Poison for all others.
 static pl_expr integrated(pl_analysis* d, const pl_constraint* c) {
   pl_expr sum = pl_int(d->pool, 0), rest = c->g;
   for (int i = 0; i < d->q.n; i++) {
     pl_expr slope = pl_diff(d->pool, c->g, d->q.at[i].v), q = pl_sym(d->pool, d->q.at[i].q);
-    if (pl_has_coordinates(d, slope) || pl_has_symbol(d->pool, slope, pl_time(d->pool))) return pl_poison();
+    if (pl_has_coordinates(d, slope) || pl_has_symbol(d->pool, slope, pl_time(d->pool)))
+      return pl_poison();
     // surfaces that stick may do so from a later moment on
-    pl_expr from = c->sticking ? pl_sym(d->pool, pl_symbol_start(d->pool, d->q.at[i].q)) : start_place(d, d->q.at[i].q);
+    pl_expr from = c->sticking ? pl_sym(d->pool, pl_symbol_start(d->pool, d->q.at[i].q))
+                               : start_place(d, d->q.at[i].q);
     pl_expr way = pl_sub(d->pool, q, from);
     sum = pl_add(d->pool, sum, pl_mul(d->pool, slope, way));
     rest = pl_subst1(d->pool, rest, d->q.at[i].v, pl_int(d->pool, 0));
   }
-  if (pl_has_coordinates(d, rest) || pl_has_symbol(d->pool, rest, pl_time(d->pool))) return pl_poison();
+  if (pl_has_coordinates(d, rest) || pl_has_symbol(d->pool, rest, pl_time(d->pool)))
+    return pl_poison();
   return pl_add(d->pool, sum, pl_mul(d->pool, rest, pl_sym(d->pool, pl_time(d->pool))));
 }
 
@@ -191,12 +210,17 @@ static void add_friction(pl_analysis* d, pl_bond* l) {
 static void add_links(pl_analysis* d) {
   for (int k = 0; k < d->model->constraints.n; k++) {
     const pl_constraint* c = &d->model->constraints.at[k];
-    pl_bond l = {.source = c, .g = c->g, .fixes = -1, .contact = c->relation != PL_EQ, .velocity = c->has_velocity,
+    pl_bond l = {.source = c,
+                 .g = c->g,
+                 .fixes = -1,
+                 .contact = c->relation != PL_EQ,
+                 .velocity = c->has_velocity,
                  .lambda = c->lambda};
     l.gradient = PL_ARRAY(d->arena, pl_expr, d->q.n);
     for (int i = 0; i < d->q.n; i++) {
       pl_expr slope = pl_diff(d->pool, c->g, l.velocity ? d->q.at[i].v : d->q.at[i].q);
-      l.gradient[i] = d->model->lambda_minus && !c->sticking ? pl_neg(d->pool, slope) : slope;   // Z = -λ ∇g by `convention lambda-minus`
+      // Z = -λ ∇g by `convention lambda-minus`
+      l.gradient[i] = d->model->lambda_minus && !c->sticking ? pl_neg(d->pool, slope) : slope;
     }
     add_friction(d, &l);
     pl_expr whole = l.velocity && !l.contact ? integrated(d, c) : pl_poison();
@@ -221,15 +245,18 @@ void pl_setup_facts(pl_analysis* d) {
       bool less = c->relation == PL_LT || c->relation == PL_LE;
       if (c->relation == PL_EQ || c->relation == PL_NE) continue;
       pl_expr difference = less ? pl_sub(p, c->right, c->left) : pl_sub(p, c->left, c->right);
-      pl_push(d->arena, d->facts, (pl_fact){difference, c->relation == PL_LT || c->relation == PL_GT});
+      pl_push(d->arena, d->facts,
+              (pl_fact){difference, c->relation == PL_LT || c->relation == PL_GT});
     }
   }
 }
 
 static void add_contact_fact(pl_analysis* d, const pl_constraint* c) {
   if (c->relation == PL_EQ || c->has_velocity) return;
-  pl_expr apart = c->relation == PL_GE ? c->g : pl_neg(d->pool, c->g), other = pl_neg(d->pool, apart);
-  for (int k = 0; k < d->facts.n; k++) {      // y >= 0 and y <= 0: an equality, in which no sample lies
+  pl_expr apart = c->relation == PL_GE ? c->g : pl_neg(d->pool, c->g),
+          other = pl_neg(d->pool, apart);
+  // y >= 0 and y <= 0: an equality, in which no sample lies
+  for (int k = 0; k < d->facts.n; k++) {
     if (pl_same(d->facts.at[k].difference, other)) return;
   }
   pl_push(d->arena, d->facts, (pl_fact){apart, false});
@@ -256,7 +283,8 @@ static bool stands_in_map(const pl_analysis* d, const pl_variable* c) {
   return false;
 }
 
-// A coordinate that only stands in `choose` moves nothing by itself, even when a torque or a potential acts on it.
+// A coordinate that only stands in `choose` moves nothing by itself, even when a torque or a
+// potential acts on it.
 static bool carries(const pl_analysis* d, const pl_variable* c) {
   for (int k = 0; k < d->particle.n; k++) {
     const pl_particle* m = &d->particle.at[k];
@@ -269,7 +297,8 @@ static bool carries(const pl_analysis* d, const pl_variable* c) {
     const pl_load* l = &d->model->loads.at[k];
     if (mentions(d, l->value, c) || l->coordinate.id == c->q.id) return true;
     for (int j = 0; j < 3; j++) {
-      if (mentions(d, l->vector[j], c) || mentions(d, l->a.at[j], c) || mentions(d, l->b.at[j], c)) return true;
+      if (mentions(d, l->vector[j], c) || mentions(d, l->a.at[j], c) || mentions(d, l->b.at[j], c))
+        return true;
     }
   }
   for (int k = 0; k < d->g.n; k++) {
@@ -291,7 +320,8 @@ static void probe_start(pl_analysis* d) {
   pl_tower_probe(d->tower, value);
 }
 
-// Abbreviations of given quantities are a way of printing: what is asked of formulas sees through them.
+// Abbreviations of given quantities are a way of printing: what is asked of formulas sees through
+// them.
 static void define_names(pl_analysis* d, pl_tower* t) {
   for (int k = 0; k < d->model->lets.n; k++) {
     const pl_let* let = &d->model->lets.at[k];
@@ -319,7 +349,7 @@ pleuel_status pl_setup_coordinates(pl_analysis* d) {
   return PLEUEL_OK;
 }
 
-// ---------------------------------------------------------------------------------------------- coordinate = constant
+// --------------------------------------------------------------------------- coordinate = constant
 // The only coordinate in e, -1 if there is none, -2 if there are several or a velocity.
 static int only_coordinate(const pl_analysis* d, pl_expr e) {
   int found = -1;
@@ -351,12 +381,19 @@ static void fix_coordinate(pl_analysis* d, int i, int link, pl_expr value) {
 }
 
 pleuel_status pl_contradiction(pl_analysis* d, const pl_bond* l, pl_expr rest) {
-  const char* text = pl_notation_print(d->arena, d->pool, pl_form_of(d->arena, d->pool, rest), (pl_notation){PL_MATH_LINE, d->job->lang});
-  pl_diagnostic* m = pl_report(d->job->diagnostics, PL_E042, l->source->span,
-    pl_format(d->arena, "constraint %s contradicts the others: it leaves %s = 0", l->source->name.text, text),
-    pl_format(d->arena, "Zwangsbedingung %s widerspricht den anderen: es bleibt %s = 0", l->source->name.text, text));
-  pl_report_fix(m, "take one of the contradicting constraints out", "eine der widersprechenden Zwangsbedingungen streichen", NULL);
-  return pl_fail(d->job, PLEUEL_CONTRADICTION, "constraint %s contradicts the others: it leaves %s = 0", l->source->name.ascii, text);
+  const char* text = pl_notation_print(d->arena, d->pool, pl_form_of(d->arena, d->pool, rest),
+                                       (pl_notation){PL_MATH_LINE, d->job->lang});
+  pl_diagnostic* m = pl_report(
+      d->job->diagnostics, PL_E042, l->source->span,
+      pl_format(d->arena, "constraint %s contradicts the others: it leaves %s = 0",
+                l->source->name.text, text),
+      pl_format(d->arena, "Zwangsbedingung %s widerspricht den anderen: es bleibt %s = 0",
+                l->source->name.text, text));
+  pl_report_fix(m, "take one of the contradicting constraints out",
+                "eine der widersprechenden Zwangsbedingungen streichen", NULL);
+  return pl_fail(d->job, PLEUEL_CONTRADICTION,
+                 "constraint %s contradicts the others: it leaves %s = 0", l->source->name.ascii,
+                 text);
 }
 
 // y² + 3 l² has one sign for all y: no position satisfies it.
@@ -365,7 +402,8 @@ static bool never_zero(pl_analysis* d, pl_expr e) {
   return pl_alg_sign(d->tower, e, false, &sign) == PL_YES && sign != 0;
 }
 
-// What is left of a constraint when the fixed coordinates are in: nothing (implied), a contradiction, or one coordinate.
+// What is left of a constraint when the fixed coordinates are in: nothing (implied), a
+// contradiction, or one coordinate.
 static pleuel_status try_link(pl_analysis* d, int k, bool* changed) {
   pl_bond* l = &d->g.at[k];
   if (l->fixes >= 0 || l->implied || l->velocity || l->rub) return PLEUEL_OK;
@@ -383,7 +421,8 @@ static pleuel_status try_link(pl_analysis* d, int k, bool* changed) {
   if (!l->contact && never_zero(d, e)) return pl_contradiction(d, l, e);
   pl_expr c[2];
   if (pl_alg_coefficients(d->tower, e, d->q.at[i].q, c, 1) != 1) return PLEUEL_OK;
-  if (pl_has_coordinates(d, c[1]) || pl_has_symbol(d->pool, c[1], pl_time(d->pool))) return PLEUEL_OK;
+  if (pl_has_coordinates(d, c[1]) || pl_has_symbol(d->pool, c[1], pl_time(d->pool)))
+    return PLEUEL_OK;
   fix_coordinate(d, i, k, pl_alg_normal(d->tower, pl_neg(d->pool, pl_div(d->pool, c[0], c[1]))));
   *changed = true;
   return PLEUEL_OK;

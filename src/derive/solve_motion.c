@@ -1,10 +1,12 @@
-// solve_motion: accelerations and multipliers from the Lagrange equations of the first kind and the constraints, by exact linear
-// algebra.  With generalized coordinates the accelerations of the map are inserted and the unknowns are q'' of the generalized
-// coordinates and the multipliers; without them, all accelerations and the twice-differentiated constraints.
-// The multiplier of a dropped constraint is what is left of the equation of its coordinate (theorem T101).
+// solve_motion: accelerations and multipliers from the Lagrange equations of the first kind and the
+// constraints, by exact linear algebra. With generalized coordinates the accelerations of the map
+// are inserted and the unknowns are q'' of the generalized coordinates and the multipliers; without
+// them, all accelerations and the twice-differentiated constraints. The multiplier of a dropped
+// constraint is what is left of the equation of its coordinate (theorem T101).
 #include "derive/derive_impl.h"
 
-// Largest number of terms in a minor before the solver gives up and the structured form is shown instead.
+// Largest number of terms in a minor before the solver gives up and the structured form is shown
+// instead.
 static const long max_terms = 3000;
 
 pl_expr pl_bond_acceleration(pl_analysis* d, int k) {
@@ -33,14 +35,15 @@ int pl_loaded_by_name(const pl_analysis* d) {
 
 typedef struct pl_linear {
   int n_unknowns, n_rows;
-  pl_symbol* unknown;    //                       (n_unknowns)
-  pl_expr* row;          // expressions that vanish  (n_rows)
+  pl_symbol* unknown;  //                       (n_unknowns)
+  pl_expr* row;        // expressions that vanish  (n_rows)
 } pl_linear;
 
 static bool at_work(const pl_bond* l) { return l->fixes < 0 && !l->implied; }
 
-// What acts on a coordinate that only stands in `choose`, a torque on φ or its inertia, reaches the masses through the map x = X(φ),
-// as a force along the map: A = dX/dφ (x - X) is a constraint whose multiplier takes up the equation of φ,
+// What acts on a coordinate that only stands in `choose`, a torque on φ or its inertia, reaches the
+// masses through the map x = X(φ), as a force along the map: A = dX/dφ (x - X) is a constraint
+// whose multiplier takes up the equation of φ,
 //   E_x + ∇A (J^T J)^-1 E_φ = sum λ ∇g,  J = dX/dφ.
 // A part across the map does no work; it belongs to the constraints.
 static pl_expr through_map(pl_analysis* d, int i) {
@@ -60,10 +63,14 @@ static bool find_chosen_forces(pl_analysis* d) {
   for (int i = 0; i < d->q.n; i++) {
     if (d->q.at[i].chosen && !d->q.at[i].carries) at[n++] = i;
   }
-  pl_expr *A = PL_ARRAY(d->arena, pl_expr, n * n), *b = PL_ARRAY(d->arena, pl_expr, n), *x = PL_ARRAY(d->arena, pl_expr, n);
+  pl_expr *A = PL_ARRAY(d->arena, pl_expr, n * n), *b = PL_ARRAY(d->arena, pl_expr, n),
+          *x = PL_ARRAY(d->arena, pl_expr, n);
   for (int r = 0; r < n; r++) {
     b[r] = pl_on_maps(d, d->euler[at[r]]);
-    for (int c = 0; c < n; c++) A[r * n + c] = pl_neg(d->pool, pl_on_maps(d, pl_diff(d->pool, pl_along_map(d, d->q.at[at[c]].q), d->q.at[at[r]].q)));
+    for (int c = 0; c < n; c++)
+      A[r * n + c] = pl_neg(
+          d->pool,
+          pl_on_maps(d, pl_diff(d->pool, pl_along_map(d, d->q.at[at[c]].q), d->q.at[at[r]].q)));
   }
   if (pl_alg_solve(d->tower, n, A, b, x, max_terms) != PL_YES) return false;
   for (int k = 0; k < n; k++) pl_push(d->arena, d->chosen_forces, (pl_chosen_force){at[k], x[k]});
@@ -100,7 +107,8 @@ static pl_linear collect(pl_analysis* d) {
   for (int k = 0; k < d->g.n; k++) {
     if (!at_work(&d->g.at[k])) continue;
     add_unknown(&s, d->g.at[k].lambda);
-    if (!d->reduced || d->g.at[k].velocity) s.row[s.n_rows++] = pl_on_maps(d, pl_bond_acceleration(d, k));
+    if (!d->reduced || d->g.at[k].velocity)
+      s.row[s.n_rows++] = pl_on_maps(d, pl_bond_acceleration(d, k));
   }
   return s;
 }
@@ -120,7 +128,8 @@ static bool split(pl_analysis* d, const pl_linear* s, pl_expr* A, pl_expr* b) {
   return true;
 }
 
-// What vanishes only when names that stand for other quantities are seen through, (g - a) sin φ with a := g, is 0.
+// What vanishes only when names that stand for other quantities are seen through, (g - a) sin φ
+// with a := g, is 0.
 static pl_expr or_zero(pl_analysis* d, pl_expr e) {
   return pl_alg_is_zero(d->tower, e) == PL_YES ? pl_int(d->pool, 0) : e;
 }
@@ -163,7 +172,8 @@ static void dependent_accelerations(pl_analysis* d) {
   }
 }
 
-// Multipliers of the dropped constraints, last fixed first: lambda = (E_i - sum of the others) / (dg/dq_i).
+// Multipliers of the dropped constraints, last fixed first: lambda = (E_i - sum of the others) /
+// (dg/dq_i).
 static void dropped_multipliers(pl_analysis* d) {
   for (int round = 0; round < d->g.n; round++) {
     for (int k = d->g.n - 1; k >= 0; k--) {
@@ -176,7 +186,8 @@ static void dropped_multipliers(pl_analysis* d) {
         const pl_bond* other = &d->g.at[c];
         if (c == k || other->implied || pl_is_zero_node(d->pool, other->push[i])) continue;
         ready &= other->lambda_known;
-        if (ready) rest = pl_sub(d->pool, rest, pl_mul(d->pool, other->lambda_value, other->push[i]));
+        if (ready)
+          rest = pl_sub(d->pool, rest, pl_mul(d->pool, other->lambda_value, other->push[i]));
       }
       if (!ready) continue;
       l->lambda_value = pl_alg_normal(d->tower, pl_on_motion(d, pl_div(d->pool, rest, l->push[i])));
@@ -185,13 +196,14 @@ static void dropped_multipliers(pl_analysis* d) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- one row for one multiplier
+// ---------------------------------------------------------------------- one row for one multiplier
 // With q and q' of the map, but the accelerations left as names.
 static pl_expr on_positions(pl_analysis* d, pl_expr e) {
   pl_replace* r = PL_ARRAY(d->arena, pl_replace, d->maps.n + 1);
   int n = 0;
   for (int k = 0; d->reduced && k < d->maps.n; k++) {
-    if (pl_symbol_get(d->pool, d->maps.at[k].from)->role != PL_R_ACCELERATION) r[n++] = d->maps.at[k];
+    if (pl_symbol_get(d->pool, d->maps.at[k].from)->role != PL_R_ACCELERATION)
+      r[n++] = d->maps.at[k];
   }
   return pl_subst(d->pool, pl_on_contact(d, e), r, n);
 }
@@ -201,14 +213,17 @@ static pl_expr row_of(pl_analysis* d, int k, int i, int* n_others) {
   *n_others = 0;
   for (int c = 0; c < d->g.n; c++) {
     const pl_bond* other = &d->g.at[c];
-    if (c == k || (other->implied && !other->shared) || pl_is_zero_node(d->pool, pl_on_fixed(d, other->push[i]))) continue;
+    if (c == k || (other->implied && !other->shared)
+        || pl_is_zero_node(d->pool, pl_on_fixed(d, other->push[i])))
+      continue;
     e = pl_sub(d->pool, e, pl_mul(d->pool, pl_sym(d->pool, other->lambda), other->push[i]));
     (*n_others)++;
   }
   return pl_alg_normal(d->tower, on_positions(d, pl_div(d->pool, e, d->g.at[k].push[i])));
 }
 
-// A row is divided by its coefficient of the multiplier: at a dead centre r sin φ = 0 it says nothing.
+// A row is divided by its coefficient of the multiplier: at a dead centre r sin φ = 0 it says
+// nothing.
 static bool can_vanish(pl_analysis* d, pl_expr coefficient) {
   pl_expr e = pl_on_maps(d, coefficient);
   return d->reduced && d->loops.n == 0 && pl_has_coordinates(d, e) && !pl_keeps_sign(d, e);
@@ -220,10 +235,13 @@ pl_expr pl_multiplier_by_row(pl_analysis* d, int k, int* coordinate) {
   long best_cost = 0;
   for (int i = 0; i < d->q.n; i++) {
     bool own = l->fixes < 0 ? d->q.at[i].fixed_by < 0 : i == l->fixes;
-    if (!d->q.at[i].carries || !own || pl_is_zero_node(d->pool, pl_on_fixed(d, l->push[i]))) continue;
+    if (!d->q.at[i].carries || !own || pl_is_zero_node(d->pool, pl_on_fixed(d, l->push[i])))
+      continue;
     int n_others;
     pl_expr e = row_of(d, k, i, &n_others);
-    long cost = pl_is_poison(e) ? 0 : 1000L * n_others + pl_op_count(d->pool, e) + (can_vanish(d, l->gradient[i]) ? 500 : 0);
+    long cost = pl_is_poison(e) ? 0
+                                : 1000L * n_others + pl_op_count(d->pool, e)
+                                      + (can_vanish(d, l->gradient[i]) ? 500 : 0);
     if (pl_is_poison(e) || (!pl_is_poison(best) && cost >= best_cost)) continue;
     best = e;
     best_cost = cost;
@@ -232,7 +250,7 @@ pl_expr pl_multiplier_by_row(pl_analysis* d, int k, int* coordinate) {
   return best;
 }
 
-// ---------------------------------------------------------------------------------------------- the system
+// -------------------------------------------------------------------------------------- the system
 static bool solve_system(pl_analysis* d, pl_linear* s, pl_expr* x) {
   pl_expr* A = PL_ARRAY(d->arena, pl_expr, s->n_rows * s->n_unknowns + 1);
   pl_expr* b = PL_ARRAY(d->arena, pl_expr, s->n_rows + 1);
@@ -240,10 +258,12 @@ static bool solve_system(pl_analysis* d, pl_linear* s, pl_expr* x) {
   return s->n_unknowns == 0 || pl_alg_solve(d->tower, s->n_unknowns, A, b, x, max_terms) == PL_YES;
 }
 
-// Where the first-kind system is too large, or the map does not tell how a load of a chosen coordinate reaches the masses: the equations
-// of the second kind give the accelerations; multipliers of non-trivial constraints then stay open.
+// Where the first-kind system is too large, or the map does not tell how a load of a chosen
+// coordinate reaches the masses: the equations of the second kind give the accelerations;
+// multipliers of non-trivial constraints then stay open.
 static pl_linear collect_second_kind(pl_analysis* d) {
-  pl_linear s = {.unknown = PL_ARRAY(d->arena, pl_symbol, d->gen.n + 1), .row = PL_ARRAY(d->arena, pl_expr, d->gen.n + 1)};
+  pl_linear s = {.unknown = PL_ARRAY(d->arena, pl_symbol, d->gen.n + 1),
+                 .row = PL_ARRAY(d->arena, pl_expr, d->gen.n + 1)};
   for (int k = 0; k < d->gen.n; k++) {
     add_unknown(&s, d->q.at[d->gen.at[k]].a);
     s.row[s.n_rows++] = pl_second_kind(d, d->gen.at[k]);
@@ -251,7 +271,8 @@ static pl_linear collect_second_kind(pl_analysis* d) {
   return s;
 }
 
-// A longer one is the determinant of a definite matrix, G M^-1 G^T or M: its sign says nothing that a reader would assume.
+// A longer one is the determinant of a definite matrix, G M^-1 G^T or M: its sign says nothing that
+// a reader would assume.
 static const long longest_denominator = 60;
 
 // Of a normal form, which is a product with its denominator in negative powers.
@@ -269,15 +290,17 @@ static pl_expr denominator(pl_analysis* d, pl_expr e) {
   return den;
 }
 
-// What is divided by must not vanish: proving its sign puts the assumptions on record ("used: m1 > 0, m2 > 0").  Where coordinates are
-// in it, it is the determinant of a definite matrix, and nothing is assumed.
+// What is divided by must not vanish: proving its sign puts the assumptions on record ("used: m1 >
+// 0, m2 > 0"). Where coordinates are in it, it is the determinant of a definite matrix, and nothing
+// is assumed.
 static void record_denominators(pl_analysis* d) {
   for (int k = 0; k < d->g.n; k++) {
     int sign;
     if (!d->g.at[k].lambda_known) continue;
     pl_expr den = denominator(d, d->g.at[k].lambda_value);
     bool given = !pl_is_poison(den) && !pl_is_number(d->pool, den) && !pl_has_coordinates(d, den);
-    if (given && pl_op_count(d->pool, den) <= longest_denominator) pl_alg_sign(d->tower, den, false, &sign);
+    if (given && pl_op_count(d->pool, den) <= longest_denominator)
+      pl_alg_sign(d->tower, den, false, &sign);
   }
 }
 
@@ -299,9 +322,10 @@ pleuel_status pl_solve_motion(pl_analysis* d) {
     s = collect_second_kind(d);
     d->solved = solve_system(d, &s, x);
   }
-  if (!d->solved) return PLEUEL_OK;   // said by the sections that need it
+  if (!d->solved) return PLEUEL_OK;  // said by the sections that need it
   keep_solution(d, &s, x);
-  if (d->loops.n > 0 && d->gen.n > 0 && !slips(d)) {   // shorter over the coefficients than by elimination of the multipliers
+  // shorter over the coefficients than by elimination of the multipliers
+  if (d->loops.n > 0 && d->gen.n > 0 && !slips(d)) {
     s = collect_second_kind(d);
     if (solve_system(d, &s, x)) keep_solution(d, &s, x);
   }

@@ -1,14 +1,17 @@
-// start_rank: what loses its meaning at the start of the run: constraints whose gradients become dependent there, and formulas whose
-// denominator vanishes there.  Decided with the exact numbers of the model.
+// start_rank: what loses its meaning at the start of the run: constraints whose gradients become
+// dependent there, and formulas whose denominator vanishes there. Decided with the exact numbers of
+// the model.
 #include "derive/derive_impl.h"
 
 pl_expr pl_with_given_numbers(pl_analysis* d, pl_expr e) {
   const pl_model* m = d->model;
   for (int k = m->lets.n - 1; k >= 0; k--) {
-    if (!m->lets.at[k].inserted && m->lets.at[k].n_args == 0) e = pl_subst1(d->pool, e, m->lets.at[k].symbol, m->lets.at[k].value);
+    if (!m->lets.at[k].inserted && m->lets.at[k].n_args == 0)
+      e = pl_subst1(d->pool, e, m->lets.at[k].symbol, m->lets.at[k].value);
   }
   for (int k = m->params.n - 1; k >= 0; k--) {
-    if (!pl_is_poison(m->params.at[k].value)) e = pl_subst1(d->pool, e, m->params.at[k].symbol, m->params.at[k].value);
+    if (!pl_is_poison(m->params.at[k].value))
+      e = pl_subst1(d->pool, e, m->params.at[k].symbol, m->params.at[k].value);
   }
   return e;
 }
@@ -54,8 +57,16 @@ void pl_say_rank_at_start(pl_analysis* d) {
   if (d->g.n == 0 || d->model->inits.n == 0) return;
   int rank = rank_at_start(d, &m);
   if (rank < 0 || rank == m) return;
-  pl_say(d, pl_format(d->arena, "This counts at a general position. At the start the constraints lose rank: of %d gradients %d %s independent there.", m, rank, rank == 1 ? "is" : "are"),
-         pl_format(d->arena, "So gezählt wird in allgemeiner Lage. Am Start verlieren die Zwangsbedingungen an Rang: von %d Gradienten %s dort %d unabhängig.", m, rank == 1 ? "ist" : "sind", rank), 0);
+  pl_say(d,
+         pl_format(d->arena,
+                   "This counts at a general position. At the start the constraints lose rank: of "
+                   "%d gradients %d %s independent there.",
+                   m, rank, rank == 1 ? "is" : "are"),
+         pl_format(d->arena,
+                   "So gezählt wird in allgemeiner Lage. Am Start verlieren die Zwangsbedingungen "
+                   "an Rang: von %d Gradienten %s dort %d unabhängig.",
+                   m, rank == 1 ? "ist" : "sind", rank),
+         0);
 }
 
 void pl_say_pole_at_start(pl_analysis* d, const pl_form* name, pl_expr e) {
@@ -63,6 +74,9 @@ void pl_say_pole_at_start(pl_analysis* d, const pl_form* name, pl_expr e) {
   if (pl_is_poison(e) || d->model->inits.n == 0) return;
   pl_alg_fraction(d->tower, e, &top, &bottom);
   pl_expr there = at_start(d, bottom);
-  if (pl_is_poison(there) || !pl_is_constant(d->pool, there) || pl_alg_is_zero(d->tower, there) != PL_YES) return;
-  pl_say(d, "At the start the denominator vanishes: {1} has no value there.", "Am Start verschwindet der Nenner: {1} hat dort keinen Wert.", 1, name);
+  if (pl_is_poison(there) || !pl_is_constant(d->pool, there)
+      || pl_alg_is_zero(d->tower, there) != PL_YES)
+    return;
+  pl_say(d, "At the start the denominator vanishes: {1} has no value there.",
+         "Am Start verschwindet der Nenner: {1} hat dort keinen Wert.", 1, name);
 }

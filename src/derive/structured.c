@@ -1,27 +1,30 @@
-// structured: multipliers and accelerations that are too long to be written out.  What is shown instead is the linear system
-// that determines them, with a name for each entry, and its solution over the names.
+// structured: multipliers and accelerations that are too long to be written out. What is shown
+// instead is the linear system that determines them, with a name for each entry, and its solution
+// over the names.
 //
-// Multipliers: M a = F + G^T λ in the constraints twice differentiated, Γ a + γ = 0, gives (Γ M^-1 G^T) λ = -γ - Γ M^-1 F.
-// Where M falls into blocks of at most three rows this is written out; else accelerations and multipliers stay together.
-// Along a chain of rods the matrix is tridiagonal.  Entries come from raw differentiation, what is shown of them from the
-// tower; each is claimed, and so are the rows of the system and its solution.
+// Multipliers: M a = F + G^T λ in the constraints twice differentiated, Γ a + γ = 0, gives (Γ M^-1
+// G^T) λ = -γ - Γ M^-1 F. Where M falls into blocks of at most three rows this is written out; else
+// accelerations and multipliers stay together. Along a chain of rods the matrix is tridiagonal.
+// Entries come from raw differentiation, what is shown of them from the tower; each is claimed, and
+// so are the rows of the system and its solution.
 #include <math.h>
 
 #include "structured_impl.h"
 
 enum { most_unknowns = 200, largest_block = 3, most_levels = 4 };
-static const long longest_entry = 80;    // operations of an entry; beyond it accelerations and multipliers stay together
-static const long entry_terms = 400;     // cap of the inverse of a block
+// operations of an entry; beyond it accelerations and multipliers stay together
+static const long longest_entry = 80;
+static const long entry_terms = 400;  // cap of the inverse of a block
 
-// ---------------------------------------------------------------------------------------------- rows of the first kind
+// -------------------------------------------------------------------------- rows of the first kind
 typedef struct pl_first_kind {
-  int n, m;             // coordinates, bonds
+  int n, m;  // coordinates, bonds
   int *coordinate, *bond;
-  pl_expr *M, *F;       // (n x n), (n)
-  pl_expr *push, *G, *gamma;   // gradient (m x n), d g''/d a (m x n), rest of g'' (m)
+  pl_expr *M, *F;             // (n x n), (n)
+  pl_expr *push, *G, *gamma;  // gradient (m x n), d g''/d a (m x n), rest of g'' (m)
 } pl_first_kind;
 
-static pl_expr without(pl_analysis* d, pl_expr e) {   // accelerations
+static pl_expr without(pl_analysis* d, pl_expr e) {  // accelerations
   pl_replace* zero = PL_ARRAY(d->arena, pl_replace, d->q.n + 1);
   for (int j = 0; j < d->q.n; j++) zero[j] = (pl_replace){d->q.at[j].a, pl_int(d->pool, 0)};
   return pl_subst(d->pool, e, zero, d->q.n);
@@ -36,13 +39,14 @@ static pl_expr tidy(pl_analysis* d, pl_expr e) {
 }
 
 static bool collect_first_kind(pl_analysis* d, pl_first_kind* k) {
-  *k = (pl_first_kind){.coordinate = PL_ARRAY(d->arena, int, d->q.n + 1), .bond = PL_ARRAY(d->arena, int, d->g.n + 1)};
+  *k = (pl_first_kind){.coordinate = PL_ARRAY(d->arena, int, d->q.n + 1),
+                       .bond = PL_ARRAY(d->arena, int, d->g.n + 1)};
   if (d->hidden.n > 0 || pl_loaded_by_name(d) >= 0) return false;
   for (int i = 0; i < d->q.n; i++) {
     if (d->q.at[i].carries && d->q.at[i].fixed_by < 0) k->coordinate[k->n++] = i;
   }
   for (int j = 0; j < d->g.n; j++) {
-    if (d->g.at[j].shared) return false;   // not determined
+    if (d->g.at[j].shared) return false;  // not determined
     if (d->g.at[j].fixes < 0 && !d->g.at[j].implied) k->bond[k->m++] = j;
   }
   int n = k->n, m = k->m;
@@ -54,7 +58,8 @@ static bool collect_first_kind(pl_analysis* d, pl_first_kind* k) {
   k->gamma = PL_ARRAY(d->arena, pl_expr, m + 1);
   for (int i = 0; i < n; i++) {
     pl_expr e = pl_on_contact(d, d->euler[k->coordinate[i]]);
-    for (int j = 0; j < n; j++) k->M[i * n + j] = tidy(d, placed(d, pl_diff(d->pool, e, d->q.at[k->coordinate[j]].a)));
+    for (int j = 0; j < n; j++)
+      k->M[i * n + j] = tidy(d, placed(d, pl_diff(d->pool, e, d->q.at[k->coordinate[j]].a)));
     k->F[i] = placed(d, pl_neg(d->pool, without(d, e)));
   }
   for (int b = 0; b < m; b++) {
@@ -68,14 +73,16 @@ static bool collect_first_kind(pl_analysis* d, pl_first_kind* k) {
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- blocks of M
-static int block_of(const pl_analysis* d, const pl_first_kind* k, int first, bool* seen, int* member) {
+// ------------------------------------------------------------------------------------- blocks of M
+static int block_of(const pl_analysis* d, const pl_first_kind* k, int first, bool* seen,
+                    int* member) {
   int count = 0;
   member[count++] = first;
   seen[first] = true;
   for (int at = 0; at < count; at++) {
     for (int j = 0; j < k->n; j++) {
-      bool linked = !pl_is_zero_node(d->pool, k->M[member[at] * k->n + j]) || !pl_is_zero_node(d->pool, k->M[j * k->n + member[at]]);
+      bool linked = !pl_is_zero_node(d->pool, k->M[member[at] * k->n + j])
+                    || !pl_is_zero_node(d->pool, k->M[j * k->n + member[at]]);
       if (seen[j] || !linked) continue;
       seen[j] = true;
       member[count++] = j;
@@ -84,7 +91,8 @@ static int block_of(const pl_analysis* d, const pl_first_kind* k, int first, boo
   return count;
 }
 
-static bool invert_block(pl_analysis* d, const pl_first_kind* k, const int* member, int count, pl_expr* W) {
+static bool invert_block(pl_analysis* d, const pl_first_kind* k, const int* member, int count,
+                         pl_expr* W) {
   if (count > largest_block) return false;
   pl_expr A[largest_block * largest_block], b[largest_block], x[largest_block];
   for (int i = 0; i < count; i++) {
@@ -115,7 +123,7 @@ static bool invert_mass(pl_analysis* d, const pl_first_kind* k, pl_expr* W) {
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- the systems
+// ------------------------------------------------------------------------------------- the systems
 static pl_structure* make(pl_analysis* d, pl_structure_kind kind, int n) {
   pl_structure* s = PL_NEW(d->arena, pl_structure);
   *s = (pl_structure){.kind = kind, .n = n};
@@ -146,11 +154,13 @@ static pl_structure* multipliers(pl_analysis* d, const pl_first_kind* k) {
     s->u[b] = d->g.at[k->bond[b]].lambda;
     s->bond[b] = k->bond[b];
     pl_expr right = k->gamma[b];
-    for (int j = 0; j < n; j++) right = pl_add(d->pool, right, pl_mul(d->pool, GW[b * n + j], k->F[j]));
+    for (int j = 0; j < n; j++)
+      right = pl_add(d->pool, right, pl_mul(d->pool, GW[b * n + j], k->F[j]));
     s->R[b] = tidy(d, pl_neg(d->pool, right));
     for (int c = 0; c < m; c++) {
       pl_expr sum = pl_int(d->pool, 0);
-      for (int j = 0; j < n; j++) sum = pl_add(d->pool, sum, pl_mul(d->pool, GW[b * n + j], k->push[c * n + j]));
+      for (int j = 0; j < n; j++)
+        sum = pl_add(d->pool, sum, pl_mul(d->pool, GW[b * n + j], k->push[c * n + j]));
       s->S[b * m + c] = tidy(d, sum);
     }
   }
@@ -173,25 +183,28 @@ static pl_structure* both(pl_analysis* d, const pl_first_kind* k) {
     s->u[n + b] = d->g.at[k->bond[b]].lambda;
     s->bond[n + b] = k->bond[b];
     s->R[n + b] = tidy(d, minus ? pl_neg(d->pool, k->gamma[b]) : k->gamma[b]);
-    for (int i = 0; i < n; i++) s->S[(n + b) * all + i] = minus ? k->G[b * n + i] : pl_neg(d->pool, k->G[b * n + i]);
+    for (int i = 0; i < n; i++)
+      s->S[(n + b) * all + i] = minus ? k->G[b * n + i] : pl_neg(d->pool, k->G[b * n + i]);
   }
   return s;
 }
 
 static pl_structure* accelerations(pl_analysis* d) {
   int n = d->gen.n;
-  if (!d->reduced || n == 0 || n > most_unknowns || pl_nonholonomic(d) || d->hidden.n > 0) return NULL;
+  if (!d->reduced || n == 0 || n > most_unknowns || pl_nonholonomic(d) || d->hidden.n > 0)
+    return NULL;
   pl_structure* s = make(d, PL_ST_ACCELERATIONS, n);
   for (int i = 0; i < n; i++) {
     pl_expr e = pl_second_kind(d, d->gen.at[i]);
     s->u[i] = d->q.at[d->gen.at[i]].a;
-    for (int j = 0; j < n; j++) s->S[i * n + j] = tidy(d, pl_diff(d->pool, e, d->q.at[d->gen.at[j]].a));
+    for (int j = 0; j < n; j++)
+      s->S[i * n + j] = tidy(d, pl_diff(d->pool, e, d->q.at[d->gen.at[j]].a));
     s->R[i] = tidy(d, pl_neg(d->pool, without(d, e)));
   }
   return s;
 }
 
-// ---------------------------------------------------------------------------------------------- order along a chain
+// ----------------------------------------------------------------------------- order along a chain
 static int neighbours(const pl_analysis* d, const pl_structure* s, int k, int* out) {
   int n = 0;
   for (int j = 0; j < s->n; j++) {
@@ -200,7 +213,8 @@ static int neighbours(const pl_analysis* d, const pl_structure* s, int k, int* o
   return n;
 }
 
-// Rows so that neighbours follow each other; false when some row has three neighbours or they close a ring.
+// Rows so that neighbours follow each other; false when some row has three neighbours or they close
+// a ring.
 static bool walk(pl_analysis* d, const pl_structure* s, int* order) {
   bool* seen = PL_ARRAY(d->arena, bool, s->n);
   int* near = PL_ARRAY(d->arena, int, s->n);
@@ -236,16 +250,17 @@ static void reorder(pl_analysis* d, pl_structure* s, const int* order) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- entries by name
-// P of a constraint P = c with c = p or p^2 of a parameter p: where the constraint holds P may be written c.  There may be
-// several, one for each such term; false when `which` is beyond the last.
+// --------------------------------------------------------------------------------- entries by name
+// P of a constraint P = c with c = p or p^2 of a parameter p: where the constraint holds P may be
+// written c. There may be several, one for each such term; false when `which` is beyond the last.
 static bool level_of(pl_analysis* d, const pl_bond* l, int which, pl_expr* P, pl_expr* c) {
   if (l->fixes >= 0 || l->implied || l->velocity || d->reduced) return false;
   pl_expr g = pl_alg_normal(d->tower, pl_on_contact(d, l->g));
   int n = pl_kind_of(d->pool, g) == PL_ADD ? pl_n_args(d->pool, g) : 0;
   for (int k = 0; k < n; k++) {
     pl_expr term = pl_arg(d->pool, g, k), opposite = pl_neg(d->pool, term);
-    bool plus = pl_symbol_of_level(d, term).id != 0, minus = pl_symbol_of_level(d, opposite).id != 0;
+    bool plus = pl_symbol_of_level(d, term).id != 0,
+         minus = pl_symbol_of_level(d, opposite).id != 0;
     if ((!plus && !minus) || pl_has_coordinates(d, term) || which-- > 0) continue;
     pl_expr rest = pl_sub(d->pool, g, term);
     *P = minus ? rest : pl_neg(d->pool, rest);
@@ -258,21 +273,23 @@ static bool level_of(pl_analysis* d, const pl_bond* l, int which, pl_expr* P, pl
 pl_symbol pl_symbol_of_level(pl_analysis* d, pl_expr c) {
   if (pl_kind_of(d->pool, c) == PL_SYMBOL) return pl_symbol_of(d->pool, c);
   long two;
-  bool square = pl_kind_of(d->pool, c) == PL_POW && pl_is_int(d->pool, pl_arg(d->pool, c, 1), &two) && two == 2;
+  bool square = pl_kind_of(d->pool, c) == PL_POW && pl_is_int(d->pool, pl_arg(d->pool, c, 1), &two)
+                && two == 2;
   bool plain = square && pl_kind_of(d->pool, pl_arg(d->pool, c, 0)) == PL_SYMBOL;
   return plain ? pl_symbol_of(d->pool, pl_arg(d->pool, c, 0)) : (pl_symbol){0};
 }
 
 bool pl_structure_level(pl_analysis* d, int level, pl_replace* out) {
   pl_expr P, c;
-  if (level < 0 || !level_of(d, &d->g.at[level / most_levels], level % most_levels, &P, &c)) return false;
+  if (level < 0 || !level_of(d, &d->g.at[level / most_levels], level % most_levels, &P, &c))
+    return false;
   bool square = pl_kind_of(d->pool, c) == PL_POW;
   *out = (pl_replace){pl_symbol_of_level(d, c), square ? pl_sqrt(d->pool, P) : P};
   return true;
 }
 
 // Factors P of an entry written as c, of one constraint.
-static pl_expr on_level(pl_analysis* d, pl_expr e, int* bond) {   // bond and its term, -1
+static pl_expr on_level(pl_analysis* d, pl_expr e, int* bond) {  // bond and its term, -1
   pl_factor f[16];
   pl_expr unit, P, c;
   *bond = -1;
@@ -289,14 +306,16 @@ static pl_expr on_level(pl_analysis* d, pl_expr e, int* bond) {   // bond and it
   }
   if (*bond < 0) return e;
   pl_expr product = unit;
-  for (int k = 0; k < n; k++) product = pl_mul(d->pool, product, pl_pow_int(d->pool, f[k].base, f[k].power));
+  for (int k = 0; k < n; k++)
+    product = pl_mul(d->pool, product, pl_pow_int(d->pool, f[k].base, f[k].power));
   return pl_alg_normal(d->tower, product);
 }
 
 static bool is_taken(pl_analysis* d, const char* letter, int n) {
   for (int j = 1; j <= n; j++) {
     if (pl_symbol_find(d->pool, pl_format(d->arena, "%s_%d", letter, j)).id) return true;
-    if (pl_symbol_find(d->pool, pl_format(d->arena, "%s%d", letter, j)).id) return true;   // how the model's A_1 is spelled
+    // how the model's A_1 is spelled
+    if (pl_symbol_find(d->pool, pl_format(d->arena, "%s%d", letter, j)).id) return true;
     if (pl_symbol_find(d->pool, pl_format(d->arena, "%s_%d%d", letter, j, j)).id) return true;
   }
   return pl_symbol_find(d->pool, letter).id != 0;
@@ -313,28 +332,40 @@ static const char* free_letter(pl_analysis* d, const char* const* list, int n) {
 }
 
 static void choose_letters(pl_analysis* d, pl_structure* s) {
-  static const char* const of_multipliers[6][4] = {{"A", "S", NULL}, {"B", "Q", NULL}, {"R", "W", NULL}, {"D", "P", NULL}, {"C", "U", NULL}, {"Y", "X", NULL}};
-  static const char* const of_both[6][4] = {{"K", "A", NULL}, {"K", "A", NULL}, {"R", "W", NULL}, {"D", "P", NULL}, {"C", "U", NULL}, {"Y", "X", NULL}};
-  static const char* const of_accelerations[6][4] = {{"M", "J", NULL}, {"M", "J", NULL}, {"h", "H", NULL}, {"N", "P", NULL}, {"U", "V", NULL}, {"Z", "X", NULL}};
+  static const char* const of_multipliers[6][4] = {{"A", "S", NULL}, {"B", "Q", NULL},
+                                                   {"R", "W", NULL}, {"D", "P", NULL},
+                                                   {"C", "U", NULL}, {"Y", "X", NULL}};
+  static const char* const of_both[6][4] = {{"K", "A", NULL}, {"K", "A", NULL}, {"R", "W", NULL},
+                                            {"D", "P", NULL}, {"C", "U", NULL}, {"Y", "X", NULL}};
+  static const char* const of_accelerations[6][4] = {{"M", "J", NULL}, {"M", "J", NULL},
+                                                     {"h", "H", NULL}, {"N", "P", NULL},
+                                                     {"U", "V", NULL}, {"Z", "X", NULL}};
   for (int k = 0; k < 6; k++) {
-    const char* const* list = s->kind == PL_ST_ACCELERATIONS ? of_accelerations[k] : s->kind == PL_ST_BOTH ? of_both[k] : of_multipliers[k];
+    const char* const* list = s->kind == PL_ST_ACCELERATIONS ? of_accelerations[k]
+                              : s->kind == PL_ST_BOTH        ? of_both[k]
+                                                             : of_multipliers[k];
     bool again = k == 1 && (s->kind != PL_ST_MULTIPLIERS || !s->chain);
     s->letter[k] = again ? s->letter[0] : free_letter(d, list, s->n);
   }
 }
 
-pl_symbol pl_structure_name(pl_analysis* d, const pl_structure* s, const char* letter, int j, int k, pl_expr of) {
+pl_symbol pl_structure_name(pl_analysis* d, const pl_structure* s, const char* letter, int j, int k,
+                            pl_expr of) {
   int n = s->n;
-  const char* text = j < 0 ? letter : k < 0 ? pl_format(d->arena, "%s_%d", letter, j + 1)
-                           : pl_format(d->arena, n < 10 ? "%s_%d%d" : "%s_%d_%d", letter, j + 1, k + 1);
+  const char* text = j < 0   ? letter
+                     : k < 0 ? pl_format(d->arena, "%s_%d", letter, j + 1)
+                             : pl_format(d->arena, n < 10 ? "%s_%d%d" : "%s_%d_%d", letter, j + 1,
+                                         k + 1);
   // right sides stand behind the coefficients and are collected for
   bool right = k < 0 && (letter == s->letter[2] || letter == s->letter[5]);
-  pl_symbol_info info = {.name = text, .ascii = text, .role = PL_R_LOCAL, .class = right ? PL_C_COORD : PL_C_OTHER};
+  pl_symbol_info info = {
+      .name = text, .ascii = text, .role = PL_R_LOCAL, .class = right ? PL_C_COORD : PL_C_OTHER};
   info.dimension = pl_dimension_of_expr(d, of, &info.dimension_known);
   return pl_symbol_make(d->pool, &info);
 }
 
-static bool add_entry(pl_analysis* d, pl_structure* s, pl_expr raw, const char* letter, int j, int k, pl_symbol* out) {
+static bool add_entry(pl_analysis* d, pl_structure* s, pl_expr raw, const char* letter, int j,
+                      int k, pl_symbol* out) {
   if (pl_is_zero_node(d->pool, raw)) return true;
   int bond;
   pl_expr normal = pl_alg_normal(d->tower, raw), level = on_level(d, normal, &bond);
@@ -352,15 +383,18 @@ static bool name_entries(pl_analysis* d, pl_structure* s) {
   s->S_name = PL_ARRAY(d->arena, pl_symbol, n * n);
   s->R_name = PL_ARRAY(d->arena, pl_symbol, n);
   for (int k = 0; k < n; k++) {
-    short_enough &= add_entry(d, s, s->S[k * n + k], s->letter[0], k, s->chain ? -1 : k, &s->S_name[k * n + k]);
+    short_enough &= add_entry(d, s, s->S[k * n + k], s->letter[0], k, s->chain ? -1 : k,
+                              &s->S_name[k * n + k]);
   }
   for (int j = 0; j < n; j++) {
     for (int k = j + 1; k < n; k++) {
-      short_enough &= add_entry(d, s, s->S[j * n + k], s->letter[1], j, s->chain ? -1 : k, &s->S_name[j * n + k]);
+      short_enough &= add_entry(d, s, s->S[j * n + k], s->letter[1], j, s->chain ? -1 : k,
+                                &s->S_name[j * n + k]);
       s->S_name[k * n + j] = s->S_name[j * n + k];
     }
   }
-  for (int k = 0; k < n; k++) short_enough &= add_entry(d, s, s->R[k], s->letter[2], k, -1, &s->R_name[k]);
+  for (int k = 0; k < n; k++)
+    short_enough &= add_entry(d, s, s->R[k], s->letter[2], k, -1, &s->R_name[k]);
   s->n_entries = s->lines.n;
   return short_enough;
 }
@@ -375,16 +409,19 @@ static bool is_symmetric(pl_analysis* d, const pl_structure* s) {
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- is it regular?
-// Nested functions may hide from the algebra that rows depend on each other.  Elimination with complete pivoting; the least
-// pivot as a part of the largest.
+// ---------------------------------------------------------------------------------- is it regular?
+// Nested functions may hide from the algebra that rows depend on each other. Elimination with
+// complete pivoting; the least pivot as a part of the largest.
 static double least_pivot(double* A, int n) {
   double largest = 0, pivot = 0;
   for (int step = 0; step < n; step++) {
     int row = step, column = step;
     for (int i = step; i < n; i++)
       for (int j = step; j < n; j++)
-        if (fabs(A[i * n + j]) > fabs(A[row * n + column])) row = i, column = j;
+        if (fabs(A[i * n + j]) > fabs(A[row * n + column])) {
+          row = i;
+          column = j;
+        }
     pivot = fabs(A[row * n + column]);
     if (step == 0) largest = pivot;
     if (!(pivot > 0)) return pivot;
@@ -411,13 +448,13 @@ static bool is_singular(pl_analysis* d, const pl_structure* s) {
   enum { points = 4 };
   static const double rounding = 1e-11;
   int n = s->n, symbols = pl_symbol_count(d->pool);
-  double *A = PL_ARRAY(d->arena, double, n * n), *value = PL_ARRAY(d->arena, double, symbols + 1);
+  double *A = PL_ARRAY(d->arena, double, n*n), *value = PL_ARRAY(d->arena, double, symbols + 1);
   pl_random r = {20260};
   for (int k = 0; k < points; k++) {
     for (int i = 0; i <= symbols; i++) value[i] = 0.4 + pl_random_unit(&r);
     for (int i = 0; i < n * n; i++) A[i] = pl_eval(d->pool, s->S[i], value);
     double least = least_pivot(A, n);
-    if (!(least <= rounding)) return false;   // regular, or without a number here
+    if (!(least <= rounding)) return false;  // regular, or without a number here
   }
   return true;
 }
@@ -431,7 +468,7 @@ static pl_structure* finish(pl_analysis* d, pl_structure* s) {
   return name_entries(d, s) && pl_structure_solve(d, s) ? s : NULL;
 }
 
-// ---------------------------------------------------------------------------------------------- for the sections
+// -------------------------------------------------------------------------------- for the sections
 pl_structure* pl_structure_of_multipliers(pl_analysis* d) {
   if (d->multipliers_tried) return d->of_multipliers;
   d->multipliers_tried = true;

@@ -1,13 +1,15 @@
-// structured_text: a linear system with named entries, displayed once, and its unknowns as they are asked for.
+// structured_text: a linear system with named entries, displayed once, and its unknowns as they are
+// asked for.
 //
-//   λ_c1 has 7624 terms; shown in A_k, B_k, R_k:  the rows of the system, the names, the solution over the names.
-// Claimed at points of the motion: each entry against raw differentiation, each row of the system with the accelerations and
-// multipliers of d'Alembert in it, each unknown.
+//   λ_c1 has 7624 terms; shown in A_k, B_k, R_k: the rows of the system, the names, the solution
+//   over the names.
+// Claimed at points of the motion: each entry against raw differentiation, each row of the system
+// with the accelerations and multipliers of d'Alembert in it, each unknown.
 #include "structured_impl.h"
 
 enum { rows_written_out = 4, most_definitions = 48 };
 
-// ---------------------------------------------------------------------------------------------- forms with an index
+// ----------------------------------------------------------------------------- forms with an index
 static const pl_form* indexed(pl_analysis* d, const char* letter, const char* index) {
   return pl_fn(d, pl_format(d->arena, "%s_%s", letter, index));
 }
@@ -17,7 +19,9 @@ static const pl_form* times2(pl_analysis* d, const pl_form* a, const pl_form* b)
   return pl_form_product(d->arena, factor, 2);
 }
 
-static const pl_form* over(pl_analysis* d, const pl_form* a, const pl_form* b) { return pl_form_quotient(d->arena, a, b); }
+static const pl_form* over(pl_analysis* d, const pl_form* a, const pl_form* b) {
+  return pl_form_quotient(d->arena, a, b);
+}
 
 static const pl_form* minus(pl_analysis* d, const pl_form* a, const pl_form* b) {
   const pl_form* term[2] = {a, pl_form_neg(d->arena, b)};
@@ -28,9 +32,11 @@ static const pl_form* squared(pl_analysis* d, const pl_form* a) {
   return pl_form_power(d->arena, a, pl_form_leaf(d->arena, pl_int(d->pool, 2)));
 }
 
-static const pl_form* sigma(pl_analysis* d, const pl_form* a) { return times2(d, pl_fn(d, "Σ"), a); }
+static const pl_form* sigma(pl_analysis* d, const pl_form* a) {
+  return times2(d, pl_fn(d, "Σ"), a);
+}
 
-// ---------------------------------------------------------------------------------------------- why
+// --------------------------------------------------------------------------------------------- why
 static long terms_of(pl_analysis* d, pl_expr e) {
   pl_expr num, den;
   pl_alg_fraction(d->tower, e, &num, &den);
@@ -49,15 +55,17 @@ static const pl_form* letters_form(pl_analysis* d, const pl_structure* s) {
 static void say_why(pl_analysis* d, const pl_structure* s, pl_symbol u, pl_expr closed) {
   if (pl_is_poison(closed)) {
     pl_say(d, "Written out, {1} passes the limit of 3000 terms; shown in {2}:",
-           "Ausgeschrieben überschreitet {1} die Grenze von 3000 Termen; dargestellt durch {2}:", 2, pl_fs(d, u), letters_form(d, s));
+           "Ausgeschrieben überschreitet {1} die Grenze von 3000 Termen; dargestellt durch {2}:", 2,
+           pl_fs(d, u), letters_form(d, s));
     return;
   }
   long n = terms_of(d, closed);
-  pl_say(d, pl_format(d->arena, "{1} has %ld terms; shown in {2}:", n), pl_format(d->arena, "{1} hat %ld Terme; dargestellt durch {2}:", n), 2,
-         pl_fs(d, u), letters_form(d, s));
+  pl_say(d, pl_format(d->arena, "{1} has %ld terms; shown in {2}:", n),
+         pl_format(d->arena, "{1} hat %ld Terme; dargestellt durch {2}:", n), 2, pl_fs(d, u),
+         letters_form(d, s));
 }
 
-// ---------------------------------------------------------------------------------------------- the system
+// -------------------------------------------------------------------------------------- the system
 static const pl_form* row_form(pl_analysis* d, const pl_structure* s, int k) {
   const pl_form** term = PL_ARRAY(d->arena, const pl_form*, s->n);
   int n = 0;
@@ -74,39 +82,61 @@ static pl_expr row_value(pl_analysis* d, const pl_structure* s, int k) {
   pl_expr sum = pl_int(d->pool, 0);
   for (int j = 0; j < s->n; j++) {
     pl_symbol c = s->S_name[k * s->n + j];
-    if (c.id) sum = pl_add(d->pool, sum, pl_mul(d->pool, pl_sym(d->pool, c), pl_sym(d->pool, s->u[j])));
+    if (c.id)
+      sum = pl_add(d->pool, sum, pl_mul(d->pool, pl_sym(d->pool, c), pl_sym(d->pool, s->u[j])));
   }
   return sum;
 }
 
-static const char* unknown_letter(const pl_structure* s) { return s->kind == PL_ST_MULTIPLIERS ? "λ" : "u"; }
+static const char* unknown_letter(const pl_structure* s) {
+  return s->kind == PL_ST_MULTIPLIERS ? "λ" : "u";
+}
 
 static void say_numbering(pl_analysis* d, const pl_structure* s) {
   const pl_form** u = PL_ARRAY(d->arena, const pl_form*, s->n);
   for (int k = 0; k < s->n; k++) u[k] = pl_fs(d, s->u[k]);
   const char* letter = unknown_letter(s);
-  pl_say(d, pl_format(d->arena, "Here %s_1 … %s_%d stand for {1}; i = k + 1, j = k - 1, and what is not listed is 0.", letter, letter, s->n),
-         pl_format(d->arena, "Dabei stehen %s_1 … %s_%d für {1}; i = k + 1, j = k - 1, und was nicht aufgeführt ist, ist 0.", letter, letter, s->n), 1,
-         pl_flist(d, u, s->n));
+  pl_say(d,
+         pl_format(
+             d->arena,
+             "Here %s_1 … %s_%d stand for {1}; i = k + 1, j = k - 1, and what is not listed is 0.",
+             letter, letter, s->n),
+         pl_format(d->arena,
+                   "Dabei stehen %s_1 … %s_%d für {1}; i = k + 1, j = k - 1, und was nicht "
+                   "aufgeführt ist, ist 0.",
+                   letter, letter, s->n),
+         1, pl_flist(d, u, s->n));
 }
 
 static void show_chain_row(pl_analysis* d, pl_structure* s) {
   const char* u = unknown_letter(s);
-  const pl_form* term[3] = {times2(d, indexed(d, s->letter[1], "j"), indexed(d, u, "j")), times2(d, indexed(d, s->letter[0], "k"), indexed(d, u, "k")),
+  const pl_form* term[3] = {times2(d, indexed(d, s->letter[1], "j"), indexed(d, u, "j")),
+                            times2(d, indexed(d, s->letter[0], "k"), indexed(d, u, "k")),
                             times2(d, indexed(d, s->letter[1], "k"), indexed(d, u, "i"))};
-  s->number = pl_show_numbered(d, pl_feq(d, pl_form_sum(d->arena, term, 3), indexed(d, s->letter[2], "k")))->number;
+  s->number = pl_show_numbered(
+                  d, pl_feq(d, pl_form_sum(d->arena, term, 3), indexed(d, s->letter[2], "k")))
+                  ->number;
   say_numbering(d, s);
 }
 
 static void show_general_row(pl_analysis* d, pl_structure* s) {
-  const pl_form* product = times2(d, indexed(d, s->letter[0], "jk"), indexed(d, unknown_letter(s), "k"));
-  s->number = pl_show_numbered(d, pl_feq(d, sigma(d, product), indexed(d, s->letter[2], "j")))->number;
+  const pl_form* product = times2(d, indexed(d, s->letter[0], "jk"),
+                                  indexed(d, unknown_letter(s), "k"));
+  s->number =
+      pl_show_numbered(d, pl_feq(d, sigma(d, product), indexed(d, s->letter[2], "j")))->number;
   const pl_form** u = PL_ARRAY(d->arena, const pl_form*, s->n);
   for (int k = 0; k < s->n; k++) u[k] = pl_fs(d, s->u[k]);
   const char* letter = unknown_letter(s);
-  pl_say(d, pl_format(d->arena, "Sum over k; %s_1 … %s_%d stand for {1}. The matrix is symmetric, and what is not listed is 0.", letter, letter, s->n),
-         pl_format(d->arena, "Summe über k; %s_1 … %s_%d stehen für {1}. Die Matrix ist symmetrisch, und was nicht aufgeführt ist, ist 0.", letter, letter,
-                   s->n), 1, pl_flist(d, u, s->n));
+  pl_say(d,
+         pl_format(d->arena,
+                   "Sum over k; %s_1 … %s_%d stand for {1}. The matrix is symmetric, and what is "
+                   "not listed is 0.",
+                   letter, letter, s->n),
+         pl_format(d->arena,
+                   "Summe über k; %s_1 … %s_%d stehen für {1}. Die Matrix ist symmetrisch, und was "
+                   "nicht aufgeführt ist, ist 0.",
+                   letter, letter, s->n),
+         1, pl_flist(d, u, s->n));
 }
 
 static void show_system(pl_analysis* d, pl_structure* s) {
@@ -120,7 +150,8 @@ static void show_system(pl_analysis* d, pl_structure* s) {
              "Die Bewegungsgleichungen und die differenzierten Zwangsbedingungen zusammen:", 0);
       break;
     case PL_ST_ACCELERATIONS:
-      pl_say(d, "The equations of motion are linear in the accelerations:", "Die Bewegungsgleichungen sind linear in den Beschleunigungen:", 0);
+      pl_say(d, "The equations of motion are linear in the accelerations:",
+             "Die Bewegungsgleichungen sind linear in den Beschleunigungen:", 0);
       break;
   }
   if (s->n <= rows_written_out) {
@@ -134,7 +165,8 @@ static void show_system(pl_analysis* d, pl_structure* s) {
     show_general_row(d, s);
   }
   for (int k = 0; k < s->n; k++) {
-    pl_claim_that(d, PL_CLAIM_MOTION, row_value(d, s, k), s->R_name[k].id ? pl_sym(d->pool, s->R_name[k]) : pl_int(d->pool, 0));
+    pl_claim_that(d, PL_CLAIM_MOTION, row_value(d, s, k),
+                  s->R_name[k].id ? pl_sym(d->pool, s->R_name[k]) : pl_int(d->pool, 0));
   }
 }
 
@@ -149,14 +181,20 @@ static void claim_entry(pl_analysis* d, const pl_naming* l) {
   pl_claim_that(d, PL_CLAIM_MOTION, pl_sym(d->pool, l->name), l->raw);
   pl_replace level;
   if (!pl_structure_level(d, l->level, &level)) return;
-  pl_claim_that(d, PL_CLAIM_MOTION, pl_subst(d->pool, l->value, &level, 1), pl_subst(d->pool, l->exact, &level, 1));
+  pl_claim_that(d, PL_CLAIM_MOTION, pl_subst(d->pool, l->value, &level, 1),
+                pl_subst(d->pool, l->exact, &level, 1));
 }
 
 static void show_entries(pl_analysis* d, const pl_structure* s) {
   bool many = s->n_entries > most_definitions;
   if (many) {
-    pl_say(d, pl_format(d->arena, "The %d entries stand in the JSON answer and here with --steps full.", s->n_entries),
-           pl_format(d->arena, "Die %d Einträge stehen in der JSON-Antwort und hier mit --steps full.", s->n_entries), 0);
+    pl_say(
+        d,
+        pl_format(d->arena, "The %d entries stand in the JSON answer and here with --steps full.",
+                  s->n_entries),
+        pl_format(d->arena, "Die %d Einträge stehen in der JSON-Antwort und hier mit --steps full.",
+                  s->n_entries),
+        0);
   } else {
     pl_say(d, "with", "mit", 0);
   }
@@ -164,26 +202,42 @@ static void show_entries(pl_analysis* d, const pl_structure* s) {
   for (int k = 0; k < s->n_entries; k++) claim_entry(d, &s->lines.at[k]);
 }
 
-// ---------------------------------------------------------------------------------------------- the solution
+// ------------------------------------------------------------------------------------ the solution
 static void show_chain_recursion(pl_analysis* d, const pl_structure* s) {
   const char *D = s->letter[3], *Y = s->letter[5], *B = s->letter[1], *u = unknown_letter(s);
   const pl_form* Bj = indexed(d, B, "j");
-  pl_say(d, pl_format(d->arena, "From the first row to the last, then backwards:"), "Von der ersten Zeile zur letzten, dann zurück:", 0);
-  pl_show(d, pl_feq(d, indexed(d, D, "k"), minus(d, indexed(d, s->letter[0], "k"), over(d, squared(d, Bj), indexed(d, D, "j")))));
-  pl_show(d, pl_feq(d, indexed(d, Y, "k"), minus(d, indexed(d, s->letter[2], "k"), over(d, times2(d, Bj, indexed(d, Y, "j")), indexed(d, D, "j")))));
-  const pl_form* rest = minus(d, indexed(d, Y, "k"), times2(d, indexed(d, B, "k"), indexed(d, u, "i")));
+  pl_say(d, pl_format(d->arena, "From the first row to the last, then backwards:"),
+         "Von der ersten Zeile zur letzten, dann zurück:", 0);
+  pl_show(d, pl_feq(d, indexed(d, D, "k"),
+                    minus(d, indexed(d, s->letter[0], "k"),
+                          over(d, squared(d, Bj), indexed(d, D, "j")))));
+  pl_show(d, pl_feq(d, indexed(d, Y, "k"),
+                    minus(d, indexed(d, s->letter[2], "k"),
+                          over(d, times2(d, Bj, indexed(d, Y, "j")), indexed(d, D, "j")))));
+  const pl_form* rest = minus(d, indexed(d, Y, "k"),
+                              times2(d, indexed(d, B, "k"), indexed(d, u, "i")));
   pl_show(d, pl_feq(d, indexed(d, u, "k"), over(d, rest, indexed(d, D, "k"))));
 }
 
 static void show_general_recursion(pl_analysis* d, const pl_structure* s) {
-  const char *D = s->letter[3], *Y = s->letter[5], *C = s->letter[4], *S = s->letter[0], *u = unknown_letter(s);
+  const char *D = s->letter[3], *Y = s->letter[5], *C = s->letter[4], *S = s->letter[0],
+             *u = unknown_letter(s);
   const pl_form *Di = indexed(d, D, "i"), *Cik = indexed(d, C, "ik"), *Cij = indexed(d, C, "ij");
-  pl_say(d, "From the first row to the last, then backwards (sums over i < k, in the last formula over j > k):",
-         "Von der ersten Zeile zur letzten, dann zurück (Summen über i < k, in der letzten Formel über j > k):", 0);
-  pl_show(d, pl_feq(d, indexed(d, D, "k"), minus(d, indexed(d, S, "kk"), sigma(d, over(d, squared(d, Cik), Di)))));
-  pl_show(d, pl_feq(d, indexed(d, C, "kj"), minus(d, indexed(d, S, "kj"), sigma(d, over(d, times2(d, Cik, Cij), Di)))));
-  pl_show(d, pl_feq(d, indexed(d, Y, "k"), minus(d, indexed(d, s->letter[2], "k"), sigma(d, over(d, times2(d, Cik, indexed(d, Y, "i")), Di)))));
-  const pl_form* rest = minus(d, indexed(d, Y, "k"), sigma(d, times2(d, indexed(d, C, "kj"), indexed(d, u, "j"))));
+  pl_say(d,
+         "From the first row to the last, then backwards (sums over i < k, in the last formula "
+         "over j > k):",
+         "Von der ersten Zeile zur letzten, dann zurück (Summen über i < k, in der letzten Formel "
+         "über j > k):",
+         0);
+  pl_show(d, pl_feq(d, indexed(d, D, "k"),
+                    minus(d, indexed(d, S, "kk"), sigma(d, over(d, squared(d, Cik), Di)))));
+  pl_show(d, pl_feq(d, indexed(d, C, "kj"),
+                    minus(d, indexed(d, S, "kj"), sigma(d, over(d, times2(d, Cik, Cij), Di)))));
+  pl_show(d, pl_feq(d, indexed(d, Y, "k"),
+                    minus(d, indexed(d, s->letter[2], "k"),
+                          sigma(d, over(d, times2(d, Cik, indexed(d, Y, "i")), Di)))));
+  const pl_form* rest = minus(d, indexed(d, Y, "k"),
+                              sigma(d, times2(d, indexed(d, C, "kj"), indexed(d, u, "j"))));
   pl_show(d, pl_feq(d, indexed(d, u, "k"), over(d, rest, indexed(d, D, "k"))));
 }
 
@@ -210,7 +264,7 @@ static void tell(pl_analysis* d, pl_structure* s, pl_symbol u, pl_expr closed) {
   show_recursion(d, s);
 }
 
-// ---------------------------------------------------------------------------------------------- answers
+// ----------------------------------------------------------------------------------------- answers
 static int line_of(const pl_structure* s, pl_symbol u) {
   for (int k = s->n_entries + s->n_pivots; k < s->lines.n; k++) {
     if (s->lines.at[k].name.id == u.id) return k;
@@ -254,7 +308,8 @@ void pl_structure_where(pl_analysis* d, pl_value* v) {
 // x'' = (F + sum λ dg/dx)/m when no other acceleration stands in the equation of x.
 static pl_expr own_row(pl_analysis* d, int i) {
   pl_pool* p = d->pool;
-  pl_expr e = pl_on_contact(d, d->euler[i]), own = pl_diff(p, e, d->q.at[i].a), rest = pl_subst1(p, e, d->q.at[i].a, pl_int(p, 0));
+  pl_expr e = pl_on_contact(d, d->euler[i]), own = pl_diff(p, e, d->q.at[i].a),
+          rest = pl_subst1(p, e, d->q.at[i].a, pl_int(p, 0));
   if (pl_is_zero_node(p, own) || pl_has_role(p, rest, PL_R_ACCELERATION)) return pl_poison();
   for (int k = 0; k < d->g.n; k++) {
     const pl_bond* l = &d->g.at[k];
@@ -264,7 +319,11 @@ static pl_expr own_row(pl_analysis* d, int i) {
   return pl_neg(p, pl_div(p, rest, own));
 }
 
-typedef struct pl_found { pl_structure* s; pl_expr value; const pl_form* form; } pl_found;
+typedef struct pl_found {
+  pl_structure* s;
+  pl_expr value;
+  const pl_form* form;
+} pl_found;
 
 static int bond_of(const pl_analysis* d, pl_symbol lambda) {
   for (int k = 0; k < d->g.n; k++) {
@@ -273,8 +332,9 @@ static int bond_of(const pl_analysis* d, pl_symbol lambda) {
   return -1;
 }
 
-// With generalized coordinates, beside their accelerations: the acceleration of a coordinate that follows from them, by its map; a
-// multiplier, by one equation of the first kind.  It becomes a line over the accelerations.
+// With generalized coordinates, beside their accelerations: the acceleration of a coordinate that
+// follows from them, by its map; a multiplier, by one equation of the first kind. It becomes a line
+// over the accelerations.
 static bool find_by_row(pl_analysis* d, pl_symbol u, pl_found* f) {
   pl_structure* s = d->reduced ? pl_structure_of_accelerations(d) : NULL;
   int bond = bond_of(d, u), i, line = s ? line_of(s, u) : -1;
@@ -289,7 +349,9 @@ static bool find_by_row(pl_analysis* d, pl_symbol u, pl_found* f) {
   if (pl_has_role(d->pool, e, PL_R_MULTIPLIER) || pl_has_symbol(d->pool, e, u)) return false;
   const pl_form* form = pl_positive_first(d, pl_f(d, e, PL_S_QUOTIENT));
   pl_expr value = pl_form_value(d->pool, form);
-  pl_push(d->arena, s->lines, (pl_naming){.name = u, .value = value, .exact = value, .raw = e, .form = form, .level = -1});
+  pl_push(
+      d->arena, s->lines,
+      (pl_naming){.name = u, .value = value, .exact = value, .raw = e, .form = form, .level = -1});
   *f = (pl_found){s, value, form};
   return true;
 }
@@ -297,7 +359,8 @@ static bool find_by_row(pl_analysis* d, pl_symbol u, pl_found* f) {
 static bool find(pl_analysis* d, pl_symbol u, pl_found* f) {
   int i = pl_variable_index(d, u);
   bool acceleration = i >= 0 && d->q.at[i].a.id == u.id;
-  pl_structure* s = acceleration && d->reduced ? pl_structure_of_accelerations(d) : pl_structure_of_multipliers(d);
+  pl_structure* s = acceleration && d->reduced ? pl_structure_of_accelerations(d)
+                                               : pl_structure_of_multipliers(d);
   int k = s ? line_of(s, u) : -1;
   if (k >= 0) {
     *f = (pl_found){s, s->lines.at[k].value, s->lines.at[k].form};
@@ -323,7 +386,9 @@ bool pl_show_structured(pl_analysis* d, pl_symbol u, pl_expr closed) {
   if (!find(d, u, &f)) return false;
   bool again = f.s->told && f.s->section != d->solution->sections.n;
   tell(d, f.s, u, closed);
-  if (again) pl_say(d, "From {1}, solved over the names above:", "Aus {1}, mit den obigen Namen gelöst:", 1, pl_fref(d, f.s->number));
+  if (again)
+    pl_say(d, "From {1}, solved over the names above:", "Aus {1}, mit den obigen Namen gelöst:", 1,
+           pl_fref(d, f.s->number));
   pl_step* step = pl_show_numbered(d, pl_feq(d, pl_fs(d, u), f.form));
   pl_step_refs(step, 1, f.s->number);
   answer(d, u, &f);
@@ -338,7 +403,8 @@ bool pl_answer_structured(pl_analysis* d, pl_symbol u) {
   return true;
 }
 
-// e with each acceleration that has a row of its own inserted; false when some acceleration or multiplier has no line.
+// e with each acceleration that has a row of its own inserted; false when some acceleration or
+// multiplier has no line.
 static bool over_lines(pl_analysis* d, pl_expr* e, pl_found* last) {
   int n = pl_symbols_in(d->pool, *e, NULL, 0);
   pl_symbol* s = PL_ARRAY(d->arena, pl_symbol, n + 1);
@@ -368,14 +434,19 @@ bool pl_show_value_structured(pl_analysis* d, pl_expr asked, pl_expr e) {
   if (!pl_same(asked, value)) pl_show_numbered(d, pl_feq(d, pl_fe(d, asked), form));
   pl_claim_that(d, PL_CLAIM_MOTION, pl_form_value(d->pool, form), pl_with_results(d, asked));
   pl_value* v = pl_answer(d, pl_expr_text(d->arena, d->pool, asked), value, form);
-  for (int k = first; k < f.s->lines.n && pl_same(asked, value); k++) {   // an unknown itself
-    if (pl_same(asked, pl_sym(d->pool, f.s->lines.at[k].name))) v->expr = f.s->lines.at[k].value, v->form = f.s->lines.at[k].form;
+  for (int k = first; k < f.s->lines.n && pl_same(asked, value); k++) {  // an unknown itself
+    if (pl_same(asked, pl_sym(d->pool, f.s->lines.at[k].name))) {
+      v->expr = f.s->lines.at[k].value;
+      v->form = f.s->lines.at[k].form;
+    }
   }
   add_where(d, f.s, v);
   return true;
 }
 
-bool pl_structure_is_told(const pl_analysis* d) { return d->of_multipliers && d->of_multipliers->told; }
+bool pl_structure_is_told(const pl_analysis* d) {
+  return d->of_multipliers && d->of_multipliers->told;
+}
 
 int pl_structure_definitions(pl_analysis* d, pl_definition* out, int max) {
   const pl_structure* both[2] = {d->of_multipliers, d->of_accelerations};

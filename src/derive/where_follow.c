@@ -1,24 +1,24 @@
-// where_follow: the motion followed in numbers up to the first place where a condition holds, for systems whose integrals do not
-// suffice: several freedoms, drag.  Explicit steps of order 5 with an error estimate [DormandPrince1980]; the place is found by
-// bisection of the last step.
+// where_follow: the motion followed in numbers up to the first place where a condition holds, for
+// systems whose integrals do not suffice: several freedoms, drag. Explicit steps of order 5 with an
+// error estimate [DormandPrince1980]; the place is found by bisection of the last step.
 #include <math.h>
 #include <string.h>
 
 #include "where_impl.h"
 
-enum { most = 24, most_steps = 40000, stages = 7 };   // coordinates; of one search; of a step
-static const double most_work = 4e8;       // operations of one search: some seconds
-static const double tolerance = 1e-12;   // of a step, relative to the largest value so far
+enum { most = 24, most_steps = 40000, stages = 7 };  // coordinates; of one search; of a step
+static const double most_work = 4e8;                 // operations of one search: some seconds
+static const double tolerance = 1e-12;  // of a step, relative to the largest value so far
 static const double safety = 0.9, grows = 4, shrinks = 0.2;
 
 typedef struct flow {
   pl_analysis* d;
-  double* value;            // numbers by symbol id
-  int n;                    // coordinates
+  double* value;  // numbers by symbol id
+  int n;          // coordinates
   int coordinate[most];
-  pl_expr f;                // whose zero is looked for
-  int direction;            // +1 rising, -1 falling, 0 both
-  int n_definitions;        // coordinates, velocities and names of closed loops, in one assembly
+  pl_expr f;          // whose zero is looked for
+  int direction;      // +1 rising, -1 falling, 0 both
+  int n_definitions;  // coordinates, velocities and names of closed loops, in one assembly
   pl_definition* definition;
 } flow;
 
@@ -48,7 +48,8 @@ static double watched(const flow* w, double t, const double* y) {
 }
 
 // One step of length h; returns its estimated error relative to `size`.
-static double step(const flow* w, double t, const double* y, double h, const double* size, double* out) {
+static double step(const flow* w, double t, const double* y, double h, const double* size,
+                   double* out) {
   // clang-format off
   static const double c[stages] = {0, 1.0/5, 3.0/10, 4.0/5, 8.0/9, 1, 1};
   static const double a[stages][stages] = {
@@ -88,7 +89,8 @@ static bool starts(const flow* w, const pl_motion* motion, double* y) {
 }
 
 static bool follows(pl_analysis* d, flow* w, int assembly) {
-  if (!d->solved || !d->reduced || d->gen.n == 0 || d->gen.n > most || pl_nonholonomic(d)) return false;
+  if (!d->solved || !d->reduced || d->gen.n == 0 || d->gen.n > most || pl_nonholonomic(d))
+    return false;
   for (int k = 0; k < d->gen.n; k++) {
     w->coordinate[w->n++] = d->gen.at[k];
     if (pl_is_poison(d->acceleration[d->gen.at[k]])) return false;
@@ -102,8 +104,10 @@ static bool follows(pl_analysis* d, flow* w, int assembly) {
 // Steps that most_work allows.
 static int steps_of(const flow* w) {
   double work = (double)pl_op_count(w->d->pool, w->f);
-  for (int k = 0; k < w->n; k++) work += (double)pl_op_count(w->d->pool, w->d->acceleration[w->coordinate[k]]);
-  for (int k = 0; k < w->n_definitions; k++) work += (double)pl_op_count(w->d->pool, w->definition[k].value);
+  for (int k = 0; k < w->n; k++)
+    work += (double)pl_op_count(w->d->pool, w->d->acceleration[w->coordinate[k]]);
+  for (int k = 0; k < w->n_definitions; k++)
+    work += (double)pl_op_count(w->d->pool, w->definition[k].value);
   double steps = most_work / (stages * (work + 1));
   return steps < most_steps ? (int)steps : most_steps;
 }
@@ -152,7 +156,7 @@ static pl_followed_how first_zero(const flow* w, double end, double* time, doubl
 }
 
 static double end_of(pl_analysis* d) {
-  static const double long_time = 1e3;   // s, where the model says nothing
+  static const double long_time = 1e3;  // s, where the model says nothing
   if (!d->model->simulate.given) return long_time;
   double end = pl_number(d, d->model->simulate.to);
   return end > 0 ? end : long_time;
@@ -160,18 +164,21 @@ static double end_of(pl_analysis* d) {
 
 static const pl_form* time_form(pl_analysis* d, double t) {
   pl_notation how = {.math = PL_MATH_LINE, .lang = d->job->lang};
-  return pl_feq(d, pl_fs(d, pl_time(d->pool)), pl_fn(d, pl_format(d->arena, "%s s", pl_notation_number(d->arena, t, 6, how))));
+  return pl_feq(d, pl_fs(d, pl_time(d->pool)),
+                pl_fn(d, pl_format(d->arena, "%s s", pl_notation_number(d->arena, t, 6, how))));
 }
 
 // A contact that would have to pull on the way there.
-static void look_at_contacts(flow* w, const pl_search* p, const pl_motion* motion, double until, pl_followed* out) {
+static void look_at_contacts(flow* w, const pl_search* p, const pl_motion* motion, double until,
+                             pl_followed* out) {
   for (int k = 0; k < p->n_contacts; k++) {
     double y[2 * most];
     starts(w, motion, y);
     w->f = p->push[k];
     out->lost_at = 0;
     bool at_once = watched(w, 0, y) < 0;
-    if (!at_once && first_zero(w, until * (1 - 1e-9), &out->lost_at, y) != PL_FOLLOWED_MET) continue;
+    if (!at_once && first_zero(w, until * (1 - 1e-9), &out->lost_at, y) != PL_FOLLOWED_MET)
+      continue;
     out->lost = k;
     return;
   }
@@ -179,13 +186,14 @@ static void look_at_contacts(flow* w, const pl_search* p, const pl_motion* motio
 
 static bool begin(pl_analysis* d, const pl_search* p, int assembly, flow* w) {
   *w = (flow){.d = d, .f = p->condition};
-  pl_number(d, pl_add(d->pool, p->condition, p->asked));   // the table of numbers covers every name
+  pl_number(d, pl_add(d->pool, p->condition, p->asked));  // the table of numbers covers every name
   w->value = PL_ARRAY(d->arena, double, pl_symbol_count(d->pool) + 1);
   memcpy(w->value, d->value, (size_t)(pl_symbol_count(d->pool) + 1) * sizeof *w->value);
   return follows(d, w, assembly);
 }
 
-void pl_follow_motion(pl_analysis* d, const pl_motion* motion, int assembly, const pl_search* p, pl_followed* out) {
+void pl_follow_motion(pl_analysis* d, const pl_motion* motion, int assembly, const pl_search* p,
+                      pl_followed* out) {
   flow w;
   double y[2 * most];
   *out = (pl_followed){.how = PL_FOLLOWED_NOT, .lost = -1};
@@ -205,12 +213,14 @@ void pl_say_followed(pl_analysis* d, const pl_search* p, const pl_followed* f) {
   }
   if (f->lost >= 0) {
     pl_say(d, "{1} lets go before, at {2}; beyond it the formulas do not hold.",
-           "{1} löst sich vorher, bei {2}; danach gelten die Formeln nicht.", 2, pl_fn(d, p->contact[f->lost]), time_form(d, f->lost_at));
+           "{1} löst sich vorher, bei {2}; danach gelten die Formeln nicht.", 2,
+           pl_fn(d, p->contact[f->lost]), time_form(d, f->lost_at));
     return;
   }
   d->section->not_found = true;
   if (f->how == PL_FOLLOWED_PAST) {
-    pl_say(d, "As far as {1} this does not happen on the motion.", "Bis {1} geschieht das während der Bewegung nicht.", 1, time_form(d, f->time));
+    pl_say(d, "As far as {1} this does not happen on the motion.",
+           "Bis {1} geschieht das während der Bewegung nicht.", 1, time_form(d, f->time));
     return;
   }
   pl_say(d, "No solution in closed form was found; for the given numbers:",
@@ -218,7 +228,7 @@ void pl_say_followed(pl_analysis* d, const pl_search* p, const pl_followed* f) {
   pl_show_met_number(d, p->name, f->asked);
 }
 
-// ---------------------------------------------------------------------------------------------- events
+// ------------------------------------------------------------------------------------------ events
 static bool changes_the_motion(const pl_event* e) {
   for (int k = 0; k < e->actions.n; k++) {
     if (e->actions.at[k].kind != PL_DO_STOP && e->actions.at[k].kind != PL_DO_RECORD) return true;
@@ -227,7 +237,8 @@ static bool changes_the_motion(const pl_event* e) {
 }
 
 // The first event that changes the motion, up to the time `until`; NULL.
-static const pl_event* first_event(pl_analysis* d, flow* w, const pl_motion* motion, double until, double* time) {
+static const pl_event* first_event(pl_analysis* d, flow* w, const pl_motion* motion, double until,
+                                   double* time) {
   const pl_event* first = NULL;
   for (int k = 0; k < d->whole->events.n; k++) {
     const pl_event* e = &d->whole->events.at[k];
@@ -235,7 +246,8 @@ static const pl_event* first_event(pl_analysis* d, flow* w, const pl_motion* mot
     if (!changes_the_motion(e) || !starts(w, motion, y)) continue;
     w->f = pl_on_motion(d, pl_with_results(d, e->value));
     w->direction = e->direction;
-    if (isnan(watched(w, 0, y)) || first_zero(w, until * (1 - 1e-9), &t, y) != PL_FOLLOWED_MET) continue;
+    if (isnan(watched(w, 0, y)) || first_zero(w, until * (1 - 1e-9), &t, y) != PL_FOLLOWED_MET)
+      continue;
     first = e;
     until = *time = t;
   }
@@ -244,18 +256,21 @@ static const pl_event* first_event(pl_analysis* d, flow* w, const pl_motion* mot
 
 bool pl_say_event_before(pl_analysis* d, const pl_motion* motion, const pl_search* p) {
   bool any = false;
-  for (int k = 0; d->whole && k < d->whole->events.n; k++) any |= changes_the_motion(&d->whole->events.at[k]);
-  if (!any || (d->stage && d->stage->from > 0)) return false;   // the time of a later set counts from its beginning
+  for (int k = 0; d->whole && k < d->whole->events.n; k++)
+    any |= changes_the_motion(&d->whole->events.at[k]);
+  // the time of a later set counts from its beginning
+  if (!any || (d->stage && d->stage->from > 0)) return false;
   pl_followed f;
   flow w;
   double time = 0;
   pl_follow_motion(d, motion, 0, p, &f);
   double y[2 * most];
   if (f.how == PL_FOLLOWED_NOT || !begin(d, p, 0, &w) || !starts(&w, motion, y)) return false;
-  if (watched(&w, 0, y) == 0) return false;   // at the start already
+  if (watched(&w, 0, y) == 0) return false;  // at the start already
   const pl_event* e = first_event(d, &w, motion, f.time, &time);
   if (!e) return false;
-  pl_say(d, "{1} comes before, at {2}; beyond it the formulas do not hold.", "{1} tritt vorher ein, bei {2}; danach gelten die Formeln nicht.", 2,
+  pl_say(d, "{1} comes before, at {2}; beyond it the formulas do not hold.",
+         "{1} tritt vorher ein, bei {2}; danach gelten die Formeln nicht.", 2,
          pl_fn(d, e->name.text ? e->name.text : "event"), time_form(d, time));
   return true;
 }

@@ -1,20 +1,27 @@
-// where_met: which of the places where a condition holds does the motion meet first, and which way does it go there?  The roots in
-// closed form are compared with the course of the motion in numbers, which knows nothing of them.  Where numbers are missing, many
-// are drawn: an answer that is the same for all of them is given, else all that occur.
+// where_met: which of the places where a condition holds does the motion meet first, and which way
+// does it go there? The roots in closed form are compared with the course of the motion in numbers,
+// which knows nothing of them. Where numbers are missing, many are drawn: an answer that is the
+// same for all of them is given, else all that occur.
 #include <math.h>
 #include <string.h>
 
 #include "where_impl.h"
 
 enum { most_symbols = 96, n_draws = 24, most_tries = 600, most_ways = 8, most_rates = 4 };
-static const double agrees = 1e-8, agrees_touching = 1e-5;   // relative difference of two numbers that mean the same place
-static const double same_value = 1e-6;                       // likewise of the values asked for there
-static const double draw_low = 0.3, draw_high = 3;           // sizes of the numbers that are drawn
+// relative difference of two numbers that mean the same place
+static const double agrees = 1e-8, agrees_touching = 1e-5;
+// likewise of the values asked for there
+static const double same_value = 1e-6;
+static const double draw_low = 0.3, draw_high = 3;  // sizes of the numbers that are drawn
 
-// What is looked for, with abbreviations inserted whose numbers are not known: only to be evaluated.
-typedef struct numeric { pl_search p; pl_line line; } numeric;
+// What is looked for, with abbreviations inserted whose numbers are not known: only to be
+// evaluated.
+typedef struct numeric {
+  pl_search p;
+  pl_line line;
+} numeric;
 
-// ---------------------------------------------------------------------------------------------- numbers
+// ----------------------------------------------------------------------------------------- numbers
 static bool is_open_let(const pl_analysis* d, const pl_let* l) {
   return !l->inserted && l->n_args == 0 && l->symbol.id && isnan(d->value[l->symbol.id]);
 }
@@ -28,11 +35,12 @@ static pl_expr without_open_lets(pl_analysis* d, pl_expr e) {
 }
 
 static void make_numeric(pl_analysis* d, const pl_search* p, numeric* out) {
-  pl_number(d, p->condition);   // the table of numbers covers every name
+  pl_number(d, p->condition);  // the table of numbers covers every name
   out->p = *p;
   out->p.condition = without_open_lets(d, p->condition);
   out->p.asked = without_open_lets(d, p->asked);
-  for (int k = 0; k < p->n_roots; k++) out->p.root[k].value = without_open_lets(d, p->root[k].value);
+  for (int k = 0; k < p->n_roots; k++)
+    out->p.root[k].value = without_open_lets(d, p->root[k].value);
   for (int k = 0; k < p->n_contacts; k++) out->p.push[k] = without_open_lets(d, p->push[k]);
   if (!p->line) return;
   out->line = *p->line;
@@ -42,7 +50,9 @@ static void make_numeric(pl_analysis* d, const pl_search* p, numeric* out) {
   out->p.line = &out->line;
 }
 
-static pl_symbol speed_of(const pl_analysis* d, const pl_search* p) { return p->line ? d->q.at[p->line->i].v : (pl_symbol){0}; }
+static pl_symbol speed_of(const pl_analysis* d, const pl_search* p) {
+  return p->line ? d->q.at[p->line->i].v : (pl_symbol){0};
+}
 
 static int add_unknown(pl_analysis* d, const pl_search* p, pl_expr e, pl_symbol* out, int n) {
   pl_symbol in[most_symbols];
@@ -87,25 +97,29 @@ static bool facts_hold(pl_analysis* d, const double* value) {
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- the outcome for one set of numbers
+// -------------------------------------------------------------- the outcome for one set of numbers
 typedef enum pl_outcome_kind { FAILS, NEVER, MET } pl_outcome_kind;
 typedef struct outcome {
   pl_outcome_kind kind;
-  int root;               // -1: none of the closed ones
-  int rate, turns;        // so many periods 2π/rate[.] beyond it
+  int root;         // -1: none of the closed ones
+  int rate, turns;  // so many periods 2π/rate[.] beyond it
   pl_meeting at;
-  int lost;               // a contact that lets go before, -1
+  int lost;  // a contact that lets go before, -1
   double lost_at;
-  bool at_once;           // at the start already
+  bool at_once;  // at the start already
 } outcome;
 
-typedef struct rates { int n; pl_expr k[most_rates]; } rates;
+typedef struct rates {
+  int n;
+  pl_expr k[most_rates];
+} rates;
 
 // The k of every sin(k s), cos(k s).
 static void collect_rates(pl_analysis* d, pl_expr e, pl_symbol s, rates* out) {
   pl_pool* p = d->pool;
   if (!pl_has_symbol(p, e, s)) return;
-  if (pl_kind_of(p, e) == PL_CALL && (pl_function_of(p, e) == PL_SIN || pl_function_of(p, e) == PL_COS)) {
+  if (pl_kind_of(p, e) == PL_CALL
+      && (pl_function_of(p, e) == PL_SIN || pl_function_of(p, e) == PL_COS)) {
     pl_expr k = pl_diff(p, pl_arg(p, e, 0), s);
     bool known = pl_has_symbol(p, k, s) || out->n == most_rates;
     for (int i = 0; i < out->n; i++) known |= pl_same(out->k[i], k);
@@ -114,8 +128,10 @@ static void collect_rates(pl_analysis* d, pl_expr e, pl_symbol s, rates* out) {
   for (int i = 0; i < pl_n_args(p, e); i++) collect_rates(d, pl_arg(p, e, i), s, out);
 }
 
-static void match(pl_analysis* d, const numeric* x, const rates* r, double* value, const pl_course* c, outcome* out) {
-  double scale = fabs(out->at.at) + fabs(out->at.at - c->start) + c->first, near = (out->at.touches ? agrees_touching : agrees) * scale;
+static void match(pl_analysis* d, const numeric* x, const rates* r, double* value,
+                  const pl_course* c, outcome* out) {
+  double scale = fabs(out->at.at) + fabs(out->at.at - c->start) + c->first,
+         near = (out->at.touches ? agrees_touching : agrees) * scale;
   out->root = -1;
   for (int k = 0; k < x->p.n_roots; k++) {
     double apart = out->at.at - pl_eval(d->pool, x->p.root[k].value, value);
@@ -157,7 +173,8 @@ static void look_at_contacts(const numeric* x, const pl_course* c, outcome* out)
   }
 }
 
-static outcome follow(pl_analysis* d, const numeric* x, const rates* r, double* value, int side, pl_course* c) {
+static outcome follow(pl_analysis* d, const numeric* x, const rates* r, double* value, int side,
+                      pl_course* c) {
   outcome out = {.kind = FAILS, .root = -1, .lost = -1};
   const pl_search* p = &x->p;
   if (p->line) {
@@ -168,7 +185,8 @@ static outcome follow(pl_analysis* d, const numeric* x, const rates* r, double* 
   }
   double place = p->place ? pl_eval(d->pool, p->root[0].value, value) : 0;
   if (isnan(place)) return out;
-  bool met = p->place && p->line ? pl_course_reaches(c, place, &out.at) : pl_course_meets(c, p->condition, &out.at);
+  bool met = p->place && p->line ? pl_course_reaches(c, place, &out.at)
+                                 : pl_course_meets(c, p->condition, &out.at);
   out.kind = met ? MET : NEVER;
   if (met && p->place) out.root = 0;
   else if (met) match(d, x, r, value, c, &out);
@@ -176,11 +194,12 @@ static outcome follow(pl_analysis* d, const numeric* x, const rates* r, double* 
   return out;
 }
 
-// ---------------------------------------------------------------------------------------------- values
+// ------------------------------------------------------------------------------------------ values
 static pl_expr place_of(pl_analysis* d, const pl_search* p, const rates* r, const outcome* o) {
   pl_expr e = p->root[o->root].value;
   if (o->turns == 0) return e;
-  pl_expr period = pl_div(d->pool, pl_mul(d->pool, pl_int(d->pool, 2), pl_pi(d->pool)), r->k[o->rate]);
+  pl_expr period = pl_div(d->pool, pl_mul(d->pool, pl_int(d->pool, 2), pl_pi(d->pool)),
+                          r->k[o->rate]);
   return pl_add(d->pool, e, pl_mul(d->pool, pl_int(d->pool, o->turns), period));
 }
 
@@ -195,7 +214,7 @@ static pl_expr at_place(pl_analysis* d, const pl_search* p, pl_expr e, pl_expr p
   return pl_alg_normal(d->tower, pl_subst1(d->pool, e, p->s, place));
 }
 
-// ---------------------------------------------------------------------------------------------- sentences
+// --------------------------------------------------------------------------------------- sentences
 // "x = -2.1482 m"
 static const pl_form* place_form(pl_analysis* d, const pl_search* p, double at) {
   bool known;
@@ -205,16 +224,20 @@ static const pl_form* place_form(pl_analysis* d, const pl_search* p, double at) 
   const char* unit = angle || !known ? "" : pl_dimension_unit(d->arena, dim, false);
   const char* number = pl_notation_number(d->arena, angle ? at * 180 / M_PI : at, 6, how);
   bool plain = !*unit || strcmp(unit, "1") == 0;
-  const char* text = angle ? pl_format(d->arena, "%s°", number) : plain ? number : pl_format(d->arena, "%s %s", number, unit);
+  const char* text = angle   ? pl_format(d->arena, "%s°", number)
+                     : plain ? number
+                             : pl_format(d->arena, "%s %s", number, unit);
   return pl_feq(d, pl_fs(d, p->s), pl_fn(d, text));
 }
 
 static void say_turns(pl_analysis* d, const pl_search* p, const pl_course* c) {
   const pl_form* first = place_form(d, p, c->leg[0].to);
   if (c->n_legs > 2) {
-    pl_say(d, "It turns round at {1} and at {2}.", "Die Bewegung kehrt bei {1} und bei {2} um.", 2, first, place_form(d, p, c->leg[1].to));
+    pl_say(d, "It turns round at {1} and at {2}.", "Die Bewegung kehrt bei {1} und bei {2} um.", 2,
+           first, place_form(d, p, c->leg[1].to));
   } else {
-    pl_say(d, "It turns round at {1} and does not come back.", "Die Bewegung kehrt bei {1} um und kommt nicht zurück.", 1, first);
+    pl_say(d, "It turns round at {1} and does not come back.",
+           "Die Bewegung kehrt bei {1} um und kommt nicht zurück.", 1, first);
   }
 }
 
@@ -233,27 +256,33 @@ static void say_never(pl_analysis* d, const pl_search* p, const pl_course* c) {
   const pl_leg* last = c->n_legs > 0 ? &c->leg[c->n_legs - 1] : NULL;
   bool searched = !last || last->end != PL_END_OPEN || p->place || no_root_beyond(d, p, c);
   if (!searched && !(p->line && pl_course_repeats(c, p->condition))) {
-    pl_say(d, "As far as {1} this does not happen on the motion.", "Bis {1} geschieht das während der Bewegung nicht.", 1, place_form(d, p, last->to));
+    pl_say(d, "As far as {1} this does not happen on the motion.",
+           "Bis {1} geschieht das während der Bewegung nicht.", 1, place_form(d, p, last->to));
     d->section->not_found = true;
     return;
   }
   pl_say(d, "This never happens on the motion.", "Das geschieht während der Bewegung nie.", 0);
   if (c->stays) {
-    pl_say(d, "It stays at rest at {1}.", "Das System bleibt bei {1} in Ruhe.", 1, place_form(d, p, c->start));
+    pl_say(d, "It stays at rest at {1}.", "Das System bleibt bei {1} in Ruhe.", 1,
+           place_form(d, p, c->start));
   } else if (c->n_legs > 1) {
     say_turns(d, p, c);
   }
   if (last && last->end == PL_END_REST) {
-    pl_say(d, "It approaches {1} without reaching it.", "Die Bewegung nähert sich {1}, ohne diese Stelle zu erreichen.", 1, place_form(d, p, last->to));
+    pl_say(d, "It approaches {1} without reaching it.",
+           "Die Bewegung nähert sich {1}, ohne diese Stelle zu erreichen.", 1,
+           place_form(d, p, last->to));
   }
   if (last && last->end == PL_END_EDGE) {
-    pl_say(d, "It cannot go on beyond {1}.", "Über {1} hinaus geht die Bewegung nicht weiter.", 1, place_form(d, p, last->to));
+    pl_say(d, "It cannot go on beyond {1}.", "Über {1} hinaus geht die Bewegung nicht weiter.", 1,
+           place_form(d, p, last->to));
   }
 }
 
 void pl_say_met_before(pl_analysis* d, const char* contact, const pl_form* where) {
   pl_say(d, "{1} is met before, at {2}; beyond it the formulas do not hold.",
-         "{1} wird vorher erreicht, bei {2}; danach gelten die Formeln nicht.", 2, pl_fn(d, contact), where);
+         "{1} wird vorher erreicht, bei {2}; danach gelten die Formeln nicht.", 2,
+         pl_fn(d, contact), where);
 }
 
 static bool say_lost(pl_analysis* d, const pl_search* p, const outcome* o) {
@@ -262,17 +291,26 @@ static bool say_lost(pl_analysis* d, const pl_search* p, const outcome* o) {
   if (p->open[o->lost]) {
     pl_say_met_before(d, p->contact[o->lost], place_form(d, p, o->lost_at));
   } else if (o->at_once) {
-    pl_say(d, "At this start {1} would have to pull: it lets go at once, and the formulas do not hold.",
-           "Bei diesem Start müsste {1} ziehen: der Kontakt löst sich sofort, und die Formeln gelten nicht.", 1, contact);
+    pl_say(
+        d,
+        "At this start {1} would have to pull: it lets go at once, and the formulas do not hold.",
+        "Bei diesem Start müsste {1} ziehen: der Kontakt löst sich sofort, und die Formeln gelten "
+        "nicht.",
+        1, contact);
   } else {
     pl_say(d, "{1} lets go before, at {2}; beyond it the formulas do not hold.",
-           "{1} löst sich vorher, bei {2}; danach gelten die Formeln nicht.", 2, contact, place_form(d, p, o->lost_at));
+           "{1} löst sich vorher, bei {2}; danach gelten die Formeln nicht.", 2, contact,
+           place_form(d, p, o->lost_at));
   }
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- all that was found
-typedef struct ways { int n; outcome at[most_ways]; int never, lost, tried; } ways;
+// ------------------------------------------------------------------------------ all that was found
+typedef struct ways {
+  int n;
+  outcome at[most_ways];
+  int never, lost, tried;
+} ways;
 
 static void add_way(ways* w, const outcome* o) {
   w->tried += o->kind != FAILS;
@@ -281,7 +319,9 @@ static void add_way(ways* w, const outcome* o) {
   if (o->kind != MET || o->lost >= 0) return;
   for (int k = 0; k < w->n; k++) {
     const outcome* a = &w->at[k];
-    if (a->root == o->root && a->turns == o->turns && a->rate == o->rate && a->at.sign == o->at.sign) return;
+    if (a->root == o->root && a->turns == o->turns && a->rate == o->rate
+        && a->at.sign == o->at.sign)
+      return;
   }
   if (w->n < most_ways) w->at[w->n++] = *o;
 }
@@ -290,34 +330,42 @@ static void add_way(ways* w, const outcome* o) {
 static pl_expr condition_of(pl_analysis* d, const pl_search* p, const outcome* o, pl_expr place) {
   pl_expr e = p->root[o->root].condition;
   int sign;
-  if (pl_is_poison(e) && p->line && o->at.sign != 0) e = pl_alg_normal(d->tower, pl_subst1(d->pool, p->line->v2, p->s, place));
+  if (pl_is_poison(e) && p->line && o->at.sign != 0)
+    e = pl_alg_normal(d->tower, pl_subst1(d->pool, p->line->v2, p->s, place));
   if (!pl_is_poison(e) && pl_alg_sign(d->tower, e, true, &sign) != PL_YES) return e;
   if (!p->line || o->at.leg > 0 || o->at.sign == 0) return pl_poison();
-  e = pl_mul(d->pool, pl_int(d->pool, o->at.sign), pl_sub(d->pool, place, p->line->q0));   // ahead of the start
+  // ahead of the start
+  e = pl_mul(d->pool, pl_int(d->pool, o->at.sign), pl_sub(d->pool, place, p->line->q0));
   return pl_alg_sign(d->tower, e, true, &sign) == PL_YES ? pl_poison() : pl_alg_normal(d->tower, e);
 }
 
 // conditional: for some numbers it does not happen.
-static void show_way(pl_analysis* d, const pl_search* p, const rates* r, const outcome* o, bool conditional) {
+static void show_way(pl_analysis* d, const pl_search* p, const rates* r, const outcome* o,
+                     bool conditional) {
   pl_expr place = place_of(d, p, r, o);
-  if (!p->place) pl_claim_free(d, PL_CLAIM_INSERTED, at_place(d, p, p->condition, place, o->at.sign), pl_int(d->pool, 0));
+  if (!p->place)
+    pl_claim_free(d, PL_CLAIM_INSERTED, at_place(d, p, p->condition, place, o->at.sign),
+                  pl_int(d->pool, 0));
   pl_expr value = at_place(d, p, p->asked, place, o->at.sign);
   pl_expr condition = conditional ? condition_of(d, p, o, place) : pl_poison();
   pl_show_met(d, p->name, value, condition);
   if (conditional && pl_is_poison(condition)) {
-    pl_say(d, "This does not happen for all values of the given quantities.", "Das geschieht nicht für alle Werte der gegebenen Größen.", 0);
+    pl_say(d, "This does not happen for all values of the given quantities.",
+           "Das geschieht nicht für alle Werte der gegebenen Größen.", 0);
   }
 }
 
 // The closed form against the course: the number of what is asked there.
-static bool value_agrees(pl_analysis* d, const numeric* x, const rates* r, const outcome* o, const pl_course* c, double* y) {
+static bool value_agrees(pl_analysis* d, const numeric* x, const rates* r, const outcome* o,
+                         const pl_course* c, double* y) {
   *y = pl_course_value(c, x->p.asked, o->at.at, o->at.sign);
   if (o->root < 0) return false;
-  double closed = pl_number(d, at_place(d, &x->p, x->p.asked, place_of(d, &x->p, r, o), o->at.sign));
+  double closed = pl_number(d,
+                            at_place(d, &x->p, x->p.asked, place_of(d, &x->p, r, o), o->at.sign));
   return fabs(closed - *y) <= same_value * (fabs(closed) + fabs(*y)) + 1e-12;
 }
 
-// ---------------------------------------------------------------------------------------------- with the numbers of the model
+// ------------------------------------------------------------------- with the numbers of the model
 // Where `init` starts beside an equilibrium that `from` names, the motion leaves to that side.
 static int named_side(pl_analysis* d, const pl_search* p) {
   if (!p->line) return 0;
@@ -328,20 +376,24 @@ static int named_side(pl_analysis* d, const pl_search* p) {
   return x > 0 ? 1 : x < 0 ? -1 : 0;
 }
 
-static void show_given(pl_analysis* d, const pl_search* p, const numeric* x, const rates* r, const outcome* o, const pl_course* c) {
+static void show_given(pl_analysis* d, const pl_search* p, const numeric* x, const rates* r,
+                       const outcome* o, const pl_course* c) {
   if (say_lost(d, p, o)) return;
   if (o->kind == NEVER) {
     say_never(d, p, c);
     return;
   }
-  if (o->at.leg > 0) pl_say(d, "Before that the motion turns round at {1}.", "Vorher kehrt die Bewegung bei {1} um.", 1, place_form(d, p, c->leg[0].to));
+  if (o->at.leg > 0)
+    pl_say(d, "Before that the motion turns round at {1}.", "Vorher kehrt die Bewegung bei {1} um.",
+           1, place_form(d, p, c->leg[0].to));
   double y;
   if (value_agrees(d, x, r, o, c, &y)) {
     show_way(d, p, r, o, false);
     return;
   }
   if (!isfinite(y)) {
-    pl_say(d, "No solution in closed form was found.", "Eine geschlossene Lösung wurde nicht gefunden.", 0);
+    pl_say(d, "No solution in closed form was found.",
+           "Eine geschlossene Lösung wurde nicht gefunden.", 0);
     d->section->not_found = true;
     return;
   }
@@ -351,15 +403,19 @@ static void show_given(pl_analysis* d, const pl_search* p, const numeric* x, con
   d->section->not_found = true;
 }
 
-static bool same_answer(const numeric* x, const outcome* a, const pl_course* on_a, const outcome* b, const pl_course* on_b) {
-  double y = pl_course_value(on_a, x->p.asked, a->at.at, a->at.sign), z = pl_course_value(on_b, x->p.asked, b->at.at, b->at.sign);
+static bool same_answer(const numeric* x, const outcome* a, const pl_course* on_a, const outcome* b,
+                        const pl_course* on_b) {
+  double y = pl_course_value(on_a, x->p.asked, a->at.at, a->at.sign),
+         z = pl_course_value(on_b, x->p.asked, b->at.at, b->at.sign);
   return fabs(y - z) <= same_value * (fabs(y) + fabs(z)) + 1e-12;
 }
 
 // false: the numbers lead to no motion.
-static bool with_given_numbers(pl_analysis* d, const pl_search* p, const numeric* x, const rates* r) {
+static bool with_given_numbers(pl_analysis* d, const pl_search* p, const numeric* x,
+                               const rates* r) {
   int side = named_side(d, p), n = pl_symbol_count(d->pool) + 1;
-  double* value = memcpy(PL_ARRAY(d->arena, double, n), d->value, (size_t)n * sizeof(double));   // the course writes into it
+  // the course writes into it
+  double* value = memcpy(PL_ARRAY(d->arena, double, n), d->value, (size_t)n * sizeof(double));
   pl_course c, other;
   outcome o = follow(d, x, r, value, side, &c);
   if (o.kind == FAILS) return false;
@@ -369,17 +425,20 @@ static bool with_given_numbers(pl_analysis* d, const pl_search* p, const numeric
   }
   outcome right = follow(d, x, r, value, 1, &c), left = follow(d, x, r, value, -1, &other);
   bool same = right.kind == left.kind && right.lost == left.lost;
-  bool one = left.kind == NEVER || (same && right.kind == NEVER) || (same && same_answer(x, &right, &c, &left, &other));
+  bool one = left.kind == NEVER || (same && right.kind == NEVER)
+             || (same && same_answer(x, &right, &c, &left, &other));
   if (!one && right.kind == MET && left.kind == MET) {
-    pl_say(d, "The motion may leave the equilibrium to either side:", "Die Bewegung kann die Gleichgewichtslage nach beiden Seiten verlassen:", 0);
+    pl_say(d, "The motion may leave the equilibrium to either side:",
+           "Die Bewegung kann die Gleichgewichtslage nach beiden Seiten verlassen:", 0);
   }
   if (right.kind == MET || one) show_given(d, p, x, r, &right, &c);
   if (!one) show_given(d, p, x, r, &left, &other);
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- with numbers that are drawn
-static void follow_drawn(pl_analysis* d, const numeric* x, const rates* r, const pl_symbol* open, int n_open, ways* w) {
+// --------------------------------------------------------------------- with numbers that are drawn
+static void follow_drawn(pl_analysis* d, const numeric* x, const rates* r, const pl_symbol* open,
+                         int n_open, ways* w) {
   int n = pl_symbol_count(d->pool) + 1, side = named_side(d, &x->p);
   double* value = PL_ARRAY(d->arena, double, n + 1);
   pl_random random = {20};
@@ -415,13 +474,18 @@ static void show_drawn(pl_analysis* d, const pl_search* p, const rates* r, const
     return;
   }
   if (!any_closed(w)) {
-    pl_say(d, w->n ? "No solution in closed form was found." : "For none of the numbers that were tried does this happen on the motion.",
-           w->n ? "Eine geschlossene Lösung wurde nicht gefunden." : "Für keine der versuchten Zahlen geschieht das während der Bewegung.", 0);
+    pl_say(d,
+           w->n ? "No solution in closed form was found."
+                : "For none of the numbers that were tried does this happen on the motion.",
+           w->n ? "Eine geschlossene Lösung wurde nicht gefunden."
+                : "Für keine der versuchten Zahlen geschieht das während der Bewegung.",
+           0);
     d->section->not_found = true;
     return;
   }
   if (w->n > 1) {
-    pl_say(d, "What is met first hangs on the given quantities:", "Was zuerst eintritt, hängt von den gegebenen Größen ab:", 0);
+    pl_say(d, "What is met first hangs on the given quantities:",
+           "Was zuerst eintritt, hängt von den gegebenen Größen ab:", 0);
   }
   for (int k = 0; k < w->n; k++) {
     if (w->at[k].root >= 0) show_way(d, p, r, &w->at[k], w->never > 0 || w->lost > 0 || w->n > 1);
@@ -434,7 +498,8 @@ static void show_all(pl_analysis* d, const pl_search* p, const rates* r) {
   for (int k = 0; k < p->n_roots; k++) {
     for (int sign = 1; sign >= -1; sign -= 2) {
       outcome o = {.kind = MET, .root = k, .lost = -1, .at = {.sign = sign}};
-      if (sign > 0 || (p->line && pl_has_symbol(d->pool, p->asked, speed_of(d, p)))) add_way(&w, &o);
+      if (sign > 0 || (p->line && pl_has_symbol(d->pool, p->asked, speed_of(d, p))))
+        add_way(&w, &o);
     }
   }
   show_drawn(d, p, r, &w);

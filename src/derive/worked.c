@@ -3,12 +3,15 @@
 
 #include "derive/derive_impl.h"
 
-static const int largest_expansion = 24;   // coordinates up to which a family is written out and derived member by member
-static const int largest_for_a_member = 80;   // the same when a multiplier, an acceleration or a force of a member is asked for
+// coordinates up to which a family is written out and derived member by member
+static const int largest_expansion = 24;
+// the same when a multiplier, an acceleration or a force of a member is asked for
+static const int largest_for_a_member = 80;
 
-// ---------------------------------------------------------------------------------------------- degrees of freedom
+// ------------------------------------------------------------------------------ degrees of freedom
 // Those that depend on others only where all hold.
-static void depend_where_they_hold(pl_analysis* d, const int* row, int m, const int* column, int n) {
+static void depend_where_they_hold(pl_analysis* d, const int* row, int m, const int* column,
+                                   int n) {
   int *kept = PL_ARRAY(d->arena, int, m), n_kept = 0;
   for (int a = 0; a < m; a++) {
     if (!d->g.at[row[a]].implied) kept[n_kept++] = row[a];
@@ -18,7 +21,8 @@ static void depend_where_they_hold(pl_analysis* d, const int* row, int m, const 
   }
 }
 
-// Constraints that the others imply, by the rank of dg/dq at a generic point, or at points where the constraints hold.
+// Constraints that the others imply, by the rank of dg/dq at a generic point, or at points where
+// the constraints hold.
 static void find_implied(pl_analysis* d) {
   int n = 0, m = 0;
   int* column = PL_ARRAY(d->arena, int, d->q.n + 1);
@@ -30,7 +34,7 @@ static void find_implied(pl_analysis* d) {
     if (d->g.at[k].fixes < 0 && !d->g.at[k].implied) row[m++] = k;
   }
   if (m == 0) return;
-  if (n == 0) {   // nothing is left to move: what holds, holds already
+  if (n == 0) {  // nothing is left to move: what holds, holds already
     for (int a = 0; a < m; a++) d->g.at[row[a]].implied = true;
     return;
   }
@@ -59,7 +63,7 @@ static void count_freedom(pl_analysis* d) {
   int velocity = 0, contacts = 0;
   for (int i = 0; i < d->q.n; i++) f->coordinates += d->q.at[i].carries;
   for (int k = 0; k < d->g.n; k++) {
-    if (d->g.at[k].source->sticking) continue;       // friction is a force
+    if (d->g.at[k].source->sticking) continue;  // friction is a force
     f->constraints++;
     if (d->g.at[k].implied) continue;
     if (d->g.at[k].velocity) {
@@ -84,10 +88,12 @@ static void list_hidden(pl_analysis* d) {
 
 static const char* relation_text(pl_analysis* d, const pl_constraint* c) {
   const char* op = c->relation == PL_GE ? ">=" : c->relation == PL_LE ? "<=" : "=";
-  return pl_format(d->arena, "%s %s %s", pl_expr_text(d->arena, d->pool, c->left), op, pl_expr_text(d->arena, d->pool, c->right));
+  return pl_format(d->arena, "%s %s %s", pl_expr_text(d->arena, d->pool, c->left), op,
+                   pl_expr_text(d->arena, d->pool, c->right));
 }
 
-// ∇g_k as a combination of the gradients of the independent constraints: coefficients c of the bonds in `row`, k at `place`.
+// ∇g_k as a combination of the gradients of the independent constraints: coefficients c of the
+// bonds in `row`, k at `place`.
 static pl_answer3 dependency(pl_analysis* d, int k, int* row, pl_expr* c, int* m, int* place) {
   int n = d->q.n;
   pl_expr* A = PL_ARRAY(d->arena, pl_expr, d->g.n * n);
@@ -115,28 +121,33 @@ static void implied_by(pl_analysis* d, int k, pl_constraint_info* info) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- contradictions
-// Every root of one constraint inserted into another leaves something: they have no position in common.
+// ---------------------------------------------------------------------------------- contradictions
+// Every root of one constraint inserted into another leaves something: they have no position in
+// common.
 static bool no_common_root(pl_analysis* d, pl_expr given, pl_expr e) {
   for (int i = 0; i < d->q.n; i++) {
     if (!pl_has_symbol(d->pool, given, d->q.at[i].q)) continue;
     pl_root root[8];
     bool complete = false, all = true;
     int n = pl_alg_roots(d->tower, given, d->q.at[i].q, root, 8, &complete);
-    for (int r = 0; r < n; r++) all &= pl_zero_for_numbers(d, pl_subst1(d->pool, e, d->q.at[i].q, root[r].value)) == PL_NO;
+    for (int r = 0; r < n; r++)
+      all &= pl_zero_for_numbers(d, pl_subst1(d->pool, e, d->q.at[i].q, root[r].value)) == PL_NO;
     if (n > 0 && complete) return all;
   }
   return false;
 }
 
-// A constraint whose gradient depends on those of the others holds where they hold, or nowhere.  With ∇g = sum c_a ∇g_a and
-// constant c_a the difference g - sum c_a g_a is a constant.
+// A constraint whose gradient depends on those of the others holds where they hold, or nowhere.
+// With ∇g = sum c_a ∇g_a and constant c_a the difference g - sum c_a g_a is a constant.
 static pleuel_status no_contradiction(pl_analysis* d, int k) {
   const pl_bond* l = &d->g.at[k];
   if (d->reduced) {
     pl_expr left = pl_on_maps(d, l->g);
-    if (pl_has_followers(d, left) && pl_holds_on_loops(d, left, pl_int(d->pool, 0)) != PL_NO) return PLEUEL_OK;
-    return pl_zero_for_numbers(d, left) == PL_NO ? pl_contradiction(d, l, pl_alg_normal(d->tower, left)) : PLEUEL_OK;
+    if (pl_has_followers(d, left) && pl_holds_on_loops(d, left, pl_int(d->pool, 0)) != PL_NO)
+      return PLEUEL_OK;
+    return pl_zero_for_numbers(d, left) == PL_NO
+               ? pl_contradiction(d, l, pl_alg_normal(d->tower, left))
+               : PLEUEL_OK;
   }
   int m = 0, place = -1, others = 0, other = -1;
   int* row = PL_ARRAY(d->arena, int, d->g.n);
@@ -158,7 +169,9 @@ static pleuel_status no_contradiction(pl_analysis* d, int k) {
     return left ? pl_contradiction(d, l, rest) : PLEUEL_OK;
   }
   pl_expr e = pl_on_fixed(d, l->g);
-  return others == 1 && no_common_root(d, pl_on_fixed(d, d->g.at[other].g), e) ? pl_contradiction(d, l, e) : PLEUEL_OK;
+  return others == 1 && no_common_root(d, pl_on_fixed(d, d->g.at[other].g), e)
+             ? pl_contradiction(d, l, e)
+             : PLEUEL_OK;
 }
 
 static pleuel_status find_contradictions(pl_analysis* d) {
@@ -172,23 +185,33 @@ static pleuel_status find_contradictions(pl_analysis* d) {
 static void note_implied(pl_analysis* d, const pl_bond* l, const pl_constraint_info* info) {
   if (l->source->redundant_ok) return;
   pl_text by = pl_text_make(d->arena);
-  for (int k = 0; k < info->n_implied_by; k++) pl_text_addf(&by, "%s%s", k ? ", " : "", info->implied_by[k]);
+  for (int k = 0; k < info->n_implied_by; k++)
+    pl_text_addf(&by, "%s%s", k ? ", " : "", info->implied_by[k]);
   const char* others = info->n_implied_by > 0 ? pl_text_string(&by) : NULL;
   const char* label = l->source->name.text;
   pl_diagnostic* m = pl_report(d->job->diagnostics, PL_N052, l->source->span,
-    pl_format(d->arena, "constraint %s says nothing new", label), pl_format(d->arena, "Zwangsbedingung %s sagt nichts Neues", label));
+                               pl_format(d->arena, "constraint %s says nothing new", label),
+                               pl_format(d->arena, "Zwangsbedingung %s sagt nichts Neues", label));
   pl_report_reason(m, pl_format(d->arena, "implied by %s", others ? others : "the others"),
                    pl_format(d->arena, "folgt aus %s", others ? others : "den anderen"));
-  pl_report_fix(m, "fine for the motion, but the forces of these constraints are not unique; add \", redundant ok\" to keep it",
-                "für die Bewegung ohne Folgen, aber die Kräfte dieser Zwangsbedingungen sind nicht eindeutig; mit \", redundant ok\" bleibt sie", NULL);
+  pl_report_fix(m,
+                "fine for the motion, but the forces of these constraints are not unique; add \", "
+                "redundant ok\" to keep it",
+                "für die Bewegung ohne Folgen, aber die Kräfte dieser Zwangsbedingungen sind nicht "
+                "eindeutig; mit \", redundant ok\" bleibt sie",
+                NULL);
 }
 
 static void describe_open(pl_analysis* d) {
   for (int k = 0; k < d->open.n; k++) {
     const pl_open* o = &d->open.at[k];
     if (o->off) continue;
-    pl_constraint_info info = {.source = o->source, .label = o->source->name.text, .text = relation_text(d, o->source), .open = true,
-                               .nonholonomic = o->source->has_velocity, .one_sided = o->contact,
+    pl_constraint_info info = {.source = o->source,
+                               .label = o->source->name.text,
+                               .text = relation_text(d, o->source),
+                               .open = true,
+                               .nonholonomic = o->source->has_velocity,
+                               .one_sided = o->contact,
                                .rheonomic = pl_has_symbol(d->pool, o->source->g, pl_time(d->pool))};
     pl_push(d->arena, d->solution->constraints, info);
   }
@@ -198,10 +221,14 @@ static void describe_open(pl_analysis* d) {
 static void describe_constraints(pl_analysis* d, bool first) {
   for (int k = 0; k < d->g.n; k++) {
     const pl_bond* l = &d->g.at[k];
-    pl_constraint_info info = {.source = l->source, .label = l->source->name.text, .text = relation_text(d, l->source),
-                               .nonholonomic = l->velocity, .one_sided = l->contact,
+    pl_constraint_info info = {.source = l->source,
+                               .label = l->source->name.text,
+                               .text = relation_text(d, l->source),
+                               .nonholonomic = l->velocity,
+                               .one_sided = l->contact,
                                .rheonomic = pl_has_symbol(d->pool, l->g, pl_time(d->pool)),
-                               .dropped = l->fixes >= 0 && !l->contact, .implied = l->implied};
+                               .dropped = l->fixes >= 0 && !l->contact,
+                               .implied = l->implied};
     if (l->implied) {
       implied_by(d, k, &info);
       if (first) note_implied(d, l, &info);
@@ -211,7 +238,7 @@ static void describe_constraints(pl_analysis* d, bool first) {
   if (first) describe_open(d);
 }
 
-// ---------------------------------------------------------------------------------------------- requests
+// ---------------------------------------------------------------------------------------- requests
 // What friction leaves as it is.  Everything else would be right without friction only.
 static bool survives_friction(pl_analysis* d, const pl_ask* ask) {
   switch (ask->kind) {
@@ -247,23 +274,31 @@ static void answer_conserved_with_friction(pl_analysis* d, const pl_ask* ask) {
 
 static void leave_to_simulation(pl_analysis* d, const pl_ask* ask) {
   if (!d->section || d->section->item != ask->text) pl_section_open(d, ask, ask->text, ask->text);
-  pl_say(d, "Friction acts here, with a force that jumps between sticking and slipping: no formula is given. The simulation computes the motion.",
-         "Hier wirkt Reibung, deren Kraft zwischen Haften und Gleiten springt: keine Formel. Die Simulation berechnet die Bewegung.", 0);
+  pl_say(d,
+         "Friction acts here, with a force that jumps between sticking and slipping: no formula is "
+         "given. The simulation computes the motion.",
+         "Hier wirkt Reibung, deren Kraft zwischen Haften und Gleiten springt: keine Formel. Die "
+         "Simulation berechnet die Bewegung.",
+         0);
   d->section->not_found = true;
 }
 
 static void note_friction(pl_analysis* d) {
   if (pl_knows_friction(d) || d->options->structure) return;
-  pl_diagnostic* m = pl_report(d->job->diagnostics, PL_N091, d->model->frictions.at[0].span,
-                               "friction is computed by the simulation, formulas are not derived with it",
-                               "Reibung berechnet die Simulation, Formeln werden mit ihr nicht hergeleitet");
-  pl_report_fix(m, "without this line the formulas hold for smooth surfaces", "ohne diese Zeile gelten die Formeln für glatte Flächen", NULL);
+  pl_diagnostic* m = pl_report(
+      d->job->diagnostics, PL_N091, d->model->frictions.at[0].span,
+      "friction is computed by the simulation, formulas are not derived with it",
+      "Reibung berechnet die Simulation, Formeln werden mit ihr nicht hergeleitet");
+  pl_report_fix(m, "without this line the formulas hold for smooth surfaces",
+                "ohne diese Zeile gelten die Formeln für glatte Flächen", NULL);
 }
 
-// What asks for roots or series in the generalized coordinates, on which the coordinates of loops hang without being written out.
+// What asks for roots or series in the generalized coordinates, on which the coordinates of loops
+// hang without being written out.
 static bool needs_explicit_maps(const pl_ask* ask) {
-  return ask->kind == PL_ASK_EQUILIBRIA || ask->kind == PL_ASK_MODES || ask->kind == PL_ASK_THRESHOLD || ask->kind == PL_ASK_LIMIT ||
-         ask->kind == PL_ASK_SERIES || (ask->kind == PL_ASK_VALUE && ask->where.n > 0);
+  return ask->kind == PL_ASK_EQUILIBRIA || ask->kind == PL_ASK_MODES
+         || ask->kind == PL_ASK_THRESHOLD || ask->kind == PL_ASK_LIMIT || ask->kind == PL_ASK_SERIES
+         || (ask->kind == PL_ASK_VALUE && ask->where.n > 0);
 }
 
 // The equations of the second kind at rest, over the names of the loops.
@@ -274,33 +309,41 @@ static void show_rest(pl_analysis* d) {
     pl_expr e = pl_second_kind(d, d->gen.at[k]);
     for (int j = 0; j < d->gen.n; j++) {
       const pl_variable* c = &d->q.at[d->gen.at[j]];
-      e = pl_subst1(d->pool, pl_subst1(d->pool, e, c->a, pl_int(d->pool, 0)), c->v, pl_int(d->pool, 0));
+      e = pl_subst1(d->pool, pl_subst1(d->pool, e, c->a, pl_int(d->pool, 0)), c->v,
+                    pl_int(d->pool, 0));
     }
-    pl_show_numbered(d, pl_feq(d, pl_f(d, pl_alg_normal(d->tower, e), PL_S_EQUATION), pl_form_leaf(d->arena, pl_int(d->pool, 0))));
+    pl_show_numbered(d, pl_feq(d, pl_f(d, pl_alg_normal(d->tower, e), PL_S_EQUATION),
+                               pl_form_leaf(d->arena, pl_int(d->pool, 0))));
   }
 }
 
 static void leave_implicit(pl_analysis* d, const pl_ask* ask) {
   pl_section_open(d, ask, ask->text, ask->text);
-  pl_say(d, "The coordinates of closed loops follow from the generalized ones through roots; no closed form was found for this.",
-         "Die Koordinaten geschlossener Schleifen folgen aus den verallgemeinerten durch Wurzeln; hierfür wurde keine geschlossene Form gefunden.", 0);
+  pl_say(d,
+         "The coordinates of closed loops follow from the generalized ones through roots; no "
+         "closed form was found for this.",
+         "Die Koordinaten geschlossener Schleifen folgen aus den verallgemeinerten durch Wurzeln; "
+         "hierfür wurde keine geschlossene Form gefunden.",
+         0);
   d->section->not_found = true;
   if (ask->kind == PL_ASK_EQUILIBRIA) show_rest(d);
 }
 
-// ---------------------------------------------------------------------------------------------- which coordinates
+// ------------------------------------------------------------------------------- which coordinates
 static bool of_forces(pl_analysis* d, pl_expr e) {
-  return pl_has_role(d->pool, e, PL_R_ACCELERATION) || pl_has_role(d->pool, e, PL_R_MULTIPLIER) || pl_has_role(d->pool, e, PL_R_LOCAL);
+  return pl_has_role(d->pool, e, PL_R_ACCELERATION) || pl_has_role(d->pool, e, PL_R_MULTIPLIER)
+         || pl_has_role(d->pool, e, PL_R_LOCAL);
 }
 
-// What is answered in generalized coordinates.  Multipliers, accelerations and forces stay in the coordinates of the model, where
-// these have a closed form and no motion is named.
+// What is answered in generalized coordinates. Multipliers, accelerations and forces stay in the
+// coordinates of the model, where these have a closed form and no motion is named.
 static bool in_generalized(pl_analysis* d, const pl_ask* ask) {
   switch (ask->kind) {
     case PL_ASK_LIMIT:
     case PL_ASK_SERIES: return false;
     case PL_ASK_SOLVE: return !d->solved || ask->of_time || !of_forces(d, ask->value);
-    case PL_ASK_VALUE: return !d->solved || ask->where.n > 0 || ask->motion.given || !of_forces(d, ask->value);
+    case PL_ASK_VALUE:
+      return !d->solved || ask->where.n > 0 || ask->motion.given || !of_forces(d, ask->value);
     case PL_ASK_FORCE_OF:
     case PL_ASK_FORCE_ON: return !d->solved || ask->motion.given;
     default: return true;
@@ -312,10 +355,12 @@ static bool is_driven(const pl_analysis* d) { return d->dof.dof == 0; }
 
 // The analysis that answers: in the coordinates of the model, or with what is proposed.
 static pl_analysis* serving(pl_analysis* d, const pl_ask* ask) {
-  bool first_kind = ask->kind == PL_ASK_DOF || ask->kind == PL_ASK_CONSTRAINTS || ask->kind == PL_ASK_LAGRANGE1 ||
-                    ask->kind == PL_ASK_NEWTON || ask->kind == PL_ASK_CONSERVED;
+  bool first_kind = ask->kind == PL_ASK_DOF || ask->kind == PL_ASK_CONSTRAINTS
+                    || ask->kind == PL_ASK_LAGRANGE1 || ask->kind == PL_ASK_NEWTON
+                    || ask->kind == PL_ASK_CONSERVED;
   if (d->reduced || first_kind || !(in_generalized(d, ask) || is_driven(d))) return d;
-  bool rest = ask->kind == PL_ASK_EQUILIBRIA || ask->kind == PL_ASK_MODES || ask->kind == PL_ASK_THRESHOLD;
+  bool rest = ask->kind == PL_ASK_EQUILIBRIA || ask->kind == PL_ASK_MODES
+              || ask->kind == PL_ASK_THRESHOLD;
   pl_analysis* a = rest ? pl_propose_for_rest(d) : pl_propose(d);
   return a ? a : d;
 }
@@ -368,7 +413,8 @@ static pl_ask in_its_coordinates(pl_analysis* d, const pl_ask* ask) {
     own.motion.from = found;
     own.motion.n_from = n;
   }
-  bool place = ask->kind == PL_ASK_MODES || ask->kind == PL_ASK_EQUILIBRIA || ask->kind == PL_ASK_THRESHOLD;
+  bool place = ask->kind == PL_ASK_MODES || ask->kind == PL_ASK_EQUILIBRIA
+               || ask->kind == PL_ASK_THRESHOLD;
   n = place ? pl_in_generalized(d, ask->where.at, ask->where.n, &found) : -1;
   if (n >= 0) {
     own.where.at = found;
@@ -380,7 +426,8 @@ static pl_ask in_its_coordinates(pl_analysis* d, const pl_ask* ask) {
 void pl_answer_one(pl_analysis* d, const pl_ask* ask) {
   if (ask->kind == PL_ASK_LAGRANGIAN) d = pl_without_sticking(d);
   int n = d->solution->sections.n;
-  d->section = n > 0 ? &d->solution->sections.at[n - 1] : NULL;   // another analysis may have written it
+  // another analysis may have written it
+  d->section = n > 0 ? &d->solution->sections.at[n - 1] : NULL;
   if (pl_answer_open(d, ask)) return;
   ask = pl_without_open(d, ask);
   pl_analysis* a = serving(d, ask);
@@ -402,7 +449,7 @@ static void standard(pl_analysis* d, pl_ask_kind kind, const char* text) {
 static void answer_standard(pl_analysis* d) {
   standard(d, PL_ASK_DOF, "dof");
   standard(d, PL_ASK_CONSTRAINTS, "constraints");
-  if (d->particle.n == 0 && d->model->loads.n == 0) {   // nothing heavy, no force: kinematics
+  if (d->particle.n == 0 && d->model->loads.n == 0) {  // nothing heavy, no force: kinematics
     pl_answer_positions(d);
     return;
   }
@@ -410,7 +457,9 @@ static void answer_standard(pl_analysis* d) {
   for (int k = 0; k < d->g.n; k++) {
     if (d->g.at[k].implied || (d->g.at[k].fixes >= 0 && !d->g.at[k].contact)) continue;
     const pl_symbol_info* lambda = pl_symbol_get(d->pool, d->g.at[k].lambda);
-    pl_ask ask = {.kind = PL_ASK_SOLVE, .text = pl_format(d->arena, "solve %s", lambda->name), .value = pl_sym(d->pool, d->g.at[k].lambda)};
+    pl_ask ask = {.kind = PL_ASK_SOLVE,
+                  .text = pl_format(d->arena, "solve %s", lambda->name),
+                  .value = pl_sym(d->pool, d->g.at[k].lambda)};
     pl_answer_one(d, &ask);
   }
   const pl_analysis* a = d->reduced ? d : pl_propose(d);
@@ -439,7 +488,9 @@ static pleuel_status answer_all(pl_analysis* d) {
   note_friction(d);
   if (d->model->asks.n == 0) answer_standard(d);
   for (int k = 0; k < d->model->asks.n; k++) {
-    if (pl_interrupted(d->job)) return pl_fail(d->job, PLEUEL_INTERRUPTED, "stopped after %d of %d requests", k, d->model->asks.n);
+    if (pl_interrupted(d->job))
+      return pl_fail(d->job, PLEUEL_INTERRUPTED, "stopped after %d of %d requests", k,
+                     d->model->asks.n);
     const pl_ask* ask = &d->model->asks.at[k];
     if (!wanted(d->options, ask)) continue;
     pl_analysis* of = pl_analysis_of(d, ask);
@@ -450,7 +501,7 @@ static pleuel_status answer_all(pl_analysis* d) {
   return PLEUEL_OK;
 }
 
-// ---------------------------------------------------------------------------------------------- assumptions
+// ------------------------------------------------------------------------------------- assumptions
 // "m1 > 0", "r < l": a difference a - b is written as b < a.
 static const char* fact_text(pl_analysis* d, const pl_fact* f) {
   pl_pool* p = d->pool;
@@ -459,7 +510,8 @@ static const char* fact_text(pl_analysis* d, const pl_fact* f) {
   int n = pl_kind_of(p, e) == PL_ADD ? pl_n_args(p, e) : 0;
   for (int k = 0; k < n; k++) {
     pl_expr term = pl_arg(p, e, k), opposite = pl_neg(p, term);
-    bool negative = pl_op_count(p, opposite) < pl_op_count(p, term) || (pl_is_number(p, term) && pl_number_sign(p, term) < 0);
+    bool negative = pl_op_count(p, opposite) < pl_op_count(p, term)
+                    || (pl_is_number(p, term) && pl_number_sign(p, term) < 0);
     if (negative) {
       minus = pl_add(p, minus, opposite);
     } else {
@@ -496,9 +548,11 @@ static uint64_t fact_order(const pl_analysis* d, const pl_fact* f) {
 }
 
 static bool is_listed(pl_analysis* d, const pl_fact* f, const pl_fact** sorted, int n) {
-  bool numbers = pl_is_constant(d->pool, pl_without_measures(d->pool, f->difference));    // 2 kg > 0
+  // 2 kg > 0
+  bool numbers = pl_is_constant(d->pool, pl_without_measures(d->pool, f->difference));
   bool listed = numbers || is_contact(d, f);
-  for (int k = 0; k < n; k++) listed |= sorted[k]->strict == f->strict && pl_same(sorted[k]->difference, f->difference);
+  for (int k = 0; k < n; k++)
+    listed |= sorted[k]->strict == f->strict && pl_same(sorted[k]->difference, f->difference);
   return listed;
 }
 
@@ -512,17 +566,19 @@ static void list_assumptions(pl_analysis* d, pl_analysis** of, int n_of) {
   const pl_fact** sorted = PL_ARRAY(d->arena, const pl_fact*, most + 1);
   for (int k = 0; k < n_of; k++) {
     const pl_fact* used = pl_tower_used(of[k]->tower, &n_used);
-    for (const pl_fact* f = used; f < used + n_used; f++) {   // by insertion: few, and equal ones keep their order
+    // by insertion: few, and equal ones keep their order
+    for (const pl_fact* f = used; f < used + n_used; f++) {
       if (is_listed(d, f, sorted, n)) continue;
       int at = n++;
-      for (; at > 0 && fact_order(d, sorted[at - 1]) > fact_order(d, f); at--) sorted[at] = sorted[at - 1];
+      for (; at > 0 && fact_order(d, sorted[at - 1]) > fact_order(d, f); at--)
+        sorted[at] = sorted[at - 1];
       sorted[at] = f;
     }
   }
   for (int k = 0; k < n; k++) pl_push(d->arena, d->solution->used, fact_text(d, sorted[k]));
 }
 
-// ---------------------------------------------------------------------------------------------- the whole
+// --------------------------------------------------------------------------------------- the whole
 // The time since *since goes to the stage.
 static void pass(pl_analysis* d, pl_derive_stage stage, double* since) {
   double now = pl_cpu_ms();
@@ -552,7 +608,11 @@ static pleuel_status solve_equations(pl_analysis* d, double* since) {
 
 // From the beginning, with the special case known that the given numbers are.
 static void begin_again(pl_analysis* d) {
-  pl_analysis fresh = {.job = d->job, .arena = d->arena, .pool = d->pool, .options = d->options, .solution = d->solution};
+  pl_analysis fresh = {.job = d->job,
+                       .arena = d->arena,
+                       .pool = d->pool,
+                       .options = d->options,
+                       .solution = d->solution};
   fresh.told = pl_map_make(d->arena);
   fresh.began_ms = d->began_ms;
   fresh.sets = d->sets;
@@ -576,9 +636,15 @@ static pleuel_status derive_motion(pl_analysis* d, bool first, double* since) {
   return PLEUEL_OK;
 }
 
-static pl_analysis* analysis(pl_job* job, pl_model* whole, const pl_derive_options* options, pl_solution* solution, const pl_stage* stage) {
+static pl_analysis* analysis(pl_job* job, pl_model* whole, const pl_derive_options* options,
+                             pl_solution* solution, const pl_stage* stage) {
   pl_analysis* d = PL_NEW(job->arena, pl_analysis);
-  *d = (pl_analysis){.job = job, .arena = job->arena, .pool = whole->pool, .model = whole, .options = options, .solution = solution};
+  *d = (pl_analysis){.job = job,
+                     .arena = job->arena,
+                     .pool = whole->pool,
+                     .model = whole,
+                     .options = options,
+                     .solution = solution};
   d->told = pl_map_make(job->arena);
   d->began_ms = pl_cpu_ms();
   pl_setup_facts(d);
@@ -592,7 +658,7 @@ pl_analysis* pl_analysis_make(const pl_analysis* like, const pl_stage* stage) {
   double since = pl_cpu_ms();
   int messages = job->diagnostics->list.n, errors = job->diagnostics->n_errors;
   if (derive_motion(d, false, &since) == PLEUEL_OK) return d;
-  job->diagnostics->list.n = messages;       // a set that does not fit is no fault of the model
+  job->diagnostics->list.n = messages;  // a set that does not fit is no fault of the model
   job->diagnostics->n_errors = errors;
   job->status = PLEUEL_OK;
   job->message[0] = '\0';
@@ -644,11 +710,12 @@ static bool asks_for_a_member(const pl_model* m) {
   return false;
 }
 
-pleuel_status pl_derive(pl_job* job, pl_model* model, const pl_derive_options* options, pl_solution** out) {
+pleuel_status pl_derive(pl_job* job, pl_model* model, const pl_derive_options* options,
+                        pl_solution** out) {
   pl_model* flat = NULL;
   int most = asks_for_a_member(model) ? largest_for_a_member : largest_expansion;
   pleuel_status status = pl_model_expand(job, model, most, &flat);
-  bool families = status == PLEUEL_UNSUPPORTED;   // too large to be written out: by pattern
+  bool families = status == PLEUEL_UNSUPPORTED;  // too large to be written out: by pattern
   if (families) {
     flat = model;
     job->status = PLEUEL_OK;
@@ -662,7 +729,12 @@ pleuel_status pl_derive(pl_job* job, pl_model* model, const pl_derive_options* o
   const pl_stage* stage = options->n_stages > 0 ? &options->stages[0] : NULL;
   if (!families) return derive(analysis(job, flat, options, *out, stage));
   pl_analysis* d = PL_NEW(job->arena, pl_analysis);
-  *d = (pl_analysis){.job = job, .arena = job->arena, .pool = flat->pool, .model = flat, .options = options, .solution = *out};
+  *d = (pl_analysis){.job = job,
+                     .arena = job->arena,
+                     .pool = flat->pool,
+                     .model = flat,
+                     .options = options,
+                     .solution = *out};
   d->told = pl_map_make(job->arena);
   d->began_ms = pl_cpu_ms();
   return pl_derive_families(d);
@@ -677,12 +749,15 @@ void pl_derive_dump(pl_text* out, const pl_solution* s) {
   const pl_pool* p = s->model->pool;
   for (int k = 0; k < s->sections.n; k++) {
     const pl_section* section = &s->sections.at[k];
-    pl_text_addf(out, "[%s] %s\n", section->letter ? section->letter : "-", section->item ? section->item : "");
+    pl_text_addf(out, "[%s] %s\n", section->letter ? section->letter : "-",
+                 section->item ? section->item : "");
     for (int v = 0; v < section->values.n; v++) {
       const pl_value* value = &section->values.at[v];
-      if (!pl_is_poison(value->expr)) pl_text_addf(out, "  %s = %s\n", value->name, pl_expr_text(out->arena, p, value->expr));
+      if (!pl_is_poison(value->expr))
+        pl_text_addf(out, "  %s = %s\n", value->name, pl_expr_text(out->arena, p, value->expr));
       for (int c = 0; c < value->n_components; c++) {
-        pl_text_addf(out, "  %s . %s = %s\n", value->name, value->components[c].along, pl_expr_text(out->arena, p, value->components[c].expr));
+        pl_text_addf(out, "  %s . %s = %s\n", value->name, value->components[c].along,
+                     pl_expr_text(out->arena, p, value->components[c].expr));
       }
     }
   }

@@ -1,5 +1,5 @@
-// Derivatives: partial, with respect to an element of a family, and total in time.  One pass over the DAG, arguments
-// first; a node that occurs twice is differentiated once.
+// Derivatives: partial, with respect to an element of a family, and total in time. One pass over
+// the DAG, arguments first; a node that occurs twice is differentiated once.
 #include "expr/expr_impl.h"
 
 // What differs between the derivatives: the derivative of an atom (a symbol or an element).
@@ -9,7 +9,7 @@ typedef struct rule {
   pl_expr element;
 } rule;
 
-// ---------------------------------------------------------------------------------------------- node by node
+// ------------------------------------------------------------------------------------ node by node
 static pl_expr diff_sum(pl_pool* p, const pl_expr* d, int n) {
   pl_exprs terms = {0};
   for (int i = 0; i < n; i++) {
@@ -38,7 +38,8 @@ static pl_expr diff_product(pl_pool* p, pl_expr e, const pl_expr* d, int n) {
 //   (b^x)' = x b^(x-1) b' + b^x ln(b) x'
 static pl_expr diff_power(pl_pool* p, pl_expr e, const pl_expr* d) {
   pl_expr b = pl_arg(p, e, 0), x = pl_arg(p, e, 1), left = p->zero, right = p->zero;
-  if (d[0].id != p->zero.id) left = pl_mul_n(p, (pl_expr[]){x, pl_pow(p, b, pl_sub(p, x, p->one)), d[0]}, 3);
+  if (d[0].id != p->zero.id)
+    left = pl_mul_n(p, (pl_expr[]){x, pl_pow(p, b, pl_sub(p, x, p->one)), d[0]}, 3);
   if (d[1].id != p->zero.id) right = pl_mul_n(p, (pl_expr[]){e, pl_call(p, PL_LN, b), d[1]}, 3);
   return pl_add(p, left, right);
 }
@@ -63,7 +64,7 @@ static pl_expr outer_derivative(pl_pool* p, pl_expr e) {
     case PL_ABS:  return pl_call(p, PL_SIGN, a);
     case PL_SIGN: return p->zero;
     default:      return pl_poison();
-    // clang-format on
+      // clang-format on
   }
 }
 
@@ -72,7 +73,8 @@ static pl_expr diff_call2(pl_pool* p, pl_expr e, const pl_expr* d) {
   pl_expr a = pl_arg(p, e, 0), b = pl_arg(p, e, 1);
   switch (pl_function_of(p, e)) {
     case PL_ATAN2:
-      return pl_div(p, pl_sub(p, pl_mul(p, b, d[0]), pl_mul(p, a, d[1])), pl_add(p, pl_square(p, a), pl_square(p, b)));
+      return pl_div(p, pl_sub(p, pl_mul(p, b, d[0]), pl_mul(p, a, d[1])),
+                    pl_add(p, pl_square(p, a), pl_square(p, b)));
     case PL_MIN: return pl_if(p, pl_sub(p, b, a), d[0], d[1]);
     case PL_MAX: return pl_if(p, pl_sub(p, a, b), d[0], d[1]);
     default: return pl_poison();
@@ -86,8 +88,8 @@ static bool all_zero(const pl_pool* p, const pl_expr* d, int n) {
   return true;
 }
 
-// Does the body of a sum hold an element of the same family under the running index?  Its derivative with respect to
-// one element would be a Kronecker delta, which is not an expression here.
+// Does the body of a sum hold an element of the same family under the running index? Its derivative
+// with respect to one element would be a Kronecker delta, which is not an expression here.
 static bool runs_over(const pl_pool* p, pl_expr sum, pl_expr element) {
   pl_expr body = pl_arg(p, sum, 3);
   pl_walk w;
@@ -95,8 +97,9 @@ static bool runs_over(const pl_pool* p, pl_expr sum, pl_expr element) {
   bool found = false;
   for (int i = 0; i < w.nodes.n && !found; i++) {
     pl_expr x = w.nodes.at[i];
-    found = pl_kind_of(p, x) == PL_AT && pl_symbol_of(p, x).id == pl_symbol_of(p, element).id &&
-            pl_dots_of(p, x) == pl_dots_of(p, element) && pl_has_symbol(p, pl_arg(p, x, 0), pl_symbol_of(p, sum));
+    found = pl_kind_of(p, x) == PL_AT && pl_symbol_of(p, x).id == pl_symbol_of(p, element).id
+            && pl_dots_of(p, x) == pl_dots_of(p, element)
+            && pl_has_symbol(p, pl_arg(p, x, 0), pl_symbol_of(p, sum));
   }
   pl_walk_end(&w);
   return found;
@@ -121,7 +124,8 @@ static pl_expr diff_node(pl_pool* p, pl_expr e, const pl_expr* d, const rule* r)
     case PL_MUL: return diff_product(p, e, d, n);
     case PL_POW: return diff_power(p, e, d);
     case PL_CALL: return n == 2 ? diff_call2(p, e, d) : pl_mul(p, outer_derivative(p, e), d[0]);
-    case PL_IF: return pl_if(p, pl_arg(p, e, 0), d[1], d[2]);   // a jump has no derivative of its own
+    // a jump has no derivative of its own
+    case PL_IF: return pl_if(p, pl_arg(p, e, 0), d[1], d[2]);
     default: return pl_poison();
   }
 }
@@ -147,9 +151,10 @@ static pl_expr differentiate(pl_pool* p, pl_expr e, const rule* r) {
   return result;
 }
 
-// ---------------------------------------------------------------------------------------------- partial derivatives
+// ----------------------------------------------------------------------------- partial derivatives
 static pl_expr atom_by_symbol(pl_pool* p, pl_expr atom, const rule* r) {
-  return pl_kind_of(p, atom) == PL_SYMBOL && pl_symbol_of(p, atom).id == r->symbol.id ? p->one : p->zero;
+  return pl_kind_of(p, atom) == PL_SYMBOL && pl_symbol_of(p, atom).id == r->symbol.id ? p->one
+                                                                                      : p->zero;
 }
 
 static pl_expr atom_by_element(pl_pool* p, pl_expr atom, const rule* r) {
@@ -166,21 +171,29 @@ pl_expr pl_diff_at(pl_pool* p, pl_expr e, pl_expr element) {
   return differentiate(p, e, &(rule){.of_atom = atom_by_element, .element = element});
 }
 
-// ---------------------------------------------------------------------------------------------- time
-// What moves gets one more dot.  What has no known rate (multipliers, momenta, named intermediates) is poison: an
-// expression that holds one must be resolved before it is differentiated in time.
+// -------------------------------------------------------------------------------------------- time
+// What moves gets one more dot. What has no known rate (multipliers, momenta, named intermediates)
+// is poison: an expression that holds one must be resolved before it is differentiated in time.
 static pl_expr atom_in_time(pl_pool* p, pl_expr atom, const rule* r) {
   pl_symbol s = pl_symbol_of(p, atom);
   bool element = pl_kind_of(p, atom) == PL_AT;
   switch (pl_symbol_get(p, s)->role) {
-    case PL_R_COORD: case PL_R_VELOCITY: case PL_R_ACCELERATION:
-      return element ? pl_at(p, s, pl_dots_of(p, atom) + 1, pl_arg(p, atom, 0)) : pl_sym(p, pl_symbol_dot(p, s));
+    case PL_R_COORD:
+    case PL_R_VELOCITY:
+    case PL_R_ACCELERATION:
+      return element ? pl_at(p, s, pl_dots_of(p, atom) + 1, pl_arg(p, atom, 0))
+                     : pl_sym(p, pl_symbol_dot(p, s));
     case PL_R_ARRAY:
       return element ? pl_at(p, s, pl_dots_of(p, atom) + 1, pl_arg(p, atom, 0)) : pl_poison();
     case PL_R_TIME: return p->one;
-    case PL_R_MULTIPLIER: case PL_R_MOMENTUM: case PL_R_LOCAL: return pl_poison();
-    default: return p->zero;   // parameters, start values, constants of the motion, indices, small numbers
+    case PL_R_MULTIPLIER:
+    case PL_R_MOMENTUM:
+    case PL_R_LOCAL: return pl_poison();
+    // parameters, start values, constants of the motion, indices, small numbers
+    default: return p->zero;
   }
 }
 
-pl_expr pl_dt(pl_pool* p, pl_expr e) { return differentiate(p, e, &(rule){.of_atom = atom_in_time}); }
+pl_expr pl_dt(pl_pool* p, pl_expr e) {
+  return differentiate(p, e, &(rule){.of_atom = atom_in_time});
+}

@@ -1,14 +1,28 @@
-// Derivatives, substitution and expansion, case by case; the laws on random input are in expr_laws_test.c.
+// Derivatives, substitution and expansion, case by case; the laws on random input are in
+// expr_laws_test.c.
 #include "expr/expr_test_kit.h"
 
 static pl_symbol name_of(pl_pool* p, pl_expr e) { return pl_symbol_of(p, e); }
 
 PL_TEST(every_function_has_its_derivative) {
   pl_expr x = kit_coordinate(p, "x");
-  const char* wanted[] = {"cos(x)", "-sin(x)", "1/cos(x)^2", "1/sqrt(-x^2 + 1)", "-1/sqrt(-x^2 + 1)",
-                          "1/(x^2 + 1)", NULL, "cosh(x)", "sinh(x)", "1/cosh(x)^2", "exp(x)", "1/x", "sign(x)", "0"};
+  const char* wanted[] = {"cos(x)",
+                          "-sin(x)",
+                          "1/cos(x)^2",
+                          "1/sqrt(-x^2 + 1)",
+                          "-1/sqrt(-x^2 + 1)",
+                          "1/(x^2 + 1)",
+                          NULL,
+                          "cosh(x)",
+                          "sinh(x)",
+                          "1/cosh(x)^2",
+                          "exp(x)",
+                          "1/x",
+                          "sign(x)",
+                          "0"};
   for (int f = 0; f <= PL_SIGN; f++) {
-    if (pl_function_arity[f] == 1) assert_text(pl_diff(p, pl_call(p, (pl_function)f, x), name_of(p, x)), wanted[f]);
+    if (pl_function_arity[f] == 1)
+      assert_text(pl_diff(p, pl_call(p, (pl_function)f, x), name_of(p, x)), wanted[f]);
   }
 }
 
@@ -26,7 +40,8 @@ PL_TEST(a_case_is_differentiated_branch_by_branch) {
 }
 
 PL_TEST(time_adds_dots) {
-  pl_expr x = kit_coordinate(p, "x"), m = kit_parameter(p, "m", PL_C_MASS), t = pl_sym(p, pl_time(p));
+  pl_expr x = kit_coordinate(p, "x"), m = kit_parameter(p, "m", PL_C_MASS),
+          t = pl_sym(p, pl_time(p));
   pl_expr rate = pl_dt(p, pl_mul(p, m, pl_square(p, x)));
   assert_text(rate, "2*m*x*x_dot");
   assert_text(pl_dt(p, rate), "2*m*x*x_ddot + 2*m*x_dot^2");
@@ -44,10 +59,13 @@ PL_TEST(what_has_no_known_rate_is_poison_in_time) {
 
 PL_TEST(elements_of_families_are_atoms) {
   pl_expr x = kit_family(p, "x"), i = kit_index(p, "i");
-  pl_expr here = pl_at(p, name_of(p, x), 0, i), before = pl_at(p, name_of(p, x), 0, pl_sub(p, i, pl_int(p, 1)));
+  pl_expr here = pl_at(p, name_of(p, x), 0, i),
+          before = pl_at(p, name_of(p, x), 0, pl_sub(p, i, pl_int(p, 1)));
   pl_expr d = pl_square(p, pl_sub(p, here, before));
-  assert_true(kit_equal(p, pl_diff_at(p, d, here), pl_mul(p, pl_int(p, 2), pl_sub(p, here, before)), 1));
-  assert_true(kit_equal(p, pl_diff_at(p, d, before), pl_mul(p, pl_int(p, 2), pl_sub(p, before, here)), 2));
+  assert_true(
+      kit_equal(p, pl_diff_at(p, d, here), pl_mul(p, pl_int(p, 2), pl_sub(p, here, before)), 1));
+  assert_true(
+      kit_equal(p, pl_diff_at(p, d, before), pl_mul(p, pl_int(p, 2), pl_sub(p, before, here)), 2));
   assert_text(pl_dt(p, here), "x[i]'");
   assert_text(pl_dt(p, pl_dt(p, before)), "x[i - 1]''");
   assert_true(pl_has_role(p, pl_dt(p, here), PL_R_VELOCITY));
@@ -78,7 +96,8 @@ PL_TEST(a_bound_index_is_not_replaced_and_catches_nothing) {
 PL_TEST(substitution_is_simultaneous) {
   pl_expr x = kit_coordinate(p, "x"), y = kit_coordinate(p, "y");
   pl_expr e = pl_sub(p, x, pl_mul(p, pl_int(p, 2), y));
-  assert_text(pl_subst(p, e, (pl_replace[]){{name_of(p, x), y}, {name_of(p, y), x}}, 2), "-2*x + y");
+  assert_text(pl_subst(p, e, (pl_replace[]){{name_of(p, x), y}, {name_of(p, y), x}}, 2),
+              "-2*x + y");
 }
 
 PL_TEST(a_node_is_replaced_wherever_it_stands) {
@@ -89,20 +108,25 @@ PL_TEST(a_node_is_replaced_wherever_it_stands) {
 
 PL_TEST(a_substitution_that_divides_by_zero_is_poison) {
   pl_expr x = kit_coordinate(p, "x"), y = kit_coordinate(p, "y");
-  assert_true(pl_is_poison(pl_subst1(p, pl_div(p, y, pl_sub(p, x, pl_int(p, 1))), name_of(p, x), pl_int(p, 1))));
+  assert_true(pl_is_poison(
+      pl_subst1(p, pl_div(p, y, pl_sub(p, x, pl_int(p, 1))), name_of(p, x), pl_int(p, 1))));
 }
 
 PL_TEST(expansion_multiplies_out) {
-  pl_expr x = kit_coordinate(p, "x"), y = kit_coordinate(p, "y"), s = pl_add(p, x, y), d = pl_sub(p, x, y);
+  pl_expr x = kit_coordinate(p, "x"), y = kit_coordinate(p, "y"), s = pl_add(p, x, y),
+          d = pl_sub(p, x, y);
   assert_text(pl_expand(p, pl_square(p, s), 100), "x^2 + 2*x*y + y^2");
   assert_text(pl_expand(p, pl_mul(p, s, d), 100), "x^2 - y^2");
-  assert_text(pl_expand(p, pl_sub(p, pl_square(p, s), pl_expand(p, pl_square(p, s), 100)), 100), "0");
+  assert_text(pl_expand(p, pl_sub(p, pl_square(p, s), pl_expand(p, pl_square(p, s), 100)), 100),
+              "0");
   assert_text(pl_expand(p, pl_mul(p, pl_int(p, 2), s), 100), "2*x + 2*y");
-  assert_text(pl_expand(p, pl_mul(p, x, pl_square(p, pl_mul(p, y, s))), 100), "x^3*y^2 + 2*x^2*y^3 + x*y^4");
+  assert_text(pl_expand(p, pl_mul(p, x, pl_square(p, pl_mul(p, y, s))), 100),
+              "x^3*y^2 + 2*x^2*y^3 + x*y^4");
 }
 
 PL_TEST(expansion_beyond_the_limit_changes_nothing) {
-  pl_expr x = kit_coordinate(p, "x"), y = kit_coordinate(p, "y"), e = pl_pow_int(p, pl_add(p, x, y), 20);
+  pl_expr x = kit_coordinate(p, "x"), y = kit_coordinate(p, "y"),
+          e = pl_pow_int(p, pl_add(p, x, y), 20);
   assert_true(pl_same(pl_expand(p, e, 20), e));
   assert_int_equal(pl_n_args(p, pl_expand(p, e, 21)), 21);
   pl_expr huge = pl_pow_int(p, pl_add(p, x, y), 1000000000);

@@ -1,8 +1,8 @@
 // The order in which terms and factors are kept: by structure and names, never by age or address.
 //
-// Terms are compared without their coefficients, factor by factor; factors by base, then by exponent, the higher first.
-// Two different handles differ in structure, so the first pair that differs decides, and the comparison is one loop
-// down to that pair: depth costs no stack.
+// Terms are compared without their coefficients, factor by factor; factors by base, then by
+// exponent, the higher first. Two different handles differ in structure, so the first pair that
+// differs decides, and the comparison is one loop down to that pair: depth costs no stack.
 #include "expr/expr_impl.h"
 
 #include <string.h>
@@ -39,8 +39,8 @@ static int rank(int kind) {
     case PL_ADD: return 8;
     case PL_IF: return 9;
     case PL_SUM: return 10;
-    case PL_POW: return 11;   // as a base only: (x^y)^z
-    case PL_MUL: return 12;   // as a base only: sqrt(x y)
+    case PL_POW: return 11;  // as a base only: (x^y)^z
+    case PL_MUL: return 12;  // as a base only: sqrt(x y)
     default: return 0;
   }
 }
@@ -76,7 +76,8 @@ static int compare_bases(const pl_pool* p, pl_expr a, pl_expr b, pair* left) {
   if (c != 0) return c;
   if (x->dots != y->dots) return x->dots < y->dots ? -1 : 1;
   if (x->function != y->function) return x->function < y->function ? -1 : 1;
-  if (x->height != y->height) return x->height < y->height ? -1 : 1;   // the simpler first; spares deep descents
+  // the simpler first; spares deep descents
+  if (x->height != y->height) return x->height < y->height ? -1 : 1;
   return first_difference(x->u.args, (int)x->n, y->u.args, (int)y->n, left);
 }
 
@@ -136,15 +137,20 @@ int pl_compare_factors(const pl_pool* p, const pl_expr* a, int n_a, const pl_exp
   return (n_a > n_b) - (n_a < n_b);
 }
 
-// ---------------------------------------------------------------------------------------------- sorting
-static void merge_halves(char* to, const char* a, int n_a, const char* b, int n_b, size_t size, pl_less less,
-                         const void* user) {
+// ----------------------------------------------------------------------------------------- sorting
+static void merge_halves(char* to, const char* a, int n_a, const char* b, int n_b, size_t size,
+                         pl_less less, const void* user) {
   while (n_a > 0 || n_b > 0) {
     bool right = n_a == 0 || (n_b > 0 && less(b, a, user));
     memcpy(to, right ? b : a, size);
     to += size;
-    if (right) b += size, n_b--;
-    else a += size, n_a--;
+    if (right) {
+      b += size;
+      n_b--;
+    } else {
+      a += size;
+      n_a--;
+    }
   }
 }
 

@@ -13,16 +13,17 @@ pl_expr pl_sym(pl_pool* p, pl_symbol s) {
 }
 
 pl_expr pl_at(pl_pool* p, pl_symbol array, int dots, pl_expr index) {
-  if (pl_symbol_get(p, array) == NULL || index.id == 0 || dots < 0 || dots > 255) return pl_poison();
+  if (pl_symbol_get(p, array) == NULL || index.id == 0 || dots < 0 || dots > 255)
+    return pl_poison();
   return pl_node_make(p, PL_AT, 0, dots, array.id, &index, 1);
 }
 
-// ---------------------------------------------------------------------------------------------- sums
+// -------------------------------------------------------------------------------------------- sums
 typedef struct sum {
   pl_pool* p;
   PL_TEMP(pl_term) terms;
   pl_expr number;
-  int infinite;    // sign of the infinities that were met; 2 when both signs were
+  int infinite;  // sign of the infinities that were met; 2 when both signs were
   bool poison;
 } sum;
 
@@ -33,14 +34,21 @@ static void sum_put_all(sum* s, pl_expr e, pl_expr scale) {
   for (int i = 0, n = pl_n_args(s->p, e); i < n; i++) sum_put(s, pl_arg(s->p, e, i), scale);
 }
 
-static void sum_put_infinity(sum* s, int sign) { s->infinite = s->infinite == 0 || s->infinite == sign ? sign : 2; }
+static void sum_put_infinity(sum* s, int sign) {
+  s->infinite = s->infinite == 0 || s->infinite == sign ? sign : 2;
+}
 
 static void sum_put_number(sum* s, pl_expr x) {
   s->number = pl_number_add(s->p, s->number, x);
-  if (s->number.id == 0) s->poison = true, s->number = s->p->zero;
+  if (s->number.id == 0) {
+    s->poison = true;
+    s->number = s->p->zero;
+  }
 }
 
-static bool is_unit(const pl_pool* p, pl_expr x) { return x.id == p->one.id || x.id == p->minus_one.id; }
+static bool is_unit(const pl_pool* p, pl_expr x) {
+  return x.id == p->one.id || x.id == p->minus_one.id;
+}
 
 // One term.  A bracket with the coefficient 1 or -1 is opened, any other stays.
 static void sum_put(sum* s, pl_expr e, pl_expr scale) {
@@ -77,11 +85,12 @@ static bool term_less(const void* a, const void* b, const void* user) {
 }
 
 static bool like(const pl_term* s, const pl_term* t) {
-  return s->n == t->n && memcmp(pl_term_factors(s), pl_term_factors(t), (size_t)s->n * sizeof(pl_expr)) == 0;
+  return s->n == t->n
+         && memcmp(pl_term_factors(s), pl_term_factors(t), (size_t)s->n * sizeof(pl_expr)) == 0;
 }
 
-// Neighbours with the same factors become one term.  Tells whether a bracket came out with a unit coefficient, which
-// must then be opened.
+// Neighbours with the same factors become one term. Tells whether a bracket came out with a unit
+// coefficient, which must then be opened.
 static bool sum_collect(sum* s) {
   pl_pool* p = s->p;
   bool opened = false;
@@ -121,9 +130,10 @@ static pl_expr sum_value(sum* s, bool again) {
   pl_exprs args = {0};
   if (s->number.id != p->zero.id) pl_temp_push(p, args, s->number);
   for (int i = 0; i < s->terms.n; i++) pl_temp_push(p, args, term_value(p, &s->terms.at[i]));
-  pl_expr e = args.n == 0 ? p->zero : args.n == 1 && !again ? args.at[0]
-              : again ? pl_add_n(p, args.at, args.n)
-                      : pl_node_make(p, PL_ADD, 0, 0, 0, args.at, args.n);
+  pl_expr e = args.n == 0             ? p->zero
+              : args.n == 1 && !again ? args.at[0]
+              : again                 ? pl_add_n(p, args.at, args.n)
+                                      : pl_node_make(p, PL_ADD, 0, 0, 0, args.at, args.n);
   pl_temp_free(p, args);
   return e;
 }
@@ -131,7 +141,8 @@ static pl_expr sum_value(sum* s, bool again) {
 static pl_expr infinite_value(pl_pool* p, int sign) {
   if (sign == 2) return pl_poison();
   pl_expr infinity = pl_infinity(p);
-  return sign > 0 ? infinity : pl_node_make(p, PL_MUL, 0, 0, 0, (pl_expr[]){p->minus_one, infinity}, 2);
+  return sign > 0 ? infinity
+                  : pl_node_make(p, PL_MUL, 0, 0, 0, (pl_expr[]){p->minus_one, infinity}, 2);
 }
 
 pl_expr pl_add_n(pl_pool* p, const pl_expr* terms, int n) {
@@ -162,7 +173,7 @@ pl_expr pl_sub(pl_pool* p, pl_expr a, pl_expr b) {
 
 pl_expr pl_neg(pl_pool* p, pl_expr a) { return pl_mul(p, p->minus_one, a); }
 
-// ---------------------------------------------------------------------------------------------- cases, patterns
+// --------------------------------------------------------------------------------- cases, patterns
 pl_expr pl_if(pl_pool* p, pl_expr positive, pl_expr then, pl_expr otherwise) {
   if (positive.id == 0 || then.id == 0 || otherwise.id == 0) return pl_poison();
   if (pl_is_number(p, positive)) return pl_number_sign(p, positive) > 0 ? then : otherwise;
@@ -174,11 +185,12 @@ pl_expr pl_sum_over(pl_pool* p, pl_symbol index, pl_expr lo, pl_expr hi, pl_expr
   pl_expr i = pl_sym(p, index);
   if (i.id == 0 || lo.id == 0 || hi.id == 0 || body.id == 0) return pl_poison();
   if (body.id == p->zero.id) return body;
-  if (pl_is_number(p, lo) && pl_is_number(p, hi) && pl_number_compare(p, lo, hi) > 0) return p->zero;
+  if (pl_is_number(p, lo) && pl_is_number(p, hi) && pl_number_compare(p, lo, hi) > 0)
+    return p->zero;
   return pl_node_make(p, PL_SUM, 0, 0, index.id, (pl_expr[]){i, lo, hi, body}, 4);
 }
 
-// ---------------------------------------------------------------------------------------------- once more
+// --------------------------------------------------------------------------------------- once more
 static pl_expr rebuild_call(pl_pool* p, pl_expr e, const pl_expr* args) {
   pl_function f = pl_function_of(p, e);
   return pl_n_args(p, e) == 2 ? pl_call2(p, f, args[0], args[1]) : pl_call(p, f, args[0]);

@@ -3,7 +3,8 @@
 
 PL_TEST(equal_construction_gives_the_equal_handle) {
   pl_expr x = kit_coordinate(p, "x"), y = kit_coordinate(p, "y");
-  pl_expr s = pl_add(p, pl_mul(p, x, y), pl_int(p, 1)), t = pl_add(p, pl_int(p, 1), pl_mul(p, y, x));
+  pl_expr s = pl_add(p, pl_mul(p, x, y), pl_int(p, 1)),
+          t = pl_add(p, pl_int(p, 1), pl_mul(p, y, x));
   assert_true(pl_same(s, t));
   assert_false(pl_same(s, pl_add(p, x, y)));
 }
@@ -59,7 +60,8 @@ PL_TEST(roots_of_products_give_up_their_squares) {
 
 PL_TEST(merged_roots_are_in_order) {
   pl_expr cube = pl_pow(p, pl_int(p, 5), pl_ratio(p, 1, 3));
-  pl_expr one = pl_mul_n(p, (pl_expr[]){pl_sqrt(p, pl_int(p, 2)), cube, pl_sqrt(p, pl_int(p, 3))}, 3);
+  pl_expr one = pl_mul_n(p, (pl_expr[]){pl_sqrt(p, pl_int(p, 2)), cube, pl_sqrt(p, pl_int(p, 3))},
+                         3);
   assert_true(pl_same(one, pl_mul(p, pl_sqrt(p, pl_int(p, 6)), cube)));
 }
 
@@ -101,7 +103,8 @@ PL_TEST(functions_know_their_parity) {
 
 PL_TEST(functions_undo_their_inverses) {
   pl_expr x = kit_coordinate(p, "x");
-  pl_function pairs[][2] = {{PL_SIN, PL_ASIN}, {PL_COS, PL_ACOS}, {PL_TAN, PL_ATAN}, {PL_EXP, PL_LN}};
+  pl_function pairs[][2] = {
+      {PL_SIN, PL_ASIN}, {PL_COS, PL_ACOS}, {PL_TAN, PL_ATAN}, {PL_EXP, PL_LN}};
   for (int i = 0; i < 4; i++) assert_text(pl_call(p, pairs[i][0], pl_call(p, pairs[i][1], x)), "x");
   assert_text(pl_call(p, PL_TAN, pl_call(p, PL_ATAN, pl_neg(p, x))), "-x");
   assert_text(pl_call(p, PL_COS, pl_call(p, PL_ASIN, pl_neg(p, x))), "sqrt(-x^2 + 1)");
@@ -150,7 +153,8 @@ PL_TEST(cases_and_patterns_fold_when_they_are_decided) {
   assert_true(pl_same(pl_if(p, pl_int(p, 0), x, i), i));
   assert_text(pl_if(p, x, pl_int(p, 1), pl_int(p, 2)), "if(x > 0, 1, 2)");
   assert_text(pl_sum_over(p, pl_symbol_of(p, i), pl_int(p, 3), pl_int(p, 2), x), "0");
-  assert_text(pl_sum_over(p, pl_symbol_of(p, i), pl_int(p, 1), x, pl_square(p, i)), "sum(i in 1..x, i^2)");
+  assert_text(pl_sum_over(p, pl_symbol_of(p, i), pl_int(p, 1), x, pl_square(p, i)),
+              "sum(i in 1..x, i^2)");
 }
 
 PL_TEST(names_that_belong_to_a_coordinate_avoid_names_that_are_taken) {

@@ -1,5 +1,5 @@
-// Values in double precision: one pass over the DAG, arguments first.  NaN where a symbol is unknown or the point lies
-// outside the domain; a division by zero is outside.
+// Values in double precision: one pass over the DAG, arguments first. NaN where a symbol is unknown
+// or the point lies outside the domain; a division by zero is outside.
 #include "expr/expr_impl.h"
 
 #include <math.h>
@@ -14,14 +14,14 @@ typedef struct binding {
 
 typedef struct evaluation {
   const pl_pool* p;
-  const double* values;        // by symbol id, may be NULL
+  const double* values;  // by symbol id, may be NULL
   const binding* bound;
 } evaluation;
 
 static const double no_value = (double)NAN;
-static const double max_sum = 1e7;   // terms of one sum; beyond it NaN
+static const double max_sum = 1e7;  // terms of one sum; beyond it NaN
 
-// ---------------------------------------------------------------------------------------------- node by node
+// ------------------------------------------------------------------------------------ node by node
 static double symbol_value(const evaluation* v, pl_symbol s) {
   for (const binding* b = v->bound; b != NULL; b = b->outer) {
     if (b->index.id == s.id) return b->value;
@@ -68,7 +68,7 @@ static double call_value(pl_function f, double a, double b) {
     case PL_MIN:   return isnan(a) || isnan(b) ? no_value : a < b ? a : b;
     case PL_MAX:   return isnan(a) || isnan(b) ? no_value : a > b ? a : b;
     default:       return no_value;
-    // clang-format on
+      // clang-format on
   }
 }
 
@@ -88,23 +88,25 @@ static double node_value(const evaluation* v, const pl_walk* w, const double* va
   pl_kind kind = pl_kind_of(p, e);
   double a[4] = {0};
   if (kind != PL_ADD && kind != PL_MUL) {
-    for (int i = 0, n = pl_n_args(p, e); i < n && i < 4; i++) a[i] = value[pl_walk_position(w, pl_arg(p, e, i))];
+    for (int i = 0, n = pl_n_args(p, e); i < n && i < 4; i++)
+      a[i] = value[pl_walk_position(w, pl_arg(p, e, i))];
   }
   switch (kind) {
     case PL_NUMBER: return pl_number_double(p, e);
     case PL_PI: return M_PI;
     case PL_INFINITY: return (double)INFINITY;
     case PL_SYMBOL: return symbol_value(v, pl_symbol_of(p, e));
-    case PL_ADD: case PL_MUL: return fold(kind, w, value, e);
+    case PL_ADD:
+    case PL_MUL: return fold(kind, w, value, e);
     case PL_POW: return power_value(p, pl_arg(p, e, 1), a[0], a[1]);
     case PL_CALL: return call_value(pl_function_of(p, e), a[0], a[1]);
     case PL_IF: return isnan(a[0]) ? no_value : a[0] > 0 ? a[1] : a[2];
     case PL_SUM: return sum_value(v, e, a[1], a[2]);
-    default: return no_value;   // poison, elements of families
+    default: return no_value;  // poison, elements of families
   }
 }
 
-// ---------------------------------------------------------------------------------------------- passes
+// ------------------------------------------------------------------------------------------ passes
 static void run(const evaluation* v, const pl_walk* w, double* value) {
   for (int i = 0; i < w->nodes.n; i++) value[i] = node_value(v, w, value, w->nodes.at[i]);
 }

@@ -1,15 +1,17 @@
-// Values modulo the prime P = PL_MOD_P at a random point: what is identically zero gives 0, anything else almost never
-// does.
+// Values modulo the prime P = PL_MOD_P at a random point: what is identically zero gives 0,
+// anything else almost never does.
 //
-// A symbol is a random residue (a square if it is known to be positive).  An angle is split into rational multiples of
-// monomials, as 3/2 of "ω t"; each monomial stands for a random rotation, the multiples follow by addition of angles.
-// The same is done for exponents.  A monomial is known by its residue, so ω (t - t0) and ω t - ω t0 are one angle.
+// A symbol is a random residue (a square if it is known to be positive). An angle is split into
+// rational multiples of monomials, as 3/2 of "ω t"; each monomial stands for a random rotation, the
+// multiples follow by addition of angles. The same is done for exponents. A monomial is known by
+// its residue, so ω (t - t0) and ω t - ω t0 are one angle.
 //   π           as an angle in parts 2^k 3^m 5^n (k <= 7, m and n <= 2), so down to tenths of a degree; else ok = false
 //   asin u ...  the rotation with that sine
 //   ln          sums over factors; else random, by the residue of the argument; so are the inverse functions as values
 //   abs, sign   by "is a square", which is multiplicative (modular.c)
-// So 0 at several points certifies an identity.  A value other than 0 refutes it unless logarithms, inverse functions,
-// symbolic exponents or sums with symbolic bounds take part: relations between these may go unseen.
+// So 0 at several points certifies an identity. A value other than 0 refutes it unless logarithms,
+// inverse functions, symbolic exponents or sums with symbolic bounds take part: relations between
+// these may go unseen.
 #include "expr/expr_impl.h"
 #include "expr/modular.h"
 
@@ -17,12 +19,13 @@
 
 enum { MAX_LINEAR = 64, MAX_DEPTH = 64, MAX_STEPS = 20000, MAX_SUM = 10000, PAGE = 256 };
 
-// A random unit of angle or exponent is taken so many times that it can be divided by 2, 3 and 5 this often.
+// A random unit of angle or exponent is taken so many times that it can be divided by 2, 3 and 5
+// this often.
 enum { DIVISIONS_BY_2 = 20, DIVISIONS_BY_3 = 5, DIVISIONS_BY_5 = 6 };
 
 typedef struct memo {
   uint64_t value;
-  uint32_t epoch;   // valid if it is the point's
+  uint32_t epoch;  // valid if it is the point's
   bool ok;
 } memo;
 
@@ -36,9 +39,9 @@ struct pl_mod_point {
   const pl_pool* p;
   uint64_t seed;
   uint32_t epoch;
-  memo** pages;            // by node id, made when touched (n_pages x PAGE)
+  memo** pages;  // by node id, made when touched (n_pages x PAGE)
   uint32_t n_pages;
-  symbol_value* symbols;   // by symbol id                 (n_symbols)
+  symbol_value* symbols;  // by symbol id                 (n_symbols)
   uint32_t n_symbols;
 };
 
@@ -53,13 +56,13 @@ typedef struct pass {
   pl_mod_point* m;
   const binding* bound;
   pl_walk w;
-  uint64_t* value;   // by position
+  uint64_t* value;  // by position
   bool* good;
-  bool ok;           // of the node at hand
-  int steps;         // taken to split its argument
+  bool ok;    // of the node at hand
+  int steps;  // taken to split its argument
 } pass;
 
-// ---------------------------------------------------------------------------------------------- point
+// ------------------------------------------------------------------------------------------- point
 pl_mod_point* pl_mod_point_make(pl_arena* a, const pl_pool* p, uint64_t seed) {
   pl_mod_point* m = PL_NEW(a, pl_mod_point);
   *m = (pl_mod_point){.arena = a, .p = p, .seed = seed, .epoch = 1};
@@ -83,14 +86,17 @@ static void widen_symbols(pl_mod_point* m, uint32_t id) {
   m->n_symbols = n;
 }
 
-// Squares have square roots; cubic and fifth roots every residue has, as P - 1 is not divisible by 3 or 5.
+// Squares have square roots; cubic and fifth roots every residue has, as P - 1 is not divisible by
+// 3 or 5.
 static uint64_t positive_residue(uint64_t x) { return pl_mod_mul(x, x); }
 
 static uint64_t random_symbol(const pl_mod_point* m, const pl_symbol_info* info) {
   uint64_t x = residue(m, OF_SYMBOL, pl_hash_bytes(info->ascii, strlen(info->ascii), 0));
   switch (info->sign) {
-    case PL_SIGN_POSITIVE: case PL_SIGN_NONNEGATIVE: return positive_residue(x);
-    case PL_SIGN_NEGATIVE: case PL_SIGN_NONPOSITIVE: return pl_mod_sub(0, positive_residue(x));
+    case PL_SIGN_POSITIVE:
+    case PL_SIGN_NONNEGATIVE: return positive_residue(x);
+    case PL_SIGN_NEGATIVE:
+    case PL_SIGN_NONPOSITIVE: return pl_mod_sub(0, positive_residue(x));
     default: return x;
   }
 }
@@ -109,7 +115,7 @@ void pl_mod_point_set(pl_mod_point* m, pl_symbol s, uint64_t value) {
   m->epoch++;
 }
 
-// ---------------------------------------------------------------------------------------------- arguments
+// --------------------------------------------------------------------------------------- arguments
 static uint64_t at(pass* v, pl_expr e) {
   int i = pl_walk_position(&v->w, e);
   if (!v->good[i]) v->ok = false;
@@ -118,12 +124,12 @@ static uint64_t at(pass* v, pl_expr e) {
 
 static uint64_t arg(pass* v, pl_expr e, int i) { return at(v, pl_arg(v->m->p, e, i)); }
 
-// ---------------------------------------------------------------------------------------------- linear combinations
+// ----------------------------------------------------------------------------- linear combinations
 // An angle or exponent as a sum of num/den times a monomial.
 typedef struct part {
   int64_t num, den;
-  uint64_t key;      // residue of the monomial; 1 for a pure number
-  pl_expr atom;      // the monomial, when it is one atom
+  uint64_t key;  // residue of the monomial; 1 for a pure number
+  pl_expr atom;  // the monomial, when it is one atom
   int n_atoms;
 } part;
 
@@ -177,7 +183,8 @@ static void linear_product(pass* v, linear* to, const linear* by) {
   linear from = *to;
   to->n = 0;
   for (int i = 0; i < from.n; i++) {
-    for (int k = 0; k < by->n && v->ok; k++) linear_put(v, to, part_product(v, from.at[i], by->at[k]));
+    for (int k = 0; k < by->n && v->ok; k++)
+      linear_put(v, to, part_product(v, from.at[i], by->at[k]));
   }
 }
 
@@ -222,7 +229,8 @@ static void linear_of(pass* v, linear* to, pl_expr e, int depth) {
     case PL_ADD: linear_sum(v, to, e, depth + 1); return;
     case PL_MUL: linear_factors(v, to, e, depth + 1); return;
     case PL_POW:
-      if (pl_kind_of(p, pl_arg(p, e, 0)) == PL_ADD && pl_is_int(p, pl_arg(p, e, 1), &n) && n > 1 && n <= 8) {
+      if (pl_kind_of(p, pl_arg(p, e, 0)) == PL_ADD && pl_is_int(p, pl_arg(p, e, 1), &n) && n > 1
+          && n <= 8) {
         linear_power(v, to, pl_arg(p, e, 0), n, depth + 1);
         return;
       }
@@ -232,7 +240,7 @@ static void linear_of(pass* v, linear* to, pl_expr e, int depth) {
   *to = (linear){.at = {{.num = 1, .den = 1, .key = at(v, e), .atom = e, .n_atoms = 1}}, .n = 1};
 }
 
-// ---------------------------------------------------------------------------------------------- angles
+// ------------------------------------------------------------------------------------------ angles
 // The rotation of asin(u), acos(u), atan(u), atan2(y, x); false for other atoms.
 static bool rotation_of_inverse(pass* v, pl_expr atom, pl_rotation* out) {
   const pl_pool* p = v->m->p;
@@ -252,7 +260,8 @@ static bool rotation_of_inverse(pass* v, pl_expr atom, pl_rotation* out) {
   return true;
 }
 
-// Divides *den by q as often as it goes, at most n times; the divisions that are left over, as a factor.
+// Divides *den by q as often as it goes, at most n times; the divisions that are left over, as a
+// factor.
 static uint64_t left_over(int64_t* den, int64_t q, int n) {
   uint64_t factor = 1;
   for (int i = 0; i < n; i++) {
@@ -273,8 +282,10 @@ static uint64_t units_for(int64_t den, int64_t* rest) {
 
 static pl_rotation rotation_of_part(pass* v, const part* x) {
   pl_rotation r;
-  if (x->n_atoms == 1 && x->atom.id == v->m->p->pi.id) return pl_rotation_of_pi(x->num, x->den, &v->ok);
-  if (x->n_atoms == 1 && rotation_of_inverse(v, x->atom, &r)) return pl_rotation_ratio(r, x->num, x->den, &v->ok);
+  if (x->n_atoms == 1 && x->atom.id == v->m->p->pi.id)
+    return pl_rotation_of_pi(x->num, x->den, &v->ok);
+  if (x->n_atoms == 1 && rotation_of_inverse(v, x->atom, &r))
+    return pl_rotation_ratio(r, x->num, x->den, &v->ok);
   int64_t rest;
   uint64_t n = units_for(x->den, &rest);
   if (rest % 2 == 0) v->ok = false;
@@ -293,7 +304,7 @@ static pl_rotation rotation_of(pass* v, pl_expr angle) {
   return r;
 }
 
-// ---------------------------------------------------------------------------------------------- exponents
+// --------------------------------------------------------------------------------------- exponents
 // unit^(num/den), for a unit that is a random residue
 static uint64_t unit_power(pass* v, uint64_t unit, const part* x) {
   int64_t rest;
@@ -312,12 +323,16 @@ static uint64_t symbolic_power(pass* v, uint64_t base, pl_expr exponent) {
   uint64_t r = 1;
   for (int i = 0; i < l.n && v->ok; i++) {
     const part* x = &l.at[i];
-    bool logarithm = x->n_atoms == 1 && pl_kind_of(p, x->atom) == PL_CALL && pl_function_of(p, x->atom) == PL_LN;
+    bool logarithm = x->n_atoms == 1 && pl_kind_of(p, x->atom) == PL_CALL
+                     && pl_function_of(p, x->atom) == PL_LN;
     uint64_t factor;
     if (x->num == 0) continue;
     if (base != 0 && x->n_atoms == 0) factor = pl_mod_pow_ratio(base, x->num, x->den, &v->ok);
-    else if (base == 0 && logarithm) factor = pl_mod_pow_ratio(arg(v, x->atom, 0), x->num, x->den, &v->ok);
-    else factor = unit_power(v, residue(v->m, OF_EXPONENT, base ? pl_hash_mix(base, x->key) : x->key), x);
+    else if (base == 0 && logarithm)
+      factor = pl_mod_pow_ratio(arg(v, x->atom, 0), x->num, x->den, &v->ok);
+    else
+      factor = unit_power(v, residue(v->m, OF_EXPONENT, base ? pl_hash_mix(base, x->key) : x->key),
+                          x);
     r = pl_mod_mul(r, factor);
   }
   return r;
@@ -337,10 +352,12 @@ static uint64_t power_value(pass* v, pl_expr e) {
   return v->ok ? symbolic_power(v, base, exponent) : 0;
 }
 
-// ---------------------------------------------------------------------------------------------- logarithms
+// -------------------------------------------------------------------------------------- logarithms
 static uint64_t log_of(pass* v, pl_expr e, int depth);
 
-static uint64_t log_of_atom(const pass* v, uint64_t x) { return residue(v->m, OF_CALL + 16 * PL_LN, x); }
+static uint64_t log_of_atom(const pass* v, uint64_t x) {
+  return residue(v->m, OF_CALL + 16 * PL_LN, x);
+}
 
 // ln of a positive number, as a sum over the primes that are found
 static uint64_t log_of_number(pass* v, pl_expr e) {
@@ -366,7 +383,8 @@ static uint64_t log_of_product(pass* v, pl_expr e, int depth) {
   const pl_pool* p = v->m->p;
   if (pl_number_sign(p, pl_arg(p, e, 0)) < 0) return log_of_atom(v, at(v, e));
   uint64_t sum = 0;
-  for (int i = 0, n = pl_n_args(p, e); i < n; i++) sum = pl_mod_add(sum, log_of(v, pl_arg(p, e, i), depth + 1));
+  for (int i = 0, n = pl_n_args(p, e); i < n; i++)
+    sum = pl_mod_add(sum, log_of(v, pl_arg(p, e, i), depth + 1));
   return sum;
 }
 
@@ -381,7 +399,7 @@ static uint64_t log_of(pass* v, pl_expr e, int depth) {
   return log_of_atom(v, at(v, e));
 }
 
-// ---------------------------------------------------------------------------------------------- calls
+// ------------------------------------------------------------------------------------------- calls
 static uint64_t divide(pass* v, uint64_t a, uint64_t b) {
   if (b == 0) v->ok = false;
   return b == 0 ? 0 : pl_mod_mul(a, pl_mod_inv(b));
@@ -409,7 +427,9 @@ static uint64_t call_value(pass* v, pl_expr e) {
       pl_rotation r = rotation_of(v, a);
       return divide(v, r.s, r.c);
     }
-    case PL_SINH: case PL_COSH: case PL_TANH: return hyperbolic_value(v, f, a);
+    case PL_SINH:
+    case PL_COSH:
+    case PL_TANH: return hyperbolic_value(v, f, a);
     case PL_EXP: return symbolic_power(v, 0, a);
     case PL_LN: return log_of(v, a, 0);
     case PL_ABS: return pl_mod_sign(x) < 0 ? pl_mod_sub(0, x) : x;
@@ -421,12 +441,13 @@ static uint64_t call_value(pass* v, pl_expr e) {
   // odd functions: asin(-x) = -asin(x); acos(x) = π/2 - asin(x)
   bool negative = pl_mod_sign(x) < 0;
   if (negative && f != PL_ATAN2) x = pl_mod_sub(0, x);
-  uint64_t z = residue(v->m, OF_CALL + 16 * (uint64_t)(f == PL_ACOS ? PL_ASIN : f), pl_hash_mix(x, y));
+  uint64_t z = residue(v->m, OF_CALL + 16 * (uint64_t)(f == PL_ACOS ? PL_ASIN : f),
+                       pl_hash_mix(x, y));
   if (negative && f != PL_ATAN2) z = pl_mod_sub(0, z);
   return f == PL_ACOS ? pl_mod_sub(pl_mod_half(residue(v->m, OF_PI, 0)), z) : z;
 }
 
-// ---------------------------------------------------------------------------------------------- node by node
+// ------------------------------------------------------------------------------------ node by node
 static uint64_t run_body(pl_mod_point* m, pl_expr body, const binding* b, bool* ok);
 
 static bool is_bound(const pass* v, pl_symbol s) {
@@ -452,8 +473,8 @@ static bool whole_bound(const pass* v, pl_expr e, uint64_t value, long* out) {
   return true;
 }
 
-// With whole numbers as bounds term by term; else the body at one random index, times a factor that stands for the
-// range.
+// With whole numbers as bounds term by term; else the body at one random index, times a factor that
+// stands for the range.
 static uint64_t pattern_value(pass* v, pl_expr e) {
   const pl_pool* p = v->m->p;
   pl_symbol index = pl_symbol_of(p, e);
@@ -466,7 +487,8 @@ static uint64_t pattern_value(pass* v, pl_expr e) {
   if ((__int128)hi - lo > MAX_SUM) v->ok = false;
   uint64_t sum = 0;
   for (long k = lo; k <= hi && v->ok; k++) {
-    binding b = {index, k < 0 ? pl_mod_sub(0, (uint64_t)-k % PL_MOD_P) : (uint64_t)k % PL_MOD_P, v->bound};
+    binding b = {index, k < 0 ? pl_mod_sub(0, (uint64_t)-k % PL_MOD_P) : (uint64_t)k % PL_MOD_P,
+                 v->bound};
     sum = pl_mod_add(sum, run_body(v->m, pl_arg(p, e, 3), &b, &v->ok));
   }
   return sum;
@@ -512,11 +534,11 @@ static uint64_t node_value(pass* v, pl_expr e) {
     case PL_CALL: return call_value(v, e);
     case PL_IF: return if_value(v, e);
     case PL_SUM: return pattern_value(v, e);
-    default: v->ok = false; return 0;   // poison, infinity
+    default: v->ok = false; return 0;  // poison, infinity
   }
 }
 
-// ---------------------------------------------------------------------------------------------- passes
+// ------------------------------------------------------------------------------------------ passes
 static memo* memo_at(pl_mod_point* m, pl_expr e) {
   uint32_t page = e.id / PAGE;
   if (page >= m->n_pages) {

@@ -1,11 +1,12 @@
-// Values: in double precision at and beyond the edge of the domain, and modulo p, where identities must vanish.
+// Values: in double precision at and beyond the edge of the domain, and modulo p, where identities
+// must vanish.
 #include "expr/expr_test_kit.h"
 
-#define SIN(x) pl_call(p, PL_SIN, (x))
-#define COS(x) pl_call(p, PL_COS, (x))
+#define SIN(x)      pl_call(p, PL_SIN, (x))
+#define COS(x)      pl_call(p, PL_COS, (x))
 #define TIMES(n, x) pl_mul(p, pl_int(p, (n)), (x))
-#define OVER(x, n) pl_div(p, (x), pl_int(p, (n)))
-#define SQ(x) pl_square(p, (x))
+#define OVER(x, n)  pl_div(p, (x), pl_int(p, (n)))
+#define SQ(x)       pl_square(p, (x))
 
 static double value(pl_pool* p, pl_expr e, double x) {
   double at[64];
@@ -36,7 +37,7 @@ PL_TEST(sums_run_over_their_bounds) {
   pl_expr n = kit_parameter(p, "N", PL_C_OTHER);
   pl_expr inner = pl_sum_over(p, pl_symbol_of(p, k), pl_int(p, 1), i, pl_mul(p, i, k));
   pl_expr outer = pl_sum_over(p, pl_symbol_of(p, i), pl_int(p, 1), n, inner);
-  assert_true(value(p, outer, 4) == 65);   // sum of i^2 (i+1)/2
+  assert_true(value(p, outer, 4) == 65);  // sum of i^2 (i+1)/2
   assert_true(isnan(value(p, outer, 1e9)));
   pl_expr fixed = pl_subst1(p, outer, pl_symbol_of(p, n), pl_int(p, 4));
   assert_true(kit_equal(p, fixed, pl_int(p, 65), 3));
@@ -49,15 +50,18 @@ PL_TEST(identities_of_angles_vanish) {
   assert_true(kit_equal(p, pl_add(p, SQ(SIN(x)), SQ(COS(x))), pl_int(p, 1), 1));
   assert_true(kit_equal(p, SIN(TIMES(2, x)), pl_mul(p, TIMES(2, SIN(x)), COS(x)), 2));
   pl_expr third = OVER(x, 3);
-  assert_true(kit_equal(p, COS(x), pl_sub(p, TIMES(4, pl_pow_int(p, COS(third), 3)), TIMES(3, COS(third))), 3));
+  assert_true(kit_equal(
+      p, COS(x), pl_sub(p, TIMES(4, pl_pow_int(p, COS(third), 3)), TIMES(3, COS(third))), 3));
   pl_expr sum = pl_sub(p, pl_mul(p, COS(x), COS(y)), pl_mul(p, SIN(x), SIN(y)));
   assert_true(kit_equal(p, COS(pl_add(p, x, y)), sum, 4));
   pl_expr half = OVER(pl_add(p, x, y), 2);
-  assert_true(kit_equal(p, SQ(SIN(half)), OVER(pl_sub(p, pl_int(p, 1), COS(pl_add(p, x, y))), 2), 5));
+  assert_true(
+      kit_equal(p, SQ(SIN(half)), OVER(pl_sub(p, pl_int(p, 1), COS(pl_add(p, x, y))), 2), 5));
   pl_expr tangent = pl_call(p, PL_TAN, OVER(x, 2));
   assert_true(kit_equal(p, tangent, pl_div(p, SIN(x), pl_add(p, pl_int(p, 1), COS(x))), 6));
   // ω (t - y) and ω t - ω y are one angle
-  pl_expr a1 = SIN(pl_mul(p, w, pl_sub(p, t, y))), a2 = SIN(pl_sub(p, pl_mul(p, w, t), pl_mul(p, w, y)));
+  pl_expr a1 = SIN(pl_mul(p, w, pl_sub(p, t, y))),
+          a2 = SIN(pl_sub(p, pl_mul(p, w, t), pl_mul(p, w, y)));
   assert_true(kit_equal(p, a1, a2, 7));
   pl_expr slow = pl_mul(p, pl_number_from_text(p, "0.001", 5), x);
   assert_true(kit_equal(p, SIN(TIMES(2, slow)), pl_mul(p, TIMES(2, SIN(slow)), COS(slow)), 8));
@@ -65,20 +69,26 @@ PL_TEST(identities_of_angles_vanish) {
 
 PL_TEST(identities_at_fixed_angles_vanish) {
   pl_expr pi = pl_pi(p);
-  assert_true(kit_equal(p, TIMES(2, SQ(COS(OVER(pi, 8)))), pl_add(p, pl_int(p, 1), COS(OVER(pi, 4))), 1));
+  assert_true(
+      kit_equal(p, TIMES(2, SQ(COS(OVER(pi, 8)))), pl_add(p, pl_int(p, 1), COS(OVER(pi, 4))), 1));
   pl_expr root = OVER(pl_sqrt(p, pl_add(p, pl_int(p, 2), pl_sqrt(p, pl_int(p, 2)))), 2);
   assert_true(kit_equal(p, COS(OVER(pi, 8)), root, 2));
   assert_true(kit_equal(p, SIN(TIMES(3, OVER(pi, 8))), COS(OVER(pi, 8)), 3));
   // whole degrees, thirds and fifths of a turn
   pl_expr degree = OVER(pi, 180), s20 = SIN(TIMES(20, degree));
-  assert_true(kit_equal(p, pl_sub(p, TIMES(3, s20), TIMES(4, pl_pow_int(p, s20, 3))), SIN(TIMES(60, degree)), 4));
-  assert_true(kit_equal(p, COS(OVER(pi, 5)), OVER(pl_add(p, pl_int(p, 1), pl_sqrt(p, pl_int(p, 5))), 4), 5));
-  assert_true(kit_equal(p, pl_call(p, PL_TAN, OVER(pi, 12)), pl_sub(p, pl_int(p, 2), pl_sqrt(p, pl_int(p, 3))), 6));
+  assert_true(kit_equal(p, pl_sub(p, TIMES(3, s20), TIMES(4, pl_pow_int(p, s20, 3))),
+                        SIN(TIMES(60, degree)), 4));
+  assert_true(kit_equal(p, COS(OVER(pi, 5)),
+                        OVER(pl_add(p, pl_int(p, 1), pl_sqrt(p, pl_int(p, 5))), 4), 5));
+  assert_true(kit_equal(p, pl_call(p, PL_TAN, OVER(pi, 12)),
+                        pl_sub(p, pl_int(p, 2), pl_sqrt(p, pl_int(p, 3))), 6));
   pl_expr x = kit_coordinate(p, "x"), third = OVER(TIMES(2, pi), 3);
-  pl_expr phases = pl_add_n(p, (pl_expr[]){COS(x), COS(pl_add(p, x, third)), COS(pl_sub(p, x, third))}, 3);
+  pl_expr phases = pl_add_n(
+      p, (pl_expr[]){COS(x), COS(pl_add(p, x, third)), COS(pl_sub(p, x, third))}, 3);
   assert_true(kit_vanishes(p, phases, 7, 3));
   pl_expr nested = pl_sqrt(p, pl_add(p, pl_int(p, 5), TIMES(2, pl_sqrt(p, pl_int(p, 6)))));
-  assert_true(kit_equal(p, nested, pl_add(p, pl_sqrt(p, pl_int(p, 2)), pl_sqrt(p, pl_int(p, 3))), 8));
+  assert_true(
+      kit_equal(p, nested, pl_add(p, pl_sqrt(p, pl_int(p, 2)), pl_sqrt(p, pl_int(p, 3))), 8));
 }
 
 PL_TEST(identities_of_inverse_functions_vanish) {
@@ -92,7 +102,8 @@ PL_TEST(identities_of_inverse_functions_vanish) {
 
 PL_TEST(identities_of_exponentials_vanish) {
   pl_expr x = kit_coordinate(p, "x"), y = kit_coordinate(p, "y"), e = pl_call(p, PL_EXP, x);
-  assert_true(kit_equal(p, pl_call(p, PL_COSH, x), OVER(pl_add(p, e, pl_div(p, pl_int(p, 1), e)), 2), 1));
+  assert_true(
+      kit_equal(p, pl_call(p, PL_COSH, x), OVER(pl_add(p, e, pl_div(p, pl_int(p, 1), e)), 2), 1));
   pl_expr c = pl_call(p, PL_COSH, pl_add(p, x, y));
   pl_expr sum = pl_add(p, pl_mul(p, pl_call(p, PL_COSH, x), pl_call(p, PL_COSH, y)),
                        pl_mul(p, pl_call(p, PL_SINH, x), pl_call(p, PL_SINH, y)));
@@ -100,28 +111,34 @@ PL_TEST(identities_of_exponentials_vanish) {
   pl_expr logs = pl_add(p, pl_call(p, PL_LN, x), TIMES(2, pl_call(p, PL_LN, y)));
   assert_true(kit_equal(p, pl_call(p, PL_LN, pl_mul(p, x, SQ(y))), logs, 3));
   assert_true(kit_equal(p, pl_call(p, PL_EXP, TIMES(2, pl_call(p, PL_LN, x))), SQ(x), 4));
-  assert_true(kit_equal(p, pl_mul(p, pl_pow(p, x, y), x), pl_pow(p, x, pl_add(p, y, pl_int(p, 1))), 5));
+  assert_true(
+      kit_equal(p, pl_mul(p, pl_pow(p, x, y), x), pl_pow(p, x, pl_add(p, y, pl_int(p, 1))), 5));
 }
 
 // Roots are multiplicative, and a name that is known to be positive is a square.
 PL_TEST(roots_choose_one_branch) {
-  pl_expr x = kit_coordinate(p, "x"), y = kit_coordinate(p, "y"), m = kit_parameter(p, "m", PL_C_MASS);
-  assert_true(kit_equal(p, pl_mul(p, pl_sqrt(p, x), pl_sqrt(p, y)), pl_sqrt(p, pl_mul(p, x, y)), 1));
+  pl_expr x = kit_coordinate(p, "x"), y = kit_coordinate(p, "y"),
+          m = kit_parameter(p, "m", PL_C_MASS);
+  assert_true(
+      kit_equal(p, pl_mul(p, pl_sqrt(p, x), pl_sqrt(p, y)), pl_sqrt(p, pl_mul(p, x, y)), 1));
   assert_true(kit_equal(p, pl_sqrt(p, SQ(m)), m, 2));
   assert_true(kit_equal(p, pl_sqrt(p, SQ(x)), pl_call(p, PL_ABS, x), 3));
   assert_true(kit_equal(p, pl_mul(p, pl_call(p, PL_SIGN, x), pl_call(p, PL_ABS, x)), x, 4));
-  assert_true(kit_equal(p, pl_pow(p, pl_mul(p, pl_pow_int(p, m, 3), SQ(m)), pl_ratio(p, 1, 5)), m, 5));
+  assert_true(
+      kit_equal(p, pl_pow(p, pl_mul(p, pl_pow_int(p, m, 3), SQ(m)), pl_ratio(p, 1, 5)), m, 5));
   pl_expr l = kit_parameter(p, "l", PL_C_LENGTH);
-  assert_true(kit_equal(p, pl_mul(p, pl_sqrt(p, pl_int(p, 3)), pl_sqrt(p, l)), pl_sqrt(p, TIMES(3, l)), 7));
+  assert_true(
+      kit_equal(p, pl_mul(p, pl_sqrt(p, pl_int(p, 3)), pl_sqrt(p, l)), pl_sqrt(p, TIMES(3, l)), 7));
   pl_expr one = pl_call2(p, PL_MAX, x, y), other = pl_call2(p, PL_MIN, x, y);
   assert_true(kit_equal(p, pl_add(p, one, other), pl_add(p, x, y), 6));
 }
 
 PL_TEST(what_is_not_zero_is_refuted) {
   pl_expr x = kit_coordinate(p, "x"), y = kit_coordinate(p, "y");
-  pl_expr wrong[] = {pl_sub(p, SQ(SIN(x)), SQ(COS(x))), pl_sub(p, SIN(TIMES(2, x)), TIMES(2, SIN(x))),
-                     pl_sub(p, pl_sqrt(p, SQ(x)), x), pl_sub(p, SIN(x), x),
-                     pl_sub(p, pl_call(p, PL_COSH, x), COS(x)), pl_sub(p, pl_add(p, x, y), pl_mul(p, x, y))};
+  pl_expr wrong[] = {
+      pl_sub(p, SQ(SIN(x)), SQ(COS(x))),         pl_sub(p, SIN(TIMES(2, x)), TIMES(2, SIN(x))),
+      pl_sub(p, pl_sqrt(p, SQ(x)), x),           pl_sub(p, SIN(x), x),
+      pl_sub(p, pl_call(p, PL_COSH, x), COS(x)), pl_sub(p, pl_add(p, x, y), pl_mul(p, x, y))};
   for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
     bool refuted = false;
     for (uint64_t seed = 1; seed < 40 && !refuted; seed++) {

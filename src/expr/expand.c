@@ -1,8 +1,9 @@
-// Multiplying out: products of sums and positive integer powers of sums.  What stands inside functions, roots and
-// denominators stays as it is.
+// Multiplying out: products of sums and positive integer powers of sums. What stands inside
+// functions, roots and denominators stays as it is.
 #include "expr/expr_impl.h"
 
-enum { ROOM_FOR_CANCELLATION = 16 };   // pairs that may be formed per term that is allowed in the end
+// pairs that may be formed per term that is allowed in the end
+enum { ROOM_FOR_CANCELLATION = 16 };
 
 typedef struct expansion {
   pl_pool* p;
@@ -10,8 +11,12 @@ typedef struct expansion {
   bool too_large;
 } expansion;
 
-static int n_terms(const pl_pool* p, pl_expr e) { return pl_kind_of(p, e) == PL_ADD ? pl_n_args(p, e) : 1; }
-static pl_expr term_at(const pl_pool* p, pl_expr e, int i) { return pl_kind_of(p, e) == PL_ADD ? pl_arg(p, e, i) : e; }
+static int n_terms(const pl_pool* p, pl_expr e) {
+  return pl_kind_of(p, e) == PL_ADD ? pl_n_args(p, e) : 1;
+}
+static pl_expr term_at(const pl_pool* p, pl_expr e, int i) {
+  return pl_kind_of(p, e) == PL_ADD ? pl_arg(p, e, i) : e;
+}
 
 static pl_expr checked(expansion* x, pl_expr e) {
   if (n_terms(x->p, e) > x->max_terms) x->too_large = true;
@@ -26,7 +31,8 @@ static pl_expr multiply(expansion* x, pl_expr a, pl_expr b) {
   if (x->too_large) return a;
   pl_exprs terms = {0};
   for (int i = 0; i < n; i++) {
-    for (int k = 0; k < m; k++) pl_temp_push(p, terms, pl_mul(p, term_at(p, a, i), term_at(p, b, k)));
+    for (int k = 0; k < m; k++)
+      pl_temp_push(p, terms, pl_mul(p, term_at(p, a, i), term_at(p, b, k)));
   }
   pl_expr e = pl_add_n(p, terms.at, terms.n);
   pl_temp_free(p, terms);
@@ -77,13 +83,15 @@ static pl_expr expand_node(expansion* x, pl_expr e, const pl_expr* args) {
     case PL_ADD: return checked(x, pl_add_n(p, args, pl_n_args(p, e)));
     case PL_MUL: return expand_product(x, args, pl_n_args(p, e));
     default:
-      if (!pl_is_int(p, pl_arg(p, e, 1), &n) || pl_kind_of(p, args[0]) != PL_ADD) return pl_rebuild(p, e, args);
-      if (n > x->max_terms) x->too_large = true;   // a sum of two has n + 1 terms already
+      if (!pl_is_int(p, pl_arg(p, e, 1), &n) || pl_kind_of(p, args[0]) != PL_ADD)
+        return pl_rebuild(p, e, args);
+      if (n > x->max_terms) x->too_large = true;  // a sum of two has n + 1 terms already
       return multiply_power(x, args[0], n);
   }
 }
 
-// Brackets that the opening of others brought to light (a power of a product that held a sum) need another round.
+// Brackets that the opening of others brought to light (a power of a product that held a sum) need
+// another round.
 static pl_expr expand_once(expansion* x, pl_expr e) {
   pl_pool* p = x->p;
   pl_walk w;
@@ -95,7 +103,8 @@ static pl_expr expand_once(expansion* x, pl_expr e) {
     to[i] = y;
     if (!is_open(p, y)) continue;
     args.n = 0;
-    for (int k = 0, n = pl_n_args(p, y); k < n; k++) pl_temp_push(p, args, to[pl_walk_position(&w, pl_arg(p, y, k))]);
+    for (int k = 0, n = pl_n_args(p, y); k < n; k++)
+      pl_temp_push(p, args, to[pl_walk_position(&w, pl_arg(p, y, k))]);
     to[i] = expand_node(x, y, args.at);
   }
   pl_expr result = to[w.nodes.n - 1];

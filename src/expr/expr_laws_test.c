@@ -9,7 +9,8 @@ static const uint64_t first_seed = 20240;
 static const char* text(pl_pool* p, pl_expr e) { return pl_expr_text(pl_pool_arena(p), p, e); }
 
 static void check(bool holds, uint64_t seed, pl_pool* p, pl_expr x, pl_expr y) {
-  if (!holds) print_message("seed %llu\n  %s\n  %s\n", (unsigned long long)seed, text(p, x), text(p, y));
+  if (!holds)
+    print_message("seed %llu\n  %s\n  %s\n", (unsigned long long)seed, text(p, x), text(p, y));
   assert_true(holds);
 }
 
@@ -34,9 +35,13 @@ PL_TEST(sums_and_products_do_not_depend_on_order_or_grouping) {
     pl_expr x[5];
     for (int i = 0; i < 5; i++) x[i] = kit_random(&k, 2).e;
     pl_expr sum = pl_add_n(p, x, 5), product = pl_mul_n(p, x, 5), sum2 = x[4], product2 = x[4];
-    for (int i = 3; i >= 0; i--) sum2 = pl_add(p, x[i], sum2), product2 = pl_mul(p, product2, x[i]);
+    for (int i = 3; i >= 0; i--) {
+      sum2 = pl_add(p, x[i], sum2);
+      product2 = pl_mul(p, product2, x[i]);
+    }
     check(pl_same(sum, sum2), seed, p, sum, sum2);
-    check(pl_same(product, product2) || kit_equal(p, product, product2, seed), seed, p, product, product2);
+    check(pl_same(product, product2) || kit_equal(p, product, product2, seed), seed, p, product,
+          product2);
     pl_expr back[5];
     for (int i = 0; i < 5; i++) back[i] = x[4 - i];
     check(pl_same(sum, pl_add_n(p, back, 5)), seed, p, sum, pl_add_n(p, back, 5));
@@ -135,7 +140,8 @@ PL_TEST(substitution_is_evaluation_with_other_values) {
     pl_symbol x = pl_symbol_of(p, k.names[0]), y = pl_symbol_of(p, k.names[1]);
     pl_expr put = pl_subst(p, e, (pl_replace[]){{x, u.e}, {y, v.e}}, 2);
     double left = pl_eval(p, put, k.values);
-    k.values[x.id] = u.value, k.values[y.id] = v.value;
+    k.values[x.id] = u.value;
+    k.values[y.id] = v.value;
     double right = pl_eval(p, e, k.values);
     if (!isfinite(right) || !isfinite(left) || fabs(right) > 1e5) continue;
     check(kit_close(left, right), seed, p, e, put);
@@ -148,7 +154,8 @@ PL_TEST(a_form_has_the_value_of_its_expression) {
     pl_expr e = kit_random(&k, 4).e;
     pl_form* f = pl_form_of(a, p, e);
     check(pl_same(pl_form_value(p, f), e), seed, p, e, pl_form_value(p, f));
-    if (pl_form_ops(f) != pl_op_count(p, e)) print_message("%ld, %ld\n", pl_form_ops(f), pl_op_count(p, e));
+    if (pl_form_ops(f) != pl_op_count(p, e))
+      print_message("%ld, %ld\n", pl_form_ops(f), pl_op_count(p, e));
     check(pl_form_ops(f) == pl_op_count(p, e), seed, p, e, e);
   }
 }
@@ -160,7 +167,8 @@ PL_TEST(residues_add_and_multiply) {
     pl_mod_point* m = pl_mod_point_make(a, p, seed);
     bool ok[4];
     uint64_t u = pl_eval_mod(m, x, &ok[0]), v = pl_eval_mod(m, y, &ok[1]);
-    uint64_t sum = pl_eval_mod(m, pl_add(p, x, y), &ok[2]), product = pl_eval_mod(m, pl_mul(p, x, y), &ok[3]);
+    uint64_t sum = pl_eval_mod(m, pl_add(p, x, y), &ok[2]),
+             product = pl_eval_mod(m, pl_mul(p, x, y), &ok[3]);
     if (ok[0] && ok[1] && ok[2]) check(sum == pl_mod_add(u, v), seed, p, x, y);
     if (ok[0] && ok[1] && ok[3]) check(product == pl_mod_mul(u, v), seed, p, x, y);
   }

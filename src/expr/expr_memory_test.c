@@ -1,10 +1,10 @@
-// The hostile allocator: the n-th request fails, for every n.  Each time the guard is reached with a clean status,
-// everything that was taken is given back, and the pool can still be used.
+// The hostile allocator: the n-th request fails, for every n. Each time the guard is reached with a
+// clean status, everything that was taken is given back, and the pool can still be used.
 #include "expr/expr_test_kit.h"
 
 typedef struct hostile {
-  long left;     // requests that still succeed
-  long open;     // blocks not given back
+  long left;  // requests that still succeed
+  long open;  // blocks not given back
 } hostile;
 
 static void* take(void* user, size_t size) {
@@ -39,8 +39,8 @@ static void work(pl_arena* a) {
   }
 }
 
-// Does the work get done when all requests after the n-th fail?  The filler moves the ends of the blocks, so that the
-// failure falls on another allocation.
+// Does the work get done when all requests after the n-th fail? The filler moves the ends of the
+// blocks, so that the failure falls on another allocation.
 static bool done_with(long n, size_t filler) {
   hostile h = {.left = n};
   pleuel_allocator alloc = {take, give, &h};
@@ -71,8 +71,8 @@ static void every_failing_request_ends_cleanly(void** state) {
   assert_true(failures > 60);
 }
 
-// With the limit on bytes in place of requests the failure can fall between any two blocks; afterwards the same
-// construction gives the same text.
+// With the limit on bytes in place of requests the failure can fall between any two blocks;
+// afterwards the same construction gives the same text.
 static void a_pool_survives_the_limit(void** state) {
   pl_arena* a = pl_arena_make(NULL);
   pl_guard guard;

@@ -1,7 +1,9 @@
-// Large and deep expressions: no stack, no quadratic passes, and answers within the patience of a reader.
+// Large and deep expressions: no stack, no quadratic passes, and answers within the patience of a
+// reader.
 #include "expr/expr_test_kit.h"
 
-static const double patience_s = 20;   // generous: the passes take tenths; quadratic ones would take minutes
+// generous: the passes take tenths; quadratic ones would take minutes
+static const double patience_s = 20;
 
 static pl_expr* make_row(pl_pool* p, pl_arena* a, int n) {
   pl_expr* x = PL_ARRAY(a, pl_expr, n);

@@ -1,4 +1,5 @@
-// For the tests of expr: a pool with some names, random expressions, and comparison that prints what differs.
+// For the tests of expr: a pool with some names, random expressions, and comparison that prints
+// what differs.
 #ifndef PL_EXPR_TEST_KIT_H
 #define PL_EXPR_TEST_KIT_H
 
@@ -14,23 +15,24 @@
 #include "expr/expr.h"
 
 // PL_TEST(a_sentence_that_may_be_false) { ... }     inside, p is the pool and a its arena
-#define PL_TEST(name)                                      \
-  static void name##_body(pl_pool* p, pl_arena* a);        \
-  static void name(void** state) {                         \
-    pl_arena* a = pl_arena_make(NULL);                     \
-    pl_guard guard;                                        \
-    bool fell = true;                                      \
-    PL_GUARD(a, guard) {                                   \
-      name##_body(pl_pool_make(a), a);                     \
-      fell = false;                                        \
-    }                                                      \
-    pl_guard_end(a, &guard);                               \
-    pl_arena_free(a);                                      \
-    assert_false(fell);                                    \
-  }                                                        \
+#define PL_TEST(name)                               \
+  static void name##_body(pl_pool* p, pl_arena* a); \
+  static void name(void** state) {                  \
+    pl_arena* a = pl_arena_make(NULL);              \
+    pl_guard guard;                                 \
+    bool fell = true;                               \
+    PL_GUARD(a, guard) {                            \
+      name##_body(pl_pool_make(a), a);              \
+      fell = false;                                 \
+    }                                               \
+    pl_guard_end(a, &guard);                        \
+    pl_arena_free(a);                               \
+    assert_false(fell);                             \
+  }                                                 \
   static void name##_body(pl_pool* p, pl_arena* a)
 
-static inline pl_expr kit_symbol(pl_pool* p, const char* name, pl_role role, pl_class class, pl_sign_known sign) {
+static inline pl_expr kit_symbol(pl_pool* p, const char* name, pl_role role, pl_class class,
+                                 pl_sign_known sign) {
   pl_symbol_info info = {.name = name, .ascii = name, .role = role, .class = class, .sign = sign};
   return pl_sym(p, pl_symbol_make(p, &info));
 }
@@ -49,7 +51,7 @@ static inline pl_expr kit_family(pl_pool* p, const char* name) {
 
 #define assert_text(e, wanted) assert_string_equal(pl_expr_text(a, p, (e)), (wanted))
 
-// Zero at `wanted` random points; points without value are passed over.  Prints e if it is not zero.
+// Zero at `wanted` random points; points without value are passed over. Prints e if it is not zero.
 static inline bool kit_vanishes(pl_pool* p, pl_expr e, uint64_t seed, int wanted) {
   int seen = 0;
   for (uint64_t k = 0; seen < wanted && k < 400; k++) {
@@ -59,7 +61,8 @@ static inline bool kit_vanishes(pl_pool* p, pl_expr e, uint64_t seed, int wanted
     if (!ok) continue;
     seen++;
     if (value != 0) {
-      print_message("seed %llu: not zero: %s\n", (unsigned long long)(seed + k), pl_expr_text(pl_pool_arena(p), p, e));
+      print_message("seed %llu: not zero: %s\n", (unsigned long long)(seed + k),
+                    pl_expr_text(pl_pool_arena(p), p, e));
       return false;
     }
   }
@@ -71,8 +74,9 @@ static inline bool kit_equal(pl_pool* p, pl_expr a, pl_expr b, uint64_t seed) {
   return kit_vanishes(p, pl_sub(p, a, b), seed, 3);
 }
 
-// ---------------------------------------------------------------------------------------------- random expressions
-// An expression together with its value, computed beside the constructors in plain double arithmetic.
+// ------------------------------------------------------------------------------ random expressions
+// An expression together with its value, computed beside the constructors in plain double
+// arithmetic.
 typedef struct kit_pair {
   pl_expr e;
   double value;
@@ -82,8 +86,8 @@ typedef struct kit {
   pl_pool* p;
   pl_random random;
   pl_expr names[6];
-  double values[64];   // by symbol id
-  bool rational;       // no functions and no roots
+  double values[64];  // by symbol id
+  bool rational;      // no functions and no roots
 } kit;
 
 static inline kit kit_make(pl_pool* p, uint64_t seed) {
@@ -98,7 +102,9 @@ static inline kit kit_make(pl_pool* p, uint64_t seed) {
   return k;
 }
 
-static inline int kit_below(kit* k, int n) { return (int)(pl_random_bits(&k->random) % (uint64_t)n); }
+static inline int kit_below(kit* k, int n) {
+  return (int)(pl_random_bits(&k->random) % (uint64_t)n);
+}
 
 static inline kit_pair kit_leaf(kit* k) {
   if (kit_below(k, 4) == 0) {
@@ -128,13 +134,16 @@ static inline kit_pair kit_function(kit* k, int depth) {
 static inline kit_pair kit_operation(kit* k, int depth) {
   kit_pair x = kit_random(k, depth - 1), y = kit_random(k, depth - 1 - kit_below(k, 2));
   switch (kit_below(k, k->rational ? 7 : 9)) {
-    case 0: case 1: return (kit_pair){pl_add(k->p, x.e, y.e), x.value + y.value};
+    case 0:
+    case 1: return (kit_pair){pl_add(k->p, x.e, y.e), x.value + y.value};
     case 2: return (kit_pair){pl_sub(k->p, x.e, y.e), x.value - y.value};
-    case 3: case 4: return (kit_pair){pl_mul(k->p, x.e, y.e), x.value * y.value};
+    case 3:
+    case 4: return (kit_pair){pl_mul(k->p, x.e, y.e), x.value * y.value};
     case 5: return (kit_pair){pl_div(k->p, x.e, y.e), x.value / y.value};
     case 6: {
       long n = kit_below(k, 5) - 1;
-      return (kit_pair){pl_pow_int(k->p, x.e, n), isnan(x.value) ? x.value : pow(x.value, (double)n)};
+      return (kit_pair){pl_pow_int(k->p, x.e, n),
+                        isnan(x.value) ? x.value : pow(x.value, (double)n)};
     }
     default: return kit_function(k, depth);
   }
@@ -149,6 +158,8 @@ static inline kit_pair kit_random(kit* k, int depth) {
 }
 
 // Close in relation to the sizes that may have cancelled; only moderate values are compared.
-static inline bool kit_close(double x, double y) { return fabs(x - y) <= 1e-7 * (1 + fabs(x) + fabs(y)); }
+static inline bool kit_close(double x, double y) {
+  return fabs(x - y) <= 1e-7 * (1 + fabs(x) + fabs(y));
+}
 
 #endif

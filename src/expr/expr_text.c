@@ -1,10 +1,11 @@
-// The text of an expression for machines: ASCII, explicit * and ^, brackets where they are needed, names as in
-// pl_symbol_info.ascii, numbers with units as their value in SI.  It reads back with the model language and depends on structure and names only.
+// The text of an expression for machines: ASCII, explicit * and ^, brackets where they are needed,
+// names as in pl_symbol_info.ascii, numbers with units as their value in SI. It reads back with the
+// model language and depends on structure and names only.
 //   -2*g*m1*m2/(m1 + m2)      sqrt(l^2 - r^2*sin(phi)^2)      3*cos(theta) - 2
 #include "expr/expr_impl.h"
 
-enum { MAX_DEPTH = 4000 };                        // of brackets in brackets
-static const long max_operators = 20l << 20;      // a text of some hundred megabytes
+enum { MAX_DEPTH = 4000 };                    // of brackets in brackets
+static const long max_operators = 20l << 20;  // a text of some hundred megabytes
 
 typedef struct writer {
   pl_text text;
@@ -19,7 +20,7 @@ static void write_in(writer* w, pl_expr e, binding outer);
 
 static void add(writer* w, const char* s) { pl_text_add(&w->text, s); }
 
-// ---------------------------------------------------------------------------------------------- numbers
+// ----------------------------------------------------------------------------------------- numbers
 // The size of a number, without its sign.
 static const char* unsigned_num(writer* w, pl_expr x) {
   const char* s = pl_number_num_text(w->text.arena, w->p, x);
@@ -34,10 +35,11 @@ static bool num_is_one(writer* w, pl_expr x) {
 static void write_number(writer* w, pl_expr x) {
   if (pl_number_sign(w->p, x) < 0) add(w, "-");
   add(w, unsigned_num(w, x));
-  if (!pl_number_is_integer(w->p, x)) pl_text_addf(&w->text, "/%s", pl_number_den_text(w->text.arena, w->p, x));
+  if (!pl_number_is_integer(w->p, x))
+    pl_text_addf(&w->text, "/%s", pl_number_den_text(w->text.arena, w->p, x));
 }
 
-// ---------------------------------------------------------------------------------------------- powers
+// ------------------------------------------------------------------------------------------ powers
 static bool is_below_line(const pl_pool* p, pl_expr factor) {
   return pl_kind_of(p, factor) == PL_POW && pl_number_sign(p, pl_arg(p, factor, 1)) < 0;
 }
@@ -56,12 +58,14 @@ static void write_power(writer* w, pl_expr base, pl_expr x, bool inverse) {
     add(w, ")");
   } else {
     write_in(w, base, ATOM);
-    bool bare = pl_is_number(p, x) ? pl_number_is_integer(p, x) && (inverse || pl_number_sign(p, x) > 0)
-                                   : pl_kind_of(p, x) == PL_SYMBOL || pl_kind_of(p, x) == PL_PI;
+    bool bare = pl_is_number(p, x)
+                    ? pl_number_is_integer(p, x) && (inverse || pl_number_sign(p, x) > 0)
+                    : pl_kind_of(p, x) == PL_SYMBOL || pl_kind_of(p, x) == PL_PI;
     add(w, bare ? "^" : "^(");
     if (inverse) {
       add(w, unsigned_num(w, x));
-      if (!pl_number_is_integer(p, x)) pl_text_addf(&w->text, "/%s", pl_number_den_text(w->text.arena, p, x));
+      if (!pl_number_is_integer(p, x))
+        pl_text_addf(&w->text, "/%s", pl_number_den_text(w->text.arena, p, x));
     } else {
       write(w, x);
     }
@@ -70,11 +74,12 @@ static void write_power(writer* w, pl_expr base, pl_expr x, bool inverse) {
 }
 
 static void write_factor(writer* w, pl_expr e, bool inverse) {
-  if (pl_kind_of(w->p, e) == PL_POW) write_power(w, pl_arg(w->p, e, 0), pl_arg(w->p, e, 1), inverse);
+  if (pl_kind_of(w->p, e) == PL_POW)
+    write_power(w, pl_arg(w->p, e, 0), pl_arg(w->p, e, 1), inverse);
   else write_in(w, e, POWER);
 }
 
-// ---------------------------------------------------------------------------------------------- products
+// ---------------------------------------------------------------------------------------- products
 // Numerator, and behind one stroke the denominator; the sign of the coefficient is the caller's.
 static void write_product(writer* w, const pl_term* t) {
   const pl_pool* p = w->p;
@@ -110,7 +115,7 @@ static void write_product(writer* w, const pl_term* t) {
   if (n_below > 1) add(w, ")");
 }
 
-// ---------------------------------------------------------------------------------------------- sums
+// -------------------------------------------------------------------------------------------- sums
 static void write_term(writer* w, pl_expr e, bool first) {
   pl_term t = pl_term_of(w->p, e);
   bool negative = pl_number_sign(w->p, t.coefficient) < 0;
@@ -127,7 +132,7 @@ static void write_sum(writer* w, pl_expr e) {
   if (number) write_term(w, pl_arg(p, e, 0), false);
 }
 
-// ---------------------------------------------------------------------------------------------- calls, patterns
+// --------------------------------------------------------------------------------- calls, patterns
 static void write_arguments(writer* w, pl_expr e, int first) {
   for (int i = first, n = pl_n_args(w->p, e); i < n; i++) {
     if (i > first) add(w, ", ");
@@ -159,7 +164,7 @@ static void write_pattern(writer* w, pl_expr e) {
   write_arguments(w, e, 3);
 }
 
-// ---------------------------------------------------------------------------------------------- all
+// --------------------------------------------------------------------------------------------- all
 static void write(writer* w, pl_expr e) {
   const pl_pool* p = w->p;
   switch (pl_kind_of(p, e)) {
@@ -173,7 +178,8 @@ static void write(writer* w, pl_expr e) {
       return;
     case PL_AT: write_element(w, e); return;
     case PL_ADD: write_sum(w, e); return;
-    case PL_MUL: case PL_POW: write_term(w, e, true); return;
+    case PL_MUL:
+    case PL_POW: write_term(w, e, true); return;
     case PL_CALL:
     case PL_UNKNOWN_FUNCTION:
       pl_text_addf(&w->text, "%s(", pl_function_name[pl_function_of(p, e)]);
@@ -207,7 +213,8 @@ static void write_in(writer* w, pl_expr e, binding outer) {
 const char* pl_expr_text(pl_arena* a, const pl_pool* p, pl_expr e) {
   long n = pl_op_count(p, e);
   if (n > max_operators) return pl_format(a, "<an expression of %ld operators>", n);
-  if (pl_node_at(p, e)->height > MAX_DEPTH) return pl_copy(a, "<an expression of very many nested brackets>");
+  if (pl_node_at(p, e)->height > MAX_DEPTH)
+    return pl_copy(a, "<an expression of very many nested brackets>");
   writer w = {pl_text_make(a), p};
   write(&w, e);
   return pl_text_string(&w.text);

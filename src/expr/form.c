@@ -4,7 +4,7 @@
 #include <limits.h>
 #include <string.h>
 
-// ---------------------------------------------------------------------------------------------- makers
+// ------------------------------------------------------------------------------------------ makers
 pl_form* pl_form_make(pl_arena* a, pl_form_kind k, int n, const pl_form* const* args) {
   pl_form* f = PL_NEW(a, pl_form);
   f->kind = k;
@@ -23,7 +23,9 @@ pl_form* pl_form_leaf(pl_arena* a, pl_expr e) {
   return f;
 }
 
-pl_form* pl_form_sum(pl_arena* a, const pl_form* const* terms, int n) { return pl_form_make(a, PL_F_SUM, n, terms); }
+pl_form* pl_form_sum(pl_arena* a, const pl_form* const* terms, int n) {
+  return pl_form_make(a, PL_F_SUM, n, terms);
+}
 
 pl_form* pl_form_product(pl_arena* a, const pl_form* const* factors, int n) {
   return pl_form_make(a, PL_F_PRODUCT, n, factors);
@@ -60,7 +62,8 @@ pl_form* pl_form_name(pl_arena* a, const char* text, pl_expr value) {
   return x;
 }
 
-pl_form* pl_form_vector(pl_arena* a, const pl_form* const* components, const char* const* unit_vectors, int n) {
+pl_form* pl_form_vector(pl_arena* a, const pl_form* const* components,
+                        const char* const* unit_vectors, int n) {
   pl_form* x = pl_form_make(a, PL_F_VECTOR, n, components);
   const char** names = PL_ARRAY(a, const char*, n);
   for (int i = 0; i < n; i++) names[i] = unit_vectors[i];
@@ -75,7 +78,7 @@ pl_form* pl_form_words(pl_arena* a, const char* en, const char* de) {
   return x;
 }
 
-// ---------------------------------------------------------------------------------------------- value
+// ------------------------------------------------------------------------------------------- value
 enum { MAX_DEPTH = 4000 };
 
 static pl_expr value_at(pl_pool* p, const pl_form* f, int depth);
@@ -103,14 +106,16 @@ static pl_expr value_at(pl_pool* p, const pl_form* f, int depth) {
     case PL_F_CALL: return f->n == 2 ? pl_call2(p, f->function, x, y) : pl_call(p, f->function, x);
     case PL_F_GROUP: return x;
     case PL_F_DERIVATIVE:
-      return pl_kind_of(p, f->expr) == PL_SYMBOL ? pl_diff(p, x, pl_symbol_of(p, f->expr)) : pl_diff_at(p, x, f->expr);
-    default: return pl_poison();   // statements, vectors, words; two values at once; what was left open
+      return pl_kind_of(p, f->expr) == PL_SYMBOL ? pl_diff(p, x, pl_symbol_of(p, f->expr))
+                                                 : pl_diff_at(p, x, f->expr);
+    // statements, vectors, words; two values at once; what was left open
+    default: return pl_poison();
   }
 }
 
 pl_expr pl_form_value(pl_pool* p, const pl_form* f) { return value_at(p, f, 0); }
 
-// ---------------------------------------------------------------------------------------------- size
+// -------------------------------------------------------------------------------------------- size
 static long ops_at(const pl_form* f, int depth) {
   if (depth > MAX_DEPTH) return 0;
   long n = 0;
@@ -121,10 +126,20 @@ static long ops_at(const pl_form* f, int depth) {
     if (__builtin_add_overflow(n, of_arg, &n)) return LONG_MAX / 2;
   }
   switch (f->kind) {
-    case PL_F_SUM: case PL_F_PRODUCT: case PL_F_LIST: return n + (f->n > 0 ? f->n - 1 : 0);
+    case PL_F_SUM:
+    case PL_F_PRODUCT:
+    case PL_F_LIST: return n + (f->n > 0 ? f->n - 1 : 0);
     case PL_F_VECTOR: return n + 2l * f->n - 1;
-    case PL_F_NEG: case PL_F_QUOTIENT: case PL_F_POWER: case PL_F_ROOT: case PL_F_CALL: case PL_F_PLUSMINUS:
-    case PL_F_RELATION: case PL_F_DERIVATIVE: case PL_F_INTEGRAL: case PL_F_ORDER: return n + 1;
+    case PL_F_NEG:
+    case PL_F_QUOTIENT:
+    case PL_F_POWER:
+    case PL_F_ROOT:
+    case PL_F_CALL:
+    case PL_F_PLUSMINUS:
+    case PL_F_RELATION:
+    case PL_F_DERIVATIVE:
+    case PL_F_INTEGRAL:
+    case PL_F_ORDER: return n + 1;
     default: return n;
   }
 }

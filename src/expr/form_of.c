@@ -1,24 +1,28 @@
-// The plain form of an expression, in the order of style rule K5: number, masses, g, lengths, other parameters,
-// functions, coordinates, velocities, accelerations; names in natural order.  -1, 1/2 and negative powers become minus
-// signs and fractions.  No algebra is done, so the value of the form is the expression again.
+// The plain form of an expression, in the order of style rule K5: number, masses, g, lengths, other
+// parameters, functions, coordinates, velocities, accelerations; names in natural order. -1, 1/2
+// and negative powers become minus signs and fractions. No algebra is done, so the value of the
+// form is the expression again.
 #include "expr/expr_impl.h"
 
 // What is known of a node when its users are formed.
 typedef struct place {
   const pl_form* form;
-  int class;            // the highest class of the names in it; brackets stand behind the names of that class
+  // the highest class of the names in it; brackets stand behind the names of that class
+  int class;
 } place;
 
 typedef struct former {
   pl_arena* a;
   pl_pool* p;
   pl_walk w;
-  place* places;     // by position
+  place* places;  // by position
 } former;
 
-static const place* place_of(const former* f, pl_expr e) { return &f->places[pl_walk_position(&f->w, e)]; }
+static const place* place_of(const former* f, pl_expr e) {
+  return &f->places[pl_walk_position(&f->w, e)];
+}
 
-// ---------------------------------------------------------------------------------------------- order
+// ------------------------------------------------------------------------------------------- order
 static int class_of_name(const pl_pool* p, pl_expr e) {
   const pl_symbol_info* s = pl_symbol_get(p, pl_symbol_of(p, e));
   if (pl_kind_of(p, e) != PL_AT || pl_dots_of(p, e) == 0) return (int)s->class;
@@ -38,7 +42,8 @@ static int class_of(const former* f, pl_expr e) {
   return kind == PL_CALL && highest < PL_C_FUNCTION ? PL_C_FUNCTION : highest;
 }
 
-// Where a factor stands: by the class of its base; sums behind the names, functions among themselves.
+// Where a factor stands: by the class of its base; sums behind the names, functions among
+// themselves.
 typedef struct rank {
   int class, composed;
 } rank;
@@ -47,8 +52,11 @@ static rank rank_of(const former* f, pl_expr e) {
   const pl_pool* p = f->p;
   pl_expr base = pl_base_of(p, e);
   switch (pl_kind_of(p, base)) {
-    case PL_NUMBER: case PL_PI: case PL_INFINITY: return (rank){PL_C_NUMBER, 0};
-    case PL_SYMBOL: case PL_AT: return (rank){class_of_name(p, base), 0};
+    case PL_NUMBER:
+    case PL_PI:
+    case PL_INFINITY: return (rank){PL_C_NUMBER, 0};
+    case PL_SYMBOL:
+    case PL_AT: return (rank){class_of_name(p, base), 0};
     case PL_CALL: return (rank){PL_C_FUNCTION, 1};
     default: {
       int c = place_of(f, base)->class;
@@ -107,7 +115,7 @@ static bool term_less(const void* a, const void* b, const void* user) {
   return s->n < t->n;
 }
 
-// ---------------------------------------------------------------------------------------------- numbers, powers
+// --------------------------------------------------------------------------------- numbers, powers
 static const pl_form* form_of_size(former* f, pl_expr x) {
   pl_pool* p = f->p;
   const pl_form* den = pl_form_leaf(f->a, pl_number_den(p, x));
@@ -131,7 +139,8 @@ static const pl_form* form_of_factor(former* f, pl_expr e, bool inverse) {
   if (inverse) exponent = pl_neg(p, exponent);
   if (exponent.id == p->one.id) return base;
   if (exponent.id == p->half.id) return pl_form_root(f->a, base);
-  const pl_form* x = pl_is_number(p, exponent) ? form_of_number(f, exponent) : place_of(f, exponent)->form;
+  const pl_form* x = pl_is_number(p, exponent) ? form_of_number(f, exponent)
+                                               : place_of(f, exponent)->form;
   return pl_form_power(f->a, base, x);
 }
 
@@ -139,7 +148,7 @@ static bool is_below_line(const pl_pool* p, pl_expr e) {
   return pl_kind_of(p, e) == PL_POW && pl_number_sign(p, pl_arg(p, e, 1)) < 0;
 }
 
-// ---------------------------------------------------------------------------------------------- products, sums
+// ---------------------------------------------------------------------------------- products, sums
 typedef PL_VEC(const pl_form*) forms;
 
 static const pl_form* as_product(former* f, const forms* x) {
@@ -188,7 +197,8 @@ static const pl_form* form_of_sum(former* f, pl_expr e) {
 
 static const pl_form* form_of_call(former* f, pl_expr e) {
   forms args = {0};
-  for (int i = 0, n = pl_n_args(f->p, e); i < n; i++) pl_push(f->a, args, place_of(f, pl_arg(f->p, e, i))->form);
+  for (int i = 0, n = pl_n_args(f->p, e); i < n; i++)
+    pl_push(f->a, args, place_of(f, pl_arg(f->p, e, i))->form);
   return pl_form_call(f->a, pl_function_of(f->p, e), args.at, args.n);
 }
 
@@ -196,9 +206,10 @@ static const pl_form* form_of_node(former* f, pl_expr e) {
   switch (pl_kind_of(f->p, e)) {
     case PL_NUMBER: return form_of_number(f, e);
     case PL_ADD: return form_of_sum(f, e);
-    case PL_MUL: case PL_POW: return form_of_term(f, e);
+    case PL_MUL:
+    case PL_POW: return form_of_term(f, e);
     case PL_CALL: return form_of_call(f, e);
-    default: return pl_form_leaf(f->a, e);   // names, π, ∞; cases and patterns as they are
+    default: return pl_form_leaf(f->a, e);  // names, π, ∞; cases and patterns as they are
   }
 }
 

@@ -1,4 +1,5 @@
-// The plain form: order of rule K5, signs and fractions.  The forms are compared through a small printer of their own.
+// The plain form: order of rule K5, signs and fractions. The forms are compared through a small
+// printer of their own.
 #include "expr/expr_test_kit.h"
 
 static void show(pl_text* t, pl_pool* p, const pl_form* f);
@@ -11,8 +12,8 @@ static void show_all(pl_text* t, pl_pool* p, const pl_form* f, const char* betwe
   }
 }
 
-static void show_between(pl_text* t, pl_pool* p, const pl_form* f, const char* open, const char* between,
-                         const char* shut) {
+static void show_between(pl_text* t, pl_pool* p, const pl_form* f, const char* open,
+                         const char* between, const char* shut) {
   pl_text_add(t, open);
   show_all(t, p, f, between);
   pl_text_add(t, shut);
@@ -46,11 +47,17 @@ typedef struct words {
 
 static words make_words(pl_pool* p) {
   words w = {
-      .m = kit_parameter(p, "m", PL_C_MASS), .m1 = kit_parameter(p, "m1", PL_C_MASS),
-      .m2 = kit_parameter(p, "m2", PL_C_MASS), .m10 = kit_parameter(p, "m10", PL_C_MASS),
-      .g = kit_parameter(p, "g", PL_C_GRAVITY), .l = kit_parameter(p, "l", PL_C_LENGTH),
-      .r = kit_parameter(p, "r", PL_C_LENGTH), .R = kit_parameter(p, "R", PL_C_LENGTH),
-      .theta = kit_coordinate(p, "theta"), .phi = kit_coordinate(p, "phi"), .x = kit_coordinate(p, "x"),
+      .m = kit_parameter(p, "m", PL_C_MASS),
+      .m1 = kit_parameter(p, "m1", PL_C_MASS),
+      .m2 = kit_parameter(p, "m2", PL_C_MASS),
+      .m10 = kit_parameter(p, "m10", PL_C_MASS),
+      .g = kit_parameter(p, "g", PL_C_GRAVITY),
+      .l = kit_parameter(p, "l", PL_C_LENGTH),
+      .r = kit_parameter(p, "r", PL_C_LENGTH),
+      .R = kit_parameter(p, "R", PL_C_LENGTH),
+      .theta = kit_coordinate(p, "theta"),
+      .phi = kit_coordinate(p, "phi"),
+      .x = kit_coordinate(p, "x"),
   };
   w.v = pl_sym(p, pl_symbol_dot(p, pl_symbol_of(p, w.x)));
   return w;
@@ -58,10 +65,13 @@ static words make_words(pl_pool* p) {
 
 PL_TEST(factors_stand_in_the_order_of_the_blackboard) {
   words w = make_words(p);
-  pl_expr lambda = pl_div(p, pl_mul_n(p, (pl_expr[]){pl_int(p, -2), w.g, w.m2, w.m1}, 4), pl_add(p, w.m2, w.m1));
+  pl_expr lambda = pl_div(p, pl_mul_n(p, (pl_expr[]){pl_int(p, -2), w.g, w.m2, w.m1}, 4),
+                          pl_add(p, w.m2, w.m1));
   assert_form(p, lambda, "-{2 m1 m2 g | (m1 + m2)}");
-  pl_expr t = pl_mul_n(p, (pl_expr[]){pl_ratio(p, 1, 2), pl_square(p, w.v), w.m, pl_square(p, w.r),
-                                      pl_square(p, pl_call(p, PL_SIN, w.phi))}, 5);
+  pl_expr t = pl_mul_n(p,
+                       (pl_expr[]){pl_ratio(p, 1, 2), pl_square(p, w.v), w.m, pl_square(p, w.r),
+                                   pl_square(p, pl_call(p, PL_SIN, w.phi))},
+                       5);
   assert_form(p, t, "{m r^2 sinphi^2 x_dot^2 | 2}");
   assert_form(p, pl_mul(p, pl_add(p, w.m1, w.m2), pl_mul(p, w.v, w.l)), "(m1 + m2) l x_dot");
 }
@@ -109,7 +119,8 @@ PL_TEST(operators_are_counted_as_written) {
   assert_int_equal(pl_op_count(p, d), 1);
   assert_int_equal(pl_op_count(p, pl_div(p, pl_mul(p, w.g, d), s)), 4);
   assert_int_equal(pl_op_count(p, pl_neg(p, w.x)), 1);
-  assert_int_equal(pl_op_count(p, pl_mul(p, pl_ratio(p, 1, 2), pl_mul(p, w.m, pl_square(p, w.v)))), 3);
+  assert_int_equal(pl_op_count(p, pl_mul(p, pl_ratio(p, 1, 2), pl_mul(p, w.m, pl_square(p, w.v)))),
+                   3);
 }
 
 int main(void) {

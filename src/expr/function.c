@@ -1,26 +1,31 @@
-// Functions of one and two arguments: what is always true of them.  Parity, special angles, shifts by multiples of a
-// quarter turn, inverse functions of special values, exact numbers.
+// Functions of one and two arguments: what is always true of them. Parity, special angles, shifts
+// by multiples of a quarter turn, inverse functions of special values, exact numbers.
 #include "expr/expr_impl.h"
 
-static pl_expr raw_call(pl_pool* p, pl_function f, pl_expr a) { return pl_node_make(p, PL_CALL, f, 0, 0, &a, 1); }
+static pl_expr raw_call(pl_pool* p, pl_function f, pl_expr a) {
+  return pl_node_make(p, PL_CALL, f, 0, 0, &a, 1);
+}
 
 static bool is_call(const pl_pool* p, pl_expr e, pl_function f) {
   return pl_kind_of(p, e) == PL_CALL && pl_function_of(p, e) == f;
 }
 
-// ---------------------------------------------------------------------------------------------- parity
-// One of x and -x is the one to write: a number by its sign, a product by its coefficient and the brackets in it, a sum
-// by its first term that is no number.  Brackets in brackets count down to the given depth.
+// ------------------------------------------------------------------------------------------ parity
+// One of x and -x is the one to write: a number by its sign, a product by its coefficient and the
+// brackets in it, a sum by its first term that is no number. Brackets in brackets count down to the
+// given depth.
 static bool negative_to_depth(const pl_pool* p, pl_expr e, int depth) {
   pl_kind k = pl_kind_of(p, e);
   if (k == PL_NUMBER) return pl_number_sign(p, e) < 0;
   if (depth == 0) return false;
-  if (k == PL_ADD) return negative_to_depth(p, pl_arg(p, e, pl_is_number(p, pl_arg(p, e, 0)) ? 1 : 0), depth - 1);
+  if (k == PL_ADD)
+    return negative_to_depth(p, pl_arg(p, e, pl_is_number(p, pl_arg(p, e, 0)) ? 1 : 0), depth - 1);
   if (k != PL_MUL) return false;
   bool negative = false;
   for (int i = 0, n = pl_n_args(p, e); i < n; i++) {
     pl_expr x = pl_arg(p, e, i);
-    if ((pl_is_number(p, x) || pl_kind_of(p, x) == PL_ADD) && negative_to_depth(p, x, depth - 1)) negative = !negative;
+    if ((pl_is_number(p, x) || pl_kind_of(p, x) == PL_ADD) && negative_to_depth(p, x, depth - 1))
+      negative = !negative;
   }
   return negative;
 }
@@ -29,7 +34,8 @@ static bool looks_negative(const pl_pool* p, pl_expr e) { return negative_to_dep
 
 static pl_expr opposite_sum(pl_pool* p, pl_expr e) {
   pl_exprs terms = {0};
-  for (int i = 0, n = pl_n_args(p, e); i < n; i++) pl_temp_push(p, terms, pl_neg(p, pl_arg(p, e, i)));
+  for (int i = 0, n = pl_n_args(p, e); i < n; i++)
+    pl_temp_push(p, terms, pl_neg(p, pl_arg(p, e, i)));
   pl_expr sum = pl_add_n(p, terms.at, terms.n);
   pl_temp_free(p, terms);
   return sum;
@@ -54,7 +60,7 @@ static pl_expr opposite(pl_pool* p, pl_expr e) {
   return product;
 }
 
-// ---------------------------------------------------------------------------------------------- angles
+// ------------------------------------------------------------------------------------------ angles
 // The number c of a term c π; poison for any other.
 static pl_expr multiple_of_pi(const pl_pool* p, pl_expr e) {
   pl_term t = pl_term_of(p, e);
@@ -114,13 +120,16 @@ static pl_expr shifted_sine(pl_pool* p, pl_expr e, int quarters) {
 }
 
 // sqrt(1 - u^2): sin(acos u) and cos(asin u), both where acos and asin have values.
-static pl_expr other_leg(pl_pool* p, pl_expr u) { return pl_sqrt(p, pl_sub(p, p->one, pl_square(p, u))); }
+static pl_expr other_leg(pl_pool* p, pl_expr u) {
+  return pl_sqrt(p, pl_sub(p, p->one, pl_square(p, u)));
+}
 
 // f(e) when the sign of e needs no more thought.
 static pl_expr plain_trigonometric(pl_pool* p, pl_function f, pl_expr e) {
   pl_function inverse = f == PL_SIN ? PL_ASIN : f == PL_COS ? PL_ACOS : PL_ATAN;
   if (is_call(p, e, inverse)) return pl_arg(p, e, 0);
-  if (f != PL_TAN && (is_call(p, e, PL_ASIN) || is_call(p, e, PL_ACOS))) return other_leg(p, pl_arg(p, e, 0));
+  if (f != PL_TAN && (is_call(p, e, PL_ASIN) || is_call(p, e, PL_ACOS)))
+    return other_leg(p, pl_arg(p, e, 0));
   return raw_call(p, f, e);
 }
 
@@ -134,7 +143,8 @@ static pl_expr sine_or_cosine(pl_pool* p, pl_function f, pl_expr e) {
       pl_expr value = sine_at(p, sine ? k : k + 6);
       if (value.id != 0) return value;
     }
-    if (rest.id != p->zero.id && k >= 0 && k % 6 == 0) return shifted_sine(p, rest, sine ? k / 6 : k / 6 + 1);
+    if (rest.id != p->zero.id && k >= 0 && k % 6 == 0)
+      return shifted_sine(p, rest, sine ? k / 6 : k / 6 + 1);
   }
   if (!looks_negative(p, e)) return plain_trigonometric(p, f, e);
   pl_expr turned = plain_trigonometric(p, f, opposite(p, e));
@@ -147,15 +157,17 @@ static pl_expr tangent(pl_pool* p, pl_expr e) {
   int k = steps_of_15_degrees(p, c);
   if (rest.id == p->zero.id && k >= 0) {
     pl_expr s = sine_at(p, k), t = sine_at(p, k + 6);
-    if (s.id != 0 && t.id != 0) return pl_div(p, s, t);   // poison at 90°
+    if (s.id != 0 && t.id != 0) return pl_div(p, s, t);  // poison at 90°
   }
-  if (rest.id != p->zero.id && c.id != p->zero.id && k >= 0 && k % 12 == 0) return pl_call(p, PL_TAN, rest);
+  if (rest.id != p->zero.id && c.id != p->zero.id && k >= 0 && k % 12 == 0)
+    return pl_call(p, PL_TAN, rest);
   if (!looks_negative(p, e)) return plain_trigonometric(p, PL_TAN, e);
   return pl_neg(p, plain_trigonometric(p, PL_TAN, opposite(p, e)));
 }
 
-// ---------------------------------------------------------------------------------------------- inverse functions
-// The first-quadrant angle whose sine is the non-negative u, in steps of 15 degrees; -1 if it is not a special one.
+// ------------------------------------------------------------------------------- inverse functions
+// The first-quadrant angle whose sine is the non-negative u, in steps of 15 degrees; -1 if it is
+// not a special one.
 static int special_arcsine(pl_pool* p, pl_expr u) {
   static const int steps[] = {0, 2, 3, 4, 6};
   for (int i = 0; i < 5; i++) {
@@ -172,7 +184,9 @@ static int special_arctangent(pl_pool* p, pl_expr u) {
   return -1;
 }
 
-static pl_expr steps_angle(pl_pool* p, int steps) { return pl_mul(p, pl_ratio(p, steps, 12), p->pi); }
+static pl_expr steps_angle(pl_pool* p, int steps) {
+  return pl_mul(p, pl_ratio(p, steps, 12), p->pi);
+}
 
 static pl_expr arc_function(pl_pool* p, pl_function f, pl_expr u) {
   bool negative = looks_negative(p, u);
@@ -199,7 +213,7 @@ static pl_expr arctangent2(pl_pool* p, pl_expr y, pl_expr x) {
   return pl_node_make(p, PL_CALL, PL_ATAN2, 0, 0, (pl_expr[]){y, x}, 2);
 }
 
-// ---------------------------------------------------------------------------------------------- exp and the like
+// -------------------------------------------------------------------------------- exp and the like
 static pl_expr hyperbolic(pl_pool* p, pl_function f, pl_expr e) {
   if (e.id == p->zero.id) return f == PL_COSH ? p->one : p->zero;
   if (!looks_negative(p, e)) return raw_call(p, f, e);
@@ -224,9 +238,9 @@ static pl_expr logarithm(pl_pool* p, pl_expr e) {
   return raw_call(p, PL_LN, e);
 }
 
-// ---------------------------------------------------------------------------------------------- size and sign
-// What cannot be negative whatever the symbols are: even powers, roots, exp, abs, positive numbers, and products of
-// these.
+// ----------------------------------------------------------------------------------- size and sign
+// What cannot be negative whatever the symbols are: even powers, roots, exp, abs, positive numbers,
+// and products of these.
 static bool never_negative(const pl_pool* p, pl_expr e) {
   long n;
   switch (pl_kind_of(p, e)) {
@@ -234,7 +248,8 @@ static bool never_negative(const pl_pool* p, pl_expr e) {
     case PL_PI: return true;
     case PL_INFINITY: return true;
     case PL_POW:
-      if (pl_is_int(p, pl_arg(p, e, 1), &n)) return n % 2 == 0 || never_negative(p, pl_arg(p, e, 0));
+      if (pl_is_int(p, pl_arg(p, e, 1), &n))
+        return n % 2 == 0 || never_negative(p, pl_arg(p, e, 0));
       return pl_is_number(p, pl_arg(p, e, 1)) && !pl_number_is_integer(p, pl_arg(p, e, 1));
     case PL_CALL: {
       pl_function f = pl_function_of(p, e);
@@ -275,29 +290,40 @@ static pl_expr signum(pl_pool* p, pl_expr e) {
   int sign = pl_number_sign(p, t.coefficient);
   pl_expr rest = pl_div(p, e, t.coefficient);
   if (rest.id == p->pi.id || is_call(p, rest, PL_EXP)) return pl_int(p, sign);
-  if (pl_kind_of(p, rest) == PL_ADD && looks_negative(p, rest)) rest = opposite(p, rest), sign = -sign;
+  if (pl_kind_of(p, rest) == PL_ADD && looks_negative(p, rest)) {
+    rest = opposite(p, rest);
+    sign = -sign;
+  }
   pl_expr s = raw_call(p, PL_SIGN, rest);
   return sign < 0 ? pl_neg(p, s) : s;
 }
 
 static pl_expr smaller_or_larger(pl_pool* p, pl_function f, pl_expr a, pl_expr b) {
   if (a.id == b.id) return a;
-  if (pl_is_number(p, a) && pl_is_number(p, b)) return (pl_number_compare(p, a, b) < 0) == (f == PL_MIN) ? a : b;
+  if (pl_is_number(p, a) && pl_is_number(p, b))
+    return (pl_number_compare(p, a, b) < 0) == (f == PL_MIN) ? a : b;
   if (pl_compare(p, a, b) > 0) {
     pl_expr c = a;
-    a = b, b = c;
+    a = b;
+    b = c;
   }
   return pl_node_make(p, PL_CALL, f, 0, 0, (pl_expr[]){a, b}, 2);
 }
 
-// ---------------------------------------------------------------------------------------------- calls
+// ------------------------------------------------------------------------------------------- calls
 pl_expr pl_call(pl_pool* p, pl_function f, pl_expr a) {
-  if (a.id == 0 || (int)f < 0 || f >= PL_N_FUNCTIONS || pl_function_arity[f] != 1) return pl_poison();
+  if (a.id == 0 || (int)f < 0 || f >= PL_N_FUNCTIONS || pl_function_arity[f] != 1)
+    return pl_poison();
   switch (f) {
-    case PL_SIN: case PL_COS: return sine_or_cosine(p, f, a);
+    case PL_SIN:
+    case PL_COS: return sine_or_cosine(p, f, a);
     case PL_TAN: return tangent(p, a);
-    case PL_ASIN: case PL_ACOS: case PL_ATAN: return arc_function(p, f, a);
-    case PL_SINH: case PL_COSH: case PL_TANH: return hyperbolic(p, f, a);
+    case PL_ASIN:
+    case PL_ACOS:
+    case PL_ATAN: return arc_function(p, f, a);
+    case PL_SINH:
+    case PL_COSH:
+    case PL_TANH: return hyperbolic(p, f, a);
     case PL_EXP: return exponential(p, a);
     case PL_LN: return logarithm(p, a);
     case PL_ABS: return absolute(p, a);
@@ -307,7 +333,8 @@ pl_expr pl_call(pl_pool* p, pl_function f, pl_expr a) {
 }
 
 pl_expr pl_call2(pl_pool* p, pl_function f, pl_expr a, pl_expr b) {
-  if (a.id == 0 || b.id == 0 || (int)f < 0 || f >= PL_N_FUNCTIONS || pl_function_arity[f] != 2) return pl_poison();
+  if (a.id == 0 || b.id == 0 || (int)f < 0 || f >= PL_N_FUNCTIONS || pl_function_arity[f] != 2)
+    return pl_poison();
   if (f == PL_ATAN2) return arctangent2(p, a, b);
   return smaller_or_larger(p, f, a, b);
 }

@@ -11,8 +11,12 @@ pl_expr pl_arg(const pl_pool* p, pl_expr e, int i) {
   return i >= 0 && (uint32_t)i < x->n ? x->u.args[i] : pl_poison();
 }
 
-pl_function pl_function_of(const pl_pool* p, pl_expr e) { return (pl_function)pl_node_at(p, e)->function; }
-pl_symbol pl_symbol_of(const pl_pool* p, pl_expr e) { return (pl_symbol){pl_node_at(p, e)->symbol}; }
+pl_function pl_function_of(const pl_pool* p, pl_expr e) {
+  return (pl_function)pl_node_at(p, e)->function;
+}
+pl_symbol pl_symbol_of(const pl_pool* p, pl_expr e) {
+  return (pl_symbol){pl_node_at(p, e)->symbol};
+}
 int pl_dots_of(const pl_pool* p, pl_expr e) { return pl_node_at(p, e)->dots; }
 bool pl_same(pl_expr a, pl_expr b) { return a.id == b.id; }
 bool pl_is_poison(pl_expr e) { return e.id == 0; }
@@ -36,9 +40,11 @@ bool pl_is_int(const pl_pool* p, pl_expr e, long* value) {
   return true;
 }
 
-bool pl_is_sqrt(const pl_pool* p, pl_expr e) { return pl_kind_of(p, e) == PL_POW && pl_arg(p, e, 1).id == p->half.id; }
+bool pl_is_sqrt(const pl_pool* p, pl_expr e) {
+  return pl_kind_of(p, e) == PL_POW && pl_arg(p, e, 1).id == p->half.id;
+}
 
-// ---------------------------------------------------------------------------------------------- what occurs
+// ------------------------------------------------------------------------------------- what occurs
 typedef bool (*node_test)(const pl_pool* p, pl_expr e, uint32_t what);
 
 static bool any_node(const pl_pool* p, pl_expr e, node_test test, uint32_t what) {
@@ -73,7 +79,9 @@ static bool is_name(const pl_pool* p, pl_expr e, uint32_t what) {
   return k == PL_SYMBOL || k == PL_AT;
 }
 
-bool pl_has_symbol(const pl_pool* p, pl_expr e, pl_symbol s) { return any_node(p, e, names_symbol, s.id); }
+bool pl_has_symbol(const pl_pool* p, pl_expr e, pl_symbol s) {
+  return any_node(p, e, names_symbol, s.id);
+}
 bool pl_has_role(const pl_pool* p, pl_expr e, pl_role r) { return any_node(p, e, names_role, r); }
 bool pl_is_constant(const pl_pool* p, pl_expr e) { return !any_node(p, e, is_name, 0); }
 
@@ -100,7 +108,7 @@ int pl_symbols_in(const pl_pool* p, pl_expr e, pl_symbol* out, int max) {
   return n;
 }
 
-// ---------------------------------------------------------------------------------------------- size
+// -------------------------------------------------------------------------------------------- size
 long pl_dag_size(const pl_pool* p, pl_expr e) {
   pl_walk w;
   pl_walk_begin(&w, p, &e, 1);
@@ -182,10 +190,14 @@ static long ops_of_node(const counter* c, pl_expr e) {
   switch (pl_kind_of(p, e)) {
     case PL_NUMBER: return ops_of_number(p, e);
     case PL_ADD: return ops_of_sum(c, e);
-    case PL_MUL: case PL_POW: return ops_of_term(c, e);
-    case PL_CALL: case PL_IF: case PL_SUM: {
+    case PL_MUL:
+    case PL_POW: return ops_of_term(c, e);
+    case PL_CALL:
+    case PL_IF:
+    case PL_SUM: {
       long ops = 1;
-      for (int i = 0, n = pl_n_args(p, e); i < n; i++) ops = add_capped(ops, ops_of(c, pl_arg(p, e, i)));
+      for (int i = 0, n = pl_n_args(p, e); i < n; i++)
+        ops = add_capped(ops, ops_of(c, pl_arg(p, e, i)));
       return ops;
     }
     default: return 0;

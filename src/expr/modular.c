@@ -1,16 +1,22 @@
 // Arithmetic modulo P = 2^61 - 9265983825153, roots, and the rotations (c, s) with c^2 + s^2 = 1.
 //
 // The prime is chosen so that residues behave like real numbers where formulas need it:
-//   P = 7 mod 8: -1 has no root.  Exactly one of the two roots of a square is a square itself; that one is taken.  So
+//   P = 7 mod 8: -1 has no root. Exactly one of the two roots of a square is a square itself; that
+//   one is taken. So
 //     sqrt(a) sqrt(b) = sqrt(a b), and "is a square" behaves like "is positive" in products:
 //     sign(a b) = sign(a) sign(b).
-//   P = -1 mod 57600 = 2^8 3^2 5^2: the rotations form a cyclic group of order P + 1, so it has the angles π/n for all
+//   P = -1 mod 57600 = 2^8 3^2 5^2: the rotations form a cyclic group of order P + 1, so it has the
+//   angles π/n for all
 //     n that divide 28800, tenths of a degree among them; and 2, 3 and 5 are squares.
-//   The primes up to 31 are squares, and so are the positive ones among the numbers a + b sqrt(d) with d = 2, 3, 5 and
-//     |a| <= 6, |b| <= 3, or d = 6, 7, 10 and |a| <= 5, |b| <= 2; so are sqrt(2) + sqrt(3), sqrt(2) + sqrt(5),
-//     sqrt(3) + sqrt(5) and 1 + sqrt(2) + sqrt(3).  So nested roots such as sqrt(3 + 2 sqrt(2)) = 1 + sqrt(2) come out
+//   The primes up to 31 are squares, and so are the positive ones among the numbers a + b sqrt(d)
+//   with d = 2, 3, 5 and
+//     |a| <= 6, |b| <= 3, or d = 6, 7, 10 and |a| <= 5, |b| <= 2; so are sqrt(2) + sqrt(3), sqrt(2)
+//     + sqrt(5),
+//     sqrt(3) + sqrt(5) and 1 + sqrt(2) + sqrt(3). So nested roots such as sqrt(3 + 2 sqrt(2)) = 1
+//     + sqrt(2) come out
 //     right.
-//   3, 5, 7, 11 and 13 do not divide P - 1, so every residue has exactly one root of each of these orders.
+//   3, 5, 7, 11 and 13 do not divide P - 1, so every residue has exactly one root of each of these
+//   orders.
 // It is the largest prime below 2^61 of this kind; modular_test.c looks at every point.
 #include "expr/modular.h"
 
@@ -56,14 +62,16 @@ uint64_t pl_mod_sqrt(uint64_t a, bool* ok) {
   return r;
 }
 
-// ---------------------------------------------------------------------------------------------- rational powers
+// --------------------------------------------------------------------------------- rational powers
 // x with a x = 1 modulo m, a and m coprime.
 static uint64_t inverse_modulo(uint64_t a, uint64_t m) {
   __int128 r0 = m, r1 = a % m, t0 = 0, t1 = 1;
   while (r1 != 0) {
     __int128 q = r0 / r1, r = r0 - q * r1, t = t0 - q * t1;
-    r0 = r1, r1 = r;
-    t0 = t1, t1 = t;
+    r0 = r1;
+    r1 = r;
+    t0 = t1;
+    t1 = t;
   }
   return (uint64_t)(t0 < 0 ? t0 + m : t0);
 }
@@ -82,8 +90,8 @@ static uint64_t exponent_modulo(int64_t n, uint64_t m) {
   return n < 0 && r != 0 ? m - r : r;
 }
 
-// The group of order P - 1 loses the primes of den; in the subgroup that is left the division by den is unique, and
-// multiplicative.  For den = 2 these are the squares.
+// The group of order P - 1 loses the primes of den; in the subgroup that is left the division by
+// den is unique, and multiplicative. For den = 2 these are the squares.
 uint64_t pl_mod_pow_ratio(uint64_t a, int64_t num, int64_t den, bool* ok) {
   if (a == 0) {
     if (num <= 0) *ok = false;
@@ -97,7 +105,7 @@ uint64_t pl_mod_pow_ratio(uint64_t a, int64_t num, int64_t den, bool* ok) {
   return pl_mod_pow(a, n);
 }
 
-// ---------------------------------------------------------------------------------------------- rotations
+// --------------------------------------------------------------------------------------- rotations
 pl_rotation pl_rotation_none(void) { return (pl_rotation){1, 0}; }
 
 pl_rotation pl_rotation_mul(pl_rotation a, pl_rotation b) {
@@ -116,13 +124,15 @@ pl_rotation pl_rotation_pow(pl_rotation a, uint64_t n) {
 // c = (1 - t^2)/(1 + t^2), s = 2t/(1 + t^2); 1 + t^2 is never 0
 pl_rotation pl_rotation_from_tangent(uint64_t t) {
   uint64_t square = pl_mod_mul(t, t), scale = pl_mod_inv(pl_mod_add(1, square));
-  return (pl_rotation){pl_mod_mul(pl_mod_sub(1, square), scale), pl_mod_mul(pl_mod_add(t, t), scale)};
+  return (pl_rotation){pl_mod_mul(pl_mod_sub(1, square), scale),
+                       pl_mod_mul(pl_mod_add(t, t), scale)};
 }
 
-// cos(x/2) = sqrt((1 + cos x)/2), sin(x/2) = sin x / (2 cos(x/2)): the half that lies between -90 and 90 degrees
+// cos(x/2) = sqrt((1 + cos x)/2), sin(x/2) = sin x / (2 cos(x/2)): the half that lies between -90
+// and 90 degrees
 pl_rotation pl_rotation_half(pl_rotation a, bool* ok) {
   uint64_t c = pl_mod_sqrt(pl_mod_half(pl_mod_add(1, a.c)), ok);
-  if (c == 0) return (pl_rotation){0, 1};   // half of 180 degrees
+  if (c == 0) return (pl_rotation){0, 1};  // half of 180 degrees
   return (pl_rotation){c, pl_mod_mul(a.s, pl_mod_inv(pl_mod_add(c, c)))};
 }
 
@@ -130,7 +140,9 @@ pl_rotation pl_rotation_half(pl_rotation a, bool* ok) {
 // order is prime to it, where the quotient is unique; an angle outside has no quotient here.
 static pl_rotation odd_ratio(pl_rotation a, int64_t num, int64_t den, bool* ok) {
   // a whole multiple, the usual case, has a short exponent
-  if (den == 1) return pl_rotation_pow(num < 0 ? (pl_rotation){a.c, pl_mod_sub(0, a.s)} : a, num < 0 ? 0 - (uint64_t)num : (uint64_t)num);
+  if (den == 1)
+    return pl_rotation_pow(num < 0 ? (pl_rotation){a.c, pl_mod_sub(0, a.s)} : a,
+                           num < 0 ? 0 - (uint64_t)num : (uint64_t)num);
   uint64_t m = PL_MOD_P + 1;
   for (uint64_t g; (g = gcd64(m, (uint64_t)den)) > 1;) m /= g;
   pl_rotation whole = pl_rotation_pow(a, m);
@@ -148,7 +160,7 @@ pl_rotation pl_rotation_ratio(pl_rotation a, int64_t num, int64_t den, bool* ok)
   return odd_ratio(a, num, den, ok);
 }
 
-// ---------------------------------------------------------------------------------------------- parts of a full turn
+// ---------------------------------------------------------------------------- parts of a full turn
 // A rotation whose order is exactly q^2, for q = 3 and 5.
 static pl_rotation rotation_of_order_square(uint64_t q) {
   for (uint64_t t = 2;; t++) {
@@ -157,11 +169,13 @@ static pl_rotation rotation_of_order_square(uint64_t q) {
   }
 }
 
-// 1/q^2 of a turn.  Which of the rotations of that order it is, is settled by a q-th of a turn, whose sine and cosine
-// are roots: c = -1/2, s = sqrt(3)/2 for a third; c = (sqrt(5) - 1)/4, s positive for a fifth.
+// 1/q^2 of a turn. Which of the rotations of that order it is, is settled by a q-th of a turn,
+// whose sine and cosine are roots: c = -1/2, s = sqrt(3)/2 for a third; c = (sqrt(5) - 1)/4, s
+// positive for a fifth.
 static pl_rotation part_of_turn(uint64_t q, bool* ok) {
   pl_rotation r = rotation_of_order_square(q), a = r;
-  uint64_t c = q == 3 ? pl_mod_half(prime - 1) : pl_mod_half(pl_mod_half(pl_mod_sub(pl_mod_sqrt(5, ok), 1)));
+  uint64_t c = q == 3 ? pl_mod_half(prime - 1)
+                      : pl_mod_half(pl_mod_half(pl_mod_sub(pl_mod_sqrt(5, ok), 1)));
   for (uint64_t k = 1; k < q; k++, a = pl_rotation_mul(a, r)) {
     pl_rotation qth = pl_rotation_pow(a, q);
     if (qth.c == c && pl_mod_sign(qth.s) > 0) return a;
@@ -178,8 +192,9 @@ pl_rotation pl_rotation_of_pi(int64_t num, int64_t den, bool* ok) {
   if (!*ok) return pl_rotation_none();
 
   // the whole as a fraction of the denominator 2^(k+1) 225
-  uint64_t two = 2ull << bits, n = exponent_modulo(num, two * (uint64_t)den) * (uint64_t)(225 / den) % (two * 225);
-  pl_rotation small = {PL_MOD_P - 1, 0};   // a half turn, halved k times: 1/2^(k+1) of a turn
+  uint64_t two = 2ull << bits,
+           n = exponent_modulo(num, two * (uint64_t)den) * (uint64_t)(225 / den) % (two * 225);
+  pl_rotation small = {PL_MOD_P - 1, 0};  // a half turn, halved k times: 1/2^(k+1) of a turn
   for (int i = 0; i < bits; i++) small = pl_rotation_half(small, ok);
   pl_rotation r = pl_rotation_pow(small, n % two * inverse_modulo(225 % two, two) % two);
   uint64_t ninths = n % 9 * inverse_modulo(two * 25 % 9, 9) % 9;

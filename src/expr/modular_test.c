@@ -1,5 +1,5 @@
-// The prime modulo which identities are checked has the properties that modular.c relies on; arithmetic, roots,
-// rotations.
+// The prime modulo which identities are checked has the properties that modular.c relies on;
+// arithmetic, roots, rotations.
 #include "expr/modular.h"
 
 #include "expr/expr_test_kit.h"
@@ -30,7 +30,10 @@ static void the_modulus_is_the_prime_that_is_described(void** state) {
 static void small_positive_numbers_are_squares(void** state) {
   for (uint64_t n = 1; n <= 31; n++) assert_int_equal(pl_mod_sign(n), 1);
   assert_int_equal(pl_mod_sign(PL_MOD_P - 1), -1);
-  struct { uint64_t d; long a, b; } ranges[] = {{2, 6, 3}, {3, 6, 3}, {5, 6, 3}, {6, 5, 2}, {7, 5, 2}, {10, 5, 2}};
+  struct {
+    uint64_t d;
+    long a, b;
+  } ranges[] = {{2, 6, 3}, {3, 6, 3}, {5, 6, 3}, {6, 5, 2}, {7, 5, 2}, {10, 5, 2}};
   for (size_t i = 0; i < sizeof ranges / sizeof *ranges; i++) {
     uint64_t r = root(ranges[i].d);
     for (long a = -ranges[i].a; a <= ranges[i].a; a++) {
@@ -50,7 +53,8 @@ static void small_positive_numbers_are_squares(void** state) {
 
 static void arithmetic_agrees_with_wide_division(void** state) {
   pl_random r = {17};
-  uint64_t edges[] = {0, 1, 2, PL_MOD_P - 1, PL_MOD_P - 2, PL_MOD_P / 2, (1ull << 60) - 1, 1ull << 60};
+  uint64_t edges[] = {0,         1, 2, PL_MOD_P - 1, PL_MOD_P - 2, PL_MOD_P / 2, (1ull << 60) - 1,
+                      1ull << 60};
   for (int i = 0; i < 20000; i++) {
     uint64_t a = i < 64 ? edges[i % 8] : pl_random_bits(&r) % PL_MOD_P;
     uint64_t b = i < 64 ? edges[i / 8] : pl_random_bits(&r) % PL_MOD_P;
@@ -68,7 +72,8 @@ static void roots_multiply_like_positive_numbers(void** state) {
   for (int i = 0; i < 300; i++) {
     uint64_t a = pl_random_bits(&r) % PL_MOD_P, b = pl_random_bits(&r) % PL_MOD_P;
     bool ok_a = true, ok_b = true, ok = true;
-    uint64_t x = pl_mod_sqrt(a, &ok_a), y = pl_mod_sqrt(b, &ok_b), z = pl_mod_sqrt(pl_mod_mul(a, b), &ok);
+    uint64_t x = pl_mod_sqrt(a, &ok_a), y = pl_mod_sqrt(b, &ok_b),
+             z = pl_mod_sqrt(pl_mod_mul(a, b), &ok);
     squares += ok_a;
     if (ok_a && ok_b) assert_true(ok && z == pl_mod_mul(x, y));
     bool third = true;
@@ -94,7 +99,8 @@ static void parts_of_a_turn_fit_together(void** state) {
 
   const int64_t parts[] = {1, 2, 3, 5, 9, 10, 15, 25, 45, 128, 180, 360, 1800, 28800};
   for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
-    pl_rotation part = pl_rotation_of_pi(1, parts[i], &ok), whole = pl_rotation_pow(part, (uint64_t)parts[i]);
+    pl_rotation part = pl_rotation_of_pi(1, parts[i], &ok),
+                whole = pl_rotation_pow(part, (uint64_t)parts[i]);
     assert_true(whole.c == PL_MOD_P - 1 && whole.s == 0);
     pl_rotation twice = pl_rotation_mul(part, part), other = pl_rotation_of_pi(2, parts[i], &ok);
     assert_true(twice.c == other.c && twice.s == other.s);

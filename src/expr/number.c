@@ -1,8 +1,9 @@
-// Exact rationals.  Small ones (numerator and denominator fit 64 bits) are done by hand; larger ones by GMP.
+// Exact rationals. Small ones (numerator and denominator fit 64 bits) are done by hand; larger ones
+// by GMP.
 //
-// GMP takes its own memory and must give it back before the arena may unwind.  So each large operation has three parts:
-// reserve room for the largest possible result, compute with GMP temporaries, copy the limbs and clear the temporaries.
-// Only then the node is made.  Needs GMP.
+// GMP takes its own memory and must give it back before the arena may unwind. So each large
+// operation has three parts: reserve room for the largest possible result, compute with GMP
+// temporaries, copy the limbs and clear the temporaries. Only then the node is made. Needs GMP.
 #include "expr/expr_impl.h"
 
 #include <assert.h>
@@ -15,7 +16,7 @@ const pl_number* pl_number_of(const pl_pool* p, pl_expr e) {
   return pl_node_at(p, e)->u.number;
 }
 
-// ---------------------------------------------------------------------------------------------- small numbers
+// ----------------------------------------------------------------------------------- small numbers
 static uint64_t magnitude(int64_t x) { return x < 0 ? 0 - (uint64_t)x : (uint64_t)x; }
 
 static unsigned __int128 gcd128(unsigned __int128 a, unsigned __int128 b) {
@@ -36,24 +37,31 @@ static uint64_t gcd64(uint64_t a, uint64_t b) {
   return a;
 }
 
-static bool fits(__int128 x) { return x > INT64_MIN && x <= INT64_MAX; }   // so that -x fits too
+static bool fits(__int128 x) { return x > INT64_MIN && x <= INT64_MAX; }  // so that -x fits too
 
 // num / den in lowest terms, if both fit.
 static bool make_small(pl_pool* p, __int128 num, __int128 den, pl_expr* out) {
-  if (den < 0) num = -num, den = -den;
+  if (den < 0) {
+    num = -num;
+    den = -den;
+  }
   unsigned __int128 size = num < 0 ? -(unsigned __int128)num : (unsigned __int128)num;
   if (den != 1) {
-    unsigned __int128 g = size <= UINT64_MAX && den <= (__int128)UINT64_MAX ? gcd64((uint64_t)size, (uint64_t)den)
-                                                                              : gcd128(size, (unsigned __int128)den);
-    if (g > 1) num /= (__int128)g, den /= (__int128)g;
+    unsigned __int128 g = size <= UINT64_MAX && den <= (__int128)UINT64_MAX
+                              ? gcd64((uint64_t)size, (uint64_t)den)
+                              : gcd128(size, (unsigned __int128)den);
+    if (g > 1) {
+      num /= (__int128)g;
+      den /= (__int128)g;
+    }
   }
   if (!fits(num) || !fits(den)) return false;
   *out = pl_number_make(p, &(pl_number){.num = (int64_t)num, .den = (int64_t)den});
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- large numbers
-typedef struct large {   // a rational on loan from a node or from its own two limbs
+// ----------------------------------------------------------------------------------- large numbers
+typedef struct large {  // a rational on loan from a node or from its own two limbs
   mpz_t num, den;
   mp_limb_t own[2];
 } large;
@@ -85,7 +93,9 @@ static room room_take(pl_pool* p, size_t limbs) {
   return (room){pl_scratch_take(p, limbs * sizeof(mp_limb_t)), limbs};
 }
 
-static void room_give(pl_pool* p, room r) { pl_scratch_give(p, r.limbs, r.cap * sizeof(mp_limb_t)); }
+static void room_give(pl_pool* p, room r) {
+  pl_scratch_give(p, r.limbs, r.cap * sizeof(mp_limb_t));
+}
 
 static bool mpz_small(const mpz_t z, int64_t* out) {
   if (!mpz_fits_slong_p(z) || mpz_get_si(z) == LONG_MIN) return false;
@@ -101,7 +111,9 @@ static pl_number settle(room r, mpz_t num, mpz_t den) {
     assert(n + m <= r.cap);
     mpn_copyi(r.limbs, mpz_limbs_read(num), (mp_size_t)n);
     mpn_copyi(r.limbs + n, mpz_limbs_read(den), (mp_size_t)m);
-    x = (pl_number){.limbs = r.limbs, .n_num = (int32_t)(mpz_sgn(num) < 0 ? -(long)n : (long)n), .n_den = (int32_t)m};
+    x = (pl_number){.limbs = r.limbs,
+                    .n_num = (int32_t)(mpz_sgn(num) < 0 ? -(long)n : (long)n),
+                    .n_den = (int32_t)m};
   }
   mpz_clear(num);
   mpz_clear(den);
@@ -156,11 +168,12 @@ static pl_expr large_compute(pl_pool* p, large_op op, pl_expr a, pl_expr b) {
   return e;
 }
 
-// ---------------------------------------------------------------------------------------------- arithmetic
+// -------------------------------------------------------------------------------------- arithmetic
 pl_expr pl_int(pl_pool* p, long n) {
   pl_expr e;
   if (make_small(p, n, 1, &e)) return e;
-  return pl_number_mul(p, pl_int(p, n / 2), pl_int(p, 2));   // LONG_MIN, whose negative is not small
+  // LONG_MIN, whose negative is not small
+  return pl_number_mul(p, pl_int(p, n / 2), pl_int(p, 2));
 }
 
 pl_expr pl_ratio(pl_pool* p, long num, long den) {
@@ -176,7 +189,8 @@ pl_expr pl_number_add(pl_pool* p, pl_expr a, pl_expr b) {
   pl_expr e;
   if (x->limbs == NULL && y->limbs == NULL) {
     __int128 u = (__int128)x->num * y->den, v = (__int128)y->num * x->den, sum;
-    if (!__builtin_add_overflow(u, v, &sum) && make_small(p, sum, (__int128)x->den * y->den, &e)) return e;
+    if (!__builtin_add_overflow(u, v, &sum) && make_small(p, sum, (__int128)x->den * y->den, &e))
+      return e;
   }
   return large_compute(p, large_add, a, b);
 }
@@ -185,8 +199,8 @@ pl_expr pl_number_mul(pl_pool* p, pl_expr a, pl_expr b) {
   if (a.id == 0 || b.id == 0) return pl_poison();
   const pl_number *x = pl_number_of(p, a), *y = pl_number_of(p, b);
   pl_expr e;
-  if (x->limbs == NULL && y->limbs == NULL &&
-      make_small(p, (__int128)x->num * y->num, (__int128)x->den * y->den, &e)) {
+  if (x->limbs == NULL && y->limbs == NULL
+      && make_small(p, (__int128)x->num * y->num, (__int128)x->den * y->den, &e)) {
     return e;
   }
   return large_compute(p, large_mul, a, b);
@@ -217,7 +231,9 @@ static size_t bits_of(const pl_number* x) {
   return num > den ? num : den;
 }
 
-static bool is_unit(const pl_number* x) { return x->limbs == NULL && x->den == 1 && (x->num == 1 || x->num == -1); }
+static bool is_unit(const pl_number* x) {
+  return x->limbs == NULL && x->den == 1 && (x->num == 1 || x->num == -1);
+}
 
 pl_expr pl_number_pow(pl_pool* p, pl_expr a, long n) {
   if (a.id == 0) return a;
@@ -275,10 +291,11 @@ int pl_number_sign(const pl_pool* p, pl_expr e) {
 
 bool pl_number_is_integer(const pl_pool* p, pl_expr a) {
   const pl_number* x = pl_number_of(p, a);
-  return x->limbs == NULL ? x->den == 1 : x->n_den == 1 && x->limbs[x->n_num < 0 ? -x->n_num : x->n_num] == 1;
+  return x->limbs == NULL ? x->den == 1
+                          : x->n_den == 1 && x->limbs[x->n_num < 0 ? -x->n_num : x->n_num] == 1;
 }
 
-// ---------------------------------------------------------------------------------------------- parts
+// ------------------------------------------------------------------------------------------- parts
 // An integer from limbs that live in a node.
 static pl_expr integer_of(pl_pool* p, const mpz_t z) {
   int64_t small;
@@ -287,7 +304,8 @@ static pl_expr integer_of(pl_pool* p, const mpz_t z) {
   room r = room_take(p, n + 1);
   mpn_copyi(r.limbs, mpz_limbs_read(z), (mp_size_t)n);
   r.limbs[n] = 1;
-  pl_number x = {.limbs = r.limbs, .n_num = (int32_t)(mpz_sgn(z) < 0 ? -(long)n : (long)n), .n_den = 1};
+  pl_number x = {
+      .limbs = r.limbs, .n_num = (int32_t)(mpz_sgn(z) < 0 ? -(long)n : (long)n), .n_den = 1};
   pl_expr e = pl_number_make(p, &x);
   room_give(p, r);
   return e;
@@ -324,8 +342,9 @@ pl_expr pl_number_floor(pl_pool* p, pl_expr a) {
   return e;
 }
 
-// ---------------------------------------------------------------------------------------------- roots
-// Primes up to here are divided out; what is left is looked at as a whole.  Complete for 64-bit numbers below 2^48.
+// ------------------------------------------------------------------------------------------- roots
+// Primes up to here are divided out; what is left is looked at as a whole. Complete for 64-bit
+// numbers below 2^48.
 enum { TRIAL_SMALL = 1 << 16, TRIAL_LARGE = 1000 };
 
 // Divides z by d as often as it goes: each d^q into out, the rest into in.
@@ -339,7 +358,8 @@ static void divide_out(mpz_t z, mpz_t out, mpz_t in, unsigned long d, int q) {
   for (int i = 0; i < k % q; i++) mpz_mul_ui(in, in, d);
 }
 
-// Nothing new can be found beyond d: what is left is a prime, or (for square roots) two primes or a square.
+// Nothing new can be found beyond d: what is left is a prime, or (for square roots) two primes or a
+// square.
 static bool trial_is_done(const mpz_t z, unsigned long d, int q) {
   if (mpz_cmp_ui(z, d) < 0) return true;
   if (!mpz_fits_ulong_p(z)) return false;
@@ -378,7 +398,7 @@ void pl_number_split_root(pl_pool* p, pl_expr a, int q, pl_expr* outside, pl_exp
   room_give(p, in_room);
 }
 
-// ---------------------------------------------------------------------------------------------- modular
+// ----------------------------------------------------------------------------------------- modular
 uint64_t pl_number_mod(const pl_pool* p, pl_expr a, uint64_t modulus, bool* ok) {
   large u;
   borrow(&u, pl_number_of(p, a));
@@ -387,9 +407,9 @@ uint64_t pl_number_mod(const pl_pool* p, pl_expr a, uint64_t modulus, bool* ok) 
   return den == 0 ? 0 : pl_mod_mul(num, den == 1 ? 1 : pl_mod_inv(den));
 }
 
-// ---------------------------------------------------------------------------------------------- double
-// The nearest double: quotient to 64 bits and a sticky bit, then one rounding.  (Through long double where that has 64
-// bits; elsewhere a result below the normal range may be rounded twice.)
+// ------------------------------------------------------------------------------------------ double
+// The nearest double: quotient to 64 bits and a sticky bit, then one rounding. (Through long double
+// where that has 64 bits; elsewhere a result below the normal range may be rounded twice.)
 static double large_double(const large* u) {
   mpz_t num, quotient, rest;
   mpz_init(num);
@@ -463,7 +483,7 @@ void pl_number_doubles(const pl_pool* p, pl_expr e, double out[3]) {
   mpz_clear(rest.den);
 }
 
-// ---------------------------------------------------------------------------------------------- text
+// -------------------------------------------------------------------------------------------- text
 static const char* integer_text(pl_arena* a, const mpz_t z) {
   char* s = pl_alloc(a, mpz_sizeinbase(z, 10) + 2);
   return mpz_get_str(s, 10, z);
@@ -492,8 +512,10 @@ const char* pl_number_text(pl_arena* a, const pl_pool* p, pl_expr e) {
 // Digits that a number may have in a text, and the size of its exponent of ten.
 enum { MAX_DIGITS = 5000, MAX_EXPONENT = 5000 };
 
-// [0-9]+ [. [0-9]*] [e [+-] [0-9]+]: digits without the point, and the power of ten that belongs to them.
-static bool read_decimal(const char** s, const char* end, char* digits, int* n_digits, long* power) {
+// [0-9]+ [. [0-9]*] [e [+-] [0-9]+]: digits without the point, and the power of ten that belongs to
+// them.
+static bool read_decimal(const char** s, const char* end, char* digits, int* n_digits,
+                         long* power) {
   int n = 0, after_point = 0;
   bool point = false;
   const char* at = *s;

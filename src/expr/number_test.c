@@ -45,11 +45,19 @@ PL_TEST(arithmetic_agrees_with_gmp) {
     random_rational(y, &r);
     pl_expr u = from_gmp(p, x), v = from_gmp(p, y);
     assert_gmp(p, u, x, seed);
-    mpq_add(z, x, y), assert_gmp(p, pl_add(p, u, v), z, seed);
-    mpq_sub(z, x, y), assert_gmp(p, pl_sub(p, u, v), z, seed);
-    mpq_mul(z, x, y), assert_gmp(p, pl_mul(p, u, v), z, seed);
-    if (mpq_sgn(y) != 0) mpq_div(z, x, y), assert_gmp(p, pl_div(p, u, v), z, seed);
-    mpq_mul(z, x, x), mpq_mul(z, z, x), assert_gmp(p, pl_pow_int(p, u, 3), z, seed);
+    mpq_add(z, x, y);
+    assert_gmp(p, pl_add(p, u, v), z, seed);
+    mpq_sub(z, x, y);
+    assert_gmp(p, pl_sub(p, u, v), z, seed);
+    mpq_mul(z, x, y);
+    assert_gmp(p, pl_mul(p, u, v), z, seed);
+    if (mpq_sgn(y) != 0) {
+      mpq_div(z, x, y);
+      assert_gmp(p, pl_div(p, u, v), z, seed);
+    }
+    mpq_mul(z, x, x);
+    mpq_mul(z, z, x);
+    assert_gmp(p, pl_pow_int(p, u, 3), z, seed);
     assert_int_equal(pl_number_sign(p, u), mpq_sgn(x));
     assert_true(pl_same(pl_call2(p, PL_MIN, u, v), mpq_cmp(x, y) < 0 ? u : v));
     assert_true(pl_same(pl_sub(p, pl_add(p, u, v), v), u));
@@ -69,23 +77,42 @@ PL_TEST(the_ends_of_the_small_range_hold) {
 }
 
 PL_TEST(decimals_are_read_exactly) {
-  struct { const char *text, *wanted; } cases[] = {
-      {"9.81", "981/100"}, {"1e-3", "1/1000"}, {"3/4", "3/4"}, {"-2.50", "-5/2"}, {"1.5e3", "1500"}, {".5", "1/2"},
-      {"7.", "7"}, {"0.1/0.3", "1/3"}, {"6/4", "3/2"}, {"00012", "12"},
-      {"123456789012345678901234567890", "123456789012345678901234567890"}};
+  struct {
+    const char *text, *wanted;
+  } cases[] = {{"9.81", "981/100"},
+               {"1e-3", "1/1000"},
+               {"3/4", "3/4"},
+               {"-2.50", "-5/2"},
+               {"1.5e3", "1500"},
+               {".5", "1/2"},
+               {"7.", "7"},
+               {"0.1/0.3", "1/3"},
+               {"6/4", "3/2"},
+               {"00012", "12"},
+               {"123456789012345678901234567890", "123456789012345678901234567890"}};
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
     assert_text(pl_number_from_text(p, cases[i].text, strlen(cases[i].text)), cases[i].wanted);
   }
-  const char* bad[] = {"", "-", ".", "1e", "1e99999999", "1x", "1/0", "1/", "e5", "1e+", "--1", "1.2.3"};
+  const char* bad[] = {"",    "-",  ".",  "1e",  "1e99999999", "1x",
+                       "1/0", "1/", "e5", "1e+", "--1",        "1.2.3"};
   for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
     assert_true(pl_is_poison(pl_number_from_text(p, bad[i], strlen(bad[i]))));
   }
 }
 
 PL_TEST(doubles_are_the_nearest) {
-  const char* texts[] = {"0.1", "9.81", "1e22", "1e23", "123456789012345678", "2.2250738585072011e-308", "5e-324",
-                         "0.3333333333333333333333333333333333333", "9007199254740993", "1.7976931348623157e308",
-                         "1e-400", "-6.02214076e23"};
+  const char* texts[] = {"0.1",
+                         "9.81",
+                         "1e22",
+                         "1e23",
+                         "123456789012345678",
+                         "2.2250738585072011e-308",
+                         "5e-324",
+                         "0.3333333333333333333333333333333333333",
+                         "9007199254740993",
+                         "1.7976931348623157e308",
+                         "1e-400",
+                         "-6.02214076e23"};
   for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
     double wanted = strtod(texts[i], NULL);
     assert_true(pl_number_double(p, pl_number_from_text(p, texts[i], strlen(texts[i]))) == wanted);
@@ -106,7 +133,8 @@ PL_TEST(powers_that_are_too_large_stay_symbolic) {
   assert_text(big, "2^1000000");
   assert_text(pl_div(p, big, pl_pow_int(p, pl_int(p, 2), 999999)), "2");
   assert_text(pl_pow_int(p, pl_int(p, -1), 1000001), "-1");
-  assert_text(pl_pow(p, pl_int(p, 3), pl_number_from_text(p, "1e30", 4)), "3^1000000000000000000000000000000");
+  assert_text(pl_pow(p, pl_int(p, 3), pl_number_from_text(p, "1e30", 4)),
+              "3^1000000000000000000000000000000");
 }
 
 // s^q n under a root of order q

@@ -1,6 +1,6 @@
-// The pool: nodes by hash-consing, argument lists, scratch memory, walks.
-// A node is found or made; equal construction gives the equal handle.  Everything is reserved before anything is
-// changed, so an arena that unwinds in the middle leaves the pool as it was.
+// The pool: nodes by hash-consing, argument lists, scratch memory, walks. A node is found or made;
+// equal construction gives the equal handle. Everything is reserved before anything is changed, so
+// an arena that unwinds in the middle leaves the pool as it was.
 #include "expr/expr_impl.h"
 
 #include <assert.h>
@@ -24,9 +24,10 @@ const int pl_function_arity[PL_N_FUNCTIONS] = {
 #undef PL_FUNCTION
 };
 
-// ---------------------------------------------------------------------------------------------- scratch
+// ----------------------------------------------------------------------------------------- scratch
 struct pl_scratch {
-  void* list[PL_SCRATCH_CLASSES];   // blocks of 2^k bytes that were given back, linked through their first word
+  // blocks of 2^k bytes that were given back, linked through their first word
+  void* list[PL_SCRATCH_CLASSES];
 };
 
 static int size_class(size_t bytes) {
@@ -59,21 +60,24 @@ void* pl_temp_grow(const pl_pool* p, void* at, int n, int* cap, size_t size) {
   if (n > 0) memcpy(to, at, (size_t)n * size);
   pl_scratch_give(p, at, old_bytes);
   *cap = (int)(((size_t)1 << k) / size);
-  assert(size_class((size_t)*cap * size) == k);   // pl_temp_free finds the class again from cap * size
+  // pl_temp_free finds the class again from cap * size
+  assert(size_class((size_t)*cap * size) == k);
   return to;
 }
 
-// ---------------------------------------------------------------------------------------------- making nodes
-static uint64_t hash_node(pl_kind kind, int function, int dots, uint32_t symbol, const pl_expr* args, int n) {
+// ------------------------------------------------------------------------------------ making nodes
+static uint64_t hash_node(pl_kind kind, int function, int dots, uint32_t symbol,
+                          const pl_expr* args, int n) {
   uint64_t h = pl_hash_mix((uint64_t)kind | (uint64_t)function << 8 | (uint64_t)dots << 16, symbol);
   for (int i = 0; i < n; i++) h = pl_hash_mix(h, args[i].id);
   return h;
 }
 
-static bool same_node(const pl_node* x, pl_kind kind, int function, int dots, uint32_t symbol, const pl_expr* args,
-                      int n) {
-  return x->kind == kind && x->function == function && x->dots == dots && x->symbol == symbol && x->n == (uint32_t)n &&
-         (n == 0 || memcmp(x->u.args, args, (size_t)n * sizeof *args) == 0);
+static bool same_node(const pl_node* x, pl_kind kind, int function, int dots, uint32_t symbol,
+                      const pl_expr* args, int n) {
+  return x->kind == kind && x->function == function && x->dots == dots && x->symbol == symbol
+         && x->n == (uint32_t)n
+         && (n == 0 || memcmp(x->u.args, args, (size_t)n * sizeof *args) == 0);
 }
 
 static uint32_t free_slot(const pl_pool* p, const uint32_t* table, uint32_t cap, uint64_t hash) {
@@ -132,21 +136,30 @@ static uint32_t height_over(const pl_pool* p, const pl_expr* args, int n) {
   return height;
 }
 
-pl_expr pl_node_make(pl_pool* p, pl_kind kind, int function, int dots, uint32_t symbol, const pl_expr* args, int n) {
+pl_expr pl_node_make(pl_pool* p, pl_kind kind, int function, int dots, uint32_t symbol,
+                     const pl_expr* args, int n) {
   uint64_t hash = hash_node(kind, function, dots, symbol, args, n);
-  for (uint32_t i = (uint32_t)hash & (p->table_cap - 1); p->table[i] != 0; i = (i + 1) & (p->table_cap - 1)) {
+  for (uint32_t i = (uint32_t)hash & (p->table_cap - 1); p->table[i] != 0;
+       i = (i + 1) & (p->table_cap - 1)) {
     const pl_node* x = pl_node_at(p, (pl_expr){p->table[i]});
-    if (x->hash == hash && same_node(x, kind, function, dots, symbol, args, n)) return (pl_expr){p->table[i]};
+    if (x->hash == hash && same_node(x, kind, function, dots, symbol, args, n))
+      return (pl_expr){p->table[i]};
   }
   reserve_node(p);
-  pl_node node = {.hash = hash, .kind = (uint8_t)kind, .function = (uint8_t)function, .dots = (uint8_t)dots,
-                  .n = (uint32_t)n, .symbol = symbol, .height = height_over(p, args, n)};
+  pl_node node = {.hash = hash,
+                  .kind = (uint8_t)kind,
+                  .function = (uint8_t)function,
+                  .dots = (uint8_t)dots,
+                  .n = (uint32_t)n,
+                  .symbol = symbol,
+                  .height = height_over(p, args, n)};
   if (n > 0) node.u.args = reserve_args(p, args, n);
   return add_node(p, node);
 }
 
 static bool same_number(const pl_number* x, const pl_number* y) {
-  if (x->limbs == NULL || y->limbs == NULL) return x->limbs == y->limbs && x->num == y->num && x->den == y->den;
+  if (x->limbs == NULL || y->limbs == NULL)
+    return x->limbs == y->limbs && x->num == y->num && x->den == y->den;
   if (x->n_num != y->n_num || x->n_den != y->n_den) return false;
   size_t n = (size_t)(x->n_num < 0 ? -x->n_num : x->n_num) + (size_t)x->n_den;
   return memcmp(x->limbs, y->limbs, n * sizeof *x->limbs) == 0;
@@ -156,9 +169,11 @@ pl_expr pl_number_make(pl_pool* p, const pl_number* x) {
   size_t n = x->limbs ? (size_t)(x->n_num < 0 ? -x->n_num : x->n_num) + (size_t)x->n_den : 0;
   uint64_t hash = pl_hash_mix(pl_hash_mix(PL_NUMBER, (uint64_t)x->num), (uint64_t)x->den);
   if (n > 0) hash = pl_hash_bytes(x->limbs, n * sizeof *x->limbs, (uint64_t)x->n_num);
-  for (uint32_t i = (uint32_t)hash & (p->table_cap - 1); p->table[i] != 0; i = (i + 1) & (p->table_cap - 1)) {
+  for (uint32_t i = (uint32_t)hash & (p->table_cap - 1); p->table[i] != 0;
+       i = (i + 1) & (p->table_cap - 1)) {
     const pl_node* y = pl_node_at(p, (pl_expr){p->table[i]});
-    if (y->hash == hash && y->kind == PL_NUMBER && same_number(y->u.number, x)) return (pl_expr){p->table[i]};
+    if (y->hash == hash && y->kind == PL_NUMBER && same_number(y->u.number, x))
+      return (pl_expr){p->table[i]};
   }
   reserve_node(p);
   pl_number* kept = PL_NEW(p->arena, pl_number);
@@ -171,7 +186,7 @@ pl_expr pl_number_make(pl_pool* p, const pl_number* x) {
   return add_node(p, (pl_node){.hash = hash, .kind = PL_NUMBER, .u.number = kept});
 }
 
-// ---------------------------------------------------------------------------------------------- pool
+// -------------------------------------------------------------------------------------------- pool
 pl_pool* pl_pool_make(pl_arena* a) {
   pl_pool* p = PL_NEW(a, pl_pool);
   p->arena = a;
@@ -194,7 +209,7 @@ pl_pool* pl_pool_make(pl_arena* a) {
 
 pl_arena* pl_pool_arena(const pl_pool* p) { return p->arena; }
 
-// ---------------------------------------------------------------------------------------------- walks
+// ------------------------------------------------------------------------------------------- walks
 static uint32_t walk_slot(const pl_walk* w, const uint32_t* table, uint32_t cap, pl_expr e) {
   uint32_t i = (e.id * 0x9e3779b1u) & (cap - 1);
   while (table[i] != 0 && w->nodes.at[table[i] - 1].id != e.id) i = (i + 1) & (cap - 1);
@@ -205,13 +220,16 @@ static void walk_widen(pl_walk* w) {
   uint32_t cap = w->cap ? w->cap * 4 : 64;
   uint32_t* table = pl_scratch_take(w->p, cap * sizeof *table);
   memset(table, 0, cap * sizeof *table);
-  for (int i = 0; i < w->nodes.n; i++) table[walk_slot(w, table, cap, w->nodes.at[i])] = (uint32_t)i + 1;
+  for (int i = 0; i < w->nodes.n; i++)
+    table[walk_slot(w, table, cap, w->nodes.at[i])] = (uint32_t)i + 1;
   pl_scratch_give(w->p, w->table, w->cap * sizeof *table);
   w->table = table;
   w->cap = cap;
 }
 
-static bool walk_met(const pl_walk* w, pl_expr e) { return w->table[walk_slot(w, w->table, w->cap, e)] != 0; }
+static bool walk_met(const pl_walk* w, pl_expr e) {
+  return w->table[walk_slot(w, w->table, w->cap, e)] != 0;
+}
 
 static void walk_add(pl_walk* w, pl_expr e) {
   if ((uint32_t)w->nodes.n * 2 >= w->cap) walk_widen(w);
@@ -224,7 +242,7 @@ static void walk_add(pl_walk* w, pl_expr e) {
 
 typedef struct visit {
   pl_expr e;
-  uint32_t next;   // argument to look at next
+  uint32_t next;  // argument to look at next
 } visit;
 
 void pl_walk_begin(pl_walk* w, const pl_pool* p, const pl_expr* roots, int n_roots) {
@@ -250,7 +268,9 @@ void pl_walk_begin(pl_walk* w, const pl_pool* p, const pl_expr* roots, int n_roo
   pl_temp_free(p, stack);
 }
 
-int pl_walk_position(const pl_walk* w, pl_expr e) { return (int)w->table[walk_slot(w, w->table, w->cap, e)] - 1; }
+int pl_walk_position(const pl_walk* w, pl_expr e) {
+  return (int)w->table[walk_slot(w, w->table, w->cap, e)] - 1;
+}
 
 void pl_walk_end(pl_walk* w) {
   pl_temp_free(w->p, w->nodes);

@@ -1,30 +1,35 @@
-// Products and powers: flat, like factors collected, sorted; numbers and their roots in one canonical form.
+// Products and powers: flat, like factors collected, sorted; numbers and their roots in one
+// canonical form.
 //
-// Numbers: n^(k/q) is written c * N^(r/q) with an integer N > 1 and 0 < r/q < 1, so 1/sqrt(2) is sqrt(2)/2; roots of
-// numbers with the same exponent are merged, so sqrt(2) sqrt(6) is 2 sqrt(3).
-// In front of something else the number stays under the root, but for its squares: sqrt(12 x) is 2 sqrt(3 x).
+// Numbers: n^(k/q) is written c * N^(r/q) with an integer N > 1 and 0 < r/q < 1, so 1/sqrt(2) is
+// sqrt(2)/2; roots of numbers with the same exponent are merged, so sqrt(2) sqrt(6) is 2 sqrt(3).
+// In front of something else the number stays under the root, but for its squares: sqrt(12 x) is 2
+// sqrt(3 x).
 #include "expr/expr_impl.h"
 
 #include <string.h>
 
 typedef struct factor {
   pl_expr base, exponent;
-  pl_expr whole;   // the factor as it was, poison when the exponent was changed
+  pl_expr whole;  // the factor as it was, poison when the exponent was changed
 } factor;
 
 typedef struct product {
   pl_pool* p;
   PL_TEMP(factor) factors;
   pl_expr number;
-  pl_expr exp_argument;   // exp(a) exp(b) = exp(a + b): the sum so far
-  int n_exp;              // factors that went into it
+  pl_expr exp_argument;  // exp(a) exp(b) = exp(a + b): the sum so far
+  int n_exp;             // factors that went into it
   bool infinite, poison;
 } product;
 
-// ---------------------------------------------------------------------------------------------- products
+// ---------------------------------------------------------------------------------------- products
 static void product_put_number(product* f, pl_expr x) {
   f->number = pl_number_mul(f->p, f->number, x);
-  if (f->number.id == 0) f->poison = true, f->number = f->p->one;
+  if (f->number.id == 0) {
+    f->poison = true;
+    f->number = f->p->one;
+  }
 }
 
 static bool is_exp(const pl_pool* p, pl_expr e) {
@@ -56,8 +61,8 @@ static bool factor_less(const void* a, const void* b, const void* user) {
 
 // Roots of two numbers with the same exponent: their bases may be multiplied.
 static bool roots_match(const pl_pool* p, const factor* x, const factor* y) {
-  return pl_is_number(p, x->base) && pl_is_number(p, y->base) && x->exponent.id == y->exponent.id &&
-         pl_is_number(p, x->exponent) && !pl_number_is_integer(p, x->exponent);
+  return pl_is_number(p, x->base) && pl_is_number(p, y->base) && x->exponent.id == y->exponent.id
+         && pl_is_number(p, x->exponent) && !pl_number_is_integer(p, x->exponent);
 }
 
 // Tells whether any were found: their products may have to be sorted and simplified once more.
@@ -74,7 +79,10 @@ static bool merge_roots(product* f) {
       memmove(y, y + 1, (size_t)(f->factors.n - k - 1) * sizeof *y);
       f->factors.n--;
       k--;
-      if (x->base.id == 0) f->poison = true, x->base = p->one;
+      if (x->base.id == 0) {
+        f->poison = true;
+        x->base = p->one;
+      }
     }
   }
   return merged;
@@ -94,7 +102,8 @@ static void collect_powers(product* f) {
   f->factors.n = n;
 }
 
-// A power that came out of the collection is what it was taken for: the same base, nothing more to flatten.
+// A power that came out of the collection is what it was taken for: the same base, nothing more to
+// flatten.
 static bool is_settled(const pl_pool* p, pl_expr e, pl_expr base) {
   pl_kind k = pl_kind_of(p, e);
   if (k == PL_NUMBER || k == PL_MUL || k == PL_POISON || is_exp(p, e)) return false;
@@ -172,9 +181,11 @@ pl_expr pl_mul(pl_pool* p, pl_expr a, pl_expr b) {
   return pl_mul_n(p, (pl_expr[]){a, b}, 2);
 }
 
-pl_expr pl_div(pl_pool* p, pl_expr a, pl_expr b) { return pl_mul(p, a, pl_pow(p, b, p->minus_one)); }
+pl_expr pl_div(pl_pool* p, pl_expr a, pl_expr b) {
+  return pl_mul(p, a, pl_pow(p, b, p->minus_one));
+}
 
-// ---------------------------------------------------------------------------------------------- powers of numbers
+// ------------------------------------------------------------------------------- powers of numbers
 static pl_expr raw_power(pl_pool* p, pl_expr base, pl_expr exponent) {
   if (exponent.id == p->one.id) return base;
   return pl_node_make(p, PL_POW, 0, 0, 0, (pl_expr[]){base, exponent}, 2);
@@ -192,7 +203,8 @@ static pl_expr root_of_number(pl_pool* p, pl_expr x, pl_expr exponent, long k, l
   if (widened.id == 0) return raw_power(p, x, exponent);
   pl_expr outside, inside;
   pl_number_split_root(p, widened, (int)q, &outside, &inside);
-  pl_expr factor_out = pl_number_mul(p, pl_number_pow(p, outside, k), pl_number_pow(p, pl_number_inv(p, d), k));
+  pl_expr factor_out = pl_number_mul(p, pl_number_pow(p, outside, k),
+                                     pl_number_pow(p, pl_number_inv(p, d), k));
   if (factor_out.id == 0) return raw_power(p, x, exponent);
   if (inside.id == p->one.id) return factor_out;
   pl_expr root = raw_power(p, inside, exponent);
@@ -204,11 +216,13 @@ static pl_expr number_to_number(pl_pool* p, pl_expr base, pl_expr exponent) {
   long n, k, q;
   if (pl_is_int(p, exponent, &n)) {
     pl_expr e = pl_number_pow(p, base, n);
-    if (e.id != 0 || base.id == p->zero.id) return e;   // 0^-1 is poison; what is too large stays as written
+    // 0^-1 is poison; what is too large stays as written
+    if (e.id != 0 || base.id == p->zero.id) return e;
     return raw_power(p, base, exponent);
   }
   int sign = pl_number_sign(p, base);
-  if (sign < 0) return pl_number_is_integer(p, exponent) ? raw_power(p, base, exponent) : pl_poison();
+  if (sign < 0)
+    return pl_number_is_integer(p, exponent) ? raw_power(p, base, exponent) : pl_poison();
   if (sign == 0) return pl_number_sign(p, exponent) > 0 ? base : pl_poison();
   if (base.id == p->one.id) return base;
   if (!pl_is_ratio(p, exponent, &k, &q) || q > MAX_ROOT) return raw_power(p, base, exponent);
@@ -219,16 +233,18 @@ static pl_expr number_to_number(pl_pool* p, pl_expr base, pl_expr exponent) {
   pl_expr power = pl_is_int(p, whole, &n) ? pl_number_pow(p, base, n) : pl_poison();
   if (power.id == 0 || !pl_is_ratio(p, left, &k, &q)) return raw_power(p, base, exponent);
   pl_expr root = root_of_number(p, base, left, k, q);
-  if (pl_kind_of(p, root) == PL_POW && pl_arg(p, root, 0).id == base.id && !pl_number_is_integer(p, base)) {
-    return raw_power(p, base, exponent);   // the base was too large to be made an integer
+  if (pl_kind_of(p, root) == PL_POW && pl_arg(p, root, 0).id == base.id
+      && !pl_number_is_integer(p, base)) {
+    return raw_power(p, base, exponent);  // the base was too large to be made an integer
   }
   return pl_mul(p, power, root);
 }
 
-// ---------------------------------------------------------------------------------------------- powers of products
+// ------------------------------------------------------------------------------ powers of products
 static pl_expr power_of_each(pl_pool* p, pl_expr base, pl_expr n) {
   pl_exprs factors = {0};
-  for (int i = 0, m = pl_n_args(p, base); i < m; i++) pl_temp_push(p, factors, pl_pow(p, pl_arg(p, base, i), n));
+  for (int i = 0, m = pl_n_args(p, base); i < m; i++)
+    pl_temp_push(p, factors, pl_pow(p, pl_arg(p, base, i), n));
   pl_expr e = pl_mul_n(p, factors.at, factors.n);
   pl_temp_free(p, factors);
   return e;
@@ -238,7 +254,8 @@ static pl_expr power_of_each(pl_pool* p, pl_expr base, pl_expr n) {
 static pl_expr power_of_scaled(pl_pool* p, pl_expr base, pl_expr exponent) {
   long k, q;
   pl_term t = pl_term_of(p, base);
-  if (t.coefficient.id == p->one.id || !pl_is_ratio(p, exponent, &k, &q) || q > MAX_ROOT) return pl_poison();
+  if (t.coefficient.id == p->one.id || !pl_is_ratio(p, exponent, &k, &q) || q > MAX_ROOT)
+    return pl_poison();
   pl_expr sign = pl_number_sign(p, t.coefficient) < 0 ? p->minus_one : p->one;
   pl_expr c = pl_number_mul(p, t.coefficient, sign);
   pl_expr top_out, top_in, low_out, low_in;
@@ -253,13 +270,15 @@ static pl_expr power_of_scaled(pl_pool* p, pl_expr base, pl_expr exponent) {
   return pl_mul(p, power, pl_pow(p, rest, exponent));
 }
 
-// (b^x)^y = b^(x y) holds when y is an integer, when b > 0, and when -1 <= x <= 1 (both sides then ask for b >= 0).
+// (b^x)^y = b^(x y) holds when y is an integer, when b > 0, and when -1 <= x <= 1 (both sides then
+// ask for b >= 0).
 static bool exponents_multiply(const pl_pool* p, pl_expr base, pl_expr y) {
   if (!pl_is_number(p, y)) return false;
   if (pl_number_is_integer(p, y)) return true;
   pl_expr b = pl_arg(p, base, 0), x = pl_arg(p, base, 1);
   if (pl_is_number(p, b) && pl_number_sign(p, b) > 0) return true;
-  return pl_is_number(p, x) && pl_number_compare(p, x, p->one) <= 0 && pl_number_compare(p, x, p->minus_one) >= 0;
+  return pl_is_number(p, x) && pl_number_compare(p, x, p->one) <= 0
+         && pl_number_compare(p, x, p->minus_one) >= 0;
 }
 
 static pl_expr power_of_infinity(pl_pool* p, pl_expr base, pl_expr exponent) {
@@ -279,12 +298,14 @@ pl_expr pl_pow(pl_pool* p, pl_expr base, pl_expr exponent) {
   if (kind == PL_POW && exponents_multiply(p, base, exponent)) {
     return pl_pow(p, pl_arg(p, base, 0), pl_mul(p, pl_arg(p, base, 1), exponent));
   }
-  if (kind == PL_MUL && numeric && pl_number_is_integer(p, exponent)) return power_of_each(p, base, exponent);
+  if (kind == PL_MUL && numeric && pl_number_is_integer(p, exponent))
+    return power_of_each(p, base, exponent);
   if (kind == PL_MUL && numeric) {
     pl_expr e = power_of_scaled(p, base, exponent);
     if (e.id != 0) return e;
   }
-  if (is_exp(p, base) && numeric) return pl_call(p, PL_EXP, pl_mul(p, exponent, pl_arg(p, base, 0)));
+  if (is_exp(p, base) && numeric)
+    return pl_call(p, PL_EXP, pl_mul(p, exponent, pl_arg(p, base, 0)));
   return raw_power(p, base, exponent);
 }
 

@@ -1,10 +1,11 @@
-// Substitution, all at once: what was put in is not looked at again.  One pass over the DAG, arguments first.
+// Substitution, all at once: what was put in is not looked at again. One pass over the DAG,
+// arguments first.
 #include "expr/expr_impl.h"
 
 typedef struct plan {
-  const pl_replace* replace;   // (n)
+  const pl_replace* replace;  // (n)
   int n;
-  pl_expr from, to;            // or one node; poison if none
+  pl_expr from, to;  // or one node; poison if none
 } plan;
 
 static pl_expr substitute(pl_pool* p, pl_expr e, const plan* s);
@@ -16,8 +17,8 @@ static const pl_replace* find(const plan* s, pl_symbol x) {
   return NULL;
 }
 
-// A sum binds its index: inside it the index is not replaced, and nothing may be put in that speaks of another index of
-// the same name; that would be caught by the sum, so it is poison.
+// A sum binds its index: inside it the index is not replaced, and nothing may be put in that speaks
+// of another index of the same name; that would be caught by the sum, so it is poison.
 static pl_expr substitute_in_pattern(pl_pool* p, pl_expr e, const plan* s, pl_expr lo, pl_expr hi) {
   pl_symbol index = pl_symbol_of(p, e);
   pl_expr body = pl_arg(p, e, 3);
@@ -26,10 +27,12 @@ static pl_expr substitute_in_pattern(pl_pool* p, pl_expr e, const plan* s, pl_ex
   for (int i = 0; i < s->n; i++) {
     if (s->replace[i].from.id == index.id) continue;
     pl_temp_push(p, inside, s->replace[i]);
-    if (pl_has_symbol(p, s->replace[i].to, index) && pl_has_symbol(p, body, s->replace[i].from)) caught = true;
+    if (pl_has_symbol(p, s->replace[i].to, index) && pl_has_symbol(p, body, s->replace[i].from))
+      caught = true;
   }
   plan narrower = {inside.at, inside.n, s->from, s->to};
-  pl_expr result = caught ? pl_poison() : pl_sum_over(p, index, lo, hi, substitute(p, body, &narrower));
+  pl_expr result = caught ? pl_poison()
+                          : pl_sum_over(p, index, lo, hi, substitute(p, body, &narrower));
   pl_temp_free(p, inside);
   return result;
 }

@@ -1,4 +1,5 @@
-// Symbols: what a name stands for, and the names that belong to another one: velocities, accelerations, start values.
+// Symbols: what a name stands for, and the names that belong to another one: velocities,
+// accelerations, start values.
 #include "expr/expr_impl.h"
 
 #include <ctype.h>
@@ -6,16 +7,19 @@
 
 static uint64_t hash_name(const char* ascii) { return pl_hash_bytes(ascii, strlen(ascii), 1); }
 
-static uint32_t symbol_slot(const pl_pool* p, const uint32_t* table, uint32_t cap, const char* ascii) {
+static uint32_t symbol_slot(const pl_pool* p, const uint32_t* table, uint32_t cap,
+                            const char* ascii) {
   uint32_t i = (uint32_t)hash_name(ascii) & (cap - 1);
-  while (table[i] != 0 && strcmp(p->symbols.at[table[i] - 1]->ascii, ascii) != 0) i = (i + 1) & (cap - 1);
+  while (table[i] != 0 && strcmp(p->symbols.at[table[i] - 1]->ascii, ascii) != 0)
+    i = (i + 1) & (cap - 1);
   return i;
 }
 
 static void widen_symbols(pl_pool* p) {
   uint32_t cap = p->symbol_cap * 2;
   uint32_t* table = PL_ARRAY(p->arena, uint32_t, cap);
-  for (int i = 0; i < p->symbols.n; i++) table[symbol_slot(p, table, cap, p->symbols.at[i]->ascii)] = (uint32_t)i + 1;
+  for (int i = 0; i < p->symbols.n; i++)
+    table[symbol_slot(p, table, cap, p->symbols.at[i]->ascii)] = (uint32_t)i + 1;
   p->symbol_table = table;
   p->symbol_cap = cap;
 }
@@ -36,7 +40,8 @@ pl_symbol pl_symbol_make(pl_pool* p, const pl_symbol_info* info) {
   kept->name = pl_copy(p->arena, info->name ? info->name : ascii);
   if (!kept->dimension_known && kept->dimension.den[0] == 0) kept->dimension = pl_dimension_one();
   pl_push(p->arena, p->symbols, kept);
-  p->symbol_table[symbol_slot(p, p->symbol_table, p->symbol_cap, kept->ascii)] = (uint32_t)p->symbols.n;
+  p->symbol_table[symbol_slot(p, p->symbol_table, p->symbol_cap, kept->ascii)] =
+      (uint32_t)p->symbols.n;
   return (pl_symbol){(uint32_t)p->symbols.n};
 }
 
@@ -47,7 +52,7 @@ pl_symbol_info* pl_symbol_get(const pl_pool* p, pl_symbol s) {
 
 int pl_symbol_count(const pl_pool* p) { return p->symbols.n; }
 
-// ---------------------------------------------------------------------------------------------- names that belong
+// ------------------------------------------------------------------------------- names that belong
 // Makes info under its ascii name, or, when a stranger has that name, with underscores behind it.
 static pl_symbol make_own(pl_pool* p, pl_symbol_info info) {
   for (;;) {
@@ -107,15 +112,20 @@ pl_symbol pl_symbol_start(pl_pool* p, pl_symbol s) {
 
 pl_symbol pl_time(pl_pool* p) {
   if (p->time.id == 0) {
-    p->time = make_own(p, (pl_symbol_info){.name = "t", .ascii = "t", .role = PL_R_TIME, .class = PL_C_TIME,
-                                           .dimension = pl_dimension_of(0, 0, 1), .dimension_known = false});
+    p->time = make_own(p, (pl_symbol_info){.name = "t",
+                                           .ascii = "t",
+                                           .role = PL_R_TIME,
+                                           .class = PL_C_TIME,
+                                           .dimension = pl_dimension_of(0, 0, 1),
+                                           .dimension_known = false});
   }
   return p->time;
 }
 
-// ---------------------------------------------------------------------------------------------- numbers with units
+// ------------------------------------------------------------------------------ numbers with units
 bool pl_is_measure(const pl_pool* p, pl_expr e) {
-  return pl_kind_of(p, e) == PL_SYMBOL && !pl_is_poison(pl_symbol_get(p, pl_symbol_of(p, e))->number);
+  return pl_kind_of(p, e) == PL_SYMBOL
+         && !pl_is_poison(pl_symbol_get(p, pl_symbol_of(p, e))->number);
 }
 
 pl_expr pl_without_measures(pl_pool* p, pl_expr e) {
@@ -131,7 +141,7 @@ pl_expr pl_without_measures(pl_pool* p, pl_expr e) {
   return n_measures ? pl_subst(p, e, r, n_measures) : e;
 }
 
-// ---------------------------------------------------------------------------------------------- order of names
+// ---------------------------------------------------------------------------------- order of names
 // Letters by code, runs of digits by value: m2 before m10.  Equal only if the texts are.
 int pl_natural_compare(const char* a, const char* b) {
   const char *s = a, *t = b;
@@ -143,11 +153,13 @@ int pl_natural_compare(const char* a, const char* b) {
       if (n != m) return n < m ? -1 : 1;
       int c = strncmp(s, t, n);
       if (c != 0) return c;
-      s += n, t += m;
+      s += n;
+      t += m;
       continue;
     }
     if (*s != *t) return (unsigned char)*s < (unsigned char)*t ? -1 : 1;
-    s++, t++;
+    s++;
+    t++;
   }
   if (*s || *t) return *s ? 1 : -1;
   return strcmp(a, b);
@@ -164,7 +176,9 @@ int pl_symbol_compare(const pl_pool* p, pl_symbol a, pl_symbol b) {
   return pl_natural_compare(x->ascii, y->ascii);
 }
 
-const char* pl_unit_of_symbol(pl_arena* a, const pl_pool* p, pl_symbol s, pl_dimension d, bool ascii) {
-  bool torque = s.id && pl_symbol_get(p, s)->role == PL_R_MULTIPLIER && pl_dimension_equal(d, pl_dimension_of(2, 1, -2));
+const char* pl_unit_of_symbol(pl_arena* a, const pl_pool* p, pl_symbol s, pl_dimension d,
+                              bool ascii) {
+  bool torque = s.id && pl_symbol_get(p, s)->role == PL_R_MULTIPLIER
+                && pl_dimension_equal(d, pl_dimension_of(2, 1, -2));
   return torque ? "N m" : pl_dimension_unit(a, d, ascii);
 }

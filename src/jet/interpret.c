@@ -13,69 +13,76 @@
 //   c = atan2(a,b) c_k = (S + a_k b_0 - b_k a_0) / w_0, w = a^2 + b^2
 //                  S = sum_{1..k-1} j (a_j b_{k-j} - b_j a_{k-j} - c_j w_{k-j}) / k
 //
-// The first phase puts S where c_k will stand; the second completes it.  At k = 0 S is not used.  Lanes are the inner
-// loop everywhere, in blocks of eight, so that a sum stays in a register; sums run upwards in j.  This file is compiled for several
-// kinds of processors (meson.build), with the same bits.
+// The first phase puts S where c_k will stand; the second completes it. At k = 0 S is not used.
+// Lanes are the inner loop everywhere, in blocks of eight, so that a sum stays in a register; sums
+// run upwards in j. This file is compiled for several kinds of processors (meson.build), with the
+// same bits.
 #include "jet/jet.h"
 
 #include <math.h>
 
 #ifndef PL_INTERPRET
-#define PL_INTERPRET pl_jet_interpret_plain
+#  define PL_INTERPRET pl_jet_interpret_plain
 #endif
 pl_kernel PL_INTERPRET;
 
 // Lanes of different nodes never overlap.
 #ifdef __clang__
-#define APART _Pragma("clang loop vectorize(assume_safety)")
+#  define APART _Pragma("clang loop vectorize(assume_safety)")
 #else
-#define APART _Pragma("GCC ivdep")
+#  define APART _Pragma("GCC ivdep")
 #endif
 #define BLOCKS for (int first = 0; first < lanes; first += block)
-#define BLOCK APART for (int l = first; l < first + block; l++)
-#define LANES BLOCKS BLOCK
+#define BLOCK  APART for (int l = first; l < first + block; l++)
+#define LANES  BLOCKS BLOCK
 #define INLINE static inline __attribute__((always_inline))
 
-// ---------------------------------------------------------------------------------------------- first phase
+// ------------------------------------------------------------------------------------- first phase
 // The sum of a block of lanes.
-#define SUM(what)                                              \
-  BLOCKS {                                                     \
-    double sum[8] = {0};                                       \
-    what                                                       \
+#define SUM(what)        \
+  BLOCKS {               \
+    double sum[8] = {0}; \
+    what                 \
   }
-#define IN_BLOCK(i) sum[(i) - first]
+#define IN_BLOCK(i) sum[(i)-first]
 
 // s = sum_{j=1..k-1} a_j b_{k-j}
-INLINE void product_sum(double* restrict s, const double* a, const double* b, int k, int lanes, int block) {
+INLINE void product_sum(double* restrict s, const double* a, const double* b, int k, int lanes,
+                        int block) {
   SUM(for (int j = 1; j < k; j++) BLOCK IN_BLOCK(l) += a[j * lanes + l] * b[(k - j) * lanes + l];
       BLOCK s[l] = IN_BLOCK(l);)
 }
 
 // the same for a = b: pairs are added once and doubled
 INLINE void square_sum(double* restrict s, const double* a, int k, int lanes, int block) {
-  SUM(for (int j = 1; 2 * j < k; j++) BLOCK IN_BLOCK(l) += a[j * lanes + l] * a[(k - j) * lanes + l];
+  SUM(for (int j = 1; 2 * j < k; j++)
+          BLOCK IN_BLOCK(l) += a[j * lanes + l] * a[(k - j) * lanes + l];
       BLOCK IN_BLOCK(l) += IN_BLOCK(l);
       if (k % 2 == 0) BLOCK IN_BLOCK(l) += a[k / 2 * lanes + l] * a[k / 2 * lanes + l];
       BLOCK s[l] = IN_BLOCK(l);)
 }
 
 // s = sum_{j=1..k-1} j a_j b_{k-j} / k
-INLINE void derivative_sum(double* restrict s, const double* a, const double* b, int k, int lanes, int block) {
-  SUM(for (int j = 1; j < k; j++) BLOCK IN_BLOCK(l) += (double)j * a[j * lanes + l] * b[(k - j) * lanes + l];
+INLINE void derivative_sum(double* restrict s, const double* a, const double* b, int k, int lanes,
+                           int block) {
+  SUM(for (int j = 1; j < k; j++)
+          BLOCK IN_BLOCK(l) += (double)j * a[j * lanes + l] * b[(k - j) * lanes + l];
       BLOCK s[l] = IN_BLOCK(l) / (double)k;)
 }
 
-INLINE void power_sum(double* restrict s, const double* a, const double* c, const double* r, int k, int lanes, int block) {
-  SUM(for (int j = 1; j < k; j++)
-        BLOCK IN_BLOCK(l) += (r[l] * (double)j - (double)(k - j)) * a[j * lanes + l] * c[(k - j) * lanes + l];
+INLINE void power_sum(double* restrict s, const double* a, const double* c, const double* r, int k,
+                      int lanes, int block) {
+  SUM(for (int j = 1; j < k; j++) BLOCK IN_BLOCK(l) += (r[l] * (double)j - (double)(k - j))
+                                                       * a[j * lanes + l] * c[(k - j) * lanes + l];
       BLOCK s[l] = IN_BLOCK(l) / (double)k;)
 }
 
-INLINE void angle_sum(double* restrict s, const double* a, const double* b, const double* c, const double* w, int k, int lanes,
-                      int block) {
-  SUM(for (int j = 1; j < k; j++)
-        BLOCK IN_BLOCK(l) += (double)j * (a[j * lanes + l] * b[(k - j) * lanes + l] - b[j * lanes + l] * a[(k - j) * lanes + l] -
-                                          c[j * lanes + l] * w[(k - j) * lanes + l]);
+INLINE void angle_sum(double* restrict s, const double* a, const double* b, const double* c,
+                      const double* w, int k, int lanes, int block) {
+  SUM(for (int j = 1; j < k; j++) BLOCK IN_BLOCK(l) +=
+      (double)j
+      * (a[j * lanes + l] * b[(k - j) * lanes + l] - b[j * lanes + l] * a[(k - j) * lanes + l]
+         - c[j * lanes + l] * w[(k - j) * lanes + l]);
       BLOCK s[l] = IN_BLOCK(l) / (double)k;)
 }
 
@@ -108,7 +115,7 @@ INLINE void known_part(pl_jet* jet, int i, int k, int lanes, int block) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- second phase
+// ------------------------------------------------------------------------------------ second phase
 // Order 0: the functions themselves.
 INLINE void value(pl_jet* jet, int i, int lanes, int block) {
   const pl_tape_node* node = &jet->tape->nodes[i];
@@ -124,7 +131,7 @@ INLINE void value(pl_jet* jet, int i, int lanes, int block) {
     case PL_OP_RSCALE:
     case PL_OP_DIV: LANES c[l] = a[l] / b[l]; break;
     case PL_OP_ABS: LANES c[l] = fabs(a[l]); break;
-    case PL_OP_SIGN: LANES c[l] = a[l] > 0 ? 1 : a[l] < 0 ? -1 : a[l]; break;   // zero and NaN stay
+    case PL_OP_SIGN: LANES c[l] = a[l] > 0 ? 1 : a[l] < 0 ? -1 : a[l]; break;  // zero and NaN stay
     case PL_OP_MIN: LANES c[l] = a[l] <= b[l] ? a[l] : b[l]; break;
     case PL_OP_MAX: LANES c[l] = a[l] >= b[l] ? a[l] : b[l]; break;
     case PL_OP_IF: {
@@ -147,7 +154,7 @@ INLINE void value(pl_jet* jet, int i, int lanes, int block) {
     case PL_OP_ACOS: LANES c[l] = acos(a[l]); break;
     case PL_OP_ATAN: LANES c[l] = atan(a[l]); break;
     case PL_OP_ATAN2: LANES c[l] = atan2(a[l], b[l]); break;
-    default: break;   // inputs are there
+    default: break;  // inputs are there
   }
 }
 
@@ -179,7 +186,8 @@ INLINE void coefficient(pl_jet* jet, int i, int k, int lanes, int block) {
     case PL_OP_MUL: LANES c[l] += a0[l] * b[l] + a[l] * b0[l]; break;
     case PL_OP_SQR: LANES c[l] += 2 * a0[l] * a[l]; break;
     case PL_OP_DIV: LANES c[l] = (a[l] - b[l] * c0[l] - c[l]) / b0[l]; break;
-    // a power of zero has no series: it goes on as if it stayed zero, and what that is off by shortens the step
+    // a power of zero has no series: it goes on as if it stayed zero, and what that is off by
+    // shortens the step
     case PL_OP_SQRT: LANES c[l] = c0[l] != 0 ? (a[l] - c[l]) / (2 * c0[l]) : 0; break;
     case PL_OP_POW: LANES c[l] = a0[l] != 0 ? (c[l] + b0[l] * a[l] * c0[l]) / a0[l] : 0; break;
     case PL_OP_EXP: LANES c[l] += a[l] * c0[l]; break;
@@ -198,10 +206,11 @@ INLINE void coefficient(pl_jet* jet, int i, int k, int lanes, int block) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- sweep
+// ------------------------------------------------------------------------------------------- sweep
 INLINE void sweep(pl_jet* jet, pl_level level, int k, bool all, int lanes, int block) {
   const pl_tape_node* nodes = jet->tape->nodes;
-  int from = level == PL_LEVEL_CONST ? 0 : jet->tape->level_end[level - 1], to = jet->tape->level_end[level];
+  int from = level == PL_LEVEL_CONST ? 0 : jet->tape->level_end[level - 1],
+      to = jet->tape->level_end[level];
   if (k == 0) {
     for (int i = from; i < to; i++) value(jet, i, lanes, block);
     return;

@@ -3,7 +3,8 @@
 
 static int count_series(const pl_tape* tape, int from, int to, bool high) {
   int n = 0;
-  for (int i = from; i < to; i++) n += pl_op_series[tape->nodes[i].op] && (!high || tape->nodes[i].high);
+  for (int i = from; i < to; i++)
+    n += pl_op_series[tape->nodes[i].op] && (!high || tape->nodes[i].high);
   return n;
 }
 
@@ -26,9 +27,11 @@ pl_kernel pl_jet_interpret_plain, pl_jet_interpret_avx2, pl_jet_interpret_avx512
 
 void pl_jet_interpret(pl_jet* j, pl_level level, int k, bool all) {
 #ifdef PL_KERNELS_BY_PROCESSOR
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq"))
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl")
+      && __builtin_cpu_supports("avx512dq"))
     pl_jet_interpret_avx512(j, level, k, all);
-  else if (__builtin_cpu_supports("fma") && __builtin_cpu_supports("avx2")) pl_jet_interpret_avx2(j, level, k, all);
+  else if (__builtin_cpu_supports("fma") && __builtin_cpu_supports("avx2"))
+    pl_jet_interpret_avx2(j, level, k, all);
   else
 #endif
     pl_jet_interpret_plain(j, level, k, all);
@@ -65,14 +68,18 @@ static pl_jet* make(pl_arena* a, const pl_tape* tape, int lanes, int orders, boo
     j->at[i] = rows;
     rows += (size_t)room(tape, i, orders, lean, summed[i]);
   }
-  j->c = PL_ARRAY(a, double, (size_t)lanes * rows + 1);
+  j->c = PL_ARRAY(a, double, (size_t)lanes* rows + 1);
   j->kernel = pl_jet_interpret;
   for (int level = 0; level < PL_N_LEVELS; level++) list_series(j, a, level);
   return j;
 }
 
-pl_jet* pl_jet_make(pl_arena* a, const pl_tape* tape, int lanes, int orders) { return make(a, tape, lanes, orders, false); }
-pl_jet* pl_jet_make_lean(pl_arena* a, const pl_tape* tape, int lanes, int orders) { return make(a, tape, lanes, orders, true); }
+pl_jet* pl_jet_make(pl_arena* a, const pl_tape* tape, int lanes, int orders) {
+  return make(a, tape, lanes, orders, false);
+}
+pl_jet* pl_jet_make_lean(pl_arena* a, const pl_tape* tape, int lanes, int orders) {
+  return make(a, tape, lanes, orders, true);
+}
 
 static void fill(double* x, double value, int lanes) {
   for (int l = 0; l < lanes; l++) x[l] = value;

@@ -32,8 +32,10 @@ static bench* bench_open(void) {
   const char* name[] = {"x", "y", "a"};
   pl_expr* at[] = {&b->x, &b->y, &b->a};
   for (int i = 0; i < 3; i++) {
-    pl_symbol_info info = {
-        .name = name[i], .ascii = name[i], .role = i < 2 ? PL_R_COORD : PL_R_PARAM, .dimension = pl_dimension_one()};
+    pl_symbol_info info = {.name = name[i],
+                           .ascii = name[i],
+                           .role = i < 2 ? PL_R_COORD : PL_R_PARAM,
+                           .dimension = pl_dimension_one()};
     *at[i] = pl_sym(b->pool, pl_symbol_make(b->pool, &info));
   }
   b->value[pl_symbol_of(b->pool, b->a).id] = 0.7;
@@ -42,7 +44,8 @@ static bench* bench_open(void) {
 }
 
 // Series of e along x(t) = sum x_k t^k, y likewise, in every lane.
-static void series_of(bench* b, pl_expr e, const double* x, const double* y, double t, int lanes, double* out) {
+static void series_of(bench* b, pl_expr e, const double* x, const double* y, double t, int lanes,
+                      double* out) {
   pl_tape* tape;
   const pl_expr q[] = {b->x, b->y};
   pl_tape_slots slots = {.n_q = 2, .q = q, .value_of_symbol = b->value};
@@ -60,11 +63,12 @@ static void series_of(bench* b, pl_expr e, const double* x, const double* y, dou
   for (int k = 0; k < ORDERS; k++) {
     int root = tape->roots[0];
     out[k] = k > 0 && root < tape->level_end[PL_LEVEL_CONST] ? 0 : pl_jet_at(j, root, k)[0];
-    for (int l = 1; l < lanes; l++) assert_true(pl_jet_at(j, root, k)[l] == pl_jet_at(j, root, k)[0] || k > 0);
+    for (int l = 1; l < lanes; l++)
+      assert_true(pl_jet_at(j, root, k)[l] == pl_jet_at(j, root, k)[0] || k > 0);
   }
 }
 
-// ---------------------------------------------------------------------------------------------- closed forms
+// ------------------------------------------------------------------------------------ closed forms
 static void check_series(const char* what, const double* got, const double* expect, int n) {
   for (int k = 0; k < n; k++) {
     double size = fmax(fabs(expect[k]), 1e-3);
@@ -82,7 +86,8 @@ static void elementary_functions_have_their_taylor_series(void** state) {
   for (int k = 0; k < ORDERS; k++) expect[k] = 1 / factorial[k];
   series_of(b, pl_call(b->pool, PL_EXP, b->x), x, y, 0, 1, got);
   check_series("exp", got, expect, ORDERS);
-  for (int k = 0; k < ORDERS; k++) expect[k] = k % 2 == 0 ? 0 : (k % 4 == 1 ? 1 : -1) / factorial[k];
+  for (int k = 0; k < ORDERS; k++)
+    expect[k] = k % 2 == 0 ? 0 : (k % 4 == 1 ? 1 : -1) / factorial[k];
   series_of(b, pl_call(b->pool, PL_SIN, b->x), x, y, 0, 1, got);
   check_series("sin", got, expect, ORDERS);
   for (int k = 0; k < ORDERS; k++) expect[k] = k % 2 ? 0 : 1 / factorial[k];
@@ -91,7 +96,8 @@ static void elementary_functions_have_their_taylor_series(void** state) {
   for (int k = 0; k < ORDERS; k++) expect[k] = k % 2 == 0 ? 0 : (k % 4 == 1 ? 1.0 : -1.0) / k;
   series_of(b, pl_call(b->pool, PL_ATAN, b->x), x, y, 0, 1, got);
   check_series("atan", got, expect, ORDERS);
-  const double tangent[] = {0, 1, 0, 1.0 / 3, 0, 2.0 / 15, 0, 17.0 / 315, 0, 62.0 / 2835, 0, 1382.0 / 155925};
+  const double tangent[] = {0, 1,          0, 1.0 / 3,     0, 2.0 / 15,
+                            0, 17.0 / 315, 0, 62.0 / 2835, 0, 1382.0 / 155925};
   series_of(b, pl_call(b->pool, PL_TAN, b->x), x, y, 0, 1, got);
   check_series("tan", got, tangent, 12);
   for (int k = 0; k < 12; k++) expect[k] = tangent[k] * (k % 4 == 3 ? -1 : 1);
@@ -114,7 +120,7 @@ static void elementary_functions_have_their_taylor_series(void** state) {
   pl_arena_free(b->arena);
 }
 
-// ---------------------------------------------------------------------------------------------- identities
+// -------------------------------------------------------------------------------------- identities
 static void random_path(pl_random* r, double* x, double centre) {
   x[0] = centre;
   double size = 0.5;
@@ -122,7 +128,8 @@ static void random_path(pl_random* r, double* x, double centre) {
 }
 
 // Two ways to write the same thing give the same series.
-static void check_identity(bench* b, const char* what, pl_expr left, pl_expr right, double cx, double cy) {
+static void check_identity(bench* b, const char* what, pl_expr left, pl_expr right, double cx,
+                           double cy) {
   for (uint64_t seed = 1; seed <= 20; seed++) {
     pl_random r = {seed};
     double x[ORDERS], y[ORDERS], l[ORDERS], rr[ORDERS];
@@ -134,7 +141,8 @@ static void check_identity(bench* b, const char* what, pl_expr left, pl_expr rig
     for (int k = 0; k < ORDERS; k++) size = fmax(size, fabs(l[k]));
     for (int k = 0; k < ORDERS; k++) {
       if (!(fabs(l[k] - rr[k]) <= 1e-11 * size + 1e-13))
-        print_message("# %s, seed %llu, order %d: %.17g and %.17g\n", what, (unsigned long long)seed, k, l[k], rr[k]);
+        print_message("# %s, seed %llu, order %d: %.17g and %.17g\n", what,
+                      (unsigned long long)seed, k, l[k], rr[k]);
       assert_true(fabs(l[k] - rr[k]) <= 1e-11 * size + 1e-13);
     }
   }
@@ -146,45 +154,57 @@ static void series_obey_identities_along_random_paths(void** state) {
   pl_pool* p = b->pool;
   pl_expr x = b->x, y = b->y, one = pl_int(p, 1);
   pl_expr r2 = pl_add(p, pl_square(p, x), pl_square(p, y));
-  check_identity(
-      b, "sin^2 + cos^2",
-      pl_add(p, pl_square(p, pl_call(p, PL_SIN, pl_mul(p, x, y))), pl_square(p, pl_call(p, PL_COS, pl_mul(p, x, y)))),
-      one, 1, 2);
-  check_identity(b, "tan", pl_call(p, PL_TAN, x), pl_div(p, pl_call(p, PL_SIN, x), pl_call(p, PL_COS, x)), 0.7, 0);
-  check_identity(b, "tanh", pl_call(p, PL_TANH, x), pl_div(p, pl_call(p, PL_SINH, x), pl_call(p, PL_COSH, x)), 0.7, 0);
+  check_identity(b, "sin^2 + cos^2",
+                 pl_add(p, pl_square(p, pl_call(p, PL_SIN, pl_mul(p, x, y))),
+                        pl_square(p, pl_call(p, PL_COS, pl_mul(p, x, y)))),
+                 one, 1, 2);
+  check_identity(b, "tan", pl_call(p, PL_TAN, x),
+                 pl_div(p, pl_call(p, PL_SIN, x), pl_call(p, PL_COS, x)), 0.7, 0);
+  check_identity(b, "tanh", pl_call(p, PL_TANH, x),
+                 pl_div(p, pl_call(p, PL_SINH, x), pl_call(p, PL_COSH, x)), 0.7, 0);
   check_identity(b, "asin", pl_call(p, PL_SIN, pl_call(p, PL_ASIN, x)), x, 0.2, 0);
   check_identity(b, "acos", pl_call(p, PL_COS, pl_call(p, PL_ACOS, x)), x, 0.2, 0);
   check_identity(b, "atan", pl_call(p, PL_TAN, pl_call(p, PL_ATAN, x)), x, 0.4, 0);
-  check_identity(b, "atan2", pl_call(p, PL_TAN, pl_call2(p, PL_ATAN2, y, x)), pl_div(p, y, x), 2, 1);
+  check_identity(b, "atan2", pl_call(p, PL_TAN, pl_call2(p, PL_ATAN2, y, x)), pl_div(p, y, x), 2,
+                 1);
   check_identity(b, "exp ln", pl_call(p, PL_EXP, pl_call(p, PL_LN, r2)), r2, 2, 1);
   check_identity(b, "sqrt", pl_square(p, pl_add(p, one, pl_sqrt(p, r2))),
                  pl_add(p, pl_add(p, one, r2), pl_mul(p, pl_int(p, 2), pl_sqrt(p, r2))), 2, 1);
-  check_identity(b, "powers", pl_pow(p, r2, pl_ratio(p, -3, 2)), pl_div(p, one, pl_mul(p, r2, pl_sqrt(p, r2))), 2, 1);
-  check_identity(b, "power of parameter", pl_pow(p, x, b->a), pl_call(p, PL_EXP, pl_mul(p, b->a, pl_call(p, PL_LN, x))),
-                 2, 1);
-  check_identity(b, "power of variable", pl_pow(p, x, y), pl_call(p, PL_EXP, pl_mul(p, y, pl_call(p, PL_LN, x))), 2, 1);
+  check_identity(b, "powers", pl_pow(p, r2, pl_ratio(p, -3, 2)),
+                 pl_div(p, one, pl_mul(p, r2, pl_sqrt(p, r2))), 2, 1);
+  check_identity(b, "power of parameter", pl_pow(p, x, b->a),
+                 pl_call(p, PL_EXP, pl_mul(p, b->a, pl_call(p, PL_LN, x))), 2, 1);
+  check_identity(b, "power of variable", pl_pow(p, x, y),
+                 pl_call(p, PL_EXP, pl_mul(p, y, pl_call(p, PL_LN, x))), 2, 1);
   check_identity(b, "product", pl_expand(p, pl_mul(p, pl_add(p, x, y), pl_sub(p, x, y)), 10),
                  pl_sub(p, pl_square(p, x), pl_square(p, y)), 2, 1);
-  check_identity(b, "seventh power", pl_pow_int(p, pl_add(p, x, y), 7),
-                 pl_mul(p, pl_pow_int(p, pl_add(p, x, y), 3), pl_square(p, pl_square(p, pl_add(p, x, y)))), 0.2, 0.3);
-  check_identity(b, "abs", pl_call(p, PL_ABS, x), pl_neg(p, x), -2, 0);
-  check_identity(b, "min, max", pl_add(p, pl_call2(p, PL_MIN, x, y), pl_call2(p, PL_MAX, x, y)), pl_add(p, x, y), 2, 1);
-  check_identity(b, "if", pl_if(p, pl_sub(p, x, y), pl_square(p, x), y), pl_square(p, x), 2, 1);
   check_identity(
-      b, "time", pl_square(p, pl_add(p, b->t, x)),
-      pl_add_n(p, (pl_expr[]){pl_square(p, b->t), pl_square(p, x), pl_mul(p, pl_int(p, 2), pl_mul(p, b->t, x))}, 3), 2,
-      1);
+      b, "seventh power", pl_pow_int(p, pl_add(p, x, y), 7),
+      pl_mul(p, pl_pow_int(p, pl_add(p, x, y), 3), pl_square(p, pl_square(p, pl_add(p, x, y)))),
+      0.2, 0.3);
+  check_identity(b, "abs", pl_call(p, PL_ABS, x), pl_neg(p, x), -2, 0);
+  check_identity(b, "min, max", pl_add(p, pl_call2(p, PL_MIN, x, y), pl_call2(p, PL_MAX, x, y)),
+                 pl_add(p, x, y), 2, 1);
+  check_identity(b, "if", pl_if(p, pl_sub(p, x, y), pl_square(p, x), y), pl_square(p, x), 2, 1);
+  check_identity(b, "time", pl_square(p, pl_add(p, b->t, x)),
+                 pl_add_n(p,
+                          (pl_expr[]){pl_square(p, b->t), pl_square(p, x),
+                                      pl_mul(p, pl_int(p, 2), pl_mul(p, b->t, x))},
+                          3),
+                 2, 1);
   pl_arena_free(b->arena);
 }
 
-// ---------------------------------------------------------------------------------------------- the point
-// Order 0 is the value that the algebra computes, and the sum of the series its value along the path.
+// --------------------------------------------------------------------------------------- the point
+// Order 0 is the value that the algebra computes, and the sum of the series its value along the
+// path.
 static void the_sum_of_a_series_is_the_value_along_the_path(void** state) {
   (void)state;
   bench* b = bench_open();
   pl_pool* p = b->pool;
-  pl_expr e = pl_div(p, pl_call(p, PL_SIN, pl_mul(p, b->a, b->x)),
-                     pl_add(p, pl_sqrt(p, pl_add(p, pl_int(p, 2), pl_square(p, b->y))), pl_call(p, PL_EXP, b->x)));
+  pl_expr e = pl_div(
+      p, pl_call(p, PL_SIN, pl_mul(p, b->a, b->x)),
+      pl_add(p, pl_sqrt(p, pl_add(p, pl_int(p, 2), pl_square(p, b->y))), pl_call(p, PL_EXP, b->x)));
   for (uint64_t seed = 1; seed <= 20; seed++) {
     pl_random r = {seed};
     double x[ORDERS], y[ORDERS], s[ORDERS], h = 0.02;
@@ -192,7 +212,11 @@ static void the_sum_of_a_series_is_the_value_along_the_path(void** state) {
     random_path(&r, y, 0.8);
     series_of(b, e, x, y, 0, 1, s);
     double sum = 0, xs = 0, ys = 0;
-    for (int k = ORDERS - 1; k >= 0; k--) sum = sum * h + s[k], xs = xs * h + x[k], ys = ys * h + y[k];
+    for (int k = ORDERS - 1; k >= 0; k--) {
+      sum = sum * h + s[k];
+      xs = xs * h + x[k];
+      ys = ys * h + y[k];
+    }
     b->value[pl_symbol_of(p, b->x).id] = xs;
     b->value[pl_symbol_of(p, b->y).id] = ys;
     double direct = pl_eval(p, e, b->value);

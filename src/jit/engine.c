@@ -1,7 +1,8 @@
-// Compiled kernels: the plugin is opened when it is first asked for, objects come from the store on disk or are compiled.
+// Compiled kernels: the plugin is opened when it is first asked for, objects come from the store on
+// disk or are compiled.
 //
-// Nothing here changes a result: a compiled program gives the bits of the interpreted one, so that it does not matter when, or
-// whether, a run goes over to it.
+// Nothing here changes a result: a compiled program gives the bits of the interpreted one, so that
+// it does not matter when, or whether, a run goes over to it.
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <limits.h>
@@ -12,13 +13,13 @@
 
 #include "jit/engine_impl.h"
 
-// ---------------------------------------------------------------------------------------------- where the plugin is
+// ----------------------------------------------------------------------------- where the plugin is
 // The folder of the program or library that this code is part of.
 static bool own_folder(char* folder) {
   Dl_info info;
   char path[PATH_MAX];
-  bool of_program = !dladdr((void*)(uintptr_t)&pl_jit_compile, &info) || !info.dli_fname || !strchr(info.dli_fname, '/') ||
-                    strstr(info.dli_fname, ".so") == NULL;
+  bool of_program = !dladdr((void*)(uintptr_t)&pl_jit_compile, &info) || !info.dli_fname
+                    || !strchr(info.dli_fname, '/') || strstr(info.dli_fname, ".so") == NULL;
   if (!realpath(of_program ? "/proc/self/exe" : info.dli_fname, path)) return false;
   char* slash = strrchr(path, '/');
   if (!slash || (size_t)(slash - path) >= PATH_MAX - 64) return false;
@@ -28,7 +29,8 @@ static bool own_folder(char* folder) {
 }
 
 // In the build tree below and beside the program, its tests and the library; then as installed.
-static const char* const places[] = {"src/jit", "../jit", "../../src/jit", PL_PLUGIN_FROM_BIN, PL_PLUGIN_FROM_LIB};
+static const char* const places[] = {"src/jit", "../jit", "../../src/jit", PL_PLUGIN_FROM_BIN,
+                                     PL_PLUGIN_FROM_LIB};
 
 static void* open_plugin(void) {
   char folder[PATH_MAX], path[PATH_MAX + 96];
@@ -44,9 +46,10 @@ static void* open_plugin(void) {
   return dlopen(PL_PLUGIN_FOLDER "/" PL_PLUGIN_FILE, RTLD_NOW | RTLD_LOCAL);
 }
 
-// ---------------------------------------------------------------------------------------------- opening it once
+// --------------------------------------------------------------------------------- opening it once
 static pthread_once_t once = PTHREAD_ONCE_INIT;
-static pthread_mutex_t at_work = PTHREAD_MUTEX_INITIALIZER;   // compiling and loading: one thread at a time
+// compiling and loading: one thread at a time
+static pthread_mutex_t at_work = PTHREAD_MUTEX_INITIALIZER;
 static const pl_plugin* plugin;
 static char trouble[512];
 
@@ -54,7 +57,8 @@ static void open_once(void) {
   void* library = open_plugin();
   if (!library) {
     const char* why = dlerror();
-    snprintf(trouble, sizeof trouble, "the compiler plugin cannot be opened: %s", why ? why : "not found");
+    snprintf(trouble, sizeof trouble, "the compiler plugin cannot be opened: %s",
+             why ? why : "not found");
     return;
   }
   void* symbol = dlsym(library, PL_PLUGIN_SYMBOL);
@@ -71,8 +75,10 @@ bool pl_jit_available(const char** why) {
   return plugin != NULL;
 }
 
-// ---------------------------------------------------------------------------------------------- compiling
-struct pl_jit_code { void* loaded; };
+// --------------------------------------------------------------------------------------- compiling
+struct pl_jit_code {
+  void* loaded;
+};
 
 uint64_t pl_jit_key(const pl_prog* const* progs, int n) {
   const char* text = plugin->describe();
@@ -82,7 +88,8 @@ uint64_t pl_jit_key(const pl_prog* const* progs, int n) {
   return h;
 }
 
-static void* load(const unsigned char* object, size_t size, const pl_prog* const* progs, int n, pl_prog_run** run) {
+static void* load(const unsigned char* object, size_t size, const pl_prog* const* progs, int n,
+                  pl_prog_run** run) {
   return plugin->load(object, size, progs, n, run, trouble, sizeof trouble);
 }
 
@@ -96,7 +103,8 @@ static void* compile(const pl_prog* const* progs, int n, pl_prog_run** run, uint
   return loaded;
 }
 
-pl_jit_code* pl_jit_compile(pl_arena* a, const pl_prog* const* progs, int n, pl_prog_run** run, pl_jit_story* story) {
+pl_jit_code* pl_jit_compile(pl_arena* a, const pl_prog* const* progs, int n, pl_prog_run** run,
+                            pl_jit_story* story) {
   pl_jit_story none;
   if (!story) story = &none;
   *story = (pl_jit_story){0};

@@ -1,5 +1,6 @@
-// Programs: the lowered recurrences agree with the series of jet/, and what is compiled has the bits of what is
-// interpreted.  Without the plugin, or on a machine that cannot load it, the compiled half is skipped.
+// Programs: the lowered recurrences agree with the series of jet/, and what is compiled has the
+// bits of what is interpreted. Without the plugin, or on a machine that cannot load it, the
+// compiled half is skipped.
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -20,20 +21,27 @@ typedef struct t_tape {
   pl_tape tape;
   pl_tape_node node[MOST_NODES];
   int lanes, base_sum, size;
-  bool means;                  // weighted sums come divided by the order
-  int scale;                   // streams of 1/k and of what its rounding left
+  bool means;  // weighted sums come divided by the order
+  int scale;   // streams of 1/k and of what its rounding left
   pl_prog *value, *order;
   int start[MOST_NODES], now[MOST_NODES];
 } t_tape;
 
-// ---------------------------------------------------------------------------------------------- random tapes
+// ------------------------------------------------------------------------------------ random tapes
 static int add(t_tape* t, pl_op op, int a, int b, int c) {
   bool constant = (op == PL_OP_CONST || op == PL_OP_PARAM || op == PL_OP_INDEX);
-  t->node[t->tape.n_nodes] = (pl_tape_node){.op = (uint8_t)op, .level = constant ? PL_LEVEL_CONST : PL_LEVEL_PLACE, .high = true, .a = a, .b = b, .c = c};
+  t->node[t->tape.n_nodes] = (pl_tape_node){.op = (uint8_t)op,
+                                            .level = constant ? PL_LEVEL_CONST : PL_LEVEL_PLACE,
+                                            .high = true,
+                                            .a = a,
+                                            .b = b,
+                                            .c = c};
   return t->tape.n_nodes++;
 }
 
-static int any(pl_random* r, int from, int to) { return from + (int)(pl_random_bits(r) % (uint64_t)(to - from)); }
+static int any(pl_random* r, int from, int to) {
+  return from + (int)(pl_random_bits(r) % (uint64_t)(to - from));
+}
 
 // The partner that the recurrence of a function reads.
 static int add_function(t_tape* t, pl_op op, int a, int b) {
@@ -43,7 +51,10 @@ static int add_function(t_tape* t, pl_op op, int a, int b) {
     case PL_OP_COS:
     case PL_OP_SINH:
     case PL_OP_COSH: {
-      pl_op other = op == PL_OP_SIN ? PL_OP_COS : op == PL_OP_COS ? PL_OP_SIN : op == PL_OP_SINH ? PL_OP_COSH : PL_OP_SINH;
+      pl_op other = op == PL_OP_SIN    ? PL_OP_COS
+                    : op == PL_OP_COS  ? PL_OP_SIN
+                    : op == PL_OP_SINH ? PL_OP_COSH
+                                       : PL_OP_SINH;
       self = add(t, op, a, -1, -1);
       t->node[self].c = add(t, other, a, -1, self);
       return self;
@@ -54,39 +65,50 @@ static int add_function(t_tape* t, pl_op op, int a, int b) {
       t->node[self].c = add(t, PL_OP_SQR, self, -1, -1);
       return self;
     case PL_OP_ASIN:
-    case PL_OP_ACOS: return add(t, op, a, -1, add(t, PL_OP_SQRT, add(t, PL_OP_SUB, one, add(t, PL_OP_SQR, a, -1, -1), -1), -1, -1));
-    case PL_OP_ATAN: return add(t, op, a, -1, add(t, PL_OP_ADD, one, add(t, PL_OP_SQR, a, -1, -1), -1));
+    case PL_OP_ACOS:
+      return add(
+          t, op, a, -1,
+          add(t, PL_OP_SQRT, add(t, PL_OP_SUB, one, add(t, PL_OP_SQR, a, -1, -1), -1), -1, -1));
+    case PL_OP_ATAN:
+      return add(t, op, a, -1, add(t, PL_OP_ADD, one, add(t, PL_OP_SQR, a, -1, -1), -1));
     case PL_OP_ATAN2:
-      return add(t, op, a, b, add(t, PL_OP_ADD, add(t, PL_OP_SQR, a, -1, -1), add(t, PL_OP_SQR, b, -1, -1), -1));
+      return add(t, op, a, b,
+                 add(t, PL_OP_ADD, add(t, PL_OP_SQR, a, -1, -1), add(t, PL_OP_SQR, b, -1, -1), -1));
     default: return add(t, op, a, b, -1);
   }
 }
 
-// All operations of tape.def, each at least once, in random order; numbers that overflow or leave a domain are welcome.
+// All operations of tape.def, each at least once, in random order; numbers that overflow or leave a
+// domain are welcome.
 static void random_tape(t_tape* t, pl_random* r) {
   add(t, PL_OP_CONST, -1, -1, -1);
   t->node[0].value = 1;
-  for (int i = 1; i < 4; i++) t->node[add(t, PL_OP_CONST, -1, -1, -1)].value = pl_random_between(r, -2, 2);
+  for (int i = 1; i < 4; i++)
+    t->node[add(t, PL_OP_CONST, -1, -1, -1)].value = pl_random_between(r, -2, 2);
   int n_const = t->tape.n_nodes;
   t->tape.level_end[PL_LEVEL_CONST] = n_const;
   for (int s = 0; s < 4; s++) t->node[add(t, PL_OP_Q, -1, -1, -1)].slot = s;
   add(t, PL_OP_TIME, -1, -1, -1);
   for (int op = PL_OP_ADD; op < PL_N_OPS; op++) {
     for (int times = any(r, 1, 3); times > 0 && t->tape.n_nodes < MOST_NODES - 12; times--) {
-      int n = t->tape.n_nodes, a = any(r, n_const, n), b = any(r, pl_random_bits(r) % 4 ? n_const : 0, n);
+      int n = t->tape.n_nodes, a = any(r, n_const, n),
+          b = any(r, pl_random_bits(r) % 4 ? n_const : 0, n);
       if (op == PL_OP_SCALE || op == PL_OP_RSCALE || op == PL_OP_POW) b = any(r, 0, n_const);
       if (op == PL_OP_IF) add(t, (pl_op)op, a, b, any(r, n_const, n));
       else add_function(t, (pl_op)op, a, pl_op_reads[op] > 1 ? b : -1);
     }
   }
   t->tape.nodes = t->node;
-  for (int level = PL_LEVEL_PLACE; level < PL_N_LEVELS; level++) t->tape.level_end[level] = t->tape.n_nodes;
+  for (int level = PL_LEVEL_PLACE; level < PL_N_LEVELS; level++)
+    t->tape.level_end[level] = t->tape.n_nodes;
 }
 
-// ---------------------------------------------------------------------------------------------- as programs
+// ------------------------------------------------------------------------------------- as programs
 // Memory: coefficient k of a node at (node ORDERS + k) lanes, then three sums a node.
 static int place(const t_tape* t, int node) { return node * ORDERS * t->lanes; }
-static int sum_place(const t_tape* t, int node, int i) { return t->base_sum + (node * 3 + i) * t->lanes; }
+static int sum_place(const t_tape* t, int node, int i) {
+  return t->base_sum + (node * 3 + i) * t->lanes;
+}
 static bool constant(const t_tape* t, int node) { return node < t->tape.level_end[PL_LEVEL_CONST]; }
 
 static int start_of(void* user, int node) {
@@ -102,7 +124,9 @@ static int sum_of(void* user, int node, int i) {
   t_tape* t = user;
   pl_lower_sum s[3];
   pl_lower_sums(&t->tape, node, s);
-  return constant(t, s[i].a) || constant(t, s[i].b) ? -1 : pl_prog_load(t->order, sum_place(t, node, i), 0);
+  return constant(t, s[i].a) || constant(t, s[i].b)
+             ? -1
+             : pl_prog_load(t->order, sum_place(t, node, i), 0);
 }
 
 static void write_sums(t_tape* t) {
@@ -113,7 +137,8 @@ static void write_sums(t_tape* t) {
     for (int j = 0; j < n; j++) {
       if (constant(t, s[j].a) || constant(t, s[j].b)) continue;
       pl_prog_sum_begin(t->order, sum_place(t, i, j), s[j].weighted);
-      if (t->means && s[j].weighted) pl_prog_sum_scale(t->order, t->scale, t->scale + ORDERS * t->lanes);
+      if (t->means && s[j].weighted)
+        pl_prog_sum_scale(t->order, t->scale, t->scale + ORDERS * t->lanes);
       pl_prog_sum_pair(t->order, place(t, s[j].a), place(t, s[j].b));
     }
   }
@@ -122,7 +147,13 @@ static void write_sums(t_tape* t) {
 static void write_programs(t_tape* t) {
   t->value = pl_prog_make(t->arena, "value", t->lanes);
   t->order = pl_prog_make(t->arena, "order", t->lanes);
-  pl_lower low = {.code = t->value, .tape = &t->tape, .user = t, .start = start_of, .now = now_of, .sum = sum_of, .means = t->means};
+  pl_lower low = {.code = t->value,
+                  .tape = &t->tape,
+                  .user = t,
+                  .start = start_of,
+                  .now = now_of,
+                  .sum = sum_of,
+                  .means = t->means};
   for (int i = 0; i < t->tape.n_nodes; i++) t->start[i] = -2;
   for (int i = t->tape.level_end[PL_LEVEL_CONST]; i < t->tape.n_nodes; i++) {
     int x = pl_lower_value(&low, i);
@@ -174,7 +205,7 @@ static double* memory_of(t_tape* t, pl_random* r) {
   return m;
 }
 
-// ---------------------------------------------------------------------------------------------- tests
+// ------------------------------------------------------------------------------------------- tests
 static uint64_t seed_of(const char* name) {
   const char* given = getenv("PL_SEED");
   uint64_t seed = given ? strtoull(given, NULL, 10) : 20261121;
@@ -196,7 +227,8 @@ static void lowered_recurrences_agree_with_the_series(void** state) {
     for (int k = 0; k < ORDERS; k++) j->kernel(j, PL_LEVEL_PLACE, k, true);
     pl_prog_interpret(t->value, m, 0, 1);
     pl_prog_interpret(t->order, m, 1, ORDERS);
-    // rounding grows along a series and with what a node stands on: low orders of tame nodes tell a wrong recurrence
+    // rounding grows along a series and with what a node stands on: low orders of tame nodes tell a
+    // wrong recurrence
     double scale[MOST_NODES] = {0};
     for (int i = t->tape.level_end[PL_LEVEL_CONST]; i < t->tape.n_nodes; i++) {
       const int operand[] = {t->node[i].a, t->node[i].b, t->node[i].c};
@@ -207,7 +239,9 @@ static void lowered_recurrences_agree_with_the_series(void** state) {
         if (!(fabs(x) <= scale[i])) scale[i] = fabs(x);
         if (!(scale[i] < 1e3)) continue;
         compared++;
-        if (!(fabs(x - y) <= 1e-9 * fmax(1, scale[i]))) print_message("# node %d %s order %d: %.17g and %.17g\n", i, pl_op_name[t->node[i].op], k, x, y);
+        if (!(fabs(x - y) <= 1e-9 * fmax(1, scale[i])))
+          print_message("# node %d %s order %d: %.17g and %.17g\n", i, pl_op_name[t->node[i].op], k,
+                        x, y);
         assert_true(fabs(x - y) <= 1e-9 * fmax(1, scale[i]));
       }
     }
@@ -217,7 +251,9 @@ static void lowered_recurrences_agree_with_the_series(void** state) {
   assert_true(compared > 500);
 }
 
-static bool same_bits(double a, double b) { return memcmp(&a, &b, sizeof a) == 0 || (isnan(a) && isnan(b)); }
+static bool same_bits(double a, double b) {
+  return memcmp(&a, &b, sizeof a) == 0 || (isnan(a) && isnan(b));
+}
 
 static void compile_and_compare(pl_random* r, int lanes, bool means) {
   t_tape* t = make(r, lanes, means);
@@ -233,8 +269,8 @@ static void compile_and_compare(pl_random* r, int lanes, bool means) {
   run[1](n, 1, ORDERS);
   for (int i = 0; i < t->base_sum; i++) {
     if (!same_bits(m[i], n[i]))
-      print_message("# lanes %d node %s order %d: %a and %a\n", lanes, pl_op_name[t->node[i / (ORDERS * lanes)].op],
-                    i / lanes % ORDERS, m[i], n[i]);
+      print_message("# lanes %d node %s order %d: %a and %a\n", lanes,
+                    pl_op_name[t->node[i / (ORDERS * lanes)].op], i / lanes % ORDERS, m[i], n[i]);
     assert_true(same_bits(m[i], n[i]));
   }
   pl_jit_free(code);
@@ -268,7 +304,8 @@ static void products_and_rows_of_sums_have_the_same_bits(void** state) {
   for (int i = 0; i < 11; i++) {
     pl_prog_sum_begin(p, 512 + 8 * i, i == 5);
     if (i % 4 == 2) pl_prog_sum_scale(p, 3200 + 8 * i, 3400 + 8 * i);
-    for (int q = 0; q <= i % 5; q++) pl_prog_sum_pair(p, 1024 + 64 * (i + q), 2048 + 64 * (i + 2 * q));
+    for (int q = 0; q <= i % 5; q++)
+      pl_prog_sum_pair(p, 1024 + 64 * (i + q), 2048 + 64 * (i + 2 * q));
   }
   p->spill = 4000;
   double *m = PL_ARRAY(a, double, SIZE), *n = PL_ARRAY(a, double, SIZE);
@@ -284,9 +321,22 @@ static void products_and_rows_of_sums_have_the_same_bits(void** state) {
   pl_arena_free(a);
 }
 
-// A series of six numbers: sums over two streams, of which the second holds what the order before has found, and a product.
+// A series of six numbers: sums over two streams, of which the second holds what the order before
+// has found, and a product.
 static pl_prog* write_series(pl_arena* a, int orders) {
-  enum { N = 6, A = 0, B = 128, C = 256, SCALE = 384, REST = 512, TO = 640, MATRIX = 704, X = 800, Y = 816, OUT = 832 };
+  enum {
+    N = 6,
+    A = 0,
+    B = 128,
+    C = 256,
+    SCALE = 384,
+    REST = 512,
+    TO = 640,
+    MATRIX = 704,
+    X = 800,
+    Y = 816,
+    OUT = 832
+  };
   pl_prog* p = pl_prog_make(a, "series", 1);
   pl_prog_block_begin(p, 8, 1);
   for (int s = 0; s < 3; s++) {
@@ -295,8 +345,10 @@ static pl_prog* write_series(pl_arena* a, int orders) {
     if (s == 1) pl_prog_sum_scale(p, SCALE, REST);
   }
   for (int i = 0; i < N; i++) {
-    int x = pl_prog_op2(p, PL_PROG_ADD, pl_prog_load(p, TO + i, 0), pl_prog_load(p, TO + 8 + i % 3, 0));
-    x = pl_prog_op3(p, PL_PROG_FMA, pl_prog_load(p, OUT + (i + 1) % N, N), pl_prog_load(p, SCALE, 8), x);
+    int x = pl_prog_op2(p, PL_PROG_ADD, pl_prog_load(p, TO + i, 0),
+                        pl_prog_load(p, TO + 8 + i % 3, 0));
+    x = pl_prog_op3(p, PL_PROG_FMA, pl_prog_load(p, OUT + (i + 1) % N, N),
+                    pl_prog_load(p, SCALE, 8), x);
     pl_prog_store(p, x, X + i, 0);
     pl_prog_store(p, x, A + 8 + i, 8);
     if (i < 3) pl_prog_store(p, x, C + 8 + i, 8);
@@ -305,7 +357,8 @@ static pl_prog* write_series(pl_arena* a, int orders) {
   for (int i = 0; i < N; i++) {
     int y = pl_prog_op2(p, PL_PROG_SUB, pl_prog_load(p, Y + i, 0), pl_prog_load(p, TO + 16 + i, 0));
     pl_prog_store(p, y, OUT + N + i, N);
-    if (i != 4) pl_prog_store(p, y, B + (i == 2 ? 0 : 8) + i, 8);   // one lane is written an order later
+    // one lane is written an order later
+    if (i != 4) pl_prog_store(p, y, B + (i == 2 ? 0 : 8) + i, 8);
   }
   p->spill = OUT + N * (orders + 2);
   return p;
@@ -320,9 +373,10 @@ static void orders_written_out_have_the_same_bits(void** state) {
   pl_prog* p = write_series(a, ORDERS_HERE);
   double *m = PL_ARRAY(a, double, SIZE), *n = PL_ARRAY(a, double, SIZE);
   for (int i = 384; i < SIZE; i++) m[i] = pl_random_between(&r, -1, 1);
-  for (int i = 0; i < 16; i++)   // the first rows of what is written
+  for (int i = 0; i < 16; i++)  // the first rows of what is written
     for (int s = 0; s < 3; s++)
-      if (i % 8 < (s == 2 ? 3 : 6) && !(s == 1 && i % 8 == 4)) m[128 * s + i] = pl_random_between(&r, -1, 1);
+      if (i % 8 < (s == 2 ? 3 : 6) && !(s == 1 && i % 8 == 4))
+        m[128 * s + i] = pl_random_between(&r, -1, 1);
   memcpy(n, m, SIZE * sizeof *m);
   pl_prog_interpret(p, m, 1, ORDERS_HERE);
   p->first_order = 1;
@@ -339,10 +393,13 @@ static void orders_written_out_have_the_same_bits(void** state) {
   pl_arena_free(a);
 }
 
-// ---------------------------------------------------------------------------------------------- the store
+// --------------------------------------------------------------------------------------- the store
 static void damage(const char* folder) {
   char command[512];
-  snprintf(command, sizeof command, "for f in %s/pleuel/*.o; do printf x | dd of=$f bs=1 seek=200 conv=notrunc 2>/dev/null; done", folder);
+  snprintf(
+      command, sizeof command,
+      "for f in %s/pleuel/*.o; do printf x | dd of=$f bs=1 seek=200 conv=notrunc 2>/dev/null; done",
+      folder);
   assert_int_equal(system(command), 0);
 }
 

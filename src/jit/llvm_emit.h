@@ -6,7 +6,8 @@
 
 #include "jit/plugin.h"
 
-// Adds a function `void name(double* memory, int from, int to)` to the module, with the functions that it is cut into.
+// Adds a function `void name(double* memory, int from, int to)` to the module, with the functions
+// that it is cut into.
 void pl_llvm_emit(LLVMContextRef context, LLVMModuleRef module, const pl_prog* prog);
 
 #endif

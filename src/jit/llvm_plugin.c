@@ -1,4 +1,5 @@
-// The compiler plugin: programs to object files with LLVM, object files to callable functions.  C API of LLVM 14 to 19.
+// The compiler plugin: programs to object files with LLVM, object files to callable functions. C
+// API of LLVM 14 to 19.
 #include <llvm-c/Analysis.h>
 #include <llvm-c/Core.h>
 #include <llvm-c/Error.h>
@@ -25,7 +26,7 @@ static bool failed(LLVMErrorRef error, char* message, size_t room, const char* w
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- target
+// ------------------------------------------------------------------------------------------ target
 static void initialise(void) {
   static bool done = false;
   if (done) return;
@@ -36,14 +37,16 @@ static void initialise(void) {
 
 static LLVMTargetMachineRef make_machine(char* message, size_t room) {
   initialise();
-  char *triple = LLVMGetDefaultTargetTriple(), *cpu = LLVMGetHostCPUName(), *features = LLVMGetHostCPUFeatures(), *why = NULL;
+  char *triple = LLVMGetDefaultTargetTriple(), *cpu = LLVMGetHostCPUName(),
+       *features = LLVMGetHostCPUFeatures(), *why = NULL;
   LLVMTargetRef target;
   LLVMTargetMachineRef machine = NULL;
   if (LLVMGetTargetFromTriple(triple, &target, &why)) {
     tell(message, room, triple, why);
     LLVMDisposeMessage(why);
   } else {
-    machine = LLVMCreateTargetMachine(target, triple, cpu, features, LLVMCodeGenLevelLess, LLVMRelocPIC, LLVMCodeModelDefault);
+    machine = LLVMCreateTargetMachine(target, triple, cpu, features, LLVMCodeGenLevelLess,
+                                      LLVMRelocPIC, LLVMCodeModelDefault);
     if (!machine) tell(message, room, triple, "no machine");
   }
   LLVMDisposeMessage(triple);
@@ -63,13 +66,14 @@ static const char* describe(void) {
   return text;
 }
 
-// ---------------------------------------------------------------------------------------------- compiling
-static bool write_object(LLVMModuleRef module, LLVMTargetMachineRef machine, unsigned char** object, size_t* size, char* message,
-                         size_t room) {
+// --------------------------------------------------------------------------------------- compiling
+static bool write_object(LLVMModuleRef module, LLVMTargetMachineRef machine, unsigned char** object,
+                         size_t* size, char* message, size_t room) {
   char* why = NULL;
   LLVMMemoryBufferRef buffer = NULL;
   LLVMPassBuilderOptionsRef options = LLVMCreatePassBuilderOptions();
-  bool bad = failed(LLVMRunPasses(module, "always-inline,function(early-cse)", machine, options), message, room, "early-cse");
+  bool bad = failed(LLVMRunPasses(module, "always-inline,function(early-cse)", machine, options),
+                    message, room, "early-cse");
   LLVMDisposePassBuilderOptions(options);
   if (bad) return false;
   if (LLVMTargetMachineEmitToMemoryBuffer(machine, module, LLVMObjectFile, &why, &buffer)) {
@@ -85,7 +89,8 @@ static bool write_object(LLVMModuleRef module, LLVMTargetMachineRef machine, uns
   return *object != NULL;
 }
 
-static bool compile(const pl_prog* const* progs, int n, unsigned char** object, size_t* size, char* message, size_t room) {
+static bool compile(const pl_prog* const* progs, int n, unsigned char** object, size_t* size,
+                    char* message, size_t room) {
   LLVMTargetMachineRef machine = make_machine(message, room);
   if (!machine) return false;
   LLVMContextRef context = LLVMContextCreate();
@@ -109,23 +114,26 @@ static bool compile(const pl_prog* const* progs, int n, unsigned char** object, 
 
 static void release(unsigned char* object) { free(object); }
 
-// ---------------------------------------------------------------------------------------------- loading
-static bool link_object(LLVMOrcLLJITRef jit, const unsigned char* object, size_t size, char* message, size_t room) {
+// ----------------------------------------------------------------------------------------- loading
+static bool link_object(LLVMOrcLLJITRef jit, const unsigned char* object, size_t size,
+                        char* message, size_t room) {
   LLVMOrcJITDylibRef library = LLVMOrcLLJITGetMainJITDylib(jit);
   LLVMOrcDefinitionGeneratorRef process = NULL;
-  LLVMErrorRef error =
-      LLVMOrcCreateDynamicLibrarySearchGeneratorForProcess(&process, LLVMOrcLLJITGetGlobalPrefix(jit), NULL, NULL);
+  LLVMErrorRef error = LLVMOrcCreateDynamicLibrarySearchGeneratorForProcess(
+      &process, LLVMOrcLLJITGetGlobalPrefix(jit), NULL, NULL);
   if (failed(error, message, room, "symbols")) return false;
   LLVMOrcJITDylibAddGenerator(library, process);
-  LLVMMemoryBufferRef buffer = LLVMCreateMemoryBufferWithMemoryRangeCopy((const char*)object, size, "pleuel");
+  LLVMMemoryBufferRef buffer = LLVMCreateMemoryBufferWithMemoryRangeCopy((const char*)object, size,
+                                                                         "pleuel");
   return !failed(LLVMOrcLLJITAddObjectFile(jit, library, buffer), message, room, "object");
 }
 
-static void* load(const unsigned char* object, size_t size, const pl_prog* const* progs, int n, pl_prog_run** run, char* message,
-                  size_t room) {
+static void* load(const unsigned char* object, size_t size, const pl_prog* const* progs, int n,
+                  pl_prog_run** run, char* message, size_t room) {
   initialise();
   LLVMOrcLLJITRef jit = NULL;
-  if (failed(LLVMOrcCreateLLJIT(&jit, LLVMOrcCreateLLJITBuilder()), message, room, "loader")) return NULL;
+  if (failed(LLVMOrcCreateLLJIT(&jit, LLVMOrcCreateLLJITBuilder()), message, room, "loader"))
+    return NULL;
   bool fine = link_object(jit, object, size, message, room);
   for (int i = 0; fine && i < n; i++) {
     LLVMOrcExecutorAddress address = 0;
@@ -143,7 +151,7 @@ static void unload(void* loaded) {
   if (error) LLVMConsumeError(error);
 }
 
-// ---------------------------------------------------------------------------------------------- what the library sees
+// --------------------------------------------------------------------------- what the library sees
 const pl_plugin* pl_jit_plugin_3(void);
 __attribute__((visibility("default"))) const pl_plugin* pl_jit_plugin_3(void) {
   static const pl_plugin plugin = {PL_PLUGIN_VERSION, describe, compile, release, load, unload};

@@ -1,4 +1,5 @@
-// Writing a code: instructions are appended, registers counted, numbers that stand in it already used again.
+// Writing a code: instructions are appended, registers counted, numbers that stand in it already
+// used again.
 #include <string.h>
 
 #include "jit/jit.h"
@@ -34,7 +35,7 @@ static pl_prog_line plain(pl_prog_op op) {
   return (pl_prog_line){.op = (uint8_t)op, .a = -1, .b = -1, .c = -1, .e = -1};
 }
 
-// ---------------------------------------------------------------------------------------------- memory
+// ------------------------------------------------------------------------------------------ memory
 static int access(pl_prog* c, pl_prog_op op, int a, int at, int by) {
   pl_prog_line line = plain(op);
   line.a = a;
@@ -50,13 +51,14 @@ int pl_prog_order(pl_prog* c, int add) { return access(c, PL_PROG_ORDER, -1, add
 
 int pl_prog_number(pl_prog* c, double x) {
   for (int i = c->lines.n - 1; i >= 0 && i > c->lines.n - 64; i--)
-    if (c->lines.at[i].op == PL_PROG_NUMBER && memcmp(&c->lines.at[i].value, &x, sizeof x) == 0) return c->lines.at[i].d;
+    if (c->lines.at[i].op == PL_PROG_NUMBER && memcmp(&c->lines.at[i].value, &x, sizeof x) == 0)
+      return c->lines.at[i].d;
   pl_prog_line line = plain(PL_PROG_NUMBER);
   line.value = x;
   return append(c, line);
 }
 
-// ---------------------------------------------------------------------------------------------- arithmetic
+// -------------------------------------------------------------------------------------- arithmetic
 static int operate(pl_prog* c, pl_prog_op op, int a, int b, int third, int fourth) {
   pl_prog_line line = plain(op);
   line.a = a;
@@ -68,8 +70,12 @@ static int operate(pl_prog* c, pl_prog_op op, int a, int b, int third, int fourt
 
 int pl_prog_op1(pl_prog* c, pl_prog_op op, int a) { return operate(c, op, a, -1, -1, -1); }
 int pl_prog_op2(pl_prog* c, pl_prog_op op, int a, int b) { return operate(c, op, a, b, -1, -1); }
-int pl_prog_op3(pl_prog* c, pl_prog_op op, int x, int y, int z) { return operate(c, op, x, y, z, -1); }
-int pl_prog_if_le(pl_prog* c, int a, int b, int yes, int no) { return operate(c, PL_PROG_IF_LE, a, b, yes, no); }
+int pl_prog_op3(pl_prog* c, pl_prog_op op, int x, int y, int z) {
+  return operate(c, op, x, y, z, -1);
+}
+int pl_prog_if_le(pl_prog* c, int a, int b, int yes, int no) {
+  return operate(c, PL_PROG_IF_LE, a, b, yes, no);
+}
 
 int pl_prog_call1(pl_prog* c, pl_prog_function f, int a) {
   int d = operate(c, PL_PROG_CALL1, a, -1, -1, -1);
@@ -83,14 +89,16 @@ int pl_prog_call2(pl_prog* c, pl_prog_function f, int a, int b) {
   return d;
 }
 
-// ---------------------------------------------------------------------------------------------- sums, products
+// ---------------------------------------------------------------------------------- sums, products
 void pl_prog_block_begin(pl_prog* c, int width, int shift) {
   pl_push(c->arena, c->blocks, (pl_prog_block){width, shift, c->sums.n, 0});
   access(c, PL_PROG_SUMS, -1, c->blocks.n - 1, 0);
 }
 
 void pl_prog_sum_begin(pl_prog* c, int to, bool weighted) {
-  pl_push(c->arena, c->sums, (pl_prog_sum){.to = to, .first = c->pairs.n, .weighted = weighted, .scale = -1, .rest = -1});
+  pl_push(
+      c->arena, c->sums,
+      (pl_prog_sum){.to = to, .first = c->pairs.n, .weighted = weighted, .scale = -1, .rest = -1});
   c->blocks.at[c->blocks.n - 1].n++;
 }
 
@@ -111,8 +119,10 @@ void pl_prog_product_add(pl_prog* c, int to, int matrix, int vector, int n, int 
   access(c, PL_PROG_PRODUCT, -1, c->products.n - 1, 0);
 }
 
-// ---------------------------------------------------------------------------------------------- content
-#define HASH_LIST(list) h = pl_hash_mix(pl_hash_bytes((list).at, (size_t)(list).n * sizeof *(list).at, h), (uint64_t)(list).n)
+// ----------------------------------------------------------------------------------------- content
+#define HASH_LIST(list)                                                              \
+  h = pl_hash_mix(pl_hash_bytes((list).at, (size_t)(list).n * sizeof *(list).at, h), \
+                  (uint64_t)(list).n)
 
 static uint64_t hash_line(const pl_prog_line* l, uint64_t h) {
   uint64_t value;
@@ -137,7 +147,8 @@ uint64_t pl_prog_hash(const pl_prog* c, uint64_t seed) {
 }
 
 void pl_prog_dump(pl_text* out, const pl_prog* c) {
-  pl_text_addf(out, "%s: width %d, %d registers, %d pairs\n", c->name, c->width, c->n_registers, c->pairs.n);
+  pl_text_addf(out, "%s: width %d, %d registers, %d pairs\n", c->name, c->width, c->n_registers,
+               c->pairs.n);
   for (int i = 0; i < c->lines.n; i++) {
     const pl_prog_line* l = &c->lines.at[i];
     pl_text_addf(out, "  r%d = %s", l->d, pl_prog_op_name[l->op]);

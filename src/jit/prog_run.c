@@ -1,29 +1,30 @@
-// The interpreter of codes.  This file is compiled twice where the compiler can: for processors with a fused
-// multiply-add instruction, and for those without, where the C library computes the same bits more slowly.
+// The interpreter of codes. This file is compiled twice where the compiler can: for processors with
+// a fused multiply-add instruction, and for those without, where the C library computes the same
+// bits more slowly.
 #include <math.h>
 
 #include "jit/jit.h"
 
 #ifndef PL_INTERPRET
-#define PL_INTERPRET pl_prog_interpret_plain
+#  define PL_INTERPRET pl_prog_interpret_plain
 #endif
 void PL_INTERPRET(const pl_prog* c, double* memory, int from, int to);
 
 #define INLINE static inline __attribute__((always_inline))
-#define LANES for (int l = 0; l < width; l++)
+#define LANES  for (int l = 0; l < width; l++)
 
-// ---------------------------------------------------------------------------------------------- sums
-INLINE void add_row(double* s, const double* a, const double* b, int ja, int jb, bool weighted, int width) {
+// -------------------------------------------------------------------------------------------- sums
+INLINE void add_row(double* s, const double* a, const double* b, int ja, int jb, bool weighted,
+                    int width) {
   a += ja * width;
   b += jb * width;
-  if (weighted)
-    LANES s[l] = __builtin_fma((double)ja * a[l], b[l], s[l]);
-  else
-    LANES s[l] = __builtin_fma(a[l], b[l], s[l]);
+  if (weighted) LANES s[l] = __builtin_fma((double)ja * a[l], b[l], s[l]);
+  else LANES s[l] = __builtin_fma(a[l], b[l], s[l]);
 }
 
 // Rows i and K - i of a pair, to their two parts.
-INLINE void add_rows(double part[2][8], const double* a, const double* b, int j, int K, bool weighted, int width) {
+INLINE void add_rows(double part[2][8], const double* a, const double* b, int j, int K,
+                     bool weighted, int width) {
   add_row(part[0], a, b, j, K - j, weighted, width);
   if (2 * j != K) add_row(part[1], a, b, K - j, j, weighted, width);
 }
@@ -34,12 +35,14 @@ INLINE void sum(const pl_prog* c, const pl_prog_sum* x, double* m, int K, int wi
   for (int j = K / 2; j >= 1; j--)
     for (int p = 0; p < x->n; p += 2) {
       add_rows(part, m + pairs[p].a, m + pairs[p].b, j, K, x->weighted, width);
-      if (p + 1 < x->n) add_rows(part + 2, m + pairs[p + 1].a, m + pairs[p + 1].b, j, K, x->weighted, width);
+      if (p + 1 < x->n)
+        add_rows(part + 2, m + pairs[p + 1].a, m + pairs[p + 1].b, j, K, x->weighted, width);
     }
   LANES {
     double s = part[0][l] + part[1][l];
     if (x->n > 1) s += part[2][l] + part[3][l];
-    if (x->scale >= 0) s = __builtin_fma(s, m[x->rest + K * width + l], s * m[x->scale + K * width + l]);
+    if (x->scale >= 0)
+      s = __builtin_fma(s, m[x->rest + K * width + l], s * m[x->scale + K * width + l]);
     m[x->to + l] = s;
   }
 }
@@ -69,11 +72,12 @@ static void product(const pl_prog_product* p, double* m) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- functions
+// --------------------------------------------------------------------------------------- functions
 static double call1(int fn, double x) {
   switch (fn) {
 #define CASE_1(name) \
-  case PL_FN_##name: return name(x);
+  case PL_FN_##name: \
+    return name(x);
 #define CASE_2(name)
 #define CASE(name, reads) CASE_##reads(name)
     PL_PROG_FUNCTIONS(CASE)
@@ -93,13 +97,14 @@ static double call2(int fn, double x, double y) {
   return (double)NAN;
 }
 
-// ---------------------------------------------------------------------------------------------- lines
+// ------------------------------------------------------------------------------------------- lines
 INLINE void run(const pl_prog* code, double* m, int k, int width) {
   double* r = m + code->spill;
   for (int i = 0; i < code->lines.n; i++) {
     const pl_prog_line* x = &code->lines.at[i];
     double* d = r + x->d * width;
-    const double *a = r + x->a * width, *b = r + x->b * width, *c = r + x->c * width, *e = r + x->e * width;
+    const double *a = r + x->a * width, *b = r + x->b * width, *c = r + x->c * width,
+                 *e = r + x->e * width;
     double* at = m + x->at + (long)x->by * k;
     switch ((pl_prog_op)x->op) {
       case PL_PROG_LOAD: LANES d[l] = at[l]; break;

@@ -15,9 +15,10 @@ extern const pl_real pl_real_of_pair_fused;
 
 const pl_real* pl_real_pair(void) {
 #if defined(PL_QUAD) && PL_QUAD != 3
-#ifdef PL_FUSED
-  if (__builtin_cpu_supports("fma") && __builtin_cpu_supports("avx2")) return &pl_real_of_pair_fused;
-#endif
+#  ifdef PL_FUSED
+  if (__builtin_cpu_supports("fma") && __builtin_cpu_supports("avx2"))
+    return &pl_real_of_pair_fused;
+#  endif
   return &pl_real_of_pair_plain;
 #else
   return NULL;

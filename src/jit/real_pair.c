@@ -1,7 +1,9 @@
-// Programs on numbers that are a sum of two doubles, 106 bits: several times faster than 128-bit numbers in software, where the
-// processor has fused multiply-add; it is compiled a second time for those that have not, with the same bits.
+// Programs on numbers that are a sum of two doubles, 106 bits: several times faster than 128-bit
+// numbers in software, where the processor has fused multiply-add; it is compiled a second time for
+// those that have not, with the same bits.
 //
-// Arithmetic after [Dekker1971] and [JoldesMullerPopescu2017]: errors below 2^-102 of the result.  Elementary functions are those of 128 bits.
+// Arithmetic after [Dekker1971] and [JoldesMullerPopescu2017]: errors below 2^-102 of the result.
+// Elementary functions are those of 128 bits.
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -9,11 +11,13 @@
 #include "jit/jit.h"
 #include "jit/real_quad_impl.h"
 
-typedef struct real { double h, l; } real;
+typedef struct real {
+  double h, l;
+} real;
 
 #define INLINE_PAIR static inline __attribute__((always_inline))
 
-// ---------------------------------------------------------------------------------------------- arithmetic
+// -------------------------------------------------------------------------------------- arithmetic
 // a + b, |a| >= |b|
 INLINE_PAIR real quick(double a, double b) {
   double s = a + b;
@@ -67,7 +71,7 @@ INLINE_PAIR bool is_more(real a, real b) { return a.h > b.h || (a.h == b.h && a.
 INLINE_PAIR bool is_at_most(real a, real b) { return a.h < b.h || (a.h == b.h && a.l <= b.l); }
 INLINE_PAIR real size(real a) { return a.h < 0 ? negative(a) : a; }
 
-// ---------------------------------------------------------------------------------------------- functions
+// --------------------------------------------------------------------------------------- functions
 static __float128 wide(real a) { return (__float128)a.h + a.l; }
 
 static real narrow(__float128 x) {
@@ -75,25 +79,27 @@ static real narrow(__float128 x) {
   return (real){h, isfinite(h) ? (double)(x - h) : 0};
 }
 
-#define PAIR_1(name) static real name##_pair(real x) { return narrow(QUAD(name)(wide(x))); }
-#define PAIR_2(name) static real name##_pair(real x, real y) { return narrow(QUAD(name)(wide(x), wide(y))); }
+#define PAIR_1(name) \
+  static real name##_pair(real x) { return narrow(QUAD(name)(wide(x))); }
+#define PAIR_2(name) \
+  static real name##_pair(real x, real y) { return narrow(QUAD(name)(wide(x), wide(y))); }
 #define PAIR(name, reads) PAIR_##reads(name)
 PL_PROG_FUNCTIONS(PAIR)
 static real sqrt_pair(real a) { return root(a); }
 static real fabs_pair(real a) { return size(a); }
 
 #define FUNCTION(name) name##_pair
-#define TO_REAL(x) of_double(x)
-#define ADD(a, b) add_pair(a, b)
-#define SUB(a, b) add_pair(a, negative(b))
-#define MUL(a, b) times(a, b)
-#define DIV(a, b) over(a, b)
-#define NEG(a) negative(a)
-#define MORE(a, b) is_more(a, b)
-#define AT_MOST(a, b) is_at_most(a, b)
+#define TO_REAL(x)     of_double(x)
+#define ADD(a, b)      add_pair(a, b)
+#define SUB(a, b)      add_pair(a, negative(b))
+#define MUL(a, b)      times(a, b)
+#define DIV(a, b)      over(a, b)
+#define NEG(a)         negative(a)
+#define MORE(a, b)     is_more(a, b)
+#define AT_MOST(a, b)  is_at_most(a, b)
 #include "jit/real_run_impl.h"
 
-// ---------------------------------------------------------------------------------------------- numbers in and out
+// ------------------------------------------------------------------------------ numbers in and out
 static void read_numbers(const void* memory, int at, int n, double* out) {
   const real* m = (const real*)memory + at;
   for (int i = 0; i < n; i++) out[i] = m[i].h;
@@ -109,7 +115,9 @@ static pl_parts get(const void* memory, int at) {
   return (pl_parts){{m->h, m->l}};
 }
 
-static void set(void* memory, int at, pl_parts x) { ((real*)memory)[at] = add_pair(of_double(x.part[0]), two_sum(x.part[1], x.part[2])); }
+static void set(void* memory, int at, pl_parts x) {
+  ((real*)memory)[at] = add_pair(of_double(x.part[0]), two_sum(x.part[1], x.part[2]));
+}
 
 static void move(void* memory, int to, int from, int n) {
   memmove((real*)memory + to, (real*)memory + from, (size_t)n * sizeof(real));
@@ -143,10 +151,20 @@ static int text(char out[PL_REAL_TEXT], const void* memory, int at, bool negated
 }
 
 #ifndef PL_REAL_PAIR
-#define PL_REAL_PAIR pl_real_of_pair_plain
+#  define PL_REAL_PAIR pl_real_of_pair_plain
 #endif
 extern const pl_real PL_REAL_PAIR;
-const pl_real PL_REAL_PAIR = {
-    .name = "pair", .size = sizeof(real), .bits = 106, .epsilon = 0x1p-104,
-    .interpret = interpret, .read = read_numbers, .write = write_numbers, .get = get, .set = set, .move = move, .add = add,
-    .round_to_long = round_numbers, .ratios = ratios, .text = text};
+const pl_real PL_REAL_PAIR = {.name = "pair",
+                              .size = sizeof(real),
+                              .bits = 106,
+                              .epsilon = 0x1p-104,
+                              .interpret = interpret,
+                              .read = read_numbers,
+                              .write = write_numbers,
+                              .get = get,
+                              .set = set,
+                              .move = move,
+                              .add = add,
+                              .round_to_long = round_numbers,
+                              .ratios = ratios,
+                              .text = text};

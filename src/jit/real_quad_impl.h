@@ -8,7 +8,7 @@
 
 #if PL_QUAD == 1
 // Of the C library.  Its headers show them only to some compilers, so they are declared here.
-#define QUAD(name) name##f128
+#  define QUAD(name) name##f128
 extern int strfromf128(char*, size_t, const char*, __float128);
 extern __float128 strtof128(const char*, char**);
 static inline int print(char* out, size_t n, int digits, __float128 x) {
@@ -18,16 +18,18 @@ static inline int print(char* out, size_t n, int digits, __float128 x) {
 }
 static inline __float128 parse(const char* text) { return strtof128(text, NULL); }
 #else
-#define QUAD(name) name##q
+#  define QUAD(name) name##q
 extern int quadmath_snprintf(char*, size_t, const char*, ...);
 extern __float128 strtoflt128(const char*, char**);
-static inline int print(char* out, size_t n, int digits, __float128 x) { return quadmath_snprintf(out, n, "%.*Qg", digits, x); }
+static inline int print(char* out, size_t n, int digits, __float128 x) {
+  return quadmath_snprintf(out, n, "%.*Qg", digits, x);
+}
 static inline __float128 parse(const char* text) { return strtoflt128(text, NULL); }
 #endif
-#define DECLARE(name) extern __float128 QUAD(name)(__float128);
-#define DECLARE_2(name) extern __float128 QUAD(name)(__float128, __float128);
-#define DECLARE_CASE_1(name) DECLARE(name)
-#define DECLARE_CASE_2(name) DECLARE_2(name)
+#define DECLARE(name)             extern __float128 QUAD(name)(__float128);
+#define DECLARE_2(name)           extern __float128 QUAD(name)(__float128, __float128);
+#define DECLARE_CASE_1(name)      DECLARE(name)
+#define DECLARE_CASE_2(name)      DECLARE_2(name)
 #define DECLARE_CASE(name, reads) DECLARE_CASE_##reads(name)
 PL_PROG_FUNCTIONS(DECLARE_CASE)
 DECLARE(sqrt)

@@ -1,5 +1,5 @@
-// Numbers wider than doubles: arithmetic of each type against that of 128 bits or against exact cases, parts, text, and programs that
-// give in every type what they give in doubles.
+// Numbers wider than doubles: arithmetic of each type against that of 128 bits or against exact
+// cases, parts, text, and programs that give in every type what they give in doubles.
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -14,10 +14,14 @@
 #include "jit/jit.h"
 
 enum { TYPES = 3 };
-static const pl_real* type_of(int i) { return i == 0 ? pl_real_long() : i == 1 ? pl_real_pair() : pl_real_quad(); }
+static const pl_real* type_of(int i) {
+  return i == 0 ? pl_real_long() : i == 1 ? pl_real_pair() : pl_real_quad();
+}
 
 // Room for some numbers of any type.
-typedef struct t_memory { _Alignas(16) char bytes[64 * 16]; } t_memory;
+typedef struct t_memory {
+  _Alignas(16) char bytes[64 * 16];
+} t_memory;
 
 static pl_parts random_parts(pl_random* r) {
   double x = ldexp(pl_random_between(r, 1, 2), (int)(pl_random_bits(r) % 40) - 20);
@@ -34,8 +38,9 @@ static double apart(pl_parts x, pl_parts y) {
 static pl_prog* operation(pl_arena* a, pl_prog_op op) {
   pl_prog* p = pl_prog_make(a, "one", 1);
   int x = pl_prog_load(p, 0, 0), y = pl_prog_load(p, 1, 0);
-  int z = op == PL_PROG_SQRT ? pl_prog_op1(p, op, pl_prog_op1(p, PL_PROG_ABS, x))
-          : op == PL_PROG_FMA ? pl_prog_op3(p, op, x, y, pl_prog_load(p, 2, 0)) : pl_prog_op2(p, op, x, y);
+  int z = op == PL_PROG_SQRT  ? pl_prog_op1(p, op, pl_prog_op1(p, PL_PROG_ABS, x))
+          : op == PL_PROG_FMA ? pl_prog_op3(p, op, x, y, pl_prog_load(p, 2, 0))
+                              : pl_prog_op2(p, op, x, y);
   pl_prog_store(p, z, 3, 0);
   p->spill = 4;
   return p;
@@ -43,7 +48,8 @@ static pl_prog* operation(pl_arena* a, pl_prog_op op) {
 
 static void arithmetic_has_the_digits_of_its_type(void** state) {
   (void)state;
-  static const pl_prog_op op[] = {PL_PROG_ADD, PL_PROG_SUB, PL_PROG_MUL, PL_PROG_DIV, PL_PROG_SQRT, PL_PROG_FMA};
+  static const pl_prog_op op[] = {PL_PROG_ADD, PL_PROG_SUB,  PL_PROG_MUL,
+                                  PL_PROG_DIV, PL_PROG_SQRT, PL_PROG_FMA};
   const pl_real* quad = pl_real_quad();
   if (quad == NULL) skip();
   pl_arena* a = pl_arena_make(NULL);
@@ -74,7 +80,8 @@ static void arithmetic_has_the_digits_of_its_type(void** state) {
         if (op[o] == PL_PROG_FMA) limit *= 2 * fmax(1, size / most);
         if (type->bits == 106 && op[o] != PL_PROG_FMA) limit *= 8;
         if (apart(type->get(m.bytes, 3), y) > limit)
-          fail_msg("%s %s: off by %g, seed 20261121", type->name, pl_prog_op_name[op[o]], apart(type->get(m.bytes, 3), y));
+          fail_msg("%s %s: off by %g, seed 20261121", type->name, pl_prog_op_name[op[o]],
+                   apart(type->get(m.bytes, 3), y));
       }
     }
   }
@@ -147,7 +154,10 @@ static void programs_agree_with_doubles(void** state) {
   pl_prog_sum_lanes(p, 3);
   pl_prog_sum_scale(p, -1, -1);
   pl_prog_sum_pair(p, 0, 80);
-  pl_prog_store(p, pl_prog_call2(p, PL_FN_atan2, pl_prog_call1(p, PL_FN_sin, pl_prog_load(p, 200, 0)), pl_prog_load(p, 201, 0)), 208, 0);
+  pl_prog_store(p,
+                pl_prog_call2(p, PL_FN_atan2, pl_prog_call1(p, PL_FN_sin, pl_prog_load(p, 200, 0)),
+                              pl_prog_load(p, 201, 0)),
+                208, 0);
   p->spill = 210;
   enum { SIZE = 240 };
   double x[SIZE] = {0}, out[3], wide[3];
@@ -156,7 +166,9 @@ static void programs_agree_with_doubles(void** state) {
   double* plain = PL_ARRAY(a, double, SIZE);
   memcpy(plain, x, sizeof x);
   pl_prog_interpret(p, plain, 7, 8);
-  out[0] = plain[200], out[1] = plain[202], out[2] = plain[208];
+  out[0] = plain[200];
+  out[1] = plain[202];
+  out[2] = plain[208];
   for (int t = 0; t < TYPES; t++) {
     const pl_real* type = type_of(t);
     if (type == NULL) continue;

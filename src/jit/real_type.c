@@ -1,5 +1,6 @@
-// Programs on numbers wider than a double.  This file is compiled once for each type: PL_REAL_LONG is the 80-bit type of
-// x86 processors, PL_REAL_QUAD has 113 bits, from the C library, libquadmath, or as long double where that is one.
+// Programs on numbers wider than a double. This file is compiled once for each type: PL_REAL_LONG
+// is the 80-bit type of x86 processors, PL_REAL_QUAD has 113 bits, from the C library, libquadmath,
+// or as long double where that is one.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,29 +8,31 @@
 
 #include "jit/jit.h"
 
-// ---------------------------------------------------------------------------------------------- the type
+// ---------------------------------------------------------------------------------------- the type
 #if defined(PL_REAL_LONG) || PL_QUAD == 3
 typedef long double real;
-#define FUNCTION(name) name##l
-static int print(char* out, size_t n, int digits, real x) { return snprintf(out, n, "%.*Lg", digits, x); }
+#  define FUNCTION(name) name##l
+static int print(char* out, size_t n, int digits, real x) {
+  return snprintf(out, n, "%.*Lg", digits, x);
+}
 static real parse(const char* text) { return strtold(text, NULL); }
 #else
 typedef __float128 real;
-#include "jit/real_quad_impl.h"
-#define FUNCTION(name) QUAD(name)
+#  include "jit/real_quad_impl.h"
+#  define FUNCTION(name) QUAD(name)
 #endif
 
-#define TO_REAL(x) ((real)(x))
-#define ADD(a, b) ((a) + (b))
-#define SUB(a, b) ((a) - (b))
-#define MUL(a, b) ((a) * (b))
-#define DIV(a, b) ((a) / (b))
-#define NEG(a) (-(a))
-#define MORE(a, b) ((a) > (b))
+#define TO_REAL(x)    ((real)(x))
+#define ADD(a, b)     ((a) + (b))
+#define SUB(a, b)     ((a) - (b))
+#define MUL(a, b)     ((a) * (b))
+#define DIV(a, b)     ((a) / (b))
+#define NEG(a)        (-(a))
+#define MORE(a, b)    ((a) > (b))
 #define AT_MOST(a, b) ((a) <= (b))
 #include "jit/real_run_impl.h"
 
-// ---------------------------------------------------------------------------------------------- numbers in and out
+// ------------------------------------------------------------------------------ numbers in and out
 static void read_numbers(const void* memory, int at, int n, double* out) {
   const real* m = (const real*)memory + at;
   for (int i = 0; i < n; i++) out[i] = (double)m[i];
@@ -78,7 +81,7 @@ static void ratios(void* memory, int ratio, int rest, int n) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- text
+// -------------------------------------------------------------------------------------------- text
 static int text(char out[PL_REAL_TEXT], const void* memory, int at, bool negative) {
   static const int most =
 #if defined(PL_REAL_LONG)
@@ -102,11 +105,23 @@ static int text(char out[PL_REAL_TEXT], const void* memory, int at, bool negativ
 }
 
 #if defined(PL_REAL_LONG)
-const pl_real pl_real_of_long = {
-    .name = "long", .size = sizeof(real), .bits = 64, .epsilon = 0x1p-63,
+const pl_real pl_real_of_long = {.name = "long",
+                                 .size = sizeof(real),
+                                 .bits = 64,
+                                 .epsilon = 0x1p-63,
 #else
-const pl_real pl_real_of_quad = {
-    .name = "quad", .size = sizeof(real), .bits = 113, .epsilon = 0x1p-112,
+const pl_real pl_real_of_quad = {.name = "quad",
+                                 .size = sizeof(real),
+                                 .bits = 113,
+                                 .epsilon = 0x1p-112,
 #endif
-    .interpret = interpret, .read = read_numbers, .write = write_numbers, .get = get, .set = set, .move = move, .add = add,
-    .round_to_long = round_numbers, .ratios = ratios, .text = text};
+                                 .interpret = interpret,
+                                 .read = read_numbers,
+                                 .write = write_numbers,
+                                 .get = get,
+                                 .set = set,
+                                 .move = move,
+                                 .add = add,
+                                 .round_to_long = round_numbers,
+                                 .ratios = ratios,
+                                 .text = text};

@@ -1,28 +1,36 @@
-// The recurrences of the tape's operations (jet/interpret.c has the formulas) as code.  Products and additions that
-// follow each other are fused, coefficients that are zero left out.  Where the caller keeps reciprocals they are
-// multiplied with, otherwise there are divisions.
+// The recurrences of the tape's operations (jet/interpret.c has the formulas) as code. Products and
+// additions that follow each other are fused, coefficients that are zero left out. Where the caller
+// keeps reciprocals they are multiplied with, otherwise there are divisions.
 #include "jit/jit.h"
 
 static const pl_tape_node* at(const pl_lower* l, int node) { return &l->tape->nodes[node]; }
 static int start(const pl_lower* l, int node) { return l->start(l->user, node); }
 static int now(const pl_lower* l, int node) { return node < 0 ? -1 : l->now(l->user, node); }
 
-// ---------------------------------------------------------------------------------------------- zero is left out
-static int add(const pl_lower* l, int a, int b) { return a < 0 ? b : b < 0 ? a : pl_prog_op2(l->code, PL_PROG_ADD, a, b); }
-static int neg(const pl_lower* l, int a) { return a < 0 ? -1 : pl_prog_op1(l->code, PL_PROG_NEG, a); }
+// -------------------------------------------------------------------------------- zero is left out
+static int add(const pl_lower* l, int a, int b) {
+  return a < 0 ? b : b < 0 ? a : pl_prog_op2(l->code, PL_PROG_ADD, a, b);
+}
+static int neg(const pl_lower* l, int a) {
+  return a < 0 ? -1 : pl_prog_op1(l->code, PL_PROG_NEG, a);
+}
 static int sub(const pl_lower* l, int a, int b) {
   return b < 0 ? a : a < 0 ? neg(l, b) : pl_prog_op2(l->code, PL_PROG_SUB, a, b);
 }
-static int mul(const pl_lower* l, int a, int b) { return a < 0 || b < 0 ? -1 : pl_prog_op2(l->code, PL_PROG_MUL, a, b); }
+static int mul(const pl_lower* l, int a, int b) {
+  return a < 0 || b < 0 ? -1 : pl_prog_op2(l->code, PL_PROG_MUL, a, b);
+}
 static int fma_(const pl_lower* l, int a, int b, int c) {
   return a < 0 || b < 0 ? c : c < 0 ? mul(l, a, b) : pl_prog_op3(l->code, PL_PROG_FMA, a, b, c);
 }
 static int fnma(const pl_lower* l, int a, int b, int c) {
-  return a < 0 || b < 0 ? c : c < 0 ? neg(l, mul(l, a, b)) : pl_prog_op3(l->code, PL_PROG_FNMA, a, b, c);
+  return a < 0 || b < 0 ? c
+         : c < 0        ? neg(l, mul(l, a, b))
+                        : pl_prog_op3(l->code, PL_PROG_FNMA, a, b, c);
 }
 static int or_zero(const pl_lower* l, int a) { return a < 0 ? pl_prog_number(l->code, 0) : a; }
 
-// ---------------------------------------------------------------------------------------------- convolutions
+// ------------------------------------------------------------------------------------ convolutions
 int pl_lower_sums(const pl_tape* tape, int node, pl_lower_sum out[3]) {
   const pl_tape_node* n = &tape->nodes[node];
   int self = node;
@@ -55,8 +63,10 @@ int pl_lower_sums(const pl_tape* tape, int node, pl_lower_sum out[3]) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- order 0
-static int call(const pl_lower* l, pl_prog_function f, int node) { return pl_prog_call1(l->code, f, start(l, at(l, node)->a)); }
+// ----------------------------------------------------------------------------------------- order 0
+static int call(const pl_lower* l, pl_prog_function f, int node) {
+  return pl_prog_call1(l->code, f, start(l, at(l, node)->a));
+}
 
 static int sign_of(const pl_lower* l, int a) {
   pl_prog* c = l->code;
@@ -100,8 +110,9 @@ int pl_lower_value(const pl_lower* l, int node) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- reciprocals
-// Which number a node's coefficients are divided by: the operand b, a, w, or itself doubled; -1 none.
+// ------------------------------------------------------------------------------------- reciprocals
+// Which number a node's coefficients are divided by: the operand b, a, w, or itself doubled; -1
+// none.
 static int divisor(const pl_tape* tape, int node) {
   const pl_tape_node* n = &tape->nodes[node];
   switch ((pl_op)n->op) {
@@ -124,7 +135,8 @@ static int twice_root(const pl_lower* l, int node) {
   return pl_prog_op2(l->code, PL_PROG_MUL, pl_prog_number(l->code, 2), start(l, node));
 }
 
-// A power of zero has no series: it goes on as if it stayed zero, and what that is off by shortens the step.
+// A power of zero has no series: it goes on as if it stayed zero, and what that is off by shortens
+// the step.
 static int unless_zero(const pl_lower* l, int node, int x) {
   pl_op op = (pl_op)at(l, node)->op;
   if (op != PL_OP_SQRT && op != PL_OP_POW) return x;
@@ -146,14 +158,16 @@ static int over(const pl_lower* l, int x, int node) {
   return unless_zero(l, node, pl_prog_op2(l->code, PL_PROG_DIV, x, by));
 }
 
-// ---------------------------------------------------------------------------------------------- order k
+// ----------------------------------------------------------------------------------------- order k
 // x / k
 static int over_order(const pl_lower* l, int x) {
   return x < 0 ? -1 : pl_prog_op2(l->code, PL_PROG_DIV, x, pl_prog_order(l->code, 0));
 }
 
 static int sum(const pl_lower* l, int node, int i) { return l->sum(l->user, node, i); }
-static int mean(const pl_lower* l, int node) { return l->means ? sum(l, node, 0) : over_order(l, sum(l, node, 0)); }
+static int mean(const pl_lower* l, int node) {
+  return l->means ? sum(l, node, 0) : over_order(l, sum(l, node, 0));
+}
 
 // a^r:  ((r + 1) S_1 / k - S_2 + r a_k c_0) / a_0,  S_1 = sum j a_j c_{k-j},  S_2 = sum a_j c_{k-j}
 static int power(const pl_lower* l, int node) {
@@ -162,7 +176,8 @@ static int power(const pl_lower* l, int node) {
   int r = start(l, n->b), more = pl_prog_op2(c, PL_PROG_ADD, r, pl_prog_number(c, 1));
   int known = mul(l, more, mean(l, node));
   known = sub(l, known, sum(l, node, 1));
-  return over(l, fma_(l, now(l, n->a), pl_prog_op2(c, PL_PROG_MUL, r, start(l, node)), known), node);
+  return over(l, fma_(l, now(l, n->a), pl_prog_op2(c, PL_PROG_MUL, r, start(l, node)), known),
+              node);
 }
 
 // a_k b_0 - b_k a_0 + (S_1 - S_2 - S_3)/k over w_0
@@ -184,7 +199,8 @@ static int linear(const pl_lower* l, int node) {
     case PL_OP_NEG: return neg(l, a);
     case PL_OP_SCALE: return mul(l, a, start(l, n->b));
     case PL_OP_RSCALE: return over(l, a, node);
-    case PL_OP_ABS: return a < 0 ? -1 : pl_prog_op3(c, PL_PROG_IF_LESS, start(l, n->a), neg(l, a), a);
+    case PL_OP_ABS:
+      return a < 0 ? -1 : pl_prog_op3(c, PL_PROG_IF_LESS, start(l, n->a), neg(l, a), a);
     case PL_OP_MIN:
       if (a < 0 && b < 0) return -1;
       return pl_prog_if_le(c, start(l, n->a), start(l, n->b), or_zero(l, a), or_zero(l, b));

@@ -1,9 +1,11 @@
-// Compiled objects on disk: $XDG_CACHE_HOME/pleuel (or ~/.cache/pleuel), one file an object, named by its key.
+// Compiled objects on disk: $XDG_CACHE_HOME/pleuel (or ~/.cache/pleuel), one file an object, named
+// by its key.
 //
-// A file is written under another name and renamed, so that readers see all of it or nothing, whoever writes at the same
-// time.  Its head holds key, length and a hash of the content: what does not fit is removed and compiled again.  When
-// the folder grows beyond its limit the files that were used least recently go first; reading a file marks it as used.
-// A folder that cannot be written is no error.  PLEUEL_CACHE=off switches the store off.
+// A file is written under another name and renamed, so that readers see all of it or nothing,
+// whoever writes at the same time. Its head holds key, length and a hash of the content: what does
+// not fit is removed and compiled again. When the folder grows beyond its limit the files that were
+// used least recently go first; reading a file marks it as used. A folder that cannot be written is
+// no error. PLEUEL_CACHE=off switches the store off.
 #define _GNU_SOURCE
 #include <dirent.h>
 #include <errno.h>
@@ -16,23 +18,28 @@
 
 #include "jit/engine_impl.h"
 
-static const size_t most_bytes = (size_t)64 << 20;      // of all files together
-static const size_t largest = (size_t)16 << 20;         // of one
+static const size_t most_bytes = (size_t)64 << 20;  // of all files together
+static const size_t largest = (size_t)16 << 20;     // of one
 enum { MOST_FILES = 4096 };
 
-typedef struct pl_store_head { char magic[8]; uint64_t key, size, hash; } pl_store_head;
+typedef struct pl_store_head {
+  char magic[8];
+  uint64_t key, size, hash;
+} pl_store_head;
 static const char magic[8] = "PLJIT01";
 
-// ---------------------------------------------------------------------------------------------- folder
+// ------------------------------------------------------------------------------------------ folder
 static bool make_folder(const char* path) {
   struct stat s;
   if (mkdir(path, 0700) != 0 && errno != EEXIST) return false;
   // objects are executed: a folder of somebody else, or that others may write to, is not used
-  return stat(path, &s) == 0 && S_ISDIR(s.st_mode) && s.st_uid == geteuid() && (s.st_mode & (S_IWGRP | S_IWOTH)) == 0;
+  return stat(path, &s) == 0 && S_ISDIR(s.st_mode) && s.st_uid == geteuid()
+         && (s.st_mode & (S_IWGRP | S_IWOTH)) == 0;
 }
 
 static bool folder(char* path, bool make) {
-  const char *cache = getenv("XDG_CACHE_HOME"), *home = getenv("HOME"), *off = getenv("PLEUEL_CACHE");
+  const char *cache = getenv("XDG_CACHE_HOME"), *home = getenv("HOME"),
+             *off = getenv("PLEUEL_CACHE");
   int n;
   if (off && strcmp(off, "off") == 0) return false;
   if (cache && cache[0] == '/') n = snprintf(path, PATH_MAX, "%s", cache);
@@ -42,7 +49,9 @@ static bool folder(char* path, bool make) {
   if (make) mkdir(path, 0700);
   strcpy(path + n, "/pleuel");
   struct stat s;
-  return make ? make_folder(path) : stat(path, &s) == 0 && s.st_uid == geteuid() && (s.st_mode & (S_IWGRP | S_IWOTH)) == 0;
+  return make ? make_folder(path)
+              : stat(path, &s) == 0 && s.st_uid == geteuid()
+                    && (s.st_mode & (S_IWGRP | S_IWOTH)) == 0;
 }
 
 static bool file_of(char* path, uint64_t key, bool make) {
@@ -52,7 +61,7 @@ static bool file_of(char* path, uint64_t key, bool make) {
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- reading
+// ----------------------------------------------------------------------------------------- reading
 static bool read_all(int file, void* to, size_t n) {
   for (size_t done = 0; done < n;) {
     ssize_t got = read(file, (char*)to + done, n - done);
@@ -66,12 +75,15 @@ static bool read_all(int file, void* to, size_t n) {
 static unsigned char* read_object(int file, uint64_t key, size_t* size) {
   pl_store_head head;
   struct stat s;
-  if (fstat(file, &s) != 0 || !S_ISREG(s.st_mode) || s.st_uid != geteuid() || !read_all(file, &head, sizeof head)) return NULL;
-  if (memcmp(head.magic, magic, sizeof magic) != 0 || head.key != key || head.size > largest ||
-      (uint64_t)s.st_size != sizeof head + head.size)
+  if (fstat(file, &s) != 0 || !S_ISREG(s.st_mode) || s.st_uid != geteuid()
+      || !read_all(file, &head, sizeof head))
+    return NULL;
+  if (memcmp(head.magic, magic, sizeof magic) != 0 || head.key != key || head.size > largest
+      || (uint64_t)s.st_size != sizeof head + head.size)
     return NULL;
   unsigned char* object = malloc(head.size + 1);
-  if (object && read_all(file, object, head.size) && pl_hash_bytes(object, head.size, key) == head.hash) {
+  if (object && read_all(file, object, head.size)
+      && pl_hash_bytes(object, head.size, key) == head.hash) {
     *size = head.size;
     return object;
   }
@@ -85,13 +97,13 @@ unsigned char* pl_store_get(uint64_t key, size_t* size) {
   int file = open(path, O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
   if (file < 0) return NULL;
   unsigned char* object = read_object(file, key, size);
-  if (object) futimens(file, NULL);   // used just now
+  if (object) futimens(file, NULL);  // used just now
   else unlink(path);
   close(file);
   return object;
 }
 
-// ---------------------------------------------------------------------------------------------- writing
+// ----------------------------------------------------------------------------------------- writing
 static bool write_all(int file, const void* from, size_t n) {
   for (size_t done = 0; done < n;) {
     ssize_t put = write(file, (const char*)from + done, n - done);
@@ -102,10 +114,15 @@ static bool write_all(int file, const void* from, size_t n) {
   return true;
 }
 
-typedef struct pl_store_file { char name[32]; struct timespec used; size_t size; } pl_store_file;
+typedef struct pl_store_file {
+  char name[32];
+  struct timespec used;
+  size_t size;
+} pl_store_file;
 
 static int by_age(const void* a, const void* b) {
-  const struct timespec *x = &((const pl_store_file*)a)->used, *y = &((const pl_store_file*)b)->used;
+  const struct timespec *x = &((const pl_store_file*)a)->used,
+                        *y = &((const pl_store_file*)b)->used;
   if (x->tv_sec != y->tv_sec) return x->tv_sec < y->tv_sec ? -1 : 1;
   return x->tv_nsec < y->tv_nsec ? -1 : x->tv_nsec > y->tv_nsec;
 }

@@ -1,6 +1,6 @@
-// Formatter: the canonical layout of a model text.  It works on the tokens, so comments and blank lines stay and
-// nothing changes its meaning: where a blank means a product it stays a blank, a bracket that touches its name goes on
-// touching.
+// Formatter: the canonical layout of a model text. It works on the tokens, so comments and blank
+// lines stay and nothing changes its meaning: where a blank means a product it stays a blank, a
+// bracket that touches its name goes on touching.
 #include "lang/lang_impl.h"
 
 #include <string.h>
@@ -24,12 +24,12 @@ typedef struct formatter {
   int last;         // kind written last, 0 at the start of a statement
   bool last_unary;  // it was a sign
   bool in_statement, continued;
-  bool words;       // the statement is made of words with hyphens, lambda-minus: no blank comes in
+  bool words;  // the statement is made of words with hyphens, lambda-minus: no blank comes in
   int dots_to_write;  // primes that wait for the end of an index
   int brackets;
 } formatter;
 
-// ---------------------------------------------------------------------------------------------- lines
+// ------------------------------------------------------------------------------------------- lines
 static void flush(formatter* f) {
   if (f->code.n == 0 && f->comment == NULL) return;
   pl_push(f->arena, f->lines, (line){pl_text_string(&f->code), f->comment, false});
@@ -38,14 +38,15 @@ static void flush(formatter* f) {
 }
 
 static void blank_line(formatter* f) {
-  if (f->lines.n && !f->lines.at[f->lines.n - 1].blank) pl_push(f->arena, f->lines, (line){"", NULL, true});
+  if (f->lines.n && !f->lines.at[f->lines.n - 1].blank)
+    pl_push(f->arena, f->lines, (line){"", NULL, true});
 }
 
 static void indent(formatter* f) {
   if (f->code.n == 0) pl_text_pad(&f->code, 4 * (f->depth + (f->continued ? 1 : 0)));
 }
 
-// ---------------------------------------------------------------------------------------------- spellings
+// --------------------------------------------------------------------------------------- spellings
 static const char* source_of(const formatter* f, const pl_token* t) {
   return pl_copy_n(f->arena, f->p->source->text + t->begin, t->end - t->begin);
 }
@@ -61,8 +62,9 @@ static const char* ascii_unit(formatter* f, const char* unit) {
   static const struct {
     const char *from, *to;
   } words[] = {
-      {"²", "^2"}, {"³", "^3"},  {"⁴", "^4"}, {"⁻¹", "^-1"}, {"⁻²", "^-2"}, {"⁻³", "^-3"}, {"·", "*"},
-      {"⋅", "*"},  {"°", "deg"}, {"µ", "u"},  {"μ", "u"},    {"Ω", "Ohm"},  {"Ω", "Ohm"},
+      {"²", "^2"},   {"³", "^3"},  {"⁴", "^4"},  {"⁻¹", "^-1"}, {"⁻²", "^-2"},
+      {"⁻³", "^-3"}, {"·", "*"},   {"⋅", "*"},   {"°", "deg"},  {"µ", "u"},
+      {"μ", "u"},    {"Ω", "Ohm"}, {"Ω", "Ohm"},
   };
   pl_text out = pl_text_make(f->arena);
   for (const char* s = unit; *s;) {
@@ -92,7 +94,7 @@ static const char* name_text(formatter* f, const pl_token* t, int next) {
   if (f->spelling == PL_SPELL_KEEP) return source;
   bool root = strcmp(source, "√") == 0;
   // underscores stay: x_0 may be a start value
-  bool plain = is_ascii(source) || t->number == 0;      // no dots over its letters
+  bool plain = is_ascii(source) || t->number == 0;  // no dots over its letters
   const char* name = f->spelling == PL_SPELL_ASCII ? (is_ascii(source) ? source : t->key)
                      : root                        ? source
                      : plain                       ? pl_spell_unicode(f->arena, source)
@@ -110,8 +112,15 @@ static const char* sign_text(formatter* f, const pl_token* t) {
     int kind;
     const char* ascii;
   } signs[] = {
-      {'*', "*"},        {'-', "-"},       {TOK_GE, ">="},        {TOK_LE, "<="},         {TOK_NE, "!="},
-      {TOK_ARROW, "->"}, {TOK_MUCH, ">>"}, {TOK_INFINITY, "inf"}, {TOK_DEGREE, " [deg]"},
+      {'*', "*"},
+      {'-', "-"},
+      {TOK_GE, ">="},
+      {TOK_LE, "<="},
+      {TOK_NE, "!="},
+      {TOK_ARROW, "->"},
+      {TOK_MUCH, ">>"},
+      {TOK_INFINITY, "inf"},
+      {TOK_DEGREE, " [deg]"},
   };
   if (f->spelling != PL_SPELL_ASCII) return source_of(f, t);
   for (size_t i = 0; i < sizeof signs / sizeof signs[0]; i++) {
@@ -123,26 +132,33 @@ static const char* sign_text(formatter* f, const pl_token* t) {
 static const char* token_text(formatter* f, const pl_token* t, int next) {
   switch (t->kind) {
     case TOK_NAME: return name_text(f, t, next);
-    case TOK_PI: return f->spelling == PL_SPELL_ASCII ? "pi" : f->spelling == PL_SPELL_UNICODE ? "π" : source_of(f, t);
+    case TOK_PI:
+      return f->spelling == PL_SPELL_ASCII     ? "pi"
+             : f->spelling == PL_SPELL_UNICODE ? "π"
+                                               : source_of(f, t);
     case TOK_PRIMES: return f->spelling == PL_SPELL_KEEP ? source_of(f, t) : primes(t->number);
-    case TOK_SUPER: return f->spelling == PL_SPELL_ASCII ? pl_format(f->arena, "^%d", t->number) : source_of(f, t);
+    case TOK_SUPER:
+      return f->spelling == PL_SPELL_ASCII ? pl_format(f->arena, "^%d", t->number)
+                                           : source_of(f, t);
     case TOK_UNIT: {
       const char* unit = trimmed(f, t->text);
-      return pl_format(f->arena, "[%s]", f->spelling == PL_SPELL_ASCII ? ascii_unit(f, unit) : unit);
+      return pl_format(f->arena, "[%s]",
+                       f->spelling == PL_SPELL_ASCII ? ascii_unit(f, unit) : unit);
     }
     default: return sign_text(f, t);
   }
 }
 
-// ---------------------------------------------------------------------------------------------- blanks
+// ------------------------------------------------------------------------------------------ blanks
 static bool is_operand_end(int kind) {
-  return kind == TOK_NAME || kind == TOK_NUMBER || kind == TOK_PI || kind == TOK_INFINITY || kind == TOK_PRIMES ||
-         kind == TOK_SUPER || kind == TOK_UNIT || kind == TOK_DEGREE || kind == ')' || kind == ']' || kind == TOK_TEXT;
+  return kind == TOK_NAME || kind == TOK_NUMBER || kind == TOK_PI || kind == TOK_INFINITY
+         || kind == TOK_PRIMES || kind == TOK_SUPER || kind == TOK_UNIT || kind == TOK_DEGREE
+         || kind == ')' || kind == ']' || kind == TOK_TEXT;
 }
 
 static bool is_relation(int kind) {
-  return kind == '=' || kind == '<' || kind == '>' || kind == TOK_GE || kind == TOK_LE || kind == TOK_NE ||
-         kind == TOK_ARROW || kind == TOK_MUCH;
+  return kind == '=' || kind == '<' || kind == '>' || kind == TOK_GE || kind == TOK_LE
+         || kind == TOK_NE || kind == TOK_ARROW || kind == TOK_MUCH;
 }
 
 static bool is_keyword(int kind) { return kind >= TOK_PLEUEL; }
@@ -170,10 +186,14 @@ static bool blank_before(const formatter* f, int kind, const pl_token* t, bool w
   }
   if (last == ',' || last == TOK_SEPARATOR || last == ':') return true;
   if (f->words && last != TOK_CONVENTION) return !t->tight;
-  if (last == '(' || last == '[' || last == TOK_RANGE || last == '^' || last == '/' || last == '*') return false;
+  if (last == '(' || last == '[' || last == TOK_RANGE || last == '^' || last == '/' || last == '*')
+    return false;
   if (kind == '[' || f->last_unary) return false;
-  if (f->brackets && (kind == '+' || kind == '-' || last == '+' || last == '-')) return false;  // x[i-1]
-  if (is_relation(kind) || is_relation(last) || kind == '+' || kind == '-' || last == '+' || last == '-') return true;
+  // x[i-1]
+  if (f->brackets && (kind == '+' || kind == '-' || last == '+' || last == '-')) return false;
+  if (is_relation(kind) || is_relation(last) || kind == '+' || kind == '-' || last == '+'
+      || last == '-')
+    return true;
   if (is_keyword(kind) || is_keyword(last)) return true;
   return word_pair || !t->tight;
 }
@@ -186,13 +206,13 @@ static bool word_end(const pl_text* code) {
 
 // Two words that would grow together when spelled out: πR is pi R.
 static bool grows_together(const formatter* f, int kind, const char* text) {
-  bool word =
-      (text[0] >= 'a' && text[0] <= 'z') || (text[0] >= 'A' && text[0] <= 'Z') || (text[0] >= '0' && text[0] <= '9');
+  bool word = (text[0] >= 'a' && text[0] <= 'z') || (text[0] >= 'A' && text[0] <= 'Z')
+              || (text[0] >= '0' && text[0] <= '9');
   if (!word || !word_end(&f->code)) return false;
   return f->last != TOK_NUMBER || kind == TOK_NUMBER;
 }
 
-// ---------------------------------------------------------------------------------------------- statements
+// -------------------------------------------------------------------------------------- statements
 static int next_kind(const formatter* f, int i) {
   for (i++; i < f->p->tokens->list.n; i++) {
     if (f->p->tokens->list.at[i].kind > 0) return f->p->tokens->list.at[i].kind;
@@ -224,8 +244,8 @@ static void write_token(formatter* f, int i) {
 static void write_comment(formatter* f, const pl_token* t) {
   const char* mark = t->kind == PL_TOKEN_PRINTED ? "#:" : "#";
   const char* text = t->text;
-  bool spaced = text[0] == 0 || text[0] == ' ' || text[0] == '\t' || text[0] == '#' || text[0] == '!' ||
-                text[0] == '-' || text[0] == '=';
+  bool spaced = text[0] == 0 || text[0] == ' ' || text[0] == '\t' || text[0] == '#'
+                || text[0] == '!' || text[0] == '-' || text[0] == '=';
   const char* comment = pl_format(f->arena, "%s%s%s", mark, spaced ? "" : " ", text);
   if (f->code.n) {
     f->comment = comment;
@@ -299,7 +319,7 @@ static void format_tokens(formatter* f) {
   flush(f);
 }
 
-// ---------------------------------------------------------------------------------------------- comments in columns
+// ----------------------------------------------------------------------------- comments in columns
 static const char* lay_out(formatter* f) {
   pl_text out = pl_text_make(f->arena);
   int n = f->lines.n;
@@ -326,14 +346,16 @@ static const char* lay_out(formatter* f) {
   return pl_text_string(&out);
 }
 
-pleuel_status pl_lang_format(pl_job* job, const pl_source* source, pl_spelling spelling, const char** out) {
+pleuel_status pl_lang_format(pl_job* job, const pl_source* source, pl_spelling spelling,
+                             const char** out) {
   *out = NULL;
   int before = job->diagnostics->n_errors;
   pl_parse* p = PL_NEW(job->arena, pl_parse);
   pl_parse_text(p, job, pl_names_make(job->arena), source);
   if (job->diagnostics->n_errors > before) return PLEUEL_MODEL_ERROR;
   formatter* f = PL_NEW(job->arena, formatter);
-  *f = (formatter){.arena = job->arena, .p = p, .spelling = spelling, .code = pl_text_make(job->arena)};
+  *f = (formatter){
+      .arena = job->arena, .p = p, .spelling = spelling, .code = pl_text_make(job->arena)};
   format_tokens(f);
   *out = lay_out(f);
   return PLEUEL_OK;

@@ -41,14 +41,17 @@ static const char* text_of(const word* list, int n, int token) {
 int pl_word_statement(const char* s) { return find(statements, LENGTH(statements), s); }
 int pl_word_item(const char* s) { return find(items, LENGTH(items), s); }
 int pl_word_reserved(const char* s) { return find(reserved, LENGTH(reserved), s); }
-const char* pl_word_of_statement(int token) { return text_of(statements, LENGTH(statements), token); }
+const char* pl_word_of_statement(int token) {
+  return text_of(statements, LENGTH(statements), token);
+}
 const char* pl_word_of_item(int token) { return text_of(items, LENGTH(items), token); }
 
 const char* pl_word_of_request(int i) { return i < LENGTH(items) ? items[i].text : NULL; }
 
 bool pl_word_function(const char* s) {
-  static const char* const more[] = {"sqrt", "log", "norm", "dot",   "cross",  "diff",  "dt",        "sum",
-                                     "if",   "pos", "vel",  "polar", "normal", "euler", "quaternion"};
+  static const char* const more[] = {"sqrt", "log",   "norm",   "dot",   "cross",
+                                     "diff", "dt",    "sum",    "if",    "pos",
+                                     "vel",  "polar", "normal", "euler", "quaternion"};
   for (int i = 0; i < PL_N_FUNCTIONS; i++) {
     if (strcmp(pl_function_name[i], s) == 0) return true;
   }

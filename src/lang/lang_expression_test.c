@@ -1,4 +1,5 @@
-// The rules for expressions, one by one: what a blank means, what is refused, how names may be spelled.
+// The rules for expressions, one by one: what a blank means, what is refused, how names may be
+// spelled.
 #include "lang_testing.h"
 
 static const char* const model =
@@ -11,7 +12,8 @@ static const char* const model =
     "constraint g1: x = l with λ\n"
     "constraint c: y = 0\n";
 
-// Reads one expression in the names of the model and compares with an expression written out in full.
+// Reads one expression in the names of the model and compares with an expression written out in
+// full.
 static void means(const char* text, const char* full) {
   bench* b = bench_text(model);
   assert_string_equal(bench_said(b), "");
@@ -33,7 +35,8 @@ static void refused(const char* text, const char* code) {
   assert_int_equal(pl_lang_expression(&b->job, b->m, text, &e), PLEUEL_MODEL_ERROR);
   const char* said = bench_said(b);
   bool found = strstr(said, code) == said;
-  if (!found || strchr(said, ',')) print_message("%s: said %s, expected %s once\n", text, said, code);
+  if (!found || strchr(said, ','))
+    print_message("%s: said %s, expected %s once\n", text, said, code);
   assert_true(found);
   assert_null(strchr(said, ','));
   bench_free(b);

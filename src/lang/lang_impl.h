@@ -5,9 +5,13 @@
 #include "lang/lang.h"
 #include "lang/syntax.h"
 
-// ---------------------------------------------------------------------------------------------- tokens
+// ------------------------------------------------------------------------------------------ tokens
 // Kinds above 0 are those of the grammar; these never reach it.
-enum { PL_TOKEN_COMMENT = -2, PL_TOKEN_PRINTED = -3 /* #: */, PL_TOKEN_WRONG = -4 /* complained about by the lexer */ };
+enum {
+  PL_TOKEN_COMMENT = -2,
+  PL_TOKEN_PRINTED = -3 /* #: */,
+  PL_TOKEN_WRONG = -4 /* complained about by the lexer */
+};
 
 typedef struct pl_token {
   int kind;
@@ -27,13 +31,14 @@ typedef struct pl_tokens {
 // pl_lex cuts a text into tokens.  What does not belong is reported and left out.
 void pl_lex(pl_job* job, pl_names* names, const pl_source* source, pl_tokens* out);
 
-// ---------------------------------------------------------------------------------------------- names
+// ------------------------------------------------------------------------------------------- names
 typedef struct pl_spelled {
   const char *key, *shown, *raw;
   int dots;              // dots over letters: ẋ is x with 1
   bool theta, vartheta;  // which of the two spellings of theta occurs
 } pl_spelled;
-// pl_spell reads the spelling of a name.  false: a code point in it has no place in a name; *bad is its offset.
+// pl_spell reads the spelling of a name. false: a code point in it has no place in a name; *bad is
+// its offset.
 bool pl_spell(pl_arena* a, pl_names* names, const char* s, size_t n, pl_spelled* out, size_t* bad);
 // An ASCII name with Greek letters for their words: θ1 for theta1.
 const char* pl_spell_unicode(pl_arena* a, const char* name);
@@ -41,31 +46,36 @@ const char* pl_spell_unicode(pl_arena* a, const char* name);
 // What a code point was probably meant to be: ASCII replacement and what it is called, or NULL.
 const char* pl_look_alike(uint32_t code_point, const char* what[2]);
 
-// ---------------------------------------------------------------------------------------------- words
+// ------------------------------------------------------------------------------------------- words
 int pl_word_statement(const char* s);  // token of a statement keyword, 0 if it is none
 int pl_word_item(const char* s);
 int pl_word_reserved(const char* s);   // small words only
 bool pl_word_function(const char* s);  // sin, norm, sum, ...
 const char* pl_word_of_statement(int token);
 const char* pl_word_of_item(int token);
-const char* pl_word_of_request(int i);              // the i-th word that begins a request, NULL after the last
+// the i-th word that begins a request, NULL after the last
+const char* pl_word_of_request(int i);
 const char* pl_word_near_statement(const char* s);  // the nearest statement keyword, or NULL
 
-// ---------------------------------------------------------------------------------------------- complaints
+// -------------------------------------------------------------------------------------- complaints
 // pl_complain reports in both languages; both formats take the same arguments in the same order.
-pl_diagnostic* pl_complain(pl_job* job, pl_code code, pl_span span, const char* en, const char* de, ...);
+pl_diagnostic* pl_complain(pl_job* job, pl_code code, pl_span span, const char* en, const char* de,
+                           ...);
 // pl_suggest adds the fix; replacement may be NULL.
-void pl_suggest(pl_job* job, pl_diagnostic* m, const char* replacement, const char* en, const char* de, ...);
+void pl_suggest(pl_job* job, pl_diagnostic* m, const char* replacement, const char* en,
+                const char* de, ...);
 void pl_because(pl_job* job, pl_diagnostic* m, const char* en, const char* de, ...);
 const char* pl_source_text(pl_arena* a, pl_span s);  // the source under a span, blanks collapsed
 
-// ---------------------------------------------------------------------------------------------- slips
+// ------------------------------------------------------------------------------------------- slips
 struct pl_parse;
-bool pl_slip(struct pl_parse* p);                    // what was typed is a known slip, and has been told with its fix
-const char* pl_slip_statement(const char* typed);    // the statement that a word of another language means, or NULL
-const char* pl_slip_request(const char* typed);      // the request or result, likewise
+// what was typed is a known slip, and has been told with its fix
+bool pl_slip(struct pl_parse* p);
+// the statement that a word of another language means, or NULL
+const char* pl_slip_statement(const char* typed);
+const char* pl_slip_request(const char* typed);  // the request or result, likewise
 
-// ---------------------------------------------------------------------------------------------- parser
+// ------------------------------------------------------------------------------------------ parser
 enum { PL_MAX_DEPTH = 200, PL_MAX_BLOCKS = 16 };  // of brackets and of `for` inside each other
 
 typedef struct pl_parse {
@@ -93,7 +103,8 @@ typedef struct pl_bytes {
 pl_ast* pl_ast_zero(pl_parse* p, pl_bytes at);
 pl_ast* pl_ast_make(pl_parse* p, pl_ast_kind kind, pl_bytes at);
 pl_ast* pl_ast_of_token(pl_parse* p, int kind, const pl_token* t);
-pl_ast* pl_ast_with(pl_parse* p, pl_ast_kind kind, pl_bytes at, int n, ...);  // n children, NULL allowed
+// n children, NULL allowed
+pl_ast* pl_ast_with(pl_parse* p, pl_ast_kind kind, pl_bytes at, int n, ...);
 pl_ast* pl_ast_append(pl_parse* p, pl_ast* list, char op, pl_ast* kid, pl_bytes at);
 pl_ast* pl_ast_statement(pl_parse* p, int token, pl_bytes at, int n, ...);
 pl_ast* pl_ast_item(pl_parse* p, int token, pl_bytes at, int n, ...);

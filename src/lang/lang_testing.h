@@ -33,13 +33,16 @@ static inline bench* bench_make(void) {
 
 static inline bench* bench_with(const char* text, size_t n, const pl_setting* set, int n_set) {
   bench* b = bench_make();
-  b->status = pl_lang_parse(&b->job, pl_source_make(b->arena, "test.pleuel", pl_copy_n(b->arena, text, n), n), NULL,
-                            set, n_set, &b->m);
+  b->status = pl_lang_parse(
+      &b->job, pl_source_make(b->arena, "test.pleuel", pl_copy_n(b->arena, text, n), n), NULL, set,
+      n_set, &b->m);
   pl_diagnostics_sort(&b->diagnostics);
   return b;
 }
 
-static inline bench* bench_text(const char* text) { return bench_with(text, strlen(text), NULL, 0); }
+static inline bench* bench_text(const char* text) {
+  return bench_with(text, strlen(text), NULL, 0);
+}
 static inline void bench_free(bench* b) { pl_arena_free(b->arena); }
 
 // "E011 5:29, E012 6:1": what was said.

@@ -1,6 +1,7 @@
 // Lowering: the steps from a text to a model, and the public calls.
 //
-//   parse (and what is included)  ->  names  ->  values of parameters, bounds, abbreviations  ->  everything else
+//   parse (and what is included) -> names -> values of parameters, bounds, abbreviations ->
+//   everything else
 //
 // A statement with a syntax error takes part silently, so that the names it declares are known.
 #include "lang/lower_impl.h"
@@ -20,7 +21,7 @@ pl_lower* pl_lower_make(pl_job* job, pl_model* m, pl_names* names) {
   return l;
 }
 
-// ---------------------------------------------------------------------------------------------- files
+// ------------------------------------------------------------------------------------------- files
 typedef struct reading {
   pl_job* job;
   pl_names* names;
@@ -59,22 +60,29 @@ static void look_for_theta(reading* r, const pl_tokens* tokens) {
     if (t->kind != TOK_NAME) continue;
     const char* s = tokens->source->text + t->begin;
     pl_span span = {tokens->source, t->begin, t->end};
-    if (!r->theta && contains(s, t->end - t->begin, "θ")) r->theta = true, r->theta_at = span;
-    if (!r->vartheta && contains(s, t->end - t->begin, "ϑ")) r->vartheta = true, r->vartheta_at = span;
+    if (!r->theta && contains(s, t->end - t->begin, "θ")) {
+      r->theta = true;
+      r->theta_at = span;
+    }
+    if (!r->vartheta && contains(s, t->end - t->begin, "ϑ")) {
+      r->vartheta = true;
+      r->vartheta_at = span;
+    }
   }
 }
 
 static void complain_theta(reading* r) {
   if (!r->theta || !r->vartheta) return;
-  pl_diagnostic* m =
-      pl_complain(r->job, PL_E059, r->vartheta_at, "θ and ϑ are two letters, and both are theta in ASCII",
-                  "θ und ϑ sind zwei Buchstaben, in ASCII beide theta");
+  pl_diagnostic* m = pl_complain(r->job, PL_E059, r->vartheta_at,
+                                 "θ and ϑ are two letters, and both are theta in ASCII",
+                                 "θ und ϑ sind zwei Buchstaben, in ASCII beide theta");
   pl_report_label(r->job->diagnostics, m, r->theta_at, "θ");
   pl_suggest(r->job, m, NULL, "use one of them throughout", "durchgehend einen davon verwenden");
 }
 
 static void cannot_include(reading* r, const pl_ast* s, const char* en, const char* de) {
-  pl_diagnostic* m = pl_complain(r->job, PL_E010, pl_ast_span(pl_ast_kid(s, 0)), en, de, pl_ast_kid(s, 0)->text);
+  pl_diagnostic* m = pl_complain(r->job, PL_E010, pl_ast_span(pl_ast_kid(s, 0)), en, de,
+                                 pl_ast_kid(s, 0)->text);
   pl_suggest(r->job, m, NULL, "check the path, which counts from the including file",
              "den Pfad prüfen; er zählt ab der einbindenden Datei");
 }
@@ -93,7 +101,8 @@ static void include(reading* r, const pl_ast* s, const pl_source* from) {
     cannot_include(r, s, "%s includes itself", "%s bindet sich selbst ein");
     return;
   }
-  if (r->open.n >= MAX_OPEN) cannot_include(r, s, "%s is included too deeply", "%s ist zu tief eingebunden");
+  if (r->open.n >= MAX_OPEN)
+    cannot_include(r, s, "%s is included too deeply", "%s ist zu tief eingebunden");
   else read_file(r, file);
 }
 
@@ -113,7 +122,7 @@ static void read_file(reading* r, const pl_source* source) {
   r->open.n--;
 }
 
-// ---------------------------------------------------------------------------------------------- names inside blocks
+// ----------------------------------------------------------------------------- names inside blocks
 static void declare_rule(pl_lower* l, const pl_ast* s) {
   const pl_ast *label = pl_ast_kid(s, 0), *options = pl_ast_kid(s, 2);
   pl_rule r = {.generated = label == NULL};
@@ -129,18 +138,23 @@ static void declare_rule(pl_lower* l, const pl_ast* s) {
   if (with) {
     const pl_entity* taken = pl_scope_find(l, with->key);
     bool twice = false;
-    for (int i = 0; i < l->rules.n; i++) twice |= l->rules.at[i].with == with->key && &l->rules.at[i] != same;
+    for (int i = 0; i < l->rules.n; i++)
+      twice |= l->rules.at[i].with == with->key && &l->rules.at[i] != same;
     if (taken || twice) {
       pl_diagnostic* m = pl_lower_complain(l, PL_E012, pl_ast_span(with), "%s is declared twice",
                                            "%s ist zweimal vereinbart", with->shown);
       if (taken && !l->mute)
-        pl_report_label(l->job->diagnostics, m, taken->span, l->job->lang == PL_GERMAN ? "zuerst hier" : "first here");
-      pl_suggest(l->job, m, NULL, "choose another name, such as %s1", "einen anderen Namen wählen, etwa %s1",
-                 with->shown);
+        pl_report_label(l->job->diagnostics, m, taken->span,
+                        l->job->lang == PL_GERMAN ? "zuerst hier" : "first here");
+      pl_suggest(l->job, m, NULL, "choose another name, such as %s1",
+                 "einen anderen Namen wählen, etwa %s1", with->shown);
       with = NULL;
     }
   }
-  if (with) r.with = with->key, r.with_shown = with->shown;
+  if (with) {
+    r.with = with->key;
+    r.with_shown = with->shown;
+  }
   pl_symbol_info info = {.name = with ? with->shown : pl_format(l->arena, "λ_%s", r.shown),
                          .ascii = pl_format(l->arena, "lambda_%s", r.key),
                          .role = PL_R_MULTIPLIER,
@@ -160,9 +174,11 @@ static pl_block* make_block(pl_lower* l, const pl_ast* s) {
   if (e || pl_scope_local(l, name->key) || strcmp(name->key, "t") == 0) {
     pl_diagnostic* m = pl_lower_complain(l, PL_E012, pl_ast_span(name), "%s is declared twice",
                                          "%s ist zweimal vereinbart", name->shown);
-    pl_because(l->job, m, "an index needs a name of its own", "ein Index braucht einen eigenen Namen");
+    pl_because(l->job, m, "an index needs a name of its own",
+               "ein Index braucht einen eigenen Namen");
     if (e && !l->mute)
-      pl_report_label(l->job->diagnostics, m, e->span, l->job->lang == PL_GERMAN ? "zuerst hier" : "first here");
+      pl_report_label(l->job->diagnostics, m, e->span,
+                      l->job->lang == PL_GERMAN ? "zuerst hier" : "first here");
     pl_suggest(l->job, m, NULL, "choose another index", "einen anderen Index wählen");
   }
   pl_symbol old = pl_symbol_find(l->pool, name->key);
@@ -172,9 +188,9 @@ static pl_block* make_block(pl_lower* l, const pl_ast* s) {
   b->hi = pl_lower_scalar(l, pl_ast_kid(range, 1));
   b->step = pl_ast_kid(range, 2) ? pl_lower_scalar(l, pl_ast_kid(range, 2)) : pl_poison();
   if (pl_ast_kid(range, 3)) {
-    pl_diagnostic* m =
-        pl_lower_complain(l, PL_E017, pl_ast_span(pl_ast_kid(range, 3)), "an index runs in steps, not by a count",
-                          "ein Index läuft in Schritten, nicht nach einer Anzahl");
+    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(pl_ast_kid(range, 3)),
+                                         "an index runs in steps, not by a count",
+                                         "ein Index läuft in Schritten, nicht nach einer Anzahl");
     pl_suggest(l->job, m, NULL, "write  for i in 1..N", "schreibe  for i in 1..N");
   }
   pl_push(l->arena, l->m->blocks, b);
@@ -231,9 +247,11 @@ static void walk_block(pl_lower* l, walk* w, const pl_ast* s) {
       walk_statement(l, w, inner);
     } else if (w->first && !inner->broken) {
       const char* word = pl_word_of_statement(inner->token);
-      pl_diagnostic* m = pl_lower_complain(l, PL_E027, pl_ast_span(inner), "%s does not belong inside for",
+      pl_diagnostic* m = pl_lower_complain(l, PL_E027, pl_ast_span(inner),
+                                           "%s does not belong inside for",
                                            "%s gehört nicht in for", word ? word : "this");
-      pl_suggest(l->job, m, NULL, "move the line out of the block", "die Zeile aus dem Block herausnehmen");
+      pl_suggest(l->job, m, NULL, "move the line out of the block",
+                 "die Zeile aus dem Block herausnehmen");
     }
   }
   l->locals.n--;
@@ -263,7 +281,7 @@ static void visit_values(pl_lower* l, const pl_ast* s) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- requests in order
+// ------------------------------------------------------------------------------- requests in order
 static void lower_rest(pl_lower* l, walk* w, const pl_ast* s) {
   switch (s->token) {
     case TOK_PARAM:
@@ -290,11 +308,12 @@ static void lower_rest(pl_lower* l, walk* w, const pl_ast* s) {
 }
 
 static bool in_second_round(int token) {
-  return token == TOK_ASK || token == TOK_EVENT || token == TOK_PLOT || token == TOK_ANIMATE || token == TOK_DRAW || token == TOK_SWEEP ||
-         token == TOK_POINCARE || token == TOK_OUTPUT || token == TOK_SIMULATE;
+  return token == TOK_ASK || token == TOK_EVENT || token == TOK_PLOT || token == TOK_ANIMATE
+         || token == TOK_DRAW || token == TOK_SWEEP || token == TOK_POINCARE || token == TOK_OUTPUT
+         || token == TOK_SIMULATE;
 }
 
-// ---------------------------------------------------------------------------------------------- --set
+// ------------------------------------------------------------------------------------------- --set
 static const pl_ast* parse_piece(pl_lower* l, const char* title, const char* text) {
   pl_source* source = pl_source_make(l->arena, title, pl_copy(l->arena, text), strlen(text));
   pl_parse* p = PL_NEW(l->arena, pl_parse);
@@ -310,11 +329,13 @@ static void parse_settings(pl_lower* l, const pl_setting* set, int n) {
   }
 }
 
-// Parameters and abbreviations get their new value before anything is lowered, so that families follow.
+// Parameters and abbreviations get their new value before anything is lowered, so that families
+// follow.
 static void set_names(pl_lower* l) {
   for (int i = 0; i < l->settings.n; i++) {
     pl_setting_node* s = &l->settings.at[i];
-    pl_entity* e = s->name->kind == PL_AST_NAME && !s->name->number ? pl_scope_find(l, s->name->key) : NULL;
+    pl_entity* e = s->name->kind == PL_AST_NAME && !s->name->number ? pl_scope_find(l, s->name->key)
+                                                                    : NULL;
     s->done = e && (e->kind == PL_ENTITY_PARAM || e->kind == PL_ENTITY_LET);
     if (s->done) e->override = s->value;
   }
@@ -327,10 +348,12 @@ static void set_start(pl_lower* l, const pl_setting_node* s) {
   bool symbol = pl_kind_of(l->pool, target) == PL_SYMBOL;
   pl_role role = symbol ? pl_symbol_get(l->pool, pl_symbol_of(l->pool, target))->role : PL_R_PARAM;
   if (role != PL_R_COORD && role != PL_R_VELOCITY) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E030, pl_ast_span(s->name),
-                                         "only parameters, abbreviations and start values can be set",
-                                         "nur Parameter, Abkürzungen und Startwerte lassen sich setzen");
-    pl_suggest(l->job, m, NULL, "write --set m=2 or --set x=1", "schreibe --set m=2 oder --set x=1");
+    pl_diagnostic* m = pl_lower_complain(
+        l, PL_E030, pl_ast_span(s->name),
+        "only parameters, abbreviations and start values can be set",
+        "nur Parameter, Abkürzungen und Startwerte lassen sich setzen");
+    pl_suggest(l->job, m, NULL, "write --set m=2 or --set x=1",
+               "schreibe --set m=2 oder --set x=1");
     return;
   }
   for (int i = 0; i < l->m->inits.n; i++) {
@@ -338,10 +361,11 @@ static void set_start(pl_lower* l, const pl_setting_node* s) {
     l->m->inits.at[i].value = value;
     return;
   }
-  pl_push(l->arena, l->m->inits, (pl_init){.target = target, .value = value, .span = pl_ast_span(s->value)});
+  pl_push(l->arena, l->m->inits,
+          (pl_init){.target = target, .value = value, .span = pl_ast_span(s->value)});
 }
 
-// ---------------------------------------------------------------------------------------------- the passes
+// -------------------------------------------------------------------------------------- the passes
 // Declarations inside blocks are refused, but what they name is known, so that it is not missed.
 static void declare_inside(pl_lower* l, const pl_ast* s) {
   if (s->token != TOK_FOR) {
@@ -359,7 +383,8 @@ static void declare_inside(pl_lower* l, const pl_ast* s) {
 static void lower_all(pl_lower* l, pl_ast** s, int n) {
   walk w = {.blocks = pl_map_make(l->arena), .first = true};
   pl_ast file = {.kind = PL_AST_FILE};
-  file.kids.at = s, file.kids.n = n;
+  file.kids.at = s;
+  file.kids.n = n;
   // headers and names
   for (int i = 0; i < n; i++) declare_inside(l, s[i]);
   for (int i = 0; i < n; i++) {
@@ -401,7 +426,7 @@ static void lower_all(pl_lower* l, pl_ast** s, int n) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- public
+// ------------------------------------------------------------------------------------------ public
 pleuel_status pl_lang_parse(pl_job* job, const pl_source* source, const pl_include_reader* reader,
                             const pl_setting* set, int n_set, pl_model** out) {
   int before = job->diagnostics->n_errors;

@@ -1,5 +1,5 @@
-// The attitude of a body in space: which way its axes are given, and what follows from that: the turn, the angular
-// velocity, the energy of turning, what holds between the numbers that give it.
+// The attitude of a body in space: which way its axes are given, and what follows from that: the
+// turn, the angular velocity, the energy of turning, what holds between the numbers that give it.
 //
 //   axes euler(φ, ϑ, ψ)               turn = Rz(φ) Rx(ϑ) Rz(ψ): precession, nutation, spin
 //   axes quaternion(q0, q1, q2, q3)   turn = that of the quaternion q0 + i q1 + j q2 + k q3, with |q| = 1
@@ -10,7 +10,7 @@
 
 #include "lower_impl.h"
 
-// ---------------------------------------------------------------------------------------------- reading
+// ----------------------------------------------------------------------------------------- reading
 // The brackets of name(...), NULL when the node is no such call.
 static const pl_ast* call_of(const pl_ast* node, const char* name, int n) {
   if (node && node->kind == PL_AST_SUM) node = node->kids.n == 1 ? node->kids.at[0] : NULL;
@@ -30,7 +30,10 @@ pl_axes_form pl_attitude_form(const pl_ast* axes) {
 }
 
 int pl_attitude_count(pl_axes_form form) {
-  return form == PL_AXES_EULER ? 3 : form == PL_AXES_QUATERNION ? 4 : form == PL_AXES_VECTORS ? 9 : 0;
+  return form == PL_AXES_EULER        ? 3
+         : form == PL_AXES_QUATERNION ? 4
+         : form == PL_AXES_VECTORS    ? 9
+                                      : 0;
 }
 
 static void complain_form(pl_lower* l, const pl_ast* axes) {
@@ -38,14 +41,18 @@ static void complain_form(pl_lower* l, const pl_ast* axes) {
   bool euler = one && call_of(one, "euler", 0), quaternion = one && call_of(one, "quaternion", 0);
   pl_diagnostic* m = pl_lower_complain(
       l, PL_E017, pl_ast_span(axes),
-      euler        ? "euler takes three angles: precession, nutation, spin"
-      : quaternion ? "a quaternion has four components"
-                   : "the axes of a body are euler(φ, ϑ, ψ), quaternion(q0, q1, q2, q3) or three vectors",
+      euler ? "euler takes three angles: precession, nutation, spin"
+      : quaternion
+          ? "a quaternion has four components"
+          : "the axes of a body are euler(φ, ϑ, ψ), quaternion(q0, q1, q2, q3) or three vectors",
       euler        ? "euler verlangt drei Winkel: Präzession, Nutation, Eigendrehung"
       : quaternion ? "eine Quaternion hat vier Komponenten"
-                   : "die Achsen eines Körpers sind euler(φ, ϑ, ψ), quaternion(q0, q1, q2, q3) oder drei Vektoren");
+                   : "die Achsen eines Körpers sind euler(φ, ϑ, ψ), quaternion(q0, q1, q2, q3) "
+                     "oder drei Vektoren");
   pl_suggest(l->job, m, NULL, "write  axes %s", "schreibe  axes %s",
-             euler ? "euler(φ, ϑ, ψ)" : quaternion ? "quaternion(q0, q1, q2, q3)" : "euler(φ, ϑ, ψ)");
+             euler        ? "euler(φ, ϑ, ψ)"
+             : quaternion ? "quaternion(q0, q1, q2, q3)"
+                          : "euler(φ, ϑ, ψ)");
 }
 
 static bool read_vectors(pl_lower* l, const pl_ast* axes, pl_expr at[9]) {
@@ -53,8 +60,9 @@ static bool read_vectors(pl_lower* l, const pl_ast* axes, pl_expr at[9]) {
     pl_point e;
     if (!pl_lower_point(l, axes->kids.at[j], &e)) return false;
     if (e.n != 3) {
-      pl_diagnostic* m = pl_lower_complain(l, PL_E017, e.span, "an axis of a body in space has three components, this has %d",
-                                           "eine Achse eines Körpers im Raum hat drei Komponenten, diese hat %d", e.n);
+      pl_diagnostic* m = pl_lower_complain(
+          l, PL_E017, e.span, "an axis of a body in space has three components, this has %d",
+          "eine Achse eines Körpers im Raum hat drei Komponenten, diese hat %d", e.n);
       pl_suggest(l->job, m, NULL, "write  (ex, ey, ez)", "schreibe  (ex, ey, ez)");
       return false;
     }
@@ -87,12 +95,17 @@ bool pl_attitude_read(pl_lower* l, const pl_ast* axes, pl_attitude* out) {
   return fine;
 }
 
-// ---------------------------------------------------------------------------------------------- the turn
-static pl_expr mul3(pl_pool* p, pl_expr a, pl_expr b, pl_expr c) { return pl_mul(p, a, pl_mul(p, b, c)); }
+// ---------------------------------------------------------------------------------------- the turn
+static pl_expr mul3(pl_pool* p, pl_expr a, pl_expr b, pl_expr c) {
+  return pl_mul(p, a, pl_mul(p, b, c));
+}
 
 static void turn_by_euler(pl_pool* p, const pl_expr a[3], pl_expr turn[9]) {
   pl_expr c[3], s[3];
-  for (int i = 0; i < 3; i++) c[i] = pl_call(p, PL_COS, a[i]), s[i] = pl_call(p, PL_SIN, a[i]);
+  for (int i = 0; i < 3; i++) {
+    c[i] = pl_call(p, PL_COS, a[i]);
+    s[i] = pl_call(p, PL_SIN, a[i]);
+  }
   turn[0] = pl_sub(p, pl_mul(p, c[0], c[2]), mul3(p, s[0], c[1], s[2]));
   turn[1] = pl_neg(p, pl_add(p, pl_mul(p, c[0], s[2]), mul3(p, s[0], c[1], c[2])));
   turn[2] = pl_mul(p, s[0], s[1]);
@@ -124,7 +137,7 @@ static void find_turn(pl_pool* p, pl_attitude* a) {
   for (int i = 0; a->form == PL_AXES_VECTORS && i < 9; i++) a->turn[3 * (i % 3) + i / 3] = a->at[i];
 }
 
-// ---------------------------------------------------------------------------------------------- angular velocity
+// -------------------------------------------------------------------------------- angular velocity
 static pl_expr cross(pl_pool* p, const pl_expr a[3], const pl_expr b[3], int i) {
   int j = (i + 1) % 3, k = (i + 2) % 3;
   return pl_sub(p, pl_mul(p, a[j], b[k]), pl_mul(p, a[k], b[j]));
@@ -133,7 +146,7 @@ static pl_expr cross(pl_pool* p, const pl_expr a[3], const pl_expr b[3], int i) 
 //   ω = (φ' sin ϑ sin ψ + ϑ' cos ψ, φ' sin ϑ cos ψ - ϑ' sin ψ, φ' cos ϑ + ψ')  along the body axes
 //   ω = (ψ' sin ϑ sin φ + ϑ' cos φ, -ψ' sin ϑ cos φ + ϑ' sin φ, ψ' cos ϑ + φ') in space
 static void spin_by_euler(pl_pool* p, const pl_expr a[3], bool in_space, pl_expr w[3]) {
-  int about = in_space ? 0 : 2;   // the angle that turns the components
+  int about = in_space ? 0 : 2;  // the angle that turns the components
   pl_expr c = pl_call(p, PL_COS, a[about]), s = pl_call(p, PL_SIN, a[about]), nod = pl_dt(p, a[1]);
   pl_expr other = pl_dt(p, a[2 - about]), across = pl_mul(p, other, pl_call(p, PL_SIN, a[1]));
   w[0] = pl_add(p, pl_mul(p, across, s), pl_mul(p, nod, c));
@@ -149,7 +162,8 @@ static void spin_by_quaternion(pl_pool* p, const pl_expr q[4], bool in_space, pl
   for (int i = 0; i < 3; i++) {
     pl_expr straight = pl_sub(p, pl_mul(p, q[0], v[1 + i]), pl_mul(p, v[0], q[1 + i]));
     pl_expr bent = cross(p, q + 1, v + 1, i);
-    w[i] = pl_mul(p, pl_int(p, 2), in_space ? pl_add(p, straight, bent) : pl_sub(p, straight, bent));
+    w[i] = pl_mul(p, pl_int(p, 2),
+                  in_space ? pl_add(p, straight, bent) : pl_sub(p, straight, bent));
   }
 }
 
@@ -172,7 +186,7 @@ void pl_attitude_spin(pl_pool* p, const pl_attitude* a, pl_expr w[3]) {
   if (a->form == PL_AXES_VECTORS) spin_by_vectors(p, a->at, w);
 }
 
-// ---------------------------------------------------------------------------------------------- energy
+// ------------------------------------------------------------------------------------------ energy
 enum { XX, XY, XZ, YY, YZ, ZZ };
 static const int at_of[3][3] = {{XX, XY, XZ}, {XY, YY, YZ}, {XZ, YZ, ZZ}};
 
@@ -181,14 +195,17 @@ static pl_expr quadratic(pl_pool* p, const pl_expr J[6], const pl_expr w[3]) {
   pl_expr sum = pl_int(p, 0);
   bool round = pl_same(J[XX], J[YY]);
   if (round) sum = pl_mul(p, J[XX], pl_add(p, pl_square(p, w[0]), pl_square(p, w[1])));
-  for (int i = round ? 2 : 0; i < 3; i++) sum = pl_add(p, sum, pl_mul(p, J[at_of[i][i]], pl_square(p, w[i])));
+  for (int i = round ? 2 : 0; i < 3; i++)
+    sum = pl_add(p, sum, pl_mul(p, J[at_of[i][i]], pl_square(p, w[i])));
   for (int i = 0; i < 3; i++)
     for (int j = i + 1; j < 3; j++)
-      sum = pl_add(p, sum, pl_mul(p, pl_mul(p, pl_int(p, 2), J[at_of[i][j]]), pl_mul(p, w[i], w[j])));
+      sum = pl_add(p, sum,
+                   pl_mul(p, pl_mul(p, pl_int(p, 2), J[at_of[i][j]]), pl_mul(p, w[i], w[j])));
   return sum;
 }
 
-// A symmetric top in Euler angles is written without ψ, so that its spin stays cyclic in plain sight.
+// A symmetric top in Euler angles is written without ψ, so that its spin stays cyclic in plain
+// sight.
 static pl_expr energy_of_round_top(pl_pool* p, const pl_expr a[3], const pl_expr J[6]) {
   pl_expr w[3], across = pl_mul(p, pl_dt(p, a[0]), pl_call(p, PL_SIN, a[1]));
   spin_by_euler(p, a, false, w);
@@ -198,12 +215,15 @@ static pl_expr energy_of_round_top(pl_pool* p, const pl_expr a[3], const pl_expr
 
 // sum E_ij e_i'·e_j' with E = (trace J)/2 - J: the vectors have constant masses.
 static pl_expr energy_of_vectors(pl_pool* p, const pl_expr e[9], const pl_expr J[6]) {
-  pl_expr sum = pl_int(p, 0), half = pl_mul(p, pl_ratio(p, 1, 2), pl_add(p, J[XX], pl_add(p, J[YY], J[ZZ])));
+  pl_expr sum = pl_int(p, 0),
+          half = pl_mul(p, pl_ratio(p, 1, 2), pl_add(p, J[XX], pl_add(p, J[YY], J[ZZ])));
   for (int i = 0; i < 3; i++) {
     for (int j = i; j < 3; j++) {
       pl_expr dot = pl_int(p, 0);
-      for (int k = 0; k < 3; k++) dot = pl_add(p, dot, pl_mul(p, pl_dt(p, e[3 * i + k]), pl_dt(p, e[3 * j + k])));
-      pl_expr weight = i == j ? pl_sub(p, half, J[at_of[i][i]]) : pl_mul(p, pl_int(p, -2), J[at_of[i][j]]);
+      for (int k = 0; k < 3; k++)
+        dot = pl_add(p, dot, pl_mul(p, pl_dt(p, e[3 * i + k]), pl_dt(p, e[3 * j + k])));
+      pl_expr weight = i == j ? pl_sub(p, half, J[at_of[i][i]])
+                              : pl_mul(p, pl_int(p, -2), J[at_of[i][j]]);
       sum = pl_add(p, sum, pl_mul(p, weight, dot));
     }
   }
@@ -212,10 +232,12 @@ static pl_expr energy_of_vectors(pl_pool* p, const pl_expr e[9], const pl_expr J
 
 // 1/2 ω·J ω with J = xx, xy, xz, yy, yz, zz along the body axes.
 pl_expr pl_attitude_energy(pl_pool* p, const pl_attitude* a, const pl_expr J[6]) {
-  bool skew = !pl_is_zero_node(p, J[XY]) || !pl_is_zero_node(p, J[XZ]) || !pl_is_zero_node(p, J[YZ]);
+  bool skew = !pl_is_zero_node(p, J[XY]) || !pl_is_zero_node(p, J[XZ])
+              || !pl_is_zero_node(p, J[YZ]);
   pl_expr w[3], sum = pl_poison();
   if (a->form == PL_AXES_VECTORS) sum = energy_of_vectors(p, a->at, J);
-  else if (a->form == PL_AXES_EULER && !skew && pl_same(J[XX], J[YY])) sum = energy_of_round_top(p, a->at, J);
+  else if (a->form == PL_AXES_EULER && !skew && pl_same(J[XX], J[YY]))
+    sum = energy_of_round_top(p, a->at, J);
   else {
     if (a->form == PL_AXES_EULER) spin_by_euler(p, a->at, false, w);
     else spin_by_quaternion(p, a->at, false, w);
@@ -224,9 +246,10 @@ pl_expr pl_attitude_energy(pl_pool* p, const pl_attitude* a, const pl_expr J[6])
   return pl_mul(p, pl_ratio(p, 1, 2), sum);
 }
 
-// ---------------------------------------------------------------------------------------------- what holds between them
+// ------------------------------------------------------------------------- what holds between them
 // Condition k of the attitude as left = right; its name within the body.  false: there are no more.
-bool pl_attitude_condition(pl_pool* p, const pl_attitude* a, int k, pl_expr* left, pl_expr* right, const char** name) {
+bool pl_attitude_condition(pl_pool* p, const pl_attitude* a, int k, pl_expr* left, pl_expr* right,
+                           const char** name) {
   static const char* const pair[6] = {"11", "22", "33", "12", "13", "23"};
   *left = pl_int(p, 0);
   if (a->form == PL_AXES_QUATERNION && k == 0) {
@@ -237,7 +260,8 @@ bool pl_attitude_condition(pl_pool* p, const pl_attitude* a, int k, pl_expr* lef
   }
   if (a->form != PL_AXES_VECTORS || k >= 6) return false;
   int i = pair[k][0] - '1', j = pair[k][1] - '1';
-  for (int n = 0; n < 3; n++) *left = pl_add(p, *left, pl_mul(p, a->at[3 * i + n], a->at[3 * j + n]));
+  for (int n = 0; n < 3; n++)
+    *left = pl_add(p, *left, pl_mul(p, a->at[3 * i + n], a->at[3 * j + n]));
   *right = pl_int(p, i == j);
   *name = pair[k];
   return true;

@@ -1,5 +1,5 @@
-// Calls: elementary functions, the special forms (norm, diff, sum, if, ...), results of constraints, functions of
-// `let`.
+// Calls: elementary functions, the special forms (norm, diff, sum, if, ...), results of
+// constraints, functions of `let`.
 #include "lang/lower_impl.h"
 
 #include <string.h>
@@ -20,7 +20,8 @@ bool pl_lower_is_function(const pl_lower* l, const char* key) {
 }
 
 static pl_span span_of(const call* c) {
-  return c->group ? pl_span_join(pl_ast_span(c->name), pl_ast_span(c->group)) : pl_ast_span(c->name);
+  return c->group ? pl_span_join(pl_ast_span(c->name), pl_ast_span(c->group))
+                  : pl_ast_span(c->name);
 }
 static const pl_ast* arg(const call* c, int i) { return c->group->kids.at[i]; }
 
@@ -28,18 +29,20 @@ static pl_quantity wrong_count(pl_lower* l, const call* c, const char* usage) {
   // sin(0,5): a decimal comma rather than two arguments
   if (c->n == 2) {
     const pl_ast *a = pl_ast_single(arg(c, 0)), *b = pl_ast_single(arg(c, 1));
-    bool comma = a && b && a->kind == PL_AST_NUMBER && b->kind == PL_AST_NUMBER && a->end + 1 == b->begin;
+    bool comma = a && b && a->kind == PL_AST_NUMBER && b->kind == PL_AST_NUMBER
+                 && a->end + 1 == b->begin;
     if (comma) {
       const char* fixed = pl_format(l->arena, "%s.%s", a->text, b->text);
-      pl_diagnostic* m =
-          pl_lower_complain(l, PL_E003, pl_span_join(pl_ast_span(a), pl_ast_span(b)), "decimal comma", "Dezimalkomma");
+      pl_diagnostic* m = pl_lower_complain(l, PL_E003, pl_span_join(pl_ast_span(a), pl_ast_span(b)),
+                                           "decimal comma", "Dezimalkomma");
       pl_suggest(l->job, m, fixed, "write %s        (Dezimalpunkt statt Komma)",
                  "schreibe %s        (Dezimalpunkt statt Komma)", fixed);
       return pl_quantity_bad();
     }
   }
-  pl_diagnostic* m = pl_lower_complain(l, PL_E017, span_of(c), "wrong number of arguments for %s: %d",
-                                       "falsche Zahl von Argumenten für %s: %d", c->name->shown, c->n);
+  pl_diagnostic* m = pl_lower_complain(
+      l, PL_E017, span_of(c), "wrong number of arguments for %s: %d",
+      "falsche Zahl von Argumenten für %s: %d", c->name->shown, c->n);
   pl_suggest(l->job, m, NULL, "write %s", "schreibe %s", usage);
   return pl_quantity_bad();
 }
@@ -54,11 +57,12 @@ static bool scalar_args(pl_lower* l, const call* c, pl_expr* out) {
 }
 
 static pl_quantity checked(pl_lower* l, const call* c, pl_expr e) {
-  if (pl_is_poison(e)) pl_lower_complain(l, PL_E040, span_of(c), "this has no value", "das hat keinen Wert");
+  if (pl_is_poison(e))
+    pl_lower_complain(l, PL_E040, span_of(c), "this has no value", "das hat keinen Wert");
   return pl_quantity_of(e);
 }
 
-// ---------------------------------------------------------------------------------------------- elementary functions
+// ---------------------------------------------------------------------------- elementary functions
 static int elementary(const char* key) {
   for (int i = 0; i < PL_N_FUNCTIONS; i++) {
     if (strcmp(pl_function_name[i], key) == 0) return i;
@@ -75,19 +79,23 @@ static pl_expr apply_elementary(pl_lower* l, const char* key, pl_expr x) {
 static void hint_log(pl_lower* l, const pl_ast* name) {
   if (strcmp(name->key, "log") != 0 || l->log_said) return;
   l->log_said = true;
-  pl_diagnostic* m = pl_lower_complain(l, PL_N072, pl_ast_span(name), "log is the natural logarithm",
+  pl_diagnostic* m = pl_lower_complain(l, PL_N072, pl_ast_span(name),
+                                       "log is the natural logarithm",
                                        "log ist der natürliche Logarithmus");
   pl_suggest(l->job, m, "ln", "write ln to say so", "schreibe ln, um das zu sagen");
 }
 
 // sin 30: an angle without its sign for degrees, several turns if it is one in radians.
 static void hint_degrees(pl_lower* l, const pl_ast* name, pl_expr x, const pl_ast* where) {
-  bool trig = strcmp(name->key, "sin") == 0 || strcmp(name->key, "cos") == 0 || strcmp(name->key, "tan") == 0;
+  bool trig = strcmp(name->key, "sin") == 0 || strcmp(name->key, "cos") == 0
+              || strcmp(name->key, "tan") == 0;
   long n = 0;
   if (!trig || pl_is_poison(x) || !pl_is_int(l->pool, x, &n) || (n < 7 && n > -7)) return;
-  pl_diagnostic* m = pl_lower_complain(l, PL_N021, pl_ast_span(where), "%s of %ld is taken in radians", "%s von %ld gilt im Bogenmaß",
-                                       name->shown, n);
-  pl_suggest(l->job, m, NULL, "write %s(%ld°) if degrees are meant", "schreibe %s(%ld°), falls Grad gemeint sind", name->shown, n);
+  pl_diagnostic* m = pl_lower_complain(l, PL_N021, pl_ast_span(where),
+                                       "%s of %ld is taken in radians",
+                                       "%s von %ld gilt im Bogenmaß", name->shown, n);
+  pl_suggest(l->job, m, NULL, "write %s(%ld°) if degrees are meant",
+             "schreibe %s(%ld°), falls Grad gemeint sind", name->shown, n);
 }
 
 static bool is_elementary_of_one(const char* key) {
@@ -98,7 +106,8 @@ static bool is_elementary_of_one(const char* key) {
 
 static pl_quantity call_of_several(pl_lower* l, const call* c, pl_function f) {
   bool many = f == PL_MIN || f == PL_MAX;
-  if (c->n < 2 || (c->n > 2 && !many)) return wrong_count(l, c, pl_format(l->arena, "%s(a, b)", c->name->shown));
+  if (c->n < 2 || (c->n > 2 && !many))
+    return wrong_count(l, c, pl_format(l->arena, "%s(a, b)", c->name->shown));
   pl_expr* x = PL_ARRAY(l->arena, pl_expr, c->n);
   if (!scalar_args(l, c, x)) return pl_quantity_bad();
   pl_expr value = x[0];
@@ -106,16 +115,18 @@ static pl_quantity call_of_several(pl_lower* l, const call* c, pl_function f) {
   return checked(l, c, value);
 }
 
-// ---------------------------------------------------------------------------------------------- vectors
+// ----------------------------------------------------------------------------------------- vectors
 static bool vector_args(pl_lower* l, const call* c, pl_quantity* v) {
   bool fine = true;
   for (int i = 0; i < c->n; i++) {
     v[i] = pl_lower_quantity(l, arg(c, i));
     if (!v[i].force_of && pl_quantity_is_bad(&v[i])) fine = false;
     else if (v[i].n == 0 && !v[i].force_of) {
-      pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(arg(c, i)), "%s takes vectors, this is a number",
+      pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(arg(c, i)),
+                                           "%s takes vectors, this is a number",
                                            "%s nimmt Vektoren, das ist eine Zahl", c->name->shown);
-      pl_suggest(l->job, m, NULL, "write a vector as (a, b) or pos(A)", "einen Vektor schreibt man (a, b) oder pos(A)");
+      pl_suggest(l->job, m, NULL, "write a vector as (a, b) or pos(A)",
+                 "einen Vektor schreibt man (a, b) oder pos(A)");
       fine = false;
     }
   }
@@ -132,14 +143,17 @@ static pl_quantity call_norm(pl_lower* l, const call* c) {
   if (c->n != 1) return wrong_count(l, c, "norm(a)");
   pl_quantity v;
   if (!vector_args(l, c, &v)) return pl_quantity_bad();
-  if (v.force_of) return pl_quantity_of(pl_sym(l->pool, pl_model_result_symbol(l->m, PL_RES_FORCE_NORM, v.force_of)));
+  if (v.force_of)
+    return pl_quantity_of(
+        pl_sym(l->pool, pl_model_result_symbol(l->m, PL_RES_FORCE_NORM, v.force_of)));
   return checked(l, c, pl_sqrt(l->pool, dot_of(l, &v, &v)));
 }
 
 static bool two_vectors(pl_lower* l, const call* c, pl_quantity* v) {
   if (!vector_args(l, c, v)) return false;
   if (v[0].force_of || v[1].force_of) {
-    pl_lower_complain(l, PL_E017, span_of(c), "of a force only its size can be used here: norm(force(...))",
+    pl_lower_complain(l, PL_E017, span_of(c),
+                      "of a force only its size can be used here: norm(force(...))",
                       "von einer Kraft lässt sich hier nur die Größe verwenden: norm(force(...))");
     return false;
   }
@@ -184,10 +198,10 @@ static pl_quantity call_spherical(pl_lower* l, const call* c) {
   if (c->n != 3) return wrong_count(l, c, "spherical(r, θ, φ)");
   if (!scalar_args(l, c, x)) return pl_quantity_bad();
   pl_expr in_plane = pl_mul(p, x[0], pl_call(p, PL_SIN, x[1]));
-  return (pl_quantity){
-      .n = 3,
-      .at = {pl_mul(p, in_plane, pl_call(p, PL_COS, x[2])), pl_mul(p, in_plane, pl_call(p, PL_SIN, x[2])),
-             pl_mul(p, x[0], pl_call(p, PL_COS, x[1]))}};
+  return (pl_quantity){.n = 3,
+                       .at = {pl_mul(p, in_plane, pl_call(p, PL_COS, x[2])),
+                              pl_mul(p, in_plane, pl_call(p, PL_SIN, x[2])),
+                              pl_mul(p, x[0], pl_call(p, PL_COS, x[1]))}};
 }
 
 static pl_quantity call_place(pl_lower* l, const call* c, bool velocity) {
@@ -196,7 +210,8 @@ static pl_quantity call_place(pl_lower* l, const call* c, bool velocity) {
   const pl_ast* label = pl_ast_label(arg(c, 0), &index);
   pl_point at;
   if (label == NULL) {
-    pl_lower_complain(l, PL_E017, pl_ast_span(arg(c, 0)), "%s takes the label of a mass, body or point",
+    pl_lower_complain(l, PL_E017, pl_ast_span(arg(c, 0)),
+                      "%s takes the label of a mass, body or point",
                       "%s nimmt die Marke einer Masse, eines Körpers oder Punktes", c->name->shown);
     return pl_quantity_bad();
   }
@@ -207,7 +222,7 @@ static pl_quantity call_place(pl_lower* l, const call* c, bool velocity) {
   return q;
 }
 
-// ---------------------------------------------------------------------------------------------- calculus
+// ---------------------------------------------------------------------------------------- calculus
 // Names of results (T, E, force(label)) are derived when they are known.
 static bool has_results(const pl_lower* l, pl_expr e) {
   for (int i = 0; i < l->m->result_names.n; i++) {
@@ -223,7 +238,8 @@ static pl_quantity call_diff(pl_lower* l, const call* c) {
   if (pl_quantity_is_bad(&f) || pl_is_poison(x)) return pl_quantity_bad();
   pl_kind kind = pl_kind_of(l->pool, x);
   if (kind != PL_SYMBOL && kind != PL_AT) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(arg(c, 1)), "diff derives by a name",
+    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(arg(c, 1)),
+                                         "diff derives by a name",
                                          "diff leitet nach einem Namen ab");
     pl_suggest(l->job, m, NULL, "write diff(f, x), or dt(f) for the time derivative",
                "schreibe diff(f, x) oder dt(f) für die Zeitableitung");
@@ -231,17 +247,23 @@ static pl_quantity call_diff(pl_lower* l, const call* c) {
   }
   for (int i = 0; i < (f.n ? f.n : 1); i++) {
     if (kind == PL_SYMBOL && has_results(l, f.at[i])) {
-      f.at[i] = pl_sym(l->pool, pl_model_result_derivative(l->m, PL_RES_DIFF, f.at[i], pl_symbol_of(l->pool, x)));
+      f.at[i] = pl_sym(l->pool, pl_model_result_derivative(l->m, PL_RES_DIFF, f.at[i],
+                                                           pl_symbol_of(l->pool, x)));
       continue;
     }
-    bool of_motion = pl_has_role(l->pool, f.at[i], PL_R_MULTIPLIER) || pl_has_role(l->pool, f.at[i], PL_R_ACCELERATION);
+    bool of_motion = pl_has_role(l->pool, f.at[i], PL_R_MULTIPLIER)
+                     || pl_has_role(l->pool, f.at[i], PL_R_ACCELERATION);
     bool own = kind == PL_SYMBOL && pl_has_symbol(l->pool, f.at[i], pl_symbol_of(l->pool, x));
     if (of_motion && !own) {
-      pl_lower_complain(l, PL_E017, span_of(c), "accelerations and multipliers hang on the motion and cannot be derived here",
-                        "Beschleunigungen und Multiplikatoren hängen an der Bewegung und lassen sich hier nicht ableiten");
+      pl_lower_complain(
+          l, PL_E017, span_of(c),
+          "accelerations and multipliers hang on the motion and cannot be derived here",
+          "Beschleunigungen und Multiplikatoren hängen an der Bewegung und lassen sich hier nicht "
+          "ableiten");
       return pl_quantity_bad();
     }
-    f.at[i] = kind == PL_SYMBOL ? pl_diff(l->pool, f.at[i], pl_symbol_of(l->pool, x)) : pl_diff_at(l->pool, f.at[i], x);
+    f.at[i] = kind == PL_SYMBOL ? pl_diff(l->pool, f.at[i], pl_symbol_of(l->pool, x))
+                                : pl_diff_at(l->pool, f.at[i], x);
   }
   return f;
 }
@@ -252,23 +274,28 @@ static pl_quantity call_dt(pl_lower* l, const call* c) {
   if (pl_quantity_is_bad(&f)) return f;
   for (int i = 0; i < (f.n ? f.n : 1); i++) {
     if (has_results(l, f.at[i])) {
-      f.at[i] = pl_sym(l->pool, pl_model_result_derivative(l->m, PL_RES_DT, f.at[i], (pl_symbol){0}));
+      f.at[i] = pl_sym(l->pool,
+                       pl_model_result_derivative(l->m, PL_RES_DT, f.at[i], (pl_symbol){0}));
       continue;
     }
-    bool fixed = pl_has_role(l->pool, f.at[i], PL_R_MULTIPLIER) || pl_has_role(l->pool, f.at[i], PL_R_ACCELERATION);
+    bool fixed = pl_has_role(l->pool, f.at[i], PL_R_MULTIPLIER)
+                 || pl_has_role(l->pool, f.at[i], PL_R_ACCELERATION);
     if (!fixed) f.at[i] = pl_dt(l->pool, f.at[i]);
     if (!fixed && !pl_is_poison(f.at[i])) continue;
-    pl_lower_complain(l, PL_E017, span_of(c), "accelerations and multipliers cannot be derived by time here",
-                      "Beschleunigungen und Multiplikatoren lassen sich hier nicht nach der Zeit ableiten");
+    pl_lower_complain(
+        l, PL_E017, span_of(c), "accelerations and multipliers cannot be derived by time here",
+        "Beschleunigungen und Multiplikatoren lassen sich hier nicht nach der Zeit ableiten");
     return pl_quantity_bad();
   }
   return f;
 }
 
 static pl_quantity call_sum(pl_lower* l, const call* c) {
-  bool shape = c->n == 2 && arg(c, 0)->kind == PL_AST_IN && arg(c, 0)->kids.at[1]->kind == PL_AST_RANGE;
+  bool shape = c->n == 2 && arg(c, 0)->kind == PL_AST_IN
+               && arg(c, 0)->kids.at[1]->kind == PL_AST_RANGE;
   const pl_ast* index = shape ? pl_ast_single(arg(c, 0)->kids.at[0]) : NULL;
-  if (!shape || !index || index->kind != PL_AST_NAME || index->number) return wrong_count(l, c, "sum(i in 1..N, x[i])");
+  if (!shape || !index || index->kind != PL_AST_NAME || index->number)
+    return wrong_count(l, c, "sum(i in 1..N, x[i])");
   const pl_ast* range = arg(c, 0)->kids.at[1];
   pl_expr lo = pl_lower_scalar(l, range->kids.at[0]), hi = pl_lower_scalar(l, range->kids.at[1]);
   pl_symbol_info info = {.name = index->shown,
@@ -295,7 +322,8 @@ static pl_quantity call_if(pl_lower* l, const call* c) {
   bool fine = pl_lower_relation(l, arg(c, 0), &test, 0);
   pl_expr a = pl_lower_scalar(l, arg(c, 1)), b = pl_lower_scalar(l, arg(c, 2));
   if (!fine || pl_is_poison(a) || pl_is_poison(b)) return pl_quantity_bad();
-  pl_expr difference = pl_sub(l->pool, test.left, test.right), opposite = pl_sub(l->pool, test.right, test.left);
+  pl_expr difference = pl_sub(l->pool, test.left, test.right),
+          opposite = pl_sub(l->pool, test.right, test.left);
   switch (test.relation) {
     case PL_GT: return checked(l, c, pl_if(l->pool, difference, a, b));
     case PL_LT: return checked(l, c, pl_if(l->pool, opposite, a, b));
@@ -303,24 +331,28 @@ static pl_quantity call_if(pl_lower* l, const call* c) {
     case PL_GE: return checked(l, c, pl_if(l->pool, opposite, b, a));
     default: break;
   }
-  pl_diagnostic* m = pl_lower_complain(l, PL_E017, test.span, "if compares with > or <", "if vergleicht mit > oder <");
+  pl_diagnostic* m = pl_lower_complain(l, PL_E017, test.span, "if compares with > or <",
+                                       "if vergleicht mit > oder <");
   pl_suggest(l->job, m, NULL, "write if(a > b, ..., ...)", "schreibe if(a > b, ..., ...)");
   return pl_quantity_bad();
 }
 
-// ---------------------------------------------------------------------------------------------- results
+// ----------------------------------------------------------------------------------------- results
 static pl_quantity call_result(pl_lower* l, const call* c, pl_result_kind kind) {
   if (!l->results) {
-    pl_lower_complain(l, PL_E057, span_of(c), "%s is a result: it can stand in ask, plot, event and output",
-                      "%s ist ein Ergebnis: es kann in ask, plot, event und output stehen", c->name->shown);
+    pl_lower_complain(
+        l, PL_E057, span_of(c), "%s is a result: it can stand in ask, plot, event and output",
+        "%s ist ein Ergebnis: es kann in ask, plot, event und output stehen", c->name->shown);
     return pl_quantity_bad();
   }
   const pl_ast* index = NULL;
   const pl_ast* name = c->n == 1 ? pl_ast_label(arg(c, 0), &index) : NULL;
   if (name == NULL) return wrong_count(l, c, pl_format(l->arena, "%s(label)", c->name->shown));
-  pl_ast label = {.kind = PL_AST_LABEL, .source = name->source, .begin = name->begin, .end = name->end};
+  pl_ast label = {
+      .kind = PL_AST_LABEL, .source = name->source, .begin = name->begin, .end = name->end};
   pl_ast* kids[2] = {(pl_ast*)(uintptr_t)name, (pl_ast*)(uintptr_t)index};
-  label.kids.at = kids, label.kids.n = 2;
+  label.kids.at = kids;
+  label.kids.n = 2;
   const char* text = pl_constraint_label(l, &label);
   if (text == NULL) return pl_quantity_bad();
   pl_quantity q = pl_quantity_of(pl_sym(l->pool, pl_model_result_symbol(l->m, kind, text)));
@@ -334,10 +366,11 @@ const char* pl_force_label(const pl_lower* l, pl_expr e) {
   return r && r->kind == PL_RES_FORCE ? r->label : NULL;
 }
 
-// ---------------------------------------------------------------------------------------------- functions of let
+// -------------------------------------------------------------------------------- functions of let
 // A function of a finished model: its body is an expression over the symbols of its arguments.
 static pl_quantity call_finished(pl_lower* l, const call* c, pl_entity* e) {
-  if (c->n != e->n_args) return wrong_count(l, c, pl_format(l->arena, "%s with %d", e->shown, e->n_args));
+  if (c->n != e->n_args)
+    return wrong_count(l, c, pl_format(l->arena, "%s with %d", e->shown, e->n_args));
   pl_replace* r = PL_ARRAY(l->arena, pl_replace, c->n + 1);
   pl_expr* x = PL_ARRAY(l->arena, pl_expr, c->n + 1);
   if (!scalar_args(l, c, x)) return pl_quantity_bad();
@@ -349,12 +382,15 @@ static pl_quantity call_own(pl_lower* l, const call* c, pl_entity* e) {
   if (e->definition == NULL) return call_finished(l, c, e);
   const pl_ast* parameters = pl_ast_kid(e->definition, 1);
   if (c->n != parameters->kids.n)
-    return wrong_count(l, c, pl_source_text(l->arena, pl_span_join(e->span, pl_ast_span(parameters))));
+    return wrong_count(l, c,
+                       pl_source_text(l->arena, pl_span_join(e->span, pl_ast_span(parameters))));
   enum { MOST_ARGS = 16, MAX_DEPTH = 100 };
-  if (c->n > MOST_ARGS) return wrong_count(l, c, pl_format(l->arena, "%s with fewer arguments", e->shown));
+  if (c->n > MOST_ARGS)
+    return wrong_count(l, c, pl_format(l->arena, "%s with fewer arguments", e->shown));
   if (e->state == 1 || l->call_depth > MAX_DEPTH) {
     if (!e->broken)
-      pl_lower_complain(l, PL_E018, e->span, "%s leads back to itself", "%s führt auf sich selbst zurück", e->shown);
+      pl_lower_complain(l, PL_E018, e->span, "%s leads back to itself",
+                        "%s führt auf sich selbst zurück", e->shown);
     e->broken = true;
     l->wrong++;
     return pl_quantity_bad();
@@ -378,20 +414,26 @@ static pl_quantity call_own(pl_lower* l, const call* c, pl_entity* e) {
   int n_outer = l->locals.n, cap_outer = l->locals.cap, wrong = l->wrong;
   pl_block* block = l->block;
   bool results = l->results;
-  l->locals.at = bound.at, l->locals.n = bound.n, l->locals.cap = bound.cap;
-  l->block = NULL, l->results = true;
+  l->locals.at = bound.at;
+  l->locals.n = bound.n;
+  l->locals.cap = bound.cap;
+  l->block = NULL;
+  l->results = true;
   e->state = 1;
   l->call_depth++;
   pl_quantity value = pl_lower_quantity(l, pl_ast_kid(e->definition, 2));
   l->call_depth--;
   e->state = 0;
-  l->locals.at = outer, l->locals.n = n_outer, l->locals.cap = cap_outer;
-  l->block = block, l->results = results;
+  l->locals.at = outer;
+  l->locals.n = n_outer;
+  l->locals.cap = cap_outer;
+  l->block = block;
+  l->results = results;
   if (l->wrong > wrong) e->broken = true;  // its body has been complained about
   return value;
 }
 
-// ---------------------------------------------------------------------------------------------- dispatch
+// ---------------------------------------------------------------------------------------- dispatch
 pl_quantity pl_lower_call(pl_lower* l, const pl_ast* name, const pl_ast* group) {
   call c = {name, group, group ? group->kids.n : 0};
   if (group == NULL) {
@@ -412,8 +454,9 @@ pl_quantity pl_lower_call(pl_lower* l, const pl_ast* name, const pl_ast* group) 
     const char* key;
     pl_quantity (*go)(pl_lower*, const call*);
   } forms[] = {
-      {"norm", call_norm}, {"dot", call_dot}, {"cross", call_cross}, {"diff", call_diff},           {"dt", call_dt},
-      {"sum", call_sum},   {"if", call_if},   {"polar", call_polar}, {"spherical", call_spherical},
+      {"norm", call_norm}, {"dot", call_dot},     {"cross", call_cross},
+      {"diff", call_diff}, {"dt", call_dt},       {"sum", call_sum},
+      {"if", call_if},     {"polar", call_polar}, {"spherical", call_spherical},
   };
   for (size_t i = 0; i < sizeof forms / sizeof forms[0]; i++) {
     if (strcmp(forms[i].key, name->key) == 0) return forms[i].go(l, &c);
@@ -422,8 +465,8 @@ pl_quantity pl_lower_call(pl_lower* l, const pl_ast* name, const pl_ast* group) 
   if (strcmp(name->key, "vel") == 0) return call_place(l, &c, true);
   if (strcmp(name->key, "force") == 0) return call_result(l, &c, PL_RES_FORCE);
   if (strcmp(name->key, "normal") == 0) return call_result(l, &c, PL_RES_NORMAL);
-  pl_lower_complain(l, PL_E017, span_of(&c), "%s belongs to a body in space", "%s gehört zu einem Körper im Raum",
-                    name->shown);
+  pl_lower_complain(l, PL_E017, span_of(&c), "%s belongs to a body in space",
+                    "%s gehört zu einem Körper im Raum", name->shown);
   return pl_quantity_bad();
 }
 
@@ -432,15 +475,17 @@ pl_quantity pl_lower_apply(pl_lower* l, const pl_ast* name, pl_quantity x, const
   if (pl_quantity_is_bad(&x)) return x;
   hint_log(l, name);
   if (!is_elementary_of_one(name->key) || pl_scope_find(l, name->key)) {
-    pl_diagnostic* m =
-        pl_lower_complain(l, PL_E015, pl_ast_span(name), "%s needs brackets", "%s braucht Klammern", name->shown);
+    pl_diagnostic* m = pl_lower_complain(l, PL_E015, pl_ast_span(name), "%s needs brackets",
+                                         "%s braucht Klammern", name->shown);
     pl_suggest(l->job, m, NULL, "write %s(...)", "schreibe %s(...)", name->shown);
     return pl_quantity_bad();
   }
   if (x.n) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(where), "%s takes a number, this is a vector",
+    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(where),
+                                         "%s takes a number, this is a vector",
                                          "%s nimmt eine Zahl, das ist ein Vektor", name->shown);
-    if (strcmp(name->key, "abs") == 0) pl_suggest(l->job, m, NULL, "write norm(...)", "schreibe norm(...)");
+    if (strcmp(name->key, "abs") == 0)
+      pl_suggest(l->job, m, NULL, "write norm(...)", "schreibe norm(...)");
     return pl_quantity_bad();
   }
   hint_degrees(l, name, x.at[0], where);

@@ -1,11 +1,13 @@
-// Coefficients of contacts: `restitution e on label`, `friction μ, static μs, surface v, at P on label`.
+// Coefficients of contacts: `restitution e on label`, `friction μ, static μs, surface v, at P on
+// label`.
 #include "lang/lower_impl.h"
 
 #include <string.h>
 
 #include "grammar.h"
 
-// The label of the constraint that a coefficient is for; a family without index stands for all its members.
+// The label of the constraint that a coefficient is for; a family without index stands for all its
+// members.
 static const char* constraint_of(pl_lower* l, const pl_ast* node) {
   const pl_ast* index;
   const pl_ast* name = pl_ast_label(node, &index);
@@ -16,10 +18,12 @@ static const char* constraint_of(pl_lower* l, const pl_ast* node) {
   }
   const pl_rule* rule = pl_scope_rule(l, name->key);
   if (rule == NULL && pl_site_find(l, name->key)) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node), "%s is no constraint, but contacts are constraints",
-                                         "%s ist keine Zwangsbedingung, Kontakte sind aber Zwangsbedingungen", name->shown);
+    pl_diagnostic* m = pl_lower_complain(
+        l, PL_E017, pl_ast_span(node), "%s is no constraint, but contacts are constraints",
+        "%s ist keine Zwangsbedingung, Kontakte sind aber Zwangsbedingungen", name->shown);
     pl_suggest(l->job, m, NULL, "write the label of the constraint that keeps %s on its surface",
-               "die Marke der Zwangsbedingung schreiben, die %s auf seiner Fläche hält", name->shown);
+               "die Marke der Zwangsbedingung schreiben, die %s auf seiner Fläche hält",
+               name->shown);
     return NULL;
   }
   if (rule == NULL) {
@@ -49,10 +53,11 @@ static bool lower_surface(pl_lower* l, const pl_ast* node, pl_point* out) {
   out->span = pl_ast_span(node);
   memcpy(out->at, v.at, sizeof out->at);
   if (out->n == l->m->n_axes) return true;
-  pl_diagnostic* m = pl_lower_complain(l, PL_E035, out->span, "the velocity of the surface has %d components, there are %d axes",
-                                       "die Geschwindigkeit der Fläche hat %d Komponenten, es gibt %d Achsen", out->n,
-                                       l->m->n_axes);
-  pl_suggest(l->job, m, NULL, l->m->n_axes == 2 ? "write  surface (vx, vy)" : "write  surface (vx, vy, vz)",
+  pl_diagnostic* m = pl_lower_complain(
+      l, PL_E035, out->span, "the velocity of the surface has %d components, there are %d axes",
+      "die Geschwindigkeit der Fläche hat %d Komponenten, es gibt %d Achsen", out->n, l->m->n_axes);
+  pl_suggest(l->job, m, NULL,
+             l->m->n_axes == 2 ? "write  surface (vx, vy)" : "write  surface (vx, vy, vz)",
              l->m->n_axes == 2 ? "schreibe  surface (vx, vy)" : "schreibe  surface (vx, vy, vz)");
   return false;
 }

@@ -5,11 +5,12 @@
 
 #include "grammar.h"
 
-// ---------------------------------------------------------------------------------------------- headers
+// ----------------------------------------------------------------------------------------- headers
 static void lower_version(pl_lower* l, const pl_ast* s) {
   const pl_ast* number = pl_ast_kid(s, 0);
   if (strcmp(number->text, "1") == 0) return;
-  pl_diagnostic* m = pl_lower_complain(l, PL_E001, pl_ast_span(number), "there is no language version %s",
+  pl_diagnostic* m = pl_lower_complain(l, PL_E001, pl_ast_span(number),
+                                       "there is no language version %s",
                                        "es gibt keine Sprachversion %s", number->text);
   pl_suggest(l->job, m, "1", "write  pleuel 1", "schreibe  pleuel 1");
 }
@@ -31,15 +32,16 @@ static void lower_axes(pl_lower* l, const pl_ast* s) {
   static const char* const directions[] = {"right", "left", "up", "down", "out"};
   const pl_ast* list = pl_ast_kid(s, 0);
   if (l->m->n_axes) {
-    pl_diagnostic* m =
-        pl_lower_complain(l, PL_E028, pl_ast_span(s), "the axes are given twice", "die Achsen sind zweimal angegeben");
+    pl_diagnostic* m = pl_lower_complain(l, PL_E028, pl_ast_span(s), "the axes are given twice",
+                                         "die Achsen sind zweimal angegeben");
     pl_suggest(l->job, m, NULL, "remove one of the lines", "eine der Zeilen entfernen");
     return;
   }
   for (int i = 0; i < list->kids.n; i++) {
     const pl_ast *axis = list->kids.at[i], *name = pl_ast_kid(axis, 0), *way = pl_ast_kid(axis, 1);
     if (i >= 3) {
-      pl_lower_complain(l, PL_E029, pl_ast_span(axis), "there are at most three axes", "es gibt höchstens drei Achsen");
+      pl_lower_complain(l, PL_E029, pl_ast_span(axis), "there are at most three axes",
+                        "es gibt höchstens drei Achsen");
       return;
     }
     const char* direction = NULL;
@@ -47,14 +49,14 @@ static void lower_axes(pl_lower* l, const pl_ast* s) {
       if (strcmp(directions[k], way->key) == 0) direction = directions[k];
     }
     if (way && !direction) {
-      pl_diagnostic* m =
-          pl_lower_complain(l, PL_E029, pl_ast_span(way), "%s is not a direction", "%s ist keine Richtung", way->shown);
+      pl_diagnostic* m = pl_lower_complain(l, PL_E029, pl_ast_span(way), "%s is not a direction",
+                                           "%s ist keine Richtung", way->shown);
       pl_suggest(l->job, m, NULL, "directions are right, left, up, down, out",
                  "Richtungen sind right, left, up, down, out");
     }
     if (pl_axis_find(l, name->key) >= 0) {
-      pl_lower_complain(l, PL_E028, pl_ast_span(name), "axis %s is given twice", "die Achse %s ist zweimal angegeben",
-                        name->shown);
+      pl_lower_complain(l, PL_E028, pl_ast_span(name), "axis %s is given twice",
+                        "die Achse %s ist zweimal angegeben", name->shown);
       continue;
     }
     l->m->axes[l->m->n_axes++] = (pl_axis){name->shown, name->key, direction, true};
@@ -74,10 +76,11 @@ static void lower_convention(pl_lower* l, const pl_ast* s) {
   for (int i = 0; i < list->kids.n; i++) {
     pl_span span = pl_ast_span(list->kids.at[i]);
     const char* word = without_blanks(l, pl_source_text(l->arena, span));
-    if (strcmp(word, "lambda-minus") == 0 || strcmp(word, "λ-minus") == 0) l->m->lambda_minus = true;
+    if (strcmp(word, "lambda-minus") == 0 || strcmp(word, "λ-minus") == 0)
+      l->m->lambda_minus = true;
     else if (strncmp(word, "lambda", 6) == 0 && strcmp(word, "lambda-plus") != 0) {
-      pl_diagnostic* m =
-          pl_lower_complain(l, PL_E001, span, "there is no convention %s", "die Konvention %s gibt es nicht", word);
+      pl_diagnostic* m = pl_lower_complain(l, PL_E001, span, "there is no convention %s",
+                                           "die Konvention %s gibt es nicht", word);
       pl_suggest(l->job, m, "lambda-minus", "write lambda-minus", "schreibe lambda-minus");
     }
     // other words are labels for the reader
@@ -89,7 +92,8 @@ static void lower_header(pl_lower* l, const pl_ast* s) {
     case TOK_PLEUEL: lower_version(l, s); break;
     case TOK_SYSTEM:
       if (l->m->title) {
-        pl_diagnostic* m = pl_lower_complain(l, PL_E028, pl_ast_span(s), "the system has a title already",
+        pl_diagnostic* m = pl_lower_complain(l, PL_E028, pl_ast_span(s),
+                                             "the system has a title already",
                                              "das System hat schon einen Titel");
         pl_suggest(l->job, m, NULL, "remove one of the lines", "eine der Zeilen entfernen");
       } else l->m->title = pl_ast_kid(s, 0)->text;
@@ -101,7 +105,7 @@ static void lower_header(pl_lower* l, const pl_ast* s) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- names, first pass
+// ------------------------------------------------------------------------------- names, first pass
 static const pl_ast* declared_name(const pl_ast* definition) {
   const pl_ast* d = pl_ast_kid(definition, 0);
   return d->kind == PL_AST_INDEXED ? pl_ast_kid(d, 0) : d;
@@ -110,7 +114,8 @@ static const pl_ast* declared_name(const pl_ast* definition) {
 // coord x[m] without a blank: what stands between the brackets is a unit unless it is a range.
 static const pl_ast* declared_range(const pl_ast* definition) {
   const pl_ast* d = pl_ast_kid(definition, 0);
-  return d->kind == PL_AST_INDEXED && pl_ast_kid(d, 1)->kind == PL_AST_RANGE ? pl_ast_kid(d, 1) : NULL;
+  return d->kind == PL_AST_INDEXED && pl_ast_kid(d, 1)->kind == PL_AST_RANGE ? pl_ast_kid(d, 1)
+                                                                             : NULL;
 }
 
 static bool only_coordinates_are_families(pl_lower* l, const pl_ast* definition) {
@@ -118,9 +123,10 @@ static bool only_coordinates_are_families(pl_lower* l, const pl_ast* definition)
   if (range == NULL) return false;
   const pl_ast* name = declared_name(definition);
   pl_diagnostic* m = pl_lower_complain(l, PL_E025, pl_ast_span(pl_ast_kid(definition, 0)),
-                                       "only coordinates can be families", "nur Koordinaten können Familien sein");
-  pl_suggest(l->job, m, NULL, "write a function:  let %s(i) = ...", "schreibe eine Funktion:  let %s(i) = ...",
-             name->shown);
+                                       "only coordinates can be families",
+                                       "nur Koordinaten können Familien sein");
+  pl_suggest(l->job, m, NULL, "write a function:  let %s(i) = ...",
+             "schreibe eine Funktion:  let %s(i) = ...", name->shown);
   return true;
 }
 
@@ -136,9 +142,10 @@ static void declare_names(pl_lower* l, const pl_ast* s) {
     }
     pl_entity_kind kind = s->token == TOK_PARAM   ? PL_ENTITY_PARAM
                           : s->token == TOK_INPUT ? PL_ENTITY_INPUT
-                          : s->token == TOK_LET   ? (pl_ast_kid(d, 1) ? PL_ENTITY_FUNCTION : PL_ENTITY_LET)
-                          : family                ? PL_ENTITY_FAMILY
-                                                  : PL_ENTITY_COORD;
+                          : s->token == TOK_LET
+                              ? (pl_ast_kid(d, 1) ? PL_ENTITY_FUNCTION : PL_ENTITY_LET)
+                          : family ? PL_ENTITY_FAMILY
+                                   : PL_ENTITY_COORD;
     pl_symbol symbol = {0};
     bool new_name = pl_scope_find(l, name->key) == NULL;
     if (s->token != TOK_LET && new_name) {
@@ -150,7 +157,8 @@ static void declare_names(pl_lower* l, const pl_ast* s) {
   }
 }
 
-// `choose φ with x = l sin φ` names a coordinate of its own: one that the file does not declare is declared here.
+// `choose φ with x = l sin φ` names a coordinate of its own: one that the file does not declare is
+// declared here.
 void pl_lower_declare_chosen(pl_lower* l, const pl_ast* s) {
   const pl_ast *names = pl_ast_kid(s, 0), *maps = pl_ast_kid(s, 1);
   for (int i = 0; maps && i < names->kids.n; i++) {
@@ -158,7 +166,8 @@ void pl_lower_declare_chosen(pl_lower* l, const pl_ast* s) {
     bool plain = name && name->kind == PL_AST_NAME && !name->number;
     if (!plain || pl_scope_find(l, name->key) || strcmp(name->key, "t") == 0) continue;
     if (pl_word_reserved(name->key) || pl_word_function(name->key)) continue;
-    pl_scope_declare(l, PL_ENTITY_COORD, name, pl_scope_symbol(l, name, PL_R_COORD))->definition = name;
+    pl_scope_declare(l, PL_ENTITY_COORD, name, pl_scope_symbol(l, name, PL_R_COORD))->definition =
+        name;
   }
 }
 
@@ -167,11 +176,12 @@ void pl_lower_chosen(pl_lower* l, const pl_ast* s) {
   for (int i = 0; i < names->kids.n; i++) {
     const pl_ast* name = pl_ast_single(names->kids.at[i]);
     pl_entity* e = name && name->kind == PL_AST_NAME ? pl_scope_find(l, name->key) : NULL;
-    if (e && e->definition == name) pl_push(l->arena, l->m->coords, (pl_coord){.symbol = e->symbol, .span = pl_ast_span(name)});
+    if (e && e->definition == name)
+      pl_push(l->arena, l->m->coords, (pl_coord){.symbol = e->symbol, .span = pl_ast_span(name)});
   }
 }
 
-// ---------------------------------------------------------------------------------------------- values, second pass
+// ----------------------------------------------------------------------------- values, second pass
 // The unit that a value is written in: that of the last factor.
 static const pl_ast* unit_of_value(const pl_ast* value) {
   while (value && (value->kind == PL_AST_PRODUCT || value->kind == PL_AST_SUM)) {
@@ -206,11 +216,13 @@ static void give_dimension(pl_lower* l, pl_symbol s, const pl_unit* unit) {
   info->dimension_known = true;
 }
 
-static pl_expr value_with_unit(pl_lower* l, const pl_ast* d, const pl_ast* value, const pl_unit* unit, bool declared) {
+static pl_expr value_with_unit(pl_lower* l, const pl_ast* d, const pl_ast* value,
+                               const pl_unit* unit, bool declared) {
   pl_expr e = pl_lower_scalar(l, value);
   if (pl_is_poison(e) || !declared || pl_has_unit(l->pool, e)) return e;
   if (pl_is_constant(l->pool, e)) return pl_mul(l->pool, e, unit->factor);
-  pl_diagnostic* m = pl_lower_complain(l, PL_E023, pl_ast_span(pl_ast_kid(d, 3)), "a unit belongs to a number",
+  pl_diagnostic* m = pl_lower_complain(l, PL_E023, pl_ast_span(pl_ast_kid(d, 3)),
+                                       "a unit belongs to a number",
                                        "eine Einheit gehört zu einer Zahl");
   pl_suggest(l->job, m, NULL, "remove it; the unit follows from the formula",
              "entfernen; die Einheit folgt aus der Formel");
@@ -223,14 +235,18 @@ static void hint_unit(pl_lower* l, const pl_ast* value) {
   const pl_ast* v = value->kind == PL_AST_SUM ? value->kids.at[0] : value;
   if (v->kind != PL_AST_PRODUCT || v->kids.n != 2 || v->ops.at[1] != ' ') return;
   const pl_ast *number = v->kids.at[0], *name = v->kids.at[1];
-  if (number->kind != PL_AST_NUMBER || name->kind != PL_AST_NAME || name->number || !pl_scope_find(l, name->key)) return;
+  if (number->kind != PL_AST_NUMBER || name->kind != PL_AST_NAME || name->number
+      || !pl_scope_find(l, name->key))
+    return;
   pl_unit unit;
   size_t at, n;
   const char* near;
   if (!pl_unit_parse(l->pool, name->raw, strlen(name->raw), &unit, &at, &n, &near)) return;
-  pl_diagnostic* m = pl_lower_complain(l, PL_W071, pl_ast_span(value), "%1$s %2$s is read as %1$s times %2$s", "%1$s %2$s wird als %1$s mal %2$s gelesen",
-                                       number->text, name->shown);
-  pl_suggest(l->job, m, pl_format(l->arena, "%s [%s]", number->text, name->raw), "write %1$s [%2$s] if the unit is meant",
+  pl_diagnostic* m = pl_lower_complain(
+      l, PL_W071, pl_ast_span(value), "%1$s %2$s is read as %1$s times %2$s",
+      "%1$s %2$s wird als %1$s mal %2$s gelesen", number->text, name->shown);
+  pl_suggest(l->job, m, pl_format(l->arena, "%s [%s]", number->text, name->raw),
+             "write %1$s [%2$s] if the unit is meant",
              "schreibe %1$s [%2$s], falls die Einheit gemeint ist", number->text, name->raw);
 }
 
@@ -249,8 +265,8 @@ static void lower_param(pl_lower* l, const pl_ast* d, bool broken) {
     v = pl_lower_scalar(l, e->override);
     // a bare number is in the unit of the file: --set l=300 for l [mm]
     pl_unit own;
-    bool bare =
-        !pl_is_poison(v) && pl_is_constant(l->pool, v) && !pl_has_unit(l->pool, v) && !has_own_unit(e->override);
+    bool bare = !pl_is_poison(v) && pl_is_constant(l->pool, v) && !pl_has_unit(l->pool, v)
+                && !has_own_unit(e->override);
     if (bare && unit_node && pl_lower_unit(l, unit_node, &own)) v = pl_mul(l->pool, v, own.factor);
   } else if (value) {
     hint_unit(l, value);
@@ -259,12 +275,14 @@ static void lower_param(pl_lower* l, const pl_ast* d, bool broken) {
   if (l->wrong > wrong || broken) e->broken = true;
   if (unit_fine) give_dimension(l, e->symbol, &unit);
   const pl_ast* single = value ? pl_ast_single(value) : NULL;
-  bool degrees = single && single->kind == PL_AST_DEGREE;      // 30° is 30 [deg]
+  bool degrees = single && single->kind == PL_AST_DEGREE;  // 30° is 30 [deg]
   bool has_unit = unit_node != NULL || degrees || (!pl_is_poison(v) && pl_has_unit(l->pool, v));
   pl_param p = {.symbol = e->symbol,
                 .value = v,
                 .has_unit = has_unit,
-                .unit_text = unit_node ? unit_node->text : degrees ? "deg" : NULL,
+                .unit_text = unit_node ? unit_node->text
+                             : degrees ? "deg"
+                                       : NULL,
                 .span = pl_ast_span(d)};
   pl_push(l->arena, l->m->params, p);
 }
@@ -299,13 +317,15 @@ static void lower_let(pl_lower* l, const pl_ast* d) {
     pl_scope_finish_let(l, e);
     return;
   }
-  // a function: its body is read once with its arguments as names, so that mistakes show without a call
+  // a function: its body is read once with its arguments as names, so that mistakes show without a
+  // call
   const pl_ast* arguments = pl_ast_kid(d, 1);
   int n = l->locals.n, wrong = l->wrong;
   for (int i = 0; i < arguments->kids.n; i++) {
     const pl_ast* a = pl_ast_single(arguments->kids.at[i]);
     if (a == NULL || a->kind != PL_AST_NAME || a->number) {
-      pl_lower_complain(l, PL_E017, pl_ast_span(arguments->kids.at[i]), "an argument of a function is a name",
+      pl_lower_complain(l, PL_E017, pl_ast_span(arguments->kids.at[i]),
+                        "an argument of a function is a name",
                         "ein Argument einer Funktion ist ein Name");
       continue;
     }
@@ -314,7 +334,8 @@ static void lower_let(pl_lower* l, const pl_ast* d) {
                            .role = PL_R_LOCAL,
                            .class = PL_C_OTHER,
                            .dimension = pl_dimension_one()};
-    pl_push(l->arena, l->locals, (pl_local){.key = a->key, .symbol = pl_symbol_make(l->pool, &info)});
+    pl_push(l->arena, l->locals,
+            (pl_local){.key = a->key, .symbol = pl_symbol_make(l->pool, &info)});
   }
   bool results = l->results;
   l->results = true;
@@ -335,7 +356,7 @@ static void lower_let(pl_lower* l, const pl_ast* d) {
                    .span = pl_ast_span(d)});
 }
 
-// ---------------------------------------------------------------------------------------------- assumptions
+// ------------------------------------------------------------------------------------- assumptions
 static void lower_assume_one(pl_lower* l, const pl_ast* c) {
   pl_assumption a = {.span = pl_ast_span(c)};
   if (c->kind == PL_AST_RELATION) {
@@ -367,7 +388,8 @@ static void lower_output(pl_lower* l, const pl_ast* s) {
     pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(pl_ast_kid(s, 1)),
                                          "a number is needed here, not a force",
                                          "hier ist eine Zahl nötig, keine Kraft");
-    pl_suggest(l->job, m, NULL, "take its size, norm(force(...))", "ihre Größe nehmen, norm(force(...))");
+    pl_suggest(l->job, m, NULL, "take its size, norm(force(...))",
+               "ihre Größe nehmen, norm(force(...))");
     return;
   }
   for (int i = 0; i < l->m->outputs.n; i++) {
@@ -377,10 +399,12 @@ static void lower_output(pl_lower* l, const pl_ast* s) {
     pl_suggest(l->job, m, NULL, "choose another name", "einen anderen Namen wählen");
     return;
   }
-  if (!pl_is_poison(value)) pl_push(l->arena, l->m->outputs, (pl_output){.name = name->key, .value = value, .span = pl_ast_span(s)});
+  if (!pl_is_poison(value))
+    pl_push(l->arena, l->m->outputs,
+            (pl_output){.name = name->key, .value = value, .span = pl_ast_span(s)});
 }
 
-// ---------------------------------------------------------------------------------------------- dispatch
+// ---------------------------------------------------------------------------------------- dispatch
 void pl_lower_declare(pl_lower* l, const pl_ast* s) {
   l->mute += s->broken;
   switch (s->token) {
@@ -410,9 +434,10 @@ void pl_lower_statement(pl_lower* l, const pl_ast* s) {
     case TOK_ASSUME: each(l, s, lower_assume_one); break;
     case TOK_OUTPUT: lower_output(l, s); break;
     case TOK_INPUT:
-      pl_lower_pending(l, PL_N091, "input", pl_ast_span(s),
-                       "inputs are for export; here they count as given quantities without a value",
-                       "Eingänge sind für den Export; hier gelten sie als gegebene Größen ohne Wert");
+      pl_lower_pending(
+          l, PL_N091, "input", pl_ast_span(s),
+          "inputs are for export; here they count as given quantities without a value",
+          "Eingänge sind für den Export; hier gelten sie als gegebene Größen ohne Wert");
       for (int i = 0; i < list->kids.n; i++) {
         pl_entity* e = pl_scope_find(l, declared_name(list->kids.at[i])->key);
         if (e && e->definition == list->kids.at[i])

@@ -1,4 +1,5 @@
-// What the picture shows: `animate` names the arrows and trails, `draw` adds a line between two places, shows or hides.
+// What the picture shows: `animate` names the arrows and trails, `draw` adds a line between two
+// places, shows or hides.
 #include "lang/lower_impl.h"
 
 #include <string.h>
@@ -6,7 +7,8 @@
 #include "grammar.h"
 
 // Things with a name of their own; anything else is the label of a mass, a point or a constraint.
-static const char* const things[] = {"weight", "trail", "force", "force on", "velocity", "axes", "angles", "count"};
+static const char* const things[] = {"weight",   "trail", "force",  "force on",
+                                     "velocity", "axes",  "angles", "count"};
 
 static bool is_thing(const char* word) {
   for (size_t i = 0; i < sizeof things / sizeof *things; i++) {
@@ -19,7 +21,8 @@ static bool is_label(pl_lower* l, const pl_ast* thing) {
   return pl_site_find(l, thing->key) != NULL || pl_scope_rule(l, thing->key) != NULL;
 }
 
-static void complain(pl_lower* l, const pl_ast* thing, const char* en, const char* de, const char* fix_en, const char* fix_de) {
+static void complain(pl_lower* l, const pl_ast* thing, const char* en, const char* de,
+                     const char* fix_en, const char* fix_de) {
   pl_diagnostic* m = pl_lower_complain(l, PL_E001, pl_ast_span(thing), en, de, thing->text);
   pl_suggest(l->job, m, NULL, fix_en, fix_de);
 }
@@ -38,7 +41,8 @@ static void lower_thing(pl_lower* l, const pl_ast* thing, pl_draw_kind kind) {
   if (!known && (kind == PL_DRAW_ANIMATE || of || !is_label(l, thing))) {
     if (kind == PL_DRAW_ANIMATE)
       complain(l, thing, "%s cannot be animated", "%s lässt sich nicht animieren",
-               "write  force of LABEL, weight, trail of LABEL, count N", "schreibe  force of MARKE, weight, trail of MARKE, count N");
+               "write  force of LABEL, weight, trail of LABEL, count N",
+               "schreibe  force of MARKE, weight, trail of MARKE, count N");
     else
       complain(l, thing, "there is no %s in the picture", "im Bild gibt es kein %s",
                "axes, angles, weight, trail, velocity, force of LABEL, or a label",
@@ -46,8 +50,13 @@ static void lower_thing(pl_lower* l, const pl_ast* thing, pl_draw_kind kind) {
     return;
   }
   if (of) look_up(l, thing, of);
-  pl_drawn d = {.kind = kind, .what = known ? thing->text : "", .of = of && strcmp(thing->text, "count") != 0 ? pl_label_text(l, pl_ast_kid(of, 0), pl_ast_kid(of, 1)) : known ? NULL : thing->shown,
-               .span = pl_ast_span(thing)};
+  pl_drawn d = {.kind = kind,
+                .what = known ? thing->text : "",
+                .of = of && strcmp(thing->text, "count") != 0
+                          ? pl_label_text(l, pl_ast_kid(of, 0), pl_ast_kid(of, 1))
+                      : known ? NULL
+                              : thing->shown,
+                .span = pl_ast_span(thing)};
   pl_push(l->arena, l->m->draws, d);
 }
 
@@ -58,11 +67,13 @@ static void lower_line(pl_lower* l, const pl_ast* s, const pl_ast* word) {
     if (strcmp(kinds[i], word->text) == 0) d.what = kinds[i];
   }
   if (!d.what) {
-    complain(l, word, "%s cannot be drawn between two places", "%s lässt sich nicht zwischen zwei Orten zeichnen",
+    complain(l, word, "%s cannot be drawn between two places",
+             "%s lässt sich nicht zwischen zwei Orten zeichnen",
              "line, rod, rope, spring or damper", "line, rod, rope, spring oder damper");
     return;
   }
-  bool a = pl_lower_where(l, pl_ast_kid(s, 2), &d.a, NULL), b = pl_lower_where(l, pl_ast_kid(s, 3), &d.b, NULL);
+  bool a = pl_lower_where(l, pl_ast_kid(s, 2), &d.a, NULL),
+       b = pl_lower_where(l, pl_ast_kid(s, 3), &d.b, NULL);
   if (a && b) pl_push(l->arena, l->m->draws, d);
 }
 
@@ -73,12 +84,17 @@ void pl_lower_draw(pl_lower* l, const pl_ast* s) {
     lower_line(l, s, word);
     return;
   }
-  bool show = !animate && strcmp(word->text, "show") == 0, hide = !animate && strcmp(word->text, "hide") == 0;
+  bool show = !animate && strcmp(word->text, "show") == 0,
+       hide = !animate && strcmp(word->text, "hide") == 0;
   if (!animate && !show && !hide) {
     complain(l, word, "draw %s is not understood", "draw %s ist nicht zu verstehen",
              "write  draw hide THINGS, draw show THINGS or draw line between A and B",
              "schreibe  draw hide DINGE, draw show DINGE oder draw line between A and B");
     return;
   }
-  for (int i = 0; i < list->kids.n; i++) lower_thing(l, list->kids.at[i], animate ? PL_DRAW_ANIMATE : show ? PL_DRAW_SHOW : PL_DRAW_HIDE);
+  for (int i = 0; i < list->kids.n; i++)
+    lower_thing(l, list->kids.at[i],
+                animate ? PL_DRAW_ANIMATE
+                : show  ? PL_DRAW_SHOW
+                        : PL_DRAW_HIDE);
 }

@@ -16,7 +16,7 @@ bool pl_quantity_is_bad(const pl_quantity* q) {
   return false;
 }
 
-// ---------------------------------------------------------------------------------------------- shapes of trees
+// --------------------------------------------------------------------------------- shapes of trees
 const pl_ast* pl_ast_single(const pl_ast* node) {
   while (node && (node->kind == PL_AST_PRODUCT || node->kind == PL_AST_SUM) && node->kids.n == 1) {
     if (node->kind == PL_AST_SUM && node->ops.at[0] == '-') return NULL;
@@ -26,8 +26,9 @@ const pl_ast* pl_ast_single(const pl_ast* node) {
 }
 
 const pl_ast* pl_ast_base(const pl_ast* n) {
-  while (n &&
-         (n->kind == PL_AST_POWER || n->kind == PL_AST_PRIME || n->kind == PL_AST_UNIT || n->kind == PL_AST_DEGREE))
+  while (n
+         && (n->kind == PL_AST_POWER || n->kind == PL_AST_PRIME || n->kind == PL_AST_UNIT
+             || n->kind == PL_AST_DEGREE))
     n = pl_ast_kid(n, 0);
   return n;
 }
@@ -37,13 +38,14 @@ bool pl_ast_is_name(const pl_ast* node, const char* key) {
   return one && one->kind == PL_AST_NAME && one->number == 0 && strcmp(one->key, key) == 0;
 }
 
-// ---------------------------------------------------------------------------------------------- arithmetic
+// -------------------------------------------------------------------------------------- arithmetic
 static pl_quantity mixed(pl_lower* l, const pl_ast* where, const char* en, const char* de) {
   pl_lower_complain(l, PL_E017, pl_ast_span(where), en, de);
   return pl_quantity_bad();
 }
 
-pl_quantity pl_lower_add(pl_lower* l, pl_quantity a, pl_quantity b, bool minus, const pl_ast* where) {
+pl_quantity pl_lower_add(pl_lower* l, pl_quantity a, pl_quantity b, bool minus,
+                         const pl_ast* where) {
   if (pl_quantity_is_bad(&a) || pl_quantity_is_bad(&b)) return pl_quantity_bad();
   if (a.n != b.n) {
     return mixed(l, where, "a vector and a number cannot be added",
@@ -56,25 +58,30 @@ pl_quantity pl_lower_add(pl_lower* l, pl_quantity a, pl_quantity b, bool minus, 
   return sum;
 }
 
-pl_quantity pl_lower_times(pl_lower* l, pl_quantity a, pl_quantity b, bool divide, const pl_ast* where) {
+pl_quantity pl_lower_times(pl_lower* l, pl_quantity a, pl_quantity b, bool divide,
+                           const pl_ast* where) {
   if (pl_quantity_is_bad(&a) || pl_quantity_is_bad(&b)) return pl_quantity_bad();
   if (b.n && divide)
-    return mixed(l, where, "nothing can be divided by a vector", "durch einen Vektor lässt sich nicht teilen");
+    return mixed(l, where, "nothing can be divided by a vector",
+                 "durch einen Vektor lässt sich nicht teilen");
   if (a.n && b.n) {
-    pl_diagnostic* m =
-        pl_lower_complain(l, PL_E017, pl_ast_span(where), "a product of two vectors", "ein Produkt zweier Vektoren");
-    pl_suggest(l->job, m, NULL, "write dot(a, b) or cross(a, b)", "schreibe dot(a, b) oder cross(a, b)");
+    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(where), "a product of two vectors",
+                                         "ein Produkt zweier Vektoren");
+    pl_suggest(l->job, m, NULL, "write dot(a, b) or cross(a, b)",
+               "schreibe dot(a, b) oder cross(a, b)");
     return pl_quantity_bad();
   }
   if (b.n) {
     pl_quantity swap = a;
-    a = b, b = swap;
+    a = b;
+    b = swap;
   }
   pl_quantity product = {.n = a.n};
   for (int i = 0; i < (a.n ? a.n : 1); i++) {
     product.at[i] = divide ? pl_div(l->pool, a.at[i], b.at[0]) : pl_mul(l->pool, a.at[i], b.at[0]);
     if (!pl_is_poison(product.at[i])) continue;
-    pl_diagnostic* m = pl_lower_complain(l, PL_E040, pl_ast_span(where), "this has no value", "das hat keinen Wert");
+    pl_diagnostic* m = pl_lower_complain(l, PL_E040, pl_ast_span(where), "this has no value",
+                                         "das hat keinen Wert");
     if (divide) pl_because(l->job, m, "division by zero", "Division durch null");
     return pl_quantity_bad();
   }
@@ -103,12 +110,14 @@ static pl_quantity lower_sum(pl_lower* l, const pl_ast* node) {
     return pl_quantity_of(pl_measure_join(l->pool, pl_add_n(l->pool, terms, node->kids.n)));
   }
   pl_quantity sum = all[0];
-  if (node->ops.at[0] == '-') sum = pl_lower_times(l, sum, pl_quantity_of(pl_int(l->pool, -1)), false, node);
-  for (int i = 1; i < node->kids.n; i++) sum = pl_lower_add(l, sum, all[i], node->ops.at[i] == '-', node);
+  if (node->ops.at[0] == '-')
+    sum = pl_lower_times(l, sum, pl_quantity_of(pl_int(l->pool, -1)), false, node);
+  for (int i = 1; i < node->kids.n; i++)
+    sum = pl_lower_add(l, sum, all[i], node->ops.at[i] == '-', node);
   return sum;
 }
 
-// ---------------------------------------------------------------------------------------------- units
+// ------------------------------------------------------------------------------------------- units
 bool pl_lower_unit(pl_lower* l, const pl_ast* node, pl_unit* out) {
   size_t bad_at = 0, bad_n = 0;
   const char* near = NULL;
@@ -119,8 +128,9 @@ bool pl_lower_unit(pl_lower* l, const pl_ast* node, pl_unit* out) {
   span.begin = start + (uint32_t)bad_at;
   span.end = span.begin + (uint32_t)(bad_n ? bad_n : 1);
   const char* shown = pl_copy_n(l->arena, node->text + bad_at, bad_n);
-  pl_diagnostic* m = bad_n ? pl_lower_complain(l, PL_E022, span, "%s is not a unit", "%s ist keine Einheit", shown)
-                           : pl_lower_complain(l, PL_E022, span, "a unit is missing", "hier fehlt eine Einheit");
+  pl_diagnostic* m =
+      bad_n ? pl_lower_complain(l, PL_E022, span, "%s is not a unit", "%s ist keine Einheit", shown)
+            : pl_lower_complain(l, PL_E022, span, "a unit is missing", "hier fehlt eine Einheit");
   if (near) pl_suggest(l->job, m, near, "did you mean %s?", "war %s gemeint?", near);
   else
     pl_suggest(l->job, m, NULL, "units are written as in [m/s^2], [kN m], [rad/s]",
@@ -133,7 +143,8 @@ static pl_quantity lower_with_unit(pl_lower* l, const pl_ast* node, pl_quantity 
   if (!pl_lower_unit(l, node, &unit) || pl_quantity_is_bad(&q)) return pl_quantity_bad();
   bool number = q.n == 0 && pl_is_constant(l->pool, q.at[0]);
   if (number) return pl_quantity_of(pl_measure_make(l->pool, q.at[0], &unit, node->text));
-  pl_diagnostic* m = pl_lower_complain(l, PL_E023, pl_ast_span(node), "a unit belongs to a number or a declaration",
+  pl_diagnostic* m = pl_lower_complain(l, PL_E023, pl_ast_span(node),
+                                       "a unit belongs to a number or a declaration",
                                        "eine Einheit gehört zu einer Zahl oder Vereinbarung");
   const char* text = pl_source_text(l->arena, pl_ast_span(pl_ast_kid(node, 0)));
   pl_suggest(l->job, m, text, "write %s; its unit follows from its names",
@@ -144,17 +155,18 @@ static pl_quantity lower_with_unit(pl_lower* l, const pl_ast* node, pl_quantity 
 static pl_quantity lower_degree(pl_lower* l, const pl_ast* node, pl_quantity q) {
   if (pl_quantity_is_bad(&q)) return q;
   if (q.n || !pl_is_constant(l->pool, q.at[0]) || pl_has_unit(l->pool, q.at[0])) {
-    pl_diagnostic* m =
-        pl_lower_complain(l, PL_E023, pl_ast_span(node), "° belongs to a number", "° gehört zu einer Zahl");
+    pl_diagnostic* m = pl_lower_complain(l, PL_E023, pl_ast_span(node), "° belongs to a number",
+                                         "° gehört zu einer Zahl");
     pl_because(l->job, m, "angles are in radians", "Winkel sind im Bogenmaß");
     const char* text = pl_source_text(l->arena, pl_ast_span(pl_ast_kid(node, 0)));
     pl_suggest(l->job, m, text, "write %s", "schreibe %s", text);
     return pl_quantity_bad();
   }
-  return pl_quantity_of(pl_mul(l->pool, q.at[0], pl_div(l->pool, pl_pi(l->pool), pl_int(l->pool, 180))));
+  return pl_quantity_of(
+      pl_mul(l->pool, q.at[0], pl_div(l->pool, pl_pi(l->pool), pl_int(l->pool, 180))));
 }
 
-// ---------------------------------------------------------------------------------------------- factors
+// ----------------------------------------------------------------------------------------- factors
 static pl_quantity lower_number(pl_lower* l, const pl_ast* node) {
   return pl_quantity_of(pl_number_from_text(l->pool, node->text, strlen(node->text)));
 }
@@ -164,16 +176,18 @@ static pl_quantity lower_power(pl_lower* l, const pl_ast* node, pl_quantity base
   pl_expr exponent = pl_lower_scalar(l, e);
   if (pl_quantity_is_bad(&base) || pl_is_poison(exponent)) return pl_quantity_bad();
   if (base.n) {
-    pl_diagnostic* m =
-        pl_lower_complain(l, PL_E017, pl_ast_span(node), "a power of a vector", "eine Potenz eines Vektors");
-    pl_suggest(l->job, m, NULL, "write dot(a, a) or norm(a)^2", "schreibe dot(a, a) oder norm(a)^2");
+    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node), "a power of a vector",
+                                         "eine Potenz eines Vektors");
+    pl_suggest(l->job, m, NULL, "write dot(a, a) or norm(a)^2",
+               "schreibe dot(a, a) oder norm(a)^2");
     return pl_quantity_bad();
   }
   // exact numbers: a power with thousands of digits is not what anybody wants
   enum { MOST = 1000 };
   long n = 0;
   bool whole = pl_is_int(l->pool, exponent, &n);
-  if (pl_is_constant(l->pool, base.at[0]) && pl_is_number(l->pool, exponent) && (whole ? labs(n) : 0) > MOST) {
+  if (pl_is_constant(l->pool, base.at[0]) && pl_is_number(l->pool, exponent)
+      && (whole ? labs(n) : 0) > MOST) {
     pl_lower_complain(l, PL_E007, pl_ast_span(node), "this number has too many digits",
                       "diese Zahl hat zu viele Stellen");
     return pl_quantity_bad();
@@ -189,18 +203,22 @@ static pl_quantity lower_power(pl_lower* l, const pl_ast* node, pl_quantity base
 static pl_quantity lower_prime(pl_lower* l, const pl_ast* node) {
   const pl_ast* inner = pl_ast_kid(node, 0);
   int dots = node->number;
-  while (inner->kind == PL_AST_PRIME) dots += inner->number, inner = pl_ast_kid(inner, 0);
+  while (inner->kind == PL_AST_PRIME) {
+    dots += inner->number;
+    inner = pl_ast_kid(inner, 0);
+  }
   if (inner->kind == PL_AST_NAME && pl_lower_is_function(l, inner->key)) {
-    pl_diagnostic* m =
-        pl_lower_complain(l, PL_E015, pl_ast_span(node), "a prime is a time derivative, not that of a function",
-                          "ein Strich ist eine Zeitableitung, nicht die einer Funktion");
+    pl_diagnostic* m = pl_lower_complain(
+        l, PL_E015, pl_ast_span(node), "a prime is a time derivative, not that of a function",
+        "ein Strich ist eine Zeitableitung, nicht die einer Funktion");
     pl_suggest(l->job, m, NULL, "write diff(%s(x), x)", "schreibe diff(%s(x), x)", inner->shown);
     return pl_quantity_bad();
   }
   if (inner->kind == PL_AST_NAME) return pl_lower_name(l, inner, NULL, dots, node);
-  if (inner->kind == PL_AST_INDEXED) return pl_lower_name(l, pl_ast_kid(inner, 0), pl_ast_kid(inner, 1), dots, node);
-  pl_diagnostic* m =
-      pl_lower_complain(l, PL_E017, pl_ast_span(node), "a prime belongs to a name", "ein Strich gehört zu einem Namen");
+  if (inner->kind == PL_AST_INDEXED)
+    return pl_lower_name(l, pl_ast_kid(inner, 0), pl_ast_kid(inner, 1), dots, node);
+  pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node), "a prime belongs to a name",
+                                       "ein Strich gehört zu einem Namen");
   const char* text = pl_source_text(l->arena, pl_ast_span(inner));
   pl_suggest(l->job, m, pl_format(l->arena, "dt%s", text), "write dt%s", "schreibe dt%s", text);
   return pl_quantity_bad();
@@ -211,7 +229,8 @@ static pl_quantity lower_group(pl_lower* l, const pl_ast* node) {
   for (int i = 0; i < n; i++) {
     pl_ast_kind k = node->kids.at[i]->kind;
     if (k != PL_AST_RELATION && k != PL_AST_IN) continue;
-    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node->kids.at[i]), "a condition cannot be a value",
+    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node->kids.at[i]),
+                                         "a condition cannot be a value",
                                          "eine Bedingung ist kein Wert");
     pl_suggest(l->job, m, NULL, "write if(condition, a, b) to choose between values",
                "schreibe if(Bedingung, a, b), um zwischen Werten zu wählen");
@@ -232,21 +251,28 @@ static pl_quantity lower_group(pl_lower* l, const pl_ast* node) {
   return bad ? pl_quantity_bad() : v;
 }
 
-// A factor with what hangs on it.  When base is met on the way down its value is base_value: sin (x)^2 is (sin (x))^2.
-pl_quantity pl_lower_factor(pl_lower* l, const pl_ast* node, const pl_ast* base, const pl_quantity* base_value) {
+// A factor with what hangs on it. When base is met on the way down its value is base_value: sin
+// (x)^2 is (sin (x))^2.
+pl_quantity pl_lower_factor(pl_lower* l, const pl_ast* node, const pl_ast* base,
+                            const pl_quantity* base_value) {
   if (node == base) return *base_value;
   switch (node->kind) {
-    case PL_AST_POWER: return lower_power(l, node, pl_lower_factor(l, pl_ast_kid(node, 0), base, base_value));
-    case PL_AST_UNIT: return lower_with_unit(l, node, pl_lower_factor(l, pl_ast_kid(node, 0), base, base_value));
-    case PL_AST_DEGREE: return lower_degree(l, node, pl_lower_factor(l, pl_ast_kid(node, 0), base, base_value));
+    case PL_AST_POWER:
+      return lower_power(l, node, pl_lower_factor(l, pl_ast_kid(node, 0), base, base_value));
+    case PL_AST_UNIT:
+      return lower_with_unit(l, node, pl_lower_factor(l, pl_ast_kid(node, 0), base, base_value));
+    case PL_AST_DEGREE:
+      return lower_degree(l, node, pl_lower_factor(l, pl_ast_kid(node, 0), base, base_value));
     case PL_AST_PRIME:
-      if (base && base == l->component) {      // x(K)' is dt(x(K))
+      if (base && base == l->component) {  // x(K)' is dt(x(K))
         pl_quantity q = pl_lower_factor(l, pl_ast_kid(node, 0), base, base_value);
-        for (int i = 0; i < node->number && !pl_quantity_is_bad(&q); i++) q.at[0] = pl_dt(l->pool, q.at[0]);
+        for (int i = 0; i < node->number && !pl_quantity_is_bad(&q); i++)
+          q.at[0] = pl_dt(l->pool, q.at[0]);
         return q;
       }
       if (base && pl_ast_base(node) == base) {
-        pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node), "a prime belongs to a name",
+        pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node),
+                                             "a prime belongs to a name",
                                              "ein Strich gehört zu einem Namen");
         pl_suggest(l->job, m, NULL, "write dt(...)", "schreibe dt(...)");
         return pl_quantity_bad();
@@ -273,15 +299,16 @@ pl_quantity pl_lower_quantity(pl_lower* l, const pl_ast* node) {
     case PL_AST_PRODUCT: return pl_lower_product(l, node);
     case PL_AST_SUM: return lower_sum(l, node);
     case PL_AST_NEG:
-      return pl_lower_times(l, pl_lower_quantity(l, pl_ast_kid(node, 0)), pl_quantity_of(pl_int(l->pool, -1)), false,
-                            node);
+      return pl_lower_times(l, pl_lower_quantity(l, pl_ast_kid(node, 0)),
+                            pl_quantity_of(pl_int(l->pool, -1)), false, node);
     case PL_AST_POWER:
     case PL_AST_UNIT:
     case PL_AST_DEGREE:
     case PL_AST_PRIME: return pl_lower_factor(l, node, NULL, NULL);
     case PL_AST_RELATION:
     case PL_AST_IN:
-      pl_lower_complain(l, PL_E017, pl_ast_span(node), "a condition cannot be a value", "eine Bedingung ist kein Wert");
+      pl_lower_complain(l, PL_E017, pl_ast_span(node), "a condition cannot be a value",
+                        "eine Bedingung ist kein Wert");
       return pl_quantity_bad();
     default: l->wrong++; return pl_quantity_bad();
   }
@@ -291,9 +318,11 @@ pl_expr pl_lower_scalar(pl_lower* l, const pl_ast* node) {
   int wrong = l->wrong;
   pl_quantity q = pl_lower_quantity(l, node);
   if (q.n) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node), "a number is needed here, not a vector",
+    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node),
+                                         "a number is needed here, not a vector",
                                          "hier ist eine Zahl nötig, kein Vektor");
-    pl_suggest(l->job, m, NULL, "take a component, x(A), or norm(...)", "eine Komponente nehmen, x(A), oder norm(...)");
+    pl_suggest(l->job, m, NULL, "take a component, x(A), or norm(...)",
+               "eine Komponente nehmen, x(A), oder norm(...)");
     return pl_poison();
   }
   if (pl_is_poison(q.at[0]) && l->wrong == wrong) {
@@ -302,7 +331,7 @@ pl_expr pl_lower_scalar(pl_lower* l, const pl_ast* node) {
   return q.at[0];
 }
 
-// ---------------------------------------------------------------------------------------------- relations
+// --------------------------------------------------------------------------------------- relations
 pl_relation pl_relation_of(char op) {
   switch (op) {
     case 'g': return PL_GE;
@@ -320,13 +349,15 @@ bool pl_lower_relation(pl_lower* l, const pl_ast* node, pl_condition* out, int a
   pl_quantity a = pl_lower_quantity(l, left), b = pl_lower_quantity(l, right);
   if (pl_quantity_is_bad(&a) || pl_quantity_is_bad(&b)) return false;
   if (a.n || b.n) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node), "vectors cannot be compared",
+    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node),
+                                         "vectors cannot be compared",
                                          "Vektoren lassen sich nicht vergleichen");
     pl_suggest(l->job, m, NULL, "write one relation for each component",
                "für jede Komponente eine Beziehung schreiben");
     return false;
   }
-  pl_span span = at == 0 && node->kids.n == 2 ? pl_ast_span(node) : pl_span_join(pl_ast_span(left), pl_ast_span(right));
+  pl_span span = at == 0 && node->kids.n == 2 ? pl_ast_span(node)
+                                              : pl_span_join(pl_ast_span(left), pl_ast_span(right));
   *out = (pl_condition){a.at[0], b.at[0], pl_relation_of(node->ops.at[at + 1]), span};
   return true;
 }

@@ -1,7 +1,7 @@
 // Lowering: the tree becomes a pl_model.  What the rooms of the lowering share.
 //
-// Names first, then places, then everything else, because lines may come in any order: a parameter, an abbreviation or
-// the point of a mass is lowered when it is first needed.
+// Names first, then places, then everything else, because lines may come in any order: a parameter,
+// an abbreviation or the point of a mass is lowered when it is first needed.
 #ifndef PL_LOWER_IMPL_H
 #define PL_LOWER_IMPL_H
 
@@ -45,7 +45,8 @@ typedef struct pl_local {
   int n;
 } pl_local;
 
-// The attitude of a body in space as it was given, and its turn: component i in space of body axis j at 3 i + j.
+// The attitude of a body in space as it was given, and its turn: component i in space of body axis
+// j at 3 i + j.
 typedef struct pl_attitude {
   pl_axes_form form;
   pl_expr at[9];
@@ -65,8 +66,8 @@ typedef struct pl_site {
   int state;
   pl_expr index;
   pl_point point;
-  pl_expr angle;        // bodies
-  bool in_space;        // a body with axes
+  pl_expr angle;  // bodies
+  bool in_space;  // a body with axes
   pl_attitude attitude;
 } pl_site;
 
@@ -77,7 +78,8 @@ typedef struct pl_rule {  // a constraint, before it is lowered
   pl_symbol lambda;
 } pl_rule;
 
-// A value: a number, a vector of 2 or 3, or the force of a constraint (a vector that is known later).
+// A value: a number, a vector of 2 or 3, or the force of a constraint (a vector that is known
+// later).
 typedef struct pl_quantity {
   int n;  // 0: scalar in at[0]
   pl_expr at[3];
@@ -106,10 +108,10 @@ typedef struct pl_lower {
   PL_VEC(const char*) letters;  // of the requests so far
   PL_VEC(pl_setting_node) settings;
   pl_block* block;
-  int mute;       // > 0: count errors, report nothing
-  int wrong;      // errors so far, reported or not
-  bool results;   // T, V, λ, force(...) may stand here
-  bool infinity;  // ∞ may stand here
+  int mute;                 // > 0: count errors, report nothing
+  int wrong;                // errors so far, reported or not
+  bool results;             // T, V, λ, force(...) may stand here
+  bool infinity;            // ∞ may stand here
   const pl_ast* component;  // bracket of the component read last, x(A): primes may follow it
   int n_rules_declared, n_rules_lowered;
   int n_guesses;  // names looked for in vain so far
@@ -119,39 +121,49 @@ typedef struct pl_lower {
 
 enum { PL_MAX_GUESSES = 100 };
 
-// ---------------------------------------------------------------------------------------------- complaints
-// Like pl_complain, but counts, and is silent while l->mute.  The result may be written to, also when silent.
-pl_diagnostic* pl_lower_complain(pl_lower* l, pl_code code, pl_span span, const char* en, const char* de, ...);
-void pl_lower_pending(pl_lower* l, pl_code code, const char* what, pl_span span, const char* en, const char* de);
+// -------------------------------------------------------------------------------------- complaints
+// Like pl_complain, but counts, and is silent while l->mute. The result may be written to, also
+// when silent.
+pl_diagnostic* pl_lower_complain(pl_lower* l, pl_code code, pl_span span, const char* en,
+                                 const char* de, ...);
+void pl_lower_pending(pl_lower* l, pl_code code, const char* what, pl_span span, const char* en,
+                      const char* de);
 
-// ---------------------------------------------------------------------------------------------- scope
+// ------------------------------------------------------------------------------------------- scope
 pl_entity* pl_scope_find(const pl_lower* l, const char* key);
 pl_entity* pl_scope_declare(pl_lower* l, pl_entity_kind kind, const pl_ast* name, pl_symbol symbol);
 void pl_scope_add(pl_lower* l, pl_entity* e);
 const pl_local* pl_scope_local(const pl_lower* l, const char* key);
-bool pl_scope_is_multiplier(pl_lower* l, const char* key);          // λ, λ_label
-bool pl_scope_known(pl_lower* l, const pl_ast* name);              // would pl_lower_name find something?
+bool pl_scope_is_multiplier(pl_lower* l, const char* key);  // λ, λ_label
+// would pl_lower_name find something?
+bool pl_scope_known(pl_lower* l, const pl_ast* name);
 pl_diagnostic* pl_scope_unknown(pl_lower* l, const pl_ast* name);  // E011 with the nearest name
-void pl_scope_unknown_label(pl_lower* l, const pl_ast* label, const char* en, const char* de, const char* const* known,
-                            int n);
+void pl_scope_unknown_label(pl_lower* l, const pl_ast* label, const char* en, const char* de,
+                            const char* const* known, int n);
 bool pl_scope_lost(const pl_lower* l, const char* key);
 pl_symbol pl_scope_symbol(pl_lower* l, const pl_ast* name, pl_role role);  // makes one
 pl_symbol pl_scope_dotted(pl_lower* l, pl_symbol s, int dots);
 void pl_scope_finish_let(pl_lower* l, pl_entity* e);
 pl_rule* pl_scope_rule(pl_lower* l, const char* key);
 
-// ---------------------------------------------------------------------------------------------- expressions
+// ------------------------------------------------------------------------------------- expressions
 pl_quantity pl_quantity_of(pl_expr e);
 pl_quantity pl_quantity_bad(void);
 bool pl_quantity_is_bad(const pl_quantity* q);
 pl_quantity pl_lower_quantity(pl_lower* l, const pl_ast* node);
-pl_expr pl_lower_scalar(pl_lower* l, const pl_ast* node);  // a vector is an error; poison has been reported
+// a vector is an error; poison has been reported
+pl_expr pl_lower_scalar(pl_lower* l, const pl_ast* node);
 pl_quantity pl_lower_product(pl_lower* l, const pl_ast* node);
-pl_quantity pl_lower_factor(pl_lower* l, const pl_ast* node, const pl_ast* base, const pl_quantity* base_value);
-pl_quantity pl_lower_name(pl_lower* l, const pl_ast* name, const pl_ast* index, int dots, const pl_ast* place);
-pl_quantity pl_lower_add(pl_lower* l, pl_quantity a, pl_quantity b, bool minus, const pl_ast* where);
-pl_quantity pl_lower_times(pl_lower* l, pl_quantity a, pl_quantity b, bool divide, const pl_ast* where);
-bool pl_lower_relation(pl_lower* l, const pl_ast* node, pl_condition* out, int at);  // pair `at` of a chain
+pl_quantity pl_lower_factor(pl_lower* l, const pl_ast* node, const pl_ast* base,
+                            const pl_quantity* base_value);
+pl_quantity pl_lower_name(pl_lower* l, const pl_ast* name, const pl_ast* index, int dots,
+                          const pl_ast* place);
+pl_quantity pl_lower_add(pl_lower* l, pl_quantity a, pl_quantity b, bool minus,
+                         const pl_ast* where);
+pl_quantity pl_lower_times(pl_lower* l, pl_quantity a, pl_quantity b, bool divide,
+                           const pl_ast* where);
+// pair `at` of a chain
+bool pl_lower_relation(pl_lower* l, const pl_ast* node, pl_condition* out, int at);
 pl_relation pl_relation_of(char op);
 bool pl_lower_unit(pl_lower* l, const pl_ast* node, pl_unit* out);
 const pl_ast* pl_ast_single(const pl_ast* node);  // the one factor of an expression, or NULL
@@ -161,45 +173,56 @@ bool pl_ast_is_name(const pl_ast* node, const char* key);
 // Functions: built in, special, and those of `let f(x)`.
 bool pl_lower_is_function(const pl_lower* l, const char* key);
 pl_quantity pl_lower_call(pl_lower* l, const pl_ast* function, const pl_ast* group);
-const char* pl_force_label(const pl_lower* l, pl_expr e);   // the constraint of `force(label)`; NULL for all else
-pl_quantity pl_lower_apply(pl_lower* l, const pl_ast* function, pl_quantity argument, const pl_ast* where);
+// the constraint of `force(label)`; NULL for all else
+const char* pl_force_label(const pl_lower* l, pl_expr e);
+pl_quantity pl_lower_apply(pl_lower* l, const pl_ast* function, pl_quantity argument,
+                           const pl_ast* where);
 
-// ---------------------------------------------------------------------------------------------- places
+// ------------------------------------------------------------------------------------------ places
 int pl_axis_find(const pl_lower* l, const char* key);  // -1
 pl_site* pl_site_find(const pl_lower* l, const char* key);
 bool pl_site_finish(pl_lower* l, pl_site* p);
 bool pl_lower_point(pl_lower* l, const pl_ast* node, pl_point* out);
 
 // ---- lower_attitude.c: the attitude of bodies in space
-pl_axes_form pl_attitude_form(const pl_ast* axes);   // as far as the text shows
-int pl_attitude_count(pl_axes_form form);            // of numbers that give it
+pl_axes_form pl_attitude_form(const pl_ast* axes);  // as far as the text shows
+int pl_attitude_count(pl_axes_form form);           // of numbers that give it
 bool pl_attitude_read(pl_lower* l, const pl_ast* axes, pl_attitude* out);
 void pl_attitude_spin(pl_pool* p, const pl_attitude* a, pl_expr w[3]);
 pl_expr pl_attitude_energy(pl_pool* p, const pl_attitude* a, const pl_expr J[6]);
-bool pl_attitude_condition(pl_pool* p, const pl_attitude* a, int k, pl_expr* left, pl_expr* right, const char** name);
+bool pl_attitude_condition(pl_pool* p, const pl_attitude* a, int k, pl_expr* left, pl_expr* right,
+                           const char** name);
 
 // ---- lower_space.c: bodies in space, and torques on them
-void pl_space_declare(pl_lower* l, const pl_ast* body);                   // the names of what holds between their axes
+// the names of what holds between their axes
+void pl_space_declare(pl_lower* l, const pl_ast* body);
 void pl_space_body(pl_lower* l, const pl_ast* s, pl_site* p, pl_name name);
-bool pl_space_torque(pl_lower* l, const pl_ast* s, pl_load* out);         // false: a complaint was made
-pl_site* pl_space_of(pl_lower* l, const pl_ast* on);                      // the body in space that a label names, or NULL
+// false: a complaint was made
+bool pl_space_torque(pl_lower* l, const pl_ast* s, pl_load* out);
+// the body in space that a label names, or NULL
+pl_site* pl_space_of(pl_lower* l, const pl_ast* on);
 
 bool pl_lower_where(pl_lower* l, const pl_ast* node, pl_point* out, pl_site** place);
-bool pl_lower_label_point(pl_lower* l, const pl_ast* name, const pl_ast* index, pl_point* out, pl_site** place);
-const pl_ast* pl_ast_label(const pl_ast* node, const pl_ast** index);  // name of a label, NULL if node is none
+bool pl_lower_label_point(pl_lower* l, const pl_ast* name, const pl_ast* index, pl_point* out,
+                          pl_site** place);
+// name of a label, NULL if node is none
+const pl_ast* pl_ast_label(const pl_ast* node, const pl_ast** index);
 const char* pl_label_text(pl_lower* l, const pl_ast* name, const pl_ast* index);  // "c[3]"
-const char* pl_constraint_label(pl_lower* l, const pl_ast* label);                // checked; NULL if unknown
+// checked; NULL if unknown
+const char* pl_constraint_label(pl_lower* l, const pl_ast* label);
 void pl_site_declare(pl_lower* l, const pl_ast* statement);
 void pl_axes_settle(pl_lower* l, const pl_ast* file);
 int pl_ast_components(const pl_ast* point);
 
-// ---------------------------------------------------------------------------------------------- statements
-void pl_lower_declare(pl_lower* l, const pl_ast* statement);    // first pass: names
-void pl_lower_declare_chosen(pl_lower* l, const pl_ast* statement);   // likewise of `choose ... with`, after all other names
-void pl_lower_chosen(pl_lower* l, const pl_ast* statement);           // second pass: they join the coordinates
+// -------------------------------------------------------------------------------------- statements
+void pl_lower_declare(pl_lower* l, const pl_ast* statement);  // first pass: names
+// likewise of `choose ... with`, after all other names
+void pl_lower_declare_chosen(pl_lower* l, const pl_ast* statement);
+// second pass: they join the coordinates
+void pl_lower_chosen(pl_lower* l, const pl_ast* statement);
 void pl_lower_statement(pl_lower* l, const pl_ast* statement);  // second pass
 void pl_lower_physics(pl_lower* l, const pl_ast* statement);
-void pl_lower_contact(pl_lower* l, const pl_ast* statement);    // restitution, friction
+void pl_lower_contact(pl_lower* l, const pl_ast* statement);  // restitution, friction
 void pl_lower_start(pl_lower* l, const pl_ast* statement);
 void pl_lower_ask(pl_lower* l, const pl_ast* statement);
 void pl_lower_draw(pl_lower* l, const pl_ast* node);     // draw, animate

@@ -19,19 +19,26 @@ static pl_site* place_of(pl_lower* l, const pl_ast* s) {
 static pl_name name_of_label(pl_lower* l, const pl_ast* label, const char* otherwise) {
   if (label == NULL) return (pl_name){.text = otherwise, .ascii = otherwise, .generated = true};
   const pl_ast *name = pl_ast_kid(label, 0), *index = pl_ast_kid(label, 1);
-  return (pl_name){.text = name->shown, .ascii = name->key, .index = index ? pl_lower_scalar(l, index) : pl_poison()};
+  return (pl_name){.text = name->shown,
+                   .ascii = name->key,
+                   .index = index ? pl_lower_scalar(l, index) : pl_poison()};
 }
 
-// ---------------------------------------------------------------------------------------------- masses, bodies, points
+// -------------------------------------------------------------------------- masses, bodies, points
 // `mass A m1 at` lacks its colon: the first factor is no name, the rest would do.
 static bool missing_colon(pl_lower* l, const pl_ast* s, const pl_ast* value) {
   while (value->kind == PL_AST_SUM && value->ops.at[0] != '-') value = value->kids.at[0];
-  if (pl_ast_kid(s, 0) || value->kind != PL_AST_PRODUCT || value->kids.n < 2 || value->ops.at[1] != ' ') return false;
+  if (pl_ast_kid(s, 0) || value->kind != PL_AST_PRODUCT || value->kids.n < 2
+      || value->ops.at[1] != ' ')
+    return false;
   const pl_ast* first = value->kids.at[0];
-  if (first->kind != PL_AST_NAME || pl_scope_known(l, first) || pl_scope_lost(l, first->key)) return false;
-  pl_diagnostic* m = pl_lower_complain(l, PL_E001, pl_ast_span(first), "a colon is missing after the label %s",
+  if (first->kind != PL_AST_NAME || pl_scope_known(l, first) || pl_scope_lost(l, first->key))
+    return false;
+  pl_diagnostic* m = pl_lower_complain(l, PL_E001, pl_ast_span(first),
+                                       "a colon is missing after the label %s",
                                        "hinter der Marke %s fehlt ein Doppelpunkt", first->shown);
-  pl_suggest(l->job, m, pl_format(l->arena, "%s:", first->shown), "write %s:", "schreibe %s:", first->shown);
+  pl_suggest(l->job, m, pl_format(l->arena, "%s:", first->shown),
+             "write %s:", "schreibe %s:", first->shown);
   pl_push(l->arena, l->lost, first->key);
   pl_push(l->arena, l->lost, pl_intern(l->names, pl_format(l->arena, "lambda_%s", first->key)));
   return true;
@@ -43,7 +50,8 @@ static void lower_mass(pl_lower* l, const pl_ast* s) {
   if (missing_colon(l, s, pl_ast_kid(s, 1))) return;
   pl_expr mass = pl_lower_scalar(l, pl_ast_kid(s, 1));
   if (!pl_site_finish(l, p) || pl_is_poison(mass)) return;
-  pl_push(l->arena, l->m->masses, (pl_mass){name_of_place(p), mass, p->point, l->block, pl_ast_span(s)});
+  pl_push(l->arena, l->m->masses,
+          (pl_mass){name_of_place(p), mass, p->point, l->block, pl_ast_span(s)});
 }
 
 static void lower_body(pl_lower* l, const pl_ast* s) {
@@ -67,16 +75,19 @@ static void lower_body(pl_lower* l, const pl_ast* s) {
 static void lower_point_statement(pl_lower* l, const pl_ast* s) {
   pl_site* p = place_of(l, s);
   if (p && pl_site_finish(l, p))
-    pl_push(l->arena, l->m->points, (pl_place_def){name_of_place(p), p->point, l->block, pl_ast_span(s)});
+    pl_push(l->arena, l->m->points,
+            (pl_place_def){name_of_place(p), p->point, l->block, pl_ast_span(s)});
 }
 
 // A uniform rod of mass M between A and B moves like M/6 at A, M/6 at B and 2 M/3 in the middle:
 // T = M/6 (vA² + vA·vB + vB²), and its weight acts in the middle either way.
 static void lower_rod(pl_lower* l, const pl_ast* s) {
   pl_point a, b;
-  bool fine_a = pl_lower_where(l, pl_ast_kid(s, 2), &a, NULL), fine_b = pl_lower_where(l, pl_ast_kid(s, 3), &b, NULL);
+  bool fine_a = pl_lower_where(l, pl_ast_kid(s, 2), &a, NULL),
+       fine_b = pl_lower_where(l, pl_ast_kid(s, 3), &b, NULL);
   pl_expr mass = pl_lower_scalar(l, pl_ast_kid(s, 1));
-  pl_name name = name_of_label(l, pl_ast_kid(s, 0), pl_format(l->arena, "rod%d", l->m->masses.n + 1));
+  pl_name name = name_of_label(l, pl_ast_kid(s, 0),
+                               pl_format(l->arena, "rod%d", l->m->masses.n + 1));
   if (!fine_a || !fine_b || pl_is_poison(mass)) return;
   if (a.n != b.n) {
     pl_lower_complain(l, PL_E017, pl_ast_span(s), "the ends have %d and %d components",
@@ -84,7 +95,8 @@ static void lower_rod(pl_lower* l, const pl_ast* s) {
     return;
   }
   pl_point middle = a;
-  for (int i = 0; i < a.n; i++) middle.at[i] = pl_div(l->pool, pl_add(l->pool, a.at[i], b.at[i]), pl_int(l->pool, 2));
+  for (int i = 0; i < a.n; i++)
+    middle.at[i] = pl_div(l->pool, pl_add(l->pool, a.at[i], b.at[i]), pl_int(l->pool, 2));
   const pl_point* at[3] = {&a, &middle, &b};
   static const char* const part[3] = {"start", "middle", "end"};
   for (int i = 0; i < 3; i++) {
@@ -92,7 +104,8 @@ static void lower_rod(pl_lower* l, const pl_ast* s) {
     n.text = pl_format(l->arena, "%s.%s", name.text, part[i]);
     n.ascii = pl_format(l->arena, "%s_%s", name.ascii, part[i]);
     n.generated = true;
-    pl_expr share = pl_mul(l->pool, mass, i == 1 ? pl_ratio(l->pool, 2, 3) : pl_ratio(l->pool, 1, 6));
+    pl_expr share = pl_mul(l->pool, mass,
+                           i == 1 ? pl_ratio(l->pool, 2, 3) : pl_ratio(l->pool, 1, 6));
     pl_push(l->arena, l->m->masses, (pl_mass){n, share, *at[i], l->block, pl_ast_span(s)});
   }
 }
@@ -103,22 +116,26 @@ static void lower_gravity(pl_lower* l, const pl_ast* s) {
   int i = pl_axis_find(l, axis->key);
   if (i < 0) {
     pl_text all = pl_text_make(l->arena);
-    for (int k = 0; k < l->m->n_axes; k++) pl_text_addf(&all, "%s%s", k ? ", " : "", l->m->axes[k].name);
-    pl_diagnostic* m =
-        pl_lower_complain(l, PL_E029, pl_ast_span(axis), "there is no axis %s", "es gibt keine Achse %s", axis->shown);
+    for (int k = 0; k < l->m->n_axes; k++)
+      pl_text_addf(&all, "%s%s", k ? ", " : "", l->m->axes[k].name);
+    pl_diagnostic* m = pl_lower_complain(l, PL_E029, pl_ast_span(axis), "there is no axis %s",
+                                         "es gibt keine Achse %s", axis->shown);
     if (l->m->n_axes)
       pl_suggest(l->job, m, NULL, "the axes are %s; others are declared by  axes x right, z up",
                  "die Achsen sind %s; andere vereinbart  axes x right, z up", pl_text_string(&all));
-    else pl_suggest(l->job, m, NULL, "declare  axes x right, %s up", "vereinbaren:  axes x right, %s up", axis->shown);
+    else
+      pl_suggest(l->job, m, NULL, "declare  axes x right, %s up",
+                 "vereinbaren:  axes x right, %s up", axis->shown);
     return;
   }
-  if (!pl_is_poison(g)) pl_push(l->arena, l->m->gravities, (pl_gravity){g, i, way->number, pl_ast_span(s)});
+  if (!pl_is_poison(g))
+    pl_push(l->arena, l->m->gravities, (pl_gravity){g, i, way->number, pl_ast_span(s)});
 }
 
-// ---------------------------------------------------------------------------------------------- loads
+// ------------------------------------------------------------------------------------------- loads
 static void push_load(pl_lower* l, pl_load load, const pl_ast* s, const char* kind) {
-  load.name =
-      name_of_label(l, s->kids.n > 1 ? pl_ast_kid(s, 0) : NULL, pl_format(l->arena, "%s%d", kind, l->m->loads.n + 1));
+  load.name = name_of_label(l, s->kids.n > 1 ? pl_ast_kid(s, 0) : NULL,
+                            pl_format(l->arena, "%s%d", kind, l->m->loads.n + 1));
   load.block = l->block;
   load.span = pl_ast_span(s);
   pl_push(l->arena, l->m->loads, load);
@@ -131,9 +148,9 @@ static void lower_force(pl_lower* l, const pl_ast* s) {
   if (pl_quantity_is_bad(&v) || !fine) return;
   int n = v.n ? v.n : 1;
   if (n != load.a.n) {
-    pl_diagnostic* m =
-        pl_lower_complain(l, PL_E017, pl_ast_span(pl_ast_kid(s, 1)), "the force has %d components, its point has %d",
-                          "die Kraft hat %d Komponenten, ihr Angriffspunkt %d", n, load.a.n);
+    pl_diagnostic* m = pl_lower_complain(
+        l, PL_E017, pl_ast_span(pl_ast_kid(s, 1)), "the force has %d components, its point has %d",
+        "die Kraft hat %d Komponenten, ihr Angriffspunkt %d", n, load.a.n);
     pl_suggest(l->job, m, NULL,
                load.a.n == 2   ? "write (Fx, Fy)"
                : load.a.n == 3 ? "write (Fx, Fy, Fz)"
@@ -156,9 +173,11 @@ static bool torque_target(pl_lower* l, const pl_ast* on, pl_symbol* out) {
     pl_site* p;
     if (!pl_lower_label_point(l, name, index, &at, &p)) return false;
     if (p->kind != PL_SITE_BODY) {
-      pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(on), "a torque acts on a body or a coordinate",
-                                           "ein Moment wirkt auf einen Körper oder eine Koordinate");
-      pl_suggest(l->job, m, NULL, "write  force (Fx, Fy) on %s", "schreibe  force (Fx, Fy) on %s", p->shown);
+      pl_diagnostic* m = pl_lower_complain(
+          l, PL_E017, pl_ast_span(on), "a torque acts on a body or a coordinate",
+          "ein Moment wirkt auf einen Körper oder eine Koordinate");
+      pl_suggest(l->job, m, NULL, "write  force (Fx, Fy) on %s", "schreibe  force (Fx, Fy) on %s",
+                 p->shown);
       return false;
     }
     angle = p->angle;
@@ -170,9 +189,10 @@ static bool torque_target(pl_lower* l, const pl_ast* on, pl_symbol* out) {
   *out = symbol ? pl_symbol_of(l->pool, angle) : (pl_symbol){0};
   if (symbol && pl_symbol_get(l->pool, *out)->role == PL_R_COORD) return true;
   if (!symbol && (pl_kind_of(l->pool, angle) == PL_AT || pl_has_role(l->pool, angle, PL_R_COORD))) {
-    pl_lower_pending(l, PL_E091, "torque", pl_ast_span(on),
-                     "a torque on anything but a coordinate is not computed by this version",
-                     "ein Moment auf etwas anderes als eine Koordinate berechnet diese Version nicht");
+    pl_lower_pending(
+        l, PL_E091, "torque", pl_ast_span(on),
+        "a torque on anything but a coordinate is not computed by this version",
+        "ein Moment auf etwas anderes als eine Koordinate berechnet diese Version nicht");
     return false;
   }
   pl_lower_complain(l, PL_E017, pl_ast_span(on), "a torque acts on a body or a coordinate",
@@ -201,35 +221,43 @@ static void lower_spring(pl_lower* l, const pl_ast* s) {
   pl_load load = {.kind = PL_L_SPRING,
                   .value = pl_lower_scalar(l, pl_ast_kid(s, 1)),
                   .rest = rest ? pl_lower_scalar(l, rest) : pl_int(l->pool, 0)};
-  bool a = pl_lower_where(l, pl_ast_kid(s, 3), &load.a, NULL), b = pl_lower_where(l, pl_ast_kid(s, 4), &load.b, NULL);
-  if (a && b && !pl_is_poison(load.value) && !pl_is_poison(load.rest)) push_load(l, load, s, "spring");
+  bool a = pl_lower_where(l, pl_ast_kid(s, 3), &load.a, NULL),
+       b = pl_lower_where(l, pl_ast_kid(s, 4), &load.b, NULL);
+  if (a && b && !pl_is_poison(load.value) && !pl_is_poison(load.rest))
+    push_load(l, load, s, "spring");
 }
 
 static void lower_damper(pl_lower* l, const pl_ast* s) {
   pl_load load = {.kind = PL_L_DAMPER, .value = pl_lower_scalar(l, pl_ast_kid(s, 1))};
-  bool a = pl_lower_where(l, pl_ast_kid(s, 2), &load.a, NULL), b = pl_lower_where(l, pl_ast_kid(s, 3), &load.b, NULL);
+  bool a = pl_lower_where(l, pl_ast_kid(s, 2), &load.a, NULL),
+       b = pl_lower_where(l, pl_ast_kid(s, 3), &load.b, NULL);
   if (a && b && !pl_is_poison(load.value)) push_load(l, load, s, "damper");
 }
 
 static void lower_drag(pl_lower* l, const pl_ast* s) {
   pl_load load = {.kind = PL_L_DRAG, .value = pl_lower_scalar(l, pl_ast_kid(s, 1))};
-  if (pl_lower_where(l, pl_ast_kid(s, 2), &load.a, NULL) && !pl_is_poison(load.value)) push_load(l, load, s, "drag");
+  if (pl_lower_where(l, pl_ast_kid(s, 2), &load.a, NULL) && !pl_is_poison(load.value))
+    push_load(l, load, s, "drag");
 }
 
-// ---------------------------------------------------------------------------------------------- constraints
+// ------------------------------------------------------------------------------------- constraints
 static bool check_relation(pl_lower* l, const pl_ast* r) {
   if (r->kids.n > 2) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(r), "a constraint has one relation sign",
+    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(r),
+                                         "a constraint has one relation sign",
                                          "eine Zwangsbedingung hat ein Beziehungszeichen");
-    pl_suggest(l->job, m, NULL, "write one constraint for each", "für jede eine eigene Zwangsbedingung schreiben");
+    pl_suggest(l->job, m, NULL, "write one constraint for each",
+               "für jede eine eigene Zwangsbedingung schreiben");
     return false;
   }
   char op = r->ops.at[1];
   if (op == '=' || op == 'g' || op == 'l') return true;
-  pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(r), "a constraint is written with =, >= or <=",
+  pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(r),
+                                       "a constraint is written with =, >= or <=",
                                        "eine Zwangsbedingung schreibt man mit =, >= oder <=");
   if (op != '!')
-    pl_suggest(l->job, m, NULL, op == '>' ? "write >=" : "write <=", op == '>' ? "schreibe >=" : "schreibe <=");
+    pl_suggest(l->job, m, NULL,
+               op == '>' ? "write >=" : "write <=", op == '>' ? "schreibe >=" : "schreibe <=");
   return false;
 }
 
@@ -253,15 +281,18 @@ static void lower_constraint(pl_lower* l, const pl_ast* s) {
   pl_condition r;
   if (missing_colon(l, s, relation->kids.at[0])) return;
   if (!check_relation(l, relation) || !pl_lower_relation(l, relation, &r, 0)) return;
-  const pl_rule* rule = pl_scope_rule(l, label ? pl_ast_kid(label, 0)->key : pl_intern(l->names, c.name.ascii));
-  c.left = r.left, c.right = r.right, c.relation = r.relation;
+  const pl_rule* rule = pl_scope_rule(
+      l, label ? pl_ast_kid(label, 0)->key : pl_intern(l->names, c.name.ascii));
+  c.left = r.left;
+  c.right = r.right;
+  c.relation = r.relation;
   c.g = pl_sub(l->pool, r.left, r.right);
   c.lambda = rule ? rule->lambda : (pl_symbol){0};
   c.has_velocity = pl_has_role(l->pool, c.g, PL_R_VELOCITY);
   pl_push(l->arena, l->m->constraints, c);
 }
 
-// ---------------------------------------------------------------------------------------------- coordinates to choose
+// --------------------------------------------------------------------------- coordinates to choose
 static bool plain_coordinate(pl_lower* l, const pl_ast* node, pl_expr* out, int most_dots) {
   *out = pl_lower_scalar(l, node);
   if (pl_is_poison(*out)) return false;
@@ -274,9 +305,11 @@ static bool plain_coordinate(pl_lower* l, const pl_ast* node, pl_expr* out, int 
   }
   const char* text = pl_source_text(l->arena, pl_ast_span(node));
   pl_diagnostic* m = pl_lower_complain(
-      l, PL_E030, pl_ast_span(node), most_dots ? "%s is not a coordinate or velocity" : "%s is not a coordinate",
+      l, PL_E030, pl_ast_span(node),
+      most_dots ? "%s is not a coordinate or velocity" : "%s is not a coordinate",
       most_dots ? "%s ist keine Koordinate oder Geschwindigkeit" : "%s ist keine Koordinate", text);
-  if (kind == PL_SYMBOL && pl_symbol_get(l->pool, pl_symbol_of(l->pool, *out))->role == PL_R_START) {
+  if (kind == PL_SYMBOL
+      && pl_symbol_get(l->pool, pl_symbol_of(l->pool, *out))->role == PL_R_START) {
     const pl_ast* first = node->kind == PL_AST_PRODUCT ? node->kids.at[0] : node;
     const char* name = pl_source_text(l->arena, pl_ast_span(first));
     pl_suggest(l->job, m, name, "write %s", "schreibe %s", name);
@@ -288,7 +321,8 @@ static bool plain_coordinate(pl_lower* l, const pl_ast* node, pl_expr* out, int 
 
 static bool equation(pl_lower* l, const pl_ast* r) {
   if (r->kids.n == 2 && r->ops.at[1] == '=') return true;
-  pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(r), "an equation with one = is needed here",
+  pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(r),
+                                       "an equation with one = is needed here",
                                        "hier ist eine Gleichung mit einem = nötig");
   pl_suggest(l->job, m, NULL, "write  name = value", "schreibe  Name = Wert");
   return false;
@@ -337,13 +371,14 @@ static void lower_branch(pl_lower* l, const pl_ast* s) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- start
+// ------------------------------------------------------------------------------------------- start
 void pl_lower_start(pl_lower* l, const pl_ast* s) {
   const pl_ast *time = pl_ast_kid(s, 0), *list = pl_ast_kid(s, 1);
   pl_expr at = time ? pl_lower_scalar(l, time) : pl_poison();
   for (int i = 0; i < list->kids.n; i++) {
     const pl_ast* r = list->kids.at[i];
-    pl_init init = {.time = at, .guess = s->token == TOK_GUESS, .block = l->block, .span = pl_ast_span(r)};
+    pl_init init = {
+        .time = at, .guess = s->token == TOK_GUESS, .block = l->block, .span = pl_ast_span(r)};
     if (!equation(l, r)) continue;
     bool fine = plain_coordinate(l, r->kids.at[0], &init.target, 1);
     init.value = pl_lower_scalar(l, r->kids.at[1]);
@@ -351,7 +386,7 @@ void pl_lower_start(pl_lower* l, const pl_ast* s) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- dispatch
+// ---------------------------------------------------------------------------------------- dispatch
 void pl_lower_physics(pl_lower* l, const pl_ast* s) {
   l->mute += s->broken;
   bool results = l->results;

@@ -1,9 +1,10 @@
 // Products: what a blank means.
 //
-// A product is a list of factors.  A function takes the bracket after it, or exactly one factor.  A bracket that
-// touches a coordinate is its value at a time, one that touches an axis is the component of a body, one that touches
-// anything else is a factor.  After a division by anything but a plain number a blank could go on above or below the
-// fraction line: that is refused, with both readings.  language.md, rules 4 and 5.
+// A product is a list of factors. A function takes the bracket after it, or exactly one factor. A
+// bracket that touches a coordinate is its value at a time, one that touches an axis is the
+// component of a body, one that touches anything else is a factor. After a division by anything but
+// a plain number a blank could go on above or below the fraction line: that is refused, with both
+// readings. language.md, rules 4 and 5.
 #include "lang/lower_impl.h"
 
 #include <stdlib.h>
@@ -18,7 +19,9 @@ typedef struct product {
   int run_start, run_end;  // factors of the run read last
 } product;
 
-static const pl_ast* factor(const product* p, int i) { return i < p->node->kids.n ? p->node->kids.at[i] : NULL; }
+static const pl_ast* factor(const product* p, int i) {
+  return i < p->node->kids.n ? p->node->kids.at[i] : NULL;
+}
 static char op(const product* p, int i) { return i < p->node->ops.n ? p->node->ops.at[i] : 0; }
 static bool blank_before(const product* p, int i) { return op(p, i) == ' '; }
 
@@ -31,7 +34,7 @@ static pl_span span_between(const product* p, int from, int to) {
   return pl_span_join(pl_ast_span(factor(p, from)), pl_ast_span(factor(p, to)));
 }
 
-// ---------------------------------------------------------------------------------------------- functions
+// --------------------------------------------------------------------------------------- functions
 static bool is_function_factor(const product* p, int i) {
   const pl_ast* f = factor(p, i);
   if (f == NULL) return false;
@@ -55,26 +58,30 @@ static bool refuse_exponent(product* p, const pl_ast* f) {
   const pl_ast* name = pl_ast_kid(f, 0);
   bool minus = e->kind == PL_AST_NEG || (e->kind == PL_AST_NUMBER && e->text[0] == '-');
   if (!minus) return false;
-  pl_diagnostic* m = pl_lower_complain(p->l, PL_E015, pl_ast_span(f), "%s can mean the inverse function or one over it",
+  pl_diagnostic* m = pl_lower_complain(p->l, PL_E015, pl_ast_span(f),
+                                       "%s can mean the inverse function or one over it",
                                        "%s kann die Umkehrfunktion oder den Kehrwert bedeuten",
                                        pl_source_text(p->l->arena, pl_ast_span(f)));
   const char* inverse = inverse_of(name->key);
   int next = p->at + 1;
-  const char* argument = factor(p, next) && blank_before(p, next) ? text_between(p, next, next) : "x";
+  const char* argument = factor(p, next) && blank_before(p, next) ? text_between(p, next, next)
+                                                                  : "x";
   if (inverse)
-    pl_suggest(p->l->job, m, inverse, "write %1$s %3$s  or  1/%2$s %3$s", "schreibe %1$s %3$s  oder  1/%2$s %3$s",
-               inverse, name->shown, argument);
+    pl_suggest(p->l->job, m, inverse, "write %1$s %3$s  or  1/%2$s %3$s",
+               "schreibe %1$s %3$s  oder  1/%2$s %3$s", inverse, name->shown, argument);
   else pl_suggest(p->l->job, m, NULL, "write 1/%s %s", "schreibe 1/%s %s", name->shown, argument);
   return true;
 }
 
-static void needs_brackets(product* p, int from, int to, const char* name, const char* argument, const char* rest) {
+static void needs_brackets(product* p, int from, int to, const char* name, const char* argument,
+                           const char* rest) {
   const char* whole = text_between(p, from, to);
-  const char* fixed =
-      pl_format(p->l->arena, "%s(%s)", name, rest ? pl_format(p->l->arena, "%s %s", argument, rest) : argument);
-  pl_diagnostic* m =
-      pl_lower_complain(p->l, PL_E015, span_between(p, from, to), "%s needs brackets", "%s braucht Klammern", whole);
-  pl_because(p->l->job, m, "without them a function takes one factor", "ohne sie nimmt eine Funktion einen Faktor");
+  const char* fixed = pl_format(p->l->arena, "%s(%s)", name,
+                                rest ? pl_format(p->l->arena, "%s %s", argument, rest) : argument);
+  pl_diagnostic* m = pl_lower_complain(p->l, PL_E015, span_between(p, from, to),
+                                       "%s needs brackets", "%s braucht Klammern", whole);
+  pl_because(p->l->job, m, "without them a function takes one factor",
+             "ohne sie nimmt eine Funktion einen Faktor");
   pl_suggest(p->l->job, m, fixed, "write %s", "schreibe %s", fixed);
 }
 
@@ -87,18 +94,22 @@ static pl_quantity raise(product* p, const pl_ast* f, pl_quantity q) {
 
 static bool starts_operand(const pl_ast* n) {
   const pl_ast* base = pl_ast_base(n);
-  return base && (base->kind == PL_AST_NAME || base->kind == PL_AST_NUMBER || base->kind == PL_AST_PI ||
-                  base->kind == PL_AST_INDEXED);
+  return base
+         && (base->kind == PL_AST_NAME || base->kind == PL_AST_NUMBER || base->kind == PL_AST_PI
+             || base->kind == PL_AST_INDEXED);
 }
 
 // After `sin θ`: a blank and t, or a number, is meant for the argument more likely than not.
 static bool check_after_argument(product* p, int from, const pl_ast* name, int argument) {
   const pl_ast* next = factor(p, argument + 1);
-  if (next == NULL || !blank_before(p, argument + 1) || is_function_factor(p, argument + 1)) return true;
+  if (next == NULL || !blank_before(p, argument + 1) || is_function_factor(p, argument + 1))
+    return true;
   const pl_ast* base = pl_ast_base(next);
   bool number_first = pl_ast_base(factor(p, argument))->kind == PL_AST_NUMBER;
-  bool time = base->kind == PL_AST_NAME && strcmp(base->key, "t") == 0 && !pl_scope_find(p->l, base->key);
-  if ((number_first && (starts_operand(next) || base->kind == PL_AST_GROUP)) || time || base->kind == PL_AST_NUMBER) {
+  bool time = base->kind == PL_AST_NAME && strcmp(base->key, "t") == 0
+              && !pl_scope_find(p->l, base->key);
+  if ((number_first && (starts_operand(next) || base->kind == PL_AST_GROUP)) || time
+      || base->kind == PL_AST_NUMBER) {
     needs_brackets(p, from, argument + 1, name->shown, text_between(p, argument, argument),
                    text_between(p, argument + 1, argument + 1));
     p->at = argument + 2;
@@ -107,12 +118,12 @@ static bool check_after_argument(product* p, int from, const pl_ast* name, int a
   bool moving = next->kind == PL_AST_PRIME || (base->kind == PL_AST_NAME && base->number > 0);
   if (base->kind == PL_AST_NAME && !moving && next->kind == PL_AST_NAME) {
     const char* run = text_between(p, from, argument);
-    pl_diagnostic* m =
-        pl_lower_complain(p->l, PL_W071, span_between(p, from, argument + 1), "%1$s is read as (%2$s) %3$s",
-                          "%1$s wird als (%2$s) %3$s gelesen", text_between(p, from, argument + 1), run, next->shown);
+    pl_diagnostic* m = pl_lower_complain(
+        p->l, PL_W071, span_between(p, from, argument + 1), "%1$s is read as (%2$s) %3$s",
+        "%1$s wird als (%2$s) %3$s gelesen", text_between(p, from, argument + 1), run, next->shown);
     pl_suggest(p->l->job, m, NULL, "write %2$s %1$s, or %3$s(%4$s %2$s) if that is meant",
-               "schreibe %2$s %1$s, oder %3$s(%4$s %2$s), falls das gemeint ist", run, next->shown, name->shown,
-               text_between(p, argument, argument));
+               "schreibe %2$s %1$s, oder %3$s(%4$s %2$s), falls das gemeint ist", run, next->shown,
+               name->shown, text_between(p, argument, argument));
   }
   return true;
 }
@@ -138,7 +149,8 @@ static pl_quantity read_function(product* p) {
     bool bare = f == name;
     if (pl_quantity_is_bad(&value)) return value;
     if (next == base) return raise(p, f, value);
-    return bare ? pl_lower_factor(l, next, base, &value) : raise(p, f, pl_lower_factor(l, next, base, &value));
+    return bare ? pl_lower_factor(l, next, base, &value)
+                : raise(p, f, pl_lower_factor(l, next, base, &value));
   }
   // one factor, which may be a function again
   p->at = from + 1;
@@ -150,7 +162,7 @@ static pl_quantity read_function(product* p) {
   return pl_quantity_is_bad(&value) ? value : raise(p, f, value);
 }
 
-// ---------------------------------------------------------------------------------------------- brackets that touch a
+// --------------------------------------------------------------------------- brackets that touch a
 // name
 static bool is_zero_number(const pl_ast* node) {
   const pl_ast* one = pl_ast_single(node);
@@ -164,14 +176,20 @@ static pl_quantity start_of(product* p, const pl_ast* place, pl_quantity q, cons
   bool symbol = pl_kind_of(l->pool, q.at[0]) == PL_SYMBOL;
   pl_symbol s = symbol ? pl_symbol_of(l->pool, q.at[0]) : (pl_symbol){0};
   pl_role role = symbol ? pl_symbol_get(l->pool, s)->role : PL_R_ARRAY;
-  if (role == PL_R_COORD || role == PL_R_VELOCITY) return pl_quantity_of(pl_sym(l->pool, pl_symbol_start(l->pool, s)));
-  bool result = role == PL_R_MULTIPLIER || role == PL_R_ACCELERATION || (role == PL_R_LOCAL && pl_model_result_name(l->m, s));
-  if (result && l->results) return pl_quantity_of(pl_sym(l->pool, pl_model_result_derivative(l->m, PL_RES_START, q.at[0], (pl_symbol){0})));
+  if (role == PL_R_COORD || role == PL_R_VELOCITY)
+    return pl_quantity_of(pl_sym(l->pool, pl_symbol_start(l->pool, s)));
+  bool result = role == PL_R_MULTIPLIER || role == PL_R_ACCELERATION
+                || (role == PL_R_LOCAL && pl_model_result_name(l->m, s));
+  if (result && l->results)
+    return pl_quantity_of(
+        pl_sym(l->pool, pl_model_result_derivative(l->m, PL_RES_START, q.at[0], (pl_symbol){0})));
   const char* text = pl_source_text(l->arena, pl_ast_span(place));
   pl_diagnostic* m = pl_lower_complain(l, PL_E016, span, "the start value of %s cannot be named",
                                        "der Startwert von %s lässt sich nicht benennen", text);
-  pl_because(l->job, m, "only coordinates and velocities have one, and results where they are asked for",
-             "nur Koordinaten und Geschwindigkeiten haben einen, und Ergebnisse dort, wo nach ihnen gefragt wird");
+  pl_because(l->job, m,
+             "only coordinates and velocities have one, and results where they are asked for",
+             "nur Koordinaten und Geschwindigkeiten haben einen, und Ergebnisse dort, wo nach "
+             "ihnen gefragt wird");
   return pl_quantity_bad();
 }
 
@@ -189,7 +207,8 @@ static bool has_moments(product* p, const pl_ast* f) {
 
 // x(A): a component of a point.  The name is an axis and the only thing in the bracket is a label.
 static bool is_component(product* p, const pl_ast* f, const pl_ast* group) {
-  if (f->kind != PL_AST_NAME || f->number || group->kids.n != 1 || pl_axis_find(p->l, f->key) < 0) return false;
+  if (f->kind != PL_AST_NAME || f->number || group->kids.n != 1 || pl_axis_find(p->l, f->key) < 0)
+    return false;
   const pl_ast* index;
   const pl_ast* label = pl_ast_label(group->kids.at[0], &index);
   if (label == NULL) return false;
@@ -204,8 +223,8 @@ static pl_quantity component(product* p, const pl_ast* f, const pl_ast* group) {
   if (!pl_lower_label_point(p->l, label, index, &at, NULL)) return pl_quantity_bad();
   int axis = pl_axis_find(p->l, f->key);
   if (axis < at.n) return pl_quantity_of(at.at[axis]);
-  pl_lower_complain(p->l, PL_E029, pl_ast_span(f), "%s has no %s component", "%s hat keine %s-Komponente", label->shown,
-                    f->shown);
+  pl_lower_complain(p->l, PL_E029, pl_ast_span(f), "%s has no %s component",
+                    "%s hat keine %s-Komponente", label->shown, f->shown);
   return pl_quantity_bad();
 }
 
@@ -222,8 +241,11 @@ static pl_quantity coordinate_bracket(product* p, const pl_ast* f, const pl_ast*
     const char* inner = pl_source_text(l->arena, pl_ast_span(group));
     pl_span span = pl_span_join(pl_ast_span(f), pl_ast_span(group));
     pl_diagnostic* m = pl_lower_complain(
-        l, PL_E016, span, "a bracket that touches a coordinate is its value at a time: %1$s(0) or %1$s(t)",
-        "eine Klammer direkt hinter einer Koordinate ist ihr Wert zu einer Zeit: %1$s(0) oder %1$s(t)", name);
+        l, PL_E016, span,
+        "a bracket that touches a coordinate is its value at a time: %1$s(0) or %1$s(t)",
+        "eine Klammer direkt hinter einer Koordinate ist ihr Wert zu einer Zeit: %1$s(0) oder "
+        "%1$s(t)",
+        name);
     pl_suggest(l->job, m, pl_format(l->arena, "%s %s", name, inner), "write %s %s  for the product",
                "schreibe %s %s  für das Produkt", name, inner);
     return pl_quantity_bad();
@@ -231,22 +253,25 @@ static pl_quantity coordinate_bracket(product* p, const pl_ast* f, const pl_ast*
   return next == group ? q : pl_lower_factor(l, next, group, &q);
 }
 
-// ---------------------------------------------------------------------------------------------- numbers side by side
+// ---------------------------------------------------------------------------- numbers side by side
 static bool is_plain_number(const pl_ast* n) {
   if (n->kind == PL_AST_NUMBER) return true;
-  return n->kind == PL_AST_POWER && pl_ast_kid(n, 0)->kind == PL_AST_NUMBER && pl_ast_kid(n, 1)->kind == PL_AST_NUMBER;
+  return n->kind == PL_AST_POWER && pl_ast_kid(n, 0)->kind == PL_AST_NUMBER
+         && pl_ast_kid(n, 1)->kind == PL_AST_NUMBER;
 }
 
 static bool is_number_with_unit(const pl_ast* n) {
-  return (n->kind == PL_AST_UNIT || n->kind == PL_AST_DEGREE) && pl_ast_kid(n, 0) &&
-         pl_ast_kid(n, 0)->kind == PL_AST_NUMBER;
+  return (n->kind == PL_AST_UNIT || n->kind == PL_AST_DEGREE) && pl_ast_kid(n, 0)
+         && pl_ast_kid(n, 0)->kind == PL_AST_NUMBER;
 }
 
 // `3 kg` where kg is not a name: the unit lacks its brackets.
 static bool unit_without_brackets(product* p, int i) {
   const pl_ast* f = factor(p, i);
   const pl_ast* base = pl_ast_base(f);
-  if (base->kind != PL_AST_NAME || !blank_before(p, i) || i == 0 || !is_plain_number(factor(p, i - 1))) return false;
+  if (base->kind != PL_AST_NAME || !blank_before(p, i) || i == 0
+      || !is_plain_number(factor(p, i - 1)))
+    return false;
   // m in 9.81 m/s^2 may be a mass; s is not a name, and the whole reads as a unit
   bool unknown = false;
   for (int k = i; k < p->node->kids.n; k++) {
@@ -267,10 +292,11 @@ static bool unit_without_brackets(product* p, int i) {
       has_unknown |= b->kind == PL_AST_NAME && !pl_scope_known(p->l, b);
     }
     if (!has_unknown) continue;
-    pl_diagnostic* m = pl_lower_complain(p->l, PL_E024, span, "%s looks like a unit without brackets",
+    pl_diagnostic* m = pl_lower_complain(p->l, PL_E024, span,
+                                         "%s looks like a unit without brackets",
                                          "%s sieht nach einer Einheit ohne Klammern aus", text);
-    pl_suggest(p->l->job, m, pl_format(p->l->arena, "[%s]", text), "write %s [%s]", "schreibe %s [%s]",
-               text_between(p, i - 1, i - 1), text);
+    pl_suggest(p->l->job, m, pl_format(p->l->arena, "[%s]", text), "write %s [%s]",
+               "schreibe %s [%s]", text_between(p, i - 1, i - 1), text);
     p->at = last + 1;
     return true;
   }
@@ -280,17 +306,20 @@ static bool unit_without_brackets(product* p, int i) {
 static bool numbers_side_by_side(product* p, int i) {
   if (!blank_before(p, i) || i == 0) return false;
   const pl_ast *a = pl_ast_base(factor(p, i - 1)), *b = pl_ast_base(factor(p, i));
-  if (a->kind != PL_AST_NUMBER || b->kind != PL_AST_NUMBER || factor(p, i - 1)->kind == PL_AST_UNIT) return false;
+  if (a->kind != PL_AST_NUMBER || b->kind != PL_AST_NUMBER || factor(p, i - 1)->kind == PL_AST_UNIT)
+    return false;
   pl_span span = pl_span_join(pl_ast_span(a), pl_ast_span(b));
-  pl_diagnostic* m = pl_lower_complain(p->l, PL_E001, span, "two numbers side by side", "zwei Zahlen nebeneinander");
+  pl_diagnostic* m = pl_lower_complain(p->l, PL_E001, span, "two numbers side by side",
+                                       "zwei Zahlen nebeneinander");
   // 1 000 is a thousand with a blank
-  bool thousand = strlen(b->text) == 3 && strlen(a->text) <= 3 && !strpbrk(a->text, ".e") && !strpbrk(b->text, ".e");
+  bool thousand = strlen(b->text) == 3 && strlen(a->text) <= 3 && !strpbrk(a->text, ".e")
+                  && !strpbrk(b->text, ".e");
   const char* fixed = pl_format(p->l->arena, thousand ? "%s%s" : "%s*%s", a->text, b->text);
   pl_suggest(p->l->job, m, fixed, "write %s", "schreibe %s", fixed);
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- runs
+// -------------------------------------------------------------------------------------------- runs
 // A run is a factor together with the bracket or argument that it takes.
 static pl_quantity read_run(product* p) {
   pl_lower* l = p->l;
@@ -312,7 +341,7 @@ static pl_quantity read_run(product* p) {
   return pl_lower_factor(l, f, NULL, NULL);
 }
 
-// ---------------------------------------------------------------------------------------------- rule 5
+// ------------------------------------------------------------------------------------------ rule 5
 // After  numerator / divisor : may a blank product follow?
 static bool blank_is_clear(const product* p, int numerator, int divisor) {
   const pl_ast *d = factor(p, divisor), *next = factor(p, p->at);
@@ -331,10 +360,10 @@ static void two_readings(product* p, int numerator, int divisor) {
   const char* all = text_between(p, numerator, last);
   const char* first = pl_format(p->l->arena, "(%s/%s) %s", above, below, rest);
   pl_span span = span_between(p, numerator, last);
-  pl_diagnostic* m =
-      pl_lower_complain(p->l, PL_E014, span, "%s can be read in two ways", "%s lässt sich auf zwei Arten lesen", all);
-  pl_suggest(p->l->job, m, first, "write %1$s  or  %2$s/(%3$s %4$s)", "schreibe %1$s  oder  %2$s/(%3$s %4$s)", first,
-             above, below, rest);
+  pl_diagnostic* m = pl_lower_complain(p->l, PL_E014, span, "%s can be read in two ways",
+                                       "%s lässt sich auf zwei Arten lesen", all);
+  pl_suggest(p->l->job, m, first, "write %1$s  or  %2$s/(%3$s %4$s)",
+             "schreibe %1$s  oder  %2$s/(%3$s %4$s)", first, above, below, rest);
   p->at = p->node->kids.n;
 }
 
@@ -351,15 +380,19 @@ static bool unit_of_fraction(product* p, int numerator, int divisor, pl_quantity
     const char* above = text_between(p, numerator, divisor - 1);
     pl_span span = span_between(p, numerator, divisor);
     pl_diagnostic* m = pl_lower_complain(l, PL_E014, span, "%s can be read in two ways",
-                                         "%s lässt sich auf zwei Arten lesen", pl_source_text(l->arena, span));
-    pl_suggest(l->job, m, NULL, "write %1$s/(%2$s%3$s)  or  give %1$s its unit where it is declared",
-               "schreibe %1$s/(%2$s%3$s)  oder  gib %1$s die Einheit in der Vereinbarung", above, number, unit);
+                                         "%s lässt sich auf zwei Arten lesen",
+                                         pl_source_text(l->arena, span));
+    pl_suggest(l->job, m, NULL,
+               "write %1$s/(%2$s%3$s)  or  give %1$s its unit where it is declared",
+               "schreibe %1$s/(%2$s%3$s)  oder  gib %1$s die Einheit in der Vereinbarung", above,
+               number, unit);
     *q = pl_quantity_bad();
     return true;
   }
   pl_quantity bottom = pl_lower_quantity(l, pl_ast_kid(d, 0));
   pl_quantity fraction = pl_lower_times(l, *q, bottom, true, p->node);
-  *q = pl_quantity_is_bad(&fraction) ? fraction : pl_lower_factor(l, d, pl_ast_kid(d, 0), &fraction);
+  *q = pl_quantity_is_bad(&fraction) ? fraction
+                                     : pl_lower_factor(l, d, pl_ast_kid(d, 0), &fraction);
   return true;
 }
 
@@ -386,10 +419,12 @@ pl_quantity pl_lower_product(pl_lower* l, const pl_ast* node) {
     }
     pl_quantity next = read_run(&p);
     value = pl_lower_times(l, value, next, sign == '/', node);
-    if (sign == '/') numerator = before, divisor = i;
-    else divisor = -1;
+    if (sign == '/') {
+      numerator = before;
+      divisor = i;
+    } else divisor = -1;
     if (pl_quantity_is_bad(&next)) value = pl_quantity_bad();
   }
-  if (value.n == 0) value.at[0] = pl_measure_join(l->pool, value.at[0]);   // 2 π [rad/s]
+  if (value.n == 0) value.at[0] = pl_measure_join(l->pool, value.at[0]);  // 2 π [rad/s]
   return value;
 }

@@ -5,24 +5,25 @@
 
 #include "grammar.h"
 
-// ---------------------------------------------------------------------------------------------- pieces
-#define PUSH_CONDITIONS(l, list, into)                                                               \
-  do {                                                                                               \
-    for (int i_ = 0; (list) && i_ < (list)->kids.n; i_++) {                                          \
-      pl_condition c_;                                                                               \
-      if ((list)->kids.at[i_]->kind == PL_AST_RELATION) {                                            \
-        for (int k_ = 0; k_ + 1 < (list)->kids.at[i_]->kids.n; k_++) {                               \
-          if (pl_lower_relation((l), (list)->kids.at[i_], &c_, k_)) pl_push((l)->arena, (into), c_); \
-        }                                                                                            \
-      } else {                                                                                       \
-        not_a_condition((l), (list)->kids.at[i_]);                                                   \
-      }                                                                                              \
-    }                                                                                                \
+// ------------------------------------------------------------------------------------------ pieces
+#define PUSH_CONDITIONS(l, list, into)                                 \
+  do {                                                                 \
+    for (int i_ = 0; (list) && i_ < (list)->kids.n; i_++) {            \
+      pl_condition c_;                                                 \
+      if ((list)->kids.at[i_]->kind == PL_AST_RELATION) {              \
+        for (int k_ = 0; k_ + 1 < (list)->kids.at[i_]->kids.n; k_++) { \
+          if (pl_lower_relation((l), (list)->kids.at[i_], &c_, k_))    \
+            pl_push((l)->arena, (into), c_);                           \
+        }                                                              \
+      } else {                                                         \
+        not_a_condition((l), (list)->kids.at[i_]);                     \
+      }                                                                \
+    }                                                                  \
   } while (0)
 
 static void not_a_condition(pl_lower* l, const pl_ast* node) {
-  pl_diagnostic* m =
-      pl_lower_complain(l, PL_E017, pl_ast_span(node), "an equation is needed here", "hier ist eine Gleichung nötig");
+  pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node), "an equation is needed here",
+                                       "hier ist eine Gleichung nötig");
   pl_suggest(l->job, m, NULL, "write  name = value", "schreibe  Name = Wert");
 }
 
@@ -46,9 +47,9 @@ static void lower_frame(pl_lower* l, const pl_ast* group, pl_ask* a) {
       pl_push(l->arena, a->frame, pl_symbol_of(l->pool, e));
       continue;
     }
-    pl_diagnostic* m =
-        pl_lower_complain(l, PL_E030, pl_ast_span(group->kids.at[i]), "%s is not a coordinate",
-                          "%s ist keine Koordinate", pl_source_text(l->arena, pl_ast_span(group->kids.at[i])));
+    pl_diagnostic* m = pl_lower_complain(l, PL_E030, pl_ast_span(group->kids.at[i]),
+                                         "%s is not a coordinate", "%s ist keine Koordinate",
+                                         pl_source_text(l->arena, pl_ast_span(group->kids.at[i])));
     pl_suggest(l->job, m, NULL, "write the coordinates, as in  in (r, φ)",
                "die Koordinaten schreiben, wie in  in (r, φ)");
   }
@@ -57,8 +58,8 @@ static void lower_frame(pl_lower* l, const pl_ast* group, pl_ask* a) {
 // The name that moves in a limit or series; a new name becomes a small quantity.
 static pl_symbol lower_variable(pl_lower* l, const pl_ast* node, bool may_be_new) {
   const pl_ast* one = pl_ast_single(node);
-  if (one && one->kind == PL_AST_NAME && one->number == 0 && may_be_new && !pl_scope_known(l, one) &&
-      !pl_scope_lost(l, one->key)) {
+  if (one && one->kind == PL_AST_NAME && one->number == 0 && may_be_new && !pl_scope_known(l, one)
+      && !pl_scope_lost(l, one->key)) {
     pl_symbol s = pl_scope_symbol(l, one, PL_R_SMALL);
     pl_scope_declare(l, PL_ENTITY_SMALL, one, s);
     return s;
@@ -66,9 +67,10 @@ static pl_symbol lower_variable(pl_lower* l, const pl_ast* node, bool may_be_new
   pl_expr e = pl_lower_scalar(l, node);
   if (pl_is_poison(e)) return (pl_symbol){0};
   if (pl_kind_of(l->pool, e) == PL_SYMBOL) return pl_symbol_of(l->pool, e);
-  pl_diagnostic* m =
-      pl_lower_complain(l, PL_E017, pl_ast_span(node), "a name is needed here", "hier ist ein Name nötig");
-  pl_suggest(l->job, m, NULL, "write a parameter or coordinate", "einen Parameter oder eine Koordinate schreiben");
+  pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node), "a name is needed here",
+                                       "hier ist ein Name nötig");
+  pl_suggest(l->job, m, NULL, "write a parameter or coordinate",
+             "einen Parameter oder eine Koordinate schreiben");
   return (pl_symbol){0};
 }
 
@@ -85,11 +87,13 @@ static void lower_of(pl_lower* l, const pl_ast* node, pl_ask* a) {
   a->value = pl_lower_scalar(l, node);
 }
 
-// ---------------------------------------------------------------------------------------------- limits, series,
+// --------------------------------------------------------------------------------- limits, series,
 // thresholds
 static void lower_limit(pl_lower* l, const pl_ast* i, pl_ask* a) {
   a->kind = PL_ASK_LIMIT;
-  a->limit = i->number == '=' ? PL_LIMIT_EQUAL : i->number == TOK_MUCH ? PL_LIMIT_MUCH_GREATER : PL_LIMIT_TO;
+  a->limit = i->number == '='        ? PL_LIMIT_EQUAL
+             : i->number == TOK_MUCH ? PL_LIMIT_MUCH_GREATER
+                                     : PL_LIMIT_TO;
   a->variable = lower_variable(l, pl_ast_kid(i, 0), false);
   l->infinity = a->limit == PL_LIMIT_TO;
   a->to = pl_lower_scalar(l, pl_ast_kid(i, 1));
@@ -111,7 +115,8 @@ static void lower_series(pl_lower* l, const pl_ast* i, pl_ask* a) {
   const pl_ast* order = pl_ast_kid(i, 4);
   long n = 0;
   if (order && (!pl_is_int(l->pool, pl_lower_scalar(l, order), &n) || n < 1 || n > 50)) {
-    pl_lower_complain(l, PL_E017, pl_ast_span(order), "the order of a series is a number from 1 to 50",
+    pl_lower_complain(l, PL_E017, pl_ast_span(order),
+                      "the order of a series is a number from 1 to 50",
                       "die Ordnung einer Reihe ist eine Zahl von 1 bis 50");
     n = 0;
   }
@@ -139,23 +144,24 @@ static void lower_threshold(pl_lower* l, const pl_ast* i, pl_ask* a) {
     return;
   }
   const pl_ast* one = pl_ast_single(of);
-  bool label = one && one->kind == PL_AST_NAME && (pl_scope_rule(l, one->key) || strcmp(one->key, "stable") == 0);
+  bool label = one && one->kind == PL_AST_NAME
+               && (pl_scope_rule(l, one->key) || strcmp(one->key, "stable") == 0);
   lower_place(l, pl_ast_kid(i, 2), a);
   if (label) a->label = one->shown;
   else a->value = pl_lower_scalar(l, of);
 }
 
-// ---------------------------------------------------------------------------------------------- solve and plain values
+// -------------------------------------------------------------------------- solve and plain values
 // solve x1(t): the motion; solve x1'': the acceleration.
 static void lower_solve(pl_lower* l, const pl_ast* i, pl_ask* a) {
   const pl_ast* what = pl_ast_kid(i, 0);
   a->kind = PL_ASK_SOLVE;
-  if (what->kind == PL_AST_PRODUCT && what->kids.n == 2 && what->kids.at[1]->kind == PL_AST_GROUP &&
-      what->kids.at[1]->tight) {
+  if (what->kind == PL_AST_PRODUCT && what->kids.n == 2 && what->kids.at[1]->kind == PL_AST_GROUP
+      && what->kids.at[1]->tight) {
     const pl_ast* group = what->kids.at[1];
     a->of_time = group->kids.n == 1 && pl_ast_is_name(group->kids.at[0], "t");
   }
-  if (a->of_time) {   // λ(t), of a multiplier, is no product
+  if (a->of_time) {  // λ(t), of a multiplier, is no product
     a->value = pl_lower_scalar(l, what->kids.at[0]);
     if (pl_is_poison(a->value) || pl_has_role(l->pool, a->value, PL_R_MULTIPLIER)) return;
   }
@@ -163,8 +169,8 @@ static void lower_solve(pl_lower* l, const pl_ast* i, pl_ask* a) {
   if (pl_is_poison(a->value)) return;
   pl_kind kind = pl_kind_of(l->pool, a->value);
   if (kind == PL_SYMBOL || kind == PL_AT) return;
-  pl_diagnostic* m =
-      pl_lower_complain(l, PL_E017, pl_ast_span(what), "solve takes one name", "solve nimmt einen Namen");
+  pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(what), "solve takes one name",
+                                       "solve nimmt einen Namen");
   pl_suggest(l->job, m, NULL, "write  solve λ,  solve x''  or  solve x(t)",
              "schreibe  solve λ,  solve x''  oder  solve x(t)");
 }
@@ -174,9 +180,11 @@ static void lower_value(pl_lower* l, const pl_ast* i, pl_ask* a) {
   const pl_ast* what = pl_ast_kid(i, 0);
   pl_quantity q = pl_lower_quantity(l, what);
   if (q.n) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(what), "a number is needed here, not a vector",
+    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(what),
+                                         "a number is needed here, not a vector",
                                          "hier ist eine Zahl nötig, kein Vektor");
-    pl_suggest(l->job, m, NULL, "ask for one component, as in x(A)", "nach einer Komponente fragen, wie in x(A)");
+    pl_suggest(l->job, m, NULL, "ask for one component, as in x(A)",
+               "nach einer Komponente fragen, wie in x(A)");
   }
   a->value = q.at[0];
   PUSH_CONDITIONS(l, pl_ast_kid(i, 1), a->where);
@@ -228,7 +236,8 @@ static void lower_expect(pl_lower* l, const pl_ast* i, pl_ask* a) {
   const pl_ast* r = pl_ast_kid(i, 0);
   pl_condition c;
   if (r->kids.n != 2 || r->ops.at[1] == '!') {
-    pl_lower_complain(l, PL_E017, pl_ast_span(r), "expect takes one equation", "expect nimmt eine Gleichung");
+    pl_lower_complain(l, PL_E017, pl_ast_span(r), "expect takes one equation",
+                      "expect nimmt eine Gleichung");
     return;
   }
   if (!pl_lower_relation(l, r, &c, 0)) return;
@@ -238,7 +247,7 @@ static void lower_expect(pl_lower* l, const pl_ast* i, pl_ask* a) {
   lower_motion(l, pl_ast_kid(i, 2), &a->motion);
 }
 
-// ---------------------------------------------------------------------------------------------- forces
+// ------------------------------------------------------------------------------------------ forces
 static void lower_force_item(pl_lower* l, const pl_ast* i, pl_ask* a) {
   a->kind = i->number == TOK_OF ? PL_ASK_FORCE_OF : PL_ASK_FORCE_ON;
   const pl_ast *label = pl_ast_kid(i, 0), *name = pl_ast_kid(label, 0);
@@ -268,10 +277,10 @@ static void lower_stability(pl_lower* l, const pl_ast* i, pl_ask* a) {
   a->to = pl_lower_scalar(l, pl_ast_kid(i, 1));
 }
 
-// ---------------------------------------------------------------------------------------------- items
+// ------------------------------------------------------------------------------------------- items
 static bool is_display(int token) {
-  return token == TOK_SIMULATE || token == TOK_PLOT || token == TOK_ANIMATE || token == TOK_SWEEP ||
-         token == TOK_POINCARE;
+  return token == TOK_SIMULATE || token == TOK_PLOT || token == TOK_ANIMATE || token == TOK_SWEEP
+         || token == TOK_POINCARE;
 }
 
 static void lower_item(pl_lower* l, const pl_ast* i, const char* letter) {
@@ -280,7 +289,8 @@ static void lower_item(pl_lower* l, const pl_ast* i, const char* letter) {
     return;
   }
   int wrong = l->wrong;
-  pl_ask a = {.letter = letter, .text = pl_source_text(l->arena, pl_ast_span(i)), .span = pl_ast_span(i)};
+  pl_ask a = {
+      .letter = letter, .text = pl_source_text(l->arena, pl_ast_span(i)), .span = pl_ast_span(i)};
   switch (i->token) {
     case TOK_DOF: a.kind = PL_ASK_DOF; break;
     case TOK_CONSTRAINTS: a.kind = PL_ASK_CONSTRAINTS; break;
@@ -331,12 +341,13 @@ void pl_lower_ask(pl_lower* l, const pl_ast* s) {
   l->mute += s->broken;
   l->results = true;
   if (letter) pl_push(l->arena, l->letters, letter->shown);
-  for (int i = 0; i < items->kids.n; i++) lower_item(l, items->kids.at[i], letter ? letter->shown : NULL);
+  for (int i = 0; i < items->kids.n; i++)
+    lower_item(l, items->kids.at[i], letter ? letter->shown : NULL);
   l->results = false;
   l->mute -= s->broken;
 }
 
-// ---------------------------------------------------------------------------------------------- events
+// ------------------------------------------------------------------------------------------ events
 static void lower_action(pl_lower* l, const pl_ast* node, pl_event* e) {
   static const struct {
     const char* word;
@@ -351,7 +362,8 @@ static void lower_action(pl_lower* l, const pl_ast* node, pl_event* e) {
   for (int k = 0; k < 5; k++) {
     if (strcmp(kinds[k].word, node->text) == 0) a.kind = kinds[k].kind;
   }
-  if (a.kind == PL_DO_RELEASE || a.kind == PL_DO_ATTACH) a.label = pl_constraint_label(l, pl_ast_kid(node, 0));
+  if (a.kind == PL_DO_RELEASE || a.kind == PL_DO_ATTACH)
+    a.label = pl_constraint_label(l, pl_ast_kid(node, 0));
   if (a.kind == PL_DO_SET) {
     a.target = pl_lower_scalar(l, pl_ast_kid(node, 0));
     a.value = pl_lower_scalar(l, pl_ast_kid(node, 1));
@@ -368,11 +380,13 @@ void pl_lower_event(pl_lower* l, const pl_ast* s) {
   const pl_ast* name = pl_ast_kid(label, 0);
   e.name = (pl_name){.text = name->shown, .ascii = name->key};
   if (pl_ast_kid(label, 1))
-    pl_lower_complain(l, PL_E025, pl_ast_span(label), "events are not families", "Ereignisse sind keine Familien");
+    pl_lower_complain(l, PL_E025, pl_ast_span(label), "events are not families",
+                      "Ereignisse sind keine Familien");
   pl_condition c;
   bool fine = false;
   if (when->kids.n != 2 || when->ops.at[1] != '=') {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(when), "an event happens when an equation holds",
+    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(when),
+                                         "an event happens when an equation holds",
                                          "ein Ereignis tritt ein, wenn eine Gleichung gilt");
     pl_suggest(l->job, m, NULL, "write = ; add rising or falling for a direction",
                "schreibe = ; rising oder falling gibt die Richtung an");
@@ -389,16 +403,18 @@ void pl_lower_event(pl_lower* l, const pl_ast* s) {
   l->mute -= s->broken;
 }
 
-// ---------------------------------------------------------------------------------------------- simulate
+// ---------------------------------------------------------------------------------------- simulate
 // 1..5 [min]: the unit at the end holds for all that have none.
 static void unit_nodes(const pl_ast* node, const pl_ast** unit, int* bare) {
   const pl_ast* n = node;
-  while (n && (n->kind == PL_AST_PRODUCT || n->kind == PL_AST_SUM) && n->kids.n >= 1) n = n->kids.at[n->kids.n - 1];
+  while (n && (n->kind == PL_AST_PRODUCT || n->kind == PL_AST_SUM) && n->kids.n >= 1)
+    n = n->kids.at[n->kids.n - 1];
   if (n && n->kind == PL_AST_UNIT) *unit = n;
   else *bare += 1;
 }
 
-static void lower_range(pl_lower* l, const pl_ast* range, pl_expr* lo, pl_expr* hi, pl_expr* step, long* count) {
+static void lower_range(pl_lower* l, const pl_ast* range, pl_expr* lo, pl_expr* hi, pl_expr* step,
+                        long* count) {
   const pl_ast* parts[3] = {pl_ast_kid(range, 0), pl_ast_kid(range, 1), pl_ast_kid(range, 2)};
   pl_expr* values[3] = {lo, hi, step};
   const pl_ast* unit_node = NULL;
@@ -410,8 +426,8 @@ static void lower_range(pl_lower* l, const pl_ast* range, pl_expr* lo, pl_expr* 
   bool spread = unit_node && bare && pl_lower_unit(l, unit_node, &unit);
   for (int i = 0; i < 3; i++) {
     *values[i] = parts[i] ? pl_lower_scalar(l, parts[i]) : pl_poison();
-    bool number = parts[i] && !pl_is_poison(*values[i]) && pl_is_constant(l->pool, *values[i]) &&
-                  !pl_has_unit(l->pool, *values[i]);
+    bool number = parts[i] && !pl_is_poison(*values[i]) && pl_is_constant(l->pool, *values[i])
+                  && !pl_has_unit(l->pool, *values[i]);
     const pl_ast* own = NULL;
     int none = 0;
     if (parts[i]) unit_nodes(parts[i], &own, &none);
@@ -430,10 +446,11 @@ static void lower_range(pl_lower* l, const pl_ast* range, pl_expr* lo, pl_expr* 
 static void lower_simulate(pl_lower* l, const pl_ast* s) {
   pl_simulate* m = &l->m->simulate;
   if (m->given) {
-    pl_diagnostic* d =
-        pl_lower_complain(l, PL_E028, pl_ast_span(s), "simulate is given twice", "simulate ist zweimal angegeben");
+    pl_diagnostic* d = pl_lower_complain(l, PL_E028, pl_ast_span(s), "simulate is given twice",
+                                         "simulate ist zweimal angegeben");
     if (!l->mute)
-      pl_report_label(l->job->diagnostics, d, m->span, l->job->lang == PL_GERMAN ? "zuerst hier" : "first here");
+      pl_report_label(l->job->diagnostics, d, m->span,
+                      l->job->lang == PL_GERMAN ? "zuerst hier" : "first here");
     pl_suggest(l->job, d, NULL, "keep one of them", "eine davon behalten");
     return;
   }
@@ -444,7 +461,7 @@ static void lower_simulate(pl_lower* l, const pl_ast* s) {
   m->given = l->wrong == wrong;
 }
 
-// ---------------------------------------------------------------------------------------------- pictures
+// ---------------------------------------------------------------------------------------- pictures
 // A force is drawn by its size.
 static pl_expr plotted(pl_lower* l, const pl_ast* node) {
   pl_expr e = pl_lower_scalar(l, node);
@@ -484,7 +501,8 @@ static void lower_poincare(pl_lower* l, const pl_ast* s) {
   pl_condition c;
   pl_lower_relation(l, pl_ast_kid(s, 0), &c, 0);
   for (int i = 0; i < of->kids.n; i++) pl_lower_quantity(l, of->kids.at[i]);
-  pl_lower_pending(l, PL_N091, "poincare", pl_ast_span(s), "Poincaré sections are not computed by this version",
+  pl_lower_pending(l, PL_N091, "poincare", pl_ast_span(s),
+                   "Poincaré sections are not computed by this version",
                    "Poincaré-Schnitte berechnet diese Version nicht");
 }
 

@@ -6,29 +6,33 @@
 
 #include "grammar.h"
 
-// ---------------------------------------------------------------------------------------------- complaints
-pl_diagnostic* pl_lower_complain(pl_lower* l, pl_code code, pl_span span, const char* en, const char* de, ...) {
+// -------------------------------------------------------------------------------------- complaints
+pl_diagnostic* pl_lower_complain(pl_lower* l, pl_code code, pl_span span, const char* en,
+                                 const char* de, ...) {
   if (pl_code_severity(code) == PL_ERROR) l->wrong++;
   if (l->mute) return PL_NEW(l->arena, pl_diagnostic);
   va_list ap, again;
   va_start(ap, de);
   va_copy(again, ap);
   const char* english = pl_vformat(l->arena, en, ap);
-  pl_diagnostic* m = pl_report(l->job->diagnostics, code, span, english, pl_vformat(l->arena, de, again));
+  pl_diagnostic* m = pl_report(l->job->diagnostics, code, span, english,
+                               pl_vformat(l->arena, de, again));
   va_end(again);
   va_end(ap);
   return m;
 }
 
-void pl_lower_pending(pl_lower* l, pl_code code, const char* what, pl_span span, const char* en, const char* de) {
+void pl_lower_pending(pl_lower* l, pl_code code, const char* what, pl_span span, const char* en,
+                      const char* de) {
   pl_diagnostic* m = pl_lower_complain(l, code, span, en, de);
   if (code == PL_E091) {
-    pl_suggest(l->job, m, NULL, "remove the line to solve the rest", "die Zeile entfernen, um den Rest zu lösen");
+    pl_suggest(l->job, m, NULL, "remove the line to solve the rest",
+               "die Zeile entfernen, um den Rest zu lösen");
   }
   pl_push(l->arena, l->m->pending, (pl_pending){what, span});
 }
 
-// ---------------------------------------------------------------------------------------------- entities
+// ---------------------------------------------------------------------------------------- entities
 static uint64_t key_of(const char* key) { return (uint64_t)(uintptr_t)key; }
 
 pl_entity* pl_scope_find(const pl_lower* l, const char* key) {
@@ -58,9 +62,13 @@ bool pl_scope_lost(const pl_lower* l, const char* key) {
 pl_symbol pl_scope_symbol(pl_lower* l, const pl_ast* name, pl_role role) {
   // a coordinate's or a result's derived name may have taken the spelling already
   const char* ascii = name->key;
-  for (int k = 2; pl_symbol_find(l->pool, ascii).id; k++) ascii = pl_format(l->arena, "%s_%d", name->key, k);
-  pl_symbol_info info = {
-      .name = name->shown, .ascii = ascii, .role = role, .class = PL_C_OTHER, .dimension = pl_dimension_one()};
+  for (int k = 2; pl_symbol_find(l->pool, ascii).id; k++)
+    ascii = pl_format(l->arena, "%s_%d", name->key, k);
+  pl_symbol_info info = {.name = name->shown,
+                         .ascii = ascii,
+                         .role = role,
+                         .class = PL_C_OTHER,
+                         .dimension = pl_dimension_one()};
   if (role == PL_R_COORD) info.class = PL_C_COORD;
   if (role == PL_R_ARRAY) info.class = PL_C_COORD;
   if (role == PL_R_MULTIPLIER) info.class = PL_C_MULTIPLIER;
@@ -84,28 +92,35 @@ static const char* what_it_is(pl_entity_kind k, bool german) {
 static bool refuse_reserved(pl_lower* l, const pl_ast* name) {
   bool time = strcmp(name->key, "t") == 0;
   if (!time && !pl_word_function(name->key) && !pl_word_reserved(name->key)) return false;
-  pl_diagnostic* m = pl_lower_complain(l, PL_E013, pl_ast_span(name), time ? "t is the time" : "%s is a reserved word",
-                                       time ? "t ist die Zeit" : "%s ist ein reserviertes Wort", name->key);
-  pl_suggest(l->job, m, NULL, "choose another name, such as %s1", "einen anderen Namen wählen, etwa %s1", name->key);
+  pl_diagnostic* m = pl_lower_complain(
+      l, PL_E013, pl_ast_span(name), time ? "t is the time" : "%s is a reserved word",
+      time ? "t ist die Zeit" : "%s ist ein reserviertes Wort", name->key);
+  pl_suggest(l->job, m, NULL, "choose another name, such as %s1",
+             "einen anderen Namen wählen, etwa %s1", name->key);
   return true;
 }
 
-pl_entity* pl_scope_declare(pl_lower* l, pl_entity_kind kind, const pl_ast* name, pl_symbol symbol) {
+pl_entity* pl_scope_declare(pl_lower* l, pl_entity_kind kind, const pl_ast* name,
+                            pl_symbol symbol) {
   bool refused = refuse_reserved(l, name);
   pl_entity* old = pl_scope_find(l, name->key);
   if (!refused && name->number > 0) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E013, pl_ast_span(name), "a derivative cannot be declared",
+    pl_diagnostic* m = pl_lower_complain(l, PL_E013, pl_ast_span(name),
+                                         "a derivative cannot be declared",
                                          "eine Ableitung lässt sich nicht vereinbaren");
     pl_suggest(l->job, m, name->shown, "declare %s; its derivatives follow",
                "%s vereinbaren; die Ableitungen folgen daraus", name->shown);
   } else if (!refused && old) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E012, pl_ast_span(name), "%1$s is declared twice%2$.0s",
+    pl_diagnostic* m = pl_lower_complain(l, PL_E012, pl_ast_span(name),
+                                         "%1$s is declared twice%2$.0s",
                                          "%1$s ist zweimal vereinbart%2$.0s", name->shown, "");
     if (!l->mute) {
       pl_place at = pl_span_place(old->span);
       pl_report_label(
           l->job->diagnostics, m, old->span,
-          pl_format(l->arena, l->job->lang == PL_GERMAN ? "zuerst hier (Zeile %d)" : "first here (line %d)", at.line));
+          pl_format(l->arena,
+                    l->job->lang == PL_GERMAN ? "zuerst hier (Zeile %d)" : "first here (line %d)",
+                    at.line));
     }
     pl_because(l->job, m, "already %1$s%2$.0s", "schon %1$.0s%2$s", what_it_is(old->kind, false),
                what_it_is(old->kind, true));
@@ -136,7 +151,7 @@ pl_rule* pl_scope_rule(pl_lower* l, const char* key) {
   return NULL;
 }
 
-// ---------------------------------------------------------------------------------------------- abbreviations
+// ----------------------------------------------------------------------------------- abbreviations
 // Made of given quantities only?  Then it stays a name.
 static bool only_given(pl_lower* l, pl_expr e) {
   e = pl_model_plain(l->pool, e);
@@ -150,9 +165,10 @@ static bool only_given(pl_lower* l, pl_expr e) {
 }
 
 static void circle(pl_lower* l, pl_entity* e) {
-  pl_diagnostic* m =
-      pl_lower_complain(l, PL_E018, e->span, "%s leads back to itself", "%s führt auf sich selbst zurück", e->shown);
-  pl_suggest(l->job, m, NULL, "write its right side without %s", "die rechte Seite ohne %s schreiben", e->shown);
+  pl_diagnostic* m = pl_lower_complain(l, PL_E018, e->span, "%s leads back to itself",
+                                       "%s führt auf sich selbst zurück", e->shown);
+  pl_suggest(l->job, m, NULL, "write its right side without %s",
+             "die rechte Seite ohne %s schreiben", e->shown);
   e->broken = true;
 }
 
@@ -178,15 +194,21 @@ void pl_scope_finish_let(pl_lower* l, pl_entity* e) {
   bool results = l->results, infinity = l->infinity;
   pl_local* locals = l->locals.at;
   l->block = NULL;
-  l->locals.n = 0, l->locals.at = NULL, l->locals.cap = 0;
-  l->results = true, l->infinity = false;
+  l->locals.n = 0;
+  l->locals.at = NULL;
+  l->locals.cap = 0;
+  l->results = true;
+  l->infinity = false;
   l->mute += e->broken;
   int wrong = l->wrong;
   pl_quantity q = pl_lower_quantity(l, e->override ? e->override : pl_ast_kid(e->definition, 2));
   l->mute -= e->broken;
-  l->locals.at = locals, l->locals.n = n_locals, l->locals.cap = n_locals;
+  l->locals.at = locals;
+  l->locals.n = n_locals;
+  l->locals.cap = n_locals;
   l->block = block;
-  l->results = results, l->infinity = infinity;
+  l->results = results;
+  l->infinity = infinity;
   l->call_depth--;
   e->state = 2;
   if (l->wrong > wrong || pl_quantity_is_bad(&q)) e->broken = true;
@@ -196,15 +218,17 @@ void pl_scope_finish_let(pl_lower* l, pl_entity* e) {
   e->inserted = e->broken || q.n > 0 || !only_given(l, e->value);
   const pl_ast* name = pl_ast_kid(e->definition, 0);
   e->symbol = pl_scope_symbol(l, name, e->inserted ? PL_R_LOCAL : PL_R_PARAM);
-  pl_push(
-      l->arena, l->m->lets,
-      (pl_let){.symbol = e->symbol, .inserted = e->inserted, .value = e->value, .span = pl_ast_span(e->definition)});
+  pl_push(l->arena, l->m->lets,
+          (pl_let){.symbol = e->symbol,
+                   .inserted = e->inserted,
+                   .value = e->value,
+                   .span = pl_ast_span(e->definition)});
   if (!e->inserted) e->value = pl_sym(l->pool, e->symbol);
 }
 
-// ---------------------------------------------------------------------------------------------- did you mean
-static const char* const result_words[] = {"T",          "V",       "L",         "E",      "H",
-                                           "lagrangian", "kinetic", "potential", "energy", "hamiltonian"};
+// ------------------------------------------------------------------------------------ did you mean
+static const char* const result_words[] = {
+    "T", "V", "L", "E", "H", "lagrangian", "kinetic", "potential", "energy", "hamiltonian"};
 enum { N_RESULT_WORDS = sizeof result_words / sizeof result_words[0] };
 
 // Where two names differ in one digit, the nearer digit is the better guess.
@@ -225,7 +249,8 @@ typedef struct guess {
 static void try_guess(guess* best, const char* wanted, const char* key, const char* shown) {
   int cap = strlen(wanted) <= 3 ? 1 : strlen(wanted) < 9 ? 2 : 3;
   int d = pl_edit_distance(wanted, key, cap);
-  bool case_only = strlen(wanted) == 1 && strlen(key) == 1 && ((wanted[0] ^ key[0]) & ~0x20) == 0;  // L for l
+  // L for l
+  bool case_only = strlen(wanted) == 1 && strlen(key) == 1 && ((wanted[0] ^ key[0]) & ~0x20) == 0;
   if (case_only) d = 0;
   if (d > cap || (d >= (int)strlen(wanted) && strlen(wanted) < 2)) return;
   int gap = digit_gap(wanted, key);
@@ -258,46 +283,53 @@ pl_diagnostic* pl_scope_unknown(pl_lower* l, const pl_ast* name) {
     l->wrong++;
     return PL_NEW(l->arena, pl_diagnostic);
   }
-  pl_diagnostic* m =
-      pl_lower_complain(l, PL_E011, pl_ast_span(name), "%s is not declared", "%s ist nicht vereinbart", name->shown);
+  pl_diagnostic* m = pl_lower_complain(l, PL_E011, pl_ast_span(name), "%s is not declared",
+                                       "%s ist nicht vereinbart", name->shown);
   guess best = {0};
-  bool look = l->n_guesses++ < PL_MAX_GUESSES && !l->mute;  // a file full of unknown names needs no guess for each
+  // a file full of unknown names needs no guess for each
+  bool look = l->n_guesses++ < PL_MAX_GUESSES && !l->mute;
   for (int i = 0; look && i < l->entities.n; i++)
     try_guess(&best, name->key, l->entities.at[i]->key, l->entities.at[i]->shown);
-  for (int i = 0; i < l->locals.n; i++) try_guess(&best, name->key, l->locals.at[i].key, l->locals.at[i].key);
-  for (int i = 0; look && i < l->lost.n; i++) try_guess(&best, name->key, l->lost.at[i], l->lost.at[i]);
-  for (int i = 0; l->results && i < N_RESULT_WORDS; i++) try_guess(&best, name->key, result_words[i], result_words[i]);
+  for (int i = 0; i < l->locals.n; i++)
+    try_guess(&best, name->key, l->locals.at[i].key, l->locals.at[i].key);
+  for (int i = 0; look && i < l->lost.n; i++)
+    try_guess(&best, name->key, l->lost.at[i], l->lost.at[i]);
+  for (int i = 0; l->results && i < N_RESULT_WORDS; i++)
+    try_guess(&best, name->key, result_words[i], result_words[i]);
   if (strlen(name->key) > 2) {
-    for (int i = 0; i < PL_N_FUNCTIONS; i++) try_guess(&best, name->key, pl_function_name[i], pl_function_name[i]);
+    for (int i = 0; i < PL_N_FUNCTIONS; i++)
+      try_guess(&best, name->key, pl_function_name[i], pl_function_name[i]);
     for (int i = 0; l->results && pl_word_of_request(i); i++)
       try_guess(&best, name->key, pl_word_of_request(i), pl_word_of_request(i));
   }
   const char* coordinates = all_coordinates(l, 8);
   const char* meant = l->results ? pl_slip_request(name->key) : NULL;
-  if (meant)
-    pl_suggest(l->job, m, meant, "did you mean %s?", "war %s gemeint?", meant);
+  if (meant) pl_suggest(l->job, m, meant, "did you mean %s?", "war %s gemeint?", meant);
   else if (l->choosing)
     pl_suggest(l->job, m, NULL, "declare it:  coord %s", "vereinbaren:  coord %s", name->shown);
   else if (best.key == NULL && coordinates == NULL)
-    pl_suggest(l->job, m, NULL, "declare it:  param %s = ...", "vereinbaren:  param %s = ...", name->shown);
+    pl_suggest(l->job, m, NULL, "declare it:  param %s = ...", "vereinbaren:  param %s = ...",
+               name->shown);
   else if (best.key == NULL)
     pl_suggest(l->job, m, NULL, "declare it:  param %s = ...        (coordinates: %s)",
                "vereinbaren:  param %s = ...        (Koordinaten: %s)", name->shown, coordinates);
-  else if (coordinates == NULL) pl_suggest(l->job, m, best.shown, "did you mean %s?", "war %s gemeint?", best.shown);
+  else if (coordinates == NULL)
+    pl_suggest(l->job, m, best.shown, "did you mean %s?", "war %s gemeint?", best.shown);
   else
     pl_suggest(l->job, m, best.shown, "did you mean %s?        (coordinates: %s)",
                "war %s gemeint?        (Koordinaten: %s)", best.shown, coordinates);
   return m;
 }
 
-void pl_scope_unknown_label(pl_lower* l, const pl_ast* label, const char* en, const char* de, const char* const* known,
-                            int n) {
+void pl_scope_unknown_label(pl_lower* l, const pl_ast* label, const char* en, const char* de,
+                            const char* const* known, int n) {
   if (pl_scope_lost(l, label->key)) {
     l->wrong++;
     return;
   }
-  pl_diagnostic* m = pl_lower_complain(l, PL_E019, pl_ast_span(label), "%1$s %3$s is not declared%2$.0s",
-                                       "%2$s %3$s ist nicht vereinbart%1$.0s", en, de, label->shown);
+  pl_diagnostic* m = pl_lower_complain(
+      l, PL_E019, pl_ast_span(label), "%1$s %3$s is not declared%2$.0s",
+      "%2$s %3$s ist nicht vereinbart%1$.0s", en, de, label->shown);
   guess best = {0};
   pl_text all = pl_text_make(l->arena);
   if (l->n_guesses++ >= PL_MAX_GUESSES) n = 0;
@@ -305,16 +337,18 @@ void pl_scope_unknown_label(pl_lower* l, const pl_ast* label, const char* en, co
     try_guess(&best, label->key, known[i], known[i]);
     pl_text_addf(&all, "%s%s", i ? " " : "", known[i]);
   }
-  if (best.key) pl_suggest(l->job, m, best.shown, "did you mean %s?", "war %s gemeint?", best.shown);
-  else if (n && n <= 10) pl_suggest(l->job, m, NULL, "there are: %s", "es gibt: %s", pl_text_string(&all));
+  if (best.key)
+    pl_suggest(l->job, m, best.shown, "did you mean %s?", "war %s gemeint?", best.shown);
+  else if (n && n <= 10)
+    pl_suggest(l->job, m, NULL, "there are: %s", "es gibt: %s", pl_text_string(&all));
   else
     pl_suggest(l->job, m, NULL, "give the label in its own line first",
                "die Marke zuerst in einer eigenen Zeile vergeben");
 }
 
-// ---------------------------------------------------------------------------------------------- names
-static pl_quantity name_of_entity(pl_lower* l, pl_entity* e, const pl_ast* name, const pl_ast* index, int dots,
-                                  const pl_ast* place);
+// ------------------------------------------------------------------------------------------- names
+static pl_quantity name_of_entity(pl_lower* l, pl_entity* e, const pl_ast* name,
+                                  const pl_ast* index, int dots, const pl_ast* place);
 
 // x1_dot, x1_ddot, x1_0, x1_dot_0: the ASCII spellings of derivatives and start values.
 static bool find_alias(pl_lower* l, const pl_ast* name, pl_entity** e, int* dots, bool* start) {
@@ -324,9 +358,17 @@ static bool find_alias(pl_lower* l, const pl_ast* name, pl_entity** e, int* dots
   memcpy(stem, name->raw, n + 1);
   *start = false;
   *dots = 0;
-  if (n > 2 && strcmp(stem + n - 2, "_0") == 0) *start = true, stem[n -= 2] = 0;
-  if (n > 5 && strcmp(stem + n - 5, "_ddot") == 0) *dots = 2, stem[n -= 5] = 0;
-  else if (n > 4 && strcmp(stem + n - 4, "_dot") == 0) *dots = 1, stem[n -= 4] = 0;
+  if (n > 2 && strcmp(stem + n - 2, "_0") == 0) {
+    *start = true;
+    stem[n -= 2] = 0;
+  }
+  if (n > 5 && strcmp(stem + n - 5, "_ddot") == 0) {
+    *dots = 2;
+    stem[n -= 5] = 0;
+  } else if (n > 4 && strcmp(stem + n - 4, "_dot") == 0) {
+    *dots = 1;
+    stem[n -= 4] = 0;
+  }
   if (!*start && *dots == 0) return false;
   pl_spelled s;
   size_t bad;
@@ -346,7 +388,8 @@ static bool result_kind(const char* key, pl_result_kind* kind) {
   return false;
 }
 
-// `output F = ...` gives a quantity a name, which can be plotted and asked like the quantity itself.
+// `output F = ...` gives a quantity a name, which can be plotted and asked like the quantity
+// itself.
 static pl_expr value_of_output(const pl_lower* l, const char* key) {
   for (int i = 0; i < l->m->outputs.n; i++) {
     if (strcmp(l->m->outputs.at[i].name, key) == 0) return l->m->outputs.at[i].value;
@@ -369,7 +412,9 @@ static pl_rule* find_multiplier(pl_lower* l, const char* key) {
   return NULL;
 }
 
-bool pl_scope_is_multiplier(pl_lower* l, const char* key) { return find_multiplier(l, key) != NULL; }
+bool pl_scope_is_multiplier(pl_lower* l, const char* key) {
+  return find_multiplier(l, key) != NULL;
+}
 
 static bool is_momentum(pl_lower* l, const char* key, pl_entity** coordinate) {
   if (strncmp(key, "p_", 2) != 0) return false;
@@ -382,8 +427,10 @@ bool pl_scope_known(pl_lower* l, const pl_ast* name) {
   int dots;
   bool start;
   pl_result_kind kind;
-  if (pl_scope_local(l, name->key) || pl_scope_find(l, name->key) || strcmp(name->key, "t") == 0) return true;
-  if (pl_word_function(name->key) || find_alias(l, name, &e, &dots, &start) || find_multiplier(l, name->key))
+  if (pl_scope_local(l, name->key) || pl_scope_find(l, name->key) || strcmp(name->key, "t") == 0)
+    return true;
+  if (pl_word_function(name->key) || find_alias(l, name, &e, &dots, &start)
+      || find_multiplier(l, name->key))
     return true;
   if (l->results && !pl_is_poison(value_of_output(l, name->key))) return true;
   return (l->results && result_kind(name->key, &kind)) || is_momentum(l, name->key, &e);
@@ -399,45 +446,56 @@ static pl_expr lower_index(pl_lower* l, const pl_ast* index) {
 }
 
 // An index where none belongs.  "g[m/s^2]" is a unit that lacks its blank.
-static pl_quantity no_family(pl_lower* l, const pl_ast* name, const pl_ast* place, const pl_ast* index) {
+static pl_quantity no_family(pl_lower* l, const pl_ast* name, const pl_ast* place,
+                             const pl_ast* index) {
   pl_unit unit;
   size_t bad_at, bad_n;
   const char* near;
   const char* text = pl_source_text(l->arena, pl_ast_span(index));
   const pl_ast* one = pl_ast_single(index);
-  bool is_index = !index || index->kind == PL_AST_SUM ||
-                  (one && (one->kind == PL_AST_NUMBER || (one->kind == PL_AST_NAME && pl_scope_local(l, one->key))));
+  bool is_index = !index || index->kind == PL_AST_SUM
+                  || (one
+                      && (one->kind == PL_AST_NUMBER
+                          || (one->kind == PL_AST_NAME && pl_scope_local(l, one->key))));
   if (!is_index && pl_unit_parse(l->pool, text, strlen(text), &unit, &bad_at, &bad_n, &near)) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E023, pl_ast_span(place), "a unit belongs to a number or a declaration",
+    pl_diagnostic* m = pl_lower_complain(l, PL_E023, pl_ast_span(place),
+                                         "a unit belongs to a number or a declaration",
                                          "eine Einheit gehört zu einer Zahl oder Vereinbarung");
     pl_suggest(l->job, m, name->shown, "remove [%s]", "[%s] entfernen", text);
     return pl_quantity_bad();
   }
-  pl_diagnostic* m = pl_lower_complain(l, PL_E025, pl_ast_span(place), "%s is not a family, so it takes no index",
+  pl_diagnostic* m = pl_lower_complain(l, PL_E025, pl_ast_span(place),
+                                       "%s is not a family, so it takes no index",
                                        "%s ist keine Familie und hat keinen Index", name->shown);
-  pl_suggest(l->job, m, NULL, "declare  coord %s[1..N]", "vereinbaren:  coord %s[1..N]", name->shown);
+  pl_suggest(l->job, m, NULL, "declare  coord %s[1..N]", "vereinbaren:  coord %s[1..N]",
+             name->shown);
   return pl_quantity_bad();
 }
 
 static pl_quantity no_derivative(pl_lower* l, const pl_ast* place, const char* shown) {
-  pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(place), "%s does not move, so it has no derivative",
+  pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(place),
+                                       "%s does not move, so it has no derivative",
                                        "%s bewegt sich nicht und hat keine Ableitung", shown);
-  pl_suggest(l->job, m, NULL, "declare  coord %s  if it moves", "coord %s  vereinbaren, falls es sich bewegt", shown);
+  pl_suggest(l->job, m, NULL, "declare  coord %s  if it moves",
+             "coord %s  vereinbaren, falls es sich bewegt", shown);
   return pl_quantity_bad();
 }
 
-static pl_quantity name_of_entity(pl_lower* l, pl_entity* e, const pl_ast* name, const pl_ast* index, int dots,
-                                  const pl_ast* place) {
-  if (e->broken && e->kind != PL_ENTITY_COORD && e->kind != PL_ENTITY_PARAM && e->kind != PL_ENTITY_FAMILY) {
+static pl_quantity name_of_entity(pl_lower* l, pl_entity* e, const pl_ast* name,
+                                  const pl_ast* index, int dots, const pl_ast* place) {
+  if (e->broken && e->kind != PL_ENTITY_COORD && e->kind != PL_ENTITY_PARAM
+      && e->kind != PL_ENTITY_FAMILY) {
     l->wrong++;
     return pl_quantity_bad();
   }
   if (e->kind == PL_ENTITY_FAMILY) {
     if (index == NULL) {
-      pl_diagnostic* m = pl_lower_complain(l, PL_E025, pl_ast_span(place), "%s is a family, so it needs an index",
+      pl_diagnostic* m = pl_lower_complain(l, PL_E025, pl_ast_span(place),
+                                           "%s is a family, so it needs an index",
                                            "%s ist eine Familie und braucht einen Index", e->shown);
-      pl_suggest(l->job, m, pl_format(l->arena, "%s[1]", e->shown), "write %s[1] or, inside for, %s[i]",
-                 "schreibe %s[1] oder, in for, %s[i]", e->shown, e->shown);
+      pl_suggest(l->job, m, pl_format(l->arena, "%s[1]", e->shown),
+                 "write %s[1] or, inside for, %s[i]", "schreibe %s[1] oder, in for, %s[i]",
+                 e->shown, e->shown);
       return pl_quantity_bad();
     }
     pl_expr i = lower_index(l, index);
@@ -445,7 +503,8 @@ static pl_quantity name_of_entity(pl_lower* l, pl_entity* e, const pl_ast* name,
   }
   if (index) return no_family(l, name, place, index);
   switch (e->kind) {
-    case PL_ENTITY_COORD: return pl_quantity_of(pl_sym(l->pool, pl_scope_dotted(l, e->symbol, dots)));
+    case PL_ENTITY_COORD:
+      return pl_quantity_of(pl_sym(l->pool, pl_scope_dotted(l, e->symbol, dots)));
     case PL_ENTITY_LET: {
       pl_scope_finish_let(l, e);
       if (e->broken) {
@@ -482,9 +541,12 @@ static pl_quantity name_of_multiplier(pl_lower* l, const pl_rule* r, const pl_as
   }
   if (r->family && index == NULL) {
     pl_diagnostic* m = pl_lower_complain(
-        l, PL_E025, pl_ast_span(place), "%s is a family of constraints, so its multiplier needs an index",
-        "%s ist eine Familie von Zwangsbedingungen, ihr Multiplikator braucht einen Index", r->shown);
-    pl_suggest(l->job, m, pl_format(l->arena, "λ_%s[1]", r->shown), "write λ_%s[1]", "schreibe λ_%s[1]", r->shown);
+        l, PL_E025, pl_ast_span(place),
+        "%s is a family of constraints, so its multiplier needs an index",
+        "%s ist eine Familie von Zwangsbedingungen, ihr Multiplikator braucht einen Index",
+        r->shown);
+    pl_suggest(l->job, m, pl_format(l->arena, "λ_%s[1]", r->shown), "write λ_%s[1]",
+               "schreibe λ_%s[1]", r->shown);
     return pl_quantity_bad();
   }
   if (!r->family && index) {
@@ -509,21 +571,26 @@ static pl_quantity name_of_momentum(pl_lower* l, const pl_ast* name, const pl_en
 
 static pl_quantity several_multipliers(pl_lower* l, const pl_ast* name) {
   pl_text all = pl_text_make(l->arena);
-  for (int i = 0; i < l->rules.n && i < 6; i++) pl_text_addf(&all, "%sλ_%s", i ? ", " : "", l->rules.at[i].shown);
+  for (int i = 0; i < l->rules.n && i < 6; i++)
+    pl_text_addf(&all, "%sλ_%s", i ? ", " : "", l->rules.at[i].shown);
   pl_diagnostic* m = pl_lower_complain(
       l, PL_E011, pl_ast_span(name),
       l->rules.n ? "there are several multipliers" : "λ is not declared: there is no constraint",
-      l->rules.n ? "es gibt mehrere Multiplikatoren" : "λ ist nicht vereinbart: es gibt keine Zwangsbedingung");
+      l->rules.n ? "es gibt mehrere Multiplikatoren"
+                 : "λ ist nicht vereinbart: es gibt keine Zwangsbedingung");
   if (l->rules.n)
     pl_suggest(l->job, m, NULL, "write %1$s, or name one in its constraint: with λ",
-               "schreibe %1$s, oder benenne einen in seiner Zwangsbedingung: with λ", pl_text_string(&all));
+               "schreibe %1$s, oder benenne einen in seiner Zwangsbedingung: with λ",
+               pl_text_string(&all));
   return pl_quantity_bad();
 }
 
-pl_quantity pl_lower_name(pl_lower* l, const pl_ast* name, const pl_ast* index, int dots, const pl_ast* place) {
+pl_quantity pl_lower_name(pl_lower* l, const pl_ast* name, const pl_ast* index, int dots,
+                          const pl_ast* place) {
   dots += name->number;
   if (dots > 2) {
-    pl_lower_complain(l, PL_E017, pl_ast_span(place), "only first and second derivatives can be written",
+    pl_lower_complain(l, PL_E017, pl_ast_span(place),
+                      "only first and second derivatives can be written",
                       "nur erste und zweite Ableitungen lassen sich schreiben");
     return pl_quantity_bad();
   }
@@ -545,7 +612,8 @@ pl_quantity pl_lower_name(pl_lower* l, const pl_ast* name, const pl_ast* index, 
   if (find_alias(l, name, &e, &more, &start)) {
     if (!start) return name_of_entity(l, e, name, index, dots + more, place);
     if (e->kind == PL_ENTITY_COORD && dots == 0 && more <= 1) {
-      return pl_quantity_of(pl_sym(l->pool, pl_symbol_start(l->pool, pl_scope_dotted(l, e->symbol, more))));
+      return pl_quantity_of(
+          pl_sym(l->pool, pl_symbol_start(l->pool, pl_scope_dotted(l, e->symbol, more))));
     }
   }
   if (strcmp(name->key, "t") == 0 && !index)
@@ -560,7 +628,8 @@ pl_quantity pl_lower_name(pl_lower* l, const pl_ast* name, const pl_ast* index, 
     return pl_quantity_of(pl_sym(l->pool, pl_model_result_symbol(l->m, kind, NULL)));
   }
   if (!index && dots == 0 && is_momentum(l, name->key, &e)) return name_of_momentum(l, name, e);
-  if (strcmp(name->key, "lambda") == 0 && !pl_scope_lost(l, name->key)) return several_multipliers(l, name);
+  if (strcmp(name->key, "lambda") == 0 && !pl_scope_lost(l, name->key))
+    return several_multipliers(l, name);
   if (l->infinity && (strcmp(name->key, "inf") == 0 || strcmp(name->key, "infinity") == 0))
     return pl_quantity_of(pl_infinity(l->pool));
   if (!l->results && result_kind(name->key, &kind) && !pl_scope_lost(l, name->key)) {

@@ -5,7 +5,7 @@
 
 #include "grammar.h"
 
-// ---------------------------------------------------------------------------------------------- axes
+// -------------------------------------------------------------------------------------------- axes
 int pl_axis_find(const pl_lower* l, const char* key) {
   for (int i = 0; i < l->m->n_axes; i++) {
     if (strcmp(l->m->axes[i].ascii, key) == 0) return i;
@@ -17,8 +17,11 @@ int pl_axis_find(const pl_lower* l, const char* key) {
 int pl_ast_components(const pl_ast* point) {
   const pl_ast* one = pl_ast_single(point);
   if (one && one->kind == PL_AST_GROUP) return one->kids.n;
-  if (point->kind == PL_AST_PRODUCT && point->kids.n == 2 && point->kids.at[0]->kind == PL_AST_NAME) {
-    return strcmp(point->kids.at[0]->key, "spherical") == 0 ? 3 : strcmp(point->kids.at[0]->key, "polar") == 0 ? 2 : 0;
+  if (point->kind == PL_AST_PRODUCT && point->kids.n == 2
+      && point->kids.at[0]->kind == PL_AST_NAME) {
+    return strcmp(point->kids.at[0]->key, "spherical") == 0 ? 3
+           : strcmp(point->kids.at[0]->key, "polar") == 0   ? 2
+                                                            : 0;
   }
   return 0;
 }
@@ -38,8 +41,8 @@ static int most_components(const pl_ast* node) {
   return most;
 }
 
-// A point is (x, y, z) in whatever order `axes` names them: "axes x right, z up, y out" says where they point.  Axes of
-// other names are in the order of the line.
+// A point is (x, y, z) in whatever order `axes` names them: "axes x right, z up, y out" says where
+// they point. Axes of other names are in the order of the line.
 static void axes_in_order(pl_model* m) {
   for (int i = 0; i < m->n_axes; i++) {
     if (strlen(m->axes[i].ascii) != 1 || !strchr("xyz", m->axes[i].ascii[0])) return;
@@ -60,9 +63,11 @@ static void third_axis(pl_lower* l, const pl_ast* file) {
   if (l->m->n_axes != 2 || most_components(file) != 3) return;
   pl_axis third = {.direction = NULL};
   for (int i = 0; i < 3; i++) {
-    if (pl_axis_find(l, names[i]) < 0) third.name = third.ascii = third.name ? third.name : names[i];
+    if (pl_axis_find(l, names[i]) < 0)
+      third.name = third.ascii = third.name ? third.name : names[i];
     bool free_way = true;
-    for (int k = 0; k < 2; k++) free_way &= !l->m->axes[k].direction || strcmp(l->m->axes[k].direction, ways[i]) != 0;
+    for (int k = 0; k < 2; k++)
+      free_way &= !l->m->axes[k].direction || strcmp(l->m->axes[k].direction, ways[i]) != 0;
     if (free_way && !third.direction) third.direction = ways[i];
   }
   for (int k = 0; k < 2; k++)
@@ -73,7 +78,8 @@ static void third_axis(pl_lower* l, const pl_ast* file) {
 
 // Without `axes`: as many as the points have components, x right, y up, z out.
 void pl_axes_settle(pl_lower* l, const pl_ast* file) {
-  static const pl_axis usual[3] = {{"x", "x", "right", false}, {"y", "y", "up", false}, {"z", "z", "out", false}};
+  static const pl_axis usual[3] = {
+      {"x", "x", "right", false}, {"y", "y", "up", false}, {"z", "z", "out", false}};
   axes_in_order(l->m);
   third_axis(l, file);
   if (l->m->n_axes) return;
@@ -83,7 +89,7 @@ void pl_axes_settle(pl_lower* l, const pl_ast* file) {
   for (int i = 0; i < l->m->n_axes; i++) l->m->axes[i] = usual[i];
 }
 
-// ---------------------------------------------------------------------------------------------- labels
+// ------------------------------------------------------------------------------------------ labels
 // The name in an expression that is nothing but a label, such as A or P[i-1]; NULL otherwise.
 const pl_ast* pl_ast_label(const pl_ast* node, const pl_ast** index) {
   const pl_ast* one = pl_ast_single(node);
@@ -108,7 +114,8 @@ const char* pl_label_text(pl_lower* l, const pl_ast* name, const pl_ast* index) 
   // a parameter such as N has its number when the file is read
   double* values = pl_model_values(l->m, l->arena);
   double v = pl_eval(l->pool, i, values);
-  if (v > -1e15 && v < 1e15 && v == (double)(long)v) return pl_format(l->arena, "%s[%ld]", name->shown, (long)v);
+  if (v > -1e15 && v < 1e15 && v == (double)(long)v)
+    return pl_format(l->arena, "%s[%ld]", name->shown, (long)v);
   return pl_format(l->arena, "%s[%s]", name->shown, pl_expr_text(l->arena, l->pool, i));
 }
 
@@ -126,10 +133,11 @@ const char* pl_constraint_label(pl_lower* l, const pl_ast* label) {
     return NULL;
   }
   if (r->family && index == NULL) {
-    pl_diagnostic* m =
-        pl_lower_complain(l, PL_E025, pl_ast_span(label), "%s is a family of constraints, so it needs an index",
-                          "%s ist eine Familie von Zwangsbedingungen und braucht einen Index", r->shown);
-    pl_suggest(l->job, m, pl_format(l->arena, "%s[1]", r->shown), "write %s[1]", "schreibe %s[1]", r->shown);
+    pl_diagnostic* m = pl_lower_complain(
+        l, PL_E025, pl_ast_span(label), "%s is a family of constraints, so it needs an index",
+        "%s ist eine Familie von Zwangsbedingungen und braucht einen Index", r->shown);
+    pl_suggest(l->job, m, pl_format(l->arena, "%s[1]", r->shown), "write %s[1]", "schreibe %s[1]",
+               r->shown);
     return NULL;
   }
   if (!r->family && index) {
@@ -140,7 +148,7 @@ const char* pl_constraint_label(pl_lower* l, const pl_ast* label) {
   return pl_label_text(l, name, index);
 }
 
-// ---------------------------------------------------------------------------------------------- declaring
+// --------------------------------------------------------------------------------------- declaring
 pl_site* pl_site_find(const pl_lower* l, const char* key) {
   for (int i = 0; i < l->places.n; i++) {
     if (l->places.at[i]->key == key) return l->places.at[i];
@@ -152,7 +160,8 @@ pl_site* pl_site_find(const pl_lower* l, const char* key) {
 static void generate_label(pl_lower* l, pl_site* p, const pl_ast* mass) {
   const pl_ast* one = pl_ast_single(mass);
   bool simple = one && one->kind == PL_AST_NAME && one->number == 0;
-  const char* key = simple ? one->key : pl_intern(l->names, pl_format(l->arena, "mass%d", l->places.n + 1));
+  const char* key = simple ? one->key
+                           : pl_intern(l->names, pl_format(l->arena, "mass%d", l->places.n + 1));
   const char* shown = simple ? one->shown : key;
   p->generated = true;
   p->key = key;
@@ -166,7 +175,9 @@ static void generate_label(pl_lower* l, pl_site* p, const pl_ast* mass) {
 void pl_site_declare(pl_lower* l, const pl_ast* s) {
   const pl_ast* label = pl_ast_kid(s, 0);
   pl_site* p = PL_NEW(l->arena, pl_site);
-  p->kind = s->token == TOK_MASS ? PL_SITE_MASS : s->token == TOK_BODY ? PL_SITE_BODY : PL_SITE_POINT;
+  p->kind = s->token == TOK_MASS   ? PL_SITE_MASS
+            : s->token == TOK_BODY ? PL_SITE_BODY
+                                   : PL_SITE_POINT;
   p->statement = s;
   p->block = l->block;
   p->n_locals = l->locals.n;
@@ -183,14 +194,15 @@ void pl_site_declare(pl_lower* l, const pl_ast* s) {
   pl_push(l->arena, l->places, p);
 }
 
-// ---------------------------------------------------------------------------------------------- points
+// ------------------------------------------------------------------------------------------ points
 bool pl_lower_point(pl_lower* l, const pl_ast* node, pl_point* out) {
   pl_quantity q = pl_lower_quantity(l, node);
   out->span = pl_ast_span(node);
   if (pl_quantity_is_bad(&q)) return false;
   const pl_ast* one = pl_ast_single(node);
   if (q.n == 0 && !(one && one->kind == PL_AST_GROUP)) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node), "a point is needed here, this is a number",
+    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(node),
+                                         "a point is needed here, this is a number",
                                          "hier ist ein Punkt nötig, das ist eine Zahl");
     pl_suggest(l->job, m, NULL, "write (x, y)", "schreibe (x, y)");
     return false;
@@ -201,8 +213,8 @@ bool pl_lower_point(pl_lower* l, const pl_ast* node, pl_point* out) {
 }
 
 // A point fixed in a body in space: centre + turn (a, b, c).
-static bool point_on_body_in_space(pl_lower* l, pl_site* p, const pl_site* body, const pl_point* centre,
-                                   const pl_point* local) {
+static bool point_on_body_in_space(pl_lower* l, pl_site* p, const pl_site* body,
+                                   const pl_point* centre, const pl_point* local) {
   pl_pool* q = l->pool;
   if (local->n != 3) {
     pl_lower_complain(l, PL_E017, local->span, "a point on a body in space has three components",
@@ -213,7 +225,8 @@ static bool point_on_body_in_space(pl_lower* l, pl_site* p, const pl_site* body,
   for (int i = 0; i < 3; i++) {
     p->point.at[i] = centre->at[i];
     for (int j = 0; j < 3; j++)
-      p->point.at[i] = pl_add(q, p->point.at[i], pl_mul(q, body->attitude.turn[3 * i + j], local->at[j]));
+      p->point.at[i] = pl_add(q, p->point.at[i],
+                              pl_mul(q, body->attitude.turn[3 * i + j], local->at[j]));
   }
   p->point.span = pl_ast_span(pl_ast_kid(p->statement, 1));
   return true;
@@ -223,9 +236,12 @@ static bool point_on_body_in_space(pl_lower* l, pl_site* p, const pl_site* body,
 static bool point_on_body(pl_lower* l, pl_site* p, const pl_ast* on) {
   pl_site* body = NULL;
   pl_point centre, local;
-  if (!pl_lower_where(l, on, &centre, &body) || !pl_lower_point(l, pl_ast_kid(p->statement, 1), &local)) return false;
+  if (!pl_lower_where(l, on, &centre, &body)
+      || !pl_lower_point(l, pl_ast_kid(p->statement, 1), &local))
+    return false;
   if (body == NULL || body->kind != PL_SITE_BODY) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(on), "a point can be fixed on a body only",
+    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(on),
+                                         "a point can be fixed on a body only",
                                          "ein Punkt kann nur an einem Körper fest sein");
     pl_suggest(l->job, m, NULL, "write  point P at (x, y)  for a point in space",
                "schreibe  point P at (x, y)  für einen Punkt im Raum");
@@ -240,8 +256,10 @@ static bool point_on_body(pl_lower* l, pl_site* p, const pl_ast* on) {
   pl_pool* q = l->pool;
   pl_expr c = pl_call(q, PL_COS, body->angle), s = pl_call(q, PL_SIN, body->angle);
   p->point.n = 2;
-  p->point.at[0] = pl_add(q, centre.at[0], pl_sub(q, pl_mul(q, local.at[0], c), pl_mul(q, local.at[1], s)));
-  p->point.at[1] = pl_add(q, centre.at[1], pl_add(q, pl_mul(q, local.at[0], s), pl_mul(q, local.at[1], c)));
+  p->point.at[0] = pl_add(q, centre.at[0],
+                          pl_sub(q, pl_mul(q, local.at[0], c), pl_mul(q, local.at[1], s)));
+  p->point.at[1] = pl_add(q, centre.at[1],
+                          pl_add(q, pl_mul(q, local.at[0], s), pl_mul(q, local.at[1], c)));
   p->point.span = pl_ast_span(pl_ast_kid(p->statement, 1));
   return true;
 }
@@ -271,8 +289,11 @@ bool pl_site_finish(pl_lower* l, pl_site* p) {
   }
   enum { MAX_DEPTH = 300 };
   if (p->state == 1 || l->call_depth > MAX_DEPTH) {
-    pl_lower_complain(l, PL_E018, pl_ast_span(pl_ast_kid(p->statement, 0) ? pl_ast_kid(p->statement, 0) : p->statement),
-                      "the place of %s leads back to itself", "der Ort von %s führt auf sich selbst zurück", p->shown);
+    pl_lower_complain(
+        l, PL_E018,
+        pl_ast_span(pl_ast_kid(p->statement, 0) ? pl_ast_kid(p->statement, 0) : p->statement),
+        "the place of %s leads back to itself", "der Ort von %s führt auf sich selbst zurück",
+        p->shown);
     p->state = 3;
     return false;
   }
@@ -281,20 +302,24 @@ bool pl_site_finish(pl_lower* l, pl_site* p) {
   int n = l->locals.n, cap = l->locals.cap;
   pl_block* block = l->block;
   bool results = l->results;
-  l->locals.at = p->locals, l->locals.n = p->n_locals, l->locals.cap = p->n_locals;
+  l->locals.at = p->locals;
+  l->locals.n = p->n_locals;
+  l->locals.cap = p->n_locals;
   l->block = p->block;
   l->results = false;
   l->call_depth++;
   bool fine = lower_place(l, p);
   l->call_depth--;
-  l->locals.at = locals, l->locals.n = n, l->locals.cap = cap;
+  l->locals.at = locals;
+  l->locals.n = n;
+  l->locals.cap = cap;
   l->block = block;
   l->results = results;
   p->state = fine && p->state != 3 ? 2 : 3;
   return p->state == 2;
 }
 
-// ---------------------------------------------------------------------------------------------- references
+// -------------------------------------------------------------------------------------- references
 static pl_point substitute(pl_lower* l, const pl_point* at, pl_symbol from, pl_expr to) {
   pl_point out = *at;
   for (int i = 0; i < at->n; i++) out.at[i] = pl_subst1(l->pool, at->at[i], from, to);
@@ -302,9 +327,11 @@ static pl_point substitute(pl_lower* l, const pl_point* at, pl_symbol from, pl_e
 }
 
 // Member `index` of the family that p declares: P[i] or P[i + 1] with i the index of its block.
-static bool member(pl_lower* l, const pl_site* p, pl_expr index, pl_point* out, pl_expr* angle, pl_attitude* attitude) {
+static bool member(pl_lower* l, const pl_site* p, pl_expr index, pl_point* out, pl_expr* angle,
+                   pl_attitude* attitude) {
   if (p->block == NULL) {
-    *out = p->point, *angle = p->angle;
+    *out = p->point;
+    *angle = p->angle;
     return pl_same(p->index, index);
   }
   pl_symbol i = p->block->index;
@@ -320,7 +347,8 @@ static bool member(pl_lower* l, const pl_site* p, pl_expr index, pl_point* out, 
   return true;
 }
 
-static bool family_point(pl_lower* l, const pl_ast* name, pl_expr index, pl_point* out, pl_site** place) {
+static bool family_point(pl_lower* l, const pl_ast* name, pl_expr index, pl_point* out,
+                         pl_site** place) {
   bool found = false;
   for (int pass = 0; pass < 2 && !found; pass++) {  // a member of its own comes before the family
     for (int k = 0; k < l->places.n && !found; k++) {
@@ -342,12 +370,14 @@ static void unknown_place(pl_lower* l, const pl_ast* name) {
   const char** known = PL_ARRAY(l->arena, const char*, l->places.n + 1);
   int n = 0;
   for (int i = 0; i < l->places.n; i++) {
-    if (n == 0 || strcmp(known[n - 1], l->places.at[i]->shown) != 0) known[n++] = l->places.at[i]->shown;
+    if (n == 0 || strcmp(known[n - 1], l->places.at[i]->shown) != 0)
+      known[n++] = l->places.at[i]->shown;
   }
   pl_scope_unknown_label(l, name, "mass, body or point", "Masse, Körper oder Punkt", known, n);
 }
 
-bool pl_lower_label_point(pl_lower* l, const pl_ast* name, const pl_ast* index, pl_point* out, pl_site** place) {
+bool pl_lower_label_point(pl_lower* l, const pl_ast* name, const pl_ast* index, pl_point* out,
+                          pl_site** place) {
   pl_site* p = pl_site_find(l, name->key);
   if (p == NULL) {
     unknown_place(l, name);
@@ -355,12 +385,15 @@ bool pl_lower_label_point(pl_lower* l, const pl_ast* name, const pl_ast* index, 
   }
   bool family = p->index_node != NULL || !pl_is_poison(p->index);
   if (family != (index != NULL)) {
-    pl_diagnostic* m = pl_lower_complain(
-        l, PL_E025, pl_ast_span(name),
-        family ? "%s is a family, so it needs an index" : "%s is not a family, so it takes no index",
-        family ? "%s ist eine Familie und braucht einen Index" : "%s ist keine Familie und hat keinen Index", p->shown);
+    pl_diagnostic* m = pl_lower_complain(l, PL_E025, pl_ast_span(name),
+                                         family ? "%s is a family, so it needs an index"
+                                                : "%s is not a family, so it takes no index",
+                                         family ? "%s ist eine Familie und braucht einen Index"
+                                                : "%s ist keine Familie und hat keinen Index",
+                                         p->shown);
     if (family)
-      pl_suggest(l->job, m, pl_format(l->arena, "%s[1]", p->shown), "write %s[1]", "schreibe %s[1]", p->shown);
+      pl_suggest(l->job, m, pl_format(l->arena, "%s[1]", p->shown), "write %s[1]", "schreibe %s[1]",
+                 p->shown);
     return false;
   }
   if (!family) {
@@ -389,7 +422,8 @@ bool pl_lower_where(pl_lower* l, const pl_ast* node, pl_point* out, pl_site** pl
   if (name == NULL) return pl_lower_point(l, node, out);
   if (pl_site_find(l, name->key) == NULL) {
     pl_entity* e = pl_scope_find(l, name->key);
-    if (e) return pl_lower_point(l, node, out);  // an abbreviation of a point, or a number: that is said
+    // an abbreviation of a point, or a number: that is said
+    if (e) return pl_lower_point(l, node, out);
   }
   if (!pl_lower_label_point(l, name, index, out, place)) return false;
   out->span = pl_ast_span(node);

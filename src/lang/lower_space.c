@@ -1,12 +1,12 @@
-// Bodies in space.  `body B: mass m, inertia J at (x, y, z) axes ...` becomes a mass at its centre, the kinetic
-// energy of its turning, and the constraints that hold between the numbers of its attitude; `torque (Mx, My, Mz) on
-// B` a load.
+// Bodies in space. `body B: mass m, inertia J at (x, y, z) axes ...` becomes a mass at its centre,
+// the kinetic energy of its turning, and the constraints that hold between the numbers of its
+// attitude; `torque (Mx, My, Mz) on B` a load.
 #include <math.h>
 #include <string.h>
 
 #include "lang/lower_impl.h"
 
-// ---------------------------------------------------------------------------------------------- names, first pass
+// ------------------------------------------------------------------------------- names, first pass
 static const char* condition_name(pl_lower* l, const char* label, const char* part) {
   return pl_format(l->arena, "%s_%s", label, part);
 }
@@ -35,7 +35,7 @@ void pl_space_declare(pl_lower* l, const pl_ast* body) {
     declare_condition(l, label, pl_ast_kid(label, 1) != NULL || l->block != NULL, part);
 }
 
-// ---------------------------------------------------------------------------------------------- inertia
+// ----------------------------------------------------------------------------------------- inertia
 static bool vanishes(pl_lower* l, pl_expr e) {
   if (pl_is_zero_node(l->pool, e)) return true;
   for (uint64_t seed = 1; seed <= 3; seed++) {
@@ -49,8 +49,10 @@ static bool vanishes(pl_lower* l, pl_expr e) {
 static void complain_inertia(pl_lower* l, const pl_ast* node) {
   pl_diagnostic* m = pl_lower_complain(
       l, PL_E017, pl_ast_span(node),
-      "the inertia of a body in space is three principal moments, (J1, J2, J3), or a matrix of three rows",
-      "die Trägheit eines Körpers im Raum sind drei Hauptträgheitsmomente, (J1, J2, J3), oder eine Matrix aus drei Zeilen");
+      "the inertia of a body in space is three principal moments, (J1, J2, J3), or a matrix of "
+      "three rows",
+      "die Trägheit eines Körpers im Raum sind drei Hauptträgheitsmomente, (J1, J2, J3), oder eine "
+      "Matrix aus drei Zeilen");
   pl_suggest(l->job, m, NULL, "write  ((Jxx, Jxy, Jxz), (Jxy, Jyy, Jyz), (Jxz, Jyz, Jzz))",
              "schreibe  ((Jxx, Jxy, Jxz), (Jxy, Jyy, Jyz), (Jxz, Jyz, Jzz))");
 }
@@ -63,11 +65,12 @@ static bool symmetric(pl_lower* l, pl_expr rows[9], const pl_ast* node) {
       pl_expr a = rows[3 * j + i], b = rows[3 * i + j];
       double x = pl_eval(l->pool, a, value), y = pl_eval(l->pool, b, value);
       if (vanishes(l, pl_sub(l->pool, a, b)) || x == y) continue;
-      pl_diagnostic* m = pl_lower_complain(l, PL_E067, pl_ast_span(node),
-                                           "a matrix of inertia is symmetric: entries %d%d and %d%d are %s and %s",
-                                           "eine Trägheitsmatrix ist symmetrisch: die Elemente %d%d und %d%d sind %s und %s",
-                                           j + 1, i + 1, i + 1, j + 1, pl_expr_text(l->arena, l->pool, a),
-                                           pl_expr_text(l->arena, l->pool, b));
+      pl_diagnostic* m = pl_lower_complain(
+          l, PL_E067, pl_ast_span(node),
+          "a matrix of inertia is symmetric: entries %d%d and %d%d are %s and %s",
+          "eine Trägheitsmatrix ist symmetrisch: die Elemente %d%d und %d%d sind %s und %s", j + 1,
+          i + 1, i + 1, j + 1, pl_expr_text(l->arena, l->pool, a),
+          pl_expr_text(l->arena, l->pool, b));
       pl_suggest(l->job, m, NULL, "write the same on both sides of the diagonal",
                  "auf beiden Seiten der Diagonale dasselbe schreiben");
       return false;
@@ -85,7 +88,8 @@ static bool read_group(pl_lower* l, const pl_ast* group, const pl_ast* node, pl_
     if (pl_quantity_is_bad(&q)) return false;
     n_vectors += q.n == 3;
     if (q.n == 2) n_vectors = -9;
-    for (int j = 0; j < 3; j++) rows[3 * i + j] = q.n == 3 ? q.at[j] : i == j ? q.at[0] : pl_int(l->pool, 0);
+    for (int j = 0; j < 3; j++)
+      rows[3 * i + j] = q.n == 3 ? q.at[j] : i == j ? q.at[0] : pl_int(l->pool, 0);
   }
   if (n_vectors != 0 && n_vectors != 3) {
     complain_inertia(l, node);
@@ -101,7 +105,7 @@ static bool read_inertia(pl_lower* l, const pl_ast* node, pl_expr J[6]) {
   const pl_ast* group = pl_ast_single(node);
   pl_unit unit;
   const pl_ast* unit_node = NULL;
-  if (group && group->kind == PL_AST_UNIT) {   // one unit for all: (1, 2, 3) [kg m^2]
+  if (group && group->kind == PL_AST_UNIT) {  // one unit for all: (1, 2, 3) [kg m^2]
     if (!pl_lower_unit(l, group, &unit)) return false;
     unit_node = group;
     group = pl_ast_single(pl_ast_kid(group, 0));
@@ -110,7 +114,8 @@ static bool read_inertia(pl_lower* l, const pl_ast* node, pl_expr J[6]) {
     if (!read_group(l, group, node, J)) return false;
     for (int k = 0; k < 6 && unit_node; k++) {
       bool number = pl_is_constant(l->pool, J[k]);
-      J[k] = number ? pl_measure_make(l->pool, J[k], &unit, unit_node->text) : pl_mul(l->pool, J[k], unit.factor);
+      J[k] = number ? pl_measure_make(l->pool, J[k], &unit, unit_node->text)
+                    : pl_mul(l->pool, J[k], unit.factor);
     }
     return true;
   }
@@ -118,23 +123,27 @@ static bool read_inertia(pl_lower* l, const pl_ast* node, pl_expr J[6]) {
   if (pl_quantity_is_bad(&q)) return false;
   if (q.n != 3) complain_inertia(l, node);
   for (int k = 0; k < 6; k++) J[k] = pl_int(l->pool, 0);
-  J[0] = q.at[0], J[3] = q.at[1], J[5] = q.at[2];
+  J[0] = q.at[0];
+  J[3] = q.at[1];
+  J[5] = q.at[2];
   return q.n == 3;
 }
 
-// ---------------------------------------------------------------------------------------------- bodies
+// ------------------------------------------------------------------------------------------ bodies
 // A condition that holds whatever moves is none: axes (cos φ, sin φ, 0), ...
 static bool is_needed(pl_lower* l, const pl_ast* axes, const pl_constraint* c, const char* part) {
   if (vanishes(l, c->g)) return false;
   if (pl_has_role(l->pool, c->g, PL_R_COORD) || pl_has_role(l->pool, c->g, PL_R_ARRAY)) return true;
   double x = pl_eval(l->pool, pl_model_plain(l->pool, c->g), pl_model_values(l->m, l->arena));
   if (fabs(x) < 1e-12) return false;
-  pl_diagnostic* m = pl_lower_complain(l, PL_E067, pl_ast_span(axes),
-                                       "the axes of a body are unit vectors at right angles: %s is %s, not %s",
-                                       "die Achsen eines Körpers sind Einheitsvektoren im rechten Winkel: %s ist %s, nicht %s",
-                                       part[0] == 'u' ? "|q|²" : pl_format(l->arena, "e%c·e%c", part[0], part[1]),
-                                       pl_expr_text(l->arena, l->pool, c->left), pl_expr_text(l->arena, l->pool, c->right));
-  pl_suggest(l->job, m, NULL, "give unit vectors, or coordinates", "Einheitsvektoren oder Koordinaten angeben");
+  pl_diagnostic* m = pl_lower_complain(
+      l, PL_E067, pl_ast_span(axes),
+      "the axes of a body are unit vectors at right angles: %s is %s, not %s",
+      "die Achsen eines Körpers sind Einheitsvektoren im rechten Winkel: %s ist %s, nicht %s",
+      part[0] == 'u' ? "|q|²" : pl_format(l->arena, "e%c·e%c", part[0], part[1]),
+      pl_expr_text(l->arena, l->pool, c->left), pl_expr_text(l->arena, l->pool, c->right));
+  pl_suggest(l->job, m, NULL, "give unit vectors, or coordinates",
+             "Einheitsvektoren oder Koordinaten angeben");
   return false;
 }
 
@@ -153,14 +162,19 @@ static void choose_right_hand(pl_lower* l, const pl_site* p, pl_span span) {
 
 static void push_conditions(pl_lower* l, const pl_ast* s, const pl_site* p) {
   const pl_ast* axes = pl_ast_kid(s, 5);
-  pl_constraint c = {.relation = PL_EQ, .block = l->block, .span = pl_ast_span(axes), .body = p->shown,
+  pl_constraint c = {.relation = PL_EQ,
+                     .block = l->block,
+                     .span = pl_ast_span(axes),
+                     .body = p->shown,
                      .axes = p->attitude.form};
   const char* part;
   int n = 0;
   for (int k = 0; pl_attitude_condition(l->pool, &p->attitude, k, &c.left, &c.right, &part); k++) {
     c.g = pl_sub(l->pool, c.left, c.right);
     if (!is_needed(l, axes, &c, part)) continue;
-    c.name = (pl_name){.text = condition_name(l, p->shown, part), .ascii = condition_name(l, p->key, part), .index = p->index};
+    c.name = (pl_name){.text = condition_name(l, p->shown, part),
+                       .ascii = condition_name(l, p->key, part),
+                       .index = p->index};
     const pl_rule* rule = pl_scope_rule(l, pl_intern(l->names, c.name.ascii));
     c.lambda = rule ? rule->lambda : (pl_symbol){0};
     pl_push(l->arena, l->m->constraints, c);
@@ -170,13 +184,18 @@ static void push_conditions(pl_lower* l, const pl_ast* s, const pl_site* p) {
 }
 
 void pl_space_body(pl_lower* l, const pl_ast* s, pl_site* p, pl_name name) {
-  pl_spatial b = {.name = name, .form = p->attitude.form, .centre = p->point, .block = l->block, .span = pl_ast_span(s),
+  pl_spatial b = {.name = name,
+                  .form = p->attitude.form,
+                  .centre = p->point,
+                  .block = l->block,
+                  .span = pl_ast_span(s),
                   .inertia_span = pl_ast_span(pl_ast_kid(s, 2))};
   b.mass = pl_lower_scalar(l, pl_ast_kid(s, 1));
   if (!read_inertia(l, pl_ast_kid(s, 2), b.inertia) || pl_is_poison(b.mass)) return;
   if (p->point.n != 3) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E017, p->point.span, "the centre of a body in space has three components",
-                                         "der Mittelpunkt eines Körpers im Raum hat drei Komponenten");
+    pl_diagnostic* m = pl_lower_complain(
+        l, PL_E017, p->point.span, "the centre of a body in space has three components",
+        "der Mittelpunkt eines Körpers im Raum hat drei Komponenten");
     pl_suggest(l->job, m, NULL, "write  at (x, y, z)", "schreibe  at (x, y, z)");
     return;
   }
@@ -193,7 +212,7 @@ void pl_space_body(pl_lower* l, const pl_ast* s, pl_site* p, pl_name name) {
   push_conditions(l, s, p);
 }
 
-// ---------------------------------------------------------------------------------------------- torques
+// ----------------------------------------------------------------------------------------- torques
 pl_site* pl_space_of(pl_lower* l, const pl_ast* on) {
   const pl_ast* index;
   const pl_ast* name = pl_ast_label(on, &index);
@@ -210,10 +229,12 @@ bool pl_space_torque(pl_lower* l, const pl_ast* s, pl_load* out) {
   pl_quantity v = pl_lower_quantity(l, pl_ast_kid(s, 1));
   if (!pl_lower_label_point(l, name, index, &at, &body) || pl_quantity_is_bad(&v)) return false;
   if (v.n != 3) {
-    pl_diagnostic* m = pl_lower_complain(l, PL_E017, pl_ast_span(pl_ast_kid(s, 1)),
-                                         "a torque on a body in space is a vector with three components",
-                                         "ein Moment auf einen Körper im Raum ist ein Vektor mit drei Komponenten");
-    pl_suggest(l->job, m, NULL, "write  torque (Mx, My, Mz) on %s", "schreibe  torque (Mx, My, Mz) on %s", body->shown);
+    pl_diagnostic* m = pl_lower_complain(
+        l, PL_E017, pl_ast_span(pl_ast_kid(s, 1)),
+        "a torque on a body in space is a vector with three components",
+        "ein Moment auf einen Körper im Raum ist ein Vektor mit drei Komponenten");
+    pl_suggest(l->job, m, NULL, "write  torque (Mx, My, Mz) on %s",
+               "schreibe  torque (Mx, My, Mz) on %s", body->shown);
     return false;
   }
   out->kind = PL_L_COUPLE;

@@ -1,9 +1,9 @@
 // Parser: feeds the tokens of a file to the grammar, one at a time.
 //
-// Here is decided what depends on the place: where a statement ends (a line goes on while a bracket is open or it ends
-// with an operator or comma), which words are keywords, and what happens after an error: one message for each
-// statement, and the names that a broken declaration would have declared are kept, so that they are not missed later
-// on.
+// Here is decided what depends on the place: where a statement ends (a line goes on while a bracket
+// is open or it ends with an operator or comma), which words are keywords, and what happens after
+// an error: one message for each statement, and the names that a broken declaration would have
+// declared are kept, so that they are not missed later on.
 #include "lang/lang_impl.h"
 
 #include <stdarg.h>
@@ -11,7 +11,7 @@
 
 #include "grammar.h"
 
-// ---------------------------------------------------------------------------------------------- nodes
+// ------------------------------------------------------------------------------------------- nodes
 enum { MAX_TREE = 5 * PL_MAX_DEPTH };
 
 static void adopt(pl_parse* p, pl_ast* parent, char op, pl_ast* kid) {
@@ -21,10 +21,12 @@ static void adopt(pl_parse* p, pl_ast* parent, char op, pl_ast* kid) {
   if (kid->depth + 1 > parent->depth) parent->depth = kid->depth + 1;
   if (parent->depth <= MAX_TREE) return;
   if (!p->said) {
-    pl_complain(p->job, PL_E006, pl_ast_span(parent), "this is nested too deeply", "das ist zu tief verschachtelt");
+    pl_complain(p->job, PL_E006, pl_ast_span(parent), "this is nested too deeply",
+                "das ist zu tief verschachtelt");
   }
   p->said = true;
-  parent->kids.at[parent->kids.n - 1] = pl_ast_make(p, PL_AST_BROKEN, (pl_bytes){kid->begin, kid->end});
+  parent->kids.at[parent->kids.n - 1] = pl_ast_make(p, PL_AST_BROKEN,
+                                                    (pl_bytes){kid->begin, kid->end});
   parent->depth = 2;
 }
 
@@ -54,7 +56,9 @@ pl_ast* pl_ast_of_token(pl_parse* p, int kind, const pl_token* t) {
   if (n->kind != PL_AST_WORD || t->text) n->text = t->text ? t->text : t->key;
   n->token = kind;
   n->tight = t->tight;
-  n->key = t->key, n->shown = t->shown, n->raw = t->raw;
+  n->key = t->key;
+  n->shown = t->shown;
+  n->raw = t->raw;
   n->number = t->number;
   if (kind == TOK_SUPER) {
     n->kind = PL_AST_NUMBER;
@@ -119,7 +123,7 @@ pl_ast* pl_ast_option(pl_parse* p, const char* word, pl_bytes at, pl_ast* value,
   return node;
 }
 
-// ---------------------------------------------------------------------------------------------- the feeder
+// -------------------------------------------------------------------------------------- the feeder
 typedef struct feeder {
   pl_parse* p;
   pl_yypstate* state;
@@ -161,7 +165,7 @@ static void push(feeder* f, int kind, int i) {
   if (pl_yypush_parse(f->state, kind, &value, &at, p) == 2) f->skip = true;
 }
 
-// ---------------------------------------------------------------------------------------------- keywords by place
+// ------------------------------------------------------------------------------- keywords by place
 static bool is_word(const pl_token* t, const char* word) {
   return t->kind == TOK_NAME && t->number == 0 && strcmp(t->key, word) == 0;
 }
@@ -197,7 +201,9 @@ static int word_of_statement(feeder* f, const pl_token* t, int i) {
       if (top && f->last == ',' && is_word(t, "surface")) return TOK_WORD_SURFACE;
       return 0;
     case TOK_ASSUME:
-      return top && is_word(t, "integer") && f->last != TOK_ASSUME && f->last != ',' ? TOK_WORD_INTEGER : 0;
+      return top && is_word(t, "integer") && f->last != TOK_ASSUME && f->last != ','
+                 ? TOK_WORD_INTEGER
+                 : 0;
     case TOK_EVENT:
       if (!f->arrow || !f->item_start) return 0;
       if (is_word(t, "stop")) return TOK_WORD_STOP;
@@ -206,28 +212,37 @@ static int word_of_statement(feeder* f, const pl_token* t, int i) {
       if (is_word(t, "attach")) return TOK_WORD_ATTACH;
       return 0;
     case TOK_ASK:
-      if (f->item == TOK_SWEEP && f->last == TOK_OF && is_word(t, "equilibria")) return TOK_EQUILIBRIA;
+      if (f->item == TOK_SWEEP && f->last == TOK_OF && is_word(t, "equilibria"))
+        return TOK_EQUILIBRIA;
       if (!f->item_start) return 0;
-      return f->item == TOK_ANIMATE && f->last == ',' && is_word(t, "force") ? TOK_FORCE : item_word(f->p, i);
-    case TOK_ANIMATE: return f->item_start && is_word(t, "force") && followed_by_of(f->p, i) ? TOK_FORCE : 0;
-    case TOK_DRAW: return f->last != TOK_DRAW && is_word(t, "force") && followed_by_of(f->p, i) ? TOK_FORCE : 0;
+      return f->item == TOK_ANIMATE && f->last == ',' && is_word(t, "force") ? TOK_FORCE
+                                                                             : item_word(f->p, i);
+    case TOK_ANIMATE:
+      return f->item_start && is_word(t, "force") && followed_by_of(f->p, i) ? TOK_FORCE : 0;
+    case TOK_DRAW:
+      return f->last != TOK_DRAW && is_word(t, "force") && followed_by_of(f->p, i) ? TOK_FORCE : 0;
     case TOK_SWEEP: return f->last == TOK_OF && is_word(t, "equilibria") ? TOK_EQUILIBRIA : 0;
     default: return 0;
   }
 }
 
-// A small word is a label where a label stands: before its colon, and wherever the file speaks of it again.
+// A small word is a label where a label stands: before its colon, and wherever the file speaks of
+// it again.
 static bool declares_label(const pl_parse* p, int i) {
   const pl_token *before = token_at(p, i - 1), *after = token_at(p, i + 1);
-  if (i < 1 || !before->first || before->kind != TOK_NAME || before->number || !pl_word_statement(before->key)) return false;
+  if (i < 1 || !before->first || before->kind != TOK_NAME || before->number
+      || !pl_word_statement(before->key))
+    return false;
   int word = pl_word_statement(before->key);
-  return after->kind == ':' || (word == TOK_POINT && (is_word(after, "at") || is_word(after, "on")));
+  return after->kind == ':'
+         || (word == TOK_POINT && (is_word(after, "at") || is_word(after, "on")));
 }
 
 static bool is_known_label(const pl_parse* p, const char* key) {
   for (int i = 1; i < p->tokens->list.n; i++) {
     const pl_token* t = token_at(p, i);
-    if (t->kind == TOK_NAME && t->number == 0 && strcmp(t->key, key) == 0 && declares_label(p, i)) return true;
+    if (t->kind == TOK_NAME && t->number == 0 && strcmp(t->key, key) == 0 && declares_label(p, i))
+      return true;
   }
   return false;
 }
@@ -236,8 +251,13 @@ static bool speaks_of_label(const feeder* f, int i) {
   const pl_parse* p = f->p;
   const pl_token *t = token_at(p, i), *before = token_at(p, i - 1), *after = token_at(p, i + 1);
   switch (f->last) {
-    case TOK_ON: case TOK_OF: case TOK_BETWEEN: case TOK_AND: case TOK_WHILE: case TOK_WORD_RELEASE: case TOK_WORD_ATTACH:
-      return is_known_label(p, t->key);
+    case TOK_ON:
+    case TOK_OF:
+    case TOK_BETWEEN:
+    case TOK_AND:
+    case TOK_WHILE:
+    case TOK_WORD_RELEASE:
+    case TOK_WORD_ATTACH: return is_known_label(p, t->key);
     default: return before->kind == '(' && after->kind == ')' && is_known_label(p, t->key);
   }
 }
@@ -248,8 +268,8 @@ static bool looks_like_statement(const pl_parse* p, int i) {
   if (t->kind != TOK_NAME || !t->first || t->number || pl_word_statement(t->key) == 0) return false;
   const pl_token* next = token_at(p, i + 1);
   if (next->tight) return false;
-  return next->kind == TOK_NAME || next->kind == TOK_NUMBER || next->kind == TOK_TEXT || next->kind == '(' ||
-         next->kind == TOK_PI;
+  return next->kind == TOK_NAME || next->kind == TOK_NUMBER || next->kind == TOK_TEXT
+         || next->kind == '(' || next->kind == TOK_PI;
 }
 
 static bool goes_on_after(int kind) {
@@ -275,11 +295,12 @@ static bool goes_on_after(int kind) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- ends of statements
+// ------------------------------------------------------------------------------ ends of statements
 static void keep_lost_names(feeder* f, int end) {
   pl_parse* p = f->p;
-  bool all = f->statement == TOK_PARAM || f->statement == TOK_COORD || f->statement == TOK_LET ||
-             f->statement == TOK_INPUT || f->statement == TOK_OUTPUT || f->statement == TOK_FOR || f->statement == 0;
+  bool all = f->statement == TOK_PARAM || f->statement == TOK_COORD || f->statement == TOK_LET
+             || f->statement == TOK_INPUT || f->statement == TOK_OUTPUT || f->statement == TOK_FOR
+             || f->statement == 0;
   bool first = true;
   for (int i = p->statement_first; i < end; i++) {
     const pl_token* t = token_at(p, i);
@@ -306,7 +327,8 @@ static void complain_unclosed(feeder* f) {
   const pl_token* t = token_at(p, f->open[f->n_open - 1]);
   if (!p->said) {
     pl_diagnostic* m = pl_complain(p->job, PL_E008, (pl_span){p->source, t->begin, t->end},
-                                   "this bracket is not closed", "diese Klammer wird nicht geschlossen");
+                                   "this bracket is not closed",
+                                   "diese Klammer wird nicht geschlossen");
     pl_suggest(p->job, m, NULL, "add %s", "%s ergänzen", t->kind == '(' ? ")" : "]");
   }
   p->said = true;
@@ -322,14 +344,15 @@ static bool statement_ends(feeder* f, int i) {
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- brackets
+// ---------------------------------------------------------------------------------------- brackets
 static void open_bracket(feeder* f, int i) {
   pl_parse* p = f->p;
   if (f->n_open == PL_MAX_DEPTH) {
     const pl_token* t = token_at(p, i);
     if (!p->said) {
-      pl_complain(p->job, PL_E006, (pl_span){p->source, t->begin, t->end}, "more than %d brackets inside each other",
-                  "mehr als %d Klammern ineinander", PL_MAX_DEPTH);
+      pl_complain(p->job, PL_E006, (pl_span){p->source, t->begin, t->end},
+                  "more than %d brackets inside each other", "mehr als %d Klammern ineinander",
+                  PL_MAX_DEPTH);
     }
     p->said = f->skip = true;
     return;
@@ -364,8 +387,9 @@ static void open_brace(feeder* f, int i) {
   pl_parse* p = f->p;
   if (f->braces >= PL_MAX_BLOCKS && !p->said) {
     const pl_token* t = token_at(p, i);
-    pl_complain(p->job, PL_E006, (pl_span){p->source, t->begin, t->end}, "more than %d blocks inside each other",
-                "mehr als %d Blöcke ineinander", PL_MAX_BLOCKS);
+    pl_complain(p->job, PL_E006, (pl_span){p->source, t->begin, t->end},
+                "more than %d blocks inside each other", "mehr als %d Blöcke ineinander",
+                PL_MAX_BLOCKS);
     p->said = true;
   }
   if (f->statement == TOK_FOR && !p->said && f->n_open == 0) push(f, '{', i);
@@ -406,19 +430,20 @@ static void close_brace(feeder* f, int i) {
   push(f, '}', i);
 }
 
-// ---------------------------------------------------------------------------------------------- words and signs
+// --------------------------------------------------------------------------------- words and signs
 static void unknown_statement(feeder* f, int i) {
   pl_parse* p = f->p;
   const pl_token* t = token_at(p, i);
   pl_span span = {p->source, t->begin, t->end};
   if (!p->said && t->kind != TOK_NAME) {
-    pl_diagnostic* m =
-        pl_complain(p->job, PL_E001, span, "a statement begins with a word", "eine Anweisung beginnt mit einem Wort");
+    pl_diagnostic* m = pl_complain(p->job, PL_E001, span, "a statement begins with a word",
+                                   "eine Anweisung beginnt mit einem Wort");
     pl_suggest(p->job, m, NULL, "begin with param, coord, mass, constraint, ...",
                "beginne mit param, coord, mass, constraint, ...");
   } else if (!p->said) {
     const char* word = pl_source_text(p->arena, span);
-    pl_diagnostic* m = pl_complain(p->job, PL_E004, span, "%s is not a statement", "%s ist keine Anweisung", word);
+    pl_diagnostic* m = pl_complain(p->job, PL_E004, span, "%s is not a statement",
+                                   "%s ist keine Anweisung", word);
     const char* near = pl_slip_statement(t->key);
     if (!near) near = pl_word_near_statement(t->key);
     bool equation = false;
@@ -429,9 +454,11 @@ static void unknown_statement(feeder* f, int i) {
       pl_suggest(p->job, m, NULL, "write  param %1$s = ...  or  let %1$s = ...",
                  "schreibe  param %1$s = ...  oder  let %1$s = ...", word);
     else if (equation)
-      pl_suggest(p->job, m, NULL, "write  constraint %s ... = ...", "schreibe  constraint %s ... = ...", word);
+      pl_suggest(p->job, m, NULL, "write  constraint %s ... = ...",
+                 "schreibe  constraint %s ... = ...", word);
     else
-      pl_suggest(p->job, m, NULL, "statements are param, coord, let, mass, force, constraint, init, ask, ...",
+      pl_suggest(p->job, m, NULL,
+                 "statements are param, coord, let, mass, force, constraint, init, ask, ...",
                  "Anweisungen sind param, coord, let, mass, force, constraint, init, ask, ...");
   }
   p->said = f->skip = true;
@@ -452,7 +479,7 @@ static void begin_statement(feeder* f, int i) {
 static int feed_word(feeder* f, int i) {
   pl_parse* p = f->p;
   const pl_token* t = token_at(p, i);
-  if (f->statement == TOK_SIMULATE && !p->said) {      // simulate 0 to 10 would be a product
+  if (f->statement == TOK_SIMULATE && !p->said) {  // simulate 0 to 10 would be a product
     p->at = i;
     if (pl_slip(p)) {
       p->said = f->skip = true;
@@ -460,7 +487,8 @@ static int feed_word(feeder* f, int i) {
     }
   }
   int word = word_of_statement(f, t, i);
-  if (t->number == 0 && pl_word_reserved(t->key) && (declares_label(p, i) || speaks_of_label(f, i))) {
+  if (t->number == 0 && pl_word_reserved(t->key)
+      && (declares_label(p, i) || speaks_of_label(f, i))) {
     f->item_start = false;
     push(f, TOK_NAME, i);
     return i;
@@ -469,7 +497,8 @@ static int feed_word(feeder* f, int i) {
   f->item_start = false;
   if (word == 0 && t->number == 0 && f->n_open == 0) word = pl_word_reserved(t->key);
   if (word == 0 && t->number == 0 && is_word(t, "in")) word = TOK_IN;
-  if (word == 0 && t->number == 0 && f->n_open && pl_word_reserved(t->key)) word = pl_word_reserved(t->key);
+  if (word == 0 && t->number == 0 && f->n_open && pl_word_reserved(t->key))
+    word = pl_word_reserved(t->key);
   push(f, word ? word : TOK_NAME, i);
   if (word == TOK_REDUNDANT && is_word(token_at(p, i + 1), "ok")) return i + 1;
   return i;
@@ -490,11 +519,13 @@ static bool chain_too_long(feeder* f, int i) {
   const pl_token* t = token_at(f->p, i);
   bool sign = t->kind == '-' && (goes_on_after(f->last) || f->last == '(');
   if (t->kind == '^' || sign) f->chain++;
-  else if (t->kind == '+' || t->kind == '-' || t->kind == '*' || t->kind == '/' || t->kind == ',' || t->kind == '=')
+  else if (t->kind == '+' || t->kind == '-' || t->kind == '*' || t->kind == '/' || t->kind == ','
+           || t->kind == '=')
     f->chain = 0;
   if (f->chain <= MAX_CHAIN) return false;
   if (!f->p->said) {
-    pl_complain(f->p->job, PL_E006, (pl_span){f->p->source, t->begin, t->end}, "more than %d powers or signs in a row",
+    pl_complain(f->p->job, PL_E006, (pl_span){f->p->source, t->begin, t->end},
+                "more than %d powers or signs in a row",
                 "mehr als %d Potenzen oder Vorzeichen hintereinander", MAX_CHAIN);
   }
   f->p->said = f->skip = true;
@@ -548,7 +579,8 @@ static void complain_open_block(feeder* f) {
   if (f->braces && !p->said) {
     const pl_token* t = token_at(p, f->brace[f->braces - 1]);
     pl_diagnostic* m = pl_complain(p->job, PL_E008, (pl_span){p->source, t->begin, t->end},
-                                   "a block of for is not closed", "ein Block von for wird nicht geschlossen");
+                                   "a block of for is not closed",
+                                   "ein Block von for wird nicht geschlossen");
     pl_suggest(p->job, m, NULL, "add }", "} ergänzen");
   }
   // close what is open, so that the rest of the file counts

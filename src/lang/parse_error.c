@@ -1,13 +1,14 @@
-// Parse errors: what is wrong at a token, in words.  The mistakes that people make are recognised before the general
-// answer, which lists what would have been right.
+// Parse errors: what is wrong at a token, in words. The mistakes that people make are recognised
+// before the general answer, which lists what would have been right.
 #include "lang/lang_impl.h"
 
 #include <string.h>
 
 #include "grammar.h"
 
-// ---------------------------------------------------------------------------------------------- complaints
-static pl_diagnostic* complain(pl_job* job, pl_code code, pl_span span, const char* en, const char* de, va_list ap) {
+// -------------------------------------------------------------------------------------- complaints
+static pl_diagnostic* complain(pl_job* job, pl_code code, pl_span span, const char* en,
+                               const char* de, va_list ap) {
   va_list again;
   va_copy(again, ap);
   const char* english = pl_vformat(job->arena, en, ap);
@@ -16,7 +17,8 @@ static pl_diagnostic* complain(pl_job* job, pl_code code, pl_span span, const ch
   return pl_report(job->diagnostics, code, span, english, german);
 }
 
-pl_diagnostic* pl_complain(pl_job* job, pl_code code, pl_span span, const char* en, const char* de, ...) {
+pl_diagnostic* pl_complain(pl_job* job, pl_code code, pl_span span, const char* en, const char* de,
+                           ...) {
   va_list ap;
   va_start(ap, de);
   pl_diagnostic* m = complain(job, code, span, en, de, ap);
@@ -24,7 +26,8 @@ pl_diagnostic* pl_complain(pl_job* job, pl_code code, pl_span span, const char* 
   return m;
 }
 
-void pl_suggest(pl_job* job, pl_diagnostic* m, const char* replacement, const char* en, const char* de, ...) {
+void pl_suggest(pl_job* job, pl_diagnostic* m, const char* replacement, const char* en,
+                const char* de, ...) {
   va_list ap, again;
   va_start(ap, de);
   va_copy(again, ap);
@@ -63,7 +66,7 @@ const char* pl_source_text(pl_arena* a, pl_span s) {
   return pl_text_string(&out);
 }
 
-// ---------------------------------------------------------------------------------------------- words for tokens
+// -------------------------------------------------------------------------------- words for tokens
 typedef struct named {
   int token;
   const char *en, *de;
@@ -120,15 +123,19 @@ static const char* list_expected(pl_arena* a, const int* expected, int n, bool g
   pl_text out = pl_text_make(a);
   const char* words[64];
   int n_words = 0;
-  bool expression = has(expected, n, TOK_NUMBER) && has(expected, n, TOK_NAME) && !has(expected, n, '/');
+  bool expression = has(expected, n, TOK_NUMBER) && has(expected, n, TOK_NAME)
+                    && !has(expected, n, '/');
   bool operators = has(expected, n, '/');
   if (expression) words[n_words++] = german ? "ein Ausdruck" : "an expression";
-  else if (has(expected, n, TOK_NAME) && !operators) words[n_words++] = german ? "ein Name" : "a name";
-  else if (has(expected, n, TOK_NUMBER) && !operators) words[n_words++] = german ? "eine Zahl" : "a number";
+  else if (has(expected, n, TOK_NAME) && !operators)
+    words[n_words++] = german ? "ein Name" : "a name";
+  else if (has(expected, n, TOK_NUMBER) && !operators)
+    words[n_words++] = german ? "eine Zahl" : "a number";
   for (int i = 0; i < n && n_words < 60; i++) {
     int t = expected[i];
-    bool part_of_expression =
-        (expression || operators) && (t == '(' || t == '-' || t == '+' || t == '[' || t == TOK_UNIT || t == TOK_EOL);
+    bool part_of_expression = (expression || operators)
+                              && (t == '(' || t == '-' || t == '+' || t == '[' || t == TOK_UNIT
+                                  || t == TOK_EOL);
     bool is_operator = operators && (t == ',' || t == ')' || t == ':');
     if (part_of_expression || (is_operator && n_words > 3)) continue;
     const char* w = word_for(t, german);
@@ -145,7 +152,7 @@ static const char* list_expected(pl_arena* a, const int* expected, int n, bool g
   return pl_text_string(&out);
 }
 
-// ---------------------------------------------------------------------------------------------- frequent mistakes
+// ------------------------------------------------------------------------------- frequent mistakes
 static const pl_token* token_near(const pl_parse* p, int i, int by) {
   int k = i;
   for (int left = by < 0 ? -by : by; left > 0;) {
@@ -157,10 +164,12 @@ static const pl_token* token_near(const pl_parse* p, int i, int by) {
   return &p->tokens->list.at[k];
 }
 
-// 0,5 for 0.5: outside brackets no list of numbers can stand, so a comma between two digits is a decimal comma.
+// 0,5 for 0.5: outside brackets no list of numbers can stand, so a comma between two digits is a
+// decimal comma.
 static int find_decimal_comma(const pl_parse* p) {
   int depth = 0;
-  for (int i = p->statement_first < 0 ? 0 : p->statement_first; i <= p->at && i + 1 < p->tokens->list.n; i++) {
+  for (int i = p->statement_first < 0 ? 0 : p->statement_first;
+       i <= p->at && i + 1 < p->tokens->list.n; i++) {
     const pl_token* t = &p->tokens->list.at[i];
     depth += t->kind == '(' || t->kind == '[' ? 1 : t->kind == ')' || t->kind == ']' ? -1 : 0;
     if (t->kind != ',' || depth != 0 || i == 0 || !t->tight || !t[1].tight) continue;
@@ -175,13 +184,14 @@ static bool decimal_comma(pl_parse* p) {
   const pl_token *whole = &p->tokens->list.at[i - 1], *part = &p->tokens->list.at[i + 1];
   const char* fixed = pl_format(p->arena, "%s.%s", whole->text, part->text);
   const pl_token* after = &p->tokens->list.at[i + 2 < p->tokens->list.n ? i + 2 : i + 1];
-  pl_diagnostic* m =
-      pl_complain(p->job, PL_E003, (pl_span){p->source, whole->begin, part->end}, "decimal comma", "Dezimalkomma");
+  pl_diagnostic* m = pl_complain(p->job, PL_E003, (pl_span){p->source, whole->begin, part->end},
+                                 "decimal comma", "Dezimalkomma");
   const char* degree = after->kind == TOK_DEGREE ? "°" : "";
   // 1,000 may be a thousand
   if (strlen(part->text) == 3 && strlen(whole->text) <= 3 && whole->text[0] != '0') {
-    pl_suggest(p->job, m, NULL, "write %1$s%3$s, or %2$s%3$s if a thousand is meant", "schreibe %1$s%3$s, oder %2$s%3$s, falls Tausend gemeint ist",
-               fixed, pl_format(p->arena, "%s%s", whole->text, part->text), degree);
+    pl_suggest(p->job, m, NULL, "write %1$s%3$s, or %2$s%3$s if a thousand is meant",
+               "schreibe %1$s%3$s, oder %2$s%3$s, falls Tausend gemeint ist", fixed,
+               pl_format(p->arena, "%s%s", whole->text, part->text), degree);
     return true;
   }
   pl_suggest(p->job, m, fixed, "write %s%s        (Dezimalpunkt statt Komma)",
@@ -191,12 +201,14 @@ static bool decimal_comma(pl_parse* p) {
 
 static bool reserved_name(pl_parse* p, const int* expected, int n) {
   const pl_token* t = &p->tokens->list.at[p->at];
-  if (t->kind != TOK_NAME || t->number || !pl_word_reserved(t->key) || !has(expected, n, TOK_NAME)) return false;
+  if (t->kind != TOK_NAME || t->number || !pl_word_reserved(t->key) || !has(expected, n, TOK_NAME))
+    return false;
   const pl_token* next = token_near(p, p->at, 1);
   if (has(expected, n, '/') && next->kind == TOK_NAME) return false;
-  pl_diagnostic* m = pl_complain(p->job, PL_E013, (pl_span){p->source, t->begin, t->end}, "%s is a reserved word",
-                                 "%s ist ein reserviertes Wort", t->key);
-  pl_suggest(p->job, m, NULL, "choose another name, such as %s1", "einen anderen Namen wählen, etwa %s1", t->key);
+  pl_diagnostic* m = pl_complain(p->job, PL_E013, (pl_span){p->source, t->begin, t->end},
+                                 "%s is a reserved word", "%s ist ein reserviertes Wort", t->key);
+  pl_suggest(p->job, m, NULL, "choose another name, such as %s1",
+             "einen anderen Namen wählen, etwa %s1", t->key);
   return true;
 }
 
@@ -207,7 +219,8 @@ static bool line_ends_early(pl_parse* p, const int* expected, int n) {
   pl_span span = {p->source, before->begin, before->end};
   pl_diagnostic* m;
   if (before->kind == ',') {
-    m = pl_complain(p->job, PL_E001, span, "something is missing after the comma", "hinter dem Komma fehlt etwas");
+    m = pl_complain(p->job, PL_E001, span, "something is missing after the comma",
+                    "hinter dem Komma fehlt etwas");
     pl_suggest(p->job, m, "", "remove the comma", "das Komma entfernen");
     return true;
   }
@@ -218,7 +231,8 @@ static bool line_ends_early(pl_parse* p, const int* expected, int n) {
   if (en)
     pl_because(p->job, m, "expected: %1$s%2$.0s", "erwartet: %1$.0s%2$s", en,
                list_expected(p->arena, expected, n, true));
-  if (en && pl_word_reserved(en)) pl_suggest(p->job, m, NULL, "add  %s ...", "%s ...  ergänzen", en);
+  if (en && pl_word_reserved(en))
+    pl_suggest(p->job, m, NULL, "add  %s ...", "%s ...  ergänzen", en);
   return true;
 }
 
@@ -235,35 +249,39 @@ static bool missing_equals(pl_parse* p, const int* expected, int n) {
     pl_suggest(p->job, m, NULL, "write %1$s = %2$s ...  or, for two names,  %1$s, %2$s",
                "schreibe %1$s = %2$s ...  oder, bei zwei Namen,  %1$s, %2$s", left, right);
   } else {
-    pl_suggest(p->job, m, pl_format(p->arena, "%s = %s", left, right), "write %s = %s", "schreibe %s = %s", left,
-               right);
+    pl_suggest(p->job, m, pl_format(p->arena, "%s = %s", left, right), "write %s = %s",
+               "schreibe %s = %s", left, right);
   }
   return true;
 }
 
 static bool missing_comma(pl_parse* p, const int* expected, int n) {
   const pl_token *t = &p->tokens->list.at[p->at], *before = token_near(p, p->at, -1);
-  if (t->kind != TOK_NAME || before->kind != TOK_NAME || !has(expected, n, ',') || has(expected, n, '/')) return false;
+  if (t->kind != TOK_NAME || before->kind != TOK_NAME || !has(expected, n, ',')
+      || has(expected, n, '/'))
+    return false;
   const char* left = pl_source_text(p->arena, (pl_span){p->source, before->begin, before->end});
   const char* right = pl_source_text(p->arena, (pl_span){p->source, t->begin, t->end});
-  pl_diagnostic* m =
-      pl_complain(p->job, PL_E001, (pl_span){p->source, before->begin, t->end}, "a comma is missing between %s and %s",
-                  "zwischen %s und %s fehlt ein Komma", left, right);
-  pl_suggest(p->job, m, pl_format(p->arena, "%s, %s", left, right), "write %s, %s", "schreibe %s, %s", left, right);
+  pl_diagnostic* m = pl_complain(p->job, PL_E001, (pl_span){p->source, before->begin, t->end},
+                                 "a comma is missing between %s and %s",
+                                 "zwischen %s und %s fehlt ein Komma", left, right);
+  pl_suggest(p->job, m, pl_format(p->arena, "%s, %s", left, right), "write %s, %s",
+             "schreibe %s, %s", left, right);
   return true;
 }
 
 void pl_parse_complain(pl_parse* p, const int* expected, int n) {
   if (p->said) return;
   p->said = true;
-  if (decimal_comma(p) || pl_slip(p) || reserved_name(p, expected, n) || line_ends_early(p, expected, n) ||
-      missing_comma(p, expected, n))
+  if (decimal_comma(p) || pl_slip(p) || reserved_name(p, expected, n)
+      || line_ends_early(p, expected, n) || missing_comma(p, expected, n))
     return;
   if (missing_equals(p, expected, n)) return;
   const pl_token* t = &p->tokens->list.at[p->at];
   pl_span span = {p->source, t->begin, t->end};
   const char* text = pl_source_text(p->arena, span);
-  pl_diagnostic* m = pl_complain(p->job, PL_E001, span, "%s does not fit here", "%s passt hier nicht", text);
+  pl_diagnostic* m = pl_complain(p->job, PL_E001, span, "%s does not fit here",
+                                 "%s passt hier nicht", text);
   const char* en = list_expected(p->arena, expected, n, false);
   if (en)
     pl_because(p->job, m, "expected: %1$s%2$.0s", "erwartet: %1$.0s%2$s", en,

@@ -1,5 +1,5 @@
-// Fuzz harness: any bytes as a model text.  Parse, check, format; memory is limited, so that only a hang, a crash or a
-// broken promise is a finding.
+// Fuzz harness: any bytes as a model text. Parse, check, format; memory is limited, so that only a
+// hang, a crash or a broken promise is a finding.
 #include <stdlib.h>
 #include <string.h>
 
@@ -20,13 +20,15 @@ static void work(pl_job* job, const char* text, size_t size) {
   pl_diagnostics_sort(job->diagnostics);
   pl_text out = pl_text_make(job->arena);
   for (int i = 0; i < job->diagnostics->list.n && i < 50; i++) {
-    pl_diagnostic_print(&out, &job->diagnostics->list.at[i], (pl_print_style){.lang = i % 2 ? PL_GERMAN : PL_ENGLISH});
+    pl_diagnostic_print(&out, &job->diagnostics->list.at[i],
+                        (pl_print_style){.lang = i % 2 ? PL_GERMAN : PL_ENGLISH});
   }
   // what the formatter accepts it accepts again, unchanged
   const char *once = NULL, *twice = NULL;
   if (pl_lang_format(job, source, PL_SPELL_KEEP, &once) != PLEUEL_OK) return;
-  require(pl_lang_format(job, pl_source_make(job->arena, "fuzz", once, strlen(once)), PL_SPELL_KEEP, &twice) ==
-          PLEUEL_OK);
+  require(pl_lang_format(job, pl_source_make(job->arena, "fuzz", once, strlen(once)), PL_SPELL_KEEP,
+                         &twice)
+          == PLEUEL_OK);
   require(strcmp(once, twice) == 0);
 }
 

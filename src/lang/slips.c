@@ -1,50 +1,62 @@
-// Slips: what people type who know another language, or the blackboard, and what they mean.  Needs the token at which the grammar
-// stopped; answers with the line as it should be.
+// Slips: what people type who know another language, or the blackboard, and what they mean. Needs
+// the token at which the grammar stopped; answers with the line as it should be.
 #include "lang/lang_impl.h"
 
 #include <string.h>
 
 #include "grammar.h"
 
-// ---------------------------------------------------------------------------------------------- words of other languages
-typedef struct slip_word { const char *typed, *meant; } slip_word;
+// ------------------------------------------------------------------------ words of other languages
+typedef struct slip_word {
+  const char *typed, *meant;
+} slip_word;
 
 // clang-format off
 static const slip_word statement_words[] = {
-  {"zwang", "constraint"}, {"zwangsbedingung", "constraint"}, {"bedingung", "constraint"}, {"nebenbedingung", "constraint"},
-  {"bindung", "constraint"}, {"masse", "mass"}, {"kraft", "force"}, {"feder", "spring"}, {"daempfer", "damper"},
-  {"koerper", "body"}, {"punkt", "point"}, {"stab", "rod"}, {"stange", "rod"}, {"koordinate", "coord"}, {"koordinaten", "coord"},
-  {"variable", "coord"}, {"var", "coord"}, {"coordinate", "coord"}, {"coordinates", "coord"}, {"konstante", "param"},
-  {"const", "param"}, {"constant", "param"}, {"parameter", "param"}, {"gegeben", "param"}, {"given", "param"}, {"anfang", "init"},
-  {"start", "init"}, {"initial", "init"}, {"frage", "ask"}, {"gesucht", "ask"}, {"berechne", "ask"}, {"find", "ask"},
-  {"solve", "ask"}, {"show", "ask"}, {"ereignis", "event"}, {"reibung", "friction"}, {"schwerkraft", "gravity"},
-  {"gewicht", "gravity"}, {"moment", "torque"}, {"drehmoment", "torque"}, {"simuliere", "simulate"}, {"zeichne", "plot"},
-  {"achsen", "axes"}, {"titel", "system"}, {"title", "system"}, {"import", "include"}, {"joint", "constraint"},
-  {"define", "let"}, {"sei", "let"}, {"annahme", "assume"}, {"stoss", "restitution"}, {"widerstand", "drag"},
+  {"zwang", "constraint"}, {"zwangsbedingung", "constraint"}, {"bedingung", "constraint"},
+  {"nebenbedingung", "constraint"}, {"bindung", "constraint"}, {"masse", "mass"},
+  {"kraft", "force"}, {"feder", "spring"}, {"daempfer", "damper"}, {"koerper", "body"},
+  {"punkt", "point"}, {"stab", "rod"}, {"stange", "rod"}, {"koordinate", "coord"},
+  {"koordinaten", "coord"}, {"variable", "coord"}, {"var", "coord"}, {"coordinate", "coord"},
+  {"coordinates", "coord"}, {"konstante", "param"}, {"const", "param"}, {"constant", "param"},
+  {"parameter", "param"}, {"gegeben", "param"}, {"given", "param"}, {"anfang", "init"},
+  {"start", "init"}, {"initial", "init"}, {"frage", "ask"}, {"gesucht", "ask"}, {"berechne", "ask"},
+  {"find", "ask"}, {"solve", "ask"}, {"show", "ask"}, {"ereignis", "event"},
+  {"reibung", "friction"}, {"schwerkraft", "gravity"}, {"gewicht", "gravity"}, {"moment", "torque"},
+  {"drehmoment", "torque"}, {"simuliere", "simulate"}, {"zeichne", "plot"}, {"achsen", "axes"},
+  {"titel", "system"}, {"title", "system"}, {"import", "include"}, {"joint", "constraint"},
+  {"define", "let"}, {"sei", "let"}, {"annahme", "assume"}, {"stoss", "restitution"},
+  {"widerstand", "drag"},
 };
 
 static const slip_word request_words[] = {
-  {"eom", "lagrange2"}, {"motion", "lagrange2"}, {"bewegungsgleichung", "lagrange2"}, {"bewegungsgleichungen", "lagrange2"},
-  {"lagrange", "lagrange2"}, {"DOF", "dof"}, {"freedom", "dof"}, {"freedoms", "dof"}, {"freiheitsgrade", "dof"},
-  {"period", "modes"}, {"periode", "modes"}, {"schwingungsdauer", "modes"}, {"frequency", "modes"}, {"frequencies", "modes"},
-  {"frequenz", "modes"}, {"eigenfrequency", "modes"}, {"eigenfrequenz", "modes"}, {"eigenmodes", "modes"}, {"omega0", "modes"},
-  {"equilibrium", "equilibria"}, {"gleichgewicht", "equilibria"}, {"ruhelage", "equilibria"}, {"integrals", "conserved"},
-  {"momentum", "conserved"}, {"erhaltung", "conserved"}, {"erhaltungsgroessen", "conserved"}, {"hamilton", "hamiltonian"},
-  {"E_kin", "T"}, {"Ekin", "T"}, {"W_kin", "T"}, {"T_kin", "T"}, {"E_pot", "V"}, {"Epot", "V"}, {"W_pot", "V"}, {"V_pot", "V"},
-  {"E_ges", "E"}, {"E_tot", "E"}, {"Eges", "E"}, {"Etot", "E"}, {"energie", "E"}, {"L_Lag", "lagrangian"}, {"H_Ham", "H"},
-  {"newton2", "newton"}, {"zwangsbedingungen", "constraints"},
+  {"eom", "lagrange2"}, {"motion", "lagrange2"}, {"bewegungsgleichung", "lagrange2"},
+  {"bewegungsgleichungen", "lagrange2"}, {"lagrange", "lagrange2"}, {"DOF", "dof"},
+  {"freedom", "dof"}, {"freedoms", "dof"}, {"freiheitsgrade", "dof"}, {"period", "modes"},
+  {"periode", "modes"}, {"schwingungsdauer", "modes"}, {"frequency", "modes"},
+  {"frequencies", "modes"}, {"frequenz", "modes"}, {"eigenfrequency", "modes"},
+  {"eigenfrequenz", "modes"}, {"eigenmodes", "modes"}, {"omega0", "modes"},
+  {"equilibrium", "equilibria"}, {"gleichgewicht", "equilibria"}, {"ruhelage", "equilibria"},
+  {"integrals", "conserved"}, {"momentum", "conserved"}, {"erhaltung", "conserved"},
+  {"erhaltungsgroessen", "conserved"}, {"hamilton", "hamiltonian"}, {"E_kin", "T"}, {"Ekin", "T"},
+  {"W_kin", "T"}, {"T_kin", "T"}, {"E_pot", "V"}, {"Epot", "V"}, {"W_pot", "V"}, {"V_pot", "V"},
+  {"E_ges", "E"}, {"E_tot", "E"}, {"Eges", "E"}, {"Etot", "E"}, {"energie", "E"},
+  {"L_Lag", "lagrangian"}, {"H_Ham", "H"}, {"newton2", "newton"},
+  {"zwangsbedingungen", "constraints"},
 };
 
 // Words before `of LABEL`.
 static const slip_word force_words[] = {
-  {"tension", "force of"}, {"reaction", "force of"}, {"zwangskraft", "force of"}, {"seilkraft", "force of"}, {"stabkraft", "force of"},
-  {"kraft", "force of"}, {"multiplier", "force of"},
+  {"tension", "force of"}, {"reaction", "force of"}, {"zwangskraft", "force of"},
+  {"seilkraft", "force of"}, {"stabkraft", "force of"}, {"kraft", "force of"},
+  {"multiplier", "force of"},
 };
 // clang-format on
 
 static bool same_word(const char* a, const char* b) {
   for (; *a && *b; a++, b++) {
-    char x = *a >= 'A' && *a <= 'Z' ? (char)(*a + 32) : *a, y = *b >= 'A' && *b <= 'Z' ? (char)(*b + 32) : *b;
+    char x = *a >= 'A' && *a <= 'Z' ? (char)(*a + 32) : *a,
+         y = *b >= 'A' && *b <= 'Z' ? (char)(*b + 32) : *b;
     if (x != y) return false;
   }
   return *a == *b;
@@ -60,15 +72,19 @@ static const char* meant_by(const slip_word* list, size_t n, const char* typed) 
 const char* pl_slip_statement(const char* typed) { return MEANT(statement_words, typed); }
 const char* pl_slip_request(const char* typed) { return MEANT(request_words, typed); }
 
-// ---------------------------------------------------------------------------------------------- the place
+// --------------------------------------------------------------------------------------- the place
 static const pl_token* token(const pl_parse* p, int i) {
   return &p->tokens->list.at[i < 0 ? 0 : i < p->tokens->list.n ? i : p->tokens->list.n - 1];
 }
 
-static bool is(const pl_token* t, const char* word) { return t->kind == TOK_NAME && t->number == 0 && strcmp(t->key, word) == 0; }
+static bool is(const pl_token* t, const char* word) {
+  return t->kind == TOK_NAME && t->number == 0 && strcmp(t->key, word) == 0;
+}
 
 static int end_of_line(const pl_parse* p, int i) {
-  while (token(p, i)->kind != TOK_EOL && token(p, i)->kind != 0 && token(p, i)->kind > PL_TOKEN_COMMENT) i++;
+  while (token(p, i)->kind != TOK_EOL && token(p, i)->kind != 0
+         && token(p, i)->kind > PL_TOKEN_COMMENT)
+    i++;
   return i;
 }
 
@@ -84,16 +100,18 @@ static pl_diagnostic* at_token(pl_parse* p, const char* en, const char* de) {
   return pl_complain(p->job, PL_E001, (pl_span){p->source, t->begin, t->end}, en, de, s);
 }
 
-// ---------------------------------------------------------------------------------------------- statements
+// -------------------------------------------------------------------------------------- statements
 // rod m between A and B
 static bool rod_without_mass(pl_parse* p) {
   int first = p->statement_first;
   const pl_token* t = token(p, p->at);
-  if (p->kinds[first] != TOK_ROD || !is(t, "between") || is(token(p, first + 1), "mass")) return false;
+  if (p->kinds[first] != TOK_ROD || !is(t, "between") || is(token(p, first + 1), "mass"))
+    return false;
   int mass = token(p, p->at - 1)->kind == ':' ? p->at : first + 1;
-  pl_diagnostic* m = at_token(p, "the mass of a rod has its word", "die Masse eines Stabes hat ihr Wort");
-  pl_suggest(p->job, m, NULL, "write  rod mass %1$s %2$s", "schreibe  rod mass %1$s %2$s", text(p, mass, p->at),
-             text(p, p->at, end_of_line(p, p->at)));
+  pl_diagnostic* m = at_token(p, "the mass of a rod has its word",
+                              "die Masse eines Stabes hat ihr Wort");
+  pl_suggest(p->job, m, NULL, "write  rod mass %1$s %2$s", "schreibe  rod mass %1$s %2$s",
+             text(p, mass, p->at), text(p, p->at, end_of_line(p, p->at)));
   return true;
 }
 
@@ -113,8 +131,8 @@ static bool event_without_shape(pl_parse* p) {
   const char* name = named ? token(p, first + 1)->shown : "e";
   pl_diagnostic* m = at_token(p, "an event has a name, a condition and an action",
                               "ein Ereignis hat einen Namen, eine Bedingung und eine Handlung");
-  pl_suggest(p->job, m, NULL, "write  event %s: when %s -> %s", "schreibe  event %s: when %s -> %s", name,
-             text(p, when + 1, arrow), action);
+  pl_suggest(p->job, m, NULL, "write  event %s: when %s -> %s", "schreibe  event %s: when %s -> %s",
+             name, text(p, when + 1, arrow), action);
   return true;
 }
 
@@ -125,15 +143,16 @@ static bool range_in_words(pl_parse* p) {
   if (!is(t, "to") && !is(t, "bis") && !is(t, "until")) return false;
   int end = end_of_line(p, p->at);
   pl_diagnostic* m = at_token(p, "%s does not join two times", "%s verbindet keine zwei Zeiten");
-  pl_suggest(p->job, m, "..", "write  simulate %s..%s", "schreibe  simulate %s..%s", text(p, p->statement_first + 1, p->at),
-             text(p, p->at + 1, end));
+  pl_suggest(p->job, m, "..", "write  simulate %s..%s", "schreibe  simulate %s..%s",
+             text(p, p->statement_first + 1, p->at), text(p, p->at + 1, end));
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- requests
+// ---------------------------------------------------------------------------------------- requests
 static int start_of_item(const pl_parse* p) {
   int i = p->at;
-  while (i > p->statement_first + 1 && token(p, i - 1)->kind != ',' && token(p, i - 1)->kind != ':') i--;
+  while (i > p->statement_first + 1 && token(p, i - 1)->kind != ',' && token(p, i - 1)->kind != ':')
+    i--;
   return i;
 }
 
@@ -141,22 +160,28 @@ static int start_of_item(const pl_parse* p) {
 static bool place_of_request(pl_parse* p) {
   const pl_token* t = token(p, p->at);
   if (p->kinds[p->statement_first] != TOK_ASK) return false;
-  if (!is(t, "when") && !is(t, "at") && !is(t, "if") && !is(t, "wenn") && !is(t, "bei") && !is(t, "where")) return false;
+  if (!is(t, "when") && !is(t, "at") && !is(t, "if") && !is(t, "wenn") && !is(t, "bei")
+      && !is(t, "where"))
+    return false;
   int from = start_of_item(p), end = end_of_line(p, p->at);
   const char* what = text(p, from, p->at);
   bool force = is(token(p, from), "force");
   if (is(t, "where") && !force) return false;
-  if (!force && token(p, from)->kind == TOK_NAME && pl_word_item(token(p, from)->key)) return false;   // it has an `at` of its own
-  pl_diagnostic* m = at_token(p, "%s does not name a place of the motion", "%s nennt keine Stelle der Bewegung");
+  // it has an `at` of its own
+  if (!force && token(p, from)->kind == TOK_NAME && pl_word_item(token(p, from)->key)) return false;
+  pl_diagnostic* m = at_token(p, "%s does not name a place of the motion",
+                              "%s nennt keine Stelle der Bewegung");
   if (force) what = pl_format(p->arena, "normal(%s)", text(p, from + 2, p->at));
-  pl_suggest(p->job, m, force ? NULL : "where", "write  %s where %s", "schreibe  %s where %s", what, text(p, p->at + 1, end));
+  pl_suggest(p->job, m, force ? NULL : "where", "write  %s where %s", "schreibe  %s where %s", what,
+             text(p, p->at + 1, end));
   return true;
 }
 
 // tension of rod, equations of motion, degrees of freedom
 static bool request_in_words(pl_parse* p) {
   const pl_token *t = token(p, p->at), *before = token(p, p->at - 1);
-  if (p->kinds[p->statement_first] != TOK_ASK || !is(t, "of") || before->kind != TOK_NAME) return false;
+  if (p->kinds[p->statement_first] != TOK_ASK || !is(t, "of") || before->kind != TOK_NAME)
+    return false;
   const pl_token* next = token(p, p->at + 1);
   const char* force = MEANT(force_words, before->key);
   const char* meant = next->kind == TOK_NAME ? pl_slip_request(next->key) : NULL;
@@ -172,5 +197,6 @@ static bool request_in_words(pl_parse* p) {
 
 bool pl_slip(pl_parse* p) {
   if (p->statement_first < 0) return false;
-  return rod_without_mass(p) || event_without_shape(p) || range_in_words(p) || place_of_request(p) || request_in_words(p);
+  return rod_without_mass(p) || event_without_shape(p) || range_in_words(p) || place_of_request(p)
+         || request_in_words(p);
 }

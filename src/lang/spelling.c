@@ -1,12 +1,12 @@
-// Spelling of names.  `m1`, `m_1`, `m₁` are one name, `theta` is `θ`, `ẋ` is `x` with one dot whichever way the dot was
-// typed.  The key of a name is its ASCII spelling: Greek letters as words, subscripts as digits, no underscore before a
-// digit, one underscore where a Greek letter touches another letter.  So a key can be typed, and reads back as the
-// name.
+// Spelling of names. `m1`, `m_1`, `m₁` are one name, `theta` is `θ`, `ẋ` is `x` with one dot
+// whichever way the dot was typed. The key of a name is its ASCII spelling: Greek letters as words,
+// subscripts as digits, no underscore before a digit, one underscore where a Greek letter touches
+// another letter. So a key can be typed, and reads back as the name.
 #include "lang/lang_impl.h"
 
 #include <string.h>
 
-// ---------------------------------------------------------------------------------------------- tables
+// ------------------------------------------------------------------------------------------ tables
 typedef struct greek {
   uint32_t letter;
   const char* word;
@@ -67,7 +67,8 @@ static const char* greek_word(uint32_t c) {
 
 static uint32_t greek_letter(const char* s, size_t n) {
   for (int i = 0; i < N_GREEK; i++) {
-    if (strlen(greek_letters[i].word) == n && memcmp(greek_letters[i].word, s, n) == 0) return greek_letters[i].letter;
+    if (strlen(greek_letters[i].word) == n && memcmp(greek_letters[i].word, s, n) == 0)
+      return greek_letters[i].letter;
   }
   return 0;
 }
@@ -79,15 +80,17 @@ typedef struct dotted {
   int dots;
 } dotted;
 static const dotted dotted_letters[] = {
-    {0x10a, 'C', 1},  {0x10b, 'c', 1},  {0x116, 'E', 1},  {0x117, 'e', 1},  {0x120, 'G', 1},  {0x121, 'g', 1},
-    {0x130, 'I', 1},  {0x17b, 'Z', 1},  {0x17c, 'z', 1},  {0x226, 'A', 1},  {0x227, 'a', 1},  {0x22e, 'O', 1},
-    {0x22f, 'o', 1},  {0x1e02, 'B', 1}, {0x1e03, 'b', 1}, {0x1e0a, 'D', 1}, {0x1e0b, 'd', 1}, {0x1e1e, 'F', 1},
-    {0x1e1f, 'f', 1}, {0x1e22, 'H', 1}, {0x1e23, 'h', 1}, {0x1e40, 'M', 1}, {0x1e41, 'm', 1}, {0x1e44, 'N', 1},
-    {0x1e45, 'n', 1}, {0x1e56, 'P', 1}, {0x1e57, 'p', 1}, {0x1e58, 'R', 1}, {0x1e59, 'r', 1}, {0x1e60, 'S', 1},
-    {0x1e61, 's', 1}, {0x1e6a, 'T', 1}, {0x1e6b, 't', 1}, {0x1e86, 'W', 1}, {0x1e87, 'w', 1}, {0x1e8a, 'X', 1},
-    {0x1e8b, 'x', 1}, {0x1e8e, 'Y', 1}, {0x1e8f, 'y', 1}, {0xcb, 'E', 2},   {0xeb, 'e', 2},   {0xcf, 'I', 2},
-    {0xef, 'i', 2},   {0xff, 'y', 2},   {0x178, 'Y', 2},  {0x1e26, 'H', 2}, {0x1e27, 'h', 2}, {0x1e84, 'W', 2},
-    {0x1e85, 'w', 2}, {0x1e8c, 'X', 2}, {0x1e8d, 'x', 2}, {0x1e97, 't', 2},
+    {0x10a, 'C', 1},  {0x10b, 'c', 1},  {0x116, 'E', 1},  {0x117, 'e', 1},  {0x120, 'G', 1},
+    {0x121, 'g', 1},  {0x130, 'I', 1},  {0x17b, 'Z', 1},  {0x17c, 'z', 1},  {0x226, 'A', 1},
+    {0x227, 'a', 1},  {0x22e, 'O', 1},  {0x22f, 'o', 1},  {0x1e02, 'B', 1}, {0x1e03, 'b', 1},
+    {0x1e0a, 'D', 1}, {0x1e0b, 'd', 1}, {0x1e1e, 'F', 1}, {0x1e1f, 'f', 1}, {0x1e22, 'H', 1},
+    {0x1e23, 'h', 1}, {0x1e40, 'M', 1}, {0x1e41, 'm', 1}, {0x1e44, 'N', 1}, {0x1e45, 'n', 1},
+    {0x1e56, 'P', 1}, {0x1e57, 'p', 1}, {0x1e58, 'R', 1}, {0x1e59, 'r', 1}, {0x1e60, 'S', 1},
+    {0x1e61, 's', 1}, {0x1e6a, 'T', 1}, {0x1e6b, 't', 1}, {0x1e86, 'W', 1}, {0x1e87, 'w', 1},
+    {0x1e8a, 'X', 1}, {0x1e8b, 'x', 1}, {0x1e8e, 'Y', 1}, {0x1e8f, 'y', 1}, {0xcb, 'E', 2},
+    {0xeb, 'e', 2},   {0xcf, 'I', 2},   {0xef, 'i', 2},   {0xff, 'y', 2},   {0x178, 'Y', 2},
+    {0x1e26, 'H', 2}, {0x1e27, 'h', 2}, {0x1e84, 'W', 2}, {0x1e85, 'w', 2}, {0x1e8c, 'X', 2},
+    {0x1e8d, 'x', 2}, {0x1e97, 't', 2},
 };
 enum { N_DOTTED = sizeof dotted_letters / sizeof dotted_letters[0] };
 
@@ -98,11 +101,12 @@ typedef struct latin {
   uint32_t base;
 } latin;
 static const latin latin_letters[] = {
-    {0xe4, "ae", 'a'}, {0xf6, "oe", 'o'}, {0xfc, "ue", 'u'},  {0xc4, "Ae", 'A'},  {0xd6, "Oe", 'O'}, {0xdc, "Ue", 'U'},
-    {0xdf, "ss", 0},   {0xe9, "e", 0},    {0xe8, "e", 0},     {0xea, "e", 0},     {0xe0, "a", 0},    {0xe1, "a", 0},
-    {0xe2, "a", 0},    {0xe5, "aa", 0},   {0xc5, "Aa", 0},    {0xe6, "ae", 0},    {0xf8, "oe", 0},   {0xd8, "Oe", 0},
-    {0xe7, "c", 0},    {0xf1, "n", 0},    {0xf3, "o", 0},     {0xf4, "o", 0},     {0xed, "i", 0},    {0xee, "i", 0},
-    {0xfa, "u", 0},    {0xfb, "u", 0},    {0x127, "hbar", 0}, {0x2113, "ell", 0},
+    {0xe4, "ae", 'a'}, {0xf6, "oe", 'o'},  {0xfc, "ue", 'u'},  {0xc4, "Ae", 'A'}, {0xd6, "Oe", 'O'},
+    {0xdc, "Ue", 'U'}, {0xdf, "ss", 0},    {0xe9, "e", 0},     {0xe8, "e", 0},    {0xea, "e", 0},
+    {0xe0, "a", 0},    {0xe1, "a", 0},     {0xe2, "a", 0},     {0xe5, "aa", 0},   {0xc5, "Aa", 0},
+    {0xe6, "ae", 0},   {0xf8, "oe", 0},    {0xd8, "Oe", 0},    {0xe7, "c", 0},    {0xf1, "n", 0},
+    {0xf3, "o", 0},    {0xf4, "o", 0},     {0xed, "i", 0},     {0xee, "i", 0},    {0xfa, "u", 0},
+    {0xfb, "u", 0},    {0x127, "hbar", 0}, {0x2113, "ell", 0},
 };
 enum { N_LATIN = sizeof latin_letters / sizeof latin_letters[0] };
 
@@ -113,7 +117,7 @@ static const latin* latin_letter(uint32_t c) {
   return NULL;
 }
 
-// ---------------------------------------------------------------------------------------------- reading
+// ----------------------------------------------------------------------------------------- reading
 static bool is_ascii_letter(uint32_t c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 static bool is_digit(uint32_t c) { return c >= '0' && c <= '9'; }
 
@@ -166,7 +170,8 @@ static uint32_t take_marks(const char* s, size_t n, size_t* at, uint32_t letter,
   return letter;
 }
 
-// Words such as theta become letters on display: a run of ASCII letters between digits, underscores or ends.
+// Words such as theta become letters on display: a run of ASCII letters between digits, underscores
+// or ends.
 const char* pl_spell_unicode(pl_arena* a, const char* s) {
   pl_text out = pl_text_make(a);
   for (size_t i = 0; s[i];) {
@@ -214,7 +219,8 @@ bool pl_spell(pl_arena* a, pl_names* names, const char* s, size_t n, pl_spelled*
     glyph g;
     if (!read_glyph(a, c, &g)) return false;
     // m_1 is m1: the underscore before a digit goes, when a letter is before it
-    if (is_digit(c) && last == '_' && key.n >= 2 && is_ascii_letter((unsigned char)key.at[key.n - 2])) {
+    if (is_digit(c) && last == '_' && key.n >= 2
+        && is_ascii_letter((unsigned char)key.at[key.n - 2])) {
       key.at[--key.n] = 0;
       if (shown.n && shown.at[shown.n - 1] == '_') shown.at[--shown.n] = 0;
     }
@@ -234,7 +240,7 @@ bool pl_spell(pl_arena* a, pl_names* names, const char* s, size_t n, pl_spelled*
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- look-alikes
+// ------------------------------------------------------------------------------------- look-alikes
 typedef struct look {
   uint32_t code;
   const char *meant, *en, *de;
@@ -264,7 +270,8 @@ static const look looks[] = {
     {0x2217, "*", "an asterisk operator", "ein Sternoperator"},
     {0xba, "°", "an ordinal sign", "ein Ordnungszeichen"},
     {0x2da, "°", "a ring", "ein Ring"},
-    {0x2202, NULL, "a partial derivative; diff(f, x) derives", "eine partielle Ableitung; diff(f, x) leitet ab"},
+    {0x2202, NULL, "a partial derivative; diff(f, x) derives",
+     "eine partielle Ableitung; diff(f, x) leitet ab"},
     {0x222b, NULL, "an integral sign", "ein Integralzeichen"},
     {0x3bf, "o", "a Greek omicron", "ein griechisches Omikron"},
     {0x391, "A", "a Greek Alpha", "ein griechisches Alpha"},
@@ -291,17 +298,20 @@ static const struct {
   uint32_t code;
   char meant;
 } cyrillic[] = {
-    {0x410, 'A'}, {0x412, 'B'}, {0x415, 'E'}, {0x41a, 'K'}, {0x41c, 'M'}, {0x41d, 'H'}, {0x41e, 'O'},
-    {0x420, 'P'}, {0x421, 'C'}, {0x422, 'T'}, {0x425, 'X'}, {0x430, 'a'}, {0x435, 'e'}, {0x43e, 'o'},
-    {0x440, 'p'}, {0x441, 'c'}, {0x443, 'y'}, {0x445, 'x'}, {0x456, 'i'}, {0x458, 'j'}, {0x455, 's'},
+    {0x410, 'A'}, {0x412, 'B'}, {0x415, 'E'}, {0x41a, 'K'}, {0x41c, 'M'}, {0x41d, 'H'},
+    {0x41e, 'O'}, {0x420, 'P'}, {0x421, 'C'}, {0x422, 'T'}, {0x425, 'X'}, {0x430, 'a'},
+    {0x435, 'e'}, {0x43e, 'o'}, {0x440, 'p'}, {0x441, 'c'}, {0x443, 'y'}, {0x445, 'x'},
+    {0x456, 'i'}, {0x458, 'j'}, {0x455, 's'},
 };
 
 const char* pl_look_alike(uint32_t c, const char* what[2]) {
-  static const char* const ascii[] = {" ", "!", "\"", "#", "$", "%", "&", "'", "(", ")", "*", "+", ",", "-", ".", "/",
-                                      "0", "1", "2",  "3", "4", "5", "6", "7", "8", "9", ":", ";", "<", "=", ">"};
+  static const char* const ascii[] = {" ", "!", "\"", "#", "$", "%", "&", "'", "(", ")", "*",
+                                      "+", ",", "-",  ".", "/", "0", "1", "2", "3", "4", "5",
+                                      "6", "7", "8",  "9", ":", ";", "<", "=", ">"};
   for (int i = 0; i < N_LOOKS; i++) {
     if (looks[i].code != c) continue;
-    what[0] = looks[i].en, what[1] = looks[i].de;
+    what[0] = looks[i].en;
+    what[1] = looks[i].de;
     return looks[i].meant;
   }
   for (size_t i = 0; i < sizeof cyrillic / sizeof cyrillic[0]; i++) {
@@ -310,11 +320,13 @@ const char* pl_look_alike(uint32_t c, const char* what[2]) {
         "A\0B\0C\0D\0E\0F\0G\0H\0I\0J\0K\0L\0M\0N\0O\0P\0Q\0R\0S\0T\0U\0V\0W\0X\0Y\0Z\0"
         "a\0b\0c\0d\0e\0f\0g\0h\0i\0j\0k\0l\0m\0n\0o\0p\0q\0r\0s\0t\0u\0v\0w\0x\0y\0z";
     char m = cyrillic[i].meant;
-    what[0] = "a Cyrillic letter", what[1] = "ein kyrillischer Buchstabe";
+    what[0] = "a Cyrillic letter";
+    what[1] = "ein kyrillischer Buchstabe";
     return letters + 2 * (m >= 'a' ? m - 'a' + 26 : m - 'A');
   }
   if (c >= 0xff01 && c <= 0xff1e) {
-    what[0] = "a full-width character", what[1] = "ein Zeichen doppelter Breite";
+    what[0] = "a full-width character";
+    what[1] = "ein Zeichen doppelter Breite";
     return ascii[c - 0xff00];
   }
   return NULL;

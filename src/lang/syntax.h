@@ -1,6 +1,7 @@
-// Syntax: what the parser hands to the lowering.  A tree of nodes of one shape: a kind, a span, children in an order
-// that the list of kinds states.  Nothing is resolved here: what a name means, where a blank product ends and what a
-// bracket after a name is, are decided when the declarations are known.
+// Syntax: what the parser hands to the lowering. A tree of nodes of one shape: a kind, a span,
+// children in an order that the list of kinds states. Nothing is resolved here: what a name means,
+// where a blank product ends and what a bracket after a name is, are decided when the declarations
+// are known.
 #ifndef PL_SYNTAX_H
 #define PL_SYNTAX_H
 
@@ -17,9 +18,10 @@ typedef enum pl_ast_kind {
   PL_AST_WORD,    // a keyword, text
   PL_AST_BROKEN,  // something that was already complained about
   // expressions
-  PL_AST_INDEXED,   // name, index (an expression or a PL_AST_RANGE)
-  PL_AST_GROUP,     // elements in round brackets
-  PL_AST_PRODUCT,   // factors; ops[i] joins factor i to what is before: 0 first, ' ' blank, '*', '/'
+  PL_AST_INDEXED,  // name, index (an expression or a PL_AST_RANGE)
+  PL_AST_GROUP,    // elements in round brackets
+  // factors; ops[i] joins factor i to what is before: 0 first, ' ' blank, '*', '/'
+  PL_AST_PRODUCT,
   PL_AST_SUM,       // terms; ops[i] is '+' or '-'
   PL_AST_NEG,       // -x after an operator
   PL_AST_POWER,     // base, exponent
@@ -36,10 +38,12 @@ typedef enum pl_ast_kind {
   PL_AST_DEFINITION,  // name or indexed, [arguments group], [value], [unit]
   PL_AST_AXIS,        // name, [direction]
   PL_AST_DIRECTION,   // name; number -1 for "-x"
-  PL_AST_OPTION,      // text says which: "rest" "static" "surface" "with" "while" "redundant" "off"; [value]
-  PL_AST_ACTION,      // text says which: "stop" "record" "release" "attach" "set"; [label or target], [value]
-  PL_AST_MOTION,      // list of relations; number 1: at rest
-  PL_AST_ITEM,        // a request: token says which (a PL_W_...); children as below
+  // text says which: "rest" "static" "surface" "with" "while" "redundant" "off"; [value]
+  PL_AST_OPTION,
+  // text says which: "stop" "record" "release" "attach" "set"; [label or target], [value]
+  PL_AST_ACTION,
+  PL_AST_MOTION,  // list of relations; number 1: at rest
+  PL_AST_ITEM,    // a request: token says which (a PL_W_...); children as below
   // statements: token says which keyword; children as the grammar lists them
   PL_AST_STATEMENT,
   PL_AST_FILE  // statements
@@ -63,7 +67,11 @@ struct pl_ast {
   PL_VEC(char) ops;
 };
 
-static inline pl_span pl_ast_span(const pl_ast* n) { return n ? (pl_span){n->source, n->begin, n->end} : (pl_span){0}; }
-static inline pl_ast* pl_ast_kid(const pl_ast* n, int i) { return i < n->kids.n ? n->kids.at[i] : NULL; }
+static inline pl_span pl_ast_span(const pl_ast* n) {
+  return n ? (pl_span){n->source, n->begin, n->end} : (pl_span){0};
+}
+static inline pl_ast* pl_ast_kid(const pl_ast* n, int i) {
+  return i < n->kids.n ? n->kids.at[i] : NULL;
+}
 
 #endif

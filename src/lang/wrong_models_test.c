@@ -1,6 +1,6 @@
-// Every wrong model in tests/wrong says what it should, where it should.  An expectation is a line `line:col: CODE:
-// sentence` for each message; here codes and places of the text's own messages are compared, in both languages
-// something is said.
+// Every wrong model in tests/wrong says what it should, where it should. An expectation is a line
+// `line:col: CODE: sentence` for each message; here codes and places of the text's own messages are
+// compared, in both languages something is said.
 #include "lang_testing.h"
 
 #include <dirent.h>
@@ -18,8 +18,8 @@ static void check_said(bench* b, const char* name, const char* expected) {
   for (int i = 0; i < b->diagnostics.list.n; i++) {
     const pl_diagnostic* d = &b->diagnostics.list.at[i];
     pl_place at = d->span.source ? pl_span_place(d->span) : (pl_place){0, 0};
-    const char* line =
-        pl_format(b->arena, "%d:%d: %s: %s\n", at.line, at.column, pl_code_name(d->code), d->sentence[PL_ENGLISH]);
+    const char* line = pl_format(b->arena, "%d:%d: %s: %s\n", at.line, at.column,
+                                 pl_code_name(d->code), d->sentence[PL_ENGLISH]);
     bool here = expected_has(expected, line);
     if (!here) print_message("%s says %s", name, line);
     assert_true(here);

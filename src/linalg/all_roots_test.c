@@ -1,4 +1,5 @@
-// All roots of polynomials whose roots were planted in whole numbers: exact until the one rounding of each coefficient.
+// All roots of polynomials whose roots were planted in whole numbers: exact until the one rounding
+// of each coefficient.
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -13,12 +14,12 @@
 enum { MOST = 32 };
 static double work[PL_ROOT_WORK(MOST)];
 
-// ---------------------------------------------------------------------------------------------- whole numbers
+// ----------------------------------------------------------------------------------- whole numbers
 typedef __int128 whole;
 typedef struct planted {
   whole c[MOST + 1];
   int n;
-  double x[MOST];        // roots in [0, 1], rising
+  double x[MOST];  // roots in [0, 1], rising
   int times[MOST], n_x;
 } planted;
 
@@ -45,7 +46,10 @@ static void plant(planted* p, long numerator, long denominator, int how_often) {
   for (int k = 0; k < how_often; k++) times(p, denominator, -numerator);
   double x = (double)numerator / (double)denominator;
   int i = p->n_x++;
-  for (; i > 0 && p->x[i - 1] > x; i--) p->x[i] = p->x[i - 1], p->times[i] = p->times[i - 1];
+  for (; i > 0 && p->x[i - 1] > x; i--) {
+    p->x[i] = p->x[i - 1];
+    p->times[i] = p->times[i - 1];
+  }
   p->x[i] = x;
   p->times[i] = how_often;
 }
@@ -62,7 +66,8 @@ static double size(const double* c, int n, double x) {
   return p;
 }
 
-// Whether doubles can tell the roots apart at all: between two of them the polynomial must rise above what is known.
+// Whether doubles can tell the roots apart at all: between two of them the polynomial must rise
+// above what is known.
 static bool is_resolved(const planted* p, const double* c, double noise) {
   for (int i = 0; i + 1 < p->n_x; i++) {
     double most = 0;
@@ -75,8 +80,9 @@ static bool is_resolved(const planted* p, const double* c, double noise) {
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- the law
-// How far a root of this multiplicity may be moved by noise: (noise S k! / |p^(k)|)^(1/k), with room for the next terms.
+// ----------------------------------------------------------------------------------------- the law
+// How far a root of this multiplicity may be moved by noise: (noise S k! / |p^(k)|)^(1/k), with
+// room for the next terms.
 static double may_move(const double* c, int n, double x, int k, double noise) {
   double d[MOST + 1], factorial = 1;
   for (int i = 0; i <= n; i++) d[i] = c[i];
@@ -91,7 +97,8 @@ static planted random_event(pl_random* g) {
   planted p = {.c = {1}, .n = 0};
   long used[8];
   int n_used = 0, doubles = (int)(pl_random_bits(g) % 3), simple = (int)(pl_random_bits(g) % 3);
-  int pair = pl_random_bits(g) % 3 == 0, end = (int)(pl_random_bits(g) % 6), triple = pl_random_bits(g) % 8 == 0;
+  int pair = pl_random_bits(g) % 3 == 0, end = (int)(pl_random_bits(g) % 6),
+      triple = pl_random_bits(g) % 8 == 0;
   for (int k = 0; k < doubles + simple + triple; k++) {
     long r = 1 + (long)(pl_random_bits(g) % 31);
     bool again = false;
@@ -109,7 +116,8 @@ static planted random_event(pl_random* g) {
   if (end == 0) plant(&p, 0, 1, 1);
   if (end == 1) plant(&p, 1, 1, 1);
   if (end == 2) plant(&p, 1, 1, 2);
-  for (int k = (int)(pl_random_bits(g) % 3); k > 0; k--) times(&p, 1 + (long)(pl_random_bits(g) % 3), 5);
+  for (int k = (int)(pl_random_bits(g) % 3); k > 0; k--)
+    times(&p, 1 + (long)(pl_random_bits(g) % 3), 5);
   for (int k = (int)(pl_random_bits(g) % 3); k > 0; k--)
     times_positive(&p, 1 + (long)(pl_random_bits(g) % 5), -(long)(pl_random_bits(g) % 5), 1);
   return p;
@@ -132,12 +140,15 @@ static void none_is_missed_and_none_invented(void** state) {
     empty += p.n_x == 0;
     pl_root found[MOST];
     int n = pl_roots(c, p.n, noise, 0, found, MOST, work);
-    if (n != p.n_x) print_message("# seed %llu: %d roots, planted %d\n", (unsigned long long)seed, n, p.n_x);
+    if (n != p.n_x)
+      print_message("# seed %llu: %d roots, planted %d\n", (unsigned long long)seed, n, p.n_x);
     assert_int_equal(n, p.n_x);
     for (int i = 0; i < n; i++) {
       bool inside = p.x[i] > 0 && p.x[i] < 1;
       double off = fabs(found[i].x - p.x[i]), most = may_move(c, p.n, p.x[i], p.times[i], noise);
-      if (off > most) print_message("# seed %llu: %.17g, planted %.17g\n", (unsigned long long)seed, found[i].x, p.x[i]);
+      if (off > most)
+        print_message("# seed %llu: %.17g, planted %.17g\n", (unsigned long long)seed, found[i].x,
+                      p.x[i]);
       assert_true(off <= most);
       if (inside) assert_int_equal(found[i].before == found[i].after, p.times[i] % 2 == 0);
       doubles += inside && p.times[i] == 2;
@@ -147,12 +158,16 @@ static void none_is_missed_and_none_invented(void** state) {
       pairs += i > 0 && p.x[i] - p.x[i - 1] < 2e-4;
     }
   }
-  printf("# double %d, simple %d, triple %d, close pairs %d, at the ends %d, without roots %d; %d beyond double skipped\n",
-         doubles, singles, triples, pairs, ends, empty, skipped);
-  assert_true(doubles > 500 && singles > 500 && pairs > 100 && ends > 100 && triples > 50 && skipped < 300);
+  printf(
+      "# double %d, simple %d, triple %d, close pairs %d, at the ends %d, without roots %d; %d "
+      "beyond double skipped\n",
+      doubles, singles, triples, pairs, ends, empty, skipped);
+  assert_true(doubles > 500 && singles > 500 && pairs > 100 && ends > 100 && triples > 50
+              && skipped < 300);
 }
 
-// A double root lifted or lowered: by half of what is known it stays one, by ten times it is none or two.
+// A double root lifted or lowered: by half of what is known it stays one, by ten times it is none
+// or two.
 static void what_is_known_decides_about_a_lifted_double_root(void** state) {
   (void)state;
   for (int k = 1; k < 32; k++) {
@@ -172,7 +187,7 @@ static void what_is_known_decides_about_a_lifted_double_root(void** state) {
 
 static void a_floor_hides_what_is_below_it(void** state) {
   (void)state;
-  double c[] = {0.25 + 1e-9, -1, 1};       // (x - 1/2)^2 + 1e-9
+  double c[] = {0.25 + 1e-9, -1, 1};  // (x - 1/2)^2 + 1e-9
   pl_root out[4];
   assert_int_equal(pl_roots(c, 2, 1e-15, 0, out, 4, work), 0);
   assert_int_equal(pl_roots(c, 2, 1e-15, 1e-8, out, 4, work), 1);

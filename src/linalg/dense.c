@@ -68,7 +68,8 @@ double pl_lu_factor(double* A, int* p, double* scale, int n) {
   return least / most;
 }
 
-void pl_lu_solve(const double* LU, const int* p, const double* scale, double* b, double* work, int n) {
+void pl_lu_solve(const double* LU, const int* p, const double* scale, double* b, double* work,
+                 int n) {
   for (int i = 0; i < n; i++) work[i] = b[i] * scale[i];
   for (int k = 0; k < n; k++) {
     double x = work[p[k]];
@@ -90,11 +91,11 @@ void pl_lu_solve(const double* LU, const int* p, const double* scale, double* b,
   memcpy(b, work, (size_t)n * sizeof *b);
 }
 
-// ---------------------------------------------------------------------------------------------- LDL^T
+// ------------------------------------------------------------------------------------------- LDL^T
 #define AT(i, j) A[(size_t)(i) + (size_t)(j) * (size_t)n]
 
-// Swaps rows and columns r < s of the trailing symmetric matrix from k on.  L to the left of it stays: the solve swaps
-// as it goes.
+// Swaps rows and columns r < s of the trailing symmetric matrix from k on. L to the left of it
+// stays: the solve swaps as it goes.
 static void swap_symmetric(double* A, int n, int k, int r, int s) {
   if (r == s) return;
   for (int j = k; j < r; j++) {
@@ -214,7 +215,8 @@ void pl_ldlt_solve(const double* A, const int* p, double* b, int n) {
       b[k] /= AT(k, k);
       continue;
     }
-    double a = AT(k, k), o = AT(k + 1, k), c = AT(k + 1, k + 1), det = a * c - o * o, x = b[k], y = b[k + 1];
+    double a = AT(k, k), o = AT(k + 1, k), c = AT(k + 1, k + 1), det = a * c - o * o, x = b[k],
+           y = b[k + 1];
     b[k] = (c * x - o * y) / det;
     b[k + 1] = (a * y - o * x) / det;
   }

@@ -1,5 +1,6 @@
-// Dense LU of a complex matrix with partial pivoting and row scaling, in place.  Re and im alternate, column-major:
-// entry (i, j) at A[2 (i + j n)].  Written out in real numbers, so that no library call handles infinities.
+// Dense LU of a complex matrix with partial pivoting and row scaling, in place. Re and im
+// alternate, column-major: entry (i, j) at A[2 (i + j n)]. Written out in real numbers, so that no
+// library call handles infinities.
 #include "linalg/linalg.h"
 
 #include <float.h>
@@ -47,7 +48,8 @@ static int find_pivot(const double* col, int k, int n) {
 }
 
 // y -= f x over rows first .. n-1
-static void subtract(double* restrict y, const double* restrict x, double re, double im, int first, int n) {
+static void subtract(double* restrict y, const double* restrict x, double re, double im, int first,
+                     int n) {
   for (int i = first; i < n; i++) {
     y[2 * i] -= re * x[2 * i] - im * x[2 * i + 1];
     y[2 * i + 1] -= re * x[2 * i + 1] + im * x[2 * i];
@@ -78,7 +80,8 @@ double pl_zlu_factor(double* A, int* p, double* scale, int n) {
     }
     for (int j = k + 1; j < n; j++) {
       double* other = A + 2 * (size_t)j * (size_t)n;
-      if (other[2 * k] != 0 || other[2 * k + 1] != 0) subtract(other, col, other[2 * k], other[2 * k + 1], k + 1, n);
+      if (other[2 * k] != 0 || other[2 * k + 1] != 0)
+        subtract(other, col, other[2 * k], other[2 * k + 1], k + 1, n);
     }
   }
   return least / most;
@@ -91,10 +94,12 @@ void pl_zlu_solve(const double* LU, const int* p, const double* scale, double* b
   }
   for (int k = 0; k < n; k++)
     if (p[k] != k) swap(b + 2 * k, b + 2 * p[k]);
-  for (int k = 0; k < n; k++) subtract(b, LU + 2 * (size_t)k * (size_t)n, b[2 * k], b[2 * k + 1], k + 1, n);
+  for (int k = 0; k < n; k++)
+    subtract(b, LU + 2 * (size_t)k * (size_t)n, b[2 * k], b[2 * k + 1], k + 1, n);
   for (int k = n - 1; k >= 0; k--) {
     const double* col = LU + 2 * (size_t)k * (size_t)n;
-    double norm = col[2 * k] * col[2 * k] + col[2 * k + 1] * col[2 * k + 1], x = b[2 * k], y = b[2 * k + 1];
+    double norm = col[2 * k] * col[2 * k] + col[2 * k + 1] * col[2 * k + 1], x = b[2 * k],
+           y = b[2 * k + 1];
     b[2 * k] = (x * col[2 * k] + y * col[2 * k + 1]) / norm;
     b[2 * k + 1] = (y * col[2 * k] - x * col[2 * k + 1]) / norm;
     subtract(b, col, b[2 * k], b[2 * k + 1], 0, k);

@@ -86,7 +86,8 @@ static void random_polynomials_give_their_least_root(void** state) {
     // close roots lose digits as the polynomial itself does
     double limit = 1e-12 / pow(fmin(nearest, 1), 3);
     if (!(fabs(found - expect) <= limit))
-      print_message("# seed %llu: %.17g, expected %.17g\n", (unsigned long long)seed, found, expect);
+      print_message("# seed %llu: %.17g, expected %.17g\n", (unsigned long long)seed, found,
+                    expect);
     assert_true(fabs(found - expect) <= limit);
   }
 }

@@ -29,7 +29,8 @@ static double residual(const double* A, const double* x, const double* b, int n)
 }
 
 static void check(uint64_t seed, int n, double found, double limit) {
-  if (!(found <= limit)) print_message("# seed %llu, n = %d: %g above %g\n", (unsigned long long)seed, n, found, limit);
+  if (!(found <= limit))
+    print_message("# seed %llu, n = %d: %g above %g\n", (unsigned long long)seed, n, found, limit);
   assert_true(found <= limit);
 }
 
@@ -71,7 +72,8 @@ static void ldlt_solves_random_symmetric_indefinite_systems(void** state) {
 
 static void singular_and_broken_matrices_are_told(void** state) {
   (void)state;
-  double zero_row[] = {1, 0, 2, 0}, equal[] = {1, 1, 2, 2}, nan[] = {1, 0, (double)NAN, 1}, scale[2];
+  double zero_row[] = {1, 0, 2, 0}, equal[] = {1, 1, 2, 2}, nan[] = {1, 0, (double)NAN, 1},
+         scale[2];
   int p[2];
   assert_true(pl_lu_factor(zero_row, p, scale, 2) == 0);
   assert_true(pl_lu_factor(equal, p, scale, 2) == 0);
@@ -85,7 +87,8 @@ static void qr_finds_the_rank_and_least_squares(void** state) {
   (void)state;
   for (uint64_t seed = 1; seed <= 100; seed++) {
     pl_random r = {seed};
-    int m = 4 + (int)(pl_random_bits(&r) % 16), k = 1 + (int)(pl_random_bits(&r) % 4), n = k + 2, jpvt[N];
+    int m = 4 + (int)(pl_random_bits(&r) % 16), k = 1 + (int)(pl_random_bits(&r) % 4), n = k + 2,
+        jpvt[N];
     double A[N * N], Q[N * N], b[N], x[N] = {0}, tau[N], norm[2 * N];
     // n columns, the last two are combinations of the first k
     random_matrix(&r, A, m, k);

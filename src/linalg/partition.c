@@ -1,26 +1,28 @@
 // Parts of a graph and orders of elimination.
 //
-// A graph is cut in two by a level of its breadth-first search from an end [George1973]: nodes before the level touch those behind
-// it only through the level.  Chains are cut at one node, ladders at a rung.  Within a part the search from an end, read
-// backwards, is the order of elimination: on trees it fills nothing in, on bands it keeps the band [CuthillMcKee1969].
+// A graph is cut in two by a level of its breadth-first search from an end [George1973]: nodes
+// before the level touch those behind it only through the level. Chains are cut at one node,
+// ladders at a rung. Within a part the search from an end, read backwards, is the order of
+// elimination: on trees it fills nothing in, on bands it keeps the band [CuthillMcKee1969].
 #include "linalg/symmetric_impl.h"
 
 #if __has_include(<suitesparse/amd.h>)
-#include <suitesparse/amd.h>
+#  include <suitesparse/amd.h>
 #else
-#include <amd.h>
+#  include <amd.h>
 #endif
 
 typedef struct pl_cutter {
   const pl_graph* g;
-  int* set;        // of each node: number of the set that it is in, -1 separator
-  int* seen;       // search in which it was met
+  int* set;   // of each node: number of the set that it is in, -1 separator
+  int* seen;  // search in which it was met
   int search;
-  int *queue, *level;   // of the search at work: nodes, level of each
-  bool* begins;    // of each level: a component begins
+  int *queue, *level;  // of the search at work: nodes, level of each
+  bool* begins;        // of each level: a component begins
 } pl_cutter;
 
-// Searches from a node within its set; nodes go to queue[from ..] with levels from `level` on.  Returns the end of the queue.
+// Searches from a node within its set; nodes go to queue[from ..] with levels from `level` on.
+// Returns the end of the queue.
 static int search_from(pl_cutter* c, int node, int from, int level) {
   int set = c->set[node], end = from;
   c->seen[node] = c->search;
@@ -56,7 +58,8 @@ static void search_all(pl_cutter* c, const int* nodes, int n) {
   }
 }
 
-// Where the searched nodes are cut best: those at [*from, *to) separate; none where a component begins.
+// Where the searched nodes are cut best: those at [*from, *to) separate; none where a component
+// begins.
 static void best_cut(const pl_cutter* c, int n, int* from, int* to) {
   int best = -1;
   for (int i = 0; i < n;) {
@@ -65,17 +68,31 @@ static void best_cut(const pl_cutter* c, int n, int* from, int* to) {
     bool begins = c->begins[c->level[i]];
     int left = i, right = begins ? n - i : n - end, size = begins ? 0 : end - i;
     int price = (left > right ? left : right) + 4 * size;
-    if (best < 0 || price < best) best = price, *from = i, *to = begins ? i : end;
+    if (best < 0 || price < best) {
+      best = price;
+      *from = i;
+      *to = begins ? i : end;
+    }
     i = end;
   }
 }
 
-int pl_graph_cut(pl_arena* a, const pl_graph* g, int parts, int* part, int* separator, int* order, int* first) {
+int pl_graph_cut(pl_arena* a, const pl_graph* g, int parts, int* part, int* separator, int* order,
+                 int* first) {
   int n = g->n, n_separator = 0;
-  pl_cutter c = {g, part, PL_ARRAY(a, int, n + 1), 0, PL_ARRAY(a, int, n + 1), PL_ARRAY(a, int, n + 1),
+  pl_cutter c = {g,
+                 part,
+                 PL_ARRAY(a, int, n + 1),
+                 0,
+                 PL_ARRAY(a, int, n + 1),
+                 PL_ARRAY(a, int, n + 1),
                  PL_ARRAY(a, bool, n + 1)};
-  int *at = PL_ARRAY(a, int, parts + 1), *after = PL_ARRAY(a, int, parts + 1), *cut = PL_ARRAY(a, int, n + 1);
-  for (int i = 0; i < n; i++) order[i] = i, part[i] = 0;
+  int *at = PL_ARRAY(a, int, parts + 1), *after = PL_ARRAY(a, int, parts + 1),
+      *cut = PL_ARRAY(a, int, n + 1);
+  for (int i = 0; i < n; i++) {
+    order[i] = i;
+    part[i] = 0;
+  }
   at[1] = n;
   int n_cut = 0, *level_begin = PL_ARRAY(a, int, 34), n_levels = 0;
   for (int sets = 1; sets < parts; sets *= 2) {

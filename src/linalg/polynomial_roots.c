@@ -1,12 +1,13 @@
 // All roots of a polynomial on [0, 1].
 //
-// Isolation: the Bernstein coefficients on an interval enclose the polynomial, and those of its derivative change sign
-// at least as often as it has extrema there (Descartes).  Intervals are cut until the polynomial has no zero on them,
-// is monotone, or has one extremum, at which it is cut again (Lane and Riesenfeld, BIT 21 (1981) 112).  So a double
-// root needs no luck with its sign: it is an extremum whose value is zero within what is known of the polynomial.
+// Isolation: the Bernstein coefficients on an interval enclose the polynomial, and those of its
+// derivative change sign at least as often as it has extrema there (Descartes). Intervals are cut
+// until the polynomial has no zero on them, is monotone, or has one extremum, at which it is cut
+// again (Lane and Riesenfeld, BIT 21 (1981) 112). So a double root needs no luck with its sign: it
+// is an extremum whose value is zero within what is known of the polynomial.
 //
-// Coefficients on an interval come from those at 0 by a Taylor shift, not from the interval around it: their rounding
-// error then stays below a few ulps of sum |c_k| hi^k, however deep the cuts go.
+// Coefficients on an interval come from those at 0 by a Taylor shift, not from the interval around
+// it: their rounding error then stays below a few ulps of sum |c_k| hi^k, however deep the cuts go.
 #include "linalg/linalg.h"
 
 #include <float.h>
@@ -14,14 +15,14 @@
 #include <string.h>
 
 enum {
-  DEEPEST = 48,     // cuts: the interval is then a rounding error wide
-  CLOSE = 10,       // cuts after which an uncertain end is believed
-  MOST_PARTS = 4096 // intervals looked at; noise between many roots makes more
+  DEEPEST = 48,      // cuts: the interval is then a rounding error wide
+  CLOSE = 10,        // cuts after which an uncertain end is believed
+  MOST_PARTS = 4096  // intervals looked at; noise between many roots makes more
 };
 
 double pl_root_noise(int n) { return (4 * n + 4) * DBL_EPSILON; }
 
-// ---------------------------------------------------------------------------------------------- evaluation
+// -------------------------------------------------------------------------------------- evaluation
 static double horner(const double* c, int n, double x, double* slope) {
   double p = c[n], d = 0;
   for (int i = n - 1; i >= 0; i--) {
@@ -32,7 +33,8 @@ static double horner(const double* c, int n, double x, double* slope) {
   return p;
 }
 
-// c(lo + w s) = sum of a_i s^i, then Bernstein: b_j = sum_{i<=j} C(j,i)/C(n,i) a_i, built row by row.
+// c(lo + w s) = sum of a_i s^i, then Bernstein: b_j = sum_{i<=j} C(j,i)/C(n,i) a_i, built row by
+// row.
 static void to_bernstein(const double* c, int n, double lo, double w, double* b) {
   memcpy(b, c, ((size_t)n + 1) * sizeof *b);
   for (int i = 0; i < n && lo != 0; i++)
@@ -63,17 +65,18 @@ static double polish(const double* c, int n, double lo, double hi, int before) {
   return x;
 }
 
-// ---------------------------------------------------------------------------------------------- what is known so far
-// The walk from 0 to 1: the last place with a certain sign, and whether what follows it is zero within the noise.
+// ---------------------------------------------------------------------------- what is known so far
+// The walk from 0 to 1: the last place with a certain sign, and whether what follows it is zero
+// within the noise.
 typedef struct walk {
   const double* c;
-  const double* slope;     // coefficients of the derivative
+  const double* slope;  // coefficients of the derivative
   double* b;
-  int n, direction;        // direction: only crossings this way, 0: all roots
+  int n, direction;  // direction: only crossings this way, 0: all roots
   double noise, floor;
-  double firm;             // last place with a certain sign
-  int sign;                // that sign, 0: none yet
-  bool zero;               // between firm and here it is not certain
+  double firm;  // last place with a certain sign
+  int sign;     // that sign, 0: none yet
+  bool zero;    // between firm and here it is not certain
   double zero_from, zero_to;
   int parts;
   pl_root* out;
@@ -93,25 +96,32 @@ static int sign_of(double x, double noise) { return x > noise ? 1 : x < -noise ?
 static bool is_wanted(const walk* w, int before, int after) {
   if (w->direction == 0) return true;
   // one side may be unknown: at an end
-  return w->direction > 0 ? before <= 0 && after >= 0 && before != after : before >= 0 && after <= 0 && before != after;
+  return w->direction > 0 ? before <= 0 && after >= 0 && before != after
+                          : before >= 0 && after <= 0 && before != after;
 }
 
 static void give(walk* w, double x, int before, int after) {
-  if (w->found < w->room && is_wanted(w, before, after)) w->out[w->found++] = (pl_root){x, before, after};
+  if (w->found < w->room && is_wanted(w, before, after))
+    w->out[w->found++] = (pl_root){x, before, after};
 }
 
-// Where the polynomial is nearest to zero, between two places; `otherwise` when it has no extremum of this kind there.
+// Where the polynomial is nearest to zero, between two places; `otherwise` when it has no extremum
+// of this kind there.
 static double touching_place(const walk* w, double from, double to, int sign, double otherwise) {
-  double d, slope_from = horner(w->slope, w->n - 1, from, &d), slope_to = horner(w->slope, w->n - 1, to, &d);
-  if (sign * slope_from < 0 && sign * slope_to > 0) return polish(w->slope, w->n - 1, from, to, -sign);
+  double d, slope_from = horner(w->slope, w->n - 1, from, &d),
+            slope_to = horner(w->slope, w->n - 1, to, &d);
+  if (sign * slope_from < 0 && sign * slope_to > 0)
+    return polish(w->slope, w->n - 1, from, to, -sign);
   return otherwise;
 }
 
 // The polynomial has the sign s at x for certain.
 static void firm(walk* w, double x, int s) {
   if (w->zero && w->sign == 0) give(w, w->zero_from, 0, s);
-  else if (w->zero && w->sign == s) give(w, touching_place(w, w->firm, x, s, 0.5 * (w->zero_from + w->zero_to)), s, s);
-  else if (w->sign != 0 && w->sign != s) give(w, polish(w->c, w->n, w->firm, x, w->sign), w->sign, s);
+  else if (w->zero && w->sign == s)
+    give(w, touching_place(w, w->firm, x, s, 0.5 * (w->zero_from + w->zero_to)), s, s);
+  else if (w->sign != 0 && w->sign != s)
+    give(w, polish(w->c, w->n, w->firm, x, w->sign), w->sign, s);
   w->firm = x;
   w->sign = s;
   w->zero = false;
@@ -128,7 +138,7 @@ static void point(walk* w, double x, int s) {
   else unsure(w, x, x);
 }
 
-// ---------------------------------------------------------------------------------------------- an interval
+// ------------------------------------------------------------------------------------- an interval
 static int sign_changes(const double* b, int n, double noise) {
   int changes = 0, last = 0;
   for (int j = 0; j <= n; j++) {
@@ -194,23 +204,31 @@ static void visit(walk* w, double lo, double hi, int depth) {
   }
 }
 
-static int search(const double* c, int n, int direction, double noise, double floor, pl_root* out, int room,
-                  double* work) {
+static int search(const double* c, int n, int direction, double noise, double floor, pl_root* out,
+                  int room, double* work) {
   while (n > 0 && c[n] == 0) n--;
   for (int i = 0; i <= n; i++)
     if (!(fabs(c[i]) <= DBL_MAX)) return 0;
   if (n <= 0 || room <= 0) return 0;
   double *b = work, *slope = work + n + 1;
   for (int i = 1; i <= n; i++) slope[i - 1] = i * c[i];
-  walk w = {.c = c, .slope = slope, .b = b, .n = n, .direction = direction, .noise = fmax(noise, DBL_EPSILON),
-            .floor = floor, .out = out, .room = room};
+  walk w = {.c = c,
+            .slope = slope,
+            .b = b,
+            .n = n,
+            .direction = direction,
+            .noise = fmax(noise, DBL_EPSILON),
+            .floor = floor,
+            .out = out,
+            .room = room};
   visit(&w, 0, 1, 0);
   if (w.zero && w.sign != 0) give(&w, touching_place(&w, w.firm, 1, w.sign, 1), w.sign, 0);
   else if (w.zero) give(&w, 0, 0, 0);
   return w.found;
 }
 
-int pl_roots(const double* c, int n, double noise, double floor, pl_root* out, int room, double* work) {
+int pl_roots(const double* c, int n, double noise, double floor, pl_root* out, int room,
+             double* work) {
   return search(c, n, 0, noise, floor, out, room, work);
 }
 

@@ -1,5 +1,5 @@
-// What is independent of what: QR with column pivoting (Businger and Golub, Numer. Math. 7 (1965) 269) and a
-// maximal independent subset of rows by priority.
+// What is independent of what: QR with column pivoting (Businger and Golub, Numer. Math. 7 (1965)
+// 269) and a maximal independent subset of rows by priority.
 #include "linalg/linalg.h"
 
 #include <float.h>
@@ -75,7 +75,7 @@ void pl_qr_least_squares(const double* A, const double* tau, double* b, int m, i
   }
 }
 
-// ---------------------------------------------------------------------------------------------- independent rows
+// -------------------------------------------------------------------------------- independent rows
 static double row_length(const double* a, int n) {
   double s = 0, most = 0;
   for (int j = 0; j < n; j++) s += a[j] * a[j];
@@ -95,13 +95,14 @@ static void take_out(double* a, const double* unit, int n) {
 }
 
 // The row of this priority of which most is left; -1 when none has more than rel.
-static int most_left(const double* A, const int* priority, const bool* taken, const double* left, int m, int level,
-                     double rel) {
+static int most_left(const double* A, const int* priority, const bool* taken, const double* left,
+                     int m, int level, double rel) {
   int best = -1;
   (void)A;
   for (int r = 0; r < m; r++) {
     if (taken[r] || priority[r] != level || !(left[r] > rel)) continue;
-    // a clear lead is needed to overtake an earlier row, so that the choice does not hang on rounding
+    // a clear lead is needed to overtake an earlier row, so that the choice does not hang on
+    // rounding
     if (best < 0 || left[r] > left[best] * (1 + 1e-6)) best = r;
   }
   return best;
@@ -114,8 +115,8 @@ static int next_priority(const int* priority, int m, int after) {
   return next;
 }
 
-int pl_independent_rows(double* A, const int* priority, bool* taken, double* work, int m, int n, double rel,
-                        double* smallest) {
+int pl_independent_rows(double* A, const int* priority, bool* taken, double* work, int m, int n,
+                        double rel, double* smallest) {
   int count = 0;
   *smallest = 1;
   for (int r = 0; r < m; r++) {

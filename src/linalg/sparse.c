@@ -1,14 +1,15 @@
-// Sparse LU through KLU (Davis and Palamadai Natarajan, ACM TOMS 37 (2010) 36).  The order of elimination is found
-// once; the pivots of the first factorisation are kept while they serve, so that a step allocates nothing.
+// Sparse LU through KLU (Davis and Palamadai Natarajan, ACM TOMS 37 (2010) 36). The order of
+// elimination is found once; the pivots of the first factorisation are kept while they serve, so
+// that a step allocates nothing.
 #include "linalg/linalg.h"
 
 #include <float.h>
 #include <math.h>
 
 #if __has_include(<suitesparse/klu.h>)
-#include <suitesparse/klu.h>
+#  include <suitesparse/klu.h>
 #else
-#include <klu.h>
+#  include <klu.h>
 #endif
 
 struct pl_sparse {
@@ -22,8 +23,8 @@ struct pl_sparse {
   double growth;  // reciprocal growth of entries there
 };
 
-// Pivots kept from an earlier factorisation serve while entries grow not much more with them than with pivots of their own:
-// each power of ten that they grow costs a digit of the solution.
+// Pivots kept from an earlier factorisation serve while entries grow not much more with them than
+// with pivots of their own: each power of ten that they grow costs a digit of the solution.
 static const double part_of_growth = 0.05;
 
 pl_sparse* pl_sparse_make(pl_arena* a, int n, const int* start, const int* row) {
@@ -91,7 +92,9 @@ void pl_sparse_keep(pl_sparse* s, pl_keeper* k) {
   if (has && !factor_anew(s)) pl_keep_fail(k);
 }
 
-void pl_sparse_solve(pl_sparse* s, double* b) { klu_solve(s->symbolic, s->numeric, s->n, 1, b, &s->common); }
+void pl_sparse_solve(pl_sparse* s, double* b) {
+  klu_solve(s->symbolic, s->numeric, s->n, 1, b, &s->common);
+}
 
 double pl_sparse_rcond(pl_sparse* s) {
   if (!s->numeric || !klu_rcond(s->symbolic, s->numeric, &s->common)) return 0;

@@ -5,9 +5,9 @@
 #include <math.h>
 
 #if __has_include(<suitesparse/klu.h>)
-#include <suitesparse/klu.h>
+#  include <suitesparse/klu.h>
 #else
-#include <klu.h>
+#  include <klu.h>
 #endif
 
 struct pl_zsparse {
@@ -40,8 +40,8 @@ void pl_zsparse_free(pl_zsparse* s) {
   if (s->symbolic) klu_free_symbolic(&s->symbolic, &s->common);
 }
 
-// A new pivot order each time: the result then depends on the values alone, and a step of the implicit method factors
-// seldom.
+// A new pivot order each time: the result then depends on the values alone, and a step of the
+// implicit method factors seldom.
 bool pl_zsparse_factor(pl_zsparse* s, const double* value) {
   for (int k = 0; k < 2 * s->start[s->n]; k++) {
     if (!(fabs(value[k]) <= DBL_MAX)) return false;
@@ -52,7 +52,9 @@ bool pl_zsparse_factor(pl_zsparse* s, const double* value) {
   return s->numeric != NULL && s->common.status == KLU_OK;
 }
 
-void pl_zsparse_solve(pl_zsparse* s, double* b) { klu_z_solve(s->symbolic, s->numeric, s->n, 1, b, &s->common); }
+void pl_zsparse_solve(pl_zsparse* s, double* b) {
+  klu_z_solve(s->symbolic, s->numeric, s->n, 1, b, &s->common);
+}
 
 double pl_zsparse_rcond(pl_zsparse* s) {
   if (!s->numeric || !klu_z_rcond(s->symbolic, s->numeric, &s->common)) return 0;

@@ -1,12 +1,14 @@
-// Symmetric systems of mechanics, [M G^T; G 0] and the like, by L D L^T without pivoting in an order found once.
+// Symmetric systems of mechanics, [M G^T; G 0] and the like, by L D L^T without pivoting in an
+// order found once.
 //
-// Coordinates whose mass couples to no other are eliminated first, all at once: what is left is G M^-1 G^T, the core.  Its graph is
-// cut into 8, 16 or 32 parts that touch only through a few separators (partition.c).  All parts are eliminated side by side, one in
-// each lane, over the union of their structures; the separators come last, as a system of their own.  On a chain of rods that is
-// a tridiagonal solve that runs in eight lanes; ladders, trees and nets have broader parts.  Where that costs more than one lane in an
-// order of least degree, that is taken.
-// The pivots are judged by what is left of them after the subtractions; without pivoting that is right for masses above zero, and
-// where it is not, the caller goes on with a general factorisation.
+// Coordinates whose mass couples to no other are eliminated first, all at once: what is left is G
+// M^-1 G^T, the core. Its graph is cut into 8, 16 or 32 parts that touch only through a few
+// separators (partition.c). All parts are eliminated side by side, one in each lane, over the union
+// of their structures; the separators come last, as a system of their own. On a chain of rods that
+// is a tridiagonal solve that runs in eight lanes; ladders, trees and nets have broader parts.
+// Where that costs more than one lane in an order of least degree, that is taken. The pivots are
+// judged by what is left of them after the subtractions; without pivoting that is right for masses
+// above zero, and where it is not, the caller goes on with a general factorisation.
 #include "linalg/symmetric_impl.h"
 
 #include <math.h>
@@ -18,14 +20,14 @@ typedef struct pl_builder {
   pl_symmetric* s;
   const int *start, *row;
   const unsigned char* kind;
-  int *core_of, *early_of;     // number among these, -1
-  pl_graph graph;              // of the core
+  int *core_of, *early_of;  // number among these, -1
+  pl_graph graph;           // of the core
   int *part, *separator, n_separators, *order, *first;
-  int *step, *lane;            // of a node of the core; a separator: number in its front, lane -1
-  int *slot_separator;         // of slot b in lane l at b lanes + l                -1 none
+  int *step, *lane;     // of a node of the core; a separator: number in its front, lane -1
+  int* slot_separator;  // of slot b in lane l at b lanes + l                -1 none
 } pl_builder;
 
-// ---------------------------------------------------------------------------------------------- early and core
+// ---------------------------------------------------------------------------------- early and core
 static bool is_early(const pl_builder* b, int i) {
   int n = b->start[i + 1] - b->start[i];
   if (b->kind[i] != PL_UNKNOWN_MASS || n > MOST_NEIGHBOURS + 1) return false;
@@ -48,15 +50,21 @@ static void divide(pl_builder* b) {
   s->core = PL_ARRAY(b->a, int, s->n + 1);
   for (int i = 0; i < s->n; i++) {
     b->core_of[i] = b->early_of[i] = -1;
-    if (is_early(b, i)) b->early_of[i] = s->n_early, s->early[s->n_early++] = i;
-    else b->core_of[i] = s->n_core, s->core[s->n_core++] = i;
+    if (is_early(b, i)) {
+      b->early_of[i] = s->n_early;
+      s->early[s->n_early++] = i;
+    } else {
+      b->core_of[i] = s->n_core;
+      s->core[s->n_core++] = i;
+    }
   }
   s->early_run = run_of(s->early, s->n_early);
   s->core_run = run_of(s->core, s->n_core);
 }
 
-// ---------------------------------------------------------------------------------------------- graph of the core
-// Calls what(user, i, j) for every pair of the core that is coupled, by the matrix or through an early one; often more than once.
+// ------------------------------------------------------------------------------- graph of the core
+// Calls what(user, i, j) for every pair of the core that is coupled, by the matrix or through an
+// early one; often more than once.
 typedef void pl_pair_use(void* user, int i, int j);
 
 static void each_pair(const pl_builder* b, pl_pair_use* what, void* user) {
@@ -70,14 +78,18 @@ static void each_pair(const pl_builder* b, pl_pair_use* what, void* user) {
     int i = s->early[k];
     for (int e = b->start[i]; e < b->start[i + 1]; e++)
       for (int f = b->start[i]; f < e; f++)
-        if (b->row[e] != i && b->row[f] != i) what(user, b->core_of[b->row[f]], b->core_of[b->row[e]]);
+        if (b->row[e] != i && b->row[f] != i)
+          what(user, b->core_of[b->row[f]], b->core_of[b->row[e]]);
   }
 }
 
-typedef struct pl_edges { int *count, *to; } pl_edges;
+typedef struct pl_edges {
+  int *count, *to;
+} pl_edges;
 static void count_edge(void* user, int i, int j) {
   pl_edges* g = user;
-  g->count[i]++, g->count[j]++;
+  g->count[i]++;
+  g->count[j]++;
 }
 static void add_edge(void* user, int i, int j) {
   pl_edges* g = user;
@@ -106,14 +118,17 @@ static bool make_graph(pl_builder* b) {
     int from = start[i];
     start[i] = kept;
     for (int e = from; e < g.count[i]; e++)
-      if (seen[g.to[e]] != i + 1) seen[g.to[e]] = i + 1, g.to[kept++] = g.to[e];
+      if (seen[g.to[e]] != i + 1) {
+        seen[g.to[e]] = i + 1;
+        g.to[kept++] = g.to[e];
+      }
   }
   start[n] = kept;
   b->graph = (pl_graph){n, start, g.to};
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- places
+// ------------------------------------------------------------------------------------------ places
 // One lane: coordinates with mass, constraints, the rest, each kind in an order of least degree.
 static bool order_in_one_lane(pl_builder* b) {
   pl_symmetric* s = b->s;
@@ -122,7 +137,10 @@ static bool order_in_one_lane(pl_builder* b) {
   if (!pl_graph_least_degree(&b->graph, order)) return false;
   for (int k = 0; k < 3; k++)
     for (int i = 0; i < s->n_core; i++)
-      if (b->kind[s->core[order[i]]] == kinds[k]) b->step[order[i]] = n++, b->lane[order[i]] = 0;
+      if (b->kind[s->core[order[i]]] == kinds[k]) {
+        b->step[order[i]] = n++;
+        b->lane[order[i]] = 0;
+      }
   b->n_separators = 0;
   return true;
 }
@@ -140,15 +158,20 @@ static int order_in_lanes(pl_builder* b, int lanes) {
   for (int p = 0; p < lanes; p++)
     for (int i = b->first[p]; i < b->first[p + 1]; i++) {
       b->lane[b->order[i]] = p;
-      b->step[b->order[i]] = m - (b->first[p + 1] - i);   // all end together
+      b->step[b->order[i]] = m - (b->first[p + 1] - i);  // all end together
     }
-  for (int j = 0; j < b->n_separators; j++) b->lane[b->separator[j]] = -1, b->step[b->separator[j]] = j;
+  for (int j = 0; j < b->n_separators; j++) {
+    b->lane[b->separator[j]] = -1;
+    b->step[b->separator[j]] = j;
+  }
   return m;
 }
 
-// The separators that a part touches get slots.  What is filled in of a slot begins at the first step that touches it: lanes
-// share slots that begin close to each other.
-typedef struct pl_touch { int separator, step; } pl_touch;
+// The separators that a part touches get slots. What is filled in of a slot begins at the first
+// step that touches it: lanes share slots that begin close to each other.
+typedef struct pl_touch {
+  int separator, step;
+} pl_touch;
 typedef PL_VEC(pl_touch) pl_touches;
 
 static void list_touches(pl_builder* b, pl_touches* touch) {
@@ -180,18 +203,24 @@ static int give_slots(pl_builder* b, int lanes) {
   int most = 0, widest = 0;
   if (b->n_separators > 0) list_touches(b, touch);
   for (int p = 0; p < lanes; p++)
-    if (touch[p].n > most) most = touch[p].n, widest = p;
+    if (touch[p].n > most) {
+      most = touch[p].n;
+      widest = p;
+    }
   if (most > MOST_SLOTS) return most;
   for (int p = 0; p < lanes; p++) sort_touches(&touch[p]);
-  b->slot_separator = PL_ARRAY(b->a, int, most * lanes + 1);
+  b->slot_separator = PL_ARRAY(b->a, int, most* lanes + 1);
   for (int i = 0; i < most * lanes; i++) b->slot_separator[i] = -1;
   for (int p = 0; p < lanes; p++)
     for (int i = 0; i < touch[p].n; i++) {
       int best = -1;
       // from the back, so that equal distances leave the early slots
       for (int s = most - 1; s >= 0; s--) {
-        int far = touch[widest].at[s].step - touch[p].at[i].step, near = best < 0 ? 0 : touch[widest].at[best].step - touch[p].at[i].step;
-        if (b->slot_separator[s * lanes + p] < 0 && (best < 0 || (far < 0 ? -far : far) < (near < 0 ? -near : near))) best = s;
+        int far = touch[widest].at[s].step - touch[p].at[i].step,
+            near = best < 0 ? 0 : touch[widest].at[best].step - touch[p].at[i].step;
+        if (b->slot_separator[s * lanes + p] < 0
+            && (best < 0 || (far < 0 ? -far : far) < (near < 0 ? -near : near)))
+          best = s;
       }
       b->slot_separator[best * lanes + p] = touch[p].at[i].separator;
     }
@@ -204,13 +233,21 @@ static int slot_of(const pl_builder* b, const pl_symmetric_front* f, int lane, i
   return -1;
 }
 
-// ---------------------------------------------------------------------------------------------- structure
-typedef struct pl_structure { pl_builder* b; pl_symmetric_front* f; pl_int_list *main, *border; } pl_structure;
+// --------------------------------------------------------------------------------------- structure
+typedef struct pl_structure {
+  pl_builder* b;
+  pl_symmetric_front* f;
+  pl_int_list *main, *border;
+} pl_structure;
 
 static void add_pair(void* user, int i, int j) {
   pl_structure* t = user;
   pl_builder* b = t->b;
-  if (b->lane[i] < 0) { int x = i; i = j; j = x; }
+  if (b->lane[i] < 0) {
+    int x = i;
+    i = j;
+    j = x;
+  }
   int si = b->step[i], sj = b->step[j];
   if (b->lane[i] < 0) pl_push(b->a, t->border[si < sj ? si : sj].v, si < sj ? sj : si);
   else if (b->lane[j] < 0) pl_push(b->a, t->main[si].v, t->f->m + slot_of(b, t->f, b->lane[i], sj));
@@ -234,42 +271,53 @@ static bool structure(pl_builder* b, int lanes, pl_symmetric_front* f, pl_symmet
   else if (!order_in_one_lane(b)) return false;
   *f = (pl_symmetric_front){.lanes = lanes, .m = m, .nb = give_slots(b, lanes)};
   if (f->nb > MOST_SLOTS) return false;
-  pl_structure t = {b, f, PL_ARRAY(b->a, pl_int_list, m + 1), PL_ARRAY(b->a, pl_int_list, b->n_separators + 1)};
+  pl_structure t = {b, f, PL_ARRAY(b->a, pl_int_list, m + 1),
+                    PL_ARRAY(b->a, pl_int_list, b->n_separators + 1)};
   each_pair(b, add_pair, &t);
   couple_separators(&t);
-  return pl_symmetric_front_make(b->a, f, lanes, m, f->nb, t.main) &&
-         pl_symmetric_front_make(b->a, border, 1, b->n_separators, 0, t.border);
+  return pl_symmetric_front_make(b->a, f, lanes, m, f->nb, t.main)
+         && pl_symmetric_front_make(b->a, border, 1, b->n_separators, 0, t.border);
 }
 
 // Cycles of a solve, about: entries are read twice; each step waits for the one before.
 static double price(const pl_symmetric_front* f) {
   double vectors = f->lanes / 8.0;
-  return f->lanes == 1 ? 5.0 * f->n + 20.0 * f->m : 3.0 * vectors * f->n + (12 + 6 * vectors) * f->m;
+  return f->lanes == 1 ? 5.0 * f->n + 20.0 * f->m
+                       : 3.0 * vectors * f->n + (12 + 6 * vectors) * f->m;
 }
 
-// Above so many cycles for an unknown too much fills in, as where one coordinate stands in hundreds of constraints: a factorisation that
-// eliminates the constraints first is cheaper.
+// Above so many cycles for an unknown too much fills in, as where one coordinate stands in hundreds
+// of constraints: a factorisation that eliminates the constraints first is cheaper.
 static const double too_dear = 40;
 
 static bool choose(pl_builder* b) {
   pl_symmetric* s = b->s;
   pl_symmetric_front f, g;
   bool only_constraints = true;
-  for (int i = 0; i < s->n_core; i++) only_constraints &= b->kind[s->core[i]] == PL_UNKNOWN_CONSTRAINT;
-  int lanes = s->n_core < FEW || !only_constraints ? 1 : s->n_core < 400 ? 8 : s->n_core < 2000 ? 16 : 32;
-  double most = too_dear * s->n, cost = structure(b, lanes, &f, &g) ? price(&f) + price(&g) : (double)INFINITY;
-  s->main = f, s->border = g;
+  for (int i = 0; i < s->n_core; i++)
+    only_constraints &= b->kind[s->core[i]] == PL_UNKNOWN_CONSTRAINT;
+  int lanes = s->n_core < FEW || !only_constraints ? 1
+              : s->n_core < 400                    ? 8
+              : s->n_core < 2000                   ? 16
+                                                   : 32;
+  double most = too_dear * s->n,
+         cost = structure(b, lanes, &f, &g) ? price(&f) + price(&g) : (double)INFINITY;
+  s->main = f;
+  s->border = g;
   // a part as simple as a chain's needs no comparison
   if (lanes == 1 || cost < 3.5 * s->n_core + 400) return cost < most;
   if (structure(b, 1, &f, &g) && price(&f) < cost) {
-    s->main = f, s->border = g;
+    s->main = f;
+    s->border = g;
     return price(&f) < most;
   }
   return cost < most && structure(b, lanes, &s->main, &s->border);
 }
 
-// ---------------------------------------------------------------------------------------------- memory
-static size_t units(const pl_symmetric_front* f) { return (size_t)f->m + (size_t)f->n + (size_t)f->nb * ((size_t)f->nb + 1) / 2; }
+// ------------------------------------------------------------------------------------------ memory
+static size_t units(const pl_symmetric_front* f) {
+  return (size_t)f->m + (size_t)f->n + (size_t)f->nb * ((size_t)f->nb + 1) / 2;
+}
 
 static bool reserve(pl_builder* b) {
   pl_symmetric* s = b->s;
@@ -279,10 +327,12 @@ static bool reserve(pl_builder* b) {
   if (s->n_memory > INT32_MAX) return false;
   s->memory = PL_ARRAY(b->a, double, s->n_memory + 1);
   s->solution = PL_ARRAY(b->a, double, ((size_t)f->m + (size_t)f->nb) * lanes + (size_t)g->m + 1);
-  f->w = s->memory, g->w = s->memory + of_main;
-  f->y = s->solution, g->y = s->solution + ((size_t)f->m + (size_t)f->nb) * lanes;
-  f->inverse = PL_ARRAY(b->a, double, (size_t)f->m * lanes + 1);
-  f->d = PL_ARRAY(b->a, double, (size_t)f->m * lanes + 1);
+  f->w = s->memory;
+  g->w = s->memory + of_main;
+  f->y = s->solution;
+  g->y = s->solution + ((size_t)f->m + (size_t)f->nb) * lanes;
+  f->inverse = PL_ARRAY(b->a, double, (size_t)f->m* lanes + 1);
+  f->d = PL_ARRAY(b->a, double, (size_t)f->m* lanes + 1);
   g->inverse = PL_ARRAY(b->a, double, (size_t)g->m + 1);
   g->d = PL_ARRAY(b->a, double, (size_t)g->m + 1);
   size_t early = (size_t)s->n_early + 16, core = (size_t)s->n_core + 16;
@@ -298,8 +348,13 @@ static bool reserve(pl_builder* b) {
 static int target(const pl_builder* b, int i, int j) {
   const pl_symmetric* s = b->s;
   const pl_symmetric_front *f = &s->main, *g = &s->border;
-  if (b->lane[i] < 0) { int x = i; i = j; j = x; }
-  if (b->lane[i] < 0) return (int)(g->w - s->memory) + pl_symmetric_front_find(g, b->step[i], b->step[j]);
+  if (b->lane[i] < 0) {
+    int x = i;
+    i = j;
+    j = x;
+  }
+  if (b->lane[i] < 0)
+    return (int)(g->w - s->memory) + pl_symmetric_front_find(g, b->step[i], b->step[j]);
   int row = b->lane[j] < 0 ? f->m + slot_of(b, f, b->lane[i], b->step[j]) : b->step[j];
   return pl_symmetric_front_find(f, b->step[i], row) * f->lanes + b->lane[i];
 }
@@ -309,11 +364,12 @@ static void place_core(pl_builder* b) {
   const pl_symmetric_front *f = &s->main, *g = &s->border;
   int lanes = f->lanes;
   for (int i = 0; i < s->n_core; i++)
-    s->of_core[i] = b->lane[i] < 0 ? (int)(g->y - s->solution) + b->step[i] : b->step[i] * lanes + b->lane[i];
-  bool* used = PL_ARRAY(b->a, bool, f->m * lanes + 1);
+    s->of_core[i] = b->lane[i] < 0 ? (int)(g->y - s->solution) + b->step[i]
+                                   : b->step[i] * lanes + b->lane[i];
+  bool* used = PL_ARRAY(b->a, bool, f->m* lanes + 1);
   for (int i = 0; i < s->n_core; i++)
     if (b->lane[i] >= 0) used[s->of_core[i]] = true;
-  s->ones = PL_ARRAY(b->a, int, f->m * lanes + 1);
+  s->ones = PL_ARRAY(b->a, int, f->m* lanes + 1);
   for (int i = 0; i < f->m * lanes; i++)
     if (!used[i]) s->ones[s->n_ones++] = i;
   s->slot_border = b->slot_separator;
@@ -355,7 +411,8 @@ static void place_early(pl_builder* b) {
       }
       pl_push(b->a, from, e);
       int last = b->core_of[b->row[e]];
-      for (int f = s->schur_start[k]; f < from.n; f++) pl_push(b->a, to, target(b, b->core_of[b->row[from.at[f]]], last));
+      for (int f = s->schur_start[k]; f < from.n; f++)
+        pl_push(b->a, to, target(b, b->core_of[b->row[from.at[f]]], last));
     }
     s->schur_start[k + 1] = from.n;
   }
@@ -363,8 +420,11 @@ static void place_early(pl_builder* b) {
   s->schur_to = to.at;
 }
 
-// ---------------------------------------------------------------------------------------------- rows in groups
-typedef struct pl_row_entry { int lane, index, from; bool placed; } pl_row_entry;
+// ---------------------------------------------------------------------------------- rows in groups
+typedef struct pl_row_entry {
+  int lane, index, from;
+  bool placed;
+} pl_row_entry;
 typedef struct pl_row_maker {
   pl_arena* a;
   PL_VEC(int) base, index, from;
@@ -380,7 +440,8 @@ static int new_entry(pl_row_maker* k, int base) {
   return 8 * (k->base.n - 1);
 }
 
-// Entries whose indices grow with the lane are read at once where there are enough of them, the others one by one.
+// Entries whose indices grow with the lane are read at once where there are enough of them, the
+// others one by one.
 static void close_group(pl_row_maker* k) {
   enum { ENOUGH = 3 };
   for (int i = 0; i < k->group.n; i++) {
@@ -397,7 +458,7 @@ static void close_group(pl_row_maker* k) {
       e->placed = true;
     }
   }
-  int room[8];    // of each lane: the next entry of single ones
+  int room[8];  // of each lane: the next entry of single ones
   int first = k->base.n;
   for (int l = 0; l < 8; l++) room[l] = first;
   for (int i = 0; i < k->group.n; i++) {
@@ -410,14 +471,16 @@ static void close_group(pl_row_maker* k) {
   k->group.n = 0;
 }
 
-static void make_rows(pl_builder* b, pl_symmetric_rows* r, const int* rows, int n, const int* other_of) {
+static void make_rows(pl_builder* b, pl_symmetric_rows* r, const int* rows, int n,
+                      const int* other_of) {
   pl_row_maker k = {.a = b->a};
   r->n_groups = (n + 7) / 8;
   r->first = PL_ARRAY(b->a, int, r->n_groups + 1);
   for (int g = 0; g < r->n_groups; g++) {
     for (int l = 0; l < 8 && 8 * g + l < n; l++)
       for (int e = b->start[rows[8 * g + l]]; e < b->start[rows[8 * g + l] + 1]; e++)
-        if (other_of[b->row[e]] >= 0) pl_push(b->a, k.group, (pl_row_entry){l, other_of[b->row[e]], e, false});
+        if (other_of[b->row[e]] >= 0)
+          pl_push(b->a, k.group, (pl_row_entry){l, other_of[b->row[e]], e, false});
     close_group(&k);
     r->first[g + 1] = k.base.n;
   }
@@ -427,7 +490,7 @@ static void make_rows(pl_builder* b, pl_symmetric_rows* r, const int* rows, int 
   r->value = PL_ARRAY(b->a, double, 8 * (size_t)k.base.n + 1);
 }
 
-// ---------------------------------------------------------------------------------------------- making
+// ------------------------------------------------------------------------------------------ making
 static bool is_symmetric(int n, const int* start, const int* row) {
   for (int j = 0; j < n; j++)
     for (int e = start[j]; e < start[j + 1]; e++) {
@@ -442,7 +505,8 @@ static bool is_symmetric(int n, const int* start, const int* row) {
   return true;
 }
 
-pl_symmetric* pl_symmetric_make(pl_arena* a, int n, const int* start, const int* row, const unsigned char* kind) {
+pl_symmetric* pl_symmetric_make(pl_arena* a, int n, const int* start, const int* row,
+                                const unsigned char* kind) {
   if (!is_symmetric(n, start, row)) return NULL;
   pl_symmetric* s = PL_NEW(a, pl_symmetric);
   pl_builder b = {.a = a, .s = s, .start = start, .row = row, .kind = kind};
@@ -450,7 +514,8 @@ pl_symmetric* pl_symmetric_make(pl_arena* a, int n, const int* start, const int*
   divide(&b);
   if (!make_graph(&b)) return NULL;
   int** of_nodes[] = {&b.part, &b.separator, &b.order, &b.step, &b.lane};
-  for (size_t i = 0; i < sizeof of_nodes / sizeof *of_nodes; i++) *of_nodes[i] = PL_ARRAY(a, int, s->n_core + 1);
+  for (size_t i = 0; i < sizeof of_nodes / sizeof *of_nodes; i++)
+    *of_nodes[i] = PL_ARRAY(a, int, s->n_core + 1);
   b.first = PL_ARRAY(a, int, PL_SYMMETRIC_LANES + 1);
   if (!choose(&b) || !reserve(&b)) return NULL;
   place_core(&b);
@@ -461,15 +526,18 @@ pl_symmetric* pl_symmetric_make(pl_arena* a, int n, const int* start, const int*
   return s;
 }
 
-// ---------------------------------------------------------------------------------------------- numbers
+// ----------------------------------------------------------------------------------------- numbers
 static const pl_symmetric_kernels* kernels(void) {
 #ifdef PL_KERNELS_BY_PROCESSOR
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq"))
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl")
+      && __builtin_cpu_supports("avx512dq"))
     return &pl_symmetric_avx512;
   if (__builtin_cpu_supports("fma") && __builtin_cpu_supports("avx2")) return &pl_symmetric_avx2;
 #endif
   return &pl_symmetric_plain;
 }
 
-double pl_symmetric_factor(pl_symmetric* s, const double* value) { return kernels()->factor(s, value); }
+double pl_symmetric_factor(pl_symmetric* s, const double* value) {
+  return kernels()->factor(s, value);
+}
 void pl_symmetric_solve(pl_symmetric* s, double* b) { kernels()->solve(s, b); }

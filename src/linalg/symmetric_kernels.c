@@ -1,38 +1,39 @@
-// Numbers of the symmetric solver: factor and solve.  This file is compiled for several kinds of processors (meson.build); every
-// sum has one order, and what is fused says so, so that all of them give the same bits.
+// Numbers of the symmetric solver: factor and solve. This file is compiled for several kinds of
+// processors (meson.build); every sum has one order, and what is fused says so, so that all of them
+// give the same bits.
 #include <math.h>
 #include <string.h>
 
 #include "linalg/symmetric_impl.h"
 
 #ifndef PL_SYMMETRIC
-#define PL_SYMMETRIC pl_symmetric_plain
+#  define PL_SYMMETRIC pl_symmetric_plain
 #endif
 #define INLINE static inline __attribute__((always_inline))
-#define EIGHT for (int l = 0; l < 8; l++)
+#define EIGHT  for (int l = 0; l < 8; l++)
 
-// ---------------------------------------------------------------------------------------------- elimination
+// ------------------------------------------------------------------------------------- elimination
 typedef double pl_eight __attribute__((vector_size(64), aligned(8), may_alias));
 
-#define T double
-#define P 1
+#define T       double
+#define P       1
 #define NAME(x) x##_1
 #include "linalg/symmetric_loops.h"
 #undef T
 #undef P
 #undef NAME
-#define T pl_eight
-#define P 1
+#define T       pl_eight
+#define P       1
 #define NAME(x) x##_8
 #include "linalg/symmetric_loops.h"
 #undef P
 #undef NAME
-#define P 2
+#define P       2
 #define NAME(x) x##_16
 #include "linalg/symmetric_loops.h"
 #undef P
 #undef NAME
-#define P 4
+#define P       4
 #define NAME(x) x##_32
 #include "linalg/symmetric_loops.h"
 #undef T
@@ -57,10 +58,11 @@ static double eliminate_front(pl_symmetric_front* f) {
   memcpy(f->d, f->w, (size_t)n * sizeof *f->w);
   EACH_FRONT(f, eliminate)
   for (int i = 0; i < n; i++) {
-    double before = fabs(f->d[i]), taken = fabs(f->d[i] - f->w[i]), size = before > taken ? before : taken;
+    double before = fabs(f->d[i]), taken = fabs(f->d[i] - f->w[i]),
+           size = before > taken ? before : taken;
     double part = fabs(f->w[i]);
     if (part < least * size) least = part / size;
-    wrong += 0 * f->inverse[i];    // not a number once an inverse is none
+    wrong += 0 * f->inverse[i];  // not a number once an inverse is none
   }
   return wrong == 0 ? least : 0;
 }
@@ -80,7 +82,8 @@ static void assemble(pl_symmetric* s, const double* value) {
     double inverse = s->early_inverse[e] = 1 / value[s->early_from[e]];
     for (int i = s->schur_start[e]; i < s->schur_start[e + 1]; i++) {
       double x = value[s->schur_from[i]] * inverse;
-      for (int j = s->schur_start[e]; j <= i; j++, to++) w[*to] = __builtin_fma(-x, value[s->schur_from[j]], w[*to]);
+      for (int j = s->schur_start[e]; j <= i; j++, to++)
+        w[*to] = __builtin_fma(-x, value[s->schur_from[j]], w[*to]);
     }
   }
 }
@@ -100,7 +103,7 @@ static double factor(pl_symmetric* s, const double* value) {
   return part < part_2 ? part : part_2;
 }
 
-// ---------------------------------------------------------------------------------------------- solve
+// ------------------------------------------------------------------------------------------- solve
 // The sums of a group of rows.
 INLINE void rows_times(const pl_symmetric_rows* r, int g, const double* x, double* restrict to) {
   pl_eight sum = {0};
@@ -110,7 +113,8 @@ INLINE void rows_times(const pl_symmetric_rows* r, int g, const double* x, doubl
       sum += *c * *(const pl_eight*)(x + r->base[e]);
     } else {
       const int* at = r->index + 8 * (size_t)e;
-      pl_eight from = {x[at[0]], x[at[1]], x[at[2]], x[at[3]], x[at[4]], x[at[5]], x[at[6]], x[at[7]]};
+      pl_eight from = {x[at[0]], x[at[1]], x[at[2]], x[at[3]],
+                       x[at[4]], x[at[5]], x[at[6]], x[at[7]]};
       sum += *c * from;
     }
   }
@@ -125,26 +129,33 @@ static void solve_fronts(pl_symmetric* s) {
   forward_front(f);
   for (int i = 0; i < f->nb * lanes; i++)
     if (s->slot_border[i] >= 0) b->y[s->slot_border[i]] += y[i];
-  if (b->m > 0) forward_front(b), backward_front(b);
-  for (int i = 0; i < f->nb * lanes; i++) y[i] = s->slot_border[i] >= 0 ? b->y[s->slot_border[i]] : 0;
+  if (b->m > 0) {
+    forward_front(b);
+    backward_front(b);
+  }
+  for (int i = 0; i < f->nb * lanes; i++)
+    y[i] = s->slot_border[i] >= 0 ? b->y[s->slot_border[i]] : 0;
   backward_front(f);
 }
 
 // Unknowns that follow each other are copied in a row.
 static void take(double* restrict to, const double* restrict b, const int* index, int run, int n) {
   if (run >= 0) memcpy(to, b + run, (size_t)n * sizeof *b);
-  else for (int i = 0; i < n; i++) to[i] = b[index[i]];
+  else
+    for (int i = 0; i < n; i++) to[i] = b[index[i]];
 }
 
-static void give(double* restrict b, const double* restrict from, const int* index, int run, int n) {
+static void give(double* restrict b, const double* restrict from, const int* index, int run,
+                 int n) {
   if (run >= 0) memcpy(b + run, from, (size_t)n * sizeof *b);
-  else for (int i = 0; i < n; i++) b[index[i]] = from[i];
+  else
+    for (int i = 0; i < n; i++) b[index[i]] = from[i];
 }
 
 static void solve(pl_symmetric* s, double* b) {
   double sum[8];
   const int* restrict to = s->of_core;
-  double *restrict z = s->z, *restrict x = s->x, *restrict y = s->solution;
+  double* restrict z = s->z, * restrict x = s->x, * restrict y = s->solution;
   const double* restrict inverse = s->early_inverse;
   take(z, b, s->early, s->early_run, s->n_early);
   take(x, b, s->core, s->core_run, s->n_core);

@@ -1,7 +1,8 @@
-// Loops over a front for one number of lanes.  symmetric_kernels.c includes this once for each: T is a number or a vector of eight, P how many
-// of them are a unit, NAME(x) names the functions: one text for what would otherwise be four.
-#define UNIT(x, i) ((T*)(x) + (size_t)(i) * P)
-#define PARTS for (int p = 0; p < P; p++)
+// Loops over a front for one number of lanes. symmetric_kernels.c includes this once for each: T is
+// a number or a vector of eight, P how many of them are a unit, NAME(x) names the functions: one
+// text for what would otherwise be four.
+#define UNIT(x, i) ((T*)(x) + (size_t)(i)*P)
+#define PARTS      for (int p = 0; p < P; p++)
 
 static void NAME(eliminate)(pl_symmetric_front* f) {
   const int* pair = f->pair;
@@ -31,9 +32,11 @@ static void NAME(forward)(const pl_symmetric_front* f) {
   for (int r = 0; r < f->m; r++) {
     T acc[P];
     int i = f->row_start[r], end = f->row_start[r + 1];
-    bool last = end > i && f->row_column[end - 1] == r - 1;   // what has just been computed is still at hand
+    // what has just been computed is still at hand
+    bool last = end > i && f->row_column[end - 1] == r - 1;
     PARTS acc[p] = UNIT(y, r)[p];
-    for (end -= last; i < end; i++) PARTS acc[p] -= UNIT(L, f->row_entry[i])[p] * UNIT(y, f->row_column[i])[p];
+    for (end -= last; i < end; i++)
+      PARTS acc[p] -= UNIT(L, f->row_entry[i])[p] * UNIT(y, f->row_column[i])[p];
     if (last) PARTS acc[p] -= UNIT(L, f->row_entry[end])[p] * before[p];
     PARTS UNIT(y, r)[p] = before[p] = acc[p];
   }

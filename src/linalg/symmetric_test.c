@@ -1,4 +1,5 @@
-// The symmetric solver on chains, trees, nets of rods: residuals, redundancy, the same bits on every processor.
+// The symmetric solver on chains, trees, nets of rods: residuals, redundancy, the same bits on
+// every processor.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -10,13 +11,13 @@
 
 #include "linalg/symmetric_impl.h"
 
-// ---------------------------------------------------------------------------------------------- systems
+// ----------------------------------------------------------------------------------------- systems
 typedef struct t_system {
   pl_arena* a;
   int n, n_q;
-  double* K;                 // dense (n x n)
+  double* K;  // dense (n x n)
   int *start, *row;
-  double *value;
+  double* value;
   unsigned char* kind;
   uint64_t seed;
 } t_system;
@@ -28,31 +29,40 @@ static double noise(t_system* s) {
 
 static t_system open_system(int points, int rods, uint64_t seed) {
   t_system s = {.a = pl_arena_make(0), .n_q = 2 * points, .n = 2 * points + rods, .seed = seed};
-  s.K = PL_ARRAY(s.a, double, (size_t)s.n * (size_t)s.n);
+  s.K = PL_ARRAY(s.a, double, (size_t)s.n*(size_t)s.n);
   s.kind = PL_ARRAY(s.a, unsigned char, s.n);
   for (int i = 0; i < s.n_q; i++) s.K[i + i * s.n] = 1.5 + noise(&s);
   for (int i = s.n_q; i < s.n; i++) s.kind[i] = PL_UNKNOWN_CONSTRAINT;
   return s;
 }
 
-static void set(t_system* s, int i, int j, double x) { s->K[i + j * s->n] = s->K[j + i * s->n] = x; }
+static void set(t_system* s, int i, int j, double x) {
+  s->K[i + j * s->n] = s->K[j + i * s->n] = x;
+}
 
 // A rod between points a and b; b < 0: to a fixed point.  Coordinates: all x, then all y.
 static void rod(t_system* s, int r, int a, int b) {
   double x = noise(s), y = noise(s);
   int points = s->n_q / 2, c = s->n_q + r;
-  set(s, c, a, x), set(s, c, points + a, y);
-  if (b >= 0) set(s, c, b, -x), set(s, c, points + b, -y);
+  set(s, c, a, x);
+  set(s, c, points + a, y);
+  if (b >= 0) {
+    set(s, c, b, -x);
+    set(s, c, points + b, -y);
+  }
 }
 
 static pl_symmetric* close_system(t_system* s) {
   int n = 0;
   s->start = PL_ARRAY(s->a, int, s->n + 1);
-  s->row = PL_ARRAY(s->a, int, (size_t)s->n * (size_t)s->n + 1);
-  s->value = PL_ARRAY(s->a, double, (size_t)s->n * (size_t)s->n + 1);
+  s->row = PL_ARRAY(s->a, int, (size_t)s->n*(size_t)s->n + 1);
+  s->value = PL_ARRAY(s->a, double, (size_t)s->n*(size_t)s->n + 1);
   for (int j = 0; j < s->n; j++) {
     for (int i = 0; i < s->n; i++)
-      if (i == j || s->K[i + j * s->n] != 0) s->row[n] = i, s->value[n++] = s->K[i + j * s->n];
+      if (i == j || s->K[i + j * s->n] != 0) {
+        s->row[n] = i;
+        s->value[n++] = s->K[i + j * s->n];
+      }
     s->start[j + 1] = n;
   }
   return pl_symmetric_make(s->a, s->n, s->start, s->row, s->kind);
@@ -63,7 +73,7 @@ static void expect_solved(t_system* s, const char* what) {
   assert_non_null(x);
   double part = pl_symmetric_factor(x, s->value), most = 0, size = 0;
   double *b = PL_ARRAY(s->a, double, s->n), *r = PL_ARRAY(s->a, double, s->n);
-  for (int round = 0; round < 2; round++) {   // the second time nothing is left of the first
+  for (int round = 0; round < 2; round++) {  // the second time nothing is left of the first
     for (int i = 0; i < s->n; i++) b[i] = r[i] = noise(s);
     pl_symmetric_solve(x, b);
     most = size = 0;
@@ -73,8 +83,11 @@ static void expect_solved(t_system* s, const char* what) {
     }
     for (int i = 0; i < s->n; i++) most = fmax(most, fabs(r[i]));
   }
-  printf("# %s, seed %llu: lanes %d, steps %d, entries %d, border %d; part %.1e, residual %.1e of %.1e\n", what,
-         (unsigned long long)s->seed, x->main.lanes, x->main.m, x->main.n, x->border.m, part, most, size);
+  printf(
+      "# %s, seed %llu: lanes %d, steps %d, entries %d, border %d; part %.1e, residual %.1e of "
+      "%.1e\n",
+      what, (unsigned long long)s->seed, x->main.lanes, x->main.m, x->main.n, x->border.m, part,
+      most, size);
   assert_true(part > 1e-9);
   assert_true(most < 1e-12 * (1 + size) / fmin(1, sqrt(part)));
   pl_arena_free(s->a);
@@ -104,7 +117,7 @@ static t_system net(int n, int m, uint64_t seed) {
   return s;
 }
 
-// ---------------------------------------------------------------------------------------------- tests
+// ------------------------------------------------------------------------------------------- tests
 static void chains_trees_and_nets_are_solved(void** state) {
   (void)state;
   static const int lengths[] = {1, 2, 7, 63, 64, 65, 100, 128, 257, 450};
@@ -113,7 +126,8 @@ static void chains_trees_and_nets_are_solved(void** state) {
     expect_solved(&s, "chain");
   }
   for (uint64_t seed = 1; seed <= 3; seed++) {
-    t_system s = tree((int)(100 * seed), seed), t = net(9, 8 + (int)seed, seed), u = net(3, 60, seed);
+    t_system s = tree((int)(100 * seed), seed), t = net(9, 8 + (int)seed, seed),
+             u = net(3, 60, seed);
     expect_solved(&s, "tree");
     expect_solved(&t, "net");
     expect_solved(&u, "ladder");
@@ -130,14 +144,17 @@ static void separate_pendulums_need_no_separators(void** state) {
 static void coupled_masses_are_solved(void** state) {
   (void)state;
   t_system s = chain(120, 3);
-  for (int i = 0; i < 120; i++) set(&s, i, 120 + i, 0.1 * noise(&s));   // x and y of a mass
+  for (int i = 0; i < 120; i++) set(&s, i, 120 + i, 0.1 * noise(&s));  // x and y of a mass
   expect_solved(&s, "coupled masses");
 }
 
 static void coordinates_without_mass_come_last(void** state) {
   (void)state;
   t_system s = chain(90, 4);
-  for (int i = 80; i < 90; i++) s.K[i + i * s.n] = 0, s.kind[i] = PL_UNKNOWN_OTHER;
+  for (int i = 80; i < 90; i++) {
+    s.K[i + i * s.n] = 0;
+    s.kind[i] = PL_UNKNOWN_OTHER;
+  }
   expect_solved(&s, "without mass");
 }
 
@@ -174,9 +191,11 @@ static void no_number_is_told(void** state) {
 static void every_processor_computes_the_same_bits(void** state) {
   (void)state;
 #ifdef PL_KERNELS_BY_PROCESSOR
-  const pl_symmetric_kernels* kernels[] = {&pl_symmetric_plain, &pl_symmetric_avx2, &pl_symmetric_avx512};
+  const pl_symmetric_kernels* kernels[] = {&pl_symmetric_plain, &pl_symmetric_avx2,
+                                           &pl_symmetric_avx512};
   bool can[] = {true, __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"),
-                __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq")};
+                __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl")
+                    && __builtin_cpu_supports("avx512dq")};
   t_system systems[] = {chain(150, 8), tree(150, 9), net(12, 12, 10)};
   for (int i = 0; i < 3; i++) {
     t_system* s = &systems[i];

@@ -4,7 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-static const pl_constraint* meant(const pl_model* m, const char* label, bool restitution, int index) {
+static const pl_constraint* meant(const pl_model* m, const char* label, bool restitution,
+                                  int index) {
   for (int i = 0; i < m->constraints.n; i++) {
     const pl_constraint* c = &m->constraints.at[i];
     if (restitution ? pl_model_restitution(m, c) == &m->restitutions.at[index]
@@ -15,51 +16,67 @@ static const pl_constraint* meant(const pl_model* m, const char* label, bool res
 }
 
 // One coefficient against its range; most NaN: no upper limit.
-static void check_range(pl_job* job, const pl_model* m, const double* value, pl_expr e, double most, pl_span span,
-                        const char* en, const char* de) {
+static void check_range(pl_job* job, const pl_model* m, const double* value, pl_expr e, double most,
+                        pl_span span, const char* en, const char* de) {
   double x = pl_is_poison(e) ? (double)NAN : pl_eval(m->pool, e, value);
   if (isnan(x) || (x >= 0 && !(x > most))) return;
-  pl_diagnostic* d = isnan(most) ? pl_tell(job, PL_E065, span, PL_F(job, "%s is %.6g, it cannot be negative", en, x),
-                                           PL_F(job, "%s ist %.6g, darf aber nicht negativ sein", de, x))
-                                 : pl_tell(job, PL_E065, span, PL_F(job, "%s is %.6g, it lies between 0 and 1", en, x),
-                                           PL_F(job, "%s ist %.6g, muss aber zwischen 0 und 1 liegen", de, x));
-  if (!isnan(most)) pl_report_fix(d, "0 is an impact without rebound, 1 one without loss",
-                                  "0 ist ein Stoß ohne Rückprall, 1 einer ohne Verlust", NULL);
+  pl_diagnostic* d =
+      isnan(most)
+          ? pl_tell(job, PL_E065, span, PL_F(job, "%s is %.6g, it cannot be negative", en, x),
+                    PL_F(job, "%s ist %.6g, darf aber nicht negativ sein", de, x))
+          : pl_tell(job, PL_E065, span, PL_F(job, "%s is %.6g, it lies between 0 and 1", en, x),
+                    PL_F(job, "%s ist %.6g, muss aber zwischen 0 und 1 liegen", de, x));
+  if (!isnan(most))
+    pl_report_fix(d, "0 is an impact without rebound, 1 one without loss",
+                  "0 ist ein Stoß ohne Rückprall, 1 einer ohne Verlust", NULL);
 }
 
 static void check_restitution(pl_job* job, const pl_model* m, int i, const double* value) {
   const pl_restitution* r = &m->restitutions.at[i];
   const pl_constraint* c = meant(m, r->label, true, i);
-  check_range(job, m, value, r->value, 1, r->span, "the coefficient of restitution", "die Stoßzahl");
+  check_range(job, m, value, r->value, 1, r->span, "the coefficient of restitution",
+              "die Stoßzahl");
   if (!c) return;
-  if (pl_has_coordinate(m->pool, r->value, job->arena) || pl_has_role(m->pool, r->value, PL_R_TIME)) {
-    pl_tell(job, PL_E057, r->span, "a coefficient of restitution is constant", "eine Stoßzahl ist konstant");
+  if (pl_has_coordinate(m->pool, r->value, job->arena)
+      || pl_has_role(m->pool, r->value, PL_R_TIME)) {
+    pl_tell(job, PL_E057, r->span, "a coefficient of restitution is constant",
+            "eine Stoßzahl ist konstant");
     return;
   }
   if (c->relation != PL_EQ) return;
-  pl_diagnostic* d = pl_tell(job, PL_E066, r->span, PL_F(job, "nothing bounces off %s: it holds both ways", r->label),
-                             PL_F(job, "an %s prallt nichts ab: sie gilt in beiden Richtungen", r->label));
-  pl_report_fix(d, "one-sided constraints are written with >= or <=", "einseitige Zwangsbedingungen schreibt man mit >= oder <=", NULL);
+  pl_diagnostic* d = pl_tell(
+      job, PL_E066, r->span, PL_F(job, "nothing bounces off %s: it holds both ways", r->label),
+      PL_F(job, "an %s prallt nichts ab: sie gilt in beiden Richtungen", r->label));
+  pl_report_fix(d, "one-sided constraints are written with >= or <=",
+                "einseitige Zwangsbedingungen schreibt man mit >= oder <=", NULL);
 }
 
 static void check_friction(pl_job* job, const pl_model* m, int i, const double* value) {
   const pl_friction* f = &m->frictions.at[i];
   const pl_constraint* c = meant(m, f->label, false, i);
-  check_range(job, m, value, f->kinetic, NAN, f->span, "the coefficient of friction", "der Reibungskoeffizient");
-  check_range(job, m, value, f->sticking, NAN, f->span, "the coefficient of static friction", "der Haftreibungskoeffizient");
+  check_range(job, m, value, f->kinetic, NAN, f->span, "the coefficient of friction",
+              "der Reibungskoeffizient");
+  check_range(job, m, value, f->sticking, NAN, f->span, "the coefficient of static friction",
+              "der Haftreibungskoeffizient");
   double kinetic = pl_eval(m->pool, f->kinetic, value);
   double sticking = pl_is_poison(f->sticking) ? (double)NAN : pl_eval(m->pool, f->sticking, value);
   if (sticking >= 0 && kinetic > sticking) {
-    pl_diagnostic* d = pl_tell(job, PL_E065, f->span, PL_F(job, "static friction (%.6g) is less than kinetic friction (%.6g)", sticking, kinetic),
-                               PL_F(job, "die Haftreibung (%.6g) ist kleiner als die Gleitreibung (%.6g)", sticking, kinetic));
+    pl_diagnostic* d = pl_tell(
+        job, PL_E065, f->span,
+        PL_F(job, "static friction (%.6g) is less than kinetic friction (%.6g)", sticking, kinetic),
+        PL_F(job, "die Haftreibung (%.6g) ist kleiner als die Gleitreibung (%.6g)", sticking,
+             kinetic));
     pl_report_fix(d, "the kinetic coefficient comes first: friction 0.3, static 0.4 on c",
                   "zuerst steht der Gleitreibungskoeffizient: friction 0.3, static 0.4 on c", NULL);
   }
   if (!c) return;
   if (c->has_velocity) {
-    pl_diagnostic* d = pl_tell(job, PL_E066, f->span, PL_F(job, "%s restricts velocities: it presses no surfaces together", f->label),
-                               PL_F(job, "%s bindet Geschwindigkeiten und presst keine Flächen aufeinander", f->label));
-    pl_report_fix(d, "friction belongs to a constraint on positions", "Reibung gehört zu einer Zwangsbedingung an die Lage", NULL);
+    pl_diagnostic* d = pl_tell(
+        job, PL_E066, f->span,
+        PL_F(job, "%s restricts velocities: it presses no surfaces together", f->label),
+        PL_F(job, "%s bindet Geschwindigkeiten und presst keine Flächen aufeinander", f->label));
+    pl_report_fix(d, "friction belongs to a constraint on positions",
+                  "Reibung gehört zu einer Zwangsbedingung an die Lage", NULL);
   }
 }
 
@@ -68,16 +85,20 @@ static void check_twice(pl_job* job, const char* label, pl_span span, const char
           PL_F(job, "%s für %s ist zweimal angegeben", what, label));
 }
 
-// An event that attaches something one-sided makes an impact: without restitution it is inelastic, and that is said.
+// An event that attaches something one-sided makes an impact: without restitution it is inelastic,
+// and that is said.
 static void check_attached(pl_job* job, const pl_model* m, const pl_event* e) {
   for (int k = 0; k < e->actions.n; k++) {
     const pl_action* a = &e->actions.at[k];
-    const pl_constraint* c = a->kind == PL_DO_ATTACH && a->label ? pl_model_constraint(m, a->label) : NULL;
+    const pl_constraint* c = a->kind == PL_DO_ATTACH && a->label ? pl_model_constraint(m, a->label)
+                                                                 : NULL;
     if (!c || c->relation == PL_EQ || pl_model_restitution(m, c)) continue;
-    pl_diagnostic* d = pl_tell(job, PL_N068, a->span.source ? a->span : e->span,
-                               PL_F(job, "%s has no restitution: an impact when it is attached is inelastic", a->label),
-                               PL_F(job, "%s hat keine Stoßzahl: ein Stoß beim Anschließen ist unelastisch", a->label));
-    pl_report_fix(d, PL_F(job, "restitution 0 on %s", a->label), PL_F(job, "restitution 0 on %s", a->label), NULL);
+    pl_diagnostic* d = pl_tell(
+        job, PL_N068, a->span.source ? a->span : e->span,
+        PL_F(job, "%s has no restitution: an impact when it is attached is inelastic", a->label),
+        PL_F(job, "%s hat keine Stoßzahl: ein Stoß beim Anschließen ist unelastisch", a->label));
+    pl_report_fix(d, PL_F(job, "restitution 0 on %s", a->label),
+                  PL_F(job, "restitution 0 on %s", a->label), NULL);
   }
 }
 

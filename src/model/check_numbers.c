@@ -1,20 +1,23 @@
-// What the given numbers already tell: parameters in circles, masses that are not positive, assumptions that fail.
+// What the given numbers already tell: parameters in circles, masses that are not positive,
+// assumptions that fail.
 #include "model_impl.h"
 
 #include <math.h>
 
-// ---------------------------------------------------------------------------------------------- circles
+// ----------------------------------------------------------------------------------------- circles
 static pl_expr value_given(const pl_model* m, pl_symbol s) {
   const pl_param* p = pl_model_param(m, s);
   if (p) return p->value;
   for (int i = 0; i < m->lets.n; i++) {
-    if (m->lets.at[i].symbol.id == s.id && !m->lets.at[i].inserted && !m->lets.at[i].n_args) return m->lets.at[i].value;
+    if (m->lets.at[i].symbol.id == s.id && !m->lets.at[i].inserted && !m->lets.at[i].n_args)
+      return m->lets.at[i].value;
   }
   return pl_poison();
 }
 
 // The names that the value of p needs, and so on: does p come back?
-static bool leads_to(const pl_model* m, pl_arena* a, pl_expr from, pl_symbol wanted, pl_map* visited) {
+static bool leads_to(const pl_model* m, pl_arena* a, pl_expr from, pl_symbol wanted,
+                     pl_map* visited) {
   if (pl_is_poison(from)) return false;
   int n = pl_symbols_in(m->pool, from, NULL, 0);
   pl_symbol* s = PL_ARRAY(a, pl_symbol, n + 1);
@@ -34,14 +37,16 @@ static void check_circles(pl_job* job, pl_model* m, const double* value) {
     if (pl_is_poison(p->value) || !isnan(value[p->symbol.id])) continue;
     if (!leads_to(m, job->arena, p->value, p->symbol, pl_map_make(job->arena))) continue;
     const char* name = pl_symbol_get(m->pool, p->symbol)->name;
-    pl_diagnostic* d = pl_tell(job, PL_E049, p->span, PL_F(job, "%s is defined through itself", name),
+    pl_diagnostic* d = pl_tell(job, PL_E049, p->span,
+                               PL_F(job, "%s is defined through itself", name),
                                PL_F(job, "%s ist durch sich selbst definiert", name));
-    pl_report_fix(d, PL_F(job, "give %s a number", name), PL_F(job, "%s einen Zahlenwert geben", name), NULL);
-    return;                       // the others of the circle are the same mistake
+    pl_report_fix(d, PL_F(job, "give %s a number", name),
+                  PL_F(job, "%s einen Zahlenwert geben", name), NULL);
+    return;  // the others of the circle are the same mistake
   }
 }
 
-// ---------------------------------------------------------------------------------------------- signs of numbers
+// -------------------------------------------------------------------------------- signs of numbers
 typedef struct sign_check {
   pl_model* m;
   pl_expr e;
@@ -57,17 +62,20 @@ static bool is_positive(void* user, pl_index_values* v) {
   return false;
 }
 
-static void check_positive(pl_job* job, pl_index_values* v, pl_expr e, const pl_block* b, bool zero_allowed,
-                           pl_span span, const char* en, const char* de, const char* fix_en, const char* fix_de) {
+static void check_positive(pl_job* job, pl_index_values* v, pl_expr e, const pl_block* b,
+                           bool zero_allowed, pl_span span, const char* en, const char* de,
+                           const char* fix_en, const char* fix_de) {
   pl_model* m = (pl_model*)(uintptr_t)v->model;
   if (pl_is_poison(e)) return;
   sign_check c = {m, e, zero_allowed, 0};
-  if (!pl_has_role(m->pool, e, PL_R_INDEX)) b = NULL;       // the same for every member
-  long budget = 100000;           // a family of masses is looked at up to here
-  bool ok = b ? pl_block_walk(b, v, is_positive, &c, &budget, NULL) != PL_WALK_STOPPED : is_positive(&c, v);
+  if (!pl_has_role(m->pool, e, PL_R_INDEX)) b = NULL;  // the same for every member
+  long budget = 100000;                                // a family of masses is looked at up to here
+  bool ok = b ? pl_block_walk(b, v, is_positive, &c, &budget, NULL) != PL_WALK_STOPPED
+              : is_positive(&c, v);
   for (const pl_block* x = b; x; x = x->outer) v->value[x->index.id] = PL_NAN;
   if (ok) return;
-  pl_diagnostic* d = pl_tell(job, PL_E036, span, PL_F(job, "%s is %.6g, it has to be positive", en, c.bad),
+  pl_diagnostic* d = pl_tell(job, PL_E036, span,
+                             PL_F(job, "%s is %.6g, it has to be positive", en, c.bad),
                              PL_F(job, "%s ist %.6g, muss aber positiv sein", de, c.bad));
   if (!pl_is_number(m->pool, e)) {
     const char* text = pl_expr_words(job->arena, m->pool, e);
@@ -78,39 +86,40 @@ static void check_positive(pl_job* job, pl_index_values* v, pl_expr e, const pl_
 
 static void check_signs(pl_job* job, pl_model* m, pl_index_values* v) {
   for (int i = 0; i < m->masses.n; i++) {
-    check_positive(job, v, m->masses.at[i].mass, m->masses.at[i].block, false, m->masses.at[i].span, "this mass",
-                   "diese Masse", "a point without mass is written: point A at (x, y)",
+    check_positive(job, v, m->masses.at[i].mass, m->masses.at[i].block, false, m->masses.at[i].span,
+                   "this mass", "diese Masse", "a point without mass is written: point A at (x, y)",
                    "ein Punkt ohne Masse wird so geschrieben: point A at (x, y)");
   }
   for (int i = 0; i < m->bodies.n; i++) {
     const pl_body* b = &m->bodies.at[i];
-    check_positive(job, v, b->mass, b->block, false, b->span, "this mass", "diese Masse", "give a positive number",
-                   "eine positive Zahl angeben");
-    check_positive(job, v, b->inertia, b->block, false, b->span, "this moment of inertia", "dieses Trägheitsmoment",
-                   "a point mass is written: mass m at (x, y)",
+    check_positive(job, v, b->mass, b->block, false, b->span, "this mass", "diese Masse",
+                   "give a positive number", "eine positive Zahl angeben");
+    check_positive(job, v, b->inertia, b->block, false, b->span, "this moment of inertia",
+                   "dieses Trägheitsmoment", "a point mass is written: mass m at (x, y)",
                    "eine Punktmasse wird so geschrieben: mass m at (x, y)");
   }
   for (int i = 0; i < m->loads.n; i++) {
     const pl_load* x = &m->loads.at[i];
     if (x->kind == PL_L_SPRING) {
-      check_positive(job, v, x->value, x->block, true, x->span, "this stiffness", "diese Federsteifigkeit",
+      check_positive(job, v, x->value, x->block, true, x->span, "this stiffness",
+                     "diese Federsteifigkeit",
                      "a negative stiffness is written as a potential: potential -1/2 k x^2",
                      "eine negative Steifigkeit schreibt man als Potential: potential -1/2 k x^2");
-      check_positive(job, v, x->rest, x->block, true, x->span, "this rest length", "diese Ruhelänge", "rest 0",
-                     "rest 0");
+      check_positive(job, v, x->rest, x->block, true, x->span, "this rest length",
+                     "diese Ruhelänge", "rest 0", "rest 0");
     }
     if (x->kind == PL_L_DAMPER || x->kind == PL_L_DRAG) {
-      check_positive(job, v, x->value, x->block, true, x->span, "this damping coefficient", "diese Dämpfungskonstante",
-                     "a force along the motion is written with force",
+      check_positive(job, v, x->value, x->block, true, x->span, "this damping coefficient",
+                     "diese Dämpfungskonstante", "a force along the motion is written with force",
                      "eine Kraft in Bewegungsrichtung schreibt man mit force");
     }
   }
 }
 
-// ---------------------------------------------------------------------------------------------- assumptions
+// ------------------------------------------------------------------------------------- assumptions
 static bool relation_fails(double left, pl_relation r, double right) {
   if (isnan(left) || isnan(right)) return false;
-  double tolerance = 1e-12 * (fabs(left) + fabs(right));       // rounding of the last digits
+  double tolerance = 1e-12 * (fabs(left) + fabs(right));  // rounding of the last digits
   switch (r) {
     case PL_EQ: return fabs(left - right) > tolerance;
     case PL_NE: return left == right;
@@ -122,7 +131,8 @@ static bool relation_fails(double left, pl_relation r, double right) {
   return false;
 }
 
-static void tell_assumption(pl_job* job, pl_model* m, const pl_assumption* a, pl_expr e, const double* value) {
+static void tell_assumption(pl_job* job, pl_model* m, const pl_assumption* a, pl_expr e,
+                            const double* value) {
   pl_diagnostic* d = pl_tell(job, PL_E060, a->span, "the given numbers contradict this assumption",
                              "die gegebenen Zahlen widersprechen dieser Annahme");
   int n = pl_symbols_in(m->pool, e, NULL, 0);
@@ -136,7 +146,8 @@ static void tell_assumption(pl_job* job, pl_model* m, const pl_assumption* a, pl
     pl_text_addf(&numbers, "%s%s", i ? ", " : "", text);
   }
   pl_report_reason(d, pl_text_string(&numbers), pl_text_string(&numbers));
-  pl_report_fix(d, "change the numbers or the assumption", "die Zahlen oder die Annahme ändern", NULL);
+  pl_report_fix(d, "change the numbers or the assumption", "die Zahlen oder die Annahme ändern",
+                NULL);
 }
 
 static void check_assumptions(pl_job* job, pl_model* m, const double* value) {
@@ -144,7 +155,8 @@ static void check_assumptions(pl_job* job, pl_model* m, const double* value) {
     const pl_assumption* a = &m->assumptions.at[i];
     if (a->kind == PL_A_RELATION) {
       if (pl_is_poison(a->condition.left) || pl_is_poison(a->condition.right)) continue;
-      double l = pl_eval(m->pool, a->condition.left, value), r = pl_eval(m->pool, a->condition.right, value);
+      double l = pl_eval(m->pool, a->condition.left, value),
+             r = pl_eval(m->pool, a->condition.right, value);
       if (!relation_fails(l, a->condition.relation, r)) continue;
       tell_assumption(job, m, a, pl_sub(m->pool, a->condition.left, a->condition.right), value);
       continue;

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-// ---------------------------------------------------------------------------------------------- choose
+// ------------------------------------------------------------------------------------------ choose
 static bool is_chosen(const pl_model* m, pl_symbol s) {
   for (int i = 0; i < m->choose.coords.n; i++) {
     if (m->choose.coords.at[i].id == s.id) return true;
@@ -20,7 +20,9 @@ static pl_span choose_place(const pl_model* m, int i) {
 static int map_of(const pl_model* m, pl_symbol s) {
   for (int i = 0; i < m->choose.n_maps; i++) {
     pl_expr old = m->choose.maps[i].old;
-    if (!pl_is_poison(old) && pl_kind_of(m->pool, old) == PL_SYMBOL && pl_symbol_of(m->pool, old).id == s.id) return i;
+    if (!pl_is_poison(old) && pl_kind_of(m->pool, old) == PL_SYMBOL
+        && pl_symbol_of(m->pool, old).id == s.id)
+      return i;
   }
   return -1;
 }
@@ -47,21 +49,24 @@ static void check_map(pl_job* job, pl_model* m, int i) {
   if (pl_is_poison(old) || pl_is_poison(map)) return;
   pl_span at = choose_place(m, i);
   pl_kind kind = pl_kind_of(m->pool, old);
-  bool coordinate = (kind == PL_SYMBOL && pl_symbol_get(m->pool, pl_symbol_of(m->pool, old))->role == PL_R_COORD) ||
-                    (kind == PL_AT && pl_dots_of(m->pool, old) == 0);
+  bool coordinate = (kind == PL_SYMBOL
+                     && pl_symbol_get(m->pool, pl_symbol_of(m->pool, old))->role == PL_R_COORD)
+                    || (kind == PL_AT && pl_dots_of(m->pool, old) == 0);
   const char* text = pl_expr_words(job->arena, m->pool, old);
   if (!coordinate) {
-    pl_diagnostic* d =
-        pl_tell(job, PL_E058, at, PL_F(job, "%s is not a coordinate: `with` gives the old coordinates", text),
-                PL_F(job, "%s ist keine Koordinate: `with` gibt die alten Koordinaten an", text));
+    pl_diagnostic* d = pl_tell(
+        job, PL_E058, at,
+        PL_F(job, "%s is not a coordinate: `with` gives the old coordinates", text),
+        PL_F(job, "%s ist keine Koordinate: `with` gibt die alten Koordinaten an", text));
     pl_report_fix(d, "write  old coordinate = expression of the chosen ones",
                   "alte Koordinate = Ausdruck der gewählten  schreiben", NULL);
     return;
   }
   pl_symbol s = pl_symbol_of(m->pool, old);
   if (kind == PL_SYMBOL && is_chosen(m, s)) {
-    pl_diagnostic* d = pl_tell(job, PL_E058, at, PL_F(job, "%s is chosen and given by a map at the same time", text),
-                               PL_F(job, "%s ist gewählt und zugleich durch eine Abbildung gegeben", text));
+    pl_diagnostic* d = pl_tell(
+        job, PL_E058, at, PL_F(job, "%s is chosen and given by a map at the same time", text),
+        PL_F(job, "%s ist gewählt und zugleich durch eine Abbildung gegeben", text));
     pl_report_fix(d, PL_F(job, "remove %s from one of them", text),
                   PL_F(job, "%s an einer der beiden Stellen entfernen", text), NULL);
   }
@@ -71,52 +76,64 @@ static void check_map(pl_job* job, pl_model* m, int i) {
     pl_report_fix(d, "keep one of them", "eine davon behalten", NULL);
   }
   if (pl_max_dots(m->pool, map, job->arena) > 0 || pl_has_role(m->pool, map, PL_R_MULTIPLIER)) {
-    pl_diagnostic* d = pl_tell(job, PL_E058, at, PL_F(job, "the map of %s may contain coordinates and time only", text),
-                               PL_F(job, "die Abbildung für %s darf nur Koordinaten und die Zeit enthalten", text));
+    pl_diagnostic* d = pl_tell(
+        job, PL_E058, at, PL_F(job, "the map of %s may contain coordinates and time only", text),
+        PL_F(job, "die Abbildung für %s darf nur Koordinaten und die Zeit enthalten", text));
     pl_report_fix(d, "write it with positions", "mit Lagen schreiben", NULL);
   }
-  if (kind == PL_SYMBOL && map_returns(m, job->arena, i, i, PL_ARRAY(job->arena, char, m->choose.n_maps + 1))) {
-    pl_diagnostic* d = pl_tell(job, PL_E058, at, PL_F(job, "the map of %s leads back to %s", text, text),
+  if (kind == PL_SYMBOL
+      && map_returns(m, job->arena, i, i, PL_ARRAY(job->arena, char, m->choose.n_maps + 1))) {
+    pl_diagnostic* d = pl_tell(job, PL_E058, at,
+                               PL_F(job, "the map of %s leads back to %s", text, text),
                                PL_F(job, "die Abbildung für %s führt auf %s zurück", text, text));
-    pl_report_fix(d, "write it with the chosen coordinates", "mit den gewählten Koordinaten schreiben", NULL);
+    pl_report_fix(d, "write it with the chosen coordinates",
+                  "mit den gewählten Koordinaten schreiben", NULL);
   }
 }
 
 static void check_choose(pl_job* job, pl_model* m) {
   int before = job->diagnostics->n_errors;
-  for (int i = 0; i < m->choose.n_maps && job->diagnostics->n_errors == before; i++) check_map(job, m, i);
+  for (int i = 0; i < m->choose.n_maps && job->diagnostics->n_errors == before; i++)
+    check_map(job, m, i);
   if (job->diagnostics->n_errors > before) return;
   // with maps, a chosen coordinate that stands in none of them and in nothing else steers nothing
   for (int k = 0; k < m->choose.coords.n && m->choose.n_maps; k++) {
     pl_symbol q = m->choose.coords.at[k];
     bool used = false;
     for (int i = 0; i < m->choose.n_maps && !used; i++)
-      used = !pl_is_poison(m->choose.maps[i].map) && pl_has_symbol(m->pool, m->choose.maps[i].map, q);
+      used = !pl_is_poison(m->choose.maps[i].map)
+             && pl_has_symbol(m->pool, m->choose.maps[i].map, q);
     for (int i = 0; i < m->masses.n && !used; i++) {
       for (int c = 0; c < m->masses.at[i].point.n; c++)
-        used |= !pl_is_poison(m->masses.at[i].point.at[c]) && pl_has_symbol(m->pool, m->masses.at[i].point.at[c], q);
+        used |= !pl_is_poison(m->masses.at[i].point.at[c])
+                && pl_has_symbol(m->pool, m->masses.at[i].point.at[c], q);
     }
     for (int i = 0; i < m->bodies.n && !used; i++) {
-      used |= !pl_is_poison(m->bodies.at[i].angle) && pl_has_symbol(m->pool, m->bodies.at[i].angle, q);
+      used |= !pl_is_poison(m->bodies.at[i].angle)
+              && pl_has_symbol(m->pool, m->bodies.at[i].angle, q);
       for (int c = 0; c < m->bodies.at[i].centre.n; c++)
-        used |= !pl_is_poison(m->bodies.at[i].centre.at[c]) && pl_has_symbol(m->pool, m->bodies.at[i].centre.at[c], q);
+        used |= !pl_is_poison(m->bodies.at[i].centre.at[c])
+                && pl_has_symbol(m->pool, m->bodies.at[i].centre.at[c], q);
     }
     for (int i = 0; i < m->loads.n && !used; i++)
       used = !pl_is_poison(m->loads.at[i].value) && pl_has_symbol(m->pool, m->loads.at[i].value, q);
     for (int i = 0; i < m->constraints.n && !used; i++)
-      used = !pl_is_poison(m->constraints.at[i].g) && pl_has_symbol(m->pool, m->constraints.at[i].g, q);
+      used = !pl_is_poison(m->constraints.at[i].g)
+             && pl_has_symbol(m->pool, m->constraints.at[i].g, q);
     if (used) continue;
     const char* name = pl_symbol_get(m->pool, q)->name;
-    pl_diagnostic* d = pl_tell(job, PL_E058, m->choose.span, PL_F(job, "%s is chosen, but no map contains it", name),
+    pl_diagnostic* d = pl_tell(job, PL_E058, m->choose.span,
+                               PL_F(job, "%s is chosen, but no map contains it", name),
                                PL_F(job, "%s ist gewählt, steht aber in keiner Abbildung", name));
     pl_report_fix(d, PL_F(job, "choose %s with x = ... %s ...", name, name),
                   PL_F(job, "choose %s with x = ... %s ...", name, name), NULL);
   }
 }
 
-// ---------------------------------------------------------------------------------------------- events
+// ------------------------------------------------------------------------------------------ events
 static bool depends_on_motion(pl_job* job, const pl_model* m, pl_expr e) {
-  if (pl_has_coordinate(m->pool, e, job->arena) || pl_has_symbol(m->pool, e, pl_time(m->pool))) return true;
+  if (pl_has_coordinate(m->pool, e, job->arena) || pl_has_symbol(m->pool, e, pl_time(m->pool)))
+    return true;
   if (pl_has_role(m->pool, e, PL_R_MULTIPLIER)) return true;
   for (int i = 0; i < m->result_names.n; i++) {
     if (pl_has_symbol(m->pool, e, m->result_names.at[i].symbol)) return true;
@@ -139,8 +156,9 @@ static void check_action(pl_job* job, pl_model* m, const pl_event* e, const pl_a
   if (a->kind == PL_DO_ATTACH && a->label) {
     const pl_constraint* c = pl_model_constraint(m, a->label);
     if (!c || c->off || c->relation != PL_EQ || is_released(m, a->label)) return;
-    pl_diagnostic* d = pl_tell(job, PL_E063, at, PL_F(job, "%s holds all the time, so it cannot be attached", a->label),
-                               PL_F(job, "%s gilt die ganze Zeit und kann nicht angeschlossen werden", a->label));
+    pl_diagnostic* d = pl_tell(
+        job, PL_E063, at, PL_F(job, "%s holds all the time, so it cannot be attached", a->label),
+        PL_F(job, "%s gilt die ganze Zeit und kann nicht angeschlossen werden", a->label));
     pl_report_fix(d, PL_F(job, "start it inactive: constraint %s: ... , off", a->label),
                   PL_F(job, "inaktiv beginnen lassen: constraint %s: ... , off", a->label), NULL);
     return;
@@ -149,12 +167,15 @@ static void check_action(pl_job* job, pl_model* m, const pl_event* e, const pl_a
   pl_kind kind = pl_kind_of(m->pool, a->target);
   bool atom = kind == PL_SYMBOL || kind == PL_AT;
   pl_role role = atom ? pl_symbol_get(m->pool, pl_symbol_of(m->pool, a->target))->role : PL_R_TIME;
-  bool good = atom && (role == PL_R_COORD || role == PL_R_VELOCITY || role == PL_R_PARAM ||
-                       (role == PL_R_ARRAY && pl_dots_of(m->pool, a->target) < 2));
+  bool good = atom
+              && (role == PL_R_COORD || role == PL_R_VELOCITY || role == PL_R_PARAM
+                  || (role == PL_R_ARRAY && pl_dots_of(m->pool, a->target) < 2));
   if (good) return;
   pl_diagnostic* d = pl_tell(
-      job, PL_E063, at, PL_F(job, "%s cannot be set by an event", pl_expr_words(job->arena, m->pool, a->target)),
-      PL_F(job, "%s kann durch ein Ereignis nicht gesetzt werden", pl_expr_words(job->arena, m->pool, a->target)));
+      job, PL_E063, at,
+      PL_F(job, "%s cannot be set by an event", pl_expr_words(job->arena, m->pool, a->target)),
+      PL_F(job, "%s kann durch ein Ereignis nicht gesetzt werden",
+           pl_expr_words(job->arena, m->pool, a->target)));
   pl_report_fix(d, "an event sets coordinates, velocities and parameters",
                 "ein Ereignis setzt Koordinaten, Geschwindigkeiten und Parameter", NULL);
 }
@@ -162,7 +183,8 @@ static void check_action(pl_job* job, pl_model* m, const pl_event* e, const pl_a
 static void check_event(pl_job* job, pl_model* m, const pl_event* e) {
   if (!pl_is_poison(e->value) && !depends_on_motion(job, m, e->value)) {
     const char* name = e->name.text ? e->name.text : "?";
-    pl_diagnostic* d = pl_tell(job, PL_E062, e->span, PL_F(job, "event %s does not depend on the motion", name),
+    pl_diagnostic* d = pl_tell(job, PL_E062, e->span,
+                               PL_F(job, "event %s does not depend on the motion", name),
                                PL_F(job, "Ereignis %s hängt nicht von der Bewegung ab", name));
     pl_report_fix(d, "use a coordinate, a velocity, a force or t",
                   "eine Koordinate, Geschwindigkeit, Kraft oder t verwenden", NULL);
@@ -170,24 +192,28 @@ static void check_event(pl_job* job, pl_model* m, const pl_event* e) {
   for (int k = 0; k < e->actions.n; k++) check_action(job, m, e, &e->actions.at[k]);
 }
 
-// ---------------------------------------------------------------------------------------------- requests
+// ---------------------------------------------------------------------------------------- requests
 static void check_solve(pl_job* job, pl_model* m, const pl_ask* a) {
   if (pl_is_poison(a->value) || pl_kind_of(m->pool, a->value) != PL_SYMBOL) return;
   const pl_symbol_info* info = pl_symbol_get(m->pool, pl_symbol_of(m->pool, a->value));
   if (info->role != PL_R_PARAM && info->role != PL_R_TIME) return;
-  pl_diagnostic* d = pl_tell(job, PL_E057, a->span, PL_F(job, "%s is given, there is nothing to solve for", info->name),
+  pl_diagnostic* d = pl_tell(job, PL_E057, a->span,
+                             PL_F(job, "%s is given, there is nothing to solve for", info->name),
                              PL_F(job, "%s ist gegeben, danach ist nichts aufzulösen", info->name));
-  pl_report_fix(d, "solve for a multiplier, an acceleration x'' or a motion x(t)",
-                "nach einem Multiplikator, einer Beschleunigung x'' oder einer Bewegung x(t) auflösen", NULL);
+  pl_report_fix(
+      d, "solve for a multiplier, an acceleration x'' or a motion x(t)",
+      "nach einem Multiplikator, einer Beschleunigung x'' oder einer Bewegung x(t) auflösen", NULL);
 }
 
 static void check_frame(pl_job* job, pl_model* m, const pl_ask* a) {
   for (int k = 0; k < a->frame.n; k++) {
     const pl_symbol_info* info = pl_symbol_get(m->pool, a->frame.at[k]);
     if (info->role == PL_R_COORD) continue;
-    pl_diagnostic* d =
-        pl_tell(job, PL_E057, a->span, PL_F(job, "equations cannot be written in %s: it is no coordinate", info->name),
-                PL_F(job, "Gleichungen lassen sich nicht in %s schreiben: das ist keine Koordinate", info->name));
+    pl_diagnostic* d = pl_tell(
+        job, PL_E057, a->span,
+        PL_F(job, "equations cannot be written in %s: it is no coordinate", info->name),
+        PL_F(job, "Gleichungen lassen sich nicht in %s schreiben: das ist keine Koordinate",
+             info->name));
     pl_report_fix(d, "name coordinates: in (r, θ)", "Koordinaten nennen: in (r, θ)", NULL);
   }
 }

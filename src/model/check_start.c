@@ -1,12 +1,13 @@
-// The start: values given twice, in a circle or from nothing, the span of the simulation, and constraints that the
-// given start values already violate.  What follows from the constraints by solving them is left to the derivation.
+// The start: values given twice, in a circle or from nothing, the span of the simulation, and
+// constraints that the given start values already violate. What follows from the constraints by
+// solving them is left to the derivation.
 #include "model_impl.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-// ---------------------------------------------------------------------------------------------- given twice
+// ------------------------------------------------------------------------------------- given twice
 static const char* target_text(pl_job* job, const pl_model* m, pl_expr target, long index) {
   static const char* const primes[] = {"", "'", "''"};
   const pl_symbol_info* info = pl_symbol_get(m->pool, pl_symbol_of(m->pool, target));
@@ -30,43 +31,47 @@ static void check_twice(pl_job* job, pl_model* m) {
     int first = pl_index_sets_add(&given, key, at, x->block, i, &index);
     if (first < 0) continue;
     const char* text = target_text(job, m, x->target, index);
-    pl_diagnostic* d = pl_tell(job, PL_E044, x->span, PL_F(job, "the start value of %s is given twice", text),
+    pl_diagnostic* d = pl_tell(job, PL_E044, x->span,
+                               PL_F(job, "the start value of %s is given twice", text),
                                PL_F(job, "der Startwert von %s ist zweimal angegeben", text));
     pl_span other = m->inits.at[first].span;
     if (other.source && other.begin != x->span.begin)
-      pl_report_label(job->diagnostics, d, other, job->lang == PL_GERMAN ? "zuerst hier" : "first here");
+      pl_report_label(job->diagnostics, d, other,
+                      job->lang == PL_GERMAN ? "zuerst hier" : "first here");
     pl_report_fix(d, "keep one of them", "einen davon behalten", NULL);
   }
 }
 
-// ---------------------------------------------------------------------------------------------- what a value may hold
+// --------------------------------------------------------------------------- what a value may hold
 static void check_init_value(pl_job* job, pl_model* m, const pl_init* x) {
   if (pl_is_poison(x->value)) {
     if (job->diagnostics->n_errors) return;
-    pl_diagnostic* d =
-        pl_tell(job, PL_E040, x->span, "this start value has no value", "dieser Startwert hat keinen Wert");
+    pl_diagnostic* d = pl_tell(job, PL_E040, x->span, "this start value has no value",
+                               "dieser Startwert hat keinen Wert");
     pl_report_reason(d, "a division by zero?", "eine Division durch null?");
     return;
   }
   bool force = pl_has_role(m->pool, x->value, PL_R_MULTIPLIER);
   if (!force && pl_max_dots(m->pool, x->value, job->arena) < 2) return;
-  pl_diagnostic* d =
-      pl_tell(job, PL_E046, x->span,
-              force ? "a start value cannot contain a multiplier" : "a start value cannot contain an acceleration",
-              force ? "ein Startwert kann keinen Multiplikator enthalten"
-                    : "ein Startwert kann keine Beschleunigung enthalten");
+  pl_diagnostic* d = pl_tell(job, PL_E046, x->span,
+                             force ? "a start value cannot contain a multiplier"
+                                   : "a start value cannot contain an acceleration",
+                             force ? "ein Startwert kann keinen Multiplikator enthalten"
+                                   : "ein Startwert kann keine Beschleunigung enthalten");
   pl_report_reason(d, "these follow from the start", "die folgen erst aus dem Start");
-  pl_report_fix(d, "use given quantities and other start values", "gegebene Größen und andere Startwerte verwenden",
-                NULL);
+  pl_report_fix(d, "use given quantities and other start values",
+                "gegebene Größen und andere Startwerte verwenden", NULL);
 }
 
 static void check_target(pl_job* job, pl_model* m, const pl_init* x) {
   if (pl_is_poison(x->target)) return;
   pl_kind kind = pl_kind_of(m->pool, x->target);
   int dots = pl_max_dots(m->pool, x->target, job->arena);
-  bool good = (kind == PL_SYMBOL || kind == PL_AT) && pl_has_coordinate(m->pool, x->target, job->arena) && dots < 2;
+  bool good = (kind == PL_SYMBOL || kind == PL_AT)
+              && pl_has_coordinate(m->pool, x->target, job->arena) && dots < 2;
   if (good) return;
-  pl_diagnostic* d = pl_tell(job, PL_E030, x->span, "only coordinates and velocities have start values",
+  pl_diagnostic* d = pl_tell(job, PL_E030, x->span,
+                             "only coordinates and velocities have start values",
                              "nur Koordinaten und Geschwindigkeiten haben Startwerte");
   pl_report_fix(d, "init x = 1, x' = 0", "init x = 1, x' = 0", NULL);
 }
@@ -75,8 +80,8 @@ static void check_target(pl_job* job, pl_model* m, const pl_init* x) {
 static int init_of(const pl_model* m, pl_symbol s) {
   for (int i = 0; i < m->inits.n; i++) {
     const pl_init* x = &m->inits.at[i];
-    if (!x->guess && !pl_is_poison(x->target) && pl_kind_of(m->pool, x->target) == PL_SYMBOL &&
-        pl_symbol_of(m->pool, x->target).id == s.id)
+    if (!x->guess && !pl_is_poison(x->target) && pl_kind_of(m->pool, x->target) == PL_SYMBOL
+        && pl_symbol_of(m->pool, x->target).id == s.id)
       return i;
   }
   return -1;
@@ -102,16 +107,19 @@ static bool returns_to(const pl_model* m, pl_arena* a, int from, int wanted, cha
 static void check_init_circles(pl_job* job, pl_model* m) {
   for (int i = 0; i < m->inits.n; i++) {
     if (m->inits.at[i].guess || m->inits.at[i].block) continue;
-    if (pl_is_poison(m->inits.at[i].value) || !pl_has_coordinate(m->pool, m->inits.at[i].value, job->arena)) continue;
+    if (pl_is_poison(m->inits.at[i].value)
+        || !pl_has_coordinate(m->pool, m->inits.at[i].value, job->arena))
+      continue;
     if (!returns_to(m, job->arena, i, i, PL_ARRAY(job->arena, char, m->inits.n + 1))) continue;
-    pl_diagnostic* d = pl_tell(job, PL_E045, m->inits.at[i].span, "these start values lead back to each other",
+    pl_diagnostic* d = pl_tell(job, PL_E045, m->inits.at[i].span,
+                               "these start values lead back to each other",
                                "diese Startwerte führen aufeinander zurück");
     pl_report_fix(d, "give one of them as a number", "einen davon als Zahl angeben", NULL);
     return;
   }
 }
 
-// ---------------------------------------------------------------------------------------------- simulate
+// ---------------------------------------------------------------------------------------- simulate
 static void check_span_of_simulation(pl_job* job, pl_model* m, const double* value) {
   const pl_simulate* s = &m->simulate;
   if (!s->given) return;
@@ -121,7 +129,8 @@ static void check_span_of_simulation(pl_job* job, pl_model* m, const double* val
   double tol = pl_is_poison(s->tol) ? 1e-9 : pl_eval(m->pool, s->tol, value);
   if (to <= from) {
     pl_diagnostic* d = pl_tell(
-        job, PL_E047, s->span, PL_F(job, "the simulation ends at %.6g s, not after its start at %.6g s", to, from),
+        job, PL_E047, s->span,
+        PL_F(job, "the simulation ends at %.6g s, not after its start at %.6g s", to, from),
         PL_F(job, "die Simulation endet bei %.6g s, nicht nach ihrem Anfang bei %.6g s", to, from));
     pl_report_fix(d, "simulate 0..10 [s]", "simulate 0..10 [s]", NULL);
   }
@@ -140,14 +149,17 @@ static void check_span_of_simulation(pl_job* job, pl_model* m, const double* val
 typedef struct number_check {
   pl_model* m;
   pl_arena* arena;
-  char* needed;               // by symbol id
+  char* needed;  // by symbol id
 } number_check;
 
 static void see_symbols(void* user, const pl_slot* slot) {
   number_check* c = user;
   if (pl_is_poison(*slot->at)) return;
   switch (slot->kind) {
-    case PL_SLOT_LET: case PL_SLOT_ASSUMPTION: case PL_SLOT_ASK: case PL_SLOT_PARAM: return;
+    case PL_SLOT_LET:
+    case PL_SLOT_ASSUMPTION:
+    case PL_SLOT_ASK:
+    case PL_SLOT_PARAM: return;
     default: break;
   }
   int n = pl_symbols_in(c->m->pool, *slot->at, NULL, 0);
@@ -175,34 +187,43 @@ static void check_numbers_given(pl_job* job, pl_model* m) {
   // values of needed parameters and abbreviations need theirs
   for (bool more = true; more;) {
     more = false;
-    for (int i = 0; i < m->params.n; i++) more |= need_value(&c, m->params.at[i].symbol, m->params.at[i].value);
-    for (int i = 0; i < m->lets.n; i++) more |= need_value(&c, m->lets.at[i].symbol, m->lets.at[i].value);
+    for (int i = 0; i < m->params.n; i++)
+      more |= need_value(&c, m->params.at[i].symbol, m->params.at[i].value);
+    for (int i = 0; i < m->lets.n; i++)
+      more |= need_value(&c, m->lets.at[i].symbol, m->lets.at[i].value);
   }
   for (int i = 0; i < m->params.n; i++) {
     const pl_param* p = &m->params.at[i];
     if (!c.needed[p->symbol.id] || !pl_is_poison(p->value)) continue;
     const pl_symbol_info* info = pl_symbol_get(m->pool, p->symbol);
-    pl_diagnostic* d =
-        pl_tell(job, PL_E048, p->span, PL_F(job, "%s has no number, but simulate computes with it", info->name),
-                PL_F(job, "%s hat keinen Zahlenwert, aber simulate rechnet damit", info->name));
-    const char* unit = info->dimension_known ? pl_dimension_unit(job->arena, info->dimension, true) : "1";
+    pl_diagnostic* d = pl_tell(
+        job, PL_E048, p->span,
+        PL_F(job, "%s has no number, but simulate computes with it", info->name),
+        PL_F(job, "%s hat keinen Zahlenwert, aber simulate rechnet damit", info->name));
+    const char* unit = info->dimension_known ? pl_dimension_unit(job->arena, info->dimension, true)
+                                             : "1";
     bool pure = unit[0] == '1' && unit[1] == 0;
-    const char* fix = pure ? PL_F(job, "param %s = 1", info->name) : PL_F(job, "param %s = 1 [%s]", info->name, unit);
+    const char* fix = pure ? PL_F(job, "param %s = 1", info->name)
+                           : PL_F(job, "param %s = 1 [%s]", info->name, unit);
     pl_report_fix(d, fix, fix, NULL);
   }
 }
 
-// ---------------------------------------------------------------------------------------------- violated at the start
+// --------------------------------------------------------------------------- violated at the start
 // Start values by symbol id, as far as they follow by insertion alone.
 static double* start_values(pl_job* job, pl_model* m) {
   double* value = pl_model_values(m, job->arena);
-  double t = m->simulate.given && !pl_is_poison(m->simulate.from) ? pl_eval(m->pool, m->simulate.from, value) : 0;
+  double t = m->simulate.given && !pl_is_poison(m->simulate.from)
+                 ? pl_eval(m->pool, m->simulate.from, value)
+                 : 0;
   value[pl_time(m->pool).id] = t;
   for (int pass = 0; pass <= m->inits.n + m->choose.n_maps; pass++) {
     bool more = false;
     for (int i = 0; i < m->inits.n; i++) {
       const pl_init* x = &m->inits.at[i];
-      if (x->guess || x->block || !pl_is_poison(x->time) || pl_is_poison(x->target) || pl_is_poison(x->value)) continue;
+      if (x->guess || x->block || !pl_is_poison(x->time) || pl_is_poison(x->target)
+          || pl_is_poison(x->value))
+        continue;
       if (pl_kind_of(m->pool, x->target) != PL_SYMBOL) continue;
       uint32_t id = pl_symbol_of(m->pool, x->target).id;
       if (!isnan(value[id])) continue;
@@ -211,7 +232,9 @@ static double* start_values(pl_job* job, pl_model* m) {
     }
     for (int i = 0; i < m->choose.n_maps; i++) {
       pl_expr old = m->choose.maps[i].old;
-      if (pl_is_poison(old) || pl_kind_of(m->pool, old) != PL_SYMBOL || pl_is_poison(m->choose.maps[i].map)) continue;
+      if (pl_is_poison(old) || pl_kind_of(m->pool, old) != PL_SYMBOL
+          || pl_is_poison(m->choose.maps[i].map))
+        continue;
       uint32_t id = pl_symbol_of(m->pool, old).id;
       if (!isnan(value[id])) continue;
       value[id] = pl_eval(m->pool, m->choose.maps[i].map, value);
@@ -233,11 +256,12 @@ static double size_of_terms(const pl_pool* p, pl_expr g, const double* value) {
 static const double start_tolerance =
     1e-9;  // of the terms; what is smaller is projected away (language.md, Start values)
 
-// ---------------------------------------------------------------------------------------------- what would fit
+// ---------------------------------------------------------------------------------- what would fit
 enum { MAX_ROOTS = 8, MAX_NEWTON_STEPS = 60 };
 
 // Newton from x; false when it does not settle on a simple root of g.
-static bool newton(const pl_model* m, pl_expr g, pl_expr slope, double* value, uint32_t id, double* x) {
+static bool newton(const pl_model* m, pl_expr g, pl_expr slope, double* value, uint32_t id,
+                   double* x) {
   for (int i = 0; i < MAX_NEWTON_STEPS; i++) {
     value[id] = *x;
     double f = pl_eval(m->pool, g, value), d = pl_eval(m->pool, slope, value);
@@ -246,7 +270,8 @@ static bool newton(const pl_model* m, pl_expr g, pl_expr slope, double* value, u
     *x -= step;
     if (fabs(step) <= 1e-14 * fabs(*x) + 1e-300) {
       value[id] = *x;
-      return fabs(pl_eval(m->pool, g, value)) <= 1e-3 * start_tolerance * size_of_terms(m->pool, g, value);
+      return fabs(pl_eval(m->pool, g, value))
+             <= 1e-3 * start_tolerance * size_of_terms(m->pool, g, value);
     }
   }
   return false;
@@ -257,19 +282,21 @@ static bool branch_allows(const pl_model* m, const double* value) {
     const pl_condition* c = &m->branches.at[i];
     if (pl_is_poison(c->left) || pl_is_poison(c->right)) continue;
     double d = pl_eval(m->pool, c->left, value) - pl_eval(m->pool, c->right, value);
-    if ((d < 0 && (c->relation == PL_GT || c->relation == PL_GE)) ||
-        (d > 0 && (c->relation == PL_LT || c->relation == PL_LE)))
+    if ((d < 0 && (c->relation == PL_GT || c->relation == PL_GE))
+        || (d > 0 && (c->relation == PL_LT || c->relation == PL_LE)))
       return false;
   }
   return true;
 }
 
-// What rounding of the start values themselves can do to g: sum of |dg/dq| |q|.  cos 90° is not exactly 0.
+// What rounding of the start values themselves can do to g: sum of |dg/dq| |q|. cos 90° is not
+// exactly 0.
 static double size_of_start(const pl_model* m, pl_expr g, const double* value) {
   double sum = 0;
   for (int i = 0; i < m->inits.n; i++) {
     const pl_init* x = &m->inits.at[i];
-    if (x->guess || pl_is_poison(x->target) || pl_kind_of(m->pool, x->target) != PL_SYMBOL) continue;
+    if (x->guess || pl_is_poison(x->target) || pl_kind_of(m->pool, x->target) != PL_SYMBOL)
+      continue;
     pl_symbol q = pl_symbol_of(m->pool, x->target);
     double slope = pl_eval(m->pool, pl_diff(m->pool, g, q), value);
     if (!isnan(slope) && !isnan(value[q.id])) sum += fabs(slope * value[q.id]);
@@ -292,7 +319,8 @@ static bool violates(const pl_model* m, const pl_constraint* c, const double* va
 static bool fits(const pl_model* m, pl_symbol q, const double* value) {
   for (int i = 0; i < m->constraints.n; i++) {
     const pl_constraint* c = &m->constraints.at[i];
-    if (!pl_is_poison(c->g) && pl_has_symbol(m->pool, c->g, q) && violates(m, c, value)) return false;
+    if (!pl_is_poison(c->g) && pl_has_symbol(m->pool, c->g, q) && violates(m, c, value))
+      return false;
   }
   return true;
 }
@@ -314,19 +342,22 @@ static bool is_an_angle(const pl_model* m, pl_symbol q, double* value) {
   return same;
 }
 
-// Values of one coordinate, all others as given, that satisfy g = 0, the branches and all constraints that speak of it.  Starts: around
-// the given value.
-static int fitting_values(const pl_model* m, pl_expr g, pl_symbol q, double* value, double roots[MAX_ROOTS]) {
+// Values of one coordinate, all others as given, that satisfy g = 0, the branches and all
+// constraints that speak of it. Starts: around the given value.
+static int fitting_values(const pl_model* m, pl_expr g, pl_symbol q, double* value,
+                          double roots[MAX_ROOTS]) {
   double given = value[q.id];
   pl_expr slope = pl_diff(m->pool, g, q);
   if (pl_is_poison(slope) || isnan(given)) return 0;
-  static const double factor[] = {1, -1, 0.5, -0.5, 2, -2}, shift[] = {0, 1, -1, 0.1, -0.1, 10, -10};
+  static const double factor[] = {1, -1, 0.5, -0.5, 2, -2},
+                      shift[] = {0, 1, -1, 0.1, -0.1, 10, -10};
   static const double turn = 6.28318530717958647692;
   bool angle = is_an_angle(m, q, value);
   int n = 0;
   for (int i = 0; i < 13 && n < MAX_ROOTS; i++) {
     double x = i < 6 ? given * factor[i] : given + shift[i - 6];
-    if (!newton(m, g, slope, value, q.id, &x) || !branch_allows(m, value) || !fits(m, q, value)) continue;
+    if (!newton(m, g, slope, value, q.id, &x) || !branch_allows(m, value) || !fits(m, q, value))
+      continue;
     if (angle) x -= turn * nearbyint(x / turn);
     bool known = false;
     for (int k = 0; k < n; k++) known |= fabs(roots[k] - x) <= 1e-9 * (fabs(x) + fabs(roots[k]));
@@ -336,8 +367,10 @@ static int fitting_values(const pl_model* m, pl_expr g, pl_symbol q, double* val
   return n;
 }
 
-// The value with as many digits as the check of the start needs, so that whoever types it is not refused.
-static const char* typed_value(pl_job* job, const pl_model* m, pl_symbol q, double x, bool degrees, double* value) {
+// The value with as many digits as the check of the start needs, so that whoever types it is not
+// refused.
+static const char* typed_value(pl_job* job, const pl_model* m, pl_symbol q, double x, bool degrees,
+                               double* value) {
   static const double degree = 0.017453292519943295769;
   double given = value[q.id];
   char text[40] = "";
@@ -360,12 +393,14 @@ static bool in_degrees(const pl_init* x) {
   return false;
 }
 
-static const char* value_text(pl_job* job, const pl_model* m, const pl_init* x, const double* roots, int n, double* value) {
+static const char* value_text(pl_job* job, const pl_model* m, const pl_init* x, const double* roots,
+                              int n, double* value) {
   pl_symbol q = pl_symbol_of(m->pool, x->target);
   const pl_symbol_info* info = pl_symbol_get(m->pool, q);
   pl_dimension d;
   const char* unit = "";
-  bool pure = !pl_model_dimension(m, pl_sym(m->pool, q), &d) || pl_dimension_equal(d, pl_dimension_one());
+  bool pure = !pl_model_dimension(m, pl_sym(m->pool, q), &d)
+              || pl_dimension_equal(d, pl_dimension_one());
   if (!pure) unit = PL_F(job, " %s", pl_dimension_unit(job->arena, d, false));
   const char* or = job->lang == PL_GERMAN ? " oder " : " or ";
   pl_text t = pl_text_make(job->arena);
@@ -377,13 +412,16 @@ static const char* value_text(pl_job* job, const pl_model* m, const pl_init* x, 
   return pl_text_string(&t);
 }
 
-// The start value to blame: the last one that the constraint speaks of and that has a value that would fit.
-static const pl_init* blame(pl_job* job, const pl_model* m, pl_expr g, double* value, const char** fit) {
+// The start value to blame: the last one that the constraint speaks of and that has a value that
+// would fit.
+static const pl_init* blame(pl_job* job, const pl_model* m, pl_expr g, double* value,
+                            const char** fit) {
   const pl_init* last = NULL;
   *fit = NULL;
   for (int i = m->inits.n - 1; i >= 0; i--) {
     const pl_init* x = &m->inits.at[i];
-    if (x->guess || pl_is_poison(x->target) || pl_kind_of(m->pool, x->target) != PL_SYMBOL) continue;
+    if (x->guess || pl_is_poison(x->target) || pl_kind_of(m->pool, x->target) != PL_SYMBOL)
+      continue;
     pl_symbol q = pl_symbol_of(m->pool, x->target);
     if (!pl_has_symbol(m->pool, g, q)) continue;
     if (!last) last = x;
@@ -401,7 +439,8 @@ static void tell_violated(pl_job* job, pl_model* m, const pl_constraint* c, doub
   const char* fit;
   const pl_init* x = blame(job, m, c->g, value, &fit);
   pl_diagnostic* d = pl_tell(job, PL_E041, x && x->span.source ? x->span : c->span,
-                             PL_F(job, "the start violates %s", name), PL_F(job, "der Start verletzt %s", name));
+                             PL_F(job, "the start violates %s", name),
+                             PL_F(job, "der Start verletzt %s", name));
   double left = pl_eval(m->pool, c->left, value), right = pl_eval(m->pool, c->right, value);
   static const char* const signs[] = {"=", ">=", "<=", ">", "<", "!="};
   const char* claim = PL_F(job, "%.6g %s %.6g", left, signs[c->relation], right);
@@ -410,8 +449,9 @@ static void tell_violated(pl_job* job, pl_model* m, const pl_constraint* c, doub
                     PL_F(job, job->lang == PL_GERMAN ? "das hieße %s" : "this would be %s", claim));
   else pl_report_reason(d, PL_F(job, "this would be %s", claim), PL_F(job, "das hieße %s", claim));
   if (fit) {
-    pl_report_fix(d, PL_F(job, "%s would fit. Change it, or remove it from init and let it follow", fit),
-                  PL_F(job, "%s würde passen. Ändern, oder aus init entfernen und folgen lassen", fit), NULL);
+    pl_report_fix(
+        d, PL_F(job, "%s would fit. Change it, or remove it from init and let it follow", fit),
+        PL_F(job, "%s würde passen. Ändern, oder aus init entfernen und folgen lassen", fit), NULL);
   } else {
     pl_report_fix(d, "leave one of the start values out, and it follows from the constraints",
                   "einen der Startwerte weglassen, dann folgt er aus den Zwangsbedingungen", NULL);
@@ -430,6 +470,7 @@ void pl_check_start(pl_job* job, pl_model* m) {
   if (job->diagnostics->n_errors) return;
   double* value = start_values(job, m);
   for (int i = 0; i < m->constraints.n; i++) {
-    if (violates(m, &m->constraints.at[i], value)) tell_violated(job, m, &m->constraints.at[i], value);
+    if (violates(m, &m->constraints.at[i], value))
+      tell_violated(job, m, &m->constraints.at[i], value);
   }
 }

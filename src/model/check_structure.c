@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-// ---------------------------------------------------------------------------------------------- theta
+// ------------------------------------------------------------------------------------------- theta
 static bool contains(const char* s, const char* part) { return s && strstr(s, part) != NULL; }
 
 // θ and ϑ print alike in ASCII: a model uses one of them.
@@ -14,35 +14,49 @@ static void check_theta(pl_job* job, pl_model* m) {
     const char* letter = pass ? "ϑ" : "θ";
     for (int i = 0; i < m->params.n && !name[pass]; i++) {
       const char* s = pl_symbol_get(m->pool, m->params.at[i].symbol)->name;
-      if (contains(s, letter)) name[pass] = s, at[pass] = m->params.at[i].span;
+      if (contains(s, letter)) {
+        name[pass] = s;
+        at[pass] = m->params.at[i].span;
+      }
     }
     for (int i = 0; i < m->coords.n && !name[pass]; i++) {
       const char* s = pl_symbol_get(m->pool, m->coords.at[i].symbol)->name;
-      if (contains(s, letter)) name[pass] = s, at[pass] = m->coords.at[i].span;
+      if (contains(s, letter)) {
+        name[pass] = s;
+        at[pass] = m->coords.at[i].span;
+      }
     }
     for (int i = 0; i < m->lets.n && !name[pass]; i++) {
-      const char* s = m->lets.at[i].symbol.id ? pl_symbol_get(m->pool, m->lets.at[i].symbol)->name : NULL;
-      if (contains(s, letter)) name[pass] = s, at[pass] = m->lets.at[i].span;
+      const char* s = m->lets.at[i].symbol.id ? pl_symbol_get(m->pool, m->lets.at[i].symbol)->name
+                                              : NULL;
+      if (contains(s, letter)) {
+        name[pass] = s;
+        at[pass] = m->lets.at[i].span;
+      }
     }
   }
   if (!name[0] || !name[1]) return;
   pl_diagnostic* d = pl_tell(
-      job, PL_E059, at[1], PL_F(job, "%s and %s: θ and ϑ in one model cannot be told apart in ASCII", name[0], name[1]),
-      PL_F(job, "%s und %s: θ und ϑ in einem Modell sind in ASCII nicht zu unterscheiden", name[0], name[1]));
+      job, PL_E059, at[1],
+      PL_F(job, "%s and %s: θ and ϑ in one model cannot be told apart in ASCII", name[0], name[1]),
+      PL_F(job, "%s und %s: θ und ϑ in einem Modell sind in ASCII nicht zu unterscheiden", name[0],
+           name[1]));
   pl_report_label(job->diagnostics, d, at[0], name[0]);
   pl_report_fix(d, "write θ everywhere, or choose another letter",
                 "überall θ schreiben oder einen anderen Buchstaben wählen", NULL);
 }
 
-// ---------------------------------------------------------------------------------------------- labels
-// Places, constraints and loads, and events each have their own names: `force on A` and `force of A` differ.
+// ------------------------------------------------------------------------------------------ labels
+// Places, constraints and loads, and events each have their own names: `force on A` and `force of
+// A` differ.
 typedef struct label_check {
   pl_job* job;
   pl_index_sets given;
-  PL_VEC(pl_span) used;       // by owner
+  PL_VEC(pl_span) used;  // by owner
 } label_check;
 
-static void tell_label(label_check* c, const pl_name* name, const char* shown, pl_span span, int first) {
+static void tell_label(label_check* c, const pl_name* name, const char* shown, pl_span span,
+                       int first) {
   pl_span at = span, found;
   if (pl_span_find_name(span, name->ascii ? name->ascii : name->text, &found)) at = found;
   pl_diagnostic* d = pl_tell(c->job, PL_E034, at, PL_F(c->job, "the label %s is used twice", shown),
@@ -67,7 +81,8 @@ static void check_label(label_check* c, const pl_name* name, const pl_block* b, 
   long index;
   int first = pl_index_sets_add(&c->given, key, name->index, b, c->used.n - 1, &index);
   if (first < 0) return;
-  tell_label(c, name, has_index ? PL_F(c->job, "%s[%ld]", name->text, index) : name->text, span, first);
+  tell_label(c, name, has_index ? PL_F(c->job, "%s[%ld]", name->text, index) : name->text, span,
+             first);
 }
 
 static label_check label_space(pl_job* job, pl_model* m) {
@@ -84,12 +99,14 @@ static void check_labels(pl_job* job, pl_model* m) {
     check_label(&places, &m->points.at[i].name, m->points.at[i].block, m->points.at[i].span);
   label_check acts = label_space(job, m);
   for (int i = 0; i < m->constraints.n; i++) {
-    check_label(&acts, &m->constraints.at[i].name, m->constraints.at[i].block, m->constraints.at[i].span);
+    check_label(&acts, &m->constraints.at[i].name, m->constraints.at[i].block,
+                m->constraints.at[i].span);
   }
   for (int i = 0; i < m->loads.n; i++)
     check_label(&acts, &m->loads.at[i].name, m->loads.at[i].block, m->loads.at[i].span);
   label_check events = label_space(job, m);
-  for (int i = 0; i < m->events.n; i++) check_label(&events, &m->events.at[i].name, NULL, m->events.at[i].span);
+  for (int i = 0; i < m->events.n; i++)
+    check_label(&events, &m->events.at[i].name, NULL, m->events.at[i].span);
 }
 
 void pl_check_names(pl_job* job, pl_model* m) {
@@ -97,36 +114,48 @@ void pl_check_names(pl_job* job, pl_model* m) {
   check_labels(job, m);
 }
 
-// ---------------------------------------------------------------------------------------------- components
+// -------------------------------------------------------------------------------------- components
 static const char* axes_text(pl_job* job, const pl_model* m) {
   pl_text t = pl_text_make(job->arena);
-  for (int i = 0; i < m->n_axes; i++) pl_text_addf(&t, "%s%s", i ? ", " : "", m->axes[i].name ? m->axes[i].name : "?");
+  for (int i = 0; i < m->n_axes; i++)
+    pl_text_addf(&t, "%s%s", i ? ", " : "", m->axes[i].name ? m->axes[i].name : "?");
   return pl_text_string(&t);
 }
 
-static void check_components(pl_job* job, const pl_model* m, int n, pl_span span, const char* en, const char* de) {
+static void check_components(pl_job* job, const pl_model* m, int n, pl_span span, const char* en,
+                             const char* de) {
   if (n == m->n_axes || n == 0) return;
-  pl_diagnostic* d =
-      pl_tell(job, PL_E035, span,
-              PL_F(job, "%s has %d component%s, but there are %d axes", en, n, n == 1 ? "" : "s", m->n_axes),
-              PL_F(job, "%s hat %d Komponente%s, aber es gibt %d Achsen", de, n, n == 1 ? "" : "n", m->n_axes));
-  pl_report_reason(d, PL_F(job, "axes: %s", axes_text(job, m)), PL_F(job, "Achsen: %s", axes_text(job, m)));
-  pl_report_fix(d, n < m->n_axes ? "write 0 for what is missing, or name the axes in use: axes x right, y up"
-                                 : "leave components out, or name all axes: axes x right, y up, z out",
-                n < m->n_axes ? "0 für die fehlenden schreiben, oder die benutzten Achsen nennen: axes x right, y up"
-                              : "Komponenten weglassen, oder alle Achsen nennen: axes x right, y up, z out", NULL);
+  pl_diagnostic* d = pl_tell(job, PL_E035, span,
+                             PL_F(job, "%s has %d component%s, but there are %d axes", en, n,
+                                  n == 1 ? "" : "s", m->n_axes),
+                             PL_F(job, "%s hat %d Komponente%s, aber es gibt %d Achsen", de, n,
+                                  n == 1 ? "" : "n", m->n_axes));
+  pl_report_reason(d, PL_F(job, "axes: %s", axes_text(job, m)),
+                   PL_F(job, "Achsen: %s", axes_text(job, m)));
+  pl_report_fix(
+      d,
+      n < m->n_axes ? "write 0 for what is missing, or name the axes in use: axes x right, y up"
+                    : "leave components out, or name all axes: axes x right, y up, z out",
+      n < m->n_axes
+          ? "0 für die fehlenden schreiben, oder die benutzten Achsen nennen: axes x right, y up"
+          : "Komponenten weglassen, oder alle Achsen nennen: axes x right, y up, z out",
+      NULL);
 }
 
 static void check_all_components(pl_job* job, pl_model* m) {
   for (int i = 0; i < m->masses.n; i++)
-    check_components(job, m, m->masses.at[i].point.n, m->masses.at[i].span, "this point", "dieser Punkt");
+    check_components(job, m, m->masses.at[i].point.n, m->masses.at[i].span, "this point",
+                     "dieser Punkt");
   for (int i = 0; i < m->bodies.n; i++)
-    check_components(job, m, m->bodies.at[i].centre.n, m->bodies.at[i].span, "this centre", "dieser Mittelpunkt");
+    check_components(job, m, m->bodies.at[i].centre.n, m->bodies.at[i].span, "this centre",
+                     "dieser Mittelpunkt");
   for (int i = 0; i < m->points.n; i++)
-    check_components(job, m, m->points.at[i].point.n, m->points.at[i].span, "this point", "dieser Punkt");
+    check_components(job, m, m->points.at[i].point.n, m->points.at[i].span, "this point",
+                     "dieser Punkt");
   for (int i = 0; i < m->loads.n; i++) {
     const pl_load* x = &m->loads.at[i];
-    bool at_points = x->kind == PL_L_FORCE || x->kind == PL_L_SPRING || x->kind == PL_L_DAMPER || x->kind == PL_L_DRAG;
+    bool at_points = x->kind == PL_L_FORCE || x->kind == PL_L_SPRING || x->kind == PL_L_DAMPER
+                     || x->kind == PL_L_DRAG;
     if (!at_points) continue;
     check_components(job, m, x->a.n, x->span, "the point of attack", "der Angriffspunkt");
     if (x->kind == PL_L_SPRING || x->kind == PL_L_DAMPER)
@@ -141,17 +170,20 @@ static void check_gravity(pl_job* job, pl_model* m) {
   for (int i = 0; i < m->gravities.n; i++) {
     const pl_gravity* g = &m->gravities.at[i];
     if (g->axis < 0 || g->axis >= m->n_axes) {
-      pl_diagnostic* d = pl_tell(job, PL_E029, g->span, "gravity acts along an axis that does not exist",
+      pl_diagnostic* d = pl_tell(job, PL_E029, g->span,
+                                 "gravity acts along an axis that does not exist",
                                  "die Schwerkraft wirkt längs einer Achse, die es nicht gibt");
-      pl_report_reason(d, PL_F(job, "axes: %s", axes_text(job, m)), PL_F(job, "Achsen: %s", axes_text(job, m)));
+      pl_report_reason(d, PL_F(job, "axes: %s", axes_text(job, m)),
+                       PL_F(job, "Achsen: %s", axes_text(job, m)));
       const char* last = m->n_axes ? m->axes[m->n_axes - 1].name : "y";
-      pl_report_fix(d, PL_F(job, "gravity g along -%s", last), PL_F(job, "gravity g along -%s", last), NULL);
+      pl_report_fix(d, PL_F(job, "gravity g along -%s", last),
+                    PL_F(job, "gravity g along -%s", last), NULL);
     }
     if (pl_has_coordinate(m->pool, g->g, job->arena)) {
       pl_diagnostic* d = pl_tell(job, PL_E057, g->span, "gravity cannot depend on the motion",
                                  "die Schwerkraft kann nicht von der Bewegung abhängen");
-      pl_report_fix(d, "write it as a potential: potential -G M m/r", "als Potential schreiben: potential -G M m/r",
-                    NULL);
+      pl_report_fix(d, "write it as a potential: potential -G M m/r",
+                    "als Potential schreiben: potential -G M m/r", NULL);
     }
     if (i == 1) {
       pl_diagnostic* d = pl_tell(job, PL_N066, g->span, "gravity is given more than once: both act",
@@ -163,13 +195,16 @@ static void check_gravity(pl_job* job, pl_model* m) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- what may stand where
-// Values that have to be there and are poison come from a division by zero, unless the text had errors before.
+// ---------------------------------------------------------------------------- what may stand where
+// Values that have to be there and are poison come from a division by zero, unless the text had
+// errors before.
 static void check_value(pl_job* job, pl_expr e, pl_span span, const char* en, const char* de) {
   if (!pl_is_poison(e) || job->diagnostics->n_errors) return;
-  pl_diagnostic* d = pl_tell(job, PL_E040, span, PL_F(job, "%s has no value", en), PL_F(job, "%s hat keinen Wert", de));
+  pl_diagnostic* d = pl_tell(job, PL_E040, span, PL_F(job, "%s has no value", en),
+                             PL_F(job, "%s hat keinen Wert", de));
   pl_report_reason(d, "a division by zero?", "eine Division durch null?");
-  pl_report_fix(d, "look for a denominator that is zero", "nach einem Nenner suchen, der null ist", NULL);
+  pl_report_fix(d, "look for a denominator that is zero", "nach einem Nenner suchen, der null ist",
+                NULL);
 }
 
 static const char* kind_name(int dots, bool german) {
@@ -178,17 +213,20 @@ static const char* kind_name(int dots, bool german) {
 }
 
 // At most `allowed` derivatives: 0 position, 1 velocity.
-static void check_order(pl_job* job, pl_model* m, pl_expr e, int allowed, pl_span span, const char* en,
-                        const char* de) {
+static void check_order(pl_job* job, pl_model* m, pl_expr e, int allowed, pl_span span,
+                        const char* en, const char* de) {
   int dots = pl_max_dots(m->pool, e, job->arena);
   if (dots <= allowed) return;
-  pl_diagnostic* d = pl_tell(job, PL_E057, span, PL_F(job, "%s cannot contain %s", en, kind_name(dots, false)),
+  pl_diagnostic* d = pl_tell(job, PL_E057, span,
+                             PL_F(job, "%s cannot contain %s", en, kind_name(dots, false)),
                              PL_F(job, "%s kann nicht %s enthalten", de, kind_name(dots, true)));
-  pl_report_fix(d, allowed ? "write it with positions and velocities" : "write it with positions only",
-                allowed ? "mit Lagen und Geschwindigkeiten schreiben" : "nur mit Lagen schreiben", NULL);
+  pl_report_fix(
+      d, allowed ? "write it with positions and velocities" : "write it with positions only",
+      allowed ? "mit Lagen und Geschwindigkeiten schreiben" : "nur mit Lagen schreiben", NULL);
 }
 
-static void check_no_multiplier(pl_job* job, pl_model* m, pl_expr e, pl_span span, const char* en, const char* de) {
+static void check_no_multiplier(pl_job* job, pl_model* m, pl_expr e, pl_span span, const char* en,
+                                const char* de) {
   if (pl_is_poison(e) || !pl_has_role(m->pool, e, PL_R_MULTIPLIER)) return;
   pl_diagnostic* d = pl_tell(job, PL_E057, span, PL_F(job, "%s cannot contain a multiplier", en),
                              PL_F(job, "%s kann keinen Multiplikator enthalten", de));
@@ -208,11 +246,14 @@ static void check_mass_expression(pl_job* job, pl_model* m, pl_expr e, pl_span s
   check_value(job, e, span, "this mass", "diese Masse");
   if (pl_is_poison(e)) return;
   bool time = pl_has_symbol(m->pool, e, pl_time(m->pool));
-  if (!time && !pl_has_coordinate(m->pool, e, job->arena) && !pl_has_role(m->pool, e, PL_R_MULTIPLIER)) return;
-  pl_diagnostic* d =
-      pl_tell(job, PL_E056, span,
-              PL_F(job, "a mass has to be constant, but this one depends on %s", time ? "time" : "the motion"),
-              PL_F(job, "eine Masse muss konstant sein, diese hängt von der %s ab", time ? "Zeit" : "Bewegung"));
+  if (!time && !pl_has_coordinate(m->pool, e, job->arena)
+      && !pl_has_role(m->pool, e, PL_R_MULTIPLIER))
+    return;
+  pl_diagnostic* d = pl_tell(job, PL_E056, span,
+                             PL_F(job, "a mass has to be constant, but this one depends on %s",
+                                  time ? "time" : "the motion"),
+                             PL_F(job, "eine Masse muss konstant sein, diese hängt von der %s ab",
+                                  time ? "Zeit" : "Bewegung"));
   pl_report_fix(d, "write the kinetic energy yourself: kinetic 1/2 M(x) x'^2",
                 "die kinetische Energie selbst schreiben: kinetic 1/2 M(x) x'^2", NULL);
 }
@@ -229,14 +270,17 @@ static void check_masses(pl_job* job, pl_model* m) {
     check_point(job, m, &b->centre, b->span);
     check_value(job, b->angle, b->span, "this angle", "dieser Winkel");
     check_order(job, m, b->angle, 0, b->span, "the angle of a body", "der Winkel eines Körpers");
-    if (m->n_axes > 2) {        // along one axis it turns about an axis across: a yo-yo
+    if (m->n_axes > 2) {  // along one axis it turns about an axis across: a yo-yo
       pl_diagnostic* d = pl_tell(
-          job, PL_E035, b->span, PL_F(job, "a body with one angle lives in a plane, but there are %d axes", m->n_axes),
-          PL_F(job, "ein Körper mit einem Winkel lebt in der Ebene, aber es gibt %d Achsen", m->n_axes));
+          job, PL_E035, b->span,
+          PL_F(job, "a body with one angle lives in a plane, but there are %d axes", m->n_axes),
+          PL_F(job, "ein Körper mit einem Winkel lebt in der Ebene, aber es gibt %d Achsen",
+               m->n_axes));
       pl_report_fix(d, "axes x right, y up", "axes x right, y up", NULL);
     }
   }
-  for (int i = 0; i < m->points.n; i++) check_point(job, m, &m->points.at[i].point, m->points.at[i].span);
+  for (int i = 0; i < m->points.n; i++)
+    check_point(job, m, &m->points.at[i].point, m->points.at[i].span);
 }
 
 static bool same_point(const pl_point* a, const pl_point* b) {
@@ -252,8 +296,8 @@ static void check_load(pl_job* job, pl_model* m, const pl_load* x) {
   check_point(job, m, &x->b, x->span);
   bool between = x->kind == PL_L_SPRING || x->kind == PL_L_DAMPER;
   if (between && same_point(&x->a, &x->b)) {
-    pl_diagnostic* d =
-        pl_tell(job, PL_E064, x->span, "both ends are the same point", "beide Enden sind derselbe Punkt");
+    pl_diagnostic* d = pl_tell(job, PL_E064, x->span, "both ends are the same point",
+                               "beide Enden sind derselbe Punkt");
     pl_report_fix(d, "name two different points", "zwei verschiedene Punkte nennen", NULL);
   }
   if (x->kind == PL_L_COUPLE) {
@@ -264,16 +308,24 @@ static void check_load(pl_job* job, pl_model* m, const pl_load* x) {
     return;
   }
   if (x->kind == PL_L_FORCE) {
-    for (int k = 0; k < x->a.n && k < 3; k++) check_order(job, m, x->vector[k], 1, x->span, "a force", "eine Kraft");
+    for (int k = 0; k < x->a.n && k < 3; k++)
+      check_order(job, m, x->vector[k], 1, x->span, "a force", "eine Kraft");
     return;
   }
   check_value(job, x->value, x->span, "this expression", "dieser Ausdruck");
   switch (x->kind) {
-    case PL_L_POTENTIAL: check_order(job, m, x->value, 1, x->span, "a potential", "ein Potential"); break;
-    case PL_L_KINETIC: check_order(job, m, x->value, 1, x->span, "a kinetic energy", "eine kinetische Energie"); break;
-    case PL_L_LAGRANGIAN: check_order(job, m, x->value, 1, x->span, "a Lagrangian", "eine Lagrangefunktion"); break;
+    case PL_L_POTENTIAL:
+      check_order(job, m, x->value, 1, x->span, "a potential", "ein Potential");
+      break;
+    case PL_L_KINETIC:
+      check_order(job, m, x->value, 1, x->span, "a kinetic energy", "eine kinetische Energie");
+      break;
+    case PL_L_LAGRANGIAN:
+      check_order(job, m, x->value, 1, x->span, "a Lagrangian", "eine Lagrangefunktion");
+      break;
     case PL_L_RAYLEIGH:
-      check_order(job, m, x->value, 1, x->span, "a dissipation function", "eine Dissipationsfunktion");
+      check_order(job, m, x->value, 1, x->span, "a dissipation function",
+                  "eine Dissipationsfunktion");
       break;
     case PL_L_COUPLE: return;
     case PL_L_TORQUE:
@@ -298,24 +350,30 @@ static void check_lagrangian(pl_job* job, pl_model* m) {
   else if (m->gravities.n) other = m->gravities.at[0].span;
   for (int i = 0; i < m->loads.n && !any; i++) {
     pl_load_kind k = m->loads.at[i].kind;
-    if (k == PL_L_POTENTIAL || k == PL_L_KINETIC || k == PL_L_SPRING) any = true, other = m->loads.at[i].span;
+    if (k == PL_L_POTENTIAL || k == PL_L_KINETIC || k == PL_L_SPRING) {
+      any = true;
+      other = m->loads.at[i].span;
+    }
   }
   if (!any) return;
-  pl_diagnostic* d =
-      pl_tell(job, PL_E054, lagrangian->span, "lagrangian stands instead of masses, gravity and potentials",
-              "lagrangian steht anstelle von Massen, Schwerkraft und Potentialen");
-  if (other.source) pl_report_label(job->diagnostics, d, other, job->lang == PL_GERMAN ? "das auch?" : "this too?");
+  pl_diagnostic* d = pl_tell(job, PL_E054, lagrangian->span,
+                             "lagrangian stands instead of masses, gravity and potentials",
+                             "lagrangian steht anstelle von Massen, Schwerkraft und Potentialen");
+  if (other.source)
+    pl_report_label(job->diagnostics, d, other, job->lang == PL_GERMAN ? "das auch?" : "this too?");
   pl_report_fix(d, "write kinetic and potential instead of lagrangian, or remove the others",
-                "kinetic und potential statt lagrangian schreiben, oder die anderen entfernen", NULL);
+                "kinetic und potential statt lagrangian schreiben, oder die anderen entfernen",
+                NULL);
 }
 
 static void check_two_gravity_users(pl_job* job, pl_model* m) {
   if (!m->gravities.n || m->masses.n || m->bodies.n) return;
   for (int i = 0; i < m->loads.n; i++) {
-    if (m->loads.at[i].kind == PL_L_LAGRANGIAN) return;      // told there
+    if (m->loads.at[i].kind == PL_L_LAGRANGIAN) return;  // told there
   }
   if (m->pending.n) return;  // the mass may be in a statement this version does not know
-  pl_diagnostic* d = pl_tell(job, PL_N064, m->gravities.at[0].span, "gravity has no effect: there is no mass",
+  pl_diagnostic* d = pl_tell(job, PL_N064, m->gravities.at[0].span,
+                             "gravity has no effect: there is no mass",
                              "die Schwerkraft wirkt auf nichts: es gibt keine Masse");
   pl_report_fix(d, "add a mass, or write its potential: potential m g y",
                 "eine Masse angeben, oder ihr Potential: potential m g y", NULL);
@@ -323,16 +381,21 @@ static void check_two_gravity_users(pl_job* job, pl_model* m) {
 
 static void check_moving(pl_job* job, pl_model* m) {
   if (m->coords.n || job->diagnostics->n_errors) return;
-  bool physics = m->masses.n || m->bodies.n || m->loads.n || m->constraints.n || m->simulate.given || m->asks.n;
-  pl_span at = m->masses.n ? m->masses.at[0].span : m->constraints.n ? m->constraints.at[0].span
-             : m->simulate.given ? m->simulate.span : m->asks.n ? m->asks.at[0].span : (pl_span){0};
-  pl_diagnostic* d =
-      pl_tell(job, PL_E053, at, physics ? "nothing moves: the model has no coordinate" : "the model is empty",
-              physics ? "nichts bewegt sich: das Modell hat keine Koordinate" : "das Modell ist leer");
+  bool physics = m->masses.n || m->bodies.n || m->loads.n || m->constraints.n || m->simulate.given
+                 || m->asks.n;
+  pl_span at = m->masses.n         ? m->masses.at[0].span
+               : m->constraints.n  ? m->constraints.at[0].span
+               : m->simulate.given ? m->simulate.span
+               : m->asks.n         ? m->asks.at[0].span
+                                   : (pl_span){0};
+  pl_diagnostic* d = pl_tell(
+      job, PL_E053, at,
+      physics ? "nothing moves: the model has no coordinate" : "the model is empty",
+      physics ? "nichts bewegt sich: das Modell hat keine Koordinate" : "das Modell ist leer");
   pl_report_fix(d, "coord x, y", "coord x, y", NULL);
 }
 
-// ---------------------------------------------------------------------------------------------- constraints
+// ------------------------------------------------------------------------------------- constraints
 static void check_velocity_constraint(pl_job* job, pl_model* m, pl_constraint* c) {
   const char* name = c->name.text ? c->name.text : "?";
   const char* text = NULL;
@@ -340,43 +403,55 @@ static void check_velocity_constraint(pl_job* job, pl_model* m, pl_constraint* c
   switch (pl_velocity_kind_of(job, m, c->g, &text)) {
     case PL_NO_VELOCITY: return;
     case PL_ACCELERATION:
-      d = pl_tell(job, PL_E057, c->span, PL_F(job, "constraint %s cannot contain an acceleration", name),
+      d = pl_tell(job, PL_E057, c->span,
+                  PL_F(job, "constraint %s cannot contain an acceleration", name),
                   PL_F(job, "Zwangsbedingung %s kann keine Beschleunigung enthalten", name));
-      pl_report_fix(d, "write it for positions or velocities", "für Lagen oder Geschwindigkeiten schreiben", NULL);
+      pl_report_fix(d, "write it for positions or velocities",
+                    "für Lagen oder Geschwindigkeiten schreiben", NULL);
       return;
     case PL_NOT_LINEAR:
-      d = pl_tell(job, PL_E039, c->span, PL_F(job, "constraint %s is not linear in the velocities", name),
+      d = pl_tell(job, PL_E039, c->span,
+                  PL_F(job, "constraint %s is not linear in the velocities", name),
                   PL_F(job, "Zwangsbedingung %s ist nicht linear in den Geschwindigkeiten", name));
       pl_report_reason(d, "such a constraint has no agreed law for its force",
                        "für die Zwangskraft gibt es dann kein anerkanntes Gesetz");
-      pl_report_fix(d, "write it linear, as in x' = R φ'", "linear schreiben, wie in x' = R φ'", NULL);
+      pl_report_fix(d, "write it linear, as in x' = R φ'", "linear schreiben, wie in x' = R φ'",
+                    NULL);
       return;
     case PL_INTEGRABLE:
-      d = pl_tell(
-          job, PL_N092, c->span,
-          PL_F(job, "constraint %s can be integrated: it restricts positions too, up to a constant of the start", name),
-          PL_F(
-              job,
-              "Zwangsbedingung %s ist integrierbar: sie schränkt auch die Lagen ein, bis auf eine Konstante des Starts",
-              name));
+      d = pl_tell(job, PL_N092, c->span,
+                  PL_F(job,
+                       "constraint %s can be integrated: it restricts positions too, up to a "
+                       "constant of the start",
+                       name),
+                  PL_F(job,
+                       "Zwangsbedingung %s ist integrierbar: sie schränkt auch die Lagen ein, bis "
+                       "auf eine Konstante des Starts",
+                       name));
       if (text)
         pl_report_fix(d, PL_F(job, "as a constraint of positions: %s = constant", text),
                       PL_F(job, "als Bedingung an die Lagen: %s = Konstante", text), NULL);
       break;
     case PL_NONHOLONOMIC:
-      d = pl_tell(
-          job, PL_N092, c->span,
-          PL_F(job, "constraint %s cannot be integrated: it is nonholonomic and restricts velocities only", name),
-          PL_F(job,
-               "Zwangsbedingung %s ist nicht integrierbar: sie ist nichtholonom und schränkt nur die Geschwindigkeiten "
-               "ein",
-               name));
+      d = pl_tell(job, PL_N092, c->span,
+                  PL_F(job,
+                       "constraint %s cannot be integrated: it is nonholonomic and restricts "
+                       "velocities only",
+                       name),
+                  PL_F(job,
+                       "Zwangsbedingung %s ist nicht integrierbar: sie ist nichtholonom und "
+                       "schränkt nur die Geschwindigkeiten "
+                       "ein",
+                       name));
       break;
   }
   c->has_velocity = true;
   if (c->relation == PL_EQ) return;
-  d = pl_tell(job, PL_E057, c->span, PL_F(job, "constraint %s is one-sided and cannot contain velocities", name),
-              PL_F(job, "Zwangsbedingung %s ist einseitig und kann keine Geschwindigkeiten enthalten", name));
+  d = pl_tell(
+      job, PL_E057, c->span,
+      PL_F(job, "constraint %s is one-sided and cannot contain velocities", name),
+      PL_F(job, "Zwangsbedingung %s ist einseitig und kann keine Geschwindigkeiten enthalten",
+           name));
   pl_report_fix(d, "write it for positions, or with =", "für Lagen schreiben, oder mit =", NULL);
 }
 
@@ -388,31 +463,40 @@ static void check_constraint(pl_job* job, pl_model* m, pl_constraint* c) {
   check_no_multiplier(job, m, c->g, c->span, "a constraint", "eine Zwangsbedingung");
   check_velocity_constraint(job, m, c);
   if (pl_is_zero_node(m->pool, c->g)) {
-    pl_diagnostic* d =
-        pl_tell(job, PL_N053, c->span, PL_F(job, "constraint %s is always true: both sides are the same", name),
-                PL_F(job, "Zwangsbedingung %s gilt immer: beide Seiten sind gleich", name));
+    pl_diagnostic* d = pl_tell(
+        job, PL_N053, c->span,
+        PL_F(job, "constraint %s is always true: both sides are the same", name),
+        PL_F(job, "Zwangsbedingung %s gilt immer: beide Seiten sind gleich", name));
     pl_report_fix(d, "remove it", "entfernen", NULL);
     return;
   }
-  if (pl_has_coordinate(m->pool, c->g, job->arena) || pl_has_role(m->pool, c->g, PL_R_MULTIPLIER)) return;
-  pl_diagnostic* d = pl_tell(job, PL_E051, c->span, PL_F(job, "constraint %s speaks of no coordinate", name),
+  if (pl_has_coordinate(m->pool, c->g, job->arena) || pl_has_role(m->pool, c->g, PL_R_MULTIPLIER))
+    return;
+  pl_diagnostic* d = pl_tell(job, PL_E051, c->span,
+                             PL_F(job, "constraint %s speaks of no coordinate", name),
                              PL_F(job, "Zwangsbedingung %s enthält keine Koordinate", name));
-  pl_report_reason(d, "so it says nothing about the motion", "also sagt sie nichts über die Bewegung");
+  pl_report_reason(d, "so it says nothing about the motion",
+                   "also sagt sie nichts über die Bewegung");
   pl_report_fix(d, "a relation between given quantities is written with let or assume",
                 "eine Beziehung zwischen gegebenen Größen schreibt man mit let oder assume", NULL);
 }
 
-static const pl_constraint* contact(const pl_model* m, const char* label) { return pl_model_constraint(m, label); }
+static const pl_constraint* contact(const pl_model* m, const char* label) {
+  return pl_model_constraint(m, label);
+}
 
 static void check_while(pl_job* job, pl_model* m, const pl_constraint* c) {
   if (!c->while_label) return;
   const pl_constraint* other = contact(m, c->while_label);
-  if (!other || (other->relation != PL_EQ && other != c)) return;    // a missing label is told where names are read
+  // a missing label is told where names are read
+  if (!other || (other->relation != PL_EQ && other != c)) return;
   pl_diagnostic* d = pl_tell(
-      job, PL_E063, c->span, PL_F(job, "`while %s` needs a contact, but %s cannot end", c->while_label, c->while_label),
-      PL_F(job, "`while %s` braucht einen Kontakt, aber %s kann nicht enden", c->while_label, c->while_label));
-  pl_report_fix(d, "name a one-sided constraint (>= or <=)", "eine einseitige Zwangsbedingung (>= oder <=) nennen",
-                NULL);
+      job, PL_E063, c->span,
+      PL_F(job, "`while %s` needs a contact, but %s cannot end", c->while_label, c->while_label),
+      PL_F(job, "`while %s` braucht einen Kontakt, aber %s kann nicht enden", c->while_label,
+           c->while_label));
+  pl_report_fix(d, "name a one-sided constraint (>= or <=)",
+                "eine einseitige Zwangsbedingung (>= oder <=) nennen", NULL);
 }
 
 void pl_check_structure(pl_job* job, pl_model* m) {

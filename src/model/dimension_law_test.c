@@ -1,7 +1,8 @@
 // Laws of dimension inference on random input.
 //   What fits is never reported, and what is inferred is what was meant.
 //   A sum of two different dimensions is always reported.
-// Each name has a dimension that the generator knows; for some the model is told, the others have to be found.
+// Each name has a dimension that the generator knows; for some the model is told, the others have
+// to be found.
 #include "model/model_test_kit.h"
 
 static const uint64_t seed = 0x9d1e;
@@ -13,7 +14,7 @@ typedef struct world {
   pl_random r;
   pl_expr name[N_DECLARED + N_HIDDEN];
   pl_dimension meant[N_DECLARED + N_HIDDEN];
-  int n_names;                 // that expressions may use
+  int n_names;  // that expressions may use
 } world;
 
 static int pick(world* w, int n) { return (int)(pl_random_bits(&w->r) % (uint64_t)n); }
@@ -70,7 +71,8 @@ static pl_expr fitting(world* w, pl_dimension d, int depth) {
 
 static void claim(world* w, pl_expr left, pl_expr right) {
   pl_condition c = {left, right, PL_LE, {0}};
-  pl_push(w->k->arena, w->k->m->assumptions, (pl_assumption){.kind = PL_A_RELATION, .condition = c});
+  pl_push(w->k->arena, w->k->m->assumptions,
+          (pl_assumption){.kind = PL_A_RELATION, .condition = c});
 }
 
 static int complaints(const world* w) { return w->k->diagnostics.n_errors; }
@@ -79,7 +81,8 @@ static void show_claims(world* w, uint64_t round) {
   print_message("seed %#lx round %lu\n", (unsigned long)seed, (unsigned long)round);
   for (int i = 0; i < w->k->m->assumptions.n; i++) {
     const pl_condition* c = &w->k->m->assumptions.at[i].condition;
-    print_message("  %s <= %s\n", pl_expr_text(w->k->arena, w->p, c->left), pl_expr_text(w->k->arena, w->p, c->right));
+    print_message("  %s <= %s\n", pl_expr_text(w->k->arena, w->p, c->left),
+                  pl_expr_text(w->k->arena, w->p, c->right));
   }
   show(w->k);
 }
@@ -119,7 +122,7 @@ PL_TEST(what_is_inferred_is_what_was_meant) {
     }
     kit_free(w.k);
   }
-  assert_true(found > N_ROUNDS);     // most hidden names are found: the law is not empty
+  assert_true(found > N_ROUNDS);  // most hidden names are found: the law is not empty
 }
 
 // A sum of one dimension with another, somewhere deep in a claim.
@@ -129,13 +132,14 @@ PL_TEST(what_does_not_fit_is_always_reported) {
     world w = world_make(round, false);
     pl_dimension d = random_dimension(&w), other = random_dimension(&w);
     pl_expr left = fitting(&w, d, 2), right = fitting(&w, other, 2);
-    bool usable = !pl_dimension_equal(d, other) && !pl_is_poison(left) && !pl_is_poison(right) &&
-                  !pl_is_constant(w.p, left) && !pl_is_constant(w.p, right);
+    bool usable = !pl_dimension_equal(d, other) && !pl_is_poison(left) && !pl_is_poison(right)
+                  && !pl_is_constant(w.p, left) && !pl_is_constant(w.p, right);
     if (usable) {
       tried++;
       pl_expr sum = pl_add(w.p, left, right);
       if (pick(&w, 2))
-        sum = pl_mul(w.p, leaf(&w, pl_dimension_one()), pl_sqrt(w.p, pl_square(w.p, pl_add(w.p, sum, left))));
+        sum = pl_mul(w.p, leaf(&w, pl_dimension_one()),
+                     pl_sqrt(w.p, pl_square(w.p, pl_add(w.p, sum, left))));
       claim(&w, sum, leaf(&w, d));
       pl_check_dimensions(&w.k->job, w.k->m);
       if (!complaints(&w)) show_claims(&w, round);
@@ -146,7 +150,8 @@ PL_TEST(what_does_not_fit_is_always_reported) {
   assert_true(tried > N_ROUNDS / 2);
 }
 
-// Sides of two different dimensions, with names whose dimension is not declared but fixed by another claim.
+// Sides of two different dimensions, with names whose dimension is not declared but fixed by
+// another claim.
 PL_TEST(a_wrong_relation_through_hidden_names_is_reported) {
   for (uint64_t round = 0; round < N_ROUNDS; round++) {
     world w = world_make(round, true);
@@ -155,7 +160,8 @@ PL_TEST(a_wrong_relation_through_hidden_names_is_reported) {
     w.n_names = N_DECLARED;
     claim(&w, w.name[i], leaf(&w, d));
     pl_expr right = leaf(&w, other);
-    bool constant = pl_is_constant(w.p, right) || pl_is_constant(w.p, w.k->m->assumptions.at[0].condition.right);
+    bool constant = pl_is_constant(w.p, right)
+                    || pl_is_constant(w.p, w.k->m->assumptions.at[0].condition.right);
     if (!constant && !pl_dimension_equal(d, other)) {
       claim(&w, w.name[i], right);
       pl_check_dimensions(&w.k->job, w.k->m);

@@ -1,5 +1,5 @@
-// What a conflict of dimensions looks like to the reader: both places, where each dimension came from, and a name that
-// would fit.
+// What a conflict of dimensions looks like to the reader: both places, where each dimension came
+// from, and a name that would fit.
 //
 //   E021  a length cannot equal an acceleration
 //       9 | constraint g1: x1 + x2 = g
@@ -14,7 +14,7 @@
 
 enum { MAX_SYMBOLS = 64, MAX_NAME_DISTANCE = 2, MAX_BARE = 6, QUOTE_CELLS = 40 };
 
-// ---------------------------------------------------------------------------------------------- echoes of a conflict
+// ---------------------------------------------------------------------------- echoes of a conflict
 // The coordinate or parameter behind a velocity or start value.
 static pl_symbol root_of(const pl_dim_pass* d, pl_symbol s) {
   const pl_symbol_info* info = pl_symbol_get(d->pool, s);
@@ -28,7 +28,8 @@ static int symbols_of(pl_dim_pass* d, pl_expr e, pl_symbol* out) {
   if (n > MAX_SYMBOLS) n = MAX_SYMBOLS;
   int kept = 0;
   for (int i = 0; i < n; i++) {
-    if (!pl_is_unit_symbol(d->pool, found[i]) && pl_symbol_get(d->pool, found[i])->role != PL_R_INDEX)
+    if (!pl_is_unit_symbol(d->pool, found[i])
+        && pl_symbol_get(d->pool, found[i])->role != PL_R_INDEX)
       out[kept++] = found[i];
   }
   return kept;
@@ -59,8 +60,9 @@ static void taint(pl_dim_pass* d, pl_expr e) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- where it came from
-// The statement that brought the fixed exponents into a solved unknown: follow the rows as first found.
+// ------------------------------------------------------------------------------ where it came from
+// The statement that brought the fixed exponents into a solved unknown: follow the rows as first
+// found.
 static pl_span origin_of(pl_dim_pass* d, int var) {
   pl_dim_system* s = &d->system;
   for (int depth = 0; depth < 100; depth++) {
@@ -92,12 +94,13 @@ static const char* origin_text(pl_dim_pass* d, pl_expr e, pl_language lang) {
     const char* name = pl_symbol_get(d->pool, root)->name;
     if (v->declared && v->span.source) {
       int at = pl_span_place(v->span).line;
-      return n == 1 ? pl_format(a, "  (%s %d)", line, at) : pl_format(a, "  (%s: %s %d)", name, line, at);
+      return n == 1 ? pl_format(a, "  (%s %d)", line, at)
+                    : pl_format(a, "  (%s: %s %d)", name, line, at);
     }
     pl_span from = origin_of(d, (int)(v - d->system.vars.at));
     if (!from.source) continue;
-    return pl_format(a, lang == PL_GERMAN ? "  (%s aus Zeile %d: %s)" : "  (%s from line %d: %s)", name,
-                     pl_span_place(from).line, quoted(a, from));
+    return pl_format(a, lang == PL_GERMAN ? "  (%s aus Zeile %d: %s)" : "  (%s from line %d: %s)",
+                     name, pl_span_place(from).line, quoted(a, from));
   }
   return "";
 }
@@ -106,16 +109,17 @@ static const char* origin_text(pl_dim_pass* d, pl_expr e, pl_language lang) {
 static const char* side_text(pl_dim_pass* d, pl_expr e, const pl_dim_form* f, pl_language lang) {
   pl_dimension x;
   if (!pl_dim_known(&d->system, f, &x)) return NULL;
-  return pl_format(d->job->arena, "%s%s", pl_dimension_unit(d->job->arena, x, false), origin_text(d, e, lang));
+  return pl_format(d->job->arena, "%s%s", pl_dimension_unit(d->job->arena, x, false),
+                   origin_text(d, e, lang));
 }
 
-// ---------------------------------------------------------------------------------------------- did you mean
+// ------------------------------------------------------------------------------------ did you mean
 typedef struct suggestion {
   pl_symbol wrong;
-  const char* name;           // what would fit
+  const char* name;  // what would fit
   pl_dimension dimension;
-  int line;                   // of its declaration, 0 without text
-  int score;                  // smaller is better
+  int line;   // of its declaration, 0 without text
+  int score;  // smaller is better
 } suggestion;
 
 // e = s^p times the rest: the p of a plain factor, 0 if there is none.
@@ -135,8 +139,8 @@ static pl_fraction power_of(pl_dim_pass* d, pl_expr e, pl_symbol s) {
   return (pl_fraction){0, 1};
 }
 
-static void consider(pl_dim_pass* d, suggestion* best, pl_symbol wrong, pl_symbol candidate, pl_dimension wanted,
-                     pl_span span) {
+static void consider(pl_dim_pass* d, suggestion* best, pl_symbol wrong, pl_symbol candidate,
+                     pl_dimension wanted, pl_span span) {
   if (!candidate.id || candidate.id == wrong.id) return;
   const pl_symbol_info* info = pl_symbol_get(d->pool, candidate);
   const pl_symbol_info* bad = pl_symbol_get(d->pool, wrong);
@@ -148,7 +152,8 @@ static void consider(pl_dim_pass* d, suggestion* best, pl_symbol wrong, pl_symbo
   if (distance > MAX_NAME_DISTANCE) return;
   // a name that nothing else uses is the likelier one
   int uses = d->model->source ? pl_source_count_name(d->model->source, info->ascii) : 0;
-  int score = distance * 100 + (uses > 50 ? 50 : uses) + (info->role != bad->role && info->role != PL_R_LOCAL ? 10 : 0);
+  int score = distance * 100 + (uses > 50 ? 50 : uses)
+              + (info->role != bad->role && info->role != PL_R_LOCAL ? 10 : 0);
   if (score >= best->score) return;
   *best = (suggestion){wrong, info->name, x, span.source ? pl_span_place(span).line : 0, score};
 }
@@ -166,14 +171,19 @@ static void suggest_for_side(pl_dim_pass* d, suggestion* best, pl_expr e, const 
     const pl_dim_form* gap = pl_dim_combine(&d->system, wanted, (pl_fraction){-1, 1}, is);
     const pl_dim_form* own = pl_dim_unknown(&d->system, pl_dim_symbol_var(d, s[i]));
     pl_dimension x;
-    if (!pl_dim_known(&d->system, pl_dim_combine(&d->system, own, pl_fraction_div((pl_fraction){1, 1}, p), gap), &x))
+    if (!pl_dim_known(&d->system,
+                      pl_dim_combine(&d->system, own, pl_fraction_div((pl_fraction){1, 1}, p), gap),
+                      &x))
       continue;
-    for (int k = 0; k < m->params.n; k++) consider(d, best, s[i], m->params.at[k].symbol, x, m->params.at[k].span);
+    for (int k = 0; k < m->params.n; k++)
+      consider(d, best, s[i], m->params.at[k].symbol, x, m->params.at[k].span);
     for (int k = 0; k < m->lets.n; k++) {
-      if (m->lets.at[k].n_args == 0) consider(d, best, s[i], m->lets.at[k].symbol, x, m->lets.at[k].span);
+      if (m->lets.at[k].n_args == 0)
+        consider(d, best, s[i], m->lets.at[k].symbol, x, m->lets.at[k].span);
     }
     for (int k = 0; k < m->coords.n; k++) {
-      if (pl_is_poison(m->coords.at[k].lo)) consider(d, best, s[i], m->coords.at[k].symbol, x, m->coords.at[k].span);
+      if (pl_is_poison(m->coords.at[k].lo))
+        consider(d, best, s[i], m->coords.at[k].symbol, x, m->coords.at[k].span);
     }
   }
 }
@@ -184,7 +194,7 @@ static const char* line_and_unit(pl_dim_pass* d, const suggestion* s, bool germa
   return pl_format(d->job->arena, german ? "(Zeile %d, %s)" : "(line %d, %s)", s->line, unit);
 }
 
-// ---------------------------------------------------------------------------------------------- sentences
+// --------------------------------------------------------------------------------------- sentences
 static const char* words(pl_dim_pass* d, const pl_dim_form* f, pl_language lang) {
   pl_dimension x;
   return pl_dim_known(&d->system, f, &x) ? pl_dimension_words(d->job->arena, x, lang) : NULL;
@@ -193,11 +203,13 @@ static const char* words(pl_dim_pass* d, const pl_dim_form* f, pl_language lang)
 // As a reader writes it: 0.001 rather than 1/1000.
 static const char* text_of(pl_dim_pass* d, pl_expr e) {
   pl_expr plain = pl_model_plain(d->pool, e);
-  if (pl_is_number(d->pool, plain)) return pl_format(d->job->arena, "%.9g", pl_number_double(d->pool, plain));
+  if (pl_is_number(d->pool, plain))
+    return pl_format(d->job->arena, "%.9g", pl_number_double(d->pool, plain));
   return pl_expr_words(d->job->arena, d->pool, plain);
 }
 
-static void both_sentences(pl_dim_pass* d, const pl_dim_conflict* c, const char** en, const char** de) {
+static void both_sentences(pl_dim_pass* d, const pl_dim_conflict* c, const char** en,
+                           const char** de) {
   pl_arena* a = d->job->arena;
   const char* a_en = words(d, c->form_a, PL_ENGLISH);
   const char* a_de = words(d, c->form_a, PL_GERMAN);
@@ -216,15 +228,16 @@ static void both_sentences(pl_dim_pass* d, const pl_dim_conflict* c, const char*
   bool sum = c->kind == PL_CLASH_SUM;
   if (a_en && b_en) {
     *en = pl_format(a, sum ? "%s and %s cannot be added" : "%s cannot equal %s", a_en, b_en);
-    *de = pl_format(a, sum ? "%s und %s lassen sich nicht addieren" : "links steht %s, rechts %s", a_de, b_de);
+    *de = pl_format(a, sum ? "%s und %s lassen sich nicht addieren" : "links steht %s, rechts %s",
+                    a_de, b_de);
     return;
   }
   pl_dimension ratio;
   const pl_dim_form* gap = pl_dim_combine(&d->system, c->form_a, (pl_fraction){-1, 1}, c->form_b);
   if (!pl_dim_known(&d->system, gap, &ratio)) {
     *en = sum ? "the units of these terms do not fit" : "the units of these sides do not fit";
-    *de =
-        sum ? "die Einheiten dieser Terme passen nicht zusammen" : "die Einheiten dieser Seiten passen nicht zusammen";
+    *de = sum ? "die Einheiten dieser Terme passen nicht zusammen"
+              : "die Einheiten dieser Seiten passen nicht zusammen";
     return;
   }
   const char* unit = pl_dimension_unit(a, ratio, false);
@@ -232,11 +245,14 @@ static void both_sentences(pl_dim_pass* d, const pl_dim_conflict* c, const char*
                   sum ? "these terms cannot be added: their units differ by %s"
                       : "these sides cannot be equal: their units differ by %s",
                   unit);
-  *de = pl_format(a, sum ? "diese Terme lassen sich nicht addieren: ihre Einheiten unterscheiden sich um %s"
-                         : "diese Seiten können nicht gleich sein: ihre Einheiten unterscheiden sich um %s", unit);
+  *de = pl_format(
+      a,
+      sum ? "diese Terme lassen sich nicht addieren: ihre Einheiten unterscheiden sich um %s"
+          : "diese Seiten können nicht gleich sein: ihre Einheiten unterscheiden sich um %s",
+      unit);
 }
 
-// ---------------------------------------------------------------------------------------------- places
+// ------------------------------------------------------------------------------------------ places
 // Where an expression stands inside a statement: the first name of it that can be found there.
 static bool find_part(pl_dim_pass* d, pl_span where, pl_expr e, pl_span* out) {
   pl_symbol s[MAX_SYMBOLS];
@@ -267,7 +283,8 @@ static void find_places(pl_dim_pass* d, const pl_dim_conflict* c, pl_span* at_a,
   if (at_b->source && at_a->begin == at_b->begin) *at_b = (pl_span){0};
 }
 
-// The second place outside the statement, when the text of the statement does not show it: where the name is declared.
+// The second place outside the statement, when the text of the statement does not show it: where
+// the name is declared.
 static bool label_declarations(pl_dim_pass* d, pl_diagnostic* m, pl_expr e) {
   pl_symbol s[MAX_SYMBOLS];
   int n = symbols_of(d, e, s);
@@ -275,16 +292,18 @@ static bool label_declarations(pl_dim_pass* d, pl_diagnostic* m, pl_expr e) {
     const pl_dim_var* v = var_of(d, s[i]);
     pl_dimension x;
     if (!v || !v->span.source || v->span.begin == d->where.begin) continue;
-    if (!pl_dim_known(&d->system, pl_dim_unknown(&d->system, (int)(v - d->system.vars.at)), &x)) continue;
+    if (!pl_dim_known(&d->system, pl_dim_unknown(&d->system, (int)(v - d->system.vars.at)), &x))
+      continue;
     const char* name = pl_symbol_get(d->pool, root_of(d, s[i]))->name;
-    pl_report_label(d->job->diagnostics, m, v->span,
-                    pl_format(d->job->arena, "%s: %s", name, pl_dimension_unit(d->job->arena, x, false)));
+    pl_report_label(
+        d->job->diagnostics, m, v->span,
+        pl_format(d->job->arena, "%s: %s", name, pl_dimension_unit(d->job->arena, x, false)));
     return true;
   }
   return false;
 }
 
-// ---------------------------------------------------------------------------------------------- fixes
+// ------------------------------------------------------------------------------------------- fixes
 // The number in front of a product, 1 if there is none.
 static pl_expr number_before(pl_dim_pass* d, pl_expr e) {
   if (pl_kind_of(d->pool, e) == PL_MUL) {
@@ -300,27 +319,35 @@ static bool has_unit(pl_dim_pass* d, pl_expr e) {
   for (int i = 0; pl_kind_of(d->pool, e) == PL_MUL && i < pl_n_args(d->pool, e); i++) {
     pl_expr factor = pl_arg(d->pool, e, i);
     if (pl_kind_of(d->pool, factor) == PL_POW) factor = pl_arg(d->pool, factor, 0);
-    if (pl_kind_of(d->pool, factor) == PL_SYMBOL && pl_is_unit_symbol(d->pool, pl_symbol_of(d->pool, factor))) return true;
+    if (pl_kind_of(d->pool, factor) == PL_SYMBOL
+        && pl_is_unit_symbol(d->pool, pl_symbol_of(d->pool, factor)))
+      return true;
   }
   return false;
 }
 
-// Numbers in front are pure, but the 3 of sin(3 t) may have been meant as 3 [1/s].  Halves and doubles are not.
-static bool fix_of_number_before(pl_dim_pass* d, pl_expr e, const pl_dim_form* is, const pl_dim_form* wanted,
-                                 pl_diagnostic* m) {
+// Numbers in front are pure, but the 3 of sin(3 t) may have been meant as 3 [1/s]. Halves and
+// doubles are not.
+static bool fix_of_number_before(pl_dim_pass* d, pl_expr e, const pl_dim_form* is,
+                                 const pl_dim_form* wanted, pl_diagnostic* m) {
   pl_pool* p = d->pool;
   if (has_unit(d, e)) return false;
   pl_expr number = number_before(d, e), twice = pl_mul(p, pl_int(p, 2), number);
   long k;
   pl_dimension gap;
-  bool simple = (pl_is_int(p, number, &k) && labs(k) <= 2) || (pl_is_int(p, twice, &k) && labs(k) <= 1);
-  if (simple || !pl_dim_known(&d->system, pl_dim_combine(&d->system, wanted, (pl_fraction){-1, 1}, is), &gap))
+  bool simple = (pl_is_int(p, number, &k) && labs(k) <= 2)
+                || (pl_is_int(p, twice, &k) && labs(k) <= 1);
+  if (simple
+      || !pl_dim_known(&d->system, pl_dim_combine(&d->system, wanted, (pl_fraction){-1, 1}, is),
+                       &gap))
     return false;
   if (pl_dimension_equal(gap, pl_dimension_one())) return false;
   const char* unit = pl_dimension_unit(d->job->arena, gap, false);
   const char* text = text_of(d, number);
-  pl_report_fix(m, pl_format(d->job->arena, "if the number has a unit, write it: %s [%s]", text, unit),
-                pl_format(d->job->arena, "wenn die Zahl eine Einheit hat, sie dazuschreiben: %s [%s]", text, unit),
+  pl_report_fix(m,
+                pl_format(d->job->arena, "if the number has a unit, write it: %s [%s]", text, unit),
+                pl_format(d->job->arena,
+                          "wenn die Zahl eine Einheit hat, sie dazuschreiben: %s [%s]", text, unit),
                 NULL);
   return true;
 }
@@ -332,7 +359,8 @@ static const char* divisor_for(pl_dim_pass* d, pl_expr e, pl_dimension is) {
     pl_dimension x;
     pl_symbol s = m->params.at[i].symbol;
     if (pl_has_symbol(d->pool, e, s) || !pl_map_get(d->var_of, s.id)) continue;
-    if (!pl_dim_known(&d->system, pl_dim_unknown(&d->system, pl_dim_symbol_var(d, s)), &x)) continue;
+    if (!pl_dim_known(&d->system, pl_dim_unknown(&d->system, pl_dim_symbol_var(d, s)), &x))
+      continue;
     if (pl_dimension_equal(x, is)) return pl_symbol_get(d->pool, s)->name;
   }
   return NULL;
@@ -346,12 +374,17 @@ static void fix_pure_number(pl_dim_pass* d, const pl_dim_conflict* c, pl_diagnos
   const char* example = pl_kind_of(d->pool, c->a) == PL_SYMBOL ? "%s/%s" : "(%s)/%s";
   if (divisor) {
     const char* quotient = pl_format(a, example, name, divisor);
-    pl_report_fix(m, pl_format(a, "divide by a quantity of the same unit, for example %s", quotient),
-                  pl_format(a, "durch eine Größe derselben Einheit teilen, zum Beispiel %s", quotient), NULL);
+    pl_report_fix(
+        m, pl_format(a, "divide by a quantity of the same unit, for example %s", quotient),
+        pl_format(a, "durch eine Größe derselben Einheit teilen, zum Beispiel %s", quotient), NULL);
   } else {
-    pl_report_fix(m, pl_format(a, "divide %s by a quantity of the same unit, so that a pure number is left", name),
-                  pl_format(a, "%s durch eine Größe derselben Einheit teilen, damit eine reine Zahl bleibt", name),
-                  NULL);
+    pl_report_fix(
+        m,
+        pl_format(a, "divide %s by a quantity of the same unit, so that a pure number is left",
+                  name),
+        pl_format(a, "%s durch eine Größe derselben Einheit teilen, damit eine reine Zahl bleibt",
+                  name),
+        NULL);
   }
 }
 
@@ -364,10 +397,12 @@ static void fix_need(pl_dim_pass* d, const pl_dim_conflict* c, pl_diagnostic* m)
     return;
   }
   const char* unit = pl_dimension_unit(d->job->arena, wanted, false);
-  bool short_name = pl_kind_of(d->pool, c->a) == PL_SYMBOL || pl_is_number(d->pool, pl_model_plain(d->pool, c->a));
+  bool short_name = pl_kind_of(d->pool, c->a) == PL_SYMBOL
+                    || pl_is_number(d->pool, pl_model_plain(d->pool, c->a));
   const char* name = short_name ? text_of(d, c->a) : NULL;
   pl_report_fix(m, pl_format(d->job->arena, "%s has to be in %s", name ? name : "this", unit),
-                pl_format(d->job->arena, "%s muss die Einheit %s haben", name ? name : "das", unit), NULL);
+                pl_format(d->job->arena, "%s muss die Einheit %s haben", name ? name : "das", unit),
+                NULL);
 }
 
 static void fix_of_value(pl_dim_pass* d, const pl_dim_conflict* c, pl_diagnostic* m) {
@@ -384,30 +419,36 @@ static void fix_of_value(pl_dim_pass* d, const pl_dim_conflict* c, pl_diagnostic
     if (!pl_dim_known(&d->system, a_is_number ? c->form_b : c->form_a, &x)) return;
     const char* unit = pl_dimension_unit(a, x, false);
     const char* name = text_of(d, a_is_number ? c->b : c->a);
-    pl_report_fix(m, pl_format(a, "%s is in %s: give the number in that unit", name, unit),
-                  pl_format(a, "%s hat die Einheit %s: die Zahl in dieser Einheit angeben", name, unit), NULL);
+    pl_report_fix(
+        m, pl_format(a, "%s is in %s: give the number in that unit", name, unit),
+        pl_format(a, "%s hat die Einheit %s: die Zahl in dieser Einheit angeben", name, unit),
+        NULL);
     return;
   }
   const pl_dim_form* gap = pl_dim_combine(&d->system, c->form_a, (pl_fraction){-1, 1}, c->form_b);
   if (!pl_dim_known(&d->system, gap, &x)) return;
   const char* unit = pl_dimension_unit(a, x, false);
-  pl_report_fix(m, pl_format(a, "a factor in %s is missing on one side, or one of the units is wrong", unit),
-                pl_format(a, "es fehlt ein Faktor in %s, oder eine der Einheiten ist falsch", unit), NULL);
+  pl_report_fix(
+      m, pl_format(a, "a factor in %s is missing on one side, or one of the units is wrong", unit),
+      pl_format(a, "es fehlt ein Faktor in %s, oder eine der Einheiten ist falsch", unit), NULL);
 }
 
-static bool fix_of_name(pl_dim_pass* d, const suggestion* best, pl_diagnostic* m, pl_span* culprit) {
+static bool fix_of_name(pl_dim_pass* d, const suggestion* best, pl_diagnostic* m,
+                        pl_span* culprit) {
   if (best->score == INT_MAX) return false;
   pl_span at;
-  bool found =
-      pl_span_find_name(d->focus.source ? d->focus : d->where, pl_symbol_get(d->pool, best->wrong)->ascii, &at);
+  bool found = pl_span_find_name(d->focus.source ? d->focus : d->where,
+                                 pl_symbol_get(d->pool, best->wrong)->ascii, &at);
   if (found) *culprit = at;
   const char* wrong = pl_symbol_get(d->pool, best->wrong)->name;
   const char* instead[2] = {found ? "" : pl_format(d->job->arena, " instead of %s", wrong),
                             found ? "" : pl_format(d->job->arena, " statt %s", wrong)};
-  pl_report_fix(
-      m, pl_format(d->job->arena, "did you mean %s %s%s?", best->name, line_and_unit(d, best, false), instead[0]),
-      pl_format(d->job->arena, "ist %s %s gemeint%s?", best->name, line_and_unit(d, best, true), instead[1]),
-      found ? best->name : NULL);
+  pl_report_fix(m,
+                pl_format(d->job->arena, "did you mean %s %s%s?", best->name,
+                          line_and_unit(d, best, false), instead[0]),
+                pl_format(d->job->arena, "ist %s %s gemeint%s?", best->name,
+                          line_and_unit(d, best, true), instead[1]),
+                found ? best->name : NULL);
   return true;
 }
 
@@ -428,7 +469,8 @@ void pl_dim_report(pl_dim_pass* d, const pl_dim_conflict* c) {
   pl_diagnostic* m = pl_report(d->job->diagnostics, c->code, at_a, en, de);
   pl_span culprit = {0};
   bool named = fix_of_name(d, &best, m, &culprit);
-  const char* text_a[2] = {side_text(d, c->a, c->form_a, PL_ENGLISH), side_text(d, c->a, c->form_a, PL_GERMAN)};
+  const char* text_a[2] = {side_text(d, c->a, c->form_a, PL_ENGLISH),
+                           side_text(d, c->a, c->form_a, PL_GERMAN)};
   const char* text_b[2] = {NULL, NULL};
   if (c->kind != PL_CLASH_NEED) {
     text_b[0] = side_text(d, c->b, c->form_b, PL_ENGLISH);
@@ -436,14 +478,15 @@ void pl_dim_report(pl_dim_pass* d, const pl_dim_conflict* c) {
   }
   // the message stands where the fix applies: at the name to replace, if it is the second part
   int lang = d->job->lang == PL_GERMAN;
-  bool second = culprit.source && at_b.source && culprit.begin >= at_b.begin && culprit.end <= at_b.end;
+  bool second = culprit.source && at_b.source && culprit.begin >= at_b.begin
+                && culprit.end <= at_b.end;
   if (culprit.source) m->span = culprit;
   pl_report_reason(m, second ? text_b[0] : text_a[0], second ? text_b[1] : text_a[1]);
   pl_span other = second ? at_a : at_b;
   if (other.source && other.begin != m->span.begin) {
     pl_report_label(d->job->diagnostics, m, other, second ? text_a[lang] : text_b[lang]);
   } else if (!other.source && label_declarations(d, m, c->kind == PL_CLASH_NEED ? c->a : c->b)) {
-    pl_dimension x;       // the line of the declaration is shown: no need to name it
+    pl_dimension x;  // the line of the declaration is shown: no need to name it
     if (c->kind == PL_CLASH_NEED && pl_dim_known(&d->system, c->form_a, &x)) {
       const char* unit = pl_dimension_unit(d->job->arena, x, false);
       pl_report_reason(m, unit, unit);
@@ -455,9 +498,12 @@ void pl_dim_report(pl_dim_pass* d, const pl_dim_conflict* c) {
   fix_of_value(d, c, m);
 }
 
-// ---------------------------------------------------------------------------------------------- bare numbers
+// ------------------------------------------------------------------------------------ bare numbers
 // Bare numbers that something connected gave a unit: one note for all of them.
-typedef struct bare_number { const char* text; pl_span span; } bare_number;
+typedef struct bare_number {
+  const char* text;
+  pl_span span;
+} bare_number;
 
 static int compare_bare(const void* x, const void* y) {
   const bare_number *a = x, *b = y;
@@ -479,18 +525,21 @@ void pl_dim_report_bare_numbers(pl_dim_pass* d) {
   const char* unit;
   for (int i = 0; i < m->params.n; i++) {
     const pl_param* p = &m->params.at[i];
-    if (p->has_unit || pl_is_poison(p->value) || pl_is_zero_node(d->pool, p->value) ||
-        !pl_is_constant(d->pool, p->value))
+    if (p->has_unit || pl_is_poison(p->value) || pl_is_zero_node(d->pool, p->value)
+        || !pl_is_constant(d->pool, p->value))
       continue;
     const pl_dim_var* v = var_of(d, p->symbol);
     if (v && v->tainted) continue;
-    if (!unit_of_form(d, pl_dim_unknown(&d->system, pl_dim_symbol_var(d, p->symbol)), &unit)) continue;
+    if (!unit_of_form(d, pl_dim_unknown(&d->system, pl_dim_symbol_var(d, p->symbol)), &unit))
+      continue;
     const char* name = pl_symbol_get(d->pool, p->symbol)->name;
-    pl_push(a, found, (bare_number){pl_format(a, "%s = %s %s", name, text_of(d, p->value), unit), p->span});
+    pl_push(a, found,
+            (bare_number){pl_format(a, "%s = %s %s", name, text_of(d, p->value), unit), p->span});
   }
   for (int i = 0; i < d->system.vars.n; i++) {
     const pl_dim_var* v = &d->system.vars.at[i];
-    if (v->kind != PL_DIM_NUMBER || !unit_of_form(d, pl_dim_unknown(&d->system, i), &unit)) continue;
+    if (v->kind != PL_DIM_NUMBER || !unit_of_form(d, pl_dim_unknown(&d->system, i), &unit))
+      continue;
     pl_push(a, found, (bare_number){pl_format(a, "%s %s", text_of(d, v->number), unit), v->span});
   }
   if (found.n == 0) return;
@@ -504,8 +553,11 @@ void pl_dim_report_bare_numbers(pl_dim_pass* d) {
     pl_text_addf(&list, "%s%s", shown++ ? ", " : "", found.at[i].text);
   }
   const char* more = n > MAX_BARE ? pl_format(a, ", +%d", n - MAX_BARE) : "";
-  pl_diagnostic* note = pl_report(d->job->diagnostics, PL_N021, found.at[0].span,
+  pl_diagnostic* note = pl_report(
+      d->job->diagnostics, PL_N021, found.at[0].span,
       pl_format(a, "numbers without unit are taken in SI units: %s%s", pl_text_string(&list), more),
-      pl_format(a, "Zahlen ohne Einheit gelten in SI-Einheiten: %s%s", pl_text_string(&list), more));
-  pl_report_fix(note, "write the unit in [ ] to be sure", "die Einheit in [ ] dazuschreiben, um sicherzugehen", NULL);
+      pl_format(a, "Zahlen ohne Einheit gelten in SI-Einheiten: %s%s", pl_text_string(&list),
+                more));
+  pl_report_fix(note, "write the unit in [ ] to be sure",
+                "die Einheit in [ ] dazuschreiben, um sicherzugehen", NULL);
 }

@@ -1,9 +1,11 @@
-// Linear algebra of dimensions.  A dimension is a vector of rational exponents; the dimension of a product of powers
-// is a linear combination, so every equation of the model is one linear equation between unknown vectors, and
-// elimination finds all that follows: x² = a y² gives [a] = [x]² / [y]² whatever [x] and [y] turn out to be.
+// Linear algebra of dimensions. A dimension is a vector of rational exponents; the dimension of a
+// product of powers is a linear combination, so every equation of the model is one linear equation
+// between unknown vectors, and elimination finds all that follows: x² = a y² gives [a] = [x]² /
+// [y]² whatever [x] and [y] turn out to be.
 //
-// Each unknown is free or solved.  A solved one has a row: fixed exponents plus multiples of unknowns that were free
-// when the row was made.  Resolving puts rows in until only free unknowns are left.  [WandOKeefe1991]
+// Each unknown is free or solved. A solved one has a row: fixed exponents plus multiples of
+// unknowns that were free when the row was made. Resolving puts rows in until only free unknowns
+// are left. [WandOKeefe1991]
 #include "dimension_impl.h"
 
 #include <string.h>
@@ -29,7 +31,8 @@ const pl_dim_form* pl_dim_unknown(pl_dim_system* s, int var) {
 }
 
 // Merge of two sorted lists.
-const pl_dim_form* pl_dim_combine(pl_dim_system* s, const pl_dim_form* a, pl_fraction f, const pl_dim_form* b) {
+const pl_dim_form* pl_dim_combine(pl_dim_system* s, const pl_dim_form* a, pl_fraction f,
+                                  const pl_dim_form* b) {
   pl_dim_form* c = PL_NEW(s->arena, pl_dim_form);
   c->fixed = pl_exponents_add(a->fixed, f, b->fixed);
   c->part = PL_ARRAY(s->arena, pl_dim_part, a->n + b->n);
@@ -42,8 +45,10 @@ const pl_dim_form* pl_dim_combine(pl_dim_system* s, const pl_dim_form* a, pl_fra
       next = (pl_dim_part){b->part[j].var, pl_fraction_mul(f, b->part[j].f)};
       j++;
     } else {
-      next = (pl_dim_part){a->part[i].var, pl_fraction_add(a->part[i].f, pl_fraction_mul(f, b->part[j].f))};
-      i++, j++;
+      next = (pl_dim_part){a->part[i].var,
+                           pl_fraction_add(a->part[i].f, pl_fraction_mul(f, b->part[j].f))};
+      i++;
+      j++;
     }
     if (next.f.num != 0 || !pl_fraction_valid(next.f)) c->part[c->n++] = next;
   }
@@ -79,27 +84,31 @@ const pl_dim_form* pl_dim_resolve(pl_dim_system* s, const pl_dim_form* a) {
     i = 0;
   }
   // one unknown alone: keep the shortened row for the next time
-  if (start->n == 1 && start != a && start->part[0].f.num == 1 && start->part[0].f.den == 1 &&
-      pl_exponents_are_zero(start->fixed)) {
+  if (start->n == 1 && start != a && start->part[0].f.num == 1 && start->part[0].f.den == 1
+      && pl_exponents_are_zero(start->fixed)) {
     s->vars.at[start->part[0].var].row = a;
   }
   return a;
 }
 
-// Which unknown an equation settles: a bare number first, then the one met last; the energy stays as long as it can.
+// Which unknown an equation settles: a bare number first, then the one met last; the energy stays
+// as long as it can.
 static int pivot_of(const pl_dim_system* s, const pl_dim_form* d) {
   int best = -1, rank = -1;
   for (int i = 0; i < d->n; i++) {
     pl_dim_var_kind kind = s->vars.at[d->part[i].var].kind;
     int r = kind == PL_DIM_NUMBER ? 2 : kind == PL_DIM_SYMBOL ? 1 : 0;
-    if (r >= rank) best = i, rank = r;
+    if (r >= rank) {
+      best = i;
+      rank = r;
+    }
   }
   return best;
 }
 
 bool pl_dim_unify(pl_dim_system* s, const pl_dim_form* a, const pl_dim_form* b, pl_span reason) {
   const pl_dim_form* d = pl_dim_resolve(s, pl_dim_combine(s, a, (pl_fraction){-1, 1}, b));
-  if (!is_sound(d)) return true;      // exponents beyond any physics: nothing can be said
+  if (!is_sound(d)) return true;  // exponents beyond any physics: nothing can be said
   if (d->n == 0) return pl_exponents_are_zero(d->fixed);
 
   // d = rest + f v = 0, so v = -rest / f

@@ -1,25 +1,32 @@
-// Dimensions through every equation of a model.  Each name has an unknown dimension; declared units fix some of them,
-// every sum, relation, function and physical statement is an equation between them (dimension_system.c).  Needs the
-// names resolved and the units still in the expressions (units.c: base units as symbols).
+// Dimensions through every equation of a model. Each name has an unknown dimension; declared units
+// fix some of them, every sum, relation, function and physical statement is an equation between
+// them (dimension_system.c). Needs the names resolved and the units still in the expressions
+// (units.c: base units as symbols).
 //
-// A model without any unit is walked too, silently: what would be a mass or a length decides how formulas are ordered.
+// A model without any unit is walked too, silently: what would be a mass or a length decides how
+// formulas are ordered.
 #include "dimension_impl.h"
 
 #include <math.h>
 #include <string.h>
 
-// ---------------------------------------------------------------------------------------------- forms of expressions
+// ---------------------------------------------------------------------------- forms of expressions
 static const pl_dim_form* form_of(pl_dim_pass* d, pl_expr e);
 
-static const pl_dim_form* pure(pl_dim_pass* d) { return pl_dim_fixed(&d->system, pl_exponents_zero()); }
+static const pl_dim_form* pure(pl_dim_pass* d) {
+  return pl_dim_fixed(&d->system, pl_exponents_zero());
+}
 
 static const pl_dim_form* mechanical(pl_dim_pass* d, int m, int kg, int s) {
   pl_exponents e = pl_exponents_zero();
-  e.e[0].num = m, e.e[1].num = kg, e.e[2].num = s;
+  e.e[0].num = m;
+  e.e[1].num = kg;
+  e.e[2].num = s;
   return pl_dim_fixed(&d->system, e);
 }
 
-static const pl_dim_form* times(pl_dim_pass* d, const pl_dim_form* a, int power, const pl_dim_form* b) {
+static const pl_dim_form* times(pl_dim_pass* d, const pl_dim_form* a, int power,
+                                const pl_dim_form* b) {
   return pl_dim_combine(&d->system, a, (pl_fraction){power, 1}, b);
 }
 
@@ -45,20 +52,23 @@ static const pl_dim_form* form_of_symbol(pl_dim_pass* d, pl_symbol s, int dots) 
       if (base.id) return form_of_symbol(d, base, dots + info->dots);
       break;
     case PL_R_MOMENTUM:
-      if (base.id) return times(d, times(d, energy(d), 1, duration(d)), -1, form_of_symbol(d, base, 0));
+      if (base.id)
+        return times(d, times(d, energy(d), 1, duration(d)), -1, form_of_symbol(d, base, 0));
       break;
     case PL_R_TIME: return duration(d);
     case PL_R_INDEX: return pure(d);
     default: break;
   }
-  if (pl_is_unit_symbol(d->pool, s)) return pl_dim_fixed(&d->system, pl_exponents_of(info->dimension));
+  if (pl_is_unit_symbol(d->pool, s))
+    return pl_dim_fixed(&d->system, pl_exponents_of(info->dimension));
   const pl_dim_form* f = pl_dim_unknown(&d->system, pl_dim_symbol_var(d, s));
   return dots ? times(d, f, -dots, duration(d)) : f;
 }
 
 // What stands alone, as a term or a side: 0 fits everything (NULL), another bare number is free.
 static const pl_dim_form* form_of_side(pl_dim_pass* d, pl_expr e) {
-  if (pl_is_poison(e) || pl_is_zero_node(d->pool, e) || pl_kind_of(d->pool, e) == PL_INFINITY) return NULL;
+  if (pl_is_poison(e) || pl_is_zero_node(d->pool, e) || pl_kind_of(d->pool, e) == PL_INFINITY)
+    return NULL;
   if (!pl_is_constant_known(d->pool, d->constant, e)) return form_of(d, e);
   int var = pl_dim_var_add(&d->system, PL_DIM_NUMBER);
   d->system.vars.at[var].number = e;
@@ -72,7 +82,8 @@ static const pl_dim_form* anything(pl_dim_pass* d) {
 
 static void clash(pl_dim_pass* d, pl_dim_clash kind, pl_expr a, const pl_dim_form* fa, pl_expr b,
                   const pl_dim_form* fb) {
-  pl_dim_report(d, &(pl_dim_conflict){.kind = kind, .a = a, .b = b, .form_a = fa, .form_b = fb, .code = PL_E021});
+  pl_dim_report(d, &(pl_dim_conflict){
+                       .kind = kind, .a = a, .b = b, .form_a = fa, .form_b = fb, .code = PL_E021});
 }
 
 // left = right, or terms of a sum
@@ -83,11 +94,17 @@ static void equate(pl_dim_pass* d, pl_dim_clash kind, pl_expr a, pl_expr b) {
 }
 
 // e has to have the dimension `wanted`; what: how a message calls it.
-static void need(pl_dim_pass* d, pl_expr e, const pl_dim_form* wanted, pl_code code, const char* en, const char* de) {
+static void need(pl_dim_pass* d, pl_expr e, const pl_dim_form* wanted, pl_code code, const char* en,
+                 const char* de) {
   const pl_dim_form* f = form_of_side(d, e);
   if (!f || pl_dim_unify(&d->system, f, wanted, d->where)) return;
-  pl_dim_report(d, &(pl_dim_conflict){.kind = PL_CLASH_NEED, .a = e, .b = pl_poison(), .form_a = f, .form_b = wanted,
-                                      .what = {en, de}, .code = code});
+  pl_dim_report(d, &(pl_dim_conflict){.kind = PL_CLASH_NEED,
+                                      .a = e,
+                                      .b = pl_poison(),
+                                      .form_a = f,
+                                      .form_b = wanted,
+                                      .what = {en, de},
+                                      .code = code});
 }
 
 static const pl_dim_form* form_of_sum(pl_dim_pass* d, pl_expr e) {
@@ -95,7 +112,8 @@ static const pl_dim_form* form_of_sum(pl_dim_pass* d, pl_expr e) {
   // the first term that is no bare number sets what the others have to be
   pl_expr first = pl_poison();
   for (int i = 0; i < n && pl_is_poison(first); i++) {
-    if (!pl_is_constant_known(d->pool, d->constant, pl_arg(d->pool, e, i))) first = pl_arg(d->pool, e, i);
+    if (!pl_is_constant_known(d->pool, d->constant, pl_arg(d->pool, e, i)))
+      first = pl_arg(d->pool, e, i);
   }
   if (pl_is_poison(first)) return pure(d);
   const pl_dim_form* f = form_of(d, first);
@@ -108,12 +126,14 @@ static const pl_dim_form* form_of_sum(pl_dim_pass* d, pl_expr e) {
     if (!broken) clash(d, PL_CLASH_SUM, first, f, term, g);
     broken = true;
   }
-  return broken ? anything(d) : f;      // a sum that does not fit in itself fits everything: one mistake, one message
+  // a sum that does not fit in itself fits everything: one mistake, one message
+  return broken ? anything(d) : f;
 }
 
 static const pl_dim_form* form_of_product(pl_dim_pass* d, pl_expr e) {
   const pl_dim_form* f = pure(d);
-  for (int i = 0; i < pl_n_args(d->pool, e); i++) f = times(d, f, 1, form_of(d, pl_arg(d->pool, e, i)));
+  for (int i = 0; i < pl_n_args(d->pool, e); i++)
+    f = times(d, f, 1, form_of(d, pl_arg(d->pool, e, i)));
   return f;
 }
 
@@ -134,14 +154,17 @@ static bool exponent_value(pl_dim_pass* d, pl_expr e, pl_fraction* out) {
 static const pl_dim_form* form_of_power(pl_dim_pass* d, pl_expr e) {
   pl_expr base = pl_arg(d->pool, e, 0), exponent = pl_arg(d->pool, e, 1);
   if (!pl_is_number(d->pool, exponent)) {
-    need(d, exponent, pure(d), PL_E032, "an exponent is a pure number", "ein Exponent ist eine reine Zahl");
+    need(d, exponent, pure(d), PL_E032, "an exponent is a pure number",
+         "ein Exponent ist eine reine Zahl");
   }
   if (pl_is_constant_known(d->pool, d->constant, base)) return pure(d);
   pl_fraction f;
   const pl_dim_form* b = form_of(d, base);
-  if (pl_is_number(d->pool, exponent) && !exponent_value(d, exponent, &f)) return anything(d);   // beyond any physics
+  // beyond any physics
+  if (pl_is_number(d->pool, exponent) && !exponent_value(d, exponent, &f)) return anything(d);
   if (exponent_value(d, exponent, &f)) return pl_dim_combine(&d->system, pure(d), f, b);
-  need(d, base, pure(d), PL_E032, "what is raised to a power that is not a number has to be a pure number",
+  need(d, base, pure(d), PL_E032,
+       "what is raised to a power that is not a number has to be a pure number",
        "was mit einem Exponenten ohne Zahlenwert potenziert wird, ist eine reine Zahl");
   return pure(d);
 }
@@ -189,7 +212,8 @@ static const pl_dim_form* compute_form(pl_dim_pass* d, pl_expr e) {
   }
 }
 
-// Each expression is looked at once, where it is met first: a mistake inside a `let` is told at the `let`.
+// Each expression is looked at once, where it is met first: a mistake inside a `let` is told at the
+// `let`.
 static const pl_dim_form* form_of(pl_dim_pass* d, pl_expr e) {
   if (pl_is_poison(e) || pl_is_constant_known(d->pool, d->constant, e)) return pure(d);
   uint64_t known = pl_map_get(d->form_of, e.id);
@@ -199,7 +223,7 @@ static const pl_dim_form* form_of(pl_dim_pass* d, pl_expr e) {
   return f;
 }
 
-// ---------------------------------------------------------------------------------------------- declarations
+// ------------------------------------------------------------------------------------ declarations
 static void declare(pl_dim_pass* d, pl_symbol s, bool has_unit, pl_span span) {
   if (!s.id) return;
   int var = pl_dim_symbol_var(d, s);
@@ -207,7 +231,8 @@ static void declare(pl_dim_pass* d, pl_symbol s, bool has_unit, pl_span span) {
   v->span = span;
   if (!has_unit || v->solved || !pl_symbol_get(d->pool, s)->dimension_known) return;
   v->declared = v->solved = true;
-  v->row = v->first = pl_dim_fixed(&d->system, pl_exponents_of(pl_symbol_get(d->pool, s)->dimension));
+  v->row = v->first = pl_dim_fixed(&d->system,
+                                   pl_exponents_of(pl_symbol_get(d->pool, s)->dimension));
   d->system.vars.at[var].reason = span;
 }
 
@@ -250,11 +275,12 @@ static void walk_declarations(pl_dim_pass* d) {
   for (int i = 0; i < m->lets.n; i++) {
     const pl_let* l = &m->lets.at[i];
     d->where = l->span;
-    if (l->n_args == 0 && l->symbol.id) equate(d, PL_CLASH_RELATION, pl_sym(d->pool, l->symbol), l->value);
+    if (l->n_args == 0 && l->symbol.id)
+      equate(d, PL_CLASH_RELATION, pl_sym(d->pool, l->symbol), l->value);
   }
 }
 
-// ---------------------------------------------------------------------------------------------- physics
+// ----------------------------------------------------------------------------------------- physics
 static void walk_point(pl_dim_pass* d, const pl_point* p) {
   d->focus = p->span;
   for (int k = 0; k < p->n && k < 3; k++) {
@@ -264,7 +290,9 @@ static void walk_point(pl_dim_pass* d, const pl_point* p) {
   d->focus = (pl_span){0};
 }
 
-static void joule(pl_dim_pass* d) { pl_dim_unify(&d->system, energy(d), mechanical(d, 2, 1, -2), d->where); }
+static void joule(pl_dim_pass* d) {
+  pl_dim_unify(&d->system, energy(d), mechanical(d, 2, 1, -2), d->where);
+}
 
 static void walk_masses(pl_dim_pass* d) {
   const pl_model* m = d->model;
@@ -331,7 +359,8 @@ static void walk_load(pl_dim_pass* d, const pl_load* x) {
       for (int k = 0; k < 3; k++) {
         need(d, x->vector[k], energy(d), PL_E033, "a component of a torque is in N m",
              "eine Komponente eines Moments hat die Einheit N m");
-        need(d, x->spin[k], times(d, pure(d), -1, duration(d)), PL_E033, "an angular velocity is an angle over time",
+        need(d, x->spin[k], times(d, pure(d), -1, duration(d)), PL_E033,
+             "an angular velocity is an angle over time",
              "eine Winkelgeschwindigkeit ist Winkel durch Zeit");
       }
       return;
@@ -355,7 +384,8 @@ static void walk_load(pl_dim_pass* d, const pl_load* x) {
       joule(d);
       need(d, x->value, energy_over(d, 2, 0), PL_E033, "the stiffness of a spring is in N/m",
            "eine Federsteifigkeit hat die Einheit N/m");
-      need(d, x->rest, mechanical(d, 1, 0, 0), PL_E033, "a rest length is a length", "eine Ruhelänge ist eine Länge");
+      need(d, x->rest, mechanical(d, 1, 0, 0), PL_E033, "a rest length is a length",
+           "eine Ruhelänge ist eine Länge");
       break;
     case PL_L_DAMPER:
     case PL_L_DRAG:
@@ -373,7 +403,8 @@ static void walk_condition(pl_dim_pass* d, const pl_condition* c) {
   equate(d, PL_CLASH_RELATION, c->left, c->right);
 }
 
-// How many more time derivatives than coordinates a constraint carries: 1 when velocities stand in it.
+// How many more time derivatives than coordinates a constraint carries: 1 when velocities stand in
+// it.
 static void walk_constraints(pl_dim_pass* d) {
   const pl_model* m = d->model;
   for (int i = 0; i < m->constraints.n; i++) {
@@ -381,13 +412,16 @@ static void walk_constraints(pl_dim_pass* d) {
     d->where = c->span;
     equate(d, PL_CLASH_RELATION, c->left, c->right);
     if (!c->lambda.id) continue;
-    // λ ∂g/∂q is a generalised force: [λ] = energy / [g], and for velocity constraints λ ∂g/∂q' gives energy / ([g] s)
+    // λ ∂g/∂q is a generalised force: [λ] = energy / [g], and for velocity constraints λ ∂g/∂q'
+    // gives energy / ([g] s)
     pl_expr side = pl_is_constant_known(d->pool, d->constant, c->left) ? c->right : c->left;
     const pl_dim_form* g = form_of_side(d, side);
     if (!g) continue;
     const pl_dim_form* lambda = times(d, energy(d), -1, g);
-    if (pl_has_role(d->pool, c->g, PL_R_VELOCITY) || c->has_velocity) lambda = times(d, lambda, -1, duration(d));
-    pl_dim_unify(&d->system, pl_dim_unknown(&d->system, pl_dim_symbol_var(d, c->lambda)), lambda, c->span);
+    if (pl_has_role(d->pool, c->g, PL_R_VELOCITY) || c->has_velocity)
+      lambda = times(d, lambda, -1, duration(d));
+    pl_dim_unify(&d->system, pl_dim_unknown(&d->system, pl_dim_symbol_var(d, c->lambda)), lambda,
+                 c->span);
   }
   for (int i = 0; i < m->choose.n_maps; i++) {
     d->where = m->choose.maps[i].span;
@@ -399,7 +433,9 @@ static void walk_inits(pl_dim_pass* d, bool with_unit) {
   const pl_model* m = d->model;
   for (int i = 0; i < m->inits.n; i++) {
     const pl_init* x = &m->inits.at[i];
-    if (pl_is_poison(x->value) || pl_is_poison(x->target) || pl_has_unit(d->pool, x->value) != with_unit) continue;
+    if (pl_is_poison(x->value) || pl_is_poison(x->target)
+        || pl_has_unit(d->pool, x->value) != with_unit)
+      continue;
     d->where = x->span;
     equate(d, PL_CLASH_RELATION, x->target, x->value);
   }
@@ -410,7 +446,8 @@ static void walk_simulate(pl_dim_pass* d) {
   d->where = m->simulate.span;
   const pl_expr times_of[] = {m->simulate.from, m->simulate.to, m->simulate.step};
   for (int i = 0; i < 3 && m->simulate.given; i++) {
-    need(d, times_of[i], duration(d), PL_E033, "a simulation runs over time", "eine Simulation läuft über die Zeit");
+    need(d, times_of[i], duration(d), PL_E033, "a simulation runs over time",
+         "eine Simulation läuft über die Zeit");
   }
   for (int i = 0; i < m->inits.n; i++) {
     d->where = m->inits.at[i].span;
@@ -426,15 +463,20 @@ static void walk_results(pl_dim_pass* d) {
     if (r->kind == PL_RES_DT || r->kind == PL_RES_DIFF) {
       const pl_dim_form* over = r->kind == PL_RES_DT ? duration(d) : form_of_symbol(d, r->by, 0);
       const pl_dim_form* f = form_of_side(d, r->of);
-      if (f) pl_dim_unify(&d->system, pl_dim_unknown(&d->system, pl_dim_symbol_var(d, r->symbol)), times(d, f, -1, over), (pl_span){0});
+      if (f)
+        pl_dim_unify(&d->system, pl_dim_unknown(&d->system, pl_dim_symbol_var(d, r->symbol)),
+                     times(d, f, -1, over), (pl_span){0});
       continue;
     }
     if (r->kind == PL_RES_START) {
       const pl_dim_form* f = form_of_side(d, r->of);
-      if (f) pl_dim_unify(&d->system, pl_dim_unknown(&d->system, pl_dim_symbol_var(d, r->symbol)), f, (pl_span){0});
+      if (f)
+        pl_dim_unify(&d->system, pl_dim_unknown(&d->system, pl_dim_symbol_var(d, r->symbol)), f,
+                     (pl_span){0});
       continue;
     }
-    bool force = r->kind == PL_RES_FORCE || r->kind == PL_RES_FORCE_NORM || r->kind == PL_RES_NORMAL;
+    bool force = r->kind == PL_RES_FORCE || r->kind == PL_RES_FORCE_NORM
+                 || r->kind == PL_RES_NORMAL;
     pl_dim_unify(&d->system, pl_dim_unknown(&d->system, pl_dim_symbol_var(d, r->symbol)),
                  force ? energy_over(d, 1, 0) : energy(d), (pl_span){0});
   }
@@ -461,8 +503,10 @@ static void walk_ask(pl_dim_pass* d, const pl_ask* a) {
   for (int k = 0; k < a->where.n; k++) walk_condition(d, &a->where.at[k]);
   for (int k = 0; k < a->motion.n_from; k++) walk_condition(d, &a->motion.from[k]);
   d->where = a->span;
-  if (a->variable.id && !pl_is_poison(a->to)) equate(d, PL_CLASH_RELATION, pl_sym(d->pool, a->variable), a->to);
-  if (!pl_is_poison(a->substitution_left)) equate(d, PL_CLASH_RELATION, a->substitution_left, a->substitution_right);
+  if (a->variable.id && !pl_is_poison(a->to))
+    equate(d, PL_CLASH_RELATION, pl_sym(d->pool, a->variable), a->to);
+  if (!pl_is_poison(a->substitution_left))
+    equate(d, PL_CLASH_RELATION, a->substitution_left, a->substitution_right);
 }
 
 // Coefficients of contacts are numbers, the velocity of a surface is one.
@@ -470,14 +514,16 @@ static void walk_contacts(pl_dim_pass* d) {
   const pl_model* m = d->model;
   for (int i = 0; i < m->restitutions.n; i++) {
     d->where = m->restitutions.at[i].span;
-    need(d, m->restitutions.at[i].value, pure(d), PL_E033, "a coefficient of restitution is a number",
-         "eine Stoßzahl ist eine Zahl");
+    need(d, m->restitutions.at[i].value, pure(d), PL_E033,
+         "a coefficient of restitution is a number", "eine Stoßzahl ist eine Zahl");
   }
   for (int i = 0; i < m->frictions.n; i++) {
     const pl_friction* f = &m->frictions.at[i];
     d->where = f->span;
-    need(d, f->kinetic, pure(d), PL_E033, "a coefficient of friction is a number", "ein Reibungskoeffizient ist eine Zahl");
-    need(d, f->sticking, pure(d), PL_E033, "a coefficient of friction is a number", "ein Reibungskoeffizient ist eine Zahl");
+    need(d, f->kinetic, pure(d), PL_E033, "a coefficient of friction is a number",
+         "ein Reibungskoeffizient ist eine Zahl");
+    need(d, f->sticking, pure(d), PL_E033, "a coefficient of friction is a number",
+         "ein Reibungskoeffizient ist eine Zahl");
     for (int k = 0; k < f->surface.n; k++)
       need(d, f->surface.at[k], mechanical(d, 1, 0, -1), PL_E033, "a surface has a velocity",
            "eine Fläche hat eine Geschwindigkeit");
@@ -527,7 +573,7 @@ static void walk_model(pl_dim_pass* d) {
   walk_rest(d);
 }
 
-// ---------------------------------------------------------------------------------------------- what was found
+// ---------------------------------------------------------------------------------- what was found
 // The class decides the order of factors and terms in formulas.
 static pl_class class_of(pl_dimension x, pl_class otherwise) {
   if (pl_dimension_equal(x, pl_dimension_of(0, 1, 0))) return PL_C_MASS;
@@ -541,7 +587,10 @@ static void settle_symbol(pl_dim_pass* d, pl_symbol s) {
   pl_symbol_info* info = pl_symbol_get(d->pool, s);
   pl_dimension x;
   if (!pl_dim_known(&d->system, form_of_symbol(d, s, 0), &x)) return;
-  if (!d->silent) info->dimension = x, info->dimension_known = true;
+  if (!d->silent) {
+    info->dimension = x;
+    info->dimension_known = true;
+  }
   if (info->role == PL_R_PARAM || info->role == PL_R_LOCAL) info->class = class_of(x, info->class);
 }
 
@@ -565,7 +614,8 @@ static bool has_dimension(const pl_model* m, pl_symbol s) {
   return info->dimension_known && !pl_dimension_equal(info->dimension, pl_dimension_one());
 }
 
-// Some quantity with a unit that is not a pure number: an angle alone does not switch the checks on.
+// Some quantity with a unit that is not a pure number: an angle alone does not switch the checks
+// on.
 static void look_for_units(pl_dim_pass* d) {
   pl_model* m = d->model;
   for (int i = 0; i < m->params.n; i++) {
@@ -582,7 +632,8 @@ static void look_for_units(pl_dim_pass* d) {
 static void make_derivatives(pl_model* m) {
   for (int i = 0; i < m->coords.n; i++) {
     pl_symbol q = m->coords.at[i].symbol;
-    if (q.id && pl_symbol_get(m->pool, q)->role == PL_R_COORD) pl_symbol_dot(m->pool, pl_symbol_dot(m->pool, q));
+    if (q.id && pl_symbol_get(m->pool, q)->role == PL_R_COORD)
+      pl_symbol_dot(m->pool, pl_symbol_dot(m->pool, q));
   }
 }
 
@@ -601,7 +652,7 @@ void pl_check_dimensions(pl_job* job, pl_model* m) {
   if (!d.silent) pl_dim_report_bare_numbers(&d);
 }
 
-// ---------------------------------------------------------------------------------------------- asked afterwards
+// -------------------------------------------------------------------------------- asked afterwards
 static bool known_symbol(const pl_model* m, pl_symbol s, int dots, pl_dimension* out) {
   const pl_symbol_info* info = pl_symbol_get(m->pool, s);
   if (info->dimension_known) {
@@ -610,8 +661,9 @@ static bool known_symbol(const pl_model* m, pl_symbol s, int dots, pl_dimension*
     *out = pl_dimension_of(0, 0, 1);
   } else if (info->role == PL_R_INDEX) {
     *out = pl_dimension_one();
-  } else if (info->base.id &&
-             (info->role == PL_R_VELOCITY || info->role == PL_R_ACCELERATION || info->role == PL_R_START)) {
+  } else if (info->base.id
+             && (info->role == PL_R_VELOCITY || info->role == PL_R_ACCELERATION
+                 || info->role == PL_R_START)) {
     return known_symbol(m, info->base, dots + info->dots, out);
   } else {
     return false;
@@ -649,7 +701,8 @@ static bool known_power(const pl_model* m, pl_expr e, pl_dimension* out) {
     return true;
   }
   if (!pl_is_ratio(m->pool, pl_arg(m->pool, e, 1), &num, &den)) return false;
-  pl_exponents x = pl_exponents_add(pl_exponents_zero(), pl_fraction_make(num, den), pl_exponents_of(base));
+  pl_exponents x = pl_exponents_add(pl_exponents_zero(), pl_fraction_make(num, den),
+                                    pl_exponents_of(base));
   return pl_exponents_get_dimension(x, out);
 }
 

@@ -1,9 +1,10 @@
-// Dimension inference on models built by calls: what is found, what is told, and what is left alone.
+// Dimension inference on models built by calls: what is found, what is told, and what is left
+// alone.
 #include <stdlib.h>
 
 #include "model/model_test_kit.h"
 
-// ---------------------------------------------------------------------------------------------- the founding models
+// ----------------------------------------------------------------------------- the founding models
 static const char atwood_text[] =
     "system \"Atwood machine\"\n"
     "param m1 = 3 [kg], m2 = 2 [kg], g = 9.81 [m/s^2]\n"
@@ -47,7 +48,8 @@ static atwood atwood_fill(kit* k, bool wrong) {
   mass(k, "m2", a.m2, point2(a.x2, a.y2), "mass    m2");
   gravity(k, a.g, 0, 1, "gravity g along x");
   const char* place = wrong ? "constraint g1: x1 + x2 = g" : "constraint g1: x1 + x2 = l";
-  a.lambda = constraint(k, named("g1"), pl_add(k->m->pool, a.x1, a.x2), PL_EQ, wrong ? a.g : a.l, NULL, place);
+  a.lambda = constraint(k, named("g1"), pl_add(k->m->pool, a.x1, a.x2), PL_EQ, wrong ? a.g : a.l,
+                        NULL, place);
   constraint(k, named("g2"), a.y1, PL_EQ, pl_neg(k->m->pool, a.R), NULL, "constraint g2: y1 = -R");
   constraint(k, named("g3"), a.y2, PL_EQ, a.R, NULL, "constraint g3: y2 = R");
   init(k, a.x1, num(k, "1", "m"), "init x1 = 1 [m]");
@@ -55,7 +57,9 @@ static atwood atwood_fill(kit* k, bool wrong) {
   return a;
 }
 
-static atwood atwood_make(const char* text, bool wrong) { return atwood_fill(kit_make(text), wrong); }
+static atwood atwood_make(const char* text, bool wrong) {
+  return atwood_fill(kit_make(text), wrong);
+}
 
 PL_TEST(atwood_gives_every_name_its_unit) {
   atwood a = atwood_make(atwood_text, false);
@@ -74,8 +78,8 @@ PL_TEST(atwood_gives_every_name_its_unit) {
 PL_TEST(units_leave_the_model_after_the_check) {
   atwood a = atwood_make(atwood_text, false);
   check_is_clean(a.k);
-  assert_true(
-      pl_same(pl_model_param(a.k->m, pl_symbol_of(a.k->m->pool, a.g))->value, pl_ratio(a.k->m->pool, 981, 100)));
+  assert_true(pl_same(pl_model_param(a.k->m, pl_symbol_of(a.k->m->pool, a.g))->value,
+                      pl_ratio(a.k->m->pool, 981, 100)));
   assert_true(pl_is_one_node(a.k->m->pool, a.k->m->inits.at[0].value));
   kit_free(a.k);
 }
@@ -89,7 +93,8 @@ PL_TEST(atwood_classes_and_signs) {
   assert_int_equal(pl_symbol_get(p, pl_symbol_of(p, a.L))->class, PL_C_LENGTH);
   assert_int_equal(pl_symbol_get(p, pl_symbol_of(p, a.m1))->sign, PL_SIGN_POSITIVE);
   assert_int_equal(pl_symbol_get(p, pl_symbol_of(p, a.R))->sign, PL_SIGN_POSITIVE);
-  assert_int_equal(pl_symbol_get(p, pl_symbol_of(p, a.l))->sign, PL_SIGN_POSITIVE);      // its number is
+  // its number is
+  assert_int_equal(pl_symbol_get(p, pl_symbol_of(p, a.l))->sign, PL_SIGN_POSITIVE);
   assert_int_equal(pl_symbol_get(p, pl_symbol_of(p, a.l))->class, PL_C_LENGTH);
   kit_free(a.k);
 }
@@ -123,12 +128,14 @@ PL_TEST(crank_squares_and_angles_fit) {
   pl_pool* p = k->m->pool;
   pl_expr m1 = param(k, "m1", "1", "kg", NULL), r = param(k, "r", "0.1", "m", NULL),
           l = param(k, "l", "0.3", "m", NULL);
-  pl_expr x1 = coord(k, "x1", NULL, NULL), z1 = coord(k, "z1", NULL, NULL), x2 = coord(k, "x2", NULL, NULL),
-          phi = coord(k, "phi", NULL, NULL);
+  pl_expr x1 = coord(k, "x1", NULL, NULL), z1 = coord(k, "z1", NULL, NULL),
+          x2 = coord(k, "x2", NULL, NULL), phi = coord(k, "phi", NULL, NULL);
   mass(k, "m1", m1, point2(x1, z1), NULL);
   mass(k, "m2", m1, point2(x2, pl_int(p, 0)), NULL);
-  constraint(k, named("g4"), pl_add(p, pl_square(p, x1), pl_square(p, z1)), PL_EQ, pl_square(p, r), NULL, NULL);
-  pl_symbol g5 = constraint(k, named("g5"), pl_add(p, pl_square(p, z1), pl_square(p, pl_sub(p, x2, x1))), PL_EQ,
+  constraint(k, named("g4"), pl_add(p, pl_square(p, x1), pl_square(p, z1)), PL_EQ, pl_square(p, r),
+             NULL, NULL);
+  pl_symbol g5 = constraint(k, named("g5"),
+                            pl_add(p, pl_square(p, z1), pl_square(p, pl_sub(p, x2, x1))), PL_EQ,
                             pl_square(p, l), NULL, NULL);
   struct pl_map_equation maps[2] = {{x1, pl_mul(p, r, pl_call(p, PL_COS, phi)), {0}},
                                     {z1, pl_mul(p, r, pl_call(p, PL_SIN, phi)), {0}}};
@@ -141,7 +148,7 @@ PL_TEST(crank_squares_and_angles_fit) {
   has_unit(k, x2, "m");
   has_unit(k, phi, "1");
   has_unit(k, dot(k, phi), "1/s");
-  has_unit(k, pl_sym(p, g5), "N/m");      // a constraint in m²: the multiplier is not a force
+  has_unit(k, pl_sym(p, g5), "N/m");  // a constraint in m²: the multiplier is not a force
   kit_free(k);
 }
 
@@ -151,7 +158,9 @@ PL_TEST(ski_one_sided_contact_in_polar_coordinates) {
   pl_expr m = param(k, "m", "75", "kg", NULL), R = param(k, "R", "20", "m", NULL),
           g = param(k, "g", "9.81", "m/s^2", NULL);
   pl_expr r = coord(k, "r", NULL, NULL), theta = coord(k, "theta", NULL, NULL);
-  mass(k, NULL, m, point2(pl_mul(p, r, pl_call(p, PL_SIN, theta)), pl_mul(p, r, pl_call(p, PL_COS, theta))), NULL);
+  mass(k, NULL, m,
+       point2(pl_mul(p, r, pl_call(p, PL_SIN, theta)), pl_mul(p, r, pl_call(p, PL_COS, theta))),
+       NULL);
   gravity(k, g, 1, -1, NULL);
   pl_symbol lambda = constraint(k, named("h"), r, PL_GE, R, NULL, NULL);
   init(k, theta, num(k, "1", "deg"), NULL);
@@ -166,7 +175,8 @@ PL_TEST(ski_one_sided_contact_in_polar_coordinates) {
 PL_TEST(an_abbreviation_is_checked_where_it_stands) {
   kit* k = kit_make("let d = l + m\npotential\n");
   pl_pool* p = k->m->pool;
-  pl_expr m = param(k, "m", "1", "kg", NULL), l = param(k, "l", "1", "m", NULL), x = coord(k, "x", "m", NULL);
+  pl_expr m = param(k, "m", "1", "kg", NULL), l = param(k, "l", "1", "m", NULL),
+          x = coord(k, "x", "m", NULL);
   pl_expr d = let_be(k, "d", pl_add(p, l, m), "let d = l + m");
   mass(k, "A", m, (pl_point){.n = 1, .at = {x}}, NULL);
   load(k, PL_L_POTENTIAL, pl_mul(p, num(k, "1", "N"), d), "potential");
@@ -176,14 +186,15 @@ PL_TEST(an_abbreviation_is_checked_where_it_stands) {
   kit_free(k);
 }
 
-// ---------------------------------------------------------------------------------------------- without units
+// ----------------------------------------------------------------------------------- without units
 PL_TEST(without_units_nothing_is_checked) {
   kit* k = kit_make(NULL);
   pl_pool* p = k->m->pool;
   pl_expr L = param(k, "L", "1", NULL, NULL), M = param(k, "M", "10", NULL, NULL);
   pl_expr x = coord(k, "x", NULL, NULL), y = coord(k, "y", NULL, NULL);
   mass(k, "A", M, point2(x, y), NULL);
-  constraint(k, named("c"), pl_add(p, x, pl_square(p, y)), PL_EQ, L, NULL, NULL);   // would not fit with units
+  // would not fit with units
+  constraint(k, named("c"), pl_add(p, x, pl_square(p, y)), PL_EQ, L, NULL, NULL);
   gravity(k, num(k, "1", NULL), 1, -1, NULL);
   check_is_clean(k);
   assert_false(k->m->uses_units);
@@ -196,13 +207,13 @@ PL_TEST(without_units_nothing_is_checked) {
 PL_TEST(classes_follow_from_use_without_units) {
   kit* k = kit_make(NULL);
   pl_pool* p = k->m->pool;
-  pl_expr M = param(k, "M", "1", NULL, NULL), L = param(k, "L", "1", NULL, NULL), G = param(k, "G", "1", NULL, NULL),
-          w = param(k, "w", "2", NULL, NULL);
+  pl_expr M = param(k, "M", "1", NULL, NULL), L = param(k, "L", "1", NULL, NULL),
+          G = param(k, "G", "1", NULL, NULL), w = param(k, "w", "2", NULL, NULL);
   pl_expr x = coord(k, "x", NULL, NULL);
   mass(k, "A", M, (pl_point){.n = 1, .at = {x}}, NULL);
   gravity(k, G, 0, 1, NULL);
-  constraint(k, named("c"), x, PL_EQ, pl_mul(p, L, pl_call(p, PL_SIN, pl_mul(p, w, pl_sym(p, pl_time(p))))), NULL,
-             NULL);
+  constraint(k, named("c"), x, PL_EQ,
+             pl_mul(p, L, pl_call(p, PL_SIN, pl_mul(p, w, pl_sym(p, pl_time(p))))), NULL, NULL);
   check_is_clean(k);
   assert_int_equal(pl_symbol_get(p, pl_symbol_of(p, M))->class, PL_C_MASS);
   assert_int_equal(pl_symbol_get(p, pl_symbol_of(p, G))->class, PL_C_GRAVITY);
@@ -221,7 +232,7 @@ PL_TEST(an_angle_alone_does_not_switch_the_checks_on) {
   kit_free(k);
 }
 
-// ---------------------------------------------------------------------------------------------- conflicts
+// --------------------------------------------------------------------------------------- conflicts
 // One mass on a line with unit metre; the tests add one wrong statement.
 static kit* particle(const char* text, pl_expr* m, pl_expr* x) {
   kit* k = kit_make(text);
@@ -242,7 +253,8 @@ PL_TEST(a_mass_statement_wants_a_mass) {
 
 PL_TEST(a_point_wants_lengths) {
   kit* k = kit_make(NULL);
-  pl_expr m = param(k, "m", "2", "kg", NULL), t0 = param(k, "t0", "1", "s", NULL), x = coord(k, "x", NULL, NULL);
+  pl_expr m = param(k, "m", "2", "kg", NULL), t0 = param(k, "t0", "1", "s", NULL),
+          x = coord(k, "x", NULL, NULL);
   mass(k, "A", m, point2(x, t0), NULL);
   check_tells(k, PL_E033);
   kit_free(k);
@@ -251,7 +263,8 @@ PL_TEST(a_point_wants_lengths) {
 PL_TEST(a_sine_wants_a_pure_number) {
   pl_expr m, x;
   kit* k = particle(NULL, &m, &x);
-  constraint(k, named("c"), x, PL_EQ, pl_mul(k->m->pool, num(k, "1", "m"), pl_call(k->m->pool, PL_SIN, x)), NULL, NULL);
+  constraint(k, named("c"), x, PL_EQ,
+             pl_mul(k->m->pool, num(k, "1", "m"), pl_call(k->m->pool, PL_SIN, x)), NULL, NULL);
   const pl_diagnostic* d = check_tells(k, PL_E031);
   assert_non_null(strstr(d->sentence[0], "sin() takes a pure number, but x is a length"));
   kit_free(k);
@@ -271,7 +284,8 @@ PL_TEST(a_number_that_may_have_a_unit_is_suspected) {
 PL_TEST(an_exponent_is_a_pure_number) {
   pl_expr m, x;
   kit* k = particle(NULL, &m, &x);
-  load(k, PL_L_POTENTIAL, pl_mul(k->m->pool, num(k, "1", "J"), pl_pow(k->m->pool, pl_int(k->m->pool, 2), x)), NULL);
+  load(k, PL_L_POTENTIAL,
+       pl_mul(k->m->pool, num(k, "1", "J"), pl_pow(k->m->pool, pl_int(k->m->pool, 2), x)), NULL);
   check_tells(k, PL_E032);
   kit_free(k);
 }
@@ -279,7 +293,8 @@ PL_TEST(an_exponent_is_a_pure_number) {
 PL_TEST(terms_of_a_sum_have_one_unit) {
   pl_expr m, x;
   kit* k = particle("coord x [m]\npotential x + m\n", &m, &x);
-  load(k, PL_L_POTENTIAL, pl_mul(k->m->pool, num(k, "1", "N"), pl_add(k->m->pool, x, m)), "potential x + m");
+  load(k, PL_L_POTENTIAL, pl_mul(k->m->pool, num(k, "1", "N"), pl_add(k->m->pool, x, m)),
+       "potential x + m");
   const pl_diagnostic* d = check_tells(k, PL_E021);
   assert_non_null(strstr(d->sentence[0], "cannot be added"));
   kit_free(k);
@@ -317,7 +332,8 @@ PL_TEST(a_unit_that_contradicts_its_value) {
 PL_TEST(a_simulation_runs_over_time) {
   pl_expr m, x;
   kit* k = particle(NULL, &m, &x);
-  k->m->simulate = (pl_simulate){.given = true, .from = pl_int(k->m->pool, 0), .to = num(k, "2", "m")};
+  k->m->simulate = (pl_simulate){
+      .given = true, .from = pl_int(k->m->pool, 0), .to = num(k, "2", "m")};
   check_tells(k, PL_E033);
   kit_free(k);
 }
@@ -326,7 +342,7 @@ PL_TEST(one_mistake_is_told_once) {
   pl_expr m, x;
   kit* k = particle(NULL, &m, &x);
   pl_expr y = coord(k, "y", NULL, NULL);
-  constraint(k, named("a"), y, PL_EQ, m, NULL, NULL);        // y becomes a mass by mistake
+  constraint(k, named("a"), y, PL_EQ, m, NULL, NULL);  // y becomes a mass by mistake
   constraint(k, named("b"), y, PL_EQ, x, NULL, NULL);
   constraint(k, named("c"), pl_add(k->m->pool, y, x), PL_EQ, num(k, "1", "m"), NULL, NULL);
   pl_model_check(&k->job, k->m);
@@ -345,7 +361,7 @@ PL_TEST(two_mistakes_are_told_both) {
   kit_free(k);
 }
 
-// ---------------------------------------------------------------------------------------------- inference
+// --------------------------------------------------------------------------------------- inference
 PL_TEST(squares_and_roots_are_solved) {
   pl_expr m, x;
   kit* k = particle(NULL, &m, &x);
@@ -400,7 +416,8 @@ PL_TEST(a_spring_and_a_damper_have_units) {
   pl_expr c = param(k, "c", NULL, NULL, NULL), s = param(k, "s", NULL, NULL, NULL),
           l0 = param(k, "l0", NULL, NULL, NULL);
   pl_point a = {.n = 1, .at = {x}}, b = {.n = 1, .at = {pl_int(k->m->pool, 0)}};
-  pl_push(k->arena, k->m->loads, (pl_load){.kind = PL_L_SPRING, .value = s, .rest = l0, .a = a, .b = b});
+  pl_push(k->arena, k->m->loads,
+          (pl_load){.kind = PL_L_SPRING, .value = s, .rest = l0, .a = a, .b = b});
   pl_push(k->arena, k->m->loads, (pl_load){.kind = PL_L_DAMPER, .value = c, .a = a, .b = b});
   check_is_clean(k);
   has_unit(k, s, "N/m");
@@ -434,7 +451,8 @@ PL_TEST(a_multiplier_of_a_velocity_constraint) {
 PL_TEST(result_names_have_units) {
   pl_expr m, x;
   kit* k = particle(NULL, &m, &x);
-  pl_symbol E = pl_model_result_symbol(k->m, PL_RES_E, NULL), F = pl_model_result_symbol(k->m, PL_RES_FORCE_NORM, "c");
+  pl_symbol E = pl_model_result_symbol(k->m, PL_RES_E, NULL),
+            F = pl_model_result_symbol(k->m, PL_RES_FORCE_NORM, "c");
   assert_int_equal(E.id, pl_model_result_symbol(k->m, PL_RES_E, NULL).id);
   assert_int_not_equal(F.id, pl_model_result_symbol(k->m, PL_RES_FORCE_NORM, "d").id);
   check_is_clean(k);
@@ -458,9 +476,11 @@ PL_TEST(huge_exponents_are_left_alone) {
   kit_free(k);
 }
 
-// ---------------------------------------------------------------------------------------------- memory
+// ------------------------------------------------------------------------------------------ memory
 // The n-th allocation fails, for every n: the check unwinds to the guard and nothing is lost.
-typedef struct short_memory { long left, blocks; } short_memory;
+typedef struct short_memory {
+  long left, blocks;
+} short_memory;
 
 static void* take(void* user, size_t size) {
   short_memory* s = user;
@@ -488,7 +508,8 @@ PL_TEST(short_memory_ends_cleanly) {
       atwood_fill(k, true);
       assert_int_equal(pl_model_check(&k->job, k->m), PLEUEL_MODEL_ERROR);
       complete = true;
-    } else {
+    }
+    else {
       assert_int_equal(guard.status, PLEUEL_NO_MEMORY);
     }
     pl_guard_end(arena, &guard);

@@ -1,7 +1,9 @@
-// Families: the instances of `for` blocks, and whether every element that a pattern speaks of exists.
+// Families: the instances of `for` blocks, and whether every element that a pattern speaks of
+// exists.
 //
-// Bounds may use parameters with numbers and outer indices.  A pattern with N instances is not written out: an index
-// that is linear in the innermost loop takes its extreme values at the two ends, so only these are looked at.
+// Bounds may use parameters with numbers and outer indices. A pattern with N instances is not
+// written out: an index that is linear in the innermost loop takes its extreme values at the two
+// ends, so only these are looked at.
 #include "model_impl.h"
 
 #include <math.h>
@@ -9,31 +11,32 @@
 
 enum { MAX_BLOCK_DEPTH = 16 };
 
-// ---------------------------------------------------------------------------------------------- integers
+// ---------------------------------------------------------------------------------------- integers
 pl_index_values pl_index_values_make(const pl_model* m, pl_arena* a) {
   return (pl_index_values){m, pl_model_values(m, a)};
 }
 
-static const double largest_index = 4e15;   // doubles count exactly up to 2^53
+static const double largest_index = 4e15;  // doubles count exactly up to 2^53
 
 bool pl_index_eval(const pl_index_values* v, pl_expr e, long* out) {
   if (pl_is_poison(e)) return false;
-  if (pl_is_int(v->model->pool, e, out)) return *out < (long)largest_index && *out > -(long)largest_index;
+  if (pl_is_int(v->model->pool, e, out))
+    return *out<(long)largest_index&& * out> - (long)largest_index;
   double x = pl_eval(v->model->pool, e, v->value);
   if (!(fabs(x) < largest_index) || x != floor(x)) return false;
   *out = (long)x;
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- walking
+// ----------------------------------------------------------------------------------------- walking
 typedef struct block_walk {
-  const pl_block* chain[MAX_BLOCK_DEPTH];   // outer first
+  const pl_block* chain[MAX_BLOCK_DEPTH];  // outer first
   int depth;
   pl_index_values* v;
   pl_instance_visit* visit;
   void* user;
   long* budget;
-  bool ends_only;                           // of the innermost loop
+  bool ends_only;  // of the innermost loop
   const pl_block* culprit;
 } block_walk;
 
@@ -45,11 +48,12 @@ static pl_walk_result walk_level(block_walk* w, int level) {
   const pl_block* b = w->chain[level];
   long lo, hi, step = 1;
   w->culprit = b;
-  if (!pl_index_eval(w->v, b->lo, &lo) || !pl_index_eval(w->v, b->hi, &hi)) return PL_WALK_BAD_BOUND;
+  if (!pl_index_eval(w->v, b->lo, &lo) || !pl_index_eval(w->v, b->hi, &hi))
+    return PL_WALK_BAD_BOUND;
   if (!pl_is_poison(b->step) && !pl_index_eval(w->v, b->step, &step)) return PL_WALK_BAD_BOUND;
   if (step == 0) return PL_WALK_ZERO_STEP;
   long last = step > 0 ? (hi < lo ? -1 : (hi - lo) / step) : (hi > lo ? -1 : (lo - hi) / -step);
-  if (!w->visit && level == w->depth - 1) {       // only counted
+  if (!w->visit && level == w->depth - 1) {  // only counted
     *w->budget = last < *w->budget ? *w->budget - last - 1 : -1;
     return *w->budget < 0 ? PL_WALK_TOO_MANY : PL_WALK_DONE;
   }
@@ -63,8 +67,9 @@ static pl_walk_result walk_level(block_walk* w, int level) {
   return PL_WALK_DONE;
 }
 
-static pl_walk_result walk_blocks(const pl_block* b, pl_index_values* v, pl_instance_visit* visit, void* user,
-                                  long* budget, bool ends_only, const pl_block** culprit) {
+static pl_walk_result walk_blocks(const pl_block* b, pl_index_values* v, pl_instance_visit* visit,
+                                  void* user, long* budget, bool ends_only,
+                                  const pl_block** culprit) {
   block_walk w = {.v = v, .visit = visit, .user = user, .budget = budget, .ends_only = ends_only};
   for (const pl_block* x = b; x; x = x->outer) {
     if (w.depth == MAX_BLOCK_DEPTH) return PL_WALK_TOO_MANY;
@@ -77,12 +82,12 @@ static pl_walk_result walk_blocks(const pl_block* b, pl_index_values* v, pl_inst
   return r;
 }
 
-pl_walk_result pl_block_walk(const pl_block* b, pl_index_values* v, pl_instance_visit* visit, void* user, long* budget,
-                             const pl_block** culprit) {
+pl_walk_result pl_block_walk(const pl_block* b, pl_index_values* v, pl_instance_visit* visit,
+                             void* user, long* budget, const pl_block** culprit) {
   return walk_blocks(b, v, visit, user, budget, false, culprit);
 }
 
-// ---------------------------------------------------------------------------------------------- instances
+// --------------------------------------------------------------------------------------- instances
 typedef struct collector {
   pl_arena* arena;
   const pl_instances* shape;
@@ -91,11 +96,13 @@ typedef struct collector {
 
 static bool collect(void* user, pl_index_values* v) {
   collector* c = user;
-  for (int k = 0; k < c->shape->depth; k++) pl_push(c->arena, c->index, (long)v->value[c->shape->symbol[k].id]);
+  for (int k = 0; k < c->shape->depth; k++)
+    pl_push(c->arena, c->index, (long)v->value[c->shape->symbol[k].id]);
   return true;
 }
 
-pleuel_status pl_model_instances(pl_job* job, const pl_model* m, const pl_block* b, pl_instances* out) {
+pleuel_status pl_model_instances(pl_job* job, const pl_model* m, const pl_block* b,
+                                 pl_instances* out) {
   *out = (pl_instances){0};
   for (const pl_block* x = b; x; x = x->outer) out->depth++;
   out->symbol = PL_ARRAY(job->arena, pl_symbol, out->depth + 1);
@@ -106,22 +113,30 @@ pleuel_status pl_model_instances(pl_job* job, const pl_model* m, const pl_block*
   long budget = PL_MAX_INSTANCES;
   pl_walk_result r = pl_block_walk(b, &v, collect, &c, &budget, NULL);
   if (r == PL_WALK_TOO_MANY)
-    return pl_fail(job, PLEUEL_MODEL_ERROR, "a family has more than %d members", (int)PL_MAX_INSTANCES);
-  if (r != PL_WALK_DONE) return pl_fail(job, PLEUEL_MODEL_ERROR, "the bounds of a family are not whole numbers");
+    return pl_fail(job, PLEUEL_MODEL_ERROR, "a family has more than %d members",
+                   (int)PL_MAX_INSTANCES);
+  if (r != PL_WALK_DONE)
+    return pl_fail(job, PLEUEL_MODEL_ERROR, "the bounds of a family are not whole numbers");
   out->index = c.index.at;
   out->n = out->depth ? c.index.n / out->depth : 1;
   return PLEUEL_OK;
 }
 
-// ---------------------------------------------------------------------------------------------- sets of indices
-// Which member of a family was given where.  `for i in 1..N` with index i or i + k is kept as one run of numbers, so
-// a million members cost as much as one; other patterns are walked.
-enum { MAX_WALKED = 200000 };     // members of a pattern that is no run; beyond it only the runs are compared
+// --------------------------------------------------------------------------------- sets of indices
+// Which member of a family was given where. `for i in 1..N` with index i or i + k is kept as one
+// run of numbers, so a million members cost as much as one; other patterns are walked. members of a
+// pattern that is no run; beyond it only the runs are compared
+enum { MAX_WALKED = 200000 };
 
-struct pl_index_run { uint64_t key; long lo, hi; int owner; };
+struct pl_index_run {
+  uint64_t key;
+  long lo, hi;
+  int owner;
+};
 
 pl_index_sets pl_index_sets_make(const pl_model* m, pl_arena* a) {
-  return (pl_index_sets){.arena = a, .values = pl_index_values_make(m, a), .walked = pl_map_make(a)};
+  return (pl_index_sets){
+      .arena = a, .values = pl_index_values_make(m, a), .walked = pl_map_make(a)};
 }
 
 static uint64_t walked_key(uint64_t key, long k) { return pl_hash_mix(key, (uint64_t)k) | 1; }
@@ -132,7 +147,9 @@ static bool is_run(const pl_index_sets* s, pl_expr index, const pl_block* b) {
   if (!b || b->outer) return false;
   const pl_model* m = s->values.model;
   pl_expr d = pl_diff(m->pool, index, b->index);
-  if (pl_is_poison(d) || pl_has_symbol(m->pool, d, b->index) || !pl_index_eval(&s->values, d, &slope)) return false;
+  if (pl_is_poison(d) || pl_has_symbol(m->pool, d, b->index)
+      || !pl_index_eval(&s->values, d, &slope))
+    return false;
   if (!pl_is_poison(b->step) && !pl_index_eval(&s->values, b->step, &step)) return false;
   return labs(slope) == 1 && labs(step) == 1;
 }
@@ -142,9 +159,9 @@ typedef struct set_walk {
   uint64_t key;
   pl_expr index;
   int owner;
-  bool record;                // false: only the hull of a run
+  bool record;  // false: only the hull of a run
   long lo, hi, n;
-  int clash;                  // owner of the first that is met again, -1
+  int clash;  // owner of the first that is met again, -1
   long clash_index;
 } set_walk;
 
@@ -184,14 +201,20 @@ static void add_run(set_walk* w) {
     w->clash = r->owner;
     w->clash_index = r->lo > w->lo ? r->lo : w->lo;
   }
-  for (long k = w->lo; k <= w->hi && w->hi - w->lo < MAX_WALKED && pl_map_count(s->walked) && w->clash < 0; k++) {
+  for (long k = w->lo;
+       k <= w->hi && w->hi - w->lo < MAX_WALKED && pl_map_count(s->walked) && w->clash < 0; k++) {
     uint64_t known = pl_map_get(s->walked, walked_key(w->key, k));
-    if (known) w->clash = (int)known - 1, w->clash_index = k;
+    if (known) {
+      w->clash = (int)known - 1;
+      w->clash_index = k;
+    }
   }
-  if (w->clash < 0) pl_push(s->arena, s->runs, (struct pl_index_run){w->key, w->lo, w->hi, w->owner});
+  if (w->clash < 0)
+    pl_push(s->arena, s->runs, (struct pl_index_run){w->key, w->lo, w->hi, w->owner});
 }
 
-int pl_index_sets_add(pl_index_sets* s, uint64_t key, pl_expr index, const pl_block* b, int owner, long* clash_index) {
+int pl_index_sets_add(pl_index_sets* s, uint64_t key, pl_expr index, const pl_block* b, int owner,
+                      long* clash_index) {
   set_walk w = {.sets = s, .key = key, .index = index, .owner = owner, .clash = -1, .record = true};
   if (!b) {
     w.record = false;
@@ -210,27 +233,31 @@ int pl_index_sets_add(pl_index_sets* s, uint64_t key, pl_expr index, const pl_bl
   return w.clash;
 }
 
-// ---------------------------------------------------------------------------------------------- messages
+// ---------------------------------------------------------------------------------------- messages
 typedef struct range_check {
   pl_job* job;
   pl_model* m;
   pl_index_values v;
-  pl_map* seen;               // (element, block) already looked at
+  pl_map* seen;  // (element, block) already looked at
   long budget;
   // the element at work
   pl_expr element;
   const pl_coord* coord;
   const pl_block* block;
   pl_span span;
-  long lo, hi;                // what the coordinate has
-  long bad;                   // the index that does not exist
-  pl_span told;               // the last statement with a message: its other elements are the same mistake
+  long lo, hi;  // what the coordinate has
+  long bad;     // the index that does not exist
+  // the last statement with a message: its other elements are the same mistake
+  pl_span told;
   bool no_integer, too_many;
 } range_check;
 
-static const char* expr_words(range_check* c, pl_expr e) { return pl_expr_words(c->job->arena, c->m->pool, e); }
+static const char* expr_words(range_check* c, pl_expr e) {
+  return pl_expr_words(c->job->arena, c->m->pool, e);
+}
 
-// What keeps a bound from being a whole number: the first parameter without number, if there is one.
+// What keeps a bound from being a whole number: the first parameter without number, if there is
+// one.
 static const char* unknown_in(range_check* c, pl_expr e) {
   int n = pl_is_poison(e) ? 0 : pl_symbols_in(c->m->pool, e, NULL, 0);
   pl_symbol* s = PL_ARRAY(c->job->arena, pl_symbol, n + 1);
@@ -242,7 +269,7 @@ static const char* unknown_in(range_check* c, pl_expr e) {
 }
 
 static void tell_bad_bound(range_check* c, pl_expr e, pl_span span) {
-  if (pl_map_get(c->seen, e.id + 1)) return;            // one wrong number, one message
+  if (pl_map_get(c->seen, e.id + 1)) return;  // one wrong number, one message
   pl_map_set(c->seen, e.id + 1, 1);
   const char* unknown = unknown_in(c, e);
   const char* text = pl_is_poison(e) ? "?" : expr_words(c, e);
@@ -250,14 +277,16 @@ static void tell_bad_bound(range_check* c, pl_expr e, pl_span span) {
   if (unknown) {
     d = pl_tell(c->job, PL_E038, span,
                 PL_F(c->job, "%s has no number, so the size of the family is not known", unknown),
-                PL_F(c->job, "%s hat keinen Zahlenwert, also ist die Größe der Familie unbekannt", unknown));
+                PL_F(c->job, "%s hat keinen Zahlenwert, also ist die Größe der Familie unbekannt",
+                     unknown));
     const char* write = PL_F(c->job, "param %s = 10", unknown);
     pl_report_fix(d, write, write, NULL);
     return;
   }
   d = pl_tell(c->job, PL_E038, span, PL_F(c->job, "the bound %s is no whole number", text),
               PL_F(c->job, "die Grenze %s ist keine ganze Zahl", text));
-  pl_report_fix(d, "bounds of a family are whole numbers", "Grenzen einer Familie sind ganze Zahlen", NULL);
+  pl_report_fix(d, "bounds of a family are whole numbers",
+                "Grenzen einer Familie sind ganze Zahlen", NULL);
 }
 
 // Coordinates and loops of one size are one mistake.
@@ -265,21 +294,24 @@ static void tell_too_many(range_check* c, pl_span span) {
   pl_job* job = c->job;
   if (c->too_many) return;
   c->too_many = true;
-  pl_diagnostic* d =
-      pl_tell(job, PL_E026, span, PL_F(job, "this family has more than %d members", (int)PL_MAX_INSTANCES),
-              PL_F(job, "diese Familie hat mehr als %d Mitglieder", (int)PL_MAX_INSTANCES));
+  pl_diagnostic* d = pl_tell(
+      job, PL_E026, span, PL_F(job, "this family has more than %d members", (int)PL_MAX_INSTANCES),
+      PL_F(job, "diese Familie hat mehr als %d Mitglieder", (int)PL_MAX_INSTANCES));
   pl_report_fix(d, "make the bounds smaller", "die Grenzen verkleinern", NULL);
 }
 
 static void tell_walk(range_check* c, pl_walk_result r, const pl_block* b) {
   if (r == PL_WALK_TOO_MANY) tell_too_many(c, b->span);
   if (r == PL_WALK_ZERO_STEP) {
-    pl_diagnostic* d = pl_tell(c->job, PL_E038, b->span, "a step of 0 never ends", "eine Schrittweite von 0 endet nie");
+    pl_diagnostic* d = pl_tell(c->job, PL_E038, b->span, "a step of 0 never ends",
+                               "eine Schrittweite von 0 endet nie");
     pl_report_fix(d, "step 1", "step 1", NULL);
   }
   if (r != PL_WALK_BAD_BOUND) return;
   long n;
-  pl_expr bad = !pl_index_eval(&c->v, b->lo, &n) ? b->lo : !pl_index_eval(&c->v, b->hi, &n) ? b->hi : b->step;
+  pl_expr bad = !pl_index_eval(&c->v, b->lo, &n)   ? b->lo
+                : !pl_index_eval(&c->v, b->hi, &n) ? b->hi
+                                                   : b->step;
   tell_bad_bound(c, bad, b->span);
 }
 
@@ -301,18 +333,19 @@ static void suggest_bound(range_check* c, pl_diagnostic* d) {
   pl_expr index = pl_arg(c->m->pool, c->element, 0);
   const char* i = b ? pl_symbol_get(c->m->pool, b->index)->name : "";
   pl_expr difference = b ? pl_sub(c->m->pool, index, pl_sym(c->m->pool, b->index)) : pl_poison();
-  if (b && pl_is_int(c->m->pool, difference, &shift) && pl_index_eval(&c->v, b->lo, &lo) &&
-      pl_index_eval(&c->v, b->hi, &hi)) {
+  if (b && pl_is_int(c->m->pool, difference, &shift) && pl_index_eval(&c->v, b->lo, &lo)
+      && pl_index_eval(&c->v, b->hi, &hi)) {
     const char* low = c->bad < c->lo ? PL_F(c->job, "%ld", c->lo - shift) : expr_words(c, b->lo);
-    const char* high =
-        c->bad > c->hi ? expr_words(c, pl_sub(c->m->pool, c->coord->hi, difference)) : expr_words(c, b->hi);
+    const char* high = c->bad > c->hi ? expr_words(c, pl_sub(c->m->pool, c->coord->hi, difference))
+                                      : expr_words(c, b->hi);
     const char* fix = PL_F(c->job, "for %s in %s..%s", i, low, high);
     pl_report_fix(d, fix, fix, NULL);
     return;
   }
   const char* name = pl_symbol_get(c->m->pool, c->coord->symbol)->name;
   pl_report_fix(d, PL_F(c->job, "stay inside %s[%ld] ... %s[%ld]", name, c->lo, name, c->hi),
-                PL_F(c->job, "innerhalb %s[%ld] ... %s[%ld] bleiben", name, c->lo, name, c->hi), NULL);
+                PL_F(c->job, "innerhalb %s[%ld] ... %s[%ld] bleiben", name, c->lo, name, c->hi),
+                NULL);
 }
 
 static void tell_out_of_range(range_check* c) {
@@ -320,34 +353,42 @@ static void tell_out_of_range(range_check* c) {
   c->told = c->span;
   const char* name = pl_symbol_get(c->m->pool, c->coord->symbol)->name;
   pl_span at = c->span, found;
-  if (pl_span_find_name(c->span, pl_symbol_get(c->m->pool, c->coord->symbol)->ascii, &found)) at = found;
+  if (pl_span_find_name(c->span, pl_symbol_get(c->m->pool, c->coord->symbol)->ascii, &found))
+    at = found;
   pl_expr index = pl_arg(c->m->pool, c->element, 0);
   pl_diagnostic* d;
   if (c->no_integer) {
     const char* text = expr_words(c, index);
-    d = pl_tell(c->job, PL_E038, at, PL_F(c->job, "the index %s is no whole number%s", text, instance_text(c, " at ")),
-                PL_F(c->job, "der Index %s ist keine ganze Zahl%s", text, instance_text(c, " bei ")));
+    d = pl_tell(
+        c->job, PL_E038, at,
+        PL_F(c->job, "the index %s is no whole number%s", text, instance_text(c, " at ")),
+        PL_F(c->job, "der Index %s ist keine ganze Zahl%s", text, instance_text(c, " bei ")));
     const char* unknown = unknown_in(c, index);
     if (unknown)
-      pl_report_reason(d, PL_F(c->job, "%s has no number", unknown), PL_F(c->job, "%s hat keinen Zahlenwert", unknown));
-    pl_report_fix(d, "an index is built from whole numbers, loop indices and parameters with a number",
-                  "ein Index besteht aus ganzen Zahlen, Laufindizes und Parametern mit Zahlenwert", NULL);
+      pl_report_reason(d, PL_F(c->job, "%s has no number", unknown),
+                       PL_F(c->job, "%s hat keinen Zahlenwert", unknown));
+    pl_report_fix(
+        d, "an index is built from whole numbers, loop indices and parameters with a number",
+        "ein Index besteht aus ganzen Zahlen, Laufindizes und Parametern mit Zahlenwert", NULL);
     return;
   }
-  d = pl_tell(c->job, PL_E037, at, PL_F(c->job, "%s[%ld] does not exist%s", name, c->bad, instance_text(c, ", at ")),
+  d = pl_tell(c->job, PL_E037, at,
+              PL_F(c->job, "%s[%ld] does not exist%s", name, c->bad, instance_text(c, ", at ")),
               PL_F(c->job, "%s[%ld] gibt es nicht%s", name, c->bad, instance_text(c, ", bei ")));
   pl_report_reason(d, PL_F(c->job, "%s runs from %ld to %ld", name, c->lo, c->hi),
                    PL_F(c->job, "%s läuft von %ld bis %ld", name, c->lo, c->hi));
   if (c->coord->span.source) {
-    pl_report_label(c->job->diagnostics, d, c->coord->span, PL_F(c->job, "%s[%ld..%ld]", name, c->lo, c->hi));
+    pl_report_label(c->job->diagnostics, d, c->coord->span,
+                    PL_F(c->job, "%s[%ld..%ld]", name, c->lo, c->hi));
   }
   suggest_bound(c, d);
 }
 
-// ---------------------------------------------------------------------------------------------- elements
+// ---------------------------------------------------------------------------------------- elements
 static const pl_coord* family_of(const pl_model* m, pl_symbol s) {
   for (int i = 0; i < m->coords.n; i++) {
-    if (m->coords.at[i].symbol.id == s.id && !pl_is_poison(m->coords.at[i].lo)) return &m->coords.at[i];
+    if (m->coords.at[i].symbol.id == s.id && !pl_is_poison(m->coords.at[i].lo))
+      return &m->coords.at[i];
   }
   return NULL;
 }
@@ -364,7 +405,8 @@ static bool inside(void* user, pl_index_values* v) {
 static bool is_linear(range_check* c, pl_expr index, const pl_block* b) {
   pl_expr slope = pl_diff(c->m->pool, index, b->index);
   long k;
-  return !pl_is_poison(slope) && !pl_has_symbol(c->m->pool, slope, b->index) && pl_index_eval(&c->v, slope, &k);
+  return !pl_is_poison(slope) && !pl_has_symbol(c->m->pool, slope, b->index)
+         && pl_index_eval(&c->v, slope, &k);
 }
 
 static void check_element(range_check* c, pl_expr element, const pl_block* b) {
@@ -379,8 +421,9 @@ static void check_element(range_check* c, pl_expr element, const pl_block* b) {
   c->block = b;
   bool ok;
   if (b) {
-    ok = walk_blocks(b, &c->v, inside, c, &c->budget, is_linear(c, pl_arg(c->m->pool, element, 0), b), NULL) !=
-         PL_WALK_STOPPED;
+    ok = walk_blocks(b, &c->v, inside, c, &c->budget,
+                     is_linear(c, pl_arg(c->m->pool, element, 0), b), NULL)
+         != PL_WALK_STOPPED;
   } else {
     ok = inside(c, &c->v);
   }
@@ -406,7 +449,8 @@ static void check_expression(range_check* c, pl_expr e, const pl_block* b, pl_ma
     check_expression(c, pl_arg(c->m->pool, e, n - 1), sum, pl_map_make(c->job->arena));
     return;
   }
-  for (int i = 0; i < pl_n_args(c->m->pool, e); i++) check_expression(c, pl_arg(c->m->pool, e, i), b, visited);
+  for (int i = 0; i < pl_n_args(c->m->pool, e); i++)
+    check_expression(c, pl_arg(c->m->pool, e, i), b, visited);
 }
 
 static void check_slot(void* user, const pl_slot* slot) {
@@ -417,14 +461,15 @@ static void check_slot(void* user, const pl_slot* slot) {
   check_expression(c, *slot->at, slot->block, pl_map_make(c->job->arena));
 }
 
-// ---------------------------------------------------------------------------------------------- bounds
+// ------------------------------------------------------------------------------------------ bounds
 static void check_blocks(range_check* c) {
   for (int i = 0; i < c->m->blocks.n; i++) {
     const pl_block* b = c->m->blocks.at[i];
     const pl_block* culprit = b;
     long budget = PL_MAX_INSTANCES;
     pl_walk_result r = pl_block_walk(b, &c->v, NULL, NULL, &budget, &culprit);
-    if (culprit == b || r == PL_WALK_TOO_MANY) tell_walk(c, r, b);   // an outer block tells its own mistakes
+    // an outer block tells its own mistakes
+    if (culprit == b || r == PL_WALK_TOO_MANY) tell_walk(c, r, b);
     for (const pl_block* x = b; x; x = x->outer) c->v.value[x->index.id] = PL_NAN;
   }
 }
@@ -441,7 +486,10 @@ static void check_coordinate_bounds(range_check* c) {
 }
 
 static range_check range_check_make(pl_job* job, pl_model* m) {
-  return (range_check){.job = job, .m = m, .v = pl_index_values_make(m, job->arena), .seen = pl_map_make(job->arena),
+  return (range_check){.job = job,
+                       .m = m,
+                       .v = pl_index_values_make(m, job->arena),
+                       .seen = pl_map_make(job->arena),
                        .budget = PL_MAX_INSTANCES};
 }
 

@@ -9,7 +9,9 @@ typedef struct chain {
   pl_block *all, *rest;
 } chain;
 
-static pl_expr element(chain* c, pl_symbol s, pl_expr index) { return pl_at(c->k->m->pool, s, 0, index); }
+static pl_expr element(chain* c, pl_symbol s, pl_expr index) {
+  return pl_at(c->k->m->pool, s, 0, index);
+}
 
 static const char chain_text[] =
     "param N = 5, m = 0.001 [kg], d = 0.01 [m], g = 9.81 [m/s^2]\n"
@@ -49,15 +51,18 @@ static chain chain_make(const char* size, long first) {
                     .point = point2(element(&c, c.x, c.i), element(&c, c.y, c.i)),
                     .block = c.all,
                     .span = at(k, "mass P")});
-  constraint(k, indexed("c", one), pl_add(p, pl_square(p, element(&c, c.x, one)), pl_square(p, element(&c, c.y, one))),
+  constraint(k, indexed("c", one),
+             pl_add(p, pl_square(p, element(&c, c.x, one)), pl_square(p, element(&c, c.y, one))),
              PL_EQ, pl_square(p, c.d), NULL, "constraint c[1]");
   constraint(k, indexed("c", first == 2 ? c.i : pl_add(p, c.i, pl_int(p, 100))),
              link_length(&c, c.i, pl_sub(p, c.i, one)), PL_EQ, pl_square(p, c.d), c.rest,
              "constraint c[i]: (x[i] - x[i-1])^2");
   gravity(k, g, 1, -1, NULL);
   pl_push(k->arena, k->m->inits,
-          (pl_init){
-              .target = element(&c, c.x, c.i), .value = pl_mul(p, c.i, c.d), .block = c.all, .span = at(k, "init x")});
+          (pl_init){.target = element(&c, c.x, c.i),
+                    .value = pl_mul(p, c.i, c.d),
+                    .block = c.all,
+                    .span = at(k, "init x")});
   return c;
 }
 
@@ -77,7 +82,8 @@ PL_TEST(a_chain_is_checked_as_a_pattern) {
 PL_TEST(an_element_before_the_first_is_found) {
   chain c = chain_make("5", 1);
   const pl_diagnostic* d = check_tells(c.k, PL_E037);
-  assert_string_equal(d->sentence[0] + 1, "[0] does not exist, at i = 1");      // x or y, whichever is met first
+  // x or y, whichever is met first
+  assert_string_equal(d->sentence[0] + 1, "[0] does not exist, at i = 1");
   assert_string_equal(d->reason[0] + 1, " runs from 1 to 5");
   assert_string_equal(d->fix[0], "for i in 2..N");
   kit_free(c.k);
@@ -88,7 +94,8 @@ PL_TEST(an_element_after_the_last_is_found) {
   pl_pool* p = c.k->m->pool;
   pl_push(c.k->arena, c.k->m->loads,
           (pl_load){.kind = PL_L_POTENTIAL,
-                    .value = pl_mul(p, num(c.k, "1", "N"), element(&c, c.x, pl_add(p, c.i, pl_int(p, 1)))),
+                    .value = pl_mul(p, num(c.k, "1", "N"),
+                                    element(&c, c.x, pl_add(p, c.i, pl_int(p, 1)))),
                     .block = c.all});
   const pl_diagnostic* d = check_tells(c.k, PL_E037);
   assert_string_equal(d->sentence[0], "x[6] does not exist, at i = 5");
@@ -115,7 +122,8 @@ PL_TEST(an_index_that_is_no_whole_number_is_found) {
 PL_TEST(half_an_index_is_found_between_the_ends) {
   chain c = chain_make("5", 2);
   pl_pool* p = c.k->m->pool;
-  pl_expr half = pl_div(p, pl_add(p, c.i, pl_int(p, 1)), pl_int(p, 2));      // whole at i = 1, 3, 5 only
+  // whole at i = 1, 3, 5 only
+  pl_expr half = pl_div(p, pl_add(p, c.i, pl_int(p, 1)), pl_int(p, 2));
   pl_push(c.k->arena, c.k->m->inits,
           (pl_init){.target = pl_at(p, c.y, 0, half), .value = pl_int(p, 0), .block = c.all});
   const pl_diagnostic* d = check_tells(c.k, PL_E038);
@@ -185,7 +193,8 @@ PL_TEST(a_step_counts_by_itself) {
 
 PL_TEST(a_label_of_a_family_used_twice_is_found) {
   chain c = chain_make("5", 2);
-  c.k->m->constraints.at[1].name.index = pl_sub(c.k->m->pool, c.i, pl_int(c.k->m->pool, 1));    // c[1] again at i = 2
+  // c[1] again at i = 2
+  c.k->m->constraints.at[1].name.index = pl_sub(c.k->m->pool, c.i, pl_int(c.k->m->pool, 1));
   const pl_diagnostic* d = check_tells(c.k, PL_E034);
   assert_non_null(strstr(d->sentence[0], "c[1]"));
   kit_free(c.k);

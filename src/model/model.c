@@ -1,4 +1,5 @@
-// The model as a container: making it, finding things in it, its coordinates one by one, its numbers.
+// The model as a container: making it, finding things in it, its coordinates one by one, its
+// numbers.
 #include "model_impl.h"
 
 #include <math.h>
@@ -12,7 +13,7 @@ pl_model* pl_model_make(pl_arena* a) {
   return m;
 }
 
-// ---------------------------------------------------------------------------------------------- lookups
+// ----------------------------------------------------------------------------------------- lookups
 const pl_param* pl_model_param(const pl_model* m, pl_symbol s) {
   for (int i = 0; i < m->params.n; i++) {
     if (m->params.at[i].symbol.id == s.id && s.id) return &m->params.at[i];
@@ -59,8 +60,9 @@ static bool speaks_of(const pl_model* m, const char* label, const pl_constraint*
   const char* open = label ? strchr(label, '[') : NULL;
   size_t stem = open ? (size_t)(open - label) : label ? strlen(label) : 0;
   // "c" and "c[i]" of a block speak of the family c
-  return label && c->block && c->name.text && strlen(c->name.text) == stem && strncmp(c->name.text, label, stem) == 0 &&
-         (!open || answers(m, &c->name, label) == 1 || strspn(open + 1, "0123456789-") == 0);
+  return label && c->block && c->name.text && strlen(c->name.text) == stem
+         && strncmp(c->name.text, label, stem) == 0
+         && (!open || answers(m, &c->name, label) == 1 || strspn(open + 1, "0123456789-") == 0);
 }
 
 const pl_restitution* pl_model_restitution(const pl_model* m, const pl_constraint* c) {
@@ -85,7 +87,7 @@ const pl_mass* pl_model_mass(const pl_model* m, const char* label) {
   return found;
 }
 
-// ---------------------------------------------------------------------------------------------- names of results
+// -------------------------------------------------------------------------------- names of results
 static const char* result_text(pl_arena* a, pl_result_kind kind, const char* label) {
   switch (kind) {
     case PL_RES_T: return "T";
@@ -109,13 +111,16 @@ static bool is_declared(const pl_model* m, const char* name) {
   for (int i = 0; i < m->coords.n; i++)
     if (strcmp(pl_symbol_get(m->pool, m->coords.at[i].symbol)->name, name) == 0) return true;
   for (int i = 0; i < m->lets.n; i++)
-    if (m->lets.at[i].symbol.id && strcmp(pl_symbol_get(m->pool, m->lets.at[i].symbol)->name, name) == 0) return true;
+    if (m->lets.at[i].symbol.id
+        && strcmp(pl_symbol_get(m->pool, m->lets.at[i].symbol)->name, name) == 0)
+      return true;
   return false;
 }
 
 const char* pl_model_letter(const pl_model* m, pl_arena* a, const char* letter) {
-  static const char* const others[][2] = {{"T", "T_kin"}, {"V", "V_pot"}, {"L", "L_Lag"}, {"E", "E_tot"},
-                                          {"H", "H_Ham"}, {"J", "J_Jac"}, {"M", "M_eff"}, {"Z", "F_Z"}};
+  static const char* const others[][2] = {{"T", "T_kin"}, {"V", "V_pot"}, {"L", "L_Lag"},
+                                          {"E", "E_tot"}, {"H", "H_Ham"}, {"J", "J_Jac"},
+                                          {"M", "M_eff"}, {"Z", "F_Z"}};
   if (!is_declared(m, letter)) return letter;
   const char* other = letter;
   for (size_t i = 0; i < sizeof others / sizeof *others; i++)
@@ -126,32 +131,45 @@ const char* pl_model_letter(const pl_model* m, pl_arena* a, const char* letter) 
 
 const char* pl_model_column(const pl_model* m, pl_arena* a, const char* letter) {
   for (int i = 0; i < m->coords.n; i++)
-    if (strcmp(pl_symbol_get(m->pool, m->coords.at[i].symbol)->ascii, letter) == 0) return pl_model_letter(m, a, letter);
+    if (strcmp(pl_symbol_get(m->pool, m->coords.at[i].symbol)->ascii, letter) == 0)
+      return pl_model_letter(m, a, letter);
   return letter;
 }
 
-// The ASCII name cannot be that of a declared quantity: a parameter T and the kinetic energy T live side by side.
-static pl_symbol result_symbol(pl_model* m, pl_result_kind kind, const char* label, const char* shown_label) {
+// The ASCII name cannot be that of a declared quantity: a parameter T and the kinetic energy T live
+// side by side.
+static pl_symbol result_symbol(pl_model* m, pl_result_kind kind, const char* label,
+                               const char* shown_label) {
   pl_arena* a = pl_pool_arena(m->pool);
   const char* text = result_text(a, kind, label);
   for (int i = 0; i < m->result_names.n; i++) {
     const pl_result_name* r = &m->result_names.at[i];
-    if (r->kind == kind && (r->label == label || (r->label && label && strcmp(r->label, label) == 0))) return r->symbol;
+    if (r->kind == kind
+        && (r->label == label || (r->label && label && strcmp(r->label, label) == 0)))
+      return r->symbol;
   }
   const char* ascii = pl_symbol_find(m->pool, text).id ? pl_format(a, "%s_result", text) : text;
-  pl_symbol_info info = {
-      .name = pl_model_letter(m, a, result_text(a, kind, shown_label)), .ascii = ascii, .role = PL_R_LOCAL, .class = PL_C_OTHER, .dimension = pl_dimension_one()};
+  pl_symbol_info info = {.name = pl_model_letter(m, a, result_text(a, kind, shown_label)),
+                         .ascii = ascii,
+                         .role = PL_R_LOCAL,
+                         .class = PL_C_OTHER,
+                         .dimension = pl_dimension_one()};
   pl_symbol s = pl_symbol_make(m->pool, &info);
-  pl_push(a, m->result_names, (pl_result_name){.symbol = s, .kind = kind, .label = label ? pl_copy(a, label) : NULL});
+  pl_push(a, m->result_names,
+          (pl_result_name){.symbol = s, .kind = kind, .label = label ? pl_copy(a, label) : NULL});
   return s;
 }
 
-pl_symbol pl_model_result_symbol(pl_model* m, pl_result_kind kind, const char* label) { return result_symbol(m, kind, label, label); }
+pl_symbol pl_model_result_symbol(pl_model* m, pl_result_kind kind, const char* label) {
+  return result_symbol(m, kind, label, label);
+}
 
 // A derivative carries the name of what it is derived from; its primes are added.
 static const char* shown_name(const pl_model* m, pl_arena* a, pl_symbol s) {
   const pl_symbol_info* info = pl_symbol_get(m->pool, s);
-  const char* primes = info->role == PL_R_VELOCITY ? "'" : info->role == PL_R_ACCELERATION ? "''" : "";
+  const char* primes = info->role == PL_R_VELOCITY       ? "'"
+                       : info->role == PL_R_ACCELERATION ? "''"
+                                                         : "";
   return pl_format(a, "%s%s", info->name, primes);
 }
 
@@ -159,7 +177,9 @@ static const char* shown_name(const pl_model* m, pl_arena* a, pl_symbol s) {
 pl_symbol pl_model_result_derivative(pl_model* m, pl_result_kind kind, pl_expr of, pl_symbol by) {
   pl_arena* a = pl_pool_arena(m->pool);
   const char* text = pl_expr_text(a, m->pool, of);
-  const char* shown = pl_kind_of(m->pool, of) == PL_SYMBOL ? shown_name(m, a, pl_symbol_of(m->pool, of)) : text;
+  const char* shown = pl_kind_of(m->pool, of) == PL_SYMBOL
+                          ? shown_name(m, a, pl_symbol_of(m->pool, of))
+                          : text;
   if (kind == PL_RES_DIFF) {
     text = pl_format(a, "%s, %s", text, pl_symbol_get(m->pool, by)->ascii);
     shown = pl_format(a, "%s, %s", shown, shown_name(m, a, by));
@@ -181,15 +201,15 @@ const pl_result_name* pl_model_result_name(const pl_model* m, pl_symbol s) {
   return NULL;
 }
 
-// ---------------------------------------------------------------------------------------------- numbers
-// Parameters and kept abbreviations may be given through others, in any order: each is evaluated after those
-// it needs.  A circle has no value.
+// ----------------------------------------------------------------------------------------- numbers
+// Parameters and kept abbreviations may be given through others, in any order: each is evaluated
+// after those it needs. A circle has no value.
 typedef struct value_pass {
   const pl_model* m;
   pl_arena* arena;
   double* value;
-  pl_expr* given;             // what is written behind the name, by symbol id; poison: nothing
-  char* state;                // by symbol id: 0 new, 1 on the way, 2 done
+  pl_expr* given;  // what is written behind the name, by symbol id; poison: nothing
+  char* state;     // by symbol id: 0 new, 1 on the way, 2 done
 } value_pass;
 
 static void evaluate_name(value_pass* v, pl_symbol first) {
@@ -203,7 +223,7 @@ static void evaluate_name(value_pass* v, pl_symbol first) {
       stack.n--;
       continue;
     }
-    if (v->state[s.id] == 1) {          // what it needs is done, or part of a circle
+    if (v->state[s.id] == 1) {  // what it needs is done, or part of a circle
       v->value[s.id] = pl_eval(v->m->pool, given, v->value);
       v->state[s.id] = 2;
       stack.n--;
@@ -214,7 +234,8 @@ static void evaluate_name(value_pass* v, pl_symbol first) {
     pl_symbol* needs = PL_ARRAY(v->arena, pl_symbol, n + 1);
     pl_symbols_in(v->m->pool, given, needs, n);
     for (int i = 0; i < n; i++) {
-      if (!pl_is_poison(v->given[needs[i].id]) && v->state[needs[i].id] == 0) pl_push(v->arena, stack, needs[i]);
+      if (!pl_is_poison(v->given[needs[i].id]) && v->state[needs[i].id] == 0)
+        pl_push(v->arena, stack, needs[i]);
     }
   }
 }
@@ -255,7 +276,7 @@ pl_expr* pl_model_definitions(const pl_model* m, pl_arena* a) {
   return v.given;
 }
 
-// ---------------------------------------------------------------------------------------------- coordinates
+// ------------------------------------------------------------------------------------- coordinates
 pl_flat_coords pl_model_flat_coords(const pl_model* m, pl_arena* a) {
   PL_VEC(pl_expr) all = {0};
   pl_index_values v = pl_index_values_make(m, a);
@@ -268,12 +289,13 @@ pl_flat_coords pl_model_flat_coords(const pl_model* m, pl_arena* a) {
     long lo, hi;
     if (!pl_index_eval(&v, c->lo, &lo) || !pl_index_eval(&v, c->hi, &hi)) continue;
     if (hi >= lo && hi - lo >= PL_MAX_INSTANCES) continue;
-    for (long k = lo; k <= hi; k++) pl_push(a, all, pl_at(m->pool, c->symbol, 0, pl_int(m->pool, k)));
+    for (long k = lo; k <= hi; k++)
+      pl_push(a, all, pl_at(m->pool, c->symbol, 0, pl_int(m->pool, k)));
   }
   return (pl_flat_coords){all.at, all.n};
 }
 
-// ---------------------------------------------------------------------------------------------- --set
+// ------------------------------------------------------------------------------------------- --set
 static bool is_start_target(const pl_model* m, pl_expr target, pl_symbol s) {
   return pl_kind_of(m->pool, target) == PL_SYMBOL && pl_symbol_of(m->pool, target).id == s.id;
 }
@@ -285,8 +307,8 @@ static pleuel_status set_param(pl_job* job, pl_model* m, pl_param* p, pl_expr va
   }
   pl_dimension x;
   bool with_unit = pl_has_unit(m->pool, value);
-  if (with_unit && info->dimension_known && pl_known_dimension(m, value, &x) &&
-      !pl_dimension_equal(x, info->dimension)) {
+  if (with_unit && info->dimension_known && pl_known_dimension(m, value, &x)
+      && !pl_dimension_equal(x, info->dimension)) {
     return pl_fail(job, PLEUEL_USAGE, "%s is %s, but the value set is %s", info->name,
                    pl_dimension_words(job->arena, info->dimension, job->lang),
                    pl_dimension_words(job->arena, x, job->lang));
@@ -307,7 +329,8 @@ static pleuel_status settle_after_set(pl_job* job, pl_model* m) {
 }
 
 pleuel_status pl_model_set(pl_job* job, pl_model* m, const char* name, pl_expr value) {
-  if (pl_is_poison(value)) return pl_fail(job, PLEUEL_USAGE, "the value for %s cannot be computed", name);
+  if (pl_is_poison(value))
+    return pl_fail(job, PLEUEL_USAGE, "the value for %s cannot be computed", name);
   for (int i = 0; i < m->params.n; i++) {
     const pl_symbol_info* info = pl_symbol_get(m->pool, m->params.at[i].symbol);
     if (m->params.at[i].literal) continue;
@@ -318,7 +341,8 @@ pleuel_status pl_model_set(pl_job* job, pl_model* m, const char* name, pl_expr v
   // a start value: x1=..., x1_dot=...
   pl_symbol s = pl_symbol_find(m->pool, name);
   pl_role role = s.id ? pl_symbol_get(m->pool, s)->role : PL_R_PARAM;
-  if (role != PL_R_COORD && role != PL_R_VELOCITY) return pl_fail(job, PLEUEL_USAGE, "no parameter is named %s", name);
+  if (role != PL_R_COORD && role != PL_R_VELOCITY)
+    return pl_fail(job, PLEUEL_USAGE, "no parameter is named %s", name);
   pl_expr plain = m->checked ? pl_model_plain(m->pool, value) : value;
   for (int i = 0; i < m->inits.n; i++) {
     if (!m->inits.at[i].guess && is_start_target(m, m->inits.at[i].target, s)) {
@@ -326,6 +350,7 @@ pleuel_status pl_model_set(pl_job* job, pl_model* m, const char* name, pl_expr v
       return PLEUEL_OK;
     }
   }
-  pl_push(pl_pool_arena(m->pool), m->inits, (pl_init){.target = pl_sym(m->pool, s), .value = plain});
+  pl_push(pl_pool_arena(m->pool), m->inits,
+          (pl_init){.target = pl_sym(m->pool, s), .value = plain});
   return PLEUEL_OK;
 }

@@ -16,21 +16,30 @@ const char* pl_expr_words(pl_arena* a, pl_pool* p, pl_expr e) {
 // Without `axes`: as many as the points have components, x right, y up, z out.
 static void default_axes(pl_model* m) {
   if (m->n_axes > 0) return;
-  static const pl_axis usual[3] = {{"x", "x", "right", false}, {"y", "y", "up", false}, {"z", "z", "out", false}};
+  static const pl_axis usual[3] = {
+      {"x", "x", "right", false}, {"y", "y", "up", false}, {"z", "z", "out", false}};
   int n = 0;
-  for (int i = 0; i < m->masses.n; i++) n = m->masses.at[i].point.n > n ? m->masses.at[i].point.n : n;
-  for (int i = 0; i < m->bodies.n; i++) n = m->bodies.at[i].centre.n > n ? m->bodies.at[i].centre.n : n;
-  for (int i = 0; i < m->points.n; i++) n = m->points.at[i].point.n > n ? m->points.at[i].point.n : n;
-  for (int i = 0; i < m->gravities.n; i++) n = m->gravities.at[i].axis + 1 > n ? m->gravities.at[i].axis + 1 : n;
+  for (int i = 0; i < m->masses.n; i++)
+    n = m->masses.at[i].point.n > n ? m->masses.at[i].point.n : n;
+  for (int i = 0; i < m->bodies.n; i++)
+    n = m->bodies.at[i].centre.n > n ? m->bodies.at[i].centre.n : n;
+  for (int i = 0; i < m->points.n; i++)
+    n = m->points.at[i].point.n > n ? m->points.at[i].point.n : n;
+  for (int i = 0; i < m->gravities.n; i++)
+    n = m->gravities.at[i].axis + 1 > n ? m->gravities.at[i].axis + 1 : n;
   if (n > 3) n = 3;
   memcpy(m->axes, usual, (size_t)n * sizeof *usual);
   m->n_axes = n;
 }
 
-// ---------------------------------------------------------------------------------------------- echoes
+// ------------------------------------------------------------------------------------------ echoes
 // A statement of the wrong kind often has the wrong unit too; then the unit is not told.
-static bool is_about_units(pl_code c) { return c == PL_E021 || c == PL_E031 || c == PL_E032 || c == PL_E033; }
-static bool is_about_kind(pl_code c) { return c == PL_E051 || c == PL_E056 || c == PL_E057 || c == PL_E039; }
+static bool is_about_units(pl_code c) {
+  return c == PL_E021 || c == PL_E031 || c == PL_E032 || c == PL_E033;
+}
+static bool is_about_kind(pl_code c) {
+  return c == PL_E051 || c == PL_E056 || c == PL_E057 || c == PL_E039;
+}
 
 static bool is_echo(const pl_diagnostics* all, const pl_diagnostic* d) {
   if (!is_about_units(d->code) || !d->span.source) return false;
@@ -53,7 +62,7 @@ static void drop_echoes(pl_diagnostics* all) {
   all->list.n = kept;
 }
 
-// ---------------------------------------------------------------------------------------------- the check
+// --------------------------------------------------------------------------------------- the check
 pleuel_status pl_model_check(pl_job* job, pl_model* m) {
   default_axes(m);
   bool sized = pl_check_sizes(job, m);

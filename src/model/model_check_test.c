@@ -1,4 +1,5 @@
-// What a user can get wrong: each mistake is told with its own code, and its right neighbour is not.
+// What a user can get wrong: each mistake is told with its own code, and its right neighbour is
+// not.
 #include "model/model_test_kit.h"
 
 // A particle in the plane; the tests add one wrong statement.
@@ -38,7 +39,7 @@ PL_TEST(a_plain_particle_is_fine) {
   kit_free(a.k);
 }
 
-// ---------------------------------------------------------------------------------------------- names
+// ------------------------------------------------------------------------------------------- names
 PL_TEST(two_thetas_are_refused) {
   plane a = plane_make(NULL);
   pl_symbol s = name_symbol(a.k, "θ", "theta", PL_R_COORD, NULL),
@@ -61,7 +62,7 @@ PL_TEST(a_mass_and_a_constraint_may_share_a_label) {
   kit_free(a.k);
 }
 
-// ---------------------------------------------------------------------------------------------- components
+// -------------------------------------------------------------------------------------- components
 PL_TEST(a_point_with_too_many_components_is_found) {
   plane a = plane_make(NULL);
   a.k->m->n_axes = 2;
@@ -80,7 +81,10 @@ PL_TEST(points_of_different_length_are_found_without_axes) {
 PL_TEST(a_force_needs_a_component_for_each_axis) {
   plane a = plane_make(NULL);
   pl_push(a.k->arena, a.k->m->loads,
-          (pl_load){.kind = PL_L_FORCE, .name = named("F"), .vector = {number(&a, "1")}, .a = point2(a.x, a.y)});
+          (pl_load){.kind = PL_L_FORCE,
+                    .name = named("F"),
+                    .vector = {number(&a, "1")},
+                    .a = point2(a.x, a.y)});
   tells(&a, PL_E035);
 }
 
@@ -94,11 +98,15 @@ PL_TEST(a_body_lives_in_a_plane) {
   plane a = plane_make(NULL);
   a.k->m->masses.n = 0;
   pl_push(a.k->arena, a.k->m->bodies,
-          (pl_body){.name = named("B"), .mass = a.m, .inertia = a.m, .angle = a.x, .centre = point3(a.x, a.y, a.x)});
+          (pl_body){.name = named("B"),
+                    .mass = a.m,
+                    .inertia = a.m,
+                    .angle = a.x,
+                    .centre = point3(a.x, a.y, a.x)});
   tells(&a, PL_E035);
 }
 
-// ---------------------------------------------------------------------------------------------- kinds of quantity
+// ------------------------------------------------------------------------------- kinds of quantity
 PL_TEST(a_mass_that_depends_on_time_is_refused) {
   plane a = plane_make(NULL);
   mass(a.k, "B", pl_mul(a.p, a.m, pl_sym(a.p, pl_time(a.p))), point2(a.x, a.y), NULL);
@@ -179,7 +187,7 @@ PL_TEST(a_division_by_zero_is_told) {
   tells(&a, PL_E040);
 }
 
-// ---------------------------------------------------------------------------------------------- constraints
+// ------------------------------------------------------------------------------------- constraints
 PL_TEST(a_constraint_without_coordinate_is_refused) {
   plane a = plane_make(NULL);
   constraint(a.k, named("c"), a.m, PL_EQ, a.g, NULL, NULL);
@@ -189,7 +197,8 @@ PL_TEST(a_constraint_without_coordinate_is_refused) {
 // Wrong in kind and in unit: the kind is told, the unit would be an echo.
 PL_TEST(one_statement_is_not_blamed_twice) {
   kit* k = kit_make("constraint c: m = l\n");
-  pl_expr m = param(k, "m", "1", "kg", NULL), l = param(k, "l", "1", "m", NULL), x = coord(k, "x", NULL, NULL);
+  pl_expr m = param(k, "m", "1", "kg", NULL), l = param(k, "l", "1", "m", NULL),
+          x = coord(k, "x", NULL, NULL);
   mass(k, "A", m, (pl_point){.n = 1, .at = {x}}, NULL);
   constraint(k, named("c"), m, PL_EQ, l, NULL, "constraint c: m = l");
   check_tells(k, PL_E051);
@@ -272,7 +281,8 @@ PL_TEST(a_constraint_not_linear_in_velocities_is_refused) {
 PL_TEST(hidden_linearity_is_seen) {
   plane a = plane_make(NULL);
   pl_expr v = dot(a.k, a.x);
-  constraint(a.k, named("c"), pl_square(a.p, pl_add(a.p, v, pl_int(a.p, 1))), PL_EQ, pl_square(a.p, v), NULL, NULL);
+  constraint(a.k, named("c"), pl_square(a.p, pl_add(a.p, v, pl_int(a.p, 1))), PL_EQ,
+             pl_square(a.p, v), NULL, NULL);
   tells(&a, PL_N092);
 }
 
@@ -284,7 +294,7 @@ PL_TEST(while_needs_a_contact) {
   tells(&a, PL_E063);
 }
 
-// ---------------------------------------------------------------------------------------------- numbers
+// ----------------------------------------------------------------------------------------- numbers
 PL_TEST(parameters_in_a_circle_are_found) {
   plane a = plane_make(NULL);
   pl_expr b = param(a.k, "b", NULL, NULL, NULL);
@@ -296,7 +306,7 @@ PL_TEST(parameters_in_a_circle_are_found) {
 PL_TEST(parameters_through_others_have_values) {
   plane a = plane_make(NULL);
   pl_expr b = param(a.k, "b", NULL, NULL, NULL);
-  a.k->m->params.at[0].value = pl_mul(a.p, pl_int(a.p, 2), b);       // before b
+  a.k->m->params.at[0].value = pl_mul(a.p, pl_int(a.p, 2), b);  // before b
   a.k->m->params.at[2].value = pl_int(a.p, 21);
   const double* v = pl_model_values(a.k->m, a.k->arena);
   assert_true(fabs(v[pl_symbol_of(a.p, a.m).id] - 42) < 1e-12);
@@ -305,7 +315,8 @@ PL_TEST(parameters_through_others_have_values) {
 
 PL_TEST(an_assumption_against_the_numbers_is_found) {
   plane a = plane_make(NULL);
-  pl_push(a.k->arena, a.k->m->assumptions, (pl_assumption){.kind = PL_A_RELATION, .condition = {a.g, a.m, PL_LT, {0}}});
+  pl_push(a.k->arena, a.k->m->assumptions,
+          (pl_assumption){.kind = PL_A_RELATION, .condition = {a.g, a.m, PL_LT, {0}}});
   tells(&a, PL_E060);
 }
 
@@ -331,7 +342,7 @@ PL_TEST(signs_follow_numbers_and_assumptions) {
   kit_free(a.k);
 }
 
-// ---------------------------------------------------------------------------------------------- start
+// ------------------------------------------------------------------------------------------- start
 PL_TEST(a_start_value_given_twice_is_found) {
   plane a = plane_make("init x = 1\ninit x = 2\n");
   init(a.k, a.x, number(&a, "1"), "init x = 1");
@@ -371,8 +382,8 @@ PL_TEST(a_parameter_has_no_start_value) {
 
 PL_TEST(a_start_against_a_constraint_is_found) {
   plane a = plane_make(NULL);
-  constraint(a.k, named("c"), pl_add(a.p, pl_square(a.p, a.x), pl_square(a.p, a.y)), PL_EQ, number(&a, "1"), NULL,
-             NULL);
+  constraint(a.k, named("c"), pl_add(a.p, pl_square(a.p, a.x), pl_square(a.p, a.y)), PL_EQ,
+             number(&a, "1"), NULL, NULL);
   init(a.k, a.x, number(&a, "1"), NULL);
   init(a.k, a.y, number(&a, "0.5"), NULL);
   tells(&a, PL_E041);
@@ -381,21 +392,22 @@ PL_TEST(a_start_against_a_constraint_is_found) {
 // The other values kept, x = ± √0.75 would fit; the branch leaves one of them.
 PL_TEST(a_start_that_would_fit_is_named) {
   plane a = plane_make(NULL);
-  constraint(a.k, named("c"), pl_add(a.p, pl_square(a.p, a.x), pl_square(a.p, a.y)), PL_EQ, number(&a, "1"), NULL,
-             NULL);
+  constraint(a.k, named("c"), pl_add(a.p, pl_square(a.p, a.x), pl_square(a.p, a.y)), PL_EQ,
+             number(&a, "1"), NULL, NULL);
   pl_push(a.k->arena, a.k->m->branches, (pl_condition){a.x, pl_int(a.p, 0), PL_LT, {0}});
   init(a.k, a.y, number(&a, "0.5"), NULL);
   init(a.k, a.x, number(&a, "2"), NULL);
   const pl_diagnostic* d = check_tells(a.k, PL_E041);
-  assert_string_equal(d->fix[0], "x = -0.866025404 would fit. Change it, or remove it from init and let it follow");
+  assert_string_equal(
+      d->fix[0], "x = -0.866025404 would fit. Change it, or remove it from init and let it follow");
   kit_free(a.k);
 }
 
 // x = √0.75 would fit c, but then d is violated: no single value helps.
 PL_TEST(a_value_that_another_constraint_refuses_is_not_proposed) {
   plane a = plane_make(NULL);
-  constraint(a.k, named("c"), pl_add(a.p, pl_square(a.p, a.x), pl_square(a.p, a.y)), PL_EQ, number(&a, "1"), NULL,
-             NULL);
+  constraint(a.k, named("c"), pl_add(a.p, pl_square(a.p, a.x), pl_square(a.p, a.y)), PL_EQ,
+             number(&a, "1"), NULL, NULL);
   constraint(a.k, named("d"), pl_add(a.p, a.x, a.y), PL_EQ, number(&a, "1"), NULL, NULL);
   init(a.k, a.y, number(&a, "0.5"), NULL);
   init(a.k, a.x, number(&a, "0.5"), NULL);
@@ -429,8 +441,8 @@ PL_TEST(a_start_on_the_wrong_side_is_found) {
 PL_TEST(a_start_on_the_right_side_is_fine) {
   plane a = plane_make(NULL);
   constraint(a.k, named("h"), a.y, PL_GE, number(&a, "1"), NULL, NULL);
-  constraint(a.k, named("c"), pl_add(a.p, pl_square(a.p, a.x), pl_square(a.p, a.y)), PL_EQ, number(&a, "25"), NULL,
-             NULL);
+  constraint(a.k, named("c"), pl_add(a.p, pl_square(a.p, a.x), pl_square(a.p, a.y)), PL_EQ,
+             number(&a, "25"), NULL, NULL);
   init(a.k, a.y, number(&a, "4"), NULL);
   init(a.k, a.x, number(&a, "3"), NULL);
   check_is_clean(a.k);
@@ -468,7 +480,7 @@ PL_TEST(without_a_simulation_letters_are_enough) {
   kit_free(a.k);
 }
 
-// ------------------------------------------------------------------------------------ choose, events, requests
+// ------------------------------------------------------------------------ choose, events, requests
 static void choose(plane* a, pl_expr q, struct pl_map_equation* maps, int n) {
   pl_push(a->k->arena, a->k->m->choose.coords, pl_symbol_of(a->p, q));
   a->k->m->choose.maps = maps;
@@ -510,7 +522,8 @@ PL_TEST(a_chosen_coordinate_without_map_is_found) {
 PL_TEST(a_map_through_another_old_coordinate_is_fine) {
   plane a = plane_make(NULL);
   pl_expr q = coord(a.k, "q", NULL, NULL);
-  struct pl_map_equation maps[] = {{a.x, pl_call(a.p, PL_SIN, q), {0}}, {a.y, pl_add(a.p, a.x, q), {0}}};
+  struct pl_map_equation maps[] = {{a.x, pl_call(a.p, PL_SIN, q), {0}},
+                                   {a.y, pl_add(a.p, a.x, q), {0}}};
   choose(&a, q, maps, 2);
   check_is_clean(a.k);
   kit_free(a.k);
@@ -540,7 +553,8 @@ PL_TEST(an_event_on_energy_or_time_is_fine) {
 
 PL_TEST(an_acceleration_cannot_be_set) {
   plane a = plane_make(NULL);
-  event(&a, a.x, (pl_action){.kind = PL_DO_SET, .target = dot(a.k, dot(a.k, a.x)), .value = pl_int(a.p, 0)});
+  event(&a, a.x,
+        (pl_action){.kind = PL_DO_SET, .target = dot(a.k, dot(a.k, a.x)), .value = pl_int(a.p, 0)});
   tells(&a, PL_E063);
 }
 
@@ -565,7 +579,7 @@ PL_TEST(a_frame_is_made_of_coordinates) {
   tells(&a, PL_E057);
 }
 
-// ---------------------------------------------------------------------------------------------- notes
+// ------------------------------------------------------------------------------------------- notes
 PL_TEST(an_unused_coordinate_is_noted) {
   plane a = plane_make("coord x, y, w\n");
   coord(a.k, "w", NULL, "coord x, y, w");
@@ -600,7 +614,8 @@ PL_TEST(a_mass_that_stands_still_is_noted) {
 PL_TEST(gravity_without_mass_is_noted) {
   plane a = plane_make(NULL);
   a.k->m->masses.n = 0;
-  load(a.k, PL_L_KINETIC, pl_mul(a.p, a.m, pl_add(a.p, pl_square(a.p, dot(a.k, a.x)), pl_square(a.p, dot(a.k, a.y)))),
+  load(a.k, PL_L_KINETIC,
+       pl_mul(a.p, a.m, pl_add(a.p, pl_square(a.p, dot(a.k, a.x)), pl_square(a.p, dot(a.k, a.y)))),
        NULL);
   tells(&a, PL_N064);
 }
@@ -641,11 +656,11 @@ PL_TEST(a_file_without_masses_is_legal) {
   kit_free(k);
 }
 
-// ---------------------------------------------------------------------------------------------- dump
+// -------------------------------------------------------------------------------------------- dump
 PL_TEST(a_dump_shows_every_statement) {
   plane a = plane_make(NULL);
-  constraint(a.k, named("rod"), pl_add(a.p, pl_square(a.p, a.x), pl_square(a.p, a.y)), PL_EQ, number(&a, "25"), NULL,
-             NULL);
+  constraint(a.k, named("rod"), pl_add(a.p, pl_square(a.p, a.x), pl_square(a.p, a.y)), PL_EQ,
+             number(&a, "25"), NULL, NULL);
   init(a.k, a.x, number(&a, "3"), NULL);
   event(&a, a.y, (pl_action){.kind = PL_DO_STOP});
   check_is_clean(a.k);

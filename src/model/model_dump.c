@@ -1,4 +1,5 @@
-// The checked model as text, statement by statement: golden file, bug report and teaching material at once.
+// The checked model as text, statement by statement: golden file, bug report and teaching material
+// at once.
 #include "model_impl.h"
 
 #include <math.h>
@@ -14,12 +15,14 @@ static const char* text(const dumper* d, pl_expr e) {
 
 static const char* const relation_signs[] = {"=", ">=", "<=", ">", "<", "!="};
 static const char* const sign_words[] = {"", "  > 0", "  >= 0", "  < 0", "  <= 0", "  != 0"};
-static const char* const class_words[] = {"number",   "mass",  "gravity",  "length",       "other",     "time",
-                                          "function", "coord", "velocity", "acceleration", "multiplier"};
+static const char* const class_words[] = {"number",   "mass",         "gravity",   "length",
+                                          "other",    "time",         "function",  "coord",
+                                          "velocity", "acceleration", "multiplier"};
 
 static void unit(const dumper* d, pl_symbol s) {
   const pl_symbol_info* info = pl_symbol_get(d->m->pool, s);
-  if (info->dimension_known) pl_text_addf(d->out, "  [%s]", pl_dimension_unit(d->out->arena, info->dimension, true));
+  if (info->dimension_known)
+    pl_text_addf(d->out, "  [%s]", pl_dimension_unit(d->out->arena, info->dimension, true));
 }
 
 static void label(const dumper* d, const pl_name* n) {
@@ -31,15 +34,16 @@ static void label(const dumper* d, const pl_name* n) {
 
 static void block(const dumper* d, const pl_block* b) {
   for (; b; b = b->outer) {
-    pl_text_addf(d->out, "  for %s in %s..%s", pl_symbol_get(d->m->pool, b->index)->ascii, text(d, b->lo),
-                 text(d, b->hi));
+    pl_text_addf(d->out, "  for %s in %s..%s", pl_symbol_get(d->m->pool, b->index)->ascii,
+                 text(d, b->lo), text(d, b->hi));
     if (!pl_is_poison(b->step)) pl_text_addf(d->out, " step %s", text(d, b->step));
   }
 }
 
 static void point(const dumper* d, const pl_point* p) {
   pl_text_add(d->out, "(");
-  for (int i = 0; i < p->n && i < 3; i++) pl_text_addf(d->out, "%s%s", i ? ", " : "", text(d, p->at[i]));
+  for (int i = 0; i < p->n && i < 3; i++)
+    pl_text_addf(d->out, "%s%s", i ? ", " : "", text(d, p->at[i]));
   pl_text_add(d->out, ")");
 }
 
@@ -54,7 +58,8 @@ static void dump_names(const dumper* d) {
     if (m->params.at[i].literal) continue;
     const pl_symbol_info* info = pl_symbol_get(m->pool, m->params.at[i].symbol);
     pl_text_addf(d->out, "param %s", info->ascii);
-    if (!pl_is_poison(m->params.at[i].value)) pl_text_addf(d->out, " = %s", text(d, m->params.at[i].value));
+    if (!pl_is_poison(m->params.at[i].value))
+      pl_text_addf(d->out, " = %s", text(d, m->params.at[i].value));
     unit(d, m->params.at[i].symbol);
     pl_text_addf(d->out, "  %s%s\n", class_words[info->class], sign_words[info->sign]);
   }
@@ -73,14 +78,15 @@ static void dump_names(const dumper* d) {
     pl_text_add(d->out, "\n");
   }
   for (int i = 0; i < m->n_axes; i++) {
-    pl_text_addf(d->out, "%s%s%s%s", i ? ", " : "axes ", m->axes[i].name, m->axes[i].direction ? " " : "",
-                 m->axes[i].direction ? m->axes[i].direction : "");
+    pl_text_addf(d->out, "%s%s%s%s", i ? ", " : "axes ", m->axes[i].name,
+                 m->axes[i].direction ? " " : "", m->axes[i].direction ? m->axes[i].direction : "");
   }
   if (m->n_axes) pl_text_add(d->out, "\n");
 }
 
 static void condition(const dumper* d, const char* word, const pl_condition* c) {
-  pl_text_addf(d->out, "%s %s %s %s\n", word, text(d, c->left), relation_signs[c->relation], text(d, c->right));
+  pl_text_addf(d->out, "%s %s %s %s\n", word, text(d, c->left), relation_signs[c->relation],
+               text(d, c->right));
 }
 
 static void dump_assumptions(const dumper* d) {
@@ -88,7 +94,8 @@ static void dump_assumptions(const dumper* d) {
     const pl_assumption* a = &d->m->assumptions.at[i];
     if (a->kind == PL_A_RELATION) condition(d, "assume", &a->condition);
     else if (a->kind == PL_A_IN)
-      pl_text_addf(d->out, "assume %s in %s..%s\n", text(d, a->subject), text(d, a->lo), text(d, a->hi));
+      pl_text_addf(d->out, "assume %s in %s..%s\n", text(d, a->subject), text(d, a->lo),
+                   text(d, a->hi));
     else pl_text_addf(d->out, "assume %s integer\n", text(d, a->subject));
   }
 }
@@ -128,18 +135,20 @@ static void dump_masses(const dumper* d) {
 
 static void dump_load(const dumper* d, const pl_load* x) {
   static const char* const words[] = {"force",    "torque", "potential", "kinetic", "lagrangian",
-                                      "rayleigh", "spring", "damper",    "drag",   "torque"};
+                                      "rayleigh", "spring", "damper",    "drag",    "torque"};
   pl_text_addf(d->out, "%s ", words[x->kind]);
   label(d, &x->name);
   pl_text_add(d->out, ": ");
   if (x->kind == PL_L_FORCE || x->kind == PL_L_COUPLE) {
-    pl_point vector = {x->kind == PL_L_COUPLE ? 3 : x->a.n, {x->vector[0], x->vector[1], x->vector[2]}, {0}};
+    pl_point vector = {
+        x->kind == PL_L_COUPLE ? 3 : x->a.n, {x->vector[0], x->vector[1], x->vector[2]}, {0}};
     point(d, &vector);
   } else {
     pl_text_add(d->out, text(d, x->value));
   }
   if (x->kind == PL_L_SPRING) pl_text_addf(d->out, ", rest %s", text(d, x->rest));
-  if (x->coordinate.id) pl_text_addf(d->out, " on %s", pl_symbol_get(d->m->pool, x->coordinate)->ascii);
+  if (x->coordinate.id)
+    pl_text_addf(d->out, " on %s", pl_symbol_get(d->m->pool, x->coordinate)->ascii);
   if (x->a.n) {
     pl_text_add(d->out, x->b.n ? " between " : " on ");
     point(d, &x->a);
@@ -157,7 +166,8 @@ static void dump_constraints(const dumper* d) {
     const pl_constraint* c = &m->constraints.at[i];
     pl_text_add(d->out, "constraint ");
     label(d, &c->name);
-    pl_text_addf(d->out, ": %s %s %s", text(d, c->left), relation_signs[c->relation], text(d, c->right));
+    pl_text_addf(d->out, ": %s %s %s", text(d, c->left), relation_signs[c->relation],
+                 text(d, c->right));
     if (c->lambda.id) {
       pl_text_addf(d->out, "  with %s", pl_symbol_get(m->pool, c->lambda)->ascii);
       unit(d, c->lambda);
@@ -168,7 +178,8 @@ static void dump_constraints(const dumper* d) {
     end_line(d, c->block);
   }
   for (int i = 0; i < m->choose.coords.n; i++) {
-    pl_text_addf(d->out, "%s%s", i ? ", " : "choose ", pl_symbol_get(m->pool, m->choose.coords.at[i])->ascii);
+    pl_text_addf(d->out, "%s%s", i ? ", " : "choose ",
+                 pl_symbol_get(m->pool, m->choose.coords.at[i])->ascii);
   }
   for (int i = 0; i < m->choose.n_maps; i++) {
     pl_text_addf(d->out, "%s%s = %s", i ? ", " : " with ", text(d, m->choose.maps[i].old),
@@ -199,8 +210,11 @@ static void dump_start(const dumper* d) {
     for (int k = 0; k < e->actions.n; k++) {
       const pl_action* a = &e->actions.at[k];
       pl_text_addf(d->out, "%s ", k ? "," : "");
-      if (a->kind == PL_DO_SET) pl_text_addf(d->out, "%s = %s", text(d, a->target), text(d, a->value));
-      else pl_text_addf(d->out, "%s%s%s", actions[a->kind], a->label ? " " : "", a->label ? a->label : "");
+      if (a->kind == PL_DO_SET)
+        pl_text_addf(d->out, "%s = %s", text(d, a->target), text(d, a->value));
+      else
+        pl_text_addf(d->out, "%s%s%s", actions[a->kind], a->label ? " " : "",
+                     a->label ? a->label : "");
     }
     pl_text_add(d->out, "\n");
   }
@@ -214,7 +228,8 @@ static void dump_requests(const dumper* d) {
                  a->text ? a->text : text(d, a->value));
   }
   for (int i = 0; i < m->outputs.n; i++)
-    pl_text_addf(d->out, "output %s = %s\n", m->outputs.at[i].name, text(d, m->outputs.at[i].value));
+    pl_text_addf(d->out, "output %s = %s\n", m->outputs.at[i].name,
+                 text(d, m->outputs.at[i].value));
   const pl_simulate* s = &m->simulate;
   if (s->given) {
     pl_text_addf(d->out, "simulate %s..%s", text(d, s->from), text(d, s->to));
@@ -232,22 +247,30 @@ static void dump_requests(const dumper* d) {
   static const char* const draws[] = {"animate", "draw show", "draw hide", "draw"};
   for (int i = 0; i < m->draws.n; i++) {
     const pl_drawn* x = &m->draws.at[i];
-    pl_text_addf(d->out, "%s %s%s%s\n", draws[x->kind], x->what, x->of ? " of " : "", x->of ? x->of : "");
+    pl_text_addf(d->out, "%s %s%s%s\n", draws[x->kind], x->what, x->of ? " of " : "",
+                 x->of ? x->of : "");
   }
-  for (int i = 0; i < m->pending.n; i++) pl_text_addf(d->out, "not computed: %s\n", m->pending.at[i].what);
+  for (int i = 0; i < m->pending.n; i++)
+    pl_text_addf(d->out, "not computed: %s\n", m->pending.at[i].what);
 }
 
 static void dump_contacts(dumper* d) {
   const pl_model* m = d->m;
   for (int i = 0; i < m->restitutions.n; i++)
-    pl_text_addf(d->out, "restitution %s on %s\n", text(d, m->restitutions.at[i].value), m->restitutions.at[i].label);
+    pl_text_addf(d->out, "restitution %s on %s\n", text(d, m->restitutions.at[i].value),
+                 m->restitutions.at[i].label);
   for (int i = 0; i < m->frictions.n; i++) {
     const pl_friction* f = &m->frictions.at[i];
     pl_text_addf(d->out, "friction %s", text(d, f->kinetic));
     if (!pl_is_poison(f->sticking)) pl_text_addf(d->out, ", static %s", text(d, f->sticking));
-    for (int k = 0; k < f->surface.n; k++) pl_text_addf(d->out, "%s%s", k ? ", " : ", surface (", text(d, f->surface.at[k]));
+    for (int k = 0; k < f->surface.n; k++)
+      pl_text_addf(d->out, "%s%s", k ? ", " : ", surface (", text(d, f->surface.at[k]));
     for (int k = 0; k < f->at.n; k++)
-      pl_text_addf(d->out, "%s%s", k ? ", " : f->surface.n ? "), at (" : ", at (", text(d, f->at.at[k]));
+      pl_text_addf(d->out, "%s%s",
+                   k              ? ", "
+                   : f->surface.n ? "), at ("
+                                  : ", at (",
+                   text(d, f->at.at[k]));
     pl_text_addf(d->out, "%s on %s\n", f->surface.n || f->at.n ? ")" : "", f->label);
   }
 }

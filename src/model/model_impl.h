@@ -4,12 +4,18 @@
 
 #include "model/model.h"
 
-#define PL_NAN __builtin_nan("")     // the macros of math.h are float, and warn
+#define PL_NAN __builtin_nan("")  // the macros of math.h are float, and warn
 #define PL_INF __builtin_inf()
 
-// ---------------------------------------------------------------------------------------------- exponents.c
-typedef struct pl_fraction { int64_t num, den; } pl_fraction;                 // lowest terms, den > 0; den 0: overflow
-typedef struct pl_exponents { pl_fraction e[PL_N_BASE_UNITS]; } pl_exponents;  // of m kg s A K mol cd
+// ------------------------------------------------------------------------------------- exponents.c
+// lowest terms, den > 0; den 0: overflow
+typedef struct pl_fraction {
+  int64_t num, den;
+} pl_fraction;
+// of m kg s A K mol cd
+typedef struct pl_exponents {
+  pl_fraction e[PL_N_BASE_UNITS];
+} pl_exponents;
 bool pl_fraction_valid(pl_fraction a);
 pl_fraction pl_fraction_make(int64_t num, int64_t den);
 pl_fraction pl_fraction_add(pl_fraction a, pl_fraction b);
@@ -20,16 +26,18 @@ pl_exponents pl_exponents_zero(void);
 pl_exponents pl_exponents_add(pl_exponents a, pl_fraction f, pl_exponents b);  // a + f b
 bool pl_exponents_are_zero(pl_exponents a);
 pl_exponents pl_exponents_of(pl_dimension d);
-bool pl_exponents_get_dimension(pl_exponents a, pl_dimension* out);            // false: too large for pl_dimension
+// false: too large for pl_dimension
+bool pl_exponents_get_dimension(pl_exponents a, pl_dimension* out);
 
-// ---------------------------------------------------------------------------------------------- units.c
-// The nearest unit to a word: a known spelling, or one within two typing errors.  NULL if nothing is near.
+// ----------------------------------------------------------------------------------------- units.c
+// The nearest unit to a word: a known spelling, or one within two typing errors. NULL if nothing is
+// near.
 const char* pl_unit_near(pl_arena* a, const char* word, size_t n);
-bool pl_is_unit_symbol(const pl_pool* p, pl_symbol s);   // a base unit, or a number with its unit
+bool pl_is_unit_symbol(const pl_pool* p, pl_symbol s);  // a base unit, or a number with its unit
 pl_expr pl_model_bare(pl_pool* p, pl_expr e);
-void pl_dress_bare_numbers(pl_model* m);                 // w - 0.5 with w a length: 0.5 m
+void pl_dress_bare_numbers(pl_model* m);  // w - 0.5 with w a length: 0.5 m
 
-// ---------------------------------------------------------------------------------------------- traverse.c
+// -------------------------------------------------------------------------------------- traverse.c
 // Every expression of a model, with the kind of place it stands in.
 typedef enum pl_slot_kind {
   PL_SLOT_PARAM,
@@ -52,19 +60,22 @@ typedef enum pl_slot_kind {
   PL_SLOT_LABEL_INDEX
 } pl_slot_kind;
 typedef struct pl_slot {
-  pl_expr* at;                // never NULL; the expression may be poison ("none")
+  pl_expr* at;  // never NULL; the expression may be poison ("none")
   pl_slot_kind kind;
-  const pl_block* block;      // the family it stands in, or NULL
+  const pl_block* block;  // the family it stands in, or NULL
   pl_span span;
 } pl_slot;
 typedef void pl_slot_visit(void* user, const pl_slot* slot);
 bool pl_is_constant_known(const pl_pool* p, pl_map* known, pl_expr e);
-int pl_max_dots(const pl_pool* p, pl_expr e, pl_arena* scratch);           // 1: velocities occur, 2: accelerations
-bool pl_has_coordinate(const pl_pool* p, pl_expr e, pl_arena* scratch);     // a coordinate or its derivatives occur
+// 1: velocities occur, 2: accelerations
+int pl_max_dots(const pl_pool* p, pl_expr e, pl_arena* scratch);
+// a coordinate or its derivatives occur
+bool pl_has_coordinate(const pl_pool* p, pl_expr e, pl_arena* scratch);
 void pl_model_each_slot(pl_model* m, pl_slot_visit* visit, void* user);
 
-// ---------------------------------------------------------------------------------------------- words.c
-// Looks for a name in the text of a span, in any of its spellings (θ, theta; m1, m_1, m₁).  false: not there.
+// ----------------------------------------------------------------------------------------- words.c
+// Looks for a name in the text of a span, in any of its spellings (θ, theta; m1, m_1, m₁). false:
+// not there.
 bool pl_span_find_name(pl_span where, const char* ascii, pl_span* out);
 // How often the name occurs in the whole text.
 int pl_source_count_name(const pl_source* s, const char* ascii);
@@ -73,15 +84,18 @@ bool pl_span_split_relation(pl_span where, pl_span* left, pl_span* right);
 // The span without blanks and comment at both ends, as text in one line, at most max characters.
 const char* pl_span_text(pl_arena* a, pl_span s, int max);
 
-// ---------------------------------------------------------------------------------------------- families.c
-// An expression over indices and parameters as an integer.  false: not an integer, not a number, or too large.
+// -------------------------------------------------------------------------------------- families.c
+// An expression over indices and parameters as an integer. false: not an integer, not a number, or
+// too large.
 typedef struct pl_index_values {
   const pl_model* model;
-  double* value;              // by symbol id, parameters filled in                       (pl_symbol_count + 1)
+  // by symbol id, parameters filled in                       (pl_symbol_count + 1)
+  double* value;
 } pl_index_values;
 pl_index_values pl_index_values_make(const pl_model* m, pl_arena* a);
 bool pl_index_eval(const pl_index_values* v, pl_expr e, long* out);
-// Calls visit for every instance of a block, outer index slowest, with the indices set in v.  Stops when visit says so.
+// Calls visit for every instance of a block, outer index slowest, with the indices set in v. Stops
+// when visit says so.
 typedef bool pl_instance_visit(void* user, pl_index_values* v);
 typedef enum pl_walk_result {
   PL_WALK_DONE,
@@ -90,14 +104,17 @@ typedef enum pl_walk_result {
   PL_WALK_ZERO_STEP,
   PL_WALK_TOO_MANY
 } pl_walk_result;
-pl_walk_result pl_block_walk(const pl_block* b, pl_index_values* v, pl_instance_visit* visit, void* user, long* budget,
-                             const pl_block** culprit);
-enum { PL_MAX_INSTANCES = 20000000 };   // more than this is refused: indices alone would take a gigabyte
+pl_walk_result pl_block_walk(const pl_block* b, pl_index_values* v, pl_instance_visit* visit,
+                             void* user, long* budget, const pl_block** culprit);
+// more than this is refused: indices alone would take a gigabyte
+enum { PL_MAX_INSTANCES = 20000000 };
 // visit NULL: the instances are only counted off the budget.
-bool pl_check_sizes(pl_job* job, pl_model* m);      // false: some family has no size; it has been told
+// false: some family has no size; it has been told
+bool pl_check_sizes(pl_job* job, pl_model* m);
 void pl_check_families(pl_job* job, pl_model* m);
-// Which members of a family were given: key names the family, owner who gives it.  pl_index_sets_add returns the owner
-// that gave one of them before, -1 if none did; index poison: the family is one thing without index.
+// Which members of a family were given: key names the family, owner who gives it. pl_index_sets_add
+// returns the owner that gave one of them before, -1 if none did; index poison: the family is one
+// thing without index.
 typedef struct pl_index_sets {
   pl_arena* arena;
   pl_index_values values;
@@ -105,15 +122,17 @@ typedef struct pl_index_sets {
   PL_VEC(struct pl_index_run) runs;
 } pl_index_sets;
 pl_index_sets pl_index_sets_make(const pl_model* m, pl_arena* a);
-int pl_index_sets_add(pl_index_sets* s, uint64_t key, pl_expr index, const pl_block* b, int owner, long* clash_index);
+int pl_index_sets_add(pl_index_sets* s, uint64_t key, pl_expr index, const pl_block* b, int owner,
+                      long* clash_index);
 
-// ---------------------------------------------------------------------------------------------- dimensions
+// -------------------------------------------------------------------------------------- dimensions
 void pl_check_dimensions(pl_job* job, pl_model* m);
 void pl_classify_symbols(pl_model* m);
 void pl_strip_units(pl_model* m);
-bool pl_known_dimension(const pl_model* m, pl_expr e, pl_dimension* out);   // also before the check is over
+// also before the check is over
+bool pl_known_dimension(const pl_model* m, pl_expr e, pl_dimension* out);
 
-// ---------------------------------------------------------------------------------------------- velocities.c
+// ------------------------------------------------------------------------------------ velocities.c
 typedef enum pl_velocity_kind {
   PL_NO_VELOCITY,
   PL_ACCELERATION,
@@ -121,10 +140,12 @@ typedef enum pl_velocity_kind {
   PL_INTEGRABLE,
   PL_NONHOLONOMIC
 } pl_velocity_kind;
-// What velocities do in a constraint g = 0.  *integral: text of G with dG/dt = g where it can be written down, or NULL.
-pl_velocity_kind pl_velocity_kind_of(pl_job* job, const pl_model* m, pl_expr g, const char** integral);
+// What velocities do in a constraint g = 0. *integral: text of G with dG/dt = g where it can be
+// written down, or NULL.
+pl_velocity_kind pl_velocity_kind_of(pl_job* job, const pl_model* m, pl_expr g,
+                                     const char** integral);
 
-// ---------------------------------------------------------------------------------------------- check
+// ------------------------------------------------------------------------------------------- check
 void pl_check_names(pl_job* job, pl_model* m);
 void pl_check_structure(pl_job* job, pl_model* m);
 void pl_check_numbers(pl_job* job, pl_model* m);

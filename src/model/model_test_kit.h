@@ -59,7 +59,8 @@ static inline pl_expr num(kit* k, const char* decimal, const char* unit) {
   return unit ? pl_mul(k->m->pool, e, unit_of(k, unit).factor) : e;
 }
 
-static inline pl_symbol name_symbol(kit* k, const char* name, const char* ascii, pl_role role, const char* unit) {
+static inline pl_symbol name_symbol(kit* k, const char* name, const char* ascii, pl_role role,
+                                    const char* unit) {
   pl_symbol_info info = {.name = name,
                          .ascii = ascii,
                          .role = role,
@@ -69,7 +70,8 @@ static inline pl_symbol name_symbol(kit* k, const char* name, const char* ascii,
   return pl_symbol_make(k->m->pool, &info);
 }
 
-static inline pl_expr param(kit* k, const char* name, const char* value, const char* unit, const char* place) {
+static inline pl_expr param(kit* k, const char* name, const char* value, const char* unit,
+                            const char* place) {
   pl_symbol s = name_symbol(k, name, name, PL_R_PARAM, unit);
   pl_param p = {.symbol = s,
                 .value = value ? num(k, value, unit) : pl_poison(),
@@ -82,20 +84,24 @@ static inline pl_expr param(kit* k, const char* name, const char* value, const c
 
 static inline pl_expr coord(kit* k, const char* name, const char* unit, const char* place) {
   pl_symbol s = name_symbol(k, name, name, PL_R_COORD, unit);
-  pl_push(k->arena, k->m->coords, (pl_coord){.symbol = s, .has_unit = unit != NULL, .span = at(k, place)});
+  pl_push(k->arena, k->m->coords,
+          (pl_coord){.symbol = s, .has_unit = unit != NULL, .span = at(k, place)});
   return pl_sym(k->m->pool, s);
 }
 
-static inline pl_symbol family(kit* k, const char* name, pl_expr lo, pl_expr hi, const char* unit, const char* place) {
+static inline pl_symbol family(kit* k, const char* name, pl_expr lo, pl_expr hi, const char* unit,
+                               const char* place) {
   pl_symbol s = name_symbol(k, name, name, PL_R_ARRAY, unit);
-  pl_push(k->arena, k->m->coords,
-          (pl_coord){.symbol = s, .lo = lo, .hi = hi, .has_unit = unit != NULL, .span = at(k, place)});
+  pl_push(
+      k->arena, k->m->coords,
+      (pl_coord){.symbol = s, .lo = lo, .hi = hi, .has_unit = unit != NULL, .span = at(k, place)});
   return s;
 }
 
 static inline pl_expr let_be(kit* k, const char* name, pl_expr value, const char* place) {
   pl_symbol s = name_symbol(k, name, name, PL_R_LOCAL, NULL);
-  pl_push(k->arena, k->m->lets, (pl_let){.symbol = s, .value = value, .inserted = true, .span = at(k, place)});
+  pl_push(k->arena, k->m->lets,
+          (pl_let){.symbol = s, .value = value, .inserted = true, .span = at(k, place)});
   return value;
 }
 
@@ -106,26 +112,33 @@ static inline pl_expr let_stay(kit* k, const char* name, pl_expr value, const ch
   return pl_sym(k->m->pool, s);
 }
 
-static inline pl_block* loop(kit* k, const char* index, pl_expr lo, pl_expr hi, pl_block* outer, const char* place) {
+static inline pl_block* loop(kit* k, const char* index, pl_expr lo, pl_expr hi, pl_block* outer,
+                             const char* place) {
   pl_block* b = PL_NEW(k->arena, pl_block);
-  *b = (pl_block){outer, name_symbol(k, index, index, PL_R_INDEX, NULL), lo, hi, pl_poison(), at(k, place)};
+  *b = (pl_block){outer,       name_symbol(k, index, index, PL_R_INDEX, NULL), lo, hi, pl_poison(),
+                  at(k, place)};
   pl_push(k->arena, k->m->blocks, b);
   return b;
 }
 
 static inline pl_name named(const char* text) { return (pl_name){text, text, pl_poison(), false}; }
-static inline pl_name indexed(const char* text, pl_expr index) { return (pl_name){text, text, index, false}; }
+static inline pl_name indexed(const char* text, pl_expr index) {
+  return (pl_name){text, text, index, false};
+}
 
 static inline pl_point point2(pl_expr x, pl_expr y) { return (pl_point){.n = 2, .at = {x, y}}; }
-static inline pl_point point3(pl_expr x, pl_expr y, pl_expr z) { return (pl_point){.n = 3, .at = {x, y, z}}; }
+static inline pl_point point3(pl_expr x, pl_expr y, pl_expr z) {
+  return (pl_point){.n = 3, .at = {x, y, z}};
+}
 
 static inline void mass(kit* k, const char* label, pl_expr m, pl_point p, const char* place) {
   pl_name n = label ? named(label) : (pl_name){"m", "m", pl_poison(), true};
-  pl_push(k->arena, k->m->masses, (pl_mass){.name = n, .mass = m, .point = p, .span = at(k, place)});
+  pl_push(k->arena, k->m->masses,
+          (pl_mass){.name = n, .mass = m, .point = p, .span = at(k, place)});
 }
 
-static inline pl_symbol constraint(kit* k, pl_name n, pl_expr left, pl_relation rel, pl_expr right, pl_block* b,
-                                   const char* place) {
+static inline pl_symbol constraint(kit* k, pl_name n, pl_expr left, pl_relation rel, pl_expr right,
+                                   pl_block* b, const char* place) {
   const char* ascii = pl_format(k->arena, "lambda_%s", n.text);
   pl_symbol lambda = name_symbol(k, ascii, ascii, PL_R_MULTIPLIER, NULL);
   pl_push(k->arena, k->m->constraints,
@@ -150,7 +163,10 @@ static inline void init(kit* k, pl_expr target, pl_expr value, const char* place
 
 static inline void load(kit* k, pl_load_kind kind, pl_expr value, const char* place) {
   pl_push(k->arena, k->m->loads,
-          (pl_load){.kind = kind, .name = {"1", "1", pl_poison(), true}, .value = value, .span = at(k, place)});
+          (pl_load){.kind = kind,
+                    .name = {"1", "1", pl_poison(), true},
+                    .value = value,
+                    .span = at(k, place)});
 }
 
 static inline pl_expr dot(kit* k, pl_expr x) {
@@ -175,7 +191,8 @@ static inline const char* printed(kit* k, const pl_diagnostic* d) {
 
 // All errors, for a failing test to show.
 static inline void show(kit* k) {
-  for (int i = 0; i < k->diagnostics.list.n; i++) print_message("%s", printed(k, &k->diagnostics.list.at[i]));
+  for (int i = 0; i < k->diagnostics.list.n; i++)
+    print_message("%s", printed(k, &k->diagnostics.list.at[i]));
 }
 
 static inline void check_is_clean(kit* k) {

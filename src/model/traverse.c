@@ -1,5 +1,6 @@
-// Every expression of a model, one after the other: used to take the units out, to write families out, and to see which
-// names are used where.  A new field of pl_model that holds expressions is added here, and then all of these know it.
+// Every expression of a model, one after the other: used to take the units out, to write families
+// out, and to see which names are used where. A new field of pl_model that holds expressions is
+// added here, and then all of these know it.
 #include "model_impl.h"
 
 typedef struct slot_walk {
@@ -7,13 +8,15 @@ typedef struct slot_walk {
   void* user;
 } slot_walk;
 
-static void one(const slot_walk* w, pl_expr* e, pl_slot_kind kind, const pl_block* block, pl_span span) {
+static void one(const slot_walk* w, pl_expr* e, pl_slot_kind kind, const pl_block* block,
+                pl_span span) {
   pl_slot slot = {e, kind, block, span};
   w->visit(w->user, &slot);
 }
 
 static void point(const slot_walk* w, pl_point* p, const pl_block* block, pl_span span) {
-  for (int i = 0; i < p->n && i < 3; i++) one(w, &p->at[i], PL_SLOT_POINT, block, p->span.source ? p->span : span);
+  for (int i = 0; i < p->n && i < 3; i++)
+    one(w, &p->at[i], PL_SLOT_POINT, block, p->span.source ? p->span : span);
 }
 
 static void label(const slot_walk* w, pl_name* name, const pl_block* block, pl_span span) {
@@ -26,12 +29,14 @@ static void condition(const slot_walk* w, pl_condition* c, pl_slot_kind kind) {
 }
 
 static void declarations(const slot_walk* w, pl_model* m) {
-  for (int i = 0; i < m->params.n; i++) one(w, &m->params.at[i].value, PL_SLOT_PARAM, NULL, m->params.at[i].span);
+  for (int i = 0; i < m->params.n; i++)
+    one(w, &m->params.at[i].value, PL_SLOT_PARAM, NULL, m->params.at[i].span);
   for (int i = 0; i < m->coords.n; i++) {
     one(w, &m->coords.at[i].lo, PL_SLOT_BOUND, NULL, m->coords.at[i].span);
     one(w, &m->coords.at[i].hi, PL_SLOT_BOUND, NULL, m->coords.at[i].span);
   }
-  for (int i = 0; i < m->lets.n; i++) one(w, &m->lets.at[i].value, PL_SLOT_LET, NULL, m->lets.at[i].span);
+  for (int i = 0; i < m->lets.n; i++)
+    one(w, &m->lets.at[i].value, PL_SLOT_LET, NULL, m->lets.at[i].span);
   for (int i = 0; i < m->blocks.n; i++) {
     pl_block* b = m->blocks.at[i];
     one(w, &b->lo, PL_SLOT_BOUND, b->outer, b->span);
@@ -145,7 +150,8 @@ static void requests(const slot_walk* w, pl_model* m) {
     one(w, &a->substitution_left, PL_SLOT_ASK, NULL, a->span);
     one(w, &a->substitution_right, PL_SLOT_ASK, NULL, a->span);
   }
-  for (int i = 0; i < m->outputs.n; i++) one(w, &m->outputs.at[i].value, PL_SLOT_OUTPUT, NULL, m->outputs.at[i].span);
+  for (int i = 0; i < m->outputs.n; i++)
+    one(w, &m->outputs.at[i].value, PL_SLOT_OUTPUT, NULL, m->outputs.at[i].span);
   for (int i = 0; i < m->draws.n; i++) {
     point(w, &m->draws.at[i].a, NULL, m->draws.at[i].span);
     point(w, &m->draws.at[i].b, NULL, m->draws.at[i].span);
@@ -171,11 +177,12 @@ void pl_model_each_slot(pl_model* m, pl_slot_visit* visit, void* user) {
   requests(&w, m);
 }
 
-// ---------------------------------------------------------------------------------------------- units out
+// --------------------------------------------------------------------------------------- units out
 // Numbers with units stay where formulas are made of them; where a number is read they become one.
 static bool reads_number(pl_slot_kind k) {
-  return k == PL_SLOT_PARAM || k == PL_SLOT_BOUND || k == PL_SLOT_LABEL_INDEX || k == PL_SLOT_ASSUMPTION || k == PL_SLOT_INIT ||
-         k == PL_SLOT_EVENT || k == PL_SLOT_SIMULATE;
+  return k == PL_SLOT_PARAM || k == PL_SLOT_BOUND || k == PL_SLOT_LABEL_INDEX
+         || k == PL_SLOT_ASSUMPTION || k == PL_SLOT_INIT || k == PL_SLOT_EVENT
+         || k == PL_SLOT_SIMULATE;
 }
 
 // Those that stay are given quantities like any parameter with a number.
@@ -187,7 +194,12 @@ static void keep_measures(pl_model* m, pl_expr e, pl_span span) {
   for (int i = 0; i < n; i++) {
     const pl_symbol_info* info = pl_symbol_get(m->pool, s[i]);
     if (pl_is_poison(info->number) || pl_model_param(m, s[i])) continue;
-    pl_push(a, m->params, (pl_param){.symbol = s[i], .value = info->number, .has_unit = true, .literal = true, .span = span});
+    pl_push(a, m->params,
+            (pl_param){.symbol = s[i],
+                       .value = info->number,
+                       .has_unit = true,
+                       .literal = true,
+                       .span = span});
   }
 }
 
@@ -195,23 +207,33 @@ static void strip_slot(void* user, const pl_slot* slot) {
   pl_model* m = user;
   if (pl_is_poison(*slot->at) || !pl_has_unit(m->pool, *slot->at)) return;
   if (reads_number(slot->kind)) *slot->at = pl_model_plain(m->pool, *slot->at);
-  else *slot->at = pl_model_bare(m->pool, *slot->at), keep_measures(m, *slot->at, slot->span);
+  else {
+    *slot->at = pl_model_bare(m->pool, *slot->at);
+    keep_measures(m, *slot->at, slot->span);
+  }
 }
 
 void pl_strip_units(pl_model* m) { pl_model_each_slot(m, strip_slot, m); }
 
-// ---------------------------------------------------------------------------------------------- what occurs
+// ------------------------------------------------------------------------------------- what occurs
 // pl_is_constant for a pass that asks at every node: remembers the answers.
 bool pl_is_constant_known(const pl_pool* p, pl_map* known, pl_expr e) {
   switch (pl_kind_of(p, e)) {
-    case PL_NUMBER: case PL_PI: case PL_INFINITY: case PL_POISON: return true;
-    case PL_SYMBOL: case PL_AT: case PL_SUM: case PL_UNKNOWN_FUNCTION: return false;
+    case PL_NUMBER:
+    case PL_PI:
+    case PL_INFINITY:
+    case PL_POISON: return true;
+    case PL_SYMBOL:
+    case PL_AT:
+    case PL_SUM:
+    case PL_UNKNOWN_FUNCTION: return false;
     default: break;
   }
   uint64_t answer = pl_map_get(known, e.id);
   if (answer) return answer == 2;
   bool constant = true;
-  for (int i = 0; i < pl_n_args(p, e) && constant; i++) constant = pl_is_constant_known(p, known, pl_arg(p, e, i));
+  for (int i = 0; i < pl_n_args(p, e) && constant; i++)
+    constant = pl_is_constant_known(p, known, pl_arg(p, e, i));
   pl_map_set(known, e.id, constant ? 2 : 1);
   return constant;
 }

@@ -1,7 +1,8 @@
-// A model whose bodies have Euler angles, as one in which they have unit quaternions: the form that is integrated,
-// because it has no singular attitude.  The coordinates of the angles φ, ϑ, ψ give their places to q1, q2, q3, q0
-// comes behind all; where the motion itself speaks of an angle in a way that is not smooth at every attitude (a
-// spring on φ, a torque about it, ϑ held at 30°), its body keeps its angles.
+// A model whose bodies have Euler angles, as one in which they have unit quaternions: the form that
+// is integrated, because it has no singular attitude. The coordinates of the angles φ, ϑ, ψ give
+// their places to q1, q2, q3, q0 comes behind all; where the motion itself speaks of an angle in a
+// way that is not smooth at every attitude (a spring on φ, a torque about it, ϑ held at 30°), its
+// body keeps its angles.
 #include <string.h>
 
 #include "model_impl.h"
@@ -10,7 +11,7 @@
 // A body that may be turned: its angles by symbol, coordinates or families of them.
 typedef struct turned_body {
   int spatial;
-  pl_symbol angle[3], q[4];   // q[0]: the one that is new
+  pl_symbol angle[3], q[4];  // q[0]: the one that is new
   bool family, dropped;
 } turned_body;
 
@@ -26,7 +27,7 @@ typedef struct turning {
   const char** why;
 } turning;
 
-// ---------------------------------------------------------------------------------------------- which bodies
+// ------------------------------------------------------------------------------------ which bodies
 static const pl_coord* coordinate(const pl_model* m, pl_symbol s) {
   for (int i = 0; i < m->coords.n; i++)
     if (m->coords.at[i].symbol.id == s.id) return &m->coords.at[i];
@@ -40,7 +41,9 @@ static bool used_before(const turning* t, pl_symbol s) {
   return false;
 }
 
-static bool same_bounds(const pl_coord* a, const pl_coord* b) { return pl_same(a->lo, b->lo) && pl_same(a->hi, b->hi); }
+static bool same_bounds(const pl_coord* a, const pl_coord* b) {
+  return pl_same(a->lo, b->lo) && pl_same(a->hi, b->hi);
+}
 
 // Three coordinates of its own: plain ones, or elements of three like families at one index.
 static bool find_angles(const turning* t, const pl_spatial* b, turned_body* out) {
@@ -50,12 +53,17 @@ static bool find_angles(const turning* t, const pl_spatial* b, turned_body* out)
   if (b->form != PL_AXES_EULER) return false;
   for (int k = 0; k < 3; k++) {
     pl_kind kind = pl_kind_of(p, b->axes[k]);
-    if ((kind != PL_SYMBOL && kind != PL_AT) || (kind == PL_AT && pl_dots_of(p, b->axes[k]) != 0)) return false;
+    if ((kind != PL_SYMBOL && kind != PL_AT) || (kind == PL_AT && pl_dots_of(p, b->axes[k]) != 0))
+      return false;
     out->angle[k] = pl_symbol_of(p, b->axes[k]);
     out->family = kind == PL_AT;
     of[k] = coordinate(t->from, out->angle[k]);
-    if (of[k] == NULL || used_before(t, out->angle[k]) || pl_kind_of(p, b->axes[0]) != kind) return false;
-    if (out->family && (!same_bounds(of[0], of[k]) || !pl_same(pl_arg(p, b->axes[0], 0), pl_arg(p, b->axes[k], 0)))) return false;
+    if (of[k] == NULL || used_before(t, out->angle[k]) || pl_kind_of(p, b->axes[0]) != kind)
+      return false;
+    if (out->family
+        && (!same_bounds(of[0], of[k])
+            || !pl_same(pl_arg(p, b->axes[0], 0), pl_arg(p, b->axes[k], 0))))
+      return false;
     for (int j = 0; j < k; j++)
       if (out->angle[j].id == out->angle[k].id) return false;
   }
@@ -63,12 +71,13 @@ static bool find_angles(const turning* t, const pl_spatial* b, turned_body* out)
 }
 
 static pl_symbol component(const turning* t, const pl_spatial* b, bool family, int k) {
-  pl_symbol_info info = {.name = pl_format(t->arena, "%s.q%d", b->name.text, k),
-                         .ascii = pl_format(t->arena, "%s.q%d", b->name.ascii ? b->name.ascii : b->name.text, k),
-                         .role = family ? PL_R_ARRAY : PL_R_COORD,
-                         .class = PL_C_COORD,
-                         .dimension = pl_dimension_one(),
-                         .dimension_known = true};
+  pl_symbol_info info = {
+      .name = pl_format(t->arena, "%s.q%d", b->name.text, k),
+      .ascii = pl_format(t->arena, "%s.q%d", b->name.ascii ? b->name.ascii : b->name.text, k),
+      .role = family ? PL_R_ARRAY : PL_R_COORD,
+      .class = PL_C_COORD,
+      .dimension = pl_dimension_one(),
+      .dimension_known = true};
   return pl_symbol_make(t->from->pool, &info);
 }
 
@@ -94,7 +103,7 @@ static pl_triple triple_of(const turning* t, const turned_body* b, pl_expr index
   return pl_triple_make(t->from->pool, angle, q);
 }
 
-// ---------------------------------------------------------------------------------------------- expressions
+// ------------------------------------------------------------------------------------- expressions
 // The body that a symbol gives an angle of, -1 none.
 static int body_of(const turning* t, pl_symbol s, bool family) {
   for (int i = 0; i < t->bodies.n; i++)
@@ -119,7 +128,10 @@ static void find_triples(turning* t, pl_map* seen, pl_expr e) {
   if (kind == PL_SYMBOL) {
     pl_symbol s = pl_symbol_of(p, e);
     const pl_symbol_info* info = pl_symbol_get(p, s);
-    while (info->role == PL_R_VELOCITY || info->role == PL_R_ACCELERATION) s = info->base, info = pl_symbol_get(p, s);
+    while (info->role == PL_R_VELOCITY || info->role == PL_R_ACCELERATION) {
+      s = info->base;
+      info = pl_symbol_get(p, s);
+    }
     int body = body_of(t, s, false);
     if (body >= 0) add_triple(t, body, pl_poison());
   }
@@ -152,17 +164,20 @@ static pl_expr turn_expression(turning* t, pl_expr e, bool required) {
 static void turn_slot(void* user, const pl_slot* slot) {
   turning* t = user;
   pl_slot_kind k = slot->kind;
-  bool required = k == PL_SLOT_POINT || k == PL_SLOT_MASS || k == PL_SLOT_GRAVITY || k == PL_SLOT_LOAD || k == PL_SLOT_CONSTRAINT ||
-                  k == PL_SLOT_CHOOSE || k == PL_SLOT_EVENT;
-  if (!pl_is_poison(*slot->at) && (required || k == PL_SLOT_OUTPUT)) *slot->at = turn_expression(t, *slot->at, required);
+  bool required = k == PL_SLOT_POINT || k == PL_SLOT_MASS || k == PL_SLOT_GRAVITY
+                  || k == PL_SLOT_LOAD || k == PL_SLOT_CONSTRAINT || k == PL_SLOT_CHOOSE
+                  || k == PL_SLOT_EVENT;
+  if (!pl_is_poison(*slot->at) && (required || k == PL_SLOT_OUTPUT))
+    *slot->at = turn_expression(t, *slot->at, required);
 }
 
-// ---------------------------------------------------------------------------------------------- the copy
-#define PL_COPY_LIST(t, field)                                                                              \
-  do {                                                                                                      \
-    (t)->to->field.cap = (t)->to->field.n = 0;                                                              \
-    (t)->to->field.at = NULL;                                                                               \
-    for (int i = 0; i < (t)->from->field.n; i++) pl_push((t)->arena, (t)->to->field, (t)->from->field.at[i]); \
+// ---------------------------------------------------------------------------------------- the copy
+#define PL_COPY_LIST(t, field)                                     \
+  do {                                                             \
+    (t)->to->field.cap = (t)->to->field.n = 0;                     \
+    (t)->to->field.at = NULL;                                      \
+    for (int i = 0; i < (t)->from->field.n; i++)                   \
+      pl_push((t)->arena, (t)->to->field, (t)->from->field.at[i]); \
   } while (0)
 
 static void copy_lists(turning* t) {
@@ -218,13 +233,20 @@ static void copy_spatial(turning* t, const turned_body* b) {
   pl_spatial* s = &t->to->spatials.at[b->spatial];
   pl_expr index = b->family ? pl_arg(p, old->axes[0], 0) : pl_poison(), unit = pl_int(p, 0);
   s->form = PL_AXES_QUATERNION;
-  for (int k = 0; k < 9; k++) s->axes[k] = k < 4 ? at_index(t, b->q[k], b->family, index) : pl_poison();
+  for (int k = 0; k < 9; k++)
+    s->axes[k] = k < 4 ? at_index(t, b->q[k], b->family, index) : pl_poison();
   for (int k = 0; k < 4; k++) unit = pl_add(p, unit, pl_square(p, s->axes[k]));
   pl_triple triple = triple_of(t, b, index);
   memcpy(s->spin, triple.spin[1], sizeof s->spin);
   const char* name = pl_format(t->arena, "%s.unit", old->name.text);
-  pl_constraint c = {.name = {.text = name, .ascii = name, .index = old->name.index}, .left = unit, .right = pl_int(p, 1), .relation = PL_EQ,
-                     .block = old->block, .span = old->span, .body = old->name.text, .axes = PL_AXES_QUATERNION};
+  pl_constraint c = {.name = {.text = name, .ascii = name, .index = old->name.index},
+                     .left = unit,
+                     .right = pl_int(p, 1),
+                     .relation = PL_EQ,
+                     .block = old->block,
+                     .span = old->span,
+                     .body = old->name.text,
+                     .axes = PL_AXES_QUATERNION};
   c.g = pl_sub(p, c.left, c.right);
   pl_push(t->arena, t->to->constraints, c);
 }
@@ -241,7 +263,8 @@ static void drop_by_torques(turning* t) {
 // Where the angles went: places among the coordinates one by one.
 static bool find_places(turning* t, pl_turned* out) {
   const pl_pool* p = t->from->pool;
-  pl_flat_coords flat = pl_model_flat_coords(t->to, t->arena), old = pl_model_flat_coords(t->from, t->arena);
+  pl_flat_coords flat = pl_model_flat_coords(t->to, t->arena),
+                 old = pl_model_flat_coords(t->from, t->arena);
   pl_map* at = pl_map_make(t->arena);
   for (int i = 0; i < flat.n; i++) pl_map_set(at, flat.at[i].id, (uint64_t)i + 1);
   for (int i = 0; i < t->bodies.n; i++) {
@@ -291,7 +314,11 @@ static int count_turned(const turning* t) {
 
 bool pl_model_turned(pl_job* job, pl_model* m, pl_turned* out) {
   *out = (pl_turned){0};
-  turning t = {.job = job, .arena = job->arena, .from = m, .to = PL_NEW(job->arena, pl_model), .why = &out->why};
+  turning t = {.job = job,
+               .arena = job->arena,
+               .from = m,
+               .to = PL_NEW(job->arena, pl_model),
+               .why = &out->why};
   find_bodies(&t);
   while (count_turned(&t) > 0 && !attempt(&t)) continue;
   if (count_turned(&t) == 0) return false;

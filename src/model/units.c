@@ -1,4 +1,5 @@
-// Units as written in [ ]: "m/s^2", "kN m", "m²/s", "1/min".  A unit is an exact factor to SI and a dimension.
+// Units as written in [ ]: "m/s^2", "kN m", "m²/s", "1/min". A unit is an exact factor to SI and a
+// dimension.
 //
 //   unit    = power { ("*" | "·" | blank | "/") power }         products and divisions from left to right
 //   power   = atom [ "^" exponent | superscript digits ]        exponent: integer, decimal, or fraction in brackets
@@ -28,7 +29,10 @@ static const unit_row unit_rows[] = {
 };
 enum { N_UNIT_ROWS = sizeof unit_rows / sizeof unit_rows[0] };
 
-static const struct unit_word { const char* word; const char* unit; } unit_words[] = {
+static const struct unit_word {
+  const char* word;
+  const char* unit;
+} unit_words[] = {
 #define PL_UNIT(name, words, factor, pi, m, kg, s, A, K, mol, cd, prefixed)
 #define PL_UNIT_WORD(word, unit) {word, unit},
 #include "units.def"
@@ -37,26 +41,30 @@ static const struct unit_word { const char* word; const char* unit; } unit_words
 };
 enum { N_UNIT_WORDS = sizeof unit_words / sizeof unit_words[0] };
 
-// SI prefixes up to yotta: the four newer ones would turn slips of the pen (qm, Rm) into units.  The micro sign
-// comes as U+00B5, as Greek mu, and as u.
-static const struct unit_prefix { const char* name; int power; } unit_prefixes[] = {
-  {"da", 1}, {"µ", -6}, {"μ", -6}, {"u", -6}, {"Y", 24},  {"Z", 21},  {"E", 18},
-  {"P", 15}, {"T", 12}, {"G", 9},  {"M", 6},  {"k", 3},   {"h", 2},   {"d", -1},  {"c", -2},  {"m", -3},
-  {"n", -9}, {"p", -12}, {"f", -15}, {"a", -18}, {"z", -21}, {"y", -24},
+// SI prefixes up to yotta: the four newer ones would turn slips of the pen (qm, Rm) into units. The
+// micro sign comes as U+00B5, as Greek mu, and as u.
+static const struct unit_prefix {
+  const char* name;
+  int power;
+} unit_prefixes[] = {
+    {"da", 1}, {"µ", -6},  {"μ", -6},  {"u", -6},  {"Y", 24},  {"Z", 21},  {"E", 18}, {"P", 15},
+    {"T", 12}, {"G", 9},   {"M", 6},   {"k", 3},   {"h", 2},   {"d", -1},  {"c", -2}, {"m", -3},
+    {"n", -9}, {"p", -12}, {"f", -15}, {"a", -18}, {"z", -21}, {"y", -24},
 };
 enum { N_UNIT_PREFIXES = sizeof unit_prefixes / sizeof unit_prefixes[0] };
 
 static const char* const base_names[PL_N_BASE_UNITS] = {"m", "kg", "s", "A", "K", "mol", "cd"};
-static const char* const base_ascii[PL_N_BASE_UNITS] = {"[m]", "[kg]", "[s]", "[A]", "[K]", "[mol]", "[cd]"};
+static const char* const base_ascii[PL_N_BASE_UNITS] = {"[m]", "[kg]",  "[s]", "[A]",
+                                                        "[K]", "[mol]", "[cd]"};
 
 enum { MAX_UNIT_DEPTH = 50, MAX_UNIT_EXPONENT = 60, MAX_UNIT_DIGITS = 60 };
 
-// ---------------------------------------------------------------------------------------------- the reader
+// -------------------------------------------------------------------------------------- the reader
 typedef struct unit_value {
   pl_expr scale;
   pl_exponents dimension;
-  bool angle;                 // built from angle units only
-  bool plain;                 // only numbers so far
+  bool angle;  // built from angle units only
+  bool plain;  // only numbers so far
 } unit_value;
 
 typedef struct unit_reader {
@@ -65,12 +73,14 @@ typedef struct unit_reader {
   const char* at;
   const char* end;
   int depth;
-  const char* bad;            // first offending part; NULL while all is well
+  const char* bad;  // first offending part; NULL while all is well
   size_t bad_n;
   const char* near;
 } unit_reader;
 
-static unit_value unit_one(pl_pool* p) { return (unit_value){pl_int(p, 1), pl_exponents_zero(), false, true}; }
+static unit_value unit_one(pl_pool* p) {
+  return (unit_value){pl_int(p, 1), pl_exponents_zero(), false, true};
+}
 
 static void refuse(unit_reader* r, const char* at, size_t n, const char* near) {
   if (r->bad) return;
@@ -99,14 +109,16 @@ static unit_value row_value(pl_pool* p, const unit_row* row, int prefix_power) {
   if (row->pi) v.scale = pl_mul(p, v.scale, pl_pow_int(p, pl_pi(p), row->pi));
   if (prefix_power) v.scale = pl_mul(p, v.scale, pl_pow_int(p, pl_int(p, 10), prefix_power));
   for (int i = 0; i < PL_N_BASE_UNITS; i++) v.dimension.e[i] = (pl_fraction){row->exponent[i], 1};
-  v.plain = strcmp(row->name, "%") == 0 || strcmp(row->name, "‰") == 0 || strcmp(row->name, "ppm") == 0;
+  v.plain = strcmp(row->name, "%") == 0 || strcmp(row->name, "‰") == 0
+            || strcmp(row->name, "ppm") == 0;
   v.angle = pl_exponents_are_zero(v.dimension) && !v.plain;
   return v;
 }
 
 static const unit_row* find_row(const char* s, size_t n) {
   for (int i = 0; i < N_UNIT_ROWS; i++) {
-    if (strlen(unit_rows[i].name) == n && memcmp(unit_rows[i].name, s, n) == 0) return &unit_rows[i];
+    if (strlen(unit_rows[i].name) == n && memcmp(unit_rows[i].name, s, n) == 0)
+      return &unit_rows[i];
   }
   return NULL;
 }
@@ -163,7 +175,8 @@ static int superscript(const unit_reader* r, int* bytes) {
   return -1;
 }
 
-// A letter of a unit symbol: ASCII letters, % and every non-ASCII character that is not an operator or a digit.
+// A letter of a unit symbol: ASCII letters, % and every non-ASCII character that is not an operator
+// or a digit.
 static int symbol_letter(const unit_reader* r) {
   if (r->at >= r->end) return 0;
   unsigned char c = (unsigned char)*r->at;
@@ -300,7 +313,8 @@ static unit_value read_symbol(unit_reader* r) {
     while (r->at < r->end && is_digit(*r->at)) r->at++;
     if (r->at > digits) {
       refuse(r, from, (size_t)(r->at - from),
-             pl_format(pl_pool_arena(r->pool), "%.*s^%.*s", (int)n, from, (int)(r->at - digits), digits));
+             pl_format(pl_pool_arena(r->pool), "%.*s^%.*s", (int)n, from, (int)(r->at - digits),
+                       digits));
     }
     return v;
   }
@@ -364,7 +378,8 @@ static unit_value join(unit_reader* r, unit_value a, unit_value b, bool divide) 
   unit_value v;
   v.scale = divide ? pl_div(r->pool, a.scale, b.scale) : pl_mul(r->pool, a.scale, b.scale);
   v.dimension = pl_exponents_add(a.dimension, (pl_fraction){divide ? -1 : 1, 1}, b.dimension);
-  v.angle = (a.angle && b.plain && !divide) || (a.plain && b.angle && !divide) || (a.angle && b.plain);
+  v.angle = (a.angle && b.plain && !divide) || (a.plain && b.angle && !divide)
+            || (a.angle && b.plain);
   v.plain = a.plain && b.plain;
   return v;
 }
@@ -406,18 +421,26 @@ static unit_value read_unit(unit_reader* r) {
       refuse(r, divisor, n, pl_format(pl_pool_arena(r->pool), "(%.*s)", (int)n, divisor));
       break;
     }
-    if (op == OP_DIVISION) divided = true, divisor = from;
+    if (op == OP_DIVISION) {
+      divided = true;
+      divisor = from;
+    }
     v = join(r, v, next, op == OP_DIVISION);
   }
   return v;
 }
 
-// ---------------------------------------------------------------------------------------------- unit symbols
+// ------------------------------------------------------------------------------------ unit symbols
 static pl_symbol base_symbol(pl_pool* p, int i) {
   pl_symbol s = pl_symbol_find(p, base_ascii[i]);
   if (s.id) return s;
-  pl_symbol_info info = {.name = base_names[i], .ascii = base_ascii[i], .role = PL_R_LOCAL, .class = PL_C_OTHER,
-                         .sign = PL_SIGN_POSITIVE, .dimension = pl_dimension_one(), .dimension_known = true};
+  pl_symbol_info info = {.name = base_names[i],
+                         .ascii = base_ascii[i],
+                         .role = PL_R_LOCAL,
+                         .class = PL_C_OTHER,
+                         .sign = PL_SIGN_POSITIVE,
+                         .dimension = pl_dimension_one(),
+                         .dimension_known = true};
   info.dimension.num[i] = 1;
   return pl_symbol_make(p, &info);
 }
@@ -439,7 +462,8 @@ static pl_expr base_product(pl_pool* p, pl_exponents d) {
   return e;
 }
 
-// The dimension of an expression that has numbers and numbers with units only; false: its terms do not fit together.
+// The dimension of an expression that has numbers and numbers with units only; false: its terms do
+// not fit together.
 static bool measure_dimension(const pl_pool* p, pl_expr e, pl_dimension* out) {
   *out = pl_dimension_one();
   pl_exponents sum = pl_exponents_zero();
@@ -447,7 +471,8 @@ static bool measure_dimension(const pl_pool* p, pl_expr e, pl_dimension* out) {
   pl_dimension x;
   long num, den;
   switch (pl_kind_of(p, e)) {
-    case PL_NUMBER: case PL_PI: return true;
+    case PL_NUMBER:
+    case PL_PI: return true;
     case PL_SYMBOL: *out = pl_symbol_get(p, pl_symbol_of(p, e))->dimension; return true;
     case PL_MUL:
       for (int i = 0; i < n; i++) {
@@ -456,8 +481,11 @@ static bool measure_dimension(const pl_pool* p, pl_expr e, pl_dimension* out) {
       }
       return pl_exponents_get_dimension(sum, out);
     case PL_POW:
-      if (!measure_dimension(p, pl_arg(p, e, 0), &x) || !pl_is_ratio(p, pl_arg(p, e, 1), &num, &den)) return false;
-      return pl_exponents_get_dimension(pl_exponents_add(sum, pl_fraction_make(num, den), pl_exponents_of(x)), out);
+      if (!measure_dimension(p, pl_arg(p, e, 0), &x)
+          || !pl_is_ratio(p, pl_arg(p, e, 1), &num, &den))
+        return false;
+      return pl_exponents_get_dimension(
+          pl_exponents_add(sum, pl_fraction_make(num, den), pl_exponents_of(x)), out);
     case PL_ADD:
       for (int i = 0; i < n; i++) {
         if (!measure_dimension(p, pl_arg(p, e, i), &x)) return false;
@@ -478,7 +506,10 @@ static const char* displayed_unit(pl_arena* a, const char* text) {
     if (*s == '*') pl_text_add(&t, " ");
     else if (!exponent) pl_text_add_n(&t, s, 1);
     if (!exponent) continue;
-    if (s[1] == '-') pl_text_add(&t, "⁻"), s++;
+    if (s[1] == '-') {
+      pl_text_add(&t, "⁻");
+      s++;
+    }
     while (s[1] >= '0' && s[1] <= '9') pl_text_add(&t, raised[*++s - '0']);
   }
   return pl_text_string(&t);
@@ -491,16 +522,25 @@ pl_expr pl_measure_make(pl_pool* p, pl_expr number, const pl_unit* unit, const c
   double size = pl_eval(p, si, PL_ARRAY(pl_pool_arena(p), double, pl_symbol_count(p) + 1));
   if (!(size > 0)) return pl_neg(p, pl_measure_make(p, pl_neg(p, number), unit, text));
   pl_arena* a = pl_pool_arena(p);
-  const char* ascii = pl_format(a, "[%s %s]", pl_expr_text(a, p, si), pl_dimension_unit(a, unit->dimension, true));
-  pl_symbol_info info = {.name = pl_format(a, "%s %s", pl_expr_text(a, p, number), displayed_unit(a, text)), .ascii = ascii,
-                         .role = PL_R_PARAM, .class = PL_C_NUMBER, .sign = PL_SIGN_POSITIVE,
-                         .dimension = unit->dimension, .dimension_known = true,
-                         .number = si, .written = number, .unit = displayed_unit(a, text)};
+  const char* ascii = pl_format(a, "[%s %s]", pl_expr_text(a, p, si),
+                                pl_dimension_unit(a, unit->dimension, true));
+  pl_symbol_info info = {
+      .name = pl_format(a, "%s %s", pl_expr_text(a, p, number), displayed_unit(a, text)),
+      .ascii = ascii,
+      .role = PL_R_PARAM,
+      .class = PL_C_NUMBER,
+      .sign = PL_SIGN_POSITIVE,
+      .dimension = unit->dimension,
+      .dimension_known = true,
+      .number = si,
+      .written = number,
+      .unit = displayed_unit(a, text)};
   return pl_sym(p, pl_symbol_make(p, &info));
 }
 
-// What numbers with units make together, 0.5 m + 20 cm = 0.7 m, in the unit of the first that has the dimension of the
-// result; e itself where something else occurs in it, or where it adds what cannot be added.
+// What numbers with units make together, 0.5 m + 20 cm = 0.7 m, in the unit of the first that has
+// the dimension of the result; e itself where something else occurs in it, or where it adds what
+// cannot be added.
 pl_expr pl_measure_join(pl_pool* p, pl_expr e) {
   pl_arena* a = pl_pool_arena(p);
   int n = pl_is_poison(e) ? 0 : pl_symbols_in(p, e, NULL, 0);
@@ -533,7 +573,9 @@ pl_expr pl_model_bare(pl_pool* p, pl_expr e) {
   return n && !pl_is_poison(e) ? pl_subst(p, e, replace, n) : e;
 }
 
-pl_expr pl_model_plain(pl_pool* p, pl_expr e) { return pl_model_bare(p, pl_without_measures(p, e)); }
+pl_expr pl_model_plain(pl_pool* p, pl_expr e) {
+  return pl_model_bare(p, pl_without_measures(p, e));
+}
 
 bool pl_has_unit(const pl_pool* p, pl_expr e) {
   int n_symbols = pl_symbols_in(p, e, NULL, 0);
@@ -544,7 +586,7 @@ bool pl_has_unit(const pl_pool* p, pl_expr e) {
   }
   return false;
 }
-// ---------------------------------------------------------------------------------------------- near names
+// -------------------------------------------------------------------------------------- near names
 static bool same_but_case(const char* a, size_t n, const char* b) {
   if (strlen(b) != n) return false;
   for (size_t i = 0; i < n; i++) {
@@ -561,8 +603,8 @@ static const char* near_by_case(pl_arena* a, const char* word, size_t n) {
   static const char* const common[] = {"k", "m", "M", "c", "G"};
   for (size_t j = 0; j < sizeof common / sizeof common[0]; j++) {
     for (int i = 0; i < N_UNIT_ROWS && n > 1; i++) {
-      if (unit_rows[i].prefixed && same_but_case(word, 1, common[j]) &&
-          same_but_case(word + 1, n - 1, unit_rows[i].name)) {
+      if (unit_rows[i].prefixed && same_but_case(word, 1, common[j])
+          && same_but_case(word + 1, n - 1, unit_rows[i].name)) {
         return pl_format(a, "%s%s", common[j], unit_rows[i].name);
       }
     }
@@ -589,29 +631,39 @@ const char* pl_unit_near(pl_arena* a, const char* word, size_t n) {
   static const char* const common[] = {"kg", "cm", "mm", "km", "ms", "kN", "Nm", "Hz"};
   for (size_t i = 0; i < sizeof common / sizeof common[0]; i++) {
     int d = pl_edit_distance(text, common[i], best);
-    if (d < best) best = d, near = common[i];
+    if (d < best) {
+      best = d;
+      near = common[i];
+    }
   }
   for (int i = 0; i < N_UNIT_ROWS; i++) {
     int d = pl_edit_distance(text, unit_rows[i].name, best);
-    if (d < best && strlen(unit_rows[i].name) > 1) best = d, near = unit_rows[i].name;
+    if (d < best && strlen(unit_rows[i].name) > 1) {
+      best = d;
+      near = unit_rows[i].name;
+    }
   }
   for (int i = 0; i < N_UNIT_WORDS; i++) {
     int d = pl_edit_distance(text, unit_words[i].word, best);
-    if (d < best && strlen(unit_words[i].word) > 3) best = d, near = unit_words[i].unit;
+    if (d < best && strlen(unit_words[i].word) > 3) {
+      best = d;
+      near = unit_words[i].unit;
+    }
   }
   return near;
 }
 
-// ---------------------------------------------------------------------------------------------- entry
-bool pl_unit_parse(pl_pool* p, const char* text, size_t n, pl_unit* out, size_t* bad_at, size_t* bad_n,
-                   const char** near) {
+// ------------------------------------------------------------------------------------------- entry
+bool pl_unit_parse(pl_pool* p, const char* text, size_t n, pl_unit* out, size_t* bad_at,
+                   size_t* bad_n, const char** near) {
   unit_reader r = {.pool = p, .begin = text, .at = text, .end = text + n};
   unit_value v = read_unit(&r);
   skip_blanks(&r);
   if (!r.bad && r.at < r.end) refuse(&r, r.at, (size_t)(r.end - r.at), NULL);
 
   pl_unit unit = {pl_poison(), pl_dimension_one(), v.angle, v.scale};
-  if (!r.bad && (!pl_exponents_get_dimension(v.dimension, &unit.dimension) || pl_is_poison(v.scale)))
+  if (!r.bad
+      && (!pl_exponents_get_dimension(v.dimension, &unit.dimension) || pl_is_poison(v.scale)))
     refuse(&r, text, n, NULL);
   if (r.bad) {
     if (bad_at) *bad_at = (size_t)(r.bad - text);
@@ -624,7 +676,7 @@ bool pl_unit_parse(pl_pool* p, const char* text, size_t n, pl_unit* out, size_t*
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- explanation
+// ------------------------------------------------------------------------------------- explanation
 // The name in words of a text that is one symbol, perhaps with a prefix.
 static const char* symbol_words(pl_arena* a, const char* text) {
   const unit_row* row;
@@ -660,23 +712,26 @@ const char* pl_unit_explain(pl_arena* a, pl_pool* p, const char* text, pl_langua
   if (!pl_unit_parse(p, text, strlen(text), &unit, &at, &n, &near)) {
     pl_text_addf(&t, german ? "%s  ist keine Einheit" : "%s  is not a unit", text);
     if (n && n < strlen(text))
-      pl_text_addf(&t, german ? ": \"%.*s\" ist unbekannt" : ": \"%.*s\" is not known", (int)n, text + at);
+      pl_text_addf(&t, german ? ": \"%.*s\" ist unbekannt" : ": \"%.*s\" is not known", (int)n,
+                   text + at);
     pl_text_add(&t, "\n");
     if (near)
-      pl_text_addf(&t, german ? "  gemeint?   %.*s%s%s\n" : "  meant?     %.*s%s%s\n", (int)at, text, near,
-                   text + at + n);
+      pl_text_addf(&t, german ? "  gemeint?   %.*s%s%s\n" : "  meant?     %.*s%s%s\n", (int)at,
+                   text, near, text + at + n);
     return pl_text_string(&t);
   }
   pl_text_add(&t, text);
   const char* words = symbol_words(a, text);
   if (words) pl_text_addf(&t, "  (%s)", words);
   pl_text_add(&t, "\n");
-  pl_text_addf(&t, german ? "  ist        %s\n" : "  is         %s\n", pl_dimension_words(a, unit.dimension, lang));
+  pl_text_addf(&t, german ? "  ist        %s\n" : "  is         %s\n",
+               pl_dimension_words(a, unit.dimension, lang));
   pl_text_addf(&t, german ? "  in SI      1 %s = %s %s\n" : "  in SI      1 %s = %s %s\n", text,
                pl_expr_text(a, p, unit.scale), pl_dimension_unit(a, unit.dimension, false));
   if (!pl_is_number(p, unit.scale)) {
     double* none = PL_ARRAY(a, double, pl_symbol_count(p) + 1);
-    pl_text_addf(&t, german ? "  also       %.17g\n" : "  that is    %.17g\n", pl_eval(p, unit.scale, none));
+    pl_text_addf(&t, german ? "  also       %.17g\n" : "  that is    %.17g\n",
+                 pl_eval(p, unit.scale, none));
   }
   list_same_dimension(&t, unit.dimension, text, lang);
   return pl_text_string(&t);

@@ -188,27 +188,32 @@ PL_TEST(every_word_leads_to_a_unit) {
     pl_unit u;
     assert_string_equal(pl_unit_near(k->arena, words[i][0], strlen(words[i][0])), words[i][1]);
     if (strchr(words[i][0], '/') == NULL)
-      assert_false(pl_unit_parse(k->m->pool, words[i][0], strlen(words[i][0]), &u, NULL, NULL, NULL));
+      assert_false(
+          pl_unit_parse(k->m->pool, words[i][0], strlen(words[i][0]), &u, NULL, NULL, NULL));
   }
   kit_free(k);
 }
 
 // Random text never crashes, and what is refused is shown inside the text.
 PL_TEST(random_text_is_read_or_refused) {
-  static const char* const parts[] = {"m", "kg", "s",   "/", "*",   " ", "^", "2",    "-1",  "(",  ")",
-                                      "²", "·",  "deg", "k", "0.5", "°", "x", "\xc3", "1/2", "⁻¹", "."};
+  static const char* const parts[] = {"m",  "kg", "s",    "/",   "*",  " ",   "^", "2",
+                                      "-1", "(",  ")",    "²",   "·",  "deg", "k", "0.5",
+                                      "°",  "x",  "\xc3", "1/2", "⁻¹", "."};
   const uint64_t seed = 20261121;
   pl_random r = {seed};
   for (int round = 0; round < 3000; round++) {
     kit* k = kit_make(NULL);
     char text[200] = "";
     int n = (int)(pl_random_bits(&r) % 12);
-    for (int i = 0; i < n; i++) strcat(text, parts[pl_random_bits(&r) % (sizeof parts / sizeof parts[0])]);
+    for (int i = 0; i < n; i++)
+      strcat(text, parts[pl_random_bits(&r) % (sizeof parts / sizeof parts[0])]);
     pl_unit u;
     size_t at_bad = 0, n_bad = 0;
     const char* near = NULL;
-    if (!pl_unit_parse(k->m->pool, text, strlen(text), &u, &at_bad, &n_bad, &near) && at_bad + n_bad > strlen(text)) {
-      fail_msg("seed %lu round %d: '%s' blames bytes %zu+%zu", (unsigned long)seed, round, text, at_bad, n_bad);
+    if (!pl_unit_parse(k->m->pool, text, strlen(text), &u, &at_bad, &n_bad, &near)
+        && at_bad + n_bad > strlen(text)) {
+      fail_msg("seed %lu round %d: '%s' blames bytes %zu+%zu", (unsigned long)seed, round, text,
+               at_bad, n_bad);
     }
     kit_free(k);
   }
@@ -239,14 +244,22 @@ PL_TEST(units_vanish_from_an_expression) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(base_and_derived_units_are_read), cmocka_unit_test(prefixes_scale_exactly),
-    cmocka_unit_test(a_symbol_wins_over_a_prefix), cmocka_unit_test(products_quotients_and_powers_are_read),
-    cmocka_unit_test(angles_are_pure_numbers), cmocka_unit_test(technical_units_are_exact),
-    cmocka_unit_test(a_wrong_unit_is_shown_with_the_nearest), cmocka_unit_test(a_product_after_a_division_is_refused),
-    cmocka_unit_test(broken_text_is_refused), cmocka_unit_test(deep_brackets_are_refused_without_a_crash),
-    cmocka_unit_test(every_row_has_an_inverse), cmocka_unit_test(of_units_equally_near_the_one_of_every_day_is_meant), cmocka_unit_test(every_word_leads_to_a_unit),
-    cmocka_unit_test(random_text_is_read_or_refused), cmocka_unit_test(a_unit_is_explained),
-    cmocka_unit_test(units_vanish_from_an_expression),
+      cmocka_unit_test(base_and_derived_units_are_read),
+      cmocka_unit_test(prefixes_scale_exactly),
+      cmocka_unit_test(a_symbol_wins_over_a_prefix),
+      cmocka_unit_test(products_quotients_and_powers_are_read),
+      cmocka_unit_test(angles_are_pure_numbers),
+      cmocka_unit_test(technical_units_are_exact),
+      cmocka_unit_test(a_wrong_unit_is_shown_with_the_nearest),
+      cmocka_unit_test(a_product_after_a_division_is_refused),
+      cmocka_unit_test(broken_text_is_refused),
+      cmocka_unit_test(deep_brackets_are_refused_without_a_crash),
+      cmocka_unit_test(every_row_has_an_inverse),
+      cmocka_unit_test(of_units_equally_near_the_one_of_every_day_is_meant),
+      cmocka_unit_test(every_word_leads_to_a_unit),
+      cmocka_unit_test(random_text_is_read_or_refused),
+      cmocka_unit_test(a_unit_is_explained),
+      cmocka_unit_test(units_vanish_from_an_expression),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

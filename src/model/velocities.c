@@ -1,17 +1,18 @@
 // Constraints with velocities: linear or not, integrable or not.
 //
-// A constraint linear in the velocities is a Pfaffian form  ω = Σ a_j dq_j + b dt.  It can be integrated, after a
-// factor if need be, exactly when ω ∧ dω = 0: for every three variables
+// A constraint linear in the velocities is a Pfaffian form ω = Σ a_j dq_j + b dt. It can be
+// integrated, after a factor if need be, exactly when ω ∧ dω = 0: for every three variables
 //     a_i (∂_j a_k - ∂_k a_j) + a_j (∂_k a_i - ∂_i a_k) + a_k (∂_i a_j - ∂_j a_i) = 0        [Frobenius1877]
-// with time as one of the variables.  Zeros are recognised by form, else at random points modulo a large prime.
+// with time as one of the variables. Zeros are recognised by form, else at random points modulo a
+// large prime.
 #include "model_impl.h"
 
 enum {
   MAX_VARIABLES = 24
 };  // triples grow with the third power; longer forms are not tested and count as nonholonomic
 
-// ---------------------------------------------------------------------------------------------- zero
-enum { N_ZERO_TRIALS = 12 };       // points that are tried until one can be evaluated
+// -------------------------------------------------------------------------------------------- zero
+enum { N_ZERO_TRIALS = 12 };  // points that are tried until one can be evaluated
 
 static bool vanishes(pl_job* job, const pl_model* m, pl_expr e) {
   if (pl_is_poison(e)) return false;
@@ -25,11 +26,12 @@ static bool vanishes(pl_job* job, const pl_model* m, pl_expr e) {
   return false;
 }
 
-// ---------------------------------------------------------------------------------------------- velocities in g
+// --------------------------------------------------------------------------------- velocities in g
 typedef struct pfaffian {
-  pl_expr v[MAX_VARIABLES];          // velocities that occur                       (n)
-  pl_expr q[MAX_VARIABLES];          // their coordinates, time, then coordinates that stand in coefficients only
-  pl_expr a[MAX_VARIABLES];          // coefficients; that of time is b, the last ones are 0
+  pl_expr v[MAX_VARIABLES];  // velocities that occur                       (n)
+  // their coordinates, time, then coordinates that stand in coefficients only
+  pl_expr q[MAX_VARIABLES];
+  pl_expr a[MAX_VARIABLES];  // coefficients; that of time is b, the last ones are 0
   int n, n_variables;
 } pfaffian;
 
@@ -37,13 +39,15 @@ static void collect(const pl_model* m, pl_expr e, pl_map* visited, pfaffian* w) 
   if (pl_map_get(visited, e.id)) return;
   pl_map_set(visited, e.id, 1);
   pl_kind kind = pl_kind_of(m->pool, e);
-  bool symbol = kind == PL_SYMBOL && pl_symbol_get(m->pool, pl_symbol_of(m->pool, e))->role == PL_R_VELOCITY;
+  bool symbol = kind == PL_SYMBOL
+                && pl_symbol_get(m->pool, pl_symbol_of(m->pool, e))->role == PL_R_VELOCITY;
   bool element = kind == PL_AT && pl_dots_of(m->pool, e) == 1;
   if (symbol || element) {
     if (w->n < MAX_VARIABLES) {
       w->v[w->n] = e;
-      w->q[w->n] = element ? pl_at(m->pool, pl_symbol_of(m->pool, e), 0, pl_arg(m->pool, e, 0))
-                           : pl_sym(m->pool, pl_symbol_get(m->pool, pl_symbol_of(m->pool, e))->base);
+      w->q[w->n] = element
+                       ? pl_at(m->pool, pl_symbol_of(m->pool, e), 0, pl_arg(m->pool, e, 0))
+                       : pl_sym(m->pool, pl_symbol_get(m->pool, pl_symbol_of(m->pool, e))->base);
     }
     w->n++;
     return;
@@ -93,7 +97,8 @@ static bool add_silent_coordinates(const pl_model* m, pfaffian* w) {
 static bool frobenius(pl_job* job, const pl_model* m, const pfaffian* w) {
   pl_pool* p = m->pool;
   int n = w->n_variables;
-  pl_expr(*curl)[MAX_VARIABLES] = pl_alloc(job->arena, sizeof(pl_expr[MAX_VARIABLES][MAX_VARIABLES]));
+  pl_expr(*curl)[MAX_VARIABLES] = pl_alloc(job->arena,
+                                           sizeof(pl_expr[MAX_VARIABLES][MAX_VARIABLES]));
   for (int i = 0; i < n; i++) {
     for (int j = 0; j < n; j++)
       curl[i][j] = pl_sub(p, derivative(m, w->a[j], w->q[i]), derivative(m, w->a[i], w->q[j]));
@@ -101,8 +106,9 @@ static bool frobenius(pl_job* job, const pl_model* m, const pfaffian* w) {
   for (int i = 0; i < n; i++) {
     for (int j = i + 1; j < n; j++) {
       for (int k = j + 1; k < n; k++) {
-        pl_expr sum = pl_add(p, pl_mul(p, w->a[i], curl[j][k]),
-                             pl_add(p, pl_mul(p, w->a[j], curl[k][i]), pl_mul(p, w->a[k], curl[i][j])));
+        pl_expr sum = pl_add(
+            p, pl_mul(p, w->a[i], curl[j][k]),
+            pl_add(p, pl_mul(p, w->a[j], curl[k][i]), pl_mul(p, w->a[k], curl[i][j])));
         if (!vanishes(job, m, sum)) return false;
       }
     }
@@ -114,14 +120,16 @@ static bool frobenius(pl_job* job, const pl_model* m, const pfaffian* w) {
 static const char* integral_text(pl_job* job, const pl_model* m, const pfaffian* w) {
   pl_expr sum = pl_int(m->pool, 0);
   for (int j = 0; j <= w->n; j++) {
-    if (pl_has_coordinate(m->pool, w->a[j], job->arena) || pl_has_symbol(m->pool, w->a[j], pl_time(m->pool)))
+    if (pl_has_coordinate(m->pool, w->a[j], job->arena)
+        || pl_has_symbol(m->pool, w->a[j], pl_time(m->pool)))
       return NULL;
     sum = pl_add(m->pool, sum, pl_mul(m->pool, w->a[j], w->q[j]));
   }
   return pl_expr_words(job->arena, m->pool, sum);
 }
 
-pl_velocity_kind pl_velocity_kind_of(pl_job* job, const pl_model* m, pl_expr g, const char** integral) {
+pl_velocity_kind pl_velocity_kind_of(pl_job* job, const pl_model* m, pl_expr g,
+                                     const char** integral) {
   *integral = NULL;
   int dots = pl_max_dots(m->pool, g, job->arena);
   if (dots != 1) return dots == 0 ? PL_NO_VELOCITY : PL_ACCELERATION;

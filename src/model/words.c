@@ -1,18 +1,24 @@
-// Names and sides found again in the text of a statement.  Expressions are sorted by their constructors and no longer
-// know where they stood; a message wants to point at the very name, so it is looked up in the text of the statement.
+// Names and sides found again in the text of a statement. Expressions are sorted by their
+// constructors and no longer know where they stood; a message wants to point at the very name, so
+// it is looked up in the text of the statement.
 #include "model_impl.h"
 
 #include <string.h>
 
-// ---------------------------------------------------------------------------------------------- spelling
-typedef struct greek_letter { const char* letter; const char* name; } greek_letter;
+// ---------------------------------------------------------------------------------------- spelling
+typedef struct greek_letter {
+  const char* letter;
+  const char* name;
+} greek_letter;
 static const greek_letter greek[] = {
-  {"α", "alpha"}, {"β", "beta"}, {"γ", "gamma"}, {"δ", "delta"}, {"ε", "epsilon"}, {"ζ", "zeta"}, {"η", "eta"},
-  {"θ", "theta"}, {"ϑ", "theta"}, {"ι", "iota"}, {"κ", "kappa"}, {"λ", "lambda"}, {"μ", "mu"}, {"ν", "nu"},
-  {"ξ", "xi"}, {"ο", "omicron"}, {"π", "pi"}, {"ρ", "rho"}, {"σ", "sigma"}, {"ς", "sigma"}, {"τ", "tau"},
-  {"υ", "upsilon"}, {"φ", "phi"}, {"ϕ", "phi"}, {"χ", "chi"}, {"ψ", "psi"}, {"ω", "omega"}, {"Γ", "Gamma"},
-  {"Δ", "Delta"}, {"Θ", "Theta"}, {"Λ", "Lambda"}, {"Ξ", "Xi"}, {"Π", "Pi"}, {"Σ", "Sigma"}, {"Φ", "Phi"},
-  {"Ψ", "Psi"}, {"Ω", "Omega"},
+    {"α", "alpha"},   {"β", "beta"},    {"γ", "gamma"}, {"δ", "delta"}, {"ε", "epsilon"},
+    {"ζ", "zeta"},    {"η", "eta"},     {"θ", "theta"}, {"ϑ", "theta"}, {"ι", "iota"},
+    {"κ", "kappa"},   {"λ", "lambda"},  {"μ", "mu"},    {"ν", "nu"},    {"ξ", "xi"},
+    {"ο", "omicron"}, {"π", "pi"},      {"ρ", "rho"},   {"σ", "sigma"}, {"ς", "sigma"},
+    {"τ", "tau"},     {"υ", "upsilon"}, {"φ", "phi"},   {"ϕ", "phi"},   {"χ", "chi"},
+    {"ψ", "psi"},     {"ω", "omega"},   {"Γ", "Gamma"}, {"Δ", "Delta"}, {"Θ", "Theta"},
+    {"Λ", "Lambda"},  {"Ξ", "Xi"},      {"Π", "Pi"},    {"Σ", "Sigma"}, {"Φ", "Phi"},
+    {"Ψ", "Psi"},     {"Ω", "Omega"},
 };
 static const char* const subscripts[] = {"₀", "₁", "₂", "₃", "₄", "₅", "₆", "₇", "₈", "₉"};
 
@@ -22,7 +28,8 @@ static int name_letter(const char* s, const char* end, const char** out, char on
   *out = one;
   one[0] = (char)c;
   one[1] = 0;
-  if ((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_') return 1;
+  if ((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_')
+    return 1;
   if (c < 0x80) return 0;
   for (size_t i = 0; i < sizeof greek / sizeof greek[0]; i++) {
     size_t n = strlen(greek[i].letter);
@@ -41,7 +48,8 @@ static int name_letter(const char* s, const char* end, const char** out, char on
   return 0;
 }
 
-// Reads a name at s and writes its spelling without underscores, so that m_1, m₁ and m1 agree.  Bytes taken.
+// Reads a name at s and writes its spelling without underscores, so that m_1, m₁ and m1 agree.
+// Bytes taken.
 static size_t read_name(const char* s, const char* end, char* key, size_t max) {
   const char* at = s;
   size_t n = 0;
@@ -59,11 +67,14 @@ static size_t read_name(const char* s, const char* end, char* key, size_t max) {
   return (size_t)(at - s);
 }
 
-static void plain_key(const char* ascii, char* key, size_t max) { read_name(ascii, ascii + strlen(ascii), key, max); }
+static void plain_key(const char* ascii, char* key, size_t max) {
+  read_name(ascii, ascii + strlen(ascii), key, max);
+}
 
 enum { MAX_KEY = 128 };
 
-// Calls on each name of a text, comments and quoted text left out.  Returns the next name after `from`, or NULL.
+// Calls on each name of a text, comments and quoted text left out. Returns the next name after
+// `from`, or NULL.
 static const char* next_name(const char* from, const char* end, char key[MAX_KEY], size_t* n) {
   const char* at = from;
   while (at < end) {
@@ -71,7 +82,8 @@ static const char* next_name(const char* from, const char* end, char key[MAX_KEY
       while (at < end && *at != '\n') at++;
       continue;
     }
-    if (*at == '[' ) {                     // a unit: letters in it are no names, indices are short and found elsewhere
+    // a unit: letters in it are no names, indices are short and found elsewhere
+    if (*at == '[') {
       const char* close = memchr(at, ']', (size_t)(end - at));
       const char* line = memchr(at, '\n', (size_t)(end - at));
       if (close && (!line || close < line) && at > from && at[-1] == ' ') {
@@ -88,7 +100,8 @@ static const char* next_name(const char* from, const char* end, char key[MAX_KEY
       continue;
     }
     if (!digit) return at;
-    while (at < end && ((*at >= '0' && *at <= '9') || *at == '.')) at++;   // a number: 1e5 and 2x start with digits
+    // a number: 1e5 and 2x start with digits
+    while (at < end && ((*at >= '0' && *at <= '9') || *at == '.')) at++;
   }
   return NULL;
 }
@@ -99,7 +112,8 @@ bool pl_span_find_name(pl_span where, const char* ascii, pl_span* out) {
   plain_key(ascii, wanted, sizeof wanted);
   const char* end = where.source->text + where.end;
   size_t n;
-  for (const char* at = where.source->text + where.begin; (at = next_name(at, end, key, &n)) != NULL; at += n) {
+  for (const char* at = where.source->text + where.begin;
+       (at = next_name(at, end, key, &n)) != NULL; at += n) {
     if (strcmp(key, wanted) != 0) continue;
     out->source = where.source;
     out->begin = (uint32_t)(at - where.source->text);
@@ -116,11 +130,12 @@ int pl_source_count_name(const pl_source* s, const char* ascii) {
   const char* end = s->text + s->size;
   size_t n;
   int count = 0;
-  for (const char* at = s->text; (at = next_name(at, end, key, &n)) != NULL; at += n) count += strcmp(key, wanted) == 0;
+  for (const char* at = s->text; (at = next_name(at, end, key, &n)) != NULL; at += n)
+    count += strcmp(key, wanted) == 0;
   return count;
 }
 
-// ---------------------------------------------------------------------------------------------- sides
+// ------------------------------------------------------------------------------------------- sides
 static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
 static pl_span trimmed(pl_span s) {
@@ -140,7 +155,8 @@ static size_t relation_sign(const char* s, const char* end) {
   return 0;
 }
 
-// Where the right side ends: a comma outside brackets, a comment, a clause word, or the end of the line.
+// Where the right side ends: a comma outside brackets, a comment, a clause word, or the end of the
+// line.
 static const char* right_end(const char* s, const char* end) {
   int depth = 0;
   const char* at = s;
@@ -149,8 +165,9 @@ static const char* right_end(const char* s, const char* end) {
     if (*at == ')' || *at == ']') depth--;
     if (depth == 0 && *at == ',') break;
     if (depth == 0 && is_blank(*at)) {
-      static const char* const words[] = {"with ",   "while ",  "redundant ", "off",    "->",      "rising", "falling",
-                                          "of ",     "where ",  "from ",      "and ",   "at rest", "order ", "for "};
+      static const char* const words[] = {"with ",  "while ",  "redundant ", "off",    "->",
+                                          "rising", "falling", "of ",        "where ", "from ",
+                                          "and ",   "at rest", "order ",     "for "};
       const char* next = at;
       while (next < end && is_blank(*next)) next++;
       for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
@@ -185,7 +202,8 @@ bool pl_span_split_relation(pl_span where, pl_span* left, pl_span* right) {
       if ((size_t)(at - from) > k && memcmp(from, words[i], k) == 0) from += k;
     }
     *left = trimmed((pl_span){where.source, (uint32_t)(from - text), (uint32_t)(at - text)});
-    *right = trimmed((pl_span){where.source, (uint32_t)(at + n - text), (uint32_t)(right_end(at + n, end) - text)});
+    *right = trimmed((pl_span){where.source, (uint32_t)(at + n - text),
+                               (uint32_t)(right_end(at + n, end) - text)});
     return left->begin < left->end && right->begin < right->end;
   }
   return false;
@@ -201,7 +219,8 @@ const char* pl_span_text(pl_arena* a, pl_span s, int max) {
   const char* comment = memchr(text, '#', (size_t)(end - text));
   if (comment) end = comment;
   while (end > text && is_blank(end[-1])) end--;
-  if (pl_utf8_width_n(text, (size_t)(end - text)) <= max) return pl_copy_n(a, text, (size_t)(end - text));
+  if (pl_utf8_width_n(text, (size_t)(end - text)) <= max)
+    return pl_copy_n(a, text, (size_t)(end - text));
   const char* at = text;
   int cells = 0;
   while (at < end && cells < max - 3) {

@@ -1,4 +1,5 @@
-// The front of the folder: builds the boxes of a form and hands them to the writer of the manner asked for.
+// The front of the folder: builds the boxes of a form and hands them to the writer of the manner
+// asked for.
 #include "notation_impl.h"
 
 static pl_box* boxes_of(pl_arena* a, pl_pool* p, const pl_form* f, pl_notation how) {
@@ -23,7 +24,8 @@ const char* pl_notation_print(pl_arena* a, pl_pool* p, const pl_form* f, pl_nota
   return write_boxes(a, boxes_of(a, p, f, how), how.math);
 }
 
-const char* pl_notation_print_2d(pl_arena* a, pl_pool* p, const pl_form* f, pl_notation how, int* above, int* below) {
+const char* pl_notation_print_2d(pl_arena* a, pl_pool* p, const pl_form* f, pl_notation how,
+                                 int* above, int* below) {
   how.math = PL_MATH_2D;
   int up = 0, down = 0;
   const char* s = pl_write_2d(a, boxes_of(a, p, f, how), &up, &down);

@@ -1,19 +1,20 @@
-// Boxes -> a picture of several lines: stacked fractions, drawn roots, dots over letters, raised exponents.
+// Boxes -> a picture of several lines: stacked fractions, drawn roots, dots over letters, raised
+// exponents.
 //
-// A picture is a list of rows of equal width in cells, with a base line.  Pictures are never changed, only combined:
-// side by side on their base lines, or one over the other.
+// A picture is a list of rows of equal width in cells, with a base line. Pictures are never
+// changed, only combined: side by side on their base lines, or one over the other.
 #include "notation_impl.h"
 
 #include <string.h>
 
 typedef struct picture {
-  int width, height, base;   // base: index of the row that carries the line of writing
-  const char** row;          // (height), each `width` cells wide
+  int width, height, base;  // base: index of the row that carries the line of writing
+  const char** row;         // (height), each `width` cells wide
 } picture;
 
 static picture draw(pl_arena* a, const pl_box* b);
 
-// ---------------------------------------------------------------------------------------------- combining
+// --------------------------------------------------------------------------------------- combining
 static picture blank(pl_arena* a, int width, int height, int base) {
   picture p = {width, height, base, PL_ARRAY(a, const char*, height)};
   pl_text t = pl_text_make(a);
@@ -49,7 +50,9 @@ static picture beside_n(pl_arena* a, const picture* parts, int n) {
   return r;
 }
 
-static picture beside(pl_arena* a, picture l, picture r) { return beside_n(a, (picture[]){l, r}, 2); }
+static picture beside(pl_arena* a, picture l, picture r) {
+  return beside_n(a, (picture[]){l, r}, 2);
+}
 
 // The same picture in the middle of a wider one.
 static picture centred(pl_arena* a, picture p, int width) {
@@ -69,7 +72,8 @@ static picture centred(pl_arena* a, picture p, int width) {
 // top over bottom; the base line is that of row `base` of the whole.
 static picture over(pl_arena* a, picture top, picture bottom, int base) {
   int width = top.width > bottom.width ? top.width : bottom.width;
-  top = centred(a, top, width), bottom = centred(a, bottom, width);
+  top = centred(a, top, width);
+  bottom = centred(a, bottom, width);
   picture r = blank(a, width, top.height + bottom.height, base);
   memcpy(r.row, top.row, (size_t)top.height * sizeof *r.row);
   memcpy(r.row + top.height, bottom.row, (size_t)bottom.height * sizeof *r.row);
@@ -82,7 +86,7 @@ static const char* repeat(pl_arena* a, const char* s, int n) {
   return pl_text_string(&t);
 }
 
-// ---------------------------------------------------------------------------------------------- names
+// ------------------------------------------------------------------------------------------- names
 // Length in bytes of the last letter of s.
 static size_t last_letter(const char* s) {
   size_t n = strlen(s), k = n;
@@ -93,10 +97,11 @@ static size_t last_letter(const char* s) {
 // Letters that exist with their dots; for all others a combining sign follows the letter.
 static const char* dotted(pl_arena* a, const char* letter, int dots) {
   static const char* const table[][3] = {
-    {"x", "ẋ", "ẍ"}, {"y", "ẏ", "ÿ"}, {"z", "ż", NULL}, {"r", "ṙ", NULL}, {"s", "ṡ", NULL}, {"a", "ȧ", "ä"},
-    {"h", "ḣ", "ḧ"}, {"u", NULL, "ü"}, {"w", "ẇ", "ẅ"}, {"X", "Ẋ", "Ẍ"}, {"Y", "Ẏ", "Ÿ"}, {"e", "ė", "ë"},
-    {"o", "ȯ", "ö"}, {"b", "ḃ", NULL}, {"c", "ċ", NULL}, {"d", "ḋ", NULL}, {"f", "ḟ", NULL}, {"g", "ġ", NULL},
-    {"m", "ṁ", NULL}, {"n", "ṅ", NULL}, {"p", "ṗ", NULL}, {"t", "ṫ", "ẗ"}, {"v", NULL, NULL},
+      {"x", "ẋ", "ẍ"},  {"y", "ẏ", "ÿ"},  {"z", "ż", NULL},  {"r", "ṙ", NULL}, {"s", "ṡ", NULL},
+      {"a", "ȧ", "ä"},  {"h", "ḣ", "ḧ"},  {"u", NULL, "ü"},  {"w", "ẇ", "ẅ"},  {"X", "Ẋ", "Ẍ"},
+      {"Y", "Ẏ", "Ÿ"},  {"e", "ė", "ë"},  {"o", "ȯ", "ö"},   {"b", "ḃ", NULL}, {"c", "ċ", NULL},
+      {"d", "ḋ", NULL}, {"f", "ḟ", NULL}, {"g", "ġ", NULL},  {"m", "ṁ", NULL}, {"n", "ṅ", NULL},
+      {"p", "ṗ", NULL}, {"t", "ṫ", "ẗ"},  {"v", NULL, NULL},
   };
   for (size_t i = 0; i < sizeof table / sizeof *table; i++)
     if (strcmp(table[i][0], letter) == 0 && table[i][dots]) return table[i][dots];
@@ -123,12 +128,13 @@ static picture draw_indexed(pl_arena* a, const pl_box* b) {
   return beside_n(a, parts, 4);
 }
 
-// ---------------------------------------------------------------------------------------------- brackets
+// ---------------------------------------------------------------------------------------- brackets
 static picture column(pl_arena* a, picture like, const char* const sign[4]) {
   // sign: alone, top, middle, bottom
   if (like.height == 1) return text(a, sign[0]);
   picture p = blank(a, 1, like.height, like.base);
-  for (int y = 0; y < p.height; y++) p.row[y] = y == 0 ? sign[1] : y == p.height - 1 ? sign[3] : sign[2];
+  for (int y = 0; y < p.height; y++)
+    p.row[y] = y == 0 ? sign[1] : y == p.height - 1 ? sign[3] : sign[2];
   return p;
 }
 
@@ -142,7 +148,7 @@ static picture draw_fence(pl_arena* a, const pl_box* b) {
   return beside_n(a, parts, 3);
 }
 
-// ---------------------------------------------------------------------------------------------- fraction, root, power
+// --------------------------------------------------------------------------- fraction, root, power
 static picture draw_fraction(pl_arena* a, const pl_box* b) {
   picture num = draw(a, b->at[0]), den = draw(a, b->at[1]);
   int width = (num.width > den.width ? num.width : den.width) + 2;
@@ -163,14 +169,16 @@ static picture draw_root(pl_arena* a, const pl_box* b) {
     return beside(a, text(a, "√"), over(a, roof, in, 1));
   }
   picture stem = blank(a, 3, in.height, in.base);
-  for (int y = 0; y < in.height; y++) stem.row[y] = y == in.height - 1 ? " ╲│" : y == in.height - 2 ? "╲ │" : "  │";
+  for (int y = 0; y < in.height; y++)
+    stem.row[y] = y == in.height - 1 ? " ╲│" : y == in.height - 2 ? "╲ │" : "  │";
   picture roof = text(a, repeat(a, "─", in.width + 1));
   picture lid = beside(a, text(a, "  ┌"), roof);
   picture body = beside(a, stem, beside(a, blank(a, 1, 1, 0), in));
   return over(a, lid, body, in.base + 1);
 }
 
-// r², (...)² with the digit at the upper end of a tall bracket, e^(-γ t) with the exponent on a line of its own.
+// r², (...)² with the digit at the upper end of a tall bracket, e^(-γ t) with the exponent on a
+// line of its own.
 static picture draw_power(pl_arena* a, const pl_box* b) {
   picture base = draw(a, b->at[0]), exponent = draw(a, b->at[1]);
   const char* small = exponent.height == 1 ? pl_superscript(a, exponent.row[0]) : NULL;
@@ -189,7 +197,7 @@ static picture draw_power(pl_arena* a, const pl_box* b) {
   return beside(a, base, up);
 }
 
-// ---------------------------------------------------------------------------------------------- rows
+// -------------------------------------------------------------------------------------------- rows
 static picture draw_op(pl_arena* a, const pl_box* b) {
   const char* s = b->text;
   if (strcmp(s, "-") == 0) s = "−";
@@ -207,7 +215,8 @@ static picture draw_row(pl_arena* a, const pl_box* b) {
   for (int i = 0; i < b->n; i++) {
     bool gap = b->kind == PL_B_PRODUCT && i > 0 && !is_tight(b->at[i]) && !is_tight(b->at[i - 1]);
     // "− ─────": a sign before a fraction stands off
-    gap |= i > 0 && b->at[i - 1]->kind == PL_B_OP && b->at[i - 1]->role == PL_OP_PREFIX && b->at[i]->tall;
+    gap |= i > 0 && b->at[i - 1]->kind == PL_B_OP && b->at[i - 1]->role == PL_OP_PREFIX
+           && b->at[i]->tall;
     if (gap) parts[n++] = text(a, " ");
     parts[n++] = draw(a, b->at[i]);
   }
@@ -216,7 +225,8 @@ static picture draw_row(pl_arena* a, const pl_box* b) {
 
 static picture draw_apply(pl_arena* a, const pl_box* b) {
   picture head = draw(a, b->at[0]), argument = draw(a, b->at[1]);
-  if (b->at[1]->kind == PL_B_FENCE || b->at[0]->kind == PL_B_POWER) return beside(a, head, argument);
+  if (b->at[1]->kind == PL_B_FENCE || b->at[0]->kind == PL_B_POWER)
+    return beside(a, head, argument);
   return beside_n(a, (picture[]){head, text(a, " "), argument}, 3);
 }
 
@@ -229,8 +239,8 @@ static picture draw_sum_over(pl_arena* a, const pl_box* b) {
 }
 
 static picture draw_cases(pl_arena* a, const pl_box* b) {
-  picture parts[] = {text(a, "if "), draw(a, b->at[0]), text(a, ": "), draw(a, b->at[1]), text(a, "; else "),
-                     draw(a, b->at[2])};
+  picture parts[] = {text(a, "if "),    draw(a, b->at[0]),  text(a, ": "),
+                     draw(a, b->at[1]), text(a, "; else "), draw(a, b->at[2])};
   return beside_n(a, parts, 6);
 }
 
@@ -264,7 +274,7 @@ const char* pl_write_2d(pl_arena* a, const pl_box* b, int* above, int* below) {
   pl_text t = pl_text_make(a);
   for (int y = 0; y < p.height; y++) {
     size_t n = strlen(p.row[y]);
-    while (n > 0 && p.row[y][n - 1] == ' ') n--;    // no blanks at the ends of lines
+    while (n > 0 && p.row[y][n - 1] == ' ') n--;  // no blanks at the ends of lines
     if (y) pl_text_add(&t, "\n");
     pl_text_add_n(&t, p.row[y], n);
   }

@@ -1,14 +1,17 @@
-// Forms -> boxes: the walk that decides where brackets stand, in the precedence of the model language.
+// Forms -> boxes: the walk that decides where brackets stand, in the precedence of the model
+// language.
 //
-// Rule 5 of the language: after a division by anything but a plain number no blank product may follow, so such a
-// quotient gets brackets inside a product, and m1/2 r² does not.  Stacked fractions need no brackets at all.
+// Rule 5 of the language: after a division by anything but a plain number no blank product may
+// follow, so such a quotient gets brackets inside a product, and m1/2 r² does not. Stacked
+// fractions need no brackets at all.
 #include "notation_impl.h"
 
 #include <string.h>
 
-enum { MAX_DEPTH = 400 };   // of nested forms; deeper ones are cut with "…" rather than exhaust the stack
+// of nested forms; deeper ones are cut with "…" rather than exhaust the stack
+enum { MAX_DEPTH = 400 };
 
-// ---------------------------------------------------------------------------------------------- boxes
+// ------------------------------------------------------------------------------------------- boxes
 pl_box* pl_box_make(pl_arena* a, pl_box_kind k, pl_level level, int n) {
   pl_box* b = PL_NEW(a, pl_box);
   b->kind = k;
@@ -61,28 +64,32 @@ static pl_box* at_least(pl_builder* b, pl_box* x, pl_level level) {
 
 static pl_box* row2(pl_builder* b, pl_level level, pl_box* x, pl_box* y) {
   pl_box* r = pl_box_make(b->arena, PL_B_ROW, level, 2);
-  r->at[0] = x, r->at[1] = y;
+  r->at[0] = x;
+  r->at[1] = y;
   return inherit(r);
 }
 
 // Forms that need at least one argument and have none are cut short as unreadable.
 static bool is_hollow(const pl_form* f) {
   static const int needed[] = {
-    [PL_F_NEG] = 1, [PL_F_QUOTIENT] = 2, [PL_F_POWER] = 2, [PL_F_ROOT] = 1, [PL_F_GROUP] = 1, [PL_F_PLUSMINUS] = 1,
-    [PL_F_RELATION] = 2, [PL_F_DERIVATIVE] = 1, [PL_F_INTEGRAL] = 1, [PL_F_ORDER] = 1, [PL_F_TEXT] = 0,
+      [PL_F_NEG] = 1,      [PL_F_QUOTIENT] = 2,  [PL_F_POWER] = 2,    [PL_F_ROOT] = 1,
+      [PL_F_GROUP] = 1,    [PL_F_PLUSMINUS] = 1, [PL_F_RELATION] = 2, [PL_F_DERIVATIVE] = 1,
+      [PL_F_INTEGRAL] = 1, [PL_F_ORDER] = 1,     [PL_F_TEXT] = 0,
   };
   return (size_t)f->kind >= sizeof needed / sizeof *needed || f->n < needed[f->kind];
 }
 
-// ---------------------------------------------------------------------------------------------- minus signs
-static const pl_form* without_minus_below(pl_builder* b, const pl_form* f, bool* negative, int depth);
+// ------------------------------------------------------------------------------------- minus signs
+static const pl_form* without_minus_below(pl_builder* b, const pl_form* f, bool* negative,
+                                          int depth);
 
 // The form without its leading minus; *negative is flipped when there was one.
 static const pl_form* without_minus(pl_builder* b, const pl_form* f, bool* negative) {
   return without_minus_below(b, f, negative, 0);
 }
 
-static const pl_form* without_minus_below(pl_builder* b, const pl_form* f, bool* negative, int depth) {
+static const pl_form* without_minus_below(pl_builder* b, const pl_form* f, bool* negative,
+                                          int depth) {
   pl_arena* a = b->arena;
   if (is_hollow(f) || depth > MAX_DEPTH) return f;
   switch (f->kind) {
@@ -106,24 +113,28 @@ static const pl_form* without_minus_below(pl_builder* b, const pl_form* f, bool*
       args[0] = first;
       return pl_form_product(a, args, f->n);
     }
-    default:
-      return f;
+    default: return f;
   }
 }
 
 static pl_box* minus_box(pl_builder* b, pl_box* x) {
-  pl_box* r = row2(b, PL_LEVEL_SUM, pl_box_op(b->arena, "-", PL_OP_PREFIX), at_least(b, x, PL_LEVEL_PRODUCT));
+  pl_box* r = row2(b, PL_LEVEL_SUM, pl_box_op(b->arena, "-", PL_OP_PREFIX),
+                   at_least(b, x, PL_LEVEL_PRODUCT));
   r->starts_digit = false;
   r->open_slash = x->open_slash;
   return r;
 }
 
-// ---------------------------------------------------------------------------------------------- sums
-static bool is_measure_box(const pl_box* x) { return x->kind == PL_B_ROW && x->n == 2 && x->at[1]->kind == PL_B_UNIT; }
+// -------------------------------------------------------------------------------------------- sums
+static bool is_measure_box(const pl_box* x) {
+  return x->kind == PL_B_ROW && x->n == 2 && x->at[1]->kind == PL_B_UNIT;
+}
 
-// Does the model have a name like a part of this unit?  On a line nothing else tells metres from a mass m.
+// Does the model have a name like a part of this unit? On a line nothing else tells metres from a
+// mass m.
 static bool reads_like_a_name(pl_builder* b, const char* unit) {
-  if (b->how.math == PL_MATH_TEX || b->how.math == PL_MATH_MATHML || b->how.math == PL_MATH_ASCII) return false;
+  if (b->how.math == PL_MATH_TEX || b->how.math == PL_MATH_MATHML || b->how.math == PL_MATH_ASCII)
+    return false;
   for (const char* s = unit; *s;) {
     size_t n = 0;
     while ((s[n] >= 'a' && s[n] <= 'z') || (s[n] >= 'A' && s[n] <= 'Z')) n++;
@@ -143,7 +154,8 @@ static pl_box* build_sum(pl_builder* b, const pl_form* f) {
     pl_box* x = pl_build(b, term);
     if (i > 0) pl_push(b->arena, parts, pl_box_op(b->arena, minus ? "-" : "+", PL_OP_INFIX));
     else if (minus) pl_push(b->arena, parts, pl_box_op(b->arena, "-", PL_OP_PREFIX));
-    // a sum inside a sum keeps its brackets: the form wants to be read that way; 0.5 m beside a mass m is no half of it
+    // a sum inside a sum keeps its brackets: the form wants to be read that way; 0.5 m beside a
+    // mass m is no half of it
     if (is_measure_box(x) && reads_like_a_name(b, x->at[1]->text)) x = bracketed(b, x);
     pl_push(b->arena, parts, at_least(b, x, PL_LEVEL_PRODUCT));
   }
@@ -154,13 +166,14 @@ static pl_box* build_sum(pl_builder* b, const pl_form* f) {
   return r;
 }
 
-// ---------------------------------------------------------------------------------------------- products
+// ---------------------------------------------------------------------------------------- products
 typedef PL_VEC(const pl_form*) form_list;
 
 // Products inside products are written as one.
 static void flatten(pl_builder* b, const pl_form* f, form_list* out, int depth) {
   for (int i = 0; i < f->n; i++) {
-    if (f->args[i]->kind == PL_F_PRODUCT && depth < MAX_DEPTH) flatten(b, f->args[i], out, depth + 1);
+    if (f->args[i]->kind == PL_F_PRODUCT && depth < MAX_DEPTH)
+      flatten(b, f->args[i], out, depth + 1);
     else pl_push(b->arena, *out, f->args[i]);
   }
 }
@@ -170,8 +183,8 @@ static pl_box* factor_box(pl_builder* b, pl_box* x, int i, int n) {
   if (x->level < PL_LEVEL_PRODUCT) return bracketed(b, x);
   bool last = i == n - 1;
   bool quotient = x->level == PL_LEVEL_PRODUCT;
-  if (n > 1 && is_measure_box(x)) return bracketed(b, x);                       // (0.5 m) k
-  if (quotient && i > 0 && x->starts_digit) return bracketed(b, x);            // m (1/2)
+  if (n > 1 && is_measure_box(x)) return bracketed(b, x);                          // (0.5 m) k
+  if (quotient && i > 0 && x->starts_digit) return bracketed(b, x);                // m (1/2)
   if (quotient && x->open_slash && (!last || x->has_sum)) return bracketed(b, x);  // (g/R) cos ϑ
   return x;
 }
@@ -191,13 +204,14 @@ static pl_box* with_clear_argument(pl_builder* b, pl_box* application) {
 
 static bool is_plain_name(const pl_box* x) {
   if (x->kind == PL_B_POWER) x = x->at[0];
-  if (x->kind == PL_B_ROW && x->level == PL_LEVEL_ATOM) x = x->at[0];    // x1(0)
+  if (x->kind == PL_B_ROW && x->level == PL_LEVEL_ATOM) x = x->at[0];  // x1(0)
   return (x->kind == PL_B_NAME || x->kind == PL_B_INDEXED) && x->dots == 0 && !x->free_name;
 }
 
 // What a blank after `cos φ` or `√2` would be misread as: cos φ l is cos(φ) l, √2 l is √2·l.
 static bool needs_dot(pl_builder* b, pl_box** before, const pl_box* x) {
-  if (is_bare(*before, PL_B_APPLY, 1) && is_plain_name(x)) *before = with_clear_argument(b, *before);
+  if (is_bare(*before, PL_B_APPLY, 1) && is_plain_name(x))
+    *before = with_clear_argument(b, *before);
   bool root = b->how.math == PL_MATH_LINE && is_bare(*before, PL_B_ROOT, 0);
   return x->starts_digit || (root && x->kind != PL_B_APPLY);
 }
@@ -210,7 +224,8 @@ static pl_box* build_product(pl_builder* b, const pl_form* f) {
   PL_VEC(pl_box*) parts = {0};
   for (int i = 0; i < factors.n; i++) {
     pl_box* x = factor_box(b, pl_build(b, factors.at[i]), i, factors.n);
-    if (i > 0 && needs_dot(b, &parts.at[parts.n - 1], x)) pl_push(b->arena, parts, pl_box_op(b->arena, "·", PL_OP_TIGHT));
+    if (i > 0 && needs_dot(b, &parts.at[parts.n - 1], x))
+      pl_push(b->arena, parts, pl_box_op(b->arena, "·", PL_OP_TIGHT));
     pl_push(b->arena, parts, x);
   }
   pl_box* r = pl_box_make(b->arena, PL_B_PRODUCT, PL_LEVEL_PRODUCT, parts.n);
@@ -220,21 +235,26 @@ static pl_box* build_product(pl_builder* b, const pl_form* f) {
   return r;
 }
 
-// ---------------------------------------------------------------------------------------------- quotients
+// --------------------------------------------------------------------------------------- quotients
 static pl_box* fraction(pl_builder* b, pl_box* num, pl_box* den) {
   pl_box* r = pl_box_make(b->arena, PL_B_FRACTION, PL_LEVEL_PRODUCT, 2);
-  r->at[0] = num, r->at[1] = den;
+  r->at[0] = num;
+  r->at[1] = den;
   inherit(r);
   // a stacked fraction is one piece: it needs brackets only under an exponent
-  r->tall = true, r->starts_digit = false, r->has_sum = false;
+  r->tall = true;
+  r->starts_digit = false;
+  r->has_sum = false;
   return r;
 }
 
-// 2 m1 m2 g / (m1 + m2), but (m1 - m2)/(m1 + m2), x1'²/2, δm g/(2 m2): blanks around the slash where the parts are long.
+// 2 m1 m2 g / (m1 + m2), but (m1 - m2)/(m1 + m2), x1'²/2, δm g/(2 m2): blanks around the slash
+// where the parts are long.
 static bool wide_slash(const pl_box* num, const pl_box* den) {
   if (!den->has_sum) return false;
   bool short_num = num->level >= PL_LEVEL_POWER;
-  bool short_den = (den->kind == PL_B_FENCE && den->at[0]->level == PL_LEVEL_SUM) || den->kind == PL_B_ROOT;
+  bool short_den = (den->kind == PL_B_FENCE && den->at[0]->level == PL_LEVEL_SUM)
+                   || den->kind == PL_B_ROOT;
   return !(short_num && short_den);
 }
 
@@ -253,12 +273,13 @@ static pl_box* clear_before_slash(pl_builder* b, pl_box* num, const pl_box* den)
 }
 
 static pl_box* slash(pl_builder* b, pl_box* num, pl_box* den) {
-  bool again = num->level == PL_LEVEL_PRODUCT && num->open_slash;    // (a/b)/c, (m g/l)/c
+  bool again = num->level == PL_LEVEL_PRODUCT && num->open_slash;  // (a/b)/c, (m g/l)/c
   num = again ? bracketed(b, num) : at_least(b, num, PL_LEVEL_PRODUCT);
   den = at_least(b, den, PL_LEVEL_POWER);
   num = clear_before_slash(b, num, den);
   pl_box* r = pl_box_make(b->arena, PL_B_ROW, PL_LEVEL_PRODUCT, 3);
-  r->at[0] = num, r->at[2] = den;
+  r->at[0] = num;
+  r->at[2] = den;
   r->at[1] = pl_box_op(b->arena, "/", wide_slash(num, den) ? PL_OP_INFIX : PL_OP_TIGHT);
   inherit(r);
   r->open_slash = den->kind != PL_B_NUMBER;
@@ -269,7 +290,7 @@ static pl_box* quotient(pl_builder* b, pl_box* num, pl_box* den) {
   return b->flat ? slash(b, num, den) : fraction(b, num, den);
 }
 
-// ---------------------------------------------------------------------------------------------- powers, roots
+// ----------------------------------------------------------------------------------- powers, roots
 // Exponents are always written flat: x^(3/2), also where fractions are stacked.
 static pl_box* build_exponent(pl_builder* b, const pl_form* f) {
   bool flat = b->flat;
@@ -280,7 +301,8 @@ static pl_box* build_exponent(pl_builder* b, const pl_form* f) {
 }
 
 static bool is_positive_integer(pl_builder* b, const pl_form* f) {
-  return f->kind == PL_F_EXPR && pl_is_int(b->pool, f->expr, NULL) && pl_number_sign(b->pool, f->expr) > 0;
+  return f->kind == PL_F_EXPR && pl_is_int(b->pool, f->expr, NULL)
+         && pl_number_sign(b->pool, f->expr) > 0;
 }
 
 // sin²φ is written for these only; ln²x would not be read back.
@@ -292,7 +314,8 @@ static pl_box* build_call(pl_builder* b, const pl_form* f, pl_box* exponent);
 
 static pl_box* power_box(pl_builder* b, pl_box* base, pl_box* exponent) {
   pl_box* r = pl_box_make(b->arena, PL_B_POWER, PL_LEVEL_POWER, 2);
-  r->at[0] = base, r->at[1] = exponent;
+  r->at[0] = base;
+  r->at[1] = exponent;
   r->tall = base->tall;
   r->has_sum = base->has_sum;
   r->starts_digit = base->starts_digit;
@@ -302,11 +325,12 @@ static pl_box* power_box(pl_builder* b, pl_box* base, pl_box* exponent) {
 static pl_box* build_power(pl_builder* b, const pl_form* f) {
   const pl_form* base = f->args[0];
   pl_box* exponent = build_exponent(b, f->args[1]);
-  if (base->kind == PL_F_CALL && takes_power(base->function) && base->n == 1 && is_positive_integer(b, f->args[1]))
+  if (base->kind == PL_F_CALL && takes_power(base->function) && base->n == 1
+      && is_positive_integer(b, f->args[1]))
     return build_call(b, base, exponent);
   pl_box* x = pl_build(b, base);
-  bool plain = x->level == PL_LEVEL_ATOM && x->kind != PL_B_APPLY && x->kind != PL_B_ROOT && x->kind != PL_B_SUM_OVER &&
-               x->kind != PL_B_CASES;
+  bool plain = x->level == PL_LEVEL_ATOM && x->kind != PL_B_APPLY && x->kind != PL_B_ROOT
+               && x->kind != PL_B_SUM_OVER && x->kind != PL_B_CASES;
   return power_box(b, plain ? x : bracketed(b, x), exponent);
 }
 
@@ -317,11 +341,12 @@ static pl_box* build_root(pl_builder* b, const pl_form* f) {
   pl_box* r = pl_box_make(b->arena, PL_B_ROOT, PL_LEVEL_ATOM, 1);
   r->at[0] = x;
   inherit(r);
-  r->tall = true, r->starts_digit = false;
+  r->tall = true;
+  r->starts_digit = false;
   return r;
 }
 
-// ---------------------------------------------------------------------------------------------- functions
+// --------------------------------------------------------------------------------------- functions
 static pl_box* comma_row(pl_builder* b, const pl_form* const* args, int n) {
   PL_VEC(pl_box*) parts = {0};
   for (int i = 0; i < n; i++) {
@@ -341,7 +366,8 @@ static pl_box* word(pl_builder* b, const char* text, const char* tex) {
 
 static pl_box* apply(pl_builder* b, pl_box* head, pl_box* argument) {
   pl_box* r = pl_box_make(b->arena, PL_B_APPLY, PL_LEVEL_ATOM, 2);
-  r->at[0] = head, r->at[1] = argument;
+  r->at[0] = head;
+  r->at[1] = argument;
   r->tall = argument->tall;
   r->has_sum = argument->has_sum;
   return r;
@@ -350,7 +376,7 @@ static pl_box* apply(pl_builder* b, pl_box* head, pl_box* argument) {
 // cos φ, cos ϑ(0), but cos(2 φ), cos(φ'), exp(x).
 static bool may_stand_bare(pl_function f, const pl_box* x) {
   if (f == PL_EXP || f == PL_ABS || f == PL_SIGN) return false;
-  if (x->kind == PL_B_ROW && x->level == PL_LEVEL_ATOM) x = x->at[0];    // cos ϑ(0)
+  if (x->kind == PL_B_ROW && x->level == PL_LEVEL_ATOM) x = x->at[0];  // cos ϑ(0)
   return x->kind == PL_B_NAME && x->dots == 0;
 }
 
@@ -358,7 +384,8 @@ static pl_box* build_call(pl_builder* b, const pl_form* f, pl_box* exponent) {
   bool stacked = !b->flat;
   if (f->function == PL_EXP && stacked && f->n == 1)
     return power_box(b, pl_box_text(b->arena, PL_B_NAME, "e"), build_exponent(b, f->args[0]));
-  if (f->function == PL_ABS && stacked && f->n == 1) return pl_box_fence(b->arena, pl_build(b, f->args[0]), "|");
+  if (f->function == PL_ABS && stacked && f->n == 1)
+    return pl_box_fence(b->arena, pl_build(b, f->args[0]), "|");
   pl_box* x = comma_row(b, f->args, f->n);
   if (x->n == 1) x = x->at[0];
   pl_box* head = word(b, pl_function_name[f->function], pl_function_tex[f->function]);
@@ -366,14 +393,15 @@ static pl_box* build_call(pl_builder* b, const pl_form* f, pl_box* exponent) {
   return apply(b, head, may_stand_bare(f->function, x) ? x : bracketed(b, x));
 }
 
-// ---------------------------------------------------------------------------------------------- leaves
+// ------------------------------------------------------------------------------------------ leaves
 static pl_box* build_if(pl_builder* b, pl_expr e) {
   pl_arena* a = b->arena;
   const pl_form* arg[3];
   for (int i = 0; i < 3; i++) arg[i] = pl_form_of(a, b->pool, pl_arg(b->pool, e, i));
   const pl_form* zero = pl_form_leaf(a, pl_int(b->pool, 0));
   arg[0] = pl_form_relation(a, arg[0], ">", zero);
-  if (b->flat) return apply(b, word(b, "if", "\\operatorname{if}"), bracketed(b, comma_row(b, arg, 3)));
+  if (b->flat)
+    return apply(b, word(b, "if", "\\operatorname{if}"), bracketed(b, comma_row(b, arg, 3)));
   pl_box* r = pl_box_make(a, PL_B_CASES, PL_LEVEL_SUM, 3);
   for (int i = 0; i < 3; i++) r->at[i] = pl_build(b, arg[i]);
   r->tall = true;
@@ -390,12 +418,19 @@ static pl_box* build_sum_over(pl_builder* b, pl_expr e) {
   pl_box* body = pl_build(b, pl_form_of(a, b->pool, pl_arg(b->pool, e, n - 1)));
   if (!b->flat) {
     pl_box* r = pl_box_make(a, PL_B_SUM_OVER, PL_LEVEL_PRODUCT, 4);
-    r->at[0] = index, r->at[1] = lo, r->at[2] = hi, r->at[3] = at_least(b, body, PL_LEVEL_PRODUCT);
-    r->tall = true, r->open_slash = true;
+    r->at[0] = index;
+    r->at[1] = lo;
+    r->at[2] = hi;
+    r->at[3] = at_least(b, body, PL_LEVEL_PRODUCT);
+    r->tall = true;
+    r->open_slash = true;
     return r;
   }
   pl_box* in = pl_box_make(a, PL_B_ROW, PL_LEVEL_LOOSE, 7);
-  in->at[0] = index, in->at[2] = lo, in->at[4] = hi, in->at[6] = body;
+  in->at[0] = index;
+  in->at[2] = lo;
+  in->at[4] = hi;
+  in->at[6] = body;
   in->at[1] = pl_box_op(a, "in", PL_OP_INFIX);
   in->at[3] = pl_box_op(a, "..", PL_OP_TIGHT);
   in->at[5] = pl_box_op(a, ",", PL_OP_COMMA);
@@ -411,13 +446,18 @@ static pl_box* build_number(pl_builder* b, pl_expr e) {
   return negative ? minus_box(b, x) : x;
 }
 
-// 0.5 m, (1/3) m, √2 m: the number as written, and its unit.  As a factor it gets brackets, so that m can be a mass beside it.
+// 0.5 m, (1/3) m, √2 m: the number as written, and its unit. As a factor it gets brackets, so that
+// m can be a mass beside it.
 static pl_box* build_measure(pl_builder* b, const pl_symbol_info* info) {
-  const char* digits = pl_is_number(b->pool, info->written) ? pl_number_decimal(b->arena, b->pool, info->written, b->how) : NULL;
+  const char* digits = pl_is_number(b->pool, info->written)
+                           ? pl_number_decimal(b->arena, b->pool, info->written, b->how)
+                           : NULL;
   pl_box* number = digits ? pl_box_text(b->arena, PL_B_NUMBER, digits) : NULL;
   bool flat = b->flat;
   b->flat = true;
-  if (!number) number = at_least(b, pl_build(b, pl_form_of(b->arena, b->pool, info->written)), PL_LEVEL_PRODUCT);
+  if (!number)
+    number = at_least(b, pl_build(b, pl_form_of(b->arena, b->pool, info->written)),
+                      PL_LEVEL_PRODUCT);
   b->flat = flat;
   if (number->kind == PL_B_ROW) number = bracketed(b, number);
   pl_box* r = row2(b, PL_LEVEL_PRODUCT, number, pl_box_text(b->arena, PL_B_UNIT, info->unit));
@@ -427,22 +467,26 @@ static pl_box* build_measure(pl_builder* b, const pl_symbol_info* info) {
 
 static pl_box* build_leaf(pl_builder* b, pl_expr e) {
   pl_arena* a = b->arena;
-  if (pl_is_measure(b->pool, e)) return build_measure(b, pl_symbol_get(b->pool, pl_symbol_of(b->pool, e)));
+  if (pl_is_measure(b->pool, e))
+    return build_measure(b, pl_symbol_get(b->pool, pl_symbol_of(b->pool, e)));
   switch (pl_kind_of(b->pool, e)) {
-    case PL_POISON: return pl_box_text(a, PL_B_PROSE, b->how.lang == PL_GERMAN ? "nicht definiert" : "undefined");
+    case PL_POISON:
+      return pl_box_text(a, PL_B_PROSE, b->how.lang == PL_GERMAN ? "nicht definiert" : "undefined");
     case PL_NUMBER: return build_number(b, e);
     case PL_PI: return pl_box_text(a, PL_B_NAME, b->how.math == PL_MATH_ASCII ? "pi" : "π");
     case PL_INFINITY: return pl_box_text(a, PL_B_NAME, b->how.math == PL_MATH_ASCII ? "inf" : "∞");
     case PL_SYMBOL: return pl_box_symbol(a, b->pool, pl_symbol_of(b->pool, e), b->how);
     case PL_AT: {
       pl_box* index = build_exponent(b, pl_form_of(a, b->pool, pl_arg(b->pool, e, 0)));
-      return pl_box_array(a, b->pool, pl_symbol_of(b->pool, e), pl_dots_of(b->pool, e), index, b->how);
+      return pl_box_array(a, b->pool, pl_symbol_of(b->pool, e), pl_dots_of(b->pool, e), index,
+                          b->how);
     }
     case PL_IF: return build_if(b, e);
     case PL_SUM: return build_sum_over(b, e);
     default: {
       const pl_form* f = pl_form_of(a, b->pool, e);
-      if (f->kind == PL_F_EXPR && pl_same(f->expr, e)) return pl_box_text(a, PL_B_PROSE, pl_expr_text(a, b->pool, e));
+      if (f->kind == PL_F_EXPR && pl_same(f->expr, e))
+        return pl_box_text(a, PL_B_PROSE, pl_expr_text(a, b->pool, e));
       return pl_build(b, f);
     }
   }
@@ -455,7 +499,8 @@ static bool is_decimal(pl_builder* b, const pl_form* num, const pl_form* den) {
   if (pl_number_sign(b->pool, den->expr) <= 0) return false;
   bool negative;
   const char *above, *below;
-  pl_number_parts(b->arena, b->pool, pl_div(b->pool, num->expr, den->expr), b->how, &negative, &above, &below);
+  pl_number_parts(b->arena, b->pool, pl_div(b->pool, num->expr, den->expr), b->how, &negative,
+                  &above, &below);
   return below == NULL && strpbrk(above, ".,") != NULL;
 }
 
@@ -465,22 +510,26 @@ static pl_box* build_quotient(pl_builder* b, const pl_form* f) {
   return quotient(b, pl_build(b, num), pl_build(b, den));
 }
 
-// ---------------------------------------------------------------------------------------------- statements
+// -------------------------------------------------------------------------------------- statements
 static pl_box* infix(pl_builder* b, pl_box* l, const char* op, pl_box* r) {
   pl_box* row = pl_box_make(b->arena, PL_B_ROW, PL_LEVEL_LOOSE, 3);
-  row->at[0] = l, row->at[1] = pl_box_op(b->arena, op, PL_OP_INFIX), row->at[2] = r;
+  row->at[0] = l;
+  row->at[1] = pl_box_op(b->arena, op, PL_OP_INFIX);
+  row->at[2] = r;
   return inherit(row);
 }
 
 static bool says_vector(const pl_form* f) {
   if (f->kind == PL_F_VECTOR) return true;
-  return f->kind == PL_F_RELATION && f->n == 2 && (says_vector(f->args[0]) || says_vector(f->args[1]));
+  return f->kind == PL_F_RELATION && f->n == 2
+         && (says_vector(f->args[0]) || says_vector(f->args[1]));
 }
 
 // A name that is said to be a vector gets its arrow: Z = λ e_r.
 static pl_box* build_relation(pl_builder* b, const pl_form* f) {
   pl_box *left = pl_build(b, f->args[0]), *right = pl_build(b, f->args[1]);
-  if (f->args[0]->kind == PL_F_NAME && left->kind == PL_B_NAME && says_vector(f->args[1])) left->arrow = true;
+  if (f->args[0]->kind == PL_F_NAME && left->kind == PL_B_NAME && says_vector(f->args[1]))
+    left->arrow = true;
   return infix(b, left, f->text ? f->text : "=", right);
 }
 
@@ -494,7 +543,8 @@ static pl_box* build_plusminus(pl_builder* b, const pl_form* f) {
   return r;
 }
 
-// λ e_x, -m g cos ϑ e_r + m g sin ϑ e_ϑ: a sum of products with the unit vectors, zero components left out.
+// λ e_x, -m g cos ϑ e_r + m g sin ϑ e_ϑ: a sum of products with the unit vectors, zero components
+// left out.
 static pl_box* build_vector(pl_builder* b, const pl_form* f) {
   pl_arena* a = b->arena;
   form_list terms = {0};
@@ -543,7 +593,8 @@ static pl_box* build_integral(pl_builder* b, const pl_form* f) {
   r->at[1] = row2(b, PL_LEVEL_ATOM, pl_box_op(a, "d", PL_OP_TIGHT), pl_build(b, x));
   r->at[2] = at_least(b, pl_build(b, f->args[0]), PL_LEVEL_PRODUCT);
   inherit(r);
-  r->open_slash = true, r->tall = !b->flat;
+  r->open_slash = true;
+  r->tall = !b->flat;
   return r;
 }
 

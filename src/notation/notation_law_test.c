@@ -1,8 +1,9 @@
-// Laws on random forms: a line, in Unicode or ASCII, is read back by the rules of the model language as the same value; ASCII is
-// ASCII; TeX braces and MathML tags are balanced; a picture has as many lines as it says.
+// Laws on random forms: a line, in Unicode or ASCII, is read back by the rules of the model
+// language as the same value; ASCII is ASCII; TeX braces and MathML tags are balanced; a picture
+// has as many lines as it says.
 //
-// The reader below follows the language page: blank products, one factor after a function name, sin²x, and rule 5: after a
-// division by anything but a plain number a blank product is refused.
+// The reader below follows the language page: blank products, one factor after a function name,
+// sin²x, and rule 5: after a division by anything but a plain number a blank product is refused.
 #include "notation/notation.h"
 
 #include <ctype.h>
@@ -14,9 +15,15 @@
 
 #include <cmocka.h>
 
-typedef struct fixture { pl_arena* a; pl_pool* p; pl_expr atom[12]; int n; } fixture;
+typedef struct fixture {
+  pl_arena* a;
+  pl_pool* p;
+  pl_expr atom[12];
+  int n;
+} fixture;
 
-static void add_symbol(fixture* f, const char* name, const char* ascii, pl_role role, pl_class class) {
+static void add_symbol(fixture* f, const char* name, const char* ascii, pl_role role,
+                       pl_class class) {
   pl_symbol_info i = {.name = name, .ascii = ascii, .role = role, .class = class};
   f->atom[f->n++] = pl_sym(f->p, pl_symbol_make(f->p, &i));
 }
@@ -49,9 +56,14 @@ static int tear_down(void** state) {
   return 0;
 }
 
-// ---------------------------------------------------------------------------------------------- the reader
-// bare: what was read last is a function with a name (1) or a number (2) as its argument, without brackets.
-typedef struct reader { fixture* f; const char *s, *why; int bare; } reader;
+// -------------------------------------------------------------------------------------- the reader
+// bare: what was read last is a function with a name (1) or a number (2) as its argument, without
+// brackets.
+typedef struct reader {
+  fixture* f;
+  const char *s, *why;
+  int bare;
+} reader;
 static pl_expr read_sum(reader* r);
 static pl_expr read_factor(reader* r);
 
@@ -112,7 +124,8 @@ static int function_named(const char* name) {
 static pl_expr read_application(reader* r, int function) {
   pl_pool* p = r->f->p;
   long power = 1;
-  if (!takes_superscript(r, &power) && take(r, "^")) power = strtol(r->s, (char**)(uintptr_t)&r->s, 10);
+  if (!takes_superscript(r, &power) && take(r, "^"))
+    power = strtol(r->s, (char**)(uintptr_t)&r->s, 10);
   if (power < 1) return refuse(r, "sin^-1 is refused");
   blank(r);
   pl_expr argument;
@@ -185,7 +198,8 @@ static bool function_follows(reader* r) {
 }
 
 static bool factor_follows(reader* r) {
-  return *r->s == '(' || isdigit((unsigned char)*r->s) || is_letter(r->s) || strncmp(r->s, "√", strlen("√")) == 0;
+  return *r->s == '(' || isdigit((unsigned char)*r->s) || is_letter(r->s)
+         || strncmp(r->s, "√", strlen("√")) == 0;
 }
 
 // After `cos φ` no bare name or number may follow, after `√2` nothing but a function.
@@ -239,7 +253,7 @@ static pl_expr read_sum(reader* r) {
   return x;
 }
 
-// ---------------------------------------------------------------------------------------------- random forms
+// ------------------------------------------------------------------------------------ random forms
 static const pl_form* random_form(fixture* f, pl_random* r, int depth);
 
 static const pl_form* random_leaf(fixture* f, pl_random* r) {
@@ -260,7 +274,8 @@ static const pl_form* random_list(fixture* f, pl_random* r, pl_form_kind kind, i
 static const pl_form* random_power(fixture* f, pl_random* r, int depth) {
   static const long num[] = {2, 3, -1, -2, 1, 3, 10}, den[] = {1, 1, 1, 1, 2, 2, 1};
   size_t k = pl_random_bits(r) % (sizeof num / sizeof *num);
-  return pl_form_power(f->a, random_form(f, r, depth - 1), pl_form_leaf(f->a, pl_ratio(f->p, num[k], den[k])));
+  return pl_form_power(f->a, random_form(f, r, depth - 1),
+                       pl_form_leaf(f->a, pl_ratio(f->p, num[k], den[k])));
 }
 
 static const pl_form* random_form(fixture* f, pl_random* r, int depth) {
@@ -271,18 +286,20 @@ static const pl_form* random_form(fixture* f, pl_random* r, int depth) {
     case 1: return random_list(f, r, PL_F_SUM, depth);
     case 2:
     case 3: return random_list(f, r, PL_F_PRODUCT, depth);
-    case 4: return pl_form_quotient(f->a, random_form(f, r, depth - 1), random_form(f, r, depth - 1));
+    case 4:
+      return pl_form_quotient(f->a, random_form(f, r, depth - 1), random_form(f, r, depth - 1));
     case 5: return random_power(f, r, depth);
     case 6: return pl_form_root(f->a, random_form(f, r, depth - 1));
     case 7: return pl_form_neg(f->a, random_form(f, r, depth - 1));
     default: {
       const pl_form* x = random_form(f, r, depth - 1);
-      return pl_form_call(f->a, functions[pl_random_bits(r) % (sizeof functions / sizeof *functions)], &x, 1);
+      return pl_form_call(
+          f->a, functions[pl_random_bits(r) % (sizeof functions / sizeof *functions)], &x, 1);
     }
   }
 }
 
-// ---------------------------------------------------------------------------------------------- laws
+// -------------------------------------------------------------------------------------------- laws
 static bool same_value(fixture* f, pl_expr x, pl_expr y) {
   if (pl_same(x, y)) return true;
   int good = 0;
@@ -303,10 +320,12 @@ static void read_back(fixture* f, uint64_t seed, const pl_form* form, pl_math ma
   reader r = {.f = f, .s = text};
   pl_expr got = read_sum(&r);
   blank(&r);
-  if (r.why || *r.s) fail_msg("seed %llu: %s: %s", (unsigned long long)seed, text, r.why ? r.why : "text left over");
+  if (r.why || *r.s)
+    fail_msg("seed %llu: %s: %s", (unsigned long long)seed, text, r.why ? r.why : "text left over");
   if (pl_is_poison(value) || pl_is_poison(got)) return;
   if (!same_value(f, value, got))
-    fail_msg("seed %llu: %s has another value than %s", (unsigned long long)seed, text, pl_expr_text(f->a, f->p, value));
+    fail_msg("seed %llu: %s has another value than %s", (unsigned long long)seed, text,
+             pl_expr_text(f->a, f->p, value));
 }
 
 static void a_line_is_read_back_as_the_same_value(void** state) {
@@ -334,9 +353,11 @@ static void ascii_is_ascii(void** state) {
   fixture* f = *state;
   for (uint64_t seed = 1; seed <= 500; seed++) {
     pl_random r = {seed};
-    const char* s = pl_notation_print(f->a, f->p, random_form(f, &r, 4), (pl_notation){PL_MATH_ASCII, PL_GERMAN});
+    const char* s = pl_notation_print(f->a, f->p, random_form(f, &r, 4),
+                                      (pl_notation){PL_MATH_ASCII, PL_GERMAN});
     for (; *s; s++)
-      if ((unsigned char)*s >= 128 || *s < ' ') fail_msg("seed %llu: %s", (unsigned long long)seed, s);
+      if ((unsigned char)*s >= 128 || *s < ' ')
+        fail_msg("seed %llu: %s", (unsigned long long)seed, s);
   }
 }
 
@@ -344,7 +365,8 @@ static void tex_braces_are_balanced(void** state) {
   fixture* f = *state;
   for (uint64_t seed = 1; seed <= 500; seed++) {
     pl_random r = {seed};
-    const char* text = pl_notation_print(f->a, f->p, random_form(f, &r, 4), (pl_notation){PL_MATH_TEX, PL_ENGLISH});
+    const char* text = pl_notation_print(f->a, f->p, random_form(f, &r, 4),
+                                         (pl_notation){PL_MATH_TEX, PL_ENGLISH});
     int open = 0, left = 0;
     for (const char* s = text; *s; s++) {
       open += (*s == '{') - (*s == '}');
@@ -352,7 +374,8 @@ static void tex_braces_are_balanced(void** state) {
       if (open < 0 || left < 0) break;
     }
     if (open || left) fail_msg("seed %llu: %s", (unsigned long long)seed, text);
-    if (strstr(text, "^{") && strstr(text, "}^{") && strstr(text, "}^{}")) fail_msg("seed %llu: %s", (unsigned long long)seed, text);
+    if (strstr(text, "^{") && strstr(text, "}^{") && strstr(text, "}^{}"))
+      fail_msg("seed %llu: %s", (unsigned long long)seed, text);
   }
 }
 
@@ -380,7 +403,8 @@ static void mathml_is_well_formed(void** state) {
   fixture* f = *state;
   for (uint64_t seed = 1; seed <= 500; seed++) {
     pl_random r = {seed};
-    const char* s = pl_notation_print(f->a, f->p, random_form(f, &r, 4), (pl_notation){PL_MATH_MATHML, PL_ENGLISH});
+    const char* s = pl_notation_print(f->a, f->p, random_form(f, &r, 4),
+                                      (pl_notation){PL_MATH_MATHML, PL_ENGLISH});
     if (!tags_match(f, s)) fail_msg("seed %llu: %s", (unsigned long long)seed, s);
   }
 }
@@ -390,9 +414,12 @@ static void a_picture_has_the_height_it_says(void** state) {
   for (uint64_t seed = 1; seed <= 500; seed++) {
     pl_random r = {seed};
     int above, below, lines = 1;
-    const char* s = pl_notation_print_2d(f->a, f->p, random_form(f, &r, 4), (pl_notation){PL_MATH_2D, PL_ENGLISH}, &above, &below);
+    const char* s = pl_notation_print_2d(f->a, f->p, random_form(f, &r, 4),
+                                         (pl_notation){PL_MATH_2D, PL_ENGLISH}, &above, &below);
     for (const char* c = s; *c; c++) lines += *c == '\n';
-    if (lines != above + below + 1) fail_msg("seed %llu: %d lines, %d above, %d below\n%s", (unsigned long long)seed, lines, above, below, s);
+    if (lines != above + below + 1)
+      fail_msg("seed %llu: %d lines, %d above, %d below\n%s", (unsigned long long)seed, lines,
+               above, below, s);
   }
 }
 
@@ -405,20 +432,21 @@ static void measured_numbers_keep_their_digits(void** state) {
     for (int k = (int)(pl_random_bits(&r) % 40) - 20; k; k += k > 0 ? -1 : 1) x *= k > 0 ? 10 : 0.1;
     const char* s = pl_notation_number(f->a, x, 6, (pl_notation){PL_MATH_LINE, PL_ENGLISH});
     double back = strtod(s, NULL);
-    if (back < x ? x - back > 5.1e-6 * (x < 0 ? -x : x) : back - x > 5.1e-6 * (x < 0 ? -x : x)) fail_msg("%.17g as %s", x, s);
+    if (back < x ? x - back > 5.1e-6 * (x < 0 ? -x : x) : back - x > 5.1e-6 * (x < 0 ? -x : x))
+      fail_msg("%.17g as %s", x, s);
   }
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {
 #define T(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
-    T(a_line_is_read_back_as_the_same_value),
-    T(plain_forms_are_read_back_too),
-    T(ascii_is_ascii),
-    T(tex_braces_are_balanced),
-    T(mathml_is_well_formed),
-    T(a_picture_has_the_height_it_says),
-    T(measured_numbers_keep_their_digits),
+      T(a_line_is_read_back_as_the_same_value),
+      T(plain_forms_are_read_back_too),
+      T(ascii_is_ascii),
+      T(tex_braces_are_balanced),
+      T(mathml_is_well_formed),
+      T(a_picture_has_the_height_it_says),
+      T(measured_numbers_keep_their_digits),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

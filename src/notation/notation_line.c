@@ -1,9 +1,13 @@
-// Boxes -> one line, in Unicode (PL_MATH_LINE) or in the ASCII of the model language (PL_MATH_ASCII).
+// Boxes -> one line, in Unicode (PL_MATH_LINE) or in the ASCII of the model language
+// (PL_MATH_ASCII).
 #include "notation_impl.h"
 
 #include <string.h>
 
-typedef struct line { pl_text* out; bool ascii; } line;
+typedef struct line {
+  pl_text* out;
+  bool ascii;
+} line;
 
 static void write_box(line w, const pl_box* b);
 
@@ -14,7 +18,10 @@ static void add(line w, const char* s) {
 
 static void write_name(line w, const pl_box* b) {
   add(w, b->text);
-  if (b->sub) add(w, "_"), add(w, b->sub);
+  if (b->sub) {
+    add(w, "_");
+    add(w, b->sub);
+  }
   for (int i = 0; i < b->dots; i++) pl_text_add(w.out, "'");
 }
 

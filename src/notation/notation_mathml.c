@@ -1,6 +1,6 @@
-// Boxes -> presentation MathML, the content of <math>.  Follows what was measured in browsers: dots as spacing characters in an
-// accent that does not stretch, brackets that stretch only around tall contents, a thin space after a function name
-// that has no brackets, minus signs marked as prefix.
+// Boxes -> presentation MathML, the content of <math>. Follows what was measured in browsers: dots
+// as spacing characters in an accent that does not stretch, brackets that stretch only around tall
+// contents, a thin space after a function name that has no brackets, minus signs marked as prefix.
 #include "notation_impl.h"
 
 #include <string.h>
@@ -47,7 +47,10 @@ static void write_name(pl_text* out, const pl_box* b) {
   if (indexed) pl_text_add(out, "<mrow>");
   if (b->sub) write_index(out, b->sub);
   if (b->sub && indexed) pl_text_add(out, "<mo>,</mo>");
-  if (indexed) write_box(out, b->at[0]), pl_text_add(out, "</mrow>");
+  if (indexed) {
+    write_box(out, b->at[0]);
+    pl_text_add(out, "</mrow>");
+  }
   pl_text_add(out, "</msub>");
 }
 
@@ -64,18 +67,25 @@ static void write_op(pl_text* out, const pl_box* b) {
   if (strcmp(s, "-") == 0) s = "−";
   if (strcmp(s, "->") == 0) s = "→";
   if (strcmp(s, "in") == 0) s = "∈";
-  if (b->role == PL_OP_PREFIX && strcmp(s, "∫") != 0) pl_text_add(out, "<mo form=\"prefix\" lspace=\"0\" rspace=\"0\">");
-  else if (strcmp(s, "d") == 0 || strcmp(s, "∂") == 0) pl_text_add(out, "<mo lspace=\"0\" rspace=\"0\">");
-  else if (b->role == PL_OP_TIGHT && strcmp(s, "·") != 0) pl_text_add(out, "<mo stretchy=\"false\" lspace=\"0\" rspace=\"0\">");
+  if (b->role == PL_OP_PREFIX && strcmp(s, "∫") != 0)
+    pl_text_add(out, "<mo form=\"prefix\" lspace=\"0\" rspace=\"0\">");
+  else if (strcmp(s, "d") == 0 || strcmp(s, "∂") == 0)
+    pl_text_add(out, "<mo lspace=\"0\" rspace=\"0\">");
+  else if (b->role == PL_OP_TIGHT && strcmp(s, "·") != 0)
+    pl_text_add(out, "<mo stretchy=\"false\" lspace=\"0\" rspace=\"0\">");
   else pl_text_add(out, "<mo>");
   write_escaped(out, s);
   pl_text_add(out, "</mo>");
   if (b->role == PL_OP_COMMA) pl_text_add(out, "<mspace width=\"0.3em\"/>");
 }
 
-static void write_space(pl_text* out, const char* width) { pl_text_addf(out, "<mspace width=\"%s\"/>", width); }
+static void write_space(pl_text* out, const char* width) {
+  pl_text_addf(out, "<mspace width=\"%s\"/>", width);
+}
 
-static bool is_bare_call(const pl_box* b) { return b->kind == PL_B_APPLY && b->at[1]->kind != PL_B_FENCE; }
+static bool is_bare_call(const pl_box* b) {
+  return b->kind == PL_B_APPLY && b->at[1]->kind != PL_B_FENCE;
+}
 
 static void write_product(pl_text* out, const pl_box* b) {
   pl_text_add(out, "<mrow>");
@@ -84,7 +94,8 @@ static void write_product(pl_text* out, const pl_box* b) {
     if (i > 0 && !sign) {
       if (is_bare_call(b->at[i - 1]) || b->at[i]->kind == PL_B_VECTOR) write_space(out, "0.17em");
       else if (b->at[i]->kind == PL_B_APPLY) write_space(out, "0.1em");
-      else if (b->at[i]->kind == PL_B_FRACTION && b->at[i - 1]->kind == PL_B_FRACTION) write_space(out, "0.17em");
+      else if (b->at[i]->kind == PL_B_FRACTION && b->at[i - 1]->kind == PL_B_FRACTION)
+        write_space(out, "0.17em");
     }
     write_box(out, b->at[i]);
   }
@@ -100,11 +111,15 @@ static void write_row(pl_text* out, const pl_box* b) {
 static void write_fence(pl_text* out, const pl_box* b) {
   bool bars = strcmp(b->text, "|") == 0;
   const char* stretchy = b->at[0]->tall ? "true" : "false";
-  pl_text_addf(out, "<mrow><mo fence=\"true\" stretchy=\"%s\" form=\"prefix\" lspace=\"0\" rspace=\"0\">%s</mo>", stretchy,
-               bars ? "|" : "(");
+  pl_text_addf(
+      out,
+      "<mrow><mo fence=\"true\" stretchy=\"%s\" form=\"prefix\" lspace=\"0\" rspace=\"0\">%s</mo>",
+      stretchy, bars ? "|" : "(");
   write_box(out, b->at[0]);
-  pl_text_addf(out, "<mo fence=\"true\" stretchy=\"%s\" form=\"postfix\" lspace=\"0\" rspace=\"0\">%s</mo></mrow>", stretchy,
-               bars ? "|" : ")");
+  pl_text_addf(out,
+               "<mo fence=\"true\" stretchy=\"%s\" form=\"postfix\" lspace=\"0\" "
+               "rspace=\"0\">%s</mo></mrow>",
+               stretchy, bars ? "|" : ")");
 }
 
 static void write_pair(pl_text* out, const char* tag, const pl_box* x, const pl_box* y) {
@@ -136,7 +151,9 @@ static void write_sum_over(pl_text* out, const pl_box* b) {
 }
 
 static void write_cases(pl_text* out, const pl_box* b) {
-  pl_text_add(out, "<mrow><mo fence=\"true\" stretchy=\"true\" form=\"prefix\">{</mo><mtable class=\"cases\"><mtr><mtd>");
+  pl_text_add(out,
+              "<mrow><mo fence=\"true\" stretchy=\"true\" form=\"prefix\">{</mo><mtable "
+              "class=\"cases\"><mtr><mtd>");
   write_box(out, b->at[1]);
   pl_text_add(out, "</mtd><mtd>");
   write_box(out, b->at[0]);

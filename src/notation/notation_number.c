@@ -5,7 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The decimal sign of the language: German displays write a comma, the ASCII of the model language never does.
+// The decimal sign of the language: German displays write a comma, the ASCII of the model language
+// never does.
 static char decimal_sign(pl_notation how) {
   return how.lang == PL_GERMAN && how.math != PL_MATH_ASCII ? ',' : '.';
 }
@@ -13,19 +14,26 @@ static char decimal_sign(pl_notation how) {
 // The decimal comma as each manner writes it: TeX takes a bare comma for punctuation.
 static void add_mantissa(pl_text* out, const char* s, pl_notation how) {
   for (; *s; s++) {
-    if (*s == '.' && decimal_sign(how) == ',') pl_text_add(out, how.math == PL_MATH_TEX ? "{,}" : ",");
+    if (*s == '.' && decimal_sign(how) == ',')
+      pl_text_add(out, how.math == PL_MATH_TEX ? "{,}" : ",");
     else pl_text_add_n(out, s, 1);
   }
 }
 
-// ---------------------------------------------------------------------------------------------- exact numbers
+// ----------------------------------------------------------------------------------- exact numbers
 // The exponent k with den | 10^k, or -1 if there is none.
 static int all_decimal_places(const char* den) {
   if (strlen(den) > 15) return -1;
   long long d = strtoll(den, NULL, 10);
   int twos = 0, fives = 0;
-  while (d % 2 == 0) d /= 2, twos++;
-  while (d % 5 == 0) d /= 5, fives++;
+  while (d % 2 == 0) {
+    d /= 2;
+    twos++;
+  }
+  while (d % 5 == 0) {
+    d /= 5;
+    fives++;
+  }
   if (d != 1) return -1;
   return twos > fives ? twos : fives;
 }
@@ -39,7 +47,8 @@ static int decimal_places(const char* den) {
   return all_decimal_places(den);
 }
 
-// num * 10^places / den as digits with a decimal point.  num and den are short: the caller has looked.
+// num * 10^places / den as digits with a decimal point. num and den are short: the caller has
+// looked.
 static const char* decimal_digits(pl_arena* a, const char* num, const char* den, int places) {
   unsigned long long n = strtoull(num, NULL, 10), d = strtoull(den, NULL, 10), scale = 1;
   for (int i = 0; i < places; i++) scale *= 10;
@@ -49,8 +58,8 @@ static const char* decimal_digits(pl_arena* a, const char* num, const char* den,
   return pl_format(a, "%llu.%0*llu", v / scale, places, v % scale);
 }
 
-void pl_number_parts(pl_arena* a, const pl_pool* p, pl_expr e, pl_notation how, bool* negative, const char** num,
-                     const char** den) {
+void pl_number_parts(pl_arena* a, const pl_pool* p, pl_expr e, pl_notation how, bool* negative,
+                     const char** num, const char** den) {
   const char* n = pl_number_num_text(a, p, e);
   const char* d = pl_number_den_text(a, p, e);
   *negative = n[0] == '-';
@@ -64,7 +73,8 @@ void pl_number_parts(pl_arena* a, const pl_pool* p, pl_expr e, pl_notation how, 
   if (!digits) return;
   pl_text t = pl_text_make(a);
   add_mantissa(&t, digits, how);
-  *num = pl_text_string(&t), *den = NULL;
+  *num = pl_text_string(&t);
+  *den = NULL;
 }
 
 const char* pl_number_decimal(pl_arena* a, const pl_pool* p, pl_expr e, pl_notation how) {
@@ -77,7 +87,7 @@ const char* pl_number_decimal(pl_arena* a, const pl_pool* p, pl_expr e, pl_notat
   return digits ? pl_text_string(&t) : NULL;
 }
 
-// ---------------------------------------------------------------------------------------------- measured numbers
+// -------------------------------------------------------------------------------- measured numbers
 static const char* minus_sign(pl_notation how) {
   switch (how.math) {
     case PL_MATH_2D: return "−";
@@ -126,7 +136,10 @@ static void add_exponent(pl_text* t, int e, pl_notation how) {
 }
 
 static const char* not_finite(pl_arena* a, double x, pl_notation how) {
-  if (isnan(x)) return how.math == PL_MATH_MATHML ? "<mi>NaN</mi>" : how.math == PL_MATH_TEX ? "\\mathrm{NaN}" : "NaN";
+  if (isnan(x))
+    return how.math == PL_MATH_MATHML ? "<mi>NaN</mi>"
+           : how.math == PL_MATH_TEX  ? "\\mathrm{NaN}"
+                                      : "NaN";
   static const char* const infinity[] = {"∞", "∞", "inf", "\\infty", "<mi>∞</mi>"};
   return pl_format(a, "%s%s", x < 0 ? minus_sign(how) : "", infinity[how.math]);
 }

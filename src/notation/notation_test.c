@@ -14,7 +14,8 @@ typedef struct fixture {
   pl_expr m1, m2, g, l, r, R, phi, phid, theta, thetad, x1, x1d, x1dd, lambda, start, startd, t;
 } fixture;
 
-static pl_expr symbol(fixture* f, const char* name, const char* ascii, pl_role role, pl_class class) {
+static pl_expr symbol(fixture* f, const char* name, const char* ascii, pl_role role,
+                      pl_class class) {
   pl_symbol_info i = {.name = name, .ascii = ascii, .role = role, .class = class};
   return pl_sym(f->p, pl_symbol_make(f->p, &i));
 }
@@ -52,38 +53,42 @@ static int tear_down(void** state) {
   return 0;
 }
 
-// ---------------------------------------------------------------------------------------------- building by hand
+// -------------------------------------------------------------------------------- building by hand
 static const pl_form* leaf(fixture* f, pl_expr e) { return pl_form_leaf(f->a, e); }
 static const pl_form* number(fixture* f, long n) { return leaf(f, pl_int(f->p, n)); }
-#define FORMS(...) (const pl_form* const[]){__VA_ARGS__}, (int)(sizeof((const pl_form* const[]){__VA_ARGS__}) / sizeof(const pl_form*))
-#define SUM(...) ((const pl_form*)pl_form_sum(f->a, FORMS(__VA_ARGS__)))
-#define PROD(...) ((const pl_form*)pl_form_product(f->a, FORMS(__VA_ARGS__)))
-#define NEG(x) ((const pl_form*)pl_form_neg(f->a, x))
-#define QUOT(x, y) ((const pl_form*)pl_form_quotient(f->a, x, y))
-#define POW(x, y) ((const pl_form*)pl_form_power(f->a, x, y))
-#define SQ(x) POW(x, N(2))
-#define ROOT(x) ((const pl_form*)pl_form_root(f->a, x))
+#define FORMS(...)                       \
+  (const pl_form* const[]){__VA_ARGS__}, \
+      (int)(sizeof((const pl_form* const[]){__VA_ARGS__}) / sizeof(const pl_form*))
+#define SUM(...)    ((const pl_form*)pl_form_sum(f->a, FORMS(__VA_ARGS__)))
+#define PROD(...)   ((const pl_form*)pl_form_product(f->a, FORMS(__VA_ARGS__)))
+#define NEG(x)      ((const pl_form*)pl_form_neg(f->a, x))
+#define QUOT(x, y)  ((const pl_form*)pl_form_quotient(f->a, x, y))
+#define POW(x, y)   ((const pl_form*)pl_form_power(f->a, x, y))
+#define SQ(x)       POW(x, N(2))
+#define ROOT(x)     ((const pl_form*)pl_form_root(f->a, x))
 #define FN(id, ...) ((const pl_form*)pl_form_call(f->a, id, FORMS(__VA_ARGS__)))
-#define L(name) leaf(f, f->name)
-#define N(n) number(f, n)
+#define L(name)     leaf(f, f->name)
+#define N(n)        number(f, n)
 
 static const char* print(fixture* f, const pl_form* form, pl_math math) {
   return pl_notation_print(f->a, f->p, form, (pl_notation){math, PL_ENGLISH});
 }
-#define LINE(form, text) assert_string_equal(print(f, form, PL_MATH_LINE), text)
-#define ASCII(form, text) assert_string_equal(print(f, form, PL_MATH_ASCII), text)
-#define TEX(form, text) assert_string_equal(print(f, form, PL_MATH_TEX), text)
+#define LINE(form, text)    assert_string_equal(print(f, form, PL_MATH_LINE), text)
+#define ASCII(form, text)   assert_string_equal(print(f, form, PL_MATH_ASCII), text)
+#define TEX(form, text)     assert_string_equal(print(f, form, PL_MATH_TEX), text)
 #define PICTURE(form, text) assert_string_equal(print(f, form, PL_MATH_2D), text)
-#define MATHML(form, text) assert_string_equal(print(f, form, PL_MATH_MATHML), text)
+#define MATHML(form, text)  assert_string_equal(print(f, form, PL_MATH_MATHML), text)
 
-// ---------------------------------------------------------------------------------------------- names
+// ------------------------------------------------------------------------------------------- names
 static void names_carry_dots_and_indices(void** state) {
   fixture* f = *state;
   LINE(L(x1dd), "x1''");
   ASCII(L(x1dd), "x1''");
   PICTURE(L(x1dd), "ẍ₁");
   TEX(L(x1dd), "\\ddot{x}_{1}");
-  MATHML(L(x1dd), "<msub><mover accent=\"true\" class=\"acc ddot\"><mi>x</mi><mo stretchy=\"false\">¨</mo></mover><mn>1</mn></msub>");
+  MATHML(L(x1dd),
+         "<msub><mover accent=\"true\" class=\"acc ddot\"><mi>x</mi><mo "
+         "stretchy=\"false\">¨</mo></mover><mn>1</mn></msub>");
 }
 
 static void greek_letters_have_names(void** state) {
@@ -124,7 +129,7 @@ static void elements_of_families_have_brackets(void** state) {
   TEX(leaf(f, e), "\\dot{x}_{i - 1}");
 }
 
-// ---------------------------------------------------------------------------------------------- the atwood answer
+// ------------------------------------------------------------------------------- the atwood answer
 static const pl_form* atwood(fixture* f) {
   return QUOT(PROD(N(-2), L(m1), L(m2), L(g)), SUM(L(m1), L(m2)));
 }
@@ -149,11 +154,12 @@ static void short_quotients_are_tight(void** state) {
   LINE(QUOT(SUM(L(m1), NEG(L(m2))), SUM(L(m1), L(m2))), "(m1 - m2)/(m1 + m2)");
   LINE(QUOT(SQ(L(x1d)), N(2)), "x1'²/2");
   LINE(QUOT(PROD(L(m1), L(g)), PROD(N(2), L(m2))), "m1 g/(2 m2)");
-  LINE(QUOT(PROD(L(r), FN(PL_COS, L(phi))), ROOT(SUM(SQ(L(l)), NEG(SQ(L(r)))))), "r cos φ / √(l² - r²)");
+  LINE(QUOT(PROD(L(r), FN(PL_COS, L(phi))), ROOT(SUM(SQ(L(l)), NEG(SQ(L(r)))))),
+       "r cos φ / √(l² - r²)");
   LINE(QUOT(PROD(L(m1), L(g)), PROD(SUM(L(m1), L(m2)), L(r))), "m1 g / ((m1 + m2) r)");
 }
 
-// ---------------------------------------------------------------------------------------------- rule 5
+// ------------------------------------------------------------------------------------------ rule 5
 static void a_product_after_a_division_needs_brackets(void** state) {
   fixture* f = *state;
   LINE(PROD(QUOT(L(g), L(R)), FN(PL_COS, L(phi))), "(g/R) cos φ");
@@ -193,7 +199,7 @@ static void minus_signs_stand_where_they_may(void** state) {
   LINE(SUM(NEG(L(m1)), QUOT(N(-1), N(2))), "-m1 - 1/2");
 }
 
-// ---------------------------------------------------------------------------------------------- powers and roots
+// -------------------------------------------------------------------------------- powers and roots
 static void powers_bind_their_base(void** state) {
   fixture* f = *state;
   LINE(SQ(SUM(L(l), L(r))), "(l + r)²");
@@ -217,7 +223,8 @@ static void powers_of_functions_stand_at_the_name(void** state) {
   ASCII(SQ(FN(PL_SIN, L(phi))), "sin^2 phi");
   TEX(SQ(FN(PL_SIN, L(phi))), "\\sin^{2} \\varphi");
   MATHML(SQ(FN(PL_SIN, L(phi))),
-         "<mrow><msup><mi class=\"fn\">sin</mi><mn>2</mn></msup><mo>&#x2061;</mo><mspace width=\"0.17em\"/><mi>φ</mi></mrow>");
+         "<mrow><msup><mi class=\"fn\">sin</mi><mn>2</mn></msup><mo>&#x2061;</mo><mspace "
+         "width=\"0.17em\"/><mi>φ</mi></mrow>");
   LINE(POW(FN(PL_SIN, L(phi)), N(-1)), "(sin φ)⁻¹");
   LINE(SQ(FN(PL_LN, L(l))), "(ln l)²");
 }
@@ -255,7 +262,7 @@ static void roots_are_drawn(void** state) {
   TEX(ROOT(QUOT(L(g), L(l))), "\\sqrt{\\frac{g}{l}}");
 }
 
-// ---------------------------------------------------------------------------------------------- two dimensions
+// ---------------------------------------------------------------------------------- two dimensions
 static void tall_brackets_are_drawn(void** state) {
   fixture* f = *state;
   const pl_form* x = SQ(SUM(N(1), NEG(QUOT(L(r), L(l)))));
@@ -266,23 +273,29 @@ static void tall_brackets_are_drawn(void** state) {
 static void height_and_base_line_are_told(void** state) {
   fixture* f = *state;
   int above = -1, below = -1;
-  pl_notation_print_2d(f->a, f->p, QUOT(L(g), L(l)), (pl_notation){PL_MATH_2D, PL_ENGLISH}, &above, &below);
+  pl_notation_print_2d(f->a, f->p, QUOT(L(g), L(l)), (pl_notation){PL_MATH_2D, PL_ENGLISH}, &above,
+                       &below);
   assert_int_equal(above, 1);
   assert_int_equal(below, 1);
 }
 
-// ---------------------------------------------------------------------------------------------- numbers
+// ----------------------------------------------------------------------------------------- numbers
 static void exact_decimals_stay_decimal(void** state) {
   fixture* f = *state;
   LINE(leaf(f, pl_number_from_text(f->p, "9.81", 4)), "9.81");
   LINE(leaf(f, pl_number_from_text(f->p, "0.01", 4)), "0.01");
   LINE(leaf(f, pl_ratio(f->p, -3, 4)), "-3/4");
   LINE(leaf(f, pl_ratio(f->p, 2, 5)), "2/5");
-  assert_string_equal(pl_notation_print(f->a, f->p, leaf(f, pl_number_from_text(f->p, "9.81", 4)), (pl_notation){PL_MATH_2D, PL_GERMAN}), "9,81");
-  assert_string_equal(pl_notation_print(f->a, f->p, leaf(f, pl_number_from_text(f->p, "9.81", 4)), (pl_notation){PL_MATH_ASCII, PL_GERMAN}), "9.81");
+  assert_string_equal(pl_notation_print(f->a, f->p, leaf(f, pl_number_from_text(f->p, "9.81", 4)),
+                                        (pl_notation){PL_MATH_2D, PL_GERMAN}),
+                      "9,81");
+  assert_string_equal(pl_notation_print(f->a, f->p, leaf(f, pl_number_from_text(f->p, "9.81", 4)),
+                                        (pl_notation){PL_MATH_ASCII, PL_GERMAN}),
+                      "9.81");
 }
 
-static void shown(fixture* f, double x, int digits, pl_math math, pl_language lang, const char* text) {
+static void shown(fixture* f, double x, int digits, pl_math math, pl_language lang,
+                  const char* text) {
   assert_string_equal(pl_notation_number(f->a, x, digits, (pl_notation){math, lang}), text);
 }
 
@@ -305,15 +318,18 @@ static void measured_numbers_are_rounded_for_display(void** state) {
   shown(f, 999999.7, 6, PL_MATH_LINE, PL_ENGLISH, "1e6");
 }
 
-// ---------------------------------------------------------------------------------------------- statements
+// -------------------------------------------------------------------------------------- statements
 static void vectors_are_sums_along_unit_vectors(void** state) {
   fixture* f = *state;
   const char* const units[] = {"e_r", "e_ϑ"};
-  const pl_form* c[] = {NEG(PROD(L(m1), L(g), FN(PL_COS, L(theta)))), PROD(L(m1), L(g), FN(PL_SIN, L(theta)))};
+  const pl_form* c[] = {NEG(PROD(L(m1), L(g), FN(PL_COS, L(theta)))),
+                        PROD(L(m1), L(g), FN(PL_SIN, L(theta)))};
   const pl_form* v = pl_form_vector(f->a, c, units, 2);
   LINE(v, "-m1 g cos ϑ e_r + m1 g sin ϑ e_ϑ");
   ASCII(v, "-m1 g cos theta e_r + m1 g sin theta e_theta");
-  TEX(v, "-m_{1} g \\cos \\vartheta\\, \\vec{e}_{r} + m_{1} g \\sin \\vartheta\\, \\vec{e}_{\\vartheta}");
+  TEX(v,
+      "-m_{1} g \\cos \\vartheta\\, \\vec{e}_{r} + m_{1} g \\sin \\vartheta\\, "
+      "\\vec{e}_{\\vartheta}");
   const pl_form* one[] = {L(lambda), N(0)};
   LINE(pl_form_vector(f->a, one, units, 2), "λ_g1 e_r");
   const pl_form* none[] = {N(0), N(0)};
@@ -337,11 +353,13 @@ static void relations_and_names(void** state) {
 
 static void derivatives_integrals_and_orders(void** state) {
   fixture* f = *state;
-  pl_form* d = pl_form_make(f->a, PL_F_DERIVATIVE, 1, (const pl_form* const[]){pl_form_name(f->a, "M", pl_poison())});
+  pl_form* d = pl_form_make(f->a, PL_F_DERIVATIVE, 1,
+                            (const pl_form* const[]){pl_form_name(f->a, "M", pl_poison())});
   d->expr = f->phi;
   LINE(PROD(QUOT(N(1), N(2)), d, SQ(L(phid))), "1/2 diff(M, φ) φ'²");
   TEX(d, "\\frac{\\mathrm{d}M}{\\mathrm{d}\\varphi}");
-  pl_form* i = pl_form_make(f->a, PL_F_INTEGRAL, 1, (const pl_form* const[]){ROOT(SUM(L(l), L(phi)))});
+  pl_form* i = pl_form_make(f->a, PL_F_INTEGRAL, 1,
+                            (const pl_form* const[]){ROOT(SUM(L(l), L(phi)))});
   i->expr = f->phi;
   LINE(i, "∫ dφ √(l + φ)");
   TEX(i, "\\int \\, \\mathrm{d}\\varphi\\, \\sqrt{l + \\varphi}");
@@ -356,8 +374,10 @@ static void derivatives_integrals_and_orders(void** state) {
 static void words_follow_the_language(void** state) {
   fixture* f = *state;
   const pl_form* w = pl_form_words(f->a, "or", "oder");
-  assert_string_equal(pl_notation_print(f->a, f->p, w, (pl_notation){PL_MATH_LINE, PL_GERMAN}), "oder");
-  assert_string_equal(pl_notation_print(f->a, f->p, w, (pl_notation){PL_MATH_TEX, PL_ENGLISH}), "\\text{or}");
+  assert_string_equal(pl_notation_print(f->a, f->p, w, (pl_notation){PL_MATH_LINE, PL_GERMAN}),
+                      "oder");
+  assert_string_equal(pl_notation_print(f->a, f->p, w, (pl_notation){PL_MATH_TEX, PL_ENGLISH}),
+                      "\\text{or}");
 }
 
 static void sums_over_an_index_and_cases(void** state) {
@@ -396,9 +416,14 @@ static void hollow_and_deep_forms_do_not_crash(void** state) {
   LINE(pl_form_make(f->a, PL_F_LIST, 0, NULL), "");
   const pl_form* deep = L(l);
   for (int i = 0; i < 5000; i++) deep = FN(PL_SIN, deep);
-  for (int math = PL_MATH_LINE; math <= PL_MATH_MATHML; math++) assert_non_null(print(f, deep, (pl_math)math));
+  for (int math = PL_MATH_LINE; math <= PL_MATH_MATHML; math++)
+    assert_non_null(print(f, deep, (pl_math)math));
   const pl_form *minus = L(l), *product = L(l), *quotient = L(l);
-  for (int i = 0; i < 100000; i++) minus = NEG(minus), product = PROD(product, L(r)), quotient = QUOT(quotient, L(r));
+  for (int i = 0; i < 100000; i++) {
+    minus = NEG(minus);
+    product = PROD(product, L(r));
+    quotient = QUOT(quotient, L(r));
+  }
   for (int math = PL_MATH_LINE; math <= PL_MATH_MATHML; math++) {
     assert_non_null(print(f, minus, (pl_math)math));
     assert_non_null(print(f, product, (pl_math)math));
@@ -410,33 +435,33 @@ static void hollow_and_deep_forms_do_not_crash(void** state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
 #define T(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
-    T(names_carry_dots_and_indices),
-    T(greek_letters_have_names),
-    T(multipliers_keep_their_label),
-    T(start_values_are_written_at_zero),
-    T(elements_of_families_have_brackets),
-    T(a_multiplier_in_all_manners),
-    T(a_fraction_beside_a_factor),
-    T(short_quotients_are_tight),
-    T(a_product_after_a_division_needs_brackets),
-    T(numbers_side_by_side_get_a_sign),
-    T(minus_signs_stand_where_they_may),
-    T(powers_bind_their_base),
-    T(powers_of_functions_stand_at_the_name),
-    T(functions_take_brackets_when_more_than_a_name_follows),
-    T(roots_are_drawn),
-    T(tall_brackets_are_drawn),
-    T(height_and_base_line_are_told),
-    T(exact_decimals_stay_decimal),
-    T(measured_numbers_are_rounded_for_display),
-    T(vectors_are_sums_along_unit_vectors),
-    T(relations_and_names),
-    T(derivatives_integrals_and_orders),
-    T(words_follow_the_language),
-    T(sums_over_an_index_and_cases),
-    T(mathml_brackets_stretch_only_when_tall),
-    T(mathml_prefix_minus_has_no_space),
-    T(hollow_and_deep_forms_do_not_crash),
+      T(names_carry_dots_and_indices),
+      T(greek_letters_have_names),
+      T(multipliers_keep_their_label),
+      T(start_values_are_written_at_zero),
+      T(elements_of_families_have_brackets),
+      T(a_multiplier_in_all_manners),
+      T(a_fraction_beside_a_factor),
+      T(short_quotients_are_tight),
+      T(a_product_after_a_division_needs_brackets),
+      T(numbers_side_by_side_get_a_sign),
+      T(minus_signs_stand_where_they_may),
+      T(powers_bind_their_base),
+      T(powers_of_functions_stand_at_the_name),
+      T(functions_take_brackets_when_more_than_a_name_follows),
+      T(roots_are_drawn),
+      T(tall_brackets_are_drawn),
+      T(height_and_base_line_are_told),
+      T(exact_decimals_stay_decimal),
+      T(measured_numbers_are_rounded_for_display),
+      T(vectors_are_sums_along_unit_vectors),
+      T(relations_and_names),
+      T(derivatives_integrals_and_orders),
+      T(words_follow_the_language),
+      T(sums_over_an_index_and_cases),
+      T(mathml_brackets_stretch_only_when_tall),
+      T(mathml_prefix_minus_has_no_space),
+      T(hollow_and_deep_forms_do_not_crash),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,13 +5,17 @@
 
 static void write_box(pl_text* out, const pl_box* b);
 
-// One UTF-8 text in math mode: Greek letters by name, signs that TeX reserves escaped, words upright.
+// One UTF-8 text in math mode: Greek letters by name, signs that TeX reserves escaped, words
+// upright.
 static void write_letters(pl_text* out, const char* s) {
   const char* end = s + strlen(s);
   while (s < end) {
     uint32_t code = 0;
     int n = pl_utf8_decode(s, end, &code);
-    if (n <= 0) n = 1, code = '?';
+    if (n <= 0) {
+      n = 1;
+      code = '?';
+    }
     const char* tex = pl_greek_tex(code);
     if (tex) {
       pl_text_add(out, tex);
@@ -54,8 +58,11 @@ static void write_stem(pl_text* out, const char* s, int dots) {
   if (dots > 0) pl_text_add(out, "{");
   const char* greek = greek_word(s);
   if (greek) pl_text_add(out, greek);
-  else if (is_word(s)) pl_text_add(out, "\\mathit{"), write_letters(out, s), pl_text_add(out, "}");
-  else write_letters(out, s);
+  else if (is_word(s)) {
+    pl_text_add(out, "\\mathit{");
+    write_letters(out, s);
+    pl_text_add(out, "}");
+  } else write_letters(out, s);
   if (dots > 0) pl_text_add(out, "}");
 }
 
@@ -71,7 +78,11 @@ static void write_index(pl_text* out, const char* s) {
   } else if (is_word(s) && strspn(s, "0123456789") != strlen(s)) {
     const char* greek = greek_word(s);
     if (greek) pl_text_add(out, greek);
-    else pl_text_add(out, "\\mathrm{"), write_letters(out, s), pl_text_add(out, "}");
+    else {
+      pl_text_add(out, "\\mathrm{");
+      write_letters(out, s);
+      pl_text_add(out, "}");
+    }
   } else {
     write_letters(out, s);
   }
@@ -95,10 +106,11 @@ static void write_name(pl_text* out, const pl_box* b) {
 
 static void write_op(pl_text* out, const pl_box* b) {
   static const char* const table[][2] = {
-    {"·", "\\cdot"}, {"±", "\\pm"}, {"≥", "\\ge"}, {"≤", "\\le"}, {"≠", "\\ne"}, {"≈", "\\approx"}, {"->", "\\to"},
-    {"→", "\\to"}, {"∫", "\\int"}, {"∇", "\\nabla"}, {"∂", "\\partial"}, {"d", "\\mathrm{d}"}, {"%", "\\%"}, {"−", "-"},
-    {"∞", "\\infty"}, {"in", "\\in"}, {"&", "\\&"}, {"#", "\\#"}, {"_", "\\_"}, {"√", "\\surd"}, {"°", "^{\\circ}"},
-    {"≫", "\\gg"}, {"≪", "\\ll"},
+      {"·", "\\cdot"},    {"±", "\\pm"},        {"≥", "\\ge"}, {"≤", "\\le"},  {"≠", "\\ne"},
+      {"≈", "\\approx"},  {"->", "\\to"},       {"→", "\\to"}, {"∫", "\\int"}, {"∇", "\\nabla"},
+      {"∂", "\\partial"}, {"d", "\\mathrm{d}"}, {"%", "\\%"},  {"−", "-"},     {"∞", "\\infty"},
+      {"in", "\\in"},     {"&", "\\&"},         {"#", "\\#"},  {"_", "\\_"},   {"√", "\\surd"},
+      {"°", "^{\\circ}"}, {"≫", "\\gg"},        {"≪", "\\ll"},
   };
   const char* s = b->text;
   for (size_t i = 0; i < sizeof table / sizeof *table; i++)
@@ -112,10 +124,11 @@ static void write_op(pl_text* out, const pl_box* b) {
 // After a function without brackets the next factor stands off, unless TeX does so by itself.
 static bool needs_space(const pl_box* left, const pl_box* right) {
   bool bare = left->kind == PL_B_APPLY && left->at[1]->kind != PL_B_FENCE;
-  bool operator = left->kind == PL_B_OP && left->role == PL_OP_PREFIX;    // ∫
-  bool differential = left->kind == PL_B_ROW && left->level == PL_LEVEL_ATOM && left->at[0]->kind == PL_B_OP;
+  bool operator= left->kind == PL_B_OP && left->role == PL_OP_PREFIX;  // ∫
+  bool differential = left->kind == PL_B_ROW && left->level == PL_LEVEL_ATOM
+                      && left->at[0]->kind == PL_B_OP;
   bool vector = right->kind == PL_B_VECTOR;
-  return ((bare || vector) && right->kind != PL_B_APPLY) || operator || differential;
+  return ((bare || vector) && right->kind != PL_B_APPLY) || operator|| differential;
 }
 
 static void write_product(pl_text* out, const pl_box* b) {

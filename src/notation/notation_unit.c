@@ -3,7 +3,9 @@
 
 #include <string.h>
 
-typedef struct sign { const char *from, *to; } sign;
+typedef struct sign {
+  const char *from, *to;
+} sign;
 
 static const char* replaced(pl_arena* a, const char* unit, const sign* table, size_t n) {
   pl_text out = pl_text_make(a);
@@ -19,8 +21,9 @@ static const char* replaced(pl_arena* a, const char* unit, const sign* table, si
 
 const char* pl_notation_unit_tex(pl_arena* a, const char* unit) {
   static const sign table[] = {
-    {" ", "\\,"}, {"⁻¹", "^{-1}"}, {"⁻²", "^{-2}"}, {"⁻³", "^{-3}"}, {"²", "^{2}"}, {"³", "^{3}"}, {"⁴", "^{4}"},
-    {"·", "\\cdot "}, {"µ", "\\mu "}, {"μ", "\\mu "}, {"Ω", "\\Omega "}, {"°", "^{\\circ}"}, {"%", "\\%"},
+      {" ", "\\,"},      {"⁻¹", "^{-1}"},    {"⁻²", "^{-2}"},  {"⁻³", "^{-3}"}, {"²", "^{2}"},
+      {"³", "^{3}"},     {"⁴", "^{4}"},      {"·", "\\cdot "}, {"µ", "\\mu "},  {"μ", "\\mu "},
+      {"Ω", "\\Omega "}, {"°", "^{\\circ}"}, {"%", "\\%"},
   };
   return pl_format(a, "\\mathrm{%s}", replaced(a, unit, table, sizeof table / sizeof *table));
 }
@@ -28,7 +31,8 @@ const char* pl_notation_unit_tex(pl_arena* a, const char* unit) {
 // The reader of units takes "u" for the prefix of a millionth and "Ohm"; a raised digit is a power.
 const char* pl_unit_ascii(pl_arena* a, const char* unit) {
   static const sign table[] = {
-    {"⁻¹", "^-1"}, {"⁻²", "^-2"}, {"⁻³", "^-3"}, {"²", "^2"}, {"³", "^3"}, {"⁴", "^4"}, {"·", " "}, {"µ", "u"}, {"μ", "u"}, {"Ω", "Ohm"}, {"°", "deg"},
+      {"⁻¹", "^-1"}, {"⁻²", "^-2"}, {"⁻³", "^-3"}, {"²", "^2"},  {"³", "^3"},  {"⁴", "^4"},
+      {"·", " "},    {"µ", "u"},    {"μ", "u"},    {"Ω", "Ohm"}, {"°", "deg"},
   };
   return replaced(a, unit, table, sizeof table / sizeof *table);
 }

@@ -41,44 +41,71 @@ static const float* copied(pl_drawing* d, const float* xy, int n) {
 }
 
 pl_stroke* pl_draw_line(pl_drawing* d, pl_ink ink, double width, int n, const float* xy) {
-  return push(d, (pl_stroke){.kind = PL_STROKE_LINE, .line = ink, .width = (float)width, .n = n, .xy = copied(d, xy, n)});
+  return push(d, (pl_stroke){.kind = PL_STROKE_LINE,
+                             .line = ink,
+                             .width = (float)width,
+                             .n = n,
+                             .xy = copied(d, xy, n)});
 }
 
-pl_stroke* pl_draw_segment(pl_drawing* d, pl_ink ink, double width, double x0, double y0, double x1, double y1) {
+pl_stroke* pl_draw_segment(pl_drawing* d, pl_ink ink, double width, double x0, double y0, double x1,
+                           double y1) {
   return pl_draw_line(d, ink, width, 2, (float[]){(float)x0, (float)y0, (float)x1, (float)y1});
 }
 
-pl_stroke* pl_draw_disc(pl_drawing* d, pl_ink line, pl_ink fill, double x, double y, double radius) {
-  return push(d, (pl_stroke){.kind = PL_STROKE_DISC, .line = line, .fill = fill, .width = 1.5f, .n = 1, .size = (float)radius,
+pl_stroke* pl_draw_disc(pl_drawing* d, pl_ink line, pl_ink fill, double x, double y,
+                        double radius) {
+  return push(d, (pl_stroke){.kind = PL_STROKE_DISC,
+                             .line = line,
+                             .fill = fill,
+                             .width = 1.5f,
+                             .n = 1,
+                             .size = (float)radius,
                              .xy = copied(d, (float[]){(float)x, (float)y}, 1)});
 }
 
-pl_stroke* pl_draw_text(pl_drawing* d, pl_ink ink, double size, pl_anchor anchor, double x, double y, const char* text) {
-  return push(d, (pl_stroke){.kind = PL_STROKE_TEXT, .fill = ink, .size = (float)size, .anchor = anchor, .n = 1, .text = text,
+pl_stroke* pl_draw_text(pl_drawing* d, pl_ink ink, double size, pl_anchor anchor, double x,
+                        double y, const char* text) {
+  return push(d, (pl_stroke){.kind = PL_STROKE_TEXT,
+                             .fill = ink,
+                             .size = (float)size,
+                             .anchor = anchor,
+                             .n = 1,
+                             .text = text,
                              .xy = copied(d, (float[]){(float)x, (float)y}, 1)});
 }
 
-pl_stroke* pl_draw_box(pl_drawing* d, pl_ink line, pl_ink fill, double x, double y, double w, double h) {
-  float xy[8] = {(float)x, (float)y, (float)(x + w), (float)y, (float)(x + w), (float)(y + h), (float)x, (float)(y + h)};
+pl_stroke* pl_draw_box(pl_drawing* d, pl_ink line, pl_ink fill, double x, double y, double w,
+                       double h) {
+  float xy[8] = {(float)x,       (float)y,       (float)(x + w), (float)y,
+                 (float)(x + w), (float)(y + h), (float)x,       (float)(y + h)};
   pl_stroke* s = pl_draw_line(d, line, 1, 4, xy);
   s->closed = true;
   s->fill = fill;
   return s;
 }
 
-void pl_draw_arrow(pl_drawing* d, pl_ink ink, double width, double x0, double y0, double x1, double y1) {
+void pl_draw_arrow(pl_drawing* d, pl_ink ink, double width, double x0, double y0, double x1,
+                   double y1) {
   double length = hypot(x1 - x0, y1 - y0);
   if (!(length > 0.5)) return;
-  double ux = (x1 - x0) / length, uy = (y1 - y0) / length, head = fmin(4 + 2.4 * width, 0.7 * length), half = 0.42 * head;
+  double ux = (x1 - x0) / length, uy = (y1 - y0) / length,
+         head = fmin(4 + 2.4 * width, 0.7 * length), half = 0.42 * head;
   double bx = x1 - head * ux, by = y1 - head * uy;
   pl_draw_segment(d, ink, width, x0, y0, bx + 0.3 * head * ux, by + 0.3 * head * uy);
-  float tip[6] = {(float)x1, (float)y1, (float)(bx - half * uy), (float)(by + half * ux), (float)(bx + half * uy), (float)(by - half * ux)};
+  float tip[6] = {(float)x1,
+                  (float)y1,
+                  (float)(bx - half * uy),
+                  (float)(by + half * ux),
+                  (float)(bx + half * uy),
+                  (float)(by - half * ux)};
   pl_stroke* s = pl_draw_line(d, PL_INK_NONE, 0, 3, tip);
   s->closed = true;
   s->fill = ink;
 }
 
-// Cells times a mean width: 0.56 of the height suits DejaVu Sans and Helvetica for names and numbers.
+// Cells times a mean width: 0.56 of the height suits DejaVu Sans and Helvetica for names and
+// numbers.
 double pl_text_width(const char* text, double size) {
   double w = 0;
   for (const char* c = text; *c; c++) {
@@ -105,5 +132,6 @@ static const char* with_index(pl_arena* a, const char* name) {
 const char* pl_picture_label(pl_arena* a, const char* name) {
   const char* blank = strchr(name, ' ');
   if (!blank) return with_index(a, name);
-  return pl_format(a, "%s %s", with_index(a, pl_copy_n(a, name, (size_t)(blank - name))), pl_picture_label(a, blank + 1));
+  return pl_format(a, "%s %s", with_index(a, pl_copy_n(a, name, (size_t)(blank - name))),
+                   pl_picture_label(a, blank + 1));
 }

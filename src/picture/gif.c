@@ -1,7 +1,8 @@
-// GIF 89a, by the specification of 1990: one palette for all frames, each frame only what changed, LZW.
+// GIF 89a, by the specification of 1990: one palette for all frames, each frame only what changed,
+// LZW.
 //
-// The palette holds the 255 most frequent colours of all frames in steps of 8; entry 255 is transparent, for pixels that
-// stay as they were.
+// The palette holds the 255 most frequent colours of all frames in steps of 8; entry 255 is
+// transparent, for pixels that stay as they were.
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,15 +12,17 @@ enum { BINS = 1 << 15, COLOURS = 255, CLEAR = 256, END = 257, MOST_CODES = 4096,
 
 struct pl_gif {
   pl_arena* arena;
-  int width, height, delay;           // delay in 1/100 s
+  int width, height, delay;  // delay in 1/100 s
   pl_text out;
   uint32_t palette[COLOURS + 1];
-  uint8_t* entry;                     // of each bin, plus 1; 0 not looked for yet   (BINS)
-  uint8_t *before, *now, *change;     // indices of pixels
+  uint8_t* entry;                  // of each bin, plus 1; 0 not looked for yet   (BINS)
+  uint8_t *before, *now, *change;  // indices of pixels
   bool first;
 };
 
-static int bin_of(uint32_t rgb) { return (int)((rgb >> 19 & 31) << 10 | (rgb >> 11 & 31) << 5 | (rgb >> 3 & 31)); }
+static int bin_of(uint32_t rgb) {
+  return (int)((rgb >> 19 & 31) << 10 | (rgb >> 11 & 31) << 5 | (rgb >> 3 & 31));
+}
 
 void pl_gif_count(uint32_t* count, const uint32_t* pixels, size_t n) {
   for (size_t i = 0; i < n; i++) count[bin_of(pixels[i])]++;
@@ -39,7 +42,8 @@ static void choose_palette(pl_gif* g, const uint32_t* count) {
   memcpy(left, count, BINS * sizeof *left);
   for (int k = 0; k < COLOURS; k++) {
     int best = 0;
-    for (int i = 1; i < BINS; i++) if (left[i] > left[best]) best = i;
+    for (int i = 1; i < BINS; i++)
+      if (left[i] > left[best]) best = i;
     left[best] = 0;
     unsigned r = (unsigned)best >> 10 & 31, gr = (unsigned)best >> 5 & 31, b = (unsigned)best & 31;
     g->palette[k] = (r << 3 | r >> 2) << 16 | (gr << 3 | gr >> 2) << 8 | (b << 3 | b >> 2);
@@ -48,7 +52,12 @@ static void choose_palette(pl_gif* g, const uint32_t* count) {
 
 pl_gif* pl_gif_make(pl_arena* a, int width, int height, int delay, const uint32_t* count) {
   pl_gif* g = PL_NEW(a, pl_gif);
-  *g = (pl_gif){.arena = a, .width = width, .height = height, .delay = delay, .out = pl_text_make(a), .first = true};
+  *g = (pl_gif){.arena = a,
+                .width = width,
+                .height = height,
+                .delay = delay,
+                .out = pl_text_make(a),
+                .first = true};
   size_t n = (size_t)width * (size_t)height;
   g->entry = PL_ARRAY(a, uint8_t, BINS);
   g->before = PL_ARRAY(a, uint8_t, n);
@@ -58,7 +67,7 @@ pl_gif* pl_gif_make(pl_arena* a, int width, int height, int delay, const uint32_
   pl_text_add(&g->out, "GIF89a");
   word(g, width);
   word(g, height);
-  byte(g, 0xf7);                      // global palette of 256 colours
+  byte(g, 0xf7);  // global palette of 256 colours
   byte(g, 0);
   byte(g, 0);
   for (int k = 0; k <= COLOURS; k++) {
@@ -66,9 +75,14 @@ pl_gif* pl_gif_make(pl_arena* a, int width, int height, int delay, const uint32_
     byte(g, (int)(g->palette[k] >> 8 & 255));
     byte(g, (int)(g->palette[k] & 255));
   }
-  byte(g, 0x21), byte(g, 0xff), byte(g, 11);      // again and again
+  byte(g, 0x21);
+  byte(g, 0xff);
+  byte(g, 11);  // again and again
   pl_text_add(&g->out, "NETSCAPE2.0");
-  byte(g, 3), byte(g, 1), word(g, 0), byte(g, 0);
+  byte(g, 3);
+  byte(g, 1);
+  word(g, 0);
+  byte(g, 0);
   return g;
 }
 
@@ -78,21 +92,26 @@ static int nearest(pl_gif* g, uint32_t rgb) {
   long least = -1;
   int best = 0;
   for (int k = 0; k < COLOURS - 1; k++) {
-    long dr = (long)(rgb >> 16 & 255) - (long)(g->palette[k] >> 16 & 255), dg = (long)(rgb >> 8 & 255) - (long)(g->palette[k] >> 8 & 255);
-    long db = (long)(rgb & 255) - (long)(g->palette[k] & 255), d = 2 * dr * dr + 4 * dg * dg + 3 * db * db;
-    if (least < 0 || d < least) least = d, best = k;
+    long dr = (long)(rgb >> 16 & 255) - (long)(g->palette[k] >> 16 & 255),
+         dg = (long)(rgb >> 8 & 255) - (long)(g->palette[k] >> 8 & 255);
+    long db = (long)(rgb & 255) - (long)(g->palette[k] & 255),
+         d = 2 * dr * dr + 4 * dg * dg + 3 * db * db;
+    if (least < 0 || d < least) {
+      least = d;
+      best = k;
+    }
   }
   *known = (uint8_t)(best + 1);
   return best;
 }
 
-// ---------------------------------------------------------------------------------------------- LZW
+// --------------------------------------------------------------------------------------------- LZW
 typedef struct pl_lzw {
   pl_gif* g;
   uint8_t block[255];
   int n_block, bits, n_bits, next;
   uint32_t kept;
-  int32_t key[TABLE];                 // (prefix << 8 | byte) + 1
+  int32_t key[TABLE];  // (prefix << 8 | byte) + 1
   int16_t code[TABLE];
 } pl_lzw;
 
@@ -170,15 +189,21 @@ void pl_gif_frame(pl_gif* g, const uint32_t* pixels) {
     if (!same) bottom = row;
   }
   if (bottom < 0) top = bottom = 0;
-  byte(g, 0x21), byte(g, 0xf9), byte(g, 4);
-  byte(g, 1 << 2 | 1);                // what was drawn stays; there is a transparent colour
+  byte(g, 0x21);
+  byte(g, 0xf9);
+  byte(g, 4);
+  byte(g, 1 << 2 | 1);  // what was drawn stays; there is a transparent colour
   word(g, g->delay);
   byte(g, COLOURS);
   byte(g, 0);
   byte(g, 0x2c);
-  word(g, 0), word(g, top), word(g, g->width), word(g, bottom - top + 1);
+  word(g, 0);
+  word(g, top);
+  word(g, g->width);
+  word(g, bottom - top + 1);
   byte(g, 0);
-  compress(g, g->change + (size_t)top * (size_t)g->width, (size_t)(bottom - top + 1) * (size_t)g->width);
+  compress(g, g->change + (size_t)top * (size_t)g->width,
+           (size_t)(bottom - top + 1) * (size_t)g->width);
   uint8_t* swap = g->before;
   g->before = g->now;
   g->now = swap;

@@ -4,16 +4,22 @@
 
 #include "picture/picture.h"
 
-typedef struct pl_fit { double scale, x0, y0; pl_frame_rect rect; bool crowd; } pl_fit;   // px/m, place of the origin
+// px/m, place of the origin
+typedef struct pl_fit {
+  double scale, x0, y0;
+  pl_frame_rect rect;
+  bool crowd;
+} pl_fit;
 pl_fit pl_fit_make(const pl_scene* scene, pl_frame_rect r);
-double pl_mass_radius(const pl_shape* p);     // px
+double pl_mass_radius(const pl_shape* p);  // px
 
 // ---- plot_axis.c
 typedef struct pl_axis_scale {
-  double lo, hi, step, first;   // ticks at (first + i) step
-  int n, decimals, power;       // ticks are shown divided by 10^power
+  double lo, hi, step, first;  // ticks at (first + i) step
+  int n, decimals, power;      // ticks are shown divided by 10^power
 } pl_axis_scale;
-pl_axis_scale pl_axis_make(double lo, double hi, double wanted, bool tight);   // tight: the range of the data itself
+// tight: the range of the data itself
+pl_axis_scale pl_axis_make(double lo, double hi, double wanted, bool tight);
 double pl_axis_tick(const pl_axis_scale* a, int i);
 const char* pl_axis_text(pl_arena* arena, const pl_axis_scale* a, double x, pl_language lang);
 const char* pl_axis_title(pl_arena* arena, const char* name, const char* unit, int power);

@@ -12,9 +12,12 @@ static double round_step(double span, double wanted) {
 
 pl_axis_scale pl_axis_make(double lo, double hi, double wanted, bool tight) {
   pl_axis_scale a = {.lo = lo, .hi = hi};
-  if (!(isfinite(lo) && isfinite(hi))) a.lo = 0, a.hi = 1;
+  if (!(isfinite(lo) && isfinite(hi))) {
+    a.lo = 0;
+    a.hi = 1;
+  }
   double size = fmax(fabs(a.lo), fabs(a.hi));
-  if (!(a.hi - a.lo > 1e-9 * size) || !(a.hi > a.lo)) {       // constant: some room around it
+  if (!(a.hi - a.lo > 1e-9 * size) || !(a.hi > a.lo)) {  // constant: some room around it
     double room = size > 0 ? 0.1 * size : 1;
     a.lo -= room;
     a.hi += room;
@@ -64,5 +67,6 @@ const char* pl_axis_title(pl_arena* arena, const char* name, const char* unit, i
   if (!has_unit && power == 0) return name;
   const char* factor = power ? pl_format(arena, "10%s", small(arena, power)) : "";
   const char* space = power && has_unit ? " " : "";
-  return pl_format(arena, "%s%s[%s%s%s]", name, *name ? " " : "", factor, space, has_unit ? unit : "");
+  return pl_format(arena, "%s%s[%s%s%s]", name, *name ? " " : "", factor, space,
+                   has_unit ? unit : "");
 }

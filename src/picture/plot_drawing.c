@@ -1,4 +1,5 @@
-// A panel: axes with round ticks, curves thinned to what pixels can show, a legend above the data, marks of events.
+// A panel: axes with round ticks, curves thinned to what pixels can show, a legend above the data,
+// marks of events.
 #include <math.h>
 #include <string.h>
 
@@ -11,13 +12,17 @@ typedef struct pl_panel {
   const pl_plot_panel* p;
   pl_language lang;
   pl_axis_scale x, y;
-  double left, right, top, bottom;      // of the area of the data, px
+  double left, right, top, bottom;  // of the area of the data, px
 } pl_panel;
 
-static double px(const pl_panel* a, double x) { return a->left + (x - a->x.lo) / (a->x.hi - a->x.lo) * (a->right - a->left); }
-static double py(const pl_panel* a, double y) { return a->bottom - (y - a->y.lo) / (a->y.hi - a->y.lo) * (a->bottom - a->top); }
+static double px(const pl_panel* a, double x) {
+  return a->left + (x - a->x.lo) / (a->x.hi - a->x.lo) * (a->right - a->left);
+}
+static double py(const pl_panel* a, double y) {
+  return a->bottom - (y - a->y.lo) / (a->y.hi - a->y.lo) * (a->bottom - a->top);
+}
 
-// ---------------------------------------------------------------------------------------------- ranges
+// ------------------------------------------------------------------------------------------ ranges
 static void widen(double* lo, double* hi, const double* v, int n) {
   for (int i = 0; i < n; i++) {
     if (!isfinite(v[i])) continue;
@@ -28,12 +33,13 @@ static void widen(double* lo, double* hi, const double* v, int n) {
 
 static bool over_time(const pl_plot_panel* p) {
   for (int c = 0; c < p->n_curves; c++) {
-    for (int i = 1; i < p->curves[c].n; i++) if (p->curves[c].x[i] < p->curves[c].x[i - 1]) return false;
+    for (int i = 1; i < p->curves[c].n; i++)
+      if (p->curves[c].x[i] < p->curves[c].x[i - 1]) return false;
   }
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- curves
+// ------------------------------------------------------------------------------------------ curves
 typedef PL_VEC(float) pl_floats;
 
 static void point(pl_panel* a, pl_floats* out, double x, double y) {
@@ -41,14 +47,16 @@ static void point(pl_panel* a, pl_floats* out, double x, double y) {
   pl_push(a->d->arena, *out, (float)(isfinite(x) ? py(a, y) : (double)NAN));
 }
 
-// One pixel column of a curve over rising x: where it enters, its least and largest value, where it leaves.
+// One pixel column of a curve over rising x: where it enters, its least and largest value, where it
+// leaves.
 static void column(pl_panel* a, pl_floats* out, const pl_curve_data* c, int from, int to) {
   int least = from, most = from;
   for (int i = from; i < to; i++) {
     if (c->y[i] < c->y[least]) least = i;
     if (c->y[i] > c->y[most]) most = i;
   }
-  int order[4] = {from, least < most ? least : most, least < most ? most : least, to - 1}, last = -1;
+  int order[4] = {from, least < most ? least : most, least < most ? most : least, to - 1},
+      last = -1;
   for (int k = 0; k < 4; k++) {
     if (order[k] != last) point(a, out, c->x[order[k]], c->y[order[k]]);
     last = order[k];
@@ -75,9 +83,12 @@ static void thin_path(pl_panel* a, pl_floats* out, const pl_curve_data* c) {
   double x0 = INFINITY, y0 = INFINITY;
   for (int i = 0; i < c->n; i++) {
     double x = px(a, c->x[i]), y = py(a, c->y[i]);
-    if (isfinite(x + y) && isfinite(x0) && fabs(x - x0) < 0.33 && fabs(y - y0) < 0.33 && i + 1 < c->n) continue;
+    if (isfinite(x + y) && isfinite(x0) && fabs(x - x0) < 0.33 && fabs(y - y0) < 0.33
+        && i + 1 < c->n)
+      continue;
     point(a, out, c->x[i], c->y[i]);
-    x0 = x, y0 = y;
+    x0 = x;
+    y0 = y;
   }
 }
 
@@ -88,25 +99,31 @@ static void draw_curves(pl_panel* a, bool rising) {
     if (rising) thin_rising(a, &out, c);
     else thin_path(a, &out, c);
     if (out.n == 0) continue;
-    pl_stroke* s = pl_draw_line(a->d, (pl_ink)(PL_INK_SERIES_0 + k % PL_N_SERIES), 1.8, out.n / 2, out.at);
+    pl_stroke* s = pl_draw_line(a->d, (pl_ink)(PL_INK_SERIES_0 + k % PL_N_SERIES), 1.8, out.n / 2,
+                                out.at);
     s->dash = k % PL_N_DASHES;
-    if (!rising && isfinite(out.at[0])) pl_draw_disc(a->d, PL_INK_NONE, (pl_ink)(PL_INK_SERIES_0 + k % PL_N_SERIES), (double)out.at[0], (double)out.at[1], 3);
+    if (!rising && isfinite(out.at[0]))
+      pl_draw_disc(a->d, PL_INK_NONE, (pl_ink)(PL_INK_SERIES_0 + k % PL_N_SERIES),
+                   (double)out.at[0], (double)out.at[1], 3);
   }
 }
 
-// ---------------------------------------------------------------------------------------------- around the data
+// --------------------------------------------------------------------------------- around the data
 static void draw_grid(pl_panel* a) {
   for (int i = 0; i < a->x.n; i++) {
     double t = pl_axis_tick(&a->x, i), at = px(a, t);
     pl_draw_segment(a->d, t == 0 ? PL_INK_FRAME : PL_INK_GRID, 1, at, a->top, at, a->bottom);
-    pl_draw_text(a->d, PL_INK_MUTED, text_size - 1, PL_ANCHOR_MIDDLE, at, a->bottom + 15, pl_axis_text(a->d->arena, &a->x, t, a->lang));
+    pl_draw_text(a->d, PL_INK_MUTED, text_size - 1, PL_ANCHOR_MIDDLE, at, a->bottom + 15,
+                 pl_axis_text(a->d->arena, &a->x, t, a->lang));
   }
   for (int i = 0; i < a->y.n; i++) {
     double t = pl_axis_tick(&a->y, i), at = py(a, t);
     pl_draw_segment(a->d, t == 0 ? PL_INK_FRAME : PL_INK_GRID, 1, a->left, at, a->right, at);
-    pl_draw_text(a->d, PL_INK_MUTED, text_size - 1, PL_ANCHOR_END, a->left - 6, at + 4, pl_axis_text(a->d->arena, &a->y, t, a->lang));
+    pl_draw_text(a->d, PL_INK_MUTED, text_size - 1, PL_ANCHOR_END, a->left - 6, at + 4,
+                 pl_axis_text(a->d->arena, &a->y, t, a->lang));
   }
-  pl_draw_box(a->d, PL_INK_FRAME, PL_INK_NONE, a->left, a->top, a->right - a->left, a->bottom - a->top);
+  pl_draw_box(a->d, PL_INK_FRAME, PL_INK_NONE, a->left, a->top, a->right - a->left,
+              a->bottom - a->top);
 }
 
 static void draw_marks(pl_panel* a, double y) {
@@ -114,9 +131,11 @@ static void draw_marks(pl_panel* a, double y) {
   for (int i = 0; i < a->p->n_marks; i++) {
     const pl_plot_mark* m = &a->p->marks[i];
     if (!(m->x >= a->x.lo && m->x <= a->x.hi)) continue;
-    double at = px(a, m->x), w = pl_text_width(m->label, text_size - 1), from = fmax(a->left, fmin(at - w / 2, a->right - w));
+    double at = px(a, m->x), w = pl_text_width(m->label, text_size - 1),
+           from = fmax(a->left, fmin(at - w / 2, a->right - w));
     pl_draw_segment(a->d, PL_INK_MARK, 1, at, a->top, at, a->bottom)->dash = 4;
-    if (from < free_from) continue;                       // the line stays, its name would cover another
+    // the line stays, its name would cover another
+    if (from < free_from) continue;
     pl_draw_text(a->d, PL_INK_MARK, text_size - 1, PL_ANCHOR_START, from, y, m->label);
     free_from = from + w + 8;
   }
@@ -128,7 +147,8 @@ static double legend(pl_panel* a, double y) {
   for (int k = 0; k < a->p->n_curves; k++) {
     double w = pl_text_width(a->p->curves[k].name, text_size);
     if (!isnan(y)) {
-      pl_stroke* s = pl_draw_segment(a->d, (pl_ink)(PL_INK_SERIES_0 + k % PL_N_SERIES), 2.2, x, y - 4, x + 24, y - 4);
+      pl_stroke* s = pl_draw_segment(a->d, (pl_ink)(PL_INK_SERIES_0 + k % PL_N_SERIES), 2.2, x,
+                                     y - 4, x + 24, y - 4);
       s->dash = k % PL_N_DASHES;
       pl_draw_text(a->d, PL_INK_TEXT, text_size, PL_ANCHOR_START, x + 29, y, a->p->curves[k].name);
     }
@@ -157,13 +177,16 @@ void pl_draw_plot(pl_drawing* d, const pl_plot_panel* p, pl_frame_rect r, pl_lan
   bool rising = over_time(p), named = p->n_curves > 1;
   a.y = pl_axis_make(y_lo, y_hi, (r.h - 90) / 42, false);
   double widest = 0;
-  for (int i = 0; i < a.y.n; i++) widest = fmax(widest, pl_text_width(pl_axis_text(d->arena, &a.y, pl_axis_tick(&a.y, i), lang), text_size - 1));
+  for (int i = 0; i < a.y.n; i++)
+    widest = fmax(widest, pl_text_width(pl_axis_text(d->arena, &a.y, pl_axis_tick(&a.y, i), lang),
+                                        text_size - 1));
   a.left = r.x + 30 + widest;
   a.right = r.x + r.w - 16;
   a.x = pl_axis_make(x_lo, x_hi, (a.right - a.left) / 70, rising);
   // rows above the data: title, names, events
   double y = r.y + 8;
-  if (p->title) pl_draw_text(d, PL_INK_TEXT, text_size + 1, PL_ANCHOR_START, a.left, y += row, p->title);
+  if (p->title)
+    pl_draw_text(d, PL_INK_TEXT, text_size + 1, PL_ANCHOR_START, a.left, y += row, p->title);
   if (named) legend(&a, y += row);
   double marks_at = p->n_marks > 0 ? (y += row) : y;
   a.top = y + 7;
@@ -172,6 +195,9 @@ void pl_draw_plot(pl_drawing* d, const pl_plot_panel* p, pl_frame_rect r, pl_lan
   draw_grid(&a);
   draw_marks(&a, marks_at);
   draw_curves(&a, rising);
-  pl_draw_text(d, PL_INK_TEXT, text_size, PL_ANCHOR_MIDDLE, (a.left + a.right) / 2, a.bottom + 33, pl_axis_title(d->arena, p->x_name, p->x_unit, a.x.power));
-  pl_draw_text(d, PL_INK_TEXT, text_size, PL_ANCHOR_MIDDLE, r.x + 15, (a.top + a.bottom) / 2, y_title(&a))->turned = true;
+  pl_draw_text(d, PL_INK_TEXT, text_size, PL_ANCHOR_MIDDLE, (a.left + a.right) / 2, a.bottom + 33,
+               pl_axis_title(d->arena, p->x_name, p->x_unit, a.x.power));
+  pl_draw_text(d, PL_INK_TEXT, text_size, PL_ANCHOR_MIDDLE, r.x + 15, (a.top + a.bottom) / 2,
+               y_title(&a))
+      ->turned = true;
 }

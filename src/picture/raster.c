@@ -1,19 +1,21 @@
-// Drawings through cairo: PNG, PDF, and pixels for animations.  cairo is asked for memory of its own, which is given back
-// before anything of ours can unwind: bytes are collected by malloc and copied into the arena last.
+// Drawings through cairo: PNG, PDF, and pixels for animations. cairo is asked for memory of its
+// own, which is given back before anything of ours can unwind: bytes are collected by malloc and
+// copied into the arena last.
 #include "picture/picture_impl.h"
 
 #ifdef PL_HAVE_CAIRO
-#include <cairo-pdf.h>
-#include <cairo.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
+#  include <cairo-pdf.h>
+#  include <cairo.h>
+#  include <math.h>
+#  include <stdlib.h>
+#  include <string.h>
 
 bool pl_raster_there(void) { return true; }
 
 static void set_ink(cairo_t* c, pl_ink ink, pl_theme theme, float faint) {
   unsigned rgb = pl_ink_colour(ink, theme);
-  cairo_set_source_rgba(c, (rgb >> 16 & 255) / 255.0, (rgb >> 8 & 255) / 255.0, (rgb & 255) / 255.0, 1 - (double)faint);
+  cairo_set_source_rgba(c, (rgb >> 16 & 255) / 255.0, (rgb >> 8 & 255) / 255.0, (rgb & 255) / 255.0,
+                        1 - (double)faint);
 }
 
 static void draw_text(cairo_t* c, const pl_stroke* s, pl_theme theme) {
@@ -21,7 +23,9 @@ static void draw_text(cairo_t* c, const pl_stroke* s, pl_theme theme) {
   cairo_select_font_face(c, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(c, (double)s->size);
   cairo_text_extents(c, s->text, &e);
-  double shift = s->anchor == PL_ANCHOR_START ? 0 : s->anchor == PL_ANCHOR_MIDDLE ? -e.x_advance / 2 : -e.x_advance;
+  double shift = s->anchor == PL_ANCHOR_START    ? 0
+                 : s->anchor == PL_ANCHOR_MIDDLE ? -e.x_advance / 2
+                                                 : -e.x_advance;
   cairo_save(c);
   cairo_translate(c, (double)s->xy[0], (double)s->xy[1]);
   if (s->turned) cairo_rotate(c, -M_PI / 2);
@@ -81,7 +85,10 @@ static void draw_all(cairo_t* c, const pl_drawing* d, pl_theme theme, int frame)
 }
 
 // Bytes as cairo hands them out.
-typedef struct pl_collecting { char* at; size_t n, cap; } pl_collecting;
+typedef struct pl_collecting {
+  char* at;
+  size_t n, cap;
+} pl_collecting;
 
 static cairo_status_t collect(void* user, const unsigned char* bytes, unsigned n) {
   pl_collecting* c = user;
@@ -114,10 +121,12 @@ static bool hand_over(pl_arena* a, pl_collecting* c, const char** bytes, size_t*
 
 bool pl_raster_file(const pl_drawing* d, pl_theme theme, bool pdf, const char** bytes, size_t* n) {
   pl_collecting all = {0};
-  cairo_surface_t* surface = pdf ? cairo_pdf_surface_create_for_stream(collect, &all, d->width, d->height)
-                                 : cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)d->width, (int)d->height);
+  cairo_surface_t* surface =
+      pdf ? cairo_pdf_surface_create_for_stream(collect, &all, d->width, d->height)
+          : cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)d->width, (int)d->height);
   // the same bytes for the same input: no date in the file
-  if (pdf) cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");
+  if (pdf)
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");
   cairo_t* c = cairo_create(surface);
   draw_all(c, d, theme, 0);
   cairo_status_t status = cairo_status(c);
@@ -138,7 +147,8 @@ bool pl_raster_file(const pl_drawing* d, pl_theme theme, bool pdf, const char** 
 
 bool pl_raster_pixels(const pl_drawing* d, pl_theme theme, int frame, uint32_t* pixels) {
   int w = (int)d->width, h = (int)d->height;
-  cairo_surface_t* surface = cairo_image_surface_create_for_data((unsigned char*)pixels, CAIRO_FORMAT_RGB24, w, h, 4 * w);
+  cairo_surface_t* surface = cairo_image_surface_create_for_data((unsigned char*)pixels,
+                                                                 CAIRO_FORMAT_RGB24, w, h, 4 * w);
   cairo_t* c = cairo_create(surface);
   draw_all(c, d, theme, frame);
   bool fine = cairo_status(c) == CAIRO_STATUS_SUCCESS;
@@ -151,7 +161,11 @@ bool pl_raster_pixels(const pl_drawing* d, pl_theme theme, int frame, uint32_t* 
 #else
 
 bool pl_raster_there(void) { return false; }
-bool pl_raster_file(const pl_drawing* d, pl_theme theme, bool pdf, const char** bytes, size_t* n) { return false; }
-bool pl_raster_pixels(const pl_drawing* d, pl_theme theme, int frame, uint32_t* pixels) { return false; }
+bool pl_raster_file(const pl_drawing* d, pl_theme theme, bool pdf, const char** bytes, size_t* n) {
+  return false;
+}
+bool pl_raster_pixels(const pl_drawing* d, pl_theme theme, int frame, uint32_t* pixels) {
+  return false;
+}
 
 #endif

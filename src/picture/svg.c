@@ -15,7 +15,8 @@ void pl_svg_escape(pl_text* out, const char* text) {
       text++;
       continue;
     }
-    bool allowed = c == '\t' || c == '\n' || (c >= 0x20 && c < 0xd800) || (c > 0xdfff && c < 0xfffe) || c >= 0x10000;
+    bool allowed = c == '\t' || c == '\n' || (c >= 0x20 && c < 0xd800) || (c > 0xdfff && c < 0xfffe)
+                   || c >= 0x10000;
     if (c == '&') pl_text_add(out, "&amp;");
     else if (c == '<') pl_text_add(out, "&lt;");
     else if (c == '>') pl_text_add(out, "&gt;");
@@ -63,7 +64,8 @@ static void add_looks(pl_text* out, const pl_stroke* s) {
   }
   if (s->dash > 0) {
     pl_text_add(out, " stroke-dasharray=\"");
-    for (int i = 0; pl_dash[s->dash][i] > 0; i++) pl_text_addf(out, "%s%g", i ? " " : "", (double)pl_dash[s->dash][i]);
+    for (int i = 0; pl_dash[s->dash][i] > 0; i++)
+      pl_text_addf(out, "%s%g", i ? " " : "", (double)pl_dash[s->dash][i]);
     pl_text_add(out, "\"");
   }
   if (s->faint > 0) pl_text_addf(out, " opacity=\"%.2g\"", 1 - (double)s->faint);
@@ -117,16 +119,22 @@ void pl_svg_strokes(pl_text* out, const pl_drawing* d, const pl_svg_style* style
 
 void pl_svg_sheet(pl_text* out, const pl_drawing* d, pl_theme theme) {
   bool line[PL_N_INKS] = {0}, fill[PL_N_INKS] = {0};
-  for (int i = 0; i < d->strokes.n; i++) line[d->strokes.at[i].line] = fill[d->strokes.at[i].fill] = true;
-  pl_text_add(out, "path,circle{fill:none;stroke-width:1.5;stroke-linecap:round;stroke-linejoin:round}\ntext{font-family:'DejaVu Sans',Helvetica,Arial,sans-serif}\n.pl-n{stroke:none}\n");
+  for (int i = 0; i < d->strokes.n; i++)
+    line[d->strokes.at[i].line] = fill[d->strokes.at[i].fill] = true;
+  pl_text_add(out,
+              "path,circle{fill:none;stroke-width:1.5;stroke-linecap:round;stroke-linejoin:round}"
+              "\ntext{font-family:'DejaVu Sans',Helvetica,Arial,sans-serif}\n.pl-n{stroke:none}\n");
   for (int i = 1; i < PL_N_INKS; i++) {
-    if (line[i]) pl_text_addf(out, ".pl-%s{stroke:#%06x}\n", pl_ink_name[i], pl_ink_colour((pl_ink)i, theme));
-    if (fill[i]) pl_text_addf(out, ".plf-%s{fill:#%06x}\n", pl_ink_name[i], pl_ink_colour((pl_ink)i, theme));
+    if (line[i])
+      pl_text_addf(out, ".pl-%s{stroke:#%06x}\n", pl_ink_name[i], pl_ink_colour((pl_ink)i, theme));
+    if (fill[i])
+      pl_text_addf(out, ".plf-%s{fill:#%06x}\n", pl_ink_name[i], pl_ink_colour((pl_ink)i, theme));
   }
 }
 
 void pl_svg_write(pl_text* out, const pl_drawing* d, const pl_svg_style* style) {
-  pl_text_addf(out, "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %g %g\"", d->width, d->height);
+  pl_text_addf(out, "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %g %g\"", d->width,
+               d->height);
   if (!style->inside_html) pl_text_addf(out, " width=\"%g\" height=\"%g\"", d->width, d->height);
   pl_text_add(out, " role=\"img\" aria-label=\"");
   pl_svg_escape(out, d->title);
@@ -136,7 +144,8 @@ void pl_svg_write(pl_text* out, const pl_drawing* d, const pl_svg_style* style) 
     pl_svg_escape(out, d->title);
     pl_text_add(out, "</title>\n<style>\n");
     pl_svg_sheet(out, d, style->theme);
-    pl_text_addf(out, "</style>\n<rect width=\"%g\" height=\"%g\" fill=\"#%06x\"/>\n", d->width, d->height, pl_ink_colour(PL_INK_PAPER, style->theme));
+    pl_text_addf(out, "</style>\n<rect width=\"%g\" height=\"%g\" fill=\"#%06x\"/>\n", d->width,
+                 d->height, pl_ink_colour(PL_INK_PAPER, style->theme));
   }
   pl_svg_strokes(out, d, style);
   pl_text_add(out, "</svg>\n");

@@ -1,6 +1,7 @@
-// Export: every formula of the worked solution in the language of another program, one entry a value, with a key that says
-// which it is: "c lambda_g1 of g1".  Symbols are declared with what is known of their sign, the numbers of the parameters
-// stand beside, abbreviations of the model stay abbreviations.
+// Export: every formula of the worked solution in the language of another program, one entry a
+// value, with a key that says which it is: "c lambda_g1 of g1". Symbols are declared with what is
+// known of their sign, the numbers of the parameters stand beside, abbreviations of the model stay
+// abbreviations.
 #include "export_impl.h"
 #include "report_impl.h"
 
@@ -9,49 +10,92 @@
 
 // ORDER EXPORTS
 const pl_dialect pl_dialects[] = {
-  {.word = "sympy", .power = "**", .pi = "sp.pi", .infinity = "sp.oo", .root = "sp.sqrt($1)",
-   .condition = "sp.Piecewise(($2, $1 > 0), ($3, True))", .sum = "sp.Sum($4, ($1, $2, $3))",
-   .rational = "sp.Rational($1, $2)", .rational_is_atom = true, .whole = "sp.Integer($1)",
+    {.word = "sympy",
+     .power = "**",
+     .pi = "sp.pi",
+     .infinity = "sp.oo",
+     .root = "sp.sqrt($1)",
+     .condition = "sp.Piecewise(($2, $1 > 0), ($3, True))",
+     .sum = "sp.Sum($4, ($1, $2, $3))",
+     .rational = "sp.Rational($1, $2)",
+     .rational_is_atom = true,
+     .whole = "sp.Integer($1)",
 #define PL_EXPORT(id, sympy, mathematica, maxima, julia) [PL_##id] = sympy,
-   .function = {
+     .function =
+         {
 #include "export.def"
-   },
+         },
 #undef PL_EXPORT
-   .reserved = " sp symbols parameters abbreviations values False None True and as assert async await break class continue def"
-               " del elif else except finally for from global if import in is lambda nonlocal not or pass raise return try"
-               " while with yield ",
-   .comment = {"# ", ""}},
-  {.word = "mathematica", .power = "^", .pi = "Pi", .infinity = "Infinity", .root = "Sqrt[$1]", .condition = "If[$1 > 0, $2, $3]",
-   .sum = "Sum[$4, {$1, $2, $3}]", .rational = "$1/$2", .whole = "$1",
+     .reserved = " sp symbols parameters abbreviations values False None True and as assert async "
+                 "await break class continue def"
+                 " del elif else except finally for from global if import in is lambda nonlocal "
+                 "not or pass raise return try"
+                 " while with yield ",
+     .comment = {"# ", ""}},
+    {.word = "mathematica",
+     .power = "^",
+     .pi = "Pi",
+     .infinity = "Infinity",
+     .root = "Sqrt[$1]",
+     .condition = "If[$1 > 0, $2, $3]",
+     .sum = "Sum[$4, {$1, $2, $3}]",
+     .rational = "$1/$2",
+     .whole = "$1",
 #define PL_EXPORT(id, sympy, mathematica, maxima, julia) [PL_##id] = mathematica,
-   .function = {
+     .function =
+         {
 #include "export.def"
-   },
+         },
 #undef PL_EXPORT
-   .camel = true, .reserved = " C D E I K N O pleuelParameters pleuelAbbreviations pleuelValues ", .comment = {"(* ", " *)"}},
-  {.word = "maxima", .power = "^", .pi = "%pi", .infinity = "inf", .root = "sqrt($1)", .condition = "(if $1 > 0 then $2 else $3)",
-   .sum = "sum($4, $1, $2, $3)", .rational = "$1/$2", .whole = "$1",
+     .camel = true,
+     .reserved = " C D E I K N O pleuelParameters pleuelAbbreviations pleuelValues ",
+     .comment = {"(* ", " *)"}},
+    {.word = "maxima",
+     .power = "^",
+     .pi = "%pi",
+     .infinity = "inf",
+     .root = "sqrt($1)",
+     .condition = "(if $1 > 0 then $2 else $3)",
+     .sum = "sum($4, $1, $2, $3)",
+     .rational = "$1/$2",
+     .whole = "$1",
 #define PL_EXPORT(id, sympy, mathematica, maxima, julia) [PL_##id] = maxima,
-   .function = {
+     .function =
+         {
 #include "export.def"
-   },
+         },
 #undef PL_EXPORT
-   .reserved = " pleuel_parameters pleuel_abbreviations pleuel_values and do else elseif false for from if in inf ind infinity"
-               " lambda minf next not or product return step sum then thru true und unless values while functions labels props"
-               " float numer simp infix domain float2bf radexpand ratfac ratprint gradefs macros rules aliases arrays"
-               " dependencies linel fpprec go block catch throw error errors at diff integrate limit ",
-   .comment = {"/* ", " */"}},
-  {.word = "julia", .power = "^", .pi = "pi", .infinity = "Inf", .root = "sqrt($1)", .condition = "($1 > 0 ? $2 : $3)",
-   .sum = "sum($4 for $1 in Int($2):Int($3); init = 0)", .rational = "($1//$2)", .rational_is_atom = true, .whole = "$1",
+     .reserved =
+         " pleuel_parameters pleuel_abbreviations pleuel_values and do else elseif false for from "
+         "if in inf ind infinity"
+         " lambda minf next not or product return step sum then thru true und unless values while "
+         "functions labels props"
+         " float numer simp infix domain float2bf radexpand ratfac ratprint gradefs macros rules "
+         "aliases arrays"
+         " dependencies linel fpprec go block catch throw error errors at diff integrate limit ",
+     .comment = {"/* ", " */"}},
+    {.word = "julia",
+     .power = "^",
+     .pi = "pi",
+     .infinity = "Inf",
+     .root = "sqrt($1)",
+     .condition = "($1 > 0 ? $2 : $3)",
+     .sum = "sum($4 for $1 in Int($2):Int($3); init = 0)",
+     .rational = "($1//$2)",
+     .rational_is_atom = true,
+     .whole = "$1",
 #define PL_EXPORT(id, sympy, mathematica, maxima, julia) [PL_##id] = julia,
-   .function = {
+     .function =
+         {
 #include "export.def"
-   },
+         },
 #undef PL_EXPORT
-   .reserved = " pleuel_values Any Dict Float64 Inf Int NaN String abstract baremodule begin break catch const continue do else"
-               " elseif end export false finally for function global if import in isa let local macro module mutable pi"
-               " primitive quote return struct sum sqrt true try type using where while ",
-   .comment = {"# ", ""}},
+     .reserved = " pleuel_values Any Dict Float64 Inf Int NaN String abstract baremodule begin "
+                 "break catch const continue do else"
+                 " elseif end export false finally for function global if import in isa let local "
+                 "macro module mutable pi"
+                 " primitive quote return struct sum sqrt true try type using where while ",
+     .comment = {"# ", ""}},
 };
 
 bool pl_export_target_find(const char* word, pl_export_target* target) {
@@ -64,18 +108,22 @@ bool pl_export_target_find(const char* word, pl_export_target* target) {
   return strcmp(word, "json") == 0;
 }
 
-// ---------------------------------------------------------------------------------------------- what is exported
+// -------------------------------------------------------------------------------- what is exported
 typedef struct entry {
   const char* key;
-  const char *letter, *part;         // part: "left side" or NULL
+  const char *letter, *part;  // part: "left side" or NULL
   const pl_value* value;
   const char* along;
   pl_expr expr;
-  const char* unit;                  // NULL when not known
+  const char* unit;  // NULL when not known
 } entry;
 
-// A name that stays in the formulas: an abbreviation of the model, or an intermediate of the solution.
-typedef struct abbreviation { pl_symbol symbol; pl_expr value; } abbreviation;
+// A name that stays in the formulas: an abbreviation of the model, or an intermediate of the
+// solution.
+typedef struct abbreviation {
+  pl_symbol symbol;
+  pl_expr value;
+} abbreviation;
 
 typedef struct exporter {
   pl_text* out;
@@ -83,14 +131,14 @@ typedef struct exporter {
   pl_pool* pool;
   const pl_export_input* in;
   const pl_model* model;
-  const pl_dialect* d;               // NULL for JSON
+  const pl_dialect* d;  // NULL for JSON
   pl_export_names names;
   PL_VEC(entry) entries;
-  PL_VEC(abbreviation) named;        // intermediates, in order of use
-  PL_VEC(abbreviation) kept;         // all abbreviations, in order of use
-  pl_names* interned;                // keys that are taken
+  PL_VEC(abbreviation) named;  // intermediates, in order of use
+  PL_VEC(abbreviation) kept;   // all abbreviations, in order of use
+  pl_names* interned;          // keys that are taken
   pl_map* keys;
-  bool* used;                        // symbols that are declared      (n_used)
+  bool* used;  // symbols that are declared      (n_used)
   int n_used;
   int n_left_out;
 } exporter;
@@ -106,8 +154,9 @@ static const char* free_key(exporter* x, const char* key) {
 
 static const char* key_of(exporter* x, const entry* e) {
   const pl_value* v = e->value;
-  const char* word[][2] = {{"", e->letter}, {" ", v->name}, {" of ", v->of}, {" on ", v->on}, {" at ", v->at},
-                           {" along ", e->along}, {" if ", v->branch}, {", ", e->part}};
+  const char* word[][2] = {{"", e->letter},     {" ", v->name},  {" of ", v->of},
+                           {" on ", v->on},     {" at ", v->at}, {" along ", e->along},
+                           {" if ", v->branch}, {", ", e->part}};
   pl_text key = pl_text_make(x->arena);
   for (size_t i = 0; i < sizeof word / sizeof *word; i++) {
     if (word[i][1]) pl_text_addf(&key, "%s%s", word[i][0], word[i][1]);
@@ -138,7 +187,8 @@ static void collect(exporter* x, entry e) {
 }
 
 // Intermediates of different values may bear one name: the second gets another.
-static void name_intermediate(exporter* x, pl_symbol symbol, pl_expr value, pl_replace* renamed, int* n) {
+static void name_intermediate(exporter* x, pl_symbol symbol, pl_expr value, pl_replace* renamed,
+                              int* n) {
   for (int i = 0; i < x->named.n; i++) {
     const abbreviation* known = &x->named.at[i];
     if (known->symbol.id != symbol.id) continue;
@@ -163,9 +213,12 @@ static void collect_value(exporter* x, const char* letter, const pl_value* v) {
     pl_expr value = pl_subst(x->pool, v->where_expr[i], renamed, n);
     name_intermediate(x, pl_symbol_find(x->pool, v->where_name[i]), value, renamed, &n);
   }
-  entry e = {.letter = letter, .value = v, .unit = v->unit, .expr = pl_subst(x->pool, v->expr, renamed, n)};
+  entry e = {.letter = letter,
+             .value = v,
+             .unit = v->unit,
+             .expr = pl_subst(x->pool, v->expr, renamed, n)};
   collect(x, e);
-  bool plain = pl_kind_of(x->pool, v->lhs) == PL_SYMBOL;       // x1 = ... has x1 as its name
+  bool plain = pl_kind_of(x->pool, v->lhs) == PL_SYMBOL;  // x1 = ... has x1 as its name
   e.part = "left side";
   e.expr = plain ? pl_poison() : pl_subst(x->pool, v->lhs, renamed, n);
   collect(x, e);
@@ -178,9 +231,13 @@ static void collect_value(exporter* x, const char* letter, const pl_value* v) {
 }
 
 // Abbreviations of the model that stay in the formulas.
-static bool is_kept(const pl_let* l) { return !l->inserted && l->n_args == 0 && l->symbol.id != 0 && !pl_is_poison(l->value); }
+static bool is_kept(const pl_let* l) {
+  return !l->inserted && l->n_args == 0 && l->symbol.id != 0 && !pl_is_poison(l->value);
+}
 
-static bool is_used(const exporter* x, pl_symbol s) { return (int)s.id < x->n_used && x->used[s.id]; }
+static bool is_used(const exporter* x, pl_symbol s) {
+  return (int)s.id < x->n_used && x->used[s.id];
+}
 
 // A let may speak of those before it.
 static void use_lets(exporter* x) {
@@ -222,16 +279,21 @@ static void collect_all(exporter* x) {
     if (!pl_worked_wanted(x->in->only, section->letter)) continue;
     for (int k = 0; k < section->values.n; k++) collect_value(x, letter, &section->values.at[k]);
   }
-  for (int i = 0; i < x->model->params.n; i++) x->used[x->model->params.at[i].symbol.id] |= !x->model->params.at[i].literal;
+  for (int i = 0; i < x->model->params.n; i++)
+    x->used[x->model->params.at[i].symbol.id] |= !x->model->params.at[i].literal;
   keep_abbreviations(x);
 }
 
-// ---------------------------------------------------------------------------------------------- pieces of text
+// ---------------------------------------------------------------------------------- pieces of text
 static void add(exporter* x, const char* s) { pl_text_add(x->out, s); }
 
-static const char* name_of(const exporter* x, pl_symbol s, int dots) { return x->names.of[s.id].name[dots]; }
+static const char* name_of(const exporter* x, pl_symbol s, int dots) {
+  return x->names.of[s.id].name[dots];
+}
 
-static void add_expr(exporter* x, pl_expr e) { pl_export_expr(x->out, x->pool, x->d, &x->names, e); }
+static void add_expr(exporter* x, pl_expr e) {
+  pl_export_expr(x->out, x->pool, x->d, &x->names, e);
+}
 
 // A comment on one line that cannot end the comment it stands in.
 static void add_comment(exporter* x, const char* s) {
@@ -239,7 +301,8 @@ static void add_comment(exporter* x, const char* s) {
   for (const char* c = pl_plain_ascii(x->arena, s); *c; c++) {
     bool blank = (unsigned char)*c < ' ';
     pl_text_add_n(x->out, blank ? " " : c, 1);
-    bool ends = *c == '*' && (c[1] == '/' || c[1] == ')'), begins = (*c == '/' || *c == '(') && c[1] == '*';
+    bool ends = *c == '*' && (c[1] == '/' || c[1] == ')'),
+         begins = (*c == '/' || *c == '(') && c[1] == '*';
     if (ends || begins) add(x, " ");
   }
   add(x, x->d->comment[1]);
@@ -264,7 +327,9 @@ static void add_string(exporter* x, const char* s) {
 static void add_decimal(exporter* x, double value) {
   const char* s = pl_shortest_double(x->arena, value);
   const char* e = strchr(s, 'e');
-  if (e) pl_text_addf(x->out, "%.*s%s%s", (int)(e - s), s, x->in->target == PL_EXPORT_MATHEMATICA ? "*^" : "e", e + 1);
+  if (e)
+    pl_text_addf(x->out, "%.*s%s%s", (int)(e - s), s,
+                 x->in->target == PL_EXPORT_MATHEMATICA ? "*^" : "e", e + 1);
   else add(x, s);
   if (!strpbrk(s, ".e")) add(x, ".0");
 }
@@ -273,10 +338,12 @@ static int dots_of(const exporter* x, pl_symbol s) {
   return pl_symbol_get(x->pool, s)->role == PL_R_ARRAY ? PL_EXPORT_DOTS : 1;
 }
 
-// ---------------------------------------------------------------------------------------------- parts of a document
+// ----------------------------------------------------------------------------- parts of a document
 static void add_header(exporter* x, const char* use_it) {
   const char* title = x->model->title ? x->model->title : x->in->file;
-  add_line_comment(x, pl_format(x->arena, "%s: the formulas of %s, exported by pleuel " PLEUEL_VERSION ".  All in SI units.",
+  add_line_comment(x, pl_format(x->arena,
+                                "%s: the formulas of %s, exported by pleuel " PLEUEL_VERSION
+                                ".  All in SI units.",
                                 title, x->in->file));
   add_line_comment(x, use_it);
   for (int i = 1, n = pl_symbol_count(x->pool); i <= n && i < x->n_used; i++) {
@@ -287,7 +354,9 @@ static void add_header(exporter* x, const char* use_it) {
       add_line_comment(x, pl_format(x->arena, "%s is %s", name_of(x, s, k), ascii));
     }
   }
-  if (x->n_left_out) add_line_comment(x, pl_format(x->arena, "%d formulas are too long to be written out", x->n_left_out));
+  if (x->n_left_out)
+    add_line_comment(
+        x, pl_format(x->arena, "%d formulas are too long to be written out", x->n_left_out));
   add(x, "\n");
 }
 
@@ -305,15 +374,19 @@ static void add_parameters(exporter* x, const char* between) {
   }
 }
 
-static void add_abbreviations(exporter* x, const char* before, const char* between, const char* separator) {
+static void add_abbreviations(exporter* x, const char* before, const char* between,
+                              const char* separator) {
   for (int k = 0; k < x->kept.n; k++) {
-    pl_text_addf(x->out, "%s%s%s%s", k == 0 ? "" : separator, before, name_of(x, x->kept.at[k].symbol, 0), between);
+    pl_text_addf(x->out, "%s%s%s%s", k == 0 ? "" : separator, before,
+                 name_of(x, x->kept.at[k].symbol, 0), between);
     add_expr(x, x->kept.at[k].value);
   }
 }
 
-// The entries; each is followed by a comma but for the last one where the target does not allow it, and by its unit.
-static void add_entries(exporter* x, const char* before, const char* between, const char* after, bool comma_at_end) {
+// The entries; each is followed by a comma but for the last one where the target does not allow it,
+// and by its unit.
+static void add_entries(exporter* x, const char* before, const char* between, const char* after,
+                        bool comma_at_end) {
   for (int i = 0; i < x->entries.n; i++) {
     const entry* e = &x->entries.at[i];
     add(x, before);
@@ -330,7 +403,7 @@ static void add_entries(exporter* x, const char* before, const char* between, co
   }
 }
 
-// ---------------------------------------------------------------------------------------------- documents
+// --------------------------------------------------------------------------------------- documents
 static const char* sympy_assumption(const pl_symbol_info* s) {
   if (s->role == PL_R_INDEX) return "integer=True";
   switch (s->sign) {
@@ -345,15 +418,18 @@ static const char* sympy_assumption(const pl_symbol_info* s) {
 }
 
 static void add_sympy(exporter* x) {
-  add_header(x, "values[\"KEY\"].subs(parameters) inserts the numbers; put the abbreviations in before, if there are any.");
+  add_header(x,
+             "values[\"KEY\"].subs(parameters) inserts the numbers; put the abbreviations in "
+             "before, if there are any.");
   add(x, "import sympy as sp\n\n");
   for (int i = 1, n = pl_symbol_count(x->pool); i <= n && i < x->n_used; i++) {
     pl_symbol s = {(uint32_t)i};
     const pl_symbol_info* info = pl_symbol_get(x->pool, s);
     for (int k = 0; x->used[i] && k < dots_of(x, s); k++) {
       bool family = info->role == PL_R_ARRAY;
-      pl_text_addf(x->out, "%s = sp.%s(\"%s\", %s)\n", name_of(x, s, k), family ? "IndexedBase" : "Symbol",
-                   pl_export_ascii(x->arena, x->pool, s, k), family ? "real=True" : sympy_assumption(info));
+      pl_text_addf(x->out, "%s = sp.%s(\"%s\", %s)\n", name_of(x, s, k),
+                   family ? "IndexedBase" : "Symbol", pl_export_ascii(x->arena, x->pool, s, k),
+                   family ? "real=True" : sympy_assumption(info));
     }
   }
   add(x, "\nparameters = {");
@@ -366,7 +442,8 @@ static void add_sympy(exporter* x) {
 }
 
 static void add_mathematica(exporter* x) {
-  add_header(x, "pleuelValues[\"KEY\"] //. pleuelAbbreviations /. pleuelParameters inserts the numbers.");
+  add_header(
+      x, "pleuelValues[\"KEY\"] //. pleuelAbbreviations /. pleuelParameters inserts the numbers.");
   add(x, "pleuelParameters = {");
   add_parameters(x, " -> ");
   add(x, "};\npleuelAbbreviations = {");
@@ -377,8 +454,9 @@ static void add_mathematica(exporter* x) {
 }
 
 static void add_maxima(exporter* x) {
-  add_header(x, "subst(pleuel_parameters, assoc(\"KEY\", pleuel_values)) inserts the numbers;"
-                " before, if there are any, the abbreviations.");
+  add_header(x,
+             "subst(pleuel_parameters, assoc(\"KEY\", pleuel_values)) inserts the numbers;"
+             " before, if there are any, the abbreviations.");
   add(x, "pleuel_parameters: [");
   add_parameters(x, " = ");
   add(x, "]$\npleuel_abbreviations: [");
@@ -388,16 +466,19 @@ static void add_maxima(exporter* x) {
   add(x, "]$\n");
 }
 
-// A function of all names; those without number are NaN unless they are given.  Each value is a function too, so that a
-// root of a negative number spoils no other.
+// A function of all names; those without number are NaN unless they are given. Each value is a
+// function too, so that a root of a negative number spoils no other.
 static void add_julia(exporter* x) {
-  add_header(x, "pleuel_values(; x = 0.1)[\"KEY\"]() is a number; names that are not given have the number of the model or NaN.");
+  add_header(x,
+             "pleuel_values(; x = 0.1)[\"KEY\"]() is a number; names that are not given have the "
+             "number of the model or NaN.");
   const double* value = pl_model_values(x->model, x->arena);
   add(x, "function pleuel_values(;");
   bool first = true;
   for (int i = 1, n = pl_symbol_count(x->pool); i <= n && i < x->n_used; i++) {
     pl_symbol s = {(uint32_t)i};
-    if (!x->used[i] || pl_symbol_get(x->pool, s)->role == PL_R_INDEX || is_abbreviation(x, s)) continue;
+    if (!x->used[i] || pl_symbol_get(x->pool, s)->role == PL_R_INDEX || is_abbreviation(x, s))
+      continue;
     for (int k = 0; k < dots_of(x, s); k++) {
       pl_text_addf(x->out, "%s%s = ", first ? " " : ", ", name_of(x, s, k));
       if (isfinite(value[i])) add_decimal(x, value[i]);
@@ -441,8 +522,10 @@ static void add_json_abbreviations(exporter* x, pl_json* j) {
 }
 
 static void add_json_entry(exporter* x, pl_json* j, const entry* e) {
-  const char* word[][2] = {{"letter", e->letter}, {"name", e->value->name}, {"of", e->value->of}, {"on", e->value->on},
-                           {"at", e->value->at}, {"along", e->along}, {"branch", e->value->branch}, {"part", e->part}};
+  const char* word[][2] = {{"letter", e->letter},        {"name", e->value->name},
+                           {"of", e->value->of},         {"on", e->value->on},
+                           {"at", e->value->at},         {"along", e->along},
+                           {"branch", e->value->branch}, {"part", e->part}};
   pl_json_object(j, e->key);
   for (size_t i = 0; i < sizeof word / sizeof *word; i++) {
     if (word[i][1]) pl_json_string(j, word[i][0], pl_plain_ascii(x->arena, word[i][1]));
@@ -471,11 +554,18 @@ static void add_json(exporter* x) {
 }
 
 void pl_export(pl_text* out, const pl_export_input* in) {
-  static void (*const document[])(exporter*) = {add_sympy, add_mathematica, add_maxima, add_julia, add_json};   // ORDER EXPORTS
+  // ORDER EXPORTS
+  static void (*const document[])(exporter*) = {add_sympy, add_mathematica, add_maxima, add_julia,
+                                                add_json};
   pl_arena* a = out->arena;
-  exporter x = {.out = out, .arena = a, .in = in, .model = in->solution->model, .pool = in->solution->model->pool,
-                .interned = pl_names_make(a), .keys = pl_map_make(a)};
-  int intermediates = 0;       // each may need another name
+  exporter x = {.out = out,
+                .arena = a,
+                .in = in,
+                .model = in->solution->model,
+                .pool = in->solution->model->pool,
+                .interned = pl_names_make(a),
+                .keys = pl_map_make(a)};
+  int intermediates = 0;  // each may need another name
   for (int i = 0; i < in->solution->sections.n; i++) {
     const pl_section* c = &in->solution->sections.at[i];
     for (int k = 0; k < c->values.n; k++) intermediates += c->values.at[k].n_where;

@@ -1,6 +1,6 @@
-// Expressions in the syntax of other programs.  Sums, products and powers look alike everywhere; calls and the rest are
-// templates (export.def).  Exact numbers stay exact where the target has them, and a division never joins two integers
-// that a target would round.
+// Expressions in the syntax of other programs. Sums, products and powers look alike everywhere;
+// calls and the rest are templates (export.def). Exact numbers stay exact where the target has
+// them, and a division never joins two integers that a target would round.
 #include "export_impl.h"
 
 #include <string.h>
@@ -19,13 +19,15 @@ static void write(writer* w, pl_expr e, binding outer);
 
 static void add(writer* w, const char* s) { pl_text_add(w->out, s); }
 
-// ---------------------------------------------------------------------------------------------- numbers
+// ----------------------------------------------------------------------------------------- numbers
 static const char* size_of(writer* w, pl_expr x) {
   const char* s = pl_number_num_text(w->out->arena, w->p, x);
   return *s == '-' ? s + 1 : s;
 }
 
-static const char* denominator(writer* w, pl_expr x) { return pl_number_den_text(w->out->arena, w->p, x); }
+static const char* denominator(writer* w, pl_expr x) {
+  return pl_number_den_text(w->out->arena, w->p, x);
+}
 
 static bool is_one(const char* s) { return s[0] == '1' && s[1] == '\0'; }
 
@@ -51,7 +53,7 @@ static void write_number(writer* w, pl_expr x, binding outer) {
   if (brackets) add(w, ")");
 }
 
-// ---------------------------------------------------------------------------------------------- products
+// ---------------------------------------------------------------------------------------- products
 // Negative numbers as exponents stand below the line.
 static bool is_below(const pl_pool* p, pl_expr e) {
   if (pl_kind_of(p, e) != PL_POW) return false;
@@ -92,13 +94,18 @@ static void write_power(writer* w, pl_expr base, pl_expr x, bool inverse) {
 }
 
 static void write_factor(writer* w, pl_expr e, bool inverse) {
-  if (pl_kind_of(w->p, e) == PL_POW) write_power(w, pl_arg(w->p, e, 0), pl_arg(w->p, e, 1), inverse);
+  if (pl_kind_of(w->p, e) == PL_POW)
+    write_power(w, pl_arg(w->p, e, 0), pl_arg(w->p, e, 1), inverse);
   else write(w, e, POWER);
 }
 
 // A product or a single factor is read as its number and its factors.
-static int n_factors(const pl_pool* p, pl_expr e) { return pl_kind_of(p, e) == PL_MUL ? pl_n_args(p, e) : 1; }
-static pl_expr factor(const pl_pool* p, pl_expr e, int i) { return pl_kind_of(p, e) == PL_MUL ? pl_arg(p, e, i) : e; }
+static int n_factors(const pl_pool* p, pl_expr e) {
+  return pl_kind_of(p, e) == PL_MUL ? pl_n_args(p, e) : 1;
+}
+static pl_expr factor(const pl_pool* p, pl_expr e, int i) {
+  return pl_kind_of(p, e) == PL_MUL ? pl_arg(p, e, i) : e;
+}
 
 static pl_expr coefficient(const pl_pool* p, pl_expr e) {
   for (int i = 0, n = n_factors(p, e); i < n; i++) {
@@ -143,7 +150,7 @@ static void write_product(writer* w, pl_expr e) {
   if (n_below > 1) add(w, ")");
 }
 
-// ---------------------------------------------------------------------------------------------- sums
+// -------------------------------------------------------------------------------------------- sums
 static void write_term(writer* w, pl_expr e, bool first) {
   bool minus = is_negative(w->p, e);
   add(w, minus ? (first ? "-" : " - ") : (first ? "" : " + "));
@@ -167,7 +174,7 @@ static void write_sum(writer* w, pl_expr e) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- calls, patterns
+// --------------------------------------------------------------------------------- calls, patterns
 // Arguments of a node in the places of a template.
 static void write_template(writer* w, const char* how, pl_expr e) {
   int n = pl_n_args(w->p, e);
@@ -193,7 +200,7 @@ static void write_element(writer* w, pl_expr e) {
   add(w, "]");
 }
 
-// ---------------------------------------------------------------------------------------------- all
+// --------------------------------------------------------------------------------------------- all
 static binding binding_of(const writer* w, pl_expr e) {
   switch (pl_kind_of(w->p, e)) {
     case PL_ADD: return SUM;
@@ -213,13 +220,17 @@ static void write(writer* w, pl_expr e, binding outer) {
   bool brackets = binding_of(w, e) < outer;
   if (brackets) add(w, "(");
   switch (pl_kind_of(w->p, e)) {
-    case PL_POISON: case PL_NUMBER: case PL_UNKNOWN_FUNCTION: break;      // pl_export_can has seen to it
+    // pl_export_can has seen to it
+    case PL_POISON:
+    case PL_NUMBER:
+    case PL_UNKNOWN_FUNCTION: break;
     case PL_PI: add(w, w->d->pi); break;
     case PL_INFINITY: add(w, w->d->infinity); break;
     case PL_SYMBOL: add(w, name_of(w, pl_symbol_of(w->p, e), 0)); break;
     case PL_AT: write_element(w, e); break;
     case PL_ADD: write_sum(w, e); break;
-    case PL_MUL: case PL_POW: write_term(w, e, true); break;
+    case PL_MUL:
+    case PL_POW: write_term(w, e, true); break;
     case PL_CALL: write_template(w, w->d->function[pl_function_of(w->p, e)], e); break;
     case PL_IF: write_template(w, w->d->condition, e); break;
     case PL_SUM: write_template(w, w->d->sum, e); break;
@@ -232,16 +243,17 @@ bool pl_export_can(pl_arena* a, const pl_pool* p, pl_expr e) {
   return !pl_is_poison(e) && *pl_expr_text(a, p, e) != '<';
 }
 
-void pl_export_expr(pl_text* out, const pl_pool* p, const pl_dialect* d, const pl_export_names* names, pl_expr e) {
+void pl_export_expr(pl_text* out, const pl_pool* p, const pl_dialect* d,
+                    const pl_export_names* names, pl_expr e) {
   writer w = {out, p, d, names};
   bool whole = pl_is_number(p, e) && is_one(denominator(&w, e));
   if (whole) fill(&w, d->whole, 1, (const char*[]){pl_number_num_text(out->arena, p, e)});
   else write(&w, e, SUM);
 }
 
-// ---------------------------------------------------------------------------------------------- trees
-// A list whose first element says what is done with the others; names and integers are leaves, integers beyond 2^53,
-// where readers of JSON begin to round, are strings of digits.
+// ------------------------------------------------------------------------------------------- trees
+// A list whose first element says what is done with the others; names and integers are leaves,
+// integers beyond 2^53, where readers of JSON begin to round, are strings of digits.
 static void tree_integer(pl_text* out, const char* digits) {
   bool small = strlen(digits) <= 15;
   pl_text_addf(out, small ? "%s" : "\"%s\"", digits);
@@ -274,11 +286,14 @@ void pl_export_tree(pl_text* out, const pl_pool* p, pl_expr e) {
     }
     case PL_PI: pl_text_add(out, "\"pi\""); return;
     case PL_INFINITY: pl_text_add(out, "\"infinity\""); return;
-    case PL_SYMBOL: pl_text_addf(out, "\"%s\"", pl_symbol_get(p, pl_symbol_of(p, e))->ascii); return;
+    case PL_SYMBOL:
+      pl_text_addf(out, "\"%s\"", pl_symbol_get(p, pl_symbol_of(p, e))->ascii);
+      return;
     default: break;
   }
   pl_text_addf(out, "[\"%s\"", head_of(p, e));
-  if (pl_kind_of(p, e) == PL_AT) pl_text_addf(out, ", \"%s\"", pl_export_ascii(a, p, pl_symbol_of(p, e), pl_dots_of(p, e)));
+  if (pl_kind_of(p, e) == PL_AT)
+    pl_text_addf(out, ", \"%s\"", pl_export_ascii(a, p, pl_symbol_of(p, e), pl_dots_of(p, e)));
   for (int i = 0, n = pl_n_args(p, e); i < n; i++) {
     pl_text_add(out, ", ");
     pl_export_tree(out, p, pl_arg(p, e, i));

@@ -1,5 +1,5 @@
-// Names of symbols in other programs: those of the JSON document where they are free there, else with something behind
-// them.  Mathematica knows no underscores: x1_dot is x1Dot, x1_0 is x1$0.
+// Names of symbols in other programs: those of the JSON document where they are free there, else
+// with something behind them. Mathematica knows no underscores: x1_dot is x1Dot, x1_0 is x1$0.
 #include "export_impl.h"
 
 #include <ctype.h>
@@ -11,7 +11,8 @@ static bool is_reserved(const pl_dialect* d, const char* name) {
     if (at[-1] == ' ' && at[n] == ' ') return true;
   }
   // what Mathematica defines begins with a capital and is a word
-  return d->camel && n > 1 && isupper((unsigned char)name[0]) && strspn(name + 1, "abcdefghijklmnopqrstuvwxyz") == n - 1;
+  return d->camel && n > 1 && isupper((unsigned char)name[0])
+         && strspn(name + 1, "abcdefghijklmnopqrstuvwxyz") == n - 1;
 }
 
 // Letters, digits and underscores, a letter first.
@@ -39,7 +40,10 @@ static const char* camel(pl_arena* a, const char* name) {
   return pl_text_string(&out);
 }
 
-typedef struct taken { pl_names* names; pl_map* map; } taken;
+typedef struct taken {
+  pl_names* names;
+  pl_map* map;
+} taken;
 
 static bool take(taken* t, const char* name) {
   uint64_t key = (uint64_t)(uintptr_t)pl_intern(t->names, name);
@@ -63,7 +67,8 @@ pl_export_names pl_export_names_make(pl_arena* a, const pl_pool* p, const pl_dia
     for (int k = 0; k < n_dots; k++) {
       const char* name = plain(a, pl_export_ascii(a, p, s, k));
       if (d->camel) name = camel(a, name);
-      while (is_reserved(d, name) || !take(&t, name)) name = pl_format(a, "%s%s", name, d->camel ? "Var" : "_");
+      while (is_reserved(d, name) || !take(&t, name))
+        name = pl_format(a, "%s%s", name, d->camel ? "Var" : "_");
       names.of[i].name[k] = name;
     }
   }

@@ -6,12 +6,15 @@
 
 enum { PL_HTML_CARD_ROOM = 27, PL_HTML_MOST_CARDS = 3 };
 
-static void open_card(pl_html* h, const char* class) { pl_html_rawf(h, "<div class=\"card%s\"><h3>", class); }
+static void open_card(pl_html* h, const char* class) {
+  pl_html_rawf(h, "<div class=\"card%s\"><h3>", class);
+}
 
-// ---------------------------------------------------------------------------------------------- freedoms
+// ---------------------------------------------------------------------------------------- freedoms
 static int count_one_sided(const pl_solution* s) {
   int n = 0;
-  for (int i = 0; i < s->constraints.n; i++) n += s->constraints.at[i].one_sided && !s->constraints.at[i].open;
+  for (int i = 0; i < s->constraints.n; i++)
+    n += s->constraints.at[i].one_sided && !s->constraints.at[i].open;
   return n;
 }
 
@@ -19,25 +22,42 @@ static void put_freedom(pl_html* h) {
   const pl_dof* d = &h->s->dof;
   int one_sided = count_one_sided(h->s), implied = d->constraints - d->rank;
   open_card(h, "");
-  pl_html_rawf(h, "%s</h3><p class=\"big\">%d</p><p>", pl_html_say(h, "Degrees of freedom", "Freiheitsgrade"), d->dof);
-  pl_html_rawf(h, d->coordinates == 1 ? pl_html_say(h, "%d coordinate", "%d Koordinate") : pl_html_say(h, "%d coordinates", "%d Koordinaten"), d->coordinates);
+  pl_html_rawf(h, "%s</h3><p class=\"big\">%d</p><p>",
+               pl_html_say(h, "Degrees of freedom", "Freiheitsgrade"), d->dof);
+  pl_html_rawf(h,
+               d->coordinates == 1 ? pl_html_say(h, "%d coordinate", "%d Koordinate")
+                                   : pl_html_say(h, "%d coordinates", "%d Koordinaten"),
+               d->coordinates);
   pl_html_raw(h, ", ");
-  pl_html_rawf(h, d->constraints == 1 ? pl_html_say(h, "%d constraint", "%d Zwangsbedingung") : pl_html_say(h, "%d constraints", "%d Zwangsbedingungen"), d->constraints);
-  if (one_sided > 0 && one_sided == d->constraints) pl_html_raw(h, pl_html_say(h, ", one-sided", ", einseitig"));
-  else if (one_sided > 0) pl_html_rawf(h, pl_html_say(h, ", %d one-sided", ", davon %d einseitig"), one_sided);
+  pl_html_rawf(h,
+               d->constraints == 1 ? pl_html_say(h, "%d constraint", "%d Zwangsbedingung")
+                                   : pl_html_say(h, "%d constraints", "%d Zwangsbedingungen"),
+               d->constraints);
+  if (one_sided > 0 && one_sided == d->constraints)
+    pl_html_raw(h, pl_html_say(h, ", one-sided", ", einseitig"));
+  else if (one_sided > 0)
+    pl_html_rawf(h, pl_html_say(h, ", %d one-sided", ", davon %d einseitig"), one_sided);
   if (d->open > 0) pl_html_rawf(h, pl_html_say(h, ", %d open", ", %d offen"), d->open);
-  if (d->velocity_dof != d->dof) pl_html_rawf(h, pl_html_say(h, "; %d for velocities", "; %d für Geschwindigkeiten"), d->velocity_dof);
-  else if (implied > 0) pl_html_rawf(h, pl_html_say(h, ", %d follow from the others", ", %d folgen aus den anderen"), implied);
+  if (d->velocity_dof != d->dof)
+    pl_html_rawf(h, pl_html_say(h, "; %d for velocities", "; %d für Geschwindigkeiten"),
+                 d->velocity_dof);
+  else if (implied > 0)
+    pl_html_rawf(h, pl_html_say(h, ", %d follow from the others", ", %d folgen aus den anderen"),
+                 implied);
   pl_html_raw(h, "</p></div>\n");
 }
 
-// ---------------------------------------------------------------------------------------------- results
-static bool starts(const char* s, const char* with) { return s && strncmp(s, with, strlen(with)) == 0; }
+// ----------------------------------------------------------------------------------------- results
+static bool starts(const char* s, const char* with) {
+  return s && strncmp(s, with, strlen(with)) == 0;
+}
 
 // Equations of motion are the way, not the result.
 static bool is_way(const char* item) {
-  static const char* const way[] = {"dof", "constraints", "lagrange", "newton", "lagrangian", "hamiltonian", "conserved", NULL};
-  for (int i = 0; way[i]; i++) if (starts(item, way[i])) return true;
+  static const char* const way[] = {"dof",        "constraints", "lagrange",  "newton",
+                                    "lagrangian", "hamiltonian", "conserved", NULL};
+  for (int i = 0; way[i]; i++)
+    if (starts(item, way[i])) return true;
   return false;
 }
 
@@ -50,22 +70,30 @@ static const pl_form* short_form(pl_html* h, const pl_form* f) {
   return pl_form_relation(h->arena, left, f->text, right);
 }
 
-typedef struct pl_card { int section; const pl_step* step; const pl_form* form; bool number; } pl_card;
+typedef struct pl_card {
+  int section;
+  const pl_step* step;
+  const pl_form* form;
+  bool number;
+} pl_card;
 
-// What a section comes to: its first equation with a number, else the last one that is numbered.  A formula too wide for a card
-// leaves its number there.
+// What a section comes to: its first equation with a number, else the last one that is numbered. A
+// formula too wide for a card leaves its number there.
 static bool find_card(pl_html* h, int i, pl_card* out) {
   const pl_section* c = &h->s->sections.at[i];
   bool found = false;
   for (int k = 0; k < c->steps.n; k++) {
     const pl_step* s = &c->steps.at[k];
     bool number = s->has_value && isfinite(s->value);
-    if (s->kind != PL_STEP_EQUATION || !s->formula || s->formula->kind != PL_F_RELATION || (s->number == 0 && !number)) continue;
+    if (s->kind != PL_STEP_EQUATION || !s->formula || s->formula->kind != PL_F_RELATION
+        || (s->number == 0 && !number))
+      continue;
     const pl_form* f = short_form(h, s->formula);
     bool fits = pl_html_cells(h, f) <= PL_HTML_CARD_ROOM;
     if (found && out->number) continue;
     *out = (pl_card){i, s, fits ? f : NULL, number};
-    found = fits || number;            // a step on the way is no substitute for a result that does not fit
+    // a step on the way is no substitute for a result that does not fit
+    found = fits || number;
   }
   return found;
 }
@@ -88,9 +116,11 @@ static void put_result(pl_html* h, const pl_card* card) {
   if (card->form) pl_html_inline(h, card->form);
   else pl_html_text(h, s->value_name ? pl_format(h->arena, "%s%s", name, value) : value);
   pl_html_raw(h, "</p><p>");
-  if (card->form && card->number) pl_html_text(h, pl_format(h->arena, "%s%s%s", name, value, *after ? ", " : ""));
+  if (card->form && card->number)
+    pl_html_text(h, pl_format(h->arena, "%s%s%s", name, value, *after ? ", " : ""));
   pl_html_sentence(h, after, s->n_inserts, s->inserts);
-  if (!card->form && s->number > 0) pl_html_sentence(h, pl_format(h->arena, "%s(%d)", *after ? ", " : "", s->number), 0, NULL);
+  if (!card->form && s->number > 0)
+    pl_html_sentence(h, pl_format(h->arena, "%s(%d)", *after ? ", " : "", s->number), 0, NULL);
   pl_html_raw(h, "</p></div>\n");
 }
 
@@ -104,7 +134,8 @@ static void put_results(pl_html* h) {
   for (int i = 0; i < h->s->sections.n && shown < PL_HTML_MOST_CARDS; i++) {
     const pl_section* c = &h->s->sections.at[i];
     pl_card card = {0};
-    if (!pl_worked_wanted(h->in->only, c->letter) || is_way(c->item) || !find_card(h, i, &card)) continue;
+    if (!pl_worked_wanted(h->in->only, c->letter) || is_way(c->item) || !find_card(h, i, &card))
+      continue;
     const char* line = line_of(h, card.form);
     bool again = false;
     for (int k = 0; k < shown; k++) again |= *line && strcmp(last[k], line) == 0;
@@ -114,7 +145,7 @@ static void put_results(pl_html* h) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- checks
+// ------------------------------------------------------------------------------------------ checks
 static void put_checks(pl_html* h) {
   int n = h->s->checks.n, passed = 0, formulas = 0;
   for (int i = 0; i < n; i++) {
@@ -126,13 +157,20 @@ static void put_checks(pl_html* h) {
   pl_html_rawf(h, "%s</h3><p class=\"big\">", pl_html_say(h, "Checks", "Proben"));
   pl_html_rawf(h, pl_html_say(h, "%d of %d passed", "%d von %d bestanden"), passed, n);
   pl_html_raw(h, "</p><p>");
-  if (h->s->expect_failed) pl_html_raw(h, pl_html_say(h, "but an <code>expect</code> of the model is false", "aber ein <code>expect</code> des Modells ist falsch"));
-  else pl_html_rawf(h, pl_html_say(h, "%d formulas compared with the model", "%d Formeln mit dem Modell verglichen"), formulas);
+  if (h->s->expect_failed)
+    pl_html_raw(h, pl_html_say(h, "but an <code>expect</code> of the model is false",
+                               "aber ein <code>expect</code> des Modells ist falsch"));
+  else
+    pl_html_rawf(h,
+                 pl_html_say(h, "%d formulas compared with the model",
+                             "%d Formeln mit dem Modell verglichen"),
+                 formulas);
   pl_html_raw(h, "</p></div>\n");
 }
 
 void pl_html_cards(pl_html* h) {
-  pl_html_rawf(h, "<section id=\"result\"><h2 class=\"vh\">%s</h2><div class=\"cards\">\n", pl_html_say(h, "Result in brief", "Ergebnis in Kürze"));
+  pl_html_rawf(h, "<section id=\"result\"><h2 class=\"vh\">%s</h2><div class=\"cards\">\n",
+               pl_html_say(h, "Result in brief", "Ergebnis in Kürze"));
   put_freedom(h);
   put_results(h);
   put_checks(h);

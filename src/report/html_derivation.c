@@ -1,19 +1,25 @@
-// The derivation: lettered headings, sentences, numbered equations that can be linked to and copied, tables, and the steps
-// that only answer "why?", closed until somebody asks.
+// The derivation: lettered headings, sentences, numbered equations that can be linked to and
+// copied, tables, and the steps that only answer "why?", closed until somebody asks.
 #include "html_impl.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { PL_HTML_DIGITS = 6, PL_HTML_ALONE = 56 };   // a formula wider than this has its remark below it
+// a formula wider than this has its remark below it
+enum { PL_HTML_DIGITS = 6, PL_HTML_ALONE = 56 };
 
-// ---------------------------------------------------------------------------------------------- headings
-static bool same_text(const char* a, const char* b) { return a == b || (a && b && strcmp(a, b) == 0); }
+// ---------------------------------------------------------------------------------------- headings
+static bool same_text(const char* a, const char* b) {
+  return a == b || (a && b && strcmp(a, b) == 0);
+}
 
-static bool wanted(const pl_html* h, int i) { return pl_worked_wanted(h->in->only, h->s->sections.at[i].letter); }
+static bool wanted(const pl_html* h, int i) {
+  return pl_worked_wanted(h->in->only, h->s->sections.at[i].letter);
+}
 
 static int before(const pl_html* h, int i) {
-  for (int k = i - 1; k >= 0; k--) if (wanted(h, k)) return k;
+  for (int k = i - 1; k >= 0; k--)
+    if (wanted(h, k)) return k;
   return -1;
 }
 
@@ -30,7 +36,9 @@ int pl_html_head_of(const pl_html* h, int i) {
   return i;
 }
 
-const char* pl_html_part(const pl_html* h, int i) { return pl_format(h->arena, "part-%d", pl_html_head_of(h, i) + 1); }
+const char* pl_html_part(const pl_html* h, int i) {
+  return pl_format(h->arena, "part-%d", pl_html_head_of(h, i) + 1);
+}
 
 static void put_heading(pl_html* h, int i) {
   const pl_section* c = &h->s->sections.at[i];
@@ -45,16 +53,18 @@ static void put_heading(pl_html* h, int i) {
   pl_html_raw(h, "</h3>\n");
 }
 
-// ---------------------------------------------------------------------------------------------- equations
+// --------------------------------------------------------------------------------------- equations
 // Does the formula end in what is the answer?
 static bool is_result(const pl_section* c, const pl_form* f) {
-  for (int i = 0; f && i < c->values.n; i++) if (c->values.at[i].form && pl_html_ends_in(f, c->values.at[i].form)) return true;
+  for (int i = 0; f && i < c->values.n; i++)
+    if (c->values.at[i].form && pl_html_ends_in(f, c->values.at[i].form)) return true;
   return false;
 }
 
 static const char* value_of(const pl_html* h, const pl_step* s) {
   const char* name = s->value_name ? pl_format(h->arena, "%s ", s->value_name) : "";
-  return pl_format(h->arena, "%s= %s", name, pl_html_quantity(h, s->value, s->unit, PL_HTML_DIGITS));
+  return pl_format(h->arena, "%s= %s", name,
+                   pl_html_quantity(h, s->value, s->unit, PL_HTML_DIGITS));
 }
 
 static void put_beside(pl_html* h, const pl_step* s) {
@@ -79,19 +89,22 @@ static void put_equation(pl_html* h, const pl_section* c, const pl_step* s) {
     pl_html_raw(h, "</p>\n");
   }
   bool key = s->has_value || (s->number > 0 && is_result(c, s->formula));
-  bool wide = s->formula && pl_html_cells(h, s->formula) > PL_HTML_ALONE && (s->has_value || *pl_html_words(h, s->after));
+  bool wide = s->formula && pl_html_cells(h, s->formula) > PL_HTML_ALONE
+              && (s->has_value || *pl_html_words(h, s->after));
   pl_html_rawf(h, "<div class=\"eq%s%s\"", key ? " key" : "", wide ? " wide" : "");
   if (s->number > 0) pl_html_rawf(h, " id=\"eq-%d\"", s->number);
   pl_html_raw(h, "><div class=\"m\">");
   pl_html_display(h, s->formula);
   pl_html_raw(h, "</div>");
   put_beside(h, s);
-  if (s->number > 0) pl_html_rawf(h, "<a class=\"no\" href=\"#eq-%d\">(%d)</a>", s->number, s->number);
+  if (s->number > 0)
+    pl_html_rawf(h, "<a class=\"no\" href=\"#eq-%d\">(%d)</a>", s->number, s->number);
   const char* copy = pl_html_say(h, "Copy as LaTeX", "Als LaTeX kopieren");
-  pl_html_rawf(h, "<button type=\"button\" class=\"cp\" aria-label=\"%s\">TeX</button></div>\n", copy);
+  pl_html_rawf(h, "<button type=\"button\" class=\"cp\" aria-label=\"%s\">TeX</button></div>\n",
+               copy);
 }
 
-// ---------------------------------------------------------------------------------------------- tables
+// ------------------------------------------------------------------------------------------ tables
 static void put_cell(pl_html* h, const char* class, const char* s) {
   pl_html_rawf(h, "<td%s>", class);
   pl_html_text(h, s);
@@ -100,13 +113,16 @@ static void put_cell(pl_html* h, const char* class, const char* s) {
 
 static void put_row(pl_html* h, const pl_step* s) {
   const char* label = pl_html_words(h, s->words);
-  bool words = *label && *label != '{';       // a formula alone is no name of a row for a screen reader
+  // a formula alone is no name of a row for a screen reader
+  bool words = *label && *label != '{';
   pl_html_raw(h, words ? "<tr><th scope=\"row\">" : "<tr><td>");
   pl_html_sentence(h, label, s->n_inserts, s->inserts);
   pl_html_raw(h, words ? "</th><td>" : "</td><td>");
   if (s->formula) pl_html_inline(h, s->formula);
   pl_html_raw(h, "</td>");
-  const char* value = s->has_value && isfinite(s->value) ? value_of(h, s) : s->margin ? s->margin : "";
+  const char* value = s->has_value && isfinite(s->value) ? value_of(h, s)
+                      : s->margin                        ? s->margin
+                                                         : "";
   const char* shown = *value == '-' ? pl_format(h->arena, "−%s", value + 1) : value;
   put_cell(h, " class=\"r\"", shown);
   put_cell(h, "", pl_html_words(h, s->after));
@@ -115,7 +131,9 @@ static void put_row(pl_html* h, const pl_step* s) {
 
 static int run_of(const pl_section* c, int i, pl_step_kind kind, bool detail) {
   int n = 0;
-  while (i + n < c->steps.n && c->steps.at[i + n].kind == kind && c->steps.at[i + n].detail == detail) n++;
+  while (i + n < c->steps.n && c->steps.at[i + n].kind == kind
+         && c->steps.at[i + n].detail == detail)
+    n++;
   return n;
 }
 
@@ -127,7 +145,7 @@ static int put_rows(pl_html* h, const pl_section* c, int i) {
   return n;
 }
 
-// ---------------------------------------------------------------------------------------------- steps
+// ------------------------------------------------------------------------------------------- steps
 static void put_words(pl_html* h, const char* open, const pl_step* s, const char* close) {
   pl_html_raw(h, open);
   pl_html_sentence(h, pl_html_words(h, s->words), s->n_inserts, s->inserts);
@@ -166,7 +184,7 @@ static void put_steps(pl_html* h, const pl_section* c) {
   if (open) pl_html_raw(h, "</details>\n");
 }
 
-// ---------------------------------------------------------------------------------------------- notes
+// ------------------------------------------------------------------------------------------- notes
 static bool told_by_step(const pl_solution* s, const char* code) {
   for (int i = 0; i < s->sections.n; i++) {
     for (int k = 0; k < s->sections.at[i].steps.n; k++) {
@@ -182,9 +200,11 @@ static void put_notes(pl_html* h) {
   const pl_diagnostics* notes = h->in->notes;
   for (int i = 0; notes && i < notes->list.n; i++) {
     const pl_diagnostic* d = &notes->list.at[i];
-    if (pl_code_severity(d->code) == PL_ERROR || told_by_step(h->s, pl_code_name(d->code))) continue;
+    if (pl_code_severity(d->code) == PL_ERROR || told_by_step(h->s, pl_code_name(d->code)))
+      continue;
     const char* reason = d->reason[h->lang];
-    pl_html_rawf(h, "<p class=\"note\"><b>%s %s.</b> ", pl_html_say(h, "Note", "Hinweis"), pl_code_name(d->code));
+    pl_html_rawf(h, "<p class=\"note\"><b>%s %s.</b> ", pl_html_say(h, "Note", "Hinweis"),
+                 pl_code_name(d->code));
     pl_html_text(h, d->sentence[h->lang]);
     if (reason && *reason) {
       pl_html_raw(h, ". ");
@@ -195,13 +215,15 @@ static void put_notes(pl_html* h) {
 }
 
 void pl_html_derivation(pl_html* h) {
-  pl_html_rawf(h, "<section id=\"derivation\"><h2>%s</h2>\n", pl_html_say(h, "Derivation", "Herleitung"));
+  pl_html_rawf(h, "<section id=\"derivation\"><h2>%s</h2>\n",
+               pl_html_say(h, "Derivation", "Herleitung"));
   for (int i = 0; i < h->s->sections.n; i++) {
     const pl_section* c = &h->s->sections.at[i];
     if (!wanted(h, i)) continue;
     int k = before(h, i);
     if (!joins(h, i)) put_heading(h, i);
-    else if (!c->continues && *pl_html_words(h, c->title) && !same_text(h->s->sections.at[k].title[0], c->title[0])) {
+    else if (!c->continues && *pl_html_words(h, c->title)
+             && !same_text(h->s->sections.at[k].title[0], c->title[0])) {
       pl_html_raw(h, "<h4>");
       pl_html_text(h, pl_html_words(h, c->title));
       pl_html_raw(h, "</h4>\n");

@@ -1,12 +1,13 @@
-// Formulas in a page: MathML with the LaTeX beside it, in lines of text and on lines of their own.  A browser does not break
-// formulas, so wide ones are taken apart here: at relations, then at the signs of a sum; the parts are set in rows.
+// Formulas in a page: MathML with the LaTeX beside it, in lines of text and on lines of their own.
+// A browser does not break formulas, so wide ones are taken apart here: at relations, then at the
+// signs of a sum; the parts are set in rows.
 #include "html_impl.h"
 
 #include <string.h>
 
 enum {
-  PL_HTML_ROOM = 92,          // letters that fit on a line of the derivation
-  PL_HTML_LEFT = 18           // a left side up to this width gets a column of its own
+  PL_HTML_ROOM = 92,  // letters that fit on a line of the derivation
+  PL_HTML_LEFT = 18   // a left side up to this width gets a column of its own
 };
 
 // MathML without what browsers take for granted: brackets are fences.
@@ -14,14 +15,16 @@ static const char* mathml(pl_html* h, const pl_form* f) {
   static const char given[] = "fence=\"true\" ";
   const char* s = pl_notation_print(h->arena, h->pool, f, (pl_notation){PL_MATH_MATHML, h->lang});
   pl_text out = pl_text_make(h->arena);
-  for (const char* at; (at = strstr(s, given)); s = at + strlen(given)) pl_text_add_n(&out, s, (size_t)(at - s));
+  for (const char* at; (at = strstr(s, given)); s = at + strlen(given))
+    pl_text_add_n(&out, s, (size_t)(at - s));
   pl_text_add(&out, s);
   return pl_text_string(&out);
 }
 
 int pl_html_cells(pl_html* h, const pl_form* f) {
   int above = 0, below = 0, widest = 0;
-  const char* s = pl_notation_print_2d(h->arena, h->pool, f, (pl_notation){PL_MATH_2D, h->lang}, &above, &below);
+  const char* s = pl_notation_print_2d(h->arena, h->pool, f, (pl_notation){PL_MATH_2D, h->lang},
+                                       &above, &below);
   while (*s) {
     size_t n = strcspn(s, "\n");
     int width = pl_utf8_width_n(s, n);
@@ -38,31 +41,38 @@ void pl_html_inline(pl_html* h, const pl_form* f) {
   pl_html_raw(h, "</math>");
 }
 
-void pl_html_symbol(pl_html* h, pl_symbol s) { pl_html_inline(h, pl_form_leaf(h->arena, pl_sym(h->pool, s))); }
+void pl_html_symbol(pl_html* h, pl_symbol s) {
+  pl_html_inline(h, pl_form_leaf(h->arena, pl_sym(h->pool, s)));
+}
 
 bool pl_html_ends_in(const pl_form* whole, const pl_form* part) {
-  for (const pl_form* f = whole; f; f = f->kind == PL_F_RELATION ? f->args[1] : NULL) if (f == part) return true;
+  for (const pl_form* f = whole; f; f = f->kind == PL_F_RELATION ? f->args[1] : NULL)
+    if (f == part) return true;
   return false;
 }
 
-// ---------------------------------------------------------------------------------------------- rows
+// -------------------------------------------------------------------------------------------- rows
 // A part of a formula: what stands in front of it, and itself.
 typedef struct pl_html_part_of {
-  const char* sign;            // "", a relation, "+" or "−"
+  const char* sign;  // "", a relation, "+" or "−"
   const pl_form* form;
   bool relation;
   int cells;
 } pl_html_part_of;
 typedef PL_VEC(pl_html_part_of) pl_html_parts;
 
-static void add_part(pl_html* h, pl_html_parts* out, const char* sign, const pl_form* f, bool relation) {
+static void add_part(pl_html* h, pl_html_parts* out, const char* sign, const pl_form* f,
+                     bool relation) {
   pl_html_part_of p = {sign, f, relation, pl_html_cells(h, f) + (*sign ? 3 : 0)};
   pl_push(h->arena, *out, p);
 }
 
-static const char* relation_shown(const char* s) { return strcmp(s, "->") == 0 ? "→" : strcmp(s, "in") == 0 ? "∈" : s; }
+static const char* relation_shown(const char* s) {
+  return strcmp(s, "->") == 0 ? "→" : strcmp(s, "in") == 0 ? "∈" : s;
+}
 
-static void take_apart(pl_html* h, pl_html_parts* out, const char* sign, const pl_form* f, bool relation) {
+static void take_apart(pl_html* h, pl_html_parts* out, const char* sign, const pl_form* f,
+                       bool relation) {
   if (f->kind == PL_F_RELATION) {
     take_apart(h, out, sign, f->args[0], relation);
     take_apart(h, out, relation_shown(f->text), f->args[1], true);
@@ -87,7 +97,8 @@ static void put_part(pl_html* h, const pl_html_part_of* p) {
 // Rows as long as the room allows; a chain of relations starts a row at each of them.
 static int put_rows(pl_html* h, const pl_html_parts* parts) {
   bool column = parts->n > 1 && parts->at[1].relation && parts->at[0].cells <= PL_HTML_LEFT;
-  int room = PL_HTML_ROOM - (column ? parts->at[0].cells : 0), used = 0, widest = 0, first = column ? 1 : 0;
+  int room = PL_HTML_ROOM - (column ? parts->at[0].cells : 0), used = 0, widest = 0,
+      first = column ? 1 : 0;
   pl_html_raw(h, "<mtable class=\"al\" displaystyle=\"true\"><mtr>");
   if (column) {
     pl_html_raw(h, "<mtd>");
@@ -99,7 +110,8 @@ static int put_rows(pl_html* h, const pl_html_parts* parts) {
     const pl_html_part_of* p = &parts->at[i];
     bool starts = i > first && ((column && p->relation) || used + p->cells > room);
     if (starts) {
-      pl_html_raw(h, column ? "</mrow></mtd></mtr><mtr><mtd></mtd><mtd><mrow>" : "</mrow></mtd></mtr><mtr><mtd><mrow>");
+      pl_html_raw(h, column ? "</mrow></mtd></mtr><mtr><mtd></mtd><mtd><mrow>"
+                            : "</mrow></mtd></mtr><mtr><mtd><mrow>");
       if (!p->relation || !column) pl_html_raw(h, "<mspace width=\"2em\"/>");
       used = p->relation ? 0 : 4;
     }
@@ -124,14 +136,17 @@ void pl_html_display(pl_html* h, const pl_form* f) {
   else pl_html_rawf(h, "<mrow>%s</mrow>", mathml(h, f));
   h->out = page;
   // a formula that is still too wide is set smaller, as far as the style allows
-  if (cells > PL_HTML_ROOM - 30) pl_html_rawf(h, "<math display=\"block\" style=\"--w:%d\">", cells);
+  if (cells > PL_HTML_ROOM - 30)
+    pl_html_rawf(h, "<math display=\"block\" style=\"--w:%d\">", cells);
   else pl_html_raw(h, "<math display=\"block\">");
   const char* tex = pl_notation_print(h->arena, h->pool, f, (pl_notation){PL_MATH_TEX, h->lang});
-  pl_html_rawf(h, "<semantics>%s<annotation encoding=\"application/x-tex\">%s</annotation></semantics></math>", pl_text_string(&body),
-               pl_html_escaped(h->arena, tex));
+  pl_html_rawf(
+      h,
+      "<semantics>%s<annotation encoding=\"application/x-tex\">%s</annotation></semantics></math>",
+      pl_text_string(&body), pl_html_escaped(h->arena, tex));
 }
 
-// ---------------------------------------------------------------------------------------------- sentences
+// --------------------------------------------------------------------------------------- sentences
 // "(12)" when there is an equation of this number; bytes taken, 0 otherwise.
 static int equation_link(pl_html* h, const char* s) {
   int digits = (int)strspn(s + 1, "0123456789");

@@ -1,5 +1,6 @@
-// html_impl: what the rooms of the HTML report share.  A page is text under construction; everything that comes from a
-// model goes through pl_html_text or pl_html_attribute, which leave nothing that a browser would take for markup.
+// html_impl: what the rooms of the HTML report share. A page is text under construction; everything
+// that comes from a model goes through pl_html_text or pl_html_attribute, which leave nothing that
+// a browser would take for markup.
 #ifndef PL_HTML_IMPL_H
 #define PL_HTML_IMPL_H
 
@@ -8,7 +9,7 @@
 typedef struct pl_html {
   pl_text* out;
   pl_arena* arena;
-  pl_pool* pool;                 // NULL when the model has none
+  pl_pool* pool;  // NULL when the model has none
   const pl_html_input* in;
   const pl_solution* s;
   const pl_model* model;
@@ -20,11 +21,13 @@ extern const char pl_html_style[], pl_html_script[], pl_html_font[];
 
 // ---- html_text.c
 const char* pl_html_say(const pl_html* h, const char* en, const char* de);
-const char* pl_html_words(const pl_html* h, const char* const words[2]);   // "" when there are none
+const char* pl_html_words(const pl_html* h, const char* const words[2]);  // "" when there are none
 void pl_html_raw(pl_html* h, const char* markup);
-void pl_html_rawf(pl_html* h, const char* markup, ...) __attribute__((format(printf, 2, 3)));   // %s only for our own words
-void pl_html_text(pl_html* h, const char* s);            // escaped; control characters become visible
-void pl_html_attribute(pl_html* h, const char* s);       // the same inside "..."
+// %s only for our own words
+void pl_html_rawf(pl_html* h, const char* markup, ...) __attribute__((format(printf, 2, 3)));
+// escaped; control characters become visible
+void pl_html_text(pl_html* h, const char* s);
+void pl_html_attribute(pl_html* h, const char* s);  // the same inside "..."
 const char* pl_html_escaped(pl_arena* a, const char* s);
 const char* pl_html_number(const pl_html* h, double x, int digits);
 // A number with a unit for display: angles in degrees.
@@ -33,10 +36,11 @@ const char* pl_html_quantity(const pl_html* h, double x, const char* unit, int d
 void pl_html_json_string(pl_html* h, const char* s);
 
 // ---- html_formula.c
-void pl_html_inline(pl_html* h, const pl_form* f);       // <math> in a line of text
-void pl_html_display(pl_html* h, const pl_form* f);      // <math display="block">, broken over lines when it is wide
+void pl_html_inline(pl_html* h, const pl_form* f);  // <math> in a line of text
+// <math display="block">, broken over lines when it is wide
+void pl_html_display(pl_html* h, const pl_form* f);
 void pl_html_symbol(pl_html* h, pl_symbol s);
-int pl_html_cells(pl_html* h, const pl_form* f);         // how wide it is about, in letters
+int pl_html_cells(pl_html* h, const pl_form* f);  // how wide it is about, in letters
 // Is part the formula itself or, behind relation signs, its end?
 bool pl_html_ends_in(const pl_form* whole, const pl_form* part);
 // Words with {1}, {2} ... replaced by formulas, and (4) linked to equation 4.
@@ -52,11 +56,16 @@ void pl_html_picture(pl_html* h);
 void pl_html_scene_data(pl_html* h);
 
 // ---- html_plots.c
-typedef struct pl_html_rows { int n; const int* at; } pl_html_rows;    // rows of the result that the page keeps
+// rows of the result that the page keeps
+typedef struct pl_html_rows {
+  int n;
+  const int* at;
+} pl_html_rows;
 pl_html_rows pl_html_thin(pl_html* h);
 void pl_html_plots(pl_html* h, const pl_html_rows* rows);
 void pl_html_plot_data(pl_html* h, const pl_html_rows* rows);
-const char* pl_html_floats(pl_html* h, const double* x, int n);      // float32, little-endian, base64
+// float32, little-endian, base64
+const char* pl_html_floats(pl_html* h, const double* x, int n);
 
 // ---- the sections, one file each
 void pl_html_cards(pl_html* h);
@@ -70,6 +79,7 @@ bool pl_html_has_motion(const pl_html* h);
 
 // The address of a section of the solution inside the page: "part-3".
 const char* pl_html_part(const pl_html* h, int section);
-int pl_html_head_of(const pl_html* h, int section);      // the section whose heading this one stands under
+// the section whose heading this one stands under
+int pl_html_head_of(const pl_html* h, int section);
 
 #endif

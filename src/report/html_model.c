@@ -4,9 +4,10 @@
 #include <math.h>
 #include <string.h>
 
-// ---------------------------------------------------------------------------------------------- text
+// -------------------------------------------------------------------------------------------- text
 static bool is_word_byte(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || (unsigned char)c >= 0x80;
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_'
+         || (unsigned char)c >= 0x80;
 }
 
 static size_t word_length(const char* s, const char* end) {
@@ -16,7 +17,8 @@ static size_t word_length(const char* s, const char* end) {
 }
 
 static bool is_among(const char* const* list, const char* s, size_t n) {
-  for (; list && *list; list++) if (strlen(*list) == n && memcmp(*list, s, n) == 0) return true;
+  for (; list && *list; list++)
+    if (strlen(*list) == n && memcmp(*list, s, n) == 0) return true;
   return false;
 }
 
@@ -36,7 +38,8 @@ static void put_source_line(pl_html* h, const char* s, const char* end) {
   while (s < end) {
     size_t n = word_length(s, end);
     if (n > 0) {
-      bool statement = first && is_among(h->in->words, s, n), small = !first && is_among(h->in->small_words, s, n);
+      bool statement = first && is_among(h->in->words, s, n),
+           small = !first && is_among(h->in->small_words, s, n);
       if (statement) put_marked(h, "b", "", s, n);
       else if (small) put_marked(h, "i", "", s, n);
       else pl_html_text(h, pl_copy_n(h->arena, s, n));
@@ -44,12 +47,16 @@ static void put_source_line(pl_html* h, const char* s, const char* end) {
       s += n;
       continue;
     }
-    n = *s == '#' ? (size_t)(end - s) : *s == '"' ? up_to(s, end, '"') : *s == '[' ? up_to(s, end, ']') : 1;
+    n = *s == '#'   ? (size_t)(end - s)
+        : *s == '"' ? up_to(s, end, '"')
+        : *s == '[' ? up_to(s, end, ']')
+                    : 1;
     if (*s == '#') put_marked(h, "span", " class=\"cm\"", s, n);
     else if (*s == '"') put_marked(h, "span", " class=\"st\"", s, n);
     else if (*s == '[') put_marked(h, "span", " class=\"un\"", s, n);
     else pl_html_text(h, pl_copy_n(h->arena, s, n));
-    if (*s == ':' || *s == '{' || *s == ',') first = *s != ',';      // `ask a: simulate ...`, `for ... {`
+    // `ask a: simulate ...`, `for ... {`
+    if (*s == ':' || *s == '{' || *s == ',') first = *s != ',';
     else if (*s != ' ' && *s != '\t') first = false;
     s += n;
   }
@@ -71,16 +78,21 @@ static void put_source(pl_html* h) {
   pl_html_raw(h, "</code></pre>\n");
 }
 
-// ---------------------------------------------------------------------------------------------- parameters
+// -------------------------------------------------------------------------------------- parameters
 static bool is_symbol(const pl_html* h, pl_expr e, pl_symbol s) {
-  return !pl_is_poison(e) && pl_kind_of(h->pool, e) == PL_SYMBOL && pl_symbol_of(h->pool, e).id == s.id;
+  return !pl_is_poison(e) && pl_kind_of(h->pool, e) == PL_SYMBOL
+         && pl_symbol_of(h->pool, e).id == s.id;
 }
 
 static const char* load_meaning(pl_html* h, const pl_load* l, pl_symbol s) {
-  if (l->kind == PL_L_SPRING && is_symbol(h, l->value, s)) return pl_html_say(h, "stiffness of a spring", "Federkonstante");
-  if (l->kind == PL_L_SPRING && is_symbol(h, l->rest, s)) return pl_html_say(h, "length of a spring at rest", "Ruhelänge einer Feder");
-  if (l->kind == PL_L_DAMPER && is_symbol(h, l->value, s)) return pl_html_say(h, "damping", "Dämpfung");
-  if (l->kind == PL_L_DRAG && is_symbol(h, l->value, s)) return pl_html_say(h, "drag", "Luftwiderstand");
+  if (l->kind == PL_L_SPRING && is_symbol(h, l->value, s))
+    return pl_html_say(h, "stiffness of a spring", "Federkonstante");
+  if (l->kind == PL_L_SPRING && is_symbol(h, l->rest, s))
+    return pl_html_say(h, "length of a spring at rest", "Ruhelänge einer Feder");
+  if (l->kind == PL_L_DAMPER && is_symbol(h, l->value, s))
+    return pl_html_say(h, "damping", "Dämpfung");
+  if (l->kind == PL_L_DRAG && is_symbol(h, l->value, s))
+    return pl_html_say(h, "drag", "Luftwiderstand");
   return NULL;
 }
 
@@ -88,17 +100,21 @@ static const char* load_meaning(pl_html* h, const pl_load* l, pl_symbol s) {
 static const char* use_of(pl_html* h, pl_symbol s) {
   const pl_model* m = h->model;
   for (int i = 0; i < m->gravities.n; i++) {
-    if (is_symbol(h, m->gravities.at[i].g, s)) return pl_html_say(h, "acceleration of gravity", "Fallbeschleunigung");
+    if (is_symbol(h, m->gravities.at[i].g, s))
+      return pl_html_say(h, "acceleration of gravity", "Fallbeschleunigung");
   }
   for (int i = 0; i < m->masses.n; i++) {
     const pl_mass* p = &m->masses.at[i];
     if (!is_symbol(h, p->mass, s)) continue;
-    if (p->name.generated || !p->name.text || strcmp(p->name.text, pl_symbol_get(h->pool, s)->name) == 0) return pl_html_say(h, "mass", "Masse");
+    if (p->name.generated || !p->name.text
+        || strcmp(p->name.text, pl_symbol_get(h->pool, s)->name) == 0)
+      return pl_html_say(h, "mass", "Masse");
     return pl_format(h->arena, pl_html_say(h, "mass of %s", "Masse von %s"), p->name.text);
   }
   for (int i = 0; i < m->bodies.n; i++) {
     if (is_symbol(h, m->bodies.at[i].mass, s)) return pl_html_say(h, "mass", "Masse");
-    if (is_symbol(h, m->bodies.at[i].inertia, s)) return pl_html_say(h, "moment of inertia", "Trägheitsmoment");
+    if (is_symbol(h, m->bodies.at[i].inertia, s))
+      return pl_html_say(h, "moment of inertia", "Trägheitsmoment");
   }
   for (int i = 0; i < m->loads.n; i++) {
     const char* words = load_meaning(h, &m->loads.at[i], s);
@@ -115,7 +131,8 @@ static const char* comment_of(pl_html* h, const pl_param* p, int i) {
   for (int k = 0; k < h->model->params.n; k++) {
     const pl_param* other = &h->model->params.at[k];
     if (other->literal) continue;
-    if (k != i && other->span.source == source && pl_span_place(other->span).line == line) return NULL;
+    if (k != i && other->span.source == source && pl_span_place(other->span).line == line)
+      return NULL;
   }
   const char* text = pl_source_line(h->arena, source, line);
   const char* at = strchr(text, '#');
@@ -129,12 +146,15 @@ static const char* meaning_of(pl_html* h, const pl_param* p, int i) {
   if (!words) words = use_of(h, p->symbol);
   if (words) return words;
   const pl_symbol_info* s = pl_symbol_get(h->pool, p->symbol);
-  bool angle = p->unit_text && (strcmp(p->unit_text, "deg") == 0 || strcmp(p->unit_text, "°") == 0 || strcmp(p->unit_text, "rad") == 0);
+  bool angle = p->unit_text
+               && (strcmp(p->unit_text, "deg") == 0 || strcmp(p->unit_text, "°") == 0
+                   || strcmp(p->unit_text, "rad") == 0);
   if (angle) return pl_html_say(h, "angle", "Winkel");
   if (!h->model->uses_units || !s->dimension_known) return "";
   words = pl_dimension_words(h->arena, s->dimension, h->lang);
   static const char* const article[] = {"an ", "a ", "eine ", "ein "};
-  for (int k = 0; k < 4; k++) if (strncmp(words, article[k], strlen(article[k])) == 0) return words + strlen(article[k]);
+  for (int k = 0; k < 4; k++)
+    if (strncmp(words, article[k], strlen(article[k])) == 0) return words + strlen(article[k]);
   return words;
 }
 
@@ -167,7 +187,10 @@ static void put_parameter(pl_html* h, const double* value, int i) {
   pl_html_text(h, meaning_of(h, p, i));
   pl_html_raw(h, "</td><td class=\"r\">");
   bool angle = p->unit_text && (strcmp(p->unit_text, "deg") == 0 || strcmp(p->unit_text, "°") == 0);
-  const char* unit = angle ? "rad" : s->dimension_known && h->model->uses_units ? pl_dimension_unit(h->arena, s->dimension, false) : "";
+  const char* unit = angle ? "rad"
+                     : s->dimension_known && h->model->uses_units
+                         ? pl_dimension_unit(h->arena, s->dimension, false)
+                         : "";
   if (isnan(x)) pl_html_raw(h, "–");
   else pl_html_text(h, pl_html_quantity(h, x, unit, 6));
   pl_html_raw(h, "</td><td>");
@@ -181,16 +204,19 @@ static void put_parameters(pl_html* h) {
   if (!h->pool || n == 0) return;
   const double* value = pl_model_values(h->model, h->arena);
   pl_html_raw(h, "<div class=\"scroll\"><table>");
-  pl_html_rawf(h, "<thead><tr><th scope=\"col\">%s</th><th scope=\"col\">%s</th><th scope=\"col\" class=\"r\">%s</th><th scope=\"col\">%s</th></tr></thead><tbody>\n",
-               pl_html_say(h, "Symbol", "Symbol"), pl_html_say(h, "Meaning", "Bedeutung"), pl_html_say(h, "Value", "Wert"),
-               pl_html_say(h, "Used", "Benutzt"));
+  pl_html_rawf(h,
+               "<thead><tr><th scope=\"col\">%s</th><th scope=\"col\">%s</th><th scope=\"col\" "
+               "class=\"r\">%s</th><th scope=\"col\">%s</th></tr></thead><tbody>\n",
+               pl_html_say(h, "Symbol", "Symbol"), pl_html_say(h, "Meaning", "Bedeutung"),
+               pl_html_say(h, "Value", "Wert"), pl_html_say(h, "Used", "Benutzt"));
   for (int i = 0; i < h->model->params.n; i++)
     if (!h->model->params.at[i].literal) put_parameter(h, value, i);
   pl_html_raw(h, "</tbody></table></div>\n");
 }
 
 void pl_html_model(pl_html* h) {
-  pl_html_rawf(h, "<section id=\"model\"><h2>%s</h2>\n<div class=\"two\">\n", pl_html_say(h, "Model", "Modell"));
+  pl_html_rawf(h, "<section id=\"model\"><h2>%s</h2>\n<div class=\"two\">\n",
+               pl_html_say(h, "Model", "Modell"));
   put_source(h);
   put_parameters(h);
   pl_html_raw(h, "</div></section>\n");

@@ -1,7 +1,7 @@
 // The page as a whole: head, navigation, title and question, then the sections in their order.
 //
-// The page forbids itself to load anything and to run any script but ours, whose hash it names, so that a model text that
-// should ever slip through as markup would still do nothing.
+// The page forbids itself to load anything and to run any script but ours, whose hash it names, so
+// that a model text that should ever slip through as markup would still do nothing.
 #include "html_impl.h"
 
 #include <string.h>
@@ -9,19 +9,26 @@
 #include "html_hash.h"
 
 static const char brand[] =
-  "<svg viewBox=\"0 0 32 20\" width=\"30\" height=\"19\" aria-hidden=\"true\"><circle cx=\"8\" cy=\"10\" r=\"6.5\" fill=\"none\" "
-  "stroke=\"currentColor\" stroke-width=\"1.6\"/><line x1=\"12\" y1=\"5\" x2=\"27\" y2=\"10\" stroke=\"currentColor\" "
-  "stroke-width=\"2.4\" stroke-linecap=\"round\"/><circle cx=\"12\" cy=\"5\" r=\"2.4\" fill=\"currentColor\"/><rect x=\"24\" y=\"7\" "
-  "width=\"6.5\" height=\"6\" rx=\"1\" fill=\"currentColor\"/></svg>";
+    "<svg viewBox=\"0 0 32 20\" width=\"30\" height=\"19\" aria-hidden=\"true\"><circle cx=\"8\" "
+    "cy=\"10\" r=\"6.5\" fill=\"none\" "
+    "stroke=\"currentColor\" stroke-width=\"1.6\"/><line x1=\"12\" y1=\"5\" x2=\"27\" y2=\"10\" "
+    "stroke=\"currentColor\" "
+    "stroke-width=\"2.4\" stroke-linecap=\"round\"/><circle cx=\"12\" cy=\"5\" r=\"2.4\" "
+    "fill=\"currentColor\"/><rect x=\"24\" y=\"7\" "
+    "width=\"6.5\" height=\"6\" rx=\"1\" fill=\"currentColor\"/></svg>";
 
-// ---------------------------------------------------------------------------------------------- head
+// -------------------------------------------------------------------------------------------- head
 static void put_policy(pl_html* h) {
   unsigned char hash[32];
   pl_text base64 = pl_text_make(h->arena);
   pl_html_sha256(hash, pl_html_script, strlen(pl_html_script));
   pl_html_base64(&base64, hash, sizeof hash);
-  pl_html_rawf(h, "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src 'sha256-%s'; "
-               "style-src 'unsafe-inline'; font-src data:; base-uri 'none'; form-action 'none'\">\n", pl_text_string(&base64));
+  pl_html_rawf(
+      h,
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src "
+      "'sha256-%s'; "
+      "style-src 'unsafe-inline'; font-src data:; base-uri 'none'; form-action 'none'\">\n",
+      pl_text_string(&base64));
 }
 
 static const char* title_of(const pl_html* h) {
@@ -30,7 +37,8 @@ static const char* title_of(const pl_html* h) {
 }
 
 static void put_head(pl_html* h) {
-  pl_html_rawf(h, "<!doctype html>\n<html lang=\"%s\">\n<head>\n<meta charset=\"utf-8\">\n", pl_html_say(h, "en", "de"));
+  pl_html_rawf(h, "<!doctype html>\n<html lang=\"%s\">\n<head>\n<meta charset=\"utf-8\">\n",
+               pl_html_say(h, "en", "de"));
   pl_html_raw(h, "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n");
   put_policy(h);
   pl_html_raw(h, "<meta name=\"color-scheme\" content=\"light dark\">\n<title>");
@@ -50,11 +58,15 @@ static void put_link(pl_html* h, const char* id, const char* words) {
 }
 
 static void put_tool(pl_html* h, const char* id, const char* words, const char* label) {
-  pl_html_rawf(h, "<button type=\"button\" id=\"%s\" aria-label=\"%s\">%s</button>", id, label, words);
+  pl_html_rawf(h, "<button type=\"button\" id=\"%s\" aria-label=\"%s\">%s</button>", id, label,
+               words);
 }
 
 static void put_top(pl_html* h) {
-  pl_html_rawf(h, "<body>\n<header class=\"top\"><div class=\"wrap\"><span class=\"brand\">%spleuel</span>\n", brand);
+  pl_html_rawf(
+      h,
+      "<body>\n<header class=\"top\"><div class=\"wrap\"><span class=\"brand\">%spleuel</span>\n",
+      brand);
   pl_html_rawf(h, "<nav aria-label=\"%s\">", pl_html_say(h, "Sections", "Abschnitte"));
   put_link(h, "result", pl_html_say(h, "Result", "Ergebnis"));
   if (pl_html_has_motion(h)) put_link(h, "motion", pl_html_say(h, "Motion", "Bewegung"));
@@ -64,14 +76,18 @@ static void put_top(pl_html* h) {
   put_link(h, "model", pl_html_say(h, "Model", "Modell"));
   pl_html_raw(h, "</nav>\n<span class=\"tools\">");
   bool data = pl_html_has_motion(h) && h->in->data != PL_HTML_DATA_NONE;
-  if (data) put_tool(h, "csv", "CSV", pl_html_say(h, "Save the motion as CSV", "Bewegung als CSV speichern"));
-  put_tool(h, "tex", "LaTeX", pl_html_say(h, "Save the equations as LaTeX", "Gleichungen als LaTeX speichern"));
+  if (data)
+    put_tool(h, "csv", "CSV",
+             pl_html_say(h, "Save the motion as CSV", "Bewegung als CSV speichern"));
+  put_tool(h, "tex", "LaTeX",
+           pl_html_say(h, "Save the equations as LaTeX", "Gleichungen als LaTeX speichern"));
   put_tool(h, "print", pl_html_say(h, "Print", "Drucken"), pl_html_say(h, "Print", "Drucken"));
-  put_tool(h, "theme", "◐", pl_html_say(h, "Switch between light and dark", "Zwischen hell und dunkel wechseln"));
+  put_tool(h, "theme", "◐",
+           pl_html_say(h, "Switch between light and dark", "Zwischen hell und dunkel wechseln"));
   pl_html_raw(h, "</span></div></header>\n<main class=\"wrap\">\n");
 }
 
-// ---------------------------------------------------------------------------------------------- title
+// ------------------------------------------------------------------------------------------- title
 static void put_title(pl_html* h) {
   pl_html_raw(h, "<h1>");
   pl_html_text(h, title_of(h));
@@ -87,7 +103,13 @@ static void put_title(pl_html* h) {
 
 void pl_html_report(pl_text* out, const pl_html_input* in) {
   const pl_model* m = in->solution->model;
-  pl_html page = {.out = out, .arena = out->arena, .pool = m ? m->pool : NULL, .in = in, .s = in->solution, .model = m, .lang = in->lang};
+  pl_html page = {.out = out,
+                  .arena = out->arena,
+                  .pool = m ? m->pool : NULL,
+                  .in = in,
+                  .s = in->solution,
+                  .model = m,
+                  .lang = in->lang};
   pl_html* h = &page;
   put_head(h);
   put_top(h);

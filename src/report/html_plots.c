@@ -1,5 +1,5 @@
-// The plots of the motion: drawn here once, so that they are there on paper and without a script, and as numbers for the
-// script, which draws them anew when somebody zooms.
+// The plots of the motion: drawn here once, so that they are there on paper and without a script,
+// and as numbers for the script, which draws them anew when somebody zooms.
 #include "html_impl.h"
 
 #include <math.h>
@@ -8,13 +8,18 @@
 #include "html_hash.h"
 
 enum {
-  PL_HTML_PLOT_W = 500, PL_HTML_PLOT_H = 190, PL_HTML_LEFT = 58, PL_HTML_RIGHT = 14, PL_HTML_TOP = 10, PL_HTML_BOTTOM = 30,
-  PL_HTML_DRAWN = 90,          // points of a curve on paper
-  PL_HTML_KEPT = 1600,          // rows up to which all are kept
-  PL_HTML_EXTREMES = 2400       // points kept for the extremes of all curves together
+  PL_HTML_PLOT_W = 500,
+  PL_HTML_PLOT_H = 190,
+  PL_HTML_LEFT = 58,
+  PL_HTML_RIGHT = 14,
+  PL_HTML_TOP = 10,
+  PL_HTML_BOTTOM = 30,
+  PL_HTML_DRAWN = 90,      // points of a curve on paper
+  PL_HTML_KEPT = 1600,     // rows up to which all are kept
+  PL_HTML_EXTREMES = 2400  // points kept for the extremes of all curves together
 };
 
-// ---------------------------------------------------------------------------------------------- rows
+// -------------------------------------------------------------------------------------------- rows
 
 static void keep(int* kept, int row) { kept[row] = 1; }
 
@@ -24,7 +29,9 @@ pl_html_rows pl_html_thin(pl_html* h) {
   int n = r->rows.n, curves = 1;
   int* kept = PL_ARRAY(h->arena, int, n + 1);
   for (int p = 0; p < h->in->n_plots; p++) curves += h->in->plots[p].n_curves;
-  int buckets = n <= PL_HTML_KEPT ? n : PL_HTML_EXTREMES / (2 * curves) < 100 ? 100 : PL_HTML_EXTREMES / (2 * curves);
+  int buckets = n <= PL_HTML_KEPT                       ? n
+                : PL_HTML_EXTREMES / (2 * curves) < 100 ? 100
+                                                        : PL_HTML_EXTREMES / (2 * curves);
   for (int b = 0; b < buckets; b++) {
     int from = (int)((long)b * n / buckets), to = (int)((long)(b + 1) * n / buckets);
     if (from < to) keep(kept, from);
@@ -35,7 +42,10 @@ pl_html_rows pl_html_thin(pl_html* h) {
           if (r->rows.at[i][column] < r->rows.at[lo][column]) lo = i;
           if (r->rows.at[i][column] > r->rows.at[hi][column]) hi = i;
         }
-        if (from < to) keep(kept, lo), keep(kept, hi);
+        if (from < to) {
+          keep(kept, lo);
+          keep(kept, hi);
+        }
       }
     }
   }
@@ -46,14 +56,18 @@ pl_html_rows pl_html_thin(pl_html* h) {
   keep(kept, n - 1);
   int* at = PL_ARRAY(h->arena, int, n + 1);
   int m = 0;
-  for (int i = 0; i < n; i++) if (kept[i]) at[m++] = i;
+  for (int i = 0; i < n; i++)
+    if (kept[i]) at[m++] = i;
   return (pl_html_rows){m, at};
 }
 
-// ---------------------------------------------------------------------------------------------- axes
-typedef struct pl_html_range { double lo, hi; } pl_html_range;
+// -------------------------------------------------------------------------------------------- axes
+typedef struct pl_html_range {
+  double lo, hi;
+} pl_html_range;
 
-static pl_html_range range_of(const pl_html* h, const pl_html_rows* rows, const int* column, int n, double room) {
+static pl_html_range range_of(const pl_html* h, const pl_html_rows* rows, const int* column, int n,
+                              double room) {
   pl_html_range g = {INFINITY, -INFINITY};
   for (int i = 0; i < rows->n; i++) {
     for (int k = 0; k < n; k++) {
@@ -65,19 +79,27 @@ static pl_html_range range_of(const pl_html* h, const pl_html_rows* rows, const 
   }
   if (!(g.lo <= g.hi)) return (pl_html_range){0, 1};
   double size = fmax(fabs(g.lo), fabs(g.hi)), span = g.hi - g.lo;
-  if (span < 1e-9 * size || !(size > 0)) {     // a constant lies in the middle
+  if (span < 1e-9 * size || !(size > 0)) {  // a constant lies in the middle
     double around = size > 0 ? 0.5 * size : 1;
     return (pl_html_range){g.lo - around, g.hi + around};
   }
-  if (room > 0 && g.lo > 0 && g.lo < 0.35 * g.hi) g.lo = 0, span = g.hi;
-  if (room > 0 && g.hi < 0 && g.hi > 0.35 * g.lo) g.hi = 0, span = -g.lo;
-  return (pl_html_range){g.lo - (fabs(g.lo) > 0 ? room * span : room * span / 2), g.hi + (fabs(g.hi) > 0 ? room * span : room * span / 2)};
+  if (room > 0 && g.lo > 0 && g.lo < 0.35 * g.hi) {
+    g.lo = 0;
+    span = g.hi;
+  }
+  if (room > 0 && g.hi < 0 && g.hi > 0.35 * g.lo) {
+    g.hi = 0;
+    span = -g.lo;
+  }
+  return (pl_html_range){g.lo - (fabs(g.lo) > 0 ? room * span : room * span / 2),
+                         g.hi + (fabs(g.hi) > 0 ? room * span : room * span / 2)};
 }
 
 static double tick_step(double span, int n) {
   double w = span / n, p = pow(10, floor(log10(w)));
   static const double m[] = {1, 2, 5, 10};
-  for (int i = 0; i < 4; i++) if (m[i] * p >= w * (1 - 1e-9)) return m[i] * p;
+  for (int i = 0; i < 4; i++)
+    if (m[i] * p >= w * (1 - 1e-9)) return m[i] * p;
   return 10 * p;
 }
 
@@ -86,12 +108,16 @@ static const char* tick_text(const pl_html* h, double v, double step) {
   return pl_html_number(h, v, 6);
 }
 
-typedef struct pl_html_axes { pl_html_range x, y; } pl_html_axes;
+typedef struct pl_html_axes {
+  pl_html_range x, y;
+} pl_html_axes;
 static double to_x(const pl_html_axes* a, double x) {
-  return PL_HTML_LEFT + (x - a->x.lo) / (a->x.hi - a->x.lo) * (PL_HTML_PLOT_W - PL_HTML_LEFT - PL_HTML_RIGHT);
+  return PL_HTML_LEFT
+         + (x - a->x.lo) / (a->x.hi - a->x.lo) * (PL_HTML_PLOT_W - PL_HTML_LEFT - PL_HTML_RIGHT);
 }
 static double to_y(const pl_html_axes* a, double y) {
-  return PL_HTML_PLOT_H - PL_HTML_BOTTOM - (y - a->y.lo) / (a->y.hi - a->y.lo) * (PL_HTML_PLOT_H - PL_HTML_TOP - PL_HTML_BOTTOM);
+  return PL_HTML_PLOT_H - PL_HTML_BOTTOM
+         - (y - a->y.lo) / (a->y.hi - a->y.lo) * (PL_HTML_PLOT_H - PL_HTML_TOP - PL_HTML_BOTTOM);
 }
 
 static const char* with_unit(const pl_html* h, const char* name, const char* unit) {
@@ -103,33 +129,39 @@ static void put_axes(pl_html* h, const pl_html_axes* a, const char* x_label) {
   double step = tick_step(a->y.hi - a->y.lo, 4);
   for (double v = ceil(a->y.lo / step - 1e-9) * step; v <= a->y.hi + 1e-9 * step; v += step) {
     bool zero = fabs(v) < 1e-9 * step;
-    pl_html_rawf(h, "<line class=\"%s\" x1=\"%d\" x2=\"%d\" y1=\"%.1f\" y2=\"%.1f\"/><text class=\"e\" x=\"%d\" y=\"%.1f\">%s</text>\n",
-                 zero ? "ax" : "gr", PL_HTML_LEFT, PL_HTML_PLOT_W - PL_HTML_RIGHT, to_y(a, v), to_y(a, v), PL_HTML_LEFT - 7,
-                 to_y(a, v) + 4, tick_text(h, v, step));
+    pl_html_rawf(h,
+                 "<line class=\"%s\" x1=\"%d\" x2=\"%d\" y1=\"%.1f\" y2=\"%.1f\"/><text "
+                 "class=\"e\" x=\"%d\" y=\"%.1f\">%s</text>\n",
+                 zero ? "ax" : "gr", PL_HTML_LEFT, PL_HTML_PLOT_W - PL_HTML_RIGHT, to_y(a, v),
+                 to_y(a, v), PL_HTML_LEFT - 7, to_y(a, v) + 4, tick_text(h, v, step));
   }
   double label = 7.0 * pl_utf8_width(x_label) + 8, y = PL_HTML_PLOT_H - PL_HTML_BOTTOM;
   step = tick_step(a->x.hi - a->x.lo, 5);
   for (double v = ceil(a->x.lo / step - 1e-9) * step; v <= a->x.hi + 1e-9 * step; v += step) {
-    pl_html_rawf(h, "<line class=\"ax\" x1=\"%.1f\" x2=\"%.1f\" y1=\"%.0f\" y2=\"%.0f\"/>", to_x(a, v), to_x(a, v), y, y + 4);
+    pl_html_rawf(h, "<line class=\"ax\" x1=\"%.1f\" x2=\"%.1f\" y1=\"%.0f\" y2=\"%.0f\"/>",
+                 to_x(a, v), to_x(a, v), y, y + 4);
     if (to_x(a, v) + 18 > PL_HTML_PLOT_W - PL_HTML_RIGHT - label) continue;
-    pl_html_rawf(h, "<text class=\"m\" x=\"%.1f\" y=\"%.0f\">%s</text>\n", to_x(a, v), y + 17, tick_text(h, v, step));
+    pl_html_rawf(h, "<text class=\"m\" x=\"%.1f\" y=\"%.0f\">%s</text>\n", to_x(a, v), y + 17,
+                 tick_text(h, v, step));
   }
   pl_html_rawf(h, "<text class=\"e\" x=\"%d\" y=\"%.0f\">", PL_HTML_PLOT_W - PL_HTML_RIGHT, y + 17);
   pl_html_text(h, x_label);
   pl_html_raw(h, "</text>\n");
 }
 
-// ---------------------------------------------------------------------------------------------- curves
+// ------------------------------------------------------------------------------------------ curves
 static const char* const ink[] = {"z", "w", "v", "c4", "c5"};
 
-static void put_curve(pl_html* h, const pl_html_axes* a, const pl_html_plot* p, int k, const pl_html_rows* rows) {
+static void put_curve(pl_html* h, const pl_html_axes* a, const pl_html_plot* p, int k,
+                      const pl_html_rows* rows) {
   const pl_result* r = h->in->result;
   int step = rows->n / PL_HTML_DRAWN + 1;
   bool open = false;
   pl_html_rawf(h, "<path class=\"cv k%d\" style=\"stroke:var(--%s)\" d=\"", k % 5, ink[k % 5]);
   for (int i = 0; i < rows->n; i++) {
     int row = rows->at[i];
-    bool corner = r->kinds.at[row] == PL_ROW_BEFORE || r->kinds.at[row] == PL_ROW_AFTER || i == rows->n - 1;
+    bool corner = r->kinds.at[row] == PL_ROW_BEFORE || r->kinds.at[row] == PL_ROW_AFTER
+                  || i == rows->n - 1;
     if (i % step != 0 && !corner) continue;
     double x = r->rows.at[row][p->x_column], y = r->rows.at[row][p->curves[k].column];
     bool there = isfinite(x) && isfinite(y);
@@ -147,17 +179,19 @@ static void put_marks(pl_html* h, const pl_html_axes* a) {
     const char* words = pl_html_event(h, &r->events.at[i]);
     double x = to_x(a, r->events.at[i].t), w = 6.6 * pl_utf8_width(words) + 8;
     double next = i + 1 < r->events.n ? to_x(a, r->events.at[i + 1].t) : end;
-    pl_html_rawf(h, "<line class=\"ev\" x1=\"%.1f\" x2=\"%.1f\" y1=\"%d\" y2=\"%d\"/>", x, x, PL_HTML_TOP - 6, PL_HTML_PLOT_H - PL_HTML_BOTTOM);
+    pl_html_rawf(h, "<line class=\"ev\" x1=\"%.1f\" x2=\"%.1f\" y1=\"%d\" y2=\"%d\"/>", x, x,
+                 PL_HTML_TOP - 6, PL_HTML_PLOT_H - PL_HTML_BOTTOM);
     bool left = x - w >= free_from, right = !left && x + w <= next;
     free_from = right ? x + w : x;
     if (!left && !right) continue;
-    pl_html_rawf(h, "<text class=\"%s evt\" x=\"%.1f\" y=\"%d\">", left ? "e" : "", left ? x - 4 : x + 4, PL_HTML_TOP + 5);
+    pl_html_rawf(h, "<text class=\"%s evt\" x=\"%.1f\" y=\"%d\">", left ? "e" : "",
+                 left ? x - 4 : x + 4, PL_HTML_TOP + 5);
     pl_html_text(h, words);
     pl_html_raw(h, "</text>\n");
   }
 }
 
-// ---------------------------------------------------------------------------------------------- plots
+// ------------------------------------------------------------------------------------------- plots
 static const char* plot_title(pl_html* h, const pl_html_plot* p) {
   if (p->title) return with_unit(h, p->title, p->curves[0].unit);
   pl_text t = pl_text_make(h->arena);
@@ -166,12 +200,15 @@ static const char* plot_title(pl_html* h, const pl_html_plot* p) {
 }
 
 // What a listener hears of a plot: between which values each curve lies.
-static void put_description(pl_html* h, const pl_html_plot* p, const pl_html_rows* rows, const char* x_name) {
-  pl_html_attribute(h, pl_format(h->arena, pl_html_say(h, "%s over %s: ", "%s über %s: "), plot_title(h, p), x_name));
+static void put_description(pl_html* h, const pl_html_plot* p, const pl_html_rows* rows,
+                            const char* x_name) {
+  pl_html_attribute(h, pl_format(h->arena, pl_html_say(h, "%s over %s: ", "%s über %s: "),
+                                 plot_title(h, p), x_name));
   for (int k = 0; k < p->n_curves; k++) {
     pl_html_range g = range_of(h, rows, &p->curves[k].column, 1, 0);
-    const char* words = pl_format(h->arena, pl_html_say(h, "%s%s between %s and %s", "%s%s zwischen %s und %s"), k ? "; " : "", p->curves[k].name,
-                                  pl_html_number(h, g.lo, 4), pl_html_number(h, g.hi, 4));
+    const char* words = pl_format(
+        h->arena, pl_html_say(h, "%s%s between %s and %s", "%s%s zwischen %s und %s"),
+        k ? "; " : "", p->curves[k].name, pl_html_number(h, g.lo, 4), pl_html_number(h, g.hi, 4));
     pl_html_attribute(h, words);
   }
 }
@@ -181,18 +218,25 @@ static void put_plot(pl_html* h, int i, const pl_html_rows* rows) {
   int column[16], n = p->n_curves < 16 ? p->n_curves : 16;
   for (int k = 0; k < n; k++) column[k] = p->curves[k].column;
   bool over_time = !p->x_name;
-  const char* x_label = over_time ? (h->model->uses_units ? "t in s" : "t") : with_unit(h, p->x_name, p->x_unit);
-  pl_html_axes a = {.x = range_of(h, rows, &p->x_column, 1, over_time ? 0 : 0.04), .y = range_of(h, rows, column, n, 0.06)};
+  const char* x_label = over_time ? (h->model->uses_units ? "t in s" : "t")
+                                  : with_unit(h, p->x_name, p->x_unit);
+  pl_html_axes a = {.x = range_of(h, rows, &p->x_column, 1, over_time ? 0 : 0.04),
+                    .y = range_of(h, rows, column, n, 0.06)};
   pl_html_raw(h, "<div class=\"plot\"><div class=\"ph\"><b>");
   pl_html_text(h, plot_title(h, p));
   pl_html_raw(h, "</b><span class=\"rd\">");
   for (int k = 0; k < n; k++) {
     pl_html_rawf(h, "<span style=\"color:var(--%s)\">", ink[k % 5]);
-    pl_html_rawf(h, "<svg class=\"key\" viewBox=\"0 0 18 8\" aria-hidden=\"true\"><path class=\"cv k%d\" style=\"stroke:var(--%s)\" d=\"M0 4H18\"/></svg>", k % 5, ink[k % 5]);
+    pl_html_rawf(h,
+                 "<svg class=\"key\" viewBox=\"0 0 18 8\" aria-hidden=\"true\"><path class=\"cv "
+                 "k%d\" style=\"stroke:var(--%s)\" d=\"M0 4H18\"/></svg>",
+                 k % 5, ink[k % 5]);
     pl_html_text(h, p->curves[k].name);
     pl_html_raw(h, "<output></output></span> ");
   }
-  pl_html_rawf(h, "</span></div>\n<svg data-p=\"%d\" viewBox=\"0 0 %d %d\" role=\"img\" aria-label=\"", i, PL_HTML_PLOT_W, PL_HTML_PLOT_H);
+  pl_html_rawf(h,
+               "</span></div>\n<svg data-p=\"%d\" viewBox=\"0 0 %d %d\" role=\"img\" aria-label=\"",
+               i, PL_HTML_PLOT_W, PL_HTML_PLOT_H);
   put_description(h, p, rows, over_time ? pl_html_say(h, "time", "der Zeit") : p->x_name);
   pl_html_raw(h, "\">\n");
   put_axes(h, &a, x_label);
@@ -205,7 +249,7 @@ void pl_html_plots(pl_html* h, const pl_html_rows* rows) {
   for (int i = 0; i < h->in->n_plots; i++) put_plot(h, i, rows);
 }
 
-// ---------------------------------------------------------------------------------------------- numbers
+// ----------------------------------------------------------------------------------------- numbers
 const char* pl_html_floats(pl_html* h, const double* x, int n) {
   unsigned char* bytes = PL_ARRAY(h->arena, unsigned char, 4 * (size_t)n + 1);
   for (int i = 0; i < n; i++) {
@@ -231,8 +275,15 @@ static const char* head_of(pl_html* h, int column) {
   const char *name = c->name, *unit = c->unit;
   for (int p = 0; column >= h->in->n_columns && p < h->in->n_plots; p++) {
     const pl_html_plot* plot = &h->in->plots[p];
-    if (plot->x_name && plot->x_column == column) name = plot->x_name, unit = plot->x_unit;
-    for (int k = 0; k < plot->n_curves; k++) if (plot->curves[k].column == column) name = plot->curves[k].name, unit = plot->curves[k].unit;
+    if (plot->x_name && plot->x_column == column) {
+      name = plot->x_name;
+      unit = plot->x_unit;
+    }
+    for (int k = 0; k < plot->n_curves; k++)
+      if (plot->curves[k].column == column) {
+        name = plot->curves[k].name;
+        unit = plot->curves[k].unit;
+      }
   }
   return unit && *unit ? pl_format(h->arena, "%s [%s]", name, unit) : name;
 }
@@ -271,9 +322,12 @@ static void put_plot_list(pl_html* h) {
   for (int i = 0; i < h->in->n_plots; i++) {
     const pl_html_plot* p = &h->in->plots[i];
     pl_html_rawf(h, "%s{\"x\":%d,\"xl\":", i ? "," : "", p->x_column);
-    pl_html_json_string(h, p->x_name ? with_unit(h, p->x_name, p->x_unit) : h->model->uses_units ? "t in s" : "t");
+    pl_html_json_string(h, p->x_name              ? with_unit(h, p->x_name, p->x_unit)
+                           : h->model->uses_units ? "t in s"
+                                                  : "t");
     pl_html_raw(h, ",\"y\":[");
-    for (int k = 0; k < p->n_curves; k++) pl_html_rawf(h, "%s%d", k ? "," : "", p->curves[k].column);
+    for (int k = 0; k < p->n_curves; k++)
+      pl_html_rawf(h, "%s%d", k ? "," : "", p->curves[k].column);
     pl_html_raw(h, "]}");
   }
   pl_html_raw(h, "]");
@@ -283,7 +337,8 @@ static void put_plot_list(pl_html* h) {
 void pl_html_plot_data(pl_html* h, const pl_html_rows* rows) {
   put_columns(h, "thin", used_columns(h), rows);
   if (h->in->data == PL_HTML_DATA_FULL) {
-    int *all = PL_ARRAY(h->arena, int, h->in->result->n_columns + 1), *at = PL_ARRAY(h->arena, int, h->in->result->rows.n + 1);
+    int *all = PL_ARRAY(h->arena, int, h->in->result->n_columns + 1),
+        *at = PL_ARRAY(h->arena, int, h->in->result->rows.n + 1);
     for (int c = 0; c < h->in->n_columns; c++) all[c] = 1;
     for (int i = 0; i < h->in->result->rows.n; i++) at[i] = i;
     pl_html_rows whole = {h->in->result->rows.n, at};

@@ -11,7 +11,11 @@
 #include "html_hash.h"
 #include "html_impl.h"
 
-typedef struct bench { pl_arena* arena; pl_text out; pl_html page; } bench;
+typedef struct bench {
+  pl_arena* arena;
+  pl_text out;
+  pl_html page;
+} bench;
 
 static int set_up(void** state) {
   pl_arena* a = pl_arena_make(NULL);
@@ -30,18 +34,26 @@ static int tear_down(void** state) {
 
 static void markup_becomes_text(void** state) {
   bench* b = *state;
-  assert_string_equal(pl_html_escaped(b->arena, "<b a=\"1\" c='2'>&"), "&lt;b a=&quot;1&quot; c=&#39;2&#39;&gt;&amp;");
+  assert_string_equal(pl_html_escaped(b->arena, "<b a=\"1\" c='2'>&"),
+                      "&lt;b a=&quot;1&quot; c=&#39;2&#39;&gt;&amp;");
 }
 
 static void characters_that_steer_are_shown(void** state) {
   bench* b = *state;
-  assert_string_equal(pl_html_escaped(b->arena, "a\xE2\x80\xAE" "b\x01"), "a⟨U+202E⟩b⟨U+0001⟩");
+  assert_string_equal(pl_html_escaped(b->arena,
+                                      "a\xE2\x80\xAE"
+                                      "b\x01"),
+                      "a⟨U+202E⟩b⟨U+0001⟩");
   assert_string_equal(pl_html_escaped(b->arena, "\xEF\xBF\xBE"), "⟨U+FFFE⟩");
 }
 
 static void bytes_that_are_no_text_are_replaced(void** state) {
   bench* b = *state;
-  assert_string_equal(pl_html_escaped(b->arena, "a\xFF" "b"), "a\xEF\xBF\xBD" "b");
+  assert_string_equal(pl_html_escaped(b->arena,
+                                      "a\xFF"
+                                      "b"),
+                      "a\xEF\xBF\xBD"
+                      "b");
 }
 
 static void no_json_ends_its_script(void** state) {
@@ -75,17 +87,22 @@ static void the_hash_is_sha_256(void** state) {
   bench* b = *state;
   unsigned char h[32];
   pl_html_sha256(h, "abc", 3);
-  assert_string_equal(pl_html_hex(b->arena, h, 32), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  assert_string_equal(pl_html_hex(b->arena, h, 32),
+                      "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   pl_html_sha256(h, "", 0);
-  assert_string_equal(pl_html_hex(b->arena, h, 32), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
-  const char* two = "abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq";      // FIPS 180-4: two blocks
+  assert_string_equal(pl_html_hex(b->arena, h, 32),
+                      "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  // FIPS 180-4: two blocks
+  const char* two = "abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq";
   pl_html_sha256(h, two, strlen(two));
-  assert_string_equal(pl_html_hex(b->arena, h, 32), "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
+  assert_string_equal(pl_html_hex(b->arena, h, 32),
+                      "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
 }
 
 static void base64_is_that_of_the_standard(void** state) {
   bench* b = *state;
-  static const char* const pairs[][2] = {{"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foob", "Zm9vYg=="}, {"foobar", "Zm9vYmFy"}};
+  static const char* const pairs[][2] = {
+      {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foob", "Zm9vYg=="}, {"foobar", "Zm9vYmFy"}};
   for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
     pl_text t = pl_text_make(b->arena);
     pl_html_base64(&t, pairs[i][0], strlen(pairs[i][0]));
@@ -104,9 +121,14 @@ static void quantities_read_as_in_the_language(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-    BENCH_TEST(markup_becomes_text), BENCH_TEST(characters_that_steer_are_shown), BENCH_TEST(bytes_that_are_no_text_are_replaced),
-    BENCH_TEST(no_json_ends_its_script), BENCH_TEST(random_text_never_opens_a_tag), BENCH_TEST(the_hash_is_sha_256),
-    BENCH_TEST(base64_is_that_of_the_standard), BENCH_TEST(quantities_read_as_in_the_language),
+      BENCH_TEST(markup_becomes_text),
+      BENCH_TEST(characters_that_steer_are_shown),
+      BENCH_TEST(bytes_that_are_no_text_are_replaced),
+      BENCH_TEST(no_json_ends_its_script),
+      BENCH_TEST(random_text_never_opens_a_tag),
+      BENCH_TEST(the_hash_is_sha_256),
+      BENCH_TEST(base64_is_that_of_the_standard),
+      BENCH_TEST(quantities_read_as_in_the_language),
   };
   return cmocka_run_group_tests_name("html", tests, NULL, NULL);
 }

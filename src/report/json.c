@@ -1,12 +1,15 @@
-// Writing JSON on a pl_text.  Objects and lists are indented by two blanks a level; small ones may be kept on a line.
-// Everything stays in the arena of the text, so a document costs no other memory and can be given up at any point.
+// Writing JSON on a pl_text. Objects and lists are indented by two blanks a level; small ones may
+// be kept on a line. Everything stays in the arena of the text, so a document costs no other memory
+// and can be given up at any point.
 #include "report.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static bool pl_json_is_flat(const pl_json* j) { return (j->flat >> (j->depth < 63 ? j->depth : 63)) & 1; }
+static bool pl_json_is_flat(const pl_json* j) {
+  return (j->flat >> (j->depth < 63 ? j->depth : 63)) & 1;
+}
 
 static void pl_json_line(pl_json* j) {
   if (pl_json_is_flat(j)) return;
@@ -118,6 +121,7 @@ const char* pl_shortest_double(pl_arena* a, double x) {
     break;
   }
   // a program around us may have set a locale whose decimal sign is not the point
-  for (char* c = text; *c; c++) if (!strchr("0123456789+-e", *c)) *c = '.';
+  for (char* c = text; *c; c++)
+    if (!strchr("0123456789+-e", *c)) *c = '.';
   return pl_copy(a, text);
 }

@@ -1,11 +1,11 @@
-// A page of text: right margin, colours, wrapped sentences.  Widths are counted in character cells; colour codes are
-// written around strings after the layout is settled, so they never count.
+// A page of text: right margin, colours, wrapped sentences. Widths are counted in character cells;
+// colour codes are written around strings after the layout is settled, so they never count.
 #include "report_impl.h"
 
 #include <limits.h>
 #include <string.h>
 
-enum { PL_PAGE_MARGIN = 78 };   // right edge of a page that is not wrapped, cells
+enum { PL_PAGE_MARGIN = 78 };  // right edge of a page that is not wrapped, cells
 
 pl_worked_style pl_worked_style_default(pl_language lang) {
   return (pl_worked_style){.math = PL_MATH_LINE, .lang = lang, .width = PL_PAGE_MARGIN};
@@ -13,11 +13,19 @@ pl_worked_style pl_worked_style_default(pl_language lang) {
 
 pl_page pl_page_make(pl_text* out, pl_pool* pool, const pl_worked_style* style) {
   enum { PL_PAGE_NARROWEST = 40 };
-  int width = style->width <= 0 ? 0 : style->width < PL_PAGE_NARROWEST ? PL_PAGE_NARROWEST : style->width;
-  pl_math math = style->math == PL_MATH_2D || style->math == PL_MATH_ASCII ? style->math : PL_MATH_LINE;
-  return (pl_page){
-    .out = out, .arena = out->arena, .pool = pool, .style = style, .how = {math, style->lang},
-    .margin = width && width < PL_PAGE_MARGIN ? width : PL_PAGE_MARGIN, .wrap = width ? width : INT_MAX, .blank = true};
+  int width = style->width <= 0                  ? 0
+              : style->width < PL_PAGE_NARROWEST ? PL_PAGE_NARROWEST
+                                                 : style->width;
+  pl_math math = style->math == PL_MATH_2D || style->math == PL_MATH_ASCII ? style->math
+                                                                           : PL_MATH_LINE;
+  return (pl_page){.out = out,
+                   .arena = out->arena,
+                   .pool = pool,
+                   .style = style,
+                   .how = {math, style->lang},
+                   .margin = width && width < PL_PAGE_MARGIN ? width : PL_PAGE_MARGIN,
+                   .wrap = width ? width : INT_MAX,
+                   .blank = true};
 }
 
 const char* pl_page_plain(const pl_page* g, const char* s) {
@@ -53,7 +61,8 @@ static size_t pl_word_length(const char* s) { return strcspn(s, " "); }
 
 static const char* pl_word_shown(pl_page* g, const char* s, size_t n) {
   char* word = pl_copy_n(g->arena, s, n);
-  for (char* c = word; *c; c++) if (*c == '\x01') *c = ' ';
+  for (char* c = word; *c; c++)
+    if (*c == '\x01') *c = ' ';
   return word;
 }
 
@@ -90,13 +99,14 @@ void pl_page_sentence(pl_page* g, int indent, int hang, pl_ink ink, const char* 
 static const char* pl_page_inline(pl_page* g, const pl_form* f) {
   if (!f || !g->pool) return "";
   const char* s = pl_notation_print(g->arena, g->pool, f, g->how);
-  if (strchr(s, '\n')) s = pl_notation_print(g->arena, g->pool, f, (pl_notation){PL_MATH_LINE, g->how.lang});
+  if (strchr(s, '\n'))
+    s = pl_notation_print(g->arena, g->pool, f, (pl_notation){PL_MATH_LINE, g->how.lang});
   return pl_page_plain(g, s);
 }
 
 static void pl_page_add_insert(pl_page* g, pl_text* out, const pl_form* f) {
   const char* s = pl_page_inline(g, f);
-  bool whole = pl_utf8_width(s) <= g->margin / 2;   // longer ones may break like words
+  bool whole = pl_utf8_width(s) <= g->margin / 2;  // longer ones may break like words
   for (char before = 0; *s; before = *s++) {
     char c = whole && *s == ' ' && before != ',' ? '\x01' : *s;
     pl_text_add_n(out, &c, 1);

@@ -1,34 +1,43 @@
-// Formulas that are wider than the page.  In line notation a string is broken before a relation, a + or a -, if need be
-// before a / or a bracket, the outermost ones first, and goes on with hanging indent behind the first relation.  In two dimensions the form itself is taken
-// apart at the same places, the parts are drawn and set side by side on a common base line.
+// Formulas that are wider than the page. In line notation a string is broken before a relation, a +
+// or a -, if need be before a / or a bracket, the outermost ones first, and goes on with hanging
+// indent behind the first relation. In two dimensions the form itself is taken apart at the same
+// places, the parts are drawn and set side by side on a common base line.
 #include "report_impl.h"
 
 #include <string.h>
 
-enum { PL_LEFT_SIDE = 14 };    // cells: a left side up to this width is kept clear by the lines that follow
-// What a break costs against a line filled to the end: a level of brackets, a fraction or a product torn apart.
+// cells: a left side up to this width is kept clear by the lines that follow
+enum { PL_LEFT_SIDE = 14 };
+// What a break costs against a line filled to the end: a level of brackets, a fraction or a product
+// torn apart.
 static const double pl_depth_price = 0.6, pl_slash_price = 0.2, pl_factor_price = 0.45;
 
-// ---------------------------------------------------------------------------------------------- one line
+// ---------------------------------------------------------------------------------------- one line
 typedef struct pl_break {
-  size_t at;          // byte where the next line would begin
-  int cells;          // width of what comes before it
-  int depth;          // brackets around it
-  double price;       // of breaking here
+  size_t at;     // byte where the next line would begin
+  int cells;     // width of what comes before it
+  int depth;     // brackets around it
+  double price;  // of breaking here
   bool relation;
-  bool torn;          // a product or fraction goes on
+  bool torn;  // a product or fraction goes on
 } pl_break;
 
-static const char* const pl_relations[] = {"= ", "≥ ", "≤ ", ">= ", "<= ", "-> ", "→ ", "< ", "> ", "≈ ", "≠ ", NULL};
+static const char* const pl_relations[] = {"= ", "≥ ", "≤ ", ">= ", "<= ", "-> ",
+                                           "→ ", "< ", "> ", "≈ ",  "≠ ",  NULL};
 
-static bool pl_starts(const char* s, const char* with) { return strncmp(s, with, strlen(with)) == 0; }
+static bool pl_starts(const char* s, const char* with) {
+  return strncmp(s, with, strlen(with)) == 0;
+}
 
 static bool pl_is_relation_at(const char* s) {
-  for (int i = 0; pl_relations[i]; i++) if (pl_starts(s, pl_relations[i])) return true;
+  for (int i = 0; pl_relations[i]; i++)
+    if (pl_starts(s, pl_relations[i])) return true;
   return false;
 }
 
-static bool pl_is_sign_at(const char* s) { return pl_starts(s, "+ ") || pl_starts(s, "- ") || pl_starts(s, "− ") || pl_starts(s, "± "); }
+static bool pl_is_sign_at(const char* s) {
+  return pl_starts(s, "+ ") || pl_starts(s, "- ") || pl_starts(s, "− ") || pl_starts(s, "± ");
+}
 
 typedef PL_VEC(pl_break) pl_breaks;
 
@@ -52,7 +61,12 @@ static pl_breaks pl_find_breaks(pl_arena* a, const char* s) {
     double price = pl_price_at(s, i);
     if (price < 0) continue;
     int around = s[i] == '(' ? depth - 1 : depth;
-    pl_break b = {i, pl_utf8_width_n(s, i), around, price + pl_depth_price * around, pl_is_relation_at(s + i), price > 0};
+    pl_break b = {i,
+                  pl_utf8_width_n(s, i),
+                  around,
+                  price + pl_depth_price * around,
+                  pl_is_relation_at(s + i),
+                  price > 0};
     pl_push(a, list, b);
   }
   return list;
@@ -61,7 +75,8 @@ static pl_breaks pl_find_breaks(pl_arena* a, const char* s) {
 // Where lines after the first begin: behind the first relation when its left side is short.
 static int pl_hang_of(const pl_breaks* b) {
   for (int i = 0; i < b->n; i++) {
-    if (b->at[i].relation && b->at[i].depth == 0) return b->at[i].cells <= PL_LEFT_SIDE ? b->at[i].cells : 2;
+    if (b->at[i].relation && b->at[i].depth == 0)
+      return b->at[i].cells <= PL_LEFT_SIDE ? b->at[i].cells : 2;
   }
   return 2;
 }
@@ -78,9 +93,12 @@ static int pl_best_break(const pl_breaks* b, size_t from, int from_cells, int to
     int cells = k->cells - from_cells;
     if (cells > room && best >= 0) break;
     double score = (double)cells / room - k->price;
-    if (k->relation && i != first_relation) score += 1;       // a chain a = b = c: one link a line
+    if (k->relation && i != first_relation) score += 1;  // a chain a = b = c: one link a line
     if (i == first_relation && cells <= PL_LEFT_SIDE) score -= 1;
-    if (score >= best_score) best = i, best_score = score;
+    if (score >= best_score) {
+      best = i;
+      best_score = score;
+    }
   }
   return best;
 }
@@ -122,7 +140,7 @@ static pl_lines pl_break_line(pl_page* g, const char* s, int width) {
   return out;
 }
 
-// ---------------------------------------------------------------------------------------------- two dimensions
+// ---------------------------------------------------------------------------------- two dimensions
 static pl_lines pl_split_lines(pl_page* g, const char* s, int base) {
   pl_lines out = {.base = base};
   for (;;) {
@@ -167,16 +185,22 @@ static pl_lines pl_beside(pl_page* g, pl_lines a, const char* sign, pl_lines b) 
 
 static pl_lines pl_below(pl_page* g, pl_lines a, int indent, pl_lines b) {
   int last = a.n;
-  for (int i = 0; i < b.n; i++) pl_add_line(g, &a, pl_slice(g, b.at[i], 0, strlen(b.at[i]), indent));
+  for (int i = 0; i < b.n; i++)
+    pl_add_line(g, &a, pl_slice(g, b.at[i], 0, strlen(b.at[i]), indent));
   a.base = last + b.base;
   return a;
 }
 
 // A part of a formula and the sign in front of it.
-typedef struct pl_part { const char* sign; const pl_form* form; bool relation; } pl_part;
+typedef struct pl_part {
+  const char* sign;
+  const pl_form* form;
+  bool relation;
+} pl_part;
 typedef PL_VEC(pl_part) pl_parts;
 
-static void pl_take_apart(pl_page* g, pl_parts* out, const char* sign, const pl_form* f, bool relation) {
+static void pl_take_apart(pl_page* g, pl_parts* out, const char* sign, const pl_form* f,
+                          bool relation) {
   if (f->kind == PL_F_RELATION) {
     pl_take_apart(g, out, sign, f->args[0], relation);
     pl_take_apart(g, out, pl_format(g->arena, " %s ", f->text), f->args[1], true);
@@ -210,13 +234,14 @@ static pl_lines pl_break_drawing(pl_page* g, const pl_form* f, int width) {
       continue;
     }
     done = done.n ? pl_below(g, done, indent, row) : row;
-    row = pl_beside(g, (pl_lines){.at = (const char*[]){""}, .n = 1}, p->sign + (*p->sign == ' '), part);
+    row = pl_beside(g, (pl_lines){.at = (const char*[]){""}, .n = 1}, p->sign + (*p->sign == ' '),
+                    part);
     indent = hang + (p->relation ? 1 : 3);
   }
   return done.n ? pl_below(g, done, indent, row) : row;
 }
 
-// ---------------------------------------------------------------------------------------------- both
+// -------------------------------------------------------------------------------------------- both
 static pl_lines pl_formula_in(pl_page* g, const pl_form* f, int width) {
   if (g->how.math == PL_MATH_2D) {
     pl_lines whole = pl_draw(g, f);

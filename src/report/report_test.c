@@ -1,4 +1,5 @@
-// Tests of the layout and of the JSON document, with solutions made by hand: what derive hands over, without deriving.
+// Tests of the layout and of the JSON document, with solutions made by hand: what derive hands
+// over, without deriving.
 #include "report.h"
 
 #include <math.h>
@@ -11,7 +12,6 @@
 
 #include <cmocka.h>
 
-
 typedef struct bench {
   pl_arena* a;
   pl_pool* p;
@@ -20,8 +20,10 @@ typedef struct bench {
   pl_symbol m1, m2, g, x1, theta, lambda;
 } bench;
 
-static pl_symbol bench_symbol(bench* b, const char* name, const char* ascii, pl_role role, pl_class class) {
-  pl_symbol_info info = {.name = name, .ascii = ascii, .role = role, .class = class, .sign = PL_SIGN_POSITIVE};
+static pl_symbol bench_symbol(bench* b, const char* name, const char* ascii, pl_role role,
+                              pl_class class) {
+  pl_symbol_info info = {
+      .name = name, .ascii = ascii, .role = role, .class = class, .sign = PL_SIGN_POSITIVE};
   info.dimension = pl_dimension_one();
   return pl_symbol_make(b->p, &info);
 }
@@ -48,13 +50,16 @@ static pl_section* bench_section(bench* b, const char* letter, const char* en, c
   return &b->s.sections.at[b->s.sections.n - 1];
 }
 
-static pl_step* bench_step(bench* b, pl_section* s, pl_step_kind kind, const char* en, const char* de) {
+static pl_step* bench_step(bench* b, pl_section* s, pl_step_kind kind, const char* en,
+                           const char* de) {
   pl_step step = {.kind = kind, .words = {en, de}};
   pl_push(b->a, s->steps, step);
   return &s->steps.at[s->steps.n - 1];
 }
 
-static const pl_form* bench_name(bench* b, const char* text) { return pl_form_name(b->a, text, pl_poison()); }
+static const pl_form* bench_name(bench* b, const char* text) {
+  return pl_form_name(b->a, text, pl_poison());
+}
 
 static const char* bench_text(bench* b, pl_worked_style style) {
   pl_text out = pl_text_make(b->a);
@@ -64,7 +69,8 @@ static const char* bench_text(bench* b, pl_worked_style style) {
 
 static const char* bench_json(bench* b) {
   pl_text out = pl_text_make(b->a);
-  pl_json_input in = {.file = "atwood.pleuel", .model = b->m, .solution = &b->s, .status = PLEUEL_OK};
+  pl_json_input in = {
+      .file = "atwood.pleuel", .model = b->m, .solution = &b->s, .status = PLEUEL_OK};
   pl_worked_json(&out, &in);
   return pl_text_string(&out);
 }
@@ -92,7 +98,7 @@ static int widest_line(const char* s) {
   return widest;
 }
 
-// ---------------------------------------------------------------------------------------------- text
+// -------------------------------------------------------------------------------------------- text
 static void sections_stand_under_their_letters(void** state) {
   (void)state;
   bench b = bench_make();
@@ -101,9 +107,11 @@ static void sections_stand_under_their_letters(void** state) {
   s = bench_section(&b, NULL, "Equilibria", "Gleichgewichtslagen");
   bench_step(&b, s, PL_STEP_TEXT, "None.", "Keine.");
   assert_string_equal(bench_text(&b, pl_worked_style_default(PL_ENGLISH)),
-                      "Atwood machine\n\n  b) Degrees of freedom\n     One sentence.\n\n  –) Equilibria\n     None.\n");
+                      "Atwood machine\n\n  b) Degrees of freedom\n     One sentence.\n\n  –) "
+                      "Equilibria\n     None.\n");
   assert_string_equal(bench_text(&b, pl_worked_style_default(PL_GERMAN)),
-                      "Atwood machine\n\n  b) Freiheitsgrade\n     Ein Satz.\n\n  –) Gleichgewichtslagen\n     Keine.\n");
+                      "Atwood machine\n\n  b) Freiheitsgrade\n     Ein Satz.\n\n  –) "
+                      "Gleichgewichtslagen\n     Keine.\n");
   pl_arena_free(b.a);
 }
 
@@ -117,8 +125,9 @@ static void same_letter_and_other_title_is_a_heading_inside(void** state) {
   s = bench_section(&b, "d", "Conserved", "Erhalten");
   s->continues = true;
   bench_step(&b, s, PL_STEP_TEXT, "Third.", "Drittens.");
-  assert_string_equal(bench_text(&b, pl_worked_style_default(PL_ENGLISH)),
-                      "Atwood machine\n\n  d) Motion\n     First.\n\n     Conserved\n     Second.\n     Third.\n");
+  assert_string_equal(
+      bench_text(&b, pl_worked_style_default(PL_ENGLISH)),
+      "Atwood machine\n\n  d) Motion\n     First.\n\n     Conserved\n     Second.\n     Third.\n");
   pl_arena_free(b.a);
 }
 
@@ -133,8 +142,10 @@ static void equation_numbers_end_at_the_margin(void** state) {
   e->value = -23.544;
   e->unit = "N";
   const char* text = bench_text(&b, pl_worked_style_default(PL_ENGLISH));
-  assert_has(text, "     λ                                                                     (4)\n");
-  assert_has(text, "                                                                   = -23.544 N\n");
+  assert_has(text,
+             "     λ                                                                     (4)\n");
+  assert_has(text,
+             "                                                                   = -23.544 N\n");
   assert_int_equal(widest_line(text), 78);
   assert_has(bench_text(&b, pl_worked_style_default(PL_GERMAN)), "= -23,544 N\n");
   pl_arena_free(b.a);
@@ -171,12 +182,13 @@ static void rows_make_a_table(void** state) {
   r = bench_step(&b, s, PL_STEP_ROW, "degrees of freedom", "Freiheitsgrade");
   r->margin = "1";
   bench_step(&b, s, PL_STEP_TEXT, "Done.", "Fertig.");
-  assert_string_equal(bench_text(&b, pl_worked_style_default(PL_ENGLISH)),
-    "Atwood machine\n\n  b) Degrees of freedom\n"
-    "     coordinates    x1 x2                                                    2\n"
-    "     constraints    x1 + x2 = l                                             -1   dropped\n"
-    "     degrees of freedom                                                      1\n"
-    "\n     Done.\n");
+  assert_string_equal(
+      bench_text(&b, pl_worked_style_default(PL_ENGLISH)),
+      "Atwood machine\n\n  b) Degrees of freedom\n"
+      "     coordinates    x1 x2                                                    2\n"
+      "     constraints    x1 + x2 = l                                             -1   dropped\n"
+      "     degrees of freedom                                                      1\n"
+      "\n     Done.\n");
   pl_arena_free(b.a);
 }
 
@@ -187,7 +199,8 @@ static void sentences_are_wrapped_between_words(void** state) {
   bench_step(&b, s, PL_STEP_TEXT, "aaaa bbbb cccc dddd eeee ffff gggg hhhh iiii jjjj", "x");
   pl_worked_style narrow = pl_worked_style_default(PL_ENGLISH);
   narrow.width = 40;
-  assert_has(bench_text(&b, narrow), "     aaaa bbbb cccc dddd eeee ffff gggg\n     hhhh iiii jjjj\n");
+  assert_has(bench_text(&b, narrow),
+             "     aaaa bbbb cccc dddd eeee ffff gggg\n     hhhh iiii jjjj\n");
   narrow.width = 0;
   assert_has(bench_text(&b, narrow), "     aaaa bbbb cccc dddd eeee ffff gggg hhhh iiii jjjj\n");
   pl_arena_free(b.a);
@@ -198,12 +211,14 @@ static void inserts_take_their_places_and_do_not_break(void** state) {
   bench b = bench_make();
   pl_section* s = bench_section(&b, "a", "Words", "Worte");
   const pl_form* insert[2] = {bench_name(&b, "x1 + x2"), bench_name(&b, "λ")};
-  pl_step* t = bench_step(&b, s, PL_STEP_TEXT, "{2} belongs to the long rope, see {1} for {3}{}{9.", "x");
+  pl_step* t = bench_step(&b, s, PL_STEP_TEXT, "{2} belongs to the long rope, see {1} for {3}{}{9.",
+                          "x");
   t->n_inserts = 2;
   t->inserts = insert;
   pl_worked_style narrow = pl_worked_style_default(PL_ENGLISH);
   narrow.width = 40;
-  assert_has(bench_text(&b, narrow), "     λ belongs to the long rope, see\n     x1 + x2 for {}{9.\n");
+  assert_has(bench_text(&b, narrow),
+             "     λ belongs to the long rope, see\n     x1 + x2 for {}{9.\n");
   pl_arena_free(b.a);
 }
 
@@ -212,15 +227,19 @@ static void long_formulas_break_before_signs_with_hanging_indent(void** state) {
   bench b = bench_make();
   pl_section* s = bench_section(&b, "a", "Long", "Lang");
   pl_step* e = bench_step(&b, s, PL_STEP_EQUATION, NULL, NULL);
-  e->formula = bench_name(&b, "L = aaaaaaaaaa (b - c) + dddddddddddd - (eeeeeeeeee + ffffffff) + gggg");
+  e->formula = bench_name(&b,
+                          "L = aaaaaaaaaa (b - c) + dddddddddddd - (eeeeeeeeee + ffffffff) + gggg");
   e->number = 12;
   pl_worked_style narrow = pl_worked_style_default(PL_ENGLISH);
   narrow.width = 48;
   const char* text = bench_text(&b, narrow);
-  assert_has(text, "     L = aaaaaaaaaa (b - c) + dddddddddddd\n         - (eeeeeeeeee + ffffffff) + gggg   (12)\n");
+  assert_has(text,
+             "     L = aaaaaaaaaa (b - c) + dddddddddddd\n         - (eeeeeeeeee + ffffffff) + "
+             "gggg   (12)\n");
   assert_true(widest_line(text) <= 48);
   narrow.width = 0;
-  assert_has(bench_text(&b, narrow), "     L = aaaaaaaaaa (b - c) + dddddddddddd - (eeeeeeeeee + ffffffff) + gggg  (12)\n");
+  assert_has(bench_text(&b, narrow),
+             "     L = aaaaaaaaaa (b - c) + dddddddddddd - (eeeeeeeeee + ffffffff) + gggg  (12)\n");
   pl_arena_free(b.a);
 }
 
@@ -228,7 +247,8 @@ static void tall_formulas_keep_the_number_on_the_base_line(void** state) {
   (void)state;
   bench b = bench_make();
   pl_expr m1 = pl_sym(b.p, b.m1), m2 = pl_sym(b.p, b.m2);
-  const pl_form* f = pl_form_quotient(b.a, pl_form_of(b.a, b.p, pl_mul(b.p, m1, m2)), pl_form_of(b.a, b.p, pl_add(b.p, m1, m2)));
+  const pl_form* f = pl_form_quotient(b.a, pl_form_of(b.a, b.p, pl_mul(b.p, m1, m2)),
+                                      pl_form_of(b.a, b.p, pl_add(b.p, m1, m2)));
   pl_section* s = bench_section(&b, "c", "Tall", "Hoch");
   pl_step* e = bench_step(&b, s, PL_STEP_EQUATION, NULL, NULL);
   e->formula = pl_form_relation(b.a, pl_form_leaf(b.a, pl_sym(b.p, b.lambda)), "=", f);
@@ -360,12 +380,14 @@ static void random_sentences_stay_on_the_page(void** state) {
     pl_worked_style style = pl_worked_style_default(PL_ENGLISH);
     style.width = 40 + (int)(pl_random_bits(&r) % 60);
     const char* text = bench_text(&b, style);
-    if (widest_line(text) > style.width) fail_msg("seed %lu, round %d: wider than %d:\n%s", (unsigned long)seed, round, style.width, text);
+    if (widest_line(text) > style.width)
+      fail_msg("seed %lu, round %d: wider than %d:\n%s", (unsigned long)seed, round, style.width,
+               text);
     pl_arena_free(b.a);
   }
 }
 
-// ---------------------------------------------------------------------------------------------- JSON
+// -------------------------------------------------------------------------------------------- JSON
 static void json_escapes_and_indents(void** state) {
   (void)state;
   pl_arena* a = pl_arena_make(NULL);
@@ -386,8 +408,9 @@ static void json_escapes_and_indents(void** state) {
   pl_json_end_object(&j);
   pl_json_end_object(&j);
   assert_string_equal(pl_text_string(&out),
-    "{\n  \"a\\\"b\": \"x\\\\y\\n\\t\\u0001ü\\ufffd\",\n  \"empty\": [],\n  \"flat\": [-3, true, null],\n"
-    "  \"deep\": {\n    \"n\": null\n  }\n}");
+                      "{\n  \"a\\\"b\": \"x\\\\y\\n\\t\\u0001ü\\ufffd\",\n  \"empty\": [],\n  "
+                      "\"flat\": [-3, true, null],\n"
+                      "  \"deep\": {\n    \"n\": null\n  }\n}");
   pl_arena_free(a);
 }
 
@@ -405,7 +428,10 @@ static void numbers_are_the_shortest_that_read_back(void** state) {
   assert_string_equal(pl_shortest_double(a, 0.00001), "1e-05");
   pl_random r = {11};
   for (int i = 0; i < 2000; i++) {
-    union { uint64_t bits; double x; } u = {.bits = pl_random_bits(&r)};
+    union {
+      uint64_t bits;
+      double x;
+    } u = {.bits = pl_random_bits(&r)};
     if (!isfinite(u.x) || u.x == 0) continue;
     const char* s = pl_shortest_double(a, u.x);
     if (strtod(s, NULL) != u.x) fail_msg("seed 11: %a written as %s", u.x, s);
@@ -418,15 +444,44 @@ static void json_keys_stand_in_the_order_of_the_contract(void** state) {
   bench b = bench_make();
   pl_section* s = bench_section(&b, "c", "Force", "Kraft");
   pl_expr e = pl_neg(b.p, pl_mul(b.p, pl_sym(b.p, b.m1), pl_sym(b.p, b.g)));
-  pl_value v = {.name = "lambda_g1", .of = "g1", .expr = e, .form = pl_form_of(b.a, b.p, e), .number = -29.43, .unit = "N",
-                .conserved = -1, .passed = -1, .order = -1};
+  pl_value v = {.name = "lambda_g1",
+                .of = "g1",
+                .expr = e,
+                .form = pl_form_of(b.a, b.p, e),
+                .number = -29.43,
+                .unit = "N",
+                .conserved = -1,
+                .passed = -1,
+                .order = -1};
   pl_push(b.a, s->values, v);
   const char* text = bench_json(&b);
-  const char* keys[] = {"\"pleuel\": 1", "\"file\"", "\"system\"", "\"coords\"", "\"parameters\"", "\"constraints\"", "\"dof\"",
-                        "\"answers\"", "\"c\": [", "\"item\"", "\"steps\"", "\"values\"", "\"name\": \"lambda_g1\"", "\"of\": \"g1\"",
-                        "\"expr\": \"-", "\"text\"", "\"tex\"", "\"mathml\"", "\"number\": -29.43", "\"unit\": \"N\"",
-                        "\"display\": \"-29.43 N\"", "\"assuming\": []", "\"checks\": []", "\"assumptions\": []", "\"notes\": []",
-                        "\"status\": \"ok\"", "\"timing_ms\": {}"};
+  const char* keys[] = {"\"pleuel\": 1",
+                        "\"file\"",
+                        "\"system\"",
+                        "\"coords\"",
+                        "\"parameters\"",
+                        "\"constraints\"",
+                        "\"dof\"",
+                        "\"answers\"",
+                        "\"c\": [",
+                        "\"item\"",
+                        "\"steps\"",
+                        "\"values\"",
+                        "\"name\": \"lambda_g1\"",
+                        "\"of\": \"g1\"",
+                        "\"expr\": \"-",
+                        "\"text\"",
+                        "\"tex\"",
+                        "\"mathml\"",
+                        "\"number\": -29.43",
+                        "\"unit\": \"N\"",
+                        "\"display\": \"-29.43 N\"",
+                        "\"assuming\": []",
+                        "\"checks\": []",
+                        "\"assumptions\": []",
+                        "\"notes\": []",
+                        "\"status\": \"ok\"",
+                        "\"timing_ms\": {}"};
   const char* at = text;
   for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
     const char* next = strstr(at, keys[i]);
@@ -440,7 +495,8 @@ static void sections_without_letter_are_numbered_and_letters_collect(void** stat
   (void)state;
   bench b = bench_make();
   const char* letters[] = {"e", NULL, "e", NULL};
-  for (int i = 0; i < 4; i++) bench_section(&b, letters[i], "T", "T")->item = pl_format(b.a, "item%d", i);
+  for (int i = 0; i < 4; i++)
+    bench_section(&b, letters[i], "T", "T")->item = pl_format(b.a, "item%d", i);
   const char* text = bench_json(&b);
   const char* order[] = {"\"e\": [", "item0", "item2", "\"1\": [", "item1", "\"2\": [", "item3"};
   const char* at = text;
@@ -458,9 +514,11 @@ static void errors_have_the_shape_of_answers(void** state) {
   pl_diagnostics d = {.arena = a};
   const char* source = "param m\ncoord x\nmass m at (y)\n";
   pl_source* file = pl_source_make(a, "bad.pleuel", source, strlen(source));
-  pl_diagnostic* m = pl_report(&d, PL_E011, (pl_span){file, 27, 28}, "y is not declared", "y ist nicht vereinbart");
+  pl_diagnostic* m = pl_report(&d, PL_E011, (pl_span){file, 27, 28}, "y is not declared",
+                               "y ist nicht vereinbart");
   pl_report_fix(m, "did you mean x?", "ist x gemeint?", "x");
-  pl_json_input in = {.file = "bad.pleuel", .diagnostics = &d, .status = PLEUEL_MODEL_ERROR, .lang = PL_GERMAN};
+  pl_json_input in = {
+      .file = "bad.pleuel", .diagnostics = &d, .status = PLEUEL_MODEL_ERROR, .lang = PL_GERMAN};
   pl_text out = pl_text_make(a);
   pl_worked_json(&out, &in);
   const char* text = pl_text_string(&out);
@@ -480,26 +538,26 @@ static void errors_have_the_shape_of_answers(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(sections_stand_under_their_letters),
-    cmocka_unit_test(same_letter_and_other_title_is_a_heading_inside),
-    cmocka_unit_test(equation_numbers_end_at_the_margin),
-    cmocka_unit_test(angles_are_shown_in_degrees),
-    cmocka_unit_test(rows_make_a_table),
-    cmocka_unit_test(sentences_are_wrapped_between_words),
-    cmocka_unit_test(inserts_take_their_places_and_do_not_break),
-    cmocka_unit_test(long_formulas_break_before_signs_with_hanging_indent),
-    cmocka_unit_test(tall_formulas_keep_the_number_on_the_base_line),
-    cmocka_unit_test(ascii_is_ascii),
-    cmocka_unit_test(details_are_for_full_steps),
-    cmocka_unit_test(only_the_wanted_letters_are_written),
-    cmocka_unit_test(failed_checks_are_named),
-    cmocka_unit_test(colour_changes_no_column),
-    cmocka_unit_test(random_sentences_stay_on_the_page),
-    cmocka_unit_test(json_escapes_and_indents),
-    cmocka_unit_test(numbers_are_the_shortest_that_read_back),
-    cmocka_unit_test(json_keys_stand_in_the_order_of_the_contract),
-    cmocka_unit_test(sections_without_letter_are_numbered_and_letters_collect),
-    cmocka_unit_test(errors_have_the_shape_of_answers),
+      cmocka_unit_test(sections_stand_under_their_letters),
+      cmocka_unit_test(same_letter_and_other_title_is_a_heading_inside),
+      cmocka_unit_test(equation_numbers_end_at_the_margin),
+      cmocka_unit_test(angles_are_shown_in_degrees),
+      cmocka_unit_test(rows_make_a_table),
+      cmocka_unit_test(sentences_are_wrapped_between_words),
+      cmocka_unit_test(inserts_take_their_places_and_do_not_break),
+      cmocka_unit_test(long_formulas_break_before_signs_with_hanging_indent),
+      cmocka_unit_test(tall_formulas_keep_the_number_on_the_base_line),
+      cmocka_unit_test(ascii_is_ascii),
+      cmocka_unit_test(details_are_for_full_steps),
+      cmocka_unit_test(only_the_wanted_letters_are_written),
+      cmocka_unit_test(failed_checks_are_named),
+      cmocka_unit_test(colour_changes_no_column),
+      cmocka_unit_test(random_sentences_stay_on_the_page),
+      cmocka_unit_test(json_escapes_and_indents),
+      cmocka_unit_test(numbers_are_the_shortest_that_read_back),
+      cmocka_unit_test(json_keys_stand_in_the_order_of_the_contract),
+      cmocka_unit_test(sections_without_letter_are_numbered_and_letters_collect),
+      cmocka_unit_test(errors_have_the_shape_of_answers),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,11 +1,11 @@
-// Formulas for LaTeX: how wide they come out, and where a displayed one is broken.  amsmath breaks nothing by itself, so a
-// chain a = b = c gets a line for each link, a sum is broken between its terms, and long sums inside fractions and
-// brackets become blocks of several lines.
+// Formulas for LaTeX: how wide they come out, and where a displayed one is broken. amsmath breaks
+// nothing by itself, so a chain a = b = c gets a line for each link, a sum is broken between its
+// terms, and long sums inside fractions and brackets become blocks of several lines.
 #include "tex_impl.h"
 
 #include <string.h>
 
-// ---------------------------------------------------------------------------------------------- width
+// ------------------------------------------------------------------------------------------- width
 // In letters: what a sign takes with the space around it.
 static const double infix = 2.2, relation = 2.8, bracket = 0.9, thin = 0.3;
 
@@ -18,7 +18,8 @@ static double sum_width(const pl_tex_page* g, const pl_form* f, double between) 
 static double leaf_width(const pl_tex_page* g, const pl_form* f) {
   const char* s = pl_notation_print(g->arena, g->pool, f, (pl_notation){PL_MATH_LINE, g->how.lang});
   size_t n = strlen(s), small = 0;
-  for (const char* c = s; *c; c++) small += strchr("'^_", *c) || (c > s && *c >= '0' && *c <= '9' && n > 1);
+  for (const char* c = s; *c; c++)
+    small += strchr("'^_", *c) || (c > s && *c >= '0' && *c <= '9' && n > 1);
   return pl_utf8_width(s) - 0.5 * (double)small;
 }
 
@@ -45,13 +46,18 @@ double pl_tex_width(const pl_tex_page* g, const pl_form* f) {
     case PL_F_NAME: return leaf_width(g, f);
     case PL_F_SUM:
     case PL_F_PLUSMINUS: return sum_width(g, f, infix);
-    case PL_F_NEG: return 1.2 + sum_width(g, f, 0) + (f->n && f->args[0]->kind == PL_F_SUM ? 2 * bracket : 0);
+    case PL_F_NEG:
+      return 1.2 + sum_width(g, f, 0) + (f->n && f->args[0]->kind == PL_F_SUM ? 2 * bracket : 0);
     case PL_F_PRODUCT: return product_width(g, f);
-    case PL_F_QUOTIENT: return f->n < 2 ? 1 : 0.5 + larger(pl_tex_width(g, f->args[0]), pl_tex_width(g, f->args[1]));
-    case PL_F_POWER: return f->n < 2 ? 1 : pl_tex_width(g, f->args[0]) + 0.7 * pl_tex_width(g, f->args[1]) +
-                            (f->args[0]->kind == PL_F_EXPR ? 0 : 2 * bracket);
+    case PL_F_QUOTIENT:
+      return f->n < 2 ? 1 : 0.5 + larger(pl_tex_width(g, f->args[0]), pl_tex_width(g, f->args[1]));
+    case PL_F_POWER:
+      return f->n < 2 ? 1
+                      : pl_tex_width(g, f->args[0]) + 0.7 * pl_tex_width(g, f->args[1])
+                            + (f->args[0]->kind == PL_F_EXPR ? 0 : 2 * bracket);
     case PL_F_ROOT: return 1.6 + sum_width(g, f, 0);
-    case PL_F_CALL: return 3 + sum_width(g, f, 1) + (f->n && f->args[0]->kind != PL_F_EXPR ? 2 * bracket : 0);
+    case PL_F_CALL:
+      return 3 + sum_width(g, f, 1) + (f->n && f->args[0]->kind != PL_F_EXPR ? 2 * bracket : 0);
     case PL_F_GROUP: return 2 * bracket + sum_width(g, f, 0);
     case PL_F_RELATION: return sum_width(g, f, relation);
     case PL_F_VECTOR: return vector_width(g, f);
@@ -64,10 +70,11 @@ double pl_tex_width(const pl_tex_page* g, const pl_form* f) {
   return 1;
 }
 
-// ---------------------------------------------------------------------------------------------- macros
+// ------------------------------------------------------------------------------------------ macros
 // \dot, \ddot and \vec by the names that a document may redefine.
 static const char* with_macros(pl_tex_page* g, const char* s) {
-  static const char* const own[][2] = {{"\\dot{", "\\pldot{"}, {"\\ddot{", "\\plddot{"}, {"\\vec{", "\\plvec{"}};
+  static const char* const own[][2] = {
+      {"\\dot{", "\\pldot{"}, {"\\ddot{", "\\plddot{"}, {"\\vec{", "\\plvec{"}};
   if (g->style->plain) return s;
   pl_text out = pl_text_make(g->arena);
   while (*s) {
@@ -84,9 +91,12 @@ const char* pl_tex_math(pl_tex_page* g, const pl_form* f) {
   return with_macros(g, pl_notation_print(g->arena, g->pool, f, g->how));
 }
 
-// ---------------------------------------------------------------------------------------------- blocks
-// What is too wide is printed with a name in its place, and then the name is exchanged for a block of lines.
-typedef struct pl_exchange { const char *name, *block; } pl_exchange;
+// ------------------------------------------------------------------------------------------ blocks
+// What is too wide is printed with a name in its place, and then the name is exchanged for a block
+// of lines.
+typedef struct pl_exchange {
+  const char *name, *block;
+} pl_exchange;
 typedef PL_VEC(pl_exchange) pl_exchanges;
 
 static const char* narrow(pl_tex_page* g, const pl_form* f, double room);
@@ -94,7 +104,8 @@ static const char* narrow(pl_tex_page* g, const pl_form* f, double room);
 static const pl_form* take_out(pl_tex_page* g, pl_exchanges* list, const pl_form* f, double room) {
   pl_text name = pl_text_make(g->arena);
   pl_text_add(&name, "plblock");
-  for (int k = list->n; k >= 0; k = k / 26 - 1) pl_text_add_n(&name, &"abcdefghijklmnopqrstuvwxyz"[k % 26], 1);
+  for (int k = list->n; k >= 0; k = k / 26 - 1)
+    pl_text_add_n(&name, &"abcdefghijklmnopqrstuvwxyz"[k % 26], 1);
   pl_exchange x = {pl_text_string(&name), narrow(g, f, room)};
   pl_push(g->arena, *list, x);
   return pl_form_name(g->arena, x.name, pl_poison());
@@ -123,7 +134,8 @@ static const char* print_with(pl_tex_page* g, const pl_form* f, const pl_exchang
 }
 
 // A sum in lines of at most `room`; the sign of each term in front of it.
-static void sum_lines(pl_tex_page* g, const pl_form* f, double room, const char* begin, pl_tex_lines* out) {
+static void sum_lines(pl_tex_page* g, const pl_form* f, double room, const char* begin,
+                      pl_tex_lines* out) {
   pl_text line = pl_text_make(g->arena);
   double used = 0;
   pl_text_add(&line, begin);
@@ -139,7 +151,9 @@ static void sum_lines(pl_tex_page* g, const pl_form* f, double room, const char*
       used = 2;
       pl_text_add(&line, "&\\quad{}");
     }
-    const pl_form* bracketed = i > 0 && t->kind == PL_F_SUM ? pl_form_make(g->arena, PL_F_GROUP, 1, &t) : t;
+    const pl_form* bracketed = i > 0 && t->kind == PL_F_SUM
+                                   ? pl_form_make(g->arena, PL_F_GROUP, 1, &t)
+                                   : t;
     pl_text_addf(&line, "%s%s", sign, narrow(g, bracketed, room - 2));
     used += w;
   }
@@ -150,7 +164,8 @@ static void sum_lines(pl_tex_page* g, const pl_form* f, double room, const char*
 static const char* block_of(pl_tex_page* g, const pl_tex_lines* lines) {
   pl_text out = pl_text_make(g->arena);
   pl_text_add(&out, "\\begin{aligned}");
-  for (int i = 0; i < lines->list.n; i++) pl_text_addf(&out, "%s%s", i ? " \\\\ " : "", lines->list.at[i]);
+  for (int i = 0; i < lines->list.n; i++)
+    pl_text_addf(&out, "%s%s", i ? " \\\\ " : "", lines->list.at[i]);
   pl_text_add(&out, "\\end{aligned}");
   return pl_text_string(&out);
 }
@@ -174,11 +189,16 @@ static const char* narrow_part(pl_tex_page* g, const pl_form* f, double room, in
   double rest = pl_tex_width(g, f) - pl_tex_width(g, args[part]);
   double left = room - rest > room / 3 ? room - rest : room / 3;
   const pl_form* name = take_out(g, &list, inner, left - 2 * bracket);
-  bool fence = is_bracketed(args[part]) && f->kind != PL_F_QUOTIENT && f->kind != PL_F_ROOT && f->kind != PL_F_GROUP;
+  bool fence = is_bracketed(args[part]) && f->kind != PL_F_QUOTIENT && f->kind != PL_F_ROOT
+               && f->kind != PL_F_GROUP;
   args[part] = fence ? pl_form_make(g->arena, PL_F_GROUP, 1, &name) : name;
-  if (f->kind == PL_F_QUOTIENT && pl_tex_width(g, args[1 - part]) > room) args[1 - part] = take_out(g, &list, args[1 - part], room);
+  if (f->kind == PL_F_QUOTIENT && pl_tex_width(g, args[1 - part]) > room)
+    args[1 - part] = take_out(g, &list, args[1 - part], room);
   pl_form* copy = pl_form_make(g->arena, f->kind, f->n, args);
-  copy->expr = f->expr, copy->function = f->function, copy->text = f->text, copy->names = f->names;
+  copy->expr = f->expr;
+  copy->function = f->function;
+  copy->text = f->text;
+  copy->names = f->names;
   return print_with(g, copy, &list);
 }
 
@@ -190,12 +210,16 @@ static const char* narrow(pl_tex_page* g, const pl_form* f, double room) {
     sum_lines(g, f, room, "&", &lines);
     return block_of(g, &lines);
   }
-  bool keeps_names = f->kind == PL_F_VECTOR || f->kind == PL_F_LIST || f->kind == PL_F_RELATION || f->kind == PL_F_DERIVATIVE;
+  bool keeps_names = f->kind == PL_F_VECTOR || f->kind == PL_F_LIST || f->kind == PL_F_RELATION
+                     || f->kind == PL_F_DERIVATIVE;
   return keeps_names ? pl_tex_math(g, f) : narrow_part(g, f, room, widest(g, f));
 }
 
-// ---------------------------------------------------------------------------------------------- display
-typedef struct pl_link_of { const char* op; const pl_form* form; } pl_link_of;
+// ----------------------------------------------------------------------------------------- display
+typedef struct pl_link_of {
+  const char* op;
+  const pl_form* form;
+} pl_link_of;
 typedef PL_VEC(pl_link_of) pl_chain;
 
 static void chain_of(pl_tex_page* g, const pl_form* f, const char* op, pl_chain* out) {
@@ -209,7 +233,8 @@ static void chain_of(pl_tex_page* g, const pl_form* f, const char* op, pl_chain*
 }
 
 static const char* op_tex(const char* op) {
-  static const char* const table[][2] = {{"≥", "\\ge"}, {"≤", "\\le"}, {"≠", "\\ne"}, {"≈", "\\approx"}, {"->", "\\to"}, {"→", "\\to"}};
+  static const char* const table[][2] = {{"≥", "\\ge"},     {"≤", "\\le"},  {"≠", "\\ne"},
+                                         {"≈", "\\approx"}, {"->", "\\to"}, {"→", "\\to"}};
   for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
     if (strcmp(table[i][0], op) == 0) return table[i][1];
   }
@@ -232,7 +257,8 @@ static const pl_form* spread(pl_tex_page* g, const pl_form* f) {
 }
 
 // One side of a relation, the first line beginning with `begin`.
-static void side_lines(pl_tex_page* g, const pl_form* f, double room, const char* begin, pl_tex_lines* out) {
+static void side_lines(pl_tex_page* g, const pl_form* f, double room, const char* begin,
+                       pl_tex_lines* out) {
   const pl_form* form = pl_tex_width(g, f) > room ? spread(g, f) : f;
   if (form->kind == PL_F_SUM && pl_tex_width(g, form) > room) {
     sum_lines(g, form, room, begin, out);
@@ -246,10 +272,12 @@ static void side_lines(pl_tex_page* g, const pl_form* f, double room, const char
 
 // The left side of a chain; beside a vector a name has its arrow.
 static const char* head_of(pl_tex_page* g, const pl_chain* chain) {
-  const char* pair = pl_tex_math(g, pl_form_relation(g->arena, chain->at[0].form, "=", chain->at[1].form));
+  const char* pair = pl_tex_math(
+      g, pl_form_relation(g->arena, chain->at[0].form, "=", chain->at[1].form));
   int depth = 0;
   size_t n = 0;
-  for (; pair[n] && !(depth == 0 && strncmp(pair + n, " = ", 3) == 0); n++) depth += (pair[n] == '{') - (pair[n] == '}');
+  for (; pair[n] && !(depth == 0 && strncmp(pair + n, " = ", 3) == 0); n++)
+    depth += (pair[n] == '{') - (pair[n] == '}');
   return pl_copy_n(g->arena, pair, n);
 }
 
@@ -266,9 +294,13 @@ pl_tex_lines pl_tex_display(pl_tex_page* g, const pl_form* f) {
   if (whole <= PL_TEX_LINE) {
     pl_text all = pl_text_make(g->arena);
     pl_text_addf(&all, "%s &", head_of(g, &chain));
-    for (int i = 1; i < chain.n; i++) pl_text_addf(&all, "%s%s %s", i > 1 ? " " : "", op_tex(chain.at[i].op), pl_tex_math(g, chain.at[i].form));
+    for (int i = 1; i < chain.n; i++)
+      pl_text_addf(&all, "%s%s %s", i > 1 ? " " : "", op_tex(chain.at[i].op),
+                   pl_tex_math(g, chain.at[i].form));
     pl_push(g->arena, out.list, pl_text_string(&all));
-    out.last = whole, out.left = left, out.right = whole - left;
+    out.last = whole;
+    out.left = left;
+    out.right = whole - left;
     return out;
   }
   // a long left side stands on a line of its own
@@ -278,7 +310,8 @@ pl_tex_lines pl_tex_display(pl_tex_page* g, const pl_form* f) {
   for (int i = 1; i < chain.n; i++) {
     bool first = i == 1 && !own_line;
     const char* head = first ? head_of(g, &chain) : own_line ? "&\\quad{}" : "";
-    const char* begin = pl_format(g->arena, "%s %s%s ", head, own_line ? "" : "&", op_tex(chain.at[i].op));
+    const char* begin = pl_format(g->arena, "%s %s%s ", head, own_line ? "" : "&",
+                                  op_tex(chain.at[i].op));
     side_lines(g, chain.at[i].form, room, begin, &out);
   }
   out.last += own_line ? 4 : left + relation;

@@ -1,5 +1,6 @@
-// The lettered sections in LaTeX.  Equations that follow each other form one `align`, rows of tables one `tabular`; numbers are
-// those of LaTeX, so that a fragment counts on in the document that takes it in.
+// The lettered sections in LaTeX. Equations that follow each other form one `align`, rows of tables
+// one `tabular`; numbers are those of LaTeX, so that a fragment counts on in the document that
+// takes it in.
 #include "tex_impl.h"
 #include "report_impl.h"
 
@@ -11,10 +12,14 @@ static const char* words_of(const pl_tex_page* g, const char* const words[2]) {
   return w ? w : "";
 }
 
-static bool is_shown(const pl_tex_page* g, const pl_step* s) { return !s->detail || g->style->full; }
-static bool is_wanted(const pl_tex_page* g, const pl_section* s) { return pl_worked_wanted(g->style->only, s->letter); }
+static bool is_shown(const pl_tex_page* g, const pl_step* s) {
+  return !s->detail || g->style->full;
+}
+static bool is_wanted(const pl_tex_page* g, const pl_section* s) {
+  return pl_worked_wanted(g->style->only, s->letter);
+}
 
-// ---------------------------------------------------------------------------------------------- labels
+// ------------------------------------------------------------------------------------------ labels
 static bool is_taken(const pl_tex_page* g, const char* label) {
   for (int i = 0; i < g->labels.n; i++) {
     if (strcmp(g->labels.at[i].label, label) == 0) return true;
@@ -22,13 +27,16 @@ static bool is_taken(const pl_tex_page* g, const char* label) {
   return false;
 }
 
-// eq:atwood-machine:lambda, after what stands on the left; with its number where that is taken or long.
+// eq:atwood-machine:lambda, after what stands on the left; with its number where that is taken or
+// long.
 static const char* label_for(pl_tex_page* g, const pl_step* s) {
   const pl_form* left = s->formula;
   while (left->kind == PL_F_RELATION && left->n == 2) left = left->args[0];
-  const char* text = pl_notation_print(g->arena, g->pool, left, (pl_notation){PL_MATH_ASCII, PL_ENGLISH});
+  const char* text = pl_notation_print(g->arena, g->pool, left,
+                                       (pl_notation){PL_MATH_ASCII, PL_ENGLISH});
   pl_text dotted = pl_text_make(g->arena);
-  for (const char* c = text; *c; c++) pl_text_add(&dotted, *c == '\'' ? "d" : (const char[]){*c, 0});
+  for (const char* c = text; *c; c++)
+    pl_text_add(&dotted, *c == '\'' ? "d" : (const char[]){*c, 0});
   const char* name = strlen(text) <= 12 ? pl_tex_slug(g->arena, pl_text_string(&dotted), "") : "";
   const char* label = pl_format(g->arena, "eq:%s:%s", g->slug, name);
   return *name && !is_taken(g, label) ? label : pl_format(g->arena, "eq:%s:%d", g->slug, s->number);
@@ -39,27 +47,35 @@ void pl_tex_gather_labels(pl_tex_page* g, const pl_solution* s) {
     const pl_section* c = &s->sections.at[i];
     for (int k = 0; is_wanted(g, c) && k < c->steps.n; k++) {
       const pl_step* step = &c->steps.at[k];
-      if (step->kind != PL_STEP_EQUATION || step->number <= 0 || !step->formula || !is_shown(g, step)) continue;
+      if (step->kind != PL_STEP_EQUATION || step->number <= 0 || !step->formula
+          || !is_shown(g, step))
+        continue;
       pl_tex_label l = {step->number, label_for(g, step)};
       pl_push(g->arena, g->labels, l);
     }
   }
 }
 
-// ---------------------------------------------------------------------------------------------- equations
+// --------------------------------------------------------------------------------------- equations
 static bool has_vector(const pl_form* f) {
   if (f->kind == PL_F_VECTOR) return true;
-  return f->kind == PL_F_RELATION && f->n == 2 && (has_vector(f->args[0]) || has_vector(f->args[1]));
+  return f->kind == PL_F_RELATION && f->n == 2
+         && (has_vector(f->args[0]) || has_vector(f->args[1]));
 }
 
-static const double value_room = 20;    // letters that a number with its unit and name takes
+static const double value_room = 20;  // letters that a number with its unit and name takes
 
-// What stands behind a formula: its number in units, then words.  They go on a line of their own when there is no room.
+// What stands behind a formula: its number in units, then words. They go on a line of their own
+// when there is no room.
 static void add_behind(pl_tex_page* g, const pl_step* s, double used) {
   if (s->has_value && isfinite(s->value)) {
     const char* value = pl_tex_value(g, s->value, s->unit);
-    const char* name = s->value_name ? pl_tex_math(g, pl_form_name(g->arena, s->value_name, pl_poison())) : "";
-    const char* gap = used > PL_TEX_LINE - value_room ? " \\notag\\\\\n  &\\quad{}" : *name ? ",\\quad " : "";
+    const char* name = s->value_name
+                           ? pl_tex_math(g, pl_form_name(g->arena, s->value_name, pl_poison()))
+                           : "";
+    const char* gap = used > PL_TEX_LINE - value_room ? " \\notag\\\\\n  &\\quad{}"
+                      : *name                         ? ",\\quad "
+                                                      : "";
     bool aside = has_vector(s->formula) && !*name;
     pl_text_addf(g->out, aside ? "%s\\quad (%s%s)" : "%s%s = %s", gap, name, value);
     used = *gap == ' ' ? value_room : used + value_room;
@@ -67,11 +83,14 @@ static void add_behind(pl_tex_page* g, const pl_step* s, double used) {
   const char* after = words_of(g, s->after);
   if (!*after) return;
   bool below = used + 0.9 * pl_utf8_width(after) > PL_TEX_LINE;
-  pl_text_addf(g->out, "%s\\text{%s}", below ? " \\notag\\\\\n  &\\qquad " : "\\quad ", pl_tex_plain(g, after));
+  pl_text_addf(g->out, "%s\\text{%s}", below ? " \\notag\\\\\n  &\\qquad " : "\\quad ",
+               pl_tex_plain(g, after));
 }
 
 static void put_equation(pl_tex_page* g, const pl_step* s, const pl_tex_lines* lines, bool last) {
-  for (int i = 0; i < lines->list.n; i++) pl_text_addf(g->out, "  %s%s", lines->list.at[i], i + 1 < lines->list.n ? " \\notag\\\\\n" : "");
+  for (int i = 0; i < lines->list.n; i++)
+    pl_text_addf(g->out, "  %s%s", lines->list.at[i],
+                 i + 1 < lines->list.n ? " \\notag\\\\\n" : "");
   add_behind(g, s, lines->last);
   const char* label = s->number > 0 ? pl_tex_label_of(g, s->number) : NULL;
   if (label) pl_text_addf(g->out, " \\label{%s}", label);
@@ -102,13 +121,16 @@ static void put_equations(pl_tex_page* g, const pl_step* const* s, int n) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- tables
+// ------------------------------------------------------------------------------------------ tables
 static void put_rows(pl_tex_page* g, const pl_step* const* s, int n) {
-  pl_text_add(g->out, "\\par\\smallskip\\noindent\n"
-              "\\begin{tabular*}{\\linewidth}{@{}l@{\\quad}p{0.6\\linewidth}@{\\extracolsep{\\fill}}r@{}}\n");
+  pl_text_add(g->out,
+              "\\par\\smallskip\\noindent\n"
+              "\\begin{tabular*}{\\linewidth}{@{}l@{\\quad}p{0.6\\linewidth}@{\\extracolsep{\\fill}"
+              "}r@{}}\n");
   for (int i = 0; i < n; i++) {
     const char* after = words_of(g, s[i]->after);
-    pl_text_addf(g->out, "  %s & \\raggedright ", pl_tex_fill(g, words_of(g, s[i]->words), s[i]->n_inserts, s[i]->inserts));
+    pl_text_addf(g->out, "  %s & \\raggedright ",
+                 pl_tex_fill(g, words_of(g, s[i]->words), s[i]->n_inserts, s[i]->inserts));
     if (s[i]->formula) pl_text_add(g->out, pl_tex_fill(g, "{1}", 1, &s[i]->formula));
     if (*after) pl_text_addf(g->out, "\\quad %s", pl_tex_plain(g, after));
     pl_text_addf(g->out, " & $%s$ \\\\[2pt]\n", s[i]->margin ? s[i]->margin : "");
@@ -116,7 +138,7 @@ static void put_rows(pl_tex_page* g, const pl_step* const* s, int n) {
   pl_text_add(g->out, "\\end{tabular*}\\par\\smallskip\n");
 }
 
-// ---------------------------------------------------------------------------------------------- sentences
+// --------------------------------------------------------------------------------------- sentences
 static void put_sentence(pl_tex_page* g, const pl_step* s, const char* lead) {
   const char* words = words_of(g, s->words);
   size_t length = strlen(words);
@@ -136,10 +158,11 @@ static void put_sentence(pl_tex_page* g, const pl_step* s, const char* lead) {
 }
 
 static void put_heading(pl_tex_page* g, const pl_step* s) {
-  pl_text_addf(g->out, "\n\\plheading{%s}\n", pl_tex_fill(g, words_of(g, s->words), s->n_inserts, s->inserts));
+  pl_text_addf(g->out, "\n\\plheading{%s}\n",
+               pl_tex_fill(g, words_of(g, s->words), s->n_inserts, s->inserts));
 }
 
-// ---------------------------------------------------------------------------------------------- a section
+// --------------------------------------------------------------------------------------- a section
 static int run_of(const pl_step* const* s, int n) {
   int k = 1;
   bool table = s[0]->kind == PL_STEP_ROW;
@@ -185,7 +208,9 @@ static const char* heading_of(pl_tex_page* g, const pl_section* s, const pl_sect
   const char* title = words_of(g, s->title);
   if (!*title) title = s->item ? s->item : "";
   bool joins = before && (s->continues || (s->letter && same(s->letter, before->letter)));
-  if (!joins) return pl_format(g->arena, "\n\\plsection{%s}{%s}\n", s->letter ? s->letter : "", pl_tex_plain(g, title));
+  if (!joins)
+    return pl_format(g->arena, "\n\\plsection{%s}{%s}\n", s->letter ? s->letter : "",
+                     pl_tex_plain(g, title));
   bool other = !s->continues && !same(s->title[0], before->title[0]);
   return other ? pl_format(g->arena, "\n\\plheading{%s}\n", pl_tex_plain(g, title)) : NULL;
 }

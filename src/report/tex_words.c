@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PL_TEX_DIGITS = 6 };      // significant digits of numbers beside formulas
+enum { PL_TEX_DIGITS = 6 };  // significant digits of numbers beside formulas
 
 const char* pl_tex_plain(pl_tex_page* g, const char* s) {
   pl_text out = pl_text_make(g->arena);
@@ -101,9 +101,11 @@ const char* pl_tex_slug(pl_arena* a, const char* s, const char* otherwise) {
 }
 
 const char* pl_tex_value(pl_tex_page* g, double x, const char* unit) {
-  bool radians = unit && strcmp(unit, "rad") == 0, degrees = radians || (unit && strcmp(unit, "°") == 0);
+  bool radians = unit && strcmp(unit, "rad") == 0,
+       degrees = radians || (unit && strcmp(unit, "°") == 0);
   bool bare = !unit || !*unit || strcmp(unit, "1") == 0;
-  const char* digits = pl_notation_number(g->arena, radians ? x * 180 / acos(-1) : x, PL_TEX_DIGITS, g->how);
+  const char* digits = pl_notation_number(g->arena, radians ? x * 180 / acos(-1) : x, PL_TEX_DIGITS,
+                                          g->how);
   pl_text out = pl_text_make(g->arena);
   const char* power = strchr(digits, 'e');
   pl_text_add_n(&out, digits, power ? (size_t)(power - digits) : strlen(digits));

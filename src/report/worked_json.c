@@ -1,5 +1,6 @@
-// The JSON document, schema version 1.  Keys stand in the order of the contract (docs/json.md); later versions add keys,
-// never rename them.  A wrong model, a contradiction and an answer have the same shape: what is missing is an empty list.
+// The JSON document, schema version 1. Keys stand in the order of the contract (docs/json.md);
+// later versions add keys, never rename them. A wrong model, a contradiction and an answer have the
+// same shape: what is missing is an empty list.
 #include "report_impl.h"
 
 #include <math.h>
@@ -7,13 +8,14 @@
 
 enum { PL_JSON_VERSION = 1, PL_DISPLAY_DIGITS = 6 };
 
-// Operators of one formula: beyond it nobody reads it, and a reader of the document would choke on it.
+// Operators of one formula: beyond it nobody reads it, and a reader of the document would choke on
+// it.
 static const long pl_max_formula = 50000;
 
 typedef struct pl_document {
   pl_json j;
   pl_arena* arena;
-  pl_pool* pool;             // NULL without a model
+  pl_pool* pool;  // NULL without a model
   const pl_json_input* in;
 } pl_document;
 
@@ -35,7 +37,7 @@ const char* pl_status_word(pleuel_status s) {
   return "unknown";
 }
 
-// ---------------------------------------------------------------------------------------------- printing
+// ---------------------------------------------------------------------------------------- printing
 static const char* pl_doc_expr(pl_document* d, pl_expr e) {
   if (pl_is_poison(e) || !d->pool) return NULL;
   long n = pl_op_count(d->pool, e);
@@ -54,7 +56,9 @@ static void pl_doc_optional(pl_document* d, const char* key, const char* s) {
   if (s) pl_json_string(&d->j, key, s);
 }
 
-static void pl_doc_expr_key(pl_document* d, const char* key, pl_expr e) { pl_doc_optional(d, key, pl_doc_expr(d, e)); }
+static void pl_doc_expr_key(pl_document* d, const char* key, pl_expr e) {
+  pl_doc_optional(d, key, pl_doc_expr(d, e));
+}
 
 static const char* pl_doc_words(const pl_document* d, const char* const words[2]) {
   return words[d->in->lang] ? words[d->in->lang] : words[PL_ENGLISH];
@@ -67,7 +71,7 @@ static void pl_doc_strings(pl_document* d, const char* key, const char* const* s
   pl_json_end_list(&d->j);
 }
 
-// ---------------------------------------------------------------------------------------------- the model
+// --------------------------------------------------------------------------------------- the model
 static void pl_doc_coords(pl_document* d) {
   pl_json_list(&d->j, "coords");
   pl_json_flat(&d->j);
@@ -89,7 +93,8 @@ static void pl_doc_parameters(pl_document* d) {
     pl_json_object(&d->j, s->ascii);
     pl_json_flat(&d->j);
     pl_json_number(&d->j, "number", value[p->symbol.id]);
-    pl_json_string(&d->j, "unit", s->dimension_known ? pl_dimension_unit(d->arena, s->dimension, true) : NULL);
+    pl_json_string(&d->j, "unit",
+                   s->dimension_known ? pl_dimension_unit(d->arena, s->dimension, true) : NULL);
     pl_json_end_object(&d->j);
   }
   pl_json_end_object(&d->j);
@@ -115,7 +120,9 @@ static void pl_doc_plain_constraint(pl_document* d, const pl_constraint* c) {
   const char* right = pl_doc_expr(d, c->right);
   pl_json_object(&d->j, NULL);
   pl_json_string(&d->j, "label", c->name.ascii);
-  pl_json_string(&d->j, "text", left && right ? pl_format(d->arena, "%s %s %s", left, sign[c->relation], right) : NULL);
+  pl_json_string(
+      &d->j, "text",
+      left && right ? pl_format(d->arena, "%s %s %s", left, sign[c->relation], right) : NULL);
   pl_json_string(&d->j, "sided", c->relation == PL_EQ ? "two" : "one");
   pl_json_end_object(&d->j);
 }
@@ -125,7 +132,8 @@ static void pl_doc_constraints(pl_document* d) {
   const pl_model* m = d->in->model;
   pl_json_list(&d->j, "constraints");
   for (int i = 0; s && i < s->constraints.n; i++) pl_doc_constraint(d, &s->constraints.at[i]);
-  for (int i = 0; !s && m && i < m->constraints.n; i++) pl_doc_plain_constraint(d, &m->constraints.at[i]);
+  for (int i = 0; !s && m && i < m->constraints.n; i++)
+    pl_doc_plain_constraint(d, &m->constraints.at[i]);
   pl_json_end_list(&d->j);
 }
 
@@ -153,7 +161,7 @@ static void pl_doc_dof(pl_document* d) {
   pl_json_end_object(&d->j);
 }
 
-// ---------------------------------------------------------------------------------------------- steps
+// ------------------------------------------------------------------------------------------- steps
 // A sentence with its formulas in place; in TeX they stand between dollar signs.
 static const char* pl_doc_fill(pl_document* d, const char* words, const pl_step* s, pl_math math) {
   pl_text out = pl_text_make(d->arena);
@@ -171,11 +179,13 @@ static const char* pl_doc_fill(pl_document* d, const char* words, const pl_step*
   return pl_text_string(&out);
 }
 
-// Words, formula, margin and words after it, as far as they are there, with two blanks between them.
+// Words, formula, margin and words after it, as far as they are there, with two blanks between
+// them.
 static const char* pl_doc_step(pl_document* d, const pl_step* s, pl_math math) {
   const char* formula = pl_doc_form(d, s->formula, math);
   if (formula && math == PL_MATH_TEX) formula = pl_format(d->arena, "$%s$", formula);
-  const char* part[] = {pl_doc_fill(d, pl_doc_words(d, s->words), s, math), formula, s->margin, pl_doc_words(d, s->after)};
+  const char* part[] = {pl_doc_fill(d, pl_doc_words(d, s->words), s, math), formula, s->margin,
+                        pl_doc_words(d, s->after)};
   pl_text out = pl_text_make(d->arena);
   for (int i = 0; i < 4; i++) {
     if (!part[i] || !*part[i]) continue;
@@ -190,8 +200,12 @@ static void pl_doc_one_step(pl_document* d, const pl_step* s) {
   const char* words = pl_doc_words(d, s->words);
   bool equation = s->kind == PL_STEP_EQUATION && s->formula && (!words || !*words);
   pl_json_object(&d->j, NULL);
-  pl_json_string(&d->j, "text", equation ? pl_doc_form(d, s->formula, PL_MATH_LINE) : pl_doc_step(d, s, PL_MATH_LINE));
-  pl_json_string(&d->j, "tex", equation ? pl_doc_form(d, s->formula, PL_MATH_TEX) : pl_doc_step(d, s, PL_MATH_TEX));
+  pl_json_string(
+      &d->j, "text",
+      equation ? pl_doc_form(d, s->formula, PL_MATH_LINE) : pl_doc_step(d, s, PL_MATH_LINE));
+  pl_json_string(
+      &d->j, "tex",
+      equation ? pl_doc_form(d, s->formula, PL_MATH_TEX) : pl_doc_step(d, s, PL_MATH_TEX));
   pl_json_list(&d->j, "refs");
   pl_json_flat(&d->j);
   for (int i = 0; i < s->n_refs && i < 4; i++) pl_json_int(&d->j, NULL, s->refs[i]);
@@ -203,7 +217,7 @@ static void pl_doc_one_step(pl_document* d, const pl_step* s) {
   pl_json_end_object(&d->j);
 }
 
-// ---------------------------------------------------------------------------------------------- values
+// ------------------------------------------------------------------------------------------ values
 static void pl_doc_components(pl_document* d, const pl_value* v) {
   if (v->n_components == 0) return;
   pl_json_list(&d->j, "components");
@@ -222,8 +236,10 @@ static void pl_doc_components(pl_document* d, const pl_value* v) {
 
 // Abbreviations of the model that occur in the formulas of a value, in order of use.
 static bool pl_doc_has(pl_document* d, const pl_value* v, pl_symbol s) {
-  bool has = pl_has_symbol(d->pool, v->expr, s) || pl_has_symbol(d->pool, v->lhs, s) || pl_has_symbol(d->pool, v->got, s);
-  for (int i = 0; i < v->n_components; i++) has = has || pl_has_symbol(d->pool, v->components[i].expr, s);
+  bool has = pl_has_symbol(d->pool, v->expr, s) || pl_has_symbol(d->pool, v->lhs, s)
+             || pl_has_symbol(d->pool, v->got, s);
+  for (int i = 0; i < v->n_components; i++)
+    has = has || pl_has_symbol(d->pool, v->components[i].expr, s);
   for (int i = 0; i < v->n_where; i++) has = has || pl_has_symbol(d->pool, v->where_expr[i], s);
   return has;
 }
@@ -235,7 +251,9 @@ static int pl_doc_lets(pl_document* d, const pl_model* m, const pl_value* v, boo
     const pl_let* l = &m->lets.at[k];
     if (l->inserted || l->n_args > 0 || l->symbol.id == 0) continue;
     needed[k] = pl_doc_has(d, v, l->symbol);
-    for (int i = k + 1; i < m->lets.n; i++) needed[k] = needed[k] || (needed[i] && pl_has_symbol(d->pool, m->lets.at[i].value, l->symbol));
+    for (int i = k + 1; i < m->lets.n; i++)
+      needed[k] = needed[k]
+                  || (needed[i] && pl_has_symbol(d->pool, m->lets.at[i].value, l->symbol));
     n += needed[k];
   }
   return n;
@@ -247,18 +265,23 @@ static void pl_doc_where(pl_document* d, const pl_value* v) {
   if (pl_doc_lets(d, m, v, needed) + v->n_where == 0) return;
   pl_json_object(&d->j, "where");
   for (int k = 0; k < m->lets.n; k++) {
-    if (needed[k]) pl_json_string(&d->j, pl_symbol_get(d->pool, m->lets.at[k].symbol)->ascii, pl_doc_expr(d, m->lets.at[k].value));
+    if (needed[k])
+      pl_json_string(&d->j, pl_symbol_get(d->pool, m->lets.at[k].symbol)->ascii,
+                     pl_doc_expr(d, m->lets.at[k].value));
   }
-  for (int i = 0; i < v->n_where; i++) pl_json_string(&d->j, v->where_name[i], pl_doc_expr(d, v->where_expr[i]));
+  for (int i = 0; i < v->n_where; i++)
+    pl_json_string(&d->j, v->where_name[i], pl_doc_expr(d, v->where_expr[i]));
   pl_json_end_object(&d->j);
 }
 
 // The display of a number that derive left to us: "-23.544 N", "48.1897 deg".
 static const char* pl_doc_display(pl_document* d, const pl_value* v) {
   if (v->display || !isfinite(v->number)) return v->display;
-  bool angle = v->unit && strcmp(v->unit, "rad") == 0, bare = !v->unit || !*v->unit || strcmp(v->unit, "1") == 0;
+  bool angle = v->unit && strcmp(v->unit, "rad") == 0,
+       bare = !v->unit || !*v->unit || strcmp(v->unit, "1") == 0;
   pl_notation how = {PL_MATH_ASCII, PL_ENGLISH};
-  const char* number = pl_notation_number(d->arena, angle ? v->number * 180 / acos(-1) : v->number, PL_DISPLAY_DIGITS, how);
+  const char* number = pl_notation_number(d->arena, angle ? v->number * 180 / acos(-1) : v->number,
+                                          PL_DISPLAY_DIGITS, how);
   return bare ? number : pl_format(d->arena, "%s %s", number, angle ? "deg" : v->unit);
 }
 
@@ -275,7 +298,8 @@ static void pl_doc_spellings(pl_document* d, const pl_value* v) {
   const char* mathml = pl_doc_form(d, f, PL_MATH_MATHML);
   if (!mathml) return;
   bool wrapped = strncmp(mathml, "<math", 5) == 0;
-  pl_json_string(&d->j, "mathml", wrapped ? mathml : pl_format(d->arena, "<math>%s</math>", mathml));
+  pl_json_string(&d->j, "mathml",
+                 wrapped ? mathml : pl_format(d->arena, "<math>%s</math>", mathml));
 }
 
 // What is said about an answer besides its formula.
@@ -357,7 +381,7 @@ static void pl_doc_answers(pl_document* d) {
   pl_json_end_object(&d->j);
 }
 
-// ---------------------------------------------------------------------------------------------- checks, notes
+// ----------------------------------------------------------------------------------- checks, notes
 static void pl_doc_checks(pl_document* d) {
   const pl_solution* s = d->in->solution;
   pl_json_list(&d->j, "checks");
@@ -405,7 +429,8 @@ static void pl_doc_notes(pl_document* d) {
 
 // Stages of the derivation in processor time, which other work on the machine does not lengthen.
 static void pl_doc_derive_timing(pl_document* d) {
-  static const char* const name[PL_N_DERIVE_STAGES] = {"cpu_equations", "cpu_solution", "cpu_presentation", "cpu_certificates"};
+  static const char* const name[PL_N_DERIVE_STAGES] = {"cpu_equations", "cpu_solution",
+                                                       "cpu_presentation", "cpu_certificates"};
   const pl_solution* s = d->in->solution;
   for (int i = 0; s && i < PL_N_DERIVE_STAGES; i++) pl_json_number(&d->j, name[i], s->cpu_ms[i]);
   if (s && s->cpu_ms_first > 0) pl_json_number(&d->j, "cpu_first_form", s->cpu_ms_first);
@@ -414,7 +439,8 @@ static void pl_doc_derive_timing(pl_document* d) {
 static void pl_doc_timing(pl_document* d) {
   pl_json_object(&d->j, "timing_ms");
   pl_json_flat(&d->j);
-  for (int i = 0; i < d->in->n_timing; i++) pl_json_number(&d->j, d->in->timing_name[i], d->in->timing_ms[i]);
+  for (int i = 0; i < d->in->n_timing; i++)
+    pl_json_number(&d->j, d->in->timing_name[i], d->in->timing_ms[i]);
   if (d->in->n_timing > 0) pl_doc_derive_timing(d);
   pl_json_end_object(&d->j);
 }
@@ -428,7 +454,8 @@ void pl_worked_json(pl_text* out, const pl_json_input* in) {
   pl_json_string(&d.j, "system", in->model ? in->model->title : NULL);
   pl_doc_coords(&d);
   pl_doc_parameters(&d);
-  if (s && s->model) d.pool = s->model->pool;    // the derivation may have gone on with an expanded copy
+  // the derivation may have gone on with an expanded copy
+  if (s && s->model) d.pool = s->model->pool;
   pl_doc_constraints(&d);
   pl_doc_dof(&d);
   pl_doc_answers(&d);

@@ -1,5 +1,6 @@
-// The lettered sections of the worked solution.  Sections that belong under one heading are first laid in a row of steps;
-// then runs of equations and runs of table rows are set together, so that their columns meet.
+// The lettered sections of the worked solution. Sections that belong under one heading are first
+// laid in a row of steps; then runs of equations and runs of table rows are set together, so that
+// their columns meet.
 #include "report_impl.h"
 
 #include <limits.h>
@@ -7,17 +8,17 @@
 #include <string.h>
 
 enum {
-  PL_COLUMN_HEADING = 2,     // "  b) Degrees of freedom"
-  PL_COLUMN_STEP = 5,        // everything below it
-  PL_COLUMN_REMARK = 7,      // words that did not fit beside their formula
-  PL_LABEL_WIDTH = 15,       // first column of tables, at least
-  PL_GAP = 3,                // between a formula and the words after it
-  PL_DIGITS = 6              // significant digits of numbers at the margin
+  PL_COLUMN_HEADING = 2,  // "  b) Degrees of freedom"
+  PL_COLUMN_STEP = 5,     // everything below it
+  PL_COLUMN_REMARK = 7,   // words that did not fit beside their formula
+  PL_LABEL_WIDTH = 15,    // first column of tables, at least
+  PL_GAP = 3,             // between a formula and the words after it
+  PL_DIGITS = 6           // significant digits of numbers at the margin
 };
 
-typedef struct pl_stretch {                    // the steps under one heading
+typedef struct pl_stretch {  // the steps under one heading
   PL_VEC(const pl_step*) steps;
-  PL_VEC(const pl_form*) results;              // displayed answers: bold
+  PL_VEC(const pl_form*) results;  // displayed answers: bold
 } pl_stretch;
 
 bool pl_worked_wanted(const char* only, const char* letter) {
@@ -33,7 +34,7 @@ bool pl_worked_wanted(const char* only, const char* letter) {
   return false;
 }
 
-// ---------------------------------------------------------------------------------------------- formulas and margin
+// ----------------------------------------------------------------------------- formulas and margin
 static bool pl_is_result(const pl_stretch* b, const pl_form* f) {
   for (int i = 0; f && i < b->results.n; i++) {
     if (f == b->results.at[i]) return true;
@@ -67,7 +68,7 @@ static const char* pl_step_value(pl_page* g, const pl_step* s) {
   return pl_page_plain(g, pl_format(g->arena, "%s= %s%s", name, number, unit));
 }
 
-// ---------------------------------------------------------------------------------------------- equations
+// --------------------------------------------------------------------------------------- equations
 static const char* pl_number_text_of(pl_page* g, const pl_step* s) {
   return s->number > 0 ? pl_format(g->arena, "(%d)", s->number) : "";
 }
@@ -75,7 +76,8 @@ static const char* pl_number_text_of(pl_page* g, const pl_step* s) {
 static bool pl_has_after(pl_page* g, const pl_step* s) { return *pl_page_words(g, s->after) != 0; }
 
 // Words after a formula stand at `after_column` on its line, or below it when they do not fit.
-static void pl_put_equation(pl_page* g, const pl_stretch* b, const pl_step* s, pl_lines f, int after_column) {
+static void pl_put_equation(pl_page* g, const pl_stretch* b, const pl_step* s, pl_lines f,
+                            int after_column) {
   const char* after = pl_page_words(g, s->after);
   const char* number = pl_number_text_of(g, s);
   int reserve = *number ? pl_utf8_width(number) + 2 : 0;
@@ -94,7 +96,8 @@ static void pl_put_equation(pl_page* g, const pl_stretch* b, const pl_step* s, p
     if (i == f.base) pl_put_margin(g, column, PL_INK_DIM, number);
     pl_page_newline(g);
   }
-  if (*after && !beside) pl_page_sentence(g, PL_COLUMN_REMARK, PL_COLUMN_REMARK, PL_INK_PLAIN, after);
+  if (*after && !beside)
+    pl_page_sentence(g, PL_COLUMN_REMARK, PL_COLUMN_REMARK, PL_INK_PLAIN, after);
   if (s->has_value && isfinite(s->value)) {
     pl_put_margin(g, 0, PL_INK_BOLD, pl_step_value(g, s));
     pl_page_newline(g);
@@ -109,13 +112,15 @@ static void pl_put_lead(pl_page* g, const pl_step* s) {
   pl_page_sentence(g, PL_COLUMN_STEP, PL_COLUMN_STEP, PL_INK_PLAIN, full);
 }
 
-// n equations that follow each other; the words after them begin in one column where that is possible.
+// n equations that follow each other; the words after them begin in one column where that is
+// possible.
 static void pl_put_equations(pl_page* g, const pl_stretch* b, const pl_step* const* s, int n) {
   pl_lines* f = PL_ARRAY(g->arena, pl_lines, n);
   int after_column = 0;
   bool drawn = g->how.math == PL_MATH_2D;
   for (int i = 0; i < n; i++) {
-    f[i] = pl_page_formula(g, s[i]->formula, pl_room(g, PL_COLUMN_STEP), pl_utf8_width(pl_number_text_of(g, s[i])));
+    f[i] = pl_page_formula(g, s[i]->formula, pl_room(g, PL_COLUMN_STEP),
+                           pl_utf8_width(pl_number_text_of(g, s[i])));
     int end = PL_COLUMN_STEP + f[i].width + PL_GAP;
     bool fits = end + pl_utf8_width(pl_page_words(g, s[i]->after)) <= g->margin;
     if (pl_has_after(g, s[i]) && fits && end > after_column) after_column = end;
@@ -124,16 +129,19 @@ static void pl_put_equations(pl_page* g, const pl_stretch* b, const pl_step* con
     int end = PL_COLUMN_STEP + f[i].width + PL_GAP;
     if (drawn && i > 0 && (f[i].n > 1 || f[i - 1].n > 1)) pl_page_blank(g);
     pl_put_lead(g, s[i]);
-    int common = after_column + pl_utf8_width(pl_page_words(g, s[i]->after)) <= g->margin ? after_column : end;
+    int common = after_column + pl_utf8_width(pl_page_words(g, s[i]->after)) <= g->margin
+                     ? after_column
+                     : end;
     pl_put_equation(g, b, s[i], f[i], common > end ? common : end);
   }
 }
 
-// ---------------------------------------------------------------------------------------------- tables
+// ------------------------------------------------------------------------------------------ tables
 static const char* pl_row_label(pl_page* g, const pl_step* s) {
   const char* words = pl_page_fill(g, pl_page_words(g, s->words), s->n_inserts, s->inserts);
   char* label = pl_copy(g->arena, words);
-  for (char* c = label; *c; c++) if (*c == '\x01') *c = ' ';
+  for (char* c = label; *c; c++)
+    if (*c == '\x01') *c = ' ';
   return label;
 }
 
@@ -151,12 +159,14 @@ static void pl_put_row(pl_page* g, const pl_stretch* b, const pl_step* s, int la
   const char* right = pl_page_plain(g, s->margin);
   const char* after = pl_page_words(g, s->after);
   int column = PL_COLUMN_STEP + (s->formula ? label_width : 0);
-  if (PL_COLUMN_STEP + pl_utf8_width(label) > column) column = PL_COLUMN_STEP + pl_utf8_width(label) + (s->formula ? 1 : 0);
+  if (PL_COLUMN_STEP + pl_utf8_width(label) > column)
+    column = PL_COLUMN_STEP + pl_utf8_width(label) + (s->formula ? 1 : 0);
   pl_lines f = pl_page_formula(g, s->formula, pl_room(g, column), pl_utf8_width(right));
   pl_ink ink = pl_is_result(b, s->formula) ? PL_INK_BOLD : PL_INK_PLAIN;
   bool beside = g->wrap == INT_MAX || column + f.width + PL_GAP + pl_utf8_width(after) <= g->wrap;
   for (int i = 0; i < f.n; i++) {
-    // the label stands on the base line of a drawing, on the first line of a formula that was broken
+    // the label stands on the base line of a drawing, on the first line of a formula that was
+    // broken
     bool label_here = i == (g->how.math == PL_MATH_2D ? f.base : 0);
     pl_text_pad(g->out, PL_COLUMN_STEP);
     pl_page_ink(g, PL_INK_DIM, label_here ? label : "");
@@ -170,14 +180,16 @@ static void pl_put_row(pl_page* g, const pl_stretch* b, const pl_step* s, int la
       pl_put_margin(g, at, PL_INK_PLAIN, right);
       at = g->margin;
     }
-    if (i == f.base && *after && (beside || *right)) pl_page_ink(g, PL_INK_PLAIN, pl_format(g->arena, "   %s", after));
+    if (i == f.base && *after && (beside || *right))
+      pl_page_ink(g, PL_INK_PLAIN, pl_format(g->arena, "   %s", after));
     pl_page_newline(g);
   }
   if (*after && !beside && !*right) pl_page_sentence(g, column, column, PL_INK_PLAIN, after);
 }
 
-// ---------------------------------------------------------------------------------------------- sentences
-// A formula that ends a sentence goes on lines of its own when it is tall, or too wide to stand beside the words.
+// --------------------------------------------------------------------------------------- sentences
+// A formula that ends a sentence goes on lines of its own when it is tall, or too wide to stand
+// beside the words.
 static const pl_form* pl_long_ending(pl_page* g, const pl_step* s, const char* words) {
   size_t n = strlen(words);
   if (n < 3 || s->n_inserts == 0 || s->n_inserts > 9) return NULL;
@@ -186,14 +198,16 @@ static const pl_form* pl_long_ending(pl_page* g, const pl_step* s, const char* w
   const pl_form* f = s->inserts[s->n_inserts - 1];
   if (!f) return NULL;
   pl_lines lines = pl_page_formula(g, f, INT_MAX, 0);
-  bool wide = g->wrap != INT_MAX && lines.width > g->margin / 2 &&
-              pl_utf8_width(pl_page_fill(g, words, s->n_inserts, s->inserts)) > g->wrap - PL_COLUMN_STEP;
+  bool wide = g->wrap != INT_MAX && lines.width > g->margin / 2
+              && pl_utf8_width(pl_page_fill(g, words, s->n_inserts, s->inserts))
+                     > g->wrap - PL_COLUMN_STEP;
   return wide || lines.n > 1 ? f : NULL;
 }
 
 static void pl_put_ending_below(pl_page* g, const pl_step* s, const char* words, const pl_form* f) {
   const char* before = pl_copy_n(g->arena, words, strlen(words) - 3);
-  pl_page_sentence(g, PL_COLUMN_STEP, PL_COLUMN_STEP, PL_INK_PLAIN, pl_page_fill(g, before, s->n_inserts, s->inserts));
+  pl_page_sentence(g, PL_COLUMN_STEP, PL_COLUMN_STEP, PL_INK_PLAIN,
+                   pl_page_fill(g, before, s->n_inserts, s->inserts));
   pl_lines lines = pl_page_formula(g, f, pl_room(g, PL_COLUMN_STEP), 0);
   for (int i = 0; i < lines.n; i++) {
     pl_text_pad(g->out, PL_COLUMN_STEP);
@@ -229,7 +243,7 @@ static void pl_put_heading(pl_page* g, const pl_step* s) {
   pl_page_sentence(g, PL_COLUMN_STEP, PL_COLUMN_STEP, PL_INK_PLAIN, words);
 }
 
-// ---------------------------------------------------------------------------------------------- a stretch
+// --------------------------------------------------------------------------------------- a stretch
 static bool pl_rows_follow(const pl_stretch* b, int i) {
   for (; i < b->steps.n && b->steps.at[i]->kind != PL_STEP_HEADING; i++) {
     if (b->steps.at[i]->kind == PL_STEP_ROW) return true;
@@ -273,7 +287,7 @@ static void pl_put_steps(pl_page* g, const pl_stretch* b) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- headings
+// ---------------------------------------------------------------------------------------- headings
 static bool pl_same_text(const char* a, const char* b) {
   return a == b || (a && b && strcmp(a, b) == 0);
 }
@@ -307,7 +321,8 @@ static void pl_gather(pl_page* g, pl_stretch* b, const pl_section* s, bool subhe
   }
 }
 
-// A section under the same letter as the one before it opens no new block: another title becomes a heading inside.
+// A section under the same letter as the one before it opens no new block: another title becomes a
+// heading inside.
 static bool pl_joins(const pl_section* before, const pl_section* s) {
   if (!before) return false;
   if (s->continues) return true;
@@ -326,7 +341,8 @@ void pl_worked_sections(pl_page* g, const pl_solution* s) {
       block = (pl_stretch){0};
       pl_put_section_heading(g, c);
     }
-    bool new_title = joins && !c->continues && c->title[0] && !pl_same_text(before->title[0], c->title[0]);
+    bool new_title = joins && !c->continues && c->title[0]
+                     && !pl_same_text(before->title[0], c->title[0]);
     pl_gather(g, &block, c, new_title);
     before = c;
   }

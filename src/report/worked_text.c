@@ -1,5 +1,6 @@
-// The worked solution as text: title, sections, notes, checks, what was assumed.  Laid out as a solution sheet: letters at
-// column 2, steps at column 5, equation numbers and values at the right margin.
+// The worked solution as text: title, sections, notes, checks, what was assumed. Laid out as a
+// solution sheet: letters at column 2, steps at column 5, equation numbers and values at the right
+// margin.
 #include "report_impl.h"
 
 #include <limits.h>
@@ -7,9 +8,10 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { PL_COLUMN_TAIL = 10 };   // "  checks  units ..."
+enum { PL_COLUMN_TAIL = 10 };  // "  checks  units ..."
 
-// A difference below this is the rounding of a check in high precision and tells the reader nothing.
+// A difference below this is the rounding of a check in high precision and tells the reader
+// nothing.
 static const double pl_worst_told = 1e-30;
 
 static void pl_put_title(pl_page* g, const pl_model* m) {
@@ -18,7 +20,7 @@ static void pl_put_title(pl_page* g, const pl_model* m) {
   pl_page_newline(g);
 }
 
-// ---------------------------------------------------------------------------------------------- notes
+// ------------------------------------------------------------------------------------------- notes
 bool pl_worked_told(const pl_solution* s, const char* code) {
   for (int i = 0; i < s->sections.n; i++) {
     for (int k = 0; k < s->sections.at[i].steps.n; k++) {
@@ -39,13 +41,14 @@ static void pl_put_notes(pl_page* g, const pl_solution* s, const pl_diagnostics*
     if (pl_code_severity(d->code) != PL_NOTE || pl_worked_told(s, code)) continue;
     pl_page_blank(g);
     const char* reason = d->reason[lang] ? d->reason[lang] : "";
-    const char* lead = pl_format(g->arena, "%s\x01%s: %s%s%s", note[lang], code, pl_page_words(g, d->sentence), *reason ? ". " : "",
+    const char* lead = pl_format(g->arena, "%s\x01%s: %s%s%s", note[lang], code,
+                                 pl_page_words(g, d->sentence), *reason ? ". " : "",
                                  pl_page_plain(g, reason));
     pl_page_sentence(g, 2, 2, PL_INK_YELLOW, lead);
   }
 }
 
-// ---------------------------------------------------------------------------------------------- checks
+// ------------------------------------------------------------------------------------------ checks
 static const char* pl_check_text(pl_page* g, const pl_check* c) {
   const char* name = pl_page_words(g, c->name);
   if (c->starts > 0) name = pl_format(g->arena, "%s (%d)", name, c->formulas);
@@ -102,7 +105,8 @@ static void pl_put_failures(pl_page* g, const pl_solution* s) {
     const pl_check* c = &s->checks.at[i];
     if (c->passed) continue;
     const char* where = c->failed_on ? pl_page_plain(g, c->failed_on) : "";
-    const char* line = pl_format(g->arena, words[g->how.lang], pl_page_words(g, c->name), *where ? on[g->how.lang] : "", where);
+    const char* line = pl_format(g->arena, words[g->how.lang], pl_page_words(g, c->name),
+                                 *where ? on[g->how.lang] : "", where);
     pl_page_sentence(g, PL_COLUMN_TAIL, PL_COLUMN_TAIL + 2, PL_INK_RED, line);
   }
 }
@@ -117,7 +121,9 @@ static void pl_put_checks(pl_page* g, const pl_solution* s) {
   int n = pl_count_failed(s);
   pl_put_label(g, label[g->how.lang]);
   int column = pl_put_items(g, item, s->checks.n, g->how.math == PL_MATH_ASCII ? ", " : " · ");
-  pl_put_verdict(g, column, n == 0 ? passed[g->how.lang] : pl_format(g->arena, failed[g->how.lang], n), n == 0);
+  pl_put_verdict(g, column,
+                 n == 0 ? passed[g->how.lang] : pl_format(g->arena, failed[g->how.lang], n),
+                 n == 0);
   pl_put_failures(g, s);
 }
 
@@ -138,7 +144,8 @@ static void pl_put_motion(pl_page* g, const char* motion) {
   g->blank = false;
 }
 
-void pl_worked_text(pl_text* out, const pl_solution* s, const pl_diagnostics* notes, const pl_worked_style* style) {
+void pl_worked_text(pl_text* out, const pl_solution* s, const pl_diagnostics* notes,
+                    const pl_worked_style* style) {
   pl_page g = pl_page_make(out, s->model ? s->model->pool : NULL, style);
   pl_put_title(&g, s->model);
   pl_worked_sections(&g, s);

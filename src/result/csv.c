@@ -1,11 +1,12 @@
-// CSV: `name [unit]` in the header, comma, LF, the shortest decimals that read back to the same number.
+// CSV: `name [unit]` in the header, comma, LF, the shortest decimals that read back to the same
+// number.
 #include "result/result_impl.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-// ---------------------------------------------------------------------------------------------- numbers
+// ----------------------------------------------------------------------------------------- numbers
 // The decimal point of the locale, whatever it is, becomes a dot.
 static int plain_point(char* out, const char* text) {
   int n = 0;
@@ -32,7 +33,7 @@ int pl_double_text(char out[32], double x) {
   return plain_point(out, text);
 }
 
-// ---------------------------------------------------------------------------------------------- text
+// -------------------------------------------------------------------------------------------- text
 // Quoted when a comma, a quote or a line end is in it.
 static void write_text(FILE* file, const char* s) {
   if (strpbrk(s, ",\"\r\n") == NULL) {
@@ -47,7 +48,8 @@ static void write_text(FILE* file, const char* s) {
   fputc('"', file);
 }
 
-static void write_header(FILE* file, const pl_result_column* column, int n, bool mode, pl_text* text) {
+static void write_header(FILE* file, const pl_result_column* column, int n, bool mode,
+                         pl_text* text) {
   for (int i = 0; i < n; i++) {
     text->n = 0;
     pl_text_add(text, column[i].name);
@@ -79,7 +81,7 @@ static void write_incomplete(FILE* file, const char* message) {
   fputc('\n', file);
 }
 
-// ---------------------------------------------------------------------------------------------- as it comes
+// ------------------------------------------------------------------------------------- as it comes
 typedef struct csv {
   pl_arena* arena;
   FILE* file;
@@ -88,7 +90,7 @@ typedef struct csv {
   int n_columns;
   bool has_mode;
   double* x;
-  int column;               // of the row that is written
+  int column;  // of the row that is written
 } csv;
 
 static pleuel_status state_of(const csv* w) { return ferror(w->file) ? PLEUEL_FILE : PLEUEL_OK; }
@@ -136,7 +138,8 @@ static pleuel_status csv_row(void* user, const pl_row* row) {
   return state_of(w);
 }
 
-static pleuel_status csv_end(void* user, pleuel_status how, const char* message, const pl_stats* stats) {
+static pleuel_status csv_end(void* user, pleuel_status how, const char* message,
+                             const pl_stats* stats) {
   csv* w = user;
   (void)stats;
   if (how != PLEUEL_OK) write_incomplete(w->file, message);
@@ -157,11 +160,12 @@ pl_sink pl_csv_sink_behind(pl_arena* a, FILE* file) {
   return sink;
 }
 
-// ---------------------------------------------------------------------------------------------- from memory
+// ------------------------------------------------------------------------------------- from memory
 pleuel_status pl_result_write_csv(const pl_result* r, FILE* file) {
   pl_text text = pl_text_make(r->arena);
   write_header(file, r->columns, r->n_columns, r->has_mode, &text);
-  for (int i = 0; i < r->rows.n; i++) write_row(file, r->rows.at[i], r->n_columns, r->has_mode ? r->modes.at[i] : NULL);
+  for (int i = 0; i < r->rows.n; i++)
+    write_row(file, r->rows.at[i], r->n_columns, r->has_mode ? r->modes.at[i] : NULL);
   if (!r->complete) write_incomplete(file, r->message ? r->message : "");
   fflush(file);
   return ferror(file) ? PLEUEL_FILE : PLEUEL_OK;

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-// ---------------------------------------------------------------------------------------------- columns
+// ----------------------------------------------------------------------------------------- columns
 static int count_columns(const pl_setup* s) {
   int n = 1;
   for (int i = 0; i < s->n_q; i++) n += s->coordinates[i].hidden ? 0 : 2;
@@ -17,12 +17,15 @@ static void name_columns(const pl_setup* s, pl_result_column* column) {
   int n = 0;
   column[n++] = (pl_result_column){"t", "s"};
   for (int i = 0; i < s->n_q; i++)
-    if (!s->coordinates[i].hidden) column[n++] = (pl_result_column){s->coordinates[i].name, s->coordinates[i].unit};
+    if (!s->coordinates[i].hidden)
+      column[n++] = (pl_result_column){s->coordinates[i].name, s->coordinates[i].unit};
   for (int i = 0; i < s->n_q; i++)
-    if (!s->coordinates[i].hidden) column[n++] = (pl_result_column){s->coordinates[i].v_name, s->coordinates[i].v_unit};
+    if (!s->coordinates[i].hidden)
+      column[n++] = (pl_result_column){s->coordinates[i].v_name, s->coordinates[i].v_unit};
   for (int c = 0; c < s->n_c; c++)
     if (s->links[c].column) column[n++] = (pl_result_column){s->links[c].column, s->links[c].unit};
-  for (int i = 0; i < s->n_out; i++) column[n++] = (pl_result_column){s->out[i].name, s->out[i].unit};
+  for (int i = 0; i < s->n_out; i++)
+    column[n++] = (pl_result_column){s->out[i].name, s->out[i].unit};
 }
 
 // ORDER COLUMNS: as name_columns.
@@ -50,10 +53,12 @@ static void take_plain(char* text, void* user, void (*take)(void* user, const ch
 }
 
 // ORDER COLUMNS: as name_columns.
-void pl_result_digits(const pl_setup* s, const pl_row* row, void* user, void (*take)(void* user, const char* text)) {
+void pl_result_digits(const pl_setup* s, const pl_row* row, void* user,
+                      void (*take)(void* user, const char* text)) {
   const pl_row_digits* d = row->digits;
   char text[PL_ROW_TEXT];
-#define COLUMN(part, i, negative) (d->text(d->user, part, i, negative, text), take_plain(text, user, take))
+#define COLUMN(part, i, negative) \
+  (d->text(d->user, part, i, negative, text), take_plain(text, user, take))
   COLUMN(PL_ROW_T, 0, false);
   for (int part = PL_ROW_Q; part <= PL_ROW_V; part++)
     for (int i = 0; i < s->n_q; i++)
@@ -72,7 +77,8 @@ static bool has_mode(const pl_setup* s) {
   return s->n_rubs > 0;
 }
 
-void pl_result_columns(pl_arena* a, const pl_setup* s, const pl_result_column** columns, int* n, bool* mode) {
+void pl_result_columns(pl_arena* a, const pl_setup* s, const pl_result_column** columns, int* n,
+                       bool* mode) {
   pl_result_column* column = PL_ARRAY(a, pl_result_column, count_columns(s) + 1);
   name_columns(s, column);
   *columns = column;
@@ -80,7 +86,7 @@ void pl_result_columns(pl_arena* a, const pl_setup* s, const pl_result_column** 
   *mode = has_mode(s);
 }
 
-// ---------------------------------------------------------------------------------------------- sink
+// -------------------------------------------------------------------------------------------- sink
 typedef struct filling {
   pl_result* result;
   const pl_setup* setup;
@@ -89,7 +95,8 @@ typedef struct filling {
 } filling;
 
 static const char* keep_text(filling* f, const char* mode) {
-  if (f->last_mode == NULL || strcmp(f->last_mode, mode) != 0) f->last_mode = pl_copy(f->result->arena, mode);
+  if (f->last_mode == NULL || strcmp(f->last_mode, mode) != 0)
+    f->last_mode = pl_copy(f->result->arena, mode);
   return f->last_mode;
 }
 
@@ -99,8 +106,10 @@ static double* keep_row(filling* f, const pl_row* row) {
   return x;
 }
 
-// Memory that runs out while a run steps must not unwind through the run: it stops the run with a status.
-static pleuel_status guarded(filling* f, void (*work)(filling* f, const void* what), const void* what) {
+// Memory that runs out while a run steps must not unwind through the run: it stops the run with a
+// status.
+static pleuel_status guarded(filling* f, void (*work)(filling* f, const void* what),
+                             const void* what) {
   pl_guard guard;
   PL_GUARD(f->result->arena, guard) {
     work(f, what);
@@ -144,7 +153,11 @@ static pleuel_status on_row(void* user, const pl_row* row) {
   return f->result->next.row ? f->result->next.row(f->result->next.user, row) : PLEUEL_OK;
 }
 
-typedef struct digits { pl_arena* arena; const char** text; int n; } digits;
+typedef struct digits {
+  pl_arena* arena;
+  const char** text;
+  int n;
+} digits;
 
 static void take_digits(void* user, const char* text) {
   digits* d = user;
@@ -154,8 +167,12 @@ static void take_digits(void* user, const char* text) {
 static void add_event(filling* f, const void* what) {
   const pl_event_record* e = what;
   pl_result* r = f->result;
-  pl_result_event event = {.kind = e->kind, .t = e->after.t, .at_start = e->at_start, .impulse = e->impulse,
-                           .jump = e->jump, .bounces = e->bounces};
+  pl_result_event event = {.kind = e->kind,
+                           .t = e->after.t,
+                           .at_start = e->at_start,
+                           .impulse = e->impulse,
+                           .jump = e->jump,
+                           .bounces = e->bounces};
   event.label = e->label ? pl_copy(r->arena, e->label) : NULL;
   event.before = keep_row(f, &e->before);
   event.after = keep_row(f, &e->after);
@@ -175,9 +192,12 @@ static pleuel_status on_event(void* user, const pl_event_record* e) {
   return f->result->next.event ? f->result->next.event(f->result->next.user, e) : PLEUEL_OK;
 }
 
-static void keep_message(filling* f, const void* message) { f->result->message = pl_copy(f->result->arena, message); }
+static void keep_message(filling* f, const void* message) {
+  f->result->message = pl_copy(f->result->arena, message);
+}
 
-static pleuel_status on_end(void* user, pleuel_status how, const char* message, const pl_stats* stats) {
+static pleuel_status on_end(void* user, pleuel_status how, const char* message,
+                            const pl_stats* stats) {
   filling* f = user;
   pl_result* r = f->result;
   r->complete = how == PLEUEL_OK;
@@ -188,7 +208,7 @@ static pleuel_status on_end(void* user, pleuel_status how, const char* message, 
   return r->next.end ? r->next.end(r->next.user, how, message, stats) : PLEUEL_OK;
 }
 
-// ---------------------------------------------------------------------------------------------- the object
+// -------------------------------------------------------------------------------------- the object
 pl_result* pl_result_make(pl_arena* a, bool keep_rows) {
   pl_result* r = PL_NEW(a, pl_result);
   r->arena = a;
@@ -202,7 +222,7 @@ pl_sink pl_result_sink(pl_result* r) {
   return (pl_sink){.user = f, .begin = on_begin, .row = on_row, .event = on_event, .end = on_end};
 }
 
-// ---------------------------------------------------------------------------------------------- interrupted
+// ------------------------------------------------------------------------------------- interrupted
 static void keep_numbers(pl_result* r, pl_keeper* k, double** x) {
   if (k->reads) *x = PL_ARRAY(r->arena, double, r->n_columns);
   pl_keep_f64s(k, *x, (size_t)r->n_columns);

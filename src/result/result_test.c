@@ -43,7 +43,8 @@ static t_bench* bead(void) {
   t_start(b, 1, 0, 0);
   t_output(b, "twice", pl_mul(b->pool, pl_int(b->pool, 2), x));
   t_event(b, "edge", pl_sub(b->pool, x, pl_int(b->pool, 1)), 1, PL_DEED_RELEASE, 0);
-  assert_int_equal(t_make(b, pl_sub(b->pool, T, pl_mul(b->pool, pl_int(b->pool, 10), y)), 1, 0), PLEUEL_OK);
+  assert_int_equal(t_make(b, pl_sub(b->pool, T, pl_mul(b->pool, pl_int(b->pool, 10), y)), 1, 0),
+                   PLEUEL_OK);
   return b;
 }
 
@@ -67,9 +68,11 @@ static void a_result_keeps_rows_modes_and_events(void** state) {
   assert_string_equal(r->modes.at[2], "contact(table, oak)");
   assert_string_equal(r->modes.at[3], "free");
   assert_true(r->kinds.at[2] == PL_ROW_BEFORE && r->kinds.at[3] == PL_ROW_AFTER);
-  assert_true(r->events.n == 1 && r->events.at[0].kind == PL_EV_EVENT && strcmp(r->events.at[0].label, "edge") == 0);
+  assert_true(r->events.n == 1 && r->events.at[0].kind == PL_EV_EVENT
+              && strcmp(r->events.at[0].label, "edge") == 0);
   int lambda = pl_result_find(r, "lambda");
-  assert_true(lambda == 5 && r->events.at[0].before[lambda] == 10 && r->events.at[0].after[lambda] == 0);
+  assert_true(lambda == 5 && r->events.at[0].before[lambda] == 10
+              && r->events.at[0].after[lambda] == 0);
   assert_true(pl_result_last(r, "t") == 1 && fabs(pl_result_last(r, "twice") - 4) < 1e-14);
   assert_true(isnan(pl_result_last(r, "absent")));
   t_close(b);
@@ -94,10 +97,11 @@ static void csv_has_header_rows_and_quotes_where_needed(void** state) {
   slurp(one, streamed, sizeof streamed);
   slurp(two, written, sizeof written);
   assert_string_equal(streamed, written);
-  assert_int_equal(
-      strncmp(streamed,
-              "t [s],x [m],y,x_dot [m/s],y_dot,lambda [N],twice,mode\n0,0,0,2,0,10,0,\"contact(table, oak)\"\n", 80),
-      0);
+  assert_int_equal(strncmp(streamed,
+                           "t [s],x [m],y,x_dot [m/s],y_dot,lambda "
+                           "[N],twice,mode\n0,0,0,2,0,10,0,\"contact(table, oak)\"\n",
+                           80),
+                   0);
   assert_null(strstr(streamed, "incomplete"));
   fclose(one);
   fclose(two);

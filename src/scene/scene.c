@@ -1,5 +1,5 @@
-// The picture of a model, step by step: things, numbers at each frame, what the constraints look like, loads, arrows, the
-// view, points.
+// The picture of a model, step by step: things, numbers at each frame, what the constraints look
+// like, loads, arrows, the view, points.
 #include "scene/scene.h"
 
 #include <math.h>
@@ -7,25 +7,32 @@
 
 #include "scene/scene_impl.h"
 
-enum { MOST_COORDINATES = 6000, MOST_NAMED = 24 };    // beyond this there is nothing to be seen, or to be read
+// beyond this there is nothing to be seen, or to be read
+enum { MOST_COORDINATES = 6000, MOST_NAMED = 24 };
 
-// ---------------------------------------------------------------------------------------------- stage
+// ------------------------------------------------------------------------------------------- stage
 static bool turns(pl_pool* p, pl_expr e, pl_symbol x, bool inside) {
   pl_kind kind = pl_kind_of(p, e);
   if (kind == PL_SYMBOL) return inside && pl_symbol_of(p, e).id == x.id;
-  bool trig = kind == PL_CALL && (pl_function_of(p, e) == PL_SIN || pl_function_of(p, e) == PL_COS || pl_function_of(p, e) == PL_TAN);
+  bool trig = kind == PL_CALL
+              && (pl_function_of(p, e) == PL_SIN || pl_function_of(p, e) == PL_COS
+                  || pl_function_of(p, e) == PL_TAN);
   for (int i = 0; i < pl_n_args(p, e); i++) {
-    if (pl_has_symbol(p, pl_arg(p, e, i), x) && turns(p, pl_arg(p, e, i), x, inside || trig)) return true;
+    if (pl_has_symbol(p, pl_arg(p, e, i), x) && turns(p, pl_arg(p, e, i), x, inside || trig))
+      return true;
   }
   return false;
 }
 
 static bool is_angle(pl_stage* s, pl_symbol x) {
   const pl_symbol_info* info = pl_symbol_get(s->pool, x);
-  if (s->model->uses_units && info->dimension_known) return pl_dimension_equal(info->dimension, pl_dimension_one());
+  if (s->model->uses_units && info->dimension_known)
+    return pl_dimension_equal(info->dimension, pl_dimension_one());
   for (int i = 0; i < s->things.n; i++) {
     for (int j = 0; j < 3; j++) {
-      if (!pl_is_poison(s->things.at[i].spot.e[j]) && turns(s->pool, s->things.at[i].spot.e[j], x, false)) return true;
+      if (!pl_is_poison(s->things.at[i].spot.e[j])
+          && turns(s->pool, s->things.at[i].spot.e[j], x, false))
+        return true;
     }
   }
   for (int i = 0; i < s->model->constraints.n; i++) {
@@ -64,11 +71,13 @@ static void find_gravity(pl_stage* s) {
   }
 }
 
-// Without `gravity` a potential may pull: its slope at the start, where a place is given by coordinates of its own.
+// Without `gravity` a potential may pull: its slope at the start, where a place is given by
+// coordinates of its own.
 static void find_pull(pl_stage* s) {
   pl_expr V = pl_int(s->pool, 0);
   for (int i = 0; i < s->model->loads.n; i++) {
-    if (s->model->loads.at[i].kind == PL_L_POTENTIAL) V = pl_add(s->pool, V, s->model->loads.at[i].value);
+    if (s->model->loads.at[i].kind == PL_L_POTENTIAL)
+      V = pl_add(s->pool, V, s->model->loads.at[i].value);
   }
   double pull[3] = {0, 0, 0}, size = 0;
   for (int j = 0; j < 3 && s->things.n > 0; j++) {
@@ -95,14 +104,16 @@ pl_part* pl_stage_add(pl_stage* s, pl_shape_kind kind, const char* label, const 
   return &s->parts.at[s->parts.n - 1];
 }
 
-// ---------------------------------------------------------------------------------------------- parts of things and loads
+// ----------------------------------------------------------------------- parts of things and loads
 static void add_things(pl_stage* s) {
   for (int i = 0; i < s->things.n; i++) {
     pl_thing* t = &s->things.at[i];
     if (t->kind == PL_THING_BODY) continue;
     bool point = t->kind == PL_THING_POINT;
-    bool crowd = s->things.n > MOST_NAMED && i > 0 && i + 1 < s->things.n;      // names of the ends must do
-    pl_part* p = pl_stage_add(s, point ? PL_SHAPE_POINT : PL_SHAPE_MASS, crowd ? "" : t->label, t->name);
+    // names of the ends must do
+    bool crowd = s->things.n > MOST_NAMED && i > 0 && i + 1 < s->things.n;
+    pl_part* p = pl_stage_add(s, point ? PL_SHAPE_POINT : PL_SHAPE_MASS, crowd ? "" : t->label,
+                              t->name);
     p->n = 1;
     p->mass = pl_is_poison(t->mass) ? 0 : pl_stage_eval(s, t->mass);
     p->spot[0] = t->spot;
@@ -122,20 +133,25 @@ static void add_loads(pl_stage* s) {
   for (int i = 0; i < s->model->loads.n; i++) {
     const pl_load* l = &s->model->loads.at[i];
     if (l->kind != PL_L_SPRING && l->kind != PL_L_DAMPER) continue;
-    const char* label = pl_kind_of(s->pool, l->value) == PL_SYMBOL ? pl_symbol_get(s->pool, pl_symbol_of(s->pool, l->value))->name : "";
-    pl_part* p = pl_stage_add(s, l->kind == PL_L_SPRING ? PL_SHAPE_SPRING : PL_SHAPE_DAMPER, label, l->name.text);
+    const char* label = pl_kind_of(s->pool, l->value) == PL_SYMBOL
+                            ? pl_symbol_get(s->pool, pl_symbol_of(s->pool, l->value))->name
+                            : "";
+    pl_part* p = pl_stage_add(s, l->kind == PL_L_SPRING ? PL_SHAPE_SPRING : PL_SHAPE_DAMPER, label,
+                              l->name.text);
     p->spot[0] = pl_spot_of(s, &l->a);
     p->spot[1] = pl_spot_of(s, &l->b);
     p->moves = spot_moves(s, &p->spot[0]) || spot_moves(s, &p->spot[1]);
-    for (int k = 0; k < 2; k++) {                // models with one axis: the places across it belong to the things
+    // models with one axis: the places across it belong to the things
+    for (int k = 0; k < 2; k++) {
       for (int j = 0; j < s->things.n; j++) {
-        if (pl_same(s->things.at[j].spot.e[0], p->spot[k].e[0])) p->spot[k].side = s->things.at[j].spot.side;
+        if (pl_same(s->things.at[j].spot.e[0], p->spot[k].e[0]))
+          p->spot[k].side = s->things.at[j].spot.side;
       }
     }
   }
 }
 
-// ---------------------------------------------------------------------------------------------- points
+// ------------------------------------------------------------------------------------------ points
 static void place_part(pl_stage* s, const pl_part* p, double* xyz) {
   if (p->place) {
     p->place(s, p, xyz);
@@ -150,7 +166,7 @@ static int side_of(const pl_stage* s, const pl_part* p, const float* xy) {
   double n[2], at[2], d[2] = {0, 0}, nearest = INFINITY;
   pl_view_project(&s->view, p->normal, n);
   pl_view_project(&s->view, p->normal + 3, at);
-  for (int m = 0; m + 1 < p->n; m++) {          // the piece of the line where the normal was taken
+  for (int m = 0; m + 1 < p->n; m++) {  // the piece of the line where the normal was taken
     double away = hypot((double)xy[2 * m] - at[0], (double)xy[2 * m + 1] - at[1]);
     if (!(away < nearest) || !isfinite(xy[2 * m + 2])) continue;
     nearest = away;
@@ -162,8 +178,10 @@ static int side_of(const pl_stage* s, const pl_part* p, const float* xy) {
 }
 
 static void find_box(pl_scene* scene) {
-  double lo[2] = {INFINITY, INFINITY}, hi[2] = {-INFINITY, -INFINITY}, most[2] = {0, 0}, least[2] = {0, 0};
-  for (int pass = 0; pass < 2; pass++) {          // arrows last: a blow must not make the system small
+  double lo[2] = {INFINITY, INFINITY}, hi[2] = {-INFINITY, -INFINITY}, most[2] = {0, 0},
+         least[2] = {0, 0};
+  // arrows last: a blow must not make the system small
+  for (int pass = 0; pass < 2; pass++) {
     for (int i = 0; i < scene->n_shapes; i++) {
       const pl_shape* p = &scene->shapes[i];
       bool arrow = p->kind == PL_SHAPE_FORCE || p->kind == PL_SHAPE_VELOCITY;
@@ -176,7 +194,10 @@ static void find_box(pl_scene* scene) {
       }
     }
     double room = 0.25 * fmax(hi[0] - lo[0], hi[1] - lo[1]);
-    for (int j = 0; j < 2; j++) least[j] = lo[j] - room, most[j] = hi[j] + room;
+    for (int j = 0; j < 2; j++) {
+      least[j] = lo[j] - room;
+      most[j] = hi[j] + room;
+    }
   }
   for (int j = 0; j < 2; j++) {
     if (!(hi[j] >= lo[j])) lo[j] = hi[j] = 0;
@@ -196,7 +217,13 @@ static pleuel_status make_shapes(pl_stage* s, pl_scene* scene) {
     const pl_part* p = &s->parts.at[i];
     size_t frames = p->moves && p->kind != PL_SHAPE_TRAIL ? (size_t)s->n_frames : 1;
     xy[i] = PL_ARRAY(s->arena, float, 2 * (size_t)p->n * frames);
-    shape[i] = (pl_shape){.kind = p->kind, .label = p->label, .of = p->of, .n = p->n, .moves = frames > 1, .xy = xy[i], .shown = !p->hidden,
+    shape[i] = (pl_shape){.kind = p->kind,
+                          .label = p->label,
+                          .of = p->of,
+                          .n = p->n,
+                          .moves = frames > 1,
+                          .xy = xy[i],
+                          .shown = !p->hidden,
                           .weight = p->mass > 0 ? (float)(p->mass / heaviest) : 0};
     if (p->n > most) most = p->n;
   }
@@ -231,7 +258,7 @@ static pleuel_status make_shapes(pl_stage* s, pl_scene* scene) {
   return PLEUEL_OK;
 }
 
-// ---------------------------------------------------------------------------------------------- marks
+// ------------------------------------------------------------------------------------------- marks
 static void make_marks(pl_stage* s, pl_scene* scene) {
   const pl_result* r = s->result;
   scene->best = 0;
@@ -252,25 +279,34 @@ static void make_marks(pl_stage* s, pl_scene* scene) {
   scene->best = first_release >= 0 ? first_release : first_event >= 0 ? first_event : 0;
 }
 
-// ---------------------------------------------------------------------------------------------- all
-pleuel_status pl_scene_make(pl_job* job, pl_model* model, const pl_result* result, const pl_scene_options* options, pl_scene** out) {
+// --------------------------------------------------------------------------------------------- all
+pleuel_status pl_scene_make(pl_job* job, pl_model* model, const pl_result* result,
+                            const pl_scene_options* options, pl_scene** out) {
   pl_arena* a = job->arena;
   pl_scene_options none = {0};
-  pl_stage stage = {.job = job, .arena = a, .model = model, .pool = model->pool, .result = result,
-                    .options = options ? options : &none, .random = {20}};
+  pl_stage stage = {.job = job,
+                    .arena = a,
+                    .model = model,
+                    .pool = model->pool,
+                    .result = result,
+                    .options = options ? options : &none,
+                    .random = {20}};
   pl_stage* s = &stage;
   pl_scene* scene = PL_NEW(a, pl_scene);
   *out = scene;
   scene->description[0] = scene->description[1] = "";
-  if (model->blocks.n > 0 && pl_model_expand(job, model, MOST_COORDINATES, &s->model) != PLEUEL_OK) s->model = model;
+  if (model->blocks.n > 0 && pl_model_expand(job, model, MOST_COORDINATES, &s->model) != PLEUEL_OK)
+    s->model = model;
   s->pool = s->model->pool;
-  if (s->model->blocks.n > 0) return PLEUEL_OK;         // too large to be drawn
+  if (s->model->blocks.n > 0) return PLEUEL_OK;  // too large to be drawn
   find_coordinates(s);
   pl_stage_things(s);
   for (int k = 0; k < s->n_q; k++) s->angle[k] = is_angle(s, s->q[k]);
   bool schematic = s->things.n == 0;
   for (int i = 0; i < s->model->constraints.n; i++) {
-    pl_bond b = {.c = &s->model->constraints.at[i], .settles = -1, .velocity = s->model->constraints.at[i].has_velocity};
+    pl_bond b = {.c = &s->model->constraints.at[i],
+                 .settles = -1,
+                 .velocity = s->model->constraints.at[i].has_velocity};
     pl_push(a, s->bonds, b);
   }
   find_values(s);

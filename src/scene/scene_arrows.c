@@ -1,4 +1,5 @@
-// What is drawn beside the system itself: axes, angles, trails, and arrows of forces and velocities.
+// What is drawn beside the system itself: axes, angles, trails, and arrows of forces and
+// velocities.
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,7 +8,7 @@
 
 enum { ARC = 17, MOST_TRAILS = 6, MOST_ARROWS = 40 };
 
-// ---------------------------------------------------------------------------------------------- axes
+// -------------------------------------------------------------------------------------------- axes
 static void add_axes(pl_stage* s) {
   int n = s->model->n_axes;
   double lo[2] = {INFINITY, INFINITY}, hi[2] = {-INFINITY, -INFINITY}, home[3] = {0, 0, 0};
@@ -15,7 +16,10 @@ static void add_axes(pl_stage* s) {
     double x[3], xy[2];
     for (int j = 0; j < 3; j++) x[j] = i >> j & 1 ? s->hi[j] : s->lo[j];
     pl_view_project(&s->view, x, xy);
-    for (int k = 0; k < 2; k++) lo[k] = fmin(lo[k], xy[k]), hi[k] = fmax(hi[k], xy[k]);
+    for (int k = 0; k < 2; k++) {
+      lo[k] = fmin(lo[k], xy[k]);
+      hi[k] = fmax(hi[k], xy[k]);
+    }
   }
   double length = 0.22 * s->size;
   // far from the origin the axes stand beside the motion
@@ -35,8 +39,12 @@ static void add_axes(pl_stage* s) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- angles
-typedef struct pl_arc { pl_spot spot, pivot; int q; double radius; } pl_arc;
+// ------------------------------------------------------------------------------------------ angles
+typedef struct pl_arc {
+  pl_spot spot, pivot;
+  int q;
+  double radius;
+} pl_arc;
 
 static void place_arc(pl_stage* s, const pl_part* part, double* xyz) {
   const pl_arc* a = part->data;
@@ -49,7 +57,8 @@ static void place_arc(pl_stage* s, const pl_part* part, double* xyz) {
     pl_stage_spot(s, &a->pivot, c);
     for (int j = 0; j < 3; j++) d += (x[j] - c[j]) * (x[j] - c[j]);
     d = sqrt(d);
-    for (int j = 0; j < 3; j++) xyz[3 * i + j] = d > 0 ? c[j] + (x[j] - c[j]) / d * a->radius : (double)NAN;
+    for (int j = 0; j < 3; j++)
+      xyz[3 * i + j] = d > 0 ? c[j] + (x[j] - c[j]) / d * a->radius : (double)NAN;
   }
   *q = full;
 }
@@ -60,7 +69,9 @@ static pl_spot resolved(pl_stage* s, const pl_thing* t) {
   for (int round = 0; round < 3; round++) {
     for (int i = 0; i < s->model->choose.n_maps; i++) {
       for (int j = 0; j < 3; j++) {
-        if (!pl_is_poison(spot.e[j])) spot.e[j] = pl_subst_expr(s->pool, spot.e[j], s->model->choose.maps[i].old, s->model->choose.maps[i].map);
+        if (!pl_is_poison(spot.e[j]))
+          spot.e[j] = pl_subst_expr(s->pool, spot.e[j], s->model->choose.maps[i].old,
+                                    s->model->choose.maps[i].map);
       }
     }
   }
@@ -84,11 +95,13 @@ static void add_angles(pl_stage* s) {
     for (int i = 0; i < s->things.n; i++) {
       pl_spot spot = resolved(s, &s->things.at[i]);
       bool has = false;
-      for (int j = 0; j < 3; j++) has |= !pl_is_poison(spot.e[j]) && pl_has_symbol(s->pool, spot.e[j], s->q[k]);
+      for (int j = 0; j < 3; j++)
+        has |= !pl_is_poison(spot.e[j]) && pl_has_symbol(s->pool, spot.e[j], s->q[k]);
       if (!has || s->things.at[i].kind == PL_THING_BODY) continue;
       pl_spot pivot = half_turn(s, &spot, k);
       bool still = true;
-      for (int j = 0; j < 3; j++) still &= pl_is_poison(pivot.e[j]) || !pl_has_symbol(s->pool, pivot.e[j], s->q[k]);
+      for (int j = 0; j < 3; j++)
+        still &= pl_is_poison(pivot.e[j]) || !pl_has_symbol(s->pool, pivot.e[j], s->q[k]);
       double x[3], c[3];
       pl_stage_spot(s, &spot, x);
       pl_stage_spot(s, &pivot, c);
@@ -96,7 +109,8 @@ static void add_angles(pl_stage* s) {
       if (!still || !(d > 1e-9 * s->size)) continue;
       pl_arc* arc = PL_NEW(s->arena, pl_arc);
       *arc = (pl_arc){spot, pivot, k, fmin(0.16 * s->size, 0.5 * d)};
-      pl_part* p = pl_stage_add(s, PL_SHAPE_ANGLE, pl_symbol_get(s->pool, s->q[k])->name, pl_symbol_get(s->pool, s->q[k])->name);
+      pl_part* p = pl_stage_add(s, PL_SHAPE_ANGLE, pl_symbol_get(s->pool, s->q[k])->name,
+                                pl_symbol_get(s->pool, s->q[k])->name);
       p->n = ARC;
       p->moves = true;
       p->place = place_arc;
@@ -106,7 +120,7 @@ static void add_angles(pl_stage* s) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- trails
+// ------------------------------------------------------------------------------------------ trails
 static void add_trails(pl_stage* s) {
   int n = 0;
   if (s->n_frames < 2) return;
@@ -121,21 +135,27 @@ static void add_trails(pl_stage* s) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- arrows
-typedef enum pl_arrow_kind { PL_ARROW_WEIGHT, PL_ARROW_BOND, PL_ARROW_LOAD, PL_ARROW_VELOCITY } pl_arrow_kind;
+// ------------------------------------------------------------------------------------------ arrows
+typedef enum pl_arrow_kind {
+  PL_ARROW_WEIGHT,
+  PL_ARROW_BOND,
+  PL_ARROW_LOAD,
+  PL_ARROW_VELOCITY
+} pl_arrow_kind;
 typedef struct pl_arrow {
   pl_arrow_kind kind;
   int thing, n;
   pl_spot spot;
   const pl_constraint* c;
-  bool minus;                   // λ is shown with the other sign
-  pl_expr e[3];                 // weight, load, velocity: components
+  bool minus;    // λ is shown with the other sign
+  pl_expr e[3];  // weight, load, velocity: components
   int q[8];
-  pl_expr slope[8], J[3][8];    // dg/dq, d place/dq
+  pl_expr slope[8], J[3][8];  // dg/dq, d place/dq
   double* per_metre;
 } pl_arrow;
 
-// The force of a constraint on a thing: the shortest F with F . dX/dq = λ dg/dq for the coordinates of the thing.
+// The force of a constraint on a thing: the shortest F with F . dX/dq = λ dg/dq for the coordinates
+// of the thing.
 static bool bond_force(pl_stage* s, const pl_arrow* a, double F[3]) {
   double A[8 * 3], b[8], lambda = pl_stage_eval(s, pl_sym(s->pool, a->c->lambda));
   if (a->minus) lambda = -lambda;
@@ -166,13 +186,15 @@ static void place_arrow(pl_stage* s, const pl_part* part, double* xyz) {
   }
 }
 
-static pl_arrow* add_arrow(pl_stage* s, pl_arrow_kind kind, int thing, const char* label, const char* of) {
+static pl_arrow* add_arrow(pl_stage* s, pl_arrow_kind kind, int thing, const char* label,
+                           const char* of) {
   pl_arrow* a = PL_NEW(s->arena, pl_arrow);
   a->kind = kind;
   a->thing = thing;
   if (thing >= 0) a->spot = s->things.at[thing].spot;
   for (int j = 0; j < 3; j++) a->e[j] = pl_poison();
-  pl_part* p = pl_stage_add(s, kind == PL_ARROW_VELOCITY ? PL_SHAPE_VELOCITY : PL_SHAPE_FORCE, label, of);
+  pl_part* p = pl_stage_add(s, kind == PL_ARROW_VELOCITY ? PL_SHAPE_VELOCITY : PL_SHAPE_FORCE,
+                            label, of);
   p->moves = true;
   p->place = place_arrow;
   p->data = a;
@@ -186,12 +208,15 @@ static void add_weights(pl_stage* s) {
     for (int i = 0; i < s->things.n; i++) {
       const pl_thing* t = &s->things.at[i];
       if (pl_is_poison(t->mass)) continue;
-      const char* label = pl_kind_of(s->pool, t->mass) == PL_SYMBOL && pl_kind_of(s->pool, field->g) == PL_SYMBOL
-                              ? pl_format(s->arena, "%s %s", pl_symbol_get(s->pool, pl_symbol_of(s->pool, t->mass))->name,
-                                          pl_symbol_get(s->pool, pl_symbol_of(s->pool, field->g))->name)
-                              : "G";
+      const char* label =
+          pl_kind_of(s->pool, t->mass) == PL_SYMBOL && pl_kind_of(s->pool, field->g) == PL_SYMBOL
+              ? pl_format(s->arena, "%s %s",
+                          pl_symbol_get(s->pool, pl_symbol_of(s->pool, t->mass))->name,
+                          pl_symbol_get(s->pool, pl_symbol_of(s->pool, field->g))->name)
+              : "G";
       pl_arrow* a = add_arrow(s, PL_ARROW_WEIGHT, i, label, "weight");
-      a->e[field->axis] = pl_mul_n(s->pool, (pl_expr[]){pl_int(s->pool, field->sign), t->mass, field->g}, 3);
+      a->e[field->axis] = pl_mul_n(s->pool,
+                                   (pl_expr[]){pl_int(s->pool, field->sign), t->mass, field->g}, 3);
     }
   }
 }
@@ -216,13 +241,15 @@ static bool own_coordinates(const pl_stage* s, int thing, const pl_bond* b) {
     for (int i = 0; i < s->things.n; i++) {
       const pl_thing* o = &s->things.at[i];
       bool other = i != thing && !pl_is_poison(o->mass);
-      for (int l = 0; other && l < o->deps.n; l++) if (o->deps.at[l] == t->deps.at[k]) return false;
+      for (int l = 0; other && l < o->deps.n; l++)
+        if (o->deps.at[l] == t->deps.at[k]) return false;
     }
   }
   return any;
 }
 
-// Whether the coordinates of the arrow move its place through the whole space, or along a straight guide.
+// Whether the coordinates of the arrow move its place through the whole space, or along a straight
+// guide.
 static bool spans_space(pl_stage* s, const pl_arrow* a) {
   static const double clear = 1e-9;
   double N[3][3] = {{0}}, size = 0;
@@ -241,13 +268,14 @@ static bool spans_space(pl_stage* s, const pl_arrow* a) {
   }
   if (straight) return true;
   for (int j = s->model->n_axes; j < 3; j++) N[j][j] = size;
-  double det = N[0][0] * (N[1][1] * N[2][2] - N[1][2] * N[2][1]) - N[0][1] * (N[1][0] * N[2][2] - N[1][2] * N[2][0]) +
-               N[0][2] * (N[1][0] * N[2][1] - N[1][1] * N[2][0]);
+  double det = N[0][0] * (N[1][1] * N[2][2] - N[1][2] * N[2][1])
+               - N[0][1] * (N[1][0] * N[2][2] - N[1][2] * N[2][0])
+               + N[0][2] * (N[1][0] * N[2][1] - N[1][1] * N[2][0]);
   return det > clear * size * size * size;
 }
 
-// Virtual work: the force at this place explains the constraint for every coordinate that moves the thing, so that there is no
-// torque beside it.  Otherwise the arrow would stand at a wrong place.
+// Virtual work: the force at this place explains the constraint for every coordinate that moves the
+// thing, so that there is no torque beside it. Otherwise the arrow would stand at a wrong place.
 static bool explains(pl_stage* s, const pl_arrow* a) {
   static const double clear = 1e-7;
   double A[8 * 3], b[8], F[3], off = 0, size = 0;
@@ -265,12 +293,15 @@ static bool explains(pl_stage* s, const pl_arrow* a) {
   return size > 0 && off <= clear * clear * size && spans_space(s, a);
 }
 
-// The force of a bond at the place of `at`, for the coordinates that move the thing `on`; false: it does not act there.
-static bool bond_arrow(pl_stage* s, const pl_bond* b, const pl_thing* on, const pl_spot* at, pl_arrow* out) {
+// The force of a bond at the place of `at`, for the coordinates that move the thing `on`; false: it
+// does not act there.
+static bool bond_arrow(pl_stage* s, const pl_bond* b, const pl_thing* on, const pl_spot* at,
+                       pl_arrow* out) {
   int *deps, n;
   coordinates_of(s, on, &deps, &n);
   if (n > 8) return false;
-  *out = (pl_arrow){.kind = PL_ARROW_BOND, .spot = *at, .c = b->c, .minus = s->model->lambda_minus, .n = n};
+  *out = (pl_arrow){
+      .kind = PL_ARROW_BOND, .spot = *at, .c = b->c, .minus = s->model->lambda_minus, .n = n};
   for (int l = 0; l < n; l++) {
     out->q[l] = deps[l];
     out->slope[l] = pl_diff(s->pool, b->c->g, b->velocity ? s->v[deps[l]] : s->q[deps[l]]);
@@ -284,7 +315,8 @@ static bool bond_arrow(pl_stage* s, const pl_bond* b, const pl_thing* on, const 
 
 static void keep_bond_arrow(pl_stage* s, int thing, const pl_arrow* found) {
   const pl_constraint* c = found->c;
-  pl_arrow* a = add_arrow(s, PL_ARROW_BOND, thing, c->multiplier ? c->multiplier : c->name.text, c->name.text);
+  pl_arrow* a = add_arrow(s, PL_ARROW_BOND, thing, c->multiplier ? c->multiplier : c->name.text,
+                          c->name.text);
   double* per_metre = a->per_metre;
   *a = *found;
   a->thing = thing;
@@ -336,7 +368,8 @@ static void add_load_forces(pl_stage* s) {
   for (int i = 0; i < s->model->loads.n; i++) {
     const pl_load* l = &s->model->loads.at[i];
     if (l->kind != PL_L_FORCE) continue;
-    pl_arrow* a = add_arrow(s, PL_ARROW_LOAD, PL_NO_THING, l->name.generated ? "F" : l->name.text, l->name.text);
+    pl_arrow* a = add_arrow(s, PL_ARROW_LOAD, PL_NO_THING, l->name.generated ? "F" : l->name.text,
+                            l->name.text);
     a->spot = pl_spot_of(s, &l->a);
     for (int j = 0; j < 3; j++) a->e[j] = l->vector[j];
   }
@@ -347,7 +380,8 @@ static void add_velocities(pl_stage* s) {
     const pl_thing* t = &s->things.at[i];
     if (t->deps.n == 0 || t->kind == PL_THING_POINT) continue;
     pl_arrow* a = add_arrow(s, PL_ARROW_VELOCITY, i, "v", t->name);
-    for (int j = 0; j < 3; j++) a->e[j] = pl_is_poison(t->spot.e[j]) ? pl_poison() : pl_dt(s->pool, t->spot.e[j]);
+    for (int j = 0; j < 3; j++)
+      a->e[j] = pl_is_poison(t->spot.e[j]) ? pl_poison() : pl_dt(s->pool, t->spot.e[j]);
   }
 }
 

@@ -1,15 +1,17 @@
-// What constraints look like.  A constraint is looked at by its numbers, not by how it is written: it is a rod when its
-// gradient is everywhere parallel to that of a distance, a sphere or plane when the places that it allows lie on one,
-// and else a curve that is traced.  So r = R in polar coordinates and x² + y² = R² give the same picture.
+// What constraints look like. A constraint is looked at by its numbers, not by how it is written:
+// it is a rod when its gradient is everywhere parallel to that of a distance, a sphere or plane
+// when the places that it allows lie on one, and else a curve that is traced. So r = R in polar
+// coordinates and x² + y² = R² give the same picture.
 #include <math.h>
 #include <string.h>
 
 #include "scene/scene_impl.h"
 
 enum { SAMPLES = 3, FIT_SAMPLES = 16 };
-static const double parallel_tol = 1e-5;      // of numerical gradients: central differences leave some 1e-9
+// of numerical gradients: central differences leave some 1e-9
+static const double parallel_tol = 1e-5;
 
-// ---------------------------------------------------------------------------------------------- trial points
+// ------------------------------------------------------------------------------------ trial points
 void pl_coords_keep(const pl_stage* s, double* kept) {
   for (int k = 0; k < s->n_q; k++) kept[k] = s->value[s->q[k].id];
 }
@@ -22,11 +24,13 @@ void pl_coords_shuffle(pl_stage* s, const int* q, int n) {
   double size = s->size > 0 ? s->size : 1;
   for (int i = 0; i < n; i++) {
     if (s->settled[q[i]]) continue;
-    s->value[s->q[q[i]].id] = s->angle[q[i]] ? pl_random_between(&s->random, -1.4, 1.4) : size * pl_random_between(&s->random, 0.2, 1.3);
+    s->value[s->q[q[i]].id] = s->angle[q[i]] ? pl_random_between(&s->random, -1.4, 1.4)
+                                             : size * pl_random_between(&s->random, 0.2, 1.3);
   }
 }
 
-static double derivative(pl_stage* s, double (*f)(pl_stage*, const void*), const void* what, int k) {
+static double derivative(pl_stage* s, double (*f)(pl_stage*, const void*), const void* what,
+                         int k) {
   double* x = &s->value[s->q[k].id];
   double old = *x, h = 1e-5 * (s->angle[k] ? 1 : s->size > 0 ? s->size : 1);
   *x = old + h;
@@ -37,7 +41,9 @@ static double derivative(pl_stage* s, double (*f)(pl_stage*, const void*), const
   return d;
 }
 
-static double value_of(pl_stage* s, const void* what) { return pl_stage_eval(s, *(const pl_expr*)what); }
+static double value_of(pl_stage* s, const void* what) {
+  return pl_stage_eval(s, *(const pl_expr*)what);
+}
 
 double pl_squared_distance(pl_stage* s, const void* what) {
   const pl_spot* const* pair = what;
@@ -48,7 +54,7 @@ double pl_squared_distance(pl_stage* s, const void* what) {
   return sum;
 }
 
-// ---------------------------------------------------------------------------------------------- bonds
+// ------------------------------------------------------------------------------------------- bonds
 bool pl_list_has(const int* list, int n, int x) {
   for (int i = 0; i < n; i++) {
     if (list[i] == x) return true;
@@ -58,7 +64,8 @@ bool pl_list_has(const int* list, int n, int x) {
 
 static bool within(const pl_stage* s, const pl_bond* b, const pl_thing* t) {
   for (int i = 0; i < b->deps.n; i++) {
-    if (!pl_list_has(t->deps.at, t->deps.n, b->deps.at[i]) && !s->settled[b->deps.at[i]]) return false;
+    if (!pl_list_has(t->deps.at, t->deps.n, b->deps.at[i]) && !s->settled[b->deps.at[i]])
+      return false;
   }
   return b->deps.n > 0;
 }
@@ -97,7 +104,8 @@ static bool keeps_distance(pl_stage* s, const pl_bond* b, const pl_spot* p, cons
     double gg = 0, dd = 0, gd = 0;
     for (int i = 0; i < n; i++) {
       if (s->settled[deps[i]]) continue;
-      double g = derivative(s, value_of, &b->c->g, deps[i]), d = derivative(s, pl_squared_distance, pair, deps[i]);
+      double g = derivative(s, value_of, &b->c->g, deps[i]),
+             d = derivative(s, pl_squared_distance, pair, deps[i]);
       gg += g * g;
       dd += d * d;
       gd += g * d;
@@ -113,7 +121,7 @@ static bool keeps_distance(pl_stage* s, const pl_bond* b, const pl_spot* p, cons
   return same && good == SAMPLES;
 }
 
-// ---------------------------------------------------------------------------------------------- between two things
+// ------------------------------------------------------------------------------ between two things
 // A circle that goes with a thing: the surface of one that another slides on.
 static void place_circle(pl_stage* s, const pl_part* part, double* xyz) {
   double c[3];
@@ -127,13 +135,17 @@ static void place_circle(pl_stage* s, const pl_part* part, double* xyz) {
   }
 }
 
-static bool inside_allowed(const pl_constraint* c, bool rises) { return (c->relation == PL_GE || c->relation == PL_GT) != rises; }
+static bool inside_allowed(const pl_constraint* c, bool rises) {
+  return (c->relation == PL_GE || c->relation == PL_GT) != rises;
+}
 
 // Does g rise with the distance?
 static bool rises_with_distance(pl_stage* s, const pl_bond* b, const pl_spot* p, const pl_spot* q) {
   const pl_spot* pair[2] = {p, q};
   double gd = 0;
-  for (int i = 0; i < b->deps.n; i++) gd += derivative(s, value_of, &b->c->g, b->deps.at[i]) * derivative(s, pl_squared_distance, pair, b->deps.at[i]);
+  for (int i = 0; i < b->deps.n; i++)
+    gd += derivative(s, value_of, &b->c->g, b->deps.at[i])
+          * derivative(s, pl_squared_distance, pair, b->deps.at[i]);
   return gd > 0;
 }
 
@@ -161,7 +173,8 @@ static bool draw_pair(pl_stage* s, pl_bond* b) {
   for (int i = 0; i < s->things.n && n < 8; i++) {
     const pl_thing* t = &s->things.at[i];
     bool touched = false;
-    for (int k = 0; k < t->deps.n && !touched; k++) touched = !s->settled[t->deps.at[k]] && pl_list_has(b->deps.at, b->deps.n, t->deps.at[k]);
+    for (int k = 0; k < t->deps.n && !touched; k++)
+      touched = !s->settled[t->deps.at[k]] && pl_list_has(b->deps.at, b->deps.n, t->deps.at[k]);
     if (touched) near[n++] = i;
   }
   for (int i = 0; i < n; i++) {
@@ -173,10 +186,11 @@ static bool draw_pair(pl_stage* s, pl_bond* b) {
       return true;
     }
   }
-  for (int i = 0; i < n; i++) {          // points that rest, or go by a law of time
+  for (int i = 0; i < n; i++) {  // points that rest, or go by a law of time
     for (int j = 0; j < s->things.n; j++) {
       pl_thing *a = &s->things.at[near[i]], *c = &s->things.at[j];
-      if (c->kind != PL_THING_POINT || c->deps.n > 0 || !keeps_distance(s, b, &c->spot, &a->spot)) continue;
+      if (c->kind != PL_THING_POINT || c->deps.n > 0 || !keeps_distance(s, b, &c->spot, &a->spot))
+        continue;
       draw_distance(s, b, &c->spot, &a->spot);
       a->linked = true;
       return true;
@@ -185,8 +199,11 @@ static bool draw_pair(pl_stage* s, pl_bond* b) {
   return false;
 }
 
-// ---------------------------------------------------------------------------------------------- a single thing
-typedef struct pl_shape_fit { bool sphere, plane; double centre[3], radius, normal[3]; } pl_shape_fit;
+// ---------------------------------------------------------------------------------- a single thing
+typedef struct pl_shape_fit {
+  bool sphere, plane;
+  double centre[3], radius, normal[3];
+} pl_shape_fit;
 
 // Moves the coordinates of the bond until it holds.
 static bool onto(pl_stage* s, const pl_bond* b) {
@@ -213,7 +230,8 @@ static bool onto(pl_stage* s, const pl_bond* b) {
 // Do the places that the bond allows lie on a sphere (circle) or in a plane?
 static pl_shape_fit fit_places(pl_stage* s, const pl_bond* b, const pl_thing* t) {
   pl_shape_fit fit = {0};
-  double x[FIT_SAMPLES][3], lo[3], hi[3], A[FIT_SAMPLES * 5], null[8][8], scale = s->size > 0 ? s->size : 1;
+  double x[FIT_SAMPLES][3], lo[3], hi[3], A[FIT_SAMPLES * 5], null[8][8],
+      scale = s->size > 0 ? s->size : 1;
   double* kept = PL_ARRAY(s->arena, double, s->n_q + 1);
   pl_coords_keep(s, kept);
   int n = 0;
@@ -229,11 +247,14 @@ static pl_shape_fit fit_places(pl_stage* s, const pl_bond* b, const pl_thing* t)
   int axis[3], dims = 0;
   for (int j = 0; j < 3; j++) {
     lo[j] = hi[j] = x[0][j];
-    for (int i = 1; i < n; i++) lo[j] = fmin(lo[j], x[i][j]), hi[j] = fmax(hi[j], x[i][j]);
+    for (int i = 1; i < n; i++) {
+      lo[j] = fmin(lo[j], x[i][j]);
+      hi[j] = fmax(hi[j], x[i][j]);
+    }
     if (hi[j] - lo[j] > 1e-7 * scale) axis[dims++] = j;
     fit.centre[j] = lo[j];
   }
-  if (dims < 2) {                        // a line: what is constant is the plane
+  if (dims < 2) {  // a line: what is constant is the plane
     fit.plane = dims == 1;
     return fit;
   }
@@ -261,12 +282,17 @@ static pl_shape_fit fit_places(pl_stage* s, const pl_bond* b, const pl_thing* t)
   }
   fit.radius = sqrt(rr) * scale;
   fit.sphere = rr > 0 && isfinite(fit.radius) && fit.radius < 1e6 * scale;
-  for (int j = 0; j < 3; j++) if (fabs(fit.centre[j]) < 1e-9 * scale) fit.centre[j] = 0;
+  for (int j = 0; j < 3; j++)
+    if (fabs(fit.centre[j]) < 1e-9 * scale) fit.centre[j] = 0;
   return fit;
 }
 
-// ---------------------------------------------------------------------------------------------- curves
-typedef struct pl_curve { pl_track* track; double shift; double normal[6]; } pl_curve;
+// ------------------------------------------------------------------------------------------ curves
+typedef struct pl_curve {
+  pl_track* track;
+  double shift;
+  double normal[6];
+} pl_curve;
 
 static void place_curve(pl_stage* s, const pl_part* part, double* xyz) {
   const pl_curve* c = part->data;
@@ -275,15 +301,23 @@ static void place_curve(pl_stage* s, const pl_part* part, double* xyz) {
 }
 
 // Constraints of this thing alone; one of them may come first.
-static int own_equations(pl_stage* s, const pl_thing* t, const pl_bond* first, pl_expr* eq, bool* timed) {
+static int own_equations(pl_stage* s, const pl_thing* t, const pl_bond* first, pl_expr* eq,
+                         bool* timed) {
   int n = 0;
-  if (first) eq[n++] = first->c->g, *timed |= first->timed;
+  if (first) {
+    eq[n++] = first->c->g;
+    *timed |= first->timed;
+  }
   for (int i = 0; i < s->bonds.n && n < 8; i++) {
     const pl_bond* b = &s->bonds.at[i];
     if (b == first || b->velocity || b->c->off || b->c->relation != PL_EQ) continue;
     bool own = b->deps.n > 0;
-    for (int k = 0; k < b->deps.n; k++) own = own && pl_list_has(t->deps.at, t->deps.n, b->deps.at[k]);
-    if (own) eq[n++] = b->c->g, *timed |= b->timed;
+    for (int k = 0; k < b->deps.n; k++)
+      own = own && pl_list_has(t->deps.at, t->deps.n, b->deps.at[k]);
+    if (own) {
+      eq[n++] = b->c->g;
+      *timed |= b->timed;
+    }
   }
   return n;
 }
@@ -294,7 +328,8 @@ static void shift_curve(double* xyz, int n, const double normal[3], double by) {
   for (int pass = 0; pass < 2; pass++) {
     double before[3] = {0, 0, 0};
     for (int i = 0; i < n; i++) {
-      const double *a = pass && i > 0 ? before : xyz + 3 * (i > 0 ? i - 1 : i), *b = xyz + 3 * (i + 1 < n ? i + 1 : i);
+      const double *a = pass && i > 0 ? before : xyz + 3 * (i > 0 ? i - 1 : i),
+                   *b = xyz + 3 * (i + 1 < n ? i + 1 : i);
       double dx = b[0] - a[0], dy = b[1] - a[1], d = hypot(dx, dy);
       if (!(d > 0)) continue;
       double nx = -dy / d, ny = dx / d;
@@ -322,7 +357,8 @@ static bool along_free(const pl_stage* s, const pl_bond* b, const pl_thing* t, i
   return true;
 }
 
-static bool draw_curve(pl_stage* s, pl_bond* b, int thing, bool centred, const double* centre, double radius) {
+static bool draw_curve(pl_stage* s, pl_bond* b, int thing, bool centred, const double* centre,
+                       double radius) {
   pl_thing* t = &s->things.at[thing];
   pl_expr eq[8];
   bool timed = t->timed;
@@ -336,7 +372,9 @@ static bool draw_curve(pl_stage* s, pl_bond* b, int thing, bool centred, const d
   int freedom = pl_track_freedom(s, track);
   if (freedom == 2 && s->model->n_axes == 3) {
     for (int j = 0; j < 3; j++) {
-      if (s->hi[j] - s->lo[j] > 1e-6 * s->size || pl_is_poison(t->spot.e[j]) || !b || !along_free(s, b, t, j)) continue;
+      if (s->hi[j] - s->lo[j] > 1e-6 * s->size || pl_is_poison(t->spot.e[j]) || !b
+          || !along_free(s, b, t, j))
+        continue;
       double x[3];
       pl_stage_spot(s, &t->spot, x);
       track->fixed_axis = j;
@@ -344,7 +382,8 @@ static bool draw_curve(pl_stage* s, pl_bond* b, int thing, bool centred, const d
     }
     freedom = pl_track_freedom(s, track);
   }
-  if (freedom == 2 && s->model->n_axes == 3 && !s->view.plane && b && !timed) return pl_stage_surface(s, track, b->c->name.text);
+  if (freedom == 2 && s->model->n_axes == 3 && !s->view.plane && b && !timed)
+    return pl_stage_surface(s, track, b->c->name.text);
   if (freedom != 1) return false;
   bool one_sided = b && b->c->relation != PL_EQ;
   track->whole = !one_sided;
@@ -366,9 +405,12 @@ static bool draw_curve(pl_stage* s, pl_bond* b, int thing, bool centred, const d
   double towards = 0;
   for (int j = 0; j < 3; j++) towards += normal[j] * s->down[j];
   bool heavy = s->down[0] != 0 || s->down[1] != 0 || s->down[2] != 0;
-  if (!one_sided && towards < 0) for (int j = 0; j < 3; j++) normal[j] = -normal[j];
-  bool ground = one_sided || (b && b->hint == PL_HINT_GROUND) || (heavy && known && !closed && b->hint != PL_HINT_TRACK && fabs(towards) > 0.1);
-  pl_part* p = pl_stage_add(s, ground ? PL_SHAPE_GROUND : PL_SHAPE_CURVE, "", b ? b->c->name.text : "");
+  if (!one_sided && towards < 0)
+    for (int j = 0; j < 3; j++) normal[j] = -normal[j];
+  bool ground = one_sided || (b && b->hint == PL_HINT_GROUND)
+                || (heavy && known && !closed && b->hint != PL_HINT_TRACK && fabs(towards) > 0.1);
+  pl_part* p = pl_stage_add(s, ground ? PL_SHAPE_GROUND : PL_SHAPE_CURVE, "",
+                            b ? b->c->name.text : "");
   pl_curve* curve = PL_NEW(s->arena, pl_curve);
   *curve = (pl_curve){track, t->radius, {normal[0], normal[1], normal[2], at[0], at[1], at[2]}};
   p->n = track->n;
@@ -388,22 +430,26 @@ static void draw_single(pl_stage* s, pl_bond* b, int thing) {
     pl_hint hint = b->hint;
     bool both = false;
     if (b->c->relation == PL_EQ) {
-      if (hint == PL_HINT_NONE) both = !pl_radius_is_length(s, b, fit.radius), hint = PL_HINT_ROD;
+      if (hint == PL_HINT_NONE) {
+        both = !pl_radius_is_length(s, b, fit.radius);
+        hint = PL_HINT_ROD;
+      }
       if (hint == PL_HINT_ROD || hint == PL_HINT_ROPE) {
         pl_add_rod(s, hint == PL_HINT_ROPE ? PL_SHAPE_ROPE : PL_SHAPE_ROD, b, &centre, &t->spot);
         pl_add_pivot(s, fit.centre);
         t->linked = true;
         if (!both) return;
       }
-    } else if (inside_allowed(b->c, rises_with_distance(s, b, &centre, &t->spot)) && hint != PL_HINT_TRACK && hint != PL_HINT_GROUND &&
-               (hint != PL_HINT_NONE || pl_radius_is_length(s, b, fit.radius))) {
+    } else if (inside_allowed(b->c, rises_with_distance(s, b, &centre, &t->spot))
+               && hint != PL_HINT_TRACK && hint != PL_HINT_GROUND
+               && (hint != PL_HINT_NONE || pl_radius_is_length(s, b, fit.radius))) {
       pl_add_rod(s, PL_SHAPE_ROPE, b, &centre, &t->spot);
       pl_add_pivot(s, fit.centre);
       t->linked = true;
       return;
     }
   }
-  if (t->curved) return;                // its constraints were taken together
+  if (t->curved) return;  // its constraints were taken together
   if (draw_curve(s, b, thing, fit.sphere, fit.centre, fit.radius)) t->linked = t->curved = true;
 }
 
@@ -414,19 +460,25 @@ static int owner(const pl_stage* s, const pl_bond* b) {
     const pl_thing* t = &s->things.at[i];
     if (t->deps.n == 0 || !within(s, b, t)) continue;
     bool touches = false;
-    for (int k = 0; k < b->deps.n; k++) touches |= pl_list_has(t->deps.at, t->deps.n, b->deps.at[k]);
+    for (int k = 0; k < b->deps.n; k++)
+      touches |= pl_list_has(t->deps.at, t->deps.n, b->deps.at[k]);
     if (touches && (best < 0 || t->deps.n < s->things.at[best].deps.n)) best = i;
   }
   return best;
 }
 
-// A relation of several things that is no distance: the curve that it leaves to one of them while the others stay.
+// A relation of several things that is no distance: the curve that it leaves to one of them while
+// the others stay.
 static void draw_relative(pl_stage* s, pl_bond* b) {
   int best = PL_NO_THING, most = 1;
   for (int i = 0; i < s->things.n; i++) {
     int own = 0;
-    for (int k = 0; k < b->deps.n; k++) own += pl_list_has(s->things.at[i].deps.at, s->things.at[i].deps.n, b->deps.at[k]);
-    if (own > most) best = i, most = own;
+    for (int k = 0; k < b->deps.n; k++)
+      own += pl_list_has(s->things.at[i].deps.at, s->things.at[i].deps.n, b->deps.at[k]);
+    if (own > most) {
+      best = i;
+      most = own;
+    }
   }
   if (best < 0) return;
   int before = s->parts.n;
@@ -456,19 +508,22 @@ static bool holds_up(pl_stage* s, const pl_bond* b) {
   return along > 0;
 }
 
-// Which constraints shape the picture most: curves and radii; then what holds a thing up, what holds it anywhere; drives last.
+// Which constraints shape the picture most: curves and radii; then what holds a thing up, what
+// holds it anywhere; drives last.
 static int turn_of(pl_stage* s, const pl_bond* b) {
   if (b->deps.n == 1 && (b->timed || s->angle[b->deps.at[0]])) return 3;
   if (b->settles < 0) return 0;
   int thing = owner(s, b);
   for (int j = 0; thing >= 0 && j < 3; j++) {
     pl_expr e = s->things.at[thing].spot.e[j];
-    if (!pl_is_poison(e) && pl_has_symbol(s->pool, e, s->q[b->settles]) && pl_kind_of(s->pool, e) != PL_SYMBOL) return 0;
+    if (!pl_is_poison(e) && pl_has_symbol(s->pool, e, s->q[b->settles])
+        && pl_kind_of(s->pool, e) != PL_SYMBOL)
+      return 0;
   }
   return holds_up(s, b) ? 1 : 2;
 }
 
-// ---------------------------------------------------------------------------------------------- all
+// --------------------------------------------------------------------------------------------- all
 void pl_stage_bonds(pl_stage* s) {
   read_bonds(s);
   pl_stage_bodies(s);
@@ -485,7 +540,8 @@ void pl_stage_bonds(pl_stage* s) {
   if (!(s->size > 0)) s->size = 1;
   pl_stage_view(s);
   pl_stage_rods(s);
-  // curves first, then what is only held at a coordinate: across gravity first, so that it is seen as the ground
+  // curves first, then what is only held at a coordinate: across gravity first, so that it is seen
+  // as the ground
   for (int round = 0; round < 4; round++) {
     for (int i = 0; i < s->bonds.n; i++) {
       pl_bond* b = &s->bonds.at[i];
@@ -497,7 +553,9 @@ void pl_stage_bonds(pl_stage* s) {
         b->drawn = true;
         continue;
       }
-      if (b->settles >= 0 && round >= 1 && (s->things.at[thing].curved || s->things.at[thing].roped || own_rod(s, thing))) continue;
+      if (b->settles >= 0 && round >= 1
+          && (s->things.at[thing].curved || s->things.at[thing].roped || own_rod(s, thing)))
+        continue;
       draw_single(s, b, thing);
       b->drawn = true;
     }

@@ -1,9 +1,12 @@
-// What the model says about its picture: `draw` adds lines, shows and hides; `animate` names the arrows and trails to begin with.
+// What the model says about its picture: `draw` adds lines, shows and hides; `animate` names the
+// arrows and trails to begin with.
 #include <string.h>
 
 #include "scene/scene_impl.h"
 
-static bool is_weight(const pl_part* p) { return p->kind == PL_SHAPE_FORCE && strcmp(p->of, "weight") == 0; }
+static bool is_weight(const pl_part* p) {
+  return p->kind == PL_SHAPE_FORCE && strcmp(p->of, "weight") == 0;
+}
 
 static bool is_of_kind(const pl_part* p, const char* what) {
   if (strcmp(what, "axes") == 0) return p->kind == PL_SHAPE_AXIS;
@@ -22,10 +25,13 @@ static bool is_meant(const pl_drawn* d, const pl_part* p) {
 // Arrows and trails are those that `animate` names, when it names any.
 static void follow_animate(pl_stage* s) {
   bool names = false;
-  for (int k = 0; k < s->model->draws.n; k++) names |= s->model->draws.at[k].kind == PL_DRAW_ANIMATE && strcmp(s->model->draws.at[k].what, "count") != 0;
+  for (int k = 0; k < s->model->draws.n; k++)
+    names |= s->model->draws.at[k].kind == PL_DRAW_ANIMATE
+             && strcmp(s->model->draws.at[k].what, "count") != 0;
   for (int i = 0; names && i < s->parts.n; i++) {
     pl_part* p = &s->parts.at[i];
-    if (p->kind != PL_SHAPE_FORCE && p->kind != PL_SHAPE_TRAIL && p->kind != PL_SHAPE_VELOCITY) continue;
+    if (p->kind != PL_SHAPE_FORCE && p->kind != PL_SHAPE_TRAIL && p->kind != PL_SHAPE_VELOCITY)
+      continue;
     p->hidden = true;
     for (int k = 0; k < s->model->draws.n; k++) {
       const pl_drawn* d = &s->model->draws.at[k];
@@ -35,8 +41,14 @@ static void follow_animate(pl_stage* s) {
 }
 
 static void add_line(pl_stage* s, const pl_drawn* d) {
-  static const struct { const char* word; pl_shape_kind kind; } kinds[] = {
-    {"line", PL_SHAPE_CURVE}, {"rod", PL_SHAPE_ROD}, {"rope", PL_SHAPE_ROPE}, {"spring", PL_SHAPE_SPRING}, {"damper", PL_SHAPE_DAMPER}};
+  static const struct {
+    const char* word;
+    pl_shape_kind kind;
+  } kinds[] = {{"line", PL_SHAPE_CURVE},
+               {"rod", PL_SHAPE_ROD},
+               {"rope", PL_SHAPE_ROPE},
+               {"spring", PL_SHAPE_SPRING},
+               {"damper", PL_SHAPE_DAMPER}};
   for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
     if (strcmp(kinds[i].word, d->what) != 0) continue;
     pl_spot a = pl_spot_of(s, &d->a), b = pl_spot_of(s, &d->b);

@@ -1,5 +1,6 @@
-// Times of the frames and the numbers at each of them.  Between two rows of the result positions follow the cubic
-// through positions and velocities at both ends (Hermite); at rows and events they are the row itself.
+// Times of the frames and the numbers at each of them. Between two rows of the result positions
+// follow the cubic through positions and velocities at both ends (Hermite); at rows and events they
+// are the row itself.
 #include "scene/scene_impl.h"
 
 #include <math.h>
@@ -7,7 +8,7 @@
 
 enum { FRAMES = 240, MOST_EVENT_FRAMES = 64 };
 
-// ---------------------------------------------------------------------------------------------- times
+// ------------------------------------------------------------------------------------------- times
 static double first_time(const pl_result* r) { return r->rows.at[0][0]; }
 static double last_time(const pl_result* r) { return r->rows.at[r->rows.n - 1][0]; }
 
@@ -31,7 +32,7 @@ static void choose_times(pl_stage* s) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- numbers
+// ----------------------------------------------------------------------------------------- numbers
 // The last row that does not lie behind t (in the direction of the run).
 static int row_before(const pl_result* r, double t) {
   double sign = last_time(r) >= first_time(r) ? 1 : -1;
@@ -82,7 +83,7 @@ pleuel_status pl_stage_frames(pl_stage* s) {
     return PLEUEL_OK;
   }
   choose_times(s);
-  s->state = PL_ARRAY(s->arena, double, (size_t)s->n_frames * (size_t)s->n_state);
+  s->state = PL_ARRAY(s->arena, double, (size_t)s->n_frames*(size_t)s->n_state);
   for (int f = 0; f < s->n_frames; f++) {
     if (pl_interrupted(s->job)) return PLEUEL_INTERRUPTED;
     fill_frame(s, f);
@@ -99,7 +100,8 @@ void pl_stage_set(pl_stage* s, int frame) {
   }
   for (int i = 0; i < s->bonds.n; i++) {
     pl_symbol lambda = s->bonds.at[i].c->lambda;
-    if (lambda.id && (int)lambda.id < s->n_value) s->value[lambda.id] = x[1 + 2 * s->n_q + s->bonds.at[i].link];
+    if (lambda.id && (int)lambda.id < s->n_value)
+      s->value[lambda.id] = x[1 + 2 * s->n_q + s->bonds.at[i].link];
   }
 }
 

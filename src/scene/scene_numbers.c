@@ -9,7 +9,7 @@ int pl_null_space(double* A, int m, int n, double null[8][8]) {
   int col[8], rank = 0;
   double largest = 0;
   for (int k = 0; k < n; k++) col[k] = k;
-  for (int i = 0; i < m; i++) {                    // rows of length 1
+  for (int i = 0; i < m; i++) {  // rows of length 1
     double norm = 0;
     for (int k = 0; k < n; k++) norm += A[i * n + k] * A[i * n + k];
     norm = sqrt(norm);
@@ -19,7 +19,10 @@ int pl_null_space(double* A, int m, int n, double null[8][8]) {
     int pi = rank, pk = rank;
     for (int i = rank; i < m; i++)
       for (int k = rank; k < n; k++)
-        if (fabs(A[i * n + col[k]]) > fabs(A[pi * n + col[pk]])) pi = i, pk = k;
+        if (fabs(A[i * n + col[k]]) > fabs(A[pi * n + col[pk]])) {
+          pi = i;
+          pk = k;
+        }
     double pivot = A[pi * n + col[pk]];
     if (rank == 0) largest = fabs(pivot);
     if (!(fabs(pivot) > 1e-9 * fmax(largest, 1e-300)) || !isfinite(pivot)) break;
@@ -56,7 +59,8 @@ int pl_null_space(double* A, int m, int n, double null[8][8]) {
 
 enum { MOST = 400 };
 
-// x = A^T (A A^T + ε)^-1 b for few equations, (A^T A + ε)^-1 A^T b for few unknowns; ε keeps dependent rows harmless.
+// x = A^T (A A^T + ε)^-1 b for few equations, (A^T A + ε)^-1 A^T b for few unknowns; ε keeps
+// dependent rows harmless.
 bool pl_least(const double* A, const double* b, int m, int n, double* x) {
   bool wide = m <= n;
   int k = wide ? m : n, inner = wide ? n : m;
@@ -69,7 +73,8 @@ bool pl_least(const double* A, const double* b, int m, int n, double* x) {
   for (int i = 0; i < k; i++) {
     for (int j = 0; j < k; j++) {
       double sum = 0;
-      for (int l = 0; l < inner; l++) sum += wide ? A[i * n + l] * A[j * n + l] : A[l * n + i] * A[l * n + j];
+      for (int l = 0; l < inner; l++)
+        sum += wide ? A[i * n + l] * A[j * n + l] : A[l * n + i] * A[l * n + j];
       N[i * k + j] = sum;
     }
     trace += N[i * k + i];
@@ -77,7 +82,7 @@ bool pl_least(const double* A, const double* b, int m, int n, double* x) {
     for (int l = 0; !wide && l < m; l++) y[i] += A[l * n + i] * b[l];
   }
   for (int i = 0; i < k; i++) N[i * k + i] += 1e-13 * trace + 1e-300;
-  for (int i = 0; i < k; i++) {                    // Cholesky in place
+  for (int i = 0; i < k; i++) {  // Cholesky in place
     for (int j = 0; j <= i; j++) {
       double sum = N[i * k + j];
       for (int l = 0; l < j; l++) sum -= N[i * k + l] * N[j * k + l];

@@ -1,5 +1,5 @@
-// Rods: between the two points whose distance a constraint keeps, and where places such as (X + l sin θ, -l cos θ) keep
-// their distance to what they turn about by themselves.
+// Rods: between the two points whose distance a constraint keeps, and where places such as (X + l
+// sin θ, -l cos θ) keep their distance to what they turn about by themselves.
 #include <math.h>
 #include <string.h>
 
@@ -15,14 +15,17 @@ static bool is_rigid(pl_stage* s, const pl_spot* p, const pl_spot* q, const int*
   double first = pl_squared_distance(s, pair);
   bool rigid = isfinite(first) && first > 1e-16;
   for (int try = 0; rigid && try < 2 * SAMPLES; try++) {
-    for (int i = 0; i < n; i++) s->value[s->q[deps[i]].id] += pl_random_between(&s->random, -1, 1) * (s->angle[deps[i]] || !(s->size > 0) ? 1 : s->size);
+    for (int i = 0; i < n; i++)
+      s->value[s->q[deps[i]].id] += pl_random_between(&s->random, -1, 1)
+                                    * (s->angle[deps[i]] || !(s->size > 0) ? 1 : s->size);
     rigid = fabs(pl_squared_distance(s, pair) - first) < 1e-9 * first;
   }
   pl_coords_back(s, kept);
   return rigid;
 }
 
-void pl_add_rod(pl_stage* s, pl_shape_kind kind, const pl_bond* b, const pl_spot* from, const pl_spot* to) {
+void pl_add_rod(pl_stage* s, pl_shape_kind kind, const pl_bond* b, const pl_spot* from,
+                const pl_spot* to) {
   pl_part* p = pl_stage_add(s, kind, "", b ? b->c->name.text : "");
   p->spot[0] = *from;
   p->spot[1] = *to;
@@ -33,12 +36,16 @@ void pl_add_pivot(pl_stage* s, const double x[3]) {
   for (int i = 0; i < s->parts.n; i++) {
     const pl_part* p = &s->parts.at[i];
     if (p->kind != PL_SHAPE_POINT || !p->spot[0].fixed) continue;
-    if (hypot(hypot(p->spot[0].at[0] - x[0], p->spot[0].at[1] - x[1]), p->spot[0].at[2] - x[2]) < 1e-9 * fmax(s->size, 1)) return;
+    if (hypot(hypot(p->spot[0].at[0] - x[0], p->spot[0].at[1] - x[1]), p->spot[0].at[2] - x[2])
+        < 1e-9 * fmax(s->size, 1))
+      return;
   }
   for (int i = 0; i < s->things.n; i++) {
     double at[3];
     pl_stage_spot(s, &s->things.at[i].spot, at);
-    if (s->things.at[i].deps.n == 0 && hypot(hypot(at[0] - x[0], at[1] - x[1]), at[2] - x[2]) < 1e-9 * fmax(s->size, 1)) return;
+    if (s->things.at[i].deps.n == 0
+        && hypot(hypot(at[0] - x[0], at[1] - x[1]), at[2] - x[2]) < 1e-9 * fmax(s->size, 1))
+      return;
   }
   pl_part* p = pl_stage_add(s, PL_SHAPE_POINT, "", "");
   p->n = 1;
@@ -58,7 +65,8 @@ static pl_spot pivot_of(pl_stage* s, const pl_thing* t, int angle) {
   pl_expr opposite = pl_add(s->pool, pl_sym(s->pool, s->q[angle]), pl_pi(s->pool));
   for (int j = 0; j < 3; j++) {
     if (pl_is_poison(t->spot.e[j])) continue;
-    pl_expr sum = pl_add(s->pool, t->spot.e[j], pl_subst1(s->pool, t->spot.e[j], s->q[angle], opposite));
+    pl_expr sum = pl_add(s->pool, t->spot.e[j],
+                         pl_subst1(s->pool, t->spot.e[j], s->q[angle], opposite));
     pivot.e[j] = pl_mul(s->pool, pl_ratio(s->pool, 1, 2), pl_expand(s->pool, sum, 200));
   }
   return pivot;
@@ -77,7 +85,8 @@ static bool same_place(pl_stage* s, const pl_spot* a, const pl_spot* b, const pl
   return same;
 }
 
-// Places such as (X + l sin θ, -l cos θ) keep a distance by themselves: a rod, drawn from what they turn about.
+// Places such as (X + l sin θ, -l cos θ) keep a distance by themselves: a rod, drawn from what they
+// turn about.
 static void rod_of_angle(pl_stage* s, int i) {
   pl_thing* t = &s->things.at[i];
   pl_spot chosen = {0};
@@ -122,7 +131,8 @@ void pl_stage_rods(pl_stage* s) {
     bool found = false;
     for (int j = 0; j < s->things.n && !found; j++) {
       pl_thing* o = &s->things.at[j];
-      if (j == i || (j > i && o->kind != PL_THING_POINT) || !(shares(t, o) || o->deps.n == 0)) continue;
+      if (j == i || (j > i && o->kind != PL_THING_POINT) || !(shares(t, o) || o->deps.n == 0))
+        continue;
       int* all = PL_ARRAY(s->arena, int, t->deps.n + o->deps.n + 1);
       memcpy(all, t->deps.at, (size_t)t->deps.n * sizeof(int));
       memcpy(all + t->deps.n, o->deps.at, (size_t)o->deps.n * sizeof(int));

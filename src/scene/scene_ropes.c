@@ -1,6 +1,7 @@
-// Ropes over pulleys: a sum of lengths that is kept.  Each length is a coordinate along which one thing moves at unit
-// speed, measured from where the rope leaves the pulley.  In models with one axis a coordinate that counts -2 is a
-// pulley that hangs itself, one that counts 2 hangs in a loop of the rope.
+// Ropes over pulleys: a sum of lengths that is kept. Each length is a coordinate along which one
+// thing moves at unit speed, measured from where the rope leaves the pulley. In models with one
+// axis a coordinate that counts -2 is a pulley that hangs itself, one that counts 2 hangs in a loop
+// of the rope.
 #include <math.h>
 #include <string.h>
 
@@ -8,21 +9,27 @@
 
 enum { ARC = 13, MOST_ROPES = 16 };
 
-// ---------------------------------------------------------------------------------------------- what is recognised
-typedef struct pl_rope_end { int thing, q; int parts; } pl_rope_end;      // parts of the rope that carry it: 1 or 2
+// ------------------------------------------------------------------------------ what is recognised
+// parts of the rope that carry it: 1 or 2
+typedef struct pl_rope_end {
+  int thing, q;
+  int parts;
+} pl_rope_end;
 typedef struct pl_rope {
   const char* of;
   pl_rope_end end[2];
-  int pulley;                   // thing that carries the pulley, PL_NO_THING: it is fixed
+  int pulley;  // thing that carries the pulley, PL_NO_THING: it is fixed
   bool parallel;
-  double along[3];              // the way the ends hang
-  pl_spot anchor[2];            // where the rope leaves the pulley
-  double wheel;                 // radius of the wheel in a loop
+  double along[3];    // the way the ends hang
+  pl_spot anchor[2];  // where the rope leaves the pulley
+  double wheel;       // radius of the wheel in a loop
 } pl_rope;
 
 // d place / d q at the present values.
 static void speed(pl_stage* s, const pl_thing* t, int q, double d[3]) {
-  for (int j = 0; j < 3; j++) d[j] = pl_is_poison(t->spot.e[j]) ? 0 : pl_stage_eval(s, pl_diff(s->pool, t->spot.e[j], s->q[q]));
+  for (int j = 0; j < 3; j++)
+    d[j] = pl_is_poison(t->spot.e[j]) ? 0
+                                      : pl_stage_eval(s, pl_diff(s->pool, t->spot.e[j], s->q[q]));
 }
 
 static int mover(pl_stage* s, int q) {
@@ -38,7 +45,11 @@ static int mover(pl_stage* s, int q) {
   if (s->model->n_axes != 1) return PL_NO_THING;
   // a coordinate without mass: the axle of a pulley
   pl_point at = {.n = 1, .at = {pl_sym(s->pool, s->q[q]), pl_poison(), pl_poison()}};
-  pl_thing t = {.kind = PL_THING_POINT, .label = pl_symbol_get(s->pool, s->q[q])->name, .name = "", .mass = pl_poison(), .sense = 1};
+  pl_thing t = {.kind = PL_THING_POINT,
+                .label = pl_symbol_get(s->pool, s->q[q])->name,
+                .name = "",
+                .mass = pl_poison(),
+                .sense = 1};
   t.spot = pl_spot_of(s, &at);
   int* own = PL_ARRAY(s->arena, int, 1);
   *own = q;
@@ -48,8 +59,9 @@ static int mover(pl_stage* s, int q) {
   return s->things.n - 1;
 }
 
-// ---------------------------------------------------------------------------------------------- points
-static void half_circle(const pl_rope* r, const double A[3], const double B[3], double sign, double* xyz, int n) {
+// ------------------------------------------------------------------------------------------ points
+static void half_circle(const pl_rope* r, const double A[3], const double B[3], double sign,
+                        double* xyz, int n) {
   double radius = 0, c[3], w[3];
   for (int j = 0; j < 3; j++) {
     c[j] = (A[j] + B[j]) / 2;
@@ -60,7 +72,10 @@ static void half_circle(const pl_rope* r, const double A[3], const double B[3], 
   for (int i = 0; i < n; i++) {
     double angle = M_PI * i / (n - 1);
     for (int j = 0; j < 3; j++) {
-      xyz[3 * i + j] = r->parallel ? c[j] + w[j] * cos(angle) - sign * r->along[j] * radius * sin(angle) : i < n / 2 ? A[j] : B[j];
+      xyz[3 * i + j] = r->parallel
+                           ? c[j] + w[j] * cos(angle) - sign * r->along[j] * radius * sin(angle)
+                       : i < n / 2 ? A[j]
+                                   : B[j];
     }
   }
 }
@@ -84,7 +99,8 @@ static void place_rope(pl_stage* s, const pl_part* part, double* xyz) {
     memcpy(xyz + 3 * (ARC + 1), x[1], sizeof x[1]);
     return;
   }
-  double from[3] = {x[1][0], x[1][1] - r->wheel, x[1][2]}, to[3] = {x[1][0], x[1][1] + r->wheel, x[1][2]};
+  double from[3] = {x[1][0], x[1][1] - r->wheel, x[1][2]},
+         to[3] = {x[1][0], x[1][1] + r->wheel, x[1][2]};
   half_circle(r, from, to, -1, xyz + 3 * (ARC + 1), ARC);
   double last[3] = {a[1][0], x[1][1] + r->wheel, x[1][2]};
   memcpy(xyz + 3 * (2 * ARC + 1), last, sizeof last);
@@ -112,20 +128,25 @@ static void place_wheel(pl_stage* s, const pl_part* part, double* xyz) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- recognising
+// ------------------------------------------------------------------------------------- recognising
 // Slopes of a bond that is linear in at most three lengths; how many, 0 if it is not.
 static int lengths_of(pl_stage* s, const pl_bond* b, int q[3], double c[3]) {
   int n = 0;
   double least = INFINITY;
   for (int i = 0; i < b->deps.n; i++) {
     pl_expr d = pl_diff(s->pool, b->c->g, s->q[b->deps.at[i]]);
-    if (pl_has_role(s->pool, d, PL_R_COORD) || pl_has_role(s->pool, d, PL_R_TIME) || n == 3 || s->angle[b->deps.at[i]]) return 0;
+    if (pl_has_role(s->pool, d, PL_R_COORD) || pl_has_role(s->pool, d, PL_R_TIME) || n == 3
+        || s->angle[b->deps.at[i]])
+      return 0;
     c[n] = pl_stage_eval(s, d);
     least = fmin(least, fabs(c[n]));
     q[n++] = b->deps.at[i];
   }
   int positive = 0;
-  for (int i = 0; i < n; i++) c[i] /= least, positive += c[i] > 0;
+  for (int i = 0; i < n; i++) {
+    c[i] /= least;
+    positive += c[i] > 0;
+  }
   for (int i = 0; 2 * positive < n && i < n; i++) c[i] = -c[i];
   return n;
 }
@@ -139,10 +160,12 @@ static bool read_rope(pl_stage* s, const pl_bond* b, pl_rope* r) {
   *r = (pl_rope){.of = b->c->name.text, .pulley = PL_NO_THING};
   for (int i = 0; i < n; i++) {
     if (is(c[i], -2) && n == 3 && pulley_q < 0) pulley_q = q[i];
-    else if ((is(c[i], 1) || (is(c[i], 2) && s->model->n_axes == 1)) && n_ends < 2) r->end[n_ends++] = (pl_rope_end){PL_NO_THING, q[i], is(c[i], 2) ? 2 : 1};
+    else if ((is(c[i], 1) || (is(c[i], 2) && s->model->n_axes == 1)) && n_ends < 2)
+      r->end[n_ends++] = (pl_rope_end){PL_NO_THING, q[i], is(c[i], 2) ? 2 : 1};
     else return false;
   }
-  if (n_ends != 2 || (n == 3 && pulley_q < 0) || (pulley_q >= 0 && s->model->n_axes != 1)) return false;
+  if (n_ends != 2 || (n == 3 && pulley_q < 0) || (pulley_q >= 0 && s->model->n_axes != 1))
+    return false;
   if (r->end[0].parts == 2 && r->end[1].parts == 2) return false;
   if (r->end[0].parts == 2) {
     pl_rope_end swap = r->end[0];
@@ -162,9 +185,15 @@ static bool read_rope(pl_stage* s, const pl_bond* b, pl_rope* r) {
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- beside each other
+// ------------------------------------------------------------------------------- beside each other
 // Models with one axis: what hangs on a pulley stands to both sides of it.
-typedef struct pl_layout { pl_rope* rope; int n; double* slot; double next; int depth; } pl_layout;
+typedef struct pl_layout {
+  pl_rope* rope;
+  int n;
+  double* slot;
+  double next;
+  int depth;
+} pl_layout;
 
 static double slot_of(pl_stage* s, pl_layout* l, int thing) {
   if (!isnan(l->slot[thing])) return l->slot[thing];
@@ -183,7 +212,8 @@ static void lay_out(pl_stage* s, pl_rope* rope, int n) {
   for (int i = 0; i < n; i++) {
     for (int k = 0; k < 2 && rope[i].pulley < 0; k++) slot_of(s, &l, rope[i].end[k].thing);
   }
-  for (int i = 0; i < n; i++) for (int k = 0; k < 2; k++) slot_of(s, &l, rope[i].end[k].thing);
+  for (int i = 0; i < n; i++)
+    for (int k = 0; k < 2; k++) slot_of(s, &l, rope[i].end[k].thing);
   double step = 0.34 * s->size;
   for (int i = 0; i < s->things.n; i++) {
     if (!isnan(l.slot[i])) s->things.at[i].spot.side = (l.slot[i] - (l.next - 1) / 2) * step;
@@ -198,7 +228,8 @@ static void add_rope(pl_stage* s, pl_rope* r) {
     r->anchor[k] = r->pulley >= 0 ? s->things.at[r->pulley].spot : t->spot;
     r->anchor[k].side = t->spot.side;
     for (int j = 0; j < 3 && r->pulley < 0; j++) {
-      if (!pl_is_poison(t->spot.e[j])) r->anchor[k].e[j] = pl_subst1(s->pool, t->spot.e[j], s->q[r->end[k].q], pl_int(s->pool, 0));
+      if (!pl_is_poison(t->spot.e[j]))
+        r->anchor[k].e[j] = pl_subst1(s->pool, t->spot.e[j], s->q[r->end[k].q], pl_int(s->pool, 0));
     }
   }
   bool loop = r->end[1].parts == 2;

@@ -1,6 +1,6 @@
-// Models without masses, bodies or points: what has no place gets one.  Two points whose distance a constraint keeps in
-// squares; coordinates named like axes with equal inertia are a point; an angle is an arm; any other length a point on a
-// line, and quadratic potentials are springs between them.
+// Models without masses, bodies or points: what has no place gets one. Two points whose distance a
+// constraint keeps in squares; coordinates named like axes with equal inertia are a point; an angle
+// is an arm; any other length a point on a line, and quadratic potentials are springs between them.
 #include <math.h>
 #include <string.h>
 
@@ -8,7 +8,8 @@
 
 enum { MOST_POINTS = 12 };
 
-static pl_thing* add_thing(pl_stage* s, pl_thing_kind kind, const char* label, const pl_expr* e, int n) {
+static pl_thing* add_thing(pl_stage* s, pl_thing_kind kind, const char* label, const pl_expr* e,
+                           int n) {
   pl_thing t = {.kind = kind, .label = label, .name = label, .mass = pl_poison(), .sense = 1};
   pl_point at = {.n = n, .at = {e[0], n > 1 ? e[1] : pl_poison(), n > 2 ? e[2] : pl_poison()}};
   t.spot = pl_spot_of(s, &at);
@@ -25,16 +26,19 @@ static void set_axes(pl_stage* s, int n, const char* const* names, const char* c
   pl_model* m = PL_NEW(s->arena, pl_model);
   *m = *s->model;
   m->n_axes = n;
-  for (int j = 0; j < 3; j++) m->axes[j] = (pl_axis){j < n ? names[j] : "", j < n ? names[j] : "", directions[j], directions[j] != NULL};
+  for (int j = 0; j < 3; j++)
+    m->axes[j] = (pl_axis){j < n ? names[j] : "", j < n ? names[j] : "", directions[j],
+                           directions[j] != NULL};
   s->model = m;
 }
 
-// ---------------------------------------------------------------------------------------------- constraints in squares
+// -------------------------------------------------------------------------- constraints in squares
 // The root of a term that is a square: (x - a)² or R² sin²A.  Poison for others.
 static pl_expr root_of(pl_stage* s, pl_expr e) {
   pl_pool* p = s->pool;
   long k;
-  if (pl_kind_of(p, e) == PL_POW && pl_is_int(p, pl_arg(p, e, 1), &k) && k == 2) return pl_arg(p, e, 0);
+  if (pl_kind_of(p, e) == PL_POW && pl_is_int(p, pl_arg(p, e, 1), &k) && k == 2)
+    return pl_arg(p, e, 0);
   if (pl_kind_of(p, e) != PL_MUL) return pl_poison();
   pl_expr product = pl_int(p, 1);
   for (int i = 0; i < pl_n_args(p, e); i++) {
@@ -45,7 +49,9 @@ static pl_expr root_of(pl_stage* s, pl_expr e) {
   return product;
 }
 
-static bool has_coordinate(pl_stage* s, pl_expr e) { return pl_has_role(s->pool, e, PL_R_COORD) || pl_has_role(s->pool, e, PL_R_TIME); }
+static bool has_coordinate(pl_stage* s, pl_expr e) {
+  return pl_has_role(s->pool, e, PL_R_COORD) || pl_has_role(s->pool, e, PL_R_TIME);
+}
 
 // Parts of a difference: those with the first of its coordinates, and the rest with the other sign.
 static void split(pl_stage* s, pl_expr e, pl_symbol first, pl_expr* own, pl_expr* other) {
@@ -61,16 +67,20 @@ static void split(pl_stage* s, pl_expr e, pl_symbol first, pl_expr* own, pl_expr
 
 static bool negative(const pl_stage* s, pl_expr e) {
   const pl_pool* p = s->pool;
-  return pl_kind_of(p, e) == PL_MUL && pl_n_args(p, e) > 0 && pl_is_number(p, pl_arg(p, e, 0)) && pl_number_sign(p, pl_arg(p, e, 0)) < 0;
+  return pl_kind_of(p, e) == PL_MUL && pl_n_args(p, e) > 0 && pl_is_number(p, pl_arg(p, e, 0))
+         && pl_number_sign(p, pl_arg(p, e, 0)) < 0;
 }
 
-static bool same_spot(const pl_spot* a, const pl_expr* e) { return pl_same(a->e[0], e[0]) && pl_same(a->e[1], e[1]); }
+static bool same_spot(const pl_spot* a, const pl_expr* e) {
+  return pl_same(a->e[0], e[0]) && pl_same(a->e[1], e[1]);
+}
 
 static void add_once(pl_stage* s, const pl_expr* e) {
   for (int i = 0; i < s->things.n; i++) {
     if (same_spot(&s->things.at[i].spot, e)) return;
   }
-  if (s->things.n < MOST_POINTS && (has_coordinate(s, e[0]) || has_coordinate(s, e[1]))) add_thing(s, PL_THING_MASS, "", e, 2);
+  if (s->things.n < MOST_POINTS && (has_coordinate(s, e[0]) || has_coordinate(s, e[1])))
+    add_thing(s, PL_THING_MASS, "", e, 2);
 }
 
 // (x - R cos A)² + (R sin A)² = L²: the points (x, 0) and (R cos A, R sin A).
@@ -93,7 +103,8 @@ static bool read_squares(pl_stage* s, const pl_constraint* c) {
     int m = pl_symbols_in(p, component[k], found, 16);
     for (int i = 0; i < m && i < 16; i++) {
       uint64_t q = pl_map_get(s->q_at, found[i].id);
-      if (q && (!first.id || (s->angle[pl_map_get(s->q_at, first.id) - 1] && !s->angle[q - 1]))) first = found[i];
+      if (q && (!first.id || (s->angle[pl_map_get(s->q_at, first.id) - 1] && !s->angle[q - 1])))
+        first = found[i];
     }
   }
   pl_expr a[2], b[2];
@@ -101,17 +112,20 @@ static bool read_squares(pl_stage* s, const pl_constraint* c) {
   for (int k = 0; k < 2; k++) {
     pl_expr e = component[swap ? 1 - k : k];
     split(s, e, first, &a[k], &b[k]);
-    bool lone = pl_is_zero_node(p, a[k]) || pl_is_zero_node(p, b[k]);     // its sign is free
+    bool lone = pl_is_zero_node(p, a[k]) || pl_is_zero_node(p, b[k]);  // its sign is free
     if (lone && negative(s, a[k])) a[k] = pl_neg(p, a[k]);
     if (lone && negative(s, b[k])) b[k] = pl_neg(p, b[k]);
-    if (negative(s, a[k]) && negative(s, b[k])) a[k] = pl_neg(p, a[k]), b[k] = pl_neg(p, b[k]);
+    if (negative(s, a[k]) && negative(s, b[k])) {
+      a[k] = pl_neg(p, a[k]);
+      b[k] = pl_neg(p, b[k]);
+    }
   }
   add_once(s, b);
   add_once(s, a);
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- energies
+// ---------------------------------------------------------------------------------------- energies
 static pl_expr inertia(pl_stage* s, pl_expr L, int k);
 
 static pl_expr lagrangian_of(pl_stage* s) {
@@ -129,12 +143,15 @@ static void find_turning(pl_stage* s, pl_expr L) {
   for (int k = 0; k < s->n_q; k++) {
     pl_dimension d;
     bool unknown = !pl_symbol_get(s->pool, s->q[k])->dimension_known;
-    if (!unknown || !s->model->uses_units || !pl_model_dimension(s->model, inertia(s, L, k), &d)) continue;
+    if (!unknown || !s->model->uses_units || !pl_model_dimension(s->model, inertia(s, L, k), &d))
+      continue;
     if (pl_dimension_equal(d, pl_dimension_of(2, 1, 0))) s->angle[k] = true;
   }
 }
 
-static pl_expr inertia(pl_stage* s, pl_expr L, int k) { return pl_diff(s->pool, pl_diff(s->pool, L, s->v[k]), s->v[k]); }
+static pl_expr inertia(pl_stage* s, pl_expr L, int k) {
+  return pl_diff(s->pool, pl_diff(s->pool, L, s->v[k]), s->v[k]);
+}
 
 // x, y (z) with the same constant inertia.
 static bool read_point(pl_stage* s, pl_expr L) {
@@ -157,8 +174,10 @@ static bool read_point(pl_stage* s, pl_expr L) {
   return true;
 }
 
-// Springs of the quadratic part of the potential: -d²L/dq_i dq_j between two, what is left to a wall.
-static void add_springs(pl_stage* s, pl_expr L, const int* q, const int* thing, int n, const pl_spot* wall) {
+// Springs of the quadratic part of the potential: -d²L/dq_i dq_j between two, what is left to a
+// wall.
+static void add_springs(pl_stage* s, pl_expr L, const int* q, const int* thing, int n,
+                        const pl_spot* wall) {
   for (int i = 0; i < n; i++) {
     double rest = -pl_stage_eval(s, pl_diff(s->pool, pl_diff(s->pool, L, s->q[q[i]]), s->q[q[i]]));
     for (int j = 0; j < n; j++) {
@@ -183,7 +202,8 @@ static void add_springs(pl_stage* s, pl_expr L, const int* q, const int* thing, 
 static void scale_gravity(pl_stage* s, double by) {
   for (int i = 0; i < s->model->params.n; i++) {
     const pl_symbol_info* info = pl_symbol_get(s->pool, s->model->params.at[i].symbol);
-    if (info->dimension_known && pl_dimension_equal(info->dimension, pl_dimension_of(1, 0, -2))) s->value[s->model->params.at[i].symbol.id] *= by;
+    if (info->dimension_known && pl_dimension_equal(info->dimension, pl_dimension_of(1, 0, -2)))
+      s->value[s->model->params.at[i].symbol.id] *= by;
   }
 }
 
@@ -202,12 +222,15 @@ static void read_arms(pl_stage* s, pl_expr L) {
     if (!s->angle[k]) continue;
     double old = s->value[s->q[k].id];
     s->value[s->q[k].id] = 0;
-    scale_gravity(s, 1e9);                 // what turns must not hide where gravity pulls
-    bool up = pl_stage_eval(s, pl_diff(p, pl_diff(p, L, s->q[k]), s->q[k])) > 0;     // V = -L has a maximum there
+    scale_gravity(s, 1e9);  // what turns must not hide where gravity pulls
+    // V = -L has a maximum there
+    bool up = pl_stage_eval(s, pl_diff(p, pl_diff(p, L, s->q[k]), s->q[k])) > 0;
     scale_gravity(s, 1e-9);
     s->value[s->q[k].id] = old;
-    pl_expr theta = pl_sym(p, s->q[k]), x0 = pl_mul_n(p, (pl_expr[]){pl_int(p, n), pl_ratio(p, 3, 2), l}, 3);
-    pl_expr e[2] = {pl_add(p, x0, pl_mul(p, l, pl_call(p, PL_SIN, theta))), pl_mul(p, l, pl_call(p, PL_COS, theta))};
+    pl_expr theta = pl_sym(p, s->q[k]),
+            x0 = pl_mul_n(p, (pl_expr[]){pl_int(p, n), pl_ratio(p, 3, 2), l}, 3);
+    pl_expr e[2] = {pl_add(p, x0, pl_mul(p, l, pl_call(p, PL_SIN, theta))),
+                    pl_mul(p, l, pl_call(p, PL_COS, theta))};
     if (!up) e[1] = pl_neg(p, e[1]);
     q[n] = k;
     thing[n++] = s->things.n;
@@ -226,7 +249,8 @@ static void read_line(pl_stage* s, pl_expr L) {
     bool heavy = !pl_is_zero_node(s->pool, inertia(s, L, k));
     q[n] = k;
     thing[n++] = s->things.n;
-    add_thing(s, heavy ? PL_THING_MASS : PL_THING_POINT, pl_symbol_get(s->pool, s->q[k])->name, &e, 1);
+    add_thing(s, heavy ? PL_THING_MASS : PL_THING_POINT, pl_symbol_get(s->pool, s->q[k])->name, &e,
+              1);
   }
   const char* names[3] = {n == 1 ? s->things.at[0].label : "", "", ""};
   static const char* const ways[3] = {"right", NULL, NULL};
@@ -246,7 +270,8 @@ void pl_stage_schematic(pl_stage* s) {
   static const char* const ways[3] = {"right", "up", NULL};
   bool read = false;
   for (int i = 0; i < s->model->constraints.n; i++) {
-    if (!s->model->constraints.at[i].has_velocity) read |= read_squares(s, &s->model->constraints.at[i]);
+    if (!s->model->constraints.at[i].has_velocity)
+      read |= read_squares(s, &s->model->constraints.at[i]);
   }
   if (read) {
     set_axes(s, 2, names, ways);

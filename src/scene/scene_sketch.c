@@ -1,6 +1,7 @@
-// A start to draw when nothing was simulated: the given start values, and where none is given values that show the
-// system as one would sketch it (angles neither 0 nor a right angle, lengths of the size of the given ones), moved onto
-// the constraints by Gauss-Newton steps of smallest change.
+// A start to draw when nothing was simulated: the given start values, and where none is given
+// values that show the system as one would sketch it (angles neither 0 nor a right angle, lengths
+// of the size of the given ones), moved onto the constraints by Gauss-Newton steps of smallest
+// change.
 #include "scene/scene_impl.h"
 
 #include <math.h>
@@ -37,7 +38,8 @@ static void invent_parameters(pl_stage* s) {
   for (int round = 0; round < 4; round++) {
     for (int i = 0; i < s->model->lets.n; i++) {
       const pl_let* l = &s->model->lets.at[i];
-      if (l->n_args == 0 && !l->inserted && isnan(s->value[l->symbol.id])) s->value[l->symbol.id] = pl_eval(s->pool, l->value, s->value);
+      if (l->n_args == 0 && !l->inserted && isnan(s->value[l->symbol.id]))
+        s->value[l->symbol.id] = pl_eval(s->pool, l->value, s->value);
     }
   }
 }
@@ -70,8 +72,8 @@ static void take_inits(pl_stage* s, bool* held) {
 }
 
 typedef struct pl_conditions {
-  int n, m;                       // unknowns, equations
-  int* q;                         // unknown coordinates
+  int n, m;  // unknowns, equations
+  int* q;    // unknown coordinates
   PL_VEC(pl_expr) g;
   double *J, *r, *x;
 } pl_conditions;
@@ -82,10 +84,12 @@ static void gather(pl_stage* s, pl_conditions* c, const bool* held) {
     if (!held || !held[k]) c->q[c->n++] = k;
   }
   for (int i = 0; i < s->bonds.n; i++) {
-    if (!s->bonds.at[i].velocity && !s->bonds.at[i].c->off) pl_push(s->arena, c->g, s->bonds.at[i].c->g);
+    if (!s->bonds.at[i].velocity && !s->bonds.at[i].c->off)
+      pl_push(s->arena, c->g, s->bonds.at[i].c->g);
   }
   for (int i = 0; i < s->model->choose.n_maps; i++) {
-    pl_push(s->arena, c->g, pl_sub(s->pool, s->model->choose.maps[i].old, s->model->choose.maps[i].map));
+    pl_push(s->arena, c->g,
+            pl_sub(s->pool, s->model->choose.maps[i].old, s->model->choose.maps[i].map));
   }
   c->m = c->g.n;
 }
@@ -108,7 +112,8 @@ static bool settle(pl_stage* s, const pl_conditions* c, double length) {
       *x = old + h;
       for (int i = 0; i < c->m; i++) c->J[i * c->n + k] = pl_stage_eval(s, c->g.at[i]);
       *x = old - h;
-      for (int i = 0; i < c->m; i++) c->J[i * c->n + k] = (c->J[i * c->n + k] - pl_stage_eval(s, c->g.at[i])) / (2 * h);
+      for (int i = 0; i < c->m; i++)
+        c->J[i * c->n + k] = (c->J[i * c->n + k] - pl_stage_eval(s, c->g.at[i])) / (2 * h);
       *x = old;
     }
     if (!pl_least(c->J, c->r, c->m, c->n, c->x)) return false;
@@ -130,7 +135,8 @@ static bool fits_branches(const pl_stage* s) {
   return true;
 }
 
-// A drive (A = ω t) is at zero in the beginning, where a crank shows little: a moment later it stands at 0.65.
+// A drive (A = ω t) is at zero in the beginning, where a crank shows little: a moment later it
+// stands at 0.65.
 static double moment(pl_stage* s) {
   for (int i = 0; i < s->bonds.n; i++) {
     const pl_constraint* c = s->bonds.at[i].c;
@@ -138,7 +144,9 @@ static double moment(pl_stage* s) {
     int n = pl_symbols_in(s->pool, c->g, found, 8), angles = 0;
     for (int k = 0; k < n && k < 8; k++) {
       uint64_t q = pl_map_get(s->q_at, found[k].id);
-      angles += q == 0 ? pl_symbol_get(s->pool, found[k])->role == PL_R_VELOCITY ? 2 : 0 : s->angle[q - 1] ? 1 : 2;
+      angles += q == 0            ? pl_symbol_get(s->pool, found[k])->role == PL_R_VELOCITY ? 2 : 0
+                : s->angle[q - 1] ? 1
+                                  : 2;
     }
     if (angles != 1 || n > 8) continue;
     double rate = fabs(pl_stage_eval(s, pl_diff(s->pool, c->g, pl_time(s->pool))));
@@ -150,20 +158,22 @@ static double moment(pl_stage* s) {
 void pl_stage_sketch(pl_stage* s) {
   invent_parameters(s);
   double length = pl_stage_length(s);
-  double t = pl_is_poison(s->model->simulate.from) ? 0 : pl_eval(s->pool, s->model->simulate.from, s->value);
+  double t = pl_is_poison(s->model->simulate.from)
+                 ? 0
+                 : pl_eval(s->pool, s->model->simulate.from, s->value);
   s->value[pl_time(s->pool).id] = 0;
   s->t[0] = isfinite(t) && s->model->simulate.given ? t : s->model->inits.n > 0 ? 0 : moment(s);
   s->value[pl_time(s->pool).id] = s->t[0];
   bool* held = PL_ARRAY(s->arena, bool, s->n_q + 1);
   for (int try = 0; try < TRIES; try++) {
-    bool hold = try % 4 != 3;               // given values that do not fit are let go in the end
+    bool hold = try % 4 != 3;  // given values that do not fit are let go in the end
     memset(held, 0, (size_t)s->n_q * sizeof *held);
     guess(s, try, length, held);
     take_inits(s, held);
     if (s->n_q > MOST_UNKNOWNS) break;
     pl_conditions c = {0};
     gather(s, &c, hold ? held : NULL);
-    c.J = PL_ARRAY(s->arena, double, (size_t)c.m * (size_t)c.n + 1);
+    c.J = PL_ARRAY(s->arena, double, (size_t)c.m*(size_t)c.n + 1);
     c.r = PL_ARRAY(s->arena, double, c.m + 1);
     c.x = PL_ARRAY(s->arena, double, c.n + 1);
     if (settle(s, &c, length) && (fits_branches(s) || try > TRIES - 5)) break;

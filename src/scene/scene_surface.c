@@ -1,4 +1,5 @@
-// Surfaces of a single constraint in space, as a net: lines of equal height and lines through the place of the thing.
+// Surfaces of a single constraint in space, as a net: lines of equal height and lines through the
+// place of the thing.
 #include <math.h>
 #include <string.h>
 
@@ -11,7 +12,8 @@ static void place_line(pl_stage* s, const pl_part* part, double* xyz) {
   pl_track_follow(s, part->data, xyz, &closed);
 }
 
-// The curve of the surface where component `axis` has this value, looked for from the present values.
+// The curve of the surface where component `axis` has this value, looked for from the present
+// values.
 static void add_line(pl_stage* s, const pl_track* surface, int axis, double at, const char* of) {
   pl_track* t = PL_NEW(s->arena, pl_track);
   *t = *surface;
@@ -30,12 +32,13 @@ static void add_line(pl_stage* s, const pl_track* surface, int axis, double at, 
 bool pl_stage_surface(pl_stage* s, const pl_track* surface, const char* of) {
   int up = -1, before = s->parts.n;
   const pl_spot* spot = &s->things.at[surface->thing].spot;
-  for (int j = 0; j < 3; j++) if (fabs(s->down[j]) > 0.9) up = j;
+  for (int j = 0; j < 3; j++)
+    if (fabs(s->down[j]) > 0.9) up = j;
   if (up < 0) up = 2;
   double x[3];
   pl_stage_spot(s, spot, x);
   if (!isfinite(x[0] + x[1] + x[2])) return false;
-  pl_track wide = *surface;            // round the origin, so that lines of equal height close
+  pl_track wide = *surface;  // round the origin, so that lines of equal height close
   for (int j = 0; j < 3; j++) {
     double half = 0.2 * s->size;
     for (int k = 0; k < 3; k++) half = fmax(half, fmax(fabs(s->lo[k]), fabs(s->hi[k])));

@@ -46,8 +46,14 @@ static void find_deps(pl_stage* s, pl_thing* t) {
   t->deps.n = t->deps.cap = n;
 }
 
-static pl_thing* add(pl_stage* s, pl_thing_kind kind, const char* label, const char* name, const pl_point* point) {
-  pl_thing t = {.kind = kind, .label = label, .name = name, .spot = pl_spot_of(s, point), .mass = pl_poison(), .sense = 1};
+static pl_thing* add(pl_stage* s, pl_thing_kind kind, const char* label, const char* name,
+                     const pl_point* point) {
+  pl_thing t = {.kind = kind,
+                .label = label,
+                .name = name,
+                .spot = pl_spot_of(s, point),
+                .mass = pl_poison(),
+                .sense = 1};
   find_deps(s, &t);
   pl_push(s->arena, s->things, t);
   return &s->things.at[s->things.n - 1];
@@ -55,14 +61,16 @@ static pl_thing* add(pl_stage* s, pl_thing_kind kind, const char* label, const c
 
 static const char* mass_label(const pl_stage* s, const pl_mass* m) {
   if (!m->name.generated) return m->name.text;
-  if (pl_kind_of(s->pool, m->mass) == PL_SYMBOL) return pl_symbol_get(s->pool, pl_symbol_of(s->pool, m->mass))->name;
+  if (pl_kind_of(s->pool, m->mass) == PL_SYMBOL)
+    return pl_symbol_get(s->pool, pl_symbol_of(s->pool, m->mass))->name;
   return "";
 }
 
 void pl_stage_things(pl_stage* s) {
   const pl_model* m = s->model;
   for (int i = 0; i < m->masses.n; i++) {
-    pl_thing* t = add(s, PL_THING_MASS, mass_label(s, &m->masses.at[i]), m->masses.at[i].name.text, &m->masses.at[i].point);
+    pl_thing* t = add(s, PL_THING_MASS, mass_label(s, &m->masses.at[i]), m->masses.at[i].name.text,
+                      &m->masses.at[i].point);
     t->mass = m->masses.at[i].mass;
   }
   for (int i = 0; i < m->bodies.n; i++) {
@@ -72,15 +80,20 @@ void pl_stage_things(pl_stage* s) {
     t->body = b;
   }
   for (int i = 0; i < m->points.n; i++) {
-    add(s, PL_THING_POINT, m->points.at[i].name.text, m->points.at[i].name.text, &m->points.at[i].point);
+    add(s, PL_THING_POINT, m->points.at[i].name.text, m->points.at[i].name.text,
+        &m->points.at[i].point);
   }
 }
 
-// ---------------------------------------------------------------------------------------------- space
+// ------------------------------------------------------------------------------------------- space
 void pl_stage_space(pl_stage* s) {
-  for (int j = 0; j < 3; j++) s->lo[j] = INFINITY, s->hi[j] = -INFINITY;
+  for (int j = 0; j < 3; j++) {
+    s->lo[j] = INFINITY;
+    s->hi[j] = -INFINITY;
+  }
   int stride = s->things.n > 100 ? 8 : 1;
-  for (int f = 0; f < s->n_frames; f += (f + stride >= s->n_frames && f + 1 < s->n_frames) ? s->n_frames - 1 - f : stride) {
+  for (int f = 0; f < s->n_frames;
+       f += (f + stride >= s->n_frames && f + 1 < s->n_frames) ? s->n_frames - 1 - f : stride) {
     pl_stage_set(s, f);
     for (int i = 0; i < s->things.n; i++) {
       double x[3];

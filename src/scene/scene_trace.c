@@ -1,5 +1,6 @@
-// The curve that constraints leave to a thing: q(σ) with g(q) = 0, followed in steps of even length in space by the
-// method of Runge and Kutta (order 4) along the null vector of dg/dq, with Newton corrections back to g = 0.
+// The curve that constraints leave to a thing: q(σ) with g(q) = 0, followed in steps of even length
+// in space by the method of Runge and Kutta (order 4) along the null vector of dg/dq, with Newton
+// corrections back to g = 0.
 #include <math.h>
 #include <string.h>
 
@@ -7,7 +8,8 @@
 
 enum { MOST_STEPS = 1200 };
 
-pl_track* pl_track_make(pl_stage* s, int thing, const pl_expr* eq, int n_eq, const int* q, int n_q) {
+pl_track* pl_track_make(pl_stage* s, int thing, const pl_expr* eq, int n_eq, const int* q,
+                        int n_q) {
   if (n_q > 8 || n_eq > 8 || n_q < 1) return NULL;
   pl_track* t = PL_NEW(s->arena, pl_track);
   const pl_spot* spot = &s->things.at[thing].spot;
@@ -19,15 +21,18 @@ pl_track* pl_track_make(pl_stage* s, int thing, const pl_expr* eq, int n_eq, con
     t->q[k] = q[k];
     for (int i = 0; i < n_eq; i++) t->G[i][k] = pl_diff(s->pool, eq[i], s->q[q[k]]);
     for (int j = 0; j < 3; j++) {
-      t->J[j][k] = pl_is_poison(spot->e[j]) ? pl_int(s->pool, 0) : pl_diff(s->pool, spot->e[j], s->q[q[k]]);
+      t->J[j][k] = pl_is_poison(spot->e[j]) ? pl_int(s->pool, 0)
+                                            : pl_diff(s->pool, spot->e[j], s->q[q[k]]);
     }
   }
   for (int i = 0; i < n_eq; i++) t->eq[i] = eq[i];
   for (int j = 0; j < 3; j++) {
-    double middle = (s->hi[j] + s->lo[j]) / 2, half = fmax(0.62 * (s->hi[j] - s->lo[j]), (s->n_frames > 1 ? 0.3 : 0.6) * s->size);
+    double middle = (s->hi[j] + s->lo[j]) / 2,
+           half = fmax(0.62 * (s->hi[j] - s->lo[j]), (s->n_frames > 1 ? 0.3 : 0.6) * s->size);
     t->box_lo[j] = middle - half;
     t->box_hi[j] = middle + half;
-    if (t->box_lo[j] > 0 && t->box_lo[j] < s->size) t->box_lo[j] = -0.1 * s->size;      // the origin belongs to it
+    // the origin belongs to it
+    if (t->box_lo[j] > 0 && t->box_lo[j] < s->size) t->box_lo[j] = -0.1 * s->size;
     if (t->box_hi[j] < 0 && t->box_hi[j] > -s->size) t->box_hi[j] = 0.1 * s->size;
   }
   t->n = 121;
@@ -82,11 +87,13 @@ int pl_track_freedom(pl_stage* s, const pl_track* t) {
   return pl_null_space(A, m, t->n_q, null);
 }
 
-// dq/dσ with |dX/dσ| = 1, going on in the direction of `before`.  false: no single direction, or the place stays.
+// dq/dσ with |dX/dσ| = 1, going on in the direction of `before`. false: no single direction, or the
+// place stays.
 static bool slope(pl_stage* s, const pl_track* t, const double* before, double* dq, double dx[3]) {
   double A[9 * 8], null[8][8];
   int m = rows(s, t, A, NULL);
-  for (int i = 0; i < m * t->n_q; i++) if (!isfinite(A[i])) return false;
+  for (int i = 0; i < m * t->n_q; i++)
+    if (!isfinite(A[i])) return false;
   if (pl_null_space(A, m, t->n_q, null) != 1) return false;
   double speed = 0, along = 0;
   for (int j = 0; j < 3; j++) {
@@ -103,7 +110,9 @@ static bool slope(pl_stage* s, const pl_track* t, const double* before, double* 
   return true;
 }
 
-static void place(const pl_stage* s, const pl_track* t, double x[3]) { pl_stage_spot(s, &s->things.at[t->thing].spot, x); }
+static void place(const pl_stage* s, const pl_track* t, double x[3]) {
+  pl_stage_spot(s, &s->things.at[t->thing].spot, x);
+}
 
 // One step of length h from q; before: dq/dσ there.
 static bool step(pl_stage* s, const pl_track* t, double* q, double* before, double h) {
@@ -140,13 +149,16 @@ static bool outside(const pl_track* t, const double x[3], double slack) {
 
 typedef PL_VEC(double) pl_doubles;
 
-// Follows one way until the curve closes or leaves the neighbourhood; far: how far beyond the box it may go.
-static bool follow(pl_stage* s, const pl_track* t, const double* q0, double h, double far, pl_doubles* out) {
+// Follows one way until the curve closes or leaves the neighbourhood; far: how far beyond the box
+// it may go.
+static bool follow(pl_stage* s, const pl_track* t, const double* q0, double h, double far,
+                   pl_doubles* out) {
   double q[8], before[8], x[3], x0[3], dx[3];
   memcpy(q, q0, sizeof(double) * (size_t)t->n_q);
   put(s, t, q);
   if (!slope(s, t, NULL, before, dx)) return false;
-  if (h < 0) for (int k = 0; k < t->n_q; k++) before[k] = -before[k];
+  if (h < 0)
+    for (int k = 0; k < t->n_q; k++) before[k] = -before[k];
   place(s, t, x0);
   double last[3] = {x0[0], x0[1], x0[2]};
   for (int i = 0; i < MOST_STEPS; i++) {
@@ -170,18 +182,23 @@ static bool follow(pl_stage* s, const pl_track* t, const double* q0, double h, d
 // n points at even distances along a poly-line of m points.
 static void resample(const double* from, int m, double* to, int n) {
   double total = 0, gone = 0;
-  for (int i = 1; i < m; i++) total += sqrt(pow(from[3 * i] - from[3 * i - 3], 2) + pow(from[3 * i + 1] - from[3 * i - 2], 2) + pow(from[3 * i + 2] - from[3 * i - 1], 2));
+  for (int i = 1; i < m; i++)
+    total += sqrt(pow(from[3 * i] - from[3 * i - 3], 2) + pow(from[3 * i + 1] - from[3 * i - 2], 2)
+                  + pow(from[3 * i + 2] - from[3 * i - 1], 2));
   int i = 0;
   double piece = 0;
   for (int k = 0; k < n; k++) {
     double want = n > 1 ? total * k / (n - 1) : 0;
     for (; i + 1 < m; i++) {
-      piece = sqrt(pow(from[3 * i + 3] - from[3 * i], 2) + pow(from[3 * i + 4] - from[3 * i + 1], 2) + pow(from[3 * i + 5] - from[3 * i + 2], 2));
+      piece = sqrt(pow(from[3 * i + 3] - from[3 * i], 2) + pow(from[3 * i + 4] - from[3 * i + 1], 2)
+                   + pow(from[3 * i + 5] - from[3 * i + 2], 2));
       if (gone + piece >= want || i + 2 == m) break;
       gone += piece;
     }
     double u = piece > 0 && i + 1 < m ? fmin(1, fmax(0, (want - gone) / piece)) : 0;
-    for (int j = 0; j < 3; j++) to[3 * k + j] = from[3 * i + j] + (i + 1 < m ? u * (from[3 * i + 3 + j] - from[3 * i + j]) : 0);
+    for (int j = 0; j < 3; j++)
+      to[3 * k + j] = from[3 * i + j]
+                      + (i + 1 < m ? u * (from[3 * i + 3 + j] - from[3 * i + j]) : 0);
   }
 }
 
@@ -198,7 +215,7 @@ int pl_track_follow(pl_stage* s, const pl_track* t, double* xyz, bool* closed) {
   if (fine && isfinite(x[0] + x[1] + x[2])) {
     double h = s->size / 70, far = t->whole ? 1.5 : 0;
     *closed = follow(s, t, q0, h, far, &ahead);
-    if (!*closed && far > 0) {           // an open curve ends with the neighbourhood
+    if (!*closed && far > 0) {  // an open curve ends with the neighbourhood
       ahead.n = 0;
       follow(s, t, q0, h, 0, &ahead);
     }
@@ -206,7 +223,8 @@ int pl_track_follow(pl_stage* s, const pl_track* t, double* xyz, bool* closed) {
     if (*closed && !t->whole) *closed = false;
     int m = ahead.n / 3 + behind.n / 3 + 1 + *closed;
     double* all = PL_ARRAY(s->arena, double, 3 * m);
-    for (int i = 0; i < behind.n / 3; i++) memcpy(all + 3 * i, behind.at + behind.n - 3 * (i + 1), 3 * sizeof(double));
+    for (int i = 0; i < behind.n / 3; i++)
+      memcpy(all + 3 * i, behind.at + behind.n - 3 * (i + 1), 3 * sizeof(double));
     memcpy(all + behind.n, x, 3 * sizeof(double));
     if (ahead.n) memcpy(all + behind.n + 3, ahead.at, (size_t)ahead.n * sizeof(double));
     if (*closed) memcpy(all + 3 * (m - 1), x, 3 * sizeof(double));
@@ -220,7 +238,8 @@ int pl_track_follow(pl_stage* s, const pl_track* t, double* xyz, bool* closed) {
 }
 
 bool pl_track_normal(pl_stage* s, const pl_track* t, double n[3]) {
-  // the direction in space in which eq[0] rises fastest: smallest dq with G dq = e_0, moved to space
+  // the direction in space in which eq[0] rises fastest: smallest dq with G dq = e_0, moved to
+  // space
   double A[9 * 8], r[9] = {1}, dq[8], kept[8];
   get(s, t, kept);
   bool fine = correct(s, t);

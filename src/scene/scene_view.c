@@ -1,5 +1,6 @@
-// From the space of the model to the picture.  Axes go where the model says (x down, z out); a motion that does not
-// leave a plane is seen at a right angle, anything else from the right and above.
+// From the space of the model to the picture. Axes go where the model says (x down, z out); a
+// motion that does not leave a plane is seen at a right angle, anything else from the right and
+// above.
 #include <math.h>
 #include <string.h>
 
@@ -8,8 +9,15 @@
 typedef enum pl_way { PL_WAY_RIGHT, PL_WAY_UP, PL_WAY_OUT } pl_way;
 
 static bool way_of(const char* direction, pl_way* way, double* sign) {
-  static const struct { const char* name; pl_way way; double sign; } known[] = {
-      {"right", PL_WAY_RIGHT, 1}, {"left", PL_WAY_RIGHT, -1}, {"up", PL_WAY_UP, 1}, {"down", PL_WAY_UP, -1}, {"out", PL_WAY_OUT, 1}};
+  static const struct {
+    const char* name;
+    pl_way way;
+    double sign;
+  } known[] = {{"right", PL_WAY_RIGHT, 1},
+               {"left", PL_WAY_RIGHT, -1},
+               {"up", PL_WAY_UP, 1},
+               {"down", PL_WAY_UP, -1},
+               {"out", PL_WAY_OUT, 1}};
   for (size_t i = 0; direction && i < sizeof known / sizeof known[0]; i++) {
     if (strcmp(direction, known[i].name) != 0) continue;
     *way = known[i].way;
@@ -24,18 +32,22 @@ static void choose_ways(const pl_stage* s, pl_way way[3], double sign[3]) {
   bool has[3] = {0}, used[3] = {0};
   int n = s->model->n_axes;
   for (int j = 0; j < n; j++) {
-    has[j] = s->model->axes[j].declared && way_of(s->model->axes[j].direction, &way[j], &sign[j]) && !used[way[j]];
+    has[j] = s->model->axes[j].declared && way_of(s->model->axes[j].direction, &way[j], &sign[j])
+             && !used[way[j]];
     if (has[j]) used[way[j]] = true;
   }
-  for (int j = 0; j < n && !used[PL_WAY_UP]; j++) {        // the axis that gravity uses
+  for (int j = 0; j < n && !used[PL_WAY_UP]; j++) {  // the axis that gravity uses
     if (has[j] || !(fabs(s->down[j]) > 0.9)) continue;
     has[j] = used[PL_WAY_UP] = true;
     way[j] = PL_WAY_UP;
     sign[j] = s->down[j] < 0 ? 1 : -1;
   }
   // what is left: three axes are x out, y right, z up; two are x right, y up
-  static const pl_way three[3] = {PL_WAY_OUT, PL_WAY_RIGHT, PL_WAY_UP}, fewer[3] = {PL_WAY_RIGHT, PL_WAY_UP, PL_WAY_OUT};
-  const pl_way* order = n == 3 && !used[PL_WAY_RIGHT] && !used[PL_WAY_OUT] && !has[0] && !has[1] ? three : fewer;
+  static const pl_way three[3] = {PL_WAY_OUT, PL_WAY_RIGHT, PL_WAY_UP},
+                      fewer[3] = {PL_WAY_RIGHT, PL_WAY_UP, PL_WAY_OUT};
+  const pl_way* order = n == 3 && !used[PL_WAY_RIGHT] && !used[PL_WAY_OUT] && !has[0] && !has[1]
+                            ? three
+                            : fewer;
   for (int j = 0; j < n; j++) {
     for (int k = 0; k < 3 && !has[j]; k++) {
       pl_way w = order[(k + (order == three ? j : 0)) % 3];
@@ -51,7 +63,9 @@ static void choose_ways(const pl_stage* s, pl_way way[3], double sign[3]) {
 static bool may_vary(const pl_stage* s, int axis) {
   for (int i = 0; i < s->things.n; i++) {
     pl_expr e = s->things.at[i].spot.e[axis];
-    if (pl_is_poison(e) || !(pl_has_role(s->pool, e, PL_R_COORD) || pl_has_role(s->pool, e, PL_R_TIME))) continue;
+    if (pl_is_poison(e)
+        || !(pl_has_role(s->pool, e, PL_R_COORD) || pl_has_role(s->pool, e, PL_R_TIME)))
+      continue;
     if (pl_kind_of(s->pool, e) != PL_SYMBOL) return true;
     pl_symbol x = pl_symbol_of(s->pool, e);
     bool used = false;
@@ -71,7 +85,8 @@ static int flat_axis(const pl_stage* s, const pl_way way[3]) {
   int flat = -1;
   for (int j = 0; j < 3; j++) {
     if (s->hi[j] - s->lo[j] > 1e-6 * most || (s->n_frames < 2 && may_vary(s, j))) continue;
-    if (flat < 0 || way[j] == PL_WAY_OUT || (way[flat] == PL_WAY_UP && way[j] == PL_WAY_RIGHT)) flat = j;
+    if (flat < 0 || way[j] == PL_WAY_OUT || (way[flat] == PL_WAY_UP && way[j] == PL_WAY_RIGHT))
+      flat = j;
   }
   return flat;
 }
@@ -83,7 +98,8 @@ void pl_stage_view(pl_stage* s) {
   choose_ways(s, way, sign);
   memset(&s->view, 0, sizeof s->view);
   s->view.n_axes = n;
-  if (n <= 1) {                     // one axis; the second component is the place across it, to the right or up
+  // one axis; the second component is the place across it, to the right or up
+  if (n <= 1) {
     bool upright = n == 1 && way[0] == PL_WAY_UP;
     s->view.e[0][upright] = sign[0];
     s->view.e[1][!upright] = 1;
@@ -97,7 +113,8 @@ void pl_stage_view(pl_stage* s) {
     for (int j = 0; j < n; j++) {
       if (j == flat) continue;
       int other = 3 - j - flat;
-      bool up = way[j] == PL_WAY_UP || (n == 3 && other != flat && way[other] != PL_WAY_UP && way[j] == PL_WAY_OUT);
+      bool up = way[j] == PL_WAY_UP
+                || (n == 3 && other != flat && way[other] != PL_WAY_UP && way[j] == PL_WAY_OUT);
       if (up) s->view.e[j][1] = way[j] == PL_WAY_UP ? sign[j] : -sign[j];
       else s->view.e[j][0] = sign[j];
     }
@@ -105,7 +122,8 @@ void pl_stage_view(pl_stage* s) {
   }
   // orthographic, seen from 30° to the right and 22° above
   static const double turn = 0.5236, height = 0.384;
-  const double right[2] = {cos(turn), -sin(height) * sin(turn)}, out[2] = {-sin(turn), -sin(height) * cos(turn)};
+  const double right[2] = {cos(turn), -sin(height) * sin(turn)},
+               out[2] = {-sin(turn), -sin(height) * cos(turn)};
   const double up[2] = {0, cos(height)};
   for (int j = 0; j < n; j++) {
     const double* e = way[j] == PL_WAY_RIGHT ? right : way[j] == PL_WAY_UP ? up : out;

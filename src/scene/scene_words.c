@@ -1,4 +1,5 @@
-// One sentence for those who cannot see the picture, in both languages: what there is, what holds it, what happens.
+// One sentence for those who cannot see the picture, in both languages: what there is, what holds
+// it, what happens.
 #include <math.h>
 #include <string.h>
 
@@ -10,7 +11,10 @@ static int count(const pl_stage* s, pl_shape_kind kind) {
   return n;
 }
 
-typedef struct pl_words { pl_shape_kind kind; const char *one[2], *many[2]; } pl_words;
+typedef struct pl_words {
+  pl_shape_kind kind;
+  const char *one[2], *many[2];
+} pl_words;
 static const pl_words words[] = {
     {PL_SHAPE_MASS, {"one mass", "eine Masse"}, {"%d masses", "%d Massen"}},
     {PL_SHAPE_BODY, {"one body", "ein Körper"}, {"%d bodies", "%d Körper"}},
@@ -18,13 +22,16 @@ static const pl_words words[] = {
     {PL_SHAPE_ROPE, {"a rope", "ein Seil"}, {"%d ropes", "%d Seile"}},
     {PL_SHAPE_SPRING, {"a spring", "eine Feder"}, {"%d springs", "%d Federn"}},
     {PL_SHAPE_DAMPER, {"a damper", "ein Dämpfer"}, {"%d dampers", "%d Dämpfer"}},
-    {PL_SHAPE_CURVE, {"a curve that is followed", "eine Bahnkurve"}, {"%d curves that are followed", "%d Bahnkurven"}},
+    {PL_SHAPE_CURVE,
+     {"a curve that is followed", "eine Bahnkurve"},
+     {"%d curves that are followed", "%d Bahnkurven"}},
     {PL_SHAPE_GROUND, {"a surface", "eine Fläche"}, {"%d surfaces", "%d Flächen"}},
 };
 
 static const char* decimal(pl_arena* a, double x, int lang) {
   char* text = pl_format(a, "%.4g", x);
-  for (char* c = text; lang == 1 && *c; c++) if (*c == '.') *c = ',';
+  for (char* c = text; lang == 1 && *c; c++)
+    if (*c == '.') *c = ',';
   return text;
 }
 
@@ -46,7 +53,10 @@ void pl_stage_words(pl_stage* s, pl_scene* scene) {
   const pl_result* r = s->result;
   for (int lang = 0; lang < 2; lang++) {
     pl_text out = pl_text_make(s->arena);
-    pl_text_addf(&out, "%s: ", s->model->title ? s->model->title : lang ? "Das System" : "The system");
+    pl_text_addf(&out, "%s: ",
+                 s->model->title ? s->model->title
+                 : lang          ? "Das System"
+                                 : "The system");
     int said = 0;
     for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
       int n = count(s, words[i].kind);
@@ -57,11 +67,14 @@ void pl_stage_words(pl_stage* s, pl_scene* scene) {
     }
     if (!said) pl_text_add(&out, lang ? "nichts, was einen Ort hat" : "nothing that has a place");
     if (s->n_frames > 1) {
-      pl_text_addf(&out, lang ? "; Bewegung von t = %s bis %s s" : "; motion from t = %s to %s s", decimal(s->arena, s->t[0], lang),
+      pl_text_addf(&out, lang ? "; Bewegung von t = %s bis %s s" : "; motion from t = %s to %s s",
+                   decimal(s->arena, s->t[0], lang),
                    decimal(s->arena, s->t[s->n_frames - 1], lang));
     }
     for (int i = 0; r && i < r->events.n && i < MOST_HAPPENINGS; i++) {
-      pl_text_addf(&out, lang ? "; %s bei t = %s s" : "; %s at t = %s s", happening(s->arena, &r->events.at[i], lang), decimal(s->arena, r->events.at[i].t, lang));
+      pl_text_addf(&out, lang ? "; %s bei t = %s s" : "; %s at t = %s s",
+                   happening(s->arena, &r->events.at[i], lang),
+                   decimal(s->arena, r->events.at[i].t, lang));
     }
     pl_text_add(&out, ".");
     scene->description[lang] = pl_text_string(&out);

@@ -1,4 +1,5 @@
-// From the jets of the batches to the linear system: values of the matrix, constraint values.  Right-hand sides: orders.c.
+// From the jets of the batches to the linear system: values of the matrix, constraint values.
+// Right-hand sides: orders.c.
 #include "solve/solve_impl.h"
 
 #include <math.h>
@@ -6,10 +7,14 @@
 #define LANES(b) for (int l = 0; l < (b)->n; l++)
 
 static int node_of(const pl_batch* b, int root) { return b->pattern->tape->roots[root]; }
-static bool is_constant(const pl_batch* b, int node) { return node < b->pattern->tape->level_end[PL_LEVEL_CONST]; }
-static const double* coefficient(const pl_batch* b, int node, int k) { return pl_jet_at(b->jet, node, k); }
+static bool is_constant(const pl_batch* b, int node) {
+  return node < b->pattern->tape->level_end[PL_LEVEL_CONST];
+}
+static const double* coefficient(const pl_batch* b, int node, int k) {
+  return pl_jet_at(b->jet, node, k);
+}
 
-// ---------------------------------------------------------------------------------------------- matrix
+// ------------------------------------------------------------------------------------------ matrix
 static void add_mass(pl_run* run, const pl_batch* b) {
   double* K = run->kkt.value;
   for (int e = 0; e < b->pattern->n_mass; e++) {
@@ -41,7 +46,7 @@ static void add_force_directions(pl_run* run, const pl_batch* b) {
     const pl_pattern_entry* w = &b->pattern->W[e];
     const double* x = coefficient(b, node_of(b, w->root), 0);
     LANES(b)
-      if (run->taken[b->c[w->col * b->lanes + l]]) run->kkt.value[b->at_W[e * b->lanes + l]] += x[l];
+    if (run->taken[b->c[w->col * b->lanes + l]]) run->kkt.value[b->at_W[e * b->lanes + l]] += x[l];
   }
 }
 
@@ -56,9 +61,15 @@ void pl_assemble_matrix(pl_run* run, bool with_W) {
   }
   run->rests = false;
   for (int i = 0; i < run->n_q; i++)
-    if (run->place_n[i] == 0) k->value[k->diagonal[i]] = 1, run->rests = true;  // nothing determines it: it rests
+    if (run->place_n[i] == 0) {
+      k->value[k->diagonal[i]] = 1;
+      run->rests = true;
+    }  // nothing determines it: it rests
   for (int c = 0; c < run->n_c; c++)
-    if (!run->taken[c]) k->value[k->diagonal[run->n_q + c]] = 1, run->rests = true;
+    if (!run->taken[c]) {
+      k->value[k->diagonal[run->n_q + c]] = 1;
+      run->rests = true;
+    }
   if (slips) pl_friction_matrix(run);
 }
 
@@ -78,7 +89,8 @@ void pl_assemble_rows(pl_run* run) {
       const double* x = coefficient(b, node_of(b, g->root), 0);
       LANES(b) {
         int row = run->row_of[b->c[g->row * b->lanes + l]];
-        if (row >= 0) run->rows[(size_t)row * (size_t)run->n_q + (size_t)b->q[g->col * b->lanes + l]] += x[l];
+        if (row >= 0)
+          run->rows[(size_t)row * (size_t)run->n_q + (size_t)b->q[g->col * b->lanes + l]] += x[l];
       }
     }
   }
@@ -86,15 +98,19 @@ void pl_assemble_rows(pl_run* run) {
 
 void pl_assemble_row_sizes(pl_run* run) { pl_orders_here()->row_sizes(run); }
 
-// ---------------------------------------------------------------------------------------------- constraints
+// ------------------------------------------------------------------------------------- constraints
 static void clear(double* x, int n) {
   for (int i = 0; i < n; i++) x[i] = 0;
 }
 
-void pl_assemble_g(pl_run* run, int k, double* g, double* size) { pl_orders_here()->g(run, k, g, size); }
-void pl_assemble_gdot(pl_run* run, double* r, double* size) { pl_orders_here()->gdot(run, r, size); }
+void pl_assemble_g(pl_run* run, int k, double* g, double* size) {
+  pl_orders_here()->g(run, k, g, size);
+}
+void pl_assemble_gdot(pl_run* run, double* r, double* size) {
+  pl_orders_here()->gdot(run, r, size);
+}
 
-// ---------------------------------------------------------------------------------------------- right-hand side
+// --------------------------------------------------------------------------------- right-hand side
 // s = sum_{j=1..k} x_j y_{k-j} in every lane; x from the jet, y a series of a slot.
 static void tail(double* s, const double* x, const double* y, int k, int lanes) {
   for (int l = 0; l < lanes; l++) s[l] = 0;
@@ -128,14 +144,16 @@ void pl_assemble_speed(pl_run* run, int k, double* speed) {
     for (int e = 0; e < b->pattern->n_gt; e++) {
       const pl_pattern_entry* g = &b->pattern->gt[e];
       int node = node_of(b, g->root);
-      if (!run->setup->links[b->c[g->row * b->lanes]].rub || (k > 0 && is_constant(b, node))) continue;
+      if (!run->setup->links[b->c[g->row * b->lanes]].rub || (k > 0 && is_constant(b, node)))
+        continue;
       const double* x = coefficient(b, node, k);
       LANES(b) speed[b->c[g->row * b->lanes + l]] += x[l];
     }
   }
 }
 
-// What the largest force met would do to a coordinate: forces that cancel leave the rounding of that.
+// What the largest force met would do to a coordinate: forces that cancel leave the rounding of
+// that.
 double pl_free_size(const pl_run* run, int i) {
   double mass = run->kkt.value[run->kkt.diagonal[i]];
   return mass > 0 && run->place_n[i] != 0 ? run->force_size / mass : 0;
@@ -153,9 +171,11 @@ void pl_assemble_second(pl_run* run, const double* a, double* second, double* si
       const double* slope = is_constant(b, node) ? NULL : coefficient(b, node, 1);
       LANES(b) {
         int c = b->c[g->row * b->lanes + l];
-        double forced = x[l] * a[b->q[g->col * b->lanes + l]], turning = slope ? slope[l] * v[l] : 0;
+        double forced = x[l] * a[b->q[g->col * b->lanes + l]],
+               turning = slope ? slope[l] * v[l] : 0;
         second[c] += forced + turning;
-        size[c] += fabs(forced) + fabs(turning) + fabs(x[l]) * pl_free_size(run, b->q[g->col * b->lanes + l]);
+        size[c] += fabs(forced) + fabs(turning)
+                   + fabs(x[l]) * pl_free_size(run, b->q[g->col * b->lanes + l]);
       }
     }
     for (int e = 0; e < b->pattern->n_gt; e++) {

@@ -1,42 +1,53 @@
-// The state of a run between two steps, written down and read back: a run that goes on from it takes the same steps, bit
-// for bit, as one that was never interrupted.
+// The state of a run between two steps, written down and read back: a run that goes on from it
+// takes the same steps, bit for bit, as one that was never interrupted.
 //
-// Everything that a later step looks at and that does not follow from the setup is named here, once, by functions that serve
-// both ways (pl_keeper in base.h).  What follows from the point alone (nodes, factor, order 0 of the series) is computed
-// anew and must come out the same: that tells a machine or a library that rounds differently.  Two things are kept although
-// they could be computed: the memory of the compiled steps at the point, whose last digits depend on the way that led
-// there, and the matrix from which the sparse solver took its pivot order.
+// Everything that a later step looks at and that does not follow from the setup is named here,
+// once, by functions that serve both ways (pl_keeper in base.h). What follows from the point alone
+// (nodes, factor, order 0 of the series) is computed anew and must come out the same: that tells a
+// machine or a library that rounds differently. Two things are kept although they could be
+// computed: the memory of the compiled steps at the point, whose last digits depend on the way that
+// led there, and the matrix from which the sparse solver took its pivot order.
 //
-// tools/check_state.py holds the structs of a run against this file: each member is kept below or stands in one of these lists.
+// tools/check_state.py holds the structs of a run against this file: each member is kept below or
+// stands in one of these lists.
 //
-// not kept of pl_run, follows from setup and options: job setup options n_q n_c order tol_raised motion observers watched
-//   branches has_W mass_of_speed shrink h_plain h_least row_gap n_watch at_rub kinks n_kinks mode_size grid_count grid_dt
-// not kept of pl_run, follows from the point: Q V ready t_series rests
-// not kept of pl_run, follows from how it was started: start_given
-// not kept of pl_run, only when, never what: clock_begin t_begin considered wall_begin
-// not kept of pl_run, lives within a step: impact_taken impact_factor rhs Q_last A_last G_series W_series rows rank_work priority row_of row_taken
-//   taken_kept dep dep_tau dep_norm dep_jpvt trial_q trial_v end_a end_by_codes arrived save_q save_v save_a save_l save_unique impulse jump_v jump_q
-//   poly root_work hit root touch undecided sunk rub_before impulsive C_series S_series poly_2 on_before fixed rub_fixed approach second
-//   hold_q hold_v first_a decision choice_kept n_decisions K_series out_now out_before row_q row_v row_a row_l energy_out mode
+// not kept of pl_run, follows from setup and options: job setup options n_q n_c order tol_raised
+// motion observers watched
+//   branches has_W mass_of_speed shrink h_plain h_least row_gap n_watch at_rub kinks n_kinks
+//   mode_size grid_count grid_dt
+// not kept of pl_run, follows from the point: Q V ready t_series rests not kept of pl_run, follows
+// from how it was started: start_given not kept of pl_run, only when, never what: clock_begin
+// t_begin considered wall_begin not kept of pl_run, lives within a step: impact_taken impact_factor
+// rhs Q_last A_last G_series W_series rows rank_work priority row_of row_taken
+//   taken_kept dep dep_tau dep_norm dep_jpvt trial_q trial_v end_a end_by_codes arrived save_q
+//   save_v save_a save_l save_unique impulse jump_v jump_q
+//   poly root_work hit root touch undecided sunk rub_before impulsive C_series S_series poly_2
+//   on_before fixed rub_fixed approach second
+//   hold_q hold_v first_a decision choice_kept n_decisions K_series out_now out_before row_q row_v
+//   row_a row_l energy_out mode
 //   mode_before t_grid W_coef branch_value reach factored seen shown shown_before
-// not kept of pl_run, lives within a moment: indeterminate
-// not kept of pl_run, where the pilot waits it goes there again: stop impacts
-// not kept of pl_run, of the start, which is found anew: start
-// not kept of pl_stats, follows from the options: precision
-// not kept of pl_stats, a word about this process: why_interpreted
-// not kept of pl_stats, made at the end: undetermined
-// not kept of pl_kkt, follows from setup and point: n dense n_values value start row diagonal lu scale balance work pivot ratio
-// not kept of pl_watch, pl_rub_now, follows from the setup: kind index direction
-// not kept of pl_motion, follows from the mode: code next size orders n_q n_c n_mass n_taken time ratio rest Q V A L q_floor
-//   v_floor g g_size argument r r_size norms length end_q end_v end_a off energy h pivot pivot_size move vector result matrix identity
+// not kept of pl_run, lives within a moment: indeterminate not kept of pl_run, where the pilot
+// waits it goes there again: stop impacts not kept of pl_run, of the start, which is found anew:
+// start not kept of pl_stats, follows from the options: precision not kept of pl_stats, a word
+// about this process: why_interpreted not kept of pl_stats, made at the end: undetermined not kept
+// of pl_kkt, follows from setup and point: n dense n_values value start row diagonal lu scale
+// balance work pivot ratio not kept of pl_watch, pl_rub_now, follows from the setup: kind index
+// direction not kept of pl_motion, follows from the mode: code next size orders n_q n_c n_mass
+// n_taken time ratio rest Q V A L q_floor
+//   v_floor g g_size argument r r_size norms length end_q end_v end_a off energy h pivot pivot_size
+//   move vector result matrix identity
 //   of_constraint index inverse_up_to constants scales
-// not kept of pl_motion, of this process: compiled jit tried
-// not kept of pl_radau, follows from setup and options: method n n_q n_c n_C tol tol_stage ready fits shape rub_of
-// not kept of pl_radau, lives within a step: wide here at coupled coupled_scale coupled_rhs coupled_work coupled_pivot real
-//   real_scale work pair pair_scale pivot sparse sparse_pair Z Q V A L t F w error_q error_v rhs sc_q sc_v coefficient part watched
+// not kept of pl_motion, of this process: compiled jit tried not kept of pl_radau, follows from
+// setup and options: method n n_q n_c n_C tol tol_stage ready fits shape rub_of not kept of
+// pl_radau, lives within a step: wide here at coupled coupled_scale coupled_rhs coupled_work
+// coupled_pivot real
+//   real_scale work pair pair_scale pivot sparse sparse_pair Z Q V A L t F w error_q error_v rhs
+//   sc_q sc_v coefficient part watched
 //   watched_h bent first_g last_g last_size end_a end_l save_a save_l
-// not kept of pl_wide, follows from setup, options and mode: state fine by_doubles low top head head_forces clock left
-//   grid drift t_0 q_0 v_0 a_0 l_0 end_a end_l tail_q tail_v tail_a tail_l from to share way scratch energy_base rows watched floor held high next
+// not kept of pl_wide, follows from setup, options and mode: state fine by_doubles low top head
+// head_forces clock left
+//   grid drift t_0 q_0 v_0 a_0 l_0 end_a end_l tail_q tail_v tail_a tail_l from to share way
+//   scratch energy_base rows watched floor held high next
 // not kept of pl_wide, pl_motion, lives within a step: digits arrived
 #include <limits.h>
 #include <math.h>
@@ -46,7 +57,7 @@
 #include "solve/radau_impl.h"
 #include "solve/wide_impl.h"
 
-// ---------------------------------------------------------------------------------------------- whose state
+// ------------------------------------------------------------------------------------- whose state
 // Counts go on from where they are, so there is room above.
 static const long most_count = LONG_MAX / 8;
 enum { LARGE_COUNT = 1 << 28 };
@@ -57,19 +68,26 @@ static void keep_fixed(pl_keeper* k, int x) { pl_keep_int(k, &x, x, x); }
 static void keep_dimensions(pl_run* run, pl_keeper* k) {
   const pl_setup* s = run->setup;
   pl_keep_section(k, "dimensions");
-  int of[] = {run->n_q, run->n_c, run->order, s->n_out, s->n_rubs, s->n_turns, s->n_events, s->n_watched, run->n_watch, run->n_kinks,
-              run->kkt.dense, run->pilot != NULL, run->radau != NULL, run->radau ? run->radau->method.s : 0};
+  int of[] = {run->n_q,           run->n_c,
+              run->order,         s->n_out,
+              s->n_rubs,          s->n_turns,
+              s->n_events,        s->n_watched,
+              run->n_watch,       run->n_kinks,
+              run->kkt.dense,     run->pilot != NULL,
+              run->radau != NULL, run->radau ? run->radau->method.s : 0};
   for (size_t i = 0; i < sizeof of / sizeof *of; i++) keep_fixed(k, of[i]);
 }
 
-// ---------------------------------------------------------------------------------------------- the point, yardsticks
+// --------------------------------------------------------------------------- the point, yardsticks
 static void keep_point(pl_run* run, pl_keeper* k) {
   size_t q = (size_t)run->n_q, c = (size_t)run->n_c;
   pl_keep_section(k, "point");
-  double* numbers[] = {&run->t, &run->t_low, &run->t_nodes, &run->tol, &run->force_size, &run->t_last, &run->h_last};
+  double* numbers[] = {&run->t,          &run->t_low,  &run->t_nodes, &run->tol,
+                       &run->force_size, &run->t_last, &run->h_last};
   for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) pl_keep_f64(k, numbers[i]);
   double* of_q[] = {run->q, run->v, run->A};
-  double* of_c[] = {run->L, run->g, run->g_size, run->argument, run->r, run->r_size, run->row_most, run->second_size};
+  double* of_c[] = {run->L, run->g,      run->g_size,   run->argument,
+                    run->r, run->r_size, run->row_most, run->second_size};
   for (size_t i = 0; i < sizeof of_q / sizeof *of_q; i++) pl_keep_f64s(k, of_q[i], q);
   for (size_t i = 0; i < sizeof of_c / sizeof *of_c; i++) pl_keep_f64s(k, of_c[i], c);
   pl_keep_bool(k, &run->at_point);
@@ -80,9 +98,11 @@ static void keep_point(pl_run* run, pl_keeper* k) {
 static void keep_yardsticks(pl_run* run, pl_keeper* k) {
   size_t q = (size_t)run->n_q, c = (size_t)run->n_c;
   pl_keep_section(k, "yardsticks");
-  double* numbers[] = {&run->smallest, &run->best, &run->smallest_here, &run->smallest_before, &run->t_before,
-                       &run->fade[0].t, &run->fade[0].smallest, &run->fade[1].t, &run->fade[1].smallest,
-                       &run->h_series, &run->h_regular, &run->q_size, &run->v_size, &run->energy_size, &run->energy_base, &run->a_rough};
+  double* numbers[] = {
+      &run->smallest,         &run->best,        &run->smallest_here,    &run->smallest_before,
+      &run->t_before,         &run->fade[0].t,   &run->fade[0].smallest, &run->fade[1].t,
+      &run->fade[1].smallest, &run->h_series,    &run->h_regular,        &run->q_size,
+      &run->v_size,           &run->energy_size, &run->energy_base,      &run->a_rough};
   for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) pl_keep_f64(k, numbers[i]);
   double* of_q[] = {run->q_most, run->v_most, run->q_kept, run->v_kept, run->column};
   for (size_t i = 0; i < sizeof of_q / sizeof *of_q; i++) pl_keep_f64s(k, of_q[i], q);
@@ -91,12 +111,13 @@ static void keep_yardsticks(pl_run* run, pl_keeper* k) {
   pl_keep_int(k, &run->tiny, 0, LARGE_COUNT);
 }
 
-// ---------------------------------------------------------------------------------------------- the mode
+// ---------------------------------------------------------------------------------------- the mode
 static void keep_mode(pl_run* run, pl_keeper* k) {
   size_t c = (size_t)run->n_c;
   pl_keep_section(k, "mode");
-  bool* of_c[] = {run->on, run->detached, run->active, run->taken, run->unique, run->several, run->ever_several, run->rubs, run->near_by, run->met, run->rebounds,
-                  run->jumped};
+  bool* of_c[] = {run->on,      run->detached, run->active,       run->taken,
+                  run->unique,  run->several,  run->ever_several, run->rubs,
+                  run->near_by, run->met,      run->rebounds,     run->jumped};
   for (size_t i = 0; i < sizeof of_c / sizeof *of_c; i++) pl_keep_bools(k, of_c[i], c);
   for (int i = 0; i < run->n_q; i++) pl_keep_int(k, &run->place_n[i], 0, 1);
   pl_keep_int(k, &run->n_active, 0, run->n_c);
@@ -139,12 +160,13 @@ static void keep_contacts(pl_run* run, pl_keeper* k) {
   pl_keep_int(k, &run->n_slipping, 0, run->n_c);
 }
 
-// ---------------------------------------------------------------------------------------------- rows, what is told
+// ------------------------------------------------------------------------------ rows, what is told
 static void keep_rows(pl_run* run, pl_keeper* k) {
   pl_keep_section(k, "rows");
   pl_keep_long(k, &run->grid_n, 0, most_count);
   pl_keep_f64(k, &run->last_row_t);
-  bool* flags[] = {&run->opened, &run->begun, &run->ended, &run->started, &run->stopped, &run->refused};
+  bool* flags[] = {&run->opened,  &run->begun,   &run->ended,
+                   &run->started, &run->stopped, &run->refused};
   for (size_t i = 0; i < sizeof flags / sizeof *flags; i++) pl_keep_bool(k, flags[i]);
 }
 
@@ -160,10 +182,13 @@ static void keep_turns(pl_run* run, pl_keeper* k) {
 static void keep_stats(pl_run* run, pl_keeper* k) {
   pl_stats* s = &run->stats;
   pl_keep_section(k, "statistics");
-  long* counts[] = {&s->steps, &s->rejections, &s->n_events, &s->steps_implicit, &s->steps_interpreted};
-  for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) pl_keep_long(k, counts[i], 0, most_count);
-  double* numbers[] = {&s->h_min, &s->h_max, &s->max_g, &s->max_gdot, &s->max_projection, &s->energy_0, &s->energy_drift,
-                       &s->t_singular, &s->t_implicit, &s->wall_s, &s->compile_s};
+  long* counts[] = {&s->steps, &s->rejections, &s->n_events, &s->steps_implicit,
+                    &s->steps_interpreted};
+  for (size_t i = 0; i < sizeof counts / sizeof *counts; i++)
+    pl_keep_long(k, counts[i], 0, most_count);
+  double* numbers[] = {&s->h_min,          &s->h_max,    &s->max_g,        &s->max_gdot,
+                       &s->max_projection, &s->energy_0, &s->energy_drift, &s->t_singular,
+                       &s->t_implicit,     &s->wall_s,   &s->compile_s};
   for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) pl_keep_f64(k, numbers[i]);
   pl_keep_int(k, &s->order, 0, run->order);
   pl_keep_int(k, &s->order_implicit, 0, 2 * PL_RADAU_MOST);
@@ -173,7 +198,7 @@ static void keep_stats(pl_run* run, pl_keeper* k) {
   pl_keep_bool(k, &s->stored);
 }
 
-// ---------------------------------------------------------------------------------------------- the implicit method
+// ----------------------------------------------------------------------------- the implicit method
 static void keep_radau(pl_run* run, pl_keeper* k) {
   pl_radau* r = run->radau;
   pl_keep_section(k, "implicit");
@@ -182,23 +207,26 @@ static void keep_radau(pl_run* run, pl_keeper* k) {
     if (run->implicit) pl_keep_fail(k);
     return;
   }
-  // the next step is predicted from the polynomial of the last one, and a look at stiffness reads it too
+  // the next step is predicted from the polynomial of the last one, and a look at stiffness reads
+  // it too
   size_t rows = (size_t)run->order + 2;
   pl_keep_f64s(k, run->V_last, rows * (size_t)run->n_q);
   pl_keep_f64s(k, run->L_last, rows * (size_t)run->n_c);
-  double* numbers[] = {&r->h_factored, &r->rounding, &r->h, &r->h_last, &r->error_last, &r->theta, &r->cost_series, &r->h_dense};
+  double* numbers[] = {&r->h_factored, &r->rounding, &r->h,           &r->h_last,
+                       &r->error_last, &r->theta,    &r->cost_series, &r->h_dense};
   for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) pl_keep_f64(k, numbers[i]);
   bool* flags[] = {&r->couples, &r->has_jacobian, &r->has_factor, &r->has_last, &r->rejected};
   for (size_t i = 0; i < sizeof flags / sizeof *flags; i++) pl_keep_bool(k, flags[i]);
   long* counts[] = {&r->stay_next, &r->steps_in_row, &r->looks, &r->next_look};
-  for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) pl_keep_long(k, counts[i], 0, most_count);
+  for (size_t i = 0; i < sizeof counts / sizeof *counts; i++)
+    pl_keep_long(k, counts[i], 0, most_count);
   pl_keep_long(k, &r->stay, -1, most_count);
   pl_keep_int(k, &r->newton, 0, LARGE_COUNT);
   pl_keep_int(k, &r->newton_last, 0, LARGE_COUNT);
   pl_keep_int(k, &r->dear, 0, LARGE_COUNT);
 }
 
-// ---------------------------------------------------------------------------------------------- wider numbers
+// ----------------------------------------------------------------------------------- wider numbers
 // Their memory holds the state, the time and the nodes at the point.
 static void keep_wide(pl_run* run, pl_keeper* k) {
   pl_keep_section(k, "wide");
@@ -224,15 +252,17 @@ static void keep_state(pl_run* run, pl_keeper* k) {
   keep_wide(run, k);
 }
 
-// ---------------------------------------------------------------------------------------------- compiled steps
-static bool same_codes(const pl_run* run, const pl_motion* o, const bool* taken, const bool* moves) {
+// ---------------------------------------------------------------------------------- compiled steps
+static bool same_codes(const pl_run* run, const pl_motion* o, const bool* taken,
+                       const bool* moves) {
   if (memcmp(o->taken, taken, (size_t)run->n_c * sizeof(bool)) != 0) return false;
   for (int i = 0; i < run->n_q && o->of_coordinate; i++)
     if ((o->of_coordinate[i] >= 0) != moves[i]) return false;
   return true;
 }
 
-// Codes for a mode, as pl_motion_make makes them where it begins; those that the start made already are taken over.
+// Codes for a mode, as pl_motion_make makes them where it begins; those that the start made already
+// are taken over.
 static pl_motion* codes_for(pl_run* run, pl_motion* made, const bool* taken, const bool* moves) {
   for (pl_motion* o = made; o; o = o->next)
     if (same_codes(run, o, taken, moves)) return o;
@@ -276,7 +306,8 @@ static void write_codes(pl_run* run, pl_keeper* k) {
 
 static void read_codes(pl_run* run, pl_keeper* k) {
   pl_motion *made = run->motion_codes, **last = &run->motion_codes;
-  bool *taken = PL_ARRAY(run->job->arena, bool, run->n_c + 1), *moves = PL_ARRAY(run->job->arena, bool, run->n_q + 1);
+  bool *taken = PL_ARRAY(run->job->arena, bool, run->n_c + 1),
+       *moves = PL_ARRAY(run->job->arena, bool, run->n_q + 1);
   int n = 0;
   pl_keep_count(k, &n, (size_t)run->n_c + (size_t)run->n_q + 2);
   run->motion_codes = run->motion_code = NULL;
@@ -304,7 +335,7 @@ static void read_codes(pl_run* run, pl_keeper* k) {
     keep_codes(run, k, o, here);
     if (at_work) run->motion_code = o;
   }
-  *last = made;      // so that they are freed with the others; a mode that comes later finds them
+  *last = made;  // so that they are freed with the others; a mode that comes later finds them
 }
 
 static void keep_all_codes(pl_run* run, pl_keeper* k) {
@@ -313,7 +344,7 @@ static void keep_all_codes(pl_run* run, pl_keeper* k) {
   else write_codes(run, k);
 }
 
-// ---------------------------------------------------------------------------------------------- all of it
+// --------------------------------------------------------------------------------------- all of it
 void pl_run_keep(pl_run* run, pl_keeper* k) {
   keep_dimensions(run, k);
   keep_all_codes(run, k);
@@ -330,9 +361,12 @@ static bool makes_sense(const pl_run* run) {
   bool inside = run->t >= fmin(from, to) && run->t <= fmax(from, to);
   if (!(run->tol > 0 && run->tol < 1)) return false;
   if (!inside || !run->started || run->ended || run->refused) return false;
-  if (run->at_point && !(run->wide && !run->wide->by_doubles) && !(run->motion_code && run->motion_code->usable)) return false;
+  if (run->at_point && !(run->wide && !run->wide->by_doubles)
+      && !(run->motion_code && run->motion_code->usable))
+    return false;
   if (run->radau && !(run->radau->h >= 0 && isfinite(run->radau->h))) return false;
-  return isfinite(run->t_low) && isfinite(pl_norm(run->q, run->n_q)) && isfinite(pl_norm(run->v, run->n_q));
+  return isfinite(run->t_low) && isfinite(pl_norm(run->q, run->n_q))
+         && isfinite(pl_norm(run->v, run->n_q));
 }
 
 // Order 0 of the series and the factor at the point, which must be the numbers that were kept.
@@ -348,8 +382,9 @@ static bool enter_again(pl_run* run) {
     if (!pl_point_factor(run, true)) return false;
     run->factored = true;
   }
-  return pl_point_enter(run) && run->at_point == at_point && memcmp(run->save_a, run->A, q) == 0 &&
-         memcmp(run->save_l, run->L, c) == 0 && memcmp(run->on_before, run->taken, (size_t)run->n_c * sizeof(bool)) == 0;
+  return pl_point_enter(run) && run->at_point == at_point && memcmp(run->save_a, run->A, q) == 0
+         && memcmp(run->save_l, run->L, c) == 0
+         && memcmp(run->on_before, run->taken, (size_t)run->n_c * sizeof(bool)) == 0;
 }
 
 static pleuel_status unreadable(pl_run* run) {
@@ -367,8 +402,10 @@ pleuel_status pl_run_load(pl_run* run, pl_keeper* k, const pl_sink* sink) {
   if (k->wrong || !makes_sense(run)) return unreadable(run);
   if (!enter_again(run))
     return pl_fail(run->job, PLEUEL_FILE,
-                   "accelerations at t = %.9g s come out with other last digits than those that were kept: another processor or "
-                   "another library", run->t);
+                   "accelerations at t = %.9g s come out with other last digits than those that "
+                   "were kept: another processor or "
+                   "another library",
+                   run->t);
   // entering moved yardsticks that had moved already
   k->next = at;
   keep_state(run, k);

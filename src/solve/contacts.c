@@ -1,16 +1,19 @@
-// Which contacts hold and which surfaces stick, at a moment when that is open: after an impact, at a release, when slip
-// comes to rest.
+// Which contacts hold and which surfaces stick, at a moment when that is open: after an impact, at
+// a release, when slip comes to rest.
 //
-// Twice the same question.  For the impact: velocities v+ and impulses with, for each contact near by,
+// Twice the same question. For the impact: velocities v+ and impulses with, for each contact near
+// by,
 //
-//     u+ + e u- >= 0,  Λ >= 0,  one of them zero          (Moreau 1988; Newton's e, u velocity along g)
+//     u+ + e u- >= 0,  Λ >= 0,  one of them zero      (Moreau 1988; Newton's e, u velocity along g)
 //
-// and for each friction |Λt| <= μ Λn while the slip ends with zero, or Λt = -μ Λn s+/|s+|.  For the motion that follows:
-// accelerations and forces with g'' >= 0, λ >= 0, one of them zero, and Coulomb's law with the derivative of the slip
-// where there is none yet.  A set of decisions (open or closed, stick or slip) makes both linear; a set is consistent
-// when all signs are right.  It is looked for by exchange: the first decision that is wrong is turned round (Murty 1974;
-// finite without friction, where the matrix is positive).  With friction all sets are tried too, while they are not too
-// many: none that fits, or two that fit with different accelerations, is Painlevé's paradox, and the run says so.
+// and for each friction |Λt| <= μ Λn while the slip ends with zero, or Λt = -μ Λn s+/|s+|. For the
+// motion that follows: accelerations and forces with g'' >= 0, λ >= 0, one of them zero, and
+// Coulomb's law with the derivative of the slip where there is none yet. A set of decisions (open
+// or closed, stick or slip) makes both linear; a set is consistent when all signs are right. It is
+// looked for by exchange: the first decision that is wrong is turned round (Murty 1974; finite
+// without friction, where the matrix is positive). With friction all sets are tried too, while they
+// are not too many: none that fits, or two that fit with different accelerations, is Painlevé's
+// paradox, and the run says so.
 #include "solve/solve_impl.h"
 
 #include <math.h>
@@ -18,18 +21,18 @@
 
 enum { MOST_EXCHANGES = 400, MOST_SETS = 3000, MOST_TURNS = 100 };
 
-static const double wrong_rate = 1e-10;    // of its terms: a rate with the wrong sign
-static const double no_slip = 1e-11;       // of its terms: a slip velocity that counts as none
-static const double over_limit = 1e-10;    // of the limit: a force that sticking cannot give
+static const double wrong_rate = 1e-10;  // of its terms: a rate with the wrong sign
+static const double no_slip = 1e-11;     // of its terms: a slip velocity that counts as none
+static const double over_limit = 1e-10;  // of the limit: a force that sticking cannot give
 
-// Velocities along g and of slip, and the size of their terms.  That the coordinates themselves are rounded counts for
-// residuals, not for what is small here.
+// Velocities along g and of slip, and the size of their terms. That the coordinates themselves are
+// rounded counts for residuals, not for what is small here.
 void pl_contacts_rates(pl_run* run, double* rates) {
   pl_assemble_gdot(run, rates, run->r_size);
   for (int c = 0; c < run->n_c; c++) run->r_size[c] /= fmax(run->argument[c], 1);
 }
 
-// ---------------------------------------------------------------------------------------------- the decisions
+// ----------------------------------------------------------------------------------- the decisions
 static int side_of(const pl_run* run, int c) { return run->setup->links[c].side; }
 
 static int way_of(int choice) { return (choice - PL_CHOICE_SLIP) & 1 ? -1 : 1; }
@@ -69,19 +72,25 @@ static void apply(pl_run* run) {
     }
     pl_rub_now* now = &run->rub[d->index];
     now->state = d->choice == PL_CHOICE_STICK ? PL_RUB_STICK : PL_RUB_SLIP;
-    if (now->state == PL_RUB_SLIP) now->way = way_of(d->choice), now->press = press_of(d->choice);
+    if (now->state == PL_RUB_SLIP) {
+      now->way = way_of(d->choice);
+      now->press = press_of(d->choice);
+    }
   }
 }
 
-// ---------------------------------------------------------------------------------------------- what is wrong with a set
-typedef struct pl_fault { int at, better; } pl_fault;   // decision, and what it should be instead; at -1: nothing
+// ------------------------------------------------------------------------ what is wrong with a set
+// decision, and what it should be instead; at -1: nothing
+typedef struct pl_fault {
+  int at, better;
+} pl_fault;
 static const pl_fault no_fault = {-1, 0};
 
 // The forces of a contact or friction, the rates that belong to them, and what counts as zero.
 typedef struct pl_look {
   const double *force, *rate, *rate_size;
-  double force_zero;             // of impulses; < 0: from the noise of multipliers
-  bool kinetic;                  // the limit of sticking is that of slipping
+  double force_zero;  // of impulses; < 0: from the noise of multipliers
+  bool kinetic;       // the limit of sticking is that of slipping
 } pl_look;
 
 static double force_zero(const pl_run* run, const pl_look* l, int c) {
@@ -90,7 +99,8 @@ static double force_zero(const pl_run* run, const pl_look* l, int c) {
 
 static bool is_wrong_contact(const pl_run* run, const pl_look* l, const pl_decision* d) {
   int c = d->index, side = side_of(run, c);
-  if (d->choice == PL_CHOICE_CLOSED) return run->active[c] && side * l->force[c] < -force_zero(run, l, c);
+  if (d->choice == PL_CHOICE_CLOSED)
+    return run->active[c] && side * l->force[c] < -force_zero(run, l, c);
   return side * l->rate[c] < -wrong_rate * l->rate_size[c];
 }
 
@@ -103,7 +113,8 @@ static int better_for_rub(const pl_run* run, const pl_look* l, const pl_decision
     double limit = run->C_series[l->kinetic ? rub->scale : rub->limit] * fabs(press);
     double F = pl_friction_force(run, r, l->force);
     if (F <= limit * (1 + over_limit) + force_zero(run, l, rub->row[0])) return d->choice;
-    int way = rub->n_rows == 1 && l->force[rub->row[0]] > 0 ? -1 : 1;      // it slips against the force that held it
+    // it slips against the force that held it
+    int way = rub->n_rows == 1 && l->force[rub->row[0]] > 0 ? -1 : 1;
     return slip_choice(way, press < 0 ? -1 : 1);
   }
   if (now->press * press < -zero) return slip_choice(now->way, -now->press);
@@ -111,7 +122,10 @@ static int better_for_rub(const pl_run* run, const pl_look* l, const pl_decision
   double rate = now->way * l->rate[rub->row[0]], small = wrong_rate * l->rate_size[rub->row[0]];
   if (rub->n_rows == 3) {
     rate = small = 0;
-    for (int i = 0; i < 3; i++) rate += now->d[i] * l->rate[rub->row[i]], small += wrong_rate * l->rate_size[rub->row[i]];
+    for (int i = 0; i < 3; i++) {
+      rate += now->d[i] * l->rate[rub->row[i]];
+      small += wrong_rate * l->rate_size[rub->row[i]];
+    }
   }
   return rate < -small ? PL_CHOICE_STICK : d->choice;
 }
@@ -128,8 +142,9 @@ static pl_fault find_fault(const pl_run* run, const pl_look* l) {
   return no_fault;
 }
 
-// ---------------------------------------------------------------------------------------------- accelerations of a set
-// In space slip begins in the direction d that it itself makes: found by repetition.  Returns whether d still changes.
+// -------------------------------------------------------------------------- accelerations of a set
+// In space slip begins in the direction d that it itself makes: found by repetition. Returns
+// whether d still changes.
 static bool turn_slips(pl_run* run, const double* rate) {
   bool turned = false;
   for (int r = 0; r < run->setup->n_rubs; r++) {
@@ -137,7 +152,9 @@ static bool turn_slips(pl_run* run, const double* rate) {
     if (now->state != PL_RUB_SLIP || !now->given || !pl_friction_is_used(run, r)) continue;
     double d[3];
     // slip that would at once run against itself is none
-    if (pl_friction_speed(run, r, rate, d) == 0 || d[0] * now->d[0] + d[1] * now->d[1] + d[2] * now->d[2] < 0) continue;
+    if (pl_friction_speed(run, r, rate, d) == 0
+        || d[0] * now->d[0] + d[1] * now->d[1] + d[2] * now->d[2] < 0)
+      continue;
     for (int i = 0; i < 3; i++) turned |= fabs(d[i] - now->d[i]) > 1e-13;
     memcpy(now->d, d, sizeof d);
   }
@@ -158,12 +175,14 @@ static void guess_directions(pl_run* run) {
   }
 }
 
-// Whether accelerations meet the rows that were left out because others seemed to say the same: where rows depend on each other
-// for a moment only, as sticking does at a dead centre, they need not, and then that set cannot last.
+// Whether accelerations meet the rows that were left out because others seemed to say the same:
+// where rows depend on each other for a moment only, as sticking does at a dead centre, they need
+// not, and then that set cannot last.
 static bool meets_all_rows(const pl_run* run) {
   static const double off = 1e-7;
   for (int c = 0; c < run->n_c && run->rank < run->n_active; c++)
-    if (run->active[c] && !run->taken[c] && fabs(run->second[c]) > off * run->second_size[c]) return false;
+    if (run->active[c] && !run->taken[c] && fabs(run->second[c]) > off * run->second_size[c])
+      return false;
   return true;
 }
 
@@ -184,7 +203,7 @@ static bool try_accelerations(pl_run* run, pl_look* l) {
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- impulses of a set
+// ------------------------------------------------------------------------------- impulses of a set
 // What the velocity along g is to be after the impact.
 static double rebound(const pl_run* run, int c) {
   const pl_link* link = &run->setup->links[c];
@@ -206,7 +225,9 @@ static bool solve_impulses(pl_run* run) {
   if (!regular) return false;
   for (int i = 0; i < run->n_q; i++) run->rhs[i] = 0;
   for (int c = 0; c < run->n_c; c++)
-    run->rhs[run->n_q + c] = run->taken[c] ? (side_of(run, c) != 0 ? rebound(run, c) : 0) - run->r[c] : 0;
+    run->rhs[run->n_q + c] = run->taken[c]
+                                 ? (side_of(run, c) != 0 ? rebound(run, c) : 0) - run->r[c]
+                                 : 0;
   pl_kkt_solve(&run->kkt, run->rhs);
   if (!isfinite(pl_norm(run->rhs, run->n_q))) return false;
   for (int i = 0; i < run->n_q; i++) run->v[i] += run->rhs[i];
@@ -226,11 +247,12 @@ static bool try_impulses(pl_run* run, pl_look* l) {
   // rates of contacts count from the rebound
   for (int c = 0; c < run->n_c; c++)
     if (side_of(run, c) != 0) run->second[c] -= rebound(run, c);
-  *l = (pl_look){run->impulse, run->second, run->second_size, 1e-12 * pl_norm(run->impulse, run->n_c), true};
+  *l = (pl_look){run->impulse, run->second, run->second_size,
+                 1e-12 * pl_norm(run->impulse, run->n_c), true};
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- looking for a set
+// ------------------------------------------------------------------------------- looking for a set
 typedef bool pl_trial(pl_run* run, pl_look* l);
 
 static bool has_used_rub(const pl_run* run) {
@@ -260,7 +282,8 @@ static double count_sets(const pl_run* run) {
 }
 
 static void first_set(pl_run* run) {
-  for (int i = 0; i < run->n_decisions; i++) run->decision[i].choice = __builtin_ctz(run->decision[i].allowed);
+  for (int i = 0; i < run->n_decisions; i++)
+    run->decision[i].choice = __builtin_ctz(run->decision[i].allowed);
 }
 
 // The next set in order; false: all were there.
@@ -278,7 +301,8 @@ static bool next_set(pl_run* run) {
 static bool is_idle(const pl_run* run) {
   for (int i = 0; i < run->n_decisions; i++) {
     const pl_decision* d = &run->decision[i];
-    if (d->of_rub && !pl_friction_is_used(run, d->index) && d->choice != __builtin_ctz(d->allowed)) return true;
+    if (d->of_rub && !pl_friction_is_used(run, d->index) && d->choice != __builtin_ctz(d->allowed))
+      return true;
   }
   return false;
 }
@@ -312,7 +336,8 @@ static bool same_motion(const pl_run* run, const double* x, bool impact) {
   return true;
 }
 
-// All sets; the first consistent one is kept.  Returns how many different motions fit: 0, 1, or 2 for several.
+// All sets; the first consistent one is kept. Returns how many different motions fit: 0, 1, or 2
+// for several.
 static int try_all(pl_run* run, pl_trial* trial, const double* motion) {
   int found = 0;
   first_set(run);
@@ -323,11 +348,13 @@ static int try_all(pl_run* run, pl_trial* trial, const double* motion) {
       found = 1;
       keep_choices(run);
       memcpy(run->first_a, motion, (size_t)run->n_q * sizeof(double));
-    } else if (!same_motion(run, motion, motion == run->v) && !(sticks_harder(run) && same_contacts(run))) {
+    } else if (!same_motion(run, motion, motion == run->v)
+               && !(sticks_harder(run) && same_contacts(run))) {
       found = 2;
     }
   } while (found < 2 && next_set(run));
-  for (int i = 0; i < run->n_decisions && found > 0; i++) run->decision[i].choice = run->choice_kept[i];
+  for (int i = 0; i < run->n_decisions && found > 0; i++)
+    run->decision[i].choice = run->choice_kept[i];
   pl_look l;
   if (found == 1 && !trial(run, &l)) return 0;
   return found;
@@ -337,11 +364,15 @@ static pleuel_status paradox(pl_run* run, int found, bool impact) {
   const char* what = impact ? "impulses" : "forces";
   if (found == 0)
     return pl_fail(run->job, PLEUEL_NUMERICAL,
-                   "no %s fit Coulomb's law and the contacts together at t = %.9g s (Painlevé's paradox): rigid bodies with "
-                   "this friction have no motion from here", what, run->t);
+                   "no %s fit Coulomb's law and the contacts together at t = %.9g s (Painlevé's "
+                   "paradox): rigid bodies with "
+                   "this friction have no motion from here",
+                   what, run->t);
   return pl_fail(run->job, PLEUEL_NUMERICAL,
-                 "several %s fit Coulomb's law and the contacts at t = %.9g s (Painlevé's paradox): rigid bodies with this "
-                 "friction do not tell which motion follows", what, run->t);
+                 "several %s fit Coulomb's law and the contacts at t = %.9g s (Painlevé's "
+                 "paradox): rigid bodies with this "
+                 "friction do not tell which motion follows",
+                 what, run->t);
 }
 
 // Finds the set.  motion: where a trial leaves accelerations or velocities.
@@ -354,28 +385,33 @@ static pleuel_status decide(pl_run* run, pl_trial* trial, const double* motion, 
   if (exchange(run, trial)) return PLEUEL_OK;
   if (has_used_rub(run)) return paradox(run, 0, impact);
   if (!run->ready && !impact) return pl_run_undetermined(run);
-  return pl_fail(run->job, PLEUEL_NUMERICAL, "the contacts at t = %.9g s do not fit together: no set of them has forces that push",
-                 run->t);
+  return pl_fail(
+      run->job, PLEUEL_NUMERICAL,
+      "the contacts at t = %.9g s do not fit together: no set of them has forces that push",
+      run->t);
 }
 
-// ---------------------------------------------------------------------------------------------- impacts
-static const double at_rest = 1e-9;      // of the terms of the velocity along g
+// ----------------------------------------------------------------------------------------- impacts
+static const double at_rest = 1e-9;  // of the terms of the velocity along g
 
 static bool is_arriving(const pl_run* run, int c) {
   const pl_link* link = &run->setup->links[c];
-  if (link->side != 0) return run->near_by[c] && link->side * run->approach[c] < -at_rest * run->r_size[c];
+  if (link->side != 0)
+    return run->near_by[c] && link->side * run->approach[c] < -at_rest * run->r_size[c];
   return run->active[c] && fabs(run->approach[c]) > at_rest * run->r_size[c];
 }
 
 static void list_impact(pl_run* run) {
   run->n_decisions = 0;
   for (int c = 0; c < run->n_c; c++)
-    if (run->near_by[c]) add(run, false, c, 1u << PL_CHOICE_OPEN | 1u << PL_CHOICE_CLOSED, PL_CHOICE_CLOSED);
+    if (run->near_by[c])
+      add(run, false, c, 1u << PL_CHOICE_OPEN | 1u << PL_CHOICE_CLOSED, PL_CHOICE_CLOSED);
   for (int r = 0; r < run->setup->n_rubs; r++) {
     int c = run->setup->rubs[r].link;
     run->rub[r].given = run->setup->rubs[r].n_rows == 3;
     pl_friction_speed(run, r, run->approach, run->rub[r].d);
-    if (run->near_by[c] || run->active[c]) add(run, true, r, choices_of(run, r, 0), PL_CHOICE_STICK);
+    if (run->near_by[c] || run->active[c])
+      add(run, true, r, choices_of(run, r, 0), PL_CHOICE_STICK);
   }
 }
 
@@ -394,8 +430,10 @@ static pleuel_status check_gain(pl_run* run) {
   for (int c = 0; c < run->n_c; c++) size += fabs(run->impulse[c] * run->approach[c]);
   if (!(gain > 1e-9 * size)) return PLEUEL_OK;
   return pl_fail(run->job, PLEUEL_NUMERICAL,
-                 "Newton's impact law with friction would create energy at t = %.9g s (%.3g J): this impact needs more than a "
-                 "coefficient of restitution", run->t, gain);
+                 "Newton's impact law with friction would create energy at t = %.9g s (%.3g J): "
+                 "this impact needs more than a "
+                 "coefficient of restitution",
+                 run->t, gain);
 }
 
 static bool moving_walls(const pl_run* run) {
@@ -411,16 +449,21 @@ pleuel_status pl_contacts_impact(pl_run* run, bool* any) {
   pl_point_evaluate(run, run->t, run->q, run->v);
   pl_assemble_g(run, 0, run->g, run->g_size);
   pl_contacts_rates(run, run->approach);
-  for (int c = 0; c < run->n_c; c++) run->jumped[c] = is_arriving(run, c), *any |= run->jumped[c];
+  for (int c = 0; c < run->n_c; c++) {
+    run->jumped[c] = is_arriving(run, c);
+    *any |= run->jumped[c];
+  }
   if (!*any) {
     for (int c = 0; c < run->n_c; c++) {
-      if (!run->near_by[c] || !(side_of(run, c) * run->approach[c] > at_rest * run->r_size[c])) continue;
-      run->near_by[c] = run->on[c] = false;      // it moves away
+      if (!run->near_by[c] || !(side_of(run, c) * run->approach[c] > at_rest * run->r_size[c]))
+        continue;
+      run->near_by[c] = run->on[c] = false;  // it moves away
     }
     return PLEUEL_OK;
   }
   for (int c = 0; c < run->n_c; c++)
-    run->rebounds[c] = run->jumped[c] && run->near_by[c] && run->setup->links[c].restitution > 0 && !isfinite(run->settled_t[c]);
+    run->rebounds[c] = run->jumped[c] && run->near_by[c] && run->setup->links[c].restitution > 0
+                       && !isfinite(run->settled_t[c]);
   memcpy(run->hold_v, run->v, (size_t)run->n_q * sizeof(double));
   memcpy(run->hold_q, run->q, (size_t)run->n_q * sizeof(double));
   list_impact(run);
@@ -444,7 +487,7 @@ pleuel_status pl_contacts_impact(pl_run* run, bool* any) {
   return PLEUEL_OK;
 }
 
-// ---------------------------------------------------------------------------------------------- the motion that follows
+// ------------------------------------------------------------------------- the motion that follows
 static void list_motion(pl_run* run) {
   run->n_decisions = 0;
   for (int c = 0; c < run->n_c; c++) {
@@ -470,9 +513,10 @@ static void list_motion(pl_run* run) {
   }
 }
 
-// In space slip that begins has no direction yet in the equations: a velocity far below everything else gives it one.
+// In space slip that begins has no direction yet in the equations: a velocity far below everything
+// else gives it one.
 static pleuel_status nudge(pl_run* run) {
-  static const double speck = 1e-12;     // of the largest velocity
+  static const double speck = 1e-12;  // of the largest velocity
   bool any = false;
   for (int r = 0; r < run->setup->n_rubs; r++) {
     pl_rub_now* now = &run->rub[r];
@@ -492,8 +536,10 @@ static pleuel_status nudge(pl_run* run) {
     double d[3];
     double speed = pl_friction_speed(run, r, run->r, d);
     now->given = false;
-    if (speed == 0) return pl_fail(run->job, PLEUEL_NUMERICAL, "friction on %s begins to slip at t = %.9g s without a direction",
-                                   run->setup->rubs[r].name, run->t);
+    if (speed == 0)
+      return pl_fail(run->job, PLEUEL_NUMERICAL,
+                     "friction on %s begins to slip at t = %.9g s without a direction",
+                     run->setup->rubs[r].name, run->t);
     now->small = 0.1 * speed;
   }
   return pl_modes_enter(run);

@@ -1,17 +1,19 @@
 // Coulomb friction inside of the equations of motion.
 //
-// The slip velocity s = A v + b of a friction is a set of rows like those of a nonholonomic constraint, and its force on
-// the coordinates is A^T m.  While the surfaces stick the rows hold as constraints and m is their multiplier.  While they
-// slip m follows from the multiplier λ that presses:
+// The slip velocity s = A v + b of a friction is a set of rows like those of a nonholonomic
+// constraint, and its force on the coordinates is A^T m. While the surfaces stick the rows hold as
+// constraints and m is their multiplier. While they slip m follows from the multiplier λ that
+// presses:
 //
 //     m = -μ ν |λ| s / |s|,      ν: force of the constraint per unit of λ
 //
-// so its row in the linear system reads m - κ λ = 0 with κ = -press μ ν s / |s|, and at order k of the series
+// so its row in the linear system reads m - κ λ = 0 with κ = -press μ ν s / |s|, and at order k of
+// the series
 //
 //     m_k - κ_0 λ_k = sum_{j>=1} κ_j λ_{k-j}.
 //
-// The system is then no longer symmetric, and it may be singular or have the wrong sign: Painlevé's configurations,
-// which the choice of the mode (contacts.c) finds.
+// The system is then no longer symmetric, and it may be singular or have the wrong sign: Painlevé's
+// configurations, which the choice of the mode (contacts.c) finds.
 #include "solve/solve_impl.h"
 
 #include <math.h>
@@ -24,11 +26,12 @@ void pl_friction_make(pl_run* run) {
   run->rub = PL_ARRAY(a, pl_rub_now, n + 1);
   run->rub_before = PL_ARRAY(a, pl_rub_now, n + 1);
   run->rub_fixed = PL_ARRAY(a, unsigned, n + 1);
-  run->C_series = PL_ARRAY(a, double, (size_t)s->n_coefficients * orders + 1);
+  run->C_series = PL_ARRAY(a, double, (size_t)s->n_coefficients* orders + 1);
   run->S_series = PL_ARRAY(a, double, n > 0 ? c * orders + 1 : 1);
   run->poly_2 = PL_ARRAY(a, double, 3 * orders + 1);
-  for (int i = 0; i < s->n_rubs; i++) run->rub[i].press = s->links[s->rubs[i].link].side < 0 ? -1 : 1;
-  run->has_W |= s->n_rubs > 0;       // the factor of a projection does not serve the accelerations
+  for (int i = 0; i < s->n_rubs; i++)
+    run->rub[i].press = s->links[s->rubs[i].link].side < 0 ? -1 : 1;
+  run->has_W |= s->n_rubs > 0;  // the factor of a projection does not serve the accelerations
 }
 
 bool pl_friction_is_used(const pl_run* run, int r) { return run->active[run->setup->rubs[r].link]; }
@@ -53,21 +56,25 @@ void pl_friction_coefficients(pl_run* run, int k) {
   pl_batches_outputs(&run->motion, run->C_series + (size_t)k * (size_t)n, n, k);
 }
 
-// In space a slip that ends at the end of this step has no direction there: it keeps the one it had.
+// In space a slip that ends at the end of this step has no direction there: it keeps the one it
+// had.
 void pl_friction_keep_directions(pl_run* run) {
   for (int i = 0; i < run->n_watch; i++) {
     if (!run->hit[i] || run->watch[i].kind != PL_WATCH_STICK) continue;
     int r = run->watch[i].index;
     pl_rub_now* now = &run->rub[r];
-    now->given = run->setup->rubs[r].n_rows == 3 && pl_friction_speed(run, r, run->S_series, now->d) > 0;
+    now->given = run->setup->rubs[r].n_rows == 3
+                 && pl_friction_speed(run, r, run->S_series, now->d) > 0;
   }
 }
 
-// ---------------------------------------------------------------------------------------------- in the linear system
+// ---------------------------------------------------------------------------- in the linear system
 pl_rub_report pl_run_rub(const pl_run* run, int rub) {
   const pl_rub_now* now = &run->rub[rub];
-  static const pl_rub_mode mode[] = {[PL_RUB_OFF] = PL_RUB_NONE, [PL_RUB_STICK] = PL_RUB_STICKS, [PL_RUB_SLIP] = PL_RUB_SLIPS};
-  return (pl_rub_report){pl_friction_is_used(run, rub) ? mode[now->state] : PL_RUB_NONE, now->way, now->press};
+  static const pl_rub_mode mode[] = {
+      [PL_RUB_OFF] = PL_RUB_NONE, [PL_RUB_STICK] = PL_RUB_STICKS, [PL_RUB_SLIP] = PL_RUB_SLIPS};
+  return (pl_rub_report){pl_friction_is_used(run, rub) ? mode[now->state] : PL_RUB_NONE, now->way,
+                         now->press};
 }
 
 double pl_friction_kappa(const pl_run* run, int r, int i, const double* C) {
@@ -87,7 +94,8 @@ double pl_friction_kappa_by(const pl_run* run, int r, int i, int coefficient) {
 }
 
 static double kappa(const pl_run* run, int r, int i, int k) {
-  return pl_friction_kappa(run, r, i, run->C_series + (size_t)k * (size_t)run->setup->n_coefficients);
+  return pl_friction_kappa(run, r, i,
+                           run->C_series + (size_t)k * (size_t)run->setup->n_coefficients);
 }
 
 void pl_friction_matrix(pl_run* run) {
@@ -110,14 +118,15 @@ void pl_friction_rhs(pl_run* run, int k, double* rhs) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- sizes
+// ------------------------------------------------------------------------------------------- sizes
 double pl_friction_force(const pl_run* run, int r, const double* m) {
   const pl_rub* rub = &run->setup->rubs[r];
   const double* P = run->C_series;
   if (rub->n_rows == 1) return fabs(m[rub->row[0]]);
   double x = m[rub->row[0]], y = m[rub->row[1]], z = m[rub->row[2]];
-  double square = P[rub->metric[0]] * x * x + P[rub->metric[1]] * y * y + P[rub->metric[2]] * z * z +
-                  2 * (P[rub->metric[3]] * x * y + P[rub->metric[4]] * x * z + P[rub->metric[5]] * y * z);
+  double square =
+      P[rub->metric[0]] * x * x + P[rub->metric[1]] * y * y + P[rub->metric[2]] * z * z
+      + 2 * (P[rub->metric[3]] * x * y + P[rub->metric[4]] * x * z + P[rub->metric[5]] * y * z);
   return sqrt(fmax(square, 0));
 }
 
@@ -129,15 +138,17 @@ double pl_friction_speed(const pl_run* run, int r, const double* rates, double* 
     for (int i = 0; i < rub->n_rows; i++) d[i] = 0;
     return 0;
   }
-  for (int i = 0; i < rub->n_rows; i++) square += (rates[rub->row[i]] / most) * (rates[rub->row[i]] / most);
+  for (int i = 0; i < rub->n_rows; i++)
+    square += (rates[rub->row[i]] / most) * (rates[rub->row[i]] / most);
   double speed = most * sqrt(square);
   for (int i = 0; i < rub->n_rows; i++) d[i] = rates[rub->row[i]] / speed;
   return speed;
 }
 
-// ---------------------------------------------------------------------------------------------- series of what is watched
+// ----------------------------------------------------------------------- series of what is watched
 // c += f a b for series of n coefficients with their strides.
-static void add_product(double* c, double f, const double* a, size_t at_a, const double* b, size_t at_b, int n) {
+static void add_product(double* c, double f, const double* a, size_t at_a, const double* b,
+                        size_t at_b, int n) {
   for (int k = 0; k < n; k++) {
     double sum = 0;
     for (int j = 0; j <= k; j++) sum += a[(size_t)j * at_a] * b[(size_t)(k - j) * at_b];
@@ -180,7 +191,8 @@ int pl_friction_slip(const pl_run* run, int r, pl_watch_kind kind, double* c, in
     return n - 1;
   }
   if (rub->n_rows == 1) {
-    for (int k = 0; k < n; k++) c[k] = now->way * run->S_series[(size_t)k * n_c + (size_t)rub->row[0]];
+    for (int k = 0; k < n; k++)
+      c[k] = now->way * run->S_series[(size_t)k * n_c + (size_t)rub->row[0]];
     return n;
   }
   clear(c, n);

@@ -1,16 +1,18 @@
-// Which constraints are in force, which of them are independent, and which multipliers that determines.
+// Which constraints are in force, which of them are independent, and which multipliers that
+// determines.
 //
-// Rows are compared after scaling each column with the largest entry it has had in the run: a fixed yardstick, so that
-// a column that fades away (a singular position) is seen to fade.
+// Rows are compared after scaling each column with the largest entry it has had in the run: a fixed
+// yardstick, so that a column that fades away (a singular position) is seen to fade.
 #include "solve/solve_impl.h"
 
 #include <math.h>
 
-static const double dependent_below = 1e-9;  // of a row of length 1: what is left of a row that says nothing new
+// of a row of length 1: what is left of a row that says nothing new
+static const double dependent_below = 1e-9;
 
 static bool too_many_to_examine(const pl_run* run) { return run->n_active > PL_RANK_UP_TO; }
 
-// ---------------------------------------------------------------------------------------------- active set
+// -------------------------------------------------------------------------------------- active set
 static bool touches(const pl_run* run, const pl_batch* b, const pl_pattern_entry* e, int l) {
   return run->active[b->c[e->row * b->lanes + l]];
 }
@@ -50,13 +52,14 @@ void pl_active_update(pl_run* run) {
   }
   pl_friction_activate(run);
   find_orphans(run);
-  run->by_pivots = too_many_to_examine(run) || (double)run->n_active * run->n_active * run->n_q > PL_RANK_WORK;
+  run->by_pivots = too_many_to_examine(run)
+                   || (double)run->n_active * run->n_active * run->n_q > PL_RANK_WORK;
   run->rank_mode = -1;  // a new mode: rank and yardstick start anew
   run->best = 0;
   run->smallest_before = 0;
 }
 
-// ---------------------------------------------------------------------------------------------- independence
+// ------------------------------------------------------------------------------------ independence
 static void scale_columns(pl_run* run, int m) {
   int n = run->n_q;
   for (int r = 0; r < m; r++) {
@@ -95,9 +98,10 @@ static double faintest_taken(const pl_run* run) {
   return least;
 }
 
-// Whether the pivots of the whole system say that no active row depends on others: a large system is factored in no time.
+// Whether the pivots of the whole system say that no active row depends on others: a large system
+// is factored in no time.
 static bool pivots_of_all_rows_are_sound(pl_run* run) {
-  static const double sound = 1e-8;   // part of a pivot; as the square of the part of a row
+  static const double sound = 1e-8;  // part of a pivot; as the square of the part of a row
   if (!run->by_pivots || run->kkt.symmetric == NULL) return false;
   for (int c = 0; c < run->n_c; c++) run->taken[c] = run->active[c];
   pl_assemble_matrix(run, false);
@@ -108,9 +112,10 @@ static void examine(pl_run* run) {
   pl_assemble_rows(run);
   scale_columns(run, run->n_active);
   measure_rows(run);
-  run->rank = pl_independent_rows(run->rows, run->priority, run->row_taken, run->rank_work, run->n_active, run->n_q,
-                                  dependent_below, &run->smallest);
-  for (int c = 0; c < run->n_c; c++) run->taken[c] = run->row_of[c] >= 0 && run->row_taken[run->row_of[c]];
+  run->rank = pl_independent_rows(run->rows, run->priority, run->row_taken, run->rank_work,
+                                  run->n_active, run->n_q, dependent_below, &run->smallest);
+  for (int c = 0; c < run->n_c; c++)
+    run->taken[c] = run->row_of[c] >= 0 && run->row_taken[run->row_of[c]];
   run->smallest *= faintest_taken(run);
 }
 
@@ -126,7 +131,8 @@ void pl_independent_choose(pl_run* run) {
     return;
   }
   examine(run);
-  // where later steps look at pivots of the whole system, those are the yardstick, not this measure of rows
+  // where later steps look at pivots of the whole system, those are the yardstick, not this measure
+  // of rows
   if (!run->by_pivots && run->smallest > run->best) run->best = run->smallest;
 }
 
@@ -143,9 +149,10 @@ bool pl_independent_pivot(pl_run* run, double* smallest) {
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- uniqueness
-// The declared rows that a left-out declared row is a combination of: least squares on the transposed taken rows.
-// Equations that only define coordinates (priority above 0) carry no force of their own and do not count.
+// -------------------------------------------------------------------------------------- uniqueness
+// The declared rows that a left-out declared row is a combination of: least squares on the
+// transposed taken rows. Equations that only define coordinates (priority above 0) carry no force
+// of their own and do not count.
 static void mark_partners(pl_run* run, const int* taken_row, int n_taken, int left_out) {
   int n = run->n_q;
   double* b = run->dep_norm + 2 * (size_t)run->n_c;
@@ -171,7 +178,8 @@ static void mark_dependent(pl_run* run) {
     if (run->taken[c] && run->setup->links[c].priority == 0) taken_row[n_taken++] = run->row_of[c];
   for (int i = 0; i < n_taken; i++)
     for (int j = 0; j < n; j++)
-      run->dep[(size_t)i * (size_t)n + (size_t)j] = run->rows[(size_t)taken_row[i] * (size_t)n + (size_t)j];
+      run->dep[(size_t)i * (size_t)n + (size_t)j] =
+          run->rows[(size_t)taken_row[i] * (size_t)n + (size_t)j];
   pl_qr_factor(run->dep, run->dep_jpvt, run->dep_tau, run->dep_norm, n, n_taken, 0);
   for (int c = 0; c < run->n_c; c++) {
     if (!run->active[c] || run->taken[c]) continue;

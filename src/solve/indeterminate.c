@@ -1,33 +1,40 @@
-// Forces of contact and friction that are one of several: a table on four legs, a ladder that rests on rough ground.
+// Forces of contact and friction that are one of several: a table on four legs, a ladder that rests
+// on rough ground.
 //
-// The motion is determined, and so is what all forces do together; one set of them was chosen (contacts.c).  Another one
-// differs by a null vector z of the map from multipliers to forces on the coordinates.  It is admissible as long as contacts
-// push and friction stays below its limit, so z counts when the inequalities that are equalities now allow it:
+// The motion is determined, and so is what all forces do together; one set of them was chosen
+// (contacts.c). Another one differs by a null vector z of the map from multipliers to forces on the
+// coordinates. It is admissible as long as contacts push and friction stays below its limit, so z
+// counts when the inequalities that are equalities now allow it:
 //
 //     B z = 0,     C z >= 0
 //
-// Over a basis Z of the null space, z = Z w, multiplier i is not determined when some w has C Z w >= 0 and (Z w)_i != 0, by
-// Farkas when -(±Z_i) is no combination of the rows of C Z with weights >= 0: least squares with such weights
-// [LawsonHanson1974, chapter 23] leave a residual.  Asked for once a mode; multipliers of frictions that slip go with those that
-// press, and contacts that are met without a force take part.
+// Over a basis Z of the null space, z = Z w, multiplier i is not determined when some w has C Z w
+// >= 0 and (Z w)_i != 0, by Farkas when -(±Z_i) is no combination of the rows of C Z with weights
+// >= 0: least squares with such weights [LawsonHanson1974, chapter 23] leave a residual. Asked for
+// once a mode; multipliers of frictions that slip go with those that press, and contacts that are
+// met without a force take part.
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "solve/solve_impl.h"
 
-enum { MOST = 160 };       // multipliers that are examined together
-static const double dependent = 1e-9;    // of a column of length 1: what is left of one that says nothing new
-static const double zero_rate = 1e-9;    // of its terms: a rate that counts as none
-static const double at_limit = 1e-8;     // of the limit: a force that has reached it
-static const double leaves = 1e-6;       // of a null vector: what is no combination
+enum { MOST = 160 };  // multipliers that are examined together
+// of a column of length 1: what is left of one that says nothing new
+static const double dependent = 1e-9;
+static const double zero_rate = 1e-9;  // of its terms: a rate that counts as none
+static const double at_limit = 1e-8;   // of the limit: a force that has reached it
+static const double leaves = 1e-6;     // of a null vector: what is no combination
 
 struct pl_indeterminate {
-  int n, n_rows;           // multipliers that may differ; inequalities that are equalities
-  int *place, *row_of;     // of each constraint among them, -1; the constraint of each              (n_c, MOST)
-  double *B, *length;      // columns of length 1, their lengths before                               (n_q x n, n)
-  double *C;               // inequalities                                                           (2 MOST x n)
-  double *Z, *E, *copy;    // null space (n x d), its inequalities (d x rows), work
+  int n, n_rows;  // multipliers that may differ; inequalities that are equalities
+  // of each constraint among them, -1; the constraint of each              (n_c, MOST)
+  int *place, *row_of;
+  // columns of length 1, their lengths before                               (n_q x n, n)
+  double *B, *length;
+  // inequalities                                                           (2 MOST x n)
+  double* C;
+  double *Z, *E, *copy;  // null space (n x d), its inequalities (d x rows), work
   double *tau, *norm, *w, *rest, *weight, *trial, *f;
   int *jpvt, *passive;
   bool* in;
@@ -55,9 +62,10 @@ void pl_indeterminate_make(pl_run* run) {
   s->in = PL_ARRAY(a, bool, rows + 1);
 }
 
-// ---------------------------------------------------------------------------------------------- who takes part
+// ---------------------------------------------------------------------------------- who takes part
 static bool no_rate(const pl_run* run, int c) {
-  return fabs(run->r[c]) <= zero_rate * run->r_size[c] && fabs(run->second[c]) <= zero_rate * run->second_size[c];
+  return fabs(run->r[c]) <= zero_rate * run->r_size[c]
+         && fabs(run->second[c]) <= zero_rate * run->second_size[c];
 }
 
 static bool rests_on(const pl_run* run, int r) {
@@ -76,7 +84,8 @@ static void find_multipliers(pl_run* run, pl_indeterminate* s) {
   for (int c = 0; c < run->n_c; c++) s->place[c] = -1;
   for (int c = 0; c < run->n_c; c++) {
     const pl_link* link = &run->setup->links[c];
-    bool met = link->side != 0 && !link->velocity && run->met[c] && !run->active[c] && no_rate(run, c);
+    bool met = link->side != 0 && !link->velocity && run->met[c] && !run->active[c]
+               && no_rate(run, c);
     // equations that only define coordinates carry no force of their own
     if (!link->rub && link->priority == 0 && (run->active[c] || met)) take(s, c);
   }
@@ -87,7 +96,7 @@ static void find_multipliers(pl_run* run, pl_indeterminate* s) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- what they do
+// ------------------------------------------------------------------------------------ what they do
 // Adds factor times the forces of constraint c to column k.
 static void add_forces(const pl_run* run, pl_indeterminate* s, int c, int k, double factor) {
   double* to = s->B + (size_t)k * (size_t)run->n_q;
@@ -97,10 +106,12 @@ static void add_forces(const pl_run* run, pl_indeterminate* s, int c, int k, dou
     for (int l = 0; l < b->n; l++) {
       for (const pl_pattern_entry* e = p->G; e < p->G + p->n_G; e++)
         if (b->c[e->row * b->lanes + l] == c)
-          to[b->q[e->col * b->lanes + l]] += factor * pl_jet_at(b->jet, p->tape->roots[e->root], 0)[l];
+          to[b->q[e->col * b->lanes + l]] += factor
+                                             * pl_jet_at(b->jet, p->tape->roots[e->root], 0)[l];
       for (const pl_pattern_entry* e = p->W; e < p->W + p->n_W; e++)
         if (b->c[e->col * b->lanes + l] == c)
-          to[b->q[e->row * b->lanes + l]] += factor * pl_jet_at(b->jet, p->tape->roots[e->root], 0)[l];
+          to[b->q[e->row * b->lanes + l]] += factor
+                                             * pl_jet_at(b->jet, p->tape->roots[e->root], 0)[l];
     }
   }
 }
@@ -112,9 +123,11 @@ static void make_columns(pl_run* run, pl_indeterminate* s) {
   // friction that slips goes with the force that presses
   for (int r = 0; r < run->setup->n_rubs; r++) {
     const pl_rub* rub = &run->setup->rubs[r];
-    if (run->rub[r].state != PL_RUB_SLIP || s->place[rub->link] < 0 || s->place[rub->row[0]] >= 0) continue;
+    if (run->rub[r].state != PL_RUB_SLIP || s->place[rub->link] < 0 || s->place[rub->row[0]] >= 0)
+      continue;
     for (int i = 0; i < rub->n_rows; i++)
-      add_forces(run, s, rub->row[i], s->place[rub->link], pl_friction_kappa(run, r, i, run->C_series));
+      add_forces(run, s, rub->row[i], s->place[rub->link],
+                 pl_friction_kappa(run, r, i, run->C_series));
   }
   for (int k = 0; k < s->n; k++) {
     double *x = s->B + (size_t)k * (size_t)n, sum = 0, most = pl_norm(x, n);
@@ -124,7 +137,7 @@ static void make_columns(pl_run* run, pl_indeterminate* s) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- what limits them
+// -------------------------------------------------------------------------------- what limits them
 static double* new_row(pl_indeterminate* s) {
   double* row = s->C + (size_t)s->n_rows++ * (size_t)s->n;
   memset(row, 0, (size_t)s->n * sizeof(double));
@@ -132,12 +145,15 @@ static double* new_row(pl_indeterminate* s) {
 }
 
 // The unknowns belong to columns of length 1.
-static void put(pl_indeterminate* s, double* row, int c, double x) { row[s->place[c]] += x / s->length[s->place[c]]; }
+static void put(pl_indeterminate* s, double* row, int c, double x) {
+  row[s->place[c]] += x / s->length[s->place[c]];
+}
 
 static void limit_friction(pl_run* run, pl_indeterminate* s, int r, bool pressed) {
   const pl_rub* rub = &run->setup->rubs[r];
   double limit = run->C_series[rub->limit], lambda = run->L[rub->link], most = limit * fabs(lambda);
-  double F = pl_friction_force(run, r, run->L), press = lambda < 0 || (lambda == 0 && run->setup->links[rub->link].side < 0) ? -1 : 1;
+  double F = pl_friction_force(run, r, run->L),
+         press = lambda < 0 || (lambda == 0 && run->setup->links[rub->link].side < 0) ? -1 : 1;
   if (rub->n_rows == 1) {
     for (int way = -1; way <= 1; way += 2) {
       double m = way * run->L[rub->row[0]];
@@ -154,7 +170,8 @@ static void limit_friction(pl_run* run, pl_indeterminate* s, int r, bool pressed
   put(s, row, rub->link, limit * limit * lambda);
   for (int i = 0; i < 3; i++) {
     double slope = 0;
-    for (int j = 0; j < 3; j++) slope += run->C_series[rub->metric[pair[i][j]]] * run->L[rub->row[j]];
+    for (int j = 0; j < 3; j++)
+      slope += run->C_series[rub->metric[pair[i][j]]] * run->L[rub->row[j]];
     put(s, row, rub->row[i], -slope);
   }
 }
@@ -174,7 +191,7 @@ static void find_limits(pl_run* run, pl_indeterminate* s) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- the null space
+// ---------------------------------------------------------------------------------- the null space
 // Z (n x d), columns; returns d.
 static int find_null_space(pl_run* run, pl_indeterminate* s) {
   int n = s->n, m = run->n_q;
@@ -200,19 +217,22 @@ static void reduce_limits(pl_indeterminate* s, int d) {
     double *e = s->E + (size_t)r * (size_t)d, sum = 0;
     for (int k = 0; k < d; k++) {
       e[k] = 0;
-      for (int i = 0; i < s->n; i++) e[k] += s->C[(size_t)r * (size_t)s->n + (size_t)i] * s->Z[(size_t)k * (size_t)s->n + (size_t)i];
+      for (int i = 0; i < s->n; i++)
+        e[k] += s->C[(size_t)r * (size_t)s->n + (size_t)i]
+                * s->Z[(size_t)k * (size_t)s->n + (size_t)i];
       sum += e[k] * e[k];
     }
     for (int k = 0; k < d && sum > 0; k++) e[k] /= sqrt(sum);
   }
 }
 
-// ---------------------------------------------------------------------------------------------- least squares, weights >= 0
+// --------------------------------------------------------------------- least squares, weights >= 0
 static double residual(const pl_indeterminate* s, int d) {
   double sum = 0;
   for (int k = 0; k < d; k++) {
     s->rest[k] = s->f[k];
-    for (int r = 0; r < s->n_rows; r++) s->rest[k] -= s->E[(size_t)r * (size_t)d + (size_t)k] * s->weight[r];
+    for (int r = 0; r < s->n_rows; r++)
+      s->rest[k] -= s->E[(size_t)r * (size_t)d + (size_t)k] * s->weight[r];
     sum += s->rest[k] * s->rest[k];
   }
   return sqrt(sum);
@@ -224,7 +244,10 @@ static int most_promising(const pl_indeterminate* s, int d) {
   for (int r = 0; r < s->n_rows; r++) {
     double along = 0;
     for (int k = 0; k < d; k++) along += s->E[(size_t)r * (size_t)d + (size_t)k] * s->rest[k];
-    if (!s->in[r] && along > most) most = along, best = r;
+    if (!s->in[r] && along > most) {
+      most = along;
+      best = r;
+    }
   }
   return best;
 }
@@ -234,7 +257,8 @@ static int solve_passive(pl_indeterminate* s, int d) {
   int k = 0;
   for (int r = 0; r < s->n_rows; r++) {
     if (!s->in[r]) continue;
-    memcpy(s->copy + (size_t)k * (size_t)d, s->E + (size_t)r * (size_t)d, (size_t)d * sizeof(double));
+    memcpy(s->copy + (size_t)k * (size_t)d, s->E + (size_t)r * (size_t)d,
+           (size_t)d * sizeof(double));
     s->passive[k++] = r;
   }
   int rank = pl_qr_factor(s->copy, s->jpvt, s->tau, s->norm, d, k, 1e-12);
@@ -246,7 +270,10 @@ static int solve_passive(pl_indeterminate* s, int d) {
 
 // How far f is from every combination of the inequalities with weights >= 0.
 static double distance(pl_indeterminate* s, int d) {
-  for (int r = 0; r < s->n_rows; r++) s->weight[r] = 0, s->in[r] = false;
+  for (int r = 0; r < s->n_rows; r++) {
+    s->weight[r] = 0;
+    s->in[r] = false;
+  }
   for (int round = 0; round < 3 * s->n_rows + 3; round++) {
     residual(s, d);
     int next = most_promising(s, d);
@@ -257,11 +284,13 @@ static double distance(pl_indeterminate* s, int d) {
       double part = 1;
       for (int i = 0; i < k; i++) {
         int r = s->passive[i];
-        if (s->trial[r] <= 0) part = fmin(part, s->weight[r] > 0 ? s->weight[r] / (s->weight[r] - s->trial[r]) : 0);
+        if (s->trial[r] <= 0)
+          part = fmin(part, s->weight[r] > 0 ? s->weight[r] / (s->weight[r] - s->trial[r]) : 0);
       }
       for (int i = 0; i < k; i++) {
         int r = s->passive[i];
-        bool out = part < 1 && s->trial[r] <= 0 && (s->weight[r] == 0 || s->weight[r] / (s->weight[r] - s->trial[r]) <= part);
+        bool out = part < 1 && s->trial[r] <= 0
+                   && (s->weight[r] == 0 || s->weight[r] / (s->weight[r] - s->trial[r]) <= part);
         s->weight[r] = out ? 0 : s->weight[r] + part * (s->trial[r] - s->weight[r]);
         s->in[r] = !out;
       }
@@ -282,9 +311,10 @@ static bool may_differ(pl_indeterminate* s, int i, int d) {
   return false;
 }
 
-// ---------------------------------------------------------------------------------------------- telling
+// ----------------------------------------------------------------------------------------- telling
 void pl_indeterminate_note(pl_run* run) {
-  for (int c = 0; c < run->n_c; c++) run->ever_several[c] |= !run->unique[c] && run->setup->links[c].column != NULL;
+  for (int c = 0; c < run->n_c; c++)
+    run->ever_several[c] |= !run->unique[c] && run->setup->links[c].column != NULL;
 }
 
 void pl_indeterminate_tell(pl_run* run) {
@@ -296,11 +326,12 @@ void pl_indeterminate_tell(pl_run* run) {
   char* text = PL_ARRAY(run->job->arena, char, n + 1);
   for (int c = 0; c < run->n_c; c++)
     if (run->ever_several[c])
-      at += (size_t)snprintf(text + at, n + 1 - at, "%s%s", at > 0 ? ", " : "", run->setup->links[c].column);
+      at += (size_t)snprintf(text + at, n + 1 - at, "%s%s", at > 0 ? ", " : "",
+                             run->setup->links[c].column);
   run->stats.undetermined = text;
 }
 
-// ---------------------------------------------------------------------------------------------- all
+// --------------------------------------------------------------------------------------------- all
 // After a mode was chosen: run->met, r, second and the programs belong to the point.
 void pl_indeterminate_mark(pl_run* run) {
   pl_indeterminate* s = run->indeterminate;
@@ -318,7 +349,8 @@ void pl_indeterminate_mark(pl_run* run) {
   for (int r = 0; r < run->setup->n_rubs; r++) {
     const pl_rub* rub = &run->setup->rubs[r];
     bool tied = run->rub[r].state == PL_RUB_SLIP && s->place[rub->row[0]] < 0;
-    for (int i = 0; i < rub->n_rows && tied; i++) run->several[rub->row[i]] = run->several[rub->link];
+    for (int i = 0; i < rub->n_rows && tied; i++)
+      run->several[rub->row[i]] = run->several[rub->link];
   }
   for (int c = 0; c < run->n_c; c++) run->unique[c] = run->unique[c] && !run->several[c];
   pl_indeterminate_note(run);

@@ -1,16 +1,19 @@
-// Kinks: places where |x|, sign x, min, max or if change their branch.  A series continues the branch it began on, so a
-// step must not reach across: it ends just behind the first crossing, where the other branch begins.
+// Kinks: places where |x|, sign x, min, max or if change their branch. A series continues the
+// branch it began on, so a step must not reach across: it ends just behind the first crossing,
+// where the other branch begins.
 #include "solve/solve_impl.h"
 
 #include <float.h>
 #include <math.h>
 
 static bool has_branches(const pl_tape_node* node) {
-  return node->op == PL_OP_ABS || node->op == PL_OP_SIGN || node->op == PL_OP_IF || node->op == PL_OP_MIN ||
-         node->op == PL_OP_MAX;
+  return node->op == PL_OP_ABS || node->op == PL_OP_SIGN || node->op == PL_OP_IF
+         || node->op == PL_OP_MIN || node->op == PL_OP_MAX;
 }
 
-static bool compares_two(const pl_tape_node* node) { return node->op == PL_OP_MIN || node->op == PL_OP_MAX; }
+static bool compares_two(const pl_tape_node* node) {
+  return node->op == PL_OP_MIN || node->op == PL_OP_MAX;
+}
 
 // What changes sign at the kink is operand a, or a - b.
 static int count_in(const pl_tape* tape) {
@@ -35,7 +38,7 @@ void pl_kinks_make(pl_run* run) {
   for (int i = 0; i < run->motion.n; i++)
     n += (size_t)count_in(run->motion.at[i].pattern->tape) * (size_t)run->motion.at[i].n;
   run->kinks = PL_ARRAY(run->job->arena, pl_kink, n + 1);
-  run->K_series = PL_ARRAY(run->job->arena, double, n * (size_t)run->order + 1);
+  run->K_series = PL_ARRAY(run->job->arena, double, n*(size_t)run->order + 1);
   for (int i = 0; i < run->motion.n; i++) list_batch(run, &run->motion.at[i]);
 }
 
@@ -48,8 +51,8 @@ void pl_kinks_series(pl_run* run) {
   for (int i = 0; i < run->n_kinks; i++) {
     const pl_kink* kink = &run->kinks[i];
     for (int k = 0; k < run->order; k++)
-      run->K_series[(size_t)i * (size_t)run->order + (size_t)k] =
-          coefficient(kink, kink->a, k) - coefficient(kink, kink->b, k);
+      run->K_series[(size_t)i * (size_t)run->order + (size_t)k] = coefficient(kink, kink->a, k)
+                                                                  - coefficient(kink, kink->b, k);
   }
 }
 

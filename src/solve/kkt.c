@@ -1,13 +1,14 @@
-// The linear system of a point: structure, factor, solve.  Dense LU with pivoting for small systems; above, L D L^T in lanes while
-// its pivots are sound, and KLU where they are not or the matrix is not symmetric.
+// The linear system of a point: structure, factor, solve. Dense LU with pivoting for small systems;
+// above, L D L^T in lanes while its pivots are sound, and KLU where they are not or the matrix is
+// not symmetric.
 //
-// The dense matrix is balanced symmetrically by powers of two before it is factored (Ruiz 2001), so that the pivots
-// tell how singular it is whatever the units are.
+// The dense matrix is balanced symmetrically by powers of two before it is factored (Ruiz 2001), so
+// that the pivots tell how singular it is whatever the units are.
 #include "solve/solve_impl.h"
 
 #include <math.h>
 
-// ---------------------------------------------------------------------------------------------- structure
+// --------------------------------------------------------------------------------------- structure
 typedef struct pl_places {
   int* row;
   int* next;
@@ -59,14 +60,17 @@ static int insert_sorted(int* list, int n, int row) {
   return n + 1;
 }
 
-enum { ANALYSED_AT_ONCE = 20000 };   // unknowns up to which the pivoting factorisation is prepared beforehand
+// unknowns up to which the pivoting factorisation is prepared beforehand
+enum { ANALYSED_AT_ONCE = 20000 };
 
 static pleuel_status sparse_structure(pl_run* run) {
   pl_arena* a = run->job->arena;
   pl_kkt* k = &run->kkt;
   int most = count_marks(run);
-  if (most < 0) return pl_fail(run->job, PLEUEL_NO_MEMORY, "the linear system has too many entries");
-  pl_places p = {PL_ARRAY(a, int, most + 1), PL_ARRAY(a, int, most + 1), PL_ARRAY(a, int, k->n + 1), 0};
+  if (most < 0)
+    return pl_fail(run->job, PLEUEL_NO_MEMORY, "the linear system has too many entries");
+  pl_places p = {PL_ARRAY(a, int, most + 1), PL_ARRAY(a, int, most + 1), PL_ARRAY(a, int, k->n + 1),
+                 0};
   for (int j = 0; j < k->n; j++) p.head[j] = -1;
   for (int j = 0; j < k->n; j++) mark(&p, j, j);
   for (int i = 0; i < run->motion.n; i++) mark_batch(&p, run, &run->motion.at[i]);
@@ -78,7 +82,8 @@ static pleuel_status sparse_structure(pl_run* run) {
   k->row = PL_ARRAY(a, int, most + 1);
   for (int j = 0; j < k->n; j++) {
     int n = 0;
-    for (int e = p.head[j]; e >= 0; e = p.next[e]) n = insert_sorted(k->row + k->start[j], n, p.row[e]);
+    for (int e = p.head[j]; e >= 0; e = p.next[e])
+      n = insert_sorted(k->row + k->start[j], n, p.row[e]);
     k->start[j + 1] = k->start[j] + n;
   }
   k->n_values = k->start[k->n];
@@ -116,15 +121,16 @@ static void place_batch(pl_run* run, pl_batch* b) {
       b->at_Gt[e * b->lanes + l] = place(&run->kkt, j, c);
     }
     for (int e = 0; e < t->n_W; e++)
-      b->at_W[e * b->lanes + l] =
-          place(&run->kkt, b->q[t->W[e].row * b->lanes + l], run->n_q + b->c[t->W[e].col * b->lanes + l]);
+      b->at_W[e * b->lanes + l] = place(&run->kkt, b->q[t->W[e].row * b->lanes + l],
+                                        run->n_q + b->c[t->W[e].col * b->lanes + l]);
   }
 }
 
 // Which unknowns are coordinates with a mass of their own, which constraints.
 static unsigned char* kinds(const pl_run* run) {
   unsigned char* kind = PL_ARRAY(run->job->arena, unsigned char, run->kkt.n + 1);
-  for (int i = 0; i < run->kkt.n; i++) kind[i] = i < run->n_q ? PL_UNKNOWN_OTHER : PL_UNKNOWN_CONSTRAINT;
+  for (int i = 0; i < run->kkt.n; i++)
+    kind[i] = i < run->n_q ? PL_UNKNOWN_OTHER : PL_UNKNOWN_CONSTRAINT;
   for (int i = 0; i < run->motion.n; i++) {
     const pl_batch* b = &run->motion.at[i];
     for (int e = 0; e < b->pattern->n_mass; e++)
@@ -159,11 +165,14 @@ pleuel_status pl_kkt_make(pl_run* run) {
     k->pivot = PL_ARRAY(a, int, k->n + 1);
     return PLEUEL_OK;
   }
-  if (!run->has_W && run->setup->n_rubs == 0) k->symmetric = pl_symmetric_make(a, k->n, k->start, k->row, kinds(run));
+  if (!run->has_W && run->setup->n_rubs == 0)
+    k->symmetric = pl_symmetric_make(a, k->n, k->start, k->row, kinds(run));
   // in the largest systems only where it is needed, because it takes as much memory as all the rest
-  if (k->symmetric == NULL || k->n <= ANALYSED_AT_ONCE) k->sparse = pl_sparse_make(a, k->n, k->start, k->row);
+  if (k->symmetric == NULL || k->n <= ANALYSED_AT_ONCE)
+    k->sparse = pl_sparse_make(a, k->n, k->start, k->row);
   if (k->sparse == NULL && (k->symmetric == NULL || k->n <= ANALYSED_AT_ONCE))
-    return pl_fail(run->job, PLEUEL_SINGULAR, "the equations of motion do not determine every acceleration");
+    return pl_fail(run->job, PLEUEL_SINGULAR,
+                   "the equations of motion do not determine every acceleration");
   return PLEUEL_OK;
 }
 
@@ -178,7 +187,7 @@ void pl_kkt_keep(pl_kkt* k, pl_keeper* keeper) {
 
 void pl_kkt_free(pl_kkt* k) { pl_sparse_free(k->sparse); }
 
-// ---------------------------------------------------------------------------------------------- factor
+// ------------------------------------------------------------------------------------------ factor
 static double power_of_two(double x) {  // near 1/sqrt x
   int e;
   if (!(x > 0) || !isfinite(x)) return 1;
@@ -204,7 +213,8 @@ static void balance(pl_kkt* k) {
 // Below this ratio of pivots nothing is left of the digits of a double.
 static const double least_ratio = 1e-15;
 
-// With pivoting.  What it says about the pivots counts where the other factorisation could say nothing.
+// With pivoting. What it says about the pivots counts where the other factorisation could say
+// nothing.
 static double factor_with_pivoting(pl_kkt* k, double part) {
   if (k->sparse == NULL) k->sparse = pl_sparse_make(k->arena, k->n, k->start, k->row);
   k->pivoted = true;

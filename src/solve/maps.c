@@ -1,20 +1,24 @@
-// Coordinates that only a map of `choose` determines, where the map begins to hold again: a rope that goes taut, a rod that is
-// attached.  While the map did not hold they rested somewhere; now they are found from the old coordinates, which stay.
+// Coordinates that only a map of `choose` determines, where the map begins to hold again: a rope
+// that goes taut, a rod that is attached. While the map did not hold they rested somewhere; now
+// they are found from the old coordinates, which stay.
 //
-// Newton's method on the squares of the map equations, in those coordinates alone, from several places: angles have two.
+// Newton's method on the squares of the map equations, in those coordinates alone, from several
+// places: angles have two.
 #include <math.h>
 
 #include "solve/solve_impl.h"
 
 enum { MOST_COORDINATES = 8, MOST_ROWS = 24, ROUNDS = 60, PLACES = 8 };
 
-static const double met = 1e-9;          // of the terms of a map equation
-static const double turn = 0.78539816339744830962;      // between places that are tried, an eighth of a turn for angles
+static const double met = 1e-9;  // of the terms of a map equation
+// between places that are tried, an eighth of a turn for angles
+static const double turn = 0.78539816339744830962;
 
 typedef struct pl_map_work {
-  int n, m;                              // coordinates, map equations
+  int n, m;  // coordinates, map equations
   int coordinate[MOST_COORDINATES], row[MOST_ROWS];
-  double J[MOST_ROWS * MOST_COORDINATES], N[MOST_COORDINATES * MOST_COORDINATES], x[MOST_COORDINATES];
+  double J[MOST_ROWS * MOST_COORDINATES], N[MOST_COORDINATES * MOST_COORDINATES],
+      x[MOST_COORDINATES];
 } pl_map_work;
 
 // What the map takes for granted is there or arrives now, and it did not hold before.
@@ -39,12 +43,15 @@ static bool slopes(const pl_run* run, pl_map_work* w, bool collect) {
     const pl_batch* b = &run->motion.at[i];
     for (const pl_pattern_entry* e = b->pattern->G; e < b->pattern->G + b->pattern->n_G; e++)
       for (int l = 0; l < b->n; l++) {
-        int r = index_in(w->row, w->m, b->c[e->row * b->lanes + l]), q = b->q[e->col * b->lanes + l];
+        int r = index_in(w->row, w->m, b->c[e->row * b->lanes + l]),
+            q = b->q[e->col * b->lanes + l];
         if (r < 0 || run->place_n[q] != 0) continue;
         int k = index_in(w->coordinate, w->n, q);
         if (k < 0 && collect && w->n == MOST_COORDINATES) return false;
         if (k < 0 && collect) w->coordinate[k = w->n++] = q;
-        if (k >= 0) w->J[r * MOST_COORDINATES + k] += pl_jet_at(b->jet, b->pattern->tape->roots[e->root], 0)[l];
+        if (k >= 0)
+          w->J[r * MOST_COORDINATES + k] += pl_jet_at(b->jet, b->pattern->tape->roots[e->root],
+                                                      0)[l];
       }
   }
   return w->n > 0;
@@ -80,7 +87,8 @@ static double residual(pl_run* run, const pl_map_work* w) {
   double most = 0;
   pl_point_evaluate(run, run->t, run->q, run->v);
   pl_assemble_g(run, 0, run->g, run->g_size);
-  for (int r = 0; r < w->m; r++) most = fmax(most, fabs(run->g[w->row[r]]) / fmax(run->g_size[w->row[r]], 1e-300));
+  for (int r = 0; r < w->m; r++)
+    most = fmax(most, fabs(run->g[w->row[r]]) / fmax(run->g_size[w->row[r]], 1e-300));
   return most;
 }
 
@@ -92,7 +100,8 @@ static bool correct(pl_run* run, pl_map_work* w) {
     for (int r = 0; r < w->m; r++) w->x[i] -= w->J[r * MOST_COORDINATES + i] * run->g[w->row[r]];
     for (int j = 0; j < n; j++) {
       w->N[i * n + j] = 0;
-      for (int r = 0; r < w->m; r++) w->N[i * n + j] += w->J[r * MOST_COORDINATES + i] * w->J[r * MOST_COORDINATES + j];
+      for (int r = 0; r < w->m; r++)
+        w->N[i * n + j] += w->J[r * MOST_COORDINATES + i] * w->J[r * MOST_COORDINATES + j];
     }
   }
   if (!eliminate(w)) return false;

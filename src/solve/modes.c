@@ -1,10 +1,10 @@
-// The mode automaton: contacts end where λ would pull, begin where a free body arrives, bounce; surfaces stick and slip;
-// events do their deeds.
+// The mode automaton: contacts end where λ would pull, begin where a free body arrives, bounce;
+// surfaces stick and slip; events do their deeds.
 //
-// At a moment of change all that happens together is decided together (contacts.c): first the impact, if something
-// arrives, then the mode of the motion that follows.  Bounces that follow each other ever faster end at the limit of
-// their geometric sum: when one is so small that what it does is below rounding, the rest of them is summed and the
-// contact holds.
+// At a moment of change all that happens together is decided together (contacts.c): first the
+// impact, if something arrives, then the mode of the motion that follows. Bounces that follow each
+// other ever faster end at the limit of their geometric sum: when one is so small that what it does
+// is below rounding, the rest of them is summed and the contact holds.
 #include "solve/solve_impl.h"
 
 #include <float.h>
@@ -13,11 +13,12 @@
 
 enum { MAX_CHANGES = 100 };  // of mode at one time
 
-// ---------------------------------------------------------------------------------------------- entering a mode
+// --------------------------------------------------------------------------------- entering a mode
 static void look_for_landings(pl_run* run) {
   run->watch_landings = false;
   for (int c = 0; c < run->n_c; c++)
-    if (run->setup->links[c].side != 0 && !run->on[c] && !run->detached[c]) run->watch_landings = true;
+    if (run->setup->links[c].side != 0 && !run->on[c] && !run->detached[c])
+      run->watch_landings = true;
 }
 
 // The point in the mode that now holds: projected, accelerations and multipliers known.
@@ -40,14 +41,16 @@ static pleuel_status count_change(pl_run* run) {
   return pl_fail(run->job, PLEUEL_NUMERICAL, "contacts change without end at t = %.9g s", run->t);
 }
 
-// ---------------------------------------------------------------------------------------------- before and after
+// -------------------------------------------------------------------------------- before and after
 static void remember(pl_run* run) {
   pl_rows_before(run);
   memcpy(run->on_before, run->on, (size_t)run->n_c * sizeof(bool));
   for (int r = 0; r < run->setup->n_rubs; r++) run->rub_before[r] = run->rub[r];
 }
 
-static bool is_contact(const pl_run* run, int c) { return run->setup->links[c].side != 0 && !run->setup->links[c].velocity; }
+static bool is_contact(const pl_run* run, int c) {
+  return run->setup->links[c].side != 0 && !run->setup->links[c].velocity;
+}
 
 // Contacts that take part: those that hold, and those that are met.
 static void find_near(pl_run* run) {
@@ -57,25 +60,32 @@ static void find_near(pl_run* run) {
   for (int c = 0; c < run->n_c; c++) {
     const pl_link* link = &run->setup->links[c];
     bool there = link->contact < 0 || run->on[link->contact];
-    run->near_by[c] = is_contact(run, c) && !run->detached[c] && there &&
-                      (run->on[c] || link->side * run->g[c] <= met * run->g_size[c]);
+    run->near_by[c] = is_contact(run, c) && !run->detached[c] && there
+                      && (run->on[c] || link->side * run->g[c] <= met * run->g_size[c]);
     run->met[c] = run->near_by[c];
   }
   pl_maps_follow(run);
 }
 
-// ---------------------------------------------------------------------------------------------- watches
+// ----------------------------------------------------------------------------------------- watches
 static void set_landing(pl_run* run, int c, int fresh) {
   pl_watch* w = pl_watch_of(run, PL_WATCH_LANDING, c);
-  if (w) w->fresh = fresh, w->side = 1;
+  if (w) {
+    w->fresh = fresh;
+    w->side = 1;
+  }
 }
 
 static void forget(pl_run* run, pl_watch_kind kind, int index) {
   pl_watch* w = pl_watch_of(run, kind, index);
-  if (w) w->fresh = 0, w->side = 0;
+  if (w) {
+    w->fresh = 0;
+    w->side = 0;
+  }
 }
 
-// How many derivatives of g are zero where a contact has opened: that many coefficients are no news.
+// How many derivatives of g are zero where a contact has opened: that many coefficients are no
+// news.
 static int zeros_of(const pl_run* run, int c) {
   static const double zero = 1e-9;
   int side = run->setup->links[c].side;
@@ -91,7 +101,8 @@ static bool jumps(const pl_run* run) {
   return false;
 }
 
-// What is watched after a change: contacts that opened and closed, frictions in another state, values that jumped.
+// What is watched after a change: contacts that opened and closed, frictions in another state,
+// values that jumped.
 static void renew_watches(pl_run* run) {
   pl_assemble_second(run, run->A, run->second, run->second_size);
   for (int c = 0; c < run->n_c; c++) {
@@ -101,24 +112,30 @@ static void renew_watches(pl_run* run) {
   }
   for (int r = 0; r < run->setup->n_rubs; r++) {
     const pl_rub_now *now = &run->rub[r], *before = &run->rub_before[r];
-    if (now->state == before->state && now->way == before->way && now->press == before->press) continue;
+    if (now->state == before->state && now->way == before->way && now->press == before->press)
+      continue;
     for (int k = PL_WATCH_STICK; k <= PL_WATCH_PRESS; k++) forget(run, (pl_watch_kind)k, r);
   }
   for (int i = 0; i < run->n_watch && jumps(run); i++)
     if (run->watch[i].kind == PL_WATCH_EVENT && run->watch[i].fresh == 0) run->watch[i].side = 0;
 }
 
-// ---------------------------------------------------------------------------------------------- endless bounces
-static const double tiny_bounce = 1e-8;  // of the fastest arrival: its flight is then that part of the first one's
+// --------------------------------------------------------------------------------- endless bounces
+// of the fastest arrival: its flight is then that part of the first one's
+static const double tiny_bounce = 1e-8;
 
 // The implicit method knows velocities to its tolerance only.
-static double tiny(const pl_run* run) { return run->implicit ? fmax(tiny_bounce, 10 * run->tol) : tiny_bounce; }
+static double tiny(const pl_run* run) {
+  return run->implicit ? fmax(tiny_bounce, 10 * run->tol) : tiny_bounce;
+}
 
-// Time until the last of endless bounces, counted from now; NaN when they do not come to an end here.
+// Time until the last of endless bounces, counted from now; NaN when they do not come to an end
+// here.
 static double rest_of_bounces(const pl_run* run, int c) {
   const pl_link* link = &run->setup->links[c];
   double u = link->side * run->r[c], fall = -link->side * run->second[c];
-  if (run->on[c] || !(fall > 0) || !(u > 0) || !(u <= tiny(run) * run->fastest[c])) return (double)NAN;
+  if (run->on[c] || !(fall > 0) || !(u > 0) || !(u <= tiny(run) * run->fastest[c]))
+    return (double)NAN;
   double flight = 2 * u / fall, ratio = link->restitution;
   // the ratio of the last flights, which knows of moving walls and of other bodies
   const double* t = run->bounce_t + 3 * (size_t)c;
@@ -139,7 +156,8 @@ static void note_bounces(pl_run* run) {
   }
 }
 
-// Whether some rebound is too small to be followed; its contact then holds, and the impact is computed anew.
+// Whether some rebound is too small to be followed; its contact then holds, and the impact is
+// computed anew.
 static bool drop_tiny_bounces(pl_run* run) {
   bool any = false;
   for (int c = 0; c < run->n_c; c++) {
@@ -152,7 +170,7 @@ static bool drop_tiny_bounces(pl_run* run) {
   return any;
 }
 
-// ---------------------------------------------------------------------------------------------- what follows
+// ------------------------------------------------------------------------------------ what follows
 static bool any_fixed(pl_run* run) {
   unsigned any = 0;
   for (int c = 0; c < run->n_c; c++) any |= run->fixed[c];
@@ -189,8 +207,9 @@ static pleuel_status impact_and_settle(pl_run* run) {
   return PLEUEL_OK;
 }
 
-// What rests may leave nothing but rounding of velocities, and of coordinates where they are zero: what counts as small
-// is then what the forces would do on a thousandth of the way, or in a ten-thousandth of the time.
+// What rests may leave nothing but rounding of velocities, and of coordinates where they are zero:
+// what counts as small is then what the forces would do on a thousandth of the way, or in a
+// ten-thousandth of the time.
 static void size_velocities(pl_run* run) {
   static const double part_of_time = 1e-4, nothing = 1e-6;
   double most = 0, T = part_of_time * fabs(run->options.t_end - run->options.t_0);
@@ -203,12 +222,14 @@ static void size_velocities(pl_run* run) {
   for (int i = 0; i < run->n_q; i++) {
     run->v_most[i] = fmax(run->v_most[i], 1e-3 * sqrt(pl_free_size(run, i) * way));
     run->v_size = fmax(run->v_size, run->v_most[i]);
-    if (way > run->q_most[i] && pl_free_size(run, i) > 0 && rests) run->q_most[i] = fmax(run->q_most[i], nothing * way);
+    if (way > run->q_most[i] && pl_free_size(run, i) > 0 && rests)
+      run->q_most[i] = fmax(run->q_most[i], nothing * way);
   }
   pl_sizes_keep(run);
 }
 
-// A system that stays where it is, because nothing is free or because forces balance: rounding is all that moves it.
+// A system that stays where it is, because nothing is free or because forces balance: rounding is
+// all that moves it.
 void pl_modes_size_rest(pl_run* run) {
   static const double rounding = 1e-12;
   double most = 0;
@@ -246,8 +267,10 @@ static pleuel_status follow(pl_run* run) {
   return PLEUEL_OK;
 }
 
-// ---------------------------------------------------------------------------------------------- telling
-static pl_event_kind opened(const pl_link* link) { return link->rope ? PL_EV_SLACK : PL_EV_RELEASE; }
+// ----------------------------------------------------------------------------------------- telling
+static pl_event_kind opened(const pl_link* link) {
+  return link->rope ? PL_EV_SLACK : PL_EV_RELEASE;
+}
 static pl_event_kind closed(const pl_link* link, bool impact) {
   return link->rope ? PL_EV_TAUT : impact ? PL_EV_IMPACT : PL_EV_CONTACT;
 }
@@ -266,8 +289,10 @@ static pleuel_status tell_contact(pl_run* run, int c, bool grazed, bool at_start
   if (isfinite(run->settled_t[c]) && run->on[c]) return tell_settled(run, c);
   run->settled_t[c] = (double)NAN;
   if (run->jumped[c]) return pl_rows_event(run, closed(link, true), c, run->impulse[c], at_start);
-  if (run->on[c] && !run->on_before[c]) return pl_rows_event(run, closed(link, false), c, 0, at_start);
-  if (run->on_before[c] && !run->on[c] && !run->detached[c]) return pl_rows_event(run, opened(link), c, 0, at_start);
+  if (run->on[c] && !run->on_before[c])
+    return pl_rows_event(run, closed(link, false), c, 0, at_start);
+  if (run->on_before[c] && !run->on[c] && !run->detached[c])
+    return pl_rows_event(run, opened(link), c, 0, at_start);
   return grazed ? pl_rows_event(run, closed(link, false), c, 0, at_start) : PLEUEL_OK;
 }
 
@@ -284,7 +309,9 @@ static pleuel_status tell_rub(pl_run* run, int r) {
 
 static bool is_grazed(const pl_run* run, int c) {
   for (int i = 0; i < run->n_watch; i++)
-    if (run->hit[i] && run->touch[i] && run->watch[i].kind == PL_WATCH_LANDING && run->watch[i].index == c) return true;
+    if (run->hit[i] && run->touch[i] && run->watch[i].kind == PL_WATCH_LANDING
+        && run->watch[i].index == c)
+      return true;
   return false;
 }
 
@@ -295,7 +322,7 @@ static pleuel_status tell_changes(pl_run* run, bool at_start) {
   return PLEUEL_OK;
 }
 
-// ---------------------------------------------------------------------------------------------- the start
+// --------------------------------------------------------------------------------------- the start
 static void no_hits(pl_run* run) {
   for (int i = 0; i < run->n_watch; i++) run->hit[i] = run->touch[i] = false;
 }
@@ -311,7 +338,7 @@ pleuel_status pl_modes_check(pl_run* run, bool at_start) {
   return tell_changes(run, at_start);
 }
 
-// ---------------------------------------------------------------------------------------------- deeds
+// ------------------------------------------------------------------------------------------- deeds
 static pleuel_status attach(pl_run* run, int c) {
   run->detached[c] = false;
   if (run->on[c]) return PLEUEL_OK;
@@ -322,9 +349,10 @@ static pleuel_status attach(pl_run* run, int c) {
   // a one-sided one that is open waits for its landing
   if (link->side != 0 && !met && link->side * run->g[c] > 0) return PLEUEL_OK;
   if (!met)
-    return pl_fail(run->job, PLEUEL_CONTRADICTION, "%s cannot be attached at t = %.9g s: it is off by %.3g", link->name,
-                   run->t, run->g[c]);
-  run->on[c] = link->side == 0;      // whether a one-sided one holds is decided with the others
+    return pl_fail(run->job, PLEUEL_CONTRADICTION,
+                   "%s cannot be attached at t = %.9g s: it is off by %.3g", link->name, run->t,
+                   run->g[c]);
+  run->on[c] = link->side == 0;  // whether a one-sided one holds is decided with the others
   return PLEUEL_OK;
 }
 
@@ -335,7 +363,8 @@ static double watched_value(pl_run* run, int i) {
   pl_batches_load_v(b, run->save_v, 0);
   pl_batches_load_a(b, run->save_a, 0);
   pl_batches_load_lambda(b, run->save_l, 0);
-  for (int level = PL_LEVEL_PLACE; level < PL_N_LEVELS; level++) pl_batches_sweep(b, (pl_level)level, 0, true);
+  for (int level = PL_LEVEL_PLACE; level < PL_N_LEVELS; level++)
+    pl_batches_sweep(b, (pl_level)level, 0, true);
   pl_batches_outputs(b, run->W_coef, run->setup->n_watched, 0);
   return run->W_coef[i];
 }
@@ -355,20 +384,25 @@ static pleuel_status do_deed(pl_run* run, const pl_event_deed* d) {
   return PLEUEL_OK;
 }
 
-// Events that follow each other ever faster come to an end that they never reach, as bounces do; what the motion does then, only a
-// contact says.  Long before that the events would be lost in rounding.
+// Events that follow each other ever faster come to an end that they never reach, as bounces do;
+// what the motion does then, only a contact says. Long before that the events would be lost in
+// rounding.
 static pleuel_status count_repeats(pl_run* run, int e) {
   enum { FEW = 8 };
-  static const double close = 1e-6;    // times shorter than this part of the longest: heights are 1e-12 of the first
+  // times shorter than this part of the longest: heights are 1e-12 of the first
+  static const double close = 1e-6;
   pl_repeat *r = &run->repeat[e], before = *r;
   double gap = fabs(run->t - before.t);
   bool faster = before.n > 0 && (before.n == 1 || gap < before.gap);
   *r = (pl_repeat){run->t, gap, faster ? fmax(before.widest, gap) : gap, faster ? before.n + 1 : 1};
   if (r->n < FEW || !(gap < close * r->widest)) return PLEUEL_OK;
-  double ratio = gap / before.gap, end = run->t + copysign(gap * ratio / (1 - ratio), pl_run_left(run));
+  double ratio = gap / before.gap,
+         end = run->t + copysign(gap * ratio / (1 - ratio), pl_run_left(run));
   return pl_fail(run->job, PLEUEL_NUMERICAL,
-                 "%s happens without end: %ld times in ever shorter time, the last after %.2g s; they come to an end at "
-                 "t = %.9g s, and the model does not say what follows (a one-sided constraint with restitution would)",
+                 "%s happens without end: %ld times in ever shorter time, the last after %.2g s; "
+                 "they come to an end at "
+                 "t = %.9g s, and the model does not say what follows (a one-sided constraint with "
+                 "restitution would)",
                  run->setup->events[e].name, r->n, gap, end);
 }
 
@@ -394,7 +428,7 @@ static pleuel_status happen(pl_run* run, int e, bool touches) {
   return changes ? tell_changes(run, false) : PLEUEL_OK;
 }
 
-// ---------------------------------------------------------------------------------------------- all of them
+// ------------------------------------------------------------------------------------- all of them
 // Whether the motion is another one afterwards: then the row is written twice, before and after.
 static bool changes_motion(const pl_run* run) {
   for (int i = 0; i < run->n_watch; i++) {
@@ -425,7 +459,9 @@ static bool is_at_rest(pl_run* run, int r) {
 // What a hit leaves open.
 static void fix_choices(pl_run* run, int i) {
   const pl_watch* w = &run->watch[i];
-  const pl_rub_now* now = w->kind >= PL_WATCH_STICK && w->kind <= PL_WATCH_PRESS ? &run->rub[w->index] : NULL;
+  const pl_rub_now* now = w->kind >= PL_WATCH_STICK && w->kind <= PL_WATCH_PRESS
+                              ? &run->rub[w->index]
+                              : NULL;
   const pl_rub* rub = now ? &run->setup->rubs[w->index] : NULL;
   switch (w->kind) {
     case PL_WATCH_RELEASE:
@@ -437,7 +473,7 @@ static void fix_choices(pl_run* run, int i) {
       break;
     case PL_WATCH_STICK:
       if (!is_at_rest(run, w->index)) {
-        run->watch[i].fresh = 2;      // it only came near
+        run->watch[i].fresh = 2;  // it only came near
         break;
       }
       run->rub_fixed[w->index] |= PL_RUB_AT_REST;

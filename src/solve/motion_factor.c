@@ -1,20 +1,22 @@
 // L D L^T of a sparse symmetric system in a static order, written out as code.
 //
-// The order: first coordinates with a mass, where the matrix is positive, then constraints whose diagonal has filled in by
-// then (negative), then coordinates without a mass whose constraints are done (positive), and so on; each time the one
-// with the fewest neighbours left (minimum degree).  There is no pivoting; pivots and the sums of what was subtracted
-// from the diagonal come out, so that cancellation is seen.
+// The order: first coordinates with a mass, where the matrix is positive, then constraints whose
+// diagonal has filled in by then (negative), then coordinates without a mass whose constraints are
+// done (positive), and so on; each time the one with the fewest neighbours left (minimum degree).
+// There is no pivoting; pivots and the sums of what was subtracted from the diagonal come out, so
+// that cancellation is seen.
 #include "solve/motion_impl.h"
 
-// ---------------------------------------------------------------------------------------------- order
+// ------------------------------------------------------------------------------------------- order
 typedef struct pl_order {
-  bool *pattern, *done, *pivots;   // pivots: the diagonal is there, or filled in
+  bool *pattern, *done, *pivots;  // pivots: the diagonal is there, or filled in
   int n, n_mass, n_coordinates;
 } pl_order;
 
 static int degree(const pl_order* o, int i) {
   int d = 0;
-  for (int j = 0; j < o->n; j++) d += !o->done[j] && j != i && o->pattern[(size_t)i * (size_t)o->n + (size_t)j];
+  for (int j = 0; j < o->n; j++)
+    d += !o->done[j] && j != i && o->pattern[(size_t)i * (size_t)o->n + (size_t)j];
   return d;
 }
 
@@ -23,7 +25,10 @@ static int fewest(const pl_order* o, int from, int to) {
   for (int i = from; i < to; i++) {
     if (o->done[i] || !o->pivots[i]) continue;
     int d = degree(o, i);
-    if (best < 0 || d < least) best = i, least = d;
+    if (best < 0 || d < least) {
+      best = i;
+      least = d;
+    }
   }
   return best;
 }
@@ -44,14 +49,23 @@ static void fill_in(pl_order* o, int pivot) {
   }
 }
 
-pl_elimination* pl_elimination_make(pl_arena* a, const bool* entry, int n, int n_mass, int n_coordinates, int* memory) {
+pl_elimination* pl_elimination_make(pl_arena* a, const bool* entry, int n, int n_mass,
+                                    int n_coordinates, int* memory) {
   pl_elimination* e = PL_NEW(a, pl_elimination);
   size_t nn = (size_t)n * (size_t)n;
-  pl_order o = {PL_ARRAY(a, bool, nn + 1), PL_ARRAY(a, bool, n + 1), PL_ARRAY(a, bool, n + 1), n, n_mass, n_coordinates};
+  pl_order o = {PL_ARRAY(a, bool, nn + 1),
+                PL_ARRAY(a, bool, n + 1),
+                PL_ARRAY(a, bool, n + 1),
+                n,
+                n_mass,
+                n_coordinates};
   e->n = n;
   e->order = PL_ARRAY(a, int, n + 1);
   e->cell = PL_ARRAY(a, int, nn + 1);
-  for (size_t i = 0; i < nn; i++) o.pattern[i] = entry[i], e->cell[i] = -1;
+  for (size_t i = 0; i < nn; i++) {
+    o.pattern[i] = entry[i];
+    e->cell[i] = -1;
+  }
   for (int i = 0; i < n_mass; i++) o.pivots[i] = true;
   e->inverse_d = *memory;
   *memory += n;
@@ -64,17 +78,21 @@ pl_elimination* pl_elimination_make(pl_arena* a, const bool* entry, int n, int n
   }
   for (int j = 0; j < n; j++)
     for (int i = j + 1; i < n; i++)
-      if (o.pattern[(size_t)e->order[i] * (size_t)n + (size_t)e->order[j]]) e->cell[(size_t)i * (size_t)n + (size_t)j] = (*memory)++;
+      if (o.pattern[(size_t)e->order[i] * (size_t)n + (size_t)e->order[j]])
+        e->cell[(size_t)i * (size_t)n + (size_t)j] = (*memory)++;
   return e;
 }
 
-// ---------------------------------------------------------------------------------------------- factor
-void pl_elimination_factor(const pl_elimination* e, pl_prog* c, const int* entry, int* pivot, int* size) {
+// ------------------------------------------------------------------------------------------ factor
+void pl_elimination_factor(const pl_elimination* e, pl_prog* c, const int* entry, int* pivot,
+                           int* size) {
   size_t n = (size_t)e->n;
-  int* K = PL_ARRAY(c->arena, int, n * n + 1);  // what is left of the matrix, in order of elimination
+  // what is left of the matrix, in order of elimination
+  int* K = PL_ARRAY(c->arena, int, n* n + 1);
   int* scaled = PL_ARRAY(c->arena, int, n + 1);
   for (size_t i = 0; i < n; i++)
-    for (size_t j = 0; j < n; j++) K[i * n + j] = entry[(size_t)e->order[i] * n + (size_t)e->order[j]];
+    for (size_t j = 0; j < n; j++)
+      K[i * n + j] = entry[(size_t)e->order[i] * n + (size_t)e->order[j]];
   for (size_t i = 0; i < n; i++) size[e->order[i]] = -1;
   for (size_t j = 0; j < n; j++) {
     int d = K[j * n + j] >= 0 ? K[j * n + j] : pl_prog_number(c, 0);
@@ -98,13 +116,16 @@ void pl_elimination_factor(const pl_elimination* e, pl_prog* c, const int* entry
       int *x = &K[i * n + i], u = K[i * n + j], *most = &size[e->order[i]];
       int part = pl_prog_op2(c, PL_PROG_MUL, scaled[i], u), way = pl_prog_op1(c, PL_PROG_ABS, part);
       *most = *most < 0 ? way : pl_prog_op2(c, PL_PROG_ADD, *most, way);
-      *x = *x < 0 ? pl_prog_op1(c, PL_PROG_NEG, part) : pl_prog_op3(c, PL_PROG_FNMA, scaled[i], u, *x);
+      *x = *x < 0 ? pl_prog_op1(c, PL_PROG_NEG, part)
+                  : pl_prog_op3(c, PL_PROG_FNMA, scaled[i], u, *x);
     }
   }
 }
 
-// ---------------------------------------------------------------------------------------------- solve
-static int factor_at(pl_prog* c, int cell) { return c->width == 1 ? pl_prog_load(c, cell, 0) : pl_prog_spread(c, cell, 0); }
+// ------------------------------------------------------------------------------------------- solve
+static int factor_at(pl_prog* c, int cell) {
+  return c->width == 1 ? pl_prog_load(c, cell, 0) : pl_prog_spread(c, cell, 0);
+}
 
 static void subtract(pl_prog* c, int l, int y, int* x) {
   if (*x < 0) *x = pl_prog_op1(c, PL_PROG_NEG, pl_prog_op2(c, PL_PROG_MUL, l, y));
@@ -117,7 +138,8 @@ void pl_elimination_solve(const pl_elimination* e, pl_prog* c, int* x) {
     int y = x[e->order[j]];
     if (y < 0) continue;
     for (size_t i = j + 1; i < n; i++)
-      if (e->cell[i * n + j] >= 0) subtract(c, factor_at(c, e->cell[i * n + j]), y, &x[e->order[i]]);
+      if (e->cell[i * n + j] >= 0)
+        subtract(c, factor_at(c, e->cell[i * n + j]), y, &x[e->order[i]]);
   }
   for (size_t j = 0; j < n; j++) {
     int* y = &x[e->order[j]];

@@ -1,10 +1,11 @@
-// The nodes of a motion: all instances of all patterns as one program, in which what is computed twice is computed once.
+// The nodes of a motion: all instances of all patterns as one program, in which what is computed
+// twice is computed once.
 #include <string.h>
 
 #include "solve/motion_make_impl.h"
 #include "solve/wide_impl.h"
 
-// ---------------------------------------------------------------------------------------------- instances
+// --------------------------------------------------------------------------------------- instances
 static int count_instances(const pl_batches* b) {
   int n = 0;
   for (int i = 0; i < b->n; i++) n += b->at[i].n;
@@ -15,13 +16,16 @@ static void list_instances(pl_maker* k, const pl_batches* batches, bool observe)
   for (int i = 0; i < batches->n; i++) {
     const pl_batch* b = &batches->at[i];
     for (int l = 0; l < b->n; l++) {
-      k->instance[k->n_instances++] = (pl_maker_instance){b, b->pattern->tape, l, k->n_nodes, observe};
+      k->instance[k->n_instances++] = (pl_maker_instance){b, b->pattern->tape, l, k->n_nodes,
+                                                          observe};
       k->n_nodes += b->pattern->tape->n_nodes;
     }
   }
 }
 
-static bool has_energy(const pl_run* run) { return run->setup->kinetic >= 0 && run->setup->potential >= 0; }
+static bool has_energy(const pl_run* run) {
+  return run->setup->kinetic >= 0 && run->setup->potential >= 0;
+}
 
 static void reserve_nodes(pl_maker* k) {
   size_t n = (size_t)k->n_nodes + 1;
@@ -42,9 +46,12 @@ static void reserve_nodes(pl_maker* k) {
     for (int j = 0; j < k->instance[i].tape->n_nodes; j++) k->owner[k->instance[i].base + j] = i;
 }
 
-// ---------------------------------------------------------------------------------------------- equal nodes
-// What makes two nodes the same quantity: operation, operands, and for an input which one.  Numbers are compared by value.
-typedef struct pl_node_key { uint64_t op, a, b, c, value; } pl_node_key;
+// ------------------------------------------------------------------------------------- equal nodes
+// What makes two nodes the same quantity: operation, operands, and for an input which one. Numbers
+// are compared by value.
+typedef struct pl_node_key {
+  uint64_t op, a, b, c, value;
+} pl_node_key;
 
 static pl_node_key key_of(const pl_maker* k, int node) {
   const pl_maker_instance* i = &k->instance[k->owner[node]];
@@ -64,7 +71,8 @@ static pl_node_key key_of(const pl_maker* k, int node) {
     return key;
   }
   int slot = n->slot * i->batch->lanes + i->lane;
-  if (n->op == PL_OP_Q || n->op == PL_OP_V || n->op == PL_OP_A) key.value = (uint64_t)i->batch->q[slot];
+  if (n->op == PL_OP_Q || n->op == PL_OP_V || n->op == PL_OP_A)
+    key.value = (uint64_t)i->batch->q[slot];
   if (n->op == PL_OP_LAMBDA) key.value = (uint64_t)i->batch->c[slot];
   if (n->a >= 0) key.a = (uint64_t)k->same[i->base + n->a] + 1;
   if (n->b >= 0) key.b = (uint64_t)k->same[i->base + n->b] + 1;
@@ -90,11 +98,14 @@ static void find_same(pl_maker* k) {
 static void find_constants(pl_maker* k) {
   k->constant = PL_ARRAY(k->a, pl_parts, k->n_nodes + 1);
   for (int i = 0; i < k->n_instances; i++)
-    pl_wide_constants(k->a, k->real, k->instance[i].batch, k->instance[i].lane, k->constant + k->instance[i].base);
+    pl_wide_constants(k->a, k->real, k->instance[i].batch, k->instance[i].lane,
+                      k->constant + k->instance[i].base);
 }
 
 void pl_maker_instances(pl_maker* k) {
-  k->instance = PL_ARRAY(k->a, pl_maker_instance, count_instances(&k->run->motion) + count_instances(&k->run->observers) + 1);
+  k->instance = PL_ARRAY(
+      k->a, pl_maker_instance,
+      count_instances(&k->run->motion) + count_instances(&k->run->observers) + 1);
   list_instances(k, &k->run->motion, false);
   if (has_energy(k->run)) list_instances(k, &k->run->observers, true);
   reserve_nodes(k);
@@ -102,8 +113,10 @@ void pl_maker_instances(pl_maker* k) {
   find_same(k);
 }
 
-// ---------------------------------------------------------------------------------------------- entries
-static int root(const pl_maker* k, const pl_maker_instance* i, int r) { return k->same[i->base + i->tape->roots[r]]; }
+// ----------------------------------------------------------------------------------------- entries
+static int root(const pl_maker* k, const pl_maker_instance* i, int r) {
+  return k->same[i->base + i->tape->roots[r]];
+}
 
 #define TERM(list, ...) pl_push(k->a, k->list, (pl_term){__VA_ARGS__})
 
@@ -111,12 +124,14 @@ static void list_terms_of(pl_maker* k, const pl_maker_instance* i) {
   const pl_batch* b = i->batch;
   const pl_pattern* p = b->pattern;
   int l = i->lane, lanes = b->lanes;
-#define COORDINATE(slot) b->q[(slot) * lanes + l]
-#define CONSTRAINT(slot) b->c[(slot) * lanes + l]
+#define COORDINATE(slot) b->q[(slot)*lanes + l]
+#define CONSTRAINT(slot) b->c[(slot)*lanes + l]
   for (int e = 0; e < p->n_mass; e++)
     TERM(M, COORDINATE(p->mass[e].row), COORDINATE(p->mass[e].col), root(k, i, p->mass[e].root));
-  for (int e = 0; e < p->n_G; e++) TERM(G, CONSTRAINT(p->G[e].row), COORDINATE(p->G[e].col), root(k, i, p->G[e].root));
-  for (int e = 0; e < p->n_gt; e++) TERM(gt, CONSTRAINT(p->gt[e].row), 0, root(k, i, p->gt[e].root));
+  for (int e = 0; e < p->n_G; e++)
+    TERM(G, CONSTRAINT(p->G[e].row), COORDINATE(p->G[e].col), root(k, i, p->G[e].root));
+  for (int e = 0; e < p->n_gt; e++)
+    TERM(gt, CONSTRAINT(p->gt[e].row), 0, root(k, i, p->gt[e].root));
   for (int e = 0; e < p->n_h; e++) TERM(h, COORDINATE(p->h[e].row), 0, root(k, i, p->h[e].root));
   for (int e = 0; e < p->n_g; e++) {
     TERM(g, CONSTRAINT(p->g[e].row), 0, root(k, i, p->g[e].root));

@@ -1,20 +1,39 @@
 // The codes of the series: one order after the other.
 //
-// Products of series are summed eight at a time.  Each operand of a sum lies in a stream, a row of eight numbers for each
-// order; a coefficient is written to all the streams that hold it as soon as it is known.  The products of the
-// equations themselves (M a, G^T λ, G v) are put so that all products of one row share a lane and are added there.
+// Products of series are summed eight at a time. Each operand of a sum lies in a stream, a row of
+// eight numbers for each order; a coefficient is written to all the streams that hold it as soon as
+// it is known. The products of the equations themselves (M a, G^T λ, G v) are put so that all
+// products of one row share a lane and are added there.
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "solve/motion_make_impl.h"
 
-// ---------------------------------------------------------------------------------------------- streams
-// The last two are no series: row k holds 1/k, and what its rounding left, where index is 1, else 1 and 0.
-typedef enum pl_lane_kind { EMPTY, NODE, WEIGHTED_NODE, MINUS_A, LAMBDA, V, SCALE, REST } pl_lane_kind;
-typedef struct pl_lane { pl_lane_kind kind; int index; } pl_lane;
-typedef struct pl_stream { pl_lane lane[8]; int at; } pl_stream;
-typedef struct pl_streams { PL_VEC(pl_stream) list; } pl_streams;
+// ----------------------------------------------------------------------------------------- streams
+// The last two are no series: row k holds 1/k, and what its rounding left, where index is 1, else 1
+// and 0.
+typedef enum pl_lane_kind {
+  EMPTY,
+  NODE,
+  WEIGHTED_NODE,
+  MINUS_A,
+  LAMBDA,
+  V,
+  SCALE,
+  REST
+} pl_lane_kind;
+typedef struct pl_lane {
+  pl_lane_kind kind;
+  int index;
+} pl_lane;
+typedef struct pl_stream {
+  pl_lane lane[8];
+  int at;
+} pl_stream;
+typedef struct pl_streams {
+  PL_VEC(pl_stream) list;
+} pl_streams;
 
 static void write_to(pl_maker* k, pl_lane lane, int place) {
   switch (lane.kind) {
@@ -25,7 +44,9 @@ static void write_to(pl_maker* k, pl_lane lane, int place) {
     case LAMBDA: pl_push(k->a, k->from_lambda[lane.index], place); break;
     case V: pl_push(k->a, k->from_v[lane.index], place); break;
     case SCALE:
-    case REST: pl_push(k->a, k->scales, (pl_scale_lane){place, lane.index != 0, lane.kind == REST}); break;
+    case REST:
+      pl_push(k->a, k->scales, (pl_scale_lane){place, lane.index != 0, lane.kind == REST});
+      break;
   }
 }
 
@@ -34,7 +55,8 @@ static int stream_of(pl_maker* k, pl_streams* streams, const pl_lane* lanes) {
   for (int i = 0; i < streams->list.n; i++) {
     bool same = true;
     for (int l = 0; l < 8; l++)
-      same &= streams->list.at[i].lane[l].kind == lanes[l].kind && streams->list.at[i].lane[l].index == lanes[l].index;
+      same &= streams->list.at[i].lane[l].kind == lanes[l].kind
+              && streams->list.at[i].lane[l].index == lanes[l].index;
     if (same) return streams->list.at[i].at;
   }
   pl_stream s = {.at = pl_maker_take(k, 8 * (k->o->orders + 1))};
@@ -44,15 +66,20 @@ static int stream_of(pl_maker* k, pl_streams* streams, const pl_lane* lanes) {
   return s.at;
 }
 
-// ---------------------------------------------------------------------------------------------- groups
+// ------------------------------------------------------------------------------------------ groups
 // A group of eight sums: pairs of streams, where the sums go.
-typedef struct pl_group { int to, first, n, scale, rest, lanes; } pl_group;   // scale, rest: streams, -1 none
+// scale, rest: streams, -1 none
+typedef struct pl_group {
+  int to, first, n, scale, rest, lanes;
+} pl_group;
 typedef struct pl_groups {
   PL_VEC(pl_group) list;
   PL_VEC(pl_prog_pair) pairs;
 } pl_groups;
 
-struct pl_maker_groups { pl_groups place, speed; };
+struct pl_maker_groups {
+  pl_groups place, speed;
+};
 
 static bool is_constant(const pl_maker* k, int instance, int node) {
   return node < k->instance[instance].tape->level_end[PL_LEVEL_CONST];
@@ -68,7 +95,12 @@ static void list_sums(pl_maker* k, pl_level level, pl_sum_list* out) {
     int n = pl_lower_sums(in->tape, i - in->base, s);
     for (int j = 0; j < n; j++)
       if (!is_constant(k, k->owner[i], s[j].a) && !is_constant(k, k->owner[i], s[j].b))
-        pl_push(k->a, *out, (pl_maker_sum){i, j, -1, {pl_maker_same(k, k->owner[i], s[j].a), pl_maker_same(k, k->owner[i], s[j].b), s[j].weighted}});
+        pl_push(k->a, *out,
+                (pl_maker_sum){i,
+                               j,
+                               -1,
+                               {pl_maker_same(k, k->owner[i], s[j].a),
+                                pl_maker_same(k, k->owner[i], s[j].b), s[j].weighted}});
   }
 }
 
@@ -76,7 +108,8 @@ static void list_sums(pl_maker* k, pl_level level, pl_sum_list* out) {
 static int same_reader(const pl_sum_list* sums, const bool* done, int first) {
   const pl_lower_sum* x = &sums->at[first].reads;
   for (int i = first + 1; i < sums->n; i++)
-    if (!done[i] && sums->at[i].reads.a == x->a && sums->at[i].reads.weighted == x->weighted) return i;
+    if (!done[i] && sums->at[i].reads.a == x->a && sums->at[i].reads.weighted == x->weighted)
+      return i;
   return -1;
 }
 
@@ -95,8 +128,8 @@ static int find_doubles(pl_maker* k, const pl_sum_list* sums, const bool* done, 
   return n;
 }
 
-// Sums that read the same series stand in the same lanes of two groups, which then share a stream, as far as these
-// are full; then come the other weighted ones and the rest.
+// Sums that read the same series stand in the same lanes of two groups, which then share a stream,
+// as far as these are full; then come the other weighted ones and the rest.
 static pl_sum_list in_order(pl_maker* k, const pl_sum_list* sums) {
   pl_sum_list out = {0};
   bool* done = PL_ARRAY(k->a, bool, sums->n + 1);
@@ -113,7 +146,8 @@ static pl_sum_list in_order(pl_maker* k, const pl_sum_list* sums) {
 }
 
 // What the sums of a group are multiplied with: weighted ones with 1/k.
-static void scale_group(pl_maker* k, pl_streams* streams, const pl_maker_sum* sums, int n, pl_group* g) {
+static void scale_group(pl_maker* k, pl_streams* streams, const pl_maker_sum* sums, int n,
+                        pl_group* g) {
   pl_lane scale[8], rest[8];
   bool any = false;
   for (int l = 0; l < 8; l++) {
@@ -127,7 +161,8 @@ static void scale_group(pl_maker* k, pl_streams* streams, const pl_maker_sum* su
   g->rest = stream_of(k, streams, rest);
 }
 
-static void group_sums(pl_maker* k, pl_streams* streams, const pl_sum_list* unordered, pl_groups* groups) {
+static void group_sums(pl_maker* k, pl_streams* streams, const pl_sum_list* unordered,
+                       pl_groups* groups) {
   pl_sum_list ordered = in_order(k, unordered), *sums = &ordered;
   for (int first = 0; first < sums->n; first += 8) {
     pl_lane a[8] = {{EMPTY, 0}}, b[8] = {{EMPTY, 0}};
@@ -146,15 +181,18 @@ static void group_sums(pl_maker* k, pl_streams* streams, const pl_sum_list* unor
   }
 }
 
-// ---------------------------------------------------------------------------------------------- rows of the equations
-typedef struct pl_lanes { pl_lane a, b; } pl_lanes;
+// --------------------------------------------------------------------------- rows of the equations
+typedef struct pl_lanes {
+  pl_lane a, b;
+} pl_lanes;
 typedef PL_VEC(pl_lanes) pl_row_list;
 
 static bool varies(const pl_maker* k, int node) {
   return !is_constant(k, k->owner[node], node - k->instance[k->owner[node]].base);
 }
 
-static void add_product(pl_maker* k, pl_row_list* rows, int u, int node, pl_lane_kind kind, int index) {
+static void add_product(pl_maker* k, pl_row_list* rows, int u, int node, pl_lane_kind kind,
+                        int index) {
   if (u >= 0) pl_push(k->a, rows[u], (pl_lanes){{NODE, node}, {kind, index}});
 }
 
@@ -175,7 +213,9 @@ static void list_rows(pl_maker* k, pl_row_list* rows) {
 }
 
 // Products first .. of a row, which share a lane: at most `most` of them.
-typedef struct pl_share { int unknown, first, n; } pl_share;
+typedef struct pl_share {
+  int unknown, first, n;
+} pl_share;
 typedef PL_VEC(pl_share) pl_shares;
 
 static int compare_shares(const void* x, const void* y) {
@@ -216,7 +256,8 @@ static pl_shares best_shares(pl_maker* k, const pl_row_list* rows) {
   return best;
 }
 
-static void group_rows(pl_maker* k, pl_streams* streams, const pl_row_list* rows, pl_groups* groups) {
+static void group_rows(pl_maker* k, pl_streams* streams, const pl_row_list* rows,
+                       pl_groups* groups) {
   pl_shares shares = best_shares(k, rows);
   for (int first = 0; first < shares.n; first += 8) {
     const pl_share* s = shares.at + first;
@@ -227,7 +268,10 @@ static void group_rows(pl_maker* k, pl_streams* streams, const pl_row_list* rows
       pl_lane a[8] = {{EMPTY, 0}}, b[8] = {{EMPTY, 0}};
       for (int l = 0; l < used; l++) {
         const pl_lanes* product = &rows[s[l].unknown].at[s[l].first + p];
-        if (p < s[l].n) a[l] = product->a, b[l] = product->b;
+        if (p < s[l].n) {
+          a[l] = product->a;
+          b[l] = product->b;
+        }
       }
       int at_a = stream_of(k, streams, a), at_b = stream_of(k, streams, b);
       pl_push(k->a, groups->pairs, (pl_prog_pair){at_a, at_b});
@@ -235,11 +279,12 @@ static void group_rows(pl_maker* k, pl_streams* streams, const pl_row_list* rows
   }
 }
 
-// ---------------------------------------------------------------------------------------------- what is kept
+// ------------------------------------------------------------------------------------ what is kept
 static void keep(pl_maker* k, int instance, int node) {
   if (node < 0 || is_constant(k, instance, node)) return;
   int global = pl_maker_same(k, instance, node);
-  if (pl_maker_node(k, global)->level == PL_LEVEL_PLACE && k->keep[global] < 0) k->keep[global] = k->n_keep++;
+  if (pl_maker_node(k, global)->level == PL_LEVEL_PLACE && k->keep[global] < 0)
+    k->keep[global] = k->n_keep++;
 }
 
 static void list_kept(pl_maker* k) {
@@ -284,11 +329,12 @@ static void add_block(pl_maker* k, const pl_groups* groups, int shift) {
     pl_prog_sum_begin(k->code, g->to, false);
     pl_prog_sum_scale(k->code, g->scale, g->rest);
     pl_prog_sum_lanes(k->code, g->lanes);
-    for (int p = g->first; p < g->first + g->n; p++) pl_prog_sum_pair(k->code, groups->pairs.at[p].a, groups->pairs.at[p].b);
+    for (int p = g->first; p < g->first + g->n; p++)
+      pl_prog_sum_pair(k->code, groups->pairs.at[p].a, groups->pairs.at[p].b);
   }
 }
 
-// ---------------------------------------------------------------------------------------------- an order
+// ---------------------------------------------------------------------------------------- an order
 // x / (k + 1)
 static int over_next(pl_maker* k, int x) {
   int main = pl_prog_op2(k->code, PL_PROG_MUL, x, pl_prog_load(k->code, k->o->ratio + 1, 1));
@@ -299,13 +345,16 @@ static void write(pl_maker* k, int x, const pl_places* to, int row) {
   for (int i = 0; i < to->n; i++) pl_prog_store(k->code, x, to->at[i] + 8 * row, 8);
 }
 
-// A coefficient is known: into its streams and, for nodes of q and t, the row that is kept.  row 1: order k + 1.
+// A coefficient is known: into its streams and, for nodes of q and t, the row that is kept. row 1:
+// order k + 1.
 static void publish(pl_maker* k, int node, int x, int row) {
   if (x < 0) return;
   write(k, x, &k->plain[node], row);
   if (k->weighted[node].n > 0)
-    write(k, pl_prog_op2(k->code, PL_PROG_MUL, pl_prog_order(k->code, row), x), &k->weighted[node], row);
-  if (row == 1 && k->keep[node] >= 0) pl_prog_store(k->code, x, k->keep_at + k->n_keep + k->keep[node], k->n_keep);
+    write(k, pl_prog_op2(k->code, PL_PROG_MUL, pl_prog_order(k->code, row), x), &k->weighted[node],
+          row);
+  if (row == 1 && k->keep[node] >= 0)
+    pl_prog_store(k->code, x, k->keep_at + k->n_keep + k->keep[node], k->n_keep);
 }
 
 static int coefficient(pl_maker* k, int node) {
@@ -347,18 +396,22 @@ static void speed_nodes(pl_maker* k) {
   for (int i = 0; i < k->n_nodes; i++) {
     const pl_tape_node* n = pl_maker_node(k, i);
     if (!k->high[i] || n->level != PL_LEVEL_SPEED) continue;
-    if (n->op == PL_OP_V) k->now[i] = pl_prog_load(k->code, k->o->V + global_coordinate(k, i), k->o->n_q);
+    if (n->op == PL_OP_V)
+      k->now[i] = pl_prog_load(k->code, k->o->V + global_coordinate(k, i), k->o->n_q);
     else k->now[i] = coefficient(k, i);
     publish(k, i, k->now[i], 0);
   }
 }
 
-// ---------------------------------------------------------------------------------------------- the equations
-static int plus(pl_maker* k, int a, int b) { return a < 0 ? b : b < 0 ? a : pl_prog_op2(k->code, PL_PROG_ADD, a, b); }
+// ----------------------------------------------------------------------------------- the equations
+static int plus(pl_maker* k, int a, int b) {
+  return a < 0 ? b : b < 0 ? a : pl_prog_op2(k->code, PL_PROG_ADD, a, b);
+}
 
 static int sum_at(pl_maker* k, int u) {
   int s = -1;
-  for (int i = 0; k->with_sums && i < k->row_sums[u].n; i++) s = plus(k, s, pl_prog_load(k->code, k->row_sums[u].at[i], 0));
+  for (int i = 0; k->with_sums && i < k->row_sums[u].n; i++)
+    s = plus(k, s, pl_prog_load(k->code, k->row_sums[u].at[i], 0));
   return s;
 }
 
@@ -369,24 +422,27 @@ static int force(pl_maker* k, int i, bool first) {
     if (k->h.at[e].row != i) continue;
     k->instance_now = k->owner[node];
     k->lower.tape = k->instance[k->instance_now].tape;
-    h = plus(k, h, first ? pl_maker_start(k, node) : k->lower.now(k, node - k->instance[k->instance_now].base));
+    h = plus(k, h,
+             first ? pl_maker_start(k, node)
+                   : k->lower.now(k, node - k->instance[k->instance_now].base));
   }
   if (first) pl_prog_store(k->code, h < 0 ? pl_prog_number(k->code, 0) : h, k->o->h + i, 0);
   return h;
 }
 
-// The unknowns of order k are v_{k+1} = a_k / (k + 1) and λ_k / (k + 1), so that the rows of constraints, which are waited for, need no
-// factor.  Without constraints they are a_k.
+// The unknowns of order k are v_{k+1} = a_k / (k + 1) and λ_k / (k + 1), so that the rows of
+// constraints, which are waited for, need no factor. Without constraints they are a_k.
 static bool in_velocities(const pl_maker* k, bool first) { return !first && k->o->n_taken > 0; }
 
 static int right_of_coordinate(pl_maker* k, int u, bool first) {
   int s = sum_at(k, u), h = force(k, k->o->index[u], first);
-  if (h >= 0) s = s < 0 ? pl_prog_op1(k->code, PL_PROG_NEG, h) : pl_prog_op2(k->code, PL_PROG_SUB, s, h);
+  if (h >= 0)
+    s = s < 0 ? pl_prog_op1(k->code, PL_PROG_NEG, h) : pl_prog_op2(k->code, PL_PROG_SUB, s, h);
   return s >= 0 && in_velocities(k, first) ? over_next(k, s) : s;
 }
 
-// Order k + 1 of G v + dg/dt without the unknowns, over k + 1.  The newest coefficients of G come in two chains, which are
-// waited for least.
+// Order k + 1 of G v + dg/dt without the unknowns, over k + 1. The newest coefficients of G come in
+// two chains, which are waited for least.
 static int left_of_constraint(pl_maker* k, int u) {
   int c = k->o->index[u], s[2] = {sum_at(k, u), -1}, n = 0;
   for (int e = 0; e < k->gt.n; e++)
@@ -395,7 +451,8 @@ static int left_of_constraint(pl_maker* k, int u) {
     int x = k->place_now[k->G.at[e].node], *to = &s[n % 2];
     if (k->G.at[e].row != c || x < 0) continue;
     int v = pl_prog_load(k->code, k->o->V + k->G.at[e].col, 0);
-    *to = *to < 0 ? pl_prog_op2(k->code, PL_PROG_MUL, x, v) : pl_prog_op3(k->code, PL_PROG_FMA, x, v, *to);
+    *to = *to < 0 ? pl_prog_op2(k->code, PL_PROG_MUL, x, v)
+                  : pl_prog_op3(k->code, PL_PROG_FMA, x, v, *to);
     n++;
   }
   return plus(k, s[0], s[1]);
@@ -406,18 +463,22 @@ static void solve(pl_maker* k, int* x, bool first) {
   pl_motion* o = k->o;
   int n = o->n, n_coordinates = n - o->n_taken;
   if (first || n > o->inverse_up_to) {
-    for (int u = n_coordinates; u < n; u++) x[u] = x[u] < 0 ? -1 : pl_prog_op1(k->code, PL_PROG_NEG, x[u]);
+    for (int u = n_coordinates; u < n; u++)
+      x[u] = x[u] < 0 ? -1 : pl_prog_op1(k->code, PL_PROG_NEG, x[u]);
     pl_elimination_solve(k->elimination, k->code, x);
-    for (int u = n_coordinates; u < n; u++) x[u] = x[u] < 0 ? -1 : pl_prog_op1(k->code, PL_PROG_NEG, x[u]);
+    for (int u = n_coordinates; u < n; u++)
+      x[u] = x[u] < 0 ? -1 : pl_prog_op1(k->code, PL_PROG_NEG, x[u]);
     return;
   }
-  for (int u = 0; u < n; u++) pl_prog_store(k->code, x[u] < 0 ? pl_prog_number(k->code, 0) : x[u], o->vector + u, 0);
+  for (int u = 0; u < n; u++)
+    pl_prog_store(k->code, x[u] < 0 ? pl_prog_number(k->code, 0) : x[u], o->vector + u, 0);
   pl_prog_product_add(k->code, o->result, o->matrix, o->vector, n, o->n_taken, (n + 7) / 8);
   for (int u = 0; u < n; u++) x[u] = pl_prog_load(k->code, o->result + u, 0);
 }
 
 static int times_next(pl_maker* k, int x, bool first) {
-  return in_velocities(k, first) ? pl_prog_op2(k->code, PL_PROG_MUL, pl_prog_order(k->code, 1), x) : x;
+  return in_velocities(k, first) ? pl_prog_op2(k->code, PL_PROG_MUL, pl_prog_order(k->code, 1), x)
+                                 : x;
 }
 
 static void take_solution(pl_maker* k, const int* x, bool first) {
@@ -449,12 +510,13 @@ static void take_solution(pl_maker* k, const int* x, bool first) {
 static void equations(pl_maker* k, bool first) {
   int n = k->o->n, *x = PL_ARRAY(k->a, int, n + 1);
   k->speed_phase = true;
-  for (int u = 0; u < n; u++) x[u] = u < n - k->o->n_taken ? right_of_coordinate(k, u, first) : left_of_constraint(k, u);
+  for (int u = 0; u < n; u++)
+    x[u] = u < n - k->o->n_taken ? right_of_coordinate(k, u, first) : left_of_constraint(k, u);
   solve(k, x, first);
   take_solution(k, x, first);
 }
 
-// ---------------------------------------------------------------------------------------------- the two codes
+// ----------------------------------------------------------------------------------- the two codes
 static void inverses(pl_maker* k, pl_level level) {
   for (int i = 0; i < k->n_nodes; i++) {
     if (k->inverse[i] < 0 || pl_maker_node(k, i)->level != level) continue;
@@ -497,7 +559,8 @@ void pl_maker_start_code(pl_maker* k) {
 // Small programs are written out for every order.
 static bool is_small(const pl_maker* k) {
   long operations = 0;
-  for (int order = 1; order < k->run->order; order++) operations += k->code->lines.n + 2L * k->code->pairs.n * order;
+  for (int order = 1; order < k->run->order; order++)
+    operations += k->code->lines.n + 2L * k->code->pairs.n * order;
   return operations <= PL_MOTION_WRITTEN_OUT;
 }
 

@@ -1,16 +1,18 @@
 // A step with the codes of a motion: projection, order 0, series.
 //
-// The codes serve while their pivots are sound.  A pivot of what has no mass is compared with the largest sum that was ever
-// subtracted there, which tells both a row that becomes dependent and one that fades away; where one has faded
-// to a part of the best that was met, the point is left to the general way, which chooses rows and
-// pivots anew, and which tells singular positions.
+// The codes serve while their pivots are sound. A pivot of what has no mass is compared with the
+// largest sum that was ever subtracted there, which tells both a row that becomes dependent and one
+// that fades away; where one has faded to a part of the best that was met, the point is left to the
+// general way, which chooses rows and pivots anew, and which tells singular positions.
 #include <math.h>
 #include <string.h>
 
 #include "solve/motion_impl.h"
 
-static const double sound = 0.02;       // square of the part of its best at which a pivot is no longer trusted
-static const double least_sound = 1e-7; // of what was subtracted there: below, whatever the best was, it may be rounding
+// square of the part of its best at which a pivot is no longer trusted
+static const double sound = 0.02;
+// of what was subtracted there: below, whatever the best was, it may be rounding
+static const double least_sound = 1e-7;
 static const double rounding = 2.3e-16;
 
 static void run_part(pl_motion* o, pl_motion_part part, int from, int to) {
@@ -18,7 +20,7 @@ static void run_part(pl_motion* o, pl_motion_part part, int from, int to) {
   else pl_prog_interpret(o->code[part], o->m, from, to);
 }
 
-// ---------------------------------------------------------------------------------------------- choosing
+// ---------------------------------------------------------------------------------------- choosing
 static bool same_mode(const pl_run* run, const pl_motion* o) {
   return memcmp(o->taken, run->taken, (size_t)run->n_c * sizeof(bool)) == 0;
 }
@@ -31,7 +33,7 @@ pl_motion* pl_motion_for_mode(pl_run* run) {
   return run->motion_codes = o;
 }
 
-// ---------------------------------------------------------------------------------------------- compiling
+// --------------------------------------------------------------------------------------- compiling
 static void compile(pl_run* run, pl_motion* o) {
   const pl_prog* progs[PL_N_PARTS];
   pl_prog_run* found[PL_N_PARTS];
@@ -39,7 +41,10 @@ static void compile(pl_run* run, pl_motion* o) {
   pl_jit_story story;
   o->tried = true;
   for (int i = 0; i < PL_N_PARTS; i++)
-    if (o->code[i]) progs[n] = o->code[i], part[n++] = i;
+    if (o->code[i]) {
+      progs[n] = o->code[i];
+      part[n++] = i;
+    }
   o->jit = pl_jit_compile(run->job->arena, progs, n, found, &story);
   run->stats.compile_s += story.seconds;
   if (o->jit == NULL) {
@@ -61,7 +66,8 @@ static double price(const pl_motion* o) {
   return 0.03 + 60e-6 * lines;
 }
 
-// After 8, 16, 32 ... steps the time that is left is estimated from the time so far.  Only when, never what, depends on it.
+// After 8, 16, 32 ... steps the time that is left is estimated from the time so far. Only when,
+// never what, depends on it.
 static bool compiling_pays(pl_run* run, const pl_motion* o) {
   long steps = run->stats.steps;
   if (run->considered == 0) {
@@ -76,8 +82,11 @@ static bool compiling_pays(pl_run* run, const pl_motion* o) {
 }
 
 void pl_motion_update(pl_run* run) {
-  if (run->options.general || run->n_kinks > 0 || (run->options.precision != PL_PRECISION_DOUBLE && run->motion_code == NULL)) return;
-  if (!run->at_point && !(run->motion_code && same_mode(run, run->motion_code))) run->motion_code = pl_motion_for_mode(run);
+  if (run->options.general || run->n_kinks > 0
+      || (run->options.precision != PL_PRECISION_DOUBLE && run->motion_code == NULL))
+    return;
+  if (!run->at_point && !(run->motion_code && same_mode(run, run->motion_code)))
+    run->motion_code = pl_motion_for_mode(run);
   pl_motion* o = run->motion_code;
   if (o == NULL || !o->usable || o->tried || run->options.engine == PL_ENGINE_INTERPRETER) return;
   if (run->options.engine == PL_ENGINE_COMPILED || compiling_pays(run, o)) compile(run, o);
@@ -89,7 +98,7 @@ void pl_motion_free(pl_run* run) {
   for (pl_motion* o = run->motion_codes; o; o = o->next) pl_jit_free(o->jit);
 }
 
-// ---------------------------------------------------------------------------------------------- pivots
+// ------------------------------------------------------------------------------------------ pivots
 static bool pivots_are_sound(pl_motion* o) {
   double least = (double)INFINITY;
   for (int u = o->n_mass; u < o->n; u++) {
@@ -104,7 +113,7 @@ static bool pivots_are_sound(pl_motion* o) {
   return least > sound * o->fade_best;
 }
 
-// ---------------------------------------------------------------------------------------------- projection
+// -------------------------------------------------------------------------------------- projection
 static void note_largest(double x, double* most) {
   if (!(x <= *most)) *most = x;
 }
@@ -177,9 +186,10 @@ bool pl_motion_project(pl_run* run, double t, double* q, double* v, pl_projectio
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- series
+// ------------------------------------------------------------------------------------------ series
 static void copy_rows(double* to, const double* from, int n, int first, int last) {
-  memcpy(to + (size_t)first * (size_t)n, from + (size_t)first * (size_t)n, (size_t)(last - first + 1) * (size_t)n * sizeof *to);
+  memcpy(to + (size_t)first * (size_t)n, from + (size_t)first * (size_t)n,
+         (size_t)(last - first + 1) * (size_t)n * sizeof *to);
 }
 
 static void copy_orders(pl_run* run, int first, int last) {
@@ -263,6 +273,7 @@ void pl_motion_expand(pl_run* run) {
   run_part(o, PL_PART_ORDER, 1, run->order);
   // one more coefficient of q comes for nothing
   for (int i = 0; i < o->n_q; i++)
-    o->m[o->Q + (run->order + 1) * o->n_q + i] = o->m[o->V + run->order * o->n_q + i] / (run->order + 1);
+    o->m[o->Q + (run->order + 1) * o->n_q + i] = o->m[o->V + run->order * o->n_q + i]
+                                                 / (run->order + 1);
   copy_orders(run, 1, run->order - 1);
 }

@@ -1,15 +1,17 @@
 // The series of the motion at a point, order by order, and the step that it allows.
 //
-// Index-3 Taylor series: with q_{k+1} = v_k / (k+1), nodes of q and t are known to order k+1, nodes of v to order k,
-// and one solve with the factor of the point gives a_k and λ_k; then v_{k+1} = a_k / (k+1).  Order and step after Jorba
-// and Zou, Exp. Math. 14 (2005) 99, with separate norms for positions and velocities, which have different units.
+// Index-3 Taylor series: with q_{k+1} = v_k / (k+1), nodes of q and t are known to order k+1, nodes
+// of v to order k, and one solve with the factor of the point gives a_k and λ_k; then v_{k+1} = a_k
+// / (k+1). Order and step after Jorba and Zou, Exp. Math. 14 (2005) 99, with separate norms for
+// positions and velocities, which have different units.
 #include "solve/wide_impl.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-enum { FEW = 32 };   // numbers: up to here choosing the code for the processor takes longer than it spares
+// numbers: up to here choosing the code for the processor takes longer than it spares
+enum { FEW = 32 };
 
 double pl_norm(const double* x, int n) {
   double most = 0;
@@ -44,7 +46,7 @@ void pl_sizes_forget(pl_run* run) {
   run->v_size = pl_norm(run->v_most, run->n_q);
 }
 
-// ---------------------------------------------------------------------------------------------- the point
+// --------------------------------------------------------------------------------------- the point
 void pl_point_evaluate(pl_run* run, double t, const double* q, const double* v) {
   pl_batches* m = &run->motion;
   run->t_nodes = t;
@@ -55,7 +57,8 @@ void pl_point_evaluate(pl_run* run, double t, const double* q, const double* v) 
   pl_batches_sweep(m, PL_LEVEL_SPEED, 0, true);
 }
 
-// What must be left of a pivot to go on without pivoting: of what was left of it in better places, and at all.
+// What must be left of a pivot to go on without pivoting: of what was left of it in better places,
+// and at all.
 static const double sound = 0.02, least_trusted = 1e-7;
 
 bool pl_point_factor(pl_run* run, bool with_W) {
@@ -64,7 +67,8 @@ bool pl_point_factor(pl_run* run, bool with_W) {
   run->kkt.trusted = pl_larger(least_trusted, run->by_pivots ? sound * run->best * run->best : 0);
   bool regular = pl_kkt_factor(&run->kkt);
   if (run->by_pivots) {
-    run->smallest = sqrt(run->kkt.ratio);  // pivots of the whole system fade with the square of those of the rows
+    // pivots of the whole system fade with the square of those of the rows
+    run->smallest = sqrt(run->kkt.ratio);
     run->best = pl_larger(run->best, run->smallest);
   }
   return regular;
@@ -174,9 +178,9 @@ void pl_series_expand(pl_run* run) {
   for (int i = 0; i < run->n_q; i++) q[i] = v[i] / (run->order + 1);
 }
 
-// ---------------------------------------------------------------------------------------------- step
-// Binary logarithm to four digits, which is plenty for a step: exponent, and a cubic for the mantissa.
-// Several at once, which takes little longer than one.
+// -------------------------------------------------------------------------------------------- step
+// Binary logarithm to four digits, which is plenty for a step: exponent, and a cubic for the
+// mantissa. Several at once, which takes little longer than one.
 static void rough_log2(const double* x, double* log, int n) {
   for (int i = 0; i < n; i++) {
     uint64_t bits;
@@ -185,11 +189,12 @@ static void rough_log2(const double* x, double* log, int n) {
     bits = (bits & 0xfffffffffffffu) | 0x3ff0000000000000u;
     double m;
     memcpy(&m, &bits, sizeof m);
-    double y = (m - 1) / (m + 1), z = y * y;   // ln m = 2 artanh y
+    double y = (m - 1) / (m + 1), z = y * y;  // ln m = 2 artanh y
     log[i] = exponent + 2.8853900817779268 * y * (1 + z * (1 / 3.0 + z * (0.2 + z * (1 / 7.0))));
   }
   for (int i = 0; i < n; i++)
-    if (!(x[i] >= DBL_MIN) || x[i] > DBL_MAX) log[i] = x[i] > DBL_MAX ? (double)INFINITY : x[i] >= 0 ? -2000 : (double)NAN;
+    if (!(x[i] >= DBL_MIN) || x[i] > DBL_MAX)
+      log[i] = x[i] > DBL_MAX ? (double)INFINITY : x[i] >= 0 ? -2000 : (double)NAN;
 }
 
 void pl_block_rows(int last, int row[PL_BLOCK_ROWS]) {
@@ -204,29 +209,34 @@ static void norms_of(const double* X, int n, int last, double* norm) {
   for (int i = 0; i < PL_BLOCK_ROWS; i++) norm[i] = pl_norm(X + (size_t)row[i] * (size_t)n, n);
 }
 
-// Radius of a block from its last two coefficients: (|x| / |x_k|)^(1/k), as a logarithm.  The size |x| is that of the block
-// at the point, or what an early coefficient and the radius say when it is near zero there.
+// Radius of a block from its last two coefficients: (|x| / |x_k|)^(1/k), as a logarithm. The size
+// |x| is that of the block at the point, or what an early coefficient and the radius say when it is
+// near zero there.
 static double block_radius(const double* norm, int last) {
   double log[PL_BLOCK_ROWS], least = (double)INFINITY;
   rough_log2(norm, log, PL_BLOCK_ROWS);
   double size = log[0], before = log[4], top = log[5];
   if (isnan(top) || isnan(before)) return -(double)INFINITY;
-  if (isinf(top) || isinf(before)) return (double)INFINITY;     // beyond a double: lower orders tell
+  // beyond a double: lower orders tell
+  if (isinf(top) || isinf(before)) return (double)INFINITY;
   if (top > -2000)
-    for (int k = 1; k <= 3 && k < last; k++) size = pl_larger(size, log[k] + k * (log[k] - top) / (last - k));
+    for (int k = 1; k <= 3 && k < last; k++)
+      size = pl_larger(size, log[k] + k * (log[k] - top) / (last - k));
   else if (size <= -2000) size = 0;
   if (before > -2000) least = (size - before) / (last - 1);
   if (top > -2000) least = pl_smaller(least, (size - top) / last);
   return least;
 }
 
-// A step twice as long as the one before is looked at closely: coefficients that are rounding make it three to seven times as long.
-// What many orders say counts where it is clearly less: ordinary steps stay as they are.
+// A step twice as long as the one before is looked at closely: coefficients that are rounding make
+// it three to seven times as long. What many orders say counts where it is clearly less: ordinary
+// steps stay as they are.
 static const double grown = 2, clearly = 1.3;
 
-// Radius of a block from the norms of many orders, where the last two may be none or rounding: motions that start at rest or in a
-// symmetric position have coefficients of every second or fourth order only, and others have wider gaps.  The least of what orders of the
-// upper half say, each as if it was the last; infinite where all of these are zero, as those of a fall are.
+// Radius of a block from the norms of many orders, where the last two may be none or rounding:
+// motions that start at rest or in a symmetric position have coefficients of every second or fourth
+// order only, and others have wider gaps. The least of what orders of the upper half say, each as
+// if it was the last; infinite where all of these are zero, as those of a fall are.
 static double wide_radius(const double* X, int n, int last) {
   enum { EARLY = 3 };
   double least = (double)INFINITY, first[EARLY + 1];
@@ -264,18 +274,23 @@ double pl_series_step(pl_run* run) {
     norms_of(run->Q, run->n_q, p + 1, of_q);
     norms_of(run->V, run->n_q, p, of_v);
   }
-  // e^shrink of the radius makes p - 1 factors of tol together; the rest is their safety factor, eq. (3-8) there
+  // e^shrink of the radius makes p - 1 factors of tol together; the rest is their safety factor,
+  // eq. (3-8) there
   double shrink = 1.4426950408889634 * (0.7 / (p - 1) - run->shrink);
   double radius = pl_smaller(block_radius(q, p + 1), block_radius(v, p)), h = exp2(radius - shrink);
   if (!(h <= grown * run->h_series) || isinf(run->h_series)) {
-    double all = exp2(pl_smaller(wide_radius(run->Q, run->n_q, p + 1), wide_radius(run->V, run->n_q, p)) - shrink);
+    double all =
+        exp2(pl_smaller(wide_radius(run->Q, run->n_q, p + 1), wide_radius(run->V, run->n_q, p))
+             - shrink);
     if (!(h <= clearly * all)) h = all;
   }
   return run->wide ? pl_wide_vary(run, h) : h;
 }
 
-// ---------------------------------------------------------------------------------------------- evaluation
-void pl_horner(const double* X, int n, int last, double dt, double* x) { pl_orders_here()->horner(X, n, last, dt, x); }
+// -------------------------------------------------------------------------------------- evaluation
+void pl_horner(const double* X, int n, int last, double dt, double* x) {
+  pl_orders_here()->horner(X, n, last, dt, x);
+}
 
 void pl_series_at(const pl_run* run, double dt, double* q, double* v) {
   pl_horner(run->Q, run->n_q, run->use + 1, dt, q);

@@ -1,4 +1,5 @@
-// Motions with known answers: closed forms, conserved quantities, an independent integrator in long double.
+// Motions with known answers: closed forms, conserved quantities, an independent integrator in long
+// double.
 #include "solve/setup_test.h"
 
 #define P b->pool
@@ -6,13 +7,14 @@ static pl_expr sq(t_bench* b, pl_expr x) { return pl_square(P, x); }
 static pl_expr mul(t_bench* b, pl_expr x, pl_expr y) { return pl_mul(P, x, y); }
 static pl_expr half(t_bench* b, pl_expr x) { return pl_mul(P, pl_ratio(P, 1, 2), x); }
 
-// ---------------------------------------------------------------------------------------------- pendulum
+// ---------------------------------------------------------------------------------------- pendulum
 // Mass 1 at (x, y), y down, x^2 + y^2 = 1, g = 1.
 static t_bench* pendulum(double angle, double t_end) {
   t_bench* b = t_open();
   pl_expr x = t_coord(b, "x"), y = t_coord(b, "y"), m = t_param(b, "m", 1), g = t_param(b, "g", 1),
           l = t_param(b, "l", 1);
-  pl_expr T = half(b, mul(b, m, pl_add(P, sq(b, b->v[0]), sq(b, b->v[1])))), V = pl_neg(P, mul(b, m, mul(b, g, y)));
+  pl_expr T = half(b, mul(b, m, pl_add(P, sq(b, b->v[0]), sq(b, b->v[1])))),
+          V = pl_neg(P, mul(b, m, mul(b, g, y)));
   pl_expr L = t_energy(b, T, V);
   t_constraint(b, "rod", pl_sub(P, pl_add(P, sq(b, x), sq(b, y)), sq(b, l)));
   t_start(b, 0, sin(angle), 0);
@@ -36,10 +38,11 @@ static void a_pendulum_returns_after_its_period(void** state) {
   (void)state;
   t_bench* b = pendulum(1.5, pendulum_period(1.5));
   assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
-  printf("# pendulum: dx %.2e dy %.2e steps %ld rejected %ld g %.2e gdot %.2e drift %.2e order %d\n",
-         b->last[0] - sin(1.5), b->last[1] - cos(1.5), pl_run_stats(b->run)->steps, pl_run_stats(b->run)->rejections,
-         pl_run_stats(b->run)->max_g, pl_run_stats(b->run)->max_gdot, pl_run_stats(b->run)->energy_drift,
-         pl_run_stats(b->run)->order);
+  printf(
+      "# pendulum: dx %.2e dy %.2e steps %ld rejected %ld g %.2e gdot %.2e drift %.2e order %d\n",
+      b->last[0] - sin(1.5), b->last[1] - cos(1.5), pl_run_stats(b->run)->steps,
+      pl_run_stats(b->run)->rejections, pl_run_stats(b->run)->max_g, pl_run_stats(b->run)->max_gdot,
+      pl_run_stats(b->run)->energy_drift, pl_run_stats(b->run)->order);
   assert_true(fabs(b->last[0] - sin(1.5)) < 1e-13 && fabs(b->last[1] - cos(1.5)) < 1e-13);
   assert_true(b->last[63] == pendulum_period(1.5));
   t_close(b);
@@ -50,17 +53,19 @@ static void a_pendulum_keeps_its_energy_over_a_hundred_periods(void** state) {
   t_bench* b = pendulum(2, 100 * pendulum_period(2));
   assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
   const pl_stats* s = pl_run_stats(b->run);
-  printf("# 100 periods: drift %.2e g %.2e steps %ld wall %.3f\n", s->energy_drift, s->max_g, s->steps, s->wall_s);
+  printf("# 100 periods: drift %.2e g %.2e steps %ld wall %.3f\n", s->energy_drift, s->max_g,
+         s->steps, s->wall_s);
   assert_true(s->energy_drift < 1e-13 && s->max_g < 1e-15 && s->max_gdot < 1e-14);
   t_close(b);
 }
 
-// ---------------------------------------------------------------------------------------------- Atwood
+// ------------------------------------------------------------------------------------------ Atwood
 static void atwood_equals_the_closed_form_to_rounding(void** state) {
   (void)state;
   t_bench* b = t_open();
   pl_expr x1 = t_coord(b, "x1"), x2 = t_coord(b, "x2");
-  pl_expr m1 = t_param(b, "m1", 3), m2 = t_param(b, "m2", 2), g = t_param(b, "g", 9.81), l = t_param(b, "l", 3.7);
+  pl_expr m1 = t_param(b, "m1", 3), m2 = t_param(b, "m2", 2), g = t_param(b, "g", 9.81),
+          l = t_param(b, "l", 3.7);
   pl_expr T = half(b, pl_add(P, mul(b, m1, sq(b, b->v[0])), mul(b, m2, sq(b, b->v[1]))));
   pl_expr V = pl_neg(P, mul(b, g, pl_add(P, mul(b, m1, x1), mul(b, m2, x2))));
   pl_expr L = t_energy(b, T, V);
@@ -70,22 +75,26 @@ static void atwood_equals_the_closed_form_to_rounding(void** state) {
   assert_int_equal(t_make(b, L, 1.2, 0), PLEUEL_OK);
   assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
   double a = (3 - 2) * 9.81 / 5;
-  printf("# atwood: %.2e %.2e lambda %.2e steps %ld\n", b->last[0] - (1 + a * 1.44 / 2), b->last[16] - a * 1.2,
-         pl_run_lambda(b->run)[0] + 2 * 3 * 2 * 9.81 / 5, pl_run_stats(b->run)->steps);
-  assert_true(fabs(b->last[0] - (1 + a * 1.44 / 2)) < 1e-15 * 4 && fabs(b->last[16] - a * 1.2) < 4e-15);
+  printf("# atwood: %.2e %.2e lambda %.2e steps %ld\n", b->last[0] - (1 + a * 1.44 / 2),
+         b->last[16] - a * 1.2, pl_run_lambda(b->run)[0] + 2 * 3 * 2 * 9.81 / 5,
+         pl_run_stats(b->run)->steps);
+  assert_true(fabs(b->last[0] - (1 + a * 1.44 / 2)) < 1e-15 * 4
+              && fabs(b->last[16] - a * 1.2) < 4e-15);
   assert_true(fabs(pl_run_lambda(b->run)[0] + 2 * 3 * 2 * 9.81 / 5) < 1e-14 * 25);
   t_close(b);
 }
 
-// ---------------------------------------------------------------------------------------------- crank
-// Slider-crank in Cartesian coordinates with the angle as a coordinate that only its map equations determine.
-// side +1: the slider is on the left, -1: on the right.
+// ------------------------------------------------------------------------------------------- crank
+// Slider-crank in Cartesian coordinates with the angle as a coordinate that only its map equations
+// determine. side +1: the slider is on the left, -1: on the right.
 static t_bench* crank(double r, double l, double speed, double phi, double t_end, int side) {
   t_bench* b = t_open();
-  pl_expr x1 = t_coord(b, "x1"), z1 = t_coord(b, "z1"), x2 = t_coord(b, "x2"), angle = t_coord(b, "phi");
+  pl_expr x1 = t_coord(b, "x1"), z1 = t_coord(b, "z1"), x2 = t_coord(b, "x2"),
+          angle = t_coord(b, "phi");
   pl_expr m1 = t_param(b, "m1", 2), m2 = t_param(b, "m2", 1), g = t_param(b, "g", 9.81);
   pl_expr R = t_param(b, "r", r), rod = t_param(b, "l", l);
-  pl_expr T = half(b, pl_add(P, mul(b, m1, pl_add(P, sq(b, b->v[0]), sq(b, b->v[1]))), mul(b, m2, sq(b, b->v[2]))));
+  pl_expr T = half(b, pl_add(P, mul(b, m1, pl_add(P, sq(b, b->v[0]), sq(b, b->v[1]))),
+                             mul(b, m2, sq(b, b->v[2]))));
   pl_expr V = mul(b, m1, mul(b, g, z1));
   pl_expr L = t_energy(b, T, V);
   t_constraint(b, "g4", pl_sub(P, pl_add(P, sq(b, x1), sq(b, z1)), sq(b, R)));
@@ -108,16 +117,16 @@ static void a_crank_turns_a_thousand_times(void** state) {
   pleuel_status how = pl_run_to_end(b->run);
   const pl_stats* s = pl_run_stats(b->run);
   printf("# crank: %s %s phi %.3f g %.2e gdot %.2e drift %.2e steps %ld rejected %ld wall %.3f\n",
-         pleuel_status_name(how), b->job.message, b->last[3] / 6.283185307179586, s->max_g, s->max_gdot,
-         s->energy_drift, s->steps, s->rejections, s->wall_s);
+         pleuel_status_name(how), b->job.message, b->last[3] / 6.283185307179586, s->max_g,
+         s->max_gdot, s->energy_drift, s->steps, s->rejections, s->wall_s);
   assert_int_equal(how, PLEUEL_OK);
   assert_true(b->last[3] / 6.283185307179586 > 1000);
   assert_true(s->max_g < 1e-14 && s->energy_drift < 1e-12);
   t_close(b);
 }
 
-// With equal lengths the constraints lose rank whenever the crank stands upright: the slider could stay in the middle.
-// Its velocity says that it does not, x2 = 2 r cos φ, and the energy tells φ'.
+// With equal lengths the constraints lose rank whenever the crank stands upright: the slider could
+// stay in the middle. Its velocity says that it does not, x2 = 2 r cos φ, and the energy tells φ'.
 static double place[64], place_t[64];
 static int n_places;
 static pleuel_status see_place(void* user, const pl_event_record* e) {
@@ -141,7 +150,8 @@ static void a_crank_with_equal_lengths_passes_its_singular_positions(void** stat
   double E = r * r * 900 * (1 + 2 * sin(0.3) * sin(0.3)) + 2 * 9.81 * r * sin(0.3);
   double speed = sqrt((E - 2 * 9.81 * r * s) / (r * r * (1 + 2 * s * s)));
   printf(
-      "# equal crank: %s %s, %d places, first φ = π/2 %+.1e, half turns %.3f, x2 off %.1e, speed off %.1e, drift "
+      "# equal crank: %s %s, %d places, first φ = π/2 %+.1e, half turns %.3f, x2 off %.1e, speed "
+      "off %.1e, drift "
       "%.1e\n",
       pleuel_status_name(how), b->job.message, n_places, place[0] - 1.5707963267948966, turns,
       b->last[2] - 2 * r * cos(phi), b->last[19] - speed, pl_run_stats(b->run)->energy_drift);
@@ -169,7 +179,8 @@ static void a_cusp_is_reported_with_its_place(void** state) {
   pleuel_status how = pl_run_to_end(b->run);
   // arc length (13^(3/2) - 8)/27 at speed sqrt 13
   double t = (pow(13, 1.5) - 8) / 27 / sqrt(13);
-  printf("# cusp: %s %s, t off %.1e\n", pleuel_status_name(how), b->job.message, pl_run_time(b->run) - t);
+  printf("# cusp: %s %s, t off %.1e\n", pleuel_status_name(how), b->job.message,
+         pl_run_time(b->run) - t);
   assert_int_equal(how, PLEUEL_SINGULAR);
   assert_true(fabs(pl_run_stats(b->run)->t_singular - t) < 1e-3);
   assert_non_null(strstr(b->job.message, "singular position at t = "));
@@ -177,13 +188,14 @@ static void a_cusp_is_reported_with_its_place(void** state) {
   t_close(b);
 }
 
-// ---------------------------------------------------------------------------------------------- double pendulum
-// Reference: angles, accelerations by hand, Gragg's midpoint rule with Bulirsch-Stoer extrapolation in quad precision.  It
-// shares nothing with the solver: other coordinates, other formulas, other method, other arithmetic.
+// --------------------------------------------------------------------------------- double pendulum
+// Reference: angles, accelerations by hand, Gragg's midpoint rule with Bulirsch-Stoer extrapolation
+// in quad precision. It shares nothing with the solver: other coordinates, other formulas, other
+// method, other arithmetic.
 #ifdef __SIZEOF_FLOAT128__
 typedef __float128 quad;
 #else
-typedef long double quad;   // as wide where there is no other name for it
+typedef long double quad;  // as wide where there is no other name for it
 #endif
 
 static quad quad_sin(quad x);
@@ -220,7 +232,10 @@ static void double_rhs(const quad* y, quad* f) {
 static void midpoint(const quad* y, quad H, int n, quad* out) {
   quad h = H / n, a[4], b[4], f[4];
   double_rhs(y, f);
-  for (int i = 0; i < 4; i++) a[i] = y[i], b[i] = y[i] + h * f[i];
+  for (int i = 0; i < 4; i++) {
+    a[i] = y[i];
+    b[i] = y[i] + h * f[i];
+  }
   for (int k = 1; k < n; k++) {
     double_rhs(b, f);
     for (int i = 0; i < 4; i++) {
@@ -255,20 +270,27 @@ static void a_double_pendulum_agrees_with_an_independent_reference(void** state)
   quad y[4] = {(quad)1.2, (quad)0.7, 0, 0}, coarse[4] = {(quad)1.2, (quad)0.7, 0, 0};
   double_pendulum_reference(y, T, 400);
   double_pendulum_reference(coarse, T, 300);
-  for (int i = 0; i < 4; i++) assert_true((double)(y[i] - coarse[i]) < 1e-15 && (double)(y[i] - coarse[i]) > -1e-15);
+  for (int i = 0; i < 4; i++)
+    assert_true((double)(y[i] - coarse[i]) < 1e-15 && (double)(y[i] - coarse[i]) > -1e-15);
   t_bench* b = t_open();
-  pl_expr x1 = t_coord(b, "x1"), y1 = t_coord(b, "y1"), x2 = t_coord(b, "x2"), y2 = t_coord(b, "y2");
-  pl_expr T_ = half(b, pl_add_n(P, (pl_expr[]){sq(b, b->v[0]), sq(b, b->v[1]), sq(b, b->v[2]), sq(b, b->v[3])}, 4));
+  pl_expr x1 = t_coord(b, "x1"), y1 = t_coord(b, "y1"), x2 = t_coord(b, "x2"),
+          y2 = t_coord(b, "y2");
+  pl_expr T_ = half(
+      b,
+      pl_add_n(P, (pl_expr[]){sq(b, b->v[0]), sq(b, b->v[1]), sq(b, b->v[2]), sq(b, b->v[3])}, 4));
   pl_expr V = pl_neg(P, pl_add(P, y1, y2));
   t_constraint(b, "a", pl_sub(P, pl_add(P, sq(b, x1), sq(b, y1)), pl_int(P, 1)));
-  t_constraint(b, "b", pl_sub(P, pl_add(P, sq(b, pl_sub(P, x2, x1)), sq(b, pl_sub(P, y2, y1))), pl_int(P, 1)));
+  t_constraint(
+      b, "b",
+      pl_sub(P, pl_add(P, sq(b, pl_sub(P, x2, x1)), sq(b, pl_sub(P, y2, y1))), pl_int(P, 1)));
   t_start(b, 0, sin(1.2), 0);
   t_start(b, 1, cos(1.2), 0);
   t_start(b, 2, sin(1.2) + sin(0.7), 0);
   t_start(b, 3, cos(1.2) + cos(0.7), 0);
   assert_int_equal(t_make(b, t_energy(b, T_, V), T, 0), PLEUEL_OK);
   assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
-  double expect[4] = {(double)quad_sin(y[0]), (double)quad_cos(y[0]), (double)(quad_sin(y[0]) + quad_sin(y[1])),
+  double expect[4] = {(double)quad_sin(y[0]), (double)quad_cos(y[0]),
+                      (double)(quad_sin(y[0]) + quad_sin(y[1])),
                       (double)(quad_cos(y[0]) + quad_cos(y[1]))};
   for (int i = 0; i < 4; i++) {
     printf("# double pendulum: %.17g off by %.2e\n", b->last[i], b->last[i] - expect[i]);
@@ -277,7 +299,7 @@ static void a_double_pendulum_agrees_with_an_independent_reference(void** state)
   t_close(b);
 }
 
-// ---------------------------------------------------------------------------------------------- Kepler
+// ------------------------------------------------------------------------------------------ Kepler
 static void an_ellipse_closes_after_ten_turns(void** state) {
   (void)state;
   t_bench* b = t_open();
@@ -289,14 +311,14 @@ static void an_ellipse_closes_after_ten_turns(void** state) {
   t_start(b, 1, 0, sqrt((1 + e) / (1 - e)));
   assert_int_equal(t_make(b, t_energy(b, T, V), 20 * pi, 0), PLEUEL_OK);
   assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
-  printf("# kepler: %.2e %.2e steps %ld drift %.2e\n", b->last[0] - (1 - e), b->last[1], pl_run_stats(b->run)->steps,
-         pl_run_stats(b->run)->energy_drift);
-  assert_true(fabs(b->last[0] - (1 - e)) < 1e-11 && fabs(b->last[1]) < 1e-11 &&
-              pl_run_stats(b->run)->energy_drift < 1e-13);
+  printf("# kepler: %.2e %.2e steps %ld drift %.2e\n", b->last[0] - (1 - e), b->last[1],
+         pl_run_stats(b->run)->steps, pl_run_stats(b->run)->energy_drift);
+  assert_true(fabs(b->last[0] - (1 - e)) < 1e-11 && fabs(b->last[1]) < 1e-11
+              && pl_run_stats(b->run)->energy_drift < 1e-13);
   t_close(b);
 }
 
-// ---------------------------------------------------------------------------------------------- redundancy
+// -------------------------------------------------------------------------------------- redundancy
 static void a_redundant_constraint_changes_nothing_but_its_multiplier(void** state) {
   (void)state;
   double last[2][2];
@@ -323,8 +345,9 @@ static void a_redundant_constraint_changes_nothing_but_its_multiplier(void** sta
   assert_true(fabs(last[0][0] - last[1][0]) < 1e-12 && fabs(last[0][1] - last[1][1]) < 1e-12);
 }
 
-// ---------------------------------------------------------------------------------------------- nonholonomic
-// A skate on an incline, x' sin φ = y' cos φ, turning with constant speed: the cycloid of Caratheodory.
+// ------------------------------------------------------------------------------------ nonholonomic
+// A skate on an incline, x' sin φ = y' cos φ, turning with constant speed: the cycloid of
+// Caratheodory.
 static void a_skate_on_a_slope_moves_on_a_cycloid(void** state) {
   (void)state;
   t_bench* b = t_open();
@@ -332,11 +355,12 @@ static void a_skate_on_a_slope_moves_on_a_cycloid(void** state) {
   pl_expr T = half(b, pl_add_n(P, (pl_expr[]){sq(b, b->v[0]), sq(b, b->v[1]), sq(b, b->v[2])}, 3));
   (void)y;
   int c = t_constraint(b, "skate",
-                       pl_sub(P, mul(b, b->v[0], pl_call(P, PL_SIN, phi)), mul(b, b->v[1], pl_call(P, PL_COS, phi))));
+                       pl_sub(P, mul(b, b->v[0], pl_call(P, PL_SIN, phi)),
+                              mul(b, b->v[1], pl_call(P, PL_COS, phi))));
   b->velocity[c] = b->link[c].velocity = true;
   for (int i = 0; i < 3; i++) t_start(b, i, 0, i == 2 ? 2 : 0);
-  // force 1 along x; with ω = 2 and rest at the origin: speed u = sin(ω t)/ω, x = (1 - cos 2ωt)/(4 ω²), y = (2ωt - sin
-  // 2ωt)/(4 ω²)
+  // force 1 along x; with ω = 2 and rest at the origin: speed u = sin(ω t)/ω, x = (1 - cos 2ωt)/(4
+  // ω²), y = (2ωt - sin 2ωt)/(4 ω²)
   assert_int_equal(t_make(b, pl_add(P, T, x), 3, 0), PLEUEL_OK);
   assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
   double w = 2, t = 3;
@@ -347,11 +371,12 @@ static void a_skate_on_a_slope_moves_on_a_cycloid(void** state) {
   t_close(b);
 }
 
-// ---------------------------------------------------------------------------------------------- friction through λ
+// ------------------------------------------------------------------------------ friction through λ
 static void friction_proportional_to_a_multiplier_slows_a_block(void** state) {
   (void)state;
   t_bench* b = t_open();
-  pl_expr x = t_coord(b, "x"), y = t_coord(b, "y"), m = t_param(b, "m", 3), g = t_param(b, "g", 9.81);
+  pl_expr x = t_coord(b, "x"), y = t_coord(b, "y"), m = t_param(b, "m", 3),
+          g = t_param(b, "g", 9.81);
   pl_expr T = half(b, mul(b, m, pl_add(P, sq(b, b->v[0]), sq(b, b->v[1]))));
   (void)x;
   t_constraint(b, "table", y);
@@ -365,14 +390,17 @@ static void friction_proportional_to_a_multiplier_slows_a_block(void** state) {
   t_close(b);
 }
 
-// ---------------------------------------------------------------------------------------------- rheonomic
+// --------------------------------------------------------------------------------------- rheonomic
 static void a_bead_on_a_turning_rod_flies_out_exponentially(void** state) {
   (void)state;
   t_bench* b = t_open();
-  pl_expr x = t_coord(b, "x"), y = t_coord(b, "y"), w = t_param(b, "w", 1.5), t = pl_sym(P, pl_time(P));
+  pl_expr x = t_coord(b, "x"), y = t_coord(b, "y"), w = t_param(b, "w", 1.5),
+          t = pl_sym(P, pl_time(P));
   pl_expr T = half(b, pl_add(P, sq(b, b->v[0]), sq(b, b->v[1])));
   pl_expr angle = mul(b, w, t);
-  t_constraint(b, "rod", pl_sub(P, mul(b, x, pl_call(P, PL_SIN, angle)), mul(b, y, pl_call(P, PL_COS, angle))));
+  t_constraint(
+      b, "rod",
+      pl_sub(P, mul(b, x, pl_call(P, PL_SIN, angle)), mul(b, y, pl_call(P, PL_COS, angle))));
   b->coordinate[0].has_q = b->coordinate[1].has_q = true;
   b->coordinate[0].q = 1;
   b->coordinate[0].has_v = true;
@@ -384,7 +412,7 @@ static void a_bead_on_a_turning_rod_flies_out_exponentially(void** state) {
   t_close(b);
 }
 
-// ---------------------------------------------------------------------------------------------- kinks
+// ------------------------------------------------------------------------------------------- kinks
 // A spring that is four times as stiff on one side: half periods π and π/2.
 static void a_step_ends_where_a_force_changes_its_branch(void** state) {
   (void)state;
@@ -392,9 +420,12 @@ static void a_step_ends_where_a_force_changes_its_branch(void** state) {
   pl_expr x = t_coord(b, "x");
   pl_expr V = pl_if(P, x, half(b, sq(b, x)), mul(b, pl_int(P, 2), sq(b, x)));
   t_start(b, 0, 1, 0);
-  assert_int_equal(t_make(b, t_energy(b, half(b, sq(b, b->v[0])), V), 15 * 3.14159265358979323846, 0), PLEUEL_OK);
+  assert_int_equal(
+      t_make(b, t_energy(b, half(b, sq(b, b->v[0])), V), 15 * 3.14159265358979323846, 0),
+      PLEUEL_OK);
   assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
-  printf("# kinks: x off %.1e, v %.1e, drift %.1e\n", b->last[0] - 1, b->last[16], pl_run_stats(b->run)->energy_drift);
+  printf("# kinks: x off %.1e, v %.1e, drift %.1e\n", b->last[0] - 1, b->last[16],
+         pl_run_stats(b->run)->energy_drift);
   assert_true(fabs(b->last[0] - 1) < 1e-13 && fabs(b->last[16]) < 1e-11);
   t_close(b);
 }
@@ -407,9 +438,11 @@ static void dry_friction_swings_until_it_sticks(void** state) {
   b->force[0] = pl_mul(P, pl_ratio(P, -1, 10), pl_call(P, PL_SIGN, b->v[0]));
   t_start(b, 0, 1, 0);
   t_event(b, "turn", b->v[0], 0, PL_DEED_RECORD, 0);
-  assert_int_equal(t_make(b, pl_sub(P, half(b, sq(b, b->v[0])), half(b, sq(b, x))), 30, 0), PLEUEL_OK);
+  assert_int_equal(t_make(b, pl_sub(P, half(b, sq(b, b->v[0])), half(b, sq(b, x))), 30, 0),
+                   PLEUEL_OK);
   pleuel_status how = pl_run_to_end(b->run);
-  printf("# friction: %s %s, %.9f at %.9f\n", pleuel_status_name(how), b->job.message, b->last[0], b->last[63]);
+  printf("# friction: %s %s, %.9f at %.9f\n", pleuel_status_name(how), b->job.message, b->last[0],
+         b->last[63]);
   assert_int_equal(how, PLEUEL_NUMERICAL);
   assert_non_null(strstr(b->job.message, "sticking"));
   // 1, -0.8, 0.6, -0.4, 0.2, 0 after five half swings
@@ -417,7 +450,7 @@ static void dry_friction_swings_until_it_sticks(void** state) {
   t_close(b);
 }
 
-// ---------------------------------------------------------------------------------------------- how a run behaves
+// ------------------------------------------------------------------------------- how a run behaves
 static void stepping_allocates_nothing(void** state) {
   (void)state;
   t_bench* b = pendulum(1, 50);
@@ -483,7 +516,8 @@ static void dense_output_joins_the_steps(void** state) {
   for (int i = 0; i < 20; i++) {
     assert_int_equal(pl_run_step(b->run), PLEUEL_OK);
     pl_run_dense(b->run, pl_run_time(b->run), q, v, lambda);
-    assert_true(fabs(q[0] - pl_run_q(b->run)[0]) < 1e-15 && fabs(v[1] - pl_run_v(b->run)[1]) < 4e-15);
+    assert_true(fabs(q[0] - pl_run_q(b->run)[0]) < 1e-15
+                && fabs(v[1] - pl_run_v(b->run)[1]) < 4e-15);
     assert_true(fabs(lambda[0] - pl_run_lambda(b->run)[0]) < 1e-12);
   }
   t_close(b);

@@ -1,15 +1,17 @@
-// Points and rods in large numbers: chains, trees and nets move alike however their coordinates are numbered, keep their energy, and tell
-// rods that say nothing new.
+// Points and rods in large numbers: chains, trees and nets move alike however their coordinates are
+// numbered, keep their energy, and tell rods that say nothing new.
 #include "solve/setup_test.h"
 
 #define P b->pool
 
-typedef struct t_rod { int a, b; } t_rod;   // b < 0: to the origin
+typedef struct t_rod {
+  int a, b;
+} t_rod;  // b < 0: to the origin
 typedef struct t_net {
   int n, n_rods;
   double x[256], y[256];
   t_rod rod[512];
-  int place[256];      // point i has coordinates place[i] and place[i] + n
+  int place[256];  // point i has coordinates place[i] and place[i] + n
 } t_net;
 
 static t_net points(int n) {
@@ -23,7 +25,8 @@ static void add_rod(t_net* t, int a, int b) { t->rod[t->n_rods++] = (t_rod){a, b
 static t_net chain(int n) {
   t_net t = points(n);
   for (int i = 0; i < n; i++) {
-    t.x[i] = (i + 1) * 0.6 / n, t.y[i] = (i + 1) * 0.8 / n + 0.1 / n * (i % 3);
+    t.x[i] = (i + 1) * 0.6 / n;
+    t.y[i] = (i + 1) * 0.8 / n + 0.1 / n * (i % 3);
     add_rod(&t, i, i - 1);
   }
   return t;
@@ -48,7 +51,8 @@ static t_net net(int n, int m) {
   for (int i = 0; i < n; i++)
     for (int j = 0; j < m; j++) {
       int k = i * m + j;
-      t.x[k] = 0.05 + 0.1 * j + 0.013 * sin(3.0 * k), t.y[k] = 0.1 * i + 0.017 * cos(5.0 * k);
+      t.x[k] = 0.05 + 0.1 * j + 0.013 * sin(3.0 * k);
+      t.y[k] = 0.1 * i + 0.017 * cos(5.0 * k);
       if (j > 0) add_rod(&t, k, k - 1);
       if (i > 0) add_rod(&t, k, k - m);
     }
@@ -59,23 +63,25 @@ static void shuffle(t_net* t, uint64_t seed) {
   pl_random r = {seed};
   for (int i = t->n - 1; i > 0; i--) {
     int j = (int)(pl_random_bits(&r) % (uint64_t)(i + 1)), x = t->place[i];
-    t->place[i] = t->place[j], t->place[j] = x;
+    t->place[i] = t->place[j];
+    t->place[j] = x;
   }
 }
 
-// ---------------------------------------------------------------------------------------------- the run
+// ----------------------------------------------------------------------------------------- the run
 static pl_pattern_source source(t_bench* b, const pl_expr* q, int n_q, int n) {
   return (pl_pattern_source){
       .slots = {.n_q = n_q, .q = q, .n_c = 1, .lambda = b->lambda, .value_of_symbol = b->value},
       .n = n,
-      .q = PL_ARRAY(b->arena, int, (size_t)n_q * (size_t)n + 1),
+      .q = PL_ARRAY(b->arena, int, (size_t)n_q*(size_t)n + 1),
       .c = PL_ARRAY(b->arena, int, n + 1),
       .out = PL_ARRAY(b->arena, int, 2 * (size_t)n + 1)};
 }
 
 static void place(const t_net* t, pl_pattern_source* s, int instance, int slot, int point) {
   int* q = (int*)(uintptr_t)s->q + instance * s->slots.n_q + 2 * slot;
-  q[0] = t->place[point], q[1] = t->place[point] + t->n;
+  q[0] = t->place[point];
+  q[1] = t->place[point] + t->n;
 }
 
 static double length2(const t_net* t, t_rod r) {
@@ -84,7 +90,8 @@ static double length2(const t_net* t, t_rod r) {
 }
 
 // Rods of a length of their own: l² comes with the instance.
-static void record_rods(t_bench* b, const t_net* t, const pl_expr* q, bool free, pl_symbol l2, pl_pattern* out) {
+static void record_rods(t_bench* b, const t_net* t, const pl_expr* q, bool free, pl_symbol l2,
+                        pl_pattern* out) {
   int n = 0;
   for (int r = 0; r < t->n_rods; r++) n += (t->rod[r].b >= 0) == free;
   pl_pattern_source s = source(b, q, free ? 4 : 2, n);
@@ -100,7 +107,9 @@ static void record_rods(t_bench* b, const t_net* t, const pl_expr* q, bool free,
     index[n++] = length2(t, t->rod[r]);
   }
   s.constraint = &g;
-  s.slots.n_index = 1, s.slots.index = &l2, s.index = index;
+  s.slots.n_index = 1;
+  s.slots.index = &l2;
+  s.index = index;
   assert_int_equal(pl_pattern_record(&b->job, b->pool, &s, out), PLEUEL_OK);
 }
 
@@ -110,7 +119,8 @@ static t_bench* net_make(const t_net* t, double t_end) {
   pl_symbol l2 = t_symbol(b, "l2", PL_R_INDEX);
   b->lambda[0] = pl_sym(P, t_symbol(b, "lambda", PL_R_MULTIPLIER));
   pl_expr m = t_param(b, "m", 1.0 / t->n);
-  pl_expr T = pl_mul(P, pl_mul(P, pl_ratio(P, 1, 2), m), pl_add(P, pl_square(P, b->v[0]), pl_square(P, b->v[1])));
+  pl_expr T = pl_mul(P, pl_mul(P, pl_ratio(P, 1, 2), m),
+                     pl_add(P, pl_square(P, b->v[0]), pl_square(P, b->v[1])));
   pl_expr V = pl_neg(P, pl_mul(P, m, q[1])), energy[2] = {T, V};
   pl_pattern_source masses = source(b, q, 2, t->n), observer = masses;
   masses.slots.n_c = observer.slots.n_c = 0;
@@ -119,7 +129,8 @@ static t_bench* net_make(const t_net* t, double t_end) {
     ((int*)(uintptr_t)masses.out)[2 * i + 1] = 1;
   }
   masses.lagrangian = pl_sub(P, T, V);
-  observer.n_outputs = 2, observer.output = energy;
+  observer.n_outputs = 2;
+  observer.output = energy;
   assert_int_equal(pl_pattern_record(&b->job, b->pool, &masses, &b->pattern[0]), PLEUEL_OK);
   assert_int_equal(pl_pattern_record(&b->job, b->pool, &observer, &b->observer), PLEUEL_OK);
   record_rods(b, t, q, false, l2, &b->pattern[1]);
@@ -129,10 +140,21 @@ static t_bench* net_make(const t_net* t, double t_end) {
       b->coordinate[t->place[i] + k * t->n] = (pl_coordinate){
           .name = "q", .v_name = "v", .has_q = true, .has_v = true, .q = k ? t->y[i] : t->x[i]};
   for (int r = 0; r < t->n_rods; r++) b->link[r] = (pl_link){.name = "rod", .contact = -1};
-  b->column[0] = (pl_column){"T", "J"}, b->column[1] = (pl_column){"V", "J"};
-  b->setup = (pl_setup){.n_q = 2 * t->n, .coordinates = b->coordinate, .n_c = t->n_rods, .links = b->link, .n_patterns = 3,
-                        .patterns = b->pattern, .n_out = 2, .out = b->column, .n_observers = 1, .observers = &b->observer,
-                        .kinetic = 0, .potential = 1, .energy_conserved = true};
+  b->column[0] = (pl_column){"T", "J"};
+  b->column[1] = (pl_column){"V", "J"};
+  b->setup = (pl_setup){.n_q = 2 * t->n,
+                        .coordinates = b->coordinate,
+                        .n_c = t->n_rods,
+                        .links = b->link,
+                        .n_patterns = 3,
+                        .patterns = b->pattern,
+                        .n_out = 2,
+                        .out = b->column,
+                        .n_observers = 1,
+                        .observers = &b->observer,
+                        .kinetic = 0,
+                        .potential = 1,
+                        .energy_conserved = true};
   b->options = (pl_run_options){.t_end = t_end, .general = true};
   assert_int_equal(pl_run_make(&b->job, &b->setup, &b->options, &b->run), PLEUEL_OK);
   return b;
@@ -142,8 +164,9 @@ static t_bench* moved(const t_net* t, double t_end, const char* what) {
   t_bench* b = net_make(t, t_end);
   pleuel_status how = pl_run_to_end(b->run);
   const pl_stats* s = pl_run_stats(b->run);
-  printf("# %s: %s %s, %ld steps, drift %.1e, g %.1e, rank %d of %d\n", what, pleuel_status_name(how), b->job.message, s->steps,
-         s->energy_drift, s->max_g, s->rank, t->n_rods);
+  printf("# %s: %s %s, %ld steps, drift %.1e, g %.1e, rank %d of %d\n", what,
+         pleuel_status_name(how), b->job.message, s->steps, s->energy_drift, s->max_g, s->rank,
+         t->n_rods);
   assert_int_equal(how, PLEUEL_OK);
   assert_true(s->energy_drift < 1e-12 && s->max_g < 1e-14);
   return b;
@@ -153,11 +176,12 @@ static double difference(const t_net* t, const t_bench* b, const t_net* u, const
   double most = 0;
   for (int i = 0; i < t->n; i++)
     for (int k = 0; k < 2; k++)
-      most = fmax(most, fabs(pl_run_q(b->run)[t->place[i] + k * t->n] - pl_run_q(c->run)[u->place[i] + k * u->n]));
+      most = fmax(most, fabs(pl_run_q(b->run)[t->place[i] + k * t->n]
+                             - pl_run_q(c->run)[u->place[i] + k * u->n]));
   return most;
 }
 
-// ---------------------------------------------------------------------------------------------- tests
+// ------------------------------------------------------------------------------------------- tests
 static void expect_the_same_shuffled(const t_net* t, double t_end, const char* what) {
   t_net other = *t;
   shuffle(&other, 11);
@@ -184,7 +208,8 @@ static void a_rod_said_twice_changes_nothing(void** state) {
   t_bench *b = moved(&once, 0.05, "chain"), *c = moved(&twice, 0.05, "a rod twice");
   assert_int_equal(pl_run_stats(c->run)->rank, 130);
   assert_true(difference(&once, b, &twice, c) < 1e-12);
-  for (int r = 0; r < twice.n_rods; r++) assert_int_equal(pl_run_unique(c->run)[r], r != 60 && r != 130);
+  for (int r = 0; r < twice.n_rods; r++)
+    assert_int_equal(pl_run_unique(c->run)[r], r != 60 && r != 130);
   t_close(b);
   t_close(c);
 }

@@ -1,33 +1,39 @@
-// What happens at every order of a series the general way: coefficients into lanes, right-hand sides, the coefficients that follow.
-// This file is compiled for several kinds of processors (meson.build); sums have one order, so that all give the same bits.
+// What happens at every order of a series the general way: coefficients into lanes, right-hand
+// sides, the coefficients that follow. This file is compiled for several kinds of processors
+// (meson.build); sums have one order, so that all give the same bits.
 //
-// Order k of the equations of motion and of the constraint on velocity level, with q_{k+1} = v_k / (k+1) known:
+// Order k of the equations of motion and of the constraint on velocity level, with q_{k+1} = v_k /
+// (k+1) known:
 //
 //   M_0 a_k - (G_0^T + W_0) λ_k = -h_k - sum_{j>=1} M_j a_{k-j} + sum_{j>=1} (G_j^T + W_j) λ_{k-j}
 //   G_0 a_k                     = -(k+1) [ sum_{j>=1} G_j v_{k+1-j} + (dg/dt)_{k+1} ]
 //
-// Entries of a row of G that are multiples of one node u, as u, -u of a rod, share their sums: u with the sum of multiples of velocities,
-// u with λ.
+// Entries of a row of G that are multiples of one node u, as u, -u of a rod, share their sums: u
+// with the sum of multiples of velocities, u with λ.
 #include <math.h>
 
 #include "solve/solve_impl.h"
 
 #ifndef PL_ORDERS
-#define PL_ORDERS pl_orders_plain
+#  define PL_ORDERS pl_orders_plain
 #endif
 extern const pl_orders PL_ORDERS;
 
 #ifdef __clang__
-#define APART _Pragma("clang loop vectorize(assume_safety)")
+#  define APART _Pragma("clang loop vectorize(assume_safety)")
 #else
-#define APART _Pragma("GCC ivdep")
+#  define APART _Pragma("GCC ivdep")
 #endif
-#define INLINE static inline __attribute__((always_inline))
+#define INLINE  static inline __attribute__((always_inline))
 #define EACH(n) APART for (int l = 0; l < (n); l++)
 
-static const double* coefficient(const pl_batch* b, int node, int k) { return pl_jet_at(b->jet, node, k); }
+static const double* coefficient(const pl_batch* b, int node, int k) {
+  return pl_jet_at(b->jet, node, k);
+}
 static int node_of(const pl_batch* b, int root) { return b->pattern->tape->roots[root]; }
-static bool is_constant(const pl_batch* b, int node) { return node < b->pattern->tape->level_end[PL_LEVEL_CONST]; }
+static bool is_constant(const pl_batch* b, int node) {
+  return node < b->pattern->tape->level_end[PL_LEVEL_CONST];
+}
 
 static double* series_at(const pl_batch* b, double* series, int slot, int k) {
   return series + ((size_t)slot * (size_t)b->orders + (size_t)k) * (size_t)b->lanes;
@@ -37,8 +43,9 @@ static double* v_of_slot(const pl_batch* b, int slot, int k) {
   return b->all_v ? series_at(b, b->v, slot, k) : b->v + (size_t)slot * (size_t)b->lanes;
 }
 
-// ---------------------------------------------------------------------------------------------- loading
-static void gather(double* restrict to, const double* restrict from, const int* restrict index, int run, int n, int lanes) {
+// ----------------------------------------------------------------------------------------- loading
+static void gather(double* restrict to, const double* restrict from, const int* restrict index,
+                   int run, int n, int lanes) {
   if (run < 0) {
     EACH(lanes) to[l] = from[index[l]];
     return;
@@ -48,9 +55,9 @@ static void gather(double* restrict to, const double* restrict from, const int* 
 }
 
 // Adds, or begins with, multiples of velocities.
-INLINE void add_multiple(double* restrict to, const double* restrict f, const double* restrict v, const int* restrict index, int run,
-                         const pl_batch* b, bool begins) {
-  int direct = run < 0 ? 0 : b->n;    // the lanes behind repeat the last instance
+INLINE void add_multiple(double* restrict to, const double* restrict f, const double* restrict v,
+                         const int* restrict index, int run, const pl_batch* b, bool begins) {
+  int direct = run < 0 ? 0 : b->n;  // the lanes behind repeat the last instance
   if (begins) {
     EACH(direct) to[l] = f[l] * v[run + l];
     for (int l = direct; l < b->lanes; l++) to[l] = f[l] * v[index[l]];
@@ -67,49 +74,60 @@ static void load_bundles(const pl_batch* b, const double* v, int k) {
     double* to = series_at(b, b->bundle_v, t, k);
     for (int e = bundle->first; e < bundle->first + bundle->n; e++) {
       int slot = b->bundle_q[e];
-      add_multiple(to, b->bundle_factor + (size_t)e * (size_t)b->lanes, v, b->q + slot * b->lanes, b->q_run[slot], b,
-                   e == bundle->first);
+      add_multiple(to, b->bundle_factor + (size_t)e * (size_t)b->lanes, v, b->q + slot * b->lanes,
+                   b->q_run[slot], b, e == bundle->first);
     }
   }
 }
 
-// Slots of v are kept where something reads them: at order 0, in sums with slip, and by the sums of multiples.
+// Slots of v are kept where something reads them: at order 0, in sums with slip, and by the sums of
+// multiples.
 static void load(pl_batches* bs, pl_quantity what, const double* x, int k) {
   for (int i = 0; i < bs->n; i++) {
     const pl_batch* b = &bs->at[i];
     const pl_pattern* p = b->pattern;
-    const int *index = what == PL_IS_LAMBDA ? b->c : b->q, *run = what == PL_IS_LAMBDA ? b->c_run : b->q_run;
-    const int* node = what == PL_IS_Q ? p->tape->q_node : what == PL_IS_V ? p->tape->v_node
-                    : what == PL_IS_A ? p->tape->a_node : p->tape->lambda_node;
-    double* series = what == PL_IS_V ? b->v : what == PL_IS_A ? b->a : what == PL_IS_LAMBDA ? b->lambda : NULL;
+    const int *index = what == PL_IS_LAMBDA ? b->c : b->q,
+              *run = what == PL_IS_LAMBDA ? b->c_run : b->q_run;
+    const int* node = what == PL_IS_Q   ? p->tape->q_node
+                      : what == PL_IS_V ? p->tape->v_node
+                      : what == PL_IS_A ? p->tape->a_node
+                                        : p->tape->lambda_node;
+    double* series = what == PL_IS_V        ? b->v
+                     : what == PL_IS_A      ? b->a
+                     : what == PL_IS_LAMBDA ? b->lambda
+                                            : NULL;
     const bool* needs = what == PL_IS_V ? b->needs_v : what == PL_IS_A ? b->needs_a : NULL;
     int slots = what == PL_IS_LAMBDA ? p->n_c : p->n_q;
     for (int s = 0; s < slots; s++) {
       const int* at = index + s * b->lanes;
       if (series && (needs == NULL || needs[s]) && (what != PL_IS_V || k == 0 || b->all_v))
-        gather(what == PL_IS_V ? v_of_slot(b, s, k) : series_at(b, series, s, k), x, at, run[s], b->n, b->lanes);
+        gather(what == PL_IS_V ? v_of_slot(b, s, k) : series_at(b, series, s, k), x, at, run[s],
+               b->n, b->lanes);
       if (node[s] >= 0) gather(pl_jet_at(b->jet, node[s], k), x, at, run[s], b->n, b->lanes);
     }
     if (what == PL_IS_V) load_bundles(b, x, k);
   }
 }
 
-// ---------------------------------------------------------------------------------------------- spreading
+// --------------------------------------------------------------------------------------- spreading
 // Adds factor times x to the places of a slot.
-INLINE void spread(double* restrict to, const double* restrict x, double factor, const int* index, int run, int n) {
+INLINE void spread(double* restrict to, const double* restrict x, double factor, const int* index,
+                   int run, int n) {
   if (run >= 0) EACH(n) to[run + l] += factor * x[l];
-  else for (int l = 0; l < n; l++) to[index[l]] += factor * x[l];
+  else
+    for (int l = 0; l < n; l++) to[index[l]] += factor * x[l];
 }
 
 static void spread_q(const pl_batch* b, double* rhs, const double* x, double factor, int slot) {
   spread(rhs, x, factor, b->q + slot * b->lanes, b->q_run[slot], b->n);
 }
 
-static void spread_c(const pl_run* run, const pl_batch* b, double* rhs, const double* x, double factor, int slot) {
+static void spread_c(const pl_run* run, const pl_batch* b, double* rhs, const double* x,
+                     double factor, int slot) {
   spread(rhs + run->n_q, x, factor, b->c + slot * b->lanes, b->c_run[slot], b->n);
 }
 
-// ---------------------------------------------------------------------------------------------- sums
+// -------------------------------------------------------------------------------------------- sums
 typedef double pl_eight __attribute__((vector_size(64), aligned(8), may_alias));
 #define AT(x, row) (*(const pl_eight*)((x) + (size_t)(row) * (size_t)lanes))
 
@@ -128,11 +146,16 @@ static void tail(double* s, const double* x, const double* y, int k, int lanes) 
 }
 
 // with_v = sum_{j=1..k+1} u_j v_{k+1-j},  with_lambda = sum_{j=1..k} u_j λ_{k-j}
-static void bundle_sums(double* with_v, double* with_lambda, const double* u, const double* v, const double* lambda, int k, int lanes) {
+static void bundle_sums(double* with_v, double* with_lambda, const double* u, const double* v,
+                        const double* lambda, int k, int lanes) {
   if (lanes == 1) {
     double sum = 0, other = 0;
-    for (int j = 1; j <= k; j++) sum += u[j] * v[k + 1 - j], other += u[j] * lambda[k - j];
-    *with_v = sum + u[k + 1] * v[0], *with_lambda = other;
+    for (int j = 1; j <= k; j++) {
+      sum += u[j] * v[k + 1 - j];
+      other += u[j] * lambda[k - j];
+    }
+    *with_v = sum + u[k + 1] * v[0];
+    *with_lambda = other;
     return;
   }
   for (int first = 0; first < lanes; first += 8) {
@@ -148,7 +171,7 @@ static void bundle_sums(double* with_v, double* with_lambda, const double* u, co
   }
 }
 
-// ---------------------------------------------------------------------------------------------- right-hand side
+// --------------------------------------------------------------------------------- right-hand side
 static void subtract_h(pl_run* run, const pl_batch* b, int k, double* rhs) {
   for (int e = 0; e < b->pattern->n_h; e++) {
     const pl_pattern_entry* h = &b->pattern->h[e];
@@ -182,8 +205,8 @@ static void add_bundles(const pl_run* run, const pl_batch* b, int k, double* rhs
   int lanes = b->lanes;
   for (int t = 0; t < b->n_bundles; t++) {
     const pl_bundle* bundle = &b->bundles[t];
-    bundle_sums(with_v, with_lambda, coefficient(b, bundle->node, 0), series_at(b, b->bundle_v, t, 0),
-              series_at(b, b->lambda, bundle->c, 0), k, lanes);
+    bundle_sums(with_v, with_lambda, coefficient(b, bundle->node, 0),
+                series_at(b, b->bundle_v, t, 0), series_at(b, b->lambda, bundle->c, 0), k, lanes);
     spread_c(run, b, rhs, with_v, -(k + 1), bundle->c);
     for (int e = bundle->first; k > 0 && e < bundle->first + bundle->n; e++) {
       const double* f = b->bundle_factor + (size_t)e * (size_t)lanes;
@@ -230,9 +253,11 @@ static void rhs_of(pl_run* run, int k, double* rhs) {
     if (!run->taken[c]) rhs[run->n_q + c] = 0;
 }
 
-// ---------------------------------------------------------------------------------------------- coefficients
+// ------------------------------------------------------------------------------------ coefficients
 // x / k is x times the rounded 1 / k and the rest of it.
-typedef struct pl_ratio_of { double ratio, rest; } pl_ratio_of;
+typedef struct pl_ratio_of {
+  double ratio, rest;
+} pl_ratio_of;
 INLINE pl_ratio_of one_over(int k) {
   double ratio = 1.0 / k;
   return (pl_ratio_of){ratio, __builtin_fma(-ratio, k, 1) * ratio};
@@ -247,9 +272,12 @@ static void over(double* restrict to, const double* restrict from, int by, int n
 // a_k from the solution; with it v_{k+1} and q_{k+2}.
 static void take(pl_run* run, int k) {
   int n = run->n_q;
-  double *restrict a = run->A + (size_t)k * (size_t)n, *restrict v = run->V + (size_t)(k + 1) * (size_t)n;
-  double *restrict q = run->Q + (size_t)(k + 2) * (size_t)n, *restrict lambda = run->L + (size_t)k * (size_t)run->n_c;
-  const double *restrict x = run->rhs, *restrict y = run->rhs + n;
+  double* restrict a = run->A + (size_t)k * (size_t)n, * restrict v = run->V
+                                                                      + (size_t)(k + 1) * (size_t)n;
+  double* restrict q = run->Q + (size_t)(k + 2) * (size_t)n, * restrict lambda =
+                                                                 run->L
+                                                                 + (size_t)k * (size_t)run->n_c;
+  const double* restrict x = run->rhs, * restrict y = run->rhs + n;
   pl_ratio_of r = one_over(k + 1), s = one_over(k + 2);
   EACH(n) {
     a[l] = x[l];
@@ -285,7 +313,7 @@ static double norm(const double* x, int n) {
     EACH(8) {
       double size = fabs(y[l]);
       most[l] = size > most[l] ? size : most[l];
-      wrong[l] += 0 * y[l];     // not a number once y is none, or infinite
+      wrong[l] += 0 * y[l];  // not a number once y is none, or infinite
     }
   }
   for (int i = whole; i < n; i++) {
@@ -307,8 +335,7 @@ static double norm(const double* x, int n) {
 static double note(double* restrict most, const double* restrict x, int n) {
   double largest[8] = {0}, all = 0;
   int whole = n / 8 * 8;
-  for (int i = 0; i < whole; i += 8)
-    EACH(8) {
+  for (int i = 0; i < whole; i += 8) EACH(8) {
       double size = fabs(x[i + l]);
       most[i + l] = size > most[i + l] ? size : most[i + l];
       largest[l] = most[i + l] > largest[l] ? most[i + l] : largest[l];
@@ -321,22 +348,26 @@ static double note(double* restrict most, const double* restrict x, int n) {
   return all;
 }
 
-// ---------------------------------------------------------------------------------------------- constraints
+// ------------------------------------------------------------------------------------- constraints
 INLINE double larger(double a, double b) { return a > b ? a : b; }
 
 static void clear(double* x, int n) {
   for (int i = 0; i < n; i++) x[i] = 0;
 }
 
-// The sizes of the terms G_ce x_e, with |x| the largest that it has been and a floor where it never moved.
-static void add_sizes(const pl_batch* b, const double* restrict most, double floor, double* restrict size) {
+// The sizes of the terms G_ce x_e, with |x| the largest that it has been and a floor where it never
+// moved.
+static void add_sizes(const pl_batch* b, const double* restrict most, double floor,
+                      double* restrict size) {
   for (int e = 0; e < b->pattern->n_G; e++) {
     const pl_pattern_entry* g = &b->pattern->G[e];
     const double* restrict x = coefficient(b, node_of(b, g->root), 0);
     const int *c = b->c + g->row * b->lanes, *q = b->q + g->col * b->lanes;
     int c_run = b->c_run[g->row], q_run = b->q_run[g->col];
-    if (c_run >= 0 && q_run >= 0) EACH(b->n) size[c_run + l] += fabs(x[l]) * larger(most[q_run + l], floor);
-    else for (int l = 0; l < b->n; l++) size[c[l]] += fabs(x[l]) * larger(most[q[l]], floor);
+    if (c_run >= 0 && q_run >= 0)
+      EACH(b->n) size[c_run + l] += fabs(x[l]) * larger(most[q_run + l], floor);
+    else
+      for (int l = 0; l < b->n; l++) size[c[l]] += fabs(x[l]) * larger(most[q[l]], floor);
   }
 }
 
@@ -345,7 +376,8 @@ static void values_of_g(const pl_batch* b, int k, double* g, double* size) {
   for (int e = 0; e < b->pattern->n_g; e++) {
     const pl_pattern_entry* p = &b->pattern->g[e];
     int node = node_of(b, p->root);
-    if (k == 0 || !is_constant(b, node)) spread(g, coefficient(b, node, k), 1, b->c + p->row * b->lanes, b->c_run[p->row], b->n);
+    if (k == 0 || !is_constant(b, node))
+      spread(g, coefficient(b, node, k), 1, b->c + p->row * b->lanes, b->c_run[p->row], b->n);
     if (size == NULL || p->col < 0) continue;
     const double* x = coefficient(b, node_of(b, p->col), 0);
     EACH(b->lanes) s[l] = x[l];
@@ -353,8 +385,8 @@ static void values_of_g(const pl_batch* b, int k, double* g, double* size) {
   }
 }
 
-// Sizes hold what rounding of the coordinates themselves does to g too, |dg/dq| |q|, which the terms need not show (r cos φ after
-// many turns).
+// Sizes hold what rounding of the coordinates themselves does to g too, |dg/dq| |q|, which the
+// terms need not show (r cos φ after many turns).
 static void g_of(pl_run* run, int k, double* g, double* size) {
   static const double part = 1e-6;  // of the largest coordinate of all
   clear(g, run->n_c);
@@ -362,8 +394,10 @@ static void g_of(pl_run* run, int k, double* g, double* size) {
   for (int i = 0; i < run->motion.n; i++) values_of_g(&run->motion.at[i], k, g, size);
   if (size == NULL) return;
   for (int c = 0; c < run->n_c; c++) run->argument[c] = size[c];
-  for (int i = 0; i < run->motion.n; i++) add_sizes(&run->motion.at[i], run->q_most, part * run->q_size, size);
-  for (int c = 0; c < run->n_c; c++) run->argument[c] = run->argument[c] > 0 ? size[c] / run->argument[c] : 1;
+  for (int i = 0; i < run->motion.n; i++)
+    add_sizes(&run->motion.at[i], run->q_most, part * run->q_size, size);
+  for (int c = 0; c < run->n_c; c++)
+    run->argument[c] = run->argument[c] > 0 ? size[c] / run->argument[c] : 1;
 }
 
 static void gdot_of(pl_run* run, double* r, double* size) {
@@ -402,9 +436,11 @@ static void row_sizes(pl_run* run) {
       int c_run = b->c_run[g->row];
       double* restrict most = run->row_most;
       if (c_run >= 0) EACH(b->n) most[c_run + l] = larger(fabs(x[l]), most[c_run + l]);
-      else for (int l = 0; l < b->n; l++) most[c[l]] = larger(fabs(x[l]), most[c[l]]);
+      else
+        for (int l = 0; l < b->n; l++) most[c[l]] = larger(fabs(x[l]), most[c[l]]);
     }
   }
 }
 
-const pl_orders PL_ORDERS = {load, rhs_of, take, over, horner, norm, note, g_of, gdot_of, row_sizes};
+const pl_orders PL_ORDERS = {load, rhs_of, take, over,    horner,
+                             norm, note,   g_of, gdot_of, row_sizes};

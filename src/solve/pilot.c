@@ -1,46 +1,48 @@
 // Derivatives of a motion through contacts and events that change it.
 //
-// A run of the motion alone, the pilot, goes ahead to the next moment at which something happens and decides what; the run
-// with the derivatives (record_variation.c) follows in the mode that holds until then.  There the derivatives jump.  With
-// the moment t* at which e(q, v, a, λ, t, p) = 0, for each direction
+// A run of the motion alone, the pilot, goes ahead to the next moment at which something happens
+// and decides what; the run with the derivatives (record_variation.c) follows in the mode that
+// holds until then. There the derivatives jump. With the moment t* at which e(q, v, a, λ, t, p) =
+// 0, for each direction
 //
 //     dt* = -(e_p + e_q δ + ...) / (de/dt),     Dq = δ + v- dt*,     Dv = δ' + a- dt*        just before,
 //     Dq, Dv through what the event does: the derivative of the impact, or of the new values,
 //     δ = Dq - v+ dt*,     δ' = Dv - a+ dt*                                                  just after
 //
-// [Rozenwasser1959], [HiskensPai2000], for impacts [LeineNijmeijer2004].  The derivative of an impact needs no formula
-// of its own: the impulses of the system with the variations are the derivatives of the impulses.  What has no
-// derivative is refused when it happens: grazing contacts, and two things at once that each change the motion.
+// [Rozenwasser1959], [HiskensPai2000], for impacts [LeineNijmeijer2004]. The derivative of an
+// impact needs no formula of its own: the impulses of the system with the variations are the
+// derivatives of the impulses. What has no derivative is refused when it happens: grazing contacts,
+// and two things at once that each change the motion.
 #include <math.h>
 #include <string.h>
 
 #include "solve/solve_impl.h"
 
 typedef struct told {
-  pl_event_record e;       // without its rows
+  pl_event_record e;  // without its rows
   double t;
 } told;
 
 struct pl_pilot {
   pl_run *run, *follower;
   const pl_varied* s;
-  told* told;              // what happened at the moment ahead
+  told* told;  // what happened at the moment ahead
   int n_told, room;
-  bool waits;              // that moment is not reached by the follower yet
-  pleuel_status how;       // that the pilot ended with
+  bool waits;         // that moment is not reached by the follower yet
+  pleuel_status how;  // that the pilot ended with
   const char* why;
-  double t;                // the moment
-  double *q, *v, *a, *l, *lambda_rate, *a_rate;   // of the pilot just before it     (n_q, n_c)
-  long impacts;            // of the pilot, before
-  double* dt;              // of the directions
-  double* watched;         // values, slopes, variations of what is watched
-  double* flow;            // the same, with the motion itself as the variation
-  double *row, *row_size, *flow_row;   // of the follower
-  char* mode;              // until the moment
-  pl_keeper before;        // state of the pilot where it set out for the moment ahead
+  double t;                                      // the moment
+  double *q, *v, *a, *l, *lambda_rate, *a_rate;  // of the pilot just before it     (n_q, n_c)
+  long impacts;                                  // of the pilot, before
+  double* dt;                                    // of the directions
+  double* watched;                               // values, slopes, variations of what is watched
+  double* flow;                       // the same, with the motion itself as the variation
+  double *row, *row_size, *flow_row;  // of the follower
+  char* mode;                         // until the moment
+  pl_keeper before;                   // state of the pilot where it set out for the moment ahead
 };
 
-// ---------------------------------------------------------------------------------------------- the pilot tells
+// --------------------------------------------------------------------------------- the pilot tells
 // Slopes of accelerations and multipliers at the end of the last step.
 static void slope_of(const double* X, int n, int last, double dt, double* out) {
   for (int i = 0; i < n; i++) out[i] = 0;
@@ -90,11 +92,12 @@ pl_pilot* pl_pilot_make(pl_job* job, const pl_run* follower, const pl_setup* pla
   return p;
 }
 
-// ---------------------------------------------------------------------------------------------- the follower's mode
+// ----------------------------------------------------------------------------- the follower's mode
 static void take_mode(pl_pilot* p) {
   const pl_varied* s = p->s;
   for (int c = 0; c < s->n_c; c++)
-    for (int k = 0; k < 2 * s->n_directions; k++) p->follower->on[k * s->n_c + c] = p->run->active[c];
+    for (int k = 0; k < 2 * s->n_directions; k++)
+      p->follower->on[k * s->n_c + c] = p->run->active[c];
   pl_mode_text(p->run, p->mode);
 }
 
@@ -112,7 +115,7 @@ void pl_pilot_free(pl_pilot* p) {
 const char* pl_pilot_mode(const pl_pilot* p) { return p->mode; }
 bool pl_pilot_waits(const pl_pilot* p) { return p->waits; }
 
-// ---------------------------------------------------------------------------------------------- events for the sink
+// ----------------------------------------------------------------------------- events for the sink
 static pleuel_status tell(pl_pilot* p) {
   pl_run* f = p->follower;
   for (int i = 0; i < p->n_told; i++) {
@@ -121,8 +124,15 @@ static pleuel_status tell(pl_pilot* p) {
     f->stats.n_events++;
     if (!s->event) continue;
     pl_event_record e = t->e;
-    e.before = (pl_row){.t = f->t, .q = f->save_q, .v = f->save_v, .a = f->save_a, .lambda = f->save_l,
-                        .unique = f->save_unique, .out = f->out_before, .mode = f->mode_before, .kind = PL_ROW_BEFORE};
+    e.before = (pl_row){.t = f->t,
+                        .q = f->save_q,
+                        .v = f->save_v,
+                        .a = f->save_a,
+                        .lambda = f->save_l,
+                        .unique = f->save_unique,
+                        .out = f->out_before,
+                        .mode = f->mode_before,
+                        .kind = PL_ROW_BEFORE};
     e.after = pl_row_now(f, PL_ROW_AFTER, f->out_now, f->mode);
     double dt = t->t - f->t;
     if (e.bounces > 0 && dt != 0) {
@@ -147,7 +157,7 @@ pleuel_status pl_pilot_begin(pl_pilot* p) {
   return tell(p);
 }
 
-// ---------------------------------------------------------------------------------------------- when
+// -------------------------------------------------------------------------------------------- when
 static const char* name_of(const pl_run* run, const pl_watch* w) {
   if (w->kind == PL_WATCH_EVENT) return run->setup->events[w->index].name;
   return run->setup->links[w->index].name;
@@ -161,7 +171,9 @@ static bool switches(const pl_run* run, const pl_watch* w) {
   return false;
 }
 
-static const char* label_of(const pl_pilot* p) { return p->n_told > 0 && p->told[0].e.label ? p->told[0].e.label : "?"; }
+static const char* label_of(const pl_pilot* p) {
+  return p->n_told > 0 && p->told[0].e.label ? p->told[0].e.label : "?";
+}
 
 // What changes the motion: exactly one thing.
 static pleuel_status find_cause(const pl_pilot* p, int* cause) {
@@ -170,21 +182,27 @@ static pleuel_status find_cause(const pl_pilot* p, int* cause) {
   for (int i = 0; i < run->n_watch; i++) {
     if (!run->hit[i] || !switches(run, &run->watch[i])) continue;
     if (*cause >= 0)
-      return pl_fail(p->follower->job, PLEUEL_UNSUPPORTED, "the motion has no derivative at t = %.9g s: %s changes together with something else", p->t,
-                     name_of(run, &run->watch[i]));
+      return pl_fail(
+          p->follower->job, PLEUEL_UNSUPPORTED,
+          "the motion has no derivative at t = %.9g s: %s changes together with something else",
+          p->t, name_of(run, &run->watch[i]));
     *cause = i;
     if (run->touch[i])
-      return pl_fail(p->follower->job, PLEUEL_UNSUPPORTED, "the motion has no derivative at t = %.9g s: %s is only grazed", p->t,
+      return pl_fail(p->follower->job, PLEUEL_UNSUPPORTED,
+                     "the motion has no derivative at t = %.9g s: %s is only grazed", p->t,
                      name_of(run, &run->watch[i]));
   }
   if (*cause < 0)
-      return pl_fail(p->follower->job, PLEUEL_UNSUPPORTED, "the motion has no derivative at t = %.9g s: %s changes with nothing that leads to it", p->t,
-                     label_of(p));
+    return pl_fail(
+        p->follower->job, PLEUEL_UNSUPPORTED,
+        "the motion has no derivative at t = %.9g s: %s changes with nothing that leads to it",
+        p->t, label_of(p));
   return PLEUEL_OK;
 }
 
 // What is watched, with these in place of coordinates and multipliers of the follower.
-static void watch_at(pl_pilot* p, const double* q, const double* v, const double* a, const double* lambda, double* out) {
+static void watch_at(pl_pilot* p, const double* q, const double* v, const double* a,
+                     const double* lambda, double* out) {
   pl_run* f = p->follower;
   pl_batches* b = &f->watched;
   if (f->setup->n_watched == 0) return;
@@ -193,12 +211,13 @@ static void watch_at(pl_pilot* p, const double* q, const double* v, const double
   pl_batches_load_v(b, v, 0);
   pl_batches_load_a(b, a, 0);
   pl_batches_load_lambda(b, lambda, 0);
-  for (int level = PL_LEVEL_PLACE; level < PL_N_LEVELS; level++) pl_batches_sweep(b, (pl_level)level, 0, true);
+  for (int level = PL_LEVEL_PLACE; level < PL_N_LEVELS; level++)
+    pl_batches_sweep(b, (pl_level)level, 0, true);
   pl_batches_outputs(b, out, f->setup->n_watched, 0);
 }
 
-// The change along the motion of everything watched: variations taken along it, without what they depend on p by, with that on t.
-// row_q and so on serve as the state; flow[i] is d(watched i)/dt.
+// The change along the motion of everything watched: variations taken along it, without what they
+// depend on p by, with that on t. row_q and so on serve as the state; flow[i] is d(watched i)/dt.
 static void watch_flow(pl_pilot* p) {
   pl_run* f = p->follower;
   const pl_varied* s = p->s;
@@ -216,7 +235,8 @@ static void watch_flow(pl_pilot* p) {
     for (size_t e = 0; e < c; e++) f->row_l[c + e] = with ? p->lambda_rate[e] : 0;
     watch_at(p, f->row_q, f->row_v, f->row_a, f->row_l, p->watched);
     for (int i = 0; i < s->n_watched; i++)
-      p->flow[i] = with ? p->watched[2 * s->n_watched + i] - p->flow[i] + p->watched[s->n_watched + i]
+      p->flow[i] = with ? p->watched[2 * s->n_watched + i] - p->flow[i]
+                              + p->watched[s->n_watched + i]
                         : p->watched[2 * s->n_watched + i];
   }
   watch_at(p, f->q, f->v, f->A, f->L, p->watched);
@@ -243,40 +263,48 @@ static pleuel_status find_moment(pl_pilot* p, int cause) {
     find_rows(p, true);
     rate = p->row[n + c];
     if (!(fabs(rate) > 1e-13 * p->row_size[n + c]))
-      return pl_fail(p->follower->job, PLEUEL_UNSUPPORTED, "the motion has no derivative at t = %.9g s: %s is only grazed", p->t,
-                     name);
+      return pl_fail(p->follower->job, PLEUEL_UNSUPPORTED,
+                     "the motion has no derivative at t = %.9g s: %s is only grazed", p->t, name);
     find_rows(p, false);
     for (int k = 0; k < s->n_directions; k++) p->dt[k] = -p->row[2 * k * n + c] / rate;
   } else if (w->kind == PL_WATCH_RELEASE) {
     rate = p->lambda_rate[c];
     if (!p->run->save_unique[c])
-      return pl_fail(p->follower->job, PLEUEL_UNSUPPORTED, "the motion has no derivative at t = %.9g s: the force of %s is not determined", p->t,
-                     name);
+      return pl_fail(
+          p->follower->job, PLEUEL_UNSUPPORTED,
+          "the motion has no derivative at t = %.9g s: the force of %s is not determined", p->t,
+          name);
     if (!(fabs(rate) > 0))
-      return pl_fail(p->follower->job, PLEUEL_UNSUPPORTED, "the motion has no derivative at t = %.9g s: %s only just lets go", p->t,
+      return pl_fail(p->follower->job, PLEUEL_UNSUPPORTED,
+                     "the motion has no derivative at t = %.9g s: %s only just lets go", p->t,
                      name);
     for (int k = 0; k < s->n_directions; k++) p->dt[k] = -f->L[(2 * k + 1) * n + c] / rate;
   } else {
     int i = p->run->setup->events[c].watch;
     rate = p->flow[i];
     if (!(fabs(rate) > 0))
-      return pl_fail(p->follower->job, PLEUEL_UNSUPPORTED, "the motion has no derivative at t = %.9g s: %s only touches zero", p->t,
+      return pl_fail(p->follower->job, PLEUEL_UNSUPPORTED,
+                     "the motion has no derivative at t = %.9g s: %s only touches zero", p->t,
                      name);
-    for (int k = 0; k < s->n_directions; k++) p->dt[k] = -p->watched[(2 + k) * s->n_watched + i] / rate;
+    for (int k = 0; k < s->n_directions; k++)
+      p->dt[k] = -p->watched[(2 + k) * s->n_watched + i] / rate;
   }
   for (int k = 0; k < s->n_directions; k++)
     if (!isfinite(p->dt[k]))
-      return pl_fail(p->follower->job, PLEUEL_UNSUPPORTED, "the motion has no derivative at t = %.9g s: %s only touches zero", p->t,
+      return pl_fail(p->follower->job, PLEUEL_UNSUPPORTED,
+                     "the motion has no derivative at t = %.9g s: %s only touches zero", p->t,
                      name);
   return PLEUEL_OK;
 }
 
-// ---------------------------------------------------------------------------------------------- the jump
-// δ and δ' in the follower become total derivatives of the state at the moment, or what is left of them behind it.
+// ---------------------------------------------------------------------------------------- the jump
+// δ and δ' in the follower become total derivatives of the state at the moment, or what is left of
+// them behind it.
 static void shift(const pl_pilot* p, double* variations, const double* rate, double sign) {
   const pl_varied* s = p->s;
   for (int k = 0; k < s->n_directions; k++)
-    for (int i = 0; i < s->n_q; i++) variations[(2 * k + 1) * s->n_q + i] += sign * p->dt[k] * rate[i];
+    for (int i = 0; i < s->n_q; i++)
+      variations[(2 * k + 1) * s->n_q + i] += sign * p->dt[k] * rate[i];
 }
 
 static void set_motion(pl_pilot* p, const double* q, const double* v) {
@@ -309,13 +337,16 @@ static void set_values(pl_pilot* p, int cause) {
     const pl_event_deed* deed = &e->deeds[d];
     if (deed->deed != PL_DEED_SET_Q && deed->deed != PL_DEED_SET_V) continue;
     for (int k = 0; k < s->n_directions; k++) {
-      double* to = (deed->deed == PL_DEED_SET_Q ? p->follower->q : p->follower->v) + (2 * k + 1) * s->n_q;
-      to[deed->target] = p->watched[(2 + k) * s->n_watched + deed->value] + p->dt[k] * p->flow[deed->value];
+      double* to = (deed->deed == PL_DEED_SET_Q ? p->follower->q : p->follower->v)
+                   + (2 * k + 1) * s->n_q;
+      to[deed->target] = p->watched[(2 + k) * s->n_watched + deed->value]
+                         + p->dt[k] * p->flow[deed->value];
     }
   }
 }
 
-// What the moment adds to the equations of the impact: M and G change along the motion before it by dt* dM/dt, dt* dG/dt.
+// What the moment adds to the equations of the impact: M and G change along the motion before it by
+// dt* dM/dt, dt* dG/dt.
 //
 // d/dt (G v + dg/dt) without accelerations, at the velocities v of the motion.
 static void turn_of_rows(pl_pilot* p, const double* v, double* out) {
@@ -336,12 +367,17 @@ static void add_turn_of_forces(pl_pilot* p, const double* change) {
   for (int i = 0; i < f->motion.n; i++) {
     const pl_batch* b = &f->motion.at[i];
     const pl_tape* tape = b->pattern->tape;
-    for (const pl_pattern_entry* e = b->pattern->mass; e < b->pattern->mass + b->pattern->n_mass; e++) {
+    for (const pl_pattern_entry* e = b->pattern->mass; e < b->pattern->mass + b->pattern->n_mass;
+         e++) {
       int node = tape->roots[e->root];
       for (int l = 0; l < b->n && node >= tape->level_end[PL_LEVEL_CONST]; l++) {
         int q = b->q[e->row * b->lanes + l], d = b->q[e->col * b->lanes + l];
         if ((q / s->n_q) % 2 == (d / s->n_q) % 2) continue;
-        if ((q / s->n_q) % 2 == 1) q = q + d, d = q - d, q = q - d;      // q of the motion, d of the variation
+        if ((q / s->n_q) % 2 == 1) {
+          q = q + d;
+          d = q - d;
+          q = q - d;
+        }  // q of the motion, d of the variation
         f->rhs[q] -= p->dt[q / s->n_q / 2] * pl_jet_at(b->jet, node, 1)[l] * change[d % s->n_q];
       }
     }
@@ -349,15 +385,18 @@ static void add_turn_of_forces(pl_pilot* p, const double* change) {
       int node = tape->roots[e->root];
       for (int l = 0; l < b->n && node >= tape->level_end[PL_LEVEL_CONST]; l++) {
         int q = b->q[e->col * b->lanes + l], c = b->c[e->row * b->lanes + l];
-        if ((c / s->n_c) % 2 == 0 || (q / s->n_q) % 2 == 1 || !run->impact_taken[c % s->n_c]) continue;
-        f->rhs[q] += p->dt[q / s->n_q / 2] * pl_jet_at(b->jet, node, 1)[l] * run->impulse[c % s->n_c];
+        if ((c / s->n_c) % 2 == 0 || (q / s->n_q) % 2 == 1 || !run->impact_taken[c % s->n_c])
+          continue;
+        f->rhs[q] += p->dt[q / s->n_q / 2] * pl_jet_at(b->jet, node, 1)[l]
+                     * run->impulse[c % s->n_c];
       }
     }
   }
 }
 
-// The derivative of the impact: impulses of the system with the variations, where a velocity u along g becomes -e u and
-// its variation -e du - de u.  along: positions are still varied at fixed time, the moment adds its part.
+// The derivative of the impact: impulses of the system with the variations, where a velocity u
+// along g becomes -e u and its variation -e du - de u. along: positions are still varied at fixed
+// time, the moment adds its part.
 static pleuel_status strike(pl_pilot* p, bool along) {
   pl_run *f = p->follower, *run = p->run;
   const pl_varied* s = p->s;
@@ -386,8 +425,12 @@ static pleuel_status strike(pl_pilot* p, bool along) {
     double e = run->impact_factor[c];
     for (int k = 0; k < s->n_directions; k++) {
       int varied = 2 * k * n + c, plain = varied + n;
-      double u = p->row[plain], du = p->row[varied], de = e > 0 ? s->restitution_slope[k * n + c] : 0, more = 0;
-      if (along) du += p->dt[k] * turn[plain], more = p->dt[k] * change[plain];
+      double u = p->row[plain], du = p->row[varied],
+             de = e > 0 ? s->restitution_slope[k * n + c] : 0, more = 0;
+      if (along) {
+        du += p->dt[k] * turn[plain];
+        more = p->dt[k] * change[plain];
+      }
       f->rhs[f->n_q + plain] = f->taken[plain] ? -e * u - u : 0;
       f->rhs[f->n_q + varied] = f->taken[varied] ? -e * du - de * u - du - more : 0;
     }
@@ -417,8 +460,10 @@ static pleuel_status jump(pl_pilot* p) {
   PL_TRY(find_moment(p, cause));
   bool strikes = run->impacts != p->impacts, sets = sets_values(run, &run->watch[cause]);
   if (strikes && sets && moves(f))
-      return pl_fail(p->follower->job, PLEUEL_UNSUPPORTED, "the motion has no derivative at t = %.9g s: %s sets values and strikes what moves", p->t,
-                     name_of(run, &run->watch[cause]));
+    return pl_fail(
+        p->follower->job, PLEUEL_UNSUPPORTED,
+        "the motion has no derivative at t = %.9g s: %s sets values and strikes what moves", p->t,
+        name_of(run, &run->watch[cause]));
   shift(p, f->v, p->a, 1);
   if (strikes && !sets) PL_TRY(strike(p, true));
   shift(p, f->q, p->v, 1);
@@ -434,7 +479,7 @@ static pleuel_status jump(pl_pilot* p) {
   return PLEUEL_OK;
 }
 
-// ---------------------------------------------------------------------------------------------- steps
+// ------------------------------------------------------------------------------------------- steps
 static pleuel_status remember_state(pl_pilot* p) {
   pl_arena* a = p->run->job->arena;
   pl_guard guard;
@@ -494,8 +539,9 @@ pleuel_status pl_pilot_step(pl_pilot* p, pleuel_status (*of)(pl_run* run)) {
   return pl_run_left(p->follower) == 0 ? arrive(p) : PLEUEL_OK;
 }
 
-// ---------------------------------------------------------------------------------------------- interrupted
-// While the follower is on its way, the pilot is kept as it was where they parted: it goes ahead once more.
+// ------------------------------------------------------------------------------------- interrupted
+// While the follower is on its way, the pilot is kept as it was where they parted: it goes ahead
+// once more.
 void pl_pilot_write(pl_pilot* p, pl_keeper* k) {
   bool waits = p->waits && p->how != PLEUEL_INTERRUPTED;
   pl_keep_bool(k, &waits);

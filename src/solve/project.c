@@ -1,7 +1,8 @@
-// Projection on the constraints in the mass metric: positions onto g = 0, then velocities onto G v + dg/dt = 0.
+// Projection on the constraints in the mass metric: positions onto g = 0, then velocities onto G v
+// + dg/dt = 0.
 //
-// Each correction is [M G^T; G 0] [δ; μ] = [0; -residual] with the rows that are independent; the residuals are
-// measured on all active rows, so that what was left out is watched too.
+// Each correction is [M G^T; G 0] [δ; μ] = [0; -residual] with the rows that are independent; the
+// residuals are measured on all active rows, so that what was left out is watched too.
 #include "solve/solve_impl.h"
 
 #include <float.h>
@@ -17,18 +18,21 @@ static void find_largest(double x, double* most) {
 static double coarsest(const pl_run* run, const double* size, bool positions) {
   double most = 0;
   for (int c = 0; c < run->n_c; c++) {
-    if (!run->taken[c] || !(run->row_most[c] > 0) || (positions && run->setup->links[c].velocity)) continue;
+    if (!run->taken[c] || !(run->row_most[c] > 0) || (positions && run->setup->links[c].velocity))
+      continue;
     most = fmax(most, size[c] / run->row_most[c]);
   }
   return most;
 }
 
-// A row that was left out is met as exactly as those it follows from, not as exactly as its own terms would allow.
+// A row that was left out is met as exactly as those it follows from, not as exactly as its own
+// terms would allow.
 double pl_residual(const pl_run* run, const double* g, const double* size, bool positions) {
   double most = 0, rough = run->rank < run->n_active ? coarsest(run, size, positions) : 0;
   for (int c = 0; c < run->n_c; c++) {
     if (!run->active[c] || g[c] == 0 || (positions && run->setup->links[c].velocity)) continue;
-    most = pl_size_with(most, g[c] / (run->taken[c] ? size[c] : pl_larger(size[c], rough * run->row_most[c])));
+    most = pl_size_with(
+        most, g[c] / (run->taken[c] ? size[c] : pl_larger(size[c], rough * run->row_most[c])));
   }
   return most;
 }
@@ -42,7 +46,8 @@ static void solve_correction(pl_run* run, const double* residual, bool positions
   pl_kkt_solve(&run->kkt, run->rhs);
 }
 
-// Newton until the residual is rounding or no longer falls.  The last factor belongs to the corrected point.
+// Newton until the residual is rounding or no longer falls. The last factor belongs to the
+// corrected point.
 static bool project_positions(pl_run* run, double t, double* q, const double* v, pl_projection* p) {
   double before = (double)INFINITY;
   for (int round = 0; round < MAX_NEWTON; round++) {
@@ -96,5 +101,6 @@ void pl_impulse(pl_run* run, double* v, double factor, double* impulse) {
   pl_assemble_gdot(run, run->r, run->r_size);
   solve_correction(run, run->r, false);
   for (int i = 0; i < run->n_q; i++) v[i] += factor * run->rhs[i];
-  for (int c = 0; c < run->n_c; c++) impulse[c] = run->taken[c] || run->rubs[c] ? -factor * run->rhs[run->n_q + c] : 0;
+  for (int c = 0; c < run->n_c; c++)
+    impulse[c] = run->taken[c] || run->rubs[c] ? -factor * run->rhs[run->n_q + c] : 0;
 }

@@ -1,4 +1,5 @@
-// The implicit method through contacts, ropes, friction and events that switch constraints: against the series.
+// The implicit method through contacts, ropes, friction and events that switch constraints: against
+// the series.
 #include "solve/setup_test.h"
 
 #define P b->pool
@@ -6,7 +7,8 @@ static pl_expr sq(t_bench* b, pl_expr x) { return pl_square(P, x); }
 static pl_expr mul(t_bench* b, pl_expr x, pl_expr y) { return pl_mul(P, x, y); }
 static pl_expr half(t_bench* b, pl_expr x) { return pl_mul(P, pl_ratio(P, 1, 2), x); }
 
-// Two masses 1 at (x, y) and (u, w), y up, tied by a hard spring of length 1 with a damper along it; weight 10.
+// Two masses 1 at (x, y) and (u, w), y up, tied by a hard spring of length 1 with a damper along
+// it; weight 10.
 static pl_expr pair(t_bench* b, double K, double c) {
   pl_expr x = t_coord(b, "x"), y = t_coord(b, "y"), u = t_coord(b, "u"), w = t_coord(b, "w");
   pl_expr k = t_param(b, "K", K), d = t_param(b, "c", c), g = t_param(b, "g", 10);
@@ -50,7 +52,8 @@ static t_bench* falling(pl_method method, double tol) {
 static t_bench* on_waves(pl_method method, double tol) {
   t_bench* b = t_open();
   pl_expr L = pair(b, 1e7, 6e3), wave = mul(b, t_param(b, "f", 6), pl_sym(P, pl_time(P)));
-  int c = t_constraint(b, "road", pl_sub(P, b->q[3], mul(b, t_param(b, "h", 0.3), pl_call(P, PL_SIN, wave))));
+  int c = t_constraint(b, "road",
+                       pl_sub(P, b->q[3], mul(b, t_param(b, "h", 0.3), pl_call(P, PL_SIN, wave))));
   b->link[c].side = 1;
   start(b, (double[]){0, 1, 0, 0}, (double[]){0, 1.8, 0, 1.8});
   return finish(b, L, method, 1.5, tol);
@@ -60,7 +63,8 @@ static t_bench* on_waves(pl_method method, double tol) {
 static t_bench* at_a_rope(pl_method method, double tol) {
   t_bench* b = t_open();
   pl_expr L = pair(b, 1e7, 6e3);
-  int c = t_constraint(b, "rope", pl_sub(P, pl_add(P, sq(b, b->q[0]), sq(b, b->q[1])), pl_int(P, 1)));
+  int c = t_constraint(b, "rope",
+                       pl_sub(P, pl_add(P, sq(b, b->q[0]), sq(b, b->q[1])), pl_int(P, 1)));
   b->link[c].side = -1;
   b->link[c].rope = true;
   start(b, (double[]){0, -1, 0, -2}, (double[]){5, 0, 8, 0});
@@ -71,7 +75,8 @@ static t_bench* at_a_rope(pl_method method, double tol) {
 static t_bench* cut(pl_method method, double tol) {
   t_bench* b = t_open();
   pl_expr L = pair(b, 1e7, 6e3);
-  int c = t_constraint(b, "rod", pl_sub(P, pl_add(P, sq(b, b->q[0]), sq(b, b->q[1])), pl_int(P, 1)));
+  int c = t_constraint(b, "rod",
+                       pl_sub(P, pl_add(P, sq(b, b->q[0]), sq(b, b->q[1])), pl_int(P, 1)));
   int f = t_constraint(b, "floor", pl_add(P, b->q[3], pl_int(P, 4)));
   b->link[f].side = 1;
   t_event(b, "cut", pl_sub(P, b->q[0], pl_ratio(P, 1, 2)), -1, PL_DEED_RELEASE, c);
@@ -109,9 +114,10 @@ static void compare(const char* name, make* of, double factor) {
     outcome b = run(of, PL_METHOD_RADAU, tol);
     double off = 0, off_t = 0;
     for (int i = 0; i < 4; i++) off = fmax(off, fmax(fabs(a.q[i] - b.q[i]), fabs(a.v[i] - b.v[i])));
-    for (int i = 0; i < a.events && i < b.events && i < 64; i++) off_t = fmax(off_t, fabs(a.event_t[i] - b.event_t[i]));
-    printf("# %s, tol %.0e: %ld and %ld steps, %ld and %ld events, off %.1e, events off %.1e\n", name, tol, a.steps, b.steps,
-           a.events, b.events, off, off_t);
+    for (int i = 0; i < a.events && i < b.events && i < 64; i++)
+      off_t = fmax(off_t, fabs(a.event_t[i] - b.event_t[i]));
+    printf("# %s, tol %.0e: %ld and %ld steps, %ld and %ld events, off %.1e, events off %.1e\n",
+           name, tol, a.steps, b.steps, a.events, b.events, off, off_t);
     assert_int_equal(b.implicit, b.steps);
     // how many bounces are followed depends on the tolerance; which end they come to does not
     assert_true(b.g < 1e-13 && off < factor * tol);
@@ -144,7 +150,8 @@ static void a_stiff_contact_is_recognised(void** state) {
   outcome a = run(cut, PL_METHOD_TAYLOR, 1e-9), b = run(cut, PL_METHOD_AUTO, 1e-9);
   double off = 0;
   for (int i = 0; i < 4; i++) off = fmax(off, fabs(a.q[i] - b.q[i]));
-  printf("# chosen: %ld steps, %ld of them implicit, instead of %ld; off %.1e\n", b.steps, b.implicit, a.steps, off);
+  printf("# chosen: %ld steps, %ld of them implicit, instead of %ld; off %.1e\n", b.steps,
+         b.implicit, a.steps, off);
   assert_true(b.implicit > 10 && b.steps < a.steps / 3 && off < 1e-6);
 }
 
@@ -154,12 +161,17 @@ static t_bench* bent(pl_method method, double tol) {
   pl_expr x = t_coord(b, "x"), u = t_coord(b, "u"), w = t_coord(b, "w"), z = t_coord(b, "z");
   pl_expr k = t_param(b, "K", 1e7), c = t_param(b, "c", 6e3), stretch = pl_sub(P, u, x);
   pl_expr pull = mul(b, c, pl_sub(P, b->v[1], b->v[0]));
-  b->force[0] = pl_sub(P, pull, mul(b, pl_int(P, 3), pl_call(P, PL_ABS, pl_sub(P, x, pl_ratio(P, 1, 2)))));
+  b->force[0] = pl_sub(P, pull,
+                       mul(b, pl_int(P, 3), pl_call(P, PL_ABS, pl_sub(P, x, pl_ratio(P, 1, 2)))));
   b->force[1] = pl_sub(P, pl_neg(P, pull), u);
   pl_expr T = pl_int(P, 0);
   for (int i = 0; i < 4; i++) T = pl_add(P, T, half(b, sq(b, b->v[i])));
   start(b, (double[]){1, 1, 0, 0}, (double[]){0, 0, 1, 1});
-  return finish(b, pl_sub(P, T, pl_add(P, half(b, mul(b, k, sq(b, stretch))), half(b, pl_add(P, sq(b, w), sq(b, z))))), method, 6, tol);
+  return finish(
+      b,
+      pl_sub(P, T,
+             pl_add(P, half(b, mul(b, k, sq(b, stretch))), half(b, pl_add(P, sq(b, w), sq(b, z))))),
+      method, 6, tol);
 }
 
 static void forces_that_change_their_branch_keep_the_order(void** state) {
@@ -187,10 +199,11 @@ static void a_ball_bounces_as_its_closed_form(void** state) {
   finish(b, L, PL_METHOD_RADAU, 6, 1e-10);
   assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
   double last = b->event_t[b->events - 1];
-  printf("# ball: %ld events, at %.15g %.15g %.15g, last %.15g, λ %.15g\n", b->events, b->event_t[0], b->event_t[1],
-         b->event_t[2], last, pl_run_lambda(b->run)[0]);
+  printf("# ball: %ld events, at %.15g %.15g %.15g, last %.15g, λ %.15g\n", b->events,
+         b->event_t[0], b->event_t[1], b->event_t[2], last, pl_run_lambda(b->run)[0]);
   assert_true(b->events > 20 && b->events < 64);
-  for (int i = 0; i < b->events - 1; i++) assert_true(fabs(b->event_t[i] - (3 - ldexp(2, -i))) < 1e-9);
+  for (int i = 0; i < b->events - 1; i++)
+    assert_true(fabs(b->event_t[i] - (3 - ldexp(2, -i))) < 1e-9);
   assert_true(fabs(last - 3) < 1e-9 && fabs(pl_run_lambda(b->run)[0] - 10) < 1e-9);
   assert_true(fabs(b->last[0]) < 1e-15 && fabs(b->last[16]) < 1e-15);
   t_close(b);

@@ -2,8 +2,8 @@
 //
 //   A^-1/h ⊗ P0 + I ⊗ P1 + h A ⊗ P2        (radau_impl.h)
 //
-// splits along the eigenvectors of A^-1 into one real and some complex systems γ/h P0 + P1 + h/γ P2, dense or sparse;
-// small ones also have all stages in one matrix, with slopes of their own.
+// splits along the eigenvectors of A^-1 into one real and some complex systems γ/h P0 + P1 + h/γ
+// P2, dense or sparse; small ones also have all stages in one matrix, with slopes of their own.
 #include <math.h>
 #include <string.h>
 
@@ -17,13 +17,15 @@ static bool rests(const pl_run* run, int i) {
 }
 
 // γ P0 + P1 + P2 / γ: entry at `at`, re and im.
-static void combine(const pl_radau_slopes* J, size_t at, const double* g, const double* g_inverse, double* z) {
+static void combine(const pl_radau_slopes* J, size_t at, const double* g, const double* g_inverse,
+                    double* z) {
   z[0] = g[0] * J->P0[at] + J->P1[at] + g_inverse[0] * J->P2[at];
   z[1] = g[1] * J->P0[at] + g_inverse[1] * J->P2[at];
 }
 
 static void fill(const pl_radau* r, const pl_run* run, int k, double h, double* N) {
-  double g[2] = {r->method.gamma[k][0] / h, r->method.gamma[k][1] / h}, norm = g[0] * g[0] + g[1] * g[1];
+  double g[2] = {r->method.gamma[k][0] / h, r->method.gamma[k][1] / h},
+         norm = g[0] * g[0] + g[1] * g[1];
   double g_inverse[2] = {g[0] / norm, -g[1] / norm}, z[2];
   const pl_radau_shape* s = &r->shape;
   size_t parts = k > 0 ? 2 : 1;
@@ -33,7 +35,10 @@ static void fill(const pl_radau* r, const pl_run* run, int k, double h, double* 
     for (size_t at = from; at < to; at++) {
       int row = s->start ? s->row[at] : (int)(at - from);
       combine(&r->here, at, g, g_inverse, z);
-      if (rests(run, row) || rests(run, col)) z[0] = row == col, z[1] = 0;
+      if (rests(run, row) || rests(run, col)) {
+        z[0] = row == col;
+        z[1] = 0;
+      }
       for (size_t p = 0; p < parts; p++) N[at * parts + p] = z[p];
     }
   }
@@ -72,7 +77,8 @@ static void solve_pair(pl_radau* r, int k) {
   else pl_zlu_solve(r->pair[k - 1], r->pivot[k], r->pair_scale[k - 1], r->w[k], r->n);
 }
 
-void pl_radau_multiply(const pl_radau_shape* s, double* b, double factor, const double* P, const double* x, int n) {
+void pl_radau_multiply(const pl_radau_shape* s, double* b, double factor, const double* P,
+                       const double* x, int n) {
   for (int col = 0; col < n; col++) {
     size_t from = s->start ? (size_t)s->start[col] : (size_t)col * (size_t)s->n;
     size_t to = s->start ? (size_t)s->start[col + 1] : from + (size_t)s->n;
@@ -81,7 +87,7 @@ void pl_radau_multiply(const pl_radau_shape* s, double* b, double factor, const 
   }
 }
 
-// ---------------------------------------------------------------------------------------------- one correction
+// ---------------------------------------------------------------------------------- one correction
 // Adds the correction in F to the increments of v and to λ, stage by stage.
 static void apply(pl_radau* r) {
   for (int i = 0; i < r->method.s; i++) {
@@ -98,7 +104,8 @@ static void transform(const pl_radau* r, const pl_run* run, int k) {
   for (int e = 0; e < r->n; e++) {
     for (int p = 0; p < parts; p++) {
       double sum = 0;
-      for (int i = 0; i < r->method.s; i++) sum -= r->method.Y[k][i][p] * r->F[(size_t)i * (size_t)r->n + (size_t)e];
+      for (int i = 0; i < r->method.s; i++)
+        sum -= r->method.Y[k][i][p] * r->F[(size_t)i * (size_t)r->n + (size_t)e];
       w[e * parts + p] = rests(run, e) ? 0 : sum;
     }
   }
@@ -116,13 +123,14 @@ void pl_radau_correct(pl_radau* r, const pl_run* run) {
     for (int e = 0; e < r->n; e++) {
       d[e] = r->method.X[0][i][0] * r->w[0][e];
       for (int k = 1; k <= r->method.n_pairs; k++)
-        d[e] += 2 * (r->method.X[k][i][0] * r->w[k][2 * e] - r->method.X[k][i][1] * r->w[k][2 * e + 1]);
+        d[e] +=
+            2 * (r->method.X[k][i][0] * r->w[k][2 * e] - r->method.X[k][i][1] * r->w[k][2 * e + 1]);
     }
   }
   apply(r);
 }
 
-// ---------------------------------------------------------------------------------------------- all stages coupled
+// ------------------------------------------------------------------------------ all stages coupled
 // Block (i, j) of the matrix of all stages with slopes of their own.
 static void fill_block(const pl_radau* r, const pl_run* run, int i, int j, double h) {
   const pl_radau_slopes* J = &r->at[i];

@@ -1,10 +1,12 @@
-// Coefficients of Radau IIA with s stages: nodes, Runge-Kutta matrix, the eigenvectors that split the stages, weights
-// of the error estimate.  [HairerWanner1996, IV.5 and IV.8], [HairerWanner1999].  All computed here, in long double.
+// Coefficients of Radau IIA with s stages: nodes, Runge-Kutta matrix, the eigenvectors that split
+// the stages, weights of the error estimate. [HairerWanner1996, IV.5 and IV.8],
+// [HairerWanner1999]. All computed here, in long double.
 //
 //   nodes      c_i are the zeros of P_s(2 c - 1) - P_{s-1}(2 c - 1), the last one is 1
 //   matrix     sum_j a_ij c_j^{q-1} = c_i^q / q for q = 1..s
 //   spectrum   det(I - z A) is the denominator of the Padé approximation (s-1, s) of e^z; its zeros are the eigenvalues
-//              γ of A^-1.  The eigenvector is x_i = sum_k N^(k)(c_i) / γ^k with N(τ) = prod (τ - c_j): the polynomial
+//              γ of A^-1. The eigenvector is x_i = sum_k N^(k)(c_i) / γ^k with N(τ) = prod (τ -
+//              c_j): the polynomial
 //              u with u' - γ u = multiple of N and u(0) = 0.
 //   estimate   weights b^ of order s with b^_0 = 1 / γ_0 at the start of the step, γ_0 being the real eigenvalue
 #include "solve/radau_impl.h"
@@ -16,7 +18,7 @@ typedef long double real;
 typedef long double complex cplx;
 enum { MOST = PL_RADAU_MOST };
 
-// ---------------------------------------------------------------------------------------------- nodes
+// ------------------------------------------------------------------------------------------- nodes
 static real legendre(int n, real x) {
   real a = 1, b = x;
   if (n == 0) return a;
@@ -28,7 +30,9 @@ static real legendre(int n, real x) {
   return b;
 }
 
-static real node_function(int s, real c) { return legendre(s, 2 * c - 1) - legendre(s - 1, 2 * c - 1); }
+static real node_function(int s, real c) {
+  return legendre(s, 2 * c - 1) - legendre(s - 1, 2 * c - 1);
+}
 
 static real between(int s, real lo, real hi) {
   bool rising = node_function(s, lo) < 0;
@@ -50,7 +54,7 @@ static void find_nodes(real* c, int s) {
   c[s - 1] = 1;
 }
 
-// ---------------------------------------------------------------------------------------------- small dense systems
+// ----------------------------------------------------------------------------- small dense systems
 // Solves M x = b for the columns of b by elimination with pivoting; M and b are overwritten.
 static void solve(cplx M[MOST + 1][MOST + 1], cplx b[MOST + 1][MOST + 1], int n) {
   for (int k = 0; k < n; k++) {
@@ -59,9 +63,11 @@ static void solve(cplx M[MOST + 1][MOST + 1], cplx b[MOST + 1][MOST + 1], int n)
       if (cabsl(M[i][k]) > cabsl(M[r][k])) r = i;
     for (int j = 0; j < n; j++) {
       cplx x = M[k][j];
-      M[k][j] = M[r][j], M[r][j] = x;
+      M[k][j] = M[r][j];
+      M[r][j] = x;
       x = b[k][j];
-      b[k][j] = b[r][j], b[r][j] = x;
+      b[k][j] = b[r][j];
+      b[r][j] = x;
     }
     for (int i = 0; i < n; i++) {
       if (i == k) continue;
@@ -88,14 +94,14 @@ static void invert_powers(cplx out[MOST + 1][MOST + 1], const real* x, int n) {
   invert(out, M, n);
 }
 
-// ---------------------------------------------------------------------------------------------- spectrum
+// ---------------------------------------------------------------------------------------- spectrum
 static real factorial(int n) { return n < 2 ? 1 : n * factorial(n - 1); }
 
 // Denominator of the Padé approximation: coefficient of z^i.
 static void find_denominator(real* d, int s) {
   for (int i = 0; i <= s; i++)
-    d[i] = factorial(2 * s - 1 - i) * factorial(s) / (factorial(2 * s - 1) * factorial(i) * factorial(s - i)) *
-           (i % 2 ? -1 : 1);
+    d[i] = factorial(2 * s - 1 - i) * factorial(s)
+           / (factorial(2 * s - 1) * factorial(i) * factorial(s - i)) * (i % 2 ? -1 : 1);
 }
 
 // All zeros at once, after Durand and Kerner.
@@ -137,7 +143,8 @@ static void find_vector(cplx* x, cplx gamma, const real* c, int s) {
   for (int order = 0; order <= s; order++, scale /= gamma) {
     for (int i = 0; i < s; i++) {
       real value = 0;
-      for (int k = s; k >= order; k--) value = value * c[i] + N[k] * factorial(k) / factorial(k - order);
+      for (int k = s; k >= order; k--)
+        value = value * c[i] + N[k] * factorial(k) / factorial(k - order);
       x[i] += scale * value;
     }
   }
@@ -176,10 +183,11 @@ static real find_spectrum(pl_radau_method* m, const real* c) {
   return creall(z[0]);
 }
 
-// ---------------------------------------------------------------------------------------------- all
+// --------------------------------------------------------------------------------------------- all
 // error = γ_0 (b^ - b) A^-1, where b is the last row of A.
-static void find_estimate(pl_radau_method* m, cplx moments[MOST + 1][MOST + 1], cplx inverse[MOST + 1][MOST + 1],
-                          cplx A[MOST + 1][MOST + 1], real gamma) {
+static void find_estimate(pl_radau_method* m, cplx moments[MOST + 1][MOST + 1],
+                          cplx inverse[MOST + 1][MOST + 1], cplx A[MOST + 1][MOST + 1],
+                          real gamma) {
   int s = m->s;
   real b[MOST];
   // sum_i b^_i c_i^{q-1} = 1/q, less b^_0 for q = 1: moments is the inverse of the matrix c_i^{q-1}
@@ -197,8 +205,8 @@ static void find_estimate(pl_radau_method* m, cplx moments[MOST + 1][MOST + 1], 
 
 void pl_radau_method_make(pl_radau_method* m, int s) {
   real c[MOST], with_zero[MOST + 1] = {0};
-  cplx moments[MOST + 1][MOST + 1], powers[MOST + 1][MOST + 1], A[MOST + 1][MOST + 1], copy[MOST + 1][MOST + 1],
-      inverse[MOST + 1][MOST + 1];
+  cplx moments[MOST + 1][MOST + 1], powers[MOST + 1][MOST + 1], A[MOST + 1][MOST + 1],
+      copy[MOST + 1][MOST + 1], inverse[MOST + 1][MOST + 1];
   m->s = s;
   find_nodes(c, s);
   for (int i = 0; i < s; i++) m->c[i] = (double)(with_zero[i + 1] = c[i]);

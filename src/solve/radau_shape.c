@@ -1,26 +1,30 @@
 // The implicit method: which entries of its systems can be other than zero.
 //
-// Small systems are dense.  For large ones each node of a program is asked which coordinates it depends on; a row that it
-// stands in then has entries in those columns.  The lists of all instances, sorted by column and row, are the structure.
+// Small systems are dense. For large ones each node of a program is asked which coordinates it
+// depends on; a row that it stands in then has entries in those columns. The lists of all
+// instances, sorted by column and row, are the structure.
 #include <stdlib.h>
 #include <string.h>
 
 #include "solve/radau_impl.h"
 
-// ---------------------------------------------------------------------------------------------- sets of slots
+// ----------------------------------------------------------------------------------- sets of slots
 typedef struct slots {
   uint64_t* bit;
   size_t words;
-} slots;      // one set of coordinates after the other
+} slots;  // one set of coordinates after the other
 
 static slots make_slots(pl_arena* a, int n, int n_q) {
   size_t words = ((size_t)n_q + 63) / 64;
   return (slots){PL_ARRAY(a, uint64_t, (size_t)n * words + 1), words};
 }
 
-static void put(slots* s, int set, int slot) { s->bit[(size_t)set * s->words + (size_t)slot / 64] |= 1ull << (slot % 64); }
+static void put(slots* s, int set, int slot) {
+  s->bit[(size_t)set * s->words + (size_t)slot / 64] |= 1ull << (slot % 64);
+}
 static void join(slots* to, int set, const slots* from, int other) {
-  for (size_t w = 0; w < to->words; w++) to->bit[(size_t)set * to->words + w] |= from->bit[(size_t)other * from->words + w];
+  for (size_t w = 0; w < to->words; w++)
+    to->bit[(size_t)set * to->words + w] |= from->bit[(size_t)other * from->words + w];
 }
 
 // Coordinates that each node depends on, itself or through its velocity.
@@ -39,7 +43,7 @@ static slots dependence(pl_arena* a, const pl_tape* tape) {
   return s;
 }
 
-// ---------------------------------------------------------------------------------------------- one pattern
+// ------------------------------------------------------------------------------------- one pattern
 // Columns of each row of a pattern: coordinate rows first, then constraints.
 static slots rows_of(pl_arena* a, const pl_batch* b, const pl_run* run) {
   const pl_pattern* p = b->pattern;
@@ -58,7 +62,8 @@ static slots rows_of(pl_arena* a, const pl_batch* b, const pl_run* run) {
     join(&row, e->col, &node, NODE(e));
     join(&row, p->n_q + e->row, &node, NODE(e));
   }
-  for (const pl_pattern_entry* e = p->gt; e < p->gt + p->n_gt; e++) join(&row, p->n_q + e->row, &node, NODE(e));
+  for (const pl_pattern_entry* e = p->gt; e < p->gt + p->n_gt; e++)
+    join(&row, p->n_q + e->row, &node, NODE(e));
   // slip follows from the coefficients of its friction, whichever they are
   for (const pl_pattern_entry* e = p->outputs; e < p->outputs + p->n_out; e++)
     for (int c = 0; c < p->n_c; c++)
@@ -67,8 +72,9 @@ static slots rows_of(pl_arena* a, const pl_batch* b, const pl_run* run) {
   return row;
 }
 
-// ---------------------------------------------------------------------------------------------- all of them
-// Entries column by column: with row NULL they are counted into start[col + 1], else written at start[col]++.
+// ------------------------------------------------------------------------------------- all of them
+// Entries column by column: with row NULL they are counted into start[col + 1], else written at
+// start[col]++.
 typedef struct list {
   int *start, *row;
 } list;
@@ -92,7 +98,8 @@ static void note_batch(list* l, const pl_run* run, const pl_batch* b, const slot
   for (int lane = 0; lane < b->n; lane++) {
     const int *q = b->q + lane, *c = b->c + lane;
     for (int i = 0; i < p->n_q; i++) note_columns(l, b, of, i, q[i * b->lanes], lane);
-    for (int i = 0; i < p->n_c; i++) note_columns(l, b, of, p->n_q + i, run->n_q + c[i * b->lanes], lane);
+    for (int i = 0; i < p->n_c; i++)
+      note_columns(l, b, of, p->n_q + i, run->n_q + c[i * b->lanes], lane);
     for (const pl_pattern_entry* e = p->G; e < p->G + p->n_G; e++)
       note(l, q[e->col * b->lanes], run->n_q + c[e->row * b->lanes]);
     for (const pl_pattern_entry* e = p->W; e < p->W + p->n_W; e++)

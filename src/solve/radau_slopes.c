@@ -1,7 +1,8 @@
 // The implicit method: derivatives of F and C at a point (radau_impl.h).
 //
-// The directions of a model outside of families run side by side in the lanes of one jet: derivatives are the
-// coefficients of order 1 of series that begin in such a direction at fixed time.
+// The directions of a model outside of families run side by side in the lanes of one jet:
+// derivatives are the coefficients of order 1 of series that begin in such a direction at fixed
+// time.
 #include <math.h>
 #include <string.h>
 
@@ -9,17 +10,21 @@
 
 enum { WIDE = 8 };
 
-static int node_of(const pl_batch* b, const pl_pattern_entry* e) { return b->pattern->tape->roots[e->root]; }
-static bool is_constant(const pl_batch* b, int node) { return node < b->pattern->tape->level_end[PL_LEVEL_CONST]; }
+static int node_of(const pl_batch* b, const pl_pattern_entry* e) {
+  return b->pattern->tape->roots[e->root];
+}
+static bool is_constant(const pl_batch* b, int node) {
+  return node < b->pattern->tape->level_end[PL_LEVEL_CONST];
+}
 
 static void set_lanes(pl_jet* jet, int node, int k, double x) {
   for (int l = 0; l < jet->lanes && node >= 0; l++) pl_jet_at(jet, node, k)[l] = x;
 }
 
-#define VALUE(e) pl_jet_at(w->jet, node_of(b, e), 0)[lane]
-#define SLOPE(e) (is_constant(b, node_of(b, e)) ? 0 : pl_jet_at(w->jet, node_of(b, e), 1)[lane])
-#define Q_OF(slot) q[(slot)*b->lanes]
-#define C_OF(slot) c[(slot)*b->lanes]
+#define VALUE(e)     pl_jet_at(w->jet, node_of(b, e), 0)[lane]
+#define SLOPE(e)     (is_constant(b, node_of(b, e)) ? 0 : pl_jet_at(w->jet, node_of(b, e), 1)[lane])
+#define Q_OF(slot)   q[(slot)*b->lanes]
+#define C_OF(slot)   c[(slot)*b->lanes]
 #define AT(row, col) pl_radau_place(&r->shape, row, col)
 
 // Where derivatives are taken, and where they go.
@@ -49,7 +54,8 @@ static void add_values(const point* at, const pl_radau_wide* w, int lane) {
   }
   for (const pl_pattern_entry* e = p->W; e < p->W + p->n_W; e++)
     if (run->taken[C_OF(e->col)]) P1[AT(Q_OF(e->row), r->n_q + C_OF(e->col))] -= VALUE(e);
-  for (const pl_pattern_entry* e = p->outputs; e < p->outputs + p->n_out && run->n_slipping > 0; e++)
+  for (const pl_pattern_entry* e = p->outputs; e < p->outputs + p->n_out && run->n_slipping > 0;
+       e++)
     r->part[out[e->row * b->lanes]] += VALUE(e);
 }
 
@@ -74,11 +80,13 @@ static void add_slip_slope(const point* at, double* P, int coefficient, double s
   const pl_rub* rub = &at->run->setup->rubs[k];
   if (at->run->rub[k].state != PL_RUB_SLIP || slope == 0) return;
   for (int i = 0; i < rub->n_rows; i++)
-    P[AT(r->n_q + rub->row[i], col)] -= slope * pl_friction_kappa_by(at->run, k, i, coefficient) * at->lambda[rub->link];
+    P[AT(r->n_q + rub->row[i], col)] -= slope * pl_friction_kappa_by(at->run, k, i, coefficient)
+                                        * at->lambda[rub->link];
 }
 
 // Derivatives along global coordinate `col` (of position, or of velocity): coefficient 1 in a lane.
-static void add_derivatives(const point* at, const pl_radau_wide* w, int lane, int instance, int col, bool of_speed) {
+static void add_derivatives(const point* at, const pl_radau_wide* w, int lane, int instance,
+                            int col, bool of_speed) {
   const pl_run* run = at->run;
   pl_radau* r = at->r;
   const pl_batch* b = w->batch;
@@ -100,7 +108,8 @@ static void add_derivatives(const point* at, const pl_radau_wide* w, int lane, i
     double x = SLOPE(e);
     if (x != 0 && run->taken[C_OF(e->col)]) P[AT(Q_OF(e->row), col)] -= x * lambda[C_OF(e->col)];
   }
-  for (const pl_pattern_entry* e = p->outputs; e < p->outputs + p->n_out && run->n_slipping > 0; e++)
+  for (const pl_pattern_entry* e = p->outputs; e < p->outputs + p->n_out && run->n_slipping > 0;
+       e++)
     add_slip_slope(at, P, out[e->row * b->lanes], SLOPE(e), col);
   if (of_speed) return;
   for (const pl_pattern_entry* e = p->G; e < p->G + p->n_G; e++) {
@@ -161,13 +170,14 @@ static void slopes_by_instances(const point* at, const pl_radau_wide* w) {
     if (node < 0) continue;
     set_lanes(w->jet, node, 1, 1);
     pl_radau_sweep(w->jet, 1);
-    for (int l = 0; l < b->n; l++) add_derivatives(at, w, l, l, b->q[(d % n_q) * b->lanes + l], d >= n_q);
+    for (int l = 0; l < b->n; l++)
+      add_derivatives(at, w, l, l, b->q[(d % n_q) * b->lanes + l], d >= n_q);
     set_lanes(w->jet, node, 1, 0);
   }
 }
 
-void pl_radau_slopes_at(pl_run* run, pl_radau* r, pl_radau_slopes* J, double t, const double* q, const double* v,
-                        const double* a, const double* lambda) {
+void pl_radau_slopes_at(pl_run* run, pl_radau* r, pl_radau_slopes* J, double t, const double* q,
+                        const double* v, const double* a, const double* lambda) {
   double* all[] = {J->P0, J->P1, J->P2};
   for (size_t i = 0; i < 3; i++) memset(all[i], 0, (size_t)r->shape.n_values * sizeof(double));
   memset(r->part, 0, (size_t)r->n_C * sizeof(double));

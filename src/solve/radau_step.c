@@ -1,16 +1,19 @@
-// Steps of the implicit method: Radau IIA with 3, 5 or 7 stages, order 5, 9 or 13, for stiff motions.
+// Steps of the implicit method: Radau IIA with 3, 5 or 7 stages, order 5, 9 or 13, for stiff
+// motions.
 //
 //   q' = v,     M(q,t) v' + h(q,v,t) = (G^T + W) λ,     G v + dg/dt = 0        (index 2)
 //
-// The constraints are imposed on velocity level at every stage; positions and velocities are then brought back onto
-// g = 0 and G v + dg/dt = 0 with the matrix of the Newton iteration, so that stiff springs come along undeformed, and a
-// projection in the mass metric removes what rounding leaves.  Accelerations and multipliers at the end of a step are
-// those of the point reached.  Newton iteration, error estimate and control of the step after [HairerWanner1996, IV.8]
-// and [HairerWanner1999].  The estimate has order s, the step order 2 s - 1: they compare it with tol^((s+1)/(2s)),
-// which a smooth motion allows.  Stiff parts lose order, so here the exponent is halfway between that and 1. Between
-// the ends of a step the collocation polynomial serves, as coefficients of a series: rows, events and the rest of a run
-// read it like one of Taylor's.  Where it is less exact than the tolerance, steps end on the times of output; events
-// are iterated on the end of a step.
+// The constraints are imposed on velocity level at every stage; positions and velocities are then
+// brought back onto g = 0 and G v + dg/dt = 0 with the matrix of the Newton iteration, so that
+// stiff springs come along undeformed, and a projection in the mass metric removes what rounding
+// leaves. Accelerations and multipliers at the end of a step are those of the point reached. Newton
+// iteration, error estimate and control of the step after [HairerWanner1996, IV.8] and
+// [HairerWanner1999]. The estimate has order s, the step order 2 s - 1: they compare it with
+// tol^((s+1)/(2s)), which a smooth motion allows. Stiff parts lose order, so here the exponent is
+// halfway between that and 1. Between the ends of a step the collocation polynomial serves, as
+// coefficients of a series: rows, events and the rest of a run read it like one of Taylor's. Where
+// it is less exact than the tolerance, steps end on the times of output; events are iterated on the
+// end of a step.
 #include "solve/radau_impl.h"
 
 #include <float.h>
@@ -18,7 +21,8 @@
 #include <string.h>
 
 static const double safety = 0.9;
-static const double floor_part = 1e-3;   // of the largest coordinate: what smaller ones are measured by at least
+// of the largest coordinate: what smaller ones are measured by at least
+static const double floor_part = 1e-3;
 static const double newton_part = 0.02;  // of the tolerance: what the iteration may leave
 static const double least_tol = 1e-13;   // below this rounding decides
 static const double usual_tol = 1e-10;   // where none is asked for
@@ -45,7 +49,7 @@ void pl_radau_changed(pl_run* run, bool jumped) {
   if (jumped) r->h = 0;
 }
 
-// ---------------------------------------------------------------------------------------------- stages
+// ------------------------------------------------------------------------------------------ stages
 static double* stage(double* x, int i, int n) { return pl_radau_stage(x, i, n); }
 
 static void set_stages(const pl_run* run, pl_radau* r, double h) {
@@ -68,7 +72,8 @@ static void set_stages(const pl_run* run, pl_radau* r, double h) {
   }
 }
 
-// The last polynomial continued, if the motion went on smoothly; else the velocity and multipliers of the point.
+// The last polynomial continued, if the motion went on smoothly; else the velocity and multipliers
+// of the point.
 static void predict(pl_run* run, pl_radau* r, double h) {
   const pl_radau_method* m = &r->method;
   int n = r->n_q, degree = m->s;
@@ -88,7 +93,8 @@ static void predict(pl_run* run, pl_radau* r, double h) {
   }
 }
 
-// What errors are measured by: the largest that a component has been, with a floor for those that hardly move.
+// What errors are measured by: the largest that a component has been, with a floor for those that
+// hardly move.
 static void set_scales(const pl_run* run, pl_radau* r, double h) {
   int n = r->n_q;
   const double *Q = stage(r->Q, r->method.s - 1, n), *V = stage(r->V, r->method.s - 1, n);
@@ -119,7 +125,8 @@ static double size_of_correction(const pl_radau* r, double h, double goal) {
   for (int i = 0; i < r->method.s; i++) {
     const double* d = r->F + (size_t)i * (size_t)r->n;
     for (int e = 0; e < r->n_q; e++) {
-      double y = fabs(d[e]) * fmax(1 / fmax(r->sc_v[e], 0.05 * r->rounding / goal), fabs(h) / r->sc_q[e]);
+      double y = fabs(d[e])
+                 * fmax(1 / fmax(r->sc_v[e], 0.05 * r->rounding / goal), fabs(h) / r->sc_q[e]);
       if (!(y <= most)) most = y;
     }
   }
@@ -129,10 +136,12 @@ static double size_of_correction(const pl_radau* r, double h, double goal) {
 static int most_rounds(const pl_radau* r) { return 7 + 2 * (r->method.s - 3); }
 
 // Whether a coupled iteration needs the slopes at the stages where it is now.
-static bool slopes_are_stale(const pl_radau* r, int round) { return round == 1 || (r->theta > 0.05 && round <= 6); }
+static bool slopes_are_stale(const pl_radau* r, int round) {
+  return round == 1 || (r->theta > 0.05 && round <= 6);
+}
 
-// Newton iteration: split, with the slopes at the start of the step for all stages; or coupled, with those at the
-// stages.  Returns the rounds taken, 0 when it does not converge fast enough.
+// Newton iteration: split, with the slopes at the start of the step for all stages; or coupled,
+// with those at the stages. Returns the rounds taken, 0 when it does not converge fast enough.
 static int iterate(pl_run* run, pl_radau* r, double h) {
   double goal = fmax(newton_part * r->tol, 20 * DBL_EPSILON), before = 0;
   int most = most_rounds(r);
@@ -162,9 +171,10 @@ static int iterate(pl_run* run, pl_radau* r, double h) {
   return 0;
 }
 
-// ---------------------------------------------------------------------------------------------- error
-// Solves (γ/h M - J) error = f + sum e_i z_i / h.  The estimate is not filtered a second time, as is usual for steps
-// that begin off the slow motion: that would hide a stiff oscillation which nothing damps.
+// ------------------------------------------------------------------------------------------- error
+// Solves (γ/h M - J) error = f + sum e_i z_i / h. The estimate is not filtered a second time, as is
+// usual for steps that begin off the slow motion: that would hide a stiff oscillation which nothing
+// damps.
 static double estimate(const pl_run* run, pl_radau* r, double h) {
   const pl_radau_method* m = &r->method;
   int n = r->n_q;
@@ -192,10 +202,11 @@ static double estimate(const pl_run* run, pl_radau* r, double h) {
     r->error_q[e] = (b[e] + rho[e]) / gamma;
   }
   double least = 2 * r->rounding / r->tol_stage;
-  return fmax(scaled(r->error_q, r->sc_q, 0, n), scaled(r->error_v, r->sc_v, least, n)) / r->tol_stage;
+  return fmax(scaled(r->error_q, r->sc_q, 0, n), scaled(r->error_v, r->sc_v, least, n))
+         / r->tol_stage;
 }
 
-// ---------------------------------------------------------------------------------------------- one attempt
+// ------------------------------------------------------------------------------------- one attempt
 typedef struct pl_radau_try {
   bool fine;
   double error;  // in units of the tolerance of the estimate
@@ -213,7 +224,8 @@ static double next_length(const pl_radau* r, double h, double error) {
   double factor = fmin(safety, safety * (1 + 2 * most) / (r->newton + 2 * most));
   double quotient = pow(fmax(error, 1e-10), 1.0 / (s + 1)) / factor;
   if (error < 1 && r->error_last > 0 && !r->rejected) {
-    double predicted = fabs(r->h_last / h) * pow(error * error / r->error_last, 1.0 / (s + 1)) / safety;
+    double predicted = fabs(r->h_last / h) * pow(error * error / r->error_last, 1.0 / (s + 1))
+                       / safety;
     quotient = fmax(quotient, predicted);
   }
   return fabs(h) / fmin(fmax(quotient, 1.0 / 8), 5);
@@ -225,7 +237,8 @@ static void slopes_at_start(pl_run* run, pl_radau* r) {
   r->has_factor = false;
 }
 
-// Where the split iteration fails the coupled one takes over for a while: a stiff direction turns within the step.
+// Where the split iteration fails the coupled one takes over for a while: a stiff direction turns
+// within the step.
 static int iterate_either_way(pl_run* run, pl_radau* r, double h) {
   if (r->couples && r->coupled && r->stay-- <= 0) r->couples = false;
   int rounds = iterate(run, r, h);
@@ -253,7 +266,8 @@ static pl_radau_try attempt(pl_run* run, pl_radau* r, double h) {
   return (pl_radau_try){error < 1, error, next_length(r, h, error)};
 }
 
-// The length of a step that would hold here, at most h and above least; nothing of the run changes but its jets.
+// The length of a step that would hold here, at most h and above least; nothing of the run changes
+// but its jets.
 bool pl_radau_probe(pl_run* run, double h, double least, double* reach) {
   pl_radau* r = run->radau;
   if (!pl_radau_ready(run)) return false;
@@ -269,7 +283,7 @@ bool pl_radau_probe(pl_run* run, double h, double least, double* reach) {
   return false;
 }
 
-// ---------------------------------------------------------------------------------------------- back onto the
+// ----------------------------------------------------------------------------------- back onto the
 // constraints
 static double relative(const pl_run* run, const double* g, const double* size, bool positions) {
   double most = 0;
@@ -282,7 +296,8 @@ static double relative(const pl_run* run, const double* g, const double* size, b
 }
 
 // The velocity that removes a residual, with the matrix of the iteration.
-static void solve_back(const pl_run* run, pl_radau* r, const double* residual, double factor, bool positions) {
+static void solve_back(const pl_run* run, pl_radau* r, const double* residual, double factor,
+                       bool positions) {
   memset(r->rhs, 0, (size_t)r->n_q * sizeof(double));
   for (int c = 0; c < r->n_c; c++) {
     bool counts = run->taken[c] && !(positions && run->setup->links[c].velocity);
@@ -314,20 +329,23 @@ static bool bring_back(pl_run* run, pl_radau* r, double h) {
   return isfinite(pl_norm(run->trial_q, r->n_q)) && isfinite(pl_norm(run->trial_v, r->n_q));
 }
 
-// ---------------------------------------------------------------------------------------------- polynomial
-// Coefficients of powers of time from the value at the start and those at the stages; zero above the degree.
-static void fill_series(const pl_run* run, const pl_radau* r, double h, double* X, const double* first,
-                        const double* values, int n) {
+// -------------------------------------------------------------------------------------- polynomial
+// Coefficients of powers of time from the value at the start and those at the stages; zero above
+// the degree.
+static void fill_series(const pl_run* run, const pl_radau* r, double h, double* X,
+                        const double* first, const double* values, int n) {
   int s = r->method.s;
   for (int e = 0; e < n; e++) {
     double power = 1;
     for (int k = 0; k <= s; k++, power *= h) {
       double sum = r->method.power_all[k][0] * first[e];
-      for (int i = 0; i < s; i++) sum += r->method.power_all[k][i + 1] * values[(size_t)i * (size_t)n + (size_t)e];
+      for (int i = 0; i < s; i++)
+        sum += r->method.power_all[k][i + 1] * values[(size_t)i * (size_t)n + (size_t)e];
       X[(size_t)k * (size_t)n + (size_t)e] = k == 0 ? first[e] : sum / power;
     }
   }
-  memset(X + (size_t)(s + 1) * (size_t)n, 0, (size_t)(run->order + 1 - s) * (size_t)n * sizeof(double));
+  memset(X + (size_t)(s + 1) * (size_t)n, 0,
+         (size_t)(run->order + 1 - s) * (size_t)n * sizeof(double));
 }
 
 // A and L hold those of the point in order 0.
@@ -340,22 +358,25 @@ void pl_radau_series(pl_run* run, pl_radau* r, double h) {
   run->use = run->order;
 }
 
-// ---------------------------------------------------------------------------------------------- a step that holds
+// ------------------------------------------------------------------------------- a step that holds
 static bool met(const pl_projection* p, double tol) {
   double move = fmax(1e4 * tol, 1e-11), left = fmax(10 * tol, 1e-12);
-  return p->ok && p->move_q <= move && p->move_v <= move && p->g_after <= left && p->r_after <= left;
+  return p->ok && p->move_q <= move && p->move_v <= move && p->g_after <= left
+         && p->r_after <= left;
 }
 
 static pleuel_status too_small(pl_run* run, double h) {
   if (run->best > 0 && run->smallest_here < 1e-2 * run->best) return pl_run_singular(run);
   return pl_fail(run->job, PLEUEL_NUMERICAL,
-                 "no step is short enough at t = %.9g s (%.3g s tried): the motion leaves the domain of a function, "
+                 "no step is short enough at t = %.9g s (%.3g s tried): the motion leaves the "
+                 "domain of a function, "
                  "or a force or the constraints jump there",
                  run->t, h);
 }
 
 // Shorter and shorter until a step of that length holds; its end is in trial_q, trial_v.
-pleuel_status pl_radau_hold(pl_run* run, pl_radau* r, double* h, double* error, double* next, pl_projection* p) {
+pleuel_status pl_radau_hold(pl_run* run, pl_radau* r, double* h, double* error, double* next,
+                            pl_projection* p) {
   for (;;) {
     pl_radau_try a = attempt(run, r, *h);
     if (a.fine) {
@@ -378,7 +399,7 @@ pleuel_status pl_radau_hold(pl_run* run, pl_radau* r, double* h, double* error, 
   }
 }
 
-// ---------------------------------------------------------------------------------------------- lengths
+// ----------------------------------------------------------------------------------------- lengths
 // How far the next time of output is; infinite without a grid.
 static double to_grid(const pl_run* run) {
   if (run->grid_dt == 0) return (double)INFINITY;
@@ -397,7 +418,8 @@ static double choose_length(pl_run* run, pl_radau* r) {
   if (h >= left) h = left;
   else if (h > 0.5 * left) h = 0.5 * left;
   // a length close to that of the last factors is taken over from them
-  if (r->has_factor && h > fabs(r->h_factored) && h < 1.2 * fabs(r->h_factored) && h != grid && h != left)
+  if (r->has_factor && h > fabs(r->h_factored) && h < 1.2 * fabs(r->h_factored) && h != grid
+      && h != left)
     h = fabs(r->h_factored);
   return copysign(h, pl_run_left(run));
 }
@@ -421,17 +443,20 @@ static void see_whether_smooth(pl_run* run, pl_radau* r) {
   r->has_last = dt != 0 && off <= 1e-3 * run->v_size;
 }
 
-// ---------------------------------------------------------------------------------------------- a step
+// ------------------------------------------------------------------------------------------ a step
 // Rows between the ends need a polynomial as exact as the tolerance.
 static bool rows_are_exact(const pl_run* run, const pl_radau* r, double h, double error) {
   return !(to_grid(run) < (1 - 1e-9) * fabs(h)) || error * r->tol_stage <= r->tol;
 }
 
-// Takes a step; h its length, root its end in units of it when an event ended it, 0 when one happens at the start.
+// Takes a step; h its length, root its end in units of it when an event ended it, 0 when one
+// happens at the start.
 pleuel_status pl_radau_step(pl_run* run, double* h, double* root, pl_projection* p) {
   pl_radau* r = run->radau;
   double error, next;
-  if (!pl_radau_ready(run)) return pl_fail(run->job, PLEUEL_NO_MEMORY, "the systems of the implicit method do not fit into memory");
+  if (!pl_radau_ready(run))
+    return pl_fail(run->job, PLEUEL_NO_MEMORY,
+                   "the systems of the implicit method do not fit into memory");
   if (isnan(run->stats.t_implicit)) run->stats.t_implicit = run->t;
   run->stats.order_implicit = 2 * r->method.s - 1;
   if (r->h == 0) first_length(run, r);
@@ -442,7 +467,9 @@ pleuel_status pl_radau_step(pl_run* run, double* h, double* root, pl_projection*
   double chosen = fabs(*h);
   for (;;) {
     PL_TRY(pl_radau_hold(run, r, h, &error, &next, p));
-    double dense = fabs(*h) * 0.8 * pow(r->tol / fmax(error * r->tol_stage, 1e-6 * r->tol), 1.0 / (r->method.s + 1));
+    double dense = fabs(*h) * 0.8
+                   * pow(r->tol / fmax(error * r->tol_stage, 1e-6 * r->tol),
+                         1.0 / (r->method.s + 1));
     r->h_dense = dense;
     if (rows_are_exact(run, r, *h, error)) break;
     pl_sizes_forget(run);
@@ -473,7 +500,8 @@ pleuel_status pl_radau_step(pl_run* run, double* h, double* root, pl_projection*
   r->h_last = *h;
   r->error_last = fmax(error, 1e-2);
   r->newton_last = r->newton;
-  // after a rejection no longer one; a step cut short for a time of output says nothing against a longer one
+  // after a rejection no longer one; a step cut short for a time of output says nothing against a
+  // longer one
   if (r->rejected) next = fmin(next, fabs(full));
   bool cut = !r->rejected && chosen < 0.99 * r->h && chosen == fabs(full);
   r->h = cut ? fmax(next, fmin(r->h, 8 * chosen)) : next;

@@ -2,9 +2,9 @@
 //
 //   F(q, v, a, λ) = M(q) a + h(q, v, t) - (G^T + W) λ,      C(q, v) = G v + dg/dt
 //
-// and, where surfaces slip, C = m - κ(q, v) λ for the multiplier m of a slip and λ of what presses (friction.c).  The
-// stages of a model outside of families run side by side in the lanes of one jet; with Q_i = q + h (c_i v + sum_j a_ij z_j),
-// V_i = v + z_i and A_i = sum_j (A^-1)_ij z_j / h.
+// and, where surfaces slip, C = m - κ(q, v) λ for the multiplier m of a slip and λ of what presses
+// (friction.c). The stages of a model outside of families run side by side in the lanes of one jet;
+// with Q_i = q + h (c_i v + sum_j a_ij z_j), V_i = v + z_i and A_i = sum_j (A^-1)_ij z_j / h.
 #include <math.h>
 #include <string.h>
 
@@ -12,7 +12,7 @@
 
 enum { WIDE = 8 };
 
-// ---------------------------------------------------------------------------------------------- room
+// -------------------------------------------------------------------------------------------- room
 static void reserve_wide(pl_run* run, pl_radau* r) {
   pl_arena* a = run->job->arena;
   r->wide = PL_ARRAY(a, pl_radau_wide, run->motion.n + 1);
@@ -80,15 +80,15 @@ static void reserve_watches(pl_run* run, pl_radau* r) {
   for (size_t i = 0; i < 5; i++) *of_c[i] = PL_ARRAY(a, double, c + 1);
   r->end_a = PL_ARRAY(a, double, r->n_q + 1);
   r->save_a = PL_ARRAY(a, double, r->n_q + 1);
-  r->bent = PL_ARRAY(a, double, (size_t)run->n_kinks * (PL_RADAU_MOST + 1) + 1);
-  r->watched = PL_ARRAY(a, double, (size_t)run->n_watch * (PL_RADAU_MOST + 1) + 1);
+  r->bent = PL_ARRAY(a, double, (size_t)run->n_kinks*(PL_RADAU_MOST + 1) + 1);
+  r->watched = PL_ARRAY(a, double, (size_t)run->n_watch*(PL_RADAU_MOST + 1) + 1);
 }
 
 static void reserve_coefficients(pl_run* run, pl_radau* r) {
   pl_arena* a = run->job->arena;
   const pl_setup* s = run->setup;
   r->n_C = s->n_coefficients;
-  r->coefficient = PL_ARRAY(a, double, (size_t)r->n_C * PL_RADAU_MOST + 1);
+  r->coefficient = PL_ARRAY(a, double, (size_t)r->n_C* PL_RADAU_MOST + 1);
   r->rub_of = PL_ARRAY(a, int, r->n_C + 1);
   r->part = PL_ARRAY(a, double, r->n_C + 1);
   for (int i = 0; i < s->n_rubs; i++) {
@@ -136,23 +136,29 @@ void pl_radau_free(pl_radau* r) {
   for (int k = 0; k < PL_RADAU_PAIRS; k++) pl_zsparse_free(r->sparse_pair[k]);
 }
 
-// ---------------------------------------------------------------------------------------------- reading the jets
-static int node_of(const pl_batch* b, const pl_pattern_entry* e) { return b->pattern->tape->roots[e->root]; }
+// -------------------------------------------------------------------------------- reading the jets
+static int node_of(const pl_batch* b, const pl_pattern_entry* e) {
+  return b->pattern->tape->roots[e->root];
+}
 
 void pl_radau_sweep(pl_jet* jet, int k) {
   jet->kernel(jet, PL_LEVEL_PLACE, k, k == 0);
   jet->kernel(jet, PL_LEVEL_SPEED, k, k == 0);
 }
 
-// ---------------------------------------------------------------------------------------------- residuals
-// Adds what the instance in a lane contributes to the residual F (n_q), C (n_c) and the coefficients of stage i.
-static void add_residual(const pl_run* run, pl_radau* r, const pl_radau_wide* w, int lane, int instance, int i) {
-  const double *v = pl_radau_stage(r->V, i, r->n_q), *a = pl_radau_stage(r->A, i, r->n_q), *lambda = pl_radau_stage(r->L, i, r->n_c);
-  double *F = pl_radau_stage(r->F, i, r->n), *C = F + r->n_q, *coefficient = pl_radau_stage(r->coefficient, i, r->n_C);
+// --------------------------------------------------------------------------------------- residuals
+// Adds what the instance in a lane contributes to the residual F (n_q), C (n_c) and the
+// coefficients of stage i.
+static void add_residual(const pl_run* run, pl_radau* r, const pl_radau_wide* w, int lane,
+                         int instance, int i) {
+  const double *v = pl_radau_stage(r->V, i, r->n_q), *a = pl_radau_stage(r->A, i, r->n_q),
+               *lambda = pl_radau_stage(r->L, i, r->n_c);
+  double *F = pl_radau_stage(r->F, i, r->n), *C = F + r->n_q,
+         *coefficient = pl_radau_stage(r->coefficient, i, r->n_C);
   const pl_batch* b = w->batch;
   const pl_pattern* p = b->pattern;
   const int *q = b->q + instance, *c = b->c + instance;
-#define VALUE(e) pl_jet_at(w->jet, node_of(b, e), 0)[lane]
+#define VALUE(e)   pl_jet_at(w->jet, node_of(b, e), 0)[lane]
 #define Q_OF(slot) q[(slot)*b->lanes]
 #define C_OF(slot) c[(slot)*b->lanes]
   for (const pl_pattern_entry* e = p->mass; e < p->mass + p->n_mass; e++) {
@@ -186,8 +192,10 @@ static void residual_by_stages(const pl_run* run, pl_radau* r, const pl_radau_wi
   for (int slot = 0; slot < b->pattern->n_q; slot++) {
     for (int l = 0; l < WIDE; l++) {
       int i = l < s ? l : s - 1;
-      if (tape->q_node[slot] >= 0) pl_jet_at(w->jet, tape->q_node[slot], 0)[l] = pl_radau_stage(r->Q, i, r->n_q)[b->q[slot]];
-      if (tape->v_node[slot] >= 0) pl_jet_at(w->jet, tape->v_node[slot], 0)[l] = pl_radau_stage(r->V, i, r->n_q)[b->q[slot]];
+      if (tape->q_node[slot] >= 0)
+        pl_jet_at(w->jet, tape->q_node[slot], 0)[l] = pl_radau_stage(r->Q, i, r->n_q)[b->q[slot]];
+      if (tape->v_node[slot] >= 0)
+        pl_jet_at(w->jet, tape->v_node[slot], 0)[l] = pl_radau_stage(r->V, i, r->n_q)[b->q[slot]];
     }
   }
   for (int k = tape->level_end[PL_LEVEL_CONST]; k < tape->level_end[PL_LEVEL_PLACE]; k++)
@@ -213,17 +221,20 @@ void pl_radau_load_instances(const pl_radau_wide* w, double t, const double* q, 
 
 static void residual_by_instances(const pl_run* run, pl_radau* r, const pl_radau_wide* w) {
   for (int i = 0; i < r->method.s; i++) {
-    pl_radau_load_instances(w, r->t[i], pl_radau_stage(r->Q, i, r->n_q), pl_radau_stage(r->V, i, r->n_q));
+    pl_radau_load_instances(w, r->t[i], pl_radau_stage(r->Q, i, r->n_q),
+                            pl_radau_stage(r->V, i, r->n_q));
     for (int l = 0; l < w->batch->n; l++) add_residual(run, r, w, l, l, i);
   }
 }
 
 // m - κ λ in the rows of slip.
-void pl_radau_slip_rows(const pl_run* run, const double* coefficient, const double* lambda, double* C) {
+void pl_radau_slip_rows(const pl_run* run, const double* coefficient, const double* lambda,
+                        double* C) {
   for (int k = 0; k < run->setup->n_rubs; k++) {
     const pl_rub* rub = &run->setup->rubs[k];
     for (int i = 0; i < rub->n_rows && run->rub[k].state == PL_RUB_SLIP; i++)
-      C[rub->row[i]] = lambda[rub->row[i]] - pl_friction_kappa(run, k, i, coefficient) * lambda[rub->link];
+      C[rub->row[i]] = lambda[rub->row[i]]
+                       - pl_friction_kappa(run, k, i, coefficient) * lambda[rub->link];
   }
 }
 
@@ -239,6 +250,8 @@ void pl_radau_residual(pl_run* run, pl_radau* r) {
     double* F = pl_radau_stage(r->F, i, r->n);
     for (int k = 0; k < run->n_q; k++)
       if (run->place_n[k] == 0) F[k] = 0;
-    if (run->n_slipping > 0) pl_radau_slip_rows(run, pl_radau_stage(r->coefficient, i, r->n_C), pl_radau_stage(r->L, i, r->n_c), F + r->n_q);
+    if (run->n_slipping > 0)
+      pl_radau_slip_rows(run, pl_radau_stage(r->coefficient, i, r->n_C),
+                         pl_radau_stage(r->L, i, r->n_c), F + r->n_q);
   }
 }

@@ -7,8 +7,8 @@ static pl_expr sq(t_bench* b, pl_expr x) { return pl_square(P, x); }
 static pl_expr mul(t_bench* b, pl_expr x, pl_expr y) { return pl_mul(P, x, y); }
 static pl_expr half(t_bench* b, pl_expr x) { return pl_mul(P, pl_ratio(P, 1, 2), x); }
 
-// A pendulum, mass 1 at (x, y), y down, x² + y² = 1, g = 1, and a second mass on a spring of length 1 below it with
-// stiffness K and damper c along the spring.
+// A pendulum, mass 1 at (x, y), y down, x² + y² = 1, g = 1, and a second mass on a spring of length
+// 1 below it with stiffness K and damper c along the spring.
 static double kick;  // speed of the second mass along the spring at the start
 
 static t_bench* family(double K, double c, pl_method method, double t_end, double tol) {
@@ -38,7 +38,7 @@ static t_bench* family(double K, double c, pl_method method, double t_end, doubl
   return b;
 }
 
-// ---------------------------------------------------------------------------------------------- coefficients
+// ------------------------------------------------------------------------------------ coefficients
 static void the_coefficients_meet_the_order_conditions(void** state) {
   (void)state;
   for (int s = 3; s <= PL_RADAU_MOST; s += 2) {
@@ -78,16 +78,19 @@ static void the_coefficients_meet_the_order_conditions(void** state) {
   pl_radau_method m;
   pl_radau_method_make(&m, 3);
   double r = sqrt(6);
-  assert_true(fabs(m.error[0] + (13 + 7 * r) / 3) < 1e-14 && fabs(m.error[1] - (-13 + 7 * r) / 3) < 1e-14);
+  assert_true(fabs(m.error[0] + (13 + 7 * r) / 3) < 1e-14
+              && fabs(m.error[1] - (-13 + 7 * r) / 3) < 1e-14);
   assert_true(fabs(m.error[2] + 1 / 3.) < 1e-14 && fabs(m.A[0][0] - (88 - 7 * r) / 360) < 1e-16);
 }
 
-// ---------------------------------------------------------------------------------------------- closed forms
-// A bead on a circle, tied to a point that runs round it with speed w by a stiff spring and damper: it follows exactly,
-// x = cos w t, y = sin w t, and λ (x² + y² - 1) with 2 λ = -w².  The stiff direction turns.
+// ------------------------------------------------------------------------------------ closed forms
+// A bead on a circle, tied to a point that runs round it with speed w by a stiff spring and damper:
+// it follows exactly, x = cos w t, y = sin w t, and λ (x² + y² - 1) with 2 λ = -w². The stiff
+// direction turns.
 static t_bench* follower(double K, double w, double phase, double t_end, double tol) {
   t_bench* b = t_open();
-  pl_expr x = t_coord(b, "x"), y = t_coord(b, "y"), k = t_param(b, "K", K), c = t_param(b, "c", 2 * sqrt(K));
+  pl_expr x = t_coord(b, "x"), y = t_coord(b, "y"), k = t_param(b, "K", K),
+          c = t_param(b, "c", 2 * sqrt(K));
   pl_expr angle = mul(b, t_param(b, "w", w), pl_sym(P, pl_time(P)));
   pl_expr cosine = pl_call(P, PL_COS, angle), sine = pl_call(P, PL_SIN, angle);
   pl_expr speed = t_param(b, "speed", w);
@@ -114,8 +117,8 @@ static void a_stiff_spring_follows_a_turning_point(void** state) {
     double off_v = fmax(fabs(v[0] + 1.5 * sin(6)), fabs(v[1] - 1.5 * cos(6)));
     double off_l = fabs(pl_run_lambda(b->run)[0] + 1.5 * 1.5 / 2);
     const pl_stats* s = pl_run_stats(b->run);
-    printf("# K %.0e: %ld steps, q %.1e, v %.1e, λ %.1e, g %.1e, gdot %.1e\n", K, s->steps, off, off_v, off_l, s->max_g,
-           s->max_gdot);
+    printf("# K %.0e: %ld steps, q %.1e, v %.1e, λ %.1e, g %.1e, gdot %.1e\n", K, s->steps, off,
+           off_v, off_l, s->max_g, s->max_gdot);
     assert_true(off < 1e-11 && off_v < 1e-11 && off_l < 1e-10 + 1e-15 * K);
     assert_true(s->max_g < 1e-15 && s->max_gdot < 1e-14 && s->steps < 200);
     assert_true(s->steps_implicit == s->steps);
@@ -136,7 +139,8 @@ static void a_stiff_start_off_its_place_is_damped(void** state) {
   t_close(b);
 }
 
-// x'' + c x' + K x = 0 with roots -1 and -10^6, both excited: x = e^-t and a fast part that the method must resolve.
+// x'' + c x' + K x = 0 with roots -1 and -10^6, both excited: x = e^-t and a fast part that the
+// method must resolve.
 static void a_fast_part_is_resolved_while_it_lasts(void** state) {
   (void)state;
   t_bench* b = t_open();
@@ -154,7 +158,7 @@ static void a_fast_part_is_resolved_while_it_lasts(void** state) {
   t_close(b);
 }
 
-// ---------------------------------------------------------------------------------------------- against the series
+// ------------------------------------------------------------------------------ against the series
 static void it_agrees_with_the_series_at_every_tolerance(void** state) {
   (void)state;
   double c = 2 * sqrt(1e5);
@@ -168,8 +172,9 @@ static void it_agrees_with_the_series_at_every_tolerance(void** state) {
       off = fmax(off, fabs(pl_run_q(b->run)[i] - pl_run_q(a->run)[i]));
       off = fmax(off, fabs(pl_run_v(b->run)[i] - pl_run_v(a->run)[i]));
     }
-    printf("# tol %.0e: %ld steps, off %.1e, λ off %.1e, g %.1e\n", tol, pl_run_stats(b->run)->steps, off,
-           pl_run_lambda(b->run)[0] - pl_run_lambda(a->run)[0], pl_run_stats(b->run)->max_g);
+    printf("# tol %.0e: %ld steps, off %.1e, λ off %.1e, g %.1e\n", tol,
+           pl_run_stats(b->run)->steps, off, pl_run_lambda(b->run)[0] - pl_run_lambda(a->run)[0],
+           pl_run_stats(b->run)->max_g);
     assert_true(off < 20 * tol && pl_run_stats(b->run)->max_g < 1e-15);
     t_close(b);
   }
@@ -214,7 +219,8 @@ static void rows_between_and_events_are_as_exact_as_steps(void** state) {
   double dts[] = {0.3, 0.05}, t_a[64], t_b[64];
   for (int i = 0; i < 2; i++) {
     int n_a, n_b;
-    rows a = rows_of(PL_METHOD_TAYLOR, dts[i], 0, t_a, &n_a), b = rows_of(PL_METHOD_RADAU, dts[i], 1e-10, t_b, &n_b);
+    rows a = rows_of(PL_METHOD_TAYLOR, dts[i], 0, t_a, &n_a),
+         b = rows_of(PL_METHOD_RADAU, dts[i], 1e-10, t_b, &n_b);
     assert_int_equal(a.n, b.n);
     assert_int_equal(n_a, n_b);
     assert_true(n_a >= 1);
@@ -224,7 +230,8 @@ static void rows_between_and_events_are_as_exact_as_steps(void** state) {
       off_l = fmax(off_l, fabs(a.lambda[k] - b.lambda[k]));
     }
     for (int k = 0; k < n_a; k++) off_t = fmax(off_t, fabs(t_a[k] - t_b[k]));
-    printf("# dt %g: %d rows off %.1e, λ %.1e, %d events off %.1e\n", dts[i], a.n, off, off_l, n_a, off_t);
+    printf("# dt %g: %d rows off %.1e, λ %.1e, %d events off %.1e\n", dts[i], a.n, off, off_l, n_a,
+           off_t);
     assert_true(off < 2e-9 && off_t < 2e-9 && off_l < 1e-6);
   }
 }
@@ -249,11 +256,12 @@ static void it_runs_backwards(void** state) {
   assert_int_equal(pl_run_make(&b->job, &b->setup, &b->options, &b->run), PLEUEL_OK);
   assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
   printf("# backwards: %.1e\n", back - pl_run_q(b->run)[0]);
-  assert_true(fabs(back - pl_run_q(b->run)[0]) < 1e-11);  // released at rest: the motion is even in time
+  // released at rest: the motion is even in time
+  assert_true(fabs(back - pl_run_q(b->run)[0]) < 1e-11);
   t_close(b);
 }
 
-// ---------------------------------------------------------------------------------------------- choice of the method
+// ---------------------------------------------------------------------------- choice of the method
 static void a_stiff_motion_is_recognised(void** state) {
   (void)state;
   for (double K = 1e6; K < 1e11; K *= 1e2) {
@@ -265,9 +273,10 @@ static void a_stiff_motion_is_recognised(void** state) {
       const pl_stats* s = pl_run_stats(b->run);
       double off = 0;
       for (int i = 0; i < 4; i++) off = fmax(off, fabs(pl_run_q(b->run)[i] - pl_run_q(a->run)[i]));
-      printf("# K %.0e, tol %.0e: implicit from t = %.3g, %ld of %ld steps, off %.1e\n", K, tol, s->t_implicit,
-             s->steps_implicit, s->steps, off);
-      assert_true(s->steps_implicit > 10 && s->t_implicit < 1 && s->steps < 500 && off < 1000 * tol);
+      printf("# K %.0e, tol %.0e: implicit from t = %.3g, %ld of %ld steps, off %.1e\n", K, tol,
+             s->t_implicit, s->steps_implicit, s->steps, off);
+      assert_true(s->steps_implicit > 10 && s->t_implicit < 1 && s->steps < 500
+                  && off < 1000 * tol);
       t_close(b);
     }
     t_close(a);
@@ -284,14 +293,14 @@ static void an_oscillation_is_not_taken_for_stiffness(void** state) {
   assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
   double off = 0;
   for (int i = 0; i < 4; i++) off = fmax(off, fabs(pl_run_v(b->run)[i] - pl_run_v(a->run)[i]));
-  printf("# undamped: %ld implicit of %ld steps, v off %.1e\n", pl_run_stats(b->run)->steps_implicit,
-         pl_run_stats(b->run)->steps, off);
+  printf("# undamped: %ld implicit of %ld steps, v off %.1e\n",
+         pl_run_stats(b->run)->steps_implicit, pl_run_stats(b->run)->steps, off);
   assert_true(pl_run_stats(b->run)->steps_implicit == 0 && off < 1e-7);
   t_close(a);
   t_close(b);
 }
 
-// ---------------------------------------------------------------------------------------------- large systems
+// ----------------------------------------------------------------------------------- large systems
 // Masses on a line between hard springs and dampers, each in a potential -cos x; the first is held.
 static t_bench* line(int n, pl_method method, double t_end, double tol) {
   t_bench* b = t_open();
@@ -300,10 +309,11 @@ static t_bench* line(int n, pl_method method, double t_end, double tol) {
     pl_expr x = t_coord(b, pl_format(b->arena, "x%d", i));
     L = pl_add(P, L, pl_add(P, half(b, sq(b, b->v[i])), pl_call(P, PL_COS, x)));
     b->force[i] = pl_int(P, 0);
-    t_start(b, i, 0.01 * i, 0.5 * sin(M_PI * i / (2 * n - 1)));   // its slowest oscillation
+    t_start(b, i, 0.01 * i, 0.5 * sin(M_PI * i / (2 * n - 1)));  // its slowest oscillation
   }
   for (int i = 1; i < n; i++) {
-    pl_expr stretch = pl_sub(P, b->q[i], b->q[i - 1]), pull = mul(b, c, pl_sub(P, b->v[i], b->v[i - 1]));
+    pl_expr stretch = pl_sub(P, b->q[i], b->q[i - 1]),
+            pull = mul(b, c, pl_sub(P, b->v[i], b->v[i - 1]));
     L = pl_sub(P, L, half(b, mul(b, K, sq(b, pl_sub(P, stretch, pl_ratio(P, 1, 100))))));
     b->force[i - 1] = pl_add(P, b->force[i - 1], pull);
     b->force[i] = pl_sub(P, b->force[i], pull);
@@ -325,8 +335,9 @@ static void a_long_line_of_hard_springs_agrees_with_the_series(void** state) {
     assert_true(b->run->radau->sparse != NULL);
     double off = 0;
     for (int i = 0; i < N; i++) off = fmax(off, fabs(pl_run_q(b->run)[i] - pl_run_q(a->run)[i]));
-    printf("# line, tol %.0e: %ld and %ld steps, off %.1e, λ off %.1e\n", tol, pl_run_stats(a->run)->steps,
-           pl_run_stats(b->run)->steps, off, pl_run_lambda(b->run)[0] - pl_run_lambda(a->run)[0]);
+    printf("# line, tol %.0e: %ld and %ld steps, off %.1e, λ off %.1e\n", tol,
+           pl_run_stats(a->run)->steps, pl_run_stats(b->run)->steps, off,
+           pl_run_lambda(b->run)[0] - pl_run_lambda(a->run)[0]);
     assert_true(off < 20 * tol && pl_run_stats(b->run)->steps < 200);
     t_close(b);
   }
@@ -342,7 +353,8 @@ static void a_long_stiff_line_is_recognised(void** state) {
   double off = 0;
   for (int i = 0; i < 150; i++) off = fmax(off, fabs(pl_run_q(b->run)[i] - pl_run_q(a->run)[i]));
   const pl_stats* s = pl_run_stats(b->run);
-  printf("# long line: implicit from t = %.3g, %ld of %ld steps, off %.1e\n", s->t_implicit, s->steps_implicit, s->steps, off);
+  printf("# long line: implicit from t = %.3g, %ld of %ld steps, off %.1e\n", s->t_implicit,
+         s->steps_implicit, s->steps, off);
   assert_true(s->steps_implicit > 10 && off < 1e-6);
   t_close(a);
   t_close(b);

@@ -4,11 +4,11 @@
 #include <math.h>
 #include <string.h>
 
-const char* const pl_event_kind_name[] = {"event", "release", "impact", "contact", "singular", "stop",
-                                           "slack", "taut",    "stick",  "slip"};
+const char* const pl_event_kind_name[] = {"event", "release", "impact", "contact", "singular",
+                                          "stop",  "slack",   "taut",   "stick",   "slip"};
 
-void pl_observe(pl_run* run, double t, const double* q, const double* v, const double* a, const double* lambda,
-                double* out) {
+void pl_observe(pl_run* run, double t, const double* q, const double* v, const double* a,
+                const double* lambda, double* out) {
   pl_batches* b = &run->observers;
   if (run->setup->n_out == 0) return;
   pl_turns_seen(run, t, &q, &v, &a);
@@ -17,11 +17,12 @@ void pl_observe(pl_run* run, double t, const double* q, const double* v, const d
   pl_batches_load_v(b, v, 0);
   pl_batches_load_a(b, a, 0);
   pl_batches_load_lambda(b, lambda, 0);
-  for (int level = PL_LEVEL_PLACE; level < PL_N_LEVELS; level++) pl_batches_sweep(b, (pl_level)level, 0, true);
+  for (int level = PL_LEVEL_PLACE; level < PL_N_LEVELS; level++)
+    pl_batches_sweep(b, (pl_level)level, 0, true);
   pl_batches_outputs(b, out, run->setup->n_out, 0);
 }
 
-// ---------------------------------------------------------------------------------------------- mode as text
+// ------------------------------------------------------------------------------------ mode as text
 static bool has_modes(const pl_run* run) {
   for (int c = 0; c < run->n_c; c++)
     if (run->setup->links[c].side != 0) return true;
@@ -41,16 +42,18 @@ void pl_mode_text(const pl_run* run, char* out) {
   if (!has_modes(run)) return;
   for (int c = 0; c < run->n_c; c++) {
     const pl_link* link = &run->setup->links[c];
-    if (link->side != 0 && run->active[c]) n = add_mode(run, out, n, link->rope ? "taut" : "contact", link->name);
+    if (link->side != 0 && run->active[c])
+      n = add_mode(run, out, n, link->rope ? "taut" : "contact", link->name);
   }
   for (int r = 0; r < run->setup->n_rubs; r++) {
     if (run->rub[r].state == PL_RUB_OFF) continue;
-    n = add_mode(run, out, n, run->rub[r].state == PL_RUB_STICK ? "stick" : "slip", run->setup->rubs[r].name);
+    n = add_mode(run, out, n, run->rub[r].state == PL_RUB_STICK ? "stick" : "slip",
+                 run->setup->rubs[r].name);
   }
   if (n == 0) snprintf(out, run->mode_size, "free");
 }
 
-// ---------------------------------------------------------------------------------------------- rows
+// -------------------------------------------------------------------------------------------- rows
 pl_row pl_row_now(pl_run* run, pl_row_kind kind, double* out, char* mode) {
   if (!run->wide) pl_observe(run, run->t, run->q, run->v, run->A, run->L, out);
   pl_mode_text(run, mode);
@@ -98,18 +101,20 @@ static double grid_time(const pl_run* run, long n) {
 
 static double grid_slack(const pl_run* run) { return 1e-9 * fabs(run->grid_dt); }
 
-// A point in the middle of the run is a row of its own without a grid, and with one when it lies on it.
+// A point in the middle of the run is a row of its own without a grid, and with one when it lies on
+// it.
 static bool point_is_due(pl_run* run, pl_row_kind kind) {
   if (kind != PL_ROW_STEP || run->grid_dt == 0) return true;
   return fabs(grid_time(run, run->grid_n) - run->t) <= grid_slack(run);
 }
 
 pleuel_status pl_rows_point(pl_run* run, pl_row_kind kind) {
-  if (!point_is_due(run, kind) || (kind == PL_ROW_END && run->last_row_t == run->t)) return PLEUEL_OK;
+  if (!point_is_due(run, kind) || (kind == PL_ROW_END && run->last_row_t == run->t))
+    return PLEUEL_OK;
   double direction = run->options.t_end < run->options.t_0 ? -1 : 1;
-  while (run->grid_dt != 0 && kind != PL_ROW_BEFORE &&
-         direction * (grid_time(run, run->grid_n) - run->t) <= grid_slack(run) &&
-         (run->grid_count == 0 || run->grid_n <= run->grid_count))
+  while (run->grid_dt != 0 && kind != PL_ROW_BEFORE
+         && direction * (grid_time(run, run->grid_n) - run->t) <= grid_slack(run)
+         && (run->grid_count == 0 || run->grid_n <= run->grid_count))
     run->grid_n++;
   pl_row row = pl_row_now(run, kind, run->out_now, run->mode);
   return send(run, &row);
@@ -139,10 +144,12 @@ static pleuel_status row_between(pl_run* run, double t, long n) {
   return send(run, &row);
 }
 
-// Without a grid every step is a row; long ones have rows between, so that a motion that few steps follow still shows its shape.
+// Without a grid every step is a row; long ones have rows between, so that a motion that few steps
+// follow still shows its shape.
 static pleuel_status rows_of_step(pl_run* run, double t_from, double t_to) {
   long n = (long)ceil((1 - 1e-9) * fabs(t_to - t_from) / run->row_gap);
-  for (long i = 1; i < n; i++) PL_TRY(row_between(run, t_from + (t_to - t_from) * ((double)i / (double)n), -1));
+  for (long i = 1; i < n; i++)
+    PL_TRY(row_between(run, t_from + (t_to - t_from) * ((double)i / (double)n), -1));
   return PLEUEL_OK;
 }
 
@@ -158,7 +165,7 @@ pleuel_status pl_rows_grid(pl_run* run, double t_from, double t_to) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- events
+// ------------------------------------------------------------------------------------------ events
 void pl_rows_before(pl_run* run) {
   size_t q = (size_t)run->n_q * sizeof(double), c = (size_t)run->n_c;
   memcpy(run->save_q, run->q, q);
@@ -170,14 +177,17 @@ void pl_rows_before(pl_run* run) {
   pl_mode_text(run, run->mode_before);
 }
 
-pleuel_status pl_rows_event(pl_run* run, pl_event_kind kind, int index, double impulse, bool at_start) {
+pleuel_status pl_rows_event(pl_run* run, pl_event_kind kind, int index, double impulse,
+                            bool at_start) {
   const pl_sink* s = &run->options.sink;
   bool of_event = kind == PL_EV_EVENT || kind == PL_EV_STOP;
   run->stats.n_events++;
   if (!s->event) return PLEUEL_OK;
   pl_event_record e = {.kind = kind, .index = index, .impulse = impulse, .at_start = at_start};
-  for (int i = 0; i < run->n_q; i++) e.jump |= fabs(run->v[i] - run->save_v[i]) > 1e-12 * run->v_size;
-  if (index >= 0) e.label = of_event ? run->setup->events[index].name : run->setup->links[index].name;
+  for (int i = 0; i < run->n_q; i++)
+    e.jump |= fabs(run->v[i] - run->save_v[i]) > 1e-12 * run->v_size;
+  if (index >= 0)
+    e.label = of_event ? run->setup->events[index].name : run->setup->links[index].name;
   e.before = (pl_row){.t = run->t,
                       .q = run->save_q,
                       .v = run->save_v,
@@ -194,7 +204,8 @@ pleuel_status pl_rows_event(pl_run* run, pl_event_kind kind, int index, double i
   return how;
 }
 
-pleuel_status pl_rows_event_beside(pl_run* run, pl_event_record e, double t, const double* a, const double* lambda) {
+pleuel_status pl_rows_event_beside(pl_run* run, pl_event_record e, double t, const double* a,
+                                   const double* lambda) {
   const pl_sink* s = &run->options.sink;
   pl_observe(run, t, run->row_q, run->row_v, a, lambda, run->out_now);
   pl_mode_text(run, run->mode);
@@ -222,11 +233,12 @@ pleuel_status pl_rows_settled(pl_run* run, pl_event_kind kind, int index, double
     run->row_q[i] = run->q[i] + dt * (run->v[i] + 0.5 * dt * run->A[i]);
     run->row_v[i] = run->v[i] + dt * run->A[i];
   }
-  pl_event_record e = {.kind = kind, .index = index, .label = run->setup->links[index].name, .bounces = bounces};
+  pl_event_record e = {
+      .kind = kind, .index = index, .label = run->setup->links[index].name, .bounces = bounces};
   return pl_rows_event_beside(run, e, run->t + dt, run->A, run->L);
 }
 
-// ---------------------------------------------------------------------------------------------- energy
+// ------------------------------------------------------------------------------------------ energy
 double pl_rows_conserved(const pl_run* run, const double* out) {
   const pl_setup* s = run->setup;
   return s->energy > 0 ? out[s->energy] : out[s->kinetic] + out[s->potential];
@@ -250,7 +262,10 @@ void pl_rows_energy(pl_run* run, bool anew) {
   if (anew) {
     // an impact or a deed has changed it: drift is counted from here
     run->energy_base = E;
-    if (isnan(run->stats.energy_drift)) run->stats.energy_0 = E, run->stats.energy_drift = 0;
+    if (isnan(run->stats.energy_drift)) {
+      run->stats.energy_0 = E;
+      run->stats.energy_drift = 0;
+    }
     return;
   }
   double drift = run->energy_size > 0 ? fabs(E - run->energy_base) / run->energy_size : 0;

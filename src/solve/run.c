@@ -6,20 +6,26 @@
 #include <string.h>
 
 // What a step may be off by before it is tried again at half the length, in units of the tolerance.
-static const double allowed_move = 1e4;        // correction by the projection, relative
-static const double allowed_floor = 1e-11;     // and what rounding may do to it close to a singular position
-static const double allowed_floor_wide = 1e-8; // the same of wide numbers, which come closer to one
-static const double allowed_defect = 10;       // of velocities, by what accelerations at its end tell; a tenth is usual
-static const double allowed_rounding = 450;    // the same in roundings
-static const double not_less = 0.75;           // of what a step twice as long was off by: rounding
-static const double allowed_residual = 1e-12;  // |g| and |G v + dg/dt| after it, relative to their terms
+static const double allowed_move = 1e4;  // correction by the projection, relative
+// and what rounding may do to it close to a singular position
+static const double allowed_floor = 1e-11;
+static const double allowed_floor_wide =
+    1e-8;  // the same of wide numbers, which come closer to one
+// of velocities, by what accelerations at its end tell; a tenth is usual
+static const double allowed_defect = 10;
+static const double allowed_rounding = 450;  // the same in roundings
+static const double not_less = 0.75;         // of what a step twice as long was off by: rounding
+// |g| and |G v + dg/dt| after it, relative to their terms
+static const double allowed_residual = 1e-12;
 
-// ---------------------------------------------------------------------------------------------- one attempt
+// ------------------------------------------------------------------------------------- one attempt
 static bool acceptable(const pl_run* run, const pl_projection* p) {
   double rounding = run->wide ? run->wide->floor / DBL_EPSILON : 1;
-  double move = pl_larger(allowed_move * run->tol, rounding * (run->wide ? allowed_floor_wide : allowed_floor));
+  double move = pl_larger(allowed_move * run->tol,
+                          rounding * (run->wide ? allowed_floor_wide : allowed_floor));
   double left = pl_larger(10 * run->tol, rounding * allowed_residual);
-  return p->ok && p->move_q <= move && p->move_v <= move && p->g_after <= left && p->r_after <= left;
+  return p->ok && p->move_q <= move && p->move_v <= move && p->g_after <= left
+         && p->r_after <= left;
 }
 
 static void note(pl_run* run, const pl_projection* p, double h) {
@@ -63,15 +69,22 @@ static pleuel_status too_small(pl_run* run, double h) {
   if (run->best > 0 && run->smallest_here < 1e-2 * run->best) return pl_run_singular(run);
   if (run->n_slipping > 0)
     return pl_fail(run->job, PLEUEL_NUMERICAL,
-                   "no step is short enough at t = %.9g s (%.3g s tried): forces of contact grow without bound while surfaces "
-                   "slip, as on the way into Painlevé's paradox", run->t, h);
-  double way = pl_norm(run->q, run->n_q), speed = pl_norm(run->v, run->n_q), most = pl_norm(run->A, run->n_q);
+                   "no step is short enough at t = %.9g s (%.3g s tried): forces of contact grow "
+                   "without bound while surfaces "
+                   "slip, as on the way into Painlevé's paradox",
+                   run->t, h);
+  double way = pl_norm(run->q, run->n_q), speed = pl_norm(run->v, run->n_q),
+         most = pl_norm(run->A, run->n_q);
   // x = c/(t_0 - t)^n: what is left of the time is n x/v, and less than n v/a
-  if (speed * run->h_series > 0.02 * way && most * run->h_series > 0.02 * speed && speed > 1e6 * fabs(way) / fabs(run->t - run->options.t_0))
-    return pl_fail(run->job, PLEUEL_NUMERICAL,
-                   "the motion runs away: positions and velocities grow without bound as t comes to %.9g s", run->t);
+  if (speed * run->h_series > 0.02 * way && most * run->h_series > 0.02 * speed
+      && speed > 1e6 * fabs(way) / fabs(run->t - run->options.t_0))
+    return pl_fail(
+        run->job, PLEUEL_NUMERICAL,
+        "the motion runs away: positions and velocities grow without bound as t comes to %.9g s",
+        run->t);
   return pl_fail(run->job, PLEUEL_NUMERICAL,
-                 "no step is short enough at t = %.9g s (%.3g s tried): the motion leaves the domain of a function, "
+                 "no step is short enough at t = %.9g s (%.3g s tried): the motion leaves the "
+                 "domain of a function, "
                  "or a force or the constraints jump there",
                  run->t, h);
 }
@@ -93,23 +106,28 @@ static void advance(pl_run* run, double h, bool at_root, pl_projection* p) {
     pl_horner(run->A, run->n_q, run->use - 1, h, run->end_a);
   }
   // what follows a root changes the mode: it needs the general way
-  if (at_root || !pl_motion_project(run, t, run->trial_q, run->trial_v, p)) *p = pl_project(run, t, run->trial_q, run->trial_v);
+  if (at_root || !pl_motion_project(run, t, run->trial_q, run->trial_v, p))
+    *p = pl_project(run, t, run->trial_q, run->trial_v);
 }
 
-// A slip that ends here has another direction for what follows: accelerations are not those of the step.
+// A slip that ends here has another direction for what follows: accelerations are not those of the
+// step.
 static bool ends_slip(const pl_run* run) {
   for (int i = 0; i < run->n_watch; i++)
     if (run->hit[i] && run->watch[i].kind == PL_WATCH_STICK) return true;
   return false;
 }
 
-// Whether the equations at the end of a step give the accelerations that the series says: one that is cut off at order p is off by
-// (p + 1)/h times as much in acceleration as in velocity.  What does not lessen with the step is rounding, and is allowed from then on;
-// *before: what a longer step was off by, 0 none.
+// Whether the equations at the end of a step give the accelerations that the series says: one that
+// is cut off at order p is off by (p + 1)/h times as much in acceleration as in velocity. What does
+// not lessen with the step is rounding, and is allowed from then on; *before: what a longer step
+// was off by, 0 none.
 static bool series_holds(pl_run* run, double h, double* before) {
   double off, size, rounding = run->wide ? run->wide->state->epsilon : DBL_EPSILON;
-  if (!pl_point_arrive(run, h, &off, &size)) return true;      // what stands in the way is told when the step is taken
-  double part = allowed_defect * run->tol + allowed_rounding * rounding, of_v = pl_larger(run->v_size, fabs(h) * size);
+  // what stands in the way is told when the step is taken
+  if (!pl_point_arrive(run, h, &off, &size)) return true;
+  double part = allowed_defect * run->tol + allowed_rounding * rounding,
+         of_v = pl_larger(run->v_size, fabs(h) * size);
   if (off * fabs(h) <= part * of_v * (run->order + 1) || off <= run->a_rough) return true;
   bool rough = *before > 0 && off > not_less * *before;
   *before = off;
@@ -127,24 +145,27 @@ static pleuel_status try_steps(pl_run* run, double* h, double* root, pl_projecti
     if (*root == 0) return PLEUEL_OK;
     double kink = run->n_kinks > 0 ? pl_kinks_first(run, *h) : -1;
     bool at_kink = kink >= 0 && (*root < 0 || kink < *root);
-    if (at_kink) *root = -1, *h *= pl_smaller(kink, 1);
+    if (at_kink) {
+      *root = -1;
+      *h *= pl_smaller(kink, 1);
+    }
     double reach = *root >= 0 ? *root * *h : *h;
     advance(run, reach, *root >= 0, p);
-    bool open = at_kink || (*root >= 0 && ends_slip(run));   // accelerations jump there
+    bool open = at_kink || (*root >= 0 && ends_slip(run));  // accelerations jump there
     bool found = *root < 0 || run->wide || pl_watch_holds(run, *h, *root);
     if (acceptable(run, p) && found && (open || series_holds(run, reach, &off))) {
       *h = reach;
       return PLEUEL_OK;
     }
     run->stats.rejections++;
-    run->at_point = false;   // what the programs keep is the end that was tried
+    run->at_point = false;  // what the programs keep is the end that was tried
     pl_sizes_forget(run);
     *h = 0.5 * reach;
     if (!(fabs(*h) > run->h_least)) return too_small(run, *h);
   }
 }
 
-// ---------------------------------------------------------------------------------------------- a step
+// ------------------------------------------------------------------------------------------ a step
 static void accept(pl_run* run, double h, bool to_end) {
   pl_series_swap(run);
   run->t_last = run->t_series;
@@ -163,9 +184,10 @@ static void accept(pl_run* run, double h, bool to_end) {
 static pleuel_status check_energy(pl_run* run) {
   double limit = pl_larger(1e-8, 1e5 * run->tol);
   if (!run->setup->energy_conserved || !(run->stats.energy_drift > limit)) return PLEUEL_OK;
-  return pl_fail(run->job, PLEUEL_NUMERICAL,
-                 "the energy has drifted by %.2g of its size at t = %.9g s: the result cannot be trusted",
-                 run->stats.energy_drift, run->t);
+  return pl_fail(
+      run->job, PLEUEL_NUMERICAL,
+      "the energy has drifted by %.2g of its size at t = %.9g s: the result cannot be trusted",
+      run->stats.energy_drift, run->t);
 }
 
 static pleuel_status arrive_at_point(pl_run* run) {
@@ -182,18 +204,22 @@ static pleuel_status arrive_at_point(pl_run* run) {
   return check_energy(run);
 }
 
-// Steps that get nowhere, one after the other: kinks that the motion does not leave, as dry friction at rest.
+// Steps that get nowhere, one after the other: kinks that the motion does not leave, as dry
+// friction at rest.
 static pleuel_status count_tiny(pl_run* run, double h) {
   enum { MOST = 200 };
   run->tiny = fabs(h) <= 100 * run->h_least ? run->tiny + 1 : 0;
   if (run->tiny <= MOST) return PLEUEL_OK;
   if (run->n_kinks == 0) return too_small(run, h);
-  return pl_fail(run->job, PLEUEL_NUMERICAL,
-                 "the motion stays where a force changes its branch, at t = %.9g s: sticking is not computed", run->t);
+  return pl_fail(
+      run->job, PLEUEL_NUMERICAL,
+      "the motion stays where a force changes its branch, at t = %.9g s: sticking is not computed",
+      run->t);
 }
 
 // A step of the series: its length, the length wanted, and the root that ended it, -1 none.
-static pleuel_status step_by_series(pl_run* run, double* h, double* wanted, double* root, pl_projection* p) {
+static pleuel_status step_by_series(pl_run* run, double* h, double* wanted, double* root,
+                                    pl_projection* p) {
   run->use = run->order;
   pl_motion_update(run);
   pl_series_expand(run);
@@ -210,7 +236,8 @@ static pleuel_status step_by_series(pl_run* run, double* h, double* wanted, doub
   return try_steps(run, h, root, p);
 }
 
-static pleuel_status step_implicitly(pl_run* run, double* h, double* wanted, double* root, pl_projection* p) {
+static pleuel_status step_implicitly(pl_run* run, double* h, double* wanted, double* root,
+                                     pl_projection* p) {
   pl_point_general(run);
   PL_TRY(pl_radau_step(run, h, root, p));
   *wanted = *h;
@@ -231,8 +258,10 @@ static pleuel_status step(pl_run* run) {
   PL_TRY(pl_rows_grid(run, run->t, run->t + h));
   if (run->n_watch > 0) pl_watch_passed(run, h);
   if (run->n_watch > 0 && run->sunk >= 0)
-    return pl_fail(run->job, PLEUEL_NUMERICAL, "%s was passed through near t = %.9g s without being met: the result cannot be trusted",
-                   run->setup->links[run->sunk].name, run->t);
+    return pl_fail(
+        run->job, PLEUEL_NUMERICAL,
+        "%s was passed through near t = %.9g s without being met: the result cannot be trusted",
+        run->setup->links[run->sunk].name, run->t);
   note(run, &p, h);
   PL_TRY(count_tiny(run, h));
   if (root > 0 && run->n_slipping > 0) pl_friction_keep_directions(run);
@@ -252,7 +281,8 @@ static pleuel_status limits(pl_run* run) {
   if (interrupted)
     return pl_fail(run->job, PLEUEL_INTERRUPTED, "interrupted at t = %.9g s", run->t);
   if (run->options.max_steps > 0 && run->stats.steps >= run->options.max_steps)
-    return pl_fail(run->job, PLEUEL_NUMERICAL, "%ld steps were not enough: t = %.9g s", run->options.max_steps, run->t);
+    return pl_fail(run->job, PLEUEL_NUMERICAL, "%ld steps were not enough: t = %.9g s",
+                   run->options.max_steps, run->t);
   return PLEUEL_OK;
 }
 
@@ -264,7 +294,8 @@ pleuel_status pl_run_step(pl_run* run) {
   PL_TRY(run->pilot ? pl_pilot_step(run->pilot, step) : step(run));
   run->stats.rank = run->rank;
   if (run->options.progress)
-    run->options.progress(run->options.progress_user, run->t, run->options.t_end, run->h_last, &run->stats);
+    run->options.progress(run->options.progress_user, run->t, run->options.t_end, run->h_last,
+                          &run->stats);
   return PLEUEL_OK;
 }
 
@@ -288,13 +319,14 @@ pleuel_status pl_run_to_end(pl_run* run) {
   run->stats.wall_s += pl_clock() - begin;
   pl_indeterminate_tell(run);
   if (run->opened && s->end) {
-    pleuel_status end = s->end(s->user, how, how == PLEUEL_OK ? "" : run->job->message, &run->stats);
+    pleuel_status end = s->end(s->user, how, how == PLEUEL_OK ? "" : run->job->message,
+                               &run->stats);
     if (how == PLEUEL_OK) how = end;
   }
   return how;
 }
 
-// ---------------------------------------------------------------------------------------------- starting from numbers
+// --------------------------------------------------------------------------- starting from numbers
 static void set_sizes(pl_run* run) {
   run->q_size = run->v_size = 0;
   for (int i = 0; i < run->n_q; i++) run->q_most[i] = run->v_most[i] = 0;
@@ -330,7 +362,8 @@ static void decide_contacts(pl_run* run, double t) {
   pl_assemble_g(run, 0, run->g, run->g_size);
   for (int c = 0; c < run->n_c; c++) {
     const pl_link* link = &run->setup->links[c];
-    if (link->side != 0 && !link->velocity) run->on[c] = !run->detached[c] && fabs(run->g[c]) <= 1e-9 * run->g_size[c];
+    if (link->side != 0 && !link->velocity)
+      run->on[c] = !run->detached[c] && fabs(run->g[c]) <= 1e-9 * run->g_size[c];
   }
 }
 
@@ -339,7 +372,8 @@ pleuel_status pl_run_start_at(pl_run* run, double t, const double* q, const doub
     run->q[i] = q[i];
     run->v[i] = v[i];
     if (!isfinite(q[i]) || !isfinite(v[i]))
-      return pl_fail(run->job, PLEUEL_USAGE, "the start value of %s is not a number", run->setup->coordinates[i].name);
+      return pl_fail(run->job, PLEUEL_USAGE, "the start value of %s is not a number",
+                     run->setup->coordinates[i].name);
   }
   pl_watch_forget(run);
   run->start_given = false;
@@ -347,7 +381,7 @@ pleuel_status pl_run_start_at(pl_run* run, double t, const double* q, const doub
   return pl_run_begin_at(run, t);
 }
 
-// ---------------------------------------------------------------------------------------------- reading
+// ----------------------------------------------------------------------------------------- reading
 double pl_run_time(const pl_run* run) { return run->t; }
 bool pl_run_done(const pl_run* run) {
   bool waits = run->pilot && pl_pilot_waits(run->pilot);

@@ -8,17 +8,20 @@
 
 enum { MIN_ORDER = 6, MAX_ORDER = 24 };
 
-// The tolerance below which rounding, not truncation, decides.  In long, what is cut off is to stay far below the rounding of the
-// state, since it has a direction and that has none.
-static const double least_tol[] = {[PL_PRECISION_DOUBLE] = 2.3e-16, [PL_PRECISION_LONG] = 1e-23, [PL_PRECISION_QUAD] = 1e-34};
+// The tolerance below which rounding, not truncation, decides. In long, what is cut off is to stay
+// far below the rounding of the state, since it has a direction and that has none.
+static const double least_tol[] = {
+    [PL_PRECISION_DOUBLE] = 2.3e-16, [PL_PRECISION_LONG] = 1e-23, [PL_PRECISION_QUAD] = 1e-34};
 
-// ---------------------------------------------------------------------------------------------- checks
+// ------------------------------------------------------------------------------------------ checks
 static pleuel_status check_links(pl_job* job, const pl_setup* s) {
   for (int c = 0; c < s->n_c; c++) {
     const pl_link* l = &s->links[c];
     if (l->name == NULL) return pl_fail(job, PLEUEL_USAGE, "constraint %d has no name", c);
-    if (l->side < -1 || l->side > 1) return pl_fail(job, PLEUEL_USAGE, "%s: side is -1, 0 or 1", l->name);
-    if (l->contact >= s->n_c || l->contact == c || (l->contact >= 0 && s->links[l->contact].side == 0))
+    if (l->side < -1 || l->side > 1)
+      return pl_fail(job, PLEUEL_USAGE, "%s: side is -1, 0 or 1", l->name);
+    if (l->contact >= s->n_c || l->contact == c
+        || (l->contact >= 0 && s->links[l->contact].side == 0))
       return pl_fail(job, PLEUEL_USAGE, "%s goes with a contact that is none", l->name);
     for (int i = 0; i < l->n_needs; i++)
       if (l->needs[i] < 0 || l->needs[i] >= s->n_c || l->needs[i] == c)
@@ -36,7 +39,8 @@ static bool deed_fits(const pl_setup* s, const pl_event_deed* d) {
     case PL_DEED_RELEASE:
     case PL_DEED_ATTACH: return d->target >= 0 && d->target < s->n_c;
     case PL_DEED_SET_Q:
-    case PL_DEED_SET_V: return d->target >= 0 && d->target < s->n_q && d->value >= 0 && d->value < s->n_watched;
+    case PL_DEED_SET_V:
+      return d->target >= 0 && d->target < s->n_q && d->value >= 0 && d->value < s->n_watched;
   }
   return false;
 }
@@ -56,31 +60,37 @@ static pleuel_status check_events(pl_job* job, const pl_setup* s) {
 
 static pleuel_status check_setup(pl_job* job, const pl_setup* s) {
   if (s->n_q <= 0 || s->n_c < 0) return pl_fail(job, PLEUEL_USAGE, "a run needs coordinates");
-  if (s->kinetic >= s->n_out || s->potential >= s->n_out || s->energy < 0 || (s->energy > 0 && s->energy >= s->n_out))
+  if (s->kinetic >= s->n_out || s->potential >= s->n_out || s->energy < 0
+      || (s->energy > 0 && s->energy >= s->n_out))
     return pl_fail(job, PLEUEL_USAGE, "no output column for the energy");
   for (int i = 0; i < s->n_q; i++)
-    if (s->coordinates[i].name == NULL) return pl_fail(job, PLEUEL_USAGE, "coordinate %d has no name", i);
+    if (s->coordinates[i].name == NULL)
+      return pl_fail(job, PLEUEL_USAGE, "coordinate %d has no name", i);
   for (int i = 0; i < s->n_turns; i++) {
     const pl_turn_setup* t = &s->turns[i];
     const int of[4] = {t->scalar, t->angle[0], t->angle[1], t->angle[2]};
     for (int k = 0; k < 4; k++)
-      if (of[k] < 0 || of[k] >= s->n_q) return pl_fail(job, PLEUEL_USAGE, "turn %d does not fit the setup", i);
+      if (of[k] < 0 || of[k] >= s->n_q)
+        return pl_fail(job, PLEUEL_USAGE, "turn %d does not fit the setup", i);
   }
   for (int i = 0; i < s->n_poles; i++)
-    if (s->poles[i] < 0 || s->poles[i] >= s->n_q) return pl_fail(job, PLEUEL_USAGE, "pole %d does not fit the setup", i);
+    if (s->poles[i] < 0 || s->poles[i] >= s->n_q)
+      return pl_fail(job, PLEUEL_USAGE, "pole %d does not fit the setup", i);
   PL_TRY(check_links(job, s));
   return check_events(job, s);
 }
 
 static pleuel_status check_options(pl_job* job, const pl_run_options* o) {
-  if (!isfinite(o->t_0) || !isfinite(o->t_end)) return pl_fail(job, PLEUEL_USAGE, "the time range is not finite");
-  if (!(o->tol >= 0 && o->tol < 1)) return pl_fail(job, PLEUEL_USAGE, "the tolerance is a positive number below 1");
+  if (!isfinite(o->t_0) || !isfinite(o->t_end))
+    return pl_fail(job, PLEUEL_USAGE, "the time range is not finite");
+  if (!(o->tol >= 0 && o->tol < 1))
+    return pl_fail(job, PLEUEL_USAGE, "the tolerance is a positive number below 1");
   if (!isfinite(o->dt) || o->dt < 0 || o->count < 0 || !isfinite(o->h_max) || o->h_max < 0)
     return pl_fail(job, PLEUEL_USAGE, "steps are positive");
   return PLEUEL_OK;
 }
 
-// ---------------------------------------------------------------------------------------------- options
+// ----------------------------------------------------------------------------------------- options
 // Jorba and Zou: terms of a series fall best like e^-2 from one to the next.
 static int plain_order(double tol) {
   int p = (int)ceil(-0.5 * log(tol) + 1);
@@ -90,21 +100,27 @@ static int plain_order(double tol) {
 // Nodes of the equations, of all instances together.
 static double nodes_of(const pl_setup* s) {
   double nodes = 0;
-  for (int i = 0; i < s->n_patterns; i++) nodes += (double)s->patterns[i].n * s->patterns[i].tape->n_nodes;
+  for (int i = 0; i < s->n_patterns; i++)
+    nodes += (double)s->patterns[i].n * s->patterns[i].tape->n_nodes;
   return nodes;
 }
 
-// That is the best order when the work of a step grows with the square of the order.  But much of it is done once a step: evaluating
-// the point, the factor, two projections cost as much as eight orders, in the smallest systems as twenty.  Then a higher order with a
-// step of tol^(1/(p-1)) radii gets farther for its price.  In small systems products of series are cheap beside everything else; in
-// large ones they are all that is there, and memory is the limit.
+// That is the best order when the work of a step grows with the square of the order. But much of it
+// is done once a step: evaluating the point, the factor, two projections cost as much as eight
+// orders, in the smallest systems as twenty. Then a higher order with a step of tol^(1/(p-1)) radii
+// gets farther for its price. In small systems products of series are cheap beside everything else;
+// in large ones they are all that is there, and memory is the limit.
 static int cheapest_order(double tol, double nodes, int largest) {
-  const double fixed = 8 + 400 / (17 + nodes), square = 0.1 * nodes / (nodes + 100);   // in units of the work of an order
+  // in units of the work of an order
+  const double fixed = 8 + 400 / (17 + nodes), square = 0.1 * nodes / (nodes + 100);
   int best = plain_order(tol);
   double least = (double)INFINITY;
   for (int p = best; p <= largest; p++) {
     double price = (fixed + p + square * p * p) * pow(tol, -1.0 / (p - 1));
-    if (price < least) best = p, least = price;
+    if (price < least) {
+      best = p;
+      least = price;
+    }
   }
   return best;
 }
@@ -131,42 +147,62 @@ static void set_options(pl_run* run, const pl_run_options* o) {
   run->stats.precision = o->precision;
   run->stats.order = run->use = run->use_last = run->order;
   run->grid_count = o->count;
-  run->grid_dt = o->count > 0 ? (o->t_end - o->t_0) / (double)o->count : copysign(o->dt, o->t_end - o->t_0);
+  run->grid_dt = o->count > 0 ? (o->t_end - o->t_0) / (double)o->count
+                              : copysign(o->dt, o->t_end - o->t_0);
   if (o->dt == 0 && o->count == 0) run->grid_dt = 0;
-  // a series sees the equations at the ends of its steps only: not fewer than this, whatever it says
+  // a series sees the equations at the ends of its steps only: not fewer than this, whatever it
+  // says
   run->h_plain = length / 16;
   run->row_gap = length / 50;
-  static const double least[] = {[PL_PRECISION_DOUBLE] = 1e-13, [PL_PRECISION_LONG] = 1e-16, [PL_PRECISION_QUAD] = 1e-25};
+  static const double least[] = {
+      [PL_PRECISION_DOUBLE] = 1e-13, [PL_PRECISION_LONG] = 1e-16, [PL_PRECISION_QUAD] = 1e-25};
   double of_t = o->precision == PL_PRECISION_DOUBLE ? 4 * DBL_EPSILON : least[o->precision];
   run->h_least = fmax(least[o->precision] * length, of_t * fmax(fabs(o->t_0), fabs(o->t_end)));
-  run->stats.energy_drift = run->stats.energy_0 = run->stats.t_singular = run->stats.t_implicit = (double)NAN;
+  run->stats.energy_drift = run->stats.energy_0 = run->stats.t_singular = run->stats.t_implicit =
+      (double)NAN;
   run->last_row_t = (double)NAN;
 }
 
-// ---------------------------------------------------------------------------------------------- workspace
+// --------------------------------------------------------------------------------------- workspace
 static void reserve_state(pl_run* run) {
   pl_arena* a = run->job->arena;
   size_t q = (size_t)run->n_q, c = (size_t)run->n_c, orders = (size_t)run->order + 2;
-  double** of_q[] = {&run->q,      &run->v,      &run->trial_q, &run->trial_v, &run->save_q, &run->save_v,
-                     &run->save_a, &run->row_q,  &run->row_v,   &run->row_a,   &run->jump_v, &run->column,
-                     &run->jump_q, &run->hold_q, &run->hold_v,  &run->first_a, &run->end_a,
-                     &run->q_most, &run->v_most, &run->q_kept,  &run->v_kept};
-  double** of_c[] = {&run->g,       &run->g_size,   &run->r,        &run->r_size,   &run->save_l,   &run->row_l,
-                     &run->impulse, &run->row_most, &run->argument, &run->row_long, &run->row_part, &run->rank_work,
+  double** of_q[] = {&run->q,       &run->v,      &run->trial_q, &run->trial_v, &run->save_q,
+                     &run->save_v,  &run->save_a, &run->row_q,   &run->row_v,   &run->row_a,
+                     &run->jump_v,  &run->column, &run->jump_q,  &run->hold_q,  &run->hold_v,
+                     &run->first_a, &run->end_a,  &run->q_most,  &run->v_most,  &run->q_kept,
+                     &run->v_kept};
+  double** of_c[] = {&run->g,
+                     &run->g_size,
+                     &run->r,
+                     &run->r_size,
+                     &run->save_l,
+                     &run->row_l,
+                     &run->impulse,
+                     &run->row_most,
+                     &run->argument,
+                     &run->row_long,
+                     &run->row_part,
+                     &run->rank_work,
                      &run->impact_factor};
-  bool** flags[] = {&run->on,          &run->detached,  &run->active, &run->taken,     &run->unique,
-                    &run->save_unique, &run->row_taken, &run->taken_kept, &run->rubs,   &run->near_by, &run->rebounds,
-                    &run->on_before,   &run->jumped, &run->met, &run->impact_taken,
-                    &run->several, &run->ever_several};
+  bool** flags[] = {&run->on,          &run->detached,    &run->active,       &run->taken,
+                    &run->unique,      &run->save_unique, &run->row_taken,    &run->taken_kept,
+                    &run->rubs,        &run->near_by,     &run->rebounds,     &run->on_before,
+                    &run->jumped,      &run->met,         &run->impact_taken, &run->several,
+                    &run->ever_several};
   for (size_t i = 0; i < sizeof of_q / sizeof *of_q; i++) *of_q[i] = PL_ARRAY(a, double, q + 1);
   for (size_t i = 0; i < sizeof of_c / sizeof *of_c; i++) *of_c[i] = PL_ARRAY(a, double, c + 1);
   for (size_t i = 0; i < sizeof flags / sizeof *flags; i++) *flags[i] = PL_ARRAY(a, bool, c + 1);
   double** series_q[] = {&run->Q, &run->V, &run->A, &run->Q_last, &run->V_last, &run->A_last};
   double** series_c[] = {&run->L, &run->L_last, &run->G_series};
-  for (size_t i = 0; i < sizeof series_q / sizeof *series_q; i++) *series_q[i] = PL_ARRAY(a, double, q* orders + 1);
-  for (size_t i = 0; i < sizeof series_c / sizeof *series_c; i++) *series_c[i] = PL_ARRAY(a, double, c* orders + 1);
-  double** of_contacts[] = {&run->approach, &run->second, &run->second_size, &run->fastest, &run->settled_t};
-  for (size_t i = 0; i < sizeof of_contacts / sizeof *of_contacts; i++) *of_contacts[i] = PL_ARRAY(a, double, c + 1);
+  for (size_t i = 0; i < sizeof series_q / sizeof *series_q; i++)
+    *series_q[i] = PL_ARRAY(a, double, q* orders + 1);
+  for (size_t i = 0; i < sizeof series_c / sizeof *series_c; i++)
+    *series_c[i] = PL_ARRAY(a, double, c* orders + 1);
+  double** of_contacts[] = {&run->approach, &run->second, &run->second_size, &run->fastest,
+                            &run->settled_t};
+  for (size_t i = 0; i < sizeof of_contacts / sizeof *of_contacts; i++)
+    *of_contacts[i] = PL_ARRAY(a, double, c + 1);
   for (size_t i = 0; i < c; i++) run->settled_t[i] = (double)NAN;
   size_t decisions = c + (size_t)run->setup->n_rubs + 1;
   run->decision = PL_ARRAY(a, pl_decision, decisions);
@@ -197,7 +233,8 @@ static void reserve_rows(pl_run* run) {
   const pl_setup* s = run->setup;
   size_t orders = (size_t)run->order + 2;
   double** of_out[] = {&run->out_now, &run->out_before, &run->energy_out};
-  for (size_t i = 0; i < sizeof of_out / sizeof *of_out; i++) *of_out[i] = PL_ARRAY(a, double, s->n_out + 1);
+  for (size_t i = 0; i < sizeof of_out / sizeof *of_out; i++)
+    *of_out[i] = PL_ARRAY(a, double, s->n_out + 1);
   run->W_series = PL_ARRAY(a, double, (size_t)s->n_watched* orders + 1);
   run->W_coef = PL_ARRAY(a, double, s->n_watched + 1);
   run->branch_value = PL_ARRAY(a, double, s->n_branch_outputs + 1);
@@ -215,15 +252,17 @@ static pleuel_status reserve_batches(pl_run* run) {
   int n_q = s->n_q, n_c = s->n_c;
   run->motion.lean = s->n_rubs == 0;
   for (int c = 0; c < n_c; c++) run->motion.lean &= s->links[c].side == 0;
-  PL_TRY(pl_batches_make(run->job, &run->motion, s->patterns, s->n_patterns, run->order + 2, n_q, n_c, INT32_MAX));
-  PL_TRY(pl_batches_make(run->job, &run->observers, s->observers, s->n_observers, 1, n_q + 3 * s->n_turns, n_c, s->n_out));
-  PL_TRY(
-      pl_batches_make(run->job, &run->watched, s->watch, s->n_watch_patterns, run->order + 2, n_q, n_c, s->n_watched));
-  return pl_batches_make(run->job, &run->branches, s->branch_patterns, s->n_branch_patterns, 1, n_q, n_c,
-                         s->n_branch_outputs);
+  PL_TRY(pl_batches_make(run->job, &run->motion, s->patterns, s->n_patterns, run->order + 2, n_q,
+                         n_c, INT32_MAX));
+  PL_TRY(pl_batches_make(run->job, &run->observers, s->observers, s->n_observers, 1,
+                         n_q + 3 * s->n_turns, n_c, s->n_out));
+  PL_TRY(pl_batches_make(run->job, &run->watched, s->watch, s->n_watch_patterns, run->order + 2,
+                         n_q, n_c, s->n_watched));
+  return pl_batches_make(run->job, &run->branches, s->branch_patterns, s->n_branch_patterns, 1, n_q,
+                         n_c, s->n_branch_outputs);
 }
 
-// ---------------------------------------------------------------------------------------------- what the patterns hold
+// -------------------------------------------------------------------------- what the patterns hold
 static pleuel_status check_rows(pl_run* run) {
   int* owner = PL_ARRAY(run->job->arena, int, run->n_c + 1);
   for (int i = 0; i < run->motion.n; i++) {
@@ -257,7 +296,8 @@ static void make_implicit(pl_run* run) {
   run->implicit = chosen;
 }
 
-pleuel_status pl_run_make(pl_job* job, const pl_setup* setup, const pl_run_options* options, pl_run** out) {
+pleuel_status pl_run_make(pl_job* job, const pl_setup* setup, const pl_run_options* options,
+                          pl_run** out) {
   PL_TRY(check_setup(job, setup));
   PL_TRY(check_options(job, options));
   pl_run* run = PL_NEW(job->arena, pl_run);

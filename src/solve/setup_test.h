@@ -1,4 +1,5 @@
-// Setups built by hand for the tests: coordinates by name, one pattern with one instance unless said otherwise.
+// Setups built by hand for the tests: coordinates by name, one pattern with one instance unless
+// said otherwise.
 #ifndef PL_SETUP_TEST_H
 #define PL_SETUP_TEST_H
 
@@ -62,9 +63,11 @@ static inline void t_close(t_bench* b) {
 }
 
 static inline pl_symbol t_symbol(t_bench* b, const char* name, pl_role role) {
-  return pl_symbol_make(
-      b->pool, &(pl_symbol_info){
-                   .name = name, .ascii = name, .role = role, .class = PL_C_OTHER, .dimension = pl_dimension_one()});
+  return pl_symbol_make(b->pool, &(pl_symbol_info){.name = name,
+                                                   .ascii = name,
+                                                   .role = role,
+                                                   .class = PL_C_OTHER,
+                                                   .dimension = pl_dimension_one()});
 }
 
 static inline pl_expr t_param(t_bench* b, const char* name, double value) {
@@ -77,16 +80,19 @@ static inline pl_expr t_coord(t_bench* b, const char* name) {
   int i = b->n_q++;
   b->q[i] = pl_sym(b->pool, t_symbol(b, name, PL_R_COORD));
   b->v[i] = pl_dt(b->pool, b->q[i]);
-  b->coordinate[i] = (pl_coordinate){.name = pl_copy(b->arena, name), .v_name = pl_format(b->arena, "%s_dot", name)};
+  b->coordinate[i] = (pl_coordinate){.name = pl_copy(b->arena, name),
+                                     .v_name = pl_format(b->arena, "%s_dot", name)};
   return b->q[i];
 }
 
 static inline int t_constraint(t_bench* b, const char* name, pl_expr g) {
   int c = b->n_c++;
   b->g[c] = g;
-  b->lambda[c] = pl_sym(b->pool, t_symbol(b, pl_format(b->arena, "lambda_%s", name), PL_R_MULTIPLIER));
-  b->link[c] =
-      (pl_link){.name = pl_copy(b->arena, name), .column = pl_format(b->arena, "lambda_%s", name), .contact = -1};
+  b->lambda[c] = pl_sym(b->pool,
+                        t_symbol(b, pl_format(b->arena, "lambda_%s", name), PL_R_MULTIPLIER));
+  b->link[c] = (pl_link){.name = pl_copy(b->arena, name),
+                         .column = pl_format(b->arena, "lambda_%s", name),
+                         .contact = -1};
   return c;
 }
 
@@ -102,11 +108,16 @@ static inline void t_start(t_bench* b, int i, double q, double v) {
   b->coordinate[i].v = v;
 }
 
-static inline int t_event(t_bench* b, const char* name, pl_expr e, int direction, pl_deed deed, int target) {
+static inline int t_event(t_bench* b, const char* name, pl_expr e, int direction, pl_deed deed,
+                          int target) {
   int i = b->n_events++;
   b->watch[b->n_watch] = e;
   b->deed[i][0] = (pl_event_deed){deed, target, 0};
-  b->event[i] = (pl_event_setup){.name = name, .watch = b->n_watch++, .direction = direction, .n_deeds = 1, .deeds = b->deed[i]};
+  b->event[i] = (pl_event_setup){.name = name,
+                                 .watch = b->n_watch++,
+                                 .direction = direction,
+                                 .n_deeds = 1,
+                                 .deeds = b->deed[i]};
   return i;
 }
 
@@ -133,28 +144,34 @@ static inline pleuel_status t_on_event(void* user, const pl_event_record* e) {
 }
 
 static inline void t_record_list(t_bench* b, const pl_expr* e, int n, pl_pattern* out) {
-  pl_pattern_source s = {
-      .slots = {.n_q = b->n_q, .q = b->q, .n_c = b->n_c, .lambda = b->lambda, .value_of_symbol = b->value},
-      .n_outputs = n,
-      .output = e,
-      .n = 1,
-      .q = b->identity,
-      .c = b->identity,
-      .out = b->identity};
+  pl_pattern_source s = {.slots = {.n_q = b->n_q,
+                                   .q = b->q,
+                                   .n_c = b->n_c,
+                                   .lambda = b->lambda,
+                                   .value_of_symbol = b->value},
+                         .n_outputs = n,
+                         .output = e,
+                         .n = 1,
+                         .q = b->identity,
+                         .c = b->identity,
+                         .out = b->identity};
   assert_int_equal(pl_pattern_record(&b->job, b->pool, &s, out), PLEUEL_OK);
 }
 
 // Records everything and makes the run.
 static inline pleuel_status t_make(t_bench* b, pl_expr L, double t_end, double tol) {
-  pl_pattern_source s = {
-      .slots = {.n_q = b->n_q, .q = b->q, .n_c = b->n_c, .lambda = b->lambda, .value_of_symbol = b->value},
-      .lagrangian = L,
-      .force = b->force,
-      .constraint = b->g,
-      .velocity = b->velocity,
-      .n = 1,
-      .q = b->identity,
-      .c = b->identity};
+  pl_pattern_source s = {.slots = {.n_q = b->n_q,
+                                   .q = b->q,
+                                   .n_c = b->n_c,
+                                   .lambda = b->lambda,
+                                   .value_of_symbol = b->value},
+                         .lagrangian = L,
+                         .force = b->force,
+                         .constraint = b->g,
+                         .velocity = b->velocity,
+                         .n = 1,
+                         .q = b->identity,
+                         .c = b->identity};
   pleuel_status status = pl_pattern_record(&b->job, b->pool, &s, &b->pattern[0]);
   if (status != PLEUEL_OK) return status;
   t_record_list(b, b->out, b->n_out, &b->observer);

@@ -1,28 +1,32 @@
 // Singular positions: where the constraints lose rank for a moment.
 //
-// The smallest pivot of the independent rows fades linearly in time towards such a place.  The motion itself is smooth
-// there as a rule, but its coefficients are not computable: near the place order k carries rounding errors of size ε /
-// d^k, d being the distance.  So the last steps before it are replaced by one leap to the mirror point behind it, with
-// a series cut at an order low enough for its errors and high enough for the distance.  Velocities are continuous by
-// construction.  The leap counts only if the constraints at the far side are met almost without correction, if two
-// orders agree and if the energy, where it is conserved, is the same; it is recorded as an event.  Otherwise the run
-// stops and says where.
+// The smallest pivot of the independent rows fades linearly in time towards such a place. The
+// motion itself is smooth there as a rule, but its coefficients are not computable: near the place
+// order k carries rounding errors of size ε / d^k, d being the distance. So the last steps before
+// it are replaced by one leap to the mirror point behind it, with a series cut at an order low
+// enough for its errors and high enough for the distance. Velocities are continuous by
+// construction. The leap counts only if the constraints at the far side are met almost without
+// correction, if two orders agree and if the energy, where it is conserved, is the same; it is
+// recorded as an event. Otherwise the run stops and says where.
 #include "solve/solve_impl.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-static const double faded = 1e-6;  // part of its largest value at which the smallest pivot counts as zero
-static const double near = 0.1;    // part of it from which a leap is considered
-// Correction that a leap may need, relative.  Rounding is magnified across the branches, where the constraints are
-// weak, and the projection removes it; another branch is as far away as the motion is large.
+// part of its largest value at which the smallest pivot counts as zero
+static const double faded = 1e-6;
+static const double near = 0.1;  // part of it from which a leap is considered
+// Correction that a leap may need, relative. Rounding is magnified across the branches, where the
+// constraints are weak, and the projection removes it; another branch is as far away as the motion
+// is large.
 static const double off_branch = 1e-8;
-enum { LEAP_LEAST = 3, LEAP_MOST = 10 };  // orders of a leap: 2^order rounding errors, and few enough
+// orders of a leap: 2^order rounding errors, and few enough
+enum { LEAP_LEAST = 3, LEAP_MOST = 10 };
 
-// ---------------------------------------------------------------------------------------------- where
-// How far ahead the smallest pivot, continued linearly from where it was twice as large, is zero; 0 when that says
-// nothing.
+// ------------------------------------------------------------------------------------------- where
+// How far ahead the smallest pivot, continued linearly from where it was twice as large, is zero; 0
+// when that says nothing.
 static double reach_of_singular(const pl_run* run) {
   double way = run->t - run->fade[0].t, slope = (run->smallest_here - run->fade[0].smallest) / way;
   if (!isfinite(slope) || run->fade[0].smallest == 0) return 0;
@@ -42,17 +46,18 @@ void pl_singular_watch(pl_run* run) {
 
 bool pl_is_singular(const pl_run* run) {
   if (run->rank_mode >= 0 && run->rank < run->rank_mode) return true;
-  return run->best > 0 && run->smallest_here < faded * run->best && run->smallest_here < run->smallest_before;
+  return run->best > 0 && run->smallest_here < faded * run->best
+         && run->smallest_here < run->smallest_before;
 }
 
-// ---------------------------------------------------------------------------------------------- stopping there
+// ---------------------------------------------------------------------------------- stopping there
 static void place_in_words(const pl_run* run, double reach, char* where, size_t size) {
   size_t n = 0;
   where[0] = '\0';
   for (int i = 0; i < run->n_q && n < size - 64; i++) {
     if (run->setup->coordinates[i].hidden) continue;
-    int w = snprintf(where + n, size - n, "%s%s = %.4g", n ? ", " : "", run->setup->coordinates[i].name,
-                     run->q[i] + reach * run->v[i]);
+    int w = snprintf(where + n, size - n, "%s%s = %.4g", n ? ", " : "",
+                     run->setup->coordinates[i].name, run->q[i] + reach * run->v[i]);
     if (w < 0 || (size_t)w >= size - n) break;
     n += (size_t)w;
   }
@@ -88,19 +93,21 @@ pleuel_status pl_run_undetermined(pl_run* run) {
     pl_assemble_matrix(run, false);
   }
   if (!has_numbers(run))
-    return pl_fail(
-        run->job, PLEUEL_NUMERICAL,
-        "forces, masses or constraints have no number at t = %.9g s (%s): a root, a logarithm or a quotient there",
-        run->t, where);
+    return pl_fail(run->job, PLEUEL_NUMERICAL,
+                   "forces, masses or constraints have no number at t = %.9g s (%s): a root, a "
+                   "logarithm or a quotient there",
+                   run->t, where);
   int idle = without_inertia(run);
   if (run->rank == run->n_active && idle >= 0)
     return pl_fail(run->job, PLEUEL_SINGULAR,
-                   "%s carries no mass, and no constraint moves it: its equation contains no acceleration, and what forces say "
+                   "%s carries no mass, and no constraint moves it: its equation contains no "
+                   "acceleration, and what forces say "
                    "about its place is not simulated",
                    run->setup->coordinates[idle].name);
   if (run->rank == run->n_active && !run->started)
     return pl_fail(run->job, PLEUEL_SINGULAR,
-                   "the mass matrix is singular at t = %.9g s (%s): the equations of motion do not determine all accelerations",
+                   "the mass matrix is singular at t = %.9g s (%s): the equations of motion do not "
+                   "determine all accelerations",
                    run->t, where);
   return pl_run_singular(run);
 }
@@ -118,8 +125,10 @@ static bool in_constraint(const pl_run* run, int q) {
 
 pleuel_status pl_run_left_open(pl_run* run) {
   for (int i = 0; i < run->n_q; i++) {
-    if (run->place_n[i] != 0 || !run->setup->coordinates[i].in_load || in_constraint(run, i)) continue;
-    return pl_fail(run->job, PLEUEL_SINGULAR, "the equations of motion do not contain %s: nothing determines how it moves",
+    if (run->place_n[i] != 0 || !run->setup->coordinates[i].in_load || in_constraint(run, i))
+      continue;
+    return pl_fail(run->job, PLEUEL_SINGULAR,
+                   "the equations of motion do not contain %s: nothing determines how it moves",
                    run->setup->coordinates[i].name);
   }
   return PLEUEL_OK;
@@ -134,16 +143,18 @@ pleuel_status pl_run_singular(pl_run* run) {
   if (run->started) PL_TRY(pl_rows_event(run, PL_EV_SINGULAR, -1, 0, false));
   if (run->wide)
     return pl_fail(run->job, PLEUEL_SINGULAR,
-                   "singular position at t = %.9g s (%s): the constraints lose rank there; precision double leaps over it where the motion goes on smoothly",
+                   "singular position at t = %.9g s (%s): the constraints lose rank there; "
+                   "precision double leaps over it where the motion goes on smoothly",
                    run->stats.t_singular, where);
-  return pl_fail(
-      run->job, PLEUEL_SINGULAR,
-      "singular position at t = %.9g s (%s): the constraints lose rank and do not tell how the motion goes on",
-      run->stats.t_singular, where);
+  return pl_fail(run->job, PLEUEL_SINGULAR,
+                 "singular position at t = %.9g s (%s): the constraints lose rank and do not tell "
+                 "how the motion goes on",
+                 run->stats.t_singular, where);
 }
 
-// ---------------------------------------------------------------------------------------------- leaping over it
-// The order at which what is cut off over this length is rounding; 0 when that takes too many orders.
+// --------------------------------------------------------------------------------- leaping over it
+// The order at which what is cut off over this length is rounding; 0 when that takes too many
+// orders.
 static int order_of_leap(const pl_run* run, double length) {
   double radius = run->h_regular * exp(2), ratio = fabs(length) / radius;
   if (!(ratio > 0 && ratio < 0.1)) return 0;
@@ -164,8 +175,8 @@ static bool orders_agree(pl_run* run, double length, int order) {
   pl_series_at(run, length, run->row_q, run->row_v);
   run->use = order;
   pl_series_at(run, length, run->trial_q, run->trial_v);
-  return same(run->row_q, run->trial_q, run->n_q, off_branch * run->q_size) &&
-         same(run->row_v, run->trial_v, run->n_q, 100 * off_branch * run->v_size);
+  return same(run->row_q, run->trial_q, run->n_q, off_branch * run->q_size)
+         && same(run->row_v, run->trial_v, run->n_q, 100 * off_branch * run->v_size);
 }
 
 // The smallest pivot on the way, from the series alone; NaN when it is too much work.
@@ -176,8 +187,8 @@ static double pivot_at(pl_run* run, double dt) {
   return pl_independent_pivot(run, &smallest) ? smallest : (double)NAN;
 }
 
-// The place from a guess: the pivot is linear on both sides of it.  First from its slope on this side, then by closer
-// and closer chords around it.  0: it is not where it was thought to be.
+// The place from a guess: the pivot is linear on both sides of it. First from its slope on this
+// side, then by closer and closer chords around it. 0: it is not where it was thought to be.
 static double find_place(pl_run* run, double guess) {
   double here = pivot_at(run, 0), there = pivot_at(run, 0.3 * guess);
   if (isnan(here)) return guess;
@@ -198,7 +209,8 @@ static bool energy_agrees(pl_run* run) {
   if (!s->energy_conserved || s->kinetic < 0 || s->potential < 0) return true;
   pl_observe(run, run->t, run->trial_q, run->trial_v, run->A, run->L, run->energy_out);
   double E = pl_rows_conserved(run, run->energy_out);
-  return fabs(E - run->energy_base) <= run->stats.energy_drift * run->energy_size + 1e-10 * run->energy_size;
+  return fabs(E - run->energy_base)
+         <= run->stats.energy_drift * run->energy_size + 1e-10 * run->energy_size;
 }
 
 static bool leap_fails(pl_run* run) {
@@ -207,7 +219,8 @@ static bool leap_fails(pl_run* run) {
   return false;
 }
 
-// Whether the step is replaced by a leap of *length; the state behind it is then in trial_q, trial_v, projected.
+// Whether the step is replaced by a leap of *length; the state behind it is then in trial_q,
+// trial_v, projected.
 bool pl_singular_leap(pl_run* run, double left, double* length, pl_projection* p) {
   if (!(run->smallest_here < near * run->best) || !(run->h_regular > 0)) return false;
   double reach = reach_of_singular(run);
@@ -217,11 +230,12 @@ bool pl_singular_leap(pl_run* run, double left, double* length, pl_projection* p
   *length = 2 * run->reach;
   int order = order_of_leap(run, *length);
   if (run->reach == 0 || order == 0 || fabs(*length) > 0.9 * fabs(left)) return leap_fails(run);
-  bool fine = orders_agree(run, *length, order) && (run->n_watch == 0 || pl_watch_first(run, *length) < 0);
+  bool fine = orders_agree(run, *length, order)
+              && (run->n_watch == 0 || pl_watch_first(run, *length) < 0);
   if (fine) {
     *p = pl_project(run, run->t + run->t_low + *length, run->trial_q, run->trial_v);
-    fine = p->ok && p->move_q <= off_branch && p->move_v <= 100 * off_branch && p->g_after <= 1e-12 &&
-           p->r_after <= 1e-12 && energy_agrees(run);
+    fine = p->ok && p->move_q <= off_branch && p->move_v <= 100 * off_branch && p->g_after <= 1e-12
+           && p->r_after <= 1e-12 && energy_agrees(run);
   }
   return fine || leap_fails(run);
 }

@@ -1,6 +1,7 @@
-// A start of which part is given and exact, and the rest enters the constraints linearly: as the derivatives of a start
-// that is known.  What is not held moves by the least that meets the constraints, positions first, then velocities.
-// Where what is held does not allow that, everything is left to the projection in the mass metric that begins a run.
+// A start of which part is given and exact, and the rest enters the constraints linearly: as the
+// derivatives of a start that is known. What is not held moves by the least that meets the
+// constraints, positions first, then velocities. Where what is held does not allow that, everything
+// is left to the projection in the mass metric that begins a run.
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -10,9 +11,10 @@
 static const double dependent = 1e-10;  // of a row: what is left of it when it says nothing new
 static const double met = 1e-9;         // residual of a constraint relative to its terms
 
-// The least change of what is free that takes the residuals away: rows orthogonalised one by one, targets along.
-bool pl_least_change(const pl_run* run, const bool* held, const double* residual, const double* size, bool positions, double* basis,
-                     double* change) {
+// The least change of what is free that takes the residuals away: rows orthogonalised one by one,
+// targets along.
+bool pl_least_change(const pl_run* run, const bool* held, const double* residual,
+                     const double* size, bool positions, double* basis, double* change) {
   int n = run->n_q, rank = 0;
   for (int i = 0; i < n; i++) change[i] = 0;
   for (int c = 0; c < run->n_c; c++) {
@@ -48,7 +50,8 @@ bool pl_least_change(const pl_run* run, const bool* held, const double* residual
   return true;
 }
 
-static bool complete_positions(pl_run* run, double t, const bool* held, double* basis, double* change) {
+static bool complete_positions(pl_run* run, double t, const bool* held, double* basis,
+                               double* change) {
   pl_point_evaluate(run, t, run->q, run->v);
   pl_assemble_g(run, 0, run->g, run->g_size);
   pl_assemble_rows(run);
@@ -57,7 +60,8 @@ static bool complete_positions(pl_run* run, double t, const bool* held, double* 
   return true;
 }
 
-static bool complete_velocities(pl_run* run, double t, const bool* held, double* basis, double* change) {
+static bool complete_velocities(pl_run* run, double t, const bool* held, double* basis,
+                                double* change) {
   pl_point_evaluate(run, t, run->q, run->v);
   pl_assemble_g(run, 0, run->g, run->g_size);
   pl_assemble_gdot(run, run->r, run->r_size);
@@ -67,14 +71,15 @@ static bool complete_velocities(pl_run* run, double t, const bool* held, double*
   return true;
 }
 
-pleuel_status pl_run_start_partly(pl_run* run, double t, const double* q, const double* v, const bool* held_q,
-                                  const bool* held_v) {
+pleuel_status pl_run_start_partly(pl_run* run, double t, const double* q, const double* v,
+                                  const bool* held_q, const bool* held_v) {
   size_t n = (size_t)run->n_q;
   if (run->rows == NULL) return pl_run_start_at(run, t, q, v);
   pl_arena* a = run->job->arena;
   double *q_kept = PL_ARRAY(a, double, n + 1), *v_kept = PL_ARRAY(a, double, n + 1);
   pl_mark mark = pl_arena_mark(a);
-  double *basis = PL_ARRAY(a, double, n*(size_t)(run->n_c + 1)), *change = PL_ARRAY(a, double, n + 1);
+  double *basis = PL_ARRAY(a, double, n*(size_t)(run->n_c + 1)),
+         *change = PL_ARRAY(a, double, n + 1);
   memcpy(run->q, q, n * sizeof(double));
   memcpy(run->v, v, n * sizeof(double));
   pl_active_update(run);
@@ -83,6 +88,6 @@ pleuel_status pl_run_start_partly(pl_run* run, double t, const double* q, const 
   if (!complete_velocities(run, t, held_v, basis, change)) memcpy(run->v, v, n * sizeof(double));
   memcpy(q_kept, run->q, n * sizeof(double));
   memcpy(v_kept, run->v, n * sizeof(double));
-  pl_arena_rewind(a, mark);     // before the start, which makes codes that stay
+  pl_arena_rewind(a, mark);  // before the start, which makes codes that stay
   return pl_run_start_at(run, t, q_kept, v_kept);
 }

@@ -1,12 +1,14 @@
 // Consistent start: given values are held, the rest follows from the constraints.
 //
-// Positions: Gauss-Newton from the guesses, then, where the given values determine the rest, from a fixed set of random
-// guesses of several sizes, so that other solutions are found; those that fit the branch conditions are kept.  One
-// fits: it is the start.  Several: the one nearest to the given numbers is, unless two are equally near; all are listed.  None: a given value is looked for that, left free,
-// would let the constraints be met.  Velocities: linear, of least kinetic energy where they are free.
+// Positions: Gauss-Newton from the guesses, then, where the given values determine the rest, from a
+// fixed set of random guesses of several sizes, so that other solutions are found; those that fit
+// the branch conditions are kept. One fits: it is the start. Several: the one nearest to the given
+// numbers is, unless two are equally near; all are listed. None: a given value is looked for that,
+// left free, would let the constraints be met. Velocities: linear, of least kinetic energy where
+// they are free.
 //
-// A one-sided constraint whose side the other values determine is in contact when it is met and free otherwise; one
-// that they do not determine closes the start: the body sits on it.
+// A one-sided constraint whose side the other values determine is in contact when it is met and
+// free otherwise; one that they do not determine closes the start: the body sits on it.
 #include "solve/start_impl.h"
 
 #include <float.h>
@@ -18,7 +20,7 @@ enum { GUESSES = 72, GUESSES_LARGE = 6 };  // guesses tried; for systems that ar
 static const double met = 1e-9;
 static const double pi = 3.14159265358979323846;
 
-// ---------------------------------------------------------------------------------------------- set-up
+// ------------------------------------------------------------------------------------------ set-up
 static pl_start make(pl_run* run) {
   pl_arena* a = run->job->arena;
   size_t q = (size_t)run->n_q, c = (size_t)run->n_c;
@@ -39,16 +41,20 @@ static pl_start make(pl_run* run) {
   return s;
 }
 
-static double plain_guess(const pl_coordinate* c) { return c->has_q ? c->q : c->has_guess ? c->guess : 0; }
+static double plain_guess(const pl_coordinate* c) {
+  return c->has_q ? c->q : c->has_guess ? c->guess : 0;
+}
 
 static double size_of_given(const pl_run* run) {
   double most = 0;
-  for (int i = 0; i < run->n_q; i++) most = fmax(most, fabs(plain_guess(&run->setup->coordinates[i])));
+  for (int i = 0; i < run->n_q; i++)
+    most = fmax(most, fabs(plain_guess(&run->setup->coordinates[i])));
   return most > 0 ? most : 1;
 }
 
-// Guess number 0 is what the caller said, with 0 where nothing was said.  The others are random, of sizes from a
-// hundredth to a hundred times the given values; what was said as a guess is only shaken.
+// Guess number 0 is what the caller said, with 0 where nothing was said. The others are random, of
+// sizes from a hundredth to a hundred times the given values; what was said as a guess is only
+// shaken.
 static void set_guess(pl_start* s, int number) {
   static const double scale[] = {1, 0.3, 3, 0.1, 10, 0.01, 100, 1};
   const pl_run* run = s->run;
@@ -63,7 +69,7 @@ static void set_guess(pl_start* s, int number) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- contacts
+// ---------------------------------------------------------------------------------------- contacts
 static void only_two_sided(pl_start* s) {
   pl_run* run = s->run;
   for (int c = 0; c < run->n_c; c++) {
@@ -92,7 +98,8 @@ static double side_value(pl_start* s, int c) {
   return s->run->setup->links[c].side * s->run->g[c] / size;
 }
 
-// Decides one contact at a solution of those decided so far; false: given values lie on the wrong side.
+// Decides one contact at a solution of those decided so far; false: given values lie on the wrong
+// side.
 static bool decide_contact(pl_start* s, int c) {
   pl_run* run = s->run;
   const pl_link* link = &run->setup->links[c];
@@ -144,7 +151,7 @@ static bool solve_positions(pl_start* s) {
   return pl_start_positions(s, s->held_q) && decide_contacts(s);
 }
 
-// ---------------------------------------------------------------------------------------------- branches
+// ---------------------------------------------------------------------------------------- branches
 static bool fits_branches(pl_start* s, const double* q) {
   pl_run* run = s->run;
   const pl_setup* setup = run->setup;
@@ -152,17 +159,19 @@ static bool fits_branches(pl_start* s, const double* q) {
   pl_batches_time(b, run->options.t_0);
   pl_batches_load_q(b, q, 0);
   pl_batches_load_v(b, s->v, 0);
-  for (int level = PL_LEVEL_PLACE; level < PL_N_LEVELS; level++) pl_batches_sweep(b, (pl_level)level, 0, true);
+  for (int level = PL_LEVEL_PLACE; level < PL_N_LEVELS; level++)
+    pl_batches_sweep(b, (pl_level)level, 0, true);
   pl_batches_outputs(b, run->branch_value, setup->n_branch_outputs, 0);
   for (int i = 0; i < setup->n_branches; i++) {
     double x = run->branch_value[setup->branches[i].output];
     int relation = setup->branches[i].relation;
-    if (relation == 0 ? !(fabs(x) <= met * fmax(run->q_size, 1e-300)) : !(relation * x >= 0)) return false;
+    if (relation == 0 ? !(fabs(x) <= met * fmax(run->q_size, 1e-300)) : !(relation * x >= 0))
+      return false;
   }
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- distinct solutions
+// ------------------------------------------------------------------------------ distinct solutions
 // Equal, or equal up to whole turns of angles: then the constraints look the same from both.
 static bool same_but_for_turns(pl_start* s, const double* a, const double* b) {
   pl_run* run = s->run;
@@ -183,7 +192,8 @@ static bool same_but_for_turns(pl_start* s, const double* a, const double* b) {
     pl_assemble_rows(run);
     for (int r = 0; r < run->n_active; r++)
       for (int j = 0; j < run->n_q; j++)
-        sum[which] += run->rows[(size_t)r * (size_t)run->n_q + (size_t)j] * (1 + 0.37 * sin(1.0 + 7 * r + 3 * j));
+        sum[which] += run->rows[(size_t)r * (size_t)run->n_q + (size_t)j]
+                      * (1 + 0.37 * sin(1.0 + 7 * r + 3 * j));
   }
   return fabs(sum[0] - sum[1]) <= 1e-5 * (fabs(sum[0]) + fabs(sum[1])) + 1e-9;
 }
@@ -214,7 +224,8 @@ static void keep_solution(pl_start* s) {
     if (same_but_for_turns(s, s->solutions + (size_t)k * n, s->q)) return;
   if (s->n_solutions == PL_START_ROOM) return;
   memcpy(s->solutions + (size_t)s->n_solutions * n, s->q, n * sizeof(double));
-  memcpy(s->solution_on + (size_t)s->n_solutions * (size_t)run->n_c, run->on, (size_t)run->n_c * sizeof(bool));
+  memcpy(s->solution_on + (size_t)s->n_solutions * (size_t)run->n_c, run->on,
+         (size_t)run->n_c * sizeof(bool));
   s->n_solutions++;
 }
 
@@ -265,8 +276,8 @@ static void search_guesses(pl_start* s) {
   }
 }
 
-// Looks for solutions; how many fit is in s->n_solutions.  With the contacts that maps take for granted first; where given
-// values lie elsewhere, without.
+// Looks for solutions; how many fit is in s->n_solutions. With the contacts that maps take for
+// granted first; where given values lie elsewhere, without.
 static void search(pl_start* s) {
   only_two_sided(s);
   s->on_maps = close_granted(s);
@@ -276,7 +287,7 @@ static void search(pl_start* s) {
   search_guesses(s);
 }
 
-// ---------------------------------------------------------------------------------------------- what went wrong
+// --------------------------------------------------------------------------------- what went wrong
 // In large systems only coordinates of the violated constraint itself are tried.
 static bool worth_trying(const pl_run* run, int coordinate, int link) {
   if (run->kkt.dense) return true;
@@ -284,8 +295,8 @@ static bool worth_trying(const pl_run* run, int coordinate, int link) {
     const pl_batch* b = &run->motion.at[i];
     for (int e = 0; e < b->pattern->n_G; e++)
       for (int l = 0; l < b->n; l++)
-        if (b->c[b->pattern->G[e].row * b->lanes + l] == link &&
-            b->q[b->pattern->G[e].col * b->lanes + l] == coordinate)
+        if (b->c[b->pattern->G[e].row * b->lanes + l] == link
+            && b->q[b->pattern->G[e].col * b->lanes + l] == coordinate)
           return true;
   }
   return false;
@@ -301,7 +312,8 @@ static void suggest_position(pl_start* s) {
     s->held_q[i] = false;
     set_guess(s, 0);
     if (solve_positions(s)) {
-      double from = run->setup->coordinates[i].q, move = fabs(s->q[i] - from) / fmax(fabs(from), 1e-3 * run->q_size);
+      double from = run->setup->coordinates[i].q,
+             move = fabs(s->q[i] - from) / fmax(fabs(from), 1e-3 * run->q_size);
       if (move < least) {
         least = move;
         report->move_coordinate = i;
@@ -319,9 +331,11 @@ static void suggest_velocity(pl_start* s) {
   for (int i = 0; i < run->n_q; i++) {
     if (!run->setup->coordinates[i].has_v || !worth_trying(run, i, report->link)) continue;
     s->held_v[i] = false;
-    for (int j = 0; j < run->n_q; j++) s->v[j] = run->setup->coordinates[j].has_v ? run->setup->coordinates[j].v : 0;
+    for (int j = 0; j < run->n_q; j++)
+      s->v[j] = run->setup->coordinates[j].has_v ? run->setup->coordinates[j].v : 0;
     if (pl_start_velocities(s, s->held_v)) {
-      double from = run->setup->coordinates[i].v, move = fabs(s->v[i] - from) / fmax(fabs(from), 1e-3 * run->v_size);
+      double from = run->setup->coordinates[i].v,
+             move = fabs(s->v[i] - from) / fmax(fabs(from), 1e-3 * run->v_size);
       if (move < least) {
         least = move;
         report->move_coordinate = i;
@@ -346,13 +360,15 @@ static pleuel_status violated(pl_start* s, int link, double residual, bool veloc
   const char* name = run->setup->links[link].name;
   if (report->move_coordinate < 0)
     return pl_fail(run->job, PLEUEL_CONTRADICTION,
-                   velocity ? "start velocities violate %s by %.3g of its terms" : "start values violate %s by %.3g of its terms",
+                   velocity ? "start velocities violate %s by %.3g of its terms"
+                            : "start values violate %s by %.3g of its terms",
                    name, residual);
   const pl_coordinate* c = &run->setup->coordinates[report->move_coordinate];
-  return pl_fail(run->job, PLEUEL_CONTRADICTION,
-                 velocity ? "start velocities violate %s by %.3g of its terms; with %s = %.10g it would be met"
-                          : "start values violate %s by %.3g of its terms; with %s = %.10g it would be met",
-                 name, residual, report->move_velocity && c->v_name ? c->v_name : c->name, report->move_to);
+  return pl_fail(
+      run->job, PLEUEL_CONTRADICTION,
+      velocity ? "start velocities violate %s by %.3g of its terms; with %s = %.10g it would be met"
+               : "start values violate %s by %.3g of its terms; with %s = %.10g it would be met",
+      name, residual, report->move_velocity && c->v_name ? c->v_name : c->name, report->move_to);
 }
 
 static pleuel_status no_solution(pl_start* s) {
@@ -371,9 +387,13 @@ static pleuel_status no_solution(pl_start* s) {
   run->start.trouble = PL_START_NONE;
   run->start.link = link;
   if (solved)
-    return pl_fail(run->job, PLEUEL_CONTRADICTION, "no solution of the constraints fits the branch conditions");
-  if (link < 0) return pl_fail(run->job, PLEUEL_CONTRADICTION, "no positions were found that meet the constraints");
-  return pl_fail(run->job, PLEUEL_CONTRADICTION, "no positions were found that meet the constraints, in particular %s",
+    return pl_fail(run->job, PLEUEL_CONTRADICTION,
+                   "no solution of the constraints fits the branch conditions");
+  if (link < 0)
+    return pl_fail(run->job, PLEUEL_CONTRADICTION,
+                   "no positions were found that meet the constraints");
+  return pl_fail(run->job, PLEUEL_CONTRADICTION,
+                 "no positions were found that meet the constraints, in particular %s",
                  run->setup->links[link].name);
 }
 
@@ -390,12 +410,14 @@ static pleuel_status several_solutions(pl_start* s) {
                        shown++ ? ", "
                        : k     ? "; or "
                                : "",
-                       run->setup->coordinates[i].name, s->solutions[(size_t)k * (size_t)run->n_q + (size_t)i]);
+                       run->setup->coordinates[i].name,
+                       s->solutions[(size_t)k * (size_t)run->n_q + (size_t)i]);
       if (w < 0) break;
       n += (size_t)w;
     }
   }
-  return pl_fail(run->job, PLEUEL_CONTRADICTION, "%d solutions fit the start: %s", s->n_solutions, text);
+  return pl_fail(run->job, PLEUEL_CONTRADICTION, "%d solutions fit the start: %s", s->n_solutions,
+                 text);
 }
 
 // How far a solution is from what was given or guessed, in units of the given values.
@@ -414,8 +436,8 @@ static int nearest_solution(const pl_start* s) {
   size_t n = (size_t)s->run->n_q;
   int best = 0;
   for (int k = 1; k < s->n_solutions; k++) {
-    bool nearer = distance_from_guess(s, s->solutions + (size_t)k * n) <
-                  distance_from_guess(s, s->solutions + (size_t)best * n);
+    bool nearer = distance_from_guess(s, s->solutions + (size_t)k * n)
+                  < distance_from_guess(s, s->solutions + (size_t)best * n);
     if (nearer) best = k;
   }
   double least = distance_from_guess(s, s->solutions + (size_t)best * n);
@@ -426,7 +448,7 @@ static int nearest_solution(const pl_start* s) {
   return best;
 }
 
-// ---------------------------------------------------------------------------------------------- positions, velocities
+// --------------------------------------------------------------------------- positions, velocities
 static pleuel_status find_positions(pl_start* s) {
   pl_run* run = s->run;
   search(s);
@@ -437,7 +459,8 @@ static pleuel_status find_positions(pl_start* s) {
   if (taken < 0) return several_solutions(s);
   run->start.taken = taken;
   memcpy(s->q, s->solutions + (size_t)taken * (size_t)run->n_q, (size_t)run->n_q * sizeof(double));
-  memcpy(run->on, s->solution_on + (size_t)taken * (size_t)run->n_c, (size_t)run->n_c * sizeof(bool));
+  memcpy(run->on, s->solution_on + (size_t)taken * (size_t)run->n_c,
+         (size_t)run->n_c * sizeof(bool));
   pl_active_update(run);
   return PLEUEL_OK;
 }
@@ -449,7 +472,8 @@ static void set_velocities(pl_start* s) {
   }
 }
 
-// A contact that the given velocities leave is no contact; the landing of it is not found again at once.
+// A contact that the given velocities leave is no contact; the landing of it is not found again at
+// once.
 static bool leaves(pl_start* s, int c) {
   pl_run* run = s->run;
   run->on[c] = false;
@@ -466,7 +490,8 @@ static bool leaves(pl_start* s, int c) {
   return false;
 }
 
-// Contacts that the given velocities run into: an impact at the start, which the run computes.  All that move are taken out.
+// Contacts that the given velocities run into: an impact at the start, which the run computes. All
+// that move are taken out.
 static bool run_into(pl_start* s) {
   pl_run* run = s->run;
   bool any = false;
@@ -501,13 +526,15 @@ static pleuel_status find_velocities(pl_start* s) {
   set_velocities(s);
   pl_start_velocities(s, s->held_v);
   if (s->worst_link < 0)
-    return pl_fail(run->job, PLEUEL_SINGULAR,
-                   "the start velocities cannot be found: the constraints or the masses are singular there");
+    return pl_fail(
+        run->job, PLEUEL_SINGULAR,
+        "the start velocities cannot be found: the constraints or the masses are singular there");
   return violated(s, s->worst_link, s->worst, true);
 }
 
-// ---------------------------------------------------------------------------------------------- singular start
-// Compares the rank of the start with that of a neighbour on the constraints, a small way along a fixed tangent.
+// ---------------------------------------------------------------------------------- singular start
+// Compares the rank of the start with that of a neighbour on the constraints, a small way along a
+// fixed tangent.
 static bool is_singular_start(pl_start* s) {
   pl_run* run = s->run;
   if (run->n_active == 0 || run->n_active > PL_RANK_UP_TO || !run->kkt.dense) return false;
@@ -522,21 +549,23 @@ static bool is_singular_start(pl_start* s) {
     for (int i = 0; i < run->n_q; i++)
       s->q[i] = home[i] + 1e-3 * fmax(run->q_size, 1e-300) * pl_random_between(&r, -1, 1);
     if (!pl_start_positions(s, none)) continue;
-    pl_start_residual(s, s->q, &worst);   // gradients at the point that was found, not at the last but one
+    // gradients at the point that was found, not at the last but one
+    pl_start_residual(s, s->q, &worst);
     found++;
     higher += pl_start_rank(s, none) > rank;
   }
   memcpy(s->q, home, (size_t)run->n_q * sizeof(double));
-  return found > 0 && higher == found;   // at a regular start rounding may let one neighbour look richer, not all
+  // at a regular start rounding may let one neighbour look richer, not all
+  return found > 0 && higher == found;
 }
 
-// ---------------------------------------------------------------------------------------------- report
+// ------------------------------------------------------------------------------------------ report
 static void list_moves(pl_start* s) {
   pl_run* run = s->run;
   pl_start_report* report = &run->start;
   pl_start_move* moves = PL_ARRAY(run->job->arena, pl_start_move, 2 * (size_t)run->n_q + 1);
   for (int pass = 0; pass < 2; pass++) {
-    const double* x = pass == 0 ? run->q : s->v;     // before an impact at the start
+    const double* x = pass == 0 ? run->q : s->v;  // before an impact at the start
     double size = pl_norm(x, run->n_q);
     for (int i = 0; i < run->n_q; i++) {
       const pl_coordinate* c = &run->setup->coordinates[i];
@@ -544,8 +573,8 @@ static void list_moves(pl_start* s) {
       double from = pass == 0 ? plain_guess(c) : c->has_v ? c->v : c->has_v_guess ? c->v_guess : 0;
       // rounding is no move
       if (fabs(x[i] - from) <= 1e-14 * size) continue;
-      moves[report->n_moves++] =
-          (pl_start_move){.coordinate = i, .velocity = pass == 1, .given = given, .from = from, .to = x[i]};
+      moves[report->n_moves++] = (pl_start_move){
+          .coordinate = i, .velocity = pass == 1, .given = given, .from = from, .to = x[i]};
       if (given) report->largest_move = fmax(report->largest_move, fabs(x[i] - from) / size);
     }
   }
@@ -563,9 +592,11 @@ static void list_sitting(pl_start* s) {
 static pleuel_status check_given(pl_run* run) {
   for (int i = 0; i < run->n_q; i++) {
     const pl_coordinate* c = &run->setup->coordinates[i];
-    bool fine = (!c->has_q || isfinite(c->q)) && (!c->has_v || isfinite(c->v)) &&
-                (!c->has_guess || isfinite(c->guess)) && (!c->has_v_guess || isfinite(c->v_guess));
-    if (!fine) return pl_fail(run->job, PLEUEL_USAGE, "the start value of %s is not a number", c->name);
+    bool fine = (!c->has_q || isfinite(c->q)) && (!c->has_v || isfinite(c->v))
+                && (!c->has_guess || isfinite(c->guess))
+                && (!c->has_v_guess || isfinite(c->v_guess));
+    if (!fine)
+      return pl_fail(run->job, PLEUEL_USAGE, "the start value of %s is not a number", c->name);
   }
   return PLEUEL_OK;
 }
@@ -574,7 +605,9 @@ static pleuel_status check_given(pl_run* run) {
 static void mark_leaving(pl_start* s) {
   pl_run* run = s->run;
   for (int c = 0; c < run->n_c; c++) {
-    if (run->setup->links[c].side == 0 || run->on[c] || run->detached[c] || run->setup->links[c].velocity) continue;
+    if (run->setup->links[c].side == 0 || run->on[c] || run->detached[c]
+        || run->setup->links[c].velocity)
+      continue;
     if (fabs(side_value(s, c)) <= met) pl_watch_of(run, PL_WATCH_LANDING, c)->fresh = 1;
   }
 }
@@ -586,7 +619,8 @@ pleuel_status pl_run_start(pl_run* run) {
   PL_TRY(find_positions(&s));
   if (is_singular_start(&s)) {
     run->start.trouble = PL_START_SINGULAR;
-    return pl_fail(run->job, PLEUEL_SINGULAR, "the start is a singular position: the constraints have lost rank there");
+    return pl_fail(run->job, PLEUEL_SINGULAR,
+                   "the start is a singular position: the constraints have lost rank there");
   }
   PL_TRY(find_velocities(&s));
   memcpy(run->q, s.q, (size_t)run->n_q * sizeof(double));

@@ -1,7 +1,8 @@
 // Solving the constraints with given values held.
 //
-// Positions: damped Gauss-Newton, each correction of least length.  Velocities: linear, of least kinetic energy.  Both
-// use the linear system of the run with the rows and columns of held coordinates replaced by 1.
+// Positions: damped Gauss-Newton, each correction of least length. Velocities: linear, of least
+// kinetic energy. Both use the linear system of the run with the rows and columns of held
+// coordinates replaced by 1.
 #include "solve/start_impl.h"
 
 #include <float.h>
@@ -9,11 +10,13 @@
 
 enum { MAX_ROUNDS = 60 };
 
-static const double met = 1e-9;  // relative residual that counts as met; the projection does the rest
+// relative residual that counts as met; the projection does the rest
+static const double met = 1e-9;
 static const double done = 4 * DBL_EPSILON;
 
-// ---------------------------------------------------------------------------------------------- residuals
-static double largest(const pl_run* run, const double* g, const double* size, bool positions, int* worst) {
+// --------------------------------------------------------------------------------------- residuals
+static double largest(const pl_run* run, const double* g, const double* size, bool positions,
+                      int* worst) {
   double most = 0;
   *worst = -1;
   for (int c = 0; c < run->n_c; c++) {
@@ -44,12 +47,13 @@ double pl_start_speed_residual(pl_start* s, const double* v, int* worst) {
   pl_sizes_note(run, run->row_v, v);
   pl_batches_load_v(&run->motion, v, 0);
   pl_assemble_gdot(run, run->r, run->r_size);
-  // relative to its terms alone: what rounding of large coordinates adds is without bound where the terms of g cancel
+  // relative to its terms alone: what rounding of large coordinates adds is without bound where the
+  // terms of g cancel
   for (int c = 0; c < run->n_c; c++) run->r_size[c] /= fmax(run->argument[c], 1);
   return largest(run, run->r, run->r_size, false, worst);
 }
 
-// ---------------------------------------------------------------------------------------------- rank
+// -------------------------------------------------------------------------------------------- rank
 // Too many rows to compare: all are taken that have something left to move.
 static int take_all_that_move(pl_run* run, const bool* held, bool positions) {
   int n = 0;
@@ -90,15 +94,16 @@ static int choose(pl_start* s, const bool* held, bool positions) {
     for (int j = 0; j < n && most_free < 1e-13 * most; j++) row[j] = 0;
   }
   double smallest;
-  int rank =
-      pl_independent_rows(run->rows, run->priority, run->row_taken, run->rank_work, run->n_active, n, 1e-9, &smallest);
-  for (int c = 0; c < run->n_c; c++) run->taken[c] = run->row_of[c] >= 0 && run->row_taken[run->row_of[c]];
+  int rank = pl_independent_rows(run->rows, run->priority, run->row_taken, run->rank_work,
+                                 run->n_active, n, 1e-9, &smallest);
+  for (int c = 0; c < run->n_c; c++)
+    run->taken[c] = run->row_of[c] >= 0 && run->row_taken[run->row_of[c]];
   return rank;
 }
 
 int pl_start_rank(pl_start* s, const bool* held) { return choose(s, held, true); }
 
-// ---------------------------------------------------------------------------------------------- linear system
+// ----------------------------------------------------------------------------------- linear system
 static bool is_held(const pl_run* run, const bool* held, int i) { return i < run->n_q && held[i]; }
 
 static void edit(pl_run* run, const bool* held, int row, int col, double* x, bool plain) {
@@ -113,13 +118,15 @@ static bool factor(pl_start* s, const bool* held, bool plain) {
   pl_kkt* k = &run->kkt;
   pl_assemble_matrix(run, false);
   for (int col = 0; col < k->n; col++) {
-    int from = k->dense ? col * k->n : k->start[col], to = k->dense ? from + k->n : k->start[col + 1];
-    for (int e = from; e < to; e++) edit(run, held, k->dense ? e - from : k->row[e], col, &k->value[e], plain);
+    int from = k->dense ? col * k->n : k->start[col],
+        to = k->dense ? from + k->n : k->start[col + 1];
+    for (int e = from; e < to; e++)
+      edit(run, held, k->dense ? e - from : k->row[e], col, &k->value[e], plain);
   }
   return pl_kkt_factor(k);
 }
 
-// ---------------------------------------------------------------------------------------------- positions
+// --------------------------------------------------------------------------------------- positions
 static bool correction(pl_start* s, const bool* held) {
   pl_run* run = s->run;
   choose(s, held, true);
@@ -134,7 +141,8 @@ static bool correction(pl_start* s, const bool* held) {
 static double merit(const pl_run* run, const double* g, const double* size) {
   double sum = 0;
   for (int c = 0; c < run->n_c; c++)
-    if (run->active[c] && !run->setup->links[c].velocity && g[c] != 0) sum += (g[c] / size[c]) * (g[c] / size[c]);
+    if (run->active[c] && !run->setup->links[c].velocity && g[c] != 0)
+      sum += (g[c] / size[c]) * (g[c] / size[c]);
   return sum;
 }
 
@@ -166,7 +174,7 @@ bool pl_start_positions(pl_start* s, const bool* held) {
   return residual <= met;
 }
 
-// ---------------------------------------------------------------------------------------------- velocities
+// -------------------------------------------------------------------------------------- velocities
 // [M G^T; G 0] [v; μ] = [M v_guess; -dg/dt] with held velocities in their places.
 static bool solve_velocities(pl_start* s, const bool* held, bool plain) {
   pl_run* run = s->run;
@@ -177,8 +185,10 @@ static bool solve_velocities(pl_start* s, const bool* held, bool plain) {
   for (int c = 0; c < run->n_c; c++) run->rhs[n + c] = run->taken[c] ? -run->r[c] : 0;
   // held columns to the right; the guess enters through M
   for (int col = 0; col < n; col++) {
-    int from = k->dense ? col * k->n : k->start[col], to = k->dense ? from + k->n : k->start[col + 1];
-    double guess = run->setup->coordinates[col].has_v_guess ? run->setup->coordinates[col].v_guess : 0;
+    int from = k->dense ? col * k->n : k->start[col],
+        to = k->dense ? from + k->n : k->start[col + 1];
+    double guess = run->setup->coordinates[col].has_v_guess ? run->setup->coordinates[col].v_guess
+                                                            : 0;
     for (int e = from; e < to; e++) {
       int row = k->dense ? e - from : k->row[e];
       double x = row < n && plain ? row == col : k->value[e];

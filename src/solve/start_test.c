@@ -9,7 +9,8 @@ static pl_expr half(t_bench* b, pl_expr x) { return pl_mul(P, pl_ratio(P, 1, 2),
 // Crank pin (x1, z1) on a circle of radius 1, slider x2 at distance 3; angle φ by map equations.
 static t_bench* crank(void) {
   t_bench* b = t_open();
-  pl_expr x1 = t_coord(b, "x1"), z1 = t_coord(b, "z1"), x2 = t_coord(b, "x2"), phi = t_coord(b, "phi");
+  pl_expr x1 = t_coord(b, "x1"), z1 = t_coord(b, "z1"), x2 = t_coord(b, "x2"),
+          phi = t_coord(b, "phi");
   t_constraint(b, "g4", pl_sub(P, pl_add(P, sq(b, x1), sq(b, z1)), pl_int(P, 1)));
   t_constraint(b, "g5", pl_sub(P, pl_add(P, sq(b, z1), sq(b, pl_sub(P, x2, x1))), pl_int(P, 9)));
   int k = t_constraint(b, "map x1", pl_sub(P, x1, pl_call(P, PL_COS, phi)));
@@ -44,9 +45,11 @@ static void an_angle_and_its_speed_determine_a_crank(void** state) {
   assert_int_equal(make_and_start(b, crank_energy(b)), PLEUEL_OK);
   const double *q = pl_run_q(b->run), *v = pl_run_v(b->run);
   double x2 = cos(0.5) - sqrt(9 - sin(0.5) * sin(0.5));
-  assert_true(fabs(q[0] - cos(0.5)) < 1e-15 && fabs(q[1] - sin(0.5)) < 1e-15 && fabs(q[2] - x2) < 4e-15 && q[3] == 0.5);
+  assert_true(fabs(q[0] - cos(0.5)) < 1e-15 && fabs(q[1] - sin(0.5)) < 1e-15
+              && fabs(q[2] - x2) < 4e-15 && q[3] == 0.5);
   double x2v = -sin(0.5) * 2 * (1 - cos(0.5) / sqrt(9 - sin(0.5) * sin(0.5)));
-  assert_true(fabs(v[0] + 2 * sin(0.5)) < 1e-14 && fabs(v[2] - x2v) < 1e-14 && fabs(v[3] - 2) < 1e-15);
+  assert_true(fabs(v[0] + 2 * sin(0.5)) < 1e-14 && fabs(v[2] - x2v) < 1e-14
+              && fabs(v[3] - 2) < 1e-15);
   const pl_start_report* r = pl_run_start_report(b->run);
   assert_true(r->n_candidates == 1 && r->n_free == 0 && r->n_moves == 6);
   t_close(b);
@@ -85,7 +88,8 @@ static void a_turn_that_a_constraint_counts_is_kept(void** state) {
   pl_expr theta = t_coord(b, "theta"), phi = t_coord(b, "phi");
   t_constraint(b, "roll", pl_add(P, phi, pl_mul(P, pl_int(P, 4), theta)));
   t_start(b, 0, 1.57079632679489662, 0);
-  assert_int_equal(make_and_start(b, half(b, pl_add(P, sq(b, b->v[0]), sq(b, b->v[1])))), PLEUEL_OK);
+  assert_int_equal(make_and_start(b, half(b, pl_add(P, sq(b, b->v[0]), sq(b, b->v[1])))),
+                   PLEUEL_OK);
   assert_true(pl_run_q(b->run)[0] == 1.57079632679489662);
   assert_true(fabs(pl_run_q(b->run)[1] + 6.28318530717958648) < 1e-14);
   t_close(b);
@@ -124,7 +128,9 @@ static t_bench* pendulum(void) {
   return b;
 }
 
-static pl_expr plain_energy(t_bench* b) { return half(b, pl_add(P, sq(b, b->v[0]), sq(b, b->v[1]))); }
+static pl_expr plain_energy(t_bench* b) {
+  return half(b, pl_add(P, sq(b, b->v[0]), sq(b, b->v[1])));
+}
 
 static void a_violated_constraint_is_named_with_what_would_mend_it(void** state) {
   (void)state;
@@ -148,7 +154,8 @@ static void a_violated_velocity_is_named(void** state) {
   t_start(b, 1, 4, 1);
   assert_int_equal(make_and_start(b, plain_energy(b)), PLEUEL_CONTRADICTION);
   const pl_start_report* r = pl_run_start_report(b->run);
-  assert_true(r->trouble == PL_START_VIOLATED && r->link_velocity && r->link == 0 && r->move_velocity);
+  assert_true(r->trouble == PL_START_VIOLATED && r->link_velocity && r->link == 0
+              && r->move_velocity);
   // 3 x' + 4 y' = 0
   double expect = r->move_coordinate == 0 ? -4.0 / 3 : -0.75;
   assert_true(fabs(r->move_to - expect) < 1e-12);
@@ -177,7 +184,8 @@ static void rounding_in_given_values_is_projected_and_told(void** state) {
   t_start(b, 1, 4, 0);
   assert_int_equal(make_and_start(b, plain_energy(b)), PLEUEL_OK);
   const pl_start_report* r = pl_run_start_report(b->run);
-  assert_true(r->n_moves > 0 && r->moves[0].given && r->largest_move > 1e-12 && r->largest_move < 1e-10);
+  assert_true(r->n_moves > 0 && r->moves[0].given && r->largest_move > 1e-12
+              && r->largest_move < 1e-10);
   const double* q = pl_run_q(b->run);
   assert_true(fabs(q[0] * q[0] + q[1] * q[1] - 25) < 1e-14);
   t_close(b);
@@ -204,7 +212,8 @@ static void a_body_without_height_sits_on_its_table(void** state) {
   b->link[c].side = 1;
   t_start(b, 0, 1, 3);
   (void)x;
-  assert_int_equal(make_and_start(b, pl_sub(P, plain_energy(b), mul(b, pl_int(P, 10), y))), PLEUEL_OK);
+  assert_int_equal(make_and_start(b, pl_sub(P, plain_energy(b), mul(b, pl_int(P, 10), y))),
+                   PLEUEL_OK);
   const pl_start_report* r = pl_run_start_report(b->run);
   assert_true(r->n_sitting == 1 && r->sitting[0] == c && pl_run_is_active(b->run, c));
   assert_true(pl_run_q(b->run)[1] == 2 && fabs(pl_run_lambda(b->run)[c] - 10) < 1e-14);
@@ -221,7 +230,8 @@ static void a_body_below_its_table_is_a_contradiction(void** state) {
   t_start(b, 0, 1, 0);
   t_start(b, 1, -0.5, 0);
   assert_int_equal(make_and_start(b, plain_energy(b)), PLEUEL_CONTRADICTION);
-  assert_true(pl_run_start_report(b->run)->trouble == PL_START_VIOLATED && pl_run_start_report(b->run)->link == c);
+  assert_true(pl_run_start_report(b->run)->trouble == PL_START_VIOLATED
+              && pl_run_start_report(b->run)->link == c);
   t_close(b);
 }
 
@@ -251,8 +261,8 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(an_angle_and_its_speed_determine_a_crank),
       cmocka_unit_test(two_assemblies_are_listed_and_the_nearer_one_is_taken),
-    cmocka_unit_test(of_two_mirror_images_none_is_taken),
-    cmocka_unit_test(a_turn_that_a_constraint_counts_is_kept),
+      cmocka_unit_test(of_two_mirror_images_none_is_taken),
+      cmocka_unit_test(a_turn_that_a_constraint_counts_is_kept),
       cmocka_unit_test(a_pin_position_determines_the_angle_up_to_turns),
       cmocka_unit_test(no_assembly_fits_an_impossible_branch),
       cmocka_unit_test(a_violated_constraint_is_named_with_what_would_mend_it),

@@ -1,50 +1,66 @@
-// Bodies in space that are declared in Euler angles and integrated as unit quaternions: the angles of rows.
+// Bodies in space that are declared in Euler angles and integrated as unit quaternions: the angles
+// of rows.
 //
 // With z_1 = q_0 + i q_3 and z_2 = q_1 + i q_2
 //
 //   z_1 = cos(ϑ/2) e^(i (φ + ψ)/2),   z_2 = sin(ϑ/2) e^(i (φ - ψ)/2)
 //
-// so φ + ψ is an argument of z_1, φ - ψ one of z_2, and the singular attitudes are z_2 = 0 (ϑ = 0) and z_1 = 0 (ϑ =
-// 180°).  A rotation has the angles (φ, ϑ, ψ), (φ + 180°, -ϑ, ψ + 180°) and what whole turns make of them; of these
-// the motion is followed continuously along its series.  Through a zero of z_2 or z_1 it goes on with φ and ψ
-// continuous while ϑ changes its sign or passes 180°.  Where it stays in a zero, the argument that is lost goes on at
-// the last rate that it had.
+// so φ + ψ is an argument of z_1, φ - ψ one of z_2, and the singular attitudes are z_2 = 0 (ϑ = 0)
+// and z_1 = 0 (ϑ = 180°). A rotation has the angles (φ, ϑ, ψ), (φ + 180°, -ϑ, ψ + 180°) and what
+// whole turns make of them; of these the motion is followed continuously along its series. Through
+// a zero of z_2 or z_1 it goes on with φ and ψ continuous while ϑ changes its sign or passes 180°.
+// Where it stays in a zero, the argument that is lost goes on at the last rate that it had.
 #include <complex.h>
 #include <math.h>
 #include <string.h>
 
 #include "solve/solve_impl.h"
 
-static const double lost = 1e-12;    // |z| below which its argument is rounding
+static const double lost = 1e-12;  // |z| below which its argument is rounding
 
 typedef double complex pl_complex;
 
 // The two numbers of a body with two derivatives.
-typedef struct pl_halves { pl_complex z[2], v[2], a[2]; } pl_halves;
+typedef struct pl_halves {
+  pl_complex z[2], v[2], a[2];
+} pl_halves;
 
 // CMPLX of the standard is not there with every compiler.
 static pl_complex number(double re, double im) { return __builtin_complex(re, im); }
 
 static pl_complex unit(double angle) { return number(cos(angle), sin(angle)); }
 
-static pl_halves halves_of(const pl_turn_setup* t, const double* q, const double* v, const double* a) {
+static pl_halves halves_of(const pl_turn_setup* t, const double* q, const double* v,
+                           const double* a) {
   const int s = t->scalar, *n = t->angle;
-  pl_halves h = {.z = {number(q[s], q[n[2]]), number(q[n[0]], q[n[1]])}, .v = {number(v[s], v[n[2]]), number(v[n[0]], v[n[1]])}};
-  if (a) h.a[0] = number(a[s], a[n[2]]), h.a[1] = number(a[n[0]], a[n[1]]);
+  pl_halves h = {.z = {number(q[s], q[n[2]]), number(q[n[0]], q[n[1]])},
+                 .v = {number(v[s], v[n[2]]), number(v[n[0]], v[n[1]])}};
+  if (a) {
+    h.a[0] = number(a[s], a[n[2]]);
+    h.a[1] = number(a[n[0]], a[n[1]]);
+  }
   return h;
 }
 
-// ---------------------------------------------------------------------------------------------- from angles to quaternions
-static void to_quaternion(const pl_turn_setup* t, const double* angle, const double* rate, double* q, double* v) {
+// ---------------------------------------------------------------------- from angles to quaternions
+static void to_quaternion(const pl_turn_setup* t, const double* angle, const double* rate,
+                          double* q, double* v) {
   double half = angle[1] / 2, c = cos(half), s = sin(half), nod = rate[1] / 2;
   pl_complex e_1 = unit((angle[0] + angle[2]) / 2), e_2 = unit((angle[0] - angle[2]) / 2);
   pl_complex z_1 = c * e_1, z_2 = s * e_2;
-  pl_complex v_1 = number(-s * nod, c * (rate[0] + rate[2]) / 2) * e_1, v_2 = number(c * nod, s * (rate[0] - rate[2]) / 2) * e_2;
-  q[t->scalar] = creal(z_1), q[t->angle[2]] = cimag(z_1), q[t->angle[0]] = creal(z_2), q[t->angle[1]] = cimag(z_2);
-  v[t->scalar] = creal(v_1), v[t->angle[2]] = cimag(v_1), v[t->angle[0]] = creal(v_2), v[t->angle[1]] = cimag(v_2);
+  pl_complex v_1 = number(-s * nod, c * (rate[0] + rate[2]) / 2) * e_1,
+             v_2 = number(c * nod, s * (rate[0] - rate[2]) / 2) * e_2;
+  q[t->scalar] = creal(z_1);
+  q[t->angle[2]] = cimag(z_1);
+  q[t->angle[0]] = creal(z_2);
+  q[t->angle[1]] = cimag(z_2);
+  v[t->scalar] = creal(v_1);
+  v[t->angle[2]] = cimag(v_1);
+  v[t->angle[0]] = creal(v_2);
+  v[t->angle[1]] = cimag(v_2);
 }
 
-// ---------------------------------------------------------------------------------------------- from quaternions to angles
+// ---------------------------------------------------------------------- from quaternions to angles
 // The unit number along z; along its derivative where z vanishes; as it was where that does too.
 static pl_complex direction(pl_complex z, pl_complex v, double otherwise) {
   if (cabs(z) > lost) return z / cabs(z);
@@ -52,25 +68,31 @@ static pl_complex direction(pl_complex z, pl_complex v, double otherwise) {
   return unit(otherwise);
 }
 
-static double nearest_turn(double x, double reference) { return x + 2 * M_PI * nearbyint((reference - x) / (2 * M_PI)); }
+static double nearest_turn(double x, double reference) {
+  return x + 2 * M_PI * nearbyint((reference - x) / (2 * M_PI));
+}
 
 static double distance(const double* x, const double* y) {
   return fabs(x[0] - y[0]) + fabs(x[1] - y[1]) + fabs(x[2] - y[2]);
 }
 
 // The angles of a rotation next to the reference.
-static void nearest_angles(double sum, double nod, double difference, const double* reference, double* out) {
-  double plain[3] = {sum + difference, nod, sum - difference}, other[3] = {plain[0] + M_PI, -nod, plain[2] + M_PI};
+static void nearest_angles(double sum, double nod, double difference, const double* reference,
+                           double* out) {
+  double plain[3] = {sum + difference, nod, sum - difference},
+         other[3] = {plain[0] + M_PI, -nod, plain[2] + M_PI};
   for (int i = 0; i < 3; i++) {
     plain[i] = nearest_turn(plain[i], reference[i]);
     other[i] = nearest_turn(other[i], reference[i]);
   }
-  memcpy(out, distance(plain, reference) <= distance(other, reference) ? plain : other, sizeof plain);
+  memcpy(out, distance(plain, reference) <= distance(other, reference) ? plain : other,
+         sizeof plain);
 }
 
-// Argument e of z = r e, r real: its rate and acceleration.  Where r vanishes the rate is the limit along the motion,
-// and the acceleration is not known.
-static void rates_of_argument(pl_complex e, double r, pl_complex v, pl_complex a, double otherwise, double* rate, double* second) {
+// Argument e of z = r e, r real: its rate and acceleration. Where r vanishes the rate is the limit
+// along the motion, and the acceleration is not known.
+static void rates_of_argument(pl_complex e, double r, pl_complex v, pl_complex a, double otherwise,
+                              double* rate, double* second) {
   double r_dot = creal(conj(e) * v);
   bool here = fabs(r) > lost, passing = fabs(r_dot) > lost;
   *rate = here ? cimag(conj(e) * v) / r : passing ? cimag(conj(e) * a) / (2 * r_dot) : otherwise;
@@ -78,26 +100,33 @@ static void rates_of_argument(pl_complex e, double r, pl_complex v, pl_complex a
 }
 
 // Angles, rates and accelerations at h, next to where they were followed to; dt after that.
-static void to_angles(const pl_turn_now* now, const pl_halves* h, double dt, double* angle, double* rate, double* second) {
+static void to_angles(const pl_turn_now* now, const pl_halves* h, double dt, double* angle,
+                      double* rate, double* second) {
   double lost_sum = (now->angle[0] + now->angle[2]) / 2 + dt * now->rate[0];
   double lost_difference = (now->angle[0] - now->angle[2]) / 2 + dt * now->rate[1];
-  double sum = carg(direction(h->z[0], h->v[0], lost_sum)), difference = carg(direction(h->z[1], h->v[1], lost_difference));
+  double sum = carg(direction(h->z[0], h->v[0], lost_sum)),
+         difference = carg(direction(h->z[1], h->v[1], lost_difference));
   nearest_angles(sum, 2 * atan2(cabs(h->z[1]), cabs(h->z[0])), difference, now->angle, angle);
   if (rate == NULL) return;
 
   // z = r e with r real: cos(ϑ/2) and sin(ϑ/2), or both with the other sign
   pl_complex e[2] = {unit((angle[0] + angle[2]) / 2), unit((angle[0] - angle[2]) / 2)};
-  double r[2] = {creal(conj(e[0]) * h->z[0]), creal(conj(e[1]) * h->z[1])}, u[2], w[2], of[2], of_2[2];
+  double r[2] = {creal(conj(e[0]) * h->z[0]), creal(conj(e[1]) * h->z[1])}, u[2], w[2], of[2],
+         of_2[2];
   for (int i = 0; i < 2; i++) {
     rates_of_argument(e[i], r[i], h->v[i], h->a[i], now->rate[i], &of[i], &of_2[i]);
     u[i] = creal(conj(e[i]) * h->v[i]);
     w[i] = creal(conj(e[i]) * h->a[i]) + r[i] * of[i] * of[i];
   }
-  rate[0] = of[0] + of[1], rate[1] = 2 * (r[0] * u[1] - r[1] * u[0]), rate[2] = of[0] - of[1];
-  second[0] = of_2[0] + of_2[1], second[1] = 2 * (r[0] * w[1] - r[1] * w[0]), second[2] = of_2[0] - of_2[1];
+  rate[0] = of[0] + of[1];
+  rate[1] = 2 * (r[0] * u[1] - r[1] * u[0]);
+  rate[2] = of[0] - of[1];
+  second[0] = of_2[0] + of_2[1];
+  second[1] = 2 * (r[0] * w[1] - r[1] * w[0]);
+  second[2] = of_2[0] - of_2[1];
 }
 
-// ---------------------------------------------------------------------------------------------- along a step
+// ------------------------------------------------------------------------------------ along a step
 static double at_series(const double* X, int n, int i, int last, double dt) {
   double x = 0;
   for (int k = last; k >= 0; k--) x = x * dt + X[(size_t)k * (size_t)n + (size_t)i];
@@ -111,15 +140,17 @@ static pl_halves halves_at(const pl_run* run, const pl_turn_setup* s, double t) 
     x[0][i] = at_series(run->Q, run->n_q, of[i], run->use + 1, dt);
     x[1][i] = at_series(run->V, run->n_q, of[i], run->use, dt);
   }
-  return (pl_halves){.z = {number(x[0][0], x[0][3]), number(x[0][1], x[0][2])}, .v = {number(x[1][0], x[1][3]), number(x[1][1], x[1][2])}};
+  return (pl_halves){.z = {number(x[0][0], x[0][3]), number(x[0][1], x[0][2])},
+                     .v = {number(x[1][0], x[1][3]), number(x[1][1], x[1][2])}};
 }
 
 // Whether the argument of z cannot turn much between two points dt apart.
 static bool is_close(pl_complex z_a, pl_complex v_a, pl_complex z_b, pl_complex v_b, double dt) {
   double a = cabs(z_a), b = cabs(z_b), most = fmax(a, b);
-  bool straight = cabs(z_a + dt * v_a - z_b) <= 0.2 * most && cabs(z_b - dt * v_b - z_a) <= 0.2 * most;
+  bool straight = cabs(z_a + dt * v_a - z_b) <= 0.2 * most
+                  && cabs(z_b - dt * v_b - z_a) <= 0.2 * most;
   if (most <= lost) return true;
-  if (a <= lost || b <= lost) return straight;      // along a ray that begins or ends at zero
+  if (a <= lost || b <= lost) return straight;  // along a ray that begins or ends at zero
   return straight && cabs(z_b - z_a) <= 0.5 * most;
 }
 
@@ -128,7 +159,8 @@ static void follow_to(pl_turn_now* now, const pl_halves* h, double t) {
   to_angles(now, h, t - now->t, angle, NULL, NULL);
   for (int i = 0; i < 2; i++) {
     // rates of the arguments where they are well known
-    if (cabs(h->z[i]) > lost) now->rate[i] = cimag(conj(h->z[i]) * h->v[i]) / (cabs(h->z[i]) * cabs(h->z[i]));
+    if (cabs(h->z[i]) > lost)
+      now->rate[i] = cimag(conj(h->z[i]) * h->v[i]) / (cabs(h->z[i]) * cabs(h->z[i]));
   }
   memcpy(now->angle, angle, sizeof angle);
   now->t = t;
@@ -136,14 +168,15 @@ static void follow_to(pl_turn_now* now, const pl_halves* h, double t) {
 
 static void follow(const pl_run* run, const pl_turn_setup* s, pl_turn_now* now, double t_to) {
   enum { DEEPEST = 60 };
-  double waiting[DEEPEST + 2];      // ends of the pieces before t_to
+  double waiting[DEEPEST + 2];  // ends of the pieces before t_to
   int n = 0;
   pl_halves a = halves_at(run, s, now->t);
   waiting[n++] = t_to;
   while (n > 0) {
     double t = waiting[n - 1], dt = t - now->t, middle = now->t + 0.5 * dt;
     pl_halves b = halves_at(run, s, t);
-    bool close = is_close(a.z[0], a.v[0], b.z[0], b.v[0], dt) && is_close(a.z[1], a.v[1], b.z[1], b.v[1], dt);
+    bool close = is_close(a.z[0], a.v[0], b.z[0], b.v[0], dt)
+                 && is_close(a.z[1], a.v[1], b.z[1], b.v[1], dt);
     if (!close && n <= DEEPEST && middle != now->t && middle != t) {
       waiting[n++] = middle;
       continue;
@@ -160,9 +193,9 @@ void pl_turns_follow(pl_run* run, double t_to) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- what rows show
-static void fill(const pl_run* run, double t, const double* q, const double* v, const double* a, double* q_out, double* v_out,
-                 double* a_out, bool behind) {
+// ---------------------------------------------------------------------------------- what rows show
+static void fill(const pl_run* run, double t, const double* q, const double* v, const double* a,
+                 double* q_out, double* v_out, double* a_out, bool behind) {
   size_t n = (size_t)run->n_q;
   memcpy(q_out, q, n * sizeof(double));
   memcpy(v_out, v, n * sizeof(double));
@@ -174,7 +207,9 @@ static void fill(const pl_run* run, double t, const double* q, const double* v, 
     to_angles(&run->turn[i], &h, t - run->turn[i].t, angle, rate, second);
     for (int k = 0; k < 3; k++) {
       size_t at = behind ? n + 3 * (size_t)i + (size_t)k : (size_t)s->angle[k];
-      q_out[at] = angle[k], v_out[at] = rate[k], a_out[at] = second[k];
+      q_out[at] = angle[k];
+      v_out[at] = rate[k];
+      a_out[at] = second[k];
     }
   }
 }
@@ -182,35 +217,42 @@ static void fill(const pl_run* run, double t, const double* q, const double* v, 
 void pl_turns_seen(pl_run* run, double t, const double** q, const double** v, const double** a) {
   if (run->setup->n_turns == 0) return;
   fill(run, t, *q, *v, *a, run->seen[0], run->seen[1], run->seen[2], true);
-  *q = run->seen[0], *v = run->seen[1], *a = run->seen[2];
+  *q = run->seen[0];
+  *v = run->seen[1];
+  *a = run->seen[2];
 }
 
 void pl_turns_show(pl_run* run, pl_row* row) {
   if (run->setup->n_turns == 0) return;
   double** out = row->kind == PL_ROW_BEFORE ? run->shown_before : run->shown;
   fill(run, row->t, row->q, row->v, row->a, out[0], out[1], out[2], false);
-  row->q = out[0], row->v = out[1], row->a = out[2];
+  row->q = out[0];
+  row->v = out[1];
+  row->a = out[2];
 }
 
-// ---------------------------------------------------------------------------------------------- what stays in Euler angles
-// At ϑ = 0 or 180° they do not tell precession and spin apart.  A step that gets to the other side has divided by what
-// is zero on its way, and its end may be anything.
+// ---------------------------------------------------------------------- what stays in Euler angles
+// At ϑ = 0 or 180° they do not tell precession and spin apart. A step that gets to the other side
+// has divided by what is zero on its way, and its end may be anything.
 pleuel_status pl_turns_poles(pl_run* run, double h) {
   static const double close = 1e-9;
   for (int i = 0; i < run->setup->n_poles; i++) {
     int at = run->setup->poles[i];
     double from = run->q[at] / M_PI, to = run->trial_q[at] / M_PI;
     if (floor(from) == floor(to) && fabs(to - nearbyint(to)) > close) continue;
-    double pole = to > from ? ceil(from) : floor(from), share = floor(from) == floor(to) ? 1 : (pole - from) / (to - from);
+    double pole = to > from ? ceil(from) : floor(from),
+           share = floor(from) == floor(to) ? 1 : (pole - from) / (to - from);
     run->stats.t_singular = run->t + share * h;
     return pl_fail(run->job, PLEUEL_SINGULAR,
-                   "%s comes to a multiple of 180° near t = %.6g s, where Euler angles do not tell precession and spin apart, "
-                   "and they themselves are needed here", run->setup->coordinates[at].name, run->stats.t_singular);
+                   "%s comes to a multiple of 180° near t = %.6g s, where Euler angles do not tell "
+                   "precession and spin apart, "
+                   "and they themselves are needed here",
+                   run->setup->coordinates[at].name, run->stats.t_singular);
   }
   return PLEUEL_OK;
 }
 
-// ---------------------------------------------------------------------------------------------- start
+// ------------------------------------------------------------------------------------------- start
 void pl_turns_make(pl_run* run) {
   pl_arena* a = run->job->arena;
   size_t n = (size_t)run->n_q + 3 * (size_t)run->setup->n_turns + 1;
@@ -230,9 +272,13 @@ pleuel_status pl_run_start_turned(pl_run* run, double t, const double* q, const 
   for (int i = 0; i < run->setup->n_turns; i++) {
     const pl_turn_setup* s = &run->setup->turns[i];
     double angle[3], rate[3];
-    for (int k = 0; k < 3; k++) angle[k] = q[s->angle[k]], rate[k] = v[s->angle[k]];
+    for (int k = 0; k < 3; k++) {
+      angle[k] = q[s->angle[k]];
+      rate[k] = v[s->angle[k]];
+    }
     to_quaternion(s, angle, rate, q_run, v_run);
-    run->turn[i] = (pl_turn_now){t, {angle[0], angle[1], angle[2]}, {(rate[0] + rate[2]) / 2, (rate[0] - rate[2]) / 2}};
+    run->turn[i] = (pl_turn_now){
+        t, {angle[0], angle[1], angle[2]}, {(rate[0] + rate[2]) / 2, (rate[0] - rate[2]) / 2}};
   }
   return pl_run_start_at(run, t, q_run, v_run);
 }

@@ -1,11 +1,12 @@
-// Watching for roots on a step: releases (λ of a contact), landings (g of a free one-sided constraint), slip that comes to
-// rest, sticking that breaks, events.
+// Watching for roots on a step: releases (λ of a contact), landings (g of a free one-sided
+// constraint), slip that comes to rest, sticking that breaks, events.
 //
-// Each is a polynomial on the step, and all its roots there are isolated, touching ones included.  What has just
-// happened is zero at the start of the step by construction: those leading coefficients are dropped and the polynomial
-// divided by its power of t, so that the same root is not found again; nor does a root count before the value has left
-// the rounding error of that first one.  A sign that differs at the start of a step from that at the end of the one
-// before is a root that fell between them.
+// Each is a polynomial on the step, and all its roots there are isolated, touching ones included.
+// What has just happened is zero at the start of the step by construction: those leading
+// coefficients are dropped and the polynomial divided by its power of t, so that the same root is
+// not found again; nor does a root count before the value has left the rounding error of that first
+// one. A sign that differs at the start of a step from that at the end of the one before is a root
+// that fell between them.
 #include "solve/solve_impl.h"
 
 #include <float.h>
@@ -15,7 +16,8 @@ static double sign(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
 
 void pl_watch_make(pl_run* run) {
   const pl_setup* s = run->setup;
-  run->watch = PL_ARRAY(run->job->arena, pl_watch, 2 * (size_t)s->n_c + 3 * (size_t)s->n_rubs + (size_t)s->n_events + 1);
+  run->watch = PL_ARRAY(run->job->arena, pl_watch,
+                        2 * (size_t)s->n_c + 3 * (size_t)s->n_rubs + (size_t)s->n_events + 1);
   for (int c = 0; c < s->n_c; c++) {
     if (s->links[c].side == 0) continue;
     run->watch[run->n_watch++] = (pl_watch){.kind = PL_WATCH_RELEASE, .index = c, .direction = -1};
@@ -27,7 +29,8 @@ void pl_watch_make(pl_run* run) {
     run->watch[run->n_watch++] = (pl_watch){.kind = PL_WATCH_PRESS, .index = r, .direction = -1};
   }
   for (int e = 0; e < s->n_events; e++)
-    run->watch[run->n_watch++] = (pl_watch){.kind = PL_WATCH_EVENT, .index = e, .direction = s->events[e].direction};
+    run->watch[run->n_watch++] = (pl_watch){
+        .kind = PL_WATCH_EVENT, .index = e, .direction = s->events[e].direction};
   run->repeat = PL_ARRAY(run->job->arena, pl_repeat, s->n_events + 1);
   run->hit = PL_ARRAY(run->job->arena, bool, run->n_watch + 1);
   run->root = PL_ARRAY(run->job->arena, double, run->n_watch + 1);
@@ -47,7 +50,7 @@ void pl_watch_forget(pl_run* run) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- series
+// ------------------------------------------------------------------------------------------ series
 static void series_of_events(pl_run* run) {
   pl_batches* b = &run->watched;
   pl_batches_time(b, run->t_series);
@@ -56,35 +59,41 @@ static void series_of_events(pl_run* run) {
     pl_batches_load_v(b, run->V + (size_t)k * (size_t)run->n_q, k);
     pl_batches_load_a(b, run->A + (size_t)k * (size_t)run->n_q, k);
     pl_batches_load_lambda(b, run->L + (size_t)k * (size_t)run->n_c, k);
-    for (int level = PL_LEVEL_PLACE; level < PL_N_LEVELS; level++) pl_batches_sweep(b, (pl_level)level, k, true);
-    pl_batches_outputs(b, run->W_series + (size_t)k * (size_t)run->setup->n_watched, run->setup->n_watched, k);
+    for (int level = PL_LEVEL_PLACE; level < PL_N_LEVELS; level++)
+      pl_batches_sweep(b, (pl_level)level, k, true);
+    pl_batches_outputs(b, run->W_series + (size_t)k * (size_t)run->setup->n_watched,
+                       run->setup->n_watched, k);
   }
 }
 
 void pl_watch_series(pl_run* run) {
   if (run->watch_landings)
     for (int k = 0; k <= run->order; k++)
-      pl_assemble_g(run, k, run->G_series + (size_t)k * (size_t)run->n_c, k == 0 ? run->g_size : NULL);
+      pl_assemble_g(run, k, run->G_series + (size_t)k * (size_t)run->n_c,
+                    k == 0 ? run->g_size : NULL);
   if (run->n_slipping > 0)
     for (int k = 0; k <= run->order; k++)
       pl_assemble_speed(run, k, run->S_series + (size_t)k * (size_t)run->n_c);
   if (run->setup->n_events > 0) series_of_events(run);
 }
 
-// ---------------------------------------------------------------------------------------------- one item
-static bool is_of_rub(const pl_watch* w) { return w->kind >= PL_WATCH_STICK && w->kind <= PL_WATCH_PRESS; }
+// ---------------------------------------------------------------------------------------- one item
+static bool is_of_rub(const pl_watch* w) {
+  return w->kind >= PL_WATCH_STICK && w->kind <= PL_WATCH_PRESS;
+}
 
 static bool is_watched(const pl_run* run, const pl_watch* w) {
   if (w->kind == PL_WATCH_EVENT) return true;
   if (is_of_rub(w)) {
     const pl_link* pressed = &run->setup->links[run->setup->rubs[w->index].link];
     if (w->kind == PL_WATCH_SLIP) return run->rub[w->index].state == PL_RUB_STICK;
-    return run->rub[w->index].state == PL_RUB_SLIP && (w->kind == PL_WATCH_STICK || pressed->side == 0);
+    return run->rub[w->index].state == PL_RUB_SLIP
+           && (w->kind == PL_WATCH_STICK || pressed->side == 0);
   }
   const pl_link* link = &run->setup->links[w->index];
   if (w->kind == PL_WATCH_RELEASE) return run->active[w->index];
-  return !run->on[w->index] && !run->detached[w->index] && !link->velocity &&
-         (link->contact < 0 || run->on[link->contact]);
+  return !run->on[w->index] && !run->detached[w->index] && !link->velocity
+         && (link->contact < 0 || run->on[link->contact]);
 }
 
 bool pl_event_sets(const pl_run* run, int e) {
@@ -111,7 +120,9 @@ double pl_watch_noise(const pl_run* run, const pl_watch* w, double h) {
   if (w->kind == PL_WATCH_PRESS) return pl_watch_force_noise(run, rub->link);
   if (w->kind == PL_WATCH_SLIP) return force * force;
   // slip: rounding of velocities, and of the forces that change them on the step
-  return rub->n_rows == 1 ? 1e-14 * run->r_size[rub->row[0]] + 1e-12 * fabs(h) * run->second_size[rub->row[0]] : 0;
+  return rub->n_rows == 1
+             ? 1e-14 * run->r_size[rub->row[0]] + 1e-12 * fabs(h) * run->second_size[rub->row[0]]
+             : 0;
 }
 
 // Coefficients in units of the step; returns how many.
@@ -162,7 +173,8 @@ static bool is_wanted(const pl_watch* w, double h, int before, int after, bool a
   // a landing grazes; slip in space is watched by its square
   if ((w->kind == PL_WATCH_LANDING || w->kind == PL_WATCH_STICK) && touches) return before > 0;
   if (touches) return w->direction == 0;
-  if (after == 0) return at_end && (d == 0 || d * before < 0);         // else it is seen at the start of the next step
+  // else it is seen at the start of the next step
+  if (after == 0) return at_end && (d == 0 || d * before < 0);
   return d == 0 || d * after > 0;
 }
 
@@ -182,16 +194,21 @@ static bool is_still_there(const double* c, int n, double x, double zero) {
 enum { MOST_ROOTS = 16 };
 
 // The first root that counts, in units of the step; -1 none.  m leading coefficients are zero.
-static double first_that_counts(pl_run* run, const pl_watch* w, double h, const double* c, int n, int m, double noise,
-                                bool* touches) {
+static double first_that_counts(pl_run* run, const pl_watch* w, double h, const double* c, int n,
+                                int m, double noise, bool* touches) {
   pl_root root[MOST_ROOTS];
   // known from its own velocity, however small it is
-  bool bounced = w->fresh == 1 && (w->kind == PL_WATCH_LANDING || (w->kind == PL_WATCH_EVENT && pl_event_sets(run, w->index)));
+  bool bounced = w->fresh == 1
+                 && (w->kind == PL_WATCH_LANDING
+                     || (w->kind == PL_WATCH_EVENT && pl_event_sets(run, w->index)));
   double zero = bounced ? 0 : fmax(noise, 1e-14 * size_of(c, n));
   bool to_end = fabs(h) >= fabs(pl_run_left(run));
   // an event of an implicit step is known to the tolerance: one that only touches is found to that
-  double known = run->implicit && w->kind == PL_WATCH_EVENT && w->direction == 0 ? fmax(known_part(n - m), run->tol) : known_part(n - m);
-  int found = pl_roots(c + m, n - 1 - m, known, m == 0 ? noise : 0, root, MOST_ROOTS, run->root_work);
+  double known = run->implicit && w->kind == PL_WATCH_EVENT && w->direction == 0
+                     ? fmax(known_part(n - m), run->tol)
+                     : known_part(n - m);
+  int found = pl_roots(c + m, n - 1 - m, known, m == 0 ? noise : 0, root, MOST_ROOTS,
+                       run->root_work);
   for (int i = 0; i < found; i++) {
     int before = root[i].before, after = root[i].after;
     if (before == 0 && after == 0) continue;
@@ -232,9 +249,9 @@ static double find_root(pl_run* run, pl_watch* w, double h, bool* touches) {
   return first_that_counts(run, w, h, c, n, m, noise, touches);
 }
 
-// ---------------------------------------------------------------------------------------------- how far they are known
-// Part of the step on which a polynomial in units of it is cut off below this part of its size: each order of the upper half
-// as if it was the last.  What is below the noise says nothing.
+// -------------------------------------------------------------------------- how far they are known
+// Part of the step on which a polynomial in units of it is cut off below this part of its size:
+// each order of the upper half as if it was the last. What is below the noise says nothing.
 double pl_watch_known(double* c, int n, double noise, double part) {
   enum { ROUNDS = 60 };
   double all = 1, margin = n > 1 ? pow(part, 1.0 / (n - 1)) : 1;
@@ -250,7 +267,8 @@ double pl_watch_known(double* c, int n, double noise, double part) {
 }
 
 double pl_watch_reach(pl_run* run, double h) {
-  // roots are found to some 1e-14 of the step; where the motion is known less, so is what is watched
+  // roots are found to some 1e-14 of the step; where the motion is known less, so is what is
+  // watched
   double part = fmax(100 * run->tol, 1e-14);
   for (int i = 0; i < run->n_watch; i++) {
     const pl_watch* w = &run->watch[i];
@@ -274,9 +292,10 @@ static double event_at(pl_run* run, int e, double t, const double* q, const doub
   return run->W_coef[run->setup->events[e].watch];
 }
 
-// Whether what is watched is as its polynomial says, at x of the step h: to this much, to its noise, and to the rounding of
-// the time.  The polynomial is in run->poly.
-static bool is_as_told(pl_run* run, const pl_watch* w, double h, int n, double x, double value, double most) {
+// Whether what is watched is as its polynomial says, at x of the step h: to this much, to its
+// noise, and to the rounding of the time. The polynomial is in run->poly.
+static bool is_as_told(pl_run* run, const pl_watch* w, double h, int n, double x, double value,
+                       double most) {
   double t = run->t + run->t_low + x * h, slope = 0;
   for (int k = n - 1; k >= 1; k--) slope = slope * x + k * run->poly[k];
   double rounding = pl_watch_noise(run, w, h) + 16 * DBL_EPSILON * fabs(t * slope / h);
@@ -297,14 +316,16 @@ bool pl_watch_holds(pl_run* run, double h, double x) {
 }
 
 bool pl_watch_is_followed(pl_run* run, double h) {
-  static const double place[] = {0.31, 0.83}, part = 0.02;   // of the values; what is faster than the step is off by all of them
+  // of the values; what is faster than the step is off by all of them
+  static const double place[] = {0.31, 0.83}, part = 0.02;
   for (size_t k = 0; k < sizeof place / sizeof *place; k++) {
     pl_series_at(run, place[k] * h, run->row_q, run->row_v);
     pl_series_lambda_at(run, place[k] * h, run->row_a, run->row_l);
     for (int i = 0; i < run->n_watch; i++) {
       const pl_watch* w = &run->watch[i];
       if (w->kind != PL_WATCH_EVENT) continue;
-      double t = run->t + run->t_low + place[k] * h, value = event_at(run, w->index, t, run->row_q, run->row_v);
+      double t = run->t + run->t_low + place[k] * h,
+             value = event_at(run, w->index, t, run->row_q, run->row_v);
       int n = polynomial(run, w, h, run->poly);
       double size = fabs(value) + fabs(run->poly[0]) + fabs(value_at(run->poly, n, 1));
       if (!is_as_told(run, w, h, n, place[k], value, part * size)) return false;
@@ -313,20 +334,23 @@ bool pl_watch_is_followed(pl_run* run, double h) {
   return true;
 }
 
-// ---------------------------------------------------------------------------------------------- the first of all
+// -------------------------------------------------------------------------------- the first of all
 double pl_watch_first(pl_run* run, double h) {
   static const double together = 1e-12;  // of the step: roots closer than this happen at once
   double first = -1;
   for (int i = 0; i < run->n_watch; i++) {
     run->touch[i] = false;
-    run->root[i] = is_watched(run, &run->watch[i]) ? find_root(run, &run->watch[i], h, &run->touch[i]) : -1;
+    run->root[i] = is_watched(run, &run->watch[i])
+                       ? find_root(run, &run->watch[i], h, &run->touch[i])
+                       : -1;
     if (run->root[i] >= 0 && (first < 0 || run->root[i] < first)) first = run->root[i];
   }
-  for (int i = 0; i < run->n_watch; i++) run->hit[i] = run->root[i] >= 0 && run->root[i] <= first + together;
+  for (int i = 0; i < run->n_watch; i++)
+    run->hit[i] = run->root[i] >= 0 && run->root[i] <= first + together;
   return first < 0 ? -1 : first;
 }
 
-// ---------------------------------------------------------------------------------------------- afterwards
+// -------------------------------------------------------------------------------------- afterwards
 void pl_watch_passed(pl_run* run, double h) {
   run->sunk = -1;
   run->undecided = false;
@@ -336,12 +360,14 @@ void pl_watch_passed(pl_run* run, double h) {
     int n = polynomial(run, w, h, run->poly);
     double x = 0;
     for (int k = n - 1; k >= 0; k--) x += run->poly[k];
-    // a step of the implicit method may be so short that what has happened is not yet clear of rounding
+    // a step of the implicit method may be so short that what has happened is not yet clear of
+    // rounding
     bool clear = !run->implicit || fabs(x) > pl_watch_noise(run, w, h);
     if (h != 0 && clear) w->fresh = 0;
     if (w->kind == PL_WATCH_LANDING && x < -1e-9 * run->g_size[w->index]) run->sunk = w->index;
     // what the roots leave open at the end is decided at the start of the next step
-    bool decided = fabs(x) > fmax(pl_watch_noise(run, w, h), 2 * known_part(n) * size_of(run->poly, n));
+    bool decided = fabs(x)
+                   > fmax(pl_watch_noise(run, w, h), 2 * known_part(n) * size_of(run->poly, n));
     if (decided) w->side = (int)sign(x);
     run->undecided |= !decided;
   }
@@ -349,8 +375,8 @@ void pl_watch_passed(pl_run* run, double h) {
   for (int r = 0; r < run->setup->n_rubs; r++) {
     pl_rub_now* now = &run->rub[r];
     double d[3], least = 1e-12 * run->v_size;
-    if (run->setup->rubs[r].n_rows == 3 && now->state == PL_RUB_SLIP && now->small != least &&
-        pl_friction_speed(run, r, run->r, d) > 1e3 * least)
+    if (run->setup->rubs[r].n_rows == 3 && now->state == PL_RUB_SLIP && now->small != least
+        && pl_friction_speed(run, r, run->r, d) > 1e3 * least)
       now->small = least;
   }
 }

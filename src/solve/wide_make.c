@@ -4,11 +4,13 @@
 
 #include "solve/wide_impl.h"
 
-// Orders below this are computed in wide numbers, those above in doubles: terms there are e^-24 of the whole and less, so that their
-// rounding errors are four thousand times smaller than those of the state, which has 64 digits.
+// Orders below this are computed in wide numbers, those above in doubles: terms there are e^-24 of
+// the whole and less, so that their rounding errors are four thousand times smaller than those of
+// the state, which has 64 digits.
 enum { LOW_ORDERS = 12 };
 
-// Jorba and Zou: terms of a series fall best like e^-2 from one to the next, where the work is that of the orders.
+// Jorba and Zou: terms of a series fall best like e^-2 from one to the next, where the work is that
+// of the orders.
 void pl_wide_order(pl_run* run) {
   enum { LEAST = 6, MOST = 40 };
   int p = (int)ceil(-0.5 * log(run->tol) + 1);
@@ -16,8 +18,10 @@ void pl_wide_order(pl_run* run) {
   run->shrink = -2;
 }
 
-// ---------------------------------------------------------------------------------------------- what stands in the way
-const char* pl_wide_name(const pl_run* run) { return run->options.precision == PL_PRECISION_LONG ? "long" : "quad"; }
+// -------------------------------------------------------------------------- what stands in the way
+const char* pl_wide_name(const pl_run* run) {
+  return run->options.precision == PL_PRECISION_LONG ? "long" : "quad";
+}
 
 static bool changes_motion(const pl_event_setup* e) {
   for (int i = 0; i < e->n_deeds; i++)
@@ -27,9 +31,14 @@ static bool changes_motion(const pl_event_setup* e) {
 
 static pleuel_status check_types(pl_run* run) {
   if (run->options.precision == PL_PRECISION_LONG && pl_real_long() == NULL)
-    return pl_fail(run->job, PLEUEL_UNSUPPORTED, "precision long: this processor or compiler has no 80-bit numbers; use quad or double");
+    return pl_fail(
+        run->job, PLEUEL_UNSUPPORTED,
+        "precision long: this processor or compiler has no 80-bit numbers; use quad or double");
   if (pl_real_quad() == NULL)
-    return pl_fail(run->job, PLEUEL_UNSUPPORTED, "precision %s: the compiler that built this program has no 128-bit numbers; use double", pl_wide_name(run));
+    return pl_fail(
+        run->job, PLEUEL_UNSUPPORTED,
+        "precision %s: the compiler that built this program has no 128-bit numbers; use double",
+        pl_wide_name(run));
   return PLEUEL_OK;
 }
 
@@ -37,13 +46,19 @@ static pleuel_status check_contacts(pl_run* run) {
   const pl_setup* s = run->setup;
   const char* mode = pl_wide_name(run);
   if (s->n_rubs > 0)
-    return pl_fail(run->job, PLEUEL_UNSUPPORTED, "precision %s: friction (on %s) is followed in double only", mode, s->rubs[0].name);
+    return pl_fail(run->job, PLEUEL_UNSUPPORTED,
+                   "precision %s: friction (on %s) is followed in double only", mode,
+                   s->rubs[0].name);
   for (int c = 0; c < s->n_c; c++)
     if (s->links[c].side != 0 || s->links[c].off)
-      return pl_fail(run->job, PLEUEL_UNSUPPORTED, "precision %s: contacts that open and close (%s) are followed in double only", mode, s->links[c].name);
+      return pl_fail(run->job, PLEUEL_UNSUPPORTED,
+                     "precision %s: contacts that open and close (%s) are followed in double only",
+                     mode, s->links[c].name);
   for (int e = 0; e < s->n_events; e++)
     if (changes_motion(&s->events[e]))
-      return pl_fail(run->job, PLEUEL_UNSUPPORTED, "precision %s: event %s changes the motion, which is done in double only; record and stop are possible",
+      return pl_fail(run->job, PLEUEL_UNSUPPORTED,
+                     "precision %s: event %s changes the motion, which is done in double only; "
+                     "record and stop are possible",
                      mode, s->events[e].name);
   return PLEUEL_OK;
 }
@@ -53,25 +68,41 @@ pleuel_status pl_wide_check(pl_run* run) {
   PL_TRY(check_types(run));
   PL_TRY(check_contacts(run));
   if (run->options.method == PL_METHOD_RADAU)
-    return pl_fail(run->job, PLEUEL_UNSUPPORTED, "precision %s: the implicit method computes in double only; use the series", mode);
+    return pl_fail(run->job, PLEUEL_UNSUPPORTED,
+                   "precision %s: the implicit method computes in double only; use the series",
+                   mode);
   if (run->n_kinks > 0)
-    return pl_fail(run->job, PLEUEL_UNSUPPORTED, "precision %s: a force or constraint with a kink (abs, sign, min, max, if) is followed in double only", mode);
+    return pl_fail(run->job, PLEUEL_UNSUPPORTED,
+                   "precision %s: a force or constraint with a kink (abs, sign, min, max, if) is "
+                   "followed in double only",
+                   mode);
   if (run->has_W)
-    return pl_fail(run->job, PLEUEL_UNSUPPORTED, "precision %s: forces that depend on multipliers are computed in double only", mode);
+    return pl_fail(run->job, PLEUEL_UNSUPPORTED,
+                   "precision %s: forces that depend on multipliers are computed in double only",
+                   mode);
   if (run->mass_of_speed)
-    return pl_fail(run->job, PLEUEL_UNSUPPORTED, "precision %s: masses that depend on velocities are computed in double only", mode);
+    return pl_fail(run->job, PLEUEL_UNSUPPORTED,
+                   "precision %s: masses that depend on velocities are computed in double only",
+                   mode);
   if (run->setup->n_turns > 0)
-    return pl_fail(run->job, PLEUEL_UNSUPPORTED, "precision %s: bodies in Euler angles are followed in double only; give their axes as a quaternion", mode);
+    return pl_fail(run->job, PLEUEL_UNSUPPORTED,
+                   "precision %s: bodies in Euler angles are followed in double only; give their "
+                   "axes as a quaternion",
+                   mode);
   if (!pl_motion_fits(run))
-    return pl_fail(run->job, PLEUEL_UNSUPPORTED, "precision %s: %d coordinates and constraints are more than the %d that it is made for; use double",
+    return pl_fail(run->job, PLEUEL_UNSUPPORTED,
+                   "precision %s: %d coordinates and constraints are more than the %d that it is "
+                   "made for; use double",
                    mode, run->n_q + run->n_c, PL_MOTION_UNKNOWNS);
   return PLEUEL_OK;
 }
 
-// ---------------------------------------------------------------------------------------------- the series at a time
-// A series in memory: rows of n numbers; a copy of the first, which order 0 of the next point takes; the sum of rows that are not here;
-// the result.
-typedef struct series { int rows, n, first, n_first, tail, end; } series;
+// ---------------------------------------------------------------------------- the series at a time
+// A series in memory: rows of n numbers; a copy of the first, which order 0 of the next point
+// takes; the sum of rows that are not here; the result.
+typedef struct series {
+  int rows, n, first, n_first, tail, end;
+} series;
 
 // Horner's sum of rows 0 .. last.  tail: where the sum of the rows behind lies, -1 none.
 static void sum_rows(pl_prog* c, const series* s, int i, int h, int last, int tail) {
@@ -93,7 +124,8 @@ static pl_prog* sum_code(pl_run* run, const char* name, const series* s, const i
   pl_prog* c = pl_prog_make(run->job->arena, name, 1);
   int h = pl_prog_load(c, w->o->length, 0);
   for (int k = 0; k < 2; k++)
-    for (int i = 0; i < s[k].n; i++) sum_rows(c, &s[k], i, h, low[k], w->by_doubles ? s[k].tail : -1);
+    for (int i = 0; i < s[k].n; i++)
+      sum_rows(c, &s[k], i, h, low[k], w->by_doubles ? s[k].tail : -1);
   end_code(w, c);
   return c;
 }
@@ -116,13 +148,18 @@ static void write_clock(pl_run* run) {
   pl_arena* a = run->job->arena;
   int length = w->o->length;
   pl_prog* c = w->clock = pl_prog_make(a, "clock", 1);
-  pl_prog_store(c, pl_prog_op2(c, PL_PROG_ADD, pl_prog_load(c, w->t_0, 0), pl_prog_load(c, length, 0)), w->o->time, 0);
+  pl_prog_store(c,
+                pl_prog_op2(c, PL_PROG_ADD, pl_prog_load(c, w->t_0, 0), pl_prog_load(c, length, 0)),
+                w->o->time, 0);
   end_code(w, c);
   c = w->left = pl_prog_make(a, "left", 1);
-  pl_prog_store(c, pl_prog_op2(c, PL_PROG_SUB, pl_prog_load(c, w->to, 0), pl_prog_load(c, w->t_0, 0)), length, 0);
+  pl_prog_store(c,
+                pl_prog_op2(c, PL_PROG_SUB, pl_prog_load(c, w->to, 0), pl_prog_load(c, w->t_0, 0)),
+                length, 0);
   end_code(w, c);
   c = w->grid = pl_prog_make(a, "grid", 1);
-  int way = pl_prog_op2(c, PL_PROG_DIV, pl_prog_load(c, w->scratch, 0), pl_prog_load(c, w->share, 0));
+  int way = pl_prog_op2(c, PL_PROG_DIV, pl_prog_load(c, w->scratch, 0),
+                        pl_prog_load(c, w->share, 0));
   int t = pl_prog_op2(c, PL_PROG_ADD, way, pl_prog_load(c, w->from, 0));
   pl_prog_store(c, t, w->o->time, 0);
   pl_prog_store(c, pl_prog_op2(c, PL_PROG_SUB, t, pl_prog_load(c, w->t_0, 0)), length, 0);
@@ -133,8 +170,10 @@ static void write_drift(pl_run* run) {
   pl_wide* w = run->wide;
   pl_prog* c = w->drift = pl_prog_make(run->job->arena, "drift", 1);
   int T = pl_prog_load(c, w->o->energy, 0), V = pl_prog_load(c, w->o->energy + 1, 0);
-  int E = run->setup->energy > 0 ? pl_prog_load(c, w->o->energy + 2, 0) : pl_prog_op2(c, PL_PROG_ADD, T, V);
-  pl_prog_store(c, pl_prog_op2(c, PL_PROG_SUB, E, pl_prog_load(c, w->energy_base, 0)), w->scratch, 0);
+  int E = run->setup->energy > 0 ? pl_prog_load(c, w->o->energy + 2, 0)
+                                 : pl_prog_op2(c, PL_PROG_ADD, T, V);
+  pl_prog_store(c, pl_prog_op2(c, PL_PROG_SUB, E, pl_prog_load(c, w->energy_base, 0)), w->scratch,
+                0);
   pl_prog_store(c, E, w->scratch + 1, 0);
   end_code(w, c);
 }
@@ -143,15 +182,17 @@ static void write_sums(pl_run* run) {
   pl_wide* w = run->wide;
   const pl_motion* o = w->o;
   int p = run->order, n_q = run->n_q, n_c = run->n_c;
-  series state[2] = {{o->Q, n_q, w->q_0, 2, w->tail_q, o->end_q}, {o->V, n_q, w->v_0, 2, w->tail_v, o->end_v}};
-  series forces[2] = {{o->A, n_q, w->a_0, 1, w->tail_a, w->end_a}, {o->L, n_c, w->l_0, 1, w->tail_l, w->end_l}};
+  series state[2] = {{o->Q, n_q, w->q_0, 2, w->tail_q, o->end_q},
+                     {o->V, n_q, w->v_0, 2, w->tail_v, o->end_v}};
+  series forces[2] = {{o->A, n_q, w->a_0, 1, w->tail_a, w->end_a},
+                      {o->L, n_c, w->l_0, 1, w->tail_l, w->end_l}};
   int last[2] = {w->by_doubles ? w->low : p + 1, w->low}, last_forces[2] = {w->low - 1, w->low - 1};
   w->top = top_code(run);
   w->head = sum_code(run, "head", state, last);
   w->head_forces = sum_code(run, "head_forces", forces, last_forces);
 }
 
-// ---------------------------------------------------------------------------------------------- memory
+// ------------------------------------------------------------------------------------------ memory
 static int take(pl_wide* w, int n) {
   int at = w->o->size;
   w->o->size += n;
@@ -161,8 +202,9 @@ static int take(pl_wide* w, int n) {
 static void lay_out(pl_run* run) {
   pl_wide* w = run->wide;
   int n_q = run->n_q, n_c = run->n_c;
-  int *one[] = {&w->t_0, &w->from, &w->to, &w->share, &w->energy_base};
-  int *of_q[] = {&w->a_0, &w->end_a, &w->tail_q, &w->tail_v, &w->tail_a}, *of_c[] = {&w->l_0, &w->end_l, &w->tail_l};
+  int* one[] = {&w->t_0, &w->from, &w->to, &w->share, &w->energy_base};
+  int *of_q[] = {&w->a_0, &w->end_a, &w->tail_q, &w->tail_v, &w->tail_a},
+      *of_c[] = {&w->l_0, &w->end_l, &w->tail_l};
   for (size_t i = 0; i < sizeof one / sizeof *one; i++) *one[i] = take(w, 1);
   for (size_t i = 0; i < sizeof of_q / sizeof *of_q; i++) *of_q[i] = take(w, n_q);
   for (size_t i = 0; i < sizeof of_c / sizeof *of_c; i++) *of_c[i] = take(w, n_c);
@@ -184,7 +226,8 @@ static void fill_memory(pl_wide* w) {
     if (s->from >= 0) real->move(m, s->cell, s->from, 1);
     else real->write(m, s->cell, 1, &s->x);
   }
-  for (int i = 0; i < o->constants.n; i++) real->set(m, o->constants.at[i].cell, o->constants.at[i].x);
+  for (int i = 0; i < o->constants.n; i++)
+    real->set(m, o->constants.at[i].cell, o->constants.at[i].x);
 }
 
 static void choose_types(pl_run* run) {
@@ -204,9 +247,16 @@ pleuel_status pl_wide_make(pl_run* run) {
   choose_types(run);
   w->o = pl_motion_make_for(run, w->fine);
   if (!w->o->usable)
-    return pl_fail(run->job, PLEUEL_UNSUPPORTED, "precision %s: the mass matrix of this model needs pivots, which are chosen in double only", pl_wide_name(run));
+    return pl_fail(
+        run->job, PLEUEL_UNSUPPORTED,
+        "precision %s: the mass matrix of this model needs pivots, which are chosen in double only",
+        pl_wide_name(run));
   run->motion_code = w->by_doubles ? pl_motion_for_mode(run) : NULL;
-  if (run->motion_code && !run->motion_code->usable) run->motion_code = NULL, w->by_doubles = false, w->low = run->order;
+  if (run->motion_code && !run->motion_code->usable) {
+    run->motion_code = NULL;
+    w->by_doubles = false;
+    w->low = run->order;
+  }
   w->high = run->motion_code;
   lay_out(run);
   write_sums(run);
@@ -219,7 +269,7 @@ pleuel_status pl_wide_make(pl_run* run) {
   return PLEUEL_OK;
 }
 
-// ---------------------------------------------------------------------------------------------- rows that follow from others
+// -------------------------------------------------------------------- rows that follow from others
 bool pl_wide_of_mode(pl_run* run) {
   pl_wide* first = run->wide;
   for (pl_wide* w = first; w; w = w->next)
@@ -236,16 +286,29 @@ bool pl_wide_of_mode(pl_run* run) {
       return true;
     }
   bool made = pl_wide_make(run) == PLEUEL_OK;
-  if (made) run->wide->next = first, run->wide->way = first->way, run->wide->held = first->held;
-  else run->wide = first, run->job->message[0] = '\0', run->job->status = PLEUEL_OK;
+  if (made) {
+    run->wide->next = first;
+    run->wide->way = first->way;
+    run->wide->held = first->held;
+  } else {
+    run->wide = first;
+    run->job->message[0] = '\0';
+    run->job->status = PLEUEL_OK;
+  }
   return made;
 }
 
-// What a point is, from the memory of one mode to that of another, whose pivots are known from here on.
+// What a point is, from the memory of one mode to that of another, whose pivots are known from here
+// on.
 static void take_over(pl_wide* to, const pl_wide* from, int n_q) {
-  const int cells[][3] = {{to->o->time, from->o->time, 1}, {to->from, from->from, 1}, {to->to, from->to, 1}, {to->share, from->share, 1},
-                          {to->energy_base, from->energy_base, 1}, {to->o->Q, from->o->Q, n_q}, {to->o->V, from->o->V, n_q}};
-  fill_memory(to);     // as a run has it that comes here for the first time
+  const int cells[][3] = {{to->o->time, from->o->time, 1},
+                          {to->from, from->from, 1},
+                          {to->to, from->to, 1},
+                          {to->share, from->share, 1},
+                          {to->energy_base, from->energy_base, 1},
+                          {to->o->Q, from->o->Q, n_q},
+                          {to->o->V, from->o->V, n_q}};
+  fill_memory(to);  // as a run has it that comes here for the first time
   for (size_t i = 0; i < sizeof cells / sizeof *cells; i++)
     pl_wide_copy(to->fine, to->m, cells[i][0], from->fine, from->m, cells[i][1], cells[i][2]);
   to->o->fade_best = 0;

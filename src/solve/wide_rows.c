@@ -5,7 +5,11 @@
 
 static int column_text(void* user, pl_row_part part, int i, bool negative, char out[PL_ROW_TEXT]) {
   const pl_sheet* s = user;
-  const int at[] = {[PL_ROW_T] = s->time, [PL_ROW_Q] = s->Q, [PL_ROW_V] = s->V, [PL_ROW_LAMBDA] = s->L, [PL_ROW_OUT] = s->out};
+  const int at[] = {[PL_ROW_T] = s->time,
+                    [PL_ROW_Q] = s->Q,
+                    [PL_ROW_V] = s->V,
+                    [PL_ROW_LAMBDA] = s->L,
+                    [PL_ROW_OUT] = s->out};
   return s->real->text(out, s->m, at[part] + i, negative);
 }
 

@@ -1,27 +1,37 @@
-// A step on wide numbers: projection, order 0, series.  As motion_run.c, which has the same codes for doubles.
+// A step on wide numbers: projection, order 0, series. As motion_run.c, which has the same codes
+// for doubles.
 //
-// The state is rounded to its type with each correction of the projection, and nowhere else: what is computed from it is more exact
-// than that by the digits that the fine type has more, so that the rounding of the state is the only error that counts, and it has
-// no direction.  Then errors grow like a random walk: Brouwer's law [Brouwer1937].
+// The state is rounded to its type with each correction of the projection, and nowhere else: what
+// is computed from it is more exact than that by the digits that the fine type has more, so that
+// the rounding of the state is the only error that counts, and it has no direction. Then errors
+// grow like a random walk: Brouwer's law [Brouwer1937].
 #include <math.h>
 #include <string.h>
 
 #include "solve/wide_impl.h"
 
-// Part of the largest sum ever subtracted at a pivot at which this is lost, compared with the best part: the digits that are left are
-// still those of a double.
+// Part of the largest sum ever subtracted at a pivot at which this is lost, compared with the best
+// part: the digits that are left are still those of a double.
 static const double sound = 1e-16;
-static const double least_sound = 1e-24;   // of what was subtracted there: below, it may be rounding
+// of what was subtracted there: below, it may be rounding
+static const double least_sound = 1e-24;
 
-static void fine(pl_run* run, const pl_prog* code, int from, int to) { run->wide->fine->interpret(code, run->wide->m, from, to); }
-static void fine_part(pl_run* run, pl_motion_part part) { fine(run, run->wide->o->code[part], 0, 1); }
-static void read(const pl_run* run, int at, int n, double* out) { run->wide->fine->read(run->wide->m, at, n, out); }
+static void fine(pl_run* run, const pl_prog* code, int from, int to) {
+  run->wide->fine->interpret(code, run->wide->m, from, to);
+}
+static void fine_part(pl_run* run, pl_motion_part part) {
+  fine(run, run->wide->o->code[part], 0, 1);
+}
+static void read(const pl_run* run, int at, int n, double* out) {
+  run->wide->fine->read(run->wide->m, at, n, out);
+}
 
-void pl_wide_copy(const pl_real* to_type, void* to, int at, const pl_real* from_type, const void* from, int from_at, int n) {
+void pl_wide_copy(const pl_real* to_type, void* to, int at, const pl_real* from_type,
+                  const void* from, int from_at, int n) {
   for (int i = 0; i < n; i++) to_type->set(to, at + i, from_type->get(from, from_at + i));
 }
 
-// ---------------------------------------------------------------------------------------------- projection
+// -------------------------------------------------------------------------------------- projection
 static bool pivots_are_sound(pl_run* run) {
   pl_motion* o = run->wide->o;
   double least = (double)INFINITY;
@@ -35,7 +45,8 @@ static bool pivots_are_sound(pl_run* run) {
   }
   if (o->n == o->n_mass) return true;
   run->wide->part = o->fade_best > 0 ? fmin(1, least / o->fade_best) : 1;
-  run->smallest = least > 0 && o->fade_best > 0 ? run->best * sqrt(fmin(1, least / o->fade_best)) : run->best;
+  run->smallest = least > 0 && o->fade_best > 0 ? run->best * sqrt(fmin(1, least / o->fade_best))
+                                                : run->best;
   if (!(least > least_sound)) return false;
   if (least > o->fade_best) o->fade_best = least;
   return least > sound * o->fade_best;
@@ -48,13 +59,15 @@ static void note_largest(double x, double* most) {
 static void set_floors(pl_run* run) {
   pl_wide* w = run->wide;
   for (int i = 0; i < run->n_q; i++) {
-    double q = fmax(run->q_most[i], 1e-6 * run->q_size), v = fmax(run->v_most[i], 1e-6 * run->v_size);
+    double q = fmax(run->q_most[i], 1e-6 * run->q_size),
+           v = fmax(run->v_most[i], 1e-6 * run->v_size);
     w->fine->write(w->m, w->o->q_floor + i, 1, &q);
     w->fine->write(w->m, w->o->v_floor + i, 1, &v);
   }
 }
 
-// Adds the correction to the state at x, which is then rounded; the size of the correction relative to that of the state.
+// Adds the correction to the state at x, which is then rounded; the size of the correction relative
+// to that of the state.
 static double correct(pl_run* run, pl_motion_part part, int x, double size) {
   pl_wide* w = run->wide;
   int n = run->n_q;
@@ -66,7 +79,9 @@ static double correct(pl_run* run, pl_motion_part part, int x, double size) {
   return size > 0 ? most / size : most;
 }
 
-static bool is_done(const pl_run* run, double residual) { return residual == 0 && run->wide->state == run->wide->fine; }
+static bool is_done(const pl_run* run, double residual) {
+  return residual == 0 && run->wide->state == run->wide->fine;
+}
 
 static bool project_positions(pl_run* run, pl_projection* p) {
   enum { MAX_NEWTON = 8 };
@@ -131,7 +146,7 @@ void pl_wide_accept(pl_run* run, bool to_end) {
   run->t_low = t.part[1];
 }
 
-// ---------------------------------------------------------------------------------------------- order 0
+// ----------------------------------------------------------------------------------------- order 0
 static void read_orders(pl_run* run, int first, int last) {
   const pl_motion* o = run->wide->o;
   size_t n_q = (size_t)o->n_q, n_c = (size_t)o->n_c, k = (size_t)first;
@@ -190,7 +205,7 @@ bool pl_wide_arrive(pl_run* run, double* off, double* size) {
   return isfinite(*size);
 }
 
-// ---------------------------------------------------------------------------------------------- series
+// ------------------------------------------------------------------------------------------ series
 void pl_wide_expand(pl_run* run) {
   pl_wide* w = run->wide;
   fine(run, w->o->code[PL_PART_ORDER], 1, w->low);
@@ -202,7 +217,8 @@ void pl_wide_expand(pl_run* run) {
   run->stats.steps_interpreted++;
   fine(run, w->top, 0, 1);
   read_orders(run, 1, run->order - 1);
-  read(run, w->o->Q + (run->order + 1) * run->n_q, run->n_q, run->Q + (size_t)(run->order + 1) * (size_t)run->n_q);
+  read(run, w->o->Q + (run->order + 1) * run->n_q, run->n_q,
+       run->Q + (size_t)(run->order + 1) * (size_t)run->n_q);
 }
 
 void pl_wide_norms(pl_run* run, const double** q, const double** v) {
@@ -217,9 +233,10 @@ void pl_wide_norms(pl_run* run, const double** q, const double** v) {
   *v = *q + PL_BLOCK_ROWS;
 }
 
-// Lengths that depend on the state alone fall into step with a periodic motion: step ends then come to lie at the same places in
-// every period, the same roundings come again, and errors go on in one direction or in circles.  So each length is shortened by up
-// to a tenth, by the multiples of the golden section, which keep no time with anything.
+// Lengths that depend on the state alone fall into step with a periodic motion: step ends then come
+// to lie at the same places in every period, the same roundings come again, and errors go on in one
+// direction or in circles. So each length is shortened by up to a tenth, by the multiples of the
+// golden section, which keep no time with anything.
 double pl_wide_vary(const pl_run* run, double h) {
   static const double golden = 0.61803398874989485, most = 0.1;
   double turns = golden * (double)run->stats.steps;
@@ -258,24 +275,27 @@ void pl_wide_sum(pl_run* run) {
 
 void pl_wide_advance(pl_run* run, double dt) {
   pl_wide* w = run->wide;
-  if (dt == run->options.t_end - run->t - run->t_low) fine(run, w->left, 0, 1);   // to the end as it is exactly
+  // to the end as it is exactly
+  if (dt == run->options.t_end - run->t - run->t_low) fine(run, w->left, 0, 1);
   else w->fine->write(w->m, w->o->length, 1, &dt);
   sum_state(run);
   read(run, w->o->end_q, run->n_q, run->trial_q);
   read(run, w->o->end_v, run->n_q, run->trial_v);
 }
 
-// ---------------------------------------------------------------------------------------------- events
+// ------------------------------------------------------------------------------------------ events
 static int event_hit(const pl_run* run) {
   for (int i = 0; i < run->n_watch; i++)
-    if (run->hit[i] && !run->touch[i] && run->watch[i].kind == PL_WATCH_EVENT) return run->setup->events[run->watch[i].index].watch;
+    if (run->hit[i] && !run->touch[i] && run->watch[i].kind == PL_WATCH_EVENT)
+      return run->setup->events[run->watch[i].index].watch;
   return -1;
 }
 
 // Derivative of watched quantity i on the step.
 static double slope_at(const pl_run* run, int i, double dt) {
   double slope = 0;
-  for (int k = run->order - 1; k >= 1; k--) slope = slope * dt + k * run->W_series[(size_t)k * (size_t)run->setup->n_watched + (size_t)i];
+  for (int k = run->order - 1; k >= 1; k--)
+    slope = slope * dt + k * run->W_series[(size_t)k * (size_t)run->setup->n_watched + (size_t)i];
   return slope;
 }
 
@@ -298,7 +318,7 @@ static double watched_value(pl_run* run, int i) {
 
 void pl_wide_refine(pl_run* run, double dt) {
   enum { MAX_NEWTON = 6 };
-  static const double most = 1e-8;      // of the step, that a root found in doubles may be off
+  static const double most = 1e-8;  // of the step, that a root found in doubles may be off
   pl_wide* w = run->wide;
   int i = event_hit(run);
   if (i < 0) return;
@@ -316,7 +336,7 @@ void pl_wide_refine(pl_run* run, double dt) {
   read(run, w->o->end_v, run->n_q, run->trial_v);
 }
 
-// ---------------------------------------------------------------------------------------------- energy
+// ------------------------------------------------------------------------------------------ energy
 static void evaluate_energies(pl_run* run) {
   pl_wide* w = run->wide;
   const pl_setup* s = run->setup;
@@ -326,9 +346,13 @@ static void evaluate_energies(pl_run* run) {
   }
   pl_row row;
   pl_wide_row(run, &row, run->energy_out);
-  pl_wide_copy(w->fine, w->m, w->o->energy, w->rows->real, w->rows->m, w->rows->out + s->kinetic, 1);
-  pl_wide_copy(w->fine, w->m, w->o->energy + 1, w->rows->real, w->rows->m, w->rows->out + s->potential, 1);
-  if (s->energy > 0) pl_wide_copy(w->fine, w->m, w->o->energy + 2, w->rows->real, w->rows->m, w->rows->out + s->energy, 1);
+  pl_wide_copy(w->fine, w->m, w->o->energy, w->rows->real, w->rows->m, w->rows->out + s->kinetic,
+               1);
+  pl_wide_copy(w->fine, w->m, w->o->energy + 1, w->rows->real, w->rows->m,
+               w->rows->out + s->potential, 1);
+  if (s->energy > 0)
+    pl_wide_copy(w->fine, w->m, w->o->energy + 2, w->rows->real, w->rows->m,
+                 w->rows->out + s->energy, 1);
 }
 
 void pl_wide_energy(pl_run* run, bool anew) {
@@ -341,7 +365,10 @@ void pl_wide_energy(pl_run* run, bool anew) {
   run->energy_size = fmax(run->energy_size, fabs(part[0]) + fabs(part[1]));
   if (anew) {
     w->fine->move(w->m, w->energy_base, w->scratch + 1, 1);
-    if (isnan(run->stats.energy_drift)) run->stats.energy_0 = change[1], run->stats.energy_drift = 0;
+    if (isnan(run->stats.energy_drift)) {
+      run->stats.energy_0 = change[1];
+      run->stats.energy_drift = 0;
+    }
     return;
   }
   double drift = run->energy_size > 0 ? fabs(change[0]) / run->energy_size : 0;

@@ -1,6 +1,7 @@
-// The start of a run on wide numbers.  The start that was found in doubles says which solution it is; given values are taken as they
-// were written, and the others move until the constraints hold in wide numbers too: residuals in wide numbers, corrections in
-// doubles, each of which gains some fifteen digits.
+// The start of a run on wide numbers. The start that was found in doubles says which solution it
+// is; given values are taken as they were written, and the others move until the constraints hold
+// in wide numbers too: residuals in wide numbers, corrections in doubles, each of which gains some
+// fifteen digits.
 #include <math.h>
 #include <string.h>
 
@@ -46,11 +47,14 @@ static void set_state(pl_run* run, const pl_parts* exact) {
   }
 }
 
-// What is not held moves by the least that takes the residuals away; they may leave no room for that.
-static bool move_free(pl_run* run, bool positions, const bool* held, double* basis, double* change) {
+// What is not held moves by the least that takes the residuals away; they may leave no room for
+// that.
+static bool move_free(pl_run* run, bool positions, const bool* held, double* basis,
+                      double* change) {
   pl_wide* w = run->wide;
   pl_motion* o = w->o;
-  double before = (double)INFINITY, *g = positions ? run->g : run->r, *size = positions ? run->g_size : run->r_size;
+  double before = (double)INFINITY, *g = positions ? run->g : run->r,
+         *size = positions ? run->g_size : run->r_size;
   for (int round = 0; round < MAX_ROUNDS; round++) {
     w->fine->interpret(o->code[PL_PART_PLACE], w->m, 0, 1);
     w->fine->interpret(o->code[PL_PART_SPEED], w->m, 0, 1);
@@ -58,7 +62,8 @@ static bool move_free(pl_run* run, bool positions, const bool* held, double* bas
     w->fine->read(w->m, positions ? o->g_size : o->r_size, run->n_c, size);
     double most = 0;
     for (int c = 0; c < run->n_c; c++)
-      if (run->taken[c] && !(positions && run->setup->links[c].velocity)) most = fmax(most, fabs(g[c]) / size[c]);
+      if (run->taken[c] && !(positions && run->setup->links[c].velocity))
+        most = fmax(most, fabs(g[c]) / size[c]);
     if (!(most > w->fine->epsilon) || !(most < 0.5 * before)) return true;
     before = most;
     if (!pl_least_change(run, held, g, size, positions, basis, change)) return false;
@@ -71,7 +76,8 @@ static bool move_free(pl_run* run, bool positions, const bool* held, double* bas
 static void set_sizes(pl_run* run) {
   pl_wide* w = run->wide;
   for (int i = 0; i < run->n_q; i++) {
-    double q = fmax(run->q_most[i], 1e-6 * run->q_size), v = fmax(run->v_most[i], 1e-6 * run->v_size);
+    double q = fmax(run->q_most[i], 1e-6 * run->q_size),
+           v = fmax(run->v_most[i], 1e-6 * run->v_size);
     w->fine->write(w->m, w->o->q_floor + i, 1, &q);
     w->fine->write(w->m, w->o->v_floor + i, 1, &v);
   }
@@ -81,7 +87,8 @@ static void refine(pl_run* run) {
   pl_arena* a = run->job->arena;
   size_t n = (size_t)run->n_q;
   bool *q = PL_ARRAY(a, bool, n + 1), *v = PL_ARRAY(a, bool, n + 1);
-  double *basis = PL_ARRAY(a, double, n * (size_t)(run->n_c + 1) + 1), *change = PL_ARRAY(a, double, n + 1);
+  double *basis = PL_ARRAY(a, double, n*(size_t)(run->n_c + 1) + 1),
+         *change = PL_ARRAY(a, double, n + 1);
   for (size_t i = 0; run->wide->held && i < n; i++) {
     q[i] = run->setup->coordinates[i].has_q;
     v[i] = run->setup->coordinates[i].has_v;
@@ -94,7 +101,9 @@ static void refine(pl_run* run) {
 }
 
 static pleuel_status lost(pl_run* run) {
-  return pl_fail(run->job, PLEUEL_NUMERICAL, "precision %s: the start could not be refined to its digits; use double", pl_wide_name(run));
+  return pl_fail(run->job, PLEUEL_NUMERICAL,
+                 "precision %s: the start could not be refined to its digits; use double",
+                 pl_wide_name(run));
 }
 
 pleuel_status pl_wide_begin(pl_run* run, double t) {
@@ -120,7 +129,8 @@ pleuel_status pl_wide_begin(pl_run* run, double t) {
   w->fine->write(w->m, w->o->length, 1, &none);
   memcpy(run->trial_q, run->q, (size_t)run->n_q * sizeof(double));
   memcpy(run->trial_v, run->v, (size_t)run->n_q * sizeof(double));
-  if (!pl_wide_project(run, &p) || p.g_after > 1e3 * w->floor || p.r_after > 1e3 * w->floor) return lost(run);
+  if (!pl_wide_project(run, &p) || p.g_after > 1e3 * w->floor || p.r_after > 1e3 * w->floor)
+    return lost(run);
   memcpy(run->q, run->trial_q, (size_t)run->n_q * sizeof(double));
   memcpy(run->v, run->trial_v, (size_t)run->n_q * sizeof(double));
   pl_sizes_keep(run);

@@ -1,11 +1,12 @@
-// Tapes in wide numbers: constants of a tape, and sheets, which hold all nodes of some patterns at one point.
+// Tapes in wide numbers: constants of a tape, and sheets, which hold all nodes of some patterns at
+// one point.
 #include "solve/wide_impl.h"
 
-// ---------------------------------------------------------------------------------------------- one instance
+// ------------------------------------------------------------------------------------ one instance
 typedef struct writer {
   pl_prog* code;
-  int base;          // memory of node 0
-  int* known;        // register of a node, -1: in memory
+  int base;    // memory of node 0
+  int* known;  // register of a node, -1: in memory
 } writer;
 
 static int start_of(void* user, int node) {
@@ -32,18 +33,21 @@ static void no_registers(int* known, int n) {
   for (int i = 0; i < n; i++) known[i] = -1;
 }
 
-// ---------------------------------------------------------------------------------------------- constants
+// --------------------------------------------------------------------------------------- constants
 // Inputs of level CONST: numbers in parts, the others as given.
-static void fill_inputs(const pl_real* real, void* m, const pl_tape* tape, const pl_batch* b, int lane) {
+static void fill_inputs(const pl_real* real, void* m, const pl_tape* tape, const pl_batch* b,
+                        int lane) {
   for (int i = 0; i < tape->level_end[PL_LEVEL_CONST]; i++) {
     const pl_tape_node* n = &tape->nodes[i];
     if (n->op == PL_OP_CONST) real->set(m, i, (pl_parts){{n->value, n->rest[0], n->rest[1]}});
     else if (n->op == PL_OP_PARAM) real->set(m, i, (pl_parts){{tape->param_value[n->slot]}});
-    else if (n->op == PL_OP_INDEX) real->set(m, i, (pl_parts){{b ? pl_jet_at(b->jet, i, 0)[lane] : 0}});
+    else if (n->op == PL_OP_INDEX)
+      real->set(m, i, (pl_parts){{b ? pl_jet_at(b->jet, i, 0)[lane] : 0}});
   }
 }
 
-static void constants(pl_arena* a, const pl_real* real, const pl_tape* tape, const pl_batch* b, int lane, pl_parts* out) {
+static void constants(pl_arena* a, const pl_real* real, const pl_tape* tape, const pl_batch* b,
+                      int lane, pl_parts* out) {
   int n = tape->level_end[PL_LEVEL_CONST];
   pl_prog* code = pl_prog_make(a, "constants", 1);
   writer w = {code, 0, PL_ARRAY(a, int, n + 1)};
@@ -56,7 +60,8 @@ static void constants(pl_arena* a, const pl_real* real, const pl_tape* tape, con
   for (int i = 0; i < n; i++) out[i] = real->get(m, i);
 }
 
-void pl_wide_constants(pl_arena* a, const pl_real* real, const pl_batch* b, int lane, pl_parts* out) {
+void pl_wide_constants(pl_arena* a, const pl_real* real, const pl_batch* b, int lane,
+                       pl_parts* out) {
   constants(a, real, b->pattern->tape, b, lane, out);
 }
 
@@ -66,7 +71,7 @@ void pl_wide_roots(pl_arena* a, const pl_real* real, const pl_tape* tape, pl_par
   for (int i = 0; i < tape->n_roots; i++) out[i] = node[tape->roots[i]];
 }
 
-// ---------------------------------------------------------------------------------------------- sheets
+// ------------------------------------------------------------------------------------------ sheets
 static int input_place(const pl_sheet* s, const pl_batch* b, const pl_tape_node* n, int lane) {
   int slot = n->slot * b->lanes + lane;
   switch ((pl_op)n->op) {
@@ -105,11 +110,16 @@ static void write_constants(pl_sheet* s, pl_arena* a, const pl_batch* b, int lan
 static int lay_out(pl_sheet* s, const pl_run* run, int n_out) {
   int at = 0, n_q = run->n_q;
   s->time = at++;
-  s->Q = at, at += n_q;
-  s->V = at, at += n_q;
-  s->A = at, at += n_q;
-  s->L = at, at += run->n_c;
-  s->out = at, at += n_out;
+  s->Q = at;
+  at += n_q;
+  s->V = at;
+  at += n_q;
+  s->A = at;
+  at += n_q;
+  s->L = at;
+  at += run->n_c;
+  s->out = at;
+  at += n_out;
   return at;
 }
 
@@ -129,7 +139,8 @@ pl_sheet* pl_sheet_make(pl_run* run, const pl_real* real, const pl_batches* batc
       write_instance(s, &w, &batches->at[i], l, sum);
       at += batches->at[i].pattern->tape->n_nodes;
     }
-  for (int i = 0; i < n_out; i++) pl_prog_store(s->code, sum[i] < 0 ? pl_prog_number(s->code, 0) : sum[i], s->out + i, 0);
+  for (int i = 0; i < n_out; i++)
+    pl_prog_store(s->code, sum[i] < 0 ? pl_prog_number(s->code, 0) : sum[i], s->out + i, 0);
   s->code->spill = at;
   s->m = PL_ARRAY(a, char, ((size_t)at + (size_t)s->code->n_registers + 1) * real->size);
   at = first;

@@ -1,4 +1,5 @@
-// From the Lagrange function, the forces and the constraints of a pattern to M, h, G, W, dg/dt on one tape.
+// From the Lagrange function, the forces and the constraints of a pattern to M, h, G, W, dg/dt on
+// one tape.
 #include "tape/tape.h"
 
 typedef struct builder {
@@ -12,7 +13,8 @@ typedef struct builder {
 } builder;
 
 static pl_expr diff_atom(pl_pool* p, pl_expr e, pl_expr atom) {
-  return pl_kind_of(p, atom) == PL_SYMBOL ? pl_diff(p, e, pl_symbol_of(p, atom)) : pl_diff_at(p, e, atom);
+  return pl_kind_of(p, atom) == PL_SYMBOL ? pl_diff(p, e, pl_symbol_of(p, atom))
+                                          : pl_diff_at(p, e, atom);
 }
 
 static int add_root(builder* b, pl_expr e, bool high) {
@@ -21,21 +23,23 @@ static int add_root(builder* b, pl_expr e, bool high) {
   return b->roots.n - 1;
 }
 
-#define ADD_ENTRY(b, list, row_, col_, e, high)                                                               \
-  do {                                                                                                        \
-    pl_expr entry_ = (e);                                                                                     \
-    if (!pl_is_zero_node((b)->pool, entry_))                                                                  \
-      pl_push((b)->job->arena, (b)->list, (pl_pattern_entry){(row_), (col_), add_root((b), entry_, (high))}); \
+#define ADD_ENTRY(b, list, row_, col_, e, high)                                   \
+  do {                                                                            \
+    pl_expr entry_ = (e);                                                         \
+    if (!pl_is_zero_node((b)->pool, entry_))                                      \
+      pl_push((b)->job->arena, (b)->list,                                         \
+              (pl_pattern_entry){(row_), (col_), add_root((b), entry_, (high))}); \
   } while (0)
 
-// ---------------------------------------------------------------------------------------------- dynamics
+// ---------------------------------------------------------------------------------------- dynamics
 // h_i = d/dt (dL/dv_i) without the accelerations - dL/dq_i - Q_i at λ = 0.
 static pl_expr rest_of_lagrange(builder* b, pl_expr momentum, int i, pl_expr force) {
   pl_pool* p = b->pool;
   const pl_tape_slots* s = &b->source->slots;
   pl_expr L = b->source->lagrangian;
   pl_expr h = pl_diff(p, momentum, pl_time(p));
-  for (int j = 0; j < s->n_q; j++) h = pl_add(p, h, pl_mul(p, diff_atom(p, momentum, s->q[j]), b->v[j]));
+  for (int j = 0; j < s->n_q; j++)
+    h = pl_add(p, h, pl_mul(p, diff_atom(p, momentum, s->q[j]), b->v[j]));
   if (L.id) h = pl_sub(p, h, diff_atom(p, L, s->q[i]));
   return pl_sub(p, h, force);
 }
@@ -57,18 +61,22 @@ static void add_dynamics(builder* b) {
   pl_pool* p = b->pool;
   const pl_tape_slots* s = &b->source->slots;
   for (int i = 0; i < s->n_q; i++) {
-    pl_expr momentum = b->source->lagrangian.id ? diff_atom(p, b->source->lagrangian, b->v[i]) : pl_int(p, 0);
-    for (int j = i; j < s->n_q; j++) ADD_ENTRY(b, mass, i, j, diff_atom(p, momentum, b->v[j]), true);
+    pl_expr momentum = b->source->lagrangian.id ? diff_atom(p, b->source->lagrangian, b->v[i])
+                                                : pl_int(p, 0);
+    for (int j = i; j < s->n_q; j++)
+      ADD_ENTRY(b, mass, i, j, diff_atom(p, momentum, b->v[j]), true);
     ADD_ENTRY(b, h, i, 0, rest_of_lagrange(b, momentum, i, split_force(b, i)), true);
   }
 }
 
-// ---------------------------------------------------------------------------------------------- constraints
-// The size of an expression's terms: what a relative residual is relative to.  Poison when e is not a sum.
+// ------------------------------------------------------------------------------------- constraints
+// The size of an expression's terms: what a relative residual is relative to. Poison when e is not
+// a sum.
 static pl_expr size_of_terms(pl_pool* p, pl_expr e) {
   if (pl_kind_of(p, e) != PL_ADD) return pl_poison();
   pl_expr size = pl_int(p, 0);
-  for (int i = 0; i < pl_n_args(p, e); i++) size = pl_add(p, size, pl_call(p, PL_ABS, pl_arg(p, e, i)));
+  for (int i = 0; i < pl_n_args(p, e); i++)
+    size = pl_add(p, size, pl_call(p, PL_ABS, pl_arg(p, e, i)));
   return size;
 }
 
@@ -79,7 +87,8 @@ static void add_holonomic(builder* b, int c) {
   for (int j = 0; j < s->n_q; j++) ADD_ENTRY(b, G, c, j, diff_atom(p, g, s->q[j]), true);
   ADD_ENTRY(b, gt, c, 0, pl_diff(p, g, pl_time(p)), true);
   int root = add_root(b, g, false);
-  pl_push(b->job->arena, b->g, (pl_pattern_entry){c, size.id ? add_root(b, size, false) : -1, root});
+  pl_push(b->job->arena, b->g,
+          (pl_pattern_entry){c, size.id ? add_root(b, size, false) : -1, root});
 }
 
 static void add_nonholonomic(builder* b, int c) {
@@ -101,10 +110,11 @@ static void add_constraints(builder* b) {
 
 static void add_outputs(builder* b) {
   for (int i = 0; i < b->source->n_outputs; i++)
-    pl_push(b->job->arena, b->outputs, (pl_pattern_entry){i, 0, add_root(b, b->source->output[i], true)});
+    pl_push(b->job->arena, b->outputs,
+            (pl_pattern_entry){i, 0, add_root(b, b->source->output[i], true)});
 }
 
-// ---------------------------------------------------------------------------------------------- checks
+// ------------------------------------------------------------------------------------------ checks
 // Entries must be known when the order they are needed at is computed.
 static bool levels_allow(const pl_tape* tape, const pl_pattern_entry* e, int n, pl_level highest) {
   for (int i = 0; i < n; i++)
@@ -114,16 +124,19 @@ static bool levels_allow(const pl_tape* tape, const pl_pattern_entry* e, int n, 
 
 static pleuel_status check_levels(pl_job* job, const pl_pattern* out) {
   if (!levels_allow(out->tape, out->mass, out->n_mass, PL_LEVEL_SPEED))
-    return pl_fail(job, PLEUEL_UNSUPPORTED, "the kinetic energy contains accelerations or multipliers");
+    return pl_fail(job, PLEUEL_UNSUPPORTED,
+                   "the kinetic energy contains accelerations or multipliers");
   if (!levels_allow(out->tape, out->h, out->n_h, PL_LEVEL_SPEED))
-    return pl_fail(job, PLEUEL_UNSUPPORTED, "a force contains accelerations, or multipliers of another pattern");
+    return pl_fail(job, PLEUEL_UNSUPPORTED,
+                   "a force contains accelerations, or multipliers of another pattern");
   if (!levels_allow(out->tape, out->W, out->n_W, PL_LEVEL_SPEED))
     return pl_fail(job, PLEUEL_UNSUPPORTED, "a force is not linear in a multiplier");
-  if (!levels_allow(out->tape, out->G, out->n_G, PL_LEVEL_PLACE) ||
-      !levels_allow(out->tape, out->gt, out->n_gt, PL_LEVEL_PLACE))
+  if (!levels_allow(out->tape, out->G, out->n_G, PL_LEVEL_PLACE)
+      || !levels_allow(out->tape, out->gt, out->n_gt, PL_LEVEL_PLACE))
     return pl_fail(job, PLEUEL_UNSUPPORTED, "a constraint is not linear in the velocities");
   if (!levels_allow(out->tape, out->g, out->n_g, PL_LEVEL_PLACE))
-    return pl_fail(job, PLEUEL_UNSUPPORTED, "a constraint contains velocities but is not declared so");
+    return pl_fail(job, PLEUEL_UNSUPPORTED,
+                   "a constraint contains velocities but is not declared so");
   return PLEUEL_OK;
 }
 
@@ -150,7 +163,8 @@ static void fill(const builder* b, pl_pattern* out) {
   out->index = s->index;
 }
 
-pleuel_status pl_pattern_record(pl_job* job, pl_pool* pool, const pl_pattern_source* source, pl_pattern* out) {
+pleuel_status pl_pattern_record(pl_job* job, pl_pool* pool, const pl_pattern_source* source,
+                                pl_pattern* out) {
   builder b = {.job = job, .pool = pool, .source = source};
   pl_expr* v = PL_ARRAY(job->arena, pl_expr, source->slots.n_q + 1);
   for (int i = 0; i < source->slots.n_q; i++) v[i] = pl_dt(pool, source->slots.q[i]);

@@ -1,8 +1,9 @@
-// Writing expressions down as a straight-line program: common subexpressions shared, constants kept apart, series
-// operations given the partner node that their recurrence reads.
+// Writing expressions down as a straight-line program: common subexpressions shared, constants kept
+// apart, series operations given the partner node that their recurrence reads.
 //
-// Sums become chains in the order of the expression, products are split into constants, numerator and denominator.
-// Nodes are emitted in topological order and sorted by level at the end (ORDER LEVELS).
+// Sums become chains in the order of the expression, products are split into constants, numerator
+// and denominator. Nodes are emitted in topological order and sorted by level at the end (ORDER
+// LEVELS).
 #include "tape/tape.h"
 
 #include <assert.h>
@@ -42,7 +43,8 @@ typedef struct recorder {
   const pl_tape_slots* slots;
   PL_VEC(pl_tape_node) nodes;
   PL_VEC(pl_symbol) params;
-  PL_VEC(pl_expr) constants;  // what a number is exactly, poison where its double is; empty behind the last such number
+  // what a number is exactly, poison where its double is; empty behind the last such number
+  PL_VEC(pl_expr) constants;
   pl_map *by_expr, *by_op, *by_value, *atoms, *by_param;
   int depth;
   pleuel_status status;  // of the first failure
@@ -55,14 +57,15 @@ static int give_up(recorder* r, pleuel_status s, const char* fmt, const char* wh
   return 0;  // any node will do: nobody looks at it
 }
 
-// ---------------------------------------------------------------------------------------------- emitting
+// ---------------------------------------------------------------------------------------- emitting
 // After a failure there may be no node at all.
 static pl_level level_of(const recorder* r, int node) {
   return node < 0 || node >= r->nodes.n ? PL_LEVEL_CONST : (pl_level)r->nodes.at[node].level;
 }
 
 static int append(recorder* r, pl_tape_node node) {
-  if (r->nodes.n >= MAX_NODES - 2) return give_up(r, PLEUEL_UNSUPPORTED, "the program has too many operations%s", "");
+  if (r->nodes.n >= MAX_NODES - 2)
+    return give_up(r, PLEUEL_UNSUPPORTED, "the program has too many operations%s", "");
   pl_push(r->arena, r->nodes, node);
   return r->nodes.n - 1;
 }
@@ -73,19 +76,28 @@ static int number(recorder* r, double x) {
   uint64_t key = bits + 1;  // 0.0 is not "absent"
   uint64_t known = pl_map_get(r->by_value, key);
   if (known) return (int)(known - 1);
-  int node =
-      append(r, (pl_tape_node){.op = PL_OP_CONST, .level = PL_LEVEL_CONST, .a = -1, .b = -1, .c = -1, .value = x});
+  int node = append(
+      r, (pl_tape_node){
+             .op = PL_OP_CONST, .level = PL_LEVEL_CONST, .a = -1, .b = -1, .c = -1, .value = x});
   pl_map_set(r->by_value, key, (uint64_t)node + 1);
   return node;
 }
 
-// A number that a double need not hold: 1/3, π.  x: in parts.  Numbers that round to the same double stay apart.
+// A number that a double need not hold: 1/3, π. x: in parts. Numbers that round to the same double
+// stay apart.
 static int exact_number(recorder* r, pl_expr e, const double x[3]) {
-  if (floor(x[0]) == x[0] && fabs(x[0]) < 0x1p53 && pl_is_int(r->pool, e, NULL)) return number(r, x[0]);
+  if (floor(x[0]) == x[0] && fabs(x[0]) < 0x1p53 && pl_is_int(r->pool, e, NULL))
+    return number(r, x[0]);
   uint64_t key = UINT64_C(1) << 62 | e.id;
   uint64_t known = pl_map_get(r->by_op, key);
   if (known) return (int)(known - 1);
-  int node = append(r, (pl_tape_node){.op = PL_OP_CONST, .level = PL_LEVEL_CONST, .a = -1, .b = -1, .c = -1, .value = x[0], .rest = {x[1], x[2]}});
+  int node = append(r, (pl_tape_node){.op = PL_OP_CONST,
+                                      .level = PL_LEVEL_CONST,
+                                      .a = -1,
+                                      .b = -1,
+                                      .c = -1,
+                                      .value = x[0],
+                                      .rest = {x[1], x[2]}});
   while (r->constants.n < node) pl_push(r->arena, r->constants, pl_poison());
   if (r->constants.n == node) pl_push(r->arena, r->constants, e);
   pl_map_set(r->by_op, key, (uint64_t)node + 1);
@@ -99,20 +111,25 @@ static int rational(recorder* r, pl_expr e) {
 }
 
 static int pi(recorder* r, pl_expr e) {
-  return exact_number(r, e, (const double[3]){3.14159265358979323846, 1.2246467991473531772e-16, -2.9947698097183396659e-33});
+  return exact_number(r, e,
+                      (const double[3]){3.14159265358979323846, 1.2246467991473531772e-16,
+                                        -2.9947698097183396659e-33});
 }
 
 static int input(recorder* r, pl_op op, pl_level level, int slot) {
   uint64_t key = (uint64_t)(op + 1) << 56 | (uint64_t)(slot + 1);
   uint64_t known = pl_map_get(r->by_op, key);
   if (known) return (int)(known - 1);
-  int node =
-      append(r, (pl_tape_node){.op = (uint8_t)op, .level = (uint8_t)level, .a = -1, .b = -1, .c = -1, .slot = slot});
+  int node = append(
+      r, (pl_tape_node){
+             .op = (uint8_t)op, .level = (uint8_t)level, .a = -1, .b = -1, .c = -1, .slot = slot});
   pl_map_set(r->by_op, key, (uint64_t)node + 1);
   return node;
 }
 
-static bool commutes(pl_op op) { return op == PL_OP_ADD || op == PL_OP_MUL || op == PL_OP_MIN || op == PL_OP_MAX; }
+static bool commutes(pl_op op) {
+  return op == PL_OP_ADD || op == PL_OP_MUL || op == PL_OP_MIN || op == PL_OP_MAX;
+}
 
 static int emit(recorder* r, pl_op op, int a, int b) {
   if (commutes(op) && a > b) {
@@ -124,7 +141,8 @@ static int emit(recorder* r, pl_op op, int a, int b) {
   uint64_t known = pl_map_get(r->by_op, key);
   if (known) return (int)(known - 1);
   pl_level level = level_of(r, a) > level_of(r, b) ? level_of(r, a) : level_of(r, b);
-  int node = append(r, (pl_tape_node){.op = (uint8_t)op, .level = (uint8_t)level, .a = a, .b = b, .c = -1});
+  int node = append(
+      r, (pl_tape_node){.op = (uint8_t)op, .level = (uint8_t)level, .a = a, .b = b, .c = -1});
   pl_map_set(r->by_op, key, (uint64_t)node + 1);
   return node;
 }
@@ -159,15 +177,17 @@ static int with_partner(recorder* r, pl_op op, int a, int b, int partner) {
   return x;
 }
 
-static int one_minus_square(recorder* r, int a) { return emit(r, PL_OP_SUB, number(r, 1), times(r, a, a)); }
+static int one_minus_square(recorder* r, int a) {
+  return emit(r, PL_OP_SUB, number(r, 1), times(r, a, a));
+}
 
 static int with_own_square(recorder* r, pl_op op, int a) {
-  int x = emit(r, op, a, -1), square = times(r, x, x);   // may move the list of nodes
+  int x = emit(r, op, a, -1), square = times(r, x, x);  // may move the list of nodes
   r->nodes.at[x].c = square;
   return x;
 }
 
-// ---------------------------------------------------------------------------------------------- powers
+// ------------------------------------------------------------------------------------------ powers
 static int power_int(recorder* r, int base, long n) {  // n >= 1
   int result = -1;
   while (n > 0) {
@@ -199,17 +219,19 @@ static int power(recorder* r, pl_expr base, pl_expr exponent) {
   return emit(r, PL_OP_EXP, times(r, e, emit(r, PL_OP_LN, b, -1)), -1);
 }
 
-// ---------------------------------------------------------------------------------------------- products, sums
+// ---------------------------------------------------------------------------------- products, sums
 typedef struct product {
   int constant, above, below, constant_below;
 } product;  // -1: empty
 
-static void gather(recorder* r, int* into, int node) { *into = *into < 0 ? node : times(r, *into, node); }
+static void gather(recorder* r, int* into, int node) {
+  *into = *into < 0 ? node : times(r, *into, node);
+}
 
 static void gather_factor(recorder* r, product* p, pl_expr f) {
   long num, den;
-  if (pl_kind_of(r->pool, f) == PL_POW && pl_is_ratio(r->pool, pl_arg(r->pool, f, 1), &num, &den) && num < 0 &&
-      num > -100000 && den < 100000) {
+  if (pl_kind_of(r->pool, f) == PL_POW && pl_is_ratio(r->pool, pl_arg(r->pool, f, 1), &num, &den)
+      && num < 0 && num > -100000 && den < 100000) {
     int node = power_ratio(r, record(r, pl_arg(r->pool, f, 0)), -num, den);
     gather(r, is_constant(r, node) ? &p->constant_below : &p->below, node);
     return;
@@ -218,7 +240,8 @@ static void gather_factor(recorder* r, product* p, pl_expr f) {
   gather(r, is_constant(r, node) ? &p->constant : &p->above, node);
 }
 
-// The product of a node's factors; with its number made positive when *negative tells the caller to subtract.
+// The product of a node's factors; with its number made positive when *negative tells the caller to
+// subtract.
 static int product_of(recorder* r, pl_expr e, bool* negative) {
   product p = {-1, -1, -1, -1};
   *negative = false;
@@ -232,7 +255,8 @@ static int product_of(recorder* r, pl_expr e, bool* negative) {
     gather_factor(r, &p, f);
   }
   int constant = p.constant;
-  if (p.constant_below >= 0) constant = over(r, constant < 0 ? number(r, 1) : constant, p.constant_below);
+  if (p.constant_below >= 0)
+    constant = over(r, constant < 0 ? number(r, 1) : constant, p.constant_below);
   int x = p.above;
   if (p.below >= 0) {
     // a constant above a quotient takes the place of the 1
@@ -277,7 +301,7 @@ static int record_sum(recorder* r, pl_expr e) {
   return sum < 0 ? number(r, 0) : sum;
 }
 
-// ---------------------------------------------------------------------------------------------- other nodes
+// ------------------------------------------------------------------------------------- other nodes
 static int record_call(recorder* r, pl_expr e) {
   int a = record(r, pl_arg(r->pool, e, 0));
   int b = pl_n_args(r->pool, e) > 1 ? record(r, pl_arg(r->pool, e, 1)) : -1;
@@ -288,10 +312,14 @@ static int record_call(recorder* r, pl_expr e) {
     case PL_COSH: return pair(r, PL_OP_COSH, PL_OP_SINH, a);
     case PL_TAN: return with_own_square(r, PL_OP_TAN, a);
     case PL_TANH: return with_own_square(r, PL_OP_TANH, a);
-    case PL_ASIN: return with_partner(r, PL_OP_ASIN, a, -1, emit(r, PL_OP_SQRT, one_minus_square(r, a), -1));
-    case PL_ACOS: return with_partner(r, PL_OP_ACOS, a, -1, emit(r, PL_OP_SQRT, one_minus_square(r, a), -1));
-    case PL_ATAN: return with_partner(r, PL_OP_ATAN, a, -1, emit(r, PL_OP_ADD, number(r, 1), times(r, a, a)));
-    case PL_ATAN2: return with_partner(r, PL_OP_ATAN2, a, b, emit(r, PL_OP_ADD, times(r, a, a), times(r, b, b)));
+    case PL_ASIN:
+      return with_partner(r, PL_OP_ASIN, a, -1, emit(r, PL_OP_SQRT, one_minus_square(r, a), -1));
+    case PL_ACOS:
+      return with_partner(r, PL_OP_ACOS, a, -1, emit(r, PL_OP_SQRT, one_minus_square(r, a), -1));
+    case PL_ATAN:
+      return with_partner(r, PL_OP_ATAN, a, -1, emit(r, PL_OP_ADD, number(r, 1), times(r, a, a)));
+    case PL_ATAN2:
+      return with_partner(r, PL_OP_ATAN2, a, b, emit(r, PL_OP_ADD, times(r, a, a), times(r, b, b)));
     case PL_EXP: return emit(r, PL_OP_EXP, a, -1);
     case PL_LN: return emit(r, PL_OP_LN, a, -1);
     case PL_ABS: return emit(r, PL_OP_ABS, a, -1);
@@ -300,11 +328,13 @@ static int record_call(recorder* r, pl_expr e) {
     case PL_MAX: return emit(r, PL_OP_MAX, a, b);
     default: break;
   }
-  return give_up(r, PLEUEL_UNSUPPORTED, "no numbers for the function %s", pl_function_name[pl_function_of(r->pool, e)]);
+  return give_up(r, PLEUEL_UNSUPPORTED, "no numbers for the function %s",
+                 pl_function_name[pl_function_of(r->pool, e)]);
 }
 
 static int record_if(recorder* r, pl_expr e) {
-  int a = record(r, pl_arg(r->pool, e, 0)), b = record(r, pl_arg(r->pool, e, 1)), c = record(r, pl_arg(r->pool, e, 2));
+  int a = record(r, pl_arg(r->pool, e, 0)), b = record(r, pl_arg(r->pool, e, 1)),
+      c = record(r, pl_arg(r->pool, e, 2));
   pl_level level = level_of(r, a);
   if (level_of(r, b) > level) level = level_of(r, b);
   if (level_of(r, c) > level) level = level_of(r, c);
@@ -316,7 +346,8 @@ static int record_index_sum(recorder* r, pl_expr e) {
   double lo = pl_eval(r->pool, pl_arg(r->pool, e, 1), r->slots->value_of_symbol);
   double hi = pl_eval(r->pool, pl_arg(r->pool, e, 2), r->slots->value_of_symbol);
   pl_symbol index = pl_symbol_of(r->pool, e);
-  if (!(lo == floor(lo) && hi == floor(hi) && hi - lo < MAX_SUM && fabs(lo) < 1e9 && fabs(hi) < 1e9))
+  if (!(lo == floor(lo) && hi == floor(hi) && hi - lo < MAX_SUM && fabs(lo) < 1e9
+        && fabs(hi) < 1e9))
     return give_up(r, PLEUEL_UNSUPPORTED, "the bounds of a sum are not whole numbers%s", "");
   int sum = number(r, 0);
   for (long i = (long)lo; i <= (long)hi && r->status == PLEUEL_OK; i++) {
@@ -351,7 +382,8 @@ static int record_new(recorder* r, pl_expr e) {
     case PL_NUMBER: return rational(r, e);
     case PL_PI: return pi(r, e);
     case PL_SYMBOL: return parameter(r, e);
-    case PL_AT: return give_up(r, PLEUEL_USAGE, "%s has no place here", pl_expr_text(r->arena, r->pool, e));
+    case PL_AT:
+      return give_up(r, PLEUEL_USAGE, "%s has no place here", pl_expr_text(r->arena, r->pool, e));
     case PL_ADD: return record_sum(r, e);
     case PL_MUL: return record_product(r, e);
     case PL_POW: return power(r, pl_arg(r->pool, e, 0), pl_arg(r->pool, e, 1));
@@ -378,7 +410,8 @@ static int record(recorder* r, pl_expr e) {
   uint64_t known = pl_map_get(r->by_expr, e.id);
   if (known && e.id) return (int)(known - 1);
   uint64_t atom = e.id ? pl_map_get(r->atoms, e.id) : 0;
-  if (r->depth >= MAX_DEPTH) return give_up(r, PLEUEL_UNSUPPORTED, "an expression is nested too deeply%s", "");
+  if (r->depth >= MAX_DEPTH)
+    return give_up(r, PLEUEL_UNSUPPORTED, "an expression is nested too deeply%s", "");
   r->depth++;
   int node = atom ? record_atom(r, atom) : record_new(r, e);
   r->depth--;
@@ -386,7 +419,7 @@ static int record(recorder* r, pl_expr e) {
   return node;
 }
 
-// ---------------------------------------------------------------------------------------------- the whole
+// --------------------------------------------------------------------------------------- the whole
 static void bind(recorder* r, pl_expr atom, pl_op op, int slot) {
   if (atom.id) pl_map_set(r->atoms, atom.id, (uint64_t)op << 32 | (uint64_t)slot);
 }
@@ -398,7 +431,8 @@ static void bind_slots(recorder* r) {
     bind(r, v, PL_OP_V, i);
     bind(r, pl_dt(r->pool, v), PL_OP_A, i);
   }
-  for (int i = 0; i < r->slots->n_c && r->slots->lambda; i++) bind(r, r->slots->lambda[i], PL_OP_LAMBDA, i);
+  for (int i = 0; i < r->slots->n_c && r->slots->lambda; i++)
+    bind(r, r->slots->lambda[i], PL_OP_LAMBDA, i);
 }
 
 // Marks what the motion needs above order 0: the roots that say so, their operands and partners.
@@ -467,7 +501,8 @@ static pl_tape* finish(recorder* r, const int* root, const bool* high, int n) {
     if (high == NULL || high[i]) mark_high(r, stack, root[i]);
   sort_by_level(r, tape, sorted, to);
   // functions from sin to atan2 are recurrences with a partner
-  for (int i = 0; i < n_nodes; i++) assert(sorted[i].c >= 0 || sorted[i].op < PL_OP_SIN || sorted[i].op > PL_OP_ATAN2);
+  for (int i = 0; i < n_nodes; i++)
+    assert(sorted[i].c >= 0 || sorted[i].op < PL_OP_SIN || sorted[i].op > PL_OP_ATAN2);
   for (int i = 0; i < n; i++) roots[i] = to[root[i]];
   tape->nodes = sorted;
   tape->n_nodes = n_nodes;
@@ -485,8 +520,8 @@ static pl_tape* finish(recorder* r, const int* root, const bool* high, int n) {
   return tape;
 }
 
-pleuel_status pl_tape_record(pl_job* job, pl_pool* pool, const pl_tape_slots* slots, const pl_expr* roots,
-                             const bool* high, int n, pl_tape** out) {
+pleuel_status pl_tape_record(pl_job* job, pl_pool* pool, const pl_tape_slots* slots,
+                             const pl_expr* roots, const bool* high, int n, pl_tape** out) {
   recorder r = {.job = job, .arena = job->arena, .pool = pool, .slots = slots};
   r.by_expr = pl_map_make(r.arena);
   r.by_op = pl_map_make(r.arena);

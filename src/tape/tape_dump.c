@@ -1,7 +1,8 @@
 // A tape as text, for `pleuel dump --after=record` and for golden files.
 #include "tape/tape.h"
 
-static void dump_input(pl_text* out, const pl_pool* pool, const pl_tape* tape, const pl_tape_node* node) {
+static void dump_input(pl_text* out, const pl_pool* pool, const pl_tape* tape,
+                       const pl_tape_node* node) {
   switch (node->op) {
     case PL_OP_CONST: pl_text_addf(out, " %.17g", node->value); break;
     case PL_OP_PARAM: {
