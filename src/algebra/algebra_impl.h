@@ -144,7 +144,9 @@ typedef struct pl_multiple {
 } pl_multiple;
 typedef struct pl_lattice {
   pl_expr atom;
-  long num, den;  // the base is num/den atoms
+  pl_expr shift;  // of angles: a number
+  long num, den;  // the base is num/den (atom + shift)
+  bool settled;   // the shift is
   bool hyperbolic;
   int gen;
   // largest multiple of the atom met so far; what measures all of them
@@ -205,18 +207,21 @@ struct pl_tower {
   pl_points* fine_points;  // the same at a higher precision, made when needed
   bool facts_busy;         // facts are being used: no facts inside facts
   // bases were refined or roots combined: the next service starts from an empty tower,
-  bool tangled;
   // so that its result does not depend on what was asked before
-  long work_left, work_done;  // of the running service; of all
-  bool silent;                // proofs are not recorded: nothing that is shown rests on them
-  const pl_poly* radicand;    // under the root that is being taken: >= 0, as roots are real
-  int depth;                  // of the conversion
+  bool tangled;
+  bool began_empty, wanted_empty;  // the running service did; it has to
+  long work_left, work_done;       // of the running service; of all
+  bool silent;                     // proofs are not recorded: nothing that is shown rests on them
+  const pl_poly* radicand;         // under the root that is being taken: >= 0, as roots are real
+  int depth;                       // of the conversion
 };
 
 // ------------------------------------------------------------------------------- services, tower.c
 bool pl_tower_run(pl_tower* t, void (*body)(pl_tower* t, void* data), void* data);
 _Noreturn void pl_tower_give_up(pl_tower* t);  // to the innermost service: "not found"
 _Noreturn void pl_tower_restart(pl_tower* t);  // empty the tower, start the outermost service again
+// The running service has to begin, and the next one too, as if it were the first.
+void pl_tower_start_empty(pl_tower* t);
 typedef struct pl_tower_mark {
   int polys, ints;
 } pl_tower_mark;
@@ -355,7 +360,7 @@ pl_expr pl_fmpq_expr(pl_tower* t, const fmpz* num, const fmpz* den);
 typedef struct pl_sincos {
   pl_frac s, c;
 } pl_sincos;
-pl_lattice pl_lattice_of(pl_expr atom);  // as coarse as it begins
+pl_lattice pl_lattice_of(pl_tower* t, pl_expr atom);  // as coarse as it begins
 pl_sincos pl_convert_sincos(pl_tower* t, pl_expr argument);
 pl_sincos pl_convert_sinhcosh(pl_tower* t, pl_expr argument);
 pl_frac pl_convert_exp(pl_tower* t, pl_expr argument);

@@ -5,6 +5,11 @@
 // need high powers of the base (19/20 θ beside θ) is an atom of its own, or shares the base of
 // another such atom: cos(19 u) in powers of cos u loses nine digits, and nobody can read it.
 //
+// A number that stands beside an atom, as in sin(θ + 1/4), is no angle of its own: every power of
+// the sine would have cos 1/4 and sin 1/4 in it.  The base is shifted instead: cos(θ + 1/4) and its
+// sine are the generators, and where θ comes with another number, or with none, the difference is
+// expanded.  The first angle that has no other atom tells the shift.
+//
 // Angles that are inverse functions have no base: cos(acos u) = u, sin(acos u) = sqrt(1 - u^2).
 #include "algebra/algebra_impl.h"
 
@@ -88,15 +93,16 @@ static long gcd_long(long a, long b) {
   return a < 0 ? -a : a;
 }
 
-pl_lattice pl_lattice_of(pl_expr atom) {
+pl_lattice pl_lattice_of(pl_tower* t, pl_expr atom) {
+  pl_expr none = pl_int(t->pool, 0);
   return (pl_lattice){
-      .atom = atom, .num = 1, .den = 1, .gen = -1, .most = {0, 1}, .common = {0, 1}};
+      .atom = atom, .shift = none, .num = 1, .den = 1, .gen = -1, .most = {0, 1}, .common = {0, 1}};
 }
 
 static pl_lattice* angle_lattice(pl_tower* t, pl_expr atom) {
   uint64_t known = pl_map_get(t->angle_of, atom.id);
   if (!known) {
-    pl_push(t->arena, t->angles, pl_lattice_of(atom));
+    pl_push(t->arena, t->angles, pl_lattice_of(t, atom));
     known = (uint64_t)t->angles.n;
     pl_map_set(t->angle_of, atom.id, known);
   }
@@ -106,7 +112,7 @@ static pl_lattice* angle_lattice(pl_tower* t, pl_expr atom) {
 static pl_lattice* exponent_lattice(pl_tower* t, pl_expr atom) {
   uint64_t known = pl_map_get(t->exponent_of, atom.id);
   if (!known) {
-    pl_push(t->arena, t->exponents, pl_lattice_of(atom));
+    pl_push(t->arena, t->exponents, pl_lattice_of(t, atom));
     known = (uint64_t)t->exponents.n;
     pl_map_set(t->exponent_of, atom.id, known);
   }
@@ -269,9 +275,9 @@ static bool inverse_pair(pl_tower* t, pl_expr atom, pl_sincos* out) {
 
 static pl_sincos pair_of_base(pl_tower* t, pl_lattice* l) {
   if (l->gen < 0) {
-    pl_expr base = pl_mul(t->pool, pl_ratio(t->pool, l->num, l->den), l->atom);
-    pl_expr atom = l->atom;
-    int gen = make_pair(t, base, false);
+    pl_expr atom = l->atom, part = pl_ratio(t->pool, l->num, l->den);
+    int gen = make_pair(
+        t, pl_add(t->pool, pl_mul(t->pool, part, atom), pl_mul(t->pool, part, l->shift)), false);
     angle_lattice(t, atom)->gen = gen;
     l = angle_lattice(t, atom);
   }
@@ -299,22 +305,78 @@ static bool special_pair(pl_tower* t, pl_angle_term a, pl_sincos* out) {
   return true;
 }
 
-static pl_sincos pair_of_term(pl_tower* t, pl_angle_term a) {
+static pl_expr term_expr(pl_tower* t, pl_angle_term a) {
+  return pl_mul(t->pool, pl_ratio(t->pool, a.num, a.den), a.atom);
+}
+
+static bool has_base(pl_tower* t, pl_angle_term a) {
+  pl_sincos known;
+  return !special_pair(t, a, &known)
+         && !(labs(a.num) <= PL_MAX_MULTIPLE && a.den == 1 && inverse_pair(t, a.atom, &known));
+}
+
+// The sum of the numbers in an angle, which are taken out of it.  Those whose sine is known in
+// square roots stay, and so do all of them where there is nothing else.
+static pl_expr take_offset(pl_tower* t, pl_angle* angle) {
+  pl_expr offset = pl_int(t->pool, 0);
+  pl_angle rest = {0};
+  for (int i = 0; i < angle->n; i++) {
+    pl_angle_term a = angle->at[i];
+    if (pl_is_constant(t->pool, a.atom) && has_base(t, a)) {
+      offset = pl_add(t->pool, offset, term_expr(t, a));
+    } else {
+      rest.at[rest.n++] = a;
+    }
+  }
+  if (rest.n == 0) return pl_int(t->pool, 0);
+  *angle = rest;
+  return offset;
+}
+
+// The first angle of this atom alone tells how its base is shifted.
+static void settle_shift(pl_tower* t, pl_lattice* l, long n, pl_expr offset) {
+  if (!pl_is_zero_node(t->pool, offset)) pl_tower_start_empty(t);
+  if (l->settled || n == 0) return;
+  l->settled = true;
+  pl_expr shift = pl_mul(t->pool, pl_ratio(t->pool, l->den, l->num * n), offset);
+  if (pl_same(shift, l->shift)) return;
+  l->shift = shift;
+  if (l->gen >= 0) pl_tower_restart(t);
+}
+
+// The pair of one term; where its base is shifted, *offset becomes less by as much.
+static pl_sincos pair_of_term(pl_tower* t, pl_angle_term a, bool alone, pl_expr* offset) {
   pl_sincos r;
   if (special_pair(t, a, &r)) return r;
   if (a.den == 1 && labs(a.num) <= PL_MAX_MULTIPLE && inverse_pair(t, a.atom, &r))
     return multiple(t, r, a.num, false);
   long n = 0;
   pl_lattice* l = lattice_of_multiple(t, angle_lattice, a, &n);
+  if (alone) settle_shift(t, l, n, *offset);
+  pl_expr taken = pl_mul(t->pool, pl_ratio(t->pool, l->num * n, l->den), l->shift);
+  *offset = pl_sub(t->pool, *offset, taken);
   return multiple(t, pair_of_base(t, l), n, false);
+}
+
+static pl_sincos pair_of_number(pl_tower* t, pl_expr number) {
+  pl_angle angle;
+  split(t, number, false, &angle);
+  pl_sincos r = {pl_frac_int(t, 0), pl_frac_int(t, 1)};
+  pl_expr none = pl_int(t->pool, 0);
+  for (int i = 0; i < angle.n; i++)
+    r = product(t, r, pair_of_term(t, angle.at[i], false, &none), false);
+  return r;
 }
 
 pl_sincos pl_convert_sincos(pl_tower* t, pl_expr argument) {
   pl_angle angle;
   split(t, argument, false, &angle);
+  pl_expr offset = take_offset(t, &angle);
   pl_sincos r = {pl_frac_int(t, 0), pl_frac_int(t, 1)};
-  for (int i = 0; i < angle.n; i++) r = product(t, r, pair_of_term(t, angle.at[i]), false);
-  return r;
+  for (int i = 0; i < angle.n; i++) {
+    r = product(t, r, pair_of_term(t, angle.at[i], angle.n == 1, &offset), false);
+  }
+  return pl_is_zero_node(t->pool, offset) ? r : product(t, r, pair_of_number(t, offset), false);
 }
 
 // --------------------------------------------------------------------------------------- exponents

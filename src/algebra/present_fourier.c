@@ -228,18 +228,23 @@ static int common_multiple(const wave_key* key) {
 static const pl_form* argument_form(series* w, const wave_key* key, pl_expr* value) {
   pl_search* s = w->s;
   int common = common_multiple(key);
-  pl_expr inner = pl_int(s->p, 0);
+  pl_expr inner = pl_int(s->p, 0), numbers = inner;
   int n = 0;
   for (int j = 0; j < w->n_angles; j++) {
     if (key->k[j] == 0) continue;
     pl_expr angle = pl_arg(s->p, s->t->gens.at[w->cos_gen[j]].expr, 0);
-    inner = pl_add(s->p, inner, pl_mul(s->p, pl_int(s->p, key->k[j] / common), angle));
+    pl_expr number = pl_take_number(s->p, &angle), k = pl_int(s->p, key->k[j] / common);
+    inner = pl_add(s->p, inner, pl_mul(s->p, k, angle));
+    numbers = pl_add(s->p, numbers, pl_mul(s->p, k, number));
     n++;
   }
-  *value = pl_mul(s->p, pl_int(s->p, common), inner);
+  *value = pl_mul(s->p, pl_int(s->p, common), pl_add(s->p, inner, numbers));
   const pl_form* f = pl_form_of(s->a, s->p, inner);
+  bool plain = pl_is_zero_node(s->p, numbers);
+  if (!plain)
+    f = pl_form_sum(s->a, (const pl_form* const[]){f, pl_form_of(s->a, s->p, numbers)}, 2);
   if (common == 1) return f;
-  if (n == 1) return pl_form_of(s->a, s->p, *value);
+  if (n == 1 && plain) return pl_form_of(s->a, s->p, *value);
   return pl_form_product(s->a,
                          (const pl_form* const[]){pl_form_leaf(s->a, pl_int(s->p, common)), f}, 2);
 }

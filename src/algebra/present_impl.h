@@ -96,6 +96,8 @@ bool pl_prod_is_zero(const pl_search* s, pl_prod x);
 bool pl_prod_is_negative(const pl_search* s, pl_prod x);
 bool pl_prod_has_denominator(pl_prod x);
 pl_piece pl_piece_of_gen(pl_search* s, int gen);
+// The number in a sum, which is taken out of it; 0: there is none.
+pl_expr pl_take_number(pl_pool* p, pl_expr* e);
 pl_prod pl_prod_of_gen(pl_search* s, int gen, int power);
 pl_prod pl_prod_of_exponents(pl_search* s, pl_expr unit, const ulong* exponent);
 const pl_form* pl_prod_form(pl_search* s, pl_prod x);

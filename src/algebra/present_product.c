@@ -158,6 +158,26 @@ pl_prod pl_prod_scale(pl_search* s, pl_prod x, pl_expr number) {
 pl_prod pl_prod_neg(pl_search* s, pl_prod x) { return pl_prod_scale(s, x, pl_int(s->p, -1)); }
 
 // A function with its argument in its own best form.
+// The number in a sum, which is taken out of it; 0: there is none.
+pl_expr pl_take_number(pl_pool* p, pl_expr* e) {
+  for (int i = 0; pl_kind_of(p, *e) == PL_ADD && i < pl_n_args(p, *e); i++) {
+    pl_expr number = pl_arg(p, *e, i);
+    if (!pl_is_constant(p, number)) continue;
+    *e = pl_sub(p, *e, number);
+    return number;
+  }
+  return pl_int(p, 0);
+}
+
+// The angle of a sine, where a number stands beside the others: θ + 1/4, not (4 θ + 1)/4.
+static const pl_form* angle_form(pl_search* s, pl_expr angle) {
+  pl_expr number = pl_take_number(s->p, &angle);
+  const pl_form* f = pl_prod_form(
+      s, pl_prod_flip(s, pl_present_quotient(s, pl_convert(s->t, angle), 1)));
+  if (pl_is_zero_node(s->p, number)) return f;
+  return pl_form_sum(s->a, (const pl_form* const[]){f, pl_form_of(s->a, s->p, number)}, 2);
+}
+
 static const pl_form* call_form(pl_search* s, pl_expr e) {
   if (pl_kind_of(s->p, e) != PL_CALL) return pl_form_of(s->a, s->p, e);
   int n = pl_n_args(s->p, e);
@@ -166,6 +186,8 @@ static const pl_form* call_form(pl_search* s, pl_expr e) {
     pl_expr x = pl_arg(s->p, e, i);
     if (pl_kind_of(s->p, x) == PL_SYMBOL || pl_is_constant(s->p, x))
       args[i] = pl_form_of(s->a, s->p, x);
+    else if (pl_function_of(s->p, e) == PL_SIN || pl_function_of(s->p, e) == PL_COS)
+      args[i] = angle_form(s, x);
     else args[i] = pl_prod_form(s, pl_prod_flip(s, pl_present_quotient(s, pl_convert(s->t, x), 1)));
   }
   return pl_form_call(s->a, pl_function_of(s->p, e), args, n);

@@ -172,8 +172,11 @@ static bool angle_scale(pl_roots* r, pl_expr base, pl_expr* slope, pl_expr* offs
 }
 
 static void add_angle(pl_roots* r, pl_expr u, pl_expr slope, pl_expr offset, pl_expr condition) {
-  pl_expr x = pl_div(r->p, pl_sub(r->p, u, offset), slope);
-  add_root(r, normal(r, x), condition);
+  // a number stays apart, so that it goes where the root is inserted into θ + 1/4
+  bool apart = pl_is_constant(r->p, offset) && !pl_is_constant(r->p, u);
+  pl_expr x = pl_div(r->p, apart ? u : pl_sub(r->p, u, offset), slope);
+  x = normal(r, x);
+  add_root(r, apart ? pl_sub(r->p, x, normal(r, pl_div(r->p, offset, slope))) : x, condition);
 }
 
 static pl_expr within_one(pl_roots* r, pl_expr c) {

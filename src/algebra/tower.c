@@ -84,20 +84,24 @@ static void empty_tower(pl_tower* t, int capacity);
 
 // Bases as coarse as they were before anything was asked.
 static void untangle(pl_tower* t) {
-  for (int i = 0; i < t->angles.n; i++) t->angles.at[i] = pl_lattice_of(t->angles.at[i].atom);
+  for (int i = 0; i < t->angles.n; i++) t->angles.at[i] = pl_lattice_of(t, t->angles.at[i].atom);
   for (int i = 0; i < t->exponents.n; i++)
-    t->exponents.at[i] = pl_lattice_of(t->exponents.at[i].atom);
+    t->exponents.at[i] = pl_lattice_of(t, t->exponents.at[i].atom);
   t->tangled = false;
+  t->began_empty = true;
+  t->wanted_empty = false;
   empty_tower(t, t->capacity);
 }
 
 static bool run_outermost(pl_tower* t, void (*body)(pl_tower*, void*), void* data) {
+  t->began_empty = false;
   if (t->tangled) untangle(t);
   for (int tries = 0; tries < PL_MAX_RESTARTS; tries++) {
     int why = 0;
     if (run_once(t, body, data, &why)) return true;
     if (why != PL_J_RESTART) return false;
-    empty_tower(t, t->capacity);
+    if (t->wanted_empty) untangle(t);
+    else empty_tower(t, t->capacity);
   }
   return false;
 }
@@ -148,6 +152,13 @@ _Noreturn void pl_tower_restart(pl_tower* t) {
   pl_entry* e = t->entry;
   while (e->outer) e = e->outer;
   longjmp(e->at, PL_J_RESTART);
+}
+
+void pl_tower_start_empty(pl_tower* t) {
+  t->tangled = true;
+  if (t->began_empty) return;
+  t->wanted_empty = true;
+  pl_tower_restart(t);
 }
 
 void pl_tower_charge(pl_tower* t, long work) {

@@ -100,6 +100,34 @@ PL_TEST(high_multiples_of_an_angle_stay_as_they_are) {
   pl_world_free(w);
 }
 
+// cos(x + 1/4) in powers of cos x and sin x has cos 1/4 and sin 1/4 among them, and so has every product of it.
+PL_TEST(a_number_beside_an_angle_shifts_it) {
+  pl_world* w = pl_world_make(NULL);
+  NORMAL(w, "cos(x + 1/4)^2 + sin(x + 1/4)^2 + sin(x + 1/4)", "sin(x + 1/4) + 1");
+  NORMAL(w, "sin(x/2 + 3)*l", "l*sin(x/2 + 3)");
+  pl_assert_zero(w, "sin(2*x + 1/2) - 2*sin(x + 1/4)*cos(x + 1/4)");
+  pl_assert_zero(w, "cos(x - y) - cos(x + 1/4)*cos(y + 1/4) - sin(x + 1/4)*sin(y + 1/4)");
+  pl_assert_zero(w, "sin(x + 1/4) - sin(x)*cos(1/4) - cos(x)*sin(1/4)");
+  pl_assert_zero(w, "sin(x)*cos(1/4) + cos(x)*sin(1/4) - sin(x + 1/4)");
+  pl_assert_zero(w, "sin(x + 1/4)*cos(1/12) + cos(x + 1/4)*sin(1/12) - sin(x + 1/3)");
+  pl_assert_zero(w, "cos(x + pi/9)*cos(pi/9) + sin(x + pi/9)*sin(pi/9) - cos(x)");
+  pl_assert_zero(w, "sin(asin(y) - 1/4 + 1/4) - y");
+  pl_assert_not_zero(w, "sin(x + 1/4) - sin(x)");
+  pl_world_free(w);
+}
+
+PL_TEST(a_shift_does_not_depend_on_history) {
+  pl_world* w = pl_world_make(NULL);
+  NORMAL(w, "cos(x)", "cos(x)");
+  NORMAL(w, "cos(x + 1/4)", "cos(x + 1/4)");
+  NORMAL(w, "cos(x)", "cos(x)");
+  pl_world* fresh = pl_world_make(NULL);
+  const char* mixed = "cos(x)*sin(x + 1/4) + cos(x + 1/3)";
+  assert_string_equal(pl_text_normal(w, mixed), pl_text_normal(fresh, mixed));
+  pl_world_free(fresh);
+  pl_world_free(w);
+}
+
 PL_TEST(logarithms_and_inverse_functions) {
   pl_world* w = pl_world_make(NULL);
   pl_assert_zero(w, "ln(m1*l^2/m2) - ln(m1) - 2*ln(l) + ln(m2)");
@@ -326,6 +354,8 @@ int main(void) {
       cmocka_unit_test(roots_depend_on_each_other),
       cmocka_unit_test(exponentials_form_a_lattice),
       cmocka_unit_test(high_multiples_of_an_angle_stay_as_they_are),
+      cmocka_unit_test(a_number_beside_an_angle_shifts_it),
+      cmocka_unit_test(a_shift_does_not_depend_on_history),
       cmocka_unit_test(logarithms_and_inverse_functions),
       cmocka_unit_test(the_normal_form_does_not_depend_on_history),
       cmocka_unit_test(denominators_begin_with_a_positive_mass),

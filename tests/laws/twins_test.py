@@ -349,7 +349,6 @@ def models(paths):
 KNOWN = {
     ("hoop", ""): "the coordinate x is proposed, and the motion leaves the half where its formulas hold",
 }
-SLOW = {("twin", "shifted")}    # forty seconds
 
 
 def known(name, kind):
@@ -380,8 +379,6 @@ def compare(program, path, options, totals):
     if options.kinds:
         twins = [t for t in twins if t.kind in options.kinds.split(",")]
     for twin in twins if options.all or options.kinds else three(twins, name):
-        if (name, twin.kind) in SLOW and not options.kinds:
-            continue
         if options.show:
             print(f"# ---- {name}, {twin.kind}\n{twin.text}")
         try:
