@@ -7,12 +7,13 @@
 
 enum { max_roots = 8 };
 
-// (dg/dx)^2 on the map, for a coordinate that is one of several roots; poison for others.
+// (dg/dx)^2 on the map, for a coordinate that is one of several roots; poison for others.  g is the
+// constraint as it was solved, with the coordinates inserted that others had given before: as it
+// stands in the model it may not contain x.
 static pl_expr slope_squared(pl_analysis* d, int i) {
   const pl_variable* c = &d->q.at[i];
-  if (c->solved_by < 0 || !c->by_branch || pl_follower(d, i) >= 0) return pl_poison();
-  pl_expr slope = pl_diff(d->pool, d->g.at[c->solved_by].place, c->q);
-  return pl_alg_normal(d->tower, pl_square(d->pool, pl_on_maps(d, slope)));
+  if (c->solved_by < 0 || !c->by_branch || pl_is_poison(c->solved_slope)) return pl_poison();
+  return pl_alg_normal(d->tower, pl_square(d->pool, pl_on_maps(d, c->solved_slope)));
 }
 
 bool pl_map_fails_at(pl_analysis* d, const pl_replace* at, int n) {

@@ -18,9 +18,10 @@ typedef struct pl_variable {
   pl_expr map;
   bool by_branch;  // map is one of several roots
   // index of the constraint that map solves, -1: of `choose`, -2: generalized itself or fixed, -3:
-  // its own
+  // its own equation, which contains no acceleration
   int solved_by;
-  // equation, which contains no acceleration
+  // d(constraint)/dq where it was solved, with the maps of that moment; poison: not solved alone
+  pl_expr solved_slope;
   bool by_combination;  // of several equations, rather
 } pl_variable;
 

@@ -213,6 +213,7 @@ static bool solve_link_for(pl_analysis* d, int k, bool roots, bool started) {
     if (has_start(d, &d->q.at[i]) != started) continue;
     pl_expr value;
     if (roots ? solve_roots(d, e, i, &value) : solve_linear(d, e, i, &value)) {
+      d->q.at[i].solved_slope = pl_diff(d->pool, e, d->q.at[i].q);
       set_map(d, i, value, k);
       return true;
     }

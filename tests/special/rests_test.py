@@ -189,6 +189,32 @@ def check_sides(program):
     tap.check("and without numbers they are told of", "There are others" in rests(document)[1], rests(document)[1])
 
 
+BARS = """param g = 9.81
+coord {order}
+axes x right, y up
+mass A: 1 at (sin(a0{shift}), cos(a0{shift}))
+mass B: 1 at (1 + sin(a1{shift}), cos(a1{shift}))
+mass C: 2 at (x, y)
+gravity g along -y
+constraint b0x: x = sin(a0{shift})
+constraint b0y: y = cos(a0{shift})
+constraint b1x: x = sin(a1{shift})
+constraint b1y: y = cos(a1{shift}), redundant ok
+init a0 = 0.1, a1 = 0.1
+ask equilibria
+"""
+
+
+def check_chains(program):
+    """Maps that are inserted into each other, in both orders, and with angles counted from elsewhere."""
+    for order in ("x, y, a0, a1", "a1, a0, y, x"):
+        for shift, place in (("", 0), (" + 0.25", -0.25)):
+            document, _ = solve(program, BARS.format(order=order, shift=shift))
+            found, said = rests(document)
+            tap.check(f"parallel bars in the order {order}, angles{shift or ' as they are'}: they stand upright, not stably",
+                      any(abs(q - place) < 1e-9 and s == "unstable" for q, s in found.items()), (found, said))
+
+
 TRAMMEL = """param m = 1 [kg], M = 2 [kg], l = 1 [m], g = 9.81 [m/s^2], k = 30 [N/m]
 coord θ
 axes x right, y up
@@ -216,6 +242,7 @@ def main(program):
     check_driven_damping(program)
     check_lets(program)
     check_sides(program)
+    check_chains(program)
     check_existence(program)
     tap.done()
 
