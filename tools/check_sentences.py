@@ -8,7 +8,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 STRING = re.compile(r'"((?:[^"\\]|\\.)*)"')
-CALLS = {"src": r"\b(?:pl_fail|fail|give_up)\(", "cli": r"\bcli_error\("}
+CALLS = {"src": r"\b(?:pl_fail|pl_api_fail|fail|give_up)\(", "cli": r"\bcli_error\("}
 LISTS = {"src": ROOT / "src/base/sentences.def", "cli": ROOT / "cli/cli_sentences.def"}
 
 

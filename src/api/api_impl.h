@@ -119,6 +119,17 @@ struct pleuel_model {
   double stage_ms[PL_N_STAGES];
 };
 
+// ---- api_context.c: the way of every public function
+pleuel_status pl_api_fail(pleuel* ctx, pleuel_status s, const char* sentence);
+// Copies options into a structure of `size` bytes; what the caller does not know keeps its default.
+void pl_api_options(void* to, size_t size, const void* from);
+typedef pleuel_status pl_api_work(pleuel_model* m, void* argument);
+// Runs work under a guard.  Status and sentence of the job become those of the context.
+pleuel_status pl_api_guarded(pleuel_model* m, pl_api_work* work, void* argument);
+pl_language pl_api_language(const char* name, pl_language otherwise);
+// What is asked for, else what the file names, else what the context speaks.
+pl_language pl_api_language_of(const pleuel_model* m, const char* asked);
+
 // ---- pipeline.c: every arrow
 pleuel_status pl_pipeline_parse(pleuel_model* m);
 pleuel_status pl_pipeline_check(pleuel_model* m);

@@ -1,339 +1,12 @@
-// pleuel: the public functions. Each enters through a guard, so that memory that runs out becomes a
-// status, does one step of the pipeline, and hands out a text or a status.
-#include "pleuel.h"
-
-#include <errno.h>
+// What is made of a model: check, worked solution, LaTeX, pages, pictures, motion.  Each public
+// function takes the steps of the pipeline that it needs and hands out a text or a status.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "api/api_impl.h"
-
-const char* pleuel_version(void) { return PLEUEL_VERSION; }
-
-// ----------------------------------------------------------------------------------------- context
-pleuel* pleuel_open(const pleuel_allocator* alloc) {
-  pl_arena* arena = pl_arena_make(alloc);
-  if (!arena) return NULL;
-  pleuel* volatile ctx = NULL;
-  pl_guard guard;
-  PL_GUARD(arena, guard) {
-    pleuel* c = PL_NEW(arena, pleuel);
-    c->arena = arena;
-    if (alloc) {
-      pleuel_allocator* copy = PL_NEW(arena, pleuel_allocator);
-      *copy = *alloc;
-      c->alloc = copy;
-    }
-    ctx = c;
-  }
-  pl_guard_end(arena, &guard);
-  if (!ctx) pl_arena_free(arena);
-  return ctx;
-}
-
-void pleuel_close(pleuel* ctx) {
-  if (!ctx) return;
-  while (ctx->first) pleuel_model_free(ctx->first);
-  pl_arena_free(ctx->arena);
-}
-
-void pleuel_thread_end(void) { pl_algebra_thread_end(); }
-
-const char* pleuel_message(const pleuel* ctx) { return ctx ? ctx->message : ""; }
-
-static pl_language language_of(const char* name, pl_language otherwise) {
-  if (!name || !*name) return otherwise;
-  return strncmp(name, "de", 2) == 0 ? PL_GERMAN : PL_ENGLISH;
-}
-
-// What is asked for, else what the file names, else what the context speaks: messages and solution
-// alike.
-static pl_language solution_language(const pleuel_model* m, const char* asked) {
-  return language_of(asked, m->job.lang);
-}
-
-static pleuel_status fail(pleuel* ctx, pleuel_status s, const char* sentence) {
-  snprintf(ctx->message, sizeof ctx->message, "%s", pl_in_language(ctx->lang, sentence));
-  return s;
-}
-
-pleuel_status pleuel_set_language(pleuel* ctx, const char* lang) {
-  if (!ctx) return PLEUEL_USAGE;
-  ctx->message[0] = '\0';
-  if (!lang || (strncmp(lang, "en", 2) != 0 && strncmp(lang, "de", 2) != 0)) {
-    return fail(ctx, PLEUEL_USAGE, "languages are en and de");
-  }
-  ctx->lang = language_of(lang, PL_ENGLISH);
-  return PLEUEL_OK;
-}
-
-void pleuel_set_memory_limit(pleuel* ctx, size_t bytes) {
-  if (ctx) ctx->limit = bytes;
-}
-
-void pleuel_interrupt(pleuel* ctx) {
-  if (ctx) ctx->interrupted = 1;
-}
-
-void pleuel_interrupt_clear(pleuel* ctx) {
-  if (ctx) ctx->interrupted = 0;
-}
-
-// ----------------------------------------------------------------------------------- guarded calls
-// Options of an older caller are shorter: what it does not know keeps its default.
-static void copy_options(void* to, size_t size, const void* from) {
-  memset(to, 0, size);
-  if (!from) return;
-  size_t given;
-  memcpy(&given, from, sizeof given);
-  memcpy(to, from, given < size ? given : size);
-}
-
-typedef pleuel_status pl_work(pleuel_model* m, void* argument);
-
-// Runs work under a guard.  Status and sentence of the job become those of the context.
-static pleuel_status guarded(pleuel_model* m, pl_work* work, void* argument) {
-  pleuel* ctx = m->ctx;
-  ctx->message[0] = '\0';
-  if (m->broken) return fail(ctx, PLEUEL_NO_MEMORY, "memory ran out earlier; free this model");
-  m->job.message[0] = '\0';
-  m->job.status = PLEUEL_OK;
-  volatile pleuel_status status = PLEUEL_NO_MEMORY;
-  pl_guard guard;
-  PL_GUARD(m->arena, guard) { status = work(m, argument); }
-  else {
-    status = guard.status;
-    m->broken = true;
-  }
-  pl_guard_end(m->arena, &guard);
-  if (m->broken && status == PLEUEL_NO_MEMORY) {
-    fail(ctx, PLEUEL_NO_MEMORY,
-         ctx->limit ? "this takes more memory than the limit allows" : "memory ran out");
-  } else if (m->job.message[0]) {
-    fail(ctx, status, m->job.message);
-  }
-  return status;
-}
-
-// ----------------------------------------------------------------------------------------- loading
-typedef struct pl_reading {
-  const char* text;
-  size_t size;
-  const pleuel_load_options* options;
-  bool is_file;
-} pl_reading;
-
-// Includes of the caller.
-static const pl_source* read_by_caller(void* user, pl_arena* a, const char* path,
-                                       const pl_source* from) {
-  const pleuel_load_options* o = user;
-  const char* text = o->read(o->read_user, path, from ? from->name : "");
-  return text ? pl_source_make(a, pl_copy(a, path), pl_copy(a, text), strlen(text)) : NULL;
-}
-
-// a model is kilobytes; this keeps a mistyped name from filling the memory
-enum { MAX_FILE_BYTES = 64 << 20 };
-
-// The whole of a file, NUL-terminated; NULL with errno set when it cannot be read.
-static char* read_file(pl_arena* a, const char* path, size_t* size) {
-  FILE* f = fopen(path, "rb");
-  if (!f) return NULL;
-  pl_text text = pl_text_make(a);
-  char piece[1 << 14];
-  size_t n;
-  bool fits = true;
-  while (fits && (n = fread(piece, 1, sizeof piece, f)) > 0) {
-    pl_text_add_n(&text, piece, n);
-    fits = text.n <= MAX_FILE_BYTES;
-  }
-  int why = fits ? errno : EFBIG;
-  bool bad = ferror(f) || !fits;
-  fclose(f);
-  errno = why;
-  if (bad) return NULL;
-  *size = text.n;
-  return text.at ? text.at : pl_copy(a, "");
-}
-
-// Includes of a file: what lies beside it.
-static const pl_source* read_beside(void* user, pl_arena* a, const char* path,
-                                    const pl_source* from) {
-  (void)user;
-  const char* slash = from ? strrchr(from->name, '/') : NULL;
-  const char* full = path[0] == '/' || !slash
-                         ? path
-                         : pl_format(a, "%.*s/%s", (int)(slash - from->name), from->name, path);
-  size_t size = 0;
-  char* text = read_file(a, full, &size);
-  return text ? pl_source_make(a, pl_copy(a, full), text, size) : NULL;
-}
-
-static pleuel_status load(pleuel_model* m, void* argument) {
-  pl_reading* l = argument;
-  const pleuel_load_options* o = l->options;
-  if (l->is_file) {
-    size_t size = 0;
-    char* text = read_file(m->arena, l->text, &size);
-    if (!text) return pl_fail(&m->job, PLEUEL_FILE, "%s: %s", l->text, strerror(errno));
-    l->text = text;
-    l->size = size;
-  } else {
-    l->text = pl_copy_n(m->arena, l->text, l->size);
-  }
-  m->source = pl_source_make(m->arena, m->name, l->text, l->size);
-
-  pl_setting* set = PL_ARRAY(m->arena, pl_setting, o->n_settings);
-  for (size_t i = 0; i < o->n_settings; i++) {
-    set[i] = (pl_setting){pl_copy(m->arena, o->settings[i].name),
-                          pl_copy(m->arena, o->settings[i].value)};
-  }
-  m->settings = set;
-  m->n_settings = (int)o->n_settings;
-
-  pl_include_reader* reader = PL_NEW(m->arena, pl_include_reader);
-  if (o->read) {
-    pleuel_load_options* keep = PL_NEW(m->arena, pleuel_load_options);
-    *keep = *o;
-    *reader = (pl_include_reader){read_by_caller, keep};
-  } else if (l->is_file) {
-    *reader = (pl_include_reader){read_beside, NULL};
-  }
-  m->reader = reader->read ? reader : NULL;
-  return pl_pipeline_parse(m);
-}
-
-// Makes an empty model; NULL when memory is short.
-static pleuel_model* model_make(pleuel* ctx, const char* name) {
-  pl_arena* arena = pl_arena_make(ctx->alloc);
-  if (!arena) return NULL;
-  if (ctx->limit) pl_arena_limit(arena, ctx->limit);
-  pleuel_model* volatile made = NULL;
-  pl_guard guard;
-  PL_GUARD(arena, guard) {
-    pleuel_model* m = PL_NEW(arena, pleuel_model);
-    m->ctx = ctx;
-    m->arena = arena;
-    m->diagnostics.arena = arena;
-    m->job = (pl_job){.arena = arena,
-                      .diagnostics = &m->diagnostics,
-                      .interrupted = &ctx->interrupted,
-                      .lang = ctx->lang};
-    m->name = pl_copy(arena, name);
-    made = m;
-  }
-  pl_guard_end(arena, &guard);
-  pleuel_model* m = made;
-  if (!m) {
-    pl_arena_free(arena);
-    return NULL;
-  }
-  m->next = ctx->first;
-  if (m->next) m->next->before = m;
-  ctx->first = m;
-  return m;
-}
-
-static pleuel_status load_model(pleuel* ctx, pleuel_model** model, pl_reading* l,
-                                const char* name) {
-  pleuel_model* m = model_make(ctx, name);
-  if (!m) return fail(ctx, PLEUEL_NO_MEMORY, "memory ran out");
-  pleuel_status s = guarded(m, load, l);
-  if (s == PLEUEL_FILE || m->broken) {
-    char sentence[sizeof ctx->message];
-    memcpy(sentence, ctx->message, sizeof sentence);
-    pleuel_model_free(m);
-    memcpy(ctx->message, sentence, sizeof sentence);
-    return s;
-  }
-  if (s == PLEUEL_MODEL_ERROR && !ctx->message[0]) fail(ctx, s, "the model has errors");
-  *model = m;
-  return s;
-}
-
-pleuel_status pleuel_load_text(pleuel* ctx, pleuel_model** model, const char* text, size_t size,
-                               const pleuel_load_options* options) {
-  if (!ctx || !model) return PLEUEL_USAGE;
-  *model = NULL;
-  ctx->message[0] = '\0';
-  if (!text) return fail(ctx, PLEUEL_USAGE, "there is no text");
-  if (size > MAX_FILE_BYTES) return fail(ctx, PLEUEL_FILE, "the text is too long for a model");
-  pleuel_load_options o;
-  copy_options(&o, sizeof o, options);
-  pl_reading l = {text, size, &o, false};
-  return load_model(ctx, model, &l, o.name ? o.name : "<text>");
-}
-
-pleuel_status pleuel_load_file(pleuel* ctx, pleuel_model** model, const char* path,
-                               const pleuel_load_options* options) {
-  if (!ctx || !model) return PLEUEL_USAGE;
-  *model = NULL;
-  ctx->message[0] = '\0';
-  if (!path) return fail(ctx, PLEUEL_USAGE, "there is no file name");
-  pleuel_load_options o;
-  copy_options(&o, sizeof o, options);
-  pl_reading l = {path, 0, &o, true};
-  return load_model(ctx, model, &l, o.name ? o.name : path);
-}
-
-void pleuel_model_free(pleuel_model* m) {
-  if (!m) return;
-  if (m->solution) pl_solution_close(m->solution);
-  if (m->before) m->before->next = m->next;
-  else m->ctx->first = m->next;
-  if (m->next) m->next->before = m->before;
-  pl_arena_free(m->arena);
-}
-
-// ---------------------------------------------------------------------------------------- messages
-size_t pleuel_diagnostic_count(const pleuel_model* m, pleuel_severity severity) {
-  size_t n = 0;
-  for (int i = 0; m && i < m->diagnostics.list.n; i++)
-    n += (int)pl_code_severity(m->diagnostics.list.at[i].code) == (int)severity;
-  return n;
-}
-
-enum { MOST_MESSAGES = 50 };  // of one kind of text; a file that is no model has thousands
-
-typedef struct pl_telling {
-  unsigned severities;
-  pl_print_style style;
-  const char* text;
-} pl_telling;
-
-static pleuel_status tell(pleuel_model* m, void* argument) {
-  pl_telling* t = argument;
-  pl_text out = pl_text_make(m->arena);
-  int n = 0;
-  for (int i = 0; i < m->diagnostics.list.n; i++) {
-    const pl_diagnostic* d = &m->diagnostics.list.at[i];
-    if (!(t->severities >> pl_code_severity(d->code) & 1) || ++n > MOST_MESSAGES) continue;
-    if (out.n > 0 && !t->style.terse) pl_text_add(&out, "\n");
-    pl_diagnostic_print(&out, d, t->style);
-  }
-  if (n > MOST_MESSAGES) {
-    pl_text_addf(
-        &out, t->style.lang == PL_GERMAN ? "und %d weitere Meldungen\n" : "and %d more messages\n",
-        n - MOST_MESSAGES);
-  }
-  t->text = pl_text_string(&out);
-  return PLEUEL_OK;
-}
-
-const char* pleuel_diagnostics_text(pleuel_model* m, unsigned severities,
-                                    const pleuel_text_options* options) {
-  if (!m) return NULL;
-  pleuel_text_options o;
-  copy_options(&o, sizeof o, options);
-  pl_telling t = {severities, {solution_language(m, o.lang), o.colour, o.terse}, NULL};
-  char sentence[sizeof m->ctx->message];
-  // telling about a failure must not hide its sentence
-  memcpy(sentence, m->ctx->message, sizeof sentence);
-  guarded(m, tell, &t);
-  if (!m->broken) memcpy(m->ctx->message, sentence, sizeof sentence);
-  return t.text;
-}
+#include "pleuel.h"
 
 // ------------------------------------------------------------------------------------------- check
 typedef struct pl_asking {
@@ -374,7 +47,7 @@ static pleuel_status check_text(pleuel_model* m, void* argument) {
   pl_asking* a = argument;
   pleuel_status s = check(m);
   pl_text out = pl_text_make(m->arena);
-  if (s == PLEUEL_OK) pl_check_summary(&out, m, solution_language(m, a->text->lang));
+  if (s == PLEUEL_OK) pl_check_summary(&out, m, pl_api_language_of(m, a->text->lang));
   a->answer = pl_text_string(&out);
   return s;
 }
@@ -389,20 +62,20 @@ static pleuel_status check_json(pleuel_model* m, void* argument) {
                       .diagnostics = &m->diagnostics,
                       .status = s,
                       .message = m->job.message,
-                      .lang = language_of(a->text->lang, m->job.lang)};
+                      .lang = pl_api_language(a->text->lang, m->job.lang)};
   pl_worked_json(&out, &in);
   a->answer = pl_text_string(&out);
   return s;
 }
 
 static pleuel_status ask_text(pleuel_model* m, const char** text,
-                              const pleuel_text_options* options, pl_work* work) {
+                              const pleuel_text_options* options, pl_api_work* work) {
   if (text) *text = NULL;
   if (!m) return PLEUEL_USAGE;
   pleuel_text_options o;
-  copy_options(&o, sizeof o, options);
+  pl_api_options(&o, sizeof o, options);
   pl_asking a = {.text = &o};
-  pleuel_status s = guarded(m, work, &a);
+  pleuel_status s = pl_api_guarded(m, work, &a);
   if (text) *text = a.answer;
   return s;
 }
@@ -508,7 +181,7 @@ static pleuel_status solve_text(pleuel_model* m, void* argument) {
   simulate_for_solution(m, o);
   if (s == PLEUEL_OK) s = contradictory_start(m);
   pl_worked_style style = {.math = math_of(o->math),
-                           .lang = solution_language(m, o->lang),
+                           .lang = pl_api_language_of(m, o->lang),
                            .colour = o->colour,
                            .full = o->full,
                            .width = o->width,
@@ -549,7 +222,7 @@ static pleuel_status solve_json(pleuel_model* m, void* argument) {
       .diagnostics = &m->diagnostics,
       .status = s,
       .message = m->job.message,
-      .lang = solution_language(m, o->lang),
+      .lang = pl_api_language_of(m, o->lang),
       .only = o->only,
       .simulation = m->is_run ? indented(m->arena, pl_text_string(&simulation)) : NULL,
       .n_timing = o->timing ? PL_N_STAGES : 0,
@@ -562,15 +235,15 @@ static pleuel_status solve_json(pleuel_model* m, void* argument) {
 }
 
 static pleuel_status ask_solution(pleuel_model* m, const char** text,
-                                  const pleuel_solve_options* options, pl_work* work) {
+                                  const pleuel_solve_options* options, pl_api_work* work) {
   if (text) *text = NULL;
   if (!m) return PLEUEL_USAGE;
   pleuel_solve_options o;
-  copy_options(&o, sizeof o, options);
+  pl_api_options(&o, sizeof o, options);
   if ((unsigned)o.math > PLEUEL_MATH_ASCII || o.width < 0)
-    return fail(m->ctx, PLEUEL_USAGE, "unknown manner of writing formulas");
+    return pl_api_fail(m->ctx, PLEUEL_USAGE, "unknown manner of writing formulas");
   pl_asking a = {.solve = &o};
-  pleuel_status s = guarded(m, work, &a);
+  pleuel_status s = pl_api_guarded(m, work, &a);
   if (text) *text = a.answer;
   return s;
 }
@@ -610,9 +283,9 @@ pleuel_status pleuel_export(pleuel_model* m, const char** text, const char* targ
   if (text) *text = NULL;
   if (!m || !target) return PLEUEL_USAGE;
   pleuel_solve_options o;
-  copy_options(&o, sizeof o, options);
+  pl_api_options(&o, sizeof o, options);
   pl_asking a = {.solve = &o, .word = target};
-  pleuel_status s = guarded(m, export, &a);
+  pleuel_status s = pl_api_guarded(m, export, &a);
   if (text) *text = a.answer;
   return s;
 }
@@ -623,7 +296,7 @@ static pleuel_status tex(pleuel_model* m, void* argument) {
   const pleuel_tex_options* o = a->tex;
   pleuel_status s = pl_pipeline_derive(m, o->only, o->seconds, !o->no_simulation);
   if (!m->solution) return s;
-  pl_tex_style style = {.lang = solution_language(m, o->lang),
+  pl_tex_style style = {.lang = pl_api_language_of(m, o->lang),
                         .standalone = o->standalone,
                         .plain = o->plain,
                         .full = o->full,
@@ -646,9 +319,9 @@ pleuel_status pleuel_tex(pleuel_model* m, const char** text, const pleuel_tex_op
   if (text) *text = NULL;
   if (!m) return PLEUEL_USAGE;
   pleuel_tex_options o;
-  copy_options(&o, sizeof o, options);
+  pl_api_options(&o, sizeof o, options);
   pl_asking a = {.tex = &o};
-  pleuel_status s = guarded(m, tex, &a);
+  pleuel_status s = pl_api_guarded(m, tex, &a);
   if (text) *text = a.answer;
   return s;
 }
@@ -663,7 +336,7 @@ static pleuel_status report(pleuel_model* m, void* argument) {
   pl_reporting* r = argument;
   pleuel_status s = pl_pipeline_derive(m, r->options->only, r->options->seconds, true);
   if (!m->solution) return s;
-  PL_TRY(pl_report_page(m, solution_language(m, r->options->lang), r->options, &r->html));
+  PL_TRY(pl_report_page(m, pl_api_language_of(m, r->options->lang), r->options, &r->html));
   return verdict(m, s);
 }
 
@@ -672,11 +345,11 @@ pleuel_status pleuel_report(pleuel_model* m, const char** html,
   if (html) *html = NULL;
   if (!m) return PLEUEL_USAGE;
   pleuel_report_options o;
-  copy_options(&o, sizeof o, options);
+  pl_api_options(&o, sizeof o, options);
   if ((unsigned)o.data > PLEUEL_DATA_FULL)
-    return fail(m->ctx, PLEUEL_USAGE, "data of a report: thin, none or full");
+    return pl_api_fail(m->ctx, PLEUEL_USAGE, "data of a report: thin, none or full");
   pl_reporting r = {&o, NULL};
-  pleuel_status s = guarded(m, report, &r);
+  pleuel_status s = pl_api_guarded(m, report, &r);
   if (html) *html = r.html;
   return s;
 }
@@ -697,7 +370,7 @@ typedef struct pl_picturing {
 
 static pleuel_status plot(pleuel_model* m, void* argument) {
   pl_picturing* p = argument;
-  return pl_picture_plot(m, solution_language(m, p->plot->lang), p->plot, &p->bytes, &p->n);
+  return pl_picture_plot(m, pl_api_language_of(m, p->plot->lang), p->plot, &p->bytes, &p->n);
 }
 
 pleuel_status pleuel_plot(pleuel_model* m, const char** bytes, size_t* n,
@@ -706,14 +379,14 @@ pleuel_status pleuel_plot(pleuel_model* m, const char** bytes, size_t* n,
   if (n) *n = 0;
   if (!m || !bytes || !n) return PLEUEL_USAGE;
   pleuel_plot_options o;
-  copy_options(&o, sizeof o, options);
+  pl_api_options(&o, sizeof o, options);
   if (!size_fits(o.width, o.height) || (unsigned)o.style > PLEUEL_FOR_PRINT
       || (unsigned)o.format > PLEUEL_PDF || (unsigned)o.panels > PLEUEL_PANELS_DRAWING) {
-    return fail(m->ctx, PLEUEL_USAGE,
-                "a plot is SVG, PNG or PDF, at most 8192 pixels wide and high");
+    return pl_api_fail(m->ctx, PLEUEL_USAGE,
+                       "a plot is SVG, PNG or PDF, at most 8192 pixels wide and high");
   }
   pl_picturing p = {.plot = &o};
-  pleuel_status s = guarded(m, plot, &p);
+  pleuel_status s = pl_api_guarded(m, plot, &p);
   *bytes = p.bytes;
   *n = p.n;
   return s;
@@ -721,7 +394,7 @@ pleuel_status pleuel_plot(pleuel_model* m, const char** bytes, size_t* n,
 
 static pleuel_status animate(pleuel_model* m, void* argument) {
   pl_picturing* p = argument;
-  return pl_picture_animate(m, solution_language(m, p->animate->lang), p->animate, &p->bytes,
+  return pl_picture_animate(m, pl_api_language_of(m, p->animate->lang), p->animate, &p->bytes,
                             &p->n);
 }
 
@@ -731,15 +404,16 @@ pleuel_status pleuel_animate(pleuel_model* m, const char** bytes, size_t* n,
   if (n) *n = 0;
   if (!m || !bytes || !n) return PLEUEL_USAGE;
   pleuel_animate_options o;
-  copy_options(&o, sizeof o, options);
+  pl_api_options(&o, sizeof o, options);
   if (!size_fits(o.width, o.height) || (unsigned)o.style > PLEUEL_FOR_PRINT || o.fps < 0
       || o.fps > 100 || o.seconds < 0 || (o.format != PLEUEL_SVG && o.format != PLEUEL_GIF)) {
-    return fail(m->ctx, PLEUEL_USAGE,
-                "an animation is SVG or GIF, at most 8192 pixels wide and high, at most 100 frames "
-                "per second");
+    return pl_api_fail(
+        m->ctx, PLEUEL_USAGE,
+        "an animation is SVG or GIF, at most 8192 pixels wide and high, at most 100 frames "
+        "per second");
   }
   pl_picturing p = {.animate = &o};
-  pleuel_status s = guarded(m, animate, &p);
+  pleuel_status s = pl_api_guarded(m, animate, &p);
   *bytes = p.bytes;
   *n = p.n;
   return s;
@@ -758,8 +432,8 @@ pleuel_status pleuel_simulate(pleuel_model* m, pleuel_sim_summary* summary,
   if (summary) *summary = (pleuel_sim_summary){.t_end = NAN, .energy_drift = NAN};
   if (!m) return PLEUEL_USAGE;
   pleuel_sim_options o;
-  copy_options(&o, sizeof o, options);
-  pleuel_status s = guarded(m, simulate, &o);
+  pl_api_options(&o, sizeof o, options);
+  pleuel_status s = pl_api_guarded(m, simulate, &o);
   const pl_result* r = m->broken ? NULL : m->result;
   if (summary && r) {
     *summary = (pleuel_sim_summary){.t_end = r->rows.n ? r->rows.at[r->rows.n - 1][0] : (double)NAN,
@@ -780,7 +454,7 @@ static pleuel_status simulation_text(pleuel_model* m, void* argument) {
   pl_asking* a = argument;
   pl_text out = pl_text_make(m->arena);
   if (m->is_run)
-    pl_motion_text(&out, m, solution_language(m, a->text->lang), false, a->text->terse);
+    pl_motion_text(&out, m, pl_api_language_of(m, a->text->lang), false, a->text->terse);
   a->answer = pl_text_string(&out);
   return PLEUEL_OK;
 }
@@ -788,7 +462,7 @@ static pleuel_status simulation_text(pleuel_model* m, void* argument) {
 static pleuel_status simulation_engine(pleuel_model* m, void* argument) {
   pl_asking* a = argument;
   pl_text out = pl_text_make(m->arena);
-  if (m->is_run) pl_engine_text(&out, m, solution_language(m, a->text->lang));
+  if (m->is_run) pl_engine_text(&out, m, pl_api_language_of(m, a->text->lang));
   a->answer = pl_text_string(&out);
   return PLEUEL_OK;
 }
@@ -803,7 +477,8 @@ static pleuel_status simulation_json(pleuel_model* m, void* argument) {
 }
 
 // Telling about a run keeps the sentence of the run.
-static const char* tell_run(pleuel_model* m, const pleuel_text_options* options, pl_work* work) {
+static const char* tell_run(pleuel_model* m, const pleuel_text_options* options,
+                            pl_api_work* work) {
   if (!m) return NULL;
   char sentence[sizeof m->ctx->message];
   memcpy(sentence, m->ctx->message, sizeof sentence);
@@ -835,7 +510,7 @@ pleuel_status pleuel_format(pleuel_model* m, const char** text, pleuel_spelling 
   if (text) *text = NULL;
   if (!m || (unsigned)spelling > PLEUEL_SPELL_ASCII) return PLEUEL_USAGE;
   pl_asking a = {.spelling = spelling};
-  pleuel_status s = guarded(m, format, &a);
+  pleuel_status s = pl_api_guarded(m, format, &a);
   if (text && s == PLEUEL_OK) *text = a.answer;
   return s;
 }
@@ -864,7 +539,7 @@ pleuel_status pleuel_dump(pleuel_model* m, const char** text, const char* after)
   if (text) *text = NULL;
   if (!m || !after) return PLEUEL_USAGE;
   pl_asking a = {.word = after};
-  pleuel_status s = guarded(m, dump, &a);
+  pleuel_status s = pl_api_guarded(m, dump, &a);
   if (text) *text = a.answer;
   return s;
 }

@@ -1,0 +1,114 @@
+// The context: memory, language, the last sentence, the wish to stop; and the way of every public
+// function: options are copied and the work is done under a guard, so that memory that runs out
+// becomes a status.
+#include <stdio.h>
+#include <string.h>
+
+#include "api/api_impl.h"
+#include "pleuel.h"
+
+const char* pleuel_version(void) { return PLEUEL_VERSION; }
+
+// ----------------------------------------------------------------------------------------- context
+pleuel* pleuel_open(const pleuel_allocator* alloc) {
+  pl_arena* arena = pl_arena_make(alloc);
+  if (!arena) return NULL;
+  pleuel* volatile ctx = NULL;
+  pl_guard guard;
+  PL_GUARD(arena, guard) {
+    pleuel* c = PL_NEW(arena, pleuel);
+    c->arena = arena;
+    if (alloc) {
+      pleuel_allocator* copy = PL_NEW(arena, pleuel_allocator);
+      *copy = *alloc;
+      c->alloc = copy;
+    }
+    ctx = c;
+  }
+  pl_guard_end(arena, &guard);
+  if (!ctx) pl_arena_free(arena);
+  return ctx;
+}
+
+void pleuel_close(pleuel* ctx) {
+  if (!ctx) return;
+  while (ctx->first) pleuel_model_free(ctx->first);
+  pl_arena_free(ctx->arena);
+}
+
+void pleuel_thread_end(void) { pl_algebra_thread_end(); }
+
+const char* pleuel_message(const pleuel* ctx) { return ctx ? ctx->message : ""; }
+
+pl_language pl_api_language(const char* name, pl_language otherwise) {
+  if (!name || !*name) return otherwise;
+  return strncmp(name, "de", 2) == 0 ? PL_GERMAN : PL_ENGLISH;
+}
+
+// What is asked for, else what the file names, else what the context speaks: messages and solution
+// alike.
+pl_language pl_api_language_of(const pleuel_model* m, const char* asked) {
+  return pl_api_language(asked, m->job.lang);
+}
+
+pleuel_status pl_api_fail(pleuel* ctx, pleuel_status s, const char* sentence) {
+  snprintf(ctx->message, sizeof ctx->message, "%s", pl_in_language(ctx->lang, sentence));
+  return s;
+}
+
+pleuel_status pleuel_set_language(pleuel* ctx, const char* lang) {
+  if (!ctx) return PLEUEL_USAGE;
+  ctx->message[0] = '\0';
+  if (!lang || (strncmp(lang, "en", 2) != 0 && strncmp(lang, "de", 2) != 0)) {
+    return pl_api_fail(ctx, PLEUEL_USAGE, "languages are en and de");
+  }
+  ctx->lang = pl_api_language(lang, PL_ENGLISH);
+  return PLEUEL_OK;
+}
+
+void pleuel_set_memory_limit(pleuel* ctx, size_t bytes) {
+  if (ctx) ctx->limit = bytes;
+}
+
+void pleuel_interrupt(pleuel* ctx) {
+  if (ctx) ctx->interrupted = 1;
+}
+
+void pleuel_interrupt_clear(pleuel* ctx) {
+  if (ctx) ctx->interrupted = 0;
+}
+
+// ----------------------------------------------------------------------------------- guarded calls
+// Options of an older caller are shorter: what it does not know keeps its default.
+void pl_api_options(void* to, size_t size, const void* from) {
+  memset(to, 0, size);
+  if (!from) return;
+  size_t given;
+  memcpy(&given, from, sizeof given);
+  memcpy(to, from, given < size ? given : size);
+}
+
+// Runs work under a guard.  Status and sentence of the job become those of the context.
+pleuel_status pl_api_guarded(pleuel_model* m, pl_api_work* work, void* argument) {
+  pleuel* ctx = m->ctx;
+  ctx->message[0] = '\0';
+  if (m->broken)
+    return pl_api_fail(ctx, PLEUEL_NO_MEMORY, "memory ran out earlier; free this model");
+  m->job.message[0] = '\0';
+  m->job.status = PLEUEL_OK;
+  volatile pleuel_status status = PLEUEL_NO_MEMORY;
+  pl_guard guard;
+  PL_GUARD(m->arena, guard) { status = work(m, argument); }
+  else {
+    status = guard.status;
+    m->broken = true;
+  }
+  pl_guard_end(m->arena, &guard);
+  if (m->broken && status == PLEUEL_NO_MEMORY) {
+    pl_api_fail(ctx, PLEUEL_NO_MEMORY,
+                ctx->limit ? "this takes more memory than the limit allows" : "memory ran out");
+  } else if (m->job.message[0]) {
+    pl_api_fail(ctx, status, m->job.message);
+  }
+  return status;
+}
