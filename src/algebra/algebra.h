@@ -1,4 +1,4 @@
-// algebra: exact calculation in a field tower, on FLINT (beside certify the only folder that sees
+// algebra: exact calculation in a field tower, on FLINT (beside enclose the only folder that sees
 // FLINT and Arb).
 //
 // A tower is opened for one derivation. Its generators are the symbols, sin and cos of each angle

@@ -4,7 +4,7 @@
 #define PL_CERTIFIED_IMPL_H
 
 #include "api/api_impl.h"
-#include "certify/certify.h"
+#include "enclose/enclose.h"
 
 // Why nothing was tried.
 typedef enum pl_certify_refusal {

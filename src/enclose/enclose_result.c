@@ -1,6 +1,6 @@
 // What was proved, as it is handed out: decimal numbers with radii, and distances from the numbers
 // of a run.
-#include "certify/certify_impl.h"
+#include "enclose/enclose_impl.h"
 
 #include <math.h>
 

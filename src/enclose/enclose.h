@@ -10,8 +10,8 @@
 //
 // Needs the setup of a simulation, what its numbers are exactly, and the start that the simulation
 // found.
-#ifndef PL_CERTIFY_H
-#define PL_CERTIFY_H
+#ifndef PL_ENCLOSE_H
+#define PL_ENCLOSE_H
 
 #include "solve/solve.h"
 

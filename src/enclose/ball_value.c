@@ -4,7 +4,7 @@
 // Arb's functions include the image of every point of their arguments; outside a domain they give a
 // ball that is not finite, which spreads. A condition that the ball does not decide gives such a
 // ball too.
-#include "certify/certify_impl.h"
+#include "enclose/enclose_impl.h"
 
 enum { MAX_DEPTH = 400 };  // names that are given by names
 

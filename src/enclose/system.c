@@ -2,7 +2,7 @@
 // memory.
 //
 // Balls are FLINT's, so they are freed by pl_system_free; everything else stands in the arena.
-#include "certify/certify_impl.h"
+#include "enclose/enclose_impl.h"
 
 #include <math.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 // the proof against closed forms at complex times, and tails that matter because the order is low.
 #include "solve/setup_test.h"
 
-#include "certify/certify_impl.h"
+#include "enclose/enclose_impl.h"
 
 typedef struct bench {
   t_bench* b;

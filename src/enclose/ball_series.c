@@ -5,7 +5,7 @@
 //
 // Recurrences with weights (k c_k = sum j a_j w_{k-j}) read the weighted series j x_j, kept beside
 // the nodes that need it.
-#include "certify/certify_impl.h"
+#include "enclose/enclose_impl.h"
 
 typedef struct place {
   pl_ball_jet* jet;

@@ -4,7 +4,7 @@
 // first pass measures it in bits; the next has as many bits more. A pass that becomes wider than
 // the motion itself is given up and its loss so far is extrapolated. What a pass has enclosed is
 // proved whatever comes after it; the narrowest is kept.
-#include "certify/certify_impl.h"
+#include "enclose/enclose_impl.h"
 
 #include <math.h>
 #include <string.h>

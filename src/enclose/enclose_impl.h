@@ -1,8 +1,8 @@
 // certify, inside: balls and disks through the tapes, the system of a step, its pieces.
-#ifndef PL_CERTIFY_IMPL_H
-#define PL_CERTIFY_IMPL_H
+#ifndef PL_ENCLOSE_IMPL_H
+#define PL_ENCLOSE_IMPL_H
 
-#include "certify/certify.h"
+#include "enclose/enclose.h"
 
 #include <flint/flint.h>
 #include <flint/fmpq.h>

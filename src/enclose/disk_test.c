@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "certify/certify_impl.h"
+#include "enclose/enclose_impl.h"
 
 #if __has_include(<flint/acb.h>)
 #  include <flint/acb.h>
