@@ -1,7 +1,7 @@
 // Rank and dependencies of rows. The rank is taken of the normal forms modulo a prime at random
 // points: fast, and right at a generic point. Where there are no values modulo the prime, in ball
 // arithmetic at sample points. A dependency is solved for exactly and verified in every column.
-#include "algebra/algebra_impl.h"
+#include "algebra/tower.h"
 
 #include <string.h>
 

@@ -11,7 +11,7 @@
 // expanded.  The first angle that has no other atom tells the shift.
 //
 // Angles that are inverse functions have no base: cos(acos u) = u, sin(acos u) = sqrt(1 - u^2).
-#include "algebra/algebra_impl.h"
+#include "algebra/tower.h"
 
 #include <stdlib.h>
 

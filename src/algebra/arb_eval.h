@@ -4,7 +4,7 @@
 #ifndef PL_ARB_EVAL_H
 #define PL_ARB_EVAL_H
 
-#include "algebra/algebra_impl.h"
+#include "algebra/tower.h"
 
 void pl_arb_node(arb_t out, const pl_pool* p, pl_expr e, const arb_srcptr* args, pl_arena* scratch,
                  long precision);

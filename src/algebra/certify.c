@@ -6,7 +6,7 @@
 // so that many formulas over the same quantities cost little more than one. Modulo p the sign of a
 // root is a free choice: an identity that holds there holds on all branches. One that fails there
 // but holds at all 50 points depends on a sign; the points decide.
-#include "algebra/algebra_impl.h"
+#include "algebra/tower.h"
 
 #include <math.h>
 #include <string.h>

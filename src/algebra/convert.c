@@ -4,7 +4,7 @@
 // What has no algebra here (sums over an index, x^a, functions of two arguments) becomes a formal
 // generator: two of them are equal when their normalised arguments are. That can miss a relation,
 // never invent one.
-#include "algebra/algebra_impl.h"
+#include "algebra/tower.h"
 
 static pl_frac convert_node(pl_tower* t, pl_expr e);
 

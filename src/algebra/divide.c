@@ -4,7 +4,7 @@
 // a/b = a b'/(b b') with the conjugate b' = c0 - c1 g of b = c0 + c1 g, relation after relation,
 // newest first; the last divisor is free of them, and division in the free ring decides. Most
 // candidates are no factors, which one look modulo a prime along a line shows.
-#include "algebra/algebra_impl.h"
+#include "algebra/tower.h"
 
 #if __has_include(<flint/nmod.h>)
 #  include <flint/nmod.h>

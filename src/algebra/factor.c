@@ -4,7 +4,7 @@
 //
 // FLINT's factoring is fast on the few variables that a factor really has and slow in a wide
 // context, so it is done in a compact one. Monomial and integer contents are split off before.
-#include "algebra/algebra_impl.h"
+#include "algebra/tower.h"
 
 #include <stdlib.h>
 

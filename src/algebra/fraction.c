@@ -3,7 +3,7 @@
 //
 // A base of a denominator is irreducible, so cancelling is trial division; only composite bases
 // need a gcd.
-#include "algebra/algebra_impl.h"
+#include "algebra/tower.h"
 
 #include <string.h>
 

@@ -1,7 +1,7 @@
 // Antiderivatives of sums of x^k exp(a x) cos(b x + c): products of sines and cosines become sums,
 // powers of x go by repeated integration by parts. Also (a x + b)^-n. The result is differentiated
 // and compared before it is returned.
-#include "algebra/algebra_impl.h"
+#include "algebra/tower.h"
 
 enum { PL_MAX_WAVES = 256, PL_MAX_INTEGRAL_DEGREE = 40 };
 

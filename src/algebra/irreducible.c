@@ -11,7 +11,7 @@
 // in y is at most that of the greatest common divisor of the images in y, when one coefficient
 // keeps its degree. Both arguments are proofs whatever the prime and the values are; bad luck only
 // sends f to FLINT.
-#include "algebra/algebra_impl.h"
+#include "algebra/tower.h"
 
 #include <flint/nmod_poly.h>
 #include <flint/nmod_poly_factor.h>

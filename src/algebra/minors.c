@@ -6,7 +6,7 @@
 //
 // Denominators of the right-hand side alone stay out of the determinant, where they would be
 // multiplied out: they become one common denominator beside it.
-#include "algebra/algebra_impl.h"
+#include "algebra/tower.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 // Normal forms: one reduced fraction, its factors, its coefficients in a symbol or in an atom of
 // the tower.
-#include "algebra/algebra_impl.h"
+#include "algebra/tower.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -5,7 +5,7 @@
 // Reduced means: degree in s below 2 for every sine, in w below 2 for every square root. The
 // relations are taken newest first, since the value of a root may contain older generators but
 // never newer ones.
-#include "algebra/algebra_impl.h"
+#include "algebra/tower.h"
 
 #include <string.h>
 

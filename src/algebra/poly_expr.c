@@ -1,7 +1,7 @@
 // Back from the tower: polynomials and fractions as expressions. A polynomial is written in the
 // view with the fewest terms (m1 + m2 sin^2, not m1 + m2 - m2 cos^2), a denominator as its factors,
 // with (1 - c)(1 + c) as s^2.
-#include "algebra/algebra_impl.h"
+#include "algebra/tower.h"
 
 #include <string.h>
 

@@ -6,7 +6,7 @@
 // exponent vectors mod 2 must be independent. If they are not, P times some of the older radicands
 // is a square h^2 and sqrt(P) = |h| / (w_1 ... w_k). Nested roots are taken apart where A^2 - B^2 C
 // is a square. There is never a generator with w^2 = x^2.
-#include "algebra/algebra_impl.h"
+#include "algebra/tower.h"
 
 #include <stdlib.h>
 

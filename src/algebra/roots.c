@@ -7,7 +7,7 @@
 //   ln, asin, ...      isolated and inverted, verified
 // A root is kept only when it satisfies the equation (or cannot be refuted); a condition that is
 // proven is dropped.
-#include "algebra/algebra_impl.h"
+#include "algebra/tower.h"
 
 #include <string.h>
 

@@ -2,7 +2,7 @@
 // at (u = 1/x at infinity) with coefficients in normal form; leading coefficients are tested for
 // zero, so poles and cancellations are seen. Powers of any rational exponent by Miller's
 // recurrence, elementary functions by their differential equations.
-#include "algebra/algebra_impl.h"
+#include "algebra/tower.h"
 
 #include <string.h>
 

@@ -10,7 +10,7 @@
 //   (iv)  the polynomial is one of the facts, or a radicand (w = sqrt(P) is real)
 //   (v)   fifty sample points of the domain agree, or the probe (the start values) decides: an assumption, recorded.
 // What a proof has used is recorded too.
-#include "algebra/algebra_impl.h"
+#include "algebra/tower.h"
 
 #include <math.h>
 

@@ -6,7 +6,7 @@
 // innermost service of this thread; what FLINT held at that moment is lost (a leak, not a crash). A
 // body that gives up of its own will takes the same jump, and then nothing is lost, because all
 // polynomials stand on the tower's stack.
-#include "algebra/algebra_impl.h"
+#include "algebra/tower.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#include "algebra/algebra_impl.h"
+#include "algebra/tower.h"
 
 #define NORMAL(w, in, out) assert_string_equal(pl_text_normal(w, in), out)
 

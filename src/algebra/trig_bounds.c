@@ -5,7 +5,7 @@
 //
 // Coefficients are exact integers over a common power of 2 (each sine and cosine halves); whatever
 // would not fit gives up.
-#include "algebra/algebra_impl.h"
+#include "algebra/tower.h"
 
 #include <math.h>
 #include <stdlib.h>

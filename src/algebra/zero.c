@@ -1,7 +1,7 @@
 // Is it zero? Algebra answers yes (its zero is sound); no is answered only when ball arithmetic
 // separates the value from zero at a sample point, or when nothing but independent symbols is
 // involved. Otherwise: unknown, never a guess.
-#include "algebra/algebra_impl.h"
+#include "algebra/tower.h"
 
 enum { PL_ZERO_POINTS = 12, PL_ZERO_MORE_BITS = 1000 };
 

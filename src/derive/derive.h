@@ -10,6 +10,7 @@
 #include "algebra/algebra.h"
 #include "model/model.h"
 #include "notation/notation.h"
+#include "present/present.h"
 
 // ------------------------------------------------------------------------------------------- steps
 typedef enum pl_step_kind {

@@ -8,7 +8,8 @@
 #ifndef PL_PRESENT_IMPL_H
 #define PL_PRESENT_IMPL_H
 
-#include "algebra/algebra_impl.h"
+#include "algebra/tower.h"
+#include "present/present.h"
 
 // Order of factors inside a product.                                                  ORDER BUCKETS
 typedef enum pl_bucket {

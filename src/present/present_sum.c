@@ -3,7 +3,7 @@
 // Terms stand in the order accelerations, velocities, rest; then as their factors do (K5). When the
 // first term would carry a minus, the first positive terms go in front: 3 cos ϑ - 2, x2 - x1, m g
 // cos ϑ - m R ϑ'².
-#include "present_impl.h"
+#include "present/present_impl.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 // Products of pieces: arithmetic, cost, the order K5, and the forms made from them.
-#include "present_impl.h"
+#include "present/present_impl.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 // The table of the symbolic design beside the textbook: what presentation makes of the quantities
 // of the founding sheet and of classic systems, and that it never costs more operations than listed
 // there.
-#include "algebra/algebra.h"
+#include "present/present.h"
 
 #include <ctype.h>
 #include <setjmp.h>

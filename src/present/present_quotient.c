@@ -2,7 +2,7 @@
 //   the form of n over the forms of the factors of d;
 //   the same with square roots absorbed, (A - B w)^k / w^k = (A/w - B)^k;
 //   the sum of the parts of n by some class of symbols, each cancelled against d on its own.
-#include "present_impl.h"
+#include "present/present_impl.h"
 
 #include <string.h>
 

@@ -5,7 +5,7 @@
 // that the same input gives the same form on every machine. What is returned has the value of the
 // input modulo a large prime at several points; where only the sign of a root can be at fault (√A
 // √B = √(A B) holds for positive A, B), balls at points of the domain decide.
-#include "present_impl.h"
+#include "present/present_impl.h"
 
 #include <math.h>
 

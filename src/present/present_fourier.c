@@ -5,7 +5,7 @@
 // = (z - 1/z)/(2i). The coefficients of z^k and z^-k together are a cosine when the number of sines
 // is even, a sine when it is odd. Two more forms come from cos 2K = 1 - 2 sin²K and cos 2K = 2
 // cos²K - 1, which turn m1 + m2/2 - m2/2 cos(2(α - β)) into m1 + m2 sin²(α - β).
-#include "present_impl.h"
+#include "present/present_impl.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -5,7 +5,7 @@
 //   equations   accelerations, velocities, forces, one term each;                                             K2
 //   quotients   one fraction, but two forces of different kind stay a sum: m g cos ϑ - m R ϑ'²;                 K3
 //   solutions   a sum by powers and functions of time.
-#include "present_impl.h"
+#include "present/present_impl.h"
 
 #include <stdlib.h>
 #include <string.h>

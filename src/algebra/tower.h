@@ -1,4 +1,4 @@
-// algebra_impl.h: what the rooms of the algebra share: the tower, its generators, polynomials,
+// tower.h: what the files of the algebra share, and present: the tower, its generators, polynomials,
 // factors, fractions.
 //
 // Polynomials live in one FLINT context of t->capacity variables; variable i is generator i. When a
@@ -18,8 +18,8 @@
 //   }
 //   ...
 //   if (!pl_tower_run(t, body, &j)) ...           // gave up: j->out is what it was before
-#ifndef PL_ALGEBRA_IMPL_H
-#define PL_ALGEBRA_IMPL_H
+#ifndef PL_TOWER_H
+#define PL_TOWER_H
 
 #include "algebra/algebra.h"
 

@@ -5,7 +5,7 @@
 //   its Fourier form.
 // Results are remembered by polynomial and depth. A polynomial that is met again while it is being
 // worked on is only expanded.
-#include "present_impl.h"
+#include "present/present_impl.h"
 
 #include <stdlib.h>
 #include <string.h>
