@@ -36,7 +36,7 @@ struct pl_points {
   pl_job* job;
   pl_pool* pool;
   pl_arena* arena;
-  pl_certifier_setup setup;
+  pl_domain setup;
   long precision;
   uint64_t seed;
   int n;
@@ -170,7 +170,7 @@ static void draw_point(pl_points* s, int point) {
   }
 }
 
-pl_points* pl_points_make(pl_job* job, pl_pool* p, const pl_certifier_setup* setup, int n_points,
+pl_points* pl_points_make(pl_job* job, pl_pool* p, const pl_domain* setup, int n_points,
                           long precision, uint64_t seed) {
   pl_arena* a = pl_pool_arena(p);
   pl_points* s = PL_NEW(a, pl_points);
@@ -396,7 +396,7 @@ double pl_points_double(pl_points* s, int point, pl_expr e) {
 }
 
 pl_points* pl_tower_points(pl_tower* t) {
-  pl_certifier_setup s = {.facts = t->facts.at, .n_facts = t->facts.n};
+  pl_domain s = {.facts = t->facts.at, .n_facts = t->facts.n};
   if (!t->points) t->points = pl_points_make(t->job, t->pool, &s, PL_POINT_COUNT, PL_POINT_BITS, 1);
   return t->points;
 }

@@ -118,7 +118,7 @@ pl_expr pl_alg_limit(pl_tower* t, pl_expr e, pl_symbol x, pl_expr to);
 // found.
 pl_expr pl_alg_integral(pl_tower* t, pl_expr e, pl_symbol x);
 
-// ------------------------------------------------------------------------------------ certificates
+// ----------------------------------------------------------------------------------------- domains
 // A domain to draw points from: free symbols with their facts, then defined symbols in order (x1 :=
 // r cos φ), then unknowns found by solving a linear system numerically (accelerations,
 // multipliers): A u = b.
@@ -126,8 +126,7 @@ typedef struct pl_definition {
   pl_symbol symbol;
   pl_expr value;
 } pl_definition;
-typedef struct pl_certifier pl_certifier;
-typedef struct pl_certifier_setup {
+typedef struct pl_domain {
   const pl_fact* facts;
   int n_facts;
   const pl_definition* definitions;
@@ -137,18 +136,6 @@ typedef struct pl_certifier_setup {
   const pl_symbol* unknowns;
   const pl_expr* A;
   const pl_expr* b;
-} pl_certifier_setup;
-pl_certifier* pl_certifier_make(pl_job* job, pl_pool* p, const pl_certifier_setup* s);
-typedef struct pl_certificate {
-  // PL_YES: all points agree; PL_NO: a point separates; PL_UNKNOWN: no usable points
-  pl_answer3 equal;
-  int points_mod, points_arb;
-  // largest relative difference seen, an upper bound from Arb (log2 precision below)
-  double worst;
-} pl_certificate;
-// pl_certify compares shown and reference at 20 points mod p and 50 points in Arb (256 bit, more
-// when needed), without the tower.
-pl_certificate pl_certify(pl_certifier* c, pl_expr shown, pl_expr reference);
-// A certifier lives in the arena of the pool; there is nothing to free.
+} pl_domain;
 
 #endif

@@ -389,8 +389,8 @@ bool pl_poly_trig_bounds(pl_tower* t, const pl_poly* a, const pl_poly** low, con
 // do not depend on history) such that the facts hold, definitions in order, unknowns by a numeric
 // solve. Expressions are evaluated by a growing straight-line program, whose values are kept for
 // each point.
-pl_points* pl_points_make(pl_job* job, pl_pool* p, const pl_certifier_setup* s, int n_points,
-                          long precision, uint64_t seed);
+pl_points* pl_points_make(pl_job* job, pl_pool* p, const pl_domain* s, int n_points, long precision,
+                          uint64_t seed);
 int pl_points_count(const pl_points* s);
 // Ball of e at a point; false where it is not finite or the point is unusable. Valid until the next
 // call.

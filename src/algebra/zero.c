@@ -33,7 +33,7 @@ static void points_body(pl_tower* t, void* data) {
   pl_zero_job* j = data;
   j->zero = !separated(pl_tower_points(t), j->e);
   if (!j->zero) return;
-  pl_certifier_setup s = {.facts = t->facts.at, .n_facts = t->facts.n};
+  pl_domain s = {.facts = t->facts.at, .n_facts = t->facts.n};
   if (!t->fine_points)
     t->fine_points = pl_points_make(t->job, t->pool, &s, PL_ZERO_POINTS, PL_ZERO_MORE_BITS, 1);
   j->zero = !separated(t->fine_points, j->e);

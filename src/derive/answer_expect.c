@@ -79,8 +79,8 @@ static pl_answer3 zero_by_turns(pl_analysis* d, pl_expr e) {
   if (pl_alg_is_zero(d->tower, turn.s) != PL_YES) return PL_UNKNOWN;
   if (pl_alg_is_zero(d->tower, pl_sub(d->pool, turn.c, pl_int(d->pool, 1))) != PL_YES)
     return PL_UNKNOWN;
-  pl_certifier_setup setup = {.facts = d->facts.at, .n_facts = d->facts.n};
-  return pl_certify(pl_certifier_make(d->job, d->pool, &setup), e, pl_int(d->pool, 0)).equal;
+  pl_domain setup = {.facts = d->facts.at, .n_facts = d->facts.n};
+  return pl_verify(pl_verifier_make(d->job, d->pool, &setup), e, pl_int(d->pool, 0)).equal;
 }
 
 // ------------------------------------------------------------------------------------- the section

@@ -128,7 +128,7 @@ static bool contains_motion(pl_analysis* d, pl_expr e) {
 
 // The facts of the model, and the signs that were assumed on the way (r >= 0 of a distance, cos α
 // >= 0): formulas hold there.
-static void domain(pl_analysis* d, pl_certifier_setup* setup) {
+static void domain(pl_analysis* d, pl_domain* setup) {
   int n_used = 0, n = d->facts.n;
   const pl_fact* used = pl_tower_used(d->tower, &n_used);
   pl_fact* fact = PL_ARRAY(d->arena, pl_fact, n + n_used + 1);
@@ -259,23 +259,23 @@ static void split_rows(pl_analysis* d, pl_system_of_motion* s) {
   }
 }
 
-static pl_certifier* on_the_motion(pl_analysis* d, int assembly) {
+static pl_verifier* on_the_motion(pl_analysis* d, int assembly) {
   pl_system_of_motion s = {0};
   definitions(d, &s, assembly);
   rows(d, &s);
   if (!is_determined(d)) s.n = 0;
   split_rows(d, &s);
-  pl_certifier_setup setup = {.definitions = s.definition,
-                              .n_definitions = s.n_definitions,
-                              .n_unknowns = s.n,
-                              .unknowns = s.unknown,
-                              .A = s.A,
-                              .b = s.b};
+  pl_domain setup = {.definitions = s.definition,
+                     .n_definitions = s.n_definitions,
+                     .n_unknowns = s.n,
+                     .unknowns = s.unknown,
+                     .A = s.A,
+                     .b = s.b};
   domain(d, &setup);
-  return pl_certifier_make(d->job, d->pool, &setup);
+  return pl_verifier_make(d->job, d->pool, &setup);
 }
 
-static pl_certifier* on_free_points(pl_analysis* d) {
+static pl_verifier* on_free_points(pl_analysis* d) {
   pl_system_of_motion s = {0};
   s.definition = PL_ARRAY(d->arena, pl_definition, d->cases.n + d->model->lets.n);
   define_cases(d, &s);
@@ -283,9 +283,9 @@ static pl_certifier* on_free_points(pl_analysis* d) {
     const pl_let* l = &d->model->lets.at[k];
     if (l->n_args == 0 && !l->inserted) define(&s, l->symbol, l->value);
   }
-  pl_certifier_setup setup = {.definitions = s.definition, .n_definitions = s.n_definitions};
+  pl_domain setup = {.definitions = s.definition, .n_definitions = s.n_definitions};
   domain(d, &setup);
-  return pl_certifier_make(d->job, d->pool, &setup);
+  return pl_verifier_make(d->job, d->pool, &setup);
 }
 
 // ---------------------------------------------------------------------------------------- verdicts
@@ -304,8 +304,8 @@ static bool needs_motion(const pl_analysis* d, const pl_claim* c) {
          || pl_has_role(d->pool, c->reference, PL_R_MULTIPLIER);
 }
 
-static void check_at(pl_analysis* d, pl_check* check, const pl_claim* c, pl_certifier* where) {
-  pl_certificate got = pl_certify(where, c->shown, c->reference);
+static void check_at(pl_analysis* d, pl_check* check, const pl_claim* c, pl_verifier* where) {
+  pl_verification got = pl_verify(where, c->shown, c->reference);
   check->points += got.points_mod + got.points_arb;
   if (got.worst > check->worst) check->worst = got.worst;
   if (got.equal != PL_YES) fail_check(d, check, c);
@@ -328,8 +328,8 @@ static void add_check(pl_analysis* d, pl_check check) {
 }
 
 // motion: one for each assembly.
-static void check_kind(pl_analysis* d, pl_claim_kind kind, pl_certifier** motion, int n_motions,
-                       pl_certifier* free_points) {
+static void check_kind(pl_analysis* d, pl_claim_kind kind, pl_verifier** motion, int n_motions,
+                       pl_verifier* free_points) {
   pl_check check = {.name = {claim_name[kind][0], claim_name[kind][1]}, .passed = true};
   for (int i = 0; i < d->claims.n; i++) {
     const pl_claim* c = &d->claims.at[i];
@@ -364,7 +364,7 @@ static void check_units(pl_analysis* d) {
 void pl_claims_check(pl_analysis* d) {
   pl_claim_loops(d);
   check_units(d);
-  pl_certifier *motion[pl_max_assemblies], *free_points = on_free_points(d);
+  pl_verifier *motion[pl_max_assemblies], *free_points = on_free_points(d);
   int n = pl_assemblies(d);
   for (int a = 0; a < n; a++) motion[a] = on_the_motion(d, a);
   for (int kind = 0; kind < PL_N_CLAIMS; kind++) check_kind(d, kind, motion, n, free_points);

@@ -11,6 +11,7 @@
 #include "model/model.h"
 #include "notation/notation.h"
 #include "present/present.h"
+#include "verify/verify.h"
 
 // ------------------------------------------------------------------------------------------- steps
 typedef enum pl_step_kind {

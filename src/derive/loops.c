@@ -132,9 +132,9 @@ pl_answer3 pl_holds_on_loops(pl_analysis* d, pl_expr left, pl_expr right) {
   pl_answer3 all = PL_YES;
   for (int a = 0; a < pl_assemblies(d) && all != PL_NO; a++) {
     pl_loop_definitions(d, a, definition);
-    pl_certifier_setup setup = {
+    pl_domain setup = {
         .facts = fact, .n_facts = n, .definitions = definition, .n_definitions = n_definitions};
-    pl_answer3 equal = pl_certify(pl_certifier_make(d->job, d->pool, &setup), left, right).equal;
+    pl_answer3 equal = pl_verify(pl_verifier_make(d->job, d->pool, &setup), left, right).equal;
     if (equal != PL_YES) all = equal;
   }
   return all;

@@ -96,7 +96,7 @@ typedef struct pl_certified {
   struct pl_certified_balls* balls;
 } pl_certified;
 
-// pl_certify proves what it can. *out is always set; free it with pl_certified_free. Deterministic.
+// pl_verify proves what it can. *out is always set; free it with pl_certified_free. Deterministic.
 pleuel_status pl_certify_motion(pl_job* job, const pl_certify_problem* p, pl_certified* out);
 void pl_certified_free(pl_certified* c);
 

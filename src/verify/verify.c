@@ -7,26 +7,27 @@
 // root is a free choice: an identity that holds there holds on all branches. One that fails there
 // but holds at all 50 points depends on a sign; the points decide.
 #include "algebra/tower.h"
+#include "verify/verify.h"
 
 #include <math.h>
 #include <string.h>
 
 enum {
-  PL_CERTIFY_MOD = 20,
-  PL_CERTIFY_MOD_TRIES = 60,
-  PL_CERTIFY_ARB = 50,
-  PL_CERTIFY_FEWEST = 10,
-  PL_CERTIFY_BITS = 256,
-  PL_CERTIFY_MORE_BITS = 1024
+  PL_VERIFY_MOD = 20,
+  PL_VERIFY_MOD_TRIES = 60,
+  PL_VERIFY_ARB = 50,
+  PL_VERIFY_FEWEST = 10,
+  PL_VERIFY_BITS = 256,
+  PL_VERIFY_MORE_BITS = 1024
 };
 static const double fine_enough =
     1e-30;  // a difference that contains 0 proves nothing when its radius is larger than this
 
-struct pl_certifier {
+struct pl_verifier {
   pl_job* job;
   pl_pool* pool;
   pl_arena* arena;
-  pl_certifier_setup setup;
+  pl_domain setup;
   pl_points* points;
   pl_points* fine;  // at more bits, made when needed
   // where logarithms, roots and inverse functions have values; made when the others meet that too
@@ -34,7 +35,7 @@ struct pl_certifier {
   pl_points* inside;
   PL_VEC(pl_fact) within;  // the conditions for it, after the facts of the setup
   pl_map* visited;         // nodes whose conditions are among them
-  pl_mod_point* mod[PL_CERTIFY_MOD];
+  pl_mod_point* mod[PL_VERIFY_MOD];
   int n_mod;
 };
 
@@ -66,7 +67,7 @@ static bool solve_mod(uint64_t* M, int n) {
   return true;
 }
 
-static bool set_unknowns(pl_certifier* c, pl_mod_point* m) {
+static bool set_unknowns(pl_verifier* c, pl_mod_point* m) {
   int n = c->setup.n_unknowns;
   if (n == 0) return true;
   uint64_t* M = PL_ARRAY(c->arena, uint64_t, n * (n + 1));
@@ -81,7 +82,7 @@ static bool set_unknowns(pl_certifier* c, pl_mod_point* m) {
   return true;
 }
 
-static bool set_definitions(pl_certifier* c, pl_mod_point* m) {
+static bool set_definitions(pl_verifier* c, pl_mod_point* m) {
   for (int i = 0; i < c->setup.n_definitions; i++) {
     bool ok = true;
     uint64_t v = pl_eval_mod(m, c->setup.definitions[i].value, &ok);
@@ -91,8 +92,8 @@ static bool set_definitions(pl_certifier* c, pl_mod_point* m) {
   return true;
 }
 
-static void make_mod_points(pl_certifier* c) {
-  for (uint64_t seed = 1; seed <= PL_CERTIFY_MOD_TRIES && c->n_mod < PL_CERTIFY_MOD; seed++) {
+static void make_mod_points(pl_verifier* c) {
+  for (uint64_t seed = 1; seed <= PL_VERIFY_MOD_TRIES && c->n_mod < PL_VERIFY_MOD; seed++) {
     pl_mod_point* m = pl_mod_point_make(c->arena, c->pool, seed);
     if (set_definitions(c, m) && set_unknowns(c, m)) c->mod[c->n_mod++] = m;
   }
@@ -106,9 +107,9 @@ static void* copy_array(pl_arena* a, const void* from, size_t n, size_t size) {
   return to;
 }
 
-pl_certifier* pl_certifier_make(pl_job* job, pl_pool* p, const pl_certifier_setup* s) {
+pl_verifier* pl_verifier_make(pl_job* job, pl_pool* p, const pl_domain* s) {
   pl_arena* a = pl_pool_arena(p);
-  pl_certifier* c = PL_NEW(a, pl_certifier);
+  pl_verifier* c = PL_NEW(a, pl_verifier);
   c->job = job;
   c->pool = p;
   c->arena = a;
@@ -120,7 +121,7 @@ pl_certifier* pl_certifier_make(pl_job* job, pl_pool* p, const pl_certifier_setu
   c->setup.unknowns = copy_array(a, s->unknowns, n, sizeof *s->unknowns);
   c->setup.A = copy_array(a, s->A, n * n, sizeof *s->A);
   c->setup.b = copy_array(a, s->b, n, sizeof *s->b);
-  c->points = pl_points_make(job, p, &c->setup, PL_CERTIFY_ARB, PL_CERTIFY_BITS, 2);
+  c->points = pl_points_make(job, p, &c->setup, PL_VERIFY_ARB, PL_VERIFY_BITS, 2);
   make_mod_points(c);
   return c;
 }
@@ -130,7 +131,7 @@ typedef struct pl_mod_count {
   int equal, different;
 } pl_mod_count;
 
-static pl_mod_count compare_mod(pl_certifier* c, pl_expr shown, pl_expr reference) {
+static pl_mod_count compare_mod(pl_verifier* c, pl_expr shown, pl_expr reference) {
   pl_mod_count count = {0};
   for (int i = 0; i < c->n_mod; i++) {
     bool ok1 = true, ok2 = true;
@@ -170,9 +171,9 @@ static pl_answer3 compare_at(pl_points* s, int i, pl_expr shown, pl_expr referen
   return answer;
 }
 
-static pl_points* fine_points(pl_certifier* c) {
+static pl_points* fine_points(pl_verifier* c) {
   if (!c->fine)
-    c->fine = pl_points_make(c->job, c->pool, &c->setup, PL_CERTIFY_ARB, PL_CERTIFY_MORE_BITS, 2);
+    c->fine = pl_points_make(c->job, c->pool, &c->setup, PL_VERIFY_ARB, PL_VERIFY_MORE_BITS, 2);
   return c->fine;
 }
 
@@ -182,7 +183,7 @@ static bool point_is_usable(pl_points* s, int i, pl_expr shown, pl_expr referenc
 }
 
 // ---------------------------------------------------------------------------- domains of functions
-static void must_hold(pl_certifier* c, pl_expr difference, bool strict) {
+static void must_hold(pl_verifier* c, pl_expr difference, bool strict) {
   if (pl_is_constant(c->pool, difference) || pl_has_role(c->pool, difference, PL_R_ACCELERATION)
       || pl_has_role(c->pool, difference, PL_R_MULTIPLIER)) {
     return;
@@ -191,7 +192,7 @@ static void must_hold(pl_certifier* c, pl_expr difference, bool strict) {
 }
 
 // What must hold for e to have a real value, from the functions in it.
-static void collect_domain(pl_certifier* c, pl_expr e, int depth) {
+static void collect_domain(pl_verifier* c, pl_expr e, int depth) {
   pl_kind k = pl_kind_of(c->pool, e);
   if (depth > PL_MAX_DEPTH || pl_map_get(c->visited, e.id)) return;
   pl_map_set(c->visited, e.id, 1);
@@ -212,7 +213,7 @@ static void collect_domain(pl_certifier* c, pl_expr e, int depth) {
   must_hold(c, pl_add(c->pool, one, a), false);
 }
 
-static void add_domain(pl_certifier* c, pl_expr shown, pl_expr reference) {
+static void add_domain(pl_verifier* c, pl_expr shown, pl_expr reference) {
   if (!c->visited) {
     c->visited = pl_map_make(c->arena);
     for (int i = 0; i < c->setup.n_facts; i++) pl_push(c->arena, c->within, c->setup.facts[i]);
@@ -223,15 +224,15 @@ static void add_domain(pl_certifier* c, pl_expr shown, pl_expr reference) {
   collect_domain(c, shown, 0);
   collect_domain(c, reference, 0);
   if (c->inside && c->within.n == before) return;
-  pl_certifier_setup s = c->setup;
+  pl_domain s = c->setup;
   s.facts = c->within.at;
   s.n_facts = c->within.n;
-  c->inside = pl_points_make(c->job, c->pool, &s, PL_CERTIFY_ARB, PL_CERTIFY_MORE_BITS, 3);
+  c->inside = pl_points_make(c->job, c->pool, &s, PL_VERIFY_ARB, PL_VERIFY_MORE_BITS, 3);
 }
 
 // ---------------------------------------------------------------------------------------- verdicts
 // One point more; false when it shows a difference.
-static bool count_point(pl_certificate* r, pl_answer3 here, double relative) {
+static bool count_point(pl_verification* r, pl_answer3 here, double relative) {
   if (here == PL_UNKNOWN) return true;
   r->points_arb++;
   r->worst = fmax(r->worst, relative);
@@ -240,12 +241,12 @@ static bool count_point(pl_certificate* r, pl_answer3 here, double relative) {
 
 // At the points of the certifier. Finite but too wide: more bits; not finite: outside the domain,
 // the next point.
-static bool equal_anywhere(pl_certifier* c, pl_certificate* r, pl_expr shown, pl_expr reference) {
-  for (int i = 0; i < PL_CERTIFY_ARB; i++) {
+static bool equal_anywhere(pl_verifier* c, pl_verification* r, pl_expr shown, pl_expr reference) {
+  for (int i = 0; i < PL_VERIFY_ARB; i++) {
     double relative = 0;
-    pl_answer3 here = compare_at(c->points, i, shown, reference, PL_CERTIFY_BITS, &relative);
+    pl_answer3 here = compare_at(c->points, i, shown, reference, PL_VERIFY_BITS, &relative);
     if (here == PL_UNKNOWN && point_is_usable(c->points, i, shown, reference)) {
-      here = compare_at(fine_points(c), i, shown, reference, PL_CERTIFY_MORE_BITS, &relative);
+      here = compare_at(fine_points(c), i, shown, reference, PL_VERIFY_MORE_BITS, &relative);
     }
     if (!count_point(r, here, relative)) return false;
   }
@@ -253,26 +254,26 @@ static bool equal_anywhere(pl_certifier* c, pl_certificate* r, pl_expr shown, pl
 }
 
 // At points that are drawn for the functions of these two.
-static bool equal_inside(pl_certifier* c, pl_certificate* r, pl_expr shown, pl_expr reference) {
+static bool equal_inside(pl_verifier* c, pl_verification* r, pl_expr shown, pl_expr reference) {
   add_domain(c, shown, reference);
-  for (int i = 0; i < PL_CERTIFY_ARB; i++) {
+  for (int i = 0; i < PL_VERIFY_ARB; i++) {
     double relative = 0;
-    pl_answer3 here = compare_at(c->inside, i, shown, reference, PL_CERTIFY_MORE_BITS, &relative);
+    pl_answer3 here = compare_at(c->inside, i, shown, reference, PL_VERIFY_MORE_BITS, &relative);
     if (!count_point(r, here, relative)) return false;
   }
   return true;
 }
 
-pl_certificate pl_certify(pl_certifier* c, pl_expr shown, pl_expr reference) {
-  pl_certificate r = {.equal = PL_UNKNOWN};
+pl_verification pl_verify(pl_verifier* c, pl_expr shown, pl_expr reference) {
+  pl_verification r = {.equal = PL_UNKNOWN};
   if (pl_is_poison(shown) || pl_is_poison(reference)) return r;
   pl_mod_count mod = compare_mod(c, shown, reference);
   r.points_mod = mod.equal;
   bool equal = equal_anywhere(c, &r, shown, reference);
-  if (equal && r.points_arb < PL_CERTIFY_FEWEST) equal = equal_inside(c, &r, shown, reference);
+  if (equal && r.points_arb < PL_VERIFY_FEWEST) equal = equal_inside(c, &r, shown, reference);
   if (!equal) {
     r.equal = PL_NO;
-  } else if (r.points_arb >= PL_CERTIFY_FEWEST) {
+  } else if (r.points_arb >= PL_VERIFY_FEWEST) {
     r.equal = PL_YES;
   }
   return r;

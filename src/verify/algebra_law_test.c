@@ -1,6 +1,7 @@
 // Laws on random expressions: the axioms of a field through the tower, and the tower against
 // independent evaluation.
 #include "algebra/algebra_test_text.h"
+#include "verify/verify.h"
 
 enum { PL_ROUNDS = 60 };
 static const uint64_t seed = 20240611;
@@ -72,17 +73,17 @@ PL_TEST(the_normal_form_of_a_normal_form_is_itself) {
 PL_TEST(the_normal_form_has_the_value_of_the_input) {
   pl_world* w = pl_world_make(NULL);
   pl_random r = {seed + 2};
-  pl_certifier_setup none = {0};
+  pl_domain none = {0};
   pl_text_expr(w, "x + y + m1 + m2 + l");
-  pl_certifier* c = pl_certifier_make(&w->job, w->pool, &none);
+  pl_verifier* c = pl_verifier_make(&w->job, w->pool, &none);
   int decided = 0;
   for (int i = 0; i < PL_ROUNDS; i++) {
     pl_expr e = pl_random_expr(w, &r, 3);
-    pl_certificate s = pl_certify(c, pl_alg_normal(w->tower, e), e);
+    pl_verification s = pl_verify(c, pl_alg_normal(w->tower, e), e);
     if (s.equal == PL_NO)
       fail_msg("seed %llu round %d: %s", (unsigned long long)seed + 2, i, pl_text_of(w, e));
     decided += s.equal == PL_YES;
-    pl_certificate changed = pl_certify(c, pl_add(w->pool, e, pl_int(w->pool, 1)), e);
+    pl_verification changed = pl_verify(c, pl_add(w->pool, e, pl_int(w->pool, 1)), e);
     assert_true(changed.equal != PL_YES);
   }
   assert_true(decided > PL_ROUNDS * 9 / 10);

@@ -2,6 +2,7 @@
 // PLEUEL_NO_MEMORY, the tower can be freed, and nothing is left (looked for by the leak checker of
 // the sanitizer build).
 #include "algebra/algebra_test_text.h"
+#include "verify/verify.h"
 
 #include <stdlib.h>
 
@@ -42,10 +43,10 @@ static void work(pl_arena* a, pl_job* job, pl_pool* p, volatile pl_alive* alive)
   for (int i = 0; i < 4; i++) A[i] = pl_text_expr(&w, i % 3 ? "cos(a - b)" : "m1 + m2");
   for (int i = 0; i < 2; i++) b[i] = pl_text_expr(&w, "m1*g");
   assert_int_equal(pl_alg_solve(w.tower, 2, A, b, x, 0), PL_YES);
-  pl_certifier_setup none = {0};
-  pl_certifier* c = pl_certifier_make(job, p, &none);
+  pl_domain none = {0};
+  pl_verifier* c = pl_verifier_make(job, p, &none);
   assert_int_equal(
-      pl_certify(c, pl_text_expr(&w, "(l + r)^2"), pl_text_expr(&w, "l^2 + 2*l*r + r^2")).equal,
+      pl_verify(c, pl_text_expr(&w, "(l + r)^2"), pl_text_expr(&w, "l^2 + 2*l*r + r^2")).equal,
       PL_YES);
 }
 
