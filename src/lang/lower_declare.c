@@ -219,7 +219,7 @@ static void give_dimension(pl_lower* l, pl_symbol s, const pl_unit* unit) {
 static pl_expr value_with_unit(pl_lower* l, const pl_ast* d, const pl_ast* value,
                                const pl_unit* unit, bool declared) {
   pl_expr e = pl_lower_scalar(l, value);
-  if (pl_is_poison(e) || !declared || pl_has_unit(l->pool, e)) return e;
+  if (pl_is_poison(e) || !declared || pl_unit_occurs(l->pool, e)) return e;
   if (pl_is_constant(l->pool, e)) return pl_mul(l->pool, e, unit->factor);
   pl_diagnostic* m = pl_lower_complain(l, PL_E023, pl_ast_span(pl_ast_kid(d, 3)),
                                        "a unit belongs to a number",
@@ -265,7 +265,7 @@ static void lower_param(pl_lower* l, const pl_ast* d, bool broken) {
     v = pl_lower_scalar(l, e->override);
     // a bare number is in the unit of the file: --set l=300 for l [mm]
     pl_unit own;
-    bool bare = !pl_is_poison(v) && pl_is_constant(l->pool, v) && !pl_has_unit(l->pool, v)
+    bool bare = !pl_is_poison(v) && pl_is_constant(l->pool, v) && !pl_unit_occurs(l->pool, v)
                 && !has_own_unit(e->override);
     if (bare && unit_node && pl_lower_unit(l, unit_node, &own)) v = pl_mul(l->pool, v, own.factor);
   } else if (value) {
@@ -276,7 +276,7 @@ static void lower_param(pl_lower* l, const pl_ast* d, bool broken) {
   if (unit_fine) give_dimension(l, e->symbol, &unit);
   const pl_ast* single = value ? pl_ast_single(value) : NULL;
   bool degrees = single && single->kind == PL_AST_DEGREE;  // 30° is 30 [deg]
-  bool has_unit = unit_node != NULL || degrees || (!pl_is_poison(v) && pl_has_unit(l->pool, v));
+  bool has_unit = unit_node != NULL || degrees || (!pl_is_poison(v) && pl_unit_occurs(l->pool, v));
   pl_param p = {.symbol = e->symbol,
                 .value = v,
                 .has_unit = has_unit,

@@ -154,7 +154,7 @@ static pl_quantity lower_with_unit(pl_lower* l, const pl_ast* node, pl_quantity 
 
 static pl_quantity lower_degree(pl_lower* l, const pl_ast* node, pl_quantity q) {
   if (pl_quantity_is_bad(&q)) return q;
-  if (q.n || !pl_is_constant(l->pool, q.at[0]) || pl_has_unit(l->pool, q.at[0])) {
+  if (q.n || !pl_is_constant(l->pool, q.at[0]) || pl_unit_occurs(l->pool, q.at[0])) {
     pl_diagnostic* m = pl_lower_complain(l, PL_E023, pl_ast_span(node), "° belongs to a number",
                                          "° gehört zu einer Zahl");
     pl_because(l->job, m, "angles are in radians", "Winkel sind im Bogenmaß");

@@ -131,6 +131,6 @@ pleuel_status pl_lang_expression(pl_job* job, pl_model* m, const char* text, pl_
   pl_lower_from_model(l);
   l->results = l->infinity = true;
   *out = pl_lower_scalar(l, node);
-  if (m->checked && !pl_is_poison(*out)) *out = pl_model_plain(m->pool, *out);
+  if (m->checked && !pl_is_poison(*out)) *out = pl_unit_to_si(m->pool, *out);
   return job->diagnostics->n_errors > before || pl_is_poison(*out) ? PLEUEL_MODEL_ERROR : PLEUEL_OK;
 }

@@ -427,7 +427,7 @@ static void lower_range(pl_lower* l, const pl_ast* range, pl_expr* lo, pl_expr* 
   for (int i = 0; i < 3; i++) {
     *values[i] = parts[i] ? pl_lower_scalar(l, parts[i]) : pl_poison();
     bool number = parts[i] && !pl_is_poison(*values[i]) && pl_is_constant(l->pool, *values[i])
-                  && !pl_has_unit(l->pool, *values[i]);
+                  && !pl_unit_occurs(l->pool, *values[i]);
     const pl_ast* own = NULL;
     int none = 0;
     if (parts[i]) unit_nodes(parts[i], &own, &none);

@@ -154,7 +154,7 @@ pl_rule* pl_scope_rule(pl_lower* l, const char* key) {
 // ----------------------------------------------------------------------------------- abbreviations
 // Made of given quantities only?  Then it stays a name.
 static bool only_given(pl_lower* l, pl_expr e) {
-  e = pl_model_plain(l->pool, e);
+  e = pl_unit_to_si(l->pool, e);
   int n = pl_symbols_in(l->pool, e, NULL, 0);
   pl_symbol* s = PL_ARRAY(l->arena, pl_symbol, n + 1);
   pl_symbols_in(l->pool, e, s, n);

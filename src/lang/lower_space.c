@@ -134,7 +134,7 @@ static bool read_inertia(pl_lower* l, const pl_ast* node, pl_expr J[6]) {
 static bool is_needed(pl_lower* l, const pl_ast* axes, const pl_constraint* c, const char* part) {
   if (vanishes(l, c->g)) return false;
   if (pl_has_role(l->pool, c->g, PL_R_COORD) || pl_has_role(l->pool, c->g, PL_R_ARRAY)) return true;
-  double x = pl_eval(l->pool, pl_model_plain(l->pool, c->g), pl_model_values(l->m, l->arena));
+  double x = pl_eval(l->pool, pl_unit_to_si(l->pool, c->g), pl_model_values(l->m, l->arena));
   if (fabs(x) < 1e-12) return false;
   pl_diagnostic* m = pl_lower_complain(
       l, PL_E067, pl_ast_span(axes),

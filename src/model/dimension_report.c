@@ -28,7 +28,7 @@ static int symbols_of(pl_dim_pass* d, pl_expr e, pl_symbol* out) {
   if (n > MAX_SYMBOLS) n = MAX_SYMBOLS;
   int kept = 0;
   for (int i = 0; i < n; i++) {
-    if (!pl_is_unit_symbol(d->pool, found[i])
+    if (!pl_unit_is_symbol(d->pool, found[i])
         && pl_symbol_get(d->pool, found[i])->role != PL_R_INDEX)
       out[kept++] = found[i];
   }
@@ -202,7 +202,7 @@ static const char* words(pl_dim_pass* d, const pl_dim_form* f, pl_language lang)
 
 // As a reader writes it: 0.001 rather than 1/1000.
 static const char* text_of(pl_dim_pass* d, pl_expr e) {
-  pl_expr plain = pl_model_plain(d->pool, e);
+  pl_expr plain = pl_unit_to_si(d->pool, e);
   if (pl_is_number(d->pool, plain))
     return pl_format(d->job->arena, "%.9g", pl_number_double(d->pool, plain));
   return pl_expr_words(d->job->arena, d->pool, plain);
@@ -320,7 +320,7 @@ static bool has_unit(pl_dim_pass* d, pl_expr e) {
     pl_expr factor = pl_arg(d->pool, e, i);
     if (pl_kind_of(d->pool, factor) == PL_POW) factor = pl_arg(d->pool, factor, 0);
     if (pl_kind_of(d->pool, factor) == PL_SYMBOL
-        && pl_is_unit_symbol(d->pool, pl_symbol_of(d->pool, factor)))
+        && pl_unit_is_symbol(d->pool, pl_symbol_of(d->pool, factor)))
       return true;
   }
   return false;
@@ -398,7 +398,7 @@ static void fix_need(pl_dim_pass* d, const pl_dim_conflict* c, pl_diagnostic* m)
   }
   const char* unit = pl_dimension_unit(d->job->arena, wanted, false);
   bool short_name = pl_kind_of(d->pool, c->a) == PL_SYMBOL
-                    || pl_is_number(d->pool, pl_model_plain(d->pool, c->a));
+                    || pl_is_number(d->pool, pl_unit_to_si(d->pool, c->a));
   const char* name = short_name ? text_of(d, c->a) : NULL;
   pl_report_fix(m, pl_format(d->job->arena, "%s has to be in %s", name ? name : "this", unit),
                 pl_format(d->job->arena, "%s muss die Einheit %s haben", name ? name : "das", unit),

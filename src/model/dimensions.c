@@ -59,7 +59,7 @@ static const pl_dim_form* form_of_symbol(pl_dim_pass* d, pl_symbol s, int dots) 
     case PL_R_INDEX: return pure(d);
     default: break;
   }
-  if (pl_is_unit_symbol(d->pool, s))
+  if (pl_unit_is_symbol(d->pool, s))
     return pl_dim_fixed(&d->system, pl_exponents_of(info->dimension));
   const pl_dim_form* f = pl_dim_unknown(&d->system, pl_dim_symbol_var(d, s));
   return dots ? times(d, f, -dots, duration(d)) : f;
@@ -434,7 +434,7 @@ static void walk_inits(pl_dim_pass* d, bool with_unit) {
   for (int i = 0; i < m->inits.n; i++) {
     const pl_init* x = &m->inits.at[i];
     if (pl_is_poison(x->value) || pl_is_poison(x->target)
-        || pl_has_unit(d->pool, x->value) != with_unit)
+        || pl_unit_occurs(d->pool, x->value) != with_unit)
       continue;
     d->where = x->span;
     equate(d, PL_CLASH_RELATION, x->target, x->value);
@@ -599,14 +599,14 @@ static void settle(pl_dim_pass* d) {
   for (int id = 1; id <= n; id++) {
     pl_symbol s = {(uint32_t)id};
     pl_role role = pl_symbol_get(d->pool, s)->role;
-    if (role == PL_R_INDEX || pl_is_unit_symbol(d->pool, s)) continue;
+    if (role == PL_R_INDEX || pl_unit_is_symbol(d->pool, s)) continue;
     settle_symbol(d, s);
   }
 }
 
 static void see_unit(void* user, const pl_slot* slot) {
   pl_model* m = user;
-  if (!pl_is_poison(*slot->at) && pl_has_unit(m->pool, *slot->at)) m->uses_units = true;
+  if (!pl_is_poison(*slot->at) && pl_unit_occurs(m->pool, *slot->at)) m->uses_units = true;
 }
 
 static bool has_dimension(const pl_model* m, pl_symbol s) {

@@ -261,7 +261,7 @@ double* pl_model_values(const pl_model* m, pl_arena* a) {
   for (int i = 1; i < n; i++) {
     const pl_symbol_info* info = pl_symbol_get(m->pool, (pl_symbol){(uint32_t)i});
     if (!pl_is_poison(info->number)) v.value[i] = pl_eval(m->pool, info->number, v.value);
-    else if (pl_is_unit_symbol(m->pool, (pl_symbol){(uint32_t)i})) v.value[i] = 1;
+    else if (pl_unit_is_symbol(m->pool, (pl_symbol){(uint32_t)i})) v.value[i] = 1;
   }
   give_all(&v);
   for (int i = 1; i < n; i++) {
@@ -306,14 +306,14 @@ static pleuel_status set_param(pl_job* job, pl_model* m, pl_param* p, pl_expr va
     return pl_fail(job, PLEUEL_USAGE, "%s cannot be set to an expression of itself", info->name);
   }
   pl_dimension x;
-  bool with_unit = pl_has_unit(m->pool, value);
+  bool with_unit = pl_unit_occurs(m->pool, value);
   if (with_unit && info->dimension_known && pl_known_dimension(m, value, &x)
       && !pl_dimension_equal(x, info->dimension)) {
     return pl_fail(job, PLEUEL_USAGE, "%s is %s, but the value set is %s", info->name,
                    pl_dimension_words(job->arena, info->dimension, job->lang),
                    pl_dimension_words(job->arena, x, job->lang));
   }
-  p->value = m->checked ? pl_model_plain(m->pool, value) : value;
+  p->value = m->checked ? pl_unit_to_si(m->pool, value) : value;
   return PLEUEL_OK;
 }
 
@@ -343,7 +343,7 @@ pleuel_status pl_model_set(pl_job* job, pl_model* m, const char* name, pl_expr v
   pl_role role = s.id ? pl_symbol_get(m->pool, s)->role : PL_R_PARAM;
   if (role != PL_R_COORD && role != PL_R_VELOCITY)
     return pl_fail(job, PLEUEL_USAGE, "no parameter is named %s", name);
-  pl_expr plain = m->checked ? pl_model_plain(m->pool, value) : value;
+  pl_expr plain = m->checked ? pl_unit_to_si(m->pool, value) : value;
   for (int i = 0; i < m->inits.n; i++) {
     if (!m->inits.at[i].guess && is_start_target(m, m->inits.at[i].target, s)) {
       m->inits.at[i].value = plain;

@@ -6,6 +6,7 @@
 #ifndef PL_MODEL_H
 #define PL_MODEL_H
 
+#include "units/units.h"
 #include "expr/expr.h"
 
 // An index range of a family: `for i in lo..hi`.  Blocks nest: outer points to the enclosing one.
@@ -494,37 +495,7 @@ typedef struct pl_turned {
 // on the angles in a way that is singular itself.
 bool pl_model_turned(pl_job* job, pl_model* m, pl_turned* out);
 
-// ------------------------------------------------------------------------------------------- units
-// A unit as written. `factor` is what a number in front of the unit is multiplied by: the exact
-// factor to SI times the SI base units as symbols ("[m]", "[kg]", ...), so that `1 [m] + 2 [s]` is
-// still seen to be wrong after the constructors have sorted it. pl_model_check puts 1 for these
-// symbols everywhere in the model; pl_model_plain does it for one expression. `scale` is the plain
-// exact number. deg, rpm, min, bar, prefixes: model/units.def.
-typedef struct pl_unit {
-  pl_expr factor;
-  pl_dimension dimension;
-  bool is_angle;
-  pl_expr scale;
-} pl_unit;
-// e with every unit symbol replaced by 1, every number with a unit by its value
-pl_expr pl_model_plain(pl_pool* p, pl_expr e);
-// some unit symbol or number with a unit occurs in e
-bool pl_has_unit(const pl_pool* p, pl_expr e);
-// A number with its unit as a symbol (pl_symbol_info.number) that displays as written, `text` being
-// the unit. Equal quantities are one symbol. Zero and pure numbers stay numbers, a negative one is
-// minus the symbol.
-pl_expr pl_measure_make(pl_pool* p, pl_expr number, const pl_unit* unit, const char* text);
-// 0.5 m + 20 cm as one, 0.7 m; e itself if it has names in it
-pl_expr pl_measure_join(pl_pool* p, pl_expr e);
-// pl_unit_parse reads "m/s^2", "kN m", "m²/s". On failure false, with the offending part in *bad
-// (offset, length) and the nearest known unit in *near (may be NULL).
-bool pl_unit_parse(pl_pool* p, const char* text, size_t n, pl_unit* out, size_t* bad_at,
-                   size_t* bad_n, const char** near);
-
-// pl_unit_explain answers `pleuel units m/s`: dimension, factor to SI, and what fits; or what is
-// wrong and near names.
-const char* pl_unit_explain(pl_arena* a, pl_pool* p, const char* text, pl_language lang);
-
+// -------------------------------------------------------------------------------------- dimensions
 // pl_model_dimension gives the dimension of an expression over the symbols of a checked model
 // (velocities, start values and elements of families follow from their coordinate). false: not
 // known, or the model uses no units.

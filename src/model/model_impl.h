@@ -7,34 +7,7 @@
 #define PL_NAN __builtin_nan("")  // the macros of math.h are float, and warn
 #define PL_INF __builtin_inf()
 
-// ------------------------------------------------------------------------------------- exponents.c
-// lowest terms, den > 0; den 0: overflow
-typedef struct pl_fraction {
-  int64_t num, den;
-} pl_fraction;
-// of m kg s A K mol cd
-typedef struct pl_exponents {
-  pl_fraction e[PL_N_BASE_UNITS];
-} pl_exponents;
-bool pl_fraction_valid(pl_fraction a);
-pl_fraction pl_fraction_make(int64_t num, int64_t den);
-pl_fraction pl_fraction_add(pl_fraction a, pl_fraction b);
-pl_fraction pl_fraction_mul(pl_fraction a, pl_fraction b);
-pl_fraction pl_fraction_neg(pl_fraction a);
-pl_fraction pl_fraction_div(pl_fraction a, pl_fraction b);
-pl_exponents pl_exponents_zero(void);
-pl_exponents pl_exponents_add(pl_exponents a, pl_fraction f, pl_exponents b);  // a + f b
-bool pl_exponents_are_zero(pl_exponents a);
-pl_exponents pl_exponents_of(pl_dimension d);
-// false: too large for pl_dimension
-bool pl_exponents_get_dimension(pl_exponents a, pl_dimension* out);
-
-// ----------------------------------------------------------------------------------------- units.c
-// The nearest unit to a word: a known spelling, or one within two typing errors. NULL if nothing is
-// near.
-const char* pl_unit_near(pl_arena* a, const char* word, size_t n);
-bool pl_is_unit_symbol(const pl_pool* p, pl_symbol s);  // a base unit, or a number with its unit
-pl_expr pl_model_bare(pl_pool* p, pl_expr e);
+// ------------------------------------------------------------------------------------------ bare.c
 void pl_dress_bare_numbers(pl_model* m);  // w - 0.5 with w a length: 0.5 m
 
 // -------------------------------------------------------------------------------------- traverse.c

@@ -205,10 +205,10 @@ static void keep_measures(pl_model* m, pl_expr e, pl_span span) {
 
 static void strip_slot(void* user, const pl_slot* slot) {
   pl_model* m = user;
-  if (pl_is_poison(*slot->at) || !pl_has_unit(m->pool, *slot->at)) return;
-  if (reads_number(slot->kind)) *slot->at = pl_model_plain(m->pool, *slot->at);
+  if (pl_is_poison(*slot->at) || !pl_unit_occurs(m->pool, *slot->at)) return;
+  if (reads_number(slot->kind)) *slot->at = pl_unit_to_si(m->pool, *slot->at);
   else {
-    *slot->at = pl_model_bare(m->pool, *slot->at);
+    *slot->at = pl_unit_drop(m->pool, *slot->at);
     keep_measures(m, *slot->at, slot->span);
   }
 }

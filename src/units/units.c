@@ -6,7 +6,7 @@
 //   atom    = number | "(" unit ")" | [prefix] symbol
 //
 // A product after a division ("J/kg K") can be read in two ways and is refused, as in formulas.
-#include "model_impl.h"
+#include "units/units.h"
 
 #include <string.h>
 
@@ -445,7 +445,7 @@ static pl_symbol base_symbol(pl_pool* p, int i) {
   return pl_symbol_make(p, &info);
 }
 
-bool pl_is_unit_symbol(const pl_pool* p, pl_symbol s) {
+bool pl_unit_is_symbol(const pl_pool* p, pl_symbol s) {
   if (!s.id) return false;
   const pl_symbol_info* info = pl_symbol_get(p, s);
   return info->ascii && info->ascii[0] == '[';
@@ -563,7 +563,7 @@ pl_expr pl_measure_join(pl_pool* p, pl_expr e) {
 }
 
 // e with the base units taken out, [m] = 1; numbers with units stay.
-pl_expr pl_model_bare(pl_pool* p, pl_expr e) {
+pl_expr pl_unit_drop(pl_pool* p, pl_expr e) {
   pl_replace replace[PL_N_BASE_UNITS];
   int n = 0;
   for (int i = 0; i < PL_N_BASE_UNITS; i++) {
@@ -573,16 +573,14 @@ pl_expr pl_model_bare(pl_pool* p, pl_expr e) {
   return n && !pl_is_poison(e) ? pl_subst(p, e, replace, n) : e;
 }
 
-pl_expr pl_model_plain(pl_pool* p, pl_expr e) {
-  return pl_model_bare(p, pl_without_measures(p, e));
-}
+pl_expr pl_unit_to_si(pl_pool* p, pl_expr e) { return pl_unit_drop(p, pl_without_measures(p, e)); }
 
-bool pl_has_unit(const pl_pool* p, pl_expr e) {
+bool pl_unit_occurs(const pl_pool* p, pl_expr e) {
   int n_symbols = pl_symbols_in(p, e, NULL, 0);
   pl_symbol* s = PL_ARRAY(pl_pool_arena(p), pl_symbol, n_symbols + 1);
   pl_symbols_in(p, e, s, n_symbols);
   for (int i = 0; i < n_symbols; i++) {
-    if (pl_is_unit_symbol(p, s[i])) return true;
+    if (pl_unit_is_symbol(p, s[i])) return true;
   }
   return false;
 }

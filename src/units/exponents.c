@@ -2,7 +2,7 @@
 // being worked out. pl_dimension keeps its exponents in bytes; here there is room for what a long
 // chain of products may need. An overflow gives a fraction with denominator 0, which spreads;
 // whoever reads the result looks once.
-#include "model_impl.h"
+#include "units/units.h"
 
 static int64_t greatest_common_divisor(int64_t a, int64_t b) {
   if (a < 0) a = -a;
