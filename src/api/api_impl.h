@@ -6,6 +6,7 @@
 #include "derive/derive.h"
 #include "lang/lang.h"
 #include "model/model.h"
+#include "export/export.h"
 #include "report/report.h"
 #include "result/result.h"
 #include "solve/solve.h"

@@ -59,28 +59,11 @@ typedef struct pl_json_input {
 // model is used for printing.
 void pl_worked_json(pl_text* out, const pl_json_input* in);
 
+// Is the letter of a section in the list "b,c"?  NULL: all are.
+bool pl_worked_wanted(const char* only, const char* letter);
+
 // "ok", "model_error", ...: the value of the key "status".
 const char* pl_status_word(pleuel_status s);
-
-// ------------------------------------------------------------------------------------------ export
-// The formulas of a solution in the language of another program.
-typedef enum pl_export_target {  // ORDER EXPORTS
-  PL_EXPORT_SYMPY,
-  PL_EXPORT_MATHEMATICA,
-  PL_EXPORT_MAXIMA,
-  PL_EXPORT_JULIA,
-  PL_EXPORT_JSON
-} pl_export_target;
-// "sympy"; false: there is none of this name
-bool pl_export_target_find(const char* word, pl_export_target* target);
-
-typedef struct pl_export_input {
-  pl_export_target target;
-  const char* file;  // as named on the command line
-  const pl_solution* solution;
-  const char* only;  // letters; NULL: all
-} pl_export_input;
-void pl_export(pl_text* out, const pl_export_input* in);
 
 // -------------------------------------------------------------------------------------------- HTML
 // One page that holds everything: result, motion, derivation, checks, model. It loads nothing, runs

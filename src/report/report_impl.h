@@ -54,7 +54,6 @@ const char* pl_plain_ascii(pl_arena* a, const char* s);
 
 // ---- worked_sections.c
 void pl_worked_sections(pl_page* g, const pl_solution* s);
-bool pl_worked_wanted(const char* only, const char* letter);  // is the letter in the list "b,c"
 
 // ---- worked_text.c
 // does a step of the solution tell this note already

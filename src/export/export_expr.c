@@ -1,7 +1,7 @@
 // Expressions in the syntax of other programs. Sums, products and powers look alike everywhere;
 // calls and the rest are templates (export.def). Exact numbers stay exact where the target has
 // them, and a division never joins two integers that a target would round.
-#include "export_impl.h"
+#include "export/export_impl.h"
 
 #include <string.h>
 

@@ -4,7 +4,7 @@
 #include <stddef.h>
 #include <cmocka.h>
 
-#include "export_impl.h"
+#include "export/export_impl.h"
 
 typedef struct desk {
   pl_arena* a;

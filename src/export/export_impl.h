@@ -3,7 +3,7 @@
 #ifndef PL_EXPORT_IMPL_H
 #define PL_EXPORT_IMPL_H
 
-#include "report.h"
+#include "export/export.h"
 
 // How a target spells what is no call.  Templates as in export.def; $0 is the name of a symbol.
 typedef struct pl_dialect {

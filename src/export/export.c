@@ -2,8 +2,7 @@
 // value, with a key that says which it is: "c lambda_g1 of g1". Symbols are declared with what is
 // known of their sign, the numbers of the parameters stand beside, abbreviations of the model stay
 // abbreviations.
-#include "export_impl.h"
-#include "report_impl.h"
+#include "export/export_impl.h"
 
 #include <math.h>
 #include <string.h>
@@ -23,7 +22,7 @@ const pl_dialect pl_dialects[] = {
 #define PL_EXPORT(id, sympy, mathematica, maxima, julia) [PL_##id] = sympy,
      .function =
          {
-#include "export.def"
+#include "export/export.def"
          },
 #undef PL_EXPORT
      .reserved = " sp symbols parameters abbreviations values False None True and as assert async "
@@ -44,7 +43,7 @@ const pl_dialect pl_dialects[] = {
 #define PL_EXPORT(id, sympy, mathematica, maxima, julia) [PL_##id] = mathematica,
      .function =
          {
-#include "export.def"
+#include "export/export.def"
          },
 #undef PL_EXPORT
      .camel = true,
@@ -62,7 +61,7 @@ const pl_dialect pl_dialects[] = {
 #define PL_EXPORT(id, sympy, mathematica, maxima, julia) [PL_##id] = maxima,
      .function =
          {
-#include "export.def"
+#include "export/export.def"
          },
 #undef PL_EXPORT
      .reserved =
@@ -87,7 +86,7 @@ const pl_dialect pl_dialects[] = {
 #define PL_EXPORT(id, sympy, mathematica, maxima, julia) [PL_##id] = julia,
      .function =
          {
-#include "export.def"
+#include "export/export.def"
          },
 #undef PL_EXPORT
      .reserved = " pleuel_values Any Dict Float64 Inf Int NaN String abstract baremodule begin "

@@ -1,6 +1,6 @@
 // Names of symbols in other programs: those of the JSON document where they are free there, else
 // with something behind them. Mathematica knows no underscores: x1_dot is x1Dot, x1_0 is x1$0.
-#include "export_impl.h"
+#include "export/export_impl.h"
 
 #include <ctype.h>
 #include <string.h>
