@@ -15,7 +15,7 @@ typedef struct teller {
 } teller;
 
 static const char* say(const teller* t, const char* const words[2]) {
-  return t->ascii ? pl_plain_ascii(t->arena, words[t->lang]) : words[t->lang];
+  return t->ascii ? pl_ascii_of(t->arena, words[t->lang]) : words[t->lang];
 }
 
 static const char* number(const teller* t, double x, int digits) {

@@ -17,7 +17,7 @@ typedef struct pl_teller {
 
 static const char* say(const pl_teller* t, const char* en, const char* de) {
   const char* words = t->lang == PL_GERMAN ? de : en;
-  return t->ascii ? pl_plain_ascii(t->arena, words) : words;
+  return t->ascii ? pl_ascii_of(t->arena, words) : words;
 }
 
 static const char* number(const pl_teller* t, double x, int digits) {

@@ -440,7 +440,7 @@ static void name_links(pl_recorder* r, int i, pl_link* link) {
   const pl_constraint* c = &r->model->constraints.at[i];
   pl_group* g;
   if (group_for(r, c->block, &g) != PLEUEL_OK) return;
-  const char* own = c->multiplier ? pl_plain_ascii(r->arena, c->multiplier) : NULL;
+  const char* own = c->multiplier ? pl_ascii_of(r->arena, c->multiplier) : NULL;
   for (int k = 0; k < g->instances.n; k++) {
     pl_link* out = &link[r->first_link[i] + k];
     set_indices(r, &g->instances, k);

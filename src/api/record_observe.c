@@ -426,9 +426,9 @@ static pleuel_status watch_outputs(pl_recorder* r, pl_watching* w, pl_columns* c
     pl_dimension d;
     bool known = m->uses_units && pl_model_dimension(m, o->value, &d)
                  && !pl_dimension_equal(d, pl_dimension_one());
-    pl_push(r->arena, *columns,
-            (pl_column){pl_plain_ascii(r->arena, o->name),
-                        known ? unit_of_output(r, o->value, d) : ""});
+    pl_push(
+        r->arena, *columns,
+        (pl_column){pl_ascii_of(r->arena, o->name), known ? unit_of_output(r, o->value, d) : ""});
   }
   r->explicit_time = explicit_time;
   return PLEUEL_OK;

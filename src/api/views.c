@@ -121,11 +121,11 @@ static void plot_line(pl_views* v, pleuel_model* m, int i) {
                    && pl_symbol_of(p, line->x).id == pl_time(p).id;
   int x = over_time
               ? 0
-              : pl_result_find(v->result, pl_plain_ascii(v->arena, hidden_name(v->arena, i, -1)));
+              : pl_result_find(v->result, pl_ascii_of(v->arena, hidden_name(v->arena, i, -1)));
   if (x < 0) return;
   int first = v->plots.n;
   for (int k = 0; k < line->y.n; k++) {
-    int column = pl_result_find(v->result, pl_plain_ascii(v->arena, hidden_name(v->arena, i, k)));
+    int column = pl_result_find(v->result, pl_ascii_of(v->arena, hidden_name(v->arena, i, k)));
     if (column < 0) continue;
     const char* unit = unit_of(v, p, line->y.at[k], column);
     pl_html_plot* plot = plot_for(v, first, unit, 0);
@@ -173,7 +173,7 @@ static const char* missing_quantities(pl_views* v, const pl_model* m) {
   for (int i = 0; i < m->plots.n; i++) {
     const pl_plot* line = &m->plots.at[i];
     for (int k = -1; k < line->y.n; k++) {
-      const char* column = pl_plain_ascii(v->arena, hidden_name(v->arena, i, k));
+      const char* column = pl_ascii_of(v->arena, hidden_name(v->arena, i, k));
       if (pl_result_find(v->result, column) >= 0) continue;
       pl_text_addf(&names, "%s%s", n++ ? ", " : "", k < 0 ? line->x_text : line->y_text.at[k]);
     }

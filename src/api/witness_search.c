@@ -89,7 +89,7 @@ static bool read_listed(pl_witness* w, const pl_rest_field* f, const pl_trace* t
   *out = (pl_listed){.value = v, .exists = true};
   for (int k = 0; k < v->n_components; k++) {
     const pl_component* c = &v->components[k];
-    int at = coordinate_named(f, t, pl_plain_ascii(w->arena, c->along));
+    int at = coordinate_named(f, t, pl_ascii_of(w->arena, c->along));
     if (at < 0 || pl_has_role(w->pool, c->expr, PL_R_COORD) || v->n_where > 0) return false;
     double x = pl_is_poison(c->expr) ? c->number : pl_eval(w->pool, c->expr, t->value);
     if (isnan(x)) out->exists = false;

@@ -300,4 +300,42 @@ const char* pl_dimension_unit(pl_arena* a, pl_dimension d, bool ascii);
 // What it is in words: "a length", "an acceleration", or "a quantity in kg/s".
 const char* pl_dimension_words(pl_arena* a, pl_dimension d, pl_language lang);
 
+// ------------------------------------------------------------------------- text in ASCII (ascii.c)
+// A sentence in pure ASCII: Greek letters by name, umlauts by two letters, ² as ^2, dashes and arrows as - and ->.
+const char* pl_ascii_of(pl_arena* a, const char* s);
+
+// ------------------------------------------------------------------------------------ writing JSON
+// A writer on a pl_text: indented by two blanks, keys in the order given. Numbers are the shortest
+// decimal that reads back to the same double; NaN and infinities become null. Strings are UTF-8;
+// what is not valid UTF-8 becomes U+FFFD.
+typedef struct pl_json {
+  pl_text* out;
+  int depth;
+  bool empty;  // nothing was written yet at this depth
+  bool after_key;
+  uint64_t flat;  // bit per depth: written on one line
+} pl_json;
+pl_json pl_json_make(pl_text* out);
+void pl_json_object(pl_json* j, const char* key);  // key NULL inside a list and at the top
+void pl_json_list(pl_json* j, const char* key);
+// the object or list just opened stays on one line
+void pl_json_flat(pl_json* j);
+void pl_json_end_object(pl_json* j);
+void pl_json_end_list(pl_json* j);
+void pl_json_string(pl_json* j, const char* key, const char* s);  // NULL writes null
+void pl_json_number(pl_json* j, const char* key, double x);
+void pl_json_int(pl_json* j, const char* key, long n);
+void pl_json_bool(pl_json* j, const char* key, bool b);
+void pl_json_null(pl_json* j, const char* key);
+// a value already written as JSON
+void pl_json_raw(pl_json* j, const char* key, const char* json);
+
+// The shortest decimal that reads back to x: "0.1", "-23.544", "1e-300".
+const char* pl_shortest_double(pl_arena* a, double x);
+
+// --------------------------------------------------------- hashes for readers (sha256.c, base64.c)
+void pl_sha256(unsigned char out[32], const char* s, size_t n);  // FIPS 180-4
+const char* pl_hex_text(pl_arena* a, const unsigned char* b, size_t n);
+void pl_base64_add(pl_text* out, const void* data, size_t n);  // RFC 4648
+
 #endif

@@ -160,7 +160,7 @@ static const char* key_of(exporter* x, const entry* e) {
   for (size_t i = 0; i < sizeof word / sizeof *word; i++) {
     if (word[i][1]) pl_text_addf(&key, "%s%s", word[i][0], word[i][1]);
   }
-  return pl_plain_ascii(x->arena, pl_text_string(&key));
+  return pl_ascii_of(x->arena, pl_text_string(&key));
 }
 
 static void use(exporter* x, pl_expr e) {
@@ -297,7 +297,7 @@ static void add_expr(exporter* x, pl_expr e) {
 // A comment on one line that cannot end the comment it stands in.
 static void add_comment(exporter* x, const char* s) {
   add(x, x->d->comment[0]);
-  for (const char* c = pl_plain_ascii(x->arena, s); *c; c++) {
+  for (const char* c = pl_ascii_of(x->arena, s); *c; c++) {
     bool blank = (unsigned char)*c < ' ';
     pl_text_add_n(x->out, blank ? " " : c, 1);
     bool ends = *c == '*' && (c[1] == '/' || c[1] == ')'),
@@ -527,7 +527,7 @@ static void add_json_entry(exporter* x, pl_json* j, const entry* e) {
                            {"branch", e->value->branch}, {"part", e->part}};
   pl_json_object(j, e->key);
   for (size_t i = 0; i < sizeof word / sizeof *word; i++) {
-    if (word[i][1]) pl_json_string(j, word[i][0], pl_plain_ascii(x->arena, word[i][1]));
+    if (word[i][1]) pl_json_string(j, word[i][0], pl_ascii_of(x->arena, word[i][1]));
   }
   add_json_formula(x, j, e->expr);
   pl_json_string(j, "unit", e->unit);

@@ -6,8 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "html_hash.h"
-
 // ------------------------------------------------------------------------------------------ checks
 static const char* verdict(const pl_html* h, bool passed) {
   return passed ? pl_format(h->arena, "<td class=\"pass\">%s</td>",
@@ -133,9 +131,9 @@ void pl_html_colophon(pl_html* h) {
   const pl_source* source = h->model ? h->model->source : NULL;
   if (source) {
     unsigned char hash[32];
-    pl_html_sha256(hash, source->text, source->size);
+    pl_sha256(hash, source->text, source->size);
     pl_html_rawf(h, " · %s SHA-256 <code class=\"hash\">%s</code>",
-                 pl_html_say(h, "model", "Modell"), pl_html_hex(h->arena, hash, sizeof hash));
+                 pl_html_say(h, "model", "Modell"), pl_hex_text(h->arena, hash, sizeof hash));
   }
   pl_html_rawf(h, "<br>%s</p>",
                pl_html_say(h, "This file needs no network.", "Diese Datei braucht kein Netz."));

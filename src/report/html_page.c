@@ -6,8 +6,6 @@
 
 #include <string.h>
 
-#include "html_hash.h"
-
 static const char brand[] =
     "<svg viewBox=\"0 0 32 20\" width=\"30\" height=\"19\" aria-hidden=\"true\"><circle cx=\"8\" "
     "cy=\"10\" r=\"6.5\" fill=\"none\" "
@@ -21,8 +19,8 @@ static const char brand[] =
 static void put_policy(pl_html* h) {
   unsigned char hash[32];
   pl_text base64 = pl_text_make(h->arena);
-  pl_html_sha256(hash, pl_html_script, strlen(pl_html_script));
-  pl_html_base64(&base64, hash, sizeof hash);
+  pl_sha256(hash, pl_html_script, strlen(pl_html_script));
+  pl_base64_add(&base64, hash, sizeof hash);
   pl_html_rawf(
       h,
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src "

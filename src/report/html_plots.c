@@ -5,8 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "html_hash.h"
-
 enum {
   PL_HTML_PLOT_W = 500,
   PL_HTML_PLOT_H = 190,
@@ -259,7 +257,7 @@ const char* pl_html_floats(pl_html* h, const double* x, int n) {
     for (int k = 0; k < 4; k++) bytes[4 * i + k] = (unsigned char)(bits >> 8 * k);
   }
   pl_text t = pl_text_make(h->arena);
-  pl_html_base64(&t, bytes, 4 * (size_t)n);
+  pl_base64_add(&t, bytes, 4 * (size_t)n);
   return pl_text_string(&t);
 }
 

@@ -8,8 +8,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "html_hash.h"
-
 enum {
   PL_HTML_WIDE = 520,
   PL_HTML_LOWEST = 240,
@@ -442,7 +440,7 @@ static int chosen_points(const pl_shape* p, int* at) {
 
 static void put_track(pl_html* h, const pl_html_track* t, size_t size, bool first) {
   pl_html_raw(h, first ? "\"" : ",\n\"");
-  pl_html_base64(h->out, t->bytes, t->still ? 4 : size);
+  pl_base64_add(h->out, t->bytes, t->still ? 4 : size);
   pl_html_raw(h, "\"");
 }
 

@@ -30,7 +30,7 @@ pl_page pl_page_make(pl_text* out, pl_pool* pool, const pl_worked_style* style) 
 
 const char* pl_page_plain(const pl_page* g, const char* s) {
   if (!s) return "";
-  return g->how.math == PL_MATH_ASCII ? pl_plain_ascii(g->arena, s) : s;
+  return g->how.math == PL_MATH_ASCII ? pl_ascii_of(g->arena, s) : s;
 }
 
 const char* pl_page_words(const pl_page* g, const char* const words[2]) {

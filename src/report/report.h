@@ -32,9 +32,6 @@ pl_worked_style pl_worked_style_default(pl_language lang);
 void pl_worked_text(pl_text* out, const pl_solution* s, const pl_diagnostics* notes,
                     const pl_worked_style* style);
 
-// Text in pure ASCII: Greek by name, umlauts by two letters.
-const char* pl_plain_ascii(pl_arena* a, const char* s);
-
 // -------------------------------------------------------------------------------------------- JSON
 // The document of `solve --json` and `check --json`, schema version 1 (docs/json.md). What is not
 // there is left out of the input (NULL) and becomes an empty list, so that errors have the shape of
@@ -133,34 +130,5 @@ typedef struct pl_tex_style {
 // pl_tex writes the worked solution in LaTeX.  notes as in pl_worked_text.
 void pl_tex(pl_text* out, const pl_solution* s, const pl_diagnostics* notes,
             const pl_tex_style* style);
-
-// ------------------------------------------------------------------------------------ writing JSON
-// A writer on a pl_text: indented by two blanks, keys in the order given. Numbers are the shortest
-// decimal that reads back to the same double; NaN and infinities become null. Strings are UTF-8;
-// what is not valid UTF-8 becomes U+FFFD.
-typedef struct pl_json {
-  pl_text* out;
-  int depth;
-  bool empty;  // nothing was written yet at this depth
-  bool after_key;
-  uint64_t flat;  // bit per depth: written on one line
-} pl_json;
-pl_json pl_json_make(pl_text* out);
-void pl_json_object(pl_json* j, const char* key);  // key NULL inside a list and at the top
-void pl_json_list(pl_json* j, const char* key);
-// the object or list just opened stays on one line
-void pl_json_flat(pl_json* j);
-void pl_json_end_object(pl_json* j);
-void pl_json_end_list(pl_json* j);
-void pl_json_string(pl_json* j, const char* key, const char* s);  // NULL writes null
-void pl_json_number(pl_json* j, const char* key, double x);
-void pl_json_int(pl_json* j, const char* key, long n);
-void pl_json_bool(pl_json* j, const char* key, bool b);
-void pl_json_null(pl_json* j, const char* key);
-// a value already written as JSON
-void pl_json_raw(pl_json* j, const char* key, const char* json);
-
-// The shortest decimal that reads back to x: "0.1", "-23.544", "1e-300".
-const char* pl_shortest_double(pl_arena* a, double x);
 
 #endif

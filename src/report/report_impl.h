@@ -48,10 +48,6 @@ const char* pl_page_fill(pl_page* g, const char* words, int n, const pl_form* co
 // base line, for what stands at the margin.
 pl_lines pl_page_formula(pl_page* g, const pl_form* f, int width, int right);
 
-// ---- plain_ascii.c
-// Sentences in pure ASCII: Greek letters by name, ä as ae, ² as ^2, dashes and arrows as - and ->.
-const char* pl_plain_ascii(pl_arena* a, const char* s);
-
 // ---- worked_sections.c
 void pl_worked_sections(pl_page* g, const pl_solution* s);
 

@@ -83,7 +83,7 @@ const char* pl_tex_fill(pl_tex_page* g, const char* words, int n, const pl_form*
 }
 
 const char* pl_tex_slug(pl_arena* a, const char* s, const char* otherwise) {
-  const char* ascii = pl_plain_ascii(a, s ? s : "");
+  const char* ascii = pl_ascii_of(a, s ? s : "");
   pl_text out = pl_text_make(a);
   bool gap = false;
   for (const char* c = ascii; *c && out.n < 40; c++) {

@@ -224,7 +224,7 @@ static void pl_doc_components(pl_document* d, const pl_value* v) {
   for (int i = 0; i < v->n_components; i++) {
     const pl_component* c = &v->components[i];
     pl_json_object(&d->j, NULL);
-    pl_json_string(&d->j, "along", c->along ? pl_plain_ascii(d->arena, c->along) : NULL);
+    pl_json_string(&d->j, "along", c->along ? pl_ascii_of(d->arena, c->along) : NULL);
     pl_doc_expr_key(d, "expr", c->expr);
     pl_doc_optional(d, "text", pl_doc_form(d, c->form, PL_MATH_LINE));
     pl_doc_optional(d, "tex", pl_doc_form(d, c->form, PL_MATH_TEX));

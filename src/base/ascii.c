@@ -1,17 +1,17 @@
 // Sentences in pure ASCII, for terminals that have nothing else. Formulas come from notation in
 // ASCII already; here are the words around them: Greek by name as the model language spells it,
 // umlauts by two letters, typographic signs by the nearest plain ones.
-#include "report_impl.h"
+#include "base/base.h"
 
 #include <string.h>
 
-typedef struct pl_plain {
+typedef struct ascii_row {
   uint32_t code_point;
   const char* ascii;
-} pl_plain;
+} ascii_row;
 
 // In order of code points, for the search.
-static const pl_plain pl_plain_table[] = {
+static const ascii_row ascii_table[] = {
     {0x00a0, " "},     {0x00a7, "section "}, {0x00ab, "\""},      {0x00b0, " deg"},
     {0x00b1, "+-"},    {0x00b2, "^2"},       {0x00b3, "^3"},      {0x00b5, "u"},
     {0x00b7, "*"},     {0x00b9, "^1"},       {0x00bb, "\""},      {0x00bd, "1/2"},
@@ -40,20 +40,20 @@ static const pl_plain pl_plain_table[] = {
     {0x226a, "<<"},    {0x226b, ">>"},       {0x22c5, "*"},
 };
 
-static const char* pl_plain_find(uint32_t code_point) {
-  int lo = 0, hi = (int)(sizeof pl_plain_table / sizeof *pl_plain_table);
+static const char* find_ascii(uint32_t code_point) {
+  int lo = 0, hi = (int)(sizeof ascii_table / sizeof *ascii_table);
   while (lo < hi) {
     int mid = (lo + hi) / 2;
-    if (pl_plain_table[mid].code_point < code_point) lo = mid + 1;
+    if (ascii_table[mid].code_point < code_point) lo = mid + 1;
     else hi = mid;
   }
-  bool found = lo < (int)(sizeof pl_plain_table / sizeof *pl_plain_table)
-               && pl_plain_table[lo].code_point == code_point;
-  return found ? pl_plain_table[lo].ascii : NULL;
+  bool found = lo < (int)(sizeof ascii_table / sizeof *ascii_table)
+               && ascii_table[lo].code_point == code_point;
+  return found ? ascii_table[lo].ascii : NULL;
 }
 
 // Superscript digits in a row share one ^: 10⁻¹² is 10^-12.
-static int pl_plain_superscript(uint32_t c) {
+static int superscript_digit(uint32_t c) {
   if (c == 0xb9) return '1';
   if (c == 0xb2 || c == 0xb3) return '2' + (int)(c - 0xb2);
   if (c == 0x2070 || (c >= 0x2074 && c <= 0x2079)) return '0' + (int)(c - 0x2070);
@@ -61,7 +61,7 @@ static int pl_plain_superscript(uint32_t c) {
   return 0;
 }
 
-const char* pl_plain_ascii(pl_arena* a, const char* s) {
+const char* pl_ascii_of(pl_arena* a, const char* s) {
   pl_text out = pl_text_make(a);
   const char* end = s + strlen(s);
   bool raised = false, space = false;
@@ -72,9 +72,9 @@ const char* pl_plain_ascii(pl_arena* a, const char* s) {
       c = '?';
       n = 1;
     }
-    int digit = pl_plain_superscript(c);
+    int digit = superscript_digit(c);
     bool dot = c == 0x0307 || c == 0x0308;  // combining dots: x with a dot is x'
-    const char* plain = pl_plain_find(c);
+    const char* plain = find_ascii(c);
     if (digit) {
       char one[3] = {'^', (char)digit, 0};
       pl_text_add(&out, raised ? one + 1 : one);

@@ -1,5 +1,5 @@
 // SHA-256 (FIPS 180-4), to name a model text and to tell the browser which script is ours.
-#include "html_hash.h"
+#include "base/base.h"
 
 #include <string.h>
 
@@ -39,7 +39,7 @@ static void take_block(uint32_t h[8], const unsigned char* b) {
   for (int i = 0; i < 8; i++) h[i] += v[i];
 }
 
-void pl_html_sha256(unsigned char out[32], const char* s, size_t n) {
+void pl_sha256(unsigned char out[32], const char* s, size_t n) {
   uint32_t h[8] = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
                    0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
   unsigned char tail[128] = {0};
@@ -53,22 +53,8 @@ void pl_html_sha256(unsigned char out[32], const char* s, size_t n) {
   for (int i = 0; i < 32; i++) out[i] = (unsigned char)(h[i / 4] >> (24 - 8 * (i % 4)));
 }
 
-const char* pl_html_hex(pl_arena* a, const unsigned char* b, size_t n) {
+const char* pl_hex_text(pl_arena* a, const unsigned char* b, size_t n) {
   pl_text t = pl_text_make(a);
   for (size_t i = 0; i < n; i++) pl_text_addf(&t, "%02x", b[i]);
   return pl_text_string(&t);
-}
-
-// Base64, RFC 4648.
-void pl_html_base64(pl_text* out, const void* data, size_t n) {
-  static const char digit[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  const unsigned char* b = data;
-  for (size_t i = 0; i < n; i += 3) {
-    size_t k = n - i < 3 ? n - i : 3;
-    uint32_t x = (uint32_t)b[i] << 16 | (k > 1 ? (uint32_t)b[i + 1] << 8 : 0)
-                 | (k > 2 ? b[i + 2] : 0u);
-    char four[4] = {digit[x >> 18], digit[x >> 12 & 63], k > 1 ? digit[x >> 6 & 63] : '=',
-                    k > 2 ? digit[x & 63] : '='};
-    pl_text_add_n(out, four, 4);
-  }
 }

@@ -1,23 +1,21 @@
 // Writing JSON on a pl_text. Objects and lists are indented by two blanks a level; small ones may
 // be kept on a line. Everything stays in the arena of the text, so a document costs no other memory
 // and can be given up at any point.
-#include "report.h"
+#include "base/base.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static bool pl_json_is_flat(const pl_json* j) {
-  return (j->flat >> (j->depth < 63 ? j->depth : 63)) & 1;
-}
+static bool is_flat(const pl_json* j) { return (j->flat >> (j->depth < 63 ? j->depth : 63)) & 1; }
 
-static void pl_json_line(pl_json* j) {
-  if (pl_json_is_flat(j)) return;
+static void new_line(pl_json* j) {
+  if (is_flat(j)) return;
   pl_text_add(j->out, "\n");
   pl_text_pad(j->out, 2 * j->depth);
 }
 
-static void pl_json_escape(pl_text* out, const char* s) {
+static void add_escaped(pl_text* out, const char* s) {
   const char* end = s + strlen(s);
   pl_text_add(out, "\"");
   while (s < end) {
@@ -40,28 +38,28 @@ static void pl_json_escape(pl_text* out, const char* s) {
 }
 
 // What comes before any value: comma, new line, key.
-static void pl_json_begin(pl_json* j, const char* key) {
+static void begin_value(pl_json* j, const char* key) {
   if (j->depth > 0) {
-    if (!j->empty) pl_text_add(j->out, pl_json_is_flat(j) ? ", " : ",");
-    pl_json_line(j);
+    if (!j->empty) pl_text_add(j->out, is_flat(j) ? ", " : ",");
+    new_line(j);
   }
   j->empty = false;
   if (!key) return;
-  pl_json_escape(j->out, key);
+  add_escaped(j->out, key);
   pl_text_add(j->out, ": ");
 }
 
-static void pl_json_open(pl_json* j, const char* key, const char* bracket) {
-  bool flat = pl_json_is_flat(j);
-  pl_json_begin(j, key);
+static void open_bracket(pl_json* j, const char* key, const char* bracket) {
+  bool flat = is_flat(j);
+  begin_value(j, key);
   pl_text_add(j->out, bracket);
   j->depth++;
   if (j->depth < 63) j->flat = (j->flat & ~(1ull << j->depth)) | ((uint64_t)flat << j->depth);
   j->empty = true;
 }
 
-static void pl_json_close(pl_json* j, const char* bracket) {
-  bool empty = j->empty, flat = pl_json_is_flat(j);
+static void close_bracket(pl_json* j, const char* bracket) {
+  bool empty = j->empty, flat = is_flat(j);
   j->depth--;
   if (!empty && !flat) {
     pl_text_add(j->out, "\n");
@@ -72,40 +70,40 @@ static void pl_json_close(pl_json* j, const char* bracket) {
 }
 
 pl_json pl_json_make(pl_text* out) { return (pl_json){.out = out, .empty = true}; }
-void pl_json_object(pl_json* j, const char* key) { pl_json_open(j, key, "{"); }
-void pl_json_list(pl_json* j, const char* key) { pl_json_open(j, key, "["); }
-void pl_json_end_object(pl_json* j) { pl_json_close(j, "}"); }
-void pl_json_end_list(pl_json* j) { pl_json_close(j, "]"); }
+void pl_json_object(pl_json* j, const char* key) { open_bracket(j, key, "{"); }
+void pl_json_list(pl_json* j, const char* key) { open_bracket(j, key, "["); }
+void pl_json_end_object(pl_json* j) { close_bracket(j, "}"); }
+void pl_json_end_list(pl_json* j) { close_bracket(j, "]"); }
 
 void pl_json_flat(pl_json* j) {
   if (j->depth < 63) j->flat |= 1ull << j->depth;
 }
 
 void pl_json_string(pl_json* j, const char* key, const char* s) {
-  pl_json_begin(j, key);
-  if (s) pl_json_escape(j->out, s);
+  begin_value(j, key);
+  if (s) add_escaped(j->out, s);
   else pl_text_add(j->out, "null");
 }
 
 void pl_json_number(pl_json* j, const char* key, double x) {
-  pl_json_begin(j, key);
+  begin_value(j, key);
   pl_text_add(j->out, isfinite(x) ? pl_shortest_double(j->out->arena, x) : "null");
 }
 
 void pl_json_int(pl_json* j, const char* key, long n) {
-  pl_json_begin(j, key);
+  begin_value(j, key);
   pl_text_addf(j->out, "%ld", n);
 }
 
 void pl_json_bool(pl_json* j, const char* key, bool b) {
-  pl_json_begin(j, key);
+  begin_value(j, key);
   pl_text_add(j->out, b ? "true" : "false");
 }
 
 void pl_json_null(pl_json* j, const char* key) { pl_json_string(j, key, NULL); }
 
 void pl_json_raw(pl_json* j, const char* key, const char* json) {
-  pl_json_begin(j, key);
+  begin_value(j, key);
   pl_text_add(j->out, json);
 }
 
