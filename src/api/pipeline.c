@@ -1,7 +1,7 @@
 // pipeline: every arrow of the program on one page.
 //
 //     text -> lang -> model -> derive -> (a) notation -> report            worked solution, JSON
-//                                     -> (b) tape -> jet -> solve -> result -> report     motion
+//                                     -> (b) program -> solve -> result -> report     motion
 //
 // Each step is taken once and remembered in the pleuel_model; asking for a later one takes those
 // before it. A step that was interrupted is taken anew.

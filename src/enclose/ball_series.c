@@ -1,4 +1,4 @@
-// Taylor coefficients in balls through a tape: the recurrences of jet/interpret.c, whose proof is
+// Taylor coefficients in balls through a tape: the recurrences of program/jet_interpret.c, whose proof is
 // that of power series (each is an identity between the coefficients of analytic functions), so
 // that in ball arithmetic coefficient k of each node contains that of every motion that begins in
 // the balls of order 0.
@@ -170,7 +170,7 @@ static void value(place* p) {
   pl_ball_op(p->c, p->node->op, p->a, p->b, p->w, p->prec);
 }
 
-void pl_jet_coefficients(pl_ball_jet* j, pl_level level, int k, slong prec, uint8_t wanted) {
+void pl_jet_coefficients(pl_ball_jet* j, pl_tape_level level, int k, slong prec, uint8_t wanted) {
   int from = level == PL_LEVEL_CONST ? 0 : j->tape->level_end[level - 1],
       to = j->tape->level_end[level];
   for (int i = from; i < to; i++) {

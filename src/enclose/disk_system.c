@@ -16,7 +16,7 @@ static bool run_node(pl_ball_jet* j, int i) {
   return pl_disk_op(&j->disk[i], n->op, at(j->disk, n->a), at(j->disk, n->b), at(j->disk, n->c));
 }
 
-static bool run_level(pl_ball_jet* j, pl_level level) {
+static bool run_level(pl_ball_jet* j, pl_tape_level level) {
   for (int i = j->tape->level_end[level - 1]; i < j->tape->level_end[level]; i++)
     if ((j->wanted[i] & PL_FOR_MOTION) && j->tape->nodes[i].op >= PL_OP_ADD && !run_node(j, i))
       return false;

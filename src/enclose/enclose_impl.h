@@ -86,7 +86,7 @@ typedef struct pl_ball_jet {
 enum { PL_FOR_MOTION = 1, PL_FOR_START = 2 };
 
 // Order k of the nodes of a level that are wanted.
-void pl_jet_coefficients(pl_ball_jet* j, pl_level level, int k, slong prec, uint8_t wanted);
+void pl_jet_coefficients(pl_ball_jet* j, pl_tape_level level, int k, slong prec, uint8_t wanted);
 
 // -------------------------------------------------------------------------------------- the system
 typedef struct pl_system {

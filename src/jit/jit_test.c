@@ -122,18 +122,18 @@ static int now_of(void* user, int node) {
 }
 static int sum_of(void* user, int node, int i) {
   t_tape* t = user;
-  pl_lower_sum s[3];
-  pl_lower_sums(&t->tape, node, s);
+  pl_recurrence_sum s[3];
+  pl_recurrence_sums(&t->tape, node, s);
   return constant(t, s[i].a) || constant(t, s[i].b)
              ? -1
              : pl_prog_load(t->order, sum_place(t, node, i), 0);
 }
 
 static void write_sums(t_tape* t) {
-  pl_lower_sum s[3];
+  pl_recurrence_sum s[3];
   pl_prog_block_begin(t->order, t->lanes, 0);
   for (int i = 0; i < t->tape.n_nodes; i++) {
-    int n = pl_lower_sums(&t->tape, i, s);
+    int n = pl_recurrence_sums(&t->tape, i, s);
     for (int j = 0; j < n; j++) {
       if (constant(t, s[j].a) || constant(t, s[j].b)) continue;
       pl_prog_sum_begin(t->order, sum_place(t, i, j), s[j].weighted);
@@ -147,16 +147,16 @@ static void write_sums(t_tape* t) {
 static void write_programs(t_tape* t) {
   t->value = pl_prog_make(t->arena, "value", t->lanes);
   t->order = pl_prog_make(t->arena, "order", t->lanes);
-  pl_lower low = {.code = t->value,
-                  .tape = &t->tape,
-                  .user = t,
-                  .start = start_of,
-                  .now = now_of,
-                  .sum = sum_of,
-                  .means = t->means};
+  pl_recurrence low = {.code = t->value,
+                       .tape = &t->tape,
+                       .user = t,
+                       .start = start_of,
+                       .now = now_of,
+                       .sum = sum_of,
+                       .means = t->means};
   for (int i = 0; i < t->tape.n_nodes; i++) t->start[i] = -2;
   for (int i = t->tape.level_end[PL_LEVEL_CONST]; i < t->tape.n_nodes; i++) {
-    int x = pl_lower_value(&low, i);
+    int x = pl_recurrence_value(&low, i);
     if (x >= 0) pl_prog_store(t->value, x, place(t, i), 0);
   }
   for (int i = 0; i < t->tape.n_nodes; i++) t->start[i] = -1;
@@ -164,7 +164,7 @@ static void write_programs(t_tape* t) {
   write_sums(t);
   for (int i = t->tape.level_end[PL_LEVEL_CONST]; i < t->tape.n_nodes; i++) {
     if (t->node[i].op == PL_OP_Q || t->node[i].op == PL_OP_TIME) continue;
-    int x = pl_lower_coefficient(&low, i);
+    int x = pl_recurrence_coefficient(&low, i);
     pl_prog_store(t->order, x < 0 ? pl_prog_number(t->order, 0) : x, place(t, i), t->lanes);
   }
   t->size = t->scale + 2 * ORDERS * t->lanes;

@@ -9,7 +9,7 @@
 
 static const int reads_of[PL_N_PROG_OPS] = {
 #define PL_PROG(name, reads, meaning) reads,
-#include "prog.def"
+#include "program/prog.def"
 #undef PL_PROG
 };
 

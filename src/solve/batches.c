@@ -195,7 +195,7 @@ void pl_batches_load_lambda(pl_batches* b, const double* lambda, int k) {
 }
 
 // --------------------------------------------------------------------------------------- computing
-void pl_batches_sweep(pl_batches* bs, pl_level level, int k, bool all) {
+void pl_batches_sweep(pl_batches* bs, pl_tape_level level, int k, bool all) {
   for (int i = 0; i < bs->n; i++) bs->at[i].jet->kernel(bs->at[i].jet, level, k, all);
 }
 

@@ -109,7 +109,8 @@ static void lay_out(pl_maker* k) {
   for (int i = 0; i < k->n_nodes; i++) {
     if (k->needed[i] || k->for_energy[i]) k->cell[i] = at++;
     if (k->high[i]
-        && pl_lower_has_inverse(k->instance[k->owner[i]].tape, i - k->instance[k->owner[i]].base))
+        && pl_recurrence_has_inverse(k->instance[k->owner[i]].tape,
+                                     i - k->instance[k->owner[i]].base))
       k->inverse[i] = at++;
   }
   k->elimination = pl_elimination_make(k->a, k->entry, o->n, o->n_mass, o->n - o->n_taken, &at);
@@ -153,13 +154,13 @@ int pl_maker_start(pl_maker* k, int node) {
 
 void pl_maker_begin(pl_maker* k, pl_motion_part part, const char* name, int width) {
   k->code = k->o->code[part] = pl_prog_make(k->a, name, width);
-  k->lower = (pl_lower){.code = k->code,
-                        .user = k,
-                        .start = start_of,
-                        .now = now_of,
-                        .sum = sum_of,
-                        .inverse = inverse_of,
-                        .means = true};
+  k->lower = (pl_recurrence){.code = k->code,
+                             .user = k,
+                             .start = start_of,
+                             .now = now_of,
+                             .sum = sum_of,
+                             .inverse = inverse_of,
+                             .means = true};
   for (int i = 0; i < k->n_nodes; i++) k->start[i] = k->now[i] = k->place_now[i] = -1;
   k->with_sums = k->speed_phase = false;
 }
@@ -174,7 +175,7 @@ int pl_maker_value(pl_maker* k, int node) {
   pl_maker_instance* i = &k->instance[k->owner[node]];
   k->instance_now = k->owner[node];
   k->lower.tape = i->tape;
-  int x = pl_lower_value(&k->lower, node - i->base);
+  int x = pl_recurrence_value(&k->lower, node - i->base);
   if (x >= 0) {
     k->start[node] = x;
     pl_prog_store(k->code, x, k->cell[node], 0);
@@ -247,7 +248,7 @@ static void factor(pl_maker* k) {
 }
 
 // Nodes of q and t, inputs first.
-static void write_inputs(pl_maker* k, pl_op op, pl_level level, const bool* set) {
+static void write_inputs(pl_maker* k, pl_op op, pl_tape_level level, const bool* set) {
   for (int i = 0; i < k->n_nodes; i++) {
     const pl_tape_node* n = pl_maker_node(k, i);
     if (!set[i] || n->op != op || n->level != level) continue;
@@ -260,7 +261,7 @@ static void write_inputs(pl_maker* k, pl_op op, pl_level level, const bool* set)
   }
 }
 
-void pl_maker_level(pl_maker* k, pl_level level, const bool* set) {
+void pl_maker_level(pl_maker* k, pl_tape_level level, const bool* set) {
   write_inputs(k, PL_OP_TIME, level, set);
   write_inputs(k, PL_OP_Q, level, set);
   write_inputs(k, PL_OP_V, level, set);

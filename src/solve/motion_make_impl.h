@@ -22,7 +22,7 @@ typedef PL_VEC(int) pl_places;  // of streams, row 0
 // A product that is summed over the orders: one lane of a group of eight.
 typedef struct pl_maker_sum {
   int node, i, cell;
-  pl_lower_sum reads;
+  pl_recurrence_sum reads;
 } pl_maker_sum;
 
 // A lane of a stream of constants: 1 in all rows, or 1/k in row k; or what rounding left of these.
@@ -63,7 +63,7 @@ typedef struct pl_maker {
   pl_elimination* elimination;
   // the code at work
   pl_prog* code;
-  pl_lower lower;
+  pl_recurrence lower;
   int instance_now;
   // registers of order 0, order at work, order k+1 of nodes of q and t
   int *start, *now, *place_now;
@@ -86,7 +86,7 @@ void pl_maker_end(pl_maker* k);
 int pl_maker_start(pl_maker* k, int node);  // register of order 0
 int pl_maker_value(pl_maker* k, int node);  // computes order 0
 // order 0 of the nodes of a level
-void pl_maker_level(pl_maker* k, pl_level level, const bool* set);
+void pl_maker_level(pl_maker* k, pl_tape_level level, const bool* set);
 // ---- motion_nodes.c
 void pl_maker_instances(pl_maker* k);  // instances, which nodes are the same
 void pl_maker_terms(pl_maker* k);      // entries, which nodes are needed

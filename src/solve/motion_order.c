@@ -87,12 +87,12 @@ static bool is_constant(const pl_maker* k, int instance, int node) {
 
 typedef PL_VEC(pl_maker_sum) pl_sum_list;
 
-static void list_sums(pl_maker* k, pl_level level, pl_sum_list* out) {
+static void list_sums(pl_maker* k, pl_tape_level level, pl_sum_list* out) {
   for (int i = 0; i < k->n_nodes; i++) {
     const pl_maker_instance* in = &k->instance[k->owner[i]];
-    pl_lower_sum s[3];
+    pl_recurrence_sum s[3];
     if (!k->high[i] || pl_maker_node(k, i)->level != level) continue;
-    int n = pl_lower_sums(in->tape, i - in->base, s);
+    int n = pl_recurrence_sums(in->tape, i - in->base, s);
     for (int j = 0; j < n; j++)
       if (!is_constant(k, k->owner[i], s[j].a) && !is_constant(k, k->owner[i], s[j].b))
         pl_push(k->a, *out,
@@ -106,7 +106,7 @@ static void list_sums(pl_maker* k, pl_level level, pl_sum_list* out) {
 
 // Another sum that reads the same series A; -1 none.
 static int same_reader(const pl_sum_list* sums, const bool* done, int first) {
-  const pl_lower_sum* x = &sums->at[first].reads;
+  const pl_recurrence_sum* x = &sums->at[first].reads;
   for (int i = first + 1; i < sums->n; i++)
     if (!done[i] && sums->at[i].reads.a == x->a && sums->at[i].reads.weighted == x->weighted)
       return i;
@@ -360,7 +360,7 @@ static void publish(pl_maker* k, int node, int x, int row) {
 static int coefficient(pl_maker* k, int node) {
   k->instance_now = k->owner[node];
   k->lower.tape = k->instance[k->instance_now].tape;
-  return pl_lower_coefficient(&k->lower, node - k->instance[k->instance_now].base);
+  return pl_recurrence_coefficient(&k->lower, node - k->instance[k->instance_now].base);
 }
 
 static int global_coordinate(const pl_maker* k, int node) {
@@ -517,13 +517,13 @@ static void equations(pl_maker* k, bool first) {
 }
 
 // ----------------------------------------------------------------------------------- the two codes
-static void inverses(pl_maker* k, pl_level level) {
+static void inverses(pl_maker* k, pl_tape_level level) {
   for (int i = 0; i < k->n_nodes; i++) {
     if (k->inverse[i] < 0 || pl_maker_node(k, i)->level != level) continue;
     pl_maker_instance* in = &k->instance[k->owner[i]];
     k->instance_now = k->owner[i];
     k->lower.tape = in->tape;
-    pl_prog_store(k->code, pl_lower_inverse(&k->lower, i - in->base), k->inverse[i], 0);
+    pl_prog_store(k->code, pl_recurrence_inverse(&k->lower, i - in->base), k->inverse[i], 0);
   }
 }
 

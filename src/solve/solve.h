@@ -15,7 +15,7 @@
 #ifndef PL_SOLVE_H
 #define PL_SOLVE_H
 
-#include "jet/jet.h"
+#include "program/jet.h"
 
 // ------------------------------------------------------------------------------------------- setup
 // A coordinate.  Names and units for columns and messages; start values are optional.

@@ -383,7 +383,7 @@ void pl_batches_load_q(pl_batches* b, const double* q, int k);
 void pl_batches_load_v(pl_batches* b, const double* v, int k);
 void pl_batches_load_a(pl_batches* b, const double* a, int k);
 void pl_batches_load_lambda(pl_batches* b, const double* lambda, int k);
-void pl_batches_sweep(pl_batches* b, pl_level level, int k, bool all);
+void pl_batches_sweep(pl_batches* b, pl_tape_level level, int k, bool all);
 // sums of contributions
 void pl_batches_outputs(const pl_batches* b, double* out, int n_out, int k);
 

@@ -60,7 +60,7 @@ static void series_of_events(pl_run* run) {
     pl_batches_load_a(b, run->A + (size_t)k * (size_t)run->n_q, k);
     pl_batches_load_lambda(b, run->L + (size_t)k * (size_t)run->n_c, k);
     for (int level = PL_LEVEL_PLACE; level < PL_N_LEVELS; level++)
-      pl_batches_sweep(b, (pl_level)level, k, true);
+      pl_batches_sweep(b, (pl_tape_level)level, k, true);
     pl_batches_outputs(b, run->W_series + (size_t)k * (size_t)run->setup->n_watched,
                        run->setup->n_watched, k);
   }
@@ -287,7 +287,7 @@ static double event_at(pl_run* run, int e, double t, const double* q, const doub
   pl_batches_load_v(b, v, 0);
   pl_batches_load_a(b, run->row_a, 0);
   pl_batches_load_lambda(b, run->row_l, 0);
-  for (int l = PL_LEVEL_PLACE; l < PL_N_LEVELS; l++) pl_batches_sweep(b, (pl_level)l, 0, true);
+  for (int l = PL_LEVEL_PLACE; l < PL_N_LEVELS; l++) pl_batches_sweep(b, (pl_tape_level)l, 0, true);
   pl_batches_outputs(b, run->W_coef, run->setup->n_watched, 0);
   return run->W_coef[run->setup->events[e].watch];
 }

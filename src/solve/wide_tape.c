@@ -22,9 +22,9 @@ static void keep(writer* w, int node, int x) {
 
 // Nodes of levels CONST that are computed, first .. end - 1.
 static void write_nodes(writer* w, const pl_tape* tape, int first, int end) {
-  pl_lower lower = {.code = w->code, .tape = tape, .user = w, .start = start_of};
+  pl_recurrence lower = {.code = w->code, .tape = tape, .user = w, .start = start_of};
   for (int i = first; i < end; i++) {
-    int x = pl_lower_value(&lower, i);
+    int x = pl_recurrence_value(&lower, i);
     if (x >= 0) keep(w, i, x);
   }
 }

@@ -1,5 +1,5 @@
 // Which wider types this build has.
-#include "jit/jit.h"
+#include "program/program.h"
 
 #ifdef PL_HAS_LONG
 extern const pl_real pl_real_of_long;

@@ -1,6 +1,6 @@
 // From the Lagrange function, the forces and the constraints of a pattern to M, h, G, W, dg/dt on
 // one tape.
-#include "tape/tape.h"
+#include "program/tape.h"
 
 typedef struct builder {
   pl_job* job;
@@ -116,7 +116,8 @@ static void add_outputs(builder* b) {
 
 // ------------------------------------------------------------------------------------------ checks
 // Entries must be known when the order they are needed at is computed.
-static bool levels_allow(const pl_tape* tape, const pl_pattern_entry* e, int n, pl_level highest) {
+static bool levels_allow(const pl_tape* tape, const pl_pattern_entry* e, int n,
+                         pl_tape_level highest) {
   for (int i = 0; i < n; i++)
     if (tape->nodes[tape->roots[e[i].root]].level > highest) return false;
   return true;

@@ -1,80 +1,80 @@
-// The recurrences of the tape's operations (jet/interpret.c has the formulas) as code. Products and
+// The recurrences of the tape's operations (program/jet_interpret.c has the formulas) as code. Products and
 // additions that follow each other are fused, coefficients that are zero left out. Where the caller
 // keeps reciprocals they are multiplied with, otherwise there are divisions.
-#include "jit/jit.h"
+#include "program/program.h"
 
-static const pl_tape_node* at(const pl_lower* l, int node) { return &l->tape->nodes[node]; }
-static int start(const pl_lower* l, int node) { return l->start(l->user, node); }
-static int now(const pl_lower* l, int node) { return node < 0 ? -1 : l->now(l->user, node); }
+static const pl_tape_node* at(const pl_recurrence* l, int node) { return &l->tape->nodes[node]; }
+static int start(const pl_recurrence* l, int node) { return l->start(l->user, node); }
+static int now(const pl_recurrence* l, int node) { return node < 0 ? -1 : l->now(l->user, node); }
 
 // -------------------------------------------------------------------------------- zero is left out
-static int add(const pl_lower* l, int a, int b) {
+static int add(const pl_recurrence* l, int a, int b) {
   return a < 0 ? b : b < 0 ? a : pl_prog_op2(l->code, PL_PROG_ADD, a, b);
 }
-static int neg(const pl_lower* l, int a) {
+static int neg(const pl_recurrence* l, int a) {
   return a < 0 ? -1 : pl_prog_op1(l->code, PL_PROG_NEG, a);
 }
-static int sub(const pl_lower* l, int a, int b) {
+static int sub(const pl_recurrence* l, int a, int b) {
   return b < 0 ? a : a < 0 ? neg(l, b) : pl_prog_op2(l->code, PL_PROG_SUB, a, b);
 }
-static int mul(const pl_lower* l, int a, int b) {
+static int mul(const pl_recurrence* l, int a, int b) {
   return a < 0 || b < 0 ? -1 : pl_prog_op2(l->code, PL_PROG_MUL, a, b);
 }
-static int fma_(const pl_lower* l, int a, int b, int c) {
+static int fma_(const pl_recurrence* l, int a, int b, int c) {
   return a < 0 || b < 0 ? c : c < 0 ? mul(l, a, b) : pl_prog_op3(l->code, PL_PROG_FMA, a, b, c);
 }
-static int fnma(const pl_lower* l, int a, int b, int c) {
+static int fnma(const pl_recurrence* l, int a, int b, int c) {
   return a < 0 || b < 0 ? c
          : c < 0        ? neg(l, mul(l, a, b))
                         : pl_prog_op3(l->code, PL_PROG_FNMA, a, b, c);
 }
-static int or_zero(const pl_lower* l, int a) { return a < 0 ? pl_prog_number(l->code, 0) : a; }
+static int or_zero(const pl_recurrence* l, int a) { return a < 0 ? pl_prog_number(l->code, 0) : a; }
 
 // ------------------------------------------------------------------------------------ convolutions
-int pl_lower_sums(const pl_tape* tape, int node, pl_lower_sum out[3]) {
+int pl_recurrence_sums(const pl_tape* tape, int node, pl_recurrence_sum out[3]) {
   const pl_tape_node* n = &tape->nodes[node];
   int self = node;
   switch ((pl_op)n->op) {
-    case PL_OP_MUL: out[0] = (pl_lower_sum){n->a, n->b, false}; return 1;
-    case PL_OP_SQR: out[0] = (pl_lower_sum){n->a, n->a, false}; return 1;
-    case PL_OP_DIV: out[0] = (pl_lower_sum){n->b, self, false}; return 1;
-    case PL_OP_SQRT: out[0] = (pl_lower_sum){self, self, false}; return 1;
+    case PL_OP_MUL: out[0] = (pl_recurrence_sum){n->a, n->b, false}; return 1;
+    case PL_OP_SQR: out[0] = (pl_recurrence_sum){n->a, n->a, false}; return 1;
+    case PL_OP_DIV: out[0] = (pl_recurrence_sum){n->b, self, false}; return 1;
+    case PL_OP_SQRT: out[0] = (pl_recurrence_sum){self, self, false}; return 1;
     case PL_OP_POW:
-      out[0] = (pl_lower_sum){n->a, self, true};
-      out[1] = (pl_lower_sum){n->a, self, false};
+      out[0] = (pl_recurrence_sum){n->a, self, true};
+      out[1] = (pl_recurrence_sum){n->a, self, false};
       return 2;
-    case PL_OP_EXP: out[0] = (pl_lower_sum){n->a, self, true}; return 1;
-    case PL_OP_LN: out[0] = (pl_lower_sum){self, n->a, true}; return 1;
+    case PL_OP_EXP: out[0] = (pl_recurrence_sum){n->a, self, true}; return 1;
+    case PL_OP_LN: out[0] = (pl_recurrence_sum){self, n->a, true}; return 1;
     case PL_OP_SIN:
     case PL_OP_COS:
     case PL_OP_SINH:
     case PL_OP_COSH:
     case PL_OP_TAN:
-    case PL_OP_TANH: out[0] = (pl_lower_sum){n->a, n->c, true}; return 1;
+    case PL_OP_TANH: out[0] = (pl_recurrence_sum){n->a, n->c, true}; return 1;
     case PL_OP_ASIN:
     case PL_OP_ACOS:
-    case PL_OP_ATAN: out[0] = (pl_lower_sum){self, n->c, true}; return 1;
+    case PL_OP_ATAN: out[0] = (pl_recurrence_sum){self, n->c, true}; return 1;
     case PL_OP_ATAN2:
-      out[0] = (pl_lower_sum){n->a, n->b, true};
-      out[1] = (pl_lower_sum){n->b, n->a, true};
-      out[2] = (pl_lower_sum){self, n->c, true};
+      out[0] = (pl_recurrence_sum){n->a, n->b, true};
+      out[1] = (pl_recurrence_sum){n->b, n->a, true};
+      out[2] = (pl_recurrence_sum){self, n->c, true};
       return 3;
     default: return 0;
   }
 }
 
 // ----------------------------------------------------------------------------------------- order 0
-static int call(const pl_lower* l, pl_prog_function f, int node) {
+static int call(const pl_recurrence* l, pl_prog_function f, int node) {
   return pl_prog_call1(l->code, f, start(l, at(l, node)->a));
 }
 
-static int sign_of(const pl_lower* l, int a) {
+static int sign_of(const pl_recurrence* l, int a) {
   pl_prog* c = l->code;
   int below = pl_prog_op3(c, PL_PROG_IF_LESS, a, pl_prog_number(c, -1), a);
   return pl_prog_op3(c, PL_PROG_IF_MORE, a, pl_prog_number(c, 1), below);
 }
 
-int pl_lower_value(const pl_lower* l, int node) {
+int pl_recurrence_value(const pl_recurrence* l, int node) {
   const pl_tape_node* n = at(l, node);
   pl_prog* c = l->code;
   int a = n->a >= 0 ? start(l, n->a) : -1, b = n->b >= 0 ? start(l, n->b) : -1;
@@ -129,29 +129,29 @@ static int divisor(const pl_tape* tape, int node) {
   }
 }
 
-bool pl_lower_has_inverse(const pl_tape* tape, int node) { return divisor(tape, node) >= 0; }
+bool pl_recurrence_has_inverse(const pl_tape* tape, int node) { return divisor(tape, node) >= 0; }
 
-static int twice_root(const pl_lower* l, int node) {
+static int twice_root(const pl_recurrence* l, int node) {
   return pl_prog_op2(l->code, PL_PROG_MUL, pl_prog_number(l->code, 2), start(l, node));
 }
 
 // A power of zero has no series: it goes on as if it stayed zero, and what that is off by shortens
 // the step.
-static int unless_zero(const pl_lower* l, int node, int x) {
+static int unless_zero(const pl_recurrence* l, int node, int x) {
   pl_op op = (pl_op)at(l, node)->op;
   if (op != PL_OP_SQRT && op != PL_OP_POW) return x;
   int size = pl_prog_op1(l->code, PL_PROG_ABS, start(l, divisor(l->tape, node)));
   return pl_prog_op3(l->code, PL_PROG_IF_MORE, size, x, pl_prog_number(l->code, 0));
 }
 
-int pl_lower_inverse(const pl_lower* l, int node) {
+int pl_recurrence_inverse(const pl_recurrence* l, int node) {
   int of = divisor(l->tape, node);
   if (of < 0) return -1;
   int x = at(l, node)->op == PL_OP_SQRT ? twice_root(l, node) : start(l, of);
   return unless_zero(l, node, pl_prog_op2(l->code, PL_PROG_DIV, pl_prog_number(l->code, 1), x));
 }
 
-static int over(const pl_lower* l, int x, int node) {
+static int over(const pl_recurrence* l, int x, int node) {
   if (x < 0) return -1;
   if (l->inverse) return pl_prog_op2(l->code, PL_PROG_MUL, x, l->inverse(l->user, node));
   int by = at(l, node)->op == PL_OP_SQRT ? twice_root(l, node) : start(l, divisor(l->tape, node));
@@ -160,17 +160,17 @@ static int over(const pl_lower* l, int x, int node) {
 
 // ----------------------------------------------------------------------------------------- order k
 // x / k
-static int over_order(const pl_lower* l, int x) {
+static int over_order(const pl_recurrence* l, int x) {
   return x < 0 ? -1 : pl_prog_op2(l->code, PL_PROG_DIV, x, pl_prog_order(l->code, 0));
 }
 
-static int sum(const pl_lower* l, int node, int i) { return l->sum(l->user, node, i); }
-static int mean(const pl_lower* l, int node) {
+static int sum(const pl_recurrence* l, int node, int i) { return l->sum(l->user, node, i); }
+static int mean(const pl_recurrence* l, int node) {
   return l->means ? sum(l, node, 0) : over_order(l, sum(l, node, 0));
 }
 
 // a^r:  ((r + 1) S_1 / k - S_2 + r a_k c_0) / a_0,  S_1 = sum j a_j c_{k-j},  S_2 = sum a_j c_{k-j}
-static int power(const pl_lower* l, int node) {
+static int power(const pl_recurrence* l, int node) {
   const pl_tape_node* n = at(l, node);
   pl_prog* c = l->code;
   int r = start(l, n->b), more = pl_prog_op2(c, PL_PROG_ADD, r, pl_prog_number(c, 1));
@@ -181,7 +181,7 @@ static int power(const pl_lower* l, int node) {
 }
 
 // a_k b_0 - b_k a_0 + (S_1 - S_2 - S_3)/k over w_0
-static int angle(const pl_lower* l, int node) {
+static int angle(const pl_recurrence* l, int node) {
   const pl_tape_node* n = at(l, node);
   int known = sub(l, sub(l, sum(l, node, 0), sum(l, node, 1)), sum(l, node, 2));
   if (!l->means) known = over_order(l, known);
@@ -189,7 +189,7 @@ static int angle(const pl_lower* l, int node) {
   return over(l, fnma(l, now(l, n->b), start(l, n->a), x), node);
 }
 
-static int linear(const pl_lower* l, int node) {
+static int linear(const pl_recurrence* l, int node) {
   const pl_tape_node* n = at(l, node);
   pl_prog* c = l->code;
   int a = now(l, n->a), b = now(l, n->b);
@@ -216,7 +216,7 @@ static int linear(const pl_lower* l, int node) {
   }
 }
 
-int pl_lower_coefficient(const pl_lower* l, int node) {
+int pl_recurrence_coefficient(const pl_recurrence* l, int node) {
   const pl_tape_node* n = at(l, node);
   pl_prog* c = l->code;
   if (!pl_op_series[n->op]) return linear(l, node);

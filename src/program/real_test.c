@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "jit/jit.h"
+#include "program/program.h"
 
 enum { TYPES = 3 };
 static const pl_real* type_of(int i) {

@@ -2,17 +2,17 @@
 // used again.
 #include <string.h>
 
-#include "jit/jit.h"
+#include "program/program.h"
 
 const char* const pl_prog_op_name[PL_N_PROG_OPS] = {
 #define PL_PROG(name, reads, meaning) #name,
-#include "prog.def"
+#include "program/prog.def"
 #undef PL_PROG
 };
 
 const int pl_prog_op_reads[PL_N_PROG_OPS] = {
 #define PL_PROG(name, reads, meaning) reads,
-#include "prog.def"
+#include "program/prog.def"
 #undef PL_PROG
 };
 

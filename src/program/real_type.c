@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "jit/jit.h"
+#include "program/program.h"
 
 // ---------------------------------------------------------------------------------------- the type
 #if defined(PL_REAL_LONG) || PL_QUAD == 3
@@ -18,7 +18,7 @@ static int print(char* out, size_t n, int digits, real x) {
 static real parse(const char* text) { return strtold(text, NULL); }
 #else
 typedef __float128 real;
-#  include "jit/real_quad_impl.h"
+#  include "program/real_quad_impl.h"
 #  define FUNCTION(name) QUAD(name)
 #endif
 
@@ -30,7 +30,7 @@ typedef __float128 real;
 #define NEG(a)        (-(a))
 #define MORE(a, b)    ((a) > (b))
 #define AT_MOST(a, b) ((a) <= (b))
-#include "jit/real_run_impl.h"
+#include "program/real_run_impl.h"
 
 // ------------------------------------------------------------------------------ numbers in and out
 static void read_numbers(const void* memory, int at, int n, double* out) {

@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "jet/jet.h"
+#include "program/jet.h"
 
 enum { ORDERS = 16 };
 

@@ -3,7 +3,7 @@
 // bits more slowly.
 #include <math.h>
 
-#include "jit/jit.h"
+#include "program/program.h"
 
 #ifndef PL_INTERPRET
 #  define PL_INTERPRET pl_prog_interpret_plain

@@ -8,8 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "jit/jit.h"
-#include "jit/real_quad_impl.h"
+#include "program/program.h"
+#include "program/real_quad_impl.h"
 
 typedef struct real {
   double h, l;
@@ -97,7 +97,7 @@ static real fabs_pair(real a) { return size(a); }
 #define NEG(a)         negative(a)
 #define MORE(a, b)     is_more(a, b)
 #define AT_MOST(a, b)  is_at_most(a, b)
-#include "jit/real_run_impl.h"
+#include "program/real_run_impl.h"
 
 // ------------------------------------------------------------------------------ numbers in and out
 static void read_numbers(const void* memory, int at, int n, double* out) {

@@ -8,7 +8,7 @@
 #ifndef PL_REAL_RUN_IMPL_H
 #define PL_REAL_RUN_IMPL_H
 
-#include "jit/jit.h"
+#include "program/program.h"
 
 #define INLINE static inline __attribute__((always_inline))
 #define LANES  for (int l = 0; l < width; l++)

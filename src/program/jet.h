@@ -9,7 +9,7 @@
 #ifndef PL_JET_H
 #define PL_JET_H
 
-#include "tape/tape.h"
+#include "program/tape.h"
 
 typedef struct pl_jet pl_jet;
 enum { PL_JET_LANES = 128 };
@@ -17,7 +17,7 @@ enum { PL_JET_LANES = 128 };
 // pl_kernel computes coefficient k of the nodes of one level. Orders below k of this level, and k
 // of lower levels, must be there; inputs of order k too. all: also nodes that the motion does not
 // need above order 0.
-typedef void pl_kernel(pl_jet* jet, pl_level level, int k, bool all);
+typedef void pl_kernel(pl_jet* jet, pl_tape_level level, int k, bool all);
 
 struct pl_jet {
   const pl_tape* tape;
@@ -51,6 +51,6 @@ void pl_jet_constants(pl_jet* j, const double* index);
 void pl_jet_time(pl_jet* j, double t);
 
 // The interpreter.
-void pl_jet_interpret(pl_jet* j, pl_level level, int k, bool all);
+void pl_jet_interpret(pl_jet* j, pl_tape_level level, int k, bool all);
 
 #endif

@@ -17,7 +17,7 @@
 // Lanes are the inner loop everywhere, in blocks of eight, so that a sum stays in a register; sums
 // run upwards in j. This file is compiled for several kinds of processors (meson.build), with the
 // same bits.
-#include "jet/jet.h"
+#include "program/jet.h"
 
 #include <math.h>
 
@@ -207,7 +207,7 @@ INLINE void coefficient(pl_jet* jet, int i, int k, int lanes, int block) {
 }
 
 // ------------------------------------------------------------------------------------------- sweep
-INLINE void sweep(pl_jet* jet, pl_level level, int k, bool all, int lanes, int block) {
+INLINE void sweep(pl_jet* jet, pl_tape_level level, int k, bool all, int lanes, int block) {
   const pl_tape_node* nodes = jet->tape->nodes;
   int from = level == PL_LEVEL_CONST ? 0 : jet->tape->level_end[level - 1],
       to = jet->tape->level_end[level];
@@ -221,7 +221,7 @@ INLINE void sweep(pl_jet* jet, pl_level level, int k, bool all, int lanes, int b
     if (all || nodes[i].high) coefficient(jet, i, k, lanes, block);
 }
 
-void PL_INTERPRET(pl_jet* jet, pl_level level, int k, bool all) {
+void PL_INTERPRET(pl_jet* jet, pl_tape_level level, int k, bool all) {
   if (jet->lanes == 1) sweep(jet, level, k, all, 1, 1);
   else sweep(jet, level, k, all, jet->lanes, 8);
 }

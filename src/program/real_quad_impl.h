@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "jit/jit.h"
+#include "program/program.h"
 
 #if PL_QUAD == 1
 // Of the C library.  Its headers show them only to some compilers, so they are declared here.

@@ -1,5 +1,5 @@
 // Which build of the interpreter this processor can run.  Both give the same bits.
-#include "jit/jit.h"
+#include "program/program.h"
 
 void pl_prog_interpret_plain(const pl_prog* c, double* memory, int from, int to);
 void pl_prog_interpret_fused(const pl_prog* c, double* memory, int from, int to);

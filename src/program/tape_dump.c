@@ -1,5 +1,5 @@
 // A tape as text, for `pleuel dump --after=record` and for golden files.
-#include "tape/tape.h"
+#include "program/tape.h"
 
 static void dump_input(pl_text* out, const pl_pool* pool, const pl_tape* tape,
                        const pl_tape_node* node) {

@@ -25,7 +25,7 @@
 // ----------------------------------------------------------------------------------------- program
 typedef enum pl_op {
 #define PL_OP(name, reads, kind, meaning) PL_OP_##name,
-#include "tape.def"
+#include "program/tape.def"
 #undef PL_OP
   PL_N_OPS
 } pl_op;
@@ -34,13 +34,13 @@ extern const int pl_op_reads[PL_N_OPS];
 extern const bool pl_op_series[PL_N_OPS];  // has a convolution: two-phase form
 
 // What a node depends on decides when its coefficient k can be computed.               ORDER LEVELS
-typedef enum pl_level {
+typedef enum pl_tape_level {
   PL_LEVEL_CONST,  // numbers, parameters: once a run
   PL_LEVEL_PLACE,  // q, t: order k+1 before accelerations of order k are solved for (class A0)
   PL_LEVEL_SPEED,  // q, v, t: order k (class A1)
   PL_LEVEL_FORCE,  // with λ or accelerations: after the solve; outputs and events only
   PL_N_LEVELS
-} pl_level;
+} pl_tape_level;
 
 typedef struct pl_tape_node {
   uint8_t op, level;

@@ -1,5 +1,5 @@
 // Room for the series of a tape, and the things that happen once: constants, time.
-#include "jet/jet.h"
+#include "program/jet.h"
 
 static int count_series(const pl_tape* tape, int from, int to, bool high) {
   int n = 0;
@@ -25,7 +25,7 @@ static void list_series(pl_jet* j, pl_arena* a, int level) {
 // The interpreter for this processor.  All builds give the same bits.
 pl_kernel pl_jet_interpret_plain, pl_jet_interpret_avx2, pl_jet_interpret_avx512;
 
-void pl_jet_interpret(pl_jet* j, pl_level level, int k, bool all) {
+void pl_jet_interpret(pl_jet* j, pl_tape_level level, int k, bool all) {
 #ifdef PL_KERNELS_BY_PROCESSOR
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl")
       && __builtin_cpu_supports("avx512dq"))

@@ -4,7 +4,7 @@
 // Sums become chains in the order of the expression, products are split into constants, numerator
 // and denominator. Nodes are emitted in topological order and sorted by level at the end (ORDER
 // LEVELS).
-#include "tape/tape.h"
+#include "program/tape.h"
 
 #include <assert.h>
 #include <math.h>
@@ -12,20 +12,20 @@
 
 const char* const pl_op_name[PL_N_OPS] = {
 #define PL_OP(name, reads, kind, meaning) #name,
-#include "tape.def"
+#include "program/tape.def"
 #undef PL_OP
 };
 
 const int pl_op_reads[PL_N_OPS] = {
 #define PL_OP(name, reads, kind, meaning) reads,
-#include "tape.def"
+#include "program/tape.def"
 #undef PL_OP
 };
 
 enum { INPUT, LINEAR, SERIES };
 const bool pl_op_series[PL_N_OPS] = {
 #define PL_OP(name, reads, kind, meaning) kind == SERIES,
-#include "tape.def"
+#include "program/tape.def"
 #undef PL_OP
 };
 
@@ -59,8 +59,8 @@ static int give_up(recorder* r, pleuel_status s, const char* fmt, const char* wh
 
 // ---------------------------------------------------------------------------------------- emitting
 // After a failure there may be no node at all.
-static pl_level level_of(const recorder* r, int node) {
-  return node < 0 || node >= r->nodes.n ? PL_LEVEL_CONST : (pl_level)r->nodes.at[node].level;
+static pl_tape_level level_of(const recorder* r, int node) {
+  return node < 0 || node >= r->nodes.n ? PL_LEVEL_CONST : (pl_tape_level)r->nodes.at[node].level;
 }
 
 static int append(recorder* r, pl_tape_node node) {
@@ -116,7 +116,7 @@ static int pi(recorder* r, pl_expr e) {
                                         -2.9947698097183396659e-33});
 }
 
-static int input(recorder* r, pl_op op, pl_level level, int slot) {
+static int input(recorder* r, pl_op op, pl_tape_level level, int slot) {
   uint64_t key = (uint64_t)(op + 1) << 56 | (uint64_t)(slot + 1);
   uint64_t known = pl_map_get(r->by_op, key);
   if (known) return (int)(known - 1);
@@ -140,7 +140,7 @@ static int emit(recorder* r, pl_op op, int a, int b) {
   uint64_t key = (uint64_t)(op + 1) << 56 | (uint64_t)(a + 1) << 28 | (uint64_t)(b + 1);
   uint64_t known = pl_map_get(r->by_op, key);
   if (known) return (int)(known - 1);
-  pl_level level = level_of(r, a) > level_of(r, b) ? level_of(r, a) : level_of(r, b);
+  pl_tape_level level = level_of(r, a) > level_of(r, b) ? level_of(r, a) : level_of(r, b);
   int node = append(
       r, (pl_tape_node){.op = (uint8_t)op, .level = (uint8_t)level, .a = a, .b = b, .c = -1});
   pl_map_set(r->by_op, key, (uint64_t)node + 1);
@@ -335,7 +335,7 @@ static int record_call(recorder* r, pl_expr e) {
 static int record_if(recorder* r, pl_expr e) {
   int a = record(r, pl_arg(r->pool, e, 0)), b = record(r, pl_arg(r->pool, e, 1)),
       c = record(r, pl_arg(r->pool, e, 2));
-  pl_level level = level_of(r, a);
+  pl_tape_level level = level_of(r, a);
   if (level_of(r, b) > level) level = level_of(r, b);
   if (level_of(r, c) > level) level = level_of(r, c);
   return append(r, (pl_tape_node){.op = PL_OP_IF, .level = (uint8_t)level, .a = a, .b = b, .c = c});
@@ -397,10 +397,10 @@ static int record_new(recorder* r, pl_expr e) {
 }
 
 static int record_atom(recorder* r, uint64_t atom) {
-  static const pl_level level[] = {[PL_OP_Q] = PL_LEVEL_PLACE,
-                                   [PL_OP_V] = PL_LEVEL_SPEED,
-                                   [PL_OP_A] = PL_LEVEL_FORCE,
-                                   [PL_OP_LAMBDA] = PL_LEVEL_FORCE};
+  static const pl_tape_level level[] = {[PL_OP_Q] = PL_LEVEL_PLACE,
+                                        [PL_OP_V] = PL_LEVEL_SPEED,
+                                        [PL_OP_A] = PL_LEVEL_FORCE,
+                                        [PL_OP_LAMBDA] = PL_LEVEL_FORCE};
   pl_op op = (pl_op)(atom >> 32);
   return input(r, op, level[op], (int)(atom & 0xffffffffu));
 }
