@@ -17,11 +17,11 @@ STRUCTS = {
     "pl_fade": ("solve_impl.h", r"fade\[[01]\]"),
     "pl_turn_now": ("solve_impl.h", r"turn\[i\]"),
     "pl_stats": ("solve.h", "s"),
-    "pl_motion": ("motion_impl.h", "o"),
-    "pl_radau": ("radau_impl.h", "r"),
-    "pl_wide": ("wide_impl.h", "w"),
+    "pl_motion": ("stepper/taylor/step_program_impl.h", "o"),
+    "pl_radau": ("stepper/radau/radau_impl.h", "r"),
+    "pl_wide": ("stepper/taylor/extended_impl.h", "w"),
 }
-KEEPERS = [SOLVE / "checkpoint.c", SOLVE / "kkt.c"]
+KEEPERS = [SOLVE / "checkpoint.c", SOLVE / "dae/kkt.c"]
 
 
 def without_comments(text):

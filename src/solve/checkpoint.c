@@ -11,51 +11,52 @@
 // tools/check_state.py holds the structs of a run against this file: each member is kept below or
 // stands in one of these lists.
 //
+// clang-format off
 // not kept of pl_run, follows from setup and options: job setup options n_q n_c order tol_raised
-// motion observers watched
-//   branches has_W mass_of_speed shrink h_plain h_least row_gap n_watch at_rub kinks n_kinks
-//   mode_size grid_count grid_dt
-// not kept of pl_run, follows from the point: Q V ready t_series rests not kept of pl_run, follows
-// from how it was started: start_given not kept of pl_run, only when, never what: clock_begin
-// t_begin considered wall_begin not kept of pl_run, lives within a step: impact_taken impact_factor
-// rhs Q_last A_last G_series W_series rows rank_work priority row_of row_taken
-//   taken_kept dep dep_tau dep_norm dep_jpvt trial_q trial_v end_a end_by_codes arrived save_q
-//   save_v save_a save_l save_unique impulse jump_v jump_q
-//   poly root_work hit root touch undecided sunk rub_before impulsive C_series S_series poly_2
-//   on_before fixed rub_fixed approach second
-//   hold_q hold_v first_a decision choice_kept n_decisions K_series out_now out_before row_q row_v
-//   row_a row_l energy_out mode
+//   motion observers watched branches has_W mass_of_speed shrink h_plain h_least row_gap n_watch
+//   at_rub kinks n_kinks mode_size grid_count grid_dt
+// not kept of pl_run, follows from the point: Q V ready t_series rests
+// not kept of pl_run, follows from how it was started: start_given
+// not kept of pl_run, only when, never what: clock_begin t_begin considered wall_begin
+// not kept of pl_run, lives within a step: impact_taken impact_factor rhs Q_last A_last G_series
+//   W_series rows rank_work priority row_of row_taken taken_kept dep dep_tau dep_norm dep_jpvt
+//   trial_q trial_v end_a end_by_codes arrived save_q save_v save_a save_l save_unique impulse
+//   jump_v jump_q poly root_work hit root touch undecided sunk rub_before impulsive C_series
+//   S_series poly_2 on_before fixed rub_fixed approach second hold_q hold_v first_a decision
+//   choice_kept n_decisions K_series out_now out_before row_q row_v row_a row_l energy_out mode
 //   mode_before t_grid W_coef branch_value reach factored seen shown shown_before
-// not kept of pl_run, lives within a moment: indeterminate not kept of pl_run, where the pilot
-// waits it goes there again: stop impacts not kept of pl_run, of the start, which is found anew:
-// start not kept of pl_stats, follows from the options: precision not kept of pl_stats, a word
-// about this process: why_interpreted not kept of pl_stats, made at the end: undetermined not kept
-// of pl_kkt, follows from setup and point: n dense n_values value start row diagonal lu scale
-// balance work pivot ratio not kept of pl_watch, pl_rub_now, follows from the setup: kind index
-// direction not kept of pl_motion, follows from the mode: code next size orders n_q n_c n_mass
-// n_taken time ratio rest Q V A L q_floor
-//   v_floor g g_size argument r r_size norms length end_q end_v end_a off energy h pivot pivot_size
-//   move vector result matrix identity
-//   of_constraint index inverse_up_to constants scales
-// not kept of pl_motion, of this process: compiled jit tried not kept of pl_radau, follows from
-// setup and options: method n n_q n_c n_C tol tol_stage ready fits shape rub_of not kept of
-// pl_radau, lives within a step: wide here at coupled coupled_scale coupled_rhs coupled_work
-// coupled_pivot real
-//   real_scale work pair pair_scale pivot sparse sparse_pair Z Q V A L t F w error_q error_v rhs
-//   sc_q sc_v coefficient part watched
-//   watched_h bent first_g last_g last_size end_a end_l save_a save_l
+// not kept of pl_run, lives within a moment: indeterminate
+// not kept of pl_run, where the pilot waits it goes there again: stop impacts
+// not kept of pl_run, of the start, which is found anew: start
+// not kept of pl_stats, follows from the options: precision
+// not kept of pl_stats, a word about this process: why_interpreted
+// not kept of pl_stats, made at the end: undetermined
+// not kept of pl_kkt, follows from setup and point: n dense n_values value start row diagonal lu
+//   scale balance work pivot ratio
+// not kept of pl_watch, pl_rub_now, follows from the setup: kind index direction
+// not kept of pl_motion, follows from the mode: code next size orders n_q n_c n_mass n_taken time
+//   ratio rest Q V A L q_floor v_floor g g_size argument r r_size norms length end_q end_v end_a
+//   off energy h pivot pivot_size move vector result matrix identity of_constraint index
+//   inverse_up_to constants scales
+// not kept of pl_motion, of this process: compiled jit tried
+// not kept of pl_radau, follows from setup and options: method n n_q n_c n_C tol tol_stage ready
+//   fits shape rub_of
+// not kept of pl_radau, lives within a step: wide here at coupled coupled_scale coupled_rhs
+//   coupled_work coupled_pivot real real_scale work pair pair_scale pivot sparse sparse_pair Z Q V
+//   A L t F w error_q error_v rhs sc_q sc_v coefficient part watched watched_h bent first_g last_g
+//   last_size end_a end_l save_a save_l
 // not kept of pl_wide, follows from setup, options and mode: state fine by_doubles low top head
-// head_forces clock left
-//   grid drift t_0 q_0 v_0 a_0 l_0 end_a end_l tail_q tail_v tail_a tail_l from to share way
-//   scratch energy_base rows watched floor held high next
+//   head_forces clock left grid drift t_0 q_0 v_0 a_0 l_0 end_a end_l tail_q tail_v tail_a tail_l
+//   from to share way scratch energy_base rows watched floor held high next
 // not kept of pl_wide, pl_motion, lives within a step: digits arrived
+// clang-format on
 #include <limits.h>
 #include <math.h>
 #include <string.h>
 
-#include "solve/motion_impl.h"
-#include "solve/radau_impl.h"
-#include "solve/wide_impl.h"
+#include "solve/stepper/taylor/step_program_impl.h"
+#include "solve/stepper/radau/radau_impl.h"
+#include "solve/stepper/taylor/extended_impl.h"
 
 // ------------------------------------------------------------------------------------- whose state
 // Counts go on from where they are, so there is room above.

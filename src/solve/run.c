@@ -1,5 +1,5 @@
 // A run takes steps: series, roots on the step, projection, check, rows.
-#include "solve/wide_impl.h"
+#include "solve/stepper/taylor/extended_impl.h"
 
 #include <float.h>
 #include <math.h>

@@ -1,6 +1,6 @@
 // A run's workspace, from the dimensions of its setup.  After this nothing is allocated.
 #include "solve/solve_impl.h"
-#include "solve/wide_impl.h"
+#include "solve/stepper/taylor/extended_impl.h"
 
 #include <float.h>
 #include <math.h>

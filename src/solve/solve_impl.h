@@ -150,8 +150,8 @@ typedef struct pl_stop {
   double t, t_low;
 } pl_stop;
 
-typedef struct pl_motion pl_motion;  // the motion as codes: motion_impl.h
-typedef struct pl_wide pl_wide;      // the same on wider numbers: wide_impl.h
+typedef struct pl_motion pl_motion;  // the motion as codes: step_program_impl.h
+typedef struct pl_wide pl_wide;      // the same on wider numbers: extended_impl.h
 
 struct pl_run {
   pl_job* job;
@@ -357,7 +357,7 @@ typedef struct pl_projection {
   bool ok;
 } pl_projection;
 
-// ---- orders.c: what each order of a series costs, compiled for several processors with the same
+// ---- taylor_order.c: what each order of a series costs, compiled for several processors with the same
 // bits
 typedef enum pl_quantity { PL_IS_Q, PL_IS_V, PL_IS_A, PL_IS_LAMBDA } pl_quantity;
 typedef struct pl_orders {
@@ -407,7 +407,7 @@ void pl_kkt_solve(pl_kkt* k, double* b);
 void pl_kkt_free(pl_kkt* k);
 void pl_kkt_keep(pl_kkt* k, pl_keeper* keeper);  // what its pivoting remembers; checkpoint.c
 
-// ---- independent.c: which constraints are used, what is determined
+// ---- active_set.c: which constraints are used, what is determined
 // at every point; once a mode for large systems
 void pl_independent_choose(pl_run* run);
 // The smallest pivot at what was evaluated last, 0 where a row is lost, without choosing anything;
@@ -419,7 +419,7 @@ void pl_sizes_forget(pl_run* run);  // back to what was kept: a step was rejecte
 void pl_independent_unique(pl_run* run);
 void pl_active_update(pl_run* run);  // active from on; orphans rest
 
-// ---- motion_make.c, motion_run.c: the motion as codes
+// ---- step_program_make.c, step_program_run.c: the motion as codes
 pl_motion* pl_motion_make(pl_run* run);  // not usable when it does not fit
 // the codes for the constraints that are taken, compiled if it pays
 void pl_motion_update(pl_run* run);
@@ -439,12 +439,12 @@ void pl_motion_end_a(const pl_run* run, double* a);
 // T, V and what is conserved, at the point; false: not this way.
 bool pl_motion_energy(pl_run* run, double* kinetic, double* potential, double* all);
 
-// ---- start_complete.c The least change of what is not held that takes the residuals away, for the
+// ---- least_change.c The least change of what is not held that takes the residuals away, for the
 // rows at hand; false: there is none.
 bool pl_least_change(const pl_run* run, const bool* held, const double* residual,
                      const double* size, bool positions, double* basis, double* change);
 
-// ---- motion_series.c
+// ---- taylor_series.c
 // levels PLACE and SPEED at order 0
 void pl_point_evaluate(pl_run* run, double t, const double* q, const double* v);
 bool pl_point_factor(pl_run* run, bool with_W);  // choose, assemble, factor
@@ -494,7 +494,7 @@ double pl_watch_force_noise(const pl_run* run, int c);  // rounding error of λ_
 // what of a watched value is rounding
 double pl_watch_noise(const pl_run* run, const pl_watch* w, double h);
 
-// ---- kinks.c
+// ---- switching.c
 void pl_kinks_make(pl_run* run);
 void pl_kinks_series(pl_run* run);  // after pl_series_expand
 double pl_kinks_value(const pl_run* run, int i);
@@ -502,7 +502,7 @@ double pl_kinks_reach(pl_run* run, double h);  // as pl_watch_reach
 // just behind the first kink, in units of h; -1 none on the step
 double pl_kinks_first(pl_run* run, double h);
 
-// ---- maps.c
+// ---- map_equations.c
 // coordinates that only a map determines, where it begins to hold
 void pl_maps_follow(pl_run* run);
 
@@ -559,7 +559,7 @@ void pl_radau_changed(pl_run* run, bool jumped);
 pleuel_status pl_radau_step(pl_run* run, double* h, double* root, pl_projection* p);
 pleuel_status pl_stiff_look(pl_run* run);  // whether to use it; stiff_detect.c
 
-// ---- pilot.c: derivatives through contacts and events
+// ---- sensitivity.c: derivatives through contacts and events
 void pl_pilot_free(pl_pilot* p);
 const char* pl_pilot_mode(const pl_pilot* p);
 bool pl_pilot_waits(const pl_pilot* p);
@@ -583,7 +583,7 @@ pleuel_status pl_run_undetermined(pl_run* run);
 bool pl_singular_leap(pl_run* run, double left, double* length, pl_projection* p);
 pleuel_status pl_singular_record(pl_run* run);
 
-// ---- turns.c: angles of bodies that are integrated as quaternions
+// ---- attitude.c: angles of bodies that are integrated as quaternions
 void pl_turns_make(pl_run* run);
 void pl_turns_follow(pl_run* run, double t);  // along the series at work
 // as observers need them
@@ -592,7 +592,7 @@ void pl_turns_show(pl_run* run, pl_row* row);  // coordinates as they were decla
 // fails when the step to trial_q passes a pole
 pleuel_status pl_turns_poles(pl_run* run, double h);
 
-// ---- rows.c
+// ---- output.c
 pleuel_status pl_rows_open(pl_run* run);  // begin of the sink
 pleuel_status pl_rows_begin(pl_run* run);
 pleuel_status pl_rows_point(pl_run* run, pl_row_kind kind);  // the point itself

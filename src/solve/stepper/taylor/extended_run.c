@@ -1,0 +1,376 @@
+// A step on wide numbers: projection, order 0, series. As step_program_run.c, which has the same codes
+// for doubles.
+//
+// The state is rounded to its type with each correction of the projection, and nowhere else: what
+// is computed from it is more exact than that by the digits that the fine type has more, so that
+// the rounding of the state is the only error that counts, and it has no direction. Then errors
+// grow like a random walk: Brouwer's law [Brouwer1937].
+#include <math.h>
+#include <string.h>
+
+#include "solve/stepper/taylor/extended_impl.h"
+
+// Part of the largest sum ever subtracted at a pivot at which this is lost, compared with the best
+// part: the digits that are left are still those of a double.
+static const double sound = 1e-16;
+// of what was subtracted there: below, it may be rounding
+static const double least_sound = 1e-24;
+
+static void fine(pl_run* run, const pl_prog* code, int from, int to) {
+  run->wide->fine->interpret(code, run->wide->m, from, to);
+}
+static void fine_part(pl_run* run, pl_motion_part part) {
+  fine(run, run->wide->o->code[part], 0, 1);
+}
+static void read(const pl_run* run, int at, int n, double* out) {
+  run->wide->fine->read(run->wide->m, at, n, out);
+}
+
+void pl_wide_copy(const pl_real* to_type, void* to, int at, const pl_real* from_type,
+                  const void* from, int from_at, int n) {
+  for (int i = 0; i < n; i++) to_type->set(to, at + i, from_type->get(from, from_at + i));
+}
+
+// -------------------------------------------------------------------------------------- projection
+static bool pivots_are_sound(pl_run* run) {
+  pl_motion* o = run->wide->o;
+  double least = (double)INFINITY;
+  for (int u = o->n_mass; u < o->n; u++) {
+    double size, pivot, part;
+    read(run, o->pivot_size + u, 1, &size);
+    read(run, o->pivot + u, 1, &pivot);
+    if (size > o->size_most[u]) o->size_most[u] = size;
+    part = fabs(pivot) / o->size_most[u];
+    if (!(part >= least)) least = part;
+  }
+  if (o->n == o->n_mass) return true;
+  run->wide->part = o->fade_best > 0 ? fmin(1, least / o->fade_best) : 1;
+  run->smallest = least > 0 && o->fade_best > 0 ? run->best * sqrt(fmin(1, least / o->fade_best))
+                                                : run->best;
+  if (!(least > least_sound)) return false;
+  if (least > o->fade_best) o->fade_best = least;
+  return least > sound * o->fade_best;
+}
+
+static void note_largest(double x, double* most) {
+  if (!(x <= *most)) *most = x;
+}
+
+static void set_floors(pl_run* run) {
+  pl_wide* w = run->wide;
+  for (int i = 0; i < run->n_q; i++) {
+    double q = fmax(run->q_most[i], 1e-6 * run->q_size),
+           v = fmax(run->v_most[i], 1e-6 * run->v_size);
+    w->fine->write(w->m, w->o->q_floor + i, 1, &q);
+    w->fine->write(w->m, w->o->v_floor + i, 1, &v);
+  }
+}
+
+// Adds the correction to the state at x, which is then rounded; the size of the correction relative
+// to that of the state.
+static double correct(pl_run* run, pl_motion_part part, int x, double size) {
+  pl_wide* w = run->wide;
+  int n = run->n_q;
+  fine_part(run, part);
+  read(run, w->o->move, n, run->rhs);
+  w->fine->add(w->m, x, w->o->move, n);
+  if (w->state != w->fine) w->fine->round_to_long(w->m, x, n);
+  double most = pl_norm(run->rhs, n);
+  return size > 0 ? most / size : most;
+}
+
+static bool is_done(const pl_run* run, double residual) {
+  return residual == 0 && run->wide->state == run->wide->fine;
+}
+
+static bool project_positions(pl_run* run, pl_projection* p) {
+  enum { MAX_NEWTON = 8 };
+  const pl_motion* o = run->wide->o;
+  double before = (double)INFINITY;
+  for (int round = 0; round < MAX_NEWTON; round++) {
+    fine_part(run, PL_PART_PLACE);
+    read(run, o->g, run->n_c, run->g);
+    read(run, o->g_size, run->n_c, run->g_size);
+    double g = pl_residual(run, run->g, run->g_size, true);
+    if (round == 0) p->g_before = g;
+    p->g_after = g;
+    if (!isfinite(g) || !pivots_are_sound(run)) return false;
+    if (is_done(run, g) || (round > 0 && (g <= run->wide->floor || g >= 0.5 * before))) return true;
+    before = g;
+    double move = correct(run, PL_PART_CORRECT_Q, o->Q, run->q_size);
+    if (!isfinite(move)) return false;
+    note_largest(move, &p->move_q);
+  }
+  return false;
+}
+
+static bool project_velocities(pl_run* run, pl_projection* p) {
+  const pl_motion* o = run->wide->o;
+  for (int round = 0;; round++) {
+    fine_part(run, PL_PART_SPEED);
+    read(run, o->r, run->n_c, run->r);
+    read(run, o->r_size, run->n_c, run->r_size);
+    double r = pl_residual(run, run->r, run->r_size, false);
+    if (round == 0) p->r_before = r;
+    p->r_after = r;
+    if (!isfinite(r)) return false;
+    if (round > 0 || is_done(run, r)) return true;
+    double move = correct(run, PL_PART_CORRECT_V, o->V, run->v_size);
+    if (!isfinite(move)) return false;
+    note_largest(move, &p->move_v);
+  }
+}
+
+bool pl_wide_project(pl_run* run, pl_projection* p) {
+  pl_wide* w = run->wide;
+  run->at_point = w->arrived = false;
+  *p = (pl_projection){0};
+  pl_sizes_note(run, run->trial_q, run->trial_v);
+  set_floors(run);
+  w->fine->move(w->m, w->o->Q, w->o->end_q, run->n_q);
+  w->fine->move(w->m, w->o->V, w->o->end_v, run->n_q);
+  fine(run, w->clock, 0, 1);
+  p->ok = project_positions(run, p) && project_velocities(run, p);
+  if (!p->ok) return false;
+  read(run, w->o->Q, run->n_q, run->trial_q);
+  read(run, w->o->V, run->n_q, run->trial_v);
+  run->at_point = true;
+  run->factored = false;
+  return true;
+}
+
+void pl_wide_accept(pl_run* run, bool to_end) {
+  if (to_end) return;
+  pl_parts t = run->wide->fine->get(run->wide->m, run->wide->o->time);
+  run->t = t.part[0];
+  run->t_low = t.part[1];
+}
+
+// ----------------------------------------------------------------------------------------- order 0
+static void read_orders(pl_run* run, int first, int last) {
+  const pl_motion* o = run->wide->o;
+  size_t n_q = (size_t)o->n_q, n_c = (size_t)o->n_c, k = (size_t)first;
+  int n = last - first + 1;
+  read(run, o->Q + first * o->n_q, (n + 1) * o->n_q, run->Q + k * n_q);
+  read(run, o->V + first * o->n_q, (n + 1) * o->n_q, run->V + k * n_q);
+  read(run, o->A + first * o->n_q, n * o->n_q, run->A + k * n_q);
+  read(run, o->L + first * o->n_c, n * o->n_c, run->L + k * n_c);
+}
+
+// Of dependent rows others may tell more by now than those that were chosen.
+static bool look_at_rows(pl_run* run) {
+  static const double faded = 1e-4;
+  const pl_wide* w = run->wide;
+  if (run->rank == run->n_active || !(w->part < faded)) return true;
+  pl_wide_change_rows(run);
+  if (run->wide == w) return true;
+  set_floors(run);
+  fine_part(run, PL_PART_PLACE);
+  fine_part(run, PL_PART_SPEED);
+  return pivots_are_sound(run);
+}
+
+bool pl_wide_enter(pl_run* run) {
+  const pl_wide* before = run->wide;
+  bool arrived = before->arrived;
+  run->wide->arrived = false;
+  if (!look_at_rows(run)) return false;
+  pl_wide* w = run->wide;
+  const pl_motion* o = w->o;
+  w->fine->move(w->m, w->t_0, o->time, 1);
+  if (!arrived || w != before) fine_part(run, PL_PART_START);
+  w->fine->move(w->m, w->q_0, o->Q, 2 * o->n_q);
+  w->fine->move(w->m, w->v_0, o->V, 2 * o->n_q);
+  w->fine->move(w->m, w->a_0, o->A, o->n_q);
+  w->fine->move(w->m, w->l_0, o->L, o->n_c);
+  if (w->by_doubles) pl_motion_enter_at(run, run->t, run->q, run->v);
+  read_orders(run, 0, 0);
+  read(run, o->h, o->n_q, run->rhs);
+  run->force_size = fmax(run->force_size, pl_norm(run->rhs, o->n_q));
+  run->ready = isfinite(pl_norm(run->A, o->n_q)) && isfinite(pl_norm(run->L, o->n_c));
+  return run->ready;
+}
+
+bool pl_wide_arrive(pl_run* run, double* off, double* size) {
+  pl_wide* w = run->wide;
+  pl_wide_sum(run);
+  fine_part(run, PL_PART_START);
+  w->arrived = true;
+  *off = *size = 0;
+  for (int i = 0; i < run->n_q; i++) {
+    pl_parts a = w->fine->get(w->m, w->end_a + i), b = w->fine->get(w->m, w->o->A + i);
+    *off = pl_size_with(*off, (a.part[0] - b.part[0]) + (a.part[1] - b.part[1]));
+    *size = pl_size_with(*size, b.part[0]);
+  }
+  return isfinite(*size);
+}
+
+// ------------------------------------------------------------------------------------------ series
+void pl_wide_expand(pl_run* run) {
+  pl_wide* w = run->wide;
+  fine(run, w->o->code[PL_PART_ORDER], 1, w->low);
+  if (w->by_doubles) {
+    if (!pl_motion_is_compiled(run)) run->stats.steps_interpreted++;
+    pl_motion_expand(run);
+    return;
+  }
+  run->stats.steps_interpreted++;
+  fine(run, w->top, 0, 1);
+  read_orders(run, 1, run->order - 1);
+  read(run, w->o->Q + (run->order + 1) * run->n_q, run->n_q,
+       run->Q + (size_t)(run->order + 1) * (size_t)run->n_q);
+}
+
+void pl_wide_norms(pl_run* run, const double** q, const double** v) {
+  pl_motion* o = run->wide->o;
+  if (run->wide->by_doubles) {
+    pl_motion_norms(run, q, v);
+    return;
+  }
+  fine_part(run, PL_PART_NORMS);
+  read(run, o->norms, 2 * PL_BLOCK_ROWS, o->m + o->norms);
+  *q = o->m + o->norms;
+  *v = *q + PL_BLOCK_ROWS;
+}
+
+// Lengths that depend on the state alone fall into step with a periodic motion: step ends then come
+// to lie at the same places in every period, the same roundings come again, and errors go on in one
+// direction or in circles. So each length is shortened by up to a tenth, by the multiples of the
+// golden section, which keep no time with anything.
+double pl_wide_vary(const pl_run* run, double h) {
+  static const double golden = 0.61803398874989485, most = 0.1;
+  double turns = golden * (double)run->stats.steps;
+  return run->wide->state == run->wide->fine ? h : h * (1 - most * (turns - floor(turns)));
+}
+
+// The sum of rows first .. last of a series in doubles, divided by dt^first.
+static void sum_tail(pl_run* run, int to, const double* X, int n, int first, int last) {
+  double dt;
+  read(run, run->wide->o->length, 1, &dt);
+  for (int i = 0; i < n; i++) {
+    double x = X[(size_t)last * (size_t)n + (size_t)i];
+    for (int k = last - 1; k >= first; k--) x = x * dt + X[(size_t)k * (size_t)n + (size_t)i];
+    run->wide->fine->write(run->wide->m, to + i, 1, &x);
+  }
+}
+
+static void sum_state(pl_run* run) {
+  pl_wide* w = run->wide;
+  if (w->by_doubles) {
+    sum_tail(run, w->tail_q, run->Q, run->n_q, w->low + 1, run->order + 1);
+    sum_tail(run, w->tail_v, run->V, run->n_q, w->low + 1, run->order);
+  }
+  fine(run, w->head, 0, 1);
+}
+
+void pl_wide_sum(pl_run* run) {
+  pl_wide* w = run->wide;
+  sum_state(run);
+  if (w->by_doubles) {
+    sum_tail(run, w->tail_a, run->A, run->n_q, w->low, run->order - 1);
+    sum_tail(run, w->tail_l, run->L, run->n_c, w->low, run->order - 1);
+  }
+  fine(run, w->head_forces, 0, 1);
+}
+
+void pl_wide_advance(pl_run* run, double dt) {
+  pl_wide* w = run->wide;
+  // to the end as it is exactly
+  if (dt == run->options.t_end - run->t - run->t_low) fine(run, w->left, 0, 1);
+  else w->fine->write(w->m, w->o->length, 1, &dt);
+  sum_state(run);
+  read(run, w->o->end_q, run->n_q, run->trial_q);
+  read(run, w->o->end_v, run->n_q, run->trial_v);
+}
+
+// ------------------------------------------------------------------------------------------ events
+static int event_hit(const pl_run* run) {
+  for (int i = 0; i < run->n_watch; i++)
+    if (run->hit[i] && !run->touch[i] && run->watch[i].kind == PL_WATCH_EVENT)
+      return run->setup->events[run->watch[i].index].watch;
+  return -1;
+}
+
+// Derivative of watched quantity i on the step.
+static double slope_at(const pl_run* run, int i, double dt) {
+  double slope = 0;
+  for (int k = run->order - 1; k >= 1; k--)
+    slope = slope * dt + k * run->W_series[(size_t)k * (size_t)run->setup->n_watched + (size_t)i];
+  return slope;
+}
+
+static double watched_value(pl_run* run, int i) {
+  pl_wide* w = run->wide;
+  pl_sheet* s = w->watched;
+  const pl_motion* o = w->o;
+  pl_wide_sum(run);
+  fine(run, w->clock, 0, 1);
+  pl_wide_copy(s->real, s->m, s->time, w->fine, w->m, o->time, 1);
+  pl_wide_copy(s->real, s->m, s->Q, w->fine, w->m, o->end_q, o->n_q);
+  pl_wide_copy(s->real, s->m, s->V, w->fine, w->m, o->end_v, o->n_q);
+  pl_wide_copy(s->real, s->m, s->A, w->fine, w->m, w->end_a, o->n_q);
+  pl_wide_copy(s->real, s->m, s->L, w->fine, w->m, w->end_l, o->n_c);
+  pl_sheet_run(s);
+  double x;
+  s->real->read(s->m, s->out + i, 1, &x);
+  return x;
+}
+
+void pl_wide_refine(pl_run* run, double dt) {
+  enum { MAX_NEWTON = 6 };
+  static const double most = 1e-8;  // of the step, that a root found in doubles may be off
+  pl_wide* w = run->wide;
+  int i = event_hit(run);
+  if (i < 0) return;
+  double slope = slope_at(run, i, dt), before = most * fabs(dt);
+  for (int round = 0; round < MAX_NEWTON; round++) {
+    double move = -watched_value(run, i) / slope;
+    if (!(fabs(move) <= before)) return;
+    w->fine->write(w->m, w->scratch, 1, &move);
+    w->fine->add(w->m, w->o->length, w->scratch, 1);
+    if (fabs(move) <= w->state->epsilon * fabs(dt)) break;
+    before = 0.5 * fabs(move);
+  }
+  sum_state(run);
+  read(run, w->o->end_q, run->n_q, run->trial_q);
+  read(run, w->o->end_v, run->n_q, run->trial_v);
+}
+
+// ------------------------------------------------------------------------------------------ energy
+static void evaluate_energies(pl_run* run) {
+  pl_wide* w = run->wide;
+  const pl_setup* s = run->setup;
+  if (w->o->code[PL_PART_ENERGY]) {
+    fine_part(run, PL_PART_ENERGY);
+    return;
+  }
+  pl_row row;
+  pl_wide_row(run, &row, run->energy_out);
+  pl_wide_copy(w->fine, w->m, w->o->energy, w->rows->real, w->rows->m, w->rows->out + s->kinetic,
+               1);
+  pl_wide_copy(w->fine, w->m, w->o->energy + 1, w->rows->real, w->rows->m,
+               w->rows->out + s->potential, 1);
+  if (s->energy > 0)
+    pl_wide_copy(w->fine, w->m, w->o->energy + 2, w->rows->real, w->rows->m,
+                 w->rows->out + s->energy, 1);
+}
+
+void pl_wide_energy(pl_run* run, bool anew) {
+  pl_wide* w = run->wide;
+  double part[2], change[2];
+  evaluate_energies(run);
+  fine(run, w->drift, 0, 1);
+  read(run, w->o->energy, 2, part);
+  read(run, w->scratch, 2, change);
+  run->energy_size = fmax(run->energy_size, fabs(part[0]) + fabs(part[1]));
+  if (anew) {
+    w->fine->move(w->m, w->energy_base, w->scratch + 1, 1);
+    if (isnan(run->stats.energy_drift)) {
+      run->stats.energy_0 = change[1];
+      run->stats.energy_drift = 0;
+    }
+    return;
+  }
+  double drift = run->energy_size > 0 ? fabs(change[0]) / run->energy_size : 0;
+  if (!(drift <= run->stats.energy_drift)) run->stats.energy_drift = drift;
+}

@@ -1,0 +1,132 @@
+// The motion as codes (jit.h): what a step computes from a point to the next, for one set of
+// constraints in force, as straight-line code on one block of memory. For files of this folder.
+//
+// Codes, in the order in which a step uses them:
+//   place     t, q -> nodes of q and t, g, G, dg/dt, M, and the factor of [M G^T; G 0]
+//   correct_q, correct_v    corrections of the projection from g, or from G v + dg/dt, with that factor
+//   speed     G v + dg/dt and its size
+//   inverse   the factor's inverse, when the system is small
+//   start     order 0 of the series: forces, a_0, λ_0
+//   order     order k >= 1
+//   norms     of the rows that the length of a step is found from
+//   advance   the series at the end of a step
+//   energy    kinetic and potential energy at the point
+// The factor is L D L^T without pivoting in an order found once: coordinates first, then
+// constraints. Where its pivots fade the caller goes the general way (assemble.c, kkt.c), which
+// pivots.
+#ifndef PL_MOTION_IMPL_H
+#define PL_MOTION_IMPL_H
+
+#include "jit/jit.h"
+#include "solve/solve_impl.h"
+
+enum {
+  PL_MOTION_UNKNOWNS = 100,  // largest system: above, compiling takes longer than most runs
+  PL_MOTION_INVERSE = 24,    // so many unknowns are solved for by a product with the inverse
+  // operations over all orders up to which these are written out one by one
+  PL_MOTION_WRITTEN_OUT = 4500,
+  PL_MOTION_NODES = 6000  // of all instances together
+};
+
+typedef enum pl_motion_part {
+  PL_PART_PLACE,
+  PL_PART_CORRECT_Q,
+  PL_PART_SPEED,
+  PL_PART_CORRECT_V,
+  PL_PART_INVERSE,
+  PL_PART_START,
+  PL_PART_ORDER,
+  PL_PART_NORMS,
+  PL_PART_ADVANCE,
+  PL_PART_ENERGY,
+  PL_N_PARTS
+} pl_motion_part;
+
+// nodes term[first ..]
+typedef struct pl_motion_entry {
+  int row, col, first, n, cell;
+} pl_motion_entry;
+
+typedef struct pl_constant_cell {
+  int cell;
+  pl_parts x;
+} pl_constant_cell;
+// as the cell `from`; x where that is -1
+typedef struct pl_scale_cell {
+  int cell, from;
+  double x;
+} pl_scale_cell;
+
+struct pl_motion {
+  pl_prog* code[PL_N_PARTS];
+  pl_prog_run* compiled[PL_N_PARTS];  // NULL: interpreted
+  pl_jit_code* jit;
+  bool tried;   // to compile
+  bool usable;  // false: this mode goes the general way
+  bool* taken;  // which constraints it was made for               (n_c)
+  pl_motion* next;
+  double* m;            // the memory
+  int size, orders;     // rows of each series: 0 .. orders - 1
+  int n_q, n_c, n;      // n: unknowns
+  int n_mass, n_taken;  // the first have a mass, the last are constraints
+
+  // places in memory
+  int time, ratio, rest;    // t and its derivative; 1/k rounded, and what rounding left
+  int Q, V, A, L;           // series, row by row
+  int q_floor, v_floor;     // sizes of coordinates and velocities                (n_q)
+  int g, g_size, argument;  // constraint values, sizes, as in pl_run            (n_c)
+  int r, r_size;            // G v + dg/dt                                       (n_c)
+  int norms;                // pl_block_rows of Q, then of V
+  // of a step; the state there                          (1, n_q, n_q)
+  int length, end_q, end_v;
+  // accelerations of the series there; what these are off by, how large they are   (n_q, 2)
+  int end_a, off;
+  bool arrived;           // order 0 of the end of the step that is tried stands in memory
+  int energy;             // kinetic, potential, what is conserved if that is not their sum
+  int h;                  // forces at order 0                                 (n_q)
+  int pivot, pivot_size;  // of the unknowns: pivot, sum of what was subtracted          (n)
+  int move;               // correction of the coordinates                     (n_q)
+  int vector, result, matrix, identity;  // of the product with the inverse
+
+  // unknowns: coordinates that something determines, then constraints taken
+  int *of_coordinate, *of_constraint;  // unknown, -1 none
+  int* index;                          // coordinate or constraint of each unknown
+  double* size_most;                   // largest pivot_size met                              (n)
+  double fade_best;
+
+  // for numbers wider than doubles
+  int inverse_up_to;                   // unknowns up to which the inverse is formed
+  PL_VEC(pl_constant_cell) constants;  // what stands in memory from the start and is no double
+  PL_VEC(pl_scale_cell) scales;
+};
+
+// ---- step_program_run.c
+pl_motion* pl_motion_for_mode(pl_run* run);
+// Order 0 at a point that is known to be sound.
+bool pl_motion_enter_at(pl_run* run, double t, const double* q, const double* v);
+
+// ---- step_program_make.c
+bool pl_motion_fits(const pl_run* run);
+// Codes for numbers of this type, which are interpreted; NULL: doubles.
+pl_motion* pl_motion_make_for(pl_run* run, const pl_real* real);
+
+// ---- step_program_factor.c: L D L^T of a sparse symmetric system as code
+typedef struct pl_elimination {
+  int n;
+  int* order;  // unknown that is eliminated as number i
+  // place in memory of L[i][j], i > j, in order of elimination; -1 zero: cell[i * n + j]
+  int* cell;
+  int inverse_d;  // 1 / D_i
+} pl_elimination;
+// Unknowns: n_mass coordinates with a mass, then the other coordinates up to n_coordinates, then
+// constraints. NULL when no order of elimination is seen from the structure.
+pl_elimination* pl_elimination_make(pl_arena* a, const bool* entry, int n, int n_mass,
+                                    int n_coordinates, int* memory);
+// entry[i * n + j]: register of the matrix at unknowns i, j (-1 zero), lower or upper half; pivots
+// and sums of what was subtracted go to pivot[i], size[i], registers by unknown.
+void pl_elimination_factor(const pl_elimination* e, pl_prog* c, const int* entry, int* pivot,
+                           int* size);
+// registers by unknown; -1 zero
+void pl_elimination_solve(const pl_elimination* e, pl_prog* c, int* x);
+
+#endif
