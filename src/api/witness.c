@@ -144,9 +144,6 @@ static pl_agreement compare(const pl_witness* w, pl_statement* s, const pl_witne
   if (s->value && !pl_is_poison(s->value->holds_while)
       && !(pl_state_value(w, s->value->holds_while) > 0))
     return PL_NOT_COMPARED;
-  if (s->value && !pl_is_poison(s->value->holds_while)
-      && !(pl_state_value(w, s->value->holds_while) > 0))
-    return PL_NOT_COMPARED;
   if (s->kind == PL_STAYS) return compare_constant(w, s, m, phase, out);
   double shown = pl_state_value(w, s->shown), noise = pl_state_noise(w, s->shown);
   if (s->kind == PL_VANISHES) {

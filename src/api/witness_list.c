@@ -4,11 +4,10 @@
 
 #include "api/witness_impl.h"
 
-static pl_statement* state(pl_witness* w, pl_statement s) {
-  if (pl_is_poison(s.shown)) return NULL;
+void pl_statement_add(pl_witness* w, pl_statement s) {
+  if (pl_is_poison(s.shown)) return;
   s.stage = w->solution->sections.at[s.section].stage;
   pl_push(w->arena, w->statements, s);
-  return &w->statements.at[w->statements.n - 1];
 }
 
 // The symbol that a value is named after, when it is one of the motion. Results hide behind names
@@ -23,7 +22,7 @@ static pl_expr subject_of(const pl_witness* w, const pl_value* v) {
   return moves ? pl_sym(w->pool, s) : pl_poison();
 }
 
-static const pl_motion* motion_of(const pl_ask* ask) {
+const pl_motion* pl_statement_motion(const pl_ask* ask) {
   return ask && ask->motion.given ? &ask->motion : NULL;
 }
 
@@ -35,13 +34,13 @@ static void state_subjects(pl_witness* w, int section, const pl_ask* ask) {
     pl_expr left = subject_of(w, v);
     bool shows_itself = pl_same(left, v->expr);
     if (pl_is_poison(left) || shows_itself) continue;
-    state(w, (pl_statement){.kind = PL_EQUALS,
-                            .section = section,
-                            .value = v,
-                            .shown = v->expr,
-                            .left = left,
-                            .name = v->name,
-                            .from = motion_of(ask)});
+    pl_statement_add(w, (pl_statement){.kind = PL_EQUALS,
+                                       .section = section,
+                                       .value = v,
+                                       .shown = v->expr,
+                                       .left = left,
+                                       .name = v->name,
+                                       .from = pl_statement_motion(ask)});
   }
 }
 
@@ -52,12 +51,12 @@ static void state_motion(pl_witness* w, int section) {
     pl_expr left = subject_of(w, v);
     // with free names it is one motion of many
     if (pl_is_poison(left) || v->n_free > 0) continue;
-    state(w, (pl_statement){.kind = PL_FOLLOWS,
-                            .section = section,
-                            .value = v,
-                            .shown = v->expr,
-                            .left = left,
-                            .name = v->name});
+    pl_statement_add(w, (pl_statement){.kind = PL_FOLLOWS,
+                                       .section = section,
+                                       .value = v,
+                                       .shown = v->expr,
+                                       .left = left,
+                                       .name = v->name});
   }
 }
 
@@ -66,12 +65,12 @@ static void state_conserved(pl_witness* w, int section) {
   for (int i = 0; i < s->values.n; i++) {
     const pl_value* v = &s->values.at[i];
     if (v->conserved != 1) continue;
-    state(w, (pl_statement){.kind = PL_STAYS,
-                            .section = section,
-                            .value = v,
-                            .shown = v->expr,
-                            .left = pl_poison(),
-                            .name = v->name});
+    pl_statement_add(w, (pl_statement){.kind = PL_STAYS,
+                                       .section = section,
+                                       .value = v,
+                                       .shown = v->expr,
+                                       .left = pl_poison(),
+                                       .name = v->name});
   }
 }
 
@@ -88,12 +87,12 @@ static void state_equations(pl_witness* w, int section) {
     pl_expr left = pl_form_value(w->pool, f->args[0]), right = pl_form_value(w->pool, f->args[1]);
     if (pl_is_poison(left) || pl_is_poison(right)) continue;
     const pl_value* v = s->values.n > 0 ? &s->values.at[0] : NULL;
-    state(w, (pl_statement){.kind = PL_VANISHES,
-                            .section = section,
-                            .value = v,
-                            .shown = pl_sub(w->pool, left, right),
-                            .left = pl_poison(),
-                            .name = pl_format(w->arena, "(%d)", step->number)});
+    pl_statement_add(w, (pl_statement){.kind = PL_VANISHES,
+                                       .section = section,
+                                       .value = v,
+                                       .shown = pl_sub(w->pool, left, right),
+                                       .left = pl_poison(),
+                                       .name = pl_format(w->arena, "(%d)", step->number)});
   }
 }
 
@@ -105,13 +104,13 @@ static void state_value(pl_witness* w, int section, const pl_ask* ask) {
     bool is_asked = strcmp(v->name, pl_expr_text(w->arena, w->pool, ask->value)) == 0;
     pl_expr left = is_asked ? ask->value : subject_of(w, v);
     if (pl_is_poison(left) || pl_same(left, v->expr)) continue;
-    state(w, (pl_statement){.kind = PL_EQUALS,
-                            .section = section,
-                            .value = v,
-                            .shown = v->expr,
-                            .left = left,
-                            .name = v->name,
-                            .from = motion_of(ask)});
+    pl_statement_add(w, (pl_statement){.kind = PL_EQUALS,
+                                       .section = section,
+                                       .value = v,
+                                       .shown = v->expr,
+                                       .left = left,
+                                       .name = v->name,
+                                       .from = pl_statement_motion(ask)});
   }
 }
 
@@ -121,13 +120,13 @@ static void state_expected(pl_witness* w, int section, const pl_ask* ask) {
   bool plain = ask->where.n == 1 && ask->where.at[0].relation == PL_EQ;
   for (int i = 0; plain && i < s->values.n; i++) {
     if (s->values.at[i].passed != 1) continue;
-    state(w, (pl_statement){.kind = PL_EQUALS,
-                            .section = section,
-                            .value = &s->values.at[i],
-                            .shown = ask->where.at[0].right,
-                            .left = ask->where.at[0].left,
-                            .name = "expect",
-                            .from = motion_of(ask)});
+    pl_statement_add(w, (pl_statement){.kind = PL_EQUALS,
+                                       .section = section,
+                                       .value = &s->values.at[i],
+                                       .shown = ask->where.at[0].right,
+                                       .left = ask->where.at[0].left,
+                                       .name = "expect",
+                                       .from = pl_statement_motion(ask)});
   }
 }
 
@@ -150,6 +149,9 @@ static void state_section(pl_witness* w, int section) {
       break;
     case PL_ASK_FORCE_OF:
     case PL_ASK_FORCE_ON:
+      state_subjects(w, section, ask);
+      pl_statements_of_forces(w, section);
+      break;
     case PL_ASK_LAGRANGIAN:
     case PL_ASK_HAMILTONIAN: state_subjects(w, section, ask); break;
     case PL_ASK_EXPECT: state_expected(w, section, ask); break;

@@ -84,6 +84,36 @@ static void a_false_multiplier(void** state) {
   is_seen(PENDULUM "ask force of rod\n", "lambda_rod");
 }
 
+// Of the force in a section, with the multiplier beside it as it was.
+static void a_false_component_is_seen(const char* text, int which) {
+  bench b = solved(text);
+  assert_true(last_check(&b)->passed);
+  pl_section* section = NULL;
+  pl_value* v = value_named(&b, "Z", &section);
+  assert_true(which < v->n_components);
+  pl_pool* p = b.s->model->pool;
+  pl_component* c = &v->components[which];
+  c->expr = pl_mul(p, pl_ratio(p, 1001, 1000), c->expr);
+  pl_witness_hold(&b.m->job, b.s, NULL, 0);
+  assert_false(last_check(&b)->passed);
+  assert_string_equal(last_check(&b)->failed_on, "force(rod)");
+  assert_true(section->withdrawn);
+  done(&b);
+}
+
+static void a_false_component_of_a_force(void** state) {
+  (void)state;
+  static const char cartesian[] =
+      "param m = 1 [kg], l = 1/2 [m], g = 9.81 [m/s^2]\ncoord x, y\naxes x right, y up\n"
+      "mass m at (x, y)\ngravity g along -y\nconstraint rod: x^2 + y^2 = l^2\n"
+      "init x = 0.3 [m], y = -0.4 [m], x' = 1 [m/s]\nsimulate 0..1 [s]\nask force of rod\n";
+  a_false_component_is_seen(PENDULUM "ask force of rod\n", 0);
+  a_false_component_is_seen(PENDULUM "ask force on m\n", 0);
+  a_false_component_is_seen(PENDULUM "ask force of rod from φ = 60° at rest\n", 0);
+  a_false_component_is_seen(cartesian, 0);
+  a_false_component_is_seen(cartesian, 1);
+}
+
 static void a_false_constant_of_the_motion(void** state) {
   (void)state;
   is_seen(PENDULUM "ask conserved\n", "E");
@@ -334,6 +364,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_false_acceleration),
       cmocka_unit_test(a_false_multiplier),
+      cmocka_unit_test(a_false_component_of_a_force),
       cmocka_unit_test(a_false_constant_of_the_motion),
       cmocka_unit_test(a_false_closed_motion),
       cmocka_unit_test(a_false_value_on_a_named_motion),
