@@ -330,6 +330,8 @@ void pl_json_null(pl_json* j, const char* key);
 // a value already written as JSON
 void pl_json_raw(pl_json* j, const char* key, const char* json);
 
+// Shortest decimal text of x that reads back to x; "nan", "inf", "-inf".  out has room for 32.
+int pl_double_text(char out[32], double x);
 // The shortest decimal that reads back to x: "0.1", "-23.544", "1e-300".
 const char* pl_shortest_double(pl_arena* a, double x);
 

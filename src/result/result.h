@@ -60,7 +60,5 @@ pl_sink pl_csv_sink(pl_arena* a, FILE* file);
 // The same behind a header and rows that are there already.
 pl_sink pl_csv_sink_behind(pl_arena* a, FILE* file);
 pleuel_status pl_result_write_csv(const pl_result* r, FILE* file);
-// Shortest decimal text of x that reads back to x; "nan", "inf", "-inf".  out has room for 32.
-int pl_double_text(char out[32], double x);
 
 #endif

@@ -14,7 +14,7 @@
 // the one for which the constraint is the distance of a point fixed in the body from a plane (then
 // the arm turns with the body), or, when the constraint does not contain the angle, at the distance
 // that the constraint keeps (a disc on a plane). Other surfaces need the place given.
-#include "api/contact_geometry.h"
+#include "assembly/contact_geometry.h"
 
 #include <math.h>
 #include <string.h>

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "api/contact_geometry.h"
-#include "api/record_impl.h"
+#include "assembly/contact_geometry.h"
+#include "assembly/assembly_impl.h"
 
 // --------------------------------------------------------------------------------------- observers
 // Energy as it is conserved: sum of v dL/dv - L, which is T + V for ordinary potentials.

@@ -3,7 +3,7 @@
 // In the plane the slip velocity is one row, along the tangent t = (n_y, -n_x); in space it is the
 // three components of its part in the tangent plane. The rows follow the map equations in the
 // numbering of the links, instance by instance.
-#include "api/contact_geometry.h"
+#include "assembly/contact_geometry.h"
 
 static pl_expr unit_normal(pl_pool* p, const pl_touch* t, int j) {
   return pl_div(p, t->force[j], t->size);

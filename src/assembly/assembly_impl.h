@@ -1,8 +1,8 @@
-// record, inside: the translation of a checked model into the setup of a simulation.
-#ifndef PL_RECORD_IMPL_H
-#define PL_RECORD_IMPL_H
+// assembly, inside: the translation of a checked model into the setup of a simulation.
+#ifndef PL_ASSEMBLY_IMPL_H
+#define PL_ASSEMBLY_IMPL_H
 
-#include "api/api_impl.h"
+#include "assembly/assembly.h"
 
 // Friction on a constraint, as expressions of its group.
 typedef struct pl_rub_source {

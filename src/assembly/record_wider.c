@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "api/record_impl.h"
+#include "assembly/assembly_impl.h"
 
 void pl_wider_begin(pl_recorder* r) {
   if (!r->exact) return;

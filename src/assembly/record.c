@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "api/record_impl.h"
+#include "assembly/assembly_impl.h"
 
 // ----------------------------------------------------------------------------------------- numbers
 double pl_record_number(pl_recorder* r, pl_expr e) {

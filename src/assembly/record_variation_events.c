@@ -6,7 +6,7 @@
 // (solve/pilot.c). So the constraints of the setup with derivatives are plain ones that are
 // switched from outside, and its watched quantities are only evaluated: their values e, then de/dt
 // at fixed coordinates, then for each direction sum e_q δ + e_v δ' + e_a δ'' + e_λ dλ + e_p.
-#include "api/record_impl.h"
+#include "assembly/assembly_impl.h"
 
 // ----------------------------------------------------------------------------------- what switches
 static bool deeds_switch(const pl_event* e) {

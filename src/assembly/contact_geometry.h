@@ -2,7 +2,7 @@
 #ifndef PL_CONTACT_GEOMETRY_H
 #define PL_CONTACT_GEOMETRY_H
 
-#include "api/record_impl.h"
+#include "assembly/assembly_impl.h"
 
 // Force of a constraint per unit of its multiplier, and the velocity with which the surfaces slide
 // along each other.

@@ -17,7 +17,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "api/record_impl.h"
+#include "assembly/assembly_impl.h"
 
 enum { MOST_DIRECTIONS = 64 };
 

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "api/record_impl.h"
+#include "assembly/assembly_impl.h"
 
 // Angles that observers still speak of stand behind all coordinates.
 static void place_angles(pl_recorder* r, const pl_turned* t) {

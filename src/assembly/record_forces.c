@@ -1,7 +1,7 @@
 // Energies and forces of a model, group by group, as the simulation needs them: kinetic energy of
 // masses and bodies, potentials of gravity and springs, generalized forces Q_i = F . dX/dq_i and
 // Q_i = -dR/dv_i.
-#include "api/record_impl.h"
+#include "assembly/assembly_impl.h"
 
 static pl_group* group_of(pl_recorder* r, const pl_block* block) {
   for (int i = 0; i < r->groups.n; i++) {
