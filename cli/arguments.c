@@ -37,7 +37,7 @@ int cli_error(int code, const char* fmt, ...) {
   return code;
 }
 
-// Edit distance with transpositions (Damerau 1964), for words of ordinary length.
+// Edit distance with transpositions [Damerau1964], for words of ordinary length.
 static int distance(const char* a, const char* b) {
   int n = (int)strlen(a), m = (int)strlen(b);
   int d[32][32];

@@ -1,7 +1,8 @@
 // Roots of e = 0 for one symbol. The numerator is factored; each factor is solved by what the
 // symbol occurs in:
 //   itself             linear, quadratic, biquadratic, a pure power
-//   cos u, sin u       polynomial in one of them; A cos u + B sin u + C; quadratic forms through 2u; u = k x
+//   cos u, sin u       polynomial in one of them; A cos u + B sin u + C; quadratic forms
+//                      through 2u; u = k x
 //   exp u              polynomial in it
 //   sqrt, |.|          isolated and squared, the roots of the square verified
 //   ln, asin, ...      isolated and inverted, verified

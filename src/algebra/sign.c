@@ -8,7 +8,8 @@
 //         bounds by Fourier sums
 //   (iv') a square is completed: quadratic in one generator, with a discriminant of known sign
 //   (iv)  the polynomial is one of the facts, or a radicand (w = sqrt(P) is real)
-//   (v)   fifty sample points of the domain agree, or the probe (the start values) decides: an assumption, recorded.
+//   (v)   fifty sample points of the domain agree, or the probe (the start values) decides: an
+//         assumption, recorded.
 // What a proof has used is recorded too.
 #include "algebra/tower.h"
 

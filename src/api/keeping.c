@@ -2,7 +2,8 @@
 // when the run is interrupted, after the rows so far have reached the disk; so at any moment there
 // is one that is whole and whose rows are there. The clock decides when, never what.
 //
-//     head        16 bytes "pleuel state 1", then 8 each: a number that tells the order of bytes, length, checksum of the rest
+//     head        16 bytes "pleuel state 1", then 8 each: a number that tells the order of bytes,
+//                 length, checksum of the rest
 //     traits      what must be the same in the run that goes on (keeping_traits.c)
 //     rows        bytes of CSV, and their hash
 //     state       the run (solve/checkpoint.c), then first and last row and the events (result)

@@ -2,7 +2,8 @@
 // bit: for each model that is given, kept at several steps, with each method that takes it; and
 // whatever a kept state holds, reading it is safe.
 //
-// Usage: resume_test 'MODELS'...     patterns of file names.  RESUME_SEED=n starts other dice, RESUME_MORE=n looks n times as often
+// Usage: resume_test 'MODELS'...     patterns of file names.  RESUME_SEED=n starts other dice,
+// RESUME_MORE=n looks n times as often
 #define _GNU_SOURCE  // memmem
 
 #include <glob.h>

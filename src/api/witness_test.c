@@ -67,10 +67,11 @@ static void is_seen(const char* text, const char* name) {
   done(&b);
 }
 
-#define PENDULUM                                                                                    \
-  "param m = 1 [kg], l = 1/2 [m], g = 9.81 [m/s^2]\ncoord r, φ\naxes x right, y up\nmass m at (r " \
-  "sin φ, -r cos φ)\n"                                                                            \
-  "gravity g along -y\nconstraint rod: r = l\ninit φ = 40°, φ' = 1 [1/s]\nsimulate 0..1 [s]\n"
+#define PENDULUM                                                               \
+  "param m = 1 [kg], l = 1/2 [m], g = 9.81 [m/s^2]\ncoord r, φ\n"             \
+  "axes x right, y up\nmass m at (r sin φ, -r cos φ)\n"                      \
+  "gravity g along -y\nconstraint rod: r = l\ninit φ = 40°, φ' = 1 [1/s]\n" \
+  "simulate 0..1 [s]\n"
 
 static void a_false_acceleration(void** state) {
   (void)state;

@@ -1,6 +1,7 @@
 // The motion of bodies with Euler angles as it is integrated: with unit quaternions in the places
 // of their angles (model/turned.c). Coordinates, columns and events are those of the model as
 // declared.
+// See theory (8.2).
 #include <math.h>
 #include <string.h>
 

@@ -13,6 +13,7 @@
 // needs no more than it has: its projection on the constraints projects δ as the derivative of the
 // projection. The mass matrix is [A M; M 0], which is not definite, but as regular as M. Forces and
 // nonholonomic constraints f(q, v, t) = 0 are differentiated likewise: sum f_q δ + f_v δ' + f_p.
+// See theory (16.1), (16.2).
 #include <ctype.h>
 #include <math.h>
 #include <string.h>

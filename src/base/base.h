@@ -102,7 +102,7 @@ int pl_utf8_width_n(const char* s, size_t n);
 int pl_utf8_decode(const char* s, const char* end, uint32_t* code_point);
 int pl_utf8_encode(char out[4], uint32_t code_point);  // bytes written
 
-// Edit distance with transpositions (Damerau 1964), capped: returns cap + 1 when it is larger.
+// Edit distance with transpositions [Damerau1964], capped: returns cap + 1 when it is larger.
 int pl_edit_distance(const char* a, const char* b, int cap);
 
 // ------------------------------------------------------------------------------------------- names

@@ -6,7 +6,7 @@
 #include <string.h>
 
 // ----------------------------------------------------------------------------------------- hashing
-// Finaliser of splitmix64 [Steele, Lea, Flood 2014].
+// Finaliser of splitmix64 [SteeleLeaFlood2014].
 static uint64_t scramble(uint64_t x) {
   x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9ull;
   x = (x ^ x >> 27) * 0x94d049bb133111ebull;

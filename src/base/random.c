@@ -1,4 +1,4 @@
-// Random numbers for laws and sample points: splitmix64 [Steele, Lea, Flood 2014]. The same seed
+// Random numbers for laws and sample points: splitmix64 [SteeleLeaFlood2014]. The same seed
 // gives the same numbers everywhere.
 #include "base/base.h"
 

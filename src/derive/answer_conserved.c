@@ -1,4 +1,5 @@
 // answer_conserved: energy, Jacobi's integral, momenta of cyclic coordinates, each with its reason.
+// See theory (6.1), (6.2).
 #include "derive/derive_impl.h"
 
 static void add_reason(pl_value* v, const char* en, const char* de, int conserved) {

@@ -2,6 +2,7 @@
 // oscillations about them.
 //   f_i(q) = 0 with f the equations of the second kind at rest; K = df/dq, M = d2T/dv2; det(K - ω²
 //   M) = 0.
+// See theory, section 7.
 #include <math.h>
 #include <string.h>
 

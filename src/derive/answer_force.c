@@ -1,5 +1,6 @@
 // answer_force: the force of a constraint on each mass, Z = λ ∇g, along the axes or along the frame
 // of the mass, and along a given motion with the velocity eliminated by the energy.
+// See theory (3.1), (3.2).
 #include <math.h>
 #include <string.h>
 

@@ -266,7 +266,8 @@ static void say_inserted(pl_analysis* d, int i) {
 }
 
 // ---------------------------------------------------------------------------------- closed motions
-// x'' = A + B x + C x' with constant A, B, C: the general solution through x(0), x'(0).   [Arnold 1989, sec. 5]
+// x'' = A + B x + C x' with constant A, B, C: the general solution through x(0),
+// x'(0). [Arnold1989, sec. 5]
 typedef struct pl_linear_equation {
   pl_expr A, B, C;
 } pl_linear_equation;

@@ -1,6 +1,7 @@
 // branch_points: positions where a constraint does not determine the coordinate that it was solved
 // for: dg/dx = 0 on the map. There the rank of the constraints drops, the mechanism may branch (a
 // crank whose rod is as long as the crank), and formulas divide by zero.
+// See theory (5.4).
 #include <math.h>
 
 #include "derive/derive_impl.h"

@@ -3,6 +3,7 @@
 // derivatives of the position map,
 //   sum_k m_k J_k^T (J_k a + a0_k) = Q + G^T lambda,   d^2 g/dt^2 = 0,
 // so neither the Lagrange function's expansion nor the tower takes part.
+// See theory (19.3).
 #include <math.h>
 #include <string.h>
 

@@ -1,7 +1,8 @@
 // course: the way of a motion of one coordinate in numbers. With q'^2 = w(q) the motion runs
 // between zeros of w: a simple zero turns it round, a double one is approached for ever. After two
 // turns everything repeats, so that three legs tell the order in which
-// places are met and the sign of the velocity there.                          [Arnold 1989, sec. 4]
+// places are met and the sign of the velocity there.                           [Arnold1989, sec. 4]
+// See theory (6.4).
 #include "course_impl.h"
 
 #include <math.h>
@@ -61,7 +62,7 @@ static double bisect(const line_of* l, double a, double b, double fa) {
   return b;
 }
 
-// The least |f| between a and b, where f keeps its sign at the ends.                        golden section
+// The least |f| between a and b, where f keeps its sign at the ends: golden section.
 static double least(const line_of* l, double a, double b, double* u) {
   static const double ratio = 0.6180339887498949;
   double x1 = b - ratio * (b - a), x2 = a + ratio * (b - a), f1 = fabs(at(l, x1)),

@@ -35,7 +35,7 @@ typedef struct pl_bond {  // a constraint at work
   bool implied;     // says nothing new
   bool integrated;  // given for velocities; g is its integral
   bool shared;      // depends on others: its force is not determined (redundant.c)
-  // forces along the coordinates for λ = 1: the gradient, and the friction that slips with it   (n_q), raw
+  // forces along the coordinates for λ = 1: the gradient and slipping friction   (n_q), raw
   pl_expr* push;
   const pl_stage_rub* rub;  // friction that slips; NULL
   // dg/dq, of a nonholonomic one dg/dv; negative by `convention lambda-minus`   (n_q), raw

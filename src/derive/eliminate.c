@@ -1,5 +1,6 @@
 // eliminate: velocities along a given motion, by the energy integral. One generalized coordinate q,
 // E(q, q') conserved and quadratic in q': q'^2 follows from E(q, q') = E(q0, q0').
+// See theory (6.4).
 #include <math.h>
 
 #include "derive/derive_impl.h"
@@ -81,7 +82,8 @@ static pl_expr primitive(pl_analysis* d, pl_expr e) {
   return pl_add(p, G, part);
 }
 
-// dh/dt = -∂L/∂t for h = sum v ∂L/∂v - L.  Where ∂L/∂t is the total derivative of G, h + G is conserved.   [Arnold1989, sec. 20]
+// dh/dt = -∂L/∂t for h = sum v ∂L/∂v - L.  Where ∂L/∂t is the total derivative of G,
+// h + G is conserved. theory (6.1), [Arnold1989, sec. 20]
 static pl_expr conserved_integral(pl_analysis* d) {
   if (pl_dissipates(d) || works(d)) return pl_poison();
   if (!d->reduced) return pl_scleronomic(d) ? pl_energy_integral(d) : pl_poison();

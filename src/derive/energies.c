@@ -1,6 +1,7 @@
 // energies: T, V and the generalized forces of a model, and the left-hand sides of Lagrange's
 // equations
 //   E_i = d/dt dL/dv_i - dL/dq_i - Q_i  =  sum_c lambda_c dg_c/dq_i.
+// See theory (2.1), (2.4).
 #include <string.h>
 
 #include "derive/derive_impl.h"

@@ -3,7 +3,9 @@
 //   u'' = C u^p + ...,  0 < p < 1,  C > 0
 // the force has an unbounded slope (it is not Lipschitz), and besides rest every u = A (t - T)^k
 // with k = 2/(1 - p) and
-// A^(1-p) = C/(k (k - 1)) leaves it, T as late as one likes.     [Norton 2003; Coddington and Levinson 1955, chapter 1]
+// A^(1-p) = C/(k (k - 1)) leaves it, T as late as one likes. [Norton2003],
+// [CoddingtonLevinson1955, chapter 1]
+// See theory (6.5).
 #include <math.h>
 
 #include "derive/derive_impl.h"

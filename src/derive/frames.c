@@ -1,6 +1,7 @@
 // frames: the orthonormal frame that a position map implies. When the columns dX/dq_i are
 // orthogonal, e_i points along them, and the equation of q_i divided by |dX/dq_i| is the component
 // of Newton's law along e_i.
+// See theory (2.6).
 #include "derive/derive_impl.h"
 
 const char* pl_unit_vector(pl_analysis* d, int i) {

@@ -5,7 +5,7 @@
 // denominator has factors of degree one, two, or four without odd powers, by partial fractions; a
 // pair of poles stays together,
 //   (α s + κ)/q,   q = s² + β s + γ,   α s + κ = N/R modulo q  for N/(R q),
-// so that complex numbers never show.                                        [Doetsch 1974, ch. 13]
+// so that complex numbers never show.                                         [Doetsch1974, ch. 13]
 #include "derive/derive_impl.h"
 
 enum { max_degree = 24, max_factors = 16, max_terms = 64 };

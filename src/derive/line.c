@@ -1,7 +1,9 @@
 // line: a motion reduced to one coordinate by every integral that is known. Of n generalized
 // coordinates n - 1 are cyclic:
 //   dL/dv_c = p_c (linear in the velocities) gives v_c in terms of q, v and the start;
-//   E(q, v, v_c(q, v)) = E(start), quadratic in v without a linear term, gives v^2 as a function of q.     [Arnold 1989, sec. 22]
+//   E(q, v, v_c(q, v)) = E(start), quadratic in v without a linear term, gives v^2 as a
+//   function of q. [Arnold1989, sec. 22]
+// See theory (6.2), (6.4).
 #include <math.h>
 
 #include "derive/derive_impl.h"

@@ -4,6 +4,7 @@
 // or whose solved accelerations are, where the coordinates are not reduced or constraints hold
 // between velocities, by the Laplace transform: (s² M + s C + K) Q(s) = C(s) + M (s q0 + v0) + C
 // q0. Each Q_i(s) is a fraction, and laplace.c brings it back.
+// See theory (7.3).
 #include "derive/derive_impl.h"
 
 enum { max_size = 5 };

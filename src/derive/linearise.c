@@ -1,5 +1,6 @@
 // linearise: the equations around a position of rest or a steady motion, M u'' + C u' + K u = 0,
 // their stability and frequencies.
+// See theory (7.1), (7.2).
 #include <math.h>
 #include <string.h>
 

@@ -5,6 +5,7 @@
 // linear and short, the same in all assemblies. Functions of generalized coordinates are then
 // functions of the names too, and d/dq_i follows them (pl_by_coordinate). Which assembly it is, a
 // `branch` or the start tells; else all are answered.
+// See theory (5.1) to (5.4).
 #include <math.h>
 #include <string.h>
 

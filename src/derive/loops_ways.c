@@ -3,11 +3,16 @@
 //
 // An unknown is plain (polynomials of degree 2 at most) or an angle (its cosine and sine occur
 // linearly).
-//   angle v   p_i + q_i cos v + r_i sin v = 0, i = 1, 2, gives cos v = Nc/D, sin v = Ns/D; then Nc^2 + Ns^2 - D^2 = 0
-//   plain v   the squares are eliminated, l1 v + l0 = 0, and v = -l0/l1 inserted into the other equation
+//   angle v   p_i + q_i cos v + r_i sin v = 0, i = 1, 2, gives cos v = Nc/D, sin v = Ns/D;
+//             then Nc^2 + Ns^2 - D^2 = 0
+//   plain v   the squares are eliminated, l1 v + l0 = 0, and v = -l0/l1 inserted into the
+//             other equation
 // What is left contains u alone:
-//   plain u   linear or quadratic; squares are taken out of the root without bars, so that each way stays on its own branch
-//   angle u   A cos u + B sin u + C = 0:   w = sqrt(A^2 + B^2 - C^2),  u = atan2(-B C ± A w, -A C -+ B w)
+//   plain u   linear or quadratic; squares are taken out of the root without bars, so that each
+//             way stays on its own branch
+//   angle u   A cos u + B sin u + C = 0:   w = sqrt(A^2 + B^2 - C^2),
+//             u = atan2(-B C ± A w, -A C -+ B w)
+// See theory (5.5).
 #include "loops_impl.h"
 
 enum { most_factors = 16 };

@@ -2,6 +2,7 @@
 // nowhere else: two bars beside a third one on the same coupler. The rank at a general place counts
 // them as independent. Points that satisfy the constraints are found in numbers, by Newton's method
 // from the start and from places around it, and the rank is taken there.
+// See theory (4.1).
 #include <math.h>
 #include <string.h>
 

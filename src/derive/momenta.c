@@ -2,7 +2,9 @@
 // shifted along an axis or turned about one, displaces the coordinates by η_i. If neither the
 // Lagrange function nor a constraint changes, and no force without potential works along it,
 //   sum η_i dL/dq_i + η_i' dL/dv_i = 0,   sum η_i dg/dq_i = 0,   sum η_i Q_i = 0,
-// then  I = sum η_i dL/dv_i  is conserved (Noether), whatever the multipliers are.     [Arnold 1989, sec. 20]
+// then  I = sum η_i dL/dv_i  is conserved (Noether), whatever the multipliers are.
+// [Arnold1989, sec. 20]
+// See theory (6.3).
 #include <string.h>
 
 #include "derive/derive_impl.h"

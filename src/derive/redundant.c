@@ -3,6 +3,7 @@
 // only the total sum of λ ∇g follows from the motion: λ_a = λ_a0 - sum_k c_ka λ_k with every λ_k
 // free. Determined are the combinations λ_a + sum_k c_ka λ_k; among all values the smallest sum of
 // squares is offered: (1 + C C^T) λ_k = C λ_0.
+// See theory (4.2) to (4.4).
 #include "derive/derive_impl.h"
 
 enum { max_free = 12 };

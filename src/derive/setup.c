@@ -1,6 +1,7 @@
 // setup: what moves, what is heavy, what constrains; then the constraints of the form coordinate =
 // constant or f(t), which are inserted and dropped (theorem T101: their multipliers remain
 // available, see solve_motion.c).
+// See theory (2.7).
 #include <math.h>
 #include <string.h>
 

@@ -3,6 +3,7 @@
 // are inserted and the unknowns are q'' of the generalized coordinates and the multipliers; without
 // them, all accelerations and the twice-differentiated constraints. The multiplier of a dropped
 // constraint is what is left of the equation of its coordinate (theorem T101).
+// See theory (3.5).
 #include "derive/derive_impl.h"
 
 // Largest number of terms in a minor before the solver gives up and the structured form is shown

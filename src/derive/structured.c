@@ -7,6 +7,7 @@
 // accelerations and multipliers stay together. Along a chain of rods the matrix is tridiagonal.
 // Entries come from raw differentiation, what is shown of them from the tower; each is claimed, and
 // so are the rows of the system and its solution.
+// See theory (3.4), (3.5).
 #include <math.h>
 
 #include "structured_impl.h"

@@ -4,9 +4,10 @@
 // Tridiagonal ones grow like Fibonacci numbers. Larger ones: S = C^T D^-1 C row by row, without
 // pivoting but along an order in which no pivot vanishes at a random point modulo p (matrices M and
 // G M^-1 G^T are definite, so the given order does; a system of both begins with M):
-//   D_k = S_kk - sum_i C_ik^2/D_i,   C_kj = S_kj - sum_i C_ik C_ij/D_i,   Y_k = R_k - sum_i C_ik Y_i/D_i   (i before k)
+//   D_k = S_kk - sum_i C_ik^2/D_i,   C_kj = S_kj - sum_i C_ik C_ij/D_i,
+//   Y_k = R_k - sum_i C_ik Y_i/D_i   (i before k)
 //   u_k = (Y_k - sum_j C_kj u_j)/D_k   (j after k)
-// For a tridiagonal S this is O(n) lines.   [Golub & Van Loan 2013, sections 4.1, 4.3]
+// For a tridiagonal S this is O(n) lines.   [GolubVanLoan2013, sections 4.1, 4.3]
 #include "structured_impl.h"
 
 enum { most_closed = 7, closed_terms = 400, tries = 8 };

@@ -6,10 +6,12 @@
 //
 //   product     |a||z_b| + |b||z_a| + |z_a||z_b|
 //   quotient    a/b + z: z = (z_a - (a/b) z_b)/(b + z_b), so |z| <= (r_a + |a/b| r_b)/(|b| - r_b)
-//   sqrt        the moduli of its coefficients are those of 1 - sqrt(1 - x): r/(sqrt(a) + sqrt(a - r))
+//   sqrt        the moduli of its coefficients are those of 1 - sqrt(1 - x):
+//               r/(sqrt(a) + sqrt(a - r))
 //   a^p         |(1+w)^p - 1| <= exp(|p| |ln(1+w)|) - 1 <= (1 - |w|)^-|p| - 1, w = z/a
 //   exp, ln     e^a (e^r - 1); -ln(1 - r/a)
-//   sin, cos    |f(a)| (cosh r - 1) + |f'(a)| sinh r, from the addition theorem; sinh and cosh likewise
+//   sin, cos    |f(a)| (cosh r - 1) + |f'(a)| sinh r, from the addition theorem;
+//               sinh and cosh likewise
 //   asin, atan the integral of the derivative along the segment, the derivative bounded on the disk
 //
 // abs, sign, min, max and if are analytic where their condition is decided on the whole disk; then

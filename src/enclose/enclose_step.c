@@ -5,7 +5,7 @@
 // |v_i| + R² A_i/2 <= reach_q, Picard's operator q -> q + v t + double integral of a, v -> v +
 // integral of a, along the radius to each complex time, maps the analytic functions with values in
 // Y to themselves, so the motion exists for |s - t| < R, is analytic there and stays in Y
-// [Hairer1993, I.7], [Tucker2011, ch. 6].
+// [HairerNorsettWanner1993, I.7], [Tucker2011, ch. 6].
 //
 // Tail. By Cauchy's estimate coefficient k of q_i is at most reach_q R^-k, so that what is left of
 // the series after order p at |h| = x R is at most reach_q x^(p+1)/(1-x). Likewise v.

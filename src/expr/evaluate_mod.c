@@ -5,9 +5,11 @@
 // rational multiples of monomials, as 3/2 of "ω t"; each monomial stands for a random rotation, the
 // multiples follow by addition of angles. The same is done for exponents. A monomial is known by
 // its residue, so ω (t - t0) and ω t - ω t0 are one angle.
-//   π           as an angle in parts 2^k 3^m 5^n (k <= 7, m and n <= 2), so down to tenths of a degree; else ok = false
+//   π           as an angle in parts 2^k 3^m 5^n (k <= 7, m and n <= 2), so down to tenths of a
+//               degree; else ok = false
 //   asin u ...  the rotation with that sine
-//   ln          sums over factors; else random, by the residue of the argument; so are the inverse functions as values
+//   ln          sums over factors; else random, by the residue of the argument; so are the
+//               inverse functions as values
 //   abs, sign   by "is a square", which is multiplicative (modular.c)
 // So 0 at several points certifies an identity. A value other than 0 refutes it unless logarithms,
 // inverse functions, symbolic exponents or sums with symbolic bounds take part: relations between

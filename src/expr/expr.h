@@ -257,11 +257,11 @@ typedef enum pl_form_kind {
   PL_F_CALL,       // function                                           .function, .args
   PL_F_GROUP,      // explicit brackets around one form                  1
   PL_F_PLUSMINUS,  // a ± b                                              2; b only if 1
-  // lhs op rhs                                         .text is "=", "≥", "≤", "≠", "->", "<", ">", "≈"; 2
+  // lhs op rhs                               .text is "=", "≥", "≤", "≠", "->", "<", ">", "≈"; 2
   PL_F_RELATION,
   // sum of component times unit vector                 .args components, .names e_x ...
   PL_F_VECTOR,
-  // a name that is not a symbol: "T", "Z", "M(φ)", "E", "e_r"        .text (UTF-8), .expr its value or poison
+  // a name that is not a symbol: "T", "Z", "M(φ)", "E", "e_r"   .text (UTF-8), .expr its value
   PL_F_NAME,
   PL_F_DERIVATIVE,  // d .args[0] / d .expr, kept as such: diff(M, φ)     1
   PL_F_INTEGRAL,    // ∫ .args[0] d .expr                                 1

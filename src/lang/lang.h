@@ -23,10 +23,10 @@ typedef struct pl_setting {
 // pl_lang_parse reads a model. Diagnostics go to job->diagnostics; the model is made as far as
 // possible even when there are errors (status PLEUEL_MODEL_ERROR). The model is lowered but not yet
 // checked (pl_model_check). Conventions of what it leaves in the model:
-//   E(0), T(0), ...      symbols of role PL_R_CONSTANT, ascii "E_0"; p_x the PL_R_MOMENTUM of coordinate x
-//   labels in requests   "c[3]" for a member of a family, with the index as a number where parameters tell it
+//   E(0), T(0), ...      symbols of role PL_R_CONSTANT, ascii "E_0"; p_x the PL_R_MOMENTUM of x
+//   labels in requests   "c[3]" for a member of a family, the index a number where it is known
 //   a family's multiplier is one symbol; its members are PL_AT nodes of that symbol
-//   `modes holding x`    the names are in pl_ask.frame; `expect A = B where C` has A = B in where[0], C after it
+//   `modes holding x`    the names are in pl_ask.frame; `expect A where C` has A in where[0]
 //   `rod`                three masses, generated names label.start, label.middle, label.end
 pleuel_status pl_lang_parse(pl_job* job, const pl_source* source, const pl_include_reader* reader,
                             const pl_setting* set, int n_set, pl_model** out);

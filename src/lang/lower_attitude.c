@@ -2,8 +2,8 @@
 // turn, the angular velocity, the energy of turning, what holds between the numbers that give it.
 //
 //   axes euler(φ, ϑ, ψ)               turn = Rz(φ) Rx(ϑ) Rz(ψ): precession, nutation, spin
-//   axes quaternion(q0, q1, q2, q3)   turn = that of the quaternion q0 + i q1 + j q2 + k q3, with |q| = 1
-//   axes e1, e2, e3                   its columns themselves, orthonormal vectors [GarciaDeJalonBayo1994, 2.3]
+//   axes quaternion(q0, q1, q2, q3)   turn = that of q0 + i q1 + j q2 + k q3, |q| = 1
+//   axes e1, e2, e3                   its columns, orthonormal [GarciaDeJalonBayo1994, 2.3]
 //
 // Columns of the turn are the body axes in space.
 #include <string.h>

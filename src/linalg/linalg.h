@@ -19,13 +19,13 @@ void pl_lu_solve(const double* LU, const int* p, const double* scale, double* b,
 double pl_zlu_factor(double* A, int* p, double* scale, int n);
 void pl_zlu_solve(const double* LU, const int* p, const double* scale, double* b, int n);
 
-// Symmetric indefinite A = P L D L^T P^T after Bunch and Kaufman 1977; the lower triangle is used
+// Symmetric indefinite A = P L D L^T P^T [BunchKaufman1977]; the lower triangle is used
 // and overwritten. p (n): pivot rows; negative marks 2 x 2 blocks. Returns the smallest |pivot|
 // over the largest, 0 if singular.
 double pl_ldlt_factor(double* A, int* p, int n);
 void pl_ldlt_solve(const double* A, const int* p, double* b, int n);
 
-// QR with column pivoting (Businger and Golub 1965) of A (m x n), in place: R above, Householder
+// QR with column pivoting [BusingerGolub1965] of A (m x n), in place: R above, Householder
 // vectors below. jpvt (n): column order; tau (min(m,n)); norm (2 n) work. Returns the rank:
 // diagonals above rel * the largest.
 int pl_qr_factor(double* A, int* jpvt, double* tau, double* norm, int m, int n, double rel);
@@ -105,7 +105,7 @@ typedef struct pl_root {
 int pl_roots(const double* c, int n, double noise, double floor, pl_root* out, int room,
              double* work);
 // What rounding of the coefficients and of the evaluation itself leaves open, as noise: half an ulp
-// for each coefficient, Horner's bound 2 n ulps (Higham 2002, 5.3) and as much again for the change
+// for each coefficient, Horner's bound 2 n ulps [Higham2002, 5.3] and as much again for the change
 // of basis.
 double pl_root_noise(int n);
 

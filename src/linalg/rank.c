@@ -141,7 +141,7 @@ int pl_independent_rows(double* A, const int* priority, bool* taken, double* wor
         take_out(A + (size_t)s * n, unit, n);
         work[s] = row_length(A + (size_t)s * n, n);
         if (work[s] > 0.5 * before) continue;
-        // much was taken out: what rounding left of it goes too (twice is enough, Parlett 1980)
+        // much was taken out: what rounding left of it goes too (twice is enough, [Parlett1980])
         take_out(A + (size_t)s * n, unit, n);
         work[s] = row_length(A + (size_t)s * n, n);
       }

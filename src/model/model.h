@@ -447,7 +447,7 @@ typedef struct pl_flat_coords {
 } pl_flat_coords;
 pl_flat_coords pl_model_flat_coords(const pl_model* m, pl_arena* a);
 
-// Parameter values by symbol id, NaN where none is given: input of pl_eval.     (pl_symbol_count + 1)
+// Parameter values by symbol id, NaN where none is given: input of pl_eval.  (pl_symbol_count + 1)
 double* pl_model_values(const pl_model* m, pl_arena* a);
 // What is written behind the names of parameters and kept abbreviations, by symbol id; poison where
 // nothing is.

@@ -2,9 +2,11 @@
 //
 // A constraint linear in the velocities is a Pfaffian form ω = Σ a_j dq_j + b dt. It can be
 // integrated, after a factor if need be, exactly when ω ∧ dω = 0: for every three variables
-//     a_i (∂_j a_k - ∂_k a_j) + a_j (∂_k a_i - ∂_i a_k) + a_k (∂_i a_j - ∂_j a_i) = 0        [Frobenius1877]
+//     a_i (∂_j a_k - ∂_k a_j) + a_j (∂_k a_i - ∂_i a_k) + a_k (∂_i a_j - ∂_j a_i) = 0
+// [Frobenius1877]
 // with time as one of the variables. Zeros are recognised by form, else at random points modulo a
 // large prime.
+// See theory (1.5).
 #include "model_impl.h"
 
 enum {

@@ -1,9 +1,10 @@
 // How each kind of quantity is written: the rules that no cost function finds (K1 to K3).
 //
-//   energies    one term for each monomial of velocities (momenta), squares first, ½ distributed; what does not move is
-//               separated by masses, gravity and other parameters;                                             K1
-//   equations   accelerations, velocities, forces, one term each;                                             K2
-//   quotients   one fraction, but two forces of different kind stay a sum: m g cos ϑ - m R ϑ'²;                 K3
+//   energies    one term for each monomial of velocities (momenta), squares first, ½ distributed;
+//               what does not move is separated by masses, gravity and other parameters: K1
+//   equations   accelerations, velocities, forces, one term each: K2
+//   quotients   one fraction, but two forces of different kind stay a sum,
+//               as m g cos ϑ - m R ϑ'²: K3
 //   solutions   a sum by powers and functions of time.
 #include "present/present_impl.h"
 

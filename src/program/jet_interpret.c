@@ -4,12 +4,14 @@
 //   c = a b        c_k = S + a_0 b_k + a_k b_0,                S = sum_{1..k-1} a_j b_{k-j}
 //   c = a / b      c_k = (a_k - b_k c_0 - S) / b_0,            S = sum_{1..k-1} b_j c_{k-j}
 //   c = sqrt a     c_k = (a_k - S) / (2 c_0),                  S = sum_{1..k-1} c_j c_{k-j}
-//   c = a^r        c_k = (S + r a_k c_0) / a_0,                S = sum_{1..k-1} (r j - (k-j)) a_j c_{k-j} / k
+//   c = a^r        c_k = (S + r a_k c_0) / a_0,
+//                  S = sum_{1..k-1} ((r+1) j - k) a_j c_{k-j} / k
 //   c = exp a      c_k = S + a_k c_0,                          S = sum_{1..k-1} j a_j c_{k-j} / k
 //   c = ln a       c_k = (a_k - S) / a_0,                      S = sum_{1..k-1} j c_j a_{k-j} / k
 //   c = sin a      c_k = S + a_k w_0,      w = cos a           S = sum_{1..k-1} j a_j w_{k-j} / k
 //   c = tan a      c_k = S + a_k (1 + w_0), w = c^2            likewise; tanh with a minus
-//   c = asin a     c_k = (a_k - S) / w_0,  w = sqrt(1-a^2)     S = sum_{1..k-1} j c_j w_{k-j} / k; acos, atan likewise
+//   c = asin a     c_k = (a_k - S) / w_0,  w = sqrt(1-a^2)     S = sum_{1..k-1} j c_j w_{k-j} / k;
+//                  acos, atan likewise
 //   c = atan2(a,b) c_k = (S + a_k b_0 - b_k a_0) / w_0, w = a^2 + b^2
 //                  S = sum_{1..k-1} j (a_j b_{k-j} - b_j a_{k-j} - c_j w_{k-j}) / k
 //

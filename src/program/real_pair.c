@@ -4,6 +4,7 @@
 //
 // Arithmetic after [Dekker1971] and [JoldesMullerPopescu2017]: errors below 2^-102 of the result.
 // Elementary functions are those of 128 bits.
+// See theory (17.1), (17.2).
 #include <float.h>
 #include <math.h>
 #include <string.h>

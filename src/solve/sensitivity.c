@@ -5,14 +5,15 @@
 // holds until then. There the derivatives jump. With the moment t* at which e(q, v, a, λ, t, p) =
 // 0, for each direction
 //
-//     dt* = -(e_p + e_q δ + ...) / (de/dt),     Dq = δ + v- dt*,     Dv = δ' + a- dt*        just before,
+//     dt* = -(e_p + e_q δ + ...) / (de/dt),   Dq = δ + v- dt*,   Dv = δ' + a- dt*    just before,
 //     Dq, Dv through what the event does: the derivative of the impact, or of the new values,
-//     δ = Dq - v+ dt*,     δ' = Dv - a+ dt*                                                  just after
+//     δ = Dq - v+ dt*,     δ' = Dv - a+ dt*                                     just after
 //
 // [Rozenwasser1959], [HiskensPai2000], for impacts [LeineNijmeijer2004]. The derivative of an
 // impact needs no formula of its own: the impulses of the system with the variations are the
 // derivatives of the impulses. What has no derivative is refused when it happens: grazing contacts,
 // and two things at once that each change the motion.
+// See theory (16.3), (16.4).
 #include <math.h>
 #include <string.h>
 

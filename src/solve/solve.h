@@ -12,6 +12,7 @@
 // Use: pl_run_make, then pl_run_start, then pl_run_to_end (or pl_run_step), reading through a sink
 // or pl_run_state. A setup is constant and shared; a run moves and belongs to one thread. Stepping
 // allocates nothing.
+// See theory (9.1) to (9.4).
 #ifndef PL_SOLVE_H
 #define PL_SOLVE_H
 

@@ -1,8 +1,8 @@
 // Units as written in [ ]: "m/s^2", "kN m", "m²/s", "1/min". A unit is an exact factor to SI and a
 // dimension.
 //
-//   unit    = power { ("*" | "·" | blank | "/") power }         products and divisions from left to right
-//   power   = atom [ "^" exponent | superscript digits ]        exponent: integer, decimal, or fraction in brackets
+//   unit    = power { ("*" | "·" | blank | "/") power }         from left to right
+//   power   = atom [ "^" exponent | superscript digits ]  integer, decimal, or fraction in brackets
 //   atom    = number | "(" unit ")" | [prefix] symbol
 //
 // A product after a division ("J/kg K") can be read in two ways and is refused, as in formulas.

@@ -10,6 +10,7 @@
 // whole turns make of them; of these the motion is followed continuously along its series. Through
 // a zero of z_2 or z_1 it goes on with φ and ψ continuous while ϑ changes its sign or passes 180°.
 // Where it stays in a zero, the argument that is lost goes on at the last rate that it had.
+// See theory (8.2).
 #include <complex.h>
 #include <math.h>
 #include <string.h>

@@ -14,6 +14,7 @@
 //
 // The system is then no longer symmetric, and it may be singular or have the wrong sign: Painlevé's
 // configurations, which the choice of the mode (contacts.c) finds.
+// See theory (13.3), (13.4).
 #include "solve/solve_impl.h"
 
 #include <math.h>

@@ -2,8 +2,9 @@
 // above, L D L^T in lanes while its pivots are sound, and KLU where they are not or the matrix is
 // not symmetric.
 //
-// The dense matrix is balanced symmetrically by powers of two before it is factored (Ruiz 2001), so
+// The dense matrix is balanced symmetrically by powers of two before it is factored [Ruiz2001], so
 // that the pivots tell how singular it is whatever the units are.
+// See theory (9.5).
 #include "solve/solve_impl.h"
 
 #include <math.h>

@@ -3,6 +3,7 @@
 //
 // Each correction is [M G^T; G 0] [δ; μ] = [0; -residual] with the rows that are independent; the
 // residuals are measured on all active rows, so that what was left out is watched too.
+// See theory (12.1).
 #include "solve/solve_impl.h"
 
 #include <float.h>

@@ -10,6 +10,7 @@
 //
 // Entries of a row of G that are multiples of one node u, as u, -u of a rod, share their sums: u
 // with the sum of multiples of velocities, u with λ.
+// See theory (10.3).
 #include <math.h>
 
 #include "solve/solve_impl.h"

@@ -4,16 +4,17 @@
 // Twice the same question. For the impact: velocities v+ and impulses with, for each contact near
 // by,
 //
-//     u+ + e u- >= 0,  Λ >= 0,  one of them zero      (Moreau 1988; Newton's e, u velocity along g)
+//     u+ + e u- >= 0,  Λ >= 0,  one of them zero      [Moreau1988], Newton's e, u velocity along g
 //
 // and for each friction |Λt| <= μ Λn while the slip ends with zero, or Λt = -μ Λn s+/|s+|. For the
 // motion that follows: accelerations and forces with g'' >= 0, λ >= 0, one of them zero, and
 // Coulomb's law with the derivative of the slip where there is none yet. A set of decisions (open
 // or closed, stick or slip) makes both linear; a set is consistent when all signs are right. It is
-// looked for by exchange: the first decision that is wrong is turned round (Murty 1974; finite
+// looked for by exchange: the first decision that is wrong is turned round ([Murty1974]; finite
 // without friction, where the matrix is positive). With friction all sets are tried too, while they
 // are not too many: none that fits, or two that fit with different accelerations, is Painlevé's
 // paradox, and the run says so.
+// See theory (13.2), (13.3), (14.1) to (14.3).
 #include "solve/solve_impl.h"
 
 #include <math.h>

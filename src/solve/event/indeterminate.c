@@ -13,6 +13,7 @@
 // >= 0: least squares with such weights [LawsonHanson1974, chapter 23] leave a residual. Asked for
 // once a mode; multipliers of frictions that slip go with those that press, and contacts that are
 // met without a force take part.
+// See theory (13.5).
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -8,6 +8,7 @@
 // construction. The leap counts only if the constraints at the far side are met almost without
 // correction, if two orders agree and if the energy, where it is conserved, is the same; it is
 // recorded as an event. Otherwise the run stops and says where.
+// See theory (15.2).
 #include "solve/solve_impl.h"
 
 #include <float.h>

@@ -7,6 +7,7 @@
 // not found again; nor does a root count before the value has left the rounding error of that first
 // one. A sign that differs at the start of a step from that at the end of the one before is a root
 // that fell between them.
+// See theory (15.1).
 #include "solve/solve_impl.h"
 
 #include <float.h>

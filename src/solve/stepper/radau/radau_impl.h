@@ -45,7 +45,7 @@ typedef struct pl_radau_shape {
 // (P2), each n x n:
 //
 //   M 0      D  -B     K 0
-//   0 0      G   E     S 0       G, S: of C by v, q;  B = G^T + W;  E: of C by λ, where surfaces slip
+//   0 0      G   E     S 0       G, S: of C by v, q;  B = G^T + W;  E: of C by λ (slip)
 typedef struct pl_radau_slopes {
   double *P0, *P1, *P2;
 } pl_radau_slopes;
@@ -99,7 +99,7 @@ struct pl_radau {
   double cost_series;     // of the series per time, at the last look
   int dear;               // implicit steps in a row that cost more
   double h_dense;         // step up to which the polynomial is as exact as the tolerance
-  // what is watched: values at the start and at the stages                          (n_watch x (s + 1))
+  // what is watched: values at the start and at the stages      (n_watch x (s + 1))
   double* watched;
   double watched_h;  // length of that step
   // the same of what changes its branch                    (n_kinks x (s + 1))

@@ -4,7 +4,8 @@
 //
 //   nodes      c_i are the zeros of P_s(2 c - 1) - P_{s-1}(2 c - 1), the last one is 1
 //   matrix     sum_j a_ij c_j^{q-1} = c_i^q / q for q = 1..s
-//   spectrum   det(I - z A) is the denominator of the Padé approximation (s-1, s) of e^z; its zeros are the eigenvalues
+//   spectrum   det(I - z A) is the denominator of the Padé approximation (s-1, s) of e^z; its
+//              zeros are the eigenvalues
 //              γ of A^-1. The eigenvector is x_i = sum_k N^(k)(c_i) / γ^k with N(τ) = prod (τ -
 //              c_j): the polynomial
 //              u with u' - γ u = multiple of N and u(0) = 0.

@@ -127,7 +127,8 @@ bool pl_radau_ready(pl_run* run) {
   if (r->ready) return r->fits;
   r->fits = reserve(run, r);
   pl_radau_method_make(&r->method, r->method.s);
-  return r->ready = true, r->fits;
+  r->ready = true;
+  return r->fits;
 }
 
 void pl_radau_free(pl_radau* r) {

@@ -3,7 +3,7 @@
 //
 // Codes, in the order in which a step uses them:
 //   place     t, q -> nodes of q and t, g, G, dg/dt, M, and the factor of [M G^T; G 0]
-//   correct_q, correct_v    corrections of the projection from g, or from G v + dg/dt, with that factor
+//   correct_q, correct_v    corrections of the projection from g, or G v + dg/dt, with that factor
 //   speed     G v + dg/dt and its size
 //   inverse   the factor's inverse, when the system is small
 //   start     order 0 of the series: forces, a_0, λ_0
