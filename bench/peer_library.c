@@ -8,6 +8,8 @@ void peer_jacobian(double t, const double* y, double* J) {
 #ifndef WITHOUT_JACOBIAN
   jacobian(t, y, J);
 #else
-  (void)t, (void)y, (void)J;
+  (void)t;
+  (void)y;
+  (void)J;
 #endif
 }

@@ -1,5 +1,7 @@
-// Reference for a generated system: extrapolation of the modified midpoint rule (Gragg, Bulirsch, Stoer) in __float128, order 2 x 14,
-// with constant steps; the caller compares two step sizes.  Usage: peer_quad END STEPS.  Prints q, v and the multipliers.
+// Reference for a generated system: extrapolation of the modified midpoint rule (Gragg, Bulirsch,
+// Stoer) in __float128, order 2 x 14,
+// with constant steps; the caller compares two step sizes.  Usage: peer_quad END STEPS.  Prints q,
+// v and the multipliers.
 #include <quadmath.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -7,10 +9,10 @@
 
 typedef __float128 real;
 #define K(p, q) ((real)p##.0Q / (real)q##.0Q)
-#define SIN sinq
-#define COS cosq
-#define SQRT sqrtq
-#define LOG logq
+#define SIN     sinq
+#define COS     cosq
+#define SQRT    sqrtq
+#define LOG     logq
 #include SYSTEM
 
 enum { N = 2 * N_Q, COLUMNS = 14 };
@@ -24,7 +26,10 @@ static void midpoint(real t, const real* y, real H, int n, real* out) {
   static real a[N], b[N], f[N];
   real h = H / n;
   slope(t, y, f);
-  for (int i = 0; i < N; i++) a[i] = y[i], b[i] = y[i] + h * f[i];
+  for (int i = 0; i < N; i++) {
+    a[i] = y[i];
+    b[i] = y[i] + h * f[i];
+  }
   for (int k = 1; k < n; k++) {
     slope(t + k * h, b, f);
     for (int i = 0; i < N; i++) {
@@ -45,13 +50,16 @@ int main(int argc, char** argv) {
   for (int s = 0; s < steps; s++) {
     real H = end / steps, t = end * s / steps;
     for (int j = 0; j < COLUMNS; j++) {
-      real(*now)[N] = rows[j % 2], (*before)[N] = rows[1 - j % 2];
+      real(*now)[N] = rows[j % 2];
+      real(*before)[N] = rows[1 - j % 2];
       midpoint(t, y, H, 2 * (j + 1), now[0]);
       for (int k = 1; k <= j; k++) {
         real inner = (real)(j - k + 1) * (j - k + 1), outer = (real)(j + 1) * (j + 1);
-        for (int i = 0; i < N; i++) now[k][i] = now[k - 1][i] + (now[k - 1][i] - before[k - 1][i]) * inner / (outer - inner);
+        for (int i = 0; i < N; i++)
+          now[k][i] = now[k - 1][i] + (now[k - 1][i] - before[k - 1][i]) * inner / (outer - inner);
       }
-      if (j == COLUMNS - 1) for (int i = 0; i < N; i++) y[i] = now[j][i];
+      if (j == COLUMNS - 1)
+        for (int i = 0; i < N; i++) y[i] = now[j][i];
     }
   }
   static real a[N_Q];

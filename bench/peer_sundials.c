@@ -1,9 +1,13 @@
 // SUNDIALS.  Usage: peer_sundials METHOD TOLERANCE END
-//   adams, bdf   CVODE on the reduced equations: fixed-point iteration; Newton with the analytic Jacobian, dense up to 100
+//   adams, bdf   CVODE on the reduced equations: fixed-point iteration; Newton with the analytic
+// Jacobian, dense up to 100
 //                unknowns, above that GMRES without a matrix
-//   erk8         ARKODE's explicit method of the highest order, Fehlberg 13-7-8, on the same equations
-//   ida          IDA on the stabilised index-2 form (Gear, Gupta, Leimkuhler), analytic Jacobian, dense up to 100 unknowns,
-//                above that sparse (KLU); multipliers out of the error test and with wide weights, as its users do
+//   erk8         ARKODE's explicit method of the highest order, Fehlberg 13-7-8, on the same
+// equations
+//   ida          IDA on the stabilised index-2 form (Gear, Gupta, Leimkuhler), analytic Jacobian,
+// dense up to 100 unknowns,
+//                above that sparse (KLU); multipliers out of the error test and with wide weights,
+// as its users do
 #include "peer_common.h"
 
 #include <arkode/arkode_erkstep.h>
@@ -16,8 +20,8 @@
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 #ifdef WITH_KLU
-#include <sunlinsol/sunlinsol_klu.h>
-#include <sunmatrix/sunmatrix_sparse.h>
+#  include <sunlinsol/sunlinsol_klu.h>
+#  include <sunmatrix/sunmatrix_sparse.h>
 #endif
 
 enum { DENSE_UP_TO = 100 };
@@ -32,8 +36,13 @@ static int right_side(double t, N_Vector y, N_Vector f, void* user) {
 }
 
 #ifndef WITHOUT_JACOBIAN
-static int right_side_jacobian(double t, N_Vector y, N_Vector f, SUNMatrix J, void* user, N_Vector a, N_Vector b, N_Vector c) {
-  (void)user, (void)f, (void)a, (void)b, (void)c;
+static int right_side_jacobian(double t, N_Vector y, N_Vector f, SUNMatrix J, void* user,
+                               N_Vector a, N_Vector b, N_Vector c) {
+  (void)user;
+  (void)f;
+  (void)a;
+  (void)b;
+  (void)c;
   double* data = SUNDenseMatrix_Data(J);
   memset(data, 0, (size_t)N_Y * N_Y * sizeof(double));
   jacobian(t, N_VGetArrayPointer(y), data);
@@ -104,16 +113,21 @@ static long once_erk(double* us, double* out) {
   return steps;
 }
 
-// ---------------------------------------------------------------------------------------------- IDA
+// ----------------------------------------------------------------------------------------------
+// IDA
 static int residual(double t, N_Vector y, N_Vector yp, N_Vector r, void* user) {
   (void)user;
   ggl_residual(t, N_VGetArrayPointer(y), N_VGetArrayPointer(yp), N_VGetArrayPointer(r));
   return 0;
 }
 
-static int residual_jacobian(double t, double cj, N_Vector y, N_Vector yp, N_Vector r, SUNMatrix J, void* user, N_Vector a,
-                             N_Vector b, N_Vector c) {
-  (void)r, (void)user, (void)a, (void)b, (void)c;
+static int residual_jacobian(double t, double cj, N_Vector y, N_Vector yp, N_Vector r, SUNMatrix J,
+                             void* user, N_Vector a, N_Vector b, N_Vector c) {
+  (void)r;
+  (void)user;
+  (void)a;
+  (void)b;
+  (void)c;
   const double *u = N_VGetArrayPointer(y), *up = N_VGetArrayPointer(yp);
 #ifdef WITH_KLU
   if (N_GGL > DENSE_UP_TO) {
@@ -128,14 +142,17 @@ static int residual_jacobian(double t, double cj, N_Vector y, N_Vector yp, N_Vec
   double* data = SUNDenseMatrix_Data(J);
   memset(data, 0, (size_t)N_GGL * N_GGL * sizeof(double));
   for (int j = 0; j < N_GGL; j++)
-    for (int k = ggl_columns[j]; k < ggl_columns[j + 1]; k++) data[j * N_GGL + ggl_rows[k]] = entries[k];
+    for (int k = ggl_columns[j]; k < ggl_columns[j + 1]; k++)
+      data[j * N_GGL + ggl_rows[k]] = entries[k];
   return 0;
 }
 
 static long once_ida(double* us, double* out) {
-  N_Vector y = N_VNew_Serial(N_GGL, context), yp = N_VClone(y), id = N_VClone(y), weight = N_VClone(y);
+  N_Vector y = N_VNew_Serial(N_GGL, context), yp = N_VClone(y), id = N_VClone(y),
+           weight = N_VClone(y);
   double *u = N_VGetArrayPointer(y), *up = N_VGetArrayPointer(yp);
-  N_VConst(0, y), N_VConst(0, yp);
+  N_VConst(0, y);
+  N_VConst(0, yp);
   start(u);
   double lambda[N_C + 1];
   memcpy(up, u + N_Q, N_Q * sizeof(double));
@@ -176,7 +193,10 @@ static long once_ida(double* us, double* out) {
   IDAFree(&mem);
   SUNLinSolFree(linear);
   SUNMatDestroy(A);
-  N_VDestroy(y), N_VDestroy(yp), N_VDestroy(id), N_VDestroy(weight);
+  N_VDestroy(y);
+  N_VDestroy(yp);
+  N_VDestroy(id);
+  N_VDestroy(weight);
   return steps;
 }
 
@@ -187,7 +207,8 @@ int main(int argc, char** argv) {
 #else
   SUNContext_Create(NULL, &context);
 #endif
-  tolerance = atof(argv[2]), end = atof(argv[3]);
+  tolerance = atof(argv[2]);
+  end = atof(argv[3]);
   if (!freopen("/dev/null", "w", stderr)) return 1;
   const char* method = argv[1];
   return strcmp(method, "adams") == 0  ? report(once_adams)

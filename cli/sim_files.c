@@ -34,15 +34,20 @@ static bool is_named(int fd, const char* path) {
 static int open_locked(const char* path, int flags) {
   for (int round = 0; round < 8; round++) {
     int fd = open(path, flags | O_RDWR | O_CLOEXEC, 0666);
-    if (fd < 0) return cannot_write(path), -1;
+    if (fd < 0) {
+      cannot_write(path);
+      return -1;
+    }
     if (flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
       close(fd);
-      return cli_error(EXIT_FILE, "another run writes %s just now", path), -1;
+      cli_error(EXIT_FILE, "another run writes %s just now", path);
+      return -1;
     }
     if (is_named(fd, path)) return fd;
     close(fd);
   }
-  return cannot_write(path), -1;
+  cannot_write(path);
+  return -1;
 }
 
 static int open_stream(cli_rows* r, int fd, const char* how) {

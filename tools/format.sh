@@ -7,4 +7,4 @@ for tool in clang-format-14 clang-format; do
   tool=
 done
 [ -n "$tool" ] || { echo "clang-format is not installed (Debian: apt install clang-format)" >&2; exit 1; }
-git ls-files 'src/*.c' 'src/*.h' 'cli/*.c' 'cli/*.h' | xargs "$tool" -i
+git ls-files '*.c' '*.h' ':!include' | xargs "$tool" -i

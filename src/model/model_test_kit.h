@@ -66,7 +66,10 @@ static inline pl_symbol name_symbol(kit* k, const char* name, const char* ascii,
                          .role = role,
                          .class = role == PL_R_COORD ? PL_C_COORD : PL_C_OTHER,
                          .dimension = pl_dimension_one()};
-  if (unit) info.dimension = unit_of(k, unit).dimension, info.dimension_known = true;
+  if (unit) {
+    info.dimension = unit_of(k, unit).dimension;
+    info.dimension_known = true;
+  }
   return pl_symbol_make(k->m->pool, &info);
 }
 

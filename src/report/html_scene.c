@@ -431,7 +431,10 @@ enum { PL_HTML_MOVING_POINTS = 33 };  // of a curve that moves as a whole
 
 // Which points of a shape are sent.
 static int chosen_points(const pl_shape* p, int* at) {
-  if (p->kind == PL_SHAPE_TRAIL) return at[0] = 0, 1;
+  if (p->kind == PL_SHAPE_TRAIL) {
+    at[0] = 0;
+    return 1;
+  }
   bool arc = p->kind == PL_SHAPE_ANGLE && p->n > 3;
   int n = arc ? 3 : p->n > PL_HTML_MOVING_POINTS ? PL_HTML_MOVING_POINTS : p->n;
   for (int i = 0; i < n; i++) at[i] = n > 1 ? (int)((long)i * (p->n - 1) / (n - 1)) : 0;
