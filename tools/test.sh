@@ -100,6 +100,9 @@ fi
 
 stage "the house"
 part "house/layers" tools/check_layers.py build-test/gcc
+part "house/habits" tools/check_house.py build-test/gcc
+part "house/style" tools/check_style.py
+part "house/references" tools/check_references.py
 part "house/header" tools/check_header.sh
 part "house/manual" tools/check_manual.py build-test/gcc/pleuel
 part "house/install" tools/check_install.sh
