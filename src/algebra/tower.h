@@ -1,5 +1,5 @@
-// tower.h: what the files of the algebra share, and present: the tower, its generators, polynomials,
-// factors, fractions.
+// tower.h: what the files of the algebra share, and present: the tower, its generators,
+// polynomials, factors, fractions.
 //
 // Polynomials live in one FLINT context of t->capacity variables; variable i is generator i. When a
 // conversion needs more generators, a finer angle base, or another basis of exponents, the tower is

@@ -100,7 +100,8 @@ PL_TEST(high_multiples_of_an_angle_stay_as_they_are) {
   pl_world_free(w);
 }
 
-// cos(x + 1/4) in powers of cos x and sin x has cos 1/4 and sin 1/4 among them, and so has every product of it.
+// cos(x + 1/4) in powers of cos x and sin x has cos 1/4 and sin 1/4 among them, and so has every
+// product of it.
 PL_TEST(a_number_beside_an_angle_shifts_it) {
   pl_world* w = pl_world_make(NULL);
   NORMAL(w, "cos(x + 1/4)^2 + sin(x + 1/4)^2 + sin(x + 1/4)", "sin(x + 1/4) + 1");

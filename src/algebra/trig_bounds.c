@@ -5,6 +5,7 @@
 //
 // Coefficients are exact integers over a common power of 2 (each sine and cosine halves); whatever
 // would not fit gives up.
+// See theory (19.5).
 #include "algebra/tower.h"
 
 #include <math.h>

@@ -121,7 +121,7 @@ int pl_rest_stability(pl_rest_field* f, const double* q);
 
 // witness_list.c: the statements of a solution.
 void pl_statements_collect(pl_witness* w);
-void pl_statement_add(pl_witness* w, pl_statement s);        // unless it shows nothing
+void pl_statement_add(pl_witness* w, pl_statement s);     // unless it shows nothing
 const pl_motion* pl_statement_motion(const pl_ask* ask);  // that `from` names; NULL
 
 // witness_force.c: components of constraint forces.

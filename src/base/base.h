@@ -301,7 +301,8 @@ const char* pl_dimension_unit(pl_arena* a, pl_dimension d, bool ascii);
 const char* pl_dimension_words(pl_arena* a, pl_dimension d, pl_language lang);
 
 // ------------------------------------------------------------------------- text in ASCII (ascii.c)
-// A sentence in pure ASCII: Greek letters by name, umlauts by two letters, ² as ^2, dashes and arrows as - and ->.
+// A sentence in pure ASCII: Greek letters by name, umlauts by two letters, ² as ^2, dashes and
+// arrows as - and ->.
 const char* pl_ascii_of(pl_arena* a, const char* s);
 
 // ------------------------------------------------------------------------------------ writing JSON

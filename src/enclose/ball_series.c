@@ -1,10 +1,11 @@
-// Taylor coefficients in balls through a tape: the recurrences of program/jet_interpret.c, whose proof is
-// that of power series (each is an identity between the coefficients of analytic functions), so
-// that in ball arithmetic coefficient k of each node contains that of every motion that begins in
-// the balls of order 0.
+// Taylor coefficients in balls through a tape: the recurrences of program/jet_interpret.c, whose
+// proof is that of power series (each is an identity between the coefficients of analytic
+// functions), so that in ball arithmetic coefficient k of each node contains that of every motion
+// that begins in the balls of order 0.
 //
 // Recurrences with weights (k c_k = sum j a_j w_{k-j}) read the weighted series j x_j, kept beside
 // the nodes that need it.
+// See theory (10.2).
 #include "enclose/enclose_impl.h"
 
 typedef struct place {

@@ -17,6 +17,7 @@
 // abs, sign, min, max and if are analytic where their condition is decided on the whole disk; then
 // they are one of their branches. The centre is a ball because the numbers that a motion begins
 // with are balls.
+// See theory (18.3).
 #include "enclose/enclose_impl.h"
 
 // ---------------------------------------------------------------------------------- memory, bounds

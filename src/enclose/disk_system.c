@@ -6,6 +6,7 @@
 // Φ >= |F| and u >= |C (b - A x)| entry by entry. If some d > 0 has u + Φ d <= d with u > 0, then Φ
 // d < d, so the spectral radius of Φ is below 1, A is regular at every point, and |e| <= (I - Φ)^-1
 // u <= d [Rump2010, sec. 10].
+// See theory (18.4).
 #include "enclose/enclose_impl.h"
 
 // ---------------------------------------------------------------------------------------- programs

@@ -10,6 +10,7 @@
 // free of contradiction, they are equal; a given value outside of X, or of K, contradicts the
 // constraints, and is reported as moved. What neither is given nor determined is taken from the
 // simulation's start, as an exact number, and reported too.
+// See theory (18.5).
 #include "enclose/enclose_impl.h"
 
 #include <math.h>

@@ -9,6 +9,7 @@
 //
 // Tail. By Cauchy's estimate coefficient k of q_i is at most reach_q R^-k, so that what is left of
 // the series after order p at |h| = x R is at most reach_q x^(p+1)/(1-x). Likewise v.
+// See theory (18.1), (18.2).
 #include "enclose/enclose_impl.h"
 
 #include <math.h>

@@ -9,6 +9,7 @@
 // the second being order k+1 of d/dt g = 0, in which v_{k+1} = a_k/(k+1). Each is an identity of
 // the true motion, and the ball of the inverse contains the inverses of all matrices in the balls,
 // so that coefficient k contains the true one.
+// See theory (10.3).
 #include "enclose/enclose_impl.h"
 
 #include <math.h>

@@ -11,6 +11,7 @@
 // that was just passed, three for the gap of a contact that lets go: its gap, the velocity and,
 // since the force is zero, the acceleration of it). Then the function divided by that power of the
 // time is looked at.
+// See theory (18.6).
 #include "enclose/enclose_impl.h"
 
 #include <math.h>

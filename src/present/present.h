@@ -7,11 +7,11 @@
 // How each kind of quantity is written (rules K1 to K6 of symbolic.md).
 typedef enum pl_style {
   PL_S_PLAIN,  // shortest form found
-  // T, V, L, E, H: a sum, 1/2 distributed, one term per velocity (momentum) monomial, diagonal first   K1
+  // T, V, L, E, H: a sum, 1/2 distributed, one term per velocity (momentum) monomial: K1
   PL_S_ENERGY,
-  // an equation of motion: common factor divided out, order q'', q'^2, forces                          K2
+  // an equation of motion: common factor divided out, order q'', q'^2, forces: K2
   PL_S_EQUATION,
-  // q'', λ: one fraction, denominator with positive leading mass term, ratios of equal dimension         K3 K4
+  // q'', λ: one fraction, leading mass term below positive, ratios of equal dimension: K3, K4
   PL_S_QUOTIENT,
   PL_S_SOLUTION  // a function of time: sum by powers of t or by functions of t
 } pl_style;

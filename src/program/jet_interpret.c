@@ -19,6 +19,7 @@
 // Lanes are the inner loop everywhere, in blocks of eight, so that a sum stays in a register; sums
 // run upwards in j. This file is compiled for several kinds of processors (meson.build), with the
 // same bits.
+// See theory (10.1), (10.2).
 #include "program/jet.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
-// The recurrences of the tape's operations (program/jet_interpret.c has the formulas) as code. Products and
-// additions that follow each other are fused, coefficients that are zero left out. Where the caller
-// keeps reciprocals they are multiplied with, otherwise there are divisions.
+// The recurrences of the tape's operations (program/jet_interpret.c has the formulas) as code.
+// Products and additions that follow each other are fused, coefficients that are zero left out.
+// Where the caller keeps reciprocals they are multiplied with, otherwise there are divisions.
 #include "program/program.h"
 
 static const pl_tape_node* at(const pl_recurrence* l, int node) { return &l->tape->nodes[node]; }

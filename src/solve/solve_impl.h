@@ -357,8 +357,8 @@ typedef struct pl_projection {
   bool ok;
 } pl_projection;
 
-// ---- taylor_order.c: what each order of a series costs, compiled for several processors with the same
-// bits
+// ---- taylor_order.c: what each order of a series costs, compiled for several processors with the
+// same bits
 typedef enum pl_quantity { PL_IS_Q, PL_IS_V, PL_IS_A, PL_IS_LAMBDA } pl_quantity;
 typedef struct pl_orders {
   void (*load)(pl_batches* b, pl_quantity what, const double* x, int k);

@@ -6,6 +6,7 @@
 // Each unknown is free or solved. A solved one has a row: fixed exponents plus multiples of
 // unknowns that were free when the row was made. Resolving puts rows in until only free unknowns
 // are left. [WandOKeefe1991]
+// See theory (20.1).
 #include "units/units.h"
 
 #include <string.h>

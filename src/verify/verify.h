@@ -1,5 +1,5 @@
-// verify: is a formula that is shown equal to its reference?  Decided by values at sample points, without the tower
-// that produced the formula.
+// verify: is a formula that is shown equal to its reference?  Decided by values at sample points,
+// without the tower that produced the formula.
 #ifndef PL_VERIFY_H
 #define PL_VERIFY_H
 

@@ -3,6 +3,7 @@
 // Positions: damped Gauss-Newton, each correction of least length. Velocities: linear, of least
 // kinetic energy. Both use the linear system of the run with the rows and columns of held
 // coordinates replaced by 1.
+// See theory (12.1).
 #include "solve/start/start_impl.h"
 
 #include <float.h>

@@ -9,7 +9,9 @@
 //              γ of A^-1. The eigenvector is x_i = sum_k N^(k)(c_i) / γ^k with N(τ) = prod (τ -
 //              c_j): the polynomial
 //              u with u' - γ u = multiple of N and u(0) = 0.
-//   estimate   weights b^ of order s with b^_0 = 1 / γ_0 at the start of the step, γ_0 being the real eigenvalue
+//   estimate   weights b^ of order s with b^_0 = 1 / γ_0 at the start of the step, γ_0 being the
+//              real eigenvalue
+// See theory (11.3).
 #include "solve/stepper/radau/radau_impl.h"
 
 #include <complex.h>

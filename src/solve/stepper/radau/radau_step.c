@@ -14,6 +14,7 @@
 // coefficients of a series: rows, events and the rest of a run read it like one of Taylor's. Where
 // it is less exact than the tolerance, steps end on the times of output; events are iterated on the
 // end of a step.
+// See theory (11.1), (11.2).
 #include "solve/stepper/radau/radau_impl.h"
 
 #include <float.h>

@@ -1,5 +1,5 @@
-// A run on numbers wider than doubles: the codes of the motion (step_program_impl.h) on memory of another
-// type, in which the state lives from step to step. What the run shows and watches is its
+// A run on numbers wider than doubles: the codes of the motion (step_program_impl.h) on memory of
+// another type, in which the state lives from step to step. What the run shows and watches is its
 // rounding. For files of this folder.
 //
 // Two types have a part in it: `state`, to which positions and velocities are rounded at the end of

@@ -1,5 +1,5 @@
-// A step on wide numbers: projection, order 0, series. As step_program_run.c, which has the same codes
-// for doubles.
+// A step on wide numbers: projection, order 0, series. As step_program_run.c, which has the same
+// codes for doubles.
 //
 // The state is rounded to its type with each correction of the projection, and nowhere else: what
 // is computed from it is more exact than that by the digits that the fine type has more, so that

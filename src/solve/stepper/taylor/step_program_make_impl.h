@@ -1,4 +1,5 @@
-// What is at hand while the codes of a motion are written (step_program_make.c, step_program_order.c).
+// What is at hand while the codes of a motion are written (step_program_make.c,
+// step_program_order.c).
 #ifndef PL_MOTION_MAKE_IMPL_H
 #define PL_MOTION_MAKE_IMPL_H
 

@@ -2,8 +2,9 @@
 //
 // Index-3 Taylor series: with q_{k+1} = v_k / (k+1), nodes of q and t are known to order k+1, nodes
 // of v to order k, and one solve with the factor of the point gives a_k and λ_k; then v_{k+1} = a_k
-// / (k+1). Order and step after Jorba and Zou, Exp. Math. 14 (2005) 99, with separate norms for
-// positions and velocities, which have different units.
+// / (k+1). Order and step after [JorbaZou2005], with separate norms for positions and
+// velocities, which have different units.
+// See theory (10.4), (10.5), (10.6).
 #include "solve/stepper/taylor/extended_impl.h"
 
 #include <float.h>
