@@ -85,6 +85,7 @@ static pleuel_status derive(pleuel_model* m, const char* only, double seconds, b
   how.n_stages = staging->n;
   how.stages = staging->stages;
   how.stage_from = pl_staging_from;
+  how.leaves = pl_staging_leaves;
   how.user = staging;
   m->derived = pl_derive(&m->job, m->model, &how, &m->solution);
   m->is_derived = m->derived != PLEUEL_INTERRUPTED;
@@ -92,7 +93,7 @@ static pleuel_status derive(pleuel_model* m, const char* only, double seconds, b
   note_time(m, PL_STAGE_DERIVE, start);
   start = pl_clock();
   if (m->derived == PLEUEL_OK && !structure)
-    pl_witness_hold(&m->job, m->solution, staging->stages, staging->n);
+    pl_witness_hold(&m->job, m->solution, m->solution->stages.at, m->solution->stages.n);
   note_time(m, PL_STAGE_WITNESS, start);
   return m->derived;
 }

@@ -156,6 +156,7 @@ static void list_stages(pl_staging* out, pl_arena* a, const pl_trace* t) {
 pl_staging* pl_staging_make(pleuel_model* m, bool along) {
   pl_staging* out = PL_NEW(m->arena, pl_staging);
   out->m = m;
+  out->along = along && m->model->simulate.given;
   if (!can_look(m) || !has_start(m->model)) return out;
   along = along && m->model->simulate.given;
   pl_trace_options how = {
@@ -182,4 +183,118 @@ const pl_stage* pl_staging_from(void* staging, const pl_motion* from) {
     t = pl_trace_make(&m->job, &bare, &how);
   }
   return t->started ? stage_of(m->arena, t, 0) : NULL;
+}
+
+// ------------------------------------------------------------------------- changes of sign
+// A motion with the places where some expressions are zero.
+typedef struct pl_watched {
+  int n;
+  const pl_expr* e;
+  const pl_trace* t;
+  struct pl_watched* next;
+} pl_watched;
+
+static bool same_up_to_sign(pl_pool* p, pl_expr a, pl_expr b) {
+  return pl_same(a, b) || pl_same(pl_neg(p, a), b);
+}
+
+static const pl_trace* watched(pl_staging* s, const pl_expr* e, int n) {
+  pleuel_model* m = s->m;
+  for (const pl_watched* w = s->watched; w; w = w->next) {
+    bool same = w->n == n;
+    for (int k = 0; same && k < n; k++) same = same_up_to_sign(m->model->pool, w->e[k], e[k]);
+    if (same) return w->t;
+  }
+  pl_trace_options how = {
+      .as_run = true, .most_samples = MOST_SAMPLES, .n_watched = n, .watched = e};
+  pl_watched* w = PL_NEW(m->arena, pl_watched);
+  *w = (pl_watched){n, e, pl_trace_make(&m->job, m->model, &how), s->watched};
+  s->watched = w;
+  return w->t;
+}
+
+// An expression of the state and its derivative along the motion, at a sample.
+typedef struct pl_rate {
+  double value, rate, size;
+} pl_rate;
+
+static pl_rate rate_of(pl_staging* s, const pl_trace* t, const pl_trace_sample* at, pl_expr e) {
+  pl_pool* p = s->m->model->pool;
+  pl_expr slope = pl_dt(p, e);
+  int n = pl_symbol_count(p) + 1;
+  double* value = PL_ARRAY(s->m->arena, double, n);
+  for (int i = 0; i < n; i++) value[i] = i < t->n_value ? t->value[i] : (double)NAN;
+  value[pl_time(p).id] = at->t;
+  for (int i = 0; i < t->recording->flat.n; i++) {
+    if (pl_kind_of(p, t->recording->flat.at[i]) != PL_SYMBOL) continue;
+    pl_symbol q = pl_symbol_of(p, t->recording->flat.at[i]), v = pl_symbol_dot(p, q);
+    value[q.id] = at->q[i];
+    value[v.id] = at->v[i];
+    value[pl_symbol_dot(p, v).id] = at->a[i];
+  }
+  return (pl_rate){pl_eval(p, e, value), pl_eval(p, slope, value), pl_eval_terms(p, e, value)};
+}
+
+static bool is_zero(const pl_rate* r) {
+  static const double rounding = 1e-9;  // of its terms: how well an event is found
+  return fabs(r->value) <= rounding * r->size;
+}
+
+static void list_state(pl_arena* a, const pl_trace* t, const pl_trace_sample* at, pl_leaving* out) {
+  const pl_setup* s = &t->recording->setup;
+  int n = t->recording->flat.n;
+  const char **name = PL_ARRAY(a, const char*, n + 1), **unit = PL_ARRAY(a, const char*, n + 1);
+  for (int i = 0; i < n; i++) {
+    name[i] = s->coordinates[i].name;
+    unit[i] = s->coordinates[i].unit ? s->coordinates[i].unit : "";
+  }
+  out->n_q = n;
+  out->q_name = name;
+  out->q_unit = unit;
+  out->q = at->q;
+  out->v = at->v;
+}
+
+// Where e has a sign again behind a sample, it is negative.  Where friction holds fast, e stays zero.
+static bool goes_below(pl_staging* s, const pl_trace* t, const pl_trace_sample* at, pl_expr e) {
+  for (int i = 0; i < t->samples.n; i++) {
+    if (t->samples.at[i].t <= at->t) continue;
+    pl_rate r = rate_of(s, t, &t->samples.at[i], e);
+    if (!is_zero(&r)) return r.value < 0;
+  }
+  return false;
+}
+
+// Which expressions the motion leaves at a sample: zero, and on their way below.
+static bool leaves_at(pl_staging* s, const pl_trace* t, const pl_trace_sample* at,
+                      const pl_expr* side, int n, pl_leaving* out) {
+  out->leaves = false;
+  for (int k = 0; k < n; k++) {
+    pl_rate r = rate_of(s, t, at, side[k]);
+    out->through[k] = is_zero(&r) && r.rate < 0 && goes_below(s, t, at, side[k]);
+    out->leaves |= out->through[k];
+  }
+  if (!out->leaves) return false;
+  out->t = at->t;
+  list_state(s->m->arena, t, at, out);
+  return true;
+}
+
+bool pl_staging_leaves(void* staging, const pl_expr* side, int n, double from, double to,
+                       pl_leaving* out) {
+  pl_staging* s = staging;
+  pleuel_model* m = s->m;
+  if (!s->along || !has_numbers(m->model)) return false;
+  if (pl_model_flat_coords(m->model, m->arena).n > MOST_COORDINATES) return false;
+  const pl_trace* t = watched(s, side, n);
+  if (!t->started) return false;
+  *out = (pl_leaving){.through = PL_ARRAY(m->arena, bool, n + 1)};
+  for (int i = 0; i < t->marks.n; i++) {
+    const pl_trace_sample* at = &t->marks.at[i];
+    bool begins = from > 0 && at->t <= from * (1 + 1e-9);  // it is there where it has just arrived
+    if (begins || at->t > to * (1 - 1e-9)) continue;
+    if (leaves_at(s, t, at, side, n, out)) return true;
+  }
+  out->t = fmin(to, t->t_end);
+  return true;
 }

@@ -166,10 +166,10 @@ static pleuel_status start(pl_run* run, double t_0, int n_q, pl_job* job) {
                              held, held + n_q);
 }
 
-static void steps(pl_tracer* t, pl_run* run, long most) {
+static void steps(pl_tracer* t, pl_run* run, long most, bool goes_on) {
   pl_trace* out = t->trace;
-  while (!pl_run_done(run) && !out->singular && out->marks.n == 0 && out->samples.n < most
-         && out->steps < MOST_STEPS && out->status == PLEUEL_OK) {
+  while (!pl_run_done(run) && !out->singular && (out->marks.n == 0 || goes_on)
+         && out->samples.n < most && out->steps < MOST_STEPS && out->status == PLEUEL_OK) {
     out->status = pl_run_step(run);
     out->steps++;
   }
@@ -201,7 +201,7 @@ static void run(pl_job* job, pl_trace* out, const pl_trace_options* o) {
   out->n_free = made ? pl_run_start_report(made)->n_free : 0;
   out->moved = made ? pl_run_start_report(made)->largest_move : 0;
   if (out->status == PLEUEL_OK)
-    steps(&t, made, o->most_samples > 0 ? o->most_samples : MOST_SAMPLES);
+    steps(&t, made, o->most_samples > 0 ? o->most_samples : MOST_SAMPLES, o->n_watched > 0);
   out->started = out->samples.n > 0;
   int n = r->setup.n_q + r->setup.n_c;
   out->work = (double)out->steps * (double)n * (double)n;
@@ -210,6 +210,7 @@ static void run(pl_job* job, pl_trace* out, const pl_trace_options* o) {
 
 static void attempt(pl_job* job, pl_trace* out, pl_model* model, const pl_trace_options* o) {
   if (!pl_is_poison(o->meet)) model = pl_trace_marked(job, model, o->meet);
+  for (int k = 0; k < o->n_watched; k++) model = pl_trace_marked(job, model, o->watched[k]);
   *out = (pl_trace){.model = model};
   pl_recording* recording = NULL;
   out->status = pl_record(job, model, NULL, false, &recording);

@@ -70,6 +70,8 @@ typedef struct pl_trace_options {
   // s; 0: as `simulate` says, else a few times the time scale of the start
   double span;
   // coordinates that nothing is said of start as in a run, not anywhere
+  int n_watched;           // quantities whose zeros are marks, behind which the run goes on
+  const pl_expr* watched;  // (n_watched)
   bool as_run;
 } pl_trace_options;
 

@@ -101,6 +101,7 @@ typedef enum pl_agreement { PL_NOT_COMPARED, PL_AGREE, PL_DISAGREE } pl_agreemen
 typedef struct pl_memory {
   int phase;
   double value, noise;
+  bool left;  // of a closed motion: it has ended
 } pl_memory;
 
 static pl_agreement verdict(double shown, double motion, double allowed) {
@@ -201,7 +202,9 @@ static bool is_stage(const pl_trace* t, int phase, const pl_stage* stage) {
 static int begins_at(const pl_witness* w, const pl_trace* t, int stage) {
   if (stage == 0) return 0;
   for (int k = 0; k < t->phases.n && stage < w->n_stages; k++) {
-    if (is_stage(t, k, &w->stages[stage])) return k;
+    const pl_stage* s = &w->stages[stage];
+    bool before = s->n_sides > 0 && t->phases.at[k].t_end <= s->from;
+    if (!before && is_stage(t, k, s)) return k;
   }
   return -1;
 }
@@ -289,13 +292,35 @@ static bool has_motions(const pl_witness* w, int stage) {
   return false;
 }
 
+// Where a stage begins.  A change of sides is no change of the constraints, and no sample is there.
+static pl_trace_sample origin_of(const pl_witness* w, const pl_trace* t, int stage, int phase) {
+  pl_trace_sample origin = t->samples.at[t->phases.at[phase].first];
+  const pl_stage* s = stage > 0 ? &w->stages[stage] : NULL;
+  if (!s || s->n_sides == 0 || s->n_q != t->recording->flat.n) return origin;
+  origin.t = s->from;
+  origin.q = s->q;
+  origin.v = s->v;
+  return origin;
+}
+
+// A closed motion holds from its beginning on, until what it assumes fails for the first time.
+static bool still_follows(const pl_statement* s, const pl_trace_sample* sample,
+                          const pl_trace_sample* origin, bool valid, pl_memory* m) {
+  static const double behind = 1e-9;  // relative: the beginning itself is on neither side
+  double begin = origin->t + (s->stage > 0 ? behind * (1 + fabs(origin->t)) : 0);
+  if (s->kind != PL_FOLLOWS) return valid;
+  if (sample->t < begin) return false;
+  m->left |= !valid;
+  return !m->left;
+}
+
 // The statements about one stage; times and start values of a later one are those of its beginning.
 static void compare_stage(pl_witness* w, int stage, const pl_witnessed* start,
                           const pl_trace_sample* sample, pl_memory* memory, pl_verdicts* v) {
   const pl_trace* t = start->trace;
   int begin = begins_at(w, t, stage);
   if (begin < 0) return;
-  const pl_trace_sample* origin = &t->samples.at[t->phases.at[begin].first];
+  const pl_trace_sample first = origin_of(w, t, stage, begin), *origin = &first;
   pl_state_set(w, t, sample, origin, stage > 0 && has_motions(w, stage) ? origin->t : 0);
   if (!is_sound(w, t, sample->phase)) return;
   for (int i = 0; i < w->statements.n; i++) {
@@ -303,7 +328,8 @@ static void compare_stage(pl_witness* w, int stage, const pl_witnessed* start,
     if (s->stage != stage || v->of[i] == PL_DISAGREE || !leads_group(w, i)
         || !speaks_of(w, s, start, sample->phase))
       continue;
-    if (pl_state_is_valid(w, w->solution->sections.at[s->section].tower))
+    bool valid = pl_state_is_valid(w, w->solution->sections.at[s->section].tower);
+    if (still_follows(s, sample, origin, valid, &memory[i]))
       compare_one(w, i, start, sample, memory, v);
   }
 }

@@ -345,6 +345,31 @@ bool pl_rest_find(pl_rest_field* f, double* q, double* lambda, const bool* held)
   return false;
 }
 
+// What is left of the equations a little beside a position, in their own units.
+static double left_beside(pl_rest_field* f, const double* q, int i, double shift) {
+  double at[MOST_COORDINATES], lambda[MOST_ROWS];
+  for (int k = 0; k < f->n; k++) at[k] = q[k];
+  at[i] += shift;
+  if (!pl_rest_place(f, at, NULL)) return 0;
+  double left = pl_rest_left(f, at, lambda), terms = force_size(f, at, lambda);
+  return terms > 0 ? left * terms : left;
+}
+
+// Forces that vanish at a place of rest do so in proportion to the distance from it.
+bool pl_rest_is_kink(pl_rest_field* f, const double* q) {
+  static const double beside = 1e-5, nearer = 0.01, small = 1e-9;
+  double lambda[MOST_ROWS];
+  pl_rest_left(f, q, lambda);
+  double terms = force_size(f, q, lambda);
+  for (int i = 0; i < f->n; i++) {
+    for (int side = -1; side <= 1; side += 2) {
+      double h = side * beside * (1 + fabs(q[i])), far = left_beside(f, q, i, h);
+      if (far > small * terms && left_beside(f, q, i, nearer * h) > 0.5 * far) return true;
+    }
+  }
+  return false;
+}
+
 // --------------------------------------------------------------------------------------- stability
 // Accelerations at (q, v), from the linear system of the equations and the constraints twice
 // differentiated at rest.

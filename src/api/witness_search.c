@@ -160,7 +160,8 @@ static bool is_allowed(pl_witness* w, const pl_ground* on, int section, const do
     double g = pl_eval(w->pool, c->g, w->value);
     if ((c->relation == PL_GE && g < -1e-9) || (c->relation == PL_LE && g > 1e-9)) return false;
   }
-  return pl_state_is_valid(w, w->solution->sections.at[section].tower);
+  const pl_section* s = &w->solution->sections.at[section];
+  return s->all_sides || pl_state_is_valid(w, s->tower);
 }
 
 // ---------------------------------------------------------------------------- what is listed rests
@@ -224,7 +225,9 @@ static void try_complete(pl_witness* w, int section, const pl_ground* on, const 
   for (int k = 0; k < TRIES; k++) {
     double q[PL_MOST_AT_REST], lambda[PL_MOST_ROWS] = {0};
     begin_at(f, t, &r, k, q);
-    if (!pl_rest_find(f, q, lambda, NULL) || !is_allowed(w, on, section, q)) continue;
+    if (!pl_rest_find(f, q, lambda, NULL) || !is_allowed(w, on, section, q)
+        || pl_rest_is_kink(f, q))
+      continue;
     bool known = false;
     for (int i = 0; i < n; i++) known |= is_at(f, t, &l[i], q);
     if (known) continue;

@@ -435,11 +435,10 @@ void pl_say_rests_missing(pl_analysis* d, const pl_expr* f, const pl_rests* foun
            0);
   }
   if (found->complete) return;
-  const char* text;
-  const pl_form* side = pl_conditions_form(d, found->side, found->n_sides, false, &text);
+  bool side = found->n_sides > 0;
   if (side)
     pl_say(d, "Only places with {1} were looked at.", "Gesucht wurde nur unter Lagen mit {1}.", 1,
-           side);
+           pl_facts_form(d, found->side, found->n_sides));
   if (found->map_ends) {
     pl_say(d,
            "Where a root of the map vanishes these coordinates end, and beyond it the mechanism is "
@@ -501,23 +500,153 @@ static void say_none(pl_analysis* d, const pl_expr* f) {
          0);
 }
 
+// What was shown so far, with the analysis whose coordinates it is in.
+typedef struct pl_shown_rest {
+  pl_analysis* in;
+  pl_rest rest;
+} pl_shown_rest;
+typedef struct pl_shown {
+  PL_VEC(pl_shown_rest) at;
+  int n;  // of these, numbered
+} pl_shown;
+
+static pl_expr component_at(const pl_shown_rest* s, int particle, int component) {
+  pl_expr place = pl_on_maps(s->in, s->in->particle.at[particle].at[component]);
+  return pl_insert_rest(s->in, place, &s->rest);
+}
+
+// All masses are at the same points: r and -r of polar coordinates name one place.
+static bool same_points(const pl_shown_rest* a, const pl_shown_rest* b) {
+  pl_analysis* d = a->in;
+  for (int k = 0; k < d->particle.n; k++) {
+    for (int c = 0; c < d->particle.at[k].n; c++) {
+      pl_expr off = pl_sub(d->pool, component_at(a, k, c), component_at(b, k, c));
+      double number = pl_number(d, off);
+      bool near = fabs(number) < 1e-9 * (1 + fabs(pl_number(d, component_at(a, k, c))));
+      if (!near && pl_alg_is_zero(d->tower, off) != PL_YES) return false;
+    }
+  }
+  return d->particle.n > 0;
+}
+
+static void show_found(pl_analysis* d, const pl_expr* f, const pl_rests* found, pl_shown* shown) {
+  for (int k = 0; k < found->n; k++) {
+    const pl_bond* against = pl_rest_pulls(d, &found->at[k]);
+    if (against) say_pulls(d, against, &found->at[k]);
+    else show_rest(d, f, &found->at[k], ++shown->n);
+    pl_push(d->arena, shown->at, ((pl_shown_rest){d, found->at[k]}));
+  }
+}
+
+static void leave_known(pl_analysis* d, pl_rests* found, const pl_shown* shown) {
+  int n = 0;
+  for (int k = 0; k < found->n; k++) {
+    pl_shown_rest here = {d, found->at[k]};
+    bool known = false;
+    for (int j = 0; j < shown->at.n; j++) known |= same_points(&here, &shown->at.at[j]);
+    if (!known) found->at[n++] = found->at[k];
+  }
+  found->n = n;
+}
+
+// The same search where some signs are the opposite ones.  false: there it was not finished.
+static bool answer_beyond(pl_analysis* d, const pl_ask* ask, const pl_rests* own,
+                          const bool* through, pl_shown* shown) {
+  pl_analysis* base = pl_analysis_beyond(d->base, own->side, own->n_sides, through);
+  pl_analysis* a = base ? pl_serving(base, ask) : NULL;
+  if (!a || !a->reduced || a->gen.n == 0 || a->gen.n > pl_max_gen || a->loops.n > 0) return false;
+  pl_expr f[pl_max_gen];
+  a->section = d->section;
+  pl_at_rest_equations(a, f);
+  pl_rests* found = pl_find_rests(a, f);
+  leave_known(a, found, shown);
+  if (found->n > 0) {
+    pl_say(a, "With {1}:", "Mit {1}:", 1, pl_facts_form(a, found->side, found->n_sides));
+    int from = a->section->values.n;
+    show_found(a, f, found, shown);
+    pl_assume_sides(a, a->section, from);
+  }
+  say_singular(a, found);
+  return found->complete_here && found->n_singular == 0;
+}
+
+// Where |u| has its kink the force may jump: such places are none of these, and they are named.
+static void say_kinks(pl_analysis* d, const pl_rests* own) {
+  const pl_form** at = PL_ARRAY(d->arena, const pl_form*, own->n_sides + 1);
+  for (int k = 0; k < own->n_sides; k++) at[k] = pl_border_form(d, own->side[k].difference);
+  pl_say(d, "Not looked at: places with {1}, where a force may jump.",
+         "Nicht untersucht: Lagen mit {1}, wo eine Kraft springen kann.", 1,
+         pl_flist(d, at, own->n_sides));
+}
+
+static void say_more(pl_analysis* d) {
+  pl_say(d, "There may be others: not every equation was solved in closed form.",
+         "Es kann weitere geben: nicht jede Gleichung war geschlossen lösbar.", 0);
+}
+
+// On all sides of what was taken for granted, or on all but the own one.  false: some could not be
+// searched.
+static bool answer_all_sides(pl_analysis* d, const pl_ask* ask, const pl_rests* own, bool own_too,
+                             pl_shown* shown) {
+  enum { MOST = 3 };
+  if (own->n_sides > MOST || ask->where.n > 0 || !d->base || !d->base->first) return false;
+  bool all = own->complete_here && own->n_singular == 0, through[MOST];
+  for (int mask = own_too ? 0 : 1; mask < 1 << own->n_sides; mask++) {
+    for (int k = 0; k < own->n_sides; k++) through[k] = mask >> k & 1;
+    all &= answer_beyond(d, ask, own, through, shown);
+  }
+  return all;
+}
+
+static void add_kink(pl_analysis* d, pl_expr u, pl_rests* out) {
+  if (!pl_has_role(d->pool, u, PL_R_COORD) || out->n_sides == pl_max_sides) return;
+  for (int k = 0; k < out->n_sides; k++) {
+    pl_expr known = out->side[k].difference;
+    if (pl_same(known, u) || pl_same(known, pl_neg(d->pool, u))) return;
+  }
+  out->side[out->n_sides++] = (pl_fact){u, false};
+}
+
+// |u| and sign u in the equations, where no sign was taken: u.
+static void add_kinks(pl_analysis* d, pl_expr e, pl_rests* out) {
+  bool call = pl_kind_of(d->pool, e) == PL_CALL;
+  bool bends = call
+               && (pl_function_of(d->pool, e) == PL_ABS || pl_function_of(d->pool, e) == PL_SIGN);
+  if (bends) add_kink(d, pl_arg(d->pool, e, 0), out);
+  for (int k = 0; k < pl_n_args(d->pool, e); k++) add_kinks(d, pl_arg(d->pool, e, k), out);
+}
+
+// The sides that split the search, where the equations themselves do not know their sign.
+static bool finds_kinks(pl_analysis* d, const pl_expr* f, pl_rests* out) {
+  *out = (pl_rests){.complete = true, .complete_here = true};
+  for (int k = 0; k < d->gen.n; k++) add_kinks(d, pl_alg_normal(d->tower, f[k]), out);
+  return out->n_sides > 0;
+}
+
 void pl_answer_equilibria(pl_analysis* d, const pl_ask* ask) {
   pl_section_open(d, ask, "Equilibria", "Gleichgewichtslagen");
   pl_expr f[pl_max_gen];
   if (pl_rests_out_of_reach(d)) return;
   if (ask->where.n > 0 && !turns_steadily(d, ask)) return;
   pl_at_rest_equations(d, f);
-  pl_rests* found = pl_find_rests(d, f);
-  int shown = 0;
-  for (int k = 0; k < found->n; k++) {
-    const pl_bond* against = pl_rest_pulls(d, &found->at[k]);
-    if (against) say_pulls(d, against, &found->at[k]);
-    else show_rest(d, f, &found->at[k], ++shown);
+  pl_shown shown = {.n = 0};
+  pl_rests split, *found = &split;
+  bool kinks = finds_kinks(d, f, &split);
+  if (!kinks) {
+    found = pl_find_rests(d, f);
+    show_found(d, f, found, &shown);
+    say_singular(d, found);
   }
-  say_singular(d, found);
-  if (found->n == 0 && found->complete && found->n_singular == 0) say_none(d, f);
-  pl_say_rests_missing(d, f, found);
-  d->section->complete = found->complete && found->n_singular == 0;
-  if (!found->complete) d->section->not_found = found->n == 0;
+  bool sides = found->n_sides > 0;
+  d->section->all_sides = sides && answer_all_sides(d, ask, found, kinks, &shown);
+  bool all = (found->complete && !kinks) || d->section->all_sides;
+  if (shown.at.n == 0 && all && found->n_singular == 0) say_none(d, f);
+  if (d->section->all_sides) say_kinks(d, found);
+  else if (!kinks) pl_say_rests_missing(d, f, found);
+  else if (!all) say_more(d);
+  bool recur = false;  // one period is listed, and that is said
+  for (int k = 0; k < d->gen.n; k++) recur |= pl_rests_recur(d, f, k);
+  d->section->complete = all && found->n_singular == 0 && !recur;
+  if (!all) d->section->not_found = shown.at.n == 0;
   end_of_steady(d);
 }

@@ -547,6 +547,7 @@ static pl_expr solve_own_motion(pl_analysis* d, int i) {
   claim_motion(d, i, pl_form_value(d->pool, form));
   pl_answer(d, pl_symbol_get(d->pool, c->q)->ascii, x, form);
   show_followers(d, i);
+  pl_say_while(d, d->section->values.n - 1);
   return x;
 }
 
@@ -559,6 +560,7 @@ static void solve_by_map(pl_analysis* d, int i) {
   const pl_form* form = pl_f(d, x, PL_S_SOLUTION);
   pl_show_numbered(d, pl_feq(d, of_time(d, i), form));
   pl_answer(d, pl_symbol_get(d->pool, d->q.at[i].q)->ascii, x, form);
+  pl_assume_sides(d, d->section, d->section->values.n - 1);
 }
 
 // A coordinate that a constraint fixes: its value.
@@ -626,6 +628,7 @@ static void multiplier_of_time(pl_analysis* d, int k) {
   const pl_form* form = pl_f(d, e, PL_S_SOLUTION);
   pl_show_numbered(d, pl_feq(d, pl_fn(d, pl_format(d->arena, "%s(t)", s->name)), form));
   pl_answer(d, s->ascii, e, form)->of = l->source->name.text;
+  pl_say_while(d, d->section->values.n - 1);
 }
 
 // ------------------------------------------------------------------------------------- the section

@@ -361,6 +361,16 @@ static void add_contacts(pl_analysis* d, const pl_where* p, pl_search* s) {
   }
 }
 
+// Signs that were taken for granted have to stay too.
+static void add_sides(pl_analysis* d, const pl_where* p, pl_search* s) {
+  const pl_fact* side;
+  int n = pl_taken_sides(d, &side);
+  for (int k = 0; k < n && s->n_contacts < pl_max_contacts_met; k++) {
+    s->side[s->n_contacts] = pl_fact_form(d, &side[k]);
+    s->push[s->n_contacts++] = with_given(d, p, pl_on_maps(d, side[k].difference));
+  }
+}
+
 static void add_root(pl_search* s, pl_root r) {
   for (int k = 0; k < s->n_roots; k++) {
     if (pl_same(s->root[k].value, r.value)) return;
@@ -438,6 +448,7 @@ static bool search_on_line(pl_analysis* d, const pl_where* p) {
       && !pl_has_symbol(d->pool, s.condition, d->q.at[p->line.i].v))
     return false;
   add_contacts(d, p, &s);
+  add_sides(d, p, &s);
   for (int k = 0; k < s.n_contacts; k++) {
     s.push[k] = on_cyclic(d, p, s.push[k]);
     if (!is_on_line(d, p, s.push[k])) return false;
@@ -493,6 +504,7 @@ static bool search_in_time(pl_analysis* d, const pl_where* p) {
       || pl_op_count(d->pool, s.condition) > longest_in_time)
     return false;
   add_contacts(d, p, &s);
+  add_sides(d, p, &s);
   for (int k = 0; k < s.n_contacts; k++) {
     if (!on_time(d, p, &s.push[k])) return false;
   }
@@ -506,6 +518,7 @@ static pl_search plain_search(pl_analysis* d, const pl_where* p) {
   pl_search s = {
       .s = pl_time(d->pool), .name = p->ask->value, .condition = p->equation[0], .asked = p->asked};
   add_contacts(d, p, &s);
+  add_sides(d, p, &s);
   return s;
 }
 

@@ -102,7 +102,8 @@ typedef struct pl_section {  // one request
   const pl_ask* ask;  // what it answers; of standard requests one without expressions
   // its formulas and the simulated motion disagree: nothing is claimed (api/witness)
   bool withdrawn;
-  bool complete;  // of positions of rest: these are all
+  bool complete;   // of positions of rest: these are all
+  bool all_sides;  // of positions of rest: whatever signs the formulas took
   // a closed form was asked for and not found (exit 5 with --strict)
   bool not_found;
   // of contacts that the motion of `init` need not come to: all of them closed
@@ -122,7 +123,8 @@ typedef enum pl_stage_end {
   PL_END_CLOSES,   // a contact: its constraint is met
   PL_END_STICKS,   // friction: the slip has come to rest
   PL_END_SLIPS,    // friction: its force has come to the limit
-  PL_END_EVENT     // of the model
+  PL_END_EVENT,    // of the model
+  PL_END_SIDE      // an expression is zero whose sign was taken for granted: |x|
 } pl_stage_end;
 
 // Friction in the plane on a constraint. It slips with the velocity `slip` and feels -way press
@@ -152,10 +154,25 @@ typedef struct pl_stage {
   int n_q;
   // coordinates where the stretch begins, units as text, "rad" for angles
   const char *const *q_name, *const *q_unit;
-  const double* q;  // (n_q)
+  const double *q, *v;  // (n_q)
   pl_stage_end end;
   const char* ended_by;  // label of the contact or event; NULL
+  // signs that hold on this stretch, where the formulas of another one took the opposite ones
+  int n_sides;
+  const pl_fact* sides;  // (n_sides)
+  int n_crossed;         // the first of them: their change begins the stretch
+  pl_expr crossed;       // PL_END_SIDE: what is zero
 } pl_stage;
+
+// Where a motion leaves the side on which some expressions are positive.
+typedef struct pl_leaving {
+  bool leaves;    // false: not up to t
+  double t;       // s
+  bool* through;  // which expressions change their sign there
+  int n_q;
+  const char *const *q_name, *const *q_unit;  // the state, as of a stage
+  const double *q, *v;                        // (n_q)
+} pl_leaving;
 
 // -------------------------------------------------------------------------------- constraints, dof
 typedef struct pl_constraint_info {
@@ -203,6 +220,8 @@ typedef struct pl_solution {
   const pl_model* model;
   PL_VEC(pl_tower*) towers;  // of all sets of constraints and coordinates that were tried
   PL_VEC(pl_section) sections;
+  // that the sections speak of: those of the options, and where the motion changes sides
+  PL_VEC(pl_stage) stages;
   PL_VEC(pl_constraint_info) constraints;
   pl_dof dof;
   // constraints found behind a singular mass matrix: each vanishes; counted in dof
@@ -228,6 +247,9 @@ typedef struct pl_derive_options {
   const pl_stage* stages;
   // of a motion that starts elsewhere; NULL: not known
   const pl_stage* (*stage_from)(void* user, const pl_motion* from);
+  // Whether the motion of `init` leaves the side on which n expressions are positive, between two
+  // times.  false: not known; NULL too.
+  bool (*leaves)(void* user, const pl_expr* side, int n, double from, double to, pl_leaving* out);
   void* user;
 } pl_derive_options;
 

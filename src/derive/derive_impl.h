@@ -214,7 +214,13 @@ struct pl_analysis {
   // coordinates of `choose` that mean nothing here: their map went with its constraint
   PL_VEC(pl_symbol) unnamed;
   pl_dof dof;
+  pl_analysis* first;  // the one of the start
+  pl_analysis* base;   // in the coordinates of the model: itself, or for which this is proposed
   PL_VEC(pl_analysis*) sets;  // of the first analysis: all that were made, itself first
+  // signs of places and velocities that were taken for granted (sides.c)
+  PL_VEC(pl_fact) sides;
+  int n_looked_at;   // assumptions of the tower that were looked at for them
+  bool has_section;  // of its own, or it is the first
   bool open_told;
   // what is answered now is about a later stretch: start values are those of its beginning
   bool later;
@@ -226,6 +232,8 @@ void pl_choose_set(pl_analysis* d, pl_model* whole, const pl_stage* stage);  // 
 pl_analysis* pl_analysis_of(pl_analysis* first, const pl_ask* ask);
 pl_analysis* pl_without_sticking(pl_analysis* first);  // energies do not know of friction
 // positions of rest with all contacts closed
+// The set of d with the opposite of some of its signs (sets.c).  NULL: not derived.
+pl_analysis* pl_analysis_beyond(pl_analysis* d, const pl_fact* side, int n, const bool* through);
 void pl_answer_closed(pl_analysis* first, const pl_ask* ask);
 // a section for each later set of the motion
 void pl_answer_stages(pl_analysis* first);
@@ -240,10 +248,39 @@ void pl_tell_open(pl_analysis* d);  // once, before the first formula
 // contacts taken as closed, because nothing tells
 void pl_note_undecided(pl_analysis* d);
 pl_expr pl_open_removed(pl_analysis* d, pl_expr e);
+const pl_form* pl_border_form(pl_analysis* d, pl_expr e);  // e = 0, of either sign
+const pl_form* pl_moment_form(pl_analysis* d, double t);   // t = 0.5 s
+
+// ----------------------------------------------------------------------------------------- sides.c
+// |x - a| = x - a: formulas hold on the side that was taken.
+enum { pl_max_sides = 6 };
+int pl_taken_sides(pl_analysis* d, const pl_fact** out);  // of this analysis, so far
+// It does not speak of velocities.
+bool pl_side_is_of_place(const pl_analysis* d, const pl_fact* f);
+const pl_form* pl_fact_form(pl_analysis* d, const pl_fact* f);  // a - b >= 0 as b <= a
+const pl_form* pl_facts_form(pl_analysis* d, const pl_fact* fact, int n);
+// The analysis of d on whose sides a named motion starts; a answers, d or what is proposed for it.
+pl_analysis* pl_analysis_around(pl_analysis* d, pl_analysis* a, const pl_motion* motion);
+// How long a closed motion holds.  Its values from number `from` on assume it.
+void pl_say_while(pl_analysis* d, int from);
+// The values of a section from number `from` on assume the sides of d.
+void pl_assume_sides(pl_analysis* d, pl_section* s, int from);
+// The sides of an analysis and of what is proposed beside it, over names that the simulation knows;
+// at most 2 pl_max_sides.
+int pl_known_sides(pl_analysis* d, pl_fact* out);
+// Where the simulated motion leaves some, between two times.  false: not known.
+bool pl_leave(pl_analysis* d, const pl_fact* side, int n, double from, double to, pl_leaving* out);
+// Within a stage the motion leaves one of these: where, and what is zero there.
+bool pl_leaves_first(pl_analysis* d, const pl_stage* s, pl_leaving* out, pl_expr* crossed);
+double pl_end_of_stage(const pl_stage* s);  // s; infinity where it is not known
+bool pl_same_sides(pl_analysis* d,
+                   const pl_stage* s);  // what the stage takes for granted d does too
 // worked.c
 // derived as far as the motion
 pl_analysis* pl_analysis_make(const pl_analysis* like, const pl_stage* stage);
 void pl_answer_one(pl_analysis* d, const pl_ask* ask);
+// The analysis that answers: in the coordinates of the model, or with what is proposed.
+pl_analysis* pl_serving(pl_analysis* d, const pl_ask* ask);
 
 // ----------------------------------------------------------------------------------------- setup.c
 void pl_setup_facts(pl_analysis* d);  // the assumptions of the model

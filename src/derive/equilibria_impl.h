@@ -23,16 +23,17 @@ typedef struct pl_rest {
 typedef struct pl_rests {
   pl_rest at[pl_max_found];
   int n;
-  bool complete;     // these are all, up to periods
-  int n_singular;    // positions where the coordinates fail
-  pl_rest singular;  // the last of them
-  pl_rest open[4];   // an equation in one coordinate was left
+  bool complete;       // these are all, up to periods
+  bool complete_here;  // all on the side that was taken
+  int n_singular;      // positions where the coordinates fail
+  pl_rest singular;    // the last of them
+  pl_rest open[4];     // an equation in one coordinate was left
   int n_open;
   // |q| up to which the open ones were searched in numbers; 0: one period, or not at all
   double searched;
   int searched_place;
   // each >= 0 where the formulas hold: signs taken from the start
-  pl_expr side[pl_max_conditions];
+  pl_fact side[pl_max_sides];
   int n_sides;
   bool map_ends;    // a root of the map vanishes somewhere: the coordinates end there
   bool more_turns;  // places in other periods were left out

@@ -43,6 +43,7 @@ static bool transform_system(pl_analysis* d, const pl_linear_system* sys, pl_sym
     pl_expr f = pl_on_special(d, sys->equation[i]);
     pl_expr c = pl_neg(p, pl_subst(p, f, rest, 3 * n));
     if (pl_has_coordinates(d, c)) return false;
+    pl_expr left = pl_add(p, f, c);  // without its linear terms
     b[i] = pl_laplace(d, c, variable);
     if (pl_is_poison(b[i])) return false;
     for (int j = 0; j < n; j++) {
@@ -51,11 +52,16 @@ static bool transform_system(pl_analysis* d, const pl_linear_system* sys, pl_sym
               C = pl_alg_normal(d->tower, pl_diff(p, f, q->v));
       pl_expr K = pl_alg_normal(d->tower, pl_diff(p, f, q->q));
       if (!constant(d, M) || !constant(d, C) || !constant(d, K)) return false;
+      left = pl_sub(p, left, pl_mul(p, M, pl_sym(p, q->a)));
+      left = pl_sub(p, left, pl_mul(p, C, pl_sym(p, q->v)));
+      left = pl_sub(p, left, pl_mul(p, K, pl_sym(p, q->q)));
       pl_expr q0 = pl_sym(p, pl_symbol_start(p, q->q)), v0 = pl_sym(p, pl_symbol_start(p, q->v));
       A[i * n + j] = pl_add_n(p, (pl_expr[]){pl_mul(p, M, pl_square(p, s)), pl_mul(p, C, s), K}, 3);
       pl_expr kick = pl_mul(p, M, pl_add(p, pl_mul(p, s, q0), v0));
       b[i] = pl_add_n(p, (pl_expr[]){b[i], kick, pl_mul(p, C, q0)}, 3);
     }
+    // the slope of |x|/x is zero, and yet it is not constant
+    if (pl_alg_is_zero(d->tower, left) != PL_YES) return false;
   }
   return true;
 }

@@ -473,6 +473,7 @@ static bool solves(pl_analysis* d, pl_proposal* p, const pl_trial* t, int n_free
                      .is_proposal = true};
   a->whole = d->whole;
   a->stage = d->stage;
+  a->first = d->first;
   a->open = d->open;
   a->unnamed = d->unnamed;
   a->cases = d->cases;

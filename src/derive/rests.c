@@ -267,49 +267,6 @@ static bool regular(pl_analysis* d, const pl_rest* r) {
 }
 
 // ------------------------------------------------------------------------- where the formulas hold
-// A sign that was taken from the start, |x - a| = x - a, holds on one side only.
-static bool is_of_place(pl_analysis* d, const pl_fact* f) {
-  return pl_has_role(d->pool, f->difference, PL_R_COORD)
-         && !pl_has_role(d->pool, f->difference, PL_R_VELOCITY)
-         && !pl_has_role(d->pool, f->difference, PL_R_ACCELERATION);
-}
-
-static bool is_contact(const pl_analysis* d, const pl_fact* f) {
-  for (int k = 0; k < d->whole->constraints.n; k++) {
-    const pl_constraint* c = &d->whole->constraints.at[k];
-    if (c->relation != PL_EQ
-        && (pl_same(f->difference, c->g) || pl_same(f->difference, pl_neg(d->pool, c->g))))
-      return true;
-  }
-  return false;
-}
-
-static bool is_given_fact(const pl_analysis* d, const pl_fact* f) {
-  for (int k = 0; k < d->facts.n; k++) {
-    if (pl_same(d->facts.at[k].difference, f->difference)) return true;
-  }
-  return false;
-}
-
-// Some place has the other sign: the determinant of the masses, say, has none.
-static bool has_other_side(pl_analysis* d, pl_expr e) {
-  enum { draws = 300 };
-  int n = pl_symbol_count(d->pool) + 1;
-  double* value = PL_ARRAY(d->arena, double, n);
-  pl_random r = {1};
-  for (int k = 0; k < draws; k++) {
-    for (int i = 1; i < n; i++) {
-      pl_symbol s = {(uint32_t)i};
-      bool given = pl_symbol_get(d->pool, s)->role == PL_R_PARAM;
-      double number = given ? pl_number(d, pl_sym(d->pool, s)) : (double)NAN,
-             unit = pl_random_unit(&r);
-      value[i] = !isnan(number) ? number : given ? 0.3 + 2.7 * unit : 6.4 * unit - 3.2;
-    }
-    if (pl_eval(d->pool, e, value) < 0) return true;
-  }
-  return false;
-}
-
 static bool negative_there(pl_analysis* d, pl_expr e, const pl_rest* r) {
   static const double rounding = 1e-9;
   e = pl_alg_normal(d->tower, pl_insert_rest(d, e, r));
@@ -320,18 +277,14 @@ static bool negative_there(pl_analysis* d, pl_expr e, const pl_rest* r) {
 
 // On the side that the formulas were derived for.  out->side: the sides that were taken.
 static bool on_the_side(pl_analysis* d, const pl_rest* r, pl_rests* out) {
-  int n = 0;
-  const pl_fact* used = pl_tower_used(d->tower, &n);
+  const pl_fact* side;
+  int n = pl_taken_sides(d, &side);
   bool inside = true;
+  out->n_sides = 0;
   for (int k = 0; k < n; k++) {
-    if (!is_of_place(d, &used[k]) || is_contact(d, &used[k]) || is_given_fact(d, &used[k]))
-      continue;
-    bool told = false;
-    for (int j = 0; j < out->n_sides; j++) told |= pl_same(out->side[j], used[k].difference);
-    pl_expr e = pl_on_maps(d, used[k].difference);
-    inside &= !negative_there(d, e, r);
-    if (!told && out->n_sides < pl_max_conditions && has_other_side(d, e))
-      out->side[out->n_sides++] = used[k].difference;
+    if (!pl_side_is_of_place(d, &side[k])) continue;
+    inside &= !negative_there(d, pl_on_maps(d, side[k].difference), r);
+    out->side[out->n_sides++] = side[k];
   }
   return inside;
 }
@@ -592,7 +545,9 @@ pl_rests* pl_find_rests(pl_analysis* d, pl_expr* f) {
   if (d->special.n > first) pl_say_special(d);
   for (int k = 0; k < found->n_open; k++) open_branch(d, f, &found->open[k], found);
   formulas_hold(d, &(pl_rest){0}, found);  // sides and ends, when nothing was found
-  found->complete &= found->n_sides == 0 && !found->map_ends;
+  found->complete &= !found->map_ends;
+  found->complete_here = found->complete;
+  found->complete &= found->n_sides == 0;
   return found;
 }
 

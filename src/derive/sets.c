@@ -193,16 +193,67 @@ static bool same_set(const pl_analysis* d, const pl_stage* s) {
   return true;
 }
 
+// One that is there; NULL.
+static pl_analysis* find_analysis(pl_analysis* first, const pl_stage* s) {
+  for (int k = 0; k < first->sets.n; k++) {
+    pl_analysis* d = first->sets.at[k];
+    if (same_set(d, s) && pl_same_sides(d, s)) return d;
+  }
+  return NULL;
+}
+
 // The analysis of a stage: one that is there, or a new one.  NULL when it could not be derived.
 static pl_analysis* analysis_in(pl_analysis* first, const pl_stage* s) {
-  for (int k = 0; k < first->sets.n; k++) {
-    if (!same_set(first->sets.at[k], s)) continue;
-    first->sets.at[k]->stage = s;
-    return first->sets.at[k];
+  pl_analysis* d = find_analysis(first, s);
+  if (d) {
+    d->stage = s;
+    return d;
   }
-  pl_analysis* d = pl_analysis_make(first, s);
+  d = pl_analysis_make(first, s);
   if (d) pl_push(first->arena, first->sets, d);
   return d;
+}
+
+// The set of constraints that an analysis was derived for, as a stage of its own.
+static pl_stage* stage_like(pl_analysis* d) {
+  pl_stage* s = PL_NEW(d->arena, pl_stage);
+  if (d->stage) {
+    *s = *d->stage;
+    return s;
+  }
+  int n = d->whole->constraints.n;
+  const char** name = PL_ARRAY(d->arena, const char*, n + 1);
+  bool *holds = PL_ARRAY(d->arena, bool, n + 1), *no = PL_ARRAY(d->arena, bool, n + 1);
+  for (int k = 0; k < n; k++) {
+    name[k] = label_of(&d->whole->constraints.at[k]);
+    holds[k] = !is_left_out(d, name[k]);
+  }
+  *s = (pl_stage){.n = n, .name = name, .holds = holds, .released = no, .pulls = no, .rope = no};
+  return s;
+}
+
+// The same constraints with other signs: those that change come first.
+static pl_stage* turned(pl_analysis* d, const pl_fact* side, int n, const bool* through) {
+  pl_stage* s = stage_like(d);
+  pl_fact* out = PL_ARRAY(d->arena, pl_fact, n + 1);
+  int turns = 0, stays = 0;
+  for (int k = 0; k < n; k++) turns += through[k];
+  s->sides = out;
+  s->n_sides = n;
+  s->n_crossed = turns;
+  for (int k = 0; k < n; k++) {
+    pl_expr e = side[k].difference;
+    if (through[k]) out[--turns] = (pl_fact){pl_neg(d->pool, e), false};
+    else out[s->n_crossed + stays++] = (pl_fact){e, false};
+  }
+  return s;
+}
+
+pl_analysis* pl_analysis_beyond(pl_analysis* d, const pl_fact* side, int n, const bool* through) {
+  pl_stage* s = turned(d, side, n, through);
+  s->end = PL_END_UNKNOWN;
+  s->n_q = 0;  // no motion is meant
+  return analysis_in(d->first, s);
 }
 
 pl_analysis* pl_analysis_of(pl_analysis* first, const pl_ask* ask) {
@@ -364,7 +415,7 @@ static const char* seconds(pl_analysis* d, double t, pl_language lang) {
   return pl_format(d->arena, "t = %s%s", number, d->model->uses_units ? " s" : "");
 }
 
-static const pl_form* when(pl_analysis* d, double t) {
+const pl_form* pl_moment_form(pl_analysis* d, double t) {
   return pl_form_words(d->arena, seconds(d, t, PL_ENGLISH), seconds(d, t, PL_GERMAN));
 }
 
@@ -462,9 +513,16 @@ static const pl_form* equation_form(pl_analysis* d, pl_expr e) {
   return pl_feq(d, pl_fe(d, split ? left : e), split ? pl_fe(d, right) : zero_form(d));
 }
 
+const pl_form* pl_border_form(pl_analysis* d, pl_expr e) {
+  pl_expr opposite = pl_neg(d->pool, e);
+  bool shorter = pl_op_count(d->pool, opposite) < pl_op_count(d->pool, e);
+  return equation_form(d, shorter ? opposite : e);
+}
+
 // The equation that ends a stage: y = 0, λ = 0, or the condition of an event. NULL when there is
 // none to show.
 static const pl_form* end_form(pl_analysis* d, const pl_stage* s) {
+  if (s->end == PL_END_SIDE) return pl_border_form(d, s->crossed);
   const pl_constraint* c = constraint_named(d, s->ended_by);
   if (s->end == PL_END_CLOSES && c) return met_form(d, c);
   const pl_stage_rub* rub = rub_on(s, s->ended_by);
@@ -476,14 +534,22 @@ static const pl_form* end_form(pl_analysis* d, const pl_stage* s) {
   return e ? equation_form(d, e->value) : NULL;
 }
 
+// Before the constraints change, the motion may come to the other side of a sign.
 static void say_end(pl_analysis* d, const pl_stage* s) {
+  pl_leaving l;
+  pl_expr crossed;
   const pl_form* end = end_form(d, s);
+  if (s->end != PL_END_SIDE && pl_leaves_first(d, s, &l, &crossed)) {
+    pl_say(d, "This holds until {1}, at {2}.", "Das gilt bis {1}, bei {2}.", 2,
+           pl_border_form(d, crossed), pl_moment_form(d, l.t));
+    return;
+  }
   if (end) {
     pl_say(d, "This holds until {1}, at {2}.", "Das gilt bis {1}, bei {2}.", 2, end,
-           when(d, s->to));
+           pl_moment_form(d, s->to));
   } else if (s->end == PL_END_OF_RUN) {
     pl_say(d, "This holds to the end of the simulation, {1}.",
-           "Das gilt bis zum Ende der Simulation, {1}.", 1, when(d, s->to));
+           "Das gilt bis zum Ende der Simulation, {1}.", 1, pl_moment_form(d, s->to));
   }
 }
 
@@ -583,7 +649,9 @@ void pl_answer_closed(pl_analysis* first, const pl_ask* ask) {
 
 // ---------------------------------------------------------------------------------- the later sets
 // What hangs on the set, and is asked about the motion of `init`.
-static bool is_repeated(const pl_ask* ask) {
+static bool is_repeated(const pl_analysis* d, const pl_ask* ask) {
+  bool told = d->stage->n_sides > 0 && ask->kind == PL_ASK_EQUILIBRIA;  // for all sides already
+  if (told) return false;
   switch (ask->kind) {
     case PL_ASK_LAGRANGE1:
     case PL_ASK_LAGRANGE2:
@@ -685,13 +753,20 @@ static const char* stage_title(pl_analysis* d, pl_language lang) {
   bool de = lang == PL_GERMAN;
   pl_text t = pl_text_make(d->arena);
   pl_text_addf(&t, de ? "Ab %s: " : "From %s: ", seconds(d, d->stage->from, lang));
-  const pl_stage* first = &d->options->stages[0];
+  const pl_stage* first = &d->solution->stages.at[0];
   bool any = false;
   for (int holds = 1; holds >= 0; holds--) {
     for (int word = 0; word < PL_N_WORDS; word++) {
       int n = list_changes(d, first, holds, (pl_state_word)word, name);
       add_names(&t, name, n, state_word[word][!holds][de], &any);
     }
+  }
+  for (int k = 0; k < d->stage->n_crossed; k++) {
+    const pl_form* side = pl_fact_form(d, &d->stage->sides[k]);
+    const char* text = pl_notation_print(d->arena, d->pool, side,
+                                         (pl_notation){PL_MATH_LINE, lang});
+    pl_text_addf(&t, "%s%s", any ? ", " : "", text);
+    any = true;
   }
   for (int k = 0; k < d->stage->n_rubs; k++) {
     const pl_stage_rub *now = &d->stage->rubs[k],
@@ -733,9 +808,10 @@ static void say_begin(pl_analysis* d, const pl_stage* before) {
   const pl_form* end = before->to == s->from ? end_form(d, before) : NULL;
   if (end) {
     pl_say(d, "It begins where {1}: at {2}, {3}.", "Es beginnt, wo {1}: bei {2}, {3}.", 3, end,
-           when(d, s->from), place);
+           pl_moment_form(d, s->from), place);
   } else {
-    pl_say(d, "It begins at {1}, {2}.", "Es beginnt bei {1}, {2}.", 2, when(d, s->from), place);
+    pl_say(d, "It begins at {1}, {2}.", "Es beginnt bei {1}, {2}.", 2, pl_moment_form(d, s->from),
+           place);
   }
   int n = d->dof.dof;
   pl_say(d, n == 1 ? "1 degree of freedom." : pl_format(d->arena, "%d degrees of freedom.", n),
@@ -756,15 +832,13 @@ static void mark(pl_analysis* d, int from, int stage) {
   for (int k = from; k < d->solution->sections.n; k++) d->solution->sections.at[k].stage = stage;
 }
 
-static void answer_stage(pl_analysis* first, int k) {
-  const pl_stage* s = &first->options->stages[k];
-  pl_analysis* d = analysis_in(first, s);
-  if (!d) return;
-  d->later = true;
+// The section of a stage behind the requests.
+static void answer_stage(pl_analysis* d, const pl_stage* s, const pl_stage* before, int k) {
+  d->later = d->has_section = true;
   int from = d->solution->sections.n;
   pl_ask head = {.kind = PL_ASK_DOF, .text = pl_format(d->arena, "stage %d", k + 1)};
   pl_section_open(d, &head, stage_title(d, PL_ENGLISH), stage_title(d, PL_GERMAN));
-  say_begin(d, &first->options->stages[k - 1]);
+  say_begin(d, before);
   say_end(d, s);
   pl_answer(d, "dof", pl_int(d->pool, d->dof.dof), NULL);
   d->open_told = true;
@@ -772,18 +846,86 @@ static void answer_stage(pl_analysis* first, int k) {
   bool any = false;
   for (int i = 0; i < d->whole->asks.n; i++) {
     const pl_ask* ask = &d->whole->asks.at[i];
-    if (is_repeated(ask) && fits_clock(d, ask)) any |= repeat(d, ask);
+    if (is_repeated(d, ask) && fits_clock(d, ask)) any |= repeat(d, ask);
   }
   pl_ask plain = {.kind = PL_ASK_LAGRANGE1, .text = "lagrange1"};
   if (!any) repeat(d, &plain);
   mark(d, from, k);
+  for (int i = from; s->n_sides > 0 && i < d->solution->sections.n; i++)
+    pl_assume_sides(d, &d->solution->sections.at[i], 0);
   d->later = false;
+}
+
+// ------------------------------------------------------------------------------------ other sides
+// Where a stage ends: where the motion changes sides, or as its constraints end.
+static void find_end(pl_analysis* d, pl_stage* s) {
+  pl_leaving l;
+  pl_expr crossed;
+  if (!pl_leaves_first(d, s, &l, &crossed)) return;
+  s->end = PL_END_SIDE;
+  s->to = l.t;
+  s->crossed = crossed;
+}
+
+// The stretch that begins where the motion leaves the sides of d.
+static pl_stage* next_side(pl_analysis* d, const pl_stage* now, const pl_fact* side, int n,
+                           const pl_leaving* l) {
+  const pl_stage* own = d->stage;
+  d->stage = now;
+  pl_stage* s = turned(d, side, n, l->through);
+  d->stage = own;
+  s->from = l->t;
+  s->n_q = l->n_q;
+  s->q_name = l->q_name;
+  s->q_unit = l->q_unit;
+  s->q = l->q;
+  s->v = l->v;
+  return s;
+}
+
+// Follows the motion of one set of constraints from side to side; each that is new has a section.
+static void follow_sides(pl_analysis* first, pl_analysis* d, const pl_stage* set) {
+  enum { MOST_CHANGES = 40 };
+  pl_solution* solution = first->solution;
+  pl_stage now = *set;
+  for (int i = 0; i < MOST_CHANGES && solution->stages.n <= MOST_LATER_STAGES; i++) {
+    pl_fact side[2 * pl_max_sides];
+    pl_leaving l;
+    int n = pl_known_sides(d, side);
+    if (!pl_leave(d, side, n, now.from, pl_end_of_stage(&now), &l) || !l.leaves) return;
+    pl_stage before = now, *next = next_side(d, &now, side, n, &l);
+    before.end = PL_END_SIDE;
+    before.to = l.t;
+    before.crossed = next->sides[0].difference;
+    pl_analysis* other = find_analysis(first, next);
+    now = *next;
+    if (other && other->has_section) {
+      d = other;
+      continue;
+    }
+    if (!(other = analysis_in(first, next))) return;
+    find_end(other, next);
+    pl_push(first->arena, solution->stages, *next);
+    answer_stage(other, next, &before, solution->stages.n - 1);
+    d = other;
+  }
 }
 
 void pl_answer_stages(pl_analysis* first) {
   const pl_derive_options* o = first->options;
+  pl_solution* solution = first->solution;
+  for (int k = 0; k < o->n_stages; k++) pl_push(first->arena, solution->stages, o->stages[k]);
+  if (o->n_stages == 0) pl_push(first->arena, solution->stages, *stage_like(first));
   if (o->only || !pl_knows_friction(first)) return;
   for (int k = 1; k < o->n_stages && k <= MOST_LATER_STAGES; k++) {
-    if (!pl_interrupted(first->job)) answer_stage(first, k);
+    if (pl_interrupted(first->job)) return;
+    pl_analysis* d = analysis_in(first, &o->stages[k]);
+    if (d) answer_stage(d, &o->stages[k], &o->stages[k - 1], k);
+  }
+  int n = solution->stages.n;
+  for (int k = 0; k < n && !pl_interrupted(first->job); k++) {
+    pl_stage set = solution->stages.at[k];
+    pl_analysis* d = o->n_stages == 0 ? first : find_analysis(first, &o->stages[k]);
+    if (d) follow_sides(first, d, &set);
   }
 }

@@ -36,7 +36,7 @@ pl_expr pl_on_maps(pl_analysis* d, pl_expr e) {
 // A later set of constraints begins elsewhere: the places of its beginning decide on signs there.
 static void know_later_start(pl_analysis* d, double* value, int n) {
   const pl_stage* s = d->stage;
-  bool later = false;  // the set of a start that `from` names is none of the list
+  bool later = s && s->n_sides > 0;  // the set of a start that `from` names is none of the list
   for (int k = 1; d->options && k < d->options->n_stages; k++) later |= s == &d->options->stages[k];
   for (int i = 0; later && i < s->n_q; i++) {
     pl_symbol q = pl_symbol_find(d->pool, s->q_name[i]);
@@ -44,7 +44,7 @@ static void know_later_start(pl_analysis* d, double* value, int n) {
     pl_symbol start = pl_symbol_start(d->pool, q),
               speed = pl_symbol_start(d->pool, pl_symbol_dot(d->pool, q));
     if ((int)start.id <= n) value[start.id] = s->q[i];
-    if ((int)speed.id <= n) value[speed.id] = (double)NAN;
+    if ((int)speed.id <= n) value[speed.id] = s->n_sides > 0 ? s->v[i] : (double)NAN;
   }
 }
 
@@ -269,6 +269,8 @@ static void add_contact_facts(pl_analysis* d) {
   for (int k = 0; k < d->open.n; k++) {
     if (!d->open.at[k].released) add_contact_fact(d, d->open.at[k].source);
   }
+  for (int k = 0; d->stage && k < d->stage->n_sides; k++)
+    pl_push(d->arena, d->facts, d->stage->sides[k]);
 }
 
 static bool mentions(const pl_analysis* d, pl_expr e, const pl_variable* c) {

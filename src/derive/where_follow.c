@@ -210,6 +210,10 @@ void pl_follow_motion(pl_analysis* d, const pl_motion* motion, int assembly, con
 }
 
 void pl_say_followed(pl_analysis* d, const pl_search* p, const pl_followed* f) {
+  if (f->lost >= 0 && p->side[f->lost]) {
+    pl_say_left_before(d, p->side[f->lost], time_form(d, f->lost_at));
+    return;
+  }
   if (f->lost >= 0 && p->open[f->lost]) {
     pl_say_met_before(d, p->contact[f->lost], time_form(d, f->lost_at));
     return;

@@ -21,6 +21,7 @@ typedef struct pl_search {
   pl_expr push[pl_max_contacts_met];  // λ of a closed one, the distance of an open one
   bool open[pl_max_contacts_met];
   const char* contact[pl_max_contacts_met];
+  const pl_form* side[pl_max_contacts_met];  // no contact: a sign that the formulas took; NULL
 } pl_search;
 
 void pl_search_motion(pl_analysis* d, const pl_search* p);
@@ -44,6 +45,8 @@ void pl_show_met(pl_analysis* d, pl_expr name, pl_expr value, pl_expr condition)
 void pl_show_met_number(pl_analysis* d, pl_expr name, double x);
 pl_step* pl_show_number(pl_analysis* d, pl_expr name, double x);  // the line of it
 // an open contact
+// The other side of a sign that was taken for granted.
+void pl_say_left_before(pl_analysis* d, const pl_form* side, const pl_form* where);
 void pl_say_met_before(pl_analysis* d, const char* contact, const pl_form* where);
 void pl_say_circular(pl_analysis* d, pl_expr name);  // the answer would contain what is asked
 

@@ -285,8 +285,24 @@ void pl_say_met_before(pl_analysis* d, const char* contact, const pl_form* where
          pl_fn(d, contact), where);
 }
 
+void pl_say_left_before(pl_analysis* d, const pl_form* side, const pl_form* where) {
+  pl_say(d,
+         "The motion leaves {1} before, at {2}: beyond it the formulas of this side do not hold.",
+         "Die Bewegung verlässt {1} vorher, bei {2}: danach gelten die Formeln dieser Seite nicht.",
+         2, side, where);
+}
+
 static bool say_lost(pl_analysis* d, const pl_search* p, const outcome* o) {
   if (o->lost < 0) return false;
+  if (p->side[o->lost] && o->at_once) {
+    pl_say(d, "The motion does not start where the formulas hold, {1}.",
+           "Die Bewegung beginnt nicht dort, wo die Formeln gelten, {1}.", 1, p->side[o->lost]);
+    return true;
+  }
+  if (p->side[o->lost]) {
+    pl_say_left_before(d, p->side[o->lost], place_form(d, p, o->lost_at));
+    return true;
+  }
   const pl_form* contact = pl_fn(d, p->contact[o->lost]);
   if (p->open[o->lost]) {
     pl_say_met_before(d, p->contact[o->lost], place_form(d, p, o->lost_at));

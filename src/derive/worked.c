@@ -354,7 +354,7 @@ static bool in_generalized(pl_analysis* d, const pl_ask* ask) {
 static bool is_driven(const pl_analysis* d) { return d->dof.dof == 0; }
 
 // The analysis that answers: in the coordinates of the model, or with what is proposed.
-static pl_analysis* serving(pl_analysis* d, const pl_ask* ask) {
+pl_analysis* pl_serving(pl_analysis* d, const pl_ask* ask) {
   bool first_kind = ask->kind == PL_ASK_DOF || ask->kind == PL_ASK_CONSTRAINTS
                     || ask->kind == PL_ASK_LAGRANGE1 || ask->kind == PL_ASK_NEWTON
                     || ask->kind == PL_ASK_CONSERVED;
@@ -430,8 +430,14 @@ void pl_answer_one(pl_analysis* d, const pl_ask* ask) {
   d->section = n > 0 ? &d->solution->sections.at[n - 1] : NULL;
   if (pl_answer_open(d, ask)) return;
   ask = pl_without_open(d, ask);
-  pl_analysis* a = serving(d, ask);
+  pl_analysis* base = d;
+  pl_analysis* a = pl_serving(d, ask);
   pl_ask own = in_its_coordinates(a, ask);
+  if (own.motion.given && (base = pl_analysis_around(d, a, &own.motion)) != d) {
+    a = pl_serving(base, ask);
+    own = in_its_coordinates(a, ask);
+  }
+  a->base = base;
   a->section = d->section;
   a->open_told = d->open_told;
   a->stage = d->stage;
@@ -504,25 +510,8 @@ static pleuel_status answer_all(pl_analysis* d) {
 // ------------------------------------------------------------------------------------- assumptions
 // "m1 > 0", "r < l": a difference a - b is written as b < a.
 static const char* fact_text(pl_analysis* d, const pl_fact* f) {
-  pl_pool* p = d->pool;
   pl_notation how = {.math = PL_MATH_LINE, .lang = d->job->lang};
-  pl_expr e = pl_expand(p, f->difference, 64), minus = pl_int(p, 0), plus = pl_int(p, 0);
-  int n = pl_kind_of(p, e) == PL_ADD ? pl_n_args(p, e) : 0;
-  for (int k = 0; k < n; k++) {
-    pl_expr term = pl_arg(p, e, k), opposite = pl_neg(p, term);
-    bool negative = pl_op_count(p, opposite) < pl_op_count(p, term)
-                    || (pl_is_number(p, term) && pl_number_sign(p, term) < 0);
-    if (negative) {
-      minus = pl_add(p, minus, opposite);
-    } else {
-      plus = pl_add(p, plus, term);
-    }
-  }
-  bool split = n > 0 && !pl_is_zero_node(p, minus) && !pl_is_zero_node(p, plus);
-  const pl_form* left = pl_fe(d, split ? minus : e);
-  const pl_form* right = split ? pl_fe(d, plus) : pl_form_leaf(d->arena, pl_int(p, 0));
-  const char* op = split ? (f->strict ? "<" : "≤") : (f->strict ? ">" : "≥");
-  return pl_notation_print(d->arena, p, pl_frel(d, left, op, right), how);
+  return pl_notation_print(d->arena, d->pool, pl_fact_form(d, f), how);
 }
 
 // A one-sided constraint of the model is no assumption of ours.
@@ -556,6 +545,24 @@ static bool is_listed(pl_analysis* d, const pl_fact* f, const pl_fact** sorted, 
   return listed;
 }
 
+// What a section is about stands in its title: a side of |x| that the motion comes to later.
+static bool stands_in_title(const pl_analysis* of, const pl_fact* f) {
+  for (int k = 0; of->stage && k < of->stage->n_sides; k++) {
+    if (pl_same(of->stage->sides[k].difference, f->difference)) return true;
+  }
+  return false;
+}
+
+// An assumption about the place belongs to the stretch of the motion that is spoken of.
+static const char* told_fact(pl_analysis* d, const pl_analysis* of, const pl_fact* f) {
+  const char* text = fact_text(d, f);
+  bool later = of->stage && of->stage->from > 0 && pl_has_coordinates(d, f->difference);
+  if (!later) return text;
+  const char* when = pl_notation_print(d->arena, d->pool, pl_moment_form(d, of->stage->from),
+                                       (pl_notation){.math = PL_MATH_LINE, .lang = d->job->lang});
+  return pl_format(d->arena, d->job->lang == PL_GERMAN ? "%s (ab %s)" : "%s (from %s)", text, when);
+}
+
 // Those of all analyses.
 static void list_assumptions(pl_analysis* d, pl_analysis** of, int n_of) {
   int most = 0, n = 0, n_used;
@@ -564,18 +571,22 @@ static void list_assumptions(pl_analysis* d, pl_analysis** of, int n_of) {
     most += n_used;
   }
   const pl_fact** sorted = PL_ARRAY(d->arena, const pl_fact*, most + 1);
+  const pl_analysis** by = PL_ARRAY(d->arena, const pl_analysis*, most + 1);
   for (int k = 0; k < n_of; k++) {
     const pl_fact* used = pl_tower_used(of[k]->tower, &n_used);
     // by insertion: few, and equal ones keep their order
     for (const pl_fact* f = used; f < used + n_used; f++) {
-      if (is_listed(d, f, sorted, n)) continue;
+      if (is_listed(d, f, sorted, n) || stands_in_title(of[k], f)) continue;
       int at = n++;
-      for (; at > 0 && fact_order(d, sorted[at - 1]) > fact_order(d, f); at--)
+      for (; at > 0 && fact_order(d, sorted[at - 1]) > fact_order(d, f); at--) {
         sorted[at] = sorted[at - 1];
+        by[at] = by[at - 1];
+      }
       sorted[at] = f;
+      by[at] = of[k];
     }
   }
-  for (int k = 0; k < n; k++) pl_push(d->arena, d->solution->used, fact_text(d, sorted[k]));
+  for (int k = 0; k < n; k++) pl_push(d->arena, d->solution->used, told_fact(d, by[k], sorted[k]));
 }
 
 // --------------------------------------------------------------------------------------- the whole
@@ -616,6 +627,8 @@ static void begin_again(pl_analysis* d) {
   fresh.told = pl_map_make(d->arena);
   fresh.began_ms = d->began_ms;
   fresh.sets = d->sets;
+  fresh.first = d->first;
+  fresh.has_section = d->has_section;
   fresh.cases = d->cases;
   fresh.model = d->whole;
   pl_setup_facts(&fresh);
@@ -655,6 +668,7 @@ static pl_analysis* analysis(pl_job* job, pl_model* whole, const pl_derive_optio
 pl_analysis* pl_analysis_make(const pl_analysis* like, const pl_stage* stage) {
   pl_job* job = like->job;
   pl_analysis* d = analysis(job, like->whole, like->options, like->solution, stage);
+  d->first = like->first;
   double since = pl_cpu_ms();
   int messages = job->diagnostics->list.n, errors = job->diagnostics->n_errors;
   if (derive_motion(d, false, &since) == PLEUEL_OK) return d;
@@ -682,6 +696,8 @@ static pl_analysis** all_analyses(pl_analysis* first, int* n) {
 
 static pleuel_status derive(pl_analysis* d) {
   double since = pl_cpu_ms();
+  d->first = d;
+  d->has_section = true;
   pl_push(d->arena, d->sets, d);
   PL_TRY(derive_motion(d, true, &since));
   d->solution->dof = d->dof;

@@ -357,9 +357,9 @@ class Examination:
         self.document = document
         self.conditions = self.read_assumptions(document.get("assumptions", []))
         self.first = [m for m in self.moments if m.phase == 0 and m.motion]
-        if len(self.first) > 1:
-            self.first = [m for m in self.first if m.motion.labels() == self.first[1].motion.labels()]
+        self.first = self.with_one_set(self.first)
         self.perturb()
+        self.along = list(self.first)
         self.first = self.within(self.first)
         self.near_by = self.within(self.near_by)
         self.check_dof()
@@ -372,6 +372,7 @@ class Examination:
         """Relations as expressions that are not negative where they hold."""
         out, both = [], []
         for text in texts:
+            text = re.sub(r"\((\d[\d.]*) (?:m|s|kg|N)\)", r"\1", text)      # in brackets it is a unit
             both += [text] + ([re.sub(UNIT_BEHIND, r"\1", text)] if re.search(UNIT_BEHIND, text) else [])
         for text in both:
             try:
@@ -383,6 +384,24 @@ class Examination:
                 continue
         return out
 
+    def with_one_set(self, moments):
+        """Those with the constraints of the start.  At the start and at an event a force may be zero: neither tells which."""
+        at_event = [e["t"] for e in self.events]
+        sure = [m for m in moments[1:] if all(abs(m.row["t"] - t) > 1e-12 * max(1.0, abs(t)) for t in at_event)]
+        told = sure or moments
+        return [m for m in moments if m.motion.labels() == told[0].motion.labels()] if told else moments
+
+    def on_its_sides(self, value, moments, to_the_end=False):
+        """Moments where all holds that a value assumes; of a closed motion those before it fails for the first time."""
+        conditions = self.read_assumptions(value.get("assuming") or [])
+        out = []
+        for m in moments:
+            if self.meets(conditions, m.z):
+                out.append(m)
+            elif to_the_end:
+                break
+        return out
+
     def within(self, moments):
         """Those where all that the program says it assumed is so."""
         kept = [m for m in moments if self.holds_at(m.z)]
@@ -390,8 +409,11 @@ class Examination:
         return kept
 
     def holds_at(self, z):
+        return self.meets(self.conditions, z)
+
+    def meets(self, conditions, z):
         names = dict(zip(self.w.names, z))
-        return all((value_or_none(e, names) or 0.0) >= -1e-9 for e in self.conditions)
+        return all((value_or_none(e, names) or 0.0) >= -1e-9 for e in conditions)
 
     def assumed_there(self, q):
         """Whether a place without velocity is among those that the program speaks of."""
@@ -587,7 +609,8 @@ class Examination:
         for v in item["values"]:
             known_kind = v["name"].endswith("_ddot") or v["name"] in self.multipliers()
             if groups and v.get("expr") and known_kind and not v.get("branch"):
-                self.report.check("later stage", any(self.agrees(v, g) for g in groups), lambda: (
+                sides = [self.on_its_sides(v, g) for g in groups]
+                self.report.check("later stage", any(self.agrees(v, g) for g in sides if g), lambda: (
                     f"{v['name']} = {v['expr'][:300]} ({item['item']}, stage {item['stage']}) fits no set of contacts "
                     f"of the motion: {sorted(sets)}"))
 
@@ -627,7 +650,9 @@ class Examination:
             return
         kind = ("x(t)" if "(t)" in text else "acceleration" if value["name"].endswith("_ddot") else
                 "multiplier" if value["name"] in self.multipliers() else "expression")
-        moments = self.first if kind == "x(t)" else self.first + self.near_by
+        moments = self.first + self.near_by
+        if kind == "x(t)":
+            moments = self.on_its_sides(value, self.along, True)
         tried = held = 0
         for m in moments:
             names = self.names_at(m)

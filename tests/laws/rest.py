@@ -149,8 +149,9 @@ def check_equilibria(ex, item, said):
     whole = not re.search(r"may be others|closed form|[Cc]ould|name them|sought|not |Only places", said)
     if not (named or "There is none" in said) or not whole:
         return
+    all_sides = "Not looked at: places with" in said
     for q in found_places(ex, active):
-        if not ex.assumed_there(q):
+        if not all_sides and not ex.assumed_there(q):
             continue
         ok = any(all(apart(w, w.q.index(k), turns, q[w.q.index(k)], x) < 1e-5 for k, x in place.items() if x is not None)
                  or same_points(ex, q, place, active) for place in named)
@@ -172,6 +173,14 @@ def same_points(ex, q, place, active):
     return all(abs(a - b) < 1e-5 for a, b in zip(one, two))
 
 
+class Place(dict):
+    """Coordinates of a place, and what it assumes beside the assumptions of the whole answer."""
+
+    def __init__(self, place, assuming):
+        super().__init__(place)
+        self.assuming = assuming
+
+
 def named_places(ex, item):
     """Places by coordinate; None for a free coordinate, {'?': ..} for what has no number."""
     out = []
@@ -188,7 +197,7 @@ def named_places(ex, item):
                 place = {"?": c["expr"]}
                 break
         place = {re.sub(r"\[(-?\d+)\]", r"_\1", ascii_name(k) if k != "?" else k): x for k, x in place.items()}
-        out.append(place)
+        out.append(Place(place, v.get("assuming") or []))
     return out
 
 
@@ -237,8 +246,10 @@ def check_assumed(ex, place):
     q = completed(w, [place[k] if place.get(k) is not None else x for k, x in zip(w.q, base.q)],
                   [k for k, x in place.items() if x is not None], list(range(len(w.rows))))
     if q is not None and None not in place.values():
-        ex.report.check("equilibrium assumed", ex.assumed_there(q), lambda: (
-            f"{place} is named as a place of rest, against {ex.document['assumptions']}"))
+        own = ex.read_assumptions(place.assuming)
+        there = ex.meets(own, w.state(q, [0.0] * w.n, ex.model.start_time)) if own else ex.assumed_there(q)
+        ex.report.check("equilibrium assumed", there, lambda: (
+            f"{place} is named as a place of rest, against {place.assuming or ex.document['assumptions']}"))
 
 
 def completed(w, q, fixed, active):

@@ -168,7 +168,11 @@ def check_sides(program):
               "constraint rope: x1 + x2 = 1.07\ninit x1 = 0.37, x2 = 0.7, x1' = 0, x2' = 0\nask equilibria\n")
     document, got = solve(program, atwood)
     found, said = rests(document)
-    tap.check("no place on the other side of the spring, and the side is told", not found and "Only places with" in said, (found, said))
+    # the force on the rope with A2 above the pin: (m1 - m2) g + F = k (x1 - 0.44 - d)
+    wanted = (0.88 * 9.81 - 1.57) / 3.51 + 0.96
+    ok = len(found) == 1 and all(abs(x - wanted) < 1e-9 and s == "stable" for x, s in found.items())
+    tap.check("the place is on the other side of the spring, where the motion does not begin", ok and "With 100 x2" in said, (found, said))
+    tap.check("and the place of no length is named", "Not looked at: places with 63 = 100 x2" in said, said)
     far = ("param k = 13, d = {d}, m = 1\ncoord x, y\naxes x right, y up\nmass A: m at (x, y)\nspring k, rest d between A and (0.87, 1.31)\n"
            "constraint rail: y = -0.37\nask equilibria\n")
     for d, wanted in ((0.48, 1), (2, 3)):
