@@ -8,19 +8,17 @@
 #include <math.h>
 #include <string.h>
 
-#include "derive/derive_impl.h"
-
-enum { MOST_LATER_STAGES = 5 };
+#include "derive/sets_impl.h"
 
 // -------------------------------------------------------------------------------------- what holds
-static int row_of(const pl_stage* s, const char* name) {
+int pl_row_of(const pl_stage* s, const char* name) {
   for (int i = 0; s && i < s->n; i++) {
     if (strcmp(s->name[i], name) == 0) return i;
   }
   return -1;
 }
 
-static const char* label_of(const pl_constraint* c) {
+const char* pl_label_of(const pl_constraint* c) {
   return c->name.ascii ? c->name.ascii : c->name.text;
 }
 
@@ -85,7 +83,7 @@ bool pl_knows_friction(const pl_analysis* d) {
 const pl_stage_rub* pl_slipping_on(const pl_analysis* d, const pl_constraint* c) {
   for (int k = 0; d->stage && k < d->stage->n_rubs; k++) {
     const pl_stage_rub* rub = &d->stage->rubs[k];
-    if (rub->slips && strcmp(rub->on, label_of(c)) == 0) return rub;
+    if (rub->slips && strcmp(rub->on, pl_label_of(c)) == 0) return rub;
   }
   return NULL;
 }
@@ -123,7 +121,7 @@ static void choose_constraints(pl_analysis* d, const pl_model* whole, pl_model* 
   m->constraints.at = NULL;
   for (int k = 0; k < whole->constraints.n; k++) {
     const pl_constraint* c = &whole->constraints.at[k];
-    int row = row_of(d->stage, label_of(c));
+    int row = pl_row_of(d->stage, pl_label_of(c));
     bool holds = row >= 0 ? d->stage->holds[row]
                           : !c->off && !(t && is_open_by_signs(d, whole, t, c));
     if (row < 0 && c->while_label && is_left_out(d, c->while_label)) holds = false;
@@ -152,7 +150,7 @@ static void choose_maps(pl_analysis* d, const pl_model* whole, pl_model* m) {
   c->maps = PL_ARRAY(d->arena, struct pl_map_equation, whole->choose.n_maps + 1);
   c->n_maps = 0;
   for (int k = 0; k < whole->choose.n_maps; k++) {
-    int row = row_of(d->stage, map_name(d, whole, k));
+    int row = pl_row_of(d->stage, map_name(d, whole, k));
     if (row < 0 || d->stage->holds[row]) c->maps[c->n_maps++] = whole->choose.maps[k];
   }
   c->coords.at = NULL;
@@ -179,8 +177,8 @@ void pl_choose_set(pl_analysis* d, pl_model* whole, const pl_stage* stage) {
 static bool same_set(const pl_analysis* d, const pl_stage* s) {
   const pl_model* m = d->whole;
   for (int k = 0; k < m->constraints.n; k++) {
-    const char* label = label_of(&m->constraints.at[k]);
-    int row = row_of(s, label);
+    const char* label = pl_label_of(&m->constraints.at[k]);
+    int row = pl_row_of(s, label);
     if (row >= 0 && s->holds[row] == is_left_out(d, label)) return false;
   }
   int n = d->stage ? d->stage->n_rubs : 0;
@@ -194,7 +192,7 @@ static bool same_set(const pl_analysis* d, const pl_stage* s) {
 }
 
 // One that is there; NULL.
-static pl_analysis* find_analysis(pl_analysis* first, const pl_stage* s) {
+pl_analysis* pl_analysis_find(pl_analysis* first, const pl_stage* s) {
   for (int k = 0; k < first->sets.n; k++) {
     pl_analysis* d = first->sets.at[k];
     if (same_set(d, s) && pl_same_sides(d, s)) return d;
@@ -203,8 +201,8 @@ static pl_analysis* find_analysis(pl_analysis* first, const pl_stage* s) {
 }
 
 // The analysis of a stage: one that is there, or a new one.  NULL when it could not be derived.
-static pl_analysis* analysis_in(pl_analysis* first, const pl_stage* s) {
-  pl_analysis* d = find_analysis(first, s);
+pl_analysis* pl_analysis_in(pl_analysis* first, const pl_stage* s) {
+  pl_analysis* d = pl_analysis_find(first, s);
   if (d) {
     d->stage = s;
     return d;
@@ -215,7 +213,7 @@ static pl_analysis* analysis_in(pl_analysis* first, const pl_stage* s) {
 }
 
 // The set of constraints that an analysis was derived for, as a stage of its own.
-static pl_stage* stage_like(pl_analysis* d) {
+pl_stage* pl_stage_like(pl_analysis* d) {
   pl_stage* s = PL_NEW(d->arena, pl_stage);
   if (d->stage) {
     *s = *d->stage;
@@ -225,7 +223,7 @@ static pl_stage* stage_like(pl_analysis* d) {
   const char** name = PL_ARRAY(d->arena, const char*, n + 1);
   bool *holds = PL_ARRAY(d->arena, bool, n + 1), *no = PL_ARRAY(d->arena, bool, n + 1);
   for (int k = 0; k < n; k++) {
-    name[k] = label_of(&d->whole->constraints.at[k]);
+    name[k] = pl_label_of(&d->whole->constraints.at[k]);
     holds[k] = !is_left_out(d, name[k]);
   }
   *s = (pl_stage){.n = n, .name = name, .holds = holds, .released = no, .pulls = no, .rope = no};
@@ -233,8 +231,8 @@ static pl_stage* stage_like(pl_analysis* d) {
 }
 
 // The same constraints with other signs: those that change come first.
-static pl_stage* turned(pl_analysis* d, const pl_fact* side, int n, const bool* through) {
-  pl_stage* s = stage_like(d);
+pl_stage* pl_stage_turned(pl_analysis* d, const pl_fact* side, int n, const bool* through) {
+  pl_stage* s = pl_stage_like(d);
   pl_fact* out = PL_ARRAY(d->arena, pl_fact, n + 1);
   int turns = 0, stays = 0;
   for (int k = 0; k < n; k++) turns += through[k];
@@ -250,10 +248,10 @@ static pl_stage* turned(pl_analysis* d, const pl_fact* side, int n, const bool* 
 }
 
 pl_analysis* pl_analysis_beyond(pl_analysis* d, const pl_fact* side, int n, const bool* through) {
-  pl_stage* s = turned(d, side, n, through);
+  pl_stage* s = pl_stage_turned(d, side, n, through);
   s->end = PL_END_UNKNOWN;
   s->n_q = 0;  // no motion is meant
-  return analysis_in(d->first, s);
+  return pl_analysis_in(d->first, s);
 }
 
 pl_analysis* pl_analysis_of(pl_analysis* first, const pl_ask* ask) {
@@ -261,7 +259,7 @@ pl_analysis* pl_analysis_of(pl_analysis* first, const pl_ask* ask) {
   const pl_stage* own = o->n_stages > 0 ? &o->stages[0] : NULL;
   if (ask->motion.given && o->stage_from) {
     const pl_stage* s = o->stage_from(o->user, &ask->motion);
-    if (s) return analysis_in(first, s);
+    if (s) return pl_analysis_in(first, s);
   }
   first->stage = own;
   return first;
@@ -275,7 +273,7 @@ pl_analysis* pl_without_sticking(pl_analysis* first) {
   pl_stage* s = PL_NEW(first->arena, pl_stage);
   *s = *first->stage;
   s->n_rubs = 0;
-  pl_analysis* d = analysis_in(first, s);
+  pl_analysis* d = pl_analysis_in(first, s);
   return d ? d : first;
 }
 
@@ -294,7 +292,7 @@ static bool asks_lambda(const pl_analysis* d, pl_expr e, const pl_open* o) {
 }
 
 // A request for the force of an open constraint, or for the place where that vanishes.
-static bool is_about(const pl_analysis* d, const pl_ask* ask, const pl_open* o) {
+bool pl_asks_about_open(const pl_analysis* d, const pl_ask* ask, const pl_open* o) {
   const pl_name* name = &o->source->name;
   if (ask->kind == PL_ASK_EXPECT) return false;  // decided with λ = 0
   if (ask->kind == PL_ASK_FORCE_OF && ask->label)
@@ -309,7 +307,7 @@ static bool is_about(const pl_analysis* d, const pl_ask* ask, const pl_open* o) 
 }
 
 static bool would_pull(const pl_analysis* d, const pl_open* o) {
-  int row = row_of(d->stage, label_of(o->source));
+  int row = pl_row_of(d->stage, pl_label_of(o->source));
   return row >= 0 && d->stage->pulls[row];
 }
 
@@ -349,7 +347,7 @@ static const char* german_force(pl_analysis* d, const pl_open* o) {
 }
 
 // A name that only a map explains, whose constraint does not hold.
-static bool speaks_of_unnamed(pl_analysis* d, const pl_ask* ask, pl_symbol* which) {
+bool pl_speaks_of_unnamed(pl_analysis* d, const pl_ask* ask, pl_symbol* which) {
   for (int k = 0; k < d->unnamed.n; k++) {
     pl_symbol q = d->unnamed.at[k], v = pl_symbol_dot(d->pool, q),
               name[3] = {q, v, pl_symbol_dot(d->pool, v)};
@@ -370,7 +368,7 @@ static bool speaks_of_unnamed(pl_analysis* d, const pl_ask* ask, pl_symbol* whic
 bool pl_answer_open(pl_analysis* d, const pl_ask* ask) {
   for (int k = 0; k < d->open.n; k++) {
     const pl_open* o = &d->open.at[k];
-    if (!is_about(d, ask, o)) continue;
+    if (!pl_asks_about_open(d, ask, o)) continue;
     bool force = ask->kind == PL_ASK_FORCE_OF;
     bool told = d->open_told;
     d->open_told = true;  // said here in other words
@@ -385,7 +383,7 @@ bool pl_answer_open(pl_analysis* d, const pl_ask* ask) {
     return true;
   }
   pl_symbol s;
-  if (!speaks_of_unnamed(d, ask, &s)) return false;
+  if (!pl_speaks_of_unnamed(d, ask, &s)) return false;
   pl_section_open(d, ask, ask->text, ask->text);
   pl_say(d, "{1} names the place only while the constraints of its map hold, and here they do not.",
          "{1} benennt den Ort nur, solange die Zwangsbedingungen der Abbildung gelten, und hier "
@@ -410,13 +408,13 @@ const pl_ask* pl_without_open(pl_analysis* d, const pl_ask* ask) {
 }
 
 // ----------------------------------------------------------------------------------------- telling
-static const char* seconds(pl_analysis* d, double t, pl_language lang) {
+const char* pl_seconds(pl_analysis* d, double t, pl_language lang) {
   const char* number = pl_notation_number(d->arena, t, 6, (pl_notation){PL_MATH_LINE, lang});
   return pl_format(d->arena, "t = %s%s", number, d->model->uses_units ? " s" : "");
 }
 
 const pl_form* pl_moment_form(pl_analysis* d, double t) {
-  return pl_form_words(d->arena, seconds(d, t, PL_ENGLISH), seconds(d, t, PL_GERMAN));
+  return pl_form_words(d->arena, pl_seconds(d, t, PL_ENGLISH), pl_seconds(d, t, PL_GERMAN));
 }
 
 static const pl_constraint* constraint_named(const pl_analysis* d, const char* label) {
@@ -473,7 +471,7 @@ static const pl_form* slip_form(pl_analysis* d, const pl_stage_rub* rub) {
 }
 
 // Friction of the set: what sticks, and what slips with which force.
-static void tell_friction(pl_analysis* d) {
+void pl_tell_friction(pl_analysis* d) {
   for (int k = 0; d->stage && k < d->stage->n_rubs; k++) {
     const pl_stage_rub* rub = &d->stage->rubs[k];
     const pl_constraint* c = constraint_named(d, rub->on);
@@ -521,7 +519,7 @@ const pl_form* pl_border_form(pl_analysis* d, pl_expr e) {
 
 // The equation that ends a stage: y = 0, λ = 0, or the condition of an event. NULL when there is
 // none to show.
-static const pl_form* end_form(pl_analysis* d, const pl_stage* s) {
+const pl_form* pl_end_form(pl_analysis* d, const pl_stage* s) {
   if (s->end == PL_END_SIDE) return pl_border_form(d, s->crossed);
   const pl_constraint* c = constraint_named(d, s->ended_by);
   if (s->end == PL_END_CLOSES && c) return met_form(d, c);
@@ -535,10 +533,10 @@ static const pl_form* end_form(pl_analysis* d, const pl_stage* s) {
 }
 
 // Before the constraints change, the motion may come to the other side of a sign.
-static void say_end(pl_analysis* d, const pl_stage* s) {
+void pl_say_end(pl_analysis* d, const pl_stage* s) {
   pl_leaving l;
   pl_expr crossed;
-  const pl_form* end = end_form(d, s);
+  const pl_form* end = pl_end_form(d, s);
   if (s->end != PL_END_SIDE && pl_leaves_first(d, s, &l, &crossed)) {
     pl_say(d, "This holds until {1}, at {2}.", "Das gilt bis {1}, bei {2}.", 2,
            pl_border_form(d, crossed), pl_moment_form(d, l.t));
@@ -568,7 +566,7 @@ static int list_open(pl_analysis* d, const pl_form** label, const pl_form** apar
 void pl_tell_open(pl_analysis* d) {
   if (d->open_told || (d->open.n == 0 && d->model->frictions.n == 0)) return;
   d->open_told = true;
-  tell_friction(d);
+  pl_tell_friction(d);
   use_signs(d);
   const pl_form **label = PL_ARRAY(d->arena, const pl_form*, d->open.n + 1),
                 **apart = PL_ARRAY(d->arena, const pl_form*, d->open.n + 1);
@@ -591,7 +589,7 @@ void pl_tell_open(pl_analysis* d) {
                   : "{1} sind beim Start offen, {2}, und stehen nicht in den Gleichungen.",
            2, pl_flist(d, label, n), pl_flist(d, apart, n));
   }
-  if (d->stage) say_end(d, d->stage);
+  if (d->stage) pl_say_end(d, d->stage);
 }
 
 void pl_note_undecided(pl_analysis* d) {
@@ -636,7 +634,7 @@ static pl_stage* all_closed(pl_analysis* d) {
 void pl_answer_closed(pl_analysis* first, const pl_ask* ask) {
   if (ask->kind != PL_ASK_EQUILIBRIA) return;
   const pl_stage* s = all_closed(first);
-  pl_analysis* d = s ? analysis_in(first, s) : NULL;
+  pl_analysis* d = s ? pl_analysis_in(first, s) : NULL;
   if (!d || !d->reduced) return;
   pl_section* own = &first->solution->sections.at[first->solution->sections.n - 1];
   own->title[0] = "Equilibria as the start has the contacts";
@@ -645,287 +643,4 @@ void pl_answer_closed(pl_analysis* first, const pl_ask* ask) {
   d->section->beside = true;
   d->section->title[0] = "Equilibria with all contacts closed";
   d->section->title[1] = "Gleichgewichtslagen mit allen Kontakten geschlossen";
-}
-
-// ---------------------------------------------------------------------------------- the later sets
-// What hangs on the set, and is asked about the motion of `init`.
-static bool is_repeated(const pl_analysis* d, const pl_ask* ask) {
-  bool told = d->stage->n_sides > 0 && ask->kind == PL_ASK_EQUILIBRIA;  // for all sides already
-  if (told) return false;
-  switch (ask->kind) {
-    case PL_ASK_LAGRANGE1:
-    case PL_ASK_LAGRANGE2:
-    case PL_ASK_NEWTON:
-    case PL_ASK_SOLVE:
-    case PL_ASK_FORCE_OF:
-    case PL_ASK_FORCE_ON:
-    case PL_ASK_CONSERVED:
-    case PL_ASK_EQUILIBRIA: return true;
-    case PL_ASK_VALUE: return ask->where.n == 0 && !ask->motion.given;
-    default: return false;
-  }
-}
-
-static bool contains_time(pl_analysis* d) {
-  bool any = !pl_scleronomic(d);
-  for (int i = 0; i < d->q.n; i++) any |= pl_has_symbol(d->pool, d->force[i], pl_time(d->pool));
-  return any;
-}
-
-static bool is_motion(const pl_ask* ask) { return ask->kind == PL_ASK_SOLVE && ask->of_time; }
-
-// What speaks of t or of the start means those of the whole motion: a stretch in the middle has
-// another clock.
-static bool fits_clock(pl_analysis* d, const pl_ask* ask) {
-  if (is_motion(ask)) return !contains_time(d);
-  return pl_is_poison(ask->value) || !pl_has_role(d->pool, ask->value, PL_R_START);
-}
-
-// Answers a request for the set; what is not found there is left out.
-static bool repeat(pl_analysis* d, const pl_ask* ask) {
-  pl_ask again = *ask;
-  again.letter = NULL;
-  again.motion = (pl_motion){0};
-  pl_symbol unnamed;
-  if (speaks_of_unnamed(d, &again, &unnamed)) return false;
-  for (int k = 0; k < d->open.n; k++) {
-    if (is_about(d, &again, &d->open.at[k])) return false;
-  }
-  int sections = d->solution->sections.n, equations = d->solution->n_equations,
-      claims = d->claims.n;
-  pl_answer_one(d, &again);
-  bool found = true;
-  for (int k = sections; k < d->solution->sections.n; k++)
-    found &= !d->solution->sections.at[k].not_found;
-  if (found) return true;
-  d->solution->sections.n = sections;
-  d->solution->n_equations = equations;
-  d->claims.n = claims;
-  return false;
-}
-
-// What has become of a constraint, in one word.
-typedef enum pl_state_word {
-  PL_WORD_CONTACT,
-  PL_WORD_ROPE,
-  PL_WORD_DEED,
-  PL_N_WORDS
-} pl_state_word;
-static const char* const state_word[PL_N_WORDS][2][2] = {
-    // holds, does not; in two languages
-    [PL_WORD_CONTACT] = {{"closed", "geschlossen"}, {"open", "offen"}},
-    [PL_WORD_ROPE] = {{"taut", "straff"}, {"slack", "schlaff"}},
-    [PL_WORD_DEED] = {{"attached", "befestigt"}, {"released", "gelöst"}},
-};
-
-static pl_state_word word_for(const pl_analysis* d, const pl_constraint* c) {
-  int row = row_of(d->stage, label_of(c));
-  if (c->relation == PL_EQ || d->stage->released[row]) return PL_WORD_DEED;
-  return d->stage->rope[row] ? PL_WORD_ROPE : PL_WORD_CONTACT;
-}
-
-static int list_changes(pl_analysis* d, const pl_stage* before, bool holds, pl_state_word word,
-                        const char** out) {
-  int n = 0;
-  for (int k = 0; k < d->whole->constraints.n; k++) {
-    const pl_constraint* c = &d->whole->constraints.at[k];
-    int now = row_of(d->stage, label_of(c)), then = row_of(before, label_of(c));
-    if (now < 0 || then < 0 || d->stage->holds[now] != holds || before->holds[then] == holds
-        || c->while_label)
-      continue;
-    if (word_for(d, c) != word) continue;
-    out[n++] = c->name.text;
-  }
-  return n;
-}
-
-static void add_names(pl_text* t, const char* const* name, int n, const char* what, bool* any) {
-  if (n == 0) return;
-  if (*any) pl_text_add(t, ", ");
-  for (int k = 0; k < n; k++) pl_text_addf(t, "%s%s", k ? ", " : "", name[k]);
-  pl_text_addf(t, " %s", what);
-  *any = true;
-}
-
-// "From t = 6.54427 s: h open"
-static const char* stage_title(pl_analysis* d, pl_language lang) {
-  const char** name = PL_ARRAY(d->arena, const char*, d->whole->constraints.n + 1);
-  bool de = lang == PL_GERMAN;
-  pl_text t = pl_text_make(d->arena);
-  pl_text_addf(&t, de ? "Ab %s: " : "From %s: ", seconds(d, d->stage->from, lang));
-  const pl_stage* first = &d->solution->stages.at[0];
-  bool any = false;
-  for (int holds = 1; holds >= 0; holds--) {
-    for (int word = 0; word < PL_N_WORDS; word++) {
-      int n = list_changes(d, first, holds, (pl_state_word)word, name);
-      add_names(&t, name, n, state_word[word][!holds][de], &any);
-    }
-  }
-  for (int k = 0; k < d->stage->n_crossed; k++) {
-    const pl_form* side = pl_fact_form(d, &d->stage->sides[k]);
-    const char* text = pl_notation_print(d->arena, d->pool, side,
-                                         (pl_notation){PL_MATH_LINE, lang});
-    pl_text_addf(&t, "%s%s", any ? ", " : "", text);
-    any = true;
-  }
-  for (int k = 0; k < d->stage->n_rubs; k++) {
-    const pl_stage_rub *now = &d->stage->rubs[k],
-                       *then = k < first->n_rubs ? &first->rubs[k] : NULL;
-    bool same = then && now->sticks == then->sticks && now->slips == then->slips
-                && (!now->slips || now->way == then->way);
-    if (same || (!now->sticks && !now->slips)) continue;
-    add_names(&t, &now->on, 1,
-              now->sticks ? (de ? "haftet" : "sticks") : (de ? "gleitet" : "slips"), &any);
-  }
-  return pl_text_string(&t);
-}
-
-// x = 20 m, ϑ = 48.2°
-static const char* place_text(pl_analysis* d, const pl_stage* s, pl_language lang) {
-  enum { most = 8 };
-  pl_text t = pl_text_make(d->arena);
-  double size = 0;
-  for (int i = 0; i < s->n_q; i++) size = fmax(size, fabs(s->q[i]));
-  for (int i = 0; i < s->n_q && i < most; i++) {
-    bool angle = strcmp(s->q_unit[i], "rad") == 0;
-    double x = fabs(s->q[i]) < 1e-14 * size ? 0 : angle ? s->q[i] * (180 / M_PI) : s->q[i];
-    const char* number = pl_notation_number(d->arena, x, 6, (pl_notation){PL_MATH_LINE, lang});
-    pl_symbol symbol = pl_symbol_find(d->pool, s->q_name[i]);
-    const char* name = symbol.id ? pl_symbol_get(d->pool, symbol)->name : s->q_name[i];
-    pl_text_addf(&t, "%s%s = %s%s%s", i ? ", " : "", name, number,
-                 angle           ? "°"
-                 : *s->q_unit[i] ? " "
-                                 : "",
-                 angle ? "" : s->q_unit[i]);
-  }
-  return pl_text_string(&t);
-}
-
-static void say_begin(pl_analysis* d, const pl_stage* before) {
-  const pl_stage* s = d->stage;
-  const pl_form* place = pl_form_words(d->arena, place_text(d, s, PL_ENGLISH),
-                                       place_text(d, s, PL_GERMAN));
-  const pl_form* end = before->to == s->from ? end_form(d, before) : NULL;
-  if (end) {
-    pl_say(d, "It begins where {1}: at {2}, {3}.", "Es beginnt, wo {1}: bei {2}, {3}.", 3, end,
-           pl_moment_form(d, s->from), place);
-  } else {
-    pl_say(d, "It begins at {1}, {2}.", "Es beginnt bei {1}, {2}.", 2, pl_moment_form(d, s->from),
-           place);
-  }
-  int n = d->dof.dof;
-  pl_say(d, n == 1 ? "1 degree of freedom." : pl_format(d->arena, "%d degrees of freedom.", n),
-         n == 1 ? "1 Freiheitsgrad." : pl_format(d->arena, "%d Freiheitsgrade.", n), 0);
-  for (int k = 0; k < d->whole->asks.n; k++) {
-    if (!is_motion(&d->whole->asks.at[k]) || contains_time(d)) continue;
-    pl_say(d,
-           "In the motions that follow {1} counts from here, and the start values are those of "
-           "this moment.",
-           "In den folgenden Bewegungen zählt {1} von hier, und die Startwerte sind die dieses "
-           "Augenblicks.",
-           1, pl_fs(d, pl_time(d->pool)));
-    return;
-  }
-}
-
-static void mark(pl_analysis* d, int from, int stage) {
-  for (int k = from; k < d->solution->sections.n; k++) d->solution->sections.at[k].stage = stage;
-}
-
-// The section of a stage behind the requests.
-static void answer_stage(pl_analysis* d, const pl_stage* s, const pl_stage* before, int k) {
-  d->later = d->has_section = true;
-  int from = d->solution->sections.n;
-  pl_ask head = {.kind = PL_ASK_DOF, .text = pl_format(d->arena, "stage %d", k + 1)};
-  pl_section_open(d, &head, stage_title(d, PL_ENGLISH), stage_title(d, PL_GERMAN));
-  say_begin(d, before);
-  say_end(d, s);
-  pl_answer(d, "dof", pl_int(d->pool, d->dof.dof), NULL);
-  d->open_told = true;
-  tell_friction(d);
-  bool any = false;
-  for (int i = 0; i < d->whole->asks.n; i++) {
-    const pl_ask* ask = &d->whole->asks.at[i];
-    if (is_repeated(d, ask) && fits_clock(d, ask)) any |= repeat(d, ask);
-  }
-  pl_ask plain = {.kind = PL_ASK_LAGRANGE1, .text = "lagrange1"};
-  if (!any) repeat(d, &plain);
-  mark(d, from, k);
-  for (int i = from; s->n_sides > 0 && i < d->solution->sections.n; i++)
-    pl_assume_sides(d, &d->solution->sections.at[i], 0);
-  d->later = false;
-}
-
-// ------------------------------------------------------------------------------------ other sides
-// Where a stage ends: where the motion changes sides, or as its constraints end.
-static void find_end(pl_analysis* d, pl_stage* s) {
-  pl_leaving l;
-  pl_expr crossed;
-  if (!pl_leaves_first(d, s, &l, &crossed)) return;
-  s->end = PL_END_SIDE;
-  s->to = l.t;
-  s->crossed = crossed;
-}
-
-// The stretch that begins where the motion leaves the sides of d.
-static pl_stage* next_side(pl_analysis* d, const pl_stage* now, const pl_fact* side, int n,
-                           const pl_leaving* l) {
-  const pl_stage* own = d->stage;
-  d->stage = now;
-  pl_stage* s = turned(d, side, n, l->through);
-  d->stage = own;
-  s->from = l->t;
-  s->n_q = l->n_q;
-  s->q_name = l->q_name;
-  s->q_unit = l->q_unit;
-  s->q = l->q;
-  s->v = l->v;
-  return s;
-}
-
-// Follows the motion of one set of constraints from side to side; each that is new has a section.
-static void follow_sides(pl_analysis* first, pl_analysis* d, const pl_stage* set) {
-  enum { MOST_CHANGES = 40 };
-  pl_solution* solution = first->solution;
-  pl_stage now = *set;
-  for (int i = 0; i < MOST_CHANGES && solution->stages.n <= MOST_LATER_STAGES; i++) {
-    pl_fact side[2 * pl_max_sides];
-    pl_leaving l;
-    int n = pl_known_sides(d, side);
-    if (!pl_leave(d, side, n, now.from, pl_end_of_stage(&now), &l) || !l.leaves) return;
-    pl_stage before = now, *next = next_side(d, &now, side, n, &l);
-    before.end = PL_END_SIDE;
-    before.to = l.t;
-    before.crossed = next->sides[0].difference;
-    pl_analysis* other = find_analysis(first, next);
-    now = *next;
-    if (other && other->has_section) {
-      d = other;
-      continue;
-    }
-    if (!(other = analysis_in(first, next))) return;
-    find_end(other, next);
-    pl_push(first->arena, solution->stages, *next);
-    answer_stage(other, next, &before, solution->stages.n - 1);
-    d = other;
-  }
-}
-
-void pl_answer_stages(pl_analysis* first) {
-  const pl_derive_options* o = first->options;
-  pl_solution* solution = first->solution;
-  for (int k = 0; k < o->n_stages; k++) pl_push(first->arena, solution->stages, o->stages[k]);
-  if (o->n_stages == 0) pl_push(first->arena, solution->stages, *stage_like(first));
-  if (o->only || !pl_knows_friction(first)) return;
-  for (int k = 1; k < o->n_stages && k <= MOST_LATER_STAGES; k++) {
-    if (pl_interrupted(first->job)) return;
-    pl_analysis* d = analysis_in(first, &o->stages[k]);
-    if (d) answer_stage(d, &o->stages[k], &o->stages[k - 1], k);
-  }
-  int n = solution->stages.n;
-  for (int k = 0; k < n && !pl_interrupted(first->job); k++) {
-    pl_stage set = solution->stages.at[k];
-    pl_analysis* d = o->n_stages == 0 ? first : find_analysis(first, &o->stages[k]);
-    if (d) follow_sides(first, d, &set);
-  }
 }
