@@ -6,7 +6,7 @@
 // Each step is taken once and remembered in the pleuel_model; asking for a later one takes those
 // before it. A step that was interrupted is taken anew.
 #include "api/stages.h"
-#include "api/witness.h"
+#include "witness/witness.h"
 
 #include <math.h>
 #include <string.h>

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "api/trace.h"
+#include "witness/trace.h"
 
 enum { MOST_COORDINATES = 80, MOST_SAMPLES = 4000, MOST_STAGES = 8 };
 

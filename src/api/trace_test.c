@@ -9,7 +9,8 @@
 
 #include <cmocka.h>
 
-#include "api/trace.h"
+#include "api/api_impl.h"
+#include "witness/trace.h"
 
 typedef struct bench {
   pleuel* ctx;

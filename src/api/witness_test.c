@@ -10,7 +10,8 @@
 
 #include <cmocka.h>
 
-#include "api/witness.h"
+#include "api/api_impl.h"
+#include "witness/witness.h"
 
 typedef struct bench {
   pleuel* ctx;

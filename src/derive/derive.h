@@ -100,7 +100,7 @@ typedef struct pl_section {  // one request
   PL_VEC(pl_step) steps;
   PL_VEC(pl_value) values;
   const pl_ask* ask;  // what it answers; of standard requests one without expressions
-  // its formulas and the simulated motion disagree: nothing is claimed (api/witness)
+  // its formulas and the simulated motion disagree: nothing is claimed (witness)
   bool withdrawn;
   bool complete;   // of positions of rest: these are all
   bool all_sides;  // of positions of rest: whatever signs the formulas took

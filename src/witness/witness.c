@@ -1,6 +1,6 @@
 // The comparison of statements with motions, and what becomes of those that disagree.
 // See theory (19.4).
-#include "api/witness_impl.h"
+#include "witness/witness_impl.h"
 
 #include <math.h>
 #include <string.h>

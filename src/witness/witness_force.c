@@ -7,7 +7,7 @@
 // says nothing of q.
 #include <string.h>
 
-#include "api/witness_impl.h"
+#include "witness/witness_impl.h"
 
 typedef struct pl_pushed {  // a mass, and the force on it
   const char* name;

@@ -2,7 +2,7 @@
 // given.
 //
 // A model is copied as far as it changes; expressions stay in its pool.
-#include "api/trace_impl.h"
+#include "witness/trace_impl.h"
 
 #include <math.h>
 

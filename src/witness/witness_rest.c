@@ -8,8 +8,8 @@
 // other).
 #include <math.h>
 
-#include "api/least_squares.h"
-#include "api/witness_impl.h"
+#include "witness/least_squares.h"
+#include "witness/witness_impl.h"
 
 enum { MOST_COORDINATES = PL_MOST_AT_REST, MOST_ROWS = PL_MOST_ROWS, MOST_ITERATIONS = 20 };
 static const double solved = 1e-10;     // residual of a position of rest, in units of the terms

@@ -1,5 +1,5 @@
 // The run of a trace: a few steps, each with its state and what holds.
-#include "api/trace_impl.h"
+#include "witness/trace_impl.h"
 
 #include <math.h>
 

@@ -7,7 +7,8 @@
 #ifndef PL_WITNESS_H
 #define PL_WITNESS_H
 
-#include "api/trace.h"
+#include "derive/derive.h"
+#include "witness/trace.h"
 
 // pl_witness_hold tests the answers of a solution. Adds the check "formulas against the motion" and
 // withdraws sections that disagree. Needs the solution's towers. stages: those that it was derived

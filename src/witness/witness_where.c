@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "api/witness_impl.h"
+#include "witness/witness_impl.h"
 
 enum { SAMPLES = 400 };
 

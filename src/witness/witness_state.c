@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "api/witness_impl.h"
+#include "witness/witness_impl.h"
 
 static const double moved = 1e-9;      // relative, of what the state is moved by
 static const double rounding = 1e-11;  // of the terms of a formula

@@ -2,7 +2,7 @@
 #ifndef PL_WITNESS_IMPL_H
 #define PL_WITNESS_IMPL_H
 
-#include "api/witness.h"
+#include "witness/witness.h"
 
 enum { PL_SEED_OF_NUMBERS = 1 };  // of parameters without a number
 #define PL_SMALL_PUSH 1e-5        // of the natural velocity: what leaves a position of rest

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "api/witness_impl.h"
+#include "witness/witness_impl.h"
 
 enum { TRIES = 12 };
 // of a coordinate: Newton ends as far from a position where forces vanish with their slopes

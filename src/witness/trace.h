@@ -4,7 +4,7 @@
 #ifndef PL_TRACE_H
 #define PL_TRACE_H
 
-#include "api/api_impl.h"
+#include "assembly/assembly.h"
 
 // A state of the motion.  Arrays are indexed as in the setup of the recording.
 typedef struct pl_trace_sample {

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "api/trace.h"
+#include "witness/trace.h"
 
 #define PL_TRACE_MARK "met by the witness"  // label of the event
 

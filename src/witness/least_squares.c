@@ -1,5 +1,5 @@
 // Least squares by QR with column pivoting; columns that depend on others get nothing.
-#include "api/least_squares.h"
+#include "witness/least_squares.h"
 #include "linalg/linalg.h"
 
 struct pl_squares {

@@ -2,7 +2,7 @@
 // they were written, not from what the derivation made of them.
 #include <string.h>
 
-#include "api/witness_impl.h"
+#include "witness/witness_impl.h"
 
 void pl_statement_add(pl_witness* w, pl_statement s) {
   if (pl_is_poison(s.shown)) return;
