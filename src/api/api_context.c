@@ -71,11 +71,11 @@ void pleuel_set_memory_limit(pleuel* ctx, size_t bytes) {
 }
 
 void pleuel_interrupt(pleuel* ctx) {
-  if (ctx) ctx->interrupted = 1;
+  if (ctx) atomic_store(&ctx->interrupted.asked, 1);
 }
 
 void pleuel_interrupt_clear(pleuel* ctx) {
-  if (ctx) ctx->interrupted = 0;
+  if (ctx) atomic_store(&ctx->interrupted.asked, 0);
 }
 
 // ----------------------------------------------------------------------------------- guarded calls

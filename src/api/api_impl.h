@@ -18,7 +18,7 @@ struct pleuel {
   char message[512];
   pl_language lang;
   size_t limit;  // bytes a model may take; 0: none
-  volatile int interrupted;
+  pl_interruption interrupted;
   pleuel_model* first;  // models that are open
 };
 

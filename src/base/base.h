@@ -8,6 +8,7 @@
 #define PL_BASE_H
 
 #include <setjmp.h>
+#include <stdatomic.h>
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -222,13 +223,25 @@ void pl_diagnostic_print(pl_text* out, const pl_diagnostic* m, pl_print_style st
 const char* pleuel_status_name(pleuel_status s);  // in pleuel.h too
 
 // -------------------------------------------------------------------------------- context of a job
+// The wish to stop, from other threads and signal handlers (asked), or of the one who is asked about
+// ten times a second in the thread that works (look).
+typedef struct pl_interruption {
+  atomic_int asked;
+  bool (*look)(void* user);  // true: stop; or NULL
+  void* user;
+  bool stopped;            // it was
+  int done, of;            // parts of the work, for the one who looks
+  double clock_s, look_s;  // when the clock was read last, when `look` was called last
+  long countdown, pace;    // calls of pl_interrupted until the clock is read again
+} pl_interruption;
+
 // What every pass is handed: where memory comes from, where messages go, whether to stop.
 typedef struct pl_job {
   pl_arena* arena;
   pl_diagnostics* diagnostics;
   pleuel_status status;
-  char message[512];          // the sentence with numbers that belongs to status
-  volatile int* interrupted;  // set from outside; may be NULL
+  char message[512];             // the sentence with numbers that belongs to status
+  pl_interruption* interrupted;  // may be NULL
   pl_language lang;
   // pl_clock() value at which presentation stops deepening; 0: none
   double deadline_s;
@@ -242,7 +255,8 @@ pleuel_status pl_fail(pl_job* job, pleuel_status s, const char* fmt, ...)
 // language; itself when it has none.
 const char* pl_in_language(pl_language lang, const char* sentence);
 bool pl_interrupted(const pl_job* job);
-double pl_clock(void);  // monotonic seconds
+void pl_job_done(const pl_job* job, int done, int of);  // so many parts of the work
+double pl_clock(void);                                  // monotonic seconds
 #define PL_TRY(call)                          \
   do {                                        \
     pleuel_status pl_try_ = (call);           \

@@ -526,10 +526,10 @@ static void dense_output_joins_the_steps(void** state) {
 static void an_interrupted_run_says_so_and_keeps_its_rows(void** state) {
   (void)state;
   t_bench* b = pendulum(1.3, 50);
-  volatile int stop = 0;
+  pl_interruption stop = {0};
   b->job.interrupted = &stop;
   for (int i = 0; i < 5; i++) assert_int_equal(pl_run_step(b->run), PLEUEL_OK);
-  stop = 1;
+  stop.asked = 1;
   assert_int_equal(pl_run_to_end(b->run), PLEUEL_INTERRUPTED);
   assert_true(b->rows == 6 && b->last[63] > 0);
   t_close(b);
