@@ -49,8 +49,9 @@ typedef struct pl_recording {
   int n_directions;
   // variations of the start values that are given  (n_directions x flat.n)
   const double *varied_q, *varied_v;
-  const char* sensitivities;  // as asked for
-  bool exact;                 // numbers as they are written, not their doubles
+  const char* sensitivities;         // as asked for
+  bool exact;                        // numbers as they are written, not their doubles
+  const struct pl_numbers* numbers;  // that may change without recording again
 } pl_recording;
 
 // pl_record translates a checked model.
@@ -60,5 +61,66 @@ typedef struct pl_recording {
 pleuel_status pl_record(pl_job* job, pl_model* model, const char* sensitivities, bool exact,
                         pl_recording** out);
 void pl_record_dump(pl_text* out, const pl_model* model, const pl_recording* r);
+
+// ------------------------------------------------------------------------------------------ numbers
+// Parameters and start values of a recording that can be given other values, without recording
+// again.  What depends on them follows in the order in which the recording found it.  A pl_numbers
+// does not change once it is made, and reads the pool as it was then: several threads may evaluate it
+// at the same time, each with an arena of its own.
+
+// A parameter or a kept abbreviation; each stands behind those that it is defined by.
+typedef struct pl_number_given {
+  pl_symbol symbol;
+  pl_expr value;  // poison: none
+  const char *ascii, *shown, *unit;
+  bool named;     // may be set; false: a number with its unit in a formula
+  bool input;     // an `input`: 0 until it is set
+  bool size;      // decides how large the system is
+  bool positive;  // was positive, and forms rely on it
+} pl_number_given;
+
+typedef struct pl_number_start {
+  int at;  // coordinate
+  bool velocity, guess;
+  pl_expr value;                  // elements of families as symbols
+  const pl_instances* instances;  // whose indices stand in the value
+  int instance;
+  pl_symbol name;  // that later values may speak of; id 0: none
+} pl_number_start;
+
+typedef struct pl_numbers {
+  const pl_pool* pool;
+  int n_symbols;        // of the arrays by symbol id
+  const double* value;  // as recorded                            (n_symbols)
+  int n_given, n_inputs;
+  const pl_number_given* given;
+  const int* inputs;  // of `given`                             (n_inputs)
+  int n_starts;
+  const pl_number_start* starts;
+  const pl_expr* restitution;  // of each constraint row, poison where none is given (n_c)
+  int n_c;
+  int n_positive;
+  const pl_expr* positive;      // masses
+  pl_expr t_0, t_end, dt, tol;  // of `simulate`, poison where not given
+  const char* fixed;            // why no number can be changed, in English; NULL: they can
+} pl_numbers;
+
+// What a run says otherwise than the text.
+typedef struct pl_number_start_set {
+  int at;
+  bool velocity;
+  double value;
+} pl_number_start_set;
+typedef struct pl_numbers_set {
+  int n_given, n_starts;
+  const int* given;  // of pl_numbers.given                    (n_given)
+  const double* given_value;
+  const pl_number_start_set* starts;  //                                    (n_starts)
+} pl_numbers_set;
+
+// pl_numbers_apply gives the setups of a recording with these numbers; *t holds t_0, t_end, dt, tol.
+// Status PLEUEL_USAGE with the sentence in the job where a number is none, or not allowed.
+pleuel_status pl_numbers_apply(pl_job* job, const pl_recording* recording,
+                               const pl_numbers_set* set, pl_recording* out);
 
 #endif

@@ -70,7 +70,8 @@ typedef struct pl_recorder {
   // by symbol id: what is written down for a parameter; poison: its number
   pl_expr* definition;
   int n_definitions;
-  pl_expr *start_q, *start_v;  // of the coordinates, as given
+  pl_expr *start_q, *start_v;      // of the coordinates, as given
+  PL_VEC(pl_number_start) starts;  // in the order in which they were taken
 } pl_recorder;
 
 // record.c, record_turn.c: the steps of a recording
@@ -110,6 +111,10 @@ pleuel_status pl_record_target(pl_recorder* r, pl_expr target, pl_start_value* o
 pl_expr pl_record_with_elements(pl_recorder* r, pl_expr e, const pl_coordinate* q);
 // of a coordinate atom, -1
 int pl_record_global(pl_recorder* r, pl_expr atom);
+
+// record_numbers.c: numbers that may change later.
+void pl_numbers_take_start(pl_recorder* r, const pl_start_value* s, const pl_coordinate* q);
+void pl_numbers_make(pl_recorder* r);
 
 // record_variation.c: the motion and its derivatives by parameters and start values.
 pleuel_status pl_variation_begin(pl_recorder* r, const char* list);

@@ -646,6 +646,7 @@ static bool take_start(pl_recorder* r, const pl_start_value* s, pl_coordinate* q
     if ((int)name.id < r->n_value) r->value[name.id] = x;
   }
   pl_wider_start(r, s, value);
+  pl_numbers_take_start(r, s, q);
   return true;
 }
 
@@ -760,6 +761,11 @@ static void list_values(pl_recorder* r) {
   pl_record_rub_symbols(r);
   r->value = pl_model_values(r->model, r->arena);
   r->n_value = pl_symbol_count(r->pool) + 1;
+  // nobody has said anything yet
+  for (int i = 0; i < r->model->params.n; i++) {
+    const pl_param* p = &r->model->params.at[i];
+    if (p->input && isnan(r->value[p->symbol.id])) r->value[p->symbol.id] = 0;
+  }
   read_times(r);
   pl_wider_begin(r);
 }
@@ -804,6 +810,7 @@ pleuel_status pl_record(pl_job* job, pl_model* model, const char* sensitivities,
   else if (!exact) record_turned(&r);
   PL_TRY(pl_wider_setup(&r));
   r.out->exact = exact;
+  pl_numbers_make(&r);
   *out = r.out;
   return PLEUEL_OK;
 }

@@ -115,6 +115,9 @@ extern const int pl_function_arity[PL_N_FUNCTIONS];
 
 pl_pool* pl_pool_make(pl_arena* a);
 pl_arena* pl_pool_arena(const pl_pool* p);
+// The pool as it is now, for pl_eval in another thread while nodes are added to p.  Its scratch is
+// its own; no nodes may be made in it.
+const pl_pool* pl_pool_view(pl_arena* a, const pl_pool* p);
 
 // Symbols.  pl_symbol_make returns the existing symbol when `ascii` is taken.
 pl_symbol pl_symbol_make(pl_pool* p, const pl_symbol_info* info);

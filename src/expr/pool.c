@@ -209,6 +209,16 @@ pl_pool* pl_pool_make(pl_arena* a) {
 
 pl_arena* pl_pool_arena(const pl_pool* p) { return p->arena; }
 
+// Nodes never move and arrays that grow leave the old ones as they were, so the old pointers hold.
+const pl_pool* pl_pool_view(pl_arena* a, const pl_pool* p) {
+  pl_pool* view = PL_NEW(a, pl_pool);
+  *view = *p;
+  view->arena = a;
+  view->scratch = PL_NEW(a, struct pl_scratch);
+  view->arg_left = 0;
+  return view;
+}
+
 // ------------------------------------------------------------------------------------------- walks
 static uint32_t walk_slot(const pl_walk* w, const uint32_t* table, uint32_t cap, pl_expr e) {
   uint32_t i = (e.id * 0x9e3779b1u) & (cap - 1);

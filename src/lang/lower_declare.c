@@ -436,12 +436,15 @@ void pl_lower_statement(pl_lower* l, const pl_ast* s) {
     case TOK_INPUT:
       pl_lower_pending(
           l, PL_N091, "input", pl_ast_span(s),
-          "inputs are for export; here they count as given quantities without a value",
-          "Eingänge sind für den Export; hier gelten sie als gegebene Größen ohne Wert");
+          "inputs are given quantities in formulas and 0 in a motion; a program gives them values "
+          "(pleuel.h)",
+          "Eingänge sind in Formeln gegebene Größen und in einer Bewegung 0; Werte gibt ihnen ein "
+          "Programm (pleuel.h)");
       for (int i = 0; i < list->kids.n; i++) {
         pl_entity* e = pl_scope_find(l, declared_name(list->kids.at[i])->key);
         if (e && e->definition == list->kids.at[i])
-          pl_push(l->arena, l->m->params, (pl_param){.symbol = e->symbol, .span = e->span});
+          pl_push(l->arena, l->m->params,
+                  (pl_param){.symbol = e->symbol, .input = true, .span = e->span});
       }
       break;
     default: break;

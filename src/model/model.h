@@ -23,6 +23,7 @@ typedef struct pl_param {
   bool has_unit;          // a unit was written
   const char* unit_text;  // as written, "m/s^2"; NULL
   bool literal;           // no name: a number with its unit that stands in a formula
+  bool input;             // an `input`: given from outside while the motion goes on
   pl_span span;
 } pl_param;
 
@@ -452,6 +453,10 @@ double* pl_model_values(const pl_model* m, pl_arena* a);
 // What is written behind the names of parameters and kept abbreviations, by symbol id; poison where
 // nothing is.
 pl_expr* pl_model_definitions(const pl_model* m, pl_arena* a);
+
+// Names whose numbers decide how large the system is: bounds of families and sums, indices; and what
+// those are defined by.  By symbol id.                                     (pl_symbol_count + 1)
+bool* pl_model_sizes(pl_model* m, pl_arena* a);
 
 // Instances of a block: the values of its indices, outer first.      n tuples of depth numbers
 typedef struct pl_instances {
