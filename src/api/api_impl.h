@@ -4,7 +4,7 @@
 
 #include "api/embedded.h"
 #include "assembly/assembly.h"
-#include "derive/derive.h"
+#include "worked/worked.h"
 #include "lang/lang.h"
 #include "model/model.h"
 #include "export/export.h"

@@ -5,7 +5,7 @@
 #ifndef PL_REPORT_H
 #define PL_REPORT_H
 
-#include "derive/derive.h"
+#include "worked/worked.h"
 #include "scene/scene.h"
 #include "result/result.h"
 

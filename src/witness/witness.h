@@ -1,13 +1,13 @@
 // witness: what a derivation states, held against the motion that the simulation makes of the same
 // text.
 //
-// The derivation is certified against the model as it understood it (derive/claims.c). Here the
+// The derivation is certified against the model as it understood it (worked/claims.c). Here the
 // model is read on another way: raw constraints at index 3, contacts by their sign. What disagrees
 // is withdrawn: a sentence stands in its place.
 #ifndef PL_WITNESS_H
 #define PL_WITNESS_H
 
-#include "derive/derive.h"
+#include "worked/worked.h"
 #include "witness/trace.h"
 
 // pl_witness_hold tests the answers of a solution. Adds the check "formulas against the motion" and

@@ -1,0 +1,652 @@
+// answer_equilibria: positions of rest, when they exist, whether they are stable, and the small
+// oscillations about them.
+//   f_i(q) = 0 with f the equations of the second kind at rest; K = df/dq, M = d2T/dv2; det(K - ω²
+//   M) = 0.
+// See theory, section 7.
+#include <math.h>
+#include <string.h>
+
+#include "worked/equilibria_impl.h"
+
+// ----------------------------------------------------------------------------------------- display
+bool pl_is_angle(pl_analysis* d, int i) {
+  const pl_symbol_info* s = pl_symbol_get(d->pool, d->q.at[i].q);
+  bool plain = !s->dimension_known || pl_dimension_equal(s->dimension, pl_dimension_one());
+  if (!plain || !pl_places_repeat(d, d->q.at[i].q)) return false;
+  pl_expr c = pl_call(d->pool, PL_COS, pl_sym(d->pool, d->q.at[i].q)),
+          s2 = pl_call(d->pool, PL_SIN, pl_sym(d->pool, d->q.at[i].q));
+  pl_expr mark = pl_int(d->pool, 7);
+  pl_expr probe = pl_add(d->pool, d->Tg, d->Vg);
+  for (int k = 0; k < d->g.n; k++) probe = pl_add(d->pool, probe, d->g.at[k].g);
+  return !pl_same(pl_subst_expr(d->pool, probe, c, mark), probe)
+         || !pl_same(pl_subst_expr(d->pool, probe, s2, mark), probe);
+}
+
+// No equation contains a coordinate: every position is one of rest.
+static const pl_form* all_free(pl_analysis* d) {
+  pl_text words[2] = {pl_text_make(d->arena), pl_text_make(d->arena)};
+  for (int k = 0; k < d->gen.n; k++) {
+    const char* name = pl_symbol_get(d->pool, d->q.at[d->gen.at[k]].q)->name;
+    pl_text_addf(&words[0], "%s%s", k ? ", " : "any ", name);
+    pl_text_addf(&words[1], "%s%s", k ? ", " : "jedes ", name);
+  }
+  return pl_form_words(d->arena, pl_text_string(&words[0]), pl_text_string(&words[1]));
+}
+
+static const pl_form* in_degrees(pl_analysis* d, double x) {
+  pl_notation how = {.math = PL_MATH_LINE, .lang = d->job->lang};
+  return pl_fn(d, pl_format(d->arena, "%s°", pl_notation_number(d->arena, x * 180 / M_PI, 6, how)));
+}
+
+static const pl_form* value_form(pl_analysis* d, int i, pl_expr value) {
+  const pl_form* form = pl_f(d, value, PL_S_PLAIN);
+  double x = pl_number(d, value);
+  return pl_is_angle(d, i) && !isnan(x) && x != 0 ? pl_feq(d, form, in_degrees(d, x)) : form;
+}
+
+static const pl_form* with_unit(pl_analysis* d, const char* number, const char* unit) {
+  if (!*unit || strcmp(unit, "1") == 0) return pl_fn(d, number);
+  const pl_form* part[2] = {pl_fn(d, number), pl_form_words(d->arena, unit, unit)};
+  return pl_form_product(d->arena, part, 2);
+}
+
+// A place found in numbers: θ ≈ 2.5957 = 148.723°, or what is exact about it.
+static const pl_form* number_form(pl_analysis* d, int i, pl_expr value) {
+  double x = pl_number(d, value);
+  if (isnan(x)) return pl_feq(d, pl_fs(d, d->q.at[i].q), value_form(d, i, value));
+  pl_notation how = {.math = PL_MATH_LINE, .lang = d->job->lang};
+  bool known;
+  pl_dimension dim = pl_dimension_of_expr(d, pl_sym(d->pool, d->q.at[i].q), &known);
+  const char *number = pl_notation_number(d->arena, x, 6, how),
+             *unit = known ? pl_dimension_unit(d->arena, dim, false) : "";
+  const pl_form* about = with_unit(d, number, unit);
+  if (pl_is_angle(d, i) && x != 0) about = pl_feq(d, about, in_degrees(d, x));
+  return pl_frel(d, pl_fs(d, d->q.at[i].q), "≈", about);
+}
+
+const pl_form* pl_rest_form(pl_analysis* d, const pl_rest* r) {
+  const pl_form* f[pl_max_gen];
+  int n = 0;
+  for (int k = 0; k < d->gen.n; k++) {
+    int i = d->gen.at[k];
+    if (pl_is_poison(r->q[k])) continue;
+    f[n++] = r->numeric && !r->exact[k]
+                 ? number_form(d, i, r->q[k])
+                 : pl_feq(d, pl_fs(d, d->q.at[i].q), value_form(d, i, r->q[k]));
+  }
+  if (n == 0) return all_free(d);
+  return n == 1 ? f[0] : pl_flist(d, f, n);
+}
+
+static const char* german_stability(const char* s) {
+  return strcmp(s, "stable") == 0     ? "stabil"
+         : strcmp(s, "unstable") == 0 ? "instabil"
+                                      : "indifferent";
+}
+
+// ω² of a place that is known in numbers only.
+const pl_form* pl_square_form(pl_analysis* d, pl_expr w2, bool numeric) {
+  if (!numeric) return pl_feq(d, pl_fs(d, pl_omega_squared(d)), pl_f(d, w2, PL_S_QUOTIENT));
+  pl_notation how = {.math = PL_MATH_LINE, .lang = d->job->lang};
+  const char* number = pl_notation_number(d->arena, pl_number(d, w2), 6, how);
+  return pl_frel(d, pl_fs(d, pl_omega_squared(d)), "≈", with_unit(d, number, "1/s²"));
+}
+
+static void show_oscillations(pl_analysis* d, const pl_linearised* l, const char* at,
+                              bool numeric) {
+  pl_root root[8];
+  bool complete;
+  int n = pl_small_oscillations(d, l, root, 8, &complete);
+  if (n > 0 && !l->gyroscopic && !numeric) pl_why_oscillations(d, l->M, l->K, l->n);
+  for (int k = 0; k < n; k++) {
+    double x = pl_number(d, root[k].value);
+    if (numeric && isnan(x)) continue;
+    const pl_form* form = numeric ? NULL : pl_f(d, root[k].value, PL_S_QUOTIENT);
+    pl_step* s = pl_show_numbered(d, pl_square_form(d, root[k].value, numeric));
+    for (int r = 0; r < d->lagrange2_numbers.n; r++) pl_step_refs(s, 1, d->lagrange2_numbers.at[r]);
+    bool zero = pl_vanishes(d, root[k].value);
+    pl_step_after(s, zero ? "zero mode: it drifts" : "small oscillations",
+                  zero ? "Nullmode: Drift" : "kleine Schwingungen");
+    if (x > 0) {
+      s->has_value = true;
+      s->value = sqrt(x);
+      s->unit = "1/s";
+      s->value_name = strncmp(pl_symbol_get(d->pool, pl_omega_squared(d))->name, "Ω", 2) == 0 ? "Ω"
+                                                                                              : "ω";
+    }
+    pl_value* v = pl_answer(d, "omega^2", root[k].value, form);
+    v->of = pl_format(d->arena, "mode %d", k + 1);
+    v->at = at;
+  }
+}
+
+// A one-sided constraint that would have to pull: the position is none of rest.
+const pl_bond* pl_rest_pulls(pl_analysis* d, const pl_rest* r) {
+  for (int k = 0; k < d->g.n; k++) {
+    const pl_bond* l = &d->g.at[k];
+    if (!l->contact || !l->lambda_known || l->implied) continue;
+    pl_expr lambda = pl_insert_rest(d, pl_at_rest(d, l->lambda_value), r);
+    bool push_is_positive = (l->source->relation == PL_GE) != d->model->lambda_minus;
+    int sign = pl_sign_at_numbers(d, pl_alg_normal(d->tower, lambda));
+    if (sign != 0 && (sign > 0) != push_is_positive) return l;
+  }
+  return NULL;
+}
+
+static void say_pulls(pl_analysis* d, const pl_bond* l, const pl_rest* r) {
+  pl_say(d, "{1} is none: {2} is one-sided and would have to act the other way.",
+         "{1} ist keine: {2} ist einseitig und müsste andersherum wirken.", 2, pl_rest_form(d, r),
+         pl_fn(d, l->source->name.text));
+}
+
+static void say_singular(pl_analysis* d, const pl_rests* found) {
+  const pl_rest* r = &found->singular;
+  if (found->n_singular == 0 || !pl_rest_exists_at_numbers(d, r)) return;
+  const char* text;
+  const pl_form* real = pl_conditions_form(d, r->condition, r->n_conditions, false, &text);
+  pl_say(
+      d,
+      real ? "At positions like {1} (if {2}) the generalized forces vanish too, but these "
+             "coordinates fail there (the mass matrix or a constraint is singular); other "
+             "coordinates decide."
+           : "At positions like {1} the generalized forces vanish too, but these coordinates fail "
+             "there (the mass matrix or a constraint is singular); other "
+             "coordinates decide.",
+      real ? "Auch bei Lagen wie {1} (wenn {2}) verschwinden die verallgemeinerten Kräfte, aber "
+             "diese Koordinaten versagen dort (die Massenmatrix oder eine "
+             "Zwangsbedingung ist singulär); andere Koordinaten entscheiden."
+           : "Auch bei Lagen wie {1} verschwinden die verallgemeinerten Kräfte, aber diese "
+             "Koordinaten versagen dort (die Massenmatrix oder eine Zwangsbedingung ist singulär); "
+             "andere Koordinaten entscheiden.",
+      real ? 2 : 1, pl_rest_form(d, r), real);
+}
+
+void pl_say_velocity_terms(pl_analysis* d, const pl_linearised* l) {
+  if (l->damped) {
+    pl_say(d, "The motion is damped; ω² is that of the system without damping.",
+           "Die Bewegung ist gedämpft; ω² ist das ohne Dämpfung.", 0);
+  }
+}
+
+// ------------------------------------------------------------------------------------ one position
+bool pl_rest_exists_at_numbers(pl_analysis* d, const pl_rest* r) {
+  // a condition met with equality, 1 - cos²(0) >= 0, may be missed by that
+  static const double rounding = 1e-12;
+  for (int k = 0; k < r->n_conditions; k++) {
+    if (pl_number(d, r->condition[k]) < -rounding) return false;
+  }
+  return true;
+}
+
+static void say_doubt(pl_analysis* d, pl_doubt doubt) {
+  static const char* const words[][2] = {
+      [PL_DOUBT_GYROSCOPIC] = {"No minimum of the potential is proven here; the gyroscopic terms "
+                               "decide with the signs of ω².",
+                               "Ein Minimum des Potentials ist hier nicht bewiesen; die "
+                               "gyroskopischen Terme entscheiden mit den Vorzeichen von ω²."},
+      [PL_DOUBT_CIRCULATORY] = {"Forces without potential depend on the position: the potential "
+                                "does not decide on stability, the ω² do.",
+                                "Kräfte ohne Potential hängen vom Ort ab: über die Stabilität "
+                                "entscheidet nicht das Potential, sondern die ω²."},
+      [PL_DOUBT_DRIVEN] =
+          {"The forces around it change with time: a potential does not decide on stability.",
+           "Die Kräfte in der Umgebung ändern sich mit der Zeit: über die Stabilität entscheidet "
+           "kein Potential."},
+      [PL_DOUBT_DAMPING] = {"A force along the velocity may feed energy in: the potential alone "
+                            "does not decide on stability.",
+                            "Eine Kraft längs der Geschwindigkeit kann Energie zuführen: das "
+                            "Potential allein entscheidet nicht über die Stabilität."},
+      [PL_DOUBT_INERTIA] =
+          {"The kinetic energy is not positive here: the potential does not decide on stability.",
+           "Die kinetische Energie ist hier nicht positiv: das Potential entscheidet nicht über "
+           "die Stabilität."},
+      [PL_DOUBT_DEGENERATE] =
+          {"The linear terms of the force do not decide on stability.",
+           "Die linearen Terme der Kraft entscheiden nicht über die Stabilität."},
+  };
+  if (doubt != PL_DOUBT_NONE) pl_say(d, words[doubt][0], words[doubt][1], 0);
+}
+
+static void say_existence(pl_analysis* d, const pl_rest* r, pl_value* v) {
+  const pl_form* form = pl_conditions_form(d, r->condition, r->n_conditions, false, &v->exists_if);
+  if (!form) {
+    v->exists_if = NULL;
+    return;
+  }
+  if (pl_rest_exists_at_numbers(d, r)) pl_say(d, "exists if {1}", "besteht, wenn {1}", 1, form);
+  else
+    pl_say(d, "exists if {1}, not for the given numbers",
+           "besteht, wenn {1}, nicht bei den gegebenen Zahlen", 1, form);
+}
+
+static void say_stability(pl_analysis* d, const pl_verdict* judged, pl_value* v) {
+  if (judged->doubt != PL_DOUBT_NONE) {
+    say_doubt(d, judged->doubt);
+    return;
+  }
+  if (judged->word || judged->n == 0) return;
+  const pl_form* form = pl_conditions_form(d, judged->condition, judged->n, true, &v->stable_if);
+  if (form) pl_say(d, "stable if {1}", "stabil, wenn {1}", 1, form);
+  else v->stable_if = NULL;
+}
+
+static void mark_stability(pl_analysis* d, pl_step* step, const pl_verdict* judged,
+                           const pl_rest* r) {
+  if (judged->word) pl_step_after(step, judged->word, german_stability(judged->word));
+  if (judged->word || !judged->at_numbers) return;
+  if (r->numeric) pl_step_after(step, judged->at_numbers, german_stability(judged->at_numbers));
+  else
+    pl_step_after(
+        step, pl_format(d->arena, "%s for the given numbers", judged->at_numbers),
+        pl_format(d->arena, "%s bei den gegebenen Zahlen", german_stability(judged->at_numbers)));
+}
+
+// Proposed coordinates are not those of the model: the place in these. Returns how many; also where
+// the formulas stand in forms.
+static int in_the_model(pl_analysis* d, const pl_rest* r, pl_component* out, const pl_form** form) {
+  int n = 0;
+  for (int i = 0; d->is_proposal && !r->numeric && i < d->q.n; i++) {
+    const pl_variable* c = &d->q.at[i];
+    if (c->solved_by != -1 || pl_is_poison(c->map) || c->follows) continue;
+    pl_expr place = pl_alg_normal(d->tower, pl_insert_rest(d, c->map, r));
+    const pl_form* shown = pl_f(d, place, PL_S_PLAIN);
+    form[n] = pl_feq(d, pl_fs(d, c->q), shown);
+    out[n++] = (pl_component){pl_symbol_get(d->pool, c->q)->ascii, place, shown,
+                              pl_number(d, place)};
+  }
+  return n;
+}
+
+static void name_components(pl_analysis* d, const pl_rest* r, pl_value* v) {
+  v->components = PL_ARRAY(d->arena, pl_component, d->gen.n + d->q.n);
+  v->free_names = NULL;
+  const char** free_names = PL_ARRAY(d->arena, const char*, d->gen.n);
+  for (int k = 0; k < d->gen.n; k++) {
+    const char* name = pl_symbol_get(d->pool, d->q.at[d->gen.at[k]].q)->ascii;
+    if (pl_is_poison(r->q[k])) {
+      free_names[v->n_free++] = name;
+      continue;
+    }
+    v->components[v->n_components++] = (pl_component){name, r->q[k], pl_f(d, r->q[k], PL_S_PLAIN),
+                                                      pl_number(d, r->q[k])};
+  }
+  v->free_names = free_names;
+  const pl_form** form = PL_ARRAY(d->arena, const pl_form*, d->q.n + 1);
+  int n = in_the_model(d, r, v->components + v->n_components, form);
+  v->n_components += n;
+  if (n > 0) pl_show(d, n == 1 ? form[0] : pl_flist(d, form, n));
+}
+
+// Where the position is there it is unstable: the condition of stability is the opposite of one of
+// existence.
+static void judge_by_existence(pl_analysis* d, const pl_rest* r, pl_verdict* judged) {
+  if (judged->word || judged->doubt != PL_DOUBT_NONE) return;
+  for (int k = 0; k < judged->n; k++) {
+    for (int j = 0; j < r->n_conditions; j++) {
+      if (!pl_conditions_exclude(d, r->condition[j], judged->condition[k])) continue;
+      judged->word = "unstable";
+      return;
+    }
+  }
+}
+
+static void show_rest(pl_analysis* d, const pl_expr* f, const pl_rest* r, int number) {
+  pl_linearised l;
+  pl_verdict judged;
+  pl_linearise(d, f, r, &l);
+  pl_stability(d, f, &l, r, &judged);
+  judge_by_existence(d, r, &judged);
+  bool exists = pl_rest_exists_at_numbers(d, r);
+  pl_step* step = pl_show(d, pl_rest_form(d, r));
+  if (exists) mark_stability(d, step, &judged, r);
+  pl_value v = {.name = pl_format(d->arena, "equilibrium %d", number),
+                .number = (double)NAN,
+                .conserved = -1,
+                .passed = -1,
+                .order = -1,
+                .stability = exists ? judged.at_numbers : judged.word};
+  name_components(d, r, &v);
+  say_existence(d, r, &v);
+  if (!r->numeric) say_stability(d, &judged, &v);
+  pl_push(d->arena, d->section->values, v);
+  const char* here = v.stability;
+  bool oscillates = exists && (!here || strcmp(here, "stable") == 0)
+                    && judged.doubt != PL_DOUBT_DRIVEN;
+  if (oscillates) pl_say_velocity_terms(d, &l);
+  if (oscillates) show_oscillations(d, &l, v.name, r->numeric);
+  for (int k = 0; k < d->gen.n && !r->numeric && exists; k++)
+    pl_claim_free(d, PL_CLAIM_INSERTED, pl_insert_rest(d, f[k], r), pl_int(d->pool, 0));
+}
+
+// Positions of rest are sought in a few generalized coordinates.
+bool pl_rests_out_of_reach(pl_analysis* d) {
+  if (d->reduced && d->gen.n == 0) {
+    pl_say(d, "No coordinate is free: the constraints give the position.",
+           "Keine Koordinate ist frei: die Zwangsbedingungen geben die Lage.", 0);
+    return true;
+  }
+  if (d->reduced && d->gen.n <= pl_max_gen) return false;
+  if (!d->reduced) {
+    pl_say(d,
+           "They are sought in generalized coordinates, and the constraints were not solved for "
+           "such. Name them: choose φ with ...",
+           "Sie werden in verallgemeinerten Koordinaten gesucht, und danach sind die "
+           "Zwangsbedingungen nicht aufgelöst. Man nenne sie: choose φ with ...",
+           0);
+  } else {
+    pl_say(d,
+           pl_format(d->arena,
+                     "They are sought for up to %d generalized coordinates; here there are %d.",
+                     pl_max_gen, d->gen.n),
+           pl_format(
+               d->arena,
+               "Sie werden für höchstens %d verallgemeinerte Koordinaten gesucht; hier sind es %d.",
+               pl_max_gen, d->gen.n),
+           0);
+  }
+  d->section->not_found = true;
+  return true;
+}
+
+// The coordinates of `for` take part again.
+static void end_of_steady(pl_analysis* d) {
+  if (d->steady.n == 0) return;
+  d->steady.n = d->gen.n = 0;
+  pl_collect_generalized(d);
+}
+
+// `for φ' = Ω`: the coordinate is driven at a steady rate and is no freedom then. It must not occur
+// itself.
+static bool turns_steadily(pl_analysis* d, const pl_ask* ask) {
+  for (int k = 0; k < ask->where.n; k++) {
+    const pl_condition* c = &ask->where.at[k];
+    pl_symbol v = pl_kind_of(d->pool, c->left) == PL_SYMBOL ? pl_symbol_of(d->pool, c->left)
+                                                            : (pl_symbol){0};
+    int i = pl_variable_index(d, v), place = -1;
+    for (int j = 0; j < d->gen.n; j++) {
+      if (d->gen.at[j] == i && d->q.at[i].v.id == v.id) place = j;
+    }
+    bool steady = place >= 0 && !pl_has_coordinates(d, c->right)
+                  && !pl_has_symbol(d->pool, c->right, pl_time(d->pool));
+    if (!steady || pl_alg_is_zero(d->tower, pl_diff(d->pool, d->Lg, d->q.at[i].q)) != PL_YES) {
+      pl_say(d,
+             "After `for` the velocity of a cyclic coordinate is given a constant value, as in φ' "
+             "= Ω.",
+             "Nach `for` erhält die Geschwindigkeit einer zyklischen Koordinate einen festen Wert, "
+             "wie in φ' = Ω.",
+             0);
+      end_of_steady(d);
+      d->section->not_found = true;
+      return false;
+    }
+    pl_push(d->arena, d->steady, (pl_replace){v, c->right});
+    for (int j = place + 1; j < d->gen.n; j++) d->gen.at[j - 1] = d->gen.at[j];
+    d->gen.n--;
+  }
+  return true;
+}
+
+static void say_turns(pl_analysis* d) {
+  pl_say(d,
+         "There are others: of an angle one period is listed, and the system as a whole does not "
+         "repeat with it.",
+         "Es gibt weitere: von einem Winkel steht eine Periode da, und das System als Ganzes "
+         "wiederholt sich mit ihr nicht.",
+         0);
+}
+
+// Whether the list is all there is, and how that is known.
+void pl_say_rests_missing(pl_analysis* d, const pl_expr* f, const pl_rests* found) {
+  for (int k = 0; k < d->gen.n && found->n > 0; k++) {
+    if (!pl_rests_recur(d, f, k)) continue;
+    pl_say(d,
+           "The forces repeat with whole periods of {1}, the places do not: beside each of these "
+           "there are others, whole periods further.",
+           "Die Kräfte wiederholen sich mit ganzen Perioden von {1}, die Lagen nicht: zu jeder "
+           "gibt es weitere, ganze Perioden entfernt.",
+           1, pl_fs(d, d->q.at[d->gen.at[k]].q));
+  }
+  const pl_form* zero = pl_form_leaf(d->arena, pl_int(d->pool, 0));
+  if (found->complete && found->by_numbers && found->searched > 0) {
+    const pl_form* inside = pl_fs(d, d->q.at[d->gen.at[found->searched_place]].q);
+    pl_expr digits = pl_int(d->pool, lround(log10(found->searched)));
+    const pl_form* range = pl_form_leaf(d->arena, pl_int(d->pool, 10));
+    if (found->searched > 10)
+      range = pl_form_power(d->arena, range, pl_form_leaf(d->arena, digits));
+    const pl_form* q = pl_form_call(d->arena, PL_ABS, &inside, 1);
+    bool alone = d->gen.n == 1;
+    pl_say(d,
+           alone ? "With {1}, in SI units, there are no others: interval arithmetic proves it for "
+                   "the given numbers."
+                 : "With {1}, in SI units, and up to whole periods of other angles there are no "
+                   "others: interval arithmetic proves it for the given numbers.",
+           alone ? "Mit {1}, in SI-Einheiten, gibt es keine weiteren: das beweist die "
+                   "Intervallarithmetik für die gegebenen Zahlen."
+                 : "Mit {1}, in SI-Einheiten, und bis auf ganze Perioden anderer Winkel gibt es "
+                   "keine weiteren: das beweist die Intervallarithmetik für die "
+                   "gegebenen Zahlen.",
+           1, pl_frel(d, q, "≤", range));
+  } else if (found->complete && found->by_numbers) {
+    pl_say(d,
+           "Up to whole periods there are no others: interval arithmetic proves it for the given "
+           "numbers.",
+           "Bis auf ganze Perioden gibt es keine weiteren: das beweist die Intervallarithmetik für "
+           "die gegebenen Zahlen.",
+           0);
+  }
+  if (found->complete) return;
+  bool side = found->n_sides > 0;
+  if (side)
+    pl_say(d, "Only places with {1} were looked at.", "Gesucht wurde nur unter Lagen mit {1}.", 1,
+           pl_facts_form(d, found->side, found->n_sides));
+  if (found->map_ends) {
+    pl_say(d,
+           "Where a root of the map vanishes these coordinates end, and beyond it the mechanism is "
+           "assembled in another way: there may be others.",
+           "Wo eine Wurzel der Abbildung verschwindet, enden diese Koordinaten, und dahinter ist "
+           "der Mechanismus anders zusammengebaut: es kann weitere geben.",
+           0);
+  }
+  bool told = found->more_turns || side || found->map_ends;
+  if (found->more_turns) say_turns(d);
+  for (int k = 0; k < found->n_open; k++) {
+    const pl_rest* r = &found->open[k];
+    if (r->turns) {
+      if (!told) say_turns(d);
+      told = true;
+      continue;
+    }
+    pl_expr e = pl_alg_normal(
+        d->tower, pl_insert_rest(d, pl_at_rest(d, pl_second_kind(d, d->gen.at[r->open_row])), r));
+    pl_say(d,
+           found->n > 0 ? "There may be others: {1} is not solved in closed form."
+                        : "{1} is not solved in closed form.",
+           found->n > 0 ? "Es kann weitere geben: {1} ist nicht geschlossen lösbar."
+                        : "{1} ist nicht geschlossen lösbar.",
+           1, pl_feq(d, pl_f(d, e, PL_S_EQUATION), zero));
+  }
+  if (found->n_open > 0 || told) return;
+  pl_say(d,
+         found->n > 0 ? "There may be others: not every equation was solved in closed form."
+                      : "None was found in closed form.",
+         found->n > 0 ? "Es kann weitere geben: nicht jede Gleichung war geschlossen lösbar."
+                      : "Geschlossen wurde keine gefunden.",
+         0);
+}
+
+// What is left of the equations at a named place.
+void pl_say_no_rest_named(pl_analysis* d, const pl_ask* ask, const pl_expr* f) {
+  pl_rest r;
+  pl_named_rest(d, ask, f, &r);
+  for (int k = 0; k < d->gen.n; k++) {
+    pl_expr left = pl_alg_normal(d->tower, pl_insert_rest(d, f[k], &r));
+    if (pl_is_zero_node(d->pool, left)) continue;
+    pl_say(d, "{1} is no position of rest: the equation of {2} there leaves {3}, which is not 0.",
+           "{1} ist keine Ruhelage: von der Gleichung für {2} bleibt dort {3}, was nicht 0 ist.", 3,
+           pl_rest_form(d, &r), pl_fs(d, d->q.at[d->gen.at[k]].q), pl_f(d, left, PL_S_PLAIN));
+    break;
+  }
+  d->section->not_found = true;
+}
+
+static void say_none(pl_analysis* d, const pl_expr* f) {
+  bool moves = false;
+  for (int k = 0; k < d->gen.n; k++) moves |= pl_has_symbol(d->pool, f[k], pl_time(d->pool));
+  pl_say(d,
+         moves ? "There is none: the equations contain t, and no position fits at all times."
+               : "There is none.",
+         moves ? "Es gibt keine: die Gleichungen enthalten t, und keine Lage passt zu allen Zeiten."
+               : "Es gibt keine.",
+         0);
+}
+
+// What was shown so far, with the analysis whose coordinates it is in.
+typedef struct pl_shown_rest {
+  pl_analysis* in;
+  pl_rest rest;
+} pl_shown_rest;
+typedef struct pl_shown {
+  PL_VEC(pl_shown_rest) at;
+  int n;  // of these, numbered
+} pl_shown;
+
+static pl_expr component_at(const pl_shown_rest* s, int particle, int component) {
+  pl_expr place = pl_on_maps(s->in, s->in->particle.at[particle].at[component]);
+  return pl_insert_rest(s->in, place, &s->rest);
+}
+
+// All masses are at the same points: r and -r of polar coordinates name one place.
+static bool same_points(const pl_shown_rest* a, const pl_shown_rest* b) {
+  pl_analysis* d = a->in;
+  for (int k = 0; k < d->particle.n; k++) {
+    for (int c = 0; c < d->particle.at[k].n; c++) {
+      pl_expr off = pl_sub(d->pool, component_at(a, k, c), component_at(b, k, c));
+      double number = pl_number(d, off);
+      bool near = fabs(number) < 1e-9 * (1 + fabs(pl_number(d, component_at(a, k, c))));
+      if (!near && pl_alg_is_zero(d->tower, off) != PL_YES) return false;
+    }
+  }
+  return d->particle.n > 0;
+}
+
+static void show_found(pl_analysis* d, const pl_expr* f, const pl_rests* found, pl_shown* shown) {
+  for (int k = 0; k < found->n; k++) {
+    const pl_bond* against = pl_rest_pulls(d, &found->at[k]);
+    if (against) say_pulls(d, against, &found->at[k]);
+    else show_rest(d, f, &found->at[k], ++shown->n);
+    pl_push(d->arena, shown->at, ((pl_shown_rest){d, found->at[k]}));
+  }
+}
+
+static void leave_known(pl_analysis* d, pl_rests* found, const pl_shown* shown) {
+  int n = 0;
+  for (int k = 0; k < found->n; k++) {
+    pl_shown_rest here = {d, found->at[k]};
+    bool known = false;
+    for (int j = 0; j < shown->at.n; j++) known |= same_points(&here, &shown->at.at[j]);
+    if (!known) found->at[n++] = found->at[k];
+  }
+  found->n = n;
+}
+
+// The same search where some signs are the opposite ones.  false: there it was not finished.
+static bool answer_beyond(pl_analysis* d, const pl_ask* ask, const pl_rests* own,
+                          const bool* through, pl_shown* shown) {
+  pl_analysis* base = pl_analysis_beyond(d->base, own->side, own->n_sides, through);
+  pl_analysis* a = base ? pl_serving(base, ask) : NULL;
+  if (!a || !a->reduced || a->gen.n == 0 || a->gen.n > pl_max_gen || a->loops.n > 0) return false;
+  pl_expr f[pl_max_gen];
+  a->section = d->section;
+  pl_at_rest_equations(a, f);
+  pl_rests* found = pl_find_rests(a, f);
+  leave_known(a, found, shown);
+  if (found->n > 0) {
+    pl_say(a, "With {1}:", "Mit {1}:", 1, pl_facts_form(a, found->side, found->n_sides));
+    int from = a->section->values.n;
+    show_found(a, f, found, shown);
+    pl_assume_sides(a, a->section, from);
+  }
+  say_singular(a, found);
+  return found->complete_here && found->n_singular == 0;
+}
+
+// Where |u| has its kink the force may jump: such places are none of these, and they are named.
+static void say_kinks(pl_analysis* d, const pl_rests* own) {
+  const pl_form** at = PL_ARRAY(d->arena, const pl_form*, own->n_sides + 1);
+  for (int k = 0; k < own->n_sides; k++) at[k] = pl_border_form(d, own->side[k].difference);
+  pl_say(d, "Not looked at: places with {1}, where a force may jump.",
+         "Nicht untersucht: Lagen mit {1}, wo eine Kraft springen kann.", 1,
+         pl_flist(d, at, own->n_sides));
+}
+
+static void say_more(pl_analysis* d) {
+  pl_say(d, "There may be others: not every equation was solved in closed form.",
+         "Es kann weitere geben: nicht jede Gleichung war geschlossen lösbar.", 0);
+}
+
+// On all sides of what was taken for granted, or on all but the own one.  false: some could not be
+// searched.
+static bool answer_all_sides(pl_analysis* d, const pl_ask* ask, const pl_rests* own, bool own_too,
+                             pl_shown* shown) {
+  enum { MOST = 3 };
+  if (own->n_sides > MOST || ask->where.n > 0 || !d->base || !d->base->first) return false;
+  bool all = own->complete_here && own->n_singular == 0, through[MOST];
+  for (int mask = own_too ? 0 : 1; mask < 1 << own->n_sides; mask++) {
+    for (int k = 0; k < own->n_sides; k++) through[k] = mask >> k & 1;
+    all &= answer_beyond(d, ask, own, through, shown);
+  }
+  return all;
+}
+
+static void add_kink(pl_analysis* d, pl_expr u, pl_rests* out) {
+  if (!pl_has_role(d->pool, u, PL_R_COORD) || out->n_sides == pl_max_sides) return;
+  for (int k = 0; k < out->n_sides; k++) {
+    pl_expr known = out->side[k].difference;
+    if (pl_same(known, u) || pl_same(known, pl_neg(d->pool, u))) return;
+  }
+  out->side[out->n_sides++] = (pl_fact){u, false};
+}
+
+// |u| and sign u in the equations, where no sign was taken: u.
+static void add_kinks(pl_analysis* d, pl_expr e, pl_rests* out) {
+  bool call = pl_kind_of(d->pool, e) == PL_CALL;
+  bool bends = call
+               && (pl_function_of(d->pool, e) == PL_ABS || pl_function_of(d->pool, e) == PL_SIGN);
+  if (bends) add_kink(d, pl_arg(d->pool, e, 0), out);
+  for (int k = 0; k < pl_n_args(d->pool, e); k++) add_kinks(d, pl_arg(d->pool, e, k), out);
+}
+
+// The sides that split the search, where the equations themselves do not know their sign.
+static bool finds_kinks(pl_analysis* d, const pl_expr* f, pl_rests* out) {
+  *out = (pl_rests){.complete = true, .complete_here = true};
+  for (int k = 0; k < d->gen.n; k++) add_kinks(d, pl_alg_normal(d->tower, f[k]), out);
+  return out->n_sides > 0;
+}
+
+void pl_answer_equilibria(pl_analysis* d, const pl_ask* ask) {
+  pl_section_open(d, ask, "Equilibria", "Gleichgewichtslagen");
+  pl_expr f[pl_max_gen];
+  if (pl_rests_out_of_reach(d)) return;
+  if (ask->where.n > 0 && !turns_steadily(d, ask)) return;
+  pl_at_rest_equations(d, f);
+  pl_shown shown = {.n = 0};
+  pl_rests split, *found = &split;
+  bool kinks = finds_kinks(d, f, &split);
+  if (!kinks) {
+    found = pl_find_rests(d, f);
+    show_found(d, f, found, &shown);
+    say_singular(d, found);
+  }
+  bool sides = found->n_sides > 0;
+  d->section->all_sides = sides && answer_all_sides(d, ask, found, kinks, &shown);
+  bool all = (found->complete && !kinks) || d->section->all_sides;
+  if (shown.at.n == 0 && all && found->n_singular == 0) say_none(d, f);
+  if (d->section->all_sides) say_kinks(d, found);
+  else if (!kinks) pl_say_rests_missing(d, f, found);
+  else if (!all) say_more(d);
+  bool recur = false;  // one period is listed, and that is said
+  for (int k = 0; k < d->gen.n; k++) recur |= pl_rests_recur(d, f, k);
+  d->section->complete = all && found->n_singular == 0 && !recur;
+  if (!all) d->section->not_found = shown.at.n == 0;
+  end_of_steady(d);
+}

@@ -1,0 +1,330 @@
+// steps: writing the worked solution. Sections, sentences, equations, values; short hands for
+// forms.
+#include <math.h>
+#include <string.h>
+#include <time.h>
+
+#include "worked/worked_impl.h"
+
+// ---------------------------------------------------------------------------------------- sections
+static bool same_letter(const char* a, const char* b) {
+  return a && b ? strcmp(a, b) == 0 : a == b;
+}
+
+pl_section* pl_section_open(pl_analysis* d, const pl_ask* ask, const char* en, const char* de) {
+  pl_ask* kept = PL_NEW(d->arena, pl_ask);
+  *kept = *ask;
+  pl_section s = {.letter = ask->letter,
+                  .item = ask->text,
+                  .title = {en, de},
+                  .by = d,
+                  .tower = d->tower,
+                  .model = d->model,
+                  .ask = kept};
+  if (d->solution->sections.n > 0) {
+    const pl_section* last = &d->solution->sections.at[d->solution->sections.n - 1];
+    bool same_title = !en || (last->title[0] && strcmp(last->title[0], en) == 0);
+    s.continues = s.letter && same_letter(last->letter, s.letter) && same_title;
+  }
+  pl_push(d->arena, d->solution->sections, s);
+  d->section = &d->solution->sections.at[d->solution->sections.n - 1];
+  if (ask->kind != PL_ASK_DOF && ask->kind != PL_ASK_CONSTRAINTS) pl_tell_open(d);
+  pl_tell_proposal(d);
+  d->special.n = 0;
+  pl_tell_cases(d);
+  if (pl_speaks_of_loops(ask)) pl_tell_loops(d);
+  return d->section;
+}
+
+static pl_step* add_step(pl_analysis* d, pl_step_kind kind) {
+  pl_push(d->arena, d->section->steps, (pl_step){.kind = kind});
+  return &d->section->steps.at[d->section->steps.n - 1];
+}
+
+void pl_heading(pl_analysis* d, const char* en, const char* de) {
+  pl_step* s = add_step(d, PL_STEP_HEADING);
+  s->words[0] = en;
+  s->words[1] = de;
+}
+
+pl_step* pl_say(pl_analysis* d, const char* en, const char* de, int n, ...) {
+  pl_step* s = add_step(d, PL_STEP_TEXT);
+  s->words[0] = en;
+  s->words[1] = de;
+  const pl_form** inserts = PL_ARRAY(d->arena, const pl_form*, n);
+  va_list ap;
+  va_start(ap, n);
+  for (int i = 0; i < n; i++) inserts[i] = va_arg(ap, const pl_form*);
+  va_end(ap);
+  s->n_inserts = n;
+  s->inserts = inserts;
+  return s;
+}
+
+pl_step* pl_show(pl_analysis* d, const pl_form* formula) {
+  pl_step* s = add_step(d, PL_STEP_EQUATION);
+  s->formula = formula;
+  return s;
+}
+
+pl_step* pl_show_numbered(pl_analysis* d, const pl_form* formula) {
+  pl_step* s = pl_show(d, formula);
+  s->number = ++d->solution->n_equations;
+  return s;
+}
+
+pl_step* pl_row(pl_analysis* d, const char* en, const char* de, const pl_form* formula,
+                const char* margin) {
+  pl_step* s = add_step(d, PL_STEP_ROW);
+  s->words[0] = en;
+  s->words[1] = de;
+  s->formula = formula;
+  s->margin = margin;
+  return s;
+}
+
+void pl_step_after(pl_step* s, const char* en, const char* de) {
+  s->after[0] = en;
+  s->after[1] = de;
+}
+
+void pl_step_refs(pl_step* s, int n, ...) {
+  va_list ap;
+  va_start(ap, n);
+  for (int i = 0; i < n; i++) {
+    int number = va_arg(ap, int);
+    if (number > 0 && s->n_refs < 4) s->refs[s->n_refs++] = number;
+  }
+  va_end(ap);
+}
+
+// The name on the left of an equation.
+static pl_symbol named_by(pl_analysis* d, const pl_form* f) {
+  bool named = f && f->kind == PL_F_RELATION && f->args[0]->kind == PL_F_EXPR
+               && pl_kind_of(d->pool, f->args[0]->expr) == PL_SYMBOL;
+  return named ? pl_symbol_of(d->pool, f->args[0]->expr) : (pl_symbol){0};
+}
+
+void pl_step_value(pl_analysis* d, pl_step* s, pl_expr e, pl_dimension dim) {
+  double x = pl_number(d, e);
+  if (isnan(x) || pl_is_number(d->pool, e)) return;
+  s->has_value = true;
+  s->value = x;
+  s->unit = pl_unit_of_symbol(d->arena, d->pool, named_by(d, s->formula), dim, false);
+}
+
+// -------------------------------------------------------------------------- dimensions of formulas
+static pl_dimension dimension_of(pl_analysis* d, pl_expr e, bool* known);
+
+static pl_dimension dimension_of_product(pl_analysis* d, pl_expr e, bool* known) {
+  pl_dimension dim = pl_dimension_one();
+  for (int i = 0; i < pl_n_args(d->pool, e); i++) {
+    dim = pl_dimension_mul(dim, dimension_of(d, pl_arg(d->pool, e, i), known));
+  }
+  return dim;
+}
+
+static pl_dimension dimension_of(pl_analysis* d, pl_expr e, bool* known) {
+  switch (pl_kind_of(d->pool, e)) {
+    case PL_SYMBOL: {
+      const pl_symbol_info* info = pl_symbol_get(d->pool, pl_symbol_of(d->pool, e));
+      if (!info->dimension_known) *known = false;
+      return info->dimension_known ? info->dimension : pl_dimension_one();
+    }
+    case PL_ADD: {  // of the first term that is not a bare number
+      pl_expr term = pl_arg(d->pool, e, 0);
+      for (int i = 0; i < pl_n_args(d->pool, e) && pl_is_constant(d->pool, term); i++)
+        term = pl_arg(d->pool, e, i);
+      return dimension_of(d, term, known);
+    }
+    case PL_MUL: return dimension_of_product(d, e, known);
+    case PL_POW: {
+      long num, den;
+      if (!pl_is_ratio(d->pool, pl_arg(d->pool, e, 1), &num, &den)) return pl_dimension_one();
+      return pl_dimension_pow(dimension_of(d, pl_arg(d->pool, e, 0), known), (int)num, (int)den);
+    }
+    case PL_CALL: {
+      pl_function f = pl_function_of(d->pool, e);
+      bool keeps = f == PL_ABS || f == PL_MIN || f == PL_MAX;
+      return keeps ? dimension_of(d, pl_arg(d->pool, e, 0), known) : pl_dimension_one();
+    }
+    case PL_IF: {  // of the branch that is not a bare number
+      pl_expr then = pl_arg(d->pool, e, 1);
+      return dimension_of(d, pl_is_constant(d->pool, then) ? pl_arg(d->pool, e, 2) : then, known);
+    }
+    default: return pl_dimension_one();
+  }
+}
+
+pl_dimension pl_dimension_of_expr(pl_analysis* d, pl_expr e, bool* known) {
+  bool all = true;
+  pl_dimension dim = dimension_of(d, e, &all);
+  if (known) *known = all;
+  return dim;
+}
+
+static const char* display_in(pl_analysis* d, double x, const char* unit) {
+  pl_notation how = {.math = PL_MATH_ASCII, .lang = d->job->lang};
+  const char* number = pl_notation_number(d->arena, x, 6, how);
+  return *unit && strcmp(unit, "1") != 0 ? pl_format(d->arena, "%s %s", number, unit) : number;
+}
+
+const char* pl_display(pl_analysis* d, double x, pl_dimension dim, bool angle) {
+  if (isnan(x)) return NULL;
+  pl_notation how = {.math = PL_MATH_ASCII, .lang = d->job->lang};
+  if (angle)
+    return pl_format(d->arena, "%s deg", pl_notation_number(d->arena, x * 180 / M_PI, 6, how));
+  return display_in(d, x, pl_dimension_unit(d->arena, dim, true));
+}
+
+// ------------------------------------------------------------------------------------------ values
+double pl_cpu_ms(void) {
+  struct timespec t;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
+}
+
+static void note_first_form(pl_analysis* d, pl_symbol name) {
+  pl_role role = name.id ? pl_symbol_get(d->pool, name)->role : PL_R_LOCAL;
+  if (d->solution->cpu_ms_first > 0 || (role != PL_R_ACCELERATION && role != PL_R_MULTIPLIER))
+    return;
+  d->solution->cpu_ms_first = pl_cpu_ms() - d->began_ms;
+}
+
+// Other programs get what people see, where that is shorter: a normal form is multiplied out, which
+// costs digits too.
+pl_expr pl_as_shown(pl_analysis* d, pl_expr e, const pl_form* form) {
+  if (!form || pl_is_poison(e)) return e;
+  pl_expr shown = pl_form_value(d->pool, form);
+  if (pl_is_poison(shown) || pl_op_count(d->pool, shown) >= pl_op_count(d->pool, e)) return e;
+  if (pl_has_role(d->pool, shown, PL_R_LOCAL) && !pl_has_role(d->pool, e, PL_R_LOCAL)) return e;
+  return pl_alg_equal(d->tower, shown, e) == PL_YES ? shown : e;
+}
+
+pl_value* pl_answer(pl_analysis* d, const char* name, pl_expr e, const pl_form* form) {
+  pl_value v = {.name = name,
+                .expr = pl_as_shown(d, e, form),
+                .form = form,
+                .number = pl_number(d, e),
+                .conserved = -1,
+                .passed = -1,
+                .order = -1};
+  bool known = true;
+  pl_dimension dim = pl_is_poison(e) ? pl_dimension_one() : pl_dimension_of_expr(d, e, &known);
+  pl_symbol symbol = pl_symbol_find(d->pool, name);  // x1'' = 0 has the unit of x1''
+  note_first_form(d, symbol);
+  if (symbol.id && !pl_is_poison(e) && pl_is_number(d->pool, e)) {
+    dim = pl_symbol_get(d->pool, symbol)->dimension;
+    known = pl_symbol_get(d->pool, symbol)->dimension_known;
+  }
+  if (known) v.unit = pl_unit_of_symbol(d->arena, d->pool, symbol, dim, true);
+  v.display = isnan(v.number) ? NULL
+                              : display_in(d, v.number,
+                                           pl_unit_of_symbol(d->arena, d->pool, symbol, dim, true));
+  pl_push(d->arena, d->section->values, v);
+  pl_say_pole(d, e);
+  return &d->section->values.at[d->section->values.n - 1];
+}
+
+// ------------------------------------------------------------------------------------------- forms
+// for each quantity, unless the caller says otherwise; counted in work, see pl_present
+static const double presentation_s = 0.02;
+
+const pl_form* pl_f(pl_analysis* d, pl_expr e, pl_style style) {
+  return pl_present(d->tower, e, style,
+                    d->options->seconds > 0 ? d->options->seconds : presentation_s);
+}
+const pl_form* pl_fs(pl_analysis* d, pl_symbol s) {
+  return pl_form_leaf(d->arena, pl_sym(d->pool, s));
+}
+const pl_form* pl_fe(pl_analysis* d, pl_expr e) { return pl_form_of(d->arena, d->pool, e); }
+const pl_form* pl_fn(pl_analysis* d, const char* name) {
+  return pl_form_name(d->arena, name, pl_poison());
+}
+const char* pl_letter(pl_analysis* d, const char* letter) {
+  return pl_model_letter(d->model, d->arena, letter);
+}
+const pl_form* pl_fl(pl_analysis* d, const char* letter) { return pl_fn(d, pl_letter(d, letter)); }
+const pl_form* pl_feq(pl_analysis* d, const pl_form* l, const pl_form* r) {
+  return pl_form_relation(d->arena, l, "=", r);
+}
+const pl_form* pl_frel(pl_analysis* d, const pl_form* l, const char* op, const pl_form* r) {
+  return pl_form_relation(d->arena, l, op, r);
+}
+const pl_form* pl_flist(pl_analysis* d, const pl_form* const* f, int n) {
+  return pl_form_make(d->arena, PL_F_LIST, n, f);
+}
+const pl_form* pl_fref(pl_analysis* d, int number) {
+  return pl_fn(d, pl_format(d->arena, "(%d)", number));
+}
+
+// Terms of a plain form, each with the sign it has in left - right.
+static void add_terms(pl_analysis* d, pl_expr e, bool minus, const pl_form** out, int* n) {
+  const pl_form* f = pl_fe(d, e);
+  const pl_form* const* term = f->kind == PL_F_SUM ? f->args : &f;
+  int count = f->kind == PL_F_SUM ? f->n : 1;
+  for (int k = 0; k < count; k++) {
+    bool negative = term[k]->kind == PL_F_NEG;
+    const pl_form* size = negative ? term[k]->args[0] : term[k];
+    out[(*n)++] = negative != minus ? pl_form_neg(d->arena, size) : size;
+  }
+}
+
+const pl_form* pl_difference_form(pl_analysis* d, pl_expr left, pl_expr right) {
+  if (pl_is_zero_node(d->pool, right)) return pl_fe(d, left);
+  int cap = pl_n_args(d->pool, left) + pl_n_args(d->pool, right) + 2, n = 0;
+  const pl_form** term = PL_ARRAY(d->arena, const pl_form*, cap);
+  add_terms(d, left, false, term, &n);
+  add_terms(d, right, true, term, &n);
+  return pl_form_sum(d->arena, term, n);
+}
+
+const pl_form* pl_positive_first(pl_analysis* d, const pl_form* f) {
+  if (f->kind != PL_F_SUM || f->args[0]->kind != PL_F_NEG) return f;
+  const pl_form** term = PL_ARRAY(d->arena, const pl_form*, f->n);
+  int n = 0;
+  for (int k = 0; k < f->n; k++) {
+    if (f->args[k]->kind != PL_F_NEG) term[n++] = f->args[k];
+  }
+  if (n == 0) return f;
+  for (int k = 0; k < f->n; k++) {
+    if (f->args[k]->kind == PL_F_NEG) term[n++] = f->args[k];
+  }
+  return pl_form_sum(d->arena, term, n);
+}
+
+// A potential as it came from the model when that is shorter than what presentation finds: -m1 g x1
+// - m2 g (l - x1).
+const pl_form* pl_potential_form(pl_analysis* d, pl_expr raw, pl_expr normal) {
+  const pl_form *plain = pl_fe(d, raw), *found = pl_f(d, normal, PL_S_ENERGY);
+  return pl_form_ops(plain) < pl_form_ops(found) ? plain : found;
+}
+
+const pl_form* pl_joined_sum(pl_analysis* d, const pl_form* const* part, int n) {
+  int cap = 0, m = 0;
+  for (int k = 0; k < n; k++) cap += part[k]->kind == PL_F_SUM ? part[k]->n : 1;
+  const pl_form** term = PL_ARRAY(d->arena, const pl_form*, cap + 1);
+  for (int k = 0; k < n; k++) {
+    if (part[k]->kind != PL_F_SUM) {
+      bool zero = part[k]->kind == PL_F_EXPR && pl_is_zero_node(d->pool, part[k]->expr);
+      if (!zero) term[m++] = part[k];
+      continue;
+    }
+    for (int j = 0; j < part[k]->n; j++) term[m++] = part[k]->args[j];
+  }
+  if (m == 0) return pl_form_leaf(d->arena, pl_int(d->pool, 0));
+  return m == 1 ? term[0] : pl_form_sum(d->arena, term, m);
+}
+
+// ---------------------------------------------------------------------------- what is not computed
+void pl_answer_pending(pl_analysis* d, const pl_ask* ask) {
+  if (!d->section || d->section->item != ask->text) pl_section_open(d, ask, ask->text, ask->text);
+  pl_say(d, "This version does not compute this request.",
+         "Diese Version berechnet diese Anfrage nicht.", 0);
+  pl_report(
+      d->job->diagnostics, PL_N091, ask->span,
+      pl_format(d->arena, "\"%s\" is understood, but this version does not compute it", ask->text),
+      pl_format(d->arena, "\"%s\" ist verstanden, wird aber von dieser Version nicht berechnet",
+                ask->text));
+  d->section->not_found = true;
+}
