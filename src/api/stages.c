@@ -45,24 +45,24 @@ static bool can_look(pleuel_model* m) {
 
 // ----------------------------------------------------------------------------- from phase to stage
 // How each friction goes on.
-static void list_rubs(pl_arena* a, const pl_trace* t, const pl_trace_phase* p, pl_stage* out) {
+static void list_frictions(pl_arena* a, const pl_trace* t, const pl_trace_phase* p, pl_stage* out) {
   const pl_setup* s = &t->recording->setup;
-  pl_stage_rub* rub = PL_ARRAY(a, pl_stage_rub, s->n_rubs + 1);
-  out->rubs = rub;
-  out->n_rubs = s->n_rubs;
+  pl_stage_rub* friction = PL_ARRAY(a, pl_stage_rub, s->n_frictions + 1);
+  out->rubs = friction;
+  out->n_rubs = s->n_frictions;
   out->rubs_known = true;
-  for (int i = 0; i < s->n_rubs; i++) {
+  for (int i = 0; i < s->n_frictions; i++) {
     const pl_friction_law* law = &t->recording->laws[i];
-    const pl_rub_report* now = &p->rubs[i];
-    rub[i] = (pl_stage_rub){.on = s->rubs[i].name,
-                            .name = s->links[s->rubs[i].row[0]].name,
-                            .slip = law->slip,
-                            .limit = law->limit,
-                            .scale = law->scale,
-                            .sticks = now->mode == PL_RUB_STICKS,
-                            .slips = now->mode == PL_RUB_SLIPS,
-                            .way = now->way,
-                            .press = now->press};
+    const pl_friction_report* now = &p->frictions[i];
+    friction[i] = (pl_stage_rub){.on = s->frictions[i].name,
+                                 .name = s->links[s->frictions[i].row[0]].name,
+                                 .slip = law->slip,
+                                 .limit = law->limit,
+                                 .scale = law->scale,
+                                 .sticks = now->mode == PL_FRICTION_STICKS,
+                                 .slips = now->mode == PL_FRICTION_SLIPS,
+                                 .way = now->way,
+                                 .press = now->press};
     out->rubs_known &= !pl_is_poison(law->slip);
   }
   if (!out->rubs_known) out->n_rubs = 0;
@@ -96,7 +96,7 @@ static pl_stage* stage_of(pl_arena* a, const pl_trace* t, int phase) {
                     .q_name = q_name,
                     .q_unit = q_unit,
                     .q = t->samples.at[p->first].q};
-  list_rubs(a, t, p, out);
+  list_frictions(a, t, p, out);
   out->pulls = phase == 0 ? t->pulls : PL_ARRAY(a, bool, s->n_c + 1);
   return out;
 }

@@ -5,20 +5,20 @@
 #include "assembly/assembly.h"
 
 // Friction on a constraint, as expressions of its group.
-typedef struct pl_rub_source {
+typedef struct pl_friction_source {
   int constraint;  // of the model
   struct pl_group* group;
   int n_rows, first_row;  // links of slip
   int n_coefficients, first_coefficient;
   pl_expr slip[3], limit, scale, along[3], metric[6];
-} pl_rub_source;
+} pl_friction_source;
 
 // Everything that stands in one `for` block, or outside of all: one pattern.
 typedef struct pl_group {
   const pl_block* block;    // NULL: outside
   pl_instances instances;   // of the block; one without indices for the outside
   PL_VEC(int) constraints;  // of the model
-  PL_VEC(int) rubs;         // of the recorder
+  PL_VEC(int) frictions;    // of the recorder
   // coordinates that occur, as written: symbols and elements such as x[i-1]
   PL_VEC(pl_expr) atoms;
   pl_map* atom_at;  // id of an atom -> place + 1
@@ -62,7 +62,7 @@ typedef struct pl_recorder {
   PL_VEC(pl_group*) groups;  // the outside first
   int* first_link;           // global index of the first row of each constraint of the model
   int n_links;               // with the map equations and the rows of slip
-  PL_VEC(pl_rub_source*) rubs;
+  PL_VEC(pl_friction_source*) frictions;
   bool dissipative, explicit_time;
   bool start_settled;       // values of x(0), E(0) are there
   pl_variation* variation;  // NULL: the motion alone
@@ -146,12 +146,12 @@ pleuel_status pl_wider_setup(pl_recorder* r);
 
 // record_friction.c: rows of slip and their coefficients.
 pleuel_status pl_group_friction(pl_recorder* r, pl_group* g);  // before the forces of the group
-pl_expr pl_rub_coefficient(const pl_rub_source* s, int k);
-void pl_record_rubs(pl_recorder* r, pl_link* link);
-void pl_record_rub_symbols(pl_recorder* r);
-pl_symbol pl_rub_symbol(pl_recorder* r, const pl_rub_source* s, int k);
-int pl_rub_row(pl_recorder* r, pl_symbol lambda);
-pl_expr pl_rub_force(pl_recorder* r, const pl_rub_source* s, int j);
+pl_expr pl_record_friction_coefficient(const pl_friction_source* s, int k);
+void pl_record_frictions(pl_recorder* r, pl_link* link);
+void pl_record_friction_symbols(pl_recorder* r);
+pl_symbol pl_record_friction_symbol(pl_recorder* r, const pl_friction_source* s, int k);
+int pl_record_friction_row(pl_recorder* r, pl_symbol lambda);
+pl_expr pl_record_friction_force(pl_recorder* r, const pl_friction_source* s, int j);
 
 // record_observe.c: energies, forces and outputs; events; branches.
 pleuel_status pl_record_observers(pl_recorder* r);

@@ -287,8 +287,8 @@ typedef struct pl_rows_of_group {
 } pl_rows_of_group;
 
 static void list_slip(pl_recorder* r, const pl_group* g, pl_rows_of_group* rows, int k) {
-  for (int i = 0; i < g->rubs.n; i++) {
-    const pl_rub_source* s = r->rubs.at[g->rubs.at[i]];
+  for (int i = 0; i < g->frictions.n; i++) {
+    const pl_friction_source* s = r->frictions.at[g->frictions.at[i]];
     for (int j = 0; j < s->n_rows; j++, k++) {
       rows->constraint[k] = s->slip[j];
       rows->velocity[k] = true;
@@ -304,7 +304,7 @@ static void list_rows(pl_recorder* r, const pl_group* g, pl_rows_of_group* rows)
   *rows = (pl_rows_of_group){.n_declared = g->constraints.n,
                              .n_maps = g->block ? 0 : m->choose.n_maps + count_along(r)};
   rows->n = rows->n_declared + rows->n_maps;
-  for (int i = 0; i < g->rubs.n; i++) rows->n += r->rubs.at[g->rubs.at[i]]->n_rows;
+  for (int i = 0; i < g->frictions.n; i++) rows->n += r->frictions.at[g->frictions.at[i]]->n_rows;
   rows->constraint = PL_ARRAY(r->arena, pl_expr, rows->n + 1);
   rows->lambda = PL_ARRAY(r->arena, pl_expr, rows->n + 1);
   rows->velocity = PL_ARRAY(r->arena, bool, rows->n + 1);
@@ -326,16 +326,16 @@ static void list_rows(pl_recorder* r, const pl_group* g, pl_rows_of_group* rows)
 // Coefficients of friction are outputs of the pattern.
 static void list_coefficients(pl_recorder* r, const pl_group* g, pl_pattern_source* s) {
   int n = 0;
-  for (int i = 0; i < g->rubs.n; i++) n += r->rubs.at[g->rubs.at[i]]->n_coefficients;
+  for (int i = 0; i < g->frictions.n; i++) n += r->frictions.at[g->frictions.at[i]]->n_coefficients;
   pl_expr* output = PL_ARRAY(r->arena, pl_expr, n + 1);
   int* out = PL_ARRAY(r->arena, int, (size_t)g->instances.n*(size_t)n + 1);
   int k = 0;
-  for (int i = 0; i < g->rubs.n; i++) {
-    const pl_rub_source* rub = r->rubs.at[g->rubs.at[i]];
-    for (int j = 0; j < rub->n_coefficients; j++, k++) {
-      output[k] = pl_record_plain(r, pl_rub_coefficient(rub, j));
+  for (int i = 0; i < g->frictions.n; i++) {
+    const pl_friction_source* friction = r->frictions.at[g->frictions.at[i]];
+    for (int j = 0; j < friction->n_coefficients; j++, k++) {
+      output[k] = pl_record_plain(r, pl_record_friction_coefficient(friction, j));
       for (int in = 0; in < g->instances.n; in++)
-        out[in * n + k] = rub->first_coefficient + in * rub->n_coefficients + j;
+        out[in * n + k] = friction->first_coefficient + in * friction->n_coefficients + j;
     }
   }
   s->n_outputs = n;
@@ -580,7 +580,7 @@ static void make_links(pl_recorder* r) {
   pl_link* maps = link + r->out->n_declared;
   find_needs(r, maps);
   along_links(r, maps, maps + r->model->choose.n_maps);
-  pl_record_rubs(r, link);
+  pl_record_frictions(r, link);
   r->out->setup.links = link;
   r->out->setup.n_c = r->n_links;
 }
@@ -758,7 +758,7 @@ static void list_coordinates(pl_recorder* r) {
 }
 
 static void list_values(pl_recorder* r) {
-  pl_record_rub_symbols(r);
+  pl_record_friction_symbols(r);
   r->value = pl_model_values(r->model, r->arena);
   r->n_value = pl_symbol_count(r->pool) + 1;
   // nobody has said anything yet

@@ -9,14 +9,14 @@ static pl_expr unit_normal(pl_pool* p, const pl_touch* t, int j) {
   return pl_div(p, t->force[j], t->size);
 }
 
-static void in_the_plane(pl_recorder* r, const pl_touch* t, pl_rub_source* s) {
+static void in_the_plane(pl_recorder* r, const pl_touch* t, pl_friction_source* s) {
   pl_pool* p = r->pool;
   s->n_rows = 1;
   s->slip[0] = pl_sub(p, pl_mul(p, unit_normal(p, t, 1), t->slip[0]),
                       pl_mul(p, unit_normal(p, t, 0), t->slip[1]));
 }
 
-static void in_space(pl_recorder* r, const pl_touch* t, pl_rub_source* s) {
+static void in_space(pl_recorder* r, const pl_touch* t, pl_friction_source* s) {
   static const int pair[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
   pl_pool* p = r->pool;
   pl_expr n[3], square = pl_int(p, 0), along = pl_int(p, 0);
@@ -56,11 +56,11 @@ static pleuel_status add_source(pl_recorder* r, pl_group* g, int i, const pl_fri
         pl_format(r->arena, "auf %s gibt es keine Richtung, in der etwas gleitet", f->label));
     return PLEUEL_MODEL_ERROR;
   }
-  pl_rub_source* s = PL_NEW(r->arena, pl_rub_source);
-  *s = (pl_rub_source){.constraint = i,
-                       .group = g,
-                       .first_row = r->n_links,
-                       .first_coefficient = r->out->setup.n_coefficients};
+  pl_friction_source* s = PL_NEW(r->arena, pl_friction_source);
+  *s = (pl_friction_source){.constraint = i,
+                            .group = g,
+                            .first_row = r->n_links,
+                            .first_coefficient = r->out->setup.n_coefficients};
   s->scale = pl_mul(p, f->kinetic, t.size);
   s->limit = pl_is_poison(f->sticking) ? s->scale : pl_mul(p, f->sticking, t.size);
   if (t.n == 2) in_the_plane(r, &t, s);
@@ -76,8 +76,8 @@ static pleuel_status add_source(pl_recorder* r, pl_group* g, int i, const pl_fri
   r->out->setup.n_coefficients += s->n_coefficients * g->instances.n;
   r->dissipative = true;
   if (t.placed) tell_place(r, f, &t);
-  pl_push(r->arena, r->rubs, s);
-  pl_push(r->arena, g->rubs, r->rubs.n - 1);
+  pl_push(r->arena, r->frictions, s);
+  pl_push(r->arena, g->frictions, r->frictions.n - 1);
   return PLEUEL_OK;
 }
 
@@ -92,17 +92,17 @@ pleuel_status pl_group_friction(pl_recorder* r, pl_group* g) {
 
 // ------------------------------------------------------------------------------------ coefficients
 // ORDER RUB: limit, scale; in space along[3], metric[6].
-pl_expr pl_rub_coefficient(const pl_rub_source* s, int k) {
+pl_expr pl_record_friction_coefficient(const pl_friction_source* s, int k) {
   if (k < 2) return k == 0 ? s->limit : s->scale;
   return k < 5 ? s->along[k - 2] : s->metric[k - 5];
 }
 
 // ------------------------------------------------------------------------------------------- links
-static void name_row(pl_recorder* r, const pl_rub_source* s, int k, const pl_link* of, int link,
-                     pl_link* out) {
+static void name_row(pl_recorder* r, const pl_friction_source* s, int k, const pl_link* of,
+                     int link, pl_link* out) {
   *out = (pl_link){.name = pl_format(r->arena, "friction %s", of->name),
                    .velocity = true,
-                   .rub = true,
+                   .slip = true,
                    .priority = 2,
                    .off = true,
                    .contact = of->side != 0 ? link : of->contact};
@@ -113,23 +113,23 @@ static void name_row(pl_recorder* r, const pl_rub_source* s, int k, const pl_lin
   (void)k;
 }
 
-void pl_record_rubs(pl_recorder* r, pl_link* link) {
+void pl_record_frictions(pl_recorder* r, pl_link* link) {
   int n = 0, at = 0;
-  for (int i = 0; i < r->rubs.n; i++) n += r->rubs.at[i]->group->instances.n;
-  pl_rub* rub = PL_ARRAY(r->arena, pl_rub, n + 1);
+  for (int i = 0; i < r->frictions.n; i++) n += r->frictions.at[i]->group->instances.n;
+  pl_friction_setup* friction = PL_ARRAY(r->arena, pl_friction_setup, n + 1);
   pl_friction_law* law = PL_ARRAY(r->arena, pl_friction_law, n + 1);
-  for (int i = 0; i < r->rubs.n; i++) {
-    const pl_rub_source* s = r->rubs.at[i];
+  for (int i = 0; i < r->frictions.n; i++) {
+    const pl_friction_source* s = r->frictions.at[i];
     for (int k = 0; k < s->group->instances.n; k++) {
       int first = s->first_coefficient + k * s->n_coefficients;
       bool plain = s->n_rows == 1 && !s->group->block;
       law[at] = plain ? (pl_friction_law){s->slip[0], s->limit, s->scale}
                       : (pl_friction_law){pl_poison(), pl_poison(), pl_poison()};
-      pl_rub* out = &rub[at++];
-      *out = (pl_rub){.link = r->first_link[s->constraint] + k,
-                      .n_rows = s->n_rows,
-                      .limit = first,
-                      .scale = first + 1};
+      pl_friction_setup* out = &friction[at++];
+      *out = (pl_friction_setup){.link = r->first_link[s->constraint] + k,
+                                 .n_rows = s->n_rows,
+                                 .limit = first,
+                                 .scale = first + 1};
       out->name = link[out->link].name;
       for (int j = 0; j < s->n_rows; j++) {
         out->row[j] = s->first_row + k * s->n_rows + j;
@@ -140,14 +140,14 @@ void pl_record_rubs(pl_recorder* r, pl_link* link) {
     }
   }
   r->out->laws = law;
-  r->out->setup.rubs = rub;
-  r->out->setup.n_rubs = n;
+  r->out->setup.frictions = friction;
+  r->out->setup.n_frictions = n;
 }
 
 // -------------------------------------------------------------------------------- columns in space
 // Multipliers of the rows have names before anything has a value, so that the tables of values have
 // room for them.
-void pl_record_rub_symbols(pl_recorder* r) {
+void pl_record_friction_symbols(pl_recorder* r) {
   for (int i = 0; i < r->model->constraints.n && r->model->n_axes == 3; i++) {
     const pl_constraint* c = &r->model->constraints.at[i];
     if (!pl_model_friction(r->model, c)) continue;
@@ -163,26 +163,28 @@ void pl_record_rub_symbols(pl_recorder* r) {
   }
 }
 
-pl_symbol pl_rub_symbol(pl_recorder* r, const pl_rub_source* s, int k) {
+pl_symbol pl_record_friction_symbol(pl_recorder* r, const pl_friction_source* s, int k) {
   const pl_constraint* c = &r->model->constraints.at[s->constraint];
   return pl_symbol_find(
       r->pool, pl_format(r->arena, "rub_%s_%d", c->name.ascii ? c->name.ascii : c->name.text, k));
 }
 
 // Row of a multiplier of slip, -1: it is none.
-int pl_rub_row(pl_recorder* r, pl_symbol lambda) {
-  for (int i = 0; i < r->rubs.n; i++)
-    for (int k = 0; k < r->rubs.at[i]->n_rows; k++)
-      if (pl_rub_symbol(r, r->rubs.at[i], k).id == lambda.id) return r->rubs.at[i]->first_row + k;
+int pl_record_friction_row(pl_recorder* r, pl_symbol lambda) {
+  for (int i = 0; i < r->frictions.n; i++)
+    for (int k = 0; k < r->frictions.at[i]->n_rows; k++)
+      if (pl_record_friction_symbol(r, r->frictions.at[i], k).id == lambda.id)
+        return r->frictions.at[i]->first_row + k;
   return -1;
 }
 
 // Component j of the friction force: the multipliers in the tangent plane.
-pl_expr pl_rub_force(pl_recorder* r, const pl_rub_source* s, int j) {
+pl_expr pl_record_friction_force(pl_recorder* r, const pl_friction_source* s, int j) {
   static const int entry[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
   pl_expr sum = pl_int(r->pool, 0);
   for (int k = 0; k < 3; k++)
     sum = pl_add(r->pool, sum,
-                 pl_mul(r->pool, s->metric[entry[j][k]], pl_sym(r->pool, pl_rub_symbol(r, s, k))));
+                 pl_mul(r->pool, s->metric[entry[j][k]],
+                        pl_sym(r->pool, pl_record_friction_symbol(r, s, k))));
   return sum;
 }

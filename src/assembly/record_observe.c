@@ -109,7 +109,7 @@ static pl_watching* watching_make(pl_recorder* r) {
 // The row of a multiplier: λ_g1 as a symbol, λ_c[3] as an element; -1 if there is none.
 static int link_of_multiplier(pl_recorder* r, pl_expr atom) {
   pl_symbol lambda = pl_symbol_of(r->pool, atom);
-  int slip = pl_rub_row(r, lambda);
+  int slip = pl_record_friction_row(r, lambda);
   if (slip >= 0) return slip;
   long index = 0;
   bool element = pl_kind_of(r->pool, atom) == PL_AT;
@@ -366,14 +366,14 @@ typedef PL_VEC(pl_column) pl_columns;
 
 // Friction in space: the components of its force.
 static pleuel_status watch_friction(pl_recorder* r, pl_watching* w, pl_columns* columns) {
-  for (int i = 0; i < r->rubs.n; i++) {
-    const pl_rub_source* s = r->rubs.at[i];
+  for (int i = 0; i < r->frictions.n; i++) {
+    const pl_friction_source* s = r->frictions.at[i];
     if (s->n_rows != 3 || s->group->block) continue;
     for (int j = 0; j < 3; j++) {
       const char* name = pl_format(r->arena, "friction_%s_%s",
                                    r->model->constraints.at[s->constraint].name.ascii,
                                    r->model->axes[j].ascii);
-      PL_TRY(watch(r, w, pl_rub_force(r, s, j), columns->n, name));
+      PL_TRY(watch(r, w, pl_record_friction_force(r, s, j), columns->n, name));
       pl_push(r->arena, *columns, (pl_column){name, r->model->uses_units ? "N" : ""});
     }
   }

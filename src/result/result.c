@@ -74,7 +74,7 @@ void pl_result_digits(const pl_setup* s, const pl_row* row, void* user,
 static bool has_mode(const pl_setup* s) {
   for (int c = 0; c < s->n_c; c++)
     if (s->links[c].side != 0) return true;
-  return s->n_rubs > 0;
+  return s->n_frictions > 0;
 }
 
 void pl_result_columns(pl_arena* a, const pl_setup* s, const pl_result_column** columns, int* n,

@@ -14,15 +14,15 @@
 // clang-format off
 // not kept of pl_run, follows from setup and options: job setup options n_q n_c order tol_raised
 //   motion observers watched branches has_W mass_of_speed shrink h_plain h_least row_gap n_watch
-//   at_rub kinks n_kinks mode_size grid_count grid_dt
+//   at_friction kinks n_kinks mode_size grid_count grid_dt
 // not kept of pl_run, follows from the point: Q V ready t_series rests
 // not kept of pl_run, follows from how it was started: start_given
 // not kept of pl_run, only when, never what: clock_begin t_begin considered wall_begin
 // not kept of pl_run, lives within a step: impact_taken impact_factor rhs Q_last A_last G_series
 //   W_series rows rank_work priority row_of row_taken taken_kept dep dep_tau dep_norm dep_jpvt
 //   trial_q trial_v end_a end_by_codes arrived save_q save_v save_a save_l save_unique impulse
-//   jump_v jump_q poly root_work hit root touch undecided sunk rub_before impulsive C_series
-//   S_series poly_2 on_before fixed rub_fixed approach second hold_q hold_v first_a decision
+//   jump_v jump_q poly root_work hit root touch undecided sunk friction_before impulsive C_series
+//   S_series poly_2 on_before fixed friction_fixed approach second hold_q hold_v first_a decision
 //   choice_kept n_decisions K_series out_now out_before row_q row_v row_a row_l energy_out mode
 //   mode_before t_grid W_coef branch_value reach factored seen shown shown_before
 // not kept of pl_run, lives within a moment: indeterminate
@@ -33,14 +33,14 @@
 // not kept of pl_stats, made at the end: undetermined
 // not kept of pl_kkt, follows from setup and point: n dense n_values value start row diagonal lu
 //   scale balance work pivot ratio
-// not kept of pl_watch, pl_rub_now, follows from the setup: kind index direction
+// not kept of pl_watch, pl_friction_state, follows from the setup: kind index direction
 // not kept of pl_motion, follows from the mode: code next size orders n_q n_c n_mass n_taken time
 //   ratio rest Q V A L q_floor v_floor g g_size argument r r_size norms length end_q end_v end_a
 //   off energy h pivot pivot_size move vector result matrix identity of_constraint index
 //   inverse_up_to constants scales
 // not kept of pl_motion, of this process: compiled jit tried
 // not kept of pl_radau, follows from setup and options: method n n_q n_c n_C tol tol_stage ready
-//   fits shape rub_of
+//   fits shape friction_of
 // not kept of pl_radau, lives within a step: wide here at coupled coupled_scale coupled_rhs
 //   coupled_work coupled_pivot real real_scale work pair pair_scale pivot sparse sparse_pair Z Q V
 //   A L t F w error_q error_v rhs sc_q sc_v coefficient part watched watched_h bent first_g last_g
@@ -71,7 +71,7 @@ static void keep_dimensions(pl_run* run, pl_keeper* k) {
   pl_keep_section(k, "dimensions");
   int of[] = {run->n_q,           run->n_c,
               run->order,         s->n_out,
-              s->n_rubs,          s->n_turns,
+              s->n_frictions,     s->n_turns,
               s->n_events,        s->n_watched,
               run->n_watch,       run->n_kinks,
               run->kkt.dense,     run->pilot != NULL,
@@ -117,7 +117,7 @@ static void keep_mode(pl_run* run, pl_keeper* k) {
   size_t c = (size_t)run->n_c;
   pl_keep_section(k, "mode");
   bool* of_c[] = {run->on,      run->detached, run->active,       run->taken,
-                  run->unique,  run->several,  run->ever_several, run->rubs,
+                  run->unique,  run->several,  run->ever_several, run->slips,
                   run->near_by, run->met,      run->rebounds,     run->jumped};
   for (size_t i = 0; i < sizeof of_c / sizeof *of_c; i++) pl_keep_bools(k, of_c[i], c);
   for (int i = 0; i < run->n_q; i++) pl_keep_int(k, &run->place_n[i], 0, 1);
@@ -147,11 +147,11 @@ static void keep_contacts(pl_run* run, pl_keeper* k) {
     pl_keep_int(k, &run->watch[i].fresh, 0, run->order);
     pl_keep_int(k, &run->watch[i].side, -1, 1);
   }
-  for (int r = 0; r < run->setup->n_rubs; r++) {
-    pl_rub_now* now = &run->rub[r];
+  for (int r = 0; r < run->setup->n_frictions; r++) {
+    pl_friction_state* now = &run->friction[r];
     int state = (int)now->state;
-    pl_keep_int(k, &state, PL_RUB_OFF, PL_RUB_SLIP);
-    now->state = (pl_rub_state)state;
+    pl_keep_int(k, &state, PL_FRICTION_OFF, PL_FRICTION_SLIP);
+    now->state = (pl_friction_phase)state;
     pl_keep_int(k, &now->way, -1, 1);
     pl_keep_int(k, &now->press, -1, 1);
     pl_keep_bool(k, &now->given);

@@ -26,7 +26,7 @@ void pl_observe(pl_run* run, double t, const double* q, const double* v, const d
 static bool has_modes(const pl_run* run) {
   for (int c = 0; c < run->n_c; c++)
     if (run->setup->links[c].side != 0) return true;
-  return run->setup->n_rubs > 0;
+  return run->setup->n_frictions > 0;
 }
 
 // Adds "word(name)" at out[n]; mode_size holds all of them.  Returns the new length.
@@ -45,10 +45,10 @@ void pl_mode_text(const pl_run* run, char* out) {
     if (link->side != 0 && run->active[c])
       n = add_mode(run, out, n, link->rope ? "taut" : "contact", link->name);
   }
-  for (int r = 0; r < run->setup->n_rubs; r++) {
-    if (run->rub[r].state == PL_RUB_OFF) continue;
-    n = add_mode(run, out, n, run->rub[r].state == PL_RUB_STICK ? "stick" : "slip",
-                 run->setup->rubs[r].name);
+  for (int r = 0; r < run->setup->n_frictions; r++) {
+    if (run->friction[r].state == PL_FRICTION_OFF) continue;
+    n = add_mode(run, out, n, run->friction[r].state == PL_FRICTION_STICK ? "stick" : "slip",
+                 run->setup->frictions[r].name);
   }
   if (n == 0) snprintf(out, run->mode_size, "free");
 }

@@ -187,7 +187,7 @@ static void reserve_state(pl_run* run) {
                      &run->impact_factor};
   bool** flags[] = {&run->on,          &run->detached,    &run->active,       &run->taken,
                     &run->unique,      &run->save_unique, &run->row_taken,    &run->taken_kept,
-                    &run->rubs,        &run->near_by,     &run->rebounds,     &run->on_before,
+                    &run->slips,       &run->near_by,     &run->rebounds,     &run->on_before,
                     &run->jumped,      &run->met,         &run->impact_taken, &run->several,
                     &run->ever_several};
   for (size_t i = 0; i < sizeof of_q / sizeof *of_q; i++) *of_q[i] = PL_ARRAY(a, double, q + 1);
@@ -204,13 +204,13 @@ static void reserve_state(pl_run* run) {
   for (size_t i = 0; i < sizeof of_contacts / sizeof *of_contacts; i++)
     *of_contacts[i] = PL_ARRAY(a, double, c + 1);
   for (size_t i = 0; i < c; i++) run->settled_t[i] = (double)NAN;
-  size_t decisions = c + (size_t)run->setup->n_rubs + 1;
+  size_t decisions = c + (size_t)run->setup->n_frictions + 1;
   run->decision = PL_ARRAY(a, pl_decision, decisions);
   run->choice_kept = PL_ARRAY(a, int, decisions);
   run->fixed = PL_ARRAY(a, unsigned, c + 1);
   run->bounce_t = PL_ARRAY(a, double, 3 * c + 1);
   run->bounces = PL_ARRAY(a, long, c + 1);
-  run->at_rub = PL_ARRAY(a, int, c + 1);
+  run->at_friction = PL_ARRAY(a, int, c + 1);
   run->rhs = PL_ARRAY(a, double, q + c + 1);
   run->place_n = PL_ARRAY(a, int, q + 1);
 }
@@ -242,7 +242,8 @@ static void reserve_rows(pl_run* run) {
   run->root_work = PL_ARRAY(a, double, PL_ROOT_WORK(orders));
   run->mode_size = sizeof "free";
   for (int c = 0; c < s->n_c; c++) run->mode_size += strlen(s->links[c].name) + sizeof " contact()";
-  for (int r = 0; r < s->n_rubs; r++) run->mode_size += strlen(s->rubs[r].name) + sizeof " stick()";
+  for (int r = 0; r < s->n_frictions; r++)
+    run->mode_size += strlen(s->frictions[r].name) + sizeof " stick()";
   run->mode = PL_ARRAY(a, char, run->mode_size);
   run->mode_before = PL_ARRAY(a, char, run->mode_size);
 }
@@ -250,7 +251,7 @@ static void reserve_rows(pl_run* run) {
 static pleuel_status reserve_batches(pl_run* run) {
   const pl_setup* s = run->setup;
   int n_q = s->n_q, n_c = s->n_c;
-  run->motion.lean = s->n_rubs == 0;
+  run->motion.lean = s->n_frictions == 0;
   for (int c = 0; c < n_c; c++) run->motion.lean &= s->links[c].side == 0;
   PL_TRY(pl_batches_make(run->job, &run->motion, s->patterns, s->n_patterns, run->order + 2, n_q,
                          n_c, INT32_MAX));
@@ -282,7 +283,7 @@ static pleuel_status check_rows(pl_run* run) {
 
 static void first_mode(pl_run* run) {
   for (int c = 0; c < run->n_c; c++) {
-    run->detached[c] = run->setup->links[c].off || run->setup->links[c].rub;
+    run->detached[c] = run->setup->links[c].off || run->setup->links[c].slip;
     run->on[c] = !run->detached[c];
   }
 }

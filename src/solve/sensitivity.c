@@ -76,7 +76,7 @@ pl_pilot* pl_pilot_make(pl_job* job, const pl_run* follower, const pl_setup* pla
   pl_arena* a = job->arena;
   pl_pilot* p = PL_NEW(a, pl_pilot);
   const pl_varied* s = p->s = follower->setup->varied;
-  p->room = s->n_c + plain->n_rubs + plain->n_events * (s->n_c + 1) + 4;
+  p->room = s->n_c + plain->n_frictions + plain->n_events * (s->n_c + 1) + 4;
   p->told = PL_ARRAY(a, told, p->room);
   double** of_q[] = {&p->q, &p->v, &p->a, &p->a_rate};
   for (size_t i = 0; i < 4; i++) *of_q[i] = PL_ARRAY(a, double, s->n_q + 1);

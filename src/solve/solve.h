@@ -49,16 +49,16 @@ typedef struct pl_link {
   bool minus;          // its column shows -λ: the sign convention of the model
   double restitution;  // of impacts on it, 0 inelastic
   bool rope;           // one-sided, a distance: it goes slack and taut
-  // a component of a slip velocity (pl_rub), no constraint of its own
-  bool rub;
+  // a component of a slip velocity (pl_friction_setup), no constraint of its own
+  bool slip;
 } pl_link;
 
 // Coulomb friction on a constraint, whose multiplier presses surfaces together. The slip velocity
 // has one component in the plane and three in space (its part in the tangent plane); each is a link
-// with velocity and rub set. While the surfaces stick, those rows are constraints; while they slip,
+// with velocity and friction set. While the surfaces stick, those rows are constraints; while they slip,
 // their multipliers follow from that of the constraint. Coefficients are outputs of the motion
 // patterns.
-typedef struct pl_rub {
+typedef struct pl_friction_setup {
   const char* name;  // of the constraint
   int link;          // whose multiplier presses
   int n_rows;        // 1 or 3
@@ -68,7 +68,7 @@ typedef struct pl_rub {
   int along[3];      // in space: scale times the direction of slip
   // in space: |F|² = sum P_ij m_i m_j of the multipliers; xx yy zz xy xz yz
   int metric[6];
-} pl_rub;
+} pl_friction_setup;
 
 // An output column: sum of the contributions of all observer patterns.
 typedef struct pl_column {
@@ -157,9 +157,9 @@ typedef struct pl_setup {
   int n_watched;  // quantities watched
   int n_watch_patterns;
   const pl_pattern* watch;  // outputs are watched quantities
-  int n_rubs;
-  const pl_rub* rubs;  // (n_rubs)
-  int n_coefficients;  // outputs of the motion patterns
+  int n_frictions;
+  const pl_friction_setup* frictions;  // (n_frictions)
+  int n_coefficients;                  // outputs of the motion patterns
   int n_branches;
   const pl_branch_setup* branches;
   int n_branch_outputs;
@@ -427,12 +427,16 @@ bool pl_run_tol_raised(const pl_run* run);
 bool pl_run_is_active(const pl_run* run, int link);
 // Friction: whether it sticks, slips or is not there, and the signs of slip and pressing
 // multiplier.
-typedef enum pl_rub_mode { PL_RUB_NONE, PL_RUB_STICKS, PL_RUB_SLIPS } pl_rub_mode;
-typedef struct pl_rub_report {
-  pl_rub_mode mode;
+typedef enum pl_friction_mode {
+  PL_FRICTION_NONE,
+  PL_FRICTION_STICKS,
+  PL_FRICTION_SLIPS
+} pl_friction_mode;
+typedef struct pl_friction_report {
+  pl_friction_mode mode;
   int way, press;
-} pl_rub_report;
-pl_rub_report pl_run_rub(const pl_run* run, int rub);
+} pl_friction_report;
+pl_friction_report pl_run_friction(const pl_run* run, int friction);
 // by an event, or off: it is not watched either
 bool pl_run_is_released(const pl_run* run, int link);
 const char* pl_run_mode(const pl_run* run);

@@ -74,15 +74,19 @@ typedef struct pl_kkt {
 } pl_kkt;
 
 // Friction as it is now.
-typedef enum pl_rub_state { PL_RUB_OFF, PL_RUB_STICK, PL_RUB_SLIP } pl_rub_state;
-typedef struct pl_rub_now {
-  pl_rub_state state;
+typedef enum pl_friction_phase {
+  PL_FRICTION_OFF,
+  PL_FRICTION_STICK,
+  PL_FRICTION_SLIP
+} pl_friction_phase;
+typedef struct pl_friction_state {
+  pl_friction_phase state;
   int way;     // plane: sign of the slip velocity
   int press;   // sign of the multiplier that presses
   bool given;  // space: slips along d, because there is no slip velocity yet
   double d[3];
   double small;  // space: slip below this counts as none
-} pl_rub_now;
+} pl_friction_state;
 
 // A decision at a moment of change: whether a contact holds, how a friction goes on.
 typedef enum pl_choice {
@@ -91,9 +95,11 @@ typedef enum pl_choice {
   PL_CHOICE_STICK,
   PL_CHOICE_SLIP  // with way and press: PL_CHOICE_SLIP + (way < 0) + 2 (press < 0)
 } pl_choice;
-enum { PL_RUB_AT_REST = 1 << 8 };  // beside the choices left to a friction: there is no slip now
+enum {
+  PL_FRICTION_AT_REST = 1 << 8
+};  // beside the choices left to a friction: there is no slip now
 typedef struct pl_decision {
-  bool of_rub;
+  bool of_friction;
   int index;         // constraint or friction
   unsigned allowed;  // bits of the choices
   int choice;
@@ -274,10 +280,10 @@ struct pl_run {
   int sunk;        // constraint that the step went through, unseen; -1 none
 
   // contacts and friction
-  pl_rub_now* rub;         // (n_rubs)
-  pl_rub_now* rub_before;  // at the point before a mode change
-  bool* rubs;              // this row of slip gives a force: it slips    (n_c)
-  int* at_rub;             // place of its coupling to the multiplier that presses   (n_c)
+  pl_friction_state* friction;         // (n_frictions)
+  pl_friction_state* friction_before;  // at the point before a mode change
+  bool* slips;                         // this row of slip gives a force: it slips    (n_c)
+  int* at_friction;  // place of its coupling to the multiplier that presses   (n_c)
   int n_slipping;
   bool impulsive;    // the system at work is that of an impact
   double* C_series;  // coefficients: order k at k n_coefficients
@@ -286,16 +292,16 @@ struct pl_run {
   bool* near_by;     // contacts that take part in what happens now    (n_c)
   // of them all that are met, also if they open at once                (n_c)
   bool* met;
-  bool* rebounds;       // of them those that bounce: what goes with them is not in force   (n_c)
-  bool* on_before;      // (n_c)
-  unsigned* fixed;      // choices that an event leaves to a contact, 0: all   (n_c)
-  unsigned* rub_fixed;  // the same for frictions                          (n_rubs)
-  bool* jumped;         // had an impact                                   (n_c)
-  double* approach;     // velocity along g before an impact               (n_c)
+  bool* rebounds;   // of them those that bounce: what goes with them is not in force   (n_c)
+  bool* on_before;  // (n_c)
+  unsigned* fixed;  // choices that an event leaves to a contact, 0: all   (n_c)
+  unsigned* friction_fixed;      // the same for frictions                          (n_frictions)
+  bool* jumped;                  // had an impact                                   (n_c)
+  double* approach;              // velocity along g before an impact               (n_c)
   double *second, *second_size;  // g'' of constraints, derivative of slip   (n_c)
   double *hold_q, *hold_v;       // the point that decisions are tried at           (n_q)
   double* first_a;               // accelerations of the first consistent set       (n_q)
-  pl_decision* decision;         // (n_c + n_rubs)
+  pl_decision* decision;         // (n_c + n_frictions)
   int* choice_kept;
   int n_decisions;
   double* fastest;    // largest approach that a contact has seen        (n_c)

@@ -45,16 +45,16 @@ static void add_sample(pl_tracer* t, const pl_row* row) {
 }
 
 // ------------------------------------------------------------------------------------------ phases
-static bool rub_differs(const pl_rub_report* a, const pl_rub_report* b) {
+static bool friction_differs(const pl_friction_report* a, const pl_friction_report* b) {
   return a->mode != b->mode
-         || (a->mode == PL_RUB_SLIPS && (a->way != b->way || a->press != b->press));
+         || (a->mode == PL_FRICTION_SLIPS && (a->way != b->way || a->press != b->press));
 }
 
 static bool set_differs(const pl_tracer* t) {
   const pl_trace_phase* last = &t->trace->phases.at[t->trace->phases.n - 1];
-  for (int i = 0; i < t->trace->recording->setup.n_rubs; i++) {
-    pl_rub_report now = pl_run_rub(t->run, i);
-    if (rub_differs(&now, &last->rubs[i])) return true;
+  for (int i = 0; i < t->trace->recording->setup.n_frictions; i++) {
+    pl_friction_report now = pl_run_friction(t->run, i);
+    if (friction_differs(&now, &last->frictions[i])) return true;
   }
   for (int c = 0; c < t->trace->recording->setup.n_c; c++) {
     if (pl_run_is_active(t->run, c) != last->active[c]) return true;
@@ -69,10 +69,10 @@ static void open_phase(pl_tracer* t, double at) {
     active[c] = pl_run_is_active(t->run, c);
     released[c] = pl_run_is_released(t->run, c);
   }
-  int n_rubs = t->trace->recording->setup.n_rubs;
-  pl_rub_report* rubs = PL_ARRAY(t->arena, pl_rub_report, n_rubs + 1);
-  for (int i = 0; i < n_rubs; i++) rubs[i] = pl_run_rub(t->run, i);
-  pl_trace_phase phase = {.rubs = rubs,
+  int n_frictions = t->trace->recording->setup.n_frictions;
+  pl_friction_report* frictions = PL_ARRAY(t->arena, pl_friction_report, n_frictions + 1);
+  for (int i = 0; i < n_frictions; i++) frictions[i] = pl_run_friction(t->run, i);
+  pl_trace_phase phase = {.frictions = frictions,
                           .t_begin = at,
                           .t_end = at,
                           .first = t->trace->samples.n,
@@ -269,8 +269,8 @@ bool pl_trace_sticks(const pl_trace* t, const pl_trace_phase* phase, int frictio
   const pl_constraint* on = pl_model_constraint(t->model, t->model->frictions.at[friction].label);
   if (!on) return false;
   int link = pl_trace_link(t, (int)(on - t->model->constraints.at), 0);
-  for (int i = 0; i < s->n_rubs; i++) {
-    if (s->rubs[i].link == link) return phase->active[s->rubs[i].row[0]];
+  for (int i = 0; i < s->n_frictions; i++) {
+    if (s->frictions[i].link == link) return phase->active[s->frictions[i].row[0]];
   }
   return false;
 }

@@ -23,10 +23,10 @@ typedef struct pl_trace_phase {
   int first, n;           // samples
   // rows that hold: contacts that touch, surfaces that stick, what is attached  (n_c)
   const bool* active;
-  const bool* released;       // rows that an event released, or that are off  (n_c)
-  const pl_rub_report* rubs;  // how each friction goes on  (n_rubs)
-  bool same_set;              // rows as in the phase before: only the state jumped
-  pl_event_kind begun_by;     // with the label, NULL for the first phase
+  const bool* released;                 // rows that an event released, or that are off  (n_c)
+  const pl_friction_report* frictions;  // how each friction goes on  (n_frictions)
+  bool same_set;                        // rows as in the phase before: only the state jumped
+  pl_event_kind begun_by;               // with the label, NULL for the first phase
   const char* begun_label;
 } pl_trace_phase;
 

@@ -161,10 +161,12 @@ static pl_agreement compare(const pl_witness* w, pl_statement* s, const pl_witne
 // ---------------------------------------------------------------------------------- along a motion
 // Answers hold for the contacts of the start: samples where other ones hold say nothing of them.
 // Friction goes on the same way: it sticks, or slips to the same side.
-static bool same_rubs(const pl_trace* a, int phase_a, const pl_trace* b, int phase_b) {
-  for (int i = 0; i < a->recording->setup.n_rubs; i++) {
-    const pl_rub_report *x = &a->phases.at[phase_a].rubs[i], *y = &b->phases.at[phase_b].rubs[i];
-    if (x->mode != y->mode || (x->mode == PL_RUB_SLIPS && x->way * x->press != y->way * y->press))
+static bool same_frictions(const pl_trace* a, int phase_a, const pl_trace* b, int phase_b) {
+  for (int i = 0; i < a->recording->setup.n_frictions; i++) {
+    const pl_friction_report *x = &a->phases.at[phase_a].frictions[i],
+                             *y = &b->phases.at[phase_b].frictions[i];
+    if (x->mode != y->mode
+        || (x->mode == PL_FRICTION_SLIPS && x->way * x->press != y->way * y->press))
       return false;
   }
   return true;
@@ -173,7 +175,7 @@ static bool same_rubs(const pl_trace* a, int phase_a, const pl_trace* b, int pha
 static bool same_set(const pl_trace* a, int phase_a, const pl_trace* b, int phase_b) {
   int n = a->recording->setup.n_c;
   if (n != b->recording->setup.n_c) return false;
-  if (!same_rubs(a, phase_a, b, phase_b)) return false;
+  if (!same_frictions(a, phase_a, b, phase_b)) return false;
   return memcmp(a->phases.at[phase_a].active, b->phases.at[phase_b].active,
                 (size_t)n * sizeof(bool))
          == 0;
@@ -181,11 +183,12 @@ static bool same_set(const pl_trace* a, int phase_a, const pl_trace* b, int phas
 
 static bool is_stage(const pl_trace* t, int phase, const pl_stage* stage) {
   for (int i = 0; i < stage->n_rubs; i++) {
-    const pl_stage_rub* rub = &stage->rubs[i];
-    const pl_rub_report* now = &t->phases.at[phase].rubs[i];
-    if (rub->sticks != (now->mode == PL_RUB_STICKS) || rub->slips != (now->mode == PL_RUB_SLIPS))
+    const pl_stage_rub* friction = &stage->rubs[i];
+    const pl_friction_report* now = &t->phases.at[phase].frictions[i];
+    if (friction->sticks != (now->mode == PL_FRICTION_STICKS)
+        || friction->slips != (now->mode == PL_FRICTION_SLIPS))
       return false;
-    if (rub->slips && rub->way * rub->press != now->way * now->press) return false;
+    if (friction->slips && friction->way * friction->press != now->way * now->press) return false;
   }
   const pl_setup* s = &t->recording->setup;
   for (int c = 0; c < s->n_c; c++) {

@@ -47,7 +47,7 @@ void pl_active_update(pl_run* run) {
   const pl_link* link = run->setup->links;
   run->n_active = 0;
   for (int c = 0; c < run->n_c; c++) {
-    run->active[c] = run->on[c] && !link[c].rub && stands(run, &link[c]);
+    run->active[c] = run->on[c] && !link[c].slip && stands(run, &link[c]);
     run->n_active += run->active[c];
   }
   pl_friction_activate(run);

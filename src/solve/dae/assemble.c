@@ -36,7 +36,7 @@ static void add_gradients(pl_run* run, const pl_batch* b, bool slips) {
       int c = b->c[g->row * b->lanes + l];
       // the row of a constraint; the column of its force, and of friction that slips
       if (run->taken[c]) K[b->at_G[e * b->lanes + l]] += x[l];
-      if (run->taken[c] || (slips && run->rubs[c])) K[b->at_Gt[e * b->lanes + l]] += x[l];
+      if (run->taken[c] || (slips && run->slips[c])) K[b->at_Gt[e * b->lanes + l]] += x[l];
     }
   }
 }
@@ -135,7 +135,7 @@ void pl_assemble_speed(pl_run* run, int k, double* speed) {
     for (int e = 0; e < b->pattern->n_G; e++) {
       const pl_pattern_entry* g = &b->pattern->G[e];
       int node = node_of(b, g->root);
-      if (!run->setup->links[b->c[g->row * b->lanes]].rub) continue;
+      if (!run->setup->links[b->c[g->row * b->lanes]].slip) continue;
       const double *x = coefficient(b, node, 0), *v = v_of_slot(b, g->col);
       if (is_constant(b, node)) LANES(b) s[l] = 0;
       else tail(s, x, v, k, b->lanes);
@@ -144,7 +144,7 @@ void pl_assemble_speed(pl_run* run, int k, double* speed) {
     for (int e = 0; e < b->pattern->n_gt; e++) {
       const pl_pattern_entry* g = &b->pattern->gt[e];
       int node = node_of(b, g->root);
-      if (!run->setup->links[b->c[g->row * b->lanes]].rub || (k > 0 && is_constant(b, node)))
+      if (!run->setup->links[b->c[g->row * b->lanes]].slip || (k > 0 && is_constant(b, node)))
         continue;
       const double* x = coefficient(b, node, k);
       LANES(b) speed[b->c[g->row * b->lanes + l]] += x[l];

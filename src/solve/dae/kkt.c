@@ -43,7 +43,7 @@ static void mark_batch(pl_places* p, const pl_run* run, const pl_batch* b) {
 }
 
 static int count_marks(const pl_run* run) {
-  long n = run->kkt.n + 3L * run->setup->n_rubs;
+  long n = run->kkt.n + 3L * run->setup->n_frictions;
   for (int i = 0; i < run->motion.n; i++) {
     const pl_pattern* t = run->motion.at[i].pattern;
     n += (long)run->motion.at[i].n * (2L * t->n_mass + 2L * t->n_G + t->n_W);
@@ -75,9 +75,10 @@ static pleuel_status sparse_structure(pl_run* run) {
   for (int j = 0; j < k->n; j++) p.head[j] = -1;
   for (int j = 0; j < k->n; j++) mark(&p, j, j);
   for (int i = 0; i < run->motion.n; i++) mark_batch(&p, run, &run->motion.at[i]);
-  for (int r = 0; r < run->setup->n_rubs; r++) {
-    const pl_rub* rub = &run->setup->rubs[r];
-    for (int i = 0; i < rub->n_rows; i++) mark(&p, run->n_q + rub->row[i], run->n_q + rub->link);
+  for (int r = 0; r < run->setup->n_frictions; r++) {
+    const pl_friction_setup* friction = &run->setup->frictions[r];
+    for (int i = 0; i < friction->n_rows; i++)
+      mark(&p, run->n_q + friction->row[i], run->n_q + friction->link);
   }
   k->start = PL_ARRAY(a, int, k->n + 1);
   k->row = PL_ARRAY(a, int, most + 1);
@@ -154,10 +155,11 @@ pleuel_status pl_kkt_make(pl_run* run) {
   k->diagonal = PL_ARRAY(a, int, k->n + 1);
   for (int i = 0; i < k->n; i++) k->diagonal[i] = place(k, i, i);
   for (int i = 0; i < run->motion.n; i++) place_batch(run, &run->motion.at[i]);
-  for (int r = 0; r < run->setup->n_rubs; r++) {
-    const pl_rub* rub = &run->setup->rubs[r];
-    for (int i = 0; i < rub->n_rows; i++)
-      run->at_rub[rub->row[i]] = place(k, run->n_q + rub->row[i], run->n_q + rub->link);
+  for (int r = 0; r < run->setup->n_frictions; r++) {
+    const pl_friction_setup* friction = &run->setup->frictions[r];
+    for (int i = 0; i < friction->n_rows; i++)
+      run->at_friction[friction->row[i]] = place(k, run->n_q + friction->row[i],
+                                                 run->n_q + friction->link);
   }
   if (k->dense) {
     k->lu = PL_ARRAY(a, double, k->n_values + 1);
@@ -166,7 +168,7 @@ pleuel_status pl_kkt_make(pl_run* run) {
     k->pivot = PL_ARRAY(a, int, k->n + 1);
     return PLEUEL_OK;
   }
-  if (!run->has_W && run->setup->n_rubs == 0)
+  if (!run->has_W && run->setup->n_frictions == 0)
     k->symmetric = pl_symmetric_make(a, k->n, k->start, k->row, kinds(run));
   // in the largest systems only where it is needed, because it takes as much memory as all the rest
   if (k->symmetric == NULL || k->n <= ANALYSED_AT_ONCE)

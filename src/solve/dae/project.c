@@ -103,5 +103,5 @@ void pl_impulse(pl_run* run, double* v, double factor, double* impulse) {
   solve_correction(run, run->r, false);
   for (int i = 0; i < run->n_q; i++) v[i] += factor * run->rhs[i];
   for (int c = 0; c < run->n_c; c++)
-    impulse[c] = run->taken[c] || run->rubs[c] ? -factor * run->rhs[run->n_q + c] : 0;
+    impulse[c] = run->taken[c] || run->slips[c] ? -factor * run->rhs[run->n_q + c] : 0;
 }

@@ -286,7 +286,7 @@ static void take(pl_run* run, int k) {
     q[l] = TIMES(v[l], s);
   }
   if (run->rests) {
-    for (int c = 0; c < run->n_c; c++) lambda[c] = run->taken[c] || run->rubs[c] ? -y[c] : 0;
+    for (int c = 0; c < run->n_c; c++) lambda[c] = run->taken[c] || run->slips[c] ? -y[c] : 0;
   } else {
     EACH(run->n_c) lambda[l] = -y[l];
   }

@@ -41,22 +41,22 @@ static int press_of(int choice) { return (choice - PL_CHOICE_SLIP) & 2 ? -1 : 1;
 static int slip_choice(int way, int press) { return PL_CHOICE_SLIP + (way < 0) + 2 * (press < 0); }
 static bool is_allowed(const pl_decision* d, int choice) { return d->allowed >> choice & 1; }
 
-static void add(pl_run* run, bool of_rub, int index, unsigned allowed, int choice) {
-  pl_decision d = {of_rub, index, allowed, choice};
+static void add(pl_run* run, bool of_friction, int index, unsigned allowed, int choice) {
+  pl_decision d = {of_friction, index, allowed, choice};
   for (int k = 0; k < 8 && !is_allowed(&d, d.choice); k++) d.choice = (d.choice + 1) % 8;
   run->decision[run->n_decisions++] = d;
 }
 
 // All that a friction may do: in space the direction is found, not chosen.
 static unsigned choices_of(const pl_run* run, int r, int only_way) {
-  const pl_rub* rub = &run->setup->rubs[r];
-  int side = side_of(run, rub->link);
+  const pl_friction_setup* friction = &run->setup->frictions[r];
+  int side = side_of(run, friction->link);
   unsigned all = only_way ? 0 : 1u << PL_CHOICE_STICK;
   for (int press = -1; press <= 1; press += 2) {
     if (side != 0 && press != side) continue;
     for (int way = -1; way <= 1; way += 2) {
-      if (rub->n_rows == 3 && way < 0) continue;
-      if (only_way && rub->n_rows == 1 && way != only_way) continue;
+      if (friction->n_rows == 3 && way < 0) continue;
+      if (only_way && friction->n_rows == 1 && way != only_way) continue;
       all |= 1u << slip_choice(way, press);
     }
   }
@@ -67,13 +67,13 @@ static unsigned choices_of(const pl_run* run, int r, int only_way) {
 static void apply(pl_run* run) {
   for (int i = 0; i < run->n_decisions; i++) {
     const pl_decision* d = &run->decision[i];
-    if (!d->of_rub) {
+    if (!d->of_friction) {
       run->on[d->index] = d->choice == PL_CHOICE_CLOSED;
       continue;
     }
-    pl_rub_now* now = &run->rub[d->index];
-    now->state = d->choice == PL_CHOICE_STICK ? PL_RUB_STICK : PL_RUB_SLIP;
-    if (now->state == PL_RUB_SLIP) {
+    pl_friction_state* now = &run->friction[d->index];
+    now->state = d->choice == PL_CHOICE_STICK ? PL_FRICTION_STICK : PL_FRICTION_SLIP;
+    if (now->state == PL_FRICTION_SLIP) {
       now->way = way_of(d->choice);
       now->press = press_of(d->choice);
     }
@@ -105,27 +105,28 @@ static bool is_wrong_contact(const pl_run* run, const pl_look* l, const pl_decis
   return side * l->rate[c] < -wrong_rate * l->rate_size[c];
 }
 
-static int better_for_rub(const pl_run* run, const pl_look* l, const pl_decision* d) {
+static int better_for_friction(const pl_run* run, const pl_look* l, const pl_decision* d) {
   int r = d->index;
-  const pl_rub* rub = &run->setup->rubs[r];
-  const pl_rub_now* now = &run->rub[r];
-  double press = l->force[rub->link], zero = force_zero(run, l, rub->link);
+  const pl_friction_setup* friction = &run->setup->frictions[r];
+  const pl_friction_state* now = &run->friction[r];
+  double press = l->force[friction->link], zero = force_zero(run, l, friction->link);
   if (d->choice == PL_CHOICE_STICK) {
-    double limit = run->C_series[l->kinetic ? rub->scale : rub->limit] * fabs(press);
+    double limit = run->C_series[l->kinetic ? friction->scale : friction->limit] * fabs(press);
     double F = pl_friction_force(run, r, l->force);
-    if (F <= limit * (1 + over_limit) + force_zero(run, l, rub->row[0])) return d->choice;
+    if (F <= limit * (1 + over_limit) + force_zero(run, l, friction->row[0])) return d->choice;
     // it slips against the force that held it
-    int way = rub->n_rows == 1 && l->force[rub->row[0]] > 0 ? -1 : 1;
+    int way = friction->n_rows == 1 && l->force[friction->row[0]] > 0 ? -1 : 1;
     return slip_choice(way, press < 0 ? -1 : 1);
   }
   if (now->press * press < -zero) return slip_choice(now->way, -now->press);
   if (!is_allowed(d, PL_CHOICE_STICK)) return d->choice;
-  double rate = now->way * l->rate[rub->row[0]], small = wrong_rate * l->rate_size[rub->row[0]];
-  if (rub->n_rows == 3) {
+  double rate = now->way * l->rate[friction->row[0]],
+         small = wrong_rate * l->rate_size[friction->row[0]];
+  if (friction->n_rows == 3) {
     rate = small = 0;
     for (int i = 0; i < 3; i++) {
-      rate += now->d[i] * l->rate[rub->row[i]];
-      small += wrong_rate * l->rate_size[rub->row[i]];
+      rate += now->d[i] * l->rate[friction->row[i]];
+      small += wrong_rate * l->rate_size[friction->row[i]];
     }
   }
   return rate < -small ? PL_CHOICE_STICK : d->choice;
@@ -134,10 +135,10 @@ static int better_for_rub(const pl_run* run, const pl_look* l, const pl_decision
 static pl_fault find_fault(const pl_run* run, const pl_look* l) {
   for (int i = 0; i < run->n_decisions; i++) {
     const pl_decision* d = &run->decision[i];
-    if (!d->of_rub && is_wrong_contact(run, l, d))
+    if (!d->of_friction && is_wrong_contact(run, l, d))
       return (pl_fault){i, d->choice == PL_CHOICE_CLOSED ? PL_CHOICE_OPEN : PL_CHOICE_CLOSED};
-    if (!d->of_rub || !pl_friction_is_used(run, d->index)) continue;
-    int better = better_for_rub(run, l, d);
+    if (!d->of_friction || !pl_friction_is_used(run, d->index)) continue;
+    int better = better_for_friction(run, l, d);
     if (better != d->choice) return (pl_fault){i, better};
   }
   return no_fault;
@@ -148,9 +149,9 @@ static pl_fault find_fault(const pl_run* run, const pl_look* l) {
 // whether d still changes.
 static bool turn_slips(pl_run* run, const double* rate) {
   bool turned = false;
-  for (int r = 0; r < run->setup->n_rubs; r++) {
-    pl_rub_now* now = &run->rub[r];
-    if (now->state != PL_RUB_SLIP || !now->given || !pl_friction_is_used(run, r)) continue;
+  for (int r = 0; r < run->setup->n_frictions; r++) {
+    pl_friction_state* now = &run->friction[r];
+    if (now->state != PL_FRICTION_SLIP || !now->given || !pl_friction_is_used(run, r)) continue;
     double d[3];
     // slip that would at once run against itself is none
     if (pl_friction_speed(run, r, rate, d) == 0
@@ -170,9 +171,9 @@ static void restore_point(pl_run* run) {
 
 // A first guess of the direction of slip in space: along the slip acceleration without friction.
 static void guess_directions(pl_run* run) {
-  for (int r = 0; r < run->setup->n_rubs; r++) {
-    pl_rub_now* now = &run->rub[r];
-    if (now->state == PL_RUB_SLIP && now->given) now->d[0] = now->d[1] = now->d[2] = 0;
+  for (int r = 0; r < run->setup->n_frictions; r++) {
+    pl_friction_state* now = &run->friction[r];
+    if (now->state == PL_FRICTION_SLIP && now->given) now->d[0] = now->d[1] = now->d[2] = 0;
   }
 }
 
@@ -233,7 +234,7 @@ static bool solve_impulses(pl_run* run) {
   if (!isfinite(pl_norm(run->rhs, run->n_q))) return false;
   for (int i = 0; i < run->n_q; i++) run->v[i] += run->rhs[i];
   for (int c = 0; c < run->n_c; c++)
-    run->impulse[c] = run->taken[c] || run->rubs[c] ? -run->rhs[run->n_q + c] : 0;
+    run->impulse[c] = run->taken[c] || run->slips[c] ? -run->rhs[run->n_q + c] : 0;
   pl_batches_load_v(&run->motion, run->v, 0);
   pl_assemble_gdot(run, run->second, run->second_size);
   return true;
@@ -256,9 +257,9 @@ static bool try_impulses(pl_run* run, pl_look* l) {
 // ------------------------------------------------------------------------------- looking for a set
 typedef bool pl_trial(pl_run* run, pl_look* l);
 
-static bool has_used_rub(const pl_run* run) {
+static bool has_used_friction(const pl_run* run) {
   for (int i = 0; i < run->n_decisions; i++)
-    if (run->decision[i].of_rub) return true;
+    if (run->decision[i].of_friction) return true;
   return false;
 }
 
@@ -302,7 +303,8 @@ static bool next_set(pl_run* run) {
 static bool is_idle(const pl_run* run) {
   for (int i = 0; i < run->n_decisions; i++) {
     const pl_decision* d = &run->decision[i];
-    if (d->of_rub && !pl_friction_is_used(run, d->index) && d->choice != __builtin_ctz(d->allowed))
+    if (d->of_friction && !pl_friction_is_used(run, d->index)
+        && d->choice != __builtin_ctz(d->allowed))
       return true;
   }
   return false;
@@ -315,16 +317,17 @@ static void keep_choices(pl_run* run) {
 // More static than kinetic friction leaves a choice of its own, which is made for sticking.
 static bool sticks_harder(const pl_run* run) {
   for (int i = 0; i < run->n_decisions; i++) {
-    if (!run->decision[i].of_rub) continue;
-    const pl_rub* rub = &run->setup->rubs[run->decision[i].index];
-    if (run->C_series[rub->limit] > run->C_series[rub->scale] * (1 + 1e-12)) return true;
+    if (!run->decision[i].of_friction) continue;
+    const pl_friction_setup* friction = &run->setup->frictions[run->decision[i].index];
+    if (run->C_series[friction->limit] > run->C_series[friction->scale] * (1 + 1e-12)) return true;
   }
   return false;
 }
 
 static bool same_contacts(const pl_run* run) {
   for (int i = 0; i < run->n_decisions; i++)
-    if (!run->decision[i].of_rub && run->decision[i].choice != run->choice_kept[i]) return false;
+    if (!run->decision[i].of_friction && run->decision[i].choice != run->choice_kept[i])
+      return false;
   return true;
 }
 
@@ -378,13 +381,13 @@ static pleuel_status paradox(pl_run* run, int found, bool impact) {
 
 // Finds the set.  motion: where a trial leaves accelerations or velocities.
 static pleuel_status decide(pl_run* run, pl_trial* trial, const double* motion, bool impact) {
-  if (has_used_rub(run) && count_sets(run) <= MOST_SETS) {
+  if (has_used_friction(run) && count_sets(run) <= MOST_SETS) {
     int found = try_all(run, trial, motion);
     if (found != 1) return paradox(run, found, impact);
     return PLEUEL_OK;
   }
   if (exchange(run, trial)) return PLEUEL_OK;
-  if (has_used_rub(run)) return paradox(run, 0, impact);
+  if (has_used_friction(run)) return paradox(run, 0, impact);
   if (!run->ready && !impact) return pl_run_undetermined(run);
   return pl_fail(
       run->job, PLEUEL_NUMERICAL,
@@ -407,10 +410,10 @@ static void list_impact(pl_run* run) {
   for (int c = 0; c < run->n_c; c++)
     if (run->near_by[c])
       add(run, false, c, 1u << PL_CHOICE_OPEN | 1u << PL_CHOICE_CLOSED, PL_CHOICE_CLOSED);
-  for (int r = 0; r < run->setup->n_rubs; r++) {
-    int c = run->setup->rubs[r].link;
-    run->rub[r].given = run->setup->rubs[r].n_rows == 3;
-    pl_friction_speed(run, r, run->approach, run->rub[r].d);
+  for (int r = 0; r < run->setup->n_frictions; r++) {
+    int c = run->setup->frictions[r].link;
+    run->friction[r].given = run->setup->frictions[r].n_rows == 3;
+    pl_friction_speed(run, r, run->approach, run->friction[r].d);
     if (run->near_by[c] || run->active[c])
       add(run, true, r, choices_of(run, r, 0), PL_CHOICE_STICK);
   }
@@ -475,7 +478,7 @@ pleuel_status pl_contacts_impact(pl_run* run, bool* any) {
     run->impact_factor[c] = rebound(run, c) != 0 ? run->setup->links[c].restitution : 0;
   }
   // a friction against a driven surface may add energy, and so may a driven wall
-  if (has_used_rub(run) && !moving_walls(run)) PL_TRY(check_gain(run));
+  if (has_used_friction(run) && !moving_walls(run)) PL_TRY(check_gain(run));
   for (int c = 0; c < run->n_c; c++) {
     run->jumped[c] = run->jumped[c] && run->impulse[c] != 0;
     if (!run->near_by[c]) continue;
@@ -495,21 +498,21 @@ static void list_motion(pl_run* run) {
     unsigned all = 1u << PL_CHOICE_OPEN | 1u << PL_CHOICE_CLOSED;
     if (run->near_by[c]) add(run, false, c, run->fixed[c] ? run->fixed[c] : all, PL_CHOICE_CLOSED);
   }
-  for (int r = 0; r < run->setup->n_rubs; r++) {
-    const pl_rub* rub = &run->setup->rubs[r];
-    pl_rub_now* now = &run->rub[r];
-    if (!run->near_by[rub->link] && !run->active[rub->link]) continue;
+  for (int r = 0; r < run->setup->n_frictions; r++) {
+    const pl_friction_setup* friction = &run->setup->frictions[r];
+    pl_friction_state* now = &run->friction[r];
+    if (!run->near_by[friction->link] && !run->active[friction->link]) continue;
     double d[3], speed = pl_friction_speed(run, r, run->r, d);
-    bool slips = speed > no_slip * run->r_size[rub->row[0]];
-    if (rub->n_rows == 3) {
+    bool slips = speed > no_slip * run->r_size[friction->row[0]];
+    if (friction->n_rows == 3) {
       double size = 0;
-      for (int i = 0; i < 3; i++) size = fmax(size, run->r_size[rub->row[i]]);
+      for (int i = 0; i < 3; i++) size = fmax(size, run->r_size[friction->row[i]]);
       slips = speed > fmax(no_slip * size, 2 * now->small);
     }
-    if (run->rub_fixed[r] & PL_RUB_AT_REST) slips = false;
-    now->given = rub->n_rows == 3 && !slips;
-    unsigned all = choices_of(run, r, slips ? (rub->n_rows == 1 && d[0] < 0 ? -1 : 1) : 0);
-    if (all & run->rub_fixed[r]) all &= run->rub_fixed[r];
+    if (run->friction_fixed[r] & PL_FRICTION_AT_REST) slips = false;
+    now->given = friction->n_rows == 3 && !slips;
+    unsigned all = choices_of(run, r, slips ? (friction->n_rows == 1 && d[0] < 0 ? -1 : 1) : 0);
+    if (all & run->friction_fixed[r]) all &= run->friction_fixed[r];
     add(run, true, r, all, PL_CHOICE_STICK);
   }
 }
@@ -519,9 +522,9 @@ static void list_motion(pl_run* run) {
 static pleuel_status nudge(pl_run* run) {
   static const double speck = 1e-12;  // of the largest velocity
   bool any = false;
-  for (int r = 0; r < run->setup->n_rubs; r++) {
-    pl_rub_now* now = &run->rub[r];
-    if (now->state != PL_RUB_SLIP || !now->given) continue;
+  for (int r = 0; r < run->setup->n_frictions; r++) {
+    pl_friction_state* now = &run->friction[r];
+    if (now->state != PL_FRICTION_SLIP || !now->given) continue;
     any = true;
   }
   if (!any) return PLEUEL_OK;
@@ -531,16 +534,16 @@ static pleuel_status nudge(pl_run* run) {
   for (int i = 0; i < run->n_q; i++) run->v[i] += dt * run->A[i];
   pl_point_evaluate(run, run->t, run->q, run->v);
   pl_assemble_gdot(run, run->r, run->r_size);
-  for (int r = 0; r < run->setup->n_rubs; r++) {
-    pl_rub_now* now = &run->rub[r];
-    if (now->state != PL_RUB_SLIP || !now->given) continue;
+  for (int r = 0; r < run->setup->n_frictions; r++) {
+    pl_friction_state* now = &run->friction[r];
+    if (now->state != PL_FRICTION_SLIP || !now->given) continue;
     double d[3];
     double speed = pl_friction_speed(run, r, run->r, d);
     now->given = false;
     if (speed == 0)
       return pl_fail(run->job, PLEUEL_NUMERICAL,
                      "friction on %s begins to slip at t = %.9g s without a direction",
-                     run->setup->rubs[r].name, run->t);
+                     run->setup->frictions[r].name, run->t);
     now->small = 0.1 * speed;
   }
   return pl_modes_enter(run);

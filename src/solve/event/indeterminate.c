@@ -43,7 +43,7 @@ struct pl_indeterminate {
 
 void pl_indeterminate_make(pl_run* run) {
   pl_arena* a = run->job->arena;
-  bool any = run->setup->n_rubs > 0;
+  bool any = run->setup->n_frictions > 0;
   for (int c = 0; c < run->n_c; c++) any |= run->setup->links[c].side != 0;
   if (!any) return;
   pl_indeterminate* s = run->indeterminate = PL_NEW(a, pl_indeterminate);
@@ -70,9 +70,9 @@ static bool no_rate(const pl_run* run, int c) {
 }
 
 static bool rests_on(const pl_run* run, int r) {
-  if (run->rub[r].state == PL_RUB_STICK) return true;
-  for (int i = 0; i < run->setup->rubs[r].n_rows; i++)
-    if (!no_rate(run, run->setup->rubs[r].row[i])) return false;
+  if (run->friction[r].state == PL_FRICTION_STICK) return true;
+  for (int i = 0; i < run->setup->frictions[r].n_rows; i++)
+    if (!no_rate(run, run->setup->frictions[r].row[i])) return false;
   return true;
 }
 
@@ -88,12 +88,14 @@ static void find_multipliers(pl_run* run, pl_indeterminate* s) {
     bool met = link->side != 0 && !link->velocity && run->met[c] && !run->active[c]
                && no_rate(run, c);
     // equations that only define coordinates carry no force of their own
-    if (!link->rub && link->priority == 0 && (run->active[c] || met)) take(s, c);
+    if (!link->slip && link->priority == 0 && (run->active[c] || met)) take(s, c);
   }
-  for (int r = 0; r < run->setup->n_rubs; r++) {
-    const pl_rub* rub = &run->setup->rubs[r];
-    if (s->place[rub->link] < 0 || run->rub[r].state == PL_RUB_OFF || !rests_on(run, r)) continue;
-    for (int i = 0; i < rub->n_rows; i++) take(s, rub->row[i]);
+  for (int r = 0; r < run->setup->n_frictions; r++) {
+    const pl_friction_setup* friction = &run->setup->frictions[r];
+    if (s->place[friction->link] < 0 || run->friction[r].state == PL_FRICTION_OFF
+        || !rests_on(run, r))
+      continue;
+    for (int i = 0; i < friction->n_rows; i++) take(s, friction->row[i]);
   }
 }
 
@@ -122,12 +124,13 @@ static void make_columns(pl_run* run, pl_indeterminate* s) {
   memset(s->B, 0, (size_t)n * (size_t)s->n * sizeof(double));
   for (int k = 0; k < s->n; k++) add_forces(run, s, s->row_of[k], k, 1);
   // friction that slips goes with the force that presses
-  for (int r = 0; r < run->setup->n_rubs; r++) {
-    const pl_rub* rub = &run->setup->rubs[r];
-    if (run->rub[r].state != PL_RUB_SLIP || s->place[rub->link] < 0 || s->place[rub->row[0]] >= 0)
+  for (int r = 0; r < run->setup->n_frictions; r++) {
+    const pl_friction_setup* friction = &run->setup->frictions[r];
+    if (run->friction[r].state != PL_FRICTION_SLIP || s->place[friction->link] < 0
+        || s->place[friction->row[0]] >= 0)
       continue;
-    for (int i = 0; i < rub->n_rows; i++)
-      add_forces(run, s, rub->row[i], s->place[rub->link],
+    for (int i = 0; i < friction->n_rows; i++)
+      add_forces(run, s, friction->row[i], s->place[friction->link],
                  pl_friction_kappa(run, r, i, run->C_series));
   }
   for (int k = 0; k < s->n; k++) {
@@ -151,29 +154,30 @@ static void put(pl_indeterminate* s, double* row, int c, double x) {
 }
 
 static void limit_friction(pl_run* run, pl_indeterminate* s, int r, bool pressed) {
-  const pl_rub* rub = &run->setup->rubs[r];
-  double limit = run->C_series[rub->limit], lambda = run->L[rub->link], most = limit * fabs(lambda);
+  const pl_friction_setup* friction = &run->setup->frictions[r];
+  double limit = run->C_series[friction->limit], lambda = run->L[friction->link],
+         most = limit * fabs(lambda);
   double F = pl_friction_force(run, r, run->L),
-         press = lambda < 0 || (lambda == 0 && run->setup->links[rub->link].side < 0) ? -1 : 1;
-  if (rub->n_rows == 1) {
+         press = lambda < 0 || (lambda == 0 && run->setup->links[friction->link].side < 0) ? -1 : 1;
+  if (friction->n_rows == 1) {
     for (int way = -1; way <= 1; way += 2) {
-      double m = way * run->L[rub->row[0]];
+      double m = way * run->L[friction->row[0]];
       if (pressed && m < most * (1 - at_limit)) continue;
       double* row = new_row(s);
-      put(s, row, rub->link, press * limit);
-      put(s, row, rub->row[0], -way);
+      put(s, row, friction->link, press * limit);
+      put(s, row, friction->row[0], -way);
     }
     return;
   }
   if (!pressed || F < most * (1 - at_limit)) return;
   static const int pair[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
   double* row = new_row(s);
-  put(s, row, rub->link, limit * limit * lambda);
+  put(s, row, friction->link, limit * limit * lambda);
   for (int i = 0; i < 3; i++) {
     double slope = 0;
     for (int j = 0; j < 3; j++)
-      slope += run->C_series[rub->metric[pair[i][j]]] * run->L[rub->row[j]];
-    put(s, row, rub->row[i], -slope);
+      slope += run->C_series[friction->metric[pair[i][j]]] * run->L[friction->row[j]];
+    put(s, row, friction->row[i], -slope);
   }
 }
 
@@ -181,13 +185,13 @@ static void find_limits(pl_run* run, pl_indeterminate* s) {
   s->n_rows = 0;
   for (int k = 0; k < s->n; k++) {
     int c = s->row_of[k], side = run->setup->links[c].side;
-    if (side == 0 || run->setup->links[c].rub) continue;
+    if (side == 0 || run->setup->links[c].slip) continue;
     if (fabs(run->L[c]) <= pl_watch_force_noise(run, c)) put(s, new_row(s), c, side);
   }
-  for (int r = 0; r < run->setup->n_rubs; r++) {
-    const pl_rub* rub = &run->setup->rubs[r];
-    if (s->place[rub->row[0]] < 0) continue;
-    bool pressed = fabs(run->L[rub->link]) > pl_watch_force_noise(run, rub->link);
+  for (int r = 0; r < run->setup->n_frictions; r++) {
+    const pl_friction_setup* friction = &run->setup->frictions[r];
+    if (s->place[friction->row[0]] < 0) continue;
+    bool pressed = fabs(run->L[friction->link]) > pl_watch_force_noise(run, friction->link);
     limit_friction(run, s, r, pressed);
   }
 }
@@ -347,11 +351,11 @@ void pl_indeterminate_mark(pl_run* run) {
   reduce_limits(s, d);
   for (int i = 0; i < s->n; i++) run->several[s->row_of[i]] = may_differ(s, i, d);
   // what slips goes with what presses
-  for (int r = 0; r < run->setup->n_rubs; r++) {
-    const pl_rub* rub = &run->setup->rubs[r];
-    bool tied = run->rub[r].state == PL_RUB_SLIP && s->place[rub->row[0]] < 0;
-    for (int i = 0; i < rub->n_rows && tied; i++)
-      run->several[rub->row[i]] = run->several[rub->link];
+  for (int r = 0; r < run->setup->n_frictions; r++) {
+    const pl_friction_setup* friction = &run->setup->frictions[r];
+    bool tied = run->friction[r].state == PL_FRICTION_SLIP && s->place[friction->row[0]] < 0;
+    for (int i = 0; i < friction->n_rows && tied; i++)
+      run->several[friction->row[i]] = run->several[friction->link];
   }
   for (int c = 0; c < run->n_c; c++) run->unique[c] = run->unique[c] && !run->several[c];
   pl_indeterminate_note(run);

@@ -45,7 +45,7 @@ static pleuel_status count_change(pl_run* run) {
 static void remember(pl_run* run) {
   pl_rows_before(run);
   memcpy(run->on_before, run->on, (size_t)run->n_c * sizeof(bool));
-  for (int r = 0; r < run->setup->n_rubs; r++) run->rub_before[r] = run->rub[r];
+  for (int r = 0; r < run->setup->n_frictions; r++) run->friction_before[r] = run->friction[r];
 }
 
 static bool is_contact(const pl_run* run, int c) {
@@ -110,8 +110,8 @@ static void renew_watches(pl_run* run) {
     if (!run->on[c] && (run->met[c] || run->on_before[c])) set_landing(run, c, zeros_of(run, c));
     if (run->on[c] && !run->on_before[c]) forget(run, PL_WATCH_RELEASE, c);
   }
-  for (int r = 0; r < run->setup->n_rubs; r++) {
-    const pl_rub_now *now = &run->rub[r], *before = &run->rub_before[r];
+  for (int r = 0; r < run->setup->n_frictions; r++) {
+    const pl_friction_state *now = &run->friction[r], *before = &run->friction_before[r];
     if (now->state == before->state && now->way == before->way && now->press == before->press)
       continue;
     for (int k = PL_WATCH_STICK; k <= PL_WATCH_PRESS; k++) forget(run, (pl_watch_kind)k, r);
@@ -174,13 +174,13 @@ static bool drop_tiny_bounces(pl_run* run) {
 static bool any_fixed(pl_run* run) {
   unsigned any = 0;
   for (int c = 0; c < run->n_c; c++) any |= run->fixed[c];
-  for (int r = 0; r < run->setup->n_rubs; r++) any |= run->rub_fixed[r];
+  for (int r = 0; r < run->setup->n_frictions; r++) any |= run->friction_fixed[r];
   return any != 0;
 }
 
 static void clear_fixed(pl_run* run) {
   for (int c = 0; c < run->n_c; c++) run->fixed[c] = 0;
-  for (int r = 0; r < run->setup->n_rubs; r++) run->rub_fixed[r] = 0;
+  for (int r = 0; r < run->setup->n_frictions; r++) run->friction_fixed[r] = 0;
 }
 
 static pleuel_status settle(pl_run* run) {
@@ -216,7 +216,7 @@ static void size_velocities(pl_run* run) {
   for (int i = 0; i < run->n_q; i++) most = fmax(most, pl_free_size(run, i));
   double way = run->q_size < nothing * most * T * T ? most * T * T : run->q_size;
   bool rests = run->v_size <= 1e-12 * sqrt(most * way);
-  if (run->setup->n_rubs == 0 && !rests) return;
+  if (run->setup->n_frictions == 0 && !rests) return;
   run->q_size = fmax(run->q_size, way);
   if (rests) run->energy_size = fmax(run->energy_size, run->force_size * way);
   for (int i = 0; i < run->n_q; i++) {
@@ -296,14 +296,15 @@ static pleuel_status tell_contact(pl_run* run, int c, bool grazed, bool at_start
   return grazed ? pl_rows_event(run, closed(link, false), c, 0, at_start) : PLEUEL_OK;
 }
 
-static pleuel_status tell_rub(pl_run* run, int r) {
-  const pl_rub_now *now = &run->rub[r], *before = &run->rub_before[r];
-  int c = run->setup->rubs[r].link;
-  if (before->state == PL_RUB_OFF || now->state == PL_RUB_OFF) return PLEUEL_OK;
-  if (now->state == PL_RUB_STICK)
-    return before->state == PL_RUB_SLIP ? pl_rows_event(run, PL_EV_STICK, c, 0, false) : PLEUEL_OK;
-  bool turned = run->setup->rubs[r].n_rows == 1 && now->way != before->way;
-  if (before->state == PL_RUB_SLIP && !turned) return PLEUEL_OK;
+static pleuel_status tell_friction(pl_run* run, int r) {
+  const pl_friction_state *now = &run->friction[r], *before = &run->friction_before[r];
+  int c = run->setup->frictions[r].link;
+  if (before->state == PL_FRICTION_OFF || now->state == PL_FRICTION_OFF) return PLEUEL_OK;
+  if (now->state == PL_FRICTION_STICK)
+    return before->state == PL_FRICTION_SLIP ? pl_rows_event(run, PL_EV_STICK, c, 0, false)
+                                             : PLEUEL_OK;
+  bool turned = run->setup->frictions[r].n_rows == 1 && now->way != before->way;
+  if (before->state == PL_FRICTION_SLIP && !turned) return PLEUEL_OK;
   return pl_rows_event(run, PL_EV_SLIP, c, 0, false);
 }
 
@@ -318,7 +319,7 @@ static bool is_grazed(const pl_run* run, int c) {
 static pleuel_status tell_changes(pl_run* run, bool at_start) {
   for (int c = 0; c < run->n_c; c++)
     if (is_contact(run, c)) PL_TRY(tell_contact(run, c, !at_start && is_grazed(run, c), at_start));
-  for (int r = 0; r < run->setup->n_rubs && !at_start; r++) PL_TRY(tell_rub(run, r));
+  for (int r = 0; r < run->setup->n_frictions && !at_start; r++) PL_TRY(tell_friction(run, r));
   return PLEUEL_OK;
 }
 
@@ -328,7 +329,7 @@ static void no_hits(pl_run* run) {
 }
 
 pleuel_status pl_modes_check(pl_run* run, bool at_start) {
-  bool any = run->setup->n_rubs > 0;
+  bool any = run->setup->n_frictions > 0;
   for (int c = 0; c < run->n_c; c++) any |= is_contact(run, c);
   if (!any) return PLEUEL_OK;
   no_hits(run);
@@ -450,7 +451,7 @@ static unsigned slips(int way, bool other_press, int press) {
 static bool is_at_rest(pl_run* run, int r) {
   static const double at_rest = 1e-9;
   double d[3];
-  if (run->setup->rubs[r].n_rows == 1) return true;
+  if (run->setup->frictions[r].n_rows == 1) return true;
   pl_batches_load_v(&run->motion, run->v, 0);
   pl_contacts_rates(run, run->r);
   return pl_friction_speed(run, r, run->r, d) <= at_rest * run->v_size;
@@ -459,10 +460,10 @@ static bool is_at_rest(pl_run* run, int r) {
 // What a hit leaves open.
 static void fix_choices(pl_run* run, int i) {
   const pl_watch* w = &run->watch[i];
-  const pl_rub_now* now = w->kind >= PL_WATCH_STICK && w->kind <= PL_WATCH_PRESS
-                              ? &run->rub[w->index]
-                              : NULL;
-  const pl_rub* rub = now ? &run->setup->rubs[w->index] : NULL;
+  const pl_friction_state* now = w->kind >= PL_WATCH_STICK && w->kind <= PL_WATCH_PRESS
+                                     ? &run->friction[w->index]
+                                     : NULL;
+  const pl_friction_setup* friction = now ? &run->setup->frictions[w->index] : NULL;
   switch (w->kind) {
     case PL_WATCH_RELEASE:
       if (!run->touch[i]) run->fixed[w->index] = 1u << PL_CHOICE_OPEN;
@@ -476,17 +477,19 @@ static void fix_choices(pl_run* run, int i) {
         run->watch[i].fresh = 2;  // it only came near
         break;
       }
-      run->rub_fixed[w->index] |= PL_RUB_AT_REST;
-      if (run->root[i] == 0 && w->fresh > 0 && rub->n_rows == 1)
-        run->rub_fixed[w->index] |= 0xffu & ~(slips(now->way, false, 1) | slips(now->way, true, 1));
+      run->friction_fixed[w->index] |= PL_FRICTION_AT_REST;
+      if (run->root[i] == 0 && w->fresh > 0 && friction->n_rows == 1)
+        run->friction_fixed[w->index] |= 0xffu
+                                         & ~(slips(now->way, false, 1) | slips(now->way, true, 1));
       break;
     case PL_WATCH_SLIP: {
       // against the force that held it
-      int way = rub->n_rows == 1 && run->L[rub->row[0]] > 0 ? -1 : 1;
-      run->rub_fixed[w->index] |= PL_RUB_AT_REST | slips(way, false, 1) | slips(way, true, 1);
+      int way = friction->n_rows == 1 && run->L[friction->row[0]] > 0 ? -1 : 1;
+      run->friction_fixed[w->index] |= PL_FRICTION_AT_REST | slips(way, false, 1)
+                                       | slips(way, true, 1);
       break;
     }
-    case PL_WATCH_PRESS: run->rub_fixed[w->index] |= slips(now->way, true, now->press); break;
+    case PL_WATCH_PRESS: run->friction_fixed[w->index] |= slips(now->way, true, now->press); break;
     case PL_WATCH_EVENT: break;
   }
 }

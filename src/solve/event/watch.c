@@ -18,13 +18,13 @@ static double sign(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
 void pl_watch_make(pl_run* run) {
   const pl_setup* s = run->setup;
   run->watch = PL_ARRAY(run->job->arena, pl_watch,
-                        2 * (size_t)s->n_c + 3 * (size_t)s->n_rubs + (size_t)s->n_events + 1);
+                        2 * (size_t)s->n_c + 3 * (size_t)s->n_frictions + (size_t)s->n_events + 1);
   for (int c = 0; c < s->n_c; c++) {
     if (s->links[c].side == 0) continue;
     run->watch[run->n_watch++] = (pl_watch){.kind = PL_WATCH_RELEASE, .index = c, .direction = -1};
     run->watch[run->n_watch++] = (pl_watch){.kind = PL_WATCH_LANDING, .index = c, .direction = -1};
   }
-  for (int r = 0; r < s->n_rubs; r++) {
+  for (int r = 0; r < s->n_frictions; r++) {
     run->watch[run->n_watch++] = (pl_watch){.kind = PL_WATCH_STICK, .index = r, .direction = -1};
     run->watch[run->n_watch++] = (pl_watch){.kind = PL_WATCH_SLIP, .index = r, .direction = -1};
     run->watch[run->n_watch++] = (pl_watch){.kind = PL_WATCH_PRESS, .index = r, .direction = -1};
@@ -79,16 +79,16 @@ void pl_watch_series(pl_run* run) {
 }
 
 // ---------------------------------------------------------------------------------------- one item
-static bool is_of_rub(const pl_watch* w) {
+static bool is_of_friction(const pl_watch* w) {
   return w->kind >= PL_WATCH_STICK && w->kind <= PL_WATCH_PRESS;
 }
 
 static bool is_watched(const pl_run* run, const pl_watch* w) {
   if (w->kind == PL_WATCH_EVENT) return true;
-  if (is_of_rub(w)) {
-    const pl_link* pressed = &run->setup->links[run->setup->rubs[w->index].link];
-    if (w->kind == PL_WATCH_SLIP) return run->rub[w->index].state == PL_RUB_STICK;
-    return run->rub[w->index].state == PL_RUB_SLIP
+  if (is_of_friction(w)) {
+    const pl_link* pressed = &run->setup->links[run->setup->frictions[w->index].link];
+    if (w->kind == PL_WATCH_SLIP) return run->friction[w->index].state == PL_FRICTION_STICK;
+    return run->friction[w->index].state == PL_FRICTION_SLIP
            && (w->kind == PL_WATCH_STICK || pressed->side == 0);
   }
   const pl_link* link = &run->setup->links[w->index];
@@ -116,14 +116,14 @@ double pl_watch_noise(const pl_run* run, const pl_watch* w, double h) {
     int size = run->setup->events[w->index].size;
     return size > 0 ? 4 * DBL_EPSILON * fabs(run->W_series[size - 1]) : 0;
   }
-  const pl_rub* rub = &run->setup->rubs[w->index];
-  double force = pl_watch_force_noise(run, rub->row[0]);
-  if (w->kind == PL_WATCH_PRESS) return pl_watch_force_noise(run, rub->link);
+  const pl_friction_setup* friction = &run->setup->frictions[w->index];
+  double force = pl_watch_force_noise(run, friction->row[0]);
+  if (w->kind == PL_WATCH_PRESS) return pl_watch_force_noise(run, friction->link);
   if (w->kind == PL_WATCH_SLIP) return force * force;
   // slip: rounding of velocities, and of the forces that change them on the step
-  return rub->n_rows == 1
-             ? 1e-14 * run->r_size[rub->row[0]] + 1e-12 * fabs(h) * run->second_size[rub->row[0]]
-             : 0;
+  return friction->n_rows == 1 ? 1e-14 * run->r_size[friction->row[0]]
+                                     + 1e-12 * fabs(h) * run->second_size[friction->row[0]]
+                               : 0;
 }
 
 // Coefficients in units of the step; returns how many.
@@ -133,7 +133,7 @@ static int polynomial(const pl_run* run, const pl_watch* w, double h, double* c)
   double factor = 1, power = 1;
   int n = run->use;
   if (run->implicit) return pl_radau_polynomial(run, (int)(w - run->watch), c);
-  if (is_of_rub(w)) {
+  if (is_of_friction(w)) {
     n = pl_friction_slip(run, w->index, w->kind, c, run->use + 1);
     for (int k = 0; k < n; k++, power *= h) c[k] *= power;
     return n;
@@ -273,7 +273,7 @@ double pl_watch_reach(pl_run* run, double h) {
   double part = fmax(100 * run->tol, 1e-14);
   for (int i = 0; i < run->n_watch; i++) {
     const pl_watch* w = &run->watch[i];
-    if (is_of_rub(w) || !is_watched(run, w)) continue;
+    if (is_of_friction(w) || !is_watched(run, w)) continue;
     int n = polynomial(run, w, h, run->poly);
     h *= pl_watch_known(run->poly, n, pl_watch_noise(run, w, h), part);
   }
@@ -373,11 +373,11 @@ void pl_watch_passed(pl_run* run, double h) {
     run->undecided |= !decided;
   }
   // slip in space that has become clear of rounding counts as none only far below that again
-  for (int r = 0; r < run->setup->n_rubs; r++) {
-    pl_rub_now* now = &run->rub[r];
+  for (int r = 0; r < run->setup->n_frictions; r++) {
+    pl_friction_state* now = &run->friction[r];
     double d[3], least = 1e-12 * run->v_size;
-    if (run->setup->rubs[r].n_rows == 3 && now->state == PL_RUB_SLIP && now->small != least
-        && pl_friction_speed(run, r, run->r, d) > 1e3 * least)
+    if (run->setup->frictions[r].n_rows == 3 && now->state == PL_FRICTION_SLIP
+        && now->small != least && pl_friction_speed(run, r, run->r, d) > 1e3 * least)
       now->small = least;
   }
 }

@@ -66,18 +66,18 @@ static void watch_quantities(pl_run* run, const node* n) {
 }
 
 static double force_left(const pl_run* run, int k, const double* lambda) {
-  const pl_rub* rub = &run->setup->rubs[k];
-  double most = run->C_series[rub->limit] * lambda[rub->link],
+  const pl_friction_setup* friction = &run->setup->frictions[k];
+  double most = run->C_series[friction->limit] * lambda[friction->link],
          F = pl_friction_force(run, k, lambda);
   return most * most - F * F;
 }
 
 static double slip_left(const pl_run* run, int k) {
-  const pl_rub* rub = &run->setup->rubs[k];
-  const pl_rub_now* now = &run->rub[k];
+  const pl_friction_setup* friction = &run->setup->frictions[k];
+  const pl_friction_state* now = &run->friction[k];
   double square = -now->small * now->small;
-  if (rub->n_rows == 1) return now->way * run->r[rub->row[0]];
-  for (int i = 0; i < 3; i++) square += run->r[rub->row[i]] * run->r[rub->row[i]];
+  if (friction->n_rows == 1) return now->way * run->r[friction->row[0]];
+  for (int i = 0; i < 3; i++) square += run->r[friction->row[i]] * run->r[friction->row[i]];
   return square;
 }
 
@@ -89,7 +89,7 @@ static double value_of(const pl_run* run, const pl_watch* w, const node* n) {
     case PL_WATCH_STICK: return slip_left(run, w->index);
     case PL_WATCH_SLIP: return force_left(run, w->index, n->lambda);
     case PL_WATCH_PRESS:
-      return run->rub[w->index].press * n->lambda[run->setup->rubs[w->index].link];
+      return run->friction[w->index].press * n->lambda[run->setup->frictions[w->index].link];
     case PL_WATCH_EVENT: return run->W_coef[run->setup->events[w->index].watch];
   }
   return 0;
@@ -100,7 +100,7 @@ static double* values_of(const pl_radau* r, int watch) {
 }
 
 void pl_radau_watch(pl_run* run, pl_radau* r, double h) {
-  bool contacts = run->watch_landings || run->setup->n_rubs > 0;
+  bool contacts = run->watch_landings || run->setup->n_frictions > 0;
   int s = r->method.s;
   if (run->n_watch == 0 && run->n_kinks == 0) return;
   if (run->n_watch > 0) forces_at_end(run, r, h);
@@ -117,9 +117,9 @@ void pl_radau_watch(pl_run* run, pl_radau* r, double h) {
       // the sizes of the start are what the search for roots reads
       pl_assemble_g(run, 0, i == 0 ? r->first_g : r->last_g, i == 0 ? run->g_size : NULL);
       pl_assemble_gdot(run, run->r, run->r_size);
-      if (run->setup->n_rubs > 0) pl_friction_coefficients(run, 0);
+      if (run->setup->n_frictions > 0) pl_friction_coefficients(run, 0);
     }
-    if (i == 0 && run->setup->n_rubs > 0)
+    if (i == 0 && run->setup->n_frictions > 0)
       memcpy(run->S_series, run->r, (size_t)r->n_c * sizeof(double));
     for (int k = 0; k < run->n_watch; k++) values_of(r, k)[i] = value_of(run, &run->watch[k], &n);
   }
@@ -213,7 +213,7 @@ static double way_to_root(const pl_run* run, const pl_radau* r, int watch, doubl
 // Slip in space is watched by its square, which hardly changes its sign: a double root.
 static bool is_square(const pl_run* run, int watch) {
   const pl_watch* w = &run->watch[watch];
-  return w->kind == PL_WATCH_STICK && run->setup->rubs[w->index].n_rows == 3;
+  return w->kind == PL_WATCH_STICK && run->setup->frictions[w->index].n_rows == 3;
 }
 
 // Steps of the length at which what is hit is zero at the end, by Newton on the length. *root stays

@@ -72,7 +72,7 @@ struct pl_radau {
   long stay_next;
   double* coefficient;  // of friction at the stages                            (s x n_C)
   double* part;         // of C that the rows of one instance contribute         (n_C)
-  int* rub_of;          // friction of each coefficient                          (n_C)
+  int* friction_of;     // friction of each coefficient                          (n_C)
   // factors of the transformed systems
   double *real, *real_scale, *work;
   double* pair[PL_RADAU_PAIRS];
@@ -115,7 +115,7 @@ void pl_radau_method_make(pl_radau_method* m, int s);
 static inline double* pl_radau_stage(double* x, int i, int n) { return x + (size_t)i * (size_t)n; }
 // Whether a row has a multiplier: it holds, or it is a slip whose force follows from another.
 static inline bool pl_radau_has_force(const pl_run* run, int c) {
-  return run->taken[c] || run->rubs[c];
+  return run->taken[c] || run->slips[c];
 }
 
 // ---- radau_system.c

@@ -67,7 +67,7 @@ static slots rows_of(pl_arena* a, const pl_batch* b, const pl_run* run) {
   // slip follows from the coefficients of its friction, whichever they are
   for (const pl_pattern_entry* e = p->outputs; e < p->outputs + p->n_out; e++)
     for (int c = 0; c < p->n_c; c++)
-      if (run->setup->links[b->c[c * b->lanes]].rub) join(&row, p->n_q + c, &node, NODE(e));
+      if (run->setup->links[b->c[c * b->lanes]].slip) join(&row, p->n_q + c, &node, NODE(e));
 #undef NODE
   return row;
 }
@@ -110,9 +110,10 @@ static void note_batch(list* l, const pl_run* run, const pl_batch* b, const slot
 static void note_all(list* l, const pl_run* run, const slots* of) {
   for (int i = 0; i < run->n_q + run->n_c; i++) note(l, i, i);
   for (int i = 0; i < run->motion.n; i++) note_batch(l, run, &run->motion.at[i], &of[i]);
-  for (int k = 0; k < run->setup->n_rubs; k++) {
-    const pl_rub* rub = &run->setup->rubs[k];
-    for (int i = 0; i < rub->n_rows; i++) note(l, run->n_q + rub->row[i], run->n_q + rub->link);
+  for (int k = 0; k < run->setup->n_frictions; k++) {
+    const pl_friction_setup* friction = &run->setup->frictions[k];
+    for (int i = 0; i < friction->n_rows; i++)
+      note(l, run->n_q + friction->row[i], run->n_q + friction->link);
   }
 }
 

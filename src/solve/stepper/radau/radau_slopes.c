@@ -63,12 +63,12 @@ static void add_values(const point* at, const pl_radau_wide* w, int lane) {
 static void add_slip(const point* at) {
   const pl_run* run = at->run;
   pl_radau* r = at->r;
-  for (int k = 0; k < run->setup->n_rubs; k++) {
-    const pl_rub* rub = &run->setup->rubs[k];
-    for (int i = 0; i < rub->n_rows && run->rub[k].state == PL_RUB_SLIP; i++) {
-      int row = r->n_q + rub->row[i];
+  for (int k = 0; k < run->setup->n_frictions; k++) {
+    const pl_friction_setup* friction = &run->setup->frictions[k];
+    for (int i = 0; i < friction->n_rows && run->friction[k].state == PL_FRICTION_SLIP; i++) {
+      int row = r->n_q + friction->row[i];
       at->J->P1[AT(row, row)] += 1;
-      at->J->P1[AT(row, r->n_q + rub->link)] -= pl_friction_kappa(run, k, i, r->part);
+      at->J->P1[AT(row, r->n_q + friction->link)] -= pl_friction_kappa(run, k, i, r->part);
     }
   }
 }
@@ -76,12 +76,12 @@ static void add_slip(const point* at) {
 // The same by what the coefficient with this index depends on.
 static void add_slip_slope(const point* at, double* P, int coefficient, double slope, int col) {
   pl_radau* r = at->r;
-  int k = r->rub_of[coefficient];
-  const pl_rub* rub = &at->run->setup->rubs[k];
-  if (at->run->rub[k].state != PL_RUB_SLIP || slope == 0) return;
-  for (int i = 0; i < rub->n_rows; i++)
-    P[AT(r->n_q + rub->row[i], col)] -= slope * pl_friction_kappa_by(at->run, k, i, coefficient)
-                                        * at->lambda[rub->link];
+  int k = r->friction_of[coefficient];
+  const pl_friction_setup* friction = &at->run->setup->frictions[k];
+  if (at->run->friction[k].state != PL_FRICTION_SLIP || slope == 0) return;
+  for (int i = 0; i < friction->n_rows; i++)
+    P[AT(r->n_q + friction->row[i], col)] -=
+        slope * pl_friction_kappa_by(at->run, k, i, coefficient) * at->lambda[friction->link];
 }
 
 // Derivatives along global coordinate `col` (of position, or of velocity): coefficient 1 in a lane.

@@ -89,13 +89,13 @@ static void reserve_coefficients(pl_run* run, pl_radau* r) {
   const pl_setup* s = run->setup;
   r->n_C = s->n_coefficients;
   r->coefficient = PL_ARRAY(a, double, (size_t)r->n_C* PL_RADAU_MOST + 1);
-  r->rub_of = PL_ARRAY(a, int, r->n_C + 1);
+  r->friction_of = PL_ARRAY(a, int, r->n_C + 1);
   r->part = PL_ARRAY(a, double, r->n_C + 1);
-  for (int i = 0; i < s->n_rubs; i++) {
-    const pl_rub* rub = &s->rubs[i];
-    r->rub_of[rub->limit] = r->rub_of[rub->scale] = i;
-    for (int k = 0; k < 3 && rub->n_rows == 3; k++) r->rub_of[rub->along[k]] = i;
-    for (int k = 0; k < 6 && rub->n_rows == 3; k++) r->rub_of[rub->metric[k]] = i;
+  for (int i = 0; i < s->n_frictions; i++) {
+    const pl_friction_setup* friction = &s->frictions[i];
+    r->friction_of[friction->limit] = r->friction_of[friction->scale] = i;
+    for (int k = 0; k < 3 && friction->n_rows == 3; k++) r->friction_of[friction->along[k]] = i;
+    for (int k = 0; k < 6 && friction->n_rows == 3; k++) r->friction_of[friction->metric[k]] = i;
   }
 }
 
@@ -231,11 +231,11 @@ static void residual_by_instances(const pl_run* run, pl_radau* r, const pl_radau
 // m - κ λ in the rows of slip.
 void pl_radau_slip_rows(const pl_run* run, const double* coefficient, const double* lambda,
                         double* C) {
-  for (int k = 0; k < run->setup->n_rubs; k++) {
-    const pl_rub* rub = &run->setup->rubs[k];
-    for (int i = 0; i < rub->n_rows && run->rub[k].state == PL_RUB_SLIP; i++)
-      C[rub->row[i]] = lambda[rub->row[i]]
-                       - pl_friction_kappa(run, k, i, coefficient) * lambda[rub->link];
+  for (int k = 0; k < run->setup->n_frictions; k++) {
+    const pl_friction_setup* friction = &run->setup->frictions[k];
+    for (int i = 0; i < friction->n_rows && run->friction[k].state == PL_FRICTION_SLIP; i++)
+      C[friction->row[i]] = lambda[friction->row[i]]
+                            - pl_friction_kappa(run, k, i, coefficient) * lambda[friction->link];
   }
 }
 

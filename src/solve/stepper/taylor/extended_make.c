@@ -45,10 +45,10 @@ static pleuel_status check_types(pl_run* run) {
 static pleuel_status check_contacts(pl_run* run) {
   const pl_setup* s = run->setup;
   const char* mode = pl_wide_name(run);
-  if (s->n_rubs > 0)
+  if (s->n_frictions > 0)
     return pl_fail(run->job, PLEUEL_UNSUPPORTED,
                    "precision %s: friction (on %s) is followed in double only", mode,
-                   s->rubs[0].name);
+                   s->frictions[0].name);
   for (int c = 0; c < s->n_c; c++)
     if (s->links[c].side != 0 || s->links[c].off)
       return pl_fail(run->job, PLEUEL_UNSUPPORTED,

@@ -12,7 +12,7 @@ int pl_maker_take(pl_maker* k, int n) {
 bool pl_motion_fits(const pl_run* run) {
   long nodes = 0;
   if (run->n_q + run->n_c > PL_MOTION_UNKNOWNS || run->has_W || run->mass_of_speed
-      || run->setup->n_rubs > 0)
+      || run->setup->n_frictions > 0)
     return false;
   for (int i = 0; i < run->motion.n; i++) {
     const pl_batch* b = &run->motion.at[i];

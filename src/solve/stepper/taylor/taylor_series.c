@@ -63,7 +63,7 @@ void pl_point_evaluate(pl_run* run, double t, const double* q, const double* v) 
 static const double sound = 0.02, least_trusted = 1e-7;
 
 bool pl_point_factor(pl_run* run, bool with_W) {
-  if (run->setup->n_rubs > 0) pl_friction_coefficients(run, 0);
+  if (run->setup->n_frictions > 0) pl_friction_coefficients(run, 0);
   pl_assemble_matrix(run, with_W);
   run->kkt.trusted = pl_larger(least_trusted, run->by_pivots ? sound * run->best * run->best : 0);
   bool regular = pl_kkt_factor(&run->kkt);
@@ -86,7 +86,7 @@ static void solve_order(pl_run* run, int k) {
   bool all = run->watch_landings;
   pl_batches_sweep(m, PL_LEVEL_PLACE, k + 1, all);
   if (k > 0) pl_batches_sweep(m, PL_LEVEL_SPEED, k, false);
-  if (k > 0 && run->setup->n_rubs > 0) pl_friction_coefficients(run, k);
+  if (k > 0 && run->setup->n_frictions > 0) pl_friction_coefficients(run, k);
   pl_assemble_rhs(run, k, run->rhs);
   pl_kkt_solve(&run->kkt, run->rhs);
   pl_orders_here()->take(run, k);
