@@ -17,12 +17,12 @@ static const double width_wanted = 1e-18;
 // Contacts that let go, events that record, stop, or release a two-sided constraint.
 static bool is_followed(const pl_setup* s, const pl_event_deed* d) {
   return d->deed == PL_DEED_RECORD || d->deed == PL_DEED_STOP
-         || (d->deed == PL_DEED_RELEASE && s->links[d->target].side == 0);
+         || (d->deed == PL_DEED_RELEASE && s->constraints[d->target].side == 0);
 }
 
 static bool changes_mode(const pl_setup* s) {
   for (int c = 0; c < s->n_c; c++)
-    if (s->links[c].side != 0) return true;
+    if (s->constraints[c].side != 0) return true;
   return s->n_events > 0;
 }
 
@@ -84,13 +84,13 @@ static void find_implied(pleuel_model* m, pl_certificate_of_run* c) {
   const pl_model* model = m->model;
   if (model->choose.n_maps == 0) return;
   pl_tower* t = pl_tower_make(&m->job, model->pool, NULL, 0);
-  for (int i = 0, link = 0; i < model->constraints.n; i++) {
+  for (int i = 0, constraint = 0; i < model->constraints.n; i++) {
     const pl_constraint* g = &model->constraints.at[i];
     pl_instances in = {.n = 1};
     if (g->block && pl_model_instances(&m->job, model, g->block, &in) != PLEUEL_OK) break;
-    if (!g->block && c->active[link])
-      c->implied[link] = pl_alg_is_zero(t, with_maps(m, g->g)) == PL_YES;
-    link += in.n;
+    if (!g->block && c->active[constraint])
+      c->implied[constraint] = pl_alg_is_zero(t, with_maps(m, g->g)) == PL_YES;
+    constraint += in.n;
   }
   pl_tower_free(t);
 }
@@ -170,15 +170,15 @@ static void fill_time(const pleuel_model* m, const pl_certified* proof, int time
     }
   }
   for (int i = 0; i < s->n_c; i++, out++) {
-    bool shown = s->links[i].column != NULL;
+    bool shown = s->constraints[i].column != NULL;
     double x = shown && row ? row[column] : (double)NAN;
     column += shown;
     if (!shown) {
       *out = (pl_certified_value){0};
       continue;
     }
-    fill_value(m, proof, time, PL_CERTIFY_LAMBDA, i, s->links[i].minus ? -x : x, out);
-    if (out->text && s->links[i].minus)
+    fill_value(m, proof, time, PL_CERTIFY_LAMBDA, i, s->constraints[i].minus ? -x : x, out);
+    if (out->text && s->constraints[i].minus)
       out->text = *out->text == '-' ? out->text + 1 : pl_format(m->arena, "-%s", out->text);
   }
 }
@@ -211,7 +211,7 @@ static bool is_same(const pl_setup* s, const pl_happening* h, const pl_result_ev
   int n = h->kind == PL_HAPPENED_IMPACT ? 3 : 2;
   bool kind = false;
   for (int i = 0; i < n; i++) kind |= e->kind == kinds[i];
-  const char* name = named ? s->events[h->index].name : s->links[h->index].name;
+  const char* name = named ? s->events[h->index].name : s->constraints[h->index].name;
   return kind && e->label && strcmp(e->label, name) == 0;
 }
 

@@ -117,7 +117,7 @@ static const char* name_of(const teller* t, int i) {
   const pl_setup* s = &t->m->recording->setup;
   if (i < s->n_q) return s->coordinates[i].name;
   if (i < 2 * s->n_q) return s->coordinates[i - s->n_q].v_name;
-  return s->links[i - 2 * s->n_q].column;
+  return s->constraints[i - 2 * s->n_q].column;
 }
 
 static void tell_group(teller* t, int time, int from, int to, const char* const what[2]) {
@@ -171,7 +171,7 @@ static const char* name_of_happening(const teller* t, int i) {
   const pl_happening* h = &t->c->proof.happened[i];
   bool named = h->kind == PL_HAPPENED_EVENT || h->kind == PL_HAPPENED_STOP;
   const pl_setup* s = &t->m->recording->setup;
-  return named ? s->events[h->index].name : s->links[h->index].name;
+  return named ? s->events[h->index].name : s->constraints[h->index].name;
 }
 
 static void tell_happenings(teller* t) {

@@ -166,7 +166,8 @@ static pleuel_status relay_row(void* user, const pl_row* row) {
     if (!s->coordinates[i].hidden) r->values[n++] = row->v[i];
   }
   for (int i = 0; i < s->n_c; i++) {
-    if (s->links[i].column) r->values[n++] = s->links[i].minus ? -row->lambda[i] : row->lambda[i];
+    if (s->constraints[i].column)
+      r->values[n++] = s->constraints[i].minus ? -row->lambda[i] : row->lambda[i];
   }
   for (int i = 0; i < s->n_out; i++) r->values[n++] = row->out[i];
   if (!r->stopped)

@@ -55,7 +55,7 @@ static void list_frictions(pl_arena* a, const pl_trace* t, const pl_trace_phase*
     const pl_friction_law* law = &t->recording->laws[i];
     const pl_friction_report* now = &p->frictions[i];
     friction[i] = (pl_stage_rub){.on = s->frictions[i].name,
-                                 .name = s->links[s->frictions[i].row[0]].name,
+                                 .name = s->constraints[s->frictions[i].row[0]].name,
                                  .slip = law->slip,
                                  .limit = law->limit,
                                  .scale = law->scale,
@@ -74,8 +74,8 @@ static pl_stage* stage_of(pl_arena* a, const pl_trace* t, int phase) {
   const char** name = PL_ARRAY(a, const char*, s->n_c + 1);
   bool* rope = PL_ARRAY(a, bool, s->n_c + 1);
   for (int c = 0; c < s->n_c; c++) {
-    name[c] = s->links[c].name;
-    rope[c] = s->links[c].rope;
+    name[c] = s->constraints[c].name;
+    rope[c] = s->constraints[c].rope;
   }
   int n_q = t->recording->flat.n;
   const char **q_name = PL_ARRAY(a, const char*, n_q + 1),

@@ -26,9 +26,9 @@ static pl_span init_span(const pleuel_model* m, int coordinate, bool velocity) {
 }
 
 // The constraint of the model that a row belongs to; NULL for map equations.
-static const pl_constraint* constraint_of_link(const pleuel_model* m, int link) {
-  const char* name = m->recording->setup.links[link].name;
-  return link < m->recording->n_declared ? pl_model_constraint(m->model, name) : NULL;
+static const pl_constraint* constraint_of_constraint(const pleuel_model* m, int constraint) {
+  const char* name = m->recording->setup.constraints[constraint].name;
+  return constraint < m->recording->n_declared ? pl_model_constraint(m->model, name) : NULL;
 }
 
 // With as many digits as it takes to be accepted when it is typed.
@@ -45,16 +45,18 @@ static const char* typed(pl_arena* a, double x) {
 static void report_violated(pleuel_model* m) {
   const pl_start_report* r = &m->start;
   const pl_setup* s = &m->recording->setup;
-  const pl_link* link = &s->links[r->link];
-  const pl_constraint* c = constraint_of_link(m, r->link);
+  const pl_constraint_setup* constraint = &s->constraints[r->constraint];
+  const pl_constraint* c = constraint_of_constraint(m, r->constraint);
   pl_span span = r->move_coordinate >= 0 ? init_span(m, r->move_coordinate, r->move_velocity)
                                          : (pl_span){0};
   if (!span.source && c) span = c->span;
-  const char* en = r->link_velocity ? "the start velocity violates %s" : "the start violates %s";
-  const char* de = r->link_velocity ? "die Startgeschwindigkeit verletzt %s"
-                                    : "der Start verletzt %s";
-  pl_diagnostic* d = pl_report(&m->diagnostics, PL_E041, span, pl_format(m->arena, en, link->name),
-                               pl_format(m->arena, de, link->name));
+  const char* en = r->constraint_velocity ? "the start velocity violates %s"
+                                          : "the start violates %s";
+  const char* de = r->constraint_velocity ? "die Startgeschwindigkeit verletzt %s"
+                                          : "der Start verletzt %s";
+  pl_diagnostic* d = pl_report(&m->diagnostics, PL_E041, span,
+                               pl_format(m->arena, en, constraint->name),
+                               pl_format(m->arena, de, constraint->name));
   if (r->move_coordinate < 0) return;
   const pl_coordinate* q = &s->coordinates[r->move_coordinate];
   const char* name = r->move_velocity ? q->v_name : q->name;
@@ -202,7 +204,7 @@ void pl_start_report_trouble(pleuel_model* m) {
   if (pl_diagnostics_have(&m->diagnostics, PL_E041)
       || pl_diagnostics_have(&m->diagnostics, PL_E043))
     return;
-  if (m->start.trouble == PL_START_VIOLATED && m->start.link >= 0) report_violated(m);
+  if (m->start.trouble == PL_START_VIOLATED && m->start.constraint >= 0) report_violated(m);
   if (m->start.trouble == PL_START_SEVERAL && m->start.n_candidates > 1) report_several(m);
   pl_diagnostics_sort(&m->diagnostics);
 }

@@ -189,7 +189,7 @@ static int count_shown(const pl_setup* s) {
 
 static int count_multipliers(const pl_setup* s) {
   int n = 0;
-  for (int i = 0; i < s->n_c; i++) n += s->links[i].column != NULL;
+  for (int i = 0; i < s->n_c; i++) n += s->constraints[i].column != NULL;
   return n;
 }
 

@@ -36,7 +36,7 @@ typedef struct pl_recording {
   // poison else
   const pl_friction_law* laws;
   // row of the first instance of each constraint of the model, then n_declared
-  const int* first_link;
+  const int* first_constraint;
   // bodies with Euler angles are integrated with quaternions: the same columns, other coordinates
   // behind them; NULL: as it stands
   struct pl_recording* turned;

@@ -60,8 +60,8 @@ typedef struct pl_recorder {
   int n_value;
   pl_map* flat_at;           // id of a coordinate atom with a number as index -> global index + 1
   PL_VEC(pl_group*) groups;  // the outside first
-  int* first_link;           // global index of the first row of each constraint of the model
-  int n_links;               // with the map equations and the rows of slip
+  int* first_constraint;     // global index of the first row of each constraint of the model
+  int n_constraints;         // with the map equations and the rows of slip
   PL_VEC(pl_friction_source*) frictions;
   bool dissipative, explicit_time;
   bool start_settled;       // values of x(0), E(0) are there
@@ -105,7 +105,7 @@ void pl_record_slots(pl_recorder* r, pl_group* g, const pl_expr* lambda, int n_c
 // slots of each instance
 pleuel_status pl_record_place(pl_recorder* r, pl_group* g, pl_pattern_source* s);
 // row of a constraint, -1
-int pl_record_link(pl_recorder* r, const char* label);
+int pl_record_constraint(pl_recorder* r, const char* label);
 pleuel_status pl_record_target(pl_recorder* r, pl_expr target, pl_start_value* out);
 // e with elements of families replaced by their start values; poison where one is not known.
 pl_expr pl_record_with_elements(pl_recorder* r, pl_expr e, const pl_coordinate* q);
@@ -132,7 +132,7 @@ pl_expr pl_variation_delta(pl_recorder* r, pl_expr atom);
 // record_variation_events.c: the same for what switches the motion.
 bool pl_variation_is_switched(const pl_recorder* r);
 pleuel_status pl_variation_watch(pl_recorder* r, const pl_group* g, const pl_expr* e, int n,
-                                 const pl_expr* lambda, const int* links, int n_c);
+                                 const pl_expr* lambda, const int* constraints, int n_c);
 // the setup, when it has both
 void pl_variation_switch(pl_recorder* r);
 
@@ -147,7 +147,7 @@ pleuel_status pl_wider_setup(pl_recorder* r);
 // record_friction.c: rows of slip and their coefficients.
 pleuel_status pl_group_friction(pl_recorder* r, pl_group* g);  // before the forces of the group
 pl_expr pl_record_friction_coefficient(const pl_friction_source* s, int k);
-void pl_record_frictions(pl_recorder* r, pl_link* link);
+void pl_record_frictions(pl_recorder* r, pl_constraint_setup* constraint);
 void pl_record_friction_symbols(pl_recorder* r);
 pl_symbol pl_record_friction_symbol(pl_recorder* r, const pl_friction_source* s, int k);
 int pl_record_friction_row(pl_recorder* r, pl_symbol lambda);

@@ -180,16 +180,16 @@ static pleuel_status make_groups(pl_recorder* r) {
   for (int i = 0; i < m->masses.n; i++) PL_TRY(group_for(r, m->masses.at[i].block, &g));
   for (int i = 0; i < m->bodies.n; i++) PL_TRY(group_for(r, m->bodies.at[i].block, &g));
   for (int i = 0; i < m->loads.n; i++) PL_TRY(group_for(r, m->loads.at[i].block, &g));
-  r->first_link = PL_ARRAY(r->arena, int, m->constraints.n + 1);
+  r->first_constraint = PL_ARRAY(r->arena, int, m->constraints.n + 1);
   for (int i = 0; i < m->constraints.n; i++) {
     PL_TRY(group_for(r, m->constraints.at[i].block, &g));
     pl_push(r->arena, g->constraints, i);
-    r->first_link[i] = r->n_links;
-    r->n_links += g->instances.n;
+    r->first_constraint[i] = r->n_constraints;
+    r->n_constraints += g->instances.n;
   }
-  r->out->n_declared = r->first_link[m->constraints.n] = r->n_links;
-  r->out->first_link = r->first_link;
-  r->n_links += m->choose.n_maps + count_along(r);
+  r->out->n_declared = r->first_constraint[m->constraints.n] = r->n_constraints;
+  r->out->first_constraint = r->first_constraint;
+  r->n_constraints += m->choose.n_maps + count_along(r);
 
   pl_group_energies(r);
   for (int i = 0; i < r->groups.n; i++) {
@@ -317,7 +317,7 @@ static void list_rows(pl_recorder* r, const pl_group* g, pl_rows_of_group* rows)
     rows->velocity[k] = !is_map && source->has_velocity;
     rows->lambda[k] = is_map || !source->lambda.id ? pl_poison() : pl_sym(r->pool, source->lambda);
     int first = is_map ? r->out->n_declared + k - g->constraints.n
-                       : r->first_link[g->constraints.at[k]];
+                       : r->first_constraint[g->constraints.at[k]];
     for (int i = 0; i < g->instances.n; i++) rows->c[i * rows->n + k] = is_map ? first : first + i;
   }
   list_slip(r, g, rows, rows->n_declared + rows->n_maps);
@@ -414,9 +414,9 @@ static void name_coordinate(pl_recorder* r, pl_expr atom, pl_coordinate* out) {
   out->v_unit = angle ? "rad/s" : known ? pl_dimension_unit(r->arena, d, true) : "";
 }
 
-int pl_record_link(pl_recorder* r, const char* label) {
+int pl_record_constraint(pl_recorder* r, const char* label) {
   const pl_constraint* c = label ? pl_model_constraint(r->model, label) : NULL;
-  return c ? r->first_link[c - r->model->constraints.at] : -1;
+  return c ? r->first_constraint[c - r->model->constraints.at] : -1;
 }
 
 // Whether the left side of a constraint is a distance or its square: a sum of squares, or the root
@@ -436,13 +436,13 @@ static bool is_distance(pl_recorder* r, const pl_constraint* c) {
   return true;
 }
 
-static void name_links(pl_recorder* r, int i, pl_link* link) {
+static void name_constraints(pl_recorder* r, int i, pl_constraint_setup* constraint) {
   const pl_constraint* c = &r->model->constraints.at[i];
   pl_group* g;
   if (group_for(r, c->block, &g) != PLEUEL_OK) return;
   const char* own = c->multiplier ? pl_ascii_of(r->arena, c->multiplier) : NULL;
   for (int k = 0; k < g->instances.n; k++) {
-    pl_link* out = &link[r->first_link[i] + k];
+    pl_constraint_setup* out = &constraint[r->first_constraint[i] + k];
     set_indices(r, &g->instances, k);
     long index;
     bool indexed = !pl_is_poison(c->name.index) && pl_record_index(r, c->name.index, &index);
@@ -456,7 +456,7 @@ static void name_links(pl_recorder* r, int i, pl_link* link) {
     out->side = c->relation == PL_GE || c->relation == PL_GT   ? 1
                 : c->relation == PL_LE || c->relation == PL_LT ? -1
                                                                : 0;
-    out->contact = pl_record_link(r, c->while_label);
+    out->contact = pl_record_constraint(r, c->while_label);
     out->off = c->off;
     const pl_restitution* bounce = pl_model_restitution(r->model, c);
     // what bounces or rubs is a surface
@@ -527,7 +527,7 @@ static void list_own_maps(int i, int n_c, int n_maps, const bool* granted, const
   for (int k = 0; k < n_maps && !any; k++) own[k] = map[i * n_maps + k];
 }
 
-static void find_needs(pl_recorder* r, pl_link* map_link) {
+static void find_needs(pl_recorder* r, pl_constraint_setup* map_constraint) {
   const pl_model* m = r->model;
   int n_c = m->constraints.n, n_maps = m->choose.n_maps;
   if (n_maps == 0) return;
@@ -544,21 +544,22 @@ static void find_needs(pl_recorder* r, pl_link* map_link) {
     list_own_maps(i, n_c, n_maps, granted, map, own);
     for (int k = 0; k < n_maps; k++) {
       if (!own[k]) continue;
-      int* needs = PL_ARRAY(r->arena, int, map_link[k].n_needs + 1);
-      for (int j = 0; j < map_link[k].n_needs; j++) needs[j] = map_link[k].needs[j];
-      needs[map_link[k].n_needs++] = r->first_link[i];
-      map_link[k].needs = needs;
+      int* needs = PL_ARRAY(r->arena, int, map_constraint[k].n_needs + 1);
+      for (int j = 0; j < map_constraint[k].n_needs; j++) needs[j] = map_constraint[k].needs[j];
+      needs[map_constraint[k].n_needs++] = r->first_constraint[i];
+      map_constraint[k].needs = needs;
     }
   }
 }
 
 // The row along the maps goes with them.
-static void along_links(pl_recorder* r, const pl_link* map, pl_link* out) {
+static void along_constraints(pl_recorder* r, const pl_constraint_setup* map,
+                              pl_constraint_setup* out) {
   int n_maps = r->model->choose.n_maps, n = 0;
   for (int k = 0; k < n_maps; k++) n += map[k].n_needs;
   for (int k = 0; k < count_along(r); k++) {
     int* needs = PL_ARRAY(r->arena, int, n + 1);
-    out[k] = (pl_link){
+    out[k] = (pl_constraint_setup){
         .name = pl_format(r->arena, "choose along %d", k + 1), .priority = 1, .contact = -1};
     for (int j = 0; j < n_maps; j++) {
       for (int i = 0; i < map[j].n_needs; i++) needs[out[k].n_needs++] = map[j].needs[i];
@@ -567,22 +568,22 @@ static void along_links(pl_recorder* r, const pl_link* map, pl_link* out) {
   }
 }
 
-static void make_links(pl_recorder* r) {
-  pl_link* link = PL_ARRAY(r->arena, pl_link, r->n_links + 1);
-  for (int i = 0; i < r->model->constraints.n; i++) name_links(r, i, link);
+static void make_constraints(pl_recorder* r) {
+  pl_constraint_setup* constraint = PL_ARRAY(r->arena, pl_constraint_setup, r->n_constraints + 1);
+  for (int i = 0; i < r->model->constraints.n; i++) name_constraints(r, i, constraint);
   for (int k = 0; k < r->model->choose.n_maps; k++) {
-    pl_link* out = &link[r->out->n_declared + k];
+    pl_constraint_setup* out = &constraint[r->out->n_declared + k];
     out->name = pl_format(r->arena, "choose %s",
                           pl_expr_text(r->arena, r->pool, r->model->choose.maps[k].old));
     out->priority = count_along(r) > 0 ? 2 : 1;
     out->contact = -1;
   }
-  pl_link* maps = link + r->out->n_declared;
+  pl_constraint_setup* maps = constraint + r->out->n_declared;
   find_needs(r, maps);
-  along_links(r, maps, maps + r->model->choose.n_maps);
-  pl_record_frictions(r, link);
-  r->out->setup.links = link;
-  r->out->setup.n_c = r->n_links;
+  along_constraints(r, maps, maps + r->model->choose.n_maps);
+  pl_record_frictions(r, constraint);
+  r->out->setup.constraints = constraint;
+  r->out->setup.n_c = r->n_constraints;
 }
 
 // ------------------------------------------------------------------------------------ start values
@@ -779,7 +780,7 @@ pleuel_status pl_record_model(pl_recorder* r) {
   PL_TRY(make_groups(r));
   PL_TRY(record_patterns(r));
   PL_TRY(make_coordinates(r));
-  make_links(r);
+  make_constraints(r);
   pl_record_poles(r);
   PL_TRY(pl_record_observers(r));
   PL_TRY(pl_record_events(r));
@@ -829,15 +830,15 @@ void pl_record_dump(pl_text* out, const pl_model* model, const pl_recording* r) 
     pl_text_add(out, "\n");
   }
   for (int i = 0; i < s->n_c; i++) {
-    const pl_link* c = &s->links[i];
+    const pl_constraint_setup* c = &s->constraints[i];
     pl_text_addf(out, "  g%-3d %s%s", i, c->name,
                  c->side > 0   ? "  >= 0"
                  : c->side < 0 ? "  <= 0"
                                : "");
     if (c->priority) pl_text_add(out, "  (map)");
-    if (c->contact >= 0) pl_text_addf(out, "  while %s", s->links[c->contact].name);
+    if (c->contact >= 0) pl_text_addf(out, "  while %s", s->constraints[c->contact].name);
     for (int k = 0; k < c->n_needs; k++)
-      pl_text_addf(out, "  while %s", s->links[c->needs[k]].name);
+      pl_text_addf(out, "  while %s", s->constraints[c->needs[k]].name);
     pl_text_add(out, "\n");
   }
   for (int i = 0; i < s->n_patterns; i++) {

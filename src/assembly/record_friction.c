@@ -59,7 +59,7 @@ static pleuel_status add_source(pl_recorder* r, pl_group* g, int i, const pl_fri
   pl_friction_source* s = PL_NEW(r->arena, pl_friction_source);
   *s = (pl_friction_source){.constraint = i,
                             .group = g,
-                            .first_row = r->n_links,
+                            .first_row = r->n_constraints,
                             .first_coefficient = r->out->setup.n_coefficients};
   s->scale = pl_mul(p, f->kinetic, t.size);
   s->limit = pl_is_poison(f->sticking) ? s->scale : pl_mul(p, f->sticking, t.size);
@@ -72,7 +72,7 @@ static pleuel_status add_source(pl_recorder* r, pl_group* g, int i, const pl_fri
   }
   pl_group_atoms(r, g, s->scale);
   pl_group_atoms(r, g, s->limit);
-  r->n_links += s->n_rows * g->instances.n;
+  r->n_constraints += s->n_rows * g->instances.n;
   r->out->setup.n_coefficients += s->n_coefficients * g->instances.n;
   r->dissipative = true;
   if (t.placed) tell_place(r, f, &t);
@@ -98,14 +98,14 @@ pl_expr pl_record_friction_coefficient(const pl_friction_source* s, int k) {
 }
 
 // ------------------------------------------------------------------------------------------- links
-static void name_row(pl_recorder* r, const pl_friction_source* s, int k, const pl_link* of,
-                     int link, pl_link* out) {
-  *out = (pl_link){.name = pl_format(r->arena, "friction %s", of->name),
-                   .velocity = true,
-                   .slip = true,
-                   .priority = 2,
-                   .off = true,
-                   .contact = of->side != 0 ? link : of->contact};
+static void name_row(pl_recorder* r, const pl_friction_source* s, int k,
+                     const pl_constraint_setup* of, int constraint, pl_constraint_setup* out) {
+  *out = (pl_constraint_setup){.name = pl_format(r->arena, "friction %s", of->name),
+                               .velocity = true,
+                               .slip = true,
+                               .priority = 2,
+                               .off = true,
+                               .contact = of->side != 0 ? constraint : of->contact};
   if (s->n_rows == 1) {
     out->column = pl_format(r->arena, "friction_%s", of->name);
     out->unit = r->model->uses_units ? "N" : "";
@@ -113,7 +113,7 @@ static void name_row(pl_recorder* r, const pl_friction_source* s, int k, const p
   (void)k;
 }
 
-void pl_record_frictions(pl_recorder* r, pl_link* link) {
+void pl_record_frictions(pl_recorder* r, pl_constraint_setup* constraint) {
   int n = 0, at = 0;
   for (int i = 0; i < r->frictions.n; i++) n += r->frictions.at[i]->group->instances.n;
   pl_friction_setup* friction = PL_ARRAY(r->arena, pl_friction_setup, n + 1);
@@ -126,14 +126,14 @@ void pl_record_frictions(pl_recorder* r, pl_link* link) {
       law[at] = plain ? (pl_friction_law){s->slip[0], s->limit, s->scale}
                       : (pl_friction_law){pl_poison(), pl_poison(), pl_poison()};
       pl_friction_setup* out = &friction[at++];
-      *out = (pl_friction_setup){.link = r->first_link[s->constraint] + k,
+      *out = (pl_friction_setup){.constraint = r->first_constraint[s->constraint] + k,
                                  .n_rows = s->n_rows,
                                  .limit = first,
                                  .scale = first + 1};
-      out->name = link[out->link].name;
+      out->name = constraint[out->constraint].name;
       for (int j = 0; j < s->n_rows; j++) {
         out->row[j] = s->first_row + k * s->n_rows + j;
-        name_row(r, s, j, &link[out->link], out->link, &link[out->row[j]]);
+        name_row(r, s, j, &constraint[out->constraint], out->constraint, &constraint[out->row[j]]);
       }
       for (int j = 0; j < 3 && s->n_rows == 3; j++) out->along[j] = first + 2 + j;
       for (int j = 0; j < 6 && s->n_rows == 3; j++) out->metric[j] = first + 5 + j;

@@ -120,10 +120,11 @@ static const char* why_fixed(const pl_recorder* r) {
 }
 
 static const pl_expr* list_restitution(pl_recorder* r) {
-  pl_expr* out = PL_ARRAY(r->arena, pl_expr, r->n_links + 1);
+  pl_expr* out = PL_ARRAY(r->arena, pl_expr, r->n_constraints + 1);
   for (int i = 0; i < r->model->constraints.n; i++) {
     const pl_restitution* e = pl_model_restitution(r->model, &r->model->constraints.at[i]);
-    for (int k = r->first_link[i]; e && k < r->first_link[i + 1]; k++) out[k] = e->value;
+    for (int k = r->first_constraint[i]; e && k < r->first_constraint[i + 1]; k++)
+      out[k] = e->value;
   }
   return out;
 }
@@ -158,7 +159,7 @@ void pl_numbers_make(pl_recorder* r) {
   n->starts = r->starts.at;
   n->n_starts = r->starts.n;
   n->restitution = list_restitution(r);
-  n->n_c = r->n_links;
+  n->n_c = r->n_constraints;
   list_positive(r, n);
   const pl_simulate* s = &r->model->simulate;
   if (s->given) {
@@ -296,13 +297,13 @@ static void apply_programs(pl_applying* a, pl_setup* s) {
 }
 
 static void apply_restitution(pl_applying* a, pl_setup* s) {
-  pl_link* link = PL_ARRAY(a->arena, pl_link, s->n_c + 1);
+  pl_constraint_setup* constraint = PL_ARRAY(a->arena, pl_constraint_setup, s->n_c + 1);
   for (int c = 0; c < s->n_c; c++) {
-    link[c] = s->links[c];
+    constraint[c] = s->constraints[c];
     if (c < a->numbers->n_c && !pl_is_poison(a->numbers->restitution[c]))
-      link[c].restitution = pl_eval(a->pool, a->numbers->restitution[c], a->value);
+      constraint[c].restitution = pl_eval(a->pool, a->numbers->restitution[c], a->value);
   }
-  s->links = link;
+  s->constraints = constraint;
 }
 
 static double time_of(const pl_applying* a, pl_expr e, double otherwise) {

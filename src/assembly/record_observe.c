@@ -72,13 +72,13 @@ static pl_energies energies_of(pl_recorder* r, pl_group* g) {
 }
 
 static pleuel_status observe(pl_recorder* r, pl_group* g, const pl_expr* out, const int* column,
-                             int n, const pl_expr* lambda, const int* links, int n_c,
+                             int n, const pl_expr* lambda, const int* constraints, int n_c,
                              pl_pattern* pattern) {
   int* where = PL_ARRAY(r->arena, int, (size_t)g->instances.n*(size_t)n + 1);
   int* c = PL_ARRAY(r->arena, int, (size_t)g->instances.n*(size_t)n_c + 1);
   for (int i = 0; i < g->instances.n; i++) {
     for (int k = 0; k < n; k++) where[i * n + k] = column[k];
-    for (int k = 0; k < n_c; k++) c[i * n_c + k] = links[k];
+    for (int k = 0; k < n_c; k++) c[i * n_c + k] = constraints[k];
   }
   PL_TRY(pl_record_check(r, out, n));
   pl_pattern_source s = {.n_outputs = n, .output = out, .n = g->instances.n, .out = where, .c = c};
@@ -94,7 +94,7 @@ typedef struct pl_watching {
   PL_VEC(pl_expr) output;
   PL_VEC(int) column;
   PL_VEC(pl_expr) lambda;
-  PL_VEC(int) links;
+  PL_VEC(int) constraints;
 } pl_watching;
 
 static pl_watching* watching_make(pl_recorder* r) {
@@ -107,7 +107,7 @@ static pl_watching* watching_make(pl_recorder* r) {
 }
 
 // The row of a multiplier: λ_g1 as a symbol, λ_c[3] as an element; -1 if there is none.
-static int link_of_multiplier(pl_recorder* r, pl_expr atom) {
+static int constraint_of_multiplier(pl_recorder* r, pl_expr atom) {
   pl_symbol lambda = pl_symbol_of(r->pool, atom);
   int slip = pl_record_friction_row(r, lambda);
   if (slip >= 0) return slip;
@@ -117,15 +117,15 @@ static int link_of_multiplier(pl_recorder* r, pl_expr atom) {
   for (int i = 0; i < r->model->constraints.n; i++) {
     const pl_constraint* c = &r->model->constraints.at[i];
     if (c->lambda.id != lambda.id) continue;
-    if (!element) return c->block ? -1 : r->first_link[i];
+    if (!element) return c->block ? -1 : r->first_constraint[i];
     // a member that was written out has the name of the member
     const char* own = c->name.ascii ? c->name.ascii : c->name.text;
     const char* name = strchr(own, '[') ? own : pl_format(r->arena, "%s[%ld]", own, index);
     char* end = strchr(name, '[') + 1;
     if (strtol(end, NULL, 10) != index) continue;
-    int last = i + 1 < r->model->constraints.n ? r->first_link[i + 1] : r->out->n_declared;
-    for (int k = r->first_link[i]; k < last; k++) {
-      if (strcmp(r->out->setup.links[k].name, name) == 0) return k;
+    int last = i + 1 < r->model->constraints.n ? r->first_constraint[i + 1] : r->out->n_declared;
+    for (int k = r->first_constraint[i]; k < last; k++) {
+      if (strcmp(r->out->setup.constraints[k].name, name) == 0) return k;
     }
   }
   return -1;
@@ -141,10 +141,10 @@ static bool collect_multipliers(pl_recorder* r, pl_watching* w, pl_map* seen, pl
     for (int i = 0; i < w->lambda.n; i++) {
       if (pl_same(w->lambda.at[i], e)) return true;
     }
-    int link = link_of_multiplier(r, e);
-    if (link < 0) return false;
+    int constraint = constraint_of_multiplier(r, e);
+    if (constraint < 0) return false;
     pl_push(r->arena, w->lambda, e);
-    pl_push(r->arena, w->links, link);
+    pl_push(r->arena, w->constraints, constraint);
     return true;
   }
   for (int i = 0; i < pl_n_args(r->pool, e); i++) {
@@ -333,8 +333,8 @@ static pleuel_status watching_record(pl_recorder* r, pl_watching* w, const pl_pa
   *n = 0;
   if (w->output.n == 0) return PLEUEL_OK;
   pl_pattern* p = PL_NEW(r->arena, pl_pattern);
-  PL_TRY(observe(r, w->group, w->output.at, w->column.at, w->output.n, w->lambda.at, w->links.at,
-                 w->lambda.n, p));
+  PL_TRY(observe(r, w->group, w->output.at, w->column.at, w->output.n, w->lambda.at,
+                 w->constraints.at, w->lambda.n, p));
   *patterns = p;
   *n = 1;
   return PLEUEL_OK;
@@ -504,7 +504,7 @@ static pleuel_status make_deed(pl_recorder* r, pl_watching* w, const pl_action* 
     case PL_DO_RELEASE:
     case PL_DO_ATTACH:
       out->deed = a->kind == PL_DO_RELEASE ? PL_DEED_RELEASE : PL_DEED_ATTACH;
-      out->target = pl_record_link(r, a->label);
+      out->target = pl_record_constraint(r, a->label);
       return out->target < 0 ? pl_fail(r->job, PLEUEL_USAGE, "there is no constraint %s", a->label)
                              : PLEUEL_OK;
     case PL_DO_SET:
@@ -549,8 +549,8 @@ pleuel_status pl_record_events(pl_recorder* r) {
     for (int k = 0; k < e->actions.n; k++) PL_TRY(make_deed(r, w, &e->actions.at[k], &deeds[k]));
   }
   if (r->variation)
-    PL_TRY(pl_variation_watch(r, w->group, w->output.at, w->output.n, w->lambda.at, w->links.at,
-                              w->lambda.n));
+    PL_TRY(pl_variation_watch(r, w->group, w->output.at, w->output.n, w->lambda.at,
+                              w->constraints.at, w->lambda.n));
   s->events = events;
   s->n_events = m->events.n;
   s->n_watched = w->output.n;

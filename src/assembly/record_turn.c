@@ -35,14 +35,15 @@ static void name_as_declared(const pl_recorder* r, const pl_recording* declared)
     q[i].v_unit = as->v_unit;
   }
   r->out->setup.coordinates = q;
-  pl_link* link = PL_ARRAY(r->arena, pl_link, r->n_links + 1);
-  memcpy(link, r->out->setup.links, (size_t)r->n_links * sizeof *link);
+  pl_constraint_setup* constraint = PL_ARRAY(r->arena, pl_constraint_setup, r->n_constraints + 1);
+  memcpy(constraint, r->out->setup.constraints, (size_t)r->n_constraints * sizeof *constraint);
   for (int i = 0; i < r->model->constraints.n; i++) {
     const pl_constraint* c = &r->model->constraints.at[i];
-    int last = i + 1 < r->model->constraints.n ? r->first_link[i + 1] : r->out->n_declared;
-    for (int k = r->first_link[i]; c->body && !c->lambda.id && k < last; k++) link[k].column = NULL;
+    int last = i + 1 < r->model->constraints.n ? r->first_constraint[i + 1] : r->out->n_declared;
+    for (int k = r->first_constraint[i]; c->body && !c->lambda.id && k < last; k++)
+      constraint[k].column = NULL;
   }
-  r->out->setup.links = link;
+  r->out->setup.constraints = constraint;
 }
 
 // φ = ..., or φ' = ... of nothing else that moves.

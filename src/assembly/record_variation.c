@@ -241,7 +241,7 @@ static void vary_forces(pl_recorder* r, const pl_group* g, const pl_pattern_sour
 
 static void vary_places(pl_recorder* r, const pl_group* g, const pl_pattern_source* s,
                         int direction, pl_pattern_source* out) {
-  int n = g->atoms.n, n_c = s->slots.n_c, all = r->out->flat.n, rows = r->n_links;
+  int n = g->atoms.n, n_c = s->slots.n_c, all = r->out->flat.n, rows = r->n_constraints;
   int* q = PL_ARRAY(r->arena, int, (size_t)s->n * 2 * (size_t)n + 1);
   int* c = PL_ARRAY(r->arena, int, (size_t)s->n * 2 * (size_t)n_c + 1);
   for (int i = 0; i < s->n; i++) {
@@ -362,9 +362,10 @@ static void name_block(pl_recorder* r, int k, const pl_coordinate* from, pl_coor
   }
 }
 
-static void name_rows(pl_recorder* r, int k, const pl_link* from, pl_link* to) {
+static void name_rows(pl_recorder* r, int k, const pl_constraint_setup* from,
+                      pl_constraint_setup* to) {
   const pl_direction* d = &r->variation->direction[k];
-  int n = r->n_links;
+  int n = r->n_constraints;
   for (int c = 0; c < n; c++) {
     to[c] = to[n + c] = from[c];
     if (k > 0) to[c].column = NULL;
@@ -380,15 +381,16 @@ pleuel_status pl_variation_setup(pl_recorder* r) {
   const pl_variation* v = r->variation;
   PL_TRY(check_starts(r));
   pl_coordinate* q = PL_ARRAY(r->arena, pl_coordinate, 2 * v->n * r->out->flat.n + 1);
-  pl_link* link = PL_ARRAY(r->arena, pl_link, 2 * v->n * r->n_links + 1);
+  pl_constraint_setup* constraint = PL_ARRAY(r->arena, pl_constraint_setup,
+                                             2 * v->n * r->n_constraints + 1);
   for (int k = 0; k < v->n; k++) {
     name_block(r, k, s->coordinates, q + 2 * k * r->out->flat.n);
-    name_rows(r, k, s->links, link + 2 * k * r->n_links);
+    name_rows(r, k, s->constraints, constraint + 2 * k * r->n_constraints);
   }
   s->coordinates = q;
-  s->links = link;
+  s->constraints = constraint;
   s->n_q = 2 * v->n * r->out->flat.n;
-  s->n_c = 2 * v->n * r->n_links;
+  s->n_c = 2 * v->n * r->n_constraints;
   pl_variation_switch(r);
   r->out->n_directions = v->n;
   r->out->varied_q = v->q;

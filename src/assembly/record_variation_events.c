@@ -32,7 +32,7 @@ typedef struct watched {
   const pl_expr* e;
   int n;
   const pl_expr *atoms, *lambda;
-  const int* links;
+  const int* constraints;
   int n_q, n_c;
 } watched;
 
@@ -58,7 +58,7 @@ static pl_expr vary_watched(pl_recorder* r, const watched* w, pl_expr e, const p
 // number `block`.
 static pleuel_status record_block(pl_recorder* r, const watched* w, const pl_expr* output,
                                   int first, int block, pl_pattern* out) {
-  int n_q = w->n_q, n_c = w->n_c, all = r->out->flat.n, rows = r->n_links;
+  int n_q = w->n_q, n_c = w->n_c, all = r->out->flat.n, rows = r->n_constraints;
   pl_expr *atoms = PL_ARRAY(r->arena, pl_expr, 2 * n_q + 1),
           *lambda = PL_ARRAY(r->arena, pl_expr, 2 * n_c + 1);
   int *q = PL_ARRAY(r->arena, int, 2 * n_q + 1), *c = PL_ARRAY(r->arena, int, 2 * n_c + 1),
@@ -76,8 +76,8 @@ static pleuel_status record_block(pl_recorder* r, const watched* w, const pl_exp
   for (int i = 0; i < n_c; i++) {
     lambda[i] = w->lambda[i];
     lambda[n_c + i] = pl_variation_delta(r, w->lambda[i]);
-    c[i] = w->links[i] + 2 * block * rows;
-    c[n_c + i] = w->links[i] + (2 * block + 1) * rows;
+    c[i] = w->constraints[i] + 2 * block * rows;
+    c[n_c + i] = w->constraints[i] + (2 * block + 1) * rows;
   }
   for (int i = 0; i < w->n; i++) where[i] = first + i;
   pl_pattern_source s = {.slots = {.n_q = 2 * n_q,
@@ -95,9 +95,9 @@ static pleuel_status record_block(pl_recorder* r, const watched* w, const pl_exp
 }
 
 pleuel_status pl_variation_watch(pl_recorder* r, const pl_group* g, const pl_expr* e, int n,
-                                 const pl_expr* lambda, const int* links, int n_c) {
+                                 const pl_expr* lambda, const int* constraints, int n_c) {
   pl_variation* v = r->variation;
-  watched w = {e, n, g->atoms.at, lambda, links, g->atoms.n, n_c};
+  watched w = {e, n, g->atoms.at, lambda, constraints, g->atoms.n, n_c};
   if (n == 0 || !pl_variation_is_switched(r)) return PLEUEL_OK;
   pl_expr* output = PL_ARRAY(r->arena, pl_expr, n + 1);
   v->watch = PL_ARRAY(r->arena, pl_pattern, v->n + 1);
@@ -124,13 +124,13 @@ pleuel_status pl_variation_watch(pl_recorder* r, const pl_group* g, const pl_exp
 static const double* restitution_slopes(pl_recorder* r) {
   const pl_model* m = r->model;
   const pl_variation* v = r->variation;
-  double* slope = PL_ARRAY(r->arena, double, (size_t)v->n*(size_t)r->n_links + 1);
+  double* slope = PL_ARRAY(r->arena, double, (size_t)v->n*(size_t)r->n_constraints + 1);
   for (int i = 0; i < m->constraints.n; i++) {
     const pl_restitution* bounce = pl_model_restitution(m, &m->constraints.at[i]);
-    int next = i + 1 < m->constraints.n ? r->first_link[i + 1] : r->out->n_declared;
+    int next = i + 1 < m->constraints.n ? r->first_constraint[i + 1] : r->out->n_declared;
     for (int k = 0; bounce && k < v->n; k++)
-      for (int c = r->first_link[i]; c < next; c++)
-        slope[k * r->n_links + c] = pl_record_number(
+      for (int c = r->first_constraint[i]; c < next; c++)
+        slope[k * r->n_constraints + c] = pl_record_number(
             r, pl_variation_by_parameter(r, bounce->value, &v->direction[k]));
   }
   return slope;
@@ -143,20 +143,20 @@ void pl_variation_switch(pl_recorder* r) {
   pl_varied* varied = PL_NEW(r->arena, pl_varied);
   *varied = (pl_varied){.n_directions = v->n,
                         .n_q = r->out->flat.n,
-                        .n_c = r->n_links,
+                        .n_c = r->n_constraints,
                         .n_watched = s->n_watched,
                         .restitution_slope = restitution_slopes(r)};
   s->varied = varied;
-  pl_link* link = PL_ARRAY(r->arena, pl_link, s->n_c + 1);
+  pl_constraint_setup* constraint = PL_ARRAY(r->arena, pl_constraint_setup, s->n_c + 1);
   for (int c = 0; c < s->n_c; c++) {
-    link[c] = s->links[c];
-    link[c].side = 0;
-    link[c].contact = -1;
-    link[c].n_needs = 0;
-    link[c].off = link[c].rope = false;
-    link[c].restitution = 0;
+    constraint[c] = s->constraints[c];
+    constraint[c].side = 0;
+    constraint[c].contact = -1;
+    constraint[c].n_needs = 0;
+    constraint[c].off = constraint[c].rope = false;
+    constraint[c].restitution = 0;
   }
-  s->links = link;
+  s->constraints = constraint;
   pl_pattern* watch = PL_ARRAY(r->arena, pl_pattern, s->n_watch_patterns + v->n_watch + 1);
   int n = 0;
   for (int i = 0; i < s->n_watch_patterns; i++) watch[n++] = s->watch[i];

@@ -114,7 +114,7 @@ static void note(pass* z, pl_happening_kind kind, int index) {
 
 static const char* name_of(const pl_system* s, const pl_monitor* m) {
   return m->kind == PL_MONITOR_EVENT ? s->setup->events[m->index].name
-                                     : s->setup->links[m->index].name;
+                                     : s->setup->constraints[m->index].name;
 }
 
 static bool stops(const pl_event_setup* event) {

@@ -89,7 +89,7 @@ static void take_rows(starter* z, bool positions) {
   pl_system_choose_rows(s);
   z->n_rows = 0;
   for (int c = 0; c < s->n_c; c++) {
-    bool used = s->row_of[c] >= 0 && !(positions && s->setup->links[c].velocity);
+    bool used = s->row_of[c] >= 0 && !(positions && s->setup->constraints[c].velocity);
     z->place[c] = used ? z->n_rows : -1;
     if (used) z->row[z->n_rows++] = c;
   }

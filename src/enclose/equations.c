@@ -80,7 +80,7 @@ int pl_system_choose_rows(pl_system* s) {
         G[c * n_q + (size_t)j->q[g->col]] += pl_ball_double(pl_root_series(j, g->root));
     }
   }
-  for (int c = 0; c < s->n_c; c++) priority[c] = s->setup->links[c].priority;
+  for (int c = 0; c < s->n_c; c++) priority[c] = s->setup->constraints[c].priority;
   double smallest;
   pl_independent_rows(G, priority, taken, work, s->n_c, s->n_q, 1e-9, &smallest);
   s->n_rows = 0;

@@ -45,7 +45,7 @@ static bool does_something(const pl_event_setup* e) {
 
 bool pl_monitors_any(const pl_system* s) {
   for (int c = 0; c < s->n_c; c++)
-    if (s->setup->links[c].side != 0) return true;
+    if (s->setup->constraints[c].side != 0) return true;
   for (int i = 0; i < s->setup->n_events; i++)
     if (does_something(&s->setup->events[i])) return true;
   return false;
@@ -59,11 +59,12 @@ void pl_monitors_reset(pl_system* s, bool anew, int released) {
     if (!anew && all->list.at[i].kind == PL_MONITOR_EVENT) all->list.at[kept++] = all->list.at[i];
   all->list.n = kept;
   for (int c = 0; c < s->n_c; c++) {
-    const pl_link* link = &s->setup->links[c];
-    bool exists = link->contact < 0 || s->held[link->contact];
-    if (link->side == 0 || link->off || !exists) continue;
-    pl_monitor m = {
-        .kind = s->active[c] ? PL_MONITOR_FORCE : PL_MONITOR_GAP, .index = c, .sign = link->side};
+    const pl_constraint_setup* constraint = &s->setup->constraints[c];
+    bool exists = constraint->contact < 0 || s->held[constraint->contact];
+    if (constraint->side == 0 || constraint->off || !exists) continue;
+    pl_monitor m = {.kind = s->active[c] ? PL_MONITOR_FORCE : PL_MONITOR_GAP,
+                    .index = c,
+                    .sign = constraint->side};
     if (c == released) {
       m.fresh = 3;
       m.begun = true;
@@ -114,7 +115,7 @@ pl_certify_end pl_monitors_mark(pl_system* s, const char** what) {
   s->monitors = PL_NEW(s->arena, pl_monitors);
   for (int c = 0; c < s->n_c; c++) {
     bool plain = true;
-    if (s->setup->links[c].side != 0)
+    if (s->setup->constraints[c].side != 0)
       each_root(s, &(pl_monitor){.kind = PL_MONITOR_GAP, .index = c}, want, &plain);
   }
   for (int i = 0; i < s->setup->n_events; i++) {

@@ -144,12 +144,12 @@ static void make_work(pl_system* s) {
 
 // Every constraint that is in force and does not follow from the others must be in use.
 void pl_system_hold(pl_system* s) {
-  const pl_link* links = s->setup->links;
+  const pl_constraint_setup* constraints = s->setup->constraints;
   s->n_wanted = 0;
   for (int c = 0; c < s->n_c; c++) {
-    s->active[c] = s->held[c] && (links[c].contact < 0 || s->held[links[c].contact]);
-    for (int i = 0; i < links[c].n_needs; i++)
-      s->active[c] = s->active[c] && s->held[links[c].needs[i]];
+    s->active[c] = s->held[c] && (constraints[c].contact < 0 || s->held[constraints[c].contact]);
+    for (int i = 0; i < constraints[c].n_needs; i++)
+      s->active[c] = s->active[c] && s->held[constraints[c].needs[i]];
     s->n_wanted += s->active[c] && !s->p->implied[c];
   }
 }

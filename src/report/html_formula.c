@@ -148,7 +148,7 @@ void pl_html_display(pl_html* h, const pl_form* f) {
 
 // --------------------------------------------------------------------------------------- sentences
 // "(12)" when there is an equation of this number; bytes taken, 0 otherwise.
-static int equation_link(pl_html* h, const char* s) {
+static int equation_constraint(pl_html* h, const char* s) {
   int digits = (int)strspn(s + 1, "0123456789");
   if (digits < 1 || digits > 4 || s[1 + digits] != ')') return 0;
   int number = 0;
@@ -179,7 +179,7 @@ void pl_html_sentence(pl_html* h, const char* words, int n, const pl_form* const
     if (taken || *words == '(') {
       pl_html_text(h, pl_copy_n(h->arena, from, (size_t)(words - from)));
       from = words;
-      if (*words == '(') taken = equation_link(h, words);
+      if (*words == '(') taken = equation_constraint(h, words);
       else if (k >= 1 && k <= n) put_insert(h, inserts[k - 1]);
       if (taken) {
         words += taken;

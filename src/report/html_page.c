@@ -51,7 +51,7 @@ static void put_head(pl_html* h) {
   pl_html_raw(h, "</style>\n</head>\n");
 }
 
-static void put_link(pl_html* h, const char* id, const char* words) {
+static void put_constraint(pl_html* h, const char* id, const char* words) {
   pl_html_rawf(h, "<a href=\"#%s\">%s</a>", id, words);
 }
 
@@ -66,12 +66,12 @@ static void put_top(pl_html* h) {
       "<body>\n<header class=\"top\"><div class=\"wrap\"><span class=\"brand\">%spleuel</span>\n",
       brand);
   pl_html_rawf(h, "<nav aria-label=\"%s\">", pl_html_say(h, "Sections", "Abschnitte"));
-  put_link(h, "result", pl_html_say(h, "Result", "Ergebnis"));
-  if (pl_html_has_motion(h)) put_link(h, "motion", pl_html_say(h, "Motion", "Bewegung"));
-  else if (pl_html_has_picture(h)) put_link(h, "motion", pl_html_say(h, "System", "System"));
-  put_link(h, "derivation", pl_html_say(h, "Derivation", "Herleitung"));
-  put_link(h, "checks", pl_html_say(h, "Checks", "Proben"));
-  put_link(h, "model", pl_html_say(h, "Model", "Modell"));
+  put_constraint(h, "result", pl_html_say(h, "Result", "Ergebnis"));
+  if (pl_html_has_motion(h)) put_constraint(h, "motion", pl_html_say(h, "Motion", "Bewegung"));
+  else if (pl_html_has_picture(h)) put_constraint(h, "motion", pl_html_say(h, "System", "System"));
+  put_constraint(h, "derivation", pl_html_say(h, "Derivation", "Herleitung"));
+  put_constraint(h, "checks", pl_html_say(h, "Checks", "Proben"));
+  put_constraint(h, "model", pl_html_say(h, "Model", "Modell"));
   pl_html_raw(h, "</nav>\n<span class=\"tools\">");
   bool data = pl_html_has_motion(h) && h->in->data != PL_HTML_DATA_NONE;
   if (data)

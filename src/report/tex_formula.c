@@ -216,11 +216,11 @@ static const char* narrow(pl_tex_page* g, const pl_form* f, double room) {
 }
 
 // ----------------------------------------------------------------------------------------- display
-typedef struct pl_link_of {
+typedef struct pl_constraint_of {
   const char* op;
   const pl_form* form;
-} pl_link_of;
-typedef PL_VEC(pl_link_of) pl_chain;
+} pl_constraint_of;
+typedef PL_VEC(pl_constraint_of) pl_chain;
 
 static void chain_of(pl_tex_page* g, const pl_form* f, const char* op, pl_chain* out) {
   if (f->kind == PL_F_RELATION && f->n == 2) {
@@ -228,8 +228,8 @@ static void chain_of(pl_tex_page* g, const pl_form* f, const char* op, pl_chain*
     chain_of(g, f->args[1], f->text ? f->text : "=", out);
     return;
   }
-  pl_link_of link = {op, f};
-  pl_push(g->arena, *out, link);
+  pl_constraint_of constraint = {op, f};
+  pl_push(g->arena, *out, constraint);
 }
 
 static const char* op_tex(const char* op) {

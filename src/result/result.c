@@ -9,7 +9,7 @@
 static int count_columns(const pl_setup* s) {
   int n = 1;
   for (int i = 0; i < s->n_q; i++) n += s->coordinates[i].hidden ? 0 : 2;
-  for (int c = 0; c < s->n_c; c++) n += s->links[c].column != NULL;
+  for (int c = 0; c < s->n_c; c++) n += s->constraints[c].column != NULL;
   return n + s->n_out;
 }
 
@@ -23,7 +23,8 @@ static void name_columns(const pl_setup* s, pl_result_column* column) {
     if (!s->coordinates[i].hidden)
       column[n++] = (pl_result_column){s->coordinates[i].v_name, s->coordinates[i].v_unit};
   for (int c = 0; c < s->n_c; c++)
-    if (s->links[c].column) column[n++] = (pl_result_column){s->links[c].column, s->links[c].unit};
+    if (s->constraints[c].column)
+      column[n++] = (pl_result_column){s->constraints[c].column, s->constraints[c].unit};
   for (int i = 0; i < s->n_out; i++)
     column[n++] = (pl_result_column){s->out[i].name, s->out[i].unit};
 }
@@ -37,10 +38,10 @@ void pl_result_flatten(const pl_setup* s, const pl_row* row, double* x) {
   for (int i = 0; i < s->n_q; i++)
     if (!s->coordinates[i].hidden) x[n++] = row->v[i];
   for (int c = 0; c < s->n_c; c++)
-    if (s->links[c].column)
-      x[n++] = !row->unique[c]     ? (double)NAN
-               : s->links[c].minus ? -row->lambda[c]
-                                   : row->lambda[c];  // no number where none is determined
+    if (s->constraints[c].column)
+      x[n++] = !row->unique[c]           ? (double)NAN
+               : s->constraints[c].minus ? -row->lambda[c]
+                                         : row->lambda[c];  // no number where none is determined
   for (int i = 0; i < s->n_out; i++) x[n++] = row->out[i];
 }
 
@@ -64,8 +65,9 @@ void pl_result_digits(const pl_setup* s, const pl_row* row, void* user,
     for (int i = 0; i < s->n_q; i++)
       if (!s->coordinates[i].hidden) COLUMN((pl_row_part)part, i, false);
   for (int c = 0; c < s->n_c; c++) {
-    if (s->links[c].column && row->unique[c]) COLUMN(PL_ROW_LAMBDA, c, s->links[c].minus);
-    else if (s->links[c].column) take(user, "nan");
+    if (s->constraints[c].column && row->unique[c])
+      COLUMN(PL_ROW_LAMBDA, c, s->constraints[c].minus);
+    else if (s->constraints[c].column) take(user, "nan");
   }
   for (int i = 0; i < s->n_out; i++) COLUMN(PL_ROW_OUT, i, false);
 #undef COLUMN
@@ -73,7 +75,7 @@ void pl_result_digits(const pl_setup* s, const pl_row* row, void* user,
 
 static bool has_mode(const pl_setup* s) {
   for (int c = 0; c < s->n_c; c++)
-    if (s->links[c].side != 0) return true;
+    if (s->constraints[c].side != 0) return true;
   return s->n_frictions > 0;
 }
 

@@ -34,9 +34,9 @@ static t_bench* bead(void) {
   b->coordinate[0].unit = "m";
   b->coordinate[0].v_unit = "m/s";
   int c = t_constraint(b, "table, oak", y);
-  b->link[c].side = 1;
-  b->link[c].column = "lambda";
-  b->link[c].unit = "N";
+  b->constraint[c].side = 1;
+  b->constraint[c].column = "lambda";
+  b->constraint[c].unit = "N";
   pl_expr T = pl_mul(b->pool, pl_ratio(b->pool, 1, 2),
                      pl_add(b->pool, pl_square(b->pool, b->v[0]), pl_square(b->pool, b->v[1])));
   t_start(b, 0, 0, 2);

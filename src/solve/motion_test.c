@@ -100,9 +100,9 @@ static t_bench* crank(double r, double l, double speed, double phi, double t_end
   t_constraint(b, "g4", pl_sub(P, pl_add(P, sq(b, x1), sq(b, z1)), sq(b, R)));
   t_constraint(b, "g5", pl_sub(P, pl_add(P, sq(b, z1), sq(b, pl_sub(P, x2, x1))), sq(b, rod)));
   int k = t_constraint(b, "map x1", pl_sub(P, x1, mul(b, R, pl_call(P, PL_COS, angle))));
-  b->link[k].priority = 1;
+  b->constraint[k].priority = 1;
   k = t_constraint(b, "map z1", pl_sub(P, z1, mul(b, R, pl_call(P, PL_SIN, angle))));
-  b->link[k].priority = 1;
+  b->constraint[k].priority = 1;
   t_start(b, 3, phi, speed);
   b->branch[0] = pl_sub(P, x1, x2);
   b->branch_setup[0] = (pl_branch_setup){"x2 < x1", 0, side};
@@ -357,7 +357,7 @@ static void a_skate_on_a_slope_moves_on_a_cycloid(void** state) {
   int c = t_constraint(b, "skate",
                        pl_sub(P, mul(b, b->v[0], pl_call(P, PL_SIN, phi)),
                               mul(b, b->v[1], pl_call(P, PL_COS, phi))));
-  b->velocity[c] = b->link[c].velocity = true;
+  b->velocity[c] = b->constraint[c].velocity = true;
   for (int i = 0; i < 3; i++) t_start(b, i, 0, i == 2 ? 2 : 0);
   // force 1 along x; with ω = 2 and rest at the origin: speed u = sin(ω t)/ω, x = (1 - cos 2ωt)/(4
   // ω²), y = (2ωt - sin 2ωt)/(4 ω²)

@@ -25,7 +25,7 @@ void pl_observe(pl_run* run, double t, const double* q, const double* v, const d
 // ------------------------------------------------------------------------------------ mode as text
 static bool has_modes(const pl_run* run) {
   for (int c = 0; c < run->n_c; c++)
-    if (run->setup->links[c].side != 0) return true;
+    if (run->setup->constraints[c].side != 0) return true;
   return run->setup->n_frictions > 0;
 }
 
@@ -41,9 +41,9 @@ void pl_mode_text(const pl_run* run, char* out) {
   if (run->pilot) snprintf(out, run->mode_size, "%s", pl_pilot_mode(run->pilot));
   if (!has_modes(run)) return;
   for (int c = 0; c < run->n_c; c++) {
-    const pl_link* link = &run->setup->links[c];
-    if (link->side != 0 && run->active[c])
-      n = add_mode(run, out, n, link->rope ? "taut" : "contact", link->name);
+    const pl_constraint_setup* constraint = &run->setup->constraints[c];
+    if (constraint->side != 0 && run->active[c])
+      n = add_mode(run, out, n, constraint->rope ? "taut" : "contact", constraint->name);
   }
   for (int r = 0; r < run->setup->n_frictions; r++) {
     if (run->friction[r].state == PL_FRICTION_OFF) continue;
@@ -187,7 +187,7 @@ pleuel_status pl_rows_event(pl_run* run, pl_event_kind kind, int index, double i
   for (int i = 0; i < run->n_q; i++)
     e.jump |= fabs(run->v[i] - run->save_v[i]) > 1e-12 * run->v_size;
   if (index >= 0)
-    e.label = of_event ? run->setup->events[index].name : run->setup->links[index].name;
+    e.label = of_event ? run->setup->events[index].name : run->setup->constraints[index].name;
   e.before = (pl_row){.t = run->t,
                       .q = run->save_q,
                       .v = run->save_v,
@@ -233,8 +233,10 @@ pleuel_status pl_rows_settled(pl_run* run, pl_event_kind kind, int index, double
     run->row_q[i] = run->q[i] + dt * (run->v[i] + 0.5 * dt * run->A[i]);
     run->row_v[i] = run->v[i] + dt * run->A[i];
   }
-  pl_event_record e = {
-      .kind = kind, .index = index, .label = run->setup->links[index].name, .bounces = bounces};
+  pl_event_record e = {.kind = kind,
+                       .index = index,
+                       .label = run->setup->constraints[index].name,
+                       .bounces = bounces};
   return pl_rows_event_beside(run, e, run->t + dt, run->A, run->L);
 }
 

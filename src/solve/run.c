@@ -261,7 +261,7 @@ static pleuel_status step(pl_run* run) {
     return pl_fail(
         run->job, PLEUEL_NUMERICAL,
         "%s was passed through near t = %.9g s without being met: the result cannot be trusted",
-        run->setup->links[run->sunk].name, run->t);
+        run->setup->constraints[run->sunk].name, run->t);
   note(run, &p, h);
   PL_TRY(count_tiny(run, h));
   if (root > 0 && run->n_slipping > 0) pl_friction_keep_directions(run);
@@ -361,8 +361,8 @@ static void decide_contacts(pl_run* run, double t) {
   pl_point_evaluate(run, t, run->q, run->v);
   pl_assemble_g(run, 0, run->g, run->g_size);
   for (int c = 0; c < run->n_c; c++) {
-    const pl_link* link = &run->setup->links[c];
-    if (link->side != 0 && !link->velocity)
+    const pl_constraint_setup* constraint = &run->setup->constraints[c];
+    if (constraint->side != 0 && !constraint->velocity)
       run->on[c] = !run->detached[c] && fabs(run->g[c]) <= 1e-9 * run->g_size[c];
   }
 }
@@ -395,8 +395,8 @@ const bool* pl_run_unique(const pl_run* run) { return run->unique; }
 const pl_stats* pl_run_stats(const pl_run* run) { return &run->stats; }
 double pl_run_tol(const pl_run* run) { return run->tol; }
 bool pl_run_tol_raised(const pl_run* run) { return run->tol_raised; }
-bool pl_run_is_active(const pl_run* run, int link) { return run->active[link]; }
-bool pl_run_is_released(const pl_run* run, int link) { return run->detached[link]; }
+bool pl_run_is_active(const pl_run* run, int constraint) { return run->active[constraint]; }
+bool pl_run_is_released(const pl_run* run, int constraint) { return run->detached[constraint]; }
 
 void pl_run_dense(const pl_run* run, double t, double* q, double* v, double* lambda) {
   double dt = t - run->t_last;

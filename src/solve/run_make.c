@@ -14,14 +14,14 @@ static const double least_tol[] = {
     [PL_PRECISION_DOUBLE] = 2.3e-16, [PL_PRECISION_LONG] = 1e-23, [PL_PRECISION_QUAD] = 1e-34};
 
 // ------------------------------------------------------------------------------------------ checks
-static pleuel_status check_links(pl_job* job, const pl_setup* s) {
+static pleuel_status check_constraints(pl_job* job, const pl_setup* s) {
   for (int c = 0; c < s->n_c; c++) {
-    const pl_link* l = &s->links[c];
+    const pl_constraint_setup* l = &s->constraints[c];
     if (l->name == NULL) return pl_fail(job, PLEUEL_USAGE, "constraint %d has no name", c);
     if (l->side < -1 || l->side > 1)
       return pl_fail(job, PLEUEL_USAGE, "%s: side is -1, 0 or 1", l->name);
     if (l->contact >= s->n_c || l->contact == c
-        || (l->contact >= 0 && s->links[l->contact].side == 0))
+        || (l->contact >= 0 && s->constraints[l->contact].side == 0))
       return pl_fail(job, PLEUEL_USAGE, "%s goes with a contact that is none", l->name);
     for (int i = 0; i < l->n_needs; i++)
       if (l->needs[i] < 0 || l->needs[i] >= s->n_c || l->needs[i] == c)
@@ -76,7 +76,7 @@ static pleuel_status check_setup(pl_job* job, const pl_setup* s) {
   for (int i = 0; i < s->n_poles; i++)
     if (s->poles[i] < 0 || s->poles[i] >= s->n_q)
       return pl_fail(job, PLEUEL_USAGE, "pole %d does not fit the setup", i);
-  PL_TRY(check_links(job, s));
+  PL_TRY(check_constraints(job, s));
   return check_events(job, s);
 }
 
@@ -241,7 +241,8 @@ static void reserve_rows(pl_run* run) {
   run->poly = PL_ARRAY(a, double, orders + 1);
   run->root_work = PL_ARRAY(a, double, PL_ROOT_WORK(orders));
   run->mode_size = sizeof "free";
-  for (int c = 0; c < s->n_c; c++) run->mode_size += strlen(s->links[c].name) + sizeof " contact()";
+  for (int c = 0; c < s->n_c; c++)
+    run->mode_size += strlen(s->constraints[c].name) + sizeof " contact()";
   for (int r = 0; r < s->n_frictions; r++)
     run->mode_size += strlen(s->frictions[r].name) + sizeof " stick()";
   run->mode = PL_ARRAY(a, char, run->mode_size);
@@ -252,7 +253,7 @@ static pleuel_status reserve_batches(pl_run* run) {
   const pl_setup* s = run->setup;
   int n_q = s->n_q, n_c = s->n_c;
   run->motion.lean = s->n_frictions == 0;
-  for (int c = 0; c < n_c; c++) run->motion.lean &= s->links[c].side == 0;
+  for (int c = 0; c < n_c; c++) run->motion.lean &= s->constraints[c].side == 0;
   PL_TRY(pl_batches_make(run->job, &run->motion, s->patterns, s->n_patterns, run->order + 2, n_q,
                          n_c, INT32_MAX));
   PL_TRY(pl_batches_make(run->job, &run->observers, s->observers, s->n_observers, 1,
@@ -276,14 +277,14 @@ static pleuel_status check_rows(pl_run* run) {
       for (int l = 0; l < b->n; l++)
         if (owner[b->c[p->g[e].row * b->lanes + l]]++)
           return pl_fail(run->job, PLEUEL_USAGE, "constraint %s stands in two places",
-                         run->setup->links[b->c[p->g[e].row * b->lanes + l]].name);
+                         run->setup->constraints[b->c[p->g[e].row * b->lanes + l]].name);
   }
   return PLEUEL_OK;
 }
 
 static void first_mode(pl_run* run) {
   for (int c = 0; c < run->n_c; c++) {
-    run->detached[c] = run->setup->links[c].off || run->setup->links[c].slip;
+    run->detached[c] = run->setup->constraints[c].off || run->setup->constraints[c].slip;
     run->on[c] = !run->detached[c];
   }
 }

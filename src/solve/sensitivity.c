@@ -161,7 +161,7 @@ pleuel_status pl_pilot_begin(pl_pilot* p) {
 // -------------------------------------------------------------------------------------------- when
 static const char* name_of(const pl_run* run, const pl_watch* w) {
   if (w->kind == PL_WATCH_EVENT) return run->setup->events[w->index].name;
-  return run->setup->links[w->index].name;
+  return run->setup->constraints[w->index].name;
 }
 
 static bool switches(const pl_run* run, const pl_watch* w) {

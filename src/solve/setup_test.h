@@ -26,7 +26,7 @@ typedef struct t_bench {
   pl_expr q[T_MAX], v[T_MAX], lambda[T_MAX], g[T_MAX], out[16], watch[16], branch[8], force[T_MAX];
   bool velocity[T_MAX];
   pl_coordinate coordinate[T_MAX];
-  pl_link link[T_MAX];
+  pl_constraint_setup constraint[T_MAX];
   pl_column column[16];
   pl_event_setup event[8];
   pl_event_deed deed[8][4];
@@ -90,9 +90,9 @@ static inline int t_constraint(t_bench* b, const char* name, pl_expr g) {
   b->g[c] = g;
   b->lambda[c] = pl_sym(b->pool,
                         t_symbol(b, pl_format(b->arena, "lambda_%s", name), PL_R_MULTIPLIER));
-  b->link[c] = (pl_link){.name = pl_copy(b->arena, name),
-                         .column = pl_format(b->arena, "lambda_%s", name),
-                         .contact = -1};
+  b->constraint[c] = (pl_constraint_setup){.name = pl_copy(b->arena, name),
+                                           .column = pl_format(b->arena, "lambda_%s", name),
+                                           .contact = -1};
   return c;
 }
 
@@ -182,7 +182,7 @@ static inline pleuel_status t_make(t_bench* b, pl_expr L, double t_end, double t
   b->setup = (pl_setup){.n_q = b->n_q,
                         .coordinates = b->coordinate,
                         .n_c = b->n_c,
-                        .links = b->link,
+                        .constraints = b->constraint,
                         .n_patterns = 1,
                         .patterns = b->pattern,
                         .n_out = b->n_out,

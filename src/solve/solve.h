@@ -32,7 +32,7 @@ typedef struct pl_coordinate {
 } pl_coordinate;
 
 // A constraint row.
-typedef struct pl_link {
+typedef struct pl_constraint_setup {
   const char* name;  // "g1", "c[3]": for messages, events and the mode text
   // of its multiplier: "lambda_g1", "N"; column NULL: no column (map equations)
   const char *column, *unit;
@@ -51,18 +51,18 @@ typedef struct pl_link {
   bool rope;           // one-sided, a distance: it goes slack and taut
   // a component of a slip velocity (pl_friction_setup), no constraint of its own
   bool slip;
-} pl_link;
+} pl_constraint_setup;
 
 // Coulomb friction on a constraint, whose multiplier presses surfaces together. The slip velocity
-// has one component in the plane and three in space (its part in the tangent plane); each is a link
+// has one component in the plane and three in space (its part in the tangent plane); each is a constraint
 // with velocity and friction set. While the surfaces stick, those rows are constraints; while they slip,
 // their multipliers follow from that of the constraint. Coefficients are outputs of the motion
 // patterns.
 typedef struct pl_friction_setup {
   const char* name;  // of the constraint
-  int link;          // whose multiplier presses
+  int constraint;    // whose multiplier presses
   int n_rows;        // 1 or 3
-  int row[3];        // links of slip
+  int row[3];        // constraints of slip
   int limit;         // coefficient: |F| <= limit |λ| while it sticks
   int scale;         // |F| = scale |λ| while it slips
   int along[3];      // in space: scale times the direction of slip
@@ -141,7 +141,7 @@ typedef struct pl_setup {
   int n_q;
   const pl_coordinate* coordinates;  // (n_q)
   int n_c;
-  const pl_link* links;  // (n_c)
+  const pl_constraint_setup* constraints;  // (n_c)
   int n_patterns;
   const pl_pattern* patterns;  // M, h, G, g: the motion
   int n_out;
@@ -346,7 +346,7 @@ typedef enum pl_start_trouble {
   PL_START_FINE,
   PL_START_SEVERAL,   // several solutions fit: candidates lists them
   PL_START_NONE,      // none fits the constraints (and branches)
-  PL_START_VIOLATED,  // given values violate constraint `link`
+  PL_START_VIOLATED,  // given values violate constraint `constraint`
   PL_START_SINGULAR   // the start is a singular position
 } pl_start_trouble;
 
@@ -359,8 +359,8 @@ typedef struct pl_start_report {
   int n_candidates;            // distinct solutions that fit
   const double* candidates;    // (n_candidates x n_q), solution after solution
   int taken;                   // the candidate that is the start
-  int link;                    // VIOLATED: which constraint, else -1
-  bool link_velocity;          // VIOLATED: on velocity level
+  int constraint;              // VIOLATED: which constraint, else -1
+  bool constraint_velocity;    // VIOLATED: on velocity level
   double residual;             // VIOLATED: |g| relative to its terms
   // VIOLATED: the coordinate that would have to move, -1 if no single one does
   int move_coordinate;
@@ -424,7 +424,7 @@ const pl_stats* pl_run_stats(const pl_run* run);
 double pl_run_tol(const pl_run* run);  // tolerance in use
 // the one asked for was below what the arithmetic can do
 bool pl_run_tol_raised(const pl_run* run);
-bool pl_run_is_active(const pl_run* run, int link);
+bool pl_run_is_active(const pl_run* run, int constraint);
 // Friction: whether it sticks, slips or is not there, and the signs of slip and pressing
 // multiplier.
 typedef enum pl_friction_mode {
@@ -438,7 +438,7 @@ typedef struct pl_friction_report {
 } pl_friction_report;
 pl_friction_report pl_run_friction(const pl_run* run, int friction);
 // by an event, or off: it is not watched either
-bool pl_run_is_released(const pl_run* run, int link);
+bool pl_run_is_released(const pl_run* run, int constraint);
 const char* pl_run_mode(const pl_run* run);
 
 // pl_run_dense evaluates the series of the last step at time t (within it). Any pointer may be

@@ -249,16 +249,16 @@ pl_trace* pl_trace_make(pl_job* job, pl_model* numbered, const pl_trace_options*
 }
 
 // ----------------------------------------------------------------------------------------- reading
-int pl_trace_link(const pl_trace* t, int constraint, int instance) {
+int pl_trace_constraint(const pl_trace* t, int constraint, int instance) {
   if (!t->recording || constraint < 0 || constraint >= t->model->constraints.n) return -1;
-  int at = t->recording->first_link[constraint] + instance;
-  return at < t->recording->first_link[constraint + 1] ? at : -1;
+  int at = t->recording->first_constraint[constraint] + instance;
+  return at < t->recording->first_constraint[constraint + 1] ? at : -1;
 }
 
 bool pl_trace_holds(const pl_trace* t, const pl_trace_phase* phase, int constraint) {
-  int at = pl_trace_link(t, constraint, 0);
+  int at = pl_trace_constraint(t, constraint, 0);
   if (at < 0) return false;
-  for (int k = 1; at >= 0; at = pl_trace_link(t, constraint, k++)) {
+  for (int k = 1; at >= 0; at = pl_trace_constraint(t, constraint, k++)) {
     if (!phase->active[at]) return false;
   }
   return true;
@@ -268,9 +268,9 @@ bool pl_trace_sticks(const pl_trace* t, const pl_trace_phase* phase, int frictio
   const pl_setup* s = &t->recording->setup;
   const pl_constraint* on = pl_model_constraint(t->model, t->model->frictions.at[friction].label);
   if (!on) return false;
-  int link = pl_trace_link(t, (int)(on - t->model->constraints.at), 0);
+  int constraint = pl_trace_constraint(t, (int)(on - t->model->constraints.at), 0);
   for (int i = 0; i < s->n_frictions; i++) {
-    if (s->frictions[i].link == link) return phase->active[s->frictions[i].row[0]];
+    if (s->frictions[i].constraint == constraint) return phase->active[s->frictions[i].row[0]];
   }
   return false;
 }

@@ -90,7 +90,7 @@ pl_trace* pl_trace_make(pl_job* job, pl_model* numbered, const pl_trace_options*
 
 // The row of a constraint, by its place in the model (instance 0 outside of families); -1 when
 // there is none.
-int pl_trace_link(const pl_trace* t, int constraint, int instance);
+int pl_trace_constraint(const pl_trace* t, int constraint, int instance);
 // Whether a constraint holds during a phase: all instances of it do.
 bool pl_trace_holds(const pl_trace* t, const pl_trace_phase* phase, int constraint);
 // Whether surfaces stick during a phase: those of friction number k of the model.

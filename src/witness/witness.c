@@ -193,7 +193,7 @@ static bool is_stage(const pl_trace* t, int phase, const pl_stage* stage) {
   const pl_setup* s = &t->recording->setup;
   for (int c = 0; c < s->n_c; c++) {
     for (int k = 0; k < stage->n; k++) {
-      if (strcmp(stage->name[k], s->links[c].name) == 0
+      if (strcmp(stage->name[k], s->constraints[c].name) == 0
           && stage->holds[k] != t->phases.at[phase].active[c])
         return false;
     }

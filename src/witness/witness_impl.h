@@ -104,8 +104,8 @@ int pl_rest_coordinates(const pl_rest_field* f);
 int pl_rest_idle(const pl_rest_field* f);
 // of a coordinate of the recording; -1
 int pl_rest_place_of(const pl_rest_field* f, int at);
-int pl_rest_rows(const pl_rest_field* f);           // constraints that hold, maps too
-int pl_rest_link(const pl_rest_field* f, int row);  // in the setup
+int pl_rest_rows(const pl_rest_field* f);                 // constraints that hold, maps too
+int pl_rest_constraint(const pl_rest_field* f, int row);  // in the setup
 // The rank of the rows at a position, of those of coordinates only or all; -1: no number.
 int pl_rest_rank(pl_rest_field* f, const double* q, bool with_velocities);
 // Newton from q; `held` coordinates stay.  true: q and lambda are a position of rest.

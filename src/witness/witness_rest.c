@@ -21,9 +21,9 @@ struct pl_rest_field {
   int n;    // coordinates that the motion knows
   int* at;  // of each: its place in the recording
   pl_symbol *q, *v, *a;
-  int n_g, n_v;  // rows of coordinates; behind them rows of velocities
-  pl_expr* g;    // (n_g + n_v)
-  int* link;     // of each row, in the setup
+  int n_g, n_v;     // rows of coordinates; behind them rows of velocities
+  pl_expr* g;       // (n_g + n_v)
+  int* constraint;  // of each row, in the setup
   // dg/dq, of rows of velocities dg/dv: (n_g + n_v) x n, row after row
   pl_expr* slope;
   pl_expr* push;  // d/dt dL/dv - dL/dq - Q, at the accelerations in the table  (n)
@@ -42,7 +42,7 @@ int pl_rest_place_of(const pl_rest_field* f, int at) {
   }
   return -1;
 }
-int pl_rest_link(const pl_rest_field* f, int row) { return f->link[row]; }
+int pl_rest_constraint(const pl_rest_field* f, int row) { return f->constraint[row]; }
 int pl_rest_rows(const pl_rest_field* f) { return f->n_g + f->n_v; }
 
 // ----------------------------------------------------------------------------------- the equations
@@ -63,11 +63,11 @@ static void list_coordinates(pl_rest_field* f, const pl_recording* r) {
   }
 }
 
-static void add_row(pl_rest_field* f, pl_expr g, int link, bool velocity) {
+static void add_row(pl_rest_field* f, pl_expr g, int constraint, bool velocity) {
   pl_pool* p = f->w->pool;
   int k = f->n_g + f->n_v;
   f->g[k] = g;
-  f->link[k] = link;
+  f->constraint[k] = constraint;
   for (int i = 0; i < f->n; i++)
     f->slope[k * f->n + i] = pl_diff(p, g, velocity ? f->v[i] : f->q[i]);
   if (velocity) f->n_v++;
@@ -81,12 +81,13 @@ static void list_rows(pl_rest_field* f) {
     for (int i = 0; i < m->constraints.n; i++) {
       const pl_constraint* c = &m->constraints.at[i];
       if (c->has_velocity == (velocity == 1) && pl_trace_holds(f->t, start, i))
-        add_row(f, c->g, pl_trace_link(f->t, i, 0), velocity == 1);
+        add_row(f, c->g, pl_trace_constraint(f->t, i, 0), velocity == 1);
     }
     for (int k = 0; velocity == 0 && k < m->choose.n_maps; k++) {
-      int link = f->t->recording->n_declared + k;
-      if (!start->active[link]) continue;
-      add_row(f, pl_sub(f->w->pool, m->choose.maps[k].old, m->choose.maps[k].map), link, false);
+      int constraint = f->t->recording->n_declared + k;
+      if (!start->active[constraint]) continue;
+      add_row(f, pl_sub(f->w->pool, m->choose.maps[k].old, m->choose.maps[k].map), constraint,
+              false);
     }
   }
 }
@@ -141,7 +142,7 @@ pl_rest_field* pl_rest_make(pl_witness* w, const pl_trace* t) {
   f->a = PL_ARRAY(w->arena, pl_symbol, n);
   f->g = PL_ARRAY(w->arena, pl_expr, rows + 1);
   f->slope = PL_ARRAY(w->arena, pl_expr, (rows + 1) * n);
-  f->link = PL_ARRAY(w->arena, int, rows + 1);
+  f->constraint = PL_ARRAY(w->arena, int, rows + 1);
   f->push = PL_ARRAY(w->arena, pl_expr, n);
   f->mass = PL_ARRAY(w->arena, pl_expr, n * n);
   f->drive = PL_ARRAY(w->arena, double, n);
@@ -292,7 +293,7 @@ static double left_with(pl_rest_field* f, const double* q, double* lambda, const
 double pl_rest_left(pl_rest_field* f, const double* q, double* lambda) {
   int row[MOST_ROWS], n = 0, all = f->n_g + f->n_v;
   for (int k = 0; k < all; k++) {
-    if (f->link[k] < f->t->recording->n_declared) row[n++] = k;
+    if (f->constraint[k] < f->t->recording->n_declared) row[n++] = k;
   }
   double left = left_with(f, q, lambda, row, n);
   if (left < 1e-6 || n == all) return left;

@@ -141,7 +141,8 @@ static bool is_allowed(pl_witness* w, const pl_ground* on, int section, const do
                : relation == PL_LE || relation == PL_LT ? -1
                                                         : 0;
     for (int k = 0; k < pl_rest_rows(f); k++) {
-      if (pl_rest_link(f, k) == pl_trace_link(t, i, 0) && side * lambda[k] < 0) return false;
+      if (pl_rest_constraint(f, k) == pl_trace_constraint(t, i, 0) && side * lambda[k] < 0)
+        return false;
     }
   }
   for (int i = 0; i < t->recording->flat.n; i++) {

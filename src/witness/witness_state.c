@@ -96,8 +96,8 @@ static void put_multipliers(pl_witness* w, const pl_trace* t, const pl_trace_sam
   for (int i = 0; i < t->model->constraints.n; i++) {
     const pl_constraint* c = &t->model->constraints.at[i];
     if (c->block || !c->lambda.id) continue;
-    int at = t->recording->first_link[i];
-    double x = setup->links[at].minus ? -s->lambda[at] : s->lambda[at];
+    int at = t->recording->first_constraint[i];
+    double x = setup->constraints[at].minus ? -s->lambda[at] : s->lambda[at];
     put(w, c->lambda, s->unique[at] ? x : (double)NAN, shift_of(x, size, 1000 + (uint64_t)i));
   }
 }

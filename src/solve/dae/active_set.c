@@ -36,7 +36,7 @@ static void find_orphans(pl_run* run) {
 }
 
 // What a row goes with is there: its contact, and what a map takes for granted.
-static bool stands(const pl_run* run, const pl_link* l) {
+static bool stands(const pl_run* run, const pl_constraint_setup* l) {
   if (l->contact >= 0 && (!run->on[l->contact] || run->rebounds[l->contact])) return false;
   for (int i = 0; i < l->n_needs; i++)
     if (!run->on[l->needs[i]] || run->rebounds[l->needs[i]]) return false;
@@ -44,10 +44,10 @@ static bool stands(const pl_run* run, const pl_link* l) {
 }
 
 void pl_active_update(pl_run* run) {
-  const pl_link* link = run->setup->links;
+  const pl_constraint_setup* constraint = run->setup->constraints;
   run->n_active = 0;
   for (int c = 0; c < run->n_c; c++) {
-    run->active[c] = run->on[c] && !link[c].slip && stands(run, &link[c]);
+    run->active[c] = run->on[c] && !constraint[c].slip && stands(run, &constraint[c]);
     run->n_active += run->active[c];
   }
   pl_friction_activate(run);
@@ -175,7 +175,8 @@ static void mark_dependent(pl_run* run) {
   pl_assemble_rows(run);
   int n = run->n_q, n_taken = 0, *taken_row = run->dep_jpvt + run->n_c;
   for (int c = 0; c < run->n_c; c++)
-    if (run->taken[c] && run->setup->links[c].priority == 0) taken_row[n_taken++] = run->row_of[c];
+    if (run->taken[c] && run->setup->constraints[c].priority == 0)
+      taken_row[n_taken++] = run->row_of[c];
   for (int i = 0; i < n_taken; i++)
     for (int j = 0; j < n; j++)
       run->dep[(size_t)i * (size_t)n + (size_t)j] =
@@ -184,7 +185,8 @@ static void mark_dependent(pl_run* run) {
   for (int c = 0; c < run->n_c; c++) {
     if (!run->active[c] || run->taken[c]) continue;
     run->unique[c] = false;
-    if (run->setup->links[c].priority == 0) mark_partners(run, taken_row, n_taken, run->row_of[c]);
+    if (run->setup->constraints[c].priority == 0)
+      mark_partners(run, taken_row, n_taken, run->row_of[c]);
   }
 }
 

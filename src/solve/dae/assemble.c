@@ -78,7 +78,7 @@ void pl_assemble_rows(pl_run* run) {
   for (int c = 0; c < run->n_c; c++) {
     run->row_of[c] = -1;
     if (!run->active[c]) continue;
-    run->priority[m] = run->setup->links[c].priority;
+    run->priority[m] = run->setup->constraints[c].priority;
     run->row_of[c] = m++;
   }
   for (size_t i = 0; i < (size_t)m * (size_t)run->n_q; i++) run->rows[i] = 0;
@@ -135,7 +135,7 @@ void pl_assemble_speed(pl_run* run, int k, double* speed) {
     for (int e = 0; e < b->pattern->n_G; e++) {
       const pl_pattern_entry* g = &b->pattern->G[e];
       int node = node_of(b, g->root);
-      if (!run->setup->links[b->c[g->row * b->lanes]].slip) continue;
+      if (!run->setup->constraints[b->c[g->row * b->lanes]].slip) continue;
       const double *x = coefficient(b, node, 0), *v = v_of_slot(b, g->col);
       if (is_constant(b, node)) LANES(b) s[l] = 0;
       else tail(s, x, v, k, b->lanes);
@@ -144,7 +144,7 @@ void pl_assemble_speed(pl_run* run, int k, double* speed) {
     for (int e = 0; e < b->pattern->n_gt; e++) {
       const pl_pattern_entry* g = &b->pattern->gt[e];
       int node = node_of(b, g->root);
-      if (!run->setup->links[b->c[g->row * b->lanes]].slip || (k > 0 && is_constant(b, node)))
+      if (!run->setup->constraints[b->c[g->row * b->lanes]].slip || (k > 0 && is_constant(b, node)))
         continue;
       const double* x = coefficient(b, node, k);
       LANES(b) speed[b->c[g->row * b->lanes + l]] += x[l];

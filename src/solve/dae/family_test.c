@@ -100,7 +100,8 @@ static t_bench* chain_make(int n, double t_end) {
                                                .has_q = true,
                                                .has_v = true,
                                                .q = -(k + 1) * cos(a) / n};
-    b->link[k] = (pl_link){.name = pl_format(b->arena, "c[%d]", k + 1), .contact = -1};
+    b->constraint[k] = (pl_constraint_setup){.name = pl_format(b->arena, "c[%d]", k + 1),
+                                             .contact = -1};
   }
   b->column[0] = (pl_column){"T", "J"};
   b->column[1] = (pl_column){"V", "J"};
@@ -108,7 +109,7 @@ static t_bench* chain_make(int n, double t_end) {
   b->setup = (pl_setup){.n_q = 2 * n,
                         .coordinates = b->coordinate,
                         .n_c = n,
-                        .links = b->link,
+                        .constraints = b->constraint,
                         .n_patterns = n > 1 ? 2 : 1,
                         .patterns = b->pattern,
                         .n_out = 2,

@@ -31,12 +31,12 @@ void pl_friction_make(pl_run* run) {
   run->S_series = PL_ARRAY(a, double, n > 0 ? c * orders + 1 : 1);
   run->poly_2 = PL_ARRAY(a, double, 3 * orders + 1);
   for (int i = 0; i < s->n_frictions; i++)
-    run->friction[i].press = s->links[s->frictions[i].link].side < 0 ? -1 : 1;
+    run->friction[i].press = s->constraints[s->frictions[i].constraint].side < 0 ? -1 : 1;
   run->has_W |= s->n_frictions > 0;  // the factor of a projection does not serve the accelerations
 }
 
 bool pl_friction_is_used(const pl_run* run, int r) {
-  return run->active[run->setup->frictions[r].link];
+  return run->active[run->setup->frictions[r].constraint];
 }
 
 void pl_friction_activate(pl_run* run) {
@@ -119,7 +119,7 @@ void pl_friction_rhs(pl_run* run, int k, double* rhs) {
       double sum = 0;
       for (int j = 1; j <= k; j++)
         sum += kappa(run, r, i, j)
-               * run->L[(size_t)(k - j) * (size_t)run->n_c + (size_t)friction->link];
+               * run->L[(size_t)(k - j) * (size_t)run->n_c + (size_t)friction->constraint];
       rhs[run->n_q + friction->row[i]] = -sum;  // the unknowns are -λ
     }
   }
@@ -172,7 +172,7 @@ static void force_left(const pl_run* run, const pl_friction_setup* friction, dou
   double *u = run->poly_2, *w = u + run->order + 2;
   size_t n_c = (size_t)run->n_c, n_C = (size_t)run->setup->n_coefficients;
   clear(u, n);
-  add_product(u, 1, run->C_series + friction->limit, n_C, run->L + friction->link, n_c, n);
+  add_product(u, 1, run->C_series + friction->limit, n_C, run->L + friction->constraint, n_c, n);
   clear(c, n);
   add_product(c, 1, u, 1, u, 1, n);
   if (friction->n_rows == 1) {
@@ -198,7 +198,7 @@ int pl_friction_slip(const pl_run* run, int r, pl_watch_kind kind, double* c, in
   }
   if (kind == PL_WATCH_PRESS) {
     for (int k = 0; k < n - 1; k++)
-      c[k] = now->press * run->L[(size_t)k * n_c + (size_t)friction->link];
+      c[k] = now->press * run->L[(size_t)k * n_c + (size_t)friction->constraint];
     return n - 1;
   }
   if (friction->n_rows == 1) {

@@ -78,7 +78,7 @@ static pleuel_status sparse_structure(pl_run* run) {
   for (int r = 0; r < run->setup->n_frictions; r++) {
     const pl_friction_setup* friction = &run->setup->frictions[r];
     for (int i = 0; i < friction->n_rows; i++)
-      mark(&p, run->n_q + friction->row[i], run->n_q + friction->link);
+      mark(&p, run->n_q + friction->row[i], run->n_q + friction->constraint);
   }
   k->start = PL_ARRAY(a, int, k->n + 1);
   k->row = PL_ARRAY(a, int, most + 1);
@@ -159,7 +159,7 @@ pleuel_status pl_kkt_make(pl_run* run) {
     const pl_friction_setup* friction = &run->setup->frictions[r];
     for (int i = 0; i < friction->n_rows; i++)
       run->at_friction[friction->row[i]] = place(k, run->n_q + friction->row[i],
-                                                 run->n_q + friction->link);
+                                                 run->n_q + friction->constraint);
   }
   if (k->dense) {
     k->lu = PL_ARRAY(a, double, k->n_values + 1);

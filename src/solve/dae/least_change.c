@@ -18,7 +18,7 @@ bool pl_least_change(const pl_run* run, const bool* held, const double* residual
   int n = run->n_q, rank = 0;
   for (int i = 0; i < n; i++) change[i] = 0;
   for (int c = 0; c < run->n_c; c++) {
-    if (run->row_of[c] < 0 || (positions && run->setup->links[c].velocity)) continue;
+    if (run->row_of[c] < 0 || (positions && run->setup->constraints[c].velocity)) continue;
     double *w = basis + (size_t)rank * (size_t)n, left = -residual[c], length = 0, most = 0;
     const double* row = run->rows + (size_t)run->row_of[c] * (size_t)n;
     for (int i = 0; i < n; i++) {

@@ -23,7 +23,7 @@ typedef struct pl_map_work {
 
 // What the map takes for granted is there or arrives now, and it did not hold before.
 static bool begins(const pl_run* run, int c) {
-  const pl_link* l = &run->setup->links[c];
+  const pl_constraint_setup* l = &run->setup->constraints[c];
   if (l->n_needs == 0 || run->active[c]) return false;
   for (int i = 0; i < l->n_needs; i++)
     if (!run->on[l->needs[i]] && !run->near_by[l->needs[i]]) return false;

@@ -139,13 +139,14 @@ static t_bench* net_make(const t_net* t, double t_end) {
     for (int k = 0; k < 2; k++)
       b->coordinate[t->place[i] + k * t->n] = (pl_coordinate){
           .name = "q", .v_name = "v", .has_q = true, .has_v = true, .q = k ? t->y[i] : t->x[i]};
-  for (int r = 0; r < t->n_rods; r++) b->link[r] = (pl_link){.name = "rod", .contact = -1};
+  for (int r = 0; r < t->n_rods; r++)
+    b->constraint[r] = (pl_constraint_setup){.name = "rod", .contact = -1};
   b->column[0] = (pl_column){"T", "J"};
   b->column[1] = (pl_column){"V", "J"};
   b->setup = (pl_setup){.n_q = 2 * t->n,
                         .coordinates = b->coordinate,
                         .n_c = t->n_rods,
-                        .links = b->link,
+                        .constraints = b->constraint,
                         .n_patterns = 3,
                         .patterns = b->pattern,
                         .n_out = 2,

@@ -19,7 +19,8 @@ static void find_largest(double x, double* most) {
 static double coarsest(const pl_run* run, const double* size, bool positions) {
   double most = 0;
   for (int c = 0; c < run->n_c; c++) {
-    if (!run->taken[c] || !(run->row_most[c] > 0) || (positions && run->setup->links[c].velocity))
+    if (!run->taken[c] || !(run->row_most[c] > 0)
+        || (positions && run->setup->constraints[c].velocity))
       continue;
     most = fmax(most, size[c] / run->row_most[c]);
   }
@@ -31,7 +32,8 @@ static double coarsest(const pl_run* run, const double* size, bool positions) {
 double pl_residual(const pl_run* run, const double* g, const double* size, bool positions) {
   double most = 0, rough = run->rank < run->n_active ? coarsest(run, size, positions) : 0;
   for (int c = 0; c < run->n_c; c++) {
-    if (!run->active[c] || g[c] == 0 || (positions && run->setup->links[c].velocity)) continue;
+    if (!run->active[c] || g[c] == 0 || (positions && run->setup->constraints[c].velocity))
+      continue;
     most = pl_size_with(
         most, g[c] / (run->taken[c] ? size[c] : pl_larger(size[c], rough * run->row_most[c])));
   }
@@ -41,7 +43,7 @@ double pl_residual(const pl_run* run, const double* g, const double* size, bool 
 static void solve_correction(pl_run* run, const double* residual, bool positions) {
   for (int i = 0; i < run->n_q; i++) run->rhs[i] = 0;
   for (int c = 0; c < run->n_c; c++) {
-    bool counts = run->taken[c] && !(positions && run->setup->links[c].velocity);
+    bool counts = run->taken[c] && !(positions && run->setup->constraints[c].velocity);
     run->rhs[run->n_q + c] = counts ? -residual[c] : 0;
   }
   pl_kkt_solve(&run->kkt, run->rhs);

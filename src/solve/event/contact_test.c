@@ -17,7 +17,7 @@ static t_bench* ski(double angle, double t_end) {
   pl_expr V = mul(b, m, mul(b, g, mul(b, r, pl_call(P, PL_COS, theta))));
   pl_expr L = t_energy(b, T, V);
   int h = t_constraint(b, "h", pl_sub(P, r, R));
-  b->link[h].side = 1;
+  b->constraint[h].side = 1;
   b->coordinate[1].has_q = b->coordinate[1].has_v = true;
   b->coordinate[1].q = angle;
   // the ground, y = r cos ϑ = 0, stops it
@@ -75,8 +75,8 @@ static t_bench* ball(double y, double vy, double restitution, double t_end) {
   (void)x;
   pl_expr T = half(b, mul(b, m, pl_add(P, sq(b, b->v[0]), sq(b, b->v[1]))));
   int c = t_constraint(b, "table", h);
-  b->link[c].side = 1;
-  b->link[c].restitution = restitution;
+  b->constraint[c].side = 1;
+  b->constraint[c].restitution = restitution;
   t_start(b, 0, 0, 3);
   t_start(b, 1, y, vy);
   assert_int_equal(t_make(b, pl_sub(P, T, mul(b, m, mul(b, g, h))), t_end, 0), PLEUEL_OK);
@@ -135,7 +135,7 @@ static void a_contact_that_would_pull_releases_at_the_start(void** state) {
   pl_expr T = half(b, mul(b, m, pl_add(P, sq(b, b->v[0]), mul(b, sq(b, r), sq(b, b->v[1])))));
   pl_expr V = mul(b, m, mul(b, g, mul(b, r, pl_call(P, PL_COS, theta))));
   int h = t_constraint(b, "wall", pl_sub(P, r, R));
-  b->link[h].side = -1;
+  b->constraint[h].side = -1;
   t_start(b, 0, 1, 0);
   t_start(b, 1, 0.2, 0);
   assert_int_equal(t_make(b, pl_sub(P, T, V), 0.1, 0), PLEUEL_OK);
@@ -162,7 +162,7 @@ static void a_loop_too_slow_leaves_the_wall_and_comes_back(void** state) {
   pl_expr T = half(b, mul(b, m, pl_add(P, sq(b, b->v[0]), sq(b, b->v[1]))));
   pl_expr V = mul(b, m, mul(b, g, y));
   int h = t_constraint(b, "wall", pl_sub(P, pl_add(P, sq(b, x), sq(b, y)), pl_int(P, 1)));
-  b->link[h].side = -1;
+  b->constraint[h].side = -1;
   t_start(b, 0, 0, 1.9);
   t_start(b, 1, -1, 0);
   assert_int_equal(t_make(b, t_energy(b, T, V), 20, 0), PLEUEL_OK);

@@ -34,7 +34,7 @@ void pl_contacts_rates(pl_run* run, double* rates) {
 }
 
 // ----------------------------------------------------------------------------------- the decisions
-static int side_of(const pl_run* run, int c) { return run->setup->links[c].side; }
+static int side_of(const pl_run* run, int c) { return run->setup->constraints[c].side; }
 
 static int way_of(int choice) { return (choice - PL_CHOICE_SLIP) & 1 ? -1 : 1; }
 static int press_of(int choice) { return (choice - PL_CHOICE_SLIP) & 2 ? -1 : 1; }
@@ -50,7 +50,7 @@ static void add(pl_run* run, bool of_friction, int index, unsigned allowed, int 
 // All that a friction may do: in space the direction is found, not chosen.
 static unsigned choices_of(const pl_run* run, int r, int only_way) {
   const pl_friction_setup* friction = &run->setup->frictions[r];
-  int side = side_of(run, friction->link);
+  int side = side_of(run, friction->constraint);
   unsigned all = only_way ? 0 : 1u << PL_CHOICE_STICK;
   for (int press = -1; press <= 1; press += 2) {
     if (side != 0 && press != side) continue;
@@ -109,7 +109,7 @@ static int better_for_friction(const pl_run* run, const pl_look* l, const pl_dec
   int r = d->index;
   const pl_friction_setup* friction = &run->setup->frictions[r];
   const pl_friction_state* now = &run->friction[r];
-  double press = l->force[friction->link], zero = force_zero(run, l, friction->link);
+  double press = l->force[friction->constraint], zero = force_zero(run, l, friction->constraint);
   if (d->choice == PL_CHOICE_STICK) {
     double limit = run->C_series[l->kinetic ? friction->scale : friction->limit] * fabs(press);
     double F = pl_friction_force(run, r, l->force);
@@ -208,9 +208,9 @@ static bool try_accelerations(pl_run* run, pl_look* l) {
 // ------------------------------------------------------------------------------- impulses of a set
 // What the velocity along g is to be after the impact.
 static double rebound(const pl_run* run, int c) {
-  const pl_link* link = &run->setup->links[c];
+  const pl_constraint_setup* constraint = &run->setup->constraints[c];
   double u = run->approach[c];
-  return run->rebounds[c] && link->side * u < 0 ? -link->restitution * u : 0;
+  return run->rebounds[c] && constraint->side * u < 0 ? -constraint->restitution * u : 0;
 }
 
 static bool solve_impulses(pl_run* run) {
@@ -399,9 +399,9 @@ static pleuel_status decide(pl_run* run, pl_trial* trial, const double* motion, 
 static const double at_rest = 1e-9;  // of the terms of the velocity along g
 
 static bool is_arriving(const pl_run* run, int c) {
-  const pl_link* link = &run->setup->links[c];
-  if (link->side != 0)
-    return run->near_by[c] && link->side * run->approach[c] < -at_rest * run->r_size[c];
+  const pl_constraint_setup* constraint = &run->setup->constraints[c];
+  if (constraint->side != 0)
+    return run->near_by[c] && constraint->side * run->approach[c] < -at_rest * run->r_size[c];
   return run->active[c] && fabs(run->approach[c]) > at_rest * run->r_size[c];
 }
 
@@ -411,7 +411,7 @@ static void list_impact(pl_run* run) {
     if (run->near_by[c])
       add(run, false, c, 1u << PL_CHOICE_OPEN | 1u << PL_CHOICE_CLOSED, PL_CHOICE_CLOSED);
   for (int r = 0; r < run->setup->n_frictions; r++) {
-    int c = run->setup->frictions[r].link;
+    int c = run->setup->frictions[r].constraint;
     run->friction[r].given = run->setup->frictions[r].n_rows == 3;
     pl_friction_speed(run, r, run->approach, run->friction[r].d);
     if (run->near_by[c] || run->active[c])
@@ -466,7 +466,8 @@ pleuel_status pl_contacts_impact(pl_run* run, bool* any) {
     return PLEUEL_OK;
   }
   for (int c = 0; c < run->n_c; c++)
-    run->rebounds[c] = run->jumped[c] && run->near_by[c] && run->setup->links[c].restitution > 0
+    run->rebounds[c] = run->jumped[c] && run->near_by[c]
+                       && run->setup->constraints[c].restitution > 0
                        && !isfinite(run->settled_t[c]);
   memcpy(run->hold_v, run->v, (size_t)run->n_q * sizeof(double));
   memcpy(run->hold_q, run->q, (size_t)run->n_q * sizeof(double));
@@ -475,7 +476,7 @@ pleuel_status pl_contacts_impact(pl_run* run, bool* any) {
   run->impacts++;
   for (int c = 0; c < run->n_c; c++) {
     run->impact_taken[c] = run->taken[c];
-    run->impact_factor[c] = rebound(run, c) != 0 ? run->setup->links[c].restitution : 0;
+    run->impact_factor[c] = rebound(run, c) != 0 ? run->setup->constraints[c].restitution : 0;
   }
   // a friction against a driven surface may add energy, and so may a driven wall
   if (has_used_friction(run) && !moving_walls(run)) PL_TRY(check_gain(run));
@@ -501,7 +502,7 @@ static void list_motion(pl_run* run) {
   for (int r = 0; r < run->setup->n_frictions; r++) {
     const pl_friction_setup* friction = &run->setup->frictions[r];
     pl_friction_state* now = &run->friction[r];
-    if (!run->near_by[friction->link] && !run->active[friction->link]) continue;
+    if (!run->near_by[friction->constraint] && !run->active[friction->constraint]) continue;
     double d[3], speed = pl_friction_speed(run, r, run->r, d);
     bool slips = speed > no_slip * run->r_size[friction->row[0]];
     if (friction->n_rows == 3) {

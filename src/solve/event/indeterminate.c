@@ -44,7 +44,7 @@ struct pl_indeterminate {
 void pl_indeterminate_make(pl_run* run) {
   pl_arena* a = run->job->arena;
   bool any = run->setup->n_frictions > 0;
-  for (int c = 0; c < run->n_c; c++) any |= run->setup->links[c].side != 0;
+  for (int c = 0; c < run->n_c; c++) any |= run->setup->constraints[c].side != 0;
   if (!any) return;
   pl_indeterminate* s = run->indeterminate = PL_NEW(a, pl_indeterminate);
   size_t n = run->n_c < MOST ? (size_t)run->n_c : MOST, q = (size_t)run->n_q, rows = 2 * n + 1;
@@ -84,15 +84,15 @@ static void find_multipliers(pl_run* run, pl_indeterminate* s) {
   s->n = 0;
   for (int c = 0; c < run->n_c; c++) s->place[c] = -1;
   for (int c = 0; c < run->n_c; c++) {
-    const pl_link* link = &run->setup->links[c];
-    bool met = link->side != 0 && !link->velocity && run->met[c] && !run->active[c]
+    const pl_constraint_setup* constraint = &run->setup->constraints[c];
+    bool met = constraint->side != 0 && !constraint->velocity && run->met[c] && !run->active[c]
                && no_rate(run, c);
     // equations that only define coordinates carry no force of their own
-    if (!link->slip && link->priority == 0 && (run->active[c] || met)) take(s, c);
+    if (!constraint->slip && constraint->priority == 0 && (run->active[c] || met)) take(s, c);
   }
   for (int r = 0; r < run->setup->n_frictions; r++) {
     const pl_friction_setup* friction = &run->setup->frictions[r];
-    if (s->place[friction->link] < 0 || run->friction[r].state == PL_FRICTION_OFF
+    if (s->place[friction->constraint] < 0 || run->friction[r].state == PL_FRICTION_OFF
         || !rests_on(run, r))
       continue;
     for (int i = 0; i < friction->n_rows; i++) take(s, friction->row[i]);
@@ -126,11 +126,11 @@ static void make_columns(pl_run* run, pl_indeterminate* s) {
   // friction that slips goes with the force that presses
   for (int r = 0; r < run->setup->n_frictions; r++) {
     const pl_friction_setup* friction = &run->setup->frictions[r];
-    if (run->friction[r].state != PL_FRICTION_SLIP || s->place[friction->link] < 0
+    if (run->friction[r].state != PL_FRICTION_SLIP || s->place[friction->constraint] < 0
         || s->place[friction->row[0]] >= 0)
       continue;
     for (int i = 0; i < friction->n_rows; i++)
-      add_forces(run, s, friction->row[i], s->place[friction->link],
+      add_forces(run, s, friction->row[i], s->place[friction->constraint],
                  pl_friction_kappa(run, r, i, run->C_series));
   }
   for (int k = 0; k < s->n; k++) {
@@ -155,16 +155,19 @@ static void put(pl_indeterminate* s, double* row, int c, double x) {
 
 static void limit_friction(pl_run* run, pl_indeterminate* s, int r, bool pressed) {
   const pl_friction_setup* friction = &run->setup->frictions[r];
-  double limit = run->C_series[friction->limit], lambda = run->L[friction->link],
+  double limit = run->C_series[friction->limit], lambda = run->L[friction->constraint],
          most = limit * fabs(lambda);
   double F = pl_friction_force(run, r, run->L),
-         press = lambda < 0 || (lambda == 0 && run->setup->links[friction->link].side < 0) ? -1 : 1;
+         press = lambda < 0
+                         || (lambda == 0 && run->setup->constraints[friction->constraint].side < 0)
+                     ? -1
+                     : 1;
   if (friction->n_rows == 1) {
     for (int way = -1; way <= 1; way += 2) {
       double m = way * run->L[friction->row[0]];
       if (pressed && m < most * (1 - at_limit)) continue;
       double* row = new_row(s);
-      put(s, row, friction->link, press * limit);
+      put(s, row, friction->constraint, press * limit);
       put(s, row, friction->row[0], -way);
     }
     return;
@@ -172,7 +175,7 @@ static void limit_friction(pl_run* run, pl_indeterminate* s, int r, bool pressed
   if (!pressed || F < most * (1 - at_limit)) return;
   static const int pair[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
   double* row = new_row(s);
-  put(s, row, friction->link, limit * limit * lambda);
+  put(s, row, friction->constraint, limit * limit * lambda);
   for (int i = 0; i < 3; i++) {
     double slope = 0;
     for (int j = 0; j < 3; j++)
@@ -184,14 +187,15 @@ static void limit_friction(pl_run* run, pl_indeterminate* s, int r, bool pressed
 static void find_limits(pl_run* run, pl_indeterminate* s) {
   s->n_rows = 0;
   for (int k = 0; k < s->n; k++) {
-    int c = s->row_of[k], side = run->setup->links[c].side;
-    if (side == 0 || run->setup->links[c].slip) continue;
+    int c = s->row_of[k], side = run->setup->constraints[c].side;
+    if (side == 0 || run->setup->constraints[c].slip) continue;
     if (fabs(run->L[c]) <= pl_watch_force_noise(run, c)) put(s, new_row(s), c, side);
   }
   for (int r = 0; r < run->setup->n_frictions; r++) {
     const pl_friction_setup* friction = &run->setup->frictions[r];
     if (s->place[friction->row[0]] < 0) continue;
-    bool pressed = fabs(run->L[friction->link]) > pl_watch_force_noise(run, friction->link);
+    bool pressed = fabs(run->L[friction->constraint])
+                   > pl_watch_force_noise(run, friction->constraint);
     limit_friction(run, s, r, pressed);
   }
 }
@@ -319,20 +323,20 @@ static bool may_differ(pl_indeterminate* s, int i, int d) {
 // ----------------------------------------------------------------------------------------- telling
 void pl_indeterminate_note(pl_run* run) {
   for (int c = 0; c < run->n_c; c++)
-    run->ever_several[c] |= !run->unique[c] && run->setup->links[c].column != NULL;
+    run->ever_several[c] |= !run->unique[c] && run->setup->constraints[c].column != NULL;
 }
 
 void pl_indeterminate_tell(pl_run* run) {
   size_t n = 0, at = 0;
   run->stats.undetermined = NULL;
   for (int c = 0; c < run->n_c; c++)
-    if (run->ever_several[c]) n += strlen(run->setup->links[c].column) + 2;
+    if (run->ever_several[c]) n += strlen(run->setup->constraints[c].column) + 2;
   if (n == 0) return;
   char* text = PL_ARRAY(run->job->arena, char, n + 1);
   for (int c = 0; c < run->n_c; c++)
     if (run->ever_several[c])
       at += (size_t)snprintf(text + at, n + 1 - at, "%s%s", at > 0 ? ", " : "",
-                             run->setup->links[c].column);
+                             run->setup->constraints[c].column);
   run->stats.undetermined = text;
 }
 
@@ -355,7 +359,7 @@ void pl_indeterminate_mark(pl_run* run) {
     const pl_friction_setup* friction = &run->setup->frictions[r];
     bool tied = run->friction[r].state == PL_FRICTION_SLIP && s->place[friction->row[0]] < 0;
     for (int i = 0; i < friction->n_rows && tied; i++)
-      run->several[friction->row[i]] = run->several[friction->link];
+      run->several[friction->row[i]] = run->several[friction->constraint];
   }
   for (int c = 0; c < run->n_c; c++) run->unique[c] = run->unique[c] && !run->several[c];
   pl_indeterminate_note(run);

@@ -17,7 +17,7 @@ enum { MAX_CHANGES = 100 };  // of mode at one time
 static void look_for_landings(pl_run* run) {
   run->watch_landings = false;
   for (int c = 0; c < run->n_c; c++)
-    if (run->setup->links[c].side != 0 && !run->on[c] && !run->detached[c])
+    if (run->setup->constraints[c].side != 0 && !run->on[c] && !run->detached[c])
       run->watch_landings = true;
 }
 
@@ -49,7 +49,7 @@ static void remember(pl_run* run) {
 }
 
 static bool is_contact(const pl_run* run, int c) {
-  return run->setup->links[c].side != 0 && !run->setup->links[c].velocity;
+  return run->setup->constraints[c].side != 0 && !run->setup->constraints[c].velocity;
 }
 
 // Contacts that take part: those that hold, and those that are met.
@@ -58,10 +58,10 @@ static void find_near(pl_run* run) {
   pl_point_evaluate(run, run->t, run->q, run->v);
   pl_assemble_g(run, 0, run->g, run->g_size);
   for (int c = 0; c < run->n_c; c++) {
-    const pl_link* link = &run->setup->links[c];
-    bool there = link->contact < 0 || run->on[link->contact];
+    const pl_constraint_setup* constraint = &run->setup->constraints[c];
+    bool there = constraint->contact < 0 || run->on[constraint->contact];
     run->near_by[c] = is_contact(run, c) && !run->detached[c] && there
-                      && (run->on[c] || link->side * run->g[c] <= met * run->g_size[c]);
+                      && (run->on[c] || constraint->side * run->g[c] <= met * run->g_size[c]);
     run->met[c] = run->near_by[c];
   }
   pl_maps_follow(run);
@@ -88,7 +88,7 @@ static void forget(pl_run* run, pl_watch_kind kind, int index) {
 // news.
 static int zeros_of(const pl_run* run, int c) {
   static const double zero = 1e-9;
-  int side = run->setup->links[c].side;
+  int side = run->setup->constraints[c].side;
   double u = side * run->r[c], a = side * run->second[c], a_zero = zero * run->second_size[c];
   // what bounced, however little, or falls back at once has left with a velocity
   if (run->jumped[c] || u > zero * run->r_size[c] || (u > 0 && a < -a_zero)) return 1;
@@ -132,11 +132,11 @@ static double tiny(const pl_run* run) {
 // Time until the last of endless bounces, counted from now; NaN when they do not come to an end
 // here.
 static double rest_of_bounces(const pl_run* run, int c) {
-  const pl_link* link = &run->setup->links[c];
-  double u = link->side * run->r[c], fall = -link->side * run->second[c];
+  const pl_constraint_setup* constraint = &run->setup->constraints[c];
+  double u = constraint->side * run->r[c], fall = -constraint->side * run->second[c];
   if (run->on[c] || !(fall > 0) || !(u > 0) || !(u <= tiny(run) * run->fastest[c]))
     return (double)NAN;
-  double flight = 2 * u / fall, ratio = link->restitution;
+  double flight = 2 * u / fall, ratio = constraint->restitution;
   // the ratio of the last flights, which knows of moving walls and of other bodies
   const double* t = run->bounce_t + 3 * (size_t)c;
   double last = run->t - t[0], before = t[0] - t[1];
@@ -268,11 +268,11 @@ static pleuel_status follow(pl_run* run) {
 }
 
 // ----------------------------------------------------------------------------------------- telling
-static pl_event_kind opened(const pl_link* link) {
-  return link->rope ? PL_EV_SLACK : PL_EV_RELEASE;
+static pl_event_kind opened(const pl_constraint_setup* constraint) {
+  return constraint->rope ? PL_EV_SLACK : PL_EV_RELEASE;
 }
-static pl_event_kind closed(const pl_link* link, bool impact) {
-  return link->rope ? PL_EV_TAUT : impact ? PL_EV_IMPACT : PL_EV_CONTACT;
+static pl_event_kind closed(const pl_constraint_setup* constraint, bool impact) {
+  return constraint->rope ? PL_EV_TAUT : impact ? PL_EV_IMPACT : PL_EV_CONTACT;
 }
 
 // Contact after endless bounces: told at the limit of their times, with the state there.
@@ -281,24 +281,25 @@ static pleuel_status tell_settled(pl_run* run, int c) {
   long bounces = run->bounces[c];
   run->settled_t[c] = (double)NAN;
   run->bounces[c] = 0;
-  return pl_rows_settled(run, closed(&run->setup->links[c], false), c, dt, bounces);
+  return pl_rows_settled(run, closed(&run->setup->constraints[c], false), c, dt, bounces);
 }
 
 static pleuel_status tell_contact(pl_run* run, int c, bool grazed, bool at_start) {
-  const pl_link* link = &run->setup->links[c];
+  const pl_constraint_setup* constraint = &run->setup->constraints[c];
   if (isfinite(run->settled_t[c]) && run->on[c]) return tell_settled(run, c);
   run->settled_t[c] = (double)NAN;
-  if (run->jumped[c]) return pl_rows_event(run, closed(link, true), c, run->impulse[c], at_start);
+  if (run->jumped[c])
+    return pl_rows_event(run, closed(constraint, true), c, run->impulse[c], at_start);
   if (run->on[c] && !run->on_before[c])
-    return pl_rows_event(run, closed(link, false), c, 0, at_start);
+    return pl_rows_event(run, closed(constraint, false), c, 0, at_start);
   if (run->on_before[c] && !run->on[c] && !run->detached[c])
-    return pl_rows_event(run, opened(link), c, 0, at_start);
-  return grazed ? pl_rows_event(run, closed(link, false), c, 0, at_start) : PLEUEL_OK;
+    return pl_rows_event(run, opened(constraint), c, 0, at_start);
+  return grazed ? pl_rows_event(run, closed(constraint, false), c, 0, at_start) : PLEUEL_OK;
 }
 
 static pleuel_status tell_friction(pl_run* run, int r) {
   const pl_friction_state *now = &run->friction[r], *before = &run->friction_before[r];
-  int c = run->setup->frictions[r].link;
+  int c = run->setup->frictions[r].constraint;
   if (before->state == PL_FRICTION_OFF || now->state == PL_FRICTION_OFF) return PLEUEL_OK;
   if (now->state == PL_FRICTION_STICK)
     return before->state == PL_FRICTION_SLIP ? pl_rows_event(run, PL_EV_STICK, c, 0, false)
@@ -345,15 +346,15 @@ static pleuel_status attach(pl_run* run, int c) {
   if (run->on[c]) return PLEUEL_OK;
   pl_point_evaluate(run, run->t, run->q, run->v);
   pl_assemble_g(run, 0, run->g, run->g_size);
-  const pl_link* link = &run->setup->links[c];
-  bool met = link->velocity || fabs(run->g[c]) <= 1e-9 * run->g_size[c];
+  const pl_constraint_setup* constraint = &run->setup->constraints[c];
+  bool met = constraint->velocity || fabs(run->g[c]) <= 1e-9 * run->g_size[c];
   // a one-sided one that is open waits for its landing
-  if (link->side != 0 && !met && link->side * run->g[c] > 0) return PLEUEL_OK;
+  if (constraint->side != 0 && !met && constraint->side * run->g[c] > 0) return PLEUEL_OK;
   if (!met)
     return pl_fail(run->job, PLEUEL_CONTRADICTION,
-                   "%s cannot be attached at t = %.9g s: it is off by %.3g", link->name, run->t,
-                   run->g[c]);
-  run->on[c] = link->side == 0;  // whether a one-sided one holds is decided with the others
+                   "%s cannot be attached at t = %.9g s: it is off by %.3g", constraint->name,
+                   run->t, run->g[c]);
+  run->on[c] = constraint->side == 0;  // whether a one-sided one holds is decided with the others
   return PLEUEL_OK;
 }
 

@@ -20,7 +20,7 @@ void pl_watch_make(pl_run* run) {
   run->watch = PL_ARRAY(run->job->arena, pl_watch,
                         2 * (size_t)s->n_c + 3 * (size_t)s->n_frictions + (size_t)s->n_events + 1);
   for (int c = 0; c < s->n_c; c++) {
-    if (s->links[c].side == 0) continue;
+    if (s->constraints[c].side == 0) continue;
     run->watch[run->n_watch++] = (pl_watch){.kind = PL_WATCH_RELEASE, .index = c, .direction = -1};
     run->watch[run->n_watch++] = (pl_watch){.kind = PL_WATCH_LANDING, .index = c, .direction = -1};
   }
@@ -86,15 +86,16 @@ static bool is_of_friction(const pl_watch* w) {
 static bool is_watched(const pl_run* run, const pl_watch* w) {
   if (w->kind == PL_WATCH_EVENT) return true;
   if (is_of_friction(w)) {
-    const pl_link* pressed = &run->setup->links[run->setup->frictions[w->index].link];
+    const pl_constraint_setup* pressed =
+        &run->setup->constraints[run->setup->frictions[w->index].constraint];
     if (w->kind == PL_WATCH_SLIP) return run->friction[w->index].state == PL_FRICTION_STICK;
     return run->friction[w->index].state == PL_FRICTION_SLIP
            && (w->kind == PL_WATCH_STICK || pressed->side == 0);
   }
-  const pl_link* link = &run->setup->links[w->index];
+  const pl_constraint_setup* constraint = &run->setup->constraints[w->index];
   if (w->kind == PL_WATCH_RELEASE) return run->active[w->index];
-  return !run->on[w->index] && !run->detached[w->index] && !link->velocity
-         && (link->contact < 0 || run->on[link->contact]);
+  return !run->on[w->index] && !run->detached[w->index] && !constraint->velocity
+         && (constraint->contact < 0 || run->on[constraint->contact]);
 }
 
 bool pl_event_sets(const pl_run* run, int e) {
@@ -118,7 +119,7 @@ double pl_watch_noise(const pl_run* run, const pl_watch* w, double h) {
   }
   const pl_friction_setup* friction = &run->setup->frictions[w->index];
   double force = pl_watch_force_noise(run, friction->row[0]);
-  if (w->kind == PL_WATCH_PRESS) return pl_watch_force_noise(run, friction->link);
+  if (w->kind == PL_WATCH_PRESS) return pl_watch_force_noise(run, friction->constraint);
   if (w->kind == PL_WATCH_SLIP) return force * force;
   // slip: rounding of velocities, and of the forces that change them on the step
   return friction->n_rows == 1 ? 1e-14 * run->r_size[friction->row[0]]
@@ -144,7 +145,7 @@ static int polynomial(const pl_run* run, const pl_watch* w, double h, double* c)
   } else {
     X = (w->kind == PL_WATCH_RELEASE ? run->L : run->G_series) + w->index;
     stride = (size_t)run->n_c;
-    factor = run->setup->links[w->index].side;
+    factor = run->setup->constraints[w->index].side;
     if (w->kind == PL_WATCH_LANDING) n = run->use + 1;
   }
   for (int k = 0; k < n; k++, power *= h) c[k] = factor * power * X[(size_t)k * stride];

@@ -12,12 +12,12 @@ typedef struct pl_start {
   double* solutions;      // distinct ones, one after the other        (room x n_q)
   bool* solution_on;      // contacts of each                          (room x n_c)
   int n_solutions;
-  bool* sits;       // one-sided, closed without being given     (n_c)
-  bool* before_on;  // contacts before velocities were looked at (n_c)
-  bool on_maps;     // with the contacts that maps take for granted
-  int worst_link;   // of the last solve that failed
-  double worst;     // its relative residual
-  int below;        // one-sided constraint that given values put on the wrong side, -1
+  bool* sits;            // one-sided, closed without being given     (n_c)
+  bool* before_on;       // contacts before velocities were looked at (n_c)
+  bool on_maps;          // with the contacts that maps take for granted
+  int worst_constraint;  // of the last solve that failed
+  double worst;          // its relative residual
+  int below;             // one-sided constraint that given values put on the wrong side, -1
 } pl_start;
 
 enum { PL_START_ROOM = 16 };

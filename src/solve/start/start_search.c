@@ -73,7 +73,7 @@ static void set_guess(pl_start* s, int number) {
 static void only_two_sided(pl_start* s) {
   pl_run* run = s->run;
   for (int c = 0; c < run->n_c; c++) {
-    run->on[c] = !run->detached[c] && run->setup->links[c].side == 0;
+    run->on[c] = !run->detached[c] && run->setup->constraints[c].side == 0;
     s->sits[c] = false;
   }
   pl_active_update(run);
@@ -95,15 +95,15 @@ static double side_value(pl_start* s, int c) {
   int worst;
   pl_start_residual(s, s->q, &worst);
   double size = s->run->g_size[c] > 0 ? s->run->g_size[c] : 1;
-  return s->run->setup->links[c].side * s->run->g[c] / size;
+  return s->run->setup->constraints[c].side * s->run->g[c] / size;
 }
 
 // Decides one contact at a solution of those decided so far; false: given values lie on the wrong
 // side.
 static bool decide_contact(pl_start* s, int c) {
   pl_run* run = s->run;
-  const pl_link* link = &run->setup->links[c];
-  if (link->side == 0 || run->detached[c]) return true;
+  const pl_constraint_setup* constraint = &run->setup->constraints[c];
+  if (constraint->side == 0 || run->detached[c]) return true;
   // one that stands with another contact follows that
   bool sits = is_undetermined(s, c);
   double value = side_value(s, c);
@@ -127,10 +127,10 @@ static bool close_granted(pl_start* s) {
   pl_run* run = s->run;
   bool any = false;
   for (int c = 0; c < run->n_c; c++) {
-    const pl_link* map = &run->setup->links[c];
+    const pl_constraint_setup* map = &run->setup->constraints[c];
     for (int i = 0; i < map->n_needs; i++) {
       int k = map->needs[i];
-      if (run->setup->links[k].side == 0 || run->detached[k] || run->on[k]) continue;
+      if (run->setup->constraints[k].side == 0 || run->detached[k] || run->on[k]) continue;
       run->on[k] = any = true;
     }
   }
@@ -289,13 +289,13 @@ static void search(pl_start* s) {
 
 // --------------------------------------------------------------------------------- what went wrong
 // In large systems only coordinates of the violated constraint itself are tried.
-static bool worth_trying(const pl_run* run, int coordinate, int link) {
+static bool worth_trying(const pl_run* run, int coordinate, int constraint) {
   if (run->kkt.dense) return true;
   for (int i = 0; i < run->motion.n; i++) {
     const pl_batch* b = &run->motion.at[i];
     for (int e = 0; e < b->pattern->n_G; e++)
       for (int l = 0; l < b->n; l++)
-        if (b->c[b->pattern->G[e].row * b->lanes + l] == link
+        if (b->c[b->pattern->G[e].row * b->lanes + l] == constraint
             && b->q[b->pattern->G[e].col * b->lanes + l] == coordinate)
           return true;
   }
@@ -308,7 +308,7 @@ static void suggest_position(pl_start* s) {
   pl_start_report* report = &run->start;
   double least = (double)INFINITY;
   for (int i = 0; i < run->n_q; i++) {
-    if (!run->setup->coordinates[i].has_q || !worth_trying(run, i, report->link)) continue;
+    if (!run->setup->coordinates[i].has_q || !worth_trying(run, i, report->constraint)) continue;
     s->held_q[i] = false;
     set_guess(s, 0);
     if (solve_positions(s)) {
@@ -329,7 +329,7 @@ static void suggest_velocity(pl_start* s) {
   pl_start_report* report = &run->start;
   double least = (double)INFINITY;
   for (int i = 0; i < run->n_q; i++) {
-    if (!run->setup->coordinates[i].has_v || !worth_trying(run, i, report->link)) continue;
+    if (!run->setup->coordinates[i].has_v || !worth_trying(run, i, report->constraint)) continue;
     s->held_v[i] = false;
     for (int j = 0; j < run->n_q; j++)
       s->v[j] = run->setup->coordinates[j].has_v ? run->setup->coordinates[j].v : 0;
@@ -347,17 +347,17 @@ static void suggest_velocity(pl_start* s) {
   }
 }
 
-static pleuel_status violated(pl_start* s, int link, double residual, bool velocity) {
+static pleuel_status violated(pl_start* s, int constraint, double residual, bool velocity) {
   pl_run* run = s->run;
   pl_start_report* report = &run->start;
   report->trouble = PL_START_VIOLATED;
-  report->link = link;
+  report->constraint = constraint;
   report->residual = residual;
-  report->link_velocity = velocity;
+  report->constraint_velocity = velocity;
   report->move_coordinate = -1;
   if (velocity) suggest_velocity(s);
   else suggest_position(s);
-  const char* name = run->setup->links[link].name;
+  const char* name = run->setup->constraints[constraint].name;
   if (report->move_coordinate < 0)
     return pl_fail(run->job, PLEUEL_CONTRADICTION,
                    velocity ? "start velocities violate %s by %.3g of its terms"
@@ -377,24 +377,25 @@ static pleuel_status no_solution(pl_start* s) {
   set_guess(s, 0);
   s->below = -1;
   bool solved = solve_positions(s);
-  int link = s->below >= 0 ? s->below : s->worst_link;
-  if (!solved && link >= 0) {
+  int constraint = s->below >= 0 ? s->below : s->worst_constraint;
+  if (!solved && constraint >= 0) {
     bool any_given = count_free(s) < run->n_q;
     // in units of the terms as they are written
-    double residual = s->below >= 0 ? fabs(side_value(s, link)) : s->worst;
-    if (any_given) return violated(s, link, residual * fmax(run->argument[link], 1), false);
+    double residual = s->below >= 0 ? fabs(side_value(s, constraint)) : s->worst;
+    if (any_given)
+      return violated(s, constraint, residual * fmax(run->argument[constraint], 1), false);
   }
   run->start.trouble = PL_START_NONE;
-  run->start.link = link;
+  run->start.constraint = constraint;
   if (solved)
     return pl_fail(run->job, PLEUEL_CONTRADICTION,
                    "no solution of the constraints fits the branch conditions");
-  if (link < 0)
+  if (constraint < 0)
     return pl_fail(run->job, PLEUEL_CONTRADICTION,
                    "no positions were found that meet the constraints");
   return pl_fail(run->job, PLEUEL_CONTRADICTION,
                  "no positions were found that meet the constraints, in particular %s",
-                 run->setup->links[link].name);
+                 run->setup->constraints[constraint].name);
 }
 
 static pleuel_status several_solutions(pl_start* s) {
@@ -480,7 +481,7 @@ static bool leaves(pl_start* s, int c) {
   pl_active_update(run);
   set_velocities(s);
   bool solved = pl_start_velocities(s, s->held_v);
-  double rate = run->setup->links[c].side * run->r[c];
+  double rate = run->setup->constraints[c].side * run->r[c];
   if (solved && rate > met * run->r_size[c]) {
     s->sits[c] = false;
     return true;
@@ -497,7 +498,8 @@ static bool run_into(pl_start* s) {
   bool any = false;
   for (int c = 0; c < run->n_c; c++) {
     s->before_on[c] = run->on[c];
-    if (run->setup->links[c].side != 0 && !run->setup->links[c].velocity) run->on[c] = false;
+    if (run->setup->constraints[c].side != 0 && !run->setup->constraints[c].velocity)
+      run->on[c] = false;
   }
   pl_active_update(run);
   set_velocities(s);
@@ -519,17 +521,18 @@ static pleuel_status find_velocities(pl_start* s) {
   set_velocities(s);
   if (pl_start_velocities(s, s->held_v)) return PLEUEL_OK;
   for (int c = 0; c < run->n_c; c++)
-    if (run->setup->links[c].side != 0 && run->on[c] && leaves(s, c)) return find_velocities(s);
+    if (run->setup->constraints[c].side != 0 && run->on[c] && leaves(s, c))
+      return find_velocities(s);
   if (run_into(s)) return PLEUEL_OK;
   memcpy(run->on, s->before_on, (size_t)run->n_c * sizeof(bool));
   pl_active_update(run);
   set_velocities(s);
   pl_start_velocities(s, s->held_v);
-  if (s->worst_link < 0)
+  if (s->worst_constraint < 0)
     return pl_fail(
         run->job, PLEUEL_SINGULAR,
         "the start velocities cannot be found: the constraints or the masses are singular there");
-  return violated(s, s->worst_link, s->worst, true);
+  return violated(s, s->worst_constraint, s->worst, true);
 }
 
 // ---------------------------------------------------------------------------------- singular start
@@ -605,15 +608,15 @@ static pleuel_status check_given(pl_run* run) {
 static void mark_leaving(pl_start* s) {
   pl_run* run = s->run;
   for (int c = 0; c < run->n_c; c++) {
-    if (run->setup->links[c].side == 0 || run->on[c] || run->detached[c]
-        || run->setup->links[c].velocity)
+    if (run->setup->constraints[c].side == 0 || run->on[c] || run->detached[c]
+        || run->setup->constraints[c].velocity)
       continue;
     if (fabs(side_value(s, c)) <= met) pl_watch_of(run, PL_WATCH_LANDING, c)->fresh = 1;
   }
 }
 
 pleuel_status pl_run_start(pl_run* run) {
-  run->start = (pl_start_report){.link = -1, .move_coordinate = -1};
+  run->start = (pl_start_report){.constraint = -1, .move_coordinate = -1};
   PL_TRY(check_given(run));
   pl_start s = make(run);
   PL_TRY(find_positions(&s));

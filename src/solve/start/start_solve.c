@@ -21,7 +21,8 @@ static double largest(const pl_run* run, const double* g, const double* size, bo
   double most = 0;
   *worst = -1;
   for (int c = 0; c < run->n_c; c++) {
-    if (!run->active[c] || (positions && run->setup->links[c].velocity) || g[c] == 0) continue;
+    if (!run->active[c] || (positions && run->setup->constraints[c].velocity) || g[c] == 0)
+      continue;
     double r = fabs(g[c]) / size[c];
     if (r <= most) continue;
     most = isnan(r) ? (double)INFINITY : r;
@@ -67,7 +68,7 @@ static int take_all_that_move(pl_run* run, const bool* held, bool positions) {
       for (int l = 0; l < b->n; l++) {
         int c = b->c[g->row * b->lanes + l];
         if (x[l] == 0 || held[b->q[g->col * b->lanes + l]] || !run->active[c]) continue;
-        if (!positions || !run->setup->links[c].velocity) run->taken[c] = true;
+        if (!positions || !run->setup->constraints[c].velocity) run->taken[c] = true;
       }
     }
   }
@@ -84,7 +85,7 @@ static int choose(pl_start* s, const bool* held, bool positions) {
   for (int c = 0; c < run->n_c; c++) {
     if (run->row_of[c] < 0) continue;
     double* row = run->rows + (size_t)run->row_of[c] * (size_t)n;
-    bool none = positions && run->setup->links[c].velocity;
+    bool none = positions && run->setup->constraints[c].velocity;
     double most = 0, most_free = 0;
     for (int j = 0; j < n; j++) {
       most = fmax(most, fabs(row[j]));
@@ -142,7 +143,7 @@ static bool correction(pl_start* s, const bool* held) {
 static double merit(const pl_run* run, const double* g, const double* size) {
   double sum = 0;
   for (int c = 0; c < run->n_c; c++)
-    if (run->active[c] && !run->setup->links[c].velocity && g[c] != 0)
+    if (run->active[c] && !run->setup->constraints[c].velocity && g[c] != 0)
       sum += (g[c] / size[c]) * (g[c] / size[c]);
   return sum;
 }
@@ -167,9 +168,9 @@ static bool line_search(pl_start* s, double* residual, int* worst) {
 }
 
 bool pl_start_positions(pl_start* s, const bool* held) {
-  double residual = pl_start_residual(s, s->q, &s->worst_link);
+  double residual = pl_start_residual(s, s->q, &s->worst_constraint);
   for (int round = 0; round < MAX_ROUNDS && residual > done && isfinite(residual); round++) {
-    if (!correction(s, held) || !line_search(s, &residual, &s->worst_link)) break;
+    if (!correction(s, held) || !line_search(s, &residual, &s->worst_constraint)) break;
   }
   s->worst = residual;
   return residual <= met;
@@ -216,6 +217,6 @@ bool pl_start_velocities(pl_start* s, const bool* held) {
   choose(s, held, false);
   bool solved = solve_velocities(s, held, false) || solve_velocities(s, held, true);
   pl_point_evaluate(run, run->options.t_0, s->q, s->v);
-  s->worst = pl_start_speed_residual(s, s->v, &s->worst_link);
+  s->worst = pl_start_speed_residual(s, s->v, &s->worst_constraint);
   return solved && s->worst <= met;
 }

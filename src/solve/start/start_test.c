@@ -14,9 +14,9 @@ static t_bench* crank(void) {
   t_constraint(b, "g4", pl_sub(P, pl_add(P, sq(b, x1), sq(b, z1)), pl_int(P, 1)));
   t_constraint(b, "g5", pl_sub(P, pl_add(P, sq(b, z1), sq(b, pl_sub(P, x2, x1))), pl_int(P, 9)));
   int k = t_constraint(b, "map x1", pl_sub(P, x1, pl_call(P, PL_COS, phi)));
-  b->link[k].priority = 1;
+  b->constraint[k].priority = 1;
   k = t_constraint(b, "map z1", pl_sub(P, z1, pl_call(P, PL_SIN, phi)));
-  b->link[k].priority = 1;
+  b->constraint[k].priority = 1;
   return b;
 }
 
@@ -140,7 +140,7 @@ static void a_violated_constraint_is_named_with_what_would_mend_it(void** state)
   assert_int_equal(make_and_start(b, plain_energy(b)), PLEUEL_CONTRADICTION);
   const pl_start_report* r = pl_run_start_report(b->run);
   assert_int_equal(r->trouble, PL_START_VIOLATED);
-  assert_int_equal(r->link, 0);
+  assert_int_equal(r->constraint, 0);
   assert_int_equal(r->move_coordinate, 1);
   assert_true(fabs(r->move_to - 4) < 1e-9 && !r->move_velocity);
   assert_true(strstr(b->job.message, "rod") && strstr(b->job.message, "y = 4"));
@@ -154,7 +154,7 @@ static void a_violated_velocity_is_named(void** state) {
   t_start(b, 1, 4, 1);
   assert_int_equal(make_and_start(b, plain_energy(b)), PLEUEL_CONTRADICTION);
   const pl_start_report* r = pl_run_start_report(b->run);
-  assert_true(r->trouble == PL_START_VIOLATED && r->link_velocity && r->link == 0
+  assert_true(r->trouble == PL_START_VIOLATED && r->constraint_velocity && r->constraint == 0
               && r->move_velocity);
   // 3 x' + 4 y' = 0
   double expect = r->move_coordinate == 0 ? -4.0 / 3 : -0.75;
@@ -173,7 +173,7 @@ static void a_velocity_is_violated_though_the_terms_of_the_constraint_vanish(voi
   pl_expr L = half(b, pl_add(P, sq(b, b->v[0]), sq(b, b->v[1])));
   assert_int_equal(make_and_start(b, L), PLEUEL_CONTRADICTION);
   const pl_start_report* r = pl_run_start_report(b->run);
-  assert_true(r->trouble == PL_START_VIOLATED && r->link_velocity && r->link == 0);
+  assert_true(r->trouble == PL_START_VIOLATED && r->constraint_velocity && r->constraint == 0);
   t_close(b);
 }
 
@@ -209,7 +209,7 @@ static void a_body_without_height_sits_on_its_table(void** state) {
   t_bench* b = t_open();
   pl_expr x = t_coord(b, "x"), y = t_coord(b, "y");
   int c = t_constraint(b, "table", pl_sub(P, y, pl_int(P, 2)));
-  b->link[c].side = 1;
+  b->constraint[c].side = 1;
   t_start(b, 0, 1, 3);
   (void)x;
   assert_int_equal(make_and_start(b, pl_sub(P, plain_energy(b), mul(b, pl_int(P, 10), y))),
@@ -225,13 +225,13 @@ static void a_body_below_its_table_is_a_contradiction(void** state) {
   t_bench* b = t_open();
   pl_expr x = t_coord(b, "x"), y = t_coord(b, "y");
   int c = t_constraint(b, "table", y);
-  b->link[c].side = 1;
+  b->constraint[c].side = 1;
   (void)x;
   t_start(b, 0, 1, 0);
   t_start(b, 1, -0.5, 0);
   assert_int_equal(make_and_start(b, plain_energy(b)), PLEUEL_CONTRADICTION);
   assert_true(pl_run_start_report(b->run)->trouble == PL_START_VIOLATED
-              && pl_run_start_report(b->run)->link == c);
+              && pl_run_start_report(b->run)->constraint == c);
   t_close(b);
 }
 

@@ -42,8 +42,8 @@ static t_bench* falling(pl_method method, double tol) {
   t_bench* b = t_open();
   pl_expr L = pair(b, 1e7, 6e3);
   int c = t_constraint(b, "floor", b->q[3]);
-  b->link[c].side = 1;
-  b->link[c].restitution = 0.5;
+  b->constraint[c].side = 1;
+  b->constraint[c].restitution = 0.5;
   start(b, (double[]){0.1, 1 + sqrt(0.99), 0, 1}, (double[]){0.2, 0, 0.2, 0});
   return finish(b, L, method, 0.8, tol);
 }
@@ -54,7 +54,7 @@ static t_bench* on_waves(pl_method method, double tol) {
   pl_expr L = pair(b, 1e7, 6e3), wave = mul(b, t_param(b, "f", 6), pl_sym(P, pl_time(P)));
   int c = t_constraint(b, "road",
                        pl_sub(P, b->q[3], mul(b, t_param(b, "h", 0.3), pl_call(P, PL_SIN, wave))));
-  b->link[c].side = 1;
+  b->constraint[c].side = 1;
   start(b, (double[]){0, 1, 0, 0}, (double[]){0, 1.8, 0, 1.8});
   return finish(b, L, method, 1.5, tol);
 }
@@ -65,8 +65,8 @@ static t_bench* at_a_rope(pl_method method, double tol) {
   pl_expr L = pair(b, 1e7, 6e3);
   int c = t_constraint(b, "rope",
                        pl_sub(P, pl_add(P, sq(b, b->q[0]), sq(b, b->q[1])), pl_int(P, 1)));
-  b->link[c].side = -1;
-  b->link[c].rope = true;
+  b->constraint[c].side = -1;
+  b->constraint[c].rope = true;
   start(b, (double[]){0, -1, 0, -2}, (double[]){5, 0, 8, 0});
   return finish(b, L, method, 1.9, tol);
 }
@@ -78,7 +78,7 @@ static t_bench* cut(pl_method method, double tol) {
   int c = t_constraint(b, "rod",
                        pl_sub(P, pl_add(P, sq(b, b->q[0]), sq(b, b->q[1])), pl_int(P, 1)));
   int f = t_constraint(b, "floor", pl_add(P, b->q[3], pl_int(P, 4)));
-  b->link[f].side = 1;
+  b->constraint[f].side = 1;
   t_event(b, "cut", pl_sub(P, b->q[0], pl_ratio(P, 1, 2)), -1, PL_DEED_RELEASE, c);
   start(b, (double[]){1, 0, 1, -1}, (double[]){0, 0, 0, 0});
   return finish(b, L, method, 1.4, tol);
@@ -192,8 +192,8 @@ static void a_ball_bounces_as_its_closed_form(void** state) {
   t_bench* b = t_open();
   pl_expr y = t_coord(b, "y");
   int c = t_constraint(b, "floor", y);
-  b->link[c].side = 1;
-  b->link[c].restitution = 0.5;
+  b->constraint[c].side = 1;
+  b->constraint[c].restitution = 0.5;
   t_start(b, 0, 5, 0);
   pl_expr L = pl_sub(P, half(b, sq(b, b->v[0])), mul(b, t_param(b, "g", 10), y));
   finish(b, L, PL_METHOD_RADAU, 6, 1e-10);

@@ -67,7 +67,7 @@ static void watch_quantities(pl_run* run, const node* n) {
 
 static double force_left(const pl_run* run, int k, const double* lambda) {
   const pl_friction_setup* friction = &run->setup->frictions[k];
-  double most = run->C_series[friction->limit] * lambda[friction->link],
+  double most = run->C_series[friction->limit] * lambda[friction->constraint],
          F = pl_friction_force(run, k, lambda);
   return most * most - F * F;
 }
@@ -84,12 +84,12 @@ static double slip_left(const pl_run* run, int k) {
 // The value of one item; of a landing the velocity along g.
 static double value_of(const pl_run* run, const pl_watch* w, const node* n) {
   switch (w->kind) {
-    case PL_WATCH_RELEASE: return run->setup->links[w->index].side * n->lambda[w->index];
-    case PL_WATCH_LANDING: return run->setup->links[w->index].side * run->r[w->index];
+    case PL_WATCH_RELEASE: return run->setup->constraints[w->index].side * n->lambda[w->index];
+    case PL_WATCH_LANDING: return run->setup->constraints[w->index].side * run->r[w->index];
     case PL_WATCH_STICK: return slip_left(run, w->index);
     case PL_WATCH_SLIP: return force_left(run, w->index, n->lambda);
     case PL_WATCH_PRESS:
-      return run->friction[w->index].press * n->lambda[run->setup->frictions[w->index].link];
+      return run->friction[w->index].press * n->lambda[run->setup->frictions[w->index].constraint];
     case PL_WATCH_EVENT: return run->W_coef[run->setup->events[w->index].watch];
   }
   return 0;
@@ -136,7 +136,7 @@ static double through(const pl_radau* r, const double* value, int k) {
 // g from its rate; what that misses at the end goes to the highest power, unless it is rounding.
 static int landing(const pl_run* run, const pl_radau* r, const pl_watch* w, const double* rate,
                    double* c) {
-  int s = r->method.s, side = run->setup->links[w->index].side;
+  int s = r->method.s, side = run->setup->constraints[w->index].side;
   double sum = c[0] = side * r->first_g[w->index];
   for (int k = 0; k <= s; k++) {
     c[k + 1] = r->watched_h * (k == 0 ? rate[0] : through(r, rate, k)) / (k + 1);
@@ -203,7 +203,7 @@ static double way_to_root(const pl_run* run, const pl_radau* r, int watch, doubl
   const pl_watch* w = &run->watch[watch];
   int n = pl_radau_polynomial(run, watch, c), s = r->method.s;
   double slope = 0, value = w->kind == PL_WATCH_LANDING
-                                ? run->setup->links[w->index].side * r->last_g[w->index]
+                                ? run->setup->constraints[w->index].side * r->last_g[w->index]
                                 : values_of(r, watch)[s];
   for (int k = 1; k < n; k++) slope += k * c[k];
   if (w->kind == PL_WATCH_LANDING) slope = h * values_of(r, watch)[s];

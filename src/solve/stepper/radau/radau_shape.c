@@ -67,7 +67,7 @@ static slots rows_of(pl_arena* a, const pl_batch* b, const pl_run* run) {
   // slip follows from the coefficients of its friction, whichever they are
   for (const pl_pattern_entry* e = p->outputs; e < p->outputs + p->n_out; e++)
     for (int c = 0; c < p->n_c; c++)
-      if (run->setup->links[b->c[c * b->lanes]].slip) join(&row, p->n_q + c, &node, NODE(e));
+      if (run->setup->constraints[b->c[c * b->lanes]].slip) join(&row, p->n_q + c, &node, NODE(e));
 #undef NODE
   return row;
 }
@@ -113,7 +113,7 @@ static void note_all(list* l, const pl_run* run, const slots* of) {
   for (int k = 0; k < run->setup->n_frictions; k++) {
     const pl_friction_setup* friction = &run->setup->frictions[k];
     for (int i = 0; i < friction->n_rows; i++)
-      note(l, run->n_q + friction->row[i], run->n_q + friction->link);
+      note(l, run->n_q + friction->row[i], run->n_q + friction->constraint);
   }
 }
 

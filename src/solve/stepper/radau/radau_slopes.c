@@ -68,7 +68,7 @@ static void add_slip(const point* at) {
     for (int i = 0; i < friction->n_rows && run->friction[k].state == PL_FRICTION_SLIP; i++) {
       int row = r->n_q + friction->row[i];
       at->J->P1[AT(row, row)] += 1;
-      at->J->P1[AT(row, r->n_q + friction->link)] -= pl_friction_kappa(run, k, i, r->part);
+      at->J->P1[AT(row, r->n_q + friction->constraint)] -= pl_friction_kappa(run, k, i, r->part);
     }
   }
 }
@@ -81,7 +81,7 @@ static void add_slip_slope(const point* at, double* P, int coefficient, double s
   if (at->run->friction[k].state != PL_FRICTION_SLIP || slope == 0) return;
   for (int i = 0; i < friction->n_rows; i++)
     P[AT(r->n_q + friction->row[i], col)] -=
-        slope * pl_friction_kappa_by(at->run, k, i, coefficient) * at->lambda[friction->link];
+        slope * pl_friction_kappa_by(at->run, k, i, coefficient) * at->lambda[friction->constraint];
 }
 
 // Derivatives along global coordinate `col` (of position, or of velocity): coefficient 1 in a lane.

@@ -289,7 +289,7 @@ bool pl_radau_probe(pl_run* run, double h, double least, double* reach) {
 static double relative(const pl_run* run, const double* g, const double* size, bool positions) {
   double most = 0;
   for (int c = 0; c < run->n_c; c++) {
-    if (!run->taken[c] || g[c] == 0 || (positions && run->setup->links[c].velocity)) continue;
+    if (!run->taken[c] || g[c] == 0 || (positions && run->setup->constraints[c].velocity)) continue;
     double x = fabs(g[c]) / size[c];
     if (!(x <= most)) most = x;
   }
@@ -301,7 +301,7 @@ static void solve_back(const pl_run* run, pl_radau* r, const double* residual, d
                        bool positions) {
   memset(r->rhs, 0, (size_t)r->n_q * sizeof(double));
   for (int c = 0; c < r->n_c; c++) {
-    bool counts = run->taken[c] && !(positions && run->setup->links[c].velocity);
+    bool counts = run->taken[c] && !(positions && run->setup->constraints[c].velocity);
     r->rhs[r->n_q + c] = counts ? -factor * residual[c] : 0;
   }
   pl_radau_solve_real(r, r->rhs);

@@ -235,7 +235,8 @@ void pl_radau_slip_rows(const pl_run* run, const double* coefficient, const doub
     const pl_friction_setup* friction = &run->setup->frictions[k];
     for (int i = 0; i < friction->n_rows && run->friction[k].state == PL_FRICTION_SLIP; i++)
       C[friction->row[i]] = lambda[friction->row[i]]
-                            - pl_friction_kappa(run, k, i, coefficient) * lambda[friction->link];
+                            - pl_friction_kappa(run, k, i, coefficient)
+                                  * lambda[friction->constraint];
   }
 }
 

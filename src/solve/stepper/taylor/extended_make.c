@@ -50,10 +50,10 @@ static pleuel_status check_contacts(pl_run* run) {
                    "precision %s: friction (on %s) is followed in double only", mode,
                    s->frictions[0].name);
   for (int c = 0; c < s->n_c; c++)
-    if (s->links[c].side != 0 || s->links[c].off)
+    if (s->constraints[c].side != 0 || s->constraints[c].off)
       return pl_fail(run->job, PLEUEL_UNSUPPORTED,
                      "precision %s: contacts that open and close (%s) are followed in double only",
-                     mode, s->links[c].name);
+                     mode, s->constraints[c].name);
   for (int e = 0; e < s->n_events; e++)
     if (changes_motion(&s->events[e]))
       return pl_fail(run->job, PLEUEL_UNSUPPORTED,

@@ -62,7 +62,7 @@ static bool move_free(pl_run* run, bool positions, const bool* held, double* bas
     w->fine->read(w->m, positions ? o->g_size : o->r_size, run->n_c, size);
     double most = 0;
     for (int c = 0; c < run->n_c; c++)
-      if (run->taken[c] && !(positions && run->setup->links[c].velocity))
+      if (run->taken[c] && !(positions && run->setup->constraints[c].velocity))
         most = fmax(most, fabs(g[c]) / size[c]);
     if (!(most > w->fine->epsilon) || !(most < 0.5 * before)) return true;
     before = most;

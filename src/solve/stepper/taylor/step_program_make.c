@@ -284,7 +284,7 @@ static void correction_code(pl_maker* k, pl_motion_part part, const char* name, 
   int* x = PL_ARRAY(k->a, int, o->n + 1);
   for (int u = 0; u < o->n; u++) x[u] = -1;
   for (int c = 0; c < o->n_c; c++)
-    if (o->of_constraint[c] >= 0 && !(residual == o->g && k->run->setup->links[c].velocity))
+    if (o->of_constraint[c] >= 0 && !(residual == o->g && k->run->setup->constraints[c].velocity))
       x[o->of_constraint[c]] = pl_prog_op1(k->code, PL_PROG_NEG,
                                            pl_prog_load(k->code, residual + c, 0));
   pl_elimination_solve(k->elimination, k->code, x);
