@@ -15,9 +15,9 @@ static const double width_wanted = 1e-18;
 
 // ---------------------------------------------------------------------------------------- refusals
 // Contacts that let go, events that record, stop, or release a two-sided constraint.
-static bool is_followed(const pl_setup* s, const pl_event_deed* d) {
-  return d->deed == PL_DEED_RECORD || d->deed == PL_DEED_STOP
-         || (d->deed == PL_DEED_RELEASE && s->constraints[d->target].side == 0);
+static bool is_followed(const pl_setup* s, const pl_event_action* d) {
+  return d->kind == PL_ACTION_RECORD || d->kind == PL_ACTION_STOP
+         || (d->kind == PL_ACTION_RELEASE && s->constraints[d->target].side == 0);
 }
 
 static bool changes_mode(const pl_setup* s) {
@@ -35,8 +35,8 @@ static pl_certify_refusal refusal_of(const pleuel_model* m, const char** name) {
     return PL_REFUSED_FRICTION;
   }
   for (int i = 0; i < s->n_events; i++) {
-    for (int k = 0; k < s->events[i].n_deeds; k++) {
-      if (is_followed(s, &s->events[i].deeds[k])) continue;
+    for (int k = 0; k < s->events[i].n_actions; k++) {
+      if (is_followed(s, &s->events[i].actions[k])) continue;
       *name = s->events[i].name;
       return PL_REFUSED_EVENT;
     }

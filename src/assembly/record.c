@@ -474,8 +474,8 @@ static bool may_be_missing(const pl_model* m, const pl_constraint* c) {
   for (int i = 0; i < m->events.n; i++) {
     const pl_event* e = &m->events.at[i];
     for (int k = 0; k < e->actions.n; k++) {
-      bool deed = e->actions.at[k].kind == PL_DO_RELEASE || e->actions.at[k].kind == PL_DO_ATTACH;
-      if (deed && e->actions.at[k].label && pl_model_constraint(m, e->actions.at[k].label) == c)
+      bool action = e->actions.at[k].kind == PL_DO_RELEASE || e->actions.at[k].kind == PL_DO_ATTACH;
+      if (action && e->actions.at[k].label && pl_model_constraint(m, e->actions.at[k].label) == c)
         return true;
     }
   }

@@ -494,22 +494,22 @@ pleuel_status pl_record_observers(pl_recorder* r) {
 }
 
 // -------------------------------------------------------------------------------- events, branches
-static pleuel_status make_deed(pl_recorder* r, pl_watching* w, const pl_action* a,
-                               pl_event_deed* out) {
-  *out = (pl_event_deed){.target = -1};
+static pleuel_status make_action(pl_recorder* r, pl_watching* w, const pl_action* a,
+                                 pl_event_action* out) {
+  *out = (pl_event_action){.target = -1};
   pl_start_value target = {0};
   switch (a->kind) {
-    case PL_DO_STOP: out->deed = PL_DEED_STOP; return PLEUEL_OK;
-    case PL_DO_RECORD: out->deed = PL_DEED_RECORD; return PLEUEL_OK;
+    case PL_DO_STOP: out->kind = PL_ACTION_STOP; return PLEUEL_OK;
+    case PL_DO_RECORD: out->kind = PL_ACTION_RECORD; return PLEUEL_OK;
     case PL_DO_RELEASE:
     case PL_DO_ATTACH:
-      out->deed = a->kind == PL_DO_RELEASE ? PL_DEED_RELEASE : PL_DEED_ATTACH;
+      out->kind = a->kind == PL_DO_RELEASE ? PL_ACTION_RELEASE : PL_ACTION_ATTACH;
       out->target = pl_record_constraint(r, a->label);
       return out->target < 0 ? pl_fail(r->job, PLEUEL_USAGE, "there is no constraint %s", a->label)
                              : PLEUEL_OK;
     case PL_DO_SET:
       PL_TRY(pl_record_target(r, a->target, &target));
-      out->deed = target.velocity ? PL_DEED_SET_V : PL_DEED_SET_Q;
+      out->kind = target.velocity ? PL_ACTION_SET_V : PL_ACTION_SET_Q;
       out->target = target.at;
       out->value = w->output.n;
       return watch(r, w, a->value, w->output.n, "the new value of an event");
@@ -533,20 +533,21 @@ pleuel_status pl_record_events(pl_recorder* r) {
   pl_watching* w = watching_make(r);
   for (int i = 0; i < m->events.n; i++) {
     const pl_event* e = &m->events.at[i];
-    pl_event_deed* deeds = PL_ARRAY(r->arena, pl_event_deed, e->actions.n + 1);
+    pl_event_action* actions = PL_ARRAY(r->arena, pl_event_action, e->actions.n + 1);
     const char* name = e->name.ascii ? e->name.ascii : e->name.text;
     events[i] = (pl_event_setup){.name = name,
                                  .watch = w->output.n,
                                  .direction = e->direction,
-                                 .n_deeds = e->actions.n,
-                                 .deeds = deeds};
+                                 .n_actions = e->actions.n,
+                                 .actions = actions};
     PL_TRY(watch(r, w, e->value, w->output.n, pl_format(r->arena, "event %s", name)));
     pl_expr size = size_of_terms(r, e->value);
     if (!pl_is_poison(size)) {
       events[i].size = w->output.n + 1;
       PL_TRY(watch(r, w, size, w->output.n, pl_format(r->arena, "event %s", name)));
     }
-    for (int k = 0; k < e->actions.n; k++) PL_TRY(make_deed(r, w, &e->actions.at[k], &deeds[k]));
+    for (int k = 0; k < e->actions.n; k++)
+      PL_TRY(make_action(r, w, &e->actions.at[k], &actions[k]));
   }
   if (r->variation)
     PL_TRY(pl_variation_watch(r, w->group, w->output.at, w->output.n, w->lambda.at,

@@ -9,7 +9,7 @@
 #include "assembly/assembly_impl.h"
 
 // ----------------------------------------------------------------------------------- what switches
-static bool deeds_switch(const pl_event* e) {
+static bool actions_switch(const pl_event* e) {
   for (int k = 0; k < e->actions.n; k++)
     if (e->actions.at[k].kind != PL_DO_STOP && e->actions.at[k].kind != PL_DO_RECORD) return true;
   return false;
@@ -22,7 +22,7 @@ bool pl_variation_is_switched(const pl_recorder* r) {
     if (c->relation != PL_EQ || c->off || c->while_label) return true;
   }
   for (int i = 0; i < m->events.n; i++)
-    if (deeds_switch(&m->events.at[i])) return true;
+    if (actions_switch(&m->events.at[i])) return true;
   return false;
 }
 

@@ -118,17 +118,17 @@ static const char* name_of(const pl_system* s, const pl_monitor* m) {
 }
 
 static bool stops(const pl_event_setup* event) {
-  for (int i = 0; i < event->n_deeds; i++)
-    if (event->deeds[i].deed == PL_DEED_STOP) return true;
+  for (int i = 0; i < event->n_actions; i++)
+    if (event->actions[i].kind == PL_ACTION_STOP) return true;
   return false;
 }
 
 // An event releases constraints, or stops the motion.
-static void do_deeds(pass* z, const pl_event_setup* event) {
+static void do_actions(pass* z, const pl_event_setup* event) {
   pl_system* s = z->s;
-  for (int i = 0; i < event->n_deeds; i++) {
-    if (event->deeds[i].deed == PL_DEED_RELEASE) s->held[event->deeds[i].target] = false;
-    if (event->deeds[i].deed == PL_DEED_STOP) z->stopped = true;
+  for (int i = 0; i < event->n_actions; i++) {
+    if (event->actions[i].kind == PL_ACTION_RELEASE) s->held[event->actions[i].target] = false;
+    if (event->actions[i].kind == PL_ACTION_STOP) z->stopped = true;
   }
   pl_system_hold(s);
   pl_monitors_reset(s, false, -1);
@@ -142,7 +142,7 @@ static void pass_event(pass* z, pl_monitor* m) {
   m->fresh = 1;
   if (!happens) return;
   note(z, PL_HAPPENED_EVENT, m->index);
-  do_deeds(z, event);
+  do_actions(z, event);
   if (z->stopped) z->happened[z->n_happened - 1].kind = PL_HAPPENED_STOP;
 }
 

@@ -38,8 +38,8 @@ typedef struct look {
 
 // ------------------------------------------------------------------------------------------- which
 static bool does_something(const pl_event_setup* e) {
-  for (int i = 0; i < e->n_deeds; i++)
-    if (e->deeds[i].deed != PL_DEED_RECORD) return true;
+  for (int i = 0; i < e->n_actions; i++)
+    if (e->actions[i].kind != PL_ACTION_RECORD) return true;
   return false;
 }
 

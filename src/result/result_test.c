@@ -42,7 +42,7 @@ static t_bench* bead(void) {
   t_start(b, 0, 0, 2);
   t_start(b, 1, 0, 0);
   t_output(b, "twice", pl_mul(b->pool, pl_int(b->pool, 2), x));
-  t_event(b, "edge", pl_sub(b->pool, x, pl_int(b->pool, 1)), 1, PL_DEED_RELEASE, 0);
+  t_event(b, "edge", pl_sub(b->pool, x, pl_int(b->pool, 1)), 1, PL_ACTION_RELEASE, 0);
   assert_int_equal(t_make(b, pl_sub(b->pool, T, pl_mul(b->pool, pl_int(b->pool, 10), y)), 1, 0),
                    PLEUEL_OK);
   return b;

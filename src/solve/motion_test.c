@@ -437,7 +437,7 @@ static void dry_friction_swings_until_it_sticks(void** state) {
   pl_expr x = t_coord(b, "x");
   b->force[0] = pl_mul(P, pl_ratio(P, -1, 10), pl_call(P, PL_SIGN, b->v[0]));
   t_start(b, 0, 1, 0);
-  t_event(b, "turn", b->v[0], 0, PL_DEED_RECORD, 0);
+  t_event(b, "turn", b->v[0], 0, PL_ACTION_RECORD, 0);
   assert_int_equal(t_make(b, pl_sub(P, half(b, sq(b, b->v[0])), half(b, sq(b, x))), 30, 0),
                    PLEUEL_OK);
   pleuel_status how = pl_run_to_end(b->run);
@@ -454,7 +454,7 @@ static void dry_friction_swings_until_it_sticks(void** state) {
 static void stepping_allocates_nothing(void** state) {
   (void)state;
   t_bench* b = pendulum(1, 50);
-  t_event(b, "never", b->q[0], 0, PL_DEED_RECORD, 0);
+  t_event(b, "never", b->q[0], 0, PL_ACTION_RECORD, 0);
   assert_int_equal(pl_run_step(b->run), PLEUEL_OK);
   unsigned long before = pl_arena_count(b->arena);
   for (int i = 0; i < 40; i++) assert_int_equal(pl_run_step(b->run), PLEUEL_OK);

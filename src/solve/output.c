@@ -262,7 +262,7 @@ void pl_rows_energy(pl_run* run, bool anew) {
   }
   run->energy_size = pl_larger(run->energy_size, fabs(T) + fabs(V));
   if (anew) {
-    // an impact or a deed has changed it: drift is counted from here
+    // an impact or a action has changed it: drift is counted from here
     run->energy_base = E;
     if (isnan(run->stats.energy_drift)) {
       run->stats.energy_0 = E;

@@ -32,14 +32,14 @@ static pleuel_status check_constraints(pl_job* job, const pl_setup* s) {
   return PLEUEL_OK;
 }
 
-static bool deed_fits(const pl_setup* s, const pl_event_deed* d) {
-  switch (d->deed) {
-    case PL_DEED_STOP:
-    case PL_DEED_RECORD: return true;
-    case PL_DEED_RELEASE:
-    case PL_DEED_ATTACH: return d->target >= 0 && d->target < s->n_c;
-    case PL_DEED_SET_Q:
-    case PL_DEED_SET_V:
+static bool action_fits(const pl_setup* s, const pl_event_action* d) {
+  switch (d->kind) {
+    case PL_ACTION_STOP:
+    case PL_ACTION_RECORD: return true;
+    case PL_ACTION_RELEASE:
+    case PL_ACTION_ATTACH: return d->target >= 0 && d->target < s->n_c;
+    case PL_ACTION_SET_Q:
+    case PL_ACTION_SET_V:
       return d->target >= 0 && d->target < s->n_q && d->value >= 0 && d->value < s->n_watched;
   }
   return false;
@@ -49,7 +49,7 @@ static pleuel_status check_events(pl_job* job, const pl_setup* s) {
   for (int e = 0; e < s->n_events; e++) {
     const pl_event_setup* event = &s->events[e];
     bool fits = event->watch >= 0 && event->watch < s->n_watched && event->name != NULL;
-    for (int i = 0; i < event->n_deeds; i++) fits = fits && deed_fits(s, &event->deeds[i]);
+    for (int i = 0; i < event->n_actions; i++) fits = fits && action_fits(s, &event->actions[i]);
     if (!fits) return pl_fail(job, PLEUEL_USAGE, "event %d does not fit the setup", e);
   }
   for (int b = 0; b < s->n_branches; b++)

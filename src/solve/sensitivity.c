@@ -167,8 +167,8 @@ static const char* name_of(const pl_run* run, const pl_watch* w) {
 static bool switches(const pl_run* run, const pl_watch* w) {
   if (w->kind != PL_WATCH_EVENT) return true;
   const pl_event_setup* e = &run->setup->events[w->index];
-  for (int d = 0; d < e->n_deeds; d++)
-    if (e->deeds[d].deed != PL_DEED_STOP && e->deeds[d].deed != PL_DEED_RECORD) return true;
+  for (int d = 0; d < e->n_actions; d++)
+    if (e->actions[d].kind != PL_ACTION_STOP && e->actions[d].kind != PL_ACTION_RECORD) return true;
   return false;
 }
 
@@ -319,8 +319,8 @@ static void set_motion(pl_pilot* p, const double* q, const double* v) {
 static bool sets_values(const pl_run* run, const pl_watch* w) {
   if (w->kind != PL_WATCH_EVENT) return false;
   const pl_event_setup* e = &run->setup->events[w->index];
-  for (int d = 0; d < e->n_deeds; d++)
-    if (e->deeds[d].deed == PL_DEED_SET_Q || e->deeds[d].deed == PL_DEED_SET_V) return true;
+  for (int d = 0; d < e->n_actions; d++)
+    if (e->actions[d].kind == PL_ACTION_SET_Q || e->actions[d].kind == PL_ACTION_SET_V) return true;
   return false;
 }
 
@@ -334,14 +334,14 @@ static bool moves(const pl_run* run) {
 static void set_values(pl_pilot* p, int cause) {
   const pl_varied* s = p->s;
   const pl_event_setup* e = &p->run->setup->events[p->run->watch[cause].index];
-  for (int d = 0; d < e->n_deeds; d++) {
-    const pl_event_deed* deed = &e->deeds[d];
-    if (deed->deed != PL_DEED_SET_Q && deed->deed != PL_DEED_SET_V) continue;
+  for (int d = 0; d < e->n_actions; d++) {
+    const pl_event_action* action = &e->actions[d];
+    if (action->kind != PL_ACTION_SET_Q && action->kind != PL_ACTION_SET_V) continue;
     for (int k = 0; k < s->n_directions; k++) {
-      double* to = (deed->deed == PL_DEED_SET_Q ? p->follower->q : p->follower->v)
+      double* to = (action->kind == PL_ACTION_SET_Q ? p->follower->q : p->follower->v)
                    + (2 * k + 1) * s->n_q;
-      to[deed->target] = p->watched[(2 + k) * s->n_watched + deed->value]
-                         + p->dt[k] * p->flow[deed->value];
+      to[action->target] = p->watched[(2 + k) * s->n_watched + action->value]
+                           + p->dt[k] * p->flow[action->value];
     }
   }
 }

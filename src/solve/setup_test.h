@@ -29,7 +29,7 @@ typedef struct t_bench {
   pl_constraint_setup constraint[T_MAX];
   pl_column column[16];
   pl_event_setup event[8];
-  pl_event_deed deed[8][4];
+  pl_event_action action[8][4];
   pl_branch_setup branch_setup[8];
   double value[4096];
   int identity[T_MAX];
@@ -108,16 +108,16 @@ static inline void t_start(t_bench* b, int i, double q, double v) {
   b->coordinate[i].v = v;
 }
 
-static inline int t_event(t_bench* b, const char* name, pl_expr e, int direction, pl_deed deed,
-                          int target) {
+static inline int t_event(t_bench* b, const char* name, pl_expr e, int direction,
+                          pl_event_action_kind action, int target) {
   int i = b->n_events++;
   b->watch[b->n_watch] = e;
-  b->deed[i][0] = (pl_event_deed){deed, target, 0};
+  b->action[i][0] = (pl_event_action){action, target, 0};
   b->event[i] = (pl_event_setup){.name = name,
                                  .watch = b->n_watch++,
                                  .direction = direction,
-                                 .n_deeds = 1,
-                                 .deeds = b->deed[i]};
+                                 .n_actions = 1,
+                                 .actions = b->action[i]};
   return i;
 }
 

@@ -75,19 +75,19 @@ typedef struct pl_column {
   const char *name, *unit;
 } pl_column;
 
-typedef enum pl_deed {
-  PL_DEED_STOP,
-  PL_DEED_RECORD,
-  PL_DEED_RELEASE,
-  PL_DEED_ATTACH,
-  PL_DEED_SET_Q,
-  PL_DEED_SET_V
-} pl_deed;
-typedef struct pl_event_deed {
-  pl_deed deed;
+typedef enum pl_event_action_kind {
+  PL_ACTION_STOP,
+  PL_ACTION_RECORD,
+  PL_ACTION_RELEASE,
+  PL_ACTION_ATTACH,
+  PL_ACTION_SET_Q,
+  PL_ACTION_SET_V
+} pl_event_action_kind;
+typedef struct pl_event_action {
+  pl_event_action_kind kind;
   int target;  // RELEASE, ATTACH: constraint; SET_*: coordinate
   int value;   // SET_*: index of the watched quantity that is the new value
-} pl_event_deed;
+} pl_event_action;
 
 // `event label: when expr = 0`. The expression is watched quantity number `watch` (output of a
 // watch pattern).
@@ -95,8 +95,8 @@ typedef struct pl_event_setup {
   const char* name;
   int watch;
   int direction;  // +1 rising, -1 falling, 0 both
-  int n_deeds;
-  const pl_event_deed* deeds;
+  int n_actions;
+  const pl_event_action* actions;
   // 1 + the watched quantity that is the size of its terms, 0 none: its rounding error
   int size;
 } pl_event_setup;

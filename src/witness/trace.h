@@ -17,7 +17,7 @@ typedef struct pl_trace_sample {
 } pl_trace_sample;
 
 // A stretch of the motion between two changes: of what holds, or of the state by an impact or a
-// deed.
+// action.
 typedef struct pl_trace_phase {
   double t_begin, t_end;  // s; equal when the motion only touches it
   int first, n;           // samples

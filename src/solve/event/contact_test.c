@@ -21,7 +21,7 @@ static t_bench* ski(double angle, double t_end) {
   b->coordinate[1].has_q = b->coordinate[1].has_v = true;
   b->coordinate[1].q = angle;
   // the ground, y = r cos ϑ = 0, stops it
-  t_event(b, "ground", mul(b, r, pl_call(P, PL_COS, theta)), -1, PL_DEED_STOP, 0);
+  t_event(b, "ground", mul(b, r, pl_call(P, PL_COS, theta)), -1, PL_ACTION_STOP, 0);
   assert_int_equal(t_make(b, L, t_end, 0), PLEUEL_OK);
   return b;
 }
@@ -190,9 +190,9 @@ static void events_count_crossings_but_not_the_start(void** state) {
   pl_expr x = t_coord(b, "x");
   pl_expr L = pl_sub(P, half(b, sq(b, b->v[0])), half(b, sq(b, x)));
   t_start(b, 0, 0, 1);  // x = sin t
-  t_event(b, "up", x, 1, PL_DEED_RECORD, 0);
-  t_event(b, "turn", b->v[0], 0, PL_DEED_RECORD, 0);
-  t_event(b, "accel", pl_dt(P, b->v[0]), -1, PL_DEED_RECORD, 0);
+  t_event(b, "up", x, 1, PL_ACTION_RECORD, 0);
+  t_event(b, "turn", b->v[0], 0, PL_ACTION_RECORD, 0);
+  t_event(b, "accel", pl_dt(P, b->v[0]), -1, PL_ACTION_RECORD, 0);
   assert_int_equal(t_make(b, L, 12.6, 0), PLEUEL_OK);
   assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
   double pi = 3.14159265358979323846;
@@ -218,7 +218,7 @@ static void an_event_releases_and_attaches(void** state) {
   t_constraint(b, "line", y);
   t_start(b, 0, 0, 2);
   t_start(b, 1, 0, 0);
-  t_event(b, "edge", pl_sub(P, x, pl_int(P, 1)), 1, PL_DEED_RELEASE, 0);
+  t_event(b, "edge", pl_sub(P, x, pl_int(P, 1)), 1, PL_ACTION_RELEASE, 0);
   assert_int_equal(t_make(b, pl_sub(P, T, mul(b, m, mul(b, g, y))), 1.5, 0), PLEUEL_OK);
   assert_int_equal(pl_run_to_end(b->run), PLEUEL_OK);
   assert_true(b->events == 1 && fabs(b->event_t[0] - 0.5) < 1e-15);

@@ -1,5 +1,5 @@
 // The mode automaton: contacts end where λ would pull, begin where a free body arrives, bounce;
-// surfaces stick and slip; events do their deeds.
+// surfaces stick and slip; events take place.
 //
 // At a moment of change all that happens together is decided together (contacts.c): first the
 // impact, if something arrives, then the mode of the motion that follows. Bounces that follow each
@@ -340,7 +340,7 @@ pleuel_status pl_modes_check(pl_run* run, bool at_start) {
   return tell_changes(run, at_start);
 }
 
-// ------------------------------------------------------------------------------------------- deeds
+// ------------------------------------------------------------------------------------------- actions
 static pleuel_status attach(pl_run* run, int c) {
   run->detached[c] = false;
   if (run->on[c]) return PLEUEL_OK;
@@ -371,17 +371,17 @@ static double watched_value(pl_run* run, int i) {
   return run->W_coef[i];
 }
 
-static pleuel_status do_deed(pl_run* run, const pl_event_deed* d) {
-  switch (d->deed) {
-    case PL_DEED_STOP: run->stopped = true; break;
-    case PL_DEED_RECORD: break;
-    case PL_DEED_RELEASE:
+static pleuel_status do_action(pl_run* run, const pl_event_action* d) {
+  switch (d->kind) {
+    case PL_ACTION_STOP: run->stopped = true; break;
+    case PL_ACTION_RECORD: break;
+    case PL_ACTION_RELEASE:
       run->detached[d->target] = true;
       run->on[d->target] = false;
       break;
-    case PL_DEED_ATTACH: return attach(run, d->target);
-    case PL_DEED_SET_Q: run->q[d->target] = watched_value(run, d->value); break;
-    case PL_DEED_SET_V: run->v[d->target] = watched_value(run, d->value); break;
+    case PL_ACTION_ATTACH: return attach(run, d->target);
+    case PL_ACTION_SET_Q: run->q[d->target] = watched_value(run, d->value); break;
+    case PL_ACTION_SET_V: run->v[d->target] = watched_value(run, d->value); break;
   }
   return PLEUEL_OK;
 }
@@ -412,10 +412,11 @@ static pleuel_status happen(pl_run* run, int e, bool touches) {
   const pl_event_setup* event = &run->setup->events[e];
   bool stops = false, changes = false;
   remember(run);
-  for (int i = 0; i < event->n_deeds; i++) {
-    PL_TRY(do_deed(run, &event->deeds[i]));
-    stops |= event->deeds[i].deed == PL_DEED_STOP;
-    changes |= event->deeds[i].deed != PL_DEED_STOP && event->deeds[i].deed != PL_DEED_RECORD;
+  for (int i = 0; i < event->n_actions; i++) {
+    PL_TRY(do_action(run, &event->actions[i]));
+    stops |= event->actions[i].kind == PL_ACTION_STOP;
+    changes |= event->actions[i].kind != PL_ACTION_STOP
+               && event->actions[i].kind != PL_ACTION_RECORD;
   }
   if (changes) {
     run->factored = false;
@@ -437,8 +438,9 @@ static bool changes_motion(const pl_run* run) {
     if (!run->hit[i]) continue;
     if (run->watch[i].kind != PL_WATCH_EVENT) return true;
     const pl_event_setup* e = &run->setup->events[run->watch[i].index];
-    for (int d = 0; d < e->n_deeds; d++)
-      if (e->deeds[d].deed != PL_DEED_STOP && e->deeds[d].deed != PL_DEED_RECORD) return true;
+    for (int d = 0; d < e->n_actions; d++)
+      if (e->actions[d].kind != PL_ACTION_STOP && e->actions[d].kind != PL_ACTION_RECORD)
+        return true;
   }
   return false;
 }

@@ -100,8 +100,9 @@ static bool is_watched(const pl_run* run, const pl_watch* w) {
 
 bool pl_event_sets(const pl_run* run, int e) {
   const pl_event_setup* event = &run->setup->events[e];
-  for (int i = 0; i < event->n_deeds; i++)
-    if (event->deeds[i].deed == PL_DEED_SET_Q || event->deeds[i].deed == PL_DEED_SET_V) return true;
+  for (int i = 0; i < event->n_actions; i++)
+    if (event->actions[i].kind == PL_ACTION_SET_Q || event->actions[i].kind == PL_ACTION_SET_V)
+      return true;
   return false;
 }
 

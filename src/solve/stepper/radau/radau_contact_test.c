@@ -79,7 +79,7 @@ static t_bench* cut(pl_method method, double tol) {
                        pl_sub(P, pl_add(P, sq(b, b->q[0]), sq(b, b->q[1])), pl_int(P, 1)));
   int f = t_constraint(b, "floor", pl_add(P, b->q[3], pl_int(P, 4)));
   b->constraint[f].side = 1;
-  t_event(b, "cut", pl_sub(P, b->q[0], pl_ratio(P, 1, 2)), -1, PL_DEED_RELEASE, c);
+  t_event(b, "cut", pl_sub(P, b->q[0], pl_ratio(P, 1, 2)), -1, PL_ACTION_RELEASE, c);
   start(b, (double[]){1, 0, 1, -1}, (double[]){0, 0, 0, 0});
   return finish(b, L, method, 1.4, tol);
 }

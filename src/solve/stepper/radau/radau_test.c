@@ -200,7 +200,7 @@ static rows rows_of(pl_method method, double dt, double tol, double* event_t, in
   pl_run_free(b->run);
   // the pendulum stands upright: x = 0
   b->n_watch = 0;
-  t_event(b, "lowest", b->q[0], 0, PL_DEED_RECORD, 0);
+  t_event(b, "lowest", b->q[0], 0, PL_ACTION_RECORD, 0);
   t_record_list(b, b->watch, b->n_watch, &b->watcher);
   b->setup.n_events = b->setup.n_watched = b->setup.n_watch_patterns = 1;
   b->options.dt = dt;

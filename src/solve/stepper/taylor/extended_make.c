@@ -24,8 +24,8 @@ const char* pl_wide_name(const pl_run* run) {
 }
 
 static bool changes_motion(const pl_event_setup* e) {
-  for (int i = 0; i < e->n_deeds; i++)
-    if (e->deeds[i].deed != PL_DEED_STOP && e->deeds[i].deed != PL_DEED_RECORD) return true;
+  for (int i = 0; i < e->n_actions; i++)
+    if (e->actions[i].kind != PL_ACTION_STOP && e->actions[i].kind != PL_ACTION_RECORD) return true;
   return false;
 }
 
