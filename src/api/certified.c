@@ -29,7 +29,7 @@ static bool changes_mode(const pl_setup* s) {
 static pl_certify_refusal refusal_of(const pleuel_model* m, const char** name) {
   const pl_setup* s = &m->recording->setup;
   if (m->recording->n_directions > 0) return PL_REFUSED_SENSITIVITIES;
-  if (s->n_turns > 0) return PL_REFUSED_TURN;
+  if (s->n_attitudes > 0) return PL_REFUSED_TURN;
   if (s->n_frictions > 0) {
     *name = s->frictions[0].name;
     return PL_REFUSED_FRICTION;

@@ -265,7 +265,7 @@ static pleuel_status start_turned(pleuel_model* m, const pl_run_options* how, pl
   if (s == PLEUEL_OK) {
     memcpy(q, pl_run_q(first), n * sizeof *q);
     memcpy(v, pl_run_v(first), n * sizeof *v);
-    s = pl_run_start_turned(run, pl_run_time(first), q, v);
+    s = pl_run_start_from_angles(run, pl_run_time(first), q, v);
   }
   pl_run_free(first);
   return s;

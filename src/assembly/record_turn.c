@@ -9,7 +9,7 @@
 
 // Angles that observers still speak of stand behind all coordinates.
 static void place_angles(pl_recorder* r, const pl_turned* t) {
-  pl_turn_setup* turns = PL_ARRAY(r->arena, pl_turn_setup, t->places.n);
+  pl_attitude_setup* turns = PL_ARRAY(r->arena, pl_attitude_setup, t->places.n);
   for (int i = 0; i < t->places.n; i++) {
     const pl_turned_place* p = &t->places.at[i];
     memcpy(turns[i].angle, p->at, sizeof p->at);
@@ -17,8 +17,8 @@ static void place_angles(pl_recorder* r, const pl_turned* t) {
     for (int k = 0; k < 3; k++)
       pl_map_set(r->flat_at, p->angle[k].id, (uint64_t)(r->out->flat.n + 3 * i + k) + 1);
   }
-  r->out->setup.turns = turns;
-  r->out->setup.n_turns = t->places.n;
+  r->out->setup.attitudes = turns;
+  r->out->setup.n_attitudes = t->places.n;
 }
 
 // Names and units as declared; what is new has no column.

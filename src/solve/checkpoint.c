@@ -71,7 +71,7 @@ static void keep_dimensions(pl_run* run, pl_keeper* k) {
   pl_keep_section(k, "dimensions");
   int of[] = {run->n_q,           run->n_c,
               run->order,         s->n_out,
-              s->n_frictions,     s->n_turns,
+              s->n_frictions,     s->n_attitudes,
               s->n_events,        s->n_watched,
               run->n_watch,       run->n_kinks,
               run->kkt.dense,     run->pilot != NULL,
@@ -171,12 +171,12 @@ static void keep_rows(pl_run* run, pl_keeper* k) {
   for (size_t i = 0; i < sizeof flags / sizeof *flags; i++) pl_keep_bool(k, flags[i]);
 }
 
-static void keep_turns(pl_run* run, pl_keeper* k) {
+static void keep_attitudes(pl_run* run, pl_keeper* k) {
   pl_keep_section(k, "turns");
-  for (int i = 0; i < run->setup->n_turns; i++) {
-    pl_keep_f64(k, &run->turn[i].t);
-    pl_keep_f64s(k, run->turn[i].angle, 3);
-    pl_keep_f64s(k, run->turn[i].rate, 2);
+  for (int i = 0; i < run->setup->n_attitudes; i++) {
+    pl_keep_f64(k, &run->attitude[i].t);
+    pl_keep_f64s(k, run->attitude[i].angle, 3);
+    pl_keep_f64s(k, run->attitude[i].rate, 2);
   }
 }
 
@@ -247,7 +247,7 @@ static void keep_state(pl_run* run, pl_keeper* k) {
   keep_mode(run, k);
   keep_contacts(run, k);
   keep_rows(run, k);
-  keep_turns(run, k);
+  keep_attitudes(run, k);
   keep_stats(run, k);
   keep_radau(run, k);
   keep_wide(run, k);

@@ -11,7 +11,7 @@ void pl_observe(pl_run* run, double t, const double* q, const double* v, const d
                 const double* lambda, double* out) {
   pl_batches* b = &run->observers;
   if (run->setup->n_out == 0) return;
-  pl_turns_seen(run, t, &q, &v, &a);
+  pl_attitude_seen(run, t, &q, &v, &a);
   pl_batches_time(b, t);
   pl_batches_load_q(b, q, 0);
   pl_batches_load_v(b, v, 0);
@@ -66,7 +66,7 @@ pl_row pl_row_now(pl_run* run, pl_row_kind kind, double* out, char* mode) {
                 .out = out,
                 .mode = mode,
                 .kind = kind};
-  pl_turns_show(run, &row);
+  pl_attitude_show(run, &row);
   if (run->wide) pl_wide_row(run, &row, out);
   return row;
 }
@@ -123,7 +123,7 @@ pleuel_status pl_rows_point(pl_run* run, pl_row_kind kind) {
 // A row between the ends of a step: at grid time n, or without a grid where n is -1.
 static pleuel_status row_between(pl_run* run, double t, long n) {
   if (!run->wide) {
-    pl_turns_follow(run, t);
+    pl_attitude_follow(run, t);
     pl_series_at(run, t - run->t_series, run->row_q, run->row_v);
     pl_series_lambda_at(run, t - run->t_series, run->row_a, run->row_l);
     pl_observe(run, t, run->row_q, run->row_v, run->row_a, run->row_l, run->out_now);
@@ -138,7 +138,7 @@ static pleuel_status row_between(pl_run* run, double t, long n) {
                 .out = run->out_now,
                 .mode = run->mode,
                 .kind = PL_ROW_STEP};
-  pl_turns_show(run, &row);
+  pl_attitude_show(run, &row);
   if (run->wide && n >= 0) pl_wide_grid_row(run, n, &row, run->out_now);
   else if (run->wide) pl_wide_row_at(run, t, &row, run->out_now);
   return send(run, &row);
@@ -197,7 +197,7 @@ pleuel_status pl_rows_event(pl_run* run, pl_event_kind kind, int index, double i
                       .out = run->out_before,
                       .mode = run->mode_before,
                       .kind = PL_ROW_BEFORE};
-  pl_turns_show(run, &e.before);
+  pl_attitude_show(run, &e.before);
   e.after = pl_row_now(run, PL_ROW_AFTER, run->out_now, run->mode);
   pleuel_status how = s->event(s->user, &e);
   run->refused |= how != PLEUEL_OK;
@@ -218,7 +218,7 @@ pleuel_status pl_rows_event_beside(pl_run* run, pl_event_record e, double t, con
                      .out = run->out_now,
                      .mode = run->mode,
                      .kind = PL_ROW_AFTER};
-  pl_turns_show(run, &e.after);
+  pl_attitude_show(run, &e.after);
   e.before = e.after;
   pleuel_status how = s->event(s->user, &e);
   run->refused |= how != PLEUEL_OK;

@@ -265,8 +265,8 @@ static pleuel_status step(pl_run* run) {
   note(run, &p, h);
   PL_TRY(count_tiny(run, h));
   if (root > 0 && run->n_slipping > 0) pl_friction_keep_directions(run);
-  PL_TRY(pl_turns_poles(run, h));
-  pl_turns_follow(run, run->t + h);
+  PL_TRY(pl_attitude_poles(run, h));
+  pl_attitude_follow(run, run->t + h);
   accept(run, h, to_end);
   PL_TRY(arrive_at_point(run));
   if (root > 0) return pl_modes_handle(run);

@@ -66,8 +66,8 @@ static pleuel_status check_setup(pl_job* job, const pl_setup* s) {
   for (int i = 0; i < s->n_q; i++)
     if (s->coordinates[i].name == NULL)
       return pl_fail(job, PLEUEL_USAGE, "coordinate %d has no name", i);
-  for (int i = 0; i < s->n_turns; i++) {
-    const pl_turn_setup* t = &s->turns[i];
+  for (int i = 0; i < s->n_attitudes; i++) {
+    const pl_attitude_setup* t = &s->attitudes[i];
     const int of[4] = {t->scalar, t->angle[0], t->angle[1], t->angle[2]};
     for (int k = 0; k < 4; k++)
       if (of[k] < 0 || of[k] >= s->n_q)
@@ -257,7 +257,7 @@ static pleuel_status reserve_batches(pl_run* run) {
   PL_TRY(pl_batches_make(run->job, &run->motion, s->patterns, s->n_patterns, run->order + 2, n_q,
                          n_c, INT32_MAX));
   PL_TRY(pl_batches_make(run->job, &run->observers, s->observers, s->n_observers, 1,
-                         n_q + 3 * s->n_turns, n_c, s->n_out));
+                         n_q + 3 * s->n_attitudes, n_c, s->n_out));
   PL_TRY(pl_batches_make(run->job, &run->watched, s->watch, s->n_watch_patterns, run->order + 2,
                          n_q, n_c, s->n_watched));
   return pl_batches_make(run->job, &run->branches, s->branch_patterns, s->n_branch_patterns, 1, n_q,
@@ -311,7 +311,7 @@ pleuel_status pl_run_make(pl_job* job, const pl_setup* setup, const pl_run_optio
   reserve_state(run);
   reserve_ranks(run);
   reserve_rows(run);
-  pl_turns_make(run);
+  pl_attitude_make(run);
   PL_TRY(reserve_batches(run));
   PL_TRY(check_rows(run));
   PL_TRY(pl_kkt_make(run));

@@ -113,10 +113,10 @@ typedef struct pl_branch_setup {
 // which has no singular attitude. The coordinates of its angles φ, ϑ, ψ hold q_1, q_2, q_3 while
 // the motion is integrated, and the angles in rows. Observers find q_1 .. q_3 there and the angles
 // behind all coordinates: those of body k at n_q + 3 k.
-typedef struct pl_turn_setup {
+typedef struct pl_attitude_setup {
   int angle[3];  // coordinates of φ, ϑ, ψ
   int scalar;    // coordinate of q_0
-} pl_turn_setup;
+} pl_attitude_setup;
 // Numbers of a setup as they were written, for runs on numbers wider than doubles: a tape of
 // constants, and which of its roots is which; -1: the double in the setup is exact.
 typedef struct pl_exact_setup {
@@ -165,8 +165,8 @@ typedef struct pl_setup {
   int n_branch_outputs;
   int n_branch_patterns;
   const pl_pattern* branch_patterns;
-  int n_turns;
-  const pl_turn_setup* turns;  // (n_turns)
+  int n_attitudes;
+  const pl_attitude_setup* attitudes;  // (n_attitudes)
   int n_poles;
   // coordinates ϑ of bodies that are integrated in Euler angles: a motion stops at multiples of
   // 180°
@@ -381,9 +381,9 @@ const pl_start_report* pl_run_start_report(const pl_run* run);
 // pl_run_start_at starts from these numbers, which must be consistent to 1e-9; they are projected.
 pleuel_status pl_run_start_at(pl_run* run, double t, const double* q, const double* v);
 
-// pl_run_start_turned does so where coordinates of angles hold these, and what stands for scalars
+// pl_run_start_from_angles does so where coordinates of angles hold these, and what stands for scalars
 // of quaternions is ignored.
-pleuel_status pl_run_start_turned(pl_run* run, double t, const double* q, const double* v);
+pleuel_status pl_run_start_from_angles(pl_run* run, double t, const double* q, const double* v);
 
 // pl_run_start_partly starts from numbers of which those held are right; the others, in which the
 // constraints must be linear, move by the least that meets the constraints.

@@ -142,11 +142,11 @@ typedef struct pl_kink {
 } pl_kink;
 
 // Where the angles of a turn have been followed to.
-typedef struct pl_turn_now {
+typedef struct pl_attitude_state {
   double t;
   double angle[3];  // φ, ϑ, ψ
   double rate[2];   // of (φ + ψ)/2 and (φ - ψ)/2, where they were determined last
-} pl_turn_now;
+} pl_attitude_state;
 
 typedef struct pl_indeterminate pl_indeterminate;
 typedef struct pl_pilot pl_pilot;
@@ -316,8 +316,8 @@ struct pl_run {
   int tiny;          // steps in a row that were almost nothing
 
   // bodies declared in Euler angles
-  pl_turn_now* turn;  // (n_turns)
-  // q, v, a for observers and for rows   (n_q + 3 n_turns)
+  pl_attitude_state* attitude;  // (n_attitudes)
+  // q, v, a for observers and for rows   (n_q + 3 n_attitudes)
   double *seen[3], *shown[3], *shown_before[3];
 
   // rows
@@ -590,13 +590,13 @@ bool pl_singular_leap(pl_run* run, double left, double* length, pl_projection* p
 pleuel_status pl_singular_record(pl_run* run);
 
 // ---- attitude.c: angles of bodies that are integrated as quaternions
-void pl_turns_make(pl_run* run);
-void pl_turns_follow(pl_run* run, double t);  // along the series at work
+void pl_attitude_make(pl_run* run);
+void pl_attitude_follow(pl_run* run, double t);  // along the series at work
 // as observers need them
-void pl_turns_seen(pl_run* run, double t, const double** q, const double** v, const double** a);
-void pl_turns_show(pl_run* run, pl_row* row);  // coordinates as they were declared
+void pl_attitude_seen(pl_run* run, double t, const double** q, const double** v, const double** a);
+void pl_attitude_show(pl_run* run, pl_row* row);  // coordinates as they were declared
 // fails when the step to trial_q passes a pole
-pleuel_status pl_turns_poles(pl_run* run, double h);
+pleuel_status pl_attitude_poles(pl_run* run, double h);
 
 // ---- output.c
 pleuel_status pl_rows_open(pl_run* run);  // begin of the sink

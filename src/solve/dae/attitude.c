@@ -31,7 +31,7 @@ static pl_complex number(double re, double im) { return __builtin_complex(re, im
 
 static pl_complex unit(double angle) { return number(cos(angle), sin(angle)); }
 
-static pl_halves halves_of(const pl_turn_setup* t, const double* q, const double* v,
+static pl_halves halves_of(const pl_attitude_setup* t, const double* q, const double* v,
                            const double* a) {
   const int s = t->scalar, *n = t->angle;
   pl_halves h = {.z = {number(q[s], q[n[2]]), number(q[n[0]], q[n[1]])},
@@ -44,7 +44,7 @@ static pl_halves halves_of(const pl_turn_setup* t, const double* q, const double
 }
 
 // ---------------------------------------------------------------------- from angles to quaternions
-static void to_quaternion(const pl_turn_setup* t, const double* angle, const double* rate,
+static void to_quaternion(const pl_attitude_setup* t, const double* angle, const double* rate,
                           double* q, double* v) {
   double half = angle[1] / 2, c = cos(half), s = sin(half), nod = rate[1] / 2;
   pl_complex e_1 = unit((angle[0] + angle[2]) / 2), e_2 = unit((angle[0] - angle[2]) / 2);
@@ -101,7 +101,7 @@ static void rates_of_argument(pl_complex e, double r, pl_complex v, pl_complex a
 }
 
 // Angles, rates and accelerations at h, next to where they were followed to; dt after that.
-static void to_angles(const pl_turn_now* now, const pl_halves* h, double dt, double* angle,
+static void to_angles(const pl_attitude_state* now, const pl_halves* h, double dt, double* angle,
                       double* rate, double* second) {
   double lost_sum = (now->angle[0] + now->angle[2]) / 2 + dt * now->rate[0];
   double lost_difference = (now->angle[0] - now->angle[2]) / 2 + dt * now->rate[1];
@@ -134,7 +134,7 @@ static double at_series(const double* X, int n, int i, int last, double dt) {
   return x;
 }
 
-static pl_halves halves_at(const pl_run* run, const pl_turn_setup* s, double t) {
+static pl_halves halves_at(const pl_run* run, const pl_attitude_setup* s, double t) {
   double x[2][4], dt = t - run->t_series;
   const int of[4] = {s->scalar, s->angle[0], s->angle[1], s->angle[2]};
   for (int i = 0; i < 4; i++) {
@@ -155,7 +155,7 @@ static bool is_close(pl_complex z_a, pl_complex v_a, pl_complex z_b, pl_complex 
   return straight && cabs(z_b - z_a) <= 0.5 * most;
 }
 
-static void follow_to(pl_turn_now* now, const pl_halves* h, double t) {
+static void follow_to(pl_attitude_state* now, const pl_halves* h, double t) {
   double angle[3];
   to_angles(now, h, t - now->t, angle, NULL, NULL);
   for (int i = 0; i < 2; i++) {
@@ -167,7 +167,8 @@ static void follow_to(pl_turn_now* now, const pl_halves* h, double t) {
   now->t = t;
 }
 
-static void follow(const pl_run* run, const pl_turn_setup* s, pl_turn_now* now, double t_to) {
+static void follow(const pl_run* run, const pl_attitude_setup* s, pl_attitude_state* now,
+                   double t_to) {
   enum { DEEPEST = 60 };
   double waiting[DEEPEST + 2];  // ends of the pieces before t_to
   int n = 0;
@@ -188,9 +189,9 @@ static void follow(const pl_run* run, const pl_turn_setup* s, pl_turn_now* now, 
   }
 }
 
-void pl_turns_follow(pl_run* run, double t_to) {
-  for (int i = 0; i < run->setup->n_turns; i++) {
-    if (t_to != run->turn[i].t) follow(run, &run->setup->turns[i], &run->turn[i], t_to);
+void pl_attitude_follow(pl_run* run, double t_to) {
+  for (int i = 0; i < run->setup->n_attitudes; i++) {
+    if (t_to != run->attitude[i].t) follow(run, &run->setup->attitudes[i], &run->attitude[i], t_to);
   }
 }
 
@@ -201,11 +202,11 @@ static void fill(const pl_run* run, double t, const double* q, const double* v, 
   memcpy(q_out, q, n * sizeof(double));
   memcpy(v_out, v, n * sizeof(double));
   memcpy(a_out, a, n * sizeof(double));
-  for (int i = 0; i < run->setup->n_turns; i++) {
-    const pl_turn_setup* s = &run->setup->turns[i];
+  for (int i = 0; i < run->setup->n_attitudes; i++) {
+    const pl_attitude_setup* s = &run->setup->attitudes[i];
     double angle[3], rate[3], second[3];
     pl_halves h = halves_of(s, q, v, a);
-    to_angles(&run->turn[i], &h, t - run->turn[i].t, angle, rate, second);
+    to_angles(&run->attitude[i], &h, t - run->attitude[i].t, angle, rate, second);
     for (int k = 0; k < 3; k++) {
       size_t at = behind ? n + 3 * (size_t)i + (size_t)k : (size_t)s->angle[k];
       q_out[at] = angle[k];
@@ -215,16 +216,16 @@ static void fill(const pl_run* run, double t, const double* q, const double* v, 
   }
 }
 
-void pl_turns_seen(pl_run* run, double t, const double** q, const double** v, const double** a) {
-  if (run->setup->n_turns == 0) return;
+void pl_attitude_seen(pl_run* run, double t, const double** q, const double** v, const double** a) {
+  if (run->setup->n_attitudes == 0) return;
   fill(run, t, *q, *v, *a, run->seen[0], run->seen[1], run->seen[2], true);
   *q = run->seen[0];
   *v = run->seen[1];
   *a = run->seen[2];
 }
 
-void pl_turns_show(pl_run* run, pl_row* row) {
-  if (run->setup->n_turns == 0) return;
+void pl_attitude_show(pl_run* run, pl_row* row) {
+  if (run->setup->n_attitudes == 0) return;
   double** out = row->kind == PL_ROW_BEFORE ? run->shown_before : run->shown;
   fill(run, row->t, row->q, row->v, row->a, out[0], out[1], out[2], false);
   row->q = out[0];
@@ -235,7 +236,7 @@ void pl_turns_show(pl_run* run, pl_row* row) {
 // ---------------------------------------------------------------------- what stays in Euler angles
 // At ϑ = 0 or 180° they do not tell precession and spin apart. A step that gets to the other side
 // has divided by what is zero on its way, and its end may be anything.
-pleuel_status pl_turns_poles(pl_run* run, double h) {
+pleuel_status pl_attitude_poles(pl_run* run, double h) {
   static const double close = 1e-9;
   for (int i = 0; i < run->setup->n_poles; i++) {
     int at = run->setup->poles[i];
@@ -254,11 +255,11 @@ pleuel_status pl_turns_poles(pl_run* run, double h) {
 }
 
 // ------------------------------------------------------------------------------------------- start
-void pl_turns_make(pl_run* run) {
+void pl_attitude_make(pl_run* run) {
   pl_arena* a = run->job->arena;
-  size_t n = (size_t)run->n_q + 3 * (size_t)run->setup->n_turns + 1;
-  if (run->setup->n_turns == 0) return;
-  run->turn = PL_ARRAY(a, pl_turn_now, run->setup->n_turns);
+  size_t n = (size_t)run->n_q + 3 * (size_t)run->setup->n_attitudes + 1;
+  if (run->setup->n_attitudes == 0) return;
+  run->attitude = PL_ARRAY(a, pl_attitude_state, run->setup->n_attitudes);
   for (int i = 0; i < 3; i++) {
     run->seen[i] = PL_ARRAY(a, double, n);
     run->shown[i] = PL_ARRAY(a, double, n);
@@ -266,19 +267,19 @@ void pl_turns_make(pl_run* run) {
   }
 }
 
-pleuel_status pl_run_start_turned(pl_run* run, double t, const double* q, const double* v) {
+pleuel_status pl_run_start_from_angles(pl_run* run, double t, const double* q, const double* v) {
   double *q_run = run->row_q, *v_run = run->row_v;
   memcpy(q_run, q, (size_t)run->n_q * sizeof(double));
   memcpy(v_run, v, (size_t)run->n_q * sizeof(double));
-  for (int i = 0; i < run->setup->n_turns; i++) {
-    const pl_turn_setup* s = &run->setup->turns[i];
+  for (int i = 0; i < run->setup->n_attitudes; i++) {
+    const pl_attitude_setup* s = &run->setup->attitudes[i];
     double angle[3], rate[3];
     for (int k = 0; k < 3; k++) {
       angle[k] = q[s->angle[k]];
       rate[k] = v[s->angle[k]];
     }
     to_quaternion(s, angle, rate, q_run, v_run);
-    run->turn[i] = (pl_turn_now){
+    run->attitude[i] = (pl_attitude_state){
         t, {angle[0], angle[1], angle[2]}, {(rate[0] + rate[2]) / 2, (rate[0] - rate[2]) / 2}};
   }
   return pl_run_start_at(run, t, q_run, v_run);

@@ -84,7 +84,7 @@ pleuel_status pl_wide_check(pl_run* run) {
     return pl_fail(run->job, PLEUEL_UNSUPPORTED,
                    "precision %s: masses that depend on velocities are computed in double only",
                    mode);
-  if (run->setup->n_turns > 0)
+  if (run->setup->n_attitudes > 0)
     return pl_fail(run->job, PLEUEL_UNSUPPORTED,
                    "precision %s: bodies in Euler angles are followed in double only; give their "
                    "axes as a quaternion",
