@@ -237,12 +237,12 @@ static pleuel_status start_varied(pleuel_model* m, const pl_run_options* how, pl
   quiet.progress = NULL;
   quiet.keep = NULL;
   bool switched = m->recording->setup.varied != NULL;
-  struct pl_pilot* pilot = switched ? pl_pilot_make(&m->job, run, &plain->setup, &quiet.sink)
-                                    : NULL;
+  struct pl_sensitivity* sensitivity =
+      switched ? pl_sensitivity_make(&m->job, run, &plain->setup, &quiet.sink) : NULL;
   pleuel_status s = pl_run_make(&m->job, &plain->setup, &quiet, &first);
   if (s == PLEUEL_OK) s = start_plain(m, first);
-  bool goes_ahead = s == PLEUEL_OK && pilot;  // and is freed with the run
-  if (goes_ahead) pl_pilot_take(pilot, run, first);
+  bool goes_ahead = s == PLEUEL_OK && sensitivity;  // and is freed with the run
+  if (goes_ahead) pl_sensitivity_attach(sensitivity, run, first);
   if (s == PLEUEL_OK)
     s = start_blocks(m, run, pl_run_time(first), pl_run_q(first), pl_run_v(first));
   if (!goes_ahead) pl_run_free(first);

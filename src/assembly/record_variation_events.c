@@ -3,7 +3,7 @@
 //
 // The motion and its derivatives are integrated between the moments at which contacts and events
 // change them; what happens there is decided by a run of the motion alone, which goes ahead
-// (solve/pilot.c). So the constraints of the setup with derivatives are plain ones that are
+// (solve/lead run.c). So the constraints of the setup with derivatives are plain ones that are
 // switched from outside, and its watched quantities are only evaluated: their values e, then de/dt
 // at fixed coordinates, then for each direction sum e_q δ + e_v δ' + e_a δ'' + e_λ dλ + e_p.
 #include "assembly/assembly_impl.h"

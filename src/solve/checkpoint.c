@@ -26,7 +26,7 @@
 //   choice_kept n_decisions K_series out_now out_before row_q row_v row_a row_l energy_out mode
 //   mode_before t_grid W_coef branch_value reach factored seen shown shown_before
 // not kept of pl_run, lives within a moment: indeterminate
-// not kept of pl_run, where the pilot waits it goes there again: stop impacts
+// not kept of pl_run, where the lead run waits it goes there again: stop impacts
 // not kept of pl_run, of the start, which is found anew: start
 // not kept of pl_stats, follows from the options: precision
 // not kept of pl_stats, a word about this process: why_interpreted
@@ -74,7 +74,7 @@ static void keep_dimensions(pl_run* run, pl_keeper* k) {
               s->n_frictions,     s->n_attitudes,
               s->n_events,        s->n_watched,
               run->n_watch,       run->n_kinks,
-              run->kkt.dense,     run->pilot != NULL,
+              run->kkt.dense,     run->sensitivity != NULL,
               run->radau != NULL, run->radau ? run->radau->method.s : 0};
   for (size_t i = 0; i < sizeof of / sizeof *of; i++) keep_fixed(k, of[i]);
 }
@@ -353,7 +353,7 @@ void pl_run_keep(pl_run* run, pl_keeper* k) {
   pl_kkt_keep(&run->kkt, k);
   keep_state(run, k);
   pl_keep_section(k, "pilot");
-  if (run->pilot) pl_pilot_write(run->pilot, k);
+  if (run->sensitivity) pl_sensitivity_write(run->sensitivity, k);
 }
 
 // What a run that is whole cannot have, whatever its numbers.
@@ -412,7 +412,7 @@ pleuel_status pl_run_load(pl_run* run, pl_keeper* k, const pl_sink* sink) {
   keep_state(run, k);
   run->considered = 0;
   pl_keep_section(k, "pilot");
-  if (run->pilot) PL_TRY(pl_pilot_read(run->pilot, k));
+  if (run->sensitivity) PL_TRY(pl_sensitivity_read(run->sensitivity, k));
   if (k->wrong) return unreadable(run);
   run->options.sink = *sink;
   return sink->begin ? sink->begin(sink->user, run->setup) : PLEUEL_OK;

@@ -38,7 +38,7 @@ static size_t add_mode(const pl_run* run, char* out, size_t n, const char* word,
 void pl_mode_text(const pl_run* run, char* out) {
   size_t n = 0;
   out[0] = '\0';
-  if (run->pilot) snprintf(out, run->mode_size, "%s", pl_pilot_mode(run->pilot));
+  if (run->sensitivity) snprintf(out, run->mode_size, "%s", pl_sensitivity_mode(run->sensitivity));
   if (!has_modes(run)) return;
   for (int c = 0; c < run->n_c; c++) {
     const pl_constraint_setup* constraint = &run->setup->constraints[c];

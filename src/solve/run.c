@@ -291,7 +291,7 @@ pleuel_status pl_run_step(pl_run* run) {
   PL_TRY(pl_rows_begin(run));
   if (pl_run_done(run)) return PLEUEL_OK;
   PL_TRY(limits(run));
-  PL_TRY(run->pilot ? pl_pilot_step(run->pilot, step) : step(run));
+  PL_TRY(run->sensitivity ? pl_sensitivity_step(run->sensitivity, step) : step(run));
   run->stats.rank = run->rank;
   if (run->options.progress)
     run->options.progress(run->options.progress_user, run->t, run->options.t_end, run->h_last,
@@ -348,7 +348,7 @@ pleuel_status pl_run_begin_at(pl_run* run, double t) {
   PL_TRY(pl_rows_open(run));
   PL_TRY(pl_modes_check(run, true));
   pl_modes_size_rest(run);
-  if (run->pilot) PL_TRY(pl_pilot_begin(run->pilot));
+  if (run->sensitivity) PL_TRY(pl_sensitivity_begin(run->sensitivity));
   if (run->options.precision != PL_PRECISION_DOUBLE) PL_TRY(pl_wide_begin(run, t));
   pl_rows_energy(run, true);
   pl_motion_update(run);
@@ -384,7 +384,7 @@ pleuel_status pl_run_start_at(pl_run* run, double t, const double* q, const doub
 // ----------------------------------------------------------------------------------------- reading
 double pl_run_time(const pl_run* run) { return run->t; }
 bool pl_run_done(const pl_run* run) {
-  bool waits = run->pilot && pl_pilot_waits(run->pilot);
+  bool waits = run->sensitivity && pl_sensitivity_waits(run->sensitivity);
   return run->stopped || (run->started && pl_run_left(run) == 0 && !waits);
 }
 const double* pl_run_q(const pl_run* run) { return run->q; }

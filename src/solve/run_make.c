@@ -331,6 +331,6 @@ void pl_run_free(pl_run* run) {
   if (run == NULL) return;
   pl_kkt_free(&run->kkt);
   pl_radau_free(run->radau);
-  pl_pilot_free(run->pilot);
+  pl_sensitivity_free(run->sensitivity);
   pl_motion_free(run);
 }

@@ -1,6 +1,6 @@
 // Derivatives of a motion through contacts and events that change it.
 //
-// A run of the motion alone, the pilot, goes ahead to the next moment at which something happens
+// A run of the motion alone, the lead run, goes ahead to the next moment at which something happens
 // and decides what; the run with the derivatives (record_variation.c) follows in the mode that
 // holds until then. There the derivatives jump. With the moment t* at which e(q, v, a, λ, t, p) =
 // 0, for each direction
@@ -24,26 +24,26 @@ typedef struct told {
   double t;
 } told;
 
-struct pl_pilot {
-  pl_run *run, *follower;
+struct pl_sensitivity {
+  pl_run *lead, *follower;
   const pl_varied* s;
   told* told;  // what happened at the moment ahead
   int n_told, room;
   bool waits;         // that moment is not reached by the follower yet
-  pleuel_status how;  // that the pilot ended with
+  pleuel_status how;  // that the lead run ended with
   const char* why;
   double t;                                      // the moment
-  double *q, *v, *a, *l, *lambda_rate, *a_rate;  // of the pilot just before it     (n_q, n_c)
-  long impacts;                                  // of the pilot, before
+  double *q, *v, *a, *l, *lambda_rate, *a_rate;  // of the lead run just before it     (n_q, n_c)
+  long impacts;                                  // of the lead run, before
   double* dt;                                    // of the directions
   double* watched;                               // values, slopes, variations of what is watched
   double* flow;                       // the same, with the motion itself as the variation
   double *row, *row_size, *flow_row;  // of the follower
   char* mode;                         // until the moment
-  pl_keeper before;                   // state of the pilot where it set out for the moment ahead
+  pl_keeper before;                   // state of the lead run where it set out for the moment ahead
 };
 
-// --------------------------------------------------------------------------------- the pilot tells
+// --------------------------------------------------------------------------------- the lead run tells
 // Slopes of accelerations and multipliers at the end of the last step.
 static void slope_of(const double* X, int n, int last, double dt, double* out) {
   for (int i = 0; i < n; i++) out[i] = 0;
@@ -51,8 +51,8 @@ static void slope_of(const double* X, int n, int last, double dt, double* out) {
     for (int i = 0; i < n; i++) out[i] = out[i] * dt + k * X[(size_t)k * (size_t)n + (size_t)i];
 }
 
-static void remember_point(pl_pilot* p) {
-  pl_run* run = p->run;
+static void remember_point(pl_sensitivity* p) {
+  pl_run* run = p->lead;
   size_t n_q = (size_t)p->s->n_q * sizeof(double), n_c = (size_t)p->s->n_c * sizeof(double);
   memcpy(p->q, run->save_q, n_q);
   memcpy(p->v, run->save_v, n_q);
@@ -63,8 +63,8 @@ static void remember_point(pl_pilot* p) {
 }
 
 static pleuel_status hear(void* user, const pl_event_record* e) {
-  pl_pilot* p = user;
-  if (p->n_told == 0 && p->run) remember_point(p);
+  pl_sensitivity* p = user;
+  if (p->n_told == 0 && p->lead) remember_point(p);
   if (p->n_told == p->room) return PLEUEL_OK;
   p->told[p->n_told] = (told){*e, e->after.t};
   p->told[p->n_told].e.label = e->label;
@@ -72,9 +72,10 @@ static pleuel_status hear(void* user, const pl_event_record* e) {
   return PLEUEL_OK;
 }
 
-pl_pilot* pl_pilot_make(pl_job* job, const pl_run* follower, const pl_setup* plain, pl_sink* sink) {
+pl_sensitivity* pl_sensitivity_make(pl_job* job, const pl_run* follower, const pl_setup* plain,
+                                    pl_sink* sink) {
   pl_arena* a = job->arena;
-  pl_pilot* p = PL_NEW(a, pl_pilot);
+  pl_sensitivity* p = PL_NEW(a, pl_sensitivity);
   const pl_varied* s = p->s = follower->setup->varied;
   p->room = s->n_c + plain->n_frictions + plain->n_events * (s->n_c + 1) + 4;
   p->told = PL_ARRAY(a, told, p->room);
@@ -94,30 +95,30 @@ pl_pilot* pl_pilot_make(pl_job* job, const pl_run* follower, const pl_setup* pla
 }
 
 // ----------------------------------------------------------------------------- the follower's mode
-static void take_mode(pl_pilot* p) {
+static void take_mode(pl_sensitivity* p) {
   const pl_varied* s = p->s;
   for (int c = 0; c < s->n_c; c++)
     for (int k = 0; k < 2 * s->n_directions; k++)
-      p->follower->on[k * s->n_c + c] = p->run->active[c];
-  pl_mode_text(p->run, p->mode);
+      p->follower->on[k * s->n_c + c] = p->lead->active[c];
+  pl_mode_text(p->lead, p->mode);
 }
 
-void pl_pilot_take(pl_pilot* p, pl_run* follower, pl_run* plain) {
-  p->run = plain;
+void pl_sensitivity_attach(pl_sensitivity* p, pl_run* follower, pl_run* plain) {
+  p->lead = plain;
   p->follower = follower;
-  follower->pilot = p;
+  follower->sensitivity = p;
   take_mode(p);
 }
 
-void pl_pilot_free(pl_pilot* p) {
-  if (p) pl_run_free(p->run);
+void pl_sensitivity_free(pl_sensitivity* p) {
+  if (p) pl_run_free(p->lead);
 }
 
-const char* pl_pilot_mode(const pl_pilot* p) { return p->mode; }
-bool pl_pilot_waits(const pl_pilot* p) { return p->waits; }
+const char* pl_sensitivity_mode(const pl_sensitivity* p) { return p->mode; }
+bool pl_sensitivity_waits(const pl_sensitivity* p) { return p->waits; }
 
 // ----------------------------------------------------------------------------- events for the sink
-static pleuel_status tell(pl_pilot* p) {
+static pleuel_status tell(pl_sensitivity* p) {
   pl_run* f = p->follower;
   for (int i = 0; i < p->n_told; i++) {
     const told* t = &p->told[i];
@@ -153,7 +154,7 @@ static pleuel_status tell(pl_pilot* p) {
   return PLEUEL_OK;
 }
 
-pleuel_status pl_pilot_begin(pl_pilot* p) {
+pleuel_status pl_sensitivity_begin(pl_sensitivity* p) {
   pl_rows_before(p->follower);
   return tell(p);
 }
@@ -172,13 +173,13 @@ static bool switches(const pl_run* run, const pl_watch* w) {
   return false;
 }
 
-static const char* label_of(const pl_pilot* p) {
+static const char* label_of(const pl_sensitivity* p) {
   return p->n_told > 0 && p->told[0].e.label ? p->told[0].e.label : "?";
 }
 
 // What changes the motion: exactly one thing.
-static pleuel_status find_cause(const pl_pilot* p, int* cause) {
-  const pl_run* run = p->run;
+static pleuel_status find_cause(const pl_sensitivity* p, int* cause) {
+  const pl_run* run = p->lead;
   *cause = -1;
   for (int i = 0; i < run->n_watch; i++) {
     if (!run->hit[i] || !switches(run, &run->watch[i])) continue;
@@ -202,7 +203,7 @@ static pleuel_status find_cause(const pl_pilot* p, int* cause) {
 }
 
 // What is watched, with these in place of coordinates and multipliers of the follower.
-static void watch_at(pl_pilot* p, const double* q, const double* v, const double* a,
+static void watch_at(pl_sensitivity* p, const double* q, const double* v, const double* a,
                      const double* lambda, double* out) {
   pl_run* f = p->follower;
   pl_batches* b = &f->watched;
@@ -219,7 +220,7 @@ static void watch_at(pl_pilot* p, const double* q, const double* v, const double
 
 // The change along the motion of everything watched: variations taken along it, without what they
 // depend on p by, with that on t. row_q and so on serve as the state; flow[i] is d(watched i)/dt.
-static void watch_flow(pl_pilot* p) {
+static void watch_flow(pl_sensitivity* p) {
   pl_run* f = p->follower;
   const pl_varied* s = p->s;
   size_t n = (size_t)s->n_q, c = (size_t)s->n_c;
@@ -244,7 +245,7 @@ static void watch_flow(pl_pilot* p) {
 }
 
 // Rows of the constraints of the follower at its point.
-static void find_rows(pl_pilot* p, bool speeds) {
+static void find_rows(pl_sensitivity* p, bool speeds) {
   pl_run* f = p->follower;
   pl_point_evaluate(f, f->t, f->q, f->v);
   pl_assemble_g(f, 0, f->g, f->g_size);
@@ -253,11 +254,11 @@ static void find_rows(pl_pilot* p, bool speeds) {
 }
 
 // dt* of each direction, from the state of the follower just before.
-static pleuel_status find_moment(pl_pilot* p, int cause) {
+static pleuel_status find_moment(pl_sensitivity* p, int cause) {
   pl_run* f = p->follower;
   const pl_varied* s = p->s;
-  const pl_watch* w = &p->run->watch[cause];
-  const char* name = name_of(p->run, w);
+  const pl_watch* w = &p->lead->watch[cause];
+  const char* name = name_of(p->lead, w);
   int c = w->index, n = s->n_c;
   double rate = 0;
   if (w->kind == PL_WATCH_LANDING) {
@@ -270,7 +271,7 @@ static pleuel_status find_moment(pl_pilot* p, int cause) {
     for (int k = 0; k < s->n_directions; k++) p->dt[k] = -p->row[2 * k * n + c] / rate;
   } else if (w->kind == PL_WATCH_RELEASE) {
     rate = p->lambda_rate[c];
-    if (!p->run->save_unique[c])
+    if (!p->lead->save_unique[c])
       return pl_fail(
           p->follower->job, PLEUEL_UNSUPPORTED,
           "the motion has no derivative at t = %.9g s: the force of %s is not determined", p->t,
@@ -281,7 +282,7 @@ static pleuel_status find_moment(pl_pilot* p, int cause) {
                      name);
     for (int k = 0; k < s->n_directions; k++) p->dt[k] = -f->L[(2 * k + 1) * n + c] / rate;
   } else {
-    int i = p->run->setup->events[c].watch;
+    int i = p->lead->setup->events[c].watch;
     rate = p->flow[i];
     if (!(fabs(rate) > 0))
       return pl_fail(p->follower->job, PLEUEL_UNSUPPORTED,
@@ -301,14 +302,14 @@ static pleuel_status find_moment(pl_pilot* p, int cause) {
 // ---------------------------------------------------------------------------------------- the jump
 // δ and δ' in the follower become total derivatives of the state at the moment, or what is left of
 // them behind it.
-static void shift(const pl_pilot* p, double* variations, const double* rate, double sign) {
+static void shift(const pl_sensitivity* p, double* variations, const double* rate, double sign) {
   const pl_varied* s = p->s;
   for (int k = 0; k < s->n_directions; k++)
     for (int i = 0; i < s->n_q; i++)
       variations[(2 * k + 1) * s->n_q + i] += sign * p->dt[k] * rate[i];
 }
 
-static void set_motion(pl_pilot* p, const double* q, const double* v) {
+static void set_motion(pl_sensitivity* p, const double* q, const double* v) {
   const pl_varied* s = p->s;
   for (int k = 0; k < s->n_directions; k++) {
     memcpy(p->follower->q + 2 * k * s->n_q, q, (size_t)s->n_q * sizeof(double));
@@ -331,9 +332,9 @@ static bool moves(const pl_run* run) {
 }
 
 // New values that an event sets: total derivatives of what is set.
-static void set_values(pl_pilot* p, int cause) {
+static void set_values(pl_sensitivity* p, int cause) {
   const pl_varied* s = p->s;
-  const pl_event_setup* e = &p->run->setup->events[p->run->watch[cause].index];
+  const pl_event_setup* e = &p->lead->setup->events[p->lead->watch[cause].index];
   for (int d = 0; d < e->n_actions; d++) {
     const pl_event_action* action = &e->actions[d];
     if (action->kind != PL_ACTION_SET_Q && action->kind != PL_ACTION_SET_V) continue;
@@ -350,7 +351,7 @@ static void set_values(pl_pilot* p, int cause) {
 // dt* dM/dt, dt* dG/dt.
 //
 // d/dt (G v + dg/dt) without accelerations, at the velocities v of the motion.
-static void turn_of_rows(pl_pilot* p, const double* v, double* out) {
+static void turn_of_rows(pl_sensitivity* p, const double* v, double* out) {
   pl_run* f = p->follower;
   const pl_varied* s = p->s;
   for (int i = 0; i < f->n_q; i++) {
@@ -362,8 +363,8 @@ static void turn_of_rows(pl_pilot* p, const double* v, double* out) {
 }
 
 // -dM/dt Δv + (dG/dt)^T Λ, times dt* of the direction, to the equations of the varied motion.
-static void add_turn_of_forces(pl_pilot* p, const double* change) {
-  pl_run *f = p->follower, *run = p->run;
+static void add_turn_of_forces(pl_sensitivity* p, const double* change) {
+  pl_run *f = p->follower, *run = p->lead;
   const pl_varied* s = p->s;
   for (int i = 0; i < f->motion.n; i++) {
     const pl_batch* b = &f->motion.at[i];
@@ -398,8 +399,8 @@ static void add_turn_of_forces(pl_pilot* p, const double* change) {
 // The derivative of the impact: impulses of the system with the variations, where a velocity u
 // along g becomes -e u and its variation -e du - de u. along: positions are still varied at fixed
 // time, the moment adds its part.
-static pleuel_status strike(pl_pilot* p, bool along) {
-  pl_run *f = p->follower, *run = p->run;
+static pleuel_status strike(pl_sensitivity* p, bool along) {
+  pl_run *f = p->follower, *run = p->lead;
   const pl_varied* s = p->s;
   int n = s->n_c;
   double *turn = f->second, *change = p->flow_row, *jump_v = p->a_rate;
@@ -442,8 +443,8 @@ static pleuel_status strike(pl_pilot* p, bool along) {
   return PLEUEL_OK;
 }
 
-static bool has_changed(const pl_pilot* p) {
-  const pl_run* run = p->run;
+static bool has_changed(const pl_sensitivity* p) {
+  const pl_run* run = p->lead;
   if (run->impacts != p->impacts) return true;
   for (int c = 0; c < p->s->n_c; c++)
     if (p->follower->on[c] != run->active[c]) return true;
@@ -452,8 +453,8 @@ static bool has_changed(const pl_pilot* p) {
   return false;
 }
 
-static pleuel_status jump(pl_pilot* p) {
-  pl_run *f = p->follower, *run = p->run;
+static pleuel_status jump(pl_sensitivity* p) {
+  pl_run *f = p->follower, *run = p->lead;
   int cause;
   PL_TRY(find_cause(p, &cause));
   set_motion(p, p->q, p->v);
@@ -481,13 +482,13 @@ static pleuel_status jump(pl_pilot* p) {
 }
 
 // ------------------------------------------------------------------------------------------- steps
-static pleuel_status remember_state(pl_pilot* p) {
-  pl_arena* a = p->run->job->arena;
+static pleuel_status remember_state(pl_sensitivity* p) {
+  pl_arena* a = p->lead->job->arena;
   pl_guard guard;
   if (p->before.arena == NULL) p->before = pl_keeper_to_write(a);
   p->before.next = 0;
   PL_GUARD(a, guard) {
-    pl_run_keep(p->run, &p->before);
+    pl_run_keep(p->lead, &p->before);
     guard.status = PLEUEL_OK;
   }
   pl_guard_end(a, &guard);
@@ -495,8 +496,8 @@ static pleuel_status remember_state(pl_pilot* p) {
 }
 
 // To the next moment at which something happens, or to the end.
-static void go_ahead(pl_pilot* p) {
-  pl_run* run = p->run;
+static void go_ahead(pl_sensitivity* p) {
+  pl_run* run = p->lead;
   p->impacts = run->impacts;
   p->how = remember_state(p);
   while (p->how == PLEUEL_OK && p->n_told == 0 && !pl_run_done(run)) p->how = pl_run_step(run);
@@ -505,7 +506,7 @@ static void go_ahead(pl_pilot* p) {
   p->follower->stop = (pl_stop){true, run->t, run->t_low};
 }
 
-static pleuel_status arrive(pl_pilot* p) {
+static pleuel_status arrive(pl_sensitivity* p) {
   pl_run* f = p->follower;
   f->stop.early = false;
   p->waits = false;
@@ -521,19 +522,19 @@ static pleuel_status arrive(pl_pilot* p) {
   if (changes) PL_TRY(jump(p));
   pl_rows_energy(f, true);
   PL_TRY(tell(p));
-  f->stopped |= p->run->stopped;
+  f->stopped |= p->lead->stopped;
   return pl_rows_point(f, PL_ROW_AFTER);
 }
 
 // Without the moment ahead the follower cannot go on: both are kept where they parted.
-static pleuel_status stop_here(pl_pilot* p) {
+static pleuel_status stop_here(pl_sensitivity* p) {
   pl_run* f = p->follower;
   if (f->options.keep) f->options.keep(f->options.keep_user, f, true);
   return pl_fail(f->job, PLEUEL_INTERRUPTED, "interrupted at t = %.9g s", f->t);
 }
 
 // A step of the follower; of = what takes one.
-pleuel_status pl_pilot_step(pl_pilot* p, pleuel_status (*of)(pl_run* run)) {
+pleuel_status pl_sensitivity_step(pl_sensitivity* p, pleuel_status (*of)(pl_run* run)) {
   if (!p->waits) go_ahead(p);
   if (p->how == PLEUEL_INTERRUPTED) return stop_here(p);
   if (pl_run_left(p->follower) != 0) PL_TRY(of(p->follower));
@@ -541,21 +542,21 @@ pleuel_status pl_pilot_step(pl_pilot* p, pleuel_status (*of)(pl_run* run)) {
 }
 
 // ------------------------------------------------------------------------------------- interrupted
-// While the follower is on its way, the pilot is kept as it was where they parted: it goes ahead
+// While the follower is on its way, the lead run is kept as it was where they parted: it goes ahead
 // once more.
-void pl_pilot_write(pl_pilot* p, pl_keeper* k) {
+void pl_sensitivity_write(pl_sensitivity* p, pl_keeper* k) {
   bool waits = p->waits && p->how != PLEUEL_INTERRUPTED;
   pl_keep_bool(k, &waits);
   if (p->waits) pl_keep_bytes(k, p->before.at, p->before.next);
-  else pl_run_keep(p->run, k);
+  else pl_run_keep(p->lead, k);
 }
 
-pleuel_status pl_pilot_read(pl_pilot* p, pl_keeper* k) {
+pleuel_status pl_sensitivity_read(pl_sensitivity* p, pl_keeper* k) {
   bool waits = false;
   pl_keep_bool(k, &waits);
-  pl_sink hears = p->run->options.sink;
-  PL_TRY(pl_run_load(p->run, k, &hears));
-  pl_mode_text(p->run, p->mode);
+  pl_sink hears = p->lead->options.sink;
+  PL_TRY(pl_run_load(p->lead, k, &hears));
+  pl_mode_text(p->lead, p->mode);
   if (waits) go_ahead(p);
   return p->how == PLEUEL_INTERRUPTED ? p->how : PLEUEL_OK;
 }

@@ -390,11 +390,11 @@ pleuel_status pl_run_start_from_angles(pl_run* run, double t, const double* q, c
 pleuel_status pl_run_start_partly(pl_run* run, double t, const double* q, const double* v,
                                   const bool* held_q, const bool* held_v);
 
-// A run whose setup has `varied` follows one of the motion alone. pl_pilot_make gives the sink for
+// A run whose setup has `varied` follows one of the motion alone. pl_sensitivity_make gives the sink for
 // that run; started, it is handed over before the other is started, and goes with it.
-struct pl_pilot* pl_pilot_make(pl_job* job, const pl_run* follower, const pl_setup* plain,
-                               pl_sink* sink);
-void pl_pilot_take(struct pl_pilot* p, pl_run* follower, pl_run* plain);
+struct pl_sensitivity* pl_sensitivity_make(pl_job* job, const pl_run* follower,
+                                           const pl_setup* plain, pl_sink* sink);
+void pl_sensitivity_attach(struct pl_sensitivity* p, pl_run* follower, pl_run* plain);
 
 // pl_run_step takes one accepted step, not beyond t_end, with everything that happens in it.
 // Status: PLEUEL_SINGULAR, PLEUEL_NUMERICAL, PLEUEL_INTERRUPTED (job->interrupted), or what the

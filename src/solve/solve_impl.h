@@ -149,7 +149,7 @@ typedef struct pl_attitude_state {
 } pl_attitude_state;
 
 typedef struct pl_indeterminate pl_indeterminate;
-typedef struct pl_pilot pl_pilot;
+typedef struct pl_sensitivity pl_sensitivity;
 // where a run stops before its end
 typedef struct pl_stop {
   bool early;
@@ -259,7 +259,7 @@ struct pl_run {
   pl_indeterminate* indeterminate;  // NULL without contacts and friction
   bool* several;                    // multipliers that are one of several in this mode        (n_c)
   bool* ever_several;               // not determined at some time, for whatever reason        (n_c)
-  pl_pilot* pilot;                  // goes ahead of a run with derivatives, NULL without it
+  pl_sensitivity* sensitivity;      // goes ahead of a run with derivatives, NULL without it
   pl_stop stop;
   // so far; of the last one the rows in force and the factor of their rebound   (n_c)
   long impacts;
@@ -566,13 +566,13 @@ pleuel_status pl_radau_step(pl_run* run, double* h, double* root, pl_projection*
 pleuel_status pl_stiff_look(pl_run* run);  // whether to use it; stiff_detect.c
 
 // ---- sensitivity.c: derivatives through contacts and events
-void pl_pilot_free(pl_pilot* p);
-const char* pl_pilot_mode(const pl_pilot* p);
-bool pl_pilot_waits(const pl_pilot* p);
-pleuel_status pl_pilot_begin(pl_pilot* p);  // tells what happened at the start
-pleuel_status pl_pilot_step(pl_pilot* p, pleuel_status (*of)(pl_run* run));
-void pl_pilot_write(pl_pilot* p, pl_keeper* k);  // for checkpoint.c
-pleuel_status pl_pilot_read(pl_pilot* p, pl_keeper* k);
+void pl_sensitivity_free(pl_sensitivity* p);
+const char* pl_sensitivity_mode(const pl_sensitivity* p);
+bool pl_sensitivity_waits(const pl_sensitivity* p);
+pleuel_status pl_sensitivity_begin(pl_sensitivity* p);  // tells what happened at the start
+pleuel_status pl_sensitivity_step(pl_sensitivity* p, pleuel_status (*of)(pl_run* run));
+void pl_sensitivity_write(pl_sensitivity* p, pl_keeper* k);  // for checkpoint.c
+pleuel_status pl_sensitivity_read(pl_sensitivity* p, pl_keeper* k);
 
 // ---- run.c
 double pl_run_left(const pl_run* run);                 // to the end, or to where it stops before
