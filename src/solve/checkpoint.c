@@ -20,7 +20,7 @@
 // not kept of pl_run, only when, never what: clock_begin t_begin considered wall_begin
 // not kept of pl_run, lives within a step: impact_taken impact_factor rhs Q_last A_last G_series
 //   W_series rows rank_work priority row_of row_taken taken_kept dep dep_tau dep_norm dep_jpvt
-//   trial_q trial_v end_a end_by_codes arrived save_q save_v save_a save_l save_unique impulse
+//   trial_q trial_v end_a end_by_program arrived save_q save_v save_a save_l save_unique impulse
 //   jump_v jump_q poly root_work hit root touch undecided sunk friction_before impulsive C_series
 //   S_series poly_2 on_before fixed friction_fixed approach second hold_q hold_v first_a decision
 //   choice_kept n_decisions K_series out_now out_before row_q row_v row_a row_l energy_out mode
@@ -34,11 +34,11 @@
 // not kept of pl_kkt, follows from setup and point: n dense n_values value start row diagonal lu
 //   scale balance work pivot ratio
 // not kept of pl_watch, pl_friction_state, follows from the setup: kind index direction
-// not kept of pl_motion, follows from the mode: code next size orders n_q n_c n_mass n_taken time
+// not kept of pl_step_program, follows from the mode: code next size orders n_q n_c n_mass n_taken time
 //   ratio rest Q V A L q_floor v_floor g g_size argument r r_size norms length end_q end_v end_a
 //   off energy h pivot pivot_size move vector result matrix identity of_constraint index
 //   inverse_up_to constants scales
-// not kept of pl_motion, of this process: compiled jit tried
+// not kept of pl_step_program, of this process: compiled jit tried
 // not kept of pl_radau, follows from setup and options: method n n_q n_c n_C tol tol_stage ready
 //   fits shape friction_of
 // not kept of pl_radau, lives within a step: wide here at coupled coupled_scale coupled_rhs
@@ -48,7 +48,7 @@
 // not kept of pl_wide, follows from setup, options and mode: state fine by_doubles low top head
 //   head_forces clock left grid drift t_0 q_0 v_0 a_0 l_0 end_a end_l tail_q tail_v tail_a tail_l
 //   from to share way scratch energy_base rows watched floor held high next
-// not kept of pl_wide, pl_motion, lives within a step: digits arrived
+// not kept of pl_wide, pl_step_program, lives within a step: digits arrived
 // clang-format on
 #include <limits.h>
 #include <math.h>
@@ -254,26 +254,27 @@ static void keep_state(pl_run* run, pl_keeper* k) {
 }
 
 // ---------------------------------------------------------------------------------- compiled steps
-static bool same_codes(const pl_run* run, const pl_motion* o, const bool* taken,
-                       const bool* moves) {
+static bool same_program(const pl_run* run, const pl_step_program* o, const bool* taken,
+                         const bool* moves) {
   if (memcmp(o->taken, taken, (size_t)run->n_c * sizeof(bool)) != 0) return false;
   for (int i = 0; i < run->n_q && o->of_coordinate; i++)
     if ((o->of_coordinate[i] >= 0) != moves[i]) return false;
   return true;
 }
 
-// Codes for a mode, as pl_motion_make makes them where it begins; those that the start made already
+// Codes for a mode, as pl_step_program_make makes them where it begins; those that the start made already
 // are taken over.
-static pl_motion* codes_for(pl_run* run, pl_motion* made, const bool* taken, const bool* moves) {
-  for (pl_motion* o = made; o; o = o->next)
-    if (same_codes(run, o, taken, moves)) return o;
+static pl_step_program* program_for(pl_run* run, pl_step_program* made, const bool* taken,
+                                    const bool* moves) {
+  for (pl_step_program* o = made; o; o = o->next)
+    if (same_program(run, o, taken, moves)) return o;
   memcpy(run->taken, taken, (size_t)run->n_c * sizeof(bool));
   for (int i = 0; i < run->n_q; i++) run->place_n[i] = moves[i];
-  pl_motion* o = pl_motion_make(run);
-  return same_codes(run, o, taken, moves) ? o : NULL;
+  pl_step_program* o = pl_step_program_make(run);
+  return same_program(run, o, taken, moves) ? o : NULL;
 }
 
-static void keep_codes(pl_run* run, pl_keeper* k, pl_motion* o, bool here) {
+static void keep_program(pl_run* run, pl_keeper* k, pl_step_program* o, bool here) {
   keep_fixed(k, o->usable);
   if (!o->usable) return;
   keep_fixed(k, o->n);
@@ -283,17 +284,17 @@ static void keep_codes(pl_run* run, pl_keeper* k, pl_motion* o, bool here) {
   if (here) pl_keep_bytes(k, o->m, (size_t)o->size * sizeof *o->m);
 }
 
-static int count_codes(const pl_run* run) {
+static int count_programs(const pl_run* run) {
   int n = 0;
-  for (const pl_motion* o = run->motion_codes; o; o = o->next) n++;
+  for (const pl_step_program* o = run->programs; o; o = o->next) n++;
   return n;
 }
 
-static void write_codes(pl_run* run, pl_keeper* k) {
-  int n = count_codes(run);
+static void write_programs(pl_run* run, pl_keeper* k) {
+  int n = count_programs(run);
   pl_keep_count(k, &n, 1);
-  for (pl_motion* o = run->motion_codes; o; o = o->next) {
-    bool at_work = o == run->motion_code, here = at_work && run->at_point;
+  for (pl_step_program* o = run->programs; o; o = o->next) {
+    bool at_work = o == run->program, here = at_work && run->at_point;
     pl_keep_bool(k, &at_work);
     pl_keep_bool(k, &here);
     pl_keep_bools(k, o->taken, (size_t)run->n_c);
@@ -301,17 +302,17 @@ static void write_codes(pl_run* run, pl_keeper* k) {
       bool moves = o->of_coordinate && o->of_coordinate[i] >= 0;
       pl_keep_bool(k, &moves);
     }
-    keep_codes(run, k, o, here);
+    keep_program(run, k, o, here);
   }
 }
 
-static void read_codes(pl_run* run, pl_keeper* k) {
-  pl_motion *made = run->motion_codes, **last = &run->motion_codes;
+static void read_programs(pl_run* run, pl_keeper* k) {
+  pl_step_program *made = run->programs, **last = &run->programs;
   bool *taken = PL_ARRAY(run->job->arena, bool, run->n_c + 1),
        *moves = PL_ARRAY(run->job->arena, bool, run->n_q + 1);
   int n = 0;
   pl_keep_count(k, &n, (size_t)run->n_c + (size_t)run->n_q + 2);
-  run->motion_codes = run->motion_code = NULL;
+  run->programs = run->program = NULL;
   for (int i = 0; i < n; i++) {
     bool at_work = false, here = false;
     pl_keep_bool(k, &at_work);
@@ -319,13 +320,13 @@ static void read_codes(pl_run* run, pl_keeper* k) {
     pl_keep_bools(k, taken, (size_t)run->n_c);
     pl_keep_bools(k, moves, (size_t)run->n_q);
     if (k->wrong) break;
-    pl_motion* o = codes_for(run, made, taken, moves);
+    pl_step_program* o = program_for(run, made, taken, moves);
     if (o == NULL || (here && !o->usable)) {
       pl_keep_fail(k);
       break;
     }
     // one that was made at the start leaves that list
-    for (pl_motion** at = &made; *at; at = &(*at)->next)
+    for (pl_step_program** at = &made; *at; at = &(*at)->next)
       if (*at == o) {
         *at = o->next;
         break;
@@ -333,22 +334,22 @@ static void read_codes(pl_run* run, pl_keeper* k) {
     o->next = NULL;
     *last = o;
     last = &o->next;
-    keep_codes(run, k, o, here);
-    if (at_work) run->motion_code = o;
+    keep_program(run, k, o, here);
+    if (at_work) run->program = o;
   }
   *last = made;  // so that they are freed with the others; a mode that comes later finds them
 }
 
-static void keep_all_codes(pl_run* run, pl_keeper* k) {
+static void keep_programs(pl_run* run, pl_keeper* k) {
   pl_keep_section(k, "codes");
-  if (k->reads) read_codes(run, k);
-  else write_codes(run, k);
+  if (k->reads) read_programs(run, k);
+  else write_programs(run, k);
 }
 
 // --------------------------------------------------------------------------------------- all of it
 void pl_run_keep(pl_run* run, pl_keeper* k) {
   keep_dimensions(run, k);
-  keep_all_codes(run, k);
+  keep_programs(run, k);
   pl_keep_section(k, "pivots");
   pl_kkt_keep(&run->kkt, k);
   keep_state(run, k);
@@ -363,7 +364,7 @@ static bool makes_sense(const pl_run* run) {
   if (!(run->tol > 0 && run->tol < 1)) return false;
   if (!inside || !run->started || run->ended || run->refused) return false;
   if (run->at_point && !(run->wide && !run->wide->by_doubles)
-      && !(run->motion_code && run->motion_code->usable))
+      && !(run->program && run->program->usable))
     return false;
   if (run->radau && !(run->radau->h >= 0 && isfinite(run->radau->h))) return false;
   return isfinite(run->t_low) && isfinite(pl_norm(run->q, run->n_q))
@@ -395,7 +396,7 @@ static pleuel_status unreadable(pl_run* run) {
 pleuel_status pl_run_load(pl_run* run, pl_keeper* k, const pl_sink* sink) {
   keep_dimensions(run, k);
   if (k->wrong) return unreadable(run);
-  keep_all_codes(run, k);
+  keep_programs(run, k);
   pl_keep_section(k, "pivots");
   pl_kkt_keep(&run->kkt, k);
   size_t at = k->next;

@@ -254,7 +254,7 @@ void pl_rows_energy(pl_run* run, bool anew) {
     pl_wide_energy(run, anew);
     return;
   }
-  if (!pl_motion_energy(run, &T, &V, &E)) {
+  if (!pl_step_program_energy(run, &T, &V, &E)) {
     pl_observe(run, run->t, run->q, run->v, run->A, run->L, run->energy_out);
     T = run->energy_out[s->kinetic];
     V = run->energy_out[s->potential];

@@ -98,15 +98,15 @@ static void advance(pl_run* run, double h, bool at_root, pl_projection* p) {
     pl_wide_project(run, p);
     return;
   }
-  run->end_by_codes = run->at_point && run->use == run->order;
-  if (run->end_by_codes) {
-    pl_motion_advance(run, h, run->trial_q, run->trial_v);
+  run->end_by_program = run->at_point && run->use == run->order;
+  if (run->end_by_program) {
+    pl_step_program_advance(run, h, run->trial_q, run->trial_v);
   } else {
     pl_series_at(run, h, run->trial_q, run->trial_v);
     pl_horner(run->A, run->n_q, run->use - 1, h, run->end_a);
   }
   // what follows a root changes the mode: it needs the general way
-  if (at_root || !pl_motion_project(run, t, run->trial_q, run->trial_v, p))
+  if (at_root || !pl_step_program_project(run, t, run->trial_q, run->trial_v, p))
     *p = pl_project(run, t, run->trial_q, run->trial_v);
 }
 
@@ -221,7 +221,7 @@ static pleuel_status count_tiny(pl_run* run, double h) {
 static pleuel_status step_by_series(pl_run* run, double* h, double* wanted, double* root,
                                     pl_projection* p) {
   run->use = run->order;
-  pl_motion_update(run);
+  pl_step_program_update(run);
   pl_series_expand(run);
   pl_watch_series(run);
   if (run->n_kinks > 0) pl_kinks_series(run);
@@ -351,7 +351,7 @@ pleuel_status pl_run_begin_at(pl_run* run, double t) {
   if (run->sensitivity) PL_TRY(pl_sensitivity_begin(run->sensitivity));
   if (run->options.precision != PL_PRECISION_DOUBLE) PL_TRY(pl_wide_begin(run, t));
   pl_rows_energy(run, true);
-  pl_motion_update(run);
+  pl_step_program_update(run);
   return PLEUEL_OK;
 }
 

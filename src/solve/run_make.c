@@ -332,5 +332,5 @@ void pl_run_free(pl_run* run) {
   pl_kkt_free(&run->kkt);
   pl_radau_free(run->radau);
   pl_sensitivity_free(run->sensitivity);
-  pl_motion_free(run);
+  pl_step_program_free(run);
 }

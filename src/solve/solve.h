@@ -313,7 +313,7 @@ typedef struct pl_run_options {
   pl_engine engine;
   // pl_run_start finds the start and leaves it at that: no accelerations, nothing to step from
   bool start_only;
-  bool general;  // without codes (jit.h): every step goes the general way
+  bool general;  // without programs (jit.h): every step goes the general way
   // between two steps, and when it is interrupted; or NULL:
   void (*keep)(void* user, struct pl_run* run, bool interrupted);
   // pl_run_keep may be called there

@@ -156,8 +156,8 @@ typedef struct pl_stop {
   double t, t_low;
 } pl_stop;
 
-typedef struct pl_motion pl_motion;  // the motion as codes: step_program_impl.h
-typedef struct pl_wide pl_wide;      // the same on wider numbers: extended_impl.h
+typedef struct pl_step_program pl_step_program;  // the step program: step_program_impl.h
+typedef struct pl_wide pl_wide;                  // the same on wider numbers: extended_impl.h
 
 struct pl_run {
   pl_job* job;
@@ -179,8 +179,8 @@ struct pl_run {
   int* place_n;  // structure of coordinates: 1 if the coordinate has an entry in M  (n_q)
   bool rests;    // some coordinate rests or some constraint is not used
 
-  // the motion as codes, for the mode at work and those before; NULL: the general way
-  pl_motion *motion_code, *motion_codes;
+  // the step program, for the mode at work and those before; NULL: the general way
+  pl_step_program *program, *programs;
   double clock_begin, t_begin;  // when stepping with these began
   long considered;              // steps at which compiling was thought of last
   // their memory belongs to run->t, q, v, or to the end of the step that is tried
@@ -246,7 +246,7 @@ struct pl_run {
   double *trial_q, *trial_v;
   // accelerations of the series at the end of the step that is tried   (n_q)
   double* end_a;
-  bool end_by_codes;  // they were computed by the codes
+  bool end_by_program;  // they were computed by the step program
   // order 0 of that point is known: in Q_last and so on, until the step is taken
   bool arrived;
   // difference between these and those of the equations that shorter steps did not lessen
@@ -425,25 +425,25 @@ void pl_sizes_forget(pl_run* run);  // back to what was kept: a step was rejecte
 void pl_independent_unique(pl_run* run);
 void pl_active_update(pl_run* run);  // active from on; orphans rest
 
-// ---- step_program_make.c, step_program_run.c: the motion as codes
-pl_motion* pl_motion_make(pl_run* run);  // not usable when it does not fit
-// the codes for the constraints that are taken, compiled if it pays
-void pl_motion_update(pl_run* run);
-bool pl_motion_is_compiled(const pl_run* run);
-void pl_motion_free(pl_run* run);
+// ---- step_program_make.c, step_program_run.c: the step program
+pl_step_program* pl_step_program_make(pl_run* run);  // not usable when it does not fit
+// the step program for the constraints that are taken, compiled if it pays
+void pl_step_program_update(pl_run* run);
+bool pl_step_program_is_compiled(const pl_run* run);
+void pl_step_program_free(pl_run* run);
 // false: not this way
-bool pl_motion_project(pl_run* run, double t, double* q, double* v, pl_projection* p);
-bool pl_motion_enter(pl_run* run);
-void pl_motion_expand(pl_run* run);
-void pl_motion_norms(pl_run* run, const double** q, const double** v);  // of pl_block_rows
-void pl_motion_advance(pl_run* run, double dt, double* q, double* v);
-// Order 0 after pl_motion_project; how large its accelerations are, and what those of the series
-// were off by after pl_motion_advance.
-void pl_motion_arrive(pl_run* run, double* off, double* size);
-// accelerations of the series after pl_motion_advance
-void pl_motion_end_a(const pl_run* run, double* a);
+bool pl_step_program_project(pl_run* run, double t, double* q, double* v, pl_projection* p);
+bool pl_step_program_enter(pl_run* run);
+void pl_step_program_expand(pl_run* run);
+void pl_step_program_norms(pl_run* run, const double** q, const double** v);  // of pl_block_rows
+void pl_step_program_advance(pl_run* run, double dt, double* q, double* v);
+// Order 0 after pl_step_program_project; how large its accelerations are, and what those of the series
+// were off by after pl_step_program_advance.
+void pl_step_program_arrive(pl_run* run, double* off, double* size);
+// accelerations of the series after pl_step_program_advance
+void pl_step_program_end_a(const pl_run* run, double* a);
 // T, V and what is conserved, at the point; false: not this way.
-bool pl_motion_energy(pl_run* run, double* kinetic, double* potential, double* all);
+bool pl_step_program_energy(pl_run* run, double* kinetic, double* potential, double* all);
 
 // ---- least_change.c The least change of what is not held that takes the residuals away, for the
 // rows at hand; false: there is none.
@@ -455,7 +455,7 @@ bool pl_least_change(const pl_run* run, const bool* held, const double* residual
 void pl_point_evaluate(pl_run* run, double t, const double* q, const double* v);
 bool pl_point_factor(pl_run* run, bool with_W);  // choose, assemble, factor
 bool pl_point_enter(pl_run* run);                // all of order 0 at run->t, q, v
-// jets and factor as pl_point_factor leaves them, after a step by codes
+// jets and factor as pl_point_factor leaves them, after a step by programs
 void pl_point_general(pl_run* run);
 void pl_series_expand(pl_run* run);
 double pl_series_step(pl_run* run);  // Jorba and Zou

@@ -10,21 +10,21 @@
 #include <math.h>
 
 // --------------------------------------------------------------------------------------- structure
-typedef struct pl_places {
+typedef struct pl_stream_places {
   int* row;
   int* next;
   int* head;
   int n;
-} pl_places;  // linked lists, one a column
+} pl_stream_places;  // linked lists, one a column
 
 // A mark for the structure is only added here; unique and sorted later.
-static void mark(pl_places* p, int row, int col) {
+static void mark(pl_stream_places* p, int row, int col) {
   p->row[p->n] = row;
   p->next[p->n] = p->head[col];
   p->head[col] = p->n++;
 }
 
-static void mark_batch(pl_places* p, const pl_run* run, const pl_batch* b) {
+static void mark_batch(pl_stream_places* p, const pl_run* run, const pl_batch* b) {
   const pl_pattern* t = b->pattern;
   for (int l = 0; l < b->n; l++) {
     for (int e = 0; e < t->n_mass; e++) {
@@ -70,8 +70,8 @@ static pleuel_status sparse_structure(pl_run* run) {
   int most = count_marks(run);
   if (most < 0)
     return pl_fail(run->job, PLEUEL_NO_MEMORY, "the linear system has too many entries");
-  pl_places p = {PL_ARRAY(a, int, most + 1), PL_ARRAY(a, int, most + 1), PL_ARRAY(a, int, k->n + 1),
-                 0};
+  pl_stream_places p = {PL_ARRAY(a, int, most + 1), PL_ARRAY(a, int, most + 1),
+                        PL_ARRAY(a, int, k->n + 1), 0};
   for (int j = 0; j < k->n; j++) p.head[j] = -1;
   for (int j = 0; j < k->n; j++) mark(&p, j, j);
   for (int i = 0; i < run->motion.n; i++) mark_batch(&p, run, &run->motion.at[i]);

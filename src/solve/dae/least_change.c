@@ -88,6 +88,6 @@ pleuel_status pl_run_start_partly(pl_run* run, double t, const double* q, const 
   if (!complete_velocities(run, t, held_v, basis, change)) memcpy(run->v, v, n * sizeof(double));
   memcpy(q_kept, run->q, n * sizeof(double));
   memcpy(v_kept, run->v, n * sizeof(double));
-  pl_arena_rewind(a, mark);  // before the start, which makes codes that stay
+  pl_arena_rewind(a, mark);  // before the start, which makes programs that stay
   return pl_run_start_at(run, t, q_kept, v_kept);
 }

@@ -1,11 +1,11 @@
-// A run on numbers wider than doubles: the codes of the motion (step_program_impl.h) on memory of
+// A run on numbers wider than doubles: the step program of the motion (step_program_impl.h) on memory of
 // another type, in which the state lives from step to step. What the run shows and watches is its
 // rounding. For files of this folder.
 //
 // Two types have a part in it: `state`, to which positions and velocities are rounded at the end of
 // a step, and `fine`, in which the point, its projection and the orders below `low` are computed.
 // In quad both are one, and `low` is the order. In long, the orders above are those of the ordinary
-// codes in doubles, compiled where that pays: terms of order k are about e^(-2k) of the whole.
+// programs in doubles, compiled where that pays: terms of order k are about e^(-2k) of the whole.
 #ifndef PL_WIDE_IMPL_H
 #define PL_WIDE_IMPL_H
 
@@ -21,9 +21,9 @@ typedef struct pl_sheet {
 
 struct pl_wide {
   const pl_real *state, *fine;
-  int low;          // orders below are fine
-  bool by_doubles;  // orders from there on are those of run->motion_code
-  pl_motion* o;     // for the constraints that are taken; its own memory is not used
+  int low;             // orders below are fine
+  bool by_doubles;     // orders from there on are those of run->program
+  pl_step_program* o;  // for the constraints that are taken; its own memory is not used
   void* m;
   pl_prog *top, *head;   // one more coefficient of q; the series at `length`
   pl_prog* head_forces;  // accelerations and multipliers there
@@ -41,11 +41,11 @@ struct pl_wide {
   int energy_base;
   pl_sheet *rows, *watched;
   pl_row_digits digits;
-  double floor;          // what rounding of the state leaves of a residual
-  bool held;             // given start values are exact
-  double part;           // of the best pivot of this mode that the smallest is now
-  pl_motion* high;       // codes in doubles for this mode, where by_doubles
-  struct pl_wide* next;  // of another mode
+  double floor;           // what rounding of the state leaves of a residual
+  bool held;              // given start values are exact
+  double part;            // of the best pivot of this mode that the smallest is now
+  pl_step_program* high;  // programs in doubles for this mode, where by_doubles
+  struct pl_wide* next;   // of another mode
 };
 
 // ---- extended_tape.c: tapes in wide numbers
@@ -63,11 +63,11 @@ void pl_wide_order(pl_run* run);
 const char* pl_wide_name(const pl_run* run);  // of its precision
 // whether the run can be had; fails with what stands in the way
 pleuel_status pl_wide_check(pl_run* run);
-// codes and memory, for the constraints that are taken
+// programs and memory, for the constraints that are taken
 pleuel_status pl_wide_make(pl_run* run);
 // Where of dependent rows others than those at work tell more: the point goes over to these.
 void pl_wide_change_rows(pl_run* run);
-// run->wide for the constraints that are taken; false: there are no codes
+// run->wide for the constraints that are taken; false: there are no programs
 bool pl_wide_of_mode(pl_run* run);
 
 // ---- extended_start.c

@@ -1,4 +1,4 @@
-// What a run on wide numbers needs: whether this model can be had, codes, memory.
+// What a run on wide numbers needs: whether this model can be had, programs, memory.
 #include <math.h>
 #include <string.h>
 
@@ -89,11 +89,11 @@ pleuel_status pl_wide_check(pl_run* run) {
                    "precision %s: bodies in Euler angles are followed in double only; give their "
                    "axes as a quaternion",
                    mode);
-  if (!pl_motion_fits(run))
+  if (!pl_step_program_fits(run))
     return pl_fail(run->job, PLEUEL_UNSUPPORTED,
                    "precision %s: %d coordinates and constraints are more than the %d that it is "
                    "made for; use double",
-                   mode, run->n_q + run->n_c, PL_MOTION_UNKNOWNS);
+                   mode, run->n_q + run->n_c, PL_STEP_UNKNOWNS);
   return PLEUEL_OK;
 }
 
@@ -132,7 +132,7 @@ static pl_prog* sum_code(pl_run* run, const char* name, const series* s, const i
 
 // One more coefficient of q comes for nothing.
 static pl_prog* top_code(pl_run* run) {
-  const pl_motion* o = run->wide->o;
+  const pl_step_program* o = run->wide->o;
   pl_prog* c = pl_prog_make(run->job->arena, "top", 1);
   int by = pl_prog_number(c, run->order + 1);
   for (int i = 0; i < o->n_q; i++) {
@@ -180,7 +180,7 @@ static void write_drift(pl_run* run) {
 
 static void write_sums(pl_run* run) {
   pl_wide* w = run->wide;
-  const pl_motion* o = w->o;
+  const pl_step_program* o = w->o;
   int p = run->order, n_q = run->n_q, n_c = run->n_c;
   series state[2] = {{o->Q, n_q, w->q_0, 2, w->tail_q, o->end_q},
                      {o->V, n_q, w->v_0, 2, w->tail_v, o->end_v}};
@@ -214,7 +214,7 @@ static void lay_out(pl_run* run) {
 }
 
 static void fill_memory(pl_wide* w) {
-  const pl_motion* o = w->o;
+  const pl_step_program* o = w->o;
   const pl_real* real = w->fine;
   void* m = w->m;
   const double one = 1;
@@ -245,19 +245,19 @@ pleuel_status pl_wide_make(pl_run* run) {
   pl_wide* w = run->wide = PL_NEW(run->job->arena, pl_wide);
   const pl_setup* s = run->setup;
   choose_types(run);
-  w->o = pl_motion_make_for(run, w->fine);
+  w->o = pl_step_program_make_for(run, w->fine);
   if (!w->o->usable)
     return pl_fail(
         run->job, PLEUEL_UNSUPPORTED,
         "precision %s: the mass matrix of this model needs pivots, which are chosen in double only",
         pl_wide_name(run));
-  run->motion_code = w->by_doubles ? pl_motion_for_mode(run) : NULL;
-  if (run->motion_code && !run->motion_code->usable) {
-    run->motion_code = NULL;
+  run->program = w->by_doubles ? pl_step_program_for_mode(run) : NULL;
+  if (run->program && !run->program->usable) {
+    run->program = NULL;
     w->by_doubles = false;
     w->low = run->order;
   }
-  w->high = run->motion_code;
+  w->high = run->program;
   lay_out(run);
   write_sums(run);
   write_clock(run);
@@ -282,7 +282,7 @@ bool pl_wide_of_mode(pl_run* run) {
         }
       w->next = first;
       run->wide = w;
-      run->motion_code = w->high;
+      run->program = w->high;
       return true;
     }
   bool made = pl_wide_make(run) == PLEUEL_OK;

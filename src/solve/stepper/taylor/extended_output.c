@@ -28,7 +28,7 @@ static void fill(pl_run* run, int q, int v, int a, int l, pl_row* row, double* o
 }
 
 void pl_wide_row(pl_run* run, pl_row* row, double* out) {
-  const pl_motion* o = run->wide->o;
+  const pl_step_program* o = run->wide->o;
   fill(run, o->Q, o->V, o->A, o->L, row, out);
 }
 
@@ -48,7 +48,7 @@ static void multiply(pl_wide* w, double n) {
 // The row at `length`, which stands there already.
 static void row_of_series(pl_run* run, pl_row* row, double* out) {
   pl_wide* w = run->wide;
-  const pl_motion* o = w->o;
+  const pl_step_program* o = w->o;
   pl_wide_sum(run);
   fill(run, o->end_q, o->end_v, w->end_a, w->end_l, row, out);
   w->fine->read(w->m, o->time, 1, &row->t);
@@ -60,7 +60,7 @@ static void row_of_series(pl_run* run, pl_row* row, double* out) {
 
 void pl_wide_grid_row(pl_run* run, long n, pl_row* row, double* out) {
   pl_wide* w = run->wide;
-  const pl_motion* o = w->o;
+  const pl_step_program* o = w->o;
   // the end of the step stands in `time` and `length`, and is needed there later
   pl_parts end = w->fine->get(w->m, o->time), length = w->fine->get(w->m, o->length);
   multiply(w, (double)n);
@@ -72,7 +72,7 @@ void pl_wide_grid_row(pl_run* run, long n, pl_row* row, double* out) {
 
 void pl_wide_row_at(pl_run* run, double t, pl_row* row, double* out) {
   pl_wide* w = run->wide;
-  const pl_motion* o = w->o;
+  const pl_step_program* o = w->o;
   double dt = t - run->t_series;
   pl_parts end = w->fine->get(w->m, o->time), length = w->fine->get(w->m, o->length);
   w->fine->write(w->m, o->length, 1, &dt);

@@ -1,5 +1,5 @@
 // A step on wide numbers: projection, order 0, series. As step_program_run.c, which has the same
-// codes for doubles.
+// programs for doubles.
 //
 // The state is rounded to its type with each correction of the projection, and nowhere else: what
 // is computed from it is more exact than that by the digits that the fine type has more, so that
@@ -19,9 +19,7 @@ static const double least_sound = 1e-24;
 static void fine(pl_run* run, const pl_prog* code, int from, int to) {
   run->wide->fine->interpret(code, run->wide->m, from, to);
 }
-static void fine_part(pl_run* run, pl_motion_part part) {
-  fine(run, run->wide->o->code[part], 0, 1);
-}
+static void fine_part(pl_run* run, pl_step_part part) { fine(run, run->wide->o->code[part], 0, 1); }
 static void read(const pl_run* run, int at, int n, double* out) {
   run->wide->fine->read(run->wide->m, at, n, out);
 }
@@ -33,7 +31,7 @@ void pl_wide_copy(const pl_real* to_type, void* to, int at, const pl_real* from_
 
 // -------------------------------------------------------------------------------------- projection
 static bool pivots_are_sound(pl_run* run) {
-  pl_motion* o = run->wide->o;
+  pl_step_program* o = run->wide->o;
   double least = (double)INFINITY;
   for (int u = o->n_mass; u < o->n; u++) {
     double size, pivot, part;
@@ -68,7 +66,7 @@ static void set_floors(pl_run* run) {
 
 // Adds the correction to the state at x, which is then rounded; the size of the correction relative
 // to that of the state.
-static double correct(pl_run* run, pl_motion_part part, int x, double size) {
+static double correct(pl_run* run, pl_step_part part, int x, double size) {
   pl_wide* w = run->wide;
   int n = run->n_q;
   fine_part(run, part);
@@ -85,7 +83,7 @@ static bool is_done(const pl_run* run, double residual) {
 
 static bool project_positions(pl_run* run, pl_projection* p) {
   enum { MAX_NEWTON = 8 };
-  const pl_motion* o = run->wide->o;
+  const pl_step_program* o = run->wide->o;
   double before = (double)INFINITY;
   for (int round = 0; round < MAX_NEWTON; round++) {
     fine_part(run, PL_PART_PLACE);
@@ -105,7 +103,7 @@ static bool project_positions(pl_run* run, pl_projection* p) {
 }
 
 static bool project_velocities(pl_run* run, pl_projection* p) {
-  const pl_motion* o = run->wide->o;
+  const pl_step_program* o = run->wide->o;
   for (int round = 0;; round++) {
     fine_part(run, PL_PART_SPEED);
     read(run, o->r, run->n_c, run->r);
@@ -148,7 +146,7 @@ void pl_wide_accept(pl_run* run, bool to_end) {
 
 // ----------------------------------------------------------------------------------------- order 0
 static void read_orders(pl_run* run, int first, int last) {
-  const pl_motion* o = run->wide->o;
+  const pl_step_program* o = run->wide->o;
   size_t n_q = (size_t)o->n_q, n_c = (size_t)o->n_c, k = (size_t)first;
   int n = last - first + 1;
   read(run, o->Q + first * o->n_q, (n + 1) * o->n_q, run->Q + k * n_q);
@@ -176,14 +174,14 @@ bool pl_wide_enter(pl_run* run) {
   run->wide->arrived = false;
   if (!look_at_rows(run)) return false;
   pl_wide* w = run->wide;
-  const pl_motion* o = w->o;
+  const pl_step_program* o = w->o;
   w->fine->move(w->m, w->t_0, o->time, 1);
   if (!arrived || w != before) fine_part(run, PL_PART_START);
   w->fine->move(w->m, w->q_0, o->Q, 2 * o->n_q);
   w->fine->move(w->m, w->v_0, o->V, 2 * o->n_q);
   w->fine->move(w->m, w->a_0, o->A, o->n_q);
   w->fine->move(w->m, w->l_0, o->L, o->n_c);
-  if (w->by_doubles) pl_motion_enter_at(run, run->t, run->q, run->v);
+  if (w->by_doubles) pl_step_program_enter_at(run, run->t, run->q, run->v);
   read_orders(run, 0, 0);
   read(run, o->h, o->n_q, run->rhs);
   run->force_size = fmax(run->force_size, pl_norm(run->rhs, o->n_q));
@@ -210,8 +208,8 @@ void pl_wide_expand(pl_run* run) {
   pl_wide* w = run->wide;
   fine(run, w->o->code[PL_PART_ORDER], 1, w->low);
   if (w->by_doubles) {
-    if (!pl_motion_is_compiled(run)) run->stats.steps_interpreted++;
-    pl_motion_expand(run);
+    if (!pl_step_program_is_compiled(run)) run->stats.steps_interpreted++;
+    pl_step_program_expand(run);
     return;
   }
   run->stats.steps_interpreted++;
@@ -222,9 +220,9 @@ void pl_wide_expand(pl_run* run) {
 }
 
 void pl_wide_norms(pl_run* run, const double** q, const double** v) {
-  pl_motion* o = run->wide->o;
+  pl_step_program* o = run->wide->o;
   if (run->wide->by_doubles) {
-    pl_motion_norms(run, q, v);
+    pl_step_program_norms(run, q, v);
     return;
   }
   fine_part(run, PL_PART_NORMS);
@@ -302,7 +300,7 @@ static double slope_at(const pl_run* run, int i, double dt) {
 static double watched_value(pl_run* run, int i) {
   pl_wide* w = run->wide;
   pl_sheet* s = w->watched;
-  const pl_motion* o = w->o;
+  const pl_step_program* o = w->o;
   pl_wide_sum(run);
   fine(run, w->clock, 0, 1);
   pl_wide_copy(s->real, s->m, s->time, w->fine, w->m, o->time, 1);

@@ -52,7 +52,7 @@ static void set_state(pl_run* run, const pl_parts* exact) {
 static bool move_free(pl_run* run, bool positions, const bool* held, double* basis,
                       double* change) {
   pl_wide* w = run->wide;
-  pl_motion* o = w->o;
+  pl_step_program* o = w->o;
   double before = (double)INFINITY, *g = positions ? run->g : run->r,
          *size = positions ? run->g_size : run->r_size;
   for (int round = 0; round < MAX_ROUNDS; round++) {

@@ -49,9 +49,9 @@ static void fill_in(pl_order* o, int pivot) {
   }
 }
 
-pl_elimination* pl_elimination_make(pl_arena* a, const bool* entry, int n, int n_mass,
-                                    int n_coordinates, int* memory) {
-  pl_elimination* e = PL_NEW(a, pl_elimination);
+pl_step_elimination* pl_step_elimination_make(pl_arena* a, const bool* entry, int n, int n_mass,
+                                              int n_coordinates, int* memory) {
+  pl_step_elimination* e = PL_NEW(a, pl_step_elimination);
   size_t nn = (size_t)n * (size_t)n;
   pl_order o = {PL_ARRAY(a, bool, nn + 1),
                 PL_ARRAY(a, bool, n + 1),
@@ -84,8 +84,8 @@ pl_elimination* pl_elimination_make(pl_arena* a, const bool* entry, int n, int n
 }
 
 // ------------------------------------------------------------------------------------------ factor
-void pl_elimination_factor(const pl_elimination* e, pl_prog* c, const int* entry, int* pivot,
-                           int* size) {
+void pl_step_elimination_factor(const pl_step_elimination* e, pl_prog* c, const int* entry,
+                                int* pivot, int* size) {
   size_t n = (size_t)e->n;
   // what is left of the matrix, in order of elimination
   int* K = PL_ARRAY(c->arena, int, n* n + 1);
@@ -132,7 +132,7 @@ static void subtract(pl_prog* c, int l, int y, int* x) {
   else *x = pl_prog_op3(c, PL_PROG_FNMA, l, y, *x);
 }
 
-void pl_elimination_solve(const pl_elimination* e, pl_prog* c, int* x) {
+void pl_step_elimination_solve(const pl_step_elimination* e, pl_prog* c, int* x) {
   size_t n = (size_t)e->n;
   for (size_t j = 0; j < n; j++) {
     int y = x[e->order[j]];

@@ -1,4 +1,4 @@
-// The motion as codes (jit.h): what a step computes from a point to the next, for one set of
+// The step program (jit.h): what a step computes from a point to the next, for one set of
 // constraints in force, as straight-line code on one block of memory. For files of this folder.
 //
 // Codes, in the order in which a step uses them:
@@ -14,21 +14,21 @@
 // The factor is L D L^T without pivoting in an order found once: coordinates first, then
 // constraints. Where its pivots fade the caller goes the general way (assemble.c, kkt.c), which
 // pivots.
-#ifndef PL_MOTION_IMPL_H
-#define PL_MOTION_IMPL_H
+#ifndef PL_STEP_PROGRAM_IMPL_H
+#define PL_STEP_PROGRAM_IMPL_H
 
 #include "jit/jit.h"
 #include "solve/solve_impl.h"
 
 enum {
-  PL_MOTION_UNKNOWNS = 100,  // largest system: above, compiling takes longer than most runs
-  PL_MOTION_INVERSE = 24,    // so many unknowns are solved for by a product with the inverse
+  PL_STEP_UNKNOWNS = 100,  // largest system: above, compiling takes longer than most runs
+  PL_STEP_INVERSE = 24,    // so many unknowns are solved for by a product with the inverse
   // operations over all orders up to which these are written out one by one
-  PL_MOTION_WRITTEN_OUT = 4500,
-  PL_MOTION_NODES = 6000  // of all instances together
+  PL_STEP_WRITTEN_OUT = 4500,
+  PL_STEP_NODES = 6000  // of all instances together
 };
 
-typedef enum pl_motion_part {
+typedef enum pl_step_part {
   PL_PART_PLACE,
   PL_PART_CORRECT_Q,
   PL_PART_SPEED,
@@ -40,12 +40,12 @@ typedef enum pl_motion_part {
   PL_PART_ADVANCE,
   PL_PART_ENERGY,
   PL_N_PARTS
-} pl_motion_part;
+} pl_step_part;
 
 // nodes term[first ..]
-typedef struct pl_motion_entry {
+typedef struct pl_step_entry {
   int row, col, first, n, cell;
-} pl_motion_entry;
+} pl_step_entry;
 
 typedef struct pl_constant_cell {
   int cell;
@@ -57,14 +57,14 @@ typedef struct pl_scale_cell {
   double x;
 } pl_scale_cell;
 
-struct pl_motion {
+struct pl_step_program {
   pl_prog* code[PL_N_PARTS];
   pl_prog_run* compiled[PL_N_PARTS];  // NULL: interpreted
   pl_jit_code* jit;
   bool tried;   // to compile
   bool usable;  // false: this mode goes the general way
   bool* taken;  // which constraints it was made for               (n_c)
-  pl_motion* next;
+  pl_step_program* next;
   double* m;            // the memory
   int size, orders;     // rows of each series: 0 .. orders - 1
   int n_q, n_c, n;      // n: unknowns
@@ -101,32 +101,32 @@ struct pl_motion {
 };
 
 // ---- step_program_run.c
-pl_motion* pl_motion_for_mode(pl_run* run);
+pl_step_program* pl_step_program_for_mode(pl_run* run);
 // Order 0 at a point that is known to be sound.
-bool pl_motion_enter_at(pl_run* run, double t, const double* q, const double* v);
+bool pl_step_program_enter_at(pl_run* run, double t, const double* q, const double* v);
 
 // ---- step_program_make.c
-bool pl_motion_fits(const pl_run* run);
+bool pl_step_program_fits(const pl_run* run);
 // Codes for numbers of this type, which are interpreted; NULL: doubles.
-pl_motion* pl_motion_make_for(pl_run* run, const pl_real* real);
+pl_step_program* pl_step_program_make_for(pl_run* run, const pl_real* real);
 
 // ---- step_program_factor.c: L D L^T of a sparse symmetric system as code
-typedef struct pl_elimination {
+typedef struct pl_step_elimination {
   int n;
   int* order;  // unknown that is eliminated as number i
   // place in memory of L[i][j], i > j, in order of elimination; -1 zero: cell[i * n + j]
   int* cell;
   int inverse_d;  // 1 / D_i
-} pl_elimination;
+} pl_step_elimination;
 // Unknowns: n_mass coordinates with a mass, then the other coordinates up to n_coordinates, then
 // constraints. NULL when no order of elimination is seen from the structure.
-pl_elimination* pl_elimination_make(pl_arena* a, const bool* entry, int n, int n_mass,
-                                    int n_coordinates, int* memory);
+pl_step_elimination* pl_step_elimination_make(pl_arena* a, const bool* entry, int n, int n_mass,
+                                              int n_coordinates, int* memory);
 // entry[i * n + j]: register of the matrix at unknowns i, j (-1 zero), lower or upper half; pivots
 // and sums of what was subtracted go to pivot[i], size[i], registers by unknown.
-void pl_elimination_factor(const pl_elimination* e, pl_prog* c, const int* entry, int* pivot,
-                           int* size);
+void pl_step_elimination_factor(const pl_step_elimination* e, pl_prog* c, const int* entry,
+                                int* pivot, int* size);
 // registers by unknown; -1 zero
-void pl_elimination_solve(const pl_elimination* e, pl_prog* c, int* x);
+void pl_step_elimination_solve(const pl_step_elimination* e, pl_prog* c, int* x);
 
 #endif

@@ -1,4 +1,4 @@
-// Writing the codes of a motion: which nodes are needed, where they lie, the point and the
+// Writing the step program: which nodes are needed, where they lie, the point and the
 // projection.
 #include "solve/stepper/taylor/step_program_make_impl.h"
 
@@ -9,16 +9,16 @@ int pl_maker_take(pl_maker* k, int n) {
 }
 
 // ------------------------------------------------------------------------------------------ limits
-bool pl_motion_fits(const pl_run* run) {
+bool pl_step_program_fits(const pl_run* run) {
   long nodes = 0;
-  if (run->n_q + run->n_c > PL_MOTION_UNKNOWNS || run->has_W || run->mass_of_speed
+  if (run->n_q + run->n_c > PL_STEP_UNKNOWNS || run->has_W || run->mass_of_speed
       || run->setup->n_frictions > 0)
     return false;
   for (int i = 0; i < run->motion.n; i++) {
     const pl_batch* b = &run->motion.at[i];
     nodes += (long)b->n * b->pattern->tape->n_nodes;
   }
-  return nodes <= PL_MOTION_NODES;
+  return nodes <= PL_STEP_NODES;
 }
 
 // -------------------------------------------------------------------------------- unknowns, memory
@@ -29,7 +29,7 @@ static bool has_mass(const pl_maker* k, int i) {
 }
 
 static void number_unknowns(pl_maker* k) {
-  pl_motion* o = k->o;
+  pl_step_program* o = k->o;
   o->of_coordinate = PL_ARRAY(k->a, int, o->n_q + 1);
   o->of_constraint = PL_ARRAY(k->a, int, o->n_c + 1);
   o->index = PL_ARRAY(k->a, int, o->n_q + o->n_c + 1);
@@ -49,7 +49,7 @@ static void number_unknowns(pl_maker* k) {
 }
 
 static void number_constraints(pl_maker* k) {
-  pl_motion* o = k->o;
+  pl_step_program* o = k->o;
   for (int c = 0; c < o->n_c; c++) {
     o->of_constraint[c] = -1;
     if (o->taken[c]) {
@@ -66,7 +66,7 @@ static void mark_entry(pl_maker* k, int i, int j) {
 }
 
 static void find_structure(pl_maker* k) {
-  pl_motion* o = k->o;
+  pl_step_program* o = k->o;
   k->entry = PL_ARRAY(k->a, bool, (size_t)o->n*(size_t)o->n + 1);
   for (int e = 0; e < k->M.n; e++)
     mark_entry(k, o->of_coordinate[k->M.at[e].row], o->of_coordinate[k->M.at[e].col]);
@@ -75,7 +75,7 @@ static void find_structure(pl_maker* k) {
 }
 
 static void lay_out(pl_maker* k) {
-  pl_motion* o = k->o;
+  pl_step_program* o = k->o;
   int n_q = o->n_q, n_c = o->n_c, rows = o->orders;
   o->time = pl_maker_take(k, rows + 2);
   o->ratio = pl_maker_take(k, rows + 2);
@@ -113,7 +113,8 @@ static void lay_out(pl_maker* k) {
                                      i - k->instance[k->owner[i]].base))
       k->inverse[i] = at++;
   }
-  k->elimination = pl_elimination_make(k->a, k->entry, o->n, o->n_mass, o->n - o->n_taken, &at);
+  k->elimination = pl_step_elimination_make(k->a, k->entry, o->n, o->n_mass, o->n - o->n_taken,
+                                            &at);
   pl_maker_take(k, at - o->size);
 }
 
@@ -152,7 +153,7 @@ int pl_maker_start(pl_maker* k, int node) {
   return k->start[node];
 }
 
-void pl_maker_begin(pl_maker* k, pl_motion_part part, const char* name, int width) {
+void pl_maker_begin(pl_maker* k, pl_step_part part, const char* name, int width) {
   k->code = k->o->code[part] = pl_prog_make(k->a, name, width);
   k->lower = (pl_recurrence){.code = k->code,
                              .user = k,
@@ -198,7 +199,7 @@ static int or_zero(pl_maker* k, int x) { return x < 0 ? pl_prog_number(k->code, 
 // |dg/dq| |q| added to the sum of the terms: pl_assemble_g.
 static void size_of_constraint(pl_maker* k, int c) {
   pl_prog* code = k->code;
-  pl_motion* o = k->o;
+  pl_step_program* o = k->o;
   SUM_OF_ROW(g_terms, c);
   int terms = or_zero(k, row_), size = terms;
   for (int e = 0; e < k->G.n; e++) {
@@ -229,7 +230,7 @@ static void add_to(pl_maker* k, int* entry, int i, int j, int x) {
 }
 
 static void factor(pl_maker* k) {
-  pl_motion* o = k->o;
+  pl_step_program* o = k->o;
   int n = o->n;
   int* entry = PL_ARRAY(k->a, int, (size_t)n*(size_t)n + 1);
   int *pivot = PL_ARRAY(k->a, int, n + 1), *size = PL_ARRAY(k->a, int, n + 1);
@@ -240,7 +241,7 @@ static void factor(pl_maker* k) {
   for (int e = 0; e < k->G.n; e++)
     add_to(k, entry, o->of_constraint[k->G.at[e].row], o->of_coordinate[k->G.at[e].col],
            pl_maker_start(k, k->G.at[e].node));
-  pl_elimination_factor(k->elimination, k->code, entry, pivot, size);
+  pl_step_elimination_factor(k->elimination, k->code, entry, pivot, size);
   for (int u = o->n_mass; u < n; u++) {
     pl_prog_store(k->code, pivot[u], o->pivot + u, 0);
     pl_prog_store(k->code, or_zero(k, size[u]), o->pivot_size + u, 0);
@@ -278,8 +279,8 @@ static void place_code(pl_maker* k) {
 }
 
 // ------------------------------------------------------------------------------------- corrections
-static void correction_code(pl_maker* k, pl_motion_part part, const char* name, int residual) {
-  pl_motion* o = k->o;
+static void correction_code(pl_maker* k, pl_step_part part, const char* name, int residual) {
+  pl_step_program* o = k->o;
   pl_maker_begin(k, part, name, 1);
   int* x = PL_ARRAY(k->a, int, o->n + 1);
   for (int u = 0; u < o->n; u++) x[u] = -1;
@@ -287,7 +288,7 @@ static void correction_code(pl_maker* k, pl_motion_part part, const char* name, 
     if (o->of_constraint[c] >= 0 && !(residual == o->g && k->run->setup->constraints[c].velocity))
       x[o->of_constraint[c]] = pl_prog_op1(k->code, PL_PROG_NEG,
                                            pl_prog_load(k->code, residual + c, 0));
-  pl_elimination_solve(k->elimination, k->code, x);
+  pl_step_elimination_solve(k->elimination, k->code, x);
   for (int i = 0; i < o->n_q; i++)
     if (o->of_coordinate[i] >= 0 && x[o->of_coordinate[i]] >= 0)
       pl_prog_store(k->code, x[o->of_coordinate[i]], o->move + i, 0);
@@ -295,7 +296,7 @@ static void correction_code(pl_maker* k, pl_motion_part part, const char* name, 
 }
 
 static void speed_code(pl_maker* k) {
-  pl_motion* o = k->o;
+  pl_step_program* o = k->o;
   pl_maker_begin(k, PL_PART_SPEED, "speed", 1);
   for (int c = 0; c < o->n_c; c++) {
     SUM_OF_ROW(gt, c);
@@ -318,7 +319,7 @@ static void speed_code(pl_maker* k) {
 // Eight columns at a time; the inverse is symmetric, so its rows are its columns. What belongs to
 // constraints is given and taken with the other sign: the identity holds -1 there.
 static void inverse_code(pl_maker* k) {
-  pl_motion* o = k->o;
+  pl_step_program* o = k->o;
   int blocks = (o->n + 7) / 8, stride = 8 * blocks;
   if (o->n > o->inverse_up_to) return;
   pl_maker_begin(k, PL_PART_INVERSE, "inverse", 8);
@@ -326,7 +327,7 @@ static void inverse_code(pl_maker* k) {
   for (int b = 0; b < blocks; b++) {
     for (int u = 0; u < o->n; u++)
       x[u] = u / 8 == b ? pl_prog_load(k->code, o->identity + u * stride + 8 * b, 0) : -1;
-    pl_elimination_solve(k->elimination, k->code, x);
+    pl_step_elimination_solve(k->elimination, k->code, x);
     for (int u = 0; u < o->n; u++)
       if (x[u] >= 0) {
         int entry = u < o->n - o->n_taken ? x[u] : pl_prog_op1(k->code, PL_PROG_NEG, x[u]);
@@ -346,7 +347,7 @@ static int norm_of_row(pl_maker* k, int row) {
 }
 
 static void norms_code(pl_maker* k) {
-  pl_motion* o = k->o;
+  pl_step_program* o = k->o;
   int row[PL_BLOCK_ROWS], of[] = {o->Q, o->V};
   pl_maker_begin(k, PL_PART_NORMS, "norms", 1);
   for (int b = 0; b < 2; b++) {
@@ -359,7 +360,7 @@ static void norms_code(pl_maker* k) {
 }
 
 static void advance_code(pl_maker* k) {
-  pl_motion* o = k->o;
+  pl_step_program* o = k->o;
   pl_maker_begin(k, PL_PART_ADVANCE, "advance", 1);
   int h = pl_prog_load(k->code, o->length, 0), order = k->run->order;
   int of[] = {o->Q, o->V, o->A}, to[] = {o->end_q, o->end_v, o->end_a};
@@ -394,7 +395,7 @@ static void energy_code(pl_maker* k) {
 
 // --------------------------------------------------------------------------------------- all of it
 static void fill_memory(pl_maker* k) {
-  pl_motion* o = k->o;
+  pl_step_program* o = k->o;
   o->m = PL_ARRAY(k->a, double, o->size);
   for (int i = 1; i < o->orders + 2; i++) {
     o->m[o->ratio + i] = 1.0 / i;
@@ -424,22 +425,22 @@ static void fill_memory(pl_maker* k) {
   }
 }
 
-pl_motion* pl_motion_make(pl_run* run) { return pl_motion_make_for(run, NULL); }
+pl_step_program* pl_step_program_make(pl_run* run) { return pl_step_program_make_for(run, NULL); }
 
-pl_motion* pl_motion_make_for(pl_run* run, const pl_real* real) {
+pl_step_program* pl_step_program_make_for(pl_run* run, const pl_real* real) {
   pl_maker maker = {.run = run,
                     .a = run->job->arena,
                     .real = real,
-                    .o = PL_NEW(run->job->arena, pl_motion)},
+                    .o = PL_NEW(run->job->arena, pl_step_program)},
            *k = &maker;
-  pl_motion* o = k->o;
-  o->inverse_up_to = real ? 0 : PL_MOTION_INVERSE;
+  pl_step_program* o = k->o;
+  o->inverse_up_to = real ? 0 : PL_STEP_INVERSE;
   o->n_q = run->n_q;
   o->n_c = run->n_c;
   o->orders = run->order + 3;
   o->taken = PL_ARRAY(k->a, bool, run->n_c + 1);
   for (int c = 0; c < run->n_c; c++) o->taken[c] = run->taken[c];
-  if (!pl_motion_fits(run)) return o;
+  if (!pl_step_program_fits(run)) return o;
   pl_maker_instances(k);
   pl_maker_terms(k);
   number_unknowns(k);

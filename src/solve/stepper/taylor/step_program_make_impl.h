@@ -1,7 +1,7 @@
-// What is at hand while the codes of a motion are written (step_program_make.c,
+// What is at hand while the step program are written (step_program_make.c,
 // step_program_order.c).
-#ifndef PL_MOTION_MAKE_IMPL_H
-#define PL_MOTION_MAKE_IMPL_H
+#ifndef PL_STEP_PROGRAM_MAKE_IMPL_H
+#define PL_STEP_PROGRAM_MAKE_IMPL_H
 
 #include "solve/stepper/taylor/step_program_impl.h"
 
@@ -14,11 +14,11 @@ typedef struct pl_maker_instance {
 } pl_maker_instance;
 
 // A term: entry (row, col) of a matrix or a vector is the sum of nodes.
-typedef struct pl_term {
+typedef struct pl_step_term {
   int row, col, node;
-} pl_term;
+} pl_step_term;
 
-typedef PL_VEC(int) pl_places;  // of streams, row 0
+typedef PL_VEC(int) pl_stream_places;  // of streams, row 0
 
 // A product that is summed over the orders: one lane of a group of eight.
 typedef struct pl_maker_sum {
@@ -36,12 +36,12 @@ typedef struct pl_maker_groups pl_maker_groups;
 
 typedef struct pl_maker {
   pl_run* run;
-  pl_motion* o;
-  pl_arena* a;  // of the run: codes and memory
+  pl_step_program* o;
+  pl_arena* a;  // of the run: programs and memory
   pl_maker_instance* instance;
   int n_instances;
   int n_nodes;
-  const pl_real* real;  // the codes are for numbers of this type; NULL: doubles
+  const pl_real* real;  // the step program are for numbers of this type; NULL: doubles
   pl_parts* constant;   // of each node of level CONST, then
   int* owner;           // instance of each node
   int* same;            // the first node that is the same quantity: that one stands for all
@@ -52,16 +52,16 @@ typedef struct pl_maker {
   int n_keep, keep_at;
   struct pl_sum_cells {
     int i[3];
-  } * sum_cell;                 // place of convolution i of a node; -1
-  pl_places *plain, *weighted;  // streams that a node is written to
-  PL_VEC(pl_term) M, G, gt, g, g_terms, h, energy;
+  } * sum_cell;                        // place of convolution i of a node; -1
+  pl_stream_places *plain, *weighted;  // streams that a node is written to
+  PL_VEC(pl_step_term) M, G, gt, g, g_terms, h, energy;
   // streams of -a_k (row k+1), λ_k (row k+1), v_k (row k)
-  pl_places *from_a, *from_lambda, *from_v;
-  pl_places* row_sums;  // places of the sums of a row's products: by unknown
+  pl_stream_places *from_a, *from_lambda, *from_v;
+  pl_stream_places* row_sums;  // places of the sums of a row's products: by unknown
   PL_VEC(pl_scale_lane) scales;
   pl_maker_groups* groups;  // of eight sums
   bool* entry;              // structure of the system
-  pl_elimination* elimination;
+  pl_step_elimination* elimination;
   // the code at work
   pl_prog* code;
   pl_recurrence lower;
@@ -82,7 +82,7 @@ static inline int pl_maker_same(const pl_maker* k, int instance, int node) {
 }
 
 int pl_maker_take(pl_maker* k, int n);  // n numbers of memory, aligned to 8
-void pl_maker_begin(pl_maker* k, pl_motion_part part, const char* name, int width);
+void pl_maker_begin(pl_maker* k, pl_step_part part, const char* name, int width);
 void pl_maker_end(pl_maker* k);
 int pl_maker_start(pl_maker* k, int node);  // register of order 0
 int pl_maker_value(pl_maker* k, int node);  // computes order 0

@@ -40,8 +40,8 @@ static void reserve_nodes(pl_maker* k) {
   }
   k->sum_cell = PL_ARRAY(k->a, struct pl_sum_cells, n);
   for (size_t j = 0; j < n; j++) k->sum_cell[j] = (struct pl_sum_cells){{-1, -1, -1}};
-  k->plain = PL_ARRAY(k->a, pl_places, n);
-  k->weighted = PL_ARRAY(k->a, pl_places, n);
+  k->plain = PL_ARRAY(k->a, pl_stream_places, n);
+  k->weighted = PL_ARRAY(k->a, pl_stream_places, n);
   for (int i = 0; i < k->n_instances; i++)
     for (int j = 0; j < k->instance[i].tape->n_nodes; j++) k->owner[k->instance[i].base + j] = i;
 }
@@ -118,7 +118,7 @@ static int root(const pl_maker* k, const pl_maker_instance* i, int r) {
   return k->same[i->base + i->tape->roots[r]];
 }
 
-#define TERM(list, ...) pl_push(k->a, k->list, (pl_term){__VA_ARGS__})
+#define TERM(list, ...) pl_push(k->a, k->list, (pl_step_term){__VA_ARGS__})
 
 static void list_terms_of(pl_maker* k, const pl_maker_instance* i) {
   const pl_batch* b = i->batch;

@@ -1,4 +1,4 @@
-// The codes of the series: one order after the other.
+// The step program of the series: one order after the other.
 //
 // Products of series are summed eight at a time. Each operand of a sum lies in a stream, a row of
 // eight numbers for each order; a coefficient is written to all the streams that hold it as soon as
@@ -69,11 +69,11 @@ static int stream_of(pl_maker* k, pl_streams* streams, const pl_lane* lanes) {
 // ------------------------------------------------------------------------------------------ groups
 // A group of eight sums: pairs of streams, where the sums go.
 // scale, rest: streams, -1 none
-typedef struct pl_group {
+typedef struct pl_step_group {
   int to, first, n, scale, rest, lanes;
-} pl_group;
+} pl_step_group;
 typedef struct pl_groups {
-  PL_VEC(pl_group) list;
+  PL_VEC(pl_step_group) list;
   PL_VEC(pl_prog_pair) pairs;
 } pl_groups;
 
@@ -147,7 +147,7 @@ static pl_sum_list in_order(pl_maker* k, const pl_sum_list* sums) {
 
 // What the sums of a group are multiplied with: weighted ones with 1/k.
 static void scale_group(pl_maker* k, pl_streams* streams, const pl_maker_sum* sums, int n,
-                        pl_group* g) {
+                        pl_step_group* g) {
   pl_lane scale[8], rest[8];
   bool any = false;
   for (int l = 0; l < 8; l++) {
@@ -174,7 +174,7 @@ static void group_sums(pl_maker* k, pl_streams* streams, const pl_sum_list* unor
       k->sum_cell[s->node].i[s->i] = to + l;
     }
     int at_a = stream_of(k, streams, a), at_b = stream_of(k, streams, b);
-    pl_group g = {to, groups->pairs.n, 1, -1, -1, sums->n - first < 8 ? sums->n - first : 8};
+    pl_step_group g = {to, groups->pairs.n, 1, -1, -1, sums->n - first < 8 ? sums->n - first : 8};
     scale_group(k, streams, sums->at + first, sums->n - first < 8 ? sums->n - first : 8, &g);
     pl_push(k->a, groups->list, g);
     pl_push(k->a, groups->pairs, (pl_prog_pair){at_a, at_b});
@@ -197,15 +197,15 @@ static void add_product(pl_maker* k, pl_row_list* rows, int u, int node, pl_lane
 }
 
 static void list_rows(pl_maker* k, pl_row_list* rows) {
-  const pl_motion* o = k->o;
+  const pl_step_program* o = k->o;
   for (int e = 0; e < k->M.n; e++) {
-    const pl_term* t = &k->M.at[e];
+    const pl_step_term* t = &k->M.at[e];
     if (!varies(k, t->node)) continue;
     add_product(k, rows, o->of_coordinate[t->row], t->node, MINUS_A, t->col);
     if (t->row != t->col) add_product(k, rows, o->of_coordinate[t->col], t->node, MINUS_A, t->row);
   }
   for (int e = 0; e < k->G.n; e++) {
-    const pl_term* t = &k->G.at[e];
+    const pl_step_term* t = &k->G.at[e];
     if (!varies(k, t->node) || o->of_constraint[t->row] < 0) continue;
     add_product(k, rows, o->of_coordinate[t->col], t->node, LAMBDA, t->row);
     add_product(k, rows, o->of_constraint[t->row], t->node, V, t->col);
@@ -263,7 +263,7 @@ static void group_rows(pl_maker* k, pl_streams* streams, const pl_row_list* rows
     const pl_share* s = shares.at + first;
     int used = shares.n - first < 8 ? shares.n - first : 8, to = pl_maker_take(k, 8);
     for (int l = 0; l < used; l++) pl_push(k->a, k->row_sums[s[l].unknown], to + l);
-    pl_push(k->a, groups->list, (pl_group){to, groups->pairs.n, s->n, -1, -1, used});
+    pl_push(k->a, groups->list, (pl_step_group){to, groups->pairs.n, s->n, -1, -1, used});
     for (int p = 0; p < s->n; p++) {
       pl_lane a[8] = {{EMPTY, 0}}, b[8] = {{EMPTY, 0}};
       for (int l = 0; l < used; l++) {
@@ -303,13 +303,13 @@ static void list_kept(pl_maker* k) {
 }
 
 void pl_maker_streams(pl_maker* k) {
-  pl_motion* o = k->o;
+  pl_step_program* o = k->o;
   pl_streams streams = {0};
   pl_sum_list place = {0}, speed = {0};
-  k->from_a = PL_ARRAY(k->a, pl_places, o->n_q + 1);
-  k->from_v = PL_ARRAY(k->a, pl_places, o->n_q + 1);
-  k->from_lambda = PL_ARRAY(k->a, pl_places, o->n_c + 1);
-  k->row_sums = PL_ARRAY(k->a, pl_places, o->n + 1);
+  k->from_a = PL_ARRAY(k->a, pl_stream_places, o->n_q + 1);
+  k->from_v = PL_ARRAY(k->a, pl_stream_places, o->n_q + 1);
+  k->from_lambda = PL_ARRAY(k->a, pl_stream_places, o->n_c + 1);
+  k->row_sums = PL_ARRAY(k->a, pl_stream_places, o->n + 1);
   k->groups = PL_NEW(k->a, pl_maker_groups);
   pl_row_list* rows = PL_ARRAY(k->a, pl_row_list, o->n + 1);
   list_sums(k, PL_LEVEL_PLACE, &place);
@@ -325,7 +325,7 @@ static void add_block(pl_maker* k, const pl_groups* groups, int shift) {
   if (groups->list.n == 0 || !k->with_sums) return;
   pl_prog_block_begin(k->code, 8, shift);
   for (int i = 0; i < groups->list.n; i++) {
-    const pl_group* g = &groups->list.at[i];
+    const pl_step_group* g = &groups->list.at[i];
     pl_prog_sum_begin(k->code, g->to, false);
     pl_prog_sum_scale(k->code, g->scale, g->rest);
     pl_prog_sum_lanes(k->code, g->lanes);
@@ -341,7 +341,7 @@ static int over_next(pl_maker* k, int x) {
   return pl_prog_op3(k->code, PL_PROG_FMA, x, pl_prog_load(k->code, k->o->rest + 1, 1), main);
 }
 
-static void write(pl_maker* k, int x, const pl_places* to, int row) {
+static void write(pl_maker* k, int x, const pl_stream_places* to, int row) {
   for (int i = 0; i < to->n; i++) pl_prog_store(k->code, x, to->at[i] + 8 * row, 8);
 }
 
@@ -369,7 +369,7 @@ static int global_coordinate(const pl_maker* k, int node) {
 }
 
 static void next_positions(pl_maker* k, int* q) {
-  pl_motion* o = k->o;
+  pl_step_program* o = k->o;
   for (int i = 0; i < o->n_q; i++) {
     q[i] = over_next(k, pl_prog_load(k->code, o->V + i, o->n_q));
     pl_prog_store(k->code, q[i], o->Q + o->n_q + i, o->n_q);
@@ -460,12 +460,12 @@ static int left_of_constraint(pl_maker* k, int u) {
 
 // Unknowns from right sides, of constraints left sides; of these come λ_k / (k + 1).
 static void solve(pl_maker* k, int* x, bool first) {
-  pl_motion* o = k->o;
+  pl_step_program* o = k->o;
   int n = o->n, n_coordinates = n - o->n_taken;
   if (first || n > o->inverse_up_to) {
     for (int u = n_coordinates; u < n; u++)
       x[u] = x[u] < 0 ? -1 : pl_prog_op1(k->code, PL_PROG_NEG, x[u]);
-    pl_elimination_solve(k->elimination, k->code, x);
+    pl_step_elimination_solve(k->elimination, k->code, x);
     for (int u = n_coordinates; u < n; u++)
       x[u] = x[u] < 0 ? -1 : pl_prog_op1(k->code, PL_PROG_NEG, x[u]);
     return;
@@ -482,7 +482,7 @@ static int times_next(pl_maker* k, int x, bool first) {
 }
 
 static void take_solution(pl_maker* k, const int* x, bool first) {
-  pl_motion* o = k->o;
+  pl_step_program* o = k->o;
   pl_prog* code = k->code;
   for (int i = 0; i < o->n_q; i++) {
     int u = o->of_coordinate[i];
@@ -516,7 +516,7 @@ static void equations(pl_maker* k, bool first) {
   take_solution(k, x, first);
 }
 
-// ----------------------------------------------------------------------------------- the two codes
+// ----------------------------------------------------------------------------------- the two programs
 static void inverses(pl_maker* k, pl_tape_level level) {
   for (int i = 0; i < k->n_nodes; i++) {
     if (k->inverse[i] < 0 || pl_maker_node(k, i)->level != level) continue;
@@ -561,7 +561,7 @@ static bool is_small(const pl_maker* k) {
   long operations = 0;
   for (int order = 1; order < k->run->order; order++)
     operations += k->code->lines.n + 2L * k->code->pairs.n * order;
-  return operations <= PL_MOTION_WRITTEN_OUT;
+  return operations <= PL_STEP_WRITTEN_OUT;
 }
 
 void pl_maker_order_code(pl_maker* k) {

@@ -1,6 +1,6 @@
-// A step with the codes of a motion: projection, order 0, series.
+// A step with the step program: projection, order 0, series.
 //
-// The codes serve while their pivots are sound. A pivot of what has no mass is compared with the
+// The step program serve while their pivots are sound. A pivot of what has no mass is compared with the
 // largest sum that was ever subtracted there, which tells both a row that becomes dependent and one
 // that fades away; where one has faded to a part of the best that was met, the point is left to the
 // general way, which chooses rows and pivots anew, and which tells singular positions.
@@ -15,26 +15,26 @@ static const double sound = 0.02;
 static const double least_sound = 1e-7;
 static const double rounding = 2.3e-16;
 
-static void run_part(pl_motion* o, pl_motion_part part, int from, int to) {
+static void run_part(pl_step_program* o, pl_step_part part, int from, int to) {
   if (o->compiled[part]) o->compiled[part](o->m, from, to);
   else pl_prog_interpret(o->code[part], o->m, from, to);
 }
 
 // ---------------------------------------------------------------------------------------- choosing
-static bool same_mode(const pl_run* run, const pl_motion* o) {
+static bool same_mode(const pl_run* run, const pl_step_program* o) {
   return memcmp(o->taken, run->taken, (size_t)run->n_c * sizeof(bool)) == 0;
 }
 
-pl_motion* pl_motion_for_mode(pl_run* run) {
-  for (pl_motion* o = run->motion_codes; o; o = o->next)
+pl_step_program* pl_step_program_for_mode(pl_run* run) {
+  for (pl_step_program* o = run->programs; o; o = o->next)
     if (same_mode(run, o)) return o;
-  pl_motion* o = pl_motion_make(run);
-  o->next = run->motion_codes;
-  return run->motion_codes = o;
+  pl_step_program* o = pl_step_program_make(run);
+  o->next = run->programs;
+  return run->programs = o;
 }
 
 // --------------------------------------------------------------------------------------- compiling
-static void compile(pl_run* run, pl_motion* o) {
+static void compile(pl_run* run, pl_step_program* o) {
   const pl_prog* progs[PL_N_PARTS];
   pl_prog_run* found[PL_N_PARTS];
   int part[PL_N_PARTS], n = 0;
@@ -57,7 +57,7 @@ static void compile(pl_run* run, pl_motion* o) {
 }
 
 // Seconds that compiling may take: the compiler is opened, then so much for each line.
-static double price(const pl_motion* o) {
+static double price(const pl_step_program* o) {
   double lines = 0;
   for (int i = 0; i < PL_N_PARTS; i++) {
     const pl_prog* c = o->code[i];
@@ -68,7 +68,7 @@ static double price(const pl_motion* o) {
 
 // After 8, 16, 32 ... steps the time that is left is estimated from the time so far. Only when,
 // never what, depends on it.
-static bool compiling_pays(pl_run* run, const pl_motion* o) {
+static bool compiling_pays(pl_run* run, const pl_step_program* o) {
   long steps = run->stats.steps;
   if (run->considered == 0) {
     run->clock_begin = pl_clock();
@@ -81,25 +81,25 @@ static bool compiling_pays(pl_run* run, const pl_motion* o) {
   return (pl_clock() - run->clock_begin) * (left / way) > 2 * price(o);
 }
 
-void pl_motion_update(pl_run* run) {
+void pl_step_program_update(pl_run* run) {
   if (run->options.general || run->n_kinks > 0
-      || (run->options.precision != PL_PRECISION_DOUBLE && run->motion_code == NULL))
+      || (run->options.precision != PL_PRECISION_DOUBLE && run->program == NULL))
     return;
-  if (!run->at_point && !(run->motion_code && same_mode(run, run->motion_code)))
-    run->motion_code = pl_motion_for_mode(run);
-  pl_motion* o = run->motion_code;
+  if (!run->at_point && !(run->program && same_mode(run, run->program)))
+    run->program = pl_step_program_for_mode(run);
+  pl_step_program* o = run->program;
   if (o == NULL || !o->usable || o->tried || run->options.engine == PL_ENGINE_INTERPRETER) return;
   if (run->options.engine == PL_ENGINE_COMPILED || compiling_pays(run, o)) compile(run, o);
 }
 
-bool pl_motion_is_compiled(const pl_run* run) { return run->motion_code && run->motion_code->jit; }
+bool pl_step_program_is_compiled(const pl_run* run) { return run->program && run->program->jit; }
 
-void pl_motion_free(pl_run* run) {
-  for (pl_motion* o = run->motion_codes; o; o = o->next) pl_jit_free(o->jit);
+void pl_step_program_free(pl_run* run) {
+  for (pl_step_program* o = run->programs; o; o = o->next) pl_jit_free(o->jit);
 }
 
 // ------------------------------------------------------------------------------------------ pivots
-static bool pivots_are_sound(pl_motion* o) {
+static bool pivots_are_sound(pl_step_program* o) {
   double least = (double)INFINITY;
   for (int u = o->n_mass; u < o->n; u++) {
     double size = o->m[o->pivot_size + u], part;
@@ -118,7 +118,7 @@ static void note_largest(double x, double* most) {
   if (!(x <= *most)) *most = x;
 }
 
-static void set_floors(const pl_run* run, pl_motion* o) {
+static void set_floors(const pl_run* run, pl_step_program* o) {
   for (int i = 0; i < o->n_q; i++) {
     o->m[o->q_floor + i] = pl_larger(run->q_most[i], 1e-6 * run->q_size);
     o->m[o->v_floor + i] = pl_larger(run->v_most[i], 1e-6 * run->v_size);
@@ -126,7 +126,7 @@ static void set_floors(const pl_run* run, pl_motion* o) {
 }
 
 // Adds the correction to x; its size relative to that of x.
-static double correct(pl_motion* o, pl_motion_part part, double* x, double size) {
+static double correct(pl_step_program* o, pl_step_part part, double* x, double size) {
   run_part(o, part, 0, 1);
   const double* move = o->m + o->move;
   double most = pl_norm(move, o->n_q);
@@ -134,7 +134,7 @@ static double correct(pl_motion* o, pl_motion_part part, double* x, double size)
   return size > 0 ? most / size : most;
 }
 
-static bool project_positions(pl_run* run, pl_motion* o, pl_projection* p) {
+static bool project_positions(pl_run* run, pl_step_program* o, pl_projection* p) {
   enum { MAX_NEWTON = 8 };
   double before = (double)INFINITY;
   for (int round = 0; round < MAX_NEWTON; round++) {
@@ -152,7 +152,7 @@ static bool project_positions(pl_run* run, pl_motion* o, pl_projection* p) {
   return false;
 }
 
-static bool project_velocities(pl_run* run, pl_motion* o, pl_projection* p) {
+static bool project_velocities(pl_run* run, pl_step_program* o, pl_projection* p) {
   for (int round = 0;; round++) {
     run_part(o, PL_PART_SPEED, 0, 1);
     double r = pl_residual(run, o->m + o->r, o->m + o->r_size, false);
@@ -166,8 +166,8 @@ static bool project_velocities(pl_run* run, pl_motion* o, pl_projection* p) {
   }
 }
 
-bool pl_motion_project(pl_run* run, double t, double* q, double* v, pl_projection* p) {
-  pl_motion* o = run->motion_code;
+bool pl_step_program_project(pl_run* run, double t, double* q, double* v, pl_projection* p) {
+  pl_step_program* o = run->program;
   run->at_point = false;
   if (o) o->arrived = false;
   if (o == NULL || !o->usable || run->watch_landings || !same_mode(run, o)) return false;
@@ -193,28 +193,28 @@ static void copy_rows(double* to, const double* from, int n, int first, int last
 }
 
 static void copy_orders(pl_run* run, int first, int last) {
-  const pl_motion* o = run->motion_code;
+  const pl_step_program* o = run->program;
   copy_rows(run->Q, o->m + o->Q, o->n_q, first, last + 1);
   copy_rows(run->V, o->m + o->V, o->n_q, first, last + 1);
   copy_rows(run->A, o->m + o->A, o->n_q, first, last);
   copy_rows(run->L, o->m + o->L, o->n_c, first, last);
 }
 
-static void compute_start(pl_motion* o) {
+static void compute_start(pl_step_program* o) {
   if (o->code[PL_PART_INVERSE]) run_part(o, PL_PART_INVERSE, 0, 1);
   run_part(o, PL_PART_START, 0, 1);
 }
 
-void pl_motion_arrive(pl_run* run, double* off, double* size) {
-  pl_motion* o = run->motion_code;
+void pl_step_program_arrive(pl_run* run, double* off, double* size) {
+  pl_step_program* o = run->program;
   compute_start(o);
   o->arrived = true;
   *off = o->m[o->off];
   *size = o->m[o->off + 1];
 }
 
-bool pl_motion_enter(pl_run* run) {
-  pl_motion* o = run->motion_code;
+bool pl_step_program_enter(pl_run* run) {
+  pl_step_program* o = run->program;
   if (!o->arrived) compute_start(o);
   o->arrived = false;
   copy_orders(run, 0, 0);
@@ -225,41 +225,41 @@ bool pl_motion_enter(pl_run* run) {
   return run->ready;
 }
 
-bool pl_motion_enter_at(pl_run* run, double t, const double* q, const double* v) {
-  pl_motion* o = run->motion_code;
+bool pl_step_program_enter_at(pl_run* run, double t, const double* q, const double* v) {
+  pl_step_program* o = run->program;
   o->m[o->time] = t;
   memcpy(o->m + o->Q, q, (size_t)o->n_q * sizeof *q);
   memcpy(o->m + o->V, v, (size_t)o->n_q * sizeof *v);
   o->arrived = false;
   run_part(o, PL_PART_PLACE, 0, 1);
   double smallest = run->smallest;
-  bool ready = pl_motion_enter(run);
+  bool ready = pl_step_program_enter(run);
   run->smallest = smallest;
   return ready;
 }
 
-void pl_motion_norms(pl_run* run, const double** q, const double** v) {
-  pl_motion* o = run->motion_code;
+void pl_step_program_norms(pl_run* run, const double** q, const double** v) {
+  pl_step_program* o = run->program;
   run_part(o, PL_PART_NORMS, 0, 1);
   *q = o->m + o->norms;
   *v = *q + PL_BLOCK_ROWS;
 }
 
-void pl_motion_advance(pl_run* run, double dt, double* q, double* v) {
-  pl_motion* o = run->motion_code;
+void pl_step_program_advance(pl_run* run, double dt, double* q, double* v) {
+  pl_step_program* o = run->program;
   o->m[o->length] = dt;
   run_part(o, PL_PART_ADVANCE, 0, 1);
   memcpy(q, o->m + o->end_q, (size_t)o->n_q * sizeof *q);
   memcpy(v, o->m + o->end_v, (size_t)o->n_q * sizeof *v);
 }
 
-void pl_motion_end_a(const pl_run* run, double* a) {
-  const pl_motion* o = run->motion_code;
+void pl_step_program_end_a(const pl_run* run, double* a) {
+  const pl_step_program* o = run->program;
   memcpy(a, o->m + o->end_a, (size_t)o->n_q * sizeof *a);
 }
 
-bool pl_motion_energy(pl_run* run, double* kinetic, double* potential, double* all) {
-  pl_motion* o = run->motion_code;
+bool pl_step_program_energy(pl_run* run, double* kinetic, double* potential, double* all) {
+  pl_step_program* o = run->program;
   if (!run->at_point || o->code[PL_PART_ENERGY] == NULL) return false;
   run_part(o, PL_PART_ENERGY, 0, 1);
   *kinetic = o->m[o->energy];
@@ -268,8 +268,8 @@ bool pl_motion_energy(pl_run* run, double* kinetic, double* potential, double* a
   return true;
 }
 
-void pl_motion_expand(pl_run* run) {
-  pl_motion* o = run->motion_code;
+void pl_step_program_expand(pl_run* run) {
+  pl_step_program* o = run->program;
   run_part(o, PL_PART_ORDER, 1, run->order);
   // one more coefficient of q comes for nothing
   for (int i = 0; i < o->n_q; i++)

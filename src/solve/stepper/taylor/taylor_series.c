@@ -101,7 +101,7 @@ static bool enter_at(pl_run* run, double t, const double* q, const double* v) {
   memcpy(run->Q, q, (size_t)n * sizeof *q);
   memcpy(run->V, v, (size_t)n * sizeof *v);
   if (run->wide) return run->at_point && pl_wide_enter(run);
-  if (run->at_point && pl_motion_enter(run)) return true;
+  if (run->at_point && pl_step_program_enter(run)) return true;
   run->at_point = false;
   if (run->factored) {
     // the projection left nodes of q and t and the factor; only v has changed since
@@ -142,11 +142,11 @@ void pl_series_swap(pl_run* run) {
 
 bool pl_point_arrive(pl_run* run, double h, double* off, double* size) {
   if (run->wide) return pl_wide_arrive(run, off, size);
-  if (run->at_point && run->end_by_codes) {
-    pl_motion_arrive(run, off, size);
+  if (run->at_point && run->end_by_program) {
+    pl_step_program_arrive(run, off, size);
     return isfinite(*off) && isfinite(*size);
   }
-  if (run->end_by_codes) pl_motion_end_a(run, run->end_a);
+  if (run->end_by_program) pl_step_program_end_a(run, run->end_a);
   pl_series_swap(run);
   run->arrived = enter_at(run, run->t + run->t_low + h, run->trial_q, run->trial_v);
   pl_series_swap(run);
@@ -169,8 +169,8 @@ void pl_series_expand(pl_run* run) {
     pl_wide_expand(run);
     return;
   }
-  if (!run->at_point || !pl_motion_is_compiled(run)) run->stats.steps_interpreted++;
-  if (run->at_point) pl_motion_expand(run);
+  if (!run->at_point || !pl_step_program_is_compiled(run)) run->stats.steps_interpreted++;
+  if (run->at_point) pl_step_program_expand(run);
   else
     for (int k = 1; k < run->order; k++) solve_order(run, k);
   // one more coefficient of q comes for nothing
@@ -270,7 +270,7 @@ double pl_series_step(pl_run* run) {
   if (run->wide) {
     pl_wide_norms(run, &q, &v);
   } else if (run->at_point) {
-    pl_motion_norms(run, &q, &v);
+    pl_step_program_norms(run, &q, &v);
   } else {
     norms_of(run->Q, run->n_q, p + 1, of_q);
     norms_of(run->V, run->n_q, p, of_v);
