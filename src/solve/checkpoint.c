@@ -41,14 +41,14 @@
 // not kept of pl_step_program, of this process: compiled jit tried
 // not kept of pl_radau, follows from setup and options: method n n_q n_c n_C tol tol_stage ready
 //   fits shape friction_of
-// not kept of pl_radau, lives within a step: wide here at coupled coupled_scale coupled_rhs
+// not kept of pl_radau, lives within a step: lanes here at coupled coupled_scale coupled_rhs
 //   coupled_work coupled_pivot real real_scale work pair pair_scale pivot sparse sparse_pair Z Q V
 //   A L t F w error_q error_v rhs sc_q sc_v coefficient part watched watched_h bent first_g last_g
 //   last_size end_a end_l save_a save_l
-// not kept of pl_wide, follows from setup, options and mode: state fine by_doubles low top head
+// not kept of pl_extended, follows from setup, options and mode: state fine by_doubles low top head
 //   head_forces clock left grid drift t_0 q_0 v_0 a_0 l_0 end_a end_l tail_q tail_v tail_a tail_l
 //   from to share way scratch energy_base rows watched floor held high next
-// not kept of pl_wide, pl_step_program, lives within a step: digits arrived
+// not kept of pl_extended, pl_step_program, lives within a step: digits arrived
 // clang-format on
 #include <limits.h>
 #include <math.h>
@@ -227,12 +227,12 @@ static void keep_radau(pl_run* run, pl_keeper* k) {
   pl_keep_int(k, &r->dear, 0, LARGE_COUNT);
 }
 
-// ----------------------------------------------------------------------------------- wider numbers
+// ----------------------------------------------------------------------------------- extended numbers
 // Their memory holds the state, the time and the nodes at the point.
-static void keep_wide(pl_run* run, pl_keeper* k) {
-  pl_keep_section(k, "wide");
-  if (k->reads && !k->wrong && run->wide && !pl_wide_of_mode(run)) pl_keep_fail(k);
-  pl_wide* w = run->wide;
+static void keep_extended(pl_run* run, pl_keeper* k) {
+  pl_keep_section(k, "extended");
+  if (k->reads && !k->wrong && run->extended && !pl_extended_of_mode(run)) pl_keep_fail(k);
+  pl_extended* w = run->extended;
   keep_fixed(k, w ? w->o->size : 0);
   if (w == NULL) return;
   pl_keep_bytes(k, w->m, (size_t)w->o->size * w->fine->size);
@@ -250,7 +250,7 @@ static void keep_state(pl_run* run, pl_keeper* k) {
   keep_attitudes(run, k);
   keep_stats(run, k);
   keep_radau(run, k);
-  keep_wide(run, k);
+  keep_extended(run, k);
 }
 
 // ---------------------------------------------------------------------------------- compiled steps
@@ -363,7 +363,7 @@ static bool makes_sense(const pl_run* run) {
   bool inside = run->t >= fmin(from, to) && run->t <= fmax(from, to);
   if (!(run->tol > 0 && run->tol < 1)) return false;
   if (!inside || !run->started || run->ended || run->refused) return false;
-  if (run->at_point && !(run->wide && !run->wide->by_doubles)
+  if (run->at_point && !(run->extended && !run->extended->by_doubles)
       && !(run->program && run->program->usable))
     return false;
   if (run->radau && !(run->radau->h >= 0 && isfinite(run->radau->h))) return false;

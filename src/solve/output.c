@@ -55,7 +55,7 @@ void pl_mode_text(const pl_run* run, char* out) {
 
 // -------------------------------------------------------------------------------------------- rows
 pl_row pl_row_now(pl_run* run, pl_row_kind kind, double* out, char* mode) {
-  if (!run->wide) pl_observe(run, run->t, run->q, run->v, run->A, run->L, out);
+  if (!run->extended) pl_observe(run, run->t, run->q, run->v, run->A, run->L, out);
   pl_mode_text(run, mode);
   pl_row row = {.t = run->t,
                 .q = run->q,
@@ -67,7 +67,7 @@ pl_row pl_row_now(pl_run* run, pl_row_kind kind, double* out, char* mode) {
                 .mode = mode,
                 .kind = kind};
   pl_attitude_show(run, &row);
-  if (run->wide) pl_wide_row(run, &row, out);
+  if (run->extended) pl_extended_row(run, &row, out);
   return row;
 }
 
@@ -122,7 +122,7 @@ pleuel_status pl_rows_point(pl_run* run, pl_row_kind kind) {
 
 // A row between the ends of a step: at grid time n, or without a grid where n is -1.
 static pleuel_status row_between(pl_run* run, double t, long n) {
-  if (!run->wide) {
+  if (!run->extended) {
     pl_attitude_follow(run, t);
     pl_series_at(run, t - run->t_series, run->row_q, run->row_v);
     pl_series_lambda_at(run, t - run->t_series, run->row_a, run->row_l);
@@ -139,8 +139,8 @@ static pleuel_status row_between(pl_run* run, double t, long n) {
                 .mode = run->mode,
                 .kind = PL_ROW_STEP};
   pl_attitude_show(run, &row);
-  if (run->wide && n >= 0) pl_wide_grid_row(run, n, &row, run->out_now);
-  else if (run->wide) pl_wide_row_at(run, t, &row, run->out_now);
+  if (run->extended && n >= 0) pl_extended_grid_row(run, n, &row, run->out_now);
+  else if (run->extended) pl_extended_row_at(run, t, &row, run->out_now);
   return send(run, &row);
 }
 
@@ -250,8 +250,8 @@ void pl_rows_energy(pl_run* run, bool anew) {
   const pl_setup* s = run->setup;
   if (s->kinetic < 0 || s->potential < 0) return;
   double T, V, E;
-  if (run->wide) {
-    pl_wide_energy(run, anew);
+  if (run->extended) {
+    pl_extended_energy(run, anew);
     return;
   }
   if (!pl_step_program_energy(run, &T, &V, &E)) {

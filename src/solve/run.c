@@ -9,8 +9,8 @@
 static const double allowed_move = 1e4;  // correction by the projection, relative
 // and what rounding may do to it close to a singular position
 static const double allowed_floor = 1e-11;
-static const double allowed_floor_wide =
-    1e-8;  // the same of wide numbers, which come closer to one
+static const double allowed_floor_extended =
+    1e-8;  // the same of extended numbers, which come closer to one
 // of velocities, by what accelerations at its end tell; a tenth is usual
 static const double allowed_defect = 10;
 static const double allowed_rounding = 450;  // the same in roundings
@@ -20,9 +20,9 @@ static const double allowed_residual = 1e-12;
 
 // ------------------------------------------------------------------------------------- one attempt
 static bool acceptable(const pl_run* run, const pl_projection* p) {
-  double rounding = run->wide ? run->wide->floor / DBL_EPSILON : 1;
+  double rounding = run->extended ? run->extended->floor / DBL_EPSILON : 1;
   double move = pl_larger(allowed_move * run->tol,
-                          rounding * (run->wide ? allowed_floor_wide : allowed_floor));
+                          rounding * (run->extended ? allowed_floor_extended : allowed_floor));
   double left = pl_larger(10 * run->tol, rounding * allowed_residual);
   return p->ok && p->move_q <= move && p->move_v <= move && p->g_after <= left
          && p->r_after <= left;
@@ -92,10 +92,10 @@ static pleuel_status too_small(pl_run* run, double h) {
 // The state at the end of a step of this length, projected.
 static void advance(pl_run* run, double h, bool at_root, pl_projection* p) {
   double t = run->t + run->t_low + h;
-  if (run->wide) {
-    pl_wide_advance(run, h);
-    if (at_root) pl_wide_refine(run, h);
-    pl_wide_project(run, p);
+  if (run->extended) {
+    pl_extended_advance(run, h);
+    if (at_root) pl_extended_refine(run, h);
+    pl_extended_project(run, p);
     return;
   }
   run->end_by_program = run->at_point && run->use == run->order;
@@ -123,7 +123,7 @@ static bool ends_slip(const pl_run* run) {
 // not lessen with the step is rounding, and is allowed from then on; *before: what a longer step
 // was off by, 0 none.
 static bool series_holds(pl_run* run, double h, double* before) {
-  double off, size, rounding = run->wide ? run->wide->state->epsilon : DBL_EPSILON;
+  double off, size, rounding = run->extended ? run->extended->state->epsilon : DBL_EPSILON;
   // what stands in the way is told when the step is taken
   if (!pl_point_arrive(run, h, &off, &size)) return true;
   double part = allowed_defect * run->tol + allowed_rounding * rounding,
@@ -152,7 +152,7 @@ static pleuel_status try_steps(pl_run* run, double* h, double* root, pl_projecti
     double reach = *root >= 0 ? *root * *h : *h;
     advance(run, reach, *root >= 0, p);
     bool open = at_kink || (*root >= 0 && ends_slip(run));  // accelerations jump there
-    bool found = *root < 0 || run->wide || pl_watch_holds(run, *h, *root);
+    bool found = *root < 0 || run->extended || pl_watch_holds(run, *h, *root);
     if (acceptable(run, p) && found && (open || series_holds(run, reach, &off))) {
       *h = reach;
       return PLEUEL_OK;
@@ -174,7 +174,7 @@ static void accept(pl_run* run, double h, bool to_end) {
   run->h_last = h;
   run->use_last = run->use;
   advance_time(run, h, to_end);
-  if (run->wide) pl_wide_accept(run, to_end);
+  if (run->extended) pl_extended_accept(run, to_end);
   memcpy(run->q, run->trial_q, (size_t)run->n_q * sizeof(double));
   memcpy(run->v, run->trial_v, (size_t)run->n_q * sizeof(double));
   pl_sizes_keep(run);
@@ -230,7 +230,8 @@ static pleuel_status step_by_series(pl_run* run, double* h, double* wanted, doub
   if (run->n_kinks > 0) *h = pl_kinks_reach(run, *h);
   *wanted = *h;
   *root = -1;
-  if (!run->wide && pl_singular_leap(run, pl_run_left(run), h, p)) return pl_singular_record(run);
+  if (!run->extended && pl_singular_leap(run, pl_run_left(run), h, p))
+    return pl_singular_record(run);
   *h = *wanted;
   if (!(fabs(*h) > run->h_least) && fabs(*h) < fabs(pl_run_left(run))) return too_small(run, *h);
   return try_steps(run, h, root, p);
@@ -251,7 +252,7 @@ static pleuel_status step(pl_run* run) {
   if (run->radau && !run->implicit) PL_TRY(pl_stiff_look(run));
   PL_TRY((run->implicit ? step_implicitly : step_by_series)(run, &h, &wanted, &root, &p));
   if (root == 0) {
-    if (!run->wide) pl_point_general(run);
+    if (!run->extended) pl_point_general(run);
     return pl_modes_handle(run);
   }
   bool to_end = h == wanted && root < 0 && fabs(wanted) == fabs(pl_run_left(run));
@@ -340,7 +341,7 @@ pleuel_status pl_run_begin_at(pl_run* run, double t) {
   set_sizes(run);
   run->stats.energy_drift = (double)NAN;
   run->factored = false;
-  run->wide = NULL;
+  run->extended = NULL;
   PL_TRY(pl_modes_enter(run));
   run->stats.rank_start = run->stats.rank = run->rank;
   run->smallest_here = run->smallest;
@@ -349,7 +350,7 @@ pleuel_status pl_run_begin_at(pl_run* run, double t) {
   PL_TRY(pl_modes_check(run, true));
   pl_modes_size_rest(run);
   if (run->sensitivity) PL_TRY(pl_sensitivity_begin(run->sensitivity));
-  if (run->options.precision != PL_PRECISION_DOUBLE) PL_TRY(pl_wide_begin(run, t));
+  if (run->options.precision != PL_PRECISION_DOUBLE) PL_TRY(pl_extended_begin(run, t));
   pl_rows_energy(run, true);
   pl_step_program_update(run);
   return PLEUEL_OK;

@@ -129,7 +129,7 @@ static int cheapest_order(double tol, double nodes, int largest) {
 static void choose_order(pl_run* run) {
   enum { LARGEST = 20, LARGEST_SMALL = 25 };
   if (run->options.precision != PL_PRECISION_DOUBLE) {
-    pl_wide_order(run);
+    pl_extended_order(run);
     return;
   }
   bool small = run->n_q + run->n_c <= PL_DENSE_UP_TO && run->options.tol > 0 && !run->tol_raised;
@@ -321,10 +321,11 @@ pleuel_status pl_run_make(pl_job* job, const pl_setup* setup, const pl_run_optio
   pl_watch_make(run);
   pl_kinks_make(run);
   first_mode(run);
-  pleuel_status wide = options->precision != PL_PRECISION_DOUBLE ? pl_wide_check(run) : PLEUEL_OK;
-  if (wide == PLEUEL_OK) *out = run;
+  pleuel_status extended = options->precision != PL_PRECISION_DOUBLE ? pl_extended_check(run)
+                                                                     : PLEUEL_OK;
+  if (extended == PLEUEL_OK) *out = run;
   else pl_run_free(run);
-  return wide;
+  return extended;
 }
 
 void pl_run_free(pl_run* run) {

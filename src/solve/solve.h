@@ -117,7 +117,7 @@ typedef struct pl_attitude_setup {
   int angle[3];  // coordinates of φ, ϑ, ψ
   int scalar;    // coordinate of q_0
 } pl_attitude_setup;
-// Numbers of a setup as they were written, for runs on numbers wider than doubles: a tape of
+// Numbers of a setup as they were written, for runs on extended precision: a tape of
 // constants, and which of its roots is which; -1: the double in the setup is exact.
 typedef struct pl_exact_setup {
   const pl_tape* tape;
@@ -320,7 +320,7 @@ typedef struct pl_run_options {
   void* keep_user;
   // PLEUEL_UNSUPPORTED where the model or the machine does not allow it
   pl_precision precision;
-  // in three parts, for wider numbers; NULL: as the setup says, or the double
+  // in three parts, for extended numbers; NULL: as the setup says, or the double
   const double *t_end_exact, *dt_exact;
 } pl_run_options;
 

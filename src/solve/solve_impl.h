@@ -157,7 +157,7 @@ typedef struct pl_stop {
 } pl_stop;
 
 typedef struct pl_step_program pl_step_program;  // the step program: step_program_impl.h
-typedef struct pl_wide pl_wide;                  // the same on wider numbers: extended_impl.h
+typedef struct pl_extended pl_extended;          // the same on extended numbers: extended_impl.h
 
 struct pl_run {
   pl_job* job;
@@ -186,8 +186,8 @@ struct pl_run {
   // their memory belongs to run->t, q, v, or to the end of the step that is tried
   bool at_point;
 
-  pl_wide* wide;     // NULL: doubles
-  bool start_given;  // given start values are as they were written
+  pl_extended* extended;  // NULL: doubles
+  bool start_given;       // given start values are as they were written
 
   // the point
   double t, t_low;     // time and its rounding error

@@ -89,7 +89,7 @@ static bool has_numbers(pl_run* run) {
 pleuel_status pl_run_undetermined(pl_run* run) {
   char where[320];
   place_in_words(run, 0, where, sizeof where);
-  if (run->wide) {
+  if (run->extended) {
     pl_point_evaluate(run, run->t, run->q, run->v);
     pl_assemble_matrix(run, false);
   }
@@ -142,7 +142,7 @@ pleuel_status pl_run_singular(pl_run* run) {
   run->stats.t_singular = run->t + reach;
   pl_rows_before(run);
   if (run->started) PL_TRY(pl_rows_event(run, PL_EV_SINGULAR, -1, 0, false));
-  if (run->wide)
+  if (run->extended)
     return pl_fail(run->job, PLEUEL_SINGULAR,
                    "singular position at t = %.9g s (%s): the constraints lose rank there; "
                    "precision double leaps over it where the motion goes on smoothly",

@@ -29,11 +29,11 @@ typedef struct pl_radau_method {
 
 // Values of a motion batch at several stages, or its derivatives in several directions, side by
 // side.
-typedef struct pl_radau_wide {
+typedef struct pl_radau_lanes {
   const pl_batch* batch;
   // of its own for a single instance: lanes are stages or directions.  Else that of the batch
   pl_jet* jet;
-} pl_radau_wide;
+} pl_radau_lanes;
 
 // Where the entries of an n x n matrix stand: dense and column-major, or along a structure.
 typedef struct pl_radau_shape {
@@ -60,7 +60,7 @@ struct pl_radau {
   int n, n_q, n_c, n_C;   // n_C: coefficients of friction
   double tol, tol_stage;  // asked for; of the estimate, which is of lower order than the step
   pl_radau_shape shape;
-  pl_radau_wide* wide;  // one for each batch of the motion
+  pl_radau_lanes* lanes;  // one for each batch of the motion
   // at the start of the step; for the way back onto the constraints, at its end
   pl_radau_slopes here;
   pl_radau_slopes at[PL_RADAU_MOST];  // at each stage, for the coupled iteration
@@ -123,7 +123,7 @@ static inline bool pl_radau_has_force(const pl_run* run, int c) {
 bool pl_radau_ready(pl_run* run);
 void pl_radau_residual(pl_run* run, pl_radau* r);  // F at the stages
 void pl_radau_sweep(pl_jet* jet, int k);           // what M, h, G, W need
-void pl_radau_load_instances(const pl_radau_wide* w, double t, const double* q, const double* v);
+void pl_radau_load_instances(const pl_radau_lanes* w, double t, const double* q, const double* v);
 void pl_radau_slip_rows(const pl_run* run, const double* coefficient, const double* lambda,
                         double* C);
 

@@ -36,7 +36,7 @@ typedef struct point {
 } point;
 
 // Values at the point: M, G, G^T + W, coefficients.
-static void add_values(const point* at, const pl_radau_wide* w, int lane) {
+static void add_values(const point* at, const pl_radau_lanes* w, int lane) {
   const pl_run* run = at->run;
   pl_radau* r = at->r;
   const pl_batch* b = w->batch;
@@ -85,7 +85,7 @@ static void add_slip_slope(const point* at, double* P, int coefficient, double s
 }
 
 // Derivatives along global coordinate `col` (of position, or of velocity): coefficient 1 in a lane.
-static void add_derivatives(const point* at, const pl_radau_wide* w, int lane, int instance,
+static void add_derivatives(const point* at, const pl_radau_lanes* w, int lane, int instance,
                             int col, bool of_speed) {
   const pl_run* run = at->run;
   pl_radau* r = at->r;
@@ -141,7 +141,7 @@ static int direction_node(const pl_tape* tape, int n_q, int d) {
   return d < n_q ? tape->q_node[d] : tape->v_node[d - n_q];
 }
 
-static void slopes_by_directions(const point* at, const pl_radau_wide* w) {
+static void slopes_by_directions(const point* at, const pl_radau_lanes* w) {
   const pl_batch* b = w->batch;
   int n_q = b->pattern->n_q;
   stand_still(w->jet);
@@ -161,7 +161,7 @@ static void slopes_by_directions(const point* at, const pl_radau_wide* w) {
   }
 }
 
-static void slopes_by_instances(const point* at, const pl_radau_wide* w) {
+static void slopes_by_instances(const point* at, const pl_radau_lanes* w) {
   const pl_batch* b = w->batch;
   int n_q = b->pattern->n_q;
   stand_still(w->jet);
@@ -183,7 +183,7 @@ void pl_radau_slopes_at(pl_run* run, pl_radau* r, pl_radau_slopes* J, double t, 
   memset(r->part, 0, (size_t)r->n_C * sizeof(double));
   const point at = {run, r, J, v, a, lambda};
   for (int i = 0; i < run->motion.n; i++) {
-    const pl_radau_wide* w = &r->wide[i];
+    const pl_radau_lanes* w = &r->lanes[i];
     pl_radau_load_instances(w, t, q, v);
     for (int l = 0; l < w->batch->n; l++) add_values(&at, w, l);
     if (w->batch->lanes > 1) slopes_by_instances(&at, w);

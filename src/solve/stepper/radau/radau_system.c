@@ -13,23 +13,23 @@
 enum { WIDE = 8 };
 
 // -------------------------------------------------------------------------------------------- room
-static void reserve_wide(pl_run* run, pl_radau* r) {
+static void reserve_extended(pl_run* run, pl_radau* r) {
   pl_arena* a = run->job->arena;
-  r->wide = PL_ARRAY(a, pl_radau_wide, run->motion.n + 1);
+  r->lanes = PL_ARRAY(a, pl_radau_lanes, run->motion.n + 1);
   for (int i = 0; i < run->motion.n; i++) {
     const pl_batch* b = &run->motion.at[i];
-    r->wide[i] = (pl_radau_wide){b, b->jet};
+    r->lanes[i] = (pl_radau_lanes){b, b->jet};
     if (b->lanes > 1) continue;
     const pl_pattern* p = b->pattern;
     double* index = PL_ARRAY(a, double, (size_t)p->n_index* WIDE + 1);
-    r->wide[i].jet = pl_jet_make(a, p->tape, WIDE, 2);
+    r->lanes[i].jet = pl_jet_make(a, p->tape, WIDE, 2);
     // the indices of a single instance, the same in all lanes
     for (int k = 0; k < p->tape->level_end[PL_LEVEL_CONST]; k++) {
       const pl_tape_node* node = &p->tape->nodes[k];
       if (node->op != PL_OP_INDEX) continue;
       for (int l = 0; l < WIDE; l++) index[node->slot * WIDE + l] = pl_jet_at(b->jet, k, 0)[0];
     }
-    pl_jet_constants(r->wide[i].jet, index);
+    pl_jet_constants(r->lanes[i].jet, index);
   }
 }
 
@@ -106,7 +106,7 @@ static bool reserve(pl_run* run, pl_radau* r) {
   r->n_c = run->n_c;
   r->n = (int)n;
   pl_radau_shape_make(run, r);
-  reserve_wide(run, r);
+  reserve_extended(run, r);
   reserve_slopes(a, &r->here, r->shape.n_values);
   reserve_coupled(a, r);
   reserve_watches(run, r);
@@ -150,7 +150,7 @@ void pl_radau_sweep(pl_jet* jet, int k) {
 // --------------------------------------------------------------------------------------- residuals
 // Adds what the instance in a lane contributes to the residual F (n_q), C (n_c) and the
 // coefficients of stage i.
-static void add_residual(const pl_run* run, pl_radau* r, const pl_radau_wide* w, int lane,
+static void add_residual(const pl_run* run, pl_radau* r, const pl_radau_lanes* w, int lane,
                          int instance, int i) {
   const double *v = pl_radau_stage(r->V, i, r->n_q), *a = pl_radau_stage(r->A, i, r->n_q),
                *lambda = pl_radau_stage(r->L, i, r->n_c);
@@ -186,7 +186,7 @@ static void add_residual(const pl_run* run, pl_radau* r, const pl_radau_wide* w,
 }
 
 // All stages of a single instance in one sweep.
-static void residual_by_stages(const pl_run* run, pl_radau* r, const pl_radau_wide* w) {
+static void residual_by_stages(const pl_run* run, pl_radau* r, const pl_radau_lanes* w) {
   const pl_tape* tape = w->jet->tape;
   const pl_batch* b = w->batch;
   int s = r->method.s;
@@ -206,7 +206,7 @@ static void residual_by_stages(const pl_run* run, pl_radau* r, const pl_radau_wi
   for (int i = 0; i < s; i++) add_residual(run, r, w, i, 0, i);
 }
 
-void pl_radau_load_instances(const pl_radau_wide* w, double t, const double* q, const double* v) {
+void pl_radau_load_instances(const pl_radau_lanes* w, double t, const double* q, const double* v) {
   const pl_tape* tape = w->jet->tape;
   const pl_batch* b = w->batch;
   pl_jet_time(w->jet, t);
@@ -220,7 +220,7 @@ void pl_radau_load_instances(const pl_radau_wide* w, double t, const double* q, 
   pl_radau_sweep(w->jet, 0);
 }
 
-static void residual_by_instances(const pl_run* run, pl_radau* r, const pl_radau_wide* w) {
+static void residual_by_instances(const pl_run* run, pl_radau* r, const pl_radau_lanes* w) {
   for (int i = 0; i < r->method.s; i++) {
     pl_radau_load_instances(w, r->t[i], pl_radau_stage(r->Q, i, r->n_q),
                             pl_radau_stage(r->V, i, r->n_q));
@@ -244,7 +244,7 @@ void pl_radau_residual(pl_run* run, pl_radau* r) {
   memset(r->F, 0, (size_t)r->n * (size_t)r->method.s * sizeof *r->F);
   memset(r->coefficient, 0, (size_t)r->n_C * (size_t)r->method.s * sizeof(double));
   for (int i = 0; i < run->motion.n; i++) {
-    const pl_radau_wide* w = &r->wide[i];
+    const pl_radau_lanes* w = &r->lanes[i];
     if (w->batch->lanes > 1) residual_by_instances(run, r, w);
     else residual_by_stages(run, r, w);
   }

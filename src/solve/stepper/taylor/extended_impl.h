@@ -1,4 +1,4 @@
-// A run on numbers wider than doubles: the step program of the motion (step_program_impl.h) on memory of
+// A run on extended precision: the step program of the motion (step_program_impl.h) on memory of
 // another type, in which the state lives from step to step. What the run shows and watches is its
 // rounding. For files of this folder.
 //
@@ -6,8 +6,8 @@
 // a step, and `fine`, in which the point, its projection and the orders below `low` are computed.
 // In quad both are one, and `low` is the order. In long, the orders above are those of the ordinary
 // programs in doubles, compiled where that pays: terms of order k are about e^(-2k) of the whole.
-#ifndef PL_WIDE_IMPL_H
-#define PL_WIDE_IMPL_H
+#ifndef PL_EXTENDED_IMPL_H
+#define PL_EXTENDED_IMPL_H
 
 #include "solve/stepper/taylor/step_program_impl.h"
 
@@ -19,7 +19,7 @@ typedef struct pl_sheet {
   int time, Q, V, A, L, out;  // inputs, outputs
 } pl_sheet;
 
-struct pl_wide {
+struct pl_extended {
   const pl_real *state, *fine;
   int low;             // orders below are fine
   bool by_doubles;     // orders from there on are those of run->program
@@ -41,60 +41,60 @@ struct pl_wide {
   int energy_base;
   pl_sheet *rows, *watched;
   pl_row_digits digits;
-  double floor;           // what rounding of the state leaves of a residual
-  bool held;              // given start values are exact
-  double part;            // of the best pivot of this mode that the smallest is now
-  pl_step_program* high;  // programs in doubles for this mode, where by_doubles
-  struct pl_wide* next;   // of another mode
+  double floor;              // what rounding of the state leaves of a residual
+  bool held;                 // given start values are exact
+  double part;               // of the best pivot of this mode that the smallest is now
+  pl_step_program* high;     // programs in doubles for this mode, where by_doubles
+  struct pl_extended* next;  // of another mode
 };
 
-// ---- extended_tape.c: tapes in wide numbers
+// ---- extended_tape.c: tapes in extended numbers
 // Constants of an instance: parts of its nodes of level CONST.
-void pl_wide_constants(pl_arena* a, const pl_real* real, const pl_batch* b, int lane,
-                       pl_parts* out);
+void pl_extended_constants(pl_arena* a, const pl_real* real, const pl_batch* b, int lane,
+                           pl_parts* out);
 // Values of the roots of a tape that has constants only.
-void pl_wide_roots(pl_arena* a, const pl_real* real, const pl_tape* tape, pl_parts* out);
+void pl_extended_roots(pl_arena* a, const pl_real* real, const pl_tape* tape, pl_parts* out);
 pl_sheet* pl_sheet_make(pl_run* run, const pl_real* real, const pl_batches* b, int n_out);
 void pl_sheet_run(pl_sheet* s);
 
 // ---- extended_make.c
 // order and length of the steps from the tolerance
-void pl_wide_order(pl_run* run);
-const char* pl_wide_name(const pl_run* run);  // of its precision
+void pl_extended_order(pl_run* run);
+const char* pl_extended_name(const pl_run* run);  // of its precision
 // whether the run can be had; fails with what stands in the way
-pleuel_status pl_wide_check(pl_run* run);
+pleuel_status pl_extended_check(pl_run* run);
 // programs and memory, for the constraints that are taken
-pleuel_status pl_wide_make(pl_run* run);
+pleuel_status pl_extended_make(pl_run* run);
 // Where of dependent rows others than those at work tell more: the point goes over to these.
-void pl_wide_change_rows(pl_run* run);
+void pl_extended_change_rows(pl_run* run);
 // run->wide for the constraints that are taken; false: there are no programs
-bool pl_wide_of_mode(pl_run* run);
+bool pl_extended_of_mode(pl_run* run);
 
 // ---- extended_start.c
-pleuel_status pl_wide_begin(pl_run* run, double t);  // from the start that was found in doubles
+pleuel_status pl_extended_begin(pl_run* run, double t);  // from the start that was found in doubles
 
 // ---- extended_run.c: as pl_motion_
-void pl_wide_copy(const pl_real* to_type, void* to, int at, const pl_real* from_type,
-                  const void* from, int from_at, int n);
-bool pl_wide_enter(pl_run* run);
-bool pl_wide_arrive(pl_run* run, double* off, double* size);  // pl_point_arrive
-void pl_wide_expand(pl_run* run);
-void pl_wide_norms(pl_run* run, const double** q, const double** v);
+void pl_extended_copy(const pl_real* to_type, void* to, int at, const pl_real* from_type,
+                      const void* from, int from_at, int n);
+bool pl_extended_enter(pl_run* run);
+bool pl_extended_arrive(pl_run* run, double* off, double* size);  // pl_point_arrive
+void pl_extended_expand(pl_run* run);
+void pl_extended_norms(pl_run* run, const double** q, const double** v);
 // the length of a step, where steps are not to keep time with the motion
-double pl_wide_vary(const pl_run* run, double h);
+double pl_extended_vary(const pl_run* run, double h);
 // the state at the end of a step: trial_q, trial_v
-void pl_wide_advance(pl_run* run, double dt);
-bool pl_wide_project(pl_run* run, pl_projection* p);
-void pl_wide_accept(pl_run* run, bool to_end);  // time
-void pl_wide_sum(pl_run* run);                  // end_q, end_v, end_a, end_l at `length`
-void pl_wide_energy(pl_run* run, bool anew);
-// After pl_wide_advance to the root of an event that was found in doubles: Newton to the digits of
+void pl_extended_advance(pl_run* run, double dt);
+bool pl_extended_project(pl_run* run, pl_projection* p);
+void pl_extended_accept(pl_run* run, bool to_end);  // time
+void pl_extended_sum(pl_run* run);                  // end_q, end_v, end_a, end_l at `length`
+void pl_extended_energy(pl_run* run, bool anew);
+// After pl_extended_advance to the root of an event that was found in doubles: Newton to the digits of
 // the type.
-void pl_wide_refine(pl_run* run, double dt);
+void pl_extended_refine(pl_run* run, double dt);
 
 // ---- extended_output.c
-void pl_wide_row(pl_run* run, pl_row* row, double* out);               // of the point
-void pl_wide_grid_row(pl_run* run, long n, pl_row* row, double* out);  // of grid time n
-void pl_wide_row_at(pl_run* run, double t, pl_row* row, double* out);  // on the step
+void pl_extended_row(pl_run* run, pl_row* row, double* out);               // of the point
+void pl_extended_grid_row(pl_run* run, long n, pl_row* row, double* out);  // of grid time n
+void pl_extended_row_at(pl_run* run, double t, pl_row* row, double* out);  // on the step
 
 #endif

@@ -1,17 +1,17 @@
-// What a run on wide numbers needs: whether this model can be had, programs, memory.
+// What a run on extended numbers needs: whether this model can be had, programs, memory.
 #include <math.h>
 #include <string.h>
 
 #include "solve/stepper/taylor/extended_impl.h"
 
-// Orders below this are computed in wide numbers, those above in doubles: terms there are e^-24 of
+// Orders below this are computed in extended numbers, those above in doubles: terms there are e^-24 of
 // the whole and less, so that their rounding errors are four thousand times smaller than those of
 // the state, which has 64 digits.
 enum { LOW_ORDERS = 12 };
 
 // Jorba and Zou: terms of a series fall best like e^-2 from one to the next, where the work is that
 // of the orders.
-void pl_wide_order(pl_run* run) {
+void pl_extended_order(pl_run* run) {
   enum { LEAST = 6, MOST = 40 };
   int p = (int)ceil(-0.5 * log(run->tol) + 1);
   run->order = p < LEAST ? LEAST : p > MOST ? MOST : p;
@@ -19,7 +19,7 @@ void pl_wide_order(pl_run* run) {
 }
 
 // -------------------------------------------------------------------------- what stands in the way
-const char* pl_wide_name(const pl_run* run) {
+const char* pl_extended_name(const pl_run* run) {
   return run->options.precision == PL_PRECISION_LONG ? "long" : "quad";
 }
 
@@ -38,13 +38,13 @@ static pleuel_status check_types(pl_run* run) {
     return pl_fail(
         run->job, PLEUEL_UNSUPPORTED,
         "precision %s: the compiler that built this program has no 128-bit numbers; use double",
-        pl_wide_name(run));
+        pl_extended_name(run));
   return PLEUEL_OK;
 }
 
 static pleuel_status check_contacts(pl_run* run) {
   const pl_setup* s = run->setup;
-  const char* mode = pl_wide_name(run);
+  const char* mode = pl_extended_name(run);
   if (s->n_frictions > 0)
     return pl_fail(run->job, PLEUEL_UNSUPPORTED,
                    "precision %s: friction (on %s) is followed in double only", mode,
@@ -63,8 +63,8 @@ static pleuel_status check_contacts(pl_run* run) {
   return PLEUEL_OK;
 }
 
-pleuel_status pl_wide_check(pl_run* run) {
-  const char* mode = pl_wide_name(run);
+pleuel_status pl_extended_check(pl_run* run) {
+  const char* mode = pl_extended_name(run);
   PL_TRY(check_types(run));
   PL_TRY(check_contacts(run));
   if (run->options.method == PL_METHOD_RADAU)
@@ -114,13 +114,13 @@ static void sum_rows(pl_prog* c, const series* s, int i, int h, int last, int ta
   pl_prog_store(c, x, s->end + i, 0);
 }
 
-static void end_code(pl_wide* w, pl_prog* c) {
+static void end_code(pl_extended* w, pl_prog* c) {
   c->spill = w->o->size;
   w->o->size += c->n_registers;
 }
 
 static pl_prog* sum_code(pl_run* run, const char* name, const series* s, const int* low) {
-  pl_wide* w = run->wide;
+  pl_extended* w = run->extended;
   pl_prog* c = pl_prog_make(run->job->arena, name, 1);
   int h = pl_prog_load(c, w->o->length, 0);
   for (int k = 0; k < 2; k++)
@@ -132,19 +132,19 @@ static pl_prog* sum_code(pl_run* run, const char* name, const series* s, const i
 
 // One more coefficient of q comes for nothing.
 static pl_prog* top_code(pl_run* run) {
-  const pl_step_program* o = run->wide->o;
+  const pl_step_program* o = run->extended->o;
   pl_prog* c = pl_prog_make(run->job->arena, "top", 1);
   int by = pl_prog_number(c, run->order + 1);
   for (int i = 0; i < o->n_q; i++) {
     int v = pl_prog_load(c, o->V + run->order * o->n_q + i, 0);
     pl_prog_store(c, pl_prog_op2(c, PL_PROG_DIV, v, by), o->Q + (run->order + 1) * o->n_q + i, 0);
   }
-  end_code(run->wide, c);
+  end_code(run->extended, c);
   return c;
 }
 
 static void write_clock(pl_run* run) {
-  pl_wide* w = run->wide;
+  pl_extended* w = run->extended;
   pl_arena* a = run->job->arena;
   int length = w->o->length;
   pl_prog* c = w->clock = pl_prog_make(a, "clock", 1);
@@ -167,7 +167,7 @@ static void write_clock(pl_run* run) {
 }
 
 static void write_drift(pl_run* run) {
-  pl_wide* w = run->wide;
+  pl_extended* w = run->extended;
   pl_prog* c = w->drift = pl_prog_make(run->job->arena, "drift", 1);
   int T = pl_prog_load(c, w->o->energy, 0), V = pl_prog_load(c, w->o->energy + 1, 0);
   int E = run->setup->energy > 0 ? pl_prog_load(c, w->o->energy + 2, 0)
@@ -179,7 +179,7 @@ static void write_drift(pl_run* run) {
 }
 
 static void write_sums(pl_run* run) {
-  pl_wide* w = run->wide;
+  pl_extended* w = run->extended;
   const pl_step_program* o = w->o;
   int p = run->order, n_q = run->n_q, n_c = run->n_c;
   series state[2] = {{o->Q, n_q, w->q_0, 2, w->tail_q, o->end_q},
@@ -193,14 +193,14 @@ static void write_sums(pl_run* run) {
 }
 
 // ------------------------------------------------------------------------------------------ memory
-static int take(pl_wide* w, int n) {
+static int take(pl_extended* w, int n) {
   int at = w->o->size;
   w->o->size += n;
   return at;
 }
 
 static void lay_out(pl_run* run) {
-  pl_wide* w = run->wide;
+  pl_extended* w = run->extended;
   int n_q = run->n_q, n_c = run->n_c;
   int* one[] = {&w->t_0, &w->from, &w->to, &w->share, &w->energy_base};
   int *of_q[] = {&w->a_0, &w->end_a, &w->tail_q, &w->tail_v, &w->tail_a},
@@ -213,7 +213,7 @@ static void lay_out(pl_run* run) {
   w->scratch = take(w, n_q + 4);
 }
 
-static void fill_memory(pl_wide* w) {
+static void fill_memory(pl_extended* w) {
   const pl_step_program* o = w->o;
   const pl_real* real = w->fine;
   void* m = w->m;
@@ -231,7 +231,7 @@ static void fill_memory(pl_wide* w) {
 }
 
 static void choose_types(pl_run* run) {
-  pl_wide* w = run->wide;
+  pl_extended* w = run->extended;
   bool quad = run->options.precision == PL_PRECISION_QUAD;
   w->fine = quad || pl_real_pair() == NULL ? pl_real_quad() : pl_real_pair();
   w->state = quad ? pl_real_quad() : pl_real_long();
@@ -241,8 +241,8 @@ static void choose_types(pl_run* run) {
   w->floor = 2 * w->state->epsilon;
 }
 
-pleuel_status pl_wide_make(pl_run* run) {
-  pl_wide* w = run->wide = PL_NEW(run->job->arena, pl_wide);
+pleuel_status pl_extended_make(pl_run* run) {
+  pl_extended* w = run->extended = PL_NEW(run->job->arena, pl_extended);
   const pl_setup* s = run->setup;
   choose_types(run);
   w->o = pl_step_program_make_for(run, w->fine);
@@ -250,7 +250,7 @@ pleuel_status pl_wide_make(pl_run* run) {
     return pl_fail(
         run->job, PLEUEL_UNSUPPORTED,
         "precision %s: the mass matrix of this model needs pivots, which are chosen in double only",
-        pl_wide_name(run));
+        pl_extended_name(run));
   run->program = w->by_doubles ? pl_step_program_for_mode(run) : NULL;
   if (run->program && !run->program->usable) {
     run->program = NULL;
@@ -270,28 +270,28 @@ pleuel_status pl_wide_make(pl_run* run) {
 }
 
 // -------------------------------------------------------------------- rows that follow from others
-bool pl_wide_of_mode(pl_run* run) {
-  pl_wide* first = run->wide;
-  for (pl_wide* w = first; w; w = w->next)
+bool pl_extended_of_mode(pl_run* run) {
+  pl_extended* first = run->extended;
+  for (pl_extended* w = first; w; w = w->next)
     if (memcmp(w->o->taken, run->taken, (size_t)run->n_c * sizeof(bool)) == 0) {
       // to the front, where it is at work
-      for (pl_wide** at = &first; *at; at = &(*at)->next)
+      for (pl_extended** at = &first; *at; at = &(*at)->next)
         if (*at == w) {
           *at = w->next;
           break;
         }
       w->next = first;
-      run->wide = w;
+      run->extended = w;
       run->program = w->high;
       return true;
     }
-  bool made = pl_wide_make(run) == PLEUEL_OK;
+  bool made = pl_extended_make(run) == PLEUEL_OK;
   if (made) {
-    run->wide->next = first;
-    run->wide->way = first->way;
-    run->wide->held = first->held;
+    run->extended->next = first;
+    run->extended->way = first->way;
+    run->extended->held = first->held;
   } else {
-    run->wide = first;
+    run->extended = first;
     run->job->message[0] = '\0';
     run->job->status = PLEUEL_OK;
   }
@@ -300,7 +300,7 @@ bool pl_wide_of_mode(pl_run* run) {
 
 // What a point is, from the memory of one mode to that of another, whose pivots are known from here
 // on.
-static void take_over(pl_wide* to, const pl_wide* from, int n_q) {
+static void take_over(pl_extended* to, const pl_extended* from, int n_q) {
   const int cells[][3] = {{to->o->time, from->o->time, 1},
                           {to->from, from->from, 1},
                           {to->to, from->to, 1},
@@ -310,20 +310,20 @@ static void take_over(pl_wide* to, const pl_wide* from, int n_q) {
                           {to->o->V, from->o->V, n_q}};
   fill_memory(to);  // as a run has it that comes here for the first time
   for (size_t i = 0; i < sizeof cells / sizeof *cells; i++)
-    pl_wide_copy(to->fine, to->m, cells[i][0], from->fine, from->m, cells[i][1], cells[i][2]);
+    pl_extended_copy(to->fine, to->m, cells[i][0], from->fine, from->m, cells[i][1], cells[i][2]);
   to->o->fade_best = 0;
   for (int u = 0; u < to->o->n; u++) to->o->size_most[u] = 0;
 }
 
-void pl_wide_change_rows(pl_run* run) {
-  pl_wide* from = run->wide;
+void pl_extended_change_rows(pl_run* run) {
+  pl_extended* from = run->extended;
   size_t n = (size_t)run->n_c * sizeof(bool);
   bool* before = from->o->taken;
   int rank = run->rank;
   double smallest = run->smallest, best = run->best;
   pl_point_evaluate(run, run->t, run->q, run->v);
   pl_independent_choose(run);
-  bool other = run->rank == rank && memcmp(before, run->taken, n) != 0 && pl_wide_of_mode(run);
+  bool other = run->rank == rank && memcmp(before, run->taken, n) != 0 && pl_extended_of_mode(run);
   if (!other) {
     memcpy(run->taken, before, n);
     run->rank = rank;
@@ -331,5 +331,5 @@ void pl_wide_change_rows(pl_run* run) {
     run->best = best;
     return;
   }
-  take_over(run->wide, from, run->n_q);
+  take_over(run->extended, from, run->n_q);
 }

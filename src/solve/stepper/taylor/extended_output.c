@@ -1,4 +1,4 @@
-// Rows of a run on wide numbers: all columns with the digits of the state.
+// Rows of a run on extended numbers: all columns with the digits of the state.
 #include <math.h>
 
 #include "solve/stepper/taylor/extended_impl.h"
@@ -14,26 +14,26 @@ static int column_text(void* user, pl_row_part part, int i, bool negative, char 
 }
 
 static void fill(pl_run* run, int q, int v, int a, int l, pl_row* row, double* out) {
-  pl_wide* w = run->wide;
+  pl_extended* w = run->extended;
   pl_sheet* s = w->rows;
-  pl_wide_copy(s->real, s->m, s->time, w->fine, w->m, w->o->time, 1);
-  pl_wide_copy(s->real, s->m, s->Q, w->fine, w->m, q, run->n_q);
-  pl_wide_copy(s->real, s->m, s->V, w->fine, w->m, v, run->n_q);
-  pl_wide_copy(s->real, s->m, s->A, w->fine, w->m, a, run->n_q);
-  pl_wide_copy(s->real, s->m, s->L, w->fine, w->m, l, run->n_c);
+  pl_extended_copy(s->real, s->m, s->time, w->fine, w->m, w->o->time, 1);
+  pl_extended_copy(s->real, s->m, s->Q, w->fine, w->m, q, run->n_q);
+  pl_extended_copy(s->real, s->m, s->V, w->fine, w->m, v, run->n_q);
+  pl_extended_copy(s->real, s->m, s->A, w->fine, w->m, a, run->n_q);
+  pl_extended_copy(s->real, s->m, s->L, w->fine, w->m, l, run->n_c);
   pl_sheet_run(s);
   s->real->read(s->m, s->out, run->setup->n_out, out);
   w->digits = (pl_row_digits){s, column_text};
   row->digits = &w->digits;
 }
 
-void pl_wide_row(pl_run* run, pl_row* row, double* out) {
-  const pl_step_program* o = run->wide->o;
+void pl_extended_row(pl_run* run, pl_row* row, double* out) {
+  const pl_step_program* o = run->extended->o;
   fill(run, o->Q, o->V, o->A, o->L, row, out);
 }
 
 // n times the distance of rows, rounded once: each product of doubles is a sum of two.
-static void multiply(pl_wide* w, double n) {
+static void multiply(pl_extended* w, double n) {
   pl_parts high = {{0}}, low = {{0}};
   for (int i = 0; i < 2; i++) {
     high.part[i] = n * w->way.part[i];
@@ -47,9 +47,9 @@ static void multiply(pl_wide* w, double n) {
 
 // The row at `length`, which stands there already.
 static void row_of_series(pl_run* run, pl_row* row, double* out) {
-  pl_wide* w = run->wide;
+  pl_extended* w = run->extended;
   const pl_step_program* o = w->o;
-  pl_wide_sum(run);
+  pl_extended_sum(run);
   fill(run, o->end_q, o->end_v, w->end_a, w->end_l, row, out);
   w->fine->read(w->m, o->time, 1, &row->t);
   w->fine->read(w->m, o->end_q, run->n_q, run->row_q);
@@ -58,8 +58,8 @@ static void row_of_series(pl_run* run, pl_row* row, double* out) {
   w->fine->read(w->m, w->end_l, run->n_c, run->row_l);
 }
 
-void pl_wide_grid_row(pl_run* run, long n, pl_row* row, double* out) {
-  pl_wide* w = run->wide;
+void pl_extended_grid_row(pl_run* run, long n, pl_row* row, double* out) {
+  pl_extended* w = run->extended;
   const pl_step_program* o = w->o;
   // the end of the step stands in `time` and `length`, and is needed there later
   pl_parts end = w->fine->get(w->m, o->time), length = w->fine->get(w->m, o->length);
@@ -70,8 +70,8 @@ void pl_wide_grid_row(pl_run* run, long n, pl_row* row, double* out) {
   w->fine->set(w->m, o->length, length);
 }
 
-void pl_wide_row_at(pl_run* run, double t, pl_row* row, double* out) {
-  pl_wide* w = run->wide;
+void pl_extended_row_at(pl_run* run, double t, pl_row* row, double* out) {
+  pl_extended* w = run->extended;
   const pl_step_program* o = w->o;
   double dt = t - run->t_series;
   pl_parts end = w->fine->get(w->m, o->time), length = w->fine->get(w->m, o->length);

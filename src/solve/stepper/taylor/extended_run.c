@@ -1,4 +1,4 @@
-// A step on wide numbers: projection, order 0, series. As step_program_run.c, which has the same
+// A step on extended numbers: projection, order 0, series. As step_program_run.c, which has the same
 // programs for doubles.
 //
 // The state is rounded to its type with each correction of the projection, and nowhere else: what
@@ -17,21 +17,23 @@ static const double sound = 1e-16;
 static const double least_sound = 1e-24;
 
 static void fine(pl_run* run, const pl_prog* code, int from, int to) {
-  run->wide->fine->interpret(code, run->wide->m, from, to);
+  run->extended->fine->interpret(code, run->extended->m, from, to);
 }
-static void fine_part(pl_run* run, pl_step_part part) { fine(run, run->wide->o->code[part], 0, 1); }
+static void fine_part(pl_run* run, pl_step_part part) {
+  fine(run, run->extended->o->code[part], 0, 1);
+}
 static void read(const pl_run* run, int at, int n, double* out) {
-  run->wide->fine->read(run->wide->m, at, n, out);
+  run->extended->fine->read(run->extended->m, at, n, out);
 }
 
-void pl_wide_copy(const pl_real* to_type, void* to, int at, const pl_real* from_type,
-                  const void* from, int from_at, int n) {
+void pl_extended_copy(const pl_real* to_type, void* to, int at, const pl_real* from_type,
+                      const void* from, int from_at, int n) {
   for (int i = 0; i < n; i++) to_type->set(to, at + i, from_type->get(from, from_at + i));
 }
 
 // -------------------------------------------------------------------------------------- projection
 static bool pivots_are_sound(pl_run* run) {
-  pl_step_program* o = run->wide->o;
+  pl_step_program* o = run->extended->o;
   double least = (double)INFINITY;
   for (int u = o->n_mass; u < o->n; u++) {
     double size, pivot, part;
@@ -42,7 +44,7 @@ static bool pivots_are_sound(pl_run* run) {
     if (!(part >= least)) least = part;
   }
   if (o->n == o->n_mass) return true;
-  run->wide->part = o->fade_best > 0 ? fmin(1, least / o->fade_best) : 1;
+  run->extended->part = o->fade_best > 0 ? fmin(1, least / o->fade_best) : 1;
   run->smallest = least > 0 && o->fade_best > 0 ? run->best * sqrt(fmin(1, least / o->fade_best))
                                                 : run->best;
   if (!(least > least_sound)) return false;
@@ -55,7 +57,7 @@ static void note_largest(double x, double* most) {
 }
 
 static void set_floors(pl_run* run) {
-  pl_wide* w = run->wide;
+  pl_extended* w = run->extended;
   for (int i = 0; i < run->n_q; i++) {
     double q = fmax(run->q_most[i], 1e-6 * run->q_size),
            v = fmax(run->v_most[i], 1e-6 * run->v_size);
@@ -67,7 +69,7 @@ static void set_floors(pl_run* run) {
 // Adds the correction to the state at x, which is then rounded; the size of the correction relative
 // to that of the state.
 static double correct(pl_run* run, pl_step_part part, int x, double size) {
-  pl_wide* w = run->wide;
+  pl_extended* w = run->extended;
   int n = run->n_q;
   fine_part(run, part);
   read(run, w->o->move, n, run->rhs);
@@ -78,12 +80,12 @@ static double correct(pl_run* run, pl_step_part part, int x, double size) {
 }
 
 static bool is_done(const pl_run* run, double residual) {
-  return residual == 0 && run->wide->state == run->wide->fine;
+  return residual == 0 && run->extended->state == run->extended->fine;
 }
 
 static bool project_positions(pl_run* run, pl_projection* p) {
   enum { MAX_NEWTON = 8 };
-  const pl_step_program* o = run->wide->o;
+  const pl_step_program* o = run->extended->o;
   double before = (double)INFINITY;
   for (int round = 0; round < MAX_NEWTON; round++) {
     fine_part(run, PL_PART_PLACE);
@@ -93,7 +95,8 @@ static bool project_positions(pl_run* run, pl_projection* p) {
     if (round == 0) p->g_before = g;
     p->g_after = g;
     if (!isfinite(g) || !pivots_are_sound(run)) return false;
-    if (is_done(run, g) || (round > 0 && (g <= run->wide->floor || g >= 0.5 * before))) return true;
+    if (is_done(run, g) || (round > 0 && (g <= run->extended->floor || g >= 0.5 * before)))
+      return true;
     before = g;
     double move = correct(run, PL_PART_CORRECT_Q, o->Q, run->q_size);
     if (!isfinite(move)) return false;
@@ -103,7 +106,7 @@ static bool project_positions(pl_run* run, pl_projection* p) {
 }
 
 static bool project_velocities(pl_run* run, pl_projection* p) {
-  const pl_step_program* o = run->wide->o;
+  const pl_step_program* o = run->extended->o;
   for (int round = 0;; round++) {
     fine_part(run, PL_PART_SPEED);
     read(run, o->r, run->n_c, run->r);
@@ -119,8 +122,8 @@ static bool project_velocities(pl_run* run, pl_projection* p) {
   }
 }
 
-bool pl_wide_project(pl_run* run, pl_projection* p) {
-  pl_wide* w = run->wide;
+bool pl_extended_project(pl_run* run, pl_projection* p) {
+  pl_extended* w = run->extended;
   run->at_point = w->arrived = false;
   *p = (pl_projection){0};
   pl_sizes_note(run, run->trial_q, run->trial_v);
@@ -137,16 +140,16 @@ bool pl_wide_project(pl_run* run, pl_projection* p) {
   return true;
 }
 
-void pl_wide_accept(pl_run* run, bool to_end) {
+void pl_extended_accept(pl_run* run, bool to_end) {
   if (to_end) return;
-  pl_parts t = run->wide->fine->get(run->wide->m, run->wide->o->time);
+  pl_parts t = run->extended->fine->get(run->extended->m, run->extended->o->time);
   run->t = t.part[0];
   run->t_low = t.part[1];
 }
 
 // ----------------------------------------------------------------------------------------- order 0
 static void read_orders(pl_run* run, int first, int last) {
-  const pl_step_program* o = run->wide->o;
+  const pl_step_program* o = run->extended->o;
   size_t n_q = (size_t)o->n_q, n_c = (size_t)o->n_c, k = (size_t)first;
   int n = last - first + 1;
   read(run, o->Q + first * o->n_q, (n + 1) * o->n_q, run->Q + k * n_q);
@@ -158,22 +161,22 @@ static void read_orders(pl_run* run, int first, int last) {
 // Of dependent rows others may tell more by now than those that were chosen.
 static bool look_at_rows(pl_run* run) {
   static const double faded = 1e-4;
-  const pl_wide* w = run->wide;
+  const pl_extended* w = run->extended;
   if (run->rank == run->n_active || !(w->part < faded)) return true;
-  pl_wide_change_rows(run);
-  if (run->wide == w) return true;
+  pl_extended_change_rows(run);
+  if (run->extended == w) return true;
   set_floors(run);
   fine_part(run, PL_PART_PLACE);
   fine_part(run, PL_PART_SPEED);
   return pivots_are_sound(run);
 }
 
-bool pl_wide_enter(pl_run* run) {
-  const pl_wide* before = run->wide;
+bool pl_extended_enter(pl_run* run) {
+  const pl_extended* before = run->extended;
   bool arrived = before->arrived;
-  run->wide->arrived = false;
+  run->extended->arrived = false;
   if (!look_at_rows(run)) return false;
-  pl_wide* w = run->wide;
+  pl_extended* w = run->extended;
   const pl_step_program* o = w->o;
   w->fine->move(w->m, w->t_0, o->time, 1);
   if (!arrived || w != before) fine_part(run, PL_PART_START);
@@ -189,9 +192,9 @@ bool pl_wide_enter(pl_run* run) {
   return run->ready;
 }
 
-bool pl_wide_arrive(pl_run* run, double* off, double* size) {
-  pl_wide* w = run->wide;
-  pl_wide_sum(run);
+bool pl_extended_arrive(pl_run* run, double* off, double* size) {
+  pl_extended* w = run->extended;
+  pl_extended_sum(run);
   fine_part(run, PL_PART_START);
   w->arrived = true;
   *off = *size = 0;
@@ -204,8 +207,8 @@ bool pl_wide_arrive(pl_run* run, double* off, double* size) {
 }
 
 // ------------------------------------------------------------------------------------------ series
-void pl_wide_expand(pl_run* run) {
-  pl_wide* w = run->wide;
+void pl_extended_expand(pl_run* run) {
+  pl_extended* w = run->extended;
   fine(run, w->o->code[PL_PART_ORDER], 1, w->low);
   if (w->by_doubles) {
     if (!pl_step_program_is_compiled(run)) run->stats.steps_interpreted++;
@@ -219,9 +222,9 @@ void pl_wide_expand(pl_run* run) {
        run->Q + (size_t)(run->order + 1) * (size_t)run->n_q);
 }
 
-void pl_wide_norms(pl_run* run, const double** q, const double** v) {
-  pl_step_program* o = run->wide->o;
-  if (run->wide->by_doubles) {
+void pl_extended_norms(pl_run* run, const double** q, const double** v) {
+  pl_step_program* o = run->extended->o;
+  if (run->extended->by_doubles) {
     pl_step_program_norms(run, q, v);
     return;
   }
@@ -235,25 +238,25 @@ void pl_wide_norms(pl_run* run, const double** q, const double** v) {
 // to lie at the same places in every period, the same roundings come again, and errors go on in one
 // direction or in circles. So each length is shortened by up to a tenth, by the multiples of the
 // golden section, which keep no time with anything.
-double pl_wide_vary(const pl_run* run, double h) {
+double pl_extended_vary(const pl_run* run, double h) {
   static const double golden = 0.61803398874989485, most = 0.1;
   double turns = golden * (double)run->stats.steps;
-  return run->wide->state == run->wide->fine ? h : h * (1 - most * (turns - floor(turns)));
+  return run->extended->state == run->extended->fine ? h : h * (1 - most * (turns - floor(turns)));
 }
 
 // The sum of rows first .. last of a series in doubles, divided by dt^first.
 static void sum_tail(pl_run* run, int to, const double* X, int n, int first, int last) {
   double dt;
-  read(run, run->wide->o->length, 1, &dt);
+  read(run, run->extended->o->length, 1, &dt);
   for (int i = 0; i < n; i++) {
     double x = X[(size_t)last * (size_t)n + (size_t)i];
     for (int k = last - 1; k >= first; k--) x = x * dt + X[(size_t)k * (size_t)n + (size_t)i];
-    run->wide->fine->write(run->wide->m, to + i, 1, &x);
+    run->extended->fine->write(run->extended->m, to + i, 1, &x);
   }
 }
 
 static void sum_state(pl_run* run) {
-  pl_wide* w = run->wide;
+  pl_extended* w = run->extended;
   if (w->by_doubles) {
     sum_tail(run, w->tail_q, run->Q, run->n_q, w->low + 1, run->order + 1);
     sum_tail(run, w->tail_v, run->V, run->n_q, w->low + 1, run->order);
@@ -261,8 +264,8 @@ static void sum_state(pl_run* run) {
   fine(run, w->head, 0, 1);
 }
 
-void pl_wide_sum(pl_run* run) {
-  pl_wide* w = run->wide;
+void pl_extended_sum(pl_run* run) {
+  pl_extended* w = run->extended;
   sum_state(run);
   if (w->by_doubles) {
     sum_tail(run, w->tail_a, run->A, run->n_q, w->low, run->order - 1);
@@ -271,8 +274,8 @@ void pl_wide_sum(pl_run* run) {
   fine(run, w->head_forces, 0, 1);
 }
 
-void pl_wide_advance(pl_run* run, double dt) {
-  pl_wide* w = run->wide;
+void pl_extended_advance(pl_run* run, double dt) {
+  pl_extended* w = run->extended;
   // to the end as it is exactly
   if (dt == run->options.t_end - run->t - run->t_low) fine(run, w->left, 0, 1);
   else w->fine->write(w->m, w->o->length, 1, &dt);
@@ -298,26 +301,26 @@ static double slope_at(const pl_run* run, int i, double dt) {
 }
 
 static double watched_value(pl_run* run, int i) {
-  pl_wide* w = run->wide;
+  pl_extended* w = run->extended;
   pl_sheet* s = w->watched;
   const pl_step_program* o = w->o;
-  pl_wide_sum(run);
+  pl_extended_sum(run);
   fine(run, w->clock, 0, 1);
-  pl_wide_copy(s->real, s->m, s->time, w->fine, w->m, o->time, 1);
-  pl_wide_copy(s->real, s->m, s->Q, w->fine, w->m, o->end_q, o->n_q);
-  pl_wide_copy(s->real, s->m, s->V, w->fine, w->m, o->end_v, o->n_q);
-  pl_wide_copy(s->real, s->m, s->A, w->fine, w->m, w->end_a, o->n_q);
-  pl_wide_copy(s->real, s->m, s->L, w->fine, w->m, w->end_l, o->n_c);
+  pl_extended_copy(s->real, s->m, s->time, w->fine, w->m, o->time, 1);
+  pl_extended_copy(s->real, s->m, s->Q, w->fine, w->m, o->end_q, o->n_q);
+  pl_extended_copy(s->real, s->m, s->V, w->fine, w->m, o->end_v, o->n_q);
+  pl_extended_copy(s->real, s->m, s->A, w->fine, w->m, w->end_a, o->n_q);
+  pl_extended_copy(s->real, s->m, s->L, w->fine, w->m, w->end_l, o->n_c);
   pl_sheet_run(s);
   double x;
   s->real->read(s->m, s->out + i, 1, &x);
   return x;
 }
 
-void pl_wide_refine(pl_run* run, double dt) {
+void pl_extended_refine(pl_run* run, double dt) {
   enum { MAX_NEWTON = 6 };
   static const double most = 1e-8;  // of the step, that a root found in doubles may be off
-  pl_wide* w = run->wide;
+  pl_extended* w = run->extended;
   int i = event_hit(run);
   if (i < 0) return;
   double slope = slope_at(run, i, dt), before = most * fabs(dt);
@@ -336,25 +339,25 @@ void pl_wide_refine(pl_run* run, double dt) {
 
 // ------------------------------------------------------------------------------------------ energy
 static void evaluate_energies(pl_run* run) {
-  pl_wide* w = run->wide;
+  pl_extended* w = run->extended;
   const pl_setup* s = run->setup;
   if (w->o->code[PL_PART_ENERGY]) {
     fine_part(run, PL_PART_ENERGY);
     return;
   }
   pl_row row;
-  pl_wide_row(run, &row, run->energy_out);
-  pl_wide_copy(w->fine, w->m, w->o->energy, w->rows->real, w->rows->m, w->rows->out + s->kinetic,
-               1);
-  pl_wide_copy(w->fine, w->m, w->o->energy + 1, w->rows->real, w->rows->m,
-               w->rows->out + s->potential, 1);
+  pl_extended_row(run, &row, run->energy_out);
+  pl_extended_copy(w->fine, w->m, w->o->energy, w->rows->real, w->rows->m,
+                   w->rows->out + s->kinetic, 1);
+  pl_extended_copy(w->fine, w->m, w->o->energy + 1, w->rows->real, w->rows->m,
+                   w->rows->out + s->potential, 1);
   if (s->energy > 0)
-    pl_wide_copy(w->fine, w->m, w->o->energy + 2, w->rows->real, w->rows->m,
-                 w->rows->out + s->energy, 1);
+    pl_extended_copy(w->fine, w->m, w->o->energy + 2, w->rows->real, w->rows->m,
+                     w->rows->out + s->energy, 1);
 }
 
-void pl_wide_energy(pl_run* run, bool anew) {
-  pl_wide* w = run->wide;
+void pl_extended_energy(pl_run* run, bool anew) {
+  pl_extended* w = run->extended;
   double part[2], change[2];
   evaluate_energies(run);
   fine(run, w->drift, 0, 1);

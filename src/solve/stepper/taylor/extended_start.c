@@ -1,6 +1,6 @@
-// The start of a run on wide numbers. The start that was found in doubles says which solution it
+// The start of a run on extended numbers. The start that was found in doubles says which solution it
 // is; given values are taken as they were written, and the others move until the constraints hold
-// in wide numbers too: residuals in wide numbers, corrections in doubles, each of which gains some
+// in extended numbers too: residuals in extended numbers, corrections in doubles, each of which gains some
 // fifteen digits.
 #include <math.h>
 #include <string.h>
@@ -10,7 +10,7 @@
 enum { MAX_ROUNDS = 12 };
 
 static void set_times(pl_run* run, double t, const pl_parts* exact) {
-  pl_wide* w = run->wide;
+  pl_extended* w = run->extended;
   const pl_run_options* o = &run->options;
   const pl_exact_setup* e = run->setup->exact;
   pl_parts from = {{o->t_0}}, to = {{o->t_end}}, step = {{run->grid_dt}};
@@ -35,7 +35,7 @@ static void set_times(pl_run* run, double t, const pl_parts* exact) {
 
 // Given values exactly; what the start in doubles found for the others.
 static void set_state(pl_run* run, const pl_parts* exact) {
-  pl_wide* w = run->wide;
+  pl_extended* w = run->extended;
   const pl_exact_setup* e = run->setup->exact;
   for (int i = 0; i < run->n_q; i++) {
     const pl_coordinate* c = &run->setup->coordinates[i];
@@ -51,7 +51,7 @@ static void set_state(pl_run* run, const pl_parts* exact) {
 // that.
 static bool move_free(pl_run* run, bool positions, const bool* held, double* basis,
                       double* change) {
-  pl_wide* w = run->wide;
+  pl_extended* w = run->extended;
   pl_step_program* o = w->o;
   double before = (double)INFINITY, *g = positions ? run->g : run->r,
          *size = positions ? run->g_size : run->r_size;
@@ -74,7 +74,7 @@ static bool move_free(pl_run* run, bool positions, const bool* held, double* bas
 }
 
 static void set_sizes(pl_run* run) {
-  pl_wide* w = run->wide;
+  pl_extended* w = run->extended;
   for (int i = 0; i < run->n_q; i++) {
     double q = fmax(run->q_most[i], 1e-6 * run->q_size),
            v = fmax(run->v_most[i], 1e-6 * run->v_size);
@@ -89,7 +89,7 @@ static void refine(pl_run* run) {
   bool *q = PL_ARRAY(a, bool, n + 1), *v = PL_ARRAY(a, bool, n + 1);
   double *basis = PL_ARRAY(a, double, n*(size_t)(run->n_c + 1) + 1),
          *change = PL_ARRAY(a, double, n + 1);
-  for (size_t i = 0; run->wide->held && i < n; i++) {
+  for (size_t i = 0; run->extended->held && i < n; i++) {
     q[i] = run->setup->coordinates[i].has_q;
     v[i] = run->setup->coordinates[i].has_v;
   }
@@ -103,19 +103,19 @@ static void refine(pl_run* run) {
 static pleuel_status lost(pl_run* run) {
   return pl_fail(run->job, PLEUEL_NUMERICAL,
                  "precision %s: the start could not be refined to its digits; use double",
-                 pl_wide_name(run));
+                 pl_extended_name(run));
 }
 
-pleuel_status pl_wide_begin(pl_run* run, double t) {
+pleuel_status pl_extended_begin(pl_run* run, double t) {
   pl_parts* exact = NULL;
   bool held = run->start_given;
   const pl_exact_setup* e = run->setup->exact;
-  PL_TRY(pl_wide_make(run));
-  pl_wide* w = run->wide;
+  PL_TRY(pl_extended_make(run));
+  pl_extended* w = run->extended;
   w->held = held;
   if (e) {
     exact = PL_ARRAY(run->job->arena, pl_parts, e->tape->n_roots + 1);
-    pl_wide_roots(run->job->arena, w->fine, e->tape, exact);
+    pl_extended_roots(run->job->arena, w->fine, e->tape, exact);
   }
   set_times(run, t, exact);
   set_state(run, exact);
@@ -129,10 +129,10 @@ pleuel_status pl_wide_begin(pl_run* run, double t) {
   w->fine->write(w->m, w->o->length, 1, &none);
   memcpy(run->trial_q, run->q, (size_t)run->n_q * sizeof(double));
   memcpy(run->trial_v, run->v, (size_t)run->n_q * sizeof(double));
-  if (!pl_wide_project(run, &p) || p.g_after > 1e3 * w->floor || p.r_after > 1e3 * w->floor)
+  if (!pl_extended_project(run, &p) || p.g_after > 1e3 * w->floor || p.r_after > 1e3 * w->floor)
     return lost(run);
   memcpy(run->q, run->trial_q, (size_t)run->n_q * sizeof(double));
   memcpy(run->v, run->trial_v, (size_t)run->n_q * sizeof(double));
   pl_sizes_keep(run);
-  return pl_wide_enter(run) ? PLEUEL_OK : lost(run);
+  return pl_extended_enter(run) ? PLEUEL_OK : lost(run);
 }

@@ -1,4 +1,4 @@
-// Tapes in wide numbers: constants of a tape, and sheets, which hold all nodes of some patterns at
+// Tapes in extended numbers: constants of a tape, and sheets, which hold all nodes of some patterns at
 // one point.
 #include "solve/stepper/taylor/extended_impl.h"
 
@@ -60,12 +60,12 @@ static void constants(pl_arena* a, const pl_real* real, const pl_tape* tape, con
   for (int i = 0; i < n; i++) out[i] = real->get(m, i);
 }
 
-void pl_wide_constants(pl_arena* a, const pl_real* real, const pl_batch* b, int lane,
-                       pl_parts* out) {
+void pl_extended_constants(pl_arena* a, const pl_real* real, const pl_batch* b, int lane,
+                           pl_parts* out) {
   constants(a, real, b->pattern->tape, b, lane, out);
 }
 
-void pl_wide_roots(pl_arena* a, const pl_real* real, const pl_tape* tape, pl_parts* out) {
+void pl_extended_roots(pl_arena* a, const pl_real* real, const pl_tape* tape, pl_parts* out) {
   pl_parts* node = PL_ARRAY(a, pl_parts, tape->n_nodes + 1);
   constants(a, real, tape, NULL, 0, node);
   for (int i = 0; i < tape->n_roots; i++) out[i] = node[tape->roots[i]];
@@ -103,7 +103,7 @@ static void write_instance(pl_sheet* s, writer* w, const pl_batch* b, int lane, 
 static void write_constants(pl_sheet* s, pl_arena* a, const pl_batch* b, int lane, int base) {
   int n = b->pattern->tape->level_end[PL_LEVEL_CONST];
   pl_parts* x = PL_ARRAY(a, pl_parts, n + 1);
-  pl_wide_constants(a, s->real, b, lane, x);
+  pl_extended_constants(a, s->real, b, lane, x);
   for (int i = 0; i < n; i++) s->real->set(s->m, base + i, x[i]);
 }
 

@@ -94,7 +94,7 @@ struct pl_step_program {
   double* size_most;                   // largest pivot_size met                              (n)
   double fade_best;
 
-  // for numbers wider than doubles
+  // for extended precision
   int inverse_up_to;                   // unknowns up to which the inverse is formed
   PL_VEC(pl_constant_cell) constants;  // what stands in memory from the start and is no double
   PL_VEC(pl_scale_cell) scales;

@@ -98,8 +98,8 @@ static void find_same(pl_maker* k) {
 static void find_constants(pl_maker* k) {
   k->constant = PL_ARRAY(k->a, pl_parts, k->n_nodes + 1);
   for (int i = 0; i < k->n_instances; i++)
-    pl_wide_constants(k->a, k->real, k->instance[i].batch, k->instance[i].lane,
-                      k->constant + k->instance[i].base);
+    pl_extended_constants(k->a, k->real, k->instance[i].batch, k->instance[i].lane,
+                          k->constant + k->instance[i].base);
 }
 
 void pl_maker_instances(pl_maker* k) {

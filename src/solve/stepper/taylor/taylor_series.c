@@ -100,7 +100,7 @@ static bool enter_at(pl_run* run, double t, const double* q, const double* v) {
   int n = run->n_q;
   memcpy(run->Q, q, (size_t)n * sizeof *q);
   memcpy(run->V, v, (size_t)n * sizeof *v);
-  if (run->wide) return run->at_point && pl_wide_enter(run);
+  if (run->extended) return run->at_point && pl_extended_enter(run);
   if (run->at_point && pl_step_program_enter(run)) return true;
   run->at_point = false;
   if (run->factored) {
@@ -141,7 +141,7 @@ void pl_series_swap(pl_run* run) {
 }
 
 bool pl_point_arrive(pl_run* run, double h, double* off, double* size) {
-  if (run->wide) return pl_wide_arrive(run, off, size);
+  if (run->extended) return pl_extended_arrive(run, off, size);
   if (run->at_point && run->end_by_program) {
     pl_step_program_arrive(run, off, size);
     return isfinite(*off) && isfinite(*size);
@@ -165,8 +165,8 @@ void pl_point_general(pl_run* run) {
 }
 
 void pl_series_expand(pl_run* run) {
-  if (run->wide) {
-    pl_wide_expand(run);
+  if (run->extended) {
+    pl_extended_expand(run);
     return;
   }
   if (!run->at_point || !pl_step_program_is_compiled(run)) run->stats.steps_interpreted++;
@@ -238,7 +238,7 @@ static const double grown = 2, clearly = 1.3;
 // motions that start at rest or in a symmetric position have coefficients of every second or fourth
 // order only, and others have wider gaps. The least of what orders of the upper half say, each as
 // if it was the last; infinite where all of these are zero, as those of a fall are.
-static double wide_radius(const double* X, int n, int last) {
+static double many_orders_radius(const double* X, int n, int last) {
   enum { EARLY = 3 };
   double least = (double)INFINITY, first[EARLY + 1];
   int top = 0;
@@ -267,8 +267,8 @@ double pl_series_step(pl_run* run) {
   int p = run->order;
   double of_q[PL_BLOCK_ROWS], of_v[PL_BLOCK_ROWS];
   const double *q = of_q, *v = of_v;
-  if (run->wide) {
-    pl_wide_norms(run, &q, &v);
+  if (run->extended) {
+    pl_extended_norms(run, &q, &v);
   } else if (run->at_point) {
     pl_step_program_norms(run, &q, &v);
   } else {
@@ -280,12 +280,12 @@ double pl_series_step(pl_run* run) {
   double shrink = 1.4426950408889634 * (0.7 / (p - 1) - run->shrink);
   double radius = pl_smaller(block_radius(q, p + 1), block_radius(v, p)), h = exp2(radius - shrink);
   if (!(h <= grown * run->h_series) || isinf(run->h_series)) {
-    double all =
-        exp2(pl_smaller(wide_radius(run->Q, run->n_q, p + 1), wide_radius(run->V, run->n_q, p))
-             - shrink);
+    double all = exp2(pl_smaller(many_orders_radius(run->Q, run->n_q, p + 1),
+                                 many_orders_radius(run->V, run->n_q, p))
+                      - shrink);
     if (!(h <= clearly * all)) h = all;
   }
-  return run->wide ? pl_wide_vary(run, h) : h;
+  return run->extended ? pl_extended_vary(run, h) : h;
 }
 
 // -------------------------------------------------------------------------------------- evaluation
