@@ -26,7 +26,7 @@ static bool run_level(pl_ball_jet* j, pl_tape_level level) {
 
 // Derivatives along the motion; partners are there, since all values are.
 static void run_slopes(pl_ball_jet* j) {
-  for (int i = j->tape->level_end[PL_LEVEL_CONST]; i < j->tape->level_end[PL_LEVEL_PLACE]; i++) {
+  for (int i = j->tape->level_end[PL_LEVEL_CONST]; i < j->tape->level_end[PL_LEVEL_POSITION]; i++) {
     const pl_tape_node* n = &j->tape->nodes[i];
     if (!(j->wanted[i] & PL_FOR_MOTION) || n->op < PL_OP_ADD) continue;
     pl_disk_derivative(&j->slope[i], n->op, &j->disk[i], at(j->disk, n->a), at(j->disk, n->b),
@@ -48,7 +48,7 @@ static void load(const pl_system* s, pl_ball_jet* j, const pl_disk* t) {
     copy(&j->disk[tape->q_node[i]], &s->q_disk[j->q[i]]);
     copy(&j->slope[tape->q_node[i]], &s->v_disk[j->q[i]]);
   }
-  for (int i = tape->level_end[PL_LEVEL_CONST]; i < tape->level_end[PL_LEVEL_PLACE]; i++) {
+  for (int i = tape->level_end[PL_LEVEL_CONST]; i < tape->level_end[PL_LEVEL_POSITION]; i++) {
     if (tape->nodes[i].op != PL_OP_TIME) continue;
     copy(&j->disk[i], t);
     arb_one(&j->slope[i].c);
@@ -60,7 +60,7 @@ static bool run_programs(pl_system* s, const pl_disk* t) {
   for (int i = 0; i < s->n_jets; i++) {
     pl_ball_jet* j = &s->jet[i];
     load(s, j, t);
-    if (!run_level(j, PL_LEVEL_PLACE) || !run_level(j, PL_LEVEL_SPEED)) return false;
+    if (!run_level(j, PL_LEVEL_POSITION) || !run_level(j, PL_LEVEL_VELOCITY)) return false;
     run_slopes(j);
   }
   return true;

@@ -275,7 +275,8 @@ static void run_series(bench* b, double x_0, slong prec) {
   arb_set_d(q, x_0);
   arb_one(q + 1);
   pl_jet_coefficients(j, PL_LEVEL_CONST, 0, prec, PL_FOR_MOTION);
-  for (int k = 0; k < j->cap; k++) pl_jet_coefficients(j, PL_LEVEL_PLACE, k, prec, PL_FOR_MOTION);
+  for (int k = 0; k < j->cap; k++)
+    pl_jet_coefficients(j, PL_LEVEL_POSITION, k, prec, PL_FOR_MOTION);
 }
 
 // The polynomial of order 30 at t = 1/64 against the value there.
@@ -288,7 +289,7 @@ static void series_continue_their_functions(void** state) {
     pl_expr e = random_expression(b, &r, 1 + (int)(seed % 3));
     double x_0 = pl_random_between(&r, 0.1, 0.9);
     assert_true(record(b, e));
-    if (b->tape->q_node[0] >= 0 && b->tape->nodes[b->tape->roots[0]].level == PL_LEVEL_PLACE) {
+    if (b->tape->q_node[0] >= 0 && b->tape->nodes[b->tape->roots[0]].level == PL_LEVEL_POSITION) {
       jet_open(b, 31);
       arb_t sum, exact;
       arb_init(sum);

@@ -27,7 +27,7 @@ static void load(pl_system* s, pl_ball_jet* j, int k, bool places) {
 }
 
 static void load_time(pl_ball_jet* j, arb_srcptr t) {
-  for (int i = j->tape->level_end[PL_LEVEL_CONST]; i < j->tape->level_end[PL_LEVEL_PLACE]; i++) {
+  for (int i = j->tape->level_end[PL_LEVEL_CONST]; i < j->tape->level_end[PL_LEVEL_POSITION]; i++) {
     if (j->tape->nodes[i].op != PL_OP_TIME) continue;
     arb_ptr c = j->coef + (slong)i * j->cap;
     arb_set(c, t);
@@ -42,8 +42,8 @@ void pl_system_values(pl_system* s, arb_srcptr t, uint8_t wanted) {
     load(s, j, 0, true);
     load(s, j, 0, false);
     load_time(j, t);
-    pl_jet_coefficients(j, PL_LEVEL_PLACE, 0, s->prec, wanted);
-    pl_jet_coefficients(j, PL_LEVEL_SPEED, 0, s->prec, wanted);
+    pl_jet_coefficients(j, PL_LEVEL_POSITION, 0, s->prec, wanted);
+    pl_jet_coefficients(j, PL_LEVEL_VELOCITY, 0, s->prec, wanted);
   }
 }
 
@@ -216,7 +216,7 @@ static void places(pl_system* s, int k, slong prec) {
     arb_div_si(s->q + (slong)i * s->cap + k, s->v + (slong)i * s->cap + k - 1, k, prec);
   for (int i = 0; i < s->n_jets; i++) {
     load(s, &s->jet[i], k, true);
-    pl_jet_coefficients(&s->jet[i], PL_LEVEL_PLACE, k, prec, PL_FOR_MOTION);
+    pl_jet_coefficients(&s->jet[i], PL_LEVEL_POSITION, k, prec, PL_FOR_MOTION);
   }
 }
 
@@ -225,7 +225,7 @@ static void speeds(pl_system* s, int k, slong prec) {
     arb_div_si(s->v + (slong)i * s->cap + k, s->a + (slong)i * s->cap + k - 1, k, prec);
   for (int i = 0; i < s->n_jets; i++) {
     load(s, &s->jet[i], k, false);
-    pl_jet_coefficients(&s->jet[i], PL_LEVEL_SPEED, k, prec, PL_FOR_MOTION);
+    pl_jet_coefficients(&s->jet[i], PL_LEVEL_VELOCITY, k, prec, PL_FOR_MOTION);
   }
 }
 

@@ -31,7 +31,7 @@ typedef struct t_tape {
 static int add(t_tape* t, pl_op op, int a, int b, int c) {
   bool constant = (op == PL_OP_CONST || op == PL_OP_PARAM || op == PL_OP_INDEX);
   t->node[t->tape.n_nodes] = (pl_tape_node){.op = (uint8_t)op,
-                                            .level = constant ? PL_LEVEL_CONST : PL_LEVEL_PLACE,
+                                            .level = constant ? PL_LEVEL_CONST : PL_LEVEL_POSITION,
                                             .high = true,
                                             .a = a,
                                             .b = b,
@@ -99,7 +99,7 @@ static void random_tape(t_tape* t, pl_random* r) {
     }
   }
   t->tape.nodes = t->node;
-  for (int level = PL_LEVEL_PLACE; level < PL_N_LEVELS; level++)
+  for (int level = PL_LEVEL_POSITION; level < PL_N_LEVELS; level++)
     t->tape.level_end[level] = t->tape.n_nodes;
 }
 
@@ -224,7 +224,7 @@ static void lowered_recurrences_agree_with_the_series(void** state) {
     for (int i = 0; i < t->tape.n_nodes; i++)
       for (int k = 0; k < (constant(t, i) ? 1 : ORDERS); k++)
         memcpy(pl_jet_at(j, i, k), m + place(t, i) + k * t->lanes, (size_t)t->lanes * sizeof *m);
-    for (int k = 0; k < ORDERS; k++) j->kernel(j, PL_LEVEL_PLACE, k, true);
+    for (int k = 0; k < ORDERS; k++) j->kernel(j, PL_LEVEL_POSITION, k, true);
     pl_prog_interpret(t->value, m, 0, 1);
     pl_prog_interpret(t->order, m, 1, ORDERS);
     // rounding grows along a series and with what a node stands on: low orders of tame nodes tell a

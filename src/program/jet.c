@@ -100,7 +100,7 @@ void pl_jet_constants(pl_jet* j, const double* index) {
 
 void pl_jet_time(pl_jet* j, double t) {
   const pl_tape* tape = j->tape;
-  for (int i = tape->level_end[PL_LEVEL_CONST]; i < tape->level_end[PL_LEVEL_PLACE]; i++) {
+  for (int i = tape->level_end[PL_LEVEL_CONST]; i < tape->level_end[PL_LEVEL_POSITION]; i++) {
     if (tape->nodes[i].op != PL_OP_TIME) continue;
     fill(pl_jet_at(j, i, 0), t, j->lanes);
     for (int k = 1; k < j->orders; k++) fill(pl_jet_at(j, i, k), k == 1 ? 1 : 0, j->lanes);

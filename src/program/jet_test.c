@@ -58,7 +58,7 @@ static void series_of(bench* b, pl_expr e, const double* x, const double* y, dou
       if (tape->q_node[0] >= 0) pl_jet_at(j, tape->q_node[0], k)[l] = x[k];
       if (tape->q_node[1] >= 0) pl_jet_at(j, tape->q_node[1], k)[l] = y[k];
     }
-    j->kernel(j, PL_LEVEL_PLACE, k, true);
+    j->kernel(j, PL_LEVEL_POSITION, k, true);
   }
   for (int k = 0; k < ORDERS; k++) {
     int root = tape->roots[0];

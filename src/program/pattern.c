@@ -124,18 +124,18 @@ static bool levels_allow(const pl_tape* tape, const pl_pattern_entry* e, int n,
 }
 
 static pleuel_status check_levels(pl_job* job, const pl_pattern* out) {
-  if (!levels_allow(out->tape, out->mass, out->n_mass, PL_LEVEL_SPEED))
+  if (!levels_allow(out->tape, out->mass, out->n_mass, PL_LEVEL_VELOCITY))
     return pl_fail(job, PLEUEL_UNSUPPORTED,
                    "the kinetic energy contains accelerations or multipliers");
-  if (!levels_allow(out->tape, out->h, out->n_h, PL_LEVEL_SPEED))
+  if (!levels_allow(out->tape, out->h, out->n_h, PL_LEVEL_VELOCITY))
     return pl_fail(job, PLEUEL_UNSUPPORTED,
                    "a force contains accelerations, or multipliers of another pattern");
-  if (!levels_allow(out->tape, out->W, out->n_W, PL_LEVEL_SPEED))
+  if (!levels_allow(out->tape, out->W, out->n_W, PL_LEVEL_VELOCITY))
     return pl_fail(job, PLEUEL_UNSUPPORTED, "a force is not linear in a multiplier");
-  if (!levels_allow(out->tape, out->G, out->n_G, PL_LEVEL_PLACE)
-      || !levels_allow(out->tape, out->gt, out->n_gt, PL_LEVEL_PLACE))
+  if (!levels_allow(out->tape, out->G, out->n_G, PL_LEVEL_POSITION)
+      || !levels_allow(out->tape, out->gt, out->n_gt, PL_LEVEL_POSITION))
     return pl_fail(job, PLEUEL_UNSUPPORTED, "a constraint is not linear in the velocities");
-  if (!levels_allow(out->tape, out->g, out->n_g, PL_LEVEL_PLACE))
+  if (!levels_allow(out->tape, out->g, out->n_g, PL_LEVEL_POSITION))
     return pl_fail(job, PLEUEL_UNSUPPORTED,
                    "a constraint contains velocities but is not declared so");
   return PLEUEL_OK;

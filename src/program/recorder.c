@@ -361,7 +361,7 @@ static int parameter(recorder* r, pl_expr e) {
   pl_symbol s = pl_symbol_of(r->pool, e);
   for (int i = 0; i < r->slots->n_index; i++)
     if (r->slots->index[i].id == s.id) return input(r, PL_OP_INDEX, PL_LEVEL_CONST, i);
-  if (s.id == pl_time(r->pool).id) return input(r, PL_OP_TIME, PL_LEVEL_PLACE, 0);
+  if (s.id == pl_time(r->pool).id) return input(r, PL_OP_TIME, PL_LEVEL_POSITION, 0);
   const double* values = r->slots->value_of_symbol;
   if (values == NULL || isnan(values[s.id]))
     return give_up(r, PLEUEL_USAGE, "%s has no value", pl_symbol_get(r->pool, s)->name);
@@ -397,8 +397,8 @@ static int record_new(recorder* r, pl_expr e) {
 }
 
 static int record_atom(recorder* r, uint64_t atom) {
-  static const pl_tape_level level[] = {[PL_OP_Q] = PL_LEVEL_PLACE,
-                                        [PL_OP_V] = PL_LEVEL_SPEED,
+  static const pl_tape_level level[] = {[PL_OP_Q] = PL_LEVEL_POSITION,
+                                        [PL_OP_V] = PL_LEVEL_VELOCITY,
                                         [PL_OP_A] = PL_LEVEL_FORCE,
                                         [PL_OP_LAMBDA] = PL_LEVEL_FORCE};
   pl_op op = (pl_op)(atom >> 32);

@@ -35,10 +35,10 @@ extern const bool pl_op_series[PL_N_OPS];  // has a convolution: two-phase form
 
 // What a node depends on decides when its coefficient k can be computed.               ORDER LEVELS
 typedef enum pl_tape_level {
-  PL_LEVEL_CONST,  // numbers, parameters: once a run
-  PL_LEVEL_PLACE,  // q, t: order k+1 before accelerations of order k are solved for (class A0)
-  PL_LEVEL_SPEED,  // q, v, t: order k (class A1)
-  PL_LEVEL_FORCE,  // with λ or accelerations: after the solve; outputs and events only
+  PL_LEVEL_CONST,     // numbers, parameters: once a run
+  PL_LEVEL_POSITION,  // q, t: order k+1 before accelerations of order k are solved for (class A0)
+  PL_LEVEL_VELOCITY,  // q, v, t: order k (class A1)
+  PL_LEVEL_FORCE,     // with λ or accelerations: after the solve; outputs and events only
   PL_N_LEVELS
 } pl_tape_level;
 

@@ -87,7 +87,7 @@ static void nodes_are_sorted_by_what_they_depend_on(void** state) {
   pl_expr v = pl_dt(p, b->x), t = pl_sym(p, pl_time(p));
   pl_expr e[] = {pl_mul(p, b->lambda, b->x), pl_mul(p, v, b->x), pl_mul(p, t, b->y),
                  pl_square(p, b->m), pl_dt(p, v)};
-  pl_tape_level level[] = {PL_LEVEL_FORCE, PL_LEVEL_SPEED, PL_LEVEL_PLACE, PL_LEVEL_CONST,
+  pl_tape_level level[] = {PL_LEVEL_FORCE, PL_LEVEL_VELOCITY, PL_LEVEL_POSITION, PL_LEVEL_CONST,
                            PL_LEVEL_FORCE};
   pl_tape* tape;
   assert_int_equal(record(b, e, 5, &tape), PLEUEL_OK);

@@ -13,7 +13,7 @@
 //
 // clang-format off
 // not kept of pl_run, follows from setup and options: job setup options n_q n_c order tol_raised
-//   motion observers watched branches has_W mass_of_speed shrink h_plain h_least row_gap n_watch
+//   motion observers watched branches has_W mass_of_velocity shrink h_plain h_least row_gap n_watch
 //   at_friction kinks n_kinks mode_size grid_count grid_dt
 // not kept of pl_run, follows from the point: Q V ready t_series rests
 // not kept of pl_run, follows from how it was started: start_given
@@ -120,7 +120,7 @@ static void keep_mode(pl_run* run, pl_keeper* k) {
                   run->unique,  run->several,  run->ever_several, run->slips,
                   run->near_by, run->met,      run->rebounds,     run->jumped};
   for (size_t i = 0; i < sizeof of_c / sizeof *of_c; i++) pl_keep_bools(k, of_c[i], c);
-  for (int i = 0; i < run->n_q; i++) pl_keep_int(k, &run->place_n[i], 0, 1);
+  for (int i = 0; i < run->n_q; i++) pl_keep_int(k, &run->has_equation[i], 0, 1);
   pl_keep_int(k, &run->n_active, 0, run->n_c);
   pl_keep_int(k, &run->rank, 0, run->n_c);
   pl_keep_int(k, &run->rank_mode, -1, run->n_c);
@@ -269,7 +269,7 @@ static pl_step_program* program_for(pl_run* run, pl_step_program* made, const bo
   for (pl_step_program* o = made; o; o = o->next)
     if (same_program(run, o, taken, moves)) return o;
   memcpy(run->taken, taken, (size_t)run->n_c * sizeof(bool));
-  for (int i = 0; i < run->n_q; i++) run->place_n[i] = moves[i];
+  for (int i = 0; i < run->n_q; i++) run->has_equation[i] = moves[i];
   pl_step_program* o = pl_step_program_make(run);
   return same_program(run, o, taken, moves) ? o : NULL;
 }

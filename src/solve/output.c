@@ -17,7 +17,7 @@ void pl_observe(pl_run* run, double t, const double* q, const double* v, const d
   pl_batches_load_v(b, v, 0);
   pl_batches_load_a(b, a, 0);
   pl_batches_load_lambda(b, lambda, 0);
-  for (int level = PL_LEVEL_PLACE; level < PL_N_LEVELS; level++)
+  for (int level = PL_LEVEL_POSITION; level < PL_N_LEVELS; level++)
     pl_batches_sweep(b, (pl_tape_level)level, 0, true);
   pl_batches_outputs(b, out, run->setup->n_out, 0);
 }

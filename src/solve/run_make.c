@@ -212,7 +212,7 @@ static void reserve_state(pl_run* run) {
   run->bounces = PL_ARRAY(a, long, c + 1);
   run->at_friction = PL_ARRAY(a, int, c + 1);
   run->rhs = PL_ARRAY(a, double, q + c + 1);
-  run->place_n = PL_ARRAY(a, int, q + 1);
+  run->has_equation = PL_ARRAY(a, int, q + 1);
 }
 
 static void reserve_ranks(pl_run* run) {
@@ -272,7 +272,8 @@ static pleuel_status check_rows(pl_run* run) {
     const pl_pattern* p = b->pattern;
     run->has_W |= p->n_W > 0;
     for (int e = 0; e < p->n_mass; e++)
-      run->mass_of_speed |= p->tape->roots[p->mass[e].root] >= p->tape->level_end[PL_LEVEL_PLACE];
+      run->mass_of_velocity |= p->tape->roots[p->mass[e].root]
+                               >= p->tape->level_end[PL_LEVEL_POSITION];
     for (int e = 0; e < p->n_g; e++)
       for (int l = 0; l < b->n; l++)
         if (owner[b->c[p->g[e].row * b->lanes + l]]++)

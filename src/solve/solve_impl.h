@@ -171,13 +171,13 @@ struct pl_run {
 
   pl_batches motion, observers, watched, branches;
   pl_kkt kkt;
-  bool has_W;           // some force depends on a multiplier
-  bool mass_of_speed;   // M depends on velocities
-  bool watch_landings;  // some one-sided constraint is free
+  bool has_W;             // some force depends on a multiplier
+  bool mass_of_velocity;  // M depends on velocities
+  bool watch_landings;    // some one-sided constraint is free
   // the factor and the nodes of q, t belong to run->t, q (left by a projection)
   bool factored;
-  int* place_n;  // structure of coordinates: 1 if the coordinate has an entry in M  (n_q)
-  bool rests;    // some coordinate rests or some constraint is not used
+  int* has_equation;  // structure of coordinates: 1 if the coordinate has an entry in M  (n_q)
+  bool rests;         // some coordinate rests or some constraint is not used
 
   // the step program, for the mode at work and those before; NULL: the general way
   pl_step_program *program, *programs;
@@ -402,7 +402,7 @@ void pl_assemble_gdot(pl_run* run, double* r, double* size);      // G v + dg/dt
 void pl_assemble_rhs(pl_run* run, int k, double* rhs);
 // acceleration of a coordinate by the largest force met
 double pl_free_size(const pl_run* run, int i);
-void pl_assemble_speed(pl_run* run, int k, double* speed);  // order k of G v + dg/dt of slip
+void pl_assemble_slip(pl_run* run, int k, double* speed);  // order k of G v + dg/dt of slip
 // d/dt (G v + dg/dt), all rows
 void pl_assemble_second(pl_run* run, const double* a, double* second, double* size);
 
@@ -451,7 +451,7 @@ bool pl_least_change(const pl_run* run, const bool* held, const double* residual
                      const double* size, bool positions, double* basis, double* change);
 
 // ---- taylor_series.c
-// levels PLACE and SPEED at order 0
+// levels POSITION and VELOCITY at order 0
 void pl_point_evaluate(pl_run* run, double t, const double* q, const double* v);
 bool pl_point_factor(pl_run* run, bool with_W);  // choose, assemble, factor
 bool pl_point_enter(pl_run* run);                // all of order 0 at run->t, q, v

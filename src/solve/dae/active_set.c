@@ -19,20 +19,22 @@ static bool touches(const pl_run* run, const pl_batch* b, const pl_pattern_entry
 
 // A coordinate without mass, force and active constraint rests; an equation 1 a = 0 stands for it.
 static void find_orphans(pl_run* run) {
-  for (int i = 0; i < run->n_q; i++) run->place_n[i] = 0;
+  for (int i = 0; i < run->n_q; i++) run->has_equation[i] = 0;
   for (int i = 0; i < run->motion.n; i++) {
     const pl_batch* b = &run->motion.at[i];
     const pl_pattern* p = b->pattern;
     for (int l = 0; l < b->n; l++) {
-      for (int e = 0; e < p->n_mass; e++) run->place_n[b->q[p->mass[e].row * b->lanes + l]] = 1;
-      for (int e = 0; e < p->n_mass; e++) run->place_n[b->q[p->mass[e].col * b->lanes + l]] = 1;
-      for (int e = 0; e < p->n_h; e++) run->place_n[b->q[p->h[e].row * b->lanes + l]] = 1;
+      for (int e = 0; e < p->n_mass; e++)
+        run->has_equation[b->q[p->mass[e].row * b->lanes + l]] = 1;
+      for (int e = 0; e < p->n_mass; e++)
+        run->has_equation[b->q[p->mass[e].col * b->lanes + l]] = 1;
+      for (int e = 0; e < p->n_h; e++) run->has_equation[b->q[p->h[e].row * b->lanes + l]] = 1;
       for (int e = 0; e < p->n_G; e++)
-        if (touches(run, b, &p->G[e], l)) run->place_n[b->q[p->G[e].col * b->lanes + l]] = 1;
+        if (touches(run, b, &p->G[e], l)) run->has_equation[b->q[p->G[e].col * b->lanes + l]] = 1;
     }
   }
   for (int i = 0; i < run->n_q; i++)
-    if (run->place_n[i] == 0) run->v[i] = 0;
+    if (run->has_equation[i] == 0) run->v[i] = 0;
 }
 
 // What a row goes with is there: its contact, and what a map takes for granted.

@@ -61,7 +61,7 @@ void pl_assemble_matrix(pl_run* run, bool with_W) {
   }
   run->rests = false;
   for (int i = 0; i < run->n_q; i++)
-    if (run->place_n[i] == 0) {
+    if (run->has_equation[i] == 0) {
       k->value[k->diagonal[i]] = 1;
       run->rests = true;
     }  // nothing determines it: it rests
@@ -127,7 +127,7 @@ void pl_assemble_rhs(pl_run* run, int k, double* rhs) {
   if (run->n_slipping > 0) pl_friction_rhs(run, k, rhs);
 }
 
-void pl_assemble_speed(pl_run* run, int k, double* speed) {
+void pl_assemble_slip(pl_run* run, int k, double* speed) {
   double s[PL_JET_LANES];
   clear(speed, run->n_c);
   for (int i = 0; i < run->motion.n; i++) {
@@ -156,7 +156,7 @@ void pl_assemble_speed(pl_run* run, int k, double* speed) {
 // that.
 double pl_free_size(const pl_run* run, int i) {
   double mass = run->kkt.value[run->kkt.diagonal[i]];
-  return mass > 0 && run->place_n[i] != 0 ? run->force_size / mass : 0;
+  return mass > 0 && run->has_equation[i] != 0 ? run->force_size / mass : 0;
 }
 
 void pl_assemble_second(pl_run* run, const double* a, double* second, double* size) {

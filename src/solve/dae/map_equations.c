@@ -45,7 +45,7 @@ static bool slopes(const pl_run* run, pl_map_work* w, bool collect) {
       for (int l = 0; l < b->n; l++) {
         int r = index_in(w->row, w->m, b->c[e->row * b->lanes + l]),
             q = b->q[e->col * b->lanes + l];
-        if (r < 0 || run->place_n[q] != 0) continue;
+        if (r < 0 || run->has_equation[q] != 0) continue;
         int k = index_in(w->coordinate, w->n, q);
         if (k < 0 && collect && w->n == MOST_COORDINATES) return false;
         if (k < 0 && collect) w->coordinate[k = w->n++] = q;

@@ -94,7 +94,7 @@ pl_projection pl_project(pl_run* run, double t, double* q, double* v) {
   run->at_point = false;
   pl_sizes_note(run, q, v);
   p.ok = project_positions(run, t, q, v, &p) && project_velocities(run, v, &p);
-  run->factored = p.ok && !run->has_W && !run->mass_of_speed;
+  run->factored = p.ok && !run->has_W && !run->mass_of_velocity;
   return p;
 }
 

@@ -249,7 +249,7 @@ static void rhs_of(pl_run* run, int k, double* rhs) {
   }
   if (!run->rests) return;
   for (int i = 0; i < run->n_q; i++)
-    if (run->place_n[i] == 0) rhs[i] = 0;
+    if (run->has_equation[i] == 0) rhs[i] = 0;
   for (int c = 0; c < run->n_c; c++)
     if (!run->taken[c]) rhs[run->n_q + c] = 0;
 }

@@ -365,7 +365,7 @@ static double watched_value(pl_run* run, int i) {
   pl_batches_load_v(b, run->save_v, 0);
   pl_batches_load_a(b, run->save_a, 0);
   pl_batches_load_lambda(b, run->save_l, 0);
-  for (int level = PL_LEVEL_PLACE; level < PL_N_LEVELS; level++)
+  for (int level = PL_LEVEL_POSITION; level < PL_N_LEVELS; level++)
     pl_batches_sweep(b, (pl_tape_level)level, 0, true);
   pl_batches_outputs(b, run->W_coef, run->setup->n_watched, 0);
   return run->W_coef[i];

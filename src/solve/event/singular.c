@@ -68,7 +68,7 @@ static void place_in_words(const pl_run* run, double reach, char* where, size_t 
 static int without_inertia(const pl_run* run) {
   const pl_kkt* k = &run->kkt;
   for (int i = 0; i < run->n_q; i++)
-    if (run->place_n[i] != 0 && k->value[k->diagonal[i]] == 0) return i;
+    if (run->has_equation[i] != 0 && k->value[k->diagonal[i]] == 0) return i;
   return -1;
 }
 
@@ -81,7 +81,7 @@ static bool all_finite(const double* x, int n) {
 // Whether masses, gradients and forces have numbers at what was evaluated last.
 static bool has_numbers(pl_run* run) {
   if (!all_finite(run->kkt.value, run->kkt.n_values)) return false;
-  pl_batches_sweep(&run->motion, PL_LEVEL_PLACE, 1, true);
+  pl_batches_sweep(&run->motion, PL_LEVEL_POSITION, 1, true);
   pl_assemble_rhs(run, 0, run->rhs);
   return all_finite(run->rhs, run->n_q);
 }
@@ -126,7 +126,7 @@ static bool in_constraint(const pl_run* run, int q) {
 
 pleuel_status pl_run_left_open(pl_run* run) {
   for (int i = 0; i < run->n_q; i++) {
-    if (run->place_n[i] != 0 || !run->setup->coordinates[i].in_load || in_constraint(run, i))
+    if (run->has_equation[i] != 0 || !run->setup->coordinates[i].in_load || in_constraint(run, i))
       continue;
     return pl_fail(run->job, PLEUEL_SINGULAR,
                    "the equations of motion do not contain %s: nothing determines how it moves",

@@ -18,14 +18,14 @@ static bool compares_two(const pl_tape_node* node) {
 // What changes sign at the kink is operand a, or a - b.
 static int count_in(const pl_tape* tape) {
   int n = 0;
-  for (int i = tape->level_end[PL_LEVEL_CONST]; i < tape->level_end[PL_LEVEL_SPEED]; i++)
+  for (int i = tape->level_end[PL_LEVEL_CONST]; i < tape->level_end[PL_LEVEL_VELOCITY]; i++)
     n += tape->nodes[i].high && has_branches(&tape->nodes[i]);
   return n;
 }
 
 static void list_batch(pl_run* run, const pl_batch* b) {
   const pl_tape* tape = b->pattern->tape;
-  for (int i = tape->level_end[PL_LEVEL_CONST]; i < tape->level_end[PL_LEVEL_SPEED]; i++) {
+  for (int i = tape->level_end[PL_LEVEL_CONST]; i < tape->level_end[PL_LEVEL_VELOCITY]; i++) {
     const pl_tape_node* node = &tape->nodes[i];
     if (!node->high || !has_branches(node)) continue;
     for (int l = 0; l < b->n; l++)

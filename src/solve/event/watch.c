@@ -60,7 +60,7 @@ static void series_of_events(pl_run* run) {
     pl_batches_load_v(b, run->V + (size_t)k * (size_t)run->n_q, k);
     pl_batches_load_a(b, run->A + (size_t)k * (size_t)run->n_q, k);
     pl_batches_load_lambda(b, run->L + (size_t)k * (size_t)run->n_c, k);
-    for (int level = PL_LEVEL_PLACE; level < PL_N_LEVELS; level++)
+    for (int level = PL_LEVEL_POSITION; level < PL_N_LEVELS; level++)
       pl_batches_sweep(b, (pl_tape_level)level, k, true);
     pl_batches_outputs(b, run->W_series + (size_t)k * (size_t)run->setup->n_watched,
                        run->setup->n_watched, k);
@@ -74,7 +74,7 @@ void pl_watch_series(pl_run* run) {
                     k == 0 ? run->g_size : NULL);
   if (run->n_slipping > 0)
     for (int k = 0; k <= run->order; k++)
-      pl_assemble_speed(run, k, run->S_series + (size_t)k * (size_t)run->n_c);
+      pl_assemble_slip(run, k, run->S_series + (size_t)k * (size_t)run->n_c);
   if (run->setup->n_events > 0) series_of_events(run);
 }
 
@@ -290,7 +290,8 @@ static double event_at(pl_run* run, int e, double t, const double* q, const doub
   pl_batches_load_v(b, v, 0);
   pl_batches_load_a(b, run->row_a, 0);
   pl_batches_load_lambda(b, run->row_l, 0);
-  for (int l = PL_LEVEL_PLACE; l < PL_N_LEVELS; l++) pl_batches_sweep(b, (pl_tape_level)l, 0, true);
+  for (int l = PL_LEVEL_POSITION; l < PL_N_LEVELS; l++)
+    pl_batches_sweep(b, (pl_tape_level)l, 0, true);
   pl_batches_outputs(b, run->W_coef, run->setup->n_watched, 0);
   return run->W_coef[run->setup->events[e].watch];
 }

@@ -159,7 +159,7 @@ static bool fits_branches(pl_start* s, const double* q) {
   pl_batches_time(b, run->options.t_0);
   pl_batches_load_q(b, q, 0);
   pl_batches_load_v(b, s->v, 0);
-  for (int level = PL_LEVEL_PLACE; level < PL_N_LEVELS; level++)
+  for (int level = PL_LEVEL_POSITION; level < PL_N_LEVELS; level++)
     pl_batches_sweep(b, (pl_tape_level)level, 0, true);
   pl_batches_outputs(b, run->branch_value, setup->n_branch_outputs, 0);
   for (int i = 0; i < setup->n_branches; i++) {

@@ -42,7 +42,7 @@ double pl_start_residual(pl_start* s, const double* q, int* worst) {
   return largest(run, run->g, run->g_size, true, worst);
 }
 
-double pl_start_speed_residual(pl_start* s, const double* v, int* worst) {
+double pl_start_velocity_residual(pl_start* s, const double* v, int* worst) {
   pl_run* run = s->run;
   run->v_size = 0;
   for (int i = 0; i < run->n_q; i++) run->v_most[i] = 0;
@@ -217,6 +217,6 @@ bool pl_start_velocities(pl_start* s, const bool* held) {
   choose(s, held, false);
   bool solved = solve_velocities(s, held, false) || solve_velocities(s, held, true);
   pl_point_evaluate(run, run->options.t_0, s->q, s->v);
-  s->worst = pl_start_speed_residual(s, s->v, &s->worst_constraint);
+  s->worst = pl_start_velocity_residual(s, s->v, &s->worst_constraint);
   return solved && s->worst <= met;
 }

@@ -60,7 +60,7 @@ static void watch_quantities(pl_run* run, const node* n) {
   pl_batches_load_v(b, n->v, 0);
   pl_batches_load_a(b, n->a, 0);
   pl_batches_load_lambda(b, n->lambda, 0);
-  for (int level = PL_LEVEL_PLACE; level < PL_N_LEVELS; level++)
+  for (int level = PL_LEVEL_POSITION; level < PL_N_LEVELS; level++)
     pl_batches_sweep(b, (pl_tape_level)level, 0, true);
   pl_batches_outputs(b, run->W_coef, run->setup->n_watched, 0);
 }

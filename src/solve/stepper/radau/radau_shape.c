@@ -34,7 +34,7 @@ static slots dependence(pl_arena* a, const pl_tape* tape) {
     if (tape->q_node[q] >= 0) put(&s, tape->q_node[q], q);
     if (tape->v_node[q] >= 0) put(&s, tape->v_node[q], q);
   }
-  for (int i = tape->level_end[PL_LEVEL_CONST]; i < tape->level_end[PL_LEVEL_SPEED]; i++) {
+  for (int i = tape->level_end[PL_LEVEL_CONST]; i < tape->level_end[PL_LEVEL_VELOCITY]; i++) {
     const pl_tape_node* node = &tape->nodes[i];
     if (pl_op_reads[node->op] > 0) join(&s, i, &s, node->a);
     if (pl_op_reads[node->op] > 1) join(&s, i, &s, node->b);

@@ -132,7 +132,7 @@ static void stand_still(pl_jet* jet) {
     set_lanes(jet, tape->q_node[s], 1, 0);
     set_lanes(jet, tape->v_node[s], 1, 0);
   }
-  for (int k = tape->level_end[PL_LEVEL_CONST]; k < tape->level_end[PL_LEVEL_PLACE]; k++)
+  for (int k = tape->level_end[PL_LEVEL_CONST]; k < tape->level_end[PL_LEVEL_POSITION]; k++)
     if (tape->nodes[k].op == PL_OP_TIME) set_lanes(jet, k, 1, 0);
 }
 

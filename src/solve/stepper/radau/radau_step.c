@@ -194,7 +194,7 @@ static double estimate(const pl_run* run, pl_radau* r, double h) {
   pl_radau_multiply(&r->shape, b, 1, r->here.P0, r->error_v, n);
   pl_radau_multiply(&r->shape, b, -1 / gamma, r->here.P2, rho, n);
   for (int e = 0; e < n; e++)
-    if (run->place_n[e] == 0) b[e] = 0;
+    if (run->has_equation[e] == 0) b[e] = 0;
   for (int c = 0; c < r->n_c; c++)
     if (!pl_radau_has_force(run, c)) b[n + c] = 0;
   pl_radau_solve_real(r, b);

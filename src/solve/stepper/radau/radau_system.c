@@ -143,8 +143,8 @@ static int node_of(const pl_batch* b, const pl_pattern_entry* e) {
 }
 
 void pl_radau_sweep(pl_jet* jet, int k) {
-  jet->kernel(jet, PL_LEVEL_PLACE, k, k == 0);
-  jet->kernel(jet, PL_LEVEL_SPEED, k, k == 0);
+  jet->kernel(jet, PL_LEVEL_POSITION, k, k == 0);
+  jet->kernel(jet, PL_LEVEL_VELOCITY, k, k == 0);
 }
 
 // --------------------------------------------------------------------------------------- residuals
@@ -199,7 +199,7 @@ static void residual_by_stages(const pl_run* run, pl_radau* r, const pl_radau_la
         pl_jet_at(w->jet, tape->v_node[slot], 0)[l] = pl_radau_stage(r->V, i, r->n_q)[b->q[slot]];
     }
   }
-  for (int k = tape->level_end[PL_LEVEL_CONST]; k < tape->level_end[PL_LEVEL_PLACE]; k++)
+  for (int k = tape->level_end[PL_LEVEL_CONST]; k < tape->level_end[PL_LEVEL_POSITION]; k++)
     for (int l = 0; l < WIDE && tape->nodes[k].op == PL_OP_TIME; l++)
       pl_jet_at(w->jet, k, 0)[l] = r->t[l < s ? l : s - 1];
   pl_radau_sweep(w->jet, 0);
@@ -251,7 +251,7 @@ void pl_radau_residual(pl_run* run, pl_radau* r) {
   for (int i = 0; i < r->method.s; i++) {
     double* F = pl_radau_stage(r->F, i, r->n);
     for (int k = 0; k < run->n_q; k++)
-      if (run->place_n[k] == 0) F[k] = 0;
+      if (run->has_equation[k] == 0) F[k] = 0;
     if (run->n_slipping > 0)
       pl_radau_slip_rows(run, pl_radau_stage(r->coefficient, i, r->n_C),
                          pl_radau_stage(r->L, i, r->n_c), F + r->n_q);

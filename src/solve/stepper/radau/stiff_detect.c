@@ -30,7 +30,7 @@ static const double gain_exact = 20;  // the same where no tolerance was asked f
 // operation counts as half of one of a tape.
 static double nodes_of_batch(const pl_batch* b) {
   const pl_tape* tape = b->pattern->tape;
-  return (tape->level_end[PL_LEVEL_SPEED] - tape->level_end[PL_LEVEL_CONST])
+  return (tape->level_end[PL_LEVEL_VELOCITY] - tape->level_end[PL_LEVEL_CONST])
          * (b->lanes > 1 ? 2.0 : 1.0);
 }
 

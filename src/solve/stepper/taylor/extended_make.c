@@ -80,7 +80,7 @@ pleuel_status pl_extended_check(pl_run* run) {
     return pl_fail(run->job, PLEUEL_UNSUPPORTED,
                    "precision %s: forces that depend on multipliers are computed in double only",
                    mode);
-  if (run->mass_of_speed)
+  if (run->mass_of_velocity)
     return pl_fail(run->job, PLEUEL_UNSUPPORTED,
                    "precision %s: masses that depend on velocities are computed in double only",
                    mode);

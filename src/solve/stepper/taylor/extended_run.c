@@ -88,7 +88,7 @@ static bool project_positions(pl_run* run, pl_projection* p) {
   const pl_step_program* o = run->extended->o;
   double before = (double)INFINITY;
   for (int round = 0; round < MAX_NEWTON; round++) {
-    fine_part(run, PL_PART_PLACE);
+    fine_part(run, PL_PART_POSITION);
     read(run, o->g, run->n_c, run->g);
     read(run, o->g_size, run->n_c, run->g_size);
     double g = pl_residual(run, run->g, run->g_size, true);
@@ -108,7 +108,7 @@ static bool project_positions(pl_run* run, pl_projection* p) {
 static bool project_velocities(pl_run* run, pl_projection* p) {
   const pl_step_program* o = run->extended->o;
   for (int round = 0;; round++) {
-    fine_part(run, PL_PART_SPEED);
+    fine_part(run, PL_PART_VELOCITY);
     read(run, o->r, run->n_c, run->r);
     read(run, o->r_size, run->n_c, run->r_size);
     double r = pl_residual(run, run->r, run->r_size, false);
@@ -166,8 +166,8 @@ static bool look_at_rows(pl_run* run) {
   pl_extended_change_rows(run);
   if (run->extended == w) return true;
   set_floors(run);
-  fine_part(run, PL_PART_PLACE);
-  fine_part(run, PL_PART_SPEED);
+  fine_part(run, PL_PART_POSITION);
+  fine_part(run, PL_PART_VELOCITY);
   return pivots_are_sound(run);
 }
 

@@ -56,8 +56,8 @@ static bool move_free(pl_run* run, bool positions, const bool* held, double* bas
   double before = (double)INFINITY, *g = positions ? run->g : run->r,
          *size = positions ? run->g_size : run->r_size;
   for (int round = 0; round < MAX_ROUNDS; round++) {
-    w->fine->interpret(o->code[PL_PART_PLACE], w->m, 0, 1);
-    w->fine->interpret(o->code[PL_PART_SPEED], w->m, 0, 1);
+    w->fine->interpret(o->code[PL_PART_POSITION], w->m, 0, 1);
+    w->fine->interpret(o->code[PL_PART_VELOCITY], w->m, 0, 1);
     w->fine->read(w->m, positions ? o->g : o->r, run->n_c, g);
     w->fine->read(w->m, positions ? o->g_size : o->r_size, run->n_c, size);
     double most = 0;

@@ -29,9 +29,9 @@ enum {
 };
 
 typedef enum pl_step_part {
-  PL_PART_PLACE,
+  PL_PART_POSITION,
   PL_PART_CORRECT_Q,
-  PL_PART_SPEED,
+  PL_PART_VELOCITY,
   PL_PART_CORRECT_V,
   PL_PART_INVERSE,
   PL_PART_START,

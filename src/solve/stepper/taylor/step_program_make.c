@@ -11,7 +11,7 @@ int pl_maker_take(pl_maker* k, int n) {
 // ------------------------------------------------------------------------------------------ limits
 bool pl_step_program_fits(const pl_run* run) {
   long nodes = 0;
-  if (run->n_q + run->n_c > PL_STEP_UNKNOWNS || run->has_W || run->mass_of_speed
+  if (run->n_q + run->n_c > PL_STEP_UNKNOWNS || run->has_W || run->mass_of_velocity
       || run->setup->n_frictions > 0)
     return false;
   for (int i = 0; i < run->motion.n; i++) {
@@ -42,7 +42,7 @@ static void number_unknowns(pl_maker* k) {
   }
   o->n_mass = o->n;
   for (int i = 0; i < o->n_q; i++)  // what nothing determines rests and is no unknown
-    if (o->of_coordinate[i] < 0 && k->run->place_n[i] != 0) {
+    if (o->of_coordinate[i] < 0 && k->run->has_equation[i] != 0) {
       o->index[o->n] = i;
       o->of_coordinate[i] = o->n++;
     }
@@ -128,7 +128,7 @@ static int now_of(void* user, int node) {
   pl_maker* k = user;
   int global = pl_maker_same(k, k->instance_now, node);
   if (node < k->instance[k->instance_now].tape->level_end[PL_LEVEL_CONST]) return -1;
-  if (!k->speed_phase) return k->place_now[global];
+  if (!k->velocity_phase) return k->position_now[global];
   if (k->now[global] < 0 && k->keep[global] >= 0)
     k->now[global] = pl_prog_load(k->code, k->keep_at + k->keep[global], k->n_keep);
   return k->now[global];
@@ -162,8 +162,8 @@ void pl_maker_begin(pl_maker* k, pl_step_part part, const char* name, int width)
                              .sum = sum_of,
                              .inverse = inverse_of,
                              .means = true};
-  for (int i = 0; i < k->n_nodes; i++) k->start[i] = k->now[i] = k->place_now[i] = -1;
-  k->with_sums = k->speed_phase = false;
+  for (int i = 0; i < k->n_nodes; i++) k->start[i] = k->now[i] = k->position_now[i] = -1;
+  k->with_sums = k->velocity_phase = false;
 }
 
 void pl_maker_end(pl_maker* k) {
@@ -270,9 +270,9 @@ void pl_maker_level(pl_maker* k, pl_tape_level level, const bool* set) {
     if (set[i] && pl_maker_node(k, i)->level == level) pl_maker_value(k, i);
 }
 
-static void place_code(pl_maker* k) {
-  pl_maker_begin(k, PL_PART_PLACE, "place", 1);
-  pl_maker_level(k, PL_LEVEL_PLACE, k->needed);
+static void position_code(pl_maker* k) {
+  pl_maker_begin(k, PL_PART_POSITION, "place", 1);
+  pl_maker_level(k, PL_LEVEL_POSITION, k->needed);
   constraint_values(k);
   factor(k);
   pl_maker_end(k);
@@ -295,9 +295,9 @@ static void correction_code(pl_maker* k, pl_step_part part, const char* name, in
   pl_maker_end(k);
 }
 
-static void speed_code(pl_maker* k) {
+static void velocity_code(pl_maker* k) {
   pl_step_program* o = k->o;
-  pl_maker_begin(k, PL_PART_SPEED, "speed", 1);
+  pl_maker_begin(k, PL_PART_VELOCITY, "speed", 1);
   for (int c = 0; c < o->n_c; c++) {
     SUM_OF_ROW(gt, c);
     int r = or_zero(k, row_), size = pl_prog_op1(k->code, PL_PROG_ABS, r);
@@ -384,8 +384,8 @@ static void energy_code(pl_maker* k) {
     k->for_energy[i] &= !k->needed[i];
   }
   pl_maker_begin(k, PL_PART_ENERGY, "energy", 1);
-  pl_maker_level(k, PL_LEVEL_PLACE, k->for_energy);
-  pl_maker_level(k, PL_LEVEL_SPEED, k->for_energy);
+  pl_maker_level(k, PL_LEVEL_POSITION, k->for_energy);
+  pl_maker_level(k, PL_LEVEL_VELOCITY, k->for_energy);
   for (int i = 0; i < (k->run->setup->energy > 0 ? 3 : 2); i++) {
     SUM_OF_ROW(energy, i);
     pl_prog_store(k->code, or_zero(k, row_), k->o->energy + i, 0);
@@ -448,9 +448,9 @@ pl_step_program* pl_step_program_make_for(pl_run* run, const pl_real* real) {
   find_structure(k);
   lay_out(k);
   if (k->elimination == NULL) return o;
-  place_code(k);
+  position_code(k);
   correction_code(k, PL_PART_CORRECT_Q, "correct_q", o->g);
-  speed_code(k);
+  velocity_code(k);
   correction_code(k, PL_PART_CORRECT_V, "correct_v", o->r);
   inverse_code(k);
   pl_maker_streams(k);

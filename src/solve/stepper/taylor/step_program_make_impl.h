@@ -67,8 +67,8 @@ typedef struct pl_maker {
   pl_recurrence lower;
   int instance_now;
   // registers of order 0, order at work, order k+1 of nodes of q and t
-  int *start, *now, *place_now;
-  bool with_sums, speed_phase;
+  int *start, *now, *position_now;
+  bool with_sums, velocity_phase;
 } pl_maker;
 
 static inline const pl_tape_node* pl_maker_node(const pl_maker* k, int node) {

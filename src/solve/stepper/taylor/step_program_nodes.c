@@ -33,7 +33,7 @@ static void reserve_nodes(pl_maker* k) {
   k->needed = PL_ARRAY(k->a, bool, n);
   k->high = PL_ARRAY(k->a, bool, n);
   k->for_energy = PL_ARRAY(k->a, bool, n);
-  int** ints[] = {&k->same, &k->cell, &k->inverse, &k->keep, &k->start, &k->now, &k->place_now};
+  int** ints[] = {&k->same, &k->cell, &k->inverse, &k->keep, &k->start, &k->now, &k->position_now};
   for (size_t i = 0; i < sizeof ints / sizeof *ints; i++) {
     *ints[i] = PL_ARRAY(k->a, int, n);
     for (size_t j = 0; j < n; j++) (*ints[i])[j] = -1;

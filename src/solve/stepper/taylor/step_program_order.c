@@ -283,14 +283,14 @@ static void group_rows(pl_maker* k, pl_streams* streams, const pl_row_list* rows
 static void keep(pl_maker* k, int instance, int node) {
   if (node < 0 || is_constant(k, instance, node)) return;
   int global = pl_maker_same(k, instance, node);
-  if (pl_maker_node(k, global)->level == PL_LEVEL_PLACE && k->keep[global] < 0)
+  if (pl_maker_node(k, global)->level == PL_LEVEL_POSITION && k->keep[global] < 0)
     k->keep[global] = k->n_keep++;
 }
 
 static void list_kept(pl_maker* k) {
   for (int i = 0; i < k->n_nodes; i++) {
     const pl_tape_node* n = pl_maker_node(k, i);
-    if (!k->high[i] || n->level != PL_LEVEL_SPEED) continue;
+    if (!k->high[i] || n->level != PL_LEVEL_VELOCITY) continue;
     keep(k, k->owner[i], n->a);
     keep(k, k->owner[i], n->b);
     if (n->op == PL_OP_IF) keep(k, k->owner[i], n->c);
@@ -312,8 +312,8 @@ void pl_maker_streams(pl_maker* k) {
   k->row_sums = PL_ARRAY(k->a, pl_stream_places, o->n + 1);
   k->groups = PL_NEW(k->a, pl_maker_groups);
   pl_row_list* rows = PL_ARRAY(k->a, pl_row_list, o->n + 1);
-  list_sums(k, PL_LEVEL_PLACE, &place);
-  list_sums(k, PL_LEVEL_SPEED, &speed);
+  list_sums(k, PL_LEVEL_POSITION, &place);
+  list_sums(k, PL_LEVEL_VELOCITY, &speed);
   list_rows(k, rows);
   group_sums(k, &streams, &place, &k->groups->place);
   group_rows(k, &streams, rows, &k->groups->place);
@@ -376,26 +376,26 @@ static void next_positions(pl_maker* k, int* q) {
   }
 }
 
-static void place_nodes(pl_maker* k) {
+static void position_nodes(pl_maker* k) {
   int* q = PL_ARRAY(k->a, int, k->o->n_q + 1);
   next_positions(k, q);
   add_block(k, &k->groups->place, 1);
   for (int i = 0; i < k->n_nodes; i++) {
     const pl_tape_node* n = pl_maker_node(k, i);
-    if (!k->high[i] || n->level != PL_LEVEL_PLACE) continue;
-    if (n->op == PL_OP_TIME) k->place_now[i] = pl_prog_load(k->code, k->o->time + 1, 1);
-    else if (n->op == PL_OP_Q) k->place_now[i] = q[global_coordinate(k, i)];
-    else k->place_now[i] = coefficient(k, i);
-    publish(k, i, k->place_now[i], 1);
+    if (!k->high[i] || n->level != PL_LEVEL_POSITION) continue;
+    if (n->op == PL_OP_TIME) k->position_now[i] = pl_prog_load(k->code, k->o->time + 1, 1);
+    else if (n->op == PL_OP_Q) k->position_now[i] = q[global_coordinate(k, i)];
+    else k->position_now[i] = coefficient(k, i);
+    publish(k, i, k->position_now[i], 1);
   }
 }
 
-static void speed_nodes(pl_maker* k) {
-  k->speed_phase = true;
+static void velocity_nodes(pl_maker* k) {
+  k->velocity_phase = true;
   add_block(k, &k->groups->speed, 0);
   for (int i = 0; i < k->n_nodes; i++) {
     const pl_tape_node* n = pl_maker_node(k, i);
-    if (!k->high[i] || n->level != PL_LEVEL_SPEED) continue;
+    if (!k->high[i] || n->level != PL_LEVEL_VELOCITY) continue;
     if (n->op == PL_OP_V)
       k->now[i] = pl_prog_load(k->code, k->o->V + global_coordinate(k, i), k->o->n_q);
     else k->now[i] = coefficient(k, i);
@@ -446,9 +446,9 @@ static int right_of_coordinate(pl_maker* k, int u, bool first) {
 static int left_of_constraint(pl_maker* k, int u) {
   int c = k->o->index[u], s[2] = {sum_at(k, u), -1}, n = 0;
   for (int e = 0; e < k->gt.n; e++)
-    if (k->gt.at[e].row == c) s[0] = plus(k, s[0], k->place_now[k->gt.at[e].node]);
+    if (k->gt.at[e].row == c) s[0] = plus(k, s[0], k->position_now[k->gt.at[e].node]);
   for (int e = 0; e < k->G.n; e++) {
-    int x = k->place_now[k->G.at[e].node], *to = &s[n % 2];
+    int x = k->position_now[k->G.at[e].node], *to = &s[n % 2];
     if (k->G.at[e].row != c || x < 0) continue;
     int v = pl_prog_load(k->code, k->o->V + k->G.at[e].col, 0);
     *to = *to < 0 ? pl_prog_op2(k->code, PL_PROG_MUL, x, v)
@@ -509,7 +509,7 @@ static void take_solution(pl_maker* k, const int* x, bool first) {
 
 static void equations(pl_maker* k, bool first) {
   int n = k->o->n, *x = PL_ARRAY(k->a, int, n + 1);
-  k->speed_phase = true;
+  k->velocity_phase = true;
   for (int u = 0; u < n; u++)
     x[u] = u < n - k->o->n_taken ? right_of_coordinate(k, u, first) : left_of_constraint(k, u);
   solve(k, x, first);
@@ -547,10 +547,10 @@ static void compare_accelerations(pl_maker* k) {
 
 void pl_maker_start_code(pl_maker* k) {
   pl_maker_begin(k, PL_PART_START, "start", 1);
-  inverses(k, PL_LEVEL_PLACE);
-  place_nodes(k);
-  pl_maker_level(k, PL_LEVEL_SPEED, k->needed);
-  inverses(k, PL_LEVEL_SPEED);
+  inverses(k, PL_LEVEL_POSITION);
+  position_nodes(k);
+  pl_maker_level(k, PL_LEVEL_VELOCITY, k->needed);
+  inverses(k, PL_LEVEL_VELOCITY);
   equations(k, true);
   compare_accelerations(k);
   pl_maker_end(k);
@@ -567,8 +567,8 @@ static bool is_small(const pl_maker* k) {
 void pl_maker_order_code(pl_maker* k) {
   pl_maker_begin(k, PL_PART_ORDER, "order", 1);
   k->with_sums = true;
-  place_nodes(k);
-  speed_nodes(k);
+  position_nodes(k);
+  velocity_nodes(k);
   equations(k, false);
   pl_maker_end(k);
   if (!is_small(k)) return;

@@ -138,7 +138,7 @@ static bool project_positions(pl_run* run, pl_step_program* o, pl_projection* p)
   enum { MAX_NEWTON = 8 };
   double before = (double)INFINITY;
   for (int round = 0; round < MAX_NEWTON; round++) {
-    run_part(o, PL_PART_PLACE, 0, 1);
+    run_part(o, PL_PART_POSITION, 0, 1);
     double g = pl_residual(run, o->m + o->g, o->m + o->g_size, true);
     if (round == 0) p->g_before = g;
     p->g_after = g;
@@ -154,7 +154,7 @@ static bool project_positions(pl_run* run, pl_step_program* o, pl_projection* p)
 
 static bool project_velocities(pl_run* run, pl_step_program* o, pl_projection* p) {
   for (int round = 0;; round++) {
-    run_part(o, PL_PART_SPEED, 0, 1);
+    run_part(o, PL_PART_VELOCITY, 0, 1);
     double r = pl_residual(run, o->m + o->r, o->m + o->r_size, false);
     if (round == 0) p->r_before = r;
     p->r_after = r;
@@ -231,7 +231,7 @@ bool pl_step_program_enter_at(pl_run* run, double t, const double* q, const doub
   memcpy(o->m + o->Q, q, (size_t)o->n_q * sizeof *q);
   memcpy(o->m + o->V, v, (size_t)o->n_q * sizeof *v);
   o->arrived = false;
-  run_part(o, PL_PART_PLACE, 0, 1);
+  run_part(o, PL_PART_POSITION, 0, 1);
   double smallest = run->smallest;
   bool ready = pl_step_program_enter(run);
   run->smallest = smallest;

@@ -54,8 +54,8 @@ void pl_point_evaluate(pl_run* run, double t, const double* q, const double* v) 
   pl_batches_time(m, t);
   pl_batches_load_q(m, q, 0);
   pl_batches_load_v(m, v, 0);
-  pl_batches_sweep(m, PL_LEVEL_PLACE, 0, true);
-  pl_batches_sweep(m, PL_LEVEL_SPEED, 0, true);
+  pl_batches_sweep(m, PL_LEVEL_POSITION, 0, true);
+  pl_batches_sweep(m, PL_LEVEL_VELOCITY, 0, true);
 }
 
 // What must be left of a pivot to go on without pivoting: of what was left of it in better places,
@@ -84,8 +84,8 @@ static void solve_order(pl_run* run, int k) {
   pl_batches_load_q(m, q_next, k + 1);
   // all: where a landing is watched, g itself is needed to all orders
   bool all = run->watch_landings;
-  pl_batches_sweep(m, PL_LEVEL_PLACE, k + 1, all);
-  if (k > 0) pl_batches_sweep(m, PL_LEVEL_SPEED, k, false);
+  pl_batches_sweep(m, PL_LEVEL_POSITION, k + 1, all);
+  if (k > 0) pl_batches_sweep(m, PL_LEVEL_VELOCITY, k, false);
   if (k > 0 && run->setup->n_frictions > 0) pl_friction_coefficients(run, k);
   pl_assemble_rhs(run, k, run->rhs);
   pl_kkt_solve(&run->kkt, run->rhs);
@@ -106,7 +106,7 @@ static bool enter_at(pl_run* run, double t, const double* q, const double* v) {
   if (run->factored) {
     // the projection left nodes of q and t and the factor; only v has changed since
     pl_batches_load_v(&run->motion, v, 0);
-    pl_batches_sweep(&run->motion, PL_LEVEL_SPEED, 0, true);
+    pl_batches_sweep(&run->motion, PL_LEVEL_VELOCITY, 0, true);
   } else {
     pl_point_evaluate(run, t, q, v);
     pl_independent_choose(run);
