@@ -119,7 +119,7 @@ static bool write_state(pl_keeping* k, pl_run* run, pl_arena* a) {
   if (!rows_so_far(k, &rows)) return false;
   pl_traits_keep(&out, &k->traits, a);
   keep_rows(&out, &rows);
-  pl_run_keep(run, &out);
+  pl_run_save(run, &out);
   pl_result_keep(k->m->result, &out);
   pl_kept_head head = {.order = order_of_bytes,
                        .size = sizeof head + out.next,

@@ -70,7 +70,7 @@ static bool open_bench(bench* b, const char* file, const manner* how) {
 
 static pl_keeper kept(bench* b) {
   pl_keeper k = pl_keeper_to_write(b->m->arena);
-  pl_run_keep(b->run, &k);
+  pl_run_save(b->run, &k);
   return k;
 }
 

@@ -14,7 +14,7 @@
 // clang-format off
 // not kept of pl_run, follows from setup and options: job setup options n_q n_c order tol_raised
 //   motion observers watched branches has_W mass_of_velocity shrink h_plain h_least row_gap n_watch
-//   at_friction kinks n_kinks mode_size grid_count grid_dt
+//   at_friction switching points n_switches mode_size grid_count grid_dt
 // not kept of pl_run, follows from the point: Q V ready t_series rests
 // not kept of pl_run, follows from how it was started: start_given
 // not kept of pl_run, only when, never what: clock_begin t_begin considered wall_begin
@@ -73,7 +73,7 @@ static void keep_dimensions(pl_run* run, pl_keeper* k) {
               run->order,         s->n_out,
               s->n_frictions,     s->n_attitudes,
               s->n_events,        s->n_watched,
-              run->n_watch,       run->n_kinks,
+              run->n_watch,       run->n_switches,
               run->kkt.dense,     run->sensitivity != NULL,
               run->radau != NULL, run->radau ? run->radau->method.s : 0};
   for (size_t i = 0; i < sizeof of / sizeof *of; i++) keep_fixed(k, of[i]);
@@ -347,7 +347,7 @@ static void keep_programs(pl_run* run, pl_keeper* k) {
 }
 
 // --------------------------------------------------------------------------------------- all of it
-void pl_run_keep(pl_run* run, pl_keeper* k) {
+void pl_run_save(pl_run* run, pl_keeper* k) {
   keep_dimensions(run, k);
   keep_programs(run, k);
   pl_keep_section(k, "pivots");
@@ -380,7 +380,7 @@ static bool enter_again(pl_run* run) {
   bool at_point = run->at_point;
   if (!at_point) {
     pl_point_evaluate(run, run->t_nodes, run->q, run->v);
-    pl_independent_choose(run);
+    pl_active_set_choose(run);
     if (!pl_point_factor(run, true)) return false;
     run->factored = true;
   }

@@ -7,8 +7,8 @@
 const char* const pl_event_kind_name[] = {"event", "release", "impact", "contact", "singular",
                                           "stop",  "slack",   "taut",   "stick",   "slip"};
 
-void pl_observe(pl_run* run, double t, const double* q, const double* v, const double* a,
-                const double* lambda, double* out) {
+void pl_output_observe(pl_run* run, double t, const double* q, const double* v, const double* a,
+                       const double* lambda, double* out) {
   pl_batches* b = &run->observers;
   if (run->setup->n_out == 0) return;
   pl_attitude_seen(run, t, &q, &v, &a);
@@ -35,7 +35,7 @@ static size_t add_mode(const pl_run* run, char* out, size_t n, const char* word,
   return written < 0 || (size_t)written >= run->mode_size - n ? n : n + (size_t)written;
 }
 
-void pl_mode_text(const pl_run* run, char* out) {
+void pl_output_mode(const pl_run* run, char* out) {
   size_t n = 0;
   out[0] = '\0';
   if (run->sensitivity) snprintf(out, run->mode_size, "%s", pl_sensitivity_mode(run->sensitivity));
@@ -54,9 +54,9 @@ void pl_mode_text(const pl_run* run, char* out) {
 }
 
 // -------------------------------------------------------------------------------------------- rows
-pl_row pl_row_now(pl_run* run, pl_row_kind kind, double* out, char* mode) {
-  if (!run->extended) pl_observe(run, run->t, run->q, run->v, run->A, run->L, out);
-  pl_mode_text(run, mode);
+pl_row pl_output_row(pl_run* run, pl_row_kind kind, double* out, char* mode) {
+  if (!run->extended) pl_output_observe(run, run->t, run->q, run->v, run->A, run->L, out);
+  pl_output_mode(run, mode);
   pl_row row = {.t = run->t,
                 .q = run->q,
                 .v = run->v,
@@ -79,18 +79,18 @@ static pleuel_status send(pl_run* run, const pl_row* row) {
   return how;
 }
 
-pleuel_status pl_rows_open(pl_run* run) {
+pleuel_status pl_output_open(pl_run* run) {
   const pl_sink* s = &run->options.sink;
   if (run->opened) return PLEUEL_OK;
   run->opened = true;
   return s->begin ? s->begin(s->user, run->setup) : PLEUEL_OK;
 }
 
-pleuel_status pl_rows_begin(pl_run* run) {
+pleuel_status pl_output_begin(pl_run* run) {
   if (run->begun) return PLEUEL_OK;
   run->begun = true;
-  PL_TRY(pl_rows_open(run));
-  return pl_rows_point(run, PL_ROW_START);
+  PL_TRY(pl_output_open(run));
+  return pl_output_point(run, PL_ROW_START);
 }
 
 static double grid_time(const pl_run* run, long n) {
@@ -108,7 +108,7 @@ static bool point_is_due(pl_run* run, pl_row_kind kind) {
   return fabs(grid_time(run, run->grid_n) - run->t) <= grid_slack(run);
 }
 
-pleuel_status pl_rows_point(pl_run* run, pl_row_kind kind) {
+pleuel_status pl_output_point(pl_run* run, pl_row_kind kind) {
   if (!point_is_due(run, kind) || (kind == PL_ROW_END && run->last_row_t == run->t))
     return PLEUEL_OK;
   double direction = run->options.t_end < run->options.t_0 ? -1 : 1;
@@ -116,7 +116,7 @@ pleuel_status pl_rows_point(pl_run* run, pl_row_kind kind) {
          && direction * (grid_time(run, run->grid_n) - run->t) <= grid_slack(run)
          && (run->grid_count == 0 || run->grid_n <= run->grid_count))
     run->grid_n++;
-  pl_row row = pl_row_now(run, kind, run->out_now, run->mode);
+  pl_row row = pl_output_row(run, kind, run->out_now, run->mode);
   return send(run, &row);
 }
 
@@ -126,9 +126,9 @@ static pleuel_status row_between(pl_run* run, double t, long n) {
     pl_attitude_follow(run, t);
     pl_series_at(run, t - run->t_series, run->row_q, run->row_v);
     pl_series_lambda_at(run, t - run->t_series, run->row_a, run->row_l);
-    pl_observe(run, t, run->row_q, run->row_v, run->row_a, run->row_l, run->out_now);
+    pl_output_observe(run, t, run->row_q, run->row_v, run->row_a, run->row_l, run->out_now);
   }
-  pl_mode_text(run, run->mode);
+  pl_output_mode(run, run->mode);
   pl_row row = {.t = t,
                 .q = run->row_q,
                 .v = run->row_v,
@@ -153,7 +153,7 @@ static pleuel_status rows_of_step(pl_run* run, double t_from, double t_to) {
   return PLEUEL_OK;
 }
 
-pleuel_status pl_rows_grid(pl_run* run, double t_from, double t_to) {
+pleuel_status pl_output_grid(pl_run* run, double t_from, double t_to) {
   double direction = run->options.t_end < run->options.t_0 ? -1 : 1;
   if (run->grid_dt == 0) return rows_of_step(run, t_from, t_to);
   for (;; run->grid_n++) {
@@ -166,19 +166,19 @@ pleuel_status pl_rows_grid(pl_run* run, double t_from, double t_to) {
 }
 
 // ------------------------------------------------------------------------------------------ events
-void pl_rows_before(pl_run* run) {
+void pl_output_before(pl_run* run) {
   size_t q = (size_t)run->n_q * sizeof(double), c = (size_t)run->n_c;
   memcpy(run->save_q, run->q, q);
   memcpy(run->save_v, run->v, q);
   memcpy(run->save_a, run->A, q);
   memcpy(run->save_l, run->L, c * sizeof(double));
   memcpy(run->save_unique, run->unique, c * sizeof(bool));
-  pl_observe(run, run->t, run->q, run->v, run->A, run->L, run->out_before);
-  pl_mode_text(run, run->mode_before);
+  pl_output_observe(run, run->t, run->q, run->v, run->A, run->L, run->out_before);
+  pl_output_mode(run, run->mode_before);
 }
 
-pleuel_status pl_rows_event(pl_run* run, pl_event_kind kind, int index, double impulse,
-                            bool at_start) {
+pleuel_status pl_output_event(pl_run* run, pl_event_kind kind, int index, double impulse,
+                              bool at_start) {
   const pl_sink* s = &run->options.sink;
   bool of_event = kind == PL_EV_EVENT || kind == PL_EV_STOP;
   run->stats.n_events++;
@@ -198,17 +198,17 @@ pleuel_status pl_rows_event(pl_run* run, pl_event_kind kind, int index, double i
                       .mode = run->mode_before,
                       .kind = PL_ROW_BEFORE};
   pl_attitude_show(run, &e.before);
-  e.after = pl_row_now(run, PL_ROW_AFTER, run->out_now, run->mode);
+  e.after = pl_output_row(run, PL_ROW_AFTER, run->out_now, run->mode);
   pleuel_status how = s->event(s->user, &e);
   run->refused |= how != PLEUEL_OK;
   return how;
 }
 
-pleuel_status pl_rows_event_beside(pl_run* run, pl_event_record e, double t, const double* a,
-                                   const double* lambda) {
+pleuel_status pl_output_event_beside(pl_run* run, pl_event_record e, double t, const double* a,
+                                     const double* lambda) {
   const pl_sink* s = &run->options.sink;
-  pl_observe(run, t, run->row_q, run->row_v, a, lambda, run->out_now);
-  pl_mode_text(run, run->mode);
+  pl_output_observe(run, t, run->row_q, run->row_v, a, lambda, run->out_now);
+  pl_output_mode(run, run->mode);
   e.after = (pl_row){.t = t,
                      .q = run->row_q,
                      .v = run->row_v,
@@ -225,7 +225,8 @@ pleuel_status pl_rows_event_beside(pl_run* run, pl_event_record e, double t, con
   return how;
 }
 
-pleuel_status pl_rows_settled(pl_run* run, pl_event_kind kind, int index, double dt, long bounces) {
+pleuel_status pl_output_settled(pl_run* run, pl_event_kind kind, int index, double dt,
+                                long bounces) {
   const pl_sink* s = &run->options.sink;
   run->stats.n_events++;
   if (!s->event) return PLEUEL_OK;
@@ -237,16 +238,16 @@ pleuel_status pl_rows_settled(pl_run* run, pl_event_kind kind, int index, double
                        .index = index,
                        .label = run->setup->constraints[index].name,
                        .bounces = bounces};
-  return pl_rows_event_beside(run, e, run->t + dt, run->A, run->L);
+  return pl_output_event_beside(run, e, run->t + dt, run->A, run->L);
 }
 
 // ------------------------------------------------------------------------------------------ energy
-double pl_rows_conserved(const pl_run* run, const double* out) {
+double pl_output_conserved(const pl_run* run, const double* out) {
   const pl_setup* s = run->setup;
   return s->energy > 0 ? out[s->energy] : out[s->kinetic] + out[s->potential];
 }
 
-void pl_rows_energy(pl_run* run, bool anew) {
+void pl_output_energy(pl_run* run, bool anew) {
   const pl_setup* s = run->setup;
   if (s->kinetic < 0 || s->potential < 0) return;
   double T, V, E;
@@ -255,10 +256,10 @@ void pl_rows_energy(pl_run* run, bool anew) {
     return;
   }
   if (!pl_step_program_energy(run, &T, &V, &E)) {
-    pl_observe(run, run->t, run->q, run->v, run->A, run->L, run->energy_out);
+    pl_output_observe(run, run->t, run->q, run->v, run->A, run->L, run->energy_out);
     T = run->energy_out[s->kinetic];
     V = run->energy_out[s->potential];
-    E = pl_rows_conserved(run, run->energy_out);
+    E = pl_output_conserved(run, run->energy_out);
   }
   run->energy_size = pl_larger(run->energy_size, fabs(T) + fabs(V));
   if (anew) {

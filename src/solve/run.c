@@ -143,15 +143,15 @@ static pleuel_status try_steps(pl_run* run, double* h, double* root, pl_projecti
   for (;;) {
     *root = run->n_watch > 0 ? pl_watch_first(run, *h) : -1;
     if (*root == 0) return PLEUEL_OK;
-    double kink = run->n_kinks > 0 ? pl_kinks_first(run, *h) : -1;
-    bool at_kink = kink >= 0 && (*root < 0 || kink < *root);
-    if (at_kink) {
+    double at_switch = run->n_switches > 0 ? pl_switching_first(run, *h) : -1;
+    bool behind_switch = at_switch >= 0 && (*root < 0 || at_switch < *root);
+    if (behind_switch) {
       *root = -1;
-      *h *= pl_smaller(kink, 1);
+      *h *= pl_smaller(at_switch, 1);
     }
     double reach = *root >= 0 ? *root * *h : *h;
     advance(run, reach, *root >= 0, p);
-    bool open = at_kink || (*root >= 0 && ends_slip(run));  // accelerations jump there
+    bool open = behind_switch || (*root >= 0 && ends_slip(run));  // accelerations jump there
     bool found = *root < 0 || run->extended || pl_watch_holds(run, *h, *root);
     if (acceptable(run, p) && found && (open || series_holds(run, reach, &off))) {
       *h = reach;
@@ -198,19 +198,19 @@ static pleuel_status arrive_at_point(pl_run* run) {
   if (run->rank > run->rank_mode) run->rank_mode = run->rank;
   if (run->rank != run->n_active) {
     if (run->at_point) pl_point_evaluate(run, run->t, run->q, run->v);
-    pl_independent_unique(run);
+    pl_active_set_unique(run);
   }
-  pl_rows_energy(run, false);
+  pl_output_energy(run, false);
   return check_energy(run);
 }
 
-// Steps that get nowhere, one after the other: kinks that the motion does not leave, as dry
+// Steps that get nowhere, one after the other: switching points that the motion does not leave, as dry
 // friction at rest.
 static pleuel_status count_tiny(pl_run* run, double h) {
   enum { MOST = 200 };
   run->tiny = fabs(h) <= 100 * run->h_least ? run->tiny + 1 : 0;
   if (run->tiny <= MOST) return PLEUEL_OK;
-  if (run->n_kinks == 0) return too_small(run, h);
+  if (run->n_switches == 0) return too_small(run, h);
   return pl_fail(
       run->job, PLEUEL_NUMERICAL,
       "the motion stays where a force changes its branch, at t = %.9g s: sticking is not computed",
@@ -224,10 +224,10 @@ static pleuel_status step_by_series(pl_run* run, double* h, double* wanted, doub
   pl_step_program_update(run);
   pl_series_expand(run);
   pl_watch_series(run);
-  if (run->n_kinks > 0) pl_kinks_series(run);
+  if (run->n_switches > 0) pl_switching_series(run);
   *h = choose_step(run);
   if (run->n_watch > 0) *h = pl_watch_reach(run, *h);
-  if (run->n_kinks > 0) *h = pl_kinks_reach(run, *h);
+  if (run->n_switches > 0) *h = pl_switching_reach(run, *h);
   *wanted = *h;
   *root = -1;
   if (!run->extended && pl_singular_leap(run, pl_run_left(run), h, p))
@@ -256,7 +256,7 @@ static pleuel_status step(pl_run* run) {
     return pl_modes_handle(run);
   }
   bool to_end = h == wanted && root < 0 && fabs(wanted) == fabs(pl_run_left(run));
-  PL_TRY(pl_rows_grid(run, run->t, run->t + h));
+  PL_TRY(pl_output_grid(run, run->t, run->t + h));
   if (run->n_watch > 0) pl_watch_passed(run, h);
   if (run->n_watch > 0 && run->sunk >= 0)
     return pl_fail(
@@ -273,7 +273,7 @@ static pleuel_status step(pl_run* run) {
   if (root > 0) return pl_modes_handle(run);
   // a row of the grid that falls together with a root is written when that is known
   bool waits = run->n_watch > 0 && run->undecided && run->grid_dt != 0 && !run->implicit;
-  return pl_run_done(run) || waits ? PLEUEL_OK : pl_rows_point(run, PL_ROW_STEP);
+  return pl_run_done(run) || waits ? PLEUEL_OK : pl_output_point(run, PL_ROW_STEP);
 }
 
 static pleuel_status limits(pl_run* run) {
@@ -289,7 +289,7 @@ static pleuel_status limits(pl_run* run) {
 
 pleuel_status pl_run_step(pl_run* run) {
   if (!run->started) PL_TRY(pl_run_start(run));
-  PL_TRY(pl_rows_begin(run));
+  PL_TRY(pl_output_begin(run));
   if (pl_run_done(run)) return PLEUEL_OK;
   PL_TRY(limits(run));
   PL_TRY(run->sensitivity ? pl_sensitivity_step(run->sensitivity, step) : step(run));
@@ -302,7 +302,7 @@ pleuel_status pl_run_step(pl_run* run) {
 
 static pleuel_status steps_to_end(pl_run* run) {
   if (!run->started) PL_TRY(pl_run_start(run));
-  PL_TRY(pl_rows_begin(run));
+  PL_TRY(pl_output_begin(run));
   while (!pl_run_done(run)) PL_TRY(pl_run_step(run));
   return PLEUEL_OK;
 }
@@ -313,12 +313,12 @@ pleuel_status pl_run_to_end(pl_run* run) {
   pleuel_status how = steps_to_end(run);
   if (run->begun && !run->ended) {
     // the last row is written whatever happened, unless it stands there already
-    pleuel_status last = run->ready && !run->refused ? pl_rows_point(run, PL_ROW_END) : PLEUEL_OK;
+    pleuel_status last = run->ready && !run->refused ? pl_output_point(run, PL_ROW_END) : PLEUEL_OK;
     if (how == PLEUEL_OK) how = last;
     run->ended = true;
   }
   run->stats.wall_s += pl_clock() - begin;
-  pl_indeterminate_tell(run);
+  pl_indeterminate_report(run);
   if (run->opened && s->end) {
     pleuel_status end = s->end(s->user, how, how == PLEUEL_OK ? "" : run->job->message,
                                &run->stats);
@@ -346,12 +346,12 @@ pleuel_status pl_run_begin_at(pl_run* run, double t) {
   run->stats.rank_start = run->stats.rank = run->rank;
   run->smallest_here = run->smallest;
   run->started = true;
-  PL_TRY(pl_rows_open(run));
+  PL_TRY(pl_output_open(run));
   PL_TRY(pl_modes_check(run, true));
   pl_modes_size_rest(run);
   if (run->sensitivity) PL_TRY(pl_sensitivity_begin(run->sensitivity));
   if (run->options.precision != PL_PRECISION_DOUBLE) PL_TRY(pl_extended_begin(run, t));
-  pl_rows_energy(run, true);
+  pl_output_energy(run, true);
   pl_step_program_update(run);
   return PLEUEL_OK;
 }
@@ -407,6 +407,6 @@ void pl_run_dense(const pl_run* run, double t, double* q, double* v, double* lam
 }
 
 const char* pl_run_mode(const pl_run* run) {
-  pl_mode_text(run, run->mode);
+  pl_output_mode(run, run->mode);
   return run->mode;
 }

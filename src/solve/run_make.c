@@ -320,7 +320,7 @@ pleuel_status pl_run_make(pl_job* job, const pl_setup* setup, const pl_run_optio
   pl_friction_make(run);
   pl_indeterminate_make(run);
   pl_watch_make(run);
-  pl_kinks_make(run);
+  pl_switching_make(run);
   first_mode(run);
   pleuel_status extended = options->precision != PL_PRECISION_DOUBLE ? pl_extended_check(run)
                                                                      : PLEUEL_OK;

@@ -19,16 +19,16 @@
 
 #include "solve/solve_impl.h"
 
-typedef struct told {
+typedef struct report {
   pl_event_record e;  // without its rows
   double t;
-} told;
+} report;
 
 struct pl_sensitivity {
   pl_run *lead, *follower;
   const pl_varied* s;
-  told* told;  // what happened at the moment ahead
-  int n_told, room;
+  report* report;  // what happened at the moment ahead
+  int n_reports, room;
   bool waits;         // that moment is not reached by the follower yet
   pleuel_status how;  // that the lead run ended with
   const char* why;
@@ -64,11 +64,11 @@ static void remember_point(pl_sensitivity* p) {
 
 static pleuel_status hear(void* user, const pl_event_record* e) {
   pl_sensitivity* p = user;
-  if (p->n_told == 0 && p->lead) remember_point(p);
-  if (p->n_told == p->room) return PLEUEL_OK;
-  p->told[p->n_told] = (told){*e, e->after.t};
-  p->told[p->n_told].e.label = e->label;
-  p->n_told++;
+  if (p->n_reports == 0 && p->lead) remember_point(p);
+  if (p->n_reports == p->room) return PLEUEL_OK;
+  p->report[p->n_reports] = (report){*e, e->after.t};
+  p->report[p->n_reports].e.label = e->label;
+  p->n_reports++;
   return PLEUEL_OK;
 }
 
@@ -78,7 +78,7 @@ pl_sensitivity* pl_sensitivity_make(pl_job* job, const pl_run* follower, const p
   pl_sensitivity* p = PL_NEW(a, pl_sensitivity);
   const pl_varied* s = p->s = follower->setup->varied;
   p->room = s->n_c + plain->n_frictions + plain->n_events * (s->n_c + 1) + 4;
-  p->told = PL_ARRAY(a, told, p->room);
+  p->report = PL_ARRAY(a, report, p->room);
   double** of_q[] = {&p->q, &p->v, &p->a, &p->a_rate};
   for (size_t i = 0; i < 4; i++) *of_q[i] = PL_ARRAY(a, double, s->n_q + 1);
   p->l = PL_ARRAY(a, double, s->n_c + 1);
@@ -100,7 +100,7 @@ static void take_mode(pl_sensitivity* p) {
   for (int c = 0; c < s->n_c; c++)
     for (int k = 0; k < 2 * s->n_directions; k++)
       p->follower->on[k * s->n_c + c] = p->lead->active[c];
-  pl_mode_text(p->lead, p->mode);
+  pl_output_mode(p->lead, p->mode);
 }
 
 void pl_sensitivity_attach(pl_sensitivity* p, pl_run* follower, pl_run* plain) {
@@ -118,10 +118,10 @@ const char* pl_sensitivity_mode(const pl_sensitivity* p) { return p->mode; }
 bool pl_sensitivity_waits(const pl_sensitivity* p) { return p->waits; }
 
 // ----------------------------------------------------------------------------- events for the sink
-static pleuel_status tell(pl_sensitivity* p) {
+static pleuel_status send_reports(pl_sensitivity* p) {
   pl_run* f = p->follower;
-  for (int i = 0; i < p->n_told; i++) {
-    const told* t = &p->told[i];
+  for (int i = 0; i < p->n_reports; i++) {
+    const report* t = &p->report[i];
     const pl_sink* s = &f->options.sink;
     f->stats.n_events++;
     if (!s->event) continue;
@@ -135,7 +135,7 @@ static pleuel_status tell(pl_sensitivity* p) {
                         .out = f->out_before,
                         .mode = f->mode_before,
                         .kind = PL_ROW_BEFORE};
-    e.after = pl_row_now(f, PL_ROW_AFTER, f->out_now, f->mode);
+    e.after = pl_output_row(f, PL_ROW_AFTER, f->out_now, f->mode);
     double dt = t->t - f->t;
     if (e.bounces > 0 && dt != 0) {
       // the state at the limit of the bounces
@@ -143,20 +143,20 @@ static pleuel_status tell(pl_sensitivity* p) {
         f->row_q[k] = f->q[k] + dt * (f->v[k] + 0.5 * dt * f->A[k]);
         f->row_v[k] = f->v[k] + dt * f->A[k];
       }
-      PL_TRY(pl_rows_event_beside(f, e, t->t, f->A, f->L));
+      PL_TRY(pl_output_event_beside(f, e, t->t, f->A, f->L));
       continue;
     }
     pleuel_status how = s->event(s->user, &e);
     f->refused |= how != PLEUEL_OK;
     PL_TRY(how);
   }
-  p->n_told = 0;
+  p->n_reports = 0;
   return PLEUEL_OK;
 }
 
 pleuel_status pl_sensitivity_begin(pl_sensitivity* p) {
-  pl_rows_before(p->follower);
-  return tell(p);
+  pl_output_before(p->follower);
+  return send_reports(p);
 }
 
 // -------------------------------------------------------------------------------------------- when
@@ -174,7 +174,7 @@ static bool switches(const pl_run* run, const pl_watch* w) {
 }
 
 static const char* label_of(const pl_sensitivity* p) {
-  return p->n_told > 0 && p->told[0].e.label ? p->told[0].e.label : "?";
+  return p->n_reports > 0 && p->report[0].e.label ? p->report[0].e.label : "?";
 }
 
 // What changes the motion: exactly one thing.
@@ -407,7 +407,7 @@ static pleuel_status strike(pl_sensitivity* p, bool along) {
   set_motion(p, run->jump_q, run->jump_v);
   for (int c = 0; c < n; c++)
     for (int k = 0; k < 2 * s->n_directions; k++) f->on[k * n + c] = run->impact_taken[c];
-  pl_active_update(f);
+  pl_active_set_update(f);
   for (int i = 0; i < s->n_q; i++) jump_v[i] = run->v[i] - run->jump_v[i];
   find_rows(p, true);
   if (along) {
@@ -416,7 +416,7 @@ static pleuel_status strike(pl_sensitivity* p, bool along) {
     for (int c = 0; c < f->n_c; c++) change[c] -= turn[c];
     turn_of_rows(p, run->jump_v, turn);
   }
-  pl_independent_choose(f);
+  pl_active_set_choose(f);
   f->impulsive = true;
   bool regular = pl_point_factor(f, false);
   f->impulsive = f->factored = false;
@@ -488,7 +488,7 @@ static pleuel_status remember_state(pl_sensitivity* p) {
   if (p->before.arena == NULL) p->before = pl_keeper_to_write(a);
   p->before.next = 0;
   PL_GUARD(a, guard) {
-    pl_run_keep(p->lead, &p->before);
+    pl_run_save(p->lead, &p->before);
     guard.status = PLEUEL_OK;
   }
   pl_guard_end(a, &guard);
@@ -500,7 +500,7 @@ static void go_ahead(pl_sensitivity* p) {
   pl_run* run = p->lead;
   p->impacts = run->impacts;
   p->how = remember_state(p);
-  while (p->how == PLEUEL_OK && p->n_told == 0 && !pl_run_done(run)) p->how = pl_run_step(run);
+  while (p->how == PLEUEL_OK && p->n_reports == 0 && !pl_run_done(run)) p->how = pl_run_step(run);
   p->t = run->t;
   p->waits = true;
   p->follower->stop = (pl_stop){true, run->t, run->t_low};
@@ -511,19 +511,19 @@ static pleuel_status arrive(pl_sensitivity* p) {
   f->stop.early = false;
   p->waits = false;
   if (p->how != PLEUEL_OK) return p->how;
-  if (p->n_told == 0) return PLEUEL_OK;
+  if (p->n_reports == 0) return PLEUEL_OK;
   bool changes = has_changed(p);
   // programs at the point by the general way, with their slopes along the motion
   pl_point_general(f);
   f->factored = false;
   if (changes && !pl_point_enter(f)) return pl_run_undetermined(f);
-  if (changes) PL_TRY(pl_rows_point(f, PL_ROW_BEFORE));
-  pl_rows_before(f);
+  if (changes) PL_TRY(pl_output_point(f, PL_ROW_BEFORE));
+  pl_output_before(f);
   if (changes) PL_TRY(jump(p));
-  pl_rows_energy(f, true);
-  PL_TRY(tell(p));
+  pl_output_energy(f, true);
+  PL_TRY(send_reports(p));
   f->stopped |= p->lead->stopped;
-  return pl_rows_point(f, PL_ROW_AFTER);
+  return pl_output_point(f, PL_ROW_AFTER);
 }
 
 // Without the moment ahead the follower cannot go on: both are kept where they parted.
@@ -548,7 +548,7 @@ void pl_sensitivity_write(pl_sensitivity* p, pl_keeper* k) {
   bool waits = p->waits && p->how != PLEUEL_INTERRUPTED;
   pl_keep_bool(k, &waits);
   if (p->waits) pl_keep_bytes(k, p->before.at, p->before.next);
-  else pl_run_keep(p->lead, k);
+  else pl_run_save(p->lead, k);
 }
 
 pleuel_status pl_sensitivity_read(pl_sensitivity* p, pl_keeper* k) {
@@ -556,7 +556,7 @@ pleuel_status pl_sensitivity_read(pl_sensitivity* p, pl_keeper* k) {
   pl_keep_bool(k, &waits);
   pl_sink hears = p->lead->options.sink;
   PL_TRY(pl_run_load(p->lead, k, &hears));
-  pl_mode_text(p->lead, p->mode);
+  pl_output_mode(p->lead, p->mode);
   if (waits) go_ahead(p);
   return p->how == PLEUEL_INTERRUPTED ? p->how : PLEUEL_OK;
 }

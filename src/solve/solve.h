@@ -316,7 +316,7 @@ typedef struct pl_run_options {
   bool general;  // without programs (jit.h): every step goes the general way
   // between two steps, and when it is interrupted; or NULL:
   void (*keep)(void* user, struct pl_run* run, bool interrupted);
-  // pl_run_keep may be called there
+  // pl_run_save may be called there
   void* keep_user;
   // PLEUEL_UNSUPPORTED where the model or the machine does not allow it
   pl_precision precision;
@@ -404,8 +404,8 @@ pleuel_status pl_run_step(pl_run* run);
 // Calls pl_run_start when that was not done.
 pleuel_status pl_run_to_end(pl_run* run);
 
-// pl_run_keep writes the state between two steps down, or reads it back: base.h, checkpoint.c.
-void pl_run_keep(pl_run* run, pl_keeper* k);
+// pl_run_save writes the state between two steps down, or reads it back: base.h, checkpoint.c.
+void pl_run_save(pl_run* run, pl_keeper* k);
 // pl_run_load goes on from a state that was kept of a run with the same setup and options but for
 // the sink. The run was made without one and started; `sink` is that of what follows, whose begin
 // is called. Status PLEUEL_FILE for bytes that are no such state, or when this machine computes

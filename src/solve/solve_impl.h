@@ -135,11 +135,11 @@ typedef struct pl_repeat {
   long n;
 } pl_repeat;
 
-// A place in a program that has branches: node a (or a - b) changes sign at the kink.
-typedef struct pl_kink {
+// A place in a program that has branches: node a (or a - b) changes sign at the switching point.
+typedef struct pl_switch {
   const pl_batch* batch;
   int a, b, lane;
-} pl_kink;
+} pl_switch;
 
 // Where the angles of a turn have been followed to.
 typedef struct pl_attitude_state {
@@ -310,9 +310,9 @@ struct pl_run {
   pl_repeat* repeat;  // (n_events)
   double* settled_t;  // end of its infinitely many bounces, NaN         (n_c)
 
-  pl_kink* kinks;
-  int n_kinks;
-  double* K_series;  // of what changes sign: coefficient k of kink i at i order + k
+  pl_switch* switches;
+  int n_switches;
+  double* K_series;  // of what changes sign: coefficient k of switching point i at i order + k
   int tiny;          // steps in a row that were almost nothing
 
   // bodies declared in Euler angles
@@ -365,9 +365,9 @@ typedef struct pl_projection {
 
 // ---- taylor_order.c: what each order of a series costs, compiled for several processors with the
 // same bits
-typedef enum pl_quantity { PL_IS_Q, PL_IS_V, PL_IS_A, PL_IS_LAMBDA } pl_quantity;
-typedef struct pl_orders {
-  void (*load)(pl_batches* b, pl_quantity what, const double* x, int k);
+typedef enum pl_series_kind { PL_IS_Q, PL_IS_V, PL_IS_A, PL_IS_LAMBDA } pl_series_kind;
+typedef struct pl_taylor_order {
+  void (*load)(pl_batches* b, pl_series_kind what, const double* x, int k);
   void (*rhs)(pl_run* run, int k, double* rhs);
   void (*take)(pl_run* run, int k);                             // a_k, λ_k, v_{k+1} from run->rhs
   void (*over)(double* to, const double* from, int by, int n);  // to = from / by
@@ -378,8 +378,8 @@ typedef struct pl_orders {
   void (*g)(pl_run* run, int k, double* g, double* size);  // as pl_assemble_g and so on
   void (*gdot)(pl_run* run, double* r, double* size);
   void (*row_sizes)(pl_run* run);
-} pl_orders;
-const pl_orders* pl_orders_here(void);  // batches.c
+} pl_taylor_order;
+const pl_taylor_order* pl_taylor_order_here(void);  // batches.c
 
 // ---- batches.c: instances in lanes
 pleuel_status pl_batches_make(pl_job* job, pl_batches* b, const pl_pattern* patterns, int n,
@@ -415,15 +415,15 @@ void pl_kkt_keep(pl_kkt* k, pl_keeper* keeper);  // what its pivoting remembers;
 
 // ---- active_set.c: which constraints are used, what is determined
 // at every point; once a mode for large systems
-void pl_independent_choose(pl_run* run);
+void pl_active_set_choose(pl_run* run);
 // The smallest pivot at what was evaluated last, 0 where a row is lost, without choosing anything;
 // false: too many.
-bool pl_independent_pivot(pl_run* run, double* smallest);
+bool pl_active_set_pivot(pl_run* run, double* smallest);
 void pl_sizes_note(pl_run* run, const double* q, const double* v);  // q_size, q_most and so on
 void pl_sizes_keep(pl_run* run);                                    // what was noted counts
 void pl_sizes_forget(pl_run* run);  // back to what was kept: a step was rejected
-void pl_independent_unique(pl_run* run);
-void pl_active_update(pl_run* run);  // active from on; orphans rest
+void pl_active_set_unique(pl_run* run);
+void pl_active_set_update(pl_run* run);  // active from on; orphans rest
 
 // ---- step_program_make.c, step_program_run.c: the step program
 pl_step_program* pl_step_program_make(pl_run* run);  // not usable when it does not fit
@@ -501,12 +501,12 @@ double pl_watch_force_noise(const pl_run* run, int c);  // rounding error of λ_
 double pl_watch_noise(const pl_run* run, const pl_watch* w, double h);
 
 // ---- switching.c
-void pl_kinks_make(pl_run* run);
-void pl_kinks_series(pl_run* run);  // after pl_series_expand
-double pl_kinks_value(const pl_run* run, int i);
-double pl_kinks_reach(pl_run* run, double h);  // as pl_watch_reach
-// just behind the first kink, in units of h; -1 none on the step
-double pl_kinks_first(pl_run* run, double h);
+void pl_switching_make(pl_run* run);
+void pl_switching_series(pl_run* run);  // after pl_series_expand
+double pl_switching_value(const pl_run* run, int i);
+double pl_switching_reach(pl_run* run, double h);  // as pl_watch_reach
+// just behind the first switching point, in units of h; -1 none on the step
+double pl_switching_first(pl_run* run, double h);
 
 // ---- map_equations.c
 // coordinates that only a map determines, where it begins to hold
@@ -541,9 +541,9 @@ pleuel_status pl_contacts_settle(pl_run* run);
 
 // ---- indeterminate.c: forces that are one of several
 void pl_indeterminate_make(pl_run* run);
-void pl_indeterminate_mark(pl_run* run);  // at the begin of a mode
-void pl_indeterminate_note(pl_run* run);  // what unique[] says
-void pl_indeterminate_tell(pl_run* run);  // in the statistics
+void pl_indeterminate_mark(pl_run* run);    // at the begin of a mode
+void pl_indeterminate_note(pl_run* run);    // what unique[] says
+void pl_indeterminate_report(pl_run* run);  // in the statistics
 
 // ---- modes.c
 pleuel_status pl_modes_enter(pl_run* run);                 // the point in the mode that on[] says
@@ -551,7 +551,7 @@ pleuel_status pl_modes_check(pl_run* run, bool at_start);  // contacts that pull
 pleuel_status pl_modes_handle(pl_run* run);                // what hit[] says, at the point
 // what counts as small where the start rests
 void pl_modes_size_rest(pl_run* run);
-void pl_mode_text(const pl_run* run, char* out);
+void pl_output_mode(const pl_run* run, char* out);
 
 // ---- radau_step.c: the implicit method
 typedef struct pl_radau pl_radau;
@@ -599,26 +599,27 @@ void pl_attitude_show(pl_run* run, pl_row* row);  // coordinates as they were de
 pleuel_status pl_attitude_poles(pl_run* run, double h);
 
 // ---- output.c
-pleuel_status pl_rows_open(pl_run* run);  // begin of the sink
-pleuel_status pl_rows_begin(pl_run* run);
-pleuel_status pl_rows_point(pl_run* run, pl_row_kind kind);  // the point itself
+pleuel_status pl_output_open(pl_run* run);  // begin of the sink
+pleuel_status pl_output_begin(pl_run* run);
+pleuel_status pl_output_point(pl_run* run, pl_row_kind kind);  // the point itself
 // grid times in (t_from, t_to)
-pleuel_status pl_rows_grid(pl_run* run, double t_from, double t_to);
-pl_row pl_row_now(pl_run* run, pl_row_kind kind, double* out, char* mode);
-void pl_observe(pl_run* run, double t, const double* q, const double* v, const double* a,
-                const double* lambda, double* out);
+pleuel_status pl_output_grid(pl_run* run, double t_from, double t_to);
+pl_row pl_output_row(pl_run* run, pl_row_kind kind, double* out, char* mode);
+void pl_output_observe(pl_run* run, double t, const double* q, const double* v, const double* a,
+                       const double* lambda, double* out);
 // remembers the point before a mode change
-void pl_rows_before(pl_run* run);
-pleuel_status pl_rows_event(pl_run* run, pl_event_kind kind, int index, double impulse,
-                            bool at_start);
+void pl_output_before(pl_run* run);
+pleuel_status pl_output_event(pl_run* run, pl_event_kind kind, int index, double impulse,
+                              bool at_start);
 // An event whose state, in row_q and row_v, is not that of the point.
-pleuel_status pl_rows_event_beside(pl_run* run, pl_event_record e, double t, const double* a,
-                                   const double* lambda);
+pleuel_status pl_output_event_beside(pl_run* run, pl_event_record e, double t, const double* a,
+                                     const double* lambda);
 // A contact after endless bounces, dt after the point.
-pleuel_status pl_rows_settled(pl_run* run, pl_event_kind kind, int index, double dt, long bounces);
+pleuel_status pl_output_settled(pl_run* run, pl_event_kind kind, int index, double dt,
+                                long bounces);
 // T + V, or what the setup says
-double pl_rows_conserved(const pl_run* run, const double* out);
+double pl_output_conserved(const pl_run* run, const double* out);
 // energy at the point, drift
-void pl_rows_energy(pl_run* run, bool anew);
+void pl_output_energy(pl_run* run, bool anew);
 
 #endif

@@ -45,7 +45,7 @@ static bool stands(const pl_run* run, const pl_constraint_setup* l) {
   return true;
 }
 
-void pl_active_update(pl_run* run) {
+void pl_active_set_update(pl_run* run) {
   const pl_constraint_setup* constraint = run->setup->constraints;
   run->n_active = 0;
   for (int c = 0; c < run->n_c; c++) {
@@ -121,7 +121,7 @@ static void examine(pl_run* run) {
   run->smallest *= faintest_taken(run);
 }
 
-void pl_independent_choose(pl_run* run) {
+void pl_active_set_choose(pl_run* run) {
   if (run->by_pivots && run->rank_mode >= 0) return;  // chosen when the mode began
   if (too_many_to_examine(run)) {
     for (int c = 0; c < run->n_c; c++) run->taken[c] = run->active[c];
@@ -138,7 +138,7 @@ void pl_independent_choose(pl_run* run) {
   if (!run->by_pivots && run->smallest > run->best) run->best = run->smallest;
 }
 
-bool pl_independent_pivot(pl_run* run, double* smallest) {
+bool pl_active_set_pivot(pl_run* run, double* smallest) {
   if (too_many_to_examine(run)) return false;
   int rank = run->rank;
   double here = run->smallest;
@@ -192,7 +192,7 @@ static void mark_dependent(pl_run* run) {
   }
 }
 
-void pl_independent_unique(pl_run* run) {
+void pl_active_set_unique(pl_run* run) {
   for (int c = 0; c < run->n_c; c++) run->unique[c] = !run->several[c];
   mark_dependent(run);
   pl_indeterminate_note(run);

@@ -96,7 +96,7 @@ void pl_assemble_rows(pl_run* run) {
   }
 }
 
-void pl_assemble_row_sizes(pl_run* run) { pl_orders_here()->row_sizes(run); }
+void pl_assemble_row_sizes(pl_run* run) { pl_taylor_order_here()->row_sizes(run); }
 
 // ------------------------------------------------------------------------------------- constraints
 static void clear(double* x, int n) {
@@ -104,10 +104,10 @@ static void clear(double* x, int n) {
 }
 
 void pl_assemble_g(pl_run* run, int k, double* g, double* size) {
-  pl_orders_here()->g(run, k, g, size);
+  pl_taylor_order_here()->g(run, k, g, size);
 }
 void pl_assemble_gdot(pl_run* run, double* r, double* size) {
-  pl_orders_here()->gdot(run, r, size);
+  pl_taylor_order_here()->gdot(run, r, size);
 }
 
 // --------------------------------------------------------------------------------- right-hand side
@@ -123,7 +123,7 @@ static const double* v_of_slot(const pl_batch* b, int slot) {
 }
 
 void pl_assemble_rhs(pl_run* run, int k, double* rhs) {
-  pl_orders_here()->rhs(run, k, rhs);
+  pl_taylor_order_here()->rhs(run, k, rhs);
   if (run->n_slipping > 0) pl_friction_rhs(run, k, rhs);
 }
 

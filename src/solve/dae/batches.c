@@ -169,29 +169,29 @@ void pl_batches_time(pl_batches* b, double t) {
 }
 
 // The build for this processor.
-extern const pl_orders pl_orders_plain, pl_orders_avx2, pl_orders_avx512;
+extern const pl_taylor_order pl_taylor_order_plain, pl_taylor_order_avx2, pl_taylor_order_avx512;
 
-const pl_orders* pl_orders_here(void) {
+const pl_taylor_order* pl_taylor_order_here(void) {
 #ifdef PL_KERNELS_BY_PROCESSOR
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl")
       && __builtin_cpu_supports("avx512dq"))
-    return &pl_orders_avx512;
-  if (__builtin_cpu_supports("fma") && __builtin_cpu_supports("avx2")) return &pl_orders_avx2;
+    return &pl_taylor_order_avx512;
+  if (__builtin_cpu_supports("fma") && __builtin_cpu_supports("avx2")) return &pl_taylor_order_avx2;
 #endif
-  return &pl_orders_plain;
+  return &pl_taylor_order_plain;
 }
 
 void pl_batches_load_q(pl_batches* b, const double* q, int k) {
-  pl_orders_here()->load(b, PL_IS_Q, q, k);
+  pl_taylor_order_here()->load(b, PL_IS_Q, q, k);
 }
 void pl_batches_load_v(pl_batches* b, const double* v, int k) {
-  pl_orders_here()->load(b, PL_IS_V, v, k);
+  pl_taylor_order_here()->load(b, PL_IS_V, v, k);
 }
 void pl_batches_load_a(pl_batches* b, const double* a, int k) {
-  pl_orders_here()->load(b, PL_IS_A, a, k);
+  pl_taylor_order_here()->load(b, PL_IS_A, a, k);
 }
 void pl_batches_load_lambda(pl_batches* b, const double* lambda, int k) {
-  pl_orders_here()->load(b, PL_IS_LAMBDA, lambda, k);
+  pl_taylor_order_here()->load(b, PL_IS_LAMBDA, lambda, k);
 }
 
 // --------------------------------------------------------------------------------------- computing

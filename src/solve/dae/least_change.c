@@ -82,7 +82,7 @@ pleuel_status pl_run_start_partly(pl_run* run, double t, const double* q, const 
          *change = PL_ARRAY(a, double, n + 1);
   memcpy(run->q, q, n * sizeof(double));
   memcpy(run->v, v, n * sizeof(double));
-  pl_active_update(run);
+  pl_active_set_update(run);
   pl_sizes_note(run, q, v);
   if (!complete_positions(run, t, held_q, basis, change)) memcpy(run->q, q, n * sizeof(double));
   if (!complete_velocities(run, t, held_v, basis, change)) memcpy(run->v, v, n * sizeof(double));

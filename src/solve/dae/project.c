@@ -59,7 +59,7 @@ static bool project_positions(pl_run* run, double t, double* q, const double* v,
     double g = pl_residual(run, run->g, run->g_size, true);
     if (round == 0) p->g_before = g;
     p->g_after = g;
-    pl_independent_choose(run);
+    pl_active_set_choose(run);
     if (!isfinite(g) || !pl_point_factor(run, false)) return false;
     if (g == 0 || (round > 0 && (g <= 2 * DBL_EPSILON || g >= 0.5 * before))) return true;
     before = g;

@@ -15,10 +15,10 @@
 
 #include "solve/solve_impl.h"
 
-#ifndef PL_ORDERS
-#  define PL_ORDERS pl_orders_plain
+#ifndef PL_TAYLOR_ORDER
+#  define PL_TAYLOR_ORDER pl_taylor_order_plain
 #endif
-extern const pl_orders PL_ORDERS;
+extern const pl_taylor_order PL_TAYLOR_ORDER;
 
 #ifdef __clang__
 #  define APART _Pragma("clang loop vectorize(assume_safety)")
@@ -83,7 +83,7 @@ static void load_bundles(const pl_batch* b, const double* v, int k) {
 
 // Slots of v are kept where something reads them: at order 0, in sums with slip, and by the sums of
 // multiples.
-static void load(pl_batches* bs, pl_quantity what, const double* x, int k) {
+static void load(pl_batches* bs, pl_series_kind what, const double* x, int k) {
   for (int i = 0; i < bs->n; i++) {
     const pl_batch* b = &bs->at[i];
     const pl_pattern* p = b->pattern;
@@ -443,5 +443,5 @@ static void row_sizes(pl_run* run) {
   }
 }
 
-const pl_orders PL_ORDERS = {load, rhs_of, take, over,    horner,
-                             norm, note,   g_of, gdot_of, row_sizes};
+const pl_taylor_order PL_TAYLOR_ORDER = {load, rhs_of, take, over,    horner,
+                                         norm, note,   g_of, gdot_of, row_sizes};

@@ -88,24 +88,24 @@ typedef struct pl_fault {
 static const pl_fault no_fault = {-1, 0};
 
 // The forces of a contact or friction, the rates that belong to them, and what counts as zero.
-typedef struct pl_look {
+typedef struct pl_trial_state {
   const double *force, *rate, *rate_size;
   double force_zero;  // of impulses; < 0: from the noise of multipliers
   bool kinetic;       // the limit of sticking is that of slipping
-} pl_look;
+} pl_trial_state;
 
-static double force_zero(const pl_run* run, const pl_look* l, int c) {
+static double force_zero(const pl_run* run, const pl_trial_state* l, int c) {
   return l->force_zero >= 0 ? l->force_zero : pl_watch_force_noise(run, c);
 }
 
-static bool is_wrong_contact(const pl_run* run, const pl_look* l, const pl_decision* d) {
+static bool is_wrong_contact(const pl_run* run, const pl_trial_state* l, const pl_decision* d) {
   int c = d->index, side = side_of(run, c);
   if (d->choice == PL_CHOICE_CLOSED)
     return run->active[c] && side * l->force[c] < -force_zero(run, l, c);
   return side * l->rate[c] < -wrong_rate * l->rate_size[c];
 }
 
-static int better_for_friction(const pl_run* run, const pl_look* l, const pl_decision* d) {
+static int better_for_friction(const pl_run* run, const pl_trial_state* l, const pl_decision* d) {
   int r = d->index;
   const pl_friction_setup* friction = &run->setup->frictions[r];
   const pl_friction_state* now = &run->friction[r];
@@ -132,7 +132,7 @@ static int better_for_friction(const pl_run* run, const pl_look* l, const pl_dec
   return rate < -small ? PL_CHOICE_STICK : d->choice;
 }
 
-static pl_fault find_fault(const pl_run* run, const pl_look* l) {
+static pl_fault find_fault(const pl_run* run, const pl_trial_state* l) {
   for (int i = 0; i < run->n_decisions; i++) {
     const pl_decision* d = &run->decision[i];
     if (!d->of_friction && is_wrong_contact(run, l, d))
@@ -188,12 +188,12 @@ static bool meets_all_rows(const pl_run* run) {
   return true;
 }
 
-static bool try_accelerations(pl_run* run, pl_look* l) {
+static bool try_accelerations(pl_run* run, pl_trial_state* l) {
   apply(run);
   guess_directions(run);
   for (int turn = 0;; turn++) {
     restore_point(run);
-    pl_active_update(run);
+    pl_active_set_update(run);
     pl_projection p = pl_project(run, run->t, run->q, run->v);
     if (!p.ok || !pl_point_enter(run)) return false;
     pl_assemble_row_sizes(run);
@@ -201,7 +201,7 @@ static bool try_accelerations(pl_run* run, pl_look* l) {
     if (!meets_all_rows(run)) return false;
     if (!turn_slips(run, run->second) || turn >= MOST_TURNS) break;
   }
-  *l = (pl_look){run->L, run->second, run->second_size, -1, false};
+  *l = (pl_trial_state){run->L, run->second, run->second_size, -1, false};
   return true;
 }
 
@@ -214,12 +214,12 @@ static double rebound(const pl_run* run, int c) {
 }
 
 static bool solve_impulses(pl_run* run) {
-  pl_active_update(run);
+  pl_active_set_update(run);
   memcpy(run->v, run->hold_v, (size_t)run->n_q * sizeof(double));
   pl_point_evaluate(run, run->t, run->q, run->v);
   pl_assemble_g(run, 0, run->g, run->g_size);
   pl_assemble_gdot(run, run->r, run->r_size);
-  pl_independent_choose(run);
+  pl_active_set_choose(run);
   run->impulsive = true;
   bool regular = pl_point_factor(run, false);
   run->impulsive = false;
@@ -240,7 +240,7 @@ static bool solve_impulses(pl_run* run) {
   return true;
 }
 
-static bool try_impulses(pl_run* run, pl_look* l) {
+static bool try_impulses(pl_run* run, pl_trial_state* l) {
   apply(run);
   for (int turn = 0;; turn++) {
     if (!solve_impulses(run)) return false;
@@ -249,13 +249,13 @@ static bool try_impulses(pl_run* run, pl_look* l) {
   // rates of contacts count from the rebound
   for (int c = 0; c < run->n_c; c++)
     if (side_of(run, c) != 0) run->second[c] -= rebound(run, c);
-  *l = (pl_look){run->impulse, run->second, run->second_size,
-                 1e-12 * pl_norm(run->impulse, run->n_c), true};
+  *l = (pl_trial_state){run->impulse, run->second, run->second_size,
+                        1e-12 * pl_norm(run->impulse, run->n_c), true};
   return true;
 }
 
 // ------------------------------------------------------------------------------- looking for a set
-typedef bool pl_trial(pl_run* run, pl_look* l);
+typedef bool pl_trial(pl_run* run, pl_trial_state* l);
 
 static bool has_used_friction(const pl_run* run) {
   for (int i = 0; i < run->n_decisions; i++)
@@ -266,7 +266,7 @@ static bool has_used_friction(const pl_run* run) {
 // By exchange.  In rounds of their own decisions may go in circles: then it gives up.
 static bool exchange(pl_run* run, pl_trial* trial) {
   for (int round = 0; round < MOST_EXCHANGES; round++) {
-    pl_look l;
+    pl_trial_state l;
     if (!trial(run, &l)) return false;
     pl_fault f = find_fault(run, &l);
     if (f.at < 0) return true;
@@ -346,7 +346,7 @@ static int try_all(pl_run* run, pl_trial* trial, const double* motion) {
   int found = 0;
   first_set(run);
   do {
-    pl_look l;
+    pl_trial_state l;
     if (!trial(run, &l) || is_idle(run) || find_fault(run, &l).at >= 0) continue;
     if (found == 0) {
       found = 1;
@@ -359,7 +359,7 @@ static int try_all(pl_run* run, pl_trial* trial, const double* motion) {
   } while (found < 2 && next_set(run));
   for (int i = 0; i < run->n_decisions && found > 0; i++)
     run->decision[i].choice = run->choice_kept[i];
-  pl_look l;
+  pl_trial_state l;
   if (found == 1 && !trial(run, &l)) return 0;
   return found;
 }
@@ -449,7 +449,7 @@ static bool moving_walls(const pl_run* run) {
 pleuel_status pl_contacts_impact(pl_run* run, bool* any) {
   *any = false;
   for (int c = 0; c < run->n_c; c++) run->jumped[c] = false;
-  pl_active_update(run);
+  pl_active_set_update(run);
   pl_point_evaluate(run, run->t, run->q, run->v);
   pl_assemble_g(run, 0, run->g, run->g_size);
   pl_contacts_rates(run, run->approach);
@@ -551,7 +551,7 @@ static pleuel_status nudge(pl_run* run) {
 }
 
 pleuel_status pl_contacts_settle(pl_run* run) {
-  pl_active_update(run);
+  pl_active_set_update(run);
   pl_point_evaluate(run, run->t, run->q, run->v);
   pl_assemble_g(run, 0, run->g, run->g_size);
   pl_contacts_rates(run, run->r);

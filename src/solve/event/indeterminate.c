@@ -326,7 +326,7 @@ void pl_indeterminate_note(pl_run* run) {
     run->ever_several[c] |= !run->unique[c] && run->setup->constraints[c].column != NULL;
 }
 
-void pl_indeterminate_tell(pl_run* run) {
+void pl_indeterminate_report(pl_run* run) {
   size_t n = 0, at = 0;
   run->stats.undetermined = NULL;
   for (int c = 0; c < run->n_c; c++)

@@ -23,13 +23,13 @@ static void look_for_landings(pl_run* run) {
 
 // The point in the mode that now holds: projected, accelerations and multipliers known.
 pleuel_status pl_modes_enter(pl_run* run) {
-  pl_active_update(run);
+  pl_active_set_update(run);
   PL_TRY(pl_run_left_open(run));
   look_for_landings(run);
   pl_projection p = pl_project(run, run->t, run->q, run->v);
   if (!p.ok || !pl_point_enter(run)) return pl_run_undetermined(run);
   pl_assemble_row_sizes(run);
-  pl_independent_unique(run);
+  pl_active_set_unique(run);
   run->rank_mode = run->rank;
   return PLEUEL_OK;
 }
@@ -43,7 +43,7 @@ static pleuel_status count_change(pl_run* run) {
 
 // -------------------------------------------------------------------------------- before and after
 static void remember(pl_run* run) {
-  pl_rows_before(run);
+  pl_output_before(run);
   memcpy(run->on_before, run->on, (size_t)run->n_c * sizeof(bool));
   for (int r = 0; r < run->setup->n_frictions; r++) run->friction_before[r] = run->friction[r];
 }
@@ -276,37 +276,37 @@ static pl_event_kind closed(const pl_constraint_setup* constraint, bool impact) 
 }
 
 // Contact after endless bounces: told at the limit of their times, with the state there.
-static pleuel_status tell_settled(pl_run* run, int c) {
+static pleuel_status report_settled(pl_run* run, int c) {
   double t = run->settled_t[c], dt = t - run->t;
   long bounces = run->bounces[c];
   run->settled_t[c] = (double)NAN;
   run->bounces[c] = 0;
-  return pl_rows_settled(run, closed(&run->setup->constraints[c], false), c, dt, bounces);
+  return pl_output_settled(run, closed(&run->setup->constraints[c], false), c, dt, bounces);
 }
 
-static pleuel_status tell_contact(pl_run* run, int c, bool grazed, bool at_start) {
+static pleuel_status report_contact(pl_run* run, int c, bool grazed, bool at_start) {
   const pl_constraint_setup* constraint = &run->setup->constraints[c];
-  if (isfinite(run->settled_t[c]) && run->on[c]) return tell_settled(run, c);
+  if (isfinite(run->settled_t[c]) && run->on[c]) return report_settled(run, c);
   run->settled_t[c] = (double)NAN;
   if (run->jumped[c])
-    return pl_rows_event(run, closed(constraint, true), c, run->impulse[c], at_start);
+    return pl_output_event(run, closed(constraint, true), c, run->impulse[c], at_start);
   if (run->on[c] && !run->on_before[c])
-    return pl_rows_event(run, closed(constraint, false), c, 0, at_start);
+    return pl_output_event(run, closed(constraint, false), c, 0, at_start);
   if (run->on_before[c] && !run->on[c] && !run->detached[c])
-    return pl_rows_event(run, opened(constraint), c, 0, at_start);
-  return grazed ? pl_rows_event(run, closed(constraint, false), c, 0, at_start) : PLEUEL_OK;
+    return pl_output_event(run, opened(constraint), c, 0, at_start);
+  return grazed ? pl_output_event(run, closed(constraint, false), c, 0, at_start) : PLEUEL_OK;
 }
 
-static pleuel_status tell_friction(pl_run* run, int r) {
+static pleuel_status report_friction(pl_run* run, int r) {
   const pl_friction_state *now = &run->friction[r], *before = &run->friction_before[r];
   int c = run->setup->frictions[r].constraint;
   if (before->state == PL_FRICTION_OFF || now->state == PL_FRICTION_OFF) return PLEUEL_OK;
   if (now->state == PL_FRICTION_STICK)
-    return before->state == PL_FRICTION_SLIP ? pl_rows_event(run, PL_EV_STICK, c, 0, false)
+    return before->state == PL_FRICTION_SLIP ? pl_output_event(run, PL_EV_STICK, c, 0, false)
                                              : PLEUEL_OK;
   bool turned = run->setup->frictions[r].n_rows == 1 && now->way != before->way;
   if (before->state == PL_FRICTION_SLIP && !turned) return PLEUEL_OK;
-  return pl_rows_event(run, PL_EV_SLIP, c, 0, false);
+  return pl_output_event(run, PL_EV_SLIP, c, 0, false);
 }
 
 static bool is_grazed(const pl_run* run, int c) {
@@ -317,10 +317,11 @@ static bool is_grazed(const pl_run* run, int c) {
   return false;
 }
 
-static pleuel_status tell_changes(pl_run* run, bool at_start) {
+static pleuel_status report_changes(pl_run* run, bool at_start) {
   for (int c = 0; c < run->n_c; c++)
-    if (is_contact(run, c)) PL_TRY(tell_contact(run, c, !at_start && is_grazed(run, c), at_start));
-  for (int r = 0; r < run->setup->n_frictions && !at_start; r++) PL_TRY(tell_friction(run, r));
+    if (is_contact(run, c))
+      PL_TRY(report_contact(run, c, !at_start && is_grazed(run, c), at_start));
+  for (int r = 0; r < run->setup->n_frictions && !at_start; r++) PL_TRY(report_friction(run, r));
   return PLEUEL_OK;
 }
 
@@ -337,7 +338,7 @@ pleuel_status pl_modes_check(pl_run* run, bool at_start) {
   clear_fixed(run);
   remember(run);
   PL_TRY(follow(run));
-  return tell_changes(run, at_start);
+  return report_changes(run, at_start);
 }
 
 // ------------------------------------------------------------------------------------------- actions
@@ -426,9 +427,9 @@ static pleuel_status happen(pl_run* run, int e, bool touches) {
   pl_watch* w = pl_watch_of(run, PL_WATCH_EVENT, e);
   w->fresh = touches ? 2 : 1;
   if (!touches) w->side = -w->side;
-  PL_TRY(pl_rows_event(run, stops ? PL_EV_STOP : PL_EV_EVENT, e, 0, false));
+  PL_TRY(pl_output_event(run, stops ? PL_EV_STOP : PL_EV_EVENT, e, 0, false));
   if (changes) PL_TRY(count_repeats(run, e));
-  return changes ? tell_changes(run, false) : PLEUEL_OK;
+  return changes ? report_changes(run, false) : PLEUEL_OK;
 }
 
 // ------------------------------------------------------------------------------------- all of them
@@ -499,7 +500,7 @@ static void fix_choices(pl_run* run, int i) {
 
 pleuel_status pl_modes_handle(pl_run* run) {
   bool changes = changes_motion(run), contacts = false;
-  if (changes) PL_TRY(pl_rows_point(run, PL_ROW_BEFORE));
+  if (changes) PL_TRY(pl_output_point(run, PL_ROW_BEFORE));
   clear_fixed(run);
   for (int i = 0; i < run->n_watch; i++) {
     if (!run->hit[i] || run->watch[i].kind == PL_WATCH_EVENT) continue;
@@ -510,13 +511,13 @@ pleuel_status pl_modes_handle(pl_run* run) {
     PL_TRY(count_change(run));
     remember(run);
     PL_TRY(follow(run));
-    PL_TRY(tell_changes(run, false));
+    PL_TRY(report_changes(run, false));
   }
   for (int i = 0; i < run->n_watch; i++) {
     if (!run->hit[i] || run->watch[i].kind != PL_WATCH_EVENT) continue;
     PL_TRY(count_change(run));
     PL_TRY(happen(run, run->watch[i].index, run->touch[i]));
   }
-  pl_rows_energy(run, true);
-  return pl_rows_point(run, PL_ROW_AFTER);
+  pl_output_energy(run, true);
+  return pl_output_point(run, PL_ROW_AFTER);
 }

@@ -140,8 +140,8 @@ pleuel_status pl_run_singular(pl_run* run) {
   char where[320];
   place_in_words(run, reach, where, sizeof where);
   run->stats.t_singular = run->t + reach;
-  pl_rows_before(run);
-  if (run->started) PL_TRY(pl_rows_event(run, PL_EV_SINGULAR, -1, 0, false));
+  pl_output_before(run);
+  if (run->started) PL_TRY(pl_output_event(run, PL_EV_SINGULAR, -1, 0, false));
   if (run->extended)
     return pl_fail(run->job, PLEUEL_SINGULAR,
                    "singular position at t = %.9g s (%s): the constraints lose rank there; "
@@ -185,7 +185,7 @@ static double pivot_at(pl_run* run, double dt) {
   double smallest;
   pl_series_at(run, dt, run->row_q, run->row_v);
   pl_point_evaluate(run, run->t + run->t_low + dt, run->row_q, run->row_v);
-  return pl_independent_pivot(run, &smallest) ? smallest : (double)NAN;
+  return pl_active_set_pivot(run, &smallest) ? smallest : (double)NAN;
 }
 
 // The place from a guess: the pivot is linear on both sides of it. First from its slope on this
@@ -208,8 +208,8 @@ static double find_place(pl_run* run, double guess) {
 static bool energy_agrees(pl_run* run) {
   const pl_setup* s = run->setup;
   if (!s->energy_conserved || s->kinetic < 0 || s->potential < 0) return true;
-  pl_observe(run, run->t, run->trial_q, run->trial_v, run->A, run->L, run->energy_out);
-  double E = pl_rows_conserved(run, run->energy_out);
+  pl_output_observe(run, run->t, run->trial_q, run->trial_v, run->A, run->L, run->energy_out);
+  double E = pl_output_conserved(run, run->energy_out);
   return fabs(E - run->energy_base)
          <= run->stats.energy_drift * run->energy_size + 1e-10 * run->energy_size;
 }
@@ -251,5 +251,5 @@ pleuel_status pl_singular_record(pl_run* run) {
   pl_series_at(run, reach, run->row_q, run->row_v);
   pl_series_lambda_at(run, reach, run->row_a, run->row_l);
   pl_event_record e = {.kind = PL_EV_SINGULAR, .index = -1};
-  return pl_rows_event_beside(run, e, run->stats.t_singular, run->row_a, run->row_l);
+  return pl_output_event_beside(run, e, run->stats.t_singular, run->row_a, run->row_l);
 }

@@ -1,4 +1,4 @@
-// Kinks: places where |x|, sign x, min, max or if change their branch. A series continues the
+// Switching points: places where |x|, sign x, min, max or if change their branch. A series continues the
 // branch it began on, so a step must not reach across: it ends just behind the first crossing,
 // where the other branch begins.
 #include "solve/solve_impl.h"
@@ -15,7 +15,7 @@ static bool compares_two(const pl_tape_node* node) {
   return node->op == PL_OP_MIN || node->op == PL_OP_MAX;
 }
 
-// What changes sign at the kink is operand a, or a - b.
+// What changes sign at the switching point is operand a, or a - b.
 static int count_in(const pl_tape* tape) {
   int n = 0;
   for (int i = tape->level_end[PL_LEVEL_CONST]; i < tape->level_end[PL_LEVEL_VELOCITY]; i++)
@@ -29,37 +29,39 @@ static void list_batch(pl_run* run, const pl_batch* b) {
     const pl_tape_node* node = &tape->nodes[i];
     if (!node->high || !has_branches(node)) continue;
     for (int l = 0; l < b->n; l++)
-      run->kinks[run->n_kinks++] = (pl_kink){b, node->a, compares_two(node) ? node->b : -1, l};
+      run->switches[run->n_switches++] = (pl_switch){b, node->a, compares_two(node) ? node->b : -1,
+                                                     l};
   }
 }
 
-void pl_kinks_make(pl_run* run) {
+void pl_switching_make(pl_run* run) {
   size_t n = 0;
   for (int i = 0; i < run->motion.n; i++)
     n += (size_t)count_in(run->motion.at[i].pattern->tape) * (size_t)run->motion.at[i].n;
-  run->kinks = PL_ARRAY(run->job->arena, pl_kink, n + 1);
+  run->switches = PL_ARRAY(run->job->arena, pl_switch, n + 1);
   run->K_series = PL_ARRAY(run->job->arena, double, n*(size_t)run->order + 1);
   for (int i = 0; i < run->motion.n; i++) list_batch(run, &run->motion.at[i]);
 }
 
-static double coefficient(const pl_kink* kink, int node, int k) {
-  if (node < 0 || (k > 0 && node < kink->batch->pattern->tape->level_end[PL_LEVEL_CONST])) return 0;
-  return pl_jet_at(kink->batch->jet, node, k)[kink->lane];
+static double coefficient(const pl_switch* at_switch, int node, int k) {
+  if (node < 0 || (k > 0 && node < at_switch->batch->pattern->tape->level_end[PL_LEVEL_CONST]))
+    return 0;
+  return pl_jet_at(at_switch->batch->jet, node, k)[at_switch->lane];
 }
 
-void pl_kinks_series(pl_run* run) {
-  for (int i = 0; i < run->n_kinks; i++) {
-    const pl_kink* kink = &run->kinks[i];
+void pl_switching_series(pl_run* run) {
+  for (int i = 0; i < run->n_switches; i++) {
+    const pl_switch* at_switch = &run->switches[i];
     for (int k = 0; k < run->order; k++)
-      run->K_series[(size_t)i * (size_t)run->order + (size_t)k] = coefficient(kink, kink->a, k)
-                                                                  - coefficient(kink, kink->b, k);
+      run->K_series[(size_t)i * (size_t)run->order + (size_t)k] =
+          coefficient(at_switch, at_switch->a, k) - coefficient(at_switch, at_switch->b, k);
   }
 }
 
 // What changes sign, at the point that the programs were evaluated at.
-double pl_kinks_value(const pl_run* run, int i) {
-  const pl_kink* kink = &run->kinks[i];
-  return coefficient(kink, kink->a, 0) - coefficient(kink, kink->b, 0);
+double pl_switching_value(const pl_run* run, int i) {
+  const pl_switch* at_switch = &run->switches[i];
+  return coefficient(at_switch, at_switch->a, 0) - coefficient(at_switch, at_switch->b, 0);
 }
 
 static double value_at(const double* c, int n, double x) {
@@ -80,13 +82,13 @@ static double behind(const double* c, int n, double size, double root) {
 
 static bool same_side(double a, double b) { return (a > 0 && b > 0) || (a < 0 && b < 0); }
 
-// Just behind the first kink of one polynomial; -1 none on the step.
+// Just behind the first switching point of one polynomial; -1 none on the step.
 static double find_kink(pl_run* run, const double* c, int n, double size) {
   double root;
   if (fabs(c[0]) > unsure * size) {
     root = pl_first_root(c, n - 1, 0, run->root_work);
   } else {
-    // at a kink: the side on which it stands must be the one to which it moves
+    // at a switching point: the side on which it stands must be the one to which it moves
     double away = behind(c, n, size, 0);
     if (away > 0 && !same_side(c[0], value_at(c, n, away))) return away;
     root = n > 1 ? pl_first_root(c + 1, n - 2, 0, run->root_work) : -1;
@@ -94,9 +96,9 @@ static double find_kink(pl_run* run, const double* c, int n, double size) {
   return root < 0 ? -1 : behind(c, n, size, root);
 }
 
-double pl_kinks_reach(pl_run* run, double h) {
+double pl_switching_reach(pl_run* run, double h) {
   double part = fmax(100 * run->tol, 1e-14);
-  for (int i = 0; i < run->n_kinks; i++) {
+  for (int i = 0; i < run->n_switches; i++) {
     double *c = run->poly, power = 1;
     for (int k = 0; k < run->use; k++, power *= h)
       c[k] = power * run->K_series[(size_t)i * (size_t)run->order + (size_t)k];
@@ -105,9 +107,9 @@ double pl_kinks_reach(pl_run* run, double h) {
   return h;
 }
 
-double pl_kinks_first(pl_run* run, double h) {
+double pl_switching_first(pl_run* run, double h) {
   double first = -1;
-  for (int i = 0; i < run->n_kinks; i++) {
+  for (int i = 0; i < run->n_switches; i++) {
     double *c = run->poly, power = 1, size = 0;
     for (int k = 0; k < run->use; k++, power *= h) {
       c[k] = power * run->K_series[(size_t)i * (size_t)run->order + (size_t)k];

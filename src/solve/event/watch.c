@@ -298,8 +298,8 @@ static double event_at(pl_run* run, int e, double t, const double* q, const doub
 
 // Whether what is watched is as its polynomial says, at x of the step h: to this much, to its
 // noise, and to the rounding of the time. The polynomial is in run->poly.
-static bool is_as_told(pl_run* run, const pl_watch* w, double h, int n, double x, double value,
-                       double most) {
+static bool is_as_predicted(pl_run* run, const pl_watch* w, double h, int n, double x, double value,
+                            double most) {
   double t = run->t + run->t_low + x * h, slope = 0;
   for (int k = n - 1; k >= 1; k--) slope = slope * x + k * run->poly[k];
   double rounding = pl_watch_noise(run, w, h) + 16 * DBL_EPSILON * fabs(t * slope / h);
@@ -314,7 +314,7 @@ bool pl_watch_holds(pl_run* run, double h, double x) {
     pl_series_lambda_at(run, x * h, run->row_a, run->row_l);
     double value = event_at(run, w->index, run->t + run->t_low + x * h, run->trial_q, run->trial_v);
     int n = polynomial(run, w, h, run->poly);
-    if (!is_as_told(run, w, h, n, x, value, part * size_of(run->poly, n))) return false;
+    if (!is_as_predicted(run, w, h, n, x, value, part * size_of(run->poly, n))) return false;
   }
   return true;
 }
@@ -332,7 +332,7 @@ bool pl_watch_is_followed(pl_run* run, double h) {
              value = event_at(run, w->index, t, run->row_q, run->row_v);
       int n = polynomial(run, w, h, run->poly);
       double size = fabs(value) + fabs(run->poly[0]) + fabs(value_at(run->poly, n, 1));
-      if (!is_as_told(run, w, h, n, place[k], value, part * size)) return false;
+      if (!is_as_predicted(run, w, h, n, place[k], value, part * size)) return false;
     }
   }
   return true;

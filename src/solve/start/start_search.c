@@ -76,7 +76,7 @@ static void only_two_sided(pl_start* s) {
     run->on[c] = !run->detached[c] && run->setup->constraints[c].side == 0;
     s->sits[c] = false;
   }
-  pl_active_update(run);
+  pl_active_set_update(run);
 }
 
 // Whether what is not held can still move the one-sided constraint c, the others being met.
@@ -84,10 +84,10 @@ static bool is_undetermined(pl_start* s, int c) {
   pl_run* run = s->run;
   int before = pl_start_rank(s, s->held_q);
   run->on[c] = true;
-  pl_active_update(run);
+  pl_active_set_update(run);
   int after = pl_start_rank(s, s->held_q);
   run->on[c] = false;
-  pl_active_update(run);
+  pl_active_set_update(run);
   return after > before;
 }
 
@@ -113,12 +113,12 @@ static bool decide_contact(pl_start* s, int c) {
   }
   s->sits[c] = sits;
   run->on[c] = sits || value <= met;
-  pl_active_update(run);
+  pl_active_set_update(run);
   if (!sits || pl_start_positions(s, s->held_q)) return true;
   // it cannot be reached: then it is free, if that is allowed
   run->on[c] = false;
   s->sits[c] = false;
-  pl_active_update(run);
+  pl_active_set_update(run);
   return pl_start_positions(s, s->held_q) && side_value(s, c) >= -met;
 }
 
@@ -134,7 +134,7 @@ static bool close_granted(pl_start* s) {
       run->on[k] = any = true;
     }
   }
-  pl_active_update(run);
+  pl_active_set_update(run);
   return any;
 }
 
@@ -462,7 +462,7 @@ static pleuel_status find_positions(pl_start* s) {
   memcpy(s->q, s->solutions + (size_t)taken * (size_t)run->n_q, (size_t)run->n_q * sizeof(double));
   memcpy(run->on, s->solution_on + (size_t)taken * (size_t)run->n_c,
          (size_t)run->n_c * sizeof(bool));
-  pl_active_update(run);
+  pl_active_set_update(run);
   return PLEUEL_OK;
 }
 
@@ -478,7 +478,7 @@ static void set_velocities(pl_start* s) {
 static bool leaves(pl_start* s, int c) {
   pl_run* run = s->run;
   run->on[c] = false;
-  pl_active_update(run);
+  pl_active_set_update(run);
   set_velocities(s);
   bool solved = pl_start_velocities(s, s->held_v);
   double rate = run->setup->constraints[c].side * run->r[c];
@@ -487,7 +487,7 @@ static bool leaves(pl_start* s, int c) {
     return true;
   }
   run->on[c] = true;
-  pl_active_update(run);
+  pl_active_set_update(run);
   return false;
 }
 
@@ -501,7 +501,7 @@ static bool run_into(pl_start* s) {
     if (run->setup->constraints[c].side != 0 && !run->setup->constraints[c].velocity)
       run->on[c] = false;
   }
-  pl_active_update(run);
+  pl_active_set_update(run);
   set_velocities(s);
   bool solved = pl_start_velocities(s, s->held_v);
   for (int c = 0; c < run->n_c; c++) {
@@ -511,7 +511,7 @@ static bool run_into(pl_start* s) {
     if (moves) s->sits[c] = false;
     any |= moves;
   }
-  pl_active_update(run);
+  pl_active_set_update(run);
   set_velocities(s);
   return any && pl_start_velocities(s, s->held_v);
 }
@@ -525,7 +525,7 @@ static pleuel_status find_velocities(pl_start* s) {
       return find_velocities(s);
   if (run_into(s)) return PLEUEL_OK;
   memcpy(run->on, s->before_on, (size_t)run->n_c * sizeof(bool));
-  pl_active_update(run);
+  pl_active_set_update(run);
   set_velocities(s);
   pl_start_velocities(s, s->held_v);
   if (s->worst_constraint < 0)

@@ -102,7 +102,7 @@ static double* values_of(const pl_radau* r, int watch) {
 void pl_radau_watch(pl_run* run, pl_radau* r, double h) {
   bool contacts = run->watch_landings || run->setup->n_frictions > 0;
   int s = r->method.s;
-  if (run->n_watch == 0 && run->n_kinks == 0) return;
+  if (run->n_watch == 0 && run->n_switches == 0) return;
   if (run->n_watch > 0) forces_at_end(run, r, h);
   r->watched_h = h;
   for (int i = 0; i <= s; i++) {
@@ -110,9 +110,9 @@ void pl_radau_watch(pl_run* run, pl_radau* r, double h) {
     watch_quantities(run, &n);
     // sizes of terms
     if (i == 0) memcpy(run->W_series, run->W_coef, (size_t)run->setup->n_watched * sizeof(double));
-    if (contacts || run->n_kinks > 0) pl_point_evaluate(run, n.t, n.q, n.v);
-    for (int k = 0; k < run->n_kinks; k++)
-      r->bent[(size_t)k * (PL_RADAU_MOST + 1) + (size_t)i] = pl_kinks_value(run, k);
+    if (contacts || run->n_switches > 0) pl_point_evaluate(run, n.t, n.q, n.v);
+    for (int k = 0; k < run->n_switches; k++)
+      r->bent[(size_t)k * (PL_RADAU_MOST + 1) + (size_t)i] = pl_switching_value(run, k);
     if (contacts) {
       // the sizes of the start are what the search for roots reads
       pl_assemble_g(run, 0, i == 0 ? r->first_g : r->last_g, i == 0 ? run->g_size : NULL);
@@ -123,7 +123,7 @@ void pl_radau_watch(pl_run* run, pl_radau* r, double h) {
       memcpy(run->S_series, run->r, (size_t)r->n_c * sizeof(double));
     for (int k = 0; k < run->n_watch; k++) values_of(r, k)[i] = value_of(run, &run->watch[k], &n);
   }
-  if (contacts || run->n_kinks > 0) run->factored = false;
+  if (contacts || run->n_switches > 0) run->factored = false;
 }
 
 // ------------------------------------------------------------------------------------- polynomials
@@ -157,12 +157,12 @@ int pl_radau_polynomial(const pl_run* run, int watch, double* c) {
   return r->method.s + 1;
 }
 
-// ------------------------------------------------------------------------------------------- kinks
-// Values at the stages as a series, for pl_kinks_first.
+// ------------------------------------------------------------------------------------------- switching points
+// Values at the stages as a series, for pl_switching_first.
 static void bend(pl_run* run, const pl_radau* r, double h) {
   size_t order = (size_t)run->order;
-  memset(run->K_series, 0, (size_t)run->n_kinks * order * sizeof(double));
-  for (int i = 0; i < run->n_kinks; i++) {
+  memset(run->K_series, 0, (size_t)run->n_switches * order * sizeof(double));
+  for (int i = 0; i < run->n_switches; i++) {
     const double* value = r->bent + (size_t)i * (PL_RADAU_MOST + 1);
     double power = 1;
     for (int k = 0; k <= r->method.s && k < run->order; k++, power *= h)
@@ -171,15 +171,15 @@ static void bend(pl_run* run, const pl_radau* r, double h) {
   }
 }
 
-// A force that changes its branch within the step costs the order: a step ends behind the kink.
-pleuel_status pl_radau_stop_at_kinks(pl_run* run, pl_radau* r, double* h, pl_projection* p) {
+// A force that changes its branch within the step costs the order: a step ends behind the switching point.
+pleuel_status pl_radau_stop_at_switches(pl_run* run, pl_radau* r, double* h, pl_projection* p) {
   enum { MOST = 8 };
   double error, next;
-  for (int round = 0; run->n_kinks > 0 && round < MOST; round++) {
+  for (int round = 0; run->n_switches > 0 && round < MOST; round++) {
     bend(run, r, *h);
-    double kink = pl_kinks_first(run, *h);
-    if (kink < 0 || kink > 1 - 1e-9 || !(kink * fabs(*h) > run->h_least)) break;
-    *h *= kink;
+    double at_switch = pl_switching_first(run, *h);
+    if (at_switch < 0 || at_switch > 1 - 1e-9 || !(at_switch * fabs(*h) > run->h_least)) break;
+    *h *= at_switch;
     pl_sizes_forget(run);
     PL_TRY(pl_radau_hold(run, r, h, &error, &next, p));
     pl_radau_watch(run, r, *h);

@@ -102,7 +102,7 @@ struct pl_radau {
   // what is watched: values at the start and at the stages      (n_watch x (s + 1))
   double* watched;
   double watched_h;  // length of that step
-  // the same of what changes its branch                    (n_kinks x (s + 1))
+  // the same of what changes its branch                    (n_switches x (s + 1))
   double* bent;
   double *first_g, *last_g, *last_size;  // g at both ends                         (n_c)
   // accelerations and multipliers at the end; those of the start
@@ -160,7 +160,7 @@ void pl_radau_correct_coupled(pl_radau* r, const pl_run* run);
 // ---- radau_events.c
 // values of what is watched on the step held, end_a, end_l
 void pl_radau_watch(pl_run* run, pl_radau* r, double h);
-pleuel_status pl_radau_stop_at_kinks(pl_run* run, pl_radau* r, double* h, pl_projection* p);
+pleuel_status pl_radau_stop_at_switches(pl_run* run, pl_radau* r, double* h, pl_projection* p);
 pleuel_status pl_radau_land(pl_run* run, pl_radau* r, double* h, double* root, pl_projection* p);
 
 // ---- radau_step.c

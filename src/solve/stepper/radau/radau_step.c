@@ -479,7 +479,7 @@ pleuel_status pl_radau_step(pl_run* run, double* h, double* root, pl_projection*
   double full = *h;
   pl_radau_watch(run, r, *h);
   pl_radau_series(run, r, *h);
-  PL_TRY(pl_radau_stop_at_kinks(run, r, h, p));
+  PL_TRY(pl_radau_stop_at_switches(run, r, h, p));
   while (run->setup->n_events > 0 && !pl_watch_is_followed(run, *h)) {
     // an event that is faster than the motion
     *h *= 0.5;

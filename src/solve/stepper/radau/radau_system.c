@@ -80,7 +80,7 @@ static void reserve_watches(pl_run* run, pl_radau* r) {
   for (size_t i = 0; i < 5; i++) *of_c[i] = PL_ARRAY(a, double, c + 1);
   r->end_a = PL_ARRAY(a, double, r->n_q + 1);
   r->save_a = PL_ARRAY(a, double, r->n_q + 1);
-  r->bent = PL_ARRAY(a, double, (size_t)run->n_kinks*(PL_RADAU_MOST + 1) + 1);
+  r->bent = PL_ARRAY(a, double, (size_t)run->n_switches*(PL_RADAU_MOST + 1) + 1);
   r->watched = PL_ARRAY(a, double, (size_t)run->n_watch*(PL_RADAU_MOST + 1) + 1);
 }
 

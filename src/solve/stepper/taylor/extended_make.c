@@ -71,7 +71,7 @@ pleuel_status pl_extended_check(pl_run* run) {
     return pl_fail(run->job, PLEUEL_UNSUPPORTED,
                    "precision %s: the implicit method computes in double only; use the series",
                    mode);
-  if (run->n_kinks > 0)
+  if (run->n_switches > 0)
     return pl_fail(run->job, PLEUEL_UNSUPPORTED,
                    "precision %s: a force or constraint with a kink (abs, sign, min, max, if) is "
                    "followed in double only",
@@ -322,7 +322,7 @@ void pl_extended_change_rows(pl_run* run) {
   int rank = run->rank;
   double smallest = run->smallest, best = run->best;
   pl_point_evaluate(run, run->t, run->q, run->v);
-  pl_independent_choose(run);
+  pl_active_set_choose(run);
   bool other = run->rank == rank && memcmp(before, run->taken, n) != 0 && pl_extended_of_mode(run);
   if (!other) {
     memcpy(run->taken, before, n);

@@ -82,7 +82,7 @@ static bool compiling_pays(pl_run* run, const pl_step_program* o) {
 }
 
 void pl_step_program_update(pl_run* run) {
-  if (run->options.general || run->n_kinks > 0
+  if (run->options.general || run->n_switches > 0
       || (run->options.precision != PL_PRECISION_DOUBLE && run->program == NULL))
     return;
   if (!run->at_point && !(run->program && same_mode(run, run->program)))

@@ -16,15 +16,15 @@ enum { FEW = 32 };
 
 double pl_norm(const double* x, int n) {
   double most = 0;
-  if (n > FEW) return pl_orders_here()->norm(x, n);
+  if (n > FEW) return pl_taylor_order_here()->norm(x, n);
   for (int i = 0; i < n; i++) most = pl_size_with(most, x[i]);
   return most;
 }
 
 void pl_sizes_note(pl_run* run, const double* q, const double* v) {
   if (run->n_q > FEW) {
-    run->q_size = pl_larger(run->q_size, pl_orders_here()->note(run->q_most, q, run->n_q));
-    run->v_size = pl_larger(run->v_size, pl_orders_here()->note(run->v_most, v, run->n_q));
+    run->q_size = pl_larger(run->q_size, pl_taylor_order_here()->note(run->q_most, q, run->n_q));
+    run->v_size = pl_larger(run->v_size, pl_taylor_order_here()->note(run->v_most, v, run->n_q));
     return;
   }
   for (int i = 0; i < run->n_q; i++) {
@@ -80,7 +80,7 @@ static void solve_order(pl_run* run, int k) {
   int n = run->n_q;
   double* q_next = run->Q + (size_t)(k + 1) * (size_t)n;
   // from order 1 on it came with v
-  if (k == 0) pl_orders_here()->over(q_next, run->V, 1, n);
+  if (k == 0) pl_taylor_order_here()->over(q_next, run->V, 1, n);
   pl_batches_load_q(m, q_next, k + 1);
   // all: where a landing is watched, g itself is needed to all orders
   bool all = run->watch_landings;
@@ -89,7 +89,7 @@ static void solve_order(pl_run* run, int k) {
   if (k > 0 && run->setup->n_frictions > 0) pl_friction_coefficients(run, k);
   pl_assemble_rhs(run, k, run->rhs);
   pl_kkt_solve(&run->kkt, run->rhs);
-  pl_orders_here()->take(run, k);
+  pl_taylor_order_here()->take(run, k);
   pl_batches_load_a(m, run->A + (size_t)k * (size_t)n, k);
   pl_batches_load_lambda(m, run->L + (size_t)k * (size_t)run->n_c, k);
   pl_batches_load_v(m, run->V + (size_t)(k + 1) * (size_t)n, k + 1);
@@ -109,7 +109,7 @@ static bool enter_at(pl_run* run, double t, const double* q, const double* v) {
     pl_batches_sweep(&run->motion, PL_LEVEL_VELOCITY, 0, true);
   } else {
     pl_point_evaluate(run, t, q, v);
-    pl_independent_choose(run);
+    pl_active_set_choose(run);
     if (!pl_point_factor(run, true)) return false;
   }
   run->factored = false;
@@ -160,7 +160,7 @@ void pl_point_general(pl_run* run) {
   if (!run->at_point) return;
   run->at_point = run->factored = false;
   pl_point_evaluate(run, run->t, run->q, run->v);
-  pl_independent_choose(run);
+  pl_active_set_choose(run);
   pl_point_factor(run, true);
 }
 
@@ -290,7 +290,7 @@ double pl_series_step(pl_run* run) {
 
 // -------------------------------------------------------------------------------------- evaluation
 void pl_horner(const double* X, int n, int last, double dt, double* x) {
-  pl_orders_here()->horner(X, n, last, dt, x);
+  pl_taylor_order_here()->horner(X, n, last, dt, x);
 }
 
 void pl_series_at(const pl_run* run, double dt, double* q, double* v) {
