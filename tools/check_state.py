@@ -13,13 +13,13 @@ STRUCTS = {
     "pl_run": ("solve_impl.h", "run"),
     "pl_kkt": ("solve_impl.h", "kkt|k"),
     "pl_watch": ("solve_impl.h", r"watch\[i\]"),
-    "pl_rub_now": ("solve_impl.h", "now"),
+    "pl_friction_state": ("solve_impl.h", "now"),
     "pl_fade": ("solve_impl.h", r"fade\[[01]\]"),
-    "pl_turn_now": ("solve_impl.h", r"turn\[i\]"),
+    "pl_attitude_state": ("solve_impl.h", r"attitude\[i\]"),
     "pl_stats": ("solve.h", "s"),
-    "pl_motion": ("stepper/taylor/step_program_impl.h", "o"),
+    "pl_step_program": ("stepper/taylor/step_program_impl.h", "o"),
     "pl_radau": ("stepper/radau/radau_impl.h", "r"),
-    "pl_wide": ("stepper/taylor/extended_impl.h", "w"),
+    "pl_extended": ("stepper/taylor/extended_impl.h", "w"),
 }
 KEEPERS = [SOLVE / "checkpoint.c", SOLVE / "dae/kkt.c"]
 

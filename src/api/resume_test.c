@@ -113,7 +113,7 @@ static bool same_state(const pl_keeper* a, const pl_keeper* b) {
   const unsigned char *x = memmem(a->at, a->next, mark, sizeof mark),
                       *y = memmem(b->at, b->next, mark, sizeof mark);
   if (x == NULL || y == NULL) return false;
-  static const char end[16] = "pilot";  // whose codes come behind
+  static const char end[16] = "lead";  // whose codes come behind
   const unsigned char* u = memmem(x, (size_t)(a->at + a->next - x), end, sizeof end);
   const unsigned char* w = memmem(y, (size_t)(b->at + b->next - y), end, sizeof end);
   return u && w && u - x == w - y && memcmp(x, y, (size_t)(u - x)) == 0;

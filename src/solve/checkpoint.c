@@ -14,7 +14,7 @@
 // clang-format off
 // not kept of pl_run, follows from setup and options: job setup options n_q n_c order tol_raised
 //   motion observers watched branches has_W mass_of_velocity shrink h_plain h_least row_gap n_watch
-//   at_friction switching points n_switches mode_size grid_count grid_dt
+//   at_friction switches n_switches mode_size grid_count grid_dt
 // not kept of pl_run, follows from the point: Q V ready t_series rests
 // not kept of pl_run, follows from how it was started: start_given
 // not kept of pl_run, only when, never what: clock_begin t_begin considered wall_begin
@@ -172,7 +172,7 @@ static void keep_rows(pl_run* run, pl_keeper* k) {
 }
 
 static void keep_attitudes(pl_run* run, pl_keeper* k) {
-  pl_keep_section(k, "turns");
+  pl_keep_section(k, "attitudes");
   for (int i = 0; i < run->setup->n_attitudes; i++) {
     pl_keep_f64(k, &run->attitude[i].t);
     pl_keep_f64s(k, run->attitude[i].angle, 3);
@@ -341,7 +341,7 @@ static void read_programs(pl_run* run, pl_keeper* k) {
 }
 
 static void keep_programs(pl_run* run, pl_keeper* k) {
-  pl_keep_section(k, "codes");
+  pl_keep_section(k, "programs");
   if (k->reads) read_programs(run, k);
   else write_programs(run, k);
 }
@@ -353,7 +353,7 @@ void pl_run_save(pl_run* run, pl_keeper* k) {
   pl_keep_section(k, "pivots");
   pl_kkt_keep(&run->kkt, k);
   keep_state(run, k);
-  pl_keep_section(k, "pilot");
+  pl_keep_section(k, "lead");
   if (run->sensitivity) pl_sensitivity_write(run->sensitivity, k);
 }
 
@@ -412,7 +412,7 @@ pleuel_status pl_run_load(pl_run* run, pl_keeper* k, const pl_sink* sink) {
   k->next = at;
   keep_state(run, k);
   run->considered = 0;
-  pl_keep_section(k, "pilot");
+  pl_keep_section(k, "lead");
   if (run->sensitivity) PL_TRY(pl_sensitivity_read(run->sensitivity, k));
   if (k->wrong) return unreadable(run);
   run->options.sink = *sink;
