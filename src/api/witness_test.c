@@ -116,6 +116,56 @@ static void a_false_component_of_a_force(void** state) {
   a_false_component_is_seen(cartesian, 1);
 }
 
+// A value that no single motion tells, in per mille of what it was.
+static void a_false_value_is_seen(const char* text, const char* name, int per_mille) {
+  bench b = solved(text);
+  assert_true(last_check(&b)->passed);
+  pl_section* section = NULL;
+  pl_value* v = value_named(&b, name, &section);
+  v->expr = pl_mul(b.s->model->pool, pl_ratio(b.s->model->pool, per_mille, 1000), v->expr);
+  pl_witness_hold(&b.m->job, b.s, NULL, 0);
+  assert_false(last_check(&b)->passed);
+  assert_string_equal(last_check(&b)->failed_on, name);
+  assert_true(section->withdrawn);
+  done(&b);
+}
+
+#define TWO_MASSES                                                                     \
+  "param m1 = 2 [kg], m2 = 1 [kg], g = 9.81 [m/s^2]\ncoord x, y\naxes x right, y up\n" \
+  "mass A: m1 at (x, 0)\nmass B: m2 at (0, y)\ngravity g along -y\n"                   \
+  "constraint string: x + y = 1\ninit x = 0.5, x' = 0\nsimulate 0..1 [s]\n"
+
+static void a_false_limit(void** state) {
+  (void)state;
+  a_false_value_is_seen(TWO_MASSES "ask limit m1 -> 0 of x''\n", "x_ddot", 1001);
+  a_false_value_is_seen(TWO_MASSES "ask limit m2 -> ∞ of x''\n", "x_ddot", 1001);
+  a_false_value_is_seen(TWO_MASSES "ask limit m1 = m2 of λ_string\n", "lambda_string", 1001);
+  a_false_value_is_seen(TWO_MASSES "ask limit m1 >> m2 of x''\n", "x_ddot", 1001);
+  a_false_value_is_seen(TWO_MASSES "ask series m2 -> 0 of x''\n", "x_ddot", 1001);
+  a_false_value_is_seen(TWO_MASSES "ask series m1 = m2 + δm, δm -> 0 of x''\n", "x_ddot", 1001);
+}
+
+static void a_false_frequency(void** state) {
+  (void)state;
+  static const char turning[] =
+      "param m = 1 [kg], k = 3 [N/m], b = 0.7 [kg/s]\ncoord x, y\naxes x right, y up\n"
+      "mass m at (x, y)\npotential 1/2 k x^2 + k y^2 + b x y'\ninit x = 0.1, y = 0\n"
+      "simulate 0..1 [s]\nask modes at (x = 0, y = 0)\n";
+  a_false_value_is_seen(PENDULUM "ask modes\n", "omega^2", 1001);
+  a_false_value_is_seen(PENDULUM "ask equilibria\n", "omega^2", 1001);
+  a_false_value_is_seen(turning, "omega^2", 1001);
+}
+
+static void a_false_threshold(void** state) {
+  (void)state;
+  a_false_value_is_seen(
+      "param m = 1 [kg], l = 1 [m], g = 9.81 [m/s^2], k = 20 [N m]\ncoord φ\n"
+      "axes x right, y up\nmass m at (l sin φ, l cos φ)\ngravity g along -y\n"
+      "potential 1/2 k φ^2\ninit φ = 0.1\nsimulate 0..1 [s]\n"
+      "ask threshold k of stable at φ = 0\n",
+      "k", 1100);
+}
+
 static void a_false_constant_of_the_motion(void** state) {
   (void)state;
   is_seen(PENDULUM "ask conserved\n", "E");
@@ -367,6 +417,9 @@ int main(void) {
       cmocka_unit_test(a_false_acceleration),
       cmocka_unit_test(a_false_multiplier),
       cmocka_unit_test(a_false_component_of_a_force),
+      cmocka_unit_test(a_false_limit),
+      cmocka_unit_test(a_false_frequency),
+      cmocka_unit_test(a_false_threshold),
       cmocka_unit_test(a_false_constant_of_the_motion),
       cmocka_unit_test(a_false_closed_motion),
       cmocka_unit_test(a_false_value_on_a_named_motion),

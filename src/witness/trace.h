@@ -84,6 +84,9 @@ pl_model* pl_trace_model(pl_job* job, pl_model* m, uint64_t seed);
 // outputs can be written.
 pl_model* pl_trace_copy(pl_arena* a, const pl_model* m);
 
+// pl_trace_number gives a double as an expression, with its shortest decimal.
+pl_expr pl_trace_number(pl_pool* p, double x);
+
 // pl_trace_make runs a model whose parameters have numbers. The trace is there whatever happens;
 // its status tells how it went. Nothing is reported, and no other run is disturbed.
 pl_trace* pl_trace_make(pl_job* job, pl_model* numbered, const pl_trace_options* options);

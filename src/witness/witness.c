@@ -515,8 +515,17 @@ static void differentiate(pl_witness* w) {
 static bool is_searched(const pl_witness* w) {
   for (int i = 0; i < w->solution->sections.n; i++) {
     const pl_ask* ask = w->solution->sections.at[i].ask;
-    if (ask && (ask->kind == PL_ASK_DOF || ask->kind == PL_ASK_EQUILIBRIA || ask->where.n == 1))
-      return true;
+    if (!ask) continue;
+    switch (ask->kind) {
+      case PL_ASK_DOF:
+      case PL_ASK_EQUILIBRIA:
+      case PL_ASK_MODES:
+      case PL_ASK_THRESHOLD:
+      case PL_ASK_LIMIT:
+      case PL_ASK_SERIES: return true;
+      default:
+        if (ask->where.n == 1) return true;
+    }
   }
   return false;
 }
@@ -551,6 +560,7 @@ void pl_witness_hold(pl_job* job, pl_solution* solution, const pl_stage* stages,
   for (int i = 0; i < w.starts.n; i++) compare_along(&w, &w.starts.at[i], &v);
   pl_search(&w);
   pl_meet(&w);
+  pl_search_near(&w);
   if (count_started(&w) > 0) report(&w, &v);
   else
     report_without_motion(&w, w.starts.at[0].trace->message,

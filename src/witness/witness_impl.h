@@ -121,9 +121,24 @@ bool pl_rest_is_kink(pl_rest_field* f, const double* q);
 // of at most two freedoms.
 int pl_rest_stability(pl_rest_field* f, const double* q);
 
+// How far the motion beside a position of rest is from one with this square of a frequency: near 0
+// if it has it, NaN if that is not known.
+double pl_rest_frequency_off(pl_rest_field* f, const double* q, double square);
+// A position of rest where the coordinates that are known have their values, the others follow from
+// the constraints; false: none was found.  *left: what is left of the forces then, NaN if it could
+// not be put there.
+bool pl_search_rest_at(pl_rest_field* f, const pl_trace* t, const double* at, const bool* known,
+                       double* q, double* left);
+
+// witness_near.c: limits, series, thresholds, frequencies; appends refusals, counts in
+// w->n_searched.
+void pl_search_near(pl_witness* w);
+
 // witness_list.c: the statements of a solution.
 void pl_statements_collect(pl_witness* w);
-void pl_statement_add(pl_witness* w, pl_statement s);     // unless it shows nothing
+void pl_statement_add(pl_witness* w, pl_statement s);  // unless it shows nothing
+// The symbol that a value is named after, when it is one of the motion; poison.
+pl_expr pl_statement_subject(const pl_witness* w, const pl_value* v);
 const pl_motion* pl_statement_motion(const pl_ask* ask);  // that `from` names; NULL
 
 // witness_force.c: components of constraint forces.

@@ -12,7 +12,7 @@ void pl_statement_add(pl_witness* w, pl_statement s) {
 
 // The symbol that a value is named after, when it is one of the motion. Results hide behind names
 // of given quantities.
-static pl_expr subject_of(const pl_witness* w, const pl_value* v) {
+pl_expr pl_statement_subject(const pl_witness* w, const pl_value* v) {
   if (!pl_is_poison(v->lhs)) return v->lhs;
   pl_symbol s = pl_symbol_find(w->pool, v->name);
   if (!s.id) return pl_poison();
@@ -31,7 +31,7 @@ static void state_subjects(pl_witness* w, int section, const pl_ask* ask) {
   const pl_section* s = &w->solution->sections.at[section];
   for (int i = 0; i < s->values.n; i++) {
     const pl_value* v = &s->values.at[i];
-    pl_expr left = subject_of(w, v);
+    pl_expr left = pl_statement_subject(w, v);
     bool shows_itself = pl_same(left, v->expr);
     if (pl_is_poison(left) || shows_itself) continue;
     pl_statement_add(w, (pl_statement){.kind = PL_EQUALS,
@@ -48,7 +48,7 @@ static void state_motion(pl_witness* w, int section) {
   const pl_section* s = &w->solution->sections.at[section];
   for (int i = 0; i < s->values.n; i++) {
     const pl_value* v = &s->values.at[i];
-    pl_expr left = subject_of(w, v);
+    pl_expr left = pl_statement_subject(w, v);
     // with free names it is one motion of many
     if (pl_is_poison(left) || v->n_free > 0) continue;
     pl_statement_add(w, (pl_statement){.kind = PL_FOLLOWS,
@@ -102,7 +102,7 @@ static void state_value(pl_witness* w, int section, const pl_ask* ask) {
     const pl_value* v = &s->values.at[i];
     // else it stands on the way there
     bool is_asked = strcmp(v->name, pl_expr_text(w->arena, w->pool, ask->value)) == 0;
-    pl_expr left = is_asked ? ask->value : subject_of(w, v);
+    pl_expr left = is_asked ? ask->value : pl_statement_subject(w, v);
     if (pl_is_poison(left) || pl_same(left, v->expr)) continue;
     pl_statement_add(w, (pl_statement){.kind = PL_EQUALS,
                                        .section = section,

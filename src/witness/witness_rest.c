@@ -6,6 +6,7 @@
 // coordinate that one constraint drives alone, φ = Ω t, keeps its rate: rest is then rest beside
 // it. Jacobians by central differences, steps by least squares (constraints may depend on each
 // other).
+#include <complex.h>
 #include <math.h>
 
 #include "witness/least_squares.h"
@@ -397,8 +398,8 @@ static bool accelerations(pl_rest_field* f, const double* q, const double* v, do
 }
 
 // Directions that the constraints leave, orthonormal: (n x d), column after column. -1: more than
-// two.
-static int free_directions(pl_rest_field* f, const double* q, double* T) {
+// `most`.
+static int free_directions(pl_rest_field* f, const double* q, int most, double* T) {
   int rows = f->n_g + f->n_v, n = f->n;
   put(f, q, NULL);
   double basis[MOST_COORDINATES][MOST_COORDINATES];
@@ -418,7 +419,7 @@ static int free_directions(pl_rest_field* f, const double* q, double* T) {
     if (!(length > 1e-8 * before) || have == n) continue;
     for (int i = 0; i < n; i++) basis[have][i] = x[i] / length;
     if (k >= rows) {
-      if (d == 2) return -1;
+      if (d == most) return -1;
       for (int i = 0; i < n; i++) T[d * n + i] = basis[have][i];
       d++;
     }
@@ -452,7 +453,7 @@ static bool slopes(pl_rest_field* f, const double* q, const double* T, int d, do
 
 static int stability_near(pl_rest_field* f, const double* q, double near) {
   double T[2 * MOST_COORDINATES], K[4], C[4];
-  int d = free_directions(f, q, T);
+  int d = free_directions(f, q, 2, T);
   if (d < 1 || !slopes(f, q, T, d, near, false, K) || !slopes(f, q, T, d, near, true, C)) return 0;
   double tiny = 1e-6 * (size(K, d * d) + 1e-300);
   if (d == 1) return K[0] > tiny ? -1 : K[0] < -tiny && C[0] < 1e-6 * sqrt(-K[0]) ? 1 : 0;
@@ -469,4 +470,60 @@ static int stability_near(pl_rest_field* f, const double* q, double near) {
 int pl_rest_stability(pl_rest_field* f, const double* q) {
   int far = stability_near(f, q, 1e-4);
   return far != 0 && far == stability_near(f, q, 1e-5) ? far : 0;
+}
+
+// ------------------------------------------------------------------------------------- frequencies
+// The smallest pivot of A (d x d, row after row) when the largest one is taken each time.
+static double smallest_pivot(double complex* A, int d) {
+  double smallest = (double)INFINITY;
+  for (int k = 0; k < d; k++) {
+    int row = k, column = k;
+    for (int i = k; i < d; i++) {
+      for (int j = k; j < d; j++) {
+        if (cabs(A[i * d + j]) > cabs(A[row * d + column])) row = i, column = j;
+      }
+    }
+    for (int j = 0; j < d; j++) {
+      double complex x = A[k * d + j];
+      A[k * d + j] = A[row * d + j];
+      A[row * d + j] = x;
+    }
+    for (int i = 0; i < d; i++) {
+      double complex x = A[i * d + k];
+      A[i * d + k] = A[i * d + column];
+      A[i * d + column] = x;
+    }
+    double pivot = cabs(A[k * d + k]);
+    smallest = fmin(smallest, pivot);
+    for (int i = k + 1; i < d && pivot > 0; i++) {
+      double complex part = A[i * d + k] / A[k * d + k];
+      for (int j = k; j < d; j++) A[i * d + j] -= part * A[k * d + j];
+    }
+  }
+  return smallest;
+}
+
+// How far s² - s C - K is from singular at s² = -square, as a part of its entries.
+static double off_with(const double* K, const double* C, int d, double square) {
+  double complex A[MOST_COORDINATES * MOST_COORDINATES], s = csqrt((double complex) - square);
+  double most = fabs(square);
+  for (int k = 0; k < d * d; k++) {
+    A[k] = -K[k] - (C ? s * C[k] : 0) + (k % (d + 1) == 0 ? -square : 0);
+    most = fmax(most, fmax(fabs(K[k]), cabs(A[k])));
+  }
+  return most > 0 ? smallest_pivot(A, d) / most : 0;
+}
+
+static double off_near(pl_rest_field* f, const double* q, double square, double near) {
+  double T[MOST_COORDINATES * MOST_COORDINATES], K[MOST_COORDINATES * MOST_COORDINATES],
+      C[MOST_COORDINATES * MOST_COORDINATES];
+  int d = free_directions(f, q, MOST_COORDINATES, T);
+  bool known = d >= 1 && slopes(f, q, T, d, near, false, K) && slopes(f, q, T, d, near, true, C);
+  if (!known) return (double)NAN;
+  // of damped motions the frequency without damping is told
+  return fmin(off_with(K, C, d, square), off_with(K, NULL, d, square));
+}
+
+double pl_rest_frequency_off(pl_rest_field* f, const double* q, double square) {
+  return fmin(off_near(f, q, square, 1e-4), off_near(f, q, square, 1e-5));
 }

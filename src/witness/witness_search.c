@@ -168,15 +168,16 @@ static bool is_allowed(pl_witness* w, const pl_ground* on, int section, const do
 // ---------------------------------------------------------------------------- what is listed rests
 // The other coordinates follow from the constraints, in one way of several: in one of them it
 // rests.
-static bool rests(pl_rest_field* f, const pl_trace* t, const pl_listed* l, double* q,
-                  double* lambda, double* left) {
+bool pl_search_rest_at(pl_rest_field* f, const pl_trace* t, const double* place, const bool* known,
+                       double* q, double* left) {
   pl_random r = {0x72657374};
+  double lambda[PL_MOST_ROWS];
   bool placed = false;
   *left = (double)NAN;
   for (int k = 0; k < TRIES / 2; k++) {
     begin_at(f, t, &r, k, q);
-    for (int i = 0; i < pl_rest_coordinates(f); i++) q[i] = l->known[i] ? l->q[i] : q[i];
-    if (!pl_rest_place(f, q, l->known)) continue;
+    for (int i = 0; i < pl_rest_coordinates(f); i++) q[i] = known[i] ? place[i] : q[i];
+    if (!pl_rest_place(f, q, known)) continue;
     double here = pl_rest_left(f, q, lambda);
     if (here < 1e-6) return true;
     *left = here;
@@ -188,9 +189,9 @@ static bool rests(pl_rest_field* f, const pl_trace* t, const pl_listed* l, doubl
 
 static void try_listed(pl_witness* w, int section, pl_rest_field* f, const pl_trace* t,
                        const pl_listed* l) {
-  double q[PL_MOST_AT_REST], lambda[PL_MOST_ROWS], left;
+  double q[PL_MOST_AT_REST], left;
   if (!l->exists || l->value->n_components == 0) return;
-  bool found_rest = rests(f, t, l, q, lambda, &left);
+  bool found_rest = pl_search_rest_at(f, t, l->q, l->known, q, &left);
   if (!found_rest && isnan(left)) return;  // no way to put it there
   if (!found_rest) {
     refuse(w, section, l->value->name, pl_form_name(w->arena, l->value->name, pl_poison()),

@@ -92,8 +92,19 @@ const pl_form* pl_square_form(pl_analysis* d, pl_expr w2, bool numeric) {
   return pl_frel(d, pl_fs(d, pl_omega_squared(d)), "≈", with_unit(d, number, "1/s²"));
 }
 
-static void show_oscillations(pl_analysis* d, const pl_linearised* l, const char* at,
-                              bool numeric) {
+void pl_tell_place(pl_analysis* d, const pl_rest* r, pl_value* v) {
+  if (d->steady.n > 0) return;
+  v->place = PL_ARRAY(d->arena, pl_component, d->gen.n + 1);
+  for (int k = 0; k < d->gen.n; k++) {
+    if (pl_is_poison(r->q[k])) continue;
+    const char* name = pl_symbol_get(d->pool, d->q.at[d->gen.at[k]].q)->ascii;
+    v->place[v->n_place++] = (pl_component){name, r->q[k], NULL, pl_number(d, r->q[k])};
+  }
+}
+
+static void show_oscillations(pl_analysis* d, const pl_linearised* l, const pl_rest* rest,
+                              const char* at) {
+  bool numeric = rest->numeric;
   pl_root root[8];
   bool complete;
   int n = pl_small_oscillations(d, l, root, 8, &complete);
@@ -117,6 +128,7 @@ static void show_oscillations(pl_analysis* d, const pl_linearised* l, const char
     pl_value* v = pl_answer(d, "omega^2", root[k].value, form);
     v->of = pl_format(d->arena, "mode %d", k + 1);
     v->at = at;
+    pl_tell_place(d, rest, v);
   }
 }
 
@@ -313,7 +325,7 @@ static void show_rest(pl_analysis* d, const pl_expr* f, const pl_rest* r, int nu
   bool oscillates = exists && (!here || strcmp(here, "stable") == 0)
                     && judged.doubt != PL_DOUBT_DRIVEN;
   if (oscillates) pl_say_velocity_terms(d, &l);
-  if (oscillates) show_oscillations(d, &l, v.name, r->numeric);
+  if (oscillates) show_oscillations(d, &l, r, v.name);
   for (int k = 0; k < d->gen.n && !r->numeric && exists; k++)
     pl_claim_free(d, PL_CLAIM_INSERTED, pl_insert_rest(d, f[k], r), pl_int(d->pool, 0));
 }

@@ -88,6 +88,7 @@ static void show_mode(pl_analysis* d, const pl_linearised* l, const pl_rest* r, 
                 .conserved = -1,
                 .passed = -1,
                 .order = -1};
+  pl_tell_place(d, r, &v);
   pl_expr u[pl_max_gen];
   if (!l->gyroscopic && !r->numeric && amplitudes(d, l, w2, u)) {
     const pl_form* ratio[pl_max_gen];

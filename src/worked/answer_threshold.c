@@ -36,7 +36,7 @@ static bool is_value_of(pl_analysis* d, const pl_thresholds* found, const pl_roo
 }
 
 static void show_threshold(pl_analysis* d, pl_thresholds* found, pl_expr e, const pl_root* root,
-                           const pl_form* where) {
+                           const pl_rest* r) {
   pl_expr value = root->value;
   found->value[found->n++] = value;
   const pl_form *form = pl_f(d, value, PL_S_QUOTIENT), *real = NULL;
@@ -45,8 +45,9 @@ static void show_threshold(pl_analysis* d, pl_thresholds* found, pl_expr e, cons
   const char* text = NULL;
   pl_step_value(d, step, value, pl_dimension_of_expr(d, value, &known));
   pl_value* v = pl_answer(d, pl_symbol_get(d->pool, found->x)->ascii, value, form);
+  pl_tell_place(d, r, v);
   pl_say(d, "where the stability of {1} changes", "dort ändert sich die Stabilität von {1}", 1,
-         where);
+         pl_rest_form(d, r));
   if (!pl_is_poison(root->condition)
       && pl_holds_if(d, root->condition, false, &real, &text) == PL_UNKNOWN) {
     v->exists_if = text;
@@ -74,7 +75,7 @@ static void threshold_of(pl_analysis* d, const pl_verdict* judged, int which, co
         holds = j == which || may_hold(d, found, judged->condition[j], root[k].value);
       for (int j = 0; j < r->n_conditions && holds; j++)
         holds = may_hold(d, found, r->condition[j], root[k].value);
-      if (holds) show_threshold(d, found, factor[i].base, &root[k], pl_rest_form(d, r));
+      if (holds) show_threshold(d, found, factor[i].base, &root[k], r);
     }
   }
 }

@@ -68,6 +68,9 @@ typedef struct pl_verdict {
   pl_doubt doubt;  // why there is no word and no condition
 } pl_verdict;
 
+// The position of rest that a frequency or a threshold belongs to; of steady motions nothing.
+void pl_tell_place(pl_analysis* d, const pl_rest* r, pl_value* v);
+
 // linearise.c
 // velocities 0, or those of the steady motion; accelerations 0
 pl_expr pl_at_rest(pl_analysis* d, pl_expr e);

@@ -55,9 +55,12 @@ typedef struct pl_component {
 typedef struct pl_value {
   // spelling of expr: "lambda_g1", "x1_ddot", "E", "equilibrium 1", "omega^2"
   const char* name;
-  const char* of;           // constraint, mode, ...
-  const char* on;           // mass
-  const char* at;           // "equilibrium 1"
+  const char* of;  // constraint, mode, ...
+  const char* on;  // mass
+  const char* at;  // "equilibrium 1"
+  // of a frequency and of a threshold: the position of rest that is meant, along the coordinates
+  int n_place;
+  pl_component* place;
   const char* branch;       // condition that picks it, as text
   pl_expr holds_while;      // > 0 where it holds; poison: everywhere
   const pl_form* form;      // as displayed (right-hand side)
