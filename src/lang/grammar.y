@@ -43,6 +43,8 @@ static void pl_yyerror(pl_bytes* at, pl_parse* p, const char* message);
 %expect 0
 
 %token START_FILE START_EXPRESSION
+// stands in no rule: where a text is cut off it makes the parser list what would fit
+%token CURSOR
 %token EOL
 %token NUMBER NAME PI INFINITY TEXT UNIT DEGREE PRIMES SUPER
 %token GE LE NE ARROW MUCH RANGE SEPARATOR
@@ -432,6 +434,11 @@ static int yyreport_syntax_error(const yypcontext_t* context, pl_parse* p) {
       tokens[n_tokens++] = t;
       break;
     }
+  }
+  if (p->place) {
+    for (int i = 0; i < n_tokens; i++) pl_push(p->arena, p->place->expected, tokens[i]);
+    if (p->kinds[p->at] == TOK_CURSOR) return 0;
+    p->place->expected.n = 0;
   }
   pl_parse_complain(p, tokens, n_tokens);
   return 0;

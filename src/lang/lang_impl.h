@@ -78,6 +78,25 @@ const char* pl_slip_request(const char* typed);  // the request or result, likew
 // ------------------------------------------------------------------------------------------ parser
 enum { PL_MAX_DEPTH = 200, PL_MAX_BLOCKS = 16 };  // of brackets and of `for` inside each other
 
+// A statement as tokens: those from first up to end.
+typedef struct pl_parsed_statement {
+  int first, end;
+  int keyword;  // 0: none
+  bool broken;  // an error was reported inside
+} pl_parsed_statement;
+
+// What the parser was about to read at the end of a text that is cut off.
+typedef struct pl_parse_place {
+  bool at_statement;     // a statement may begin
+  bool fits;             // no error in the statement so far
+  bool in_block;         // inside `for`
+  int statement;         // its keyword, 0 before it
+  int last;              // kind of the token before
+  int item;              // request being read
+  int depth, bracket;    // open brackets; token of the innermost, -1
+  PL_VEC(int) expected;  // kinds of tokens that fit
+} pl_parse_place;
+
 typedef struct pl_parse {
   pl_job* job;
   pl_arena* arena;
@@ -90,11 +109,16 @@ typedef struct pl_parse {
   int lost_braces;           // { swallowed by a broken statement
   pl_ast* root;              // PL_AST_FILE, or the expression
   PL_VEC(const char*) lost;  // names that broken declarations would have declared
+  PL_VEC(pl_parsed_statement) statements;
+  pl_parse_place* place;  // the text is cut off: what could follow goes here; NULL
 } pl_parse;
 
 // pl_parse_text reads a whole source into a tree; pl_parse_expression a single expression.
 void pl_parse_text(pl_parse* p, pl_job* job, pl_names* names, const pl_source* source);
 pl_ast* pl_parse_expression(pl_parse* p, pl_job* job, pl_names* names, const pl_source* source);
+// pl_parse_cut reads a text that ends at a cursor, and tells what could follow there.
+void pl_parse_cut(pl_parse* p, pl_job* job, pl_names* names, const pl_source* source,
+                  pl_parse_place* out);
 
 // For the grammar: nodes.
 typedef struct pl_bytes {

@@ -126,6 +126,7 @@ pl_ast* pl_ast_option(pl_parse* p, const char* word, pl_bytes at, pl_ast* value,
 // -------------------------------------------------------------------------------------- the feeder
 typedef struct feeder {
   pl_parse* p;
+  pl_names* names;
   pl_yypstate* state;
   int open[PL_MAX_DEPTH];  // tokens of open brackets
   int n_open;
@@ -308,13 +309,21 @@ static void keep_lost_names(feeder* f, int end) {
     bool is_keyword = i == p->statement_first && f->statement != 0;
     if (is_keyword) continue;
     bool label = token_at(p, i + 1)->kind == ':' || first;
-    if (all || label) pl_push(p->arena, p->lost, t->key);
+    bool multiplier = f->statement == TOK_CONSTRAINT && is_word(token_at(p, i - 1), "with");
+    if (all || label || multiplier) pl_push(p->arena, p->lost, t->key);
+    if (label && f->statement == TOK_CONSTRAINT) {
+      pl_push(p->arena, p->lost, pl_intern(f->names, pl_format(p->arena, "lambda_%s", t->key)));
+    }
     first = false;
   }
+  // a multiplier without a name is λ
+  if (f->statement == TOK_CONSTRAINT) pl_push(p->arena, p->lost, pl_intern(f->names, "lambda"));
 }
 
 static void end_statement(feeder* f, int i) {
   push(f, TOK_EOL, i);
+  pl_parsed_statement s = {f->p->statement_first, i, f->statement, f->p->said};
+  if (s.first >= 0) pl_push(f->p->arena, f->p->statements, s);
   if (f->p->said) keep_lost_names(f, i);
   f->p->said = false;
   f->p->statement_first = -1;
@@ -339,6 +348,8 @@ static bool statement_ends(feeder* f, int i) {
   if (f->n_open == 0 && !goes_on_after(f->last)) return true;
   int next = next_significant(f->p, i, true);
   const pl_token* t = token_at(f->p, next);
+  bool unknown = t->kind == 0 && f->p->place;  // the text is cut off: it may go on
+  if (unknown) return false;
   if (t->kind != 0 && t->kind != '}' && !looks_like_statement(f->p, next)) return false;
   if (f->n_open) complain_unclosed(f);
   return true;
@@ -591,6 +602,21 @@ static void complain_open_block(feeder* f) {
   }
 }
 
+// The end of a text that is cut off: a token that fits nowhere makes the grammar say what would.
+static void ask_expected(feeder* f) {
+  pl_parse* p = f->p;
+  pl_parse_place* out = p->place;
+  out->at_statement = p->statement_first < 0;
+  out->fits = !p->said && !f->skip;
+  out->in_block = f->braces > 0;
+  out->statement = f->statement;
+  out->last = f->last;
+  out->item = f->item;
+  out->depth = f->n_open;
+  out->bracket = f->n_open ? f->open[f->n_open - 1] : -1;
+  if (!out->at_statement && out->fits) push(f, TOK_CURSOR, p->tokens->list.n - 1);
+}
+
 static void feed_all(feeder* f, int start) {
   pl_parse* p = f->p;
   pl_token first = {0};
@@ -598,6 +624,13 @@ static void feed_all(feeder* f, int start) {
   pl_bytes at = {0, 0};
   pl_yypush_parse(f->state, start, &value, &at, p);
   int n = p->tokens->list.n - 1;
+  if (p->place) {
+    // the end of the last line is not in the text
+    if (n > 0 && token_at(p, n - 1)->begin == p->source->size) n--;
+    for (int i = 0; i < n; i++) i = feed(f, i);
+    ask_expected(f);
+    return;
+  }
   if (start == TOK_START_EXPRESSION) {
     p->statement_first = 0;
     f->statement = TOK_PARAM;
@@ -612,8 +645,10 @@ static void feed_all(feeder* f, int start) {
   push(f, 0, n);
 }
 
-static void run(pl_parse* p, pl_job* job, pl_names* names, const pl_source* source, int start) {
-  *p = (pl_parse){.job = job, .arena = job->arena, .source = source, .statement_first = -1};
+static void run(pl_parse* p, pl_job* job, pl_names* names, const pl_source* source, int start,
+                pl_parse_place* place) {
+  *p = (pl_parse){
+      .job = job, .arena = job->arena, .source = source, .statement_first = -1, .place = place};
   pl_tokens* tokens = PL_NEW(job->arena, pl_tokens);
   pl_lex(job, names, source, tokens);
   p->tokens = tokens;
@@ -626,6 +661,7 @@ static void run(pl_parse* p, pl_job* job, pl_names* names, const pl_source* sour
   PL_GUARD(job->arena, guard) {
     feeder* f = PL_NEW(job->arena, feeder);
     f->p = p;
+    f->names = names;
     f->state = state;
     feed_all(f, start);
   }
@@ -638,11 +674,17 @@ static void run(pl_parse* p, pl_job* job, pl_names* names, const pl_source* sour
 }
 
 void pl_parse_text(pl_parse* p, pl_job* job, pl_names* names, const pl_source* source) {
-  run(p, job, names, source, TOK_START_FILE);
+  run(p, job, names, source, TOK_START_FILE, NULL);
+}
+
+void pl_parse_cut(pl_parse* p, pl_job* job, pl_names* names, const pl_source* source,
+                  pl_parse_place* out) {
+  *out = (pl_parse_place){0};
+  run(p, job, names, source, TOK_START_FILE, out);
 }
 
 pl_ast* pl_parse_expression(pl_parse* p, pl_job* job, pl_names* names, const pl_source* source) {
   int before = job->diagnostics->n_errors;
-  run(p, job, names, source, TOK_START_EXPRESSION);
+  run(p, job, names, source, TOK_START_EXPRESSION, NULL);
   return job->diagnostics->n_errors > before ? NULL : p->root;
 }

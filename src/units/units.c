@@ -734,3 +734,5 @@ const char* pl_unit_explain(pl_arena* a, pl_pool* p, const char* text, pl_langua
   list_same_dimension(&t, unit.dimension, text, lang);
   return pl_text_string(&t);
 }
+
+const char* pl_unit_name(int i) { return i >= 0 && i < N_UNIT_ROWS ? unit_rows[i].name : NULL; }

@@ -31,6 +31,9 @@ pl_expr pl_measure_join(pl_pool* p, pl_expr e);
 bool pl_unit_parse(pl_pool* p, const char* text, size_t n, pl_unit* out, size_t* bad_at,
                    size_t* bad_n, const char** near);
 
+// pl_unit_name gives the i-th unit without its prefixes, NULL behind the last.
+const char* pl_unit_name(int i);
+
 // pl_unit_explain answers `pleuel units m/s`: dimension, factor to SI, and what fits; or what is
 // wrong and near names.
 const char* pl_unit_explain(pl_arena* a, pl_pool* p, const char* text, pl_language lang);
