@@ -131,7 +131,7 @@ static void offer_values(pl_offering* w) {
 #define PL_HELP_FUNCTION(word, form, en, de) \
   offer(w, PL_OFFER_FUNCTION, word, -1, pl_help_function(word));
 #define PL_HELP(list, word, form, en, de)
-#include "lang/help.def"
+#include "lang/word_help.def"
 }
 
 static void offer_labels(pl_offering* w, bool places, bool constraints) {

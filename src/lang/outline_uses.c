@@ -266,7 +266,9 @@ static void walk(pl_outlining* w, const pl_ast* n) {
       break;
     }
     case PL_AST_PRODUCT: product(w, n); break;
-    case PL_AST_LABEL: any(w, n); break;
+    case PL_AST_LABEL:
+      if (!label(w, n, any_label, 4)) walk(w, pl_ast_kid(n, 1));
+      break;
     case PL_AST_OPTION: option(w, n); break;
     case PL_AST_ITEM: item(w, n); break;
     case PL_AST_AXIS:

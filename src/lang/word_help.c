@@ -10,12 +10,12 @@ static const struct help_row {
   pl_word_help help;
 } rows[] = {
 #define PL_HELP(list, word, form, en, de) {LIST_##list, {word, form, {en, de}}},
-#include "lang/help.def"
+#include "lang/word_help.def"
 };
 
 static const pl_word_help functions[] = {
 #define PL_HELP_FUNCTION(word, form, en, de) {word, form, {en, de}},
-#include "lang/help.def"
+#include "lang/word_help.def"
 };
 
 static const pl_word_help* find(int list, const char* word) {
