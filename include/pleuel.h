@@ -340,6 +340,171 @@ typedef struct pleuel_animate_options {
  * when `frame` is given.  Status as pleuel_plot; PLEUEL_USAGE when nothing says how long the motion lasts. */
 pleuel_status pleuel_animate(pleuel_model *model, const char **bytes, size_t *n, const pleuel_animate_options *options);
 
+/* ------------------------------------------------------------------------------ messages as fields */
+
+/* For editors.  A place in a text: bytes from its beginning, half open, and the same in UTF-16 units,
+ * as editors and the language server protocol count; lines and columns from 1, columns in characters
+ * (code points) and in UTF-16 units.  This structure never grows. */
+typedef struct pleuel_span {
+  const char *file; /* as in messages; NULL: no place, the rest is 0                               */
+  size_t begin, end;
+  size_t begin16, end16;
+  size_t line, column, column16;
+  size_t end_line, end_column, end_column16;
+} pleuel_span;
+
+/* An edit replaces what stands in a span; an empty span inserts.  It never grows. */
+typedef struct pleuel_edit {
+  pleuel_span span;
+  const char *text;
+} pleuel_edit;
+
+/* A second place that a message speaks of: "first here".  It never grows. */
+typedef struct pleuel_label {
+  pleuel_span span;
+  const char *text;
+} pleuel_label;
+
+typedef struct pleuel_diagnostic {
+  size_t size;
+  const char *code; /* "E011": pleuel_explain has a page about it                                  */
+  pleuel_severity severity;
+  pleuel_span span;
+  const char *sentence;
+  const char *reason; /* NULL                                                                      */
+  const char *hint;   /* what to do, in words; NULL                                                */
+  size_t n_labels;
+  const pleuel_label *labels;
+  size_t n_edits;           /* of the fix: all of them together take the cause away; 0: none, */
+  const pleuel_edit *edits; /* only the hint */
+} pleuel_diagnostic;
+
+/* pleuel_diagnostic_get fills in message i, counted over all severities in the order of their places,
+ * in the language of the model.  PLEUEL_USAGE behind the last.  What it points to is kept until other
+ * messages come, by a check, a solution or a run. */
+pleuel_status pleuel_diagnostic_get(pleuel_model *model, size_t i, pleuel_diagnostic *diagnostic);
+
+/* pleuel_edited returns the text of the model with edits made in it; those of other files are left
+ * out.  PLEUEL_USAGE when edits overlap. */
+pleuel_status pleuel_edited(pleuel_model *model, const pleuel_edit *edits, size_t n,
+                            const char **text);
+
+/* ------------------------------------------------------------------------------- names in a text */
+
+/* What follows works on texts with errors too: statements that can be read are, and what a broken
+ * line declares is known by name.  Places are bytes of the text itself, not of what it includes. */
+
+typedef enum pleuel_kind { /* ORDER NAME KINDS */
+  PLEUEL_KIND_TIME = 0,
+  PLEUEL_KIND_COORDINATE,
+  PLEUEL_KIND_VELOCITY,
+  PLEUEL_KIND_MULTIPLIER,
+  PLEUEL_KIND_OUTPUT,
+  PLEUEL_KIND_PARAMETER,
+  PLEUEL_KIND_INPUT,
+  PLEUEL_KIND_CONSTRAINT,
+  PLEUEL_KIND_MASS,
+  PLEUEL_KIND_BODY,
+  PLEUEL_KIND_POINT,
+  PLEUEL_KIND_FORCE,        /* labels of forces, springs, dampers, potentials and so on            */
+  PLEUEL_KIND_EVENT,
+  PLEUEL_KIND_ABBREVIATION,
+  PLEUEL_KIND_FUNCTION,
+  PLEUEL_KIND_INDEX,        /* of `for` and `sum`, arguments of functions                          */
+  PLEUEL_KIND_AXIS,
+  PLEUEL_KIND_REQUEST       /* the letter of an `ask`                                              */
+} pleuel_kind;
+
+typedef struct pleuel_name {
+  size_t size;
+  pleuel_kind kind;
+  const char *ascii;   /* "theta1", "theta1_dot", "lambda_rod": as in CSV and JSON                  */
+  const char *shown;   /* "θ1", "θ1'", "λ_rod"                                                      */
+  const char *unit;    /* SI, "m/s^2"; "rad" for angles; "1" for numbers; NULL: not known           */
+  const char *meaning; /* the comment at the end of its line; NULL                                  */
+  const char *of;      /* VELOCITY: its coordinate; MULTIPLIER: its constraint; else NULL           */
+  int family;          /* 1: it has members, x[1] ...                                               */
+  int has_value;
+  double value;        /* SI: of a parameter; of a coordinate or velocity where it starts           */
+  pleuel_span span;       /* the name where it is declared                                          */
+  pleuel_span definition; /* with its value, "m = 75 [kg]", or the statement                        */
+} pleuel_name;
+
+/* pleuel_name_count and pleuel_name_get list all that has a name, in the order of the text.  Kept. */
+size_t pleuel_name_count(pleuel_model *model);
+pleuel_status pleuel_name_get(pleuel_model *model, size_t i, pleuel_name *name);
+
+/* pleuel_name_find finds a name by any of its spellings: θ1, theta1, theta_1, θ1', theta1_dot, λ_rod.
+ * PLEUEL_USAGE when nothing is called so. */
+pleuel_status pleuel_name_find(pleuel_model *model, const char *spelling, pleuel_name *name);
+
+/* A place where a name stands; the span covers its own letters: x of x_dot, rod of λ_rod.  It never
+ * grows. */
+typedef struct pleuel_use {
+  pleuel_span span;
+  int defines; /* 1: here it is declared                                                           */
+} pleuel_use;
+
+/* pleuel_uses lists all places of the name that stands at a byte; n = 0 where none does. */
+pleuel_status pleuel_uses(pleuel_model *model, size_t at, const pleuel_use **uses, size_t *n);
+
+/* pleuel_rename gives the edits that call the name at a byte otherwise, everywhere, included files
+ * too.  PLEUEL_USAGE and a sentence when the new name is none, or is taken. */
+pleuel_status pleuel_rename(pleuel_model *model, size_t at, const char *name,
+                            const pleuel_edit **edits, size_t *n);
+
+/* pleuel_hover says in a few lines (Markdown) what stands at a byte: of a name its kind, unit,
+ * value, meaning and definition; of a word of the language how it is used; of a unit what it is.
+ * *text is NULL where there is nothing to say.  span may be NULL. */
+pleuel_status pleuel_hover(pleuel_model *model, size_t at, const char **text, pleuel_span *span);
+
+typedef enum pleuel_offer_kind {
+  PLEUEL_OFFER_STATEMENT = 0, /* a word that begins a statement                                    */
+  PLEUEL_OFFER_REQUEST,       /* of `ask`                                                          */
+  PLEUEL_OFFER_WORD,          /* at, on, with, ...                                                 */
+  PLEUEL_OFFER_NAME,
+  PLEUEL_OFFER_FUNCTION,
+  PLEUEL_OFFER_UNIT
+} pleuel_offer_kind;
+
+typedef struct pleuel_offer {
+  pleuel_offer_kind kind;
+  pleuel_kind name_kind; /* of a name                                                              */
+  const char *text;      /* what to write                                                          */
+  const char *form;      /* how it is used, "gravity EXPR along [-]AXIS"; NULL                     */
+  const char *meaning;   /* in words; NULL                                                         */
+} pleuel_offer;          /* It never grows. */
+
+/* pleuel_complete lists what may stand at a byte, whatever stands behind it.  *span is the piece of a
+ * word that is there already and would be replaced; offers are not narrowed to it. */
+pleuel_status pleuel_complete(pleuel_model *model, size_t at, pleuel_span *span,
+                              const pleuel_offer **offers, size_t *n);
+
+typedef enum pleuel_token_kind { /* ORDER TOKEN KINDS */
+  PLEUEL_TOKEN_STATEMENT = 0,    /* a word that begins a statement                                 */
+  PLEUEL_TOKEN_REQUEST,          /* of `ask`                                                       */
+  PLEUEL_TOKEN_WORD,             /* other words of the language                                    */
+  PLEUEL_TOKEN_NAME,
+  PLEUEL_TOKEN_FUNCTION,
+  PLEUEL_TOKEN_NUMBER,
+  PLEUEL_TOKEN_UNIT,
+  PLEUEL_TOKEN_TEXT,
+  PLEUEL_TOKEN_COMMENT,
+  PLEUEL_TOKEN_PRINTED, /* #: comments, printed with the solution                                  */
+  PLEUEL_TOKEN_SIGN,
+  PLEUEL_TOKEN_WRONG    /* what does not belong there                                              */
+} pleuel_token_kind;
+
+typedef struct pleuel_token {
+  pleuel_token_kind kind;
+  int name_kind; /* of a name that is declared: pleuel_kind; else -1                               */
+  int defines;   /* 1: it is declared here                                                         */
+  pleuel_span span;
+} pleuel_token;  /* It never grows. */
+
+/* pleuel_tokens cuts the text into tokens as the program reads it, for colours.  Kept. */
+pleuel_status pleuel_tokens(pleuel_model *model, const pleuel_token **tokens, size_t *n);
+
 /* ------------------------------------------------------------------------------------------------ more */
 
 typedef enum pleuel_spelling { PLEUEL_SPELL_KEEP = 0, PLEUEL_SPELL_UNICODE, PLEUEL_SPELL_ASCII } pleuel_spelling;

@@ -35,6 +35,14 @@ enum {
   PL_N_STAGES
 };
 
+// A file that the text includes, as it was asked for.
+typedef struct pl_included {
+  const char *path, *from;
+  const pl_source* source;
+} pl_included;
+
+struct pl_editor;
+
 struct pleuel_model {
   pleuel* ctx;
   pleuel_model *before, *next;  // list of the context
@@ -44,6 +52,8 @@ struct pleuel_model {
   const char* name;
   const pl_source* source;
   const pl_include_reader* reader;
+  PL_VEC(pl_included) included;
+  struct pl_editor* editor;  // editor.h; NULL until it is asked for
   const pl_setting* settings;
   int n_settings;
   bool broken;         // memory ran out once: nothing but freeing is left

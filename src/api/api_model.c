@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "api/api_impl.h"
+#include "api/editor.h"
 #include "pleuel.h"
 
 // ----------------------------------------------------------------------------------------- loading
@@ -171,6 +172,7 @@ pleuel_status pleuel_load_file(pleuel* ctx, pleuel_model** model, const char* pa
 void pleuel_model_free(pleuel_model* m) {
   if (!m) return;
   if (m->solution) pl_solution_close(m->solution);
+  pl_editor_free(m->editor);
   if (m->before) m->before->next = m->next;
   else m->ctx->first = m->next;
   if (m->next) m->next->before = m->before;

@@ -21,6 +21,8 @@ static const pl_source* read_hashed(void* user, pl_arena* a, const char* path,
   pleuel_model* m = user;
   const pl_source* s = m->reader->read(m->reader->user, a, path, from);
   if (s) m->text_hash = pl_hash_bytes(s->text, s->size, m->text_hash);
+  pl_included kept = {pl_copy(a, path), pl_copy(a, from ? from->name : ""), s};
+  pl_push(a, m->included, kept);
   return s;
 }
 

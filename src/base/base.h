@@ -139,6 +139,7 @@ typedef struct pl_source {
   size_t size;
   const size_t* lines;  // byte offset of each line                     (n_lines)
   int n_lines;
+  const size_t* units;  // UTF-16 units before each line                (n_lines)
 } pl_source;
 pl_source* pl_source_make(pl_arena* a, const char* name, const char* text, size_t size);
 
@@ -151,6 +152,12 @@ typedef struct pl_place {
   int line, column;
 } pl_place;  // both from 1; column in cells
 pl_place pl_span_place(pl_span s);
+// The same for editors: bytes and UTF-16 units from the beginning; columns from 1 in characters (code
+// points) and in UTF-16 units.
+typedef struct pl_position {
+  size_t at, at16, line, column, column16;
+} pl_position;
+pl_position pl_source_position(const pl_source* s, size_t at);
 pl_span pl_span_join(pl_span a, pl_span b);
 const char* pl_source_line(pl_arena* a, const pl_source* s, int line);
 
@@ -183,6 +190,7 @@ typedef struct pl_diagnostic {
   // one suggestion that can be applied as it stands, or NULL; shown after "="
   const char* fix[2];
   const char* replacement;  // text that replaces span when the fix is applied, or NULL
+  pl_span fix_span;         // what replacement replaces; source NULL: span
   PL_VEC(pl_label) labels;
 } pl_diagnostic;
 
@@ -203,6 +211,9 @@ pl_diagnostic* pl_report(pl_diagnostics* d, pl_code code, pl_span span, const ch
                          const char* de);
 void pl_report_reason(pl_diagnostic* m, const char* en, const char* de);
 void pl_report_fix(pl_diagnostic* m, const char* en, const char* de, const char* replacement);
+// The place that the replacement of a fix replaces: that of the message, unless the fix has its own.
+void pl_report_fix_span(pl_diagnostic* m, pl_span span);
+pl_span pl_diagnostic_fix_span(const pl_diagnostic* m);
 void pl_report_label(pl_diagnostics* d, pl_diagnostic* m, pl_span span, const char* text);
 
 // pl_diagnostics_sort puts messages in the order of their places, without duplicates.

@@ -59,6 +59,12 @@ void pl_report_fix(pl_diagnostic* m, const char* en, const char* de, const char*
   m->replacement = replacement;
 }
 
+void pl_report_fix_span(pl_diagnostic* m, pl_span span) { m->fix_span = span; }
+
+pl_span pl_diagnostic_fix_span(const pl_diagnostic* m) {
+  return m->fix_span.source ? m->fix_span : m->span;
+}
+
 void pl_report_label(pl_diagnostics* d, pl_diagnostic* m, pl_span span, const char* text) {
   pl_push(d->arena, m->labels, (pl_label){span, text});
 }

@@ -3,6 +3,18 @@
 
 #include <string.h>
 
+// Characters and UTF-16 units from one byte to another.  A byte that is no UTF-8 counts as one.
+static pl_position count_from(const char* text, size_t from, size_t to) {
+  pl_position n = {0};
+  for (size_t i = from; i < to; n.column++) {
+    uint32_t c = 0;
+    int step = pl_utf8_decode(text + i, text + to, &c);
+    i += step ? (size_t)step : 1;
+    n.at16 += c > 0xffff ? 2 : 1;
+  }
+  return n;
+}
+
 pl_source* pl_source_make(pl_arena* a, const char* name, const char* text, size_t size) {
   pl_source* s = PL_NEW(a, pl_source);
   s->name = pl_copy(a, name ? name : "");
@@ -19,6 +31,12 @@ pl_source* pl_source_make(pl_arena* a, const char* name, const char* text, size_
   }
   s->lines = lines;
   s->n_lines = n;
+  size_t* units = PL_ARRAY(a, size_t, n);
+  for (k = 1; k < n; k++) {
+    pl_position end = count_from(text, lines[k - 1], lines[k]);
+    units[k] = units[k - 1] + end.at16;
+  }
+  s->units = units;
   return s;
 }
 
@@ -39,6 +57,19 @@ pl_place pl_span_place(pl_span s) {
   int line = line_at(s.source, at);
   size_t start = s.source->lines[line - 1];
   return (pl_place){line, pl_utf8_width_n(s.source->text + start, at - start) + 1};
+}
+
+pl_position pl_source_position(const pl_source* s, size_t at) {
+  if (s == NULL) return (pl_position){0};
+  if (at > s->size) at = s->size;
+  int line = line_at(s, at);
+  size_t start = s->lines[line - 1];
+  pl_position n = count_from(s->text, start, at);
+  return (pl_position){.at = at,
+                       .at16 = s->units[line - 1] + n.at16,
+                       .line = (size_t)line,
+                       .column = n.column + 1,
+                       .column16 = n.at16 + 1};
 }
 
 pl_span pl_span_join(pl_span a, pl_span b) {

@@ -275,7 +275,8 @@ static void lower_options(pl_lower* l, const pl_ast* list, pl_constraint* c) {
 static void lower_constraint(pl_lower* l, const pl_ast* s) {
   const pl_ast *label = pl_ast_kid(s, 0), *relation = pl_ast_kid(s, 1);
   int number = ++l->n_rules_lowered;
-  pl_constraint c = {.block = l->block, .span = pl_ast_span(s)};
+  pl_constraint c = {
+      .block = l->block, .span = pl_ast_span(s), .relation_span = pl_ast_span(relation)};
   c.name = name_of_label(l, label, pl_format(l->arena, "%d", number));
   lower_options(l, pl_ast_kid(s, 2), &c);
   pl_condition r;

@@ -7,7 +7,7 @@
 #include "grammar.h"
 
 // ---------------------------------------------------------------------------------------- names
-pl_space pl_space_of(pl_named_kind kind) {
+pl_space pl_named_space(pl_named_kind kind) {
   switch (kind) {
     case PL_NAMED_CONSTRAINT: return PL_SPACE_CONSTRAINT;
     case PL_NAMED_MASS:
@@ -27,7 +27,7 @@ int pl_outlining_find(const pl_outlining* w, pl_space space, const char* key) {
 }
 
 int pl_outlining_define(pl_outlining* w, pl_named named) {
-  pl_space space = pl_space_of(named.kind);
+  pl_space space = pl_named_space(named.kind);
   pl_push(w->arena, w->o->named, named);
   int i = w->o->named.n - 1;
   if (pl_outlining_find(w, space, named.key) < 0) {

@@ -197,7 +197,7 @@ static bool declares_label(int keyword, pl_named_kind* kind) {
 static void define_token(pl_outlining* w, const pl_parse* p, const pl_token* t,
                          pl_named_kind kind) {
   pl_span span = {p->source, t->begin, t->end};
-  if (pl_outlining_find(w, pl_space_of(kind), t->key) >= 0) return;
+  if (pl_outlining_find(w, pl_named_space(kind), t->key) >= 0) return;
   pl_named named = {
       .kind = kind, .key = t->key, .shown = t->shown, .span = span, .definition = span};
   named.comment = comment_behind(w, span);

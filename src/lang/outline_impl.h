@@ -32,7 +32,7 @@ typedef struct pl_outlining {
   bool in_block;
 } pl_outlining;
 
-pl_space pl_space_of(pl_named_kind kind);
+pl_space pl_named_space(pl_named_kind kind);
 int pl_outlining_find(const pl_outlining* w, pl_space space, const char* key);  // -1
 int pl_outlining_define(pl_outlining* w, pl_named named);  // the first of a name counts
 void pl_outlining_use(pl_outlining* w, pl_span span, int named, int dots, bool defines);

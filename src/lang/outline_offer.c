@@ -137,7 +137,7 @@ static void offer_values(pl_offering* w) {
 static void offer_labels(pl_offering* w, bool places, bool constraints) {
   for (int i = 0; i < w->o->named.n; i++) {
     const pl_named* n = &w->o->named.at[i];
-    pl_space space = pl_space_of(n->kind);
+    pl_space space = pl_named_space(n->kind);
     if ((places && space == PL_SPACE_PLACE) || (constraints && n->kind == PL_NAMED_CONSTRAINT))
       offer_name(w, i);
   }

@@ -188,6 +188,7 @@ typedef struct pl_constraint {
   pl_axes_form axes;  // which are given like this
   pl_block* block;
   pl_span span;
+  pl_span relation_span;  // of left and right alone
 } pl_constraint;
 
 // `restitution e on label`: Newton's coefficient of impacts on a one-sided constraint.

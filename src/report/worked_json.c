@@ -400,15 +400,54 @@ static void pl_doc_checks(pl_document* d) {
   pl_json_end_list(&d->j);
 }
 
+// A place: lines and columns in cells, bytes, UTF-16 units.
+static void pl_doc_place(pl_document* d, pl_span span) {
+  pl_place place = pl_span_place(span);
+  pl_place last = pl_span_place((pl_span){span.source, span.end, span.end});
+  pl_json_int(&d->j, "line", place.line);
+  pl_json_int(&d->j, "col", place.column);
+  pl_json_int(&d->j, "end_line", last.line);
+  pl_json_int(&d->j, "end_col", last.column);
+  pl_json_string(&d->j, "file", span.source->name);
+  pl_json_int(&d->j, "begin", (long)span.begin);
+  pl_json_int(&d->j, "end", (long)span.end);
+  pl_json_int(&d->j, "begin16", (long)pl_source_position(span.source, span.begin).at16);
+  pl_json_int(&d->j, "end16", (long)pl_source_position(span.source, span.end).at16);
+}
+
+static void pl_doc_labels(pl_document* d, const pl_diagnostic* m) {
+  if (m->labels.n == 0) return;
+  pl_json_list(&d->j, "labels");
+  for (int i = 0; i < m->labels.n; i++) {
+    pl_json_object(&d->j, NULL);
+    pl_json_flat(&d->j);
+    pl_doc_place(d, m->labels.at[i].span);
+    pl_json_string(&d->j, "text", m->labels.at[i].text);
+    pl_json_end_object(&d->j);
+  }
+  pl_json_end_list(&d->j);
+}
+
+// The fix as an edit.
+static void pl_doc_edits(pl_document* d, const pl_diagnostic* m) {
+  pl_span span = pl_diagnostic_fix_span(m);
+  if (!m->replacement || !span.source) return;
+  pl_json_list(&d->j, "edits");
+  pl_json_object(&d->j, NULL);
+  pl_json_flat(&d->j);
+  pl_doc_place(d, span);
+  pl_json_string(&d->j, "text", m->replacement);
+  pl_json_end_object(&d->j);
+  pl_json_end_list(&d->j);
+}
+
 static void pl_doc_note(pl_document* d, const pl_diagnostic* m) {
   static const char* const severity[] = {"error", "warning", "note"};
-  pl_place place = m->span.source ? pl_span_place(m->span) : (pl_place){0};
   pl_json_object(&d->j, NULL);
   pl_json_string(&d->j, "code", pl_code_name(m->code));
   pl_json_string(&d->j, "severity", severity[pl_code_severity(m->code)]);
   if (m->span.source) {
-    pl_json_int(&d->j, "line", place.line);
-    pl_json_int(&d->j, "col", place.column);
+    pl_doc_place(d, m->span);
   } else {
     pl_json_null(&d->j, "line");
     pl_json_null(&d->j, "col");
@@ -417,6 +456,8 @@ static void pl_doc_note(pl_document* d, const pl_diagnostic* m) {
   pl_json_string(&d->j, "fix", pl_doc_words(d, m->fix));
   pl_doc_optional(d, "reason", pl_doc_words(d, m->reason));
   pl_doc_optional(d, "replacement", m->replacement);
+  pl_doc_labels(d, m);
+  pl_doc_edits(d, m);
   pl_json_end_object(&d->j);
 }
 

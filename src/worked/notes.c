@@ -152,4 +152,5 @@ void pl_note_attribution(pl_analysis* d, int link) {
                 guide->source->name.text, carried));
   pl_report_fix(note, pl_format(d->arena, "write %s for the full force", text),
                 pl_format(d->arena, "für die volle Kraft: %s", text), text);
+  pl_report_fix_span(note, l->source->relation_span);
 }
