@@ -503,10 +503,10 @@ static double smallest_pivot(double complex* A, int d) {
   return smallest;
 }
 
-// How far s² - s C - K is from singular at s² = -square, as a part of its entries.
-static double off_with(const double* K, const double* C, int d, double square) {
+// How far s² - s C - K is from singular at s² = -square, as a part of its entries, and of `most`.
+static double off_with(const double* K, const double* C, int d, double square, double most) {
   double complex A[MOST_COORDINATES * MOST_COORDINATES], s = csqrt((double complex) - square);
-  double most = fabs(square);
+  most = fmax(most, fabs(square));
   for (int k = 0; k < d * d; k++) {
     A[k] = -K[k] - (C ? s * C[k] : 0) + (k % (d + 1) == 0 ? -square : 0);
     most = fmax(most, fmax(fabs(K[k]), cabs(A[k])));
@@ -520,8 +520,11 @@ static double off_near(pl_rest_field* f, const double* q, double square, double 
   int d = free_directions(f, q, MOST_COORDINATES, T);
   bool known = d >= 1 && slopes(f, q, T, d, near, false, K) && slopes(f, q, T, d, near, true, C);
   if (!known) return (double)NAN;
+  // where forces vanish with their slopes, what they are farther away
+  double far[MOST_COORDINATES * MOST_COORDINATES];
+  double most = slopes(f, q, T, d, 0.1, false, far) ? size(far, d * d) : 0;
   // of damped motions the frequency without damping is told
-  return fmin(off_with(K, C, d, square), off_with(K, NULL, d, square));
+  return fmin(off_with(K, C, d, square, most), off_with(K, NULL, d, square, most));
 }
 
 double pl_rest_frequency_off(pl_rest_field* f, const double* q, double square) {
