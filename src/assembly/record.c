@@ -440,7 +440,6 @@ static void name_constraints(pl_recorder* r, int i, pl_constraint_setup* constra
   const pl_constraint* c = &r->model->constraints.at[i];
   pl_group* g;
   if (group_for(r, c->block, &g) != PLEUEL_OK) return;
-  const char* own = c->multiplier ? pl_ascii_of(r->arena, c->multiplier) : NULL;
   for (int k = 0; k < g->instances.n; k++) {
     pl_constraint_setup* out = &constraint[r->first_constraint[i] + k];
     set_indices(r, &g->instances, k);
@@ -449,8 +448,8 @@ static void name_constraints(pl_recorder* r, int i, pl_constraint_setup* constra
     const char* suffix = indexed ? pl_format(r->arena, "[%ld]", index) : "";
     if (!indexed && c->block) suffix = pl_format(r->arena, "[%d]", k + 1);
     out->name = pl_format(r->arena, "%s%s", c->name.ascii ? c->name.ascii : c->name.text, suffix);
-    out->column = own ? pl_format(r->arena, "%s%s", own, suffix)
-                      : pl_format(r->arena, "lambda_%s", out->name);
+    // as in formulas, whatever letter `with` gives it on paper
+    out->column = pl_format(r->arena, "lambda_%s", out->name);
     out->unit = c->lambda.id ? unit_of(r, c->lambda, "") : "";
     out->velocity = c->has_velocity;
     out->side = c->relation == PL_GE || c->relation == PL_GT   ? 1

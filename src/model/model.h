@@ -177,7 +177,7 @@ typedef struct pl_constraint {
   pl_expr g;
   pl_relation relation;    // PL_EQ, PL_GE, PL_LE
   const char* multiplier;  // name given by `with`, UTF-8, or NULL
-  // its multiplier; ascii "lambda_g1" (or as given by `with`: see language.md, Columns)
+  // its multiplier; ascii "lambda_g1", whatever letter `with` gives it on paper
   pl_symbol lambda;
   const char* while_label;  // contact it depends on, or NULL
   bool redundant_ok, off;

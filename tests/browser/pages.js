@@ -98,7 +98,7 @@ async function reads(page, name, sim) {
       return D.plots.map((p, k) => p.y.map((c, j) => [D.thin.head[c], document.querySelectorAll('.plot')[k].querySelectorAll('output')[j].textContent])).flat();
     }, times[i]);
     for (const [head, text] of shown) {
-      const given = sim[head] || (head === 'λ/(m g)' ? sim['lambda [N]'].map(v => v / (75 * 9.81)) : Object.entries(sim).filter(([k]) => k === { 'ϑ [rad]': 'theta [rad]', 'φ [rad]': 'phi [rad]', 'x₂ [m]': 'x2 [m]' }[head]).map(e => e[1])[0]);
+      const given = sim[head] || (head === 'λ/(m g)' ? sim['lambda_h [N]'].map(v => v / (75 * 9.81)) : Object.entries(sim).filter(([k]) => k === { 'ϑ [rad]': 'theta [rad]', 'φ [rad]': 'phi [rad]', 'x₂ [m]': 'x2 [m]' }[head]).map(e => e[1])[0]);
       if (!given) { wrong.push('no column ' + head); continue; }
       const size = Math.max(...given.map(v => Math.abs(v) || 0));
       if (Math.abs(number(text) - given[i]) > 2e-3 * size) wrong.push([head, times[i], text, given[i]]);

@@ -210,7 +210,7 @@ simulate 0..1
 # x'' = -λ + μ λ, y'' = λ - g, x'' = y'': λ (2 - μ) = g
 force = D("9.81") / D("1.8")
 check_row("a force that depends on a multiplier", certified(SLOPE, width="1e-30")["rows"][-1],
-          {"lambda": force, "x": (force - D("9.81")) / 2}, "1e-29")
+          {"lambda_line": force, "x": (force - D("9.81")) / 2}, "1e-29")
 
 
 # ------------------------------------------------------------------------------------------ values of tests/cases
