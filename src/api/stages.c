@@ -97,6 +97,7 @@ static pl_stage* stage_of(pl_arena* a, const pl_trace* t, int phase) {
                     .q_unit = q_unit,
                     .q = t->samples.at[p->first].q};
   list_frictions(a, t, p, out);
+  out->v = t->samples.at[p->first].v;
   out->pulls = phase == 0 ? t->pulls : PL_ARRAY(a, bool, s->n_c + 1);
   return out;
 }
@@ -215,7 +216,7 @@ static const pl_trace* watched(pl_staging* s, const pl_expr* e, int n) {
 
 // An expression of the state and its derivative along the motion, at a sample.
 typedef struct pl_rate {
-  double value, rate, size;
+  double value, rate;
 } pl_rate;
 
 static pl_rate rate_of(pl_staging* s, const pl_trace* t, const pl_trace_sample* at, pl_expr e) {
@@ -232,13 +233,19 @@ static pl_rate rate_of(pl_staging* s, const pl_trace* t, const pl_trace_sample* 
     value[v.id] = at->v[i];
     value[pl_symbol_dot(p, v).id] = at->a[i];
   }
-  return (pl_rate){pl_eval(p, e, value), pl_eval(p, slope, value), pl_eval_terms(p, e, value)};
+  return (pl_rate){pl_eval(p, e, value), pl_eval(p, slope, value)};
 }
 
-static bool is_zero(const pl_rate* r) {
-  static const double rounding = 1e-9;  // of its terms: how well an event is found
-  return fabs(r->value) <= rounding * r->size;
+// What an expression is at most along a motion.
+static double size_of(pl_staging* s, const pl_trace* t, pl_expr e) {
+  double most = 0;
+  for (int i = 0; i < t->samples.n; i++)
+    most = fmax(most, fabs(rate_of(s, t, &t->samples.at[i], e).value));
+  return most;
 }
+
+// How well an event is found.
+static bool is_zero(const pl_rate* r, double size) { return fabs(r->value) <= 1e-9 * size; }
 
 static void list_state(pl_arena* a, const pl_trace* t, const pl_trace_sample* at, pl_leaving* out) {
   const pl_setup* s = &t->recording->setup;
@@ -256,11 +263,12 @@ static void list_state(pl_arena* a, const pl_trace* t, const pl_trace_sample* at
 }
 
 // Where e has a sign again behind a sample, it is negative.  Where friction holds fast, e stays zero.
-static bool goes_below(pl_staging* s, const pl_trace* t, const pl_trace_sample* at, pl_expr e) {
+static bool goes_below(pl_staging* s, const pl_trace* t, const pl_trace_sample* at, pl_expr e,
+                       double size) {
   for (int i = 0; i < t->samples.n; i++) {
     if (t->samples.at[i].t <= at->t) continue;
     pl_rate r = rate_of(s, t, &t->samples.at[i], e);
-    if (!is_zero(&r)) return r.value < 0;
+    if (!is_zero(&r, size)) return r.value < 0;
   }
   return false;
 }
@@ -271,7 +279,8 @@ static bool leaves_at(pl_staging* s, const pl_trace* t, const pl_trace_sample* a
   out->leaves = false;
   for (int k = 0; k < n; k++) {
     pl_rate r = rate_of(s, t, at, side[k]);
-    out->through[k] = is_zero(&r) && r.rate < 0 && goes_below(s, t, at, side[k]);
+    double size = size_of(s, t, side[k]);
+    out->through[k] = is_zero(&r, size) && r.rate < 0 && goes_below(s, t, at, side[k], size);
     out->leaves |= out->through[k];
   }
   if (!out->leaves) return false;

@@ -302,6 +302,20 @@ static void judge_by_existence(pl_analysis* d, const pl_rest* r, pl_verdict* jud
   }
 }
 
+// A place on the border of two sides: stability would need the forces of both.
+static void show_border_rest(pl_analysis* d, const pl_rest* r, int number) {
+  pl_show(d, pl_rest_form(d, r));
+  pl_value v = {.name = pl_format(d->arena, "equilibrium %d", number),
+                .number = (double)NAN,
+                .conserved = -1,
+                .passed = -1,
+                .order = -1};
+  name_components(d, r, &v);
+  pl_push(d->arena, d->section->values, v);
+  pl_say(d, "Here a force has a kink: stability was not looked at.",
+         "Hier hat eine Kraft einen Knick: die Stabilität wurde nicht untersucht.", 0);
+}
+
 static void show_rest(pl_analysis* d, const pl_expr* f, const pl_rest* r, int number) {
   pl_linearised l;
   pl_verdict judged;
@@ -330,8 +344,42 @@ static void show_rest(pl_analysis* d, const pl_expr* f, const pl_rest* r, int nu
     pl_claim_free(d, PL_CLAIM_INSERTED, pl_insert_rest(d, f[k], r), pl_int(d->pool, 0));
 }
 
+// sign u as s and |u| as s u, for every u that contains velocities.
+static pl_expr with_sign(pl_analysis* d, pl_expr whole, pl_expr e, pl_expr s) {
+  pl_pool* p = d->pool;
+  for (int k = 0; k < pl_n_args(p, e); k++) whole = with_sign(d, whole, pl_arg(p, e, k), s);
+  if (pl_kind_of(p, e) != PL_CALL || !pl_has_role(p, e, PL_R_VELOCITY)) return whole;
+  pl_expr u = pl_arg(p, e, 0);
+  if (pl_function_of(p, e) == PL_SIGN) return pl_subst_expr(p, whole, e, s);
+  return pl_function_of(p, e) == PL_ABS ? pl_subst_expr(p, whole, e, pl_mul(p, s, u)) : whole;
+}
+
+// A force jumps where a velocity changes its sign: it holds the system at rest in whole regions.
+static bool rubs_at_rest(pl_analysis* d) {
+  pl_pool* p = d->pool;
+  for (int k = 0; k < d->gen.n; k++) {
+    pl_expr e = pl_second_kind(d, d->gen.at[k]);
+    pl_expr plus = with_sign(d, e, e, pl_int(p, 1)), minus = with_sign(d, e, e, pl_int(p, -1));
+    if (pl_same(plus, minus)) continue;
+    pl_expr jump = pl_alg_normal(d->tower, pl_sub(p, plus, minus));
+    if (!pl_is_zero_node(p, pl_alg_normal(d->tower, pl_at_rest(d, jump)))) return true;
+  }
+  return false;
+}
+
 // Positions of rest are sought in a few generalized coordinates.
 bool pl_rests_out_of_reach(pl_analysis* d) {
+  if (d->reduced && rubs_at_rest(d)) {
+    pl_say(d,
+           "A force jumps where a velocity changes its sign, as dry friction does: it can hold the "
+           "system at rest in whole regions, which are not looked for.",
+           "Eine Kraft springt, wo eine Geschwindigkeit ihr Vorzeichen wechselt, wie trockene "
+           "Reibung: sie kann das System in ganzen Bereichen in Ruhe halten, die nicht gesucht "
+           "werden.",
+           0);
+    d->section->not_found = true;
+    return true;
+  }
   if (d->reduced && d->gen.n == 0) {
     pl_say(d, "No coordinate is free: the constraints give the position.",
            "Keine Koordinate ist frei: die Zwangsbedingungen geben die Lage.", 0);
@@ -519,7 +567,8 @@ typedef struct pl_shown_rest {
 } pl_shown_rest;
 typedef struct pl_shown {
   PL_VEC(pl_shown_rest) at;
-  int n;  // of these, numbered
+  PL_VEC(pl_shown_rest) border;  // where a sign that was taken is zero: on hold
+  int n;                         // numbered
 } pl_shown;
 
 static pl_expr component_at(const pl_shown_rest* s, int particle, int component) {
@@ -527,23 +576,46 @@ static pl_expr component_at(const pl_shown_rest* s, int particle, int component)
   return pl_insert_rest(s->in, place, &s->rest);
 }
 
-// All masses are at the same points: r and -r of polar coordinates name one place.
-static bool same_points(const pl_shown_rest* a, const pl_shown_rest* b) {
+static bool same_points_turned(const pl_shown_rest* a, const pl_shown_rest* b, int turned) {
   pl_analysis* d = a->in;
+  pl_symbol name = turned < 0 ? (pl_symbol){0} : d->q.at[d->gen.at[turned]].q;
+  pl_expr half = turned < 0 ? pl_poison() : pl_add(d->pool, pl_sym(d->pool, name), pl_pi(d->pool));
   for (int k = 0; k < d->particle.n; k++) {
     for (int c = 0; c < d->particle.at[k].n; c++) {
-      pl_expr off = pl_sub(d->pool, component_at(a, k, c), component_at(b, k, c));
-      double number = pl_number(d, off);
-      bool near = fabs(number) < 1e-9 * (1 + fabs(pl_number(d, component_at(a, k, c))));
-      if (!near && pl_alg_is_zero(d->tower, off) != PL_YES) return false;
+      pl_expr one = component_at(a, k, c), other = component_at(b, k, c);
+      if (turned >= 0) one = pl_subst1(d->pool, one, name, half);
+      double off = pl_number(d, pl_sub(d->pool, one, other));
+      bool near = fabs(off) < 1e-9 * (1 + fabs(pl_number(d, one)));
+      if (!near && pl_alg_equal(d->tower, one, other) != PL_YES) return false;
     }
   }
   return d->particle.n > 0;
 }
 
+// All masses are at the same points: (r, φ) and (-r, φ + π) of polar coordinates name one place.
+static bool same_points(const pl_shown_rest* a, const pl_shown_rest* b) {
+  bool same = same_points_turned(a, b, -1);
+  for (int k = 0; !same && k < a->in->gen.n; k++) {
+    same = pl_is_poison(a->rest.q[k]) && same_points_turned(a, b, k);
+  }
+  return same;
+}
+
+bool pl_rest_on_border(pl_analysis* d, const pl_rests* found, const pl_rest* r) {
+  for (int k = 0; k < found->n_sides; k++) {
+    pl_expr e = pl_insert_rest(d, pl_on_maps(d, found->side[k].difference), r);
+    if (pl_vanishes(d, e) || fabs(pl_number(d, e)) < 1e-12) return true;
+  }
+  return false;
+}
+
 static void show_found(pl_analysis* d, const pl_expr* f, const pl_rests* found, pl_shown* shown) {
   for (int k = 0; k < found->n; k++) {
     const pl_bond* against = pl_rest_pulls(d, &found->at[k]);
+    if (!against && pl_rest_on_border(d, found, &found->at[k])) {
+      pl_push(d->arena, shown->border, ((pl_shown_rest){d, found->at[k]}));
+      continue;
+    }
     if (against) say_pulls(d, against, &found->at[k]);
     else show_rest(d, f, &found->at[k], ++shown->n);
     pl_push(d->arena, shown->at, ((pl_shown_rest){d, found->at[k]}));
@@ -561,6 +633,49 @@ static void leave_known(pl_analysis* d, pl_rests* found, const pl_shown* shown) 
   found->n = n;
 }
 
+static void add_kink(pl_analysis* d, pl_expr u, bool strict, pl_rests* out) {
+  if (!pl_has_role(d->pool, u, PL_R_COORD) || out->n_sides == pl_max_sides) return;
+  for (int k = 0; k < out->n_sides; k++) {
+    pl_expr known = out->side[k].difference;
+    if (pl_is_number(d->pool, pl_alg_normal(d->tower, pl_div(d->pool, u, known)))) return;
+  }
+  out->side[out->n_sides++] = (pl_fact){u, strict};
+}
+
+// |u|, sign u and if(u > 0, ...) in the equations, where no sign was taken: u.
+static void add_kinks(pl_analysis* d, pl_expr e, pl_rests* out) {
+  pl_pool* p = d->pool;
+  bool call = pl_kind_of(p, e) == PL_CALL, branch = pl_kind_of(p, e) == PL_IF;
+  bool size = call && (pl_function_of(p, e) == PL_ABS || pl_function_of(p, e) == PL_SIGN);
+  for (int k = 0; k < pl_n_args(p, e); k++) add_kinks(d, pl_arg(p, e, k), out);
+  if (size || branch) add_kink(d, pl_arg(p, e, 0), branch, out);
+}
+
+// The sides that split the search, where the equations themselves do not know their sign.
+static bool finds_kinks(pl_analysis* d, const pl_expr* f, pl_rests* out) {
+  *out = (pl_rests){.complete = true, .complete_here = true};
+  for (int k = 0; k < d->gen.n; k++) add_kinks(d, pl_alg_normal(d->tower, f[k]), out);
+  return out->n_sides > 0;
+}
+
+bool pl_say_bends(pl_analysis* d, const pl_expr* f) {
+  pl_rests left;
+  if (!finds_kinks(d, f, &left)) return false;
+  const pl_form** at = PL_ARRAY(d->arena, const pl_form*, left.n_sides + 1);
+  for (int k = 0; k < left.n_sides; k++) at[k] = pl_border_form(d, left.side[k].difference);
+  pl_say(d, "The forces have a kink at {1}; `equilibria` looks at the sides one by one.",
+         "Die Kräfte haben einen Knick bei {1}; `equilibria` untersucht die Seiten einzeln.", 1,
+         pl_flist(d, at, left.n_sides));
+  d->section->not_found = true;
+  return true;
+}
+
+// Branches within branches: some are left where the signs of the outer ones are known.
+static bool bends(pl_analysis* d, const pl_expr* f) {
+  pl_rests left;
+  return finds_kinks(d, f, &left);
+}
+
 // The same search where some signs are the opposite ones.  false: there it was not finished.
 static bool answer_beyond(pl_analysis* d, const pl_ask* ask, const pl_rests* own,
                           const bool* through, pl_shown* shown) {
@@ -570,25 +685,50 @@ static bool answer_beyond(pl_analysis* d, const pl_ask* ask, const pl_rests* own
   pl_expr f[pl_max_gen];
   a->section = d->section;
   pl_at_rest_equations(a, f);
+  if (bends(a, f)) return false;
   pl_rests* found = pl_find_rests(a, f);
   leave_known(a, found, shown);
-  if (found->n > 0) {
+  int inside = 0;
+  for (int k = 0; k < found->n; k++) inside += !pl_rest_on_border(a, found, &found->at[k]);
+  if (inside > 0) {
     pl_say(a, "With {1}:", "Mit {1}:", 1, pl_facts_form(a, found->side, found->n_sides));
     int from = a->section->values.n;
     show_found(a, f, found, shown);
     pl_assume_sides(a, a->section, from);
+  } else {
+    show_found(a, f, found, shown);
   }
   say_singular(a, found);
   return found->complete_here && found->n_singular == 0;
 }
 
+// What rests on the border of two sides rests by the formulas of both.
+static void show_border(pl_analysis* d, pl_shown* shown) {
+  for (int k = 0; k < shown->border.n; k++) {
+    pl_shown_rest* r = &shown->border.at[k];
+    bool first = true, both = false;
+    for (int j = 0; j < shown->border.n; j++) {
+      bool same = j != k && same_points(r, &shown->border.at[j]);
+      first &= !(same && j < k);
+      both |= same && shown->border.at[j].in != r->in;
+    }
+    if (!first || !both) continue;
+    r->in->section = d->section;
+    show_border_rest(r->in, &r->rest, ++shown->n);
+  }
+}
+
 // Where |u| has its kink the force may jump: such places are none of these, and they are named.
-static void say_kinks(pl_analysis* d, const pl_rests* own) {
+static void say_kinks(pl_analysis* d, const pl_rests* own, const pl_shown* shown) {
   const pl_form** at = PL_ARRAY(d->arena, const pl_form*, own->n_sides + 1);
   for (int k = 0; k < own->n_sides; k++) at[k] = pl_border_form(d, own->side[k].difference);
-  pl_say(d, "Not looked at: places with {1}, where a force may jump.",
-         "Nicht untersucht: Lagen mit {1}, wo eine Kraft springen kann.", 1,
-         pl_flist(d, at, own->n_sides));
+  pl_say(d,
+         shown->border.n > 0 ? "Not looked at: other places with {1}, where a force may jump."
+                             : "Not looked at: places with {1}, where a force may jump.",
+         shown->border.n > 0
+             ? "Nicht untersucht: andere Lagen mit {1}, wo eine Kraft springen kann."
+             : "Nicht untersucht: Lagen mit {1}, wo eine Kraft springen kann.",
+         1, pl_flist(d, at, own->n_sides));
 }
 
 static void say_more(pl_analysis* d) {
@@ -610,31 +750,6 @@ static bool answer_all_sides(pl_analysis* d, const pl_ask* ask, const pl_rests* 
   return all;
 }
 
-static void add_kink(pl_analysis* d, pl_expr u, pl_rests* out) {
-  if (!pl_has_role(d->pool, u, PL_R_COORD) || out->n_sides == pl_max_sides) return;
-  for (int k = 0; k < out->n_sides; k++) {
-    pl_expr known = out->side[k].difference;
-    if (pl_same(known, u) || pl_same(known, pl_neg(d->pool, u))) return;
-  }
-  out->side[out->n_sides++] = (pl_fact){u, false};
-}
-
-// |u| and sign u in the equations, where no sign was taken: u.
-static void add_kinks(pl_analysis* d, pl_expr e, pl_rests* out) {
-  bool call = pl_kind_of(d->pool, e) == PL_CALL;
-  bool bends = call
-               && (pl_function_of(d->pool, e) == PL_ABS || pl_function_of(d->pool, e) == PL_SIGN);
-  if (bends) add_kink(d, pl_arg(d->pool, e, 0), out);
-  for (int k = 0; k < pl_n_args(d->pool, e); k++) add_kinks(d, pl_arg(d->pool, e, k), out);
-}
-
-// The sides that split the search, where the equations themselves do not know their sign.
-static bool finds_kinks(pl_analysis* d, const pl_expr* f, pl_rests* out) {
-  *out = (pl_rests){.complete = true, .complete_here = true};
-  for (int k = 0; k < d->gen.n; k++) add_kinks(d, pl_alg_normal(d->tower, f[k]), out);
-  return out->n_sides > 0;
-}
-
 void pl_answer_equilibria(pl_analysis* d, const pl_ask* ask) {
   pl_section_open(d, ask, "Equilibria", "Gleichgewichtslagen");
   pl_expr f[pl_max_gen];
@@ -652,8 +767,9 @@ void pl_answer_equilibria(pl_analysis* d, const pl_ask* ask) {
   bool sides = found->n_sides > 0;
   d->section->all_sides = sides && answer_all_sides(d, ask, found, kinks, &shown);
   bool all = (found->complete && !kinks) || d->section->all_sides;
-  if (shown.at.n == 0 && all && found->n_singular == 0) say_none(d, f);
-  if (d->section->all_sides) say_kinks(d, found);
+  if (found->n_sides == 1) show_border(d, &shown);
+  if (shown.n == 0 && all && found->n_singular == 0) say_none(d, f);
+  if (d->section->all_sides) say_kinks(d, found, &shown);
   else if (!kinks) pl_say_rests_missing(d, f, found);
   else if (!all) say_more(d);
   bool recur = false;  // one period is listed, and that is said

@@ -296,7 +296,7 @@ static void modes_at_rest(pl_analysis* d, const pl_ask* ask, pl_expr* f) {
   pl_rests* found = pl_find_rests(d, f);
   int shown = 0, number = 0;
   for (int k = 0; k < found->n; k++) {
-    if (pl_rest_pulls(d, &found->at[k])) continue;
+    if (pl_rest_pulls(d, &found->at[k]) || pl_rest_on_border(d, found, &found->at[k])) continue;
     number++;
     if (!pl_rest_is_named(d, ask, &found->at[k]) || !pl_rest_exists_at_numbers(d, &found->at[k]))
       continue;
@@ -320,6 +320,7 @@ void pl_answer_modes(pl_analysis* d, const pl_ask* ask) {
     return;
   }
   pl_at_rest_equations(d, f);
+  if (pl_say_bends(d, f)) return;
   if (pl_without_drive(d, f)) {
     modes_at_rest(d, ask, f);
   } else {

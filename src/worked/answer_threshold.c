@@ -100,6 +100,7 @@ void pl_answer_threshold(pl_analysis* d, const pl_ask* ask) {
   }
   if (pl_rests_out_of_reach(d)) return;
   pl_at_rest_equations(d, f);
+  if (pl_say_bends(d, f)) return;
   int sign = 0;
   pl_thresholds found = {.x = ask->variable, .complete = true};
   found.positive = pl_alg_sign_proven(d->tower, pl_sym(d->pool, found.x), false, &sign) == PL_YES
@@ -117,6 +118,7 @@ void pl_answer_threshold(pl_analysis* d, const pl_ask* ask) {
     pl_rests* rests = pl_find_rests(d, f);
     found.complete = rests->complete && !rests->by_numbers;
     for (int k = 0; k < rests->n; k++) {
+      if (pl_rest_on_border(d, rests, &rests->at[k])) continue;
       if (!rests->at[k].numeric && pl_rest_is_named(d, ask, &rests->at[k]))
         thresholds_of(d, f, &rests->at[k], &found);
     }

@@ -106,6 +106,9 @@ bool pl_rests_recur(pl_analysis* d, const pl_expr* f, int place);
 // a one-sided constraint that would have to pull; NULL
 const pl_bond* pl_rest_pulls(pl_analysis* d, const pl_rest* r);
 const pl_form* pl_rest_form(pl_analysis* d, const pl_rest* r);
+// A sign that was taken for granted is zero there: what is linear around it holds on one side.
+bool pl_rest_on_border(pl_analysis* d, const pl_rests* found, const pl_rest* r);
+bool pl_say_bends(pl_analysis* d, const pl_expr* f);  // |u| is left in the equations: said
 bool pl_rest_exists_at_numbers(pl_analysis* d, const pl_rest* r);
 // ω² = ..., or ω² ≈ ... in numbers
 const pl_form* pl_square_form(pl_analysis* d, pl_expr w2, bool numeric);

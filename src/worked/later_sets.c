@@ -251,7 +251,7 @@ static void follow_sides(pl_analysis* first, pl_analysis* d, const pl_stage* set
   enum { MOST_CHANGES = 40 };
   pl_solution* solution = first->solution;
   pl_stage now = *set;
-  for (int i = 0; i < MOST_CHANGES && solution->stages.n <= MOST_LATER_STAGES; i++) {
+  for (int i = 0; i < MOST_CHANGES && first->n_turns < MOST_LATER_STAGES; i++) {
     pl_fact side[2 * pl_max_sides];
     pl_leaving l;
     int n = pl_known_sides(d, side);
@@ -267,6 +267,7 @@ static void follow_sides(pl_analysis* first, pl_analysis* d, const pl_stage* set
       continue;
     }
     if (!(other = pl_analysis_in(first, next))) return;
+    first->n_turns++;
     find_end(other, next);
     pl_push(first->arena, solution->stages, *next);
     answer_stage(other, next, &before, solution->stages.n - 1);
@@ -280,15 +281,11 @@ void pl_answer_stages(pl_analysis* first) {
   for (int k = 0; k < o->n_stages; k++) pl_push(first->arena, solution->stages, o->stages[k]);
   if (o->n_stages == 0) pl_push(first->arena, solution->stages, *pl_stage_like(first));
   if (o->only || !pl_knows_friction(first)) return;
-  for (int k = 1; k < o->n_stages && k <= MOST_LATER_STAGES; k++) {
+  for (int k = 0; k < o->n_stages || k == 0; k++) {
     if (pl_interrupted(first->job)) return;
-    pl_analysis* d = pl_analysis_in(first, &o->stages[k]);
-    if (d) answer_stage(d, &o->stages[k], &o->stages[k - 1], k);
-  }
-  int n = solution->stages.n;
-  for (int k = 0; k < n && !pl_interrupted(first->job); k++) {
     pl_stage set = solution->stages.at[k];
-    pl_analysis* d = o->n_stages == 0 ? first : pl_analysis_find(first, &o->stages[k]);
+    pl_analysis* d = k == 0 ? first : pl_analysis_in(first, &o->stages[k]);
+    if (d && k > 0 && k <= MOST_LATER_STAGES) answer_stage(d, &o->stages[k], &o->stages[k - 1], k);
     if (d) follow_sides(first, d, &set);
   }
 }

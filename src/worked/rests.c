@@ -531,6 +531,17 @@ static void find_poles(pl_analysis* d, const pl_rests* found) {
   }
 }
 
+// A solver gives one period of an angle; |φ| does not repeat, and which period is on the side hangs
+// on it.
+static bool side_turns(pl_analysis* d, const pl_expr* f, int place, const pl_rests* found) {
+  bool wave = false;
+  for (int k = 0; k < d->gen.n; k++) wave |= has_wave(d->pool, f[k], name_of(d, place));
+  for (int k = 0; wave && k < found->n_sides; k++) {
+    if (!pl_repeats(d, pl_on_maps(d, found->side[k].difference), name_of(d, place))) return true;
+  }
+  return false;
+}
+
 pl_rests* pl_find_rests(pl_analysis* d, pl_expr* f) {
   pl_rests* found;
   int before, first = d->special.n;
@@ -545,7 +556,8 @@ pl_rests* pl_find_rests(pl_analysis* d, pl_expr* f) {
   if (d->special.n > first) pl_say_special(d);
   for (int k = 0; k < found->n_open; k++) open_branch(d, f, &found->open[k], found);
   formulas_hold(d, &(pl_rest){0}, found);  // sides and ends, when nothing was found
-  found->complete &= !found->map_ends;
+  for (int k = 0; k < d->gen.n; k++) found->more_turns |= side_turns(d, f, k, found);
+  found->complete &= !found->map_ends && !found->more_turns;
   found->complete_here = found->complete;
   found->complete &= found->n_sides == 0;
   return found;

@@ -241,8 +241,8 @@ pl_stage* pl_stage_turned(pl_analysis* d, const pl_fact* side, int n, const bool
   s->n_crossed = turns;
   for (int k = 0; k < n; k++) {
     pl_expr e = side[k].difference;
-    if (through[k]) out[--turns] = (pl_fact){pl_neg(d->pool, e), false};
-    else out[s->n_crossed + stays++] = (pl_fact){e, false};
+    if (through[k]) out[--turns] = (pl_fact){pl_neg(d->pool, e), side[k].strict};
+    else out[s->n_crossed + stays++] = side[k];
   }
   return s;
 }

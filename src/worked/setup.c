@@ -316,8 +316,10 @@ static void probe_start(pl_analysis* d) {
   for (int i = 0; i < d->q.n; i++) {
     double x = value[pl_symbol_start(d->pool, d->q.at[i].q).id];
     double v = value[pl_symbol_start(d->pool, d->q.at[i].v).id];
-    value[d->q.at[i].q.id] = x;
-    value[d->q.at[i].v.id] = v;
+    bool held = d->q.at[i].fixed_by >= 0;  // wherever `init` has it
+    double place = held ? pl_number(d, d->q.at[i].fixed) : (double)NAN;
+    value[d->q.at[i].q.id] = isnan(place) ? x : place;
+    value[d->q.at[i].v.id] = isnan(place) ? v : 0;
   }
   value[pl_time(d->pool).id] = 0;
   pl_tower_probe(d->tower, value);
@@ -437,5 +439,6 @@ pleuel_status pl_setup_trivial(pl_analysis* d) {
     changed = false;
     for (int k = 0; k < d->g.n; k++) PL_TRY(try_link(d, k, &changed));
   }
+  probe_start(d);
   return PLEUEL_OK;
 }

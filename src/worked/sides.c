@@ -199,10 +199,31 @@ bool pl_leaves_first(pl_analysis* d, const pl_stage* s, pl_leaving* out, pl_expr
   return true;
 }
 
+// Where a stage begins, none of these is negative.
+static bool begins_on(pl_analysis* d, const pl_fact* side, int n, const pl_stage* s) {
+  if (n == 0) return true;
+  pl_number(d, side[0].difference);  // the table of numbers covers every name
+  int most = d->n_value;
+  double* value = PL_ARRAY(d->arena, double, most + 1);
+  memcpy(value, d->value, (size_t)(most + 1) * sizeof *value);
+  for (int i = 0; i < s->n_q; i++) {
+    pl_symbol q = pl_symbol_find(d->pool, s->q_name[i]);
+    if (!q.id || (int)q.id > most) continue;
+    value[q.id] = s->q[i];
+    pl_symbol v = pl_symbol_dot(d->pool, q);
+    if (s->v && (int)v.id <= most) value[v.id] = s->v[i];
+  }
+  for (int k = 0; k < n; k++) {
+    if (pl_eval(d->pool, side[k].difference, value) < -1e-9) return false;
+  }
+  return true;
+}
+
 bool pl_same_sides(pl_analysis* d, const pl_stage* s) {
   pl_fact side[2 * pl_max_sides];
-  if (s->n_sides == 0) return !d->stage || d->stage->n_sides == 0;
+  if (s->n_sides == 0 && d->stage && d->stage->n_sides > 0) return false;
   int n = pl_known_sides(d, side);
+  if (s->n_sides == 0) return begins_on(d, side, n, s);
   for (int k = 0; k < s->n_sides; k++) {
     bool there = false;
     for (int i = 0; i < n; i++) there |= pl_same(side[i].difference, s->sides[k].difference);

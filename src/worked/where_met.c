@@ -321,16 +321,33 @@ static bool say_lost(pl_analysis* d, const pl_search* p, const outcome* o) {
   return true;
 }
 
+// The same for numbers that are not given.
+static void say_lost_anywhere(pl_analysis* d, const pl_search* p, int k) {
+  const pl_form* what = p->side[k] ? p->side[k] : pl_fn(d, p->contact[k]);
+  if (p->side[k]) {
+    pl_say(d, "The motion leaves {1} before: beyond it the formulas of this side do not hold.",
+           "Die Bewegung verlässt {1} vorher: danach gelten die Formeln dieser Seite nicht.", 1,
+           what);
+  } else if (p->open[k]) {
+    pl_say(d, "{1} is met before: beyond it the formulas do not hold.",
+           "{1} wird vorher erreicht: danach gelten die Formeln nicht.", 1, what);
+  } else {
+    pl_say(d, "{1} lets go before: beyond it the formulas do not hold.",
+           "{1} löst sich vorher: danach gelten die Formeln nicht.", 1, what);
+  }
+}
+
 // ------------------------------------------------------------------------------ all that was found
 typedef struct ways {
   int n;
   outcome at[most_ways];
   int never, lost, tried;
+  int lost_first;  // what was lost in the first of these
 } ways;
 
 static void add_way(ways* w, const outcome* o) {
   w->tried += o->kind != FAILS;
-  w->lost += o->kind != FAILS && o->lost >= 0;
+  if (o->kind != FAILS && o->lost >= 0 && w->lost++ == 0) w->lost_first = o->lost;
   w->never += o->kind == NEVER && o->lost < 0;
   if (o->kind != MET || o->lost >= 0) return;
   for (int k = 0; k < w->n; k++) {
@@ -481,8 +498,7 @@ static bool any_closed(const ways* w) {
 
 static void show_drawn(pl_analysis* d, const pl_search* p, const rates* r, const ways* w) {
   if (w->n == 0 && w->lost > 0) {
-    outcome o = {.lost = 0, .at_once = true};
-    say_lost(d, p, &o);
+    say_lost_anywhere(d, p, w->lost_first);
     return;
   }
   if (w->n == 0 && p->complete && p->n_roots == 0) {

@@ -221,6 +221,7 @@ struct pl_analysis {
   PL_VEC(pl_fact) sides;
   int n_looked_at;   // assumptions of the tower that were looked at for them
   bool has_section;  // of its own, or it is the first
+  int n_turns;       // of the first: sections for other sides
   bool open_told;
   // what is answered now is about a later stretch: start values are those of its beginning
   bool later;
