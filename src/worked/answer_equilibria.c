@@ -569,6 +569,7 @@ typedef struct pl_shown {
   PL_VEC(pl_shown_rest) at;
   PL_VEC(pl_shown_rest) border;  // where a sign that was taken is zero: on hold
   int n;                         // numbered
+  bool renamed;                  // some place is named twice, and shown once
 } pl_shown;
 
 static pl_expr component_at(const pl_shown_rest* s, int particle, int component) {
@@ -622,7 +623,7 @@ static void show_found(pl_analysis* d, const pl_expr* f, const pl_rests* found, 
   }
 }
 
-static void leave_known(pl_analysis* d, pl_rests* found, const pl_shown* shown) {
+static void leave_known(pl_analysis* d, pl_rests* found, pl_shown* shown) {
   int n = 0;
   for (int k = 0; k < found->n; k++) {
     pl_shown_rest here = {d, found->at[k]};
@@ -630,6 +631,7 @@ static void leave_known(pl_analysis* d, pl_rests* found, const pl_shown* shown) 
     for (int j = 0; j < shown->at.n; j++) known |= same_points(&here, &shown->at.at[j]);
     if (!known) found->at[n++] = found->at[k];
   }
+  shown->renamed |= n < found->n;
   found->n = n;
 }
 
@@ -774,6 +776,7 @@ void pl_answer_equilibria(pl_analysis* d, const pl_ask* ask) {
   else if (!all) say_more(d);
   bool recur = false;  // one period is listed, and that is said
   for (int k = 0; k < d->gen.n; k++) recur |= pl_rests_recur(d, f, k);
+  d->section->all_sides &= !shown.renamed;  // its numbers are those of one side
   d->section->complete = all && found->n_singular == 0 && !recur;
   if (!all) d->section->not_found = shown.at.n == 0;
   end_of_steady(d);
