@@ -251,6 +251,7 @@ static const pl_form* by_order(pl_analysis* d, pl_expr e) {
     if (!pl_is_zero_node(d->pool, c)) part[n++] = times(d, pl_f(d, c, PL_S_QUOTIENT), a);
   }
   pl_expr rest = with_zero(d, e, false), force = with_zero(d, rest, true);
+  if (pl_is_poison(force)) force = pl_int(d->pool, 0);  // dry friction, |v|/v, has no value at v = 0
   pl_expr moving = pl_alg_normal(d->tower, pl_sub(d->pool, rest, force));
   if (!pl_is_zero_node(d->pool, moving))
     part[n++] = pl_positive_first(d, pl_f(d, moving, PL_S_EQUATION));

@@ -119,6 +119,59 @@ def check_where(program):
     tap.check("a start on the other side has the formulas of that side", abs(other["values"][0]["number"] - v) < 1e-9, other["values"])
 
 
+def check_borders(program):
+    """A well with two stiffnesses, |x|^3, a stop, nested branches, dry friction: no stability or frequency of one side."""
+    for name, v, wanted in (("two stiffnesses", "if(x > 0, k*x^2/2, k*x^2)", [0]), ("|x|^3", "k*abs(x)^3", [0])):
+        document, code = solve(program, f"coord x\nparam m = 1, k = 4\nmass A: m at (x)\npotential {v}\ninit x = 1\nask equilibria\n")
+        values = [x for x in items(document, "equilibria")[0]["values"]]
+        places = [x["components"][0]["number"] for x in values if x.get("components")]
+        tap.check(f"{name}: it rests at the kink, and no stability of one side is told",
+                  code == 0 and places == wanted and not any(x.get("stability") or x["name"] == "omega^2" for x in values), values)
+    stop = "coord x\nparam m = 1, k = 4, K = 200\nmass A: m at (x)\npotential k*x^2/2 + K*max(x - 0.5, 0)^2/2\ninit x = -1\nask equilibria\nask modes\n"
+    document, code = solve(program, stop)
+    values = items(document, "equilibria")[0]["values"]
+    places = [x["components"][0]["number"] for x in values if x.get("components")]
+    tap.check("a stop that is not touched at rest", places == [0] and values[0]["stability"] == "stable", values)
+    tap.check("modes at a kink are refused", "have a kink" in words(items(document, "modes")[0]), words(items(document, "modes")[0]))
+    dead = "coord x\nparam m = 2, k = 30\nmass A: m at (x)\npotential k*max(abs(x) - 0.2, 0)^2/2\ninit x = 1\nask equilibria\n"
+    document, code = solve(program, dead)
+    tap.check("branches within branches are not claimed to be searched", code == 0 and "There may be others" in words(items(document, "equilibria")[0]),
+              words(items(document, "equilibria")[0]))
+    dry = "coord x\nparam m = 1, k = 10, c = 0.4\nmass A: m at (x)\npotential k*x^2/2\nforce (-c*sign(x')) on A\ninit x = 1, x' = 0.3\nask lagrange2\nask equilibria\n"
+    document, code = solve(program, dry)
+    said = words(items(document, "lagrange2")[0])
+    tap.check("dry friction has an equation", "undefined" not in said and "abs(x')" in said, said)
+    tap.check("and no single place of rest", not items(document, "equilibria")[0]["values"], items(document, "equilibria")[0]["values"])
+
+
+def check_angle(program):
+    """m g l sin φ + c sign φ = 0: on the side φ >= 0 sin φ = -c/(m g l) at π + asin and 2 π - asin, and so on."""
+    model = "coord φ\nparam m = 1, l = 1, g = 9.81, c = 2\nmass A: m at (l sin φ, -l cos φ)\naxes x right, y up\ngravity g along -y\npotential c*abs(φ)\ninit φ = 0.5\nask equilibria\n"
+    document, code = solve(program, model)
+    item = items(document, "equilibria")[0]
+    tap.check("an angle under |φ| has places in other turns, and completeness is not claimed", code == 0 and "There may be others" in words(item), words(item))
+    for v in item["values"]:
+        if v.get("components"):
+            x = v["components"][0]["number"]
+            tap.check(f"φ = {x:.4f} rests", abs(9.81 * math.sin(x) + 2 * math.copysign(1, x)) < 1e-9, x)
+
+
+def check_sets(program):
+    """A spring turns over on the way to a rope: sections in the order of time, each with its own sign."""
+    model = ("coord x\nparam m = 1, k = 30, g = 9.81\nmass A: m at (x)\naxes x down\ngravity g along x\nspring k, rest 0.2 between A and (1)\n"
+             "constraint rope: x <= 1.2\ninit x = 0.5, x' = 0\nask V\nask x' where x = 1.1\nsimulate 0..1\n")
+    document, code = solve(program, model)
+    # x = 0.8 + g/k + (0.5 - 0.8 - g/k) cos(w t) = 1
+    w = math.sqrt(30)
+    t1 = math.acos((1 - 0.8 - 0.327) / (0.5 - 0.8 - 0.327)) / w
+    heads = [i for letter in document["answers"].values() for i in letter if i["item"].startswith("stage")]
+    said = [words(h) for h in heads]
+    tap.check("a rope behind a spring of no length passes its checks", code == 0, document["checks"])
+    tap.check("the turn of the spring comes before the rope", len(heads) == 2 and f"t = {t1:.6g}" in said[0] and "x = 6/5" in said[1], said)
+    values = [(i.get("stage", 1), i["values"][0]["number"]) for i in items(document, "V")]
+    tap.check("V of the rope is that of the side where it holds", abs(values[-1][1] - (0 - 9.81 * 1.2)) < 1e-9, values)
+
+
 def check_pulley(program):
     model = ("coord x1, x2\nparam m1 = 2.63, m2 = 1.5, g = 9.81, k = 9.41, d = 0.42\nmass A1: m1 at (x1)\nmass A2: m2 at (x2)\n"
              "gravity g along x\nspring k, rest d between A2 and (0.72)\nconstraint rope: x1 + x2 <= 1.4\n"
@@ -137,6 +190,9 @@ def main():
     check_unknown_span(program)
     check_rests(program)
     check_where(program)
+    check_borders(program)
+    check_angle(program)
+    check_sets(program)
     check_pulley(program)
     tap.done()
 
