@@ -21,7 +21,8 @@ STRUCTS = {
     "pl_radau": ("stepper/radau/radau_impl.h", "r"),
     "pl_extended": ("stepper/taylor/extended_impl.h", "w"),
 }
-KEEPERS = [SOLVE / "checkpoint.c", SOLVE / "dae/kkt.c"]
+KEEPERS = [SOLVE / "checkpoint.c", SOLVE / "dae/kkt.c", SOLVE / "stepper/taylor/step_program_save.c",
+           SOLVE / "stepper/taylor/extended_save.c", SOLVE / "stepper/radau/radau_save.c"]
 
 
 def without_comments(text):
@@ -55,8 +56,8 @@ def explained(text):
 
 def main():
     code = "".join(file.read_text(encoding="utf-8") for file in KEEPERS)
-    lists = explained(KEEPERS[0].read_text(encoding="utf-8"))
-    bare = without_comments((SOLVE / "checkpoint.c").read_text(encoding="utf-8"))
+    lists = explained("\n".join(file.read_text(encoding="utf-8") for file in KEEPERS))
+    bare = without_comments(code)
     kept_of_kkt = without_comments(KEEPERS[1].read_text(encoding="utf-8"))
     kept_of_kkt = kept_of_kkt[kept_of_kkt.find("void pl_kkt_keep"):]
     bad = []

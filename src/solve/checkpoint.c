@@ -12,7 +12,7 @@
 // stands in one of these lists.
 //
 // clang-format off
-// not kept of pl_run, follows from setup and options: job setup options n_q n_c order tol_raised
+// not kept of pl_run, follows from setup and options: observer job setup options n_q n_c order tol_raised
 //   motion observers watched branches has_W mass_of_velocity shrink h_plain h_least row_gap n_watch
 //   at_friction switches n_switches mode_size grid_count grid_dt
 // not kept of pl_run, follows from the point: Q V ready t_series rests
@@ -34,29 +34,12 @@
 // not kept of pl_kkt, follows from setup and point: n dense n_values value start row diagonal lu
 //   scale balance work pivot ratio
 // not kept of pl_watch, pl_friction_state, follows from the setup: kind index direction
-// not kept of pl_step_program, follows from the mode: code next size orders n_q n_c n_mass n_taken time
-//   ratio rest Q V A L q_floor v_floor g g_size argument r r_size norms length end_q end_v end_a
-//   off energy h pivot pivot_size move vector result matrix identity of_constraint index
-//   inverse_up_to constants scales
-// not kept of pl_step_program, of this process: compiled jit tried
-// not kept of pl_radau, follows from setup and options: method n n_q n_c n_C tol tol_stage ready
-//   fits shape friction_of
-// not kept of pl_radau, lives within a step: lanes here at coupled coupled_scale coupled_rhs
-//   coupled_work coupled_pivot real real_scale work pair pair_scale pivot sparse sparse_pair Z Q V
-//   A L t F w error_q error_v rhs sc_q sc_v coefficient part watched watched_h bent first_g last_g
-//   last_size end_a end_l save_a save_l
-// not kept of pl_extended, follows from setup, options and mode: state fine by_doubles low top head
-//   head_forces clock left grid drift t_0 q_0 v_0 a_0 l_0 end_a end_l tail_q tail_v tail_a tail_l
-//   from to share way scratch energy_base rows watched floor held high next
-// not kept of pl_extended, pl_step_program, lives within a step: digits arrived
 // clang-format on
 #include <limits.h>
 #include <math.h>
 #include <string.h>
 
-#include "solve/stepper/taylor/step_program_impl.h"
-#include "solve/stepper/radau/radau_impl.h"
-#include "solve/stepper/taylor/extended_impl.h"
+#include "solve/stepper/stepper.h"
 
 // ------------------------------------------------------------------------------------- whose state
 // Counts go on from where they are, so there is room above.
@@ -69,13 +52,10 @@ static void keep_fixed(pl_keeper* k, int x) { pl_keep_int(k, &x, x, x); }
 static void keep_dimensions(pl_run* run, pl_keeper* k) {
   const pl_setup* s = run->setup;
   pl_keep_section(k, "dimensions");
-  int of[] = {run->n_q,           run->n_c,
-              run->order,         s->n_out,
-              s->n_frictions,     s->n_attitudes,
-              s->n_events,        s->n_watched,
-              run->n_watch,       run->n_switches,
-              run->kkt.dense,     run->sensitivity != NULL,
-              run->radau != NULL, run->radau ? run->radau->method.s : 0};
+  int of[] = {run->n_q,       run->n_c,        run->order,     s->n_out,
+              s->n_frictions, s->n_attitudes,  s->n_events,    s->n_watched,
+              run->n_watch,   run->n_switches, run->kkt.dense, run->sensitivity != NULL,
+              run->n_steppers};
   for (size_t i = 0; i < sizeof of / sizeof *of; i++) keep_fixed(k, of[i]);
 }
 
@@ -192,53 +172,25 @@ static void keep_stats(pl_run* run, pl_keeper* k) {
                        &s->t_implicit,     &s->wall_s,   &s->compile_s};
   for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) pl_keep_f64(k, numbers[i]);
   pl_keep_int(k, &s->order, 0, run->order);
-  pl_keep_int(k, &s->order_implicit, 0, 2 * PL_RADAU_MOST);
+  pl_keep_int(k, &s->order_implicit, 0, LARGE_COUNT);
   pl_keep_int(k, &s->rank, 0, run->n_c);
   pl_keep_int(k, &s->rank_start, 0, run->n_c);
   pl_keep_bool(k, &s->compiled);
   pl_keep_bool(k, &s->stored);
 }
 
-// ----------------------------------------------------------------------------- the implicit method
-static void keep_radau(pl_run* run, pl_keeper* k) {
-  pl_radau* r = run->radau;
-  pl_keep_section(k, "implicit");
-  pl_keep_bool(k, &run->implicit);
-  if (r == NULL) {
-    if (run->implicit) pl_keep_fail(k);
-    return;
+// What the steppers keep, and which of them is at work.
+static void keep_steppers(pl_run* run, pl_keeper* k, bool setup) {
+  int at_work = 0;
+  for (int i = 0; i < run->n_steppers; i++) {
+    const pl_stepper* s = run->steppers[i];
+    void (*save)(pl_run * run, pl_keeper * k) = setup ? s->save_setup : s->save_state;
+    if (save) save(run, k);
+    if (s == run->stepper) at_work = i;
   }
-  // the next step is predicted from the polynomial of the last one, and a look at stiffness reads
-  // it too
-  size_t rows = (size_t)run->order + 2;
-  pl_keep_f64s(k, run->V_last, rows * (size_t)run->n_q);
-  pl_keep_f64s(k, run->L_last, rows * (size_t)run->n_c);
-  double* numbers[] = {&r->h_factored, &r->rounding, &r->h,           &r->h_last,
-                       &r->error_last, &r->theta,    &r->cost_series, &r->h_dense};
-  for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) pl_keep_f64(k, numbers[i]);
-  bool* flags[] = {&r->couples, &r->has_jacobian, &r->has_factor, &r->has_last, &r->rejected};
-  for (size_t i = 0; i < sizeof flags / sizeof *flags; i++) pl_keep_bool(k, flags[i]);
-  long* counts[] = {&r->stay_next, &r->steps_in_row, &r->looks, &r->next_look};
-  for (size_t i = 0; i < sizeof counts / sizeof *counts; i++)
-    pl_keep_long(k, counts[i], 0, most_count);
-  pl_keep_long(k, &r->stay, -1, most_count);
-  pl_keep_int(k, &r->newton, 0, LARGE_COUNT);
-  pl_keep_int(k, &r->newton_last, 0, LARGE_COUNT);
-  pl_keep_int(k, &r->dear, 0, LARGE_COUNT);
-}
-
-// ----------------------------------------------------------------------------------- extended numbers
-// Their memory holds the state, the time and the nodes at the point.
-static void keep_extended(pl_run* run, pl_keeper* k) {
-  pl_keep_section(k, "extended");
-  if (k->reads && !k->wrong && run->extended && !pl_extended_of_mode(run)) pl_keep_fail(k);
-  pl_extended* w = run->extended;
-  keep_fixed(k, w ? w->o->size : 0);
-  if (w == NULL) return;
-  pl_keep_bytes(k, w->m, (size_t)w->o->size * w->fine->size);
-  pl_keep_f64s(k, w->o->size_most, (size_t)w->o->n);
-  pl_keep_f64(k, &w->o->fade_best);
-  pl_keep_f64(k, &w->part);
+  if (setup) return;
+  pl_keep_int(k, &at_work, 0, run->n_steppers - 1);
+  run->stepper = run->steppers[at_work];
 }
 
 static void keep_state(pl_run* run, pl_keeper* k) {
@@ -249,107 +201,13 @@ static void keep_state(pl_run* run, pl_keeper* k) {
   keep_rows(run, k);
   keep_attitudes(run, k);
   keep_stats(run, k);
-  keep_radau(run, k);
-  keep_extended(run, k);
-}
-
-// ---------------------------------------------------------------------------------- compiled steps
-static bool same_program(const pl_run* run, const pl_step_program* o, const bool* taken,
-                         const bool* moves) {
-  if (memcmp(o->taken, taken, (size_t)run->n_c * sizeof(bool)) != 0) return false;
-  for (int i = 0; i < run->n_q && o->of_coordinate; i++)
-    if ((o->of_coordinate[i] >= 0) != moves[i]) return false;
-  return true;
-}
-
-// Codes for a mode, as pl_step_program_make makes them where it begins; those that the start made already
-// are taken over.
-static pl_step_program* program_for(pl_run* run, pl_step_program* made, const bool* taken,
-                                    const bool* moves) {
-  for (pl_step_program* o = made; o; o = o->next)
-    if (same_program(run, o, taken, moves)) return o;
-  memcpy(run->taken, taken, (size_t)run->n_c * sizeof(bool));
-  for (int i = 0; i < run->n_q; i++) run->has_equation[i] = moves[i];
-  pl_step_program* o = pl_step_program_make(run);
-  return same_program(run, o, taken, moves) ? o : NULL;
-}
-
-static void keep_program(pl_run* run, pl_keeper* k, pl_step_program* o, bool here) {
-  keep_fixed(k, o->usable);
-  if (!o->usable) return;
-  keep_fixed(k, o->n);
-  keep_fixed(k, o->size);
-  pl_keep_f64s(k, o->size_most, (size_t)o->n);
-  pl_keep_f64(k, &o->fade_best);
-  if (here) pl_keep_bytes(k, o->m, (size_t)o->size * sizeof *o->m);
-}
-
-static int count_programs(const pl_run* run) {
-  int n = 0;
-  for (const pl_step_program* o = run->programs; o; o = o->next) n++;
-  return n;
-}
-
-static void write_programs(pl_run* run, pl_keeper* k) {
-  int n = count_programs(run);
-  pl_keep_count(k, &n, 1);
-  for (pl_step_program* o = run->programs; o; o = o->next) {
-    bool at_work = o == run->program, here = at_work && run->at_point;
-    pl_keep_bool(k, &at_work);
-    pl_keep_bool(k, &here);
-    pl_keep_bools(k, o->taken, (size_t)run->n_c);
-    for (int i = 0; i < run->n_q; i++) {
-      bool moves = o->of_coordinate && o->of_coordinate[i] >= 0;
-      pl_keep_bool(k, &moves);
-    }
-    keep_program(run, k, o, here);
-  }
-}
-
-static void read_programs(pl_run* run, pl_keeper* k) {
-  pl_step_program *made = run->programs, **last = &run->programs;
-  bool *taken = PL_ARRAY(run->job->arena, bool, run->n_c + 1),
-       *moves = PL_ARRAY(run->job->arena, bool, run->n_q + 1);
-  int n = 0;
-  pl_keep_count(k, &n, (size_t)run->n_c + (size_t)run->n_q + 2);
-  run->programs = run->program = NULL;
-  for (int i = 0; i < n; i++) {
-    bool at_work = false, here = false;
-    pl_keep_bool(k, &at_work);
-    pl_keep_bool(k, &here);
-    pl_keep_bools(k, taken, (size_t)run->n_c);
-    pl_keep_bools(k, moves, (size_t)run->n_q);
-    if (k->wrong) break;
-    pl_step_program* o = program_for(run, made, taken, moves);
-    if (o == NULL || (here && !o->usable)) {
-      pl_keep_fail(k);
-      break;
-    }
-    // one that was made at the start leaves that list
-    for (pl_step_program** at = &made; *at; at = &(*at)->next)
-      if (*at == o) {
-        *at = o->next;
-        break;
-      }
-    o->next = NULL;
-    *last = o;
-    last = &o->next;
-    keep_program(run, k, o, here);
-    if (at_work) run->program = o;
-  }
-  *last = made;  // so that they are freed with the others; a mode that comes later finds them
-}
-
-static void keep_programs(pl_run* run, pl_keeper* k) {
-  pl_keep_section(k, "programs");
-  if (k->reads) read_programs(run, k);
-  else write_programs(run, k);
+  keep_steppers(run, k, false);
 }
 
 // --------------------------------------------------------------------------------------- all of it
 void pl_run_save(pl_run* run, pl_keeper* k) {
   keep_dimensions(run, k);
-  keep_programs(run, k);
+  keep_steppers(run, k, true);
   pl_keep_section(k, "pivots");
   pl_kkt_keep(&run->kkt, k);
   keep_state(run, k);
@@ -363,10 +221,6 @@ static bool makes_sense(const pl_run* run) {
   bool inside = run->t >= fmin(from, to) && run->t <= fmax(from, to);
   if (!(run->tol > 0 && run->tol < 1)) return false;
   if (!inside || !run->started || run->ended || run->refused) return false;
-  if (run->at_point && !(run->extended && !run->extended->by_doubles)
-      && !(run->program && run->program->usable))
-    return false;
-  if (run->radau && !(run->radau->h >= 0 && isfinite(run->radau->h))) return false;
   return isfinite(run->t_low) && isfinite(pl_norm(run->q, run->n_q))
          && isfinite(pl_norm(run->v, run->n_q));
 }
@@ -384,8 +238,8 @@ static bool enter_again(pl_run* run) {
     if (!pl_point_factor(run, true)) return false;
     run->factored = true;
   }
-  return pl_point_enter(run) && run->at_point == at_point && memcmp(run->save_a, run->A, q) == 0
-         && memcmp(run->save_l, run->L, c) == 0
+  return run->stepper->enter(run) && run->at_point == at_point
+         && memcmp(run->save_a, run->A, q) == 0 && memcmp(run->save_l, run->L, c) == 0
          && memcmp(run->on_before, run->taken, (size_t)run->n_c * sizeof(bool)) == 0;
 }
 
@@ -396,7 +250,7 @@ static pleuel_status unreadable(pl_run* run) {
 pleuel_status pl_run_load(pl_run* run, pl_keeper* k, const pl_sink* sink) {
   keep_dimensions(run, k);
   if (k->wrong) return unreadable(run);
-  keep_programs(run, k);
+  keep_steppers(run, k, true);
   pl_keep_section(k, "pivots");
   pl_kkt_keep(&run->kkt, k);
   size_t at = k->next;

@@ -1,5 +1,5 @@
 // Rows and events on their way to the sink; observers; energy.
-#include "solve/stepper/taylor/extended_impl.h"
+#include "solve/stepper/stepper.h"
 
 #include <math.h>
 #include <string.h>
@@ -55,7 +55,8 @@ void pl_output_mode(const pl_run* run, char* out) {
 
 // -------------------------------------------------------------------------------------------- rows
 pl_row pl_output_row(pl_run* run, pl_row_kind kind, double* out, char* mode) {
-  if (!run->extended) pl_output_observe(run, run->t, run->q, run->v, run->A, run->L, out);
+  bool digits = run->stepper->row != NULL;
+  if (!digits) pl_output_observe(run, run->t, run->q, run->v, run->A, run->L, out);
   pl_output_mode(run, mode);
   pl_row row = {.t = run->t,
                 .q = run->q,
@@ -67,7 +68,7 @@ pl_row pl_output_row(pl_run* run, pl_row_kind kind, double* out, char* mode) {
                 .mode = mode,
                 .kind = kind};
   pl_attitude_show(run, &row);
-  if (run->extended) pl_extended_row(run, &row, out);
+  if (digits) run->stepper->row(run, &row, out);
   return row;
 }
 
@@ -122,7 +123,8 @@ pleuel_status pl_output_point(pl_run* run, pl_row_kind kind) {
 
 // A row between the ends of a step: at grid time n, or without a grid where n is -1.
 static pleuel_status row_between(pl_run* run, double t, long n) {
-  if (!run->extended) {
+  bool digits = run->stepper->row_between != NULL;
+  if (!digits) {
     pl_attitude_follow(run, t);
     pl_series_at(run, t - run->t_series, run->row_q, run->row_v);
     pl_series_lambda_at(run, t - run->t_series, run->row_a, run->row_l);
@@ -139,8 +141,7 @@ static pleuel_status row_between(pl_run* run, double t, long n) {
                 .mode = run->mode,
                 .kind = PL_ROW_STEP};
   pl_attitude_show(run, &row);
-  if (run->extended && n >= 0) pl_extended_grid_row(run, n, &row, run->out_now);
-  else if (run->extended) pl_extended_row_at(run, t, &row, run->out_now);
+  if (digits) run->stepper->row_between(run, t, n, &row, run->out_now);
   return send(run, &row);
 }
 
@@ -247,30 +248,44 @@ double pl_output_conserved(const pl_run* run, const double* out) {
   return s->energy > 0 ? out[s->energy] : out[s->kinetic] + out[s->potential];
 }
 
+static double energy_of(pl_run* run, const double* q, const double* v) {
+  pl_output_observe(run, run->t, q, v, run->A, run->L, run->energy_out);
+  return pl_output_conserved(run, run->energy_out);
+}
+
+static pl_energy energy_by_observers(pl_run* run) {
+  pl_output_observe(run, run->t, run->q, run->v, run->A, run->L, run->energy_out);
+  pl_energy e = {.kinetic = run->energy_out[run->setup->kinetic],
+                 .potential = run->energy_out[run->setup->potential],
+                 .total = pl_output_conserved(run, run->energy_out)};
+  e.change = e.total - run->energy_base;
+  return e;
+}
+
 void pl_output_energy(pl_run* run, bool anew) {
   const pl_setup* s = run->setup;
+  const pl_stepper* m = run->stepper;
+  pl_energy e;
   if (s->kinetic < 0 || s->potential < 0) return;
-  double T, V, E;
-  if (run->extended) {
-    pl_extended_energy(run, anew);
-    return;
-  }
-  if (!pl_step_program_energy(run, &T, &V, &E)) {
-    pl_output_observe(run, run->t, run->q, run->v, run->A, run->L, run->energy_out);
-    T = run->energy_out[s->kinetic];
-    V = run->energy_out[s->potential];
-    E = pl_output_conserved(run, run->energy_out);
-  }
-  run->energy_size = pl_larger(run->energy_size, fabs(T) + fabs(V));
+  if (m->energy == NULL || !m->energy(run, anew, &e)) e = energy_by_observers(run);
+  run->energy_size = pl_larger(run->energy_size, fabs(e.kinetic) + fabs(e.potential));
   if (anew) {
-    // an impact or a action has changed it: drift is counted from here
-    run->energy_base = E;
+    // an impact or an action has changed it: drift is counted from here
+    run->energy_base = e.total;
     if (isnan(run->stats.energy_drift)) {
-      run->stats.energy_0 = E;
+      run->stats.energy_0 = e.total;
       run->stats.energy_drift = 0;
     }
     return;
   }
-  double drift = run->energy_size > 0 ? fabs(E - run->energy_base) / run->energy_size : 0;
+  double drift = run->energy_size > 0 ? fabs(e.change) / run->energy_size : 0;
   if (!(drift <= run->stats.energy_drift)) run->stats.energy_drift = drift;
 }
+
+const pl_observer pl_output_observer = {.before = pl_output_before,
+                                        .point = pl_output_point,
+                                        .event = pl_output_event,
+                                        .beside = pl_output_event_beside,
+                                        .settled = pl_output_settled,
+                                        .energy = pl_output_energy,
+                                        .energy_of = energy_of};

@@ -1,17 +1,10 @@
 // A run's workspace, from the dimensions of its setup.  After this nothing is allocated.
 #include "solve/solve_impl.h"
-#include "solve/stepper/taylor/extended_impl.h"
+#include "solve/stepper/stepper.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
-
-enum { MIN_ORDER = 6, MAX_ORDER = 24 };
-
-// The tolerance below which rounding, not truncation, decides. In long, what is cut off is to stay
-// far below the rounding of the state, since it has a direction and that has none.
-static const double least_tol[] = {
-    [PL_PRECISION_DOUBLE] = 2.3e-16, [PL_PRECISION_LONG] = 1e-23, [PL_PRECISION_QUAD] = 1e-34};
 
 // ------------------------------------------------------------------------------------------ checks
 static pleuel_status check_constraints(pl_job* job, const pl_setup* s) {
@@ -91,59 +84,14 @@ static pleuel_status check_options(pl_job* job, const pl_run_options* o) {
 }
 
 // ----------------------------------------------------------------------------------------- options
-// Jorba and Zou: terms of a series fall best like e^-2 from one to the next.
-static int plain_order(double tol) {
-  int p = (int)ceil(-0.5 * log(tol) + 1);
-  return p < MIN_ORDER ? MIN_ORDER : p > MAX_ORDER ? MAX_ORDER : p;
-}
-
-// Nodes of the equations, of all instances together.
-static double nodes_of(const pl_setup* s) {
-  double nodes = 0;
-  for (int i = 0; i < s->n_patterns; i++)
-    nodes += (double)s->patterns[i].n * s->patterns[i].tape->n_nodes;
-  return nodes;
-}
-
-// That is the best order when the work of a step grows with the square of the order. But much of it
-// is done once a step: evaluating the point, the factor, two projections cost as much as eight
-// orders, in the smallest systems as twenty. Then a higher order with a step of tol^(1/(p-1)) radii
-// gets farther for its price. In small systems products of series are cheap beside everything else;
-// in large ones they are all that is there, and memory is the limit.
-static int cheapest_order(double tol, double nodes, int largest) {
-  // in units of the work of an order
-  const double fixed = 8 + 400 / (17 + nodes), square = 0.1 * nodes / (nodes + 100);
-  int best = plain_order(tol);
-  double least = (double)INFINITY;
-  for (int p = best; p <= largest; p++) {
-    double price = (fixed + p + square * p * p) * pow(tol, -1.0 / (p - 1));
-    if (price < least) {
-      best = p;
-      least = price;
-    }
-  }
-  return best;
-}
-
-// Twenty where rounding decides; more pays in small systems whose tolerance is given.
-static void choose_order(pl_run* run) {
-  enum { LARGEST = 20, LARGEST_SMALL = 25 };
-  if (run->options.precision != PL_PRECISION_DOUBLE) {
-    pl_extended_order(run);
-    return;
-  }
-  bool small = run->n_q + run->n_c <= PL_DENSE_UP_TO && run->options.tol > 0 && !run->tol_raised;
-  run->order = cheapest_order(run->tol, nodes_of(run->setup), small ? LARGEST_SMALL : LARGEST);
-  run->shrink = run->order == plain_order(run->tol) ? -2 : log(0.1 * run->tol) / (run->order - 1);
-}
-
 static void set_options(pl_run* run, const pl_run_options* o) {
   double length = fabs(o->t_end - o->t_0);
   run->options = *o;
-  run->tol = fmax(o->tol, least_tol[o->precision]);
-  if (o->method == PL_METHOD_RADAU) run->tol = pl_radau_tol(o->tol);
+  pl_steppers_choose(run);
+  run->tol = run->stepper->tolerance(o);
   run->tol_raised = o->tol > 0 && o->tol < run->tol;
-  choose_order(run);
+  for (int i = 0; i < run->n_steppers; i++)
+    if (run->steppers[i]->plan) run->steppers[i]->plan(run);
   run->stats.precision = o->precision;
   run->stats.order = run->use = run->use_last = run->order;
   run->grid_count = o->count;
@@ -290,13 +238,10 @@ static void first_mode(pl_run* run) {
   }
 }
 
-static void make_implicit(pl_run* run) {
-  pl_method method = run->options.method;
-  double tol = run->options.tol;
-  bool chosen = method == PL_METHOD_RADAU;
-  if (method == PL_METHOD_TAYLOR) return;
-  pl_radau_make(run, tol > 0 || chosen ? pl_radau_tol(tol) : 1e-12);
-  run->implicit = chosen;
+static pleuel_status open_steppers(pl_run* run) {
+  for (int i = 0; i < run->n_steppers; i++)
+    if (run->steppers[i]->open) PL_TRY(run->steppers[i]->open(run));
+  return PLEUEL_OK;
 }
 
 pleuel_status pl_run_make(pl_job* job, const pl_setup* setup, const pl_run_options* options,
@@ -316,23 +261,22 @@ pleuel_status pl_run_make(pl_job* job, const pl_setup* setup, const pl_run_optio
   PL_TRY(reserve_batches(run));
   PL_TRY(check_rows(run));
   PL_TRY(pl_kkt_make(run));
-  make_implicit(run);
+  run->observer = &pl_output_observer;
   pl_friction_make(run);
   pl_indeterminate_make(run);
   pl_watch_make(run);
   pl_switching_make(run);
   first_mode(run);
-  pleuel_status extended = options->precision != PL_PRECISION_DOUBLE ? pl_extended_check(run)
-                                                                     : PLEUEL_OK;
-  if (extended == PLEUEL_OK) *out = run;
+  pleuel_status how = open_steppers(run);
+  if (how == PLEUEL_OK) *out = run;
   else pl_run_free(run);
-  return extended;
+  return how;
 }
 
 void pl_run_free(pl_run* run) {
   if (run == NULL) return;
   pl_kkt_free(&run->kkt);
-  pl_radau_free(run->radau);
+  for (int i = 0; i < run->n_steppers; i++)
+    if (run->steppers[i]->close) run->steppers[i]->close(run);
   pl_sensitivity_free(run->sensitivity);
-  pl_step_program_free(run);
 }

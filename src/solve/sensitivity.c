@@ -17,7 +17,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "solve/solve_impl.h"
+#include "solve/stepper/stepper.h"
 
 typedef struct report {
   pl_event_record e;  // without its rows
@@ -477,7 +477,8 @@ static pleuel_status jump(pl_sensitivity* p) {
   take_mode(p);
   f->factored = false;
   PL_TRY(pl_modes_enter(f));
-  if (f->radau) pl_radau_changed(f, true);
+  for (int i = 0; i < f->n_steppers; i++)
+    if (f->steppers[i]->changed) f->steppers[i]->changed(f, true);
   return PLEUEL_OK;
 }
 
@@ -514,7 +515,7 @@ static pleuel_status arrive(pl_sensitivity* p) {
   if (p->n_reports == 0) return PLEUEL_OK;
   bool changes = has_changed(p);
   // programs at the point by the general way, with their slopes along the motion
-  pl_point_general(f);
+  if (f->stepper->to_patterns) f->stepper->to_patterns(f);
   f->factored = false;
   if (changes && !pl_point_enter(f)) return pl_run_undetermined(f);
   if (changes) PL_TRY(pl_output_point(f, PL_ROW_BEFORE));

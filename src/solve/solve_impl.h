@@ -148,6 +148,8 @@ typedef struct pl_attitude_state {
   double rate[2];   // of (φ + ψ)/2 and (φ - ψ)/2, where they were determined last
 } pl_attitude_state;
 
+typedef struct pl_stepper pl_stepper;    // stepper/stepper.h
+typedef struct pl_observer pl_observer;  // below
 typedef struct pl_indeterminate pl_indeterminate;
 typedef struct pl_sensitivity pl_sensitivity;
 // where a run stops before its end
@@ -266,8 +268,11 @@ struct pl_run {
   bool* impact_taken;
   double* impact_factor;
 
-  struct pl_radau* radau;  // the implicit method, NULL without it
-  bool implicit;           // it is at work
+  const pl_stepper* stepper;      // at work
+  const pl_stepper* steppers[2];  // that the run has
+  int n_steppers;
+  const pl_observer* observer;  // where events report
+  struct pl_radau* radau;       // the implicit method, NULL without it
 
   // watching
   pl_watch* watch;
@@ -425,51 +430,27 @@ void pl_sizes_forget(pl_run* run);  // back to what was kept: a step was rejecte
 void pl_active_set_unique(pl_run* run);
 void pl_active_set_update(pl_run* run);  // active from on; orphans rest
 
-// ---- step_program_make.c, step_program_run.c: the step program
-pl_step_program* pl_step_program_make(pl_run* run);  // not usable when it does not fit
-// the step program for the constraints that are taken, compiled if it pays
-void pl_step_program_update(pl_run* run);
-bool pl_step_program_is_compiled(const pl_run* run);
-void pl_step_program_free(pl_run* run);
-// false: not this way
-bool pl_step_program_project(pl_run* run, double t, double* q, double* v, pl_projection* p);
-bool pl_step_program_enter(pl_run* run);
-void pl_step_program_expand(pl_run* run);
-void pl_step_program_norms(pl_run* run, const double** q, const double** v);  // of pl_block_rows
-void pl_step_program_advance(pl_run* run, double dt, double* q, double* v);
-// Order 0 after pl_step_program_project; how large its accelerations are, and what those of the series
-// were off by after pl_step_program_advance.
-void pl_step_program_arrive(pl_run* run, double* off, double* size);
-// accelerations of the series after pl_step_program_advance
-void pl_step_program_end_a(const pl_run* run, double* a);
-// T, V and what is conserved, at the point; false: not this way.
-bool pl_step_program_energy(pl_run* run, double* kinetic, double* potential, double* all);
-
 // ---- least_change.c The least change of what is not held that takes the residuals away, for the
 // rows at hand; false: there is none.
 bool pl_least_change(const pl_run* run, const bool* held, const double* residual,
                      const double* size, bool positions, double* basis, double* change);
 
-// ---- taylor_series.c
+// ---- point.c
 // levels POSITION and VELOCITY at order 0
 void pl_point_evaluate(pl_run* run, double t, const double* q, const double* v);
 bool pl_point_factor(pl_run* run, bool with_W);  // choose, assemble, factor
-bool pl_point_enter(pl_run* run);                // all of order 0 at run->t, q, v
-// jets and factor as pl_point_factor leaves them, after a step by programs
-void pl_point_general(pl_run* run);
-void pl_series_expand(pl_run* run);
-double pl_series_step(pl_run* run);  // Jorba and Zou
-enum { PL_BLOCK_ROWS = 6 };
-// coefficients whose norms tell the radius: 0, 1, 2, 3, last - 1, last
-void pl_block_rows(int last, int row[PL_BLOCK_ROWS]);
+// Order k of the series at the point, after those below.
+void pl_point_order(pl_run* run, int k);
+// Order 0 by the patterns, into the series at work; at run->t, q, v.
+bool pl_point_enter_at(pl_run* run, double t, const double* q, const double* v);
+bool pl_point_enter(pl_run* run);
 void pl_horner(const double* X, int n, int last, double dt, double* x);  // sum of X_k dt^k
 void pl_series_at(const pl_run* run, double dt, double* q, double* v);
+void pl_series_lambda_at(const pl_run* run, double dt, double* a, double* lambda);
 // the series at work and that of the step before
 void pl_series_swap(pl_run* run);
-// Order 0 of the point in trial_q, trial_v, after its projection; how large its accelerations are,
-// and what those of the series are off by.
-bool pl_point_arrive(pl_run* run, double h, double* off, double* size);
-void pl_series_lambda_at(const pl_run* run, double dt, double* a, double* lambda);
+
+double pl_run_left(const pl_run* run);  // to the end, or to where it stops before
 
 // ---- project.c
 pl_projection pl_project(pl_run* run, double t, double* q, double* v);
@@ -553,18 +534,6 @@ pleuel_status pl_modes_handle(pl_run* run);                // what hit[] says, a
 void pl_modes_size_rest(pl_run* run);
 void pl_output_mode(const pl_run* run, char* out);
 
-// ---- radau_step.c: the implicit method
-typedef struct pl_radau pl_radau;
-double pl_radau_tol(double asked);  // the tolerance that it works to
-void pl_radau_make(pl_run* run, double tol);
-void pl_radau_free(pl_radau* r);
-// of what is watched on the step, in units of it
-int pl_radau_polynomial(const pl_run* run, int watch, double* c);
-// the mode is another one; jumped: so are velocities or forces
-void pl_radau_changed(pl_run* run, bool jumped);
-pleuel_status pl_radau_step(pl_run* run, double* h, double* root, pl_projection* p);
-pleuel_status pl_stiff_look(pl_run* run);  // whether to use it; stiff_detect.c
-
 // ---- sensitivity.c: derivatives through contacts and events
 void pl_sensitivity_free(pl_sensitivity* p);
 const char* pl_sensitivity_mode(const pl_sensitivity* p);
@@ -575,7 +544,6 @@ void pl_sensitivity_write(pl_sensitivity* p, pl_keeper* k);  // for checkpoint.c
 pleuel_status pl_sensitivity_read(pl_sensitivity* p, pl_keeper* k);
 
 // ---- run.c
-double pl_run_left(const pl_run* run);                 // to the end, or to where it stops before
 pleuel_status pl_run_begin_at(pl_run* run, double t);  // from run->q, v
 
 // ---- singular.c
@@ -586,11 +554,16 @@ pleuel_status pl_run_singular(pl_run* run);  // fails with the place
 pleuel_status pl_run_left_open(pl_run* run);
 // fails with the reason why there are no accelerations
 pleuel_status pl_run_undetermined(pl_run* run);
+// fails with the reason why no step is short enough; h was tried
+pleuel_status pl_run_too_small(pl_run* run, double h);
 bool pl_singular_leap(pl_run* run, double left, double* length, pl_projection* p);
 pleuel_status pl_singular_record(pl_run* run);
 
 // ---- attitude.c: angles of bodies that are integrated as quaternions
 void pl_attitude_make(pl_run* run);
+// Angles and their rates in q, v become quaternions in q_run, v_run.
+void pl_attitude_start(pl_run* run, double t, const double* q, const double* v, double* q_run,
+                       double* v_run);
 void pl_attitude_follow(pl_run* run, double t);  // along the series at work
 // as observers need them
 void pl_attitude_seen(pl_run* run, double t, const double** q, const double** v, const double** a);
@@ -598,7 +571,27 @@ void pl_attitude_show(pl_run* run, pl_row* row);  // coordinates as they were de
 // fails when the step to trial_q passes a pole
 pleuel_status pl_attitude_poles(pl_run* run, double h);
 
+// What events report to, without knowing who listens: rows, energies, records.
+struct pl_observer {
+  // Remembers the point before the motion changes.
+  void (*before)(pl_run* run);
+  // The point as a row.
+  pleuel_status (*point)(pl_run* run, pl_row_kind kind);
+  // Something happened at the point.
+  pleuel_status (*event)(pl_run* run, pl_event_kind kind, int index, double impulse, bool at_start);
+  // Something happened at time t, whose state, in row_q and row_v, is not that of the point.
+  pleuel_status (*beside)(pl_run* run, pl_event_record e, double t, const double* a,
+                          const double* lambda);
+  // A contact after endless bounces, dt after the point.
+  pleuel_status (*settled)(pl_run* run, pl_event_kind kind, int index, double dt, long bounces);
+  // Energy at the point; anew: its drift counts from here.
+  void (*energy)(pl_run* run, bool anew);
+  // The energy of a state with the accelerations and multipliers of the point.
+  double (*energy_of)(pl_run* run, const double* q, const double* v);
+};
+
 // ---- output.c
+extern const pl_observer pl_output_observer;
 pleuel_status pl_output_open(pl_run* run);  // begin of the sink
 pleuel_status pl_output_begin(pl_run* run);
 pleuel_status pl_output_point(pl_run* run, pl_row_kind kind);  // the point itself

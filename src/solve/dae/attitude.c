@@ -267,8 +267,8 @@ void pl_attitude_make(pl_run* run) {
   }
 }
 
-pleuel_status pl_run_start_from_angles(pl_run* run, double t, const double* q, const double* v) {
-  double *q_run = run->row_q, *v_run = run->row_v;
+void pl_attitude_start(pl_run* run, double t, const double* q, const double* v, double* q_run,
+                       double* v_run) {
   memcpy(q_run, q, (size_t)run->n_q * sizeof(double));
   memcpy(v_run, v, (size_t)run->n_q * sizeof(double));
   for (int i = 0; i < run->setup->n_attitudes; i++) {
@@ -282,5 +282,4 @@ pleuel_status pl_run_start_from_angles(pl_run* run, double t, const double* q, c
     run->attitude[i] = (pl_attitude_state){
         t, {angle[0], angle[1], angle[2]}, {(rate[0] + rate[2]) / 2, (rate[0] - rate[2]) / 2}};
   }
-  return pl_run_start_at(run, t, q_run, v_run);
 }

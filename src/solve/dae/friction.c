@@ -72,16 +72,6 @@ void pl_friction_keep_directions(pl_run* run) {
 }
 
 // ---------------------------------------------------------------------------- in the linear system
-pl_friction_report pl_run_friction(const pl_run* run, int friction) {
-  const pl_friction_state* now = &run->friction[friction];
-  static const pl_friction_mode mode[] = {[PL_FRICTION_OFF] = PL_FRICTION_NONE,
-                                          [PL_FRICTION_STICK] = PL_FRICTION_STICKS,
-                                          [PL_FRICTION_SLIP] = PL_FRICTION_SLIPS};
-  return (pl_friction_report){
-      pl_friction_is_used(run, friction) ? mode[now->state] : PL_FRICTION_NONE, now->way,
-      now->press};
-}
-
 double pl_friction_kappa(const pl_run* run, int r, int i, const double* C) {
   const pl_friction_setup* friction = &run->setup->frictions[r];
   const pl_friction_state* now = &run->friction[r];

@@ -1,7 +1,5 @@
-// A start of which part is given and exact, and the rest enters the constraints linearly: as the
-// derivatives of a start that is known. What is not held moves by the least that meets the
-// constraints, positions first, then velocities. Where what is held does not allow that, everything
-// is left to the projection in the mass metric that begins a run.
+// The least change of positions or velocities that meets linear constraints: rows of G are made
+// orthogonal one by one, what is held stays.
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -48,46 +46,4 @@ bool pl_least_change(const pl_run* run, const bool* held, const double* residual
     rank++;
   }
   return true;
-}
-
-static bool complete_positions(pl_run* run, double t, const bool* held, double* basis,
-                               double* change) {
-  pl_point_evaluate(run, t, run->q, run->v);
-  pl_assemble_g(run, 0, run->g, run->g_size);
-  pl_assemble_rows(run);
-  if (!pl_least_change(run, held, run->g, run->g_size, true, basis, change)) return false;
-  for (int i = 0; i < run->n_q; i++) run->q[i] += change[i];
-  return true;
-}
-
-static bool complete_velocities(pl_run* run, double t, const bool* held, double* basis,
-                                double* change) {
-  pl_point_evaluate(run, t, run->q, run->v);
-  pl_assemble_g(run, 0, run->g, run->g_size);
-  pl_assemble_gdot(run, run->r, run->r_size);
-  pl_assemble_rows(run);
-  if (!pl_least_change(run, held, run->r, run->r_size, false, basis, change)) return false;
-  for (int i = 0; i < run->n_q; i++) run->v[i] += change[i];
-  return true;
-}
-
-pleuel_status pl_run_start_partly(pl_run* run, double t, const double* q, const double* v,
-                                  const bool* held_q, const bool* held_v) {
-  size_t n = (size_t)run->n_q;
-  if (run->rows == NULL) return pl_run_start_at(run, t, q, v);
-  pl_arena* a = run->job->arena;
-  double *q_kept = PL_ARRAY(a, double, n + 1), *v_kept = PL_ARRAY(a, double, n + 1);
-  pl_mark mark = pl_arena_mark(a);
-  double *basis = PL_ARRAY(a, double, n*(size_t)(run->n_c + 1)),
-         *change = PL_ARRAY(a, double, n + 1);
-  memcpy(run->q, q, n * sizeof(double));
-  memcpy(run->v, v, n * sizeof(double));
-  pl_active_set_update(run);
-  pl_sizes_note(run, q, v);
-  if (!complete_positions(run, t, held_q, basis, change)) memcpy(run->q, q, n * sizeof(double));
-  if (!complete_velocities(run, t, held_v, basis, change)) memcpy(run->v, v, n * sizeof(double));
-  memcpy(q_kept, run->q, n * sizeof(double));
-  memcpy(v_kept, run->v, n * sizeof(double));
-  pl_arena_rewind(a, mark);  // before the start, which makes programs that stay
-  return pl_run_start_at(run, t, q_kept, v_kept);
 }

@@ -5,7 +5,7 @@
 // impact, if something arrives, then the mode of the motion that follows. Bounces that follow each
 // other ever faster end at the limit of their geometric sum: when one is so small that what it does
 // is below rounding, the rest of them is summed and the contact holds.
-#include "solve/solve_impl.h"
+#include "solve/stepper/stepper.h"
 
 #include <float.h>
 #include <math.h>
@@ -43,7 +43,7 @@ static pleuel_status count_change(pl_run* run) {
 
 // -------------------------------------------------------------------------------- before and after
 static void remember(pl_run* run) {
-  pl_output_before(run);
+  run->observer->before(run);
   memcpy(run->on_before, run->on, (size_t)run->n_c * sizeof(bool));
   for (int r = 0; r < run->setup->n_frictions; r++) run->friction_before[r] = run->friction[r];
 }
@@ -124,9 +124,9 @@ static void renew_watches(pl_run* run) {
 // of the fastest arrival: its flight is then that part of the first one's
 static const double tiny_bounce = 1e-8;
 
-// The implicit method knows velocities to its tolerance only.
+// Some steppers know velocities to their tolerance only.
 static double tiny(const pl_run* run) {
-  return run->implicit ? fmax(tiny_bounce, 10 * run->tol) : tiny_bounce;
+  return run->stepper->to_rounding ? tiny_bounce : fmax(tiny_bounce, 10 * run->tol);
 }
 
 // Time until the last of endless bounces, counted from now; NaN when they do not come to an end
@@ -263,7 +263,8 @@ static pleuel_status follow(pl_run* run) {
   pl_indeterminate_mark(run);
   size_velocities(run);
   clear_fixed(run);
-  if (run->radau) pl_radau_changed(run, is_shaken(run));
+  for (int i = 0; i < run->n_steppers; i++)
+    if (run->steppers[i]->changed) run->steppers[i]->changed(run, is_shaken(run));
   return PLEUEL_OK;
 }
 
@@ -281,7 +282,7 @@ static pleuel_status report_settled(pl_run* run, int c) {
   long bounces = run->bounces[c];
   run->settled_t[c] = (double)NAN;
   run->bounces[c] = 0;
-  return pl_output_settled(run, closed(&run->setup->constraints[c], false), c, dt, bounces);
+  return run->observer->settled(run, closed(&run->setup->constraints[c], false), c, dt, bounces);
 }
 
 static pleuel_status report_contact(pl_run* run, int c, bool grazed, bool at_start) {
@@ -289,12 +290,12 @@ static pleuel_status report_contact(pl_run* run, int c, bool grazed, bool at_sta
   if (isfinite(run->settled_t[c]) && run->on[c]) return report_settled(run, c);
   run->settled_t[c] = (double)NAN;
   if (run->jumped[c])
-    return pl_output_event(run, closed(constraint, true), c, run->impulse[c], at_start);
+    return run->observer->event(run, closed(constraint, true), c, run->impulse[c], at_start);
   if (run->on[c] && !run->on_before[c])
-    return pl_output_event(run, closed(constraint, false), c, 0, at_start);
+    return run->observer->event(run, closed(constraint, false), c, 0, at_start);
   if (run->on_before[c] && !run->on[c] && !run->detached[c])
-    return pl_output_event(run, opened(constraint), c, 0, at_start);
-  return grazed ? pl_output_event(run, closed(constraint, false), c, 0, at_start) : PLEUEL_OK;
+    return run->observer->event(run, opened(constraint), c, 0, at_start);
+  return grazed ? run->observer->event(run, closed(constraint, false), c, 0, at_start) : PLEUEL_OK;
 }
 
 static pleuel_status report_friction(pl_run* run, int r) {
@@ -302,11 +303,11 @@ static pleuel_status report_friction(pl_run* run, int r) {
   int c = run->setup->frictions[r].constraint;
   if (before->state == PL_FRICTION_OFF || now->state == PL_FRICTION_OFF) return PLEUEL_OK;
   if (now->state == PL_FRICTION_STICK)
-    return before->state == PL_FRICTION_SLIP ? pl_output_event(run, PL_EV_STICK, c, 0, false)
+    return before->state == PL_FRICTION_SLIP ? run->observer->event(run, PL_EV_STICK, c, 0, false)
                                              : PLEUEL_OK;
   bool turned = run->setup->frictions[r].n_rows == 1 && now->way != before->way;
   if (before->state == PL_FRICTION_SLIP && !turned) return PLEUEL_OK;
-  return pl_output_event(run, PL_EV_SLIP, c, 0, false);
+  return run->observer->event(run, PL_EV_SLIP, c, 0, false);
 }
 
 static bool is_grazed(const pl_run* run, int c) {
@@ -427,7 +428,7 @@ static pleuel_status happen(pl_run* run, int e, bool touches) {
   pl_watch* w = pl_watch_of(run, PL_WATCH_EVENT, e);
   w->fresh = touches ? 2 : 1;
   if (!touches) w->side = -w->side;
-  PL_TRY(pl_output_event(run, stops ? PL_EV_STOP : PL_EV_EVENT, e, 0, false));
+  PL_TRY(run->observer->event(run, stops ? PL_EV_STOP : PL_EV_EVENT, e, 0, false));
   if (changes) PL_TRY(count_repeats(run, e));
   return changes ? report_changes(run, false) : PLEUEL_OK;
 }
@@ -500,7 +501,7 @@ static void fix_choices(pl_run* run, int i) {
 
 pleuel_status pl_modes_handle(pl_run* run) {
   bool changes = changes_motion(run), contacts = false;
-  if (changes) PL_TRY(pl_output_point(run, PL_ROW_BEFORE));
+  if (changes) PL_TRY(run->observer->point(run, PL_ROW_BEFORE));
   clear_fixed(run);
   for (int i = 0; i < run->n_watch; i++) {
     if (!run->hit[i] || run->watch[i].kind == PL_WATCH_EVENT) continue;
@@ -518,6 +519,6 @@ pleuel_status pl_modes_handle(pl_run* run) {
     PL_TRY(count_change(run));
     PL_TRY(happen(run, run->watch[i].index, run->touch[i]));
   }
-  pl_output_energy(run, true);
-  return pl_output_point(run, PL_ROW_AFTER);
+  run->observer->energy(run, true);
+  return run->observer->point(run, PL_ROW_AFTER);
 }

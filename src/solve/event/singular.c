@@ -89,7 +89,7 @@ static bool has_numbers(pl_run* run) {
 pleuel_status pl_run_undetermined(pl_run* run) {
   char where[320];
   place_in_words(run, 0, where, sizeof where);
-  if (run->extended) {
+  if (run->started && run->options.precision != PL_PRECISION_DOUBLE) {
     pl_point_evaluate(run, run->t, run->q, run->v);
     pl_assemble_matrix(run, false);
   }
@@ -140,9 +140,9 @@ pleuel_status pl_run_singular(pl_run* run) {
   char where[320];
   place_in_words(run, reach, where, sizeof where);
   run->stats.t_singular = run->t + reach;
-  pl_output_before(run);
-  if (run->started) PL_TRY(pl_output_event(run, PL_EV_SINGULAR, -1, 0, false));
-  if (run->extended)
+  run->observer->before(run);
+  if (run->started) PL_TRY(run->observer->event(run, PL_EV_SINGULAR, -1, 0, false));
+  if (run->started && run->options.precision != PL_PRECISION_DOUBLE)
     return pl_fail(run->job, PLEUEL_SINGULAR,
                    "singular position at t = %.9g s (%s): the constraints lose rank there; "
                    "precision double leaps over it where the motion goes on smoothly",
@@ -151,6 +151,30 @@ pleuel_status pl_run_singular(pl_run* run) {
                  "singular position at t = %.9g s (%s): the constraints lose rank and do not tell "
                  "how the motion goes on",
                  run->stats.t_singular, where);
+}
+
+pleuel_status pl_run_too_small(pl_run* run, double h) {
+  if (run->best > 0 && run->smallest_here < 1e-2 * run->best) return pl_run_singular(run);
+  if (run->n_slipping > 0)
+    return pl_fail(run->job, PLEUEL_NUMERICAL,
+                   "no step is short enough at t = %.9g s (%.3g s tried): forces of contact grow "
+                   "without bound while surfaces "
+                   "slip, as on the way into Painlevé's paradox",
+                   run->t, h);
+  double way = pl_norm(run->q, run->n_q), speed = pl_norm(run->v, run->n_q),
+         most = pl_norm(run->A, run->n_q);
+  // x = c/(t_0 - t)^n: what is left of the time is n x/v, and less than n v/a
+  if (speed * run->h_series > 0.02 * way && most * run->h_series > 0.02 * speed
+      && speed > 1e6 * fabs(way) / fabs(run->t - run->options.t_0))
+    return pl_fail(
+        run->job, PLEUEL_NUMERICAL,
+        "the motion runs away: positions and velocities grow without bound as t comes to %.9g s",
+        run->t);
+  return pl_fail(run->job, PLEUEL_NUMERICAL,
+                 "no step is short enough at t = %.9g s (%.3g s tried): the motion leaves the "
+                 "domain of a function, "
+                 "or a force or the constraints jump there",
+                 run->t, h);
 }
 
 // --------------------------------------------------------------------------------- leaping over it
@@ -208,8 +232,7 @@ static double find_place(pl_run* run, double guess) {
 static bool energy_agrees(pl_run* run) {
   const pl_setup* s = run->setup;
   if (!s->energy_conserved || s->kinetic < 0 || s->potential < 0) return true;
-  pl_output_observe(run, run->t, run->trial_q, run->trial_v, run->A, run->L, run->energy_out);
-  double E = pl_output_conserved(run, run->energy_out);
+  double E = run->observer->energy_of(run, run->trial_q, run->trial_v);
   return fabs(E - run->energy_base)
          <= run->stats.energy_drift * run->energy_size + 1e-10 * run->energy_size;
 }
@@ -251,5 +274,5 @@ pleuel_status pl_singular_record(pl_run* run) {
   pl_series_at(run, reach, run->row_q, run->row_v);
   pl_series_lambda_at(run, reach, run->row_a, run->row_l);
   pl_event_record e = {.kind = PL_EV_SINGULAR, .index = -1};
-  return pl_output_event_beside(run, e, run->stats.t_singular, run->row_a, run->row_l);
+  return run->observer->beside(run, e, run->stats.t_singular, run->row_a, run->row_l);
 }

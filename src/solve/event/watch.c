@@ -8,7 +8,7 @@
 // one. A sign that differs at the start of a step from that at the end of the one before is a root
 // that fell between them.
 // See theory (15.1).
-#include "solve/solve_impl.h"
+#include "solve/stepper/stepper.h"
 
 #include <float.h>
 #include <math.h>
@@ -134,7 +134,7 @@ static int polynomial(const pl_run* run, const pl_watch* w, double h, double* c)
   size_t stride;
   double factor = 1, power = 1;
   int n = run->use;
-  if (run->implicit) return pl_radau_polynomial(run, (int)(w - run->watch), c);
+  if (run->stepper->polynomial) return run->stepper->polynomial(run, (int)(w - run->watch), c);
   if (is_of_friction(w)) {
     n = pl_friction_slip(run, w->index, w->kind, c, run->use + 1);
     for (int k = 0; k < n; k++, power *= h) c[k] *= power;
@@ -206,8 +206,8 @@ static double first_that_counts(pl_run* run, const pl_watch* w, double h, const 
                      || (w->kind == PL_WATCH_EVENT && pl_event_sets(run, w->index)));
   double zero = bounced ? 0 : fmax(noise, 1e-14 * size_of(c, n));
   bool to_end = fabs(h) >= fabs(pl_run_left(run));
-  // an event of an implicit step is known to the tolerance: one that only touches is found to that
-  double known = run->implicit && w->kind == PL_WATCH_EVENT && w->direction == 0
+  // an event may be known to the tolerance: one that only touches is found to that
+  double known = !run->stepper->to_rounding && w->kind == PL_WATCH_EVENT && w->direction == 0
                      ? fmax(known_part(n - m), run->tol)
                      : known_part(n - m);
   int found = pl_roots(c + m, n - 1 - m, known, m == 0 ? noise : 0, root, MOST_ROOTS,
@@ -366,7 +366,7 @@ void pl_watch_passed(pl_run* run, double h) {
     for (int k = n - 1; k >= 0; k--) x += run->poly[k];
     // a step of the implicit method may be so short that what has happened is not yet clear of
     // rounding
-    bool clear = !run->implicit || fabs(x) > pl_watch_noise(run, w, h);
+    bool clear = run->stepper->to_rounding || fabs(x) > pl_watch_noise(run, w, h);
     if (h != 0 && clear) w->fresh = 0;
     if (w->kind == PL_WATCH_LANDING && x < -1e-9 * run->g_size[w->index]) run->sunk = w->index;
     // what the roots leave open at the end is decided at the start of the next step

@@ -2,9 +2,9 @@
 #ifndef PL_START_IMPL_H
 #define PL_START_IMPL_H
 
-#include "solve/solve_impl.h"
+#include "solve/start/start.h"
 
-typedef struct pl_start {
+struct pl_start {
   pl_run* run;
   double *q, *v;          // the numbers worked on                    (n_q)
   bool *held_q, *held_v;  // given                                     (n_q)
@@ -18,7 +18,7 @@ typedef struct pl_start {
   int worst_constraint;  // of the last solve that failed
   double worst;          // its relative residual
   int below;             // one-sided constraint that given values put on the wrong side, -1
-} pl_start;
+};
 
 enum { PL_START_ROOM = 16 };
 

@@ -615,27 +615,28 @@ static void mark_leaving(pl_start* s) {
   }
 }
 
-pleuel_status pl_run_start(pl_run* run) {
+pleuel_status pl_start_find(pl_run* run, pl_start** out) {
   run->start = (pl_start_report){.constraint = -1, .move_coordinate = -1};
   PL_TRY(check_given(run));
-  pl_start s = make(run);
-  PL_TRY(find_positions(&s));
-  if (is_singular_start(&s)) {
+  pl_start* s = *out = PL_NEW(run->job->arena, pl_start);
+  *s = make(run);
+  PL_TRY(find_positions(s));
+  if (is_singular_start(s)) {
     run->start.trouble = PL_START_SINGULAR;
     return pl_fail(run->job, PLEUEL_SINGULAR,
                    "the start is a singular position: the constraints have lost rank there");
   }
-  PL_TRY(find_velocities(&s));
-  memcpy(run->q, s.q, (size_t)run->n_q * sizeof(double));
-  memcpy(run->v, s.v, (size_t)run->n_q * sizeof(double));
+  PL_TRY(find_velocities(s));
+  memcpy(run->q, s->q, (size_t)run->n_q * sizeof(double));
+  memcpy(run->v, s->v, (size_t)run->n_q * sizeof(double));
   pl_watch_forget(run);
-  mark_leaving(&s);
+  mark_leaving(s);
   run->start_given = true;
   run->t = run->options.t_0;
-  if (!run->options.start_only) PL_TRY(pl_run_begin_at(run, run->options.t_0));
-  list_moves(&s);
-  list_sitting(&s);
   return PLEUEL_OK;
 }
 
-const pl_start_report* pl_run_start_report(const pl_run* run) { return &run->start; }
+void pl_start_list(pl_start* s) {
+  list_moves(s);
+  list_sitting(s);
+}

@@ -3,7 +3,8 @@
 #ifndef PL_RADAU_IMPL_H
 #define PL_RADAU_IMPL_H
 
-#include "solve/solve_impl.h"
+#include "solve/stepper/radau/radau.h"
+#include "solve/stepper/taylor/taylor.h"
 
 enum {
   PL_RADAU_MOST = 7,  // stages
@@ -55,6 +56,7 @@ enum {
   PL_RADAU_COUPLED_UP_TO = 700  // unknowns of all stages together: above they are only split
 };
 
+typedef struct pl_radau pl_radau;
 struct pl_radau {
   pl_radau_method method;
   int n, n_q, n_c, n_C;   // n_C: coefficients of friction
@@ -91,6 +93,8 @@ struct pl_radau {
   double *sc_q, *sc_v;  // what the error of a component is measured by, without the tolerance
   double rounding;      // of velocities at stages, absolute
   double h, h_last, error_last, theta;
+  // of the step on its way: its error, the length that follows, the length chosen and that held
+  double error, next, chosen, full;
   int newton, newton_last;
   bool rejected;  // the step before
   long steps_in_row;
@@ -159,6 +163,8 @@ void pl_radau_correct_coupled(pl_radau* r, const pl_run* run);
 
 // ---- radau_events.c
 // values of what is watched on the step held, end_a, end_l
+// coefficients of what is watched on the step, in units of it
+int pl_radau_polynomial(const pl_run* run, int watch, double* c);
 void pl_radau_watch(pl_run* run, pl_radau* r, double h);
 pleuel_status pl_radau_stop_at_switches(pl_run* run, pl_radau* r, double* h, pl_projection* p);
 pleuel_status pl_radau_land(pl_run* run, pl_radau* r, double* h, double* root, pl_projection* p);
@@ -169,7 +175,19 @@ pleuel_status pl_radau_hold(pl_run* run, pl_radau* r, double* h, double* error, 
 void pl_radau_series(pl_run* run, pl_radau* r, double h);
 bool pl_radau_probe(pl_run* run, double h, double least, double* reach);
 
+double pl_radau_tol(double asked);  // the tolerance that it works to
+pleuel_status pl_radau_expand(pl_run* run, pl_step* s);
+pleuel_status pl_radau_state_at(pl_run* run, pl_step* s);
+void pl_radau_changed(pl_run* run, bool shaken);
+
+// ---- radau_system.c
+void pl_radau_free(pl_radau* r);
+
+// ---- radau_save.c
+void pl_radau_save(pl_run* run, pl_keeper* k);
+
 // ---- stiff_detect.c
+pleuel_status pl_stiff_poll(pl_run* run);
 void pl_stiff_review(pl_run* run, double h);
 
 #endif

@@ -30,24 +30,12 @@ static const double usual_tol = 1e-10;   // where none is asked for
 
 double pl_radau_tol(double asked) { return asked > 0 ? fmax(asked, least_tol) : usual_tol; }
 
-static int stages_for(double tol) { return tol >= 1e-3 ? 3 : tol >= 1e-8 ? 5 : 7; }
-
-void pl_radau_make(pl_run* run, double tol) {
-  int s = stages_for(tol);
-  pl_radau* r = run->radau = PL_NEW(run->job->arena, pl_radau);
-  r->method.s = s;
-  r->method.n_pairs = s / 2;
-  r->tol = tol;
-  r->stay_next = 16;
-  r->tol_stage = 0.03 * pow(tol, (3 * s + 1) / (4.0 * s));
-}
-
-void pl_radau_changed(pl_run* run, bool jumped) {
+void pl_radau_changed(pl_run* run, bool shaken) {
   pl_radau* r = run->radau;
   r->has_last = r->rejected = false;
   r->error_last = 0;
   // a stiff part that was set going needs short steps at first
-  if (jumped) r->h = 0;
+  if (shaken) r->h = 0;
 }
 
 // ------------------------------------------------------------------------------------------ stages
@@ -428,8 +416,8 @@ static double choose_length(pl_run* run, pl_radau* r) {
 // The first step: a fraction of the radius of the series at the point.
 static void first_length(pl_run* run, pl_radau* r) {
   run->use = run->order;
-  pl_series_expand(run);
-  r->h = pl_series_step(run);
+  pl_taylor_expand(run);
+  r->h = pl_taylor_length(run);
   if (!(r->h > 0)) r->h = 0;
   if (!isfinite(r->h)) r->h = fabs(pl_run_left(run));
   r->h = fmax(r->h, 100 * run->h_least);
@@ -450,11 +438,30 @@ static bool rows_are_exact(const pl_run* run, const pl_radau* r, double h, doubl
   return !(to_grid(run) < (1 - 1e-9) * fabs(h)) || error * r->tol_stage <= r->tol;
 }
 
-// Takes a step; h its length, root its end in units of it when an event ended it, 0 when one
-// happens at the start.
-pleuel_status pl_radau_step(pl_run* run, double* h, double* root, pl_projection* p) {
-  pl_radau* r = run->radau;
-  double error, next;
+// A shorter step, its values and its polynomial.
+static pleuel_status hold_again(pl_run* run, pl_radau* r, double* h, pl_projection* p) {
+  pl_sizes_forget(run);
+  PL_TRY(pl_radau_hold(run, r, h, &r->error, &r->next, p));
+  pl_radau_watch(run, r, *h);
+  pl_radau_series(run, r, *h);
+  return PLEUEL_OK;
+}
+
+// The longest step up to h that holds and is exact enough between its ends.
+static pleuel_status hold_for_rows(pl_run* run, pl_radau* r, double* h, pl_projection* p) {
+  for (;;) {
+    PL_TRY(pl_radau_hold(run, r, h, &r->error, &r->next, p));
+    r->h_dense = fabs(*h) * 0.8
+                 * pow(r->tol / fmax(r->error * r->tol_stage, 1e-6 * r->tol),
+                       1.0 / (r->method.s + 1));
+    if (rows_are_exact(run, r, *h, r->error)) return PLEUEL_OK;
+    pl_sizes_forget(run);
+    *h = copysign(fmax(to_grid(run), fmin(r->h_dense, 0.9 * fabs(*h))), *h);
+  }
+}
+
+static pleuel_status prepare(pl_run* run, pl_radau* r) {
+  pl_stepper_taylor.to_patterns(run);
   if (!pl_radau_ready(run))
     return pl_fail(run->job, PLEUEL_NO_MEMORY,
                    "the systems of the implicit method do not fit into memory");
@@ -463,52 +470,55 @@ pleuel_status pl_radau_step(pl_run* run, double* h, double* root, pl_projection*
   if (r->h == 0) first_length(run, r);
   r->has_jacobian = false;
   see_whether_smooth(run, r);
-  *root = -1;
-  *h = choose_length(run, r);
-  double chosen = fabs(*h);
-  for (;;) {
-    PL_TRY(pl_radau_hold(run, r, h, &error, &next, p));
-    double dense = fabs(*h) * 0.8
-                   * pow(r->tol / fmax(error * r->tol_stage, 1e-6 * r->tol),
-                         1.0 / (r->method.s + 1));
-    r->h_dense = dense;
-    if (rows_are_exact(run, r, *h, error)) break;
-    pl_sizes_forget(run);
-    *h = copysign(fmax(to_grid(run), fmin(dense, 0.9 * fabs(*h))), *h);
-  }
-  double full = *h;
-  pl_radau_watch(run, r, *h);
-  pl_radau_series(run, r, *h);
-  PL_TRY(pl_radau_stop_at_switches(run, r, h, p));
-  while (run->setup->n_events > 0 && !pl_watch_is_followed(run, *h)) {
+  return PLEUEL_OK;
+}
+
+pleuel_status pl_radau_expand(pl_run* run, pl_step* s) {
+  pl_radau* r = run->radau;
+  PL_TRY(prepare(run, r));
+  s->h = choose_length(run, r);
+  r->chosen = fabs(s->h);
+  PL_TRY(hold_for_rows(run, r, &s->h, &s->projection));
+  r->full = s->h;
+  pl_radau_watch(run, r, s->h);
+  pl_radau_series(run, r, s->h);
+  PL_TRY(pl_radau_stop_at_switches(run, r, &s->h, &s->projection));
+  while (run->setup->n_events > 0 && !pl_watch_is_followed(run, s->h)) {
     // an event that is faster than the motion
-    *h *= 0.5;
-    if (!(fabs(*h) > run->h_least)) return too_small(run, *h);
-    pl_sizes_forget(run);
-    PL_TRY(pl_radau_hold(run, r, h, &error, &next, p));
-    pl_radau_watch(run, r, *h);
-    pl_radau_series(run, r, *h);
+    s->h *= 0.5;
+    if (!(fabs(s->h) > run->h_least)) return too_small(run, s->h);
+    PL_TRY(hold_again(run, r, &s->h, &s->projection));
   }
-  if (run->n_watch > 0) {
-    *root = pl_watch_first(run, *h);
-    if (*root == 0) return PLEUEL_OK;
-    if (*root > 0) {
-      pl_sizes_forget(run);
-      PL_TRY(pl_radau_land(run, r, h, root, p));
-      if (*root == 0) return PLEUEL_OK;
-    }
-  }
-  r->h_last = *h;
-  r->error_last = fmax(error, 1e-2);
+  return PLEUEL_OK;
+}
+
+// What the next step begins with.
+static void note_step(pl_run* run, pl_radau* r, const pl_step* s) {
+  double next = r->next;
+  r->h_last = s->h;
+  r->error_last = fmax(r->error, 1e-2);
   r->newton_last = r->newton;
   // after a rejection no longer one; a step cut short for a time of output says nothing against a
   // longer one
-  if (r->rejected) next = fmin(next, fabs(full));
-  bool cut = !r->rejected && chosen < 0.99 * r->h && chosen == fabs(full);
-  r->h = cut ? fmax(next, fmin(r->h, 8 * chosen)) : next;
+  if (r->rejected) next = fmin(next, fabs(r->full));
+  bool cut = !r->rejected && r->chosen < 0.99 * r->h && r->chosen == fabs(r->full);
+  r->h = cut ? fmax(next, fmin(r->h, 8 * r->chosen)) : next;
   r->rejected = false;
   r->has_last = true;
   r->steps_in_row++;
-  if (run->options.method == PL_METHOD_AUTO && !cut && *root < 0) pl_stiff_review(run, *h);
+  run->stats.steps_implicit++;
+  if (run->options.method == PL_METHOD_AUTO && !cut && s->root < 0) pl_stiff_review(run, s->h);
+}
+
+pleuel_status pl_radau_state_at(pl_run* run, pl_step* s) {
+  pl_radau* r = run->radau;
+  s->found = true;
+  if (s->root > 0) {
+    pl_sizes_forget(run);
+    PL_TRY(pl_radau_land(run, r, &s->h, &s->root, &s->projection));
+    if (s->root == 0) return PLEUEL_OK;
+  }
+  note_step(run, r, s);
+  s->wanted = s->h;
   return PLEUEL_OK;
 }

@@ -92,7 +92,7 @@ static bool worth_a_look(const pl_run* run, double left, double h) {
 }
 
 // Called before a step.  Status: that of entering the point again.
-pleuel_status pl_stiff_look(pl_run* run) {
+pleuel_status pl_stiff_poll(pl_run* run) {
   pl_radau* r = run->radau;
   if (++r->looks < r->next_look) return PLEUEL_OK;
   r->next_look = r->next_look ? 2 * r->next_look : FIRST_LOOK;
@@ -105,11 +105,11 @@ pleuel_status pl_stiff_look(pl_run* run) {
       run, copysign(fmin(slow_radius(run) / 4, left), run->options.t_end - run->t), h, &reach);
   // the jets were used for other points
   run->factored = false;
-  if (!pl_point_enter(run)) return pl_run_undetermined(run);
+  if (!run->stepper->enter(run)) return pl_run_undetermined(run);
   r->cost_series = cost_of_series(run) / h;
   double wanted = run->options.tol == 0 ? gain_exact : gain;
   if (!holds || r->cost_series < wanted * cost_of_implicit(run) / fabs(reach)) return PLEUEL_OK;
-  run->implicit = true;
+  run->stepper = &pl_stepper_radau;
   run->tol = fmax(run->tol, r->tol);
   r->h = fabs(reach);
   r->dear = 0;
@@ -123,7 +123,7 @@ void pl_stiff_review(pl_run* run, double h) {
   bool dear = cost_of_implicit(run) / fabs(h) > 2 * r->cost_series;
   r->dear = dear ? r->dear + 1 : 0;
   if (r->dear < PATIENCE) return;
-  run->implicit = false;
+  run->stepper = &pl_stepper_taylor;
   r->h = 0;
   r->has_last = false;
   r->looks = 0;

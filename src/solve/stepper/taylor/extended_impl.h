@@ -87,7 +87,7 @@ void pl_extended_advance(pl_run* run, double dt);
 bool pl_extended_project(pl_run* run, pl_projection* p);
 void pl_extended_accept(pl_run* run, bool to_end);  // time
 void pl_extended_sum(pl_run* run);                  // end_q, end_v, end_a, end_l at `length`
-void pl_extended_energy(pl_run* run, bool anew);
+bool pl_extended_energy(pl_run* run, bool anew, pl_energy* e);
 // After pl_extended_advance to the root of an event that was found in doubles: Newton to the digits of
 // the type.
 void pl_extended_refine(pl_run* run, double dt);
@@ -96,5 +96,8 @@ void pl_extended_refine(pl_run* run, double dt);
 void pl_extended_row(pl_run* run, pl_row* row, double* out);               // of the point
 void pl_extended_grid_row(pl_run* run, long n, pl_row* row, double* out);  // of grid time n
 void pl_extended_row_at(pl_run* run, double t, pl_row* row, double* out);  // on the step
+
+// ---- extended_save.c
+void pl_extended_save(pl_run* run, pl_keeper* k);
 
 #endif

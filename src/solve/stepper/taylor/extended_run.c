@@ -356,22 +356,15 @@ static void evaluate_energies(pl_run* run) {
                      w->rows->out + s->energy, 1);
 }
 
-void pl_extended_energy(pl_run* run, bool anew) {
+bool pl_extended_energy(pl_run* run, bool anew, pl_energy* e) {
   pl_extended* w = run->extended;
   double part[2], change[2];
   evaluate_energies(run);
   fine(run, w->drift, 0, 1);
   read(run, w->o->energy, 2, part);
   read(run, w->scratch, 2, change);
-  run->energy_size = fmax(run->energy_size, fabs(part[0]) + fabs(part[1]));
-  if (anew) {
-    w->fine->move(w->m, w->energy_base, w->scratch + 1, 1);
-    if (isnan(run->stats.energy_drift)) {
-      run->stats.energy_0 = change[1];
-      run->stats.energy_drift = 0;
-    }
-    return;
-  }
-  double drift = run->energy_size > 0 ? fabs(change[0]) / run->energy_size : 0;
-  if (!(drift <= run->stats.energy_drift)) run->stats.energy_drift = drift;
+  if (anew) w->fine->move(w->m, w->energy_base, w->scratch + 1, 1);
+  *e = (pl_energy){
+      .kinetic = part[0], .potential = part[1], .total = change[1], .change = change[0]};
+  return true;
 }

@@ -18,7 +18,7 @@
 #define PL_STEP_PROGRAM_IMPL_H
 
 #include "jit/jit.h"
-#include "solve/solve_impl.h"
+#include "solve/stepper/taylor/taylor_impl.h"
 
 enum {
   PL_STEP_UNKNOWNS = 100,  // largest system: above, compiling takes longer than most runs
@@ -128,5 +128,28 @@ void pl_step_elimination_factor(const pl_step_elimination* e, pl_prog* c, const 
                                 int* pivot, int* size);
 // registers by unknown; -1 zero
 void pl_step_elimination_solve(const pl_step_elimination* e, pl_prog* c, int* x);
+
+// ---- step_program_make.c, step_program_run.c: the step program
+pl_step_program* pl_step_program_make(pl_run* run);  // not usable when it does not fit
+// the step program for the constraints that are taken, compiled if it pays
+void pl_step_program_update(pl_run* run);
+bool pl_step_program_is_compiled(const pl_run* run);
+void pl_step_program_free(pl_run* run);
+// false: not this way
+bool pl_step_program_project(pl_run* run, double t, double* q, double* v, pl_projection* p);
+bool pl_step_program_enter(pl_run* run);
+void pl_step_program_expand(pl_run* run);
+void pl_step_program_norms(pl_run* run, const double** q, const double** v);  // of pl_block_rows
+void pl_step_program_advance(pl_run* run, double dt, double* q, double* v);
+// Order 0 after pl_step_program_project; how large its accelerations are, and what those of the series
+// were off by after pl_step_program_advance.
+void pl_step_program_arrive(pl_run* run, double* off, double* size);
+// accelerations of the series after pl_step_program_advance
+void pl_step_program_end_a(const pl_run* run, double* a);
+// T, V and what is conserved, at the point; false: not this way.
+bool pl_step_program_energy(pl_run* run, double* kinetic, double* potential, double* all);
+
+// ---- step_program_save.c
+void pl_step_program_save(pl_run* run, pl_keeper* k);
 
 #endif
