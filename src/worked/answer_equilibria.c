@@ -139,7 +139,10 @@ const pl_bond* pl_rest_pulls(pl_analysis* d, const pl_rest* r) {
     if (!l->contact || !l->lambda_known || l->implied) continue;
     pl_expr lambda = pl_insert_rest(d, pl_at_rest(d, l->lambda_value), r);
     bool push_is_positive = (l->source->relation == PL_GE) != d->model->lambda_minus;
-    int sign = pl_sign_at_numbers(d, pl_alg_normal(d->tower, lambda));
+    // at a place in numbers the sign is one of numbers, and assumes nothing
+    double push = r->numeric ? pl_number(d, lambda) : (double)NAN;
+    int sign = isnan(push) ? pl_sign_at_numbers(d, pl_alg_normal(d->tower, lambda))
+                           : (push > 0) - (push < 0);
     if (sign != 0 && (sign > 0) != push_is_positive) return l;
   }
   return NULL;

@@ -346,9 +346,7 @@ def models(paths):
 
 
 # Disagreements that are known; they are shown and do not fail.
-KNOWN = {
-    ("hoop", ""): "the coordinate x is proposed, and the motion leaves the half where its formulas hold",
-}
+KNOWN = {}
 
 
 def known(name, kind):
