@@ -150,6 +150,7 @@ static void list_stages(pl_staging* out, pl_arena* a, const pl_trace* t) {
     k = last;
     bool known = s->to <= s->from && t->phases.n > 1 && k > 0;  // touched, not held
     for (int i = 0; i < out->n; i++) known |= same_set(&out->stages[i], s);
+    s->later = out->n > 0;
     if (!known) out->stages[out->n++] = *s;
   }
 }

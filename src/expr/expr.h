@@ -291,6 +291,8 @@ pl_form* pl_form_sum(pl_arena* a, const pl_form* const* terms, int n);
 pl_form* pl_form_product(pl_arena* a, const pl_form* const* factors, int n);
 pl_form* pl_form_neg(pl_arena* a, const pl_form* x);
 pl_form* pl_form_quotient(pl_arena* a, const pl_form* num, const pl_form* den);
+// a sum that begins without a minus, if it can
+const pl_form* pl_form_positive_first(pl_arena* a, const pl_form* f);
 pl_form* pl_form_power(pl_arena* a, const pl_form* base, const pl_form* exponent);
 pl_form* pl_form_root(pl_arena* a, const pl_form* x);
 pl_form* pl_form_call(pl_arena* a, pl_function f, const pl_form* const* args, int n);

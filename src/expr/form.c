@@ -145,3 +145,17 @@ static long ops_at(const pl_form* f, int depth) {
 }
 
 long pl_form_ops(const pl_form* f) { return ops_at(f, 0); }
+
+const pl_form* pl_form_positive_first(pl_arena* a, const pl_form* f) {
+  if (f->kind != PL_F_SUM || f->args[0]->kind != PL_F_NEG) return f;
+  const pl_form** term = PL_ARRAY(a, const pl_form*, f->n);
+  int n = 0;
+  for (int k = 0; k < f->n; k++) {
+    if (f->args[k]->kind != PL_F_NEG) term[n++] = f->args[k];
+  }
+  if (n == 0) return f;
+  for (int k = 0; k < f->n; k++) {
+    if (f->args[k]->kind == PL_F_NEG) term[n++] = f->args[k];
+  }
+  return pl_form_sum(a, term, n);
+}

@@ -60,7 +60,7 @@ static pl_words loss(pl_analysis* d) {
 static void energy_is_conserved(pl_analysis* d, pl_expr integral) {
   const pl_form* form = energy_sum(d, integral);
   if (!d->dissipative) pl_why_energy(d, integral);
-  pl_step_refs(pl_show(d, pl_feq(d, pl_fl(d, "E"), form)), 1, d->number_lagrangian);
+  pl_step_refs(pl_show(d, pl_feq(d, pl_fl(d, "E"), form)), 1, d->page->number_lagrangian);
   const pl_form* V = pl_potential_form(d, pl_on_maps(d, d->V),
                                        d->reduced ? d->Vg : pl_on_contact(d, d->V));
   if (d->dissipative) {
@@ -94,7 +94,8 @@ static void jacobi(pl_analysis* d, pl_expr integral) {
   bool pure = pl_alg_is_zero(d->tower, pl_sub(d->pool, integral, pl_energy_integral(d))) == PL_YES;
   const pl_form* form = pl_f(d, integral, PL_S_ENERGY);
   if (pure) pl_why_energy(d, integral);
-  pl_step_refs(pl_show(d, pl_feq(d, pl_fl(d, pure ? "H" : "J"), form)), 1, d->number_lagrangian);
+  pl_step_refs(pl_show(d, pl_feq(d, pl_fl(d, pure ? "H" : "J"), form)), 1,
+               d->page->number_lagrangian);
   pl_say(d,
          pure ? "Jacobi's integral is conserved: in these coordinates the Lagrange function does "
                 "not contain t."
@@ -127,13 +128,6 @@ static void energy(pl_analysis* d) {
   if (!pl_is_poison(integral)) jacobi(d, integral);
 }
 
-// Is the generalized force along coordinate i not zero, so that a cyclic momentum is not conserved?
-bool pl_pushed(pl_analysis* d, int i) {
-  bool none = true;
-  for (int j = 0; j < d->q.n; j++) none &= pl_is_zero_node(d->pool, d->force[j]);
-  return !none && pl_alg_is_zero(d->tower, pl_generalized_force(d, i)) != PL_YES;
-}
-
 static void cyclic(pl_analysis* d, int i) {
   const pl_variable* c = &d->q.at[i];
   if (pl_alg_is_zero(d->tower, pl_by_coordinate(d, d->Lg, i)) != PL_YES) return;
@@ -145,7 +139,7 @@ static void cyclic(pl_analysis* d, int i) {
   pl_step* step = pl_show(
       d,
       pl_feq(d, pl_fn(d, pl_format(d->arena, "p_%s", pl_symbol_get(d->pool, c->q)->name)), form));
-  pl_step_refs(step, 1, d->number_lagrangian);
+  pl_step_refs(step, 1, d->page->number_lagrangian);
   pl_say(
       d,
       conserved ? "conserved: {1} is cyclic, it does not occur in the Lagrange function."
@@ -163,8 +157,8 @@ static void cyclic(pl_analysis* d, int i) {
 // A momentum that the section has already, in the coordinates of the model.
 static bool is_found(pl_analysis* a, int i) {
   pl_expr p = pl_diff(a->pool, a->Lg, a->q.at[i].v);
-  for (int k = 0; k < a->section->values.n; k++) {
-    const pl_value* v = &a->section->values.at[k];
+  for (int k = 0; k < a->page->section->values.n; k++) {
+    const pl_value* v = &a->page->section->values.at[k];
     if (v->conserved == 1 && pl_alg_equal(a->tower, pl_on_maps(a, v->expr), p) == PL_YES)
       return true;
   }
@@ -174,9 +168,9 @@ static bool is_found(pl_analysis* a, int i) {
 // What only generalized coordinates show: Jacobi's integral, and momenta beside those of the whole
 // system.
 static void in_proposed(pl_analysis* d) {
-  pl_analysis* a = d->reduced ? NULL : pl_propose(d);
+  pl_analysis* a = d->reduced ? NULL : pl_page_propose(d);
   if (!a || a->loops.n > 0) return;
-  a->section = d->section;
+  a->page->section = d->page->section;
   if (!pl_energy_conserved(d) && pl_energy_conserved(a) && !pl_scleronomic(a)) {
     pl_tell_proposal(a);
     jacobi(a, pl_jacobi_integral(a));
@@ -194,6 +188,6 @@ void pl_answer_conserved(pl_analysis* d, const pl_ask* ask) {
   pl_section_open(d, ask, "Conserved", "Erhaltungsgrößen");
   energy(d);
   for (int k = 0; d->reduced && k < d->gen.n && !pl_nonholonomic(d); k++) cyclic(d, d->gen.at[k]);
-  pl_conserved_momenta(d);
+  pl_answer_momenta(d);
   in_proposed(d);
 }

@@ -31,8 +31,8 @@ static const pl_form* link_form(pl_analysis* d, const pl_bond* l) {
 static bool told(pl_analysis* d, const char* what) {
   const char* key = pl_format(d->arena, "told %s", what);
   uint64_t hash = pl_hash_bytes(key, strlen(key), 1);
-  if (pl_map_get(d->told, hash)) return true;
-  pl_map_set(d->told, hash, 1);
+  if (pl_map_get(d->page->told, hash)) return true;
+  pl_map_set(d->page->told, hash, 1);
   return false;
 }
 
@@ -395,8 +395,9 @@ static void say_freedom(pl_analysis* d) {
 }
 
 void pl_answer_constraints(pl_analysis* d, const pl_ask* ask) {
-  bool after_dof = d->section && d->solution->sections.n > 0 && ask->letter && d->section->letter
-                   && strcmp(ask->letter, d->section->letter) == 0;
+  bool after_dof = d->page->section && d->page->solution->sections.n > 0 && ask->letter
+                   && d->page->section->letter
+                   && strcmp(ask->letter, d->page->section->letter) == 0;
   pl_section_open(d, ask, after_dof ? NULL : "Constraints", after_dof ? NULL : "Zwangsbedingungen");
   bool some_dropped = false;
   if (count_written(d) + count_open(d) == 0) pl_say(d, "There are none.", "Es gibt keine.", 0);

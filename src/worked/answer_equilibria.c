@@ -9,19 +9,6 @@
 #include "worked/equilibria_impl.h"
 
 // ----------------------------------------------------------------------------------------- display
-bool pl_is_angle(pl_analysis* d, int i) {
-  const pl_symbol_info* s = pl_symbol_get(d->pool, d->q.at[i].q);
-  bool plain = !s->dimension_known || pl_dimension_equal(s->dimension, pl_dimension_one());
-  if (!plain || !pl_places_repeat(d, d->q.at[i].q)) return false;
-  pl_expr c = pl_call(d->pool, PL_COS, pl_sym(d->pool, d->q.at[i].q)),
-          s2 = pl_call(d->pool, PL_SIN, pl_sym(d->pool, d->q.at[i].q));
-  pl_expr mark = pl_int(d->pool, 7);
-  pl_expr probe = pl_add(d->pool, d->Tg, d->Vg);
-  for (int k = 0; k < d->g.n; k++) probe = pl_add(d->pool, probe, d->g.at[k].g);
-  return !pl_same(pl_subst_expr(d->pool, probe, c, mark), probe)
-         || !pl_same(pl_subst_expr(d->pool, probe, s2, mark), probe);
-}
-
 // No equation contains a coordinate: every position is one of rest.
 static const pl_form* all_free(pl_analysis* d) {
   pl_text words[2] = {pl_text_make(d->arena), pl_text_make(d->arena)};
@@ -114,7 +101,8 @@ static void show_oscillations(pl_analysis* d, const pl_linearised* l, const pl_r
     if (numeric && isnan(x)) continue;
     const pl_form* form = numeric ? NULL : pl_f(d, root[k].value, PL_S_QUOTIENT);
     pl_step* s = pl_show_numbered(d, pl_square_form(d, root[k].value, numeric));
-    for (int r = 0; r < d->lagrange2_numbers.n; r++) pl_step_refs(s, 1, d->lagrange2_numbers.at[r]);
+    for (int r = 0; r < d->page->lagrange2_numbers.n; r++)
+      pl_step_refs(s, 1, d->page->lagrange2_numbers.at[r]);
     bool zero = pl_vanishes(d, root[k].value);
     pl_step_after(s, zero ? "zero mode: it drifts" : "small oscillations",
                   zero ? "Nullmode: Drift" : "kleine Schwingungen");
@@ -130,22 +118,6 @@ static void show_oscillations(pl_analysis* d, const pl_linearised* l, const pl_r
     v->at = at;
     pl_tell_place(d, rest, v);
   }
-}
-
-// A one-sided constraint that would have to pull: the position is none of rest.
-const pl_bond* pl_rest_pulls(pl_analysis* d, const pl_rest* r) {
-  for (int k = 0; k < d->g.n; k++) {
-    const pl_bond* l = &d->g.at[k];
-    if (!l->contact || !l->lambda_known || l->implied) continue;
-    pl_expr lambda = pl_insert_rest(d, pl_at_rest(d, l->lambda_value), r);
-    bool push_is_positive = (l->source->relation == PL_GE) != d->model->lambda_minus;
-    // at a place in numbers the sign is one of numbers, and assumes nothing
-    double push = r->numeric ? pl_number(d, lambda) : (double)NAN;
-    int sign = isnan(push) ? pl_sign_at_numbers(d, pl_alg_normal(d->tower, lambda))
-                           : (push > 0) - (push < 0);
-    if (sign != 0 && (sign > 0) != push_is_positive) return l;
-  }
-  return NULL;
 }
 
 static void say_pulls(pl_analysis* d, const pl_bond* l, const pl_rest* r) {
@@ -184,15 +156,6 @@ void pl_say_velocity_terms(pl_analysis* d, const pl_linearised* l) {
 }
 
 // ------------------------------------------------------------------------------------ one position
-bool pl_rest_exists_at_numbers(pl_analysis* d, const pl_rest* r) {
-  // a condition met with equality, 1 - cos²(0) >= 0, may be missed by that
-  static const double rounding = 1e-12;
-  for (int k = 0; k < r->n_conditions; k++) {
-    if (pl_number(d, r->condition[k]) < -rounding) return false;
-  }
-  return true;
-}
-
 static void say_doubt(pl_analysis* d, pl_doubt doubt) {
   static const char* const words[][2] = {
       [PL_DOUBT_GYROSCOPIC] = {"No minimum of the potential is proven here; the gyroscopic terms "
@@ -314,7 +277,7 @@ static void show_border_rest(pl_analysis* d, const pl_rest* r, int number) {
                 .passed = -1,
                 .order = -1};
   name_components(d, r, &v);
-  pl_push(d->arena, d->section->values, v);
+  pl_push(d->arena, d->page->section->values, v);
   pl_say(d, "Here a force has a kink: stability was not looked at.",
          "Hier hat eine Kraft einen Knick: die Stabilität wurde nicht untersucht.", 0);
 }
@@ -337,7 +300,7 @@ static void show_rest(pl_analysis* d, const pl_expr* f, const pl_rest* r, int nu
   name_components(d, r, &v);
   say_existence(d, r, &v);
   if (!r->numeric) say_stability(d, &judged, &v);
-  pl_push(d->arena, d->section->values, v);
+  pl_push(d->arena, d->page->section->values, v);
   const char* here = v.stability;
   bool oscillates = exists && (!here || strcmp(here, "stable") == 0)
                     && judged.doubt != PL_DOUBT_DRIVEN;
@@ -380,7 +343,7 @@ bool pl_rests_out_of_reach(pl_analysis* d) {
            "Reibung: sie kann das System in ganzen Bereichen in Ruhe halten, die nicht gesucht "
            "werden.",
            0);
-    d->section->not_found = true;
+    d->page->section->not_found = true;
     return true;
   }
   if (d->reduced && d->gen.n == 0) {
@@ -407,7 +370,7 @@ bool pl_rests_out_of_reach(pl_analysis* d) {
                pl_max_gen, d->gen.n),
            0);
   }
-  d->section->not_found = true;
+  d->page->section->not_found = true;
   return true;
 }
 
@@ -439,7 +402,7 @@ static bool turns_steadily(pl_analysis* d, const pl_ask* ask) {
              "wie in φ' = Ω.",
              0);
       end_of_steady(d);
-      d->section->not_found = true;
+      d->page->section->not_found = true;
       return false;
     }
     pl_push(d->arena, d->steady, (pl_replace){v, c->right});
@@ -549,7 +512,7 @@ void pl_say_no_rest_named(pl_analysis* d, const pl_ask* ask, const pl_expr* f) {
            pl_rest_form(d, &r), pl_fs(d, d->q.at[d->gen.at[k]].q), pl_f(d, left, PL_S_PLAIN));
     break;
   }
-  d->section->not_found = true;
+  d->page->section->not_found = true;
 }
 
 static void say_none(pl_analysis* d, const pl_expr* f) {
@@ -671,7 +634,7 @@ bool pl_say_bends(pl_analysis* d, const pl_expr* f) {
   pl_say(d, "The forces have a kink at {1}; `equilibria` looks at the sides one by one.",
          "Die Kräfte haben einen Knick bei {1}; `equilibria` untersucht die Seiten einzeln.", 1,
          pl_flist(d, at, left.n_sides));
-  d->section->not_found = true;
+  d->page->section->not_found = true;
   return true;
 }
 
@@ -684,22 +647,23 @@ static bool bends(pl_analysis* d, const pl_expr* f) {
 // The same search where some signs are the opposite ones.  false: there it was not finished.
 static bool answer_beyond(pl_analysis* d, const pl_ask* ask, const pl_rests* own,
                           const bool* through, pl_shown* shown) {
-  pl_analysis* base = pl_analysis_beyond(d->base, own->side, own->n_sides, through);
+  pl_analysis* base = pl_analysis_beyond(d->page->base, own->side, own->n_sides, through);
   pl_analysis* a = base ? pl_serving(base, ask) : NULL;
   if (!a || !a->reduced || a->gen.n == 0 || a->gen.n > pl_max_gen || a->loops.n > 0) return false;
   pl_expr f[pl_max_gen];
-  a->section = d->section;
+  a->page->section = d->page->section;
   pl_at_rest_equations(a, f);
   if (bends(a, f)) return false;
   pl_rests* found = pl_find_rests(a, f);
+  if (found->special_case) pl_say_special(a);
   leave_known(a, found, shown);
   int inside = 0;
   for (int k = 0; k < found->n; k++) inside += !pl_rest_on_border(a, found, &found->at[k]);
   if (inside > 0) {
     pl_say(a, "With {1}:", "Mit {1}:", 1, pl_facts_form(a, found->side, found->n_sides));
-    int from = a->section->values.n;
+    int from = a->page->section->values.n;
     show_found(a, f, found, shown);
-    pl_assume_sides(a, a->section, from);
+    pl_assume_sides(a, a->page->section, from);
   } else {
     show_found(a, f, found, shown);
   }
@@ -718,7 +682,7 @@ static void show_border(pl_analysis* d, pl_shown* shown) {
       both |= same && shown->border.at[j].in != r->in;
     }
     if (!first || !both) continue;
-    r->in->section = d->section;
+    r->in->page->section = d->page->section;
     show_border_rest(r->in, &r->rest, ++shown->n);
   }
 }
@@ -746,7 +710,8 @@ static void say_more(pl_analysis* d) {
 static bool answer_all_sides(pl_analysis* d, const pl_ask* ask, const pl_rests* own, bool own_too,
                              pl_shown* shown) {
   enum { MOST = 3 };
-  if (own->n_sides > MOST || ask->where.n > 0 || !d->base || !d->base->first) return false;
+  if (own->n_sides > MOST || ask->where.n > 0 || !d->page->base || !d->page->base->page->first)
+    return false;
   bool all = own->complete_here && own->n_singular == 0, through[MOST];
   for (int mask = own_too ? 0 : 1; mask < 1 << own->n_sides; mask++) {
     for (int k = 0; k < own->n_sides; k++) through[k] = mask >> k & 1;
@@ -766,21 +731,22 @@ void pl_answer_equilibria(pl_analysis* d, const pl_ask* ask) {
   bool kinks = finds_kinks(d, f, &split);
   if (!kinks) {
     found = pl_find_rests(d, f);
+    if (found->special_case) pl_say_special(d);
     show_found(d, f, found, &shown);
     say_singular(d, found);
   }
   bool sides = found->n_sides > 0;
-  d->section->all_sides = sides && answer_all_sides(d, ask, found, kinks, &shown);
-  bool all = (found->complete && !kinks) || d->section->all_sides;
+  d->page->section->all_sides = sides && answer_all_sides(d, ask, found, kinks, &shown);
+  bool all = (found->complete && !kinks) || d->page->section->all_sides;
   if (found->n_sides == 1) show_border(d, &shown);
   if (shown.n == 0 && all && found->n_singular == 0) say_none(d, f);
-  if (d->section->all_sides) say_kinks(d, found, &shown);
+  if (d->page->section->all_sides) say_kinks(d, found, &shown);
   else if (!kinks) pl_say_rests_missing(d, f, found);
   else if (!all) say_more(d);
   bool recur = false;  // one period is listed, and that is said
   for (int k = 0; k < d->gen.n; k++) recur |= pl_rests_recur(d, f, k);
-  d->section->all_sides &= !shown.renamed;  // its numbers are those of one side
-  d->section->complete = all && found->n_singular == 0 && !recur;
-  if (!all) d->section->not_found = shown.at.n == 0;
+  d->page->section->all_sides &= !shown.renamed;  // its numbers are those of one side
+  d->page->section->complete = all && found->n_singular == 0 && !recur;
+  if (!all) d->page->section->not_found = shown.at.n == 0;
   end_of_steady(d);
 }

@@ -1,5 +1,6 @@
 // answer_expect: `expect`, the check of somebody's own statement: does it hold on the motion and on
-// the constraints? Start values are not inserted. Three answers: yes, no, not decided.
+// the constraints? Start values
+// are not inserted.  Three answers: yes, no, not decided.
 #include "worked/worked_impl.h"
 
 // ------------------------------------------------------------------------------- inverse functions
@@ -88,7 +89,8 @@ static pl_answer3 zero_by_turns(pl_analysis* d, pl_expr e) {
 enum { max_inserted = 3 };
 
 // Is e zero wherever the constraints from k on hold? Each is solved for one coordinate, all its
-// roots are inserted, and their derivatives for its velocity.
+// roots are inserted, and their
+// derivatives for its velocity.
 static pl_answer3 zero_on_constraints(pl_analysis* d, pl_expr e, int k, int depth) {
   pl_answer3 zero = pl_alg_is_zero(d->tower, e);
   while (k < d->g.n && (d->g.at[k].implied || d->g.at[k].velocity || d->g.at[k].fixes >= 0)) k++;
@@ -162,11 +164,11 @@ void pl_answer_expect(pl_analysis* d, const pl_ask* ask) {
            "{1}: nein, das ist nicht bestimmt; nur Summen der Kräfte voneinander abhängiger "
            "Zwangsbedingungen sind es.",
            1, claim);
-    d->solution->expect_failed = true;
+    d->page->solution->expect_failed = true;
     return;
   }
   const pl_form* got = pl_feq(d, pl_fe(d, c->left), pl_f(d, left, PL_S_QUOTIENT));
   pl_say(d, equal == PL_NO ? "{1}: no, {2}" : "{1}: not decided; {2}",
          equal == PL_NO ? "{1}: nein, {2}" : "{1}: nicht entschieden; {2}", 2, claim, got);
-  d->solution->expect_failed = true;
+  d->page->solution->expect_failed = true;
 }

@@ -1,7 +1,9 @@
 // answer_family: models whose families are too large to be written out. The Lagrange equations of
-// the first kind are derived once for a member with index i: each pattern (mass, potential,
-// constraint) that contains x[k + c] contributes to the equation of x[i] with k = i - c, where its
-// range allows; ranges with the same contributions share one equation.
+// the first kind are derived
+// once for a member with index i: each pattern (mass, potential, constraint) that contains x[k + c]
+// contributes to the equation
+// of x[i] with k = i - c, where its range allows; ranges with the same contributions share one
+// equation.
 #include <math.h>
 #include <string.h>
 
@@ -285,7 +287,7 @@ static long count_instances(pl_analysis* d, const pl_block* b) {
 
 static void dof(pl_analysis* d, const pl_ask* ask) {
   pl_section_open(d, ask, "Degrees of freedom", "Freiheitsgrade");
-  const pl_dof* f = &d->solution->dof;
+  const pl_dof* f = &d->page->solution->dof;
   bool contacts = false;
   pl_row(d, "coordinates", "Koordinaten", NULL, pl_format(d->arena, "%d", f->coordinates));
   for (int k = 0; k < d->model->constraints.n; k++) {
@@ -322,8 +324,8 @@ static void dof(pl_analysis* d, const pl_ask* ask) {
 
 pleuel_status pl_derive_families(pl_analysis* d) {
   d->tower = pl_tower_make(d->job, d->pool, NULL, 0);
-  pl_push(d->arena, d->solution->towers, d->tower);
-  pl_dof* f = &d->solution->dof;
+  pl_push(d->arena, *d->towers, d->tower);
+  pl_dof* f = &d->page->solution->dof;
   f->coordinates = pl_model_flat_coords(d->model, d->arena).n;
   for (int k = 0; k < d->model->constraints.n; k++)
     f->constraints += (int)count_instances(d, d->model->constraints.at[k].block);

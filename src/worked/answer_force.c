@@ -22,123 +22,6 @@ static int find_particle(const pl_analysis* d, const char* label) {
   return -1;
 }
 
-// -------------------------------------------------------------------------------------- components
-typedef struct pl_force {  // of one constraint on one mass
-  int n;
-  // the coordinates of the mass span its space, so that nothing of Z is missing
-  bool whole;
-  int reaction_to;       // particle whose force is the opposite of this one, -1
-  const char* along[3];  // "e_x"
-  pl_expr factor[3];     // component = λ factor
-} pl_force;
-
-static bool shared(const pl_analysis* d, int particle, pl_symbol q) {
-  for (int k = 0; k < d->particle.n; k++) {
-    if (k == particle) continue;
-    for (int c = 0; c < d->particle.at[k].n; c++) {
-      if (pl_has_symbol(d->pool, d->particle.at[k].at[c], q)) return true;
-    }
-  }
-  return false;
-}
-
-// Each component of the position is a coordinate of its own: Z along the axes is λ dg/dx.
-static bool along_axes(pl_analysis* d, int link, int particle, pl_force* out) {
-  const pl_particle* m = &d->particle.at[particle];
-  *out = (pl_force){.whole = true, .reaction_to = -1};
-  for (int c = 0; c < m->n; c++) {
-    if (!pl_has_coordinates(d, m->at[c])) {  // stays, or is moved as given
-      out->whole = false;
-      continue;
-    }
-    if (pl_kind_of(d->pool, m->at[c]) != PL_SYMBOL) return false;
-    int i = pl_variable_index(d, pl_symbol_of(d->pool, m->at[c]));
-    if (i < 0 || shared(d, particle, d->q.at[i].q)) return false;
-    pl_expr factor = pl_alg_normal(d->tower, pl_on_fixed(d, d->g.at[link].gradient[i]));
-    if (pl_is_zero_node(d->pool, factor)) continue;
-    out->along[out->n] = pl_format(d->arena, "e_%s", d->model->axes[c].name);
-    out->factor[out->n++] = factor;
-  }
-  return true;
-}
-
-static bool along_frame(pl_analysis* d, int link, int particle, pl_force* out) {
-  pl_frame f;
-  *out = (pl_force){.reaction_to = -1};
-  if (!pl_frame_find(d, &d->particle.at[particle], &f)) return false;
-  out->whole = f.n == d->particle.at[particle].n;
-  for (int j = 0; j < f.n; j++) {
-    int i = f.coordinate[j];
-    if (shared(d, particle, d->q.at[i].q)) return false;
-    pl_expr factor = pl_div(d->pool, d->g.at[link].gradient[i], f.scale[j]);
-    factor = pl_alg_normal(d->tower, pl_on_fixed(d, factor));
-    if (pl_is_zero_node(d->pool, factor)) continue;
-    out->along[out->n] = pl_unit_vector(d, i);
-    out->factor[out->n++] = factor;
-  }
-  return true;
-}
-
-static bool force_on(pl_analysis* d, int link, int particle, pl_force* out) {
-  return along_axes(d, link, particle, out) || along_frame(d, link, particle, out);
-}
-
-// Action is reaction: where constraint `link` joins mass a to mass b, whose force is known along
-// all axes, the force on a is the opposite one. Virtual work along each coordinate of a decides
-// whether it joins them:
-//   dg/dq_i = -Z_b . dX_a/dq_i.
-static bool is_reaction(pl_analysis* d, int link, int a, int b, const pl_force* on_b) {
-  const pl_particle* m = &d->particle.at[a];
-  if (!on_b->whole || m->n != d->particle.at[b].n) return false;
-  for (int i = 0; i < d->q.n; i++) {
-    pl_expr work = d->g.at[link].gradient[i];
-    bool moves = false;
-    for (int c = 0; c < m->n; c++) {
-      pl_expr way = pl_diff(d->pool, m->at[c], d->q.at[i].q);
-      const char* along = pl_format(d->arena, "e_%s", d->model->axes[c].name);
-      moves |= !pl_is_zero_node(d->pool, way);
-      for (int j = 0; j < on_b->n; j++) {
-        if (strcmp(on_b->along[j], along) != 0) continue;
-        work = pl_add(d->pool, work, pl_mul(d->pool, on_b->factor[j], way));
-      }
-    }
-    if (moves && pl_alg_is_zero(d->tower, pl_on_fixed(d, work)) != PL_YES) return false;
-  }
-  return true;
-}
-
-// Of two masses that the constraint acts on, one may lack coordinates for a part of its force.
-static void complete_by_reaction(pl_analysis* d, int link, pl_force* f) {
-  int acted[2], n = 0;
-  for (int m = 0; m < d->particle.n; m++) {
-    if (f[m].n == 0) continue;
-    if (n == 2) return;
-    acted[n++] = m;
-  }
-  for (int k = 0; n == 2 && k < 2; k++) {
-    int a = acted[k], b = acted[1 - k];
-    pl_force own;
-    if (f[a].whole || !along_axes(d, link, b, &own) || !is_reaction(d, link, a, b, &own)) continue;
-    f[a] = own;
-    f[a].reaction_to = b;
-    for (int j = 0; j < own.n; j++) f[a].factor[j] = pl_neg(d->pool, own.factor[j]);
-  }
-}
-
-pl_expr pl_force_scale(pl_analysis* d, int link) {
-  pl_expr square = pl_poison();
-  for (int m = 0; m < d->particle.n; m++) {
-    pl_force f;
-    if (!force_on(d, link, m, &f)) return pl_poison();
-    if (f.n == 0) continue;
-    pl_expr sum = pl_int(d->pool, 0);
-    for (int j = 0; j < f.n; j++) sum = pl_add(d->pool, sum, pl_square(d->pool, f.factor[j]));
-    if (!pl_is_poison(square) && pl_alg_equal(d->tower, square, sum) != PL_YES) return pl_poison();
-    square = sum;
-  }
-  return pl_is_poison(square) ? square : pl_sqrt(d->pool, square);
-}
-
 // A product that ends in a fraction reads wrongly in front of a unit vector.
 static const pl_form* bracketed(pl_analysis* d, const pl_form* f) {
   bool fraction = f->kind == PL_F_QUOTIENT && pl_form_ops(f->args[1]) == 0;
@@ -228,7 +111,7 @@ static void show_differentiated(pl_analysis* d, int k) {
         pl_feq(d, pl_fn(d, pl_format(d->arena, "%s''", g)),
                pl_feq(d, pl_fs(d, c->a), pl_fe(d, pl_dt(d->pool, pl_dt(d->pool, c->fixed)))))};
     pl_show(d, pl_flist(d, f, 2));
-    int row = d->number_lagrange1 > 0 ? d->number_lagrange1 : 0;
+    int row = d->page->number_lagrange1 > 0 ? d->page->number_lagrange1 : 0;
     if (row)
       pl_say(d, "inserted into the equation of {1}:", "in die Gleichung von {1} eingesetzt:", 1,
              pl_fs(d, c->q));
@@ -259,14 +142,14 @@ static pl_lambda_value lambda_for(pl_analysis* d, int k, const pl_motion* motion
   pl_bond* l = &d->g.at[k];
   pl_lambda_value out = {.value = l->lambda_value};
   bool moves = d->gen.n == 1 && pl_has_symbol(d->pool, l->lambda_value, d->q.at[d->gen.at[0]].v);
-  if (show && (!l->number || moves)) {
+  if (show && (!d->page->lambda_number[k] || moves)) {
     show_differentiated(d, k);
     pl_step* step = show_lambda_for(d, k, moves);
-    for (int r = 0; r < d->lagrange1_numbers.n; r++)
-      pl_step_refs(step, 1, d->lagrange1_numbers.at[r]);
+    for (int r = 0; r < d->page->lagrange1_numbers.n; r++)
+      pl_step_refs(step, 1, d->page->lagrange1_numbers.at[r]);
     bool known;
     pl_step_value(d, step, l->lambda_value, pl_dimension_of_expr(d, l->lambda_value, &known));
-    l->number = out.number = step->number;
+    d->page->lambda_number[k] = out.number = step->number;
   }
   if (!motion->given || !pl_has_role(d->pool, l->lambda_value, PL_R_VELOCITY)) return out;
   pl_line line;
@@ -312,7 +195,7 @@ static void answer_components(pl_analysis* d, const char* of, const char* on, co
     if (known) v.unit = pl_dimension_unit(d->arena, dim, true);
   }
   pl_structure_where(d, &v);
-  pl_push(d->arena, d->section->values, v);
+  pl_push(d->arena, d->page->section->values, v);
 }
 
 // A multiplier that is too long to be written out stays a name; the system that determines it is
@@ -324,7 +207,8 @@ static bool lambda_over_names(pl_analysis* d, int k, pl_lambda_value* out) {
   if (l->lambda_known && pl_op_count(d->pool, l->lambda_value) <= longest_written) return false;
   if (!pl_show_structured(d, l->lambda, l->lambda_known ? l->lambda_value : pl_poison()))
     return false;
-  *out = (pl_lambda_value){.value = pl_sym(d->pool, l->lambda), .number = d->solution->n_equations};
+  *out = (pl_lambda_value){.value = pl_sym(d->pool, l->lambda),
+                           .number = d->page->solution->n_equations};
   return true;
 }
 
@@ -363,7 +247,7 @@ static void show_on(pl_analysis* d, int k, int particle, const pl_force* f,
   const pl_form* closed = !stays && ops <= closed_ops ? vector_of(d, f, value, PL_S_QUOTIENT)
                                                       : NULL;
   pl_step* step = pl_show_numbered(d, pl_feq(d, Z, closed ? pl_feq(d, named, closed) : named));
-  pl_step_refs(step, 1, lambda->number > 0 ? lambda->number : d->g.at[k].number);
+  pl_step_refs(step, 1, lambda->number > 0 ? lambda->number : d->page->lambda_number[k]);
   say_on(d, step, label, f, only_one);
   if (f->n == 1) {
     bool known;
@@ -462,17 +346,13 @@ static void force_of(pl_analysis* d, const pl_ask* ask, int k) {
   if (!stays && !d->g.at[k].lambda_known) {
     pl_say(d, "The multiplier of {1} is not determined in closed form.",
            "Der Multiplikator von {1} ist nicht geschlossen bestimmt.", 1, pl_fn(d, label));
-    d->section->not_found = true;
+    d->page->section->not_found = true;
     return;
   }
   if (!stays) lambda = lambda_for(d, k, &ask->motion, true);
-  int n = 0, first = -1;
+  int first;
   pl_force* f = PL_ARRAY(d->arena, pl_force, d->particle.n + 1);
-  for (int m = 0; m < d->particle.n; m++) {
-    if (!force_on(d, k, m, &f[m])) f[m].n = 0;
-    if (f[m].n > 0 && n++ == 0) first = m;
-  }
-  complete_by_reaction(d, k, f);
+  int n = pl_forces_of(d, k, f, &first);
   for (int m = 0; m < d->particle.n; m++) {
     if (f[m].n > 0) show_on(d, k, m, &f[m], &lambda, d->particle.n == 1);
   }
@@ -492,7 +372,7 @@ static int together_on(pl_analysis* d, int m) {
   int n = 0;
   for (int k = 0; k < d->g.n; k++) {
     pl_force f;
-    if (!d->g.at[k].shared || !d->g.at[k].lambda_known || !force_on(d, k, m, &f) || f.n == 0)
+    if (!d->g.at[k].shared || !d->g.at[k].lambda_known || !pl_force_on(d, k, m, &f) || f.n == 0)
       continue;
     name[n++] = pl_fn(d, d->g.at[k].source->name.text);
     for (int j = 0; j < f.n; j++) {
@@ -529,7 +409,7 @@ static void force_on_mass(pl_analysis* d, const pl_ask* ask, int m) {
   int shown = 0;
   for (int k = 0; k < d->g.n; k++) {
     pl_force f;
-    if (d->g.at[k].implied || d->g.at[k].shared || !force_on(d, k, m, &f) || f.n == 0) continue;
+    if (d->g.at[k].implied || d->g.at[k].shared || !pl_force_on(d, k, m, &f) || f.n == 0) continue;
     shown++;
     pl_lambda_value lambda;
     bool stays = lambda_over_names(d, k, &lambda);
@@ -537,7 +417,7 @@ static void force_on_mass(pl_analysis* d, const pl_ask* ask, int m) {
       pl_say(d, "The multiplier of {1} is not determined in closed form.",
              "Der Multiplikator von {1} ist nicht geschlossen bestimmt.", 1,
              pl_fn(d, d->g.at[k].source->name.text));
-      d->section->not_found = true;
+      d->page->section->not_found = true;
       continue;
     }
     if (!stays) lambda = lambda_for(d, k, &ask->motion, false);

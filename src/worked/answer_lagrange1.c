@@ -1,6 +1,6 @@
 // answer_lagrange1: the Lagrange equations of the first kind, in the coordinates or along an
-// orthonormal frame, and the way from them to the multipliers: constraints twice differentiated,
-// equations inserted, solved.
+// orthonormal frame, and the way from
+// them to the multipliers: constraints twice differentiated, equations inserted, solved.
 #include <string.h>
 
 #include "worked/worked_impl.h"
@@ -84,8 +84,8 @@ static void show_equation(pl_analysis* d, int i, pl_expr scale, bool insert) {
   if (pl_is_one_node(d->pool, scale)) pl_why_first_kind(d, i);
   const pl_form* left = pl_f(d, s.inertia, PL_S_EQUATION);
   pl_step* step = pl_show_numbered(d, pl_feq(d, left, right_side(d, i, &s, scale, insert)));
-  pl_push(d->arena, d->lagrange1_numbers, step->number);
-  if (!d->number_lagrange1) d->number_lagrange1 = step->number;
+  pl_push(d->arena, d->page->lagrange1_numbers, step->number);
+  if (!d->page->number_lagrange1) d->page->number_lagrange1 = step->number;
   // On the motion the displayed equation is the row of d'Alembert.
   pl_claim_that(d, PL_CLAIM_MOTION, pl_form_value(d->pool, left),
                 pl_add(d->pool, s.force, pl_div(d->pool, push_of(d, i), scale)));
@@ -212,7 +212,8 @@ static void lagrange1_in_coordinates(pl_analysis* d, const pl_ask* ask) {
 }
 
 // Operations of a normal form up to which a shorter one is looked for, and of that; beyond them the
-// value is given over named intermediates.
+// value is given over named
+// intermediates.
 static const long longest_searched = 1500, longest_answer = 150;
 
 static void answer_accelerations(pl_analysis* d) {
@@ -244,7 +245,7 @@ static bool not_in_these_coordinates(pl_analysis* d) {
          "Wie sie sich auf deren Koordinaten verteilt, ist "
          "bis auf Zwangskräfte offen; die Gleichungen zweiter Art brauchen diese Wahl nicht.",
          1, pl_fs(d, d->q.at[i].q));
-  d->section->not_found = true;
+  d->page->section->not_found = true;
   return true;
 }
 
@@ -259,7 +260,7 @@ static void say_not_along(pl_analysis* d, const pl_ask* ask) {
          "Die Massen stehen nicht in {1}: ohne „in“ fragen, nach den Gleichungen zweiter Art, oder "
          "die Orte der Massen in {1} schreiben.",
          1, pl_flist(d, name, ask->frame.n));
-  d->section->not_found = true;
+  d->page->section->not_found = true;
 }
 
 void pl_answer_lagrange1(pl_analysis* d, const pl_ask* ask) {
@@ -277,9 +278,9 @@ void pl_answer_lagrange1(pl_analysis* d, const pl_ask* ask) {
   if (own) {
     lagrange1_in_frame(d, k, &frame);
   } else {
-    int before = d->lagrange1_numbers.n;
+    int before = d->page->lagrange1_numbers.n;
     lagrange1_in_coordinates(d, ask);
-    if (ask->frame.n > 0 && d->lagrange1_numbers.n == before) say_not_along(d, ask);
+    if (ask->frame.n > 0 && d->page->lagrange1_numbers.n == before) say_not_along(d, ask);
   }
   answer_accelerations(d);
 }

@@ -2,6 +2,7 @@
 // kind, the Hamilton function.
 #include <string.h>
 
+#include "mechanics/structured.h"
 #include "worked/worked_impl.h"
 
 static const pl_form* zero_form(pl_analysis* d) {
@@ -24,7 +25,7 @@ static bool without_reduction(pl_analysis* d) {
          "nenne sie mit ihrer Abbildung, etwa: "
          "choose φ with x = l cos φ, y = l sin φ.",
          0);
-  d->section->not_found = true;
+  d->page->section->not_found = true;
   return true;
 }
 
@@ -129,7 +130,7 @@ static void show_lagrangian(pl_analysis* d) {
   const pl_form* form = pl_f(d, L, PL_S_ENERGY);
   const pl_form* both[2] = {pl_fl(d, "T"), pl_form_neg(d->arena, pl_fl(d, "V"))};
   const pl_form* right = given(d) ? form : pl_feq(d, pl_form_sum(d->arena, both, 2), form);
-  d->number_lagrangian = pl_show_numbered(d, pl_feq(d, pl_fl(d, "L"), right))->number;
+  d->page->number_lagrangian = pl_show_numbered(d, pl_feq(d, pl_fl(d, "L"), right))->number;
   pl_claim_that(d, PL_CLAIM_ENERGY, pl_form_value(d->pool, form), d->L);
   pl_answer(d, "L", L, form);
 }
@@ -218,8 +219,8 @@ static bool show_with_named_mass(pl_analysis* d, int i) {
   pl_why_second_kind(d, i);
   pl_step* step = pl_show_numbered(
       d, pl_feq(d, pl_form_sum(d->arena, terms, 2 + n_force), zero_form(d)));
-  pl_step_refs(step, 1, d->number_lagrangian);
-  pl_push(d->arena, d->lagrange2_numbers, step->number);
+  pl_step_refs(step, 1, d->page->number_lagrangian);
+  pl_push(d->arena, d->page->lagrange2_numbers, step->number);
   return true;
 }
 
@@ -251,7 +252,8 @@ static const pl_form* by_order(pl_analysis* d, pl_expr e) {
     if (!pl_is_zero_node(d->pool, c)) part[n++] = times(d, pl_f(d, c, PL_S_QUOTIENT), a);
   }
   pl_expr rest = with_zero(d, e, false), force = with_zero(d, rest, true);
-  if (pl_is_poison(force)) force = pl_int(d->pool, 0);  // dry friction, |v|/v, has no value at v = 0
+  // dry friction, |v|/v, has no value at v = 0
+  if (pl_is_poison(force)) force = pl_int(d->pool, 0);
   pl_expr moving = pl_alg_normal(d->tower, pl_sub(d->pool, rest, force));
   if (!pl_is_zero_node(d->pool, moving))
     part[n++] = pl_positive_first(d, pl_f(d, moving, PL_S_EQUATION));
@@ -286,8 +288,8 @@ static void show_second_kind(pl_analysis* d, int i) {
   const pl_form* form = by_order(d, shown);
   pl_why_second_kind(d, i);
   pl_step* step = pl_show_numbered(d, pl_feq(d, form, zero_form(d)));
-  pl_step_refs(step, 1, d->number_lagrangian);
-  pl_push(d->arena, d->lagrange2_numbers, step->number);
+  pl_step_refs(step, 1, d->page->number_lagrangian);
+  pl_push(d->arena, d->page->lagrange2_numbers, step->number);
   bool moves = pl_has_role(d->pool, e, PL_R_ACCELERATION) || pl_has_role(d->pool, e, PL_R_VELOCITY);
   if (moves) {
     pl_claim_that(d, PL_CLAIM_ONE_TWO, pl_form_value(d->pool, form), pl_int(d->pool, 0));
@@ -323,8 +325,8 @@ static void show_solved(pl_analysis* d, int i, long longest) {
   pl_claim_that(d, PL_CLAIM_ONE_TWO, pl_form_value(d->pool, form), pl_sym(d->pool, name));
   bool told = d->gen.n == 1 && pl_form_ops(form) > longest_beside;  // its equation tells it better
   pl_step* step = told ? NULL : pl_show_numbered(d, pl_feq(d, pl_fs(d, name), form));
-  for (int k = 0; k < d->lagrange2_numbers.n && step; k++)
-    pl_step_refs(step, 1, d->lagrange2_numbers.at[k]);
+  for (int k = 0; k < d->page->lagrange2_numbers.n && step; k++)
+    pl_step_refs(step, 1, d->page->lagrange2_numbers.at[k]);
   pl_answer(d, pl_symbol_get(d->pool, name)->ascii, a, form);
 }
 
@@ -386,7 +388,7 @@ void pl_answer_lagrange2(pl_analysis* d, const pl_ask* ask) {
            "Die Beschleunigungen sind durch diese Gleichungen nicht bestimmt: die Massenmatrix ist "
            "singulär.",
            0);
-    d->section->not_found = true;
+    d->page->section->not_found = true;
   }
   if (named) show_quadrature(d, d->gen.at[0]);
 }
@@ -436,7 +438,7 @@ void pl_answer_hamiltonian(pl_analysis* d, const pl_ask* ask) {
                  : "H(q, p) braucht das Inverse der Massenmatrix, das hier zu lang zum "
                    "Ausschreiben ist; die Impulse sind angegeben.",
         0);
-    d->section->not_found = true;
+    d->page->section->not_found = true;
     return;
   }
   pl_expr H = pl_neg(d->pool, d->Lg);
@@ -448,6 +450,6 @@ void pl_answer_hamiltonian(pl_analysis* d, const pl_ask* ask) {
   }
   H = pl_alg_normal(d->tower, pl_subst(d->pool, H, rest, n));
   const pl_form* form = pl_f(d, H, PL_S_ENERGY);
-  pl_step_refs(pl_show_numbered(d, pl_feq(d, pl_fl(d, "H"), form)), 1, d->number_lagrangian);
+  pl_step_refs(pl_show_numbered(d, pl_feq(d, pl_fl(d, "H"), form)), 1, d->page->number_lagrangian);
   pl_answer(d, "H", H, form);
 }

@@ -26,7 +26,7 @@ static bool says_nothing(pl_analysis* d, pl_expr name, pl_expr value) {
          "{1} gehört zum Zustand, und eine geschlossene Form der Bewegung wurde nicht gefunden: Es "
          "gibt nichts, wovon ein Grenzwert zu nehmen wäre.",
          1, pl_fe(d, name));
-  d->section->not_found = true;
+  d->page->section->not_found = true;
   return true;
 }
 
@@ -75,7 +75,7 @@ static void show_limit(pl_analysis* d, const pl_form* condition, pl_expr subject
 
 static void not_found(pl_analysis* d, const pl_form* condition) {
   pl_say(d, "{1}: no limit was found.", "{1}: kein Grenzwert gefunden.", 1, condition);
-  d->section->not_found = true;
+  d->page->section->not_found = true;
 }
 
 static void limit_equal(pl_analysis* d, const pl_ask* ask, pl_expr name, pl_expr e) {
@@ -194,9 +194,10 @@ static int subjects(pl_analysis* d, const pl_ask* ask, pl_expr* name, pl_expr* e
     return 1;
   }
   int n = 0;
-  for (int s = 0; s < d->solution->sections.n; s++) {
-    const pl_section* section = &d->solution->sections.at[s];
-    if (!section->letter || strcmp(section->letter, ask->of_letter) != 0 || section == d->section)
+  for (int s = 0; s < d->page->solution->sections.n; s++) {
+    const pl_section* section = &d->page->solution->sections.at[s];
+    if (!section->letter || strcmp(section->letter, ask->of_letter) != 0
+        || section == d->page->section)
       continue;
     for (int k = 0; k < section->values.n && n < max; k++) {
       pl_symbol symbol = pl_symbol_find(d->pool, section->values.at[k].name);

@@ -60,7 +60,7 @@ static void say_growth(pl_analysis* d, const pl_linearised* l, pl_expr w2, const
            "instabil: keine Schwingung, die Abweichung wächst wie e^(σ t) mit {1}", 1,
            pl_feq(d, pl_fn(d, "σ²"),
                   pl_f(d, pl_alg_normal(d->tower, pl_neg(d->pool, w2)), PL_S_QUOTIENT)));
-  } else if (sign == 0 && isnan(x) && pl_holds_if(d, w2, true, &form, &text) == PL_UNKNOWN) {
+  } else if (sign == 0 && isnan(x) && pl_condition_form(d, w2, true, &form, &text) == PL_UNKNOWN) {
     bool always = r->n_conditions == 0;
     pl_say(d, always ? "an oscillation if {1}, else the deviation grows" : "an oscillation if {1}",
            always ? "eine Schwingung, wenn {1}, sonst wächst die Abweichung"
@@ -74,8 +74,8 @@ static void show_mode(pl_analysis* d, const pl_linearised* l, const pl_rest* r, 
   const pl_form* form = pl_f(d, w2, PL_S_QUOTIENT);
   pl_step* step = pl_show_numbered(d, pl_square_form(d, w2, r->numeric));
   number_of_mode(d, step, w2);
-  for (int k = 0; k < d->lagrange2_numbers.n; k++)
-    pl_step_refs(step, 1, d->lagrange2_numbers.at[k]);
+  for (int k = 0; k < d->page->lagrange2_numbers.n; k++)
+    pl_step_refs(step, 1, d->page->lagrange2_numbers.at[k]);
   pl_step_after(step, pl_format(d->arena, "mode %d", number),
                 pl_format(d->arena, "Mode %d", number));
   pl_value v = {.name = "omega^2",
@@ -105,12 +105,13 @@ static void show_mode(pl_analysis* d, const pl_linearised* l, const pl_rest* r, 
              pl_flist(d, ratio, l->n));
     }
   }
-  pl_push(d->arena, d->section->values, v);
+  pl_push(d->arena, d->page->section->values, v);
   if (!r->numeric) say_growth(d, l, w2, r);
 }
 
 // One damped coordinate, M u'' + C u' + K u = 0: u = e^(-γ t) cos(ω_d t) with γ = C/2M, ω_d² = K/M
-// - γ²; the sign of ω_d² decides between oscillation and creeping.
+// - γ²; the sign of ω_d² decides
+// between oscillation and creeping.
 static void show_damped(pl_analysis* d, const pl_linearised* l, const char* at) {
   if (!l->damped || l->n != 1) return;
   pl_pool* p = d->pool;
@@ -136,7 +137,7 @@ static void show_damped(pl_analysis* d, const pl_linearised* l, const char* at) 
   pl_step_after(step, "damped oscillation", "gedämpfte Schwingung");
   pl_answer(d, "omega_d", root, form)->at = at;
   const char* text;
-  if (sign == 0 && pl_holds_if(d, square, true, &form, &text) == PL_UNKNOWN) {
+  if (sign == 0 && pl_condition_form(d, square, true, &form, &text) == PL_UNKNOWN) {
     pl_say(d, "an oscillation if {1}", "eine Schwingung, wenn {1}", 1, form);
   }
 }
@@ -187,7 +188,7 @@ static void show_modes(pl_analysis* d, const pl_expr* f, const pl_rest* r, int n
   } else if (n < l.n) {
     pl_say(d, "Not every root of the characteristic equation was found in closed form.",
            "Nicht jede Wurzel der charakteristischen Gleichung war geschlossen zu finden.", 0);
-    d->section->not_found = n == 0;
+    d->page->section->not_found = n == 0;
   }
 }
 
@@ -249,7 +250,7 @@ static void modes_of_steady(pl_analysis* d, const pl_ask* ask) {
            "anderen nach `at` und eine Drehzahl, die sie "
            "hält.",
            0);
-    d->section->not_found = true;
+    d->page->section->not_found = true;
     return;
   }
   pl_expr rate = d->steady.at[0].to, f[pl_max_gen];
@@ -277,7 +278,7 @@ static void modes_of_steady(pl_analysis* d, const pl_ask* ask) {
   if (shown == 0) {
     pl_say(d, "The characteristic equation was not solved in closed form.",
            "Die charakteristische Gleichung war nicht geschlossen lösbar.", 0);
-    d->section->not_found = true;
+    d->page->section->not_found = true;
   }
   d->steady.n = 0;
 }
@@ -294,6 +295,7 @@ static void modes_at_rest(pl_analysis* d, const pl_ask* ask, pl_expr* f) {
     return;
   }
   pl_rests* found = pl_find_rests(d, f);
+  if (found->special_case) pl_say_special(d);
   int shown = 0, number = 0;
   for (int k = 0; k < found->n; k++) {
     if (pl_rest_pulls(d, &found->at[k]) || pl_rest_on_border(d, found, &found->at[k])) continue;
@@ -308,7 +310,23 @@ static void modes_at_rest(pl_analysis* d, const pl_ask* ask, pl_expr* f) {
            "Es gibt keine Ruhelage, um die etwas schwingen könnte.", 0);
   }
   if (!found->complete) pl_say_rests_missing(d, f, found);
-  d->section->not_found = shown == 0;
+  d->page->section->not_found = shown == 0;
+}
+
+static bool without_drive(pl_analysis* d, pl_expr* f) {
+  pl_drive drive;
+  if (!pl_without_drive(d, f, &drive)) return false;
+  const pl_form* term[pl_max_gen];
+  for (int k = 0; k < drive.n; k++) term[k] = pl_f(d, drive.force[k], PL_S_PLAIN);
+  if (drive.n > 0)
+    pl_say(d, "Without the drive: {1} is set to 0.", "Ohne den Antrieb: {1} wird 0 gesetzt.", 1,
+           pl_flist(d, term, drive.n));
+  if (drive.amplitude.id) {
+    const pl_form* none = pl_feq(d, pl_fs(d, drive.amplitude),
+                                 pl_form_leaf(d->arena, pl_int(d->pool, 0)));
+    pl_say(d, "Without the drive: {1}.", "Ohne den Antrieb: {1}.", 1, none);
+  }
+  return true;
 }
 
 void pl_answer_modes(pl_analysis* d, const pl_ask* ask) {
@@ -321,7 +339,7 @@ void pl_answer_modes(pl_analysis* d, const pl_ask* ask) {
   }
   pl_at_rest_equations(d, f);
   if (pl_say_bends(d, f)) return;
-  if (pl_without_drive(d, f)) {
+  if (without_drive(d, f)) {
     modes_at_rest(d, ask, f);
   } else {
     pl_say(d,
@@ -330,7 +348,7 @@ void pl_answer_modes(pl_analysis* d, const pl_ask* ask) {
            "Die Gleichungen enthalten t nicht nur in einem Antrieb, den man weglassen könnte: es "
            "gibt keine Eigenschwingungen fester Frequenz.",
            0);
-    d->section->not_found = true;
+    d->page->section->not_found = true;
   }
   d->steady.n = 0;
 }

@@ -89,11 +89,11 @@ static const pl_form* refs_of_accelerations(pl_analysis* d, pl_expr e) {
   for (int j = 0; j < d->q.n; j++) {
     if (!d->q.at[j].carries || d->q.at[j].fixed_by >= 0) continue;
     int row = rows++;
-    if (row < d->lagrange1_numbers.n && pl_has_symbol(d->pool, e, d->q.at[j].a))
-      number[n++] = d->lagrange1_numbers.at[row];
+    if (row < d->page->lagrange1_numbers.n && pl_has_symbol(d->pool, e, d->q.at[j].a))
+      number[n++] = d->page->lagrange1_numbers.at[row];
   }
-  if (n == 0 || rows != d->lagrange1_numbers.n)
-    return refs_form(d, d->lagrange1_numbers.at, d->lagrange1_numbers.n);
+  if (n == 0 || rows != d->page->lagrange1_numbers.n)
+    return refs_form(d, d->page->lagrange1_numbers.at, d->page->lagrange1_numbers.n);
   return n == 1 ? pl_fref(d, number[0]) : refs_form(d, number, n);
 }
 
@@ -111,18 +111,19 @@ static void show_twice_differentiated(pl_analysis* d, int k) {
     const pl_form* both[2] = {
         pl_feq(d, pl_fs(d, c->v), pl_fe(d, pl_dt(d->pool, c->fixed))),
         pl_feq(d, pl_fs(d, c->a), pl_fe(d, pl_dt(d->pool, pl_dt(d->pool, c->fixed))))};
-    d->number_gdd = pl_show_numbered(d, pl_flist(d, both, 2))->number;
+    d->page->number_gdd = pl_show_numbered(d, pl_flist(d, both, 2))->number;
     return;
   }
-  d->number_gdd = pl_show_numbered(
-                      d, pl_feq(d, pl_f(d, pl_alg_normal(d->tower, gdd), PL_S_EQUATION), zero))
-                      ->number;
+  d->page->number_gdd =
+      pl_show_numbered(d, pl_feq(d, pl_f(d, pl_alg_normal(d->tower, gdd), PL_S_EQUATION), zero))
+          ->number;
   pl_claim_that(d, PL_CLAIM_MOTION, gdd, pl_int(d->pool, 0));
   pl_expr inserted;
-  if (d->lagrange1_numbers.n == 0 || !insert_rows(d, pl_on_contact(d, gdd), &inserted)) return;
+  if (d->page->lagrange1_numbers.n == 0 || !insert_rows(d, pl_on_contact(d, gdd), &inserted))
+    return;
   if (pl_op_count(d->pool, inserted) > 60) return;
   pl_say(d, "{1} inserted into {2}:", "{1} in {2} eingesetzt:", 2, refs_of_accelerations(d, gdd),
-         pl_fref(d, d->number_gdd));
+         pl_fref(d, d->page->number_gdd));
   pl_show(d, pl_feq(d, by_multipliers(d, inserted), zero));
   pl_claim_that(d, PL_CLAIM_MOTION, inserted, pl_int(d->pool, 0));
   pl_why_multiplier(d, k, inserted);
@@ -130,8 +131,8 @@ static void show_twice_differentiated(pl_analysis* d, int k) {
 
 // A line that follows from the equations of motion and one more: as many as a step can name.
 static void refer_to_equations(pl_analysis* d, pl_step* step, int more) {
-  for (int k = 0; k < d->lagrange1_numbers.n; k++)
-    pl_step_refs(step, 1, d->lagrange1_numbers.at[k]);
+  for (int k = 0; k < d->page->lagrange1_numbers.n; k++)
+    pl_step_refs(step, 1, d->page->lagrange1_numbers.at[k]);
   pl_step_refs(step, 1, more);
 }
 
@@ -150,7 +151,7 @@ static void show_row(pl_analysis* d, int k) {
   const pl_form* form = pl_positive_first(d, pl_f(d, row, PL_S_QUOTIENT));
   if (pl_form_ops(form) > longest_lambda) return;
   pl_say(d, "From the equation of {1}:", "Aus der Gleichung von {1}:", 1, pl_fs(d, d->q.at[i].q));
-  d->g.at[k].number = d->number_lambda =
+  d->page->lambda_number[k] = d->page->number_lambda =
       pl_show_numbered(d, pl_feq(d, pl_fs(d, d->g.at[k].lambda), form))->number;
   pl_claim_that(d, PL_CLAIM_MOTION, pl_form_value(d->pool, form),
                 pl_sym(d->pool, d->g.at[k].lambda));
@@ -162,13 +163,13 @@ static void show_lambda(pl_analysis* d, int k) {
        long_at_sight = solved && pl_op_count(d->pool, l->lambda_value) > longest_searched;
   if ((!solved || long_at_sight)
       && pl_show_structured(d, l->lambda, solved ? l->lambda_value : pl_poison())) {
-    d->section->values.at[d->section->values.n - 1].of = l->source->name.text;
+    d->page->section->values.at[d->page->section->values.n - 1].of = l->source->name.text;
     return;
   }
   if (!solved) {
     pl_say(d, "{1} is not determined by the equations in closed form.",
            "{1} ist durch die Gleichungen nicht geschlossen bestimmt.", 1, pl_fs(d, l->lambda));
-    d->section->not_found = true;
+    d->page->section->not_found = true;
     return;
   }
   const pl_form* form = pl_positive_first(
@@ -176,7 +177,7 @@ static void show_lambda(pl_analysis* d, int k) {
   bool beside = pl_structure_is_told(d) && l->fixes < 0;  // the names are there
   if (pl_form_ops(form) > (beside ? longest_beside : longest_lambda)
       && pl_show_structured(d, l->lambda, l->lambda_value)) {
-    d->section->values.at[d->section->values.n - 1].of = l->source->name.text;
+    d->page->section->values.at[d->page->section->values.n - 1].of = l->source->name.text;
     return;
   }
   if (pl_form_ops(form) > longest_lambda) {
@@ -195,8 +196,8 @@ static void show_lambda(pl_analysis* d, int k) {
            1, pl_fs(d, l->lambda));
   } else {
     pl_step* step = pl_show_numbered(d, pl_feq(d, pl_fs(d, l->lambda), form));
-    l->number = d->number_lambda = step->number;
-    refer_to_equations(d, step, d->number_gdd);
+    d->page->lambda_number[k] = d->page->number_lambda = step->number;
+    refer_to_equations(d, step, d->page->number_gdd);
     bool known;
     pl_step_value(d, step, l->lambda_value, pl_dimension_of_expr(d, l->lambda_value, &known));
     pl_say_pole_at_start(d, pl_fs(d, l->lambda), l->lambda_value);
@@ -226,8 +227,8 @@ static void solve_lambda(pl_analysis* d, int k) {
 static void show_acceleration(pl_analysis* d, int i) {
   const pl_form* form = pl_f(d, d->acceleration[i], PL_S_QUOTIENT);
   pl_step* step = pl_show_numbered(d, pl_feq(d, pl_fs(d, d->q.at[i].a), form));
-  d->number_acceleration = step->number;
-  refer_to_equations(d, step, d->number_lambda);
+  d->page->number_acceleration = step->number;
+  refer_to_equations(d, step, d->page->number_lambda);
   bool known;
   pl_step_value(d, step, d->acceleration[i], pl_dimension_of_expr(d, d->acceleration[i], &known));
   pl_say_pole_at_start(d, pl_fs(d, d->q.at[i].a), d->acceleration[i]);
@@ -237,7 +238,7 @@ static void show_acceleration(pl_analysis* d, int i) {
 static bool no_acceleration(pl_analysis* d, int i) {
   if (d->solved && i >= 0 && !pl_is_poison(d->acceleration[i])) return false;
   pl_say(d, "No closed form was found for it.", "Dafür wurde keine geschlossene Form gefunden.", 0);
-  d->section->not_found = true;
+  d->page->section->not_found = true;
   return true;
 }
 
@@ -257,147 +258,23 @@ static void say_inserted(pl_analysis* d, int i) {
   for (int j = 0; j < i; j++) row += d->q.at[j].carries && d->q.at[j].fixed_by < 0;
   for (int k = 0; k < d->g.n; k++) {
     bool stands = !pl_is_zero_node(d->pool, pl_on_fixed(d, d->g.at[k].gradient[i]));
-    if (stands && d->g.at[k].number > 0) number[n++] = d->g.at[k].number;
+    if (stands && d->page->lambda_number[k] > 0) number[n++] = d->page->lambda_number[k];
   }
-  if (n == 0 || row >= d->lagrange1_numbers.n) return;
+  if (n == 0 || row >= d->page->lagrange1_numbers.n) return;
   pl_say(d, "{1} inserted into {2}:", "{1} in {2} eingesetzt:", 2,
          n == 1 ? pl_fref(d, number[0]) : refs_form(d, number, n),
-         pl_fref(d, d->lagrange1_numbers.at[row]));
+         pl_fref(d, d->page->lagrange1_numbers.at[row]));
 }
 
 // ---------------------------------------------------------------------------------- closed motions
-// x'' = A + B x + C x' with constant A, B, C: the general solution through x(0),
-// x'(0). [Arnold1989, sec. 5]
-typedef struct pl_linear_equation {
-  pl_expr A, B, C;
-} pl_linear_equation;
-
-static bool is_parameter(pl_analysis* d, pl_expr e) {
-  return !pl_has_coordinates(d, e) && !pl_has_symbol(d->pool, e, pl_time(d->pool));
-}
-
-static bool linear_equation(pl_analysis* d, int i, pl_linear_equation* out) {
-  pl_expr a = pl_on_special(d, d->acceleration[i]), cx[2], cv[2];
-  int nx = pl_alg_coefficients(d->tower, a, d->q.at[i].q, cx, 1);
-  if (nx < 0) return false;
-  out->B = nx == 1 ? cx[1] : pl_int(d->pool, 0);
-  int nv = pl_alg_coefficients(d->tower, cx[0], d->q.at[i].v, cv, 1);
-  if (nv < 0) return false;
-  out->C = nv == 1 ? cv[1] : pl_int(d->pool, 0);
-  out->A = cv[0];
-  return is_parameter(d, out->A) && is_parameter(d, out->B) && is_parameter(d, out->C);
-}
-
 // The general solution keeps x(0) and x'(0) as names, whatever `init` says.
 static pl_expr start_of(pl_analysis* d, pl_symbol s) {
   return pl_sym(d->pool, pl_symbol_start(d->pool, s));
 }
 
-static pl_expr uniform(pl_analysis* d, pl_expr A, pl_expr x0, pl_expr v0, pl_expr t) {
-  pl_pool* p = d->pool;
-  pl_expr fall = pl_mul_n(p, (pl_expr[]){pl_ratio(p, 1, 2), A, pl_square(p, t)}, 3);
-  return pl_add_n(p, (pl_expr[]){x0, pl_mul(p, v0, t), fall}, 3);
-}
-
-static pl_expr in_parts(pl_analysis* d, pl_laplace_poles* parts, pl_expr steady, pl_expr rest) {
-  if (parts) {
-    parts->part[parts->n++] = steady;
-    parts->part[parts->n++] = rest;
-  }
-  return pl_add(d->pool, steady, rest);
-}
-
-// x'' = A + C x':  x = x0 - c - A t/C + c e^{Ct} with c = (v0 + A/C)/C
-static pl_expr with_friction(pl_analysis* d, const pl_linear_equation* l, pl_expr x0, pl_expr v0,
-                             pl_expr t, pl_laplace_poles* parts) {
-  pl_pool* p = d->pool;
-  pl_expr terminal = pl_div(p, l->A, l->C), c = pl_div(p, pl_add(p, v0, terminal), l->C);
-  pl_expr steady = pl_add_n(p, (pl_expr[]){x0, pl_neg(p, c), pl_neg(p, pl_mul(p, terminal, t))}, 3);
-  return in_parts(d, parts, steady, pl_mul(p, c, pl_call(p, PL_EXP, pl_mul(p, l->C, t))));
-}
-
-// The discriminant is zero: critical damping, u = e^{Ct/2} (u0 + (v0 - C u0/2) t). Where only the
-// given numbers make it zero, they are a special case, which is tried next.
-static pl_expr critical(pl_analysis* d, pl_expr disc, pl_expr half, pl_expr rest, pl_expr x0,
-                        pl_expr v0, pl_expr t, pl_laplace_poles* parts) {
-  pl_pool* p = d->pool;
-  if (pl_alg_is_zero(d->tower, disc) != PL_YES) {
-    pl_find_special(d, disc);
-    return pl_poison();
-  }
-  pl_expr u0 = pl_sub(p, x0, rest), slope = pl_sub(p, v0, pl_mul(p, half, u0));
-  pl_expr swing = pl_mul(p, pl_call(p, PL_EXP, pl_mul(p, half, t)),
-                         pl_add(p, u0, pl_mul(p, slope, t)));
-  return in_parts(d, parts, rest, swing);
-}
-
-// x'' = A + B x + C x', B != 0, around the rest position -A/B; the sign of the discriminant
-// decides.
-static pl_expr oscillation(pl_analysis* d, const pl_linear_equation* l, pl_expr x0, pl_expr v0,
-                           pl_expr t, pl_laplace_poles* parts) {
-  pl_pool* p = d->pool;
-  pl_expr rest = pl_alg_normal(d->tower, pl_neg(p, pl_div(p, l->A, l->B)));
-  pl_expr half = pl_div(p, l->C, pl_int(p, 2));
-  pl_expr disc = pl_alg_normal(d->tower, pl_add(p, l->B, pl_square(p, half)));
-  int sign = -pl_sign_or_positive(d, pl_neg(p, disc));
-  if (sign == 0) return critical(d, disc, half, rest, x0, v0, t, parts);
-  pl_expr w = pl_alg_normal(d->tower, pl_sqrt(p, sign > 0 ? disc : pl_neg(p, disc)));
-  pl_expr wt = pl_mul(p, w, t), u0 = pl_sub(p, x0, rest);
-  pl_expr even = pl_call(p, sign > 0 ? PL_COSH : PL_COS, wt),
-          odd = pl_call(p, sign > 0 ? PL_SINH : PL_SIN, wt);
-  pl_expr slope = pl_div(p, pl_sub(p, v0, pl_mul(p, half, u0)), w);
-  pl_expr swing = pl_add(p, pl_mul(p, u0, even), pl_mul(p, slope, odd));
-  if (!pl_is_zero_node(p, half)) swing = pl_mul(p, pl_call(p, PL_EXP, pl_mul(p, half, t)), swing);
-  return in_parts(d, parts, rest, swing);
-}
-
-// poles: the parts that it is made of, where there are several; or NULL.
-static pl_expr general_motion(pl_analysis* d, int i, pl_laplace_poles* poles) {
-  pl_linear_equation l;
-  if (pl_is_poison(d->acceleration[i])) return pl_poison();
-  if (!linear_equation(d, i, &l)) return pl_linear_motion(d, i, poles);
-  pl_expr x0 = start_of(d, d->q.at[i].q), v0 = start_of(d, d->q.at[i].v),
-          t = pl_sym(d->pool, pl_time(d->pool));
-  if (!pl_is_zero_node(d->pool, l.B)) return oscillation(d, &l, x0, v0, t, poles);
-  if (!pl_is_zero_node(d->pool, l.C)) return with_friction(d, &l, x0, v0, t, poles);
-  return uniform(d, l.A, x0, v0, t);
-}
-
-// Where the given numbers make the general solution divide by zero, that of the special case.
-static pl_expr closed_motion(pl_analysis* d, int i, pl_laplace_poles* poles) {
-  for (;;) {
-    int before = d->special.n;
-    if (poles) poles->n = 0;
-    pl_expr x = general_motion(d, i, poles), base;
-    bool pole = pl_pole_at_numbers(d, x, &base);
-    if (pole) pl_find_special(d, base);
-    if (d->special.n == before) return pole ? pl_poison() : x;
-  }
-}
-
-pl_expr pl_closed_motion(pl_analysis* d, int i) { return closed_motion(d, i, NULL); }
-
-// The limit of a coordinate or velocity means that of its motion. Another quantity, or one without
-// a closed motion, stays.
-pl_expr pl_as_function_of_time(pl_analysis* d, pl_expr e, pl_expr name) {
-  int i = pl_kind_of(d->pool, name) == PL_SYMBOL ? pl_variable_index(d, pl_symbol_of(d->pool, name))
-                                                 : -1;
-  if (i < 0 || !d->reduced) return e;
-  pl_replace* r = PL_ARRAY(d->arena, pl_replace, 2 * d->gen.n + 1);
-  int n = 0;
-  for (int k = 0; k < d->gen.n; k++) {
-    const pl_variable* c = &d->q.at[d->gen.at[k]];
-    if (!pl_has_symbol(d->pool, e, c->q) && !pl_has_symbol(d->pool, e, c->v)) continue;
-    pl_expr x = closed_motion(d, d->gen.at[k], NULL);
-    if (pl_is_poison(x)) return e;
-    r[n++] = (pl_replace){c->q, x};
-    r[n++] = (pl_replace){c->v, pl_diff(d->pool, x, pl_time(d->pool))};
-  }
-  return pl_subst(d->pool, e, r, n);
-}
-
 // The solution inserted into the equation, together with those of the coordinates it hangs on, and
-// its start: x(t)'' - x''(x, x') = 0, x(0) = x0.
+// its start:
+// x(t)'' - x''(x, x') = 0, x(0) = x0.
 static void claim_motion(pl_analysis* d, int i, pl_expr x) {
   pl_symbol t = pl_time(d->pool);
   pl_expr v = pl_diff(d->pool, x, t), a = pl_diff(d->pool, v, t),
@@ -408,7 +285,7 @@ static void claim_motion(pl_analysis* d, int i, pl_expr x) {
     const pl_variable* c = &d->q.at[j];
     if (j != i && !pl_has_symbol(d->pool, rest, c->q) && !pl_has_symbol(d->pool, rest, c->v))
       continue;
-    pl_expr other = j == i ? x : pl_linear_motion(d, j, NULL);
+    pl_expr other = j == i ? x : pl_linear_motion(d, j, NULL, NULL);
     r[n++] = (pl_replace){c->q, other};
     r[n++] = (pl_replace){c->v, pl_diff(d->pool, other, t)};
   }
@@ -447,7 +324,7 @@ static void show_followers(pl_analysis* d, int i) {
 
 static void why_integrated(pl_analysis* d, int i, pl_expr x) {
   pl_linear_equation l;
-  if (!linear_equation(d, i, &l)) {
+  if (!pl_linear_equation_of(d, i, &l)) {
     pl_why_linear_motion(d, i);
   } else if (pl_is_zero_node(d->pool, l.B) && pl_is_zero_node(d->pool, l.C)) {
     pl_why_uniform(d, i, x);
@@ -479,8 +356,8 @@ static const pl_form* form_of_motion(pl_analysis* d, pl_expr x, const pl_laplace
   const pl_form *whole = pl_f(d, x, PL_S_SOLUTION), *term[most];
   int n = 0, parts = 0;
   for (int k = 0; k < poles->n; k++) {
-    if (pl_is_zero_node(d->pool, poles->part[k])) continue;
-    n = add_terms(pl_f(d, poles->part[k], PL_S_SOLUTION), term, n, most);
+    if (pl_is_zero_node(d->pool, poles->at[k].part)) continue;
+    n = add_terms(pl_f(d, poles->at[k].part, PL_S_SOLUTION), term, n, most);
     parts++;
   }
   if (parts < 2 || n > most) return whole;
@@ -522,12 +399,12 @@ static pl_expr solve_own_motion(pl_analysis* d, int i) {
   say_inserted(d, i);
   show_acceleration(d, i);
   pl_laplace_poles poles = {.n = 0};
-  pl_expr x = closed_motion(d, i, &poles);
+  pl_expr x = pl_closed_motion(d, i, &poles);
   if (pl_is_poison(x) && solve_escape(d, i)) return x;
   if (pl_is_poison(x)) {
     pl_say(d, "No elementary closed form of the motion was found.",
            "Eine elementare geschlossene Form der Bewegung wurde nicht gefunden.", 0);
-    d->section->not_found = true;
+    d->page->section->not_found = true;
     return x;
   }
   bool uniform_motion = !pl_has_coordinates(d, d->acceleration[i]);
@@ -543,11 +420,12 @@ static pl_expr solve_own_motion(pl_analysis* d, int i) {
   pl_say_special(d);
   why_integrated(d, i, x);
   const pl_form* form = form_of_motion(d, x, &poles);
-  pl_step_refs(pl_show_numbered(d, pl_feq(d, of_time(d, i), form)), 1, d->number_acceleration);
+  pl_step_refs(pl_show_numbered(d, pl_feq(d, of_time(d, i), form)), 1,
+               d->page->number_acceleration);
   claim_motion(d, i, pl_form_value(d->pool, form));
   pl_answer(d, pl_symbol_get(d->pool, c->q)->ascii, x, form);
   show_followers(d, i);
-  pl_say_while(d, d->section->values.n - 1);
+  pl_say_while(d, d->page->section->values.n - 1);
   return x;
 }
 
@@ -560,7 +438,7 @@ static void solve_by_map(pl_analysis* d, int i) {
   const pl_form* form = pl_f(d, x, PL_S_SOLUTION);
   pl_show_numbered(d, pl_feq(d, of_time(d, i), form));
   pl_answer(d, pl_symbol_get(d->pool, d->q.at[i].q)->ascii, x, form);
-  pl_assume_sides(d, d->section, d->section->values.n - 1);
+  pl_assume_sides(d, d->page->section, d->page->section->values.n - 1);
 }
 
 // A coordinate that a constraint fixes: its value.
@@ -611,7 +489,7 @@ static void multiplier_of_time(pl_analysis* d, int k) {
   for (int j = 0; j < d->q.n && !pl_is_poison(e); j++) {
     const pl_variable* c = &d->q.at[j];
     if (!pl_has_symbol(d->pool, e, c->q) && !pl_has_symbol(d->pool, e, c->v)) continue;
-    pl_expr x = closed_motion(d, j, NULL);
+    pl_expr x = pl_closed_motion(d, j, NULL);
     if (pl_is_poison(x)) e = x;
     r[n++] = (pl_replace){c->q, x};
     r[n++] = (pl_replace){c->v, pl_diff(d->pool, x, t)};
@@ -619,7 +497,7 @@ static void multiplier_of_time(pl_analysis* d, int k) {
   if (pl_is_poison(e)) {
     pl_say(d, "No elementary closed form of the motion was found.",
            "Eine elementare geschlossene Form der Bewegung wurde nicht gefunden.", 0);
-    d->section->not_found = true;
+    d->page->section->not_found = true;
     return;
   }
   e = pl_alg_normal(d->tower, pl_subst(d->pool, pl_on_special(d, e), r, n));
@@ -628,13 +506,13 @@ static void multiplier_of_time(pl_analysis* d, int k) {
   const pl_form* form = pl_f(d, e, PL_S_SOLUTION);
   pl_show_numbered(d, pl_feq(d, pl_fn(d, pl_format(d->arena, "%s(t)", s->name)), form));
   pl_answer(d, s->ascii, e, form)->of = l->source->name.text;
-  pl_say_while(d, d->section->values.n - 1);
+  pl_say_while(d, d->page->section->values.n - 1);
 }
 
 // ------------------------------------------------------------------------------------- the section
 void pl_answer_solve(pl_analysis* d, const pl_ask* ask) {
-  bool goes_on = ask->letter && d->solution->sections.n > 0 && d->section->letter
-                 && strcmp(d->section->letter, ask->letter) == 0;
+  bool goes_on = ask->letter && d->page->solution->sections.n > 0 && d->page->section->letter
+                 && strcmp(d->page->section->letter, ask->letter) == 0;
   pl_symbol s = pl_kind_of(d->pool, ask->value) == PL_SYMBOL ? pl_symbol_of(d->pool, ask->value)
                                                              : (pl_symbol){0};
   int k = link_of_lambda(d, s), i = pl_variable_index(d, s);

@@ -1,5 +1,6 @@
 // answer_threshold: the values of a given quantity at which the stability of a position of rest
-// changes: where one of its conditions changes its sign while the others hold.
+// changes: where one of its conditions
+// changes its sign while the others hold.
 #include <math.h>
 #include <string.h>
 
@@ -49,7 +50,7 @@ static void show_threshold(pl_analysis* d, pl_thresholds* found, pl_expr e, cons
   pl_say(d, "where the stability of {1} changes", "dort ändert sich die Stabilität von {1}", 1,
          pl_rest_form(d, r));
   if (!pl_is_poison(root->condition)
-      && pl_holds_if(d, root->condition, false, &real, &text) == PL_UNKNOWN) {
+      && pl_condition_form(d, root->condition, false, &real, &text) == PL_UNKNOWN) {
     v->exists_if = text;
     pl_say(d, "exists if {1}", "besteht, wenn {1}", 1, real);
   }
@@ -116,6 +117,7 @@ void pl_answer_threshold(pl_analysis* d, const pl_ask* ask) {
     thresholds_of(d, f, &named, &found);
   } else {
     pl_rests* rests = pl_find_rests(d, f);
+    if (rests->special_case) pl_say_special(d);
     found.complete = rests->complete && !rests->by_numbers;
     for (int k = 0; k < rests->n; k++) {
       if (pl_rest_on_border(d, rests, &rests->at[k])) continue;
@@ -134,5 +136,5 @@ void pl_answer_threshold(pl_analysis* d, const pl_ask* ask) {
     return;
   }
   pl_say(d, "None was found in closed form.", "Geschlossen wurde keine gefunden.", 0);
-  d->section->not_found = true;
+  d->page->section->not_found = true;
 }

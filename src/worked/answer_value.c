@@ -10,14 +10,6 @@ const char* pl_text_of(pl_analysis* d, pl_expr e) {
   return pl_notation_print(d->arena, d->pool, pl_f(d, e, PL_S_PLAIN), how);
 }
 
-// e on the motion; where a motion is meant, its velocities inserted.
-pl_expr pl_value_on(pl_analysis* d, const pl_motion* motion, pl_expr e, pl_line* line,
-                    bool* eliminated) {
-  e = pl_alg_normal(d->tower, pl_on_motion(d, pl_with_results(d, e)));
-  *eliminated = pl_has_role(d->pool, e, PL_R_VELOCITY) && pl_line_from(d, motion, line);
-  return *eliminated ? pl_along_line(d, line, e) : e;
-}
-
 static bool unsolved(pl_analysis* d, pl_expr e) {
   return pl_has_role(d->pool, e, PL_R_ACCELERATION) || pl_has_role(d->pool, e, PL_R_MULTIPLIER);
 }
@@ -37,7 +29,7 @@ bool pl_say_unsolved(pl_analysis* d, pl_expr asked, pl_expr e) {
          "{1} hängt an Beschleunigungen oder Multiplikatoren, für die keine geschlossene Form "
          "gefunden wurde.",
          1, pl_fe(d, asked));
-  d->section->not_found = true;
+  d->page->section->not_found = true;
   return true;
 }
 
@@ -55,7 +47,7 @@ static bool stays_open(pl_analysis* d, pl_expr asked, pl_expr e) {
   } else {
     return false;
   }
-  d->section->not_found = true;
+  d->page->section->not_found = true;
   return true;
 }
 

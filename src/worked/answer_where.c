@@ -1,13 +1,16 @@
 // answer_where: a quantity where conditions hold, `θ where λ = 0 from θ = 0 at rest`.
 //
 // A given quantity that a condition names, `m3 = m1 + m2`, is inserted everywhere. One condition on
-// the motion is met on it: along the coordinate that its integrals leave (line.c), else along time
-// where the motion is known in closed form, else in numbers (where_met.c, where_follow.c). Two and
-// more conditions, or a motion of which nothing is known, are equations for the state: each is
+// the motion is met on it: along
+// the coordinate that its integrals leave (line.c), else along time where the motion is known in
+// closed form, else in numbers
+// (where_met.c, where_follow.c). Two and more conditions, or a motion of which nothing is known,
+// are equations for the state: each is
 // solved for a quantity that it contains, and all solutions count.
 #include <math.h>
 #include <string.h>
 
+#include "mechanics/equilibria.h"
 #include "where_impl.h"
 
 enum { max_conditions = 8, max_solutions = 8 };
@@ -226,7 +229,7 @@ void pl_say_circular(pl_analysis* d, pl_expr name) {
          "Das lässt sich nicht beantworten: die Bedingungen und was von der Bewegung bekannt ist, "
          "geben keine Gleichung, aus der {1} folgt.",
          1, pl_fe(d, name));
-  d->section->not_found = true;
+  d->page->section->not_found = true;
 }
 
 static void say_independent(pl_analysis* d, pl_expr value) {
@@ -480,7 +483,7 @@ static bool on_time(pl_analysis* d, const pl_where* p, pl_expr* e) {
     start[n_start++] = (pl_replace){pl_symbol_start(d->pool, c->q), q0};
     start[n_start++] = (pl_replace){pl_symbol_start(d->pool, c->v), v0};
     if (!pl_has_symbol(d->pool, *e, c->q) && !pl_has_symbol(d->pool, *e, c->v)) continue;
-    pl_expr x = pl_closed_motion(d, d->gen.at[k]);
+    pl_expr x = pl_closed_motion(d, d->gen.at[k], NULL);
     if (pl_is_poison(x)) return false;
     r[n++] = (pl_replace){c->q, x};
     r[n++] = (pl_replace){c->v, pl_diff(d->pool, x, pl_time(d->pool))};
@@ -586,7 +589,8 @@ static pl_found solutions(pl_analysis* d, const pl_where* p) {
 
 // -------------------------------------------------------------------- signs that are only supposed
 // A given quantity without number counts as positive. For one that is no mass, length, stiffness or
-// gravity, and of which the model assumes nothing, this is a guess.
+// gravity, and of which the model
+// assumes nothing, this is a guess.
 static bool is_guessed(pl_analysis* d, const pl_where* p, const pl_param* given) {
   const pl_symbol_info* info = pl_symbol_get(d->pool, given->symbol);
   if (given->literal || !pl_is_poison(given->value) || info->sign != PL_SIGN_POSITIVE
@@ -683,7 +687,7 @@ static void of_the_state(pl_analysis* d, const pl_ask* ask, const pl_where* p) {
   pl_say(d, found.complete ? "No state satisfies this." : "No solution in closed form was found.",
          found.complete ? "Das ist nie erfüllt." : "Eine geschlossene Lösung wurde nicht gefunden.",
          0);
-  d->section->not_found = !found.complete;
+  d->page->section->not_found = !found.complete;
 }
 
 // ------------------------------------------------------------------------------------- the section
@@ -719,7 +723,7 @@ static void say_motion_unknown(pl_analysis* d) {
          "Die Bewegung von diesem Start ist nicht geschlossen bekannt und ließ sich in Zahlen "
          "nicht verfolgen.",
          0);
-  d->section->not_found = true;
+  d->page->section->not_found = true;
 }
 
 // ------------------------------------------------------------------------------------ closed loops
@@ -743,8 +747,8 @@ static void show_in_assembly(pl_analysis* d, const pl_where* p, int assembly, do
   const char* branch = pl_branch_text(d, assembly, PL_MATH_LINE);
   if (!branch) return;
   pl_step_after(step, pl_format(d->arena, "for %s", branch), pl_format(d->arena, "für %s", branch));
-  d->section->values.at[d->section->values.n - 1].branch = pl_branch_text(d, assembly,
-                                                                          PL_MATH_ASCII);
+  d->page->section->values.at[d->page->section->values.n - 1].branch = pl_branch_text(
+      d, assembly, PL_MATH_ASCII);
 }
 
 // On the motion, in each assembly.

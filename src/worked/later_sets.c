@@ -1,8 +1,11 @@
-// later sets: a section for each set of constraints that the motion comes to, and for each side of a
-// sign that its formulas took for granted: how it begins, how it ends, and the requests that hang on
+// later sets: a section for each set of constraints that the motion comes to, and for each side of
+// a
+// sign that its formulas took for granted: how it begins, how it ends, and the requests that hang
+// on
 // it again.
 //
-// Which sets there are is told by the simulation (pl_stage); where the motion changes sides is asked
+// Which sets there are is told by the simulation (pl_stage); where the motion changes sides is
+// asked
 // of it (pl_leave).
 #include <math.h>
 #include <string.h>
@@ -52,18 +55,18 @@ static bool repeat(pl_analysis* d, const pl_ask* ask) {
   pl_symbol unnamed;
   if (pl_speaks_of_unnamed(d, &again, &unnamed)) return false;
   for (int k = 0; k < d->open.n; k++) {
-    if (pl_asks_about_open(d, &again, &d->open.at[k])) return false;
+    if (pl_is_about_open(d, &again, &d->open.at[k])) return false;
   }
-  int sections = d->solution->sections.n, equations = d->solution->n_equations,
-      claims = d->claims.n;
+  int sections = d->page->solution->sections.n, equations = d->page->solution->n_equations,
+      claims = d->page->claims.n;
   pl_answer_one(d, &again);
   bool found = true;
-  for (int k = sections; k < d->solution->sections.n; k++)
-    found &= !d->solution->sections.at[k].not_found;
+  for (int k = sections; k < d->page->solution->sections.n; k++)
+    found &= !d->page->solution->sections.at[k].not_found;
   if (found) return true;
-  d->solution->sections.n = sections;
-  d->solution->n_equations = equations;
-  d->claims.n = claims;
+  d->page->solution->sections.n = sections;
+  d->page->solution->n_equations = equations;
+  d->page->claims.n = claims;
   return false;
 }
 
@@ -82,7 +85,7 @@ static const char* const state_word[PL_N_WORDS][2][2] = {
 };
 
 static pl_state_word word_for(const pl_analysis* d, const pl_constraint* c) {
-  int row = pl_row_of(d->stage, pl_label_of(c));
+  int row = pl_stage_row(d->stage, pl_stage_label(c));
   if (c->relation == PL_EQ || d->stage->released[row]) return PL_WORD_DEED;
   return d->stage->rope[row] ? PL_WORD_ROPE : PL_WORD_CONTACT;
 }
@@ -92,7 +95,8 @@ static int list_changes(pl_analysis* d, const pl_stage* before, bool holds, pl_s
   int n = 0;
   for (int k = 0; k < d->whole->constraints.n; k++) {
     const pl_constraint* c = &d->whole->constraints.at[k];
-    int now = pl_row_of(d->stage, pl_label_of(c)), then = pl_row_of(before, pl_label_of(c));
+    int now = pl_stage_row(d->stage, pl_stage_label(c)),
+        then = pl_stage_row(before, pl_stage_label(c));
     if (now < 0 || then < 0 || d->stage->holds[now] != holds || before->holds[then] == holds
         || c->while_label)
       continue;
@@ -115,8 +119,8 @@ static const char* stage_title(pl_analysis* d, pl_language lang) {
   const char** name = PL_ARRAY(d->arena, const char*, d->whole->constraints.n + 1);
   bool de = lang == PL_GERMAN;
   pl_text t = pl_text_make(d->arena);
-  pl_text_addf(&t, de ? "Ab %s: " : "From %s: ", pl_seconds(d, d->stage->from, lang));
-  const pl_stage* first = &d->solution->stages.at[0];
+  pl_text_addf(&t, de ? "Ab %s: " : "From %s: ", pl_stage_seconds(d, d->stage->from, lang));
+  const pl_stage* first = &d->page->solution->stages.at[0];
   bool any = false;
   for (int holds = 1; holds >= 0; holds--) {
     for (int word = 0; word < PL_N_WORDS; word++) {
@@ -168,7 +172,7 @@ static void say_begin(pl_analysis* d, const pl_stage* before) {
   const pl_stage* s = d->stage;
   const pl_form* place = pl_form_words(d->arena, place_text(d, s, PL_ENGLISH),
                                        place_text(d, s, PL_GERMAN));
-  const pl_form* end = before->to == s->from ? pl_end_form(d, before) : NULL;
+  const pl_form* end = before->to == s->from ? pl_form_end(d, before) : NULL;
   if (end) {
     pl_say(d, "It begins where {1}: at {2}, {3}.", "Es beginnt, wo {1}: bei {2}, {3}.", 3, end,
            pl_moment_form(d, s->from), place);
@@ -192,19 +196,20 @@ static void say_begin(pl_analysis* d, const pl_stage* before) {
 }
 
 static void mark(pl_analysis* d, int from, int stage) {
-  for (int k = from; k < d->solution->sections.n; k++) d->solution->sections.at[k].stage = stage;
+  for (int k = from; k < d->page->solution->sections.n; k++)
+    d->page->solution->sections.at[k].stage = stage;
 }
 
 // The section of a stage behind the requests.
 static void answer_stage(pl_analysis* d, const pl_stage* s, const pl_stage* before, int k) {
-  d->later = d->has_section = true;
-  int from = d->solution->sections.n;
+  d->later = d->page->has_section = true;
+  int from = d->page->solution->sections.n;
   pl_ask head = {.kind = PL_ASK_DOF, .text = pl_format(d->arena, "stage %d", k + 1)};
   pl_section_open(d, &head, stage_title(d, PL_ENGLISH), stage_title(d, PL_GERMAN));
   say_begin(d, before);
-  pl_say_end(d, s);
+  pl_say_stage_end(d, s);
   pl_answer(d, "dof", pl_int(d->pool, d->dof.dof), NULL);
-  d->open_told = true;
+  d->page->open_told = true;
   pl_tell_friction(d);
   bool any = false;
   for (int i = 0; i < d->whole->asks.n; i++) {
@@ -214,12 +219,12 @@ static void answer_stage(pl_analysis* d, const pl_stage* s, const pl_stage* befo
   pl_ask plain = {.kind = PL_ASK_LAGRANGE1, .text = "lagrange1"};
   if (!any) repeat(d, &plain);
   mark(d, from, k);
-  for (int i = from; s->n_sides > 0 && i < d->solution->sections.n; i++)
-    pl_assume_sides(d, &d->solution->sections.at[i], 0);
+  for (int i = from; s->n_sides > 0 && i < d->page->solution->sections.n; i++)
+    pl_assume_sides(d, &d->page->solution->sections.at[i], 0);
   d->later = false;
 }
 
-// ------------------------------------------------------------------------------------ other sides
+// ------------------------------------------------------------------------------------- other sides
 // Where a stage ends: where the motion changes sides, or as its constraints end.
 static void find_end(pl_analysis* d, pl_stage* s) {
   pl_leaving l;
@@ -249,9 +254,9 @@ static pl_stage* next_side(pl_analysis* d, const pl_stage* now, const pl_fact* s
 // Follows the motion of one set of constraints from side to side; each that is new has a section.
 static void follow_sides(pl_analysis* first, pl_analysis* d, const pl_stage* set) {
   enum { MOST_CHANGES = 40 };
-  pl_solution* solution = first->solution;
+  pl_solution* solution = first->page->solution;
   pl_stage now = *set;
-  for (int i = 0; i < MOST_CHANGES && first->n_turns < MOST_LATER_STAGES; i++) {
+  for (int i = 0; i < MOST_CHANGES && first->page->n_turns < MOST_LATER_STAGES; i++) {
     pl_fact side[2 * pl_max_sides];
     pl_leaving l;
     int n = pl_known_sides(d, side);
@@ -262,12 +267,12 @@ static void follow_sides(pl_analysis* first, pl_analysis* d, const pl_stage* set
     before.crossed = next->sides[0].difference;
     pl_analysis* other = pl_analysis_find(first, next);
     now = *next;
-    if (other && other->has_section) {
+    if (other && other->page->has_section) {
       d = other;
       continue;
     }
     if (!(other = pl_analysis_in(first, next))) return;
-    first->n_turns++;
+    first->page->n_turns++;
     find_end(other, next);
     pl_push(first->arena, solution->stages, *next);
     answer_stage(other, next, &before, solution->stages.n - 1);
@@ -276,8 +281,8 @@ static void follow_sides(pl_analysis* first, pl_analysis* d, const pl_stage* set
 }
 
 void pl_answer_stages(pl_analysis* first) {
-  const pl_derive_options* o = first->options;
-  pl_solution* solution = first->solution;
+  const pl_derive_options* o = first->page->options;
+  pl_solution* solution = first->page->solution;
   for (int k = 0; k < o->n_stages; k++) pl_push(first->arena, solution->stages, o->stages[k]);
   if (o->n_stages == 0) pl_push(first->arena, solution->stages, *pl_stage_like(first));
   if (o->only || !pl_knows_friction(first)) return;
@@ -288,4 +293,19 @@ void pl_answer_stages(pl_analysis* first) {
     if (d && k > 0 && k <= MOST_LATER_STAGES) answer_stage(d, &o->stages[k], &o->stages[k - 1], k);
     if (d) follow_sides(first, d, &set);
   }
+}
+
+// ------------------------------------------------------------------------ with all contacts closed
+void pl_answer_closed(pl_analysis* first, const pl_ask* ask) {
+  if (ask->kind != PL_ASK_EQUILIBRIA) return;
+  const pl_stage* s = pl_stage_all_closed(first);
+  pl_analysis* d = s ? pl_analysis_in(first, s) : NULL;
+  if (!d || !d->reduced) return;
+  pl_section* own = &first->page->solution->sections.at[first->page->solution->sections.n - 1];
+  own->title[0] = "Equilibria as the start has the contacts";
+  own->title[1] = "Gleichgewichtslagen mit den Kontakten des Starts";
+  pl_answer_one(d, ask);
+  d->page->section->beside = true;
+  d->page->section->title[0] = "Equilibria with all contacts closed";
+  d->page->section->title[1] = "Gleichgewichtslagen mit allen Kontakten geschlossen";
 }

@@ -1,7 +1,7 @@
 // loops_text: the way from the constraints to the assemblies, and values in them.
 #include <string.h>
 
-#include "loops_impl.h"
+#include "worked/worked_impl.h"
 
 // ---------------------------------------------------------------------------------- which assembly
 static bool signs_differ(const pl_loop* l) {
@@ -161,9 +161,9 @@ static void answer_place(pl_analysis* d, int k, int j) {
 }
 
 void pl_show_loop(pl_analysis* d, int k) {
-  pl_loop* l = &d->loops.at[k];
-  if (l->told) return;
-  l->told = true;
+  const pl_loop* l = &d->loops.at[k];
+  if (d->page->loop_told[k]) return;
+  d->page->loop_told[k] = true;
   show_equation(d, l);
   show_names(d, l);
   show_ways(d, l);
@@ -219,8 +219,8 @@ void pl_show_loop_velocities(pl_analysis* d) {
 }
 
 void pl_tell_loops(pl_analysis* d) {
-  if (d->loops.n == 0 || d->loops_told) return;
-  d->loops_told = true;
+  if (d->loops.n == 0 || d->page->loops_told) return;
+  d->page->loops_told = true;
   for (int k = 0; k < d->loops.n; k++) pl_show_loop(d, k);
   pl_show_loop_velocities(d);
 }
@@ -266,14 +266,14 @@ bool pl_answer_follower(pl_analysis* d, pl_symbol q) {
     return true;
   }
   if (k < 0 || d->q.at[i].q.id != q.id) return false;
-  pl_loop* l = &d->loops.at[k];
+  const pl_loop* l = &d->loops.at[k];
   for (int before = 0; before < k; before++) {  // what its formulas contain
-    if (!d->loops.at[before].told) pl_show_loop(d, before);
+    if (!d->page->loop_told[before]) pl_show_loop(d, before);
   }
-  if (!l->told) {
+  if (!d->page->loop_told[k]) {
     show_equation(d, l);
     show_names(d, l);
-    l->told = true;
+    d->page->loop_told[k] = true;
     show_ways(d, l);
   } else {
     int j = l->coordinate[0] == i ? 0 : 1;
@@ -383,7 +383,18 @@ static void spread(pl_analysis* d, pl_section* s) {
 }
 
 void pl_spread_assemblies(pl_analysis* d) {
-  for (int k = 0; k < d->solution->sections.n && d->loops.n > 0; k++) {
-    if (d->solution->sections.at[k].by == d) spread(d, &d->solution->sections.at[k]);
+  for (int k = 0; k < d->page->solution->sections.n && d->loops.n > 0; k++) {
+    if (d->page->solution->sections.at[k].by == d) spread(d, &d->page->solution->sections.at[k]);
+  }
+}
+
+void pl_claim_loops(pl_analysis* d) {
+  for (int k = 0; k < d->loops.n; k++) {
+    const pl_loop* l = &d->loops.at[k];
+    for (int j = 0; j < l->n; j++) {
+      pl_claim_that(d, PL_CLAIM_MAP, pl_on_contact(d, d->g.at[l->bond[j]].g), pl_int(d->pool, 0));
+      pl_claim_that(d, PL_CLAIM_MAP, pl_on_contact(d, pl_dt(d->pool, d->g.at[l->bond[j]].g)),
+                    pl_int(d->pool, 0));
+    }
   }
 }

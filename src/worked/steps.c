@@ -2,7 +2,6 @@
 // forms.
 #include <math.h>
 #include <string.h>
-#include <time.h>
 
 #include "worked/worked_impl.h"
 
@@ -21,24 +20,24 @@ pl_section* pl_section_open(pl_analysis* d, const pl_ask* ask, const char* en, c
                   .tower = d->tower,
                   .model = d->model,
                   .ask = kept};
-  if (d->solution->sections.n > 0) {
-    const pl_section* last = &d->solution->sections.at[d->solution->sections.n - 1];
+  if (d->page->solution->sections.n > 0) {
+    const pl_section* last = &d->page->solution->sections.at[d->page->solution->sections.n - 1];
     bool same_title = !en || (last->title[0] && strcmp(last->title[0], en) == 0);
     s.continues = s.letter && same_letter(last->letter, s.letter) && same_title;
   }
-  pl_push(d->arena, d->solution->sections, s);
-  d->section = &d->solution->sections.at[d->solution->sections.n - 1];
+  pl_push(d->arena, d->page->solution->sections, s);
+  d->page->section = &d->page->solution->sections.at[d->page->solution->sections.n - 1];
   if (ask->kind != PL_ASK_DOF && ask->kind != PL_ASK_CONSTRAINTS) pl_tell_open(d);
   pl_tell_proposal(d);
   d->special.n = 0;
   pl_tell_cases(d);
   if (pl_speaks_of_loops(ask)) pl_tell_loops(d);
-  return d->section;
+  return d->page->section;
 }
 
 static pl_step* add_step(pl_analysis* d, pl_step_kind kind) {
-  pl_push(d->arena, d->section->steps, (pl_step){.kind = kind});
-  return &d->section->steps.at[d->section->steps.n - 1];
+  pl_push(d->arena, d->page->section->steps, (pl_step){.kind = kind});
+  return &d->page->section->steps.at[d->page->section->steps.n - 1];
 }
 
 void pl_heading(pl_analysis* d, const char* en, const char* de) {
@@ -69,7 +68,7 @@ pl_step* pl_show(pl_analysis* d, const pl_form* formula) {
 
 pl_step* pl_show_numbered(pl_analysis* d, const pl_form* formula) {
   pl_step* s = pl_show(d, formula);
-  s->number = ++d->solution->n_equations;
+  s->number = ++d->page->solution->n_equations;
   return s;
 }
 
@@ -113,56 +112,6 @@ void pl_step_value(pl_analysis* d, pl_step* s, pl_expr e, pl_dimension dim) {
   s->unit = pl_unit_of_symbol(d->arena, d->pool, named_by(d, s->formula), dim, false);
 }
 
-// -------------------------------------------------------------------------- dimensions of formulas
-static pl_dimension dimension_of(pl_analysis* d, pl_expr e, bool* known);
-
-static pl_dimension dimension_of_product(pl_analysis* d, pl_expr e, bool* known) {
-  pl_dimension dim = pl_dimension_one();
-  for (int i = 0; i < pl_n_args(d->pool, e); i++) {
-    dim = pl_dimension_mul(dim, dimension_of(d, pl_arg(d->pool, e, i), known));
-  }
-  return dim;
-}
-
-static pl_dimension dimension_of(pl_analysis* d, pl_expr e, bool* known) {
-  switch (pl_kind_of(d->pool, e)) {
-    case PL_SYMBOL: {
-      const pl_symbol_info* info = pl_symbol_get(d->pool, pl_symbol_of(d->pool, e));
-      if (!info->dimension_known) *known = false;
-      return info->dimension_known ? info->dimension : pl_dimension_one();
-    }
-    case PL_ADD: {  // of the first term that is not a bare number
-      pl_expr term = pl_arg(d->pool, e, 0);
-      for (int i = 0; i < pl_n_args(d->pool, e) && pl_is_constant(d->pool, term); i++)
-        term = pl_arg(d->pool, e, i);
-      return dimension_of(d, term, known);
-    }
-    case PL_MUL: return dimension_of_product(d, e, known);
-    case PL_POW: {
-      long num, den;
-      if (!pl_is_ratio(d->pool, pl_arg(d->pool, e, 1), &num, &den)) return pl_dimension_one();
-      return pl_dimension_pow(dimension_of(d, pl_arg(d->pool, e, 0), known), (int)num, (int)den);
-    }
-    case PL_CALL: {
-      pl_function f = pl_function_of(d->pool, e);
-      bool keeps = f == PL_ABS || f == PL_MIN || f == PL_MAX;
-      return keeps ? dimension_of(d, pl_arg(d->pool, e, 0), known) : pl_dimension_one();
-    }
-    case PL_IF: {  // of the branch that is not a bare number
-      pl_expr then = pl_arg(d->pool, e, 1);
-      return dimension_of(d, pl_is_constant(d->pool, then) ? pl_arg(d->pool, e, 2) : then, known);
-    }
-    default: return pl_dimension_one();
-  }
-}
-
-pl_dimension pl_dimension_of_expr(pl_analysis* d, pl_expr e, bool* known) {
-  bool all = true;
-  pl_dimension dim = dimension_of(d, e, &all);
-  if (known) *known = all;
-  return dim;
-}
-
 static const char* display_in(pl_analysis* d, double x, const char* unit) {
   pl_notation how = {.math = PL_MATH_ASCII, .lang = d->job->lang};
   const char* number = pl_notation_number(d->arena, x, 6, how);
@@ -177,18 +126,23 @@ const char* pl_display(pl_analysis* d, double x, pl_dimension dim, bool angle) {
   return display_in(d, x, pl_dimension_unit(d->arena, dim, true));
 }
 
-// ------------------------------------------------------------------------------------------ values
-double pl_cpu_ms(void) {
-  struct timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
+// ------------------------------------------------------------------------------------------ claims
+void pl_claim_that(pl_analysis* d, pl_claim_kind kind, pl_expr shown, pl_expr reference) {
+  pl_push(d->arena, d->page->claims,
+          (pl_claim){.kind = kind, .shown = shown, .reference = reference});
 }
 
+void pl_claim_free(pl_analysis* d, pl_claim_kind kind, pl_expr shown, pl_expr reference) {
+  pl_push(d->arena, d->page->claims,
+          (pl_claim){.kind = kind, .shown = shown, .reference = reference, .own_domain = true});
+}
+
+// ------------------------------------------------------------------------------------------ values
 static void note_first_form(pl_analysis* d, pl_symbol name) {
   pl_role role = name.id ? pl_symbol_get(d->pool, name)->role : PL_R_LOCAL;
-  if (d->solution->cpu_ms_first > 0 || (role != PL_R_ACCELERATION && role != PL_R_MULTIPLIER))
+  if (d->page->solution->cpu_ms_first > 0 || (role != PL_R_ACCELERATION && role != PL_R_MULTIPLIER))
     return;
-  d->solution->cpu_ms_first = pl_cpu_ms() - d->began_ms;
+  d->page->solution->cpu_ms_first = pl_cpu_ms() - d->page->began_ms;
 }
 
 // Other programs get what people see, where that is shorter: a normal form is multiplied out, which
@@ -221,18 +175,14 @@ pl_value* pl_answer(pl_analysis* d, const char* name, pl_expr e, const pl_form* 
   v.display = isnan(v.number) ? NULL
                               : display_in(d, v.number,
                                            pl_unit_of_symbol(d->arena, d->pool, symbol, dim, true));
-  pl_push(d->arena, d->section->values, v);
+  pl_push(d->arena, d->page->section->values, v);
   pl_say_pole(d, e);
-  return &d->section->values.at[d->section->values.n - 1];
+  return &d->page->section->values.at[d->page->section->values.n - 1];
 }
 
 // ------------------------------------------------------------------------------------------- forms
-// for each quantity, unless the caller says otherwise; counted in work, see pl_present
-static const double presentation_s = 0.02;
-
 const pl_form* pl_f(pl_analysis* d, pl_expr e, pl_style style) {
-  return pl_present(d->tower, e, style,
-                    d->options->seconds > 0 ? d->options->seconds : presentation_s);
+  return pl_present(d->tower, e, style, d->effort_s);
 }
 const pl_form* pl_fs(pl_analysis* d, pl_symbol s) {
   return pl_form_leaf(d->arena, pl_sym(d->pool, s));
@@ -280,17 +230,7 @@ const pl_form* pl_difference_form(pl_analysis* d, pl_expr left, pl_expr right) {
 }
 
 const pl_form* pl_positive_first(pl_analysis* d, const pl_form* f) {
-  if (f->kind != PL_F_SUM || f->args[0]->kind != PL_F_NEG) return f;
-  const pl_form** term = PL_ARRAY(d->arena, const pl_form*, f->n);
-  int n = 0;
-  for (int k = 0; k < f->n; k++) {
-    if (f->args[k]->kind != PL_F_NEG) term[n++] = f->args[k];
-  }
-  if (n == 0) return f;
-  for (int k = 0; k < f->n; k++) {
-    if (f->args[k]->kind == PL_F_NEG) term[n++] = f->args[k];
-  }
-  return pl_form_sum(d->arena, term, n);
+  return pl_form_positive_first(d->arena, f);
 }
 
 // A potential as it came from the model when that is shorter than what presentation finds: -m1 g x1
@@ -318,7 +258,8 @@ const pl_form* pl_joined_sum(pl_analysis* d, const pl_form* const* part, int n) 
 
 // ---------------------------------------------------------------------------- what is not computed
 void pl_answer_pending(pl_analysis* d, const pl_ask* ask) {
-  if (!d->section || d->section->item != ask->text) pl_section_open(d, ask, ask->text, ask->text);
+  if (!d->page->section || d->page->section->item != ask->text)
+    pl_section_open(d, ask, ask->text, ask->text);
   pl_say(d, "This version does not compute this request.",
          "Diese Version berechnet diese Anfrage nicht.", 0);
   pl_report(
@@ -326,5 +267,5 @@ void pl_answer_pending(pl_analysis* d, const pl_ask* ask) {
       pl_format(d->arena, "\"%s\" is understood, but this version does not compute it", ask->text),
       pl_format(d->arena, "\"%s\" ist verstanden, wird aber von dieser Version nicht berechnet",
                 ask->text));
-  d->section->not_found = true;
+  d->page->section->not_found = true;
 }

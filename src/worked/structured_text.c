@@ -2,12 +2,18 @@
 // asked for.
 //
 //   λ_c1 has 7624 terms; shown in A_k, B_k, R_k: the rows of the system, the names, the solution
-//   over the names.
+// over the names.
 // Claimed at points of the motion: each entry against raw differentiation, each row of the system
-// with the accelerations and multipliers of d'Alembert in it, each unknown.
-#include "structured_impl.h"
+// with the accelerations and
+// multipliers of d'Alembert in it, each unknown.
+#include "mechanics/structured.h"
+#include "worked/worked_impl.h"
 
 enum { rows_written_out = 4, most_definitions = 48 };
+
+static pl_structure_shown* shown_of(const pl_analysis* d, const pl_structure* s) {
+  return &d->page->structure[s->kind == PL_ST_ACCELERATIONS];
+}
 
 // ----------------------------------------------------------------------------- forms with an index
 static const pl_form* indexed(pl_analysis* d, const char* letter, const char* index) {
@@ -113,16 +119,16 @@ static void show_chain_row(pl_analysis* d, pl_structure* s) {
   const pl_form* term[3] = {times2(d, indexed(d, s->letter[1], "j"), indexed(d, u, "j")),
                             times2(d, indexed(d, s->letter[0], "k"), indexed(d, u, "k")),
                             times2(d, indexed(d, s->letter[1], "k"), indexed(d, u, "i"))};
-  s->number = pl_show_numbered(
-                  d, pl_feq(d, pl_form_sum(d->arena, term, 3), indexed(d, s->letter[2], "k")))
-                  ->number;
+  shown_of(d, s)->number =
+      pl_show_numbered(d, pl_feq(d, pl_form_sum(d->arena, term, 3), indexed(d, s->letter[2], "k")))
+          ->number;
   say_numbering(d, s);
 }
 
 static void show_general_row(pl_analysis* d, pl_structure* s) {
   const pl_form* product = times2(d, indexed(d, s->letter[0], "jk"),
                                   indexed(d, unknown_letter(s), "k"));
-  s->number =
+  shown_of(d, s)->number =
       pl_show_numbered(d, pl_feq(d, sigma(d, product), indexed(d, s->letter[2], "j")))->number;
   const pl_form** u = PL_ARRAY(d->arena, const pl_form*, s->n);
   for (int k = 0; k < s->n; k++) u[k] = pl_fs(d, s->u[k]);
@@ -157,7 +163,7 @@ static void show_system(pl_analysis* d, pl_structure* s) {
   if (s->n <= rows_written_out) {
     for (int k = 0; k < s->n; k++) {
       int number = pl_show_numbered(d, row_form(d, s, k))->number;
-      if (k == 0) s->number = number;
+      if (k == 0) shown_of(d, s)->number = number;
     }
   } else if (s->chain) {
     show_chain_row(d, s);
@@ -255,9 +261,10 @@ static void show_recursion(pl_analysis* d, const pl_structure* s) {
 }
 
 static void tell(pl_analysis* d, pl_structure* s, pl_symbol u, pl_expr closed) {
-  if (s->told) return;
-  s->told = true;
-  s->section = d->solution->sections.n;
+  pl_structure_shown* shown = shown_of(d, s);
+  if (shown->told) return;
+  shown->told = true;
+  shown->section = d->page->solution->sections.n;
   say_why(d, s, u, closed);
   show_system(d, s);
   show_entries(d, s);
@@ -333,8 +340,8 @@ static int bond_of(const pl_analysis* d, pl_symbol lambda) {
 }
 
 // With generalized coordinates, beside their accelerations: the acceleration of a coordinate that
-// follows from them, by its map; a multiplier, by one equation of the first kind. It becomes a line
-// over the accelerations.
+// follows from them, by its map; a
+// multiplier, by one equation of the first kind.  It becomes a line over the accelerations.
 static bool find_by_row(pl_analysis* d, pl_symbol u, pl_found* f) {
   pl_structure* s = d->reduced ? pl_structure_of_accelerations(d) : NULL;
   int bond = bond_of(d, u), i, line = s ? line_of(s, u) : -1;
@@ -384,13 +391,13 @@ static void answer(pl_analysis* d, pl_symbol u, const pl_found* f) {
 bool pl_show_structured(pl_analysis* d, pl_symbol u, pl_expr closed) {
   pl_found f;
   if (!find(d, u, &f)) return false;
-  bool again = f.s->told && f.s->section != d->solution->sections.n;
+  bool again = shown_of(d, f.s)->told && shown_of(d, f.s)->section != d->page->solution->sections.n;
   tell(d, f.s, u, closed);
   if (again)
     pl_say(d, "From {1}, solved over the names above:", "Aus {1}, mit den obigen Namen gelöst:", 1,
-           pl_fref(d, f.s->number));
+           pl_fref(d, shown_of(d, f.s)->number));
   pl_step* step = pl_show_numbered(d, pl_feq(d, pl_fs(d, u), f.form));
-  pl_step_refs(step, 1, f.s->number);
+  pl_step_refs(step, 1, shown_of(d, f.s)->number);
   answer(d, u, &f);
   return true;
 }
@@ -398,7 +405,8 @@ bool pl_show_structured(pl_analysis* d, pl_symbol u, pl_expr closed) {
 bool pl_answer_structured(pl_analysis* d, pl_symbol u) {
   pl_found f;
   if (!find(d, u, &f)) return false;
-  for (int k = 0; k < f.s->n_entries && !f.s->told; k++) claim_entry(d, &f.s->lines.at[k]);
+  for (int k = 0; k < f.s->n_entries && !shown_of(d, f.s)->told; k++)
+    claim_entry(d, &f.s->lines.at[k]);
   answer(d, u, &f);
   return true;
 }
@@ -435,27 +443,13 @@ bool pl_show_value_structured(pl_analysis* d, pl_expr asked, pl_expr e) {
   pl_claim_that(d, PL_CLAIM_MOTION, pl_form_value(d->pool, form), pl_with_results(d, asked));
   pl_value* v = pl_answer(d, pl_expr_text(d->arena, d->pool, asked), value, form);
   for (int k = first; k < f.s->lines.n && pl_same(asked, value); k++) {  // an unknown itself
-    if (pl_same(asked, pl_sym(d->pool, f.s->lines.at[k].name))) {
-      v->expr = f.s->lines.at[k].value;
-      v->form = f.s->lines.at[k].form;
-    }
+    if (pl_same(asked, pl_sym(d->pool, f.s->lines.at[k].name)))
+      v->expr = f.s->lines.at[k].value, v->form = f.s->lines.at[k].form;
   }
   add_where(d, f.s, v);
   return true;
 }
 
 bool pl_structure_is_told(const pl_analysis* d) {
-  return d->of_multipliers && d->of_multipliers->told;
-}
-
-int pl_structure_definitions(pl_analysis* d, pl_definition* out, int max) {
-  const pl_structure* both[2] = {d->of_multipliers, d->of_accelerations};
-  int n = 0;
-  for (int c = 0; c < 2; c++) {
-    for (int k = 0; both[c] && k < both[c]->n_entries + both[c]->n_pivots; k++) {
-      if (n < max) out[n] = (pl_definition){both[c]->lines.at[k].name, both[c]->lines.at[k].exact};
-      n++;
-    }
-  }
-  return n;
+  return d->of_multipliers && shown_of(d, d->of_multipliers)->told;
 }

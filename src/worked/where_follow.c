@@ -1,6 +1,8 @@
 // where_follow: the motion followed in numbers up to the first place where a condition holds, for
-// systems whose integrals do not suffice: several freedoms, drag. Explicit steps of order 5 with an
-// error estimate [DormandPrince1980]; the place is found by bisection of the last step.
+// systems whose integrals do not
+// suffice: several freedoms, drag. Explicit steps of order 5 with an error estimate
+// [DormandPrince1980]; the place is found by
+// bisection of the last step.
 #include <math.h>
 #include <string.h>
 
@@ -224,7 +226,7 @@ void pl_say_followed(pl_analysis* d, const pl_search* p, const pl_followed* f) {
            pl_fn(d, p->contact[f->lost]), time_form(d, f->lost_at));
     return;
   }
-  d->section->not_found = true;
+  d->page->section->not_found = true;
   if (f->how == PL_FOLLOWED_PAST) {
     pl_say(d, "As far as {1} this does not happen on the motion.",
            "Bis {1} geschieht das während der Bewegung nicht.", 1, time_form(d, f->time));

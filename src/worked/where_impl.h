@@ -2,7 +2,8 @@
 #ifndef PL_WHERE_IMPL_H
 #define PL_WHERE_IMPL_H
 
-#include "course_impl.h"
+#include "mechanics/course.h"
+#include "worked/worked_impl.h"
 
 enum { pl_max_roots_met = 8, pl_max_contacts_met = 8 };
 // The first place on a motion where a condition holds: along a coordinate that moves by its energy
@@ -26,7 +27,8 @@ typedef struct pl_search {
 
 void pl_search_motion(pl_analysis* d, const pl_search* p);
 // The equations followed in numbers, where nothing else is known: what the condition meets on the
-// motion. Roots are not used. not possible; not met up to `time`
+// motion. Roots are not used.
+// not possible; not met up to `time`
 typedef enum pl_followed_how { PL_FOLLOWED_NOT, PL_FOLLOWED_PAST, PL_FOLLOWED_MET } pl_followed_how;
 // lost: a contact, -1
 typedef struct pl_followed {

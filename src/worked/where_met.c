@@ -1,10 +1,12 @@
 // where_met: which of the places where a condition holds does the motion meet first, and which way
-// does it go there? The roots in closed form are compared with the course of the motion in numbers,
-// which knows nothing of them. Where numbers are missing, many are drawn: an answer that is the
-// same for all of them is given, else all that occur.
+// does it go there? The roots in
+// closed form are compared with the course of the motion in numbers, which knows nothing of them.
+// Where numbers are missing, many
+// are drawn: an answer that is the same for all of them is given, else all that occur.
 #include <math.h>
 #include <string.h>
 
+#include "mechanics/equilibria.h"
 #include "where_impl.h"
 
 enum { most_symbols = 96, n_draws = 24, most_tries = 600, most_ways = 8, most_rates = 4 };
@@ -258,7 +260,7 @@ static void say_never(pl_analysis* d, const pl_search* p, const pl_course* c) {
   if (!searched && !(p->line && pl_course_repeats(c, p->condition))) {
     pl_say(d, "As far as {1} this does not happen on the motion.",
            "Bis {1} geschieht das während der Bewegung nicht.", 1, place_form(d, p, last->to));
-    d->section->not_found = true;
+    d->page->section->not_found = true;
     return;
   }
   pl_say(d, "This never happens on the motion.", "Das geschieht während der Bewegung nie.", 0);
@@ -427,13 +429,13 @@ static void show_given(pl_analysis* d, const pl_search* p, const numeric* x, con
   if (!isfinite(y)) {
     pl_say(d, "No solution in closed form was found.",
            "Eine geschlossene Lösung wurde nicht gefunden.", 0);
-    d->section->not_found = true;
+    d->page->section->not_found = true;
     return;
   }
   pl_say(d, "No solution in closed form was found; for the given numbers:",
          "Eine geschlossene Lösung wurde nicht gefunden; mit den gegebenen Zahlen:", 0);
   pl_show_met_number(d, p->name, y);
-  d->section->not_found = true;
+  d->page->section->not_found = true;
 }
 
 static bool same_answer(const numeric* x, const outcome* a, const pl_course* on_a, const outcome* b,
@@ -512,7 +514,7 @@ static void show_drawn(pl_analysis* d, const pl_search* p, const rates* r, const
            w->n ? "Eine geschlossene Lösung wurde nicht gefunden."
                 : "Für keine der versuchten Zahlen geschieht das während der Bewegung.",
            0);
-    d->section->not_found = true;
+    d->page->section->not_found = true;
     return;
   }
   if (w->n > 1) {

@@ -1,13 +1,17 @@
 // derive: from a checked model to equations and to the worked solution, each step with its reason.
 //
 // pl_derive answers the requests of the model (`ask`, or the standard ones when there is none) as
-// sections of steps and values. Formulas are forms, ready for notation; values carry the expression
-// too. Everything displayed is claimed, and each claim is certified against raw differentiation of
-// the model (claims), never against the tower that produced it.
+// sections of steps and
+// values. Formulas are forms, ready for notation; values carry the expression too. Everything
+// displayed is claimed, and
+// each claim is certified against raw differentiation of the model (claims), never against the
+// tower that produced it.
 #ifndef PL_WORKED_H
 #define PL_WORKED_H
 
 #include "algebra/algebra.h"
+#include "mechanics/claims.h"
+#include "mechanics/stage.h"
 #include "model/model.h"
 #include "notation/notation.h"
 #include "present/present.h"
@@ -18,7 +22,7 @@ typedef enum pl_step_kind {
   PL_STEP_TEXT,  // a sentence; {1}, {2} ... stand for inserts
   // a displayed formula, maybe numbered, maybe with its number in SI on the right
   PL_STEP_EQUATION,
-  // a row of a table: label, content, number at the right margin ("constraints  g1 = ...   -1")
+  // a row of a table: label, content, number at the right margin ("constraints g1 = ... -1")
   PL_STEP_ROW,
   PL_STEP_HEADING,  // a heading inside a section: "Limits"
   PL_STEP_NOTE      // a remark that belongs here (also among the notes when it has a code)
@@ -26,7 +30,7 @@ typedef enum pl_step_kind {
 
 typedef struct pl_step {
   pl_step_kind kind;
-  // TEXT, HEADING, NOTE, ROW label; by language.  {1}.. are inserts
+  // TEXT, HEADING, NOTE, ROW label; by language. {1}.. are inserts
   const char* words[2];
   int n_inserts;
   const pl_form* const* inserts;  // (n_inserts)
@@ -117,56 +121,7 @@ typedef struct pl_section {  // one request
   const pl_model* model;         // whose coordinates they are in: with those that were proposed
 } pl_section;
 
-// -------------------------------------------------------------------------------------- what holds
-// How a stretch of the motion ends.
-typedef enum pl_stage_end {
-  PL_END_UNKNOWN,  // not looked at further
-  PL_END_OF_RUN,   // the simulation ends
-  PL_END_OPENS,    // a contact: its multiplier is zero
-  PL_END_CLOSES,   // a contact: its constraint is met
-  PL_END_STICKS,   // friction: the slip has come to rest
-  PL_END_SLIPS,    // friction: its force has come to the limit
-  PL_END_EVENT,    // of the model
-  PL_END_SIDE      // an expression is zero whose sign was taken for granted: |x|
-} pl_stage_end;
-
-// Friction in the plane on a constraint. It slips with the velocity `slip` and feels -way press
-// scale λ along it, or sticks.
-typedef struct pl_stage_rub {
-  const char* on;              // name of the row of the constraint
-  const char* name;            // of the row of the slip, "friction floor"
-  pl_expr slip, limit, scale;  // |F| <= limit |λ| while it sticks, = scale |λ| while it slips
-  bool sticks, slips;
-  int way, press;  // signs of the slip and of the multiplier
-} pl_stage_rub;
-
-// A set of constraints that hold together, and the first stretch of the motion on which it does.
-// Rows are named as in the simulation: "floor", "c[3]", and "choose x" for the map of x. Who calls
-// derive finds out; derive does not guess.
-typedef struct pl_stage {
-  int n;
-  const char* const* name;  // (n)
-  const bool* holds;        // (n)
-  const bool* released;     // by an event, or `off`: nothing keeps its side either  (n)
-  const bool* pulls;        // met at the beginning, but would have to pull          (n)
-  const bool* rope;         // taut or slack, not closed or open                     (n)
-  int n_rubs;
-  const pl_stage_rub* rubs;  // (n_rubs)
-  bool rubs_known;           // all friction of the model is among them
-  double from, to;           // s
-  int n_q;
-  // coordinates where the stretch begins, units as text, "rad" for angles
-  const char *const *q_name, *const *q_unit;
-  const double *q, *v;  // (n_q)
-  pl_stage_end end;
-  const char* ended_by;  // label of the contact or event; NULL
-  // signs that hold on this stretch, where the formulas of another one took the opposite ones
-  int n_sides;
-  const pl_fact* sides;  // (n_sides)
-  int n_crossed;         // the first of them: their change begins the stretch
-  pl_expr crossed;       // PL_END_SIDE: what is zero
-} pl_stage;
-
+// ----------------------------------------------------------------------------------------- leaving
 // Where a motion leaves the side on which some expressions are positive.
 typedef struct pl_leaving {
   bool leaves;    // false: not up to t
@@ -191,26 +146,9 @@ typedef struct pl_constraint_info {
   const char** implied_by;
 } pl_constraint_info;
 
-typedef struct pl_dof {
-  int coordinates, constraints;  // constraints that hold
-  int rank, dof, velocity_dof;
-  int open;  // contacts that are open
-  int free;  // degrees of freedom with all contacts open
-} pl_dof;
-
-// ------------------------------------------------------------------------------------------ checks
-typedef struct pl_check {
-  const char* name[2];  // "Lagrange I against II"
-  bool passed;
-  double worst;           // largest relative difference, 0 for exact checks
-  int points;             // points tried
-  int formulas;           // formulas compared
-  int starts;             // motions that they were compared with; 0 where there are none
-  const char* failed_on;  // text of the first formula that failed, or NULL
-} pl_check;
-
 // Where the processor time of a derivation went: forming the equations, solving them, writing and
-// searching forms, holding what is shown against the model.
+// searching forms,
+// holding what is shown against the model.
 typedef enum pl_derive_stage {
   PL_D_EQUATIONS,
   PL_D_SOLUTION,
@@ -221,7 +159,7 @@ typedef enum pl_derive_stage {
 
 typedef struct pl_solution {
   const pl_model* model;
-  PL_VEC(pl_tower*) towers;  // of all sets of constraints and coordinates that were tried
+  pl_towers towers;  // of all sets of constraints and coordinates that were tried
   PL_VEC(pl_section) sections;
   // that the sections speak of: those of the options, and where the motion changes sides
   PL_VEC(pl_stage) stages;
@@ -229,7 +167,7 @@ typedef struct pl_solution {
   pl_dof dof;
   // constraints found behind a singular mass matrix: each vanishes; counted in dof
   PL_VEC(pl_expr) hidden;
-  PL_VEC(pl_check) checks;
+  pl_checks checks;
   // assumptions used, as text in the language's notation: "0 < r < l", "m1 > 0"
   PL_VEC(const char*) used;
   int n_equations;  // numbered so far
@@ -245,7 +183,8 @@ typedef struct pl_derive_options {
   // constraints, freedoms and notes only: no sections, nothing to certify
   bool structure;
   // The sets of constraints that hold along the motion of `init`, in order, each once; the first is
-  // that of the start. n_stages = 0: not known, then contacts are taken as closed.
+  // that of the start.
+  // n_stages = 0: not known, then contacts are taken as closed.
   int n_stages;
   const pl_stage* stages;
   // of a motion that starts elsewhere; NULL: not known
@@ -257,8 +196,10 @@ typedef struct pl_derive_options {
 } pl_derive_options;
 
 // pl_derive works the model out. The solution lives in the job's arena; the tower inside it is
-// freed with pl_solution_close. Status: PLEUEL_CONTRADICTION when the constraints contradict each
-// other; PLEUEL_INTERRUPTED keeps the sections that are done. Diagnostics (notes) go to the job.
+// freed with
+// pl_solution_close. Status: PLEUEL_CONTRADICTION when the constraints contradict each other;
+// PLEUEL_INTERRUPTED keeps the
+// sections that are done.  Diagnostics (notes) go to the job.
 pleuel_status pl_derive(pl_job* job, pl_model* model, const pl_derive_options* options,
                         pl_solution** out);
 void pl_solution_close(pl_solution* s);
