@@ -72,6 +72,7 @@ typedef struct pl_symbol_info {
   pl_sign_known sign;      // assumed
   pl_dimension dimension;  // of the quantity
   bool dimension_known;
+  bool torque;  // an energy by its dimension, but in N m
   int dots;  // 0, 1, 2 for coordinate, velocity, acceleration
   // of a velocity, acceleration or start value: its coordinate (for x'(0): the coordinate too)
   pl_symbol base;
@@ -130,7 +131,7 @@ pl_symbol pl_symbol_dot(pl_pool* p, pl_symbol s);
 pl_symbol pl_symbol_start(pl_pool* p, pl_symbol s);  // x -> x(0), x' -> x'(0)
 pl_symbol pl_time(pl_pool* p);                       // t
 // The unit in which a quantity with this name is written: a multiplier that is an energy is the
-// torque that turns an angle, in N m.
+// torque that turns an angle, in N m; so are given quantities that were found to be torques.
 const char* pl_unit_of_symbol(pl_arena* a, const pl_pool* p, pl_symbol s, pl_dimension d,
                               bool ascii);
 bool pl_is_measure(const pl_pool* p, pl_expr e);  // e is a number with its unit

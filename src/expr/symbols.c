@@ -178,7 +178,8 @@ int pl_symbol_compare(const pl_pool* p, pl_symbol a, pl_symbol b) {
 
 const char* pl_unit_of_symbol(pl_arena* a, const pl_pool* p, pl_symbol s, pl_dimension d,
                               bool ascii) {
-  bool torque = s.id && pl_symbol_get(p, s)->role == PL_R_MULTIPLIER
+  const pl_symbol_info* info = s.id ? pl_symbol_get(p, s) : NULL;
+  bool torque = info && (info->role == PL_R_MULTIPLIER || info->torque)
                 && pl_dimension_equal(d, pl_dimension_of(2, 1, -2));
   return torque ? "N m" : pl_dimension_unit(a, d, ascii);
 }

@@ -200,7 +200,8 @@ static void check_numbers_given(pl_job* job, pl_model* m) {
         job, PL_E048, p->span,
         PL_F(job, "%s has no number, but simulate computes with it", info->name),
         PL_F(job, "%s hat keinen Zahlenwert, aber simulate rechnet damit", info->name));
-    const char* unit = info->dimension_known ? pl_dimension_unit(job->arena, info->dimension, true)
+    const char* unit = info->dimension_known ? pl_unit_of_symbol(job->arena, m->pool, p->symbol,
+                                                                 info->dimension, true)
                                              : "1";
     bool pure = unit[0] == '1' && unit[1] == 0;
     const char* fix = pure ? PL_F(job, "param %s = 1", info->name)

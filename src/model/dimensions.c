@@ -649,7 +649,9 @@ void pl_check_dimensions(pl_job* job, pl_model* m) {
   d.silent = !m->uses_units;
   walk_model(&d);
   settle(&d);
-  if (!d.silent) pl_dim_report_bare_numbers(&d);
+  if (d.silent) return;
+  pl_dim_report_bare_numbers(&d);
+  pl_find_torques(m);
 }
 
 // -------------------------------------------------------------------------------- asked afterwards

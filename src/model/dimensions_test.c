@@ -222,6 +222,31 @@ PL_TEST(classes_follow_from_use_without_units) {
   kit_free(k);
 }
 
+static const char* unit_written(kit* k, pl_expr e) {
+  pl_symbol s = pl_symbol_of(k->m->pool, e);
+  pl_dimension x = pl_symbol_get(k->m->pool, s)->dimension;
+  return pl_unit_of_symbol(k->arena, k->m->pool, s, x, true);
+}
+
+PL_TEST(torques_are_no_energies) {
+  kit* k = kit_make(NULL);
+  pl_pool* p = k->m->pool;
+  pl_expr q = coord(k, "q", NULL, NULL), J = param(k, "J", "1", "kg m^2", NULL);
+  pl_expr said = param(k, "said", "1", "N m/rad", NULL), depth = param(k, "depth", "1", "J", NULL);
+  pl_expr found = param(k, "found", "1", NULL, NULL), well = param(k, "well", "1", NULL, NULL);
+  load(k, PL_L_KINETIC, pl_mul(p, J, pl_square(p, dot(k, q))), NULL);
+  load(k, PL_L_POTENTIAL, pl_mul(p, said, pl_square(p, q)), NULL);
+  load(k, PL_L_POTENTIAL, pl_mul(p, found, pl_square(p, q)), NULL);
+  load(k, PL_L_POTENTIAL, pl_mul(p, depth, pl_square(p, q)), NULL);
+  load(k, PL_L_POTENTIAL, pl_mul(p, well, pl_call(p, PL_COS, q)), NULL);
+  check_is_clean(k);
+  assert_string_equal(unit_written(k, said), "N m");
+  assert_string_equal(unit_written(k, found), "N m");
+  assert_string_equal(unit_written(k, depth), "J");
+  assert_string_equal(unit_written(k, well), "J");
+  kit_free(k);
+}
+
 PL_TEST(an_angle_alone_does_not_switch_the_checks_on) {
   kit* k = kit_make(NULL);
   pl_expr x = coord(k, "x", NULL, NULL), phi = coord(k, "phi", NULL, NULL);
@@ -530,6 +555,7 @@ int main(void) {
       cmocka_unit_test(an_abbreviation_is_checked_where_it_stands),
       cmocka_unit_test(without_units_nothing_is_checked),
       cmocka_unit_test(classes_follow_from_use_without_units),
+      cmocka_unit_test(torques_are_no_energies),
       cmocka_unit_test(an_angle_alone_does_not_switch_the_checks_on),
       cmocka_unit_test(a_mass_statement_wants_a_mass),
       cmocka_unit_test(a_point_wants_lengths),

@@ -22,7 +22,8 @@ static const char* const class_words[] = {"number",   "mass",         "gravity",
 static void unit(const dumper* d, pl_symbol s) {
   const pl_symbol_info* info = pl_symbol_get(d->m->pool, s);
   if (info->dimension_known)
-    pl_text_addf(d->out, "  [%s]", pl_dimension_unit(d->out->arena, info->dimension, true));
+    pl_text_addf(d->out, "  [%s]",
+                 pl_unit_of_symbol(d->out->arena, d->m->pool, s, info->dimension, true));
 }
 
 static void label(const dumper* d, const pl_name* n) {

@@ -100,6 +100,7 @@ int pl_index_sets_add(pl_index_sets* s, uint64_t key, pl_expr index, const pl_bl
 
 // -------------------------------------------------------------------------------------- dimensions
 void pl_check_dimensions(pl_job* job, pl_model* m);
+void pl_find_torques(pl_model* m);  // among what is given: N m, not J         torques.c
 void pl_classify_symbols(pl_model* m);
 void pl_strip_units(pl_model* m);
 // also before the check is over

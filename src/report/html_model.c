@@ -189,7 +189,7 @@ static void put_parameter(pl_html* h, const double* value, int i) {
   bool angle = p->unit_text && (strcmp(p->unit_text, "deg") == 0 || strcmp(p->unit_text, "°") == 0);
   const char* unit = angle ? "rad"
                      : s->dimension_known && h->model->uses_units
-                         ? pl_dimension_unit(h->arena, s->dimension, false)
+                         ? pl_unit_of_symbol(h->arena, h->pool, p->symbol, s->dimension, false)
                          : "";
   if (isnan(x)) pl_html_raw(h, "–");
   else pl_html_text(h, pl_html_quantity(h, x, unit, 6));

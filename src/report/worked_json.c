@@ -94,7 +94,9 @@ static void pl_doc_parameters(pl_document* d) {
     pl_json_flat(&d->j);
     pl_json_number(&d->j, "number", value[p->symbol.id]);
     pl_json_string(&d->j, "unit",
-                   s->dimension_known ? pl_dimension_unit(d->arena, s->dimension, true) : NULL);
+                   s->dimension_known
+                       ? pl_unit_of_symbol(d->arena, m->pool, p->symbol, s->dimension, true)
+                       : NULL);
     pl_json_end_object(&d->j);
   }
   pl_json_end_object(&d->j);
