@@ -154,6 +154,11 @@ static void a_false_frequency(void** state) {
   a_false_value_is_seen(PENDULUM "ask modes\n", "omega^2", 1001);
   a_false_value_is_seen(PENDULUM "ask equilibria\n", "omega^2", 1001);
   a_false_value_is_seen(turning, "omega^2", 1001);
+  // damping is left out, what turns is not
+  a_false_value_is_seen(
+      "coord u, v\nlagrangian u'^2/2 - u^2 + v'^2 - v^2/2 + u v'/3\n"
+      "rayleigh u'^2/5\ninit u = 0.5, v = 0.1\nsimulate 0..1\nask modes\n",
+      "omega^2", 1001);
 }
 
 static void a_false_threshold(void** state) {

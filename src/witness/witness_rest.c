@@ -503,28 +503,63 @@ static double smallest_pivot(double complex* A, int d) {
   return smallest;
 }
 
-// How far s² - s C - K is from singular at s² = -square, as a part of its entries, and of `most`.
-static double off_with(const double* K, const double* C, int d, double square, double most) {
+// B = M A, all d x d.
+static void times_mass(const double* M, const double* A, int d, double* B) {
+  for (int i = 0; i < d; i++) {
+    for (int j = 0; j < d; j++) {
+      B[i * d + j] = 0;
+      for (int k = 0; k < d; k++) B[i * d + j] += M[i * d + k] * A[k * d + j];
+    }
+  }
+}
+
+// The masses along the directions that are free.
+static void mass_along(pl_rest_field* f, const double* q, const double* T, int d, double* M) {
+  put(f, q, NULL);
+  for (int a = 0; a < d; a++) {
+    for (int b = 0; b < d; b++) {
+      M[a * d + b] = 0;
+      for (int i = 0; i < f->n; i++) {
+        for (int j = 0; j < f->n; j++)
+          M[a * d + b] += T[a * f->n + i] * T[b * f->n + j] * number(f, f->mass[i * f->n + j]);
+      }
+    }
+  }
+}
+
+// How far s² M - s G - K is from singular at s² = -square, as a part of its entries, and of `most`.
+static double off_with(const double* M, const double* G, const double* K, int d, double square,
+                       double most) {
   double complex A[MOST_COORDINATES * MOST_COORDINATES], s = csqrt((double complex) - square);
-  most = fmax(most, fabs(square));
   for (int k = 0; k < d * d; k++) {
-    A[k] = -K[k] - (C ? s * C[k] : 0) + (k % (d + 1) == 0 ? -square : 0);
-    most = fmax(most, fmax(fabs(K[k]), cabs(A[k])));
+    A[k] = -square * M[k] - s * G[k] - K[k];
+    most = fmax(most, fmax(fabs(K[k]), fabs(square * M[k])));
   }
   return most > 0 ? smallest_pivot(A, d) / most : 0;
 }
 
+// Of damped motions the frequency without damping is told: the forces that hang on velocities and
+// do no work are kept.
 static double off_near(pl_rest_field* f, const double* q, double square, double near) {
-  double T[MOST_COORDINATES * MOST_COORDINATES], K[MOST_COORDINATES * MOST_COORDINATES],
-      C[MOST_COORDINATES * MOST_COORDINATES];
+  enum { ALL = MOST_COORDINATES * MOST_COORDINATES };
+  double T[ALL], M[ALL], slope[ALL], K[ALL], C[ALL], G[ALL], far[ALL];
   int d = free_directions(f, q, MOST_COORDINATES, T);
-  bool known = d >= 1 && slopes(f, q, T, d, near, false, K) && slopes(f, q, T, d, near, true, C);
-  if (!known) return (double)NAN;
+  if (d < 1) return (double)NAN;
+  mass_along(f, q, T, d, M);
+  if (!slopes(f, q, T, d, near, false, slope)) return (double)NAN;
+  times_mass(M, slope, d, K);
+  if (!slopes(f, q, T, d, near, true, slope)) return (double)NAN;
+  times_mass(M, slope, d, C);
+  for (int i = 0; i < d; i++) {
+    for (int j = 0; j < d; j++) G[i * d + j] = (C[i * d + j] - C[j * d + i]) / 2;
+  }
   // where forces vanish with their slopes, what they are farther away
-  double far[MOST_COORDINATES * MOST_COORDINATES];
-  double most = slopes(f, q, T, d, 0.1, false, far) ? size(far, d * d) : 0;
-  // of damped motions the frequency without damping is told
-  return fmin(off_with(K, C, d, square, most), off_with(K, NULL, d, square, most));
+  double most = 0;
+  if (slopes(f, q, T, d, 0.1, false, slope)) {
+    times_mass(M, slope, d, far);
+    most = size(far, d * d);
+  }
+  return off_with(M, G, K, d, square, most);
 }
 
 double pl_rest_frequency_off(pl_rest_field* f, const double* q, double square) {
