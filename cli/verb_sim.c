@@ -32,6 +32,30 @@ const cli_flag flags_sim[] = {
     CLI_FLAG_END,
 };
 
+// ORDER METHODS, ENGINES, PRECISIONS: as in pleuel.h
+static bool is_word(const char* word, const char* const words[3], int* out) {
+  if (!word) return true;
+  for (int i = 0; i < 3; i++) {
+    if (strcmp(word, words[i]) != 0) continue;
+    *out = i;
+    return true;
+  }
+  return false;
+}
+
+static int words(const cli_options* o, int chosen[3]) {
+  static const char* const methods[] = {"auto", "taylor", "radau"};
+  static const char* const engines[] = {"auto", "interpreter", "compiled"};
+  static const char* const precisions[] = {"double", "long", "quad"};
+  if (!is_word(o->method, methods, &chosen[0]))
+    return cli_error(EXIT_USAGE, "there is no method %s: taylor, radau or auto", o->method);
+  if (!is_word(o->engine, engines, &chosen[1]))
+    return cli_error(EXIT_USAGE, "there is no engine %s: auto, interpreter or compiled", o->engine);
+  if (!is_word(o->precision, precisions, &chosen[2]))
+    return cli_error(EXIT_USAGE, "there is no precision %s: double, long or quad", o->precision);
+  return EXIT_DONE;
+}
+
 // A time or number given as text.
 static int quantity(pleuel* ctx, const char* flag, const char* text, int* has, double* value) {
   if (!text) return EXIT_DONE;
@@ -92,6 +116,8 @@ int verb_sim(pleuel* ctx, const cli_options* o) {
   int code = quantity(ctx, "until", o->until, &how.has_until, &how.until);
   if (!code) code = quantity(ctx, "dt", o->dt, &how.has_dt, &how.dt);
   if (!code) code = quantity(ctx, "tol", o->tol, &how.has_tol, &how.tol);
+  int chosen[3] = {0};
+  if (!code) code = words(o, chosen);
   int has_width = 0;
   how.certify = o->certify != NULL;
   if (!code && how.certify && *o->certify)
@@ -119,9 +145,9 @@ int verb_sim(pleuel* ctx, const cli_options* o) {
       how.resume_command = command;
     }
     how.progress = cli_progress;
-    how.method = o->method;
-    how.engine = o->engine;
-    how.precision = o->precision;
+    how.method = (pleuel_method)chosen[0];
+    how.engine = (pleuel_engine)chosen[1];
+    how.precision = (pleuel_precision)chosen[2];
     how.until_as_written = o->until;
     how.dt_as_written = o->dt;
     how.sensitivities = o->sensitivities;

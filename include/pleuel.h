@@ -91,15 +91,24 @@ void pleuel_set_memory_limit(pleuel *ctx, size_t bytes);
 void pleuel_interrupt(pleuel *ctx);
 void pleuel_interrupt_clear(pleuel *ctx);
 
-/* ------------------------------------------------------------------------------------------------ options */
+/* ------------------------------------------------------------------------------------ structures */
 
-/* Option structures grow with later versions, at their ends.  Make them with PLEUEL_OPTIONS, which sets every member to
- * its default and notes the size that the caller was compiled with:
- *     PLEUEL_OPTIONS(pleuel_solve_options, how);  how.lang = "de";
- * Wherever options are taken, NULL stands for the defaults. */
+/* Structures that carry options, and those that come back, grow with later versions, at their ends.
+ * Their first member is the size that the caller was compiled with.  PLEUEL_OPTIONS declares one, sets
+ * the size, and every other member to 0, which is its default:
+ *     PLEUEL_OPTIONS(pleuel_write_options, how);
+ *     how.lang = "de";
+ * Where options are taken, NULL stands for the defaults.  A size of 0 is PLEUEL_USAGE, so that
+ * forgotten sizes are noticed.  Of a structure that comes back, `size` bytes are filled. */
+#ifdef __cplusplus
 #define PLEUEL_OPTIONS(type, name) \
-  type name = {0};                 \
+  type name = {};               \
   name.size = sizeof name
+#else
+#define PLEUEL_OPTIONS(type, name) \
+  type name = {0};              \
+  name.size = sizeof name
+#endif
 
 /* ------------------------------------------------------------------------------------------------ models */
 
@@ -236,6 +245,24 @@ typedef struct pleuel_progress {
   long steps;
 } pleuel_progress;
 
+typedef enum pleuel_method {
+  PLEUEL_METHOD_AUTO = 0, /* series, implicit where that is far cheaper                            */
+  PLEUEL_METHOD_TAYLOR,   /* series                                                                */
+  PLEUEL_METHOD_RADAU     /* implicit, for stiff motions                                           */
+} pleuel_method;
+
+typedef enum pleuel_engine {
+  PLEUEL_ENGINE_AUTO = 0, /* compiled when the work ahead pays for it                              */
+  PLEUEL_ENGINE_INTERPRETER,
+  PLEUEL_ENGINE_COMPILED
+} pleuel_engine; /* how steps are computed: the same results, bit for bit */
+
+typedef enum pleuel_precision {
+  PLEUEL_PRECISION_DOUBLE = 0,
+  PLEUEL_PRECISION_LONG, /* 64 binary digits, rounded once a step, for long runs                   */
+  PLEUEL_PRECISION_QUAD  /* 113 binary digits                                                      */
+} pleuel_precision; /* CSV has all their digits */
+
 typedef struct pleuel_sim_options {
   size_t size;
   int has_until, has_tol, has_dt;   /* 1: the member below is given, else the file decides                        */
@@ -249,12 +276,12 @@ typedef struct pleuel_sim_options {
   FILE *csv;                        /* the same rows as CSV; opened and closed by the caller                       */
   void (*progress)(void *user, const pleuel_progress *where);
   void *user;
-  const char *method;               /* "taylor": series; "radau": implicit, for stiff motions; "auto" (default): series,
-                                     * implicit where that is far cheaper                                         */
+  pleuel_method method;
+  pleuel_engine engine;
+  pleuel_precision precision;
+  int no_rows; /* 1: a pleuel_result keeps the first and the last row only                         */
   const char *sensitivities;        /* "m2,x0": columns d(x)/d(m2), d(x)/d(x0) and so on, the derivatives of coordinates,
                                      * velocities and multipliers by parameters and start values                  */
-  const char *engine;               /* "auto" (default), "interpreter", "compiled": how steps are computed.  The results
-                                     * are the same, bit for bit                                                  */
   /* A run that is interrupted can go on bit for bit.  state names the file that it keeps its state in, written now and
    * then and when it is interrupted; NULL: none.  With resume = 1 the run goes on from there: same model, same options,
    * same program; else PLEUEL_USAGE and a sentence that names what differs, or PLEUEL_FILE.  csv must then be open for
@@ -268,8 +295,6 @@ typedef struct pleuel_sim_options {
   int certify;                      /* 1: prove intervals for the true motion, at the end or at the times of dt; they are told by
                                      * pleuel_simulation_text and _json                                           */
   double certify_width;             /* largest half width wanted, relative to the largest coordinate or velocity; 0: 1e-18 */
-  const char *precision;            /* "double" (default); "long": 64 binary digits, rounded once a step, for long runs; "quad":
-                                     * 113 binary digits.  CSV then has all their digits                           */
   const char *until_as_written, *dt_as_written;   /* with the numbers above: the same as text, "0.1", "500[ms]", so that they are
                                      * exact in wider numbers too; or NULL                                         */
 } pleuel_sim_options;
@@ -295,6 +320,210 @@ const char *pleuel_simulation_json(pleuel_model *model);
 /* pleuel_simulation_engine tells how the steps of the last run were computed: interpreted, or compiled from some step on,
  * and why not.  It may differ from run to run, unlike the motion. */
 const char *pleuel_simulation_engine(pleuel_model *model, const pleuel_text_options *options);
+
+/* --------------------------------------------------------------------------------------- results */
+
+/* pleuel_result is a motion that was computed: rows, events, how exact it is. */
+typedef struct pleuel_result pleuel_result;
+void pleuel_result_free(pleuel_result *result);
+
+typedef struct pleuel_summary {
+  size_t size;
+  pleuel_status status;
+  double t_end; /* s, reached; NaN: it did not start                                               */
+  long steps, rejected;
+  double residual_g;    /* largest |g|, relative to the size of its terms                          */
+  double residual_gdot; /* largest |dg/dt|, likewise                                               */
+  double energy_drift;  /* largest, relative; NaN when energy is not conserved                     */
+  size_t n_events, n_columns;
+  size_t n_rows;        /* that were computed                                                      */
+  size_t n_rows_stored; /* that the result holds                                                   */
+  size_t rows_kept;     /* of all rows, those that the state in the file stands behind             */
+} pleuel_summary;
+pleuel_status pleuel_result_summary(const pleuel_result *result, pleuel_summary *summary);
+
+typedef enum pleuel_kind { /* ORDER NAME KINDS */
+  PLEUEL_KIND_TIME = 0,
+  PLEUEL_KIND_COORDINATE,
+  PLEUEL_KIND_VELOCITY,
+  PLEUEL_KIND_MULTIPLIER,
+  PLEUEL_KIND_OUTPUT,       /* energies, `output` lines, sensitivities                             */
+  PLEUEL_KIND_PARAMETER,
+  PLEUEL_KIND_INPUT,
+  PLEUEL_KIND_CONSTRAINT,
+  PLEUEL_KIND_MASS,
+  PLEUEL_KIND_BODY,
+  PLEUEL_KIND_POINT,
+  PLEUEL_KIND_FORCE,        /* labels of forces, springs, dampers, potentials and so on            */
+  PLEUEL_KIND_EVENT,
+  PLEUEL_KIND_ABBREVIATION,
+  PLEUEL_KIND_FUNCTION,
+  PLEUEL_KIND_INDEX,        /* of `for` and `sum`, arguments of functions                          */
+  PLEUEL_KIND_AXIS,
+  PLEUEL_KIND_REQUEST       /* the letter of an `ask`                                              */
+} pleuel_kind;
+
+/* A column.  Value of row k: at[k * stride], NaN where none is determined.  Nothing is copied: the
+ * array belongs to the result and is kept. */
+typedef struct pleuel_column {
+  size_t size;
+  pleuel_kind kind;
+  const char *name;  /* as in CSV, ASCII: "theta"; kept                                            */
+  const char *shown; /* as in formulas: "ϑ"; kept                                                  */
+  const char *unit;  /* "m/s"; "" without; kept                                                    */
+  const double *at;  /* NULL where the column has no rows                                          */
+  size_t stride, n;  /* in doubles; rows                                                           */
+} pleuel_column;
+
+/* pleuel_result_column describes column i; pleuel_result_find gives the number of a name, in either
+ * spelling, -1 if there is none. */
+pleuel_status pleuel_result_column(const pleuel_result *result, size_t i, pleuel_column *column);
+long pleuel_result_find(const pleuel_result *result, const char *name);
+/* pleuel_result_mode names the contacts of a row.  Kept. */
+const char *pleuel_result_mode(const pleuel_result *result, size_t row);
+
+typedef enum pleuel_event_kind {
+  PLEUEL_EVENT_NAMED = 0, /* `event label`                                                         */
+  PLEUEL_EVENT_RELEASE,   /* a contact ended                                                       */
+  PLEUEL_EVENT_IMPACT,    /* a contact was made with a velocity jump                               */
+  PLEUEL_EVENT_CONTACT,   /* a contact was made without one                                        */
+  PLEUEL_EVENT_SINGULAR,  /* the constraints lose rank here                                        */
+  PLEUEL_EVENT_STOP,      /* `event label -> stop`                                                 */
+  PLEUEL_EVENT_SLACK,     /* a rope went slack                                                     */
+  PLEUEL_EVENT_TAUT,      /* a rope went taut                                                      */
+  PLEUEL_EVENT_STICK,     /* surfaces that slipped stick                                           */
+  PLEUEL_EVENT_SLIP       /* surfaces that stuck slip, or slip the other way                       */
+} pleuel_event_kind;
+
+typedef struct pleuel_event {
+  size_t size;
+  pleuel_event_kind kind;
+  const char *label;           /* of the event or constraint; "" without                           */
+  double t;                    /* s                                                                */
+  const double *before, *after; /* rows; NULL when they were not kept                              */
+  const char *mode;            /* contacts after it                                                */
+  double impulse;              /* of an impact, along the gradient of the constraint               */
+  int jump;                    /* 1: velocities jumped                                             */
+  long bounces;                /* of a contact after endlessly many: those that were followed      */
+} pleuel_event;
+/* pleuel_result_event gives event i, in order of time; its arrays and texts are kept. */
+pleuel_status pleuel_result_event(const pleuel_result *result, size_t i, pleuel_event *event);
+
+/* ----------------------------------------------------------------------------------- system and run */
+
+/* A system is what the motion of a model needs: equations as programs, names, numbers.  It does not
+ * change, so threads share it.  A run is one motion of it, with memory and numbers of its own: it is
+ * opened, given other numbers, started, and stepped.  Opening a run derives nothing:
+ *
+ *     pleuel_system *system;
+ *     pleuel_run *run;
+ *     pleuel_system_make(model, &system, NULL);
+ *     pleuel_run_open(system, &run, NULL);
+ *     for (double l = 0.5; l < 2; l += 0.1) {
+ *       double x;
+ *       if (pleuel_run_set(run, "l", l) == PLEUEL_OK && pleuel_run_start(run) == PLEUEL_OK
+ *           && pleuel_run_advance(run, 10, 0) == PLEUEL_OK) pleuel_run_get(run, "x", &x);
+ *       else puts(pleuel_run_message(run));
+ *     }
+ *     pleuel_run_close(run);
+ *     pleuel_system_free(system);
+ */
+typedef struct pleuel_system pleuel_system;
+typedef struct pleuel_run pleuel_run;
+
+/* pleuel_system_make makes the system of a model with its settings.  It lives on when the model is
+ * freed.  Of the options, precision and sensitivities count here; the others are the defaults of its
+ * runs.  Each owner keeps it once and frees it once; the last one frees its memory. */
+pleuel_status pleuel_system_make(pleuel_model *model, pleuel_system **system,
+                                 const pleuel_sim_options *options);
+pleuel_system *pleuel_system_keep(pleuel_system *system);
+void pleuel_system_free(pleuel_system *system);
+
+/* pleuel_system_count tells how many quantities of a kind there are, pleuel_system_quantity describes
+ * one: `at` is NULL, but for parameters and inputs, whose number in the text it points to. */
+size_t pleuel_system_count(const pleuel_system *system, pleuel_kind kind);
+pleuel_status pleuel_system_quantity(const pleuel_system *system, pleuel_kind kind, size_t i,
+                                     pleuel_column *quantity);
+
+/* pleuel_run_open opens a run; *run is NULL only when memory ran out.  options NULL: those of the
+ * system.  The sentence of a failure of any function below is in pleuel_run_message. */
+pleuel_status pleuel_run_open(pleuel_system *system, pleuel_run **run,
+                              const pleuel_sim_options *options);
+void pleuel_run_close(pleuel_run *run);
+const char *pleuel_run_message(const pleuel_run *run);
+void pleuel_run_interrupt(pleuel_run *run);
+void pleuel_run_interrupt_clear(pleuel_run *run);
+
+/* pleuel_run_set gives a parameter, an input, or a start value (coordinate, velocity: "x1", "x1_dot")
+ * another number.  What depends on it follows: other parameters, start values.  A parameter or a
+ * start value counts from the next pleuel_run_start on, an input at once.  PLEUEL_USAGE for unknown
+ * names and for what a system has fixed: sizes of families, and the sign of what was positive when it
+ * was made.  PLEUEL_UNSUPPORTED in wider numbers, with sensitivities, and where `events` speak of
+ * start values such as E(0): load the model with other settings then. */
+pleuel_status pleuel_run_set(pleuel_run *run, const char *name, double si);
+/* pleuel_run_get reads a number: a parameter, an input, or any column at the present time. */
+pleuel_status pleuel_run_get(pleuel_run *run, const char *name, double *si);
+/* pleuel_run_reset takes all numbers back to those of the text. */
+void pleuel_run_reset(pleuel_run *run);
+
+/* pleuel_run_input has the inputs given by a function: it fills u (one for each input, in their
+ * order) at time t.  It is asked every dt seconds from the start on, and the inputs are held in
+ * between, as a digital controller does.  NULL: held as they are set. */
+pleuel_status pleuel_run_input(pleuel_run *run,
+                               int (*input)(void *user, pleuel_run *run, double t, double *u),
+                               void *user, double dt);
+
+/* pleuel_run_start finds the consistent start.  It may be called again at any time. */
+pleuel_status pleuel_run_start(pleuel_run *run);
+
+/* pleuel_run_advance steps to time t exactly; with to_event = 1 it stops behind the next event, if one
+ * comes earlier.  The motion does not go beyond the end of the options, or of the file, if there is one.
+ * pleuel_run_step takes one step, as long as it may be.  pleuel_run_done: the end is reached. */
+pleuel_status pleuel_run_advance(pleuel_run *run, double t, int to_event);
+pleuel_status pleuel_run_step(pleuel_run *run);
+int pleuel_run_done(const pleuel_run *run);
+double pleuel_run_time(const pleuel_run *run);
+
+/* pleuel_run_event gives the event that happened last; PLEUEL_USAGE when none has happened since the
+ * start.  Its arrays and texts live until the run moves. */
+pleuel_status pleuel_run_event(pleuel_run *run, pleuel_event *event);
+
+/* pleuel_run_state copies the state.  Each array may be NULL.
+ *   q       positions                      (count of PLEUEL_KIND_COORDINATE)
+ *   v       velocities                     (same)
+ *   a       accelerations                  (same)
+ *   lambda  multipliers, NaN where not determined   (count of PLEUEL_KIND_MULTIPLIER)
+ * pleuel_run_dense gives them at a time within the last step. */
+pleuel_status pleuel_run_state(pleuel_run *run, double *q, double *v, double *a, double *lambda);
+pleuel_status pleuel_run_dense(pleuel_run *run, double t, double *q, double *v, double *a,
+                               double *lambda);
+/* pleuel_run_set_state goes on from another state, which meets the constraints to 1e-9 of their terms. */
+pleuel_status pleuel_run_set_state(pleuel_run *run, double t, const double *q, const double *v);
+
+/* pleuel_run_sample steps to the last of n times, which follow each other, and fills a row for each:
+ * all columns, at block[i * stride].  stride in doubles, at least the number of columns. */
+pleuel_status pleuel_run_sample(pleuel_run *run, const double *t, size_t n, double *block,
+                                size_t stride);
+
+/* pleuel_run_rhs gives accelerations and multipliers at any state, by the constraints in force there;
+ * the motion of the run is not touched.  a, lambda may be NULL. */
+pleuel_status pleuel_run_rhs(pleuel_run *run, double t, const double *q, const double *v, double *a,
+                             double *lambda);
+
+/* pleuel_run_linearise gives the derivatives of the accelerations about the present state, all by
+ * column: by positions, velocities and inputs.  Differences of sixth order, good to about ten digits.
+ *   a_q (n_q x n_q)   a_v (n_q x n_q)   a_u (n_q x n_u)    each may be NULL */
+pleuel_status pleuel_run_linearise(pleuel_run *run, double *a_q, double *a_v, double *a_u);
+
+/* pleuel_run_save writes the state of the run into bytes, *n of them; bytes NULL: only *n.  A run of
+ * the same system, with the same numbers and options, goes on from them bit for bit after
+ * pleuel_run_restore; PLEUEL_FILE for bytes that are none of this run. */
+pleuel_status pleuel_run_save(pleuel_run *run, void *bytes, size_t *n);
+pleuel_status pleuel_run_restore(pleuel_run *run, const void *bytes, size_t n);
+
+/* pleuel_run_complete computes the whole motion, from its start to its end, as pleuel_simulate does:
+ * the same rows, bit for bit. */
+pleuel_status pleuel_run_complete(pleuel_run *run, pleuel_result **result);
 
 /* ------------------------------------------------------------------------------------------------ pictures */
 
@@ -393,27 +622,6 @@ pleuel_status pleuel_edited(pleuel_model *model, const pleuel_edit *edits, size_
 
 /* What follows works on texts with errors too: statements that can be read are, and what a broken
  * line declares is known by name.  Places are bytes of the text itself, not of what it includes. */
-
-typedef enum pleuel_kind { /* ORDER NAME KINDS */
-  PLEUEL_KIND_TIME = 0,
-  PLEUEL_KIND_COORDINATE,
-  PLEUEL_KIND_VELOCITY,
-  PLEUEL_KIND_MULTIPLIER,
-  PLEUEL_KIND_OUTPUT,
-  PLEUEL_KIND_PARAMETER,
-  PLEUEL_KIND_INPUT,
-  PLEUEL_KIND_CONSTRAINT,
-  PLEUEL_KIND_MASS,
-  PLEUEL_KIND_BODY,
-  PLEUEL_KIND_POINT,
-  PLEUEL_KIND_FORCE,        /* labels of forces, springs, dampers, potentials and so on            */
-  PLEUEL_KIND_EVENT,
-  PLEUEL_KIND_ABBREVIATION,
-  PLEUEL_KIND_FUNCTION,
-  PLEUEL_KIND_INDEX,        /* of `for` and `sum`, arguments of functions                          */
-  PLEUEL_KIND_AXIS,
-  PLEUEL_KIND_REQUEST       /* the letter of an `ask`                                              */
-} pleuel_kind;
 
 typedef struct pleuel_name {
   size_t size;

@@ -79,13 +79,31 @@ void pleuel_interrupt_clear(pleuel* ctx) {
 }
 
 // ----------------------------------------------------------------------------------- guarded calls
-// Options of an older caller are shorter: what it does not know keeps its default.
-void pl_api_options(void* to, size_t size, const void* from) {
+void pl_api_copy(void* to, size_t size, const void* from) {
   memset(to, 0, size);
   if (!from) return;
   size_t given;
   memcpy(&given, from, sizeof given);
   memcpy(to, from, given < size ? given : size);
+}
+
+pleuel_status pl_api_take(pleuel* ctx, void* to, size_t size, const void* from) {
+  size_t given = 1;
+  if (from) memcpy(&given, from, sizeof given);
+  ctx->message[0] = '\0';
+  if (given == 0)
+    return pl_api_fail(ctx, PLEUEL_USAGE,
+                       "options without their size: declare them with PLEUEL_OPTIONS");
+  pl_api_copy(to, size, from);
+  return PLEUEL_OK;
+}
+
+pleuel_status pl_api_give(void* to, const void* all, size_t size) {
+  size_t room;
+  memcpy(&room, to, sizeof room);
+  if (room == 0) return PLEUEL_USAGE;
+  memcpy(to, all, room < size ? room : size);
+  return PLEUEL_OK;
 }
 
 // Runs work under a guard.  Status and sentence of the job become those of the context.

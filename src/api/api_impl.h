@@ -44,7 +44,9 @@ typedef struct pl_included {
 struct pl_editor;
 
 struct pleuel_model {
-  pleuel* ctx;
+  pleuel* ctx;                  // NULL: closed, but systems live on
+  atomic_int owners;            // the context, and systems
+  pleuel_allocator alloc;       // a copy; take NULL: malloc and free
   pleuel_model *before, *next;  // list of the context
   pl_arena* arena;
   pl_job job;
@@ -86,14 +88,22 @@ struct pleuel_model {
 
 // ---- api_context.c: the way of every public function
 pleuel_status pl_api_fail(pleuel* ctx, pleuel_status s, const char* sentence);
-// Copies options into a structure of `size` bytes; what the caller does not know keeps its default.
-void pl_api_options(void* to, size_t size, const void* from);
+// Options of an older caller are shorter: what it does not know keeps its default.
+void pl_api_copy(void* to, size_t size, const void* from);
+// The same; PLEUEL_USAGE for options without their size.
+pleuel_status pl_api_take(pleuel* ctx, void* to, size_t size, const void* from);
+// As much of a structure as the caller knows.  PLEUEL_USAGE: it has no size.
+pleuel_status pl_api_give(void* to, const void* all, size_t size);
 typedef pleuel_status pl_api_work(pleuel_model* m, void* argument);
 // Runs work under a guard.  Status and sentence of the job become those of the context.
 pleuel_status pl_api_guarded(pleuel_model* m, pl_api_work* work, void* argument);
 pl_language pl_api_language(const char* name, pl_language otherwise);
 // What is asked for, else what the file names, else what the context speaks.
 pl_language pl_api_language_of(const pleuel_model* m, const char* asked);
+
+// ---- api_model.c: a model lives as long as one of its owners
+void pl_model_keep(pleuel_model* m);
+void pl_model_drop(pleuel_model* m);
 
 // ---- pipeline.c: every arrow
 pleuel_status pl_pipeline_parse(pleuel_model* m);

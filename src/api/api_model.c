@@ -106,6 +106,8 @@ static pleuel_model* model_make(pleuel* ctx, const char* name) {
     pleuel_model* m = PL_NEW(arena, pleuel_model);
     m->ctx = ctx;
     m->arena = arena;
+    atomic_init(&m->owners, 1);
+    if (ctx->alloc) m->alloc = *ctx->alloc;
     m->diagnostics.arena = arena;
     m->job = (pl_job){.arena = arena,
                       .diagnostics = &m->diagnostics,
@@ -152,7 +154,7 @@ pleuel_status pleuel_load_text(pleuel* ctx, pleuel_model** model, const char* te
   if (size > MAX_FILE_BYTES)
     return pl_api_fail(ctx, PLEUEL_FILE, "the text is too long for a model");
   pleuel_load_options o;
-  pl_api_options(&o, sizeof o, options);
+  PL_TRY(pl_api_take(ctx, &o, sizeof o, options));
   pl_reading l = {text, size, &o, false};
   return load_model(ctx, model, &l, o.name ? o.name : "<text>");
 }
@@ -164,19 +166,28 @@ pleuel_status pleuel_load_file(pleuel* ctx, pleuel_model** model, const char* pa
   ctx->message[0] = '\0';
   if (!path) return pl_api_fail(ctx, PLEUEL_USAGE, "there is no file name");
   pleuel_load_options o;
-  pl_api_options(&o, sizeof o, options);
+  PL_TRY(pl_api_take(ctx, &o, sizeof o, options));
   pl_reading l = {path, 0, &o, true};
   return load_model(ctx, model, &l, o.name ? o.name : path);
 }
 
+void pl_model_keep(pleuel_model* m) { atomic_fetch_add(&m->owners, 1); }
+
+void pl_model_drop(pleuel_model* m) {
+  if (atomic_fetch_sub(&m->owners, 1) == 1) pl_arena_free(m->arena);
+}
+
 void pleuel_model_free(pleuel_model* m) {
-  if (!m) return;
+  if (!m || !m->ctx) return;
   if (m->solution) pl_solution_close(m->solution);
   pl_editor_free(m->editor);
+  m->editor = NULL;
+  m->solution = NULL;
   if (m->before) m->before->next = m->next;
   else m->ctx->first = m->next;
   if (m->next) m->next->before = m->before;
-  pl_arena_free(m->arena);
+  m->ctx = NULL;
+  pl_model_drop(m);
 }
 
 // ---------------------------------------------------------------------------------------- messages
@@ -218,7 +229,7 @@ const char* pleuel_diagnostics_text(pleuel_model* m, unsigned severities,
                                     const pleuel_text_options* options) {
   if (!m) return NULL;
   pleuel_text_options o;
-  pl_api_options(&o, sizeof o, options);
+  if (pl_api_take(m->ctx, &o, sizeof o, options) != PLEUEL_OK) return NULL;
   pl_telling t = {severities, {pl_api_language_of(m, o.lang), o.colour, o.terse}, NULL};
   char sentence[sizeof m->ctx->message];
   // telling about a failure must not hide its sentence

@@ -73,7 +73,7 @@ static pleuel_status ask_text(pleuel_model* m, const char** text,
   if (text) *text = NULL;
   if (!m) return PLEUEL_USAGE;
   pleuel_text_options o;
-  pl_api_options(&o, sizeof o, options);
+  PL_TRY(pl_api_take(m->ctx, &o, sizeof o, options));
   pl_asking a = {.text = &o};
   pleuel_status s = pl_api_guarded(m, work, &a);
   if (text) *text = a.answer;
@@ -239,7 +239,7 @@ static pleuel_status ask_solution(pleuel_model* m, const char** text,
   if (text) *text = NULL;
   if (!m) return PLEUEL_USAGE;
   pleuel_solve_options o;
-  pl_api_options(&o, sizeof o, options);
+  PL_TRY(pl_api_take(m->ctx, &o, sizeof o, options));
   if ((unsigned)o.math > PLEUEL_MATH_ASCII || o.width < 0)
     return pl_api_fail(m->ctx, PLEUEL_USAGE, "unknown manner of writing formulas");
   pl_asking a = {.solve = &o};
@@ -283,7 +283,7 @@ pleuel_status pleuel_export(pleuel_model* m, const char** text, const char* targ
   if (text) *text = NULL;
   if (!m || !target) return PLEUEL_USAGE;
   pleuel_solve_options o;
-  pl_api_options(&o, sizeof o, options);
+  PL_TRY(pl_api_take(m->ctx, &o, sizeof o, options));
   pl_asking a = {.solve = &o, .word = target};
   pleuel_status s = pl_api_guarded(m, export, &a);
   if (text) *text = a.answer;
@@ -319,7 +319,7 @@ pleuel_status pleuel_tex(pleuel_model* m, const char** text, const pleuel_tex_op
   if (text) *text = NULL;
   if (!m) return PLEUEL_USAGE;
   pleuel_tex_options o;
-  pl_api_options(&o, sizeof o, options);
+  PL_TRY(pl_api_take(m->ctx, &o, sizeof o, options));
   pl_asking a = {.tex = &o};
   pleuel_status s = pl_api_guarded(m, tex, &a);
   if (text) *text = a.answer;
@@ -345,7 +345,7 @@ pleuel_status pleuel_report(pleuel_model* m, const char** html,
   if (html) *html = NULL;
   if (!m) return PLEUEL_USAGE;
   pleuel_report_options o;
-  pl_api_options(&o, sizeof o, options);
+  PL_TRY(pl_api_take(m->ctx, &o, sizeof o, options));
   if ((unsigned)o.data > PLEUEL_DATA_FULL)
     return pl_api_fail(m->ctx, PLEUEL_USAGE, "data of a report: thin, none or full");
   pl_reporting r = {&o, NULL};
@@ -379,7 +379,7 @@ pleuel_status pleuel_plot(pleuel_model* m, const char** bytes, size_t* n,
   if (n) *n = 0;
   if (!m || !bytes || !n) return PLEUEL_USAGE;
   pleuel_plot_options o;
-  pl_api_options(&o, sizeof o, options);
+  PL_TRY(pl_api_take(m->ctx, &o, sizeof o, options));
   if (!size_fits(o.width, o.height) || (unsigned)o.style > PLEUEL_FOR_PRINT
       || (unsigned)o.format > PLEUEL_PDF || (unsigned)o.panels > PLEUEL_PANELS_DRAWING) {
     return pl_api_fail(m->ctx, PLEUEL_USAGE,
@@ -404,7 +404,7 @@ pleuel_status pleuel_animate(pleuel_model* m, const char** bytes, size_t* n,
   if (n) *n = 0;
   if (!m || !bytes || !n) return PLEUEL_USAGE;
   pleuel_animate_options o;
-  pl_api_options(&o, sizeof o, options);
+  PL_TRY(pl_api_take(m->ctx, &o, sizeof o, options));
   if (!size_fits(o.width, o.height) || (unsigned)o.style > PLEUEL_FOR_PRINT || o.fps < 0
       || o.fps > 100 || o.seconds < 0 || (o.format != PLEUEL_SVG && o.format != PLEUEL_GIF)) {
     return pl_api_fail(
@@ -432,7 +432,7 @@ pleuel_status pleuel_simulate(pleuel_model* m, pleuel_sim_summary* summary,
   if (summary) *summary = (pleuel_sim_summary){.t_end = NAN, .energy_drift = NAN};
   if (!m) return PLEUEL_USAGE;
   pleuel_sim_options o;
-  pl_api_options(&o, sizeof o, options);
+  PL_TRY(pl_api_take(m->ctx, &o, sizeof o, options));
   pleuel_status s = pl_api_guarded(m, simulate, &o);
   const pl_result* r = m->broken ? NULL : m->result;
   if (summary && r) {

@@ -92,6 +92,7 @@ static const char* settings(const pleuel_model* m) {
 
 void pl_traits_of(pl_traits* list, const pleuel_model* m, const pleuel_sim_options* o,
                   const pl_run_options* how) {
+  static const char* const precision[] = {"double", "long", "quad"};
   static const char* const method[] = {
       [PL_METHOD_TAYLOR] = "taylor", [PL_METHOD_RADAU] = "radau", [PL_METHOD_AUTO] = "auto"};
   pl_arena* a = m->arena;
@@ -106,7 +107,7 @@ void pl_traits_of(pl_traits* list, const pleuel_model* m, const pleuel_sim_optio
   add(list, a, "dt", "--dt", number(a, how->dt));
   add(list, a, "count", "count", number(a, (double)how->count));
   add(list, a, "method", "--method", method[how->method]);
-  add(list, a, "precision", "--precision", o->precision ? o->precision : "");
+  add(list, a, "precision", "--precision", precision[o->precision]);
   add(list, a, "sensitivities", "--sensitivities", o->sensitivities ? o->sensitivities : "");
   add(list, a, "rows", "-o", o->csv ? "csv" : o->row ? "row" : "");
   add(list, a, "build", NULL, pl_copy(a, build.name));

@@ -6,6 +6,7 @@
 // Each step is taken once and remembered in the pleuel_model; asking for a later one takes those
 // before it. A step that was interrupted is taken anew.
 #include "api/stages.h"
+#include "api/system_impl.h"
 #include "witness/witness.h"
 
 #include <math.h>
@@ -201,121 +202,12 @@ static void watch(void* user, double t, double t_end, double h, const pl_stats* 
   w->options->progress(w->options->user, &p);
 }
 
-static pleuel_status start_plain(pleuel_model* m, pl_run* run) {
-  pleuel_status s = pl_run_start(run);
-  m->start = *pl_run_start_report(run);
-  return s;
-}
-
-// Positions and velocities of all blocks: the motion, and what is known of its variation.
-static pleuel_status start_blocks(pleuel_model* m, pl_run* run, double t, const double* q,
-                                  const double* v) {
-  const pl_recording* r = m->recording;
-  size_t n = (size_t)r->flat.n, all = (size_t)r->setup.n_q;
-  double *q_all = PL_ARRAY(m->arena, double, all), *v_all = PL_ARRAY(m->arena, double, all);
-  bool *held_q = PL_ARRAY(m->arena, bool, all), *held_v = PL_ARRAY(m->arena, bool, all);
-  for (size_t k = 0; k < (size_t)r->n_directions; k++) {
-    for (size_t i = 0; i < n; i++) {
-      size_t of = 2 * k * n + i, delta = of + n;
-      q_all[of] = q[i];
-      v_all[of] = v[i];
-      held_q[of] = held_v[of] = true;
-      q_all[delta] = r->varied_q[k * n + i];
-      v_all[delta] = r->varied_v[k * n + i];
-      held_q[delta] = r->setup.coordinates[delta].has_q;
-      held_v[delta] = r->setup.coordinates[delta].has_v;
-    }
-  }
-  return pl_run_start_partly(run, t, q_all, v_all, held_q, held_v);
-}
-
-// The consistent start is found without variations, which follow from it.
-static pleuel_status start_varied(pleuel_model* m, const pl_run_options* how, pl_run* run) {
-  pl_recording* plain;
-  pl_run* first = NULL;
-  PL_TRY(pl_record(&m->job, m->model, NULL, false, &plain));
-  pl_run_options quiet = *how;
-  quiet.sink = (pl_sink){0};
-  quiet.progress = NULL;
-  quiet.keep = NULL;
-  bool switched = m->recording->setup.varied != NULL;
-  struct pl_sensitivity* sensitivity =
-      switched ? pl_sensitivity_make(&m->job, run, &plain->setup, &quiet.sink) : NULL;
-  pleuel_status s = pl_run_make(&m->job, &plain->setup, &quiet, &first);
-  if (s == PLEUEL_OK) s = start_plain(m, first);
-  bool goes_ahead = s == PLEUEL_OK && sensitivity;  // and is freed with the run
-  if (goes_ahead) pl_sensitivity_attach(sensitivity, run, first);
-  if (s == PLEUEL_OK)
-    s = start_blocks(m, run, pl_run_time(first), pl_run_q(first), pl_run_v(first));
-  if (!goes_ahead) pl_run_free(first);
-  return s;
-}
-
-// Bodies in space are integrated as quaternions from the start that was found in their angles.
-static pleuel_status start_turned(pleuel_model* m, const pl_run_options* how, pl_run* run) {
-  const pl_recording* r = m->recording;
-  pl_run* first = NULL;
-  pl_run_options quiet = *how;
-  quiet.sink = (pl_sink){0};
-  quiet.progress = NULL;
-  quiet.keep = NULL;
-  quiet.start_only = true;  // the angles may tell no accelerations there
-  pleuel_status s = pl_run_make(&m->job, &r->setup, &quiet, &first);
-  if (s == PLEUEL_OK) s = start_plain(m, first);
-  size_t n = (size_t)r->flat.n, all = (size_t)r->turned->setup.n_q;
-  double *q = PL_ARRAY(m->arena, double, all), *v = PL_ARRAY(m->arena, double, all);
-  if (s == PLEUEL_OK) {
-    memcpy(q, pl_run_q(first), n * sizeof *q);
-    memcpy(v, pl_run_v(first), n * sizeof *v);
-    s = pl_run_start_from_angles(run, pl_run_time(first), q, v);
-  }
-  pl_run_free(first);
-  return s;
-}
-
 // What is proven is proven for the coordinates as declared.
 static bool is_turned(const pl_recording* r, const pleuel_sim_options* o) {
   return r->turned && !o->certify;
 }
 
-static bool method_named(const char* name, pl_method* out) {
-  static const char* const names[] = {
-      [PL_METHOD_TAYLOR] = "taylor", [PL_METHOD_RADAU] = "radau", [PL_METHOD_AUTO] = "auto"};
-  for (int i = 0; i < 3; i++) {
-    if (strcmp(name, names[i]) != 0) continue;
-    if (out) *out = (pl_method)i;
-    return true;
-  }
-  return false;
-}
-
-static bool engine_named(const char* name, pl_engine* out) {
-  static const char* const names[] = {[PL_ENGINE_AUTO] = "auto",
-                                      [PL_ENGINE_INTERPRETER] = "interpreter",
-                                      [PL_ENGINE_COMPILED] = "compiled"};
-  for (int i = 0; i < 3; i++) {
-    if (strcmp(name, names[i]) != 0) continue;
-    if (out) *out = (pl_engine)i;
-    return true;
-  }
-  return false;
-}
-
-static bool precision_named(const char* name, pl_precision* out) {
-  static const char* const names[] = {
-      [PL_PRECISION_DOUBLE] = "double", [PL_PRECISION_LONG] = "long", [PL_PRECISION_QUAD] = "quad"};
-  for (int i = 0; i < 3; i++) {
-    if (strcmp(name, names[i]) != 0) continue;
-    if (out) *out = (pl_precision)i;
-    return true;
-  }
-  return false;
-}
-
-static bool is_wide(const pleuel_sim_options* o) {
-  pl_precision p = PL_PRECISION_DOUBLE;
-  return o->precision && precision_named(o->precision, &p) && p != PL_PRECISION_DOUBLE;
-}
+static bool is_wide(const pleuel_sim_options* o) { return o->precision != PLEUEL_PRECISION_DOUBLE; }
 
 // A time as it was written, in three doubles; NULL: it was given as a double.
 static const double* exact_time(pleuel_model* m, const char* text) {
@@ -331,17 +223,8 @@ pleuel_status pl_pipeline_start(pleuel_model* m, const pleuel_sim_options* o, pl
   const pl_setup* setup = turned ? &r->turned->setup : &r->setup;
   pl_run_options how = {
       .t_0 = r->t_0, .t_end = r->t_end, .tol = r->tol, .dt = r->dt, .count = r->count};
-  how.method = PL_METHOD_AUTO;
-  if (o->method) method_named(o->method, &how.method);
-  if (o->engine) engine_named(o->engine, &how.engine);
-  if (o->has_until) how.t_end = o->until;
-  if (o->has_tol) how.tol = o->tol;
-  if (o->has_dt) {
-    how.dt = o->dt;
-    how.count = 0;
-  }
+  pl_sim_options_take(o, &how);
   if (isnan(how.t_end)) how.t_end = how.t_0;
-  if (o->precision) precision_named(o->precision, &how.precision);
   if (o->has_until && m->exact) how.t_end_exact = exact_time(m, o->until_as_written);
   if (o->has_dt && m->exact) how.dt_exact = exact_time(m, o->dt_as_written);
   if (m->result) {
@@ -375,9 +258,9 @@ pleuel_status pl_pipeline_start(pleuel_model* m, const pleuel_sim_options* o, pl
     if (resumes) how.sink = (pl_sink){0};
   }
   PL_TRY(pl_run_make(&m->job, setup, &how, out));
-  pleuel_status s = r->n_directions ? start_varied(m, &how, *out)
-                    : turned        ? start_turned(m, &how, *out)
-                                    : start_plain(m, *out);
+  pl_recording* plain = NULL;
+  if (r->n_directions) PL_TRY(pl_record(&m->job, m->model, NULL, false, &plain));
+  pleuel_status s = pl_start_motion(&m->job, r, plain, turned, &how, *out, &m->start);
   if (s == PLEUEL_OK && resumes) {
     s = pl_keeping_resume(m->keeping, *out, &sink);
     if (s != PLEUEL_OK) m->result->rows.n = m->result->events.n = 0;  // nothing was run
@@ -396,30 +279,10 @@ static pleuel_status check_times(pleuel_model* m, const pleuel_sim_options* o) {
         &m->job, PLEUEL_USAGE,
         "how long? The file has no `simulate` line; give --until, for example --until 10");
   }
-  if (o->has_until && !isfinite(o->until))
-    return pl_fail(&m->job, PLEUEL_USAGE, "the end of the run is no number");
-  if (o->has_tol && !(o->tol > 0 && o->tol < 1))
-    return pl_fail(&m->job, PLEUEL_USAGE, "tol must lie between 0 and 1");
-  if (o->method && !method_named(o->method, NULL)) {
-    return pl_fail(&m->job, PLEUEL_USAGE, "there is no method %s: taylor, radau or auto",
-                   o->method);
-  }
-  if (o->engine && !engine_named(o->engine, NULL)) {
-    return pl_fail(&m->job, PLEUEL_USAGE, "there is no engine %s: auto, interpreter or compiled",
-                   o->engine);
-  }
+  PL_TRY(pl_sim_options_check(&m->job, o));
   if (o->certify && !(o->certify_width >= 0 && o->certify_width < 1e-4)) {
     return pl_fail(&m->job, PLEUEL_USAGE, "the width of an enclosure lies between 0 and 1e-4");
   }
-  if (o->precision && !precision_named(o->precision, NULL)) {
-    return pl_fail(&m->job, PLEUEL_USAGE, "there is no precision %s: double, long or quad",
-                   o->precision);
-  }
-  if (is_wide(o) && o->sensitivities) {
-    return pl_fail(&m->job, PLEUEL_UNSUPPORTED,
-                   "precision %s: sensitivities are computed in double only", o->precision);
-  }
-  if (o->has_dt && !(o->dt > 0)) return pl_fail(&m->job, PLEUEL_USAGE, "dt must be positive");
   if (o->certify && o->resume)
     return pl_fail(&m->job, PLEUEL_USAGE, "a run that goes on from a state cannot be certified");
   return PLEUEL_OK;

@@ -46,10 +46,16 @@ static void close_bench(bench* b) {
 static bool open_bench(bench* b, const char* file, const manner* how) {
   *b = (bench){.ctx = pleuel_open(NULL)};
   PLEUEL_OPTIONS(pleuel_sim_options, o);
-  o.method = how->method;
-  o.engine = how->engine;
+  static const char* const methods[] = {"auto", "taylor", "radau"};
+  static const char* const engines[] = {"auto", "interpreter", "compiled"};
+  static const char* const precisions[] = {"double", "long", "quad"};
+  for (int i = 0; i < 3; i++) {
+    if (how->method && strcmp(how->method, methods[i]) == 0) o.method = (pleuel_method)i;
+    if (how->engine && strcmp(how->engine, engines[i]) == 0) o.engine = (pleuel_engine)i;
+    if (how->precision && strcmp(how->precision, precisions[i]) == 0)
+      o.precision = (pleuel_precision)i;
+  }
   o.sensitivities = how->sensitivities;
-  o.precision = how->precision;
   if (how->dt > 0) {
     o.dt = how->dt;
     o.has_dt = 1;

@@ -194,7 +194,7 @@ static void check_numbers_given(pl_job* job, pl_model* m) {
   }
   for (int i = 0; i < m->params.n; i++) {
     const pl_param* p = &m->params.at[i];
-    if (!c.needed[p->symbol.id] || !pl_is_poison(p->value)) continue;
+    if (!c.needed[p->symbol.id] || !pl_is_poison(p->value) || p->input) continue;
     const pl_symbol_info* info = pl_symbol_get(m->pool, p->symbol);
     pl_diagnostic* d = pl_tell(
         job, PL_E048, p->span,

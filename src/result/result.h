@@ -61,4 +61,9 @@ pl_sink pl_csv_sink(pl_arena* a, FILE* file);
 pl_sink pl_csv_sink_behind(pl_arena* a, FILE* file);
 pleuel_status pl_result_write_csv(const pl_result* r, FILE* file);
 
+// Columns of a setup, and a row as their numbers.  mode: rows name contacts.
+void pl_result_columns(pl_arena* a, const pl_setup* s, const pl_result_column** columns, int* n,
+                       bool* mode);
+void pl_result_flatten(const pl_setup* s, const pl_row* row, double* x);
+
 #endif

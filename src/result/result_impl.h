@@ -4,9 +4,6 @@
 
 #include "result/result.h"
 
-void pl_result_columns(pl_arena* a, const pl_setup* s, const pl_result_column** columns, int* n,
-                       bool* mode);
-void pl_result_flatten(const pl_setup* s, const pl_row* row, double* x);
 // The columns of a row on wider numbers as text with all their digits, one after the other.
 void pl_result_digits(const pl_setup* s, const pl_row* row, void* user,
                       void (*take)(void* user, const char* text));

@@ -95,6 +95,7 @@ pleuel_status pl_output_begin(pl_run* run) {
 }
 
 static double grid_time(const pl_run* run, long n) {
+  if (run->grid_times) return n <= run->grid_count ? run->grid_times[n] : (double)INFINITY;
   // the last one exactly at the end, the others by one multiplication, so that nothing accumulates
   if (run->grid_count > 0 && n == run->grid_count) return run->options.t_end;
   return run->options.t_0 + (double)n * run->grid_dt;

@@ -445,4 +445,21 @@ const char* pl_run_mode(const pl_run* run);
 // NULL.
 void pl_run_dense(const pl_run* run, double t, double* q, double* v, double* lambda);
 
+// ---- run_to.c: a run as a program steps it
+// pl_run_to steps to time t exactly, or to t_end where that comes first; with to_event it stops behind
+// the first event.  Status as pl_run_step; PLEUEL_USAGE for a time that has passed.
+pleuel_status pl_run_to(pl_run* run, double t, bool to_event);
+// From here on rows are those of n times (kept by pointer), and those beside events.
+void pl_run_rows_at(pl_run* run, const double* t, int n);
+// The point as a row; pointers are valid until the run moves.
+void pl_run_row(pl_run* run, pl_row* row);
+// pl_run_dense with accelerations; false outside of the last step, and where the coordinates that are
+// integrated are not those of the setup.
+bool pl_run_dense_row(pl_run* run, double t, double* q, double* v, double* a, double* lambda);
+
+// Accelerations and multipliers (pl_run_a, pl_run_lambda) at a state, with the constraints that are
+// in force in another run of the same setup.
+pleuel_status pl_run_point_as(pl_run* run, const pl_run* as, double t, const double* q,
+                              const double* v);
+
 #endif

@@ -333,6 +333,7 @@ struct pl_run {
   double t_grid;  // next grid time is t_0 + grid_n * grid_dt
   long grid_n, grid_count;
   double grid_dt;
+  const double* grid_times;  // instead: rows at these times, grid_count + 1 of them; NULL
   bool opened, begun, ended, started, stopped;
   bool refused;       // the sink wants no more rows
   double last_row_t;  // of a row that was not one before an event; NaN
