@@ -263,7 +263,8 @@ static void list_state(pl_arena* a, const pl_trace* t, const pl_trace_sample* at
   out->v = at->v;
 }
 
-// Where e has a sign again behind a sample, it is negative.  Where friction holds fast, e stays zero.
+// Where e has a sign again behind a sample, it is negative.  Where friction holds fast, e stays
+// zero.
 static bool goes_below(pl_staging* s, const pl_trace* t, const pl_trace_sample* at, pl_expr e,
                        double size) {
   for (int i = 0; i < t->samples.n; i++) {

@@ -7,7 +7,9 @@
 // What the request speaks of, worked out: on the motion, abbreviations inserted where they contain
 // the variable.
 static pl_expr subject(pl_analysis* d, const pl_ask* ask, pl_expr e) {
-  e = pl_as_function_of_time(d, pl_on_motion(d, pl_with_results(d, e)), e);
+  pl_expr value = pl_on_motion(d, pl_with_results(d, e));
+  // a closed motion that ends says nothing of later times
+  e = pl_motion_changes_sides(d) ? value : pl_as_function_of_time(d, value, e);
   for (int k = d->model->lets.n - 1; k >= 0; k--) {
     const pl_let* l = &d->model->lets.at[k];
     if (l->inserted || !pl_has_symbol(d->pool, e, l->symbol)) continue;

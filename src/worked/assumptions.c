@@ -1,4 +1,6 @@
 // assumptions: the signs that formulas rest on, as a list.
+#include <string.h>
+
 #include "worked/worked_impl.h"
 
 // "m1 > 0", "r < l": a difference a - b is written as b < a.
@@ -78,6 +80,11 @@ void pl_list_assumptions(pl_analysis* d, pl_analysis** of, int n_of) {
       by[at] = of[k];
     }
   }
-  for (int k = 0; k < n; k++)
-    pl_push(d->arena, d->page->solution->used, told_fact(d, by[k], sorted[k]));
+  pl_solution* solution = d->page->solution;
+  for (int k = 0; k < n; k++) {
+    const char* text = told_fact(d, by[k], sorted[k]);
+    bool told = false;  // the same relation in another form
+    for (int i = 0; i < solution->used.n; i++) told |= strcmp(solution->used.at[i], text) == 0;
+    if (!told) pl_push(d->arena, solution->used, text);
+  }
 }

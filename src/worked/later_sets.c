@@ -1,12 +1,9 @@
 // later sets: a section for each set of constraints that the motion comes to, and for each side of
-// a
-// sign that its formulas took for granted: how it begins, how it ends, and the requests that hang
-// on
-// it again.
+// a sign that its formulas took for granted: how it begins, how it ends, and the requests that hang
+// on it again.
 //
 // Which sets there are is told by the simulation (pl_stage); where the motion changes sides is
-// asked
-// of it (pl_leave).
+// asked of it (pl_leave).
 #include <math.h>
 #include <string.h>
 
@@ -152,7 +149,8 @@ static const char* place_text(pl_analysis* d, const pl_stage* s, pl_language lan
   enum { most = 8 };
   pl_text t = pl_text_make(d->arena);
   double size = 0;
-  for (int i = 0; i < s->n_q; i++) size = fmax(size, fabs(s->q[i]));
+  for (int i = 0; i < s->n_q; i++)
+    size = fmax(size, fmax(fabs(s->q[i]), s->v ? fabs(s->v[i]) : 0));  // of the motion in a second
   for (int i = 0; i < s->n_q && i < most; i++) {
     bool angle = strcmp(s->q_unit[i], "rad") == 0;
     double x = fabs(s->q[i]) < 1e-14 * size ? 0 : angle ? s->q[i] * (180 / M_PI) : s->q[i];

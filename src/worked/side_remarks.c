@@ -91,6 +91,14 @@ bool pl_leaves_first(pl_analysis* d, const pl_stage* s, pl_leaving* out, pl_expr
   return true;
 }
 
+bool pl_motion_changes_sides(pl_analysis* d) {
+  pl_fact side[2 * pl_max_sides];
+  pl_leaving l;
+  int n = pl_known_sides(d, side);
+  double begin = d->stage ? d->stage->from : 0;
+  return pl_leave(d, side, n, begin, pl_end_of_stage(d->stage), &l) && l.leaves;
+}
+
 void pl_say_while(pl_analysis* d, int from) {
   const pl_fact* side;
   int n = pl_taken_sides(d, &side);

@@ -111,6 +111,7 @@ void pl_assume_sides(pl_analysis* d, pl_section* s, int from);
 // Where the simulated motion leaves some, between two times.  false: not known.
 bool pl_leave(pl_analysis* d, const pl_fact* side, int n, double from, double to, pl_leaving* out);
 // Within a stage the motion leaves one of these: where, and what is zero there.
+bool pl_motion_changes_sides(pl_analysis* d);  // a closed form of it ends there
 bool pl_leaves_first(pl_analysis* d, const pl_stage* s, pl_leaving* out, pl_expr* crossed);
 double pl_end_of_stage(const pl_stage* s);  // s; infinity where it is not known
 
