@@ -55,18 +55,14 @@ static void choose(arb_t out, arb_srcptr a, arb_srcptr b, bool is_a, bool is_b, 
 // Near the ends of its domain a ball may become indeterminate; then the point is not used.
 static void call_node(arb_t out, pl_function f, const arb_srcptr* a, long precision) {
   switch (f) {
-    case PL_SIN: arb_sin(out, a[0], precision); break;
-    case PL_COS: arb_cos(out, a[0], precision); break;
-    case PL_TAN: arb_tan(out, a[0], precision); break;
-    case PL_ASIN: arb_asin(out, a[0], precision); break;
-    case PL_ACOS: arb_acos(out, a[0], precision); break;
-    case PL_ATAN: arb_atan(out, a[0], precision); break;
-    case PL_ATAN2: arb_atan2(out, a[0], a[1], precision); break;
-    case PL_SINH: arb_sinh(out, a[0], precision); break;
-    case PL_COSH: arb_cosh(out, a[0], precision); break;
-    case PL_TANH: arb_tanh(out, a[0], precision); break;
-    case PL_EXP: arb_exp(out, a[0], precision); break;
-    case PL_LN: arb_log(out, a[0], precision); break;
+#define ARB_1(function) function(out, a[0], precision)
+#define ARB_2(function) function(out, a[0], a[1], precision)
+#define PL_FUNCTION(name, text, n, tex, form, value, derivative, library, ...) \
+  case PL_##name:                                                              \
+    ARB_##n(arb_##library);                                                    \
+    break;
+#define PL_PIECEWISE(...)
+#include "expr/functions.def"
     case PL_ABS: arb_abs(out, a[0]); break;
     case PL_SIGN: arb_sgn(out, a[0]); break;
     case PL_MIN: choose(out, a[0], a[1], arb_lt(a[0], a[1]), arb_lt(a[1], a[0]), precision); break;

@@ -123,6 +123,32 @@ static void branch(place* p) {
   }
 }
 
+// Elementary functions of one argument: the equations of program/recurrences.def.
+static void function_coefficient(place* p) {
+  arb_ptr c = p->c + p->k;
+  arb_srcptr w = series_of(p->jet, pl_op_partner(p->node, p->i));
+  switch ((pl_recurrence_kind)pl_op_recurrence[p->node->op]) {
+    case PL_RECURRENCE_FLOW: flow(p, w); break;
+    case PL_RECURRENCE_FLOW_MINUS:
+      flow(p, w);
+      arb_neg(c, c);
+      break;
+    case PL_RECURRENCE_FLOW_ONE_PLUS:
+      flow(p, w);
+      arb_add(c, c, p->a + p->k, p->prec);
+      break;
+    case PL_RECURRENCE_FLOW_ONE_MINUS:
+      flow(p, w);
+      arb_sub(c, p->a + p->k, c, p->prec);
+      break;
+    case PL_RECURRENCE_INVERSE: inverse_flow(p, w, 1); break;
+    case PL_RECURRENCE_INVERSE_MINUS: inverse_flow(p, w, -1); break;
+    case PL_RECURRENCE_ANGLE: angle(p); break;
+    case PL_RECURRENCE_NONE:  // inputs are there
+    case PL_N_RECURRENCES: break;
+  }
+}
+
 static void coefficient(place* p) {
   arb_ptr c = p->c + p->k;
   switch (p->node->op) {
@@ -136,33 +162,12 @@ static void coefficient(place* p) {
     case PL_OP_DIV: quotient(p); break;
     case PL_OP_SQRT: root(p); break;
     case PL_OP_POW: power(p); break;
-    case PL_OP_EXP: flow(p, p->c); break;
-    case PL_OP_SIN:
-    case PL_OP_SINH:
-    case PL_OP_COSH: flow(p, p->w); break;
-    case PL_OP_COS:
-      flow(p, p->w);
-      arb_neg(c, c);
-      break;
-    case PL_OP_TAN:
-      flow(p, p->w);
-      arb_add(c, c, p->a + p->k, p->prec);
-      break;
-    case PL_OP_TANH:
-      flow(p, p->w);
-      arb_sub(c, p->a + p->k, c, p->prec);
-      break;
-    case PL_OP_LN: inverse_flow(p, p->a, 1); break;
-    case PL_OP_ASIN:
-    case PL_OP_ATAN: inverse_flow(p, p->w, 1); break;
-    case PL_OP_ACOS: inverse_flow(p, p->w, -1); break;
-    case PL_OP_ATAN2: angle(p); break;
     case PL_OP_ABS:
     case PL_OP_SIGN:
     case PL_OP_MIN:
     case PL_OP_MAX:
     case PL_OP_IF: branch(p); break;
-    default: break;  // inputs are there
+    default: function_coefficient(p); break;
   }
 }
 

@@ -50,18 +50,14 @@ void pl_ball_op(arb_t out, pl_op op, arb_srcptr a, arb_srcptr b, arb_srcptr c, s
     case PL_OP_SQR: arb_sqr(out, a, prec); break;
     case PL_OP_SQRT: arb_sqrt(out, a, prec); break;
     case PL_OP_POW: arb_pow(out, a, b, prec); break;
-    case PL_OP_EXP: arb_exp(out, a, prec); break;
-    case PL_OP_LN: arb_log(out, a, prec); break;
-    case PL_OP_SIN: arb_sin(out, a, prec); break;
-    case PL_OP_COS: arb_cos(out, a, prec); break;
-    case PL_OP_SINH: arb_sinh(out, a, prec); break;
-    case PL_OP_COSH: arb_cosh(out, a, prec); break;
-    case PL_OP_TAN: arb_tan(out, a, prec); break;
-    case PL_OP_TANH: arb_tanh(out, a, prec); break;
-    case PL_OP_ASIN: arb_asin(out, a, prec); break;
-    case PL_OP_ACOS: arb_acos(out, a, prec); break;
-    case PL_OP_ATAN: arb_atan(out, a, prec); break;
-    case PL_OP_ATAN2: arb_atan2(out, a, b, prec); break;
+#define ARB_1(function) function(out, a, prec)
+#define ARB_2(function) function(out, a, b, prec)
+#define PL_FUNCTION(name, text, n, tex, form, value, derivative, library, ...) \
+  case PL_OP_##name:                                                           \
+    ARB_##n(arb_##library);                                                    \
+    break;
+#define PL_PIECEWISE(...)
+#include "expr/functions.def"
     default: arb_indeterminate(out); break;
   }
 }
@@ -70,14 +66,6 @@ double pl_ball_double(arb_srcptr x) { return arf_get_d(arb_midref(x), ARF_RND_NE
 
 // ------------------------------------------------------------------------------- exact expressions
 static bool evaluate(pl_exact* x, arb_t out, pl_expr e);
-
-static const pl_op op_of_function[PL_N_FUNCTIONS] = {
-    [PL_SIN] = PL_OP_SIN,     [PL_COS] = PL_OP_COS,   [PL_TAN] = PL_OP_TAN,
-    [PL_ASIN] = PL_OP_ASIN,   [PL_ACOS] = PL_OP_ACOS, [PL_ATAN] = PL_OP_ATAN,
-    [PL_ATAN2] = PL_OP_ATAN2, [PL_SINH] = PL_OP_SINH, [PL_COSH] = PL_OP_COSH,
-    [PL_TANH] = PL_OP_TANH,   [PL_EXP] = PL_OP_EXP,   [PL_LN] = PL_OP_LN,
-    [PL_ABS] = PL_OP_ABS,     [PL_SIGN] = PL_OP_SIGN, [PL_MIN] = PL_OP_MIN,
-    [PL_MAX] = PL_OP_MAX};
 
 static bool number(pl_exact* x, arb_t out, pl_expr e) {
   fmpq_t q;
@@ -125,7 +113,7 @@ static bool power(pl_exact* x, arb_t out, arb_srcptr base, arb_srcptr exponent, 
 }
 
 static bool call(pl_exact* x, arb_t out, const arb_srcptr* a, int n, pl_expr e) {
-  pl_op op = op_of_function[pl_function_of(x->p->pool, e)];
+  pl_op op = pl_op_of_function[pl_function_of(x->p->pool, e)];
   pl_ball_op(out, op, a[0], n > 1 ? a[1] : a[0], a[0], x->prec);
   return true;
 }

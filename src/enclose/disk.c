@@ -171,7 +171,7 @@ static bool power(pl_disk* z, const pl_disk* x, arb_srcptr p) {
   return arb_is_finite(&z->c);
 }
 
-static bool exponential(pl_disk* z, const pl_disk* x) {
+static bool exponential(pl_disk* z, const pl_disk* x, const pl_disk* y) {
   mag_t r, m;
   mag_init(r);
   mag_init(m);
@@ -184,7 +184,7 @@ static bool exponential(pl_disk* z, const pl_disk* x) {
   return true;
 }
 
-static bool logarithm(pl_disk* z, const pl_disk* x) {
+static bool logarithm(pl_disk* z, const pl_disk* x, const pl_disk* y) {
   if (!right_of_zero(x)) return false;
   mag_t r;
   mag_init(r);
@@ -236,12 +236,40 @@ static void waves(pl_disk* sine, pl_disk* cosine, const pl_disk* x, bool hyperbo
   mag_clear(r);
 }
 
-static bool tangent(pl_disk* z, const pl_disk* x, bool hyperbolic) {
+static bool sine(pl_disk* z, const pl_disk* x, const pl_disk* y) {
+  waves(z, NULL, x, false);
+  return true;
+}
+
+static bool cosine(pl_disk* z, const pl_disk* x, const pl_disk* y) {
+  waves(NULL, z, x, false);
+  return true;
+}
+
+static bool hyperbolic_sine(pl_disk* z, const pl_disk* x, const pl_disk* y) {
+  waves(z, NULL, x, true);
+  return true;
+}
+
+static bool hyperbolic_cosine(pl_disk* z, const pl_disk* x, const pl_disk* y) {
+  waves(NULL, z, x, true);
+  return true;
+}
+
+static bool quotient_of_waves(pl_disk* z, const pl_disk* x, bool hyperbolic) {
   pl_disk* d = pl_disks_make(2);
   waves(&d[0], &d[1], x, hyperbolic);
   bool ok = divide(z, &d[0], &d[1]);
   pl_disks_free(d, 2);
   return ok;
+}
+
+static bool tangent(pl_disk* z, const pl_disk* x, const pl_disk* y) {
+  return quotient_of_waves(z, x, false);
+}
+
+static bool hyperbolic_tangent(pl_disk* z, const pl_disk* x, const pl_disk* y) {
+  return quotient_of_waves(z, x, true);
 }
 
 // |asin'| = |1 - w²|^(-1/2) <= (1 - |w|²)^(-1/2).
@@ -266,8 +294,11 @@ static bool arc(pl_disk* z, const pl_disk* x, bool cosine) {
   return ok;
 }
 
+static bool arc_sine(pl_disk* z, const pl_disk* x, const pl_disk* y) { return arc(z, x, false); }
+static bool arc_cosine(pl_disk* z, const pl_disk* x, const pl_disk* y) { return arc(z, x, true); }
+
 // |atan'| = 1/(|w - i| |w + i|), and |c ± i| = sqrt(1 + c²) >= max(1, |c|).
-static bool arc_tangent(pl_disk* z, const pl_disk* x) {
+static bool arc_tangent(pl_disk* z, const pl_disk* x, const pl_disk* y) {
   mag_t far, r, one;
   mag_init(far);
   mag_init(r);
@@ -355,47 +386,6 @@ static bool branch(pl_disk* z, pl_op op, const pl_disk* a, const pl_disk* b, con
   }
 }
 
-// ----------------------------------------------------------------------------------- one operation
-static bool apply(pl_disk* d, pl_op op, const pl_disk* a, const pl_disk* b, const pl_disk* c) {
-  switch (op) {
-    case PL_OP_ADD: pl_disk_add(d, a, b); return true;
-    case PL_OP_SUB: pl_disk_sub(d, a, b); return true;
-    case PL_OP_NEG:
-      set(d, a);
-      arb_neg(&d->c, &d->c);
-      return true;
-    case PL_OP_SCALE:
-    case PL_OP_MUL: pl_disk_mul(d, a, b); return true;
-    case PL_OP_SQR: pl_disk_mul(d, a, a); return true;
-    case PL_OP_RSCALE:
-    case PL_OP_DIV: return divide(d, a, b);
-    case PL_OP_SQRT: return square_root(d, a);
-    case PL_OP_POW: return mag_is_zero(&b->r) && power(d, a, &b->c);
-    case PL_OP_EXP: return exponential(d, a);
-    case PL_OP_LN: return logarithm(d, a);
-    case PL_OP_SIN: waves(d, NULL, a, false); return true;
-    case PL_OP_COS: waves(NULL, d, a, false); return true;
-    case PL_OP_SINH: waves(d, NULL, a, true); return true;
-    case PL_OP_COSH: waves(NULL, d, a, true); return true;
-    case PL_OP_TAN: return tangent(d, a, false);
-    case PL_OP_TANH: return tangent(d, a, true);
-    case PL_OP_ASIN: return arc(d, a, false);
-    case PL_OP_ACOS: return arc(d, a, true);
-    case PL_OP_ATAN: return arc_tangent(d, a);
-    case PL_OP_ATAN2: return angle_of(d, a, b);
-    case PL_OP_ABS:
-    case PL_OP_SIGN:
-    case PL_OP_MIN:
-    case PL_OP_MAX:
-    case PL_OP_IF: return branch(d, op, a, b, c);
-    default: return false;
-  }
-}
-
-bool pl_disk_op(pl_disk* d, pl_op op, const pl_disk* a, const pl_disk* b, const pl_disk* c) {
-  return apply(d, op, a, b, c) && arb_is_finite(&d->c) && !mag_is_inf(&d->r);
-}
-
 // ------------------------------------------------------------------------------------- derivatives
 // out = (x u + sign y v)/w; y NULL: without the second product, w NULL: without the quotient.
 static bool combine(pl_disk* out, const pl_disk* x, const pl_disk* u, int sign, const pl_disk* y,
@@ -434,6 +424,29 @@ static bool quotient_slope(pl_disk* dw, const pl_disk* w, const pl_disk* b, cons
 
 static void negate(pl_disk* d) { arb_neg(&d->c, &d->c); }
 
+// Elementary functions of one argument: the equations of program/recurrences.def.  value is f(a), p
+// the node of its partner.
+static bool function_slope(pl_disk* dw, pl_op op, const pl_disk* value, const pl_disk* a,
+                           const pl_disk* p, const pl_disk* da) {
+  pl_operand which = pl_op_reads_as_w[op];
+  const pl_disk* w = which == PL_OPERAND_SELF ? value : which == PL_OPERAND_ARGUMENT ? a : p;
+  switch ((pl_recurrence_kind)pl_op_recurrence[op]) {
+    case PL_RECURRENCE_FLOW: pl_disk_mul(dw, w, da); return true;
+    case PL_RECURRENCE_FLOW_MINUS:
+      pl_disk_mul(dw, w, da);
+      negate(dw);
+      return true;
+    case PL_RECURRENCE_FLOW_ONE_PLUS: tangent_slope(dw, w, da, 1); return true;
+    case PL_RECURRENCE_FLOW_ONE_MINUS: tangent_slope(dw, w, da, -1); return true;
+    case PL_RECURRENCE_INVERSE: return divide(dw, da, w);
+    case PL_RECURRENCE_INVERSE_MINUS:
+      if (!divide(dw, da, w)) return false;
+      negate(dw);
+      return true;
+    default: return false;
+  }
+}
+
 static bool slope(pl_disk* dw, pl_op op, const pl_disk* w, const pl_disk* a, const pl_disk* b,
                   const pl_disk* p, const pl_disk* da, const pl_disk* db, const pl_disk* dp) {
   switch (op) {
@@ -455,23 +468,6 @@ static bool slope(pl_disk* dw, pl_op op, const pl_disk* w, const pl_disk* a, con
       return true;
     case PL_OP_POW:
       return combine(dw, w, da, 1, NULL, NULL, a) && combine(dw, dw, b, 1, NULL, NULL, NULL);
-    case PL_OP_EXP: pl_disk_mul(dw, w, da); return true;
-    case PL_OP_LN: return divide(dw, da, a);
-    case PL_OP_SIN:
-    case PL_OP_SINH:
-    case PL_OP_COSH: pl_disk_mul(dw, p, da); return true;
-    case PL_OP_COS:
-      pl_disk_mul(dw, p, da);
-      negate(dw);
-      return true;
-    case PL_OP_TAN: tangent_slope(dw, p, da, 1); return true;
-    case PL_OP_TANH: tangent_slope(dw, p, da, -1); return true;
-    case PL_OP_ASIN:
-    case PL_OP_ATAN: return divide(dw, da, p);
-    case PL_OP_ACOS:
-      if (!divide(dw, da, p)) return false;
-      negate(dw);
-      return true;
     case PL_OP_ATAN2: return combine(dw, da, b, -1, db, a, p);
     case PL_OP_ABS:
       set(dw, da);
@@ -484,11 +480,47 @@ static bool slope(pl_disk* dw, pl_op op, const pl_disk* w, const pl_disk* a, con
     case PL_OP_MIN: set(dw, order(a, b) == 1 ? db : da); return true;
     case PL_OP_MAX: set(dw, order(a, b) == -1 ? db : da); return true;
     case PL_OP_IF: set(dw, side(a) == 1 ? db : dp); return true;
-    default: return false;
+    default: return function_slope(dw, op, w, a, p, da);
   }
 }
 
 void pl_disk_derivative(pl_disk* dw, pl_op op, const pl_disk* w, const pl_disk* a, const pl_disk* b,
                         const pl_disk* p, const pl_disk* da, const pl_disk* db, const pl_disk* dp) {
   if (!slope(dw, op, w, a, b, p, da, db, dp)) mag_inf(&dw->r);
+}
+
+// ----------------------------------------------------------------------------------- one operation
+static bool apply(pl_disk* d, pl_op op, const pl_disk* a, const pl_disk* b, const pl_disk* c) {
+  switch (op) {
+    case PL_OP_ADD: pl_disk_add(d, a, b); return true;
+    case PL_OP_SUB: pl_disk_sub(d, a, b); return true;
+    case PL_OP_NEG:
+      set(d, a);
+      arb_neg(&d->c, &d->c);
+      return true;
+    case PL_OP_SCALE:
+    case PL_OP_MUL: pl_disk_mul(d, a, b); return true;
+    case PL_OP_SQR: pl_disk_mul(d, a, a); return true;
+    case PL_OP_RSCALE:
+    case PL_OP_DIV: return divide(d, a, b);
+    case PL_OP_SQRT: return square_root(d, a);
+    case PL_OP_POW:
+      return mag_is_zero(&b->r) && power(d, a, &b->c);
+// clang-format off
+#define PL_FUNCTION(name, text, n, tex, form, value, derivative, library, recurrence, w, disk) \
+  case PL_OP_##name: return disk(d, a, b);
+#define PL_PIECEWISE(...)
+#include "expr/functions.def"
+      // clang-format on
+    case PL_OP_ABS:
+    case PL_OP_SIGN:
+    case PL_OP_MIN:
+    case PL_OP_MAX:
+    case PL_OP_IF: return branch(d, op, a, b, c);
+    default: return false;
+  }
+}
+
+bool pl_disk_op(pl_disk* d, pl_op op, const pl_disk* a, const pl_disk* b, const pl_disk* c) {
+  return apply(d, op, a, b, c) && arb_is_finite(&d->c) && !mag_is_inf(&d->r);
 }

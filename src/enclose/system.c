@@ -45,20 +45,7 @@ static void mark_wanted(pl_system* s, pl_ball_jet* j) {
 
 // Nodes whose recurrence has weights.
 static bool has_weights(int op) {
-  switch (op) {
-    case PL_OP_EXP:
-    case PL_OP_LN:
-    case PL_OP_SIN:
-    case PL_OP_COS:
-    case PL_OP_SINH:
-    case PL_OP_COSH:
-    case PL_OP_TAN:
-    case PL_OP_TANH:
-    case PL_OP_ASIN:
-    case PL_OP_ACOS:
-    case PL_OP_ATAN: return true;
-    default: return false;
-  }
+  return pl_op_recurrence[op] != PL_RECURRENCE_NONE && pl_op_recurrence[op] != PL_RECURRENCE_ANGLE;
 }
 
 static void make_jet(pl_system* s, pl_ball_jet* j, const pl_pattern* p, int instance) {

@@ -44,39 +44,17 @@ static pl_expr diff_power(pl_pool* p, pl_expr e, const pl_expr* d) {
   return pl_add(p, left, right);
 }
 
-// f'(a) for a function of one argument
-static pl_expr outer_derivative(pl_pool* p, pl_expr e) {
-  pl_expr a = pl_arg(p, e, 0), one = p->one;
-  pl_expr square = pl_square(p, a);
+// The derivative of a call: f'(a) a', or the differential of a function of two arguments.
+static pl_expr diff_call(pl_pool* p, pl_expr e, pl_expr da, pl_expr db) {
+  pl_expr a = pl_arg(p, e, 0), b = pl_arg(p, e, pl_n_args(p, e) - 1), one = p->one;
   switch (pl_function_of(p, e)) {
-    // clang-format off
-    case PL_SIN:  return pl_call(p, PL_COS, a);
-    case PL_COS:  return pl_neg(p, pl_call(p, PL_SIN, a));
-    case PL_TAN:  return pl_pow_int(p, pl_call(p, PL_COS, a), -2);
-    case PL_ASIN: return pl_pow(p, pl_sub(p, one, square), pl_ratio(p, -1, 2));
-    case PL_ACOS: return pl_neg(p, pl_pow(p, pl_sub(p, one, square), pl_ratio(p, -1, 2)));
-    case PL_ATAN: return pl_div(p, one, pl_add(p, one, square));
-    case PL_SINH: return pl_call(p, PL_COSH, a);
-    case PL_COSH: return pl_call(p, PL_SINH, a);
-    case PL_TANH: return pl_pow_int(p, pl_call(p, PL_COSH, a), -2);
-    case PL_EXP:  return e;
-    case PL_LN:   return pl_div(p, one, a);
-    case PL_ABS:  return pl_call(p, PL_SIGN, a);
-    case PL_SIGN: return p->zero;
-    default:      return pl_poison();
+#define SLOPE(x)        pl_mul(p, x, da)
+#define DIFFERENTIAL(x) x
+// clang-format off
+#define PL_FUNCTION(name, text, n, tex, form, value, derivative, ...) \
+  case PL_##name: return derivative;
+#include "expr/functions.def"
       // clang-format on
-  }
-}
-
-//   atan2(y, x)' = (x y' - y x')/(x^2 + y^2);   min(a, b)' = a' where b - a > 0, else b'
-static pl_expr diff_call2(pl_pool* p, pl_expr e, const pl_expr* d) {
-  pl_expr a = pl_arg(p, e, 0), b = pl_arg(p, e, 1);
-  switch (pl_function_of(p, e)) {
-    case PL_ATAN2:
-      return pl_div(p, pl_sub(p, pl_mul(p, b, d[0]), pl_mul(p, a, d[1])),
-                    pl_add(p, pl_square(p, a), pl_square(p, b)));
-    case PL_MIN: return pl_if(p, pl_sub(p, b, a), d[0], d[1]);
-    case PL_MAX: return pl_if(p, pl_sub(p, a, b), d[0], d[1]);
     default: return pl_poison();
   }
 }
@@ -123,7 +101,7 @@ static pl_expr diff_node(pl_pool* p, pl_expr e, const pl_expr* d, const rule* r)
     case PL_ADD: return diff_sum(p, d, n);
     case PL_MUL: return diff_product(p, e, d, n);
     case PL_POW: return diff_power(p, e, d);
-    case PL_CALL: return n == 2 ? diff_call2(p, e, d) : pl_mul(p, outer_derivative(p, e), d[0]);
+    case PL_CALL: return diff_call(p, e, d[0], d[n - 1]);
     // a jump has no derivative of its own
     case PL_IF: return pl_if(p, pl_arg(p, e, 0), d[1], d[2]);
     default: return pl_poison();

@@ -50,25 +50,12 @@ static double power_value(const pl_pool* p, pl_expr exponent, double base, doubl
 
 static double call_value(pl_function f, double a, double b) {
   switch (f) {
-    // clang-format off
-    case PL_SIN:   return sin(a);
-    case PL_COS:   return cos(a);
-    case PL_TAN:   return tan(a);
-    case PL_ASIN:  return asin(a);
-    case PL_ACOS:  return acos(a);
-    case PL_ATAN:  return atan(a);
-    case PL_ATAN2: return a == 0 && b == 0 ? no_value : atan2(a, b);
-    case PL_SINH:  return sinh(a);
-    case PL_COSH:  return cosh(a);
-    case PL_TANH:  return tanh(a);
-    case PL_EXP:   return exp(a);
-    case PL_LN:    return a > 0 ? log(a) : no_value;
-    case PL_ABS:   return fabs(a);
-    case PL_SIGN:  return isnan(a) ? no_value : (double)((a > 0) - (a < 0));
-    case PL_MIN:   return isnan(a) || isnan(b) ? no_value : a < b ? a : b;
-    case PL_MAX:   return isnan(a) || isnan(b) ? no_value : a > b ? a : b;
-    default:       return no_value;
+// clang-format off
+#define PL_FUNCTION(name, text, n, tex, form, value, ...) \
+  case PL_##name: return value;
+#include "expr/functions.def"
       // clang-format on
+    default: return no_value;
   }
 }
 

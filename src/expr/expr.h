@@ -104,9 +104,8 @@ typedef enum pl_kind {
 } pl_kind;
 
 typedef enum pl_function {
-#define PL_FUNCTION(id, name, arity, tex) PL_##id,
+#define PL_FUNCTION(name, ...) PL_##name,
 #include "functions.def"
-#undef PL_FUNCTION
   PL_N_FUNCTIONS
 } pl_function;
 

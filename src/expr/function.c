@@ -151,7 +151,7 @@ static pl_expr sine_or_cosine(pl_pool* p, pl_function f, pl_expr e) {
   return sine ? pl_neg(p, turned) : turned;
 }
 
-static pl_expr tangent(pl_pool* p, pl_expr e) {
+static pl_expr tangent(pl_pool* p, pl_function f, pl_expr e) {
   pl_expr c, rest;
   split_angle(p, e, &c, &rest);
   int k = steps_of_15_degrees(p, c);
@@ -201,7 +201,7 @@ static pl_expr arc_function(pl_pool* p, pl_function f, pl_expr u) {
 }
 
 // atan2(y, x) on the axes; undefined at the origin.
-static pl_expr arctangent2(pl_pool* p, pl_expr y, pl_expr x) {
+static pl_expr arctangent2(pl_pool* p, pl_function f, pl_expr y, pl_expr x) {
   if (y.id == p->zero.id && x.id == p->zero.id) return pl_poison();
   int sx = pl_number_sign(p, x), sy = pl_number_sign(p, y);
   if (y.id == p->zero.id && sx != 0) return sx > 0 ? p->zero : p->pi;
@@ -221,7 +221,7 @@ static pl_expr hyperbolic(pl_pool* p, pl_function f, pl_expr e) {
   return f == PL_COSH ? turned : pl_neg(p, turned);
 }
 
-static pl_expr exponential(pl_pool* p, pl_expr e) {
+static pl_expr exponential(pl_pool* p, pl_function f, pl_expr e) {
   if (e.id == p->zero.id) return p->one;
   if (is_call(p, e, PL_LN)) return pl_arg(p, e, 0);
   pl_term t = pl_term_of(p, e);
@@ -231,7 +231,7 @@ static pl_expr exponential(pl_pool* p, pl_expr e) {
   return raw_call(p, PL_EXP, e);
 }
 
-static pl_expr logarithm(pl_pool* p, pl_expr e) {
+static pl_expr logarithm(pl_pool* p, pl_function f, pl_expr e) {
   if (e.id == p->one.id) return p->zero;
   if (is_call(p, e, PL_EXP)) return pl_arg(p, e, 0);
   if (pl_is_number(p, e) && pl_number_sign(p, e) <= 0) return pl_poison();
@@ -275,7 +275,7 @@ static void split_size(pl_pool* p, pl_expr e, pl_expr* known, pl_expr* rest) {
   pl_temp_free(p, open);
 }
 
-static pl_expr absolute(pl_pool* p, pl_expr e) {
+static pl_expr absolute(pl_pool* p, pl_function f, pl_expr e) {
   pl_expr known, rest;
   split_size(p, e, &known, &rest);
   if (rest.id == p->one.id) return known;
@@ -283,7 +283,7 @@ static pl_expr absolute(pl_pool* p, pl_expr e) {
   return pl_mul(p, known, raw_call(p, PL_ABS, rest));
 }
 
-static pl_expr signum(pl_pool* p, pl_expr e) {
+static pl_expr signum(pl_pool* p, pl_function f, pl_expr e) {
   if (pl_is_number(p, e)) return pl_int(p, pl_number_sign(p, e));
   if (pl_kind_of(p, e) == PL_INFINITY) return p->one;
   pl_term t = pl_term_of(p, e);
@@ -315,26 +315,31 @@ pl_expr pl_call(pl_pool* p, pl_function f, pl_expr a) {
   if (a.id == 0 || (int)f < 0 || f >= PL_N_FUNCTIONS || pl_function_arity[f] != 1)
     return pl_poison();
   switch (f) {
-    case PL_SIN:
-    case PL_COS: return sine_or_cosine(p, f, a);
-    case PL_TAN: return tangent(p, a);
-    case PL_ASIN:
-    case PL_ACOS:
-    case PL_ATAN: return arc_function(p, f, a);
-    case PL_SINH:
-    case PL_COSH:
-    case PL_TANH: return hyperbolic(p, f, a);
-    case PL_EXP: return exponential(p, a);
-    case PL_LN: return logarithm(p, a);
-    case PL_ABS: return absolute(p, a);
-    case PL_SIGN: return signum(p, a);
-    default: return raw_call(p, f, a);
+#define FORM_1(form) return form(p, f, a)
+#define FORM_2(form) break
+#define PL_FUNCTION(name, text, n, tex, form, ...) \
+  case PL_##name:                                  \
+    FORM_##n(form);
+#include "expr/functions.def"
+#undef FORM_1
+#undef FORM_2
+    default: break;
   }
+  return pl_poison();
 }
 
 pl_expr pl_call2(pl_pool* p, pl_function f, pl_expr a, pl_expr b) {
   if (a.id == 0 || b.id == 0 || (int)f < 0 || f >= PL_N_FUNCTIONS || pl_function_arity[f] != 2)
     return pl_poison();
-  if (f == PL_ATAN2) return arctangent2(p, a, b);
-  return smaller_or_larger(p, f, a, b);
+  switch (f) {
+#define FORM_1(form) break
+#define FORM_2(form) return form(p, f, a, b)
+// clang-format off
+#define PL_FUNCTION(name, text, n, tex, form, ...) \
+  case PL_##name: FORM_##n(form);
+#include "expr/functions.def"
+      // clang-format on
+    default: break;
+  }
+  return pl_poison();
 }

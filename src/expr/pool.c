@@ -7,21 +7,18 @@
 #include <string.h>
 
 const char* const pl_function_name[PL_N_FUNCTIONS] = {
-#define PL_FUNCTION(id, name, arity, tex) name,
+#define PL_FUNCTION(name, text, ...) text,
 #include "expr/functions.def"
-#undef PL_FUNCTION
 };
 
 const char* const pl_function_tex[PL_N_FUNCTIONS] = {
-#define PL_FUNCTION(id, name, arity, tex) tex,
+#define PL_FUNCTION(name, text, n, tex, ...) tex,
 #include "expr/functions.def"
-#undef PL_FUNCTION
 };
 
 const int pl_function_arity[PL_N_FUNCTIONS] = {
-#define PL_FUNCTION(id, name, arity, tex) arity,
+#define PL_FUNCTION(name, text, n, ...) n,
 #include "expr/functions.def"
-#undef PL_FUNCTION
 };
 
 // ----------------------------------------------------------------------------------------- scratch

@@ -68,9 +68,8 @@ LLVMValueRef pl_emit_fused(pl_emit* e, LLVMValueRef a, LLVMValueRef b, LLVMValue
 }
 
 static const char* const function_name[] = {
-#define NAME(name, reads) #name,
-    PL_PROG_FUNCTIONS(NAME)
-#undef NAME
+#define PL_LIBRARY(name, n) #name,
+#include "program/library.def"
 };
 
 // Functions of the C library are called as they are: not known to the compiler, so never computed

@@ -152,8 +152,8 @@ static void unload(void* loaded) {
 }
 
 // --------------------------------------------------------------------------- what the library sees
-const pl_plugin* pl_jit_plugin_3(void);
-__attribute__((visibility("default"))) const pl_plugin* pl_jit_plugin_3(void) {
+const pl_plugin* pl_jit_plugin_4(void);
+__attribute__((visibility("default"))) const pl_plugin* pl_jit_plugin_4(void) {
   static const pl_plugin plugin = {PL_PLUGIN_VERSION, describe, compile, release, load, unload};
   return &plugin;
 }

@@ -6,8 +6,8 @@
 #include "jit/jit.h"
 
 // of this header and of the codes: part of the key of what is kept on disk
-enum { PL_PLUGIN_VERSION = 3 };
-#define PL_PLUGIN_SYMBOL "pl_jit_plugin_3"
+enum { PL_PLUGIN_VERSION = 4 };
+#define PL_PLUGIN_SYMBOL "pl_jit_plugin_4"
 
 typedef struct pl_plugin {
   int version;

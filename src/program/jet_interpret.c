@@ -1,19 +1,15 @@
-// The interpreter: recurrences for the coefficients of elementary functions, in two phases.
-// [JorbaZou2005, sec. 2], [Neidinger2010].  For order k >= 1 and normalised coefficients:
+// The interpreter of tapes in doubles: the coefficients of each operation, in two phases.  For
+// order k >= 1 and normalised coefficients, [JorbaZou2005, sec. 2], [Neidinger2010]:
 //
 //   c = a b        c_k = S + a_0 b_k + a_k b_0,                S = sum_{1..k-1} a_j b_{k-j}
 //   c = a / b      c_k = (a_k - b_k c_0 - S) / b_0,            S = sum_{1..k-1} b_j c_{k-j}
 //   c = sqrt a     c_k = (a_k - S) / (2 c_0),                  S = sum_{1..k-1} c_j c_{k-j}
-//   c = a^r        c_k = (S + r a_k c_0) / a_0,
-//                  S = sum_{1..k-1} ((r+1) j - k) a_j c_{k-j} / k
-//   c = exp a      c_k = S + a_k c_0,                          S = sum_{1..k-1} j a_j c_{k-j} / k
-//   c = ln a       c_k = (a_k - S) / a_0,                      S = sum_{1..k-1} j c_j a_{k-j} / k
-//   c = sin a      c_k = S + a_k w_0,      w = cos a           S = sum_{1..k-1} j a_j w_{k-j} / k
-//   c = tan a      c_k = S + a_k (1 + w_0), w = c^2            likewise; tanh with a minus
-//   c = asin a     c_k = (a_k - S) / w_0,  w = sqrt(1-a^2)     S = sum_{1..k-1} j c_j w_{k-j} / k;
-//                  acos, atan likewise
+//   c = a^r        c_k = (S + r a_k c_0) / a_0
+//                  S = sum_{1..k-1} (r j - (k-j)) a_j c_{k-j} / k
 //   c = atan2(a,b) c_k = (S + a_k b_0 - b_k a_0) / w_0, w = a^2 + b^2
 //                  S = sum_{1..k-1} j (a_j b_{k-j} - b_j a_{k-j} - c_j w_{k-j}) / k
+//
+// and the elementary functions of one argument by recurrences.def.
 //
 // The first phase puts S where c_k will stand; the second completes it. At k = 0 S is not used.
 // Lanes are the inner loop everywhere, in blocks of eight, so that a sum stays in a register; sums
@@ -102,19 +98,12 @@ INLINE void known_part(pl_jet* jet, int i, int k, int lanes, int block) {
     case PL_OP_DIV: product_sum(s, b, c, k, lanes, block); break;
     case PL_OP_SQRT: square_sum(s, c, k, lanes, block); break;
     case PL_OP_POW: power_sum(s, a, c, b, k, lanes, block); break;
-    case PL_OP_EXP: derivative_sum(s, a, c, k, lanes, block); break;
-    case PL_OP_LN: derivative_sum(s, c, a, k, lanes, block); break;
-    case PL_OP_SIN:
-    case PL_OP_COS:
-    case PL_OP_SINH:
-    case PL_OP_COSH:
-    case PL_OP_TAN:
-    case PL_OP_TANH: derivative_sum(s, a, w, k, lanes, block); break;
-    case PL_OP_ASIN:
-    case PL_OP_ACOS:
-    case PL_OP_ATAN: derivative_sum(s, c, w, k, lanes, block); break;
     case PL_OP_ATAN2: angle_sum(s, a, b, c, w, k, lanes, block); break;
-    default: break;
+    default: {
+      const double* x = pl_jet_at(jet, pl_op_weighted(node, i), 0);
+      w = pl_jet_at(jet, pl_op_partner(node, i), 0);
+      derivative_sum(s, x, w, k, lanes, block);
+    }
   }
 }
 
@@ -145,19 +134,38 @@ INLINE void value(pl_jet* jet, int i, int lanes, int block) {
     case PL_OP_SQR: LANES c[l] = a[l] * a[l]; break;
     case PL_OP_SQRT: LANES c[l] = sqrt(a[l]); break;
     case PL_OP_POW: LANES c[l] = pow(a[l], b[l]); break;
-    case PL_OP_EXP: LANES c[l] = exp(a[l]); break;
-    case PL_OP_LN: LANES c[l] = log(a[l]); break;
-    case PL_OP_SIN: LANES c[l] = sin(a[l]); break;
-    case PL_OP_COS: LANES c[l] = cos(a[l]); break;
-    case PL_OP_SINH: LANES c[l] = sinh(a[l]); break;
-    case PL_OP_COSH: LANES c[l] = cosh(a[l]); break;
-    case PL_OP_TAN: LANES c[l] = tan(a[l]); break;
-    case PL_OP_TANH: LANES c[l] = tanh(a[l]); break;
-    case PL_OP_ASIN: LANES c[l] = asin(a[l]); break;
-    case PL_OP_ACOS: LANES c[l] = acos(a[l]); break;
-    case PL_OP_ATAN: LANES c[l] = atan(a[l]); break;
-    case PL_OP_ATAN2: LANES c[l] = atan2(a[l], b[l]); break;
+#define CALL_1(function) function(a[l])
+#define CALL_2(function) function(a[l], b[l])
+#define PL_FUNCTION(name, text, n, tex, form, value, derivative, library, ...) \
+  case PL_OP_##name:                                                           \
+    LANES c[l] = CALL_##n(library);                                            \
+    break;
+#define PL_PIECEWISE(...)
+#include "expr/functions.def"
     default: break;  // inputs are there
+  }
+}
+
+// Order k >= 1 of an elementary function; c holds S.
+INLINE void function_coefficient(pl_recurrence_kind kind, double* c, const double* a,
+                                 const double* w, int lanes, int block) {
+#define S           c[l]
+#define A           a[l]
+#define W           w[l]
+#define ONE         1
+#define NEG(x)      (-(x))
+#define ADD(x, y)   ((x) + (y))
+#define SUB(x, y)   ((x) - (y))
+#define MUL(x, y)   ((x) * (y))
+#define MA(x, y, s) ((s) + (x) * (y))
+#define OVER_W(x)   ((x) / W)
+  switch (kind) {
+// clang-format off
+#define PL_RECURRENCE(name, x, coefficient, equation) \
+  case PL_RECURRENCE_##name: LANES c[l] = coefficient; break;
+#include "program/recurrences.def"
+      // clang-format on
+    default: break;
   }
 }
 
@@ -193,19 +201,11 @@ INLINE void coefficient(pl_jet* jet, int i, int k, int lanes, int block) {
     // shortens the step
     case PL_OP_SQRT: LANES c[l] = c0[l] != 0 ? (a[l] - c[l]) / (2 * c0[l]) : 0; break;
     case PL_OP_POW: LANES c[l] = a0[l] != 0 ? (c[l] + b0[l] * a[l] * c0[l]) / a0[l] : 0; break;
-    case PL_OP_EXP: LANES c[l] += a[l] * c0[l]; break;
-    case PL_OP_LN: LANES c[l] = (a[l] - c[l]) / a0[l]; break;
-    case PL_OP_SIN:
-    case PL_OP_SINH:
-    case PL_OP_COSH: LANES c[l] += a[l] * w0[l]; break;
-    case PL_OP_COS: LANES c[l] = -(c[l] + a[l] * w0[l]); break;
-    case PL_OP_TAN: LANES c[l] += a[l] * (1 + w0[l]); break;
-    case PL_OP_TANH: LANES c[l] = a[l] * (1 - w0[l]) - c[l]; break;
-    case PL_OP_ASIN:
-    case PL_OP_ATAN: LANES c[l] = (a[l] - c[l]) / w0[l]; break;
-    case PL_OP_ACOS: LANES c[l] = (-a[l] - c[l]) / w0[l]; break;
     case PL_OP_ATAN2: LANES c[l] = (c[l] + a[l] * b0[l] - b[l] * a0[l]) / w0[l]; break;
-    default: break;
+    default:
+      if (!pl_op_recurrence[node->op]) break;  // inputs are there
+      w0 = pl_jet_at(jet, pl_op_partner(node, i), 0);
+      function_coefficient((pl_recurrence_kind)pl_op_recurrence[node->op], c, a, w0, lanes, block);
   }
 }
 

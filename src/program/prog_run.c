@@ -72,70 +72,21 @@ static void product(const pl_prog_product* p, double* m) {
   }
 }
 
-// --------------------------------------------------------------------------------------- functions
-static double call1(int fn, double x) {
-  switch (fn) {
-#define CASE_1(name) \
-  case PL_FN_##name: \
-    return name(x);
-#define CASE_2(name)
-#define CASE(name, reads) CASE_##reads(name)
-    PL_PROG_FUNCTIONS(CASE)
-#undef CASE_1
-#undef CASE_2
-  }
-  return (double)NAN;
-}
-
-static double call2(int fn, double x, double y) {
-  switch (fn) {
-#define CASE_1(name)
-#define CASE_2(name) \
-  case PL_FN_##name: return name(x, y);
-    PL_PROG_FUNCTIONS(CASE)
-  }
-  return (double)NAN;
-}
-
-// ------------------------------------------------------------------------------------------- lines
-INLINE void run(const pl_prog* code, double* m, int k, int width) {
-  double* r = m + code->spill;
-  for (int i = 0; i < code->lines.n; i++) {
-    const pl_prog_line* x = &code->lines.at[i];
-    double* d = r + x->d * width;
-    const double *a = r + x->a * width, *b = r + x->b * width, *c = r + x->c * width,
-                 *e = r + x->e * width;
-    double* at = m + x->at + (long)x->by * k;
-    switch ((pl_prog_op)x->op) {
-      case PL_PROG_LOAD: LANES d[l] = at[l]; break;
-      case PL_PROG_SPREAD: LANES d[l] = *at; break;
-      case PL_PROG_STORE: LANES at[l] = a[l]; break;
-      case PL_PROG_NUMBER: LANES d[l] = x->value; break;
-      case PL_PROG_ORDER: LANES d[l] = (double)(k + x->at); break;
-      case PL_PROG_ADD: LANES d[l] = a[l] + b[l]; break;
-      case PL_PROG_SUB: LANES d[l] = a[l] - b[l]; break;
-      case PL_PROG_MUL: LANES d[l] = a[l] * b[l]; break;
-      case PL_PROG_DIV: LANES d[l] = a[l] / b[l]; break;
-      case PL_PROG_FMA: LANES d[l] = __builtin_fma(a[l], b[l], c[l]); break;
-      case PL_PROG_FNMA: LANES d[l] = __builtin_fma(-a[l], b[l], c[l]); break;
-      case PL_PROG_NEG: LANES d[l] = -a[l]; break;
-      case PL_PROG_ABS: LANES d[l] = fabs(a[l]); break;
-      case PL_PROG_SQRT: LANES d[l] = sqrt(a[l]); break;
-      case PL_PROG_IF_MORE: LANES d[l] = a[l] > 0 ? b[l] : c[l]; break;
-      case PL_PROG_IF_LESS: LANES d[l] = a[l] < 0 ? b[l] : c[l]; break;
-      case PL_PROG_IF_LE: LANES d[l] = a[l] <= b[l] ? c[l] : e[l]; break;
-      case PL_PROG_CALL1: LANES d[l] = call1(x->fn, a[l]); break;
-      case PL_PROG_CALL2: LANES d[l] = call2(x->fn, a[l], b[l]); break;
-      case PL_PROG_SUMS: block_sums(code, &code->blocks.at[x->at], m, k); break;
-      case PL_PROG_PRODUCT: product(&code->products.at[x->at], m); break;
-      case PL_N_PROG_OPS: break;
-    }
-  }
-}
+// ------------------------------------------------------------------------------ double precision
+typedef double real;
+#define FUNCTION(name) name
+#define TO_REAL(x)     ((double)(x))
+#define ADD(a, b)      ((a) + (b))
+#define SUB(a, b)      ((a) - (b))
+#define MUL(a, b)      ((a) * (b))
+#define DIV(a, b)      ((a) / (b))
+#define FMA(a, b, c)   __builtin_fma(a, b, c)
+#define FNMA(a, b, c)  __builtin_fma(-(a), b, c)
+#define NEG(a)         (-(a))
+#define MORE(a, b)     ((a) > (b))
+#define AT_MOST(a, b)  ((a) <= (b))
+#include "program/prog_loop_impl.h"
 
 void PL_INTERPRET(const pl_prog* c, double* memory, int from, int to) {
-  for (int k = from; k < to; k++) {
-    if (c->width == 8) run(c, memory, k, 8);
-    else run(c, memory, k, 1);
-  }
+  interpret(c, memory, from, to);
 }

@@ -35,17 +35,10 @@ extern const char* const pl_prog_op_name[PL_N_PROG_OPS];
 extern const int pl_prog_op_reads[PL_N_PROG_OPS];
 
 // Functions of the C library.
-#define PL_PROG_FUNCTIONS(F) \
-  F(sin, 1)                  \
-  F(cos, 1)                  \
-  F(tan, 1)                  \
-  F(asin, 1)                 \
-  F(acos, 1) F(atan, 1) F(sinh, 1) F(cosh, 1) F(tanh, 1) F(exp, 1) F(log, 1) F(pow, 2) F(atan2, 2)
 typedef enum pl_prog_function {
-#define PL_FUNCTION(name, reads) PL_FN_##name,
-  PL_PROG_FUNCTIONS(PL_FUNCTION)
-#undef PL_FUNCTION
-      PL_N_PROG_FUNCTIONS
+#define PL_LIBRARY(name, n) PL_FN_##name,
+#include "program/library.def"
+  PL_N_PROG_FUNCTIONS
 } pl_prog_function;
 
 typedef struct pl_prog_line {

@@ -84,8 +84,8 @@ static real narrow(__float128 x) {
   static real name##_pair(real x) { return narrow(QUAD(name)(wide(x))); }
 #define PAIR_2(name) \
   static real name##_pair(real x, real y) { return narrow(QUAD(name)(wide(x), wide(y))); }
-#define PAIR(name, reads) PAIR_##reads(name)
-PL_PROG_FUNCTIONS(PAIR)
+#define PL_LIBRARY(name, n) PAIR_##n(name)
+#include "program/library.def"
 static real sqrt_pair(real a) { return root(a); }
 static real fabs_pair(real a) { return size(a); }
 

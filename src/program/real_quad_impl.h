@@ -26,12 +26,11 @@ static inline int print(char* out, size_t n, int digits, __float128 x) {
 }
 static inline __float128 parse(const char* text) { return strtoflt128(text, NULL); }
 #endif
-#define DECLARE(name)             extern __float128 QUAD(name)(__float128);
-#define DECLARE_2(name)           extern __float128 QUAD(name)(__float128, __float128);
-#define DECLARE_CASE_1(name)      DECLARE(name)
-#define DECLARE_CASE_2(name)      DECLARE_2(name)
-#define DECLARE_CASE(name, reads) DECLARE_CASE_##reads(name)
-PL_PROG_FUNCTIONS(DECLARE_CASE)
+#define DECLARE(name)       extern __float128 QUAD(name)(__float128);
+#define DECLARE_2(name)     extern __float128 QUAD(name)(__float128, __float128);
+#define DECLARE_1(name)     DECLARE(name)
+#define PL_LIBRARY(name, n) DECLARE_##n(name)
+#include "program/library.def"
 DECLARE(sqrt)
 DECLARE(fabs)
 extern __float128 QUAD(fma)(__float128, __float128, __float128);

@@ -1,6 +1,6 @@
-// The interpreter of programs for one type of numbers: included by a file that defines `real`, its
-// arithmetic (TO_REAL, ADD, SUB, MUL, DIV, NEG, MORE, AT_MOST) and FUNCTION(name) for elementary
-// functions.
+// The interpreter of programs for a type of numbers with more digits than a double: included by a
+// file that defines `real`, its arithmetic (TO_REAL, ADD, SUB, MUL, DIV, NEG, MORE, AT_MOST) and
+// FUNCTION(name) for functions of the C library.
 //
 // A multiply-add rounds twice: one that rounds once is hundreds of times slower here. What a
 // program keeps in eight lanes for the sake of vector registers is computed in those lanes only
@@ -10,8 +10,10 @@
 
 #include "program/program.h"
 
-#define INLINE static inline __attribute__((always_inline))
-#define LANES  for (int l = 0; l < width; l++)
+#define INLINE        static inline __attribute__((always_inline))
+#define LANES         for (int l = 0; l < width; l++)
+#define FMA(a, b, c)  ADD(MUL(a, b), c)
+#define FNMA(a, b, c) SUB(c, MUL(a, b))
 
 // -------------------------------------------------------------------------------------------- sums
 INLINE void add_row(real* s, const real* a, const real* b, int ja, int jb, bool weighted,
@@ -57,72 +59,6 @@ static void product(const pl_prog_product* p, real* m) {
     }
 }
 
-// --------------------------------------------------------------------------------------- functions
-static real call1(int fn, real x) {
-  switch (fn) {
-#define CASE_1(name) \
-  case PL_FN_##name: \
-    return FUNCTION(name)(x);
-#define CASE_2(name)
-#define CASE(name, reads) CASE_##reads(name)
-    PL_PROG_FUNCTIONS(CASE)
-#undef CASE_1
-#undef CASE_2
-  }
-  return TO_REAL((double)NAN);
-}
-
-static real call2(int fn, real x, real y) {
-  switch (fn) {
-#define CASE_1(name)
-#define CASE_2(name) \
-  case PL_FN_##name: return FUNCTION(name)(x, y);
-    PL_PROG_FUNCTIONS(CASE)
-  }
-  return TO_REAL((double)NAN);
-}
-
-// ------------------------------------------------------------------------------------------- lines
-INLINE void run(const pl_prog* code, real* m, int k, int width) {
-  real* r = m + code->spill;
-  for (int i = 0; i < code->lines.n; i++) {
-    const pl_prog_line* x = &code->lines.at[i];
-    real* d = r + x->d * width;
-    const real *a = r + x->a * width, *b = r + x->b * width, *c = r + x->c * width,
-               *e = r + x->e * width;
-    real* at = m + x->at + (long)x->by * k;
-    switch ((pl_prog_op)x->op) {
-      case PL_PROG_LOAD: LANES d[l] = at[l]; break;
-      case PL_PROG_SPREAD: LANES d[l] = *at; break;
-      case PL_PROG_STORE: LANES at[l] = a[l]; break;
-      case PL_PROG_NUMBER: LANES d[l] = TO_REAL(x->value); break;
-      case PL_PROG_ORDER: LANES d[l] = TO_REAL(k + x->at); break;
-      case PL_PROG_ADD: LANES d[l] = ADD(a[l], b[l]); break;
-      case PL_PROG_SUB: LANES d[l] = SUB(a[l], b[l]); break;
-      case PL_PROG_MUL: LANES d[l] = MUL(a[l], b[l]); break;
-      case PL_PROG_DIV: LANES d[l] = DIV(a[l], b[l]); break;
-      case PL_PROG_FMA: LANES d[l] = ADD(MUL(a[l], b[l]), c[l]); break;
-      case PL_PROG_FNMA: LANES d[l] = SUB(c[l], MUL(a[l], b[l])); break;
-      case PL_PROG_NEG: LANES d[l] = NEG(a[l]); break;
-      case PL_PROG_ABS: LANES d[l] = FUNCTION(fabs)(a[l]); break;
-      case PL_PROG_SQRT: LANES d[l] = FUNCTION(sqrt)(a[l]); break;
-      case PL_PROG_IF_MORE: LANES d[l] = MORE(a[l], TO_REAL(0)) ? b[l] : c[l]; break;
-      case PL_PROG_IF_LESS: LANES d[l] = MORE(TO_REAL(0), a[l]) ? b[l] : c[l]; break;
-      case PL_PROG_IF_LE: LANES d[l] = AT_MOST(a[l], b[l]) ? c[l] : e[l]; break;
-      case PL_PROG_CALL1: LANES d[l] = call1(x->fn, a[l]); break;
-      case PL_PROG_CALL2: LANES d[l] = call2(x->fn, a[l], b[l]); break;
-      case PL_PROG_SUMS: block_sums(code, &code->blocks.at[x->at], m, k); break;
-      case PL_PROG_PRODUCT: product(&code->products.at[x->at], m); break;
-      case PL_N_PROG_OPS: break;
-    }
-  }
-}
-
-static void interpret(const pl_prog* c, void* memory, int from, int to) {
-  for (int k = from; k < to; k++) {
-    if (c->width == 8) run(c, memory, k, 8);
-    else run(c, memory, k, 1);
-  }
-}
+#include "program/prog_loop_impl.h"
 
 #endif

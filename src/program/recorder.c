@@ -10,25 +10,6 @@
 #include <math.h>
 #include <string.h>
 
-const char* const pl_op_name[PL_N_OPS] = {
-#define PL_OP(name, reads, kind, meaning) #name,
-#include "program/tape.def"
-#undef PL_OP
-};
-
-const int pl_op_reads[PL_N_OPS] = {
-#define PL_OP(name, reads, kind, meaning) reads,
-#include "program/tape.def"
-#undef PL_OP
-};
-
-enum { INPUT, LINEAR, SERIES };
-const bool pl_op_series[PL_N_OPS] = {
-#define PL_OP(name, reads, kind, meaning) kind == SERIES,
-#include "program/tape.def"
-#undef PL_OP
-};
-
 enum {
   MAX_NODES = 1 << 24,  // keys of the table of subexpressions hold two node numbers
   MAX_DEPTH = 4000,     // nesting of an expression; beyond it the C stack would be at risk
@@ -177,10 +158,6 @@ static int with_partner(recorder* r, pl_op op, int a, int b, int partner) {
   return x;
 }
 
-static int one_minus_square(recorder* r, int a) {
-  return emit(r, PL_OP_SUB, number(r, 1), times(r, a, a));
-}
-
 static int with_own_square(recorder* r, pl_op op, int a) {
   int x = emit(r, op, a, -1), square = times(r, x, x);  // may move the list of nodes
   r->nodes.at[x].c = square;
@@ -305,27 +282,27 @@ static int record_sum(recorder* r, pl_expr e) {
 static int record_call(recorder* r, pl_expr e) {
   int a = record(r, pl_arg(r->pool, e, 0));
   int b = pl_n_args(r->pool, e) > 1 ? record(r, pl_arg(r->pool, e, 1)) : -1;
-  switch (pl_function_of(r->pool, e)) {
-    case PL_SIN: return pair(r, PL_OP_SIN, PL_OP_COS, a);
-    case PL_COS: return pair(r, PL_OP_COS, PL_OP_SIN, a);
-    case PL_SINH: return pair(r, PL_OP_SINH, PL_OP_COSH, a);
-    case PL_COSH: return pair(r, PL_OP_COSH, PL_OP_SINH, a);
-    case PL_TAN: return with_own_square(r, PL_OP_TAN, a);
-    case PL_TANH: return with_own_square(r, PL_OP_TANH, a);
-    case PL_ASIN:
-      return with_partner(r, PL_OP_ASIN, a, -1, emit(r, PL_OP_SQRT, one_minus_square(r, a), -1));
-    case PL_ACOS:
-      return with_partner(r, PL_OP_ACOS, a, -1, emit(r, PL_OP_SQRT, one_minus_square(r, a), -1));
-    case PL_ATAN:
-      return with_partner(r, PL_OP_ATAN, a, -1, emit(r, PL_OP_ADD, number(r, 1), times(r, a, a)));
-    case PL_ATAN2:
-      return with_partner(r, PL_OP_ATAN2, a, b, emit(r, PL_OP_ADD, times(r, a, a), times(r, b, b)));
-    case PL_EXP: return emit(r, PL_OP_EXP, a, -1);
-    case PL_LN: return emit(r, PL_OP_LN, a, -1);
-    case PL_ABS: return emit(r, PL_OP_ABS, a, -1);
-    case PL_SIGN: return emit(r, PL_OP_SIGN, a, -1);
-    case PL_MIN: return emit(r, PL_OP_MIN, a, b);
-    case PL_MAX: return emit(r, PL_OP_MAX, a, b);
+  pl_op op = pl_op_of_function[pl_function_of(r->pool, e)];
+  switch (op) {
+#define SELF         emit(r, op, a, b)
+#define ARGUMENT     emit(r, op, a, b)
+#define PAIR(other)  pair(r, op, PL_OP_##other, a)
+#define SELF_SQUARED with_own_square(r, op, a)
+#define NODE(w)      with_partner(r, op, a, b, w)
+#define A            a
+#define B            b
+#define ONE          number(r, 1)
+#define SQR(x)       times(r, x, x)
+#define ADD(x, y)    emit(r, PL_OP_ADD, x, y)
+#define SUB(x, y)    emit(r, PL_OP_SUB, x, y)
+#define SQRT(x)      emit(r, PL_OP_SQRT, x, -1)
+// clang-format off
+#define PL_FUNCTION(name, text, n, tex, form, value, derivative, library, recurrence, w, ...) \
+  case PL_OP_##name: return w;
+#define PL_PIECEWISE(name, ...) \
+  case PL_OP_##name: return emit(r, op, a, b);
+#include "expr/functions.def"
+    // clang-format on
     default: break;
   }
   return give_up(r, PLEUEL_UNSUPPORTED, "no numbers for the function %s",
@@ -500,9 +477,8 @@ static pl_tape* finish(recorder* r, const int* root, const bool* high, int n) {
   for (int i = 0; i < n; i++)
     if (high == NULL || high[i]) mark_high(r, stack, root[i]);
   sort_by_level(r, tape, sorted, to);
-  // functions from sin to atan2 are recurrences with a partner
   for (int i = 0; i < n_nodes; i++)
-    assert(sorted[i].c >= 0 || sorted[i].op < PL_OP_SIN || sorted[i].op > PL_OP_ATAN2);
+    assert(!pl_op_recurrence[sorted[i].op] || pl_op_partner(&sorted[i], i) >= 0);
   for (int i = 0; i < n; i++) roots[i] = to[root[i]];
   tape->nodes = sorted;
   tape->n_nodes = n_nodes;

@@ -43,31 +43,19 @@ int pl_recurrence_sums(const pl_tape* tape, int node, pl_recurrence_sum out[3]) 
       out[0] = (pl_recurrence_sum){n->a, self, true};
       out[1] = (pl_recurrence_sum){n->a, self, false};
       return 2;
-    case PL_OP_EXP: out[0] = (pl_recurrence_sum){n->a, self, true}; return 1;
-    case PL_OP_LN: out[0] = (pl_recurrence_sum){self, n->a, true}; return 1;
-    case PL_OP_SIN:
-    case PL_OP_COS:
-    case PL_OP_SINH:
-    case PL_OP_COSH:
-    case PL_OP_TAN:
-    case PL_OP_TANH: out[0] = (pl_recurrence_sum){n->a, n->c, true}; return 1;
-    case PL_OP_ASIN:
-    case PL_OP_ACOS:
-    case PL_OP_ATAN: out[0] = (pl_recurrence_sum){self, n->c, true}; return 1;
     case PL_OP_ATAN2:
       out[0] = (pl_recurrence_sum){n->a, n->b, true};
       out[1] = (pl_recurrence_sum){n->b, n->a, true};
       out[2] = (pl_recurrence_sum){self, n->c, true};
       return 3;
-    default: return 0;
+    default:
+      if (!pl_op_recurrence[n->op]) return 0;
+      out[0] = (pl_recurrence_sum){pl_op_weighted(n, self), pl_op_partner(n, self), true};
+      return 1;
   }
 }
 
 // ----------------------------------------------------------------------------------------- order 0
-static int call(const pl_recurrence* l, pl_prog_function f, int node) {
-  return pl_prog_call1(l->code, f, start(l, at(l, node)->a));
-}
-
 static int sign_of(const pl_recurrence* l, int a) {
   pl_prog* c = l->code;
   int below = pl_prog_op3(c, PL_PROG_IF_LESS, a, pl_prog_number(c, -1), a);
@@ -94,18 +82,13 @@ int pl_recurrence_value(const pl_recurrence* l, int node) {
     case PL_OP_SQR: return pl_prog_op2(c, PL_PROG_MUL, a, a);
     case PL_OP_SQRT: return pl_prog_op1(c, PL_PROG_SQRT, a);
     case PL_OP_POW: return pl_prog_call2(c, PL_FN_pow, a, b);
-    case PL_OP_EXP: return call(l, PL_FN_exp, node);
-    case PL_OP_LN: return call(l, PL_FN_log, node);
-    case PL_OP_SIN: return call(l, PL_FN_sin, node);
-    case PL_OP_COS: return call(l, PL_FN_cos, node);
-    case PL_OP_SINH: return call(l, PL_FN_sinh, node);
-    case PL_OP_COSH: return call(l, PL_FN_cosh, node);
-    case PL_OP_TAN: return call(l, PL_FN_tan, node);
-    case PL_OP_TANH: return call(l, PL_FN_tanh, node);
-    case PL_OP_ASIN: return call(l, PL_FN_asin, node);
-    case PL_OP_ACOS: return call(l, PL_FN_acos, node);
-    case PL_OP_ATAN: return call(l, PL_FN_atan, node);
-    case PL_OP_ATAN2: return pl_prog_call2(c, PL_FN_atan2, a, b);
+#define CALL_1(fn) pl_prog_call1(c, fn, a)
+#define CALL_2(fn) pl_prog_call2(c, fn, a, b)
+#define PL_FUNCTION(name, text, n, tex, form, value, derivative, library, ...) \
+  case PL_OP_##name:                                                           \
+    return CALL_##n(PL_FN_##library);
+#define PL_PIECEWISE(...)
+#include "expr/functions.def"
     default: return -1;
   }
 }
@@ -119,14 +102,13 @@ static int divisor(const pl_tape* tape, int node) {
     case PL_OP_RSCALE:
     case PL_OP_DIV: return n->b;
     case PL_OP_SQRT: return node;
-    case PL_OP_POW:
-    case PL_OP_LN: return n->a;
-    case PL_OP_ASIN:
-    case PL_OP_ACOS:
-    case PL_OP_ATAN:
+    case PL_OP_POW: return n->a;
     case PL_OP_ATAN2: return n->c;
-    default: return -1;
+    default: break;
   }
+  // the equation of an elementary function is divided by w when c' stands in the sum
+  bool divides = pl_op_recurrence[n->op] && pl_op_weighted(n, node) == node;
+  return divides ? pl_op_partner(n, node) : -1;
 }
 
 bool pl_recurrence_has_inverse(const pl_tape* tape, int node) { return divisor(tape, node) >= 0; }
@@ -216,6 +198,31 @@ static int linear(const pl_recurrence* l, int node) {
   }
 }
 
+// Elementary functions of one argument; the formulas stand in recurrences.def.
+static int function_coefficient(const pl_recurrence* l, int node) {
+  const pl_tape_node* n = at(l, node);
+  pl_prog* c = l->code;
+  int a = now(l, n->a), w = pl_op_partner(n, node);
+#define S           mean(l, node)
+#define A           a
+#define W           start(l, w)
+#define ONE         pl_prog_number(c, 1)
+#define NEG(x)      neg(l, x)
+#define ADD(x, y)   pl_prog_op2(c, PL_PROG_ADD, x, y)
+#define SUB(x, y)   sub(l, x, y)
+#define MUL(x, y)   mul(l, x, y)
+#define MA(x, y, s) fma_(l, x, y, s)
+#define OVER_W(x)   over(l, x, node)
+  switch ((pl_recurrence_kind)pl_op_recurrence[n->op]) {
+// clang-format off
+#define PL_RECURRENCE(name, x, coefficient, equation) \
+  case PL_RECURRENCE_##name: return coefficient;
+#include "program/recurrences.def"
+      // clang-format on
+    default: return -1;
+  }
+}
+
 int pl_recurrence_coefficient(const pl_recurrence* l, int node) {
   const pl_tape_node* n = at(l, node);
   pl_prog* c = l->code;
@@ -230,24 +237,7 @@ int pl_recurrence_coefficient(const pl_recurrence* l, int node) {
     case PL_OP_DIV: return over(l, fnma(l, b, start(l, node), sub(l, a, sum(l, node, 0))), node);
     case PL_OP_SQRT: return over(l, sub(l, a, sum(l, node, 0)), node);
     case PL_OP_POW: return power(l, node);
-    case PL_OP_EXP: return fma_(l, a, start(l, node), mean(l, node));
-    case PL_OP_LN: return over(l, sub(l, a, mean(l, node)), node);
-    case PL_OP_SIN:
-    case PL_OP_SINH:
-    case PL_OP_COSH: return fma_(l, a, start(l, n->c), mean(l, node));
-    case PL_OP_COS: return neg(l, fma_(l, a, start(l, n->c), mean(l, node)));
-    case PL_OP_TAN: {
-      int slope = pl_prog_op2(c, PL_PROG_ADD, pl_prog_number(c, 1), start(l, n->c));
-      return fma_(l, a, slope, mean(l, node));
-    }
-    case PL_OP_TANH: {
-      int slope = pl_prog_op2(c, PL_PROG_SUB, pl_prog_number(c, 1), start(l, n->c));
-      return sub(l, mul(l, a, slope), mean(l, node));
-    }
-    case PL_OP_ASIN:
-    case PL_OP_ATAN: return over(l, sub(l, a, mean(l, node)), node);
-    case PL_OP_ACOS: return over(l, sub(l, neg(l, a), mean(l, node)), node);
     case PL_OP_ATAN2: return angle(l, node);
-    default: return -1;
+    default: return function_coefficient(l, node);
   }
 }

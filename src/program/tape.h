@@ -26,12 +26,25 @@
 typedef enum pl_op {
 #define PL_OP(name, reads, kind, meaning) PL_OP_##name,
 #include "program/tape.def"
-#undef PL_OP
   PL_N_OPS
 } pl_op;
 extern const char* const pl_op_name[PL_N_OPS];
 extern const int pl_op_reads[PL_N_OPS];
 extern const bool pl_op_series[PL_N_OPS];  // has a convolution: two-phase form
+
+// How the coefficients of an elementary function follow from those of its argument.
+typedef enum pl_recurrence_kind {  //                                            ORDER RECURRENCES
+  PL_RECURRENCE_NONE,              // not an elementary function with a series
+#define PL_RECURRENCE(name, x, coefficient, equation) PL_RECURRENCE_##name,
+#include "program/recurrences.def"
+  PL_RECURRENCE_ANGLE,  // atan2, of two arguments
+  PL_N_RECURRENCES
+} pl_recurrence_kind;
+extern const uint8_t pl_op_recurrence[PL_N_OPS];
+// Which operand is the partner w that the recurrence reads.
+typedef enum pl_operand { PL_OPERAND_PARTNER, PL_OPERAND_SELF, PL_OPERAND_ARGUMENT } pl_operand;
+extern const uint8_t pl_op_reads_as_w[PL_N_OPS];
+extern const pl_op pl_op_of_function[PL_N_FUNCTIONS];
 
 // What a node depends on decides when its coefficient k can be computed.               ORDER LEVELS
 typedef enum pl_tape_level {
@@ -51,6 +64,11 @@ typedef struct pl_tape_node {
   double value;    // of CONST
   double rest[2];  // of CONST: what rounding to a double left, as two more doubles
 } pl_tape_node;
+
+// The nodes whose coefficients enter the sum S of a recurrence: x with weights j, the partner w.
+// self: the node itself.
+int pl_op_weighted(const pl_tape_node* node, int self);
+int pl_op_partner(const pl_tape_node* node, int self);
 
 // Nodes are sorted by level and topologically within one; partners may come later (only lower
 // orders are read).
