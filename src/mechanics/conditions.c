@@ -6,10 +6,10 @@
 enum { max_factors = 16, max_terms = 64 };
 
 // Two sides without negative signs: more > less, or more >= less.
-typedef struct pl_sides {
+typedef struct pl_two_sides {
   pl_expr more, less;
   int n_more, n_less;
-} pl_sides;
+} pl_two_sides;
 
 static bool is_positive(pl_analysis* d, pl_expr e) {
   int sign = 0;
@@ -21,12 +21,12 @@ static bool is_negative_term(pl_pool* p, pl_expr term) {
   return pl_is_number(p, first) && pl_number_sign(p, first) < 0;
 }
 
-static pl_sides sides_of(pl_analysis* d, pl_expr e) {
+static pl_two_sides sides_of(pl_analysis* d, pl_expr e) {
   pl_pool* p = d->pool;
   e = pl_expand(p, e, max_terms);
   bool is_sum = pl_kind_of(p, e) == PL_ADD;
   int n = is_sum ? pl_n_args(p, e) : 1;
-  pl_sides s = {pl_int(p, 0), pl_int(p, 0), 0, 0};
+  pl_two_sides s = {pl_int(p, 0), pl_int(p, 0), 0, 0};
   for (int k = 0; k < n; k++) {
     pl_expr term = is_sum ? pl_arg(p, e, k) : e;
     if (is_negative_term(p, term)) {
@@ -120,7 +120,7 @@ pl_answer3 pl_holds_if(pl_analysis* d, pl_expr e, bool strict, pl_inequality* ou
   pl_expr rest = open_part(d, pl_alg_normal(d->tower, e), strict, &sign);
   if (pl_is_one_node(p, rest) || sign == 0)
     return sign > 0 || (sign == 0 && !strict) ? PL_YES : PL_NO;
-  pl_sides s = sides_of(d, sign > 0 ? rest : pl_neg(p, rest));
+  pl_two_sides s = sides_of(d, sign > 0 ? rest : pl_neg(p, rest));
   bool turned = false;
   if (s.n_more == 1 && s.n_less == 1) {
     pl_expr more = root_of_square(d, s.more), less = root_of_square(d, s.less);

@@ -99,10 +99,6 @@ bool pl_without_drive(pl_analysis* d, pl_expr* f, pl_drive* out);
 pl_answer3 pl_named_rest(pl_analysis* d, const pl_ask* ask, const pl_expr* f, pl_rest* out);
 bool pl_rest_is_named(pl_analysis* d, const pl_ask* ask, const pl_rest* r);
 bool pl_names_a_place(pl_analysis* d, const pl_ask* ask);
-// x stands in sines and cosines only
-bool pl_repeats(pl_analysis* d, pl_expr e, pl_symbol x);
-// and so in the places of the masses: an angle
-bool pl_places_repeat(pl_analysis* d, pl_symbol x);
 // the forces repeat with a coordinate, the places do not
 bool pl_rests_recur(pl_analysis* d, const pl_expr* f, int place);
 bool pl_rest_exists_at_numbers(pl_analysis* d, const pl_rest* r);

@@ -144,9 +144,10 @@ struct pl_analysis {
   pl_pool* pool;
   pl_model* model;  // with the constraints that hold, and the maps that hold with them
   pl_tower* tower;
-  pl_towers* towers;     // the tower joins them
-  double effort_s;       // for the search of a short form, of each formula; see pl_present
-  struct pl_page* page;  // where `worked` writes about this analysis; never looked into here
+  pl_towers* towers;  // the tower joins them
+  double effort_s;    // for the search of a short form, of each formula; see pl_present
+  struct pl_solution_page*
+      page;  // where `worked` writes about this analysis; never looked into here
 
   // contact_sets.c: which constraints hold
   pl_model* whole;  // the model with all its constraints
@@ -343,8 +344,6 @@ bool pl_conditions_exclude(pl_analysis* d, pl_expr real, pl_expr positive);
 
 // -------------------------------------------------------------------------------------- energies.c
 pleuel_status pl_energies(pl_analysis* d);  // T, V, L, forces, euler
-// without potential, along generalized coordinate i
-pl_expr pl_generalized_force(pl_analysis* d, int i);
 // a force without potential acts along coordinate i
 bool pl_pushed(pl_analysis* d, int i);
 // Lagrange II of generalized coordinate i, raw; vanishes on the motion
@@ -374,8 +373,6 @@ int pl_forces_of(pl_analysis* d, int link, pl_force* out, int* first);
 pl_expr pl_force_scale(pl_analysis* d, int link);
 
 // ------------------------------------------------------------------------------ reduce.c, places.c
-// constraints without the roots of distances
-void pl_find_places(pl_analysis* d);
 void pl_collect_generalized(pl_analysis* d);  // what is neither fixed nor mapped
 pleuel_status pl_reduce(pl_analysis* d);      // generalized coordinates and maps
 // while maps are made: with those that there are

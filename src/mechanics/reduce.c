@@ -58,7 +58,7 @@ static pl_expr without_root(pl_analysis* d, pl_expr e) {
                        pl_sub(d->pool, pl_arg(d->pool, root, 0), pl_square(d->pool, length)));
 }
 
-void pl_find_places(pl_analysis* d) {
+static void find_places(pl_analysis* d) {
   for (int k = 0; k < d->g.n; k++)
     d->g.at[k].place = d->g.at[k].velocity ? d->g.at[k].g : without_root(d, d->g.at[k].g);
 }
@@ -378,7 +378,7 @@ static bool find_hidden_combination(pl_analysis* d) {
 }
 
 pleuel_status pl_reduce(pl_analysis* d) {
-  pl_find_places(d);
+  find_places(d);
   chosen_maps(d);
   d->reduced = solve_links(d);
   if (!d->reduced) {

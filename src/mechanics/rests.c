@@ -126,7 +126,7 @@ static bool is_among(pl_analysis* d, const pl_root* root, int n, pl_expr value) 
 }
 
 // Every x in e stands in a sine or cosine of a linear argument: places repeat with whole periods.
-bool pl_repeats(pl_analysis* d, pl_expr e, pl_symbol x) {
+static bool repeats(pl_analysis* d, pl_expr e, pl_symbol x) {
   pl_pool* p = d->pool;
   if (!pl_has_symbol(p, e, x)) return true;
   pl_kind kind = pl_kind_of(p, e);
@@ -134,7 +134,7 @@ bool pl_repeats(pl_analysis* d, pl_expr e, pl_symbol x) {
   bool wave = kind == PL_CALL && (pl_function_of(p, e) == PL_SIN || pl_function_of(p, e) == PL_COS);
   if (wave && !pl_has_coordinates(d, pl_diff(p, pl_arg(p, e, 0), x))) return true;
   for (int k = 0; k < pl_n_args(p, e); k++) {
-    if (!pl_repeats(d, pl_arg(p, e, k), x)) return false;
+    if (!repeats(d, pl_arg(p, e, k), x)) return false;
   }
   return true;
 }
@@ -149,11 +149,11 @@ static bool has_wave(pl_pool* p, pl_expr e, pl_symbol x) {
   return false;
 }
 
-bool pl_places_repeat(pl_analysis* d, pl_symbol x) {
+static bool places_repeat(pl_analysis* d, pl_symbol x) {
   for (int k = 0; k < d->particle.n; k++) {
     const pl_particle* m = &d->particle.at[k];
     for (int c = 0; c < m->n; c++) {
-      if (!pl_repeats(d, pl_on_maps(d, m->at[c]), x)) return false;
+      if (!repeats(d, pl_on_maps(d, m->at[c]), x)) return false;
     }
   }
   return true;
@@ -163,9 +163,9 @@ bool pl_rests_recur(pl_analysis* d, const pl_expr* f, int place) {
   bool wave = false;
   for (int k = 0; k < d->gen.n; k++) {
     wave |= has_wave(d->pool, f[k], name_of(d, place));
-    if (!pl_repeats(d, f[k], name_of(d, place))) return false;
+    if (!repeats(d, f[k], name_of(d, place))) return false;
   }
-  return wave && !pl_places_repeat(d, name_of(d, place));
+  return wave && !places_repeat(d, name_of(d, place));
 }
 
 // A solver gives one period. Where the system as a whole does not repeat, the places in other
@@ -173,7 +173,7 @@ bool pl_rests_recur(pl_analysis* d, const pl_expr* f, int place) {
 static bool stops_at_one_turn(pl_analysis* d, const pl_expr* f, pl_expr e, int j) {
   if (!has_wave(d->pool, e, name_of(d, j))) return false;
   for (int k = 0; k < d->gen.n; k++) {
-    if (!pl_repeats(d, f[k], name_of(d, j))) return true;
+    if (!repeats(d, f[k], name_of(d, j))) return true;
   }
   return false;
 }
@@ -540,7 +540,7 @@ static bool side_turns(pl_analysis* d, const pl_expr* f, int place, const pl_res
   bool wave = false;
   for (int k = 0; k < d->gen.n; k++) wave |= has_wave(d->pool, f[k], name_of(d, place));
   for (int k = 0; wave && k < found->n_sides; k++) {
-    if (!pl_repeats(d, pl_on_maps(d, found->side[k].difference), name_of(d, place))) return true;
+    if (!repeats(d, pl_on_maps(d, found->side[k].difference), name_of(d, place))) return true;
   }
   return false;
 }
@@ -717,7 +717,7 @@ const pl_bond* pl_rest_pulls(pl_analysis* d, const pl_rest* r) {
 bool pl_is_angle(pl_analysis* d, int i) {
   const pl_symbol_info* s = pl_symbol_get(d->pool, d->q.at[i].q);
   bool plain = !s->dimension_known || pl_dimension_equal(s->dimension, pl_dimension_one());
-  if (!plain || !pl_places_repeat(d, d->q.at[i].q)) return false;
+  if (!plain || !places_repeat(d, d->q.at[i].q)) return false;
   pl_expr c = pl_call(d->pool, PL_COS, pl_sym(d->pool, d->q.at[i].q)),
           s2 = pl_call(d->pool, PL_SIN, pl_sym(d->pool, d->q.at[i].q));
   pl_expr mark = pl_int(d->pool, 7);

@@ -2,7 +2,7 @@
 #include "mechanics/mechanics.h"
 
 // Q of generalized coordinate i: sum of Q_j dq_j/dq_i over the map.
-pl_expr pl_generalized_force(pl_analysis* d, int i) {
+static pl_expr generalized_force(pl_analysis* d, int i) {
   pl_expr sum = pl_on_maps(d, d->force[i]);
   for (int j = 0; j < d->q.n; j++) {
     const pl_variable* c = &d->q.at[j];
@@ -19,12 +19,12 @@ pl_expr pl_second_kind(pl_analysis* d, int i) {
   // velocities of the coordinates that follow
   if (d->loops.n > 0) momentum = pl_on_maps(d, momentum);
   pl_expr e = pl_sub(d->pool, momentum, pl_by_coordinate(d, d->Lg, i));
-  return pl_sub(d->pool, e, pl_generalized_force(d, i));
+  return pl_sub(d->pool, e, generalized_force(d, i));
 }
 
 // Is the generalized force along coordinate i not zero, so that a cyclic momentum is not conserved?
 bool pl_pushed(pl_analysis* d, int i) {
   bool none = true;
   for (int j = 0; j < d->q.n; j++) none &= pl_is_zero_node(d->pool, d->force[j]);
-  return !none && pl_alg_is_zero(d->tower, pl_generalized_force(d, i)) != PL_YES;
+  return !none && pl_alg_is_zero(d->tower, generalized_force(d, i)) != PL_YES;
 }

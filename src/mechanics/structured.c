@@ -252,6 +252,16 @@ static void reorder(pl_analysis* d, pl_structure* s, const int* order) {
 }
 
 // --------------------------------------------------------------------------------- entries by name
+// p of p or p^2; 0
+static pl_symbol symbol_of_level(pl_analysis* d, pl_expr c) {
+  if (pl_kind_of(d->pool, c) == PL_SYMBOL) return pl_symbol_of(d->pool, c);
+  long two;
+  bool square = pl_kind_of(d->pool, c) == PL_POW && pl_is_int(d->pool, pl_arg(d->pool, c, 1), &two)
+                && two == 2;
+  bool plain = square && pl_kind_of(d->pool, pl_arg(d->pool, c, 0)) == PL_SYMBOL;
+  return plain ? pl_symbol_of(d->pool, pl_arg(d->pool, c, 0)) : (pl_symbol){0};
+}
+
 // P of a constraint P = c with c = p or p^2 of a parameter p: where the constraint holds P may be
 // written c. There may be
 // several, one for each such term; false when `which` is beyond the last.
@@ -261,24 +271,14 @@ static bool level_of(pl_analysis* d, const pl_bond* l, int which, pl_expr* P, pl
   int n = pl_kind_of(d->pool, g) == PL_ADD ? pl_n_args(d->pool, g) : 0;
   for (int k = 0; k < n; k++) {
     pl_expr term = pl_arg(d->pool, g, k), opposite = pl_neg(d->pool, term);
-    bool plus = pl_symbol_of_level(d, term).id != 0,
-         minus = pl_symbol_of_level(d, opposite).id != 0;
+    bool plus = symbol_of_level(d, term).id != 0, minus = symbol_of_level(d, opposite).id != 0;
     if ((!plus && !minus) || pl_has_coordinates(d, term) || which-- > 0) continue;
     pl_expr rest = pl_sub(d->pool, g, term);
     *P = minus ? rest : pl_neg(d->pool, rest);
     *c = minus ? opposite : term;
-    return !pl_has_symbol(d->pool, rest, pl_symbol_of_level(d, *c));
+    return !pl_has_symbol(d->pool, rest, symbol_of_level(d, *c));
   }
   return false;
-}
-
-pl_symbol pl_symbol_of_level(pl_analysis* d, pl_expr c) {
-  if (pl_kind_of(d->pool, c) == PL_SYMBOL) return pl_symbol_of(d->pool, c);
-  long two;
-  bool square = pl_kind_of(d->pool, c) == PL_POW && pl_is_int(d->pool, pl_arg(d->pool, c, 1), &two)
-                && two == 2;
-  bool plain = square && pl_kind_of(d->pool, pl_arg(d->pool, c, 0)) == PL_SYMBOL;
-  return plain ? pl_symbol_of(d->pool, pl_arg(d->pool, c, 0)) : (pl_symbol){0};
 }
 
 bool pl_structure_level(pl_analysis* d, int level, pl_replace* out) {
@@ -286,7 +286,7 @@ bool pl_structure_level(pl_analysis* d, int level, pl_replace* out) {
   if (level < 0 || !level_of(d, &d->g.at[level / most_levels], level % most_levels, &P, &c))
     return false;
   bool square = pl_kind_of(d->pool, c) == PL_POW;
-  *out = (pl_replace){pl_symbol_of_level(d, c), square ? pl_sqrt(d->pool, P) : P};
+  *out = (pl_replace){symbol_of_level(d, c), square ? pl_sqrt(d->pool, P) : P};
   return true;
 }
 

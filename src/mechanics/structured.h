@@ -59,7 +59,6 @@ const pl_form* pl_structure_form(pl_analysis* d, pl_expr e, pl_style style);
 pl_symbol pl_structure_name(pl_analysis* d, const pl_structure* s, const char* letter, int j, int k,
                             pl_expr of);
 
-pl_symbol pl_symbol_of_level(pl_analysis* d, pl_expr c);  // p of p or p^2; 0
 // The parameter that a constraint determines on its level: l1 -> sqrt(x1^2 + y1^2).
 bool pl_structure_level(pl_analysis* d, int level, pl_replace* out);
 

@@ -222,7 +222,7 @@ bool pl_is_circular(pl_analysis* d, pl_expr name, pl_expr value) {
          && pl_has_symbol(d->pool, value, pl_symbol_of(d->pool, name));
 }
 
-void pl_say_circular(pl_analysis* d, pl_expr name) {
+static void say_circular(pl_analysis* d, pl_expr name) {
   pl_say(d,
          "This cannot be answered: the conditions and the motion that is known give no equation "
          "from which {1} follows.",
@@ -270,7 +270,7 @@ static const pl_form* condition_form(pl_analysis* d, pl_expr condition) {
 
 void pl_show_met(pl_analysis* d, pl_expr name, pl_expr value, pl_expr condition) {
   if (pl_is_circular(d, name, value)) {
-    pl_say_circular(d, name);
+    say_circular(d, name);
     return;
   }
   const pl_form* form = pl_f(d, value, PL_S_PLAIN);
@@ -310,9 +310,7 @@ void pl_show_met(pl_analysis* d, pl_expr name, pl_expr value, pl_expr condition)
   v->display = pl_display(d, x, pl_dimension_one(), true);
 }
 
-void pl_show_met_number(pl_analysis* d, pl_expr name, double x) { pl_show_number(d, name, x); }
-
-pl_step* pl_show_number(pl_analysis* d, pl_expr name, double x) {
+static pl_step* show_number(pl_analysis* d, pl_expr name, double x) {
   pl_notation how = {.math = PL_MATH_LINE, .lang = d->job->lang};
   bool known, angle = names_an_angle(d, name);
   pl_dimension dim = pl_dimension_of_expr(d, name, &known);
@@ -331,6 +329,8 @@ pl_step* pl_show_number(pl_analysis* d, pl_expr name, double x) {
   if (angle) v->display = pl_display(d, x, pl_dimension_one(), true);
   return step;
 }
+
+void pl_show_met_number(pl_analysis* d, pl_expr name, double x) { show_number(d, name, x); }
 
 static void show_condition(pl_analysis* d, const pl_ask* ask, pl_expr e) {
   const pl_form** f = PL_ARRAY(d->arena, const pl_form*, ask->where.n + 1);
@@ -743,7 +743,7 @@ static double in_assembly(pl_analysis* d, const pl_where* p, int assembly) {
 }
 
 static void show_in_assembly(pl_analysis* d, const pl_where* p, int assembly, double x) {
-  pl_step* step = pl_show_number(d, p->ask->value, x);
+  pl_step* step = show_number(d, p->ask->value, x);
   const char* branch = pl_branch_text(d, assembly, PL_MATH_LINE);
   if (!branch) return;
   pl_step_after(step, pl_format(d->arena, "for %s", branch), pl_format(d->arena, "für %s", branch));

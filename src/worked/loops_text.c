@@ -284,32 +284,6 @@ bool pl_answer_follower(pl_analysis* d, pl_symbol q) {
   return true;
 }
 
-static void show_mapped(pl_analysis* d, pl_symbol name, pl_expr e) {
-  const pl_form* form = pl_f(d, e, PL_S_SOLUTION);
-  pl_step* step = pl_show_numbered(d, pl_feq(d, pl_fs(d, name), form));
-  bool known;
-  pl_step_value(d, step, e, pl_dimension_of_expr(d, pl_sym(d->pool, name), &known));
-  pl_claim_that(d, PL_CLAIM_MAP, pl_form_value(d->pool, form), pl_sym(d->pool, name));
-  pl_answer(d, pl_symbol_get(d->pool, name)->ascii, e, form);
-}
-
-void pl_answer_positions(pl_analysis* d) {
-  if (!d->reduced || (d->maps.n == 0 && d->loops.n == 0)) return;
-  pl_ask ask = {.text = "positions"};
-  pl_section_open(d, &ask, "Positions and velocities", "Lagen und Geschwindigkeiten");
-  pl_tell_loops(d);
-  for (int i = 0; i < d->q.n; i++) {
-    const pl_variable* c = &d->q.at[i];
-    if (c->fixed_by < 0 && !pl_is_poison(c->map) && pl_follower(d, i) < 0)
-      show_mapped(d, c->q, c->map);
-  }
-  for (int i = 0; i < d->q.n; i++) {
-    const pl_variable* c = &d->q.at[i];
-    if (c->fixed_by >= 0 || pl_is_poison(c->map) || pl_follower(d, i) >= 0) continue;
-    show_mapped(d, c->v, pl_alg_normal(d->tower, pl_on_maps(d, pl_sym(d->pool, c->v))));
-  }
-}
-
 // ---------------------------------------------------------------------------- values in assemblies
 static bool mentions(pl_analysis* d, const pl_value* v, pl_symbol s) {
   bool has = !pl_is_poison(v->expr) && pl_has_symbol(d->pool, v->expr, s);

@@ -2,6 +2,24 @@
 // and equation numbers.
 #include "worked/sets_impl.h"
 
+// The analysis of a stage, derived as far as the motion; NULL: it failed.
+static pl_analysis* analysis_make(const pl_analysis* like, const pl_stage* stage) {
+  pl_job* job = like->job;
+  pl_analysis* d = pl_page_analysis(job, like->whole, like->page->options, like->page->solution,
+                                    stage);
+  d->page->first = like->page->first;
+  int messages = job->diagnostics->list.n, errors = job->diagnostics->n_errors;
+  if (pl_derive_motion(d, d->page->solution->cpu_ms) == PLEUEL_OK) {
+    pl_page_prepare(d);
+    return d;
+  }
+  job->diagnostics->list.n = messages;  // a set that does not fit is no fault of the model
+  job->diagnostics->n_errors = errors;
+  job->status = PLEUEL_OK;
+  job->message[0] = '\0';
+  return NULL;
+}
+
 // One that is there; NULL.
 pl_analysis* pl_analysis_find(pl_analysis* first, const pl_stage* s) {
   for (int k = 0; k < first->page->sets.n; k++) {
@@ -18,7 +36,7 @@ pl_analysis* pl_analysis_in(pl_analysis* first, const pl_stage* s) {
     d->stage = s;
     return d;
   }
-  d = pl_analysis_make(first, s);
+  d = analysis_make(first, s);
   if (d) pl_push(first->arena, first->page->sets, d);
   return d;
 }

@@ -17,7 +17,6 @@ bool pl_speaks_of_unnamed(pl_analysis* d, const pl_ask* ask, pl_symbol* which);
 
 bool pl_would_pull(const pl_analysis* d, const pl_open* o);
 const pl_form* pl_form_apart(pl_analysis* d, const pl_constraint* c);      // y > 0
-const pl_form* pl_form_met(pl_analysis* d, const pl_constraint* c);        // y = 0
 const char* pl_stage_seconds(pl_analysis* d, double t, pl_language lang);  // "t = 0.5 s"
 // The equation that ends a stage: y = 0, λ = 0, or the condition of an event; NULL: none to show.
 const pl_form* pl_form_end(pl_analysis* d, const pl_stage* s);

@@ -6,11 +6,11 @@
 static const double presentation_s = 0.02;
 
 void pl_page_open(pl_analysis* d, const pl_derive_options* options, pl_solution* solution) {
-  d->page = PL_NEW(d->arena, pl_page);
-  *d->page = (pl_page){.options = options,
-                       .solution = solution,
-                       .told = pl_map_make(d->arena),
-                       .began_ms = pl_cpu_ms()};
+  d->page = PL_NEW(d->arena, pl_solution_page);
+  *d->page = (pl_solution_page){.options = options,
+                                .solution = solution,
+                                .told = pl_map_make(d->arena),
+                                .began_ms = pl_cpu_ms()};
   d->effort_s = options->seconds > 0 ? options->seconds : presentation_s;
 }
 
@@ -34,4 +34,11 @@ pl_analysis* pl_page_propose(pl_analysis* d) { return with_page(d, pl_propose(d)
 
 pl_analysis* pl_page_propose_for_rest(pl_analysis* d) {
   return with_page(d, pl_propose_for_rest(d));
+}
+
+pl_analysis* pl_page_analysis(pl_job* job, pl_model* whole, const pl_derive_options* options,
+                              pl_solution* solution, const pl_stage* stage) {
+  pl_analysis* d = pl_analysis_open(job, whole, stage, &solution->towers);
+  pl_page_open(d, options, solution);
+  return d;
 }

@@ -18,7 +18,7 @@ const pl_form* pl_form_apart(pl_analysis* d, const pl_constraint* c) {
   return pl_frel(d, pl_fe(d, c->left), c->relation == PL_GE ? ">" : "<", pl_fe(d, c->right));
 }
 
-const pl_form* pl_form_met(pl_analysis* d, const pl_constraint* c) {
+static const pl_form* form_met(pl_analysis* d, const pl_constraint* c) {
   return pl_feq(d, pl_fe(d, c->left), pl_fe(d, c->right));
 }
 
@@ -137,7 +137,7 @@ const pl_form* pl_border_form(pl_analysis* d, pl_expr e) {
 const pl_form* pl_form_end(pl_analysis* d, const pl_stage* s) {
   if (s->end == PL_END_SIDE) return pl_border_form(d, s->crossed);
   const pl_constraint* c = constraint_named(d, s->ended_by);
-  if (s->end == PL_END_CLOSES && c) return pl_form_met(d, c);
+  if (s->end == PL_END_CLOSES && c) return form_met(d, c);
   const pl_stage_rub* rub = rub_on(s, s->ended_by);
   if (s->end == PL_END_STICKS && rub) return pl_feq(d, slip_form(d, rub), zero_form(d));
   if (s->end == PL_END_SLIPS && rub && rub->sticks && c) return limit_form(d, rub, c);
@@ -219,7 +219,7 @@ void pl_note_undecided(pl_analysis* d) {
         pl_format(d->arena, "%s is taken as closed: no start with numbers decides", label),
         pl_format(d->arena, "%s gilt als geschlossen: kein Start mit Zahlen entscheidet", label));
     const char* closed = pl_notation_print(
-        d->arena, d->pool, pl_form_met(d, l->source),
+        d->arena, d->pool, form_met(d, l->source),
         (pl_notation){.math = PL_MATH_LINE, .lang = d->job->lang});
     pl_report_reason(m,
                      pl_format(d->arena, "the formulas hold while %s and %s %s 0", closed, lambda,

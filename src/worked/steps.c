@@ -1,49 +1,13 @@
-// steps: writing the worked solution. Sections, sentences, equations, values; short hands for
-// forms.
+// steps: writing the worked solution. Sentences, equations, claims; short hands for forms.
 #include <math.h>
 #include <string.h>
 
 #include "worked/worked_impl.h"
 
 // ---------------------------------------------------------------------------------------- sections
-static bool same_letter(const char* a, const char* b) {
-  return a && b ? strcmp(a, b) == 0 : a == b;
-}
-
-pl_section* pl_section_open(pl_analysis* d, const pl_ask* ask, const char* en, const char* de) {
-  pl_ask* kept = PL_NEW(d->arena, pl_ask);
-  *kept = *ask;
-  pl_section s = {.letter = ask->letter,
-                  .item = ask->text,
-                  .title = {en, de},
-                  .by = d,
-                  .tower = d->tower,
-                  .model = d->model,
-                  .ask = kept};
-  if (d->page->solution->sections.n > 0) {
-    const pl_section* last = &d->page->solution->sections.at[d->page->solution->sections.n - 1];
-    bool same_title = !en || (last->title[0] && strcmp(last->title[0], en) == 0);
-    s.continues = s.letter && same_letter(last->letter, s.letter) && same_title;
-  }
-  pl_push(d->arena, d->page->solution->sections, s);
-  d->page->section = &d->page->solution->sections.at[d->page->solution->sections.n - 1];
-  if (ask->kind != PL_ASK_DOF && ask->kind != PL_ASK_CONSTRAINTS) pl_tell_open(d);
-  pl_tell_proposal(d);
-  d->special.n = 0;
-  pl_tell_cases(d);
-  if (pl_speaks_of_loops(ask)) pl_tell_loops(d);
-  return d->page->section;
-}
-
 static pl_step* add_step(pl_analysis* d, pl_step_kind kind) {
   pl_push(d->arena, d->page->section->steps, (pl_step){.kind = kind});
   return &d->page->section->steps.at[d->page->section->steps.n - 1];
-}
-
-void pl_heading(pl_analysis* d, const char* en, const char* de) {
-  pl_step* s = add_step(d, PL_STEP_HEADING);
-  s->words[0] = en;
-  s->words[1] = de;
 }
 
 pl_step* pl_say(pl_analysis* d, const char* en, const char* de, int n, ...) {
@@ -112,20 +76,6 @@ void pl_step_value(pl_analysis* d, pl_step* s, pl_expr e, pl_dimension dim) {
   s->unit = pl_unit_of_symbol(d->arena, d->pool, named_by(d, s->formula), dim, false);
 }
 
-static const char* display_in(pl_analysis* d, double x, const char* unit) {
-  pl_notation how = {.math = PL_MATH_ASCII, .lang = d->job->lang};
-  const char* number = pl_notation_number(d->arena, x, 6, how);
-  return *unit && strcmp(unit, "1") != 0 ? pl_format(d->arena, "%s %s", number, unit) : number;
-}
-
-const char* pl_display(pl_analysis* d, double x, pl_dimension dim, bool angle) {
-  if (isnan(x)) return NULL;
-  pl_notation how = {.math = PL_MATH_ASCII, .lang = d->job->lang};
-  if (angle)
-    return pl_format(d->arena, "%s deg", pl_notation_number(d->arena, x * 180 / M_PI, 6, how));
-  return display_in(d, x, pl_dimension_unit(d->arena, dim, true));
-}
-
 // ------------------------------------------------------------------------------------------ claims
 void pl_claim_that(pl_analysis* d, pl_claim_kind kind, pl_expr shown, pl_expr reference) {
   pl_push(d->arena, d->page->claims,
@@ -135,49 +85,6 @@ void pl_claim_that(pl_analysis* d, pl_claim_kind kind, pl_expr shown, pl_expr re
 void pl_claim_free(pl_analysis* d, pl_claim_kind kind, pl_expr shown, pl_expr reference) {
   pl_push(d->arena, d->page->claims,
           (pl_claim){.kind = kind, .shown = shown, .reference = reference, .own_domain = true});
-}
-
-// ------------------------------------------------------------------------------------------ values
-static void note_first_form(pl_analysis* d, pl_symbol name) {
-  pl_role role = name.id ? pl_symbol_get(d->pool, name)->role : PL_R_LOCAL;
-  if (d->page->solution->cpu_ms_first > 0 || (role != PL_R_ACCELERATION && role != PL_R_MULTIPLIER))
-    return;
-  d->page->solution->cpu_ms_first = pl_cpu_ms() - d->page->began_ms;
-}
-
-// Other programs get what people see, where that is shorter: a normal form is multiplied out, which
-// costs digits too.
-pl_expr pl_as_shown(pl_analysis* d, pl_expr e, const pl_form* form) {
-  if (!form || pl_is_poison(e)) return e;
-  pl_expr shown = pl_form_value(d->pool, form);
-  if (pl_is_poison(shown) || pl_op_count(d->pool, shown) >= pl_op_count(d->pool, e)) return e;
-  if (pl_has_role(d->pool, shown, PL_R_LOCAL) && !pl_has_role(d->pool, e, PL_R_LOCAL)) return e;
-  return pl_alg_equal(d->tower, shown, e) == PL_YES ? shown : e;
-}
-
-pl_value* pl_answer(pl_analysis* d, const char* name, pl_expr e, const pl_form* form) {
-  pl_value v = {.name = name,
-                .expr = pl_as_shown(d, e, form),
-                .form = form,
-                .number = pl_number(d, e),
-                .conserved = -1,
-                .passed = -1,
-                .order = -1};
-  bool known = true;
-  pl_dimension dim = pl_is_poison(e) ? pl_dimension_one() : pl_dimension_of_expr(d, e, &known);
-  pl_symbol symbol = pl_symbol_find(d->pool, name);  // x1'' = 0 has the unit of x1''
-  note_first_form(d, symbol);
-  if (symbol.id && !pl_is_poison(e) && pl_is_number(d->pool, e)) {
-    dim = pl_symbol_get(d->pool, symbol)->dimension;
-    known = pl_symbol_get(d->pool, symbol)->dimension_known;
-  }
-  if (known) v.unit = pl_unit_of_symbol(d->arena, d->pool, symbol, dim, true);
-  v.display = isnan(v.number) ? NULL
-                              : display_in(d, v.number,
-                                           pl_unit_of_symbol(d->arena, d->pool, symbol, dim, true));
-  pl_push(d->arena, d->page->section->values, v);
-  pl_say_pole(d, e);
-  return &d->page->section->values.at[d->page->section->values.n - 1];
 }
 
 // ------------------------------------------------------------------------------------------- forms
@@ -254,18 +161,4 @@ const pl_form* pl_joined_sum(pl_analysis* d, const pl_form* const* part, int n) 
   }
   if (m == 0) return pl_form_leaf(d->arena, pl_int(d->pool, 0));
   return m == 1 ? term[0] : pl_form_sum(d->arena, term, m);
-}
-
-// ---------------------------------------------------------------------------- what is not computed
-void pl_answer_pending(pl_analysis* d, const pl_ask* ask) {
-  if (!d->page->section || d->page->section->item != ask->text)
-    pl_section_open(d, ask, ask->text, ask->text);
-  pl_say(d, "This version does not compute this request.",
-         "Diese Version berechnet diese Anfrage nicht.", 0);
-  pl_report(
-      d->job->diagnostics, PL_N091, ask->span,
-      pl_format(d->arena, "\"%s\" is understood, but this version does not compute it", ask->text),
-      pl_format(d->arena, "\"%s\" ist verstanden, wird aber von dieser Version nicht berechnet",
-                ask->text));
-  d->page->section->not_found = true;
 }

@@ -45,11 +45,9 @@ bool pl_say_event_before(pl_analysis* d, const pl_motion* motion, const pl_searc
 void pl_say_followed(pl_analysis* d, const pl_search* p, const pl_followed* f);
 void pl_show_met(pl_analysis* d, pl_expr name, pl_expr value, pl_expr condition);
 void pl_show_met_number(pl_analysis* d, pl_expr name, double x);
-pl_step* pl_show_number(pl_analysis* d, pl_expr name, double x);  // the line of it
 // an open contact
 // The other side of a sign that was taken for granted.
 void pl_say_left_before(pl_analysis* d, const pl_form* side, const pl_form* where);
 void pl_say_met_before(pl_analysis* d, const char* contact, const pl_form* where);
-void pl_say_circular(pl_analysis* d, pl_expr name);  // the answer would contain what is asked
 
 #endif

@@ -14,7 +14,7 @@ typedef struct pl_structure_shown {  // a system with named entries
 } pl_structure_shown;
 
 // What was written about one analysis: each thing is told once.
-typedef struct pl_page {
+typedef struct pl_solution_page {
   const pl_derive_options* options;
   pl_solution* solution;
   pl_section* section;  // the one being written
@@ -41,17 +41,18 @@ typedef struct pl_page {
   bool cases_told, loops_told, singular_told, open_told, proposal_told;
   bool* loop_told;                  // (n_loops)
   pl_structure_shown structure[2];  // of multipliers, of accelerations
-} pl_page;
+} pl_solution_page;
 
 void pl_page_open(pl_analysis* d, const pl_derive_options* options, pl_solution* solution);
 // once the motion is derived: room for each constraint and loop
 void pl_page_prepare(pl_analysis* d);
+// pl_analysis_open, with a page.
+pl_analysis* pl_page_analysis(pl_job* job, pl_model* whole, const pl_derive_options* options,
+                              pl_solution* solution, const pl_stage* stage);
 pl_analysis* pl_page_propose(pl_analysis* d);  // pl_propose, with a page
 pl_analysis* pl_page_propose_for_rest(pl_analysis* d);
 
 // -------------------------------------------------------------------------------- worked.c, sets.c
-// derived as far as the motion; NULL: it failed
-pl_analysis* pl_analysis_make(const pl_analysis* like, const pl_stage* stage);
 void pl_answer_one(pl_analysis* d, const pl_ask* ask);
 // The analysis that answers: in the coordinates of the model, or with what is proposed.
 pl_analysis* pl_serving(pl_analysis* d, const pl_ask* ask);
@@ -154,7 +155,6 @@ bool pl_structure_is_told(const pl_analysis* d);
 
 // ------------------------------------------------------------------------------- writing (steps.c)
 pl_section* pl_section_open(pl_analysis* d, const pl_ask* ask, const char* en, const char* de);
-void pl_heading(pl_analysis* d, const char* en, const char* de);
 // Claims about what is displayed, see verify.h: on the motion, and for free symbols.
 void pl_claim_that(pl_analysis* d, pl_claim_kind kind, pl_expr shown, pl_expr reference);
 void pl_claim_free(pl_analysis* d, pl_claim_kind kind, pl_expr shown, pl_expr reference);
