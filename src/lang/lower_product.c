@@ -202,7 +202,35 @@ static bool has_moments(product* p, const pl_ast* f) {
   pl_entity* e = pl_scope_find(p->l, base->key);
   if (e) return e->kind == PL_ENTITY_COORD || e->kind == PL_ENTITY_FAMILY;
   if (p->l->results && pl_scope_is_multiplier(p->l, base->key)) return true;
-  return p->l->results && strlen(base->key) == 1 && strchr("TVLEH", base->key[0]) != NULL;
+  return p->l->results && pl_scope_is_result(base->key);
+}
+
+// E(0) where E is declared: not the energy at the start, and as a product it would be nothing.
+static bool hides_a_result(product* p, const pl_ast* f, const pl_ast* group) {
+  const pl_ast* only = group->kids.n == 1 ? group->kids.at[0] : NULL;
+  return p->l->results && f->kind == PL_AST_NAME && only && is_zero_number(only)
+         && pl_scope_is_result(f->key) && pl_scope_find(p->l, f->key);
+}
+
+static pl_quantity hidden_result(product* p, const pl_ast* f, const pl_ast* group) {
+  static const char* const words[][2] = {{"T", "kinetic"},
+                                         {"V", "potential"},
+                                         {"L", "lagrangian"},
+                                         {"E", "energy"},
+                                         {"H", "hamiltonian"}};
+  const char* word = f->key;
+  for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+    if (strcmp(words[i][0], f->key) == 0) word = words[i][1];
+  }
+  pl_span span = pl_span_join(pl_ast_span(f), pl_ast_span(group));
+  pl_diagnostic* m = pl_lower_complain(
+      p->l, PL_E016, span, "%1$s is declared here, and %1$s(0) is no start value of it",
+      "%1$s ist hier vereinbart, und %1$s(0) ist kein Startwert davon", f->shown);
+  pl_suggest(p->l->job, m, pl_format(p->l->arena, "%s(0)", word),
+             "write %s(0) for the value at the start", "schreibe %s(0) für den Wert am Anfang",
+             word);
+  p->at += 2;
+  return pl_quantity_bad();
 }
 
 // x(A): a component of a point.  The name is an axis and the only thing in the bracket is a label.
@@ -336,6 +364,7 @@ static pl_quantity read_run(product* p) {
       return next == group || pl_quantity_is_bad(&q) ? q : pl_lower_factor(l, next, group, &q);
     }
     if (has_moments(p, f)) return coordinate_bracket(p, f, next);
+    if (hides_a_result(p, f, group)) return hidden_result(p, f, group);
   }
   p->at++;
   return pl_lower_factor(l, f, NULL, NULL);

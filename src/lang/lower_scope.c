@@ -388,6 +388,11 @@ static bool result_kind(const char* key, pl_result_kind* kind) {
   return false;
 }
 
+bool pl_scope_is_result(const char* key) {
+  pl_result_kind kind;
+  return result_kind(key, &kind);
+}
+
 // `output F = ...` gives a quantity a name, which can be plotted and asked like the quantity
 // itself.
 static pl_expr value_of_output(const pl_lower* l, const char* key) {
