@@ -10,12 +10,17 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 SOLVE = ROOT / "src/solve"
 # struct: header, names by which its members are reached where they are kept
 STRUCTS = {
-    "pl_run": ("solve_impl.h", "run"),
-    "pl_kkt": ("solve_impl.h", "kkt|k"),
-    "pl_watch": ("solve_impl.h", r"watch\[i\]"),
-    "pl_friction_state": ("solve_impl.h", "now"),
-    "pl_fade": ("solve_impl.h", r"fade\[[01]\]"),
-    "pl_attitude_state": ("solve_impl.h", r"attitude\[i\]"),
+    "pl_run": ("stepper/stepper.h", "run"),
+    "pl_dae": ("dae/dae.h", r"(?:run->)?dae"),
+    "pl_control": ("stepper/stepper.h", r"run->control"),
+    "pl_events": ("event/event.h", r"run->event"),
+    "pl_output": ("driver_impl.h", r"run->output"),
+    "pl_taylor": ("stepper/taylor/taylor_impl.h", r"run->taylor"),
+    "pl_kkt": ("dae/dae.h", "kkt|k"),
+    "pl_watch": ("event/event.h", r"watch\[i\]"),
+    "pl_friction_state": ("dae/dae.h", "now"),
+    "pl_fade": ("event/event.h", r"fade\[[01]\]"),
+    "pl_attitude_state": ("dae/dae.h", r"attitude\[i\]"),
     "pl_stats": ("solve.h", "s"),
     "pl_step_program": ("stepper/taylor/step_program_impl.h", "o"),
     "pl_radau": ("stepper/radau/radau_impl.h", "r"),

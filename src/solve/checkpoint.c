@@ -12,22 +12,34 @@
 // stands in one of these lists.
 //
 // clang-format off
-// not kept of pl_run, follows from setup and options: observer job setup options n_q n_c order tol_raised
-//   motion observers watched branches has_W mass_of_velocity shrink h_plain h_least row_gap n_watch
-//   at_friction switches n_switches mode_size grid_count grid_dt
-// not kept of pl_run, follows from the point: Q V ready t_series rests
-// not kept of pl_run, follows from how it was started: start_given
-// not kept of pl_run, only when, never what: clock_begin t_begin considered wall_begin
-// not kept of pl_run, lives within a step: impact_taken impact_factor rhs Q_last A_last G_series
-//   W_series rows rank_work priority row_of row_taken taken_kept dep dep_tau dep_norm dep_jpvt
-//   trial_q trial_v end_a end_by_program arrived save_q save_v save_a save_l save_unique impulse
-//   jump_v jump_q poly root_work hit root touch undecided sunk friction_before impulsive C_series
-//   S_series poly_2 on_before fixed friction_fixed approach second hold_q hold_v first_a decision
-//   choice_kept n_decisions K_series out_now out_before row_q row_v row_a row_l energy_out mode
-//   mode_before t_grid W_coef branch_value reach factored seen shown shown_before
-// not kept of pl_run, lives within a moment: indeterminate
-// not kept of pl_run, where the lead run waits it goes there again: stop impacts
+// not kept of pl_control, follows from setup and options: tol_raised h_plain h_least row_gap
+//   grid_count grid_dt grid_times
+// not kept of pl_control, follows from how it was started: start_given
+// not kept of pl_control, lives within a step: trial_q trial_v row_q row_v row_a row_l energy_out
+// not kept of pl_control, where the lead run waits it goes there again: stop
+// not kept of pl_dae, follows from setup and options: motion has_W mass_of_velocity at_friction job
+//   setup n_q n_c order
+// not kept of pl_dae, follows from the point: Q V ready t_series rests
+// not kept of pl_dae, lives within a step: rhs Q_last A_last rows rank_work priority row_of
+//   row_taken taken_kept dep dep_tau dep_norm dep_jpvt impulsive C_series factored seen shown
+//   shown_before
+// not kept of pl_events, follows from setup and options: n_watch switches n_switches
+// not kept of pl_events, lives within a step: impact_taken impact_factor G_series W_series save_q
+//   save_v save_a save_l save_unique impulse jump_v jump_q poly root_work hit root touch undecided
+//   sunk friction_before S_series poly_2 on_before fixed friction_fixed approach second hold_q
+//   hold_v first_a decision choice_kept n_decisions K_series W_coef reach
+// not kept of pl_events, lives within a moment: indeterminate
+// not kept of pl_events, where the lead run waits it goes there again: impacts
+// not kept of pl_output, follows from setup and options: mode_size
+// not kept of pl_output, lives within a step: out_now out_before mode mode_before
+// not kept of pl_run, follows from setup and options: observer job setup options n_q n_c order
+//   observers watched branches
+// not kept of pl_run, lives within a step: branch_value
 // not kept of pl_run, of the start, which is found anew: start
+// not kept of pl_taylor, follows from setup and options: shrink
+// not kept of pl_taylor, only when, never what: clock_begin t_begin considered
+// not kept of pl_taylor, lives within a step: end_a end_by_program arrived
+// not kept of pl_run, parts with lists of their own: dae control event output taylor
 // not kept of pl_stats, follows from the options: precision
 // not kept of pl_stats, a word about this process: why_interpreted
 // not kept of pl_stats, made at the end: undetermined
@@ -39,7 +51,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "solve/stepper/stepper.h"
+#include "solve/driver_impl.h"
 
 // ------------------------------------------------------------------------------------- whose state
 // Counts go on from where they are, so there is room above.
@@ -52,9 +64,18 @@ static void keep_fixed(pl_keeper* k, int x) { pl_keep_int(k, &x, x, x); }
 static void keep_dimensions(pl_run* run, pl_keeper* k) {
   const pl_setup* s = run->setup;
   pl_keep_section(k, "dimensions");
-  int of[] = {run->n_q,       run->n_c,        run->order,     s->n_out,
-              s->n_frictions, s->n_attitudes,  s->n_events,    s->n_watched,
-              run->n_watch,   run->n_switches, run->kkt.dense, run->sensitivity != NULL,
+  int of[] = {run->n_q,
+              run->n_c,
+              run->order,
+              s->n_out,
+              s->n_frictions,
+              s->n_attitudes,
+              s->n_events,
+              s->n_watched,
+              run->event->n_watch,
+              run->event->n_switches,
+              run->dae.kkt.dense,
+              run->sensitivity != NULL,
               run->n_steppers};
   for (size_t i = 0; i < sizeof of / sizeof *of; i++) keep_fixed(k, of[i]);
 }
@@ -63,72 +84,85 @@ static void keep_dimensions(pl_run* run, pl_keeper* k) {
 static void keep_point(pl_run* run, pl_keeper* k) {
   size_t q = (size_t)run->n_q, c = (size_t)run->n_c;
   pl_keep_section(k, "point");
-  double* numbers[] = {&run->t,          &run->t_low,  &run->t_nodes, &run->tol,
-                       &run->force_size, &run->t_last, &run->h_last};
+  double* numbers[] = {&run->dae.t,         &run->dae.t_low,      &run->dae.t_nodes,
+                       &run->control.tol,   &run->dae.force_size, &run->control.t_last,
+                       &run->control.h_last};
   for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) pl_keep_f64(k, numbers[i]);
-  double* of_q[] = {run->q, run->v, run->A};
-  double* of_c[] = {run->L, run->g,      run->g_size,   run->argument,
-                    run->r, run->r_size, run->row_most, run->second_size};
+  double* of_q[] = {run->dae.q, run->dae.v, run->dae.A};
+  double* of_c[] = {run->dae.L, run->dae.g,      run->dae.g_size,   run->dae.argument,
+                    run->dae.r, run->dae.r_size, run->dae.row_most, run->event->second_size};
   for (size_t i = 0; i < sizeof of_q / sizeof *of_q; i++) pl_keep_f64s(k, of_q[i], q);
   for (size_t i = 0; i < sizeof of_c / sizeof *of_c; i++) pl_keep_f64s(k, of_c[i], c);
-  pl_keep_bool(k, &run->at_point);
-  pl_keep_int(k, &run->use, 1, run->order);
-  pl_keep_int(k, &run->use_last, 1, run->order);
+  pl_keep_bool(k, &run->dae.at_point);
+  pl_keep_int(k, &run->dae.use, 1, run->order);
+  pl_keep_int(k, &run->control.use_last, 1, run->order);
 }
 
 static void keep_yardsticks(pl_run* run, pl_keeper* k) {
   size_t q = (size_t)run->n_q, c = (size_t)run->n_c;
   pl_keep_section(k, "yardsticks");
-  double* numbers[] = {
-      &run->smallest,         &run->best,        &run->smallest_here,    &run->smallest_before,
-      &run->t_before,         &run->fade[0].t,   &run->fade[0].smallest, &run->fade[1].t,
-      &run->fade[1].smallest, &run->h_series,    &run->h_regular,        &run->q_size,
-      &run->v_size,           &run->energy_size, &run->energy_base,      &run->a_rough};
+  double* numbers[] = {&run->dae.smallest,
+                       &run->dae.best,
+                       &run->event->smallest_here,
+                       &run->dae.smallest_before,
+                       &run->event->t_before,
+                       &run->event->fade[0].t,
+                       &run->event->fade[0].smallest,
+                       &run->event->fade[1].t,
+                       &run->event->fade[1].smallest,
+                       &run->control.h_series,
+                       &run->event->h_regular,
+                       &run->dae.q_size,
+                       &run->dae.v_size,
+                       &run->control.energy_size,
+                       &run->control.energy_base,
+                       &run->control.a_rough};
   for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) pl_keep_f64(k, numbers[i]);
-  double* of_q[] = {run->q_most, run->v_most, run->q_kept, run->v_kept, run->column};
+  double* of_q[] = {run->dae.q_most, run->dae.v_most, run->dae.q_kept, run->dae.v_kept,
+                    run->dae.column};
   for (size_t i = 0; i < sizeof of_q / sizeof *of_q; i++) pl_keep_f64s(k, of_q[i], q);
-  pl_keep_f64s(k, run->row_long, c);
-  pl_keep_f64s(k, run->row_part, c);
-  pl_keep_int(k, &run->tiny, 0, LARGE_COUNT);
+  pl_keep_f64s(k, run->dae.row_long, c);
+  pl_keep_f64s(k, run->dae.row_part, c);
+  pl_keep_int(k, &run->control.tiny, 0, LARGE_COUNT);
 }
 
 // ---------------------------------------------------------------------------------------- the mode
 static void keep_mode(pl_run* run, pl_keeper* k) {
   size_t c = (size_t)run->n_c;
   pl_keep_section(k, "mode");
-  bool* of_c[] = {run->on,      run->detached, run->active,       run->taken,
-                  run->unique,  run->several,  run->ever_several, run->slips,
-                  run->near_by, run->met,      run->rebounds,     run->jumped};
+  bool* of_c[] = {run->dae.on,      run->dae.detached, run->dae.active,       run->dae.taken,
+                  run->dae.unique,  run->dae.several,  run->dae.ever_several, run->dae.slips,
+                  run->dae.near_by, run->event->met,   run->dae.rebounds,     run->event->jumped};
   for (size_t i = 0; i < sizeof of_c / sizeof *of_c; i++) pl_keep_bools(k, of_c[i], c);
-  for (int i = 0; i < run->n_q; i++) pl_keep_int(k, &run->has_equation[i], 0, 1);
-  pl_keep_int(k, &run->n_active, 0, run->n_c);
-  pl_keep_int(k, &run->rank, 0, run->n_c);
-  pl_keep_int(k, &run->rank_mode, -1, run->n_c);
-  pl_keep_bool(k, &run->by_pivots);
-  pl_keep_bool(k, &run->watch_landings);
-  pl_keep_int(k, &run->mode_changes, 0, LARGE_COUNT);
-  pl_keep_f64(k, &run->mode_change_t);
+  for (int i = 0; i < run->n_q; i++) pl_keep_int(k, &run->dae.has_equation[i], 0, 1);
+  pl_keep_int(k, &run->dae.n_active, 0, run->n_c);
+  pl_keep_int(k, &run->dae.rank, 0, run->n_c);
+  pl_keep_int(k, &run->dae.rank_mode, -1, run->n_c);
+  pl_keep_bool(k, &run->dae.by_pivots);
+  pl_keep_bool(k, &run->dae.watch_landings);
+  pl_keep_int(k, &run->event->mode_changes, 0, LARGE_COUNT);
+  pl_keep_f64(k, &run->event->mode_change_t);
 }
 
 static void keep_contacts(pl_run* run, pl_keeper* k) {
   size_t c = (size_t)run->n_c;
   pl_keep_section(k, "contacts");
-  pl_keep_f64s(k, run->fastest, c);
-  pl_keep_f64s(k, run->bounce_t, 3 * c);
-  pl_keep_f64s(k, run->settled_t, c);
-  for (size_t i = 0; i < c; i++) pl_keep_long(k, &run->bounces[i], 0, most_count);
+  pl_keep_f64s(k, run->event->fastest, c);
+  pl_keep_f64s(k, run->event->bounce_t, 3 * c);
+  pl_keep_f64s(k, run->event->settled_t, c);
+  for (size_t i = 0; i < c; i++) pl_keep_long(k, &run->event->bounces[i], 0, most_count);
   for (int e = 0; e < run->setup->n_events; e++) {
-    pl_keep_f64(k, &run->repeat[e].t);
-    pl_keep_f64(k, &run->repeat[e].gap);
-    pl_keep_f64(k, &run->repeat[e].widest);
-    pl_keep_long(k, &run->repeat[e].n, 0, most_count);
+    pl_keep_f64(k, &run->event->repeat[e].t);
+    pl_keep_f64(k, &run->event->repeat[e].gap);
+    pl_keep_f64(k, &run->event->repeat[e].widest);
+    pl_keep_long(k, &run->event->repeat[e].n, 0, most_count);
   }
-  for (int i = 0; i < run->n_watch; i++) {
-    pl_keep_int(k, &run->watch[i].fresh, 0, run->order);
-    pl_keep_int(k, &run->watch[i].side, -1, 1);
+  for (int i = 0; i < run->event->n_watch; i++) {
+    pl_keep_int(k, &run->event->watch[i].fresh, 0, run->order);
+    pl_keep_int(k, &run->event->watch[i].side, -1, 1);
   }
   for (int r = 0; r < run->setup->n_frictions; r++) {
-    pl_friction_state* now = &run->friction[r];
+    pl_friction_state* now = &run->dae.friction[r];
     int state = (int)now->state;
     pl_keep_int(k, &state, PL_FRICTION_OFF, PL_FRICTION_SLIP);
     now->state = (pl_friction_phase)state;
@@ -138,25 +172,25 @@ static void keep_contacts(pl_run* run, pl_keeper* k) {
     pl_keep_f64s(k, now->d, 3);
     pl_keep_f64(k, &now->small);
   }
-  pl_keep_int(k, &run->n_slipping, 0, run->n_c);
+  pl_keep_int(k, &run->dae.n_slipping, 0, run->n_c);
 }
 
 // ------------------------------------------------------------------------------ rows, what is told
 static void keep_rows(pl_run* run, pl_keeper* k) {
   pl_keep_section(k, "rows");
-  pl_keep_long(k, &run->grid_n, 0, most_count);
-  pl_keep_f64(k, &run->last_row_t);
-  bool* flags[] = {&run->opened,  &run->begun,   &run->ended,
-                   &run->started, &run->stopped, &run->refused};
+  pl_keep_long(k, &run->control.grid_n, 0, most_count);
+  pl_keep_f64(k, &run->output->last_row_t);
+  bool* flags[] = {&run->output->opened,  &run->output->begun,   &run->output->ended,
+                   &run->control.started, &run->control.stopped, &run->output->refused};
   for (size_t i = 0; i < sizeof flags / sizeof *flags; i++) pl_keep_bool(k, flags[i]);
 }
 
 static void keep_attitudes(pl_run* run, pl_keeper* k) {
   pl_keep_section(k, "attitudes");
   for (int i = 0; i < run->setup->n_attitudes; i++) {
-    pl_keep_f64(k, &run->attitude[i].t);
-    pl_keep_f64s(k, run->attitude[i].angle, 3);
-    pl_keep_f64s(k, run->attitude[i].rate, 2);
+    pl_keep_f64(k, &run->dae.attitude[i].t);
+    pl_keep_f64s(k, run->dae.attitude[i].angle, 3);
+    pl_keep_f64s(k, run->dae.attitude[i].rate, 2);
   }
 }
 
@@ -209,7 +243,7 @@ void pl_run_save(pl_run* run, pl_keeper* k) {
   keep_dimensions(run, k);
   keep_steppers(run, k, true);
   pl_keep_section(k, "pivots");
-  pl_kkt_keep(&run->kkt, k);
+  pl_kkt_keep(&run->dae.kkt, k);
   keep_state(run, k);
   pl_keep_section(k, "lead");
   if (run->sensitivity) pl_sensitivity_write(run->sensitivity, k);
@@ -218,29 +252,30 @@ void pl_run_save(pl_run* run, pl_keeper* k) {
 // What a run that is whole cannot have, whatever its numbers.
 static bool makes_sense(const pl_run* run) {
   double from = run->options.t_0, to = run->options.t_end;
-  bool inside = run->t >= fmin(from, to) && run->t <= fmax(from, to);
-  if (!(run->tol > 0 && run->tol < 1)) return false;
-  if (!inside || !run->started || run->ended || run->refused) return false;
-  return isfinite(run->t_low) && isfinite(pl_norm(run->q, run->n_q))
-         && isfinite(pl_norm(run->v, run->n_q));
+  bool inside = run->dae.t >= fmin(from, to) && run->dae.t <= fmax(from, to);
+  if (!(run->control.tol > 0 && run->control.tol < 1)) return false;
+  if (!inside || !run->control.started || run->output->ended || run->output->refused) return false;
+  return isfinite(run->dae.t_low) && isfinite(pl_norm(run->dae.q, run->n_q))
+         && isfinite(pl_norm(run->dae.v, run->n_q));
 }
 
 // Order 0 of the series and the factor at the point, which must be the numbers that were kept.
 static bool enter_again(pl_run* run) {
   size_t q = (size_t)run->n_q * sizeof(double), c = (size_t)run->n_c * sizeof(double);
-  memcpy(run->save_a, run->A, q);
-  memcpy(run->save_l, run->L, c);
-  memcpy(run->on_before, run->taken, (size_t)run->n_c * sizeof(bool));
-  bool at_point = run->at_point;
+  memcpy(run->event->save_a, run->dae.A, q);
+  memcpy(run->event->save_l, run->dae.L, c);
+  memcpy(run->event->on_before, run->dae.taken, (size_t)run->n_c * sizeof(bool));
+  bool at_point = run->dae.at_point;
   if (!at_point) {
-    pl_point_evaluate(run, run->t_nodes, run->q, run->v);
-    pl_active_set_choose(run);
-    if (!pl_point_factor(run, true)) return false;
-    run->factored = true;
+    pl_point_evaluate(&run->dae, run->dae.t_nodes, run->dae.q, run->dae.v);
+    pl_active_set_choose(&run->dae);
+    if (!pl_point_factor(&run->dae, true)) return false;
+    run->dae.factored = true;
   }
-  return run->stepper->enter(run) && run->at_point == at_point
-         && memcmp(run->save_a, run->A, q) == 0 && memcmp(run->save_l, run->L, c) == 0
-         && memcmp(run->on_before, run->taken, (size_t)run->n_c * sizeof(bool)) == 0;
+  return run->stepper->enter(run) && run->dae.at_point == at_point
+         && memcmp(run->event->save_a, run->dae.A, q) == 0
+         && memcmp(run->event->save_l, run->dae.L, c) == 0
+         && memcmp(run->event->on_before, run->dae.taken, (size_t)run->n_c * sizeof(bool)) == 0;
 }
 
 static pleuel_status unreadable(pl_run* run) {
@@ -252,7 +287,7 @@ pleuel_status pl_run_load(pl_run* run, pl_keeper* k, const pl_sink* sink) {
   if (k->wrong) return unreadable(run);
   keep_steppers(run, k, true);
   pl_keep_section(k, "pivots");
-  pl_kkt_keep(&run->kkt, k);
+  pl_kkt_keep(&run->dae.kkt, k);
   size_t at = k->next;
   keep_state(run, k);
   if (k->wrong || !makes_sense(run)) return unreadable(run);
@@ -261,11 +296,10 @@ pleuel_status pl_run_load(pl_run* run, pl_keeper* k, const pl_sink* sink) {
                    "accelerations at t = %.9g s come out with other last digits than those that "
                    "were kept: another processor or "
                    "another library",
-                   run->t);
+                   run->dae.t);
   // entering moved yardsticks that had moved already
   k->next = at;
   keep_state(run, k);
-  run->considered = 0;
   pl_keep_section(k, "lead");
   if (run->sensitivity) PL_TRY(pl_sensitivity_read(run->sensitivity, k));
   if (k->wrong) return unreadable(run);

@@ -412,7 +412,7 @@ static void a_bead_on_a_turning_rod_flies_out_exponentially(void** state) {
   t_close(b);
 }
 
-// ------------------------------------------------------------------------------------------- switching points
+// -------------------------------------------------------------------------------- switching points
 // A spring that is four times as stiff on one side: half periods π and π/2.
 static void a_step_ends_where_a_force_changes_its_branch(void** state) {
   (void)state;

@@ -17,7 +17,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "solve/stepper/stepper.h"
+#include "solve/driver_impl.h"
 
 typedef struct report {
   pl_event_record e;  // without its rows
@@ -43,7 +43,7 @@ struct pl_sensitivity {
   pl_keeper before;                   // state of the lead run where it set out for the moment ahead
 };
 
-// --------------------------------------------------------------------------------- the lead run tells
+// ------------------------------------------------------------------------------ the lead run tells
 // Slopes of accelerations and multipliers at the end of the last step.
 static void slope_of(const double* X, int n, int last, double dt, double* out) {
   for (int i = 0; i < n; i++) out[i] = 0;
@@ -54,12 +54,14 @@ static void slope_of(const double* X, int n, int last, double dt, double* out) {
 static void remember_point(pl_sensitivity* p) {
   pl_run* run = p->lead;
   size_t n_q = (size_t)p->s->n_q * sizeof(double), n_c = (size_t)p->s->n_c * sizeof(double);
-  memcpy(p->q, run->save_q, n_q);
-  memcpy(p->v, run->save_v, n_q);
-  memcpy(p->a, run->save_a, n_q);
-  memcpy(p->l, run->save_l, n_c);
-  slope_of(run->A_last, p->s->n_q, run->use_last - 1, run->t - run->t_last, p->a_rate);
-  slope_of(run->L_last, p->s->n_c, run->use_last - 1, run->t - run->t_last, p->lambda_rate);
+  memcpy(p->q, run->event->save_q, n_q);
+  memcpy(p->v, run->event->save_v, n_q);
+  memcpy(p->a, run->event->save_a, n_q);
+  memcpy(p->l, run->event->save_l, n_c);
+  slope_of(run->dae.A_last, p->s->n_q, run->control.use_last - 1, run->dae.t - run->control.t_last,
+           p->a_rate);
+  slope_of(run->dae.L_last, p->s->n_c, run->control.use_last - 1, run->dae.t - run->control.t_last,
+           p->lambda_rate);
 }
 
 static pleuel_status hear(void* user, const pl_event_record* e) {
@@ -89,7 +91,7 @@ pl_sensitivity* pl_sensitivity_make(pl_job* job, const pl_run* follower, const p
   p->row = PL_ARRAY(a, double, follower->n_c + 1);
   p->flow_row = PL_ARRAY(a, double, follower->n_c + 1);
   p->row_size = PL_ARRAY(a, double, follower->n_c + 1);
-  p->mode = PL_ARRAY(a, char, follower->mode_size);
+  p->mode = PL_ARRAY(a, char, follower->output->mode_size);
   *sink = (pl_sink){.user = p, .event = hear};
   return p;
 }
@@ -99,7 +101,7 @@ static void take_mode(pl_sensitivity* p) {
   const pl_varied* s = p->s;
   for (int c = 0; c < s->n_c; c++)
     for (int k = 0; k < 2 * s->n_directions; k++)
-      p->follower->on[k * s->n_c + c] = p->lead->active[c];
+      p->follower->dae.on[k * s->n_c + c] = p->lead->dae.active[c];
   pl_output_mode(p->lead, p->mode);
 }
 
@@ -126,28 +128,28 @@ static pleuel_status send_reports(pl_sensitivity* p) {
     f->stats.n_events++;
     if (!s->event) continue;
     pl_event_record e = t->e;
-    e.before = (pl_row){.t = f->t,
-                        .q = f->save_q,
-                        .v = f->save_v,
-                        .a = f->save_a,
-                        .lambda = f->save_l,
-                        .unique = f->save_unique,
-                        .out = f->out_before,
-                        .mode = f->mode_before,
+    e.before = (pl_row){.t = f->dae.t,
+                        .q = f->event->save_q,
+                        .v = f->event->save_v,
+                        .a = f->event->save_a,
+                        .lambda = f->event->save_l,
+                        .unique = f->event->save_unique,
+                        .out = f->output->out_before,
+                        .mode = f->output->mode_before,
                         .kind = PL_ROW_BEFORE};
-    e.after = pl_output_row(f, PL_ROW_AFTER, f->out_now, f->mode);
-    double dt = t->t - f->t;
+    e.after = pl_output_row(f, PL_ROW_AFTER, f->output->out_now, f->output->mode);
+    double dt = t->t - f->dae.t;
     if (e.bounces > 0 && dt != 0) {
       // the state at the limit of the bounces
       for (int k = 0; k < f->n_q; k++) {
-        f->row_q[k] = f->q[k] + dt * (f->v[k] + 0.5 * dt * f->A[k]);
-        f->row_v[k] = f->v[k] + dt * f->A[k];
+        f->control.row_q[k] = f->dae.q[k] + dt * (f->dae.v[k] + 0.5 * dt * f->dae.A[k]);
+        f->control.row_v[k] = f->dae.v[k] + dt * f->dae.A[k];
       }
-      PL_TRY(pl_output_event_beside(f, e, t->t, f->A, f->L));
+      PL_TRY(pl_output_event_beside(f, e, t->t, f->dae.A, f->dae.L));
       continue;
     }
     pleuel_status how = s->event(s->user, &e);
-    f->refused |= how != PLEUEL_OK;
+    f->output->refused |= how != PLEUEL_OK;
     PL_TRY(how);
   }
   p->n_reports = 0;
@@ -181,18 +183,18 @@ static const char* label_of(const pl_sensitivity* p) {
 static pleuel_status find_cause(const pl_sensitivity* p, int* cause) {
   const pl_run* run = p->lead;
   *cause = -1;
-  for (int i = 0; i < run->n_watch; i++) {
-    if (!run->hit[i] || !switches(run, &run->watch[i])) continue;
+  for (int i = 0; i < run->event->n_watch; i++) {
+    if (!run->event->hit[i] || !switches(run, &run->event->watch[i])) continue;
     if (*cause >= 0)
       return pl_fail(
           p->follower->job, PLEUEL_UNSUPPORTED,
           "the motion has no derivative at t = %.9g s: %s changes together with something else",
-          p->t, name_of(run, &run->watch[i]));
+          p->t, name_of(run, &run->event->watch[i]));
     *cause = i;
-    if (run->touch[i])
+    if (run->event->touch[i])
       return pl_fail(p->follower->job, PLEUEL_UNSUPPORTED,
                      "the motion has no derivative at t = %.9g s: %s is only grazed", p->t,
-                     name_of(run, &run->watch[i]));
+                     name_of(run, &run->event->watch[i]));
   }
   if (*cause < 0)
     return pl_fail(
@@ -208,7 +210,7 @@ static void watch_at(pl_sensitivity* p, const double* q, const double* v, const 
   pl_run* f = p->follower;
   pl_batches* b = &f->watched;
   if (f->setup->n_watched == 0) return;
-  pl_batches_time(b, f->t);
+  pl_batches_time(b, f->dae.t);
   pl_batches_load_q(b, q, 0);
   pl_batches_load_v(b, v, 0);
   pl_batches_load_a(b, a, 0);
@@ -225,39 +227,39 @@ static void watch_flow(pl_sensitivity* p) {
   const pl_varied* s = p->s;
   size_t n = (size_t)s->n_q, c = (size_t)s->n_c;
   if (s->n_watched == 0) return;
-  double* state[] = {f->row_q, f->row_v, f->row_a};
+  double* state[] = {f->control.row_q, f->control.row_v, f->control.row_a};
   const double* along[2][3] = {{NULL, NULL, NULL}, {p->v, p->a, p->a_rate}};
-  const double* from[] = {f->q, f->v, f->A};
+  const double* from[] = {f->dae.q, f->dae.v, f->dae.A};
   for (int with = 0; with < 2; with++) {
     for (int i = 0; i < 3; i++) {
       memcpy(state[i], from[i], (size_t)f->n_q * sizeof(double));
       for (size_t e = 0; e < n; e++) state[i][n + e] = with ? along[1][i][e] : 0;
     }
-    memcpy(f->row_l, f->L, (size_t)f->n_c * sizeof(double));
-    for (size_t e = 0; e < c; e++) f->row_l[c + e] = with ? p->lambda_rate[e] : 0;
-    watch_at(p, f->row_q, f->row_v, f->row_a, f->row_l, p->watched);
+    memcpy(f->control.row_l, f->dae.L, (size_t)f->n_c * sizeof(double));
+    for (size_t e = 0; e < c; e++) f->control.row_l[c + e] = with ? p->lambda_rate[e] : 0;
+    watch_at(p, f->control.row_q, f->control.row_v, f->control.row_a, f->control.row_l, p->watched);
     for (int i = 0; i < s->n_watched; i++)
       p->flow[i] = with ? p->watched[2 * s->n_watched + i] - p->flow[i]
                               + p->watched[s->n_watched + i]
                         : p->watched[2 * s->n_watched + i];
   }
-  watch_at(p, f->q, f->v, f->A, f->L, p->watched);
+  watch_at(p, f->dae.q, f->dae.v, f->dae.A, f->dae.L, p->watched);
 }
 
 // Rows of the constraints of the follower at its point.
 static void find_rows(pl_sensitivity* p, bool speeds) {
   pl_run* f = p->follower;
-  pl_point_evaluate(f, f->t, f->q, f->v);
-  pl_assemble_g(f, 0, f->g, f->g_size);
-  if (speeds) pl_assemble_gdot(f, p->row, p->row_size);
-  else memcpy(p->row, f->g, (size_t)f->n_c * sizeof(double));
+  pl_point_evaluate(&f->dae, f->dae.t, f->dae.q, f->dae.v);
+  pl_assemble_g(&f->dae, 0, f->dae.g, f->dae.g_size);
+  if (speeds) pl_assemble_gdot(&f->dae, p->row, p->row_size);
+  else memcpy(p->row, f->dae.g, (size_t)f->n_c * sizeof(double));
 }
 
 // dt* of each direction, from the state of the follower just before.
 static pleuel_status find_moment(pl_sensitivity* p, int cause) {
   pl_run* f = p->follower;
   const pl_varied* s = p->s;
-  const pl_watch* w = &p->lead->watch[cause];
+  const pl_watch* w = &p->lead->event->watch[cause];
   const char* name = name_of(p->lead, w);
   int c = w->index, n = s->n_c;
   double rate = 0;
@@ -271,7 +273,7 @@ static pleuel_status find_moment(pl_sensitivity* p, int cause) {
     for (int k = 0; k < s->n_directions; k++) p->dt[k] = -p->row[2 * k * n + c] / rate;
   } else if (w->kind == PL_WATCH_RELEASE) {
     rate = p->lambda_rate[c];
-    if (!p->lead->save_unique[c])
+    if (!p->lead->event->save_unique[c])
       return pl_fail(
           p->follower->job, PLEUEL_UNSUPPORTED,
           "the motion has no derivative at t = %.9g s: the force of %s is not determined", p->t,
@@ -280,7 +282,7 @@ static pleuel_status find_moment(pl_sensitivity* p, int cause) {
       return pl_fail(p->follower->job, PLEUEL_UNSUPPORTED,
                      "the motion has no derivative at t = %.9g s: %s only just lets go", p->t,
                      name);
-    for (int k = 0; k < s->n_directions; k++) p->dt[k] = -f->L[(2 * k + 1) * n + c] / rate;
+    for (int k = 0; k < s->n_directions; k++) p->dt[k] = -f->dae.L[(2 * k + 1) * n + c] / rate;
   } else {
     int i = p->lead->setup->events[c].watch;
     rate = p->flow[i];
@@ -312,8 +314,8 @@ static void shift(const pl_sensitivity* p, double* variations, const double* rat
 static void set_motion(pl_sensitivity* p, const double* q, const double* v) {
   const pl_varied* s = p->s;
   for (int k = 0; k < s->n_directions; k++) {
-    memcpy(p->follower->q + 2 * k * s->n_q, q, (size_t)s->n_q * sizeof(double));
-    memcpy(p->follower->v + 2 * k * s->n_q, v, (size_t)s->n_q * sizeof(double));
+    memcpy(p->follower->dae.q + 2 * k * s->n_q, q, (size_t)s->n_q * sizeof(double));
+    memcpy(p->follower->dae.v + 2 * k * s->n_q, v, (size_t)s->n_q * sizeof(double));
   }
 }
 
@@ -326,20 +328,20 @@ static bool sets_values(const pl_run* run, const pl_watch* w) {
 }
 
 static bool moves(const pl_run* run) {
-  for (int i = 0; i < run->motion.n; i++)
-    if (run->motion.at[i].pattern->n_gt > 0) return true;
+  for (int i = 0; i < run->dae.motion.n; i++)
+    if (run->dae.motion.at[i].pattern->n_gt > 0) return true;
   return false;
 }
 
 // New values that an event sets: total derivatives of what is set.
 static void set_values(pl_sensitivity* p, int cause) {
   const pl_varied* s = p->s;
-  const pl_event_setup* e = &p->lead->setup->events[p->lead->watch[cause].index];
+  const pl_event_setup* e = &p->lead->setup->events[p->lead->event->watch[cause].index];
   for (int d = 0; d < e->n_actions; d++) {
     const pl_event_action* action = &e->actions[d];
     if (action->kind != PL_ACTION_SET_Q && action->kind != PL_ACTION_SET_V) continue;
     for (int k = 0; k < s->n_directions; k++) {
-      double* to = (action->kind == PL_ACTION_SET_Q ? p->follower->q : p->follower->v)
+      double* to = (action->kind == PL_ACTION_SET_Q ? p->follower->dae.q : p->follower->dae.v)
                    + (2 * k + 1) * s->n_q;
       to[action->target] = p->watched[(2 + k) * s->n_watched + action->value]
                            + p->dt[k] * p->flow[action->value];
@@ -355,19 +357,19 @@ static void turn_of_rows(pl_sensitivity* p, const double* v, double* out) {
   pl_run* f = p->follower;
   const pl_varied* s = p->s;
   for (int i = 0; i < f->n_q; i++) {
-    f->row_v[i] = (i / s->n_q) % 2 == 0 && v ? v[i % s->n_q] : 0;
-    f->row_a[i] = 0;
+    f->control.row_v[i] = (i / s->n_q) % 2 == 0 && v ? v[i % s->n_q] : 0;
+    f->control.row_a[i] = 0;
   }
-  pl_batches_load_v(&f->motion, f->row_v, 0);
-  pl_assemble_second(f, f->row_a, out, f->second_size);
+  pl_batches_load_v(&f->dae.motion, f->control.row_v, 0);
+  pl_assemble_second(&f->dae, f->control.row_a, out, f->event->second_size);
 }
 
 // -dM/dt Δv + (dG/dt)^T Λ, times dt* of the direction, to the equations of the varied motion.
 static void add_turn_of_forces(pl_sensitivity* p, const double* change) {
   pl_run *f = p->follower, *run = p->lead;
   const pl_varied* s = p->s;
-  for (int i = 0; i < f->motion.n; i++) {
-    const pl_batch* b = &f->motion.at[i];
+  for (int i = 0; i < f->dae.motion.n; i++) {
+    const pl_batch* b = &f->dae.motion.at[i];
     const pl_tape* tape = b->pattern->tape;
     for (const pl_pattern_entry* e = b->pattern->mass; e < b->pattern->mass + b->pattern->n_mass;
          e++) {
@@ -380,17 +382,17 @@ static void add_turn_of_forces(pl_sensitivity* p, const double* change) {
           d = q - d;
           q = q - d;
         }  // q of the motion, d of the variation
-        f->rhs[q] -= p->dt[q / s->n_q / 2] * pl_jet_at(b->jet, node, 1)[l] * change[d % s->n_q];
+        f->dae.rhs[q] -= p->dt[q / s->n_q / 2] * pl_jet_at(b->jet, node, 1)[l] * change[d % s->n_q];
       }
     }
     for (const pl_pattern_entry* e = b->pattern->G; e < b->pattern->G + b->pattern->n_G; e++) {
       int node = tape->roots[e->root];
       for (int l = 0; l < b->n && node >= tape->level_end[PL_LEVEL_CONST]; l++) {
         int q = b->q[e->col * b->lanes + l], c = b->c[e->row * b->lanes + l];
-        if ((c / s->n_c) % 2 == 0 || (q / s->n_q) % 2 == 1 || !run->impact_taken[c % s->n_c])
+        if ((c / s->n_c) % 2 == 0 || (q / s->n_q) % 2 == 1 || !run->event->impact_taken[c % s->n_c])
           continue;
-        f->rhs[q] += p->dt[q / s->n_q / 2] * pl_jet_at(b->jet, node, 1)[l]
-                     * run->impulse[c % s->n_c];
+        f->dae.rhs[q] += p->dt[q / s->n_q / 2] * pl_jet_at(b->jet, node, 1)[l]
+                         * run->event->impulse[c % s->n_c];
       }
     }
   }
@@ -403,28 +405,29 @@ static pleuel_status strike(pl_sensitivity* p, bool along) {
   pl_run *f = p->follower, *run = p->lead;
   const pl_varied* s = p->s;
   int n = s->n_c;
-  double *turn = f->second, *change = p->flow_row, *jump_v = p->a_rate;
-  set_motion(p, run->jump_q, run->jump_v);
+  double *turn = f->event->second, *change = p->flow_row, *jump_v = p->a_rate;
+  set_motion(p, run->event->jump_q, run->event->jump_v);
   for (int c = 0; c < n; c++)
-    for (int k = 0; k < 2 * s->n_directions; k++) f->on[k * n + c] = run->impact_taken[c];
-  pl_active_set_update(f);
-  for (int i = 0; i < s->n_q; i++) jump_v[i] = run->v[i] - run->jump_v[i];
+    for (int k = 0; k < 2 * s->n_directions; k++)
+      f->dae.on[k * n + c] = run->event->impact_taken[c];
+  pl_active_set_update(&f->dae);
+  for (int i = 0; i < s->n_q; i++) jump_v[i] = run->dae.v[i] - run->event->jump_v[i];
   find_rows(p, true);
   if (along) {
     turn_of_rows(p, jump_v, change);
     turn_of_rows(p, NULL, turn);
     for (int c = 0; c < f->n_c; c++) change[c] -= turn[c];
-    turn_of_rows(p, run->jump_v, turn);
+    turn_of_rows(p, run->event->jump_v, turn);
   }
-  pl_active_set_choose(f);
-  f->impulsive = true;
-  bool regular = pl_point_factor(f, false);
-  f->impulsive = f->factored = false;
+  pl_active_set_choose(&f->dae);
+  f->dae.impulsive = true;
+  bool regular = pl_point_factor(&f->dae, false);
+  f->dae.impulsive = f->dae.factored = false;
   if (!regular) return pl_run_undetermined(f);
-  for (int i = 0; i < f->n_q; i++) f->rhs[i] = 0;
+  for (int i = 0; i < f->n_q; i++) f->dae.rhs[i] = 0;
   if (along) add_turn_of_forces(p, jump_v);
   for (int c = 0; c < n; c++) {
-    double e = run->impact_factor[c];
+    double e = run->event->impact_factor[c];
     for (int k = 0; k < s->n_directions; k++) {
       int varied = 2 * k * n + c, plain = varied + n;
       double u = p->row[plain], du = p->row[varied],
@@ -433,23 +436,23 @@ static pleuel_status strike(pl_sensitivity* p, bool along) {
         du += p->dt[k] * turn[plain];
         more = p->dt[k] * change[plain];
       }
-      f->rhs[f->n_q + plain] = f->taken[plain] ? -e * u - u : 0;
-      f->rhs[f->n_q + varied] = f->taken[varied] ? -e * du - de * u - du - more : 0;
+      f->dae.rhs[f->n_q + plain] = f->dae.taken[plain] ? -e * u - u : 0;
+      f->dae.rhs[f->n_q + varied] = f->dae.taken[varied] ? -e * du - de * u - du - more : 0;
     }
   }
-  pl_kkt_solve(&f->kkt, f->rhs);
-  if (!isfinite(pl_norm(f->rhs, f->n_q))) return pl_run_undetermined(f);
-  for (int i = 0; i < f->n_q; i++) f->v[i] += f->rhs[i];
+  pl_kkt_solve(&f->dae.kkt, f->dae.rhs);
+  if (!isfinite(pl_norm(f->dae.rhs, f->n_q))) return pl_run_undetermined(f);
+  for (int i = 0; i < f->n_q; i++) f->dae.v[i] += f->dae.rhs[i];
   return PLEUEL_OK;
 }
 
 static bool has_changed(const pl_sensitivity* p) {
   const pl_run* run = p->lead;
-  if (run->impacts != p->impacts) return true;
+  if (run->event->impacts != p->impacts) return true;
   for (int c = 0; c < p->s->n_c; c++)
-    if (p->follower->on[c] != run->active[c]) return true;
-  for (int i = 0; i < run->n_watch; i++)
-    if (run->hit[i] && switches(run, &run->watch[i])) return true;
+    if (p->follower->dae.on[c] != run->dae.active[c]) return true;
+  for (int i = 0; i < run->event->n_watch; i++)
+    if (run->event->hit[i] && switches(run, &run->event->watch[i])) return true;
   return false;
 }
 
@@ -460,25 +463,25 @@ static pleuel_status jump(pl_sensitivity* p) {
   set_motion(p, p->q, p->v);
   watch_flow(p);
   PL_TRY(find_moment(p, cause));
-  bool strikes = run->impacts != p->impacts, sets = sets_values(run, &run->watch[cause]);
+  bool strikes = run->event->impacts != p->impacts,
+       sets = sets_values(run, &run->event->watch[cause]);
   if (strikes && sets && moves(f))
     return pl_fail(
         p->follower->job, PLEUEL_UNSUPPORTED,
         "the motion has no derivative at t = %.9g s: %s sets values and strikes what moves", p->t,
-        name_of(run, &run->watch[cause]));
-  shift(p, f->v, p->a, 1);
+        name_of(run, &run->event->watch[cause]));
+  shift(p, f->dae.v, p->a, 1);
   if (strikes && !sets) PL_TRY(strike(p, true));
-  shift(p, f->q, p->v, 1);
+  shift(p, f->dae.q, p->v, 1);
   if (sets) set_values(p, cause);
   if (strikes && sets) PL_TRY(strike(p, false));
-  set_motion(p, run->q, run->v);
-  shift(p, f->q, run->v, -1);
-  shift(p, f->v, run->A, -1);
+  set_motion(p, run->dae.q, run->dae.v);
+  shift(p, f->dae.q, run->dae.v, -1);
+  shift(p, f->dae.v, run->dae.A, -1);
   take_mode(p);
-  f->factored = false;
+  f->dae.factored = false;
   PL_TRY(pl_modes_enter(f));
-  for (int i = 0; i < f->n_steppers; i++)
-    if (f->steppers[i]->changed) f->steppers[i]->changed(f, true);
+  pl_steppers_changed(f, true);
   return PLEUEL_OK;
 }
 
@@ -499,31 +502,31 @@ static pleuel_status remember_state(pl_sensitivity* p) {
 // To the next moment at which something happens, or to the end.
 static void go_ahead(pl_sensitivity* p) {
   pl_run* run = p->lead;
-  p->impacts = run->impacts;
+  p->impacts = run->event->impacts;
   p->how = remember_state(p);
   while (p->how == PLEUEL_OK && p->n_reports == 0 && !pl_run_done(run)) p->how = pl_run_step(run);
-  p->t = run->t;
+  p->t = run->dae.t;
   p->waits = true;
-  p->follower->stop = (pl_stop){true, run->t, run->t_low};
+  p->follower->control.stop = (pl_stop){true, run->dae.t, run->dae.t_low};
 }
 
 static pleuel_status arrive(pl_sensitivity* p) {
   pl_run* f = p->follower;
-  f->stop.early = false;
+  f->control.stop.early = false;
   p->waits = false;
   if (p->how != PLEUEL_OK) return p->how;
   if (p->n_reports == 0) return PLEUEL_OK;
   bool changes = has_changed(p);
   // programs at the point by the general way, with their slopes along the motion
   if (f->stepper->to_patterns) f->stepper->to_patterns(f);
-  f->factored = false;
-  if (changes && !pl_point_enter(f)) return pl_run_undetermined(f);
+  f->dae.factored = false;
+  if (changes && !pl_point_enter(&f->dae)) return pl_run_undetermined(f);
   if (changes) PL_TRY(pl_output_point(f, PL_ROW_BEFORE));
   pl_output_before(f);
   if (changes) PL_TRY(jump(p));
   pl_output_energy(f, true);
   PL_TRY(send_reports(p));
-  f->stopped |= p->lead->stopped;
+  f->control.stopped |= p->lead->control.stopped;
   return pl_output_point(f, PL_ROW_AFTER);
 }
 
@@ -531,7 +534,7 @@ static pleuel_status arrive(pl_sensitivity* p) {
 static pleuel_status stop_here(pl_sensitivity* p) {
   pl_run* f = p->follower;
   if (f->options.keep) f->options.keep(f->options.keep_user, f, true);
-  return pl_fail(f->job, PLEUEL_INTERRUPTED, "interrupted at t = %.9g s", f->t);
+  return pl_fail(f->job, PLEUEL_INTERRUPTED, "interrupted at t = %.9g s", f->dae.t);
 }
 
 // A step of the follower; of = what takes one.

@@ -54,10 +54,10 @@ typedef struct pl_constraint_setup {
 } pl_constraint_setup;
 
 // Coulomb friction on a constraint, whose multiplier presses surfaces together. The slip velocity
-// has one component in the plane and three in space (its part in the tangent plane); each is a constraint
-// with velocity and friction set. While the surfaces stick, those rows are constraints; while they slip,
-// their multipliers follow from that of the constraint. Coefficients are outputs of the motion
-// patterns.
+// has one component in the plane and three in space (its part in the tangent plane); each is a
+// constraint with velocity and friction set. While the surfaces stick, those rows are constraints;
+// while they slip, their multipliers follow from that of the constraint. Coefficients are outputs
+// of the motion patterns.
 typedef struct pl_friction_setup {
   const char* name;  // of the constraint
   int constraint;    // whose multiplier presses
@@ -381,8 +381,8 @@ const pl_start_report* pl_run_start_report(const pl_run* run);
 // pl_run_start_at starts from these numbers, which must be consistent to 1e-9; they are projected.
 pleuel_status pl_run_start_at(pl_run* run, double t, const double* q, const double* v);
 
-// pl_run_start_from_angles does so where coordinates of angles hold these, and what stands for scalars
-// of quaternions is ignored.
+// pl_run_start_from_angles does so where coordinates of angles hold these, and what stands for
+// scalars of quaternions is ignored.
 pleuel_status pl_run_start_from_angles(pl_run* run, double t, const double* q, const double* v);
 
 // pl_run_start_partly starts from numbers of which those held are right; the others, in which the
@@ -390,8 +390,8 @@ pleuel_status pl_run_start_from_angles(pl_run* run, double t, const double* q, c
 pleuel_status pl_run_start_partly(pl_run* run, double t, const double* q, const double* v,
                                   const bool* held_q, const bool* held_v);
 
-// A run whose setup has `varied` follows one of the motion alone. pl_sensitivity_make gives the sink for
-// that run; started, it is handed over before the other is started, and goes with it.
+// A run whose setup has `varied` follows one of the motion alone. pl_sensitivity_make gives the
+// sink for that run; started, it is handed over before the other is started, and goes with it.
 struct pl_sensitivity* pl_sensitivity_make(pl_job* job, const pl_run* follower,
                                            const pl_setup* plain, pl_sink* sink);
 void pl_sensitivity_attach(struct pl_sensitivity* p, pl_run* follower, pl_run* plain);
@@ -446,15 +446,15 @@ const char* pl_run_mode(const pl_run* run);
 void pl_run_dense(const pl_run* run, double t, double* q, double* v, double* lambda);
 
 // ---- run_to.c: a run as a program steps it
-// pl_run_to steps to time t exactly, or to t_end where that comes first; with to_event it stops behind
-// the first event.  Status as pl_run_step; PLEUEL_USAGE for a time that has passed.
+// pl_run_to steps to time t exactly, or to t_end where that comes first; with to_event it stops
+// behind the first event.  Status as pl_run_step; PLEUEL_USAGE for a time that has passed.
 pleuel_status pl_run_to(pl_run* run, double t, bool to_event);
 // From here on rows are those of n times (kept by pointer), and those beside events.
 void pl_run_rows_at(pl_run* run, const double* t, int n);
 // The point as a row; pointers are valid until the run moves.
 void pl_run_row(pl_run* run, pl_row* row);
-// pl_run_dense with accelerations; false outside of the last step, and where the coordinates that are
-// integrated are not those of the setup.
+// pl_run_dense with accelerations; false outside of the last step, and where the coordinates that
+// are integrated are not those of the setup.
 bool pl_run_dense_row(pl_run* run, double t, double* q, double* v, double* a, double* lambda);
 
 // Accelerations and multipliers (pl_run_a, pl_run_lambda) at a state, with the constraints that are

@@ -1,4 +1,5 @@
 // Which steppers a run has, by method and precision.  A new stepper is a line here.
+#include "solve/driver_impl.h"
 #include "solve/stepper/radau/radau.h"
 #include "solve/stepper/taylor/taylor.h"
 

@@ -15,7 +15,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "solve/solve_impl.h"
+#include "solve/dae/dae.h"
 
 static const double lost = 1e-12;  // |z| below which its argument is rounding
 
@@ -134,12 +134,12 @@ static double at_series(const double* X, int n, int i, int last, double dt) {
   return x;
 }
 
-static pl_halves halves_at(const pl_run* run, const pl_attitude_setup* s, double t) {
-  double x[2][4], dt = t - run->t_series;
+static pl_halves halves_at(const pl_dae* dae, const pl_attitude_setup* s, double t) {
+  double x[2][4], dt = t - dae->t_series;
   const int of[4] = {s->scalar, s->angle[0], s->angle[1], s->angle[2]};
   for (int i = 0; i < 4; i++) {
-    x[0][i] = at_series(run->Q, run->n_q, of[i], run->use + 1, dt);
-    x[1][i] = at_series(run->V, run->n_q, of[i], run->use, dt);
+    x[0][i] = at_series(dae->Q, dae->n_q, of[i], dae->use + 1, dt);
+    x[1][i] = at_series(dae->V, dae->n_q, of[i], dae->use, dt);
   }
   return (pl_halves){.z = {number(x[0][0], x[0][3]), number(x[0][1], x[0][2])},
                      .v = {number(x[1][0], x[1][3]), number(x[1][1], x[1][2])}};
@@ -167,16 +167,16 @@ static void follow_to(pl_attitude_state* now, const pl_halves* h, double t) {
   now->t = t;
 }
 
-static void follow(const pl_run* run, const pl_attitude_setup* s, pl_attitude_state* now,
+static void follow(const pl_dae* dae, const pl_attitude_setup* s, pl_attitude_state* now,
                    double t_to) {
   enum { DEEPEST = 60 };
   double waiting[DEEPEST + 2];  // ends of the pieces before t_to
   int n = 0;
-  pl_halves a = halves_at(run, s, now->t);
+  pl_halves a = halves_at(dae, s, now->t);
   waiting[n++] = t_to;
   while (n > 0) {
     double t = waiting[n - 1], dt = t - now->t, middle = now->t + 0.5 * dt;
-    pl_halves b = halves_at(run, s, t);
+    pl_halves b = halves_at(dae, s, t);
     bool close = is_close(a.z[0], a.v[0], b.z[0], b.v[0], dt)
                  && is_close(a.z[1], a.v[1], b.z[1], b.v[1], dt);
     if (!close && n <= DEEPEST && middle != now->t && middle != t) {
@@ -189,24 +189,24 @@ static void follow(const pl_run* run, const pl_attitude_setup* s, pl_attitude_st
   }
 }
 
-void pl_attitude_follow(pl_run* run, double t_to) {
-  for (int i = 0; i < run->setup->n_attitudes; i++) {
-    if (t_to != run->attitude[i].t) follow(run, &run->setup->attitudes[i], &run->attitude[i], t_to);
+void pl_attitude_follow(pl_dae* dae, double t_to) {
+  for (int i = 0; i < dae->setup->n_attitudes; i++) {
+    if (t_to != dae->attitude[i].t) follow(dae, &dae->setup->attitudes[i], &dae->attitude[i], t_to);
   }
 }
 
 // ---------------------------------------------------------------------------------- what rows show
-static void fill(const pl_run* run, double t, const double* q, const double* v, const double* a,
+static void fill(const pl_dae* dae, double t, const double* q, const double* v, const double* a,
                  double* q_out, double* v_out, double* a_out, bool behind) {
-  size_t n = (size_t)run->n_q;
+  size_t n = (size_t)dae->n_q;
   memcpy(q_out, q, n * sizeof(double));
   memcpy(v_out, v, n * sizeof(double));
   memcpy(a_out, a, n * sizeof(double));
-  for (int i = 0; i < run->setup->n_attitudes; i++) {
-    const pl_attitude_setup* s = &run->setup->attitudes[i];
+  for (int i = 0; i < dae->setup->n_attitudes; i++) {
+    const pl_attitude_setup* s = &dae->setup->attitudes[i];
     double angle[3], rate[3], second[3];
     pl_halves h = halves_of(s, q, v, a);
-    to_angles(&run->attitude[i], &h, t - run->attitude[i].t, angle, rate, second);
+    to_angles(&dae->attitude[i], &h, t - dae->attitude[i].t, angle, rate, second);
     for (int k = 0; k < 3; k++) {
       size_t at = behind ? n + 3 * (size_t)i + (size_t)k : (size_t)s->angle[k];
       q_out[at] = angle[k];
@@ -216,18 +216,18 @@ static void fill(const pl_run* run, double t, const double* q, const double* v, 
   }
 }
 
-void pl_attitude_seen(pl_run* run, double t, const double** q, const double** v, const double** a) {
-  if (run->setup->n_attitudes == 0) return;
-  fill(run, t, *q, *v, *a, run->seen[0], run->seen[1], run->seen[2], true);
-  *q = run->seen[0];
-  *v = run->seen[1];
-  *a = run->seen[2];
+void pl_attitude_seen(pl_dae* dae, double t, const double** q, const double** v, const double** a) {
+  if (dae->setup->n_attitudes == 0) return;
+  fill(dae, t, *q, *v, *a, dae->seen[0], dae->seen[1], dae->seen[2], true);
+  *q = dae->seen[0];
+  *v = dae->seen[1];
+  *a = dae->seen[2];
 }
 
-void pl_attitude_show(pl_run* run, pl_row* row) {
-  if (run->setup->n_attitudes == 0) return;
-  double** out = row->kind == PL_ROW_BEFORE ? run->shown_before : run->shown;
-  fill(run, row->t, row->q, row->v, row->a, out[0], out[1], out[2], false);
+void pl_attitude_show(pl_dae* dae, pl_row* row) {
+  if (dae->setup->n_attitudes == 0) return;
+  double** out = row->kind == PL_ROW_BEFORE ? dae->shown_before : dae->shown;
+  fill(dae, row->t, row->q, row->v, row->a, out[0], out[1], out[2], false);
   row->q = out[0];
   row->v = out[1];
   row->a = out[2];
@@ -236,50 +236,50 @@ void pl_attitude_show(pl_run* run, pl_row* row) {
 // ---------------------------------------------------------------------- what stays in Euler angles
 // At ϑ = 0 or 180° they do not tell precession and spin apart. A step that gets to the other side
 // has divided by what is zero on its way, and its end may be anything.
-pleuel_status pl_attitude_poles(pl_run* run, double h) {
+pleuel_status pl_attitude_poles(pl_dae* dae, double h, const double* q_end, double* t_pole) {
   static const double close = 1e-9;
-  for (int i = 0; i < run->setup->n_poles; i++) {
-    int at = run->setup->poles[i];
-    double from = run->q[at] / M_PI, to = run->trial_q[at] / M_PI;
+  for (int i = 0; i < dae->setup->n_poles; i++) {
+    int at = dae->setup->poles[i];
+    double from = dae->q[at] / M_PI, to = q_end[at] / M_PI;
     if (floor(from) == floor(to) && fabs(to - nearbyint(to)) > close) continue;
     double pole = to > from ? ceil(from) : floor(from),
            share = floor(from) == floor(to) ? 1 : (pole - from) / (to - from);
-    run->stats.t_singular = run->t + share * h;
-    return pl_fail(run->job, PLEUEL_SINGULAR,
+    *t_pole = dae->t + share * h;
+    return pl_fail(dae->job, PLEUEL_SINGULAR,
                    "%s comes to a multiple of 180° near t = %.6g s, where Euler angles do not tell "
                    "precession and spin apart, "
                    "and they themselves are needed here",
-                   run->setup->coordinates[at].name, run->stats.t_singular);
+                   dae->setup->coordinates[at].name, *t_pole);
   }
   return PLEUEL_OK;
 }
 
 // ------------------------------------------------------------------------------------------- start
-void pl_attitude_make(pl_run* run) {
-  pl_arena* a = run->job->arena;
-  size_t n = (size_t)run->n_q + 3 * (size_t)run->setup->n_attitudes + 1;
-  if (run->setup->n_attitudes == 0) return;
-  run->attitude = PL_ARRAY(a, pl_attitude_state, run->setup->n_attitudes);
+void pl_attitude_make(pl_dae* dae) {
+  pl_arena* a = dae->job->arena;
+  size_t n = (size_t)dae->n_q + 3 * (size_t)dae->setup->n_attitudes + 1;
+  if (dae->setup->n_attitudes == 0) return;
+  dae->attitude = PL_ARRAY(a, pl_attitude_state, dae->setup->n_attitudes);
   for (int i = 0; i < 3; i++) {
-    run->seen[i] = PL_ARRAY(a, double, n);
-    run->shown[i] = PL_ARRAY(a, double, n);
-    run->shown_before[i] = PL_ARRAY(a, double, n);
+    dae->seen[i] = PL_ARRAY(a, double, n);
+    dae->shown[i] = PL_ARRAY(a, double, n);
+    dae->shown_before[i] = PL_ARRAY(a, double, n);
   }
 }
 
-void pl_attitude_start(pl_run* run, double t, const double* q, const double* v, double* q_run,
+void pl_attitude_start(pl_dae* dae, double t, const double* q, const double* v, double* q_run,
                        double* v_run) {
-  memcpy(q_run, q, (size_t)run->n_q * sizeof(double));
-  memcpy(v_run, v, (size_t)run->n_q * sizeof(double));
-  for (int i = 0; i < run->setup->n_attitudes; i++) {
-    const pl_attitude_setup* s = &run->setup->attitudes[i];
+  memcpy(q_run, q, (size_t)dae->n_q * sizeof(double));
+  memcpy(v_run, v, (size_t)dae->n_q * sizeof(double));
+  for (int i = 0; i < dae->setup->n_attitudes; i++) {
+    const pl_attitude_setup* s = &dae->setup->attitudes[i];
     double angle[3], rate[3];
     for (int k = 0; k < 3; k++) {
       angle[k] = q[s->angle[k]];
       rate[k] = v[s->angle[k]];
     }
     to_quaternion(s, angle, rate, q_run, v_run);
-    run->attitude[i] = (pl_attitude_state){
+    dae->attitude[i] = (pl_attitude_state){
         t, {angle[0], angle[1], angle[2]}, {(rate[0] + rate[2]) / 2, (rate[0] - rate[2]) / 2}};
   }
 }

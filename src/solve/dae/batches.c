@@ -1,6 +1,6 @@
 // Instances of patterns, side by side in lanes. A batch carries the series of its own slots, so
 // that the terminal products (M a, G^T λ, G v) run lane by lane without looking at global arrays.
-#include "solve/solve_impl.h"
+#include "solve/dae/dae.h"
 
 // Copies indices of instances first .. first+n-1 into lanes; unused lanes repeat the last one.
 static int* spread(pl_arena* a, const int* index, int slots, int first, int n, int lanes) {

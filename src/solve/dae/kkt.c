@@ -5,7 +5,7 @@
 // The dense matrix is balanced symmetrically by powers of two before it is factored [Ruiz2001], so
 // that the pivots tell how singular it is whatever the units are.
 // See theory (9.5).
-#include "solve/solve_impl.h"
+#include "solve/dae/dae.h"
 
 #include <math.h>
 
@@ -24,7 +24,7 @@ static void mark(pl_stream_places* p, int row, int col) {
   p->head[col] = p->n++;
 }
 
-static void mark_batch(pl_stream_places* p, const pl_run* run, const pl_batch* b) {
+static void mark_batch(pl_stream_places* p, const pl_dae* dae, const pl_batch* b) {
   const pl_pattern* t = b->pattern;
   for (int l = 0; l < b->n; l++) {
     for (int e = 0; e < t->n_mass; e++) {
@@ -33,20 +33,20 @@ static void mark_batch(pl_stream_places* p, const pl_run* run, const pl_batch* b
       mark(p, j, i);
     }
     for (int e = 0; e < t->n_G; e++) {
-      int c = run->n_q + b->c[t->G[e].row * b->lanes + l], j = b->q[t->G[e].col * b->lanes + l];
+      int c = dae->n_q + b->c[t->G[e].row * b->lanes + l], j = b->q[t->G[e].col * b->lanes + l];
       mark(p, c, j);
       mark(p, j, c);
     }
     for (int e = 0; e < t->n_W; e++)
-      mark(p, b->q[t->W[e].row * b->lanes + l], run->n_q + b->c[t->W[e].col * b->lanes + l]);
+      mark(p, b->q[t->W[e].row * b->lanes + l], dae->n_q + b->c[t->W[e].col * b->lanes + l]);
   }
 }
 
-static int count_marks(const pl_run* run) {
-  long n = run->kkt.n + 3L * run->setup->n_frictions;
-  for (int i = 0; i < run->motion.n; i++) {
-    const pl_pattern* t = run->motion.at[i].pattern;
-    n += (long)run->motion.at[i].n * (2L * t->n_mass + 2L * t->n_G + t->n_W);
+static int count_marks(const pl_dae* dae) {
+  long n = dae->kkt.n + 3L * dae->setup->n_frictions;
+  for (int i = 0; i < dae->motion.n; i++) {
+    const pl_pattern* t = dae->motion.at[i].pattern;
+    n += (long)dae->motion.at[i].n * (2L * t->n_mass + 2L * t->n_G + t->n_W);
   }
   return n > INT32_MAX - 8 ? -1 : (int)n;
 }
@@ -64,21 +64,21 @@ static int insert_sorted(int* list, int n, int row) {
 // unknowns up to which the pivoting factorisation is prepared beforehand
 enum { ANALYSED_AT_ONCE = 20000 };
 
-static pleuel_status sparse_structure(pl_run* run) {
-  pl_arena* a = run->job->arena;
-  pl_kkt* k = &run->kkt;
-  int most = count_marks(run);
+static pleuel_status sparse_structure(pl_dae* dae) {
+  pl_arena* a = dae->job->arena;
+  pl_kkt* k = &dae->kkt;
+  int most = count_marks(dae);
   if (most < 0)
-    return pl_fail(run->job, PLEUEL_NO_MEMORY, "the linear system has too many entries");
+    return pl_fail(dae->job, PLEUEL_NO_MEMORY, "the linear system has too many entries");
   pl_stream_places p = {PL_ARRAY(a, int, most + 1), PL_ARRAY(a, int, most + 1),
                         PL_ARRAY(a, int, k->n + 1), 0};
   for (int j = 0; j < k->n; j++) p.head[j] = -1;
   for (int j = 0; j < k->n; j++) mark(&p, j, j);
-  for (int i = 0; i < run->motion.n; i++) mark_batch(&p, run, &run->motion.at[i]);
-  for (int r = 0; r < run->setup->n_frictions; r++) {
-    const pl_friction_setup* friction = &run->setup->frictions[r];
+  for (int i = 0; i < dae->motion.n; i++) mark_batch(&p, dae, &dae->motion.at[i]);
+  for (int r = 0; r < dae->setup->n_frictions; r++) {
+    const pl_friction_setup* friction = &dae->setup->frictions[r];
     for (int i = 0; i < friction->n_rows; i++)
-      mark(&p, run->n_q + friction->row[i], run->n_q + friction->constraint);
+      mark(&p, dae->n_q + friction->row[i], dae->n_q + friction->constraint);
   }
   k->start = PL_ARRAY(a, int, k->n + 1);
   k->row = PL_ARRAY(a, int, most + 1);
@@ -103,8 +103,8 @@ static int place(const pl_kkt* k, int row, int col) {
   return lo;
 }
 
-static void place_batch(pl_run* run, pl_batch* b) {
-  pl_arena* a = run->job->arena;
+static void place_batch(pl_dae* dae, pl_batch* b) {
+  pl_arena* a = dae->job->arena;
   const pl_pattern* t = b->pattern;
   b->at_mass = PL_ARRAY(a, int, t->n_mass * b->lanes + 1);
   b->at_mass_t = PL_ARRAY(a, int, t->n_mass * b->lanes + 1);
@@ -114,27 +114,27 @@ static void place_batch(pl_run* run, pl_batch* b) {
   for (int l = 0; l < b->n; l++) {
     for (int e = 0; e < t->n_mass; e++) {
       int i = b->q[t->mass[e].row * b->lanes + l], j = b->q[t->mass[e].col * b->lanes + l];
-      b->at_mass[e * b->lanes + l] = place(&run->kkt, i, j);
-      b->at_mass_t[e * b->lanes + l] = place(&run->kkt, j, i);
+      b->at_mass[e * b->lanes + l] = place(&dae->kkt, i, j);
+      b->at_mass_t[e * b->lanes + l] = place(&dae->kkt, j, i);
     }
     for (int e = 0; e < t->n_G; e++) {
-      int c = run->n_q + b->c[t->G[e].row * b->lanes + l], j = b->q[t->G[e].col * b->lanes + l];
-      b->at_G[e * b->lanes + l] = place(&run->kkt, c, j);
-      b->at_Gt[e * b->lanes + l] = place(&run->kkt, j, c);
+      int c = dae->n_q + b->c[t->G[e].row * b->lanes + l], j = b->q[t->G[e].col * b->lanes + l];
+      b->at_G[e * b->lanes + l] = place(&dae->kkt, c, j);
+      b->at_Gt[e * b->lanes + l] = place(&dae->kkt, j, c);
     }
     for (int e = 0; e < t->n_W; e++)
-      b->at_W[e * b->lanes + l] = place(&run->kkt, b->q[t->W[e].row * b->lanes + l],
-                                        run->n_q + b->c[t->W[e].col * b->lanes + l]);
+      b->at_W[e * b->lanes + l] = place(&dae->kkt, b->q[t->W[e].row * b->lanes + l],
+                                        dae->n_q + b->c[t->W[e].col * b->lanes + l]);
   }
 }
 
 // Which unknowns are coordinates with a mass of their own, which constraints.
-static unsigned char* kinds(const pl_run* run) {
-  unsigned char* kind = PL_ARRAY(run->job->arena, unsigned char, run->kkt.n + 1);
-  for (int i = 0; i < run->kkt.n; i++)
-    kind[i] = i < run->n_q ? PL_UNKNOWN_OTHER : PL_UNKNOWN_CONSTRAINT;
-  for (int i = 0; i < run->motion.n; i++) {
-    const pl_batch* b = &run->motion.at[i];
+static unsigned char* kinds(const pl_dae* dae) {
+  unsigned char* kind = PL_ARRAY(dae->job->arena, unsigned char, dae->kkt.n + 1);
+  for (int i = 0; i < dae->kkt.n; i++)
+    kind[i] = i < dae->n_q ? PL_UNKNOWN_OTHER : PL_UNKNOWN_CONSTRAINT;
+  for (int i = 0; i < dae->motion.n; i++) {
+    const pl_batch* b = &dae->motion.at[i];
     for (int e = 0; e < b->pattern->n_mass; e++)
       for (int l = 0; l < b->n && b->pattern->mass[e].row == b->pattern->mass[e].col; l++)
         kind[b->q[b->pattern->mass[e].row * b->lanes + l]] = PL_UNKNOWN_MASS;
@@ -142,24 +142,24 @@ static unsigned char* kinds(const pl_run* run) {
   return kind;
 }
 
-pleuel_status pl_kkt_make(pl_run* run) {
-  pl_arena* a = run->job->arena;
-  pl_kkt* k = &run->kkt;
-  k->n = run->n_q + run->n_c;
+pleuel_status pl_kkt_make(pl_dae* dae) {
+  pl_arena* a = dae->job->arena;
+  pl_kkt* k = &dae->kkt;
+  k->n = dae->n_q + dae->n_c;
   k->arena = a;
   k->dense = k->n <= PL_DENSE_UP_TO;
   if (k->dense) k->n_values = k->n * k->n;
-  else PL_TRY(sparse_structure(run));
+  else PL_TRY(sparse_structure(dae));
   k->value = PL_ARRAY(a, double, k->n_values + 1);
   k->work = PL_ARRAY(a, double, k->n + 1);
   k->diagonal = PL_ARRAY(a, int, k->n + 1);
   for (int i = 0; i < k->n; i++) k->diagonal[i] = place(k, i, i);
-  for (int i = 0; i < run->motion.n; i++) place_batch(run, &run->motion.at[i]);
-  for (int r = 0; r < run->setup->n_frictions; r++) {
-    const pl_friction_setup* friction = &run->setup->frictions[r];
+  for (int i = 0; i < dae->motion.n; i++) place_batch(dae, &dae->motion.at[i]);
+  for (int r = 0; r < dae->setup->n_frictions; r++) {
+    const pl_friction_setup* friction = &dae->setup->frictions[r];
     for (int i = 0; i < friction->n_rows; i++)
-      run->at_friction[friction->row[i]] = place(k, run->n_q + friction->row[i],
-                                                 run->n_q + friction->constraint);
+      dae->at_friction[friction->row[i]] = place(k, dae->n_q + friction->row[i],
+                                                 dae->n_q + friction->constraint);
   }
   if (k->dense) {
     k->lu = PL_ARRAY(a, double, k->n_values + 1);
@@ -168,13 +168,13 @@ pleuel_status pl_kkt_make(pl_run* run) {
     k->pivot = PL_ARRAY(a, int, k->n + 1);
     return PLEUEL_OK;
   }
-  if (!run->has_W && run->setup->n_frictions == 0)
-    k->symmetric = pl_symmetric_make(a, k->n, k->start, k->row, kinds(run));
+  if (!dae->has_W && dae->setup->n_frictions == 0)
+    k->symmetric = pl_symmetric_make(a, k->n, k->start, k->row, kinds(dae));
   // in the largest systems only where it is needed, because it takes as much memory as all the rest
   if (k->symmetric == NULL || k->n <= ANALYSED_AT_ONCE)
     k->sparse = pl_sparse_make(a, k->n, k->start, k->row);
   if (k->sparse == NULL && (k->symmetric == NULL || k->n <= ANALYSED_AT_ONCE))
-    return pl_fail(run->job, PLEUEL_SINGULAR,
+    return pl_fail(dae->job, PLEUEL_SINGULAR,
                    "the equations of motion do not determine every acceleration");
   return PLEUEL_OK;
 }

@@ -4,21 +4,21 @@
 #include <math.h>
 #include <string.h>
 
-#include "solve/solve_impl.h"
+#include "solve/dae/dae.h"
 
 static const double dependent = 1e-10;  // of a row: what is left of it when it says nothing new
 static const double met = 1e-9;         // residual of a constraint relative to its terms
 
 // The least change of what is free that takes the residuals away: rows orthogonalised one by one,
 // targets along.
-bool pl_least_change(const pl_run* run, const bool* held, const double* residual,
+bool pl_least_change(const pl_dae* dae, const bool* held, const double* residual,
                      const double* size, bool positions, double* basis, double* change) {
-  int n = run->n_q, rank = 0;
+  int n = dae->n_q, rank = 0;
   for (int i = 0; i < n; i++) change[i] = 0;
-  for (int c = 0; c < run->n_c; c++) {
-    if (run->row_of[c] < 0 || (positions && run->setup->constraints[c].velocity)) continue;
+  for (int c = 0; c < dae->n_c; c++) {
+    if (dae->row_of[c] < 0 || (positions && dae->setup->constraints[c].velocity)) continue;
     double *w = basis + (size_t)rank * (size_t)n, left = -residual[c], length = 0, most = 0;
-    const double* row = run->rows + (size_t)run->row_of[c] * (size_t)n;
+    const double* row = dae->rows + (size_t)dae->row_of[c] * (size_t)n;
     for (int i = 0; i < n; i++) {
       w[i] = held[i] ? 0 : row[i];
       most = fmax(most, fabs(row[i]));

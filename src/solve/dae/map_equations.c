@@ -6,7 +6,7 @@
 // places: angles have two.
 #include <math.h>
 
-#include "solve/solve_impl.h"
+#include "solve/dae/dae.h"
 
 enum { MOST_COORDINATES = 8, MOST_ROWS = 24, ROUNDS = 60, PLACES = 8 };
 
@@ -22,11 +22,11 @@ typedef struct pl_map_work {
 } pl_map_work;
 
 // What the map takes for granted is there or arrives now, and it did not hold before.
-static bool begins(const pl_run* run, int c) {
-  const pl_constraint_setup* l = &run->setup->constraints[c];
-  if (l->n_needs == 0 || run->active[c]) return false;
+static bool begins(const pl_dae* dae, int c) {
+  const pl_constraint_setup* l = &dae->setup->constraints[c];
+  if (l->n_needs == 0 || dae->active[c]) return false;
   for (int i = 0; i < l->n_needs; i++)
-    if (!run->on[l->needs[i]] && !run->near_by[l->needs[i]]) return false;
+    if (!dae->on[l->needs[i]] && !dae->near_by[l->needs[i]]) return false;
   return true;
 }
 
@@ -37,15 +37,15 @@ static int index_in(const int* list, int n, int x) {
 }
 
 // Derivatives of the map equations; takes coordinates that nothing holds as it meets them.
-static bool slopes(const pl_run* run, pl_map_work* w, bool collect) {
+static bool slopes(const pl_dae* dae, pl_map_work* w, bool collect) {
   for (int i = 0; i < MOST_ROWS * MOST_COORDINATES; i++) w->J[i] = 0;
-  for (int i = 0; i < run->motion.n; i++) {
-    const pl_batch* b = &run->motion.at[i];
+  for (int i = 0; i < dae->motion.n; i++) {
+    const pl_batch* b = &dae->motion.at[i];
     for (const pl_pattern_entry* e = b->pattern->G; e < b->pattern->G + b->pattern->n_G; e++)
       for (int l = 0; l < b->n; l++) {
         int r = index_in(w->row, w->m, b->c[e->row * b->lanes + l]),
             q = b->q[e->col * b->lanes + l];
-        if (r < 0 || run->has_equation[q] != 0) continue;
+        if (r < 0 || dae->has_equation[q] != 0) continue;
         int k = index_in(w->coordinate, w->n, q);
         if (k < 0 && collect && w->n == MOST_COORDINATES) return false;
         if (k < 0 && collect) w->coordinate[k = w->n++] = q;
@@ -83,21 +83,21 @@ static bool eliminate(pl_map_work* w) {
   return true;
 }
 
-static double residual(pl_run* run, const pl_map_work* w) {
+static double residual(pl_dae* dae, const pl_map_work* w) {
   double most = 0;
-  pl_point_evaluate(run, run->t, run->q, run->v);
-  pl_assemble_g(run, 0, run->g, run->g_size);
+  pl_point_evaluate(dae, dae->t, dae->q, dae->v);
+  pl_assemble_g(dae, 0, dae->g, dae->g_size);
   for (int r = 0; r < w->m; r++)
-    most = fmax(most, fabs(run->g[w->row[r]]) / fmax(run->g_size[w->row[r]], 1e-300));
+    most = fmax(most, fabs(dae->g[w->row[r]]) / fmax(dae->g_size[w->row[r]], 1e-300));
   return most;
 }
 
-static bool correct(pl_run* run, pl_map_work* w) {
+static bool correct(pl_dae* dae, pl_map_work* w) {
   int n = w->n;
-  slopes(run, w, false);
+  slopes(dae, w, false);
   for (int i = 0; i < n; i++) {
     w->x[i] = 0;
-    for (int r = 0; r < w->m; r++) w->x[i] -= w->J[r * MOST_COORDINATES + i] * run->g[w->row[r]];
+    for (int r = 0; r < w->m; r++) w->x[i] -= w->J[r * MOST_COORDINATES + i] * dae->g[w->row[r]];
     for (int j = 0; j < n; j++) {
       w->N[i * n + j] = 0;
       for (int r = 0; r < w->m; r++)
@@ -105,36 +105,36 @@ static bool correct(pl_run* run, pl_map_work* w) {
     }
   }
   if (!eliminate(w)) return false;
-  for (int i = 0; i < n; i++) run->q[w->coordinate[i]] += w->x[i];
+  for (int i = 0; i < n; i++) dae->q[w->coordinate[i]] += w->x[i];
   return true;
 }
 
-static bool found_from_here(pl_run* run, pl_map_work* w) {
-  double left = residual(run, w);
+static bool found_from_here(pl_dae* dae, pl_map_work* w) {
+  double left = residual(dae, w);
   for (int round = 0; round < ROUNDS && left > 1e-15; round++) {
     double before = left;
-    if (!correct(run, w)) break;
-    left = residual(run, w);
+    if (!correct(dae, w)) break;
+    left = residual(dae, w);
     if (!(left < before) && before <= met) break;
   }
   return left <= met;
 }
 
-void pl_maps_follow(pl_run* run) {
+void pl_maps_follow(pl_dae* dae) {
   pl_map_work w = {0};
-  for (int c = 0; c < run->n_c; c++) {
-    if (!begins(run, c)) continue;
+  for (int c = 0; c < dae->n_c; c++) {
+    if (!begins(dae, c)) continue;
     if (w.m == MOST_ROWS) return;
     w.row[w.m++] = c;
   }
   if (w.m == 0) return;
-  pl_point_evaluate(run, run->t, run->q, run->v);
-  if (!slopes(run, &w, true)) return;
+  pl_point_evaluate(dae, dae->t, dae->q, dae->v);
+  if (!slopes(dae, &w, true)) return;
   double home[MOST_COORDINATES];
-  for (int i = 0; i < w.n; i++) home[i] = run->q[w.coordinate[i]];
+  for (int i = 0; i < w.n; i++) home[i] = dae->q[w.coordinate[i]];
   for (int place = 0; place < PLACES; place++) {
-    for (int i = 0; i < w.n; i++) run->q[w.coordinate[i]] = home[i] + place * turn;
-    if (found_from_here(run, &w)) return;
+    for (int i = 0; i < w.n; i++) dae->q[w.coordinate[i]] = home[i] + place * turn;
+    if (found_from_here(dae, &w)) return;
   }
-  for (int i = 0; i < w.n; i++) run->q[w.coordinate[i]] = home[i];
+  for (int i = 0; i < w.n; i++) dae->q[w.coordinate[i]] = home[i];
 }

@@ -13,7 +13,7 @@
 // See theory (10.3).
 #include <math.h>
 
-#include "solve/solve_impl.h"
+#include "solve/dae/dae.h"
 
 #ifndef PL_TAYLOR_ORDER
 #  define PL_TAYLOR_ORDER pl_taylor_order_plain
@@ -123,9 +123,9 @@ static void spread_q(const pl_batch* b, double* rhs, const double* x, double fac
   spread(rhs, x, factor, b->q + slot * b->lanes, b->q_run[slot], b->n);
 }
 
-static void spread_c(const pl_run* run, const pl_batch* b, double* rhs, const double* x,
+static void spread_c(const pl_dae* dae, const pl_batch* b, double* rhs, const double* x,
                      double factor, int slot) {
-  spread(rhs + run->n_q, x, factor, b->c + slot * b->lanes, b->c_run[slot], b->n);
+  spread(rhs + dae->n_q, x, factor, b->c + slot * b->lanes, b->c_run[slot], b->n);
 }
 
 // -------------------------------------------------------------------------------------------- sums
@@ -173,7 +173,7 @@ static void bundle_sums(double* with_v, double* with_lambda, const double* u, co
 }
 
 // --------------------------------------------------------------------------------- right-hand side
-static void subtract_h(pl_run* run, const pl_batch* b, int k, double* rhs) {
+static void subtract_h(pl_dae* dae, const pl_batch* b, int k, double* rhs) {
   for (int e = 0; e < b->pattern->n_h; e++) {
     const pl_pattern_entry* h = &b->pattern->h[e];
     int node = node_of(b, h->root);
@@ -181,7 +181,7 @@ static void subtract_h(pl_run* run, const pl_batch* b, int k, double* rhs) {
     const double* x = coefficient(b, node, k);
     spread_q(b, rhs, x, -1, h->row);
     for (int l = 0; l < b->n && k == 0; l++)
-      if (fabs(x[l]) > run->force_size) run->force_size = fabs(x[l]);
+      if (fabs(x[l]) > dae->force_size) dae->force_size = fabs(x[l]);
   }
 }
 
@@ -201,14 +201,14 @@ static void subtract_mass_tail(const pl_batch* b, int k, double* rhs) {
 }
 
 // λ is zero where a constraint is not used.
-static void add_bundles(const pl_run* run, const pl_batch* b, int k, double* rhs) {
+static void add_bundles(const pl_dae* dae, const pl_batch* b, int k, double* rhs) {
   double with_v[PL_JET_LANES], with_lambda[PL_JET_LANES], s[PL_JET_LANES];
   int lanes = b->lanes;
   for (int t = 0; t < b->n_bundles; t++) {
     const pl_bundle* bundle = &b->bundles[t];
     bundle_sums(with_v, with_lambda, coefficient(b, bundle->node, 0),
                 series_at(b, b->bundle_v, t, 0), series_at(b, b->lambda, bundle->c, 0), k, lanes);
-    spread_c(run, b, rhs, with_v, -(k + 1), bundle->c);
+    spread_c(dae, b, rhs, with_v, -(k + 1), bundle->c);
     for (int e = bundle->first; k > 0 && e < bundle->first + bundle->n; e++) {
       const double* f = b->bundle_factor + (size_t)e * (size_t)lanes;
       EACH(lanes) s[l] = f[l] * with_lambda[l];
@@ -217,7 +217,7 @@ static void add_bundles(const pl_run* run, const pl_batch* b, int k, double* rhs
   }
 }
 
-static void add_force_tail(const pl_run* run, const pl_batch* b, int k, double* rhs) {
+static void add_force_tail(const pl_dae* dae, const pl_batch* b, int k, double* rhs) {
   double s[PL_JET_LANES];
   for (int e = 0; e < b->pattern->n_W; e++) {
     const pl_pattern_entry* w = &b->pattern->W[e];
@@ -225,33 +225,33 @@ static void add_force_tail(const pl_run* run, const pl_batch* b, int k, double* 
     if (is_constant(b, node)) continue;
     tail(s, coefficient(b, node, 0), series_at(b, b->lambda, w->col, 0), k, b->lanes);
     for (int l = 0; l < b->n; l++)
-      if (run->taken[b->c[w->col * b->lanes + l]]) rhs[b->q[w->row * b->lanes + l]] += s[l];
+      if (dae->taken[b->c[w->col * b->lanes + l]]) rhs[b->q[w->row * b->lanes + l]] += s[l];
   }
 }
 
-static void subtract_time(const pl_run* run, const pl_batch* b, int k, double* rhs) {
+static void subtract_time(const pl_dae* dae, const pl_batch* b, int k, double* rhs) {
   for (int e = 0; e < b->pattern->n_gt; e++) {
     const pl_pattern_entry* g = &b->pattern->gt[e];
     int node = node_of(b, g->root);
-    if (!is_constant(b, node)) spread_c(run, b, rhs, coefficient(b, node, k + 1), -(k + 1), g->row);
+    if (!is_constant(b, node)) spread_c(dae, b, rhs, coefficient(b, node, k + 1), -(k + 1), g->row);
   }
 }
 
-static void rhs_of(pl_run* run, int k, double* rhs) {
-  for (int i = 0; i < run->n_q + run->n_c; i++) rhs[i] = 0;
-  for (int i = 0; i < run->motion.n; i++) {
-    const pl_batch* b = &run->motion.at[i];
-    subtract_h(run, b, k, rhs);
+static void rhs_of(pl_dae* dae, int k, double* rhs) {
+  for (int i = 0; i < dae->n_q + dae->n_c; i++) rhs[i] = 0;
+  for (int i = 0; i < dae->motion.n; i++) {
+    const pl_batch* b = &dae->motion.at[i];
+    subtract_h(dae, b, k, rhs);
     if (k > 0) subtract_mass_tail(b, k, rhs);
-    add_bundles(run, b, k, rhs);
-    if (k > 0) add_force_tail(run, b, k, rhs);
-    subtract_time(run, b, k, rhs);
+    add_bundles(dae, b, k, rhs);
+    if (k > 0) add_force_tail(dae, b, k, rhs);
+    subtract_time(dae, b, k, rhs);
   }
-  if (!run->rests) return;
-  for (int i = 0; i < run->n_q; i++)
-    if (run->has_equation[i] == 0) rhs[i] = 0;
-  for (int c = 0; c < run->n_c; c++)
-    if (!run->taken[c]) rhs[run->n_q + c] = 0;
+  if (!dae->rests) return;
+  for (int i = 0; i < dae->n_q; i++)
+    if (dae->has_equation[i] == 0) rhs[i] = 0;
+  for (int c = 0; c < dae->n_c; c++)
+    if (!dae->taken[c]) rhs[dae->n_q + c] = 0;
 }
 
 // ------------------------------------------------------------------------------------ coefficients
@@ -271,24 +271,24 @@ static void over(double* restrict to, const double* restrict from, int by, int n
 }
 
 // a_k from the solution; with it v_{k+1} and q_{k+2}.
-static void take(pl_run* run, int k) {
-  int n = run->n_q;
-  double* restrict a = run->A + (size_t)k * (size_t)n, * restrict v = run->V
+static void take(pl_dae* dae, int k) {
+  int n = dae->n_q;
+  double* restrict a = dae->A + (size_t)k * (size_t)n, * restrict v = dae->V
                                                                       + (size_t)(k + 1) * (size_t)n;
-  double* restrict q = run->Q + (size_t)(k + 2) * (size_t)n, * restrict lambda =
-                                                                 run->L
-                                                                 + (size_t)k * (size_t)run->n_c;
-  const double* restrict x = run->rhs, * restrict y = run->rhs + n;
+  double* restrict q = dae->Q + (size_t)(k + 2) * (size_t)n, * restrict lambda =
+                                                                 dae->L
+                                                                 + (size_t)k * (size_t)dae->n_c;
+  const double* restrict x = dae->rhs, * restrict y = dae->rhs + n;
   pl_ratio_of r = one_over(k + 1), s = one_over(k + 2);
   EACH(n) {
     a[l] = x[l];
     v[l] = TIMES(x[l], r);
     q[l] = TIMES(v[l], s);
   }
-  if (run->rests) {
-    for (int c = 0; c < run->n_c; c++) lambda[c] = run->taken[c] || run->slips[c] ? -y[c] : 0;
+  if (dae->rests) {
+    for (int c = 0; c < dae->n_c; c++) lambda[c] = dae->taken[c] || dae->slips[c] ? -y[c] : 0;
   } else {
-    EACH(run->n_c) lambda[l] = -y[l];
+    EACH(dae->n_c) lambda[l] = -y[l];
   }
 }
 
@@ -388,32 +388,32 @@ static void values_of_g(const pl_batch* b, int k, double* g, double* size) {
 
 // Sizes hold what rounding of the coordinates themselves does to g too, |dg/dq| |q|, which the
 // terms need not show (r cos φ after many turns).
-static void g_of(pl_run* run, int k, double* g, double* size) {
+static void g_of(pl_dae* dae, int k, double* g, double* size) {
   static const double part = 1e-6;  // of the largest coordinate of all
-  clear(g, run->n_c);
-  if (size) clear(size, run->n_c);
-  for (int i = 0; i < run->motion.n; i++) values_of_g(&run->motion.at[i], k, g, size);
+  clear(g, dae->n_c);
+  if (size) clear(size, dae->n_c);
+  for (int i = 0; i < dae->motion.n; i++) values_of_g(&dae->motion.at[i], k, g, size);
   if (size == NULL) return;
-  for (int c = 0; c < run->n_c; c++) run->argument[c] = size[c];
-  for (int i = 0; i < run->motion.n; i++)
-    add_sizes(&run->motion.at[i], run->q_most, part * run->q_size, size);
-  for (int c = 0; c < run->n_c; c++)
-    run->argument[c] = run->argument[c] > 0 ? size[c] / run->argument[c] : 1;
+  for (int c = 0; c < dae->n_c; c++) dae->argument[c] = size[c];
+  for (int i = 0; i < dae->motion.n; i++)
+    add_sizes(&dae->motion.at[i], dae->q_most, part * dae->q_size, size);
+  for (int c = 0; c < dae->n_c; c++)
+    dae->argument[c] = dae->argument[c] > 0 ? size[c] / dae->argument[c] : 1;
 }
 
-static void gdot_of(pl_run* run, double* r, double* size) {
+static void gdot_of(pl_dae* dae, double* r, double* size) {
   double s[PL_JET_LANES];
-  clear(r, run->n_c);
-  clear(size, run->n_c);
-  for (int i = 0; i < run->motion.n; i++) {
-    const pl_batch* b = &run->motion.at[i];
+  clear(r, dae->n_c);
+  clear(size, dae->n_c);
+  for (int i = 0; i < dae->motion.n; i++) {
+    const pl_batch* b = &dae->motion.at[i];
     for (int e = 0; e < b->pattern->n_G; e++) {
       const pl_pattern_entry* g = &b->pattern->G[e];
       const double *x = coefficient(b, node_of(b, g->root), 0), *v = v_of_slot(b, g->col, 0);
       EACH(b->lanes) s[l] = x[l] * v[l];
       spread(r, s, 1, b->c + g->row * b->lanes, b->c_run[g->row], b->n);
     }
-    add_sizes(b, run->v_most, 1e-6 * run->v_size, size);
+    add_sizes(b, dae->v_most, 1e-6 * dae->v_size, size);
     for (int e = 0; e < b->pattern->n_gt; e++) {
       const pl_pattern_entry* g = &b->pattern->gt[e];
       const double* x = coefficient(b, node_of(b, g->root), 0);
@@ -423,19 +423,19 @@ static void gdot_of(pl_run* run, double* r, double* size) {
     }
   }
   // the gradient feels the rounding of coordinates as much as g itself does
-  for (int c = 0; c < run->n_c; c++) size[c] *= larger(run->argument[c], 1);
+  for (int c = 0; c < dae->n_c; c++) size[c] *= larger(dae->argument[c], 1);
 }
 
-static void row_sizes(pl_run* run) {
-  clear(run->row_most, run->n_c);
-  for (int i = 0; i < run->motion.n; i++) {
-    const pl_batch* b = &run->motion.at[i];
+static void row_sizes(pl_dae* dae) {
+  clear(dae->row_most, dae->n_c);
+  for (int i = 0; i < dae->motion.n; i++) {
+    const pl_batch* b = &dae->motion.at[i];
     for (int e = 0; e < b->pattern->n_G; e++) {
       const pl_pattern_entry* g = &b->pattern->G[e];
       const double* restrict x = coefficient(b, node_of(b, g->root), 0);
       const int* c = b->c + g->row * b->lanes;
       int c_run = b->c_run[g->row];
-      double* restrict most = run->row_most;
+      double* restrict most = dae->row_most;
       if (c_run >= 0) EACH(b->n) most[c_run + l] = larger(fabs(x[l]), most[c_run + l]);
       else
         for (int l = 0; l < b->n; l++) most[c[l]] = larger(fabs(x[l]), most[c[l]]);

@@ -18,7 +18,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "solve/solve_impl.h"
+#include "solve/event/event.h"
 
 enum { MOST = 160 };  // multipliers that are examined together
 // of a column of length 1: what is left of one that says nothing new
@@ -46,7 +46,7 @@ void pl_indeterminate_make(pl_run* run) {
   bool any = run->setup->n_frictions > 0;
   for (int c = 0; c < run->n_c; c++) any |= run->setup->constraints[c].side != 0;
   if (!any) return;
-  pl_indeterminate* s = run->indeterminate = PL_NEW(a, pl_indeterminate);
+  pl_indeterminate* s = run->event->indeterminate = PL_NEW(a, pl_indeterminate);
   size_t n = run->n_c < MOST ? (size_t)run->n_c : MOST, q = (size_t)run->n_q, rows = 2 * n + 1;
   s->place = PL_ARRAY(a, int, run->n_c + 1);
   s->row_of = PL_ARRAY(a, int, n + 1);
@@ -65,12 +65,12 @@ void pl_indeterminate_make(pl_run* run) {
 
 // ---------------------------------------------------------------------------------- who takes part
 static bool no_rate(const pl_run* run, int c) {
-  return fabs(run->r[c]) <= zero_rate * run->r_size[c]
-         && fabs(run->second[c]) <= zero_rate * run->second_size[c];
+  return fabs(run->dae.r[c]) <= zero_rate * run->dae.r_size[c]
+         && fabs(run->event->second[c]) <= zero_rate * run->event->second_size[c];
 }
 
 static bool rests_on(const pl_run* run, int r) {
-  if (run->friction[r].state == PL_FRICTION_STICK) return true;
+  if (run->dae.friction[r].state == PL_FRICTION_STICK) return true;
   for (int i = 0; i < run->setup->frictions[r].n_rows; i++)
     if (!no_rate(run, run->setup->frictions[r].row[i])) return false;
   return true;
@@ -85,14 +85,14 @@ static void find_multipliers(pl_run* run, pl_indeterminate* s) {
   for (int c = 0; c < run->n_c; c++) s->place[c] = -1;
   for (int c = 0; c < run->n_c; c++) {
     const pl_constraint_setup* constraint = &run->setup->constraints[c];
-    bool met = constraint->side != 0 && !constraint->velocity && run->met[c] && !run->active[c]
-               && no_rate(run, c);
+    bool met = constraint->side != 0 && !constraint->velocity && run->event->met[c]
+               && !run->dae.active[c] && no_rate(run, c);
     // equations that only define coordinates carry no force of their own
-    if (!constraint->slip && constraint->priority == 0 && (run->active[c] || met)) take(s, c);
+    if (!constraint->slip && constraint->priority == 0 && (run->dae.active[c] || met)) take(s, c);
   }
   for (int r = 0; r < run->setup->n_frictions; r++) {
     const pl_friction_setup* friction = &run->setup->frictions[r];
-    if (s->place[friction->constraint] < 0 || run->friction[r].state == PL_FRICTION_OFF
+    if (s->place[friction->constraint] < 0 || run->dae.friction[r].state == PL_FRICTION_OFF
         || !rests_on(run, r))
       continue;
     for (int i = 0; i < friction->n_rows; i++) take(s, friction->row[i]);
@@ -103,8 +103,8 @@ static void find_multipliers(pl_run* run, pl_indeterminate* s) {
 // Adds factor times the forces of constraint c to column k.
 static void add_forces(const pl_run* run, pl_indeterminate* s, int c, int k, double factor) {
   double* to = s->B + (size_t)k * (size_t)run->n_q;
-  for (int i = 0; i < run->motion.n; i++) {
-    const pl_batch* b = &run->motion.at[i];
+  for (int i = 0; i < run->dae.motion.n; i++) {
+    const pl_batch* b = &run->dae.motion.at[i];
     const pl_pattern* p = b->pattern;
     for (int l = 0; l < b->n; l++) {
       for (const pl_pattern_entry* e = p->G; e < p->G + p->n_G; e++)
@@ -126,12 +126,12 @@ static void make_columns(pl_run* run, pl_indeterminate* s) {
   // friction that slips goes with the force that presses
   for (int r = 0; r < run->setup->n_frictions; r++) {
     const pl_friction_setup* friction = &run->setup->frictions[r];
-    if (run->friction[r].state != PL_FRICTION_SLIP || s->place[friction->constraint] < 0
+    if (run->dae.friction[r].state != PL_FRICTION_SLIP || s->place[friction->constraint] < 0
         || s->place[friction->row[0]] >= 0)
       continue;
     for (int i = 0; i < friction->n_rows; i++)
       add_forces(run, s, friction->row[i], s->place[friction->constraint],
-                 pl_friction_kappa(run, r, i, run->C_series));
+                 pl_friction_kappa(&run->dae, r, i, run->dae.C_series));
   }
   for (int k = 0; k < s->n; k++) {
     double *x = s->B + (size_t)k * (size_t)n, sum = 0, most = pl_norm(x, n);
@@ -155,16 +155,16 @@ static void put(pl_indeterminate* s, double* row, int c, double x) {
 
 static void limit_friction(pl_run* run, pl_indeterminate* s, int r, bool pressed) {
   const pl_friction_setup* friction = &run->setup->frictions[r];
-  double limit = run->C_series[friction->limit], lambda = run->L[friction->constraint],
+  double limit = run->dae.C_series[friction->limit], lambda = run->dae.L[friction->constraint],
          most = limit * fabs(lambda);
-  double F = pl_friction_force(run, r, run->L),
+  double F = pl_friction_force(&run->dae, r, run->dae.L),
          press = lambda < 0
                          || (lambda == 0 && run->setup->constraints[friction->constraint].side < 0)
                      ? -1
                      : 1;
   if (friction->n_rows == 1) {
     for (int way = -1; way <= 1; way += 2) {
-      double m = way * run->L[friction->row[0]];
+      double m = way * run->dae.L[friction->row[0]];
       if (pressed && m < most * (1 - at_limit)) continue;
       double* row = new_row(s);
       put(s, row, friction->constraint, press * limit);
@@ -179,7 +179,7 @@ static void limit_friction(pl_run* run, pl_indeterminate* s, int r, bool pressed
   for (int i = 0; i < 3; i++) {
     double slope = 0;
     for (int j = 0; j < 3; j++)
-      slope += run->C_series[friction->metric[pair[i][j]]] * run->L[friction->row[j]];
+      slope += run->dae.C_series[friction->metric[pair[i][j]]] * run->dae.L[friction->row[j]];
     put(s, row, friction->row[i], -slope);
   }
 }
@@ -189,12 +189,12 @@ static void find_limits(pl_run* run, pl_indeterminate* s) {
   for (int k = 0; k < s->n; k++) {
     int c = s->row_of[k], side = run->setup->constraints[c].side;
     if (side == 0 || run->setup->constraints[c].slip) continue;
-    if (fabs(run->L[c]) <= pl_watch_force_noise(run, c)) put(s, new_row(s), c, side);
+    if (fabs(run->dae.L[c]) <= pl_watch_force_noise(run, c)) put(s, new_row(s), c, side);
   }
   for (int r = 0; r < run->setup->n_frictions; r++) {
     const pl_friction_setup* friction = &run->setup->frictions[r];
     if (s->place[friction->row[0]] < 0) continue;
-    bool pressed = fabs(run->L[friction->constraint])
+    bool pressed = fabs(run->dae.L[friction->constraint])
                    > pl_watch_force_noise(run, friction->constraint);
     limit_friction(run, s, r, pressed);
   }
@@ -321,31 +321,26 @@ static bool may_differ(pl_indeterminate* s, int i, int d) {
 }
 
 // ----------------------------------------------------------------------------------------- telling
-void pl_indeterminate_note(pl_run* run) {
-  for (int c = 0; c < run->n_c; c++)
-    run->ever_several[c] |= !run->unique[c] && run->setup->constraints[c].column != NULL;
-}
-
 void pl_indeterminate_report(pl_run* run) {
   size_t n = 0, at = 0;
   run->stats.undetermined = NULL;
   for (int c = 0; c < run->n_c; c++)
-    if (run->ever_several[c]) n += strlen(run->setup->constraints[c].column) + 2;
+    if (run->dae.ever_several[c]) n += strlen(run->setup->constraints[c].column) + 2;
   if (n == 0) return;
   char* text = PL_ARRAY(run->job->arena, char, n + 1);
   for (int c = 0; c < run->n_c; c++)
-    if (run->ever_several[c])
+    if (run->dae.ever_several[c])
       at += (size_t)snprintf(text + at, n + 1 - at, "%s%s", at > 0 ? ", " : "",
                              run->setup->constraints[c].column);
   run->stats.undetermined = text;
 }
 
 // --------------------------------------------------------------------------------------------- all
-// After a mode was chosen: run->met, r, second and the programs belong to the point.
+// After a mode was chosen: run->event->met, r, second and the programs belong to the point.
 void pl_indeterminate_mark(pl_run* run) {
-  pl_indeterminate* s = run->indeterminate;
+  pl_indeterminate* s = run->event->indeterminate;
   if (s == NULL) return;
-  for (int c = 0; c < run->n_c; c++) run->several[c] = false;
+  for (int c = 0; c < run->n_c; c++) run->dae.several[c] = false;
   find_multipliers(run, s);
   if (s->n == 0 || s->n == MOST) return;
   make_columns(run, s);
@@ -353,14 +348,15 @@ void pl_indeterminate_mark(pl_run* run) {
   int d = find_null_space(run, s);
   if (d == 0) return;
   reduce_limits(s, d);
-  for (int i = 0; i < s->n; i++) run->several[s->row_of[i]] = may_differ(s, i, d);
+  for (int i = 0; i < s->n; i++) run->dae.several[s->row_of[i]] = may_differ(s, i, d);
   // what slips goes with what presses
   for (int r = 0; r < run->setup->n_frictions; r++) {
     const pl_friction_setup* friction = &run->setup->frictions[r];
-    bool tied = run->friction[r].state == PL_FRICTION_SLIP && s->place[friction->row[0]] < 0;
+    bool tied = run->dae.friction[r].state == PL_FRICTION_SLIP && s->place[friction->row[0]] < 0;
     for (int i = 0; i < friction->n_rows && tied; i++)
-      run->several[friction->row[i]] = run->several[friction->constraint];
+      run->dae.several[friction->row[i]] = run->dae.several[friction->constraint];
   }
-  for (int c = 0; c < run->n_c; c++) run->unique[c] = run->unique[c] && !run->several[c];
-  pl_indeterminate_note(run);
+  for (int c = 0; c < run->n_c; c++)
+    run->dae.unique[c] = run->dae.unique[c] && !run->dae.several[c];
+  pl_active_set_note(&run->dae);
 }

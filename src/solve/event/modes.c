@@ -5,7 +5,7 @@
 // impact, if something arrives, then the mode of the motion that follows. Bounces that follow each
 // other ever faster end at the limit of their geometric sum: when one is so small that what it does
 // is below rounding, the rest of them is summed and the contact holds.
-#include "solve/stepper/stepper.h"
+#include "solve/event/event.h"
 
 #include <float.h>
 #include <math.h>
@@ -15,37 +15,39 @@ enum { MAX_CHANGES = 100 };  // of mode at one time
 
 // --------------------------------------------------------------------------------- entering a mode
 static void look_for_landings(pl_run* run) {
-  run->watch_landings = false;
+  run->dae.watch_landings = false;
   for (int c = 0; c < run->n_c; c++)
-    if (run->setup->constraints[c].side != 0 && !run->on[c] && !run->detached[c])
-      run->watch_landings = true;
+    if (run->setup->constraints[c].side != 0 && !run->dae.on[c] && !run->dae.detached[c])
+      run->dae.watch_landings = true;
 }
 
 // The point in the mode that now holds: projected, accelerations and multipliers known.
 pleuel_status pl_modes_enter(pl_run* run) {
-  pl_active_set_update(run);
+  pl_active_set_update(&run->dae);
   PL_TRY(pl_run_left_open(run));
   look_for_landings(run);
-  pl_projection p = pl_project(run, run->t, run->q, run->v);
-  if (!p.ok || !pl_point_enter(run)) return pl_run_undetermined(run);
-  pl_assemble_row_sizes(run);
-  pl_active_set_unique(run);
-  run->rank_mode = run->rank;
+  pl_projection p = pl_project(&run->dae, run->dae.t, run->dae.q, run->dae.v);
+  if (!p.ok || !pl_point_enter(&run->dae)) return pl_run_undetermined(run);
+  pl_assemble_row_sizes(&run->dae);
+  pl_active_set_unique(&run->dae);
+  run->dae.rank_mode = run->dae.rank;
   return PLEUEL_OK;
 }
 
 static pleuel_status count_change(pl_run* run) {
-  if (run->mode_change_t != run->t) run->mode_changes = 0;
-  run->mode_change_t = run->t;
-  if (++run->mode_changes <= MAX_CHANGES) return PLEUEL_OK;
-  return pl_fail(run->job, PLEUEL_NUMERICAL, "contacts change without end at t = %.9g s", run->t);
+  if (run->event->mode_change_t != run->dae.t) run->event->mode_changes = 0;
+  run->event->mode_change_t = run->dae.t;
+  if (++run->event->mode_changes <= MAX_CHANGES) return PLEUEL_OK;
+  return pl_fail(run->job, PLEUEL_NUMERICAL, "contacts change without end at t = %.9g s",
+                 run->dae.t);
 }
 
 // -------------------------------------------------------------------------------- before and after
 static void remember(pl_run* run) {
   run->observer->before(run);
-  memcpy(run->on_before, run->on, (size_t)run->n_c * sizeof(bool));
-  for (int r = 0; r < run->setup->n_frictions; r++) run->friction_before[r] = run->friction[r];
+  memcpy(run->event->on_before, run->dae.on, (size_t)run->n_c * sizeof(bool));
+  for (int r = 0; r < run->setup->n_frictions; r++)
+    run->event->friction_before[r] = run->dae.friction[r];
 }
 
 static bool is_contact(const pl_run* run, int c) {
@@ -55,16 +57,17 @@ static bool is_contact(const pl_run* run, int c) {
 // Contacts that take part: those that hold, and those that are met.
 static void find_near(pl_run* run) {
   static const double met = 1e-11;  // of the terms of g: what an event is located to
-  pl_point_evaluate(run, run->t, run->q, run->v);
-  pl_assemble_g(run, 0, run->g, run->g_size);
+  pl_point_evaluate(&run->dae, run->dae.t, run->dae.q, run->dae.v);
+  pl_assemble_g(&run->dae, 0, run->dae.g, run->dae.g_size);
   for (int c = 0; c < run->n_c; c++) {
     const pl_constraint_setup* constraint = &run->setup->constraints[c];
-    bool there = constraint->contact < 0 || run->on[constraint->contact];
-    run->near_by[c] = is_contact(run, c) && !run->detached[c] && there
-                      && (run->on[c] || constraint->side * run->g[c] <= met * run->g_size[c]);
-    run->met[c] = run->near_by[c];
+    bool there = constraint->contact < 0 || run->dae.on[constraint->contact];
+    run->dae.near_by[c] = is_contact(run, c) && !run->dae.detached[c] && there
+                          && (run->dae.on[c]
+                              || constraint->side * run->dae.g[c] <= met * run->dae.g_size[c]);
+    run->event->met[c] = run->dae.near_by[c];
   }
-  pl_maps_follow(run);
+  pl_maps_follow(&run->dae);
 }
 
 // ----------------------------------------------------------------------------------------- watches
@@ -89,35 +92,38 @@ static void forget(pl_run* run, pl_watch_kind kind, int index) {
 static int zeros_of(const pl_run* run, int c) {
   static const double zero = 1e-9;
   int side = run->setup->constraints[c].side;
-  double u = side * run->r[c], a = side * run->second[c], a_zero = zero * run->second_size[c];
+  double u = side * run->dae.r[c], a = side * run->event->second[c],
+         a_zero = zero * run->event->second_size[c];
   // what bounced, however little, or falls back at once has left with a velocity
-  if (run->jumped[c] || u > zero * run->r_size[c] || (u > 0 && a < -a_zero)) return 1;
+  if (run->event->jumped[c] || u > zero * run->dae.r_size[c] || (u > 0 && a < -a_zero)) return 1;
   return a > a_zero ? 2 : 3;
 }
 
 static bool jumps(const pl_run* run) {
   for (int i = 0; i < run->n_q; i++)
-    if (fabs(run->v[i] - run->save_v[i]) > 1e-12 * run->v_size) return true;
+    if (fabs(run->dae.v[i] - run->event->save_v[i]) > 1e-12 * run->dae.v_size) return true;
   return false;
 }
 
 // What is watched after a change: contacts that opened and closed, frictions in another state,
 // values that jumped.
 static void renew_watches(pl_run* run) {
-  pl_assemble_second(run, run->A, run->second, run->second_size);
+  pl_assemble_second(&run->dae, run->dae.A, run->event->second, run->event->second_size);
   for (int c = 0; c < run->n_c; c++) {
     if (!is_contact(run, c)) continue;
-    if (!run->on[c] && (run->met[c] || run->on_before[c])) set_landing(run, c, zeros_of(run, c));
-    if (run->on[c] && !run->on_before[c]) forget(run, PL_WATCH_RELEASE, c);
+    if (!run->dae.on[c] && (run->event->met[c] || run->event->on_before[c]))
+      set_landing(run, c, zeros_of(run, c));
+    if (run->dae.on[c] && !run->event->on_before[c]) forget(run, PL_WATCH_RELEASE, c);
   }
   for (int r = 0; r < run->setup->n_frictions; r++) {
-    const pl_friction_state *now = &run->friction[r], *before = &run->friction_before[r];
+    const pl_friction_state *now = &run->dae.friction[r], *before = &run->event->friction_before[r];
     if (now->state == before->state && now->way == before->way && now->press == before->press)
       continue;
     for (int k = PL_WATCH_STICK; k <= PL_WATCH_PRESS; k++) forget(run, (pl_watch_kind)k, r);
   }
-  for (int i = 0; i < run->n_watch && jumps(run); i++)
-    if (run->watch[i].kind == PL_WATCH_EVENT && run->watch[i].fresh == 0) run->watch[i].side = 0;
+  for (int i = 0; i < run->event->n_watch && jumps(run); i++)
+    if (run->event->watch[i].kind == PL_WATCH_EVENT && run->event->watch[i].fresh == 0)
+      run->event->watch[i].side = 0;
 }
 
 // --------------------------------------------------------------------------------- endless bounces
@@ -126,33 +132,33 @@ static const double tiny_bounce = 1e-8;
 
 // Some steppers know velocities to their tolerance only.
 static double tiny(const pl_run* run) {
-  return run->stepper->to_rounding ? tiny_bounce : fmax(tiny_bounce, 10 * run->tol);
+  return run->stepper->to_rounding ? tiny_bounce : fmax(tiny_bounce, 10 * run->control.tol);
 }
 
 // Time until the last of endless bounces, counted from now; NaN when they do not come to an end
 // here.
 static double rest_of_bounces(const pl_run* run, int c) {
   const pl_constraint_setup* constraint = &run->setup->constraints[c];
-  double u = constraint->side * run->r[c], fall = -constraint->side * run->second[c];
-  if (run->on[c] || !(fall > 0) || !(u > 0) || !(u <= tiny(run) * run->fastest[c]))
+  double u = constraint->side * run->dae.r[c], fall = -constraint->side * run->event->second[c];
+  if (run->dae.on[c] || !(fall > 0) || !(u > 0) || !(u <= tiny(run) * run->event->fastest[c]))
     return (double)NAN;
   double flight = 2 * u / fall, ratio = constraint->restitution;
   // the ratio of the last flights, which knows of moving walls and of other bodies
-  const double* t = run->bounce_t + 3 * (size_t)c;
-  double last = run->t - t[0], before = t[0] - t[1];
-  if (run->bounces[c] >= 3 && last > 0 && before > 0 && last < before) ratio = flight / last;
+  const double* t = run->event->bounce_t + 3 * (size_t)c;
+  double last = run->dae.t - t[0], before = t[0] - t[1];
+  if (run->event->bounces[c] >= 3 && last > 0 && before > 0 && last < before) ratio = flight / last;
   return ratio > 0 && ratio < 1 ? flight / (1 - ratio) : (double)NAN;
 }
 
 static void note_bounces(pl_run* run) {
   for (int c = 0; c < run->n_c; c++) {
-    if (!is_contact(run, c) || !run->jumped[c]) continue;
-    double* t = run->bounce_t + 3 * (size_t)c;
+    if (!is_contact(run, c) || !run->event->jumped[c]) continue;
+    double* t = run->event->bounce_t + 3 * (size_t)c;
     t[2] = t[1];
     t[1] = t[0];
-    t[0] = run->t;
-    run->bounces[c] = run->on[c] ? 0 : run->bounces[c] + 1;
-    run->fastest[c] = fmax(run->fastest[c], fabs(run->approach[c]));
+    t[0] = run->dae.t;
+    run->event->bounces[c] = run->dae.on[c] ? 0 : run->event->bounces[c] + 1;
+    run->event->fastest[c] = fmax(run->event->fastest[c], fabs(run->event->approach[c]));
   }
 }
 
@@ -161,10 +167,10 @@ static void note_bounces(pl_run* run) {
 static bool drop_tiny_bounces(pl_run* run) {
   bool any = false;
   for (int c = 0; c < run->n_c; c++) {
-    if (!is_contact(run, c) || !run->jumped[c] || run->on[c]) continue;
+    if (!is_contact(run, c) || !run->event->jumped[c] || run->dae.on[c]) continue;
     double rest = rest_of_bounces(run, c);
     if (isnan(rest)) continue;
-    run->settled_t[c] = run->t + rest;
+    run->event->settled_t[c] = run->dae.t + rest;
     any = true;
   }
   return any;
@@ -173,22 +179,22 @@ static bool drop_tiny_bounces(pl_run* run) {
 // ------------------------------------------------------------------------------------ what follows
 static bool any_fixed(pl_run* run) {
   unsigned any = 0;
-  for (int c = 0; c < run->n_c; c++) any |= run->fixed[c];
-  for (int r = 0; r < run->setup->n_frictions; r++) any |= run->friction_fixed[r];
+  for (int c = 0; c < run->n_c; c++) any |= run->event->fixed[c];
+  for (int r = 0; r < run->setup->n_frictions; r++) any |= run->event->friction_fixed[r];
   return any != 0;
 }
 
 static void clear_fixed(pl_run* run) {
-  for (int c = 0; c < run->n_c; c++) run->fixed[c] = 0;
-  for (int r = 0; r < run->setup->n_frictions; r++) run->friction_fixed[r] = 0;
+  for (int c = 0; c < run->n_c; c++) run->event->fixed[c] = 0;
+  for (int r = 0; r < run->setup->n_frictions; r++) run->event->friction_fixed[r] = 0;
 }
 
 static pleuel_status settle(pl_run* run) {
   pleuel_status how = pl_contacts_settle(run);
   if (how == PLEUEL_OK || !any_fixed(run)) return how;
   // what an event seemed to say does not fit: a root that only touched
-  memcpy(run->q, run->hold_q, (size_t)run->n_q * sizeof(double));
-  memcpy(run->v, run->hold_v, (size_t)run->n_q * sizeof(double));
+  memcpy(run->dae.q, run->event->hold_q, (size_t)run->n_q * sizeof(double));
+  memcpy(run->dae.v, run->event->hold_v, (size_t)run->n_q * sizeof(double));
   clear_fixed(run);
   run->job->message[0] = '\0';
   run->job->status = PLEUEL_OK;
@@ -199,11 +205,11 @@ static pleuel_status impact_and_settle(pl_run* run) {
   bool any;
   find_near(run);
   PL_TRY(pl_contacts_impact(run, &any));
-  run->factored = false;
+  run->dae.factored = false;
   PL_TRY(settle(run));
-  pl_assemble_second(run, run->A, run->second, run->second_size);
-  pl_batches_load_v(&run->motion, run->v, 0);
-  pl_contacts_rates(run, run->r);
+  pl_assemble_second(&run->dae, run->dae.A, run->event->second, run->event->second_size);
+  pl_batches_load_v(&run->dae.motion, run->dae.v, 0);
+  pl_contacts_rates(run, run->dae.r);
   return PLEUEL_OK;
 }
 
@@ -213,19 +219,19 @@ static pleuel_status impact_and_settle(pl_run* run) {
 static void size_velocities(pl_run* run) {
   static const double part_of_time = 1e-4, nothing = 1e-6;
   double most = 0, T = part_of_time * fabs(run->options.t_end - run->options.t_0);
-  for (int i = 0; i < run->n_q; i++) most = fmax(most, pl_free_size(run, i));
-  double way = run->q_size < nothing * most * T * T ? most * T * T : run->q_size;
-  bool rests = run->v_size <= 1e-12 * sqrt(most * way);
+  for (int i = 0; i < run->n_q; i++) most = fmax(most, pl_free_size(&run->dae, i));
+  double way = run->dae.q_size < nothing * most * T * T ? most * T * T : run->dae.q_size;
+  bool rests = run->dae.v_size <= 1e-12 * sqrt(most * way);
   if (run->setup->n_frictions == 0 && !rests) return;
-  run->q_size = fmax(run->q_size, way);
-  if (rests) run->energy_size = fmax(run->energy_size, run->force_size * way);
+  run->dae.q_size = fmax(run->dae.q_size, way);
+  if (rests) run->control.energy_size = fmax(run->control.energy_size, run->dae.force_size * way);
   for (int i = 0; i < run->n_q; i++) {
-    run->v_most[i] = fmax(run->v_most[i], 1e-3 * sqrt(pl_free_size(run, i) * way));
-    run->v_size = fmax(run->v_size, run->v_most[i]);
-    if (way > run->q_most[i] && pl_free_size(run, i) > 0 && rests)
-      run->q_most[i] = fmax(run->q_most[i], nothing * way);
+    run->dae.v_most[i] = fmax(run->dae.v_most[i], 1e-3 * sqrt(pl_free_size(&run->dae, i) * way));
+    run->dae.v_size = fmax(run->dae.v_size, run->dae.v_most[i]);
+    if (way > run->dae.q_most[i] && pl_free_size(&run->dae, i) > 0 && rests)
+      run->dae.q_most[i] = fmax(run->dae.q_most[i], nothing * way);
   }
-  pl_sizes_keep(run);
+  pl_sizes_keep(&run->dae);
 }
 
 // A system that stays where it is, because nothing is free or because forces balance: rounding is
@@ -233,38 +239,37 @@ static void size_velocities(pl_run* run) {
 void pl_modes_size_rest(pl_run* run) {
   static const double rounding = 1e-12;
   double most = 0;
-  for (int i = 0; i < run->n_q; i++) most = fmax(most, pl_free_size(run, i));
-  if (run->v_size == 0 && pl_norm(run->A, run->n_q) == 0) return;
-  if (pl_norm(run->A, run->n_q) <= rounding * most) size_velocities(run);
+  for (int i = 0; i < run->n_q; i++) most = fmax(most, pl_free_size(&run->dae, i));
+  if (run->dae.v_size == 0 && pl_norm(run->dae.A, run->n_q) == 0) return;
+  if (pl_norm(run->dae.A, run->n_q) <= rounding * most) size_velocities(run);
 }
 
 // Whether velocities or forces are others than before, so that a stiff part is set going.
 static bool is_shaken(const pl_run* run) {
   static const double same = 1e-3;
-  double most = pl_norm(run->A, run->n_q) + pl_norm(run->save_a, run->n_q);
+  double most = pl_norm(run->dae.A, run->n_q) + pl_norm(run->event->save_a, run->n_q);
   for (int i = 0; i < run->n_q; i++)
-    if (fabs(run->A[i] - run->save_a[i]) > same * most) return true;
+    if (fabs(run->dae.A[i] - run->event->save_a[i]) > same * most) return true;
   return jumps(run);
 }
 
 // The motion after this moment, from q and v as they are.
 static pleuel_status follow(pl_run* run) {
-  for (int c = 0; c < run->n_c; c++) run->several[c] = false;
-  memcpy(run->jump_v, run->v, (size_t)run->n_q * sizeof(double));
-  memcpy(run->jump_q, run->q, (size_t)run->n_q * sizeof(double));
+  for (int c = 0; c < run->n_c; c++) run->dae.several[c] = false;
+  memcpy(run->event->jump_v, run->dae.v, (size_t)run->n_q * sizeof(double));
+  memcpy(run->event->jump_q, run->dae.q, (size_t)run->n_q * sizeof(double));
   PL_TRY(impact_and_settle(run));
   note_bounces(run);
   if (drop_tiny_bounces(run)) {
-    memcpy(run->v, run->jump_v, (size_t)run->n_q * sizeof(double));
-    memcpy(run->q, run->jump_q, (size_t)run->n_q * sizeof(double));
+    memcpy(run->dae.v, run->event->jump_v, (size_t)run->n_q * sizeof(double));
+    memcpy(run->dae.q, run->event->jump_q, (size_t)run->n_q * sizeof(double));
     PL_TRY(impact_and_settle(run));
   }
   renew_watches(run);
   pl_indeterminate_mark(run);
   size_velocities(run);
   clear_fixed(run);
-  for (int i = 0; i < run->n_steppers; i++)
-    if (run->steppers[i]->changed) run->steppers[i]->changed(run, is_shaken(run));
+  pl_steppers_changed(run, is_shaken(run));
   return PLEUEL_OK;
 }
 
@@ -278,28 +283,28 @@ static pl_event_kind closed(const pl_constraint_setup* constraint, bool impact) 
 
 // Contact after endless bounces: told at the limit of their times, with the state there.
 static pleuel_status report_settled(pl_run* run, int c) {
-  double t = run->settled_t[c], dt = t - run->t;
-  long bounces = run->bounces[c];
-  run->settled_t[c] = (double)NAN;
-  run->bounces[c] = 0;
+  double t = run->event->settled_t[c], dt = t - run->dae.t;
+  long bounces = run->event->bounces[c];
+  run->event->settled_t[c] = (double)NAN;
+  run->event->bounces[c] = 0;
   return run->observer->settled(run, closed(&run->setup->constraints[c], false), c, dt, bounces);
 }
 
 static pleuel_status report_contact(pl_run* run, int c, bool grazed, bool at_start) {
   const pl_constraint_setup* constraint = &run->setup->constraints[c];
-  if (isfinite(run->settled_t[c]) && run->on[c]) return report_settled(run, c);
-  run->settled_t[c] = (double)NAN;
-  if (run->jumped[c])
-    return run->observer->event(run, closed(constraint, true), c, run->impulse[c], at_start);
-  if (run->on[c] && !run->on_before[c])
+  if (isfinite(run->event->settled_t[c]) && run->dae.on[c]) return report_settled(run, c);
+  run->event->settled_t[c] = (double)NAN;
+  if (run->event->jumped[c])
+    return run->observer->event(run, closed(constraint, true), c, run->event->impulse[c], at_start);
+  if (run->dae.on[c] && !run->event->on_before[c])
     return run->observer->event(run, closed(constraint, false), c, 0, at_start);
-  if (run->on_before[c] && !run->on[c] && !run->detached[c])
+  if (run->event->on_before[c] && !run->dae.on[c] && !run->dae.detached[c])
     return run->observer->event(run, opened(constraint), c, 0, at_start);
   return grazed ? run->observer->event(run, closed(constraint, false), c, 0, at_start) : PLEUEL_OK;
 }
 
 static pleuel_status report_friction(pl_run* run, int r) {
-  const pl_friction_state *now = &run->friction[r], *before = &run->friction_before[r];
+  const pl_friction_state *now = &run->dae.friction[r], *before = &run->event->friction_before[r];
   int c = run->setup->frictions[r].constraint;
   if (before->state == PL_FRICTION_OFF || now->state == PL_FRICTION_OFF) return PLEUEL_OK;
   if (now->state == PL_FRICTION_STICK)
@@ -311,9 +316,9 @@ static pleuel_status report_friction(pl_run* run, int r) {
 }
 
 static bool is_grazed(const pl_run* run, int c) {
-  for (int i = 0; i < run->n_watch; i++)
-    if (run->hit[i] && run->touch[i] && run->watch[i].kind == PL_WATCH_LANDING
-        && run->watch[i].index == c)
+  for (int i = 0; i < run->event->n_watch; i++)
+    if (run->event->hit[i] && run->event->touch[i] && run->event->watch[i].kind == PL_WATCH_LANDING
+        && run->event->watch[i].index == c)
       return true;
   return false;
 }
@@ -328,7 +333,7 @@ static pleuel_status report_changes(pl_run* run, bool at_start) {
 
 // --------------------------------------------------------------------------------------- the start
 static void no_hits(pl_run* run) {
-  for (int i = 0; i < run->n_watch; i++) run->hit[i] = run->touch[i] = false;
+  for (int i = 0; i < run->event->n_watch; i++) run->event->hit[i] = run->event->touch[i] = false;
 }
 
 pleuel_status pl_modes_check(pl_run* run, bool at_start) {
@@ -342,48 +347,49 @@ pleuel_status pl_modes_check(pl_run* run, bool at_start) {
   return report_changes(run, at_start);
 }
 
-// ------------------------------------------------------------------------------------------- actions
+// ----------------------------------------------------------------------------------------- actions
 static pleuel_status attach(pl_run* run, int c) {
-  run->detached[c] = false;
-  if (run->on[c]) return PLEUEL_OK;
-  pl_point_evaluate(run, run->t, run->q, run->v);
-  pl_assemble_g(run, 0, run->g, run->g_size);
+  run->dae.detached[c] = false;
+  if (run->dae.on[c]) return PLEUEL_OK;
+  pl_point_evaluate(&run->dae, run->dae.t, run->dae.q, run->dae.v);
+  pl_assemble_g(&run->dae, 0, run->dae.g, run->dae.g_size);
   const pl_constraint_setup* constraint = &run->setup->constraints[c];
-  bool met = constraint->velocity || fabs(run->g[c]) <= 1e-9 * run->g_size[c];
+  bool met = constraint->velocity || fabs(run->dae.g[c]) <= 1e-9 * run->dae.g_size[c];
   // a one-sided one that is open waits for its landing
-  if (constraint->side != 0 && !met && constraint->side * run->g[c] > 0) return PLEUEL_OK;
+  if (constraint->side != 0 && !met && constraint->side * run->dae.g[c] > 0) return PLEUEL_OK;
   if (!met)
     return pl_fail(run->job, PLEUEL_CONTRADICTION,
                    "%s cannot be attached at t = %.9g s: it is off by %.3g", constraint->name,
-                   run->t, run->g[c]);
-  run->on[c] = constraint->side == 0;  // whether a one-sided one holds is decided with the others
+                   run->dae.t, run->dae.g[c]);
+  run->dae.on[c] = constraint->side
+                   == 0;  // whether a one-sided one holds is decided with the others
   return PLEUEL_OK;
 }
 
 static double watched_value(pl_run* run, int i) {
   pl_batches* b = &run->watched;
-  pl_batches_time(b, run->t);
-  pl_batches_load_q(b, run->save_q, 0);
-  pl_batches_load_v(b, run->save_v, 0);
-  pl_batches_load_a(b, run->save_a, 0);
-  pl_batches_load_lambda(b, run->save_l, 0);
+  pl_batches_time(b, run->dae.t);
+  pl_batches_load_q(b, run->event->save_q, 0);
+  pl_batches_load_v(b, run->event->save_v, 0);
+  pl_batches_load_a(b, run->event->save_a, 0);
+  pl_batches_load_lambda(b, run->event->save_l, 0);
   for (int level = PL_LEVEL_POSITION; level < PL_N_LEVELS; level++)
     pl_batches_sweep(b, (pl_tape_level)level, 0, true);
-  pl_batches_outputs(b, run->W_coef, run->setup->n_watched, 0);
-  return run->W_coef[i];
+  pl_batches_outputs(b, run->event->W_coef, run->setup->n_watched, 0);
+  return run->event->W_coef[i];
 }
 
 static pleuel_status do_action(pl_run* run, const pl_event_action* d) {
   switch (d->kind) {
-    case PL_ACTION_STOP: run->stopped = true; break;
+    case PL_ACTION_STOP: run->control.stopped = true; break;
     case PL_ACTION_RECORD: break;
     case PL_ACTION_RELEASE:
-      run->detached[d->target] = true;
-      run->on[d->target] = false;
+      run->dae.detached[d->target] = true;
+      run->dae.on[d->target] = false;
       break;
     case PL_ACTION_ATTACH: return attach(run, d->target);
-    case PL_ACTION_SET_Q: run->q[d->target] = watched_value(run, d->value); break;
-    case PL_ACTION_SET_V: run->v[d->target] = watched_value(run, d->value); break;
+    case PL_ACTION_SET_Q: run->dae.q[d->target] = watched_value(run, d->value); break;
+    case PL_ACTION_SET_V: run->dae.v[d->target] = watched_value(run, d->value); break;
   }
   return PLEUEL_OK;
 }
@@ -395,13 +401,14 @@ static pleuel_status count_repeats(pl_run* run, int e) {
   enum { FEW = 8 };
   // times shorter than this part of the longest: heights are 1e-12 of the first
   static const double close = 1e-6;
-  pl_repeat *r = &run->repeat[e], before = *r;
-  double gap = fabs(run->t - before.t);
+  pl_repeat *r = &run->event->repeat[e], before = *r;
+  double gap = fabs(run->dae.t - before.t);
   bool faster = before.n > 0 && (before.n == 1 || gap < before.gap);
-  *r = (pl_repeat){run->t, gap, faster ? fmax(before.widest, gap) : gap, faster ? before.n + 1 : 1};
+  *r = (pl_repeat){run->dae.t, gap, faster ? fmax(before.widest, gap) : gap,
+                   faster ? before.n + 1 : 1};
   if (r->n < FEW || !(gap < close * r->widest)) return PLEUEL_OK;
   double ratio = gap / before.gap,
-         end = run->t + copysign(gap * ratio / (1 - ratio), pl_run_left(run));
+         end = run->dae.t + copysign(gap * ratio / (1 - ratio), pl_run_left(run));
   return pl_fail(run->job, PLEUEL_NUMERICAL,
                  "%s happens without end: %ld times in ever shorter time, the last after %.2g s; "
                  "they come to an end at "
@@ -421,7 +428,7 @@ static pleuel_status happen(pl_run* run, int e, bool touches) {
                && event->actions[i].kind != PL_ACTION_RECORD;
   }
   if (changes) {
-    run->factored = false;
+    run->dae.factored = false;
     pl_watch_forget(run);
     PL_TRY(follow(run));
   }
@@ -436,10 +443,10 @@ static pleuel_status happen(pl_run* run, int e, bool touches) {
 // ------------------------------------------------------------------------------------- all of them
 // Whether the motion is another one afterwards: then the row is written twice, before and after.
 static bool changes_motion(const pl_run* run) {
-  for (int i = 0; i < run->n_watch; i++) {
-    if (!run->hit[i]) continue;
-    if (run->watch[i].kind != PL_WATCH_EVENT) return true;
-    const pl_event_setup* e = &run->setup->events[run->watch[i].index];
+  for (int i = 0; i < run->event->n_watch; i++) {
+    if (!run->event->hit[i]) continue;
+    if (run->event->watch[i].kind != PL_WATCH_EVENT) return true;
+    const pl_event_setup* e = &run->setup->events[run->event->watch[i].index];
     for (int d = 0; d < e->n_actions; d++)
       if (e->actions[d].kind != PL_ACTION_STOP && e->actions[d].kind != PL_ACTION_RECORD)
         return true;
@@ -457,44 +464,47 @@ static bool is_at_rest(pl_run* run, int r) {
   static const double at_rest = 1e-9;
   double d[3];
   if (run->setup->frictions[r].n_rows == 1) return true;
-  pl_batches_load_v(&run->motion, run->v, 0);
-  pl_contacts_rates(run, run->r);
-  return pl_friction_speed(run, r, run->r, d) <= at_rest * run->v_size;
+  pl_batches_load_v(&run->dae.motion, run->dae.v, 0);
+  pl_contacts_rates(run, run->dae.r);
+  return pl_friction_speed(&run->dae, r, run->dae.r, d) <= at_rest * run->dae.v_size;
 }
 
 // What a hit leaves open.
 static void fix_choices(pl_run* run, int i) {
-  const pl_watch* w = &run->watch[i];
+  const pl_watch* w = &run->event->watch[i];
   const pl_friction_state* now = w->kind >= PL_WATCH_STICK && w->kind <= PL_WATCH_PRESS
-                                     ? &run->friction[w->index]
+                                     ? &run->dae.friction[w->index]
                                      : NULL;
   const pl_friction_setup* friction = now ? &run->setup->frictions[w->index] : NULL;
   switch (w->kind) {
     case PL_WATCH_RELEASE:
-      if (!run->touch[i]) run->fixed[w->index] = 1u << PL_CHOICE_OPEN;
+      if (!run->event->touch[i]) run->event->fixed[w->index] = 1u << PL_CHOICE_OPEN;
       break;
     case PL_WATCH_LANDING:
       // it would sink at once
-      if (run->root[i] == 0 && w->fresh > 1) run->fixed[w->index] = 1u << PL_CHOICE_CLOSED;
+      if (run->event->root[i] == 0 && w->fresh > 1)
+        run->event->fixed[w->index] = 1u << PL_CHOICE_CLOSED;
       break;
     case PL_WATCH_STICK:
       if (!is_at_rest(run, w->index)) {
-        run->watch[i].fresh = 2;  // it only came near
+        run->event->watch[i].fresh = 2;  // it only came near
         break;
       }
-      run->friction_fixed[w->index] |= PL_FRICTION_AT_REST;
-      if (run->root[i] == 0 && w->fresh > 0 && friction->n_rows == 1)
-        run->friction_fixed[w->index] |= 0xffu
-                                         & ~(slips(now->way, false, 1) | slips(now->way, true, 1));
+      run->event->friction_fixed[w->index] |= PL_FRICTION_AT_REST;
+      if (run->event->root[i] == 0 && w->fresh > 0 && friction->n_rows == 1)
+        run->event->friction_fixed[w->index] |=
+            0xffu & ~(slips(now->way, false, 1) | slips(now->way, true, 1));
       break;
     case PL_WATCH_SLIP: {
       // against the force that held it
-      int way = friction->n_rows == 1 && run->L[friction->row[0]] > 0 ? -1 : 1;
-      run->friction_fixed[w->index] |= PL_FRICTION_AT_REST | slips(way, false, 1)
-                                       | slips(way, true, 1);
+      int way = friction->n_rows == 1 && run->dae.L[friction->row[0]] > 0 ? -1 : 1;
+      run->event->friction_fixed[w->index] |= PL_FRICTION_AT_REST | slips(way, false, 1)
+                                              | slips(way, true, 1);
       break;
     }
-    case PL_WATCH_PRESS: run->friction_fixed[w->index] |= slips(now->way, true, now->press); break;
+    case PL_WATCH_PRESS:
+      run->event->friction_fixed[w->index] |= slips(now->way, true, now->press);
+      break;
     case PL_WATCH_EVENT: break;
   }
 }
@@ -503,8 +513,8 @@ pleuel_status pl_modes_handle(pl_run* run) {
   bool changes = changes_motion(run), contacts = false;
   if (changes) PL_TRY(run->observer->point(run, PL_ROW_BEFORE));
   clear_fixed(run);
-  for (int i = 0; i < run->n_watch; i++) {
-    if (!run->hit[i] || run->watch[i].kind == PL_WATCH_EVENT) continue;
+  for (int i = 0; i < run->event->n_watch; i++) {
+    if (!run->event->hit[i] || run->event->watch[i].kind == PL_WATCH_EVENT) continue;
     fix_choices(run, i);
     contacts = true;
   }
@@ -514,10 +524,10 @@ pleuel_status pl_modes_handle(pl_run* run) {
     PL_TRY(follow(run));
     PL_TRY(report_changes(run, false));
   }
-  for (int i = 0; i < run->n_watch; i++) {
-    if (!run->hit[i] || run->watch[i].kind != PL_WATCH_EVENT) continue;
+  for (int i = 0; i < run->event->n_watch; i++) {
+    if (!run->event->hit[i] || run->event->watch[i].kind != PL_WATCH_EVENT) continue;
     PL_TRY(count_change(run));
-    PL_TRY(happen(run, run->watch[i].index, run->touch[i]));
+    PL_TRY(happen(run, run->event->watch[i].index, run->event->touch[i]));
   }
   run->observer->energy(run, true);
   return run->observer->point(run, PL_ROW_AFTER);

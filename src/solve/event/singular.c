@@ -9,7 +9,7 @@
 // correction, if two orders agree and if the energy, where it is conserved, is the same; it is
 // recorded as an event. Otherwise the run stops and says where.
 // See theory (15.2).
-#include "solve/solve_impl.h"
+#include "solve/event/event.h"
 
 #include <float.h>
 #include <math.h>
@@ -29,26 +29,29 @@ enum { LEAP_LEAST = 3, LEAP_MOST = 10 };
 // How far ahead the smallest pivot, continued linearly from where it was twice as large, is zero; 0
 // when that says nothing.
 static double reach_of_singular(const pl_run* run) {
-  double way = run->t - run->fade[0].t, slope = (run->smallest_here - run->fade[0].smallest) / way;
-  if (!isfinite(slope) || run->fade[0].smallest == 0) return 0;
-  double reach = -run->smallest_here / slope;
+  double way = run->dae.t - run->event->fade[0].t,
+         slope = (run->event->smallest_here - run->event->fade[0].smallest) / way;
+  if (!isfinite(slope) || run->event->fade[0].smallest == 0) return 0;
+  double reach = -run->event->smallest_here / slope;
   return isfinite(reach) && reach * way > 0 && fabs(reach) < 4 * fabs(way) ? reach : 0;
 }
 
 // Keeps two earlier points, each with at most 0.7 of the pivot of the one before.
 void pl_singular_watch(pl_run* run) {
-  run->smallest_here = run->smallest;
-  if (run->smallest_here >= 0.3 * run->best) run->h_regular = run->h_series;
-  if (run->smallest_here <= 0.7 * run->fade[1].smallest) run->fade[0] = run->fade[1];
-  else if (run->smallest_here < run->fade[1].smallest) return;
-  else run->fade[0] = (pl_fade){0, 0};
-  run->fade[1] = (pl_fade){run->t, run->smallest_here};
+  run->event->smallest_here = run->dae.smallest;
+  if (run->event->smallest_here >= 0.3 * run->dae.best)
+    run->event->h_regular = run->control.h_series;
+  if (run->event->smallest_here <= 0.7 * run->event->fade[1].smallest)
+    run->event->fade[0] = run->event->fade[1];
+  else if (run->event->smallest_here < run->event->fade[1].smallest) return;
+  else run->event->fade[0] = (pl_fade){0, 0};
+  run->event->fade[1] = (pl_fade){run->dae.t, run->event->smallest_here};
 }
 
 bool pl_is_singular(const pl_run* run) {
-  if (run->rank_mode >= 0 && run->rank < run->rank_mode) return true;
-  return run->best > 0 && run->smallest_here < faded * run->best
-         && run->smallest_here < run->smallest_before;
+  if (run->dae.rank_mode >= 0 && run->dae.rank < run->dae.rank_mode) return true;
+  return run->dae.best > 0 && run->event->smallest_here < faded * run->dae.best
+         && run->event->smallest_here < run->dae.smallest_before;
 }
 
 // ---------------------------------------------------------------------------------- stopping there
@@ -58,7 +61,7 @@ static void place_in_words(const pl_run* run, double reach, char* where, size_t 
   for (int i = 0; i < run->n_q && n < size - 64; i++) {
     if (run->setup->coordinates[i].hidden) continue;
     int w = snprintf(where + n, size - n, "%s%s = %.4g", n ? ", " : "",
-                     run->setup->coordinates[i].name, run->q[i] + reach * run->v[i]);
+                     run->setup->coordinates[i].name, run->dae.q[i] + reach * run->dae.v[i]);
     if (w < 0 || (size_t)w >= size - n) break;
     n += (size_t)w;
   }
@@ -66,9 +69,9 @@ static void place_in_words(const pl_run* run, double reach, char* where, size_t 
 
 // A coordinate that neither a mass nor a constraint in force accelerates; -1 none.
 static int without_inertia(const pl_run* run) {
-  const pl_kkt* k = &run->kkt;
+  const pl_kkt* k = &run->dae.kkt;
   for (int i = 0; i < run->n_q; i++)
-    if (run->has_equation[i] != 0 && k->value[k->diagonal[i]] == 0) return i;
+    if (run->dae.has_equation[i] != 0 && k->value[k->diagonal[i]] == 0) return i;
   return -1;
 }
 
@@ -80,42 +83,42 @@ static bool all_finite(const double* x, int n) {
 
 // Whether masses, gradients and forces have numbers at what was evaluated last.
 static bool has_numbers(pl_run* run) {
-  if (!all_finite(run->kkt.value, run->kkt.n_values)) return false;
-  pl_batches_sweep(&run->motion, PL_LEVEL_POSITION, 1, true);
-  pl_assemble_rhs(run, 0, run->rhs);
-  return all_finite(run->rhs, run->n_q);
+  if (!all_finite(run->dae.kkt.value, run->dae.kkt.n_values)) return false;
+  pl_batches_sweep(&run->dae.motion, PL_LEVEL_POSITION, 1, true);
+  pl_assemble_rhs(&run->dae, 0, run->dae.rhs);
+  return all_finite(run->dae.rhs, run->n_q);
 }
 
 pleuel_status pl_run_undetermined(pl_run* run) {
   char where[320];
   place_in_words(run, 0, where, sizeof where);
-  if (run->started && run->options.precision != PL_PRECISION_DOUBLE) {
-    pl_point_evaluate(run, run->t, run->q, run->v);
-    pl_assemble_matrix(run, false);
+  if (run->control.started && run->options.precision != PL_PRECISION_DOUBLE) {
+    pl_point_evaluate(&run->dae, run->dae.t, run->dae.q, run->dae.v);
+    pl_assemble_matrix(&run->dae, false);
   }
   if (!has_numbers(run))
     return pl_fail(run->job, PLEUEL_NUMERICAL,
                    "forces, masses or constraints have no number at t = %.9g s (%s): a root, a "
                    "logarithm or a quotient there",
-                   run->t, where);
+                   run->dae.t, where);
   int idle = without_inertia(run);
-  if (run->rank == run->n_active && idle >= 0)
+  if (run->dae.rank == run->dae.n_active && idle >= 0)
     return pl_fail(run->job, PLEUEL_SINGULAR,
                    "%s carries no mass, and no constraint moves it: its equation contains no "
                    "acceleration, and what forces say "
                    "about its place is not simulated",
                    run->setup->coordinates[idle].name);
-  if (run->rank == run->n_active && !run->started)
+  if (run->dae.rank == run->dae.n_active && !run->control.started)
     return pl_fail(run->job, PLEUEL_SINGULAR,
                    "the mass matrix is singular at t = %.9g s (%s): the equations of motion do not "
                    "determine all accelerations",
-                   run->t, where);
+                   run->dae.t, where);
   return pl_run_singular(run);
 }
 
 static bool in_constraint(const pl_run* run, int q) {
-  for (int i = 0; i < run->motion.n; i++) {
-    const pl_batch* b = &run->motion.at[i];
+  for (int i = 0; i < run->dae.motion.n; i++) {
+    const pl_batch* b = &run->dae.motion.at[i];
     for (int l = 0; l < b->n; l++) {
       for (int e = 0; e < b->pattern->n_G; e++)
         if (b->q[b->pattern->G[e].col * b->lanes + l] == q) return true;
@@ -126,7 +129,8 @@ static bool in_constraint(const pl_run* run, int q) {
 
 pleuel_status pl_run_left_open(pl_run* run) {
   for (int i = 0; i < run->n_q; i++) {
-    if (run->has_equation[i] != 0 || !run->setup->coordinates[i].in_load || in_constraint(run, i))
+    if (run->dae.has_equation[i] != 0 || !run->setup->coordinates[i].in_load
+        || in_constraint(run, i))
       continue;
     return pl_fail(run->job, PLEUEL_SINGULAR,
                    "the equations of motion do not contain %s: nothing determines how it moves",
@@ -139,10 +143,10 @@ pleuel_status pl_run_singular(pl_run* run) {
   double reach = reach_of_singular(run);
   char where[320];
   place_in_words(run, reach, where, sizeof where);
-  run->stats.t_singular = run->t + reach;
+  run->stats.t_singular = run->dae.t + reach;
   run->observer->before(run);
-  if (run->started) PL_TRY(run->observer->event(run, PL_EV_SINGULAR, -1, 0, false));
-  if (run->started && run->options.precision != PL_PRECISION_DOUBLE)
+  if (run->control.started) PL_TRY(run->observer->event(run, PL_EV_SINGULAR, -1, 0, false));
+  if (run->control.started && run->options.precision != PL_PRECISION_DOUBLE)
     return pl_fail(run->job, PLEUEL_SINGULAR,
                    "singular position at t = %.9g s (%s): the constraints lose rank there; "
                    "precision double leaps over it where the motion goes on smoothly",
@@ -154,34 +158,35 @@ pleuel_status pl_run_singular(pl_run* run) {
 }
 
 pleuel_status pl_run_too_small(pl_run* run, double h) {
-  if (run->best > 0 && run->smallest_here < 1e-2 * run->best) return pl_run_singular(run);
-  if (run->n_slipping > 0)
+  if (run->dae.best > 0 && run->event->smallest_here < 1e-2 * run->dae.best)
+    return pl_run_singular(run);
+  if (run->dae.n_slipping > 0)
     return pl_fail(run->job, PLEUEL_NUMERICAL,
                    "no step is short enough at t = %.9g s (%.3g s tried): forces of contact grow "
                    "without bound while surfaces "
                    "slip, as on the way into Painlevé's paradox",
-                   run->t, h);
-  double way = pl_norm(run->q, run->n_q), speed = pl_norm(run->v, run->n_q),
-         most = pl_norm(run->A, run->n_q);
+                   run->dae.t, h);
+  double way = pl_norm(run->dae.q, run->n_q), speed = pl_norm(run->dae.v, run->n_q),
+         most = pl_norm(run->dae.A, run->n_q);
   // x = c/(t_0 - t)^n: what is left of the time is n x/v, and less than n v/a
-  if (speed * run->h_series > 0.02 * way && most * run->h_series > 0.02 * speed
-      && speed > 1e6 * fabs(way) / fabs(run->t - run->options.t_0))
+  if (speed * run->control.h_series > 0.02 * way && most * run->control.h_series > 0.02 * speed
+      && speed > 1e6 * fabs(way) / fabs(run->dae.t - run->options.t_0))
     return pl_fail(
         run->job, PLEUEL_NUMERICAL,
         "the motion runs away: positions and velocities grow without bound as t comes to %.9g s",
-        run->t);
+        run->dae.t);
   return pl_fail(run->job, PLEUEL_NUMERICAL,
                  "no step is short enough at t = %.9g s (%.3g s tried): the motion leaves the "
                  "domain of a function, "
                  "or a force or the constraints jump there",
-                 run->t, h);
+                 run->dae.t, h);
 }
 
 // --------------------------------------------------------------------------------- leaping over it
 // The order at which what is cut off over this length is rounding; 0 when that takes too many
 // orders.
 static int order_of_leap(const pl_run* run, double length) {
-  double radius = run->h_regular * exp(2), ratio = fabs(length) / radius;
+  double radius = run->event->h_regular * exp(2), ratio = fabs(length) / radius;
   if (!(ratio > 0 && ratio < 0.1)) return 0;
   int order = (int)ceil(log(1e-15) / log(ratio));
   if (order < LEAP_LEAST) order = LEAP_LEAST;
@@ -196,20 +201,22 @@ static bool same(const double* a, const double* b, int n, double limit) {
 
 // The state at the far side, from two orders.
 static bool orders_agree(pl_run* run, double length, int order) {
-  run->use = order - 1;
-  pl_series_at(run, length, run->row_q, run->row_v);
-  run->use = order;
-  pl_series_at(run, length, run->trial_q, run->trial_v);
-  return same(run->row_q, run->trial_q, run->n_q, off_branch * run->q_size)
-         && same(run->row_v, run->trial_v, run->n_q, 100 * off_branch * run->v_size);
+  run->dae.use = order - 1;
+  pl_series_at(&run->dae, length, run->control.row_q, run->control.row_v);
+  run->dae.use = order;
+  pl_series_at(&run->dae, length, run->control.trial_q, run->control.trial_v);
+  return same(run->control.row_q, run->control.trial_q, run->n_q, off_branch * run->dae.q_size)
+         && same(run->control.row_v, run->control.trial_v, run->n_q,
+                 100 * off_branch * run->dae.v_size);
 }
 
 // The smallest pivot on the way, from the series alone; NaN when it is too much work.
 static double pivot_at(pl_run* run, double dt) {
   double smallest;
-  pl_series_at(run, dt, run->row_q, run->row_v);
-  pl_point_evaluate(run, run->t + run->t_low + dt, run->row_q, run->row_v);
-  return pl_active_set_pivot(run, &smallest) ? smallest : (double)NAN;
+  pl_series_at(&run->dae, dt, run->control.row_q, run->control.row_v);
+  pl_point_evaluate(&run->dae, run->dae.t + run->dae.t_low + dt, run->control.row_q,
+                    run->control.row_v);
+  return pl_active_set_pivot(&run->dae, &smallest) ? smallest : (double)NAN;
 }
 
 // The place from a guess: the pivot is linear on both sides of it. First from its slope on this
@@ -232,32 +239,35 @@ static double find_place(pl_run* run, double guess) {
 static bool energy_agrees(pl_run* run) {
   const pl_setup* s = run->setup;
   if (!s->energy_conserved || s->kinetic < 0 || s->potential < 0) return true;
-  double E = run->observer->energy_of(run, run->trial_q, run->trial_v);
-  return fabs(E - run->energy_base)
-         <= run->stats.energy_drift * run->energy_size + 1e-10 * run->energy_size;
+  double E = run->observer->energy_of(run, run->control.trial_q, run->control.trial_v);
+  return fabs(E - run->control.energy_base)
+         <= run->stats.energy_drift * run->control.energy_size + 1e-10 * run->control.energy_size;
 }
 
 static bool leap_fails(pl_run* run) {
-  pl_sizes_forget(run);
-  run->use = run->order;
+  pl_sizes_forget(&run->dae);
+  run->dae.use = run->order;
   return false;
 }
 
 // Whether the step is replaced by a leap of *length; the state behind it is then in trial_q,
 // trial_v, projected.
 bool pl_singular_leap(pl_run* run, double left, double* length, pl_projection* p) {
-  if (!(run->smallest_here < near * run->best) || !(run->h_regular > 0)) return false;
+  if (!(run->event->smallest_here < near * run->dae.best) || !(run->event->h_regular > 0))
+    return false;
   double reach = reach_of_singular(run);
-  run->use = order_of_leap(run, 2 * reach);
-  if (reach == 0 || run->use == 0) return leap_fails(run);
-  run->reach = find_place(run, reach);
-  *length = 2 * run->reach;
+  run->dae.use = order_of_leap(run, 2 * reach);
+  if (reach == 0 || run->dae.use == 0) return leap_fails(run);
+  run->event->reach = find_place(run, reach);
+  *length = 2 * run->event->reach;
   int order = order_of_leap(run, *length);
-  if (run->reach == 0 || order == 0 || fabs(*length) > 0.9 * fabs(left)) return leap_fails(run);
+  if (run->event->reach == 0 || order == 0 || fabs(*length) > 0.9 * fabs(left))
+    return leap_fails(run);
   bool fine = orders_agree(run, *length, order)
-              && (run->n_watch == 0 || pl_watch_first(run, *length) < 0);
+              && (run->event->n_watch == 0 || pl_watch_first(run, *length) < 0);
   if (fine) {
-    *p = pl_project(run, run->t + run->t_low + *length, run->trial_q, run->trial_v);
+    *p = pl_project(&run->dae, run->dae.t + run->dae.t_low + *length, run->control.trial_q,
+                    run->control.trial_v);
     fine = p->ok && p->move_q <= off_branch && p->move_v <= 100 * off_branch && p->g_after <= 1e-12
            && p->r_after <= 1e-12 && energy_agrees(run);
   }
@@ -266,13 +276,14 @@ bool pl_singular_leap(pl_run* run, double left, double* length, pl_projection* p
 
 // The event: the state at the place, from the series in use.
 pleuel_status pl_singular_record(pl_run* run) {
-  double reach = run->reach;
+  double reach = run->event->reach;
   const pl_sink* s = &run->options.sink;
-  run->stats.t_singular = run->t + reach;
+  run->stats.t_singular = run->dae.t + reach;
   run->stats.n_events++;
   if (s->event == NULL) return PLEUEL_OK;
-  pl_series_at(run, reach, run->row_q, run->row_v);
-  pl_series_lambda_at(run, reach, run->row_a, run->row_l);
+  pl_series_at(&run->dae, reach, run->control.row_q, run->control.row_v);
+  pl_series_lambda_at(&run->dae, reach, run->control.row_a, run->control.row_l);
   pl_event_record e = {.kind = PL_EV_SINGULAR, .index = -1};
-  return run->observer->beside(run, e, run->stats.t_singular, run->row_a, run->row_l);
+  return run->observer->beside(run, e, run->stats.t_singular, run->control.row_a,
+                               run->control.row_l);
 }

@@ -1,7 +1,7 @@
-// Switching points: places where |x|, sign x, min, max or if change their branch. A series continues the
-// branch it began on, so a step must not reach across: it ends just behind the first crossing,
-// where the other branch begins.
-#include "solve/solve_impl.h"
+// Switching points: places where |x|, sign x, min, max or if change their branch. A series
+// continues the branch it began on, so a step must not reach across: it ends just behind the first
+// crossing, where the other branch begins.
+#include "solve/event/event.h"
 
 #include <float.h>
 #include <math.h>
@@ -29,18 +29,18 @@ static void list_batch(pl_run* run, const pl_batch* b) {
     const pl_tape_node* node = &tape->nodes[i];
     if (!node->high || !has_branches(node)) continue;
     for (int l = 0; l < b->n; l++)
-      run->switches[run->n_switches++] = (pl_switch){b, node->a, compares_two(node) ? node->b : -1,
-                                                     l};
+      run->event->switches[run->event->n_switches++] = (pl_switch){
+          b, node->a, compares_two(node) ? node->b : -1, l};
   }
 }
 
 void pl_switching_make(pl_run* run) {
   size_t n = 0;
-  for (int i = 0; i < run->motion.n; i++)
-    n += (size_t)count_in(run->motion.at[i].pattern->tape) * (size_t)run->motion.at[i].n;
-  run->switches = PL_ARRAY(run->job->arena, pl_switch, n + 1);
-  run->K_series = PL_ARRAY(run->job->arena, double, n*(size_t)run->order + 1);
-  for (int i = 0; i < run->motion.n; i++) list_batch(run, &run->motion.at[i]);
+  for (int i = 0; i < run->dae.motion.n; i++)
+    n += (size_t)count_in(run->dae.motion.at[i].pattern->tape) * (size_t)run->dae.motion.at[i].n;
+  run->event->switches = PL_ARRAY(run->job->arena, pl_switch, n + 1);
+  run->event->K_series = PL_ARRAY(run->job->arena, double, n*(size_t)run->order + 1);
+  for (int i = 0; i < run->dae.motion.n; i++) list_batch(run, &run->dae.motion.at[i]);
 }
 
 static double coefficient(const pl_switch* at_switch, int node, int k) {
@@ -50,17 +50,17 @@ static double coefficient(const pl_switch* at_switch, int node, int k) {
 }
 
 void pl_switching_series(pl_run* run) {
-  for (int i = 0; i < run->n_switches; i++) {
-    const pl_switch* at_switch = &run->switches[i];
+  for (int i = 0; i < run->event->n_switches; i++) {
+    const pl_switch* at_switch = &run->event->switches[i];
     for (int k = 0; k < run->order; k++)
-      run->K_series[(size_t)i * (size_t)run->order + (size_t)k] =
+      run->event->K_series[(size_t)i * (size_t)run->order + (size_t)k] =
           coefficient(at_switch, at_switch->a, k) - coefficient(at_switch, at_switch->b, k);
   }
 }
 
 // What changes sign, at the point that the programs were evaluated at.
 double pl_switching_value(const pl_run* run, int i) {
-  const pl_switch* at_switch = &run->switches[i];
+  const pl_switch* at_switch = &run->event->switches[i];
   return coefficient(at_switch, at_switch->a, 0) - coefficient(at_switch, at_switch->b, 0);
 }
 
@@ -86,36 +86,36 @@ static bool same_side(double a, double b) { return (a > 0 && b > 0) || (a < 0 &&
 static double find_kink(pl_run* run, const double* c, int n, double size) {
   double root;
   if (fabs(c[0]) > unsure * size) {
-    root = pl_first_root(c, n - 1, 0, run->root_work);
+    root = pl_first_root(c, n - 1, 0, run->event->root_work);
   } else {
     // at a switching point: the side on which it stands must be the one to which it moves
     double away = behind(c, n, size, 0);
     if (away > 0 && !same_side(c[0], value_at(c, n, away))) return away;
-    root = n > 1 ? pl_first_root(c + 1, n - 2, 0, run->root_work) : -1;
+    root = n > 1 ? pl_first_root(c + 1, n - 2, 0, run->event->root_work) : -1;
   }
   return root < 0 ? -1 : behind(c, n, size, root);
 }
 
 double pl_switching_reach(pl_run* run, double h) {
-  double part = fmax(100 * run->tol, 1e-14);
-  for (int i = 0; i < run->n_switches; i++) {
-    double *c = run->poly, power = 1;
-    for (int k = 0; k < run->use; k++, power *= h)
-      c[k] = power * run->K_series[(size_t)i * (size_t)run->order + (size_t)k];
-    h *= pl_watch_known(c, run->use, 0, part);
+  double part = fmax(100 * run->control.tol, 1e-14);
+  for (int i = 0; i < run->event->n_switches; i++) {
+    double *c = run->event->poly, power = 1;
+    for (int k = 0; k < run->dae.use; k++, power *= h)
+      c[k] = power * run->event->K_series[(size_t)i * (size_t)run->order + (size_t)k];
+    h *= pl_watch_known(c, run->dae.use, 0, part);
   }
   return h;
 }
 
 double pl_switching_first(pl_run* run, double h) {
   double first = -1;
-  for (int i = 0; i < run->n_switches; i++) {
-    double *c = run->poly, power = 1, size = 0;
-    for (int k = 0; k < run->use; k++, power *= h) {
-      c[k] = power * run->K_series[(size_t)i * (size_t)run->order + (size_t)k];
+  for (int i = 0; i < run->event->n_switches; i++) {
+    double *c = run->event->poly, power = 1, size = 0;
+    for (int k = 0; k < run->dae.use; k++, power *= h) {
+      c[k] = power * run->event->K_series[(size_t)i * (size_t)run->order + (size_t)k];
       size += fabs(c[k]);
     }
-    double end = size > 0 ? find_kink(run, c, run->use, size) : -1;
+    double end = size > 0 ? find_kink(run, c, run->dae.use, size) : -1;
     if (end >= 0 && (first < 0 || end < first)) first = end;
   }
   return first;

@@ -2,7 +2,7 @@
 #ifndef PL_START_H
 #define PL_START_H
 
-#include "solve/solve_impl.h"
+#include "solve/event/event.h"
 
 typedef struct pl_start pl_start;
 

@@ -73,29 +73,29 @@ static void set_guess(pl_start* s, int number) {
 static void only_two_sided(pl_start* s) {
   pl_run* run = s->run;
   for (int c = 0; c < run->n_c; c++) {
-    run->on[c] = !run->detached[c] && run->setup->constraints[c].side == 0;
+    run->dae.on[c] = !run->dae.detached[c] && run->setup->constraints[c].side == 0;
     s->sits[c] = false;
   }
-  pl_active_set_update(run);
+  pl_active_set_update(&run->dae);
 }
 
 // Whether what is not held can still move the one-sided constraint c, the others being met.
 static bool is_undetermined(pl_start* s, int c) {
   pl_run* run = s->run;
   int before = pl_start_rank(s, s->held_q);
-  run->on[c] = true;
-  pl_active_set_update(run);
+  run->dae.on[c] = true;
+  pl_active_set_update(&run->dae);
   int after = pl_start_rank(s, s->held_q);
-  run->on[c] = false;
-  pl_active_set_update(run);
+  run->dae.on[c] = false;
+  pl_active_set_update(&run->dae);
   return after > before;
 }
 
 static double side_value(pl_start* s, int c) {
   int worst;
   pl_start_residual(s, s->q, &worst);
-  double size = s->run->g_size[c] > 0 ? s->run->g_size[c] : 1;
-  return s->run->setup->constraints[c].side * s->run->g[c] / size;
+  double size = s->run->dae.g_size[c] > 0 ? s->run->dae.g_size[c] : 1;
+  return s->run->setup->constraints[c].side * s->run->dae.g[c] / size;
 }
 
 // Decides one contact at a solution of those decided so far; false: given values lie on the wrong
@@ -103,7 +103,7 @@ static double side_value(pl_start* s, int c) {
 static bool decide_contact(pl_start* s, int c) {
   pl_run* run = s->run;
   const pl_constraint_setup* constraint = &run->setup->constraints[c];
-  if (constraint->side == 0 || run->detached[c]) return true;
+  if (constraint->side == 0 || run->dae.detached[c]) return true;
   // one that stands with another contact follows that
   bool sits = is_undetermined(s, c);
   double value = side_value(s, c);
@@ -112,13 +112,13 @@ static bool decide_contact(pl_start* s, int c) {
     return false;
   }
   s->sits[c] = sits;
-  run->on[c] = sits || value <= met;
-  pl_active_set_update(run);
+  run->dae.on[c] = sits || value <= met;
+  pl_active_set_update(&run->dae);
   if (!sits || pl_start_positions(s, s->held_q)) return true;
   // it cannot be reached: then it is free, if that is allowed
-  run->on[c] = false;
+  run->dae.on[c] = false;
   s->sits[c] = false;
-  pl_active_set_update(run);
+  pl_active_set_update(&run->dae);
   return pl_start_positions(s, s->held_q) && side_value(s, c) >= -met;
 }
 
@@ -130,17 +130,17 @@ static bool close_granted(pl_start* s) {
     const pl_constraint_setup* map = &run->setup->constraints[c];
     for (int i = 0; i < map->n_needs; i++) {
       int k = map->needs[i];
-      if (run->setup->constraints[k].side == 0 || run->detached[k] || run->on[k]) continue;
-      run->on[k] = any = true;
+      if (run->setup->constraints[k].side == 0 || run->dae.detached[k] || run->dae.on[k]) continue;
+      run->dae.on[k] = any = true;
     }
   }
-  pl_active_set_update(run);
+  pl_active_set_update(&run->dae);
   return any;
 }
 
 static bool decide_contacts(pl_start* s) {
   for (int c = 0; c < s->run->n_c; c++)
-    if (!s->run->on[c] && !decide_contact(s, c)) return false;
+    if (!s->run->dae.on[c] && !decide_contact(s, c)) return false;
   return pl_start_positions(s, s->held_q);
 }
 
@@ -165,7 +165,7 @@ static bool fits_branches(pl_start* s, const double* q) {
   for (int i = 0; i < setup->n_branches; i++) {
     double x = run->branch_value[setup->branches[i].output];
     int relation = setup->branches[i].relation;
-    if (relation == 0 ? !(fabs(x) <= met * fmax(run->q_size, 1e-300)) : !(relation * x >= 0))
+    if (relation == 0 ? !(fabs(x) <= met * fmax(run->dae.q_size, 1e-300)) : !(relation * x >= 0))
       return false;
   }
   return true;
@@ -189,10 +189,10 @@ static bool same_but_for_turns(pl_start* s, const double* a, const double* b) {
   for (int which = 0; which < 2; which++) {
     int worst;
     pl_start_residual(s, which == 0 ? a : b, &worst);
-    pl_assemble_rows(run);
-    for (int r = 0; r < run->n_active; r++)
+    pl_assemble_rows(&run->dae);
+    for (int r = 0; r < run->dae.n_active; r++)
       for (int j = 0; j < run->n_q; j++)
-        sum[which] += run->rows[(size_t)r * (size_t)run->n_q + (size_t)j]
+        sum[which] += run->dae.rows[(size_t)r * (size_t)run->n_q + (size_t)j]
                       * (1 + 0.37 * sin(1.0 + 7 * r + 3 * j));
   }
   return fabs(sum[0] - sum[1]) <= 1e-5 * (fabs(sum[0]) + fabs(sum[1])) + 1e-9;
@@ -224,7 +224,7 @@ static void keep_solution(pl_start* s) {
     if (same_but_for_turns(s, s->solutions + (size_t)k * n, s->q)) return;
   if (s->n_solutions == PL_START_ROOM) return;
   memcpy(s->solutions + (size_t)s->n_solutions * n, s->q, n * sizeof(double));
-  memcpy(s->solution_on + (size_t)s->n_solutions * (size_t)run->n_c, run->on,
+  memcpy(s->solution_on + (size_t)s->n_solutions * (size_t)run->n_c, run->dae.on,
          (size_t)run->n_c * sizeof(bool));
   s->n_solutions++;
 }
@@ -241,7 +241,7 @@ static void list_free(pl_start* s, int n_free, int rank) {
   pl_start_report* report = &run->start;
   int* list = PL_ARRAY(run->job->arena, int, run->n_q + 1);
   report->free = list;
-  if (n_free == rank || run->n_active > PL_RANK_UP_TO) return;
+  if (n_free == rank || run->dae.n_active > PL_RANK_UP_TO) return;
   for (int i = 0; i < run->n_q; i++) {
     if (s->held_q[i]) continue;
     // it is determined when holding it costs a rank
@@ -260,7 +260,7 @@ static bool a_guess_was_given(const pl_run* run) {
 
 static void search_guesses(pl_start* s) {
   pl_run* run = s->run;
-  int n_free = count_free(s), most = n_free == 0 ? 1 : run->kkt.dense ? GUESSES : GUESSES_LARGE;
+  int n_free = count_free(s), most = n_free == 0 ? 1 : run->dae.kkt.dense ? GUESSES : GUESSES_LARGE;
   for (int number = 0; number < most; number++) {
     set_guess(s, number);
     if (!solve_positions(s) || !fits_branches(s, s->q)) continue;
@@ -290,9 +290,9 @@ static void search(pl_start* s) {
 // --------------------------------------------------------------------------------- what went wrong
 // In large systems only coordinates of the violated constraint itself are tried.
 static bool worth_trying(const pl_run* run, int coordinate, int constraint) {
-  if (run->kkt.dense) return true;
-  for (int i = 0; i < run->motion.n; i++) {
-    const pl_batch* b = &run->motion.at[i];
+  if (run->dae.kkt.dense) return true;
+  for (int i = 0; i < run->dae.motion.n; i++) {
+    const pl_batch* b = &run->dae.motion.at[i];
     for (int e = 0; e < b->pattern->n_G; e++)
       for (int l = 0; l < b->n; l++)
         if (b->c[b->pattern->G[e].row * b->lanes + l] == constraint
@@ -313,7 +313,7 @@ static void suggest_position(pl_start* s) {
     set_guess(s, 0);
     if (solve_positions(s)) {
       double from = run->setup->coordinates[i].q,
-             move = fabs(s->q[i] - from) / fmax(fabs(from), 1e-3 * run->q_size);
+             move = fabs(s->q[i] - from) / fmax(fabs(from), 1e-3 * run->dae.q_size);
       if (move < least) {
         least = move;
         report->move_coordinate = i;
@@ -335,7 +335,7 @@ static void suggest_velocity(pl_start* s) {
       s->v[j] = run->setup->coordinates[j].has_v ? run->setup->coordinates[j].v : 0;
     if (pl_start_velocities(s, s->held_v)) {
       double from = run->setup->coordinates[i].v,
-             move = fabs(s->v[i] - from) / fmax(fabs(from), 1e-3 * run->v_size);
+             move = fabs(s->v[i] - from) / fmax(fabs(from), 1e-3 * run->dae.v_size);
       if (move < least) {
         least = move;
         report->move_coordinate = i;
@@ -383,7 +383,7 @@ static pleuel_status no_solution(pl_start* s) {
     // in units of the terms as they are written
     double residual = s->below >= 0 ? fabs(side_value(s, constraint)) : s->worst;
     if (any_given)
-      return violated(s, constraint, residual * fmax(run->argument[constraint], 1), false);
+      return violated(s, constraint, residual * fmax(run->dae.argument[constraint], 1), false);
   }
   run->start.trouble = PL_START_NONE;
   run->start.constraint = constraint;
@@ -460,9 +460,9 @@ static pleuel_status find_positions(pl_start* s) {
   if (taken < 0) return several_solutions(s);
   run->start.taken = taken;
   memcpy(s->q, s->solutions + (size_t)taken * (size_t)run->n_q, (size_t)run->n_q * sizeof(double));
-  memcpy(run->on, s->solution_on + (size_t)taken * (size_t)run->n_c,
+  memcpy(run->dae.on, s->solution_on + (size_t)taken * (size_t)run->n_c,
          (size_t)run->n_c * sizeof(bool));
-  pl_active_set_update(run);
+  pl_active_set_update(&run->dae);
   return PLEUEL_OK;
 }
 
@@ -477,17 +477,17 @@ static void set_velocities(pl_start* s) {
 // once.
 static bool leaves(pl_start* s, int c) {
   pl_run* run = s->run;
-  run->on[c] = false;
-  pl_active_set_update(run);
+  run->dae.on[c] = false;
+  pl_active_set_update(&run->dae);
   set_velocities(s);
   bool solved = pl_start_velocities(s, s->held_v);
-  double rate = run->setup->constraints[c].side * run->r[c];
-  if (solved && rate > met * run->r_size[c]) {
+  double rate = run->setup->constraints[c].side * run->dae.r[c];
+  if (solved && rate > met * run->dae.r_size[c]) {
     s->sits[c] = false;
     return true;
   }
-  run->on[c] = true;
-  pl_active_set_update(run);
+  run->dae.on[c] = true;
+  pl_active_set_update(&run->dae);
   return false;
 }
 
@@ -497,21 +497,21 @@ static bool run_into(pl_start* s) {
   pl_run* run = s->run;
   bool any = false;
   for (int c = 0; c < run->n_c; c++) {
-    s->before_on[c] = run->on[c];
+    s->before_on[c] = run->dae.on[c];
     if (run->setup->constraints[c].side != 0 && !run->setup->constraints[c].velocity)
-      run->on[c] = false;
+      run->dae.on[c] = false;
   }
-  pl_active_set_update(run);
+  pl_active_set_update(&run->dae);
   set_velocities(s);
   bool solved = pl_start_velocities(s, s->held_v);
   for (int c = 0; c < run->n_c; c++) {
-    if (run->on[c] == s->before_on[c]) continue;
-    bool moves = solved && fabs(run->r[c]) > met * run->r_size[c];
-    run->on[c] = !moves;
+    if (run->dae.on[c] == s->before_on[c]) continue;
+    bool moves = solved && fabs(run->dae.r[c]) > met * run->dae.r_size[c];
+    run->dae.on[c] = !moves;
     if (moves) s->sits[c] = false;
     any |= moves;
   }
-  pl_active_set_update(run);
+  pl_active_set_update(&run->dae);
   set_velocities(s);
   return any && pl_start_velocities(s, s->held_v);
 }
@@ -521,11 +521,11 @@ static pleuel_status find_velocities(pl_start* s) {
   set_velocities(s);
   if (pl_start_velocities(s, s->held_v)) return PLEUEL_OK;
   for (int c = 0; c < run->n_c; c++)
-    if (run->setup->constraints[c].side != 0 && run->on[c] && leaves(s, c))
+    if (run->setup->constraints[c].side != 0 && run->dae.on[c] && leaves(s, c))
       return find_velocities(s);
   if (run_into(s)) return PLEUEL_OK;
-  memcpy(run->on, s->before_on, (size_t)run->n_c * sizeof(bool));
-  pl_active_set_update(run);
+  memcpy(run->dae.on, s->before_on, (size_t)run->n_c * sizeof(bool));
+  pl_active_set_update(&run->dae);
   set_velocities(s);
   pl_start_velocities(s, s->held_v);
   if (s->worst_constraint < 0)
@@ -540,7 +540,8 @@ static pleuel_status find_velocities(pl_start* s) {
 // fixed tangent.
 static bool is_singular_start(pl_start* s) {
   pl_run* run = s->run;
-  if (run->n_active == 0 || run->n_active > PL_RANK_UP_TO || !run->kkt.dense) return false;
+  if (run->dae.n_active == 0 || run->dae.n_active > PL_RANK_UP_TO || !run->dae.kkt.dense)
+    return false;
   bool* none = PL_ARRAY(run->job->arena, bool, run->n_q + 1);
   double* home = PL_ARRAY(run->job->arena, double, run->n_q + 1);
   memcpy(home, s->q, (size_t)run->n_q * sizeof(double));
@@ -550,7 +551,7 @@ static bool is_singular_start(pl_start* s) {
   int rank = pl_start_rank(s, none), higher = 0, found = 0;
   for (int attempt = 0; attempt < 3 && higher == found; attempt++) {
     for (int i = 0; i < run->n_q; i++)
-      s->q[i] = home[i] + 1e-3 * fmax(run->q_size, 1e-300) * pl_random_between(&r, -1, 1);
+      s->q[i] = home[i] + 1e-3 * fmax(run->dae.q_size, 1e-300) * pl_random_between(&r, -1, 1);
     if (!pl_start_positions(s, none)) continue;
     // gradients at the point that was found, not at the last but one
     pl_start_residual(s, s->q, &worst);
@@ -568,7 +569,7 @@ static void list_moves(pl_start* s) {
   pl_start_report* report = &run->start;
   pl_start_move* moves = PL_ARRAY(run->job->arena, pl_start_move, 2 * (size_t)run->n_q + 1);
   for (int pass = 0; pass < 2; pass++) {
-    const double* x = pass == 0 ? run->q : s->v;  // before an impact at the start
+    const double* x = pass == 0 ? run->dae.q : s->v;  // before an impact at the start
     double size = pl_norm(x, run->n_q);
     for (int i = 0; i < run->n_q; i++) {
       const pl_coordinate* c = &run->setup->coordinates[i];
@@ -588,7 +589,7 @@ static void list_sitting(pl_start* s) {
   pl_run* run = s->run;
   int* list = PL_ARRAY(run->job->arena, int, run->n_c + 1);
   for (int c = 0; c < run->n_c; c++)
-    if (s->sits[c] && run->on[c]) list[run->start.n_sitting++] = c;
+    if (s->sits[c] && run->dae.on[c]) list[run->start.n_sitting++] = c;
   run->start.sitting = list;
 }
 
@@ -608,7 +609,7 @@ static pleuel_status check_given(pl_run* run) {
 static void mark_leaving(pl_start* s) {
   pl_run* run = s->run;
   for (int c = 0; c < run->n_c; c++) {
-    if (run->setup->constraints[c].side == 0 || run->on[c] || run->detached[c]
+    if (run->setup->constraints[c].side == 0 || run->dae.on[c] || run->dae.detached[c]
         || run->setup->constraints[c].velocity)
       continue;
     if (fabs(side_value(s, c)) <= met) pl_watch_of(run, PL_WATCH_LANDING, c)->fresh = 1;
@@ -627,12 +628,12 @@ pleuel_status pl_start_find(pl_run* run, pl_start** out) {
                    "the start is a singular position: the constraints have lost rank there");
   }
   PL_TRY(find_velocities(s));
-  memcpy(run->q, s->q, (size_t)run->n_q * sizeof(double));
-  memcpy(run->v, s->v, (size_t)run->n_q * sizeof(double));
+  memcpy(run->dae.q, s->q, (size_t)run->n_q * sizeof(double));
+  memcpy(run->dae.v, s->v, (size_t)run->n_q * sizeof(double));
   pl_watch_forget(run);
   mark_leaving(s);
-  run->start_given = true;
-  run->t = run->options.t_0;
+  run->control.start_given = true;
+  run->dae.t = run->options.t_0;
   return PLEUEL_OK;
 }
 

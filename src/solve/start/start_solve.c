@@ -21,7 +21,7 @@ static double largest(const pl_run* run, const double* g, const double* size, bo
   double most = 0;
   *worst = -1;
   for (int c = 0; c < run->n_c; c++) {
-    if (!run->active[c] || (positions && run->setup->constraints[c].velocity) || g[c] == 0)
+    if (!run->dae.active[c] || (positions && run->setup->constraints[c].velocity) || g[c] == 0)
       continue;
     double r = fabs(g[c]) / size[c];
     if (r <= most) continue;
@@ -34,45 +34,45 @@ static double largest(const pl_run* run, const double* g, const double* size, bo
 // row_v is zero throughout the start.
 double pl_start_residual(pl_start* s, const double* q, int* worst) {
   pl_run* run = s->run;
-  run->q_size = 0;
-  for (int i = 0; i < run->n_q; i++) run->q_most[i] = 0;
-  pl_sizes_note(run, q, run->row_v);
-  pl_point_evaluate(run, run->options.t_0, q, s->v);
-  pl_assemble_g(run, 0, run->g, run->g_size);
-  return largest(run, run->g, run->g_size, true, worst);
+  run->dae.q_size = 0;
+  for (int i = 0; i < run->n_q; i++) run->dae.q_most[i] = 0;
+  pl_sizes_note(&run->dae, q, run->control.row_v);
+  pl_point_evaluate(&run->dae, run->options.t_0, q, s->v);
+  pl_assemble_g(&run->dae, 0, run->dae.g, run->dae.g_size);
+  return largest(run, run->dae.g, run->dae.g_size, true, worst);
 }
 
 double pl_start_velocity_residual(pl_start* s, const double* v, int* worst) {
   pl_run* run = s->run;
-  run->v_size = 0;
-  for (int i = 0; i < run->n_q; i++) run->v_most[i] = 0;
-  pl_sizes_note(run, run->row_v, v);
-  pl_batches_load_v(&run->motion, v, 0);
-  pl_assemble_gdot(run, run->r, run->r_size);
+  run->dae.v_size = 0;
+  for (int i = 0; i < run->n_q; i++) run->dae.v_most[i] = 0;
+  pl_sizes_note(&run->dae, run->control.row_v, v);
+  pl_batches_load_v(&run->dae.motion, v, 0);
+  pl_assemble_gdot(&run->dae, run->dae.r, run->dae.r_size);
   // relative to its terms alone: what rounding of large coordinates adds is without bound where the
   // terms of g cancel
-  for (int c = 0; c < run->n_c; c++) run->r_size[c] /= fmax(run->argument[c], 1);
-  return largest(run, run->r, run->r_size, false, worst);
+  for (int c = 0; c < run->n_c; c++) run->dae.r_size[c] /= fmax(run->dae.argument[c], 1);
+  return largest(run, run->dae.r, run->dae.r_size, false, worst);
 }
 
 // -------------------------------------------------------------------------------------------- rank
 // Too many rows to compare: all are taken that have something left to move.
 static int take_all_that_move(pl_run* run, const bool* held, bool positions) {
   int n = 0;
-  for (int c = 0; c < run->n_c; c++) run->taken[c] = false;
-  for (int i = 0; i < run->motion.n; i++) {
-    const pl_batch* b = &run->motion.at[i];
+  for (int c = 0; c < run->n_c; c++) run->dae.taken[c] = false;
+  for (int i = 0; i < run->dae.motion.n; i++) {
+    const pl_batch* b = &run->dae.motion.at[i];
     for (int e = 0; e < b->pattern->n_G; e++) {
       const pl_pattern_entry* g = &b->pattern->G[e];
       const double* x = pl_jet_at(b->jet, b->pattern->tape->roots[g->root], 0);
       for (int l = 0; l < b->n; l++) {
         int c = b->c[g->row * b->lanes + l];
-        if (x[l] == 0 || held[b->q[g->col * b->lanes + l]] || !run->active[c]) continue;
-        if (!positions || !run->setup->constraints[c].velocity) run->taken[c] = true;
+        if (x[l] == 0 || held[b->q[g->col * b->lanes + l]] || !run->dae.active[c]) continue;
+        if (!positions || !run->setup->constraints[c].velocity) run->dae.taken[c] = true;
       }
     }
   }
-  for (int c = 0; c < run->n_c; c++) n += run->taken[c];
+  for (int c = 0; c < run->n_c; c++) n += run->dae.taken[c];
   return n;
 }
 
@@ -80,11 +80,11 @@ static int take_all_that_move(pl_run* run, const bool* held, bool positions) {
 static int choose(pl_start* s, const bool* held, bool positions) {
   pl_run* run = s->run;
   int n = run->n_q;
-  if (run->n_active > PL_RANK_UP_TO) return take_all_that_move(run, held, positions);
-  pl_assemble_rows(run);
+  if (run->dae.n_active > PL_RANK_UP_TO) return take_all_that_move(run, held, positions);
+  pl_assemble_rows(&run->dae);
   for (int c = 0; c < run->n_c; c++) {
-    if (run->row_of[c] < 0) continue;
-    double* row = run->rows + (size_t)run->row_of[c] * (size_t)n;
+    if (run->dae.row_of[c] < 0) continue;
+    double* row = run->dae.rows + (size_t)run->dae.row_of[c] * (size_t)n;
     bool none = positions && run->setup->constraints[c].velocity;
     double most = 0, most_free = 0;
     for (int j = 0; j < n; j++) {
@@ -96,10 +96,10 @@ static int choose(pl_start* s, const bool* held, bool positions) {
     for (int j = 0; j < n && most_free < 1e-13 * most; j++) row[j] = 0;
   }
   double smallest;
-  int rank = pl_independent_rows(run->rows, run->priority, run->row_taken, run->rank_work,
-                                 run->n_active, n, 1e-9, &smallest);
+  int rank = pl_independent_rows(run->dae.rows, run->dae.priority, run->dae.row_taken,
+                                 run->dae.rank_work, run->dae.n_active, n, 1e-9, &smallest);
   for (int c = 0; c < run->n_c; c++)
-    run->taken[c] = run->row_of[c] >= 0 && run->row_taken[run->row_of[c]];
+    run->dae.taken[c] = run->dae.row_of[c] >= 0 && run->dae.row_taken[run->dae.row_of[c]];
   return rank;
 }
 
@@ -117,8 +117,8 @@ static void edit(pl_run* run, const bool* held, int row, int col, double* x, boo
 // plain: the identity takes the place of M.
 static bool factor(pl_start* s, const bool* held, bool plain) {
   pl_run* run = s->run;
-  pl_kkt* k = &run->kkt;
-  pl_assemble_matrix(run, false);
+  pl_kkt* k = &run->dae.kkt;
+  pl_assemble_matrix(&run->dae, false);
   for (int col = 0; col < k->n; col++) {
     int from = k->dense ? col * k->n : k->start[col],
         to = k->dense ? from + k->n : k->start[col + 1];
@@ -133,32 +133,33 @@ static bool correction(pl_start* s, const bool* held) {
   pl_run* run = s->run;
   choose(s, held, true);
   if (!factor(s, held, true)) return false;
-  for (int i = 0; i < run->n_q; i++) run->rhs[i] = 0;
-  for (int c = 0; c < run->n_c; c++) run->rhs[run->n_q + c] = run->taken[c] ? -run->g[c] : 0;
-  pl_kkt_solve(&run->kkt, run->rhs);
-  return isfinite(pl_norm(run->rhs, run->n_q));
+  for (int i = 0; i < run->n_q; i++) run->dae.rhs[i] = 0;
+  for (int c = 0; c < run->n_c; c++)
+    run->dae.rhs[run->n_q + c] = run->dae.taken[c] ? -run->dae.g[c] : 0;
+  pl_kkt_solve(&run->dae.kkt, run->dae.rhs);
+  return isfinite(pl_norm(run->dae.rhs, run->n_q));
 }
 
 // Sum of squares of residuals, each in units of its terms at the start of the line search.
 static double merit(const pl_run* run, const double* g, const double* size) {
   double sum = 0;
   for (int c = 0; c < run->n_c; c++)
-    if (run->active[c] && !run->setup->constraints[c].velocity && g[c] != 0)
+    if (run->dae.active[c] && !run->setup->constraints[c].velocity && g[c] != 0)
       sum += (g[c] / size[c]) * (g[c] / size[c]);
   return sum;
 }
 
-// Halves the correction in run->rhs until it helps; false when it never does.
+// Halves the correction in run->dae.rhs until it helps; false when it never does.
 static bool line_search(pl_start* s, double* residual, int* worst) {
   pl_run* run = s->run;
-  double* size = run->row_l;  // free here
+  double* size = run->control.row_l;  // free here
   double before;
-  for (int c = 0; c < run->n_c; c++) size[c] = run->g_size[c];
-  before = merit(run, run->g, size);
+  for (int c = 0; c < run->n_c; c++) size[c] = run->dae.g_size[c];
+  before = merit(run, run->dae.g, size);
   for (double part = 1; part > 1e-5; part *= 0.5) {
-    for (int i = 0; i < run->n_q; i++) s->try_q[i] = s->q[i] + part * run->rhs[i];
+    for (int i = 0; i < run->n_q; i++) s->try_q[i] = s->q[i] + part * run->dae.rhs[i];
     *residual = pl_start_residual(s, s->try_q, worst);
-    double after = merit(run, run->g, size);
+    double after = merit(run, run->dae.g, size);
     if (!(after < before * (1 - 0.2 * part))) continue;
     for (int i = 0; i < run->n_q; i++) s->q[i] = s->try_q[i];
     return true;
@@ -180,11 +181,11 @@ bool pl_start_positions(pl_start* s, const bool* held) {
 // [M G^T; G 0] [v; μ] = [M v_guess; -dg/dt] with held velocities in their places.
 static bool solve_velocities(pl_start* s, const bool* held, bool plain) {
   pl_run* run = s->run;
-  pl_kkt* k = &run->kkt;
+  pl_kkt* k = &run->dae.kkt;
   int n = run->n_q;
-  pl_assemble_matrix(run, false);
-  for (int i = 0; i < k->n; i++) run->rhs[i] = 0;
-  for (int c = 0; c < run->n_c; c++) run->rhs[n + c] = run->taken[c] ? -run->r[c] : 0;
+  pl_assemble_matrix(&run->dae, false);
+  for (int i = 0; i < k->n; i++) run->dae.rhs[i] = 0;
+  for (int c = 0; c < run->n_c; c++) run->dae.rhs[n + c] = run->dae.taken[c] ? -run->dae.r[c] : 0;
   // held columns to the right; the guess enters through M
   for (int col = 0; col < n; col++) {
     int from = k->dense ? col * k->n : k->start[col],
@@ -194,29 +195,29 @@ static bool solve_velocities(pl_start* s, const bool* held, bool plain) {
     for (int e = from; e < to; e++) {
       int row = k->dense ? e - from : k->row[e];
       double x = row < n && plain ? row == col : k->value[e];
-      if (held[col]) run->rhs[row] -= x * s->v[col];
-      if (row < n) run->rhs[row] += x * guess;
+      if (held[col]) run->dae.rhs[row] -= x * s->v[col];
+      if (row < n) run->dae.rhs[row] += x * guess;
     }
   }
   for (int i = 0; i < n; i++)
-    if (held[i]) run->rhs[i] = s->v[i];
+    if (held[i]) run->dae.rhs[i] = s->v[i];
   if (!factor(s, held, plain)) return false;
-  pl_kkt_solve(k, run->rhs);
-  if (!isfinite(pl_norm(run->rhs, n))) return false;
+  pl_kkt_solve(k, run->dae.rhs);
+  if (!isfinite(pl_norm(run->dae.rhs, n))) return false;
   for (int i = 0; i < n; i++)
-    if (!held[i]) s->v[i] = run->rhs[i];
+    if (!held[i]) s->v[i] = run->dae.rhs[i];
   return true;
 }
 
 bool pl_start_velocities(pl_start* s, const bool* held) {
   pl_run* run = s->run;
-  for (int i = 0; i < run->n_q; i++) run->row_v[i] = 0;
+  for (int i = 0; i < run->n_q; i++) run->control.row_v[i] = 0;
   // dg/dt alone
-  pl_point_evaluate(run, run->options.t_0, s->q, run->row_v);
-  pl_assemble_gdot(run, run->r, run->r_size);
+  pl_point_evaluate(&run->dae, run->options.t_0, s->q, run->control.row_v);
+  pl_assemble_gdot(&run->dae, run->dae.r, run->dae.r_size);
   choose(s, held, false);
   bool solved = solve_velocities(s, held, false) || solve_velocities(s, held, true);
-  pl_point_evaluate(run, run->options.t_0, s->q, s->v);
+  pl_point_evaluate(&run->dae, run->options.t_0, s->q, s->v);
   s->worst = pl_start_velocity_residual(s, s->v, &s->worst_constraint);
   return solved && s->worst <= met;
 }

@@ -13,7 +13,7 @@ static double* stage(double* x, int i, int n) { return pl_radau_stage(x, i, n); 
 
 // Rows of what is not used hold 1 on the diagonal.
 static bool rests(const pl_run* run, int i) {
-  return i < run->n_q ? run->has_equation[i] == 0 : !pl_radau_has_force(run, i - run->n_q);
+  return i < run->n_q ? run->dae.has_equation[i] == 0 : !pl_radau_has_force(run, i - run->n_q);
 }
 
 // γ P0 + P1 + P2 / γ: entry at `at`, re and im.

@@ -3,6 +3,7 @@
 #ifndef PL_RADAU_IMPL_H
 #define PL_RADAU_IMPL_H
 
+#include "solve/event/event.h"
 #include "solve/stepper/radau/radau.h"
 #include "solve/stepper/taylor/taylor.h"
 
@@ -119,7 +120,7 @@ void pl_radau_method_make(pl_radau_method* m, int s);
 static inline double* pl_radau_stage(double* x, int i, int n) { return x + (size_t)i * (size_t)n; }
 // Whether a row has a multiplier: it holds, or it is a slip whose force follows from another.
 static inline bool pl_radau_has_force(const pl_run* run, int c) {
-  return run->taken[c] || run->slips[c];
+  return run->dae.taken[c] || run->dae.slips[c];
 }
 
 // ---- radau_system.c

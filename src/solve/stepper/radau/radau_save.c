@@ -26,8 +26,8 @@ void pl_radau_save(pl_run* run, pl_keeper* k) {
   // the next step is predicted from the polynomial of the last one, and a look at stiffness reads
   // it too
   size_t rows = (size_t)run->order + 2;
-  pl_keep_f64s(k, run->V_last, rows * (size_t)run->n_q);
-  pl_keep_f64s(k, run->L_last, rows * (size_t)run->n_c);
+  pl_keep_f64s(k, run->dae.V_last, rows * (size_t)run->n_q);
+  pl_keep_f64s(k, run->dae.L_last, rows * (size_t)run->n_c);
   double* numbers[] = {&r->h_factored, &r->rounding, &r->h,           &r->h_last,
                        &r->error_last, &r->theta,    &r->cost_series, &r->h_dense};
   for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) pl_keep_f64(k, numbers[i]);

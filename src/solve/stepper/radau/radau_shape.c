@@ -109,7 +109,7 @@ static void note_batch(list* l, const pl_run* run, const pl_batch* b, const slot
 
 static void note_all(list* l, const pl_run* run, const slots* of) {
   for (int i = 0; i < run->n_q + run->n_c; i++) note(l, i, i);
-  for (int i = 0; i < run->motion.n; i++) note_batch(l, run, &run->motion.at[i], &of[i]);
+  for (int i = 0; i < run->dae.motion.n; i++) note_batch(l, run, &run->dae.motion.at[i], &of[i]);
   for (int k = 0; k < run->setup->n_frictions; k++) {
     const pl_friction_setup* friction = &run->setup->frictions[k];
     for (int i = 0; i < friction->n_rows; i++)
@@ -138,11 +138,11 @@ void pl_radau_shape_make(pl_run* run, pl_radau* r) {
   int n = r->n;
   r->shape = (pl_radau_shape){.n = n, .n_values = n * n};
   if (n <= PL_RADAU_DENSE_UP_TO) return;
-  slots* of = PL_ARRAY(a, slots, run->motion.n + 1);
-  for (int i = 0; i < run->motion.n; i++) {
+  slots* of = PL_ARRAY(a, slots, run->dae.motion.n + 1);
+  for (int i = 0; i < run->dae.motion.n; i++) {
     // the batches of one pattern follow each other
-    bool same = i > 0 && run->motion.at[i].pattern == run->motion.at[i - 1].pattern;
-    of[i] = same ? of[i - 1] : rows_of(a, &run->motion.at[i], run);
+    bool same = i > 0 && run->dae.motion.at[i].pattern == run->dae.motion.at[i - 1].pattern;
+    of[i] = same ? of[i - 1] : rows_of(a, &run->dae.motion.at[i], run);
   }
   list l = {PL_ARRAY(a, int, n + 1), NULL};
   note_all(&l, run, of);

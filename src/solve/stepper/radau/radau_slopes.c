@@ -49,12 +49,12 @@ static void add_values(const point* at, const pl_radau_lanes* w, int lane) {
   }
   for (const pl_pattern_entry* e = p->G; e < p->G + p->n_G; e++) {
     int i = C_OF(e->row), j = Q_OF(e->col);
-    if (run->taken[i]) P1[AT(r->n_q + i, j)] += VALUE(e);
+    if (run->dae.taken[i]) P1[AT(r->n_q + i, j)] += VALUE(e);
     if (pl_radau_has_force(run, i)) P1[AT(j, r->n_q + i)] -= VALUE(e);
   }
   for (const pl_pattern_entry* e = p->W; e < p->W + p->n_W; e++)
-    if (run->taken[C_OF(e->col)]) P1[AT(Q_OF(e->row), r->n_q + C_OF(e->col))] -= VALUE(e);
-  for (const pl_pattern_entry* e = p->outputs; e < p->outputs + p->n_out && run->n_slipping > 0;
+    if (run->dae.taken[C_OF(e->col)]) P1[AT(Q_OF(e->row), r->n_q + C_OF(e->col))] -= VALUE(e);
+  for (const pl_pattern_entry* e = p->outputs; e < p->outputs + p->n_out && run->dae.n_slipping > 0;
        e++)
     r->part[out[e->row * b->lanes]] += VALUE(e);
 }
@@ -65,10 +65,11 @@ static void add_slip(const point* at) {
   pl_radau* r = at->r;
   for (int k = 0; k < run->setup->n_frictions; k++) {
     const pl_friction_setup* friction = &run->setup->frictions[k];
-    for (int i = 0; i < friction->n_rows && run->friction[k].state == PL_FRICTION_SLIP; i++) {
+    for (int i = 0; i < friction->n_rows && run->dae.friction[k].state == PL_FRICTION_SLIP; i++) {
       int row = r->n_q + friction->row[i];
       at->J->P1[AT(row, row)] += 1;
-      at->J->P1[AT(row, r->n_q + friction->constraint)] -= pl_friction_kappa(run, k, i, r->part);
+      at->J->P1[AT(row, r->n_q + friction->constraint)] -= pl_friction_kappa(&run->dae, k, i,
+                                                                             r->part);
     }
   }
 }
@@ -78,10 +79,11 @@ static void add_slip_slope(const point* at, double* P, int coefficient, double s
   pl_radau* r = at->r;
   int k = r->friction_of[coefficient];
   const pl_friction_setup* friction = &at->run->setup->frictions[k];
-  if (at->run->friction[k].state != PL_FRICTION_SLIP || slope == 0) return;
+  if (at->run->dae.friction[k].state != PL_FRICTION_SLIP || slope == 0) return;
   for (int i = 0; i < friction->n_rows; i++)
     P[AT(r->n_q + friction->row[i], col)] -=
-        slope * pl_friction_kappa_by(at->run, k, i, coefficient) * at->lambda[friction->constraint];
+        slope * pl_friction_kappa_by(&at->run->dae, k, i, coefficient)
+        * at->lambda[friction->constraint];
 }
 
 // Derivatives along global coordinate `col` (of position, or of velocity): coefficient 1 in a lane.
@@ -106,9 +108,10 @@ static void add_derivatives(const point* at, const pl_radau_lanes* w, int lane, 
   }
   for (const pl_pattern_entry* e = p->W; e < p->W + p->n_W; e++) {
     double x = SLOPE(e);
-    if (x != 0 && run->taken[C_OF(e->col)]) P[AT(Q_OF(e->row), col)] -= x * lambda[C_OF(e->col)];
+    if (x != 0 && run->dae.taken[C_OF(e->col)])
+      P[AT(Q_OF(e->row), col)] -= x * lambda[C_OF(e->col)];
   }
-  for (const pl_pattern_entry* e = p->outputs; e < p->outputs + p->n_out && run->n_slipping > 0;
+  for (const pl_pattern_entry* e = p->outputs; e < p->outputs + p->n_out && run->dae.n_slipping > 0;
        e++)
     add_slip_slope(at, P, out[e->row * b->lanes], SLOPE(e), col);
   if (of_speed) return;
@@ -117,11 +120,11 @@ static void add_derivatives(const point* at, const pl_radau_lanes* w, int lane, 
     double x = SLOPE(e);
     if (x == 0 || !pl_radau_has_force(run, row)) continue;
     P[AT(Q_OF(e->col), col)] -= x * lambda[row];
-    if (run->taken[row]) P[AT(r->n_q + row, col)] += x * v[Q_OF(e->col)];
+    if (run->dae.taken[row]) P[AT(r->n_q + row, col)] += x * v[Q_OF(e->col)];
   }
   for (const pl_pattern_entry* e = p->gt; e < p->gt + p->n_gt; e++) {
     double x = SLOPE(e);
-    if (x != 0 && run->taken[C_OF(e->row)]) P[AT(r->n_q + C_OF(e->row), col)] += x;
+    if (x != 0 && run->dae.taken[C_OF(e->row)]) P[AT(r->n_q + C_OF(e->row), col)] += x;
   }
 }
 
@@ -182,12 +185,12 @@ void pl_radau_slopes_at(pl_run* run, pl_radau* r, pl_radau_slopes* J, double t, 
   for (size_t i = 0; i < 3; i++) memset(all[i], 0, (size_t)r->shape.n_values * sizeof(double));
   memset(r->part, 0, (size_t)r->n_C * sizeof(double));
   const point at = {run, r, J, v, a, lambda};
-  for (int i = 0; i < run->motion.n; i++) {
+  for (int i = 0; i < run->dae.motion.n; i++) {
     const pl_radau_lanes* w = &r->lanes[i];
     pl_radau_load_instances(w, t, q, v);
     for (int l = 0; l < w->batch->n; l++) add_values(&at, w, l);
     if (w->batch->lanes > 1) slopes_by_instances(&at, w);
     else slopes_by_directions(&at, w);
   }
-  if (run->n_slipping > 0) add_slip(&at);
+  if (run->dae.n_slipping > 0) add_slip(&at);
 }

@@ -46,7 +46,7 @@ static void set_stages(const pl_run* run, pl_radau* r, double h) {
   int n = r->n_q, s = m->s;
   for (int i = 0; i < s; i++) {
     double *Q = stage(r->Q, i, n), *V = stage(r->V, i, n), *A = stage(r->A, i, n);
-    r->t[i] = run->t + (run->t_low + m->c[i] * h);
+    r->t[i] = run->dae.t + (run->dae.t_low + m->c[i] * h);
     for (int e = 0; e < n; e++) {
       double way = 0, turn = 0;
       for (int j = 0; j < s; j++) {
@@ -54,8 +54,8 @@ static void set_stages(const pl_run* run, pl_radau* r, double h) {
         way += m->A[i][j] * z;
         turn += m->inverse[i][j] * z;
       }
-      Q[e] = run->q[e] + h * (m->c[i] * run->v[e] + way);
-      V[e] = run->v[e] + stage(r->Z, i, n)[e];
+      Q[e] = run->dae.q[e] + h * (m->c[i] * run->dae.v[e] + way);
+      V[e] = run->dae.v[e] + stage(r->Z, i, n)[e];
       A[e] = turn / h;
     }
   }
@@ -70,13 +70,13 @@ static void predict(pl_run* run, pl_radau* r, double h) {
     double *Z = stage(r->Z, i, n), *L = stage(r->L, i, r->n_c);
     if (!r->has_last) {
       memset(Z, 0, (size_t)n * sizeof *Z);
-      memcpy(L, run->L, (size_t)r->n_c * sizeof *L);
+      memcpy(L, run->dae.L, (size_t)r->n_c * sizeof *L);
       continue;
     }
-    double dt = run->t + m->c[i] * h - run->t_last;
-    pl_horner(run->V_last, n, degree, dt, Z);
-    pl_horner(run->L_last, r->n_c, degree, dt, L);
-    for (int e = 0; e < n; e++) Z[e] -= run->v[e];
+    double dt = run->dae.t + m->c[i] * h - run->control.t_last;
+    pl_horner(run->dae.V_last, n, degree, dt, Z);
+    pl_horner(run->dae.L_last, r->n_c, degree, dt, L);
+    for (int e = 0; e < n; e++) Z[e] -= run->dae.v[e];
     for (int c = 0; c < r->n_c; c++)
       if (!pl_radau_has_force(run, c)) L[c] = 0;
   }
@@ -87,11 +87,12 @@ static void predict(pl_run* run, pl_radau* r, double h) {
 static void set_scales(const pl_run* run, pl_radau* r, double h) {
   int n = r->n_q;
   const double *Q = stage(r->Q, r->method.s - 1, n), *V = stage(r->V, r->method.s - 1, n);
-  double q_most = fmax(run->q_size, pl_norm(Q, n)), v_most = fmax(run->v_size, pl_norm(V, n));
+  double q_most = fmax(run->dae.q_size, pl_norm(Q, n)),
+         v_most = fmax(run->dae.v_size, pl_norm(V, n));
   if (q_most == 0) q_most = fabs(h) * v_most;
   for (int i = 0; i < n; i++) {
-    r->sc_q[i] = fmax(fmax(run->q_most[i], fabs(Q[i])), floor_part * q_most);
-    r->sc_v[i] = fmax(fmax(run->v_most[i], fabs(V[i])), floor_part * v_most);
+    r->sc_q[i] = fmax(fmax(run->dae.q_most[i], fabs(Q[i])), floor_part * q_most);
+    r->sc_v[i] = fmax(fmax(run->dae.v_most[i], fabs(V[i])), floor_part * v_most);
     if (!(r->sc_q[i] > 0)) r->sc_q[i] = 1;
     if (!(r->sc_v[i] > 0)) r->sc_v[i] = r->sc_q[i];
   }
@@ -169,10 +170,10 @@ static double estimate(const pl_run* run, pl_radau* r, double h) {
   int n = r->n_q;
   double gamma = m->gamma[0][0] / h, *rho = r->error_q, *b = r->rhs;
   for (int e = 0; e < n; e++) {
-    rho[e] = run->v[e];
-    r->error_v[e] = run->A[e];
+    rho[e] = run->dae.v[e];
+    r->error_v[e] = run->dae.A[e];
     for (int i = 0; i < m->s; i++) {
-      double way = m->c[i] * run->v[e];  // (Q_i - q) / h, without its rounding
+      double way = m->c[i] * run->dae.v[e];  // (Q_i - q) / h, without its rounding
       for (int j = 0; j < m->s; j++) way += m->A[i][j] * stage(r->Z, j, n)[e];
       rho[e] += m->error[i] * way;
       r->error_v[e] += m->error[i] * stage(r->Z, i, n)[e] / h;
@@ -182,7 +183,7 @@ static double estimate(const pl_run* run, pl_radau* r, double h) {
   pl_radau_multiply(&r->shape, b, 1, r->here.P0, r->error_v, n);
   pl_radau_multiply(&r->shape, b, -1 / gamma, r->here.P2, rho, n);
   for (int e = 0; e < n; e++)
-    if (run->has_equation[e] == 0) b[e] = 0;
+    if (run->dae.has_equation[e] == 0) b[e] = 0;
   for (int c = 0; c < r->n_c; c++)
     if (!pl_radau_has_force(run, c)) b[n + c] = 0;
   pl_radau_solve_real(r, b);
@@ -221,7 +222,8 @@ static double next_length(const pl_radau* r, double h, double error) {
 }
 
 static void slopes_at_start(pl_run* run, pl_radau* r) {
-  pl_radau_slopes_at(run, r, &r->here, run->t + run->t_low, run->q, run->v, run->A, run->L);
+  pl_radau_slopes_at(run, r, &r->here, run->dae.t + run->dae.t_low, run->dae.q, run->dae.v,
+                     run->dae.A, run->dae.L);
   r->has_jacobian = true;
   r->has_factor = false;
 }
@@ -277,7 +279,8 @@ bool pl_radau_probe(pl_run* run, double h, double least, double* reach) {
 static double relative(const pl_run* run, const double* g, const double* size, bool positions) {
   double most = 0;
   for (int c = 0; c < run->n_c; c++) {
-    if (!run->taken[c] || g[c] == 0 || (positions && run->setup->constraints[c].velocity)) continue;
+    if (!run->dae.taken[c] || g[c] == 0 || (positions && run->setup->constraints[c].velocity))
+      continue;
     double x = fabs(g[c]) / size[c];
     if (!(x <= most)) most = x;
   }
@@ -289,7 +292,7 @@ static void solve_back(const pl_run* run, pl_radau* r, const double* residual, d
                        bool positions) {
   memset(r->rhs, 0, (size_t)r->n_q * sizeof(double));
   for (int c = 0; c < r->n_c; c++) {
-    bool counts = run->taken[c] && !(positions && run->setup->constraints[c].velocity);
+    bool counts = run->dae.taken[c] && !(positions && run->setup->constraints[c].velocity);
     r->rhs[r->n_q + c] = counts ? -factor * residual[c] : 0;
   }
   pl_radau_solve_real(r, r->rhs);
@@ -297,25 +300,27 @@ static void solve_back(const pl_run* run, pl_radau* r, const double* residual, d
 
 static bool bring_back(pl_run* run, pl_radau* r, double h) {
   enum { MOST = 6 };
-  double t = run->t + run->t_low + h, gamma = r->method.gamma[0][0] / h, before = (double)INFINITY;
-  if (run->n_active == 0) return true;
+  double t = run->dae.t + run->dae.t_low + h, gamma = r->method.gamma[0][0] / h,
+         before = (double)INFINITY;
+  if (run->dae.n_active == 0) return true;
   for (int round = 0; round < MOST; round++) {
-    pl_point_evaluate(run, t, run->trial_q, run->trial_v);
-    pl_assemble_g(run, 0, run->g, run->g_size);
-    double g = relative(run, run->g, run->g_size, true);
+    pl_point_evaluate(&run->dae, t, run->control.trial_q, run->control.trial_v);
+    pl_assemble_g(&run->dae, 0, run->dae.g, run->dae.g_size);
+    double g = relative(run, run->dae.g, run->dae.g_size, true);
     if (!isfinite(g)) return false;
     if (g <= 4 * DBL_EPSILON || g >= 0.5 * before) break;
     before = g;
-    solve_back(run, r, run->g, gamma, true);
-    for (int e = 0; e < r->n_q; e++) run->trial_q[e] += r->rhs[e] / gamma;
+    solve_back(run, r, run->dae.g, gamma, true);
+    for (int e = 0; e < r->n_q; e++) run->control.trial_q[e] += r->rhs[e] / gamma;
   }
   for (int round = 0; round < 2; round++) {
-    pl_batches_load_v(&run->motion, run->trial_v, 0);
-    pl_assemble_gdot(run, run->r, run->r_size);
-    solve_back(run, r, run->r, 1, false);
-    for (int e = 0; e < r->n_q; e++) run->trial_v[e] += r->rhs[e];
+    pl_batches_load_v(&run->dae.motion, run->control.trial_v, 0);
+    pl_assemble_gdot(&run->dae, run->dae.r, run->dae.r_size);
+    solve_back(run, r, run->dae.r, 1, false);
+    for (int e = 0; e < r->n_q; e++) run->control.trial_v[e] += r->rhs[e];
   }
-  return isfinite(pl_norm(run->trial_q, r->n_q)) && isfinite(pl_norm(run->trial_v, r->n_q));
+  return isfinite(pl_norm(run->control.trial_q, r->n_q))
+         && isfinite(pl_norm(run->control.trial_v, r->n_q));
 }
 
 // -------------------------------------------------------------------------------------- polynomial
@@ -339,12 +344,12 @@ static void fill_series(const pl_run* run, const pl_radau* r, double h, double* 
 
 // A and L hold those of the point in order 0.
 void pl_radau_series(pl_run* run, pl_radau* r, double h) {
-  fill_series(run, r, h, run->Q, run->q, r->Q, r->n_q);
-  fill_series(run, r, h, run->V, run->v, r->V, r->n_q);
-  fill_series(run, r, h, run->A, run->A, r->A, r->n_q);
-  fill_series(run, r, h, run->L, run->L, r->L, r->n_c);
-  run->t_series = run->t;
-  run->use = run->order;
+  fill_series(run, r, h, run->dae.Q, run->dae.q, r->Q, r->n_q);
+  fill_series(run, r, h, run->dae.V, run->dae.v, r->V, r->n_q);
+  fill_series(run, r, h, run->dae.A, run->dae.A, r->A, r->n_q);
+  fill_series(run, r, h, run->dae.L, run->dae.L, r->L, r->n_c);
+  run->dae.t_series = run->dae.t;
+  run->dae.use = run->order;
 }
 
 // ------------------------------------------------------------------------------- a step that holds
@@ -355,12 +360,13 @@ static bool met(const pl_projection* p, double tol) {
 }
 
 static pleuel_status too_small(pl_run* run, double h) {
-  if (run->best > 0 && run->smallest_here < 1e-2 * run->best) return pl_run_singular(run);
+  if (run->dae.best > 0 && run->event->smallest_here < 1e-2 * run->dae.best)
+    return pl_run_singular(run);
   return pl_fail(run->job, PLEUEL_NUMERICAL,
                  "no step is short enough at t = %.9g s (%.3g s tried): the motion leaves the "
                  "domain of a function, "
                  "or a force or the constraints jump there",
-                 run->t, h);
+                 run->dae.t, h);
 }
 
 // Shorter and shorter until a step of that length holds; its end is in trial_q, trial_v.
@@ -369,40 +375,44 @@ pleuel_status pl_radau_hold(pl_run* run, pl_radau* r, double* h, double* error, 
   for (;;) {
     pl_radau_try a = attempt(run, r, *h);
     if (a.fine) {
-      memcpy(run->trial_q, stage(r->Q, r->method.s - 1, r->n_q), (size_t)r->n_q * sizeof(double));
-      memcpy(run->trial_v, stage(r->V, r->method.s - 1, r->n_q), (size_t)r->n_q * sizeof(double));
+      memcpy(run->control.trial_q, stage(r->Q, r->method.s - 1, r->n_q),
+             (size_t)r->n_q * sizeof(double));
+      memcpy(run->control.trial_v, stage(r->V, r->method.s - 1, r->n_q),
+             (size_t)r->n_q * sizeof(double));
       bool back = bring_back(run, r, *h);
-      *p = pl_project(run, run->t + run->t_low + *h, run->trial_q, run->trial_v);
+      *p = pl_project(&run->dae, run->dae.t + run->dae.t_low + *h, run->control.trial_q,
+                      run->control.trial_v);
       if (back && met(p, r->tol)) {
         *error = a.error;
         *next = a.next;
         return PLEUEL_OK;
       }
-      pl_sizes_forget(run);
+      pl_sizes_forget(&run->dae);
       a = give_up(r, *h, 0.5);
     }
     r->rejected = true;
     run->stats.rejections++;
     *h = copysign(a.next, *h);
-    if (!(fabs(*h) > run->h_least)) return too_small(run, *h);
+    if (!(fabs(*h) > run->control.h_least)) return too_small(run, *h);
   }
 }
 
 // ----------------------------------------------------------------------------------------- lengths
 // How far the next time of output is; infinite without a grid.
 static double to_grid(const pl_run* run) {
-  if (run->grid_dt == 0) return (double)INFINITY;
-  double slack = 1e-9 * fabs(run->grid_dt);
-  for (long n = run->grid_n;; n++) {
-    double t = run->options.t_0 + (double)n * run->grid_dt;
-    double way = (t - run->t - run->t_low) * copysign(1, run->grid_dt);
+  if (run->control.grid_dt == 0) return (double)INFINITY;
+  double slack = 1e-9 * fabs(run->control.grid_dt);
+  for (long n = run->control.grid_n;; n++) {
+    double t = run->control.grid_times ? pl_grid_time(run, n)
+                                       : run->options.t_0 + (double)n * run->control.grid_dt;
+    double way = (t - run->dae.t - run->dae.t_low) * copysign(1, run->control.grid_dt);
     if (way > slack) return way;
   }
 }
 
 static double choose_length(pl_run* run, pl_radau* r) {
   double h = r->h, left = fabs(pl_run_left(run)), grid = to_grid(run);
-  h = fmin(h, run->options.h_max > 0 ? run->options.h_max : run->row_gap);
+  h = fmin(h, run->options.h_max > 0 ? run->options.h_max : run->control.row_gap);
   if (grid < h) h = fmax(grid, fmin(h, r->h_dense));
   if (h >= left) h = left;
   else if (h > 0.5 * left) h = 0.5 * left;
@@ -415,21 +425,21 @@ static double choose_length(pl_run* run, pl_radau* r) {
 
 // The first step: a fraction of the radius of the series at the point.
 static void first_length(pl_run* run, pl_radau* r) {
-  run->use = run->order;
+  run->dae.use = run->order;
   pl_taylor_expand(run);
   r->h = pl_taylor_length(run);
   if (!(r->h > 0)) r->h = 0;
   if (!isfinite(r->h)) r->h = fabs(pl_run_left(run));
-  r->h = fmax(r->h, 100 * run->h_least);
+  r->h = fmax(r->h, 100 * run->control.h_least);
   r->steps_in_row = 0;
 }
 
 static void see_whether_smooth(pl_run* run, pl_radau* r) {
   if (!r->has_last) return;
-  double dt = run->t - run->t_last, off = 0;
-  pl_horner(run->V_last, r->n_q, r->method.s, dt, run->row_v);
-  for (int e = 0; e < r->n_q; e++) off = fmax(off, fabs(run->row_v[e] - run->v[e]));
-  r->has_last = dt != 0 && off <= 1e-3 * run->v_size;
+  double dt = run->dae.t - run->control.t_last, off = 0;
+  pl_horner(run->dae.V_last, r->n_q, r->method.s, dt, run->control.row_v);
+  for (int e = 0; e < r->n_q; e++) off = fmax(off, fabs(run->control.row_v[e] - run->dae.v[e]));
+  r->has_last = dt != 0 && off <= 1e-3 * run->dae.v_size;
 }
 
 // ------------------------------------------------------------------------------------------ a step
@@ -440,7 +450,7 @@ static bool rows_are_exact(const pl_run* run, const pl_radau* r, double h, doubl
 
 // A shorter step, its values and its polynomial.
 static pleuel_status hold_again(pl_run* run, pl_radau* r, double* h, pl_projection* p) {
-  pl_sizes_forget(run);
+  pl_sizes_forget(&run->dae);
   PL_TRY(pl_radau_hold(run, r, h, &r->error, &r->next, p));
   pl_radau_watch(run, r, *h);
   pl_radau_series(run, r, *h);
@@ -455,7 +465,7 @@ static pleuel_status hold_for_rows(pl_run* run, pl_radau* r, double* h, pl_proje
                  * pow(r->tol / fmax(r->error * r->tol_stage, 1e-6 * r->tol),
                        1.0 / (r->method.s + 1));
     if (rows_are_exact(run, r, *h, r->error)) return PLEUEL_OK;
-    pl_sizes_forget(run);
+    pl_sizes_forget(&run->dae);
     *h = copysign(fmax(to_grid(run), fmin(r->h_dense, 0.9 * fabs(*h))), *h);
   }
 }
@@ -465,7 +475,7 @@ static pleuel_status prepare(pl_run* run, pl_radau* r) {
   if (!pl_radau_ready(run))
     return pl_fail(run->job, PLEUEL_NO_MEMORY,
                    "the systems of the implicit method do not fit into memory");
-  if (isnan(run->stats.t_implicit)) run->stats.t_implicit = run->t;
+  if (isnan(run->stats.t_implicit)) run->stats.t_implicit = run->dae.t;
   run->stats.order_implicit = 2 * r->method.s - 1;
   if (r->h == 0) first_length(run, r);
   r->has_jacobian = false;
@@ -486,7 +496,7 @@ pleuel_status pl_radau_expand(pl_run* run, pl_step* s) {
   while (run->setup->n_events > 0 && !pl_watch_is_followed(run, s->h)) {
     // an event that is faster than the motion
     s->h *= 0.5;
-    if (!(fabs(s->h) > run->h_least)) return too_small(run, s->h);
+    if (!(fabs(s->h) > run->control.h_least)) return too_small(run, s->h);
     PL_TRY(hold_again(run, r, &s->h, &s->projection));
   }
   return PLEUEL_OK;
@@ -514,7 +524,7 @@ pleuel_status pl_radau_state_at(pl_run* run, pl_step* s) {
   pl_radau* r = run->radau;
   s->found = true;
   if (s->root > 0) {
-    pl_sizes_forget(run);
+    pl_sizes_forget(&run->dae);
     PL_TRY(pl_radau_land(run, r, &s->h, &s->root, &s->projection));
     if (s->root == 0) return PLEUEL_OK;
   }

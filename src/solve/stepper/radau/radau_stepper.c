@@ -21,13 +21,15 @@ static pleuel_status open(pl_run* run) {
   return PLEUEL_OK;
 }
 
+static bool enter(pl_run* run) { return pl_point_enter(&run->dae); }
+
 static void close(pl_run* run) { pl_radau_free(run->radau); }
 
 const pl_stepper pl_stepper_radau = {.name = "radau",
                                      .tolerance = tolerance,
                                      .open = open,
                                      .poll = pl_stiff_poll,
-                                     .enter = pl_point_enter,
+                                     .enter = enter,
                                      .expand = pl_radau_expand,
                                      .state_at = pl_radau_state_at,
                                      .polynomial = pl_radau_polynomial,

@@ -15,9 +15,9 @@ enum { WIDE = 8 };
 // -------------------------------------------------------------------------------------------- room
 static void reserve_extended(pl_run* run, pl_radau* r) {
   pl_arena* a = run->job->arena;
-  r->lanes = PL_ARRAY(a, pl_radau_lanes, run->motion.n + 1);
-  for (int i = 0; i < run->motion.n; i++) {
-    const pl_batch* b = &run->motion.at[i];
+  r->lanes = PL_ARRAY(a, pl_radau_lanes, run->dae.motion.n + 1);
+  for (int i = 0; i < run->dae.motion.n; i++) {
+    const pl_batch* b = &run->dae.motion.at[i];
     r->lanes[i] = (pl_radau_lanes){b, b->jet};
     if (b->lanes > 1) continue;
     const pl_pattern* p = b->pattern;
@@ -80,8 +80,8 @@ static void reserve_watches(pl_run* run, pl_radau* r) {
   for (size_t i = 0; i < 5; i++) *of_c[i] = PL_ARRAY(a, double, c + 1);
   r->end_a = PL_ARRAY(a, double, r->n_q + 1);
   r->save_a = PL_ARRAY(a, double, r->n_q + 1);
-  r->bent = PL_ARRAY(a, double, (size_t)run->n_switches*(PL_RADAU_MOST + 1) + 1);
-  r->watched = PL_ARRAY(a, double, (size_t)run->n_watch*(PL_RADAU_MOST + 1) + 1);
+  r->bent = PL_ARRAY(a, double, (size_t)run->event->n_switches*(PL_RADAU_MOST + 1) + 1);
+  r->watched = PL_ARRAY(a, double, (size_t)run->event->n_watch*(PL_RADAU_MOST + 1) + 1);
 }
 
 static void reserve_coefficients(pl_run* run, pl_radau* r) {
@@ -173,13 +173,13 @@ static void add_residual(const pl_run* run, pl_radau* r, const pl_radau_lanes* w
     if (!pl_radau_has_force(run, row)) continue;
     double x = VALUE(e);
     F[Q_OF(e->col)] -= x * lambda[row];
-    if (run->taken[row]) C[row] += x * v[Q_OF(e->col)];
+    if (run->dae.taken[row]) C[row] += x * v[Q_OF(e->col)];
   }
   for (const pl_pattern_entry* e = p->W; e < p->W + p->n_W; e++)
-    if (run->taken[C_OF(e->col)]) F[Q_OF(e->row)] -= VALUE(e) * lambda[C_OF(e->col)];
+    if (run->dae.taken[C_OF(e->col)]) F[Q_OF(e->row)] -= VALUE(e) * lambda[C_OF(e->col)];
   for (const pl_pattern_entry* e = p->gt; e < p->gt + p->n_gt; e++)
-    if (run->taken[C_OF(e->row)]) C[C_OF(e->row)] += VALUE(e);
-  if (run->n_slipping == 0) return;
+    if (run->dae.taken[C_OF(e->row)]) C[C_OF(e->row)] += VALUE(e);
+  if (run->dae.n_slipping == 0) return;
   const int* out = b->out + instance;
   for (const pl_pattern_entry* e = p->outputs; e < p->outputs + p->n_out; e++)
     coefficient[out[e->row * b->lanes]] += VALUE(e);
@@ -233,9 +233,9 @@ void pl_radau_slip_rows(const pl_run* run, const double* coefficient, const doub
                         double* C) {
   for (int k = 0; k < run->setup->n_frictions; k++) {
     const pl_friction_setup* friction = &run->setup->frictions[k];
-    for (int i = 0; i < friction->n_rows && run->friction[k].state == PL_FRICTION_SLIP; i++)
+    for (int i = 0; i < friction->n_rows && run->dae.friction[k].state == PL_FRICTION_SLIP; i++)
       C[friction->row[i]] = lambda[friction->row[i]]
-                            - pl_friction_kappa(run, k, i, coefficient)
+                            - pl_friction_kappa(&run->dae, k, i, coefficient)
                                   * lambda[friction->constraint];
   }
 }
@@ -243,7 +243,7 @@ void pl_radau_slip_rows(const pl_run* run, const double* coefficient, const doub
 void pl_radau_residual(pl_run* run, pl_radau* r) {
   memset(r->F, 0, (size_t)r->n * (size_t)r->method.s * sizeof *r->F);
   memset(r->coefficient, 0, (size_t)r->n_C * (size_t)r->method.s * sizeof(double));
-  for (int i = 0; i < run->motion.n; i++) {
+  for (int i = 0; i < run->dae.motion.n; i++) {
     const pl_radau_lanes* w = &r->lanes[i];
     if (w->batch->lanes > 1) residual_by_instances(run, r, w);
     else residual_by_stages(run, r, w);
@@ -251,8 +251,8 @@ void pl_radau_residual(pl_run* run, pl_radau* r) {
   for (int i = 0; i < r->method.s; i++) {
     double* F = pl_radau_stage(r->F, i, r->n);
     for (int k = 0; k < run->n_q; k++)
-      if (run->has_equation[k] == 0) F[k] = 0;
-    if (run->n_slipping > 0)
+      if (run->dae.has_equation[k] == 0) F[k] = 0;
+    if (run->dae.n_slipping > 0)
       pl_radau_slip_rows(run, pl_radau_stage(r->coefficient, i, r->n_C),
                          pl_radau_stage(r->L, i, r->n_c), F + r->n_q);
   }

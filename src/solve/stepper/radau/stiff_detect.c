@@ -36,13 +36,13 @@ static double nodes_of_batch(const pl_batch* b) {
 
 static double nodes_of(const pl_run* run) {
   double n = 0;
-  for (int i = 0; i < run->motion.n; i++) n += nodes_of_batch(&run->motion.at[i]);
+  for (int i = 0; i < run->dae.motion.n; i++) n += nodes_of_batch(&run->dae.motion.at[i]);
   return n;
 }
 
 static double cost_of_series(const pl_run* run) {
-  double p = run->order, n = run->n_q + run->n_c, entries = run->kkt.n_values;
-  double system = run->kkt.dense ? p * n * n / 4 + n * n * n / 8 : (8 * p + 60) * entries;
+  double p = run->order, n = run->n_q + run->n_c, entries = run->dae.kkt.n_values;
+  double system = run->dae.kkt.dense ? p * n * n / 4 + n * n * n / 8 : (8 * p + 60) * entries;
   return p * nodes_of(run) * (1 + p / 8) + system;
 }
 
@@ -51,8 +51,8 @@ static double cost_of_series(const pl_run* run) {
 static double cost_of_sweeps(const pl_run* run) {
   const pl_radau* r = run->radau;
   double sum = 0, stages = r->method.s, often = r->couples ? stages : 1;
-  for (int i = 0; i < run->motion.n; i++) {
-    const pl_batch* b = &run->motion.at[i];
+  for (int i = 0; i < run->dae.motion.n; i++) {
+    const pl_batch* b = &run->dae.motion.at[i];
     double n_q = b->pattern->n_q;
     double sweeps = b->lanes > 1 ? 4 * stages / 2 + often * (1 + n_q)
                                  : 4 + often * (1 + ceil(n_q / 4.0));
@@ -80,8 +80,8 @@ static double cost_of_implicit(const pl_run* run) {
 static double slow_radius(const pl_run* run) {
   double radius = (double)INFINITY;
   for (int k = 1; k <= 3; k++) {
-    double x = pl_norm(run->V_last + (size_t)k * (size_t)run->n_q, run->n_q);
-    if (x > 0) radius = fmin(radius, pow(run->v_size / x, 1.0 / k));
+    double x = pl_norm(run->dae.V_last + (size_t)k * (size_t)run->n_q, run->n_q);
+    if (x > 0) radius = fmin(radius, pow(run->dae.v_size / x, 1.0 / k));
   }
   return radius;
 }
@@ -98,19 +98,19 @@ pleuel_status pl_stiff_poll(pl_run* run) {
   r->next_look = r->next_look ? 2 * r->next_look : FIRST_LOOK;
 
   // the step that the series allowed: what ended it, an event or a bounce, is not stiffness
-  double left = fabs(run->options.t_end - run->t), h = fmax(fabs(run->h_last), run->h_series),
-         reach;
+  double left = fabs(run->options.t_end - run->dae.t),
+         h = fmax(fabs(run->control.h_last), run->control.h_series), reach;
   if (r->looks < FIRST_LOOK || !worth_a_look(run, left, h)) return PLEUEL_OK;
   bool holds = pl_radau_probe(
-      run, copysign(fmin(slow_radius(run) / 4, left), run->options.t_end - run->t), h, &reach);
+      run, copysign(fmin(slow_radius(run) / 4, left), run->options.t_end - run->dae.t), h, &reach);
   // the jets were used for other points
-  run->factored = false;
+  run->dae.factored = false;
   if (!run->stepper->enter(run)) return pl_run_undetermined(run);
   r->cost_series = cost_of_series(run) / h;
   double wanted = run->options.tol == 0 ? gain_exact : gain;
   if (!holds || r->cost_series < wanted * cost_of_implicit(run) / fabs(reach)) return PLEUEL_OK;
   run->stepper = &pl_stepper_radau;
-  run->tol = fmax(run->tol, r->tol);
+  run->control.tol = fmax(run->control.tol, r->tol);
   r->h = fabs(reach);
   r->dear = 0;
   return PLEUEL_OK;

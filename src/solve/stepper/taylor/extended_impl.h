@@ -19,10 +19,11 @@ typedef struct pl_sheet {
   int time, Q, V, A, L, out;  // inputs, outputs
 } pl_sheet;
 
+typedef struct pl_extended pl_extended;
 struct pl_extended {
   const pl_real *state, *fine;
   int low;             // orders below are fine
-  bool by_doubles;     // orders from there on are those of run->program
+  bool by_doubles;     // orders from there on are those of run->taylor->program
   pl_step_program* o;  // for the constraints that are taken; its own memory is not used
   void* m;
   pl_prog *top, *head;   // one more coefficient of q; the series at `length`
@@ -88,8 +89,8 @@ bool pl_extended_project(pl_run* run, pl_projection* p);
 void pl_extended_accept(pl_run* run, bool to_end);  // time
 void pl_extended_sum(pl_run* run);                  // end_q, end_v, end_a, end_l at `length`
 bool pl_extended_energy(pl_run* run, bool anew, pl_energy* e);
-// After pl_extended_advance to the root of an event that was found in doubles: Newton to the digits of
-// the type.
+// After pl_extended_advance to the root of an event that was found in doubles: Newton to the digits
+// of the type.
 void pl_extended_refine(pl_run* run, double dt);
 
 // ---- extended_output.c

@@ -4,18 +4,19 @@
 
 #include "solve/stepper/taylor/extended_impl.h"
 
-// Orders below this are computed in extended numbers, those above in doubles: terms there are e^-24 of
-// the whole and less, so that their rounding errors are four thousand times smaller than those of
-// the state, which has 64 digits.
+// Orders below this are computed in extended numbers, those above in doubles: terms there are e^-24
+// of the whole and less, so that their rounding errors are four thousand times smaller than those
+// of the state, which has 64 digits.
 enum { LOW_ORDERS = 12 };
 
 // Jorba and Zou: terms of a series fall best like e^-2 from one to the next, where the work is that
 // of the orders.
 void pl_extended_order(pl_run* run) {
+  pl_taylor_make(run);
   enum { LEAST = 6, MOST = 40 };
-  int p = (int)ceil(-0.5 * log(run->tol) + 1);
+  int p = (int)ceil(-0.5 * log(run->control.tol) + 1);
   run->order = p < LEAST ? LEAST : p > MOST ? MOST : p;
-  run->shrink = -2;
+  run->taylor->shrink = -2;
 }
 
 // -------------------------------------------------------------------------- what stands in the way
@@ -71,16 +72,16 @@ pleuel_status pl_extended_check(pl_run* run) {
     return pl_fail(run->job, PLEUEL_UNSUPPORTED,
                    "precision %s: the implicit method computes in double only; use the series",
                    mode);
-  if (run->n_switches > 0)
+  if (run->event->n_switches > 0)
     return pl_fail(run->job, PLEUEL_UNSUPPORTED,
                    "precision %s: a force or constraint with a kink (abs, sign, min, max, if) is "
                    "followed in double only",
                    mode);
-  if (run->has_W)
+  if (run->dae.has_W)
     return pl_fail(run->job, PLEUEL_UNSUPPORTED,
                    "precision %s: forces that depend on multipliers are computed in double only",
                    mode);
-  if (run->mass_of_velocity)
+  if (run->dae.mass_of_velocity)
     return pl_fail(run->job, PLEUEL_UNSUPPORTED,
                    "precision %s: masses that depend on velocities are computed in double only",
                    mode);
@@ -251,13 +252,13 @@ pleuel_status pl_extended_make(pl_run* run) {
         run->job, PLEUEL_UNSUPPORTED,
         "precision %s: the mass matrix of this model needs pivots, which are chosen in double only",
         pl_extended_name(run));
-  run->program = w->by_doubles ? pl_step_program_for_mode(run) : NULL;
-  if (run->program && !run->program->usable) {
-    run->program = NULL;
+  run->taylor->program = w->by_doubles ? pl_step_program_for_mode(run) : NULL;
+  if (run->taylor->program && !run->taylor->program->usable) {
+    run->taylor->program = NULL;
     w->by_doubles = false;
     w->low = run->order;
   }
-  w->high = run->program;
+  w->high = run->taylor->program;
   lay_out(run);
   write_sums(run);
   write_clock(run);
@@ -273,7 +274,7 @@ pleuel_status pl_extended_make(pl_run* run) {
 bool pl_extended_of_mode(pl_run* run) {
   pl_extended* first = run->extended;
   for (pl_extended* w = first; w; w = w->next)
-    if (memcmp(w->o->taken, run->taken, (size_t)run->n_c * sizeof(bool)) == 0) {
+    if (memcmp(w->o->taken, run->dae.taken, (size_t)run->n_c * sizeof(bool)) == 0) {
       // to the front, where it is at work
       for (pl_extended** at = &first; *at; at = &(*at)->next)
         if (*at == w) {
@@ -282,7 +283,7 @@ bool pl_extended_of_mode(pl_run* run) {
         }
       w->next = first;
       run->extended = w;
-      run->program = w->high;
+      run->taylor->program = w->high;
       return true;
     }
   bool made = pl_extended_make(run) == PLEUEL_OK;
@@ -319,16 +320,17 @@ void pl_extended_change_rows(pl_run* run) {
   pl_extended* from = run->extended;
   size_t n = (size_t)run->n_c * sizeof(bool);
   bool* before = from->o->taken;
-  int rank = run->rank;
-  double smallest = run->smallest, best = run->best;
-  pl_point_evaluate(run, run->t, run->q, run->v);
-  pl_active_set_choose(run);
-  bool other = run->rank == rank && memcmp(before, run->taken, n) != 0 && pl_extended_of_mode(run);
+  int rank = run->dae.rank;
+  double smallest = run->dae.smallest, best = run->dae.best;
+  pl_point_evaluate(&run->dae, run->dae.t, run->dae.q, run->dae.v);
+  pl_active_set_choose(&run->dae);
+  bool other = run->dae.rank == rank && memcmp(before, run->dae.taken, n) != 0
+               && pl_extended_of_mode(run);
   if (!other) {
-    memcpy(run->taken, before, n);
-    run->rank = rank;
-    run->smallest = smallest;
-    run->best = best;
+    memcpy(run->dae.taken, before, n);
+    run->dae.rank = rank;
+    run->dae.smallest = smallest;
+    run->dae.best = best;
     return;
   }
   take_over(run->extended, from, run->n_q);

@@ -52,10 +52,10 @@ static void row_of_series(pl_run* run, pl_row* row, double* out) {
   pl_extended_sum(run);
   fill(run, o->end_q, o->end_v, w->end_a, w->end_l, row, out);
   w->fine->read(w->m, o->time, 1, &row->t);
-  w->fine->read(w->m, o->end_q, run->n_q, run->row_q);
-  w->fine->read(w->m, o->end_v, run->n_q, run->row_v);
-  w->fine->read(w->m, w->end_a, run->n_q, run->row_a);
-  w->fine->read(w->m, w->end_l, run->n_c, run->row_l);
+  w->fine->read(w->m, o->end_q, run->n_q, run->control.row_q);
+  w->fine->read(w->m, o->end_v, run->n_q, run->control.row_v);
+  w->fine->read(w->m, w->end_a, run->n_q, run->control.row_a);
+  w->fine->read(w->m, w->end_l, run->n_c, run->control.row_l);
 }
 
 void pl_extended_grid_row(pl_run* run, long n, pl_row* row, double* out) {
@@ -73,7 +73,7 @@ void pl_extended_grid_row(pl_run* run, long n, pl_row* row, double* out) {
 void pl_extended_row_at(pl_run* run, double t, pl_row* row, double* out) {
   pl_extended* w = run->extended;
   const pl_step_program* o = w->o;
-  double dt = t - run->t_series;
+  double dt = t - run->dae.t_series;
   pl_parts end = w->fine->get(w->m, o->time), length = w->fine->get(w->m, o->length);
   w->fine->write(w->m, o->length, 1, &dt);
   w->fine->interpret(w->clock, w->m, 0, 1);

@@ -1,5 +1,5 @@
-// A step on extended numbers: projection, order 0, series. As step_program_run.c, which has the same
-// programs for doubles.
+// A step on extended numbers: projection, order 0, series. As step_program_run.c, which has the
+// same programs for doubles.
 //
 // The state is rounded to its type with each correction of the projection, and nowhere else: what
 // is computed from it is more exact than that by the digits that the fine type has more, so that
@@ -45,8 +45,9 @@ static bool pivots_are_sound(pl_run* run) {
   }
   if (o->n == o->n_mass) return true;
   run->extended->part = o->fade_best > 0 ? fmin(1, least / o->fade_best) : 1;
-  run->smallest = least > 0 && o->fade_best > 0 ? run->best * sqrt(fmin(1, least / o->fade_best))
-                                                : run->best;
+  run->dae.smallest = least > 0 && o->fade_best > 0
+                          ? run->dae.best * sqrt(fmin(1, least / o->fade_best))
+                          : run->dae.best;
   if (!(least > least_sound)) return false;
   if (least > o->fade_best) o->fade_best = least;
   return least > sound * o->fade_best;
@@ -59,8 +60,8 @@ static void note_largest(double x, double* most) {
 static void set_floors(pl_run* run) {
   pl_extended* w = run->extended;
   for (int i = 0; i < run->n_q; i++) {
-    double q = fmax(run->q_most[i], 1e-6 * run->q_size),
-           v = fmax(run->v_most[i], 1e-6 * run->v_size);
+    double q = fmax(run->dae.q_most[i], 1e-6 * run->dae.q_size),
+           v = fmax(run->dae.v_most[i], 1e-6 * run->dae.v_size);
     w->fine->write(w->m, w->o->q_floor + i, 1, &q);
     w->fine->write(w->m, w->o->v_floor + i, 1, &v);
   }
@@ -72,10 +73,10 @@ static double correct(pl_run* run, pl_step_part part, int x, double size) {
   pl_extended* w = run->extended;
   int n = run->n_q;
   fine_part(run, part);
-  read(run, w->o->move, n, run->rhs);
+  read(run, w->o->move, n, run->dae.rhs);
   w->fine->add(w->m, x, w->o->move, n);
   if (w->state != w->fine) w->fine->round_to_long(w->m, x, n);
-  double most = pl_norm(run->rhs, n);
+  double most = pl_norm(run->dae.rhs, n);
   return size > 0 ? most / size : most;
 }
 
@@ -89,16 +90,16 @@ static bool project_positions(pl_run* run, pl_projection* p) {
   double before = (double)INFINITY;
   for (int round = 0; round < MAX_NEWTON; round++) {
     fine_part(run, PL_PART_POSITION);
-    read(run, o->g, run->n_c, run->g);
-    read(run, o->g_size, run->n_c, run->g_size);
-    double g = pl_residual(run, run->g, run->g_size, true);
+    read(run, o->g, run->n_c, run->dae.g);
+    read(run, o->g_size, run->n_c, run->dae.g_size);
+    double g = pl_residual(&run->dae, run->dae.g, run->dae.g_size, true);
     if (round == 0) p->g_before = g;
     p->g_after = g;
     if (!isfinite(g) || !pivots_are_sound(run)) return false;
     if (is_done(run, g) || (round > 0 && (g <= run->extended->floor || g >= 0.5 * before)))
       return true;
     before = g;
-    double move = correct(run, PL_PART_CORRECT_Q, o->Q, run->q_size);
+    double move = correct(run, PL_PART_CORRECT_Q, o->Q, run->dae.q_size);
     if (!isfinite(move)) return false;
     note_largest(move, &p->move_q);
   }
@@ -109,14 +110,14 @@ static bool project_velocities(pl_run* run, pl_projection* p) {
   const pl_step_program* o = run->extended->o;
   for (int round = 0;; round++) {
     fine_part(run, PL_PART_VELOCITY);
-    read(run, o->r, run->n_c, run->r);
-    read(run, o->r_size, run->n_c, run->r_size);
-    double r = pl_residual(run, run->r, run->r_size, false);
+    read(run, o->r, run->n_c, run->dae.r);
+    read(run, o->r_size, run->n_c, run->dae.r_size);
+    double r = pl_residual(&run->dae, run->dae.r, run->dae.r_size, false);
     if (round == 0) p->r_before = r;
     p->r_after = r;
     if (!isfinite(r)) return false;
     if (round > 0 || is_done(run, r)) return true;
-    double move = correct(run, PL_PART_CORRECT_V, o->V, run->v_size);
+    double move = correct(run, PL_PART_CORRECT_V, o->V, run->dae.v_size);
     if (!isfinite(move)) return false;
     note_largest(move, &p->move_v);
   }
@@ -124,27 +125,27 @@ static bool project_velocities(pl_run* run, pl_projection* p) {
 
 bool pl_extended_project(pl_run* run, pl_projection* p) {
   pl_extended* w = run->extended;
-  run->at_point = w->arrived = false;
+  run->dae.at_point = w->arrived = false;
   *p = (pl_projection){0};
-  pl_sizes_note(run, run->trial_q, run->trial_v);
+  pl_sizes_note(&run->dae, run->control.trial_q, run->control.trial_v);
   set_floors(run);
   w->fine->move(w->m, w->o->Q, w->o->end_q, run->n_q);
   w->fine->move(w->m, w->o->V, w->o->end_v, run->n_q);
   fine(run, w->clock, 0, 1);
   p->ok = project_positions(run, p) && project_velocities(run, p);
   if (!p->ok) return false;
-  read(run, w->o->Q, run->n_q, run->trial_q);
-  read(run, w->o->V, run->n_q, run->trial_v);
-  run->at_point = true;
-  run->factored = false;
+  read(run, w->o->Q, run->n_q, run->control.trial_q);
+  read(run, w->o->V, run->n_q, run->control.trial_v);
+  run->dae.at_point = true;
+  run->dae.factored = false;
   return true;
 }
 
 void pl_extended_accept(pl_run* run, bool to_end) {
   if (to_end) return;
   pl_parts t = run->extended->fine->get(run->extended->m, run->extended->o->time);
-  run->t = t.part[0];
-  run->t_low = t.part[1];
+  run->dae.t = t.part[0];
+  run->dae.t_low = t.part[1];
 }
 
 // ----------------------------------------------------------------------------------------- order 0
@@ -152,17 +153,17 @@ static void read_orders(pl_run* run, int first, int last) {
   const pl_step_program* o = run->extended->o;
   size_t n_q = (size_t)o->n_q, n_c = (size_t)o->n_c, k = (size_t)first;
   int n = last - first + 1;
-  read(run, o->Q + first * o->n_q, (n + 1) * o->n_q, run->Q + k * n_q);
-  read(run, o->V + first * o->n_q, (n + 1) * o->n_q, run->V + k * n_q);
-  read(run, o->A + first * o->n_q, n * o->n_q, run->A + k * n_q);
-  read(run, o->L + first * o->n_c, n * o->n_c, run->L + k * n_c);
+  read(run, o->Q + first * o->n_q, (n + 1) * o->n_q, run->dae.Q + k * n_q);
+  read(run, o->V + first * o->n_q, (n + 1) * o->n_q, run->dae.V + k * n_q);
+  read(run, o->A + first * o->n_q, n * o->n_q, run->dae.A + k * n_q);
+  read(run, o->L + first * o->n_c, n * o->n_c, run->dae.L + k * n_c);
 }
 
 // Of dependent rows others may tell more by now than those that were chosen.
 static bool look_at_rows(pl_run* run) {
   static const double faded = 1e-4;
   const pl_extended* w = run->extended;
-  if (run->rank == run->n_active || !(w->part < faded)) return true;
+  if (run->dae.rank == run->dae.n_active || !(w->part < faded)) return true;
   pl_extended_change_rows(run);
   if (run->extended == w) return true;
   set_floors(run);
@@ -184,12 +185,12 @@ bool pl_extended_enter(pl_run* run) {
   w->fine->move(w->m, w->v_0, o->V, 2 * o->n_q);
   w->fine->move(w->m, w->a_0, o->A, o->n_q);
   w->fine->move(w->m, w->l_0, o->L, o->n_c);
-  if (w->by_doubles) pl_step_program_enter_at(run, run->t, run->q, run->v);
+  if (w->by_doubles) pl_step_program_enter_at(run, run->dae.t, run->dae.q, run->dae.v);
   read_orders(run, 0, 0);
-  read(run, o->h, o->n_q, run->rhs);
-  run->force_size = fmax(run->force_size, pl_norm(run->rhs, o->n_q));
-  run->ready = isfinite(pl_norm(run->A, o->n_q)) && isfinite(pl_norm(run->L, o->n_c));
-  return run->ready;
+  read(run, o->h, o->n_q, run->dae.rhs);
+  run->dae.force_size = fmax(run->dae.force_size, pl_norm(run->dae.rhs, o->n_q));
+  run->dae.ready = isfinite(pl_norm(run->dae.A, o->n_q)) && isfinite(pl_norm(run->dae.L, o->n_c));
+  return run->dae.ready;
 }
 
 bool pl_extended_arrive(pl_run* run, double* off, double* size) {
@@ -219,7 +220,7 @@ void pl_extended_expand(pl_run* run) {
   fine(run, w->top, 0, 1);
   read_orders(run, 1, run->order - 1);
   read(run, w->o->Q + (run->order + 1) * run->n_q, run->n_q,
-       run->Q + (size_t)(run->order + 1) * (size_t)run->n_q);
+       run->dae.Q + (size_t)(run->order + 1) * (size_t)run->n_q);
 }
 
 void pl_extended_norms(pl_run* run, const double** q, const double** v) {
@@ -258,8 +259,8 @@ static void sum_tail(pl_run* run, int to, const double* X, int n, int first, int
 static void sum_state(pl_run* run) {
   pl_extended* w = run->extended;
   if (w->by_doubles) {
-    sum_tail(run, w->tail_q, run->Q, run->n_q, w->low + 1, run->order + 1);
-    sum_tail(run, w->tail_v, run->V, run->n_q, w->low + 1, run->order);
+    sum_tail(run, w->tail_q, run->dae.Q, run->n_q, w->low + 1, run->order + 1);
+    sum_tail(run, w->tail_v, run->dae.V, run->n_q, w->low + 1, run->order);
   }
   fine(run, w->head, 0, 1);
 }
@@ -268,8 +269,8 @@ void pl_extended_sum(pl_run* run) {
   pl_extended* w = run->extended;
   sum_state(run);
   if (w->by_doubles) {
-    sum_tail(run, w->tail_a, run->A, run->n_q, w->low, run->order - 1);
-    sum_tail(run, w->tail_l, run->L, run->n_c, w->low, run->order - 1);
+    sum_tail(run, w->tail_a, run->dae.A, run->n_q, w->low, run->order - 1);
+    sum_tail(run, w->tail_l, run->dae.L, run->n_c, w->low, run->order - 1);
   }
   fine(run, w->head_forces, 0, 1);
 }
@@ -277,18 +278,18 @@ void pl_extended_sum(pl_run* run) {
 void pl_extended_advance(pl_run* run, double dt) {
   pl_extended* w = run->extended;
   // to the end as it is exactly
-  if (dt == run->options.t_end - run->t - run->t_low) fine(run, w->left, 0, 1);
+  if (dt == run->options.t_end - run->dae.t - run->dae.t_low) fine(run, w->left, 0, 1);
   else w->fine->write(w->m, w->o->length, 1, &dt);
   sum_state(run);
-  read(run, w->o->end_q, run->n_q, run->trial_q);
-  read(run, w->o->end_v, run->n_q, run->trial_v);
+  read(run, w->o->end_q, run->n_q, run->control.trial_q);
+  read(run, w->o->end_v, run->n_q, run->control.trial_v);
 }
 
 // ------------------------------------------------------------------------------------------ events
 static int event_hit(const pl_run* run) {
-  for (int i = 0; i < run->n_watch; i++)
-    if (run->hit[i] && !run->touch[i] && run->watch[i].kind == PL_WATCH_EVENT)
-      return run->setup->events[run->watch[i].index].watch;
+  for (int i = 0; i < run->event->n_watch; i++)
+    if (run->event->hit[i] && !run->event->touch[i] && run->event->watch[i].kind == PL_WATCH_EVENT)
+      return run->setup->events[run->event->watch[i].index].watch;
   return -1;
 }
 
@@ -296,7 +297,8 @@ static int event_hit(const pl_run* run) {
 static double slope_at(const pl_run* run, int i, double dt) {
   double slope = 0;
   for (int k = run->order - 1; k >= 1; k--)
-    slope = slope * dt + k * run->W_series[(size_t)k * (size_t)run->setup->n_watched + (size_t)i];
+    slope = slope * dt
+            + k * run->event->W_series[(size_t)k * (size_t)run->setup->n_watched + (size_t)i];
   return slope;
 }
 
@@ -333,8 +335,8 @@ void pl_extended_refine(pl_run* run, double dt) {
     before = 0.5 * fabs(move);
   }
   sum_state(run);
-  read(run, w->o->end_q, run->n_q, run->trial_q);
-  read(run, w->o->end_v, run->n_q, run->trial_v);
+  read(run, w->o->end_q, run->n_q, run->control.trial_q);
+  read(run, w->o->end_v, run->n_q, run->control.trial_v);
 }
 
 // ------------------------------------------------------------------------------------------ energy
@@ -346,7 +348,7 @@ static void evaluate_energies(pl_run* run) {
     return;
   }
   pl_row row;
-  pl_extended_row(run, &row, run->energy_out);
+  pl_extended_row(run, &row, run->control.energy_out);
   pl_extended_copy(w->fine, w->m, w->o->energy, w->rows->real, w->rows->m,
                    w->rows->out + s->kinetic, 1);
   pl_extended_copy(w->fine, w->m, w->o->energy + 1, w->rows->real, w->rows->m,

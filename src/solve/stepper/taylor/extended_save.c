@@ -15,8 +15,9 @@ void pl_extended_save(pl_run* run, pl_keeper* k) {
   pl_keep_section(k, "extended");
   if (k->reads && !k->wrong && run->extended && !pl_extended_of_mode(run)) pl_keep_fail(k);
   pl_extended* w = run->extended;
-  bool needs_program = run->at_point && w && w->by_doubles;
-  if (k->reads && needs_program && !(run->program && run->program->usable)) pl_keep_fail(k);
+  bool needs_program = run->dae.at_point && w && w->by_doubles;
+  if (k->reads && needs_program && !(run->taylor->program && run->taylor->program->usable))
+    pl_keep_fail(k);
   keep_fixed(k, w ? w->o->size : 0);
   if (w == NULL) return;
   pl_keep_bytes(k, w->m, (size_t)w->o->size * w->fine->size);

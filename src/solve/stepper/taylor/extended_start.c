@@ -1,7 +1,7 @@
-// The start of a run on extended numbers. The start that was found in doubles says which solution it
-// is; given values are taken as they were written, and the others move until the constraints hold
-// in extended numbers too: residuals in extended numbers, corrections in doubles, each of which gains some
-// fifteen digits.
+// The start of a run on extended numbers. The start that was found in doubles says which solution
+// it is; given values are taken as they were written, and the others move until the constraints
+// hold in extended numbers too: residuals in extended numbers, corrections in doubles, each of
+// which gains some fifteen digits.
 #include <math.h>
 #include <string.h>
 
@@ -13,13 +13,13 @@ static void set_times(pl_run* run, double t, const pl_parts* exact) {
   pl_extended* w = run->extended;
   const pl_run_options* o = &run->options;
   const pl_exact_setup* e = run->setup->exact;
-  pl_parts from = {{o->t_0}}, to = {{o->t_end}}, step = {{run->grid_dt}};
+  pl_parts from = {{o->t_0}}, to = {{o->t_end}}, step = {{run->control.grid_dt}};
   if (exact && e->t_0 >= 0) from = exact[e->t_0];
   if (o->t_end_exact) to = (pl_parts){{o->t_end_exact[0], o->t_end_exact[1], o->t_end_exact[2]}};
   else if (exact && e->t_end >= 0 && exact[e->t_end].part[0] == o->t_end) to = exact[e->t_end];
   if (o->dt_exact) step = (pl_parts){{o->dt_exact[0], o->dt_exact[1], o->dt_exact[2]}};
   else if (exact && e->dt >= 0 && exact[e->dt].part[0] == o->dt) step = exact[e->dt];
-  if (o->dt_exact == NULL && step.part[0] * run->grid_dt < 0)
+  if (o->dt_exact == NULL && step.part[0] * run->control.grid_dt < 0)
     for (int i = 0; i < 3; i++) step.part[i] = -step.part[i];
   w->fine->set(w->m, w->from, from);
   w->fine->set(w->m, w->to, to);
@@ -39,7 +39,7 @@ static void set_state(pl_run* run, const pl_parts* exact) {
   const pl_exact_setup* e = run->setup->exact;
   for (int i = 0; i < run->n_q; i++) {
     const pl_coordinate* c = &run->setup->coordinates[i];
-    pl_parts q = {{run->q[i]}}, v = {{run->v[i]}};
+    pl_parts q = {{run->dae.q[i]}}, v = {{run->dae.v[i]}};
     if (w->held && c->has_q) q = exact && e->q[i] >= 0 ? exact[e->q[i]] : (pl_parts){{c->q}};
     if (w->held && c->has_v) v = exact && e->v[i] >= 0 ? exact[e->v[i]] : (pl_parts){{c->v}};
     w->fine->set(w->m, w->o->Q + i, q);
@@ -53,8 +53,8 @@ static bool move_free(pl_run* run, bool positions, const bool* held, double* bas
                       double* change) {
   pl_extended* w = run->extended;
   pl_step_program* o = w->o;
-  double before = (double)INFINITY, *g = positions ? run->g : run->r,
-         *size = positions ? run->g_size : run->r_size;
+  double before = (double)INFINITY, *g = positions ? run->dae.g : run->dae.r,
+         *size = positions ? run->dae.g_size : run->dae.r_size;
   for (int round = 0; round < MAX_ROUNDS; round++) {
     w->fine->interpret(o->code[PL_PART_POSITION], w->m, 0, 1);
     w->fine->interpret(o->code[PL_PART_VELOCITY], w->m, 0, 1);
@@ -62,11 +62,11 @@ static bool move_free(pl_run* run, bool positions, const bool* held, double* bas
     w->fine->read(w->m, positions ? o->g_size : o->r_size, run->n_c, size);
     double most = 0;
     for (int c = 0; c < run->n_c; c++)
-      if (run->taken[c] && !(positions && run->setup->constraints[c].velocity))
+      if (run->dae.taken[c] && !(positions && run->setup->constraints[c].velocity))
         most = fmax(most, fabs(g[c]) / size[c]);
     if (!(most > w->fine->epsilon) || !(most < 0.5 * before)) return true;
     before = most;
-    if (!pl_least_change(run, held, g, size, positions, basis, change)) return false;
+    if (!pl_least_change(&run->dae, held, g, size, positions, basis, change)) return false;
     w->fine->write(w->m, w->scratch, run->n_q, change);
     w->fine->add(w->m, positions ? o->Q : o->V, w->scratch, run->n_q);
   }
@@ -76,8 +76,8 @@ static bool move_free(pl_run* run, bool positions, const bool* held, double* bas
 static void set_sizes(pl_run* run) {
   pl_extended* w = run->extended;
   for (int i = 0; i < run->n_q; i++) {
-    double q = fmax(run->q_most[i], 1e-6 * run->q_size),
-           v = fmax(run->v_most[i], 1e-6 * run->v_size);
+    double q = fmax(run->dae.q_most[i], 1e-6 * run->dae.q_size),
+           v = fmax(run->dae.v_most[i], 1e-6 * run->dae.v_size);
     w->fine->write(w->m, w->o->q_floor + i, 1, &q);
     w->fine->write(w->m, w->o->v_floor + i, 1, &v);
   }
@@ -93,8 +93,8 @@ static void refine(pl_run* run) {
     q[i] = run->setup->coordinates[i].has_q;
     v[i] = run->setup->coordinates[i].has_v;
   }
-  pl_point_evaluate(run, run->t, run->q, run->v);
-  pl_assemble_rows(run);
+  pl_point_evaluate(&run->dae, run->dae.t, run->dae.q, run->dae.v);
+  pl_assemble_rows(&run->dae);
   set_sizes(run);
   move_free(run, true, q, basis, change);
   move_free(run, false, v, basis, change);
@@ -108,7 +108,7 @@ static pleuel_status lost(pl_run* run) {
 
 pleuel_status pl_extended_begin(pl_run* run, double t) {
   pl_parts* exact = NULL;
-  bool held = run->start_given;
+  bool held = run->control.start_given;
   const pl_exact_setup* e = run->setup->exact;
   PL_TRY(pl_extended_make(run));
   pl_extended* w = run->extended;
@@ -127,12 +127,12 @@ pleuel_status pl_extended_begin(pl_run* run, double t) {
   w->fine->move(w->m, w->o->end_q, w->o->Q, run->n_q);
   w->fine->move(w->m, w->o->end_v, w->o->V, run->n_q);
   w->fine->write(w->m, w->o->length, 1, &none);
-  memcpy(run->trial_q, run->q, (size_t)run->n_q * sizeof(double));
-  memcpy(run->trial_v, run->v, (size_t)run->n_q * sizeof(double));
+  memcpy(run->control.trial_q, run->dae.q, (size_t)run->n_q * sizeof(double));
+  memcpy(run->control.trial_v, run->dae.v, (size_t)run->n_q * sizeof(double));
   if (!pl_extended_project(run, &p) || p.g_after > 1e3 * w->floor || p.r_after > 1e3 * w->floor)
     return lost(run);
-  memcpy(run->q, run->trial_q, (size_t)run->n_q * sizeof(double));
-  memcpy(run->v, run->trial_v, (size_t)run->n_q * sizeof(double));
-  pl_sizes_keep(run);
+  memcpy(run->dae.q, run->control.trial_q, (size_t)run->n_q * sizeof(double));
+  memcpy(run->dae.v, run->control.trial_v, (size_t)run->n_q * sizeof(double));
+  pl_sizes_keep(&run->dae);
   return pl_extended_enter(run) ? PLEUEL_OK : lost(run);
 }

@@ -9,11 +9,11 @@ static double floor_of(const pl_run* run) { return run->extended->floor; }
 static double epsilon_of(const pl_run* run) { return run->extended->state->epsilon; }
 
 static bool enter(pl_run* run) {
-  run->t_series = run->t;
+  run->dae.t_series = run->dae.t;
   size_t n = (size_t)run->n_q * sizeof(double);
-  memcpy(run->Q, run->q, n);
-  memcpy(run->V, run->v, n);
-  return run->at_point && pl_extended_enter(run);
+  memcpy(run->dae.Q, run->dae.q, n);
+  memcpy(run->dae.V, run->dae.v, n);
+  return run->dae.at_point && pl_extended_enter(run);
 }
 
 static double length(pl_run* run) {

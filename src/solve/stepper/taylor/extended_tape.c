@@ -1,5 +1,5 @@
-// Tapes in extended numbers: constants of a tape, and sheets, which hold all nodes of some patterns at
-// one point.
+// Tapes in extended numbers: constants of a tape, and sheets, which hold all nodes of some patterns
+// at one point.
 #include "solve/stepper/taylor/extended_impl.h"
 
 // ------------------------------------------------------------------------------------ one instance

@@ -141,8 +141,8 @@ bool pl_step_program_enter(pl_run* run);
 void pl_step_program_expand(pl_run* run);
 void pl_step_program_norms(pl_run* run, const double** q, const double** v);  // of pl_block_rows
 void pl_step_program_advance(pl_run* run, double dt, double* q, double* v);
-// Order 0 after pl_step_program_project; how large its accelerations are, and what those of the series
-// were off by after pl_step_program_advance.
+// Order 0 after pl_step_program_project; how large its accelerations are, and what those of the
+// series were off by after pl_step_program_advance.
 void pl_step_program_arrive(pl_run* run, double* off, double* size);
 // accelerations of the series after pl_step_program_advance
 void pl_step_program_end_a(const pl_run* run, double* a);

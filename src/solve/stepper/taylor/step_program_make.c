@@ -11,11 +11,11 @@ int pl_maker_take(pl_maker* k, int n) {
 // ------------------------------------------------------------------------------------------ limits
 bool pl_step_program_fits(const pl_run* run) {
   long nodes = 0;
-  if (run->n_q + run->n_c > PL_STEP_UNKNOWNS || run->has_W || run->mass_of_velocity
+  if (run->n_q + run->n_c > PL_STEP_UNKNOWNS || run->dae.has_W || run->dae.mass_of_velocity
       || run->setup->n_frictions > 0)
     return false;
-  for (int i = 0; i < run->motion.n; i++) {
-    const pl_batch* b = &run->motion.at[i];
+  for (int i = 0; i < run->dae.motion.n; i++) {
+    const pl_batch* b = &run->dae.motion.at[i];
     nodes += (long)b->n * b->pattern->tape->n_nodes;
   }
   return nodes <= PL_STEP_NODES;
@@ -42,7 +42,7 @@ static void number_unknowns(pl_maker* k) {
   }
   o->n_mass = o->n;
   for (int i = 0; i < o->n_q; i++)  // what nothing determines rests and is no unknown
-    if (o->of_coordinate[i] < 0 && k->run->has_equation[i] != 0) {
+    if (o->of_coordinate[i] < 0 && k->run->dae.has_equation[i] != 0) {
       o->index[o->n] = i;
       o->of_coordinate[i] = o->n++;
     }
@@ -439,7 +439,7 @@ pl_step_program* pl_step_program_make_for(pl_run* run, const pl_real* real) {
   o->n_c = run->n_c;
   o->orders = run->order + 3;
   o->taken = PL_ARRAY(k->a, bool, run->n_c + 1);
-  for (int c = 0; c < run->n_c; c++) o->taken[c] = run->taken[c];
+  for (int c = 0; c < run->n_c; c++) o->taken[c] = run->dae.taken[c];
   if (!pl_step_program_fits(run)) return o;
   pl_maker_instances(k);
   pl_maker_terms(k);

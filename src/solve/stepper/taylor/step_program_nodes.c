@@ -105,8 +105,8 @@ static void find_constants(pl_maker* k) {
 void pl_maker_instances(pl_maker* k) {
   k->instance = PL_ARRAY(
       k->a, pl_maker_instance,
-      count_instances(&k->run->motion) + count_instances(&k->run->observers) + 1);
-  list_instances(k, &k->run->motion, false);
+      count_instances(&k->run->dae.motion) + count_instances(&k->run->observers) + 1);
+  list_instances(k, &k->run->dae.motion, false);
   if (has_energy(k->run)) list_instances(k, &k->run->observers, true);
   reserve_nodes(k);
   if (k->real) find_constants(k);

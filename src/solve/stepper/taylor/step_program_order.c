@@ -516,7 +516,7 @@ static void equations(pl_maker* k, bool first) {
   take_solution(k, x, first);
 }
 
-// ----------------------------------------------------------------------------------- the two programs
+// -------------------------------------------------------------------------------- the two programs
 static void inverses(pl_maker* k, pl_tape_level level) {
   for (int i = 0; i < k->n_nodes; i++) {
     if (k->inverse[i] < 0 || pl_maker_node(k, i)->level != level) continue;

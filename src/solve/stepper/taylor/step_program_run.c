@@ -1,9 +1,9 @@
 // A step with the step program: projection, order 0, series.
 //
-// The step program serve while their pivots are sound. A pivot of what has no mass is compared with the
-// largest sum that was ever subtracted there, which tells both a row that becomes dependent and one
-// that fades away; where one has faded to a part of the best that was met, the point is left to the
-// general way, which chooses rows and pivots anew, and which tells singular positions.
+// The step program serve while their pivots are sound. A pivot of what has no mass is compared with
+// the largest sum that was ever subtracted there, which tells both a row that becomes dependent and
+// one that fades away; where one has faded to a part of the best that was met, the point is left to
+// the general way, which chooses rows and pivots anew, and which tells singular positions.
 #include <math.h>
 #include <string.h>
 
@@ -22,15 +22,15 @@ static void run_part(pl_step_program* o, pl_step_part part, int from, int to) {
 
 // ---------------------------------------------------------------------------------------- choosing
 static bool same_mode(const pl_run* run, const pl_step_program* o) {
-  return memcmp(o->taken, run->taken, (size_t)run->n_c * sizeof(bool)) == 0;
+  return memcmp(o->taken, run->dae.taken, (size_t)run->n_c * sizeof(bool)) == 0;
 }
 
 pl_step_program* pl_step_program_for_mode(pl_run* run) {
-  for (pl_step_program* o = run->programs; o; o = o->next)
+  for (pl_step_program* o = run->taylor->programs; o; o = o->next)
     if (same_mode(run, o)) return o;
   pl_step_program* o = pl_step_program_make(run);
-  o->next = run->programs;
-  return run->programs = o;
+  o->next = run->taylor->programs;
+  return run->taylor->programs = o;
 }
 
 // --------------------------------------------------------------------------------------- compiling
@@ -70,32 +70,34 @@ static double price(const pl_step_program* o) {
 // never what, depends on it.
 static bool compiling_pays(pl_run* run, const pl_step_program* o) {
   long steps = run->stats.steps;
-  if (run->considered == 0) {
-    run->clock_begin = pl_clock();
-    run->t_begin = run->t;
-    run->considered = steps + 8;
+  if (run->taylor->considered == 0) {
+    run->taylor->clock_begin = pl_clock();
+    run->taylor->t_begin = run->dae.t;
+    run->taylor->considered = steps + 8;
   }
-  if (steps < run->considered) return false;
-  run->considered = 2 * steps;
-  double way = run->t - run->t_begin, left = run->options.t_end - run->t;
-  return (pl_clock() - run->clock_begin) * (left / way) > 2 * price(o);
+  if (steps < run->taylor->considered) return false;
+  run->taylor->considered = 2 * steps;
+  double way = run->dae.t - run->taylor->t_begin, left = run->options.t_end - run->dae.t;
+  return (pl_clock() - run->taylor->clock_begin) * (left / way) > 2 * price(o);
 }
 
 void pl_step_program_update(pl_run* run) {
-  if (run->options.general || run->n_switches > 0
-      || (run->options.precision != PL_PRECISION_DOUBLE && run->program == NULL))
+  if (run->options.general || run->event->n_switches > 0
+      || (run->options.precision != PL_PRECISION_DOUBLE && run->taylor->program == NULL))
     return;
-  if (!run->at_point && !(run->program && same_mode(run, run->program)))
-    run->program = pl_step_program_for_mode(run);
-  pl_step_program* o = run->program;
+  if (!run->dae.at_point && !(run->taylor->program && same_mode(run, run->taylor->program)))
+    run->taylor->program = pl_step_program_for_mode(run);
+  pl_step_program* o = run->taylor->program;
   if (o == NULL || !o->usable || o->tried || run->options.engine == PL_ENGINE_INTERPRETER) return;
   if (run->options.engine == PL_ENGINE_COMPILED || compiling_pays(run, o)) compile(run, o);
 }
 
-bool pl_step_program_is_compiled(const pl_run* run) { return run->program && run->program->jit; }
+bool pl_step_program_is_compiled(const pl_run* run) {
+  return run->taylor->program && run->taylor->program->jit;
+}
 
 void pl_step_program_free(pl_run* run) {
-  for (pl_step_program* o = run->programs; o; o = o->next) pl_jit_free(o->jit);
+  for (pl_step_program* o = run->taylor->programs; o; o = o->next) pl_jit_free(o->jit);
 }
 
 // ------------------------------------------------------------------------------------------ pivots
@@ -120,8 +122,8 @@ static void note_largest(double x, double* most) {
 
 static void set_floors(const pl_run* run, pl_step_program* o) {
   for (int i = 0; i < o->n_q; i++) {
-    o->m[o->q_floor + i] = pl_larger(run->q_most[i], 1e-6 * run->q_size);
-    o->m[o->v_floor + i] = pl_larger(run->v_most[i], 1e-6 * run->v_size);
+    o->m[o->q_floor + i] = pl_larger(run->dae.q_most[i], 1e-6 * run->dae.q_size);
+    o->m[o->v_floor + i] = pl_larger(run->dae.v_most[i], 1e-6 * run->dae.v_size);
   }
 }
 
@@ -139,13 +141,13 @@ static bool project_positions(pl_run* run, pl_step_program* o, pl_projection* p)
   double before = (double)INFINITY;
   for (int round = 0; round < MAX_NEWTON; round++) {
     run_part(o, PL_PART_POSITION, 0, 1);
-    double g = pl_residual(run, o->m + o->g, o->m + o->g_size, true);
+    double g = pl_residual(&run->dae, o->m + o->g, o->m + o->g_size, true);
     if (round == 0) p->g_before = g;
     p->g_after = g;
     if (!isfinite(g) || !pivots_are_sound(o)) return false;
     if (g == 0 || (round > 0 && (g <= 2 * rounding || g >= 0.5 * before))) return true;
     before = g;
-    double move = correct(o, PL_PART_CORRECT_Q, o->m + o->Q, run->q_size);
+    double move = correct(o, PL_PART_CORRECT_Q, o->m + o->Q, run->dae.q_size);
     if (!isfinite(move)) return false;
     note_largest(move, &p->move_q);
   }
@@ -155,24 +157,24 @@ static bool project_positions(pl_run* run, pl_step_program* o, pl_projection* p)
 static bool project_velocities(pl_run* run, pl_step_program* o, pl_projection* p) {
   for (int round = 0;; round++) {
     run_part(o, PL_PART_VELOCITY, 0, 1);
-    double r = pl_residual(run, o->m + o->r, o->m + o->r_size, false);
+    double r = pl_residual(&run->dae, o->m + o->r, o->m + o->r_size, false);
     if (round == 0) p->r_before = r;
     p->r_after = r;
     if (!isfinite(r)) return false;
     if (round > 0 || r == 0) return true;
-    double move = correct(o, PL_PART_CORRECT_V, o->m + o->V, run->v_size);
+    double move = correct(o, PL_PART_CORRECT_V, o->m + o->V, run->dae.v_size);
     if (!isfinite(move)) return false;
     note_largest(move, &p->move_v);
   }
 }
 
 bool pl_step_program_project(pl_run* run, double t, double* q, double* v, pl_projection* p) {
-  pl_step_program* o = run->program;
-  run->at_point = false;
+  pl_step_program* o = run->taylor->program;
+  run->dae.at_point = false;
   if (o) o->arrived = false;
-  if (o == NULL || !o->usable || run->watch_landings || !same_mode(run, o)) return false;
+  if (o == NULL || !o->usable || run->dae.watch_landings || !same_mode(run, o)) return false;
   *p = (pl_projection){0};
-  pl_sizes_note(run, q, v);
+  pl_sizes_note(&run->dae, q, v);
   set_floors(run, o);
   o->m[o->time] = t;
   memcpy(o->m + o->Q, q, (size_t)o->n_q * sizeof *q);
@@ -181,8 +183,8 @@ bool pl_step_program_project(pl_run* run, double t, double* q, double* v, pl_pro
   if (!p->ok) return false;
   memcpy(q, o->m + o->Q, (size_t)o->n_q * sizeof *q);
   memcpy(v, o->m + o->V, (size_t)o->n_q * sizeof *v);
-  run->at_point = true;
-  run->factored = false;
+  run->dae.at_point = true;
+  run->dae.factored = false;
   return true;
 }
 
@@ -193,11 +195,11 @@ static void copy_rows(double* to, const double* from, int n, int first, int last
 }
 
 static void copy_orders(pl_run* run, int first, int last) {
-  const pl_step_program* o = run->program;
-  copy_rows(run->Q, o->m + o->Q, o->n_q, first, last + 1);
-  copy_rows(run->V, o->m + o->V, o->n_q, first, last + 1);
-  copy_rows(run->A, o->m + o->A, o->n_q, first, last);
-  copy_rows(run->L, o->m + o->L, o->n_c, first, last);
+  const pl_step_program* o = run->taylor->program;
+  copy_rows(run->dae.Q, o->m + o->Q, o->n_q, first, last + 1);
+  copy_rows(run->dae.V, o->m + o->V, o->n_q, first, last + 1);
+  copy_rows(run->dae.A, o->m + o->A, o->n_q, first, last);
+  copy_rows(run->dae.L, o->m + o->L, o->n_c, first, last);
 }
 
 static void compute_start(pl_step_program* o) {
@@ -206,7 +208,7 @@ static void compute_start(pl_step_program* o) {
 }
 
 void pl_step_program_arrive(pl_run* run, double* off, double* size) {
-  pl_step_program* o = run->program;
+  pl_step_program* o = run->taylor->program;
   compute_start(o);
   o->arrived = true;
   *off = o->m[o->off];
@@ -214,39 +216,39 @@ void pl_step_program_arrive(pl_run* run, double* off, double* size) {
 }
 
 bool pl_step_program_enter(pl_run* run) {
-  pl_step_program* o = run->program;
+  pl_step_program* o = run->taylor->program;
   if (!o->arrived) compute_start(o);
   o->arrived = false;
   copy_orders(run, 0, 0);
   double force = pl_norm(o->m + o->h, o->n_q);
-  if (force > run->force_size) run->force_size = force;
-  run->smallest = run->best;  // sound: as good as it has been
-  run->ready = isfinite(pl_norm(run->A, o->n_q)) && isfinite(pl_norm(run->L, o->n_c));
-  return run->ready;
+  if (force > run->dae.force_size) run->dae.force_size = force;
+  run->dae.smallest = run->dae.best;  // sound: as good as it has been
+  run->dae.ready = isfinite(pl_norm(run->dae.A, o->n_q)) && isfinite(pl_norm(run->dae.L, o->n_c));
+  return run->dae.ready;
 }
 
 bool pl_step_program_enter_at(pl_run* run, double t, const double* q, const double* v) {
-  pl_step_program* o = run->program;
+  pl_step_program* o = run->taylor->program;
   o->m[o->time] = t;
   memcpy(o->m + o->Q, q, (size_t)o->n_q * sizeof *q);
   memcpy(o->m + o->V, v, (size_t)o->n_q * sizeof *v);
   o->arrived = false;
   run_part(o, PL_PART_POSITION, 0, 1);
-  double smallest = run->smallest;
+  double smallest = run->dae.smallest;
   bool ready = pl_step_program_enter(run);
-  run->smallest = smallest;
+  run->dae.smallest = smallest;
   return ready;
 }
 
 void pl_step_program_norms(pl_run* run, const double** q, const double** v) {
-  pl_step_program* o = run->program;
+  pl_step_program* o = run->taylor->program;
   run_part(o, PL_PART_NORMS, 0, 1);
   *q = o->m + o->norms;
   *v = *q + PL_BLOCK_ROWS;
 }
 
 void pl_step_program_advance(pl_run* run, double dt, double* q, double* v) {
-  pl_step_program* o = run->program;
+  pl_step_program* o = run->taylor->program;
   o->m[o->length] = dt;
   run_part(o, PL_PART_ADVANCE, 0, 1);
   memcpy(q, o->m + o->end_q, (size_t)o->n_q * sizeof *q);
@@ -254,13 +256,13 @@ void pl_step_program_advance(pl_run* run, double dt, double* q, double* v) {
 }
 
 void pl_step_program_end_a(const pl_run* run, double* a) {
-  const pl_step_program* o = run->program;
+  const pl_step_program* o = run->taylor->program;
   memcpy(a, o->m + o->end_a, (size_t)o->n_q * sizeof *a);
 }
 
 bool pl_step_program_energy(pl_run* run, double* kinetic, double* potential, double* all) {
-  pl_step_program* o = run->program;
-  if (!run->at_point || o->code[PL_PART_ENERGY] == NULL) return false;
+  pl_step_program* o = run->taylor->program;
+  if (!run->dae.at_point || o->code[PL_PART_ENERGY] == NULL) return false;
   run_part(o, PL_PART_ENERGY, 0, 1);
   *kinetic = o->m[o->energy];
   *potential = o->m[o->energy + 1];
@@ -269,7 +271,7 @@ bool pl_step_program_energy(pl_run* run, double* kinetic, double* potential, dou
 }
 
 void pl_step_program_expand(pl_run* run) {
-  pl_step_program* o = run->program;
+  pl_step_program* o = run->taylor->program;
   run_part(o, PL_PART_ORDER, 1, run->order);
   // one more coefficient of q comes for nothing
   for (int i = 0; i < o->n_q; i++)

@@ -2,9 +2,9 @@
 // its memory at the point, whose last digits depend on the way that led there.
 //
 // clang-format off
-// not kept of pl_step_program, follows from the mode: code next size orders n_q n_c n_mass n_taken time
-//   ratio rest Q V A L q_floor v_floor g g_size argument r r_size norms length end_q end_v end_a
-//   off energy h pivot pivot_size move vector result matrix identity of_constraint index
+// not kept of pl_step_program, follows from the mode: code next size orders n_q n_c n_mass n_taken
+//   time ratio rest Q V A L q_floor v_floor g g_size argument r r_size norms length end_q end_v
+//   end_a off energy h pivot pivot_size move vector result matrix identity of_constraint index
 //   inverse_up_to constants scales
 // not kept of pl_step_program, of this process: compiled jit tried
 // clang-format on
@@ -22,14 +22,14 @@ static bool same_program(const pl_run* run, const pl_step_program* o, const bool
   return true;
 }
 
-// Codes for a mode, as pl_step_program_make makes them where it begins; those that the start made already
-// are taken over.
+// Codes for a mode, as pl_step_program_make makes them where it begins; those that the start made
+// already are taken over.
 static pl_step_program* program_for(pl_run* run, pl_step_program* made, const bool* taken,
                                     const bool* moves) {
   for (pl_step_program* o = made; o; o = o->next)
     if (same_program(run, o, taken, moves)) return o;
-  memcpy(run->taken, taken, (size_t)run->n_c * sizeof(bool));
-  for (int i = 0; i < run->n_q; i++) run->has_equation[i] = moves[i];
+  memcpy(run->dae.taken, taken, (size_t)run->n_c * sizeof(bool));
+  for (int i = 0; i < run->n_q; i++) run->dae.has_equation[i] = moves[i];
   pl_step_program* o = pl_step_program_make(run);
   return same_program(run, o, taken, moves) ? o : NULL;
 }
@@ -46,15 +46,15 @@ static void keep_program(pl_run* run, pl_keeper* k, pl_step_program* o, bool her
 
 static int count_programs(const pl_run* run) {
   int n = 0;
-  for (const pl_step_program* o = run->programs; o; o = o->next) n++;
+  for (const pl_step_program* o = run->taylor->programs; o; o = o->next) n++;
   return n;
 }
 
 static void write_programs(pl_run* run, pl_keeper* k) {
   int n = count_programs(run);
   pl_keep_count(k, &n, 1);
-  for (pl_step_program* o = run->programs; o; o = o->next) {
-    bool at_work = o == run->program, here = at_work && run->at_point;
+  for (pl_step_program* o = run->taylor->programs; o; o = o->next) {
+    bool at_work = o == run->taylor->program, here = at_work && run->dae.at_point;
     pl_keep_bool(k, &at_work);
     pl_keep_bool(k, &here);
     pl_keep_bools(k, o->taken, (size_t)run->n_c);
@@ -67,12 +67,12 @@ static void write_programs(pl_run* run, pl_keeper* k) {
 }
 
 static void read_programs(pl_run* run, pl_keeper* k) {
-  pl_step_program *made = run->programs, **last = &run->programs;
+  pl_step_program *made = run->taylor->programs, **last = &run->taylor->programs;
   bool *taken = PL_ARRAY(run->job->arena, bool, run->n_c + 1),
        *moves = PL_ARRAY(run->job->arena, bool, run->n_q + 1);
   int n = 0;
   pl_keep_count(k, &n, (size_t)run->n_c + (size_t)run->n_q + 2);
-  run->programs = run->program = NULL;
+  run->taylor->programs = run->taylor->program = NULL;
   for (int i = 0; i < n; i++) {
     bool at_work = false, here = false;
     pl_keep_bool(k, &at_work);
@@ -95,13 +95,14 @@ static void read_programs(pl_run* run, pl_keeper* k) {
     *last = o;
     last = &o->next;
     keep_program(run, k, o, here);
-    if (at_work) run->program = o;
+    if (at_work) run->taylor->program = o;
   }
   *last = made;  // so that they are freed with the others; a mode that comes later finds them
 }
 
 void pl_step_program_save(pl_run* run, pl_keeper* k) {
   pl_keep_section(k, "programs");
+  if (k->reads) run->taylor->considered = 0;
   if (k->reads) read_programs(run, k);
   else write_programs(run, k);
 }

@@ -2,7 +2,24 @@
 #ifndef PL_TAYLOR_IMPL_H
 #define PL_TAYLOR_IMPL_H
 
+#include "solve/event/event.h"
 #include "solve/stepper/taylor/taylor.h"
+
+typedef struct pl_step_program pl_step_program;  // step_program_impl.h
+
+// What the series keep from step to step.
+typedef struct pl_taylor {
+  // the step program, for the mode at work and those before; NULL: the general way
+  pl_step_program *program, *programs;
+  double clock_begin, t_begin;  // when stepping with these began
+  long considered;              // steps at which compiling was thought of last
+  double shrink;                // a step in units of the radius of the series, its logarithm
+  // accelerations of the series at the end of the step that is tried   (n_q)
+  double* end_a;
+  bool end_by_program;  // they were computed by the step program
+  // order 0 of that point is known: in Q_last and so on, until the step is taken
+  bool arrived;
+} pl_taylor;
 
 // The numbers in which the series is computed.
 typedef struct pl_taylor_numbers {
@@ -38,6 +55,7 @@ void pl_block_norms(const double* X, int n, int last, double* norm);
 double pl_series_length(const pl_run* run, const double* q, const double* v);
 
 // ---- taylor_plan.c
+void pl_taylor_make(pl_run* run);
 void pl_taylor_plan(pl_run* run);
 
 #endif

@@ -6,6 +6,11 @@
 
 enum { MIN_ORDER = 6, MAX_ORDER = 24 };
 
+void pl_taylor_make(pl_run* run) {
+  run->taylor = PL_NEW(run->job->arena, pl_taylor);
+  run->taylor->end_a = PL_ARRAY(run->job->arena, double, run->n_q + 1);
+}
+
 // Jorba and Zou: terms of a series fall best like e^-2 from one to the next.
 static int plain_order(double tol) {
   int p = (int)ceil(-0.5 * log(tol) + 1);
@@ -42,8 +47,13 @@ static int cheapest_order(double tol, double nodes, int largest) {
 
 // Twenty where rounding decides; more pays in small systems whose tolerance is given.
 void pl_taylor_plan(pl_run* run) {
+  pl_taylor_make(run);
   enum { LARGEST = 20, LARGEST_SMALL = 25 };
-  bool small = run->n_q + run->n_c <= PL_DENSE_UP_TO && run->options.tol > 0 && !run->tol_raised;
-  run->order = cheapest_order(run->tol, nodes_of(run->setup), small ? LARGEST_SMALL : LARGEST);
-  run->shrink = run->order == plain_order(run->tol) ? -2 : log(0.1 * run->tol) / (run->order - 1);
+  bool small = run->n_q + run->n_c <= PL_DENSE_UP_TO && run->options.tol > 0
+               && !run->control.tol_raised;
+  run->order = cheapest_order(run->control.tol, nodes_of(run->setup),
+                              small ? LARGEST_SMALL : LARGEST);
+  run->taylor->shrink = run->order == plain_order(run->control.tol)
+                            ? -2
+                            : log(0.1 * run->control.tol) / (run->order - 1);
 }

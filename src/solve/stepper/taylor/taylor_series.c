@@ -91,13 +91,13 @@ static double many_orders_radius(const double* X, int n, int last) {
 
 double pl_series_length(const pl_run* run, const double* q, const double* v) {
   int p = run->order;
-  // e^shrink of the radius makes p - 1 factors of tol together; the rest is their safety factor, eq.
-  // (3-8) there
-  double shrink = 1.4426950408889634 * (0.7 / (p - 1) - run->shrink);
+  // e^shrink of the radius makes p - 1 factors of tol together; the rest is their safety factor,
+  // eq. (3-8) there
+  double shrink = 1.4426950408889634 * (0.7 / (p - 1) - run->taylor->shrink);
   double radius = pl_smaller(block_radius(q, p + 1), block_radius(v, p)), h = exp2(radius - shrink);
-  if (!(h <= grown * run->h_series) || isinf(run->h_series)) {
-    double all = exp2(pl_smaller(many_orders_radius(run->Q, run->n_q, p + 1),
-                                 many_orders_radius(run->V, run->n_q, p))
+  if (!(h <= grown * run->control.h_series) || isinf(run->control.h_series)) {
+    double all = exp2(pl_smaller(many_orders_radius(run->dae.Q, run->n_q, p + 1),
+                                 many_orders_radius(run->dae.V, run->n_q, p))
                       - shrink);
     if (!(h <= clearly * all)) h = all;
   }

@@ -15,9 +15,9 @@ static const double allowed_residual = 1e-12;
 
 // ------------------------------------------------------------------------------------- the length
 static double choose_length(pl_run* run, const pl_taylor_numbers* numbers) {
-  double h = run->h_series = numbers->length(run), left = pl_run_left(run);
+  double h = run->control.h_series = numbers->length(run), left = pl_run_left(run);
   if (run->options.h_max > 0) h = pl_smaller(h, run->options.h_max);
-  else h = pl_smaller(h, run->h_plain);
+  else h = pl_smaller(h, run->control.h_plain);
   // not a last step that is almost nothing
   if (h >= fabs(left)) h = fabs(left);
   else if (h > 0.5 * fabs(left)) h = 0.5 * fabs(left);
@@ -25,22 +25,22 @@ static double choose_length(pl_run* run, const pl_taylor_numbers* numbers) {
 }
 
 pleuel_status pl_taylor_step_expand(pl_run* run, pl_step* s, const pl_taylor_numbers* numbers) {
-  run->use = run->order;
+  run->dae.use = run->order;
   pl_step_program_update(run);
   numbers->expand(run);
   pl_watch_series(run);
-  if (run->n_switches > 0) pl_switching_series(run);
+  if (run->event->n_switches > 0) pl_switching_series(run);
   s->h = choose_length(run, numbers);
-  if (run->n_watch > 0) s->h = pl_watch_reach(run, s->h);
-  if (run->n_switches > 0) s->h = pl_switching_reach(run, s->h);
+  if (run->event->n_watch > 0) s->h = pl_watch_reach(run, s->h);
+  if (run->event->n_switches > 0) s->h = pl_switching_reach(run, s->h);
   s->wanted = s->h;
   if (numbers->leaps && pl_singular_leap(run, pl_run_left(run), &s->h, &s->projection)) {
     s->found = true;
     return pl_singular_record(run);
   }
   s->h = s->wanted;
-  run->arrived = false;
-  if (!(fabs(s->h) > run->h_least) && fabs(s->h) < fabs(pl_run_left(run)))
+  run->taylor->arrived = false;
+  if (!(fabs(s->h) > run->control.h_least) && fabs(s->h) < fabs(pl_run_left(run)))
     return pl_run_too_small(run, s->h);
   return PLEUEL_OK;
 }
@@ -49,8 +49,8 @@ pleuel_status pl_taylor_step_expand(pl_run* run, pl_step* s, const pl_taylor_num
 static bool is_acceptable(const pl_run* run, const pl_taylor_numbers* numbers,
                           const pl_projection* p) {
   double rounding = numbers->floor(run) / DBL_EPSILON;
-  double move = pl_larger(allowed_move * run->tol, rounding * numbers->near_singular);
-  double left = pl_larger(10 * run->tol, rounding * allowed_residual);
+  double move = pl_larger(allowed_move * run->control.tol, rounding * numbers->near_singular);
+  double left = pl_larger(10 * run->control.tol, rounding * allowed_residual);
   return p->ok && p->move_q <= move && p->move_v <= move && p->g_after <= left
          && p->r_after <= left;
 }
@@ -58,8 +58,8 @@ static bool is_acceptable(const pl_run* run, const pl_taylor_numbers* numbers,
 // A slip that ends here has another direction for what follows: accelerations are not those of the
 // step.
 static bool ends_slip(const pl_run* run) {
-  for (int i = 0; i < run->n_watch; i++)
-    if (run->hit[i] && run->watch[i].kind == PL_WATCH_STICK) return true;
+  for (int i = 0; i < run->event->n_watch; i++)
+    if (run->event->hit[i] && run->event->watch[i].kind == PL_WATCH_STICK) return true;
   return false;
 }
 
@@ -71,19 +71,19 @@ static bool series_holds(pl_run* run, const pl_taylor_numbers* numbers, double h
   double off, size;
   // what stands in the way is reported when the step is taken
   if (!numbers->defect(run, h, &off, &size)) return true;
-  double part = allowed_defect * run->tol + allowed_rounding * numbers->epsilon(run),
-         of_v = pl_larger(run->v_size, fabs(h) * size);
-  if (off * fabs(h) <= part * of_v * (run->order + 1) || off <= run->a_rough) return true;
+  double part = allowed_defect * run->control.tol + allowed_rounding * numbers->epsilon(run),
+         of_v = pl_larger(run->dae.v_size, fabs(h) * size);
+  if (off * fabs(h) <= part * of_v * (run->order + 1) || off <= run->control.a_rough) return true;
   bool rough = *before > 0 && off > not_less * *before;
   *before = off;
-  if (rough) run->a_rough = 2 * off;
-  else run->arrived = false;
+  if (rough) run->control.a_rough = 2 * off;
+  else run->taylor->arrived = false;
   return rough;
 }
 
 // ---------------------------------------------------------------------------------------- the end
 pleuel_status pl_taylor_step_state_at(pl_run* run, pl_step* s, const pl_taylor_numbers* numbers) {
-  double at = run->n_switches > 0 ? pl_switching_first(run, s->h) : -1;
+  double at = run->event->n_switches > 0 ? pl_switching_first(run, s->h) : -1;
   bool at_switch = at >= 0 && (s->root < 0 || at < s->root);
   if (at_switch) {
     s->root = -1;
@@ -101,8 +101,8 @@ pleuel_status pl_taylor_step_state_at(pl_run* run, pl_step* s, const pl_taylor_n
     return PLEUEL_OK;
   }
   run->stats.rejections++;
-  run->at_point = false;  // the step program holds the end that was tried
-  pl_sizes_forget(run);
+  run->dae.at_point = false;  // the step program holds the end that was tried
+  pl_sizes_forget(&run->dae);
   s->h = 0.5 * reach;
-  return fabs(s->h) > run->h_least ? PLEUEL_OK : pl_run_too_small(run, s->h);
+  return fabs(s->h) > run->control.h_least ? PLEUEL_OK : pl_run_too_small(run, s->h);
 }

@@ -1,0 +1,63 @@
+// Inside of the driver: output of rows, derivatives through events, which steppers a run has.
+#ifndef PL_DRIVER_IMPL_H
+#define PL_DRIVER_IMPL_H
+
+#include "solve/event/event.h"
+#include "solve/stepper/stepper.h"
+
+// Rows on their way to the sink.
+typedef struct pl_output {
+  // rows
+  double *out_now, *out_before;
+  char *mode, *mode_before;
+  size_t mode_size;
+  bool opened, begun, ended;
+  bool refused;       // the sink wants no more rows
+  double last_row_t;  // of a row that was not one before an event; NaN
+} pl_output;
+
+// ---- output.c
+extern const pl_observer pl_output_observer;
+void pl_output_make(pl_run* run);
+pleuel_status pl_output_open(pl_run* run);  // begin of the sink
+pleuel_status pl_output_begin(pl_run* run);
+pleuel_status pl_output_point(pl_run* run, pl_row_kind kind);  // the point itself
+// grid times in (t_from, t_to)
+pleuel_status pl_output_grid(pl_run* run, double t_from, double t_to);
+pl_row pl_output_row(pl_run* run, pl_row_kind kind, double* out, char* mode);
+void pl_output_observe(pl_run* run, double t, const double* q, const double* v, const double* a,
+                       const double* lambda, double* out);
+// remembers the point before a mode change
+void pl_output_before(pl_run* run);
+pleuel_status pl_output_event(pl_run* run, pl_event_kind kind, int index, double impulse,
+                              bool at_start);
+// An event whose state, in row_q and row_v, is not that of the point.
+pleuel_status pl_output_event_beside(pl_run* run, pl_event_record e, double t, const double* a,
+                                     const double* lambda);
+// A contact after endless bounces, dt after the point.
+pleuel_status pl_output_settled(pl_run* run, pl_event_kind kind, int index, double dt,
+                                long bounces);
+// T + V, or what the setup says
+double pl_output_conserved(const pl_run* run, const double* out);
+// energy at the point, drift
+void pl_output_energy(pl_run* run, bool anew);
+// The mode as text: "contact(h)", "free".
+void pl_output_mode(const pl_run* run, char* out);
+
+typedef struct pl_sensitivity pl_sensitivity;
+// ---- sensitivity.c: derivatives through contacts and events
+void pl_sensitivity_free(pl_sensitivity* p);
+const char* pl_sensitivity_mode(const pl_sensitivity* p);
+bool pl_sensitivity_waits(const pl_sensitivity* p);
+pleuel_status pl_sensitivity_begin(pl_sensitivity* p);  // tells what happened at the start
+pleuel_status pl_sensitivity_step(pl_sensitivity* p, pleuel_status (*of)(pl_run* run));
+void pl_sensitivity_write(pl_sensitivity* p, pl_keeper* k);  // for checkpoint.c
+pleuel_status pl_sensitivity_read(pl_sensitivity* p, pl_keeper* k);
+
+// ---- run.c
+pleuel_status pl_run_begin_at(pl_run* run, double t);  // from run->q, v
+
+// ---- steppers.c: which steppers a run has
+void pl_steppers_choose(pl_run* run);
+
+#endif
