@@ -54,6 +54,16 @@ def near(a, b, scale=0.0, rel=1e-7):
     return abs(a - b) <= rel * max(abs(a), abs(b), scale, 1e-2)
 
 
+def inertia(pair, names):
+    """What stands in front of accelerations in an equation, where that is large: an equation times a million says the same."""
+    def left_over(bumped):
+        a, b = (value_or_none(e, {**names, **bumped}) for e in pair)
+        return None if a is None or b is None else a - b
+    plain = left_over({})
+    moved = [left_over({k: x + 1.0}) for k, x in names.items() if k.endswith("_ddot") and isinstance(x, float)]
+    return max([1.0] + [abs(x - plain) for x in moved if x is not None and plain is not None])
+
+
 # ------------------------------------------------------------------------------------------------ the program
 class Program:
     """Runs pleuel.  damage is a function of the parsed answers that a test of the test hands in."""
@@ -580,7 +590,7 @@ class Examination:
                 a, b = (value_or_none(e, names) for e in pair)
                 if a is None or b is None:
                     continue
-                size = max([abs(x) for x in m.motion.a] + [abs(a), 1.0])
+                size = max([abs(x) for x in m.motion.a] + [abs(a), 1.0]) * inertia(pair, names)
                 if not self.report.check("equation", near(a, b, size, 1e-6), lambda: (
                         f"{step['text']} ({item['item']}): {a} = {b} at t = {m.row['t']}; {brief(m)}")):
                     return
