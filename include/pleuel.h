@@ -713,6 +713,154 @@ typedef struct pleuel_token {
 /* pleuel_tokens cuts the text into tokens as the program reads it, for colours.  Kept. */
 pleuel_status pleuel_tokens(pleuel_model *model, const pleuel_token **tokens, size_t *n);
 
+/* -------------------------------------------------------------------------------------- formulas */
+
+/* pleuel_formula is a formula of the worked solution as a value.  Formulas belong to the model; they
+ * and what they hand out are kept until the model is solved again with other options, or freed. */
+typedef struct pleuel_formula pleuel_formula;
+
+/* pleuel_formulas works the model out (options as for the solution: only, seconds) and counts its
+ * formulas: one for each value of docs/json.md, one for each component of a vector. */
+pleuel_status pleuel_formulas(pleuel_model *model, const pleuel_solve_options *options, size_t *n);
+
+/* pleuel_formula_get returns formula i; NULL behind the last.  pleuel_formula_find returns that of a
+ * name, "x1_ddot", "λ_rod", or the first of a request, "b"; NULL when there is none. */
+const pleuel_formula *pleuel_formula_get(pleuel_model *model, size_t i);
+const pleuel_formula *pleuel_formula_find(pleuel_model *model, const char *name);
+
+typedef struct pleuel_formula_info {
+  size_t size;
+  const char *letter;   /* of the request; NULL without one                                        */
+  const char *item;     /* the request as written: "solve λ"                                       */
+  const char *name;     /* what it is: "x1_ddot", "lambda_rod", "E"; NULL for derivatives          */
+  const char *of, *on;  /* constraint, mass, mode; NULL                                            */
+  const char *along;    /* of a component: "e_r"; NULL                                             */
+  const char *branch;   /* the condition that picks it among several; NULL                         */
+  const char *unit;     /* SI; NULL: not known                                                     */
+  double number;        /* at the numbers of the model; NaN: it depends on the state, or on names
+                         * without a number                                                        */
+  int certified;        /* 1: it was checked against the model                                     */
+  int withdrawn;        /* 1: the simulated motion contradicts it; it has no text and no value     */
+  size_t n_assuming;    /* conditions under which it holds: "r < l"                                */
+  const char *const *assuming;
+  size_t n_free; /* names in it, abbreviations by what they stand for                              */
+  const char *const *free; /* as in `expr` of docs/json.md, each once                              */
+  pleuel_span span;        /* the request in the text; file NULL: a standard request               */
+} pleuel_formula_info;
+pleuel_status pleuel_formula_about(const pleuel_formula *formula, pleuel_formula_info *info);
+
+typedef enum pleuel_notation {
+  PLEUEL_NOTATION_LINE = 0, /* as displayed, in one line                                           */
+  PLEUEL_NOTATION_2D,       /* fractions over several lines                                        */
+  PLEUEL_NOTATION_ASCII,    /* the model language, blank products                                  */
+  PLEUEL_NOTATION_LATEX,
+  PLEUEL_NOTATION_MATHML,   /* a <math> element                                                    */
+  PLEUEL_NOTATION_EXPR      /* for programs: every product a *, SI numbers (docs/json.md)          */
+} pleuel_notation;
+
+/* pleuel_formula_text writes a formula; NULL when it was withdrawn, or memory ran out. */
+const char *pleuel_formula_text(const pleuel_formula *formula, pleuel_notation notation);
+
+/* A formula as a tree.  Node 0 is the root, children come behind their parents. */
+typedef enum pleuel_node_kind {
+  PLEUEL_NODE_NUMBER = 0, /* value; exact as text, "-3/4"                                          */
+  PLEUEL_NODE_PI,
+  PLEUEL_NODE_INFINITY,
+  PLEUEL_NODE_NAME,       /* text: "theta1_dot"                                                    */
+  PLEUEL_NODE_ADD,        /* any number of children                                                */
+  PLEUEL_NODE_MULTIPLY,
+  PLEUEL_NODE_POWER,      /* base, exponent                                                        */
+  PLEUEL_NODE_CALL,       /* text: "sin"                                                           */
+  PLEUEL_NODE_IF,         /* a, b, c: b where a > 0, else c                                        */
+  PLEUEL_NODE_SUM,        /* text: the index; from, to, summand                                    */
+  PLEUEL_NODE_MEMBER      /* text: the family; its index                                           */
+} pleuel_node_kind;
+
+typedef struct pleuel_node {
+  pleuel_node_kind kind;
+  const char *text;      /* NULL                                                                   */
+  double value;          /* of a number, π; else NaN                                               */
+  size_t n;              /* children                                                               */
+  const size_t *child;   /* (n) numbers of nodes                                                   */
+} pleuel_node;           /* It never grows. */
+
+/* pleuel_formula_tree returns the nodes, equal parts once; *n of them.  NULL when it was withdrawn. */
+const pleuel_node *pleuel_formula_tree(const pleuel_formula *formula, size_t *n);
+
+/* pleuel_formula_value evaluates a formula: names[i] has the value values[i] in SI, whatever its
+ * spelling; other parameters have the numbers of the model.  PLEUEL_USAGE and a sentence when a name
+ * is unknown, or one in the formula has no value. */
+pleuel_status pleuel_formula_value(const pleuel_formula *formula, const char *const *names,
+                                   const double *values, size_t n, double *value);
+
+/* pleuel_formula_derivative returns the derivative by a name, as a formula of the same model. */
+pleuel_status pleuel_formula_derivative(const pleuel_formula *formula, const char *name,
+                                        const pleuel_formula **derivative);
+
+/* ------------------------------------------------------------------------- steps as they are ready */
+
+typedef enum pleuel_step_kind {
+  PLEUEL_STEP_SECTION = 0, /* a request is answered: its steps follow                              */
+  PLEUEL_STEP_TEXT,
+  PLEUEL_STEP_EQUATION,
+  PLEUEL_STEP_ROW,         /* of a table                                                           */
+  PLEUEL_STEP_HEADING,
+  PLEUEL_STEP_NOTE,
+  PLEUEL_STEP_VERDICT      /* at the end, for each section: checked, or withdrawn                  */
+} pleuel_step_kind;
+
+/* A step of the worked solution.  While it is at work nothing was checked yet: what a step says
+ * counts when the verdict of its section has come.  Texts live until the function returns. */
+typedef struct pleuel_step {
+  size_t size;
+  pleuel_step_kind kind;
+  size_t section;     /* number of the section, from 0                                             */
+  const char *letter; /* of the request; NULL                                                      */
+  const char *item;   /* the request as written                                                    */
+  const char *text;   /* formulas in one line                                                      */
+  const char *tex;    /* NULL where there is nothing to show                                       */
+  int number;         /* of a numbered equation; 0                                                 */
+  int detail;         /* 1: shown among all steps only                                             */
+  int passed;         /* VERDICT: 1 checked, 0 withdrawn                                           */
+  pleuel_span span;   /* the request in the text; file NULL: a standard request                    */
+} pleuel_step;
+
+/* pleuel_steps works the model out and hands over each section as it becomes ready, then the
+ * verdicts.  A result other than 0 stops with PLEUEL_INTERRUPTED.  Of the options `lang`, `only`,
+ * `seconds` count.  The status is that of the solution. */
+pleuel_status pleuel_steps(pleuel_model *model, const pleuel_solve_options *options,
+                           int (*step)(void *user, const pleuel_step *step), void *user);
+
+/* ------------------------------------------------------------------------------------------ drag */
+
+/* pleuel_drag moves a point of the system to another place: new start values that satisfy the
+ * constraints, found by following the point on its way, so that the assembly stays; of all the ways to
+ * get there the one that moves the masses least.  Contacts that are closed stay closed, others do not
+ * open into their walls. */
+typedef struct pleuel_drag pleuel_drag;
+
+/* pleuel_drag_open takes hold of a point: the label of a mass, body or point.  PLEUEL_USAGE when there
+ * is none of this name, PLEUEL_UNSUPPORTED and a sentence when it cannot move. */
+pleuel_status pleuel_drag_open(pleuel_model *model, const char *point, pleuel_drag **drag);
+void pleuel_drag_free(pleuel_drag *drag);
+
+/* pleuel_drag_place returns the place of the point now, along the axes; n of them. */
+const double *pleuel_drag_place(const pleuel_drag *drag, size_t *n);
+
+/* pleuel_drag_to moves the point as near to a place as the constraints let it; n numbers along the
+ * axes, in m.  pleuel_drag_throw gives it a velocity instead, in m/s. */
+pleuel_status pleuel_drag_to(pleuel_drag *drag, const double *place, size_t n);
+pleuel_status pleuel_drag_throw(pleuel_drag *drag, const double *velocity, size_t n);
+
+/* pleuel_drag_state returns coordinates and velocities now: names as in `sim`, *n of each. */
+pleuel_status pleuel_drag_state(const pleuel_drag *drag, const char *const **names, const double **q,
+                                const double **v, size_t *n);
+
+/* pleuel_drag_edits gives the edits of the text that write the new start: numbers of `init` in the
+ * unit they were written in, and lines for what else has to be said.  The edited text starts there: it
+ * is read and tried first.  PLEUEL_UNSUPPORTED and a sentence when the text cannot say it. */
+pleuel_status pleuel_drag_edits(pleuel_drag *drag, const pleuel_edit **edits, size_t *n);
+
 /* ------------------------------------------------------------------------------------------------ more */
 
 typedef enum pleuel_spelling { PLEUEL_SPELL_KEEP = 0, PLEUEL_SPELL_UNICODE, PLEUEL_SPELL_ASCII } pleuel_spelling;

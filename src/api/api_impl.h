@@ -55,6 +55,9 @@ struct pleuel_model {
   const pl_source* source;
   const pl_include_reader* reader;
   PL_VEC(pl_included) included;
+  // called after each request that is answered; false: stop.  NULL: nobody waits
+  bool (*ready)(void* user, const pl_solution* solution);
+  void* ready_user;
   struct pl_editor* editor;  // editor.h; NULL until it is asked for
   const pl_setting* settings;
   int n_settings;

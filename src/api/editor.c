@@ -15,6 +15,7 @@ void pl_editor_free(pl_editor* e) {
   for (int i = 0; i < PL_N_ANSWERS; i++) {
     if (e->answer[i]) pl_arena_free(e->answer[i]);
   }
+  if (e->formula_arena) pl_arena_free(e->formula_arena);
   pl_arena_free(e->arena);
 }
 
@@ -50,8 +51,8 @@ pl_editor* pl_editor_of(pleuel_model* m) {
 }
 
 // ---------------------------------------------------------------------------------------- answers
-static pleuel_status guarded_in(pleuel_model* m, pl_arena* a, pl_editor_work* work,
-                                void* argument) {
+pleuel_status pl_editor_guarded_in(pleuel_model* m, pl_arena* a, pl_editor_work* work,
+                                   void* argument) {
   m->ctx->message[0] = '\0';
   volatile pleuel_status status = PLEUEL_NO_MEMORY;
   pl_guard guard;
@@ -75,14 +76,22 @@ pl_arena* pl_editor_fresh(pleuel_model* m, pl_answer_kind kind) {
 pleuel_status pl_editor_answer(pleuel_model* m, pl_answer_kind kind, pl_editor_work* work,
                                void* argument) {
   pl_arena* a = pl_editor_fresh(m, kind);
-  return a ? guarded_in(m, a, work, argument)
+  return a ? pl_editor_guarded_in(m, a, work, argument)
            : pl_api_fail(m->ctx, PLEUEL_NO_MEMORY, "memory ran out");
 }
 
 pleuel_status pl_editor_keep(pleuel_model* m, pl_editor_work* work, void* argument) {
   pl_editor* e = pl_editor_of(m);
-  return e ? guarded_in(m, e->arena, work, argument)
+  return e ? pl_editor_guarded_in(m, e->arena, work, argument)
            : pl_api_fail(m->ctx, PLEUEL_NO_MEMORY, "memory ran out");
+}
+
+pleuel_status pl_editor_keep_formulas(pleuel_model* m, pl_editor_work* work) {
+  pl_editor* e = pl_editor_of(m);
+  if (e && !e->formula_arena) e->formula_arena = arena_for(m);
+  bool ready = e && e->formula_arena;
+  return ready ? pl_editor_guarded_in(m, e->formula_arena, work, NULL)
+               : pl_api_fail(m->ctx, PLEUEL_NO_MEMORY, "memory ran out");
 }
 
 // ---------------------------------------------------------------------------------------- values

@@ -13,6 +13,8 @@ typedef enum pl_answer_kind {
   PL_ANSWER_RENAME,
   PL_ANSWER_HOVER,
   PL_ANSWER_OFFERS,
+  PL_ANSWER_STEPS,
+  PL_ANSWER_TRIAL,
   PL_N_ANSWERS
 } pl_answer_kind;
 
@@ -26,7 +28,9 @@ typedef struct pl_editor {
   size_t n_tokens;
   pl_arena* answer[PL_N_ANSWERS];
   pleuel_diagnostic* diagnostics;
-  uint64_t diagnostics_hash;  // of the messages that they show
+  uint64_t diagnostics_hash;     // of the messages that they show
+  pl_arena* formula_arena;       // of what goes with the solution
+  struct pl_formulas* formulas;  // NULL: not listed
 } pl_editor;
 
 // The editor of a model; NULL when memory ran out.
@@ -39,8 +43,16 @@ typedef pleuel_status pl_editor_work(pleuel_model* m, pl_arena* a, void* argumen
 // Runs work whose answer lives in an arena of its own until the same is asked again.
 pleuel_status pl_editor_answer(pleuel_model* m, pl_answer_kind kind, pl_editor_work* work,
                                void* argument);
+// The same for what goes with the solution of the model.
+pleuel_status pl_editor_keep_formulas(pleuel_model* m, pl_editor_work* work);
+// The solution is about to go: formulas go with it.
+void pl_editor_forget_solution(pleuel_model* m);
 // Runs work whose answer is kept.
 pleuel_status pl_editor_keep(pleuel_model* m, pl_editor_work* work, void* argument);
+
+// Runs work with the memory of an arena.
+pleuel_status pl_editor_guarded_in(pleuel_model* m, pl_arena* a, pl_editor_work* work,
+                                   void* argument);
 
 pleuel_span pl_api_span(pl_span s);
 // Fills a structure of the caller: as many bytes as its first member says.  PLEUEL_USAGE: none.

@@ -5,6 +5,7 @@
 //
 // Each step is taken once and remembered in the pleuel_model; asking for a later one takes those
 // before it. A step that was interrupted is taken anew.
+#include "api/editor.h"
 #include "api/stages.h"
 #include "api/system_impl.h"
 #include "witness/witness.h"
@@ -78,6 +79,7 @@ pleuel_status pl_pipeline_check(pleuel_model* m) {
 static pleuel_status derive(pleuel_model* m, const char* only, double seconds, bool structure,
                             bool along) {
   double start = pl_clock();
+  pl_editor_forget_solution(m);
   pl_solution_close(m->solution);
   m->solution = NULL;
   m->solved_only = only ? pl_copy(m->arena, only) : NULL;
@@ -90,6 +92,8 @@ static pleuel_status derive(pleuel_model* m, const char* only, double seconds, b
   how.stage_from = pl_staging_from;
   how.leaves = pl_staging_leaves;
   how.user = staging;
+  how.ready = m->ready;
+  how.ready_user = m->ready_user;
   m->derived = pl_derive(&m->job, m->model, &how, &m->solution);
   m->is_derived = m->derived != PLEUEL_INTERRUPTED;
   pl_diagnostics_sort(&m->diagnostics);

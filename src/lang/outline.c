@@ -216,6 +216,15 @@ int pl_outline_find(const pl_outline* o, const char* spelling) {
   return -1;
 }
 
+const char* pl_spelled_key(pl_arena* a, const char* spelling) {
+  pl_spelled s;
+  size_t bad;
+  bool fine = pl_spell(a, pl_names_make(a), spelling, strlen(spelling), &s, &bad);
+  return fine && s.dots == 0 ? s.key : NULL;
+}
+
+const char* pl_spell_shown(pl_arena* a, const char* ascii) { return pl_spell_unicode(a, ascii); }
+
 bool pl_spelled_same(pl_arena* a, const char* s, const char* t) {
   pl_names* names = pl_names_make(a);
   pl_spelled u, v;

@@ -113,6 +113,10 @@ int pl_outline_find(const pl_outline* o, const char* spelling);
 const char* pl_outline_help_at(const pl_outline* o, size_t at, pl_language lang, pl_span* span);
 // pl_outline_same tells whether two spellings are one name.
 bool pl_spelled_same(pl_arena* a, const char* s, const char* t);
+// The ASCII spelling of a name, theta1 for θ₁; NULL when it is none.
+const char* pl_spelled_key(pl_arena* a, const char* spelling);
+// An ASCII name as it is shown, θ1 for theta1.
+const char* pl_spell_shown(pl_arena* a, const char* ascii);
 // pl_name_is_free tells whether a spelling can be a new name in the text; if not, *why is the reason by language.
 bool pl_outline_name_is_free(const pl_outline* o, const char* spelling, const char* why[2]);
 

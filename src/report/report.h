@@ -52,6 +52,10 @@ typedef struct pl_json_input {
   const double* timing_ms;         // (n_timing)
 } pl_json_input;
 
+// pl_worked_step writes one step: words, formula and words behind it, in a line or in LaTeX.
+const char* pl_worked_step(pl_arena* a, pl_pool* pool, const pl_step* s, pl_language lang,
+                           pl_math math);
+
 // pl_worked_json writes the document and a final newline. a: memory for scratch; the pool of the
 // model is used for printing.
 void pl_worked_json(pl_text* out, const pl_json_input* in);

@@ -197,6 +197,13 @@ static const char* pl_doc_step(pl_document* d, const pl_step* s, pl_math math) {
   return pl_text_string(&out);
 }
 
+const char* pl_worked_step(pl_arena* a, pl_pool* pool, const pl_step* s, pl_language lang,
+                           pl_math math) {
+  pl_json_input in = {.lang = lang};
+  pl_document d = {.arena = a, .pool = pool, .in = &in};
+  return pl_doc_step(&d, s, math);
+}
+
 static void pl_doc_one_step(pl_document* d, const pl_step* s) {
   static const char* const kind[] = {"text", "equation", "row", "heading", "note"};
   const char* words = pl_doc_words(d, s->words);

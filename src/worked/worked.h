@@ -188,6 +188,9 @@ typedef struct pl_derive_options {
   int n_stages;
   const pl_stage* stages;
   // of a motion that starts elsewhere; NULL: not known
+  // called after each request that is answered, with the sections so far; false: stop.  NULL: nobody waits
+  bool (*ready)(void* user, const struct pl_solution* solution);
+  void* ready_user;
   const pl_stage* (*stage_from)(void* user, const pl_motion* from);
   // Whether the motion of `init` leaves the side on which n expressions are positive, between two
   // times.  false: not known; NULL too.
