@@ -75,7 +75,8 @@ static pleuel_status answer_all(pl_analysis* d) {
     pl_analysis* of = pl_analysis_of(d, ask);
     pl_answer_one(of ? of : d, ask);
     pl_answer_closed(d, ask);
-    bool goes_on = !d->options->ready || d->options->ready(d->options->ready_user, d->solution);
+    const pl_derive_options* o = d->page->options;
+    bool goes_on = !o->ready || o->ready(o->ready_user, d->page->solution);
     if (!goes_on)
       return pl_fail(d->job, PLEUEL_INTERRUPTED, "stopped after %d of %d requests", k + 1,
                      d->model->asks.n);
