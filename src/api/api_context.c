@@ -103,6 +103,7 @@ pleuel_status pl_api_give(void* to, const void* all, size_t size) {
   memcpy(&room, to, sizeof room);
   if (room == 0) return PLEUEL_USAGE;
   memcpy(to, all, room < size ? room : size);
+  memcpy(to, &room, sizeof room);  // the size stays that of the caller
   return PLEUEL_OK;
 }
 

@@ -63,7 +63,7 @@ pleuel_status pleuel_diagnostic_get(pleuel_model* m, size_t i, pleuel_diagnostic
     if (s != PLEUEL_OK) return s;
     e->diagnostics_hash = hash;
   }
-  return pl_api_fill(out, &e->diagnostics[i], sizeof *out);
+  return pl_api_give(out, &e->diagnostics[i], sizeof *out);
 }
 
 // ---------------------------------------------------------------------------------------- edits

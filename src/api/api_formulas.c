@@ -112,7 +112,7 @@ pleuel_status pleuel_formulas(pleuel_model* m, const pleuel_solve_options* optio
   if (n) *n = 0;
   if (!m || !n) return PLEUEL_USAGE;
   pleuel_solve_options o;
-  pl_api_options(&o, sizeof o, options);
+  PL_TRY(pl_api_take(m->ctx, &o, sizeof o, options));
   pleuel_status s = pl_api_guarded(m, solve, &o);
   if (m->broken || !m->solution) return s;
   pleuel_status listed = know_formulas(m);
@@ -245,7 +245,7 @@ pleuel_status pleuel_formula_about(const pleuel_formula* f, pleuel_formula_info*
       .n_free = f->n_free,
       .free = f->free,
       .span = f->section->ask ? pl_api_span(f->section->ask->span) : (pleuel_span){0}};
-  return pl_api_fill(out, &info, sizeof info);
+  return pl_api_give(out, &info, sizeof info);
 }
 
 // ---------------------------------------------------------------------------------------- texts

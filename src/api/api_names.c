@@ -181,7 +181,7 @@ pleuel_status pleuel_name_get(pleuel_model* m, size_t i, pleuel_name* out) {
   if (!m || !out) return PLEUEL_USAGE;
   pleuel_status s = names_of(m);
   if (s != PLEUEL_OK) return s;
-  return i < m->editor->n_names ? pl_api_fill(out, &m->editor->names[i], sizeof *out)
+  return i < m->editor->n_names ? pl_api_give(out, &m->editor->names[i], sizeof *out)
                                 : PLEUEL_USAGE;
 }
 
@@ -227,7 +227,7 @@ pleuel_status pleuel_name_find(pleuel_model* m, const char* spelling, pleuel_nam
   if (s == PLEUEL_OK) s = pl_editor_keep(m, find_name, &f);
   if (s != PLEUEL_OK) return s;
   if (!f.found) return pl_api_fail(m->ctx, PLEUEL_USAGE, "nothing has this name");
-  return pl_api_fill(out, f.found, sizeof *out);
+  return pl_api_give(out, f.found, sizeof *out);
 }
 
 // ---------------------------------------------------------------------------------------- hover

@@ -86,7 +86,7 @@ pleuel_status pleuel_steps(pleuel_model* m, const pleuel_solve_options* options,
                            int (*step)(void* user, const pleuel_step* step), void* user) {
   if (!m || !step) return PLEUEL_USAGE;
   pl_relaying r = {.m = m, .step = step, .user = user};
-  pl_api_options(&r.options, sizeof r.options, options);
+  PL_TRY(pl_api_take(m->ctx, &r.options, sizeof r.options, options));
   pleuel_status s = pl_editor_answer(m, PL_ANSWER_STEPS, with_scratch, &r);
   return s;
 }

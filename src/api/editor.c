@@ -110,12 +110,3 @@ pleuel_span pl_api_span(pl_span s) {
                        .end_column = e.column,
                        .end_column16 = e.column16};
 }
-
-pleuel_status pl_api_fill(void* to, const void* from, size_t size) {
-  size_t given;
-  memcpy(&given, to, sizeof given);
-  if (given < sizeof given) return PLEUEL_USAGE;
-  size_t n = given < size ? given : size;
-  memcpy((char*)to + sizeof given, (const char*)from + sizeof given, n - sizeof given);
-  return PLEUEL_OK;
-}

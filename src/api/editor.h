@@ -55,7 +55,5 @@ pleuel_status pl_editor_guarded_in(pleuel_model* m, pl_arena* a, pl_editor_work*
                                    void* argument);
 
 pleuel_span pl_api_span(pl_span s);
-// Fills a structure of the caller: as many bytes as its first member says.  PLEUEL_USAGE: none.
-pleuel_status pl_api_fill(void* to, const void* from, size_t size);
 
 #endif
