@@ -34,7 +34,7 @@
 // not kept of pl_output, lives within a step: out_now out_before mode mode_before
 // not kept of pl_run, follows from setup and options: observer job setup options n_q n_c order
 //   observers watched branches
-// not kept of pl_run, lives within a step: branch_value
+// not kept of pl_run, lives within a step: branch_value reference
 // not kept of pl_run, of the start, which is found anew: start
 // not kept of pl_taylor, follows from setup and options: shrink
 // not kept of pl_taylor, only when, never what: clock_begin t_begin considered

@@ -283,9 +283,10 @@ typedef struct pl_sink {
 
 // --------------------------------------------------------------------------------------------- run
 typedef enum pl_method {
-  PL_METHOD_TAYLOR,  // series
-  PL_METHOD_RADAU,   // implicit, for stiff motions
-  PL_METHOD_AUTO     // series; implicit where that is far cheaper
+  PL_METHOD_TAYLOR,    // series
+  PL_METHOD_RADAU,     // implicit, for stiff motions
+  PL_METHOD_AUTO,      // series; implicit where that is far cheaper
+  PL_METHOD_REFERENCE  // Runge-Kutta with fixed steps of h_max, for tests
 } pl_method;
 
 // How the programs of a step are run.  The results are the same.

@@ -149,6 +149,7 @@ struct pl_run {
   struct pl_taylor* taylor;            // series in doubles, program of a step
   struct pl_extended* extended;        // series in extended precision; NULL: doubles
   struct pl_radau* radau;              // the implicit method, NULL without it
+  struct pl_reference* reference;      // Runge-Kutta with fixed steps, NULL without it
   struct pl_events* event;             // what is watched, contacts, singular positions
   struct pl_output* output;            // rows
   const pl_observer* observer;         // where events report
