@@ -20,7 +20,7 @@ static const double draw_low = 0.3, draw_high = 3.0;
 static const double grid = 1073741824.0;  // 2^30
 static const double rounding = 1e-14;     // of the terms of a fact
 
-typedef struct pl_point {
+typedef struct pl_sample_point {
   double* value;  // by symbol id, NaN where not drawn yet      (n_values)
   int n_values;
   uint32_t* draws;  // how often the symbol was drawn              (n_values)
@@ -30,7 +30,7 @@ typedef struct pl_point {
   // frozen solution of the linear system        (n_unknowns), NULL until needed
   arb_ptr unknown;
   bool solved;
-} pl_point;
+} pl_sample_point;
 
 struct pl_points {
   pl_job* job;
@@ -40,7 +40,7 @@ struct pl_points {
   long precision;
   uint64_t seed;
   int n;
-  pl_point* at;
+  pl_sample_point* at;
   pl_map* slot_of;  // expression id -> slot + 1
   PL_VEC(pl_expr) program;
   pl_map* definition_of;  // symbol id -> definition + 1
@@ -75,7 +75,7 @@ static bool is_free(const pl_points* s, pl_symbol x) {
 
 // Gives every symbol of the pool a place, and every free one a value.
 static void fill(pl_points* s, int point) {
-  pl_point* q = &s->at[point];
+  pl_sample_point* q = &s->at[point];
   int n = pl_symbol_count(s->pool) + 1;
   if (n <= q->n_values) return;
   double* value = PL_ARRAY(s->arena, double, n + n / 2);
@@ -95,7 +95,7 @@ static void fill(pl_points* s, int point) {
 }
 
 // Definitions in order; returns the first that has no value, or -1.
-static int define(pl_points* s, pl_point* q) {
+static int define(pl_points* s, pl_sample_point* q) {
   int bad = -1;
   for (int i = 0; i < s->setup.n_definitions; i++) {
     const pl_definition* d = &s->setup.definitions[i];
@@ -107,13 +107,13 @@ static int define(pl_points* s, pl_point* q) {
 }
 
 // A closed contact is zero by definition, but for rounding.
-static bool is_met(const pl_points* s, const pl_point* q, const pl_fact* f) {
+static bool is_met(const pl_points* s, const pl_sample_point* q, const pl_fact* f) {
   double v = pl_eval(s->pool, f->difference, q->value);
   if (f->strict) return v > 0;
   return v >= 0 || v >= -rounding * pl_eval_terms(s->pool, f->difference, q->value);
 }
 
-static int first_violated(const pl_points* s, const pl_point* q) {
+static int first_violated(const pl_points* s, const pl_sample_point* q) {
   for (int i = 0; i < s->setup.n_facts; i++) {
     if (!is_met(s, q, &s->setup.facts[i])) return i;
   }
@@ -147,7 +147,7 @@ static bool redraw_one_of(pl_points* s, int point, pl_expr e, pl_random* r) {
   pl_symbol x[64];
   int n = free_symbols(s, e, x, 64);
   if (n == 0) return false;
-  pl_point* q = &s->at[point];
+  pl_sample_point* q = &s->at[point];
   pl_symbol chosen = x[pl_random_bits(r) % (uint64_t)n];
   q->value[chosen.id] = draw(s, point, chosen, ++q->draws[chosen.id]);
   return true;
@@ -155,7 +155,7 @@ static bool redraw_one_of(pl_points* s, int point, pl_expr e, pl_random* r) {
 
 static void draw_point(pl_points* s, int point) {
   fill(s, point);
-  pl_point* q = &s->at[point];
+  pl_sample_point* q = &s->at[point];
   pl_random r = {pl_hash_mix(s->seed, 77 + (uint64_t)point)};
   for (int k = 0; k < PL_MAX_REDRAWS; k++) {
     int undefined = define(s, q);
@@ -189,7 +189,7 @@ pl_points* pl_points_make(pl_job* job, pl_pool* p, const pl_domain* setup, int n
   }
   for (int i = 0; i < setup->n_unknowns; i++)
     pl_map_set(s->unknown_of, setup->unknowns[i].id, (uint64_t)i + 1);
-  s->at = PL_ARRAY(a, pl_point, n_points);
+  s->at = PL_ARRAY(a, pl_sample_point, n_points);
   for (int i = 0; i < n_points; i++) draw_point(s, i);
   return s;
 }
@@ -197,7 +197,7 @@ pl_points* pl_points_make(pl_job* job, pl_pool* p, const pl_domain* setup, int n
 int pl_points_count(const pl_points* s) { return s->n; }
 
 // ------------------------------------------------------------------------------------- the program
-static arb_ptr ball(const pl_point* q, int slot) {
+static arb_ptr ball(const pl_sample_point* q, int slot) {
   return &q->chunks.at[slot / PL_CHUNK_SLOTS][slot % PL_CHUNK_SLOTS];
 }
 
@@ -294,7 +294,7 @@ static bool solve_balls(arb_ptr M, int n, long precision) {
   return ok;
 }
 
-static void solve_unknowns(pl_points* s, pl_point* q) {
+static void solve_unknowns(pl_points* s, pl_sample_point* q) {
   int n = s->setup.n_unknowns;
   q->unknown = PL_ARRAY(s->arena, arb_struct, n);
   reserve_limbs(s, (size_t)n);
@@ -312,11 +312,11 @@ static void solve_unknowns(pl_points* s, pl_point* q) {
 }
 
 // ----------------------------------------------------------------------------- running the program
-static void prepare_symbol(pl_points* s, pl_point* q, pl_symbol x) {
+static void prepare_symbol(pl_points* s, pl_sample_point* q, pl_symbol x) {
   if (!q->unknown && pl_map_get(s->unknown_of, x.id)) solve_unknowns(s, q);
 }
 
-static void symbol_ball(pl_points* s, pl_point* q, arb_ptr out, pl_symbol x) {
+static void symbol_ball(pl_points* s, pl_sample_point* q, arb_ptr out, pl_symbol x) {
   uint64_t d = pl_map_get(s->definition_of, x.id);
   if (d) {
     arb_set(out, ball(q, slot_of(s, s->setup.definitions[d - 1].value)));
@@ -342,7 +342,7 @@ static double element_value(pl_points* s, int point, pl_expr e) {
 }
 
 static void run_slot(pl_points* s, int point, int slot) {
-  pl_point* q = &s->at[point];
+  pl_sample_point* q = &s->at[point];
   pl_expr e = s->program.at[slot];
   pl_kind k = pl_kind_of(s->pool, e);
   int n = k == PL_SUM || k == PL_AT || k == PL_UNKNOWN_FUNCTION ? 0 : pl_n_args(s->pool, e);
@@ -368,7 +368,7 @@ static void run_slot(pl_points* s, int point, int slot) {
 }
 
 static void run_to(pl_points* s, int point, int slot) {
-  pl_point* q = &s->at[point];
+  pl_sample_point* q = &s->at[point];
   fill(s, point);
   for (; q->n_done <= slot; q->n_done++) {
     if (q->n_done == q->chunks.n * PL_CHUNK_SLOTS) {

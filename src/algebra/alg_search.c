@@ -21,7 +21,7 @@ static const double split_at = 0.4687;
 static const double narrowest = 1e-11;  // width of a box left open, relative to its place or to 1
 
 // f and f' with their nodes, arguments first.
-typedef struct pl_search {
+typedef struct pl_zero_search {
   pl_pool* pool;
   pl_arena* arena;
   pl_symbol x;
@@ -31,15 +31,17 @@ typedef struct pl_search {
   arb_t at;
   int f, slope;  // slots
   int boxes;
-} pl_search;
+} pl_zero_search;
 
-typedef struct pl_box {
+typedef struct pl_search_box {
   double lo, hi;
-} pl_box;
+} pl_search_box;
 
-static int slot_of(const pl_search* s, pl_expr e) { return (int)pl_map_get(s->slot_of, e.id) - 1; }
+static int slot_of(const pl_zero_search* s, pl_expr e) {
+  return (int)pl_map_get(s->slot_of, e.id) - 1;
+}
 
-static bool add_node(pl_search* s, pl_expr e, int depth) {
+static bool add_node(pl_zero_search* s, pl_expr e, int depth) {
   if (slot_of(s, e) >= 0) return true;
   if (depth > PL_MAX_DEPTH || s->node.n >= PL_MAX_SEARCH_NODES) return false;
   bool other = pl_kind_of(s->pool, e) == PL_SYMBOL && pl_symbol_of(s->pool, e).id != s->x.id;
@@ -53,7 +55,7 @@ static bool add_node(pl_search* s, pl_expr e, int depth) {
 }
 
 // The argument of a square root or a logarithm is negative throughout: f is not real there.
-static bool outside_domain(const pl_search* s, pl_expr e, const arb_srcptr* args) {
+static bool outside_domain(const pl_zero_search* s, pl_expr e, const arb_srcptr* args) {
   pl_kind kind = pl_kind_of(s->pool, e);
   if (kind == PL_CALL) return pl_function_of(s->pool, e) == PL_LN && arb_is_negative(args[0]);
   long num = 0, den = 1;
@@ -63,7 +65,7 @@ static bool outside_domain(const pl_search* s, pl_expr e, const arb_srcptr* args
 }
 
 // Values of all nodes on s->at; false where the function is not real.
-static bool evaluate(pl_search* s) {
+static bool evaluate(pl_zero_search* s) {
   enum { most = 64 };
   arb_srcptr few[most];
   s->boxes++;
@@ -84,7 +86,7 @@ static bool evaluate(pl_search* s) {
   return true;
 }
 
-static bool on_box(pl_search* s, double lo, double hi) {
+static bool on_box(pl_zero_search* s, double lo, double hi) {
   arf_t a, b;
   arf_init(a);
   arf_init(b);
@@ -98,12 +100,12 @@ static bool on_box(pl_search* s, double lo, double hi) {
 
 static int sign_of(arb_srcptr v) { return arb_is_positive(v) ? 1 : arb_is_negative(v) ? -1 : 0; }
 
-static int sign_at(pl_search* s, double x) {
+static int sign_at(pl_zero_search* s, double x) {
   return on_box(s, x, x) ? sign_of(&s->value[s->f]) : 0;
 }
 
 // The zero between two places of opposite sign, to the digits of a double.
-static double halved(pl_search* s, double lo, double hi, int at_lo) {
+static double halved(pl_zero_search* s, double lo, double hi, int at_lo) {
   for (int k = 0; k < PL_HALVINGS; k++) {
     double mid = lo + 0.5 * (hi - lo);
     if (mid <= lo || mid >= hi) break;
@@ -117,7 +119,7 @@ static double halved(pl_search* s, double lo, double hi, int at_lo) {
 
 typedef enum pl_box_verdict { PL_BOX_EMPTY, PL_BOX_ONE, PL_BOX_OPEN } pl_box_verdict;
 
-static pl_box_verdict judge(pl_search* s, pl_box b, double* zero) {
+static pl_box_verdict judge(pl_zero_search* s, pl_search_box b, double* zero) {
   if (!on_box(s, b.lo, b.hi) || sign_of(&s->value[s->f])) return PL_BOX_EMPTY;
   int slope = arb_is_finite(&s->value[s->slope]) ? sign_of(&s->value[s->slope]) : 0;
   if (!slope) return PL_BOX_OPEN;
@@ -129,8 +131,8 @@ static pl_box_verdict judge(pl_search* s, pl_box b, double* zero) {
 }
 
 typedef struct pl_zeros_job {
-  pl_search s;
-  pl_box range;
+  pl_zero_search s;
+  pl_search_box range;
   pl_zero* out;
   int n, max;
   bool complete;
@@ -149,14 +151,14 @@ static void add_zero(pl_zeros_job* j, double at, bool proven) {
 static void search_body(pl_tower* t, void* data) {
   (void)t;
   pl_zeros_job* j = data;
-  pl_search* s = &j->s;
+  pl_zero_search* s = &j->s;
   s->value = _arb_vec_init(s->node.n);
   arb_init(s->at);
-  pl_box* stack = PL_ARRAY(s->arena, pl_box, PL_SEARCH_STACK);
+  pl_search_box* stack = PL_ARRAY(s->arena, pl_search_box, PL_SEARCH_STACK);
   int n = 0;
   stack[n++] = j->range;
   while (n > 0 && j->complete) {
-    pl_box b = stack[--n];
+    pl_search_box b = stack[--n];
     double zero = 0, mid = b.lo + split_at * (b.hi - b.lo);
     pl_box_verdict verdict = judge(s, b, &zero);
     if (verdict == PL_BOX_EMPTY) continue;
@@ -167,8 +169,8 @@ static void search_body(pl_tower* t, void* data) {
     } else if (n + 2 > PL_SEARCH_STACK || s->boxes > PL_MAX_BOXES) {
       j->complete = false;
     } else {
-      stack[n++] = (pl_box){mid, b.hi};  // the lower half is looked at first
-      stack[n++] = (pl_box){b.lo, mid};
+      stack[n++] = (pl_search_box){mid, b.hi};  // the lower half is looked at first
+      stack[n++] = (pl_search_box){b.lo, mid};
     }
   }
   _arb_vec_clear(s->value, s->node.n);

@@ -8,14 +8,14 @@
 #include <string.h>
 
 // A fraction under construction; den sorted by base.
-typedef struct pl_build {
+typedef struct pl_frac_build {
   pl_tower* t;
   const pl_poly* num;
   fmpz* unit;
   PL_VEC(pl_power) den;
-} pl_build;
+} pl_frac_build;
 
-static void build_power(pl_build* b, int base, int power) {
+static void build_power(pl_frac_build* b, int base, int power) {
   int i = 0;
   while (i < b->den.n && b->den.at[i].base < base) i++;
   if (i < b->den.n && b->den.at[i].base == base) {
@@ -28,13 +28,13 @@ static void build_power(pl_build* b, int base, int power) {
   b->den.at[i] = p;
 }
 
-static void build_factored(pl_build* b, pl_factored f, int times) {
+static void build_factored(pl_frac_build* b, pl_factored f, int times) {
   for (int i = 0; i < f.n; i++) build_power(b, f.at[i].base, times * f.at[i].power);
 }
 
 // -------------------------------------------------------------------------------------- cancelling
 // A composite base may share only a part with the numerator: split that part off.
-static void cancel_composite(pl_build* b, int i) {
+static void cancel_composite(pl_frac_build* b, int i) {
   pl_tower* t = b->t;
   int base = b->den.at[i].base;
   const pl_poly* g = pl_poly_gcd(t, b->num, pl_base_poly(t, base));
@@ -51,7 +51,7 @@ static void cancel_composite(pl_build* b, int i) {
 
 // w^2 = P is used on the denominator too: w^2k becomes P^k there, and w/P becomes 1/w. For a sine,
 // P = (1 - c)(1 + c).
-static void lower_powers(pl_build* b) {
+static void lower_powers(pl_frac_build* b) {
   pl_tower* t = b->t;
   for (int i = 0; i < b->den.n; i++) {
     int gen = t->bases.at[b->den.at[i].base].gen;
@@ -67,7 +67,7 @@ static void lower_powers(pl_build* b) {
   }
 }
 
-static bool den_holds(const pl_build* b, pl_factored f) {
+static bool den_holds(const pl_frac_build* b, pl_factored f) {
   for (int i = 0; i < f.n; i++) {
     int have = 0;
     for (int k = 0; k < b->den.n; k++) {
@@ -78,7 +78,7 @@ static bool den_holds(const pl_build* b, pl_factored f) {
   return true;
 }
 
-static void lower_roots(pl_build* b) {
+static void lower_roots(pl_frac_build* b) {
   pl_tower* t = b->t;
   pl_poly* content = pl_poly_new(t);
   fmpz_mpoly_term_content(content, b->num, &t->ctx);
@@ -95,7 +95,7 @@ static void lower_roots(pl_build* b) {
 }
 
 // P/w = w.
-static void raise_roots(pl_build* b) {
+static void raise_roots(pl_frac_build* b) {
   pl_tower* t = b->t;
   for (int i = 0; i < b->den.n; i++) {
     int gen = t->bases.at[b->den.at[i].base].gen;
@@ -119,7 +119,7 @@ static bool divides(pl_tower* t, const pl_poly** q, const pl_poly* num, int base
   return t->bases.at[base].gen < 0 && pl_poly_divides_reduced(t, q, num, den);
 }
 
-static void cancel_bases(pl_build* b) {
+static void cancel_bases(pl_frac_build* b) {
   pl_tower* t = b->t;
   for (int i = 0; i < b->den.n; i++) {
     int base = b->den.at[i].base;
@@ -137,7 +137,7 @@ static void cancel_bases(pl_build* b) {
   b->den.n = n;
 }
 
-static void cancel_content(pl_build* b) {
+static void cancel_content(pl_frac_build* b) {
   pl_tower* t = b->t;
   if (fmpz_sgn(b->unit) < 0) {
     fmpz_neg(b->unit, b->unit);
@@ -152,7 +152,7 @@ static void cancel_content(pl_build* b) {
   fmpz_divexact(b->unit, b->unit, c);
 }
 
-static pl_frac built(pl_build* b) {
+static pl_frac built(pl_frac_build* b) {
   if (pl_poly_is_zero(b->t, b->num)) return pl_frac_int(b->t, 0);
   if (b->den.n) {
     lower_powers(b);
@@ -165,8 +165,8 @@ static pl_frac built(pl_build* b) {
   return (pl_frac){.num = b->num, .unit = b->unit, .n = b->den.n, .den = b->den.at};
 }
 
-static pl_build build_begin(pl_tower* t, const pl_poly* num) {
-  pl_build b = {.t = t, .num = num, .unit = pl_int_new(t)};
+static pl_frac_build build_begin(pl_tower* t, const pl_poly* num) {
+  pl_frac_build b = {.t = t, .num = num, .unit = pl_int_new(t)};
   fmpz_one(b.unit);
   return b;
 }
@@ -182,7 +182,7 @@ pl_frac pl_frac_int(pl_tower* t, long c) { return pl_frac_poly(t, pl_poly_int(t,
 
 pl_frac pl_frac_ratio(pl_tower* t, const fmpz* num, const fmpz* den) {
   if (fmpz_is_zero(den)) pl_tower_give_up(t);
-  pl_build b = build_begin(t, pl_poly_fmpz(t, num));
+  pl_frac_build b = build_begin(t, pl_poly_fmpz(t, num));
   fmpz_set(b.unit, den);
   return built(&b);
 }
@@ -192,7 +192,7 @@ pl_frac pl_frac_gen(pl_tower* t, int gen) { return pl_frac_poly(t, pl_poly_gen(t
 pl_frac pl_frac_make(pl_tower* t, const pl_poly* num, const pl_poly* den) {
   den = pl_poly_reduce(t, den);
   if (pl_poly_is_zero(t, den)) pl_tower_give_up(t);
-  pl_build b = build_begin(t, pl_poly_reduce(t, num));
+  pl_frac_build b = build_begin(t, pl_poly_reduce(t, num));
   pl_factored f = pl_poly_factor(t, den);
   fmpz_set(b.unit, f.unit);
   build_factored(&b, f, 1);
@@ -200,7 +200,7 @@ pl_frac pl_frac_make(pl_tower* t, const pl_poly* num, const pl_poly* den) {
 }
 
 pl_frac pl_frac_over(pl_tower* t, const pl_poly* num, pl_frac like) {
-  pl_build b = build_begin(t, pl_poly_reduce(t, num));
+  pl_frac_build b = build_begin(t, pl_poly_reduce(t, num));
   fmpz_set(b.unit, like.unit);
   for (int i = 0; i < like.n; i++) pl_push(t->arena, b.den, like.den[i]);
   return built(&b);
@@ -215,16 +215,6 @@ pl_frac pl_frac_keep(pl_tower* t, pl_frac a) {
 // --------------------------------------------------------------------------------------- questions
 bool pl_frac_is_zero(const pl_tower* t, pl_frac a) { return pl_poly_is_zero(t, a.num); }
 
-bool pl_frac_is_number(const pl_tower* t, pl_frac a, fmpq_t value) {
-  if (a.n > 0 || !pl_poly_is_number(t, a.num)) return false;
-  if (value) {
-    fmpz_mpoly_get_fmpz(fmpq_numref(value), a.num, &t->ctx);
-    fmpz_set(fmpq_denref(value), a.unit);
-    fmpq_canonicalise(value);
-  }
-  return true;
-}
-
 const pl_poly* pl_frac_den(pl_tower* t, pl_frac a) {
   return pl_factored_expand(t, (pl_factored){.unit = a.unit, .n = a.n, .at = a.den});
 }
@@ -236,7 +226,7 @@ pl_frac pl_frac_neg(pl_tower* t, pl_frac a) {
 }
 
 // num times what its own denominator lacks to the common one.
-static const pl_poly* raise_num(pl_build* common, pl_frac a) {
+static const pl_poly* raise_num(pl_frac_build* common, pl_frac a) {
   pl_tower* t = common->t;
   fmpz* factor = pl_int_new(t);
   fmpz_divexact(factor, common->unit, a.unit);
@@ -257,7 +247,7 @@ static bool same_den(pl_frac a, pl_frac b) {
 }
 
 static pl_frac add_same(pl_tower* t, pl_frac a, pl_frac b) {
-  pl_build s = build_begin(t, pl_poly_add(t, a.num, b.num));
+  pl_frac_build s = build_begin(t, pl_poly_add(t, a.num, b.num));
   fmpz_set(s.unit, a.unit);
   for (int i = 0; i < a.n; i++) pl_push(t->arena, s.den, a.den[i]);
   return built(&s);
@@ -267,7 +257,7 @@ pl_frac pl_frac_add(pl_tower* t, pl_frac a, pl_frac b) {
   if (pl_frac_is_zero(t, a)) return b;
   if (pl_frac_is_zero(t, b)) return a;
   if (same_den(a, b)) return add_same(t, a, b);
-  pl_build s = build_begin(t, NULL);
+  pl_frac_build s = build_begin(t, NULL);
   fmpz_lcm(s.unit, a.unit, b.unit);
   for (int i = 0; i < a.n; i++) pl_push(t->arena, s.den, a.den[i]);
   for (int i = 0; i < b.n; i++) {
@@ -288,7 +278,7 @@ pl_frac pl_frac_sub(pl_tower* t, pl_frac a, pl_frac b) {
 pl_frac pl_frac_mul(pl_tower* t, pl_frac a, pl_frac b) {
   if (pl_frac_is_zero(t, a)) return a;
   if (pl_frac_is_zero(t, b)) return b;
-  pl_build p = build_begin(t, NULL);
+  pl_frac_build p = build_begin(t, NULL);
   fmpz_mul(p.unit, a.unit, b.unit);
   for (int i = 0; i < a.n; i++) build_power(&p, a.den[i].base, a.den[i].power);
   for (int i = 0; i < b.n; i++) build_power(&p, b.den[i].base, b.den[i].power);
@@ -308,7 +298,7 @@ pl_frac pl_frac_mul(pl_tower* t, pl_frac a, pl_frac b) {
 
 pl_frac pl_frac_inv(pl_tower* t, pl_frac a) {
   if (pl_frac_is_zero(t, a)) pl_tower_give_up(t);
-  pl_build q = build_begin(t, pl_frac_den(t, a));
+  pl_frac_build q = build_begin(t, pl_frac_den(t, a));
   pl_factored f = pl_poly_factor(t, a.num);
   fmpz_set(q.unit, f.unit);
   build_factored(&q, f, 1);
@@ -322,7 +312,7 @@ pl_frac pl_frac_div(pl_tower* t, pl_frac a, pl_frac b) {
 pl_frac pl_frac_pow(pl_tower* t, pl_frac a, long n) {
   if (n < 0) return pl_frac_pow(t, pl_frac_inv(t, a), -n);
   if (n > PL_MAX_DEGREE) pl_tower_give_up(t);
-  pl_build p = build_begin(t, pl_poly_pow(t, a.num, n));
+  pl_frac_build p = build_begin(t, pl_poly_pow(t, a.num, n));
   fmpz_pow_ui(p.unit, a.unit, (ulong)n);
   for (int i = 0; i < a.n && n > 0; i++) {
     pl_power power = {a.den[i].base, a.den[i].power * (int)n};

@@ -6,16 +6,16 @@
 enum { PL_MAX_WAVES = 256, PL_MAX_INTEGRAL_DEGREE = 40 };
 
 // coefficient * x^power * exp(exponent) * cos or sin (angle);  angle and exponent linear in x.
-typedef struct pl_wave {
+typedef struct pl_integral_wave {
   pl_expr coefficient, exponent, angle;
   int power;
   bool sine;
-} pl_wave;
+} pl_integral_wave;
 
 typedef struct pl_integral_job {
   pl_expr e;
   pl_symbol x;
-  pl_wave at[PL_MAX_WAVES];
+  pl_integral_wave at[PL_MAX_WAVES];
   int n;
   pl_expr reciprocal;  // when e is coefficient / linear^degree instead: the linear function
   pl_expr coefficient;
@@ -30,7 +30,7 @@ static void times_wave(pl_tower* t, pl_integral_job* j, int from, pl_expr angle,
   pl_pool* p = t->pool;
   int n = j->n;
   for (int i = from; i < n; i++) {
-    pl_wave w = j->at[i], plus = w, minus = w;
+    pl_integral_wave w = j->at[i], plus = w, minus = w;
     if (j->n == PL_MAX_WAVES) pl_tower_give_up(t);
     pl_expr half = pl_mul(p, pl_ratio(p, 1, 2), w.coefficient);
     plus.angle = pl_add(p, w.angle, angle);
@@ -51,9 +51,9 @@ static void wave_of_term(pl_tower* t, pl_integral_job* j, pl_frac f, slong i) {
   fmpz_mpoly_get_term_exp_ui(exponent, f.num, i, &t->ctx);
   if (j->n == PL_MAX_WAVES) pl_tower_give_up(t);
   int from = j->n;
-  pl_wave w = {.coefficient = pl_fmpz_expr(t, &f.num->coeffs[i]),
-               .exponent = pl_int(p, 0),
-               .angle = pl_int(p, 0)};
+  pl_integral_wave w = {.coefficient = pl_fmpz_expr(t, &f.num->coeffs[i]),
+                        .exponent = pl_int(p, 0),
+                        .angle = pl_int(p, 0)};
   for (int g = 0; g < t->gens.n; g++) {
     if (exponent[g] == 0) continue;
     const pl_gen* gen = &t->gens.at[g];
@@ -148,7 +148,8 @@ static bool slope_of(pl_tower* t, pl_expr e, pl_symbol x, pl_expr* slope) {
 
 // ∫ x^k F' = x^k F - k ∫ x^(k-1) F, with F = e^u (α cos φ + a sin φ)/(α² + a²) for F' = e^u cos φ,
 // and likewise for sin.
-static pl_expr integrate_wave(pl_tower* t, pl_wave w, pl_expr alpha, pl_expr a, pl_symbol x) {
+static pl_expr integrate_wave(pl_tower* t, pl_integral_wave w, pl_expr alpha, pl_expr a,
+                              pl_symbol x) {
   pl_pool* p = t->pool;
   pl_expr X = pl_sym(p, x);
   bool flat = pl_is_zero_node(p, alpha) && pl_is_zero_node(p, a);
@@ -158,7 +159,7 @@ static pl_expr integrate_wave(pl_tower* t, pl_wave w, pl_expr alpha, pl_expr a, 
     return pl_div(p, pl_mul(p, constant, pl_pow_int(p, X, w.power + 1)), pl_int(p, w.power + 1));
   }
   pl_expr size = pl_add(p, pl_square(p, alpha), pl_square(p, a));
-  pl_wave same = w, other = w;
+  pl_integral_wave same = w, other = w;
   same.coefficient = pl_div(p, pl_mul(p, w.coefficient, alpha), size);
   other.coefficient = pl_div(p, pl_mul(p, w.coefficient, w.sine ? pl_neg(p, a) : a), size);
   other.sine = !w.sine;
@@ -181,7 +182,7 @@ static pl_expr integrate_wave(pl_tower* t, pl_wave w, pl_expr alpha, pl_expr a, 
 static pl_expr integrate_waves(pl_tower* t, pl_integral_job* j) {
   pl_expr sum = pl_int(t->pool, 0);
   for (int i = 0; i < j->n; i++) {
-    pl_wave w = j->at[i];
+    pl_integral_wave w = j->at[i];
     pl_expr alpha, a;
     w.angle = pl_alg_normal(t, w.angle);
     if (w.sine && pl_is_zero_node(t->pool, w.angle)) continue;

@@ -28,7 +28,7 @@ static pl_expr term_expr(pl_tower* t, const pl_poly* a, slong i) {
   return pl_mul_n(t->pool, factors, n);
 }
 
-pl_expr pl_poly_expr_as_is(pl_tower* t, const pl_poly* a) {
+static pl_expr expanded(pl_tower* t, const pl_poly* a) {
   if (a->length == 0) return pl_int(t->pool, 0);
   if (a->length > PL_MAX_WRITTEN_TERMS) pl_tower_give_up(t);
   pl_tower_charge(t, PL_WORK_OF_WRITTEN_TERM * a->length);
@@ -38,7 +38,7 @@ pl_expr pl_poly_expr_as_is(pl_tower* t, const pl_poly* a) {
 }
 
 pl_expr pl_poly_expr(pl_tower* t, const pl_poly* a) {
-  return pl_poly_expr_as_is(t, pl_poly_shortest_view(t, a));
+  return expanded(t, pl_poly_shortest_view(t, a));
 }
 
 static pl_expr den_expr(pl_tower* t, pl_frac a) {

@@ -116,12 +116,12 @@ static pl_keys keys_of(pl_tower* t, pl_factored f) {
   return k;
 }
 
-typedef struct pl_row {
+typedef struct pl_radical_row {
   pl_keys keys;
   PL_VEC(int) roots;
-} pl_row;  // a combination of the radicands roots[]
+} pl_radical_row;  // a combination of the radicands roots[]
 
-static void row_add(pl_tower* t, pl_row* to, const pl_row* from) {
+static void row_add(pl_tower* t, pl_radical_row* to, const pl_radical_row* from) {
   for (int i = 0; i < from->keys.at.n; i++) keys_flip(t, &to->keys, from->keys.at.at[i]);
   for (int i = 0; i < from->roots.n; i++) {
     int k = 0;
@@ -135,7 +135,7 @@ static void row_add(pl_tower* t, pl_row* to, const pl_row* from) {
 }
 
 // Eliminates the leading key of each known row; true when nothing is left: dependent.
-static bool row_reduce(pl_tower* t, pl_row* r, const pl_row* rows, int n) {
+static bool row_reduce(pl_tower* t, pl_radical_row* r, const pl_radical_row* rows, int n) {
   for (bool again = true; again && r->keys.at.n > 0;) {
     again = false;
     for (int i = 0; i < n; i++) {
@@ -149,16 +149,16 @@ static bool row_reduce(pl_tower* t, pl_row* r, const pl_row* rows, int n) {
 }
 
 // Older square roots whose radicands make P a square; false when there are none.
-static bool dependent_roots(pl_tower* t, pl_factored P, pl_row* out) {
-  pl_row* rows = PL_ARRAY(t->arena, pl_row, t->gens.n + 1);
+static bool dependent_roots(pl_tower* t, pl_factored P, pl_radical_row* out) {
+  pl_radical_row* rows = PL_ARRAY(t->arena, pl_radical_row, t->gens.n + 1);
   int n = 0;
   for (int g = 0; g < t->gens.n; g++) {
     if (t->gens.at[g].kind != PL_G_ROOT || t->gens.at[g].degree != 2) continue;
-    pl_row r = {.keys = keys_of(t, pl_poly_factor(t, t->gens.at[g].value))};
+    pl_radical_row r = {.keys = keys_of(t, pl_poly_factor(t, t->gens.at[g].value))};
     pl_push(t->arena, r.roots, g);
     if (!row_reduce(t, &r, rows, n)) rows[n++] = r;
   }
-  *out = (pl_row){.keys = keys_of(t, P)};
+  *out = (pl_radical_row){.keys = keys_of(t, P)};
   return row_reduce(t, out, rows, n);
 }
 
@@ -292,7 +292,7 @@ static bool denest(pl_tower* t, const pl_poly* P, pl_frac* out) {
   return false;
 }
 
-static pl_frac sqrt_by_older_roots(pl_tower* t, pl_factored P, const pl_row* row) {
+static pl_frac sqrt_by_older_roots(pl_tower* t, pl_factored P, const pl_radical_row* row) {
   pl_split s = {.num = pl_int_new(t), .den = pl_int_new(t)};
   fmpz_set(s.num, P.unit);
   fmpz_one(s.den);
@@ -330,7 +330,7 @@ static pl_frac sqrt_of_poly(pl_tower* t, const pl_poly* P) {
   if (has_square(f)) return pl_frac_sqrt(t, pl_frac_poly(t, P));  // reduction has made one appear
   pl_frac r;
   if (sqrt_in_other_view(t, P, &r) || denest(t, P, &r)) return r;
-  pl_row row;
+  pl_radical_row row;
   if (dependent_roots(t, f, &row)) return sqrt_by_older_roots(t, f, &row);
   pl_expr e = pl_sqrt(t->pool, pl_poly_expr(t, P));
   int gen = pl_tower_find(t, e);

@@ -339,7 +339,6 @@ pl_frac pl_frac_div(pl_tower* t, pl_frac a, pl_frac b);  // gives up on division
 pl_frac pl_frac_inv(pl_tower* t, pl_frac a);
 pl_frac pl_frac_pow(pl_tower* t, pl_frac a, long n);
 bool pl_frac_is_zero(const pl_tower* t, pl_frac a);
-bool pl_frac_is_number(const pl_tower* t, pl_frac a, fmpq_t value);  // value may be NULL
 // unit and factors multiplied out
 const pl_poly* pl_frac_den(pl_tower* t, pl_frac a);
 pl_frac pl_frac_keep(pl_tower* t, pl_frac a);
@@ -351,8 +350,7 @@ pl_frac pl_convert(pl_tower* t, pl_expr e);
 void pl_convert_known(pl_tower* t, pl_expr e, pl_frac f);
 // num in its shortest view over factored den        poly_expr.c
 pl_expr pl_frac_expr(pl_tower* t, pl_frac a);
-pl_expr pl_poly_expr(pl_tower* t, const pl_poly* a);        // expanded, shortest view
-pl_expr pl_poly_expr_as_is(pl_tower* t, const pl_poly* a);  // expanded, view unchanged
+pl_expr pl_poly_expr(pl_tower* t, const pl_poly* a);  // expanded, shortest view
 pl_expr pl_fmpz_expr(pl_tower* t, const fmpz* c);
 pl_expr pl_fmpq_expr(pl_tower* t, const fmpz* num, const fmpz* den);
 

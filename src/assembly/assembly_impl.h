@@ -7,14 +7,14 @@
 // Friction on a constraint, as expressions of its group.
 typedef struct pl_friction_source {
   int constraint;  // of the model
-  struct pl_group* group;
+  struct pl_record_group* group;
   int n_rows, first_row;  // links of slip
   int n_coefficients, first_coefficient;
   pl_expr slip[3], limit, scale, along[3], metric[6];
 } pl_friction_source;
 
 // Everything that stands in one `for` block, or outside of all: one pattern.
-typedef struct pl_group {
+typedef struct pl_record_group {
   const pl_block* block;    // NULL: outside
   pl_instances instances;   // of the block; one without indices for the outside
   PL_VEC(int) constraints;  // of the model
@@ -26,7 +26,7 @@ typedef struct pl_group {
   pl_expr T, V, L;  // L: what `lagrangian` lines add
   // generalized forces without potential        (atoms), made when the atoms are known
   pl_expr* force;
-} pl_group;
+} pl_record_group;
 
 // What the motion is varied with: a parameter, or a start value.
 typedef struct pl_direction {
@@ -58,10 +58,10 @@ typedef struct pl_recorder {
   pl_recording* out;
   double* value;  // by symbol id: parameters, then start values of scalars
   int n_value;
-  pl_map* flat_at;           // id of a coordinate atom with a number as index -> global index + 1
-  PL_VEC(pl_group*) groups;  // the outside first
-  int* first_constraint;     // global index of the first row of each constraint of the model
-  int n_constraints;         // with the map equations and the rows of slip
+  pl_map* flat_at;  // id of a coordinate atom with a number as index -> global index + 1
+  PL_VEC(pl_record_group*) groups;  // the outside first
+  int* first_constraint;            // global index of the first row of each constraint of the model
+  int n_constraints;                // with the map equations and the rows of slip
   PL_VEC(pl_friction_source*) frictions;
   bool dissipative, explicit_time;
   bool start_settled;       // values of x(0), E(0) are there
@@ -83,12 +83,12 @@ pleuel_status pl_record_turned(const pl_recorder* as);
 
 // record_forces.c: energies and generalized forces of the groups.
 void pl_group_energies(pl_recorder* r);
-void pl_group_forces(pl_recorder* r, pl_group* g);
+void pl_group_forces(pl_recorder* r, pl_record_group* g);
 
 // record.c
-pl_expr pl_record_plain(pl_recorder* r, pl_expr e);           // sums over indices written out
-void pl_group_atoms(pl_recorder* r, pl_group* g, pl_expr e);  // adds the coordinates of e
-double pl_record_number(pl_recorder* r, pl_expr e);           // NaN when it is none
+pl_expr pl_record_plain(pl_recorder* r, pl_expr e);  // sums over indices written out
+void pl_group_atoms(pl_recorder* r, pl_record_group* g, pl_expr e);  // adds the coordinates of e
+double pl_record_number(pl_recorder* r, pl_expr e);                  // NaN when it is none
 
 typedef struct pl_start_value {
   int at;
@@ -100,10 +100,10 @@ typedef struct pl_start_value {
 bool pl_record_index(pl_recorder* r, pl_expr e, long* out);  // a whole number
 // every parameter in them has a number
 pleuel_status pl_record_check(pl_recorder* r, const pl_expr* e, int n);
-void pl_record_slots(pl_recorder* r, pl_group* g, const pl_expr* lambda, int n_c,
+void pl_record_slots(pl_recorder* r, pl_record_group* g, const pl_expr* lambda, int n_c,
                      pl_tape_slots* out);
 // slots of each instance
-pleuel_status pl_record_place(pl_recorder* r, pl_group* g, pl_pattern_source* s);
+pleuel_status pl_record_place(pl_recorder* r, pl_record_group* g, pl_pattern_source* s);
 // row of a constraint, -1
 int pl_record_constraint(pl_recorder* r, const char* label);
 pleuel_status pl_record_target(pl_recorder* r, pl_expr target, pl_start_value* out);
@@ -120,7 +120,7 @@ void pl_numbers_make(pl_recorder* r);
 pleuel_status pl_variation_begin(pl_recorder* r, const char* list);
 // patterns for each of the motion
 int pl_variation_count(const pl_recorder* r);
-pleuel_status pl_variation_record(pl_recorder* r, pl_group* g, const pl_pattern_source* s,
+pleuel_status pl_variation_record(pl_recorder* r, pl_record_group* g, const pl_pattern_source* s,
                                   pl_pattern* out);
 void pl_variation_of_start(pl_recorder* r, const pl_start_value* s);
 pleuel_status pl_variation_setup(pl_recorder* r);
@@ -130,8 +130,7 @@ pl_expr pl_variation_by_parameter(pl_recorder* r, pl_expr e, const pl_direction*
 pl_expr pl_variation_delta(pl_recorder* r, pl_expr atom);
 
 // record_variation_events.c: the same for what switches the motion.
-bool pl_variation_is_switched(const pl_recorder* r);
-pleuel_status pl_variation_watch(pl_recorder* r, const pl_group* g, const pl_expr* e, int n,
+pleuel_status pl_variation_watch(pl_recorder* r, const pl_record_group* g, const pl_expr* e, int n,
                                  const pl_expr* lambda, const int* constraints, int n_c);
 // the setup, when it has both
 void pl_variation_switch(pl_recorder* r);
@@ -145,11 +144,11 @@ void pl_wider_start(pl_recorder* r, const pl_start_value* s, pl_expr value);
 pleuel_status pl_wider_setup(pl_recorder* r);
 
 // record_friction.c: rows of slip and their coefficients.
-pleuel_status pl_group_friction(pl_recorder* r, pl_group* g);  // before the forces of the group
+pleuel_status pl_group_friction(pl_recorder* r,
+                                pl_record_group* g);  // before the forces of the group
 pl_expr pl_record_friction_coefficient(const pl_friction_source* s, int k);
 void pl_record_frictions(pl_recorder* r, pl_constraint_setup* constraint);
 void pl_record_friction_symbols(pl_recorder* r);
-pl_symbol pl_record_friction_symbol(pl_recorder* r, const pl_friction_source* s, int k);
 int pl_record_friction_row(pl_recorder* r, pl_symbol lambda);
 pl_expr pl_record_friction_force(pl_recorder* r, const pl_friction_source* s, int j);
 

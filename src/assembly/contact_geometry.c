@@ -31,8 +31,8 @@ typedef struct pl_geometry {
   pl_recorder* r;
   pl_pool* pool;
   const pl_constraint* c;
-  pl_group* atoms;  // coordinates that the constraint or a partner depends on
-  pl_group* rows;   // those of them whose virtual work is looked at
+  pl_record_group* atoms;  // coordinates that the constraint or a partner depends on
+  pl_record_group* rows;   // those of them whose virtual work is looked at
   pl_partners partners;
 } pl_geometry;
 
@@ -293,8 +293,8 @@ static bool no_place(pl_geometry* g, const pl_friction* f) {
 
 // The arm of a point fixed in the body, in the sense in which its angle turns it: r = r_t t + r_n n
 // with M = r x Z.
-static bool fixed_arm(pl_geometry* g, const pl_partner* a, pl_expr moment, const pl_touch* out,
-                      int sense, pl_expr* arm) {
+static bool fixed_arm(pl_geometry* g, const pl_partner* a, pl_expr moment,
+                      const pl_contact_touch* out, int sense, pl_expr* arm) {
   pl_pool* p = g->pool;
   pl_expr n[2], along = pl_div(p, moment, out->size);
   for (int j = 0; j < 2; j++) n[j] = pl_div(p, out->force[j], out->size);
@@ -309,7 +309,7 @@ static bool fixed_arm(pl_geometry* g, const pl_partner* a, pl_expr moment, const
 
 // The arm of the force on body a.
 static bool find_arm(pl_geometry* g, const pl_friction* f, const pl_partner* a, bool alone,
-                     pl_expr moment, const pl_touch* out, pl_expr* arm) {
+                     pl_expr moment, const pl_contact_touch* out, pl_expr* arm) {
   pl_pool* p = g->pool;
   if (f->at.n == 2) {
     for (int j = 0; j < 2; j++) arm[j] = pl_sub(p, f->at.at[j], a->at.at[j]);
@@ -337,7 +337,7 @@ static bool find_arm(pl_geometry* g, const pl_friction* f, const pl_partner* a, 
 // The arm on a body in space: to the place given; without one, along the normal at the distance
 // that the constraint keeps from a plane (a ball on a floor).
 static bool find_arm_in_space(pl_geometry* g, const pl_friction* f, const pl_partner* a, bool alone,
-                              const pl_touch* out, pl_expr* arm) {
+                              const pl_contact_touch* out, pl_expr* arm) {
   pl_pool* p = g->pool;
   pl_expr n[3];
   bool plane = alone;
@@ -384,7 +384,7 @@ static void velocity_at(pl_geometry* g, const pl_friction* f, const pl_partner* 
 }
 
 static bool slide(pl_geometry* g, const pl_friction* f, const pl_partner* a, const pl_partner* b,
-                  const pl_unknowns* u, pl_touch* out) {
+                  const pl_unknowns* u, pl_contact_touch* out) {
   pl_pool* p = g->pool;
   pl_expr arm_a[3], arm_b[3], v[3], w[3];
   bool body_a = u->moment_a >= 0, body_b = u->moment_b >= 0;
@@ -411,14 +411,14 @@ static bool slide(pl_geometry* g, const pl_friction* f, const pl_partner* a, con
 }
 
 // |Z|, which is 1 where it is that for all angles.
-static pl_expr length_of(pl_geometry* g, const pl_touch* t) {
+static pl_expr length_of(pl_geometry* g, const pl_contact_touch* t) {
   pl_expr size = pl_sqrt(g->pool, dot(g->pool, t->force, t->force, t->n));
   bool unit = vanishes(g, pl_sub(g->pool, size, pl_int(g->pool, 1)), 1e-3);
   return unit ? pl_int(g->pool, 1) : size;
 }
 
 // The force of a constraint on a body alone; false: it is not that.
-static bool force_on(pl_geometry* g, const pl_partner* a, pl_unknowns* u, pl_touch* out) {
+static bool force_on(pl_geometry* g, const pl_partner* a, pl_unknowns* u, pl_contact_touch* out) {
   pl_pool* p = g->pool;
   if (!explains(g, a, NULL, u)) return false;
   out->n = a->at.n;
@@ -444,7 +444,7 @@ static int sense_of(pl_geometry* g, const pl_partner* a, const pl_expr* arm) {
     if (other == c || other->block != c->block || other->has_velocity || other->relation == PL_EQ)
       continue;
     pl_unknowns u;
-    pl_touch t = {0};
+    pl_contact_touch t = {0};
     pl_expr there[3];
     g->c = other;
     bool fits = force_on(g, a, &u, &t) && u.moment_a >= 0
@@ -456,7 +456,7 @@ static int sense_of(pl_geometry* g, const pl_partner* a, const pl_expr* arm) {
 }
 
 static bool take(pl_geometry* g, const pl_friction* f, const pl_partner* a, const pl_partner* b,
-                 pl_touch* out) {
+                 pl_contact_touch* out) {
   pl_unknowns u;
   pl_pool* p = g->pool;
   if (b && a->at.n != b->at.n) return false;
@@ -475,7 +475,7 @@ static bool take(pl_geometry* g, const pl_friction* f, const pl_partner* a, cons
 // --------------------------------------------------------------------------------------------- all
 static pl_geometry* geometry_make(pl_recorder* r, const pl_constraint* c) {
   pl_geometry* g = PL_NEW(r->arena, pl_geometry);
-  *g = (pl_geometry){.r = r, .pool = r->pool, .c = c, .atoms = PL_NEW(r->arena, pl_group)};
+  *g = (pl_geometry){.r = r, .pool = r->pool, .c = c, .atoms = PL_NEW(r->arena, pl_record_group)};
   g->rows = g->atoms;
   g->atoms->atom_at = pl_map_make(r->arena);
   g->atoms->seen = pl_map_make(r->arena);
@@ -510,10 +510,10 @@ static bool attitude_matters(const pl_geometry* g) {
 }
 
 bool pl_contact_geometry(pl_recorder* r, const pl_constraint* c, const pl_friction* f,
-                         pl_touch* out) {
+                         pl_contact_touch* out) {
   pl_geometry* g = geometry_make(r, c);
   int errors = r->job->diagnostics->n_errors;
-  *out = (pl_touch){0};
+  *out = (pl_contact_touch){0};
   for (int i = 0; i < g->partners.n; i++) {
     if (!is_concerned(g, &g->partners.at[i])) continue;
     if (take(g, f, &g->partners.at[i], NULL, out)) return true;
@@ -560,7 +560,7 @@ static bool is_the_same_everywhere(pl_geometry* g, const pl_unknowns* u, const p
 }
 
 static pl_expr size_of(pl_geometry* g, const pl_unknowns* u) {
-  pl_touch t = {.n = u->n_components};
+  pl_contact_touch t = {.n = u->n_components};
   for (int k = 0; k < t.n; k++) t.force[k] = u->value[k];
   return length_of(g, &t);
 }
@@ -606,7 +606,7 @@ static pl_expr size_on_each(pl_geometry* g) {
     if (!is_concerned(g, a)) continue;
     if (!pl_is_poison(a->angle) || a->body) return pl_poison();
     pl_geometry own = *g;
-    own.rows = PL_NEW(g->r->arena, pl_group);
+    own.rows = PL_NEW(g->r->arena, pl_record_group);
     for (int i = 0; i < g->atoms->atoms.n; i++) {
       pl_expr atom = g->atoms->atoms.at[i];
       if (!depends_on(g, a, atom)) continue;

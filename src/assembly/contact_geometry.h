@@ -6,7 +6,7 @@
 
 // Force of a constraint per unit of its multiplier, and the velocity with which the surfaces slide
 // along each other.
-typedef struct pl_touch {
+typedef struct pl_contact_touch {
   int n;  // components
   pl_expr force[3];
   pl_expr size;     // |force|
@@ -15,11 +15,11 @@ typedef struct pl_touch {
   pl_expr place[3];
   bool placed;
   int sense;  // +1: the angle of the body turns it counter-clockwise
-} pl_touch;
+} pl_contact_touch;
 
 // pl_contact_geometry finds it.  Otherwise false: a message has been reported.
 bool pl_contact_geometry(pl_recorder* r, const pl_constraint* c, const pl_friction* f,
-                         pl_touch* out);
+                         pl_contact_touch* out);
 
 // |Z| per unit of its multiplier: the size of the force that the constraint exerts on each mass
 // that it touches. Poison where virtual work does not determine it or where the masses feel

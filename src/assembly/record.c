@@ -65,7 +65,7 @@ pl_expr pl_record_plain(pl_recorder* r, pl_expr e) {
 }
 
 // -------------------------------------------------------------------------- coordinates of a group
-static void collect(pl_recorder* r, pl_group* g, pl_expr e) {
+static void collect(pl_recorder* r, pl_record_group* g, pl_expr e) {
   pl_pool* p = r->pool;
   if (pl_is_poison(e) || pl_map_get(g->seen, e.id)) return;
   pl_map_set(g->seen, e.id, 1);
@@ -91,7 +91,7 @@ static void collect(pl_recorder* r, pl_group* g, pl_expr e) {
   pl_map_set(g->atom_at, atom.id, (uint64_t)g->atoms.n);
 }
 
-void pl_group_atoms(pl_recorder* r, pl_group* g, pl_expr e) { collect(r, g, e); }
+void pl_group_atoms(pl_recorder* r, pl_record_group* g, pl_expr e) { collect(r, g, e); }
 
 // Global index of an atom in an instance; -1 when there is no such coordinate.
 int pl_record_global(pl_recorder* r, pl_expr atom) {
@@ -110,8 +110,8 @@ static pleuel_status no_such(pl_recorder* r, pl_expr atom) {
 }
 
 // ------------------------------------------------------------------------------------------ groups
-static pl_group* group_make(pl_recorder* r, const pl_block* block) {
-  pl_group* g = PL_NEW(r->arena, pl_group);
+static pl_record_group* group_make(pl_recorder* r, const pl_block* block) {
+  pl_record_group* g = PL_NEW(r->arena, pl_record_group);
   g->block = block;
   g->atom_at = pl_map_make(r->arena);
   g->seen = pl_map_make(r->arena);
@@ -121,7 +121,7 @@ static pl_group* group_make(pl_recorder* r, const pl_block* block) {
   return g;
 }
 
-static pleuel_status group_for(pl_recorder* r, const pl_block* block, pl_group** out) {
+static pleuel_status group_for(pl_recorder* r, const pl_block* block, pl_record_group** out) {
   for (int i = 0; i < r->groups.n; i++) {
     *out = r->groups.at[i];
     if ((*out)->block == block) return PLEUEL_OK;
@@ -175,7 +175,7 @@ static pl_expr along_equation(pl_recorder* r, int k) {
 
 static pleuel_status make_groups(pl_recorder* r) {
   const pl_model* m = r->model;
-  pl_group* g;
+  pl_record_group* g;
   group_make(r, NULL);
   for (int i = 0; i < m->masses.n; i++) PL_TRY(group_for(r, m->masses.at[i].block, &g));
   for (int i = 0; i < m->bodies.n; i++) PL_TRY(group_for(r, m->bodies.at[i].block, &g));
@@ -221,7 +221,7 @@ static pleuel_status make_groups(pl_recorder* r) {
 
 // ---------------------------------------------------------------------------------------- patterns
 // Slots of a pattern: atoms of its coordinates, multipliers of its constraints.
-void pl_record_slots(pl_recorder* r, pl_group* g, const pl_expr* lambda, int n_c,
+void pl_record_slots(pl_recorder* r, pl_record_group* g, const pl_expr* lambda, int n_c,
                      pl_tape_slots* out) {
   *out = (pl_tape_slots){.n_q = g->atoms.n,
                          .q = g->atoms.at,
@@ -234,7 +234,7 @@ void pl_record_slots(pl_recorder* r, pl_group* g, const pl_expr* lambda, int n_c
 }
 
 // Fills the global coordinates and the index values of each instance.
-pleuel_status pl_record_place(pl_recorder* r, pl_group* g, pl_pattern_source* s) {
+pleuel_status pl_record_place(pl_recorder* r, pl_record_group* g, pl_pattern_source* s) {
   int* q = PL_ARRAY(r->arena, int, (size_t)s->n*(size_t)g->atoms.n + 1);
   double* index = PL_ARRAY(r->arena, double, (size_t)s->n*(size_t)g->instances.depth + 1);
   for (int i = 0; i < s->n; i++) {
@@ -286,7 +286,7 @@ typedef struct pl_rows_of_group {
   int* c;  // link of each, instance by instance
 } pl_rows_of_group;
 
-static void list_slip(pl_recorder* r, const pl_group* g, pl_rows_of_group* rows, int k) {
+static void list_slip(pl_recorder* r, const pl_record_group* g, pl_rows_of_group* rows, int k) {
   for (int i = 0; i < g->frictions.n; i++) {
     const pl_friction_source* s = r->frictions.at[g->frictions.at[i]];
     for (int j = 0; j < s->n_rows; j++, k++) {
@@ -299,7 +299,7 @@ static void list_slip(pl_recorder* r, const pl_group* g, pl_rows_of_group* rows,
   }
 }
 
-static void list_rows(pl_recorder* r, const pl_group* g, pl_rows_of_group* rows) {
+static void list_rows(pl_recorder* r, const pl_record_group* g, pl_rows_of_group* rows) {
   const pl_model* m = r->model;
   *rows = (pl_rows_of_group){.n_declared = g->constraints.n,
                              .n_maps = g->block ? 0 : m->choose.n_maps + count_along(r)};
@@ -324,7 +324,7 @@ static void list_rows(pl_recorder* r, const pl_group* g, pl_rows_of_group* rows)
 }
 
 // Coefficients of friction are outputs of the pattern.
-static void list_coefficients(pl_recorder* r, const pl_group* g, pl_pattern_source* s) {
+static void list_coefficients(pl_recorder* r, const pl_record_group* g, pl_pattern_source* s) {
   int n = 0;
   for (int i = 0; i < g->frictions.n; i++) n += r->frictions.at[g->frictions.at[i]]->n_coefficients;
   pl_expr* output = PL_ARRAY(r->arena, pl_expr, n + 1);
@@ -343,7 +343,7 @@ static void list_coefficients(pl_recorder* r, const pl_group* g, pl_pattern_sour
   s->out = out;
 }
 
-static pleuel_status record_group(pl_recorder* r, pl_group* g, pl_pattern* out) {
+static pleuel_status record_group(pl_recorder* r, pl_record_group* g, pl_pattern* out) {
   pl_rows_of_group rows;
   list_rows(r, g, &rows);
   for (int k = 0; k < rows.n; k++)
@@ -438,7 +438,7 @@ static bool is_distance(pl_recorder* r, const pl_constraint* c) {
 
 static void name_constraints(pl_recorder* r, int i, pl_constraint_setup* constraint) {
   const pl_constraint* c = &r->model->constraints.at[i];
-  pl_group* g;
+  pl_record_group* g;
   if (group_for(r, c->block, &g) != PLEUEL_OK) return;
   for (int k = 0; k < g->instances.n; k++) {
     pl_constraint_setup* out = &constraint[r->first_constraint[i] + k];
@@ -591,7 +591,7 @@ static void make_constraints(pl_recorder* r) {
 pl_expr pl_record_with_elements(pl_recorder* r, pl_expr e, const pl_coordinate* q) {
   // most start values of a large family: nothing to look up
   if (pl_kind_of(r->pool, e) == PL_NUMBER) return e;
-  pl_group* g = PL_NEW(r->arena, pl_group);
+  pl_record_group* g = PL_NEW(r->arena, pl_record_group);
   g->atom_at = pl_map_make(r->arena);
   g->seen = pl_map_make(r->arena);
   bool time = r->explicit_time;
@@ -678,7 +678,7 @@ static pleuel_status make_starts(pl_recorder* r, pl_coordinate* q) {
                      "start values at t = %g s, but the simulation begins at t = %g s", at,
                      r->out->t_0);
     }
-    pl_group* g;
+    pl_record_group* g;
     PL_TRY(group_for(r, init->block, &g));
     for (int k = 0; k < g->instances.n; k++) {
       set_indices(r, &g->instances, k);

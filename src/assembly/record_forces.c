@@ -3,14 +3,14 @@
 // Q_i = -dR/dv_i.
 #include "assembly/assembly_impl.h"
 
-static pl_group* group_of(pl_recorder* r, const pl_block* block) {
+static pl_record_group* group_of(pl_recorder* r, const pl_block* block) {
   for (int i = 0; i < r->groups.n; i++) {
     if (r->groups.at[i]->block == block) return r->groups.at[i];
   }
   return r->groups.at[0];
 }
 
-static void add_mass(pl_recorder* r, pl_group* g, pl_expr mass, const pl_point* at) {
+static void add_mass(pl_recorder* r, pl_record_group* g, pl_expr mass, const pl_point* at) {
   g->T = pl_add(r->pool, g->T, pl_mass_kinetic(r->pool, mass, at->at, at->n));
   g->V = pl_add(r->pool, g->V, pl_mass_weight(r->model, mass, at->at, at->n));
 }
@@ -22,7 +22,7 @@ static pl_expr distance(pl_recorder* r, const pl_point* a, const pl_point* b) {
                                                               : pl_sqrt(r->pool, squared);
 }
 
-static void add_potential(pl_recorder* r, pl_group* g, const pl_load* l) {
+static void add_potential(pl_recorder* r, pl_record_group* g, const pl_load* l) {
   pl_expr V = pl_load_potential(r->pool, l);
   if (pl_is_poison(V)) {
     r->dissipative = true;
@@ -57,19 +57,19 @@ void pl_group_energies(pl_recorder* r) {
     add_mass(r, group_of(r, m->masses.at[i].block), m->masses.at[i].mass, &m->masses.at[i].point);
   for (int i = 0; i < m->bodies.n; i++) {
     const pl_body* b = &m->bodies.at[i];
-    pl_group* g = group_of(r, b->block);
+    pl_record_group* g = group_of(r, b->block);
     add_mass(r, g, b->mass, &b->centre);
     g->T = pl_add(r->pool, g->T, pl_body_kinetic(r->pool, b->inertia, b->angle));
   }
   for (int i = 0; i < m->spatials.n; i++) {
     const pl_spatial* b = &m->spatials.at[i];
-    pl_group* g = group_of(r, b->block);
+    pl_record_group* g = group_of(r, b->block);
     if (b->form == PL_AXES_QUATERNION && has_condition(m, b))
       g->T = pl_add(r->pool, g->T, steady_length(r, b));
   }
   for (int i = 0; i < m->loads.n; i++) {
     const pl_load* l = &m->loads.at[i];
-    pl_group* g = group_of(r, l->block);
+    pl_record_group* g = group_of(r, l->block);
     switch (l->kind) {
       case PL_L_POTENTIAL:
       case PL_L_FORCE:
@@ -93,19 +93,20 @@ static pl_expr by_atom(pl_pool* p, pl_expr e, pl_expr atom) {
                                           : pl_diff_at(p, e, atom);
 }
 
-static void add_force(pl_recorder* r, pl_group* g, int i, pl_expr Q) {
+static void add_force(pl_recorder* r, pl_record_group* g, int i, pl_expr Q) {
   g->force[i] = pl_is_poison(g->force[i]) ? Q : pl_add(r->pool, g->force[i], Q);
 }
 
 // Rayleigh's dissipation function R: Q_i = -dR/dv_i.
-static void dissipate(pl_recorder* r, pl_group* g, pl_expr R) {
+static void dissipate(pl_recorder* r, pl_record_group* g, pl_expr R) {
   for (int i = 0; i < g->atoms.n; i++) {
     pl_expr Q = pl_neg(r->pool, by_atom(r->pool, R, pl_dt(r->pool, g->atoms.at[i])));
     if (!pl_is_zero_node(r->pool, Q)) add_force(r, g, i, Q);
   }
 }
 
-static void work(pl_recorder* r, pl_group* g, const pl_expr* force, const pl_expr* at, int n) {
+static void work(pl_recorder* r, pl_record_group* g, const pl_expr* force, const pl_expr* at,
+                 int n) {
   for (int i = 0; i < g->atoms.n; i++) {
     for (int j = 0; j < n; j++) {
       pl_expr Q = pl_mul(r->pool, force[j], by_atom(r->pool, at[j], g->atoms.at[i]));
@@ -115,7 +116,7 @@ static void work(pl_recorder* r, pl_group* g, const pl_expr* force, const pl_exp
 }
 
 // A torque works on the angular velocity: Q_i = vector . dω/dv_i.
-static void twist(pl_recorder* r, pl_group* g, const pl_load* l) {
+static void twist(pl_recorder* r, pl_record_group* g, const pl_load* l) {
   for (int i = 0; i < g->atoms.n; i++) {
     pl_expr v = pl_dt(r->pool, g->atoms.at[i]);
     for (int j = 0; j < 3; j++) {
@@ -125,7 +126,7 @@ static void twist(pl_recorder* r, pl_group* g, const pl_load* l) {
   }
 }
 
-static void add_load(pl_recorder* r, pl_group* g, const pl_load* l) {
+static void add_load(pl_recorder* r, pl_record_group* g, const pl_load* l) {
   pl_pool* p = r->pool;
   if (!pl_is_poison(pl_load_potential(p, l))) return;  // among the potentials
   switch (l->kind) {
@@ -150,7 +151,7 @@ static void add_load(pl_recorder* r, pl_group* g, const pl_load* l) {
   }
 }
 
-void pl_group_forces(pl_recorder* r, pl_group* g) {
+void pl_group_forces(pl_recorder* r, pl_record_group* g) {
   // the coordinates that loads speak of
   for (int i = 0; i < r->model->loads.n; i++) {
     const pl_load* l = &r->model->loads.at[i];

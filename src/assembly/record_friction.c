@@ -5,18 +5,18 @@
 // numbering of the links, instance by instance.
 #include "assembly/contact_geometry.h"
 
-static pl_expr unit_normal(pl_pool* p, const pl_touch* t, int j) {
+static pl_expr unit_normal(pl_pool* p, const pl_contact_touch* t, int j) {
   return pl_div(p, t->force[j], t->size);
 }
 
-static void in_the_plane(pl_recorder* r, const pl_touch* t, pl_friction_source* s) {
+static void in_the_plane(pl_recorder* r, const pl_contact_touch* t, pl_friction_source* s) {
   pl_pool* p = r->pool;
   s->n_rows = 1;
   s->slip[0] = pl_sub(p, pl_mul(p, unit_normal(p, t, 1), t->slip[0]),
                       pl_mul(p, unit_normal(p, t, 0), t->slip[1]));
 }
 
-static void in_space(pl_recorder* r, const pl_touch* t, pl_friction_source* s) {
+static void in_space(pl_recorder* r, const pl_contact_touch* t, pl_friction_source* s) {
   static const int pair[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
   pl_pool* p = r->pool;
   pl_expr n[3], square = pl_int(p, 0), along = pl_int(p, 0);
@@ -33,7 +33,7 @@ static void in_space(pl_recorder* r, const pl_touch* t, pl_friction_source* s) {
   }
 }
 
-static void tell_place(pl_recorder* r, const pl_friction* f, const pl_touch* t) {
+static void tell_place(pl_recorder* r, const pl_friction* f, const pl_contact_touch* t) {
   const char* x = pl_expr_text(r->arena, r->pool, t->place[0]);
   const char* y = pl_expr_text(r->arena, r->pool, t->place[1]);
   pl_diagnostic* d = pl_report(
@@ -44,10 +44,10 @@ static void tell_place(pl_recorder* r, const pl_friction* f, const pl_touch* t) 
                 "ein anderer Ort: friction ..., at (x, y) on ...", NULL);
 }
 
-static pleuel_status add_source(pl_recorder* r, pl_group* g, int i, const pl_friction* f) {
+static pleuel_status add_source(pl_recorder* r, pl_record_group* g, int i, const pl_friction* f) {
   pl_pool* p = r->pool;
   const pl_constraint* c = &r->model->constraints.at[i];
-  pl_touch t;
+  pl_contact_touch t;
   if (!pl_contact_geometry(r, c, f, &t)) return PLEUEL_MODEL_ERROR;
   if (t.n < 2) {
     pl_report(
@@ -81,7 +81,7 @@ static pleuel_status add_source(pl_recorder* r, pl_group* g, int i, const pl_fri
   return PLEUEL_OK;
 }
 
-pleuel_status pl_group_friction(pl_recorder* r, pl_group* g) {
+pleuel_status pl_group_friction(pl_recorder* r, pl_record_group* g) {
   for (int k = 0; k < g->constraints.n; k++) {
     int i = g->constraints.at[k];
     const pl_friction* f = pl_model_friction(r->model, &r->model->constraints.at[i]);
@@ -163,7 +163,7 @@ void pl_record_friction_symbols(pl_recorder* r) {
   }
 }
 
-pl_symbol pl_record_friction_symbol(pl_recorder* r, const pl_friction_source* s, int k) {
+static pl_symbol symbol_of_row(pl_recorder* r, const pl_friction_source* s, int k) {
   const pl_constraint* c = &r->model->constraints.at[s->constraint];
   return pl_symbol_find(
       r->pool, pl_format(r->arena, "rub_%s_%d", c->name.ascii ? c->name.ascii : c->name.text, k));
@@ -173,7 +173,7 @@ pl_symbol pl_record_friction_symbol(pl_recorder* r, const pl_friction_source* s,
 int pl_record_friction_row(pl_recorder* r, pl_symbol lambda) {
   for (int i = 0; i < r->frictions.n; i++)
     for (int k = 0; k < r->frictions.at[i]->n_rows; k++)
-      if (pl_record_friction_symbol(r, r->frictions.at[i], k).id == lambda.id)
+      if (symbol_of_row(r, r->frictions.at[i], k).id == lambda.id)
         return r->frictions.at[i]->first_row + k;
   return -1;
 }
@@ -184,7 +184,6 @@ pl_expr pl_record_friction_force(pl_recorder* r, const pl_friction_source* s, in
   pl_expr sum = pl_int(r->pool, 0);
   for (int k = 0; k < 3; k++)
     sum = pl_add(r->pool, sum,
-                 pl_mul(r->pool, s->metric[entry[j][k]],
-                        pl_sym(r->pool, pl_record_friction_symbol(r, s, k))));
+                 pl_mul(r->pool, s->metric[entry[j][k]], pl_sym(r->pool, symbol_of_row(r, s, k))));
   return sum;
 }

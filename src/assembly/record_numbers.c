@@ -8,7 +8,7 @@
 // The value with start values of elements as symbols, so that they may change.
 static pl_expr with_symbols(pl_recorder* r, pl_expr e, const pl_coordinate* q) {
   if (pl_kind_of(r->pool, e) == PL_NUMBER) return e;
-  pl_group* g = PL_NEW(r->arena, pl_group);
+  pl_record_group* g = PL_NEW(r->arena, pl_record_group);
   g->atom_at = pl_map_make(r->arena);
   g->seen = pl_map_make(r->arena);
   bool time = r->explicit_time;

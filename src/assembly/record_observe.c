@@ -10,7 +10,7 @@
 
 // --------------------------------------------------------------------------------------- observers
 // Energy as it is conserved: sum of v dL/dv - L, which is T + V for ordinary potentials.
-static pl_expr without_velocity_part(pl_recorder* r, pl_group* g, pl_expr V) {
+static pl_expr without_velocity_part(pl_recorder* r, pl_record_group* g, pl_expr V) {
   pl_pool* p = r->pool;
   pl_expr sum = V;
   for (int i = 0; i < g->atoms.n; i++) {
@@ -29,7 +29,7 @@ typedef struct pl_energies {
   pl_expr T, V, E;
 } pl_energies;
 
-static pl_expr at_rest(pl_recorder* r, pl_group* g, pl_expr e) {
+static pl_expr at_rest(pl_recorder* r, pl_record_group* g, pl_expr e) {
   for (int i = 0; i < g->atoms.n; i++)
     e = pl_subst_expr(r->pool, e, pl_dt(r->pool, g->atoms.at[i]), pl_int(r->pool, 0));
   return e;
@@ -57,7 +57,7 @@ static bool is_jacobis(const pl_recorder* r) {
   return has_written_energies(r) && (!r->explicit_time || has_lagrangian(r));
 }
 
-static pl_energies energies_of(pl_recorder* r, pl_group* g) {
+static pl_energies energies_of(pl_recorder* r, pl_record_group* g) {
   pl_pool* p = r->pool;
   pl_expr of_L = without_velocity_part(r, g, pl_neg(p, g->L)), still = at_rest(r, g, of_L);
   pl_energies e = {.V = without_velocity_part(r, g, g->V), .T = g->T};
@@ -71,9 +71,9 @@ static pl_energies energies_of(pl_recorder* r, pl_group* g) {
   return e;
 }
 
-static pleuel_status observe(pl_recorder* r, pl_group* g, const pl_expr* out, const int* column,
-                             int n, const pl_expr* lambda, const int* constraints, int n_c,
-                             pl_pattern* pattern) {
+static pleuel_status observe(pl_recorder* r, pl_record_group* g, const pl_expr* out,
+                             const int* column, int n, const pl_expr* lambda,
+                             const int* constraints, int n_c, pl_pattern* pattern) {
   int* where = PL_ARRAY(r->arena, int, (size_t)g->instances.n*(size_t)n + 1);
   int* c = PL_ARRAY(r->arena, int, (size_t)g->instances.n*(size_t)n_c + 1);
   for (int i = 0; i < g->instances.n; i++) {
@@ -90,7 +90,7 @@ static pleuel_status observe(pl_recorder* r, pl_group* g, const pl_expr* out, co
 // Expressions outside of families, with multipliers: their own slots, since they may speak of any
 // coordinate.
 typedef struct pl_watching {
-  pl_group* group;
+  pl_record_group* group;
   PL_VEC(pl_expr) output;
   PL_VEC(int) column;
   PL_VEC(pl_expr) lambda;
@@ -99,7 +99,7 @@ typedef struct pl_watching {
 
 static pl_watching* watching_make(pl_recorder* r) {
   pl_watching* w = PL_NEW(r->arena, pl_watching);
-  w->group = PL_NEW(r->arena, pl_group);
+  w->group = PL_NEW(r->arena, pl_record_group);
   w->group->atom_at = pl_map_make(r->arena);
   w->group->seen = pl_map_make(r->arena);
   w->group->instances.n = 1;
@@ -156,7 +156,7 @@ static bool collect_multipliers(pl_recorder* r, pl_watching* w, pl_map* seen, pl
 // Energies of the whole system as one expression: only without families.
 static pl_expr energy_of(pl_recorder* r, pl_result_kind kind) {
   if (r->groups.n > 1) return pl_poison();
-  pl_group* g = r->groups.at[0];
+  pl_record_group* g = r->groups.at[0];
   pl_pool* p = r->pool;
   switch (kind) {
     case PL_RES_T: return energies_of(r, g).T;
@@ -467,7 +467,7 @@ pleuel_status pl_record_observers(pl_recorder* r) {
   pl_push(r->arena, columns, (pl_column){pl_model_column(m, r->arena, "V"), joule});
   pl_push(r->arena, columns, (pl_column){pl_model_column(m, r->arena, "E"), joule});
   for (int i = 0; i < r->groups.n; i++) {
-    pl_group* g = r->groups.at[i];
+    pl_record_group* g = r->groups.at[i];
     if (g->instances.n == 0) continue;
     pl_energies e = energies_of(r, g);
     pl_expr* out = PL_ARRAY(r->arena, pl_expr, 3);

@@ -185,7 +185,7 @@ pl_expr pl_variation_by_parameter(pl_recorder* r, pl_expr e, const pl_direction*
 }
 
 // sum e_q δ + e_v δ' + e_p
-static pl_expr vary(pl_recorder* r, const pl_group* g, pl_expr e, const pl_direction* d) {
+static pl_expr vary(pl_recorder* r, const pl_record_group* g, pl_expr e, const pl_direction* d) {
   pl_pool* p = r->pool;
   if (pl_is_poison(e)) return e;
   pl_expr sum = by_parameter(r, e, d, 0);
@@ -200,7 +200,7 @@ static pl_expr vary(pl_recorder* r, const pl_group* g, pl_expr e, const pl_direc
 // ---------------------------------------------------------------------------------------- patterns
 // Constraints of the pattern: the varied ones first, whose multipliers are those of the motion,
 // then the others.
-static void vary_constraints(pl_recorder* r, const pl_group* g, const pl_pattern_source* s,
+static void vary_constraints(pl_recorder* r, const pl_record_group* g, const pl_pattern_source* s,
                              const pl_direction* d, pl_pattern_source* out) {
   int n = s->slots.n_c;
   pl_expr* constraint = PL_ARRAY(r->arena, pl_expr, 2 * n + 1);
@@ -220,7 +220,7 @@ static void vary_constraints(pl_recorder* r, const pl_group* g, const pl_pattern
 }
 
 // Forces: δQ on q, Q on δ; the multipliers in Q vary too.
-static void vary_forces(pl_recorder* r, const pl_group* g, const pl_pattern_source* s,
+static void vary_forces(pl_recorder* r, const pl_record_group* g, const pl_pattern_source* s,
                         const pl_direction* d, pl_pattern_source* out) {
   int n = g->atoms.n;
   pl_expr* force = PL_ARRAY(r->arena, pl_expr, 2 * n + 1);
@@ -239,7 +239,7 @@ static void vary_forces(pl_recorder* r, const pl_group* g, const pl_pattern_sour
   out->force = force;
 }
 
-static void vary_places(pl_recorder* r, const pl_group* g, const pl_pattern_source* s,
+static void vary_places(pl_recorder* r, const pl_record_group* g, const pl_pattern_source* s,
                         int direction, pl_pattern_source* out) {
   int n = g->atoms.n, n_c = s->slots.n_c, all = r->out->flat.n, rows = r->n_constraints;
   int* q = PL_ARRAY(r->arena, int, (size_t)s->n * 2 * (size_t)n + 1);
@@ -259,7 +259,7 @@ static void vary_places(pl_recorder* r, const pl_group* g, const pl_pattern_sour
 }
 
 // One pattern for each direction, from that of the motion.
-pleuel_status pl_variation_record(pl_recorder* r, pl_group* g, const pl_pattern_source* s,
+pleuel_status pl_variation_record(pl_recorder* r, pl_record_group* g, const pl_pattern_source* s,
                                   pl_pattern* out) {
   int n = g->atoms.n;
   pl_expr* atoms = PL_ARRAY(r->arena, pl_expr, 2 * n + 1);
@@ -288,7 +288,7 @@ static double derivative_of_start(pl_recorder* r, const pl_start_value* s, int k
   const pl_coordinate* q = r->out->setup.coordinates;
   if (d->at == s->at && d->velocity == s->velocity) return 1;
   double sum = pl_record_number(r, pl_record_with_elements(r, by_parameter(r, s->value, d, 0), q));
-  pl_group* g = PL_NEW(r->arena, pl_group);
+  pl_record_group* g = PL_NEW(r->arena, pl_record_group);
   g->atom_at = pl_map_make(r->arena);
   g->seen = pl_map_make(r->arena);
   bool time = r->explicit_time;

@@ -15,7 +15,7 @@ static bool actions_switch(const pl_event* e) {
   return false;
 }
 
-bool pl_variation_is_switched(const pl_recorder* r) {
+static bool is_switched(const pl_recorder* r) {
   const pl_model* m = r->model;
   for (int i = 0; i < m->constraints.n; i++) {
     const pl_constraint* c = &m->constraints.at[i];
@@ -94,11 +94,11 @@ static pleuel_status record_block(pl_recorder* r, const watched* w, const pl_exp
   return pl_pattern_record(r->job, r->pool, &s, out);
 }
 
-pleuel_status pl_variation_watch(pl_recorder* r, const pl_group* g, const pl_expr* e, int n,
+pleuel_status pl_variation_watch(pl_recorder* r, const pl_record_group* g, const pl_expr* e, int n,
                                  const pl_expr* lambda, const int* constraints, int n_c) {
   pl_variation* v = r->variation;
   watched w = {e, n, g->atoms.at, lambda, constraints, g->atoms.n, n_c};
-  if (n == 0 || !pl_variation_is_switched(r)) return PLEUEL_OK;
+  if (n == 0 || !is_switched(r)) return PLEUEL_OK;
   pl_expr* output = PL_ARRAY(r->arena, pl_expr, n + 1);
   v->watch = PL_ARRAY(r->arena, pl_pattern, v->n + 1);
   for (int i = 0; i < n; i++) {
@@ -139,7 +139,7 @@ static const double* restitution_slopes(pl_recorder* r) {
 void pl_variation_switch(pl_recorder* r) {
   pl_setup* s = &r->out->setup;
   const pl_variation* v = r->variation;
-  if (!pl_variation_is_switched(r)) return;
+  if (!is_switched(r)) return;
   pl_varied* varied = PL_NEW(r->arena, pl_varied);
   *varied = (pl_varied){.n_directions = v->n,
                         .n_q = r->out->flat.n,

@@ -26,17 +26,17 @@ static const bool checked = true;
 static const bool checked = false;
 #endif
 
-typedef struct pl_block {
-  struct pl_block* next;
+typedef struct pl_arena_block {
+  struct pl_arena_block* next;
   char* data;   // aligned
   size_t size;  // bytes at data
   size_t used;  // bytes handed out
-} pl_block;
+} pl_arena_block;
 
 struct pl_arena {
   pleuel_allocator alloc;
-  pl_block* first;
-  pl_block* current;
+  pl_arena_block* first;
+  pl_arena_block* current;
   pl_guard* guard;      // innermost
   size_t total, limit;  // bytes taken; 0: no limit
   unsigned long count;
@@ -48,13 +48,14 @@ static void give_free(void* user, void* block) { free(block); }
 static size_t align_up(size_t n) { return (n + alignment - 1) & ~(alignment - 1); }
 
 // One block from the system, NULL when there is none.
-static pl_block* take_block(const pleuel_allocator* alloc, size_t size, size_t* taken) {
-  size_t whole = sizeof(pl_block) + alignment + size;
+static pl_arena_block* take_block(const pleuel_allocator* alloc, size_t size, size_t* taken) {
+  size_t whole = sizeof(pl_arena_block) + alignment + size;
   char* raw = alloc->take(alloc->user, whole);
   if (raw == NULL) return NULL;
-  pl_block* b = (pl_block*)(void*)raw;
-  uintptr_t start = (uintptr_t)(raw + sizeof(pl_block));
-  *b = (pl_block){.data = raw + sizeof(pl_block) + (align_up(start) - start), .size = size};
+  pl_arena_block* b = (pl_arena_block*)(void*)raw;
+  uintptr_t start = (uintptr_t)(raw + sizeof(pl_arena_block));
+  *b = (pl_arena_block){.data = raw + sizeof(pl_arena_block) + (align_up(start) - start),
+                        .size = size};
   *taken = whole;
   return b;
 }
@@ -62,7 +63,7 @@ static pl_block* take_block(const pleuel_allocator* alloc, size_t size, size_t* 
 pl_arena* pl_arena_make(const pleuel_allocator* alloc) {
   pleuel_allocator from = alloc ? *alloc : (pleuel_allocator){take_malloc, give_free, NULL};
   size_t taken = 0;
-  pl_block* b = take_block(&from, first_block, &taken);
+  pl_arena_block* b = take_block(&from, first_block, &taken);
   if (b == NULL) return NULL;
 
   // the arena lives at the head of its own first block
@@ -75,7 +76,7 @@ pl_arena* pl_arena_make(const pleuel_allocator* alloc) {
 void pl_arena_free(pl_arena* a) {
   if (a == NULL) return;
   pleuel_allocator alloc = a->alloc;
-  for (pl_block *b = a->first, *next; b != NULL; b = next) {
+  for (pl_arena_block *b = a->first, *next; b != NULL; b = next) {
     next = b->next;
     alloc.give(alloc.user, b);
   }
@@ -83,7 +84,7 @@ void pl_arena_free(pl_arena* a) {
 
 // The next block with room for size: one that a rewind left behind, or a new one.
 static void next_block(pl_arena* a, size_t size) {
-  pl_block* spare = a->current->next;
+  pl_arena_block* spare = a->current->next;
   if (spare != NULL && spare->size >= size) {
     spare->used = 0;
     a->current = spare;
@@ -92,12 +93,12 @@ static void next_block(pl_arena* a, size_t size) {
   size_t want = a->current->size * 2;
   if (want > largest_step) want = largest_step;
   if (want < size) want = size;
-  if (a->limit != 0 && a->total + want + sizeof(pl_block) + alignment > a->limit) want = size;
-  if (a->limit != 0 && a->total + want + sizeof(pl_block) + alignment > a->limit)
+  if (a->limit != 0 && a->total + want + sizeof(pl_arena_block) + alignment > a->limit) want = size;
+  if (a->limit != 0 && a->total + want + sizeof(pl_arena_block) + alignment > a->limit)
     pl_unwind(a, PLEUEL_NO_MEMORY);
 
   size_t taken = 0;
-  pl_block* b = take_block(&a->alloc, want, &taken);
+  pl_arena_block* b = take_block(&a->alloc, want, &taken);
   if (b == NULL) pl_unwind(a, PLEUEL_NO_MEMORY);
   a->total += taken;
   b->next = spare;
@@ -156,7 +157,7 @@ unsigned long pl_arena_count(const pl_arena* a) { return a->count; }
 // --------------------------------------------------------------------------------- growable arrays
 // When the array is the last thing in its block it grows in place.
 static bool grow_in_place(pl_arena* a, void* at, size_t old_bytes, size_t new_bytes) {
-  pl_block* b = a->current;
+  pl_arena_block* b = a->current;
   char* end = (char*)at + align_up(old_bytes);
   if (end != b->data + b->used) return false;
   size_t more = align_up(new_bytes) - align_up(old_bytes);

@@ -97,11 +97,6 @@ void pl_disk_mul(pl_disk* z, const pl_disk* x, const pl_disk* y) {
   mag_clear(b);
 }
 
-void pl_disk_addmul(pl_disk* z, const pl_disk* x, const pl_disk* y, pl_disk* scratch) {
-  pl_disk_mul(scratch, x, y);
-  pl_disk_add(z, z, scratch);
-}
-
 static bool divide(pl_disk* z, const pl_disk* x, const pl_disk* y) {
   mag_t low, r;
   mag_init(low);

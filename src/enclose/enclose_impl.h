@@ -45,7 +45,6 @@ void pl_disk_derivative(pl_disk* dw, pl_op op, const pl_disk* w, const pl_disk* 
 void pl_disk_add(pl_disk* z, const pl_disk* x, const pl_disk* y);
 void pl_disk_sub(pl_disk* z, const pl_disk* x, const pl_disk* y);
 void pl_disk_mul(pl_disk* z, const pl_disk* x, const pl_disk* y);
-void pl_disk_addmul(pl_disk* z, const pl_disk* x, const pl_disk* y, pl_disk* scratch);
 
 // ----------------------------------------------------------------------------- balls of operations
 void pl_ball_op(arb_t out, pl_op op, arb_srcptr a, arb_srcptr b, arb_srcptr c, slong prec);
@@ -132,8 +131,6 @@ arb_srcptr pl_root_series(const pl_ball_jet* j, int root);  // coefficients of a
 void pl_system_values(pl_system* s, arb_srcptr t, uint8_t wanted);
 // independent rows, declared ones first; -1: a force needs another
 int pl_system_choose_rows(pl_system* s);
-// the matrix of order 0; false: not proved to be regular
-bool pl_system_invert(pl_system* s);
 // Series of q, v up to order p, of a and λ up to p - 1, after values and inverse.
 void pl_system_series(pl_system* s, int p, double bits_per_order);
 // The two steps above at a point: rows, inverse, a and λ.
@@ -192,10 +189,15 @@ bool pl_monitors_any(const pl_system* s);
 // nodes that they read are wanted; or PL_CERTIFY_WATCH
 pl_certify_end pl_monitors_mark(pl_system* s, const char** what);
 
-typedef enum pl_look { PL_LOOK_CLEAR, PL_LOOK_SHORTER, PL_LOOK_HIT, PL_LOOK_LOST } pl_look;
+typedef enum pl_monitor_look {
+  PL_LOOK_CLEAR,
+  PL_LOOK_SHORTER,
+  PL_LOOK_HIT,
+  PL_LOOK_LOST
+} pl_monitor_look;
 // Looks along the step h for the first function that changes sign. CLEAR: none. SHORTER: none up to
 // *part. HIT: one does, alone, and for the first time within the ball *part. LOST: not decided.
-pl_look pl_monitors_look(pl_stepper* e, arb_srcptr h, arb_t part, pl_monitor** hit);
+pl_monitor_look pl_monitors_look(pl_stepper* e, arb_srcptr h, arb_t part, pl_monitor** hit);
 void pl_monitors_moved(pl_system* s);  // a step without change was taken
 
 struct pl_certified_balls {

@@ -183,8 +183,8 @@ static pl_certify_end prepare(pass* z, arb_srcptr target, arb_t h, arb_t sight, 
 
 // A zero that was found beyond the target does not count yet. One that may lie on it counts when it
 // ends the motion; otherwise the state at the target would be that of two modes.
-static pl_look before_target(const pass* z, pl_look look, arb_srcptr h, arb_t part,
-                             const pl_monitor* hit) {
+static pl_monitor_look before_target(const pass* z, pl_monitor_look look, arb_srcptr h, arb_t part,
+                                     const pl_monitor* hit) {
   if (look == PL_LOOK_CLEAR || look == PL_LOOK_LOST || arb_gt(part, h)) {
     arb_set(part, h);
     return look == PL_LOOK_LOST ? PL_LOOK_LOST : PL_LOOK_CLEAR;
@@ -200,7 +200,7 @@ static pl_certify_end move(pass* z, arb_srcptr target, arb_srcptr h, arb_srcptr 
   pl_monitor* hit = NULL;
   arb_t part;
   arb_init(part);
-  pl_look look = z->watches ? pl_monitors_look(z->e, sight, part, &hit) : PL_LOOK_CLEAR;
+  pl_monitor_look look = z->watches ? pl_monitors_look(z->e, sight, part, &hit) : PL_LOOK_CLEAR;
   look = before_target(z, look, h, part, hit);
   if (look != PL_LOOK_CLEAR) *there = false;
   if (look != PL_LOOK_LOST) {

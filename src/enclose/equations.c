@@ -121,7 +121,7 @@ static void add_matrix(pl_system* s, const pl_ball_jet* j, arb_mat_t A) {
   }
 }
 
-bool pl_system_invert(pl_system* s) {
+static bool invert_matrix(pl_system* s) {
   int n = s->n_q + s->n_rows;
   if (s->has_inverse) arb_mat_clear(s->inverse);
   arb_mat_init(s->inverse, n, n);
@@ -246,7 +246,7 @@ void pl_system_series(pl_system* s, int p, double bits_per_order) {
 
 bool pl_system_point(pl_system* s, arb_srcptr t) {
   pl_system_values(s, t, PL_FOR_MOTION);
-  if (pl_system_choose_rows(s) != s->n_wanted || !pl_system_invert(s)) return false;
+  if (pl_system_choose_rows(s) != s->n_wanted || !invert_matrix(s)) return false;
   pl_system_series(s, 1, 0);
   for (int i = 0; i < s->n_q; i++)
     if (!arb_is_finite(s->a + (slong)i * s->cap)) return false;

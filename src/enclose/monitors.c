@@ -291,7 +291,7 @@ static bool begin(look* k, pl_monitor* m) {
 }
 
 // One function along the step; root is set when it changes sign, *safe is up to where it keeps it.
-static pl_look look_at(look* k, pl_monitor* m, arb_t root, double* safe) {
+static pl_monitor_look look_at(look* k, pl_monitor* m, arb_t root, double* safe) {
   double h = pl_ball_double(k->h), from = h, to = h;
   k->m = m;
   load(k);
@@ -308,14 +308,14 @@ static pl_look look_at(look* k, pl_monitor* m, arb_t root, double* safe) {
 
 // --------------------------------------------------------------------------------------------- all
 typedef struct first {
-  pl_look look;
+  pl_monitor_look look;
   double safe;  // all functions keep their signs up to here, but for the one that hits
   arb_t root;
   pl_monitor* hit;
 } first;
 
 // The zero found before and another function that is safe up to `safe`: which comes first?
-static void merge(first* f, pl_look one, double safe, arb_srcptr root, pl_monitor* m) {
+static void merge(first* f, pl_monitor_look one, double safe, arb_srcptr root, pl_monitor* m) {
   arb_t limit;
   arb_init(limit);
   arb_set_d(limit, safe);
@@ -342,7 +342,7 @@ static void merge(first* f, pl_look one, double safe, arb_srcptr root, pl_monito
   arb_clear(limit);
 }
 
-pl_look pl_monitors_look(pl_stepper* e, arb_srcptr h, arb_t part, pl_monitor** hit) {
+pl_monitor_look pl_monitors_look(pl_stepper* e, arb_srcptr h, arb_t part, pl_monitor** hit) {
   pl_monitors* all = e->s->monitors;
   look k = {.e = e, .all = all, .h = h};
   first f = {.look = PL_LOOK_CLEAR, .safe = pl_ball_double(h)};
@@ -355,7 +355,7 @@ pl_look pl_monitors_look(pl_stepper* e, arb_srcptr h, arb_t part, pl_monitor** h
   bool lost = false;
   for (int i = 0; i < all->list.n && !lost; i++) {
     double safe;
-    pl_look one = look_at(&k, &all->list.at[i], root, &safe);
+    pl_monitor_look one = look_at(&k, &all->list.at[i], root, &safe);
     lost = one == PL_LOOK_LOST;
     if (!lost) merge(&f, one, safe, root, &all->list.at[i]);
   }

@@ -130,7 +130,7 @@ pl_rotation pl_rotation_from_tangent(uint64_t t) {
 
 // cos(x/2) = sqrt((1 + cos x)/2), sin(x/2) = sin x / (2 cos(x/2)): the half that lies between -90
 // and 90 degrees
-pl_rotation pl_rotation_half(pl_rotation a, bool* ok) {
+static pl_rotation half_rotation(pl_rotation a, bool* ok) {
   uint64_t c = pl_mod_sqrt(pl_mod_half(pl_mod_add(1, a.c)), ok);
   if (c == 0) return (pl_rotation){0, 1};  // half of 180 degrees
   return (pl_rotation){c, pl_mod_mul(a.s, pl_mod_inv(pl_mod_add(c, c)))};
@@ -154,7 +154,7 @@ static pl_rotation odd_ratio(pl_rotation a, int64_t num, int64_t den, bool* ok) 
 
 pl_rotation pl_rotation_ratio(pl_rotation a, int64_t num, int64_t den, bool* ok) {
   while (den % 2 == 0) {
-    a = pl_rotation_half(a, ok);
+    a = half_rotation(a, ok);
     den /= 2;
   }
   return odd_ratio(a, num, den, ok);
@@ -195,7 +195,7 @@ pl_rotation pl_rotation_of_pi(int64_t num, int64_t den, bool* ok) {
   uint64_t two = 2ull << bits,
            n = exponent_modulo(num, two * (uint64_t)den) * (uint64_t)(225 / den) % (two * 225);
   pl_rotation small = {PL_MOD_P - 1, 0};  // a half turn, halved k times: 1/2^(k+1) of a turn
-  for (int i = 0; i < bits; i++) small = pl_rotation_half(small, ok);
+  for (int i = 0; i < bits; i++) small = half_rotation(small, ok);
   pl_rotation r = pl_rotation_pow(small, n % two * inverse_modulo(225 % two, two) % two);
   uint64_t ninths = n % 9 * inverse_modulo(two * 25 % 9, 9) % 9;
   uint64_t parts_of_25 = n % 25 * inverse_modulo(two * 9 % 25, 25) % 25;

@@ -21,7 +21,6 @@ pl_rotation pl_rotation_none(void);
 pl_rotation pl_rotation_mul(pl_rotation a, pl_rotation b);
 pl_rotation pl_rotation_pow(pl_rotation a, uint64_t n);
 pl_rotation pl_rotation_from_tangent(uint64_t t);  // t = tan(x/2)
-pl_rotation pl_rotation_half(pl_rotation a, bool* ok);
 // num/den times the angle
 pl_rotation pl_rotation_ratio(pl_rotation a, int64_t num, int64_t den, bool* ok);
 // num/den times π

@@ -80,7 +80,7 @@ struct pl_jit_code {
   void* loaded;
 };
 
-uint64_t pl_jit_key(const pl_prog* const* progs, int n) {
+static uint64_t key_of(const pl_prog* const* progs, int n) {
   const char* text = plugin->describe();
   uint64_t h = pl_hash_bytes(text, strlen(text), PL_PLUGIN_VERSION);
   h = pl_hash_bytes(PL_VERSION, strlen(PL_VERSION), h);
@@ -111,7 +111,7 @@ pl_jit_code* pl_jit_compile(pl_arena* a, const pl_prog* const* progs, int n, pl_
   if (!pl_jit_available(NULL)) return NULL;
   double begin = pl_clock();
   pthread_mutex_lock(&at_work);
-  uint64_t key = pl_jit_key(progs, n);
+  uint64_t key = key_of(progs, n);
   size_t size = 0;
   unsigned char* object = pl_store_get(key, &size);
   void* loaded = object ? load(object, size, progs, n, run) : NULL;

@@ -4,8 +4,6 @@
 
 #include "jit/plugin.h"
 
-uint64_t pl_jit_key(const pl_prog* const* progs, int n);
-
 // ---- store.c: objects on disk. Everything that goes wrong there only means that an object is not
 // found. from malloc; NULL: not there, or damaged
 unsigned char* pl_store_get(uint64_t key, size_t* size);

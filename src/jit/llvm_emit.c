@@ -173,7 +173,7 @@ static LLVMValueRef entry_for_block(pl_emit* e, const pl_prog_product* p, int j,
   return pl_emit_spread(e, pl_emit_load(e, e->memory, p->vector + j, 1), 8);
 }
 
-void pl_emit_product(pl_emit* e, const pl_prog_product* p) {
+static void emit_product(pl_emit* e, const pl_prog_product* p) {
   for (int b = 0; b < p->blocks; b++)
     pl_emit_store(e, pl_emit_product_sum(e, p, b, 8, column_of_block, entry_for_block), e->memory,
                   p->to + b * 8, 8);
@@ -224,7 +224,7 @@ LLVMValueRef pl_emit_line(pl_emit* e, const pl_prog_line* l) {
     case PL_PROG_CALL1: return pl_emit_call(e, l->fn, x, 1);
     case PL_PROG_CALL2: return pl_emit_call(e, l->fn, x, 2);
     case PL_PROG_SUMS: block_of_sums(e, &e->prog->blocks.at[l->at]); return NULL;
-    case PL_PROG_PRODUCT: pl_emit_product(e, &e->prog->products.at[l->at]); return NULL;
+    case PL_PROG_PRODUCT: emit_product(e, &e->prog->products.at[l->at]); return NULL;
     case PL_N_PROG_OPS: break;
   }
   return NULL;

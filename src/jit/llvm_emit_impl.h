@@ -54,7 +54,6 @@ LLVMValueRef pl_emit_product_sum(pl_emit* e, const pl_prog_product* p, int where
 LLVMValueRef pl_emit_line(pl_emit* e, const pl_prog_line* l);
 // a function; its first two arguments are memory and k
 LLVMValueRef pl_emit_begin(pl_emit* e, const char* name, LLVMTypeRef t);
-void pl_emit_product(pl_emit* e, const pl_prog_product* p);
 
 // ---- llvm_written.c: orders one by one
 bool pl_written_make(pl_emit* e);  // false: no memory

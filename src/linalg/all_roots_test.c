@@ -138,7 +138,7 @@ static void none_is_missed_and_none_invented(void** state) {
     }
     tried++;
     empty += p.n_x == 0;
-    pl_root found[MOST];
+    pl_real_root found[MOST];
     int n = pl_roots(c, p.n, noise, 0, found, MOST, work);
     if (n != p.n_x)
       print_message("# seed %llu: %d roots, planted %d\n", (unsigned long long)seed, n, p.n_x);
@@ -172,7 +172,7 @@ static void what_is_known_decides_about_a_lifted_double_root(void** state) {
   (void)state;
   for (int k = 1; k < 32; k++) {
     double r = k / 32.0, c[] = {r * r, -2 * r, 1}, known = pl_root_noise(2) * size(c, 2, r);
-    pl_root out[4];
+    pl_real_root out[4];
     for (int sign = -1; sign <= 1; sign++) {
       double moved[] = {c[0] + sign * 0.5 * known, c[1], c[2]};
       assert_int_equal(pl_roots(moved, 2, pl_root_noise(2), 0, out, 4, work), 1);
@@ -188,7 +188,7 @@ static void what_is_known_decides_about_a_lifted_double_root(void** state) {
 static void a_floor_hides_what_is_below_it(void** state) {
   (void)state;
   double c[] = {0.25 + 1e-9, -1, 1};  // (x - 1/2)^2 + 1e-9
-  pl_root out[4];
+  pl_real_root out[4];
   assert_int_equal(pl_roots(c, 2, 1e-15, 0, out, 4, work), 0);
   assert_int_equal(pl_roots(c, 2, 1e-15, 1e-8, out, 4, work), 1);
   assert_true(fabs(out[0].x - 0.5) < 1e-12);
@@ -202,7 +202,7 @@ static void only_as_many_as_there_is_room_for_are_given(void** state) {
   c[1] = roots[0] * roots[1] + roots[0] * roots[2] + roots[1] * roots[2];
   c[2] = -(roots[0] + roots[1] + roots[2]);
   c[3] = 1;
-  pl_root out[3];
+  pl_real_root out[3];
   assert_int_equal(pl_roots(c, 3, pl_root_noise(3), 0, out, 3, work), 3);
   assert_int_equal(pl_roots(c, 3, pl_root_noise(3), 0, out, 1, work), 1);
   assert_true(fabs(out[0].x - 0.25) < 1e-15);
@@ -211,7 +211,7 @@ static void only_as_many_as_there_is_room_for_are_given(void** state) {
 static void a_zero_polynomial_has_no_place_of_its_own(void** state) {
   (void)state;
   double zero[4] = {0}, tiny[] = {1e-20, 1e-21, 0, 1e-20};
-  pl_root out[4];
+  pl_real_root out[4];
   assert_int_equal(pl_roots(zero, 3, 1e-15, 0, out, 4, work), 0);
   assert_int_equal(pl_roots(tiny, 3, 1e-15, 1e-12, out, 4, work), 1);
   assert_true(out[0].before == 0 && out[0].after == 0);

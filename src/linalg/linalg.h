@@ -29,8 +29,6 @@ void pl_ldlt_solve(const double* A, const int* p, double* b, int n);
 // vectors below. jpvt (n): column order; tau (min(m,n)); norm (2 n) work. Returns the rank:
 // diagonals above rel * the largest.
 int pl_qr_factor(double* A, int* jpvt, double* tau, double* norm, int m, int n, double rel);
-// b := Q^T b with k reflectors
-void pl_qr_apply_qt(const double* A, const double* tau, double* b, int m, int k);
 // Least squares with a QR of rank k: b (m) becomes Q^T b with the solution in its first k entries,
 // in order of jpvt.
 void pl_qr_least_squares(const double* A, const double* tau, double* b, int m, int k);
@@ -97,12 +95,12 @@ void pl_symmetric_solve(pl_symmetric* s, double* b);  // in place
 //
 // A root where the sign before is that after only touches. A sign 0 is not known: the root lies at
 // an end. At most room roots are given, the first ones; returns how many. work: PL_ROOT_WORK(n).
-typedef struct pl_root {
+typedef struct pl_real_root {
   double x;
   int before, after;  // signs on both sides
-} pl_root;
+} pl_real_root;
 #define PL_ROOT_WORK(n) (4 * ((size_t)(n) + 2))
-int pl_roots(const double* c, int n, double noise, double floor, pl_root* out, int room,
+int pl_roots(const double* c, int n, double noise, double floor, pl_real_root* out, int room,
              double* work);
 // What rounding of the coefficients and of the evaluation itself leaves open, as noise: half an ulp
 // for each coefficient, Horner's bound 2 n ulps [Higham2002, 5.3] and as much again for the change

@@ -79,7 +79,7 @@ typedef struct walk {
   bool zero;    // between firm and here it is not certain
   double zero_from, zero_to;
   int parts;
-  pl_root* out;
+  pl_real_root* out;
   int found, room;
 } walk;
 
@@ -102,7 +102,7 @@ static bool is_wanted(const walk* w, int before, int after) {
 
 static void give(walk* w, double x, int before, int after) {
   if (w->found < w->room && is_wanted(w, before, after))
-    w->out[w->found++] = (pl_root){x, before, after};
+    w->out[w->found++] = (pl_real_root){x, before, after};
 }
 
 // Where the polynomial is nearest to zero, between two places; `otherwise` when it has no extremum
@@ -204,8 +204,8 @@ static void visit(walk* w, double lo, double hi, int depth) {
   }
 }
 
-static int search(const double* c, int n, int direction, double noise, double floor, pl_root* out,
-                  int room, double* work) {
+static int search(const double* c, int n, int direction, double noise, double floor,
+                  pl_real_root* out, int room, double* work) {
   while (n > 0 && c[n] == 0) n--;
   for (int i = 0; i <= n; i++)
     if (!(fabs(c[i]) <= DBL_MAX)) return 0;
@@ -227,13 +227,13 @@ static int search(const double* c, int n, int direction, double noise, double fl
   return w.found;
 }
 
-int pl_roots(const double* c, int n, double noise, double floor, pl_root* out, int room,
+int pl_roots(const double* c, int n, double noise, double floor, pl_real_root* out, int room,
              double* work) {
   return search(c, n, 0, noise, floor, out, room, work);
 }
 
 double pl_first_root(const double* c, int n, int direction, double* work) {
-  pl_root root[2];
+  pl_real_root root[2];
   int found = search(c, n, direction, pl_root_noise(n), 0, root, 2, work);
   for (int i = 0; i < found; i++)
     if (root[i].x > 0 && root[i].before != 0) return root[i].x;

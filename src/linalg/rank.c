@@ -62,12 +62,13 @@ int pl_qr_factor(double* A, int* jpvt, double* tau, double* norm, int m, int n, 
   return rank;
 }
 
-void pl_qr_apply_qt(const double* A, const double* tau, double* b, int m, int k) {
+// b := Q^T b with k reflectors
+static void apply_qt(const double* A, const double* tau, double* b, int m, int k) {
   for (int j = 0; j < k; j++) reflect(A + (size_t)j * m, tau[j], b, j, m);
 }
 
 void pl_qr_least_squares(const double* A, const double* tau, double* b, int m, int k) {
-  pl_qr_apply_qt(A, tau, b, m, k);
+  apply_qt(A, tau, b, m, k);
   for (int j = k - 1; j >= 0; j--) {
     const double* col = A + (size_t)j * m;
     b[j] /= col[j];

@@ -15,7 +15,7 @@
 
 enum { MOST_NEIGHBOURS = 24, FEW = 64, MOST_SLOTS = 1000 };
 
-typedef struct pl_builder {
+typedef struct pl_symmetric_builder {
   pl_arena* a;
   pl_symmetric* s;
   const int *start, *row;
@@ -25,10 +25,10 @@ typedef struct pl_builder {
   int *part, *separator, n_separators, *order, *first;
   int *step, *lane;     // of a node of the core; a separator: number in its front, lane -1
   int* slot_separator;  // of slot b in lane l at b lanes + l                -1 none
-} pl_builder;
+} pl_symmetric_builder;
 
 // ---------------------------------------------------------------------------------- early and core
-static bool is_early(const pl_builder* b, int i) {
+static bool is_early(const pl_symmetric_builder* b, int i) {
   int n = b->start[i + 1] - b->start[i];
   if (b->kind[i] != PL_UNKNOWN_MASS || n > MOST_NEIGHBOURS + 1) return false;
   for (int e = b->start[i]; e < b->start[i + 1]; e++)
@@ -42,7 +42,7 @@ static int run_of(const int* index, int n) {
   return n > 0 ? index[0] : -1;
 }
 
-static void divide(pl_builder* b) {
+static void divide(pl_symmetric_builder* b) {
   pl_symmetric* s = b->s;
   b->core_of = PL_ARRAY(b->a, int, s->n + 1);
   b->early_of = PL_ARRAY(b->a, int, s->n + 1);
@@ -67,7 +67,7 @@ static void divide(pl_builder* b) {
 // early one; often more than once.
 typedef void pl_pair_use(void* user, int i, int j);
 
-static void each_pair(const pl_builder* b, pl_pair_use* what, void* user) {
+static void each_pair(const pl_symmetric_builder* b, pl_pair_use* what, void* user) {
   const pl_symmetric* s = b->s;
   for (int c = 0; c < s->n_core; c++)
     for (int e = b->start[s->core[c]]; e < b->start[s->core[c] + 1]; e++) {
@@ -98,7 +98,7 @@ static void add_edge(void* user, int i, int j) {
 }
 
 // false: too many edges.
-static bool make_graph(pl_builder* b) {
+static bool make_graph(pl_symmetric_builder* b) {
   int n = b->s->n_core;
   pl_edges g = {PL_ARRAY(b->a, int, n + 2), NULL};
   int* start = PL_ARRAY(b->a, int, n + 2);
@@ -130,7 +130,7 @@ static bool make_graph(pl_builder* b) {
 
 // ------------------------------------------------------------------------------------------ places
 // One lane: coordinates with mass, constraints, the rest, each kind in an order of least degree.
-static bool order_in_one_lane(pl_builder* b) {
+static bool order_in_one_lane(pl_symmetric_builder* b) {
   pl_symmetric* s = b->s;
   static const unsigned char kinds[] = {PL_UNKNOWN_MASS, PL_UNKNOWN_CONSTRAINT, PL_UNKNOWN_OTHER};
   int n = 0, *order = PL_ARRAY(b->a, int, s->n_core + 1);
@@ -145,14 +145,14 @@ static bool order_in_one_lane(pl_builder* b) {
   return true;
 }
 
-static int longest_part(const pl_builder* b, int lanes) {
+static int longest_part(const pl_symmetric_builder* b, int lanes) {
   int m = 0;
   for (int p = 0; p < lanes; p++)
     if (b->first[p + 1] - b->first[p] > m) m = b->first[p + 1] - b->first[p];
   return m;
 }
 
-static int order_in_lanes(pl_builder* b, int lanes) {
+static int order_in_lanes(pl_symmetric_builder* b, int lanes) {
   b->n_separators = pl_graph_cut(b->a, &b->graph, lanes, b->part, b->separator, b->order, b->first);
   int m = longest_part(b, lanes);
   for (int p = 0; p < lanes; p++)
@@ -169,12 +169,12 @@ static int order_in_lanes(pl_builder* b, int lanes) {
 
 // The separators that a part touches get slots. What is filled in of a slot begins at the first
 // step that touches it: lanes share slots that begin close to each other.
-typedef struct pl_touch {
+typedef struct pl_symmetric_touch {
   int separator, step;
-} pl_touch;
-typedef PL_VEC(pl_touch) pl_touches;
+} pl_symmetric_touch;
+typedef PL_VEC(pl_symmetric_touch) pl_touches;
 
-static void list_touches(pl_builder* b, pl_touches* touch) {
+static void list_touches(pl_symmetric_builder* b, pl_touches* touch) {
   for (int i = 0; i < b->graph.n; i++) {
     if (b->lane[i] >= 0) continue;
     for (int e = b->graph.start[i]; e < b->graph.start[i + 1]; e++) {
@@ -183,14 +183,14 @@ static void list_touches(pl_builder* b, pl_touches* touch) {
       pl_touches* t = &touch[p];
       if (t->n > 0 && t->at[t->n - 1].separator == b->step[i]) {
         if (b->step[node] < t->at[t->n - 1].step) t->at[t->n - 1].step = b->step[node];
-      } else pl_push(b->a, *t, (pl_touch){b->step[i], b->step[node]});
+      } else pl_push(b->a, *t, (pl_symmetric_touch){b->step[i], b->step[node]});
     }
   }
 }
 
 static void sort_touches(pl_touches* t) {
   for (int i = 1; i < t->n; i++) {
-    pl_touch x = t->at[i];
+    pl_symmetric_touch x = t->at[i];
     int j = i;
     for (; j > 0 && t->at[j - 1].step > x.step; j--) t->at[j] = t->at[j - 1];
     t->at[j] = x;
@@ -198,7 +198,7 @@ static void sort_touches(pl_touches* t) {
 }
 
 // Returns the number of slots; more than MOST_SLOTS are not given.
-static int give_slots(pl_builder* b, int lanes) {
+static int give_slots(pl_symmetric_builder* b, int lanes) {
   pl_touches* touch = PL_ARRAY(b->a, pl_touches, lanes + 1);
   int most = 0, widest = 0;
   if (b->n_separators > 0) list_touches(b, touch);
@@ -227,22 +227,23 @@ static int give_slots(pl_builder* b, int lanes) {
   return most;
 }
 
-static int slot_of(const pl_builder* b, const pl_symmetric_front* f, int lane, int separator) {
+static int slot_of(const pl_symmetric_builder* b, const pl_symmetric_front* f, int lane,
+                   int separator) {
   for (int s = 0; s < f->nb; s++)
     if (b->slot_separator[s * f->lanes + lane] == separator) return s;
   return -1;
 }
 
 // --------------------------------------------------------------------------------------- structure
-typedef struct pl_structure {
-  pl_builder* b;
+typedef struct pl_symmetric_structure {
+  pl_symmetric_builder* b;
   pl_symmetric_front* f;
   pl_int_list *main, *border;
-} pl_structure;
+} pl_symmetric_structure;
 
 static void add_pair(void* user, int i, int j) {
-  pl_structure* t = user;
-  pl_builder* b = t->b;
+  pl_symmetric_structure* t = user;
+  pl_symmetric_builder* b = t->b;
   if (b->lane[i] < 0) {
     int x = i;
     i = j;
@@ -255,8 +256,8 @@ static void add_pair(void* user, int i, int j) {
 }
 
 // Each part couples all the separators that it touches.
-static void couple_separators(pl_structure* t) {
-  const pl_builder* b = t->b;
+static void couple_separators(pl_symmetric_structure* t) {
+  const pl_symmetric_builder* b = t->b;
   for (int p = 0; p < t->f->lanes; p++)
     for (int s = 0; s < t->f->nb; s++)
       for (int r = 0; r < s; r++) {
@@ -265,14 +266,15 @@ static void couple_separators(pl_structure* t) {
       }
 }
 
-static bool structure(pl_builder* b, int lanes, pl_symmetric_front* f, pl_symmetric_front* border) {
+static bool structure(pl_symmetric_builder* b, int lanes, pl_symmetric_front* f,
+                      pl_symmetric_front* border) {
   int m = b->s->n_core;
   if (lanes > 1) m = order_in_lanes(b, lanes);
   else if (!order_in_one_lane(b)) return false;
   *f = (pl_symmetric_front){.lanes = lanes, .m = m, .nb = give_slots(b, lanes)};
   if (f->nb > MOST_SLOTS) return false;
-  pl_structure t = {b, f, PL_ARRAY(b->a, pl_int_list, m + 1),
-                    PL_ARRAY(b->a, pl_int_list, b->n_separators + 1)};
+  pl_symmetric_structure t = {b, f, PL_ARRAY(b->a, pl_int_list, m + 1),
+                              PL_ARRAY(b->a, pl_int_list, b->n_separators + 1)};
   each_pair(b, add_pair, &t);
   couple_separators(&t);
   return pl_symmetric_front_make(b->a, f, lanes, m, f->nb, t.main)
@@ -290,7 +292,7 @@ static double price(const pl_symmetric_front* f) {
 // of constraints: a factorisation that eliminates the constraints first is cheaper.
 static const double too_dear = 40;
 
-static bool choose(pl_builder* b) {
+static bool choose(pl_symmetric_builder* b) {
   pl_symmetric* s = b->s;
   pl_symmetric_front f, g;
   bool only_constraints = true;
@@ -319,7 +321,7 @@ static size_t units(const pl_symmetric_front* f) {
   return (size_t)f->m + (size_t)f->n + (size_t)f->nb * ((size_t)f->nb + 1) / 2;
 }
 
-static bool reserve(pl_builder* b) {
+static bool reserve(pl_symmetric_builder* b) {
   pl_symmetric* s = b->s;
   pl_symmetric_front *f = &s->main, *g = &s->border;
   size_t lanes = (size_t)f->lanes, of_main = units(f) * lanes;
@@ -345,7 +347,7 @@ static bool reserve(pl_builder* b) {
 }
 
 // The number in memory for two unknowns of the core.
-static int target(const pl_builder* b, int i, int j) {
+static int target(const pl_symmetric_builder* b, int i, int j) {
   const pl_symmetric* s = b->s;
   const pl_symmetric_front *f = &s->main, *g = &s->border;
   if (b->lane[i] < 0) {
@@ -359,7 +361,7 @@ static int target(const pl_builder* b, int i, int j) {
   return pl_symmetric_front_find(f, b->step[i], row) * f->lanes + b->lane[i];
 }
 
-static void place_core(pl_builder* b) {
+static void place_core(pl_symmetric_builder* b) {
   pl_symmetric* s = b->s;
   const pl_symmetric_front *f = &s->main, *g = &s->border;
   int lanes = f->lanes;
@@ -383,7 +385,7 @@ static void place_core(pl_builder* b) {
       }
 }
 
-static void place_direct(pl_builder* b) {
+static void place_direct(pl_symmetric_builder* b) {
   pl_symmetric* s = b->s;
   int most = 0;
   for (int c = 0; c < s->n_core; c++) most += b->start[s->core[c] + 1] - b->start[s->core[c]];
@@ -398,7 +400,7 @@ static void place_direct(pl_builder* b) {
     }
 }
 
-static void place_early(pl_builder* b) {
+static void place_early(pl_symmetric_builder* b) {
   pl_symmetric* s = b->s;
   PL_VEC(int) from = {0}, to = {0};
   s->schur_start = PL_ARRAY(b->a, int, s->n_early + 2);
@@ -471,7 +473,7 @@ static void close_group(pl_row_maker* k) {
   k->group.n = 0;
 }
 
-static void make_rows(pl_builder* b, pl_symmetric_rows* r, const int* rows, int n,
+static void make_rows(pl_symmetric_builder* b, pl_symmetric_rows* r, const int* rows, int n,
                       const int* other_of) {
   pl_row_maker k = {.a = b->a};
   r->n_groups = (n + 7) / 8;
@@ -509,7 +511,7 @@ pl_symmetric* pl_symmetric_make(pl_arena* a, int n, const int* start, const int*
                                 const unsigned char* kind) {
   if (!is_symmetric(n, start, row)) return NULL;
   pl_symmetric* s = PL_NEW(a, pl_symmetric);
-  pl_builder b = {.a = a, .s = s, .start = start, .row = row, .kind = kind};
+  pl_symmetric_builder b = {.a = a, .s = s, .start = start, .row = row, .kind = kind};
   s->n = n;
   divide(&b);
   if (!make_graph(&b)) return NULL;

@@ -39,7 +39,7 @@ static void search_forms(pl_tower* t, void* data) {
   pl_frac f = pl_convert(t, j->e);
   if (f.num->length > LARGE_TERMS) return;
   int deepest = f.num->length > SMALL_TERMS ? 1 : MAX_SEARCH_DEPTH;
-  pl_search s = {.t = t, .a = t->arena, .p = t->pool, .style = j->style};
+  pl_present_search s = {.t = t, .a = t->arena, .p = t->pool, .style = j->style};
   s.found_at = pl_map_make(s.a);
   s.wave_at = pl_map_make(s.a);
   long best = 0;

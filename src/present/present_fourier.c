@@ -24,7 +24,7 @@ typedef struct wave {
 } wave;
 
 typedef struct series {
-  pl_search* s;
+  pl_present_search* s;
   int n_angles;
   int cos_gen[MAX_ANGLES];
   int halvings;  // everything stands over 2^halvings
@@ -36,7 +36,7 @@ typedef struct series {
 // θ and 19/20 θ, which have no base in common: their sums and differences are multiples of θ again,
 // and no wave of its own.
 static bool is_multiple_of_known(series* w, int gen) {
-  pl_search* s = w->s;
+  pl_present_search* s = w->s;
   for (int j = 0; j < w->n_angles; j++) {
     pl_expr known = pl_arg(s->p, s->t->gens.at[w->cos_gen[j]].expr, 0);
     pl_expr ratio = pl_div(s->p, pl_arg(s->p, s->t->gens.at[gen].expr, 0), known);
@@ -226,7 +226,7 @@ static int common_multiple(const wave_key* key) {
 }
 
 static const pl_form* argument_form(series* w, const wave_key* key, pl_expr* value) {
-  pl_search* s = w->s;
+  pl_present_search* s = w->s;
   int common = common_multiple(key);
   pl_expr inner = pl_int(s->p, 0), numbers = inner;
   int n = 0;
@@ -252,7 +252,7 @@ static const pl_form* argument_form(series* w, const wave_key* key, pl_expr* val
 // cos or sin of the multiple as a piece. One piece an expression, so that equal ones are
 // recognised.
 static pl_piece wave_piece(series* w, const wave_key* key) {
-  pl_search* s = w->s;
+  pl_present_search* s = w->s;
   pl_expr value;
   const pl_form* argument = argument_form(w, key, &value);
   pl_function f = key->sine ? PL_SIN : PL_COS;
@@ -305,7 +305,7 @@ static const pl_poly* take_common_factor(series* w) {
 }
 
 static pl_prod written(series* w, int depth) {
-  pl_search* s = w->s;
+  pl_present_search* s = w->s;
   if (w->n == 0) return pl_prod_number(s, pl_int(s->p, 0));
   const pl_poly* common = take_common_factor(w);
   pl_prod* terms = PL_ARRAY(s->a, pl_prod, PL_OPENED_TERMS * w->n);
@@ -321,7 +321,7 @@ static pl_prod written(series* w, int depth) {
   return pl_prod_scale(s, sum, pl_ratio(s->p, 1, 1L << w->halvings));
 }
 
-bool pl_present_fourier(pl_search* s, const pl_poly* f, int depth, pl_prod* best) {
+bool pl_present_fourier(pl_present_search* s, const pl_poly* f, int depth, pl_prod* best) {
   if (f->length > MAX_WAVE_TERMS || s->work >= s->limit) return false;
   series w = {.s = s};
   if (!find_angles(&w, f)) return false;

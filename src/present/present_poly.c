@@ -18,7 +18,7 @@ enum {
 };
 
 // ------------------------------------------------------------------------------------------ groups
-bool pl_gen_in_key(pl_search* s, int gen, pl_key_set set) {
+bool pl_gen_in_key(pl_present_search* s, int gen, pl_key_set set) {
   pl_gen_kind kind = s->t->gens.at[gen].kind;
   if (set == PL_KEY_ROOT) return kind == PL_G_ROOT;
   pl_bucket b = pl_piece_of_gen(s, gen).bucket;
@@ -35,24 +35,25 @@ bool pl_gen_in_key(pl_search* s, int gen, pl_key_set set) {
   }
 }
 
-void pl_key_mask(pl_search* s, pl_key_set set, bool* in) {
+void pl_key_mask(pl_present_search* s, pl_key_set set, bool* in) {
   for (int g = 0; g < s->t->gens.n; g++) in[g] = pl_gen_in_key(s, g, set);
 }
 
-static pl_group* find_group(pl_search* s, pl_group* groups, int* n, const ulong* key) {
+static pl_term_group* find_group(pl_present_search* s, pl_term_group* groups, int* n,
+                                 const ulong* key) {
   size_t size = (size_t)s->t->gens.n * sizeof *key;
   for (int i = 0; i < *n; i++)
     if (memcmp(groups[i].key, key, size) == 0) return &groups[i];
-  pl_group* g = &groups[(*n)++];
+  pl_term_group* g = &groups[(*n)++];
   g->key = PL_ARRAY(s->a, ulong, s->t->capacity);
   memcpy(g->key, key, size);
   g->coefficient = pl_poly_new(s->t);
   return g;
 }
 
-int pl_poly_group(pl_search* s, const pl_poly* f, const bool* in, pl_group** out) {
+int pl_poly_group(pl_present_search* s, const pl_poly* f, const bool* in, pl_term_group** out) {
   pl_tower* t = s->t;
-  pl_group* groups = PL_ARRAY(s->a, pl_group, f->length + 1);
+  pl_term_group* groups = PL_ARRAY(s->a, pl_term_group, f->length + 1);
   int n = 0;
   ulong rest[PL_MAX_GENERATORS], key[PL_MAX_GENERATORS];
   for (slong i = 0; i < f->length; i++) {
@@ -76,13 +77,13 @@ static void keep_best(pl_prod* best, pl_prod x, bool* have) {
   *have = true;
 }
 
-static pl_prod monomial(pl_search* s, const pl_poly* f, slong i) {
+static pl_prod monomial(pl_present_search* s, const pl_poly* f, slong i) {
   ulong exponent[PL_MAX_GENERATORS];
   fmpz_mpoly_get_term_exp_ui(exponent, f, i, &s->t->ctx);
   return pl_prod_of_exponents(s, pl_fmpz_expr(s->t, &f->coeffs[i]), exponent);
 }
 
-static pl_prod expanded(pl_search* s, const pl_poly* f) {
+static pl_prod expanded(pl_present_search* s, const pl_poly* f) {
   if (f->length > MAX_EXPANDED_TERMS) pl_tower_give_up(s->t);
   pl_prod* terms = PL_ARRAY(s->a, pl_prod, f->length + 1);
   for (slong i = 0; i < f->length; i++) terms[i] = monomial(s, f, i);
@@ -91,8 +92,9 @@ static pl_prod expanded(pl_search* s, const pl_poly* f) {
 }
 
 // The sum of f collected by the generators in[]; false when that changes nothing.
-static bool collected(pl_search* s, const pl_poly* f, const bool* in, int depth, pl_prod* out) {
-  pl_group* groups;
+static bool collected(pl_present_search* s, const pl_poly* f, const bool* in, int depth,
+                      pl_prod* out) {
+  pl_term_group* groups;
   int n = pl_poly_group(s, f, in, &groups), n_terms = 0;
   if (n <= 1 || n == f->length) return false;
   pl_prod* terms = PL_ARRAY(s->a, pl_prod, PL_OPENED_TERMS * n);
@@ -106,10 +108,11 @@ static bool collected(pl_search* s, const pl_poly* f, const bool* in, int depth,
   return true;
 }
 
-static bool within_budget(const pl_search* s) { return s->work < s->limit; }
+static bool within_budget(const pl_present_search* s) { return s->work < s->limit; }
 
 // -------------------------------------------------------------------------------------------- sums
-static void sums_by_class(pl_search* s, const pl_poly* f, int depth, pl_prod* best, bool* have) {
+static void sums_by_class(pl_present_search* s, const pl_poly* f, int depth, pl_prod* best,
+                          bool* have) {
   static const pl_key_set sets[] = {PL_KEY_MASS,   PL_KEY_MOTION, PL_KEY_GRAVITY,  PL_KEY_OTHER,
                                     PL_KEY_LENGTH, PL_KEY_COORD,  PL_KEY_FUNCTION, PL_KEY_ROOT};
   int n = f->length > MAX_COLLECT_TERMS ? 2 : (int)(sizeof sets / sizeof *sets);
@@ -121,7 +124,8 @@ static void sums_by_class(pl_search* s, const pl_poly* f, int depth, pl_prod* be
   }
 }
 
-static void sums_by_symbol(pl_search* s, const pl_poly* f, int depth, pl_prod* best, bool* have) {
+static void sums_by_symbol(pl_present_search* s, const pl_poly* f, int depth, pl_prod* best,
+                           bool* have) {
   if (f->length > 30) return;
   int use[PL_MAX_GENERATORS], n = 0;
   pl_poly_used(s->t, f, use, &n);
@@ -135,7 +139,7 @@ static void sums_by_symbol(pl_search* s, const pl_poly* f, int depth, pl_prod* b
 
 // Generators that meet in a term belong together, and so do sin and cos of an angle: marks the
 // component of each by its smallest member.
-static void find_components(pl_search* s, const pl_poly* f, int* component) {
+static void find_components(pl_present_search* s, const pl_poly* f, int* component) {
   pl_tower* t = s->t;
   for (int g = 0; g < t->gens.n; g++) {
     int partner = t->gens.at[g].partner;
@@ -159,7 +163,7 @@ static void find_components(pl_search* s, const pl_poly* f, int* component) {
 
 // The sum of the parts of f that share no generator: x1² - 2 x1 x2 + x2² + y1² - ... = (x1 - x2)² +
 // (y1 - y2)².
-static bool sum_of_components(pl_search* s, const pl_poly* f, int depth, pl_prod* out) {
+static bool sum_of_components(pl_present_search* s, const pl_poly* f, int depth, pl_prod* out) {
   pl_tower* t = s->t;
   int component[PL_MAX_GENERATORS], n = 0;
   find_components(s, f, component);
@@ -185,7 +189,7 @@ static bool sum_of_components(pl_search* s, const pl_poly* f, int depth, pl_prod
   return true;
 }
 
-static void sums(pl_search* s, const pl_poly* f, int depth, pl_prod* best, bool* have) {
+static void sums(pl_present_search* s, const pl_poly* f, int depth, pl_prod* best, bool* have) {
   if (f->length <= MAX_EXPANDED_TERMS) keep_best(best, expanded(s, f), have);
   pl_prod parts;
   if (f->length <= MAX_COLLECT_TERMS && sum_of_components(s, f, depth, &parts))
@@ -198,7 +202,7 @@ static void sums(pl_search* s, const pl_poly* f, int depth, pl_prod* best, bool*
 // ----------------------------------------------------------------------------------------- factors
 static bool is_trivial(pl_factored f) { return f.n == 1 && f.at[0].power == 1; }
 
-static pl_prod factors_product(pl_search* s, pl_factored f, int depth) {
+static pl_prod factors_product(pl_present_search* s, pl_factored f, int depth) {
   pl_prod product = pl_prod_number(s, pl_fmpz_expr(s->t, f.unit));
   for (int i = 0; i < f.n; i++) {
     pl_prod x = pl_present_poly(s, pl_base_poly(s->t, f.at[i].base), depth);
@@ -207,13 +211,13 @@ static pl_prod factors_product(pl_search* s, pl_factored f, int depth) {
   return product;
 }
 
-static pl_factored factor(pl_search* s, const pl_poly* f) {
+static pl_factored factor(pl_present_search* s, const pl_poly* f) {
   s->work += 2 + f->length / 4;
   return pl_factored_merge_pairs(s->t, pl_poly_factor(s->t, f));
 }
 
 // Both views of every pair whose square occurs; the polynomial itself comes first.
-static int views(pl_search* s, const pl_poly* f, const pl_poly** out) {
+static int views(pl_present_search* s, const pl_poly* f, const pl_poly** out) {
   pl_tower* t = s->t;
   int n = 1, pairs = 0;
   out[0] = f;
@@ -231,7 +235,8 @@ static int views(pl_search* s, const pl_poly* f, const pl_poly** out) {
 }
 
 // One view: its factors, or the sums of it when it has none.
-static void present_view(pl_search* s, const pl_poly* f, int depth, pl_prod* best, bool* have) {
+static void present_view(pl_present_search* s, const pl_poly* f, int depth, pl_prod* best,
+                         bool* have) {
   if (f->length > MAX_EXPANDED_TERMS) return;
   if (f->length == 0) {
     // the relations, which are not applied everywhere on the way, make it vanish in this view
@@ -253,8 +258,8 @@ static void present_view(pl_search* s, const pl_poly* f, int depth, pl_prod* bes
 
 // --------------------------------------------------------------------------------------- radicands
 // f with v² replaced by what w² = P says of it, for a term ±v² of P; NULL where it does not apply.
-static const pl_poly* reraised(pl_search* s, const pl_poly* f, int w, const pl_poly* radicand,
-                               slong term) {
+static const pl_poly* reraised(pl_present_search* s, const pl_poly* f, int w,
+                               const pl_poly* radicand, slong term) {
   pl_tower* t = s->t;
   if (!fmpz_is_pm1(&radicand->coeffs[term])) return NULL;
   ulong exponent[PL_MAX_GENERATORS];
@@ -274,7 +279,7 @@ static const pl_poly* reraised(pl_search* s, const pl_poly* f, int w, const pl_p
   return pl_poly_eliminate(t, f, v, 2, value);
 }
 
-static void reraise(pl_search* s, const pl_poly* f, int depth, pl_prod* best, bool* have) {
+static void reraise(pl_present_search* s, const pl_poly* f, int depth, pl_prod* best, bool* have) {
   pl_tower* t = s->t;
   for (int w = 0; w < t->gens.n && within_budget(s); w++) {
     const pl_gen* g = &t->gens.at[w];
@@ -296,7 +301,7 @@ static void reraise(pl_search* s, const pl_poly* f, int depth, pl_prod* best, bo
   }
 }
 
-bool pl_poly_root_divides(pl_search* s, const pl_poly* f, int w, const pl_poly** rest) {
+bool pl_poly_root_divides(pl_present_search* s, const pl_poly* f, int w, const pl_poly** rest) {
   pl_tower* t = s->t;
   const pl_gen* g = &t->gens.at[w];
   if (g->kind != PL_G_ROOT || g->degree != 2 || g->value->length > 12) return false;
@@ -313,17 +318,17 @@ bool pl_poly_root_divides(pl_search* s, const pl_poly* f, int w, const pl_poly**
 }
 
 // ------------------------------------------------------------------------------------------ memory
-static pl_found* recall(pl_search* s, const pl_poly* f, int depth, uint64_t* key) {
+static pl_present_found* recall(pl_present_search* s, const pl_poly* f, int depth, uint64_t* key) {
   *key = pl_hash_mix(pl_poly_hash(s->t, f), (uint64_t)depth) | 1;
   for (;; *key += 2) {
     uint64_t at = pl_map_get(s->found_at, *key);
     if (!at) return NULL;
-    pl_found* found = &s->found.at[at - 1];
+    pl_present_found* found = &s->found.at[at - 1];
     if (found->depth == depth && pl_poly_equal(s->t, found->poly, f)) return found;
   }
 }
 
-static pl_prod search_poly(pl_search* s, const pl_poly* f, int depth) {
+static pl_prod search_poly(pl_present_search* s, const pl_poly* f, int depth) {
   // thousands of sums inside sums: the form of the depth before stands
   pl_tower_charge(s->t, 200 + 20 * f->length);
   pl_prod best = {0};
@@ -339,15 +344,15 @@ static pl_prod search_poly(pl_search* s, const pl_poly* f, int depth) {
   return best;
 }
 
-pl_prod pl_present_poly(pl_search* s, const pl_poly* f, int depth) {
+pl_prod pl_present_poly(pl_present_search* s, const pl_poly* f, int depth) {
   if (f->length == 0) return pl_prod_number(s, pl_int(s->p, 0));
   if (f->length == 1) return monomial(s, f, 0);
   if (!within_budget(s)) depth = 0;
   if (depth < 0) depth = 0;
   uint64_t key;
-  pl_found* known = recall(s, f, depth, &key);
+  pl_present_found* known = recall(s, f, depth, &key);
   if (known) return known->busy ? expanded(s, f) : known->prod;
-  pl_found entry = {.poly = f, .depth = depth, .busy = true};
+  pl_present_found entry = {.poly = f, .depth = depth, .busy = true};
   pl_push(s->a, s->found, entry);
   int at = s->found.n - 1;
   pl_map_set(s->found_at, key, (uint64_t)at + 1);

@@ -16,7 +16,7 @@ enum {
 };
 
 // -------------------------------------------------------------------------------------------- cost
-long pl_number_cost(pl_search* s, pl_expr number) {
+static long number_cost(pl_present_search* s, pl_expr number) {
   long digits = 0, num = 0, den = 1;
   if (pl_is_ratio(s->p, number, &num, &den)) {
     for (num = labs(num); num > 0; num /= 10) digits++;
@@ -28,7 +28,7 @@ long pl_number_cost(pl_search* s, pl_expr number) {
   return digits * COST_DIGIT;
 }
 
-static long cost_of(pl_search* s, pl_prod x) {
+static long cost_of(pl_present_search* s, pl_prod x) {
   long cost = 0, factors = x.n;
   pl_expr unit = x.unit;
   if (pl_number_sign(s->p, unit) < 0) {
@@ -36,7 +36,7 @@ static long cost_of(pl_search* s, pl_prod x) {
     unit = pl_neg(s->p, unit);
   }
   if (!pl_is_one_node(s->p, unit) || x.n == 0) {
-    cost += pl_number_cost(s, unit);
+    cost += number_cost(s, unit);
     factors++;
   }
   for (int i = 0; i < x.n; i++) {
@@ -50,16 +50,16 @@ static long cost_of(pl_search* s, pl_prod x) {
   return cost + (factors > 1 ? (factors - 1) * COST_FACTOR : 0);
 }
 
-static pl_prod costed(pl_search* s, pl_prod x) {
+static pl_prod costed(pl_present_search* s, pl_prod x) {
   x.cost = cost_of(s, x);
   return x;
 }
 
-static long form_cost(pl_search* s, const pl_form* f) {
+static long form_cost(pl_present_search* s, const pl_form* f) {
   long cost = 0;
   for (int i = 0; i < f->n; i++) cost += form_cost(s, f->args[i]);
   switch (f->kind) {
-    case PL_F_EXPR: return pl_is_number(s->p, f->expr) ? pl_number_cost(s, f->expr) : COST_SYMBOL;
+    case PL_F_EXPR: return pl_is_number(s->p, f->expr) ? number_cost(s, f->expr) : COST_SYMBOL;
     case PL_F_SUM: return cost + 2 * f->n;
     case PL_F_NEG: return cost + COST_MINUS;
     case PL_F_PRODUCT:
@@ -74,7 +74,7 @@ static long form_cost(pl_search* s, const pl_form* f) {
 // ------------------------------------------------------------------------------------------- order
 // Coordinates and their derivatives stand in the order in which the model declares them, all else
 // by name.
-static int compare_leads(pl_search* s, const pl_piece* x, const pl_piece* y) {
+static int compare_leads(pl_present_search* s, const pl_piece* x, const pl_piece* y) {
   if (x->lead.id == y->lead.id) return 0;
   if (!x->lead.id || !y->lead.id) return x->lead.id ? -1 : 1;
   if (x->bucket == PL_K_COORD || x->bucket == PL_K_VELOCITY || x->bucket == PL_K_ACCELERATION) {
@@ -85,7 +85,7 @@ static int compare_leads(pl_search* s, const pl_piece* x, const pl_piece* y) {
   return pl_symbol_compare(s->p, x->lead, y->lead);
 }
 
-int pl_piece_compare(pl_search* s, const pl_piece* x, const pl_piece* y) {
+int pl_piece_compare(pl_present_search* s, const pl_piece* x, const pl_piece* y) {
   if (x->bucket != y->bucket) return x->bucket < y->bucket ? -1 : 1;
   int c = compare_leads(s, x, y);
   if (c) return c;
@@ -94,20 +94,24 @@ int pl_piece_compare(pl_search* s, const pl_piece* x, const pl_piece* y) {
   return (x->order > y->order) - (x->order < y->order);
 }
 
-static void insert_sorted(pl_search* s, pl_piece* at, int n, pl_piece x) {
+static void insert_sorted(pl_present_search* s, pl_piece* at, int n, pl_piece x) {
   int i = n;
   for (; i > 0 && pl_piece_compare(s, &x, &at[i - 1]) < 0; i--) at[i] = at[i - 1];
   at[i] = x;
 }
 
 // -------------------------------------------------------------------------------------- arithmetic
-pl_prod pl_prod_number(pl_search* s, pl_expr number) {
+pl_prod pl_prod_number(pl_present_search* s, pl_expr number) {
   return costed(s, (pl_prod){.unit = number});
 }
 
-bool pl_prod_is_zero(const pl_search* s, pl_prod x) { return pl_is_zero_node(s->p, x.unit); }
+bool pl_prod_is_zero(const pl_present_search* s, pl_prod x) {
+  return pl_is_zero_node(s->p, x.unit);
+}
 
-bool pl_prod_is_negative(const pl_search* s, pl_prod x) { return pl_number_sign(s->p, x.unit) < 0; }
+bool pl_prod_is_negative(const pl_present_search* s, pl_prod x) {
+  return pl_number_sign(s->p, x.unit) < 0;
+}
 
 bool pl_prod_has_denominator(pl_prod x) {
   for (int i = 0; i < x.n; i++)
@@ -115,14 +119,14 @@ bool pl_prod_has_denominator(pl_prod x) {
   return false;
 }
 
-pl_prod pl_prod_piece(pl_search* s, pl_piece piece, int power) {
+pl_prod pl_prod_piece(pl_present_search* s, pl_piece piece, int power) {
   pl_piece* at = PL_NEW(s->a, pl_piece);
   *at = piece;
   at->power = power;
   return costed(s, (pl_prod){.unit = pl_int(s->p, 1), .n = power != 0, .at = at});
 }
 
-pl_prod pl_prod_mul(pl_search* s, pl_prod x, pl_prod y) {
+pl_prod pl_prod_mul(pl_present_search* s, pl_prod x, pl_prod y) {
   pl_piece* at = PL_ARRAY(s->a, pl_piece, x.n + y.n + 1);
   int n = x.n;
   if (n) memcpy(at, x.at, (size_t)n * sizeof *at);
@@ -142,7 +146,7 @@ pl_prod pl_prod_mul(pl_search* s, pl_prod x, pl_prod y) {
   return costed(s, (pl_prod){.unit = pl_mul(s->p, x.unit, y.unit), .n = n, .at = at});
 }
 
-pl_prod pl_prod_pow(pl_search* s, pl_prod x, int k) {
+pl_prod pl_prod_pow(pl_present_search* s, pl_prod x, int k) {
   if (k == 1) return x;
   pl_piece* at = PL_ARRAY(s->a, pl_piece, x.n + 1);
   if (x.n) memcpy(at, x.at, (size_t)x.n * sizeof *at);
@@ -150,12 +154,14 @@ pl_prod pl_prod_pow(pl_search* s, pl_prod x, int k) {
   return costed(s, (pl_prod){.unit = pl_pow_int(s->p, x.unit, k), .n = k ? x.n : 0, .at = at});
 }
 
-pl_prod pl_prod_scale(pl_search* s, pl_prod x, pl_expr number) {
+pl_prod pl_prod_scale(pl_present_search* s, pl_prod x, pl_expr number) {
   x.unit = pl_mul(s->p, x.unit, number);
   return costed(s, x);
 }
 
-pl_prod pl_prod_neg(pl_search* s, pl_prod x) { return pl_prod_scale(s, x, pl_int(s->p, -1)); }
+pl_prod pl_prod_neg(pl_present_search* s, pl_prod x) {
+  return pl_prod_scale(s, x, pl_int(s->p, -1));
+}
 
 // A function with its argument in its own best form.
 // The number in a sum, which is taken out of it; 0: there is none.
@@ -170,7 +176,7 @@ pl_expr pl_take_number(pl_pool* p, pl_expr* e) {
 }
 
 // The angle of a sine, where a number stands beside the others: θ + 1/4, not (4 θ + 1)/4.
-static const pl_form* angle_form(pl_search* s, pl_expr angle) {
+static const pl_form* angle_form(pl_present_search* s, pl_expr angle) {
   pl_expr number = pl_take_number(s->p, &angle);
   const pl_form* f = pl_prod_form(
       s, pl_prod_flip(s, pl_present_quotient(s, pl_convert(s->t, angle), 1)));
@@ -178,7 +184,7 @@ static const pl_form* angle_form(pl_search* s, pl_expr angle) {
   return pl_form_sum(s->a, (const pl_form* const[]){f, pl_form_of(s->a, s->p, number)}, 2);
 }
 
-static const pl_form* call_form(pl_search* s, pl_expr e) {
+static const pl_form* call_form(pl_present_search* s, pl_expr e) {
   if (pl_kind_of(s->p, e) != PL_CALL) return pl_form_of(s->a, s->p, e);
   int n = pl_n_args(s->p, e);
   const pl_form* args[2];
@@ -194,7 +200,7 @@ static const pl_form* call_form(pl_search* s, pl_expr e) {
 }
 
 // -------------------------------------------------------------------------------------- generators
-static pl_bucket bucket_of_symbol(pl_search* s, pl_symbol x) {
+static pl_bucket bucket_of_symbol(pl_present_search* s, pl_symbol x) {
   const pl_symbol_info* i = pl_symbol_get(s->p, x);
   switch (i->role) {
     case PL_R_COORD: return PL_K_COORD;
@@ -217,7 +223,7 @@ static pl_bucket bucket_of_symbol(pl_search* s, pl_symbol x) {
   }
 }
 
-static pl_symbol first_symbol(pl_search* s, pl_expr e) {
+static pl_symbol first_symbol(pl_present_search* s, pl_expr e) {
   int n = pl_symbols_in(s->p, e, NULL, 0);
   if (n == 0) return (pl_symbol){0};
   pl_symbol* all = PL_ARRAY(s->a, pl_symbol, n);
@@ -228,18 +234,18 @@ static pl_symbol first_symbol(pl_search* s, pl_expr e) {
   return best;
 }
 
-static pl_bucket bucket_of_element(pl_search* s, pl_expr e) {
+static pl_bucket bucket_of_element(pl_present_search* s, pl_expr e) {
   int dots = pl_dots_of(s->p, e);
   return dots == 0 ? PL_K_COORD : dots == 1 ? PL_K_VELOCITY : PL_K_ACCELERATION;
 }
 
-static bool moves(pl_search* s, pl_expr e) {
+static bool moves(pl_present_search* s, pl_expr e) {
   return pl_has_role(s->p, e, PL_R_COORD) || pl_has_role(s->p, e, PL_R_VELOCITY)
          || pl_has_role(s->p, e, PL_R_TIME) || pl_has_role(s->p, e, PL_R_ARRAY);
 }
 
 // w = √P with P in its own best form.
-static void root_piece(pl_search* s, int gen, pl_piece* piece) {
+static void root_piece(pl_present_search* s, int gen, pl_piece* piece) {
   const pl_gen* g = &s->t->gens.at[gen];
   pl_prod inside = pl_prod_flip(s, pl_present_poly(s, g->value, 1));
   const pl_form* f = pl_prod_form(s, inside);
@@ -252,7 +258,7 @@ static void root_piece(pl_search* s, int gen, pl_piece* piece) {
                                                     : PL_K_OTHER;
 }
 
-static pl_piece make_gen_piece(pl_search* s, int gen) {
+static pl_piece make_gen_piece(pl_present_search* s, int gen) {
   const pl_gen* g = &s->t->gens.at[gen];
   pl_piece piece = {
       .power = 1, .gen = gen, .lead = first_symbol(s, g->expr), .bucket = PL_K_FUNCTION};
@@ -275,7 +281,7 @@ static pl_piece make_gen_piece(pl_search* s, int gen) {
   }
 }
 
-static pl_piece plain_piece(pl_search* s, int gen) {
+static pl_piece plain_piece(pl_present_search* s, int gen) {
   const pl_gen* g = &s->t->gens.at[gen];
   pl_piece piece = {
       .power = 1, .gen = gen, .lead = first_symbol(s, g->expr), .bucket = PL_K_FUNCTION};
@@ -284,7 +290,7 @@ static pl_piece plain_piece(pl_search* s, int gen) {
   return piece;
 }
 
-pl_piece pl_piece_of_gen(pl_search* s, int gen) {
+pl_piece pl_piece_of_gen(pl_present_search* s, int gen) {
   if (!s->gen_known[gen]) {
     // While the argument of a function is presented, the search asks for all generators, this one
     // too: it then stands in its plain form.
@@ -296,11 +302,11 @@ pl_piece pl_piece_of_gen(pl_search* s, int gen) {
   return s->gen_piece[gen];
 }
 
-pl_prod pl_prod_of_gen(pl_search* s, int gen, int power) {
+pl_prod pl_prod_of_gen(pl_present_search* s, int gen, int power) {
   return pl_prod_piece(s, pl_piece_of_gen(s, gen), power);
 }
 
-pl_prod pl_prod_of_exponents(pl_search* s, pl_expr unit, const ulong* exponent) {
+pl_prod pl_prod_of_exponents(pl_present_search* s, pl_expr unit, const ulong* exponent) {
   int n = 0, present = 0;  // few of the generators: a piece for each would fill the memory
   for (int g = 0; g < s->t->gens.n; g++) present += exponent[g] != 0;
   pl_piece* at = PL_ARRAY(s->a, pl_piece, present + 1);
@@ -316,13 +322,13 @@ pl_prod pl_prod_of_exponents(pl_search* s, pl_expr unit, const ulong* exponent) 
 // ------------------------------------------------------------------------------------------- forms
 typedef PL_VEC(const pl_form*) forms;
 
-static const pl_form* product_of(pl_search* s, forms* f) {
+static const pl_form* product_of(pl_present_search* s, forms* f) {
   if (f->n == 0) return pl_form_leaf(s->a, pl_int(s->p, 1));
   return f->n == 1 ? f->at[0] : pl_form_product(s->a, f->at, f->n);
 }
 
 // base^k.  Powers of roots are written with the exponent k/2: (l² - x²)^(3/2).
-static const pl_form* piece_form(pl_search* s, const pl_piece* f, int power) {
+static const pl_form* piece_form(pl_present_search* s, const pl_piece* f, int power) {
   const pl_form* base = pl_piece_base(s, f);
   pl_expr exponent = pl_int(s->p, power);
   if (base->kind == PL_F_ROOT && power > 1) {
@@ -333,12 +339,12 @@ static const pl_form* piece_form(pl_search* s, const pl_piece* f, int power) {
   return pl_form_power(s->a, base, pl_form_leaf(s->a, exponent));
 }
 
-static bool is_exp(pl_search* s, const pl_piece* f) {
+static bool is_exp(pl_present_search* s, const pl_piece* f) {
   return f->gen >= 0 && s->t->gens.at[f->gen].kind == PL_G_EXP;
 }
 
 // e^x e^2y / e^z as one function: the exponent of all exponentials of a product together.
-static pl_expr exponents_together(pl_search* s, pl_prod x) {
+static pl_expr exponents_together(pl_present_search* s, pl_prod x) {
   pl_expr sum = pl_int(s->p, 0);
   for (int i = 0; i < x.n; i++) {
     if (!is_exp(s, &x.at[i])) continue;
@@ -348,14 +354,14 @@ static pl_expr exponents_together(pl_search* s, pl_prod x) {
   return sum;
 }
 
-static pl_expr denominator_of(pl_search* s, pl_expr number) {
+static pl_expr denominator_of(pl_present_search* s, pl_expr number) {
   long num = 0, den = 1;
   if (pl_is_ratio(s->p, number, &num, &den)) return pl_int(s->p, den);
   const char* text = pl_number_den_text(s->a, s->p, number);
   return pl_number_from_text(s->p, text, strlen(text));
 }
 
-bool pl_prod_wants_fraction_first(pl_search* s, pl_prod x) {
+bool pl_prod_wants_fraction_first(pl_present_search* s, pl_prod x) {
   pl_expr den = denominator_of(s, x.unit);
   if (x.n == 0 || pl_is_one_node(s->p, den) || pl_prod_has_denominator(x)) return false;
   pl_expr num = pl_mul(s->p, x.unit, den);
@@ -364,7 +370,7 @@ bool pl_prod_wants_fraction_first(pl_search* s, pl_prod x) {
 }
 
 // The factors above and below the line, without the number.
-static void split_pieces(pl_search* s, pl_prod x, forms* above, forms* below) {
+static void split_pieces(pl_present_search* s, pl_prod x, forms* above, forms* below) {
   bool exp_done = false;
   for (int i = 0; i < x.n; i++) {
     const pl_piece* f = &x.at[i];
@@ -380,7 +386,7 @@ static void split_pieces(pl_search* s, pl_prod x, forms* above, forms* below) {
   }
 }
 
-const pl_form* pl_prod_form_with(pl_search* s, pl_prod x, bool fraction_first) {
+const pl_form* pl_prod_form_with(pl_present_search* s, pl_prod x, bool fraction_first) {
   pl_pool* p = s->p;
   bool minus = pl_number_sign(p, x.unit) < 0;
   pl_expr unit = minus ? pl_neg(p, x.unit) : x.unit;
@@ -398,29 +404,29 @@ const pl_form* pl_prod_form_with(pl_search* s, pl_prod x, bool fraction_first) {
   return minus ? pl_form_neg(s->a, r) : r;
 }
 
-const pl_form* pl_prod_form(pl_search* s, pl_prod x) {
+const pl_form* pl_prod_form(pl_present_search* s, pl_prod x) {
   return pl_prod_form_with(s, x, pl_prod_wants_fraction_first(s, x));
 }
 
 // ----------------------------------------------------------------------------------------- tidying
-static bool has_both_signs(pl_search* s, const pl_sum_terms* sum) {
+static bool has_both_signs(pl_present_search* s, const pl_sum_terms* sum) {
   int minus = 0;
   for (int i = 0; i < sum->n; i++) minus += pl_prod_is_negative(s, sum->at[i]);
   return minus > 0 && minus < sum->n;
 }
 
 // 1 - r cos φ/√(...) reads as a correction to 1 and is left as it is.
-static bool begins_with_one(pl_search* s, const pl_sum_terms* sum) {
+static bool begins_with_one(pl_present_search* s, const pl_sum_terms* sum) {
   return sum->at[0].n == 0 && pl_is_one_node(s->p, sum->at[0].unit);
 }
 
-static pl_prod negated_sum(pl_search* s, const pl_sum_terms* sum) {
+static pl_prod negated_sum(pl_present_search* s, const pl_sum_terms* sum) {
   pl_prod* terms = PL_ARRAY(s->a, pl_prod, sum->n);
   for (int i = 0; i < sum->n; i++) terms[i] = pl_prod_neg(s, sum->at[i]);
   return pl_prod_bracket(s, terms, sum->n);
 }
 
-static pl_prod without_piece(pl_search* s, pl_prod x, int i) {
+static pl_prod without_piece(pl_present_search* s, pl_prod x, int i) {
   pl_piece* at = PL_ARRAY(s->a, pl_piece, x.n);
   memcpy(at, x.at, (size_t)x.n * sizeof *at);
   memmove(at + i, at + i + 1, (size_t)(x.n - i - 1) * sizeof *at);
@@ -429,7 +435,7 @@ static pl_prod without_piece(pl_search* s, pl_prod x, int i) {
   return costed(s, x);
 }
 
-pl_prod pl_prod_flip(pl_search* s, pl_prod x) {
+pl_prod pl_prod_flip(pl_present_search* s, pl_prod x) {
   if (!pl_prod_is_negative(s, x)) return x;
   for (int i = 0; i < x.n; i++) {
     if (!x.at[i].sum || x.at[i].power % 2 == 0 || x.at[i].power < 0) continue;
@@ -440,7 +446,7 @@ pl_prod pl_prod_flip(pl_search* s, pl_prod x) {
   return x;
 }
 
-static int find_partner(pl_search* s, pl_prod x, int i) {
+static int find_partner(pl_present_search* s, pl_prod x, int i) {
   int partner = x.at[i].gen >= 0 ? s->t->gens.at[x.at[i].gen].partner : -1;
   for (int k = 0; partner >= 0 && k < x.n; k++)
     if (x.at[k].gen == partner) return k;
@@ -448,7 +454,7 @@ static int find_partner(pl_search* s, pl_prod x, int i) {
 }
 
 // sin^n / cos^n -> tan^n, cos^n / sin^n -> 1/tan^n; cos alone in the denominator stays.
-static pl_prod merge_tangent(pl_search* s, pl_prod x) {
+static pl_prod merge_tangent(pl_present_search* s, pl_prod x) {
   for (int i = 0; i < x.n; i++) {
     if (x.at[i].gen < 0 || s->t->gens.at[x.at[i].gen].kind != PL_G_SIN) continue;
     int k = find_partner(s, x, i);
@@ -469,7 +475,7 @@ static pl_prod merge_tangent(pl_search* s, pl_prod x) {
 static bool is_root(const pl_piece* f) { return f->base->kind == PL_F_ROOT; }
 
 // √A √B -> √(A B), √A/√B -> √(A/B): all plain roots of a product under one sign.
-static pl_prod merge_roots(pl_search* s, pl_prod x) {
+static pl_prod merge_roots(pl_present_search* s, pl_prod x) {
   forms above = {0}, below = {0};
   int first = -1, n = 0;
   for (int i = 0; i < x.n; i++) {
@@ -491,7 +497,7 @@ static pl_prod merge_roots(pl_search* s, pl_prod x) {
   return pl_prod_mul(s, x, pl_prod_piece(s, root, power));
 }
 
-static pl_prod with_root(pl_search* s, pl_prod x, int i, pl_prod inside) {
+static pl_prod with_root(pl_present_search* s, pl_prod x, int i, pl_prod inside) {
   pl_piece root = x.at[i];
   root.base = pl_form_root(s->a, pl_prod_form(s, inside));
   root.cost = COST_FUNCTION + COST_BRACKET + inside.cost;
@@ -501,7 +507,7 @@ static pl_prod with_root(pl_search* s, pl_prod x, int i, pl_prod inside) {
 
 // √(g l)/l -> √(g/l) and l/√(g l) -> √(l/g), for positive symbols on the other side of the line
 // that divide what stands under the root.
-static pl_prod divide_under_root(pl_search* s, pl_prod x) {
+static pl_prod divide_under_root(pl_present_search* s, pl_prod x) {
   pl_tower* t = s->t;
   for (int i = 0; i < x.n; i++) {
     int w = x.at[i].gen, side = x.at[i].power;
@@ -533,7 +539,7 @@ static pl_prod divide_under_root(pl_search* s, pl_prod x) {
 }
 
 // g l/√(g l) -> √(g l), where that is shorter.
-static pl_prod raise_roots(pl_search* s, pl_prod x) {
+static pl_prod raise_roots(pl_present_search* s, pl_prod x) {
   for (int i = 0; i < x.n; i++) {
     int w = x.at[i].gen;
     if (w < 0 || x.at[i].power >= 0 || s->t->gens.at[w].kind != PL_G_ROOT
@@ -547,6 +553,6 @@ static pl_prod raise_roots(pl_search* s, pl_prod x) {
   return x;
 }
 
-pl_prod pl_prod_tidy(pl_search* s, pl_prod x) {
+pl_prod pl_prod_tidy(pl_present_search* s, pl_prod x) {
   return merge_roots(s, divide_under_root(s, raise_roots(s, merge_tangent(s, x))));
 }

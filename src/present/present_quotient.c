@@ -8,14 +8,14 @@
 
 enum { MAX_PARTS = 8, MAX_SPLIT_TERMS = 150 };
 
-const pl_poly* pl_group_poly(pl_search* s, const pl_group* g) {
+const pl_poly* pl_group_poly(pl_present_search* s, const pl_term_group* g) {
   pl_tower* t = s->t;
   pl_poly* key = pl_poly_new(t);
   fmpz_mpoly_set_coeff_si_ui(key, 1, g->key, &t->ctx);
   return pl_poly_mul_free(t, key, g->coefficient);
 }
 
-pl_frac pl_frac_part(pl_search* s, pl_frac f, const pl_poly* part) {
+pl_frac pl_frac_part(pl_present_search* s, pl_frac f, const pl_poly* part) {
   if (f.n == 0 && fmpz_is_one(f.unit)) return pl_frac_poly(s->t, part);
   s->work += 2;
   return pl_frac_make(s->t, part, pl_frac_den(s->t, f));
@@ -23,7 +23,7 @@ pl_frac pl_frac_part(pl_search* s, pl_frac f, const pl_poly* part) {
 
 // ------------------------------------------------------------------------------------ denominators
 // The radicand that this base is: its root generator, or -1. l² - r² sin²φ beside √(l² - r² sin²φ).
-static int root_of_base(pl_search* s, const pl_poly* base) {
+static int root_of_base(pl_present_search* s, const pl_poly* base) {
   pl_tower* t = s->t;
   for (int g = 0; g < t->gens.n; g++) {
     const pl_gen* w = &t->gens.at[g];
@@ -32,7 +32,7 @@ static int root_of_base(pl_search* s, const pl_poly* base) {
   return -1;
 }
 
-static pl_prod denominator(pl_search* s, pl_frac f, int depth, bool as_roots) {
+static pl_prod denominator(pl_present_search* s, pl_frac f, int depth, bool as_roots) {
   pl_factored den = pl_factored_merge_pairs(s->t,
                                             (pl_factored){.unit = f.unit, .n = f.n, .at = f.den});
   pl_prod d = pl_prod_number(s, pl_fmpz_expr(s->t, den.unit));
@@ -53,7 +53,7 @@ static int power_of_gen(pl_prod x, int gen) {
 }
 
 // (sum)^k with every term divided by w.
-static pl_prod divided_sum(pl_search* s, const pl_piece* piece, int w) {
+static pl_prod divided_sum(pl_present_search* s, const pl_piece* piece, int w) {
   const pl_sum_terms* sum = piece->sum;
   pl_prod* terms = PL_ARRAY(s->a, pl_prod, sum->n);
   for (int i = 0; i < sum->n; i++) terms[i] = pl_prod_mul(s, sum->at[i], pl_prod_of_gen(s, w, -1));
@@ -66,7 +66,7 @@ static bool sum_contains(const pl_piece* piece, int w) {
   return false;
 }
 
-static pl_prod absorb_root(pl_search* s, pl_prod x, int w) {
+static pl_prod absorb_root(pl_present_search* s, pl_prod x, int w) {
   for (int i = 0; i < x.n; i++) {
     int k = x.at[i].power;
     if (k < 1 || !sum_contains(&x.at[i], w) || power_of_gen(x, w) > -k) continue;
@@ -77,14 +77,14 @@ static pl_prod absorb_root(pl_search* s, pl_prod x, int w) {
   return x;
 }
 
-static pl_prod absorb_roots(pl_search* s, pl_prod x) {
+static pl_prod absorb_roots(pl_present_search* s, pl_prod x) {
   for (int w = 0; w < s->t->gens.n; w++)
     if (s->t->gens.at[w].kind == PL_G_ROOT && power_of_gen(x, w) < 0) x = absorb_root(s, x, w);
   return x;
 }
 
 // The numerator with a factor w taken out for a radicand w² that is in the denominator.
-static bool cancel_root(pl_search* s, pl_frac f, pl_prod den, int depth, pl_prod* out) {
+static bool cancel_root(pl_present_search* s, pl_frac f, pl_prod den, int depth, pl_prod* out) {
   for (int i = 0; i < f.n; i++) {
     int w = root_of_base(s, pl_base_poly(s->t, f.den[i].base));
     const pl_poly* rest;
@@ -105,10 +105,10 @@ static bool cancels(pl_frac whole, pl_frac part) {
 }
 
 // The sum of the parts of f by the generators of one class, if at least one of them cancels.
-static bool split(pl_search* s, pl_frac f, pl_key_set set, int depth, pl_prod* out) {
+static bool split(pl_present_search* s, pl_frac f, pl_key_set set, int depth, pl_prod* out) {
   bool in[PL_MAX_GENERATORS] = {false};
   pl_key_mask(s, set, in);
-  pl_group* groups;
+  pl_term_group* groups;
   int n = pl_poly_group(s, f.num, in, &groups);
   if (n < 2 || n > MAX_PARTS) return false;
   pl_frac part[MAX_PARTS];
@@ -129,7 +129,7 @@ static bool split(pl_search* s, pl_frac f, pl_key_set set, int depth, pl_prod* o
 // -------------------------------------------------------------------------------------- whole part
 // The generators and numbers that divide the numerator, in *outside, and the one factor that is
 // left; NULL if there are several.
-static const pl_poly* split_content(pl_search* s, const pl_poly* num, pl_prod* outside) {
+static const pl_poly* split_content(pl_present_search* s, const pl_poly* num, pl_prod* outside) {
   pl_tower* t = s->t;
   pl_factored f = pl_poly_factor(t, num);
   const pl_poly* rest = NULL;
@@ -144,7 +144,7 @@ static const pl_poly* split_content(pl_search* s, const pl_poly* num, pl_prod* o
 }
 
 // Term i of a over term j of b, if it is an integer times a monomial; NULL.
-static const pl_poly* term_ratio(pl_search* s, const pl_poly* a, slong i, const pl_poly* b,
+static const pl_poly* term_ratio(pl_present_search* s, const pl_poly* a, slong i, const pl_poly* b,
                                  slong j) {
   pl_tower* t = s->t;
   ulong x[PL_MAX_GENERATORS] = {0}, y[PL_MAX_GENERATORS] = {0};
@@ -166,7 +166,7 @@ enum { MAX_DIVIDED_TERMS = 12 };
 
 // (D - 2 B)/D = 1 - 2 B/D: the one-term multiple of the denominator that leaves the least of the
 // numerator stands by itself.
-static bool whole_part(pl_search* s, pl_frac f, int depth, pl_prod* out) {
+static bool whole_part(pl_present_search* s, pl_frac f, int depth, pl_prod* out) {
   pl_tower* t = s->t;
   pl_prod outside;
   const pl_poly* num = split_content(s, f.num, &outside);
@@ -196,7 +196,7 @@ static bool whole_part(pl_search* s, pl_frac f, int depth, pl_prod* out) {
 // ------------------------------------------------------------------------------------- reciprocals
 // m1 m2 m3/(m1 m2 + m1 m3 + m2 m3) = 1/(1/m1 + 1/m2 + 1/m3), m2 m3/(...) = 1/(m1/m2 + m1/m3 + 1),
 // for three terms and more: of two masses one writes the product over the sum.
-static bool reciprocals(pl_search* s, pl_frac f, pl_prod whole, pl_prod* out) {
+static bool reciprocals(pl_present_search* s, pl_frac f, pl_prod whole, pl_prod* out) {
   pl_tower* t = s->t;
   const pl_poly* den = f.n == 1 && f.den[0].power == 1 ? pl_base_poly(t, f.den[0].base) : NULL;
   if (!den || den->length < 3 || den->length > 6 || f.num->length != 1) return false;
@@ -228,7 +228,7 @@ static bool reciprocals(pl_search* s, pl_frac f, pl_prod whole, pl_prod* out) {
 
 static pl_prod smaller(pl_prod x, pl_prod y) { return y.cost < x.cost ? y : x; }
 
-pl_prod pl_present_quotient(pl_search* s, pl_frac f, int depth) {
+pl_prod pl_present_quotient(pl_present_search* s, pl_frac f, int depth) {
   pl_prod n = pl_present_poly(s, f.num, depth);
   pl_prod best = pl_prod_tidy(
       s, pl_prod_mul(s, n, pl_prod_pow(s, denominator(s, f, depth, false), -1)));

@@ -14,7 +14,7 @@
 enum { MAX_STYLE_TERMS = 60 };
 
 typedef struct term_list {
-  pl_search* s;
+  pl_present_search* s;
   int n;
   pl_prod at[MAX_STYLE_TERMS];
   bool full;
@@ -75,7 +75,7 @@ static bool has_pure_number(const pl_sum_terms* sum) {
   return false;
 }
 
-static pl_prod times_rest(pl_search* s, pl_prod x, int i, pl_prod y) {
+static pl_prod times_rest(pl_present_search* s, pl_prod x, int i, pl_prod y) {
   pl_prod rest = pl_prod_mul(s, x, pl_prod_piece(s, x.at[i], -x.at[i].power));
   return pl_prod_mul(s, rest, y);
 }
@@ -83,7 +83,7 @@ static pl_prod times_rest(pl_search* s, pl_prod x, int i, pl_prod y) {
 // Adds a(b + c) as a b + a c where the bracket is a plain sum of quantities; m g l (1 - cos θ) and
 // (m1 + m2) g stay.
 static void put_distributed(term_list* l, pl_prod x) {
-  pl_search* s = l->s;
+  pl_present_search* s = l->s;
   int i = only_sum(x);
   bool keep = i < 0 || has_pure_number(x.at[i].sum) || x.at[i].bucket < PL_K_PARAM_SUM
               || x.at[i].sum->n > 6;
@@ -102,8 +102,9 @@ typedef struct style_group {
 
 // f by its monomials in the generators in[]: the part that goes with each, with the monomial or
 // without. 0 if there are too many.
-static int groups_of(pl_search* s, pl_frac f, const bool* in, bool with_key, style_group* out) {
-  pl_group* groups;
+static int groups_of(pl_present_search* s, pl_frac f, const bool* in, bool with_key,
+                     style_group* out) {
+  pl_term_group* groups;
   int n = pl_poly_group(s, f.num, in, &groups);
   if (n > MAX_STYLE_TERMS) return 0;
   for (int i = 0; i < n; i++) {
@@ -114,13 +115,13 @@ static int groups_of(pl_search* s, pl_frac f, const bool* in, bool with_key, sty
   return n;
 }
 
-static bool is_unit_key(pl_search* s, const ulong* key) {
+static bool is_unit_key(pl_present_search* s, const ulong* key) {
   for (int g = 0; g < s->t->gens.n; g++)
     if (key[g]) return false;
   return true;
 }
 
-static void mask_of(pl_search* s, const pl_key_set* sets, int n, bool* in) {
+static void mask_of(pl_present_search* s, const pl_key_set* sets, int n, bool* in) {
   bool one[PL_MAX_GENERATORS];
   memset(in, 0, PL_MAX_GENERATORS * sizeof *in);
   for (int k = 0; k < n; k++) {
@@ -132,7 +133,7 @@ static void mask_of(pl_search* s, const pl_key_set* sets, int n, bool* in) {
 
 // -------------------------------------------------------------------------- energies and equations
 static void put_by_mass(term_list* l, pl_frac f, pl_prod key, int depth) {
-  pl_search* s = l->s;
+  pl_present_search* s = l->s;
   static const pl_key_set by_mass[] = {PL_KEY_MASS};
   bool in[PL_MAX_GENERATORS];
   mask_of(s, by_mass, 1, in);
@@ -146,7 +147,7 @@ static void put_by_mass(term_list* l, pl_frac f, pl_prod key, int depth) {
 // Everything that goes with one monomial of velocities: one term, or one for each mass when that is
 // more than a reader takes in at once.
 static void put_kinetic(term_list* l, pl_frac f, const ulong* key, int depth) {
-  pl_search* s = l->s;
+  pl_present_search* s = l->s;
   pl_prod monomial = pl_prod_of_exponents(s, pl_int(s->p, 1), key);
   pl_prod whole = pl_prod_mul(s, monomial, pl_present_quotient(s, f, depth));
   if (is_overloaded(whole)) put_by_mass(l, f, monomial, depth);
@@ -155,7 +156,7 @@ static void put_kinetic(term_list* l, pl_frac f, const ulong* key, int depth) {
 
 static void put_parts(term_list* l, pl_frac f, const pl_key_set* sets, int n_sets, bool distribute,
                       int depth) {
-  pl_search* s = l->s;
+  pl_present_search* s = l->s;
   bool in[PL_MAX_GENERATORS];
   mask_of(s, sets, n_sets, in);
   style_group group[MAX_STYLE_TERMS];
@@ -204,7 +205,7 @@ static void put_static(term_list* l, pl_frac f, int depth) {
     for (int i = 0; i < best->n; i++) put(l, best->at[i]);
 }
 
-static int motion_rank(pl_search* s, const pl_prod* x) {
+static int motion_rank(pl_present_search* s, const pl_prod* x) {
   // squares and products of velocities of two coordinates: the squares first, then the products,
   // then what is linear
   int pieces = 0, total = 0;
@@ -219,7 +220,7 @@ static int motion_rank(pl_search* s, const pl_prod* x) {
 
 // The coordinate that moves in a term: terms stand in the order in which the model declares its
 // coordinates.
-static uint32_t moving_coordinate(pl_search* s, const pl_prod* x) {
+static uint32_t moving_coordinate(pl_present_search* s, const pl_prod* x) {
   for (int i = 0; i < x->n; i++) {
     if (x->at[i].bucket != PL_K_VELOCITY && x->at[i].bucket != PL_K_ACCELERATION) continue;
     if (!x->at[i].lead.id) return 0;
@@ -229,7 +230,7 @@ static uint32_t moving_coordinate(pl_search* s, const pl_prod* x) {
   return 0;
 }
 
-static bool goes_before(pl_search* s, const pl_prod* x, const pl_prod* y) {
+static bool goes_before(pl_present_search* s, const pl_prod* x, const pl_prod* y) {
   int rx = motion_rank(s, x), ry = motion_rank(s, y);
   if (s->style == PL_S_EQUATION) {
     int mx = pl_prod_motion(s, *x), my = pl_prod_motion(s, *y);
@@ -263,9 +264,9 @@ static void avoid_leading_minus(term_list* l) {
 }
 
 // ---------------------------------------------------------------------------------------------- ½
-static pl_expr half(pl_search* s) { return pl_ratio(s->p, 1, 2); }
+static pl_expr half(pl_present_search* s) { return pl_ratio(s->p, 1, 2); }
 
-static bool is_half(pl_search* s, pl_prod x) {
+static bool is_half(pl_present_search* s, pl_prod x) {
   pl_expr size = pl_prod_is_negative(s, x) ? pl_neg(s->p, x.unit) : x.unit;
   return pl_same(size, half(s));
 }
@@ -286,7 +287,7 @@ static bool mass_takes_half(term_list* l) {
 }
 
 // m1/2 r² φ'²: the ½ under the first factor.
-static const pl_form* halved_first_factor(pl_search* s, pl_prod x) {
+static const pl_form* halved_first_factor(pl_present_search* s, pl_prod x) {
   bool minus = pl_prod_is_negative(s, x);
   x.unit = pl_int(s->p, 1);
   const pl_form* f = pl_prod_form(s, x);
@@ -299,7 +300,7 @@ static const pl_form* halved_first_factor(pl_search* s, pl_prod x) {
 }
 
 static const pl_form* energy_form(term_list* l) {
-  pl_search* s = l->s;
+  pl_present_search* s = l->s;
   bool into_mass = mass_takes_half(l);
   const pl_form** f = PL_ARRAY(s->a, const pl_form*, l->n);
   for (int i = 0; i < l->n; i++) {
@@ -311,7 +312,7 @@ static const pl_form* energy_form(term_list* l) {
   return l->n == 1 ? f[0] : pl_form_sum(s->a, f, l->n);
 }
 
-static bool moving_denominator(pl_search* s, pl_frac f) {
+static bool moving_denominator(pl_present_search* s, pl_frac f) {
   for (int i = 0; i < f.n; i++) {
     int use[PL_MAX_GENERATORS], n = 0;
     pl_poly_used(s->t, pl_base_poly(s->t, f.den[i].base), use, &n);
@@ -322,7 +323,7 @@ static bool moving_denominator(pl_search* s, pl_frac f) {
 }
 
 // A product that is the whole formula: -(a + b) becomes -a - b.
-static const pl_form* whole_form(pl_search* s, pl_prod x) {
+static const pl_form* whole_form(pl_present_search* s, pl_prod x) {
   bool bare = x.n == 1 && x.at[0].sum && x.at[0].power == 1
               && pl_is_one_node(s->p, pl_neg(s->p, x.unit));
   if (!bare) return pl_prod_form(s, x);
@@ -335,7 +336,7 @@ static const pl_form* whole_form(pl_search* s, pl_prod x) {
   return pl_terms_form(s, terms, sum->n);
 }
 
-static const pl_form* plain(pl_search* s, pl_frac f, int depth, long* cost) {
+static const pl_form* plain(pl_present_search* s, pl_frac f, int depth, long* cost) {
   pl_prod x = pl_prod_flip(s, pl_present_quotient(s, f, depth));
   *cost = x.cost;
   return whole_form(s, x);
@@ -343,7 +344,7 @@ static const pl_form* plain(pl_search* s, pl_frac f, int depth, long* cost) {
 
 // The terms of f whose highest derivative is `order`: 2 accelerations, 1 velocities and momenta, 0
 // the rest.
-static const pl_poly* terms_of_order(pl_search* s, const pl_poly* f, int order) {
+static const pl_poly* terms_of_order(pl_present_search* s, const pl_poly* f, int order) {
   pl_tower* t = s->t;
   pl_poly* part = pl_poly_new(t);
   ulong exponent[PL_MAX_GENERATORS];
@@ -372,7 +373,7 @@ static bool is_product_of_sums(pl_prod x) {
 // A part of an equation written in products of brackets, as constraints of distances differentiated
 // twice are: 2 (x1 - x2) (x1'' - x2'') + 2 (y1 - y2) (y1'' - y2''), when all of it can be.
 static bool put_products(term_list* l, pl_frac part, int depth) {
-  pl_search* s = l->s;
+  pl_present_search* s = l->s;
   pl_prod x = pl_present_quotient(s, part, depth);
   int i = only_sum(x);
   if (i < 0 || is_product_of_sums(x)) {
@@ -389,7 +390,7 @@ static bool put_products(term_list* l, pl_frac part, int depth) {
 
 // f by monomials of accelerations and velocities, one term each.
 static void put_by_motion(term_list* l, pl_frac f, int depth) {
-  pl_search* s = l->s;
+  pl_present_search* s = l->s;
   static const pl_key_set motion[] = {PL_KEY_MOTION};
   bool in[PL_MAX_GENERATORS];
   mask_of(s, motion, 1, in);
@@ -402,7 +403,7 @@ static void put_by_motion(term_list* l, pl_frac f, int depth) {
   }
 }
 
-static const pl_form* by_motion(pl_search* s, pl_frac f, int depth, long* cost) {
+static const pl_form* by_motion(pl_present_search* s, pl_frac f, int depth, long* cost) {
   if (moving_denominator(s, f)) return plain(s, f, depth, cost);
   term_list l = {.s = s};
   if (s->style == PL_S_ENERGY) {
@@ -425,7 +426,7 @@ static const pl_form* by_motion(pl_search* s, pl_frac f, int depth, long* cost) 
 // --------------------------------------------------------------------------------------- quotients
 // m (g cos ϑ - R ϑ'²) -> m g cos ϑ - m R ϑ'²: forces of different kind under one short factor, no
 // denominator.
-static bool is_sum_of_forces(pl_search* s, pl_prod x, int* bracket) {
+static bool is_sum_of_forces(pl_present_search* s, pl_prod x, int* bracket) {
   int i = only_sum(x);
   if (i < 0 || pl_prod_has_denominator(x) || x.n > 3 || x.at[i].sum->n > 3) return false;
   const pl_sum_terms* sum = x.at[i].sum;
@@ -442,7 +443,7 @@ static bool is_sum_of_forces(pl_search* s, pl_prod x, int* bracket) {
   return differ && plain_front && x.n > 1;
 }
 
-static const pl_form* quotient(pl_search* s, pl_frac f, int depth, long* cost) {
+static const pl_form* quotient(pl_present_search* s, pl_frac f, int depth, long* cost) {
   pl_prod x = pl_prod_flip(s, pl_present_quotient(s, f, depth));
   *cost = x.cost;
   int i;
@@ -457,7 +458,7 @@ static const pl_form* quotient(pl_search* s, pl_frac f, int depth, long* cost) {
 // --------------------------------------------------------------------------------------- solutions
 enum { LAST_RANK = 40 };
 
-static long time_rank(pl_search* s, const ulong* key) {
+static long time_rank(pl_present_search* s, const ulong* key) {
   long power = 0;
   for (int g = 0; g < s->t->gens.n; g++) {
     if (!key[g]) continue;
@@ -478,7 +479,7 @@ static void start_first(term_list* l) {
   }
 }
 
-static const pl_form* by_time(pl_search* s, pl_frac f, int depth, long* cost) {
+static const pl_form* by_time(pl_present_search* s, pl_frac f, int depth, long* cost) {
   bool in[PL_MAX_GENERATORS] = {false};
   pl_key_mask(s, PL_KEY_TIME, in);
   for (int i = 0; i < f.n; i++) {
@@ -502,7 +503,7 @@ static const pl_form* by_time(pl_search* s, pl_frac f, int depth, long* cost) {
   return pl_terms_form(s, l.at, l.n);
 }
 
-const pl_form* pl_present_styled(pl_search* s, pl_frac f, int depth, long* cost) {
+const pl_form* pl_present_styled(pl_present_search* s, pl_frac f, int depth, long* cost) {
   if (pl_poly_is_zero(s->t, f.num)) {
     *cost = 0;
     return pl_form_leaf(s->a, pl_int(s->p, 0));

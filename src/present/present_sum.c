@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-int pl_prod_motion(pl_search* s, pl_prod x) {
+int pl_prod_motion(pl_present_search* s, pl_prod x) {
   int accelerations = 0, velocities = 0;
   for (int i = 0; i < x.n; i++) {
     if (x.at[i].bucket == PL_K_ACCELERATION) accelerations += abs(x.at[i].power);
@@ -17,12 +17,12 @@ int pl_prod_motion(pl_search* s, pl_prod x) {
   return accelerations * 100 + velocities;
 }
 
-static int compare_piece(pl_search* s, const pl_piece* x, const pl_piece* y) {
+static int compare_piece(pl_present_search* s, const pl_piece* x, const pl_piece* y) {
   int c = pl_piece_compare(s, x, y);
   return c ? c : (x->power < y->power) - (x->power > y->power);
 }
 
-int pl_terms_compare(pl_search* s, const pl_prod* x, const pl_prod* y) {
+int pl_terms_compare(pl_present_search* s, const pl_prod* x, const pl_prod* y) {
   int mx = pl_prod_motion(s, *x), my = pl_prod_motion(s, *y);
   if (mx != my) return mx > my ? -1 : 1;
   // what stands above the line decides
@@ -43,7 +43,7 @@ int pl_terms_compare(pl_search* s, const pl_prod* x, const pl_prod* y) {
 }
 
 // The first run of positive terms to the front, if the sum begins with a minus.
-static void positive_first(pl_search* s, pl_prod* terms, int n) {
+static void positive_first(pl_present_search* s, pl_prod* terms, int n) {
   int begin = 0;
   while (begin < n && pl_prod_is_negative(s, terms[begin])) begin++;
   if (begin == 0 || begin == n) return;
@@ -55,7 +55,7 @@ static void positive_first(pl_search* s, pl_prod* terms, int n) {
   memcpy(terms + (end - begin), old, (size_t)begin * sizeof *old);
 }
 
-void pl_terms_sort(pl_search* s, pl_prod* terms, int n) {
+void pl_terms_sort(pl_present_search* s, pl_prod* terms, int n) {
   // insertion keeps equal terms in place, and sums on paper are short
   for (int i = 1; i < n; i++) {
     pl_prod x = terms[i];
@@ -66,7 +66,7 @@ void pl_terms_sort(pl_search* s, pl_prod* terms, int n) {
   positive_first(s, terms, n);
 }
 
-const pl_form* pl_terms_form(pl_search* s, const pl_prod* terms, int n) {
+const pl_form* pl_terms_form(pl_present_search* s, const pl_prod* terms, int n) {
   if (n == 0) return pl_form_leaf(s->a, pl_int(s->p, 0));
   // the terms of one sum agree on where their fractions stand
   bool first = false;
@@ -76,7 +76,7 @@ const pl_form* pl_terms_form(pl_search* s, const pl_prod* terms, int n) {
   return n == 1 ? f[0] : pl_form_sum(s->a, f, n);
 }
 
-const pl_form* pl_piece_base(pl_search* s, const pl_piece* piece) {
+const pl_form* pl_piece_base(pl_present_search* s, const pl_piece* piece) {
   const pl_sum_terms* sum = piece->sum;
   if (!sum || sum->form != piece->base || sum->form->n > 0) return piece->base;
   *sum->form = *pl_terms_form(s, sum->at, sum->n);
@@ -89,7 +89,7 @@ typedef struct sum_census {
   unsigned buckets;
 } sum_census;
 
-static void count_pieces(pl_search* s, pl_prod x, sum_census* c) {
+static void count_pieces(pl_present_search* s, pl_prod x, sum_census* c) {
   for (int i = 0; i < x.n; i++) {
     const pl_piece* f = &x.at[i];
     if (f->sum) {
@@ -107,7 +107,7 @@ static void count_pieces(pl_search* s, pl_prod x, sum_census* c) {
 
 // Where a bracket stands among the factors: (m1 + m2) with the masses, (m1 + m2 sin²θ) before what
 // it multiplies, (l0 + x) with the coordinates, the rest last.
-static pl_bucket bucket_of_sum(pl_search* s, const pl_prod* terms, int n) {
+static pl_bucket bucket_of_sum(pl_present_search* s, const pl_prod* terms, int n) {
   sum_census c = {0};
   for (int i = 0; i < n; i++) count_pieces(s, terms[i], &c);
   if (c.motion) return PL_K_SUM;
@@ -126,7 +126,7 @@ static pl_symbol lead_of(const pl_prod* terms, int n) {
   return (pl_symbol){0};
 }
 
-pl_prod pl_prod_bracket(pl_search* s, const pl_prod* given, int n) {
+pl_prod pl_prod_bracket(pl_present_search* s, const pl_prod* given, int n) {
   pl_prod* terms = PL_ARRAY(s->a, pl_prod, n);
   memcpy(terms, given, (size_t)n * sizeof *terms);
   pl_terms_sort(s, terms, n);
@@ -147,7 +147,7 @@ pl_prod pl_prod_bracket(pl_search* s, const pl_prod* given, int n) {
 }
 
 // 0.5 m, (2 kg) (3 m/s²): numbers with units and nothing else.
-static bool is_measured_number(pl_search* s, const pl_prod* x) {
+static bool is_measured_number(pl_present_search* s, const pl_prod* x) {
   for (int i = 0; i < x->n; i++) {
     pl_symbol lead = x->at[i].lead;
     if (x->at[i].sum || !lead.id || pl_is_poison(pl_symbol_get(s->p, lead)->number)) return false;
@@ -156,7 +156,7 @@ static bool is_measured_number(pl_search* s, const pl_prod* x) {
 }
 
 // The term that comes first by K5, before any minus is avoided: w - 0.5 m begins with w.
-static int leading_term(pl_search* s, const pl_prod* terms, int n) {
+static int leading_term(pl_present_search* s, const pl_prod* terms, int n) {
   int first = 0;
   for (int i = 1; i < n; i++) {
     bool number = is_measured_number(s, &terms[i]),
@@ -167,7 +167,7 @@ static int leading_term(pl_search* s, const pl_prod* terms, int n) {
   return first;
 }
 
-pl_prod pl_prod_sum(pl_search* s, const pl_prod* given, int n) {
+pl_prod pl_prod_sum(pl_present_search* s, const pl_prod* given, int n) {
   if (n == 0) return pl_prod_number(s, pl_int(s->p, 0));
   if (n == 1) return given[0];
   if (!pl_prod_is_negative(s, given[leading_term(s, given, n)]))
@@ -178,7 +178,7 @@ pl_prod pl_prod_sum(pl_search* s, const pl_prod* given, int n) {
 }
 
 // Plain numbers come from several terms: 2 sin²a is 1 - cos(2 a).  They are one term, or none.
-void pl_terms_add(pl_search* s, pl_prod x, pl_prod* terms, int* n) {
+void pl_terms_add(pl_present_search* s, pl_prod x, pl_prod* terms, int* n) {
   for (int i = 0; x.n == 0 && i < *n; i++) {
     if (terms[i].n != 0) continue;
     pl_expr sum = pl_add(s->p, terms[i].unit, x.unit);
@@ -189,7 +189,7 @@ void pl_terms_add(pl_search* s, pl_prod x, pl_prod* terms, int* n) {
   terms[(*n)++] = x;
 }
 
-void pl_terms_put(pl_search* s, pl_prod x, pl_prod* terms, int* n) {
+void pl_terms_put(pl_present_search* s, pl_prod x, pl_prod* terms, int* n) {
   bool bare = x.n == 1 && x.at[0].sum && x.at[0].power == 1 && x.at[0].sum->n <= PL_OPENED_TERMS;
   bool one = pl_is_one_node(s->p, x.unit), minus_one = pl_is_one_node(s->p, pl_neg(s->p, x.unit));
   if (!bare || (!one && !minus_one)) {

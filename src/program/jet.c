@@ -25,7 +25,7 @@ static void list_series(pl_jet* j, pl_arena* a, int level) {
 // The interpreter for this processor.  All builds give the same bits.
 pl_kernel pl_jet_interpret_plain, pl_jet_interpret_avx2, pl_jet_interpret_avx512;
 
-void pl_jet_interpret(pl_jet* j, pl_tape_level level, int k, bool all) {
+static void interpret(pl_jet* j, pl_tape_level level, int k, bool all) {
 #ifdef PL_KERNELS_BY_PROCESSOR
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl")
       && __builtin_cpu_supports("avx512dq"))
@@ -69,7 +69,7 @@ static pl_jet* make(pl_arena* a, const pl_tape* tape, int lanes, int orders, boo
     rows += (size_t)room(tape, i, orders, lean, summed[i]);
   }
   j->c = PL_ARRAY(a, double, (size_t)lanes* rows + 1);
-  j->kernel = pl_jet_interpret;
+  j->kernel = interpret;
   for (int level = 0; level < PL_N_LEVELS; level++) list_series(j, a, level);
   return j;
 }

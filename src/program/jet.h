@@ -50,7 +50,4 @@ void pl_jet_constants(pl_jet* j, const double* index);
 // pl_jet_time sets t and its derivative 1 in all lanes and orders.
 void pl_jet_time(pl_jet* j, double t);
 
-// The interpreter.
-void pl_jet_interpret(pl_jet* j, pl_tape_level level, int k, bool all);
-
 #endif

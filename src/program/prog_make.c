@@ -10,12 +10,6 @@ const char* const pl_prog_op_name[PL_N_PROG_OPS] = {
 #undef PL_PROG
 };
 
-const int pl_prog_op_reads[PL_N_PROG_OPS] = {
-#define PL_PROG(name, reads, meaning) reads,
-#include "program/prog.def"
-#undef PL_PROG
-};
-
 pl_prog* pl_prog_make(pl_arena* a, const char* name, int width) {
   pl_prog* c = PL_NEW(a, pl_prog);
   c->arena = a;
@@ -144,18 +138,4 @@ uint64_t pl_prog_hash(const pl_prog* c, uint64_t seed) {
     h = pl_hash_bytes(parts, sizeof parts, h);
   }
   return h;
-}
-
-void pl_prog_dump(pl_text* out, const pl_prog* c) {
-  pl_text_addf(out, "%s: width %d, %d registers, %d pairs\n", c->name, c->width, c->n_registers,
-               c->pairs.n);
-  for (int i = 0; i < c->lines.n; i++) {
-    const pl_prog_line* l = &c->lines.at[i];
-    pl_text_addf(out, "  r%d = %s", l->d, pl_prog_op_name[l->op]);
-    int operands[] = {l->a, l->b, l->c, l->e};
-    for (int o = 0; o < pl_prog_op_reads[l->op]; o++) pl_text_addf(out, " r%d", operands[o]);
-    if (l->op == PL_PROG_NUMBER) pl_text_addf(out, " %.17g", l->value);
-    else if (l->op <= PL_PROG_ORDER) pl_text_addf(out, " m[%d + %d k]", l->at, l->by);
-    pl_text_add(out, "\n");
-  }
 }

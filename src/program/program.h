@@ -32,7 +32,6 @@ typedef enum pl_prog_op {
   PL_N_PROG_OPS
 } pl_prog_op;
 extern const char* const pl_prog_op_name[PL_N_PROG_OPS];
-extern const int pl_prog_op_reads[PL_N_PROG_OPS];
 
 // Functions of the C library.
 typedef enum pl_prog_function {
@@ -111,7 +110,6 @@ void pl_prog_sum_lanes(pl_prog* c, int lanes);  // of the sum at work
 void pl_prog_sum_scale(pl_prog* c, int scale, int rest);
 void pl_prog_product_add(pl_prog* c, int to, int matrix, int vector, int n, int late, int blocks);
 uint64_t pl_prog_hash(const pl_prog* c, uint64_t seed);
-void pl_prog_dump(pl_text* out, const pl_prog* c);
 
 // ---- prog_run.c: the interpreter
 void pl_prog_interpret(const pl_prog* c, double* memory, int from, int to);

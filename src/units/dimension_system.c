@@ -66,7 +66,7 @@ static bool is_sound(const pl_dim_form* a) {
   return true;
 }
 
-const pl_dim_form* pl_dim_resolve(pl_dim_system* s, const pl_dim_form* a) {
+static const pl_dim_form* resolve(pl_dim_system* s, const pl_dim_form* a) {
   const pl_dim_form* start = a;
   for (int i = 0; i < a->n;) {
     const pl_dim_var* v = &s->vars.at[a->part[i].var];
@@ -108,7 +108,7 @@ static int pivot_of(const pl_dim_system* s, const pl_dim_form* d) {
 }
 
 bool pl_dim_unify(pl_dim_system* s, const pl_dim_form* a, const pl_dim_form* b, pl_span reason) {
-  const pl_dim_form* d = pl_dim_resolve(s, pl_dim_combine(s, a, (pl_fraction){-1, 1}, b));
+  const pl_dim_form* d = resolve(s, pl_dim_combine(s, a, (pl_fraction){-1, 1}, b));
   if (!is_sound(d)) return true;  // exponents beyond any physics: nothing can be said
   if (d->n == 0) return pl_exponents_are_zero(d->fixed);
 
@@ -133,6 +133,6 @@ bool pl_dim_unify(pl_dim_system* s, const pl_dim_form* a, const pl_dim_form* b, 
 }
 
 bool pl_dim_known(pl_dim_system* s, const pl_dim_form* a, pl_dimension* out) {
-  const pl_dim_form* d = pl_dim_resolve(s, a);
+  const pl_dim_form* d = resolve(s, a);
   return d->n == 0 && pl_exponents_get_dimension(d->fixed, out);
 }

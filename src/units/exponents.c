@@ -51,10 +51,6 @@ pl_fraction pl_fraction_mul(pl_fraction a, pl_fraction b) {
   return pl_fraction_make(num, den);
 }
 
-pl_fraction pl_fraction_neg(pl_fraction a) {
-  return pl_fraction_valid(a) ? (pl_fraction){-a.num, a.den} : undefined;
-}
-
 pl_fraction pl_fraction_div(pl_fraction a, pl_fraction b) {
   if (!pl_fraction_valid(a) || !pl_fraction_valid(b) || b.num == 0) return undefined;
   return pl_fraction_mul(a, pl_fraction_make(b.den, b.num));

@@ -56,7 +56,6 @@ bool pl_fraction_valid(pl_fraction a);
 pl_fraction pl_fraction_make(int64_t num, int64_t den);
 pl_fraction pl_fraction_add(pl_fraction a, pl_fraction b);
 pl_fraction pl_fraction_mul(pl_fraction a, pl_fraction b);
-pl_fraction pl_fraction_neg(pl_fraction a);
 pl_fraction pl_fraction_div(pl_fraction a, pl_fraction b);
 pl_exponents pl_exponents_zero(void);
 pl_exponents pl_exponents_add(pl_exponents a, pl_fraction f, pl_exponents b);  // a + f b
@@ -102,7 +101,6 @@ const pl_dim_form* pl_dim_fixed(pl_dim_system* s, pl_exponents d);
 const pl_dim_form* pl_dim_unknown(pl_dim_system* s, int var);
 const pl_dim_form* pl_dim_combine(pl_dim_system* s, const pl_dim_form* a, pl_fraction f,
                                   const pl_dim_form* b);  // a B^f
-const pl_dim_form* pl_dim_resolve(pl_dim_system* s, const pl_dim_form* a);
 // Makes a and b equal.  false: they cannot be.
 bool pl_dim_unify(pl_dim_system* s, const pl_dim_form* a, const pl_dim_form* b, pl_span reason);
 // resolves; false: still unknown

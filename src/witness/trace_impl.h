@@ -10,7 +10,6 @@
 
 // trace_model.c
 pl_model* pl_trace_marked(pl_job* job, const pl_model* m, pl_expr meet);
-bool pl_trace_is_given(const pl_model* m, pl_expr atom, bool velocity);
 pl_model* pl_trace_random_start(pl_job* job, pl_model* m, const pl_trace* beside, uint64_t seed);
 pl_model* pl_trace_open_start(pl_job* job, pl_model* m);
 pl_model* pl_trace_closed(pl_job* job, pl_model* m);  // without `init`: contacts hold

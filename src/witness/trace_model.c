@@ -230,28 +230,8 @@ pl_model* pl_trace_random_start(pl_job* job, pl_model* m, const pl_trace* beside
   return out;
 }
 
-// Coordinates of which nothing is known start somewhere: zero is a singular place of many
-// coordinates.
-pl_model* pl_trace_open_start(pl_job* job, pl_model* m) {
-  pl_model* out = pl_trace_copy(job->arena, m);
-  pl_drawn_state s = draw_state(job, m, NULL, 0x73746172);
-  follow_maps(job, m, &s);
-  for (int i = 0; i < s.flat.n; i++) {
-    if (!pl_trace_is_given(m, s.flat.at[i], false)) guess(job, out, s.flat.at[i], false, s.q[i]);
-    if (!pl_trace_is_given(m, s.flat.at[i], true)) guess(job, out, s.flat.at[i], true, s.v[i]);
-  }
-  return out;
-}
-
-pl_model* pl_trace_marked(pl_job* job, const pl_model* m, pl_expr meet) {
-  pl_model* out = pl_trace_copy(job->arena, m);
-  pl_event mark = {.name = {.text = PL_TRACE_MARK, .ascii = PL_TRACE_MARK}, .value = meet};
-  pl_push(job->arena, out->events, mark);
-  return out;
-}
-
 // Whether `init` speaks of a coordinate or of its velocity; of families it is taken to.
-bool pl_trace_is_given(const pl_model* m, pl_expr atom, bool velocity) {
+static bool is_given(const pl_model* m, pl_expr atom, bool velocity) {
   pl_pool* p = m->pool;
   for (int i = 0; i < m->inits.n; i++) {
     pl_expr target = m->inits.at[i].target;
@@ -268,6 +248,26 @@ bool pl_trace_is_given(const pl_model* m, pl_expr atom, bool velocity) {
     if (pl_symbol_of(p, target).id == s.id) return true;
   }
   return false;
+}
+
+// Coordinates of which nothing is known start somewhere: zero is a singular place of many
+// coordinates.
+pl_model* pl_trace_open_start(pl_job* job, pl_model* m) {
+  pl_model* out = pl_trace_copy(job->arena, m);
+  pl_drawn_state s = draw_state(job, m, NULL, 0x73746172);
+  follow_maps(job, m, &s);
+  for (int i = 0; i < s.flat.n; i++) {
+    if (!is_given(m, s.flat.at[i], false)) guess(job, out, s.flat.at[i], false, s.q[i]);
+    if (!is_given(m, s.flat.at[i], true)) guess(job, out, s.flat.at[i], true, s.v[i]);
+  }
+  return out;
+}
+
+pl_model* pl_trace_marked(pl_job* job, const pl_model* m, pl_expr meet) {
+  pl_model* out = pl_trace_copy(job->arena, m);
+  pl_event mark = {.name = {.text = PL_TRACE_MARK, .ascii = PL_TRACE_MARK}, .value = meet};
+  pl_push(job->arena, out->events, mark);
+  return out;
 }
 
 // The start that `from` names: its conditions with a coordinate or velocity on the left, at rest or

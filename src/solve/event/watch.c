@@ -208,7 +208,7 @@ enum { MOST_ROOTS = 16 };
 // The first root that counts, in units of the step; -1 none.  m leading coefficients are zero.
 static double first_that_counts(pl_run* run, const pl_watch* w, double h, const double* c, int n,
                                 int m, double noise, bool* touches) {
-  pl_root root[MOST_ROOTS];
+  pl_real_root root[MOST_ROOTS];
   // known from its own velocity, however small it is
   bool bounced = w->fresh == 1
                  && (w->kind == PL_WATCH_LANDING
