@@ -156,11 +156,15 @@ static pl_frac convert_call2(pl_tower* t, pl_function f, pl_expr a, pl_expr b) {
   return pl_kind_of(t->pool, call) == PL_CALL ? pl_formal(t, call) : pl_convert(t, call);
 }
 
-// asin, acos, atan of a normalised argument; the odd ones with a normalised sign, acos(-u) = π -
+static bool is_odd(pl_pool* p, pl_function f, pl_expr a) {
+  return pl_same(pl_call(p, f, pl_neg(p, a)), pl_neg(p, pl_call(p, f, a)));
+}
+
+// Functions without relations to others (asin, acos, atan) of a normalised argument; the odd ones with a normalised sign, acos(-u) = π -
 // acos(u).
-static pl_frac convert_inverse(pl_tower* t, pl_function f, pl_expr argument) {
+static pl_frac convert_formal(pl_tower* t, pl_function f, pl_expr argument) {
   pl_frac u = pl_convert(t, argument);
-  bool flip = pl_poly_leading_sign(t, u.num) < 0;
+  bool flip = pl_poly_leading_sign(t, u.num) < 0 && (f == PL_ACOS || is_odd(t->pool, f, argument));
   pl_expr call = pl_call(t->pool, f, pl_frac_expr(t, flip ? pl_frac_neg(t, u) : u));
   pl_frac value = pl_kind_of(t->pool, call) == PL_CALL ? pl_formal(t, call) : pl_convert(t, call);
   if (!flip) return value;
@@ -183,10 +187,10 @@ static pl_frac convert_call(pl_tower* t, pl_expr e) {
     case PL_LN: return pl_frac_ln(t, pl_convert(t, a));
     case PL_ABS: return pl_frac_abs(t, pl_convert(t, a));
     case PL_SIGN: return convert_sign(t, pl_convert(t, a));
-    case PL_ASIN:
-    case PL_ACOS:
-    case PL_ATAN: return convert_inverse(t, f, a);
-    default: return convert_call2(t, f, a, pl_arg(t->pool, e, 1));
+    case PL_ATAN2:
+    case PL_MIN:
+    case PL_MAX: return convert_call2(t, f, a, pl_arg(t->pool, e, 1));
+    default: return convert_formal(t, f, a);
   }
 }
 

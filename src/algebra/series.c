@@ -234,6 +234,13 @@ static pl_series* inverse_function(pl_expansion* s, pl_function f, const pl_seri
   return integrate(s, start, a, g);
 }
 
+// Any other function of one argument: the integral of f'(a) a'.
+static pl_series* by_slope(pl_expansion* s, pl_expr e, const pl_series* a) {
+  if (pl_n_args(s->p, e) != 1) return fail(s);
+  pl_expr start = pl_call(s->p, pl_function_of(s->p, e), a->n ? a->c[0] : pl_int(s->p, 0));
+  return integrate(s, start, a, expand_node(s, pl_call_slope(s->p, e)));
+}
+
 static pl_series* abs_series(pl_expansion* s, const pl_series* a, bool only_sign) {
   int sign = 0;
   if (a->lead != 0 && !s->from_above) return fail(s);
@@ -268,7 +275,7 @@ static pl_series* call_series(pl_expansion* s, pl_expr e) {
     case PL_ASIN:
     case PL_ACOS:
     case PL_ATAN: return inverse_function(s, f, &a);
-    default: return fail(s);
+    default: return by_slope(s, e, &a);
   }
 }
 

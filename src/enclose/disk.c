@@ -484,6 +484,27 @@ void pl_disk_derivative(pl_disk* dw, pl_op op, const pl_disk* w, const pl_disk* 
   if (!slope(dw, op, w, a, b, p, da, db, dp)) mag_inf(&dw->r);
 }
 
+// ------------------------------------------------------------------------------- by the derivative
+// A function whose partner w was computed before it: |f(z) - f(x)| <= |z - x| sup |f'|, the supremum
+// over the disk, which is convex.
+bool pl_disk_by_slope(pl_disk* z, pl_op op, const pl_disk* x, const pl_disk* w) {
+  if (pl_op_reads_as_w[op] != PL_OPERAND_PARTNER || w == NULL) return false;
+  pl_disk* d = pl_disks_make(2);
+  mag_t r;
+  mag_init(r);
+  arb_one(&d[1].c);
+  bool ok = function_slope(&d[0], op, NULL, x, w, &d[1]);
+  if (ok) {
+    pl_disk_bound(r, &d[0]);
+    mag_mul(r, r, &x->r);
+    pl_ball_op(&z->c, op, &x->c, &x->c, &x->c, PL_DISK_BITS);
+    mag_swap(&z->r, r);
+  }
+  mag_clear(r);
+  pl_disks_free(d, 2);
+  return ok;
+}
+
 // ----------------------------------------------------------------------------------- one operation
 static bool apply(pl_disk* d, pl_op op, const pl_disk* a, const pl_disk* b, const pl_disk* c) {
   switch (op) {
@@ -499,8 +520,8 @@ static bool apply(pl_disk* d, pl_op op, const pl_disk* a, const pl_disk* b, cons
     case PL_OP_RSCALE:
     case PL_OP_DIV: return divide(d, a, b);
     case PL_OP_SQRT: return square_root(d, a);
-    case PL_OP_POW:
-      return mag_is_zero(&b->r) && power(d, a, &b->c);
+    case PL_OP_POW: return mag_is_zero(&b->r) && power(d, a, &b->c);
+#define by_slope(d, a, b) pl_disk_by_slope(d, op, a, c)
 // clang-format off
 #define PL_FUNCTION(name, text, n, tex, form, value, derivative, library, recurrence, w, disk) \
   case PL_OP_##name: return disk(d, a, b);

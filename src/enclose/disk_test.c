@@ -107,9 +107,19 @@ static const pl_op ops[] = {PL_OP_ADD,  PL_OP_SUB,  PL_OP_NEG,  PL_OP_MUL,  PL_O
                             PL_OP_TANH, PL_OP_ASIN, PL_OP_ACOS, PL_OP_ATAN, PL_OP_ATAN2};
 enum { N_OPS = sizeof ops / sizeof *ops };
 
+// The disk of a partner, 1 + a² or its root.
+static bool partner(pl_disk* w, const pl_disk* a, bool root) {
+  pl_disk* one = pl_disks_make(1);
+  arb_one(&one->c);
+  bool ok = pl_disk_op(w, PL_OP_SQR, a, NULL, NULL) && pl_disk_op(w, PL_OP_ADD, one, w, NULL)
+            && (!root || pl_disk_op(w, PL_OP_SQRT, w, NULL, NULL));
+  pl_disks_free(one, 1);
+  return ok;
+}
+
 static void an_operation_contains_its_values_at_complex_points(void** state) {
   (void)state;
-  random_disk* x = disks_make(3);
+  random_disk* x = disks_make(4);
   acb_t a, b, w;
   acb_init(a);
   acb_init(b);
@@ -141,6 +151,31 @@ static void an_operation_contains_its_values_at_complex_points(void** state) {
   for (int k = 0; k < N_OPS; k++) assert_true(proved[k] > ROUNDS / 20);
   acb_clear(a);
   acb_clear(b);
+  acb_clear(w);
+  disks_free(x, 4);
+}
+
+static void a_bound_by_the_derivative_contains_the_values(void** state) {
+  (void)state;
+  random_disk* x = disks_make(3);
+  acb_t a, w;
+  acb_init(a);
+  acb_init(w);
+  int proved = 0;
+  for (uint64_t seed = 1; seed <= ROUNDS; seed++) {
+    pl_random r = {seed};
+    draw(&x[0], &r);
+    if (!partner(x[1].d, x[0].d, false)) continue;
+    if (!pl_disk_by_slope(x[2].d, PL_OP_ATAN, x[0].d, x[1].d)) continue;
+    proved++;
+    for (int i = 0; i < 4; i++) {
+      point(a, &x[0], &r);
+      exact_op(w, PL_OP_ATAN, a, a);
+      assert_true(holds(x[2].d, w));
+    }
+  }
+  assert_true(proved > ROUNDS / 20);
+  acb_clear(a);
   acb_clear(w);
   disks_free(x, 3);
 }
@@ -354,6 +389,7 @@ static void slopes_are_first_coefficients(void** state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(an_operation_contains_its_values_at_complex_points),
+      cmocka_unit_test(a_bound_by_the_derivative_contains_the_values),
       cmocka_unit_test(a_disk_that_is_too_small_is_seen),
       cmocka_unit_test(what_is_not_analytic_is_refused),
       cmocka_unit_test(series_continue_their_functions),

@@ -39,6 +39,8 @@ void pl_disk_bound(mag_t out, const pl_disk* d);  // of |z|
 // d = op(a, b, c); false when the operation is not analytic on the disks, or a branch is not
 // decided there.
 bool pl_disk_op(pl_disk* d, pl_op op, const pl_disk* a, const pl_disk* b, const pl_disk* c);
+// The same for an elementary function of one argument by its derivative; w: the disk of its partner.
+bool pl_disk_by_slope(pl_disk* z, pl_op op, const pl_disk* x, const pl_disk* w);
 // Its derivative from those of the operands: d w/ds with da/ds, db/ds, dc/ds; value w, partner p.
 void pl_disk_derivative(pl_disk* dw, pl_op op, const pl_disk* w, const pl_disk* a, const pl_disk* b,
                         const pl_disk* p, const pl_disk* da, const pl_disk* db, const pl_disk* dp);

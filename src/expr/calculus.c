@@ -59,6 +59,8 @@ static pl_expr diff_call(pl_pool* p, pl_expr e, pl_expr da, pl_expr db) {
   }
 }
 
+pl_expr pl_call_slope(pl_pool* p, pl_expr e) { return diff_call(p, e, p->one, p->one); }
+
 static bool all_zero(const pl_pool* p, const pl_expr* d, int n) {
   for (int i = 0; i < n; i++) {
     if (d[i].id != p->zero.id) return false;

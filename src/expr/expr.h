@@ -73,7 +73,7 @@ typedef struct pl_symbol_info {
   pl_dimension dimension;  // of the quantity
   bool dimension_known;
   bool torque;  // an energy by its dimension, but in N m
-  int dots;  // 0, 1, 2 for coordinate, velocity, acceleration
+  int dots;     // 0, 1, 2 for coordinate, velocity, acceleration
   // of a velocity, acceleration or start value: its coordinate (for x'(0): the coordinate too)
   pl_symbol base;
   // of a coordinate or velocity: its time derivative; 0 if none was made yet
@@ -159,6 +159,7 @@ pl_expr pl_pow_int(pl_pool* p, pl_expr base, long n);
 pl_expr pl_square(pl_pool* p, pl_expr a);
 pl_expr pl_sqrt(pl_pool* p, pl_expr a);
 pl_expr pl_call(pl_pool* p, pl_function f, pl_expr a);
+pl_expr pl_call_slope(pl_pool* p, pl_expr e);  // f'(a) of e = f(a)
 pl_expr pl_call2(pl_pool* p, pl_function f, pl_expr a, pl_expr b);
 pl_expr pl_if(pl_pool* p, pl_expr positive, pl_expr then, pl_expr otherwise);
 pl_expr pl_sum_over(pl_pool* p, pl_symbol index, pl_expr lo, pl_expr hi, pl_expr body);
