@@ -39,6 +39,7 @@ PL_TEST(elementary_functions_have_their_series) {
   SERIES(w, "exp(sin(x))", "0", 5, "0: 1, 1, 1/2, 0, -1/8");
   SERIES(w, "ln(1 + x)", "0", 3, "1: 1, -1/2, 1/3");
   SERIES(w, "asin(x)", "0", 5, "1: 1, 0, 1/6, 0, 3/40");
+  SERIES(w, "asinh(x)", "0", 5, "1: 1, 0, -1/6, 0, 3/40");
   SERIES(w, "cosh(x)", "0", 3, "0: 1, 0, 1/2");
   SERIES(w, "1/x", "l", 3, "0: 1/l, -1/l^2, 1/l^3");
   pl_world_free(w);

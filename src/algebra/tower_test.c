@@ -298,6 +298,8 @@ PL_TEST(hopeless_cases_come_back_unchanged) {
 PL_TEST(the_root_of_a_negative_number_is_left_alone) {
   pl_world* w = pl_world_make(NULL);
   NORMAL(w, "tan(asin(3)) + x", "x + tan(asin(3))");
+  pl_assert_zero(w, "asinh(x - y) + asinh(y - x)");
+  pl_assert_not_zero(w, "asinh(x) - x");
   assert_true(pl_alg_is_zero(w->tower, pl_text_expr(w, "sqrt(1 - (m1 + 2)/(m1 + 1))")) != PL_YES);
   pl_world_free(w);
 }

@@ -72,6 +72,7 @@ static void exact_op(acb_t w, pl_op op, acb_t a, acb_t b) {
     case PL_OP_ASIN: acb_asin(w, a, BITS); break;
     case PL_OP_ACOS: acb_acos(w, a, BITS); break;
     case PL_OP_ATAN: acb_atan(w, a, BITS); break;
+    case PL_OP_ASINH: acb_asinh(w, a, BITS); break;
     default:  // atan2(a, b) with a above: π/2 - atan(b/a)
       acb_div(t, b, a, BITS);
       acb_atan(w, t, BITS);
@@ -101,10 +102,10 @@ static bool holds(const pl_disk* d, acb_t w) {
   return yes;
 }
 
-static const pl_op ops[] = {PL_OP_ADD,  PL_OP_SUB,  PL_OP_NEG,  PL_OP_MUL,  PL_OP_SQR,
-                            PL_OP_DIV,  PL_OP_SQRT, PL_OP_POW,  PL_OP_EXP,  PL_OP_LN,
-                            PL_OP_SIN,  PL_OP_COS,  PL_OP_SINH, PL_OP_COSH, PL_OP_TAN,
-                            PL_OP_TANH, PL_OP_ASIN, PL_OP_ACOS, PL_OP_ATAN, PL_OP_ATAN2};
+static const pl_op ops[] = {PL_OP_ADD,  PL_OP_SUB,   PL_OP_NEG,  PL_OP_MUL,  PL_OP_SQR,  PL_OP_DIV,
+                            PL_OP_SQRT, PL_OP_POW,   PL_OP_EXP,  PL_OP_LN,   PL_OP_SIN,  PL_OP_COS,
+                            PL_OP_SINH, PL_OP_COSH,  PL_OP_TAN,  PL_OP_TANH, PL_OP_ASIN, PL_OP_ACOS,
+                            PL_OP_ATAN, PL_OP_ATAN2, PL_OP_ASINH};
 enum { N_OPS = sizeof ops / sizeof *ops };
 
 // The disk of a partner, 1 + a² or its root.
@@ -135,7 +136,9 @@ static void an_operation_contains_its_values_at_complex_points(void** state) {
         x[1].radius = 0;
       }
       if (ops[k] == PL_OP_ATAN2 && x[0].centre < x[0].radius) continue;
-      if (!pl_disk_op(x[2].d, ops[k], x[0].d, x[1].d, NULL)) continue;
+      bool by_slope = ops[k] == PL_OP_ASINH;
+      if (by_slope && !partner(x[3].d, x[0].d, true)) continue;
+      if (!pl_disk_op(x[2].d, ops[k], x[0].d, x[1].d, by_slope ? x[3].d : NULL)) continue;
       proved[k]++;
       for (int i = 0; i < 4; i++) {
         point(a, &x[0], &r);

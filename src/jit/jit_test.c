@@ -69,6 +69,10 @@ static int add_function(t_tape* t, pl_op op, int a, int b) {
       return add(
           t, op, a, -1,
           add(t, PL_OP_SQRT, add(t, PL_OP_SUB, one, add(t, PL_OP_SQR, a, -1, -1), -1), -1, -1));
+    case PL_OP_ASINH:
+      return add(
+          t, op, a, -1,
+          add(t, PL_OP_SQRT, add(t, PL_OP_ADD, one, add(t, PL_OP_SQR, a, -1, -1), -1), -1, -1));
     case PL_OP_ATAN:
       return add(t, op, a, -1, add(t, PL_OP_ADD, one, add(t, PL_OP_SQR, a, -1, -1), -1));
     case PL_OP_ATAN2:

@@ -163,6 +163,7 @@ static void series_obey_identities_along_random_paths(void** state) {
   check_identity(b, "tanh", pl_call(p, PL_TANH, x),
                  pl_div(p, pl_call(p, PL_SINH, x), pl_call(p, PL_COSH, x)), 0.7, 0);
   check_identity(b, "asin", pl_call(p, PL_SIN, pl_call(p, PL_ASIN, x)), x, 0.2, 0);
+  check_identity(b, "asinh", pl_call(p, PL_SINH, pl_call(p, PL_ASINH, x)), x, 1.7, 0);
   check_identity(b, "acos", pl_call(p, PL_COS, pl_call(p, PL_ACOS, x)), x, 0.2, 0);
   check_identity(b, "atan", pl_call(p, PL_TAN, pl_call(p, PL_ATAN, x)), x, 0.4, 0);
   check_identity(b, "atan2", pl_call(p, PL_TAN, pl_call2(p, PL_ATAN2, y, x)), pl_div(p, y, x), 2,

@@ -191,7 +191,7 @@ init x = 1, x' = 0
 simulate 0..1
 """
 e = D(1).exp()
-for force in ("x", "sqrt(1 + x'^2)", "exp(ln(x))", "cosh(t)", "exp(t) - sinh(t)", "x^(3/2)/sqrt(x)", "tan(atan(x))", "sin(asin(x/4))*4",
+for force in ("x", "sqrt(1 + x'^2)", "exp(ln(x))", "cosh(t)", "exp(t) - sinh(t)", "x^(3/2)/sqrt(x)", "tan(atan(x))", "sinh(asinh(x))", "sin(asin(x/4))*4",
               "4 cos(acos(x/4))", "x tanh(x)/tanh(x)", "sqrt(x^2 + x'^2) cos(atan2(x', x))", "if(x > 0, x, -x)", "abs(x)", "max(x, -3)"):
     model = (FUNCTIONS % force).replace("axes x right\n", "").replace("coord x\n", "coord x\naxes x right\n")
     check_row(f"x'' = {force}", certified(model, width="1e-30")["rows"][-1], {"x": (e + 1 / e) / 2, "x_dot": (e - 1 / e) / 2}, "1e-29")
