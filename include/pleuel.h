@@ -131,6 +131,8 @@ typedef struct pleuel_load_options {
    * files may include what lies beside them. */
   const char *(*read)(void *user, const char *path, const char *from);
   void *read_user;
+  int tolerant; /* 1: of a text with errors, statements that have none count: check, picture and motion go on
+                 * with them, and their status speaks of them.  For editors */
 } pleuel_load_options;
 
 /* pleuel_load_text reads a model from memory, pleuel_load_file from a file.  *model is set even when the text has

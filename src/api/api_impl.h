@@ -61,6 +61,7 @@ struct pleuel_model {
   struct pl_editor* editor;  // editor.h; NULL until it is asked for
   const pl_setting* settings;
   int n_settings;
+  bool tolerant;       // statements with errors are left out, the rest counts
   bool broken;         // memory ran out once: nothing but freeing is left
   uint64_t text_hash;  // of the text and of all that it includes
 

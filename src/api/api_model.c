@@ -81,6 +81,7 @@ static pleuel_status load(pleuel_model* m, void* argument) {
                           pl_copy(m->arena, o->settings[i].value)};
   }
   m->settings = set;
+  m->tolerant = o->tolerant != 0;
   m->n_settings = (int)o->n_settings;
 
   pl_include_reader* reader = PL_NEW(m->arena, pl_include_reader);

@@ -263,6 +263,45 @@ PL_TEST(tokens_cover_the_text_in_order) {
   pleuel_model_free(m);
 }
 
+// ---------------------------------------------------------------------------------------- tolerance
+static pleuel_model* load_tolerantly(const char* text, pleuel_status* status) {
+  PLEUEL_OPTIONS(pleuel_load_options, o);
+  o.tolerant = 1;
+  pleuel_model* m = NULL;
+  *status = pleuel_load_text(ctx, &m, text, strlen(text), &o);
+  assert_non_null(m);
+  return m;
+}
+
+PL_TEST(what_is_whole_of_a_broken_text_is_checked_and_drawn) {
+  static const char text[] =
+      "param m = 1 [kg], l = 2 [m], g = 9.81 [m/s^2]\ncoord x, y\nmass m at (x, y)\ngravity g "
+      "along -y\n"
+      "constraint rod: x^2 + y^2 = l^2\ninit x = 1 [m]\nguess y = -1 [m]\nforce (1 [N], on m\nask "
+      "solve "
+      "lambda_\nplot x vs\n";
+  pleuel_status s;
+  pleuel_model* m = load_tolerantly(text, &s);
+  const char *summary, *bytes;
+  size_t n;
+  assert_int_equal(s, PLEUEL_MODEL_ERROR);
+  assert_true(pleuel_diagnostic_count(m, PLEUEL_ERROR) >= 3);
+  assert_int_equal(pleuel_check(m, &summary, NULL), PLEUEL_OK);
+  assert_non_null(strstr(summary, "1"));
+  PLEUEL_OPTIONS(pleuel_plot_options, o);
+  o.panels = PLEUEL_PANELS_DRAWING;
+  assert_int_equal(pleuel_plot(m, &bytes, &n, &o), PLEUEL_OK);
+  assert_non_null(strstr(bytes, "<svg"));
+  PLEUEL_OPTIONS(pleuel_name, name);
+  assert_int_equal(pleuel_name_find(m, "lambda_rod", &name), PLEUEL_OK);
+  assert_string_equal(name.unit, "N/m");
+  pleuel_model_free(m);
+  // without being asked for it, a text with errors is no model
+  m = load(text);
+  assert_int_equal(pleuel_check(m, &summary, NULL), PLEUEL_MODEL_ERROR);
+  pleuel_model_free(m);
+}
+
 // ---------------------------------------------------------------------------------------- laws
 static char* read_whole(const char* path) {
   FILE* f = fopen(path, "rb");
@@ -340,6 +379,55 @@ PL_TEST(a_fix_that_is_applied_takes_its_message_away) {
   assert_true(check_folder(PL_EXAMPLES) >= 5);
 }
 
+// Whatever is left out, the rest is a model or is refused: nothing breaks.
+static void look_at_rest(const char* text) {
+  pleuel_status s;
+  const char *summary, *bytes;
+  size_t n;
+  pleuel_model* m = load_tolerantly(text, &s);
+  pleuel_check(m, &summary, NULL);
+  PLEUEL_OPTIONS(pleuel_plot_options, o);
+  o.panels = PLEUEL_PANELS_DRAWING;
+  o.has_until = 1;
+  pleuel_plot(m, &bytes, &n, &o);
+  pleuel_name_count(m);
+  pleuel_model_free(m);
+}
+
+static void cut_and_look(const char* path) {
+  char* text = read_whole(path);
+  size_t n = strlen(text);
+  look_at_rest(text);
+  for (size_t at = n / 7; at < n; at += 1 + n / 6) {
+    char kept = text[at];
+    text[at] = '\0';
+    look_at_rest(text);
+    text[at] = kept;
+  }
+  free(text);
+}
+
+static int cut_folder(const char* name) {
+  DIR* folder = opendir(name);
+  assert_non_null(folder);
+  int count = 0;
+  for (struct dirent* e; (e = readdir(folder)) != NULL;) {
+    size_t n = strlen(e->d_name);
+    if (n < 8 || strcmp(e->d_name + n - 7, ".pleuel") != 0) continue;
+    char path[1024];
+    snprintf(path, sizeof path, "%s/%s", name, e->d_name);
+    cut_and_look(path);
+    count++;
+  }
+  closedir(folder);
+  return count;
+}
+
+PL_TEST(a_text_that_is_broken_anywhere_leaves_a_model_or_is_refused) {
+  assert_true(cut_folder(PL_EXAMPLES) >= 5);
+  assert_true(cut_folder(PL_WRONG) > 50);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_message_has_its_place_in_bytes_units_lines_and_a_fix_as_an_edit),
@@ -353,6 +441,8 @@ int main(void) {
       cmocka_unit_test(hover_tells_what_stands_at_a_place),
       cmocka_unit_test(a_broken_text_has_names_hover_and_completion),
       cmocka_unit_test(tokens_cover_the_text_in_order),
+      cmocka_unit_test(what_is_whole_of_a_broken_text_is_checked_and_drawn),
+      cmocka_unit_test(a_text_that_is_broken_anywhere_leaves_a_model_or_is_refused),
       cmocka_unit_test(a_fix_that_is_applied_takes_its_message_away),
   };
   return cmocka_run_group_tests(tests, set_up, tear_down);

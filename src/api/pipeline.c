@@ -58,11 +58,23 @@ static void find_contradiction(pleuel_model* m) {
   if (pl_diagnostics_have(&m->diagnostics, PL_E042)) pl_diagnostics_drop(&m->diagnostics, PL_E041);
 }
 
+// Of a text with errors what can be read: what is wrong with that may follow from what is missing, so nothing is
+// reported.
+static pleuel_status check_whole_part(pleuel_model* m) {
+  pl_diagnostics unheard = {.arena = m->arena};
+  m->job.diagnostics = &unheard;
+  pleuel_status s = pl_model_check(&m->job, m->model);
+  m->job.diagnostics = &m->diagnostics;
+  return s == PLEUEL_OK && unheard.n_errors > 0 ? PLEUEL_MODEL_ERROR : s;
+}
+
 // model -> checked model
 pleuel_status pl_pipeline_check(pleuel_model* m) {
   if (m->is_checked) return m->checked;
   m->is_checked = true;
   m->checked = m->parsed;
+  bool whole_part = m->tolerant && m->parsed == PLEUEL_MODEL_ERROR && m->model;
+  if (whole_part) m->checked = check_whole_part(m);
   if (m->parsed != PLEUEL_OK || !m->model) return m->checked;
   double start = pl_clock();
   m->checked = pl_model_check(&m->job, m->model);

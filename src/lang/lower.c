@@ -421,6 +421,7 @@ static void lower_all(pl_lower* l, pl_ast** s, int n) {
   for (int i = 0; i < n; i++) {
     if (in_second_round(s[i]->token) && s[i]->token != TOK_OUTPUT) lower_rest(l, &w, s[i]);
   }
+  pl_axes_trim(l, &file);
   for (int i = 0; i < l->settings.n; i++) {
     if (!l->settings.at[i].done) set_start(l, &l->settings.at[i]);
   }

@@ -213,6 +213,7 @@ const char* pl_label_text(pl_lower* l, const pl_ast* name, const pl_ast* index);
 const char* pl_constraint_label(pl_lower* l, const pl_ast* label);
 void pl_site_declare(pl_lower* l, const pl_ast* statement);
 void pl_axes_settle(pl_lower* l, const pl_ast* file);
+void pl_axes_trim(pl_lower* l, const pl_ast* file);
 int pl_ast_components(const pl_ast* point);
 
 // -------------------------------------------------------------------------------------- statements

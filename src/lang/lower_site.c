@@ -76,6 +76,16 @@ static void third_axis(pl_lower* l, const pl_ast* file) {
   axes_in_order(l->m);
 }
 
+// Of a text with broken lines three axes were taken; its whole lines may need fewer.
+void pl_axes_trim(pl_lower* l, const pl_ast* file) {
+  if (l->lost.n == 0 || l->m->n_axes != 3 || l->m->axes[0].declared) return;
+  int n = most_components(file);
+  for (int i = 0; i < l->m->gravities.n; i++) {
+    if (l->m->gravities.at[i].axis >= n) n = l->m->gravities.at[i].axis + 1;
+  }
+  if (n > 0 && n < 3) l->m->n_axes = n;
+}
+
 // Without `axes`: as many as the points have components, x right, y up, z out.
 void pl_axes_settle(pl_lower* l, const pl_ast* file) {
   static const pl_axis usual[3] = {
