@@ -41,7 +41,8 @@ static pleuel_status list_diagnostics(pleuel_model* m, pl_arena* a, void* argume
   return PLEUEL_OK;
 }
 
-// Messages are added, sorted and dropped by every stage: what they are tells whether the list is old.
+// Messages are added, sorted and dropped by every stage: what they are tells whether the list is
+// old.
 static uint64_t hash_of(const pleuel_model* m) {
   uint64_t h = 1 + (uint64_t)m->diagnostics.list.n;
   for (int i = 0; i < m->diagnostics.list.n; i++) {

@@ -1,8 +1,10 @@
-// Dragging for programs: a point by its label, new start values, and the edits of the text that write them.
+// Dragging for programs: a point by its label, new start values, and the edits of the text that
+// write them.
 //
-// Edits are tried before they are handed out: the edited text is read, its start is found and held against the wanted one.  First
-// the numbers that stand in `init` are written anew, in few digits, then in all of them; then what nothing determined gets a line
-// of its own; at last `guess` lines say which assembly is meant.
+// Edits are tried before they are handed out: the edited text is read, its start is found and held
+// against the wanted one.  First the numbers that stand in `init` are written anew, in few digits,
+// then in all of them; then what nothing determined gets a line of its own; at last `guess` lines
+// say which assembly is meant.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,7 +1,8 @@
 // Formulas of the worked solution as values: texts, trees, numbers, derivatives.
 //
-// They live in an arena of their own that goes when the model is solved anew.  Expressions that are made on the way lie in
-// the pool of the solution; a pool holds equal expressions once, so asking again takes no more memory.
+// They live in an arena of their own that goes when the model is solved anew.  Expressions that
+// are made on the way lie in the pool of the solution; a pool holds equal expressions once, so
+// asking again takes no more memory.
 #include <math.h>
 #include <string.h>
 

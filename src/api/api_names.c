@@ -1,4 +1,5 @@
-// The names of a text: what they are called, what they mean, where they are declared; and what stands at a place.
+// The names of a text: what they are called, what they mean, where they are declared; and what
+// stands at a place.
 #include "api/editor.h"
 
 #include <math.h>

@@ -1,11 +1,13 @@
-// Dragging.  Sought is the position q with g(q) = 0 whose point p(q) is nearest to a place c, followed from the present one:
-// the way from p to c is cut into pieces that are short beside the system, and on each
+// Dragging.  Sought is the position q with g(q) = 0 whose point p(q) is nearest to a place c,
+// followed from the present one: the way from p to c is cut into pieces that are short beside the
+// system, and on each
 //
 //   min |P dq - (c - p)|² + μ |W dq|²   with   G dq = 0,      P = dp/dq, G = dg/dq
 //
-// is solved and corrected onto g = 0 until it stays (Levenberg and Marquardt, [More1978]).  W weighs a coordinate by how far
-// the masses move with it, so of all ways the one that moves the masses least is taken.  With the rows of G W⁻¹ made
-// orthonormal (Gram and Schmidt, twice), the system that is left has as many rows as the point has components.
+// is solved and corrected onto g = 0 until it stays (Levenberg and Marquardt, [More1978]).  W
+// weighs a coordinate by how far the masses move with it, so of all ways the one that moves the
+// masses least is taken.  With the rows of G W⁻¹ made orthonormal (Gram and Schmidt, twice), the
+// system that is left has as many rows as the point has components.
 #include "api/drag.h"
 
 #include <math.h>

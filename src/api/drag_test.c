@@ -251,8 +251,8 @@ static double worst_residual(const char* name, const pleuel_drag* d) {
   return 0;
 }
 
-// A random drag keeps the constraints, ends as near as a drag in many small moves, which is what a hand does, and no step of
-// it jumps to another assembly.
+// A random drag keeps the constraints, ends as near as a drag in many small moves, which is what a
+// hand does, and no step of it jumps to another assembly.
 PL_TEST(random_drags_keep_constraints_and_assembly) {
   for (size_t k = 0; k < sizeof examples / sizeof *examples; k++) {
     pleuel_model* m = load(examples[k][1]);

@@ -1,4 +1,5 @@
-// editor: what is kept of a model for those who ask about its text.  Made when it is first asked for.
+// editor: what is kept of a model for those who ask about its text.  Made when it is first asked
+// for.
 #ifndef PL_EDITOR_H
 #define PL_EDITOR_H
 

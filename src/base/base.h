@@ -152,8 +152,8 @@ typedef struct pl_place {
   int line, column;
 } pl_place;  // both from 1; column in cells
 pl_place pl_span_place(pl_span s);
-// The same for editors: bytes and UTF-16 units from the beginning; columns from 1 in characters (code
-// points) and in UTF-16 units.
+// The same for editors: bytes and UTF-16 units from the beginning; columns from 1 in characters
+// (code points) and in UTF-16 units.
 typedef struct pl_position {
   size_t at, at16, line, column, column16;
 } pl_position;
@@ -211,7 +211,8 @@ pl_diagnostic* pl_report(pl_diagnostics* d, pl_code code, pl_span span, const ch
                          const char* de);
 void pl_report_reason(pl_diagnostic* m, const char* en, const char* de);
 void pl_report_fix(pl_diagnostic* m, const char* en, const char* de, const char* replacement);
-// The place that the replacement of a fix replaces: that of the message, unless the fix has its own.
+// The place that the replacement of a fix replaces: that of the message, unless the fix has its
+// own.
 void pl_report_fix_span(pl_diagnostic* m, pl_span span);
 pl_span pl_diagnostic_fix_span(const pl_diagnostic* m);
 void pl_report_label(pl_diagnostics* d, pl_diagnostic* m, pl_span span, const char* text);

@@ -135,7 +135,7 @@ pl_entity* pl_scope_declare(pl_lower* l, pl_entity_kind kind, const pl_ast* name
 void pl_scope_add(pl_lower* l, pl_entity* e);
 const pl_local* pl_scope_local(const pl_lower* l, const char* key);
 bool pl_scope_is_multiplier(pl_lower* l, const char* key);  // λ, λ_label
-bool pl_scope_is_result(const char* key);  // T, V, L, E, H and their words
+bool pl_scope_is_result(const char* key);                   // T, V, L, E, H and their words
 // would pl_lower_name find something?
 bool pl_scope_known(pl_lower* l, const pl_ast* name);
 pl_diagnostic* pl_scope_unknown(pl_lower* l, const pl_ast* name);  // E011 with the nearest name

@@ -1,4 +1,5 @@
-// The outline of a text: its files are read as by the parser, nothing is lowered, nothing is reported.
+// The outline of a text: its files are read as by the parser, nothing is lowered, nothing is
+// reported.
 #include "lang/outline_impl.h"
 
 #include <stdlib.h>

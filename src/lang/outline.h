@@ -1,5 +1,6 @@
-// outline: what an editor asks of a text.  The names that it declares and where they are used, its tokens, and what may
-// stand at a place.  Made from the syntax alone, so a text with errors has an outline of all that can be read.
+// outline: what an editor asks of a text.  The names that it declares and where they are used, its
+// tokens, and what may stand at a place.  Made from the syntax alone, so a text with errors has an
+// outline of all that can be read.
 #ifndef PL_OUTLINE_H
 #define PL_OUTLINE_H
 
@@ -41,7 +42,8 @@ typedef struct pl_named {
   const char* label;  // of a multiplier: key of its constraint
 } pl_named;
 
-// A place where a name stands.  span covers the letters of the name itself: `x` in x_dot, `rod` in λ_rod.
+// A place where a name stands.  span covers the letters of the name itself: `x` in x_dot, `rod` in
+// λ_rod.
 typedef struct pl_use {
   pl_span span;
   int named;  // in outline->named
@@ -105,11 +107,13 @@ typedef struct pl_outline {
 // pl_outline_make reads a text with what it includes.  Nothing is reported.
 pl_outline* pl_outline_make(pl_arena* a, const pl_source* source, const pl_include_reader* reader);
 
-// pl_outline_use_at finds the use at a byte of a source; -1.  A place just behind a name belongs to it.
+// pl_outline_use_at finds the use at a byte of a source; -1.  A place just behind a name belongs
+// to it.
 int pl_outline_use_at(const pl_outline* o, const pl_source* source, size_t at);
 // pl_outline_find finds a declared name by any of its spellings (θ1, theta1, theta_1); -1.
 int pl_outline_find(const pl_outline* o, const char* spelling);
-// The keyword at a byte of the text itself: its help, NULL where there is none.  span: of the keyword.
+// The keyword at a byte of the text itself: its help, NULL where there is none.  span: of the
+// keyword.
 const char* pl_outline_help_at(const pl_outline* o, size_t at, pl_language lang, pl_span* span);
 // pl_outline_same tells whether two spellings are one name.
 bool pl_spelled_same(pl_arena* a, const char* s, const char* t);
@@ -117,7 +121,8 @@ bool pl_spelled_same(pl_arena* a, const char* s, const char* t);
 const char* pl_spelled_key(pl_arena* a, const char* spelling);
 // An ASCII name as it is shown, θ1 for theta1.
 const char* pl_spell_shown(pl_arena* a, const char* ascii);
-// pl_name_is_free tells whether a spelling can be a new name in the text; if not, *why is the reason by language.
+// pl_name_is_free tells whether a spelling can be a new name in the text; if not, *why is the
+// reason by language.
 bool pl_outline_name_is_free(const pl_outline* o, const char* spelling, const char* why[2]);
 
 // ---------------------------------------------------------------------------------------------- help

@@ -1,5 +1,6 @@
-// The names that statements declare, as far as the syntax tells.  Statements with a syntax error have no tree: what they
-// would have declared is read off their tokens, so that the rest of the text is not full of unknown names.
+// The names that statements declare, as far as the syntax tells.  Statements with a syntax error
+// have no tree: what they would have declared is read off their tokens, so that the rest of the
+// text is not full of unknown names.
 #include "lang/outline_impl.h"
 
 #include <string.h>

@@ -1,6 +1,6 @@
-// Completion: the text up to the place is given to the parser, which tells what tokens fit there; those become words, and
-// where a name fits, the names that can be meant.  What stands behind the place plays no part, so a line that is still
-// being written completes like a whole one.
+// Completion: the text up to the place is given to the parser, which tells what tokens fit there;
+// those become words, and where a name fits, the names that can be meant.  What stands behind the
+// place plays no part, so a line that is still being written completes like a whole one.
 #include "lang/outline_impl.h"
 
 #include <ctype.h>
@@ -21,7 +21,8 @@ typedef struct pl_offering {
 // ---------------------------------------------------------------------------------------- the place
 static bool in_name(unsigned char c) { return isalnum(c) || c == '_' || c >= 0x80; }
 
-// Letters before the place: a name that begins there.  Signs beyond ASCII, √ and the like, are taken as letters too.
+// Letters before the place: a name that begins there.  Signs beyond ASCII, √ and the like, are
+// taken as letters too.
 static uint32_t word_begin(const pl_source* s, size_t at) {
   size_t begin = at;
   while (begin > 0 && in_name((unsigned char)s->text[begin - 1])) begin--;
@@ -154,7 +155,8 @@ static bool label_bracket(const pl_offering* w, bool* places) {
   return *places || strcmp(t->key, "force") == 0 || strcmp(t->key, "normal") == 0;
 }
 
-// A name that is new here, or one of a few words.  Returns whether it is not a name that is declared.
+// A name that is new here, or one of a few words.  Returns whether it is not a name that is
+// declared.
 static bool other_name(pl_offering* w) {
   static const char *const languages[] = {"en", "de", NULL}, *const axes[] = {"x", "y", "z", NULL};
   static const char* const directions[] = {"right", "left", "up", "down", "out", NULL};

@@ -1,4 +1,5 @@
-// What an editor asks of a text: names, their uses, tokens, what may stand at a place; in whole and in broken texts.
+// What an editor asks of a text: names, their uses, tokens, what may stand at a place; in whole
+// and in broken texts.
 #include "lang/lang_testing.h"
 #include "lang/outline.h"
 
@@ -221,7 +222,8 @@ static int for_models(const char* folder, on_model* visit) {
   return count;
 }
 
-// What is offered at a place fits there: with the word written and a blank behind it, the line has no error.
+// What is offered at a place fits there: with the word written and a blank behind it, the line has
+// no error.
 static void offers_fit(const char* name, const char* text, size_t n) {
   pl_random random = {pl_hash_bytes(text, n, 7)};
   for (int trial = 0; trial < 4; trial++) {
@@ -253,7 +255,8 @@ static void uses_lead_home(const char* name, const char* text, size_t n) {
     const pl_classed* c = &o->classed.at[i];
     if (c->class != PL_CLASS_NAME || c->use >= 0) continue;
     const char* word = pl_copy_n(a, text + c->span.begin, c->span.end - c->span.begin);
-    // names that nothing declares: the time, energies, axes and their directions, things in the picture, languages
+    // names that nothing declares: the time, energies, axes and their directions, things in the
+    // picture, languages
     static const char* const own[] = {
         "t",     "T",      "V",      "L",      "E",      "H",         "right",   "left",
         "up",    "down",   "out",    "x",      "y",      "z",         "de",      "en",

@@ -1,6 +1,7 @@
-// Where names stand: a walk over the trees with the indices and arguments that are in scope.  What a name means follows
-// the rules of lower_scope.c: first what is local, then what is declared, then spellings of derivatives, multipliers,
-// momenta.  Behind `on`, `between`, `of` and in pos(A) a name is a label first.
+// Where names stand: a walk over the trees with the indices and arguments that are in scope.  What
+// a name means follows the rules of lower_scope.c: first what is local, then what is declared,
+// then spellings of derivatives, multipliers, momenta.  Behind `on`, `between`, `of` and in pos(A)
+// a name is a label first.
 #include "lang/outline_impl.h"
 
 #include <string.h>
@@ -174,7 +175,8 @@ static bool sum_group(pl_outlining* w, const pl_ast* group) {
   return true;
 }
 
-// pos(A), force(rod), x(A), sum(i in ...): the bracket behind a name that takes a label.  Returns whether it was read.
+// pos(A), force(rod), x(A), sum(i in ...): the bracket behind a name that takes a label.  Returns
+// whether it was read.
 static bool call(pl_outlining* w, const pl_ast* function, const pl_ast* group) {
   static const char* const of_place[] = {"pos", "vel"};
   static const char* const of_constraint[] = {"force", "normal"};

@@ -187,8 +187,8 @@ typedef struct pl_derive_options {
   // n_stages = 0: not known, then contacts are taken as closed.
   int n_stages;
   const pl_stage* stages;
-  // of a motion that starts elsewhere; NULL: not known
-  // called after each request that is answered, with the sections so far; false: stop.  NULL: nobody waits
+  // of a motion that starts elsewhere; NULL: not known called after each request that is answered,
+  // with the sections so far; false: stop.  NULL: nobody waits
   bool (*ready)(void* user, const struct pl_solution* solution);
   void* ready_user;
   const pl_stage* (*stage_from)(void* user, const pl_motion* from);
