@@ -9,7 +9,7 @@
 
 const char* pleuel_version(void) { return PLEUEL_VERSION; }
 
-// ----------------------------------------------------------------------------------------- context
+// ------------------------------------------------------------------------------------- context
 pleuel* pleuel_open(const pleuel_allocator* alloc) {
   pl_arena* arena = pl_arena_make(alloc);
   if (!arena) return NULL;
@@ -78,7 +78,7 @@ void pleuel_interrupt_clear(pleuel* ctx) {
   if (ctx) atomic_store(&ctx->interrupted.asked, 0);
 }
 
-// ----------------------------------------------------------------------------------- guarded calls
+// ------------------------------------------------------------------------------- guarded calls
 void pl_api_copy(void* to, size_t size, const void* from) {
   memset(to, 0, size);
   if (!from) return;

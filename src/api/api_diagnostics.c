@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-// ---------------------------------------------------------------------------------------- messages
+// ------------------------------------------------------------------------------------ messages
 static const char* in_language(const pleuel_model* m, const char* const words[2]) {
   pl_language lang = pl_api_language_of(m, NULL);
   return words[lang] ? words[lang] : words[PL_ENGLISH];

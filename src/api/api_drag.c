@@ -30,7 +30,7 @@ struct pleuel_drag {
   size_t n_edits;
 };
 
-// ---------------------------------------------------------------------------------------- taking hold
+// ------------------------------------------------------------------------------- taking hold
 typedef struct pl_grasp {
   pleuel_drag* d;
   const char* point;

@@ -39,8 +39,8 @@ pleuel_status pleuel_uses(pleuel_model* m, size_t at, const pleuel_use** out, si
   return s;
 }
 
-// ---------------------------------------------------------------------------------------- renaming
-// What the name is called at a use: ẋ becomes s', and where digits would run into a suffix nothing changes.
+// ------------------------------------------------------------------------------- renaming
+// What the name is called at a use: ẋ becomes s'.
 static const char* spelled_at(pl_arena* a, const pl_use* u, const char* name) {
   if (!u->dotted) return name;
   return pl_format(a, "%s%s", name, u->dots == 2 ? "''" : "'");
@@ -78,7 +78,7 @@ pleuel_status pleuel_rename(pleuel_model* m, size_t at, const char* name, const 
   return s;
 }
 
-// ---------------------------------------------------------------------------------------- completion
+// ------------------------------------------------------------------------------- completion
 static pleuel_status complete(pleuel_model* m, pl_arena* a, void* argument) {
   pl_editing_at* w = argument;
   const pl_outline* o = m->editor->outline;

@@ -61,7 +61,7 @@ static pleuel_status guarded(const pleuel_formula* f, pl_formula_work* work, voi
   return pl_api_guarded(f->m, call_work, &c);
 }
 
-// ---------------------------------------------------------------------------------------- the list
+// ------------------------------------------------------------------------------- the list
 static pleuel_formula* add(pleuel_model* m, pl_arena* a, const pl_section* s, const pl_value* v) {
   pleuel_formula* f = PL_NEW(a, pleuel_formula);
   *f = (pleuel_formula){.m = m, .section = s, .value = v, .expr = v->expr, .form = v->form};
@@ -165,7 +165,7 @@ const pleuel_formula* pleuel_formula_find(pleuel_model* m, const char* name) {
   return found;
 }
 
-// ---------------------------------------------------------------------------------------- names in it
+// ------------------------------------------------------------------------------- names in it
 // What stands for something else: abbreviations of the model, named intermediates of the answer.
 static pl_expr meaning_of(const pleuel_formula* f, pl_symbol s) {
   const pl_model* m = f->section->model;
@@ -279,7 +279,7 @@ const char* pleuel_formula_text(const pleuel_formula* f, pleuel_notation notatio
   return f->text[notation];
 }
 
-// ---------------------------------------------------------------------------------------- the tree
+// ------------------------------------------------------------------------------------ the tree
 typedef struct pl_growing {
   pl_arena* a;
   pl_pool* p;
@@ -405,7 +405,7 @@ pleuel_status pleuel_formula_value(const pleuel_formula* f, const char* const* n
   return s;
 }
 
-// ---------------------------------------------------------------------------------------- derivatives
+// ------------------------------------------------------------------------------- derivatives
 typedef struct pl_deriving {
   const char* name;
   const pleuel_formula* result;

@@ -8,7 +8,7 @@
 #include "api/editor.h"
 #include "pleuel.h"
 
-// ----------------------------------------------------------------------------------------- loading
+// ------------------------------------------------------------------------------------- loading
 typedef struct pl_reading {
   const char* text;
   size_t size;
@@ -191,7 +191,7 @@ void pleuel_model_free(pleuel_model* m) {
   pl_model_drop(m);
 }
 
-// ---------------------------------------------------------------------------------------- messages
+// ------------------------------------------------------------------------------------ messages
 size_t pleuel_diagnostic_count(const pleuel_model* m, pleuel_severity severity) {
   size_t n = 0;
   for (int i = 0; m && i < m->diagnostics.list.n; i++)

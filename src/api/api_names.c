@@ -60,7 +60,7 @@ static pl_expr output_of(const pl_model* m, const char* key) {
   return pl_poison();
 }
 
-// ---------------------------------------------------------------------------------------- the list
+// ------------------------------------------------------------------------------- the list
 static pleuel_name plain(const pl_named* n) {
   return (pleuel_name){.kind = (pleuel_kind)n->kind,
                        .ascii = n->key,

@@ -8,7 +8,7 @@
 #include "api/api_impl.h"
 #include "pleuel.h"
 
-// ------------------------------------------------------------------------------------------- check
+// --------------------------------------------------------------------------------------- check
 typedef struct pl_asking {
   const pleuel_text_options* text;
   const pleuel_solve_options* solve;
@@ -90,7 +90,7 @@ pleuel_status pleuel_check_json(pleuel_model* m, const char** json,
   return ask_text(m, json, options, check_json);
 }
 
-// ------------------------------------------------------------------------------------------- solve
+// --------------------------------------------------------------------------------------- solve
 // The language of a solution: what was asked for, else the file's, else the context's.
 
 // Simulation that the file asks for; a big family is left to `sim`.
@@ -290,7 +290,7 @@ pleuel_status pleuel_export(pleuel_model* m, const char** text, const char* targ
   return s;
 }
 
-// ------------------------------------------------------------------------------------------- LaTeX
+// --------------------------------------------------------------------------------------- LaTeX
 static pleuel_status tex(pleuel_model* m, void* argument) {
   pl_asking* a = argument;
   const pleuel_tex_options* o = a->tex;
@@ -326,7 +326,7 @@ pleuel_status pleuel_tex(pleuel_model* m, const char** text, const pleuel_tex_op
   return s;
 }
 
-// ------------------------------------------------------------------------------------------ report
+// -------------------------------------------------------------------------------------- report
 typedef struct pl_reporting {
   const pleuel_report_options* options;
   const char* html;
@@ -354,7 +354,7 @@ pleuel_status pleuel_report(pleuel_model* m, const char** html,
   return s;
 }
 
-// ---------------------------------------------------------------------------------------- pictures
+// ------------------------------------------------------------------------------------ pictures
 enum { LARGEST_PICTURE = 8192 };
 static bool size_fits(int width, int height) {
   return width >= 0 && height >= 0 && width <= LARGEST_PICTURE && height <= LARGEST_PICTURE
@@ -419,7 +419,7 @@ pleuel_status pleuel_animate(pleuel_model* m, const char** bytes, size_t* n,
   return s;
 }
 
-// ---------------------------------------------------------------------------------------- simulate
+// ------------------------------------------------------------------------------------ simulate
 static pleuel_status simulate(pleuel_model* m, void* argument) {
   const pleuel_sim_options* o = argument;
   pleuel_status s = pl_pipeline_run(m, o);
@@ -498,7 +498,7 @@ const char* pleuel_simulation_engine(pleuel_model* m, const pleuel_text_options*
 
 const char* pleuel_simulation_json(pleuel_model* m) { return tell_run(m, NULL, simulation_json); }
 
-// ------------------------------------------------------------------------------------ format, dump
+// -------------------------------------------------------------------------------- format, dump
 static pleuel_status format(pleuel_model* m, void* argument) {
   pl_asking* a = argument;
   if (m->parsed != PLEUEL_OK) return m->parsed;

@@ -109,7 +109,7 @@ static void settings_replace_parameters(void** state) {
   pleuel_close(ctx);
 }
 
-// ---------------------------------------------------------------------------------------- includes
+// ------------------------------------------------------------------------------------ includes
 typedef struct reading {
   int calls;
   const char* text;
@@ -137,7 +137,7 @@ static void includes_come_from_the_caller(void** state) {
   pleuel_close(ctx);
 }
 
-// -------------------------------------------------------------------------------------- simulation
+// ---------------------------------------------------------------------------------- simulation
 typedef struct rows {
   size_t n_columns, E;
   long n;
@@ -237,7 +237,7 @@ static void an_interrupted_context_stops_and_can_go_on(void** state) {
   pleuel_close(ctx);
 }
 
-// ------------------------------------------------------------------------------------------ memory
+// -------------------------------------------------------------------------------------- memory
 // An allocator that fails at the n-th call and counts what is out.
 typedef struct hostile {
   long calls, fail_at, out;
@@ -353,7 +353,7 @@ static void a_memory_limit_is_kept(void** state) {
   pleuel_close(ctx);
 }
 
-// --------------------------------------------------------------------------------- without a model
+// ----------------------------------------------------------------------------- without a model
 static void quantities_carry_units(void** state) {
   (void)state;
   pleuel* ctx = pleuel_open(NULL);
@@ -407,7 +407,7 @@ static void contexts_do_not_know_of_each_other(void** state) {
   pleuel_close(b);
 }
 
-// ----------------------------------------------------------------------------------------- threads
+// ------------------------------------------------------------------------------------- threads
 enum { N_THREADS = 4 };
 typedef struct job {
   const char* text;

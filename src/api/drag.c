@@ -146,7 +146,7 @@ int pl_manifold_n(const pl_manifold* m) { return m->n; }
 pl_symbol pl_manifold_coordinate(const pl_manifold* m, int i) { return m->q[i]; }
 pl_symbol pl_manifold_velocity(const pl_manifold* m, int i) { return m->v[i]; }
 
-// ---------------------------------------------------------------------------------------- tangent space
+// ------------------------------------------------------------------------------- tangent space
 static double dot(const double* a, const double* b, int n) {
   double sum = 0;
   for (int i = 0; i < n; i++) sum += a[i] * b[i];

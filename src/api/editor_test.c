@@ -42,7 +42,7 @@ static size_t place(const char* text, const char* mark) {
   return (size_t)(at - text);
 }
 
-// ---------------------------------------------------------------------------------------- messages
+// ------------------------------------------------------------------------------------ messages
 PL_TEST(a_message_has_its_place_in_bytes_units_lines_and_a_fix_as_an_edit) {
   // 𝄞 has four bytes and two UTF-16 units, θ two bytes and one unit
   static const char text[] = "# 𝄞 θ\nparam m = 1\ncoord θ1\nmass m at (thet1, 0) # 𝄞\n";
@@ -263,7 +263,7 @@ PL_TEST(tokens_cover_the_text_in_order) {
   pleuel_model_free(m);
 }
 
-// ---------------------------------------------------------------------------------------- tolerance
+// ----------------------------------------------------------------------------------- tolerance
 static pleuel_model* load_tolerantly(const char* text, pleuel_status* status) {
   PLEUEL_OPTIONS(pleuel_load_options, o);
   o.tolerant = 1;

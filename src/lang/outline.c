@@ -192,7 +192,7 @@ pl_outline* pl_outline_make(pl_arena* a, const pl_source* source, const pl_inclu
   return o;
 }
 
-// ---------------------------------------------------------------------------------------- questions
+// ----------------------------------------------------------------------------------- questions
 int pl_outline_use_at(const pl_outline* o, const pl_source* source, size_t at) {
   for (int i = 0; i < o->uses.n; i++) {
     const pl_use* u = &o->uses.at[i];

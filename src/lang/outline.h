@@ -125,7 +125,7 @@ const char* pl_spell_shown(pl_arena* a, const char* ascii);
 // reason by language.
 bool pl_outline_name_is_free(const pl_outline* o, const char* spelling, const char* why[2]);
 
-// ---------------------------------------------------------------------------------------------- help
+// ---------------------------------------------------------------------------------------- help
 // One line about a word of the language, and how it is written; NULL for what is none.
 typedef struct pl_word_help {
   const char* word;
@@ -136,7 +136,7 @@ const pl_word_help* pl_help_statement(const char* word);
 const pl_word_help* pl_help_request(const char* word);
 const pl_word_help* pl_help_function(const char* word);
 
-// ---------------------------------------------------------------------------------------------- completion
+// ---------------------------------------------------------------------------------- completion
 typedef enum pl_offer_kind {
   PL_OFFER_STATEMENT,
   PL_OFFER_REQUEST,

@@ -7,7 +7,7 @@
 
 #include "grammar.h"
 
-// ---------------------------------------------------------------------------------------------- pieces
+// -------------------------------------------------------------------------------------- pieces
 static const pl_parse* file_of(const pl_outlining* w, const pl_source* source) {
   for (int i = 0; i < w->o->files.n; i++) {
     if (w->o->files.at[i]->source == source) return w->o->files.at[i];
@@ -54,7 +54,7 @@ static void define_label(pl_outlining* w, pl_named_kind kind, const pl_ast* labe
   pl_outlining_define(w, named);
 }
 
-// ---------------------------------------------------------------------------------------------- declarations
+// -------------------------------------------------------------------------------- declarations
 static void define_list(pl_outlining* w, pl_named_kind kind, const pl_ast* s) {
   const pl_ast* list = pl_ast_kid(s, 0);
   for (int i = 0; i < list->kids.n; i++) {
@@ -164,7 +164,7 @@ static void define_in(pl_outlining* w, const pl_ast* s) {
   w->in_block = outer;
 }
 
-// ---------------------------------------------------------------------------------------------- broken statements
+// --------------------------------------------------------------------------- broken statements
 static bool declares_list(int keyword, pl_named_kind* kind) {
   switch (keyword) {
     case TOK_PARAM: *kind = PL_NAMED_PARAMETER; return true;

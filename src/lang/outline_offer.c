@@ -18,7 +18,7 @@ typedef struct pl_offering {
   pl_offers* out;
 } pl_offering;
 
-// ---------------------------------------------------------------------------------------- the place
+// ----------------------------------------------------------------------------------- the place
 static bool in_name(unsigned char c) { return isalnum(c) || c == '_' || c >= 0x80; }
 
 // Letters before the place: a name that begins there.  Signs beyond ASCII, √ and the like, are

@@ -137,7 +137,7 @@ PL_TEST(names_that_are_taken_or_no_names_are_refused) {
   pl_arena_free(r.a);
 }
 
-// ---------------------------------------------------------------------------------------- completion
+// ------------------------------------------------------------------------------- completion
 PL_TEST(a_line_begins_with_a_statement) {
   assert_true(offers_behind("coord x\n", "constraint"));
   assert_true(offers_behind("coord x\nco", "coord"));

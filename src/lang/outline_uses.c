@@ -10,7 +10,7 @@
 
 static void walk(pl_outlining* w, const pl_ast* n);
 
-// ---------------------------------------------------------------------------------------------- one name
+// ------------------------------------------------------------------------------------ one name
 static int local_of(const pl_outlining* w, const char* key) {
   for (int i = w->locals.n - 1; i >= 0; i--) {
     if (w->o->named.at[w->locals.at[i]].key == key) return w->locals.at[i];
@@ -86,7 +86,7 @@ static void name(pl_outlining* w, const pl_ast* n, int dots) {
                        && w->o->named.at[named].span.source == n->source);
 }
 
-// ---------------------------------------------------------------------------------------------- labels
+// -------------------------------------------------------------------------------------- labels
 // The name of an expression that is nothing but a label, A or P[i-1].
 static const pl_ast* label_name(const pl_ast* node, const pl_ast** index) {
   *index = NULL;
@@ -131,7 +131,7 @@ static void any(pl_outlining* w, const pl_ast* node) {
   if (node && !label(w, node, any_label, 4)) walk(w, node);
 }
 
-// ---------------------------------------------------------------------------------------------- expressions
+// --------------------------------------------------------------------------------- expressions
 static const pl_ast* base_of(const pl_ast* n) {
   while (n
          && (n->kind == PL_AST_POWER || n->kind == PL_AST_PRIME || n->kind == PL_AST_UNIT
@@ -218,7 +218,7 @@ static void kids(pl_outlining* w, const pl_ast* n, int from) {
   for (int i = from; i < n->kids.n; i++) walk(w, n->kids.at[i]);
 }
 
-// ---------------------------------------------------------------------------------------------- pieces of statements
+// ------------------------------------------------------------------------ pieces of statements
 static void option(pl_outlining* w, const pl_ast* n) {
   const pl_ast* value = pl_ast_kid(n, 0);
   if (!value) return;
@@ -279,7 +279,7 @@ static void walk(pl_outlining* w, const pl_ast* n) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- statements
+// ---------------------------------------------------------------------------------- statements
 static void declared_list(pl_outlining* w, const pl_ast* s) {
   const pl_ast* list = pl_ast_kid(s, 0);
   for (int i = 0; i < list->kids.n; i++) {
@@ -419,7 +419,7 @@ static void statement(pl_outlining* w, const pl_ast* s) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- broken statements
+// --------------------------------------------------------------------------- broken statements
 static bool has_use(const pl_outlining* w, const pl_parse* p, const pl_token* t) {
   for (int i = 0; i < w->o->uses.n; i++) {
     const pl_use* u = &w->o->uses.at[i];
