@@ -39,7 +39,7 @@
 // not kept of pl_taylor, follows from setup and options: shrink
 // not kept of pl_taylor, only when, never what: clock_begin t_begin considered
 // not kept of pl_taylor, lives within a step: end_a end_by_program arrived
-// not kept of pl_run, parts with lists of their own: dae control event output taylor
+// not kept of pl_run, parts with lists of their own: dae control event output taylor sensitivity
 // not kept of pl_stats, follows from the options: precision
 // not kept of pl_stats, a word about this process: why_interpreted
 // not kept of pl_stats, made at the end: undetermined
@@ -246,7 +246,7 @@ void pl_run_save(pl_run* run, pl_keeper* k) {
   pl_kkt_keep(&run->dae.kkt, k);
   keep_state(run, k);
   pl_keep_section(k, "lead");
-  if (run->sensitivity) pl_sensitivity_write(run->sensitivity, k);
+  if (run->lead) run->lead->save(run->sensitivity, k);
 }
 
 // What a run that is whole cannot have, whatever its numbers.
@@ -301,7 +301,7 @@ pleuel_status pl_run_load(pl_run* run, pl_keeper* k, const pl_sink* sink) {
   k->next = at;
   keep_state(run, k);
   pl_keep_section(k, "lead");
-  if (run->sensitivity) PL_TRY(pl_sensitivity_read(run->sensitivity, k));
+  if (run->lead) PL_TRY(run->lead->load(run->sensitivity, k));
   if (k->wrong) return unreadable(run);
   run->options.sink = *sink;
   return sink->begin ? sink->begin(sink->user, run->setup) : PLEUEL_OK;

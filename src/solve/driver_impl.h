@@ -44,15 +44,19 @@ void pl_output_energy(pl_run* run, bool anew);
 // The mode as text: "contact(h)", "free".
 void pl_output_mode(const pl_run* run, char* out);
 
-typedef struct pl_sensitivity pl_sensitivity;
 // ---- sensitivity.c: derivatives through contacts and events
-void pl_sensitivity_free(pl_sensitivity* p);
-const char* pl_sensitivity_mode(const pl_sensitivity* p);
-bool pl_sensitivity_waits(const pl_sensitivity* p);
-pleuel_status pl_sensitivity_begin(pl_sensitivity* p);  // tells what happened at the start
-pleuel_status pl_sensitivity_step(pl_sensitivity* p, pleuel_status (*of)(pl_run* run));
-void pl_sensitivity_write(pl_sensitivity* p, pl_keeper* k);  // for checkpoint.c
-pleuel_status pl_sensitivity_read(pl_sensitivity* p, pl_keeper* k);
+typedef struct pl_sensitivity pl_sensitivity;
+// What the driver asks of a lead run, without knowing how it leads.
+typedef struct pl_lead {
+  const char* (*mode)(const pl_sensitivity* p);  // as text, until the moment ahead
+  bool (*waits)(const pl_sensitivity* p);        // for the follower
+  pleuel_status (*begin)(pl_sensitivity* p);     // reports what happened at the start
+  // A step of the follower; of = what takes one.
+  pleuel_status (*step)(pl_sensitivity* p, pleuel_status (*of)(pl_run* run));
+  void (*save)(pl_sensitivity* p, pl_keeper* k);
+  pleuel_status (*load)(pl_sensitivity* p, pl_keeper* k);
+  void (*close)(pl_sensitivity* p);
+} pl_lead;
 
 // ---- run.c
 pleuel_status pl_run_begin_at(pl_run* run, double t);  // from run->q, v

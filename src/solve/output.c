@@ -55,7 +55,7 @@ void pl_output_mode(const pl_run* run, char* out) {
   size_t n = 0;
   out[0] = '\0';
   if (run->sensitivity)
-    snprintf(out, run->output->mode_size, "%s", pl_sensitivity_mode(run->sensitivity));
+    snprintf(out, run->output->mode_size, "%s", run->lead->mode(run->sensitivity));
   if (!has_modes(run)) return;
   for (int c = 0; c < run->n_c; c++) {
     const pl_constraint_setup* constraint = &run->setup->constraints[c];

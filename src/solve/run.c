@@ -145,7 +145,7 @@ pleuel_status pl_run_step(pl_run* run) {
   PL_TRY(pl_output_begin(run));
   if (pl_run_done(run)) return PLEUEL_OK;
   PL_TRY(limits(run));
-  PL_TRY(run->sensitivity ? pl_sensitivity_step(run->sensitivity, step) : step(run));
+  PL_TRY(run->lead ? run->lead->step(run->sensitivity, step) : step(run));
   run->stats.rank = run->dae.rank;
   if (run->options.progress)
     run->options.progress(run->options.progress_user, run->dae.t, run->options.t_end,
@@ -184,7 +184,7 @@ pleuel_status pl_run_to_end(pl_run* run) {
 // ----------------------------------------------------------------------------------------- reading
 double pl_run_time(const pl_run* run) { return run->dae.t; }
 bool pl_run_done(const pl_run* run) {
-  bool waits = run->sensitivity && pl_sensitivity_waits(run->sensitivity);
+  bool waits = run->lead && run->lead->waits(run->sensitivity);
   return run->control.stopped || (run->control.started && pl_run_left(run) == 0 && !waits);
 }
 const double* pl_run_q(const pl_run* run) { return run->dae.q; }

@@ -166,5 +166,5 @@ void pl_run_free(pl_run* run) {
   pl_kkt_free(&run->dae.kkt);
   for (int i = 0; i < run->n_steppers; i++)
     if (run->steppers[i]->close) run->steppers[i]->close(run);
-  pl_sensitivity_free(run->sensitivity);
+  if (run->lead) run->lead->close(run->sensitivity);
 }

@@ -25,7 +25,7 @@ pleuel_status pl_run_begin_at(pl_run* run, double t) {
   PL_TRY(pl_output_open(run));
   PL_TRY(pl_modes_check(run, true));
   pl_modes_size_rest(run);
-  if (run->sensitivity) PL_TRY(pl_sensitivity_begin(run->sensitivity));
+  if (run->lead) PL_TRY(run->lead->begin(run->sensitivity));
   for (int k = 0; k < run->n_steppers; k++)
     if (run->steppers[k]->begin) PL_TRY(run->steppers[k]->begin(run, t));
   pl_output_energy(run, true);

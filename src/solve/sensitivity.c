@@ -105,19 +105,10 @@ static void take_mode(pl_sensitivity* p) {
   pl_output_mode(p->lead, p->mode);
 }
 
-void pl_sensitivity_attach(pl_sensitivity* p, pl_run* follower, pl_run* plain) {
-  p->lead = plain;
-  p->follower = follower;
-  follower->sensitivity = p;
-  take_mode(p);
-}
+static void close(pl_sensitivity* p) { pl_run_free(p->lead); }
 
-void pl_sensitivity_free(pl_sensitivity* p) {
-  if (p) pl_run_free(p->lead);
-}
-
-const char* pl_sensitivity_mode(const pl_sensitivity* p) { return p->mode; }
-bool pl_sensitivity_waits(const pl_sensitivity* p) { return p->waits; }
+static const char* mode_of(const pl_sensitivity* p) { return p->mode; }
+static bool waits(const pl_sensitivity* p) { return p->waits; }
 
 // ----------------------------------------------------------------------------- events for the sink
 static pleuel_status send_reports(pl_sensitivity* p) {
@@ -156,7 +147,7 @@ static pleuel_status send_reports(pl_sensitivity* p) {
   return PLEUEL_OK;
 }
 
-pleuel_status pl_sensitivity_begin(pl_sensitivity* p) {
+static pleuel_status begin(pl_sensitivity* p) {
   pl_output_before(p->follower);
   return send_reports(p);
 }
@@ -538,7 +529,7 @@ static pleuel_status stop_here(pl_sensitivity* p) {
 }
 
 // A step of the follower; of = what takes one.
-pleuel_status pl_sensitivity_step(pl_sensitivity* p, pleuel_status (*of)(pl_run* run)) {
+static pleuel_status step(pl_sensitivity* p, pleuel_status (*of)(pl_run* run)) {
   if (!p->waits) go_ahead(p);
   if (p->how == PLEUEL_INTERRUPTED) return stop_here(p);
   if (pl_run_left(p->follower) != 0) PL_TRY(of(p->follower));
@@ -548,14 +539,14 @@ pleuel_status pl_sensitivity_step(pl_sensitivity* p, pleuel_status (*of)(pl_run*
 // ------------------------------------------------------------------------------------- interrupted
 // While the follower is on its way, the lead run is kept as it was where they parted: it goes ahead
 // once more.
-void pl_sensitivity_write(pl_sensitivity* p, pl_keeper* k) {
+static void save(pl_sensitivity* p, pl_keeper* k) {
   bool waits = p->waits && p->how != PLEUEL_INTERRUPTED;
   pl_keep_bool(k, &waits);
   if (p->waits) pl_keep_bytes(k, p->before.at, p->before.next);
   else pl_run_save(p->lead, k);
 }
 
-pleuel_status pl_sensitivity_read(pl_sensitivity* p, pl_keeper* k) {
+static pleuel_status load(pl_sensitivity* p, pl_keeper* k) {
   bool waits = false;
   pl_keep_bool(k, &waits);
   pl_sink hears = p->lead->options.sink;
@@ -563,4 +554,20 @@ pleuel_status pl_sensitivity_read(pl_sensitivity* p, pl_keeper* k) {
   pl_output_mode(p->lead, p->mode);
   if (waits) go_ahead(p);
   return p->how == PLEUEL_INTERRUPTED ? p->how : PLEUEL_OK;
+}
+
+static const pl_lead lead_slots = {.mode = mode_of,
+                                   .waits = waits,
+                                   .begin = begin,
+                                   .step = step,
+                                   .save = save,
+                                   .load = load,
+                                   .close = close};
+
+void pl_sensitivity_attach(pl_sensitivity* p, pl_run* follower, pl_run* plain) {
+  p->lead = plain;
+  p->follower = follower;
+  follower->lead = &lead_slots;
+  follower->sensitivity = p;
+  take_mode(p);
 }

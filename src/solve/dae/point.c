@@ -2,7 +2,7 @@
 //
 // Index-3 Taylor series: with q_{k+1} = v_k / (k+1), nodes of q and t are known to order k+1, nodes
 // of v to order k, and one solve with the factor of the point gives a_k and λ_k; then v_{k+1} = a_k
-// / (k+1). See theory (10.4).
+// / (k+1). See theory (10.3).
 #include "solve/dae/dae.h"
 
 #include <math.h>

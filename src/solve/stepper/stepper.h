@@ -153,6 +153,7 @@ struct pl_run {
   struct pl_events* event;             // what is watched, contacts, singular positions
   struct pl_output* output;            // rows
   const pl_observer* observer;         // where events report
+  const struct pl_lead* lead;          // of one with derivatives, NULL without it
   struct pl_sensitivity* sensitivity;  // the lead run of one with derivatives, NULL without it
   double* branch_value;                // of the branches of the start  (n_branch_outputs)
   pl_start_report start;

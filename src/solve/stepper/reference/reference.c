@@ -1,6 +1,6 @@
 // The reference stepper: the classical Runge-Kutta method of order 4 with steps of a given length, on
 // the equations of index 1.  Each stage solves [M G^T; G 0] [a; -λ] = r for accelerations; the end of
-// a step is projected on g = 0 and G v + dg/dt = 0.  See theory (10.3).
+// a step is projected on g = 0 and G v + dg/dt = 0.  See theory (9.5).
 //
 // It shares with the other steppers the equations and nothing else: no series, no control of errors,
 // no events.  So it tells whether a doubt about a motion is one about its equations or about its

@@ -1,5 +1,5 @@
 // The order of the series and the length of a step in units of its radius, from the tolerance.
-// See theory (10.6).
+// See theory (10.5).
 #include "solve/stepper/taylor/taylor_impl.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 // The step that a series allows, after [JorbaZou2005], with separate norms for positions and
-// velocities, which have different units.  See theory (10.5), (10.6).
+// velocities, which have different units.  See theory (10.4), (10.5).
 #include "solve/stepper/taylor/taylor_impl.h"
 
 #include <float.h>

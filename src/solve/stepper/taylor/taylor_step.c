@@ -66,7 +66,7 @@ static bool ends_slip(const pl_run* run) {
 // Whether the equations at the end of a step give the accelerations of the series: one that is cut
 // off at order p is off by (p + 1)/h times as much in acceleration as in velocity. What does not
 // lessen with the step is rounding, and is allowed from then on; *before: what a longer step was
-// off by, 0 none.
+// off by, 0 none.  See theory (10.6).
 static bool series_holds(pl_run* run, const pl_taylor_numbers* numbers, double h, double* before) {
   double off, size;
   // what stands in the way is reported when the step is taken
