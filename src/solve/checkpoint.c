@@ -3,8 +3,8 @@
 //
 // Everything that a later step looks at and that does not follow from the setup is named here,
 // once, by functions that serve both ways (pl_keeper in base.h). What follows from the point alone
-// (nodes, factor, order 0 of the series) is computed anew and must come out the same: that tells a
-// machine or a library that rounds differently. Two things are kept although they could be
+// (nodes, factor, order 0 of the series) is computed anew and must come out the same: so a machine
+// or a library that rounds differently is found out. Two things are kept although they could be
 // computed: the memory of the compiled steps at the point, whose last digits depend on the way that
 // led there, and the matrix from which the sparse solver took its pivot order.
 //
@@ -175,7 +175,7 @@ static void keep_contacts(pl_run* run, pl_keeper* k) {
   pl_keep_int(k, &run->dae.n_slipping, 0, run->n_c);
 }
 
-// ------------------------------------------------------------------------------ rows, what is told
+// ----------------------------------------------------------------------------------- rows, figures
 static void keep_rows(pl_run* run, pl_keeper* k) {
   pl_keep_section(k, "rows");
   pl_keep_long(k, &run->control.grid_n, 0, most_count);

@@ -67,8 +67,8 @@ static pleuel_status arrive_at_point(pl_run* run) {
   return check_energy(run);
 }
 
-// Steps that get nowhere, one after the other: switching points that the motion does not leave, as
-// dry friction at rest.
+// Steps of almost no length in a row: a switching point that the motion does not leave, as dry
+// friction at rest.
 static pleuel_status count_tiny(pl_run* run, double h) {
   enum { MOST = 200 };
   run->control.tiny = fabs(h) <= 100 * run->control.h_least ? run->control.tiny + 1 : 0;

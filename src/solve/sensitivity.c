@@ -43,7 +43,7 @@ struct pl_sensitivity {
   pl_keeper before;                   // state of the lead run where it set out for the moment ahead
 };
 
-// ------------------------------------------------------------------------------ the lead run tells
+// ----------------------------------------------------------------------- what the lead run reports
 // Slopes of accelerations and multipliers at the end of the last step.
 static void slope_of(const double* X, int n, int last, double dt, double* out) {
   for (int i = 0; i < n; i++) out[i] = 0;
@@ -195,7 +195,7 @@ static pleuel_status find_cause(const pl_sensitivity* p, int* cause) {
   return PLEUEL_OK;
 }
 
-// What is watched, with these in place of coordinates and multipliers of the follower.
+// The watched quantities at another state than that of the follower.
 static void watch_at(pl_sensitivity* p, const double* q, const double* v, const double* a,
                      const double* lambda, double* out) {
   pl_run* f = p->follower;

@@ -312,9 +312,9 @@ typedef struct pl_run_options {
   void (*progress)(void* user, double t, double t_end, double h, const pl_stats* stats);
   void* progress_user;
   pl_engine engine;
-  // pl_run_start finds the start and leaves it at that: no accelerations, nothing to step from
+  // stop after the consistent start; accelerations are not computed
   bool start_only;
-  bool general;  // without programs (jit.h): every step goes the general way
+  bool general;  // use the patterns only; no step program is recorded
   // between two steps, and when it is interrupted; or NULL:
   void (*keep)(void* user, struct pl_run* run, bool interrupted);
   // pl_run_save may be called there

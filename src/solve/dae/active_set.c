@@ -1,5 +1,5 @@
-// Which constraints are in force, which of them are independent, and which multipliers that
-// determines.
+// Active set: the constraints in force, a maximal independent subset of them, and the multipliers
+// which that determines.
 //
 // Rows are compared after scaling each column with the largest entry it has had in the run: a fixed
 // yardstick, so that a column that fades away (a singular position) is seen to fade.

@@ -135,10 +135,11 @@ typedef struct pl_dae {
   bool* on;  // switched on: in contact, for a one-sided one    (n_c)
   // off by declaration or by an event: does not come back by itself    (n_c)
   bool* detached;
-  bool* active;        // on, and its contact too                    (n_c)
-  bool* taken;         // in the independent subset                  (n_c)
-  bool* unique;        // multiplier determined                      (n_c)
-  bool* several;       // multipliers that are one of several in this mode        (n_c)
+  bool* active;  // on, and its contact too                    (n_c)
+  bool* taken;   // in the independent subset                  (n_c)
+  bool* unique;  // multiplier determined                      (n_c)
+  // multipliers that are not unique in this mode (statically indeterminate)        (n_c)
+  bool* several;
   bool* ever_several;  // not determined at some time, for whatever reason        (n_c)
   bool* near_by;       // contacts that take part in what happens now    (n_c)
   bool* rebounds;      // of them those that bounce: what goes with them is not in force   (n_c)
@@ -259,8 +260,8 @@ void pl_active_set_unique(pl_dae* dae);
 void pl_active_set_note(pl_dae* dae);    // ever_several, from unique
 void pl_active_set_update(pl_dae* dae);  // active from on; orphans rest
 
-// ---- least_change.c The least change of what is not held that takes the residuals away, for the
-// rows at hand; false: there is none.
+// ---- least_change.c Minimum-norm correction of the free components that removes the residuals of
+// the rows at hand; false: there is none.
 bool pl_least_change(const pl_dae* dae, const bool* held, const double* residual,
                      const double* size, bool positions, double* basis, double* change);
 

@@ -3,8 +3,7 @@
 // not symmetric.
 //
 // The dense matrix is balanced symmetrically by powers of two before it is factored [Ruiz2001], so
-// that the pivots tell how singular it is whatever the units are.
-// See theory (9.5).
+// that the pivots measure how singular it is, whatever the units. See theory (9.5).
 #include "solve/dae/dae.h"
 
 #include <math.h>

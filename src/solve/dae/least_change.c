@@ -9,8 +9,8 @@
 static const double dependent = 1e-10;  // of a row: what is left of it when it says nothing new
 static const double met = 1e-9;         // residual of a constraint relative to its terms
 
-// The least change of what is free that takes the residuals away: rows orthogonalised one by one,
-// targets along.
+// Minimum-norm correction of the free components that removes the residuals: Gram-Schmidt on the
+// rows.
 bool pl_least_change(const pl_dae* dae, const bool* held, const double* residual,
                      const double* size, bool positions, double* basis, double* change) {
   int n = dae->n_q, rank = 0;

@@ -1,6 +1,6 @@
-// Coordinates that only a map of `choose` determines, where the map begins to hold again: a rope
-// that goes taut, a rod that is attached. While the map did not hold they rested somewhere; now
-// they are found from the old coordinates, which stay.
+// Coordinates that only a map of `choose` determines, at the moment when the map holds again: a
+// rope that goes taut, a rod that is attached. While the map did not hold they rested somewhere;
+// now they are found from the old coordinates, which stay.
 //
 // Newton's method on the squares of the map equations, in those coordinates alone, from several
 // places: angles have two.

@@ -266,7 +266,7 @@ static bool has_used_friction(const pl_run* run) {
   return false;
 }
 
-// By exchange.  In rounds of their own decisions may go in circles: then it gives up.
+// By exchange; it may cycle with friction; stop after MOST_EXCHANGES rounds.
 static bool exchange(pl_run* run, pl_trial* trial) {
   for (int round = 0; round < MOST_EXCHANGES; round++) {
     pl_trial_state l;
@@ -303,7 +303,7 @@ static bool next_set(pl_run* run) {
   return false;
 }
 
-// A choice for a friction whose contact is open says nothing: only the first of them counts.
+// Friction choices do not matter while the contact is open: only the first is tried.
 static bool is_idle(const pl_run* run) {
   for (int i = 0; i < run->event->n_decisions; i++) {
     const pl_decision* d = &run->event->decision[i];
@@ -319,7 +319,7 @@ static void keep_choices(pl_run* run) {
     run->event->choice_kept[i] = run->event->decision[i].choice;
 }
 
-// More static than kinetic friction leaves a choice of its own, which is made for sticking.
+// If static exceeds kinetic friction, both can be consistent: sticking is preferred.
 static bool sticks_harder(const pl_run* run) {
   for (int i = 0; i < run->event->n_decisions; i++) {
     if (!run->event->decision[i].of_friction) continue;

@@ -35,7 +35,7 @@ typedef struct pl_watch {
   pl_watch_kind kind;
   int index;      // constraint, friction or event
   int direction;  // +1 rising, -1 falling, 0 both
-  // so many leading coefficients are zero by construction: it has just happened
+  // number of leading coefficients that vanish because the event is at this point
   int fresh;
   int side;  // sign on which it is known to be; 0 unknown
 } pl_watch;
@@ -161,7 +161,7 @@ pleuel_status pl_contacts_impact(pl_run* run, bool* any);
 // the mode whose accelerations and forces fit together
 pleuel_status pl_contacts_settle(pl_run* run);
 
-// ---- indeterminate.c: forces that are one of several
+// ---- indeterminate.c: statically indeterminate forces
 void pl_indeterminate_make(pl_run* run);
 void pl_indeterminate_mark(pl_run* run);    // at the begin of a mode
 void pl_indeterminate_report(pl_run* run);  // in the statistics

@@ -1,5 +1,5 @@
-// Forces of contact and friction that are one of several: a table on four legs, a ladder that rests
-// on rough ground.
+// Statically indeterminate forces of contact and friction: a table on four legs, a ladder that
+// rests on rough ground.
 //
 // The motion is determined, and so is what all forces do together; one set of them was chosen
 // (contacts.c). Another one differs by a null vector z of the map from multipliers to forces on the
@@ -63,7 +63,7 @@ void pl_indeterminate_make(pl_run* run) {
   s->in = PL_ARRAY(a, bool, rows + 1);
 }
 
-// ---------------------------------------------------------------------------------- who takes part
+// ---------------------------------------------------------------------- multipliers that take part
 static bool no_rate(const pl_run* run, int c) {
   return fabs(run->dae.r[c]) <= zero_rate * run->dae.r_size[c]
          && fabs(run->event->second[c]) <= zero_rate * run->event->second_size[c];
@@ -99,7 +99,7 @@ static void find_multipliers(pl_run* run, pl_indeterminate* s) {
   }
 }
 
-// ------------------------------------------------------------------------------------ what they do
+// ------------------------------------------------------------------------------------ their forces
 // Adds factor times the forces of constraint c to column k.
 static void add_forces(const pl_run* run, pl_indeterminate* s, int c, int k, double factor) {
   double* to = s->B + (size_t)k * (size_t)run->n_q;
@@ -141,7 +141,7 @@ static void make_columns(pl_run* run, pl_indeterminate* s) {
   }
 }
 
-// -------------------------------------------------------------------------------- what limits them
+// ------------------------------------------------------------------------------------ their limits
 static double* new_row(pl_indeterminate* s) {
   double* row = s->C + (size_t)s->n_rows++ * (size_t)s->n;
   memset(row, 0, (size_t)s->n * sizeof(double));

@@ -281,7 +281,8 @@ static pl_event_kind closed(const pl_constraint_setup* constraint, bool impact) 
   return constraint->rope ? PL_EV_TAUT : impact ? PL_EV_IMPACT : PL_EV_CONTACT;
 }
 
-// Contact after endless bounces: told at the limit of their times, with the state there.
+// Contact after infinitely many bounces: reported at the limit of their times, with the state
+// there.
 static pleuel_status report_settled(pl_run* run, int c) {
   double t = run->event->settled_t[c], dt = t - run->dae.t;
   long bounces = run->event->bounces[c];

@@ -3,7 +3,7 @@
 // A watched quantity is known at the start of a step, at its stages and, with the accelerations and
 // multipliers of the point reached, at its end. The polynomial through these values is searched for
 // roots as that of a series is (watch.c); a landing has the integral of the velocity along g, so
-// that a small bounce is told from that velocity. The root found is then iterated on the end of the
+// that a small bounce is seen in that velocity. The root found is then iterated on the end of the
 // step, so that it is as exact as the step itself.
 #include "solve/stepper/radau/radau_impl.h"
 

@@ -3,7 +3,7 @@
 //
 // A stiff part that has died out still limits the series: its coefficients of high order are
 // rounding errors times (stiffness)^k, so the step depends neither on the order nor on the
-// tolerance, while the coefficients of low order tell a motion that goes on slowly. Where these two
+// tolerance, while the coefficients of low order belong to a slow motion. Where these two
 // disagree, now and then, the implicit method is asked what step it would take here at the
 // tolerance of the run; what a step of each costs is counted, not timed, so that the same run takes
 // the same decisions everywhere. After a change the count goes on, and a motion that turns out not
@@ -75,8 +75,8 @@ static double cost_of_implicit(const pl_run* run) {
 }
 
 // ---------------------------------------------------------------------------------------- the look
-// Radius that the coefficients of low order of the last step tell, for velocities: the least of
-// three.
+// Radius of convergence by the coefficients of low order of the last step, for velocities: the
+// least of three.
 static double slow_radius(const pl_run* run) {
   double radius = (double)INFINITY;
   for (int k = 1; k <= 3; k++) {

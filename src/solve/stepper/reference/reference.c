@@ -1,11 +1,11 @@
-// The reference stepper: the classical Runge-Kutta method of order 4 with steps of a given length, on
-// the equations of index 1.  Each stage solves [M G^T; G 0] [a; -λ] = r for accelerations; the end of
-// a step is projected on g = 0 and G v + dg/dt = 0.  See theory (9.5).
+// The reference stepper: the classical Runge-Kutta method of order 4 with steps of a given length,
+// on the equations of index 1.  Each stage solves [M G^T; G 0] [a; -λ] = r for accelerations; the
+// end of a step is projected on g = 0 and G v + dg/dt = 0.  See theory (9.5).
 //
-// It shares with the other steppers the equations and nothing else: no series, no control of errors,
-// no events.  So it tells whether a doubt about a motion is one about its equations or about its
-// integration, and it is the shortest example of a stepper.  It is for tests: a method of order 4 with
-// a fixed step is no choice that a user would make.
+// It shares with the other steppers the equations and nothing else: no series, no control of
+// errors, no events.  So it shows whether an error of a motion is one of its equations or of its
+// integration, and it is the shortest example of a stepper.  It is for tests: a method of order 4
+// with a fixed step is no choice that a user would make.
 #include "solve/stepper/reference/reference.h"
 
 #include <math.h>
@@ -13,7 +13,8 @@
 
 enum { ORDER = 4 };  // of the method, and of the polynomial for velocities between its points
 
-// State, accelerations and multipliers at both ends of a step; velocities and accelerations of stages.
+// State, accelerations and multipliers at both ends of a step; velocities and accelerations of
+// stages.
 struct pl_reference {
   double *q, *v, *a, *l;         // at the start                                  (n_q, n_c)
   double *stage_q, *stage_v[3];  // of stages 2 to 4                              (n_q)

@@ -62,11 +62,11 @@ void pl_sheet_run(pl_sheet* s);
 // order and length of the steps from the tolerance
 void pl_extended_order(pl_run* run);
 const char* pl_extended_name(const pl_run* run);  // of its precision
-// whether the run can be had; fails with what stands in the way
+// whether the run can be had; fails with what is not supported
 pleuel_status pl_extended_check(pl_run* run);
 // programs and memory, for the constraints that are taken
 pleuel_status pl_extended_make(pl_run* run);
-// Where of dependent rows others than those at work tell more: the point goes over to these.
+// Of dependent rows the better conditioned ones are taken.
 void pl_extended_change_rows(pl_run* run);
 // run->wide for the constraints that are taken; false: there are no programs
 bool pl_extended_of_mode(pl_run* run);

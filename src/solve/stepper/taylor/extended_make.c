@@ -1,4 +1,4 @@
-// What a run on extended numbers needs: whether this model can be had, programs, memory.
+// What a run on extended numbers needs: whether this model is supported, programs, memory.
 #include <math.h>
 #include <string.h>
 
@@ -19,7 +19,7 @@ void pl_extended_order(pl_run* run) {
   run->taylor->shrink = -2;
 }
 
-// -------------------------------------------------------------------------- what stands in the way
+// --------------------------------------------------------------------------- what is not supported
 const char* pl_extended_name(const pl_run* run) {
   return run->options.precision == PL_PRECISION_LONG ? "long" : "quad";
 }
@@ -131,7 +131,7 @@ static pl_prog* sum_code(pl_run* run, const char* name, const series* s, const i
   return c;
 }
 
-// One more coefficient of q comes for nothing.
+// q gets one more coefficient without a solve.
 static pl_prog* top_code(pl_run* run) {
   const pl_step_program* o = run->extended->o;
   pl_prog* c = pl_prog_make(run->job->arena, "top", 1);

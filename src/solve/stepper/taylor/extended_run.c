@@ -159,7 +159,7 @@ static void read_orders(pl_run* run, int first, int last) {
   read(run, o->L + first * o->n_c, n * o->n_c, run->dae.L + k * n_c);
 }
 
-// Of dependent rows others may tell more by now than those that were chosen.
+// Of dependent rows others may be better conditioned by now than those that were chosen.
 static bool look_at_rows(pl_run* run) {
   static const double faded = 1e-4;
   const pl_extended* w = run->extended;

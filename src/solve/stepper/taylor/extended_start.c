@@ -47,8 +47,7 @@ static void set_state(pl_run* run, const pl_parts* exact) {
   }
 }
 
-// What is not held moves by the least that takes the residuals away; they may leave no room for
-// that.
+// Minimum-norm correction of the free components; there may be none.
 static bool move_free(pl_run* run, bool positions, const bool* held, double* basis,
                       double* change) {
   pl_extended* w = run->extended;

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-// ------------------------------------------------------------------------------------ the numbers
+// ------------------------------------------------------------------------------------- the numbers
 static double floor_of(const pl_run* run) { return run->extended->floor; }
 static double epsilon_of(const pl_run* run) { return run->extended->state->epsilon; }
 

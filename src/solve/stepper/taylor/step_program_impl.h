@@ -12,8 +12,8 @@
 //   advance   the series at the end of a step
 //   energy    kinetic and potential energy at the point
 // The factor is L D L^T without pivoting in an order found once: coordinates first, then
-// constraints. Where its pivots fade the caller goes the general way (assemble.c, kkt.c), which
-// pivots.
+// constraints. Where its pivots fade the point goes through the patterns (assemble.c, kkt.c), which
+// pivot.
 #ifndef PL_STEP_PROGRAM_IMPL_H
 #define PL_STEP_PROGRAM_IMPL_H
 
@@ -62,7 +62,7 @@ struct pl_step_program {
   pl_prog_run* compiled[PL_N_PARTS];  // NULL: interpreted
   pl_jit_code* jit;
   bool tried;   // to compile
-  bool usable;  // false: this mode goes the general way
+  bool usable;  // false: this mode goes through the patterns
   bool* taken;  // which constraints it was made for               (n_c)
   pl_step_program* next;
   double* m;            // the memory

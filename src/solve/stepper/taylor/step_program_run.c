@@ -1,9 +1,9 @@
 // A step with the step program: projection, order 0, series.
 //
 // The step program serve while their pivots are sound. A pivot of what has no mass is compared with
-// the largest sum that was ever subtracted there, which tells both a row that becomes dependent and
-// one that fades away; where one has faded to a part of the best that was met, the point is left to
-// the general way, which chooses rows and pivots anew, and which tells singular positions.
+// the largest sum that was ever subtracted there, which shows both a row that becomes dependent and
+// one that fades away; where one has faded to a part of the best that was met, the point goes
+// through the patterns, which choose rows and pivots anew and find singular positions.
 #include <math.h>
 #include <string.h>
 
@@ -273,7 +273,7 @@ bool pl_step_program_energy(pl_run* run, double* kinetic, double* potential, dou
 void pl_step_program_expand(pl_run* run) {
   pl_step_program* o = run->taylor->program;
   run_part(o, PL_PART_ORDER, 1, run->order);
-  // one more coefficient of q comes for nothing
+  // q gets one more coefficient without a solve
   for (int i = 0; i < o->n_q; i++)
     o->m[o->Q + (run->order + 1) * o->n_q + i] = o->m[o->V + run->order * o->n_q + i]
                                                  / (run->order + 1);

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-// ----------------------------------------------------------------------------------- the numbers
+// ------------------------------------------------------------------------------------- the numbers
 static double floor_of(const pl_run* run) {
   (void)run;
   return DBL_EPSILON;

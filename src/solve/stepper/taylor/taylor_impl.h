@@ -9,7 +9,7 @@ typedef struct pl_step_program pl_step_program;  // step_program_impl.h
 
 // What the series keep from step to step.
 typedef struct pl_taylor {
-  // the step program, for the mode at work and those before; NULL: the general way
+  // the step program, for the mode at work and those before; NULL: by the patterns
   pl_step_program *program, *programs;
   double clock_begin, t_begin;  // when stepping with these began
   long considered;              // steps at which compiling was thought of last

@@ -44,7 +44,7 @@ static double block_radius(const double* norm, int last) {
   rough_log2(norm, log, PL_BLOCK_ROWS);
   double size = log[0], before = log[4], top = log[5];
   if (isnan(top) || isnan(before)) return -(double)INFINITY;
-  // beyond a double: lower orders tell
+  // beyond a double: lower orders decide
   if (isinf(top) || isinf(before)) return (double)INFINITY;
   if (top > -2000)
     for (int k = 1; k <= 3 && k < last; k++)

@@ -13,7 +13,7 @@ static const double not_less = 0.75;         // of what a step twice as long was
 // |g| and |G v + dg/dt| after it, relative to their terms
 static const double allowed_residual = 1e-12;
 
-// ------------------------------------------------------------------------------------- the length
+// -------------------------------------------------------------------------------------- the length
 static double choose_length(pl_run* run, const pl_taylor_numbers* numbers) {
   double h = run->control.h_series = numbers->length(run), left = pl_run_left(run);
   if (run->options.h_max > 0) h = pl_smaller(h, run->options.h_max);
@@ -45,7 +45,7 @@ pleuel_status pl_taylor_step_expand(pl_run* run, pl_step* s, const pl_taylor_num
   return PLEUEL_OK;
 }
 
-// ------------------------------------------------------------------------------------- the checks
+// -------------------------------------------------------------------------------------- the checks
 static bool is_acceptable(const pl_run* run, const pl_taylor_numbers* numbers,
                           const pl_projection* p) {
   double rounding = numbers->floor(run) / DBL_EPSILON;
@@ -69,7 +69,7 @@ static bool ends_slip(const pl_run* run) {
 // off by, 0 none.  See theory (10.6).
 static bool series_holds(pl_run* run, const pl_taylor_numbers* numbers, double h, double* before) {
   double off, size;
-  // what stands in the way is reported when the step is taken
+  // the reason is reported when the step is taken
   if (!numbers->defect(run, h, &off, &size)) return true;
   double part = allowed_defect * run->control.tol + allowed_rounding * numbers->epsilon(run),
          of_v = pl_larger(run->dae.v_size, fabs(h) * size);
@@ -81,7 +81,7 @@ static bool series_holds(pl_run* run, const pl_taylor_numbers* numbers, double h
   return rough;
 }
 
-// ---------------------------------------------------------------------------------------- the end
+// ----------------------------------------------------------------------------------------- the end
 pleuel_status pl_taylor_step_state_at(pl_run* run, pl_step* s, const pl_taylor_numbers* numbers) {
   double at = run->event->n_switches > 0 ? pl_switching_first(run, s->h) : -1;
   bool at_switch = at >= 0 && (s->root < 0 || at < s->root);
